@@ -1,4 +1,4 @@
-"""Holds a picture of the paper of macroquad and Godot against what it should show: python3 check_paper.py PICTURE.png."""
+"""Holds a picture of the paper of macroquad and Godot against what it should show: check_paper.py PICTURE.png."""
 
 import struct
 import sys

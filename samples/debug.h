@@ -1,6 +1,6 @@
-/* Pictures of what the library works with. Frames, links and points are those of its debug draw. Shape functions, regions
-   and cells are asked for through the public header, on a raster over the rest plane: it shows what a host can know, as
-   exactly as the raster is fine. */
+/* Pictures of what the library works with. Frames, links and points are those of its debug draw. Shape functions,
+   regions and cells are asked for through the public header, on a raster over the rest plane: it shows what a host can
+   know, as exactly as the raster is fine. */
 #ifndef DEBUG_H
 #define DEBUG_H
 

@@ -36,8 +36,8 @@ typedef struct Apng {
 /* False, with nothing to close, without memory or when the file cannot be written. */
 bool Apng_Open(Apng* apng, const char* path, int32_t width, int32_t height, int32_t frameCount);
 
-/* The image has the size given before, and stays for `delay` sixtieths of a second. A pixel may be seen off by 2 in 255:
-   one that changes by so little is not stored. */
+/* The image has the size given before, and stays for `delay` sixtieths of a second. A pixel may be seen off by 2 in
+   255: one that changes by so little is not stored. */
 bool Apng_Add(Apng* apng, const Image* image, int32_t delay);
 
 /* False when frames are missing, or when anything could not be written. Closes in any case; again, it does nothing. */

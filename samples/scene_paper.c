@@ -68,7 +68,8 @@ enum { MOST_FRAMES = 128 };
 
 /* ---- Spiral: cut from the border of a sheet that is held in the middle ------------------------------------------- */
 
-/* In from the border. The paper's spiral leaves necks of half a millimetre in the middle of the sides; ours does not. */
+/* In from the border. The paper's spiral leaves necks of half a millimetre in the middle of the sides; ours does
+   not. */
 static bool AddSpiralBlade(Outline* way, bool asPaper)
 {
     const Spiral wide = { { 0.5, 0.5 }, 0.52, 0.08, 0.0, 5.0, 0.014 };
@@ -269,8 +270,8 @@ const SceneType kirigamiScene = {
 /* ---- Falling guy: swings down, and hangs on by a finger ---------------------------------------------------------- */
 
 /* The sheet: left and right, below and above, and beside the finger. The arm from the hand on; head, chest, elbows,
-   both legs. The finger is half-way between the frame beside it and the first of the arm, so that the regions meet where
-   it is thin. */
+   both legs. The finger is half-way between the frame beside it and the first of the arm, so that the regions meet
+   where it is thin. */
 static const float guyFrames[] = { 0.06f, 0.17f,  1.93f, 0.5f,   1.0f,  0.04f,  1.0f,  0.96f,  0.18f, 0.17f,
                                    0.4f,  0.05f,  0.7f,  0.05f,  1.35f, 0.06f,  1.7f,  0.12f,  0.3f,  0.6f,
                                    0.4f,  0.9f,   1.65f, 0.87f,  0.30f, 0.16f,  0.36f, 0.155f, 0.42f, 0.155f,

@@ -1,4 +1,5 @@
-/* What scenes are made of: sheets, pins, blades and a floor. Lengths are in sizes of the scene, unless said otherwise. */
+/* What scenes are made of: sheets, pins, blades and a floor. Lengths are in sizes of the scene, unless said
+   otherwise. */
 #ifndef SCENE_PARTS_H
 #define SCENE_PARTS_H
 

@@ -1,5 +1,5 @@
-/* Recordings of scenes (kiriWorld_Replay) in files. Notes in them say what a picture shows beside the sheet, so a replay
-   looks like the run. */
+/* Recordings of scenes (kiriWorld_Replay) in files. Notes in them say what a picture shows beside the sheet, so a
+   replay looks like the run. */
 #ifndef SCENE_RECORD_H
 #define SCENE_RECORD_H
 
@@ -7,8 +7,8 @@
 
 #include <stdio.h>
 
-/* Worlds of this def write their recording to the file, whole up to the call at hand whatever happens. False: it says on
-   stderr that it cannot. */
+/* Worlds of this def write their recording to the file, whole up to the call at hand whatever happens. False: it says
+   on stderr that it cannot. */
 bool SceneRecord_Open(FILE** file, const char* path, kiriWorldDef* def);
 
 /* False: it says on stderr that not all could be written. Null is allowed. */
@@ -26,8 +26,8 @@ typedef struct SceneReplay {
     bool isRight;  /* everything went as recorded */
 } SceneReplay;
 
-/* Replays the file once, and says on stderr where something is other than recorded; then makes a scene that starts from it.
-   The type: what a recording that is of no scene looks like. */
+/* Replays the file once, and says on stderr where something is other than recorded; then makes a scene that starts from
+   it. The type: what a recording that is of no scene looks like. */
 bool SceneReplay_Start(SceneReplay* replay, const char* path, Scene* scene, const SceneType* type,
                        const kiriWorldDef* def);
 

@@ -1,8 +1,8 @@
 """Compares the binary interface with that of the last version: python3 tests/abi.py LIBRARY LIST [--write].
 
-LIST has a line for each function, type of a function, field of a struct and constant of an enum, as 64-bit machines have
-them. Lines that are new do no harm to programs that were linked with the last version; lines that changed or are gone do,
-and then the version in the shared library's name has to be another one. Needs cffi."""
+LIST has a line for each function, type of a function, field of a struct and constant of an enum, as 64-bit machines
+have them. Lines that are new do no harm to programs that were linked with the last version; lines that changed or are
+gone do, and then the version in the shared library's name has to be another one. Needs cffi."""
 
 import pathlib
 import re

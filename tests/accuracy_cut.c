@@ -107,8 +107,8 @@ static SpecimenDef KirigamiDef(int grid)
     return def;
 }
 
-/* CalculiX, S8R in the plane: 7.054, 6.901 and 6.826 kN/m with 80, 160 and 320 elements along; so 6.75 in the limit, for
-   the differences halve. */
+/* CalculiX, S8R in the plane: 7.054, 6.901 and 6.826 kN/m with 80, 160 and 320 elements along; so 6.75 in the limit,
+   for the differences halve. */
 static void AddKirigami(const SpecimenDef* def, const char* setting, const char* layout)
 {
     int frames = def->frames > 0 ? def->frames : def->layout.count;

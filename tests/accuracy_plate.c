@@ -127,8 +127,8 @@ static void PlateFrequencies(const char* data)
 
 /* ---- A free plate ----------------------------------------------------------------------------------------------- */
 
-/* omega L^2 sqrt(rho h / D) of a free square, from the same Ritz solution without the clamp; with nu = 0 saddle and ring
-   have the same. The shapes are polynomials near the modes, each of its own symmetry. */
+/* omega L^2 sqrt(rho h / D) of a free square, from the same Ritz solution without the clamp; with nu = 0 saddle and
+   ring have the same. The shapes are polynomials near the modes, each of its own symmetry. */
 typedef struct FreeMode {
     const char* name;
     ShapeFunction* shape;

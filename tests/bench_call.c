@@ -1,5 +1,5 @@
-/* What calls cost from C: what a binding adds is measured against this. Calls of getters, and ways to get the vertices of
-   a sheet of 10 000 into a buffer of the host's. Through the shared library a call takes about 1 ns more. */
+/* What calls cost from C: what a binding adds is measured against this. Calls of getters, and ways to get the vertices
+   of a sheet of 10 000 into a buffer of the host's. Through the shared library a call takes about 1 ns more. */
 #define _POSIX_C_SOURCE 199309L
 
 #include "bench.h"

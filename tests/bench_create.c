@@ -1,5 +1,5 @@
-/* What it costs to create a sheet: time and memory by its size, and meshes whose triangles lie badly. Then what a host may
-   ask of a large sheet. */
+/* What it costs to create a sheet: time and memory by its size, and meshes whose triangles lie badly. Then what a host
+   may ask of a large sheet. */
 #define _POSIX_C_SOURCE 199309L
 
 #include "bench.h"
@@ -111,7 +111,7 @@ static bool BenchSizes(void)
     return Table_Stop(&table) && fine;
 }
 
-/* ---- Meshes that lie badly ---------------------------------------------------------------------------------------- */
+/* ---- Meshes that lie badly --------------------------------------------------------------------------------------- */
 
 /* `triangles` of them within `extent` of a corner, and one at the other end of a metre. */
 static bool MakeCrowd(int32_t triangles, double extent, double* ms)
@@ -167,7 +167,7 @@ static bool BenchCrowds(void)
     return Table_Stop(&table) && fine;
 }
 
-/* ---- What a host may ask ------------------------------------------------------------------------------------------ */
+/* ---- What a host may ask ----------------------------------------------------------------------------------------- */
 
 typedef struct Asked {
     double hash, ray, nextRay, slice, pieces, nextPieces; /* ms */

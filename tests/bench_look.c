@@ -218,7 +218,8 @@ static double AreaOf(const Seen* seen, int32_t triangle)
                        kiriVec2_Sub(RestOf(seen, v[2]), RestOf(seen, v[0])));
 }
 
-/* Across an edge that is closed: the turn of the normal, less the sheet's own, as a vector, so that both may be large. */
+/* Across an edge that is closed: the turn of the normal, less the sheet's own, as a vector, so that both may be
+   large. */
 static void AddJump(Seen* seen, int32_t h)
 {
     const kiriMeshData* mesh = &seen->sheet->mesh;
@@ -364,8 +365,8 @@ static void RunScene(Table* table, const char* name, bool asPaper, int nudge)
     Scene_Stop(&scene);
 }
 
-/* The arguments are scenes; none: all six. Before them: --paper, with the paper's frames; --nudge N, with gravity N times
-   1e-6 m/s^2 to the side. Some scenes are chaotic: what one run shows is seen by comparing a few nudges. */
+/* The arguments are scenes; none: all six. Before them: --paper, with the paper's frames; --nudge N, with gravity N
+   times 1e-6 m/s^2 to the side. Some scenes are chaotic: what one run shows is seen by comparing a few nudges. */
 int main(int count, char** arguments)
 {
     static const char* const columns[] = { "scene",  "moment",  "skinning", "frames",  "over 5 %", "over 15 %",

@@ -1,5 +1,6 @@
-/* What it takes to save a world and to go back: whole, and as the difference to a save of up to a second before, as a game
-   does that keeps every tick of some seconds. The scenes, and a crowd of sheets of which one is cut now and then. */
+/* What it takes to save a world and to go back: whole, and as the difference to a save of up to a second before, as a
+   game does that keeps every tick of some seconds. The scenes, and a crowd of sheets of which one is cut now and
+   then. */
 #define _POSIX_C_SOURCE 199309L
 
 #include "../samples/scene.h"

@@ -432,7 +432,8 @@ static bool PrintAllocations(void)
     return Table_Stop(&table);
 }
 
-/* Medians of the ticks before, with and after cuts; memory; and by how many times each is more than in the mode PLAIN. */
+/* Medians of the ticks before, with and after cuts; memory; and by how many times each is more than in the mode
+   PLAIN. */
 static void PrintModeRow(Table* table, const Recording* recording, const char* name, int mode, bool ratio)
 {
     static const int phases[3] = { BEFORE, CUTTING, AFTER };

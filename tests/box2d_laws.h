@@ -2,15 +2,16 @@
 #ifndef BOX2D_LAWS_H
 #define BOX2D_LAWS_H
 
-/* A sheet flies at 2 m/s into a free crate `ratio` times as heavy: how much momentum is lost or made, by what there was;
-   and how much kinetic energy is there after it, by what there was. */
+/* A sheet flies at 2 m/s into a free crate `ratio` times as heavy: how much momentum is lost or made, by what there
+   was; and how much kinetic energy is there after it, by what there was. */
 struct HitOutcome {
     double momentumError, energy;
 };
 HitOutcome MeasureHit(double ratio, bool isFlat, int substeps);
 
-/* A crate `ratio` times as heavy as a banner falls on it from `start` m above, which is pinned: momentum of both less what weight and pins gave,
-   at most, by the most that one of them had; and how deep the banner is in the crate at the end (m). */
+/* A crate `ratio` times as heavy as a banner falls on it from `start` m above, which is pinned: momentum of both less
+   what weight and pins gave, at most, by the most that one of them had; and how deep the banner is in the crate at the
+   end (m). */
 struct FallOutcome {
     double momentumError, depth, highest; /* m: how far the crate was thrown above where it fell from */
 };
@@ -23,8 +24,8 @@ bool SheetSlides(double friction, double degrees, bool isFlat);
 /* A sheet lies on a conveyor of this speed (m/s): its own after 1.5 s. */
 double MeasureBelt(double speed, bool isFlat);
 
-/* How far (m) a wheel that a motor turns climbs up a banner of 10 degrees in a second; the same without a sheet, on a static
-   box. */
+/* How far (m) a wheel that a motor turns climbs up a banner of 10 degrees in a second; the same without a sheet, on a
+   static box. */
 double MeasureClimb(bool isSheet);
 
 /* A band lies over a wheel that a motor turns: how fast (m/s) it runs after a while, by the speed of the rim. */

@@ -1,5 +1,5 @@
-/* A sheet among bodies of Box2D, tied together by samples/box2d: for tests and for `make contact`. Metres; x and z of the
-   sheets are x and y of Box2D. */
+/* A sheet among bodies of Box2D, tied together by samples/box2d: for tests and for `make contact`. Metres; x and z of
+   the sheets are x and y of Box2D. */
 #ifndef BOX2D_RIG_H
 #define BOX2D_RIG_H
 
@@ -71,8 +71,8 @@ struct Rig {
         return AddBody(box, x, z, mass, friction, angle);
     }
 
-    /* A rectangle of length x width around (x, z). Flat: in the plane of Box2D, its length turned to the left by `angle`.
-       Else its width runs along the depth. `def` has what is to be other than by default. */
+    /* A rectangle of length x width around (x, z). Flat: in the plane of Box2D, its length turned to the left by
+       `angle`. Else its width runs along the depth. `def` has what is to be other than by default. */
     kiriSheet AddSheet(float x, float z, float length, float width, bool isFlat, float angle, kiriSheetDef* def)
     {
         const int columns = 40, rows = std::max(1, static_cast<int>(40.0f * width / length));

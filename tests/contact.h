@@ -1,5 +1,5 @@
-/* What `make contact` measures: each case says what came out, what law or peer it is held against, and how far it may be
-   off. A file of cases has one function that runs them. */
+/* What `make contact` measures: each case says what came out, what law or peer it is held against, and how far it may
+   be off. A file of cases has one function that runs them. */
 #ifndef CONTACT_H
 #define CONTACT_H
 

@@ -1,7 +1,7 @@
 #include "contact.h"
 #include "touching.h"
 
-/* ---- Friction ------------------------------------------------------------------------------------------------------ */
+/* ---- Friction ---------------------------------------------------------------------------------------------------- */
 
 /* m/s: how fast the sheet slides after so many seconds on a slope; of half a second later. */
 static double SlideSpeed(const TouchingDef* def, double friction, double angle)
@@ -104,7 +104,7 @@ static void MeasureConveyor(void)
     }
 }
 
-/* ---- Momentum and energy ------------------------------------------------------------------------------------------- */
+/* ---- Momentum and energy ----------------------------------------------------------------------------------------- */
 
 static double Energy(const kiriTotals* totals, const Plane* body, double gravity)
 {
@@ -144,8 +144,8 @@ static void MeasureImpact(double ratio, int substeps, int frames)
     Touching_Stop(&t);
 }
 
-/* A body falls on a sheet that lies on the floor; or the sheet falls on a body in the air that gravity lets fall after it.
-   The most that anything rises after the blow. */
+/* A body falls on a sheet that lies on the floor; or the sheet falls on a body in the air that gravity lets fall after
+   it. The most that anything rises after the blow. */
 static void MeasureCrate(double ratio, int frames)
 {
     TouchingDef def = Touching_Def(TOUCHING_CLOTH, frames);
@@ -195,7 +195,7 @@ static void MeasureMomentum(void)
     }
 }
 
-/* ---- Depth --------------------------------------------------------------------------------------------------------- */
+/* ---- Depth ------------------------------------------------------------------------------------------------------- */
 
 /* Under a load of so many times the weight, spread over its frames. */
 static void Load(const Touching* t, double load)
@@ -306,7 +306,7 @@ static void MeasureLift(void)
     Touching_Stop(&t);
 }
 
-/* ---- Sums ---------------------------------------------------------------------------------------------------------- */
+/* ---- Sums -------------------------------------------------------------------------------------------------------- */
 
 /* Angular momentum about the centre of mass, along y; and the moment of the impulses of the last tick about it. */
 static double OwnTurning(const kiriTotals* t)
@@ -319,8 +319,8 @@ static double MomentAbout(const Touching* t, const double center[3])
     return t->moment[1] - center[2] * t->impulse[0] + center[0] * t->impulse[2];
 }
 
-/* A sheet slides and tumbles over the floor: the change of momentum, less that of gravity, is the sum of impulses; and so
-   it turns. */
+/* A sheet slides and tumbles over the floor: the change of momentum, less that of gravity, is the sum of impulses; and
+   so it turns. */
 static void MeasureSums(void)
 {
     for (int model = 0; model < 3; ++model) {

@@ -12,7 +12,7 @@ enum { SQUARES = 32, CELLS = 64, FRAMES = 25, SUBSTEPS = 2 };
 
 static const float tickSeconds = 1.0f / 60.0f, clothSize = 1.0f;
 
-/* ---- Obstacles ---------------------------------------------------------------------------------------------------- */
+/* ---- Obstacles --------------------------------------------------------------------------------------------------- */
 
 typedef struct Setting {
     const char* name;
@@ -81,7 +81,7 @@ static kiriObstacleDef DefOf(const Setting* setting)
     return def;
 }
 
-/* ---- Cloth -------------------------------------------------------------------------------------------------------- */
+/* ---- Cloth ------------------------------------------------------------------------------------------------------- */
 
 typedef struct Drape {
     kiriWorld* world;
@@ -222,7 +222,7 @@ static void MeasureDrape(const Setting* setting, int32_t skinning)
     kiriDestroyWorld(drape.world);
 }
 
-/* ---- A ball that its host moves by what it gets -------------------------------------------------------------------- */
+/* ---- A ball that its host moves by what it gets ------------------------------------------------------------------ */
 
 static kiriSheet MakePlate(kiriWorld* world, float velocity)
 {
@@ -290,7 +290,7 @@ static void MeasureBall(float ratio, int32_t substeps)
     kiriDestroyWorld(world);
 }
 
-/* ---- Fast --------------------------------------------------------------------------------------------------------- */
+/* ---- Fast -------------------------------------------------------------------------------------------------------- */
 
 /* A cloth at 100 m/s against a wall of 1 cm, flat and edge-on: how many of its vertices get to the other side. */
 static void MeasureFast(int isEdgeOn, int32_t substeps)

@@ -1,5 +1,5 @@
-/* Sheets and pieces against each other: piles, how they lie and what they cost; a hammock; pieces that are cut out; the six
-   scenes with and without contact between their pieces. */
+/* Sheets and pieces against each other: piles, how they lie and what they cost; a hammock; pieces that are cut out; the
+   six scenes with and without contact between their pieces. */
 #include "contact.h"
 #include "../samples/scene.h"
 #include "crossing.h"

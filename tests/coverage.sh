@@ -2,8 +2,8 @@
 # What `make coverage` runs and says.
 #
 #   tests/coverage.sh                   the targets that run tests
-#   tests/coverage.sh BUILD PERCENT     which part of the lines of each file of src they have run, least first; fails where
-#                                       that is less than it shall be, and where a file is in no program
+#   tests/coverage.sh BUILD PERCENT     which part of the lines of each file of src they have run, least first; fails
+#                                       where that is less than it shall be, and where a file is in no program
 set -eu
 
 # Not run, for they play long, and run no line that the others do not run in less time.
@@ -19,8 +19,8 @@ if [ $# = 0 ]; then
 fi
 build=$1 least=$2
 
-# What gcov says of the file that an object was made of; of headers it says as much for each file that includes them. A file
-# without lines to run has no number.
+# What gcov says of the file that an object was made of; of headers it says as much for each file that includes them. A
+# file without lines to run has no number.
 of_source() { # source
     [ -f "$build/$1.gcno" ] || { echo "0 0 $1"; return; }
     gcov -n -s "$PWD" -r "$build/$1.gcno" 2> /dev/null | awk -v source="$1" '

@@ -331,8 +331,8 @@ static void PinAll(Trial* trial)
     }
 }
 
-/* A pin that moves goes evenly from substep to substep, and what it gives depends on where the sheet is in between: only
-   with one substep is its work known from outside. */
+/* A pin that moves goes evenly from substep to substep, and what it gives depends on where the sheet is in between:
+   only with one substep is its work known from outside. */
 static void Teleport(Trial* trial)
 {
     if (Begins(trial)) {

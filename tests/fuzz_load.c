@@ -1,7 +1,7 @@
-/* Saves that somebody has made to do harm. The input changes some bytes of a good save, or of a difference, of a world to
-   which a storm has happened, and the sum is made right. Such bytes are refused, and then nothing has changed; or what comes
-   of them is a world that goes on: it ticks, is cut, is read and saved. It may move in any way, but it reads and writes no
-   memory that is not its own, ends each call, and gives all memory back. */
+/* Saves that somebody has made to do harm. The input changes some bytes of a good save, or of a difference, of a world
+   to which a storm has happened, and the sum is made right. Such bytes are refused, and then nothing has changed; or
+   what comes of them is a world that goes on: it ticks, is cut, is read and saved. It may move in any way, but it reads
+   and writes no memory that is not its own, ends each call, and gives all memory back. */
 #include "fuzz_saved.h"
 
 #include <stdlib.h>

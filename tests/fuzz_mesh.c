@@ -208,8 +208,8 @@ static void ReadMesh(FuzzMesh* m, const uint8_t* data, size_t size)
 
 /* ---- What must hold ---- */
 
-/* Two triangles apart have an edge with all of the other on its outer side, or on its line: but for steps of the lattice,
-   for the input is in floats. */
+/* Two triangles apart have an edge with all of the other on its outer side, or on its line: but for steps of the
+   lattice, for the input is in floats. */
 static bool AreApart(const kiriLatticePoint a[3], const kiriLatticePoint b[3])
 {
     for (int i = 0; i < 3; ++i) {

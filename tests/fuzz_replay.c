@@ -1,6 +1,6 @@
-/* Recordings of whatever bytes. The input goes on where a good recording has made a world and a sheet; it is replayed, past
-   all differences. What that does is recorded, too, and goes the same way when it is replayed: the same results, ids and
-   state hashes. */
+/* Recordings of whatever bytes. The input goes on where a good recording has made a world and a sheet; it is replayed,
+   past all differences. What that does is recorded, too, and goes the same way when it is replayed: the same results,
+   ids and state hashes. */
 #include "fuzz.h"
 #include "validate.h"
 

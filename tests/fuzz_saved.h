@@ -1,5 +1,5 @@
-/* What fuzzers of saves share: a host that counts what it gives, good saves of worlds to which a storm has happened, and what
-   a world that was loaded must be good for. */
+/* What fuzzers of saves share: a host that counts what it gives, good saves of worlds to which a storm has happened,
+   and what a world that was loaded must be good for. */
 #ifndef KIRI_TEST_FUZZ_SAVED_H
 #define KIRI_TEST_FUZZ_SAVED_H
 

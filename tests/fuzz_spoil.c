@@ -1,5 +1,5 @@
-/* As fuzz_load.c, but what is changed are numbers of blocks of memory, each of which counts as much as each other: a stage or
-   a cursor is hit as often as a list of thousands. */
+/* As fuzz_load.c, but what is changed are numbers of blocks of memory, each of which counts as much as each other: a
+   stage or a cursor is hit as often as a list of thousands. */
 #include "fuzz_saved.h"
 
 #include "core/kiri_archive.h"

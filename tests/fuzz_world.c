@@ -171,8 +171,8 @@ static bool IsFarAway(const kiriWorld* world, double scale)
 }
 
 /* Where nothing but gravity and what calls gave acts on sheets that began without strain, no tick adds to the energy of
-   motion and height: so no speed comes from nowhere. A line that is clamped may be bent, or its pieces apart, once they have
-   moved: it is pulled straight. */
+   motion and height: so no speed comes from nowhere. A line that is clamped may be bent, or its pieces apart, once they
+   have moved: it is pulled straight. */
 static void CheckEnergy(Fuzz* fuzz, const FuzzCall* call, const FuzzAct* act, double before, kiriResult result)
 {
     double size, energy = EnergyOf(fuzz->hosts[0].world, fuzz->scale, &size);
@@ -202,8 +202,8 @@ static bool IsOneSystem(const kiriWorld* world, int32_t items)
     return any;
 }
 
-/* No tick counts more items than its limit, and the three kinds of work on cuts share it. Their steps are all smaller than the
-   least limit, count as all of it, or are paid in parts. */
+/* No tick counts more items than its limit, and the three kinds of work on cuts share it. Their steps are all smaller
+   than the least limit, count as all of it, or are paid in parts. */
 static void CheckBudget(const kiriWorld* world, kiriResult result)
 {
     kiriProfile profile;
@@ -437,8 +437,8 @@ void Fuzz_Start(Fuzz* fuzz, const uint8_t* data, size_t size)
     Fuzz_Make(fuzz, create, &act);
 }
 
-/* A sheet that is new is cut into two. Without a budget each tick does all that was asked for before one tick, also where
-   it says KIRI_DIVERGED of another sheet. */
+/* A sheet that is new is cut into two. Without a budget each tick does all that was asked for before one tick, also
+   where it says KIRI_DIVERGED of another sheet. */
 static void CheckStillWorks(Host* host, int32_t ticks)
 {
     static const float down[3] = { 0.0f, 0.0f, -9.81f }, across[4] = { -0.1f, 0.41f, 1.1f, 0.43f };

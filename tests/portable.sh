@@ -1,6 +1,7 @@
 #!/bin/sh
 # Builds the storm (tests/storm.h) for each machine and compiler that is here, runs it, and compares what it prints with
-# tests/data/storm.txt; and replays the recordings of games, which have state hashes in them. Options are those that a host might have: nothing turns fused multiply-add off but the sources.
+# tests/data/storm.txt; and replays the recordings of games, which have state hashes in them. Options are those that a
+# host might have: nothing turns fused multiply-add off but the sources.
 #
 # From the environment: MAKE; TARGETS, names of targets, else all; TIME, seconds after which no target is begun.
 set -u

@@ -1,4 +1,5 @@
-/* Makes the calls of a recording, and prints the state hash: what a page in a browser recorded ends here with its bits. */
+/* Makes the calls of a recording, and prints the state hash: what a page in a browser recorded ends here with its
+   bits. */
 #include "kiri/kiri.h"
 
 #include <inttypes.h>

@@ -26,8 +26,9 @@ Row Row_Make(const char* name, const char* layout, int frames, int grid, double 
 
 void Results_PrintHead(void);
 
-/* Copies, prints and keeps the row, unless its error is no number (nothing was measured). Says "not monotone" where its error is more than 20 % above that of a row of the
-   same series with fewer frames, a coarser grid or fewer substeps, all else being equal. */
+/* Copies, prints and keeps the row, unless its error is no number (nothing was measured). Says "not monotone" where its
+   error is more than 20 % above that of a row of the same series with fewer frames, a coarser grid or fewer substeps,
+   all else being equal. */
 void Results_Add(const Row* row);
 
 /* error = value / reference - 1. */

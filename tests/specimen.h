@@ -59,8 +59,8 @@ typedef struct Specimen {
 void Require(bool ok, const char* what);
 double ProcessorTime(void* user); /* s */
 
-/* 0.2 m x 0.05 m, 80 squares, 1000 kg/m^3, no gravity, air that damps strongly, steps of backward Euler: what settles, or
-   swings in one mode, is to lose all else soon. */
+/* 0.2 m x 0.05 m, 80 squares, 1000 kg/m^3, no gravity, air that damps strongly, steps of backward Euler: what settles,
+   or swings in one mode, is to lose all else soon. */
 SpecimenDef Specimen_Strip(double young, double poisson, double thickness);
 
 /* Null where the library refuses the frames, too many or too near for the grid: then it has said so. */
@@ -87,8 +87,8 @@ void Specimen_Cut(Specimen* specimen, const Slit* slit);
 /* Where a rest point is now, as seen. */
 void Specimen_At(Specimen* specimen, double u, double v, double position[3]);
 
-/* Ticks until it is in equilibrium: three ticks in a row, a second long or as long as it bears, in which no frame goes by
-   more than a millionth of the size. */
+/* Ticks until it is in equilibrium: three ticks in a row, a second long or as long as it bears, in which no frame goes
+   by more than a millionth of the size. */
 void Specimen_Settle(Specimen* specimen);
 
 /* Displacement across the plane, and its slopes along u and v. */

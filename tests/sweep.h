@@ -55,8 +55,8 @@ bool Sweep_Run(const Setting* setting, kiriClockFn* clock, Outcome* outcome);
 int Sweep_Dominating(const Setting* settings, const Outcome* outcomes, int count, const Setting* setting,
                      const Outcome* outcome);
 
-/* The least and the most error of a setting on grids from 4/5 to 5/4 as fine, frames where the library spreads them, or in
-   rows, regular and moved at random: no figure is that of one lucky grid. False where one of them is refused. */
+/* The least and the most error of a setting on grids from 4/5 to 5/4 as fine, frames where the library spreads them, or
+   in rows, regular and moved at random: no figure is that of one lucky grid. False where one of them is refused. */
 bool Sweep_Range(const Setting* setting, bool spread, double error[2]);
 
 #endif

@@ -254,7 +254,8 @@ static void Materials(void** state)
     Host_Stop(&host);
 }
 
-/* Every preset moves a sheet, the next one with more work; other numbers write none. What they are worth: test_quality.c. */
+/* Every preset moves a sheet, the next one with more work; other numbers write none. What they are worth:
+   test_quality.c. */
 static void Qualities(void** state)
 {
     (void)state;

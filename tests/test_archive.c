@@ -66,7 +66,7 @@ static const kiriMember ThingMembers[] = {
 };
 static const kiriTable ThingTable = KIRI_TABLE(Thing, ThingMembers);
 
-/* ---- Things at random --------------------------------------------------------------------------------------------- */
+/* ---- Things at random -------------------------------------------------------------------------------------------- */
 
 /* Refuses all requests after so many; counts blocks. */
 typedef struct Purse {
@@ -156,7 +156,7 @@ static void MakeThing(Thing* thing, kiriMemory* memory, uint32_t* seed, int32_t 
     }
 }
 
-/* ---- Bytes -------------------------------------------------------------------------------------------------------- */
+/* ---- Bytes ------------------------------------------------------------------------------------------------------- */
 
 typedef struct Bytes {
     uint8_t* data;
@@ -228,7 +228,7 @@ static void AssertSameThing(const Thing* a, const Thing* b)
     assert_memory_equal(a->block, b->block, sizeof(int32_t) * BLOCK);
 }
 
-/* ---- Whole -------------------------------------------------------------------------------------------------------- */
+/* ---- Whole ------------------------------------------------------------------------------------------------------- */
 
 static void TestWhole(void** state)
 {
@@ -296,7 +296,7 @@ static void TestNoRoom(void** state)
     kiriMemory_FreeAll(&memory);
 }
 
-/* ---- Differences -------------------------------------------------------------------------------------------------- */
+/* ---- Differences ------------------------------------------------------------------------------------------------- */
 
 static void CheckDifference(Thing* thing, const Bytes* base, kiriMemory* memory)
 {
@@ -368,7 +368,7 @@ static void TestDifferencesAreSmall(void** state)
     kiriMemory_FreeAll(&memory);
 }
 
-/* ---- Arrays that grow --------------------------------------------------------------------------------------------- */
+/* ---- Arrays that grow -------------------------------------------------------------------------------------------- */
 
 enum { GROWN = 1000, BYTES_AN_ITEM = 64 };
 
@@ -441,7 +441,7 @@ static void TestGrowing(void** state)
     assert_int_equal(purse.out + readPurse.out, 0);
 }
 
-/* ---- Bytes that are none ------------------------------------------------------------------------------------------ */
+/* ---- Bytes that are none ----------------------------------------------------------------------------------------- */
 
 /* Whatever was read: arrays have room for what is in them, bools are bools, and it can be written. */
 static void AssertSound(Thing* thing)
@@ -529,7 +529,7 @@ static void TestLimits(void** state)
     assert_true(archive.isBad);
 }
 
-/* ---- Memory ------------------------------------------------------------------------------------------------------- */
+/* ---- Memory ------------------------------------------------------------------------------------------------------ */
 
 /* Without it nothing is read; that is no fault of the bytes. */
 static void TestMemoryIsRefused(void** state)

@@ -585,8 +585,8 @@ static void TestDetached(void** state)
     }
 }
 
-/* In the tick of the cut the part that falls is apart from the part that is held, by what it falls in it: 3/4 g dt^2 in two
-   steps. */
+/* In the tick of the cut the part that falls is apart from the part that is held, by what it falls in it: 3/4 g dt^2 in
+   two steps. */
 static void TestOpensAtOnce(void** state)
 {
     (void)state;

@@ -207,7 +207,8 @@ static void CheckNearest(Cloth* cloth, uint32_t* seed)
     const kiriSurface* surface = &cloth->surface;
     kiriVec3 at = kiriSurface_At(surface, Random(seed) % (uint32_t)surface->vertexCount);
     double reach = RandomBetween(seed, 0.0, 2.0);
-    /* Bands of vertices, so that some boxes are of one group, and some of several; or mixed so that the tree is made anew. */
+    /* Bands of vertices, so that some boxes are of one group, and some of several; or mixed so that the tree is made
+       anew. */
     bool isMixed = Random(seed) % 4 == 0;
     int32_t* ofVertex = malloc(sizeof(int32_t) * (size_t)surface->vertexCount);
     int32_t groups = Random(seed) % 4 == 0 ? 200 : 3; /* also more than a set of them has bits */
@@ -286,7 +287,8 @@ static bool Board_Make(Board* board, const Cloth* cloth, uint32_t* seed)
     return kiriWindow_Make(&board->window, board->corner, board->from, board->to);
 }
 
-/* How long the stretch is that a triangle has in the window, in the rest plane: found by itself, cut off by bisection. */
+/* How long the stretch is that a triangle has in the window, in the rest plane: found by itself, cut off by
+   bisection. */
 static double StretchIn(const Cloth* cloth, const kiriWindow* window, int32_t triangle)
 {
     const int32_t* v = &cloth->surface.indices.data[3 * (size_t)triangle];

@@ -1,5 +1,5 @@
-/* Contacts that the host gives, through the public header: laws of friction and of impacts, impulses, sleep. `make contact`
-   measures more of the same. */
+/* Contacts that the host gives, through the public header: laws of friction and of impacts, impulses, sleep. `make
+   contact` measures more of the same. */
 #include "support.h"
 #include "touching.h"
 
@@ -19,10 +19,10 @@ static double MeanSpeed(const Touching* t, int axis)
     return Touching_Totals(t).momentum[axis] / t->mass;
 }
 
-/* ---- Friction ------------------------------------------------------------------------------------------------------ */
+/* ---- Friction ---------------------------------------------------------------------------------------------------- */
 
-/* A degree below the angle of friction it stands still, to the last micrometre, and falls asleep. A degree above it slides
-   as a block does. */
+/* A degree below the angle of friction it stands still, to the last micrometre, and falls asleep. A degree above it
+   slides as a block does. */
 static void TestFrictionAngle(void** state)
 {
     (void)state;
@@ -117,15 +117,15 @@ static void TestLift(void** state)
     Touching_Stop(&t);
 }
 
-/* ---- Impulses ------------------------------------------------------------------------------------------------------ */
+/* ---- Impulses ---------------------------------------------------------------------------------------------------- */
 
 static double OwnTurning(const kiriTotals* t)
 {
     return t->angularMomentum[1] - t->center[2] * t->momentum[0] + t->center[0] * t->momentum[2];
 }
 
-/* A sheet that drops, slides and turns: impulses are its change of momentum but for gravity, to rounding, and it turns by
-   their moments. */
+/* A sheet that drops, slides and turns: impulses are its change of momentum but for gravity, to rounding, and it turns
+   by their moments. */
 static void TestSumsOfImpulses(void** state)
 {
     (void)state;
@@ -190,7 +190,7 @@ static void TestRestAndHolds(void** state)
     }
 }
 
-/* ---- Bodies -------------------------------------------------------------------------------------------------------- */
+/* ---- Bodies ------------------------------------------------------------------------------------------------------ */
 
 /* A sheet meets a free body: they go on together, momentum stays to rounding, and energy never grows. */
 static void TestMassRatios(void** state)
@@ -221,7 +221,8 @@ static void TestMassRatios(void** state)
     }
 }
 
-/* A crate drops on a sheet that lies on the floor. Neither is thrown up, the crate does not come through, and it rests. */
+/* A crate drops on a sheet that lies on the floor. Neither is thrown up, the crate does not come through, and it
+   rests. */
 static void TestCrates(void** state)
 {
     (void)state;
@@ -251,7 +252,7 @@ static void TestCrates(void** state)
     }
 }
 
-/* ---- Depth and speed ----------------------------------------------------------------------------------------------- */
+/* ---- Depth and speed --------------------------------------------------------------------------------------------- */
 
 static void TestLoads(void** state)
 {
@@ -316,7 +317,7 @@ static void TestPushSpeed(void** state)
     }
 }
 
-/* ---- Contacts and their ticks -------------------------------------------------------------------------------------- */
+/* ---- Contacts and their ticks ------------------------------------------------------------------------------------ */
 
 /* Four places that are no collision points. */
 static int32_t Corners(kiriContact contacts[4], const float velocity[3])

@@ -522,7 +522,7 @@ static void PlacesWithinRange(void** state)
     kiriMemory_FreeAll(mesh.memory);
 }
 
-/* ---- Parts that lie on each other ---------------------------------------------------------------------------------- */
+/* ---- Parts that lie on each other -------------------------------------------------------------------------------- */
 
 /* Where the longer side of the sheet is this long, lattice steps are 1. */
 #define LATTICE_SIDE 536870912.0f
@@ -535,8 +535,9 @@ static void InitLoose(kiriMeshData* mesh, const float* corners, int32_t triangle
     kiriMesh_Begin(mesh);
 }
 
-/* The corner (0, 60) of the first triangle is on the left side of the second: they lie on each other by as much as floats
-   are given for rounding. A blade that starts there, along the second edge that ends there, must not make it again. */
+/* The corner (0, 60) of the first triangle is on the left side of the second: they lie on each other by as much as
+   floats are given for rounding. A blade that starts there, along the second edge that ends there, must not make it
+   again. */
 static void MakesNoEdgeTwice(void** state)
 {
     (void)state;
@@ -555,8 +556,8 @@ static void MakesNoEdgeTwice(void** state)
     }
 }
 
-/* Two squares of few steps, each of two triangles, and one that goes far up; three corners are moved by up to four eighths
-   of a square. */
+/* Two squares of few steps, each of two triangles, and one that goes far up; three corners are moved by up to four
+   eighths of a square. */
 static kiriResult InitFewSteps(kiriMeshData* mesh, uint32_t* seed, int32_t unit)
 {
     static const float eighths[] = { 0, 0, 8, 0, 8, 8, 0, 0, 8, 8, 0, 8, 8, 0, 16, 0, 8, 8, 16, 0, 16, 8, 8, 8 };

@@ -79,7 +79,7 @@ static void CheckCounts(const Canvas* canvas, int32_t points, int32_t lines, int
     assert_int_equal(canvas->triangles.count, 3 * triangles);
 }
 
-/* ---- A scene ------------------------------------------------------------------------------------------------------ */
+/* ---- A scene ----------------------------------------------------------------------------------------------------- */
 
 typedef struct Stage {
     Host host;
@@ -143,7 +143,7 @@ static void CountEdges(const kiriMesh* mesh, int32_t* inner, int32_t* border)
     free(sides);
 }
 
-/* ---- Tests -------------------------------------------------------------------------------------------------------- */
+/* ---- Tests ------------------------------------------------------------------------------------------------------- */
 
 static void TestCounts(void** state)
 {

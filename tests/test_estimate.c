@@ -1,5 +1,5 @@
-/* How good the shape of a sheet is: around slits wherever frames land, by what the estimate says of it, and with as many
-   frames as an accuracy asks for. References: the elastica, and shells of CalculiX (tests/data/README.md). */
+/* How good the shape of a sheet is: around slits wherever frames land, by what the estimate says of it, and with as
+   many frames as an accuracy asks for. References: the elastica, and shells of CalculiX (tests/data/README.md). */
 #include "host.h"
 
 #include "reference.h"
@@ -134,7 +134,8 @@ static double Drop(const Sheet* s, int32_t count)
     return sum / found;
 }
 
-/* Slits over half and four fifths of a strip add 7.9 and 22.5 mm to its drop, wherever the ends lie in their squares. */
+/* Slits over half and four fifths of a strip add 7.9 and 22.5 mm to its drop, wherever the ends lie in their
+   squares. */
 static void SlitsBendAsFarAsTheyShould(void** state)
 {
     (void)state;

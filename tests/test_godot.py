@@ -1,5 +1,6 @@
 """The classes in Godot: python3 tests/test_godot.py --build DIR --godot3 G --godot4 G classes --twin TWIN | pictures |
-packages --version V | bench | project3 | project4. Where an engine is missing, a line says that it was not tested there."""
+packages --version V | bench | project3 | project4. Where an engine is missing, a line says that it was not tested
+there."""
 
 import argparse
 import json

@@ -1303,8 +1303,8 @@ static void CheckFreeIndices(const kiriGrid* grid)
     assert_int_equal(faces, grid->faces.count);
 }
 
-/* Two cuts that are taken back as one, so that cells merge again. The changes are cleared after the first, the second, both,
-   or never: cells go that were known and have changed since, or that nobody has heard of. */
+/* Two cuts that are taken back as one, so that cells merge again. The changes are cleared after the first, the second,
+   both, or never: cells go that were known and have changed since, or that nobody has heard of. */
 static void CheckCutsTakenBack(Tour* tour, int32_t mostQuota)
 {
     Sheet sheet;

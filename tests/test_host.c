@@ -6,7 +6,7 @@
 
 #define DT (1.0f / 60.0f)
 
-/* ---- Settings ----------------------------------------------------------------------------------------------------- */
+/* ---- Settings ---------------------------------------------------------------------------------------------------- */
 
 static kiriSheet Hang(Host* host, kiriSheetDef* def)
 {
@@ -188,7 +188,7 @@ static void TestSettingsAreChecked(void** state)
     Host_Stop(&host);
 }
 
-/* ---- Points and impulses ------------------------------------------------------------------------------------------ */
+/* ---- Points and impulses ----------------------------------------------------------------------------------------- */
 
 static kiriPointState PointAt(const Host* host, kiriSheet sheet, float u, float v)
 {
@@ -380,7 +380,7 @@ static void TestImpulseInPlane(void** state)
     Host_Stop(&host);
 }
 
-/* ---- Wind --------------------------------------------------------------------------------------------------------- */
+/* ---- Wind -------------------------------------------------------------------------------------------------------- */
 
 static kiriWind Wind(float x, float y, float z, float drag, float lift)
 {
@@ -446,8 +446,8 @@ static void TestWindIsNotOvertaken(void** state)
     }
 }
 
-/* A flag of cotton in 8 m/s: it rises, and goes on beating; its pole bears what the wind takes. Returns how far its free
-   edge beats, m. */
+/* A flag of cotton in 8 m/s: it rises, and goes on beating; its pole bears what the wind takes. Returns how far its
+   free edge beats, m. */
 static double Beat(Host* host, kiriSheet sheet, int ticks)
 {
     double low = 1e9, high = -1e9;
@@ -505,7 +505,7 @@ static void TestWindIsChecked(void** state)
     Host_Stop(&host);
 }
 
-/* ---- Pins --------------------------------------------------------------------------------------------------------- */
+/* ---- Pins -------------------------------------------------------------------------------------------------------- */
 
 static kiriPin PinAt(Host* host, kiriSheet sheet, float u, float v, float breakForce)
 {
@@ -600,8 +600,8 @@ static void TestManyPinsBreak(void** state)
     Host_Stop(&host);
 }
 
-/* A sheet that is drawn along by a corner, without gravity: what more substeps find must not differ by much. Returns the
-   rms force of the pin. */
+/* A sheet that is drawn along by a corner, without gravity: what more substeps find must not differ by much. Returns
+   the rms force of the pin. */
 static double Draw(int32_t substeps)
 {
     Host host;
@@ -753,7 +753,8 @@ static void HangStrip(int32_t skinning, int32_t frameCount, int32_t resolution, 
     Host_Stop(&host);
 }
 
-/* The most that the shapes differ by: how far any frame is from where the first one, moved by what it is off, has it. */
+/* The most that the shapes differ by: how far any frame is from where the first one, moved by what it is off, has
+   it. */
 static double ShapesApart(const HungStrip* a, const HungStrip* b)
 {
     double most = 0.0;
@@ -769,8 +770,8 @@ static double ShapesApart(const HungStrip* a, const HungStrip* b)
     return most;
 }
 
-/* What is seen of a clamped sheet moves its clamp as a whole: so it has the shape that it has with flat patches, and hangs
-   as far down, to 1 % of the strip; with 9 frames, whose surface is farther off at the edge, to 1.5 %. */
+/* What is seen of a clamped sheet moves its clamp as a whole: so it has the shape that it has with flat patches, and
+   hangs as far down, to 1 % of the strip; with 9 frames, whose surface is farther off at the edge, to 1.5 %. */
 static void TestSmoothClampKeepsShape(void** state)
 {
     (void)state;
@@ -788,7 +789,8 @@ static void TestSmoothClampKeepsShape(void** state)
     }
 }
 
-/* Where the half with lower v of a sheet hangs that is cut in two, from one clamp for both; the other half is pushed. */
+/* Where the half with lower v of a sheet hangs that is cut in two, from one clamp for both; the other half is
+   pushed. */
 static kiriPointState HangHalf(float push)
 {
     static const float from[2] = { 0.0f, 0.0f }, to[2] = { 0.0f, 0.1f }, pushed[2] = { 0.2f, 0.08f };
@@ -902,8 +904,8 @@ static void TestPinGoesWithObstacle(void** state)
     Host_Stop(&host);
 }
 
-/* A body of the host hangs at a sheet by a pin, without gravity, and is thrown: together they keep their momentum, and the
-   pin holds, whatever the masses. */
+/* A body of the host hangs at a sheet by a pin, without gravity, and is thrown: together they keep their momentum, and
+   the pin holds, whatever the masses. */
 static void TestBodyAtPinKeepsMomentum(void** state)
 {
     (void)state;
@@ -946,9 +948,10 @@ static void TestBodyAtPinKeepsMomentum(void** state)
     }
 }
 
-/* ---- Place, velocity, data ---------------------------------------------------------------------------------------- */
+/* ---- Place, velocity, data --------------------------------------------------------------------------------------- */
 
-/* A sheet that is carried to another place in free fall goes on as it would have there: rotated gravity, rotated start. */
+/* A sheet that is carried to another place in free fall goes on as it would have there: rotated gravity, rotated
+   start. */
 static void TestTransformMovesAll(void** state)
 {
     (void)state;
@@ -1094,7 +1097,7 @@ static void TestUserDataStays(void** state)
     Host_Stop(&host);
 }
 
-/* ---- Solids ------------------------------------------------------------------------------------------------------- */
+/* ---- Solids ------------------------------------------------------------------------------------------------------ */
 
 /* Rims have vertices of their own: here a vertex is one of the sheet on one of its sides. */
 static int64_t Welded(const kiriSolid* solid, int32_t seen, int32_t vertex)
@@ -1206,7 +1209,7 @@ static void TestSolidIsClosed(void** state)
     Host_Stop(&host);
 }
 
-/* ---- Axes --------------------------------------------------------------------------------------------------------- */
+/* ---- Axes -------------------------------------------------------------------------------------------------------- */
 
 /* With y up, (x, y, z) is what (x, -z, y) is with z up. */
 static void ToZUp(const float* y, float z[3])

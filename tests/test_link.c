@@ -436,7 +436,7 @@ static void SlitAcrossTheBorderPartsIt(void** state)
     Scene_Release(&scene);
 }
 
-/* ---- Against the Euclidean Voronoi diagram -------------------------------------------------------------------------- */
+/* ---- Against the Euclidean Voronoi diagram ----------------------------------------------------------------------- */
 
 /* The part of a rectangle that is nearest to one site, by clipping it at all others: an edge a neighbour. */
 typedef struct Polygon {

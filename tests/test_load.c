@@ -11,7 +11,7 @@
 #define STRIP_THICKNESS 5e-4
 #define GRAVITY 9.81
 
-/* ---- A strip of one row ------------------------------------------------------------------------------------------- */
+/* ---- A strip of one row ------------------------------------------------------------------------------------------ */
 
 enum { MOST_ALONG = 33 };
 
@@ -68,7 +68,7 @@ static void ClampStart(Host* host, kiriSheet sheet, const Strip* strip, kiriPin*
     OK(kiriSheet_ClampLine(host->world, sheet, from, to, clamp));
 }
 
-/* ---- Heavy cantilever --------------------------------------------------------------------------------------------- */
+/* ---- Heavy cantilever -------------------------------------------------------------------------------------------- */
 
 /* Distance of the tip from the elastica's, by how far that goes. */
 static double HeavyError(int along, double gamma, double x, double drop)
@@ -142,7 +142,7 @@ static void TestClampAcross(void** state)
     }
 }
 
-/* ---- End load ----------------------------------------------------------------------------------------------------- */
+/* ---- End load ---------------------------------------------------------------------------------------------------- */
 
 /* Sze, Liu, Lo 2004, section 3.1: how far the tip moves in and down under a shear force P at the end. */
 static void TestEndLoad(void** state)
@@ -177,7 +177,7 @@ static void TestEndLoad(void** state)
     }
 }
 
-/* ---- Resultants of loads ------------------------------------------------------------------------------------------ */
+/* ---- Resultants of loads ----------------------------------------------------------------------------------------- */
 
 /* Sums over the frames: force, and torque about the world's origin. */
 static void SumLoads(const Host* host, double force[3], double torque[3])
@@ -323,7 +323,7 @@ static void TestLoadsMove(void** state)
     }
 }
 
-/* ---- Reactions ---------------------------------------------------------------------------------------------------- */
+/* ---- Reactions --------------------------------------------------------------------------------------------------- */
 
 enum { POINTS, HINGE, CLAMP, HOLD, MIXED, HOLDS };
 
@@ -434,8 +434,8 @@ static void TestReactionsAtRest(void** state)
     }
 }
 
-/* In motion they change momentum, together with the weight, as far as the iteration has come. In an affine sheet that is
-   held in all ways at once the limit of energy acts, and takes momentum of which no reaction tells. */
+/* In motion they change momentum, together with the weight, as far as the iteration has come. In an affine sheet that
+   is held in all ways at once the limit of energy acts, and takes momentum of which no reaction tells. */
 static void TestReactionsInMotion(void** state)
 {
     (void)state;
@@ -500,7 +500,7 @@ static void TestHoldsBearWind(void** state)
     }
 }
 
-/* ---- Strips by theory --------------------------------------------------------------------------------------------- */
+/* ---- Strips by theory -------------------------------------------------------------------------------------------- */
 
 typedef struct Beam {
     Host host;
@@ -540,8 +540,8 @@ static kiriFrameState FrameStateOf(const Beam* beam, int32_t frame)
     return state;
 }
 
-/* A strip between two supports under pressure sinks in its middle by 5/384 p L^4 / D between hinges, and by a fifth of that
-   between clamps, whose moment is p L^2 / 12. */
+/* A strip between two supports under pressure sinks in its middle by 5/384 p L^4 / D between hinges, and by a fifth of
+   that between clamps, whose moment is p L^2 / 12. */
 static void TestPressureBetweenSupports(void** state)
 {
     (void)state;
@@ -560,8 +560,8 @@ static void TestPressureBetweenSupports(void** state)
         }
         double w = FrameStateOf(&beam, 4).position[2];
         assert_float_equal(w, sag, 0.005 * sag);
-        /* what is stored is half of the work of a load that grows slowly; a strip bent by p: p^2 L^5 W / (240 D) between
-           hinges, a sixth of that between clamps */
+        /* what is stored is half of the work of a load that grows slowly; a strip bent by p: p^2 L^5 W / (240 D)
+           between hinges, a sixth of that between clamps */
         double stored = pow(pressure, 2.0) * pow(strip.length, 5.0) * strip.width / ((k == 0 ? 240.0 : 1440.0) * D);
         assert_true(fabs(Host_Totals(&beam.host, beam.sheet).elasticEnergy / stored - 1.0) < 0.02);
         OK(kiriPin_GetReaction(beam.host.world, beam.ends[0], force, torque));
@@ -655,7 +655,7 @@ static void TestClampThatMoves(void** state)
     Host_Stop(&beam.host);
 }
 
-/* ---- Other models ------------------------------------------------------------------------------------------------- */
+/* ---- Other models ------------------------------------------------------------------------------------------------ */
 
 /* The clamped strip of affine frames, under its own weight; and in its plane, pulled. */
 static void TestModels(void** state)
@@ -701,7 +701,7 @@ static void TestModels(void** state)
     }
 }
 
-/* ---- Sleep -------------------------------------------------------------------------------------------------------- */
+/* ---- Sleep ------------------------------------------------------------------------------------------------------- */
 
 static bool IsAwake(const Host* host, kiriSheet sheet)
 {
@@ -765,7 +765,7 @@ static void TestSleep(void** state)
     Host_Stop(&host);
 }
 
-/* ---- Cuts and pieces ---------------------------------------------------------------------------------------------- */
+/* ---- Cuts and pieces --------------------------------------------------------------------------------------------- */
 
 /* A curtain that is clamped along its top and cut into two strips. */
 static kiriSheet HangCurtain(Host* host, kiriPin* clamp)
@@ -931,8 +931,8 @@ static void TestPinsComeAndGo(void** state)
     Host_Stop(&host);
 }
 
-/* A slit from the clamped edge on gives an arm to another frame, which the clamp did not hold. What it holds on keeps its
-   strain, in three fifths of the width, until the motion changes it; the arm begins without any. */
+/* A slit from the clamped edge on gives an arm to another frame, which the clamp did not hold. What it holds on keeps
+   its strain, in three fifths of the width, until the motion changes it; the arm begins without any. */
 static void TestCutAtClamp(void** state)
 {
     (void)state;
@@ -964,10 +964,10 @@ static void TestCutAtClamp(void** state)
     Host_Stop(&host);
 }
 
-/* ---- Extremes ----------------------------------------------------------------------------------------------------- */
+/* ---- Extremes ---------------------------------------------------------------------------------------------------- */
 
-/* Clamps and hinges that jump about with long steps: nothing is lost to infinity, and held still the strip comes back. The
-   thinnest may stay folded where it was crushed, at rest. */
+/* Clamps and hinges that jump about with long steps: nothing is lost to infinity, and held still the strip comes back.
+   The thinnest may stay folded where it was crushed, at rest. */
 static void TestWildLines(void** state)
 {
     (void)state;

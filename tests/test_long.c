@@ -1,6 +1,6 @@
-/* Long play: a blade that never rests, pieces that are detached or dropped as crumbs, cuts that are taken back; and sheets
-   that come and go, or one that stays. Work and memory must not grow with the time that a world has run. In `make test` a tenth of ten minutes; with an argument
-   (`make long`) all of it. */
+/* Long play: a blade that never rests, pieces that are detached or dropped as crumbs, cuts that are taken back; and
+   sheets that come and go, or one that stays. Work and memory must not grow with the time that a world has run. In
+   `make test` a tenth of ten minutes; with an argument (`make long`) all of it. */
 #include "host.h"
 
 #include <time.h>

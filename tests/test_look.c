@@ -73,8 +73,8 @@ static Looks LookAtArc(double angle, int32_t linear)
     return looks;
 }
 
-/* Frames at an angle t on a circle. Linear weights stretch the surface beside a frame by 3/8 t^2, and crease it there by t
-   within two cells, here four edges. With weights that are flat at the frames the stretch is half as much, and the
+/* Frames at an angle t on a circle. Linear weights stretch the surface beside a frame by 3/8 t^2, and crease it there
+   by t within two cells, here four edges. With weights that are flat at the frames the stretch is half as much, and the
    curvature, over the circle's, at most 4 more. */
 static void EasedWeightsLeaveNoCrease(void** state)
 {

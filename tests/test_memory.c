@@ -279,8 +279,8 @@ static void TestRefusedInTheTickOfACut(void** state)
     assert_true(compared > 3 && refused > 20);
 }
 
-/* What is stored twice, or for none, shows in sum. Of a sheet whose grid is as fine as its mesh, for then cells take the
-   most; and of one with fewer. */
+/* What is stored twice, or for none, shows in sum. Of a sheet whose grid is as fine as its mesh, for then cells take
+   the most; and of one with fewer. */
 static void TestBytesOfVertices(void** state)
 {
     (void)state;

@@ -333,8 +333,8 @@ static void RefusesOverlap(void** state)
     assert_int_equal(Try(touching, 6, two, 2), KIRI_OK);
 }
 
-/* A few steps of the lattice wide, beside a triangle that is as thin and ends far away: what floats are given for rounding
-   does not let them lie on each other. */
+/* A few steps of the lattice wide, beside a triangle that is as thin and ends far away: what floats are given for
+   rounding does not let them lie on each other. */
 static void RefusesOverlapOfTheSmallest(void** state)
 {
     (void)state;

@@ -79,7 +79,7 @@ static void TestReplayIsTheSame(void**)
     assert_int_equal(first.score, second.score);
 }
 
-/* ---- Going back --------------------------------------------------------------------------------------------------- */
+/* ---- Going back -------------------------------------------------------------------------------------------------- */
 
 /* Sends what a script has from event `next` on, `late` ticks later, and ticks until `end`. */
 static void PlayFrom(Play* play, const Script& script, int next, int late, int end)
@@ -194,7 +194,7 @@ static void TestSwipesPart(void**)
     }
 }
 
-/* ---- Momentum ----------------------------------------------------------------------------------------------------- */
+/* ---- Momentum ---------------------------------------------------------------------------------------------------- */
 
 static b2Vec2 MomentumOf(const NetGame& game, float* mass)
 {
@@ -235,7 +235,8 @@ static b2Vec2 GivenToSheets(const NetGame& game)
     return sum;
 }
 
-/* A crate falls on a rope and is caught, in level 1: until somebody cuts, nothing but weight, pins and air acts on both. */
+/* A crate falls on a rope and is caught, in level 1: until somebody cuts, nothing but weight, pins and air acts on
+   both. */
 static void TestMomentumIsKept(void**)
 {
     Play play;

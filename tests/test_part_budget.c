@@ -149,8 +149,8 @@ static double AreaOf(const Host* host, kiriSheet sheet, kiriFrame frame)
     return state.area;
 }
 
-/* Parts the targets in calls of one or a few, with ticks between them; returns the area that is destroyed. `waited` counts
-   the calls that were not done at once. */
+/* Parts the targets in calls of one or a few, with ticks between them; returns the area that is destroyed. `waited`
+   counts the calls that were not done at once. */
 static double Part(Host* host, kiriSheet sheet, const kiriFrame* targets, int32_t count, uint32_t* seed,
                    int32_t* waited, int32_t samples)
 {

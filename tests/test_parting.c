@@ -169,8 +169,8 @@ static kiriFrame FrameNear(Host* host, kiriSheet sheet, float u, float v)
     return frame;
 }
 
-/* A part has the squares around it, wherever these begin. Blades come into it from all sides, a line finds it, and a part
-   of the part has fewer still. In the second world all fields are made anew. */
+/* A part has the squares around it, wherever these begin. Blades come into it from all sides, a line finds it, and a
+   part of the part has fewer still. In the second world all fields are made anew. */
 static void TestSquaresOfAPart(void** state)
 {
     (void)state;
@@ -211,7 +211,8 @@ static void TestSquaresOfAPart(void** state)
     Host_Stop(&hosts[1]);
 }
 
-/* Another material gives frames other masses, which the next commit counts exactly: in a part that leaves before it, too. */
+/* Another material gives frames other masses, which the next commit counts exactly: in a part that leaves before it,
+   too. */
 static void TestPartsCountOtherMassesExactly(void** state)
 {
     (void)state;
@@ -410,8 +411,8 @@ static kiriResult PartSmallPieces(Host* host, kiriSheet sheet, uint32_t* seed)
     }
 }
 
-/* A large sheet keeps the indices of what is left, until half of it are holes. In the second world it moves together each
-   time: all goes on the same to the last bit. The world is validated after each tick. */
+/* A large sheet keeps the indices of what is left, until half of it are holes. In the second world it moves together
+   each time: all goes on the same to the last bit. The world is validated after each tick. */
 static void TestHolesChangeNothing(void** state)
 {
     (void)state;
@@ -456,8 +457,8 @@ static void TestHolesChangeNothing(void** state)
     assert_true(holes > 5 && tidied > 0);
 }
 
-/* The indices are written where they are, unless the host has got them since the last tick: then it keeps them as they were,
-   and gets others. */
+/* The indices are written where they are, unless the host has got them since the last tick: then it keeps them as they
+   were, and gets others. */
 static void TestIndicesAreCopiedForWhoHoldsThem(void** state)
 {
     (void)state;
@@ -485,8 +486,8 @@ static void TestIndicesAreCopiedForWhoHoldsThem(void** state)
     Host_Stop(&host);
 }
 
-/* What the host sees of a hole: a triangle with three equal corners, in the range that is dirty; not hit. Arrays that it has
-   stay as they were. */
+/* What the host sees of a hole: a triangle with three equal corners, in the range that is dirty; not hit. Arrays that
+   it has stay as they were. */
 static void TestHolesAreNotSeen(void** state)
 {
     (void)state;
@@ -605,8 +606,8 @@ static void TestHolesWithoutMemory(void** state)
 
 /* ---- On account ---- */
 
-/* A call does what one tick's samples pay for, and the coming ticks have less; the rest of many pieces is made tick by tick,
-   and no tick spends more than it has. In the end all is as without a budget. */
+/* A call does what one tick's samples pay for, and the coming ticks have less; the rest of many pieces is made tick by
+   tick, and no tick spends more than it has. In the end all is as without a budget. */
 static void TestCallsKeepToTheBudget(void** state)
 {
     (void)state;
@@ -985,7 +986,8 @@ static void TestTouchesGoOn(void** state)
     }
 }
 
-/* Samples pay for it, before it is done, and what is cut meanwhile waits. Of what the sheet becomes nothing else changes. */
+/* Samples pay for it, before it is done, and what is cut meanwhile waits. Of what the sheet becomes nothing else
+   changes. */
 static void TestWaitingIsPaid(void** state)
 {
     (void)state;
@@ -1104,8 +1106,8 @@ static void TestWaitingIsPatient(void** state)
 
 /* ---- Sheets whose grid carries few frames ---- */
 
-/* The def is refused in one line, or the sheet has no more frames than cells; either way the call comes back. What work a
-   cut may then make is bounded by the cells, too. */
+/* The def is refused in one line, or the sheet has no more frames than cells; either way the call comes back. What work
+   a cut may then make is bounded by the cells, too. */
 static void TryShape(float width, float height, int32_t columns, int32_t rows, int32_t resolution, int32_t frames,
                      float rigidArea, int32_t* refused)
 {

@@ -96,7 +96,8 @@ static void TakenInParts(void** state)
     assert_int_equal(kiriPlacer_GoOnWithPiece(&parts, &scene.memory, &scene.grid, &few), KIRI_MORE);
     assert_true(kiriPlacer_StartPiece(&parts, &scene.memory, &scene.grid, cell));
     int32_t times = 1;
-    for (kiriQuota quota = { 7, 0, 0, false }; kiriPlacer_GoOnWithPiece(&parts, &scene.memory, &scene.grid, &quota) == KIRI_MORE;
+    for (kiriQuota quota = { 7, 0, 0, false };
+         kiriPlacer_GoOnWithPiece(&parts, &scene.memory, &scene.grid, &quota) == KIRI_MORE;
          ++times) {
         quota = (kiriQuota){ 7, 0, 0, false };
     }

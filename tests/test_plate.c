@@ -202,7 +202,8 @@ static void EvenStatesAreExact(void** state)
 
 /* ---- Free edges -------------------------------------------------------------------------------------------------- */
 
-/* The second derivative of the energy at rest, dense, of what is not held; and minus the slope that held frames bring. */
+/* The second derivative of the energy at rest, dense, of what is not held; and minus the slope that held frames
+   bring. */
 typedef struct Statics {
     int32_t size, count;          /* unknowns a frame, and all */
     int32_t place[VORONOI_SITES]; /* of a frame's unknowns; KIRI_NONE where it is held */
@@ -354,8 +355,8 @@ static void MakeStrip(Voronoi* v, Layout layout, int columns, int rows, int mode
     Voronoi_Build(v);
 }
 
-/* A strip with free edges whose ends are pulled, bent, and twisted: E h, D (1 - nu^2), and 2 D (1 - nu). Links aslant to
-   an edge see it less well than those along or across it. Twist runs out into the edges, where the last row gives a
+/* A strip with free edges whose ends are pulled, bent, and twisted: E h, D (1 - nu^2), and 2 D (1 - nu). Links aslant
+   to an edge see it less well than those along or across it. Twist runs out into the edges, where the last row gives a
    little: 1 % with two rows. */
 static void CheckStrip(int layout, int columns, int rows, int model, double nu, double thickness)
 {

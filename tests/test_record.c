@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <sys/mman.h>
 
-/* ---- A storm ------------------------------------------------------------------------------------------------------ */
+/* ---- A storm ----------------------------------------------------------------------------------------------------- */
 
 enum { STORM_TICKS = 12 };
 
@@ -81,7 +81,7 @@ static void TestStorm(void** state)
     }
 }
 
-/* ---- Each call ---------------------------------------------------------------------------------------------------- */
+/* ---- Each call --------------------------------------------------------------------------------------------------- */
 
 static const float zero[3] = { 0.0f, 0.0f, 0.0f }, up[3] = { 0.0f, 0.0f, 1.0f };
 static const float axes[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
@@ -322,7 +322,7 @@ static void TestAll(void** state)
     Tape_Free(&tape);
 }
 
-/* ---- What is in it ------------------------------------------------------------------------------------------------ */
+/* ---- What is in it ----------------------------------------------------------------------------------------------- */
 
 /* How often each call succeeded in a recording. */
 static void CountCalls(const Tape* tape, int32_t counts[KIRI_CALL_COUNT])
@@ -452,7 +452,7 @@ static void TestAllFieldsAreRecorded(void** state)
     assert_int_equal(found, 8);
 }
 
-/* ---- Read-only arguments ------------------------------------------------------------------------------------------ */
+/* ---- Read-only arguments ----------------------------------------------------------------------------------------- */
 
 /* A copy that nobody may change. */
 static const void* Freeze(const void* bytes, size_t size)
@@ -493,7 +493,7 @@ static void TestReadOnlyArguments(void** state)
     Tape_Free(&tape);
 }
 
-/* ---- What it costs -------------------------------------------------------------------------------------------------- */
+/* ---- What it costs ----------------------------------------------------------------------------------------------- */
 
 static void TestSize(void** state)
 {

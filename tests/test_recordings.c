@@ -1,5 +1,5 @@
-/* Recordings of games go as they did: the same results, ids and state hashes. After a change that moves hashes, and says
-   why, `make recordings` writes them anew: the same calls, and what comes of them now. */
+/* Recordings of games go as they did: the same results, ids and state hashes. After a change that moves hashes, and
+   says why, `make recordings` writes them anew: the same calls, and what comes of them now. */
 #include "tape.h"
 
 #include <stdio.h>

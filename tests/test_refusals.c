@@ -1,5 +1,5 @@
-/* What a refused allocation leaves behind: for each call that changes a world, with work on a cut waiting at each stage,
-   each allocation is refused once, and all from there on. */
+/* What a refused allocation leaves behind: for each call that changes a world, with work on a cut waiting at each
+   stage, each allocation is refused once, and all from there on. */
 #include "look.h"
 
 #include "sheet/kiri_blocks.h"
@@ -458,8 +458,8 @@ static void TestCallsRefused(void** state)
     assert_true(all > 2000);
 }
 
-/* A tick with work at hand, or with limited cells: refused, it moves nothing, and shows what the last one showed; in the
-   end the layout is the same. Where the limits are lifted the tick does all of the work that waits. */
+/* A tick with work at hand, or with limited cells: refused, it moves nothing, and shows what the last one showed; in
+   the end the layout is the same. Where the limits are lifted the tick does all of the work that waits. */
 static int32_t CheckTick(int32_t work, bool isLifted, bool once, const Outcome* rich)
 {
     for (int32_t refused = 0;; ++refused) {
@@ -534,7 +534,8 @@ static void TestRefusedAtRandom(void** state)
     }
 }
 
-/* Three sheets, each with a blade whose last point is given after a tick that may be refused. Returns the hash in the end; *refused says whether the n-th allocation of the tick was refused at all. */
+/* Three sheets, each with a blade whose last point is given after a tick that may be refused. Returns the hash in the
+   end; *refused says whether the n-th allocation of the tick was refused at all. */
 static uint64_t GivePointsAround(int64_t n, bool once, bool* refused)
 {
     static const float way[6] = { 0.5f, -0.1f, 0.45f, 0.4f, 0.55f, 1.1f };

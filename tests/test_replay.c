@@ -5,7 +5,7 @@
 #include "world/kiri_record.h"
 #include "world/kiri_world.h"
 
-/* ---- Small recordings --------------------------------------------------------------------------------------------- */
+/* ---- Small recordings -------------------------------------------------------------------------------------------- */
 
 /* A sheet falls on a floor while it is cut. */
 static void RecordSmall(Tape* tape)
@@ -84,7 +84,7 @@ static void TestMisuse(void** state)
     Tape_Free(&tape);
 }
 
-/* ---- Differences -------------------------------------------------------------------------------------------------- */
+/* ---- Differences ------------------------------------------------------------------------------------------------- */
 
 enum { VERSION_BYTE = KIRI_RECORD_MAGIC_BYTES, GRAVITY_BYTE = KIRI_RECORD_MAGIC_BYTES + 4 };
 
@@ -155,7 +155,7 @@ static void TestAnotherResult(void** state)
     Tape_Free(&tape);
 }
 
-/* ---- Damage ------------------------------------------------------------------------------------------------------- */
+/* ---- Damage ------------------------------------------------------------------------------------------------------ */
 
 /* The end of one call is a good end; within a call it is none. */
 static void TestCutShort(void** state)
@@ -249,7 +249,7 @@ static void TestWorldOfNothing(void** state)
     Tape_Free(&tape);
 }
 
-/* ---- Memory ------------------------------------------------------------------------------------------------------- */
+/* ---- Memory ------------------------------------------------------------------------------------------------------ */
 
 /* Each allocation of a replay is refused once; it goes on, and ends as recorded. */
 static void TestRefusedReplay(void** state)
@@ -307,7 +307,7 @@ static void TestRecordedRefusals(void** state)
     }
 }
 
-/* ---- Loads -------------------------------------------------------------------------------------------------------- */
+/* ---- Loads ------------------------------------------------------------------------------------------------------- */
 
 static void Slash(Tape* tape, kiriSheet sheet)
 {

@@ -377,8 +377,8 @@ static void TestRubberStretches(void** state)
     }
 }
 
-/* Cuts let go of nearly all elastic energy, and bring none but what new borders see between affine frames, which have no
-   offsets of strains: 5e-5 of all. */
+/* Cuts let go of nearly all elastic energy, and bring none but what new borders see between affine frames, which have
+   no offsets of strains: 5e-5 of all. */
 static void TestRubberScene(void** state)
 {
     (void)state;
@@ -415,8 +415,8 @@ static void TestFlatScene(void** state)
     Scene_Stop(&scene);
 }
 
-/* Cuts set the spiral free, and do not throw it: it never moves faster than a fall by its own size would make it, though each
-   commit changes the borders of bent regions. */
+/* Cuts set the spiral free, and do not throw it: it never moves faster than a fall by its own size would make it,
+   though each commit changes the borders of bent regions. */
 static void TestSpiralIsNotThrown(void** state)
 {
     (void)state;

@@ -48,7 +48,7 @@ static void AssertSame(Bytes a, Bytes b)
     }
 }
 
-/* ---- Storms ------------------------------------------------------------------------------------------------------- */
+/* ---- Storms ------------------------------------------------------------------------------------------------------ */
 
 enum { STORM_TICKS = 30, EVERY = 5, GO_ON = 4 };
 
@@ -128,7 +128,7 @@ static void test_work_that_waits_goes_on(void** state)
     }
 }
 
-/* ---- Differences -------------------------------------------------------------------------------------------------- */
+/* ---- Differences ------------------------------------------------------------------------------------------------- */
 
 /* What comes of base and difference is what all bytes say. */
 static void CheckDifference(const kiriWorld* world, Bytes base, kiriWorld* other)
@@ -191,7 +191,7 @@ static void test_a_storm_goes_back(void** state)
     }
 }
 
-/* ---- Inside a square ---------------------------------------------------------------------------------------------- */
+/* ---- Inside a square --------------------------------------------------------------------------------------------- */
 
 /* A square of the grid with many triangles takes more than a tick: the work on it is saved wherever it stops. */
 static void test_work_inside_a_square_goes_on(void** state)
@@ -230,7 +230,7 @@ static void test_work_inside_a_square_goes_on(void** state)
     Host_Destroy(&other);
 }
 
-/* ---- Bytes that are none ------------------------------------------------------------------------------------------ */
+/* ---- Bytes that are none ----------------------------------------------------------------------------------------- */
 
 /* A small world with a bit of everything: a cut that waits, pins, an obstacle, a blade. */
 static void StartSmall(Host* host)

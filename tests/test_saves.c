@@ -1,7 +1,7 @@
 /* What kiriWorld_Save has written is loaded, whatever state the world is in, and comes out the same: the checks of
-   kiriWorld_Load and kiriWorld_LoadUntrusted ask for nothing that an honest save may lack. Random worlds, at random ticks:
-   cuts at work on small budgets, pieces that are taken out, calls and ticks that were refused memory, sheets that diverged
-   or sleep, blades.
+   kiriWorld_Load and kiriWorld_LoadUntrusted ask for nothing that an honest save may lack. Random worlds, at random
+   ticks: cuts at work on small budgets, pieces that are taken out, calls and ticks that were refused memory, sheets
+   that diverged or sleep, blades.
 
    test_saves [WORLDS [FIRST]]    so many worlds, from this one on */
 #include "host.h"
@@ -89,8 +89,8 @@ static void GoOn(Weather* weather)
     weather->host.failAt = -1;
 }
 
-/* Does the state hash tell what kiriWorld_LoadUntrusted does? Work at hand begins again, and grids that are to be made from
-   scratch are. */
+/* Does the state hash tell what kiriWorld_LoadUntrusted does? Work at hand begins again, and grids that are to be made
+   from scratch are. */
 static bool IsWorkAtHand(const kiriWorld* world)
 {
     bool isAtHand = false;

@@ -1,6 +1,6 @@
-/* The scenes of the samples with memory that is refused: then all has to be as if nothing had been refused. With an argument
-   (`make scarce`) each request of each tick of all scenes is refused once, or of the scene that a second argument names;
-   else some of them, of some scenes. */
+/* The scenes of the samples with memory that is refused: then all has to be as if nothing had been refused. With an
+   argument (`make scarce`) each request of each tick of all scenes is refused once, or of the scene that a second
+   argument names; else some of them, of some scenes. */
 #include "host.h"
 
 #include "../samples/scene.h"
@@ -197,8 +197,8 @@ static kiriResult TryNext(Scene* scene, bool isAgain)
     return Try(scene, isAgain, 0);
 }
 
-/* Each request is refused once: the first, then the next after it, and so on until the tick goes through. A tick that is
-   refused ends there, so that all tries together take the time of a few ticks. */
+/* Each request is refused once: the first, then the next after it, and so on until the tick goes through. A tick that
+   is refused ends there, so that all tries together take the time of a few ticks. */
 static void RefuseEach(Scene* scene)
 {
     enum { EVERY = 16, ROOMLESS = 32, MOST_TRIES = 4000 };

@@ -1,4 +1,5 @@
-/* What a tick does not write anew is seen as if it were: the world is validated after each tick, and that writes all of it. */
+/* What a tick does not write anew is seen as if it were: the world is validated after each tick, and that writes all of
+   it. */
 #include "host.h"
 
 enum { SQUARES = 96, DICE = 12, TICKS = 150 };

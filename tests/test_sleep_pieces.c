@@ -108,8 +108,8 @@ static void Throw(Host* host, kiriSheet sheet, int strip, float up)
 
 /* ---- Falling asleep ---- */
 
-/* The faster a strip is thrown the later it sleeps. Until then it moves as where nothing sleeps, to the last bit; and then
-   no more. */
+/* The faster a strip is thrown the later it sleeps. Until then it moves as where nothing sleeps, to the last bit; and
+   then no more. */
 static void TestOneByOne(void** state)
 {
     (void)state;
@@ -329,8 +329,8 @@ static void TestContactsOfOthers(void** state)
     Host_Stop(&host);
 }
 
-/* Each corner of a small sheet lies in a groove: two contacts at one point, of one obstacle. Asleep they are told what each
-   pushed with. */
+/* Each corner of a small sheet lies in a groove: two contacts at one point, of one obstacle. Asleep they are told what
+   each pushed with. */
 static void TestContactsOfOnePoint(void** state)
 {
     (void)state;
@@ -381,7 +381,8 @@ static void TestContactsOfOnePoint(void** state)
 
 /* ---- Cuts ---- */
 
-/* A slit wakes the piece that it is in, and what cuts it in two both parts; the strips beside it share squares with it. */
+/* A slit wakes the piece that it is in, and what cuts it in two both parts; the strips beside it share squares with
+   it. */
 static void TestCutWakesItsPiece(void** state)
 {
     (void)state;
@@ -521,8 +522,8 @@ static void PutAndTake(Host* host, kiriSheet sheet, float u, uint32_t woken)
     }
 }
 
-/* What a large sheet leaves where a strip was is no piece: an obstacle that moves there, is put there or taken away, in a
-   sheet that sleeps or of which a strip moves, wakes what is beside the hole, and that alone. */
+/* What a large sheet leaves where a strip was is no piece: an obstacle that moves there, is put there or taken away, in
+   a sheet that sleeps or of which a strip moves, wakes what is beside the hole, and that alone. */
 static void TestObstacleBesideHoles(void** state)
 {
     (void)state;
@@ -592,8 +593,8 @@ static void TestFloorBearsSleepers(void** state)
     Host_Stop(&host);
 }
 
-/* What a table bears of strips that sleep follows the length of the tick, and where its centre of mass is: it is moved too
-   little to wake anybody. */
+/* What a table bears of strips that sleep follows the length of the tick, and where its centre of mass is: it is moved
+   too little to wake anybody. */
 static void TestWhatSleepersPressWith(void** state)
 {
     (void)state;

@@ -747,8 +747,8 @@ static void OnlyWhatChangedPatchesCarryMayMove(void** state)
     Cloth_Release(&cloth);
 }
 
-/* A frame that gets another center carries the same patch: sums of doubles are other in the last bits, which floats near 0
-   show. */
+/* A frame that gets another center carries the same patch: sums of doubles are other in the last bits, which floats
+   near 0 show. */
 static void RoundedPatchesAreKnown(void** state)
 {
     (void)state;

@@ -72,7 +72,8 @@ static void CheckMomentum(const Host* host, kiriSheet sheet, const double* momen
     }
 }
 
-/* Each gets as many ticks as any other, or one more or less. One that waits stays where it is and keeps its velocity. */
+/* Each gets as many ticks as any other, or one more or less. One that waits stays where it is and keeps its
+   velocity. */
 static void TestPiecesTakeTurns(void** state)
 {
     (void)state;

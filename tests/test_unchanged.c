@@ -1,7 +1,7 @@
-/* A tick that is refused memory changes nothing. Storms in which each request of each tick is refused once: what saves say,
-   all but the room of arrays, is what it was before; and what comes of the tick at last is what comes of it in another
-   world, to which nothing is refused. `test_unchanged SEEDS [STORM]` (`make scarce`) runs longer, in so many storms of each
-   type, or of one. */
+/* A tick that is refused memory changes nothing. Storms in which each request of each tick is refused once: what saves
+   say, all but the room of arrays, is what it was before; and what comes of the tick at last is what comes of it in
+   another world, to which nothing is refused. `test_unchanged SEEDS [STORM]` (`make scarce`) runs longer, in so many
+   storms of each type, or of one. */
 #include "core/kiri_archive.h"
 
 /* An archive that may leave out how much room an array has, in place of the library's. */
@@ -316,8 +316,8 @@ static void CheckLoads(const Pair* pair)
     kiriDestroyWorld(other);
 }
 
-/* Blocks that a refused tick keeps are not asked for again. So the next request to refuse is the one after those that it
-   asks for again, and after the one that was refused. */
+/* Blocks that a refused tick keeps are not asked for again. So the next request to refuse is the one after those that
+   it asks for again, and after the one that was refused. */
 static kiriResult TickPoorly(Pair* pair, int32_t substeps)
 {
     Storm* storm = &pair->poor;

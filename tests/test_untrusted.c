@@ -1,5 +1,5 @@
-/* kiriWorld_LoadUntrusted: of a save that is honest it makes what kiriWorld_Load makes, where no cut is being worked on; and
-   the cut that is being worked on does the same, if later. tests/fuzz_spoil.c has saves that are not honest. */
+/* kiriWorld_LoadUntrusted: of a save that is honest it makes what kiriWorld_Load makes, where no cut is being worked
+   on; and the cut that is being worked on does the same, if later. tests/fuzz_spoil.c has saves that are not honest. */
 #include "fuzz_saved.h"
 #include "host.h"
 
@@ -27,7 +27,7 @@ static bool IsAtWork(const kiriWorld* world)
     return isAtWork;
 }
 
-/* ---- Storms ------------------------------------------------------------------------------------------------------- */
+/* ---- Storms ------------------------------------------------------------------------------------------------------ */
 
 static void StartStorm(Storm* storm, Host* host, int32_t kind, uint32_t seed)
 {
@@ -94,7 +94,7 @@ static void TestStormsGoOn(void** state)
     }
 }
 
-/* ---- Work at hand ------------------------------------------------------------------------------------------------- */
+/* ---- Work at hand ------------------------------------------------------------------------------------------------ */
 
 enum { ROUND_POINTS = 6, MOST_TICKS = 4000 };
 
@@ -167,7 +167,7 @@ static void TestWorkBeginsAgain(void** state)
     Host_Destroy(&other);
 }
 
-/* ---- What it takes ------------------------------------------------------------------------------------------------ */
+/* ---- What it takes ----------------------------------------------------------------------------------------------- */
 
 enum { MEMORY_FREE = 2 << 20, MEMORY_A_BYTE = 128 };
 

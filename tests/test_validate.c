@@ -822,8 +822,8 @@ static void HoldAllOver(Host* host, kiriSheet sheet, int32_t* frames)
     }
 }
 
-/* While a budget interrupts the cutting of the mesh, grid->nodeCell does not know the new nodes of mesh->squares: a pin must
-   not ask it. */
+/* While a budget interrupts the cutting of the mesh, grid->nodeCell does not know the new nodes of mesh->squares: a pin
+   must not ask it. */
 static void PinsWhileTheMeshIsCut(void** state)
 {
     (void)state;
@@ -868,8 +868,8 @@ static void PinsAfterATickWithoutMemory(void** state)
     Host_Stop(&host);
 }
 
-/* A rigid piece with a site in each of its cells, all new: there is no room for one more, and to place them again would be
-   a move, after which all is measured again, without end. A budget keeps the ticks short. */
+/* A rigid piece with a site in each of its cells, all new: there is no room for one more, and to place them again would
+   be a move, after which all is measured again, without end. A budget keeps the ticks short. */
 static void ResamplingComesToAnEnd(void** state)
 {
     (void)state;
@@ -894,8 +894,8 @@ static void ResamplingComesToAnEnd(void** state)
     Host_Stop(&host);
 }
 
-/* A tick that has no memory for one sheet leaves the next one as it was: its update is not at hand, and takes the points
-   that still come before the next tick together with the others. */
+/* A tick that has no memory for one sheet leaves the next one as it was: its update is not at hand, and takes the
+   points that still come before the next tick together with the others. */
 static void PointsAfterATickWithoutMemory(void** state)
 {
     (void)state;

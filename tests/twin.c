@@ -1,6 +1,6 @@
-/* The scene that each binding runs too: 120 ticks with pins, a cut, a blade, an obstacle, and a piece that gets a sheet of
-   its own. All end with the state hash that this prints. After that it prints the sizes of the structs as C lays them
-   out. */
+/* The scene that each binding runs too: 120 ticks with pins, a cut, a blade, an obstacle, and a piece that gets a sheet
+   of its own. All end with the state hash that this prints. After that it prints the sizes of the structs as C lays
+   them out. */
 #include "kiri/kiri.h"
 
 #include <inttypes.h>

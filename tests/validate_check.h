@@ -18,8 +18,8 @@ static inline bool HasUpdate(const kiriSheetData* sheet)
     return UpdateOf(sheet)->stage != KIRI_NONE;
 }
 
-/* Do grid, regions and shape functions say what is in force? Not after a tick that took back what it did to the mesh: the
-   grid follows the dirty squares with the next update. */
+/* Do grid, regions and shape functions say what is in force? Not after a tick that took back what it did to the mesh:
+   the grid follows the dirty squares with the next update. */
 static inline bool IsSettled(const kiriSheetData* sheet)
 {
     return !HasUpdate(sheet) && !UpdateOf(sheet)->needsRebuild && sheet->mesh.squares.dirty.count == 0;

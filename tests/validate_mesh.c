@@ -105,8 +105,8 @@ static uint32_t EdgeTable_Slot(const EdgeTable* table, kiriLatticePoint from, ki
     return slot;
 }
 
-/* No two half-edges run from the same place to the same place; where the mesh conforms, those that run to and fro between
-   two places are twins. */
+/* No two half-edges run from the same place to the same place; where the mesh conforms, those that run to and fro
+   between two places are twins. */
 static bool Check_Places(Check* check, const kiriMeshData* mesh, bool isConforming)
 {
     int32_t count = 3 * mesh->triangles.count;
@@ -261,8 +261,8 @@ static bool Check_DirtySquares(Check* check, const kiriMeshData* mesh)
 
 /* ---- Provenance ---- */
 
-/* Source and share give the vertex's place back; and the fan of a vertex has a part of its source triangle: a torn vertex
-   takes nothing from the other lip. */
+/* Source and share give the vertex's place back; and the fan of a vertex has a part of its source triangle: a torn
+   vertex takes nothing from the other lip. */
 static bool Check_Provenance(Check* check, const kiriMeshData* mesh)
 {
     uint8_t* found = Check_Bytes(check, mesh->vertices.count);

@@ -7,19 +7,19 @@
    Conventions, everywhere in this header:
    - SI units: metres, kilograms, seconds, newtons, pascals, radians.
    - World coordinates are right-handed. No axis is up: gravity says where down is. A host with y up gives gravity
-     (0, -9.81, 0) to the world def and, for a sheet that hangs, axisU (1, 0, 0) and axisV (0, 1, 0) to the sheet def; all
-     else is then in its own axes. A left-handed host negates one axis of all that goes in and comes out, and swaps two
-     corners of each triangle when it draws.
+     (0, -9.81, 0) to the world def and, for a sheet that hangs, axisU (1, 0, 0) and axisV (0, 1, 0) to the sheet def;
+     all else is then in its own axes. A left-handed host negates one axis of all that goes in and comes out, and swaps
+     two corners of each triangle when it draws.
    - The rest plane holds the flat, undeformed sheet. A rest position is (u, v) in metres.
    - A function that can fail returns a kiriResult: negative is failure, and then the world is as before the call.
      kiriWorld_GetLastError says in one line what went wrong.
-   - Sheets, cuts, frames, pins, obstacles and blades are 32-bit ids; 0 is no id. An id of another kind, or of something that is gone,
-     gives KIRI_ERROR_ID.
+   - Sheets, cuts, frames, pins, obstacles and blades are 32-bit ids; 0 is no id. An id of another kind, or of something
+     that is gone, gives KIRI_ERROR_ID.
    - Arrays that a call hands out belong to the library, and stay as they are until the next kiriWorld_Tick or
      kiriDestroyWorld, whatever is called in between.
    - Threads: functions that take a const kiriWorld only read it. Any number of threads may call them at the same time,
-     while no other function runs on that world. Two worlds share nothing. The library starts no thread; a tick may use those
-     of the host (kiriWorldDef). */
+     while no other function runs on that world. Two worlds share nothing. The library starts no thread; a tick may use
+     those of the host (kiriWorldDef). */
 
 #ifndef KIRI_H
 #define KIRI_H
@@ -91,27 +91,27 @@ typedef void kiriLogFn(void* user, const char* line);
 typedef double kiriClockFn(void* user); /* seconds; read for the profile only, never by the simulation */
 typedef void kiriRecordFn(void* user, const void* bytes, int32_t count); /* the next bytes of the recording */
 
-/* For hosts that lend their threads to a tick. A task is work on the items 0 to itemCount: `start` has the function called,
-   from whatever threads, for ranges of at least minRange items (the last one may be shorter) that together are all of
-   them, each once, and returns something that names the task; `finish` returns when all these calls have. `start` may
-   also make all calls itself, and return null: then there is no `finish`. What a thread wrote must be seen by those that
-   go on after `finish`, as with any lock. A tick has one task at a time. Within one the library does not call the host,
-   and how the items are shared out does not change one bit of what comes of them. */
+/* For hosts that lend their threads to a tick. A task is work on the items 0 to itemCount: `start` has the function
+   called, from whatever threads, for ranges of at least minRange items (the last one may be shorter) that together are
+   all of them, each once, and returns something that names the task; `finish` returns when all these calls have.
+   `start` may also make all calls itself, and return null: then there is no `finish`. What a thread wrote must be seen
+   by those that go on after `finish`, as with any lock. A tick has one task at a time. Within one the library does not
+   call the host, and how the items are shared out does not change one bit of what comes of them. */
 typedef void kiriTaskFn(int32_t start, int32_t end, void* taskContext); /* the items from start up to, without, end */
 typedef void* kiriStartTaskFn(void* user, kiriTaskFn* task, int32_t itemCount, int32_t minRange, void* taskContext);
 typedef void kiriFinishTaskFn(void* user, void* handle);
 
-/* The most work that one tick may do, over all sheets, first come first served. 0: no limit. Triangles, cells and samples
-   share a tick: what is spent of one leaves as much less of the other two. Half of the cells, say, leave half of the
-   samples; so the work on cuts takes no longer than the costliest of the three limits. What does not fit goes on in the
-   next tick, and in the end is what it would have been without a limit: the points given to a sheet before one tick take
-   effect together, when all that follows from them is done. Until then the lips of a fresh cut move together. A step that
-   cannot be parted and counts more than a whole limit is done in a tick of its own. Pieces that wait to be detached get
-   half of every other tick, whatever other sheets have to do.
-   How long lips wait: a cut from side to side takes 6 items of cells for each cell of the grid where frames are many, 30
-   where they are few (each has more of the sheet), and 0.2 to 1.2 of samples for each vertex; a cut half as long a
-   quarter to all of that. So on a sheet and grid of 64 x 64 squares with 9 frames, 2000 cells and 500 samples part a cut
-   from side to side after 70 ticks, one half as long after 27; 10 000 and 2000 after 15 and 6.
+/* The most work that one tick may do, over all sheets, first come first served. 0: no limit. Triangles, cells and
+   samples share a tick: what is spent of one leaves as much less of the other two. Half of the cells, say, leave half
+   of the samples; so the work on cuts takes no longer than the costliest of the three limits. What does not fit goes on
+   in the next tick, and in the end is what it would have been without a limit: the points given to a sheet before one
+   tick take effect together, when all that follows from them is done. Until then the lips of a fresh cut move together.
+   A step that cannot be parted and counts more than a whole limit is done in a tick of its own. Pieces that wait to be
+   detached get half of every other tick, whatever other sheets have to do.
+   How long lips wait: a cut from side to side takes 6 items of cells for each cell of the grid where frames are many,
+   30 where they are few (each has more of the sheet), and 0.2 to 1.2 of samples for each vertex; a cut half as long a
+   quarter to all of that. So on a sheet and grid of 64 x 64 squares with 9 frames, 2000 cells and 500 samples part a
+   cut from side to side after 70 ticks, one half as long after 27; 10 000 and 2000 after 15 and 6.
    tests/bench_delay.c prints the table. */
 typedef struct kiriBudget {
     int32_t triangles; /* split by blades; 0, or KIRI_LEAST_TRIANGLES and more */
@@ -146,16 +146,17 @@ typedef struct kiriWorldDef {
     void* user;      /* handed to the functions above */
     kiriRecordFn* record; /* gets the recording of the world, see kiriWorld_Replay; null: there is none */
     int32_t
-        recordHashTicks; /* the recording has the state hash after so many ticks, and at the end; 0: never. Default 60 */
+        recordHashTicks; /* the recording has the state hash after so many ticks, and at the end; 0: never. Default
+                            60 */
 } kiriWorldDef;
 
 /* Fills the def with its defaults, and stamps it. */
 KIRI_API void kiriDefaultWorldDef(kiriWorldDef* def);
 
-/* Makes an empty world. On failure *world is null. KIRI_ERROR_BUILD: the compiler has contracted products and sums to fused
-   multiply-adds (-ffp-contract=fast of clang), or has reordered them; or this thread flushes small floats to zero (FTZ,
-   DAZ) or does not round to nearest. The threads of later calls, and those that the host runs tasks on, are not checked:
-   in such a mode their bits are others. */
+/* Makes an empty world. On failure *world is null. KIRI_ERROR_BUILD: the compiler has contracted products and sums to
+   fused multiply-adds (-ffp-contract=fast of clang), or has reordered them; or this thread flushes small floats to zero
+   (FTZ, DAZ) or does not round to nearest. The threads of later calls, and those that the host runs tasks on, are not
+   checked: in such a mode their bits are others. */
 KIRI_API kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world);
 
 /* Frees the world and all that is in it. Null is allowed. */
@@ -192,18 +193,18 @@ KIRI_API kiriResult kiriWorld_GetSheets(const kiriWorld* world, kiriSheet* sheet
 
 /* ---- Recording -------------------------------------------------------------------------------------------------- */
 
-/* A recording has all that a world was given: each call of a function that changes it, with its arguments, its result and
-   the ids that it made; calls that failed, too. For reports of errors, for tests, and to show a run elsewhere: the same
-   bytes give the same run, bit for bit, on any machine, with the same version of the library. All bytes that `record` of
-   the world def got are the recording, one after the other. It gets the arguments of a call before the call does anything,
-   so a run that crashed is recorded up to the call that it crashed in; kiriDestroyWorld writes the end. Recording takes no
-   memory, and a fraction of the time of the calls; a tick takes 8 bytes, a point of a cut 8, a mesh 8 for each vertex
-   and 3 to 6 for each triangle. */
+/* A recording has all that a world was given: each call of a function that changes it, with its arguments, its result
+   and the ids that it made; calls that failed, too. For reports of errors, for tests, and to show a run elsewhere: the
+   same bytes give the same run, bit for bit, on any machine, with the same version of the library. All bytes that
+   `record` of the world def got are the recording, one after the other. It gets the arguments of a call before the call
+   does anything, so a run that crashed is recorded up to the call that it crashed in; kiriDestroyWorld writes the end.
+   Recording takes no memory, and a fraction of the time of the calls; a tick takes 8 bytes, a point of a cut 8, a mesh
+   8 for each vertex and 3 to 6 for each triangle. */
 
 enum kiriNoteLimit { KIRI_MOST_NOTE_BYTES = 1 << 20 };
 
-/* Puts some bytes of the host's own (1 to KIRI_MOST_NOTE_BYTES) in the recording, where a replay finds them: what its camera
-   saw, what a player pressed. The world does not change; without a recording nothing happens. */
+/* Puts some bytes of the host's own (1 to KIRI_MOST_NOTE_BYTES) in the recording, where a replay finds them: what its
+   camera saw, what a player pressed. The world does not change; without a recording nothing happens. */
 KIRI_API kiriResult kiriWorld_Note(kiriWorld* world, const void* bytes, int32_t count);
 
 /* How far a replay has come: all zero at its start, but for `untrusted`. */
@@ -214,58 +215,60 @@ typedef struct kiriReplay {
     const void* note; /* where it stopped at a note: its bytes, in the recording; else null */
     int32_t noteCount;
     int32_t untrusted; /* set by the host, 1: somebody may have made the recording to do harm. Saves that it loads are
-                          loaded by kiriWorld_LoadUntrusted, differences not at all (KIRI_ERROR_DATA). Where a cut was being
-                          worked on in a save, states may then differ from those recorded (KIRI_ERROR_REPLAY) */
+                          loaded by kiriWorld_LoadUntrusted, differences not at all (KIRI_ERROR_DATA). Where a cut was
+                          being worked on in a save, states may then differ from those recorded (KIRI_ERROR_REPLAY) */
 } kiriReplay;
 
 /* Makes the calls of a recording up to the next tick or note, and that one. The world is to be new, as
-   kiriCreateWorld makes it; gravity and budget become those of the recording. What the host has of its own, such as memory,
-   log and tasks, stays the host's. Ids are those of the recording: kiriWorld_GetSheets has those of sheets.
+   kiriCreateWorld makes it; gravity and budget become those of the recording. What the host has of its own, such as
+   memory, log and tasks, stays the host's. Ids are those of the recording: kiriWorld_GetSheets has those of sheets.
    KIRI_PENDING: more follows, call it again. KIRI_OK: that was the end.
-   KIRI_ERROR_REPLAY: a call gave another result, other ids or another state than recorded; the line says which. The next
-   call goes on behind it.
-   KIRI_ERROR_DATA: the bytes are no recording, damaged, cut short, or of a later version; the line says where. Calls before
-   that place have been made. So has the last one of a recording that ends within a call, as that of a run which crashed.
-   KIRI_ERROR_STATE: the world is not new. KIRI_ERROR_MEMORY: the next call was refused memory, and may be tried again.
-   Calls that were refused memory when they were recorded are left out: they changed nothing. Where that was a tick and a
-   budget limits cells or samples, the next hashes may differ. */
+   KIRI_ERROR_REPLAY: a call gave another result, other ids or another state than recorded; the line says which. The
+   next call goes on behind it.
+   KIRI_ERROR_DATA: the bytes are no recording, damaged, cut short, or of a later version; the line says where. Calls
+   before that place have been made. So has the last one of a recording that ends within a call, as that of a run which
+   crashed. KIRI_ERROR_STATE: the world is not new. KIRI_ERROR_MEMORY: the next call was refused memory, and may be
+   tried again. Calls that were refused memory when they were recorded are left out: they changed nothing. Where that
+   was a tick and a budget limits cells or samples, the next hashes may differ. */
 KIRI_API kiriResult kiriWorld_Replay(kiriWorld* world, const void* recording, int64_t size, kiriReplay* replay);
 
 /* ---- Save and load ---------------------------------------------------------------------------------------------- */
 
-/* All that the coming ticks depend on, as bytes: sheets, cuts that wait or are being worked on, pins, obstacles, blades,
-   ids, events. A world that is loaded goes on as the one that was saved would have, bit for bit, and ids name what they
-   named: on another machine, and in another build of the same version of the library. */
+/* All that the coming ticks depend on, as bytes: sheets, cuts that wait or are being worked on, pins, obstacles,
+   blades, ids, events. A world that is loaded goes on as the one that was saved would have, bit for bit, and ids name
+   what they named: on another machine, and in another build of the same version of the library. */
 
-/* Writes the world. *size: bytes that there are. `bytes` null: they are counted only, and capacity does not matter; else
-   it has room for `capacity`. Writes nothing where that is less than *size (KIRI_ERROR_ARGUMENT). Only reads the world. */
+/* Writes the world. *size: bytes that there are. `bytes` null: they are counted only, and capacity does not matter;
+   else it has room for `capacity`. Writes nothing where that is less than *size (KIRI_ERROR_ARGUMENT). Only reads the
+   world. */
 KIRI_API kiriResult kiriWorld_Save(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size);
 
-/* The world becomes what was saved, from a world with whatever hooks; its own stay: allocation, log, clock and tasks. The
-   profile has no times until the next tick. What it had before is gone, but arrays that it handed out live until the
-   next tick. KIRI_ERROR_DATA: the bytes are no save, or cut short, changed, or of a version that this library does not
-   read. KIRI_ERROR_MEMORY. Then nothing has changed. For bytes of your own: the sum in a save finds damage, not malice.
-   A recording has the bytes, up to 2^31 of them; kiriReplay.untrusted is for recordings of others. */
+/* The world becomes what was saved, from a world with whatever hooks; its own stay: allocation, log, clock and tasks.
+   The profile has no times until the next tick. What it had before is gone, but arrays that it handed out live until
+   the next tick. KIRI_ERROR_DATA: the bytes are no save, or cut short, changed, or of a version that this library does
+   not read. KIRI_ERROR_MEMORY. Then nothing has changed. For bytes of your own: the sum in a save finds damage, not
+   malice. A recording has the bytes, up to 2^31 of them; kiriReplay.untrusted is for recordings of others. */
 KIRI_API kiriResult kiriWorld_Load(kiriWorld* world, const void* bytes, int64_t size);
 
-/* The same for bytes of others, who may have made them to do harm: what the world becomes may then be strange, but it is one
-   that all calls are good for. What follows from the mesh and the frames is not read but made anew, which takes about as
-   long as to create the sheets. A world in which no cut is being worked on goes on bit for bit as after kiriWorld_Load, but
-   that with a budget a later cut may take effect in another tick. Work on a cut that is at hand begins again: the cut does
-   the same, and takes effect later. */
+/* The same for bytes of others, who may have made them to do harm: what the world becomes may then be strange, but it
+   is one that all calls are good for. What follows from the mesh and the frames is not read but made anew, which takes
+   about as long as to create the sheets. A world in which no cut is being worked on goes on bit for bit as after
+   kiriWorld_Load, but that with a budget a later cut may take effect in another tick. Work on a cut that is at hand
+   begins again: the cut does the same, and takes effect later. */
 KIRI_API kiriResult kiriWorld_LoadUntrusted(kiriWorld* world, const void* bytes, int64_t size);
 
-/* What has changed since a save, for hosts that go back a little: a save now and then, and a difference to it each tick.
-   Where no cut is being worked on it has poses, velocities and contacts; a cut adds what it changed. All of the world is
-   compared with the base, so it takes about as long as a save (tests/README.md has sizes and times).
+/* What has changed since a save, for hosts that go back a little: a save now and then, and a difference to it each
+   tick. Where no cut is being worked on it has poses, velocities and contacts; a cut adds what it changed. All of the
+   world is compared with the base, so it takes about as long as a save (tests/README.md has sizes and times).
    base: what kiriWorld_Save wrote of this world, or what it was loaded from, with all calls since. *size and `bytes` as
    in kiriWorld_Save; where capacity is not enough, what is in `bytes` means nothing. KIRI_ERROR_DATA: base is no save.
    Only reads the world. */
 KIRI_API kiriResult kiriWorld_SaveDifference(const kiriWorld* world, const void* base, int64_t baseSize, void* bytes,
                                              int64_t capacity, int64_t* size);
 
-/* The world becomes what it was when the difference was written, as kiriWorld_Load: both are bytes of your own. Any world, and
-   on any machine, with the same base. KIRI_ERROR_DATA: base is no save, the bytes are no difference, or one to another base. */
+/* The world becomes what it was when the difference was written, as kiriWorld_Load: both are bytes of your own. Any
+   world, and on any machine, with the same base. KIRI_ERROR_DATA: base is no save, the bytes are no difference, or one
+   to another base. */
 KIRI_API kiriResult kiriWorld_LoadDifference(kiriWorld* world, const void* base, int64_t baseSize, const void* bytes,
                                              int64_t size);
 
@@ -373,12 +376,13 @@ enum kiriMaterialPreset {
 /* The numbers of a preset, KIRI_MATERIAL_... */
 KIRI_API kiriResult kiriGetMaterial(int32_t preset, kiriMaterial* material);
 
-/* How much work for how much accuracy. The presets are measured (`make accuracy`; tests/sweep.h has the scenes) on a strip
-   of stiff paper, 0.2 m x 0.05 m, clamped at one end, with one row of frames, and on a square of 0.2 m that bends five
-   times as easily, hangs by two corners, and has half as many rows and columns, rounded up. Let go, they swing for 0.4 s
-   at 60 ticks a second. Error: rms distance of the vertices from where a much finer run brings them, by the rms way that
-   they go; at most, over grids from 4/5 to 5/4 as fine and with frames in regular rows or moved a little. FAST: 2 %.
-   BALANCED: 0.8 %. ACCURATE: 0.4 %. What a cut leaves narrow wants more frames: see `accuracy` in the sheet def. */
+/* How much work for how much accuracy. The presets are measured (`make accuracy`; tests/sweep.h has the scenes) on a
+   strip of stiff paper, 0.2 m x 0.05 m, clamped at one end, with one row of frames, and on a square of 0.2 m that bends
+   five times as easily, hangs by two corners, and has half as many rows and columns, rounded up. Let go, they swing for
+   0.4 s at 60 ticks a second. Error: rms distance of the vertices from where a much finer run brings them, by the rms
+   way that they go; at most, over grids from 4/5 to 5/4 as fine and with frames in regular rows or moved a little.
+   FAST: 2 %. BALANCED: 0.8 %. ACCURATE: 0.4 %. What a cut leaves narrow wants more frames: see `accuracy` in the sheet
+   def. */
 typedef struct kiriQuality {
     int32_t framesAlong;    /* control frames in a row along a strip; a square does with half as many in either
                                direction, rounded up: 3 x 3, 5 x 5, 9 x 9 */
@@ -402,15 +406,16 @@ enum kiriModel {
        1e8 Pa or so on it needs more `iterations`, 8 say. */
     KIRI_MODEL_AFFINE = 1,
 
-    /* Affine frames, strains at integration points: the scheme of the paper, to compare with. Weights that vary across a
-       strip cannot bend it as a cylinder, however many points there are: a clamped strip on 9 frames goes 3, 20, 51 and
-       70 % too short a way down where it is a 10th, 20th, 50th and 400th of its length thick. 12 unknowns a frame. */
+    /* Affine frames, strains at integration points: the scheme of the paper, to compare with. Weights that vary across
+       a strip cannot bend it as a cylinder, however many points there are: a clamped strip on 9 frames goes 3, 20, 51
+       and 70 % too short a way down where it is a 10th, 20th, 50th and 400th of its length thick. 12 unknowns a
+       frame. */
     KIRI_MODEL_POINTS = 2
 };
 
 /* What is seen between the frames, and met by rays, blades, obstacles, other sheets, and contacts of rest points; pins,
-   clamps and holds hold it. Where nothing touches or holds the sheet it does not change how that moves. Collision points
-   stay on the linear surface. */
+   clamps and holds hold it. Where nothing touches or holds the sheet it does not change how that moves. Collision
+   points stay on the linear surface. */
 enum kiriSkinning {
     KIRI_SKINNING_LINEAR = 0, /* each frame carries a flat patch; the weights blend them (equation 1 of the paper) */
     KIRI_SKINNING_SMOOTH = 1  /* each carries a patch that bends towards its neighbours: no bumps at the frames */
@@ -418,29 +423,29 @@ enum kiriSkinning {
 
 /* How time is stepped. Both solve one linear system an iteration. */
 enum kiriTimeStepping {
-    /* TR-BDF2: trapezoid and BDF2 by turns, of second order. Motion lasts: of the energy of a swinging strip of 9 frames
-       96 to 98 % is left after 10 s with 2 substeps a 60th of a second and 1 iteration, 99.7 % with 4. Backward Euler
-       takes its place in the steps in which a contact touches a piece, a pin or hold is made, moved or removed, or a
-       frame is new or turns by more than a radian. */
+    /* TR-BDF2: trapezoid and BDF2 by turns, of second order. Motion lasts: of the energy of a swinging strip of 9
+       frames 96 to 98 % is left after 10 s with 2 substeps a 60th of a second and 1 iteration, 99.7 % with 4. Backward
+       Euler takes its place in the steps in which a contact touches a piece, a pin or hold is made, moved or removed,
+       or a frame is new or turns by more than a radian. */
     KIRI_TIME_STEPPING_SECOND_ORDER = 0,
 
-    /* Backward Euler, of first order: takes energy out of all that swings, the more the longer the step. Of that strip's
-       0.4 % is left. */
+    /* Backward Euler, of first order: takes energy out of all that swings, the more the longer the step. Of that
+       strip's 0.4 % is left. */
     KIRI_TIME_STEPPING_EULER = 1
 };
 
 /* The paper's own ways, to compare with; part of the sheet def. */
 typedef struct kiriPaperOptions {
-    /* 1: every cut rebuilds grid, regions and shape functions from scratch; the outcome is the same bit for bit. Default
-       0. */
+    /* 1: every cut rebuilds grid, regions and shape functions from scratch; the outcome is the same bit for bit.
+       Default 0. */
     int32_t fromScratch;
 
     /* 1: when a cut takes effect, only new frames take their motion from the surface: what is seen jumps, and momentum
        is not kept. Default 0. */
     int32_t popping;
 
-    /* 1: the weights of frames are linear on the way from frame to frame, so the surface that is seen has a kink at each
-       frame. Always so with KIRI_MODEL_POINTS. Default 0: their slope is zero at the frames. */
+    /* 1: the weights of frames are linear on the way from frame to frame, so the surface that is seen has a kink at
+       each frame. Always so with KIRI_MODEL_POINTS. Default 0: their slope is zero at the frames. */
     int32_t linearWeights;
 
     /* KIRI_MODEL_POINTS only. Work grows with the points: spread evenly over the sheet, at least one in every piece;
@@ -503,14 +508,14 @@ typedef struct kiriSheetDef {
                                material's thickness, a 20th of a grid square at least. Default 0 */
     uint32_t groups;        /* obstacles and sheets touch where a bit is set in the groups of both. Default: all */
 
-    /* 1: its pieces touch each other, and other sheets that have it set; not where one of the two sheets is planar. Of two
-       pieces that are near each other the one that lies above, against gravity, is kept on its side of the other by
-       planes; side by side the one that nothing holds, or the lighter one. So piles keep their order. The lower one feels
-       what presses on it within 0.3 s: weight acts in full, an impact does so only while the upper one stays, and
-       momentum is not exchanged exactly. Pieces that cross are parted at 0.25 m/s. A sheet feels others by its vertices,
-       about one a grid square and more along borders: two edges that cross are not seen. A piece that wraps around the
-       border of another, so that it lies on both sides of it, has one side all the same. Folds of one piece do not touch
-       each other. Pieces that touch wake and fall asleep together. Default 0. */
+    /* 1: its pieces touch each other, and other sheets that have it set; not where one of the two sheets is planar. Of
+       two pieces that are near each other the one that lies above, against gravity, is kept on its side of the other by
+       planes; side by side the one that nothing holds, or the lighter one. So piles keep their order. The lower one
+       feels what presses on it within 0.3 s: weight acts in full, an impact does so only while the upper one stays, and
+       momentum is not exchanged exactly. Pieces that cross are parted at 0.25 m/s. A sheet feels others by its
+       vertices, about one a grid square and more along borders: two edges that cross are not seen. A piece that wraps
+       around the border of another, so that it lies on both sides of it, has one side all the same. Folds of one piece
+       do not touch each other. Pieces that touch wake and fall asleep together. Default 0. */
     int32_t touchesSheets;
 
     int32_t collisionPoints; /* spread evenly over the sheet, at least one in every piece; default 0: none */
@@ -539,9 +544,9 @@ typedef struct kiriSheetDef {
     float fadeTime;
 
     /* 1: normals of the mesh are made in every tick. 0: kiriMesh has none, and kiriSheet_CopyVertices copies none; this
-       saves half of the time of linear skinning. The sheet moves the same, bit for bit: where edges of obstacles or other
-       sheets touch it, the tick makes normals for itself. So does kiriSheet_GetSolid; and what kiriSheet_GetPoint says
-       is the same to rounding. Default 1. */
+       saves half of the time of linear skinning. The sheet moves the same, bit for bit: where edges of obstacles or
+       other sheets touch it, the tick makes normals for itself. So does kiriSheet_GetSolid; and what kiriSheet_GetPoint
+       says is the same to rounding. Default 1. */
     int32_t normals;
 
     kiriPaperOptions paper; /* default: none of the paper's own ways */
@@ -550,14 +555,15 @@ typedef struct kiriSheetDef {
 /* Fills the def with its defaults, and stamps it. It has no mesh yet. */
 KIRI_API void kiriDefaultSheetDef(kiriSheetDef* def);
 
-/* Adds a sheet. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles are no sheet; the line says which one and why. */
+/* Adds a sheet. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles are no sheet; the line says which one and
+   why. */
 KIRI_API kiriResult kiriCreateSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* sheet);
 
 /* The sheet is gone, with its cuts, frames and pins; their ids are stale. */
 KIRI_API kiriResult kiriDestroySheet(kiriWorld* world, kiriSheet sheet);
 
-/* A sheet that is a rectangle from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles; columns
-   and rows are 1 to 4096. def: all but the mesh, which is not read; null: the defaults. A recording has it as
+/* A sheet that is a rectangle from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles;
+   columns and rows are 1 to 4096. def: all but the mesh, which is not read; null: the defaults. A recording has it as
    kiriCreateSheet. */
 KIRI_API kiriResult kiriCreateRectangle(kiriWorld* world, float width, float height, int32_t columns, int32_t rows,
                                         const kiriSheetDef* def, kiriSheet* sheet);
@@ -581,9 +587,9 @@ typedef struct kiriSheetSettings {
 /* What they are now, stamped for kiriSheet_SetSettings. */
 KIRI_API kiriResult kiriSheet_GetSettings(const kiriWorld* world, kiriSheet sheet, kiriSheetSettings* settings);
 
-/* Checked as the def is: all or nothing. KIRI_ERROR_DEF: they did not come from GetSettings. The sheet wakes where one is
-   other than before. Places and velocities stay: with another mass so momentum changes. Stiffnesses that pins have, and
-   the lengths that frames were spread by, stay as they are. */
+/* Checked as the def is: all or nothing. KIRI_ERROR_DEF: they did not come from GetSettings. The sheet wakes where one
+   is other than before. Places and velocities stay: with another mass so momentum changes. Stiffnesses that pins have,
+   and the lengths that frames were spread by, stay as they are. */
 KIRI_API kiriResult kiriSheet_SetSettings(kiriWorld* world, kiriSheet sheet, const kiriSheetSettings* settings);
 
 /* A rectangle from (0, 0) to (width, height) for a sheet def: writes 2 * (columns + 1) * (rows + 1) floats and
@@ -591,10 +597,10 @@ KIRI_API kiriResult kiriSheet_SetSettings(kiriWorld* world, kiriSheet sheet, con
 KIRI_API kiriResult kiriFillRectangle(float width, float height, int32_t columns, int32_t rows, float* restPositions,
                                       int32_t* indices);
 
-/* The triangles that are seen, as after the last tick. revision grows whenever indices or vertices are added or changed.
-   Rest positions are floats, 6e-8 of the distance from the origin of the rest plane apart: where triangles are not much
-   larger than that, they look flat or inverted. The library computes with the positions of the def to 2^-29 of the
-   sheet; sourceTriangles and sourceWeights are as exact as the sheet is large. */
+/* The triangles that are seen, as after the last tick. revision grows whenever indices or vertices are added or
+   changed. Rest positions are floats, 6e-8 of the distance from the origin of the rest plane apart: where triangles are
+   not much larger than that, they look flat or inverted. The library computes with the positions of the def to 2^-29 of
+   the sheet; sourceTriangles and sourceWeights are as exact as the sheet is large. */
 typedef struct kiriMesh {
     const float* positions;         /* 3 a vertex, m, world */
     const float* normals;           /* 3 a vertex, unit; null where the sheet makes none */
@@ -638,9 +644,9 @@ KIRI_API kiriResult kiriSheet_CopyVertices(const kiriWorld* world, kiriSheet she
 KIRI_API kiriResult kiriSheet_CopyIndices16(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle,
                                             int32_t count, uint16_t* indices);
 
-/* The surface with a thickness, to draw: a closed mesh, with a rim along borders, holes and the lips of cuts. First come
-   the vertices of kiriMesh on the side that the normal leaves, then the same on the other side, then four for each edge of
-   the border, so that rims are flat and their edges sharp. */
+/* The surface with a thickness, to draw: a closed mesh, with a rim along borders, holes and the lips of cuts. First
+   come the vertices of kiriMesh on the side that the normal leaves, then the same on the other side, then four for each
+   edge of the border, so that rims are flat and their edges sharp. */
 typedef struct kiriSolid {
     const float* positions;     /* 3 a vertex, m, world */
     const float* normals;       /* 3 a vertex, unit, outwards */
@@ -687,14 +693,14 @@ KIRI_API kiriResult kiriSheet_GetTotals(const kiriWorld* world, kiriSheet sheet,
    links, when it is called. */
 KIRI_API kiriResult kiriSheet_EstimateError(const kiriWorld* world, kiriSheet sheet, double* relative);
 
-/* *awake is 0 where all pieces of the sheet sleep, see sleepSpeed; kiriPieceState says which do. kiriSheet_Wake wakes all of
-   them. */
+/* *awake is 0 where all pieces of the sheet sleep, see sleepSpeed; kiriPieceState says which do. kiriSheet_Wake wakes
+   all of them. */
 KIRI_API kiriResult kiriSheet_IsAwake(const kiriWorld* world, kiriSheet sheet, int32_t* awake);
 KIRI_API kiriResult kiriSheet_Wake(kiriWorld* world, kiriSheet sheet);
 
 /* Every point x (m, world) of the sheet goes to R x + t at once, and is seen there; velocities turn. The columns of
-   `rotation` are where R takes the axes of the world; a planar sheet turns about its normal only. Targets of pins, holds,
-   loads and contacts stay where they are: destroy or move them first, or the sheet is drawn back. It wakes. */
+   `rotation` are where R takes the axes of the world; a planar sheet turns about its normal only. Targets of pins,
+   holds, loads and contacts stay where they are: destroy or move them first, or the sheet is drawn back. It wakes. */
 KIRI_API kiriResult kiriSheet_Transform(kiriWorld* world, kiriSheet sheet, const float rotation[9],
                                         const float translation[3]);
 
@@ -706,9 +712,9 @@ KIRI_API kiriResult kiriSheet_SetVelocity(kiriWorld* world, kiriSheet sheet, con
 KIRI_API kiriResult kiriFrame_SetPieceVelocity(kiriWorld* world, kiriFrame frame, const float velocity[3],
                                                const float angularVelocity[3]);
 
-/* A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A sheet that kiriFrame_DetachPiece
-   makes has that of the sheet it came from. A piece has one, named by any of its frames: the parts of a piece that is cut
-   have that of the piece, as does a sheet that is made of it. */
+/* A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A sheet that
+   kiriFrame_DetachPiece makes has that of the sheet it came from. A piece has one, named by any of its frames: the
+   parts of a piece that is cut have that of the piece, as does a sheet that is made of it. */
 KIRI_API kiriResult kiriSheet_SetUserData(kiriWorld* world, kiriSheet sheet, uint64_t data);
 KIRI_API kiriResult kiriSheet_GetUserData(const kiriWorld* world, kiriSheet sheet, uint64_t* data);
 KIRI_API kiriResult kiriPin_SetUserData(kiriWorld* world, kiriPin pin, uint64_t data);
@@ -725,9 +731,9 @@ typedef struct kiriHit {
     int32_t triangle;
 } kiriHit;
 
-/* Where a ray first meets the sheet, up to maxDistance. KIRI_OK with hit->triangle = -1: nowhere. The first ray looks at
-   every triangle; the next tick makes boxes over them, and as long as somebody asks every now and then (in 120 ticks)
-   they follow the sheet: a ray takes some microseconds, and a tick of a large sheet a quarter more. */
+/* Where a ray first meets the sheet, up to maxDistance. KIRI_OK with hit->triangle = -1: nowhere. The first ray looks
+   at every triangle; the next tick makes boxes over them, and as long as somebody asks every now and then (in 120
+   ticks) they follow the sheet: a ray takes some microseconds, and a tick of a large sheet a quarter more. */
 KIRI_API kiriResult kiriSheet_Raycast(const kiriWorld* world, kiriSheet sheet, const float origin[3],
                                       const float direction[3], float maxDistance, kiriHit* hit);
 
@@ -790,14 +796,14 @@ KIRI_API kiriResult kiriSheet_GetPieceFrames(kiriWorld* world, kiriSheet sheet, 
 KIRI_API kiriResult kiriFrame_GetPiece(const kiriWorld* world, kiriFrame frame, int32_t* piece);
 
 /* Makes a sheet of the piece with this frame. Its frames, pins and collision points move along, in their order; they
-   keep their ids and states, and what waits for the next tick: the motion goes on as if nothing had happened, but for the
-   solver's guard over energy and step length, which is one for each sheet. A clamp or hinge that holds both becomes two:
-   the rest keeps the id, the new sheet's has one of its own (kiriSheet_GetPins). Both sheets have all settings (of
+   keep their ids and states, and what waits for the next tick: the motion goes on as if nothing had happened, but for
+   the solver's guard over energy and step length, which is one for each sheet. A clamp or hinge that holds both becomes
+   two: the rest keeps the id, the new sheet's has one of its own (kiriSheet_GetPins). Both sheets have all settings (of
    collisionPoints and integrationPoints the share that falls to their area), maxFrames each for itself; a piece that
    sleeps goes on sleeping. Cuts stay with the rest: a blade in the piece cuts nothing until it is back. Indices of
    collision points of the rest change. Its triangles and vertices keep their indices where it has more than 4096
-   vertices, and while no more than half of them are of pieces that went: these triangles have three equal corners, these
-   vertices are of no triangle.
+   vertices, and while no more than half of them are of pieces that went: these triangles have three equal corners,
+   these vertices are of no triangle.
    Else all move together, and their indices change. In either case its revision grows, and kiriSheet_GetDirty says what
    changed. The new sheet has the squares of the grid around it, at about 40 bytes a square: crumbs are better dropped.
    Costs what the piece takes to make, and a look at the weights of what is left; where indices change more.
@@ -806,27 +812,27 @@ KIRI_API kiriResult kiriFrame_GetPiece(const kiriWorld* world, kiriFrame frame, 
    KIRI_EVENT_PIECE_DETACHED names it. About 1.5 samples for each vertex of the piece, 0.7 for each cell, and one for 80
    vertices of the rest are paid before, over several ticks if need be, of many pieces one after the other; until then
    further cuts of the sheet wait. A piece that is worth more than the samples of a tick is made as they are paid, and
-   leaves when it is made: in one tick all the same, which takes an eighth of the work. What a call does at once the coming
-   ticks have less. KIRI_ERROR_STATE: nothing would be left of the sheet. */
+   leaves when it is made: in one tick all the same, which takes an eighth of the work. What a call does at once the
+   coming ticks have less. KIRI_ERROR_STATE: nothing would be left of the sheet. */
 KIRI_API kiriResult kiriFrame_DetachPiece(kiriWorld* world, kiriFrame frame, kiriSheet* detached);
 
-/* The same without keeping the piece: ids of its frames and pins are stale. Costs as much, but for making a sheet: that is
-   done at once, and the coming ticks have less. Where kiriSheet_GetMesh has been called since the last tick, all indices
-   are copied.
-   KIRI_PENDING: work on a cut is at hand. The piece is gone all the same: its triangles are in kiriMesh, with three equal
-   corners; it touches nothing; no point of it is found. When the work is done its vertices go, too; until then kiriCounts
-   still counts it, and its kiriPieceState is all zeros. */
+/* The same without keeping the piece: ids of its frames and pins are stale. Costs as much, but for making a sheet: that
+   is done at once, and the coming ticks have less. Where kiriSheet_GetMesh has been called since the last tick, all
+   indices are copied.
+   KIRI_PENDING: work on a cut is at hand. The piece is gone all the same: its triangles are in kiriMesh, with three
+   equal corners; it touches nothing; no point of it is found. When the work is done its vertices go, too; until then
+   kiriCounts still counts it, and its kiriPieceState is all zeros. */
 KIRI_API kiriResult kiriFrame_DestroyPiece(kiriWorld* world, kiriFrame frame);
 
 /* The same for the pieces of so many frames, of any sheets, in one pass for each sheet; frames of one piece count once.
-   Where one is refused, none goes. KIRI_PENDING: some wait, those of one sheet together. detached[i] is the sheet that the piece of frames[i] has
-   become, 0 where it waits. */
+   Where one is refused, none goes. KIRI_PENDING: some wait, those of one sheet together. detached[i] is the sheet that
+   the piece of frames[i] has become, 0 where it waits. */
 KIRI_API kiriResult kiriWorld_DetachPieces(kiriWorld* world, const kiriFrame* frames, int32_t count,
                                            kiriSheet* detached);
 KIRI_API kiriResult kiriWorld_DestroyPieces(kiriWorld* world, const kiriFrame* frames, int32_t count);
 
-/* Destroys all pieces below an area (m^2) except the largest piece, at the cost of one. *count is how many. Where that one
-   waits to become a sheet, the largest of the others stays, too. */
+/* Destroys all pieces below an area (m^2) except the largest piece, at the cost of one. *count is how many. Where that
+   one waits to become a sheet, the largest of the others stays, too. */
 KIRI_API kiriResult kiriSheet_DropCrumbs(kiriWorld* world, kiriSheet sheet, float area, int32_t* count);
 
 /* ---- Cut -------------------------------------------------------------------------------------------------------- */
@@ -851,12 +857,12 @@ KIRI_API kiriResult kiriSheet_Slice(kiriWorld* world, kiriSheet sheet, const flo
 
 /* A blade in world space that goes on from tick to tick: a knife, a mouse, a finger. It remembers, in the material of
    each layer that it is in, where it was, and cuts on from there: along the way of its edge relative to that material,
-   whatever the sheet did in between. Where it passes a border of the material, the outline or a lip, the cut goes on past
-   it, so that it parts. A cut that began amid the material, and comes by its beginning by 1.5 % of its length or nearer,
-   is closed there when it has gone on by a tenth of its length or ends: so a disc comes out of a circle drawn by hand.
-   Move it at least once a tick while it is in a sheet; as often as you like before a tick. What it
-   has met is cut with the next tick or, by the budget, a later one. It has a cut for each layer, which begins and ends as
-   the blade comes in and goes out; KIRI_EVENT_CUT_FINISHED tells of them, too. */
+   whatever the sheet did in between. Where it passes a border of the material, the outline or a lip, the cut goes on
+   past it, so that it parts. A cut that began amid the material, and comes by its beginning by 1.5 % of its length or
+   nearer, is closed there when it has gone on by a tenth of its length or ends: so a disc comes out of a circle drawn
+   by hand. Move it at least once a tick while it is in a sheet; as often as you like before a tick. What it
+   has met is cut with the next tick or, by the budget, a later one. It has a cut for each layer, which begins and ends
+   as the blade comes in and goes out; KIRI_EVENT_CUT_FINISHED tells of them, too. */
 
 /* sheet 0: it cuts all sheets, also those that are made later and pieces that get a sheet of their own. A blade for one
    sheet whose sheet is gone cuts nothing. */
@@ -896,10 +902,10 @@ KIRI_API kiriResult kiriSheet_GetFrames(const kiriWorld* world, kiriSheet sheet,
 /* Pose, motion and region as they are now. */
 KIRI_API kiriResult kiriFrame_GetState(const kiriWorld* world, kiriFrame frame, kiriFrameState* state);
 
-/* The host moves the frame: its rest point, as it is seen, goes to `position` with `rotation` (a rotation matrix, columns
-   as above) in the next tick, evenly, and stays there until the next call. An affine frame is not stretched then. On a planar sheet the
-   rotation is about its normal. Null, null: it is free again. Contacts do not push material that held frames carry for
-   more than half: it goes where the host has it, through obstacles too. */
+/* The host moves the frame: its rest point, as it is seen, goes to `position` with `rotation` (a rotation matrix,
+   columns as above) in the next tick, evenly, and stays there until the next call. An affine frame is not stretched
+   then. On a planar sheet the rotation is about its normal. Null, null: it is free again. Contacts do not push material
+   that held frames carry for more than half: it goes where the host has it, through obstacles too. */
 KIRI_API kiriResult kiriFrame_Hold(kiriWorld* world, kiriFrame frame, const float position[3], const float rotation[9]);
 
 /* With what the host's hold acted on the sheet: force (N, world) and torque (N m) about the frame's rest point; means
@@ -910,9 +916,9 @@ KIRI_API kiriResult kiriFrame_GetReaction(const kiriWorld* world, kiriFrame fram
 /* ---- Load ------------------------------------------------------------------------------------------------------- */
 
 /* Forces, torques, line loads and pressures act throughout the next tick, all of its substeps, and are gone then. They
-   add up. They act on the frames that hold the material when they are given, from where the sheet is then: turn and place
-   of a load do not follow the sheet within the tick. A tick that is refused (KIRI_ERROR_MEMORY, KIRI_ERROR_LIMIT) uses
-   none of them up. */
+   add up. They act on the frames that hold the material when they are given, from where the sheet is then: turn and
+   place of a load do not follow the sheet within the tick. A tick that is refused (KIRI_ERROR_MEMORY, KIRI_ERROR_LIMIT)
+   uses none of them up. */
 
 /* A force (N, world) on the frame's centre of mass and a torque (N m). */
 KIRI_API kiriResult kiriFrame_ApplyForce(kiriWorld* world, kiriFrame frame, const float force[3],
@@ -931,16 +937,16 @@ KIRI_API kiriResult kiriSheet_ApplyLineLoad(kiriWorld* world, kiriSheet sheet, c
 /* A pressure (Pa) that pushes the whole sheet along its normal, or against it where below 0. */
 KIRI_API kiriResult kiriSheet_ApplyPressure(kiriWorld* world, kiriSheet sheet, float pressure);
 
-/* An impulse (N s, world) on a point of the material, where it is seen now. Velocities change at once, by as much as the
-   frames that carry the point resist; a held frame's part is lost. Outside the sheet: KIRI_ERROR_ARGUMENT. */
+/* An impulse (N s, world) on a point of the material, where it is seen now. Velocities change at once, by as much as
+   the frames that carry the point resist; a held frame's part is lost. Outside the sheet: KIRI_ERROR_ARGUMENT. */
 KIRI_API kiriResult kiriSheet_ApplyImpulse(kiriWorld* world, kiriSheet sheet, const float restPoint[2],
                                            const float impulse[3]);
 
-/* Air that moves past the sheet, in every tick until the next call. On each square metre act, with v the velocity of the
-   air less that of the material, and n the normal: density / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)). Zero
-   velocity with drag and lift above zero: still air, which resists. All zero: none. It acts at four points of the region
-   of each frame, and follows its motion within the tick: sheets flutter, and no wind is too strong. Gusts are a call a
-   tick. Wind that stays as it is lets a sheet sleep. */
+/* Air that moves past the sheet, in every tick until the next call. On each square metre act, with v the velocity of
+   the air less that of the material, and n the normal: density / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)). Zero
+   velocity with drag and lift above zero: still air, which resists. All zero: none. It acts at four points of the
+   region of each frame, and follows its motion within the tick: sheets flutter, and no wind is too strong. Gusts are a
+   call a tick. Wind that stays as it is lets a sheet sleep. */
 typedef struct kiriWind {
     float velocity[3]; /* m/s */
     float density;     /* kg/m^3, 0 or more; 1.2 of air */
@@ -961,8 +967,9 @@ typedef struct kiriPinDef {
     float stiffness;       /* N/m; 0: ten times Young's modulus times thickness */
     float breakForce;      /* N: it breaks (KIRI_EVENT_PIN_BROKE) in a tick in which it held with more; 0: never */
     kiriObstacle obstacle; /* or 0. The target goes with this obstacle from where it is when the pin is made, or
-                              kiriPin_SetTarget puts it, and the obstacle feels the pin (kiriObstacle_GetState); one with
-                              mass yields to it within the tick. When it is destroyed the target stays where it was */
+                              kiriPin_SetTarget puts it, and the obstacle feels the pin (kiriObstacle_GetState); one
+                              with mass yields to it within the tick. When it is destroyed the target stays where it
+                              was */
 } kiriPinDef;
 
 /* Fills the def with its defaults, and stamps it. */
@@ -987,8 +994,8 @@ KIRI_API kiriResult kiriSheet_HingeLine(kiriWorld* world, kiriSheet sheet, const
                                         kiriPin* hinge);
 
 /* Where the pin holds its point, or the middle of its line (m, world): at the end of the next tick, and until the next
-   call. Within the tick it goes there evenly. With KIRI_SKINNING_SMOOTH what pins and clamps hold is what is seen there; of
-   a clamp the mean along its line, for each piece: single points of the line are seen a little off it. */
+   call. Within the tick it goes there evenly. With KIRI_SKINNING_SMOOTH what pins and clamps hold is what is seen
+   there; of a clamp the mean along its line, for each piece: single points of the line are seen a little off it. */
 KIRI_API kiriResult kiriPin_SetTarget(kiriWorld* world, kiriPin pin, const float target[3]);
 
 /* The same with the rotation of the line's material: columns are the directions of u and v and the normal. On a planar
@@ -1017,8 +1024,8 @@ KIRI_API kiriResult kiriPin_GetState(const kiriWorld* world, kiriPin pin, kiriPi
 
 /* With what the pin acted on the sheet: force (N, world) and torque (N m) about its target; means over the last tick,
    impulses divided by its dt. So the reactions of all pins and held frames are the weight of a sheet at rest, and in
-   motion what changes its momentum (as far as `iterations` have the tick solved). Zero before the first tick. A piece that
-   sleeps keeps those that it fell asleep with. */
+   motion what changes its momentum (as far as `iterations` have the tick solved). Zero before the first tick. A piece
+   that sleeps keeps those that it fell asleep with. */
 KIRI_API kiriResult kiriPin_GetReaction(const kiriWorld* world, kiriPin pin, double force[3], double torque[3]);
 
 /* Writes up to `capacity` ids of the sheet's pins, of all types; *count is how many there are. */
@@ -1029,9 +1036,9 @@ KIRI_API kiriResult kiriSheet_GetPins(const kiriWorld* world, kiriSheet sheet, k
 KIRI_API kiriResult kiriDestroyPin(kiriWorld* world, kiriPin pin);
 
 /* A point of the material that touches something: the plane dot(normal, x) = offset keeps it on its upper side, with as
-   much force as that takes, and Coulomb friction acts along the plane. The plane is that of an obstacle of the host, who
-   finds it anew for each tick from where the sheet is seen. A contact may lie in the path of the point, above or below
-   it: one that does not reach its plane in the tick costs little and does nothing. */
+   much force as that takes, and Coulomb friction acts along the plane. The plane is that of an obstacle of the host,
+   who finds it anew for each tick from where the sheet is seen. A contact may lie in the path of the point, above or
+   below it: one that does not reach its plane in the tick costs little and does nothing. */
 typedef struct kiriContact {
     int32_t point;      /* index of the collision point; -1: restPoint says which point of the material */
     float restPoint[2]; /* in the material; only read where point is -1 */

@@ -16,8 +16,8 @@ struct Near : b2QueryCallback {
     }
 };
 
-/* A one-sided edge is solid to its left. Its corner down there halves the angle with the next edge, so that both fit; it
-   leans by 45 degrees at most, so that edges do not stand out of each other's ground. */
+/* A one-sided edge is solid to its left. Its corner down there halves the angle with the next edge, so that both fit;
+   it leans by 45 degrees at most, so that edges do not stand out of each other's ground. */
 b2Vec2 GroundCorner(const b2Vec2& corner, const b2Vec2& inward, b2Vec2 next, float depth)
 {
     next.Normalize();
@@ -134,7 +134,7 @@ void KiriBox2d::Check(kiriResult result)
     failure = failure == KIRI_OK ? result : failure;
 }
 
-/* ---- Obstacles ---------------------------------------------------------------------------------------------------- */
+/* ---- Obstacles --------------------------------------------------------------------------------------------------- */
 
 KiriBox2d::Part* KiriBox2d::FindPart(const b2Fixture* fixture, int child)
 {
@@ -210,7 +210,7 @@ void KiriBox2d::DropFar()
     }
 }
 
-/* ---- Before the tick ---------------------------------------------------------------------------------------------- */
+/* ---- Before the tick --------------------------------------------------------------------------------------------- */
 
 void KiriBox2d::Find(kiriSheet sheet, float dt)
 {
@@ -242,8 +242,9 @@ kiriResult KiriBox2d::Mirror(const kiriSheet* sheets, int count, float dt)
     return failure;
 }
 
-/* What Box2D did to a body in the last step beside our impulses, as weight and what carries it, it will do again: else a
-   sheet on a crate would feel it fall in each tick, and one below a crate would not. What sleeps under a load stays. */
+/* What Box2D did to a body in the last step beside our impulses, as weight and what carries it, it will do again: else
+   a sheet on a crate would feel it fall in each tick, and one below a crate would not. What sleeps under a load
+   stays. */
 b2Vec3 KiriBox2d::Predict(b2Body* body, Memory* memory, float dt) const
 {
     b2Vec3 velocity = VelocityOf(*body), done = velocity - memory->velocity;
@@ -288,7 +289,7 @@ void KiriBox2d::Move(const Part& part, float dt)
     Check(kiriObstacle_SetMass(kiri, part.obstacle, mass, tensor, middle));
 }
 
-/* ---- After the tick ----------------------------------------------------------------------------------------------- */
+/* ---- After the tick ---------------------------------------------------------------------------------------------- */
 
 kiriResult KiriBox2d::GiveBack()
 {
@@ -319,7 +320,7 @@ kiriResult KiriBox2d::GiveBack()
     return failure;
 }
 
-/* ---- Going back --------------------------------------------------------------------------------------------------- */
+/* ---- Going back -------------------------------------------------------------------------------------------------- */
 
 /* Between ticks nothing is felt yet, and the next Mirror finds what is near. */
 KiriBox2dSave KiriBox2d::Save() const

@@ -6,8 +6,8 @@
      bodies.GiveBack();                        what the obstacles felt goes to the bodies
      box2d.Step(dt, 8, 3);
 
-   Either a planar sheet (kiriSheetDef.planar) lies in the plane of the b2World, and all is flat. Or any sheet meets that
-   world extruded along its depth: crates are beams, and a banner is seen edge-on. */
+   Either a planar sheet (kiriSheetDef.planar) lies in the plane of the b2World, and all is flat. Or any sheet meets
+   that world extruded along its depth: crates are beams, and a banner is seen edge-on. */
 #ifndef KIRI_BOX2D_H
 #define KIRI_BOX2D_H
 
@@ -34,7 +34,8 @@ struct KiriBox2dDef {
 
 class KiriBox2d;
 
-/* What a KiriBox2d knows beside the saves of a kiriWorld. Bodies and fixtures are numbered as the b2World lists them. */
+/* What a KiriBox2d knows beside the saves of a kiriWorld. Bodies and fixtures are numbered as the b2World lists
+   them. */
 class KiriBox2dSave
 {
     friend class KiriBox2d;

@@ -1,5 +1,6 @@
-/* A picture of a game, by OpenGL in software (OSMesa), as ../draw.h makes those of the scenes. A game adds what there is
-   to see, in any order; then all is drawn at once, with shadows. What is added by a pointer stays as it is until then. */
+/* A picture of a game, by OpenGL in software (OSMesa), as ../draw.h makes those of the scenes. A game adds what there
+   is to see, in any order; then all is drawn at once, with shadows. What is added by a pointer stays as it is until
+   then. */
 #ifndef CANVAS_H
 #define CANVAS_H
 

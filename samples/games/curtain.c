@@ -59,8 +59,8 @@ static bool BlowWind(Curtain* curtain)
     return true;
 }
 
-/* A new curtain is flat. Its rings go by turns before and behind the rail, and a little nearer to each other: it falls in
-   folds. */
+/* A new curtain is flat. Its rings go by turns before and behind the rail, and a little nearer to each other: it falls
+   in folds. */
 static void GatherCloth(Curtain* curtain, Cloth* cloth)
 {
     int32_t age = curtain->tick - cloth->madeAt;

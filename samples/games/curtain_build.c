@@ -60,8 +60,8 @@ static void FillSheetDef(const Curtain* curtain, float depth, kiriSheetDef* def)
     def->contactThickness = 0.008f;
 }
 
-/* Rows of frames below the rings: where the folds are to be. Frames that do not know of the folds let it buckle in other
-   ways, upwards above the rail for one. */
+/* Rows of frames below the rings: where the folds are to be. Frames that do not know of the folds let it buckle in
+   other ways, upwards above the rail for one. */
 static int32_t PlaceFrames(const Level* level, float* points)
 {
     const float inside = 0.03f; /* m: from the border */

@@ -13,8 +13,8 @@ static const int32_t endless[] = { JOB_SLASH_LEFT, JOB_MARK, JOB_PULL, JOB_MARK,
 
 enum { ENDLESS = sizeof endless / sizeof endless[0] };
 
-/* A place on the outline, from a little beside its top all the way round and a little past the start, so that it hangs by
-   its top until the end. */
+/* A place on the outline, from a little beside its top all the way round and a little past the start, so that it hangs
+   by its top until the end. */
 static void GetWay(const Mark* mark, int32_t step, float restPoint[2])
 {
     float corners[2 * MARK_CORNERS], at = ((float)step / MARK_STEPS * 1.04f - 0.02f) * MARK_CORNERS;

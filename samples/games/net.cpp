@@ -1,5 +1,5 @@
-/* Net: crates of 0.05, 0.5 and 5 kg hang on ropes, nets and banners. Slice them, so that each crate comes to rest in its
-   goal. All is flat: sheets are planar, and Box2D moves the crates. */
+/* Net: crates of 0.05, 0.5 and 5 kg hang on ropes, nets and banners. Slice them, so that each crate comes to rest in
+   its goal. All is flat: sheets are planar, and Box2D moves the crates. */
 #include "games.h"
 #include "net_game.h"
 
@@ -13,7 +13,7 @@ namespace
 const char* const LEVELS_PATH = "samples/games/levels/net.txt";
 const int LEVELS = 6, SUBSTEPS = 2;
 
-/* ---- The blade ---------------------------------------------------------------------------------------------------- */
+/* ---- The blade --------------------------------------------------------------------------------------------------- */
 
 /* Where the mouse is, in the plane of the sheets. */
 b2Vec2 PlaceOf(const NetGame& game, const GameEvent& event)
@@ -81,7 +81,7 @@ void CountCuts(NetGame* game)
     }
 }
 
-/* ---- Rules -------------------------------------------------------------------------------------------------------- */
+/* ---- Rules ------------------------------------------------------------------------------------------------------- */
 
 bool IsIn(const NetItem& goal, const NetBody& crate)
 {
@@ -136,7 +136,7 @@ kiriResult DropScraps(NetGame* game)
     return KIRI_OK;
 }
 
-/* ---- The tick ----------------------------------------------------------------------------------------------------- */
+/* ---- The tick ---------------------------------------------------------------------------------------------------- */
 
 bool Tick(void* data)
 {
@@ -169,7 +169,7 @@ bool Tick(void* data)
     return game->ticks % 32 != 0 || DropScraps(game) >= 0;
 }
 
-/* ---- What the shell asks for -------------------------------------------------------------------------------------- */
+/* ---- What the shell asks for ------------------------------------------------------------------------------------- */
 
 void Stop(void* data)
 {

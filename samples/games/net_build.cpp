@@ -66,10 +66,10 @@ void AddSeesaw(NetGame* game, const NetItem* item)
     game->bodies.back().body->SetAngularDamping(0.5f);
 }
 
-/* ---- Sheets ------------------------------------------------------------------------------------------------------- */
+/* ---- Sheets ------------------------------------------------------------------------------------------------------ */
 
-/* A rectangle of square meshes, four quads each; `holes`: all quads of a mesh but the strands along two of its sides are
-   left out. */
+/* A rectangle of square meshes, four quads each; `holes`: all quads of a mesh but the strands along two of its sides
+   are left out. */
 Outline MakeOutline(float width, float height, float quad, bool holes)
 {
     int columns = static_cast<int>(width / quad + 0.5f), rows = static_cast<int>(height / quad + 0.5f);

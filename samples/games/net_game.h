@@ -61,12 +61,14 @@ struct NetGame : b2ContactListener {
 
 /* net_build.cpp. False: it says on stderr what failed. */
 bool NetGame_Build(NetGame* game);
-/* A b2World with its bodies as they are when the level begins. Returns the former one, into which others may still point. */
+/* A b2World with its bodies as they are when the level begins. Returns the former one, into which others may still
+   point. */
 std::unique_ptr<b2World> NetGame_BuildBodies(NetGame* game);
 Pose NetGame_GetPose(const b2Body& body);
 const NetItem* NetGame_FindPar(const NetGame& game);
 
-/* net_undo.cpp. Keep: a stroke begins. Undo: to before the last stroke that has cut; false: there is none, or it failed. */
+/* net_undo.cpp. Keep: a stroke begins. Undo: to before the last stroke that has cut; false: there is none, or it
+   failed. */
 void NetGame_InitUndo(NetGame* game);
 void NetGame_Keep(NetGame* game);
 bool NetGame_Undo(NetGame* game);

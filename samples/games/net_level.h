@@ -1,5 +1,5 @@
-/* Levels of the game Net: a text file, one thing a line, its name and then numbers. Metres, kilograms, radians a second;
-   x to the right, z up; places are middles. */
+/* Levels of the game Net: a text file, one thing a line, its name and then numbers. Metres, kilograms, radians a
+   second; x to the right, z up; places are middles. */
 #ifndef NET_LEVEL_H
 #define NET_LEVEL_H
 

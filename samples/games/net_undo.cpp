@@ -1,7 +1,7 @@
-/* Net goes back to before a cut. Of Box2D a save has what its bodies show: places, angles, velocities, sleep. How hard they
-   pressed on each other in the last tick (which begins the next step), for how long they were at rest, and the order of
-   contacts it does not show. So the b2World is made anew when a stroke begins, too: what follows a stroke, and what
-   follows when it was taken back and is made again, begin with the same b2World, and end in the same bits. */
+/* Net goes back to before a cut. Of Box2D a save has what its bodies show: places, angles, velocities, sleep. How hard
+   they pressed on each other in the last tick (which begins the next step), for how long they were at rest, and the
+   order of contacts it does not show. So the b2World is made anew when a stroke begins, too: what follows a stroke, and
+   what follows when it was taken back and is made again, begin with the same b2World, and end in the same bits. */
 #include "net_game.h"
 
 namespace

@@ -26,7 +26,8 @@ typedef struct Play {
 /* Level 1 to type->levels. A play stays where it is: the game points into it. */
 bool Play_Start(Play* play, const GameType* type, int32_t level);
 
-/* With a recording (kiriWorld_Replay) of all calls since the level was last started, in a file of this name; null: none. */
+/* With a recording (kiriWorld_Replay) of all calls since the level was last started, in a file of this name; null:
+   none. */
 bool Play_StartRecorded(Play* play, const GameType* type, int32_t level, const char* callsPath);
 
 /* False: the recording is not whole. */

@@ -1,4 +1,5 @@
-/* What a game goes back to: how its kiriWorld was before the last cuts, each time with what the game knows beside it. */
+/* What a game goes back to: how its kiriWorld was before the last cuts, each time with what the game knows beside
+   it. */
 #ifndef UNDO_H
 #define UNDO_H
 
@@ -29,8 +30,9 @@ typedef struct Undo {
 void Undo_Init(Undo* undo, void (*freeGame)(void* game));
 void Undo_Clear(Undo* undo);
 
-/* A cut may begin: keeps the world as it is, and `game`, which is freed with it. It takes the place of a save after which
-   nobody has cut, and else of the oldest where there are many. False: no memory; nothing is kept, and `game` is freed. */
+/* A cut may begin: keeps the world as it is, and `game`, which is freed with it. It takes the place of a save after
+   which nobody has cut, and else of the oldest where there are many. False: no memory; nothing is kept, and `game` is
+   freed. */
 bool Undo_Keep(Undo* undo, const kiriWorld* world, void* game);
 
 /* What the game knew before the last cut; null: no cut is kept. */

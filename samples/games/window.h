@@ -1,4 +1,5 @@
-/* A window by SDL2. It shows pictures, plays sounds and listens to mouse, keyboard and touch; nothing else knows SDL. */
+/* A window by SDL2. It shows pictures, plays sounds and listens to mouse, keyboard and touch; nothing else knows
+   SDL. */
 #ifndef WINDOW_H
 #define WINDOW_H
 

@@ -1,5 +1,6 @@
 #!/bin/sh
-# Plays the game by its script, without a window, and says whether it came out as it should: test.sh FOLDER, for pictures.
+# Plays the game by its script, without a window, and says whether it came out as it should: test.sh FOLDER, for
+# pictures.
 set -e
 for program in love xvfb-run; do
     command -v $program > /dev/null || { echo "love: no $program, sample not tested"; exit 0; }

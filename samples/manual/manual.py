@@ -1,8 +1,8 @@
 """The programs of the manual: python3 samples/manual/manual.py FOLDER COMMAND [--pictures RENDERER | --write].
 
-Each chapter has a program, ```c, and what it prints, ```text. COMMAND compiles `{source}` to `{program}`. A program that does
-not compile without a warning, fails, or prints something else is an error. --write puts into the chapters what programs
-print. --pictures compiles with picture.h before each program, and RENDERER, objects and libraries, after it."""
+Each chapter has a program, ```c, and what it prints, ```text. COMMAND compiles `{source}` to `{program}`. A program that
+does not compile without a warning, fails, or prints something else is an error. --write puts into the chapters what
+programs print. --pictures compiles with picture.h before each program, and RENDERER, objects and libraries, after it."""
 
 import os
 import pathlib

@@ -181,7 +181,7 @@ static void TakePicture(kiriWorld* world)
     Image_Paste(&album.all, &album.one, album.taken++ * (album.one.width + GAP), 0);
 }
 
-/* ---- In place of the library's calls ------------------------------------------------------------------------------ */
+/* ---- In place of the library's calls ----------------------------------------------------------------------------- */
 
 kiriResult Picture_Tick(kiriWorld* world, float dt, int32_t substeps)
 {

@@ -74,8 +74,8 @@ def color_of(rest, normal):
 
 
 def triangles_of(sheet, camera, look):
-    """Depth, colour and corners of each triangle, and corners of its shadow; the library's arrays are read without a copy.
-    `look` keeps colours of vertices, which only cuts add to."""
+    """Depth, colour and corners of each triangle, and corners of its shadow; the library's arrays are read without a
+    copy. `look` keeps colours of vertices, which only cuts add to."""
     with sheet.mesh_view() as mesh:
         positions, normals = mesh.positions.tolist(), mesh.normals.tolist()
         if look.get("revision") != mesh.revision:
@@ -115,7 +115,7 @@ def draw(screen, curtain, camera, looks, font):
     screen.blit(font.render(f"drag to cut   R: a new curtain   cuts {curtain.cuts}   pieces {pieces}", True, INK), (16, 12))
 
 
-# ---- The mouse, or a script --------------------------------------------------------------------------------------------
+# ---- The mouse, or a script ------------------------------------------------------------------------------------------
 
 # From tick, to tick, and pixels between which the mouse goes.
 STROKES = ((40, 70, (200, 260), (540, 560)), (100, 125, (760, 200), (500, 560)))

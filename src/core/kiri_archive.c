@@ -31,7 +31,7 @@ void kiriArchive_Expect(kiriArchive* archive, bool isFine)
     archive->isBad |= kiriArchive_Reads(archive) && !isFine && !archive->isShort;
 }
 
-/* ---- Bytes -------------------------------------------------------------------------------------------------------- */
+/* ---- Bytes ------------------------------------------------------------------------------------------------------- */
 
 /* Where the next bytes are; null where there are not so many, or none are kept. */
 static uint8_t* TakeBytes(kiriArchive* archive, int64_t count)
@@ -66,10 +66,10 @@ static void CopyNumbers(uint8_t* to, const uint8_t* from, int32_t width, int64_t
     }
 }
 
-/* ---- Differences -------------------------------------------------------------------------------------------------- */
+/* ---- Differences ------------------------------------------------------------------------------------------------- */
 
-/* A difference is a row of tokens: two numbers of four bytes, how many bytes are those of the base, and how many follow that
-   are not. */
+/* A difference is a row of tokens: two numbers of four bytes, how many bytes are those of the base, and how many follow
+   that are not. */
 enum { TOKEN_BYTES = 8, UNIT_BYTES = 8, MOST_AT_ONCE = 1 << 30 };
 
 static void PutWord(uint8_t* bytes, int64_t word)
@@ -230,7 +230,7 @@ static void LeaveBase(kiriArchive* archive, int64_t end)
     archive->base.end = end;
 }
 
-/* ---- Numbers ------------------------------------------------------------------------------------------------------ */
+/* ---- Numbers ----------------------------------------------------------------------------------------------------- */
 
 static void MoveDifference(kiriArchive* archive, uint8_t* numbers, int32_t width, int64_t count)
 {
@@ -271,7 +271,8 @@ void kiriArchive_Numbers(kiriArchive* archive, void* numbers, int32_t width, int
     }
 }
 
-/* A byte that is neither 0 nor 1 is no bool, and nobody may read it: of what was never written, or of bytes that are none. */
+/* A byte that is neither 0 nor 1 is no bool, and nobody may read it: of what was never written, or of bytes that are
+   none. */
 static void MoveBools(kiriArchive* archive, void* bools, int32_t count)
 {
     uint8_t* bytes = bools;
@@ -293,7 +294,7 @@ int32_t kiriArchive_Count(kiriArchive* archive, int64_t count, int64_t least, in
     return number < least || number > most ? (int32_t)least : number;
 }
 
-/* ---- Arrays ------------------------------------------------------------------------------------------------------- */
+/* ---- Arrays ------------------------------------------------------------------------------------------------------ */
 
 static void* MakeBlock(kiriArchive* archive, int64_t bytes)
 {
@@ -416,7 +417,7 @@ void kiriArchive_Block(kiriArchive* archive, void** block, int32_t width, int64_
     LeaveBase(archive, end);
 }
 
-/* ---- Objects ------------------------------------------------------------------------------------------------------ */
+/* ---- Objects ----------------------------------------------------------------------------------------------------- */
 
 static void MoveOwned(kiriArchive* archive, const kiriMember* member, void* pointer)
 {
@@ -526,7 +527,7 @@ void kiriArchive_Objects(kiriArchive* archive, const kiriTable* table, void* obj
     }
 }
 
-/* ---- Arrays that grow --------------------------------------------------------------------------------------------- */
+/* ---- Arrays that grow -------------------------------------------------------------------------------------------- */
 
 void kiriArchive_Growing(kiriArchive* archive, kiriGrowing* growing, const kiriRoom* rooms, int32_t count)
 {

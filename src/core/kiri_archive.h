@@ -127,8 +127,8 @@ static inline bool kiriArchive_HasFailed(const kiriArchive* archive)
     return archive->isBad || archive->isShort;
 }
 
-/* What follows is a difference to these bytes, which have the same objects as they were; then, as it is again. The less has
-   changed, the fewer bytes it takes; they are right whatever the base has. */
+/* What follows is a difference to these bytes, which have the same objects as they were; then, as it is again. The less
+   has changed, the fewer bytes it takes; they are right whatever the base has. */
 void kiriArchive_BeginDifference(kiriArchive* archive, const uint8_t* base, int64_t size);
 void kiriArchive_EndDifference(kiriArchive* archive);
 
@@ -143,7 +143,8 @@ static inline void kiriArchive_Int32(kiriArchive* archive, int32_t* number)
     kiriArchive_Numbers(archive, number, 4, 1);
 }
 
-/* So many numbers that are in no KIRI_ARRAY, with their count: where bytes are read that is at most `room`, and returned. */
+/* So many numbers that are in no KIRI_ARRAY, with their count: where bytes are read that is at most `room`, and
+   returned. */
 int32_t kiriArchive_Row(kiriArchive* archive, void* numbers, int32_t width, int32_t count, int32_t room);
 
 /* A whole number that is none of an object; where bytes are read, what they have. It is within these. */

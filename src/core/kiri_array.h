@@ -36,7 +36,8 @@ bool kiriArray_GrowTo(kiriMemory* memory, void* array, int64_t need, size_t item
 /* Gives back room beyond an eighth more than what is there. Without memory for a shorter block all of it stays. */
 void kiriArray_Shorten(kiriMemory* memory, void* array, size_t itemBytes);
 
-/* The same as Grow, and writes to all of the new room: so the system gives its pages now, and not when the room is used. */
+/* The same as Grow, and writes to all of the new room: so the system gives its pages now, and not when the room is
+   used. */
 bool kiriArray_GrowReady(kiriMemory* memory, void* array, int64_t need, size_t itemBytes);
 
 /* Frees the items and leaves the array empty. */
@@ -69,19 +70,19 @@ typedef struct kiriGrowing {
     int64_t owed;            /* to the quota */
 } kiriGrowing;
 
-/* Makes room in several arrays, one after the other, as far as the quota goes: it takes an item for each bytesAnItem that
-   are moved, so no tick moves all of a large sheet. KIRI_MORE: go on with a new quota, before what is in the arrays changes;
-   where it does all the same, kiriGrowing_Drop begins anew. */
+/* Makes room in several arrays, one after the other, as far as the quota goes: it takes an item for each bytesAnItem
+   that are moved, so no tick moves all of a large sheet. KIRI_MORE: go on with a new quota, before what is in the
+   arrays changes; where it does all the same, kiriGrowing_Drop begins anew. */
 kiriProgress kiriGrowing_GoOn(kiriGrowing* growing, const kiriRoom* rooms, int32_t count, kiriQuota* quota,
                               int64_t bytesAnItem);
 void kiriGrowing_Drop(kiriGrowing* growing);
 
-/* Makes room, and as many items as the room says, all zero, as far as the quota goes, of which each bytesAnItem take one: so
-   the system gives the pages little by little. */
+/* Makes room, and as many items as the room says, all zero, as far as the quota goes, of which each bytesAnItem take
+   one: so the system gives the pages little by little. */
 kiriProgress kiriArray_Fill(const kiriRoom* room, kiriQuota* quota, int64_t bytesAnItem);
 
-/* The room, of memory that the system has given already; what is new is zeroed. Array by array: each takes its items of the
-   quota before, or all of a whole one. Nothing is lost where somebody makes room in between. */
+/* The room, of memory that the system has given already; what is new is zeroed. Array by array: each takes its items of
+   the quota before, or all of a whole one. Nothing is lost where somebody makes room in between. */
 kiriProgress kiriRooms_MakeReady(const kiriRoom* rooms, int32_t count, kiriQuota* quota, int64_t bytesAnItem);
 
 #define kiriArray_Reserve(memory, array, need)                                                                         \

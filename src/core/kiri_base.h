@@ -1,4 +1,5 @@
-/* Memory through the host's hooks, assertions, and what a budget counts. Every other file allocates through this one. */
+/* Memory through the host's hooks, assertions, and what a budget counts. Every other file allocates through this
+   one. */
 #ifndef KIRI_BASE_H
 #define KIRI_BASE_H
 
@@ -26,7 +27,8 @@ enum { KIRI_NONE = -1 };
 /* ---- Assertions ---- */
 
 /* Checked where KIRI_ASSERTS is defined, as `make config=debug` and `config=sanitize` do; elsewhere they cost nothing.
-   A host that defines KIRI_ASSERT_HANDLER as the name of a function of its own gets the call; else the program stops. */
+   A host that defines KIRI_ASSERT_HANDLER as the name of a function of its own gets the call; else the program
+   stops. */
 #if !defined(KIRI_ASSERTS)
 #define KIRI_ASSERT(condition) ((void)sizeof((condition) ? 1 : 0))
 #else
@@ -47,8 +49,8 @@ typedef struct kiriBlock {
     struct kiriBlock** link; /* what points to this block */
 } kiriBlock;
 
-/* The host's hooks, and the list of all blocks that this owner has from them: they are freed together, so nothing made of
-   blocks needs a release of its own. The owner must not move while it has blocks. */
+/* The host's hooks, and the list of all blocks that this owner has from them: they are freed together, so nothing made
+   of blocks needs a release of its own. The owner must not move while it has blocks. */
 typedef struct kiriMemory {
     kiriAllocFn* alloc;
     kiriFreeFn* free;
@@ -118,8 +120,8 @@ static inline bool kiriQuota_IsBegun(const kiriQuota* quota)
     return quota->used > 0 || quota->isShared;
 }
 
-/* Takes items from the quota; false, and takes none, where fewer are left. What is larger than the whole quota gets it all
-   when nothing of it has been given yet: so everything is done in the end. */
+/* Takes items from the quota; false, and takes none, where fewer are left. What is larger than the whole quota gets it
+   all when nothing of it has been given yet: so everything is done in the end. */
 static inline bool kiriQuota_Take(kiriQuota* quota, int64_t items)
 {
     KIRI_ASSERT(items >= 0 && quota->left >= 0);
@@ -148,8 +150,8 @@ static inline bool kiriQuota_IsSpent(const kiriQuota* quota)
     return quota->left == 0 && kiriQuota_IsBegun(quota);
 }
 
-/* Takes what is owed for work, or what is left of it; false where some is still owed. So how far the work has come depends
-   on what it was given in all, not on the parts. Unlike kiriQuota_Take it never exceeds a limit. */
+/* Takes what is owed for work, or what is left of it; false where some is still owed. So how far the work has come
+   depends on what it was given in all, not on the parts. Unlike kiriQuota_Take it never exceeds a limit. */
 static inline bool kiriQuota_Pay(kiriQuota* quota, int64_t* owed)
 {
     int64_t items = *owed < quota->left ? *owed : quota->left;

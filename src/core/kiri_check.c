@@ -5,7 +5,7 @@
 const kiriMust kiriMustBeReal[1] = { { KIRI_RULE_REALS, KIRI_OF_NOTHING, 0, 8, 0, 0, 0, NULL, 0 } };
 const kiriMust kiriMustBeFloat[1] = { { KIRI_RULE_FLOATS, KIRI_OF_NOTHING, 0, 4, 0, 0, 0, NULL, 0 } };
 
-/* ---- Numbers ------------------------------------------------------------------------------------------------------ */
+/* ---- Numbers ----------------------------------------------------------------------------------------------------- */
 
 static bool AreBetween(const void* numbers, int32_t bytes, int32_t low, int32_t high)
 {
@@ -53,7 +53,7 @@ static bool AreFloats(const void* numbers, int32_t bytes)
     return areFine;
 }
 
-/* ---- Rules -------------------------------------------------------------------------------------------------------- */
+/* ---- Rules ------------------------------------------------------------------------------------------------------- */
 
 static int64_t CountOf(const kiriCheck* check, const kiriMust* must)
 {
@@ -203,7 +203,7 @@ bool kiriCheck_Rules(kiriCheck* check, const kiriMust* rules, int32_t count, con
     return kiriCheck_That(check, areFine);
 }
 
-/* ---- Lists -------------------------------------------------------------------------------------------------------- */
+/* ---- Lists ------------------------------------------------------------------------------------------------------- */
 
 uint8_t* kiriCheck_Bytes(kiriCheck* check, int64_t count)
 {
@@ -262,7 +262,7 @@ bool kiriCheck_Chain(kiriCheck* check, kiriChains* chains, int32_t head)
     return true;
 }
 
-/* ---- Spans -------------------------------------------------------------------------------------------------------- */
+/* ---- Spans ------------------------------------------------------------------------------------------------------- */
 
 enum { BYTES_AT_ONCE = 8 };
 

@@ -1,5 +1,5 @@
-/* What numbers must be that were read from bytes, so that those who use them may trust them: rules about fields, in tables
-   as those of kiri_archive.h. Bytes may be made by somebody who means harm. */
+/* What numbers must be that were read from bytes, so that those who use them may trust them: rules about fields, in
+   tables as those of kiri_archive.h. Bytes may be made by somebody who means harm. */
 #ifndef KIRI_CHECK_H
 #define KIRI_CHECK_H
 

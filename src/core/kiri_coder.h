@@ -1,6 +1,6 @@
 /* Numbers in few bytes, the same on all machines. A coder either writes or reads, and each function does what its coder
-   does: so one description of data serves for both ways. Integers take 7 bits a byte, small ones of either sign one byte;
-   floats are 4 bytes, the lowest first. */
+   does: so one description of data serves for both ways. Integers take 7 bits a byte, small ones of either sign one
+   byte; floats are 4 bytes, the lowest first. */
 #ifndef KIRI_CODER_H
 #define KIRI_CODER_H
 
@@ -57,8 +57,8 @@ void kiriCoder_Hash(kiriCoder* coder, uint64_t* value);
 /* Neighbours are near each other, as in the indices of a mesh. */
 void kiriCoder_Indices(kiriCoder* coder, int32_t* values, int64_t count);
 
-/* For a coder that reads: zeroed memory for `count` items of so many bytes, each of which takes `least` bytes or more to read.
-   Null where there are not so many bytes, or no memory. */
+/* For a coder that reads: zeroed memory for `count` items of so many bytes, each of which takes `least` bytes or more
+   to read. Null where there are not so many bytes, or no memory. */
 void* kiriCoder_Alloc(kiriCoder* coder, int64_t count, int64_t itemBytes, int64_t least);
 
 KIRI_C_END

@@ -10,8 +10,8 @@ KIRI_C_BEGIN
 /* Is each operation rounded by itself, in the order that the sources say? */
 bool kiriExact_AreFloats(void);
 
-/* Is the processor, in this thread, in the mode in which programs start: sums are rounded to the nearest number, and none
-   is taken for zero because it is small? */
+/* Is the processor, in this thread, in the mode in which programs start: sums are rounded to the nearest number, and
+   none is taken for zero because it is small? */
 bool kiriExact_IsModePlain(void);
 
 KIRI_C_END

@@ -1,5 +1,5 @@
-/* Hashes of 64 bits. A hash begins as KIRI_HASH_START, and each call adds to it. Numbers are added by value, so the hash is
-   the same on machines of either byte order. */
+/* Hashes of 64 bits. A hash begins as KIRI_HASH_START, and each call adds to it. Numbers are added by value, so the
+   hash is the same on machines of either byte order. */
 #ifndef KIRI_HASH_H
 #define KIRI_HASH_H
 

@@ -1,5 +1,5 @@
-/* Numbers of the items of a row that stay when other items are taken away and the row moves together: what names items in
-   long lists names them so, and need not be written anew. */
+/* Numbers of the items of a row that stay when other items are taken away and the row moves together: what names items
+   in long lists names them so, and need not be written anew. */
 #ifndef KIRI_LABEL_H
 #define KIRI_LABEL_H
 
@@ -50,8 +50,8 @@ bool kiriLabels_Reserve(kiriLabels* labels, kiriMemory* memory, int32_t items);
 /* Items are taken away, and labels stay. There is room. */
 void kiriLabels_Keep(kiriLabels* labels, const kiriKeep* items);
 
-/* The same, but labels move together as well: what each becomes is its item's new index, so that each item is its own label
-   again. Map has room for all labels; after it Forget may be called. */
+/* The same, but labels move together as well: what each becomes is its item's new index, so that each item is its own
+   label again. Map has room for all labels; after it Forget may be called. */
 void kiriLabels_Map(const kiriLabels* labels, const kiriKeep* items, kiriKeep* map);
 void kiriLabels_Forget(kiriLabels* labels);
 

@@ -44,7 +44,8 @@ uint32_t kiriPool_Add(kiriPool* pool, kiriMemory* memory, void* owner, int32_t i
 kiriSlot* kiriPool_Find(const kiriPool* pool, uint32_t id);
 void kiriPool_Remove(kiriPool* pool, uint32_t id);
 
-/* Of a pool that was read, whose slots have no owners: this one has the id, and nobody else. False where that cannot be. */
+/* Of a pool that was read, whose slots have no owners: this one has the id, and nobody else. False where that cannot
+   be. */
 bool kiriPool_Claim(kiriPool* pool, uint32_t id, void* owner, int32_t index);
 
 KIRI_C_END

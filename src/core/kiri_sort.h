@@ -22,8 +22,8 @@ typedef struct kiriSorting {
     int32_t to, left, right; /* where the merged run goes on, and its two halves; `to` below `block`: not begun */
 } kiriSorting;
 
-/* Goes on sorting for about `most` moves; true when it is done. Merges runs, and leaves alone what is in order. `room` has
-   room for as many items. */
+/* Goes on sorting for about `most` moves; true when it is done. Merges runs, and leaves alone what is in order. `room`
+   has room for as many items. */
 bool kiriSorting_GoOn(kiriSorting* sorting, int32_t* items, int32_t* room, int32_t count, kiriBeforeFn* before,
                       const void* context, int32_t most);
 

@@ -44,8 +44,8 @@ static void GiveRoom(kiriSpans* spans, void* array, size_t itemBytes, int32_t fi
     spans->freeHead[size] = first + 1;
 }
 
-/* Moves into free room of the new size, so that its own stays whole: halves are never joined again. Where there is no free
-   room it keeps the start of its own and gives back the halves that it no longer needs. */
+/* Moves into free room of the new size, so that its own stays whole: halves are never joined again. Where there is no
+   free room it keeps the start of its own and gives back the halves that it no longer needs. */
 static void ShrinkSpan(kiriSpan* span, kiriSpans* spans, void* array, size_t itemBytes, int32_t count)
 {
     int from = SizeClassOf(span->count), to = SizeClassOf(count);

@@ -19,8 +19,9 @@ typedef struct kiriSpans {
 } kiriSpans;
 
 /* Gives the span room for `count` items and sets its count; the first items stay what they are, new ones are not
-   initialised. It may move the items, also where it shrinks. `array` points to the KIRI_ARRAY that holds the items of all spans; an item has itemBytes, at least 4.
-   False for memory, and then nothing has changed. To shrink, or to count 0, never fails. */
+   initialised. It may move the items, also where it shrinks. `array` points to the KIRI_ARRAY that holds the items of
+   all spans; an item has itemBytes, at least 4. False for memory, and then nothing has changed. To shrink, or to count
+   0, never fails. */
 bool kiriSpan_Resize(kiriSpan* span, kiriSpans* spans, kiriMemory* memory, void* array, size_t itemBytes,
                      int32_t count);
 

@@ -19,8 +19,8 @@ static inline bool kiriTasks_AreGiven(const kiriTasks* tasks)
     return tasks->start != NULL && tasks->workers > 1;
 }
 
-/* Does the items 0 to `count`, in ranges of `least` and more, and returns when all are done. Ranges run side by side, in
-   any order: none may read what another writes, nor allocate, free, log or read the clock. */
+/* Does the items 0 to `count`, in ranges of `least` and more, and returns when all are done. Ranges run side by side,
+   in any order: none may read what another writes, nor allocate, free, log or read the clock. */
 void kiriTasks_Run(const kiriTasks* tasks, kiriTaskFn* task, int32_t count, int32_t least, void* context);
 
 KIRI_C_END

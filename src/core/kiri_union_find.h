@@ -1,5 +1,5 @@
-/* Union-find over indices: which items hang together. The caller has the array `parent`, with an entry for each item; the
-   root of a set is its lowest item, whatever the order of joining. */
+/* Union-find over indices: which items hang together. The caller has the array `parent`, with an entry for each item;
+   the root of a set is its lowest item, whatever the order of joining. */
 #ifndef KIRI_UNION_FIND_H
 #define KIRI_UNION_FIND_H
 

@@ -45,8 +45,8 @@ bool kiriGrid_CheckOwn(const kiriGrid* grid, kiriCheck* check);
 /* Of a grid that is reset before it is used again. */
 bool kiriGrid_CheckLeft(const kiriGrid* grid, kiriCheck* check);
 
-/* What a field is for: floods alone; repairs, too; and where frames measure their shapes, it is emptied block by block, or
-   is empty between frames. */
+/* What a field is for: floods alone; repairs, too; and where frames measure their shapes, it is emptied block by block,
+   or is empty between frames. */
 typedef enum kiriFieldUse { KIRI_FIELD_FLOODS, KIRI_FIELD_REPAIRS, KIRI_FIELD_EMPTIED, KIRI_FIELD_EMPTY } kiriFieldUse;
 
 /* A field of the grid, whose owners are below so many. */

@@ -16,8 +16,8 @@ extern const kiriTable kiriFieldTable, kiriSiteTable, kiriGridTable, kiriRegions
 void kiriLinks_EndReading(kiriLinks* links, kiriMemory* memory);
 void kiriPlacer_EndReading(kiriPlacer* placer, const kiriField* known);
 
-/* Of what was read, what is made anew of the mesh: all of a grid, of regions, of shape functions but their labels and what
-   the host has set; and all of links but those in force. */
+/* Of what was read, what is made anew of the mesh: all of a grid, of regions, of shape functions but their labels and
+   what the host has set; and all of links but those in force. */
 void kiriGrid_Forget(kiriGrid* grid, kiriMemory* memory);
 void kiriRegions_Forget(kiriRegions* regions, kiriMemory* memory);
 void kiriShape_Forget(kiriShape* shape, kiriMemory* memory);

@@ -11,7 +11,8 @@ enum {
     FIELD_PASSES = 8,  /* whether ways pass through it may have changed; of the caller's */
 };
 
-/* What `cursor` holds. In a sweep the first three go over the settled cells, one for each length of steps. Before it: */
+/* What `cursor` holds. In a sweep the first three go over the settled cells, one for each length of steps. Before
+   it: */
 enum {
     DIRTY_CHECKED,     /* dirty cells that were checked, or looked at for seeds of the sweep */
     DIRTY_FROM_CALLER, /* how many the caller marked; those behind are dependents */
@@ -426,9 +427,9 @@ static bool MakeDependentsRoom(kiriField* field, kiriMemory* memory, const kiriR
     return kiriArray_Reserve(memory, &field->dirty, (int64_t)field->dirty.count + steps);
 }
 
-/* Clears the affected cells (Ramalingam and Reps): those whose value nothing supports any more. The values that are left
-   are lengths of ways that still exist, if not the shortest. A cell that ways do not pass (any longer) keeps its own
-   value, but its dependents may lose theirs. */
+/* Clears the affected cells (Ramalingam and Reps): those whose value nothing supports any more. The values that are
+   left are lengths of ways that still exist, if not the shortest. A cell that ways do not pass (any longer) keeps its
+   own value, but its dependents may lose theirs. */
 static kiriProgress ClearAffected(kiriField* field, kiriMemory* memory, const kiriRule* rule, kiriQuota* quota)
 {
     for (; field->cursor[DIRTY_CHECKED] < field->dirty.count; ++field->cursor[DIRTY_CHECKED]) {
@@ -553,7 +554,8 @@ static void EndRepair(kiriField* field)
     field->cursor[REPAIR_STAGE] = REPAIR_NONE;
 }
 
-/* Some cells at a time: so there is room in the log for those that are settled, and for those that get a lower owner. */
+/* Some cells at a time: so there is room in the log for those that are settled, and for those that get a lower
+   owner. */
 static kiriProgress SweepRepaired(kiriField* field, kiriMemory* memory, const kiriRule* rule, kiriQuota* quota)
 {
     enum { AT_ONCE = 1024 };

@@ -46,8 +46,8 @@ typedef struct kiriField {
     kiriIndices settled;          /* of floods: cells reached, by growing distance if not scanned; none once dirty */
     KIRI_ARRAY(kiriSeed) log;     /* of repairs: what cells were before, each once; some may be the same again */
 
-    /* Work at hand. Cells are settled when none is to be checked any more, so one of the two lists has room for all cells,
-       and the other need not: they change places. */
+    /* Work at hand. Cells are settled when none is to be checked any more, so one of the two lists has room for all
+       cells, and the other need not: they change places. */
     KIRI_ARRAY(kiriSeed) heap;
     kiriIndices dirty;         /* cells to be checked */
     KIRI_ARRAY(uint8_t) marks; /* one a cell; between repairs only of dirty cells */
@@ -85,14 +85,14 @@ void kiriField_MarkDirty(kiriField* field, int32_t cell);
 /* The same where ways pass through the cell, or do not, as before, and so far as before: it costs less. */
 void kiriField_MarkStepsDirty(kiriField* field, int32_t cell);
 
-/* The cell is no more, and then it must not be dirty; or it shall be FAR. The cells that its steps led to must be dirty.
-   Not logged. */
+/* The cell is no more, and then it must not be dirty; or it shall be FAR. The cells that its steps led to must be
+   dirty. Not logged. */
 void kiriField_Forget(kiriField* field, int32_t cell);
 
-/* Makes the field right again. All cells about which something has changed must be dirty: where the limit has grown, all
-   from which a step leads beyond the old one; where it has shrunk, all beyond the new one that are not forgotten. An
-   item of the quota is a cell whose distance is cleared, half of one that is settled, one that is looked at for where the
-   sweep begins, or four that keep what they have. KIRI_MORE: call again with the same rule before
+/* Makes the field right again. All cells about which something has changed must be dirty: where the limit has grown,
+   all from which a step leads beyond the old one; where it has shrunk, all beyond the new one that are not forgotten.
+   An item of the quota is a cell whose distance is cleared, half of one that is settled, one that is looked at for
+   where the sweep begins, or four that keep what they have. KIRI_MORE: call again with the same rule before
    anything changes. The log tells what changed; its reader empties it (its count). KIRI_FAILED: only kiriField_Clear
    helps. */
 kiriProgress kiriField_Repair(kiriField* field, kiriMemory* memory, const kiriRule* rule, kiriQuota* quota);

@@ -81,7 +81,8 @@ static int32_t CountStageItems(const kiriGridWork* work, const kiriMeshData* mes
     return counts[work->stage];
 }
 
-/* Room for a cell a square; growing adds an eighth for what cuts make, so that the first one need not move everything. */
+/* Room for a cell a square; growing adds an eighth for what cuts make, so that the first one need not move
+   everything. */
 static bool ReserveCells(kiriGrid* grid, const kiriMeshData* mesh)
 {
     kiriGridWork* work = grid->work;

@@ -60,8 +60,8 @@ typedef struct kiriStep {
 enum { KIRI_STEP_LENGTHS = 3, KIRI_OPEN_STEPS = 16 };
 
 /* Where the steps of a cell are: straight ones from first to end[0], diagonal ones to end[1], knights to end[2]. A cell
-   amid whole squares is open: it has all sixteen steps there are, each to the first cell of its square. They follow from
-   its own square, and are not stored: `first` is ~square, and means nothing else. */
+   amid whole squares is open: it has all sixteen steps there are, each to the first cell of its square. They follow
+   from its own square, and are not stored: `first` is ~square, and means nothing else. */
 typedef struct kiriStepRun {
     int32_t first, end[KIRI_STEP_LENGTHS];
 } kiriStepRun;
@@ -127,10 +127,10 @@ typedef struct kiriGrid {
 } kiriGrid;
 
 /* The grid of the mesh as it is, from the one before and mesh->squares.dirty: all squares that changed since. A
-   zeroed or reset grid is made from scratch, of all squares. An item of the quota is about 0.3 us of work: a square with
-   many triangles takes many, and may take several calls; what a call does beyond its quota, some 30 items at most where
-   cells have few neighbours, is taken from the next one. KIRI_MORE: call again before the mesh changes or the dirty squares
-   are cleared. KIRI_FAILED: only kiriGrid_Reset helps. */
+   zeroed or reset grid is made from scratch, of all squares. An item of the quota is about 0.3 us of work: a square
+   with many triangles takes many, and may take several calls; what a call does beyond its quota, some 30 items at most
+   where cells have few neighbours, is taken from the next one. KIRI_MORE: call again before the mesh changes or the
+   dirty squares are cleared. KIRI_FAILED: only kiriGrid_Reset helps. */
 kiriProgress kiriGrid_Update(kiriGrid* grid, const kiriMeshData* mesh, kiriQuota* quota);
 
 /* Once all who follow the grid have seen its changes; not during an update. */
@@ -149,9 +149,9 @@ void kiriGrid_DropScratch(kiriGrid* grid, kiriMemory* memory);
 /* Forgets everything but its memory: the next update is from scratch. */
 void kiriGrid_Reset(kiriGrid* grid);
 
-/* The cells go that are listed, with all that they hang together with, and the triangles and vertices of others get their
-   new index. No change is noted: of what is left nothing else changes. Not during an update, nor before its changes are
-   cleared. */
+/* The cells go that are listed, with all that they hang together with, and the triangles and vertices of others get
+   their new index. No change is noted: of what is left nothing else changes. Not during an update, nor before its
+   changes are cleared. */
 void kiriGrid_Keep(kiriGrid* grid, kiriMemory* memory, const kiriKeep* triangles, const kiriKeep* vertices,
                    const int32_t* gone, int32_t goneCount);
 

@@ -378,7 +378,8 @@ static kiriProgress FillWholeCell(kiriGrid* grid, const kiriMeshData* mesh, int3
     return KIRI_DONE;
 }
 
-/* An edge in the square may have changed that changes neither material nor faces: a slit that ends there, by its tip. */
+/* An edge in the square may have changed that changes neither material nor faces: a slit that ends there, by its
+   tip. */
 static bool RecordEdges(kiriGrid* grid, kiriMemory* memory, int32_t square)
 {
     bool ok = true;

@@ -1,7 +1,7 @@
 #include "kiri_field_check.h"
 #include "kiri_grid_work.h"
 
-/* ---- Rules -------------------------------------------------------------------------------------------------------- */
+/* ---- Rules ------------------------------------------------------------------------------------------------------- */
 
 static const kiriMust IsCellIndex[] = { KIRI_INDEX(KIRI_OF_CELLS, kiriSpan, first, first) };
 static const kiriMust IsSquareIndex[] = { KIRI_INDEX(KIRI_OF_SQUARES, kiriSpan, first, first) };
@@ -83,7 +83,7 @@ static const kiriMust GridMust[] = {
     KIRI_OWNED_MUST(kiriGrid, work, WorkMust),
 };
 
-/* ---- Cells -------------------------------------------------------------------------------------------------------- */
+/* ---- Cells ------------------------------------------------------------------------------------------------------- */
 
 /* Of a part of a square: sums of it hold. */
 static bool IsMaterial(const kiriMoments* m, double side, double farthest)
@@ -182,7 +182,7 @@ static bool AreCellsSound(kiriCheck* check, const kiriGrid* grid, const kiriMesh
     return areFine;
 }
 
-/* ---- Faces -------------------------------------------------------------------------------------------------------- */
+/* ---- Faces ------------------------------------------------------------------------------------------------------- */
 
 /* Of two cells that live, in squares beside each other. Those of the side at hand are empty until they are added up. */
 static bool IsFace(const kiriGrid* grid, const kiriSquareRows* rows, const kiriFace* face)
@@ -232,7 +232,7 @@ static bool AreFaces(const kiriGrid* grid, const kiriSquares* squares)
     return areFine && live + unused == grid->faces.count;
 }
 
-/* ---- What the mesh has in cells ----------------------------------------------------------------------------------- */
+/* ---- What the mesh has in cells ---------------------------------------------------------------------------------- */
 
 /* Which squares the grid has not seen since they changed: those from some dirty one on. */
 static int32_t FirstUnseen(const kiriGrid* grid, const kiriSquares* squares)
@@ -290,7 +290,7 @@ static bool AreMembers(kiriCheck* check, const kiriGrid* grid, const kiriMeshDat
     return kiriCheck_That(check, areFine);
 }
 
-/* ---- The update at hand ------------------------------------------------------------------------------------------- */
+/* ---- The update at hand ------------------------------------------------------------------------------------------ */
 
 /* Where the sorting of so many items is. */
 static bool IsSorting(const kiriSorting* s, int64_t count, int64_t room)

@@ -50,8 +50,8 @@ bool kiriGrid_RemoveFace(kiriGrid* grid, kiriMemory* memory, int32_t f)
     return ok;
 }
 
-/* The face between two cells, new if there is none yet; KIRI_NONE for memory. Looks from both ends at once, since a cell
-   with many faces, a comb, most often touches cells with few. */
+/* The face between two cells, new if there is none yet; KIRI_NONE for memory. Looks from both ends at once, since a
+   cell with many faces, a comb, most often touches cells with few. */
 static int32_t FaceBetween(kiriGrid* grid, kiriMemory* memory, int32_t a, int32_t b, int axis)
 {
     int32_t f = grid->cells.data[a].firstFace, g = grid->cells.data[b].firstFace;

@@ -27,7 +27,8 @@ static bool IsOpenRun(const kiriGrid* grid, const kiriSquareRows* rows, int32_t 
     return areThere;
 }
 
-/* Those of a length lead to a square so far away. While the grid follows the mesh they may still lead to what is gone. */
+/* Those of a length lead to a square so far away. While the grid follows the mesh they may still lead to what is
+   gone. */
 static bool AreStepsOfLength(const kiriGrid* grid, int32_t columns, int32_t square, kiriSpan span, int32_t length,
                              int32_t squared)
 {

@@ -149,8 +149,8 @@ bool kiriGrid_RecordLink(kiriGrid* grid, kiriMemory* memory, int32_t a, int32_t 
 /* What the cell of a whole square covers. */
 kiriMoments kiriGrid_MaterialOfWhole(const kiriGrid* grid, const kiriMeshData* mesh, int32_t square);
 
-/* The cell, or the face, gets a material, or a stretch, of its own, which means nothing yet; null for memory. One that has its
-   own keeps it. Pointers to others do not stay. */
+/* The cell, or the face, gets a material, or a stretch, of its own, which means nothing yet; null for memory. One that
+   has its own keeps it. Pointers to others do not stay. */
 kiriMoments* kiriGrid_OwnMaterial(kiriGrid* grid, kiriMemory* memory, int32_t cell);
 kiriStretch* kiriGrid_OwnStretch(kiriGrid* grid, kiriMemory* memory, int32_t face);
 

@@ -53,8 +53,8 @@ static bool IsMadeBefore(const void* context, int32_t a, int32_t b)
     return kiriBorder_IsFaceBefore(border, x->face, y->face);
 }
 
-/* In items of the budget: a border cell the steps of which are looked at, one the faces of which are, and a link that is
-   kept. */
+/* In items of the budget: a border cell the steps of which are looked at, one the faces of which are, and a link that
+   is kept. */
 enum { STALE_ITEMS = 1, FACES_ITEMS = 1, KEPT_ITEMS = 4 };
 
 /* ---- All links of regions that are stale ---------------------------------------------------------------------- */
@@ -107,8 +107,8 @@ static bool IsPairTouched(const kiriBorder* border, int32_t i, int32_t j)
     return low < border->work->touched.count && pairs[low].i == i && pairs[low].j == j;
 }
 
-/* Links of one pair, from the first up to the end, neither of whose regions is dirty. Where a border ends is asked at each
-   of its faces: so one of the regions must have no dirty one anywhere beside it. */
+/* Links of one pair, from the first up to the end, neither of whose regions is dirty. Where a border ends is asked at
+   each of its faces: so one of the regions must have no dirty one anywhere beside it. */
 static bool KeepPair(const kiriBorder* border, const kiriLinks* links, int32_t first, int32_t end)
 {
     kiriLinkWork* work = border->work;
@@ -128,7 +128,8 @@ static bool KeepPair(const kiriBorder* border, const kiriLinks* links, int32_t f
     return ok;
 }
 
-/* The border of two regions that are not dirty is what it was, and where no dirty region is near it so are its links. */
+/* The border of two regions that are not dirty is what it was, and where no dirty region is near it so are its
+   links. */
 static bool KeepUntouched(const kiriBorder* border, const kiriLinks* links)
 {
     const uint8_t* dirty = border->regions->dirty.data;
@@ -496,7 +497,8 @@ void kiriLinks_Drop(kiriLinks* links)
     links->was.count = links->wasCorner.count = 0;
 }
 
-/* What is to be made, face by face, then the whole. Edges that are seen first are an item each: a square may have thousands. */
+/* What is to be made, face by face, then the whole. Edges that are seen first are an item each: a square may have
+   thousands. */
 static kiriProgress RunLinks(const kiriBorder* border, kiriLinks* links, kiriQuota* quota)
 {
     kiriLinkWork* work = border->work;

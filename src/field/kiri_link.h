@@ -21,8 +21,8 @@ typedef struct kiriLink {
     kiriVec2 centroid; /* b: of the border, local m */
     kiriVec2
         crossing; /* m: where the way from i to j crosses it; the midpoint of the sites where that way is straight */
-    /* Of the border as a staircase of cells, which is what regions are made of: the sum of its faces' widths, each times
-       its normal, m; and the sum of (p - b)_u, and of (p - b)_v, times the same, m^2. */
+    /* Of the border as a staircase of cells, which is what regions are made of: the sum of its faces' widths, each
+       times its normal, m; and the sum of (p - b)_u, and of (p - b)_v, times the same, m^2. */
     kiriVec2 sum, spread[2];
 } kiriLink;
 
@@ -54,17 +54,17 @@ typedef struct kiriLinks {
 } kiriLinks;
 
 /* The links of the regions as they are, into `next`: those between regions that are neither dirty (regions->dirty) nor
-   beside one that is are taken over from `links`, the others made anew; and their corners. An item of the quota is as long
-   as one of the grid: a link counts as many. KIRI_MORE: call again before the regions change. KIRI_FAILED: `links` is as
-   before. */
+   beside one that is are taken over from `links`, the others made anew; and their corners. An item of the quota is as
+   long as one of the grid: a link counts as many. KIRI_MORE: call again before the regions change. KIRI_FAILED: `links`
+   is as before. */
 kiriProgress kiriLinks_Update(kiriLinks* links, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                               const kiriRegions* regions, const kiriSite* sites, int32_t siteCount, kiriQuota* quota);
 
 /* Forgets an update at hand, and what one has made. */
 void kiriLinks_Drop(kiriLinks* links);
 
-/* The same of what is left when links and frames are taken away: what is kept stays as it is. No link that is kept joins
-   a frame that is not. */
+/* The same of what is left when links and frames are taken away: what is kept stays as it is. No link that is kept
+   joins a frame that is not. */
 bool kiriLinks_Keep(kiriLinks* links, kiriMemory* memory, const kiriKeep* kept, const kiriKeep* frames);
 void kiriLinks_Commit(kiriLinks* links);
 

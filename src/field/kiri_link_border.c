@@ -144,7 +144,7 @@ void kiriLinkEnd_SetOpen(kiriLinkEnd* end, kiriVec2 at)
     end->at = at;
 }
 
-/* ---- Ends that the sites see -------------------------------------------------------------------------------------- */
+/* ---- Ends that the sites see ------------------------------------------------------------------------------------- */
 
 /* How far ahead the site of a region is as near as the two, if it is seen: beyond it is nearer. FAR where it never
    is. */
@@ -374,7 +374,7 @@ void kiriBorder_MakeExact(const kiriBorder* border, kiriLink* link, kiriLinkEnds
     }
 }
 
-/* ---- Borders that the grid misses ---------------------------------------------------------------------------------- */
+/* ---- Borders that the grid misses -------------------------------------------------------------------------------- */
 
 /* A point between the limits of a line, or beside the one that there is; false where there is none. */
 static bool FindBetween(kiriEndSearch* s, kiriVec2* at)

@@ -63,8 +63,8 @@ void kiriLinkEnd_SetOpen(kiriLinkEnd* end, kiriVec2 at);
    so that all links of the corner find the same. */
 bool kiriEndSearch_FindTurnedCorner(const kiriEndSearch* s, kiriLinkEnd* end);
 
-/* Where the border comes to an edge: it starts from the edge where the grid has the end, or from the one that the border
-   leads to beyond a corner that is none. */
+/* Where the border comes to an edge: it starts from the edge where the grid has the end, or from the one that the
+   border leads to beyond a corner that is none. */
 bool kiriEndSearch_FindTurnedOpenEnd(kiriEndSearch* s, kiriLinkEnd* end);
 
 KIRI_C_END

@@ -201,8 +201,8 @@ static SitesWay ShortestWay(const kiriBorder* border)
     return way;
 }
 
-/* Lengths on the grid exceed true ones by up to 3 %, and by parts of a side at both ends: only where the true way cannot
-   be told they are taken, and where they are not clearly longer the way is straight. */
+/* Lengths on the grid exceed true ones by up to 3 %, and by parts of a side at both ends: only where the true way
+   cannot be told they are taken, and where they are not clearly longer the way is straight. */
 static kiriWay GridWay(const kiriBorder* border, const kiriLink* link, const SitesWay* sites)
 {
     kiriVec2 a = border->sites[link->i].at, b = border->sites[link->j].at;
@@ -264,7 +264,7 @@ static bool AddLink(const kiriBorder* border, bool bent)
     return kiriArray_Push(border->memory, &border->work->made, link);
 }
 
-/* ---- All links of a stretch ---------------------------------------------------------------------------------------- */
+/* ---- All links of a stretch -------------------------------------------------------------------------------------- */
 
 /* A border that turns back on itself, around the tip of a slit for instance, loses its width in the vector sum: it is
    split into stretches of one normal each. */

@@ -1,5 +1,5 @@
-/* Shortest ways that turn at corners of the material: how far sites are that a point does not see, and where borders end
-   between such sites. */
+/* Shortest ways that turn at corners of the material: how far sites are that a point does not see, and where borders
+   end between such sites. */
 #include "kiri_link_end_work.h"
 
 /* ---- Ways that turn ---------------------------------------------------------------------------------------------- */
@@ -69,7 +69,7 @@ bool kiriNearRegions_FindReach(const kiriBorder* border, const kiriSight* sight,
     return reach.isKnown;
 }
 
-/* ---- Ends behind turns -------------------------------------------------------------------------------------------- */
+/* ---- Ends behind turns ------------------------------------------------------------------------------------------- */
 
 /* How much farther one reach is than another; *slope: how that grows with the place. */
 static double Farther(const kiriEndReach* a, const kiriEndReach* b, kiriVec2 at, kiriVec2* slope)
@@ -236,7 +236,7 @@ bool kiriEndSearch_FindTurnedOpenEnd(kiriEndSearch* s, kiriLinkEnd* end)
            FindEndOnEdge(s, hit.edge, kiriVec2_Add(from, kiriVec2_Scale(hit.share, kiriVec2_Sub(goal, from))), end);
 }
 
-/* ---- The way from site to site ------------------------------------------------------------------------------------ */
+/* ---- The way from site to site ----------------------------------------------------------------------------------- */
 
 /* Does a site see the other, and both the border? */
 static bool IsWaySeen(const kiriSight* sight, const kiriLinkEnds* ends, kiriVec2 a, kiriVec2 b, kiriVec2 over)

@@ -127,16 +127,16 @@ bool kiriBorder_IsUntouched(const kiriBorder* border, const kiriLinkEnds* ends);
 /* Puts the ends where they are in the Euclidean metric, and with them the border, where the sites see it. */
 void kiriBorder_MakeExact(const kiriBorder* border, kiriLink* link, kiriLinkEnds* ends);
 
-/* Makes the link of the regions of two cells, i < j, where their border is so short that the grid has none; near: an end
-   of a link of region i, in its first cell. False where there is no such border, or it is not seen. Depends on nothing
-   but regions one step from the first cell. */
+/* Makes the link of the regions of two cells, i < j, where their border is so short that the grid has none; near: an
+   end of a link of region i, in its first cell. False where there is no such border, or it is not seen. Depends on
+   nothing but regions one step from the first cell. */
 bool kiriBorder_MakeShort(const kiriBorder* border, const kiriLinkEnd* near, const int32_t cells[2], kiriNewLink* made);
 
 /* The next step from the end's cell `which` to a region of higher index: from *at on, which starts at 0. */
 bool kiriBorder_FindBeside(const kiriBorder* border, const kiriLinkEnd* end, int which, int32_t* at, int32_t cells[2]);
 
-/* The shortest way from site i to site j over this border; over: a point of it on the grid's shortest way, between these
-   cells. False where it cannot be told. */
+/* The shortest way from site i to site j over this border; over: a point of it on the grid's shortest way, between
+   these cells. False where it cannot be told. */
 bool kiriBorder_FindWay(const kiriBorder* border, const kiriLink* link, const kiriLinkEnds* ends,
                         const int32_t cells[2], kiriVec2 over, kiriWay* way);
 

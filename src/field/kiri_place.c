@@ -88,7 +88,8 @@ static int64_t ClosenessAt(const kiriPlacerWork* work, int32_t cell)
     return closeness < CLOSENESS ? CLOSENESS : closeness < most ? closeness : most;
 }
 
-/* What makes a centroidal Voronoi diagram as much closer: the fourth power, as a density (Du, Faber, Gunzburger 1999). */
+/* What makes a centroidal Voronoi diagram as much closer: the fourth power, as a density (Du, Faber, Gunzburger
+   1999). */
 int64_t kiriPlacerWork_DensityAt(const kiriPlacerWork* work, int32_t cell)
 {
     if (work->reach == 0) {

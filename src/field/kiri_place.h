@@ -17,8 +17,8 @@ typedef struct kiriPlacer {
     /* Distances to the sites that are there, as kiriRegions has them, where the caller knows them; they must stay
        until the job is done. Null: they are flooded. Start takes it, and makes it null. */
     const kiriField* known;
-    /* Around slit ends sites are closer than elsewhere: `closeness` times (1 to 4) at an end, then less, in proportion to
-       1 / distance, and as elsewhere from `reach` (m) on. 0: they are as close everywhere. Start makes it 0. */
+    /* Around slit ends sites are closer than elsewhere: `closeness` times (1 to 4) at an end, then less, in proportion
+       to 1 / distance, and as elsewhere from `reach` (m) on. 0: they are as close everywhere. Start makes it 0. */
     kiriSlitEnds ends;
     double reach, closeness;
     kiriPlacerWork* work;
@@ -28,8 +28,8 @@ typedef struct kiriPlacer {
    memory. */
 bool kiriPlacer_TakePiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, int32_t cell);
 
-/* The same as a job: start, which is false for memory, and then go on until it is done. An item of the quota is some cells.
-   It is done at once where the piece is there. After KIRI_FAILED, or where the job is given up, start again. */
+/* The same as a job: start, which is false for memory, and then go on until it is done. An item of the quota is some
+   cells. It is done at once where the piece is there. After KIRI_FAILED, or where the job is given up, start again. */
 bool kiriPlacer_StartPiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, int32_t cell);
 kiriProgress kiriPlacer_GoOnWithPiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, kiriQuota* quota);
 

@@ -160,7 +160,8 @@ static bool AreRowsOfPlacer(const kiriPlacer* placer, const kiriGrid* grid)
            (work->stage != LOWER || fresh > 0);
 }
 
-/* Marks are of the piece that is being taken, or of one that was given up: no others are cleared before they are used. */
+/* Marks are of the piece that is being taken, or of one that was given up: no others are cleared before they are
+   used. */
 static bool AreMarksOfTaken(const kiriPlacer* placer)
 {
     const kiriPlacerWork* work = placer->work;

@@ -1,7 +1,7 @@
-/* How far cells are from the sites of frames, and from the borders of their regions: of each frame only for the cells that
-   it reaches. Cells whose indices follow each other, which mostly lie in a row, share a block for each frame that reaches
-   one of them. So what a frame knows of a cell, and which frames reach a cell, is found at the cost of the frames near
-   by. */
+/* How far cells are from the sites of frames, and from the borders of their regions: of each frame only for the cells
+   that it reaches. Cells whose indices follow each other, which mostly lie in a row, share a block for each frame that
+   reaches one of them. So what a frame knows of a cell, and which frames reach a cell, is found at the cost of the
+   frames near by. */
 #ifndef KIRI_REACH_H
 #define KIRI_REACH_H
 

@@ -89,8 +89,8 @@ typedef struct RegionUpdate {
     double extent; /* of the tallies */
 } RegionUpdate;
 
-/* The nearest seed of a cell. One that holds a site takes only that site's. So no region is ever empty: a site is within
-   half a diagonal of its cell's middle, and every way into that cell is at least a side long. */
+/* The nearest seed of a cell. One that holds a site takes only that site's. So no region is ever empty: a site is
+   within half a diagonal of its cell's middle, and every way into that cell is at least a side long. */
 static kiriSeed NearestSiteSeed(const void* context, int32_t cell)
 {
     const RegionUpdate* u = context;

@@ -65,15 +65,15 @@ typedef struct kiriSiteMove {
 
 /* Follows the grid's changes and those of the sites. Sites are in cells that live, no two in one, and are never taken
    away. Items of the quota: see kiriField_Repair, and two for a cell of its log. From scratch: a zeroed or reset
-   kiriRegions, and all sites in `moves`. KIRI_MORE: call again with the same arguments. KIRI_FAILED: only kiriRegions_Reset helps. Several updates,
-   each with more sites, may come before the changes of grid and regions are cleared, which is together, and before the
-   grid is updated again. */
+   kiriRegions, and all sites in `moves`. KIRI_MORE: call again with the same arguments. KIRI_FAILED: only
+   kiriRegions_Reset helps. Several updates, each with more sites, may come before the changes of grid and regions are
+   cleared, which is together, and before the grid is updated again. */
 kiriProgress kiriRegions_Update(kiriRegions* regions, kiriMemory* memory, const kiriGrid* grid,
                                 const kiriMeshData* mesh, const kiriSite* sites, int32_t siteCount,
                                 const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota);
 
-/* The cells go that are listed, which are all of the regions of the frames that are not kept; others get their new index.
-   Not during an update, nor before its changes are cleared. Never fails. */
+/* The cells go that are listed, which are all of the regions of the frames that are not kept; others get their new
+   index. Not during an update, nor before its changes are cleared. Never fails. */
 void kiriRegions_Keep(kiriRegions* regions, const kiriKeep* frames, const int32_t* gone, int32_t goneCount);
 
 /* All who follow the regions have seen `changes`; `dirty` stays until the sheet's commit clears it. */

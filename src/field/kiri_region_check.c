@@ -54,8 +54,8 @@ static bool HaveListsRoom(const kiriField* field)
            !(isDirty && isSettled);
 }
 
-/* Each cell comes once to a list: so none must have any cell twice, or one that is not marked as being there. `isEmptied`:
-   block by block; cells that were settled are far again. */
+/* Each cell comes once to a list: so none must have any cell twice, or one that is not marked as being there.
+   `isEmptied`: block by block; cells that were settled are far again. */
 static bool AreListsOfField(const kiriField* field, kiriCheck* check, bool isEmptied)
 {
     int32_t stage = field->cursor[KIRI_STEP_LENGTHS];

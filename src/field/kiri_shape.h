@@ -15,7 +15,8 @@ typedef struct kiriWeight {
     double value;
 } kiriWeight;
 
-/* A weight at a cell, before the weights there are divided by their sum. A double in two parts: so it takes no padding. */
+/* A weight at a cell, before the weights there are divided by their sum. A double in two parts: so it takes no
+   padding. */
 typedef struct kiriCellWeight {
     int32_t label;      /* of the frame */
     uint32_t low, high; /* see kiriCellWeight_Raw */
@@ -71,16 +72,17 @@ static inline double kiriShape_Sum(const kiriShape* shape, kiriSpan span)
 /* Follows the changes of grid and regions, which are cleared after it. Costs what it touches. `moves` as in
    kiriRegions_Update: distances to such a site are made from scratch. Items of the quota: one for two
    cells about which grid or regions have changed something, and two for each frame that reaches one; a cell whose
-   distance is repaired, see kiriField_Repair; a block of distances, and four cells in it that have others; three weights
-   put in their place; a cell that gets room for its first weights or whose weights are all in their place. Every cell with an owner gets weights. KIRI_MORE: call again before grid, regions
-   or sites change. KIRI_FAILED: only kiriShape_Reset helps. */
+   distance is repaired, see kiriField_Repair; a block of distances, and four cells in it that have others; three
+   weights put in their place; a cell that gets room for its first weights or whose weights are all in their place.
+   Every cell with an owner gets weights. KIRI_MORE: call again before grid, regions or sites change. KIRI_FAILED: only
+   kiriShape_Reset helps. */
 kiriProgress kiriShape_Update(kiriShape* shape, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                               const kiriRegions* regions, const kiriSite* sites, int32_t siteCount,
                               const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota);
 
-/* The cells go that are listed, which are all that the frames reach that are not kept; others get their new index. `labels`:
-   what labels become (kiriLabels_Map); null: they stay, and there is room to list them. Not during an update, nor before
-   its changes are cleared. Never fails. */
+/* The cells go that are listed, which are all that the frames reach that are not kept; others get their new index.
+   `labels`: what labels become (kiriLabels_Map); null: they stay, and there is room to list them. Not during an update,
+   nor before its changes are cleared. Never fails. */
 void kiriShape_Keep(kiriShape* shape, kiriMemory* memory, const kiriKeep* frames, const kiriKeep* labels,
                     const int32_t* gone, int32_t goneCount);
 void kiriShape_ClearChanges(kiriShape* shape);

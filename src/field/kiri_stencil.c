@@ -179,8 +179,8 @@ static void WeighLinear(kiriStencil* stencil, kiriVec2 at, kiriVec2 lean)
     MakeSumOne(values, count);
 }
 
-/* A linear weight has kinks at its site and where it becomes zero, and linear blending then makes a kink as large as the
-   angle between two frames. Both go where the slope is zero there. Of two frames the sum stays 1. */
+/* A linear weight has kinks at its site and where it becomes zero, and linear blending then makes a kink as large as
+   the angle between two frames. Both go where the slope is zero there. Of two frames the sum stays 1. */
 static double Ease(double w)
 {
     return w * w * (3.0 - 2.0 * w);
@@ -253,8 +253,8 @@ static bool IsPlain(const kiriGrid* grid, int32_t cell)
     return plain;
 }
 
-/* The cell itself, and what one straight step leads to, or two around a corner. A diagonal step of the grid asks for both
-   ways around it: beside a cut there is often one, and a fit without these cells is another from cell to cell. */
+/* The cell itself, and what one straight step leads to, or two around a corner. A diagonal step of the grid asks for
+   both ways around it: beside a cut there is often one, and a fit without these cells is another from cell to cell. */
 static bool GatherSteps(kiriStencil* stencil, kiriMemory* memory, const kiriGrid* grid, int32_t cell)
 {
     kiriSteps steps;

@@ -37,14 +37,14 @@ typedef struct kiriStencil {
 bool kiriStencil_Gather(kiriStencil* stencil, kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
                         const kiriMeshData* mesh, int32_t cell);
 
-/* The weights at a local point of the cell into `values`. `lean` says from where a point at the lip of a cut is looked at:
-   so many squares away from it, on its own side. With 0 as kiriShape_At has them. */
+/* The weights at a local point of the cell into `values`. `lean` says from where a point at the lip of a cut is looked
+   at: so many squares away from it, on its own side. With 0 as kiriShape_At has them. */
 void kiriStencil_Weigh(kiriStencil* stencil, kiriVec2 at, kiriVec2 lean);
 
 /* Weights at a local point of the cell, by frame: moving least squares, first order, over the cell and those of
    a stencil, then eased; never negative, sum 1 (the gradients sum to 0). Replaces what is in `out`. False
-   for memory. Many points of a cell are quicker with a stencil. Writes nothing but `out` and blocks of `memory`: threads
-   may ask at the same time, each with memory of its own. */
+   for memory. Many points of a cell are quicker with a stencil. Writes nothing but `out` and blocks of `memory`:
+   threads may ask at the same time, each with memory of its own. */
 bool kiriShape_At(const kiriShape* shape, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                   int32_t cell, kiriVec2 at, kiriPointWeights* out);
 

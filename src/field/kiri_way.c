@@ -92,7 +92,7 @@ void kiriTurns_AddAround(kiriTurns* turns, const kiriSight* sight, int32_t cell)
     }
 }
 
-/* ---- The way ------------------------------------------------------------------------------------------------------- */
+/* ---- The way ----------------------------------------------------------------------------------------------------- */
 
 /* A search over the corners, from the start to the goal, which is the last node: A*, by the straight line to the goal
    (Hart, Nilsson and Raphael 1968). Whether one can go from a node to another is looked at only when that would be the
@@ -115,8 +115,8 @@ typedef char NodesFitBits[KIRI_MOST_TURNS + 2 <= 64 ? 1 : -1];
 
 static const double kiriNoWay = 1e300;
 
-/* May a shortest way leave the node in this direction, or come from it? At a corner only where both edges are on one side:
-   else it would lead into what is no material, or could be cut short. */
+/* May a shortest way leave the node in this direction, or come from it? At a corner only where both edges are on one
+   side: else it would lead into what is no material, or could be cut short. */
 static bool IsTangent(const WaySearch* s, int32_t node, kiriVec2 direction)
 {
     if (node == 0 || node == s->count - 1) {

@@ -3,7 +3,8 @@
 /* The range of the lattice: the box of the sheet and half its longer side around it. */
 static const double LowestCoordinate = -0.5 * KIRI_LATTICE, HighestCoordinate = 1.5 * KIRI_LATTICE;
 
-/* About ns: to look at a triangle around a vertex, or in the list of a square; and what is worth an item of the quota. */
+/* About ns: to look at a triangle around a vertex, or in the list of a square; and what is worth an item of the
+   quota. */
 enum { LOOK_EFFORT = 8, ITEM_EFFORT = 512 };
 
 /* One straight move of a blade. The mesh is walked as the plane triangulation that it is, whether edges are open or
@@ -159,10 +160,10 @@ static bool OpenBetween(BladeWalk* walk, int32_t vertex, kiriLatticePoint other)
 
 /* ---- Splits that may be made ------------------------------------------------------------------------------------- */
 
-/* Parts of the caller's sheet that are not joined may lie on each other by a few lattice steps (kiri_overlap.c). A split in
-   one, at a vertex of the other, must not make an edge that the other has: each half-edge is alone between its ends.
-   What they have in common is within 64 steps (along both axes) of an edge of one of them, so an edge there has a thin
-   triangle on one side. Other splits inside the sheet need not look. */
+/* Parts of the caller's sheet that are not joined may lie on each other by a few lattice steps (kiri_overlap.c). A
+   split in one, at a vertex of the other, must not make an edge that the other has: each half-edge is alone between its
+   ends. What they have in common is within 64 steps (along both axes) of an edge of one of them, so an edge there has a
+   thin triangle on one side. Other splits inside the sheet need not look. */
 enum { THIN_TRIANGLE = 256 };
 
 static int64_t StepsBetween(kiriLatticePoint a, kiriLatticePoint b)

@@ -24,9 +24,9 @@ enum { KIRI_MOST_SPLITS = 4 };
    steps): a vertex or edge this near is taken instead of making a new one; the cut stays within two snaps of the line.
    A step takes an item of the quota for each triangle that it makes or reshapes, and one where it finds its way
    without; and more where it looks at many squares, at many triangles in one, or around a vertex with many. What
-   is more than there is left the next call takes first. KIRI_MORE: less than KIRI_MOST_SPLITS is left, and the blade is on its way; a call with the same `to` goes
-   on, and in the end the mesh is what one call had made of it, bit for bit. KIRI_FAILED: roll the mesh back; the blade
-   is then where it was before the call. */
+   is more than there is left the next call takes first. KIRI_MORE: less than KIRI_MOST_SPLITS is left, and the blade is
+   on its way; a call with the same `to` goes on, and in the end the mesh is what one call had made of it, bit for bit.
+   KIRI_FAILED: roll the mesh back; the blade is then where it was before the call. */
 kiriProgress kiriCut_Move(kiriMeshData* mesh, kiriBladeTip* blade, kiriLatticePoint to, double snap, kiriQuota* quota);
 
 /* The blade at a rest point (local), for kiriCut_Move. Positions far outside are pulled in to the edge of

@@ -54,7 +54,7 @@ static void ClipByTriangle(const SideLine* line, int32_t triangle, double* from,
     }
 }
 
-/* ---- The triangles along a line ----------------------------------------------------------------------------------- */
+/* ---- The triangles along a line ---------------------------------------------------------------------------------- */
 
 static bool CoverSquare(const SideLine* beside, kiriMemory* memory, int32_t square, kiriLine* line)
 {
@@ -127,7 +127,7 @@ static bool CoverLine(const SideLine* beside, kiriMemory* memory, kiriLine* line
     return true;
 }
 
-/* ---- Both sides --------------------------------------------------------------------------------------------------- */
+/* ---- Both sides -------------------------------------------------------------------------------------------------- */
 
 /* To the left for way 1, to the right for -1. */
 static SideLine LineBeside(const kiriMeshData* mesh, kiriLatticePoint from, kiriLatticePoint to, double way)

@@ -66,10 +66,10 @@ typedef struct kiriMeshData {
     /* Holes: triangles without vertices, and vertices without an edge, that were taken away. None is in a square. */
     int32_t triangleHoles, vertexHoles;
 
-    /* Corners of the caller's triangles, three a triangle, for where vertices are in them: see kiri_mesh_source.c. Triangles
-       before `originals` are the caller's, by their source; one that was never split has the corners of its source
-       itself. Of others these lie in blocks, from sourceCorners on. A part lists the sources that its triangles are of,
-       ascending, and has the corners of these in the same order; it has no blocks. */
+    /* Corners of the caller's triangles, three a triangle, for where vertices are in them: see kiri_mesh_source.c.
+       Triangles before `originals` are the caller's, by their source; one that was never split has the corners of its
+       source itself. Of others these lie in blocks, from sourceCorners on. A part lists the sources that its triangles
+       are of, ascending, and has the corners of these in the same order; it has no blocks. */
     int32_t originals;
     kiriIndices sourceBlocks; /* of each KIRI_SOURCES_A_BLOCK sources: their block, or KIRI_NONE: none was split */
     KIRI_ARRAY(kiriLatticePoint) sourceCorners;
@@ -98,14 +98,14 @@ typedef struct kiriMeshPart {
     const kiriKeep* keep; /* keeps these */
 } kiriMeshPart;
 
-/* A part of another mesh, on the same lattice and the squares around it: these triangles and vertices, a vertex with its
-   whole fan. The mesh is zeroed, or KIRI_MORE was said of it. An item of the quota is a triangle that comes into its
-   squares, or four triangles or vertices that are copied. The journal is open when it is done, and not before. */
+/* A part of another mesh, on the same lattice and the squares around it: these triangles and vertices, a vertex with
+   its whole fan. The mesh is zeroed, or KIRI_MORE was said of it. An item of the quota is a triangle that comes into
+   its squares, or four triangles or vertices that are copied. The journal is open when it is done, and not before. */
 kiriProgress kiriMesh_MakePart(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshData* from,
                                const kiriMeshPart* triangles, const kiriMeshPart* vertices, kiriQuota* quota);
 
-/* Takes away the triangles and vertices that are not kept; a vertex goes with its whole fan. `squares`: all squares that
-   these triangles are in. Not while the journal is open. Never fails. */
+/* Takes away the triangles and vertices that are not kept; a vertex goes with its whole fan. `squares`: all squares
+   that these triangles are in. Not while the journal is open. Never fails. */
 void kiriMesh_Keep(kiriMeshData* mesh, const kiriKeep* triangles, const kiriKeep* vertices, const int32_t* squares,
                    int32_t squareCount);
 
@@ -202,8 +202,8 @@ int32_t kiriMesh_Locate(const kiriMeshData* mesh, kiriLatticePoint at);
 /* From one vertex to another, unit. */
 kiriVec2 kiriMesh_Direction(const kiriMeshData* mesh, int32_t from, int32_t to);
 
-/* From a vertex on a lip, or on the outline, into its material: a quarter long where the lip is straight, 0 where the fan
-   of the vertex goes all around. */
+/* From a vertex on a lip, or on the outline, into its material: a quarter long where the lip is straight, 0 where the
+   fan of the vertex goes all around. */
 kiriVec2 kiriMesh_Lean(const kiriMeshData* mesh, int32_t vertex);
 
 /* Twice the area, in lattice steps squared. Exact: cuts that do not split slanted outline edges never change it. */

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-/* ---- Rules -------------------------------------------------------------------------------------------------------- */
+/* ---- Rules ------------------------------------------------------------------------------------------------------- */
 
 static const kiriMust NodeMust[] = {
     KIRI_INDEX_OR_NONE(KIRI_OF_TRIANGLES, kiriSquareNode, triangle, triangle),
@@ -42,7 +42,7 @@ void kiriMesh_Count(const kiriMeshData* mesh, kiriCheck* check)
     check->count[KIRI_OF_NODES] = mesh->squares.nodes.count;
 }
 
-/* ---- Lines and corners -------------------------------------------------------------------------------------------- */
+/* ---- Lines and corners ------------------------------------------------------------------------------------------- */
 
 /* The far end of the last line is within what a lattice point may be. */
 static bool AreLines(const kiriSquares* squares, int32_t first, int32_t count)
@@ -109,7 +109,7 @@ static bool IsClosed(const kiriMeshData* mesh)
            mesh->triangles.count <= KIRI_MOST_TRIANGLES && mesh->squares.nodes.count > 0;
 }
 
-/* ---- Vertices ----------------------------------------------------------------------------------------------------- */
+/* ---- Vertices ---------------------------------------------------------------------------------------------------- */
 
 /* The lattice points that are within some squares: lines are odd, and points even. */
 typedef struct LatticeBox {
@@ -176,7 +176,7 @@ static bool AreVertexLists(const kiriMeshData* mesh, kiriSquarePlace* in)
     return areFine && listed == mesh->vertices.count - mesh->vertexHoles;
 }
 
-/* ---- Triangles ---------------------------------------------------------------------------------------------------- */
+/* ---- Triangles --------------------------------------------------------------------------------------------------- */
 
 static bool IsHole(const kiriTriangle* triangle)
 {
@@ -213,8 +213,8 @@ static bool IsOverlap(const SquaresBox* box, int32_t row, int32_t column)
            kiriSquares_Overlap(box->squares, row * box->squares->columns + column, box->corners);
 }
 
-/* The columns that a triangle overlaps in a row hang together, and with those of the row before: so it takes no longer than
-   there are squares, however large the box is. */
+/* The columns that a triangle overlaps in a row hang together, and with those of the row before: so it takes no longer
+   than there are squares, however large the box is. */
 static void FindInRow(const SquaresBox* box, int32_t row, int32_t* first, int32_t* last)
 {
     int32_t at = *first;
@@ -243,8 +243,8 @@ static int64_t CountOverlapsByRow(const kiriSquares* squares, const kiriLatticeP
     return found;
 }
 
-/* Its corners are there, and counter-clockwise. Writes the squares that it overlaps, and takes their number from those that
-   are left. */
+/* Its corners are there, and counter-clockwise. Writes the squares that it overlaps, and takes their number from those
+   that are left. */
 static bool IsSound(const kiriMeshData* mesh, int32_t t, const kiriSquarePlace* in, kiriOverlaps* overlaps,
                     int64_t* left)
 {
@@ -281,7 +281,7 @@ static bool AreTriangles(const kiriMeshData* mesh, const kiriSquarePlace* in, ki
     return areFine && holes == mesh->triangleHoles && holes < mesh->triangles.count;
 }
 
-/* ---- Fans --------------------------------------------------------------------------------------------------------- */
+/* ---- Fans -------------------------------------------------------------------------------------------------------- */
 
 /* Corners of a vertex. */
 typedef struct Fan {
@@ -307,8 +307,8 @@ static bool IsAtPlaceOf(const kiriMeshData* mesh, int32_t v, int32_t w)
     return w != KIRI_NONE && a.x == mesh->vertices.data[w].at.x && a.y == mesh->vertices.data[w].at.y;
 }
 
-/* The half-edge that leads to a corner of the fan, and its twin, are of one another, and the twin begins where it ends, if it
-   is closed at the same vertex. */
+/* The half-edge that leads to a corner of the fan, and its twin, are of one another, and the twin begins where it ends,
+   if it is closed at the same vertex. */
 static inline bool IsTwin(const Fan* fan, Corner edge, Corner twin, uint32_t isOpen)
 {
     const kiriTriangle* other = &fan->mesh->triangles.data[twin.triangle];
@@ -318,8 +318,8 @@ static inline bool IsTwin(const Fan* fan, Corner edge, Corner twin, uint32_t isO
            (vertex == fan->vertex || (isOpen && IsAtPlaceOf(fan->mesh, fan->vertex, vertex)));
 }
 
-/* Takes a corner, and looks at the half-edge that leads to it: where all corners are taken, all half-edges were looked at.
-   Moves on to the next corner, counter-clockwise; false where there is none. */
+/* Takes a corner, and looks at the half-edge that leads to it: where all corners are taken, all half-edges were looked
+   at. Moves on to the next corner, counter-clockwise; false where there is none. */
 static inline bool TakeCorner(Fan* fan, Corner* corner)
 {
     const kiriTriangle* triangle = &fan->mesh->triangles.data[corner->triangle];
@@ -338,7 +338,8 @@ static inline bool TakeCorner(Fan* fan, Corner* corner)
     return fan->isFine && !isOpen;
 }
 
-/* All corners from one on: each is followed by one, and follows one. So it ends: it does not come back but to the start. */
+/* All corners from one on: each is followed by one, and follows one. So it ends: it does not come back but to the
+   start. */
 static void TakeFan(Fan* fan, int32_t start)
 {
     const Corner first = CornerOf(start);
@@ -373,7 +374,7 @@ static bool AreFans(const kiriMeshData* mesh)
     return areFine && corners == 0;
 }
 
-/* ---- Squares ------------------------------------------------------------------------------------------------------ */
+/* ---- Squares ----------------------------------------------------------------------------------------------------- */
 
 /* Where the box is large. Squares come in their order. */
 static bool TakeFromLargeBox(const kiriMeshData* mesh, int32_t square, int32_t t, kiriOverlaps* o)

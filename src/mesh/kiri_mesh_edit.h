@@ -6,9 +6,9 @@
 
 KIRI_C_BEGIN
 
-/* Begin opens the journal, Commit closes it; the mesh may change in between only. Rollback leaves the mesh and its squares
-   as they were at Begin (see kiriSquares_Rollback), and the journal open; where it is closed it changes nothing. Begin
-   also empties the births. */
+/* Begin opens the journal, Commit closes it; the mesh may change in between only. Rollback leaves the mesh and its
+   squares as they were at Begin (see kiriSquares_Rollback), and the journal open; where it is closed it changes
+   nothing. Begin also empties the births. */
 void kiriMesh_Begin(kiriMeshData* mesh);
 void kiriMesh_Commit(kiriMeshData* mesh);
 void kiriMesh_Rollback(kiriMeshData* mesh);

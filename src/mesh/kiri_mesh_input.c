@@ -122,9 +122,9 @@ static kiriResult TakeTriangles(kiriMeshData* mesh, const MeshInput* input, cons
 
 /* ---- Twins ---- */
 
-/* Twins are found by lattice points: an edge whose ends are other vertices on its other side is open. Each edge is listed
-   at the one of its ends that has fewer: in a plane these lists are short, even around a hub (Chiba and Nishizeki
-   1985). */
+/* Twins are found by lattice points: an edge whose ends are other vertices on its other side is open. Each edge is
+   listed at the one of its ends that has fewer: in a plane these lists are short, even around a hub (Chiba and
+   Nishizeki 1985). */
 typedef struct TwinEntry {
     int32_t half;  /* the half-edge, or its complement where it leads to the point of the list */
     int32_t other; /* the point at its other end */

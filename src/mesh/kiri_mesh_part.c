@@ -11,8 +11,8 @@ static int32_t EdgeTo(const kiriKeep* triangles, int32_t h)
     return triangle == KIRI_NONE ? KIRI_NONE : 3 * triangle + h % 3;
 }
 
-/* An open edge whose other side is not kept becomes one of the outline. Who a triangle was split from matters only until
-   the cut is in force: see kiri_ownership.c. */
+/* An open edge whose other side is not kept becomes one of the outline. Who a triangle was split from matters only
+   until the cut is in force: see kiri_ownership.c. */
 static void RenumberTriangle(kiriTriangle* t, const kiriKeep* triangles, const kiriKeep* vertices)
 {
     for (int i = 0; i < 3; ++i) {
@@ -23,7 +23,7 @@ static void RenumberTriangle(kiriTriangle* t, const kiriKeep* triangles, const k
     t->parent = kiriKeep_To(triangles, t->parent);
 }
 
-/* ---- A part as a mesh of its own ---------------------------------------------------------------------------------- */
+/* ---- A part as a mesh of its own --------------------------------------------------------------------------------- */
 
 enum { COPIED_AN_ITEM = 4, LISTED_AN_ITEM = 8 };
 
@@ -209,7 +209,7 @@ void kiriMesh_Keep(kiriMeshData* mesh, const kiriKeep* triangles, const kiriKeep
     EndLoss(mesh);
 }
 
-/* ---- With holes --------------------------------------------------------------------------------------------------- */
+/* ---- With holes -------------------------------------------------------------------------------------------------- */
 
 /* What is left beside a triangle that goes ends there. Only an edge that is open may have it beside it. */
 static void LeaveNeighbours(kiriMeshData* mesh, const kiriMeshLoss* loss, int32_t triangle)

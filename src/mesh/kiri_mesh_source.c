@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-/* ---- Corners ------------------------------------------------------------------------------------------------------ */
+/* ---- Corners ----------------------------------------------------------------------------------------------------- */
 
 /* In a list of ascending numbers, `stride` bytes apart: the first that is not below `number`. */
 static int32_t FirstFrom(const int32_t* numbers, size_t stride, int32_t count, int32_t number)
@@ -20,8 +20,8 @@ static int32_t FirstFrom(const int32_t* numbers, size_t stride, int32_t count, i
     return low;
 }
 
-/* The triangle that the caller gave, or what splits have left in its place; KIRI_NONE where it is gone. It has its number
-   as long as none before it has gone. */
+/* The triangle that the caller gave, or what splits have left in its place; KIRI_NONE where it is gone. It has its
+   number as long as none before it has gone. */
 static int32_t FindOriginal(const kiriMeshData* mesh, int32_t source)
 {
     const kiriTriangle* triangles = mesh->triangles.data;
@@ -68,7 +68,7 @@ bool kiriMesh_SourceCorners(const kiriMeshData* mesh, int32_t source, kiriLattic
     return corners[0].x != corners[1].x || corners[0].y != corners[1].y;
 }
 
-/* ---- Blocks ------------------------------------------------------------------------------------------------------- */
+/* ---- Blocks ------------------------------------------------------------------------------------------------------ */
 
 bool kiriMesh_KeepSource(kiriMeshData* mesh, int32_t triangle)
 {
@@ -98,7 +98,7 @@ void kiriMesh_RollbackSources(kiriMeshData* mesh)
     mesh->sourceCorners.count = mesh->oldSourceCorners;
 }
 
-/* ---- Shares ------------------------------------------------------------------------------------------------------- */
+/* ---- Shares ------------------------------------------------------------------------------------------------------ */
 
 /* Shares on the nearest edge, for a point that rounding has put beside the triangle. Areas do not tell it where the
    triangle is a sliver. */

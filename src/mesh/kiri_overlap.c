@@ -38,8 +38,8 @@ typedef struct OverlapTree {
 
 /* ---- Two triangles ---- */
 
-/* The most that b may intrude on a over its edge from p to q: what the tolerance says, but no more than half of the height
-   of a and half of the width of b. Else triangles that are as small as the tolerance might lie on each other. */
+/* The most that b may intrude on a over its edge from p to q: what the tolerance says, but no more than half of the
+   height of a and half of the width of b. Else triangles that are as small as the tolerance might lie on each other. */
 static int64_t MostIntrusion(kiriLatticePoint p, kiriLatticePoint q, int64_t area, int64_t outer)
 {
     int64_t length =

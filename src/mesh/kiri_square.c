@@ -149,8 +149,8 @@ static uint64_t BitsInBox(const kiriSquares* squares, SquareBox box, const kiriL
     return bits;
 }
 
-/* Of four squares, where most triangles are about as large as squares: those that corners are in; and an edge from one of
-   them to the opposite one passes the point in the middle on its left or on its right. */
+/* Of four squares, where most triangles are about as large as squares: those that corners are in; and an edge from one
+   of them to the opposite one passes the point in the middle on its left or on its right. */
 static uint64_t BitsOfFour(const kiriSquares* squares, SquareBox box, const kiriLatticePoint c[3],
                            const kiriSquarePlace in[3])
 {

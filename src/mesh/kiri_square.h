@@ -55,16 +55,17 @@ bool kiriSquares_Init(kiriSquares* squares, kiriMemory* memory, kiriLatticePoint
 bool kiriSquares_InitPart(kiriSquares* squares, kiriMemory* memory, const kiriSquares* like, kiriLatticePoint lower,
                           kiriLatticePoint upper);
 
-/* The triangle's corners are counter-clockwise. Both make the squares dirty that the triangle overlaps or has overlapped,
-   and fail only for memory: then some squares have changed and some have not, and the caller rolls back or gives up the
-   squares. To take a triangle out of a square its list is walked; one that stays in a square keeps its place there. */
+/* The triangle's corners are counter-clockwise. Both make the squares dirty that the triangle overlaps or has
+   overlapped, and fail only for memory: then some squares have changed and some have not, and the caller rolls back or
+   gives up the squares. To take a triangle out of a square its list is walked; one that stays in a square keeps its
+   place there. */
 bool kiriSquares_Insert(kiriSquares* squares, kiriMemory* memory, int32_t triangle, const kiriLatticePoint corners[3]);
 bool kiriSquares_Reshape(kiriSquares* squares, kiriMemory* memory, int32_t triangle, const kiriLatticePoint was[3],
                          const kiriLatticePoint is[3]);
 
-/* Rollback restores what was at Begin, slot for slot, vertices aside: others (the grid) keep arrays by node. Squares that
-   became dirty since are clean again; where ClearDirty has been called since, all are dirty, for somebody has read what
-   is now taken back. It needs no memory. After it changes are noted again, until Commit. */
+/* Rollback restores what was at Begin, slot for slot, vertices aside: others (the grid) keep arrays by node. Squares
+   that became dirty since are clean again; where ClearDirty has been called since, all are dirty, for somebody has read
+   what is now taken back. It needs no memory. After it changes are noted again, until Commit. */
 void kiriSquares_Begin(kiriSquares* squares);
 void kiriSquares_Commit(kiriSquares* squares);
 void kiriSquares_Rollback(kiriSquares* squares);

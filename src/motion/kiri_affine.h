@@ -43,10 +43,10 @@ void kiriAffine_Stiffness(const kiriLink* link, const kiriMaterial* material, do
    null. */
 void kiriAffine_AddTrace(kiriVec2 p, const kiriPose* const poses[2], double* strain, kiriFrameRow* const rows[2]);
 
-/* Makes two area elements for each region, whose material is given. One has the membrane energy of F_i = A_i + 1/(2 a_i) times the
-   integral of gap (x) n over its border, which is the mean of the gradient when each border gap is shared by both
-   sides: exact for an even stretch in any layout, inner forces included. The other keeps the director normal to the
-   mid-surface; a planar sheet has none.
+/* Makes two area elements for each region, whose material is given. One has the membrane energy of F_i = A_i + 1/(2
+   a_i) times the integral of gap (x) n over its border, which is the mean of the gradient when each border gap is
+   shared by both sides: exact for an even stretch in any layout, inner forces included. The other keeps the director
+   normal to the mid-surface; a planar sheet has none.
 
    Frames that lean all one way, in steps, make a free end longer: its F_i takes only a part of its slope from the
    border, a quarter at least. Under tension that would lay the sheet in steps (see kiri_strain.h). Leaning, d_i . F_i,

@@ -9,8 +9,9 @@
 KIRI_C_BEGIN
 
 /* With F = [F_u F_v] the deformation gradient of the mid-surface, D the director, D_u and D_v its slopes; Green
-   strains, plane stress. Every energy is 1/2 stiffness strain^2; G = E / (2 (1 + nu)), K = E / (2 (1 - nu)), a the area. With a
-   element's `lean` above zero the products of F_u and F_v in the first three count their parts along D 1 + lean times.
+   strains, plane stress. Every energy is 1/2 stiffness strain^2; G = E / (2 (1 + nu)), K = E / (2 (1 - nu)), a the
+   area. With a element's `lean` above zero the products of F_u and F_v in the first three count their parts along D 1 +
+   lean times.
 
    strain     what                                   stiffness
    area       (F_u . F_u + F_v . F_v) / 2 - 1        K h a
@@ -59,8 +60,8 @@ typedef struct kiriFrameRow {
     kiriVec3 by[4];
 } kiriFrameRow;
 
-/* The strains of an element from firstRow to lastRow and, unless `rows` is null, their derivatives: `count` a strain. Poses
-   are those of all frames; null: as the frames are. */
+/* The strains of an element from firstRow to lastRow and, unless `rows` is null, their derivatives: `count` a strain.
+   Poses are those of all frames; null: as the frames are. */
 void kiriAreaElement_Measure(const kiriAreaElement* element, const kiriFrameShare* shares, const kiriFrameData* frames,
                              const kiriPose* poses, double* strain, kiriFrameRow* rows);
 

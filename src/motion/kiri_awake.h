@@ -1,5 +1,5 @@
-/* What of a system is awake: steps move its pieces and nothing else. A piece that sleeps, or that is gone, is in none of
-   the lists, and costs nothing. */
+/* What of a system is awake: steps move its pieces and nothing else. A piece that sleeps, or that is gone, is in none
+   of the lists, and costs nothing. */
 #ifndef KIRI_AWAKE_H
 #define KIRI_AWAKE_H
 

@@ -1,6 +1,6 @@
 /* The Cholesky factorisation is our own, for Eigen's goes entry by entry: panels of blocks, whose products stay in
-   registers, take a fraction of the time, and their memory is the host's (Chen, Davis, Hager, Rajamanickam 2008, CHOLMOD,
-   has the same scheme). Numbers are summed in a fixed order: the same bits everywhere. */
+   registers, take a fraction of the time, and their memory is the host's (Chen, Davis, Hager, Rajamanickam 2008,
+   CHOLMOD, has the same scheme). Numbers are summed in a fixed order: the same bits everywhere. */
 #include "kiri_block_work.h"
 #include "kiri_panel.h"
 
@@ -172,8 +172,8 @@ static int32_t FollowRows(const kiriMatrix* matrix, const int32_t* rows, int32_t
     return next - n;
 }
 
-/* Takes off what a panel before it put into the panel, by the numbers from k on of `product->depth` columns: for each of
-   its columns, rows that follow each other in both at once. */
+/* Takes off what a panel before it put into the panel, by the numbers from k on of `product->depth` columns: for each
+   of its columns, rows that follow each other in both at once. */
 static void TakeOffColumns(kiriMatrix* matrix, const kiriBlockPanel* panel, const kiriBlockLeft* left, int32_t k,
                            kiriProduct* product)
 {

@@ -49,8 +49,8 @@ void kiriMatrix_Archive(struct kiriArchive* archive, kiriMatrix* matrix);
 /* Does without the long vectors of the processor, for tests: the bits are the same. */
 void kiriMatrix_RefuseLongVectors(kiriMatrix* matrix);
 
-/* Clear, Factor and Solve leave out all frames but these, which ascend: blocks that they share with others stay zero, and
-   no block of others is added. Shape chooses all. */
+/* Clear, Factor and Solve leave out all frames but these, which ascend: blocks that they share with others stay zero,
+   and no block of others is added. Shape chooses all. */
 void kiriMatrix_Choose(kiriMatrix* matrix, const int32_t* frames, int32_t count);
 
 void kiriMatrix_Clear(kiriMatrix* matrix);

@@ -27,8 +27,9 @@ typedef struct kiriBlockLeft {
     int32_t panel, first, count; /* into the panel's rows */
 } kiriBlockLeft;
 
-/* Frames have places in the order of unknowns; rows and columns are places. Blocks of the matrix lie one after the other,
-   column by column, and so do the entries of a block. With ones on the diagonal of L, matrix = L D L^T, in panels. */
+/* Frames have places in the order of unknowns; rows and columns are places. Blocks of the matrix lie one after the
+   other, column by column, and so do the entries of a block. With ones on the diagonal of L, matrix = L D L^T, in
+   panels. */
 struct kiriMatrix {
     kiriMemory* memory;
     int32_t size, count;

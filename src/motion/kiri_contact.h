@@ -1,5 +1,5 @@
-/* Contacts: points of a sheet that stay above planes, with friction. Whoever finds them (sheet/) writes rows; the solver
-   finds forces. */
+/* Contacts: points of a sheet that stay above planes, with friction. Whoever finds them (sheet/) writes rows; the
+   solver finds forces. */
 #ifndef KIRI_CONTACT_H
 #define KIRI_CONTACT_H
 
@@ -17,15 +17,15 @@ typedef struct kiriYieldRow {
     kiriWrench impulse;      /* N s, N m s about the centre: what sheets gave it in this tick; a step adds to it */
     int32_t pressed;         /* scratch: contacts that press on it in the step at hand, and share its mass; */
     int32_t held;            /* those that may be held up when its systems are solved */
-    /* Scratch, see kiri_contact_pinned.c: pushes times the speed along them, N s m/s, of it before and after it gets them,
-       and the most that they may leave it. */
+    /* Scratch, see kiri_contact_pinned.c: pushes times the speed along them, N s m/s, of it before and after it gets
+       them, and the most that they may leave it. */
     double before, after, most;
 } kiriYieldRow;
 
 enum { KIRI_CONTACT_WEIGHTS = 16 }; /* of a row: the largest, made to sum to 1 */
 
-/* A point of the material, carried by frames with these weights, that stays above a plane. Planes are as at the start of
-   the tick, and move with `velocity` and with what their yield row gets. */
+/* A point of the material, carried by frames with these weights, that stays above a plane. Planes are as at the start
+   of the tick, and move with `velocity` and with what their yield row gets. */
 typedef struct kiriContactRow {
     uint64_t key; /* the same contact has it in the next tick, and no other: so it is remembered */
     kiriWeight weights[KIRI_CONTACT_WEIGHTS]; /* largest first; all frames are of one piece */

@@ -49,8 +49,8 @@ static void PlacePlane(const kiriSolver* solver, const kiriSystem* system, int32
     step->plane = now + kiriVec3_Dot(row->normal, step->carried) - step->lowered - (step->isHeld ? FAR_BELOW : 0.0);
 }
 
-/* A point that goes with frames that the host holds goes where these go. Other frames, which hardly carry it, would have
-   to move many times as far as it is deep, and a contact has the force for that. */
+/* A point that goes with frames that the host holds goes where these go. Other frames, which hardly carry it, would
+   have to move many times as far as it is deep, and a contact has the force for that. */
 static bool IsHeld(const kiriSystem* system, const kiriContactStep* step)
 {
     double free = 0.0;
@@ -69,7 +69,8 @@ static double MassOf(const kiriSystem* system, const kiriContactStep* step)
     return mass;
 }
 
-/* J: what an obstacle can give by moving along the normal: its kinetic energy; or no end of it, where it does not yield. */
+/* J: what an obstacle can give by moving along the normal: its kinetic energy; or no end of it, where it does not
+   yield. */
 static double MeansOf(const kiriSystem* system, int32_t k, const kiriContactStep* step, double dt)
 {
     double speed = kiriVec3_Dot(system->contacts[k].normal, step->carried) / dt;
@@ -120,8 +121,8 @@ void kiriSolver_BeginContacts(kiriSolver* solver, const kiriSystem* system)
     FindMeans(solver, system);
 }
 
-/* The first guess: what free motion runs into pushes with what stops it, and what pushed in the last step goes on, unless
-   free motion leaves it. It sticks where friction can stop its slide. */
+/* The first guess: what free motion runs into pushes with what stops it, and what pushed in the last step goes on,
+   unless free motion leaves it. It sticks where friction can stop its slide. */
 static void GuessState(const kiriSolver* solver, const kiriSystem* system, int32_t k)
 {
     const kiriContactRow* row = &system->contacts[k];

@@ -7,7 +7,7 @@
 #define LEAST_WEIGHT 0.05    /* of a frame that is held */
 #define SWEEPS 12            /* over all contacts */
 
-/* ---- Which are too deep ------------------------------------------------------------------------------------------- */
+/* ---- Which are too deep ------------------------------------------------------------------------------------------ */
 
 /* m: how far the obstacle is pushed down. */
 static double Yielded(const kiriContactStep* step)
@@ -62,7 +62,7 @@ static void ShareMass(kiriSolver* solver, const kiriSystem* system)
     }
 }
 
-/* ---- Frame by frame ----------------------------------------------------------------------------------------------- */
+/* ---- Frame by frame ---------------------------------------------------------------------------------------------- */
 
 /* Touches are found for frames as they are turned at the start: else other points of the material are below planes. */
 static void TurnBack(kiriSolver* solver, const kiriSystem* system)
@@ -114,7 +114,7 @@ static bool HoldFrames(kiriSolver* solver, const kiriSystem* system, int32_t k)
     return any;
 }
 
-/* ---- As a whole --------------------------------------------------------------------------------------------------- */
+/* ---- As a whole -------------------------------------------------------------------------------------------------- */
 
 /* Moves all frames of the piece alike, which stores no energy in it. */
 static bool HoldPiece(kiriSolver* solver, const kiriSystem* system, int32_t k)
@@ -145,7 +145,7 @@ static void SumMasses(kiriSolver* solver, const kiriSystem* system)
     }
 }
 
-/* ---- Both --------------------------------------------------------------------------------------------------------- */
+/* ---- Both -------------------------------------------------------------------------------------------------------- */
 
 static void SweepHolds(kiriSolver* solver, const kiriSystem* system, bool isWhole)
 {
@@ -160,7 +160,8 @@ static void SweepHolds(kiriSolver* solver, const kiriSystem* system, bool isWhol
     }
 }
 
-/* Pieces that would store more than they have are put back where the systems left them. Returns whether there are any. */
+/* Pieces that would store more than they have are put back where the systems left them. Returns whether there are
+   any. */
 static bool TakeHeld(kiriSolver* solver, const kiriSystem* system)
 {
     bool isLeft = false;

@@ -68,7 +68,7 @@ static void FindMore(kiriSolver* solver)
     }
 }
 
-/* ---- What obstacles may have of it -------------------------------------------------------------------------------- */
+/* ---- What obstacles may have of it ------------------------------------------------------------------------------- */
 
 /* Did a contact on what may yield do more than it says? */
 static bool IsShort(const kiriSolver* solver, const kiriSystem* system, int32_t k)
@@ -149,11 +149,11 @@ static void GiveMore(kiriSolver* solver, const kiriSystem* system)
     }
 }
 
-/* ---- What pins have of it ----------------------------------------------------------------------------------------- */
+/* ---- What pins have of it ---------------------------------------------------------------------------------------- */
 
 /* Pins are stiff: where a frame turns in the last system, its pins stretch by other lengths than the system had. What
-   changed the momentum of the piece and was not the contacts was the pins. Each gets of the rest by its stiffness, as if
-   the piece stood a little aside. */
+   changed the momentum of the piece and was not the contacts was the pins. Each gets of the rest by its stiffness, as
+   if the piece stood a little aside. */
 static void BalancePins(const kiriSolver* solver, const kiriSystem* system)
 {
     for (int32_t k = 0; system->reactions.pins != NULL && k < system->pinCount; ++k) {

@@ -7,17 +7,17 @@
        1/2 D W (1 - nu^2 F) k^2,   F = (2 / theta) (cosh theta - cos theta) / (sinh theta + sin theta),
        theta^4 = 3 (1 - nu^2) W^4 k^2 / h^2.
 
-   Twisted by tau at the same time, its fibres stretch by k w + tau^2 y^2 / 2 beyond the mean. With w + tau^2 y^2 / (2 k)
-   for w the equation is the same, and the energy is
+   Twisted by tau at the same time, its fibres stretch by k w + tau^2 y^2 / 2 beyond the mean. With
+   w + tau^2 y^2 / (2 k) for w the equation is the same, and the energy is
 
        1/2 D W ((1 - nu^2) k^2 + 2 (1 - nu) tau^2 + (tau^2 - nu k^2)^2 (1 - F) / k^2),
 
-   where (1 - F) / k^2 stays finite for small k: E h W^5 tau^4 / 1440 is what the edges of a helix stretch. A ribbon that
-   bends is easier to twist, for the two can make a surface that does not stretch.
+   where (1 - F) / k^2 stays finite for small k: E h W^5 tau^4 / 1440 is what the edges of a helix stretch. A ribbon
+   that bends is easier to twist, for the two can make a surface that does not stretch.
 
-   Regions are straight across. So that is the stiffness of a link where W is the width of a strip one region wide; where
-   a border is open at one end only, the outer width is half of such a strip. Further in, regions curl by turning against
-   each other, and their bending in the plane holds the curl back. */
+   Regions are straight across. So that is the stiffness of a link where W is the width of a strip one region wide;
+   where a border is open at one end only, the outer width is half of such a strip. Further in, regions curl by turning
+   against each other, and their bending in the plane holds the curl back. */
 #ifndef KIRI_CURL_H
 #define KIRI_CURL_H
 
@@ -25,7 +25,8 @@
 
 KIRI_C_BEGIN
 
-/* Of a link: its stiffness against bending by the angle b is that at b = 0 times 1 + gain (1 - F), theta^4 = perSquare b^2. */
+/* Of a link: its stiffness against bending by the angle b is that at b = 0 times 1 + gain (1 - F), theta^4 = perSquare
+   b^2. */
 typedef struct kiriCurl {
     double gain, perSquare;
 } kiriCurl;

@@ -1,6 +1,6 @@
 /* Elements: what joins frames elastically. First the links, unless the model is that of integration points, then the
-   corners of these links, unless Poisson's ratio is zero, then the area elements. Element k of a system has strains, each with a stiffness; its energy is the sum of
-   1/2 stiffness strain^2. */
+   corners of these links, unless Poisson's ratio is zero, then the area elements. Element k of a system has strains,
+   each with a stiffness; its energy is the sum of 1/2 stiffness strain^2. */
 #ifndef KIRI_ELEMENT_H
 #define KIRI_ELEMENT_H
 
@@ -77,8 +77,8 @@ int kiriElement_StrainCount(const kiriSystem* system, int32_t k);
 
 void kiriElement_Stiffness(const kiriSystem* system, int32_t k, double* stiffness);
 
-/* The strains and, unless `rows` is null, their derivatives: one row a strain and member. Poses are those of all frames;
-   null: as the frames are. */
+/* The strains and, unless `rows` is null, their derivatives: one row a strain and member. Poses are those of all
+   frames; null: as the frames are. */
 void kiriElement_Measure(const kiriSystem* system, int32_t k, const kiriPose* poses, double* strain,
                          kiriFrameRow* rows);
 

@@ -50,8 +50,8 @@ static void AddFrameTurning(kiriPieceMomentum* p, const kiriFrameData* before, c
     p->inertia = kiriMat3_AddScaled(&p->inertia, 1.0, &point);
 }
 
-/* The steps keep the linear momentum exactly but for what is left of the iteration, and for pushes that were cut to what
-   contacts can do. */
+/* The steps keep the linear momentum exactly but for what is left of the iteration, and for pushes that were cut to
+   what contacts can do. */
 static void MoveTogether(kiriPieceMomentum* p)
 {
     kiriVec3 velocity = kiriVec3_Scale(1.0 / p->mass, p->dueLinear);

@@ -1,6 +1,6 @@
-/* The angular momentum of pieces that nothing holds. The steps keep the linear one exactly, but not the angular: a frame
-   that goes round is predicted along the tangent, and is pulled back by forces that act where the step ends, not where
-   it starts. */
+/* The angular momentum of pieces that nothing holds. The steps keep the linear one exactly, but not the angular: a
+   frame that goes round is predicted along the tangent, and is pulled back by forces that act where the step ends, not
+   where it starts. */
 #ifndef KIRI_MOMENTUM_H
 #define KIRI_MOMENTUM_H
 
@@ -25,8 +25,8 @@ typedef struct kiriPieceMomentum {
     kiriVec3 spin;      /* of the rigid body that has its momenta */
 } kiriPieceMomentum;
 
-/* Turns free pieces as rigid bodies until they have the angular momentum that they should have; pieces on which contacts
-   alone act get the whole momentum that these gave; of what is awake. Frames are those before
+/* Turns free pieces as rigid bodies until they have the angular momentum that they should have; pieces on which
+   contacts alone act get the whole momentum that these gave; of what is awake. Frames are those before
    and after the step; piece[f] is the piece of frame f; isFree, isPushed and pushed are set in `pieces`, the
    rest is zero, and written. In a planar
    sheet `normal` is that of its plane; else null. */

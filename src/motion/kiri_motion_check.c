@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-/* ---- Rules -------------------------------------------------------------------------------------------------------- */
+/* ---- Rules ------------------------------------------------------------------------------------------------------- */
 
 static const kiriMust HistoryMust[] = {
     KIRI_REALS(kiriHistory, dt, dt),
@@ -54,7 +54,7 @@ static const kiriMust MechanicsMust[] = {
     KIRI_WITHIN(KIRI_TIME_STEPPING_SECOND_ORDER, KIRI_TIME_STEPPING_EULER, kiriMechanics, timeStepping, timeStepping),
 };
 
-/* ---- Frames ------------------------------------------------------------------------------------------------------- */
+/* ---- Frames ------------------------------------------------------------------------------------------------------ */
 
 bool kiriMechanics_Check(const kiriMechanics* mechanics, kiriCheck* check)
 {
@@ -94,7 +94,7 @@ bool kiriAreaElements_Check(const kiriAreaElements* elements, kiriCheck* check)
     return kiriCheck_That(check, areFine && next == elements->shares.count);
 }
 
-/* ---- Owners ------------------------------------------------------------------------------------------------------- */
+/* ---- Owners ------------------------------------------------------------------------------------------------------ */
 
 /* Owners of the parts of a square. */
 static bool ArePartsOwned(kiriCheck* check, const kiriOwnership* ownership, kiriRooms* rooms,

@@ -95,7 +95,8 @@ static bool TakeTrial(kiriSolver* solver)
     return isLeft;
 }
 
-/* Pieces in their first step that still search may end where the objective is that of the free prediction, or some times as large as where they start. */
+/* Pieces in their first step that still search may end where the objective is that of the free prediction, or some
+   times as large as where they start. */
 static void AllowPrediction(kiriSolver* solver, const kiriSystem* system)
 {
     KIRI_EACH(f, solver->awake.frames) {

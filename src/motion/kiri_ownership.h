@@ -59,14 +59,15 @@ bool kiriOwnership_NoteDirty(kiriOwnership* ownership, kiriMemory* memory, const
 bool kiriOwnership_NoteChanges(kiriOwnership* ownership, kiriMemory* memory, const kiriGrid* grid,
                                const kiriMeshData* mesh, const kiriRegions* regions);
 
-/* Cells and frames have been taken away, and triangles have been renumbered: `of` are the squares where cells went. With
-   regions and mesh as they are. Nothing is dirty or staged. Never fails. */
+/* Cells and frames have been taken away, and triangles have been renumbered: `of` are the squares where cells went.
+   With regions and mesh as they are. Nothing is dirty or staged. Never fails. */
 void kiriOwnership_Keep(kiriOwnership* ownership, const kiriGrid* grid, const kiriMeshData* mesh,
                         const kiriRegions* regions, const kiriKeep* triangles, const kiriKeep* frames,
                         const int32_t* of, int32_t count);
 
-/* Finds what changes owner when the regions come in force: in dirty squares, or in all where `isScratch`. An item of the
-   quota is a square that several cells share, its triangles count, too; or eight others. After KIRI_MORE it goes on where it was. */
+/* Finds what changes owner when the regions come in force: in dirty squares, or in all where `isScratch`. An item of
+   the quota is a square that several cells share, its triangles count, too; or eight others. After KIRI_MORE it goes on
+   where it was. */
 kiriProgress kiriOwnership_Stage(kiriOwnership* ownership, kiriMemory* memory, const kiriGrid* grid,
                                  const kiriMeshData* mesh, const kiriRegions* regions, bool isScratch,
                                  kiriQuota* quota);

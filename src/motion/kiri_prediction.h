@@ -1,5 +1,5 @@
-/* A frame by itself: its mass, and the free prediction: how it moves over a step when no element, pin or contact acts on
-   it. */
+/* A frame by itself: its mass, and the free prediction: how it moves over a step when no element, pin or contact acts
+   on it. */
 #ifndef KIRI_PREDICTION_H
 #define KIRI_PREDICTION_H
 
@@ -41,8 +41,8 @@ static inline kiriVec3 kiriPose_Along(const kiriPose* pose, kiriVec2 a)
     return kiriVec3_AddScaled(kiriVec3_Scale(a.x, pose->A.u), a.y, pose->A.v);
 }
 
-/* The prediction of a free frame under gravity, its own force, and what the scheme takes from its history. The iteration
-   starts without forces, or with those of the last step. The host's torque shifts the target alone, by
+/* The prediction of a free frame under gravity, its own force, and what the scheme takes from its history. The
+   iteration starts without forces, or with those of the last step. The host's torque shifts the target alone, by
    h' h I^-1 torque x A: in the objective that is a torque, whatever its size. Were it part of the free turn, the target
    would go round where h^2 torque / I exceeds a turn. */
 kiriPrediction kiriPrediction_Free(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity,

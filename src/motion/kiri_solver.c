@@ -49,7 +49,7 @@ kiriFrameRow kiriSolver_Expand(const kiriSolver* solver, double scale, const dou
     return vectors;
 }
 
-/* ---- Creation ----------------------------------------------------------------------------------------------------- */
+/* ---- Creation ---------------------------------------------------------------------------------------------------- */
 
 kiriSolver* kiriSolver_Create(kiriMemory* memory, const kiriMechanics* mechanics)
 {

@@ -64,7 +64,8 @@ typedef struct kiriSystem {
 /* A solver for no frames yet. Null for memory. */
 kiriSolver* kiriSolver_Create(kiriMemory* memory, const kiriMechanics* mechanics);
 
-/* Room for this system, before it is staged: of a large one the system takes a while to give it. See kiriRooms_MakeReady. */
+/* Room for this system, before it is staged: of a large one the system takes a while to give it. See
+   kiriRooms_MakeReady. */
 kiriProgress kiriSolver_Reserve(kiriSolver* solver, const kiriSystem* next, kiriQuota* quota, int64_t bytesAnItem);
 
 /* Prepares for this system, of which only frameCount, links, corners, area elements and Poisson's ratio are read, and
@@ -86,8 +87,8 @@ void kiriSolver_Commit(kiriSolver* solver);
    pins, clamps and contacts must be of pieces that are awake. */
 void kiriSolver_SetAwake(kiriSolver* solver, int32_t piece, bool isAwake);
 
-/* Makes the lists of what is awake, where they are others than before, and returns whether they are. The system is of the
-   current configuration. A step does so itself. */
+/* Makes the lists of what is awake, where they are others than before, and returns whether they are. The system is of
+   the current configuration. A step does so itself. */
 bool kiriSolver_ListAwake(kiriSolver* solver, const kiriSystem* system);
 
 /* These lists, as they were made last. */
@@ -101,7 +102,8 @@ bool kiriSolver_ReserveContacts(kiriSolver* solver, int32_t count);
 
 enum { KIRI_EXTRA_SYSTEMS = 6 }; /* of a step, beside its iterations */
 
-/* What a linear system of what is listed awake counts in a budget, see kiriBudget in kiri.h; and of all, asleep or not. */
+/* What a linear system of what is listed awake counts in a budget, see kiriBudget in kiri.h; and of all, asleep or
+   not. */
 int64_t kiriSolver_SystemItems(const kiriSolver* solver, int32_t contactCount);
 int64_t kiriSolver_MostItems(const kiriSolver* solver, int32_t contactCount);
 
@@ -110,8 +112,9 @@ int32_t kiriSolver_TakeSolved(kiriSolver* solver);
 
 /* Moves the frames by dt. Links, corners and area elements are those that were committed; normals of contacts are unit,
    heldRotation is a rotation. Returns the number of linear systems solved: `iterations`, and up to
-   KIRI_EXTRA_SYSTEMS more where the motion asks for them, but at most `most` (1 or more). Or -1 when it cannot be continued (not finite); the frames are
-   then as before the call. Allocates nothing. Forces on frames are used, not cleared; reactions are added to. */
+   KIRI_EXTRA_SYSTEMS more where the motion asks for them, but at most `most` (1 or more). Or -1 when it cannot be
+   continued (not finite); the frames are then as before the call. Allocates nothing. Forces on frames are used, not
+   cleared; reactions are added to. */
 int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* system, double dt, int32_t iterations, int32_t most);
 
 /* Elastic energy of all elements, J. */

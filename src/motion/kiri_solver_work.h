@@ -43,8 +43,8 @@ enum { KIRI_CONTACT_MEMBERS = 8 };
 
 /* A contact in one step. While a linear system is solved, and along the step that it leads to, it is a spring on the
    depth, whether that is above zero or not, and either a spring on the slide or a force of a given size. After each
-   system contacts are chosen anew (kiriSolver_ReviewContacts): those that would pull let go, those that came below their
-   plane push; those that held with more than friction can slip, and those whose slide turned round stick. */
+   system contacts are chosen anew (kiriSolver_ReviewContacts): those that would pull let go, those that came below
+   their plane push; those that held with more than friction can slip, and those whose slide turned round stick. */
 typedef struct kiriContactStep {
     kiriWeight members[KIRI_CONTACT_MEMBERS]; /* the frames that it acts on */
     int32_t memberCount;
@@ -141,8 +141,8 @@ struct kiriSolver {
     KIRI_ARRAY(kiriPose) start, poses, trial; /* at the start of the step, now, and where a step would lead */
     /* KIRI_MOST_STRAINS an element: stiffness, damping, and strains at the start of the step. */
     KIRI_ARRAY(double) stiffness, loss, startStrain;
-    /* As measured last: corners take strains of their links from there, and their derivatives by the unknowns, both ends
-       of each. */
+    /* As measured last: corners take strains of their links from there, and their derivatives by the unknowns, both
+       ends of each. */
     KIRI_ARRAY(double) nowStrain, tracedRows;
     KIRI_ARRAY(double) force, move; /* the right side: minus the gradient; and the solution */
     KIRI_ARRAY(uint8_t) stopping;   /* would a step have brought this element to its stop? */
@@ -199,8 +199,8 @@ static inline kiriVec3 kiriSystem_Point(const kiriSystem* system, int32_t frame,
     return kiriVec3_Add(poses[frame].x, kiriSystem_Arm(system, frame, at, &poses[frame]));
 }
 
-/* The strains of element k at the poses. `strains` has KIRI_MOST_STRAINS an element; those of a corner's links are there
-   already. */
+/* The strains of element k at the poses. `strains` has KIRI_MOST_STRAINS an element; those of a corner's links are
+   there already. */
 void kiriObjective_Measure(const kiriSystem* system, int32_t k, const kiriPose* poses, double* strains);
 
 /* Adds the energy of element k, whose strains these are; `pulling` without their offsets. */
@@ -281,12 +281,13 @@ static inline kiriVec3 kiriVec3_AlongPlane(kiriVec3 a, kiriVec3 normal)
 kiriVec3 kiriSystem_PointOfMany(const kiriSystem* system, const kiriWeight* weights, int32_t count, kiriVec2 at,
                                 const kiriPose* poses);
 
-/* 1/kg: of the obstacle at a point, along a direction. N/m: of what resists the point of a contact by its inertia alone. */
+/* 1/kg: of the obstacle at a point, along a direction. N/m: of what resists the point of a contact by its inertia
+   alone. */
 double kiriContact_InverseMass(const kiriSystem* system, int32_t k, kiriVec3 point, kiriVec3 along);
 double kiriContact_Inertia(const kiriSolver* solver, const kiriSystem* system, int32_t k);
 
-/* Places planes and points for a step; then, once a piece has its scheme and its prediction, guesses what its contacts do
-   (kiri_contact_begin.c). */
+/* Places planes and points for a step; then, once a piece has its scheme and its prediction, guesses what its contacts
+   do (kiri_contact_begin.c). */
 void kiriSolver_BeginContacts(kiriSolver* solver, const kiriSystem* system);
 void kiriSolver_GuessContacts(kiriSolver* solver, const kiriSystem* system);
 
@@ -330,8 +331,8 @@ kiriVec3 kiriContact_PlaneVelocity(const kiriSystem* system, int32_t k, kiriVec3
 /* Gives what yields so many times what the contact did in the step. */
 void kiriContact_Give(const kiriSolver* solver, const kiriSystem* system, int32_t k, double times);
 
-/* Gives what yields what contacts did in the step. Of a pinned piece that is what its momentum and its pins say, as far as
-   obstacles may have it; its pins have the rest (kiri_contact_pinned.c). */
+/* Gives what yields what contacts did in the step. Of a pinned piece that is what its momentum and its pins say, as far
+   as obstacles may have it; its pins have the rest (kiri_contact_pinned.c). */
 void kiriSolver_BalancePinned(kiriSolver* solver, const kiriSystem* system);
 
 /* Writes what the step did to rows, contacts' and those of what yields. */

@@ -88,8 +88,8 @@ static kiriPrediction PredictFrame(const kiriSystem* system, const kiriFrameData
                : kiriPrediction_Free(frame, &system->material, gravity, stepping);
 }
 
-/* No inner force moves the centre of mass of a free piece: it falls on its parabola also where the piece takes a step of
-   backward Euler between those of second order. */
+/* No inner force moves the centre of mass of a free piece: it falls on its parabola also where the piece takes a step
+   of backward Euler between those of second order. */
 static bool IsShifted(const kiriSystem* system, const kiriPieceStep* piece)
 {
     return piece->isNew && piece->isFree && piece->stepping.isEuler &&

@@ -10,7 +10,7 @@
 #define PUSH_TOLERANCE 0.02 /* of the largest push of the piece: forces that are off by less need no other iteration */
 #define SINK_TOLERANCE 1e-5 /* m: nor do points that came below a plane by less */
 
-/* ---- Points ------------------------------------------------------------------------------------------------------- */
+/* ---- Points ------------------------------------------------------------------------------------------------------ */
 
 kiriVec3 kiriSystem_PointOfMany(const kiriSystem* system, const kiriWeight* weights, int32_t count, kiriVec2 at,
                                 const kiriPose* poses)
@@ -50,7 +50,7 @@ double kiriContact_Inertia(const kiriSolver* solver, const kiriSystem* system, i
     return solver->contacts.data[k].mass / (part * part);
 }
 
-/* ---- Obstacles that yield ----------------------------------------------------------------------------------------- */
+/* ---- Obstacles that yield ---------------------------------------------------------------------------------------- */
 
 static const kiriYieldRow* YieldOf(const kiriSystem* system, int32_t k)
 {
@@ -87,7 +87,7 @@ double kiriContact_InverseMass(const kiriSystem* system, int32_t k, kiriVec3 poi
     return yield->inverseMass + kiriVec3_Dot(arm, kiriMat3_Mul(yield->inverseInertia, arm));
 }
 
-/* ---- One linear system -------------------------------------------------------------------------------------------- */
+/* ---- One linear system ------------------------------------------------------------------------------------------- */
 
 static void CountPressed(const kiriSolver* solver, const kiriSystem* system)
 {
@@ -221,7 +221,7 @@ void kiriSolver_MoveContacts(kiriSolver* solver, const kiriSystem* system)
     }
 }
 
-/* ---- How far to go --------------------------------------------------------------------------------------------------- */
+/* ---- How far to go ----------------------------------------------------------------------------------------------- */
 
 /* J: how the energy of friction differs, along the step after a part of it, from that of the linear model: the
    derivative. */
@@ -273,10 +273,10 @@ void kiriSolver_LimitByFriction(kiriSolver* solver, const kiriSystem* system)
     }
 }
 
-/* ---- Which contacts push, and how --------------------------------------------------------------------------------- */
+/* ---- Which contacts push, and how -------------------------------------------------------------------------------- */
 
-/* The forces after a step of which `part` was taken: those of the linear model, for their sum is what frames get, however
-   far turned frames leave their tangents. */
+/* The forces after a step of which `part` was taken: those of the linear model, for their sum is what frames get,
+   however far turned frames leave their tangents. */
 static void TakeForces(kiriContactStep* step, double part)
 {
     double push = step->isActive ? step->stiffness * (step->depth + step->sinks) : 0.0;
@@ -360,7 +360,7 @@ void kiriSolver_ReviewContacts(kiriSolver* solver, const kiriSystem* system)
     }
 }
 
-/* ---- What came of it ---------------------------------------------------------------------------------------------- */
+/* ---- What came of it --------------------------------------------------------------------------------------------- */
 
 /* What the contact can do of what the systems asked of it: it does not pull, nor hold by more than friction. */
 static kiriVec3 WithinCone(const kiriContactStep* step, const kiriContactRow* row)
@@ -379,8 +379,8 @@ kiriVec3 kiriContact_Force(const kiriSolver* solver, const kiriSystem* system, i
     return kiriVec3_Scale(kiriContact_PieceOf(solver, system, k)->keepForces, force);
 }
 
-/* Where contacts alone act, the sum of their forces is what took the piece from where free motion ends, on whatever path
-   the iteration came there. */
+/* Where contacts alone act, the sum of their forces is what took the piece from where free motion ends, on whatever
+   path the iteration came there. */
 static void SumWays(kiriSolver* solver, const kiriSystem* system)
 {
     KIRI_EACH(i, solver->awake.pieces) {

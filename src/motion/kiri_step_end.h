@@ -1,5 +1,5 @@
-/* A frame at the end of a step: the velocities that follow from where its pose ended, and the history for the next step,
-   by the formulas of kiri_stepping.h. */
+/* A frame at the end of a step: the velocities that follow from where its pose ended, and the history for the next
+   step, by the formulas of kiri_stepping.h. */
 #ifndef KIRI_STEP_END_H
 #define KIRI_STEP_END_H
 

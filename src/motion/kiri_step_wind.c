@@ -1,7 +1,7 @@
 /* Wind as part of the objective. The force on a small area is D (u - v), with u the velocity of the air, v that of the
-   material, and D = density / 2 |u - v| area (drag n n^T + lift (1 - n n^T)) as it is at the start of the step. At the end
-   of the step v is linear in the point's place x there (kiri_stepping.h): v = v* + (x - x*) / h'. So the force is that of a
-   spring of stiffness D / h' whose target is x* + h' (u - v*): implicit, and it never turns u - v round. */
+   material, and D = density / 2 |u - v| area (drag n n^T + lift (1 - n n^T)) as it is at the start of the step. At the
+   end of the step v is linear in the point's place x there (kiri_stepping.h): v = v* + (x - x*) / h'. So the force is
+   that of a spring of stiffness D / h' whose target is x* + h' (u - v*): implicit, and it never turns u - v round. */
 #include "kiri_solver_work.h"
 
 /* Four points of a region, each with a quarter of its area, have its area, its centroid and its second moments. */
@@ -99,8 +99,8 @@ void kiriWind_Assemble(kiriSolver* solver, const kiriSystem* system)
     }
 }
 
-/* The scheme takes a part of it by the force at the start of the step: the larger of the two counts, for this only guards
-   against energy from nowhere. */
+/* The scheme takes a part of it by the force at the start of the step: the larger of the two counts, for this only
+   guards against energy from nowhere. */
 double kiriWind_Work(const kiriSolver* solver, const kiriSystem* system, int32_t f)
 {
     const kiriFrameData *start = &solver->before.data[f], *end = &solver->after.data[f];

@@ -2,9 +2,9 @@
 
        minimise  1/2 m |x - x*|^2 / h'^2 + V(x),
 
-   and the schemes differ in four numbers only. With v, x before the step, h its length, e = gravity + force / m, and the
-   history that the last step left (kiriHistory: q the velocity that inner forces gave in it, p = x+ - x - h v+, and a the
-   inner acceleration at its end):
+   and the schemes differ in four numbers only. With v, x before the step, h its length, e = gravity + force / m, and
+   the history that the last step left (kiriHistory: q the velocity that inner forces gave in it, p = x+ - x - h v+, and
+   a the inner acceleration at its end):
 
        v* = v + h e + c q + l a                   D  = (x - x*) / h'
        x* = x + h v + d p + h' (v* - v)           v+ = v* + D
@@ -12,7 +12,7 @@
 
        backward Euler   h' = h                    c = 0                  l = 0       d = 0
        trapezoid        h' = h / 2                c = 0                  l = h / 2   d = 0
-       BDF2             h' = h (1 + r)/(1 + 2 r)  c = r^2 / (1 + 2 r)    l = 0       d = c      r = h / h of the last step
+       BDF2             h' = h (1 + r)/(1 + 2 r)  c = r^2 / (1 + 2 r)    l = 0       d = c      r = h / last h
 
    Second order in time: trapezoid and BDF2 by turns, so a pair is a step of TR-BDF2 (Bank et al. 1985; Hosea and
    Shampine 1996) whose halves are of one length. Backward Euler starts it, and takes its place where the past says

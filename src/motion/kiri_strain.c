@@ -12,9 +12,9 @@
 /* Timoshenko's 5/6: where no other links share a shear, it is not even over the width. */
 #define SHEAR_BEAM (5.0 / 6.0)
 
-/* Bent in its plane, a sheet stretches on one side of a corner and gives way on the other: of that the trace sees nothing
-   where four square regions meet, and most where three do. What it lacks is 3 nu / (1 + nu) of the energy of the
-   regions themselves in the first case, less than 1 in the second. */
+/* Bent in its plane, a sheet stretches on one side of a corner and gives way on the other: of that the trace sees
+   nothing where four square regions meet, and most where three do. What it lacks is 3 nu / (1 + nu) of the energy of
+   the regions themselves in the first case, less than 1 in the second. */
 #define PLANE_INNER 1.5
 
 /* A normal gap costs so many times what it does in a strip that is clamped at both ends: between regions that have
@@ -343,8 +343,8 @@ double kiriStrain_Openness(double bending, double twist, double* slope)
 }
 
 /* Twist is stiffer than bending at open ends. In a fold bending becomes as stiff as twist, `most` being the ratio of
-   their stiffnesses: at half a turn there is no telling one from the other. Were twist to become as weak as bending, its
-   energy would fall before half a turn, and folds would stay there. */
+   their stiffnesses: at half a turn there is no telling one from the other. Were twist to become as weak as bending,
+   its energy would fall before half a turn, and folds would stay there. */
 static void TakeFold(double most, double twist, double* bending, kiriStrainRow* rows)
 {
     double slope, open = kiriStrain_Openness(*bending, twist, &slope);
@@ -359,9 +359,9 @@ static void TakeFold(double most, double twist, double* bending, kiriStrainRow* 
 }
 
 /* Twisted by t, a strip one region wide shortens by W^2 t^2 / (24 l), for its edges are helices; what these stretch
-   beyond the mean is that of the curl, with t^2 - nu b^2 for -nu b^2: see kiri_curl.h. That counts as a larger twist, but
-   as none beyond half a turn: with z for what it adds to t^2 and R = pi^2 - t^2 - b^2 it adds z R / sqrt(z^2 + R^2), which
-   is z where the angle is small, and never lets the energy fall as it grows. */
+   beyond the mean is that of the curl, with t^2 - nu b^2 for -nu b^2: see kiri_curl.h. That counts as a larger twist,
+   but as none beyond half a turn: with z for what it adds to t^2 and R = pi^2 - t^2 - b^2 it adds z R / sqrt(z^2 +
+   R^2), which is z where the angle is small, and never lets the energy fall as it grows. */
 static void TakeRibbon(const kiriLink* link, double poissonsRatio, const kiriCurl* curl, double* strain,
                        kiriStrainRow* rows)
 {

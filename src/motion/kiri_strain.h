@@ -35,8 +35,8 @@ KIRI_C_BEGIN
 
    Open ends curl across while they bend, which is why they have 1 - nu^2. Bent further they cannot, for the edge would
    stretch: bending grows by a factor (kiri_curl.h), which is 1 for small angles. The trace sees it too, by up to 3 % of
-   the bending of links at edges: too little for a strain of its own. A strip one region wide, twisted far, stretches its
-   edges: its twist grows by a factor too, and it gets shorter.
+   the bending of links at edges: too little for a strain of its own. A strip one region wide, twisted far, stretches
+   its edges: its twist grows by a factor too, and it gets shorter.
 
    a = (s . w) w / 12: between two sites that touch one circular arc, the chord is that much longer than their tangents
    reach, which is no stretch. In a row of frames a only moves them; where frames lie in no row, links of all directions

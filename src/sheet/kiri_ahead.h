@@ -1,5 +1,5 @@
-/* The sheet of a piece is made little by little while the piece waits to leave: so the tick in which it does has less to do.
-   Nothing depends on how far that has come, and what is made may be dropped at any time. */
+/* The sheet of a piece is made little by little while the piece waits to leave: so the tick in which it does has less
+   to do. Nothing depends on how far that has come, and what is made may be dropped at any time. */
 #ifndef KIRI_AHEAD_H
 #define KIRI_AHEAD_H
 

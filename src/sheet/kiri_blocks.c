@@ -58,8 +58,8 @@ static void AddBit(kiriFrameMask* mask, int bit)
     mask->bits[bit / 64] |= UINT64_C(1) << bit % 64;
 }
 
-/* Of the two bits of a label one tells it from those near its own, and the other from those far from it. Labels share bits:
-   a block may seem to have one that it has not. */
+/* Of the two bits of a label one tells it from those near its own, and the other from those far from it. Labels share
+   bits: a block may seem to have one that it has not. */
 static void AddToMask(kiriFrameMask* mask, int32_t label)
 {
     AddBit(mask, label % MASK_HALF);

@@ -1,5 +1,5 @@
-/* Blocks of 64 vertices: which of them a tick may have to write anew, so that what sleeps, and what a cut leaves as it is,
-   costs nothing. */
+/* Blocks of 64 vertices: which of them a tick may have to write anew, so that what sleeps, and what a cut leaves as it
+   is, costs nothing. */
 #ifndef KIRI_BLOCKS_H
 #define KIRI_BLOCKS_H
 
@@ -18,8 +18,8 @@ void kiriBlocks_Truncate(kiriBlocks* blocks, int32_t vertexCount, int32_t frameC
 /* Vertices or frames have other indices: nothing is known. */
 void kiriBlocks_Forget(kiriBlocks* blocks);
 
-/* These vertices are gone, and frames with them: others have new indices, and their labels. The rest is as well known as
-   before. */
+/* These vertices are gone, and frames with them: others have new indices, and their labels. The rest is as well known
+   as before. */
 void kiriBlocks_LeaveHoles(kiriBlocks* blocks, const kiriIndices* vertices, const kiriKeep* frames);
 
 /* Of these vertices some have other weights, or are new: who moves them is found anew. */

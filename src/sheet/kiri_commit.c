@@ -131,8 +131,8 @@ static void CommitFrames(kiriSheetData* sheet)
     TakeFits(sheet);
 }
 
-/* The frame in whose region a point is. In a save that somebody made up a point may name a cell that does not exist: then
-   the point keeps its frame. */
+/* The frame in whose region a point is. In a save that somebody made up a point may name a cell that does not exist:
+   then the point keeps its frame. */
 static int32_t FrameAround(const kiriSheetData* sheet, const kiriSample* point)
 {
     bool isKnown = point->cell < sheet->regions.field.owner.count;

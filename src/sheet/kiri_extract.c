@@ -340,8 +340,8 @@ static void ListShownRooms(kiriSheetData* to, kiriRoom rooms[SHOWN_ROOMS])
     memcpy(rooms, all, sizeof(all));
 }
 
-/* The system gives fresh memory when it is written first: so that is done now, and not all at once in the tick in which the
-   piece leaves. */
+/* The system gives fresh memory when it is written first: so that is done now, and not all at once in the tick in which
+   the piece leaves. */
 static kiriProgress TouchShownRooms(kiriSheetData* to, kiriQuotas* quotas)
 {
     enum { TOUCHED_BYTES = 1024 }; /* for an item */

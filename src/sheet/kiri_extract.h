@@ -17,13 +17,14 @@ typedef struct kiriExtraction {
 /* What is gathered may become parts, while it is not marked. False for memory; Drop is to be called then, too. */
 bool kiriExtraction_Init(kiriExtraction* extraction, const kiriGathered* gathered);
 
-/* The sheet of one piece: on the same lattice and squares, so that all that follows from the mesh is what it was bit for
-   bit; frames, pins and contacts keep ids and state. `to` is new, or begun. Cuts stay behind. No cut has changed the mesh
-   whose work is not done. False for memory. */
+/* The sheet of one piece: on the same lattice and squares, so that all that follows from the mesh is what it was bit
+   for bit; frames, pins and contacts keep ids and state. `to` is new, or begun. Cuts stay behind. No cut has changed
+   the mesh whose work is not done. False for memory. */
 bool kiriExtraction_Build(kiriExtraction* extraction, int32_t piece, kiriSheetData* to);
 
-/* The same little by little, before the piece leaves: its mesh, then its fields and weights as far as the quotas go. These
-   depend on the mesh of the sheet alone, so long as that is the same; all else Build takes as it is in the end. */
+/* The same little by little, before the piece leaves: its mesh, then its fields and weights as far as the quotas go.
+   These depend on the mesh of the sheet alone, so long as that is the same; all else Build takes as it is in the
+   end. */
 kiriProgress kiriExtraction_GoOn(kiriExtraction* extraction, int32_t piece, kiriSheetData* to, kiriQuotas* quotas);
 
 /* What it takes to make sheets of this share of a sheet's area, in samples. */

@@ -4,10 +4,10 @@
 
    What is seen is what is held: a smooth surface (KIRI_SKINNING_SMOOTH) lies off where a frame by itself has a point. A
    pin holds that point of its frame, so its target is moved by as much as the frame's own point is off what was seen
-   last; so is a held frame. A clamp's own point is its line: its pose is moved by what is seen off the line, more and more
-   until the mean along the line is zero. All that it holds of a piece is moved as one: a line that bends would curl the
-   sheet. That takes some ticks; when it changes no more the sheet may sleep. Hinges turn freely, so the surface does not
-   bend at them, and is seen on the line anyway.
+   last; so is a held frame. A clamp's own point is its line: its pose is moved by what is seen off the line, more and
+   more until the mean along the line is zero. All that it holds of a piece is moved as one: a line that bends would
+   curl the sheet. That takes some ticks; when it changes no more the sheet may sleep. Hinges turn freely, so the
+   surface does not bend at them, and is seen on the line anyway.
 
    An obstacle with mass yields to a pin. Its host will give it the impulses of the whole tick at once, before it moves
    it: so it does here. With W the velocity that an impulse gives the target, and J what the pin has given so far in the

@@ -159,8 +159,8 @@ static bool AreNeighboursTaken(const kiriSheetData* sheet, int32_t triangle)
     return areTaken;
 }
 
-/* Does the piece hang together with nothing else? All that its triangles have in squares is in its cells, which has been
-   counted, and what they share an edge with is of it. An item of the quota is a triangle. */
+/* Does the piece hang together with nothing else? All that its triangles have in squares is in its cells, which has
+   been counted, and what they share an edge with is of it. An item of the quota is a triangle. */
 static kiriProgress LookWhether(kiriGathered* gathered, kiriQuota* quota)
 {
     const kiriSheetData* sheet = gathered->sheet;

@@ -26,22 +26,23 @@ typedef struct kiriGathered {
     bool isUnderWay; /* little by little: what has been taken is marked */
 } kiriGathered;
 
-/* Room to gather pieces, which is as large as the sheet. Start reserves it where it is not there. An item of the quota is
-   64 vertices, triangles or cells. */
+/* Room to gather pieces, which is as large as the sheet. Start reserves it where it is not there. An item of the quota
+   is 64 vertices, triangles or cells. */
 bool kiriGather_IsReserved(const kiriSheetData* sheet);
 kiriProgress kiriGather_Reserve(kiriSheetData* sheet, kiriQuota* quota);
 
-/* Gathers the pieces that `stays` is 0 for. Fields belong to the mesh as it is (kiriUpdate_IsFieldCurrent). False for memory,
-   which the caller frees; and where pieces are not what they must be, in a sheet from bytes that somebody made up. */
+/* Gathers the pieces that `stays` is 0 for. Fields belong to the mesh as it is (kiriUpdate_IsFieldCurrent). False for
+   memory, which the caller frees; and where pieces are not what they must be, in a sheet from bytes that somebody made
+   up. */
 bool kiriGather_Make(kiriGathered* gathered, kiriSheetData* sheet, kiriMemory* memory, const uint8_t* stays);
 
-/* The same for the piece of one frame, little by little, while the mesh stays as it is. An item of the quota is a cell, or
-   two of the triangles in its square; or four triangles that are put in order, which takes one call. */
+/* The same for the piece of one frame, little by little, while the mesh stays as it is. An item of the quota is a cell,
+   or two of the triangles in its square; or four triangles that are put in order, which takes one call. */
 bool kiriGather_Start(kiriGathered* gathered, kiriSheetData* sheet, kiriMemory* memory, int32_t frame);
 kiriProgress kiriGather_GoOn(kiriGathered* gathered, kiriQuota* quota);
 
-/* Before others use the maps of sheet->taking, or items get other indices: what is made ahead (sheet->ahead) marks it anew
-   when it goes on. */
+/* Before others use the maps of sheet->taking, or items get other indices: what is made ahead (sheet->ahead) marks it
+   anew when it goes on. */
 void kiriGather_Pause(kiriSheetData* sheet);
 
 /* One of the pieces that were gathered. */

@@ -22,16 +22,16 @@ bool kiriKept_Map(kiriKept* kept);
 /* The same where triangles and vertices leave holes: those that kiriGather_Mark has marked, as long as they are. */
 bool kiriKept_LeaveHoles(kiriKept* kept);
 
-/* For one piece after the other: maps of which none keeps anything yet; those of vertices and triangles are the sheet's own
-   (kiriTaking), which nobody else uses meanwhile. False for memory. */
+/* For one piece after the other: maps of which none keeps anything yet; those of vertices and triangles are the sheet's
+   own (kiriTaking), which nobody else uses meanwhile. False for memory. */
 bool kiriKept_InitParts(kiriKept* kept, const kiriSheetData* from);
 
 /* The piece is kept, and all maps are made; these are its items, from the lowest to the highest. And none is again. */
 void kiriKept_TakePart(kiriKept* kept, int32_t piece, const kiriIndices* vertices, const kiriIndices* triangles);
 void kiriKept_DropPart(kiriKept* kept, int32_t piece, const kiriIndices* vertices, const kiriIndices* triangles);
 
-/* One of the kept frames that a pin holds: of a line, which may hold more pieces than one, the one that it holds most of.
-   KIRI_NONE where it holds none. */
+/* One of the kept frames that a pin holds: of a line, which may hold more pieces than one, the one that it holds most
+   of. KIRI_NONE where it holds none. */
 int32_t kiriKept_FrameOfPin(const kiriKept* kept, int32_t pin);
 
 /* The contact among what is kept; false where its point is not. */

@@ -23,8 +23,8 @@ void kiriLoad_AlongLine(kiriSheetData* sheet, kiriLatticePoint from, kiriLattice
     }
 }
 
-/* The resultant on a region acts at its centroid, where its frame has its centre. The length of A_u x A_v, 1 for a rigid
-   frame, is by how much an affine one stretches the area. */
+/* The resultant on a region acts at its centroid, where its frame has its centre. The length of A_u x A_v, 1 for a
+   rigid frame, is by how much an affine one stretches the area. */
 void kiriLoad_OnSurface(kiriSheetData* sheet, double pressure)
 {
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
@@ -34,7 +34,7 @@ void kiriLoad_OnSurface(kiriSheetData* sheet, double pressure)
     }
 }
 
-/* ---- Impulses ----------------------------------------------------------------------------------------------------- */
+/* ---- Impulses ---------------------------------------------------------------------------------------------------- */
 
 /* What acts across the plane of a planar sheet is dropped. */
 static void Push(const kiriSheetData* sheet, kiriFrameData* frame, kiriVec3 impulse, kiriVec3 moment)

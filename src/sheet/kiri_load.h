@@ -15,8 +15,9 @@ void kiriLoad_AlongLine(kiriSheetData* sheet, kiriLatticePoint from, kiriLattice
 /* A pressure (Pa) on the side that the normal leaves: it pushes along the normal of each frame as it is now. */
 void kiriLoad_OnSurface(kiriSheetData* sheet, double pressure);
 
-/* An impulse (N s) on a point as it is seen, at once: each frame that carries the point gets its share. The sheet gets the
-   impulse, and its moment about where the point is seen. False, and changes nothing, where frames would not fit floats. */
+/* An impulse (N s) on a point as it is seen, at once: each frame that carries the point gets its share. The sheet gets
+   the impulse, and its moment about where the point is seen. False, and changes nothing, where frames would not fit
+   floats. */
 bool kiriLoad_Impulse(kiriSheetData* sheet, const kiriPointPlace* place, kiriVec3 impulse);
 
 KIRI_C_END

@@ -6,8 +6,8 @@
 
 KIRI_C_BEGIN
 
-/* What makes pieces move that rest calls one of these: they are awake, for half a second at least. All pieces, one, that
-   of a frame, those that a pin holds. */
+/* What makes pieces move that rest calls one of these: they are awake, for half a second at least. All pieces, one,
+   that of a frame, those that a pin holds. */
 void kiriMotion_Wake(kiriSheetData* sheet);
 void kiriMotion_WakePiece(kiriSheetData* sheet, int32_t piece);
 void kiriMotion_WakeFrame(kiriSheetData* sheet, int32_t frame);
@@ -20,14 +20,15 @@ void kiriMotion_SumRest(kiriSheetData* sheet);
 void kiriMotion_WakeStirred(kiriSheetData* sheet);
 void kiriMotion_LetRest(kiriSheetData* sheet);
 
-/* Moves the frames by dt in equal substeps, but for those of pieces that sleep, fall asleep or wait (kiri_piece_turn.h). Items
-   of the quota are what linear systems count (kiriSolver_SystemItems). KIRI_MORE: there was none left, and the frames are
-   where they were. KIRI_FAILED: the motion could not be continued, the frames rest where they were. Forces and contacts are
-   used up. */
+/* Moves the frames by dt in equal substeps, but for those of pieces that sleep, fall asleep or wait
+   (kiri_piece_turn.h). Items of the quota are what linear systems count (kiriSolver_SystemItems). KIRI_MORE: there was
+   none left, and the frames are where they were. KIRI_FAILED: the motion could not be continued, the frames rest where
+   they were. Forces and contacts are used up. */
 kiriProgress kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps, kiriQuota* systems);
 
-/* Instead of it, where no system is left for anybody and the sheet is seen as it is: it stands still, and what it would look
-   at first, as which pieces fall asleep, waits until it gets its turn. False where somebody reads what it would do. */
+/* Instead of it, where no system is left for anybody and the sheet is seen as it is: it stands still, and what it would
+   look at first, as which pieces fall asleep, waits until it gets its turn. False where somebody reads what it would
+   do. */
 bool kiriMotion_Wait(kiriSheetData* sheet, double dt);
 
 /* More of the quota it does not take in a tick. */

@@ -14,7 +14,7 @@ kiriObstacleData* kiriObstacle_Alloc(kiriMemory* memory, int32_t corners)
     return obstacle;
 }
 
-/* ---- Where it is -------------------------------------------------------------------------------------------------- */
+/* ---- Where it is ------------------------------------------------------------------------------------------------- */
 
 /* m: for how far out the turning of a plane, or of what has no end, counts. */
 #define LONG_LEVER 1e3
@@ -92,7 +92,7 @@ void kiriObstacle_Advance(kiriObstacleData* obstacle, double dt)
     obstacle->drift += dt * (speed + kiriObstacle_TurnSpeed(obstacle));
 }
 
-/* ---- What sheets give it ------------------------------------------------------------------------------------------ */
+/* ---- What sheets give it ----------------------------------------------------------------------------------------- */
 
 /* From its own axes to those of the world. */
 static kiriMat3 TurnTensor(const kiriMat3* rotation, const kiriMat3* tensor)

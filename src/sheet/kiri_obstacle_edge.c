@@ -255,10 +255,10 @@ bool kiriMeeting_TouchEdges(const kiriMeeting* meeting)
     return ok;
 }
 
-/* ---- Corners against the borders of planar sheets ----------------------------------------------------------------- */
+/* ---- Corners against the borders of planar sheets ---------------------------------------------------------------- */
 
-/* Where an edge of the obstacle goes through the sheet's plane there is a corner of what the plane cuts out of it. False
-   where it does not, or lies along it. */
+/* Where an edge of the obstacle goes through the sheet's plane there is a corner of what the plane cuts out of it.
+   False where it does not, or lies along it. */
 static bool CutEdge(const kiriMeeting* meeting, const kiriObstacleEdge* edge, int32_t index, EdgePoint* point)
 {
     kiriVec3 d = meeting->sheet->settings.mechanics.axes.d, onPlane = meeting->sheet->frames.data[0].x;

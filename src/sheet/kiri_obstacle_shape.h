@@ -43,8 +43,8 @@ static inline bool kiriObstacleShape_MayReach(const kiriObstacleShape* shape, ki
     return fabs(point.z) < along && point.x * point.x + point.y * point.y < across * across;
 }
 
-/* Where a point that moves straight comes as near as `gap`: the share of its way, 0 where it is so near from the start, 1
-   where it does not come so near; and the obstacle there. The point starts at least `gap` off, or share is 0. */
+/* Where a point that moves straight comes as near as `gap`: the share of its way, 0 where it is so near from the start,
+   1 where it does not come so near; and the obstacle there. The point starts at least `gap` off, or share is 0. */
 double kiriObstacleShape_Enter(const kiriObstacleShape* shape, kiriVec3 from, kiriVec3 move, double gap,
                                kiriVec3 across, kiriNearest* nearest);
 

@@ -12,7 +12,7 @@
 /* Normals that differ by less are of one face: the cosine of 25 degrees. */
 #define SAME_FACE 0.9
 
-/* ---- The sheet as a whole ----------------------------------------------------------------------------------------- */
+/* ---- The sheet as a whole ---------------------------------------------------------------------------------------- */
 
 kiriBox kiriSheet_Box(const kiriSheetData* sheet)
 {
@@ -101,7 +101,7 @@ static int32_t LeadingFrame(const kiriSheetData* sheet, const kiriSkin* skin, in
     return kiriSheet_FrameOf(sheet, most.label);
 }
 
-/* ---- Touches ------------------------------------------------------------------------------------------------------ */
+/* ---- Touches ----------------------------------------------------------------------------------------------------- */
 
 /* A plane through a point of the obstacle, with all that a touch says but whom it touches. False where the plane of a
    planar sheet lies along it. */
@@ -191,7 +191,7 @@ int32_t kiriObstacle_SlotOfKey(uint64_t key)
     return (int32_t)(key >> 32 & (KEY_SLOTS - 1));
 }
 
-/* ---- Vertices ----------------------------------------------------------------------------------------------------- */
+/* ---- Vertices ---------------------------------------------------------------------------------------------------- */
 
 static bool IsBoxNear(const void* context, const kiriBox* box)
 {
@@ -344,7 +344,7 @@ bool kiriMeeting_TouchVertices(const kiriMeeting* meeting)
     return ok;
 }
 
-/* ---- Search ------------------------------------------------------------------------------------------------------- */
+/* ---- Search ------------------------------------------------------------------------------------------------------ */
 
 /* Squares along the side of a patch. */
 static int32_t PatchSide(const kiriSheetData* sheet, double square)

@@ -1,8 +1,8 @@
 /* Where a sheet touches an obstacle, or may within the tick: on the surface as it is seen, at the start of the tick.
 
-   Vertices touch the obstacle's nearest face, or the one that they would enter by. They are thinned: of those in a patch
-   of the material, a few squares of the grid, over one face, the deepest stands for all. Between vertices the edges of
-   the obstacle touch triangles, at points along them a square apart. */
+   Vertices touch the obstacle's nearest face, or the one that they would enter by. They are thinned: of those in a
+   patch of the material, a few squares of the grid, over one face, the deepest stands for all. Between vertices the
+   edges of the obstacle touch triangles, at points along them a square apart. */
 #ifndef KIRI_OBSTACLE_TOUCH_H
 #define KIRI_OBSTACLE_TOUCH_H
 
@@ -55,7 +55,8 @@ bool kiriObstacleSearch_Reserve(kiriObstacleSearch* search, const kiriSheetData*
 bool kiriObstacleSearch_Near(kiriObstacleSearch* search, const kiriSheetData* sheet, const kiriObstacleData* obstacle,
                              double reach);
 
-/* Adds touches of the pieces that move, or shall wake, of the sheet, whose bounds must be fresh; `yield` is the row of the obstacle's body. False for memory. */
+/* Adds touches of the pieces that move, or shall wake, of the sheet, whose bounds must be fresh; `yield` is the row of
+   the obstacle's body. False for memory. */
 bool kiriObstacleSearch_Run(kiriObstacleSearch* search, kiriSheetData* sheet, const kiriObstacleData* obstacle,
                             double speed, int32_t yield);
 

@@ -9,8 +9,8 @@
 
 KIRI_C_BEGIN
 
-/* Of the distance that is kept: a point so near above it is a touch already, though it may not come down in this tick. So
-   one that rests does not lose its force whenever it lifts a little. */
+/* Of the distance that is kept: a point so near above it is a touch already, though it may not come down in this tick.
+   So one that rests does not lose its force whenever it lifts a little. */
 #define KIRI_NEARBY 0.5
 
 /* Marks keys of round sides: their item is a triangle, not a point of an edge. */

@@ -43,7 +43,7 @@ int32_t kiriOwner_OfNode(const kiriSheetData* sheet, int32_t node, bool isStaged
     return isStaged || !kiriSheet_IsGone(sheet, frame) ? frame : KIRI_NONE;
 }
 
-/* ---- Lines -------------------------------------------------------------------------------------------------------- */
+/* ---- Lines ------------------------------------------------------------------------------------------------------- */
 
 typedef struct LineWork {
     kiriSheetData* sheet;

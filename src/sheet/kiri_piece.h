@@ -18,8 +18,8 @@ bool kiriPieces_AnyGone(const kiriSheetData* sheet);
 /* The pieces of the layout that has just come in force are gone where those were that they came of. */
 void kiriPieces_KeepGone(kiriSheetData* sheet, const kiriLayout* old);
 
-/* When an update is ready: finds which of the next pieces it touches, isTouched; the pieces that they come of are stirred.
-   Work that is beside the cut, but comes out as before, touches nothing. */
+/* When an update is ready: finds which of the next pieces it touches, isTouched; the pieces that they come of are
+   stirred. Work that is beside the cut, but comes out as before, touches nothing. */
 void kiriPieces_FindTouched(kiriSheetData* sheet);
 
 /* The pieces of the layout that has just come in force rest as those that they came of, where they are not touched. */

@@ -54,7 +54,8 @@ static int32_t PlaceSpans(kiriPieceItems* list)
     return count;
 }
 
-/* Room for the items, and where those of each piece begin, which the caller moves on from item to item; null for memory. */
+/* Room for the items, and where those of each piece begin, which the caller moves on from item to item; null for
+   memory. */
 static int32_t* StartItems(kiriPieceItems* list, kiriMemory* memory, int32_t count)
 {
     if (!kiriArray_Resize(memory, &list->items, count)) {
@@ -75,7 +76,8 @@ static int32_t ListRun(int32_t* items, int32_t first, int32_t end)
     return end - first;
 }
 
-/* Items in their order. `pieces` has that of each, KIRI_NONE where it is in none. The spans count them. False for memory. */
+/* Items in their order. `pieces` has that of each, KIRI_NONE where it is in none. The spans count them. False for
+   memory. */
 static bool FillItems(kiriPieceItems* list, kiriMemory* memory, const int32_t* pieces, int32_t count)
 {
     int32_t* next = StartItems(list, memory, PlaceSpans(list));
@@ -151,8 +153,8 @@ static int32_t PieceOfCorners(const int32_t* corners, const int32_t* vertexPiece
 
 enum { UNSEEN_PIECE = -2 };
 
-/* Corners are of one piece. Most triangles have a corner that an earlier one has: so its piece is known, and weights are
-   looked at for a few only. */
+/* Corners are of one piece. Most triangles have a corner that an earlier one has: so its piece is known, and weights
+   are looked at for a few only. */
 static int32_t SpreadPiece(const kiriSheetData* sheet, const int32_t* corners, int32_t* pieces)
 {
     int32_t piece = pieces[corners[0]];

@@ -6,8 +6,8 @@
 
 KIRI_C_BEGIN
 
-/* Bring lists up to date: that costs nothing where neither mesh nor pieces have changed. Vertices: with how many triangles
-   each piece has. False for memory. */
+/* Bring lists up to date: that costs nothing where neither mesh nor pieces have changed. Vertices: with how many
+   triangles each piece has. False for memory. */
 bool kiriPieces_ListFrames(kiriSheetData* sheet);
 bool kiriPieces_ListVertices(kiriSheetData* sheet);
 bool kiriPieces_ListTriangles(kiriSheetData* sheet);
@@ -21,8 +21,9 @@ static inline void kiriPieceLists_Forget(kiriPieceLists* lists)
 /* Where the piece is in one of the lists. */
 kiriSpan kiriPieceItems_Of(const kiriPieceItems* list, int32_t piece);
 
-/* Pieces that `stays` is 0 for go, and their vertices and triangles leave holes. So what is listed of the others stays where
-   it is; frames and points get other indices. The host may hold what was listed: arrays that go get the owner `retired`. */
+/* Pieces that `stays` is 0 for go, and their vertices and triangles leave holes. So what is listed of the others stays
+   where it is; frames and points get other indices. The host may hold what was listed: arrays that go get the owner
+   `retired`. */
 void kiriPieceLists_LeaveHoles(kiriPieceLists* lists, const uint8_t* stays, kiriMemory* retired);
 
 /* All lists go, and arrays get the owner `retired`. */

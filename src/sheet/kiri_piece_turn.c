@@ -32,8 +32,8 @@ static int32_t FirstPiece(const kiriSheetData* sheet)
     return sheet->turns.next < sheet->frames.count ? sheet->layout.framePiece.data[sheet->turns.next] : 0;
 }
 
-/* Those whose turn it is, one at least, as long as they have no more than `most` work together; the others wait. Returns
-   their work. */
+/* Those whose turn it is, one at least, as long as they have no more than `most` work together; the others wait.
+   Returns their work. */
 static int64_t ChooseTurns(kiriSheetData* sheet, int64_t most)
 {
     int32_t count = sheet->layout.pieces.count, first = FirstPiece(sheet);

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-/* ---- Geometry of lines -------------------------------------------------------------------------------------------- */
+/* ---- Geometry of lines ------------------------------------------------------------------------------------------- */
 
 /* A line of the rest plane, local m. */
 typedef struct RestLine {
@@ -90,7 +90,7 @@ void kiriPin_TakePose(const kiriSheetData* sheet, kiriPinData* pin)
     pin->target = kiriVec3_AddScaled(way, 1.0 / sum, x);
 }
 
-/* ---- Pins come and go --------------------------------------------------------------------------------------------- */
+/* ---- Pins come and go -------------------------------------------------------------------------------------------- */
 
 /* So many rows, and what they react with. */
 static bool ReserveRows(kiriSheetData* sheet, int64_t pins, int64_t shares, int64_t frames, int64_t links)
@@ -228,7 +228,7 @@ void kiriPins_Remove(kiriSheetData* sheet, int32_t index)
     kiriPins_WriteLinkParts(sheet);
 }
 
-/* ---- Staging ------------------------------------------------------------------------------------------------------ */
+/* ---- Staging ----------------------------------------------------------------------------------------------------- */
 
 bool kiriPins_Stage(kiriSheetData* sheet)
 {
@@ -254,7 +254,7 @@ bool kiriPins_Stage(kiriSheetData* sheet)
     return ok && ReserveRows(sheet, sheet->pins.count, next->pinShares.count, frames, sheet->links.next.count);
 }
 
-/* ---- Rows --------------------------------------------------------------------------------------------------------- */
+/* ---- Rows -------------------------------------------------------------------------------------------------------- */
 
 static kiriVec3 PartWay(kiriVec3 a, kiriVec3 b, double part)
 {
@@ -418,7 +418,7 @@ void kiriPins_WriteRows(kiriSheetData* sheet, double from, double to)
     }
 }
 
-/* ---- Strains that clamps keep ------------------------------------------------------------------------------------- */
+/* ---- Strains that clamps keep ------------------------------------------------------------------------------------ */
 
 static void MeasureClamp(const kiriSheetData* sheet, const kiriPinShare* pinned, const kiriFrameData* frame,
                          double* strain)
@@ -504,7 +504,7 @@ double kiriPins_ElasticEnergy(const kiriSheetData* sheet)
     return sum;
 }
 
-/* ---- Reactions ---------------------------------------------------------------------------------------------------- */
+/* ---- Reactions --------------------------------------------------------------------------------------------------- */
 
 /* Adds what a row bore about `at`, to be about the pin's target. */
 static void AddBorne(const kiriPinData* pin, const kiriReaction* reaction, kiriVec3 at, double perTime, kiriWrench* sum)

@@ -6,8 +6,8 @@
 
 KIRI_C_BEGIN
 
-/* Adds a pin and all the room that it needs. A point is held by `frame`; a line by the frames of sheet->lineShares. False
-   for memory. */
+/* Adds a pin and all the room that it needs. A point is held by `frame`; a line by the frames of sheet->lineShares.
+   False for memory. */
 bool kiriPins_Add(kiriSheetData* sheet, const kiriPinData* pin, int32_t frame);
 
 /* What the pin holds goes on with a step of backward Euler: it was made, or will be moved or removed. */
@@ -45,8 +45,9 @@ double kiriPins_ElasticEnergy(const kiriSheetData* sheet);
 /* Is it a pin of a point whose piece is awake? Such pins have the first of the rows, in their order. */
 bool kiriPins_IsAwakePoint(const kiriSheetData* sheet, int32_t index);
 
-/* Writes what the solver reads of what is awake. Pins that the host moves go on evenly within a tick: rows are those of a step from one part
-   of it, 0 to 1, to another. Reactions begin with a tick; after it they are what pins and held frames had to bear. */
+/* Writes what the solver reads of what is awake. Pins that the host moves go on evenly within a tick: rows are those of
+   a step from one part of it, 0 to 1, to another. Reactions begin with a tick; after it they are what pins and held
+   frames had to bear. */
 void kiriPins_WriteRows(kiriSheetData* sheet, double from, double to);
 void kiriPins_BeginReactions(kiriSheetData* sheet);
 void kiriPins_TakeReactions(kiriSheetData* sheet, double dt);

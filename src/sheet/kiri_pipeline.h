@@ -28,8 +28,8 @@ typedef struct kiriWatch {
     void* context;
 } kiriWatch;
 
-/* For a sheet that has its mesh, and nothing else: runs the stages from the grid up to the stage `end`, without a limit.
-   Again for the next ones. False for memory. */
+/* For a sheet that has its mesh, and nothing else: runs the stages from the grid up to the stage `end`, without a
+   limit. Again for the next ones. False for memory. */
 bool kiriPipeline_Make(kiriSheetData* sheet, int32_t end);
 
 /* The same as far as the quotas go. KIRI_MORE: again with new ones. */

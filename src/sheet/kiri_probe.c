@@ -13,8 +13,8 @@ typedef struct Block {
     int32_t size, column, row;
 } Block;
 
-/* The vertex chosen so far for the material of a piece in the block at hand: of its border in a quarter of the block, or
-   of the inside. */
+/* The vertex chosen so far for the material of a piece in the block at hand: of its border in a quarter of the block,
+   or of the inside. */
 typedef struct Choice {
     int32_t piece, quarter, vertex;
     double rank; /* the lowest is taken */

@@ -7,8 +7,8 @@
 
 #include <string.h>
 
-/* Did the stages end where sites are found again, though all that this takes memory for is there? Then two sites are in one
-   cell. */
+/* Did the stages end where sites are found again, though all that this takes memory for is there? Then two sites are in
+   one cell. */
 static bool IsCrowded(const kiriSheetData* sheet)
 {
     const kiriUpdate* u = sheet->update;
@@ -16,8 +16,8 @@ static bool IsCrowded(const kiriSheetData* sheet)
            u->placing.moves.capacity >= sheet->frames.count;
 }
 
-/* The stages from the grid to the links, from scratch, as for a sheet that is made; no frame is added but where a piece has
-   none. */
+/* The stages from the grid to the links, from scratch, as for a sheet that is made; no frame is added but where a piece
+   has none. */
 static bool RunStages(kiriSheetData* sheet, bool* isBad)
 {
     kiriUpdate* u = sheet->update;
@@ -50,8 +50,8 @@ static bool AreLinksThose(const kiriLinks* links)
             memcmp(links->nextCorners.data, links->corners.data, sizeof(kiriCorner) * (size_t)corners) == 0);
 }
 
-/* In force are the links that there were. Where they are not those of the mesh, all of them are made again with the next
-   cut. */
+/* In force are the links that there were. Where they are not those of the mesh, all of them are made again with the
+   next cut. */
 static void TakeLinks(kiriSheetData* sheet, int32_t changed)
 {
     if (AreLinksThose(&sheet->links)) {

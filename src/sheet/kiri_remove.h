@@ -1,5 +1,5 @@
-/* Takes pieces out of a sheet in place. No field is computed anew, for nothing couples two pieces: what is left stays as
-   it is to the last bit, but for its indices. */
+/* Takes pieces out of a sheet in place. No field is computed anew, for nothing couples two pieces: what is left stays
+   as it is to the last bit, but for its indices. */
 #ifndef KIRI_REMOVE_H
 #define KIRI_REMOVE_H
 
@@ -26,9 +26,9 @@ bool kiriRemoval_Init(kiriRemoval* removal, kiriSheetData* sheet);
 /* Lists what goes, by piece. Needed only where parts are made, or holes are to be left. False for memory. */
 bool kiriRemoval_Gather(kiriRemoval* removal);
 
-/* Is it worth while to move all triangles and vertices that are left together, when this share of the sheet's area goes?
-   That takes a pass over the sheet: once for as much as has gone, and where a sheet is small each time. Else what goes is
-   gathered, and leaves holes. */
+/* Is it worth while to move all triangles and vertices that are left together, when this share of the sheet's area
+   goes? That takes a pass over the sheet: once for as much as has gone, and where a sheet is small each time. Else what
+   goes is gathered, and leaves holes. */
 bool kiriRemoval_IsWorthAPass(const kiriSheetData* sheet, double share);
 
 /* What it takes to take this share of a sheet's area out of it, in samples. */
@@ -38,8 +38,8 @@ double kiriRemoval_Samples(const kiriSheetData* sheet, double share);
    memory; nothing has changed. */
 bool kiriRemoval_Stage(kiriRemoval* removal, bool leavesHoles);
 
-/* Pieces go. Blades that were in their material are in none; other cuts go on. Arrays that the host may hold get the owner
-   `retired`. Ids are left to the caller. Never fails. */
+/* Pieces go. Blades that were in their material are in none; other cuts go on. Arrays that the host may hold get the
+   owner `retired`. Ids are left to the caller. Never fails. */
 void kiriRemoval_Commit(kiriRemoval* removal, kiriMemory* retired);
 
 /* Gives back what the removal holds, done or not. */

@@ -7,7 +7,8 @@ enum { ROOM_VERTICES = 3, ROOM_TRIANGLES = 3, ROOM_NODES = 6, ROOM_WEIGHTS = 24,
 
 enum { ROOM_BYTES = 768 }; /* that an item moves */
 
-/* About as many edges as the points of the update cross, in a mesh of even triangles; at most as many as it has vertices. */
+/* About as many edges as the points of the update cross, in a mesh of even triangles; at most as many as it has
+   vertices. */
 static int64_t CountCrossings(const kiriSheetData* sheet)
 {
     const kiriUpdate* u = sheet->update;

@@ -1,4 +1,5 @@
-/* Room for what a cut makes: arrays as large as the sheet grow before it, over several ticks where the budget says so. */
+/* Room for what a cut makes: arrays as large as the sheet grow before it, over several ticks where the budget says
+   so. */
 #ifndef KIRI_ROOM_H
 #define KIRI_ROOM_H
 

@@ -260,7 +260,8 @@ static bool IsAnyBeyond(const float* a, const float* b, int32_t count, float mos
     return beyond != 0;
 }
 
-/* The vertices of a block go where their weights have them. Most go no farther than rounding takes them: floats tell. */
+/* The vertices of a block go where their weights have them. Most go no farther than rounding takes them: floats
+   tell. */
 static void LookAtVertices(kiriSheetData* sheet, JumpLook* look, int32_t begin, int32_t end)
 {
     float was[3 * KIRI_BLOCK];
@@ -284,7 +285,8 @@ static void LookAtJumps(kiriSheetData* sheet, JumpLook* look, int32_t begin, int
     }
 }
 
-/* A piece that moves in this tick is written anew whatever is seen of it: what rounding does to its patches is no jump. */
+/* A piece that moves in this tick is written anew whatever is seen of it: what rounding does to its patches is no
+   jump. */
 static void ForgetRounded(kiriSheetData* sheet)
 {
     kiriPatches* patches = &sheet->seen.surface.patches;

@@ -41,8 +41,8 @@ void kiriView_KeepBounds(kiriSheetData* sheet);
 /* Positions and normals from the frames (section 4.1 of the paper). */
 void kiriView_WritePositions(kiriSheetData* sheet);
 
-/* The same in steps, one after the other: what runs over the vertices from `begin` to `end` writes nothing else, so that
-   ranges, which begin at multiples of 4, may be written at the same time. */
+/* The same in steps, one after the other: what runs over the vertices from `begin` to `end` writes nothing else, so
+   that ranges, which begin at multiples of 4, may be written at the same time. */
 void kiriView_TakeFrames(kiriSheetData* sheet);
 void kiriView_BlendRange(kiriSheetData* sheet, int32_t begin, int32_t end);
 void kiriView_Sum(kiriSheetData* sheet);

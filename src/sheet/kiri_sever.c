@@ -18,8 +18,8 @@ static kiriVec2 SiteOf(const SeverWork* work, int32_t frame)
     return work->isStaged ? work->sheet->update->placing.sites.data[frame].at : work->sheet->frames.data[frame].site.at;
 }
 
-/* Does the way between the sites of a link cross the line? Then *t says where, and *width how much of the line its border
-   is worth. */
+/* Does the way between the sites of a link cross the line? Then *t says where, and *width how much of the line its
+   border is worth. */
 static bool IsAcross(const SeverWork* work, const kiriLink* link, double* t, double* width)
 {
     kiriVec2 a = kiriVec2_Sub(SiteOf(work, link->i), work->from), b = kiriVec2_Sub(SiteOf(work, link->j), work->from);

@@ -7,10 +7,10 @@
 
 KIRI_C_BEGIN
 
-/* For a line whose shares are in sheet->lineShares. Adds to the shares: a frame whose region the line meets has its site
-   on one side, so what the line has in the region goes, on the other side, to the frames that it is linked with across
-   the line. And adds to `severed` the links in place of which the clamp of index `pin` then is. isStaged: with links and
-   sites of the next commit. False for memory. */
+/* For a line whose shares are in sheet->lineShares. Adds to the shares: a frame whose region the line meets has its
+   site on one side, so what the line has in the region goes, on the other side, to the frames that it is linked with
+   across the line. And adds to `severed` the links in place of which the clamp of index `pin` then is. isStaged: with
+   links and sites of the next commit. False for memory. */
 bool kiriSever_Across(kiriSheetData* sheet, kiriLatticePoint from, kiriLatticePoint to, int32_t pin, bool isStaged,
                       kiriSevered* severed);
 

@@ -10,7 +10,7 @@
 #include "kiri_seen.h"
 #include "kiri_update.h"
 
-/* ---- Layout ------------------------------------------------------------------------------------------------------- */
+/* ---- Layout ------------------------------------------------------------------------------------------------------ */
 
 static const kiriMust IsPieceIndex[] = { KIRI_INDEX(KIRI_OF_PIECES, kiriSpan, first, first) };
 static const kiriMust IsFrameIndex[] = { KIRI_INDEX(KIRI_OF_REGIONS, kiriSpan, first, first) };
@@ -157,7 +157,7 @@ static bool AreTrianglesOfPieces(const kiriSheetData* sheet)
     return areFine;
 }
 
-/* ---- Pins, points and contacts ------------------------------------------------------------------------------------ */
+/* ---- Pins, points and contacts ----------------------------------------------------------------------------------- */
 
 static const kiriMust PinMust[] = {
     KIRI_WITHIN(KIRI_PIN_POINT, KIRI_PIN_CLAMP, kiriPinData, type, type),
@@ -274,7 +274,7 @@ static bool ArePoints(kiriCheck* check, const kiriSheetData* sheet)
            kiriCheck_That(check, AreListedWhereTheyAre(sheet));
 }
 
-/* ---- What is seen ------------------------------------------------------------------------------------------------- */
+/* ---- What is seen ------------------------------------------------------------------------------------------------ */
 
 /* There may be more than the vertices of today need. */
 static bool AreBlocks(const kiriBlocks* blocks, const kiriSheetData* sheet)
@@ -312,7 +312,7 @@ static bool IsSeen(kiriCheck* check, const kiriSheetData* sheet)
            kiriCheck_That(check, AreBlocks(&seen->blocks, sheet) && seen->vertexCount >= 0);
 }
 
-/* ---- All of it ---------------------------------------------------------------------------------------------------- */
+/* ---- All of it --------------------------------------------------------------------------------------------------- */
 
 static const kiriMust SettingsMust[] = {
     KIRI_REALS(kiriSettings, snap, frameLength),

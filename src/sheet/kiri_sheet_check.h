@@ -8,8 +8,8 @@
 
 KIRI_C_BEGIN
 
-/* All of it, but for what the world knows: ids, and settings that the host gave. After it all rooms are large enough that
-   ticks use without asking for them. */
+/* All of it, but for what the world knows: ids, and settings that the host gave. After it all rooms are large enough
+   that ticks use without asking for them. */
 bool kiriSheet_Check(kiriSheetData* sheet, kiriCheck* check);
 
 /* In what may be cut of the rest plane. */
@@ -26,7 +26,8 @@ bool kiriCuts_Check(const kiriSheetData* sheet, kiriCheck* check);
 bool kiriUpdate_CheckField(kiriCheck* check, const kiriSheetData* sheet);
 bool kiriUpdate_CheckWork(kiriCheck* check, const kiriSheetData* sheet);
 
-/* What both look at: pieces of a layout with so many frames; links that join frames of a piece; places with material. */
+/* What both look at: pieces of a layout with so many frames; links that join frames of a piece; places with
+   material. */
 bool kiriSheet_ArePieces(kiriCheck* check, const kiriLayout* layout, int64_t frames);
 bool kiriSheet_AreLinksOfPieces(const kiriLayout* layout, const kiriLink* links, int32_t count);
 bool kiriSheet_IsInSquare(const kiriSheetData* sheet, kiriLatticePoint at);

@@ -5,8 +5,8 @@
 
 #include <string.h>
 
-/* Who owns what is state of the motion; what changes owner is not. Its room in the list is not used before the next update,
-   which is from scratch. */
+/* Who owns what is state of the motion; what changes owner is not. Its room in the list is not used before the next
+   update, which is from scratch. */
 static void ForgetTransfers(kiriOwnership* ownership)
 {
     ownership->dirty.count = ownership->staged.count = ownership->transfers.count = ownership->first.count = 0;

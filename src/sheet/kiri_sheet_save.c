@@ -11,7 +11,7 @@
 
 #include <string.h>
 
-/* ---- Tables ------------------------------------------------------------------------------------------------------- */
+/* ---- Tables ------------------------------------------------------------------------------------------------------ */
 
 static const kiriMember SettingsMembers[] = {
     KIRI_RUN(4, kiriSettings, material, material),     KIRI_PART(kiriSettings, mechanics, kiriMechanicsTable),
@@ -350,7 +350,7 @@ static const kiriMember LiveSheetMembers[] = {
 };
 static const kiriTable LiveSheetTable = KIRI_TABLE(kiriSheetData, LiveSheetMembers);
 
-/* ---- Both directions ---------------------------------------------------------------------------------------------- */
+/* ---- Both directions --------------------------------------------------------------------------------------------- */
 
 void kiriSheet_ArchiveStill(kiriArchive* archive, kiriSheetData* sheet)
 {
@@ -395,8 +395,8 @@ static void MoveCuts(kiriArchive* archive, kiriSheetData* sheet)
     }
 }
 
-/* Vertices and normals are what patches, fades and triangles make of them, but when weights, or what is seen, have changed
-   since they were written. */
+/* Vertices and normals are what patches, fades and triangles make of them, but when weights, or what is seen, have
+   changed since they were written. */
 static bool AreWeightsSeen(const kiriSheetData* sheet)
 {
     const kiriSurface* surface = &sheet->seen.surface;

@@ -15,8 +15,8 @@ extern const kiriTable kiriUpdateTable;
 void kiriSheet_ArchiveStill(kiriArchive* archive, kiriSheetData* sheet);
 void kiriSheet_ArchiveLive(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* memory);
 
-/* When both are read, of bytes that nobody trusts: what follows from the mesh and the frames is forgotten, and with it the
-   work at hand, which begins again. False for memory. */
+/* When both are read, of bytes that nobody trusts: what follows from the mesh and the frames is forgotten, and with it
+   the work at hand, which begins again. False for memory. */
 bool kiriSheet_ForgetWork(kiriSheetData* sheet);
 
 /* When both are read, and nothing has failed: what follows from them. False for memory. */

@@ -34,8 +34,8 @@ static bool MakeFlags(kiriSheetData* sheet)
 }
 
 /* The cell of a site that was there. Cells only ever fall apart, so two sites that had cells of their own still can:
-   where rounding says otherwise, the later site takes a free cell of its square. Cells that are taken are flagged. False
-   where none is free, of bytes that were made up. */
+   where rounding says otherwise, the later site takes a free cell of its square. Cells that are taken are flagged.
+   False where none is free, of bytes that were made up. */
 static bool Relocate(kiriSheetData* sheet, int32_t frame)
 {
     kiriUpdate* u = sheet->update;
@@ -196,9 +196,9 @@ int32_t kiriSites_ShareOf(const kiriSheetData* sheet, double count)
 }
 
 /* Around slit ends, where strains are large, sites are closer: `closeness` times at an end, less and less up to `reach`
-   spacings away. A given number of frames is spread with some care for what is left elsewhere. Where the number is open,
-   the spacings s = max(d / c, d r / reach), r away from an end, take 2 pi (reach / d)^2 ln c frames more, where there is
-   room for all. Measured with slit strips and a tongue: tests/test_estimate.c. */
+   spacings away. A given number of frames is spread with some care for what is left elsewhere. Where the number is
+   open, the spacings s = max(d / c, d r / reach), r away from an end, take 2 pi (reach / d)^2 ln c frames more, where
+   there is room for all. Measured with slit strips and a tongue: tests/test_estimate.c. */
 #define GIVEN_CLOSENESS 2.5
 #define GIVEN_REACH 2.0
 #define OPEN_CLOSENESS 3.0

@@ -22,8 +22,8 @@ kiriProgress kiriSites_Resample(kiriSheetData* sheet, kiriQuota* cells);
 /* Makes sheet->update.marks `count` zeros, and starts at the first. False for memory. */
 bool kiriSites_ClearMarks(kiriSheetData* sheet, int32_t count);
 
-/* How many frames so many cells carry: links are measured on the grid, and it takes more than a square from site to site
-   to tell how long and how wide they are. */
+/* How many frames so many cells carry: links are measured on the grid, and it takes more than a square from site to
+   site to tell how long and how wide they are. */
 int32_t kiriSites_MostIn(int32_t cells);
 
 /* Is a site of the list less than a square away, over a step at most? `holder` has the site in each cell, or

@@ -66,7 +66,7 @@ void kiriStage_CommitMesh(kiriSheetData* sheet)
     }
 }
 
-/* ---- Grid, regions, shape functions: sections 4.1, 4.2 and 5 ------------------------------------------------------- */
+/* ---- Grid, regions, shape functions: sections 4.1, 4.2 and 5 ----------------------------------------------------- */
 
 /* The steps of the two stages that have more than one; each starts with its first, 0. */
 enum { RELOCATE_SITES, DIVIDE_REGIONS, PLACE_IN_ORPHANS };
@@ -208,7 +208,7 @@ kiriProgress kiriStage_Shape(kiriSheetData* sheet, kiriQuota* cells)
     return MakeLinks(sheet, cells);
 }
 
-/* ---- Samples: section 6 ------------------------------------------------------------------------------------------- */
+/* ---- Samples: section 6 ------------------------------------------------------------------------------------------ */
 
 /* The points that were staged, in their new cells. */
 static bool MoveCollisionPoints(kiriSheetData* sheet)

@@ -8,7 +8,7 @@
 #define CALM_SLOPE 1e-3  /* by how much the normal of a contact may change while a sheet falls asleep */
 #define DEFAULT_PUSH 1.0 /* m/s */
 
-/* ---- What is found ------------------------------------------------------------------------------------------------- */
+/* ---- What is found ----------------------------------------------------------------------------------------------- */
 
 static kiriVec3 WhereSeen(const kiriSheetData* sheet, const kiriTouch* touch)
 {
@@ -85,7 +85,7 @@ int32_t kiriTouches_FindYield(const kiriSheetData* sheet, int64_t number)
     return KIRI_NONE;
 }
 
-/* ---- What the host gave -------------------------------------------------------------------------------------------- */
+/* ---- What the host gave ------------------------------------------------------------------------------------------ */
 
 #define OF_PLACE (UINT64_C(1) << 59) /* in a key: of a rest point, not of a collision point */
 
@@ -143,7 +143,8 @@ static bool HasLowerGivenKey(const void* context, int32_t a, int32_t b)
     return found[a].key < found[b].key || (found[a].key == found[b].key && a < b);
 }
 
-/* Contacts at one point with one obstacle get different keys, in the order in which the host gave them: up to 64 of them. */
+/* Contacts at one point with one obstacle get different keys, in the order in which the host gave them: up to 64 of
+   them. */
 static void NumberRepeated(kiriTouches* touches)
 {
     enum { MOST_REPEATED = 64 };
@@ -204,7 +205,7 @@ bool kiriTouches_Reserve(kiriSheetData* sheet)
     return sheet->touches.found.count == 0 || kiriTouches_Room(sheet, sheet->touches.found.capacity);
 }
 
-/* ---- Rows ---------------------------------------------------------------------------------------------------------- */
+/* ---- Rows -------------------------------------------------------------------------------------------------------- */
 
 enum { MOST_BLENDED = 96 }; /* frames of three vertices */
 
@@ -323,7 +324,7 @@ void kiriTouches_WriteRows(kiriSheetData* sheet)
     }
 }
 
-/* ---- What is remembered -------------------------------------------------------------------------------------------- */
+/* ---- What is remembered ------------------------------------------------------------------------------------------ */
 
 kiriVec3 kiriTouches_ForceOf(const kiriSheetData* sheet, uint64_t key)
 {
@@ -379,7 +380,7 @@ void kiriTouches_Clear(kiriSheetData* sheet)
     }
 }
 
-/* ---- Sleep --------------------------------------------------------------------------------------------------------- */
+/* ---- Sleep ------------------------------------------------------------------------------------------------------- */
 
 /* Those of pieces that are not moved, or of the others, go over; and those of pieces that are gone go. */
 static void MoveTouches(kiriSheetData* sheet, kiriTouchMemory* from, kiriTouchMemory* to, bool areMoved)
@@ -518,7 +519,7 @@ bool kiriTouch_Follow(kiriTouch* touch, const kiriKeep* points, const kiriKeep* 
     return true;
 }
 
-/* ---- What the host is told ----------------------------------------------------------------------------------------- */
+/* ---- What the host is told --------------------------------------------------------------------------------------- */
 
 /* The host's contacts come first among the touches. */
 static void TellOne(const kiriSheetData* sheet, int32_t i, double dt, kiriContactForce* told)

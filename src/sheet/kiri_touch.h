@@ -1,6 +1,6 @@
-/* Touches: where points of a sheet may meet something in a tick. Whoever knows what is around the sheet adds them before
-   cuts take effect, from where the sheet is seen; the solver gets a contact row for each, with the weights that are in
-   force then. What contacts pushed with is remembered by key until the next tick. */
+/* Touches: where points of a sheet may meet something in a tick. Whoever knows what is around the sheet adds them
+   before cuts take effect, from where the sheet is seen; the solver gets a contact row for each, with the weights that
+   are in force then. What contacts pushed with is remembered by key until the next tick. */
 #ifndef KIRI_TOUCH_H
 #define KIRI_TOUCH_H
 
@@ -12,8 +12,8 @@ KIRI_C_BEGIN
    three are false, or KIRI_NONE, for memory; then the tick is refused. */
 bool kiriTouches_Begin(kiriSheetData* sheet);
 
-/* `seen` is written; vertices are below the number of those that are seen. A touch that pushes within the tick wants its
-   plane no farther than the point can go: others cost a row each. */
+/* `seen` is written; vertices are below the number of those that are seen. A touch that pushes within the tick wants
+   its plane no farther than the point can go: others cost a row each. */
 bool kiriTouches_Add(kiriSheetData* sheet, const kiriTouch* touch);
 
 /* What several touches press on, and its index. */
@@ -31,8 +31,8 @@ bool kiriTouches_Reserve(kiriSheetData* sheet);
 /* After the commit: a row for each touch of a piece that is awake, in their order. */
 void kiriTouches_WriteRows(kiriSheetData* sheet);
 
-/* The next calm piece of which the host's contacts are others than those by which it was moved last; false where there is
-   none. *at is 0 at first. A piece may come more than once. */
+/* The next calm piece of which the host's contacts are others than those by which it was moved last; false where there
+   is none. *at is 0 at first. A piece may come more than once. */
 bool kiriTouches_NextNew(kiriSheetData* sheet, int32_t* at, int32_t* piece);
 
 /* The piece that has it. */
@@ -44,8 +44,8 @@ void kiriTouches_Sort(kiriSheetData* sheet);
 /* After the sheet was moved: remembers what pushed. */
 void kiriTouches_End(kiriSheetData* sheet);
 
-/* What the host is told of its contacts; the contacts are gone then. `dt` s: of the tick. A piece that sleeps pushes with
-   what it fell asleep with. */
+/* What the host is told of its contacts; the contacts are gone then. `dt` s: of the tick. A piece that sleeps pushes
+   with what it fell asleep with. */
 void kiriTouches_Tell(kiriSheetData* sheet, double dt);
 
 /* The motion could not be continued: nothing that is awake pushed. */

@@ -5,7 +5,7 @@
 #include "../view/kiri_view_check.h"
 #include "kiri_update.h"
 
-/* ---- The work at hand --------------------------------------------------------------------------------------------- */
+/* ---- The work at hand -------------------------------------------------------------------------------------------- */
 
 static const kiriMust MoveMust[] = {
     KIRI_INDEX(KIRI_OF_SITES, kiriSiteMove, frame, frame),

@@ -49,8 +49,8 @@ static void WriteBent(float* row, const kiriCarrier* carrier, kiriVec3 from)
     }
 }
 
-/* A frame that gets another center carries the same flat patch, but for the last bits of its doubles. Of floats only those
-   near 0 tell. */
+/* A frame that gets another center carries the same flat patch, but for the last bits of its doubles. Of floats only
+   those near 0 tell. */
 static uint8_t ChangeOfRow(const float* was, const float* row, size_t each)
 {
     const float least = 1e-12f;
@@ -148,9 +148,9 @@ static kiriLanes BlendFlat(const float* rows, const kiriSampleWeight* weight, co
         (at) = kiriLanes_Add(at, kiriLanes_Mul(kiriLanes_Pick(bow, a, a, a, a), kiriLanes_Load((row) + 20)));          \
     } while (0)
 
-/* Two frames at a time. With q = p - center and g = K q the lanes have q, g, then q . g and g . g, then q - bow g; `half`
-   is half of bow. sin f / f and (1 - cos f) / f^2 are fractions over 12 + f^2: one thousandth off at 40 degrees, and
-   however strongly bent never farther from the center than twice q. */
+/* Two frames at a time. With q = p - center and g = K q the lanes have q, g, then q . g and g . g, then q - bow g;
+   `half` is half of bow. sin f / f and (1 - cos f) / f^2 are fractions over 12 + f^2: one thousandth off at 40 degrees,
+   and however strongly bent never farther from the center than twice q. */
 static kiriLanes AddBent(kiriLanes sum, const float* rows, kiriSampleWeight first, kiriSampleWeight second, kiriLanes p)
 {
     const float* a = rows + (ptrdiff_t)KIRI_BENT_FLOATS * first.label;

@@ -25,8 +25,8 @@ typedef struct kiriPatches {
 bool kiriPatches_Reserve(kiriPatches* patches, kiriMemory* memory, int32_t count);
 
 /* Those of `count` frames, which have these labels. Positions are measured from `from`: near the sheet floats tell its
-   points apart. Only those of `some`, unless that is null, may be other than they were written last. Returns whether any
-   patch is other than before. */
+   points apart. Only those of `some`, unless that is null, may be other than they were written last. Returns whether
+   any patch is other than before. */
 bool kiriPatches_Write(kiriPatches* patches, const kiriLabels* labels, const kiriCarrier* carriers, int32_t count,
                        kiriVec3 from, bool isBent, const kiriIndices* some);
 

@@ -2,14 +2,15 @@
 
    The shape of the tree follows the rest plane: triangles that lie near each other there share a leaf, and neighbouring
    leaves a node. So it is made once and holds however the sheet moves; only boxes are fitted anew, all of them, in one
-   pass over the triangles. Where pieces ask for what is near, each has leaves of its own. Triangles that a cut makes come in leaves of their own at the end, in the order in which the
-   blade made them; the tree is made anew when their number has doubled. What a query finds does not depend on any of
-   this: it is in the order of triangles. So bounds are no part of the state.
+   pass over the triangles. Where pieces ask for what is near, each has leaves of its own. Triangles that a cut makes
+   come in leaves of their own at the end, in the order in which the blade made them; the tree is made anew when their
+   number has doubled. What a query finds does not depend on any of this: it is in the order of triangles. So bounds are
+   no part of the state.
 
    Who pays: a surface nobody asks about has no tree. Whoever may change the world calls kiriBounds_Update when he needs
-   it. Whoever only reads cannot make one: he leaves word (kiriBounds_Ask), looks at all triangles this once, and from the
-   end of the next tick on (kiriBounds_Reserve, kiriBounds_Keep) there are boxes, until KIRI_BOUNDS_PATIENCE ticks have
-   passed in which nobody asked. */
+   it. Whoever only reads cannot make one: he leaves word (kiriBounds_Ask), looks at all triangles this once, and from
+   the end of the next tick on (kiriBounds_Reserve, kiriBounds_Keep) there are boxes, until KIRI_BOUNDS_PATIENCE ticks
+   have passed in which nobody asked. */
 #ifndef KIRI_BOUNDS_H
 #define KIRI_BOUNDS_H
 
@@ -40,7 +41,8 @@ typedef struct kiriBounds {
     KIRI_ARRAY(uint64_t) groups; /* of each node, see kiriBounds_Group: those of its triangles, a bit each modulo 64 */
 } kiriBounds;
 
-/* Which vertices are awake, by blocks of so many: KIRI_NONE where none is. The version is another whenever that changes. */
+/* Which vertices are awake, by blocks of so many: KIRI_NONE where none is. The version is another whenever that
+   changes. */
 typedef struct kiriMovers {
     const int32_t* data; /* or null: not known */
     int32_t block;
@@ -79,8 +81,8 @@ bool kiriBounds_Update(kiriBounds* bounds, kiriMemory* memory, const kiriSurface
 /* Word from somebody who reads. Any number of threads may call it at the same time. */
 void kiriBounds_Ask(const kiriBounds* bounds);
 
-/* For the tick. Room for so many triangles, where boxes are wanted; then, when positions are written, the boxes: of what
-   moves alone, where the surface was written so. */
+/* For the tick. Room for so many triangles, where boxes are wanted; then, when positions are written, the boxes: of
+   what moves alone, where the surface was written so. */
 bool kiriBounds_Reserve(kiriBounds* bounds, kiriMemory* memory, int32_t triangleCount);
 void kiriBounds_Keep(kiriBounds* bounds, const kiriSurface* surface, const kiriMovers* movers);
 
@@ -100,9 +102,9 @@ typedef struct kiriGroup {
     int32_t group; /* 0 or more */
 } kiriGroup;
 
-/* Finds out which groups boxes have triangles of, so that kiriBounds_Nearest leaves out boxes of others, and where too many
-   leaves have several, makes the tree anew, group by group. To be called after kiriBounds_Update, again where groups have
-   changed. False for memory. */
+/* Finds out which groups boxes have triangles of, so that kiriBounds_Nearest leaves out boxes of others, and where too
+   many leaves have several, makes the tree anew, group by group. To be called after kiriBounds_Update, again where
+   groups have changed. False for memory. */
 bool kiriBounds_Group(kiriBounds* bounds, kiriMemory* memory, const kiriSurface* surface, const int32_t* ofVertex,
                       int32_t groupCount);
 
@@ -115,8 +117,9 @@ void kiriBounds_Nearest(const kiriBounds* bounds, const kiriSurface* surface, ki
 bool kiriBounds_Find(const kiriBounds* bounds, const kiriSurface* surface, kiriMeetsFn* meets, const void* context,
                      kiriMemory* memory, kiriIndices* found);
 
-/* All triangles of the leaves whose box meets it: some more than those, in no order. Where each is looked at anyway that
-   is cheaper. Leaves out what sleeps, where `version` is that of the movers by which boxes were kept last; 0: nothing. */
+/* All triangles of the leaves whose box meets it: some more than those, in no order. Where each is looked at anyway
+   that is cheaper. Leaves out what sleeps, where `version` is that of the movers by which boxes were kept last; 0:
+   nothing. */
 bool kiriBounds_FindLeaves(const kiriBounds* bounds, const kiriSurface* surface, kiriMeetsFn* meets,
                            const void* context, int64_t version, kiriMemory* memory, kiriIndices* found);
 

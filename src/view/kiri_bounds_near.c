@@ -8,8 +8,8 @@ static int32_t GroupOf(const kiriSurface* surface, const int32_t* ofVertex, int3
     return kiriBounds_IsHidden(surface, triangle) ? KIRI_NONE : ofVertex[surface->indices.data[3 * (size_t)triangle]];
 }
 
-/* As a set: groups of the same number modulo 64 look the same, so boxes of pieces that lie on each other are told apart also
-   near the root. */
+/* As a set: groups of the same number modulo 64 look the same, so boxes of pieces that lie on each other are told apart
+   also near the root. */
 static uint64_t SetOf(int32_t group)
 {
     return group == KIRI_NONE ? 0 : UINT64_C(1) << (group & 63);

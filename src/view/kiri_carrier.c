@@ -80,8 +80,8 @@ static void Curve(kiriCarrier* carrier, const kiriBend* bend)
 /* rad: rms of the angle by which a patch may turn over its region. On an arc that is 40 degrees from frame to frame. */
 static const double mostTurn = 0.2;
 
-/* Where neighbours turn farther, they do not tell how the region bends: there are creases, narrow bridges, and neighbours
-   on both sides of a slit that bend apart. A patch that is less bent is strained less there. */
+/* Where neighbours turn farther, they do not tell how the region bends: there are creases, narrow bridges, and
+   neighbours on both sides of a slit that bend apart. A patch that is less bent is strained less there. */
 static void LimitCurve(kiriCarrier* carrier, const kiriFrameData* frame)
 {
     double uu = carrier->uu, uv = carrier->uv, vv = carrier->vv;

@@ -7,8 +7,8 @@
 
 KIRI_C_BEGIN
 
-/* The patch that a frame carries: the rest point p goes to x + a u + b v + c d. In a flat patch (a, b) is q = p - center
-   and c is 0; a bent one follows the arc that its curvature gives, see kiri_carrier.c. */
+/* The patch that a frame carries: the rest point p goes to x + a u + b v + c d. In a flat patch (a, b) is q = p -
+   center and c is 0; a bent one follows the arc that its curvature gives, see kiri_carrier.c. */
 typedef struct kiriCarrier {
     kiriVec3 u, v, d, x;
     kiriVec2 center;
@@ -24,8 +24,8 @@ typedef struct kiriBend {
 /* Flat patches; `count` frames have one each. Here and below only `some` of them are written, unless that is null. */
 void kiriCarriers_Write(kiriCarrier* carriers, const kiriFrameData* frames, int32_t count, const kiriIndices* some);
 
-/* Bends them as the links tell: all, or those of `someLinks`, ascending, that are below linkCount. `bends` is scratch, one a
-   frame. */
+/* Bends them as the links tell: all, or those of `someLinks`, ascending, that are below linkCount. `bends` is scratch,
+   one a frame. */
 void kiriCarriers_Bend(kiriCarrier* carriers, kiriBend* bends, const kiriFrameData* frames, int32_t count,
                        const kiriLink* links, int32_t linkCount, const kiriIndices* some, const kiriIndices* someLinks);
 

@@ -50,8 +50,8 @@ static void TakeOne(kiriFades* fades, const kiriFading* older, kiriVec3 offset)
     }
 }
 
-/* What fades goes to the end of the room; from there it is merged to the front with what comes. As there is room for every
-   sample, the front stays behind. */
+/* What fades goes to the end of the room; from there it is merged to the front with what comes. As there is room for
+   every sample, the front stays behind. */
 void kiriFades_Start(kiriFades* fades)
 {
     kiriFading* data = fades->fading.data;

@@ -33,8 +33,8 @@ void kiriFades_Release(kiriFades* fades, kiriMemory* memory);
 /* Samples are taken away. */
 void kiriFades_Keep(kiriFades* fades, const kiriKeep* samples);
 
-/* A cut takes effect: Start, then Take, in their order, for each sample that fades, or whose place may be another. The sample is seen so far from where it would be if
-   nothing faded: from here on that fades. */
+/* A cut takes effect: Start, then Take, in their order, for each sample that fades, or whose place may be another. The
+   sample is seen so far from where it would be if nothing faded: from here on that fades. */
 void kiriFades_Start(kiriFades* fades);
 void kiriFades_TakeJump(kiriFades* fades, int32_t sample, kiriVec3 offset);
 

@@ -19,8 +19,8 @@ uint8_t kiriNormals_TurnOf(const int32_t* indices, bool isAlone);
 /* Sums for the normals, 4 floats a vertex, by 3 floats of position each. One float more than the positions is read. */
 void kiriNormals_Sum(float* slopes, int32_t vertexCount, const float* positions, const kiriCorners* corners);
 
-/* The sum of one vertex anew, the same bits. The mesh is that of the corners, but for triangles that are hidden. False where
-   too many triangles meet in it: nothing is written. */
+/* The sum of one vertex anew, the same bits. The mesh is that of the corners, but for triangles that are hidden. False
+   where too many triangles meet in it: nothing is written. */
 bool kiriNormals_SumOne(float* slopes, int32_t vertex, const float* positions, const kiriCorners* corners,
                         const kiriMeshData* mesh);
 

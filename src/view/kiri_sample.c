@@ -36,8 +36,8 @@ static int32_t RoundWeights(kiriSampleWeight* weights, int32_t count)
     return kept;
 }
 
-/* Stages what the stencil has weighed. Makes room for the commit, too. Of bytes that were made up cells may have no weight
-   that counts: then one frame carries the sample. */
+/* Stages what the stencil has weighed. Makes room for the commit, too. Of bytes that were made up cells may have no
+   weight that counts: then one frame carries the sample. */
 static bool StageWeights(kiriSkin* skin, kiriMemory* memory, const kiriLabels* labels, const kiriStencil* stencil,
                          int32_t sample)
 {

@@ -13,8 +13,8 @@ typedef struct kiriReweighed {
     kiriSpan span;
 } kiriReweighed;
 
-/* A weight of a sample: a multiple of 2^-24, so that those of a sample add up to 1 exactly. Never 0. Its frame has the label
-   that it has in the shape, too (kiriShape.labels). */
+/* A weight of a sample: a multiple of 2^-24, so that those of a sample add up to 1 exactly. Never 0. Its frame has the
+   label that it has in the shape, too (kiriShape.labels). */
 typedef struct kiriSampleWeight {
     int32_t label;
     float value;
@@ -54,12 +54,12 @@ bool kiriSkin_Stage(kiriSkin* skin, kiriMemory* memory, const kiriShape* shape, 
 void kiriSkin_Commit(kiriSkin* skin);
 void kiriSkin_Drop(kiriSkin* skin);
 
-/* After a commit: weights go to the room of the old ones where they fit, so that samples that lie beside each other keep
-   theirs together, and other room is given back. An item of the quota is 20 samples. Never fails. */
+/* After a commit: weights go to the room of the old ones where they fit, so that samples that lie beside each other
+   keep theirs together, and other room is given back. An item of the quota is 20 samples. Never fails. */
 kiriProgress kiriSkin_Settle(kiriSkin* skin, kiriQuota* quota);
 
-/* Puts the weights in the order of samples, in which they are read, with some room for more. Where there is no memory for
-   that they stay as they are. Nothing is staged; what settles has settled. */
+/* Puts the weights in the order of samples, in which they are read, with some room for more. Where there is no memory
+   for that they stay as they are. Nothing is staged; what settles has settled. */
 void kiriSkin_Sort(kiriSkin* skin, kiriMemory* memory);
 
 /* Which samples lie in which square, for samples that never move: a list a square. */
@@ -72,7 +72,8 @@ bool kiriPlaces_Reserve(kiriPlaces* places, kiriMemory* memory, const kiriMeshDa
 bool kiriPlaces_Add(kiriPlaces* places, kiriMemory* memory, const kiriMeshData* mesh, kiriLatticePoint at);
 
 /* Stages, of all samples that follow the shape functions, those whose weights may have changed: each in the square of a
-   cell of shape->changes, in a square that was noted, or beside one of these. An item of the quota is a sample staged. */
+   cell of shape->changes, in a square that was noted, or beside one of these. An item of the quota is a sample
+   staged. */
 typedef struct kiriRefresh {
     KIRI_ARRAY(int32_t) noted;   /* squares in which the mesh changed, until Start */
     KIRI_ARRAY(int32_t) squares; /* with such samples */
@@ -83,8 +84,8 @@ typedef struct kiriRefresh {
     kiriStencil stencil;         /* of the cell at hand */
 } kiriRefresh;
 
-/* Notes the dirty squares of the mesh, which are cleared before Start is called: cells there may have the same weights, but
-   material elsewhere, and vertices there may have come to a lip. False for memory. */
+/* Notes the dirty squares of the mesh, which are cleared before Start is called: cells there may have the same weights,
+   but material elsewhere, and vertices there may have come to a lip. False for memory. */
 bool kiriRefresh_NoteDirty(kiriRefresh* refresh, kiriMemory* memory, const kiriMeshData* mesh);
 
 /* Vertices from `firstVertex` on are new, and are staged all; older ones where they come out other than before. Here an

@@ -5,8 +5,8 @@
 
 #include <string.h>
 
-/* Places are written as soon as there is room: the tick in which a sheet comes far from the origin of the world shall not
-   be the first to touch all of it. */
+/* Places are written as soon as there is room: the tick in which a sheet comes far from the origin of the world shall
+   not be the first to touch all of it. */
 static bool ResizePlaces(kiriSurface* surface, kiriMemory* memory, int64_t count)
 {
     int32_t old = surface->places.count;
@@ -370,8 +370,8 @@ bool kiriSurface_CopyIndices16(const kiriSurface* surface, int32_t firstTriangle
 
 /* ---- Positions ---- */
 
-/* The middle of the frames, to a power of two between two and four times the longer side: so it is 0 for all sheets near
-   the origin of the world, and seldom changes. Floats hold it. */
+/* The middle of the frames, to a power of two between two and four times the longer side: so it is 0 for all sheets
+   near the origin of the world, and seldom changes. Floats hold it. */
 static double RoundToFloats(double x, double unit)
 {
     double steps = x / unit;

@@ -105,15 +105,16 @@ void kiriSurface_LeaveHoles(kiriSurface* surface, const kiriIndices* triangles, 
 /* The host gets the indices, after so many ticks. Any number of threads may say so at the same time. */
 void kiriSurface_LendIndices(const kiriSurface* surface, int64_t ticks);
 
-/* Where the host holds the indices, they get a new array, and the old one gets the owner `retired`. False for memory. */
+/* Where the host holds the indices, they get a new array, and the old one gets the owner `retired`. False for
+   memory. */
 bool kiriSurface_RenewIndices(kiriSurface* surface, kiriMemory* memory, kiriMemory* retired, int64_t ticks);
 
 /* A triangle is seen no more: all its corners are the first. */
 void kiriSurface_HideTriangle(kiriSurface* surface, int32_t triangle);
 
-/* Takes over where the frames are, which have these labels in weights. The links tell a smooth surface how to bend; a linear one does not ask.
-   Where nothing is other than when arrays were written, they stay so. `awake`: only its frames may be elsewhere than when
-   they were taken over last, and its elements begin with links; or null. */
+/* Takes over where the frames are, which have these labels in weights. The links tell a smooth surface how to bend; a
+   linear one does not ask. Where nothing is other than when arrays were written, they stay so. `awake`: only its frames
+   may be elsewhere than when they were taken over last, and its elements begin with links; or null. */
 void kiriSurface_TakeFrames(kiriSurface* surface, const kiriLabels* labels, const kiriFrameData* frames,
                             int32_t frameCount, const kiriLink* links, int32_t linkCount, const kiriAwake* awake);
 

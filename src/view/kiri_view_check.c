@@ -2,7 +2,7 @@
 
 #include "kiri_normal.h"
 
-/* ---- Rules -------------------------------------------------------------------------------------------------------- */
+/* ---- Rules ------------------------------------------------------------------------------------------------------- */
 
 static const kiriMust MustBeSquareOfView[] = { KIRI_INDEX(KIRI_OF_SQUARES, kiriSpan, first, first) };
 static const kiriMust IsSampleOrNone[] = { KIRI_INDEX_OR_NONE(KIRI_OF_SAMPLES, kiriSpan, first, first) };
@@ -43,7 +43,7 @@ static const kiriMust SurfaceMust[] = {
     KIRI_WITHIN(0, KIRI_CHANGES - 1, kiriSurface, lastChange, lastChange),
 };
 
-/* ---- Weights ------------------------------------------------------------------------------------------------------ */
+/* ---- Weights ----------------------------------------------------------------------------------------------------- */
 
 /* Labels ascend; and weights are parts of 1. */
 static bool AreWeightsIn(kiriCheck* check, kiriRooms* rooms, const kiriSkin* skin, const kiriLabels* labels,
@@ -156,7 +156,7 @@ bool kiriFades_Check(const kiriFades* fades, kiriCheck* check, int32_t samples)
     return areFine;
 }
 
-/* ---- The surface -------------------------------------------------------------------------------------------------- */
+/* ---- The surface ------------------------------------------------------------------------------------------------- */
 
 bool kiriSurface_HasRoom(const kiriSurface* surface)
 {

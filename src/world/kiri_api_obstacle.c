@@ -17,7 +17,7 @@ void kiriDefaultObstacleDef(kiriObstacleDef* def)
     def->groups = UINT32_MAX;
 }
 
-/* ---- Faults ------------------------------------------------------------------------------------------------------- */
+/* ---- Faults ------------------------------------------------------------------------------------------------------ */
 
 #define LONGEST 1e6f /* m */
 
@@ -149,7 +149,7 @@ static const char* FaultOfObstacle(const kiriObstacleDef* def)
                : "friction is below 0, or pushSpeed not above 0";
 }
 
-/* ---- Making ------------------------------------------------------------------------------------------------------- */
+/* ---- Making ------------------------------------------------------------------------------------------------------ */
 
 /* From axes of the world to its own. */
 static kiriMat3 TensorToLocal(const kiriObstacleData* obstacle, const kiriMat3* tensor)
@@ -271,7 +271,7 @@ kiriResult kiriDestroyObstacle(kiriWorld* world, kiriObstacle obstacle)
     KIRI_RETURN(KIRI_OK);
 }
 
-/* ---- Changes ------------------------------------------------------------------------------------------------------ */
+/* ---- Changes ----------------------------------------------------------------------------------------------------- */
 
 kiriResult kiriObstacle_SetPose(kiriWorld* world, kiriObstacle obstacle, const float position[3],
                                 const float rotation[9])
@@ -319,7 +319,7 @@ kiriResult kiriObstacle_SetMass(kiriWorld* world, kiriObstacle obstacle, float m
     KIRI_RETURN(KIRI_OK);
 }
 
-/* ---- State -------------------------------------------------------------------------------------------------------- */
+/* ---- State ------------------------------------------------------------------------------------------------------- */
 
 kiriResult kiriObstacle_GetState(const kiriWorld* world, kiriObstacle obstacle, kiriObstacleState* state)
 {
@@ -338,7 +338,7 @@ kiriResult kiriObstacle_GetState(const kiriWorld* world, kiriObstacle obstacle, 
     return KIRI_OK;
 }
 
-/* ---- Reach -------------------------------------------------------------------------------------------------------- */
+/* ---- Reach ------------------------------------------------------------------------------------------------------- */
 
 kiriResult kiriSheet_GetReach(const kiriWorld* world, kiriSheet sheet, float dt, float lower[3], float upper[3])
 {

@@ -70,7 +70,7 @@ kiriResult kiriCreatePin(kiriWorld* world, kiriSheet sheet, const kiriPinDef* de
     KIRI_RETURN(result);
 }
 
-/* ---- Lines -------------------------------------------------------------------------------------------------------- */
+/* ---- Lines ------------------------------------------------------------------------------------------------------- */
 
 static kiriPinData MakeLine(kiriSheetData* data, int32_t type, const kiriLatticePoint ends[2])
 {
@@ -124,7 +124,7 @@ kiriResult kiriSheet_HingeLine(kiriWorld* world, kiriSheet sheet, const float fr
     KIRI_RETURN_OR_SAY(result, why);
 }
 
-/* ---- All pins ----------------------------------------------------------------------------------------------------- */
+/* ---- All pins ---------------------------------------------------------------------------------------------------- */
 
 kiriResult kiriPin_SetTarget(kiriWorld* world, kiriPin pin, const float target[3])
 {

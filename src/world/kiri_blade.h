@@ -8,8 +8,8 @@
 
 KIRI_C_BEGIN
 
-/* A cut that began amid the material, and comes by its beginning, is closed there: by a cut of its own, when it has gone
-   on a little without crossing itself, which closes it as well. */
+/* A cut that began amid the material, and comes by its beginning, is closed there: by a cut of its own, when it has
+   gone on a little without crossing itself, which closes it as well. */
 typedef struct kiriLoop {
     bool isOpen;    /* it began there, and has not been closed */
     bool isPassed;  /* it came by, */

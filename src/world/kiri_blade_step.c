@@ -182,8 +182,8 @@ static kiriTrack* OtherTrack(kiriBladeWork* work, const kiriTrack* track, kiriVe
     return found;
 }
 
-/* Where the line that a track follows ends: at the edge as it is now, and the track goes on from there; beyond a border;
-   where the blade ended; or, over a fold, at another layer that the blade was in. */
+/* Where the line that a track follows ends: at the edge as it is now, and the track goes on from there; beyond a
+   border; where the blade ended; or, over a fold, at another layer that the blade was in. */
 static bool FollowLine(kiriBladeWork* work, kiriTrack* track, const kiriSectionLine* line, bool fromLast)
 {
     const kiriSectionPoint* end = EndOfWay(work, line, !fromLast);
@@ -241,8 +241,8 @@ static bool FollowTrack(kiriBladeWork* work, kiriTrack* track)
             return FollowLine(work, track, line, fromLast);
         }
     }
-    /* Hardly any way, or the tip of the cut stands out of the surface: then the layer is where the edge is nearest in the
-       material. */
+    /* Hardly any way, or the tip of the cut stands out of the surface: then the layer is where the edge is nearest in
+       the material. */
     double way = kiriVec3_Length(kiriVec3_Sub(to, x));
     kiriCrossing* crossing = NearestCrossing(work, track->rest, 2.0 * way + KIRI_BLADE_SAME * work->snap);
     return crossing != NULL ? GoOn(work, track, crossing) : line == NULL || FollowShort(work, track, line, fromLast);
@@ -443,8 +443,8 @@ static bool IsFlat(const kiriBladeWork* work, const kiriVec3 corner[4])
     return fabs(kiriVec3_Dot(normal, kiriVec3_Sub(corner[1], corner[0]))) < DEGENERATE * work->snap;
 }
 
-/* Where the edge neither is nor was in a layer, nobody has said how far the material went: it may have come over the edge
-   meanwhile, and then the sweep seems to begin inside it. */
+/* Where the edge neither is nor was in a layer, nobody has said how far the material went: it may have come over the
+   edge meanwhile, and then the sweep seems to begin inside it. */
 static bool FindDrift(kiriBladeWork* work)
 {
     const kiriSheetData* sheet = work->sheet;

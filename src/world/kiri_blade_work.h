@@ -64,7 +64,8 @@ static inline double kiriRest_Distance(kiriVec2 a, kiriVec2 b)
     return kiriVec2_Length(kiriVec2_Sub(a, b));
 }
 
-/* A track goes on: to a place; or along work->path, without the points at its beginning where it is already. False for memory. */
+/* A track goes on: to a place; or along work->path, without the points at its beginning where it is already. False for
+   memory. */
 bool kiriTrack_Lead(kiriBladeWork* work, kiriTrack* track, kiriVec2 rest);
 bool kiriTrack_LeadAlong(kiriBladeWork* work, kiriTrack* track);
 

@@ -1,5 +1,5 @@
-/* What every public function does first: it looks at its arguments, turns ids into pointers, and says in one line what is
-   wrong. */
+/* What every public function does first: it looks at its arguments, turns ids into pointers, and says in one line what
+   is wrong. */
 #ifndef KIRI_CALL_H
 #define KIRI_CALL_H
 
@@ -13,9 +13,9 @@ enum { KIRI_LINE_BYTES = sizeof(((kiriWorld*)NULL)->errorLine) };
 #define KIRI_COOKIE(Type) (0x4b000000u | (uint32_t)sizeof(Type))
 
 /* How a public function begins: one that changes the world, with its number and its arguments for the recording, those
-   that go by value by their address; one that only makes what somebody looks at, so that no tick depends on it; one that
-   only reads. The first two keep their line in the world, the last one gives it to the log alone, so that several threads
-   may read. Without a world there is only the code. */
+   that go by value by their address; one that only makes what somebody looks at, so that no tick depends on it; one
+   that only reads. The first two keep their line in the world, the last one gives it to the log alone, so that several
+   threads may read. Without a world there is only the code. */
 #define KIRI_CHANGES(world, number, ...)                                                                               \
     KIRI_PREPARES_ANY(world);                                                                                          \
     const void* const callArguments[] = { __VA_ARGS__ };                                                               \

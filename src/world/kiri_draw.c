@@ -5,7 +5,7 @@
 #include "../sheet/kiri_touch.h"
 #include "kiri_blade.h"
 
-/* ---- Batches ------------------------------------------------------------------------------------------------------ */
+/* ---- Batches ----------------------------------------------------------------------------------------------------- */
 
 static void FlushBatch(kiriDrawBatch* batch)
 {
@@ -53,7 +53,7 @@ void kiriDrawing_End(kiriDrawing* drawing)
     FlushBatch(&drawing->triangles);
 }
 
-/* ---- Mesh --------------------------------------------------------------------------------------------------------- */
+/* ---- Mesh -------------------------------------------------------------------------------------------------------- */
 
 /* Colours that neighbours in a list tell apart; a piece that sleeps is half white. */
 static uint32_t ColorOfPiece(const kiriSheetData* sheet, int32_t piece)
@@ -104,7 +104,7 @@ static void DrawMesh(kiriDrawing* drawing, const kiriSheetData* sheet)
     }
 }
 
-/* ---- Boxes -------------------------------------------------------------------------------------------------------- */
+/* ---- Boxes ------------------------------------------------------------------------------------------------------- */
 
 enum { BOXES_A_PASS = 64 };
 
@@ -151,7 +151,7 @@ static void DrawBoxesFrom(kiriDrawing* drawing, const kiriSheetData* sheet, int3
     }
 }
 
-/* ---- Frames and links --------------------------------------------------------------------------------------------- */
+/* ---- Frames and links -------------------------------------------------------------------------------------------- */
 
 static void DrawFrames(kiriDrawing* drawing, const kiriSheetData* sheet)
 {
@@ -188,7 +188,7 @@ static void DrawLinks(kiriDrawing* drawing, const kiriSheetData* sheet)
     }
 }
 
-/* ---- Pins and contacts -------------------------------------------------------------------------------------------- */
+/* ---- Pins and contacts ------------------------------------------------------------------------------------------- */
 
 static void DrawPin(kiriDrawing* drawing, const kiriSheetData* sheet, const kiriPinData* pin)
 {
@@ -233,7 +233,7 @@ static void DrawContacts(kiriDrawing* drawing, const kiriSheetData* sheet, const
     }
 }
 
-/* ---- All of it ---------------------------------------------------------------------------------------------------- */
+/* ---- All of it --------------------------------------------------------------------------------------------------- */
 
 void kiriDrawing_Sheet(kiriDrawing* drawing, const kiriSheetData* sheet)
 {

@@ -157,7 +157,8 @@ static int32_t SheetAt(const kiriWorld* world, int32_t k)
     return kiriMoves_SheetAt(world, world->turn, k);
 }
 
-/* From the first one on: as many as have enough systems whatever they take, and one at least; all where there are none. */
+/* From the first one on: as many as have enough systems whatever they take, and one at least; all where there are
+   none. */
 static int32_t EndOfWave(const MoveTask* task, int32_t first)
 {
     const kiriWorld* world = task->world;

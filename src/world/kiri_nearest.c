@@ -96,8 +96,8 @@ static double Measure(kiriNear* near, const kiriBody* bodies, int32_t triangle)
     return kiriVec3_Dot(off, off);
 }
 
-/* Lips of a fresh cut lie in one plane, and may overlap a little when they move: they are beside each other, and not one
-   on the other. */
+/* Lips of a fresh cut lie in one plane, and may overlap a little when they move: they are beside each other, and not
+   one on the other. */
 static bool IsBeside(const kiriNear* near, const kiriBody* bodies, double distance, double squared)
 {
     const kiriSheetData* sheet = bodies[near->other].sheet;

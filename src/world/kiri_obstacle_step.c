@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-/* ---- The list ----------------------------------------------------------------------------------------------------- */
+/* ---- The list ---------------------------------------------------------------------------------------------------- */
 
 kiriResult kiriObstacles_Reserve(kiriWorld* world)
 {
@@ -27,7 +27,7 @@ void kiriObstacles_Add(kiriWorld* world, kiriObstacleData* obstacle)
     }
 }
 
-/* ---- What rests near them ----------------------------------------------------------------------------------------- */
+/* ---- What rests near them ---------------------------------------------------------------------------------------- */
 
 /* m: an obstacle that goes no farther wakes nobody. */
 static double LeastDrift(const kiriWorld* world)
@@ -118,7 +118,7 @@ void kiriObstacles_Put(kiriWorld* world, kiriObstacleData* obstacle, kiriVec3 po
     obstacle->rotation = rotation;
 }
 
-/* ---- Touches ------------------------------------------------------------------------------------------------------ */
+/* ---- Touches ----------------------------------------------------------------------------------------------------- */
 
 static bool IsMoving(const kiriObstacleData* obstacle, double dt, double least)
 {
@@ -287,7 +287,8 @@ static bool FindTouchesOf(const TouchSearch* looking, kiriObstacleSearch* search
     return (sleeps && !sheet->rest.isStirred) || TouchAll(looking->world, search, sheet, &around);
 }
 
-/* In a task nothing may be allocated. A sheet that comes short of room is as before, and looks again when all are done. */
+/* In a task nothing may be allocated. A sheet that comes short of room is as before, and looks again when all are
+   done. */
 static void TryTouchesOf(const TouchSearch* looking, kiriObstacleSearch* search, kiriSheetData* sheet)
 {
     kiriTouches* touches = &sheet->touches;
@@ -301,7 +302,8 @@ static void TryTouchesOf(const TouchSearch* looking, kiriObstacleSearch* search,
     touches->yields.count = touches->isShort ? yields : touches->yields.count;
 }
 
-/* Each search looks for every so many-th sheet: so those that are near each other in the list, and alike, are shared out. */
+/* Each search looks for every so many-th sheet: so those that are near each other in the list, and alike, are shared
+   out. */
 static void LookForTouches(int32_t start, int32_t end, void* context)
 {
     const TouchSearch* looking = context;
@@ -357,7 +359,7 @@ bool kiriObstacles_FindTouches(kiriWorld* world, double dt)
     return ok;
 }
 
-/* ---- What comes of them ------------------------------------------------------------------------------------------- */
+/* ---- What comes of them ------------------------------------------------------------------------------------------ */
 
 void kiriObstacles_Begin(kiriWorld* world)
 {

@@ -156,8 +156,8 @@ double kiriPair_Distance(const kiriBody* a, const kiriBody* b)
     return 0.5 * (a->sheet->settings.contactThickness + b->sheet->settings.contactThickness);
 }
 
-/* As far as they may come nearer in the tick, by the velocities of their probes and by gravity, and twice the distance that
-   they keep. */
+/* As far as they may come nearer in the tick, by the velocities of their probes and by gravity, and twice the distance
+   that they keep. */
 static double ReachOfPiece(const kiriWorld* world, const kiriBody* a, const kiriBody* b, double dt)
 {
     double falling = dt * kiriVec3_Length(world->gravity);
@@ -291,8 +291,8 @@ static const kiriTouchingPair* FindOld(const kiriPairs* pairs, kiriFrame a, kiri
     return low < pairs->pairs.count && NameOf(found->upper, found->lower) == name ? found : NULL;
 }
 
-/* Has the lower one of before come to be the upper one? By how it is turned, and not by where the other one is: pieces that
-   cross do not change places. */
+/* Has the lower one of before come to be the upper one? By how it is turned, and not by where the other one is: pieces
+   that cross do not change places. */
 static bool HasSideTurned(const kiriWorld* world, const kiriTouchingPair* old, int32_t lower, kiriSpan nears)
 {
     const kiriSheetData* sheet = world->pairs.bodies.data[lower].sheet;

@@ -2,8 +2,8 @@
 
    A pair keeps its side for as long as the two are near: the upper piece stays on that side of the lower one, whose
    triangles have a side by their order in the rest plane. A side for each point would never come to rest where pieces
-   have crossed: some points push one way, others the other way. The upper one is that against gravity, so that what lies
-   on a floor is not pushed into it: planes carry it, and what it presses with becomes a load on the lower one. */
+   have crossed: some points push one way, others the other way. The upper one is that against gravity, so that what
+   lies on a floor is not pushed into it: planes carry it, and what it presses with becomes a load on the lower one. */
 #ifndef KIRI_PAIR_H
 #define KIRI_PAIR_H
 
@@ -28,7 +28,8 @@ bool kiriPairs_AddTouches(kiriWorld* world, double dt);
 void kiriPairs_ApplyLoads(kiriWorld* world, double dt);
 void kiriPairs_TakeLoads(kiriWorld* world, double dt);
 
-/* After the sheets are moved: pieces that touch are as calm as the least calm of them, so that they fall asleep together. */
+/* After the sheets are moved: pieces that touch are as calm as the least calm of them, so that they fall asleep
+   together. */
 void kiriPairs_JoinCalm(kiriWorld* world);
 
 /* Pairs that are in force and do not sleep. */

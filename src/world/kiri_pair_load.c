@@ -133,8 +133,8 @@ static void FindSupport(kiriSheetData* sheet)
     }
 }
 
-/* Frames that lie on something and hardly move come to rest: else each change of what carries how much would stir all that
-   lies above. */
+/* Frames that lie on something and hardly move come to rest: else each change of what carries how much would stir all
+   that lies above. */
 static void SettleFrames(kiriSheetData* sheet, double dt)
 {
     double slow = SLOW * sheet->settings.sleepSpeed, keep = SETTLED / (SETTLED + dt);

@@ -37,9 +37,9 @@ static const kiriFrameData* LargestFrame(const kiriPlace3* place)
     return &place->sheet->frames.data[kiriSheet_FrameOf(place->sheet, best)];
 }
 
-/* The plane moves with the material of the lower one, but not as all of that moves. What lies on something goes no farther
-   into it: the velocity that an implicit step leaves there is that of its way to it. And a lower one that flaps does not
-   throw the upper one, which it does not feel in time: it lifts no faster than it rises as a whole. */
+/* The plane moves with the material of the lower one, but not as all of that moves. What lies on something goes no
+   farther into it: the velocity that an implicit step leaves there is that of its way to it. And a lower one that flaps
+   does not throw the upper one, which it does not feel in time: it lifts no faster than it rises as a whole. */
 static kiriVec3 PlaneVelocity(const kiriPairs* pairs, const kiriPairTouch* pair)
 {
     double stopped = pairs->bodies.data[pair->bodies[1]].least;
@@ -52,8 +52,8 @@ static kiriVec3 PlaneVelocity(const kiriPairs* pairs, const kiriPairTouch* pair)
     return frame->held ? pair->velocity : kiriVec3_AddScaled(pair->velocity, taken - rises, pair->normal);
 }
 
-/* Surfaces that bend touch in places that change with their last bits, were the planes as hard as those of obstacles. So
-   each frame has a cushion: all that presses on it meets so many times its mass. 1/kg. */
+/* Surfaces that bend touch in places that change with their last bits, were the planes as hard as those of obstacles.
+   So each frame has a cushion: all that presses on it meets so many times its mass. 1/kg. */
 static double SoftnessOf(const kiriPlace3* place)
 {
     return 1.0 / (CUSHION * LargestFrame(place)->mass);

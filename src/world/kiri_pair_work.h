@@ -1,5 +1,5 @@
-/* What the files of pairs share: kiri_pair.c (which pieces are near each other), kiri_pair_touch.c (where they touch) and
-   kiri_pair_load.c (what they press with). No other file of the library includes it. */
+/* What the files of pairs share: kiri_pair.c (which pieces are near each other), kiri_pair_touch.c (where they touch)
+   and kiri_pair_load.c (what they press with). No other file of the library includes it. */
 #ifndef KIRI_PAIR_WORK_H
 #define KIRI_PAIR_WORK_H
 

@@ -1,5 +1,6 @@
-/* Pieces that get a sheet of their own, or are taken away: at once where no work on a cut is at hand in their sheet, else
-   when it is done. Then pieces that are taken away are gone as far as anybody sees, but for their place in the mesh. */
+/* Pieces that get a sheet of their own, or are taken away: at once where no work on a cut is at hand in their sheet,
+   else when it is done. Then pieces that are taken away are gone as far as anybody sees, but for their place in the
+   mesh. */
 #ifndef KIRI_PART_H
 #define KIRI_PART_H
 
@@ -7,9 +8,9 @@
 
 KIRI_C_BEGIN
 
-/* The pieces of these frames, whose ids are known to be right; all in one pass. KIRI_PENDING: some wait. ids[i] becomes the
-   sheet of frames[i], 0 where it waits. KIRI_ERROR_STATE: nothing would be left of a sheet. On failure (also for memory,
-   or ids) nothing has changed. */
+/* The pieces of these frames, whose ids are known to be right; all in one pass. KIRI_PENDING: some wait. ids[i] becomes
+   the sheet of frames[i], 0 where it waits. KIRI_ERROR_STATE: nothing would be left of a sheet. On failure (also for
+   memory, or ids) nothing has changed. */
 kiriResult kiriParts_Detach(kiriWorld* world, const kiriFrame* frames, int32_t count, kiriSheet* ids);
 kiriResult kiriParts_Destroy(kiriWorld* world, const kiriFrame* frames, int32_t count);
 

@@ -46,8 +46,8 @@ static bool IsAtWork(const kiriWorld* world, const kiriSheetData* sheet)
     return world->budget.samples > 0 && sheet->leaving.count > 0 && kiriAhead_IsAtWork(sheet, sheet->leaving.data[0]);
 }
 
-/* How many of those that leave the samples pay for, what was paid before with them: one at least, which takes several ticks
-   if need be. KIRI_NONE: it is not paid for yet. */
+/* How many of those that leave the samples pay for, what was paid before with them: one at least, which takes several
+   ticks if need be. KIRI_NONE: it is not paid for yet. */
 static int32_t PayForLeaving(const kiriWorld* world, kiriSheetData* sheet, kiriQuota* samples)
 {
     int32_t count = sheet->leaving.count > 0, most = IsAtWork(world, sheet) ? 1 : sheet->leaving.count;
@@ -68,8 +68,8 @@ static int32_t PayForLeaving(const kiriWorld* world, kiriSheetData* sheet, kiriQ
     return isPaid ? count : KIRI_NONE;
 }
 
-/* With what has just been paid: faster than that, so that all is made when all is paid. Cells and samples of a sheet that is
-   made anew take less than those beside a cut. */
+/* With what has just been paid: faster than that, so that all is made when all is paid. Cells and samples of a sheet
+   that is made anew take less than those beside a cut. */
 static void GoAhead(kiriWorld* world, kiriSheetData* sheet, int64_t samples)
 {
     enum { CELLS_FOR_A_SAMPLE = 5, SAMPLES_FOR_A_SAMPLE = 1 };

@@ -64,8 +64,8 @@ bool kiriParting_LeavesSome(const kiriParting* parting);
 
 /* ---- What it costs ---- */
 
-/* A call does at once what is left of one tick's samples; the rest waits, each sheet's for itself. What work is at hand in,
-   or has others that wait, waits in any case. */
+/* A call does at once what is left of one tick's samples; the rest waits, each sheet's for itself. What work is at hand
+   in, or has others that wait, waits in any case. */
 void kiriParting_ChooseWhatWaits(kiriParting* parting, bool makesSheets);
 
 /* Once it is done. */

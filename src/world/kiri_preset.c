@@ -27,8 +27,8 @@ kiriResult kiriGetMaterial(int32_t preset, kiriMaterial* material)
 }
 
 /* Points of the front that `make accuracy` measures (tests/sweep.h has the scenes): no setting of the strip is more
-   accurate at the same cost on a grid as coarse; and none of the square by more than a hundredth of the error, with half
-   as many frames along. One Newton step in each of many substeps beats many steps in few. */
+   accurate at the same cost on a grid as coarse; and none of the square by more than a hundredth of the error, with
+   half as many frames along. One Newton step in each of many substeps beats many steps in few. */
 static const kiriQuality qualities[KIRI_QUALITY_COUNT] = {
     { 5, 20, 1, 2 },
     { 9, 40, 1, 4 },

@@ -5,7 +5,7 @@
 
 const uint8_t kiriRecordMagic[KIRI_RECORD_MAGIC_BYTES] = { 'K', 'i', 'r', 'i', 'R', 'e', 'c', '\n' };
 
-/* ---- Structs ------------------------------------------------------------------------------------------------------ */
+/* ---- Structs ----------------------------------------------------------------------------------------------------- */
 
 static void CodeNumbers(kiriCoder* coder, const kiriRecordField* field, char* at)
 {
@@ -93,7 +93,7 @@ static void CodeStruct(kiriCoder* coder, const kiriRecordStruct* of, void* def)
     }
 }
 
-/* ---- Arguments ---------------------------------------------------------------------------------------------------- */
+/* ---- Arguments --------------------------------------------------------------------------------------------------- */
 
 static bool IsPointer(kiriArgumentKind kind)
 {
@@ -228,7 +228,7 @@ void kiriRecord_CodeArguments(kiriCoder* coder, const kiriRecordCall* call, cons
     }
 }
 
-/* ---- Outcome ------------------------------------------------------------------------------------------------------ */
+/* ---- Outcome ----------------------------------------------------------------------------------------------------- */
 
 static void CodeHash(kiriCoder* coder, kiriRecordHash* hash)
 {
@@ -265,7 +265,7 @@ void kiriRecord_CodeOutcome(kiriCoder* coder, const kiriRecordCall* call, const 
     }
 }
 
-/* ---- Recording ---------------------------------------------------------------------------------------------------- */
+/* ---- Recording --------------------------------------------------------------------------------------------------- */
 
 static kiriCoder CoderOf(kiriWorld* world)
 {

@@ -1,6 +1,6 @@
 /* Recording: what functions that change the world were given, and what came of it, as bytes for the host. A table
-   (kiri_record_table.c) says for each of them what its arguments are; one function (kiriRecord_CodeArguments) writes them by
-   it, and reads them for kiriWorld_Replay. */
+   (kiri_record_table.c) says for each of them what its arguments are; one function (kiriRecord_CodeArguments) writes
+   them by it, and reads them for kiriWorld_Replay. */
 #ifndef KIRI_RECORD_H
 #define KIRI_RECORD_H
 

@@ -2,7 +2,7 @@
 #include "kiri_call.h"
 #include "../mesh/kiri_mesh.h"
 
-/* ---- Structs ------------------------------------------------------------------------------------------------------ */
+/* ---- Structs ----------------------------------------------------------------------------------------------------- */
 
 #define FLOATS_FIELD(Type, field, count)                                                                               \
     {                                                                                                                  \
@@ -125,7 +125,7 @@ static const kiriRecordField sheetFields[] = {
 static const kiriRecordStruct sheetStruct =
     STRUCT_OF(kiriSheetDef, KIRI_COOKIE(kiriSheetDef), sheetFields, FillSheetDef);
 
-/* ---- Calls -------------------------------------------------------------------------------------------------------- */
+/* ---- Calls ------------------------------------------------------------------------------------------------------- */
 
 #define OF_ID                                                                                                          \
     {                                                                                                                  \

@@ -17,7 +17,7 @@ typedef struct Recorded {
     bool hasResult; /* else the recording ends within the call */
 } Recorded;
 
-/* ---- Reading ------------------------------------------------------------------------------------------------------ */
+/* ---- Reading ----------------------------------------------------------------------------------------------------- */
 
 static void ReadStart(kiriCoder* coder)
 {
@@ -93,7 +93,7 @@ static void ReadCall(kiriCoder* coder, Recorded* recorded, bool isFirst)
     }
 }
 
-/* ---- Comparing ---------------------------------------------------------------------------------------------------- */
+/* ---- Comparing --------------------------------------------------------------------------------------------------- */
 
 static bool AreSameIds(const Recorded* recorded, int i)
 {
@@ -142,7 +142,7 @@ static const char* Difference(const kiriWorld* world, const Recorded* recorded, 
     return IsSameState(world, recorded) ? NULL : "leads to another state than recorded";
 }
 
-/* ---- Making ------------------------------------------------------------------------------------------------------- */
+/* ---- Making ------------------------------------------------------------------------------------------------------ */
 
 enum { REASON_BYTES = 160 };
 

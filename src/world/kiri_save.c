@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-/* ---- Tables ------------------------------------------------------------------------------------------------------- */
+/* ---- Tables ------------------------------------------------------------------------------------------------------ */
 
 /* What was found is of the tick at hand alone. */
 static const kiriMember PairMembers[] = {
@@ -112,7 +112,7 @@ static const kiriMember WorldMembers[] = {
 };
 static const kiriTable WorldTable = KIRI_TABLE(kiriWorld, WorldMembers);
 
-/* ---- Both directions ---------------------------------------------------------------------------------------------- */
+/* ---- Both directions --------------------------------------------------------------------------------------------- */
 
 enum { SAVE_VERSION = 1, HEAD_BYTES = 32, SUM_BYTES = 8, SHEET_HEAD_BYTES = 24 };
 
@@ -255,7 +255,7 @@ static void ArchiveWorld(kiriArchive* archive, kiriWorld* world, SaveBase* base)
     ArchiveSheets(archive, world, base);
 }
 
-/* ---- Ids ---------------------------------------------------------------------------------------------------------- */
+/* ---- Ids --------------------------------------------------------------------------------------------------------- */
 
 /* Each frame is of a piece: nothing has been checked yet. */
 static bool HaveFramesPieces(const kiriSheetData* sheet)
@@ -300,7 +300,7 @@ static bool ClaimIds(kiriWorld* world)
     return ok;
 }
 
-/* ---- The format --------------------------------------------------------------------------------------------------- */
+/* ---- The format -------------------------------------------------------------------------------------------------- */
 
 static const char saveMagic[8] = { 'K', 'i', 'r', 'i', 'S', 'a', 'v', 'e' };
 static const char differenceMagic[8] = { 'K', 'i', 'r', 'i', 'D', 'i', 'f', 'f' };
@@ -416,8 +416,8 @@ static bool WriteWorld(const kiriWorld* world, SaveBase* base, uint8_t* bytes, i
     return true;
 }
 
-/* Of a whole world nothing is written where it does not fit: it is measured in no time. To measure a difference takes as
-   long as to write it. */
+/* Of a whole world nothing is written where it does not fit: it is measured in no time. To measure a difference takes
+   as long as to write it. */
 static kiriResult SaveWorld(const kiriWorld* world, SaveBase* base, void* bytes, int64_t capacity, int64_t* size)
 {
     bool isMeasured = bytes == NULL || base == NULL;
@@ -446,7 +446,7 @@ kiriResult kiriSave_WriteDifference(const kiriWorld* world, const void* from, in
     return *why != NULL ? KIRI_ERROR_DATA : SaveWorld(world, &base, bytes, capacity, size);
 }
 
-/* ---- A world from bytes ------------------------------------------------------------------------------------------- */
+/* ---- A world from bytes ------------------------------------------------------------------------------------------ */
 
 static void DropSheets(kiriWorld* world, kiriMemory* shown)
 {

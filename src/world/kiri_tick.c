@@ -307,8 +307,8 @@ static bool ReportDeferred(kiriWorld* world)
     return any;
 }
 
-/* What became of the sheets that were moved, in the order in which they were. In the next tick the first that stood still
-   comes first; where none did, the first of which a piece waited. */
+/* What became of the sheets that were moved, in the order in which they were. In the next tick the first that stood
+   still comes first; where none did, the first of which a piece waited. */
 static kiriResult ReportMoves(kiriWorld* world, kiriResult result)
 {
     bool isLate = false, isPartlyLate = false;
@@ -380,8 +380,8 @@ static void SkinAll(kiriWorld* world, double dt)
     }
 }
 
-/* In every other tick pieces that wait get half of all: else a world that is always cut would keep them. In the ones between
-   there is room for steps that need a whole limit. */
+/* In every other tick pieces that wait get half of all: else a world that is always cut would keep them. In the ones
+   between there is room for steps that need a whole limit. */
 static kiriQuota SetAside(const kiriWorld* world, kiriQuotas* quotas)
 {
     bool anyDue = false;
@@ -399,7 +399,8 @@ static kiriQuota SetAside(const kiriWorld* world, kiriQuotas* quotas)
     return aside;
 }
 
-/* Pieces that the host has taken out of a sheet while work was at hand go now that it is done. False where some wait on. */
+/* Pieces that the host has taken out of a sheet while work was at hand go now that it is done. False where some wait
+   on. */
 static bool FinishParting(kiriWorld* world, kiriQuota* samples)
 {
     bool isDone = true;
@@ -429,8 +430,8 @@ static void CountSpent(kiriProfile* profile, const kiriQuotas* quotas)
     profile->solverIterations = (int32_t)quotas->of[KIRI_QUOTA_ITERATIONS].used;
 }
 
-/* Algorithm 1 of the paper: the work on cuts (see kiri_pipeline.c for its stages), its commit, the motion of frames, and
-   what is seen. */
+/* Algorithm 1 of the paper: the work on cuts (see kiri_pipeline.c for its stages), its commit, the motion of frames,
+   and what is seen. */
 kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
 {
     kiriQuotas quotas = kiriQuotas_Of(&world->budget);

@@ -6,8 +6,8 @@
 
 KIRI_C_BEGIN
 
-/* One tick: KIRI_OK, KIRI_PENDING (work waits), KIRI_DIVERGED; or KIRI_ERROR_MEMORY or KIRI_ERROR_LIMIT, and then nothing
-   moved. */
+/* One tick: KIRI_OK, KIRI_PENDING (work waits), KIRI_DIVERGED; or KIRI_ERROR_MEMORY or KIRI_ERROR_LIMIT, and then
+   nothing moved. */
 kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps);
 
 KIRI_C_END

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-/* ---- Ids ---------------------------------------------------------------------------------------------------------- */
+/* ---- Ids --------------------------------------------------------------------------------------------------------- */
 
 enum { MOST_GENERATIONS = 127 };
 
@@ -37,7 +37,7 @@ static bool ArePools(kiriCheck* check, const kiriWorld* world)
            IsPool(check, &world->obstacleIds, KIRI_KIND_OBSTACLE) && IsPool(check, &world->bladeIds, KIRI_KIND_BLADE);
 }
 
-/* ---- Blades ------------------------------------------------------------------------------------------------------- */
+/* ---- Blades ------------------------------------------------------------------------------------------------------ */
 
 static const kiriMust LayerMust[] = {
     KIRI_REALS(kiriLayer, rest, share),
@@ -71,7 +71,7 @@ static bool AreBlades(kiriCheck* check, const kiriWorld* world)
     return areFine;
 }
 
-/* ---- The world ---------------------------------------------------------------------------------------------------- */
+/* ---- The world --------------------------------------------------------------------------------------------------- */
 
 static const kiriMust TouchingPairMust[] = {
     KIRI_WITHIN(-1, 1, kiriTouchingPair, side, side),
@@ -107,7 +107,7 @@ static bool HasRooms(const kiriWorld* world)
     return world->active.capacity >= sheets && world->atWork.capacity >= sheets;
 }
 
-/* ---- Sheets ------------------------------------------------------------------------------------------------------- */
+/* ---- Sheets ------------------------------------------------------------------------------------------------------ */
 
 /* What the host gave is what it may give. */
 static bool AreGiven(const kiriSettings* settings)

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Builds the README's first program, in build/single, in each way that the library can be used: from its folder, installed,
-# by pkg-config, by CMake, and from its sources. CONFIG, CC, CXX and EIGEN are those of the Makefile.
+# Builds the README's first program, in build/single, in each way that the library can be used: from its folder,
+# installed, by pkg-config, by CMake, and from its sources. CONFIG, CC, CXX and EIGEN are those of the Makefile.
 set -eu
 cd "$(dirname "$0")/../.."
 root=$PWD
