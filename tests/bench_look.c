@@ -331,7 +331,7 @@ static void LookBothWays(Table* table, const Scene* scene, const char* moment)
     kiriSheetData* sheet = scene->world->sheets.data[0];
     int32_t own = sheet->seen.surface.skinning;
     for (int32_t skinning = KIRI_SKINNING_LINEAR; skinning <= KIRI_SKINNING_SMOOTH; skinning++) {
-        Seen seen = { NULL };
+        Seen seen = { 0 };
         sheet->seen.surface.skinning = skinning;
         kiriSurface_Blend(&sheet->seen.surface, &sheet->vertexSkin, &sheet->shape.labels, sheet->frames.data,
                           sheet->frames.count, sheet->links.links.data, sheet->links.links.count);

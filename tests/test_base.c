@@ -39,14 +39,15 @@ static void ArraysFail(void** state)
     kiriMemory memory = kiriMemory_Make(PurseAlloc, PurseFree, &purse);
     KIRI_ARRAY(int32_t) array = { 0 };
     int32_t pushed = 0;
+    int64_t tooMany = (int64_t)INT32_MAX + 1;
     while (kiriArray_Push(&memory, &array, pushed)) {
         ++pushed;
     }
     assert_true(pushed > 0 && array.count == pushed && array.capacity == pushed);
     assert_false(kiriArray_Resize(&memory, &array, pushed + 1));
-    assert_false(kiriArray_Reserve(&memory, &array, (int64_t)INT32_MAX + 1));
+    assert_false(kiriArray_Reserve(&memory, &array, tooMany));
     purse.budget = -1;
-    assert_false(kiriArray_Reserve(&memory, &array, (int64_t)INT32_MAX + 1)); /* counts are 32 bits */
+    assert_false(kiriArray_Reserve(&memory, &array, tooMany)); /* counts are 32 bits */
     assert_int_equal(array.count, pushed);
     for (int32_t i = 0; i < pushed; ++i) {
         assert_int_equal(array.data[i], i);

@@ -29,7 +29,7 @@
 /* Of this header; kiriGetVersion has that of the library. */
 #define KIRI_VERSION_MAJOR 0
 #define KIRI_VERSION_MINOR 11
-#define KIRI_VERSION_PATCH 0
+#define KIRI_VERSION_PATCH 1
 #define KIRI_VERSION (10000 * KIRI_VERSION_MAJOR + 100 * KIRI_VERSION_MINOR + KIRI_VERSION_PATCH)
 
 #if defined(KIRI_SHARED) && defined(_WIN32)
@@ -109,9 +109,9 @@ typedef void kiriFinishTaskFn(void* user, void* handle);
    A step that cannot be parted and counts more than a whole limit is done in a tick of its own. Pieces that wait to be
    detached get half of every other tick, whatever other sheets have to do.
    How long lips wait: a cut from side to side takes 6 items of cells for each cell of the grid where frames are many,
-   30 where they are few (each has more of the sheet), and 0.2 to 1.2 of samples for each vertex; a cut half as long a
+   30 where they are few (each has more of the sheet), and 0.2 to 1.3 of samples for each vertex; a cut half as long a
    quarter to all of that. So on a sheet and grid of 64 x 64 squares with 9 frames, 2000 cells and 500 samples part a
-   cut from side to side after 70 ticks, one half as long after 27; 10 000 and 2000 after 15 and 6.
+   cut from side to side after 72 ticks, one half as long after 27; 10 000 and 2000 after 15 and 6.
    tests/bench_delay.c prints the table. */
 typedef struct kiriBudget {
     int32_t triangles; /* split by blades; 0, or KIRI_LEAST_TRIANGLES and more */
