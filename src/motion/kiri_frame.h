@@ -76,8 +76,8 @@ static inline kiriVec3 kiriFrame_VelocityAt(const kiriFrameData* frame, kiriVec2
     return kiriVec3_AddScaled(velocity, p.y - frame->center.y, frame->rate.v);
 }
 
-/* Can the host read it as floats? An eighth of these leaves room for the sums and blends that they are made of, and a
-   stretch of 1e12 for its squares. NaN does not fit. */
+/* Can the host read it as floats? An eighth of these leaves room for the sums and blends that they are made of. NaN
+   does not fit. */
 bool kiriFrame_FitsFloats(const kiriFrameData* frame);
 
 /* Stays where it is. */

@@ -335,19 +335,13 @@ kiriPrediction kiriPrediction_Held(const kiriFrameData* frame, const kiriMateria
     return prediction;
 }
 
-/* Skinning takes squares of stretches as floats, times what a patch turns over its region. */
-static bool IsStretchable(kiriVec3 axis)
-{
-    const double most = 1e12;
-    return fabs(axis.x) <= most && fabs(axis.y) <= most && fabs(axis.z) <= most;
-}
-
 bool kiriFrame_FitsFloats(const kiriFrameData* frame)
 {
-    return kiriVec3_FitsFloats(frame->x) && IsStretchable(frame->A.u) && IsStretchable(frame->A.v) &&
-           IsStretchable(frame->A.d) && kiriVec3_FitsFloats(frame->velocity) && kiriVec3_FitsFloats(frame->spin) &&
-           kiriVec3_FitsFloats(frame->rate.u) && kiriVec3_FitsFloats(frame->rate.v) &&
-           kiriVec3_FitsFloats(frame->rate.d) && kiriVec3_FitsFloats(kiriFrame_VelocityAt(frame, frame->site.at));
+    return kiriVec3_FitsFloats(frame->x) && kiriVec3_FitsFloats(frame->A.u) && kiriVec3_FitsFloats(frame->A.v) &&
+           kiriVec3_FitsFloats(frame->A.d) && kiriVec3_FitsFloats(frame->velocity) &&
+           kiriVec3_FitsFloats(frame->spin) && kiriVec3_FitsFloats(frame->rate.u) &&
+           kiriVec3_FitsFloats(frame->rate.v) && kiriVec3_FitsFloats(frame->rate.d) &&
+           kiriVec3_FitsFloats(kiriFrame_VelocityAt(frame, frame->site.at));
 }
 
 void kiriFrame_PutToRest(kiriFrameData* frame)

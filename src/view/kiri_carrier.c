@@ -67,7 +67,8 @@ static void Curve(kiriCarrier* carrier, const kiriBend* bend)
     double a = bend->uu + least, c = bend->vv + least, b = bend->uu + bend->vv + 2.0 * least;
     double det = a * (b * c - m * m) - m * m * c;
     double square = kiriVec3_Length(kiriVec3_Cross(carrier->u, carrier->v));
-    if (!(det > 0.0 && square > 1e-24)) { /* what is nearly a line is flat: floats cannot hold `six` */
+    /* What is nearly a line, or torn beyond all measure, is flat: floats cannot hold `six`. */
+    if (!(det > 0.0 && square > 1e-24 && square < 1e24)) {
         return;
     }
     double scale = 1.0 / (square * det);
