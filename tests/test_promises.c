@@ -264,7 +264,7 @@ static void TestHashTellsProgress(void** state)
     for (uint32_t run = 1; run <= 300; ++run) {
         uint32_t seed = 2654435761u * run;
         kiriBudget budgets[MOST_TICKS], next = { KIRI_LEAST_TRIANGLES, 9, 4, 0 };
-        int32_t ticks = 1 + (int32_t)(Random(&seed) % 24),
+        int32_t ticks = 1 + (int32_t)(Random(&seed) % 32),
                 most = run % 2 == 0 ? 1000 : 5 + (int32_t)(Random(&seed) % 120);
         Host a, b;
         for (int32_t k = 0; k < ticks; ++k) {
