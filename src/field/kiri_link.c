@@ -350,7 +350,6 @@ static void TakeOver(const kiriBorder* border, kiriLinks* links, int32_t k)
     }
 }
 
-/* Takes over the links of pairs that are not stale, between those that were made; no pair has both. */
 /* Nothing is known any more of the room of the next links. */
 static void TakeBefore(kiriLinks* links)
 {
@@ -363,6 +362,7 @@ static void TakeBefore(kiriLinks* links)
     links->was.count = links->wasCorner.count = work->nextPairs.count = 0;
 }
 
+/* Takes over the links of pairs that are not stale, between those that were made; no pair has both. */
 static bool MergeLinks(const kiriBorder* border, kiriLinks* links)
 {
     kiriLinkWork* work = border->work;
