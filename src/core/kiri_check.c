@@ -267,7 +267,7 @@ bool kiriCheck_Chain(kiriCheck* check, kiriChains* chains, int32_t head)
 enum { BYTES_AT_ONCE = 8 };
 
 /* Marks the bytes from one on, up to eight; false where one of them is marked. */
-static bool TakeBytes(uint8_t* taken, int64_t count)
+static bool ClaimBytes(uint8_t* taken, int64_t count)
 {
     static const uint8_t marks[2 * BYTES_AT_ONCE] = { 1, 1, 1, 1, 1, 1, 1, 1 };
     uint64_t these, there;
@@ -285,7 +285,7 @@ static bool TakeRoomOf(kiriCheck* check, kiriRooms* rooms, int64_t first, int64_
     bool isFine = first >= 0 && first + room <= rooms->items.count;
     int64_t step = room < BYTES_AT_ONCE ? room : BYTES_AT_ONCE;
     for (int64_t k = first; isFine && k < first + room; k += step) {
-        isFine = TakeBytes(rooms->taken + k, step);
+        isFine = ClaimBytes(rooms->taken + k, step);
     }
     return kiriCheck_That(check, isFine);
 }

@@ -290,7 +290,7 @@ static void TakeOldLinks(const kiriBorder* border, const kiriLinks* links)
 /* ---- The whole -------------------------------------------------------------------------------------------------- */
 
 /* Where they are not there from the last update: of links that were read, be it amid an update, or are left. */
-static bool ListPairs(const kiriBorder* border, const kiriLinks* links)
+static bool ListRegionPairs(const kiriBorder* border, const kiriLinks* links)
 {
     kiriLinkWork* work = border->work;
     if (work->pairs.count == links->links.count) {
@@ -530,7 +530,7 @@ kiriProgress kiriLinks_Update(kiriLinks* links, kiriMemory* memory, const kiriGr
     }
     KIRI_ASSERT(regions->dirty.count == siteCount && regions->border.first.count == siteCount && !regions->running);
     kiriBorder border = { memory, grid, mesh, regions, sites, siteCount, links->work };
-    bool ok = (links->work->running || BeginLinks(&border, links)) && ListPairs(&border, links);
+    bool ok = (links->work->running || BeginLinks(&border, links)) && ListRegionPairs(&border, links);
     kiriProgress progress = ok ? RunLinks(&border, links, quota) : KIRI_FAILED;
     if (progress != KIRI_MORE) {
         EndLinks(links->work);

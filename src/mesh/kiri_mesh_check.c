@@ -295,7 +295,7 @@ typedef struct Corner {
     uint32_t triangle, at;
 } Corner;
 
-static Corner CornerOf(int32_t h)
+static Corner CornerOfHalfEdge(int32_t h)
 {
     uint32_t t = (uint32_t)h / 3;
     return (Corner){ t, (uint32_t)h - 3 * t };
@@ -332,7 +332,7 @@ static inline bool TakeCorner(Fan* fan, Corner* corner)
         fan->isFine = triangle->vertex[corner->at] == fan->vertex && !isOpen;
         return false;
     }
-    Corner next = CornerOf(twin);
+    Corner next = CornerOfHalfEdge(twin);
     fan->isFine = triangle->vertex[corner->at] == fan->vertex && IsTwin(fan, before, next, isOpen);
     *corner = next;
     return fan->isFine && !isOpen;
@@ -342,7 +342,7 @@ static inline bool TakeCorner(Fan* fan, Corner* corner)
    start. */
 static void TakeFan(Fan* fan, int32_t start)
 {
-    const Corner first = CornerOf(start);
+    const Corner first = CornerOfHalfEdge(start);
     Corner corner = first;
     bool isRound = false;
     while (!isRound && TakeCorner(fan, &corner)) {
@@ -351,7 +351,7 @@ static void TakeFan(Fan* fan, int32_t start)
     for (int32_t h = isRound ? KIRI_NONE : start; fan->isFine && h != KIRI_NONE;) {
         h = kiriMesh_Clockwise(fan->mesh, h);
         if (h != KIRI_NONE) {
-            corner = CornerOf(h);
+            corner = CornerOfHalfEdge(h);
             TakeCorner(fan, &corner);
         }
     }
