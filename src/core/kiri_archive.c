@@ -404,6 +404,9 @@ static void MoveSpace(kiriArchive* archive, const kiriMember* member, void* arra
 
 void kiriArchive_Block(kiriArchive* archive, void** block, int32_t width, int64_t count)
 {
+    if (kiriArchive_HasFailed(archive)) {
+        return; /* the count may be any */
+    }
     if (kiriArchive_Reads(archive)) {
         *block = MakeBlock(archive, count * width);
     }
