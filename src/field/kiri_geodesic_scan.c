@@ -1,6 +1,6 @@
 /* Floods by scanning: all cells in their order, forth and back, each pulls from those before it (Rosenfeld and Pfaltz
-   1966, Borgefors 1986). In a sheet without slits and bays all is found in the first two scans. There is no queue, and
-   hardly a branch that nobody can guess: it is several times as fast as a sweep. */
+   1966, Borgefors 1986). In a sheet without slits and bays all is found in the first two scans. There is no queue,
+   and few branches are hard to predict, so it is faster than a sweep. */
 #include "kiri_geodesic.h"
 
 /* The more the ways wind the more scans it takes: then a sweep is faster. */

@@ -67,7 +67,7 @@ static void Curve(kiriCarrier* carrier, const kiriBend* bend)
     double a = bend->uu + least, c = bend->vv + least, b = bend->uu + bend->vv + 2.0 * least;
     double det = a * (b * c - m * m) - m * m * c;
     double square = kiriVec3_Length(kiriVec3_Cross(carrier->u, carrier->v));
-    /* What is nearly a line, or torn beyond all measure, is flat: floats cannot hold `six`. */
+    /* A patch that is nearly a line, or is stretched 1e12 times, stays flat: floats cannot hold `six`. */
     if (!(det > 0.0 && square > 1e-24 && square < 1e24)) {
         return;
     }
