@@ -519,9 +519,10 @@ FUZZ_MAIN := $(if $(filter fuzz,$(config)),,$(BUILD)/tests/fuzz_main.c.o)
 
 $(patsubst %,$(BUILD)/tests/fuzz_%,$(FUZZERS)): $(BUILD)/tests/fuzz.c.o $(FUZZ_MAIN)
 $(BUILD)/tests/fuzz_calls: $(patsubst %,$(BUILD)/tests/fuzz_%.c.o,read world)
-$(BUILD)/tests/fuzz_load $(BUILD)/tests/fuzz_spoil: \
+$(BUILD)/tests/fuzz_load $(BUILD)/tests/fuzz_spoil $(BUILD)/tests/sweep_saves: \
     $(patsubst %,$(BUILD)/tests/%.c.o,fuzz_saved storm_types storm_acts storm_cuts storm_seen)
-$(BUILD)/tests/fuzz_spoil: $(BUILD)/tests/fuzz_archive.c.o
+$(BUILD)/tests/fuzz_spoil $(BUILD)/tests/sweep_saves: $(patsubst %,$(BUILD)/tests/fuzz_%.c.o,traced archive)
+$(BUILD)/tests/sweep_saves: $(BUILD)/tests/fuzz.c.o
 ifeq ($(config),fuzz)
 $(BUILD)/tests/fuzz_%: override LDFLAGS += -fsanitize=fuzzer
 endif

@@ -1,126 +1,11 @@
 /* As fuzz_load.c, but what is changed are numbers of blocks of memory, each of which counts as much as each other: a
    stage or a cursor is hit as often as a list of thousands. */
-#include "fuzz_saved.h"
-
-#include "core/kiri_archive.h"
+#include "fuzz_traced.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-void RealNumbers(kiriArchive* archive, void* numbers, int32_t width, int64_t count);
-
-enum { MOST_BLOCKS = 4096, MOST_SPOILED = 5 };
-
-/* ---- A host that knows its blocks ---- */
-
-typedef struct Block {
-    char* at;
-    int64_t bytes;
-} Block;
-
-typedef struct Blocks {
-    Block of[MOST_BLOCKS];
-    int32_t count;
-} Blocks;
-
-static Blocks blocks;
-
-static void* TakeBlock(void* user, int64_t bytes)
-{
-    (void)user;
-    char* at = blocks.count < MOST_BLOCKS ? calloc(1, (size_t)bytes) : NULL;
-    if (at != NULL) {
-        blocks.of[blocks.count++] = (Block){ at, bytes };
-    }
-    return at;
-}
-
-static void GiveBlock(void* user, void* pointer)
-{
-    (void)user;
-    int32_t k = 0;
-    while (k < blocks.count && blocks.of[k].at != pointer) {
-        ++k;
-    }
-    if (k < blocks.count) {
-        memmove(&blocks.of[k], &blocks.of[k + 1], sizeof(Block) * (size_t)(--blocks.count - k));
-        free(pointer);
-    }
-}
-
-/* ---- What saves have of which block ---- */
-
-typedef struct Part {
-    int32_t block, width;
-    int64_t at, bytes;
-} Part;
-
-typedef struct Traced {
-    Save save;
-    Part* parts;
-    int32_t count, capacity, blocks;
-    int32_t first[MOST_BLOCKS + 2];
-    int64_t words[MOST_BLOCKS + 2];
-} Traced;
-
-static Traced* tracing;
-static Traced* traced[SAVED_WORLDS];
-
-static int32_t FindBlock(const char* at)
-{
-    int32_t k = 0;
-    while (k < blocks.count && (at < blocks.of[k].at || at >= blocks.of[k].at + blocks.of[k].bytes)) {
-        ++k;
-    }
-    return k;
-}
-
-void kiriArchive_Numbers(kiriArchive* archive, void* numbers, int32_t width, int64_t count)
-{
-    if (tracing != NULL && archive->mode == KIRI_ARCHIVE_WRITE && archive->at >= SAVED_HEAD_BYTES && count > 0) {
-        if (tracing->count == tracing->capacity) {
-            tracing->capacity = 2 * tracing->capacity + 1024;
-            tracing->parts = realloc(tracing->parts, sizeof(Part) * (size_t)tracing->capacity);
-        }
-        tracing->parts[tracing->count++] = (Part){ FindBlock(numbers), width, archive->at, width * count };
-    }
-    RealNumbers(archive, numbers, width, count);
-}
-
-static int CompareParts(const void* a, const void* b)
-{
-    const Part *x = a, *y = b;
-    return x->block != y->block ? (x->block < y->block ? -1 : 1) : x->at < y->at ? -1 : x->at > y->at;
-}
-
-static const Traced* Trace(int32_t index)
-{
-    if (traced[index] == NULL) {
-        const Saved* saved = Saved_Get(index);
-        kiriWorldDef def;
-        kiriWorld* world = NULL;
-        Traced* t = traced[index] = calloc(1, sizeof(Traced));
-        blocks.count = 0;
-        kiriDefaultWorldDef(&def);
-        def.alloc = TakeBlock;
-        def.free = GiveBlock;
-        FUZZ_CHECK(kiriCreateWorld(&def, &world) == KIRI_OK, "no world");
-        FUZZ_CHECK(kiriWorld_Load(world, saved->later.bytes, saved->later.size) == KIRI_OK, "a good save is refused");
-        t->save = Saved_Make(world, NULL);
-        tracing = t;
-        FUZZ_CHECK(kiriWorld_Save(world, t->save.bytes, t->save.size, &t->save.size) == KIRI_OK, "no save");
-        tracing = NULL;
-        kiriDestroyWorld(world);
-        qsort(t->parts, (size_t)t->count, sizeof(Part), CompareParts);
-        for (int32_t k = 0; k < t->count; ++k) {
-            if (k == 0 || t->parts[k].block != t->parts[k - 1].block) {
-                t->first[t->blocks++] = k;
-            }
-            t->words[t->blocks - 1] += (t->parts[k].bytes + 3) / 4;
-        }
-    }
-    return traced[index];
-}
+enum { MOST_SPOILED = 5 };
 
 /* ---- What is changed ---- */
 
@@ -145,11 +30,7 @@ static void SpoilWord(FuzzBytes* bytes, const Traced* t, Save* save)
     int32_t block = (int32_t)(FuzzBytes_GetSome(bytes, 2) % (uint32_t)t->blocks);
     uint32_t kind = FuzzBytes_Get(bytes), value = FuzzBytes_Get(bytes);
     int64_t word = (int64_t)(FuzzBytes_GetSome(bytes, 3) % (uint64_t)t->words[block]);
-    const Part* part = &t->parts[t->first[block]];
-    while (word >= (part->bytes + 3) / 4) {
-        word -= (part->bytes + 3) / 4;
-        ++part;
-    }
+    const TracedPart* part = Traced_Find(t, block, &word);
     int64_t at = part->at + 4 * word, left = part->at + part->bytes - at;
     if (left < 4 || (part->width == 1 && kind % 2 == 0)) {
         at += value / 16 % (left < 4 ? left : 4);
@@ -174,7 +55,7 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size)
 {
     FuzzBytes bytes = { data, size, 0, 0.0f };
     int32_t index = FuzzBytes_Below(&bytes, SAVED_WORLDS);
-    const Traced* t = Trace(index);
+    const Traced* t = Traced_Get(index);
     Save save = Saved_Copy(&t->save);
     for (int32_t count = 1 + FuzzBytes_Below(&bytes, MOST_SPOILED); count > 0; --count) {
         SpoilWord(&bytes, t, &save);
