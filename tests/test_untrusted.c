@@ -48,7 +48,8 @@ static void AssertAlike(Storm* a, Storm* b, int32_t saved, int32_t tick)
     }
 }
 
-/* From the same bytes, trusted and not. */
+/* From the same bytes, trusted and not. With a budget a later cut may take effect in another tick: from there on the
+   worlds are others. */
 static void CheckGoesOn(const Storm* storm, kiriWorld* trusting, kiriWorld* other, int32_t tick)
 {
     Storm a = *storm, b = *storm;
@@ -62,6 +63,7 @@ static void CheckGoesOn(const Storm* storm, kiriWorld* trusting, kiriWorld* othe
         AssertAlike(&a, &b, tick, tick + k);
         Storm_Tick(&a);
         Storm_Tick(&b);
+        isAtWork = IsAtWork(a.world) || IsAtWork(b.world);
     }
     free(save.bytes);
 }

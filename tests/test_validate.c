@@ -413,7 +413,8 @@ static int32_t* OwnReach(kiriSheetData* s)
 static bool AddBlockTwice(kiriSheetData* s)
 {
     kiriReaches* reaches = &s->shape.reaches;
-    bool ok = kiriReaches_Reserve(reaches, s->memory, 1);
+    int64_t room = kiriReaches_RoomFor(reaches, 1);
+    bool ok = kiriArray_Reserve(s->memory, &reaches->blocks, room) && kiriArray_Reserve(s->memory, &reaches->heads, room);
     if (ok) {
         const kiriReachBlock was = reaches->blocks.data[reaches->ofLabel.data[0]];
         kiriReachBlock* twin = &reaches->blocks.data[kiriReaches_Add(reaches, 0, was.cells)];

@@ -150,6 +150,8 @@ static const kiriMember ShapeWorkMembers[] = {
     KIRI_PARTS(kiriShapeWork, rawWeights, RawWeightTable),
     KIRI_ITEMS(4, kiriShapeWork, dirty),
     KIRI_RUN(4, kiriShapeWork, stage, next),
+    KIRI_RUN(8, kiriShapeWork, due, due),
+    KIRI_DROPPED(kiriShapeWork, growing),
 };
 static const kiriTable ShapeWorkTable = KIRI_TABLE(kiriShapeWork, ShapeWorkMembers);
 
@@ -362,6 +364,9 @@ void kiriShape_Forget(kiriShape* shape, kiriMemory* memory)
     kept.rigidWeight = shape->rigidWeight;
     kept.eased = shape->eased;
     memset(&shape->labels, 0, sizeof(shape->labels));
+    if (shape->work != NULL) {
+        kiriGrowing_Drop(&shape->work->growing);
+    }
     kiriArchive_Forget(&kiriShapeTable, shape, memory);
     *shape = kept;
 }

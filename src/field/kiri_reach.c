@@ -32,21 +32,9 @@ int32_t kiriReaches_Find(const kiriReaches* reaches, int32_t label, int32_t cell
     return block;
 }
 
-static int64_t BlocksWith(const kiriReaches* reaches, int32_t more)
+int64_t kiriReaches_RoomFor(const kiriReaches* reaches, int32_t more)
 {
     return (int64_t)reaches->blocks.count + more - reaches->freeBlocks;
-}
-
-bool kiriReaches_Grows(const kiriReaches* reaches, int32_t more)
-{
-    int64_t need = BlocksWith(reaches, more);
-    return need > reaches->blocks.capacity || need > reaches->heads.capacity;
-}
-
-bool kiriReaches_Reserve(kiriReaches* reaches, kiriMemory* memory, int32_t more)
-{
-    return kiriArray_Reserve(memory, &reaches->blocks, BlocksWith(reaches, more)) &&
-           kiriArray_Reserve(memory, &reaches->heads, BlocksWith(reaches, more));
 }
 
 static int32_t TakeBlock(kiriReaches* reaches)

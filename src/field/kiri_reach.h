@@ -51,9 +51,8 @@ void kiriReaches_Clear(kiriReaches* reaches);
 /* The block, or KIRI_NONE. */
 int32_t kiriReaches_Find(const kiriReaches* reaches, int32_t label, int32_t cells);
 
-/* Room for so many more blocks. Grows: does that move those that are there? */
-bool kiriReaches_Grows(const kiriReaches* reaches, int32_t more);
-bool kiriReaches_Reserve(kiriReaches* reaches, kiriMemory* memory, int32_t more);
+/* The room that so many more blocks need, in `blocks` and in `heads`. */
+int64_t kiriReaches_RoomFor(const kiriReaches* reaches, int32_t more);
 
 /* A block that there is not yet, which reaches nothing. There is room. */
 int32_t kiriReaches_Add(kiriReaches* reaches, int32_t label, int32_t cells);

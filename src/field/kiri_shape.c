@@ -1,5 +1,6 @@
 #include "kiri_shape_work.h"
 
+#include "../core/kiri_hash.h"
 #include "../core/kiri_sort.h"
 
 #include <string.h>
@@ -311,10 +312,10 @@ static bool MarkChange(kiriShapeJob* job, ChangeList list, int32_t k)
     }
 }
 
-enum { MARKS_AN_ITEM = 2, PLACED_AN_ITEM = 3 };
+enum { PLACED_AN_ITEM = 3 };
 
-/* Goes on at work->next, which counts through all lists. An item is two cells that are marked, or counted with those
-   beside them. */
+/* Goes on at work->next, which counts through all lists. An item is a cell that is marked, or counted with those beside
+   it. */
 static kiriProgress MarkChanges(kiriShapeJob* job, kiriQuota* quota)
 {
     kiriShapeWork* work = job->work;
@@ -324,7 +325,7 @@ static kiriProgress MarkChanges(kiriShapeJob* job, kiriQuota* quota)
     int32_t first = 0;
     for (ChangeList list = LIST_GONE; list <= LIST_COUNT_REGION; ++list) {
         for (; work->next < first + counts[list]; ++work->next) {
-            if (!kiriQuota_Take(quota, work->next % MARKS_AN_ITEM == 0)) {
+            if (!kiriQuota_Take(quota, 1)) {
                 return KIRI_MORE;
             }
             if (!MarkChange(job, list, work->next - first)) {
@@ -467,6 +468,13 @@ kiriProgress kiriShape_Update(kiriShape* shape, kiriMemory* memory, const kiriGr
     return progress;
 }
 
+void kiriShape_HashProgress(const kiriShape* shape, uint64_t* hash)
+{
+    if (shape->work != NULL && shape->work->stage != KIRI_SHAPE_REST) {
+        kiriHash_Int64(hash, shape->work->due);
+    }
+}
+
 static void RelabelWeights(kiriShape* shape, const kiriKeep* labels)
 {
     const int32_t* to = labels->to.data;
@@ -566,5 +574,8 @@ void kiriShape_Reset(kiriShape* shape)
         memset(&work->sideRoom, 0, sizeof(work->sideRoom));
         work->stage = KIRI_SHAPE_REST;
         work->frameStage = KIRI_FRAME_REST;
+        work->due = 0;
+        kiriGrowing_Drop(&work->growing);
+        work->growing.owed = 0;
     }
 }

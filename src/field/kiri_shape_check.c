@@ -28,6 +28,7 @@ static const kiriMust ShapeWorkMust[] = {
     KIRI_ITEMS_MUST(kiriShapeWork, dirtyFrames, IsRegion),
     KIRI_WITHIN(KIRI_SHAPE_REST, KIRI_SHAPE_FINISH, kiriShapeWork, stage, stage),
     KIRI_WITHIN(0, INT32_MAX, kiriShapeWork, next, next),
+    KIRI_COUNTS(kiriShapeWork, due, due),
 };
 
 /* While an update is at hand: what rests has whatever the last one left there. */

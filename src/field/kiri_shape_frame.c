@@ -70,6 +70,8 @@ static double RawWeight(bool inside, int32_t d, int32_t e)
 
 /* ---- Its blocks -------------------------------------------------------------------------------------------------- */
 
+enum { ITEMS_OF_LOAD = 8 };
+
 /* There is room for all. */
 static void LoadNewBlock(const kiriShapeJob* job, int32_t cells)
 {
@@ -78,6 +80,7 @@ static void LoadNewBlock(const kiriShapeJob* job, int32_t cells)
     int32_t block = kiriReaches_Find(reaches, job->label, cells), first = cells * KIRI_BLOCK_CELLS;
     KIRI_ASSERT(work->loaded.count < work->loaded.capacity);
     work->isLoaded.data[cells] = KIRI_BLOCK_LOADED;
+    work->due += ITEMS_OF_LOAD;
     work->loaded.data[work->loaded.count++] = (kiriLoadedBlock){ cells, block };
     if (block != KIRI_NONE && !work->frames.data[job->frame].moved) {
         const kiriReachBlock* from = &reaches->blocks.data[block];
@@ -424,10 +427,11 @@ static void UnloadBlock(kiriShapeJob* job, kiriLoadedBlock loaded)
     work->isLoaded.data[loaded.cells] = 0;
 }
 
-/* Of a block: cells with other distances may get another weight. */
+/* Of a block, which is looked for in several places of memory; and of cells with other distances, which may get another
+   weight. */
 static int64_t ItemsToUnload(const kiriShapeJob* job, kiriLoadedBlock loaded)
 {
-    enum { CHANGED_AN_ITEM = 4 };
+    enum { ITEMS_OF_BLOCK = 2, CHANGED_AN_ITEM = 2 };
     const kiriShapeWork* work = job->work;
     const kiriReachBlock* block = loaded.block != KIRI_NONE ? &job->shape->reaches.blocks.data[loaded.block] : NULL;
     int32_t first = loaded.cells * KIRI_BLOCK_CELLS, changed = 0;
@@ -438,28 +442,39 @@ static int64_t ItemsToUnload(const kiriShapeJob* job, kiriLoadedBlock loaded)
         int32_t wasBorder = block != NULL ? block->fromBorder[k] : KIRI_FAR;
         changed += (fromSite[k] != wasSite) | ((fromBorder[k] != wasBorder) & (fromSite[k] != KIRI_FAR));
     }
-    return 1 + changed / CHANGED_AN_ITEM;
+    return ITEMS_OF_BLOCK + changed / CHANGED_AN_ITEM;
 }
 
-/* Room for all that may come out of the fields. Where an array has to move, that is paid before. */
+enum { UNLOAD_ROOMS = 3 };
+
+/* For all that may come out of the fields. */
+static void ListUnloadRooms(kiriShape* shape, kiriMemory* memory, kiriRoom rooms[UNLOAD_ROOMS])
+{
+    kiriShapeWork* work = shape->work;
+    int64_t blocks = kiriReaches_RoomFor(&shape->reaches, work->loaded.count),
+            weights = work->rawWeights.count + (int64_t)KIRI_BLOCK_CELLS * work->loaded.count;
+    const kiriRoom all[UNLOAD_ROOMS] = { KIRI_ROOM(memory, &shape->reaches.blocks, blocks),
+                                         KIRI_ROOM(memory, &shape->reaches.heads, blocks),
+                                         KIRI_ROOM(memory, &work->rawWeights, weights) };
+    memcpy(rooms, all, sizeof(all));
+}
+
+/* So that no tick moves all of it. */
 static kiriProgress MakeRoomToUnload(kiriShapeJob* job, kiriQuota* quota)
 {
-    enum { MOVED_BLOCKS = 1, MOVED_WEIGHTS = 8 }; /* for an item */
-    kiriReaches* reaches = &job->shape->reaches;
-    kiriShapeWork* work = job->work;
-    int64_t weights = work->rawWeights.count + (int64_t)KIRI_BLOCK_CELLS * work->loaded.count;
-    bool growsReaches = kiriReaches_Grows(reaches, work->loaded.count);
-    if (growsReaches && !kiriQuota_TakeAtMostAll(quota, reaches->blocks.count / MOVED_BLOCKS)) {
-        return KIRI_MORE;
+    enum { MOVED_BYTES = 128 }; /* for an item: most are the first in their page */
+    kiriRoom rooms[UNLOAD_ROOMS];
+    ListUnloadRooms(job->shape, job->memory, rooms);
+    return kiriGrowing_GoOn(&job->work->growing, rooms, UNLOAD_ROOMS, quota, MOVED_BYTES);
+}
+
+void kiriShape_ArchiveGrowing(kiriArchive* archive, kiriShape* shape, kiriMemory* memory)
+{
+    kiriRoom rooms[UNLOAD_ROOMS];
+    if (shape->work != NULL) {
+        ListUnloadRooms(shape, memory, rooms);
+        kiriArchive_Growing(archive, &shape->work->growing, rooms, UNLOAD_ROOMS);
     }
-    if (growsReaches && !kiriReaches_Reserve(reaches, job->memory, work->loaded.count)) {
-        return KIRI_FAILED;
-    }
-    bool growsWeights = weights > work->rawWeights.capacity;
-    if (growsWeights && !kiriQuota_TakeAtMostAll(quota, work->rawWeights.count / MOVED_WEIGHTS)) {
-        return KIRI_MORE;
-    }
-    return kiriArray_Reserve(job->memory, &work->rawWeights, weights) ? KIRI_DONE : KIRI_FAILED;
 }
 
 /* Brings the blocks up to date with the fields, and empties these. */
@@ -527,7 +542,8 @@ kiriProgress kiriShapeJob_MeasureFrame(kiriShapeJob* job, kiriQuota* quota)
 {
     kiriProgress progress = KIRI_DONE;
     do {
-        progress = frameStages[job->work->frameStage](job, quota);
+        bool isPaid = kiriQuota_Pay(quota, &job->work->due);
+        progress = isPaid ? frameStages[job->work->frameStage](job, quota) : KIRI_MORE;
     } while (progress == KIRI_DONE && job->work->frameStage != KIRI_FRAME_REST);
     return progress;
 }

@@ -129,12 +129,17 @@ static bool OverlapsInBox(const kiriSquares* squares, SquareBox box, int32_t col
            EdgesOverlap(CornerAt(squares, column, row), squares->side, c);
 }
 
+/* Of any square. */
+static bool OverlapsAt(const kiriSquares* squares, SquareBox box, int32_t column, int32_t row,
+                       const kiriLatticePoint c[3])
+{
+    return column >= box.firstColumn && column <= box.lastColumn && row >= box.firstRow && row <= box.lastRow &&
+           OverlapsInBox(squares, box, column, row, c);
+}
+
 bool kiriSquares_Overlap(const kiriSquares* squares, int32_t square, const kiriLatticePoint corners[3])
 {
-    SquareBox r = BoxOf(squares, corners);
-    int32_t column = square % squares->columns, row = square / squares->columns;
-    return column >= r.firstColumn && column <= r.lastColumn && row >= r.firstRow && row <= r.lastRow &&
-           OverlapsInBox(squares, r, column, row, corners);
+    return OverlapsAt(squares, BoxOf(squares, corners), square % squares->columns, square / squares->columns, corners);
 }
 
 static uint64_t BitsInBox(const kiriSquares* squares, SquareBox box, const kiriLatticePoint c[3])
@@ -428,13 +433,13 @@ static bool ReshapeIn(kiriSquares* squares, kiriMemory* memory, int32_t square, 
 bool kiriSquares_Reshape(kiriSquares* squares, kiriMemory* memory, int32_t triangle, const kiriLatticePoint was[3],
                          const kiriLatticePoint is[3])
 {
-    SquareBox r = JoinBoxes(BoxOf(squares, was), BoxOf(squares, is));
+    SquareBox before = BoxOf(squares, was), after = BoxOf(squares, is), r = JoinBoxes(before, after);
     AddEffort(squares, r);
     for (int32_t row = r.firstRow; row <= r.lastRow; ++row) {
         for (int32_t column = r.firstColumn; column <= r.lastColumn; ++column) {
-            int32_t square = row * squares->columns + column;
-            if (!ReshapeIn(squares, memory, square, triangle, kiriSquares_Overlap(squares, square, was),
-                           kiriSquares_Overlap(squares, square, is))) {
+            if (!ReshapeIn(squares, memory, row * squares->columns + column, triangle,
+                           OverlapsAt(squares, before, column, row, was),
+                           OverlapsAt(squares, after, column, row, is))) {
                 return false;
             }
         }

@@ -463,6 +463,7 @@ void kiriSheet_ArchiveLive(kiriArchive* archive, kiriSheetData* sheet, kiriMemor
     if (!kiriArchive_HasFailed(archive)) {
         kiriArchive_Object(archive, &UpdateTickTable, sheet->update);
         kiriGrid_ArchiveGrowing(archive, &sheet->grid, &sheet->mesh);
+        kiriShape_ArchiveGrowing(archive, &sheet->shape, sheet->memory);
         kiriRoom_ArchiveGrowing(archive, sheet);
         MoveSeen(archive, sheet);
         MoveBounds(archive, sheet->seen.bounds);

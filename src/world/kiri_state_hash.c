@@ -299,6 +299,7 @@ static void HashWork(uint64_t* hash, const kiriWorld* world, const kiriSheetData
         kiriHash_Int32(hash, u->cut.taken);
         kiriHash_Int32(hash, u->cut.meshChanged);
         kiriGrid_HashProgress(&sheet->grid, hash);
+        kiriShape_HashProgress(&sheet->shape, hash);
     }
 }
 
