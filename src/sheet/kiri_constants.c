@@ -88,12 +88,12 @@ static kiriProgress StageOwnersOfMaterial(kiriSheetData* sheet, kiriQuota* sampl
 /* What PrepareCommit and kiri_commit.c do within one tick, in items. */
 static int64_t ItemsOfCommit(const kiriSheetData* sheet)
 {
-    enum { WEIGHTS_AN_ITEM = 64, OWNERS_AN_ITEM = 256, ITEMS_OF_FIT = 2 };
+    enum { WEIGHTS_AN_ITEM = 64, OWNERS_AN_ITEM = 256, ELEMENTS_AN_ITEM = 8, ITEMS_OF_FIT = 2 };
     const kiriUpdate* u = sheet->update;
     int64_t weights = (int64_t)sheet->vertexSkin.staged.count + sheet->pointSkin.staged.count;
     int64_t elements = (int64_t)sheet->links.next.count + sheet->links.nextCorners.count + u->placing.sites.count;
     return 1 + weights / WEIGHTS_AN_ITEM + u->refit.ownership.staged.count / OWNERS_AN_ITEM + u->newFrames.count +
-           ITEMS_OF_FIT * (int64_t)u->refit.most + elements;
+           ITEMS_OF_FIT * (int64_t)u->refit.most + sheet->links.changed + elements / ELEMENTS_AN_ITEM;
 }
 
 /* Where new frames take their motion from the surface: their anchors, and the triangles there. */
