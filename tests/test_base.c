@@ -175,6 +175,27 @@ static void GrowingIsDropped(void** state)
     kiriMemory_FreeAll(&memory);
 }
 
+/* More is needed when it goes on. */
+static void GrowingForMoreBeginsAnew(void** state)
+{
+    (void)state;
+    enum { COUNT = 100 };
+    Purse purse = { -1, 0 };
+    kiriMemory memory = kiriMemory_Make(PurseAlloc, PurseFree, &purse);
+    kiriIndices array = { 0 };
+    kiriGrowing growing = { 0 };
+    for (int32_t i = 0; i < COUNT; ++i) {
+        assert_true(kiriArray_Push(&memory, &array, i));
+    }
+    kiriQuota one = { 1, 0, 0, false }, all = { INT64_MAX, 0, 0, false };
+    const kiriRoom some = KIRI_ROOM(&memory, &array, 5 * COUNT), more = KIRI_ROOM(&memory, &array, 50 * COUNT);
+    assert_int_equal(kiriGrowing_GoOn(&growing, &some, 1, &one, 40), KIRI_MORE);
+    assert_int_equal(kiriGrowing_GoOn(&growing, &more, 1, &all, 40), KIRI_DONE);
+    assert_true(array.capacity >= 50 * COUNT && array.data[COUNT - 1] == COUNT - 1);
+    assert_int_equal(purse.out, 1);
+    kiriMemory_FreeAll(&memory);
+}
+
 /* Zeros, so many bytes for an item, after what is there; without memory nothing. */
 static void ArraysAreFilledInSteps(void** state)
 {
@@ -824,6 +845,7 @@ int main(void)
         cmocka_unit_test(RoomsAreMadeReady),
         cmocka_unit_test(ArraysGrowInParts),
         cmocka_unit_test(GrowingIsDropped),
+        cmocka_unit_test(GrowingForMoreBeginsAnew),
         cmocka_unit_test(ArraysAreFilledInSteps),
         cmocka_unit_test(MemoryByDefault),
         cmocka_unit_test(PoolsFindWhatIsThere),

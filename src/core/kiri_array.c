@@ -127,7 +127,8 @@ static kiriProgress GrowRoom(kiriGrowing* growing, const kiriRoom* room, kiriQuo
 {
     kiriArrayHeader header = kiriArray_GetHeader(room->array);
     int64_t size = header.count * (int64_t)room->itemBytes, atOnce = room->changes && size > 0 ? size : bytesAnItem;
-    if ((growing->data == NULL || growing->from != header.data) && !BeginGrowing(growing, room, header)) {
+    bool isGrowing = growing->data != NULL && growing->from == header.data && growing->capacity >= room->need;
+    if (!isGrowing && !BeginGrowing(growing, room, header)) {
         return KIRI_FAILED;
     }
     while (growing->moved < size) {

@@ -462,12 +462,12 @@ void kiriSheet_ArchiveLive(kiriArchive* archive, kiriSheetData* sheet, kiriMemor
     kiriSolver_Archive(archive, &sheet->solver, &sheet->settings.mechanics);
     if (!kiriArchive_HasFailed(archive)) {
         kiriArchive_Object(archive, &UpdateTickTable, sheet->update);
-        kiriGrid_ArchiveGrowing(archive, &sheet->grid, &sheet->mesh);
-        kiriShape_ArchiveGrowing(archive, &sheet->shape, sheet->memory);
-        kiriRoom_ArchiveGrowing(archive, sheet);
         MoveSeen(archive, sheet);
         MoveBounds(archive, sheet->seen.bounds);
         MoveProbes(archive, sheet);
+        kiriGrid_ArchiveGrowing(archive, &sheet->grid, &sheet->mesh);
+        kiriShape_ArchiveGrowing(archive, &sheet->shape, sheet->memory);
+        kiriRoom_ArchiveGrowing(archive, sheet);
     }
     archive->memory = memory;
     kiriArchive_Object(archive, &QueueTable, sheet);
