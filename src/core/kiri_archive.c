@@ -540,6 +540,7 @@ void kiriArchive_Growing(kiriArchive* archive, kiriGrowing* growing, const kiriR
     }
     grows = kiriArchive_Count(archive, grows, KIRI_NONE, count - 1);
     kiriArchive_Numbers(archive, &growing->owed, 8, 1);
+    kiriArchive_Expect(archive, growing->owed >= 0 && growing->owed <= INT32_MAX);
     if (grows == KIRI_NONE) {
         return;
     }

@@ -328,6 +328,7 @@ void kiriGrid_Keep(kiriGrid* grid, kiriMemory* memory, const kiriKeep* triangles
                    const int32_t* gone, int32_t goneCount)
 {
     KIRI_ASSERT(!grid->work->running && grid->changes.steps.count == 0 && grid->changes.gone.count == 0);
+    kiriGrowing_Drop(&grid->work->growing); /* what has been moved is no more what is there */
     for (int32_t k = 0; k < goneCount; ++k) {
         TakeCellAway(grid, memory, gone[k]);
     }
