@@ -245,6 +245,15 @@ bool kiriCheck_Marked(kiriCheck* check, const kiriIndices* list, int64_t end, co
     return kiriCheck_That(check, areFine);
 }
 
+bool kiriCheck_AllMarked(kiriCheck* check, const kiriIndices* list, int64_t end, const uint8_t* marks, uint8_t mark)
+{
+    int64_t marked = 0;
+    for (int64_t k = 0; k < end; ++k) {
+        marked += (marks[k] & mark) != 0;
+    }
+    return kiriCheck_Marked(check, list, end, marks, mark) && kiriCheck_That(check, marked == list->count);
+}
+
 bool kiriCheck_StartChains(kiriCheck* check, kiriChains* chains, const void* next, size_t stride, int32_t items)
 {
     *chains = (kiriChains){ kiriCheck_Bytes(check, items), next, (int64_t)stride, items, 0 };

@@ -134,6 +134,9 @@ bool kiriCheck_Distinct(kiriCheck* check, const kiriIndices* indices, int64_t en
 /* And is marked as being there. */
 bool kiriCheck_Marked(kiriCheck* check, const kiriIndices* indices, int64_t end, const uint8_t* marks, uint8_t mark);
 
+/* And nothing else is marked, of so many. */
+bool kiriCheck_AllMarked(kiriCheck* check, const kiriIndices* indices, int64_t end, const uint8_t* marks, uint8_t mark);
+
 /* Lists of items, linked from each to the next: each ends, and no item is in two, or in one twice. */
 typedef struct kiriChains {
     uint8_t* seen;         /* of each item: it is in a list */

@@ -168,7 +168,8 @@ bool kiriOwnership_Check(const kiriOwnership* ownership, kiriCheck* check, const
                                      ownership->squares.count == check->count[KIRI_OF_SQUARES] &&
                                      ownership->next <= dirty.count && HaveParents(ownership, mesh) &&
                                      (ownership->next == 0 || ownership->first.count == check->count[KIRI_OF_SITES])) &&
-           kiriCheck_Distinct(check, &dirty, ownership->squares.count) && AreOwners(check, ownership) &&
+           kiriCheck_AllMarked(check, &dirty, ownership->squares.count, ownership->isDirty.data, UINT8_MAX) &&
+           AreOwners(check, ownership) &&
            AreTransfers(check, ownership);
 }
 

@@ -34,7 +34,6 @@ static const kiriMust IsVertexIndex[] = { KIRI_INDEX(KIRI_OF_VERTICES, kiriSpan,
 
 static const kiriMust SurfaceMust[] = {
     KIRI_WITHIN(KIRI_SKINNING_LINEAR, KIRI_SKINNING_SMOOTH, kiriSurface, skinning, skinning),
-    KIRI_REALS(kiriSurface, origin, longer),
     KIRI_REALS(kiriSurface, middle, middle),
     KIRI_COUNTS(kiriSurface, pose, pose),
     KIRI_ITEMS_MUST(kiriSurface, indices, IsVertexIndex),
@@ -127,19 +126,16 @@ bool kiriPlaces_Check(const kiriPlaces* places, kiriCheck* check, int32_t sample
     return areFine;
 }
 
-/* Marks are up while squares are collected, of these alone; and each comes once. */
+/* While squares are collected they are marked, and no others are; then none is. */
 bool kiriRefresh_Check(const kiriRefresh* refresh, kiriCheck* check)
 {
-    kiriIndices squares = { refresh->squares.data, refresh->squares.count, refresh->squares.capacity };
-    int64_t all = check->count[KIRI_OF_SQUARES];
-    bool isFine = kiriCheck_Object(check, RefreshMust, refresh) && kiriCheck_That(check, refresh->marks.count <= all) &&
-                  kiriCheck_Distinct(check, &squares, all);
-    for (int32_t k = 0; isFine && refresh->change > 0 && k < squares.count; ++k) {
-        isFine =
-            kiriCheck_That(check, squares.data[k] < refresh->marks.count && refresh->marks.data[squares.data[k]] != 0);
-    }
-    return isFine &&
-           kiriCheck_That(check, refresh->change == 0 || (refresh->marks.count == all && squares.capacity >= all));
+    const kiriIndices none = { NULL, 0, 0 }, squares = { refresh->squares.data, refresh->squares.count,
+                                                         refresh->squares.capacity };
+    int64_t all = check->count[KIRI_OF_SQUARES], marks = refresh->marks.count;
+    bool isCollecting = refresh->change > 0;
+    return kiriCheck_Object(check, RefreshMust, refresh) && kiriCheck_Distinct(check, &squares, all) &&
+           kiriCheck_That(check, isCollecting ? marks == all && squares.capacity >= all : marks <= all) &&
+           kiriCheck_AllMarked(check, isCollecting ? &squares : &none, marks, refresh->marks.data, UINT8_MAX);
 }
 
 /* By sample, each once. */
@@ -212,6 +208,12 @@ static bool AreChanges(const kiriSurface* surface)
     return areFine;
 }
 
+static bool IsOfMesh(const kiriSurface* surface, const kiriMeshData* mesh)
+{
+    return surface->origin.x == mesh->origin.x && surface->origin.y == mesh->origin.y &&
+           surface->longer == KIRI_LATTICE * mesh->step;
+}
+
 static bool AreRestPlaces(const kiriSurface* surface, const kiriMeshData* mesh)
 {
     bool areFine = true;
@@ -240,6 +242,6 @@ bool kiriSurface_Check(const kiriSurface* surface, const kiriLabels* labels, con
     int32_t frames = (int32_t)check->count[KIRI_OF_FRAMES];
     return kiriCheck_That(check, AreRowsOfSurface(surface, mesh, frames, kiriLabels_Count(labels, frames))) &&
            kiriCheck_Object(check, SurfaceMust, surface) &&
-           kiriCheck_That(check,
-                          AreCornersOfSurface(surface, mesh) && AreRestPlaces(surface, mesh) && AreChanges(surface));
+           kiriCheck_That(check, IsOfMesh(surface, mesh) && AreCornersOfSurface(surface, mesh) &&
+                                     AreRestPlaces(surface, mesh) && AreChanges(surface));
 }
