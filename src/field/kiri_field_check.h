@@ -42,12 +42,26 @@ bool kiriGrid_CheckSteps(const kiriGrid* grid, const kiriSquares* squares, kiriC
 /* Its part for what cells and faces have of their own. */
 bool kiriGrid_CheckOwn(const kiriGrid* grid, kiriCheck* check);
 
+/* And for the update at hand, and what updates have changed. */
+bool kiriGrid_CheckWork(const kiriGrid* grid, const kiriMeshData* mesh, kiriCheck* check);
+
+/* Lists of changes, in the order in which cells that are gone leave them at the end of an update: was this one taken
+   out already, or moved to the front? */
+enum { KIRI_CHANGES_STEPS, KIRI_CHANGES_EDGES, KIRI_CHANGES_MATERIAL, KIRI_CHANGES_MADE, KIRI_CHANGES_LISTS };
+bool kiriGrid_IsForgotten(const kiriGrid* grid, int32_t list, int32_t k);
+
 /* Of a grid that is reset before it is used again. */
 bool kiriGrid_CheckLeft(const kiriGrid* grid, kiriCheck* check);
 
-/* What a field is for: floods alone; repairs, too; and where frames measure their shapes, it is emptied block by block,
-   or is empty between frames. */
-typedef enum kiriFieldUse { KIRI_FIELD_FLOODS, KIRI_FIELD_REPAIRS, KIRI_FIELD_EMPTIED, KIRI_FIELD_EMPTY } kiriFieldUse;
+/* What a field is for, at the moment. */
+typedef enum kiriFieldUse {
+    KIRI_FIELD_RESTS,   /* nothing is at hand */
+    KIRI_FIELD_FLOODS,  /* a flood is, or what it has settled is in use; no repair ever is */
+    KIRI_FIELD_MARKED,  /* cells are marked for a repair, */
+    KIRI_FIELD_REPAIRS, /* which is at hand, */
+    KIRI_FIELD_READ,    /* or has left its log */
+    KIRI_FIELD_EMPTIED  /* it is emptied after either, block by block */
+} kiriFieldUse;
 
 /* A field of the grid, whose owners are below so many. */
 bool kiriField_Check(const kiriField* field, kiriCheck* check, int64_t owners, kiriFieldUse use);
@@ -58,7 +72,7 @@ bool kiriField_CheckLeft(const kiriField* field, kiriCheck* check);
 /* May parts of a sheet be added and taken away? */
 bool kiriTally_IsSum(const kiriTally* tally);
 bool kiriRegions_Check(const kiriRegions* regions, const kiriGrid* grid, kiriCheck* check, bool areAllOwned);
-bool kiriShape_Check(const kiriShape* shape, const kiriGrid* grid, kiriCheck* check);
+bool kiriShape_Check(const kiriShape* shape, const kiriGrid* grid, const kiriRegions* regions, kiriCheck* check);
 bool kiriLinks_Check(const kiriLinks* links, const kiriGrid* grid, const kiriMeshData* mesh, const kiriRegions* regions,
                      kiriCheck* check);
 

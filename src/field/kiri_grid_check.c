@@ -4,7 +4,6 @@
 /* ---- Rules ------------------------------------------------------------------------------------------------------- */
 
 static const kiriMust IsCellIndex[] = { KIRI_INDEX(KIRI_OF_CELLS, kiriSpan, first, first) };
-static const kiriMust IsSquareIndex[] = { KIRI_INDEX(KIRI_OF_SQUARES, kiriSpan, first, first) };
 static const kiriMust IsCellOrNone[] = { KIRI_INDEX_OR_NONE(KIRI_OF_CELLS, kiriSpan, first, first) };
 
 static const kiriMust CellMust[] = {
@@ -23,50 +22,6 @@ static const kiriMust MaterialChangeMust[] = {
     KIRI_REALS(kiriMaterialChange, was, was),
 };
 
-static const kiriMust NewCellMust[] = {
-    KIRI_INDEX_OR_NONE(KIRI_OF_TRIANGLES, kiriNewCell, triangle, triangle),
-    KIRI_INDEX_OR_NONE(KIRI_OF_CELLS, kiriNewCell, cell, cell),
-    KIRI_REALS(kiriNewCell, material, material),
-};
-
-static const kiriMust OldFaceMust[] = {
-    KIRI_INDEX(KIRI_OF_FACES, kiriOldFace, face, face),
-    KIRI_REALS(kiriOldFace, was, was),
-};
-
-enum { LAST_STAGE = 6, LAST_PART = 4 };
-
-static const kiriMust WorkMust[] = {
-    KIRI_COUNTS(kiriGridWork, due, due),
-    KIRI_WITHIN(0, LAST_STAGE, kiriGridWork, stage, stage),
-    KIRI_WITHIN(0, INT32_MAX, kiriGridWork, item, item),
-    KIRI_WITHIN(0, LAST_PART, kiriGridWork, part, part),
-    KIRI_ITEMS_MUST(kiriGridWork, facesDirty, IsSquareIndex),
-    KIRI_ITEMS_MUST(kiriGridWork, linksDirty, IsSquareIndex),
-    KIRI_ITEMS_MUST(kiriGridWork, stepsDirty, IsCellIndex),
-    KIRI_ITEMS_MUST(kiriGridWork, knightsDirty, IsCellIndex),
-    KIRI_LENGTH(KIRI_OF_SQUARES, kiriGridWork, squareFlags),
-    KIRI_LENGTH(KIRI_OF_SQUARES, kiriGridWork, ranges),
-    KIRI_ITEMS_MUST(kiriGridWork, flagged, IsSquareIndex),
-    KIRI_LENGTH(KIRI_OF_CELLS, kiriGridWork, cellFlags),
-    KIRI_LENGTH(KIRI_OF_CELLS, kiriGridWork, mark),
-    KIRI_WITHIN(0, INT32_MAX, kiriGridWork, lastMark, lastMark),
-};
-
-/* While an update is at hand: what rests has whatever the last one left there. */
-static const kiriMust RunningMust[] = {
-    KIRI_INDEX_OR_NONE(KIRI_OF_NODES, kiriGridWork, node, node),
-    KIRI_WITHIN(0, INT32_MAX / 2, kiriGridWork, at, other),
-};
-
-static const kiriMust AmidCellsMust[] = {
-    KIRI_ITEMS_MUST(kiriGridWork, newCells, NewCellMust),
-};
-
-static const kiriMust AmidFacesMust[] = {
-    KIRI_ITEMS_MUST(kiriGridWork, oldFaces, OldFaceMust),
-};
-
 static const kiriMust GridMust[] = {
     KIRI_REALS(kiriGrid, side, side),
     KIRI_ITEMS_MUST(kiriGrid, cells, CellMust),
@@ -80,7 +35,6 @@ static const kiriMust GridMust[] = {
     KIRI_ITEMS_MUST(kiriGrid, changes.steps, IsCellIndex),
     KIRI_ITEMS_MUST(kiriGrid, changes.material, MaterialChangeMust),
     KIRI_ITEMS_MUST(kiriGrid, changes.edges, IsCellIndex),
-    KIRI_OWNED_MUST(kiriGrid, work, WorkMust),
 };
 
 /* ---- Cells ------------------------------------------------------------------------------------------------------- */
@@ -93,14 +47,6 @@ static bool IsMaterial(const kiriMoments* m, double side, double farthest)
            fabs(m->uu) <= mostOfSquares && fabs(m->uv) <= mostOfSquares && fabs(m->vv) <= mostOfSquares;
 }
 
-/* While it is being summed. */
-static bool IsPartOfMaterial(const kiriMoments* m, double side, double farthest)
-{
-    double most = 1.01 * side * side, mostOfSquares = most * farthest * farthest;
-    return fabs(m->area) <= most && fabs(m->u) <= most * farthest && fabs(m->v) <= most * farthest &&
-           fabs(m->uu) <= mostOfSquares && fabs(m->uv) <= mostOfSquares && fabs(m->vv) <= mostOfSquares;
-}
-
 static bool AreMaterials(const kiriGrid* grid, const kiriMeshData* mesh)
 {
     double farthest = 2.0 * KIRI_LATTICE * mesh->step;
@@ -109,9 +55,6 @@ static bool AreMaterials(const kiriGrid* grid, const kiriMeshData* mesh)
         int32_t own = grid->cells.data[c].material;
         areFine = own == KIRI_NONE || (IsMaterial(&grid->materials.data[own], grid->side, farthest) &&
                                        (grid->materials.data[own].area > 0.0 || !kiriGrid_IsCell(grid, c)));
-    }
-    for (int32_t k = 0; areFine && kiriGrid_IsAtWork(grid) && k < grid->work->newCells.count; ++k) {
-        areFine = IsPartOfMaterial(&grid->work->newCells.data[k].material, grid->side, farthest);
     }
     for (int32_t k = 0; areFine && k < grid->changes.material.count; ++k) {
         areFine = IsMaterial(&grid->changes.material.data[k].was, grid->side, farthest);
@@ -128,14 +71,7 @@ static bool TakeGone(kiriCheck* check, const kiriGrid* grid, kiriChains* chains,
     return isFine;
 }
 
-/* The last stage of an update takes cells that are gone out of the list of those that were made: some of it is old. */
-static bool IsOldChange(const kiriGrid* grid, int32_t k)
-{
-    const kiriGridWork* work = grid->work;
-    return work != NULL && work->running && work->stage == LAST_STAGE - 1 && work->item == 3 && k >= work->other &&
-           k < work->at;
-}
-
+/* Those that were made, or are gone since the changes were cleared. */
 static bool AreGone(kiriCheck* check, const kiriGrid* grid, kiriChains* chains)
 {
     bool areFine = true;
@@ -144,7 +80,8 @@ static bool AreGone(kiriCheck* check, const kiriGrid* grid, kiriChains* chains)
     }
     for (int32_t k = 0; areFine && k < grid->changes.made.count; ++k) {
         int32_t cell = grid->changes.made.data[k];
-        areFine = kiriGrid_IsCell(grid, cell) || IsOldChange(grid, k) || TakeGone(check, grid, chains, cell);
+        areFine = kiriGrid_IsCell(grid, cell) || kiriGrid_IsForgotten(grid, KIRI_CHANGES_MADE, k) ||
+                  TakeGone(check, grid, chains, cell);
     }
     return areFine;
 }
@@ -290,219 +227,6 @@ static bool AreMembers(kiriCheck* check, const kiriGrid* grid, const kiriMeshDat
     return kiriCheck_That(check, areFine);
 }
 
-/* ---- The update at hand ------------------------------------------------------------------------------------------ */
-
-/* Where the sorting of so many items is. */
-static bool IsSorting(const kiriSorting* s, int64_t count, int64_t room)
-{
-    int64_t middle = (int64_t)s->block + s->width;
-    bool isFine = s->width >= 0 && s->block >= 0 && s->width <= count && s->block <= count;
-    if (!isFine || s->width == 0 || middle >= count || s->to < s->block) {
-        return isFine && s->to <= s->block;
-    }
-    return room >= count && s->left >= 0 && s->left <= s->width && s->right >= middle &&
-           s->right <= (count - middle > s->width ? middle + s->width : count) &&
-           s->to == (int64_t)s->block + s->left + (s->right - middle);
-}
-
-static bool IsCollected(const kiriGridWork* work, int32_t square)
-{
-    return square >= 0 && square < work->squareFlags.count &&
-           (work->squareFlags.data[square] & KIRI_SQUARE_COLLECTED) != 0;
-}
-
-/* Triangles of squares, and sets of them; of the square that is being collected there are none yet. */
-static bool AreEntries(const kiriGridWork* work, const kiriSquares* squares, int32_t firstOfOpen)
-{
-    bool areFine = work->parent.count == work->entries.count;
-    for (int32_t k = 0; areFine && k < work->entries.count; ++k) {
-        int32_t node = work->entries.data[k];
-        areFine = node >= 0 && node < squares->nodes.count && squares->nodes.data[node].triangle != KIRI_NONE &&
-                  (k >= firstOfOpen || (work->parent.data[k] >= 0 && work->parent.data[k] <= k));
-    }
-    return areFine;
-}
-
-/* The nodes of a square that is collected are its entries, in the order of their triangles. */
-static bool IsRangeOfSquare(const kiriGridWork* work, const kiriSquares* squares, int32_t square, uint8_t* isOfSquare)
-{
-    kiriNodeRange range = work->ranges.data[square];
-    bool isFine = range.first >= 0 && range.first <= range.end && range.end <= work->entries.count;
-    int32_t left = isFine ? range.end - range.first : 0, last = KIRI_NONE;
-    for (int32_t n = squares->head[square]; isFine && n != KIRI_NONE; n = squares->nodes.data[n].next) {
-        isOfSquare[n] = 1;
-        --left;
-    }
-    for (int32_t k = range.first; isFine && k < range.end; ++k) {
-        int32_t node = work->entries.data[k];
-        isFine =
-            node >= 0 && node < squares->nodes.count && isOfSquare[node] && squares->nodes.data[node].triangle > last;
-        last = isFine ? squares->nodes.data[node].triangle : last;
-    }
-    for (int32_t n = squares->head[square]; n != KIRI_NONE; n = squares->nodes.data[n].next) {
-        isOfSquare[n] = 0;
-    }
-    return isFine && left == 0;
-}
-
-static bool AreRanges(kiriCheck* check, const kiriGridWork* work, const kiriSquares* squares)
-{
-    uint8_t* isOfSquare = kiriCheck_Bytes(check, squares->nodes.count);
-    bool areFine = isOfSquare != NULL;
-    for (int32_t s = 0; areFine && s < work->ranges.count; ++s) {
-        areFine = !IsCollected(work, s) || IsRangeOfSquare(work, squares, s, isOfSquare);
-    }
-    kiriMemory_Free(&check->memory, isOfSquare);
-    return kiriCheck_That(check, areFine);
-}
-
-/* The square of the update's item in its first two stages. */
-static int32_t SquareAtHand(const kiriGridWork* work, const kiriSquares* squares)
-{
-    if (work->stage == 0) {
-        return work->fromScratch ? work->item : squares->dirty.data[work->item];
-    }
-    return work->facesDirty.data[work->item];
-}
-
-/* The other square of the side at hand. */
-static int32_t SquareBeside(const kiriGridWork* work, const kiriSquares* squares, int32_t square)
-{
-    int32_t apart = work->part % 2 == 0 ? 1 : squares->columns;
-    return work->part < 2 ? square - apart : square + apart;
-}
-
-/* Triangles of the square at hand have the rank of their new cell: those up to `at`, or those from there on. */
-static bool AreRanks(const kiriGrid* grid, kiriNodeRange range, bool upToAt)
-{
-    const kiriGridWork* work = grid->work;
-    int32_t from = upToAt ? range.first : range.first + work->at, end = upToAt ? range.first + work->at : range.end;
-    bool areFine = work->at <= range.end - range.first;
-    for (int32_t k = from; areFine && k < end; ++k) {
-        int32_t rank = grid->nodeCell.data[work->entries.data[k]];
-        areFine = rank >= 0 && rank < work->newCells.count;
-    }
-    for (int32_t k = range.first; areFine && upToAt && k < range.end; ++k) {
-        areFine = work->parent.data[k] >= range.first;
-    }
-    return areFine;
-}
-
-static bool AreMadeCells(const kiriGrid* grid)
-{
-    bool areFine = true;
-    for (int32_t k = 0; areFine && k < grid->work->newCells.count; ++k) {
-        int32_t cell = grid->work->newCells.data[k].cell;
-        areFine = cell != KIRI_NONE && grid->cells.data[cell].square != KIRI_NONE;
-    }
-    return areFine;
-}
-
-enum { LOOK, JOIN, FIND, REPLACE, FILL };
-
-/* Between two calls of the part at hand. */
-static bool IsAmidCells(const kiriGrid* grid, const kiriSquares* squares)
-{
-    const kiriGridWork* work = grid->work;
-    int32_t square = SquareAtHand(work, squares);
-    kiriNodeRange range = work->ranges.data[square];
-    if (work->part == LOOK || grid->whole.data[square]) {
-        return work->part != JOIN && work->part != FIND && (work->part != FILL || grid->squareCell.data[square] >= 0);
-    }
-    if (work->part == JOIN) {
-        return work->isCollecting || IsCollected(work, square);
-    }
-    bool isFine = IsCollected(work, square);
-    return isFine && (work->part == FIND ? AreRanks(grid, range, true)
-                                         : work->part == FILL && AreMadeCells(grid) && AreRanks(grid, range, false));
-}
-
-/* Where a walk over nodes goes on. */
-static bool IsNode(const kiriGridWork* work, const kiriSquares* squares)
-{
-    return work->node == KIRI_NONE || squares->nodes.data[work->node].triangle != KIRI_NONE;
-}
-
-static int64_t CountItemsOf(const kiriGridWork* work, const kiriSquares* squares)
-{
-    const int64_t counts[LAST_STAGE + 1] = { work->fromScratch ? work->squareFlags.count : squares->dirty.count,
-                                             work->facesDirty.count,
-                                             work->linksDirty.count,
-                                             work->stepsDirty.count,
-                                             work->knightsDirty.count,
-                                             4,
-                                             0 };
-    return counts[work->stage];
-}
-
-static bool IsCollectingRight(const kiriGridWork* work, const kiriSquares* squares, int32_t square)
-{
-    kiriNodeRange range = work->ranges.data[square];
-    bool isFine = range.first >= 0 && range.first <= work->entries.count && IsNode(work, squares);
-    return isFine &&
-           (!work->isSorting || IsSorting(&work->sorting, work->entries.count - range.first, work->sortRoom.count));
-}
-
-/* Which of two squares of a side is being collected. */
-static int32_t SquareToCollect(const kiriGridWork* work, const kiriSquares* squares, int32_t square)
-{
-    int32_t beside = SquareBeside(work, squares, square), before = square < beside ? square : beside;
-    int32_t after = square < beside ? beside : square;
-    return work->stage == 0 ? square : IsCollected(work, before) ? after : before;
-}
-
-static bool IsUpdate(kiriCheck* check, const kiriGrid* grid, const kiriSquares* squares)
-{
-    const kiriGridWork* work = grid->work;
-    bool isAtSquare = work->stage < 2 && work->item < CountItemsOf(work, squares),
-         isFine = AreRanges(check, work, squares);
-    if (!isFine || work->item > CountItemsOf(work, squares)) {
-        return false;
-    }
-    int32_t square = isAtSquare ? SquareAtHand(work, squares) : KIRI_NONE, open = work->entries.count;
-    if (work->isCollecting) {
-        int32_t collected = isAtSquare ? SquareToCollect(work, squares, square) : KIRI_NONE;
-        isFine = collected >= 0 && collected < work->ranges.count && IsCollectingRight(work, squares, collected);
-        open = isFine && !work->isSorting ? work->ranges.data[collected].first : open;
-    }
-    isFine = isFine && AreEntries(work, squares, open) && (work->stage > 0 || IsNode(work, squares));
-    if (isFine && work->stage == 0 && isAtSquare && work->part > LOOK) {
-        isFine = work->isAmidPart && IsAmidCells(grid, squares);
-    }
-    if (isFine && work->isMerging) {
-        isFine = work->stage == 1 && isAtSquare && work->part < 4 && IsCollected(work, square) &&
-                 IsCollected(work, SquareBeside(work, squares, square));
-    }
-    return isFine;
-}
-
-/* Flags say which squares are in lists already, and which have entries. */
-static bool AreFlagged(kiriCheck* check, const kiriGridWork* work)
-{
-    uint8_t* isFlagged = kiriCheck_Bytes(check, work->squareFlags.count);
-    bool areFine = isFlagged != NULL;
-    for (int32_t k = 0; areFine && k < work->flagged.count; ++k) {
-        isFlagged[work->flagged.data[k]] = 1;
-    }
-    for (int32_t s = 0; areFine && s < work->squareFlags.count; ++s) {
-        areFine = work->squareFlags.data[s] == 0 || isFlagged[s];
-    }
-    kiriMemory_Free(&check->memory, isFlagged);
-    return kiriCheck_That(check, areFine);
-}
-
-/* Rows are as long as the mesh is large. */
-static bool IsRunning(kiriCheck* check, const kiriGrid* grid, const kiriMeshData* mesh)
-{
-    const kiriGridWork* work = grid->work;
-    return kiriCheck_Object(check, RunningMust, work) &&
-           (work->stage > 0 || work->part == 0 || kiriCheck_Object(check, AmidCellsMust, work)) &&
-           (!work->isMerging || kiriCheck_Object(check, AmidFacesMust, work)) &&
-           kiriCheck_That(check, grid->nodeCell.count == mesh->squares.nodes.count &&
-                                     grid->vertexCell.count == mesh->vertices.count) &&
-           kiriCheck_That(check, IsUpdate(check, grid, &mesh->squares));
-}
-
 bool kiriGrid_Check(const kiriGrid* grid, const kiriMeshData* mesh, kiriCheck* check)
 {
     const kiriSquares* squares = &mesh->squares;
@@ -513,8 +237,8 @@ bool kiriGrid_Check(const kiriGrid* grid, const kiriMeshData* mesh, kiriCheck* c
            kiriCheck_That(check, AreMaterials(grid, mesh) && grid->nodeCell.count <= squares->nodes.count &&
                                      grid->vertexCell.count <= mesh->vertices.count) &&
            AreCellsSound(check, grid, mesh) && kiriCheck_That(check, AreFaces(grid, squares)) &&
-           kiriGrid_CheckSteps(grid, squares, check) && AreFlagged(check, grid->work) &&
-           AreMembers(check, grid, mesh) && (!grid->work->running || IsRunning(check, grid, mesh));
+           kiriGrid_CheckSteps(grid, squares, check) && kiriGrid_CheckWork(grid, mesh, check) &&
+           AreMembers(check, grid, mesh);
 }
 
 bool kiriGrid_CheckLeft(const kiriGrid* grid, kiriCheck* check)

@@ -18,16 +18,13 @@ static const kiriMust FieldMust[] = {
 };
 
 /* Marks of kiri_geodesic.c, and what its last cursor says. */
-enum { MARK_DIRTY = 1, MARK_LOGGED = 2, MARK_SETTLED = 4 };
-enum { CHECK_RESTS, CHECK_SEEDS = 2, CHECK_SETTLES, CHECK_STAGES };
+enum { MARK_DIRTY = 1, MARK_LOGGED = 2, MARK_SETTLED = 4, MARK_PASSES = 8 };
+enum { CHECK_RESTS, CHECK_CLEARS, CHECK_SEEDS, CHECK_SETTLES, CHECK_STAGES };
+enum { CHECKED, FROM_CALLER }; /* cursors before the sweep */
 
-static bool HaveMark(const kiriField* field, const int32_t* cells, int32_t count, size_t bytes, uint8_t mark)
+static int32_t StageOf(const kiriField* field)
 {
-    bool have = true;
-    for (int32_t k = 0; have && k < count; ++k) {
-        have = (field->marks.data[*(const int32_t*)(const void*)((const char*)cells + k * bytes)] & mark) != 0;
-    }
-    return have;
+    return field->cursor[KIRI_STEP_LENGTHS];
 }
 
 /* Cells are far and nobody's, as all are beyond those of the grid, or are somebody's. */
@@ -47,66 +44,121 @@ static bool AreValues(const kiriField* field, int64_t cells, bool areOwned)
 static bool HaveListsRoom(const kiriField* field)
 {
     int32_t cells = field->distance.count;
-    bool isDirty = field->dirty.count > 0,
-         isSettled = field->settled.count > 0 || field->cursor[KIRI_STEP_LENGTHS] == CHECK_SETTLES,
+    bool isDirty = field->dirty.count > 0, isSettled = field->settled.count > 0 || StageOf(field) == CHECK_SETTLES,
          isDirtyLong = field->dirty.capacity >= cells, isSettledLong = field->settled.capacity >= cells;
     return (isDirtyLong || !isDirty) && (isSettledLong || !isSettled) && (isDirtyLong || isSettledLong) &&
            !(isDirty && isSettled);
 }
 
-/* Each cell comes once to a list: so none must have any cell twice, or one that is not marked as being there.
-   `isEmptied`: block by block; cells that were settled are far again. */
-static bool AreListsOfField(const kiriField* field, kiriCheck* check, bool isEmptied)
+/* Each cell comes once. */
+static bool MarkOnce(uint8_t* marks, const int32_t* cells, int32_t count, size_t bytes, uint8_t mark)
 {
-    int32_t stage = field->cursor[KIRI_STEP_LENGTHS];
-    kiriIndices settled = field->settled, dirty = field->dirty;
-    bool areFine = HaveListsRoom(field) && kiriCheck_Distinct(check, &settled, field->distance.count);
-    if (areFine && stage == CHECK_SETTLES) {
-        areFine = HaveMark(field, settled.data, settled.count, sizeof(int32_t), MARK_SETTLED);
+    bool areOnce = true;
+    for (int32_t k = 0; areOnce && k < count; ++k) {
+        int32_t cell = *(const int32_t*)(const void*)((const char*)cells + (size_t)k * bytes);
+        areOnce = (marks[cell] & mark) == 0;
+        marks[cell] |= mark;
     }
-    for (int32_t k = 0; areFine && !isEmptied && stage == CHECK_RESTS && k < settled.count; ++k) {
-        areFine = field->distance.data[settled.data[k]] != KIRI_FAR;
+    return areOnce;
+}
+
+/* Marks say in which lists cells are: of those of dirty ones, until these are checked. Whether ways pass is asked about
+   dirty cells that are not seen to yet. */
+static bool AreFieldMarks(const kiriField* field, uint8_t* marks)
+{
+    static const uint8_t lists[CHECK_STAGES] = { MARK_DIRTY, MARK_DIRTY | MARK_LOGGED, MARK_LOGGED,
+                                                 MARK_LOGGED | MARK_SETTLED };
+    int32_t stage = StageOf(field), isCleared = stage == CHECK_CLEARS ? field->cursor[CHECKED] : 0,
+            isSeeded = stage == CHECK_SEEDS ? field->cursor[CHECKED] : 0,
+            end = stage == CHECK_RESTS ? field->dirty.count : field->cursor[FROM_CALLER];
+    bool areFine = true;
+    if (lists[stage] & MARK_DIRTY) {
+        areFine = MarkOnce(marks, field->dirty.data + isCleared, field->dirty.count - isCleared, 4, MARK_DIRTY);
     }
-    if (areFine && stage == CHECK_RESTS) {
-        areFine = kiriCheck_Distinct(check, &dirty, field->distance.count) &&
-                  HaveMark(field, dirty.data, dirty.count, sizeof(int32_t), MARK_DIRTY);
+    if (lists[stage] & MARK_LOGGED) {
+        areFine = areFine && MarkOnce(marks, &field->log.data->cell, field->log.count, sizeof(kiriSeed), MARK_LOGGED);
     }
-    if (areFine && stage == CHECK_SEEDS) {
-        areFine = field->heap.capacity >= dirty.count && field->heap.count <= field->cursor[0];
+    if (lists[stage] & MARK_SETTLED) {
+        areFine = areFine && MarkOnce(marks, field->settled.data, field->settled.count, 4, MARK_SETTLED);
+    }
+    for (int32_t k = isSeeded; stage != CHECK_SETTLES && k < end; ++k) {
+        marks[field->dirty.data[k]] |= MARK_PASSES;
+    }
+    for (int32_t c = 0; areFine && c < field->marks.count; ++c) {
+        uint8_t is = field->marks.data[c];
+        areFine = (is & ~MARK_PASSES) == (marks[c] & ~MARK_PASSES) && (is & ~marks[c]) == 0;
     }
     return areFine;
 }
 
-static bool IsLogOfField(const kiriField* field, kiriCheck* check)
+/* Amid a repair. */
+static bool IsAtCursors(const kiriField* field)
 {
-    uint8_t* seen = kiriCheck_Bytes(check, field->distance.count);
-    bool isFine = seen != NULL;
-    for (int32_t k = 0; isFine && k < field->log.count; ++k) {
-        int32_t cell = field->log.data[k].cell;
-        isFine = cell < field->distance.count && !seen[cell];
-        seen[isFine ? cell : 0] = 1;
+    int32_t stage = StageOf(field), checked = field->cursor[CHECKED], fromCaller = field->cursor[FROM_CALLER];
+    bool isBefore = checked <= field->dirty.count && fromCaller <= field->dirty.count && field->settled.count == 0;
+    switch (stage) {
+    case CHECK_CLEARS:
+        return isBefore;
+    case CHECK_SEEDS:
+        return isBefore && field->heap.capacity >= field->dirty.count && field->heap.count <= checked;
+    default:
+        return stage == CHECK_RESTS || field->dirty.count == 0;
     }
-    kiriMemory_Free(&check->memory, seen);
-    return isFine && (field->cursor[KIRI_STEP_LENGTHS] == CHECK_RESTS || field->log.count == 0 ||
-                      HaveMark(field, &field->log.data->cell, field->log.count, sizeof(kiriSeed), MARK_LOGGED));
+}
+
+/* Each cell comes once to a list: so none must have any cell twice, or one that is not marked as being there. */
+static bool AreListsOfField(const kiriField* field, kiriCheck* check)
+{
+    uint8_t* marks = kiriCheck_Bytes(check, field->distance.count);
+    bool areFine = marks != NULL && IsAtCursors(field) && HaveListsRoom(field) && AreFieldMarks(field, marks);
+    kiriMemory_Free(&check->memory, marks);
+    return areFine;
+}
+
+/* What the field is used for has brought it there. `isEmptied`: block by block; cells that were settled are far
+   again. */
+static bool IsUsedAs(const kiriField* field, kiriFieldUse use)
+{
+    bool isAtRest = StageOf(field) == CHECK_RESTS, isDirty = field->dirty.count > 0, isLogged = field->log.count > 0,
+         isSettled = field->settled.count > 0;
+    switch (use) {
+    case KIRI_FIELD_FLOODS:
+        return isAtRest && !isDirty && !isLogged;
+    case KIRI_FIELD_REPAIRS:
+        return !isAtRest;
+    case KIRI_FIELD_READ:
+        return isAtRest && !isDirty && !isSettled;
+    case KIRI_FIELD_MARKED:
+        return isAtRest && !isLogged && !isSettled;
+    case KIRI_FIELD_EMPTIED:
+        return isAtRest && !isDirty;
+    default:
+        return isAtRest && !isDirty && !isLogged && !isSettled;
+    }
+}
+
+/* Of floods and repairs that are at hand: cells have distances. */
+static bool AreSettledNear(const kiriField* field)
+{
+    bool areNear = true;
+    for (int32_t k = 0; areNear && k < field->settled.count; ++k) {
+        areNear = field->distance.data[field->settled.data[k]] != KIRI_FAR;
+    }
+    return areNear;
 }
 
 bool kiriField_Check(const kiriField* field, kiriCheck* check, int64_t owners, kiriFieldUse use)
 {
     int64_t cells = check->count[KIRI_OF_CELLS];
+    kiriIndices settled = field->settled;
     check->count[KIRI_OF_OWNERS] = owners;
     check->count[KIRI_OF_CELLS] = cells < field->distance.count ? cells : field->distance.count;
     bool isFine = kiriCheck_Object(check, FieldMust, field) &&
-                  kiriCheck_That(check, field->cursor[KIRI_STEP_LENGTHS] < CHECK_STAGES &&
+                  kiriCheck_That(check, StageOf(field) < CHECK_STAGES && IsUsedAs(field, use) &&
                                             AreValues(field, check->count[KIRI_OF_CELLS], owners < INT32_MAX)) &&
-                  kiriCheck_That(check, AreListsOfField(field, check, use == KIRI_FIELD_EMPTIED));
-    if (isFine && use != KIRI_FIELD_FLOODS) {
-        isFine = kiriCheck_That(check, IsLogOfField(field, check));
-    }
-    if (isFine && use == KIRI_FIELD_EMPTY) {
-        isFine = kiriCheck_That(check, field->settled.count == 0 && field->log.count == 0 &&
-                                           field->cursor[KIRI_STEP_LENGTHS] == CHECK_RESTS);
-    }
+                  kiriCheck_That(check, AreListsOfField(field, check)) &&
+                  kiriCheck_Distinct(check, &settled, field->distance.count) &&
+                  kiriCheck_That(check, use == KIRI_FIELD_EMPTIED || AreSettledNear(field));
     check->count[KIRI_OF_CELLS] = cells;
     return isFine && kiriCheck_IsFine(check);
 }
@@ -131,7 +183,7 @@ bool kiriField_CheckLeft(const kiriField* field, kiriCheck* check)
     kiriIndices settled = field->settled;
     int32_t room = field->distance.capacity < field->owner.capacity ? field->distance.capacity : field->owner.capacity;
     return kiriCheck_That(check, field->distance.count == field->owner.count && field->dirty.count == 0 &&
-                                     field->log.count == 0 && field->cursor[KIRI_STEP_LENGTHS] == CHECK_RESTS) &&
+                                     field->log.count == 0 && StageOf(field) == CHECK_RESTS) &&
            kiriCheck_Indices(check, &settled, room) && kiriCheck_That(check, AreNearListed(field, check, room));
 }
 
@@ -260,16 +312,47 @@ static bool AreRowsOfRegions(const kiriRegions* regions, const kiriGrid* grid)
     int32_t cells = regions->siteAt.count;
     return cells == regions->field.distance.count && cells == regions->onBorder.count &&
            cells == regions->isChanged.count && cells == regions->border.cells.count && cells <= grid->cells.count &&
-           (!regions->running || cells == grid->cells.count) && (!regions->following || regions->running);
+           (!regions->running || cells == grid->cells.count) && (!regions->following || (regions->running && !regions->flooding));
+}
+
+/* Between updates nothing is at hand; and of one from scratch there is only what has been flooded. */
+static kiriFieldUse UseOfRegions(const kiriRegions* regions)
+{
+    return !regions->running    ? KIRI_FIELD_RESTS
+           : regions->flooding  ? KIRI_FIELD_FLOODS
+           : regions->following ? KIRI_FIELD_READ
+                                : KIRI_FIELD_REPAIRS;
+}
+
+/* Cells are in `changes` once, and those on borders in the list of their region: that which they had before an update
+   that is at hand. */
+static bool AreCellsOfRegions(kiriCheck* check, const kiriRegions* regions, const kiriGrid* grid)
+{
+    uint8_t* isChanged = kiriCheck_Bytes(check, regions->isChanged.count);
+    bool areFine = isChanged != NULL;
+    for (int32_t k = 0; areFine && k < regions->changes.count; ++k) {
+        int32_t cell = regions->changes.data[k].cell;
+        areFine = kiriGrid_IsCell(grid, cell) && !isChanged[cell];
+        isChanged[cell] = 1;
+    }
+    for (int32_t c = 0; areFine && c < regions->isChanged.count; ++c) {
+        int32_t region = regions->border.cells.data[c].region;
+        areFine = regions->isChanged.data[c] == isChanged[c] &&
+                  regions->onBorder.data[c] == (region != KIRI_NONE) &&
+                  (regions->running || region == KIRI_NONE || region == regions->field.owner.data[c]);
+    }
+    kiriMemory_Free(&check->memory, isChanged);
+    return areFine;
 }
 
 bool kiriRegions_Check(const kiriRegions* regions, const kiriGrid* grid, kiriCheck* check, bool areAllOwned)
 {
     check->count[KIRI_OF_REGIONS] = regions->material.count;
-    return kiriCheck_That(check,
-                          AreRowsOfRegions(regions, grid) && regions->material.count <= check->count[KIRI_OF_SITES]) &&
-           kiriField_Check(&regions->field, check, regions->material.count, KIRI_FIELD_REPAIRS) &&
+    return kiriCheck_That(check, AreRowsOfRegions(regions, grid) &&
+                                     regions->material.count <= check->count[KIRI_OF_SITES]) &&
+           kiriField_Check(&regions->field, check, regions->material.count, UseOfRegions(regions)) &&
            kiriCheck_Object(check, RegionsMust, regions) &&
            kiriCheck_That(check, AreTallies(regions) && AreSitesAt(check, regions, grid) &&
-                                     AreBorders(&regions->border) && (!areAllOwned || AreOwned(regions, grid)));
+                                     AreBorders(&regions->border) && AreCellsOfRegions(check, regions, grid) &&
+                                     (!areAllOwned || AreOwned(regions, grid)));
 }

@@ -170,22 +170,73 @@ static bool AreReaches(kiriCheck* check, const kiriShape* shape)
            kiriCheck_That(check, AreBlocksListed(shape, &ofCells, &ofLabel, check->count[KIRI_OF_CELLS]));
 }
 
-static bool AreListsOfShape(kiriCheck* check, const kiriShape* shape)
+/* What an update has marked so far of what grid and regions have changed: as many as it has come to in their lists. */
+static void MarkChanged(const kiriShapeWork* work, const kiriGrid* grid, const kiriRegions* regions, uint8_t* marks)
 {
-    const kiriShapeWork* work = shape->work;
-    kiriIndices changes = { shape->changes.data, shape->changes.count, shape->changes.capacity };
-    kiriIndices dirty = { work->dirty.data, work->dirty.count, work->dirty.capacity };
-    kiriIndices frames = { work->dirtyFrames.data, work->dirtyFrames.count, work->dirtyFrames.capacity };
-    bool isFilling = work->stage > KIRI_SHAPE_REST && work->stage < KIRI_SHAPE_FINISH;
-    bool areFine =
-        kiriCheck_Marked(check, &changes, work->marks.count, work->marks.data, KIRI_MARK_CHANGED) &&
-        (!isFilling || kiriCheck_Marked(check, &dirty, work->marks.count, work->marks.data, KIRI_MARK_DIRTY)) &&
-        kiriCheck_Distinct(check, &frames, work->frames.count);
-    for (int32_t k = 0; areFine && k < frames.count; ++k) {
-        areFine = kiriCheck_That(check, work->frames.data[frames.data[k]].dirty);
+    const kiriGridChanges* changes = &grid->changes;
+    int64_t left = work->stage == KIRI_SHAPE_MARK ? work->next : INT64_MAX;
+    for (int32_t k = 0; k < changes->gone.count && left > 0; ++k, --left) {
+        marks[changes->gone.data[k]] |= KIRI_MARK_GONE;
     }
-    return areFine && kiriCheck_That(check, frames.capacity >= work->frames.count &&
-                                                (work->stage != KIRI_SHAPE_REST || frames.count == 0));
+    for (int32_t k = 0; k < changes->steps.count && left > 0; ++k, --left) {
+        marks[changes->steps.data[k]] |= KIRI_MARK_STEPS;
+    }
+    left -= changes->material.count;
+    for (int32_t k = 0; k < regions->changes.count && left > 0; ++k, --left) {
+        marks[regions->changes.data[k].cell] |= KIRI_MARK_REGION;
+    }
+}
+
+/* Cells that are marked so; each is there once, and lives. */
+static bool MarkListed(const kiriGrid* grid, const int32_t* cells, int32_t count, uint8_t* marks, uint8_t mark)
+{
+    bool areFine = true;
+    for (int32_t k = 0; areFine && k < count; ++k) {
+        areFine = (marks[cells[k]] & mark) == 0 && kiriGrid_IsCell(grid, cells[k]);
+        marks[cells[k]] |= mark;
+    }
+    return areFine;
+}
+
+/* Marks say in which lists cells are, and what has changed about them; those of the frame at hand are of cells that are
+   loaded. */
+static bool AreMarksOfShape(kiriCheck* check, const kiriShape* shape, const kiriGrid* grid, const kiriRegions* regions)
+{
+    const uint8_t ofFrame = KIRI_MARK_SEED | KIRI_MARK_SEEN;
+    const kiriShapeWork* work = shape->work;
+    int32_t first = work->stage == KIRI_SHAPE_FINISH ? work->next : 0;
+    uint8_t* marks = kiriCheck_Bytes(check, work->marks.count);
+    bool areFine =
+        marks != NULL && MarkListed(grid, shape->changes.data, shape->changes.count, marks, KIRI_MARK_CHANGED);
+    if (areFine && work->stage != KIRI_SHAPE_REST) {
+        MarkChanged(work, grid, regions, marks);
+        areFine = MarkListed(grid, work->dirty.data + first, work->dirty.count - first, marks, KIRI_MARK_DIRTY);
+    }
+    for (int32_t c = 0; areFine && c < work->marks.count; ++c) {
+        uint8_t is = work->marks.data[c], may = (marks[c] & KIRI_MARK_CHANGED) != 0 ? KIRI_MARK_RECOMPUTED : 0;
+        may |= work->isLoaded.data[kiriReach_BlockOf(c)] != 0 ? ofFrame : 0;
+        areFine = (is & ~(ofFrame | KIRI_MARK_RECOMPUTED)) == marks[c] && (is & ~(marks[c] | may)) == 0;
+    }
+    kiriMemory_Free(&check->memory, marks);
+    return kiriCheck_That(check, areFine);
+}
+
+/* Frames that are dirty are listed; nothing is known of others. */
+static bool AreDirtyFrames(kiriCheck* check, const kiriShapeWork* work)
+{
+    kiriIndices frames = { work->dirtyFrames.data, work->dirtyFrames.count, work->dirtyFrames.capacity };
+    bool areFine = kiriCheck_Distinct(check, &frames, work->frames.count);
+    int32_t dirty = 0;
+    for (int32_t f = 0; areFine && f < work->frames.count; ++f) {
+        const kiriShapeFrame* frame = &work->frames.data[f];
+        dirty += frame->dirty;
+        areFine = frame->dirty || (frame->firstTouch == KIRI_NONE && frame->touches == 0 && !frame->moved);
+    }
+    for (int32_t k = 0; areFine && k < frames.count; ++k) {
+        areFine = work->frames.data[frames.data[k]].dirty;
+    }
+    return kiriCheck_That(check, areFine && dirty == frames.count && frames.capacity >= work->frames.count &&
+                                     (work->stage != KIRI_SHAPE_REST || frames.count == 0));
 }
 
 static bool AreSideCounts(const kiriShapeWork* work, kiriSpan sides)
@@ -213,11 +264,9 @@ static bool AreCounted(kiriCheck* check, const kiriShape* shape)
     bool areFine = kiriCheck_StartRooms(check, &rooms, &work->sideCounts, sizeof(int32_t), &work->sideRoom);
     for (int32_t f = 0; areFine && f < work->frames.count; ++f) {
         const kiriShapeFrame* frame = &work->frames.data[f];
-        bool isAtRest = frame->firstTouch == KIRI_NONE && !frame->moved && !frame->dirty;
         areFine = kiriCheck_Span(check, &rooms, frame->sides) && AreSideCounts(work, frame->sides) &&
-                  kiriCheck_That(check, work->stage == KIRI_SHAPE_REST ? isAtRest
-                                                                       : frame->firstTouch >= KIRI_NONE &&
-                                                                             frame->firstTouch < work->touches.count);
+                  kiriCheck_That(check, frame->firstTouch == KIRI_NONE ||
+                                            (frame->firstTouch >= 0 && frame->firstTouch < work->touches.count));
     }
     for (int32_t c = 0; areFine && c < shape->spans.count; ++c) {
         areFine = kiriCheck_That(check, IsCounted(shape, work->counted.data[c]));
@@ -228,7 +277,16 @@ static bool AreCounted(kiriCheck* check, const kiriShape* shape)
     return areFine;
 }
 
-/* Blocks that are loaded are of one frame: each knows its cells. */
+static bool AreFar(const kiriShapeWork* work, int32_t cells)
+{
+    bool areFar = true;
+    for (int32_t c = cells * KIRI_BLOCK_CELLS; c < (cells + 1) * KIRI_BLOCK_CELLS; ++c) {
+        areFar &= (work->fromSite.distance.data[c] == KIRI_FAR) & (work->fromBorder.distance.data[c] == KIRI_FAR);
+    }
+    return areFar;
+}
+
+/* Blocks that are loaded are of one frame: each knows its cells. Others have no distances. */
 static bool AreLoaded(kiriCheck* check, const kiriShape* shape)
 {
     const kiriShapeWork* work = shape->work;
@@ -239,13 +297,15 @@ static bool AreLoaded(kiriCheck* check, const kiriShape* shape)
     for (int32_t k = 0; areFine && k < work->loaded.count; ++k) {
         kiriLoadedBlock loaded = work->loaded.data[k];
         areFine = loaded.cells >= 0 && loaded.cells < work->isLoaded.count && !seen[loaded.cells] &&
-                  work->isLoaded.data[loaded.cells] != 0 && loaded.block >= KIRI_NONE &&
-                  loaded.block < reaches->blocks.count;
+                  loaded.block >= KIRI_NONE && loaded.block < reaches->blocks.count;
         if (areFine) {
             seen[loaded.cells] = 1;
             areFine = loaded.block == KIRI_NONE || (reaches->heads.data[loaded.block].label != KIRI_NONE &&
                                                     reaches->blocks.data[loaded.block].cells == loaded.cells);
         }
+    }
+    for (int32_t b = 0; areFine && b < work->isLoaded.count; ++b) {
+        areFine = seen[b] == (work->isLoaded.data[b] != 0) && (seen[b] || AreFar(work, b));
     }
     kiriMemory_Free(&check->memory, seen);
     return kiriCheck_That(check, areFine);
@@ -308,20 +368,49 @@ static bool AreRowsOfShape(const kiriShape* shape, const kiriGrid* grid)
            (work->frameStage == KIRI_FRAME_REST || work->stage == KIRI_SHAPE_MEASURE);
 }
 
-/* Between frames it is empty; but for one of which some was loaded, cells may be dirty. */
-static bool IsFieldOfFrame(kiriCheck* check, const kiriShapeWork* work, const kiriField* field)
+/* By kiriFrameStage: of distances to the site, and to the border. Where the site has moved they are flooded, else
+   repaired; cells are marked for that before the frame is at hand. */
+static bool AreFieldsOfFrame(kiriCheck* check, const kiriShapeWork* work)
 {
-    kiriFieldUse use = work->frameStage == KIRI_FRAME_REST     ? KIRI_FIELD_EMPTY
-                       : work->frameStage == KIRI_FRAME_UNLOAD ? KIRI_FIELD_EMPTIED
-                                                               : KIRI_FIELD_REPAIRS;
+    static const kiriFieldUse flooded[][2] = {
+        { KIRI_FIELD_RESTS, KIRI_FIELD_RESTS },     { KIRI_FIELD_FLOODS, KIRI_FIELD_RESTS },
+        { KIRI_FIELD_FLOODS, KIRI_FIELD_FLOODS },   { KIRI_FIELD_EMPTIED, KIRI_FIELD_EMPTIED },
+        { KIRI_FIELD_FLOODS, KIRI_FIELD_RESTS },
+    };
+    static const kiriFieldUse repaired[][2] = {
+        { KIRI_FIELD_MARKED, KIRI_FIELD_MARKED },   { KIRI_FIELD_REPAIRS, KIRI_FIELD_MARKED },
+        { KIRI_FIELD_READ, KIRI_FIELD_REPAIRS },    { KIRI_FIELD_READ, KIRI_FIELD_READ },
+        { KIRI_FIELD_READ, KIRI_FIELD_MARKED },
+    };
     bool isAtFrame = work->stage == KIRI_SHAPE_MEASURE && work->next < work->dirtyFrames.count;
-    bool mayBeDirty =
-        use != KIRI_FIELD_EMPTY || (isAtFrame && !work->frames.data[work->dirtyFrames.data[work->next]].moved);
-    return kiriField_Check(field, check, INT32_MAX, use) &&
-           kiriCheck_That(check, mayBeDirty || field->dirty.count == 0);
+    bool isFlooded = !isAtFrame || work->frames.data[work->dirtyFrames.data[work->next]].moved;
+    const kiriFieldUse* uses = (isFlooded ? flooded : repaired)[work->frameStage];
+    return kiriCheck_That(check, isAtFrame || work->frameStage == KIRI_FRAME_REST) &&
+           kiriField_Check(&work->fromSite, check, INT32_MAX, uses[0]) &&
+           kiriField_Check(&work->fromBorder, check, INT32_MAX, uses[1]);
 }
 
-bool kiriShape_Check(const kiriShape* shape, const kiriGrid* grid, kiriCheck* check)
+/* Raw weights that are still to be put in their place are of cells that live. */
+static bool AreWeightsToPlace(const kiriShapeWork* work, const kiriGrid* grid)
+{
+    bool areFine = true;
+    for (int32_t k = work->stage == KIRI_SHAPE_PLACE ? work->next : 0;
+         areFine && work->stage != KIRI_SHAPE_FINISH && k < work->rawWeights.count; ++k) {
+        areFine = kiriGrid_IsCell(grid, work->rawWeights.data[k].cell);
+    }
+    return areFine;
+}
+
+static bool IsRunningShape(kiriCheck* check, const kiriShape* shape, const kiriGrid* grid)
+{
+    const kiriShapeWork* work = shape->work;
+    return work->stage == KIRI_SHAPE_REST ||
+           (kiriCheck_Object(check, RunningShapeMust, work) &&
+            kiriCheck_That(check, AreWeightsToPlace(work, grid) &&
+                                      (work->stage != KIRI_SHAPE_FINISH || work->next <= work->dirty.count)));
+}
+
+bool kiriShape_Check(const kiriShape* shape, const kiriGrid* grid, const kiriRegions* regions, kiriCheck* check)
 {
     int64_t cells = check->count[KIRI_OF_CELLS];
     if (!kiriCheck_That(check, shape->work != NULL) || !kiriCheck_That(check, AreRowsOfShape(shape, grid))) {
@@ -331,11 +420,10 @@ bool kiriShape_Check(const kiriShape* shape, const kiriGrid* grid, kiriCheck* ch
     check->count[KIRI_OF_CELLS] = shape->spans.count;
     bool isFine = kiriCheck_That(check, shape->rigid.count <= check->count[KIRI_OF_SITES] && AreRigidSums(shape)) &&
                   kiriCheck_That(check, AreLabels(shape)) && kiriCheck_Object(check, ShapeMust, shape) &&
-                  (shape->work->stage == KIRI_SHAPE_REST || kiriCheck_Object(check, RunningShapeMust, shape->work)) &&
-                  AreReaches(check, shape) && IsFieldOfFrame(check, shape->work, &shape->work->fromSite) &&
-                  IsFieldOfFrame(check, shape->work, &shape->work->fromBorder) && AreListsOfShape(check, shape) &&
-                  AreCounted(check, shape) && AreLoaded(check, shape) && AreWeights(check, shape) &&
-                  AreAwaited(check, shape);
+                  IsRunningShape(check, shape, grid) && AreReaches(check, shape) &&
+                  AreDirtyFrames(check, shape->work) && AreFieldsOfFrame(check, shape->work) &&
+                  AreLoaded(check, shape) && AreMarksOfShape(check, shape, grid, regions) && AreCounted(check, shape) &&
+                  AreWeights(check, shape) && AreAwaited(check, shape);
     check->count[KIRI_OF_CELLS] = cells;
     return isFine;
 }

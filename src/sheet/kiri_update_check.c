@@ -259,7 +259,7 @@ static bool IsFollowed(kiriCheck* check, const kiriSheetData* sheet)
     bool isDividing = u->stage == KIRI_STAGE_SHAPE && u->step == STEP_LINKS - 1;
     return kiriGrid_Check(&sheet->grid, &sheet->mesh, check) && AreSitesIn(check, sheet) &&
            kiriRegions_Check(&sheet->regions, &sheet->grid, check, areOwned && !isDividing) &&
-           kiriShape_Check(&sheet->shape, &sheet->grid, check) &&
+           kiriShape_Check(&sheet->shape, &sheet->grid, &sheet->regions, check) &&
            kiriPlacer_Check(&u->placing.placer, &sheet->grid, &sheet->mesh, check, u->placing.isTaking, u->placing.isPlacing) &&
            kiriOwnership_Check(&u->refit.ownership, check, &sheet->mesh) &&
            kiriCheck_That(check, AreNewSamples(sheet) && AreMarks(sheet) && IsPlacing(sheet) && AreOrphans(sheet));
