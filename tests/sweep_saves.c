@@ -1,7 +1,8 @@
 /* Saves that are wrong in one number: each number of a field in turn, and some of each list, with each of some odd
    values. Such bytes are refused, and nothing has changed; or the world that comes of them goes on as in fuzz_load.c.
 
-   sweep_saves [FIRST [END [ITEMS]]]: worlds, and how many numbers of a list. A line for each that breaks something. */
+   sweep_saves [FIRST [END [ITEMS [APART [untrusted]]]]]: worlds, how many numbers of a list, and that only each so manyth
+   save is tried; by kiriWorld_LoadUntrusted. A line for each that breaks something. */
 #define _DEFAULT_SOURCE
 #include "fuzz_traced.h"
 
@@ -97,8 +98,13 @@ static int64_t WordOf(const Traced* t, int32_t block, int64_t number, int64_t nu
 
 typedef struct Progress {
     int32_t block, value;
-    int64_t number, tried;
+    int64_t number, seen, tried;
 } Progress;
+
+typedef struct Sweep {
+    int32_t items, apart;
+    bool isUntrusted;
+} Sweep;
 
 static kiriResult LoadSave(kiriWorld* world, const void* context)
 {
@@ -106,34 +112,43 @@ static kiriResult LoadSave(kiriWorld* world, const void* context)
     return kiriWorld_Load(world, save->bytes, save->size);
 }
 
-static void TryOne(const Traced* t, int32_t world, const Progress* at, int64_t word)
+static kiriResult LoadUntrusted(kiriWorld* world, const void* context)
+{
+    const Save* save = context;
+    return kiriWorld_LoadUntrusted(world, save->bytes, save->size);
+}
+
+static void TryOne(const Traced* t, int32_t world, bool isUntrusted, Progress* at, int64_t word)
 {
     struct itimerval timer = { { 0, 0 }, { SECONDS, 0 } };
     Save save = Saved_Copy(&t->save);
     PutWrong(t, at->block, word, at->value, &save);
     if (memcmp(save.bytes, t->save.bytes, (size_t)save.size) != 0) {
+        at->tried += 1;
         setitimer(ITIMER_VIRTUAL, &timer, NULL);
         Saved_MendSum(&save);
-        Saved_Try(LoadSave, &save, &Saved_Get(world)->storm);
+        Saved_Try(isUntrusted ? LoadUntrusted : LoadSave, &save, &Saved_Get(world)->storm);
     }
     free(save.bytes);
 }
 
 /* From where it stands; it says where that is before each. */
-static void GoOn(const Traced* t, int32_t world, int32_t items, Progress* at)
+static void GoOn(const Traced* t, int32_t world, Sweep sweep, Progress* at)
 {
     for (; at->block < t->blocks; ++at->block, at->number = 0) {
-        int64_t numbers = NumbersOf(t, at->block, items);
+        int64_t numbers = NumbersOf(t, at->block, sweep.items);
         for (; at->number < numbers; ++at->number, at->value = 0) {
-            for (; at->value < VALUES; ++at->value, ++at->tried) {
-                TryOne(t, world, at, WordOf(t, at->block, at->number, numbers, world));
+            for (; at->value < VALUES; ++at->value, ++at->seen) {
+                if (at->seen % sweep.apart == world % sweep.apart) {
+                    TryOne(t, world, sweep.isUntrusted, at, WordOf(t, at->block, at->number, numbers, world));
+                }
             }
         }
     }
 }
 
 /* In a process of its own, which another follows where it ends early. Returns how many broke something. */
-static int32_t SweepWorld(int32_t world, int32_t items, Progress* at)
+static int32_t SweepWorld(int32_t world, Sweep sweep, Progress* at)
 {
     const Traced* t = Traced_Get(world);
     int32_t broken = 0;
@@ -143,7 +158,7 @@ static int32_t SweepWorld(int32_t world, int32_t items, Progress* at)
         fflush(NULL);
         pid_t child = fork();
         if (child == 0) {
-            GoOn(t, world, items, at);
+            GoOn(t, world, sweep, at);
             _exit(0);
         }
         if (child < 0 || waitpid(child, &status, 0) != child) {
@@ -153,20 +168,21 @@ static int32_t SweepWorld(int32_t world, int32_t items, Progress* at)
         if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
             return broken;
         }
-        int64_t word = WordOf(t, at->block, at->number, NumbersOf(t, at->block, items), world);
+        int64_t word = WordOf(t, at->block, at->number, NumbersOf(t, at->block, sweep.items), world);
         const TracedPart* part = Traced_Find(t, at->block, &word);
         printf("world %d: byte %lld of %lld (%d bytes wide), value %d: status %d\n", (int)world,
                (long long)(part->at + 4 * word), (long long)t->save.size, (int)part->width, (int)at->value, status);
         ++broken;
         ++at->value;
-        ++at->tried;
+        ++at->seen;
     }
 }
 
 int main(int count, char** arguments)
 {
-    int32_t first = count > 1 ? atoi(arguments[1]) : 0, end = count > 2 ? atoi(arguments[2]) : SAVED_WORLDS,
-            items = count > 3 ? atoi(arguments[3]) : 8, broken = 0;
+    int32_t first = count > 1 ? atoi(arguments[1]) : 0, end = count > 2 ? atoi(arguments[2]) : SAVED_WORLDS, broken = 0;
+    Sweep sweep = { count > 3 ? atoi(arguments[3]) : 8, count > 4 && atoi(arguments[4]) > 1 ? atoi(arguments[4]) : 1,
+                    count > 5 };
     int64_t tried = 0;
     Progress* at = mmap(NULL, sizeof(*at), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (at == MAP_FAILED) {
@@ -174,7 +190,7 @@ int main(int count, char** arguments)
         return 1;
     }
     for (int32_t world = first; world < end && world < SAVED_WORLDS; ++world) {
-        broken += SweepWorld(world, items, at);
+        broken += SweepWorld(world, sweep, at);
         tried += at->tried;
         printf("world %d: %lld saves, %lld bytes each\n", (int)world, (long long)at->tried,
                (long long)Traced_Get(world)->save.size);

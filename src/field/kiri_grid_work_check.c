@@ -301,8 +301,8 @@ static int64_t CountItemsOf(const kiriGridWork* work, const kiriSquares* squares
     return counts[work->stage];
 }
 
-/* An entry of the square that is being collected. While two runs are merged, some of the left one are in the room of the
-   sorting, and their places have others. */
+/* An entry of the square that is being collected. While two runs are merged, some of the left one are in the room of
+   the sorting, and their places have others. */
 static int32_t EntryAt(const kiriGridWork* work, int32_t first, int32_t k)
 {
     const kiriSorting* s = &work->sorting;
@@ -485,6 +485,19 @@ static bool IsAtRest(const kiriGridWork* work)
            work->parent.count == 0;
 }
 
+/* From scratch: all cells are new, and squares that are still to come have none. */
+static bool IsFromScratch(const kiriGrid* grid)
+{
+    const kiriGridWork* work = grid->work;
+    bool isFine = grid->changes.made.count == grid->cellCount && grid->changes.gone.count == 0 &&
+                  work->stepsDirty.count == grid->cellCount && work->linksDirty.count == 0;
+    int32_t first = work->part < FILL ? work->item : work->item + 1;
+    for (int32_t s = first; isFine && work->stage == 0 && s < grid->squareCell.count; ++s) {
+        isFine = grid->squareCell.data[s] == KIRI_NONE;
+    }
+    return isFine && (work->stage > 0 || grid->faces.count == 0);
+}
+
 /* Rows are as long as the mesh is large. */
 static bool IsRunning(kiriCheck* check, const kiriGrid* grid, const kiriMeshData* mesh)
 {
@@ -493,7 +506,8 @@ static bool IsRunning(kiriCheck* check, const kiriGrid* grid, const kiriMeshData
            (work->stage > 0 || work->part == 0 || kiriCheck_Object(check, AmidCellsMust, work)) &&
            (!work->isMerging || kiriCheck_Object(check, AmidFacesMust, work)) &&
            kiriCheck_That(check, grid->nodeCell.count == mesh->squares.nodes.count &&
-                                     grid->vertexCell.count == mesh->vertices.count && AreNewMaterials(grid, mesh)) &&
+                                     grid->vertexCell.count == mesh->vertices.count && AreNewMaterials(grid, mesh) &&
+                                     (!work->fromScratch || IsFromScratch(grid))) &&
            kiriCheck_That(check, IsUpdate(check, grid, &mesh->squares));
 }
 

@@ -312,7 +312,8 @@ static bool AreRowsOfRegions(const kiriRegions* regions, const kiriGrid* grid)
     int32_t cells = regions->siteAt.count;
     return cells == regions->field.distance.count && cells == regions->onBorder.count &&
            cells == regions->isChanged.count && cells == regions->border.cells.count && cells <= grid->cells.count &&
-           (!regions->running || cells == grid->cells.count) && (!regions->following || (regions->running && !regions->flooding));
+           (!regions->running || cells == grid->cells.count) &&
+           (!regions->following || (regions->running && !regions->flooding));
 }
 
 /* Between updates nothing is at hand; and of one from scratch there is only what has been flooded. */

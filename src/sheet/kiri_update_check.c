@@ -84,6 +84,20 @@ static bool AreJobsOfStage(const kiriSheetData* sheet)
            (u->refit.ownership.next == 0 || u->stage == KIRI_STAGE_CONSTANTS);
 }
 
+/* Regions have followed all that the grid has changed, or nothing of it so far. */
+static bool AreChangesSeen(const kiriSheetData* sheet)
+{
+    const kiriUpdate* u = sheet->update;
+    const kiriGridChanges* changes = &sheet->grid.changes;
+    kiriSeenChanges seen = sheet->regions.seen;
+    bool isAll = seen.made == changes->made.count && seen.gone == changes->gone.count &&
+                 seen.steps == changes->steps.count && seen.material == changes->material.count &&
+                 seen.edges == changes->edges.count;
+    bool isNone = seen.made == 0 && seen.gone == 0 && seen.steps == 0 && seen.material == 0 && seen.edges == 0;
+    bool mayBeNone = u->stage == KIRI_STAGE_REGIONS && u->step <= STEP_DIVIDE;
+    return u->needsRebuild || (u->stage <= KIRI_STAGE_GRID ? isNone : isAll || (mayBeNone && isNone));
+}
+
 /* Between updates nothing is left of the last one, nor of grid, regions and shape functions before these have begun. */
 static bool IsNothingLeft(const kiriSheetData* sheet)
 {
@@ -94,9 +108,8 @@ static bool IsNothingLeft(const kiriSheetData* sheet)
     bool isEmpty = changes->made.count == 0 && changes->gone.count == 0 && changes->steps.count == 0 &&
                    changes->material.count == 0 && changes->edges.count == 0;
     return (!isEarlier || isEmpty) &&
-           (!isEarly || (regions->changes.count == 0 && regions->orphans.count == 0 && regions->seen.made == 0 &&
-                         regions->seen.gone == 0 && regions->seen.steps == 0 && regions->seen.material == 0 &&
-                         regions->seen.edges == 0 && sheet->shape.changes.count == 0)) &&
+           (!isEarly ||
+            (regions->changes.count == 0 && regions->orphans.count == 0 && sheet->shape.changes.count == 0)) &&
            (u->stage > KIRI_STAGE_GRID || u->placing.sites.count == sheet->frames.count) &&
            (u->stage >= KIRI_STAGE_CONSTANTS || u->refit.ownership.staged.count == 0) &&
            (u->stage > KIRI_STAGE_SHAPE || (sheet->vertexSkin.staged.count == 0 && sheet->pointSkin.staged.count == 0));
@@ -260,7 +273,8 @@ static bool IsFollowed(kiriCheck* check, const kiriSheetData* sheet)
     return kiriGrid_Check(&sheet->grid, &sheet->mesh, check) && AreSitesIn(check, sheet) &&
            kiriRegions_Check(&sheet->regions, &sheet->grid, check, areOwned && !isDividing) &&
            kiriShape_Check(&sheet->shape, &sheet->grid, &sheet->regions, check) &&
-           kiriPlacer_Check(&u->placing.placer, &sheet->grid, &sheet->mesh, check, u->placing.isTaking, u->placing.isPlacing) &&
+           kiriPlacer_Check(&u->placing.placer, &sheet->grid, &sheet->mesh, check, u->placing.isTaking,
+                            u->placing.isPlacing) &&
            kiriOwnership_Check(&u->refit.ownership, check, &sheet->mesh) &&
            kiriCheck_That(check, AreNewSamples(sheet) && AreMarks(sheet) && IsPlacing(sheet) && AreOrphans(sheet));
 }
@@ -273,14 +287,15 @@ static bool AreLeft(kiriCheck* check, const kiriSheetData* sheet)
     check->count[KIRI_OF_FACES] = INT32_MAX;
     const kiriUpdate* u = sheet->update;
     return kiriCheck_That(check, u->stage <= KIRI_STAGE_GRID && !u->placing.isTaking && !u->placing.isPlacing) &&
-           kiriGrid_CheckLeft(grid, check) && kiriPlacer_Check(&u->placing.placer, grid, &sheet->mesh, check, false, false) &&
+           kiriGrid_CheckLeft(grid, check) &&
+           kiriPlacer_Check(&u->placing.placer, grid, &sheet->mesh, check, false, false) &&
            kiriOwnership_Check(&u->refit.ownership, check, &sheet->mesh);
 }
 
 /* What it works on: grid, regions, shape functions, and what was done with them. */
 bool kiriUpdate_CheckField(kiriCheck* check, const kiriSheetData* sheet)
 {
-    return kiriCheck_That(check, AreJobsOfStage(sheet) && IsNothingLeft(sheet)) &&
+    return kiriCheck_That(check, AreJobsOfStage(sheet) && AreChangesSeen(sheet) && IsNothingLeft(sheet)) &&
            (sheet->update->needsRebuild ? AreLeft(check, sheet) : IsFollowed(check, sheet));
 }
 
