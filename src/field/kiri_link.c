@@ -47,7 +47,7 @@ static bool IsMadeBefore(const void* context, int32_t a, int32_t b)
     if (x->link.i != y->link.i) {
         return x->link.i < y->link.i;
     }
-    if (x->link.j != y->link.j || x->face == KIRI_NONE) {
+    if (x->link.j != y->link.j || x->face == KIRI_NONE || y->face == KIRI_NONE) {
         return x->link.j != y->link.j ? x->link.j < y->link.j : a < b; /* those of a pair that is kept are in order */
     }
     return kiriBorder_IsFaceBefore(border, x->face, y->face);
@@ -264,12 +264,14 @@ static bool AddShortLinks(const kiriBorder* border)
     return ok;
 }
 
-/* Neither region of an old link is dirty: so it is the link of its pair that has the same rank. */
-static void TakeOldLinks(const kiriBorder* border, const kiriLinks* links)
+/* Neither region of an old link is dirty: so it is the link of its pair that has the same rank. False where there is
+   none, of bytes that were made up. */
+static bool TakeOldLinks(const kiriBorder* border, const kiriLinks* links)
 {
     const kiriLinkWork* work = border->work;
     int32_t old = 0;
-    for (int32_t k = 0; k < work->order.count; ++k) {
+    bool areThere = true;
+    for (int32_t k = 0; areThere && k < work->order.count; ++k) {
         kiriNewLink* made = &work->made.data[work->order.data[k]];
         int32_t first = kiriLink_FirstOfPair(links->links.data, links->links.count, made->link.i, made->link.j);
         old = first > old ? first : old;
@@ -278,13 +280,14 @@ static void TakeOldLinks(const kiriBorder* border, const kiriLinks* links)
             ++old;
         }
         bool isOfPair = old < links->links.count && !IsPairBefore(&made->link, &links->links.data[old]);
-        KIRI_ASSERT(isOfPair || !made->isOld);
+        areThere = isOfPair || !made->isOld;
         if (made->isOld && isOfPair) {
             made->link = links->links.data[old];
             made->ends = work->ends.data[old];
         }
         old += isOfPair;
     }
+    return areThere;
 }
 
 /* ---- The whole -------------------------------------------------------------------------------------------------- */
@@ -465,11 +468,7 @@ static bool FindLinksToMake(const kiriBorder* border, const kiriLinks* links, in
 static bool FinishLinks(const kiriBorder* border, kiriLinks* links)
 {
     kiriLinkWork* work = border->work;
-    if (!SortMade(border)) {
-        return false;
-    }
-    TakeOldLinks(border, links);
-    bool ok = AddShortLinks(border) && SortMade(border) && !work->edges.failed && MergeLinks(border, links) &&
+    bool ok = SortMade(border) && TakeOldLinks(border, links) && AddShortLinks(border) && SortMade(border) && !work->edges.failed && MergeLinks(border, links) &&
               kiriBorder_MakeCorners(border, links);
     if (ok) {
         links->changed = CountChanged(links);

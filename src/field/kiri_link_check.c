@@ -23,6 +23,7 @@ static const kiriMust LinkEndsMust[] = {
 static const kiriMust NewLinkMust[] = {
     KIRI_INDEX(KIRI_OF_SITES, kiriNewLink, link.i, link.j),
     KIRI_PART_MUST(kiriNewLink, ends, kiriLinkEnds, LinkEndsMust),
+    KIRI_REALS(kiriNewLink, link.width, link.spread),
     KIRI_INDEX_OR_NONE(KIRI_OF_FACES, kiriNewLink, face, face),
 };
 
@@ -132,35 +133,69 @@ static bool AreOfMaterial(const kiriSightEdges* edges, const kiriMeshData* mesh)
     return areFine;
 }
 
-/* Marked are faces at hand alone. */
-static bool AreMarksOfFaces(const kiriLinkWork* work, int32_t faces)
+/* Marked are faces at hand alone, each of which comes once. */
+static bool AreMarksOfFaces(kiriCheck* check, const kiriLinkWork* work, int32_t faces)
 {
-    bool areFine = !work->running || work->marks.count >= faces;
+    kiriIndices listed = { work->faces.data, work->running ? work->faces.count : 0, work->faces.capacity };
+    bool areFine = (!work->running || work->marks.count >= faces) &&
+                   kiriCheck_Distinct(check, &listed, work->marks.count);
     int32_t marked = 0;
     for (int32_t k = 0; areFine && k < work->marks.count; ++k) {
         areFine = work->marks.data[k] <= KIRI_FACE_BENT;
         marked += work->marks.data[k] != KIRI_FACE_PASSED;
     }
-    for (int32_t k = 0; areFine && work->running && k < work->faces.count; ++k) {
-        areFine = work->faces.data[k] >= 0 && work->faces.data[k] < work->marks.count;
-        marked -= areFine && work->marks.data[work->faces.data[k]] != KIRI_FACE_PASSED;
+    for (int32_t k = 0; areFine && k < listed.count; ++k) {
+        marked -= work->marks.data[listed.data[k]] != KIRI_FACE_PASSED;
     }
     return areFine && marked == 0;
 }
 
-/* Faces at hand are borders. */
-static bool AreFacesAtHand(const kiriLinkWork* work, const kiriGrid* grid, const int32_t* owner)
+static bool IsFaceOfBorder(const kiriGrid* grid, const int32_t* owner, int32_t f, int32_t i, int32_t j)
 {
+    const int32_t* cell = grid->faces.data[f].cell;
+    return cell[0] != KIRI_NONE && ((owner[cell[0]] == i && owner[cell[1]] == j) ||
+                                    (owner[cell[0]] == j && owner[cell[1]] == i));
+}
+
+/* It is of a face between its regions; or is one of the links in force, of which there are none that are made. */
+static bool IsMadeLink(const kiriLinks* links, const kiriGrid* grid, const kiriRegions* regions, const kiriNewLink* made)
+{
+    const kiriLink* link = &made->link;
+    const int32_t* owner = regions->field.owner.data;
+    if (link->i >= link->j || (!made->isOld && !(link->width > 0.0 && link->length > 0.0))) {
+        return false;
+    }
+    if (made->face != KIRI_NONE) {
+        return IsFaceOfBorder(grid, owner, made->face, link->i, link->j);
+    }
+    int32_t first = kiriLink_FirstOfPair(links->links.data, links->links.count, link->i, link->j);
+    return made->isOld && first < links->links.count && links->links.data[first].i == link->i &&
+           links->links.data[first].j == link->j;
+}
+
+static bool AreCellsOfEnds(const kiriGrid* grid, const kiriLinkEnds* ends)
+{
+    bool areFine = true;
+    for (int e = 0; areFine && e < 2; ++e) {
+        const int32_t* cells = ends->end[e].cell;
+        areFine = cells[0] >= 0 && cells[0] < grid->cells.count && cells[1] >= 0 && cells[1] < grid->cells.count;
+    }
+    return areFine;
+}
+
+/* Faces at hand are borders. Links are kept before others are made: none of a pair is either. */
+static bool AreFacesAtHand(const kiriLinks* links, const kiriGrid* grid, const kiriRegions* regions)
+{
+    const kiriLinkWork* work = links->work;
+    const int32_t* owner = regions->field.owner.data;
     bool areFine = true;
     for (int32_t k = 0; areFine && k < work->faces.count; ++k) {
         const kiriFace* face = &grid->faces.data[work->faces.data[k]];
         areFine = face->cell[0] != KIRI_NONE && owner[face->cell[0]] != owner[face->cell[1]];
     }
     for (int32_t k = 0; areFine && k < work->made.count; ++k) {
-        for (int32_t e = 0; areFine && e < 2; ++e) {
-            const int32_t* cells = work->made.data[k].ends.end[e].cell;
-            areFine = cells[0] >= 0 && cells[0] < grid->cells.count && cells[1] >= 0 && cells[1] < grid->cells.count;
-        }
+        areFine = AreCellsOfEnds(grid, &work->made.data[k].ends) &&
+                  IsMadeLink(links, grid, regions, &work->made.data[k]);
     }
     return areFine;
 }
@@ -179,11 +214,11 @@ bool kiriLinks_Check(const kiriLinks* links, const kiriGrid* grid, const kiriMes
            AreRowOfLinks(check, links->links.data, links->links.count, check->count[KIRI_OF_FRAMES]) &&
            AreCornersOfLinks(check, links->corners.data, links->corners.count, links->links.data, links->links.count) &&
            kiriCheck_Object(check, EndsOfLinksMust, work) && AreSights(check, work) &&
-           kiriCheck_That(check, AreMarksOfFaces(work, grid->faces.count)) &&
+           kiriCheck_That(check, AreMarksOfFaces(check, work, grid->faces.count)) &&
            (!work->running || (kiriCheck_Object(check, RunningLinksMust, work) &&
                                kiriCheck_That(check, work->at >= -2 * (int64_t)work->stale.count - 1 &&
                                                          AreOfMaterial(&work->edges, mesh) &&
-                                                         AreFacesAtHand(work, grid, regions->field.owner.data))));
+                                                         AreFacesAtHand(links, grid, regions))));
 }
 
 bool kiriLinks_AreAtWork(const kiriLinks* links)

@@ -224,6 +224,17 @@ static bool AreSitesIn(kiriCheck* check, const kiriSheetData* sheet)
     return areFine;
 }
 
+/* Between updates frames are at their sites. */
+static bool AreFramesAtSites(const kiriSheetData* sheet)
+{
+    bool areAt = true;
+    for (int32_t f = 0; areAt && kiriUpdate_IsFieldCurrent(sheet->update) && f < sheet->frames.count; ++f) {
+        const kiriSite *is = &sheet->frames.data[f].site, *site = &sheet->update->placing.sites.data[f];
+        areAt = is->cell == site->cell && is->at.x == site->at.x && is->at.y == site->at.y;
+    }
+    return areAt;
+}
+
 /* Frames that appear take their motion from where there is a triangle. */
 static bool AreNewFrames(const kiriSheetData* sheet)
 {
@@ -276,7 +287,7 @@ static bool IsFollowed(kiriCheck* check, const kiriSheetData* sheet)
            kiriPlacer_Check(&u->placing.placer, &sheet->grid, &sheet->mesh, check, u->placing.isTaking,
                             u->placing.isPlacing) &&
            kiriOwnership_Check(&u->refit.ownership, check, &sheet->mesh) &&
-           kiriCheck_That(check, AreNewSamples(sheet) && AreMarks(sheet) && IsPlacing(sheet) && AreOrphans(sheet));
+           kiriCheck_That(check, AreFramesAtSites(sheet) && AreNewSamples(sheet) && AreMarks(sheet) && IsPlacing(sheet) && AreOrphans(sheet));
 }
 
 /* Grid, regions and shape functions that an update left behind are made anew before anybody asks them. */
