@@ -247,6 +247,16 @@ static bool AreNewFrames(const kiriSheetData* sheet)
     return areFine;
 }
 
+/* Only what has changed the mesh comes to later stages; and squares that changed are forgotten when the grid is that of
+   the mesh again. */
+static bool IsMeshFollowed(const kiriSheetData* sheet)
+{
+    const kiriUpdate* u = sheet->update;
+    bool isCutting = u->stage == KIRI_STAGE_CUT && u->cut.meshChanged;
+    return (u->stage <= KIRI_STAGE_CUT || u->cut.meshChanged) &&
+           (isCutting || u->stage == KIRI_STAGE_GRID || u->needsRebuild || sheet->mesh.squares.dirty.count == 0);
+}
+
 /* What rests has whatever the last work left there. */
 static bool ArePartsOfWork(const kiriUpdate* u, const kiriSheetData* sheet)
 {
@@ -320,6 +330,6 @@ bool kiriUpdate_CheckWork(kiriCheck* check, const kiriSheetData* sheet)
            kiriCheck_That(check, AreNewStaged(sheet) && AreFlagsDown(&u->placing)) &&
            (!isPlaced || kiriCheck_That(check, AreNewFrames(sheet) && kiriRefit_HasRoom(&u->refit))) &&
            (!u->placing.isPlacing || u->stage != KIRI_STAGE_SHAPE || kiriCheck_Object(check, PlacingMust, u)) &&
-           kiriCheck_That(check, ArePartsOfWork(u, sheet)) && kiriRefresh_Check(&u->samples.refresh, check) &&
+           kiriCheck_That(check, IsMeshFollowed(sheet) && ArePartsOfWork(u, sheet)) && kiriRefresh_Check(&u->samples.refresh, check) &&
            kiriCheck_That(check, IsRefreshedSample(sheet)) && IsStaged(check, sheet);
 }
