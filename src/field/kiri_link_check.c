@@ -183,7 +183,7 @@ static bool AreCellsOfEnds(const kiriGrid* grid, const kiriLinkEnds* ends)
     return areFine;
 }
 
-/* Faces at hand are borders. Links are kept before others are made: none of a pair is either. */
+/* Faces at hand are borders. What was made is of no more use when the next links are there, and paid for. */
 static bool AreFacesAtHand(const kiriLinks* links, const kiriGrid* grid, const kiriRegions* regions)
 {
     const kiriLinkWork* work = links->work;
@@ -193,7 +193,7 @@ static bool AreFacesAtHand(const kiriLinks* links, const kiriGrid* grid, const k
         const kiriFace* face = &grid->faces.data[work->faces.data[k]];
         areFine = face->cell[0] != KIRI_NONE && owner[face->cell[0]] != owner[face->cell[1]];
     }
-    for (int32_t k = 0; areFine && k < work->made.count; ++k) {
+    for (int32_t k = 0; areFine && work->at <= work->faces.count && k < work->made.count; ++k) {
         areFine = AreCellsOfEnds(grid, &work->made.data[k].ends) &&
                   IsMadeLink(links, grid, regions, &work->made.data[k]);
     }

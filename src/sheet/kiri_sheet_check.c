@@ -302,6 +302,11 @@ static bool AreFadingVertices(const kiriSheetData* sheet)
     return are;
 }
 
+static bool AreFadesSet(const kiriFades* fades, const kiriSettings* settings)
+{
+    return fades->time == settings->fadeTime && fades->least == settings->leastFade;
+}
+
 static bool IsSeen(kiriCheck* check, const kiriSheetData* sheet)
 {
     const kiriSeen* seen = &sheet->seen;
@@ -309,7 +314,9 @@ static bool IsSeen(kiriCheck* check, const kiriSheetData* sheet)
            kiriFades_Check(&seen->fades, check, sheet->mesh.vertices.count) &&
            kiriCheck_That(check, AreFadingVertices(sheet)) &&
            kiriFades_Check(&seen->pointFades, check, sheet->points.count) &&
-           kiriCheck_That(check, AreBlocks(&seen->blocks, sheet) && seen->vertexCount >= 0);
+           kiriCheck_That(check, AreFadesSet(&seen->fades, &sheet->settings) &&
+                                     AreFadesSet(&seen->pointFades, &sheet->settings) &&
+                                     AreBlocks(&seen->blocks, sheet) && seen->vertexCount >= 0);
 }
 
 /* ---- All of it --------------------------------------------------------------------------------------------------- */
