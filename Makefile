@@ -6,6 +6,7 @@
 #   make test     builds and runs all tests
 #   make quick    a few of them, with all calls: for config=debug beside config=sanitize
 #   make fuzz     looks for input that breaks something; FUZZ=mesh: other than calls; TIME=600: s
+#   make sweep    loads saves that are wrong in one number; ARGS='35 36 1': of world 35; config=debug: asserts
 #   make long     ten minutes of play: work and memory of its minutes
 #   make analyze  gcc's analyzer, cppcheck and clang-tidy over src; deps-analyze: installs these; valgrind: a few tests
 #   make scarce   refuses each request for memory of the scenes once
@@ -138,7 +139,7 @@ LANGUAGE_CHECKS :=
 include bindings/install.mk $(wildcard bindings/*/rules.mk)
 
 .PHONY: all run box2d play python bindings described builds lib single example bench accuracy contact extremes gallery guide deps
-.PHONY: test quick fuzz scarce long analyze deps-analyze valgrind tsan check floors fields headers format clean exports FORCE
+.PHONY: test quick fuzz sweep scarce long analyze deps-analyze valgrind tsan check floors fields headers format clean exports FORCE
 .DEFAULT_GOAL := all
 .SECONDARY:
 .DELETE_ON_ERROR:
@@ -175,6 +176,10 @@ fuzz: packages-fuzz
 	@mkdir -p build/fuzz/$(FUZZ)
 	build/fuzz/tests/fuzz_$(FUZZ) -max_total_time=$(or $(TIME),60) -max_len=700 -timeout=60 -rss_limit_mb=4096 \
 	    -artifact_prefix=build/fuzz/$(FUZZ)- build/fuzz/$(FUZZ) tests/data/fuzz/$(FUZZ)
+
+sweep: packages-bench
+	@$(MAKE) --no-print-directory $(BUILD)/tests/sweep_saves
+	$(BUILD)/tests/sweep_saves $(ARGS)
 
 scarce: packages-bench
 	@$(MAKE) --no-print-directory $(BUILD)/tests/test_scarce $(BUILD)/tests/test_unchanged
@@ -314,8 +319,15 @@ $(FUZZ_RUNS): run-fuzz_%: $(BUILD)/tests/fuzz_%
 	@if $< tests/data/fuzz/$* > $<.log 2>&1; then echo "== $<"; tail -n 1 $<.log; \
 	else echo "== $< FAILED"; tail -n 20 $<.log; exit 1; fi
 
-check: $(LONG_RUNS) $(BUILD_CHECK) $(if $(filter release,$(config)),$(LANGUAGE_CHECKS)) $(TEST_RUNS) $(FUZZ_RUNS) $(RUN) $(BOX2D) $(PLAY) \
-    floors fields headers float-guards exports example $(PYTHON_CHECK) $(DESCRIBED_CHECK)
+# Of two worlds each 30th save.
+.PHONY: run-sweep_saves
+
+run-sweep_saves: $(BUILD)/tests/sweep_saves
+	@if $< 34 36 1 30 > $<.log 2>&1; then echo "== $<"; tail -n 1 $<.log; \
+	else echo "== $< FAILED"; tail -n 20 $<.log; exit 1; fi
+
+check: $(LONG_RUNS) $(BUILD_CHECK) $(if $(filter release,$(config)),$(LANGUAGE_CHECKS)) $(TEST_RUNS) $(FUZZ_RUNS) run-sweep_saves \
+    $(RUN) $(BOX2D) $(PLAY) floors fields headers float-guards exports example $(PYTHON_CHECK) $(DESCRIBED_CHECK)
 	@echo "all tests passed ($(config))"
 
 # The input of fuzzers and the recordings have all calls; Python loads no sanitized library.

@@ -1,8 +1,8 @@
 /* Saves that are wrong in one number: each number of a field in turn, and some of each list, with each of some odd
    values. Such bytes are refused, and nothing has changed; or the world that comes of them goes on as in fuzz_load.c.
 
-   sweep_saves [FIRST [END [ITEMS [APART [untrusted]]]]]: worlds, how many numbers of a list, and that only each so manyth
-   save is tried; by kiriWorld_LoadUntrusted. A line for each that breaks something. */
+   sweep_saves [FIRST [END [ITEMS [APART [untrusted]]]]]: worlds; how many numbers of a list; that only each so manyth
+   save is tried; and that it is by kiriWorld_LoadUntrusted. A line for each that breaks something. */
 #define _DEFAULT_SOURCE
 #include "fuzz_traced.h"
 

@@ -4,8 +4,8 @@
 
 /* ---- Rules ------------------------------------------------------------------------------------------------------- */
 
-static const kiriMust IsSquareIndex[] = { KIRI_INDEX(KIRI_OF_SQUARES, kiriSpan, first, first) };
-static const kiriMust IsCellIndex[] = { KIRI_INDEX(KIRI_OF_CELLS, kiriSpan, first, first) };
+static const kiriMust IsWorkSquare[] = { KIRI_INDEX(KIRI_OF_SQUARES, kiriSpan, first, first) };
+static const kiriMust IsWorkCell[] = { KIRI_INDEX(KIRI_OF_CELLS, kiriSpan, first, first) };
 
 static const kiriMust NewCellMust[] = {
     KIRI_INDEX_OR_NONE(KIRI_OF_TRIANGLES, kiriNewCell, triangle, triangle),
@@ -25,13 +25,13 @@ static const kiriMust GridWorkMust[] = {
     KIRI_WITHIN(0, LAST_STAGE, kiriGridWork, stage, stage),
     KIRI_WITHIN(0, INT32_MAX, kiriGridWork, item, item),
     KIRI_WITHIN(0, LAST_PART, kiriGridWork, part, part),
-    KIRI_ITEMS_MUST(kiriGridWork, facesDirty, IsSquareIndex),
-    KIRI_ITEMS_MUST(kiriGridWork, linksDirty, IsSquareIndex),
-    KIRI_ITEMS_MUST(kiriGridWork, stepsDirty, IsCellIndex),
-    KIRI_ITEMS_MUST(kiriGridWork, knightsDirty, IsCellIndex),
+    KIRI_ITEMS_MUST(kiriGridWork, facesDirty, IsWorkSquare),
+    KIRI_ITEMS_MUST(kiriGridWork, linksDirty, IsWorkSquare),
+    KIRI_ITEMS_MUST(kiriGridWork, stepsDirty, IsWorkCell),
+    KIRI_ITEMS_MUST(kiriGridWork, knightsDirty, IsWorkCell),
     KIRI_LENGTH(KIRI_OF_SQUARES, kiriGridWork, squareFlags),
     KIRI_LENGTH(KIRI_OF_SQUARES, kiriGridWork, ranges),
-    KIRI_ITEMS_MUST(kiriGridWork, flagged, IsSquareIndex),
+    KIRI_ITEMS_MUST(kiriGridWork, flagged, IsWorkSquare),
     KIRI_LENGTH(KIRI_OF_CELLS, kiriGridWork, cellFlags),
     KIRI_LENGTH(KIRI_OF_CELLS, kiriGridWork, mark),
     KIRI_WITHIN(0, INT32_MAX - 1, kiriGridWork, lastMark, lastMark),
