@@ -268,35 +268,6 @@ static bool AreTallies(const kiriRegions* regions)
     return areFine;
 }
 
-/* Those that were made since grid changes were cleared. */
-static uint8_t* MarkNewCells(kiriCheck* check, const kiriGrid* grid)
-{
-    uint8_t* isNew = kiriCheck_Bytes(check, grid->cells.count);
-    for (int32_t k = 0; isNew != NULL && k < grid->changes.made.count; ++k) {
-        isNew[grid->changes.made.data[k]] = 1;
-    }
-    return isNew;
-}
-
-/* A site is in one cell. A cell that is gone, or was made since regions looked, may have the site of another. */
-static bool AreSitesAt(kiriCheck* check, const kiriRegions* regions, const kiriGrid* grid)
-{
-    int32_t sites = regions->material.count;
-    uint8_t *isPlaced = kiriCheck_Bytes(check, sites), *isNew = MarkNewCells(check, grid);
-    bool areFine = isPlaced != NULL && isNew != NULL;
-    for (int32_t c = 0; areFine && c < regions->siteAt.count; ++c) {
-        int32_t site = regions->siteAt.data[c];
-        areFine = site >= KIRI_NONE && site < sites;
-        if (areFine && site != KIRI_NONE && kiriGrid_IsCell(grid, c) && !isNew[c]) {
-            areFine = !isPlaced[site];
-            isPlaced[site] = 1;
-        }
-    }
-    kiriMemory_Free(&check->memory, isPlaced);
-    kiriMemory_Free(&check->memory, isNew);
-    return areFine;
-}
-
 static bool AreOwned(const kiriRegions* regions, const kiriGrid* grid)
 {
     bool areOwned = regions->field.owner.count >= grid->cells.count;
@@ -353,7 +324,7 @@ bool kiriRegions_Check(const kiriRegions* regions, const kiriGrid* grid, kiriChe
                                      regions->material.count <= check->count[KIRI_OF_SITES]) &&
            kiriField_Check(&regions->field, check, regions->material.count, UseOfRegions(regions)) &&
            kiriCheck_Object(check, RegionsMust, regions) &&
-           kiriCheck_That(check, AreTallies(regions) && AreSitesAt(check, regions, grid) &&
-                                     AreBorders(&regions->border) && AreCellsOfRegions(check, regions, grid) &&
+           kiriCheck_That(check, AreTallies(regions) && AreBorders(&regions->border) &&
+                                     AreCellsOfRegions(check, regions, grid) &&
                                      (!areAllOwned || AreOwned(regions, grid)));
 }

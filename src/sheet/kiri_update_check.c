@@ -224,6 +224,43 @@ static bool AreSitesIn(kiriCheck* check, const kiriSheetData* sheet)
     return areFine;
 }
 
+/* Where regions have a site: in its cell, or where it was before a move that they have not followed yet. */
+static void FindKnownCells(const kiriSheetData* sheet, int32_t* cells)
+{
+    const kiriPlacingWork* placing = &sheet->update->placing;
+    int32_t known = sheet->regions.material.count;
+    for (int32_t i = 0; i < known; ++i) {
+        cells[i] = placing->sites.data[i].cell;
+    }
+    bool isFollowed = sheet->regions.running || sheet->update->stage < KIRI_STAGE_REGIONS;
+    for (int32_t k = placing->movesSeen; !isFollowed && k < placing->moves.count; ++k) {
+        kiriSiteMove move = placing->moves.data[k];
+        if (move.frame >= 0 && move.frame < known) {
+            cells[move.frame] = move.was;
+        }
+    }
+}
+
+/* Cells say which site they hold. */
+static bool AreSitesKnown(kiriCheck* check, const kiriSheetData* sheet)
+{
+    const kiriRegions* regions = &sheet->regions;
+    int32_t known = regions->material.count, held = 0;
+    int32_t* cells = (int32_t*)(void*)kiriCheck_Bytes(check, (int64_t)sizeof(int32_t) * known);
+    bool areFine = cells != NULL;
+    if (areFine) {
+        FindKnownCells(sheet, cells);
+    }
+    for (int32_t i = 0; areFine && i < known; ++i) {
+        areFine = cells[i] >= 0 && cells[i] < regions->siteAt.count && regions->siteAt.data[cells[i]] == i;
+    }
+    for (int32_t c = 0; areFine && c < regions->siteAt.count; ++c) {
+        held += regions->siteAt.data[c] != KIRI_NONE;
+    }
+    kiriMemory_Free(&check->memory, cells);
+    return kiriCheck_That(check, areFine && held == known);
+}
+
 /* Between updates frames are at their sites. */
 static bool AreFramesAtSites(const kiriSheetData* sheet)
 {
@@ -293,11 +330,12 @@ static bool IsFollowed(kiriCheck* check, const kiriSheetData* sheet)
     bool isDividing = u->stage == KIRI_STAGE_SHAPE && u->step == STEP_LINKS - 1;
     return kiriGrid_Check(&sheet->grid, &sheet->mesh, check) && AreSitesIn(check, sheet) &&
            kiriRegions_Check(&sheet->regions, &sheet->grid, check, areOwned && !isDividing) &&
-           kiriShape_Check(&sheet->shape, &sheet->grid, &sheet->regions, check) &&
+           AreSitesKnown(check, sheet) && kiriShape_Check(&sheet->shape, &sheet->grid, &sheet->regions, check) &&
            kiriPlacer_Check(&u->placing.placer, &sheet->grid, &sheet->mesh, check, u->placing.isTaking,
                             u->placing.isPlacing) &&
            kiriOwnership_Check(&u->refit.ownership, check, &sheet->mesh) &&
-           kiriCheck_That(check, AreFramesAtSites(sheet) && AreNewSamples(sheet) && AreMarks(sheet) && IsPlacing(sheet) && AreOrphans(sheet));
+           kiriCheck_That(check, AreFramesAtSites(sheet) && AreNewSamples(sheet) && AreMarks(sheet) &&
+                                     IsPlacing(sheet) && AreOrphans(sheet));
 }
 
 /* Grid, regions and shape functions that an update left behind are made anew before anybody asks them. */
@@ -330,6 +368,7 @@ bool kiriUpdate_CheckWork(kiriCheck* check, const kiriSheetData* sheet)
            kiriCheck_That(check, AreNewStaged(sheet) && AreFlagsDown(&u->placing)) &&
            (!isPlaced || kiriCheck_That(check, AreNewFrames(sheet) && kiriRefit_HasRoom(&u->refit))) &&
            (!u->placing.isPlacing || u->stage != KIRI_STAGE_SHAPE || kiriCheck_Object(check, PlacingMust, u)) &&
-           kiriCheck_That(check, IsMeshFollowed(sheet) && ArePartsOfWork(u, sheet)) && kiriRefresh_Check(&u->samples.refresh, check) &&
+           kiriCheck_That(check, IsMeshFollowed(sheet) && ArePartsOfWork(u, sheet)) &&
+           kiriRefresh_Check(&u->samples.refresh, check) &&
            kiriCheck_That(check, IsRefreshedSample(sheet)) && IsStaged(check, sheet);
 }
