@@ -261,13 +261,25 @@ static bool AreSitesKnown(kiriCheck* check, const kiriSheetData* sheet)
     return kiriCheck_That(check, areFine && held == known);
 }
 
-/* Between updates frames are at their sites. */
+/* But for rounding. */
+static bool IsInSquareOf(const kiriSheetData* sheet, const kiriSite* site)
+{
+    kiriVec2 off = kiriVec2_Sub(site->at, kiriGrid_Middle(&sheet->grid, &sheet->mesh, site->cell));
+    double most = 0.51 * sheet->grid.side;
+    return fabs(off.x) <= most && fabs(off.y) <= most;
+}
+
+/* Frames are at their sites, and between updates in their cells; sites that are new are in theirs. */
 static bool AreFramesAtSites(const kiriSheetData* sheet)
 {
-    bool areAt = true;
-    for (int32_t f = 0; areAt && kiriUpdate_IsFieldCurrent(sheet->update) && f < sheet->frames.count; ++f) {
-        const kiriSite *is = &sheet->frames.data[f].site, *site = &sheet->update->placing.sites.data[f];
-        areAt = is->cell == site->cell && is->at.x == site->at.x && is->at.y == site->at.y;
+    const kiriSites* sites = &sheet->update->placing.sites;
+    bool isCurrent = kiriUpdate_IsFieldCurrent(sheet->update), areAt = true;
+    for (int32_t f = 0; areAt && f < sheet->frames.count; ++f) {
+        const kiriSite *is = &sheet->frames.data[f].site, *site = &sites->data[f];
+        areAt = is->at.x == site->at.x && is->at.y == site->at.y && (!isCurrent || is->cell == site->cell);
+    }
+    for (int32_t k = sheet->frames.count; areAt && k < sites->count; ++k) {
+        areAt = kiriGrid_IsCell(&sheet->grid, sites->data[k].cell) && IsInSquareOf(sheet, &sites->data[k]);
     }
     return areAt;
 }
