@@ -58,7 +58,7 @@ typedef enum kiriFieldUse {
     KIRI_FIELD_RESTS,   /* nothing is at hand */
     KIRI_FIELD_FLOODS,  /* a flood is, or what it has settled is in use; no repair ever is */
     KIRI_FIELD_MARKED,  /* cells are marked for a repair, */
-    KIRI_FIELD_REPAIRS, /* which is at hand, */
+    KIRI_FIELD_REPAIRS, /* which is at hand or comes next, */
     KIRI_FIELD_READ,    /* or has left its log */
     KIRI_FIELD_EMPTIED  /* it is emptied after either, block by block */
 } kiriFieldUse;

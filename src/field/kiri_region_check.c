@@ -125,7 +125,7 @@ static bool IsUsedAs(const kiriField* field, kiriFieldUse use)
     case KIRI_FIELD_FLOODS:
         return isAtRest && !isDirty && !isLogged;
     case KIRI_FIELD_REPAIRS:
-        return !isAtRest;
+        return !isAtRest || (!isLogged && !isSettled);
     case KIRI_FIELD_READ:
         return isAtRest && !isDirty && !isSettled;
     case KIRI_FIELD_MARKED:

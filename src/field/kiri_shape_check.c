@@ -385,7 +385,7 @@ static bool AreFieldsOfFrame(kiriCheck* check, const kiriShapeWork* work)
     bool isAtFrame = work->stage == KIRI_SHAPE_MEASURE && work->next < work->dirtyFrames.count;
     bool isFlooded = !isAtFrame || work->frames.data[work->dirtyFrames.data[work->next]].moved;
     const kiriFieldUse* uses = (isFlooded ? flooded : repaired)[work->frameStage];
-    return kiriCheck_That(check, isAtFrame || work->frameStage == KIRI_FRAME_REST) &&
+    return kiriCheck_That(check, isAtFrame || (work->frameStage == KIRI_FRAME_REST && work->due == 0)) &&
            kiriField_Check(&work->fromSite, check, INT32_MAX, uses[0]) &&
            kiriField_Check(&work->fromBorder, check, INT32_MAX, uses[1]);
 }
