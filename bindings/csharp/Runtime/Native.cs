@@ -523,10 +523,10 @@ namespace Kiri
     /// sheet before one tick take effect together, when all that follows from them is done. Until then the lips of a
     /// fresh cut move together. A step that cannot be parted and counts more than a whole limit is done in a tick of
     /// its own. Pieces that wait to be detached get half of every other tick, whatever other sheets have to do. How
-    /// long lips wait: a cut from side to side takes 6 items of cells for each cell of the grid where frames are many,
-    /// 30 where they are few (each has more of the sheet), and 0.2 to 1.3 of samples for each vertex; a cut half as
-    /// long a quarter to all of that. So on a sheet and grid of 64 x 64 squares with 9 frames, 2000 cells and 500
-    /// samples part a cut from side to side after 72 ticks, one half as long after 27; 10 000 and 2000 after 15 and 6.
+    /// long lips wait: a cut from side to side takes 7 items of cells for each cell of the grid where frames are many,
+    /// 36 where they are few (each has more of the sheet), and 0.2 to 1.3 of samples for each vertex; a cut half as
+    /// long a third to all of that. So on a sheet and grid of 64 x 64 squares with 9 frames, 2000 cells and 500 samples
+    /// part a cut from side to side after 83 ticks, one half as long after 31; 10 000 and 2000 after 17 and 7.
     /// tests/bench_delay.c prints the table.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Budget
@@ -1337,7 +1337,7 @@ namespace Kiri
 #endif
 
         /// <summary>Of the header.</summary>
-        public const int Version = 1101;
+        public const int Version = 1102;
         public const int LeastTriangles = 16;
         public const int MostNoteBytes = 1048576;
 
