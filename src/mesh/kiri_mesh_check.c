@@ -349,10 +349,12 @@ static void TakeFan(Fan* fan, int32_t start)
         isRound = corner.triangle == first.triangle && corner.at == first.at;
     }
     for (int32_t h = isRound ? KIRI_NONE : start; fan->isFine && h != KIRI_NONE;) {
+        const Corner after = CornerOfHalfEdge(h);
         h = kiriMesh_Clockwise(fan->mesh, h);
         if (h != KIRI_NONE) {
             corner = CornerOfHalfEdge(h);
             TakeCorner(fan, &corner);
+            fan->isFine = fan->isFine && corner.triangle == after.triangle && corner.at == after.at;
         }
     }
 }

@@ -51,6 +51,16 @@ static const kiriMust LayoutMust[] = {
     KIRI_ITEMS_MUST(kiriLayout, pinShares, PinShareMust),
 };
 
+/* A sheet goes with its last piece. */
+static bool IsAnyLeft(const kiriLayout* layout)
+{
+    bool isLeft = false;
+    for (int32_t p = 0; p < layout->pieces.count; ++p) {
+        isLeft = isLeft || !layout->pieces.data[p].isGone;
+    }
+    return isLeft;
+}
+
 /* Pieces are numbered by their lowest frame. */
 bool kiriSheet_ArePieces(kiriCheck* check, const kiriLayout* layout, int64_t frames)
 {
@@ -63,7 +73,7 @@ bool kiriSheet_ArePieces(kiriCheck* check, const kiriLayout* layout, int64_t fra
         areFine = kiriCheck_That(check, piece <= pieces && (piece < pieces || layout->pieces.data[piece].frame == f));
         pieces += piece == pieces;
     }
-    return areFine && kiriCheck_That(check, pieces == layout->pieces.count);
+    return areFine && kiriCheck_That(check, pieces == layout->pieces.count && IsAnyLeft(layout));
 }
 
 bool kiriSheet_AreLinksOfPieces(const kiriLayout* layout, const kiriLink* links, int32_t count)
