@@ -72,13 +72,21 @@ static bool AreLists(const kiriSolver* solver)
             AreBelow(&awake->elements, solver->elementCount));
 }
 
+/* They may grow for ever. */
+static bool AreCountsOfAwake(const kiriAwake* awake)
+{
+    const int64_t most = INT64_C(1) << 56;
+    return awake->lists >= 0 && awake->lists < most && awake->wakes >= 0 && awake->wakes < most;
+}
+
 enum { MOST_SOLVED = INT32_MAX / 2 }; /* in a tick */
 
 static bool IsSolver(const kiriSolver* solver)
 {
     bool isFine = solver->solved >= 0 && solver->solved <= MOST_SOLVED &&
                   solver->frameCount == kiriMatrix_FrameCount(solver->matrix) && solver->pieceCount >= 0 &&
-                  solver->awake.isAwake.count == solver->pieceCount && AreLists(solver);
+                  solver->awake.isAwake.count == solver->pieceCount && AreLists(solver) &&
+                  AreCountsOfAwake(&solver->awake);
     for (int32_t f = 0; isFine && f < solver->frameCount; ++f) {
         isFine = solver->framePiece.data[f] >= 0 && solver->framePiece.data[f] < solver->pieceCount;
     }
