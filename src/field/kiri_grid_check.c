@@ -227,6 +227,15 @@ static bool AreMembers(kiriCheck* check, const kiriGrid* grid, const kiriMeshDat
     return kiriCheck_That(check, areFine);
 }
 
+/* Nodes and vertices that came since the grid was that of the mesh are in squares that changed. */
+static bool HaveCells(const kiriGrid* grid, const kiriMeshData* mesh)
+{
+    const kiriSquares* squares = &mesh->squares;
+    return grid->nodeCell.count <= squares->nodes.count && grid->vertexCell.count <= mesh->vertices.count &&
+           (squares->dirty.count > 0 ||
+            (grid->nodeCell.count == squares->nodes.count && grid->vertexCell.count == mesh->vertices.count));
+}
+
 bool kiriGrid_Check(const kiriGrid* grid, const kiriMeshData* mesh, kiriCheck* check)
 {
     const kiriSquares* squares = &mesh->squares;
@@ -234,8 +243,7 @@ bool kiriGrid_Check(const kiriGrid* grid, const kiriMeshData* mesh, kiriCheck* c
     check->count[KIRI_OF_FACES] = grid->faces.count;
     return kiriCheck_That(check, grid->work != NULL && grid->cells.count > 0) &&
            kiriCheck_Object(check, GridMust, grid) && kiriGrid_CheckOwn(grid, check) &&
-           kiriCheck_That(check, AreMaterials(grid, mesh) && grid->nodeCell.count <= squares->nodes.count &&
-                                     grid->vertexCell.count <= mesh->vertices.count) &&
+           kiriCheck_That(check, AreMaterials(grid, mesh) && HaveCells(grid, mesh)) &&
            AreCellsSound(check, grid, mesh) && kiriCheck_That(check, AreFaces(grid, squares)) &&
            kiriGrid_CheckSteps(grid, squares, check) && kiriGrid_CheckWork(grid, mesh, check) &&
            AreMembers(check, grid, mesh);

@@ -158,7 +158,8 @@ static bool IsFaceOfBorder(const kiriGrid* grid, const int32_t* owner, int32_t f
 }
 
 /* It is of a face between its regions; or is one of the links in force, of which there are none that are made. */
-static bool IsMadeLink(const kiriLinks* links, const kiriGrid* grid, const kiriRegions* regions, const kiriNewLink* made)
+static bool IsMadeLink(const kiriLinks* links, const kiriGrid* grid, const kiriRegions* regions,
+                       const kiriNewLink* made)
 {
     const kiriLink* link = &made->link;
     const int32_t* owner = regions->field.owner.data;

@@ -50,12 +50,12 @@ static bool HaveListsRoom(const kiriField* field)
            !(isDirty && isSettled);
 }
 
-/* Each cell comes once. */
-static bool MarkOnce(uint8_t* marks, const int32_t* cells, int32_t count, size_t bytes, uint8_t mark)
+/* Each cell comes once. An item begins with its cell. */
+static bool MarkOnce(uint8_t* marks, const void* items, int32_t count, size_t bytes, uint8_t mark)
 {
     bool areOnce = true;
     for (int32_t k = 0; areOnce && k < count; ++k) {
-        int32_t cell = *(const int32_t*)(const void*)((const char*)cells + (size_t)k * bytes);
+        int32_t cell = *(const int32_t*)(const void*)((const char*)items + (size_t)k * bytes);
         areOnce = (marks[cell] & mark) == 0;
         marks[cell] |= mark;
     }
@@ -76,7 +76,7 @@ static bool AreFieldMarks(const kiriField* field, uint8_t* marks)
         areFine = MarkOnce(marks, field->dirty.data + isCleared, field->dirty.count - isCleared, 4, MARK_DIRTY);
     }
     if (lists[stage] & MARK_LOGGED) {
-        areFine = areFine && MarkOnce(marks, &field->log.data->cell, field->log.count, sizeof(kiriSeed), MARK_LOGGED);
+        areFine = areFine && MarkOnce(marks, field->log.data, field->log.count, sizeof(kiriSeed), MARK_LOGGED);
     }
     if (lists[stage] & MARK_SETTLED) {
         areFine = areFine && MarkOnce(marks, field->settled.data, field->settled.count, 4, MARK_SETTLED);

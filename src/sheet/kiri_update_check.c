@@ -279,7 +279,9 @@ static bool AreFramesAtSites(const kiriSheetData* sheet)
         areAt = is->at.x == site->at.x && is->at.y == site->at.y && (!isCurrent || is->cell == site->cell);
     }
     for (int32_t k = sheet->frames.count; areAt && k < sites->count; ++k) {
-        areAt = kiriGrid_IsCell(&sheet->grid, sites->data[k].cell) && IsInSquareOf(sheet, &sites->data[k]);
+        int32_t cell = sites->data[k].cell;
+        areAt = cell >= 0 && cell < sheet->grid.cells.count && kiriGrid_IsCell(&sheet->grid, cell) &&
+                IsInSquareOf(sheet, &sites->data[k]);
     }
     return areAt;
 }
@@ -366,7 +368,9 @@ static bool AreLeft(kiriCheck* check, const kiriSheetData* sheet)
 /* What it works on: grid, regions, shape functions, and what was done with them. */
 bool kiriUpdate_CheckField(kiriCheck* check, const kiriSheetData* sheet)
 {
-    return kiriCheck_That(check, AreJobsOfStage(sheet) && AreChangesSeen(sheet) && IsNothingLeft(sheet)) &&
+    const kiriPlacingWork* placing = &sheet->update->placing;
+    return kiriCheck_That(check, placing->movesSeen >= 0 && AreJobsOfStage(sheet) && AreChangesSeen(sheet) &&
+                                     IsNothingLeft(sheet)) &&
            (sheet->update->needsRebuild ? AreLeft(check, sheet) : IsFollowed(check, sheet));
 }
 
