@@ -98,6 +98,14 @@ static bool AreChangesSeen(const kiriSheetData* sheet)
     return u->needsRebuild || (u->stage <= KIRI_STAGE_GRID ? isNone : isAll || (mayBeNone && isNone));
 }
 
+/* Until sites are found again, regions are empty where all is made from scratch, and only there. */
+static bool IsScratchSaid(const kiriSheetData* sheet)
+{
+    const kiriUpdate* u = sheet->update;
+    bool isEarly = u->stage < KIRI_STAGE_REGIONS || (u->stage == KIRI_STAGE_REGIONS && u->step == 0);
+    return u->needsRebuild || !isEarly || u->isScratch == (sheet->regions.material.count == 0);
+}
+
 /* Between updates nothing is left of the last one, nor of grid, regions and shape functions before these have begun. */
 static bool IsNothingLeft(const kiriSheetData* sheet)
 {
@@ -370,7 +378,7 @@ bool kiriUpdate_CheckField(kiriCheck* check, const kiriSheetData* sheet)
 {
     const kiriPlacingWork* placing = &sheet->update->placing;
     return kiriCheck_That(check, placing->movesSeen >= 0 && AreJobsOfStage(sheet) && AreChangesSeen(sheet) &&
-                                     IsNothingLeft(sheet)) &&
+                                     IsScratchSaid(sheet) && IsNothingLeft(sheet)) &&
            (sheet->update->needsRebuild ? AreLeft(check, sheet) : IsFollowed(check, sheet));
 }
 
