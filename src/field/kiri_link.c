@@ -468,8 +468,8 @@ static bool FindLinksToMake(const kiriBorder* border, const kiriLinks* links, in
 static bool FinishLinks(const kiriBorder* border, kiriLinks* links)
 {
     kiriLinkWork* work = border->work;
-    bool ok = SortMade(border) && TakeOldLinks(border, links) && AddShortLinks(border) && SortMade(border) && !work->edges.failed && MergeLinks(border, links) &&
-              kiriBorder_MakeCorners(border, links);
+    bool ok = SortMade(border) && TakeOldLinks(border, links) && AddShortLinks(border) && SortMade(border) &&
+              !work->edges.failed && MergeLinks(border, links) && kiriBorder_MakeCorners(border, links);
     if (ok) {
         links->changed = CountChanged(links);
         work->due += 2 * (int64_t)links->next.count;
