@@ -17,6 +17,7 @@ static bool leavesRoomOut;
 #include "storm.h"
 
 #include "field/kiri_grid_work.h"
+#include "field/kiri_shape_work.h"
 #include "sheet/kiri_sheet_save.h"
 #include "sheet/kiri_update.h"
 #include "view/kiri_view_save.h"
@@ -126,7 +127,7 @@ typedef struct Hidden {
     kiriSheetData sheet;
     kiriUpdate update;
     kiriBounds bounds;
-    kiriGrowing growing;
+    kiriGrowing ofGrid, ofShape;
     int32_t cells[MOST_FRAMES];
 } Hidden;
 
@@ -135,10 +136,12 @@ static void Hide(kiriSheetData* sheet, Hidden* hidden)
     hidden->sheet = *sheet;
     hidden->update = *sheet->update;
     hidden->bounds = *sheet->seen.bounds;
-    hidden->growing = sheet->grid.work->growing;
+    hidden->ofGrid = sheet->grid.work->growing;
+    hidden->ofShape = sheet->shape.work->growing;
     memset(&sheet->update->start, 0, sizeof(kiriUpdateStart));
     memset(&sheet->update->growing, 0, sizeof(kiriGrowing));
     memset(&sheet->grid.work->growing, 0, sizeof(kiriGrowing));
+    memset(&sheet->shape.work->growing, 0, sizeof(kiriGrowing));
     sheet->update->isBegun = false;
     sheet->seen.blocks.hasUnknown = false;
     sheet->seen.surface.hasNormals = false;
@@ -159,7 +162,8 @@ static void Show(kiriSheetData* sheet, const Hidden* hidden)
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
         sheet->frames.data[i].site.cell = hidden->cells[i];
     }
-    sheet->grid.work->growing = hidden->growing;
+    sheet->grid.work->growing = hidden->ofGrid;
+    sheet->shape.work->growing = hidden->ofShape;
     *sheet->seen.bounds = hidden->bounds;
     *sheet->update = hidden->update;
     *sheet = hidden->sheet;
