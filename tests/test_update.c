@@ -3,6 +3,8 @@
 
 #include "layout_hash.h"
 
+#include "sheet/kiri_update.h"
+
 #include <stdio.h>
 
 static const kiriSheetData* SheetOf(const Host* host, int32_t index)
@@ -449,6 +451,59 @@ static void TestBudgetFromTime(void** state)
     assert_int_equal(kiriFitBudget(NULL, 1.0f, &budget), KIRI_ERROR_ARGUMENT);
 }
 
+/* ---- Calls amid the work ---- */
+
+/* One cut, with so little budget that links take many ticks. The material becomes another before one of these; *ticks is
+   how many there are. */
+static uint64_t LayoutAfterCut(uint32_t seed, int32_t changeAt, int32_t* ticks)
+{
+    enum { LINKS = 3 }; /* a step of the stage, see kiri_stages.c */
+    Host host;
+    Host_Start(&host);
+    kiriSheetDef def = Host_SmallDef();
+    def.framePoints = NULL;
+    def.frameCount = 20;
+    def.gridResolution = 16;
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 8, 8);
+    const kiriBudget some = { .cells = 200 }, few = { .cells = 4 };
+    OK(kiriWorld_SetBudget(host.world, &some));
+    float u = (float)RandomBetween(&seed, 0.1, 0.8), v = (float)RandomBetween(&seed, 0.1, 0.8);
+    Host_Cut(&host, sheet, (const float[]){ u, v, u + 0.13f, v + 0.07f }, 2);
+    host.every = INT32_MAX;
+    *ticks = 0;
+    while (Host_Tick(&host, 1.0f / 60.0f, 1) == KIRI_PENDING) {
+        const kiriUpdate* update = SheetOf(&host, 0)->update;
+        bool areLinks = update->stage == KIRI_STAGE_SHAPE && update->step == LINKS;
+        OK(kiriWorld_SetBudget(host.world, areLinks ? &few : &some));
+        *ticks += areLinks;
+        if (*ticks == changeAt) {
+            kiriSheetSettings settings;
+            OK(kiriSheet_GetSettings(host.world, sheet, &settings));
+            settings.material.density *= 2.0f;
+            OK(kiriSheet_SetSettings(host.world, sheet, &settings));
+            changeAt = 0;
+        }
+    }
+    Host_Validate(&host);
+    uint64_t layout = Layout(&host, 0);
+    Host_Destroy(&host);
+    return layout;
+}
+
+/* What comes of a cut does not depend on it: links that are being made look at all regions that have become dirty. */
+static void TestMaterialChangesAmidWork(void** state)
+{
+    (void)state;
+    for (uint32_t seed = 1; seed < 3; ++seed) {
+        int32_t count, ticks;
+        uint64_t layout = LayoutAfterCut(seed, 0, &count);
+        assert_true(count > 30);
+        for (int32_t at = 1; at < count; at += 1 + count / 12) {
+            assert_true(LayoutAfterCut(seed, at, &ticks) == layout);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -461,6 +516,7 @@ int main(void)
         cmocka_unit_test(TestIterationsAreShared),
         cmocka_unit_test(TestBudgetsThatAreNone),
         cmocka_unit_test(TestBudgetFromTime),
+        cmocka_unit_test(TestMaterialChangesAmidWork),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -496,6 +496,13 @@ void kiriLinks_Drop(kiriLinks* links)
     links->was.count = links->wasCorner.count = 0;
 }
 
+void kiriLinks_BeginAgain(kiriLinks* links)
+{
+    if (links->work != NULL && links->work->running) {
+        kiriLinks_Drop(links);
+    }
+}
+
 /* What is to be made, face by face, then the whole. Edges that are seen first are an item each: a square may have
    thousands. */
 static kiriProgress RunLinks(const kiriBorder* border, kiriLinks* links, kiriQuota* quota)

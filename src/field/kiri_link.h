@@ -63,6 +63,9 @@ kiriProgress kiriLinks_Update(kiriLinks* links, kiriMemory* memory, const kiriGr
 /* Forgets an update at hand, and what one has made. */
 void kiriLinks_Drop(kiriLinks* links);
 
+/* Regions become dirty that were not: an update that is at hand begins again. */
+void kiriLinks_BeginAgain(kiriLinks* links);
+
 /* The same of what is left when links and frames are taken away: what is kept stays as it is. No link that is kept
    joins a frame that is not. */
 bool kiriLinks_Keep(kiriLinks* links, kiriMemory* memory, const kiriKeep* kept, const kiriKeep* frames);

@@ -112,6 +112,7 @@ static void Weigh(kiriSheetData* sheet, const kiriMaterial* before)
         memset(&frame->history, 0, sizeof(frame->history));
         sheet->regions.dirty.data[i] = 1;
     }
+    kiriLinks_BeginAgain(&sheet->links);
 }
 
 /* Without fadeTime links and clamps do not go on with their strains (kiri_strain_offset.h). */
