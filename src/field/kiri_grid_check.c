@@ -175,7 +175,7 @@ static bool AreFaces(const kiriGrid* grid, const kiriSquares* squares)
 static int32_t FirstUnseen(const kiriGrid* grid, const kiriSquares* squares)
 {
     const kiriGridWork* work = grid->work;
-    return !work->running || work->fromScratch ? 0 : work->stage > 0 ? squares->dirty.count : work->item;
+    return !work->running ? 0 : work->fromScratch || work->stage > 0 ? squares->dirty.count : work->item;
 }
 
 static bool AreNodesIn(const kiriGrid* grid, const kiriSquares* squares, int32_t square)

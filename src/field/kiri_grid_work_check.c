@@ -264,23 +264,58 @@ static bool AreMadeCells(const kiriGrid* grid)
     return areFine;
 }
 
+static bool IsCellOfSquare(const kiriGrid* grid, int32_t cell, int32_t square)
+{
+    return cell >= 0 && cell < grid->cells.count && grid->cells.data[cell].square == square;
+}
+
+/* Triangles that have got their cell, and the vertices that find their fan by them. */
+static bool AreFilled(const kiriGrid* grid, const kiriMeshData* mesh, kiriNodeRange range, int32_t square)
+{
+    const kiriGridWork* work = grid->work;
+    bool areFine = true;
+    for (int32_t k = range.first; areFine && k < range.first + work->at; ++k) {
+        int32_t triangle = kiriGridWork_TriangleAt(work, mesh, k);
+        const int32_t* corners = mesh->triangles.data[triangle].vertex;
+        areFine = IsCellOfSquare(grid, grid->nodeCell.data[work->entries.data[k]], square);
+        for (int i = 0; areFine && i < 3 && work->newCells.count > 1; ++i) {
+            const kiriVertex* v = &mesh->vertices.data[corners[i]];
+            areFine = v->edge / 3 != triangle || kiriSquares_At(&mesh->squares, v->at) != square ||
+                      IsCellOfSquare(grid, grid->vertexCell.data[corners[i]], square);
+        }
+    }
+    return areFine;
+}
+
+/* The same in a whole square, up to the node where the walk goes on. */
+static bool IsWholeFilled(const kiriGrid* grid, const kiriSquares* squares, int32_t square)
+{
+    int32_t n = squares->head[square];
+    while (n != KIRI_NONE && n != grid->work->node && grid->nodeCell.data[n] == grid->squareCell.data[square]) {
+        n = squares->nodes.data[n].next;
+    }
+    return grid->squareCell.data[square] >= 0 && n == grid->work->node;
+}
+
 enum { LOOK, JOIN, FIND, REPLACE, FILL };
 
 /* Between two calls of the part at hand. */
-static bool IsAmidCells(const kiriGrid* grid, const kiriSquares* squares)
+static bool IsAmidCells(const kiriGrid* grid, const kiriMeshData* mesh)
 {
     const kiriGridWork* work = grid->work;
-    int32_t square = SquareAtHand(work, squares);
+    int32_t square = SquareAtHand(work, &mesh->squares);
     kiriNodeRange range = work->ranges.data[square];
     if (work->part == LOOK || grid->whole.data[square]) {
-        return work->part != JOIN && work->part != FIND && (work->part != FILL || grid->squareCell.data[square] >= 0);
+        return work->part != JOIN && work->part != FIND &&
+               (work->part != FILL || IsWholeFilled(grid, &mesh->squares, square));
     }
     if (work->part == JOIN) {
         return work->isCollecting || IsCollected(work, square);
     }
     bool isFine = IsCollected(work, square);
     return isFine && (work->part == FIND ? AreRanks(grid, range, true)
-                                         : work->part == FILL && AreMadeCells(grid) && AreRanks(grid, range, false));
+                                         : work->part == FILL && AreMadeCells(grid) && AreRanks(grid, range, false) &&
+                                               AreFilled(grid, mesh, range, square));
 }
 
 /* Where a walk over nodes goes on. */
@@ -384,13 +419,14 @@ static bool AreOldFaces(kiriCheck* check, const kiriGrid* grid, int32_t square, 
 }
 
 /* The square at hand in the first two stages. */
-static bool IsAtSquare(kiriCheck* check, const kiriGrid* grid, const kiriSquares* squares)
+static bool IsAtSquare(kiriCheck* check, const kiriGrid* grid, const kiriMeshData* mesh)
 {
+    const kiriSquares* squares = &mesh->squares;
     const kiriGridWork* work = grid->work;
     int32_t square = SquareAtHand(work, squares);
     if (work->stage == 0) {
         return work->part == LOOK || (work->isAmidPart && (!work->isSame || grid->whole.data[square]) &&
-                                      IsAmidCells(grid, squares));
+                                      IsAmidCells(grid, mesh));
     }
     if (!work->isMerging) {
         return work->part < 4;
@@ -399,8 +435,9 @@ static bool IsAtSquare(kiriCheck* check, const kiriGrid* grid, const kiriSquares
     return IsCollected(work, square) && IsCollected(work, beside) && AreOldFaces(check, grid, square, beside);
 }
 
-static bool IsUpdate(kiriCheck* check, const kiriGrid* grid, const kiriSquares* squares)
+static bool IsUpdate(kiriCheck* check, const kiriGrid* grid, const kiriMeshData* mesh)
 {
+    const kiriSquares* squares = &mesh->squares;
     const kiriGridWork* work = grid->work;
     int64_t items = CountItemsOf(work, squares);
     bool isAtSquare = work->stage < 2 && work->item < items;
@@ -419,7 +456,7 @@ static bool IsUpdate(kiriCheck* check, const kiriGrid* grid, const kiriSquares* 
     return AreRanges(check, work, squares, collectedEnd) &&
            AreEntries(work, squares, isCollecting && !work->isSorting ? collectedEnd : work->entries.count) &&
            (work->stage > 0 || IsNode(work, squares)) && IsAtRows(grid, isAtSquare) &&
-           (!isAtSquare || IsAtSquare(check, grid, squares));
+           (!isAtSquare || IsAtSquare(check, grid, mesh));
 }
 
 /* ---- Lists of squares and cells ---- */
@@ -508,7 +545,7 @@ static bool IsRunning(kiriCheck* check, const kiriGrid* grid, const kiriMeshData
            kiriCheck_That(check, grid->nodeCell.count == mesh->squares.nodes.count &&
                                      grid->vertexCell.count == mesh->vertices.count && AreNewMaterials(grid, mesh) &&
                                      (!work->fromScratch || IsFromScratch(grid))) &&
-           kiriCheck_That(check, IsUpdate(check, grid, &mesh->squares));
+           kiriCheck_That(check, IsUpdate(check, grid, mesh));
 }
 
 bool kiriGrid_CheckWork(const kiriGrid* grid, const kiriMeshData* mesh, kiriCheck* check)
