@@ -238,6 +238,9 @@ void kiriMesh_SetOpen(kiriMeshData* mesh, int32_t h, bool open);
 /* The corners of one of the caller's triangles; false where the mesh has nothing of it. */
 bool kiriMesh_SourceCorners(const kiriMeshData* mesh, int32_t source, kiriLatticePoint corners[3]);
 
+/* Are those of a triangle's source known, and so are they when any other triangle has been split? */
+bool kiriMesh_HasSource(const kiriMeshData* mesh, int32_t triangle);
+
 /* Before a triangle is split: from then on its source has corners in a block. The journal has saved the triangle, if it
    saves it at all. False for memory. */
 bool kiriMesh_KeepSource(kiriMeshData* mesh, int32_t triangle);

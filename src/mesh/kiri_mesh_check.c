@@ -93,10 +93,8 @@ static bool AreSourcesThere(const kiriMeshData* mesh)
     bool areFine = true;
     int64_t most = KIRI_SOURCES_A_BLOCK * (int64_t)mesh->sourceBlocks.count;
     for (int32_t t = 0; areFine && t < mesh->triangles.count; ++t) {
-        kiriLatticePoint corners[3];
-        int32_t source = mesh->triangles.data[t].source;
-        areFine = !kiriMesh_IsTriangle(mesh, t) ||
-                  ((mesh->sources.count > 0 || source < most) && kiriMesh_SourceCorners(mesh, source, corners));
+        bool isKnown = mesh->sources.count > 0 || mesh->triangles.data[t].source < most;
+        areFine = !kiriMesh_IsTriangle(mesh, t) || (isKnown && kiriMesh_HasSource(mesh, t));
     }
     return areFine;
 }

@@ -68,6 +68,14 @@ bool kiriMesh_SourceCorners(const kiriMeshData* mesh, int32_t source, kiriLattic
     return corners[0].x != corners[1].x || corners[0].y != corners[1].y;
 }
 
+bool kiriMesh_HasSource(const kiriMeshData* mesh, int32_t triangle)
+{
+    int32_t source = mesh->triangles.data[triangle].source;
+    kiriLatticePoint corners[3];
+    return kiriMesh_SourceCorners(mesh, source, corners) &&
+           (StoredAt(mesh, source) != KIRI_NONE || FindOriginal(mesh, source) == triangle);
+}
+
 /* ---- Blocks ------------------------------------------------------------------------------------------------------ */
 
 bool kiriMesh_KeepSource(kiriMeshData* mesh, int32_t triangle)
