@@ -5,7 +5,7 @@
 /* A site of bytes that were made up may be anywhere: ways go on from there. */
 static int32_t GridLength(double meters, double side)
 {
-    const double most = KIRI_FAR / 2;
+    const double most = 0.5 * (KIRI_FAR - 1);
     double length = KIRI_UNIT * (meters / side) + 0.5;
     return (int32_t)(length < most ? length : most);
 }

@@ -10,6 +10,7 @@
 static kiriSystem MakeSystem(kiriSheetData* sheet, kiriVec3 gravity)
 {
     kiriSystem system;
+    memset(&system, 0, sizeof(system));
     system.frames = sheet->frames.data;
     system.frameCount = sheet->frames.count;
     system.links = sheet->links.links.data;
