@@ -1,7 +1,8 @@
-/* Saves that somebody has made to do harm. The input changes some bytes of a good save, or of a difference, of a world
-   to which a storm has happened, and the sum is made right. Such bytes are refused, and then nothing has changed; or
-   what comes of them is a world that goes on: it ticks, is cut, is read and saved. It may move in any way, but it reads
-   and writes no memory that is not its own, ends each call, and gives all memory back. */
+/* Bytes given to loads. The input changes some bytes of a good save, or of a difference, of a world to which a storm has
+   happened. As they are, all loads refuse them. Then the sum of the save is made right, as somebody does who means
+   harm, and kiriWorld_LoadUntrusted refuses it; or what comes of it is a world that goes on: it ticks, is cut, is read
+   and saved. It may move in any way, but it reads and writes no memory that is not its own, ends each call, and gives
+   all memory back. */
 #include "fuzz_saved.h"
 
 #include <stdlib.h>
@@ -69,33 +70,33 @@ static void Change(FuzzBytes* bytes, Save* save)
     }
 }
 
+/* ---- Loads ---- */
+
 /* What is loaded: a save, a difference to one, or a difference to a base that was changed. */
 typedef struct Changed {
     const Saved* saved;
-    Save changed, difference;
+    Save changed;
     int32_t which;
 } Changed;
 
 static kiriResult LoadChanged(kiriWorld* world, const void* context)
 {
     const Changed* c = context;
-    const Save* base = &c->saved->base;
+    const Save *base = &c->saved->base, *difference = &c->saved->difference;
     switch (c->which) {
     case 0:
         return kiriWorld_Load(world, c->changed.bytes, c->changed.size);
     case 1:
         return kiriWorld_LoadDifference(world, base->bytes, base->size, c->changed.bytes, c->changed.size);
     default:
-        return kiriWorld_LoadDifference(world, c->changed.bytes, c->changed.size, c->difference.bytes,
-                                        c->difference.size);
+        return kiriWorld_LoadDifference(world, c->changed.bytes, c->changed.size, difference->bytes, difference->size);
     }
 }
 
-/* A difference names the sum of its base. */
-static void NameBase(Save* difference, const Save* base)
+static kiriResult LoadUntrusted(kiriWorld* world, const void* context)
 {
-    memcpy(difference->bytes + SAVED_HEAD_BYTES - 8, base->bytes + base->size - SAVED_SUM_BYTES, SAVED_SUM_BYTES);
-    Saved_MendSum(difference);
+    const Changed* c = context;
+    return kiriWorld_LoadUntrusted(world, c->changed.bytes, c->changed.size);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size)
@@ -105,14 +106,18 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size)
     int32_t which = FuzzBytes_Below(&bytes, 5), count = 1 + FuzzBytes_Below(&bytes, MOST_CHANGES);
     which = which < 3 ? 0 : which - 2;
     const Save* good = which == 0 ? &saved->later : which == 1 ? &saved->difference : &saved->base;
-    Changed changed = { saved, Saved_Copy(good), Saved_Copy(&saved->difference), which };
+    Changed changed = { saved, Saved_Copy(good), which };
     for (int32_t k = 0; k < count && !FuzzBytes_AtEnd(&bytes); ++k) {
         Change(&bytes, &changed.changed);
     }
-    Saved_MendSum(&changed.changed);
-    NameBase(&changed.difference, which == 2 ? &changed.changed : &saved->base);
-    Saved_Try(LoadChanged, &changed, &saved->storm);
+    if (!Saved_HasSum(&changed.changed)) {
+        Saved_Refuse(LoadChanged, &changed);
+        Saved_Refuse(LoadUntrusted, &changed);
+    }
+    if (which != 1) {
+        Saved_MendSum(&changed.changed);
+        Saved_Try(&changed.changed, &saved->storm);
+    }
     free(changed.changed.bytes);
-    free(changed.difference.bytes);
     return 0;
 }

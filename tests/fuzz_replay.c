@@ -90,9 +90,10 @@ static void AddSheet(FuzzTape* tape)
     FUZZ_CHECK(kiriCreateSheet(tape->world, &def, &sheet) == KIRI_OK, "no sheet");
 }
 
+/* What the input has made nobody trusts. */
 static kiriResult Play(FuzzTape* tape, const uint8_t* bytes, int64_t size, bool goesOn)
 {
-    kiriReplay replay = { 0 };
+    kiriReplay replay = { .untrusted = goesOn };
     kiriResult result = KIRI_PENDING;
     for (int i = 0; (i < MOST_STOPS || !goesOn) && (result == KIRI_PENDING || (goesOn && result == KIRI_ERROR_REPLAY));
          ++i) {

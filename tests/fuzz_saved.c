@@ -134,15 +134,8 @@ const Saved* Saved_Get(int32_t index)
 
 /* ---- Sums ---- */
 
-static void PutWord(uint8_t* bytes, int64_t word)
-{
-    for (int k = 0; k < 4; ++k) {
-        bytes[k] = (uint8_t)((uint64_t)word >> 8 * k);
-    }
-}
-
-/* As the library makes it: all bytes before it, eight at a time. */
-void Saved_MendSum(Save* save)
+/* As the library makes it: of all bytes before it, eight at a time. */
+static uint64_t SumOf(const Save* save)
 {
     uint64_t sum = KIRI_HASH_START;
     int64_t count = save->size - SAVED_SUM_BYTES;
@@ -153,8 +146,24 @@ void Saved_MendSum(Save* save)
         }
         kiriHash_Int64(&sum, (int64_t)word);
     }
-    PutWord(save->bytes + count, (int64_t)(sum & 0xffffffff));
-    PutWord(save->bytes + count + 4, (int64_t)(sum >> 32));
+    return sum;
+}
+
+void Saved_MendSum(Save* save)
+{
+    uint64_t sum = SumOf(save);
+    for (int k = 0; k < SAVED_SUM_BYTES; ++k) {
+        save->bytes[save->size - SAVED_SUM_BYTES + k] = (uint8_t)(sum >> 8 * k);
+    }
+}
+
+bool Saved_HasSum(const Save* save)
+{
+    Save mended = Saved_Copy(save);
+    Saved_MendSum(&mended);
+    bool has = memcmp(mended.bytes, save->bytes, (size_t)save->size) == 0;
+    free(mended.bytes);
+    return has;
 }
 
 Save Saved_Copy(const Save* save)
@@ -187,24 +196,52 @@ void Saved_GoOn(Storm* storm)
     free(save.bytes);
 }
 
-void Saved_Try(kiriResult load(kiriWorld* world, const void* context), const void* context, const Storm* from)
+static void CheckRefused(kiriWorld* world, kiriResult result, const SavedHost* host, uint64_t before)
+{
+    uint64_t after = 0;
+    FUZZ_CHECK(result == KIRI_ERROR_DATA || (result == KIRI_ERROR_MEMORY && host->refused > 0),
+               "a load returns %d, of %d requests refused", (int)result, (int)host->refused);
+    kiriWorld_GetStateHash(world, &after);
+    FUZZ_CHECK(before == after, "a load that failed has changed the world");
+}
+
+static kiriWorld* StartWorld(SavedHost* host, uint64_t* hash)
+{
+    kiriWorld* world = NULL;
+    kiriWorldDef def = SavedHost_Def(host);
+    FUZZ_CHECK(kiriCreateWorld(&def, &world) == KIRI_OK, "no world");
+    kiriWorld_GetStateHash(world, hash);
+    return world;
+}
+
+static void StopWorld(kiriWorld* world, const SavedHost* host)
+{
+    kiriDestroyWorld(world);
+    FUZZ_CHECK(host->held == 0, "%lld bytes leak", (long long)host->held);
+}
+
+void Saved_Try(const Save* save, const Storm* from)
 {
     Storm storm = *from;
     SavedHost host = { 0 };
-    kiriWorldDef def = SavedHost_Def(&host);
-    uint64_t before = 0, after = 0;
-    FUZZ_CHECK(kiriCreateWorld(&def, &storm.world) == KIRI_OK, "no world");
-    kiriWorld_GetStateHash(storm.world, &before);
-    kiriResult result = load(storm.world, context);
+    uint64_t before = 0;
+    storm.world = StartWorld(&host, &before);
+    kiriResult result = kiriWorld_LoadUntrusted(storm.world, save->bytes, save->size);
     FUZZ_CHECK(host.most <= MOST_OF_LOAD, "a load takes %lld bytes", (long long)host.most);
     if (result == KIRI_OK) {
         Saved_GoOn(&storm);
     } else {
-        FUZZ_CHECK(result == KIRI_ERROR_DATA || (result == KIRI_ERROR_MEMORY && host.refused > 0),
-                   "a load returns %d, of %d requests refused", (int)result, (int)host.refused);
-        kiriWorld_GetStateHash(storm.world, &after);
-        FUZZ_CHECK(before == after, "a load that failed has changed the world");
+        CheckRefused(storm.world, result, &host, before);
     }
-    kiriDestroyWorld(storm.world);
-    FUZZ_CHECK(host.held == 0, "%lld bytes leak", (long long)host.held);
+    StopWorld(storm.world, &host);
+}
+
+void Saved_Refuse(kiriResult load(kiriWorld* world, const void* context), const void* context)
+{
+    SavedHost host = { 0 };
+    uint64_t before = 0;
+    kiriWorld* world = StartWorld(&host, &before);
+    CheckRefused(world, load(world, context), &host, before);
+    FUZZ_CHECK(host.most <= MOST_OF_LOAD, "a load takes %lld bytes", (long long)host.most);
+    StopWorld(world, &host);
 }

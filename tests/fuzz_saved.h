@@ -34,11 +34,16 @@ Save Saved_Copy(const Save* save);
 
 /* Of the bytes as they are. */
 void Saved_MendSum(Save* save);
+bool Saved_HasSum(const Save* save);
 
 /* It ticks, is cut, is read and saved: as its budget has it, and then so that the work at hand is done. */
 void Saved_GoOn(Storm* storm);
 
-/* Loads bytes that may be anything into a world, which goes on; or is refused, and then nothing has changed. */
-void Saved_Try(kiriResult load(kiriWorld* world, const void* context), const void* context, const Storm* storm);
+/* Loads bytes that may be anything by kiriWorld_LoadUntrusted into a world, which goes on; or is refused, and then
+   nothing has changed. */
+void Saved_Try(const Save* save, const Storm* storm);
+
+/* The load is refused, and nothing has changed. */
+void Saved_Refuse(kiriResult load(kiriWorld* world, const void* context), const void* context);
 
 #endif

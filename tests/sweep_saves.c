@@ -1,8 +1,9 @@
 /* Saves that are wrong in one number: each number of a field in turn, and some of each list, with each of some odd
-   values. Such bytes are refused, and nothing has changed; or the world that comes of them goes on as in fuzz_load.c.
+   values. kiriWorld_LoadUntrusted refuses such bytes, and nothing has changed; or the world that comes of them goes on
+   as in fuzz_load.c.
 
-   sweep_saves [FIRST [END [ITEMS [APART [untrusted]]]]]: worlds; how many numbers of a list; that only each so manyth
-   save is tried; and that it is by kiriWorld_LoadUntrusted. A line for each that breaks something. */
+   sweep_saves [FIRST [END [ITEMS [APART]]]]: worlds; how many numbers of a list; and that only each so manyth save is
+   tried. A line for each that breaks something. */
 #define _DEFAULT_SOURCE
 #include "fuzz_traced.h"
 
@@ -103,22 +104,9 @@ typedef struct Progress {
 
 typedef struct Sweep {
     int32_t items, apart;
-    bool isUntrusted;
 } Sweep;
 
-static kiriResult LoadSave(kiriWorld* world, const void* context)
-{
-    const Save* save = context;
-    return kiriWorld_Load(world, save->bytes, save->size);
-}
-
-static kiriResult LoadUntrusted(kiriWorld* world, const void* context)
-{
-    const Save* save = context;
-    return kiriWorld_LoadUntrusted(world, save->bytes, save->size);
-}
-
-static void TryOne(const Traced* t, int32_t world, bool isUntrusted, Progress* at, int64_t word)
+static void TryOne(const Traced* t, int32_t world, Progress* at, int64_t word)
 {
     struct itimerval timer = { { 0, 0 }, { SECONDS, 0 } };
     Save save = Saved_Copy(&t->save);
@@ -127,7 +115,7 @@ static void TryOne(const Traced* t, int32_t world, bool isUntrusted, Progress* a
         at->tried += 1;
         setitimer(ITIMER_VIRTUAL, &timer, NULL);
         Saved_MendSum(&save);
-        Saved_Try(isUntrusted ? LoadUntrusted : LoadSave, &save, &Saved_Get(world)->storm);
+        Saved_Try(&save, &Saved_Get(world)->storm);
     }
     free(save.bytes);
 }
@@ -140,7 +128,7 @@ static void GoOn(const Traced* t, int32_t world, Sweep sweep, Progress* at)
         for (; at->number < numbers; ++at->number, at->value = 0) {
             for (; at->value < VALUES; ++at->value, ++at->seen) {
                 if (at->seen % sweep.apart == world % sweep.apart) {
-                    TryOne(t, world, sweep.isUntrusted, at, WordOf(t, at->block, at->number, numbers, world));
+                    TryOne(t, world, at, WordOf(t, at->block, at->number, numbers, world));
                 }
             }
         }
@@ -181,8 +169,7 @@ static int32_t SweepWorld(int32_t world, Sweep sweep, Progress* at)
 int main(int count, char** arguments)
 {
     int32_t first = count > 1 ? atoi(arguments[1]) : 0, end = count > 2 ? atoi(arguments[2]) : SAVED_WORLDS, broken = 0;
-    Sweep sweep = { count > 3 ? atoi(arguments[3]) : 8, count > 4 && atoi(arguments[4]) > 1 ? atoi(arguments[4]) : 1,
-                    count > 5 };
+    Sweep sweep = { count > 3 ? atoi(arguments[3]) : 8, count > 4 && atoi(arguments[4]) > 1 ? atoi(arguments[4]) : 1 };
     int64_t tried = 0;
     Progress* at = mmap(NULL, sizeof(*at), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (at == MAP_FAILED) {

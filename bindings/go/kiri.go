@@ -11,7 +11,7 @@ import (
 )
 
 // Version of the header.
-const Version = "0.11.2"
+const Version = "0.11.3"
 
 type ResultCode int32
 
@@ -1329,7 +1329,9 @@ func (w *World) Note(bytes []byte) (bool, error) {
 // The profile has no times until the next tick. What it had before is gone, but arrays that it handed out live until
 // the next tick. KIRI_ERROR_DATA: the bytes are no save, or cut short, changed, or of a version that this library
 // does not read. KIRI_ERROR_MEMORY. Then nothing has changed. For bytes of your own: the sum in a save finds damage,
-// not malice. A recording has the bytes, up to 2^31 of them; kiriReplay.untrusted is for recordings of others.
+// not malice, and nothing else is looked at. Bytes of others, made up with a right sum, may crash the program here:
+// for these there is kiriWorld_LoadUntrusted. A recording has the bytes, up to 2^31 of them; kiriReplay.untrusted is
+// for recordings of others.
 func (w *World) Load(bytes []byte) (bool, error) {
 	if err := w.check(); err != nil {
 		return false, err

@@ -1284,8 +1284,9 @@ export class World {
      *  tasks. The profile has no times until the next tick. What it had before is gone, but arrays that it handed out
      *  live until the next tick. KIRI_ERROR_DATA: the bytes are no save, or cut short, changed, or of a version that
      *  this library does not read. KIRI_ERROR_MEMORY. Then nothing has changed. For bytes of your own: the sum in a
-     *  save finds damage, not malice. A recording has the bytes, up to 2^31 of them; kiriReplay.untrusted is for
-     *  recordings of others. */
+     *  save finds damage, not malice, and nothing else is looked at. Bytes of others, made up with a right sum, may
+     *  crash the program here: for these there is World.loadUntrusted. A recording has the bytes, up to 2^31 of them;
+     *  kiriReplay.untrusted is for recordings of others. */
     load(bytes: Uint8Array): ResultCode;
     /** The same for bytes of others, who may have made them to do harm: what the world becomes may then be strange, but
      *  it is one that all calls are good for. What follows from the mesh and the frames is not read but made anew,

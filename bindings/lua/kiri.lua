@@ -1,4 +1,4 @@
---- Kiri 0.11.2 for LuaJIT: cuts thin sheets while they move. This one file and the shared library are all of it.
+--- Kiri 0.11.3 for LuaJIT: cuts thin sheets while they move. This one file and the shared library are all of it.
 ---
 ---     local kiri = require "kiri"
 ---     local world = kiri.World()
@@ -209,7 +209,7 @@ void kiriDefaultDebugDraw(kiriDebugDraw* draw);
 kiriResult kiriWorld_DebugDraw(const kiriWorld* world, const kiriDebugDraw* draw);
 ]]
 
-local kiri = {VERSION = "0.11.2"}
+local kiri = {VERSION = "0.11.3"}
 
 kiri.OK = 0
 kiri.PENDING = 1
@@ -790,8 +790,9 @@ end
 --- tasks. The profile has no times until the next tick. What it had before is gone, but arrays that it handed out
 --- live until the next tick. KIRI_ERROR_DATA: the bytes are no save, or cut short, changed, or of a version that this
 --- library does not read. KIRI_ERROR_MEMORY. Then nothing has changed. For bytes of your own: the sum in a save finds
---- damage, not malice. A recording has the bytes, up to 2^31 of them; kiriReplay.untrusted is for recordings of
---- others.
+--- damage, not malice, and nothing else is looked at. Bytes of others, made up with a right sum, may crash the
+--- program here: for these there is kiriWorld_LoadUntrusted. A recording has the bytes, up to 2^31 of them;
+--- kiriReplay.untrusted is for recordings of others.
 function World:load(bytes, size)
     local world = self
     size = size or #bytes

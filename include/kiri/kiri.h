@@ -29,7 +29,7 @@
 /* Of this header; kiriGetVersion has that of the library. */
 #define KIRI_VERSION_MAJOR 0
 #define KIRI_VERSION_MINOR 11
-#define KIRI_VERSION_PATCH 2
+#define KIRI_VERSION_PATCH 3
 #define KIRI_VERSION (10000 * KIRI_VERSION_MAJOR + 100 * KIRI_VERSION_MINOR + KIRI_VERSION_PATCH)
 
 #if defined(KIRI_SHARED) && defined(_WIN32)
@@ -247,7 +247,9 @@ KIRI_API kiriResult kiriWorld_Save(const kiriWorld* world, void* bytes, int64_t 
    The profile has no times until the next tick. What it had before is gone, but arrays that it handed out live until
    the next tick. KIRI_ERROR_DATA: the bytes are no save, or cut short, changed, or of a version that this library does
    not read. KIRI_ERROR_MEMORY. Then nothing has changed. For bytes of your own: the sum in a save finds damage, not
-   malice. A recording has the bytes, up to 2^31 of them; kiriReplay.untrusted is for recordings of others. */
+   malice, and nothing else is looked at. Bytes of others, made up with a right sum, may crash the program here: for
+   these there is kiriWorld_LoadUntrusted. A recording has the bytes, up to 2^31 of them; kiriReplay.untrusted is for
+   recordings of others. */
 KIRI_API kiriResult kiriWorld_Load(kiriWorld* world, const void* bytes, int64_t size);
 
 /* The same for bytes of others, who may have made them to do harm: what the world becomes may then be strange, but it

@@ -168,13 +168,6 @@ static bool HoldsForEach(kiriCheck* check, const kiriMust* must, const void* dat
     return areFine;
 }
 
-static bool HoldsForOwned(kiriCheck* check, const kiriMust* must, const void* at)
-{
-    const void* object;
-    memcpy(&object, at, sizeof(object));
-    return object == NULL || kiriCheck_Rules(check, must->rules, must->ruleCount, object);
-}
-
 static bool MustHold(kiriCheck* check, const kiriMust* must, const void* at)
 {
     if (must->kind <= KIRI_RULE_COUNTS) {
@@ -187,8 +180,6 @@ static bool MustHold(kiriCheck* check, const kiriMust* must, const void* at)
     }
     case KIRI_RULE_PART:
         return HoldsForEach(check, must, at, must->bytes / must->size);
-    case KIRI_RULE_OWNED:
-        return HoldsForOwned(check, must, at);
     default:
         return kiriArray_GetHeader(at).count == CountOf(check, must);
     }
@@ -212,7 +203,7 @@ uint8_t* kiriCheck_Bytes(kiriCheck* check, int64_t count)
     return bytes;
 }
 
-bool kiriCheck_Indices(kiriCheck* check, const kiriIndices* indices, int64_t end)
+static bool AreIndices(kiriCheck* check, const kiriIndices* indices, int64_t end)
 {
     bool areFine = true;
     for (int32_t k = 0; k < indices->count; ++k) {
@@ -223,7 +214,7 @@ bool kiriCheck_Indices(kiriCheck* check, const kiriIndices* indices, int64_t end
 
 bool kiriCheck_Distinct(kiriCheck* check, const kiriIndices* indices, int64_t end)
 {
-    if (indices->count == 0 || !kiriCheck_Indices(check, indices, end)) {
+    if (indices->count == 0 || !AreIndices(check, indices, end)) {
         return kiriCheck_IsFine(check);
     }
     uint8_t* seen = kiriCheck_Bytes(check, end);
@@ -234,24 +225,6 @@ bool kiriCheck_Distinct(kiriCheck* check, const kiriIndices* indices, int64_t en
     }
     kiriMemory_Free(&check->memory, seen);
     return kiriCheck_That(check, areFine);
-}
-
-bool kiriCheck_Marked(kiriCheck* check, const kiriIndices* list, int64_t end, const uint8_t* marks, uint8_t mark)
-{
-    bool areFine = kiriCheck_Distinct(check, list, end);
-    for (int32_t k = 0; areFine && k < list->count; ++k) {
-        areFine = (marks[list->data[k]] & mark) != 0;
-    }
-    return kiriCheck_That(check, areFine);
-}
-
-bool kiriCheck_AllMarked(kiriCheck* check, const kiriIndices* list, int64_t end, const uint8_t* marks, uint8_t mark)
-{
-    int64_t marked = 0;
-    for (int64_t k = 0; k < end; ++k) {
-        marked += (marks[k] & mark) != 0;
-    }
-    return kiriCheck_Marked(check, list, end, marks, mark) && kiriCheck_That(check, marked == list->count);
 }
 
 bool kiriCheck_StartChains(kiriCheck* check, kiriChains* chains, const void* next, size_t stride, int32_t items)

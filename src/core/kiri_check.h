@@ -13,22 +13,11 @@ enum kiriOf {
     KIRI_OF_TRIANGLES,
     KIRI_OF_HALF_EDGES,
     KIRI_OF_VERTICES,
-    KIRI_OF_OLD_TRIANGLES, /* when the mesh began to change */
-    KIRI_OF_OLD_VERTICES,
     KIRI_OF_SQUARES,
-    KIRI_OF_NODES,
-    KIRI_OF_CELLS, /* and gaps */
-    KIRI_OF_FACES,
-    KIRI_OF_FRAMES, /* in force, */
-    KIRI_OF_SITES,  /* and with those that are new */
-    KIRI_OF_OWNERS, /* of a field */
-    KIRI_OF_REGIONS,
+    KIRI_OF_FRAMES,
     KIRI_OF_LINKS,
     KIRI_OF_PIECES,
-    KIRI_OF_OLD_PIECES,
     KIRI_OF_PINS,
-    KIRI_OF_POINTS,
-    KIRI_OF_CUTS,
     KIRI_OF_SAMPLES,
     KIRI_OF_COUNT
 };
@@ -60,8 +49,7 @@ enum kiriRuleKind {
     KIRI_RULE_FLOATS,  /* and floats */
     KIRI_RULE_COUNTS,  /* whole numbers of eight bytes, 0 and more, and far from overflowing */
     KIRI_RULE_EACH,    /* the rules hold for each item of a KIRI_ARRAY, */
-    KIRI_RULE_PART,    /* for each struct of a field, */
-    KIRI_RULE_OWNED,   /* and for the struct that a pointer points to, which may be null */
+    KIRI_RULE_PART,    /* and for each struct of a field */
     KIRI_RULE_LENGTH   /* a KIRI_ARRAY has so many items as there are of `of` */
 };
 
@@ -107,7 +95,6 @@ typedef struct kiriMust {
     KIRI_MUST_HOLD(KIRI_RULE_EACH, Type, field, sizeof(*((Type*)NULL)->field.data), 0, rules)
 #define KIRI_PART_MUST(Type, field, Part, rules)                                                                       \
     KIRI_MUST_HOLD(KIRI_RULE_PART, Type, field, sizeof(Part), sizeof(((Type*)NULL)->field), rules)
-#define KIRI_OWNED_MUST(Type, field, rules) KIRI_MUST_HOLD(KIRI_RULE_OWNED, Type, field, 0, 0, rules)
 
 #define KIRI_LENGTH(of, Type, field)                                                                                   \
     {                                                                                                                  \
@@ -125,17 +112,8 @@ bool kiriCheck_Rules(kiriCheck* check, const kiriMust* rules, int32_t count, con
 
 /* ---- What no rule about a field says ---- */
 
-/* The items of a list of indices are below `end`. */
-bool kiriCheck_Indices(kiriCheck* check, const kiriIndices* indices, int64_t end);
-
-/* And each is there once. */
+/* The items of a list of indices are below `end`, and each is there once. */
 bool kiriCheck_Distinct(kiriCheck* check, const kiriIndices* indices, int64_t end);
-
-/* And is marked as being there. */
-bool kiriCheck_Marked(kiriCheck* check, const kiriIndices* indices, int64_t end, const uint8_t* marks, uint8_t mark);
-
-/* And nothing else is marked, of so many. */
-bool kiriCheck_AllMarked(kiriCheck* check, const kiriIndices* indices, int64_t end, const uint8_t* marks, uint8_t mark);
 
 /* Lists of items, linked from each to the next: each ends, and no item is in two, or in one twice. */
 typedef struct kiriChains {

@@ -39,7 +39,6 @@ void kiriMesh_Count(const kiriMeshData* mesh, kiriCheck* check)
     check->count[KIRI_OF_HALF_EDGES] = 3 * (int64_t)mesh->triangles.count;
     check->count[KIRI_OF_VERTICES] = mesh->vertices.count;
     check->count[KIRI_OF_SQUARES] = (int64_t)mesh->squares.columns * mesh->squares.rows;
-    check->count[KIRI_OF_NODES] = mesh->squares.nodes.count;
 }
 
 /* ---- Lines and corners ------------------------------------------------------------------------------------------- */

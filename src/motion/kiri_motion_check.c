@@ -1,7 +1,5 @@
 #include "kiri_motion_check.h"
 
-#include "../field/kiri_field_check.h"
-
 #include <math.h>
 
 /* ---- Rules ------------------------------------------------------------------------------------------------------- */
@@ -21,7 +19,7 @@ static const kiriMust FrameMust[] = {
 };
 
 static const kiriMust FrameShareMust[] = {
-    KIRI_INDEX(KIRI_OF_REGIONS, kiriFrameShare, frame, frame),
+    KIRI_INDEX(KIRI_OF_FRAMES, kiriFrameShare, frame, frame),
 };
 
 static const kiriMust AreaElementMust[] = {
@@ -34,18 +32,8 @@ static const kiriMust AreaElementsMust[] = {
     KIRI_ITEMS_MUST(kiriAreaElements, shares, FrameShareMust),
 };
 
-static const kiriMust MustBeOwnedSquare[] = { KIRI_INDEX(KIRI_OF_SQUARES, kiriSpan, first, first) };
-
-static const kiriMust TransferMust[] = {
-    KIRI_INDEX(KIRI_OF_SITES, kiriTransfer, from, from),
-};
-
 static const kiriMust OwnershipMust[] = {
     KIRI_UP_TO(KIRI_OF_TRIANGLES, kiriOwnership, triangleCount, triangleCount),
-    KIRI_ITEMS_MUST(kiriOwnership, dirty, MustBeOwnedSquare),
-    KIRI_WITHIN(0, INT32_MAX, kiriOwnership, next, next),
-    KIRI_COUNTS(kiriOwnership, due, due),
-    KIRI_ITEMS_MUST(kiriOwnership, transfers, TransferMust),
 };
 
 static const kiriMust MechanicsMust[] = {
@@ -98,8 +86,9 @@ bool kiriAreaElements_Check(const kiriAreaElements* elements, kiriCheck* check)
 
 /* Owners of the parts of a square. */
 static bool ArePartsOwned(kiriCheck* check, const kiriOwnership* ownership, kiriRooms* rooms,
-                          const kiriSquareOwners* owners, int64_t frames)
+                          const kiriSquareOwners* owners)
 {
+    int64_t frames = check->count[KIRI_OF_FRAMES];
     bool areFine = kiriCheck_That(check, owners->owner >= KIRI_NONE && owners->owner < frames) &&
                    kiriCheck_Span(check, rooms, owners->parts);
     for (int32_t k = owners->parts.first; areFine && k < owners->parts.first + owners->parts.count; ++k) {
@@ -116,37 +105,9 @@ static bool AreOwners(kiriCheck* check, const kiriOwnership* ownership)
     bool areFine =
         kiriCheck_StartRooms(check, &rooms, &ownership->triangleOwners, sizeof(kiriTriangleOwner), &ownership->spans);
     for (int32_t s = 0; areFine && s < ownership->squares.count; ++s) {
-        areFine = ArePartsOwned(check, ownership, &rooms, &ownership->squares.data[s], check->count[KIRI_OF_FRAMES]);
-    }
-    for (int32_t k = 0; areFine && k < ownership->staged.count; ++k) {
-        const kiriStagedOwners* staged = &ownership->staged.data[k];
-        areFine = kiriCheck_That(check, staged->square >= 0 && staged->square < ownership->squares.count) &&
-                  ArePartsOwned(check, ownership, &rooms, &staged->owners, check->count[KIRI_OF_SITES]);
+        areFine = ArePartsOwned(check, ownership, &rooms, &ownership->squares.data[s]);
     }
     kiriMemory_Free(&check->memory, areFine ? rooms.taken : NULL);
-    return areFine;
-}
-
-static bool AreTransfers(kiriCheck* check, const kiriOwnership* ownership)
-{
-    kiriChains chains;
-    if (ownership->transfers.count == 0) {
-        bool areNone = true;
-        for (int32_t f = 0; areNone && ownership->next > 0 && f < ownership->first.count; ++f) {
-            areNone = ownership->first.data[f] == KIRI_NONE;
-        }
-        return kiriCheck_That(check, areNone);
-    }
-    bool areFine =
-        kiriCheck_That(check, ownership->next > 0 && ownership->first.count == check->count[KIRI_OF_SITES]) &&
-        kiriCheck_StartChains(check, &chains, &ownership->transfers.data->next, sizeof(kiriTransfer),
-                              ownership->transfers.count);
-    for (int32_t f = 0; areFine && f < ownership->first.count; ++f) {
-        areFine = kiriCheck_Chain(check, &chains, ownership->first.data[f]);
-    }
-    for (int32_t k = 0; areFine && k < ownership->transfers.count; ++k) {
-        areFine = kiriCheck_That(check, kiriTally_IsSum(&ownership->transfers.data[k].material));
-    }
     return areFine;
 }
 
@@ -162,23 +123,9 @@ static bool HaveParents(const kiriOwnership* ownership, const kiriMeshData* mesh
 
 bool kiriOwnership_Check(const kiriOwnership* ownership, kiriCheck* check, const kiriMeshData* mesh)
 {
-    kiriIndices dirty = { ownership->dirty.data, ownership->dirty.count, ownership->dirty.capacity };
     return kiriCheck_Object(check, OwnershipMust, ownership) &&
            kiriCheck_That(check, ownership->squares.count == ownership->isDirty.count &&
                                      ownership->squares.count == check->count[KIRI_OF_SQUARES] &&
-                                     ownership->next <= dirty.count && HaveParents(ownership, mesh) &&
-                                     (ownership->next == 0 || ownership->first.count == check->count[KIRI_OF_SITES])) &&
-           kiriCheck_AllMarked(check, &dirty, ownership->squares.count, ownership->isDirty.data, UINT8_MAX) &&
-           AreOwners(check, ownership) &&
-           AreTransfers(check, ownership);
-}
-
-bool kiriRefit_HasRoom(const kiriRefit* refit)
-{
-    int32_t frames = refit->ownership.first.count, fits = 0;
-    for (int32_t f = 0; f < frames; ++f) {
-        fits += refit->ownership.first.data[f] != KIRI_NONE;
-    }
-    return refit->fits.capacity >= fits && refit->gained.capacity >= frames && refit->firstOf.capacity >= frames &&
-           refit->nextOf.capacity >= frames;
+                                     HaveParents(ownership, mesh)) &&
+           AreOwners(check, ownership);
 }

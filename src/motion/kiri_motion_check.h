@@ -10,10 +10,9 @@ KIRI_C_BEGIN
 
 bool kiriFrame_Check(const kiriFrameData* frame, kiriCheck* check, const kiriMeshData* mesh);
 bool kiriAreaElements_Check(const kiriAreaElements* elements, kiriCheck* check);
-bool kiriOwnership_Check(const kiriOwnership* ownership, kiriCheck* check, const kiriMeshData* mesh);
 
-/* When owners are staged: is there room for what the commit fits? */
-bool kiriRefit_HasRoom(const kiriRefit* refit);
+/* No material is changing its owner. */
+bool kiriOwnership_Check(const kiriOwnership* ownership, kiriCheck* check, const kiriMeshData* mesh);
 
 bool kiriMechanics_Check(const kiriMechanics* mechanics, kiriCheck* check);
 

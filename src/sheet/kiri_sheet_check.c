@@ -1,6 +1,6 @@
 #include "kiri_sheet_check.h"
 
-#include "../field/kiri_field_check.h"
+#include "../field/kiri_link_check.h"
 #include "../mesh/kiri_mesh_check.h"
 #include "../motion/kiri_motion_check.h"
 #include "../view/kiri_view_check.h"
@@ -13,16 +13,16 @@
 /* ---- Layout ------------------------------------------------------------------------------------------------------ */
 
 static const kiriMust IsPieceIndex[] = { KIRI_INDEX(KIRI_OF_PIECES, kiriSpan, first, first) };
-static const kiriMust IsFrameIndex[] = { KIRI_INDEX(KIRI_OF_REGIONS, kiriSpan, first, first) };
+static const kiriMust IsFrameIndex[] = { KIRI_INDEX(KIRI_OF_FRAMES, kiriSpan, first, first) };
 
 static const kiriMust PieceMust[] = {
     KIRI_REALS(kiriPiece, area, area),
-    KIRI_INDEX(KIRI_OF_REGIONS, kiriPiece, frame, frame),
+    KIRI_INDEX(KIRI_OF_FRAMES, kiriPiece, frame, frame),
     KIRI_REALS(kiriPiece, rest.calm, rest.calm),
 };
 
 static const kiriMust LineShareMust[] = {
-    KIRI_INDEX(KIRI_OF_REGIONS, kiriLineShare, frame, frame),
+    KIRI_INDEX(KIRI_OF_FRAMES, kiriLineShare, frame, frame),
     KIRI_REALS(kiriLineShare, length, ends),
 };
 
@@ -41,7 +41,7 @@ static const kiriMust SeveredMust[] = {
 static const kiriMust PiecesMust[] = {
     KIRI_ITEMS_MUST(kiriLayout, pieces, PieceMust),
     KIRI_ITEMS_MUST(kiriLayout, framePiece, IsPieceIndex),
-    KIRI_LENGTH(KIRI_OF_REGIONS, kiriLayout, framePiece),
+    KIRI_LENGTH(KIRI_OF_FRAMES, kiriLayout, framePiece),
 };
 
 static const kiriMust LayoutMust[] = {
@@ -62,9 +62,9 @@ static bool IsAnyLeft(const kiriLayout* layout)
 }
 
 /* Pieces are numbered by their lowest frame. */
-bool kiriSheet_ArePieces(kiriCheck* check, const kiriLayout* layout, int64_t frames)
+static bool ArePieces(kiriCheck* check, const kiriLayout* layout)
 {
-    check->count[KIRI_OF_REGIONS] = frames;
+    int64_t frames = check->count[KIRI_OF_FRAMES];
     check->count[KIRI_OF_PIECES] = layout->pieces.count;
     bool areFine = kiriCheck_Object(check, PiecesMust, layout);
     int32_t pieces = 0;
@@ -76,7 +76,7 @@ bool kiriSheet_ArePieces(kiriCheck* check, const kiriLayout* layout, int64_t fra
     return areFine && kiriCheck_That(check, pieces == layout->pieces.count && IsAnyLeft(layout));
 }
 
-bool kiriSheet_AreLinksOfPieces(const kiriLayout* layout, const kiriLink* links, int32_t count)
+static bool AreLinksOfPieces(const kiriLayout* layout, const kiriLink* links, int32_t count)
 {
     bool areFine = true;
     for (int32_t k = 0; areFine && k < count; ++k) {
@@ -101,6 +101,7 @@ static const kiriMust OffsetsMust[] = {
 };
 
 static const kiriMust RowsMust[] = {
+    KIRI_REALS(kiriSheetData, shape.rigidWeight, shape.rigidWeight),
     KIRI_ITEMS_MUST(kiriSheetData, linkParts, kiriMustBeReal),
     KIRI_ITEMS_MUST(kiriSheetData, strainOffsets.strainOffsets, OffsetsMust),
 };
@@ -112,9 +113,9 @@ static bool IsLayout(kiriCheck* check, const kiriSheetData* sheet)
     int32_t links = sheet->links.links.count, offsets = sheet->strainOffsets.strainOffsets.count;
     check->count[KIRI_OF_PINS] = sheet->pins.count;
     check->count[KIRI_OF_LINKS] = links;
-    return kiriSheet_ArePieces(check, layout, sheet->frames.count) && kiriCheck_Object(check, LayoutMust, layout) &&
+    return ArePieces(check, layout) && kiriCheck_Object(check, LayoutMust, layout) &&
            kiriAreaElements_Check(&layout->areaElements, check) && kiriCheck_Object(check, RowsMust, sheet) &&
-           kiriCheck_That(check, kiriSheet_AreLinksOfPieces(layout, sheet->links.links.data, links) &&
+           kiriCheck_That(check, AreLinksOfPieces(layout, sheet->links.links.data, links) &&
                                      AreShares(&layout->pinShares, sheet) &&
                                      (offsets == 0 || (offsets == links && kiriSheet_KeepsStrains(sheet))) &&
                                      sheet->linkParts.count == (layout->severed.count > 0 ? links : 0));
@@ -197,7 +198,7 @@ static const kiriMust TouchMemoryMust[] = {
     KIRI_ITEMS_MUST(kiriTouchMemory, forces, TouchForceMust),
 };
 
-bool kiriSheet_IsInSquare(const kiriSheetData* sheet, kiriLatticePoint at)
+static bool IsInSquare(const kiriSheetData* sheet, kiriLatticePoint at)
 {
     int32_t square =
         kiriLattice_Has(at) && at.x >= 0 && at.y >= 0 ? kiriSquares_At(&sheet->mesh.squares, at) : KIRI_NONE;
@@ -277,7 +278,7 @@ static bool ArePoints(kiriCheck* check, const kiriSheetData* sheet)
                                              sheet->seen.pointPositions.count == 3 * (int64_t)sheet->points.count);
     for (int32_t i = 0; areFine && i < sheet->points.count; ++i) {
         const kiriSample* point = &sheet->points.data[i];
-        areFine = kiriCheck_That(check, kiriSheet_IsInSquare(sheet, point->at) && point->frame >= 0 &&
+        areFine = kiriCheck_That(check, IsInSquare(sheet, point->at) && point->frame >= 0 &&
                                             point->frame < sheet->frames.count && point->cell >= 0);
     }
     return areFine && kiriPlaces_Check(&sheet->pointPlaces, check, sheet->points.count) &&
@@ -395,19 +396,16 @@ static bool AreTurns(kiriCheck* check, const kiriSheetData* sheet)
 
 bool kiriSheet_Check(kiriSheetData* sheet, kiriCheck* check)
 {
-    const kiriUpdate* u = sheet->update;
     kiriMesh_Count(&sheet->mesh, check);
     check->count[KIRI_OF_FRAMES] = sheet->frames.count;
-    check->count[KIRI_OF_SITES] = u->placing.sites.count;
     bool isMesh = kiriMesh_Check(&sheet->mesh, check) && AreSettings(check, &sheet->settings) &&
-                  AreFramesSound(check, sheet) && kiriCheck_That(check, u->placing.sites.count >= sheet->frames.count);
-    return isMesh && kiriUpdate_CheckField(check, sheet) &&
-           kiriLinks_Check(&sheet->links, &sheet->grid, &sheet->mesh, &sheet->regions, check) &&
-           IsLayout(check, sheet) && AreTurns(check, sheet) && ArePins(check, sheet) &&
+                  AreFramesSound(check, sheet);
+    return isMesh && kiriLinks_Check(&sheet->links, check) && IsLayout(check, sheet) && AreTurns(check, sheet) &&
+           ArePins(check, sheet) &&
            kiriSkin_Check(&sheet->vertexSkin, &sheet->shape.labels, check, sheet->mesh.vertices.count, &sheet->mesh) &&
            kiriSkin_Check(&sheet->pointSkin, &sheet->shape.labels, check, sheet->points.count, NULL) &&
            kiriCheck_That(check, AreElementsOfPieces(&sheet->layout) && AreSamplesOfPieces(sheet, &sheet->vertexSkin) &&
                                      AreSamplesOfPieces(sheet, &sheet->pointSkin) && AreTrianglesOfPieces(sheet)) &&
-           kiriUpdate_CheckWork(check, sheet) && ArePoints(check, sheet) && kiriCuts_Check(sheet, check) &&
+           kiriUpdate_Check(check, sheet) && ArePoints(check, sheet) && kiriCuts_Check(sheet, check) &&
            IsSeen(check, sheet) && AreContacts(check, sheet) && HasRoomForRows(check, sheet);
 }

@@ -1,4 +1,5 @@
-/* Is a sheet that was read one with which ticks and calls may go on? */
+/* Is a sheet that was read one with which ticks and calls may go on, when what follows from its mesh and its frames was
+   forgotten (kiriSheet_ForgetWork)? */
 #ifndef KIRI_SHEET_CHECK_H
 #define KIRI_SHEET_CHECK_H
 
@@ -22,15 +23,8 @@ static inline bool kiriLattice_Has(kiriLatticePoint at)
 /* The cuts of a sheet, and the points that wait. */
 bool kiriCuts_Check(const kiriSheetData* sheet, kiriCheck* check);
 
-/* The work on a cut: the grid and what follows from it; and the rest, when the sheet in force is right. */
-bool kiriUpdate_CheckField(kiriCheck* check, const kiriSheetData* sheet);
-bool kiriUpdate_CheckWork(kiriCheck* check, const kiriSheetData* sheet);
-
-/* What both look at: pieces of a layout with so many frames; links that join frames of a piece; places with
-   material. */
-bool kiriSheet_ArePieces(kiriCheck* check, const kiriLayout* layout, int64_t frames);
-bool kiriSheet_AreLinksOfPieces(const kiriLayout* layout, const kiriLink* links, int32_t count);
-bool kiriSheet_IsInSquare(const kiriSheetData* sheet, kiriLatticePoint at);
+/* How far the work on a cut has come, and who owns what. */
+bool kiriUpdate_Check(kiriCheck* check, const kiriSheetData* sheet);
 
 bool kiriObstacle_Check(const kiriObstacleData* obstacle, kiriCheck* check);
 

@@ -4,19 +4,12 @@
 
 /* ---- Rules ------------------------------------------------------------------------------------------------------- */
 
-static const kiriMust MustBeSquareOfView[] = { KIRI_INDEX(KIRI_OF_SQUARES, kiriSpan, first, first) };
 static const kiriMust IsSampleOrNone[] = { KIRI_INDEX_OR_NONE(KIRI_OF_SAMPLES, kiriSpan, first, first) };
 
 static const kiriMust PlacesMust[] = {
     KIRI_ITEMS_MUST(kiriPlaces, head, IsSampleOrNone),
     KIRI_ITEMS_MUST(kiriPlaces, next, IsSampleOrNone),
     KIRI_LENGTH(KIRI_OF_SAMPLES, kiriPlaces, next),
-};
-
-static const kiriMust RefreshMust[] = {
-    KIRI_ITEMS_MUST(kiriRefresh, noted, MustBeSquareOfView),
-    KIRI_ITEMS_MUST(kiriRefresh, squares, MustBeSquareOfView),
-    KIRI_WITHIN(0, INT32_MAX - 1, kiriRefresh, change, square),
 };
 
 static const kiriMust FadingMust[] = {
@@ -48,7 +41,7 @@ static const kiriMust SurfaceMust[] = {
 static bool AreWeightsIn(kiriCheck* check, kiriRooms* rooms, const kiriSkin* skin, const kiriLabels* labels,
                          kiriSpan span)
 {
-    const int32_t frames = (int32_t)check->count[KIRI_OF_REGIONS];
+    const int32_t frames = (int32_t)check->count[KIRI_OF_FRAMES];
     bool areFine = kiriCheck_Span(check, rooms, span);
     int32_t last = KIRI_NONE;
     double sum = 0.0;
@@ -62,29 +55,9 @@ static bool AreWeightsIn(kiriCheck* check, kiriRooms* rooms, const kiriSkin* ski
     return kiriCheck_That(check, areFine && (span.count == 0 || (sum > 0.999 && sum < 1.001)));
 }
 
-/* Each sample is staged at most once; those that are new, in their order. */
-static bool AreStaged(kiriCheck* check, const kiriSkin* skin, const kiriLabels* labels, kiriRooms* rooms)
-{
-    int32_t next = skin->spans.count;
-    uint8_t* seen = kiriCheck_Bytes(check, skin->spans.count);
-    bool areFine = seen != NULL;
-    for (int32_t k = 0; areFine && k < skin->staged.count; ++k) {
-        kiriReweighed staged = skin->staged.data[k];
-        areFine =
-            staged.sample == next || (staged.sample >= 0 && staged.sample < skin->spans.count && !seen[staged.sample]);
-        next += staged.sample == next;
-        areFine = areFine && staged.span.count > 0 && AreWeightsIn(check, rooms, skin, labels, staged.span);
-        if (areFine && staged.sample < skin->spans.count) {
-            seen[staged.sample] = 1;
-        }
-    }
-    kiriMemory_Free(&check->memory, seen);
-    return kiriCheck_That(check, areFine) && skin->spans.capacity >= next;
-}
-
 static bool AreSettling(kiriCheck* check, const kiriSkin* skin, kiriRooms* rooms)
 {
-    bool areFine = kiriCheck_That(check, skin->staged.count == 0 || skin->settling.count == 0);
+    bool areFine = true;
     for (int32_t k = 0; areFine && k < skin->settling.count; ++k) {
         kiriReweighed settling = skin->settling.data[k];
         areFine = kiriCheck_That(check, settling.sample >= 0 && settling.sample < skin->spans.count) &&
@@ -97,7 +70,6 @@ bool kiriSkin_Check(const kiriSkin* skin, const kiriLabels* labels, kiriCheck* c
                     const kiriMeshData* holes)
 {
     kiriRooms rooms;
-    check->count[KIRI_OF_REGIONS] = check->count[KIRI_OF_FRAMES];
     bool areFine = kiriCheck_That(check, skin->spans.count == samples) &&
                    kiriCheck_StartRooms(check, &rooms, &skin->weights, sizeof(kiriSampleWeight), &skin->room);
     for (int32_t i = 0; areFine && i < samples; ++i) {
@@ -105,9 +77,7 @@ bool kiriSkin_Check(const kiriSkin* skin, const kiriLabels* labels, kiriCheck* c
         areFine = kiriCheck_That(check, isHole == (skin->spans.data[i].count == 0)) &&
                   AreWeightsIn(check, &rooms, skin, labels, skin->spans.data[i]);
     }
-    check->count[KIRI_OF_REGIONS] = check->count[KIRI_OF_SITES];
-    areFine =
-        areFine && kiriCheck_That(check, AreStaged(check, skin, labels, &rooms)) && AreSettling(check, skin, &rooms);
+    areFine = areFine && AreSettling(check, skin, &rooms);
     kiriMemory_Free(&check->memory, areFine ? rooms.taken : NULL);
     return areFine;
 }
@@ -124,18 +94,6 @@ bool kiriPlaces_Check(const kiriPlaces* places, kiriCheck* check, int32_t sample
         areFine = kiriCheck_Chain(check, &chains, places->head.data[s]);
     }
     return areFine;
-}
-
-/* While squares are collected they are marked, and no others are; then none is. */
-bool kiriRefresh_Check(const kiriRefresh* refresh, kiriCheck* check)
-{
-    const kiriIndices none = { NULL, 0, 0 }, squares = { refresh->squares.data, refresh->squares.count,
-                                                         refresh->squares.capacity };
-    int64_t all = check->count[KIRI_OF_SQUARES], marks = refresh->marks.count;
-    bool isCollecting = refresh->change > 0;
-    return kiriCheck_Object(check, RefreshMust, refresh) && kiriCheck_Distinct(check, &squares, all) &&
-           kiriCheck_That(check, isCollecting ? marks == all && squares.capacity >= all : marks <= all) &&
-           kiriCheck_AllMarked(check, isCollecting ? &squares : &none, marks, refresh->marks.data, UINT8_MAX);
 }
 
 /* By sample, each once. */

@@ -7,16 +7,14 @@
 
 KIRI_C_BEGIN
 
-/* Weights of so many samples, of frames in force; those that are staged may be of new ones. Each sample has some, but
-   those of vertices that are holes. `holes`: their mesh, or null. */
+/* Weights of so many samples, of frames in force; none are staged. Each sample has some, but those of vertices that are
+   holes. `holes`: their mesh, or null. */
 bool kiriSkin_Check(const kiriSkin* skin, const kiriLabels* labels, kiriCheck* check, int32_t samples,
                     const kiriMeshData* holes);
 
 /* Lists of so many samples by square. */
 bool kiriPlaces_Check(const kiriPlaces* places, kiriCheck* check, int32_t samples);
 
-/* An update of samples. */
-bool kiriRefresh_Check(const kiriRefresh* refresh, kiriCheck* check);
 bool kiriFades_Check(const kiriFades* fades, kiriCheck* check, int32_t samples);
 
 /* Has a surface that is being read room for its vertices? Then these can be read. */

@@ -467,6 +467,13 @@ static void ForgetWork(kiriArchive* archive, kiriWorld* made)
     }
 }
 
+static void CheckWorld(kiriArchive* archive, kiriWorld* made)
+{
+    bool isShort = false, isFine = kiriArchive_HasFailed(archive) || kiriWorld_Check(made, &isShort);
+    archive->isShort |= isShort;
+    kiriArchive_Expect(archive, isFine);
+}
+
 /* And after that. */
 static void RemakeFields(kiriArchive* archive, kiriWorld* made)
 {
@@ -486,11 +493,7 @@ static kiriResult ReadWorld(kiriWorld* made, const uint8_t* bytes, int64_t size,
     kiriArchive_Expect(&archive, kiriArchive_HasFailed(&archive) || ClaimIds(made));
     if (!isTrusted) {
         ForgetWork(&archive, made);
-    }
-    bool isShort = false, isFine = kiriArchive_HasFailed(&archive) || kiriWorld_Check(made, &isShort);
-    archive.isShort |= isShort;
-    kiriArchive_Expect(&archive, isFine);
-    if (!isTrusted) {
+        CheckWorld(&archive, made);
         RemakeFields(&archive, made);
     }
     for (int32_t i = 0; i < made->sheets.count && !kiriArchive_HasFailed(&archive); ++i) {

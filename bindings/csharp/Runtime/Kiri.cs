@@ -576,8 +576,9 @@ namespace Kiri
         /// tasks. The profile has no times until the next tick. What it had before is gone, but arrays that it handed
         /// out live until the next tick. KIRI_ERROR_DATA: the bytes are no save, or cut short, changed, or of a version
         /// that this library does not read. KIRI_ERROR_MEMORY. Then nothing has changed. For bytes of your own: the sum
-        /// in a save finds damage, not malice. A recording has the bytes, up to 2^31 of them; kiriReplay.untrusted is
-        /// for recordings of others.</summary>
+        /// in a save finds damage, not malice, and nothing else is looked at. Bytes of others, made up with a right
+        /// sum, may crash the program here: for these there is kiriWorld_LoadUntrusted. A recording has the bytes, up
+        /// to 2^31 of them; kiriReplay.untrusted is for recordings of others.</summary>
         public void Load(byte[] bytes)
         {
             fixed (byte* bytesRows = bytes)

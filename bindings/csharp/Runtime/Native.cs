@@ -1337,7 +1337,7 @@ namespace Kiri
 #endif
 
         /// <summary>Of the header.</summary>
-        public const int Version = 1102;
+        public const int Version = 1103;
         public const int LeastTriangles = 16;
         public const int MostNoteBytes = 1048576;
 

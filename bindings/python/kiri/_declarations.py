@@ -1,6 +1,6 @@
 """Made from kiri.h by `make bindings`."""
 
-VERSION = "0.11.2"
+VERSION = "0.11.3"
 
 ARRAYS = {'kiriReplay': {'note': ('noteCount', 1)},
  'kiriSheetDef': {'restPositions': ('vertexCount', 2),

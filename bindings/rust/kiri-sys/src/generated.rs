@@ -17,7 +17,7 @@ pub struct kiriWorld {
 }
 
 /// Of the header.
-pub const KIRI_VERSION: i32 = 1102;
+pub const KIRI_VERSION: i32 = 1103;
 
 pub const KIRI_OK: i32 = 0;
 /// done, and work is left for later ticks
@@ -1088,8 +1088,9 @@ unsafe extern "C" {
     /// before is gone, but arrays that it handed out live until the next tick. KIRI_ERROR_DATA: the
     /// bytes are no save, or cut short, changed, or of a version that this library does not read.
     /// KIRI_ERROR_MEMORY. Then nothing has changed. For bytes of your own: the sum in a save finds
-    /// damage, not malice. A recording has the bytes, up to 2^31 of them; kiriReplay.untrusted is
-    /// for recordings of others.
+    /// damage, not malice, and nothing else is looked at. Bytes of others, made up with a right
+    /// sum, may crash the program here: for these there is kiriWorld_LoadUntrusted. A recording has
+    /// the bytes, up to 2^31 of them; kiriReplay.untrusted is for recordings of others.
     pub fn kiriWorld_Load(world: *mut kiriWorld, bytes: *const c_void, size: i64) -> kiriResult;
     /// The same for bytes of others, who may have made them to do harm: what the world becomes may
     /// then be strange, but it is one that all calls are good for. What follows from the mesh and

@@ -2174,8 +2174,10 @@ impl World {
     /// before is gone, but arrays that it handed out live until the next tick.
     /// [`ResultCode::ErrorData`]: the bytes are no save, or cut short, changed, or of a version
     /// that this library does not read. [`ResultCode::ErrorMemory`]. Then nothing has changed. For
-    /// bytes of your own: the sum in a save finds damage, not malice. A recording has the bytes, up
-    /// to 2^31 of them; [`Replay`].untrusted is for recordings of others.
+    /// bytes of your own: the sum in a save finds damage, not malice, and nothing else is looked
+    /// at. Bytes of others, made up with a right sum, may crash the program here: for these there
+    /// is [`World::load_untrusted`]. A recording has the bytes, up to 2^31 of them;
+    /// [`Replay`].untrusted is for recordings of others.
     pub fn load(&mut self, bytes: &[u8]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriWorld_Load(self.raw_mut(), bytes.as_ptr().cast(), bytes.len() as i64) }, self)?;
