@@ -97,8 +97,7 @@ static void TakenInParts(void** state)
     assert_true(kiriPlacer_StartPiece(&parts, &scene.memory, &scene.grid, cell));
     int32_t times = 1;
     for (kiriQuota quota = { 7, 0, 0, false };
-         kiriPlacer_GoOnWithPiece(&parts, &scene.memory, &scene.grid, &quota) == KIRI_MORE;
-         ++times) {
+         kiriPlacer_GoOnWithPiece(&parts, &scene.memory, &scene.grid, &quota) == KIRI_MORE; ++times) {
         quota = (kiriQuota){ 7, 0, 0, false };
     }
     assert_true(times > 10);

@@ -881,11 +881,11 @@ static void TestPiecesElsewhere(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestMesh),          cmocka_unit_test(TestLayout),        cmocka_unit_test(TestGrid),
-        cmocka_unit_test(TestGridAtWork),    cmocka_unit_test(TestRegions),       cmocka_unit_test(TestShape),
-        cmocka_unit_test(TestShapeAtWork),   cmocka_unit_test(TestLinksAtWork),   cmocka_unit_test(TestWork),
-        cmocka_unit_test(TestCorners),       cmocka_unit_test(TestLabels),        cmocka_unit_test(TestCut),
-        cmocka_unit_test(TestSeen),          cmocka_unit_test(TestPiecesElsewhere),
+        cmocka_unit_test(TestMesh),        cmocka_unit_test(TestLayout),          cmocka_unit_test(TestGrid),
+        cmocka_unit_test(TestGridAtWork),  cmocka_unit_test(TestRegions),         cmocka_unit_test(TestShape),
+        cmocka_unit_test(TestShapeAtWork), cmocka_unit_test(TestLinksAtWork),     cmocka_unit_test(TestWork),
+        cmocka_unit_test(TestCorners),     cmocka_unit_test(TestLabels),          cmocka_unit_test(TestCut),
+        cmocka_unit_test(TestSeen),        cmocka_unit_test(TestPiecesElsewhere),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -414,7 +414,8 @@ static bool AddBlockTwice(kiriSheetData* s)
 {
     kiriReaches* reaches = &s->shape.reaches;
     int64_t room = kiriReaches_RoomFor(reaches, 1);
-    bool ok = kiriArray_Reserve(s->memory, &reaches->blocks, room) && kiriArray_Reserve(s->memory, &reaches->heads, room);
+    bool ok =
+        kiriArray_Reserve(s->memory, &reaches->blocks, room) && kiriArray_Reserve(s->memory, &reaches->heads, room);
     if (ok) {
         const kiriReachBlock was = reaches->blocks.data[reaches->ofLabel.data[0]];
         kiriReachBlock* twin = &reaches->blocks.data[kiriReaches_Add(reaches, 0, was.cells)];

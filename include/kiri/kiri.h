@@ -144,9 +144,8 @@ typedef struct kiriWorldDef {
         workerCount; /* threads that may work on a task, the caller of the tick with them, 0 to 1024: sizes ranges; up
                             to 1: no task is started. Default 0 */
     void* user;      /* handed to the functions above */
-    kiriRecordFn* record; /* gets the recording of the world, see kiriWorld_Replay; null: there is none */
-    int32_t
-        recordHashTicks; /* the recording has the state hash after so many ticks, and at the end; 0: never. Default
+    kiriRecordFn* record;    /* gets the recording of the world, see kiriWorld_Replay; null: there is none */
+    int32_t recordHashTicks; /* the recording has the state hash after so many ticks, and at the end; 0: never. Default
                             60 */
 } kiriWorldDef;
 

@@ -256,10 +256,14 @@ static const kiriMember CornerMembers[] = {
 static const kiriTable CornerTable = KIRI_TABLE(kiriCorner, CornerMembers);
 
 static const kiriMember LinksMembers[] = {
-    KIRI_PARTS(kiriLinks, links, LinkTable),         KIRI_PARTS(kiriLinks, next, LinkTable),
-    KIRI_RUN(4, kiriLinks, changed, changed),        KIRI_ROOM_OF(kiriLinks, was),
-    KIRI_ROOM_OF(kiriLinks, wasCorner),              KIRI_PARTS(kiriLinks, corners, CornerTable),
-    KIRI_PARTS(kiriLinks, nextCorners, CornerTable), KIRI_OWNED(kiriLinks, work, LinkWorkTable),
+    KIRI_PARTS(kiriLinks, links, LinkTable),
+    KIRI_PARTS(kiriLinks, next, LinkTable),
+    KIRI_RUN(4, kiriLinks, changed, changed),
+    KIRI_ROOM_OF(kiriLinks, was),
+    KIRI_ROOM_OF(kiriLinks, wasCorner),
+    KIRI_PARTS(kiriLinks, corners, CornerTable),
+    KIRI_PARTS(kiriLinks, nextCorners, CornerTable),
+    KIRI_OWNED(kiriLinks, work, LinkWorkTable),
 };
 const kiriTable kiriLinksTable = KIRI_TABLE(kiriLinks, LinksMembers);
 

@@ -71,10 +71,10 @@ struct kiriLinkWork {
     KIRI_ARRAY(kiriLinkEnds) nextEnds; /* and of kiriLinks.next */
     KIRI_ARRAY(kiriRegionPair) pairs;  /* of kiriLinks.links: most are asked for nothing else; empty: not known */
     KIRI_ARRAY(kiriRegionPair) nextPairs;
-    bool isTwin;                       /* links, and their ends, are also in the room of the next ones, as `was` says */
-    KIRI_ARRAY(int32_t) before;        /* scratch: `was` of the links in force, */
-    KIRI_ARRAY(int32_t) now;           /* and which one each is next; of those that are taken over */
-    kiriSightEdges edges;              /* near the links that are made */
+    bool isTwin;                /* links, and their ends, are also in the room of the next ones, as `was` says */
+    KIRI_ARRAY(int32_t) before; /* scratch: `was` of the links in force, */
+    KIRI_ARRAY(int32_t) now;    /* and which one each is next; of those that are taken over */
+    kiriSightEdges edges;       /* near the links that are made */
 };
 
 typedef struct kiriBorder {

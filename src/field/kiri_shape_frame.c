@@ -474,8 +474,7 @@ void kiriShape_ArchiveGrowing(kiriArchive* archive, kiriShape* shape, kiriMemory
     if (shape->work != NULL) {
         ListUnloadRooms(shape, memory, rooms);
         kiriArchive_Growing(archive, &shape->work->growing, rooms, UNLOAD_ROOMS);
-        kiriArchive_Expect(archive,
-                           shape->work->growing.data == NULL || shape->work->frameStage == KIRI_FRAME_UNLOAD);
+        kiriArchive_Expect(archive, shape->work->growing.data == NULL || shape->work->frameStage == KIRI_FRAME_UNLOAD);
     }
 }
 

@@ -95,8 +95,8 @@ struct kiriShapeWork {
     KIRI_ARRAY(kiriRawWeight) rawWeights; /* by frame */
     KIRI_ARRAY(int32_t) dirty; /* cells whose weights are not all in their place yet, or that have other material */
     kiriShapeStage stage;
-    int32_t next;      /* item of the stage at which the work goes on */
-    int64_t due;       /* for blocks that were loaded: the quota has not given it yet */
+    int32_t next;        /* item of the stage at which the work goes on */
+    int64_t due;         /* for blocks that were loaded: the quota has not given it yet */
     kiriGrowing growing; /* what the frame at hand needs room for */
 };
 

@@ -271,8 +271,8 @@ static bool AreTriangles(const kiriMeshData* mesh, const kiriSquarePlace* in, ki
     bool areFine = true;
     for (int32_t t = 0; areFine && t < mesh->triangles.count; ++t) {
         bool isHole = !kiriMesh_IsTriangle(mesh, t);
-        areFine = mesh->triangles.data[t].parent < t && (isHole ? IsHole(&mesh->triangles.data[t])
-                                                                : IsSound(mesh, t, in, &overlaps[t], &left));
+        areFine = mesh->triangles.data[t].parent < t &&
+                  (isHole ? IsHole(&mesh->triangles.data[t]) : IsSound(mesh, t, in, &overlaps[t], &left));
         holes += isHole;
     }
     return areFine && holes == mesh->triangleHoles && holes < mesh->triangles.count;

@@ -42,10 +42,8 @@ static const kiriMember AreaElementsMembers[] = {
 const kiriTable kiriAreaElementsTable = KIRI_TABLE(kiriAreaElements, AreaElementsMembers);
 
 static const kiriMember StrainOffsetsMembers[] = {
-    KIRI_ITEMS(8, kiriStrainOffsets, strainOffsets),
-    KIRI_ROOM_OF(kiriStrainOffsets, older),
-    KIRI_ROOM_OF(kiriStrainOffsets, from),
-    KIRI_ROOM_OF(kiriStrainOffsets, frames),
+    KIRI_ITEMS(8, kiriStrainOffsets, strainOffsets), KIRI_ROOM_OF(kiriStrainOffsets, older),
+    KIRI_ROOM_OF(kiriStrainOffsets, from),           KIRI_ROOM_OF(kiriStrainOffsets, frames),
     KIRI_ROOM_OF(kiriStrainOffsets, mayMove),
 };
 const kiriTable kiriStrainOffsetsTable = KIRI_TABLE(kiriStrainOffsets, StrainOffsetsMembers);

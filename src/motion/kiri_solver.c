@@ -128,7 +128,7 @@ static bool IsPairOfLink(const kiriSystem* system, int32_t k, kiriPair pair)
 static bool IsInForce(const kiriSystem* system, int32_t k)
 {
     int32_t links = kiriElement_LinkCount(system), corner = k - links;
-    return k < links                                ? system->linkWas[k] != KIRI_NONE
+    return k < links                                  ? system->linkWas[k] != KIRI_NONE
            : corner < kiriElement_CornerCount(system) ? system->cornerWas[corner] != KIRI_NONE
                                                       : false;
 }

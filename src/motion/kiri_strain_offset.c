@@ -119,8 +119,8 @@ void kiriStrainOffsets_Take(kiriStrainOffsets* strainOffsets, const kiriLink* ol
         const kiriStrainOffset* older = from == KIRI_NONE || from >= had ? &none
                                         : from == k                      ? &offsets[k]
                                                                          : &strainOffsets->older.data[from];
-        bool isSame = from != KIRI_NONE && ((was != NULL && was[k] == from) ||
-                                            memcmp(&old[from], &links[k], sizeof(*links)) == 0);
+        bool isSame = from != KIRI_NONE &&
+                      ((was != NULL && was[k] == from) || memcmp(&old[from], &links[k], sizeof(*links)) == 0);
         if (!isSame || !IsFrameUnmoved(strainOffsets, frames, links[k].i) ||
             !IsFrameUnmoved(strainOffsets, frames, links[k].j)) {
             offsets[k] = StrainOffsetOf(strainOffsets, &links[k], from != KIRI_NONE ? &old[from] : NULL, older, frames,

@@ -463,8 +463,8 @@ void kiriPins_KeepStrains(kiriSheetData* sheet, const kiriPinShares* old)
         double was[KIRI_CLAMP_STRAINS] = { 0.0 };
         MeasureClamp(sheet, pinned, &sheet->frames.data[frame], pinned->offset);
         if (older != NULL) {
-            MeasureClamp(sheet, older,
-                         kiriStrainOffsets_FrameBefore(&sheet->strainOffsets, sheet->frames.data, frame), was);
+            MeasureClamp(sheet, older, kiriStrainOffsets_FrameBefore(&sheet->strainOffsets, sheet->frames.data, frame),
+                         was);
         }
         for (int e = 0; e < KIRI_STRAINS; ++e) {
             pinned->offset[e] -= older != NULL ? was[e] - older->offset[e] : 0.0;

@@ -398,8 +398,8 @@ bool kiriSheet_Check(kiriSheetData* sheet, kiriCheck* check)
 {
     kiriMesh_Count(&sheet->mesh, check);
     check->count[KIRI_OF_FRAMES] = sheet->frames.count;
-    bool isMesh = kiriMesh_Check(&sheet->mesh, check) && AreSettings(check, &sheet->settings) &&
-                  AreFramesSound(check, sheet);
+    bool isMesh =
+        kiriMesh_Check(&sheet->mesh, check) && AreSettings(check, &sheet->settings) && AreFramesSound(check, sheet);
     return isMesh && kiriLinks_Check(&sheet->links, check) && IsLayout(check, sheet) && AreTurns(check, sheet) &&
            ArePins(check, sheet) &&
            kiriSkin_Check(&sheet->vertexSkin, &sheet->shape.labels, check, sheet->mesh.vertices.count, &sheet->mesh) &&
