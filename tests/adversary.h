@@ -1,6 +1,6 @@
-/* One adversary of the budget: a world, work that the host asks for, and what the ticks cost until all of it is done. It
-   runs in a process of its own, which is ended when it has used up its time; what it has measured so far stays. It runs
-   three times: a machine that does other work disturbs each tick in some run, but seldom in all. */
+/* One adversary of the budget: a world, work that the host asks for, and what the ticks cost until all of it is done.
+   It runs in a process of its own, which is ended when it has used up its time; what it has measured so far stays. It
+   runs three times: a machine that does other work disturbs each tick in some run, but seldom in all. */
 #ifndef KIRI_ADVERSARY_H
 #define KIRI_ADVERSARY_H
 

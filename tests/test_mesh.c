@@ -393,8 +393,8 @@ static void RefusesOverlapAnywhere(void** state)
     assert_in_range(refused, 50, 350);
 }
 
-/* Strips that wind: one outline, and often over themselves. Against all pairs that have no corner in common; where a few
-   do, others do, too. */
+/* Strips that wind: one outline, and often over themselves. Against all pairs that have no corner in common; where a
+   few do, others do, too. */
 static void RefusesStripsOverThemselves(void** state)
 {
     (void)state;

@@ -453,8 +453,8 @@ static void TestBudgetFromTime(void** state)
 
 /* ---- Calls amid the work ---- */
 
-/* One cut, with so little budget that links take many ticks. The material becomes another before one of these; *ticks is
-   how many there are. */
+/* One cut, with so little budget that links take many ticks. The material becomes another before one of these; *ticks
+   is how many there are. */
 static uint64_t LayoutAfterCut(uint32_t seed, int32_t changeAt, int32_t* ticks)
 {
     enum { LINKS = 3 }; /* a step of the stage, see kiri_stages.c */

@@ -69,8 +69,8 @@ bool kiriField_Start(kiriField* field, kiriMemory* memory, const kiriSeed* seeds
 kiriProgress kiriField_Flood(kiriField* field, const kiriRule* rule, kiriQuota* quota);
 
 /* Makes the whole flood that Start has prepared, without a limit, and from all cells ways go on; as many items as cells
-   are settled. All that the seeds reach is among these cells, which come in their order; and so they are settled. False,
-   and nothing is done: the ways wind too much, or memory is short; Flood does it. */
+   are settled. All that the seeds reach is among these cells, which come in their order; and so they are settled.
+   False, and nothing is done: the ways wind too much, or memory is short; Flood does it. */
 bool kiriField_Scan(kiriField* field, kiriMemory* memory, const kiriGrid* grid, const int32_t* cells, int32_t count);
 
 /* Makes all cells FAR again, at the cost of those that a flood settled. Not after a repair. */

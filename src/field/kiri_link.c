@@ -446,8 +446,8 @@ static void SkipClean(const kiriBorder* border)
     }
 }
 
-/* Before the first face, where `at` is 0: what is stale, region by region, then what is kept, then the faces of the rest,
-   region by region. */
+/* Before the first face, where `at` is 0: what is stale, region by region, then what is kept, then the faces of the
+   rest, region by region. */
 static bool FindLinksToMake(const kiriBorder* border, const kiriLinks* links, int32_t at)
 {
     kiriLinkWork* work = border->work;

@@ -70,12 +70,12 @@ static inline double kiriShape_Sum(const kiriShape* shape, kiriSpan span)
 }
 
 /* Follows the changes of grid and regions, which are cleared after it. Costs what it touches. `moves` as in
-   kiriRegions_Update: distances to such a site are made from scratch. Items of the quota: one for a cell about which grid
-   or regions have changed something, and two for each frame that reaches one; a cell whose distance is repaired, see
-   kiriField_Repair; eight for a block of distances that is loaded, two for one that goes back, and one for two cells in
-   it that have others; three weights put in their place; a cell that gets room for its first weights or whose weights
-   are all in their place; 128 bytes that move where arrays grow. Every cell with an owner gets weights. KIRI_MORE: call
-   again before grid, regions or sites change. KIRI_FAILED: only kiriShape_Reset helps. */
+   kiriRegions_Update: distances to such a site are made from scratch. Items of the quota: one for a cell about which
+   grid or regions have changed something, and two for each frame that reaches one; a cell whose distance is repaired,
+   see kiriField_Repair; eight for a block of distances that is loaded, two for one that goes back, and one for two
+   cells in it that have others; three weights put in their place; a cell that gets room for its first weights or whose
+   weights are all in their place; 128 bytes that move where arrays grow. Every cell with an owner gets weights.
+   KIRI_MORE: call again before grid, regions or sites change. KIRI_FAILED: only kiriShape_Reset helps. */
 kiriProgress kiriShape_Update(kiriShape* shape, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                               const kiriRegions* regions, const kiriSite* sites, int32_t siteCount,
                               const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota);
