@@ -61,22 +61,23 @@ Save Saved_Make(const kiriWorld* world, const Save* base)
     return save;
 }
 
-/* Small, so that of what is changed much matters. */
-static void AddSmallSheet(Storm* storm)
+/* Small, so that of what is changed much matters. `grid`: squares along it; 0: some, about twice as many as of the mesh. */
+static void AddSmallSheet(Storm* storm, int32_t squares, int32_t grid)
 {
-    enum { SQUARES = 4, CORNERS = SQUARES + 1 };
-    float positions[2 * CORNERS * CORNERS];
-    int32_t indices[6 * SQUARES * SQUARES];
-    FUZZ_CHECK(kiriFillRectangle(1.0f, 1.0f, SQUARES, SQUARES, positions, indices) == KIRI_OK, "no rectangle");
+    enum { MOST_SQUARES = 66, MOST_CORNERS = MOST_SQUARES + 1 };
+    static float positions[2 * MOST_CORNERS * MOST_CORNERS];
+    static int32_t indices[6 * MOST_SQUARES * MOST_SQUARES];
+    FUZZ_CHECK(kiriFillRectangle(1.0f, 1.0f, squares, squares, positions, indices) == KIRI_OK, "no rectangle");
     const StormType* type = storm->type;
     kiriSheetDef def;
     kiriDefaultSheetDef(&def);
     def.restPositions = positions;
     def.indices = indices;
-    def.vertexCount = CORNERS * CORNERS;
-    def.triangleCount = 2 * SQUARES * SQUARES;
+    def.vertexCount = (squares + 1) * (squares + 1);
+    def.triangleCount = 2 * squares * squares;
     def.position[2] = 0.1f * (float)storm->sheetCount;
-    def.gridResolution = 8 + (int32_t)Storm_Random(storm, 4);
+    int32_t some = 8 + (int32_t)Storm_Random(storm, 4);
+    def.gridResolution = grid > 0 ? grid : some;
     def.frameCount = 2 + (int32_t)Storm_Random(storm, 3);
     def.maxFrames = 12;
     def.collisionPoints = 6;
@@ -92,6 +93,27 @@ static void AddSmallSheet(Storm* storm)
     Storm_KeepSheet(storm, sheet);
 }
 
+/* A strip is cut off a sheet that is so large that its mesh keeps its indices, and goes. */
+static void LeaveHoles(Storm* storm)
+{
+    const float way[4] = { -0.1f, 0.87f, 1.1f, 0.9f };
+    const kiriFrame* frames;
+    kiriPieceState pieces[2];
+    kiriSheet sheet = storm->sheets[0];
+    kiriCut cut;
+    int32_t count;
+    bool isCut = kiriBeginCut(storm->world, sheet, way, &cut) == KIRI_OK &&
+                 kiriCut_Extend(storm->world, cut, way + 2, 1) == KIRI_OK &&
+                 kiriCut_End(storm->world, cut) == KIRI_OK && kiriWorld_Tick(storm->world, 0.01f, 1) >= 0 &&
+                 kiriSheet_GetPiece(storm->world, sheet, 0, &pieces[0]) == KIRI_OK &&
+                 kiriSheet_GetPiece(storm->world, sheet, 1, &pieces[1]) == KIRI_OK;
+    FUZZ_CHECK(isCut, "%s", kiriWorld_GetLastError(storm->world));
+    int32_t strip = pieces[0].area < pieces[1].area ? 0 : 1;
+    bool isGone = kiriSheet_GetPieceFrames(storm->world, sheet, strip, &frames, &count) == KIRI_OK &&
+                  kiriFrame_DestroyPiece(storm->world, frames[0]) == KIRI_OK;
+    FUZZ_CHECK(isGone, "%s", kiriWorld_GetLastError(storm->world));
+}
+
 /* Storms of all types; the later ones have so little budget that each stage of the work on a cut is caught half way. */
 static void StartStorm(Storm* storm, int32_t index, SavedHost* host)
 {
@@ -101,9 +123,13 @@ static void StartStorm(Storm* storm, int32_t index, SavedHost* host)
     storm->type = &Storm_Types[index % STORM_TYPES];
     storm->seed = 1 + (uint32_t)index;
     FUZZ_CHECK(kiriCreateWorld(&def, &storm->world) == KIRI_OK, "no world");
-    AddSmallSheet(storm);
+    bool hasHoles = index >= SAVED_HOLES, isLarge = index >= SAVED_LARGE && !hasHoles;
+    AddSmallSheet(storm, hasHoles ? 66 : 4, isLarge ? 40 : 0);
     if (storm->type->touches) {
-        AddSmallSheet(storm);
+        AddSmallSheet(storm, 4, 0);
+    }
+    if (hasHoles) {
+        LeaveHoles(storm);
     }
     for (int32_t i = 0; storm->type->obstacles && i < STORM_OBSTACLES; ++i) {
         Storm_AddObstacle(storm);
@@ -119,7 +145,7 @@ const Saved* Saved_Get(int32_t index)
     if (saved->base.bytes == NULL) {
         SavedHost host = { 0 };
         StartStorm(&saved->storm, index, &host);
-        for (int32_t tick = 0; tick < 3 + index / 4; ++tick) {
+        for (int32_t tick = 0; tick < (index < SAVED_LARGE ? 3 + index / 4 : 3); ++tick) {
             Storm_Tick(&saved->storm);
         }
         saved->base = Saved_Make(saved->storm.world, NULL);

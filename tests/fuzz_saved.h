@@ -6,7 +6,9 @@
 #include "fuzz.h"
 #include "storm.h"
 
-enum { SAVED_WORLDS = 96, SAVED_HEAD_BYTES = 32, SAVED_SUM_BYTES = 8 };
+/* Those from SAVED_LARGE on have triangles that are large for the grid, and from SAVED_HOLES on a mesh with holes. */
+enum { SAVED_LARGE = 96, SAVED_HOLES = 98, SAVED_WORLDS = 100 };
+enum { SAVED_HEAD_BYTES = 32, SAVED_SUM_BYTES = 8 };
 
 /* Refuses memory where it would hold too much. */
 typedef struct SavedHost {

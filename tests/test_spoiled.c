@@ -178,6 +178,48 @@ static void TestMesh(void** state)
     CHECK_ALL_REFUSED(&host, spoilers);
 }
 
+static void TriangleIsListedTwice(kiriSheetData* sheet)
+{
+    kiriSquares* squares = &sheet->mesh.squares;
+    int32_t square = 0;
+    while (squares->nodes.data[squares->head[square]].next == KIRI_NONE) {
+        ++square;
+    }
+    kiriSquareNode* node = &squares->nodes.data[squares->head[square]];
+    node->triangle = squares->nodes.data[node->next].triangle;
+}
+
+static void TriangleIsElsewhere(kiriSheetData* sheet)
+{
+    kiriSquares* squares = &sheet->mesh.squares;
+    int32_t last = squares->columns * squares->rows - 1;
+    squares->nodes.data[squares->head[last]].triangle = squares->nodes.data[squares->head[0]].triangle;
+}
+
+static void CornerIsNone(kiriSheetData* sheet)
+{
+    sheet->mesh.triangles.data[0].vertex[1] = KIRI_NONE;
+}
+
+/* Triangles whose boxes have few squares are looked at in another way than large ones. */
+static void TestLists(void** state)
+{
+    (void)state;
+    static const Spoiler spoilers[] = {
+        { "TriangleIsListedTwice", TriangleIsListedTwice },
+        { "TriangleIsElsewhere", TriangleIsElsewhere },
+        { "CornerIsNone", CornerIsNone },
+    };
+    for (int32_t grid = 8; grid <= 40; grid += 32) {
+        Host host;
+        Host_Start(&host);
+        kiriSheetDef def = Host_SmallDef();
+        def.gridResolution = grid;
+        Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
+        CHECK_ALL_REFUSED(&host, spoilers);
+    }
+}
+
 /* ---- The layout ---- */
 
 static void FrameIsOfNoPiece(kiriSheetData* sheet)
@@ -885,7 +927,7 @@ int main(void)
         cmocka_unit_test(TestGridAtWork),  cmocka_unit_test(TestRegions),         cmocka_unit_test(TestShape),
         cmocka_unit_test(TestShapeAtWork), cmocka_unit_test(TestLinksAtWork),     cmocka_unit_test(TestWork),
         cmocka_unit_test(TestCorners),     cmocka_unit_test(TestLabels),          cmocka_unit_test(TestCut),
-        cmocka_unit_test(TestSeen),        cmocka_unit_test(TestPiecesElsewhere),
+        cmocka_unit_test(TestSeen),        cmocka_unit_test(TestPiecesElsewhere), cmocka_unit_test(TestLists),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -96,6 +96,28 @@ static void TestStormsGoOn(void** state)
     }
 }
 
+/* Triangles that are large for the grid, and meshes with holes. */
+static void TestMeshesGoOn(void** state)
+{
+    (void)state;
+    for (int32_t world = SAVED_LARGE; world < SAVED_WORLDS; ++world) {
+        const Saved* saved = Saved_Get(world);
+        Host host, trustingHost, otherHost;
+        Host_Start(&host);
+        Host_Start(&trustingHost);
+        Host_Start(&otherHost);
+        OK(kiriWorld_Load(host.world, saved->later.bytes, saved->later.size));
+        const kiriMeshData* mesh = &host.world->sheets.data[0]->mesh;
+        assert_int_equal(mesh->vertexHoles > 0, world >= SAVED_HOLES);
+        Storm storm = saved->storm;
+        storm.world = host.world;
+        CheckGoesOn(&storm, trustingHost.world, otherHost.world, world);
+        Host_Destroy(&host);
+        Host_Destroy(&trustingHost);
+        Host_Destroy(&otherHost);
+    }
+}
+
 /* ---- Work at hand ------------------------------------------------------------------------------------------------ */
 
 enum { ROUND_POINTS = 6, MOST_TICKS = 4000 };
@@ -247,9 +269,8 @@ static void TestMemoryMayBeRefused(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestStormsGoOn),
-        cmocka_unit_test(TestWorkBeginsAgain),
-        cmocka_unit_test(TestMemoryMayBeRefused),
+        cmocka_unit_test(TestStormsGoOn),           cmocka_unit_test(TestMeshesGoOn),
+        cmocka_unit_test(TestWorkBeginsAgain),      cmocka_unit_test(TestMemoryMayBeRefused),
         cmocka_unit_test(TestSmallSavesTakeLittle),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
