@@ -725,6 +725,31 @@ static void SiteIsFarFromItsAnchor(kiriSheetData* sheet)
     sheet->frames.data[0].site.at.x += 0.5;
 }
 
+/* The second point is put where the first one is, but behind it: later ones come first. */
+static void PointsAreTurned(kiriSheetData* sheet)
+{
+    kiriPlaces* places = &sheet->pointPlaces;
+    int32_t* link = &places->head.data[kiriSquares_At(&sheet->mesh.squares, sheet->points.data[1].at)];
+    while (*link != 1) {
+        link = &places->next.data[*link];
+    }
+    *link = places->next.data[1];
+    sheet->points.data[1].at = sheet->points.data[0].at;
+    places->next.data[1] = places->next.data[0];
+    places->next.data[0] = 1;
+}
+
+static void TestPoints(void** state)
+{
+    (void)state;
+    static const Spoiler spoilers[] = {
+        { "PointsAreTurned", PointsAreTurned },
+    };
+    Host host;
+    StartCut(&host);
+    CHECK_ALL_REFUSED(&host, spoilers);
+}
+
 static void TestCorners(void** state)
 {
     (void)state;
@@ -861,6 +886,36 @@ static int32_t FrameOfPiece(const kiriSheetData* sheet, int32_t piece)
     return frame;
 }
 
+/* Nobody follows the links of holes, but they are made anew with all others. */
+static void HoleIsBeforeALaterVertex(kiriSheetData* sheet)
+{
+    int32_t hole = 0;
+    while (kiriMesh_IsVertex(&sheet->mesh, hole)) {
+        ++hole;
+    }
+    sheet->mesh.vertices.data[hole].next = sheet->mesh.vertices.count - 1;
+}
+
+static void TestHoles(void** state)
+{
+    (void)state;
+    static const Spoiler spoilers[] = {
+        { "HoleIsBeforeALaterVertex", HoleIsBeforeALaterVertex },
+    };
+    const float way[4] = { -0.1f, 0.1f, 1.1f, 0.13f };
+    Host host;
+    Host_Start(&host);
+    kiriSheetDef def = Host_SmallDef();
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 66, 66);
+    Host_Cut(&host, sheet, way, 2);
+    OK(Host_Tick(&host, 0.01f, 1));
+    const kiriSheetData* data = host.world->sheets.data[0];
+    int32_t strip = data->layout.pieces.data[0].area < data->layout.pieces.data[1].area ? 0 : 1;
+    OK(kiriFrame_DestroyPiece(host.world, Host_FrameOf(&host, sheet, strip)));
+    assert_true(data->mesh.vertexHoles > 0);
+    CHECK_ALL_REFUSED(&host, spoilers);
+}
+
 /* Each is right where it is, but in the midst of the other piece. */
 static void FramesChangePlaces(kiriSheetData* sheet)
 {
@@ -928,6 +983,7 @@ int main(void)
         cmocka_unit_test(TestShapeAtWork), cmocka_unit_test(TestLinksAtWork),     cmocka_unit_test(TestWork),
         cmocka_unit_test(TestCorners),     cmocka_unit_test(TestLabels),          cmocka_unit_test(TestCut),
         cmocka_unit_test(TestSeen),        cmocka_unit_test(TestPiecesElsewhere), cmocka_unit_test(TestLists),
+        cmocka_unit_test(TestPoints),      cmocka_unit_test(TestHoles),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -125,7 +125,8 @@ static bool IsWithin(const LatticeBox* box, kiriLatticePoint at)
     return at.x > box->low.x && at.x < box->high.x && at.y > box->low.y && at.y < box->high.y;
 }
 
-/* Before triangles, which ask where vertices are. */
+/* Before triangles, which ask where vertices are. Those in a list, and holes that were, lead to earlier ones:
+   kiriKeep_Relink trusts them. */
 static bool ArePlaces(const kiriMeshData* mesh)
 {
     const kiriSquares* squares = &mesh->squares;
@@ -134,7 +135,7 @@ static bool ArePlaces(const kiriMeshData* mesh)
     int32_t holes = 0;
     for (int32_t v = 0; areFine && v < mesh->vertices.count; ++v) {
         const kiriVertex* vertex = &mesh->vertices.data[v];
-        areFine = IsWithin(&box, vertex->at) && ((vertex->at.x | vertex->at.y) & 1) == 0;
+        areFine = IsWithin(&box, vertex->at) && ((vertex->at.x | vertex->at.y) & 1) == 0 && vertex->next < v;
         holes += !kiriMesh_IsVertex(mesh, v);
     }
     return areFine && holes == mesh->vertexHoles;
