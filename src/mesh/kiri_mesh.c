@@ -111,12 +111,14 @@ kiriVec2 kiriMesh_Lean(const kiriMeshData* mesh, int32_t vertex)
     return kiriVec2_Make(0.125 * (b.y - a.y), 0.125 * (a.x - b.x));
 }
 
-/* What lies farther out than four times the sheet's box stays as far out: bytes that were made up may say anything. */
+/* What lies farther out than four times the sheet's box stays as far out, and what is no number is there, too: bytes
+   that were made up may say anything. */
 static int32_t NearestEven(double x)
 {
     const double most = (1 << 30) - 1;
     double half = 0.5 * x + 0.5;
-    half = half > most ? most : half < -most ? -most : half;
+    half = half < most ? half : most;
+    half = half > -most ? half : -most;
     int64_t floor = (int64_t)half;
     floor -= (double)floor > half ? 1 : 0;
     return (int32_t)(2 * floor);
