@@ -74,7 +74,7 @@ static void SaveChange(Sizes* sizes, const kiriWorld* world)
     Series_Add(sizes->isCut ? &sizes->cut : &sizes->calm, 1e-3 * (double)sizes->difference.size);
 }
 
-/* Of nobody's bytes, and of one's own. */
+/* As bytes of others, and as one's own. */
 static kiriResult LoadBase(Sizes* sizes)
 {
     double start = Bench_Clock(NULL);

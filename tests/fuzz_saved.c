@@ -61,7 +61,8 @@ Save Saved_Make(const kiriWorld* world, const Save* base)
     return save;
 }
 
-/* Small, so that of what is changed much matters. `grid`: squares along it; 0: some, about twice as many as of the mesh. */
+/* Small, so that of what is changed much matters. `grid`: squares along it; 0: some, about twice as many as of the
+   mesh. */
 static void AddSmallSheet(Storm* storm, int32_t squares, int32_t grid)
 {
     enum { MOST_SQUARES = 66, MOST_CORNERS = MOST_SQUARES + 1 };

@@ -125,8 +125,8 @@ static bool IsWithin(const LatticeBox* box, kiriLatticePoint at)
     return at.x > box->low.x && at.x < box->high.x && at.y > box->low.y && at.y < box->high.y;
 }
 
-/* Before triangles, which ask where vertices are. Those in a list, and holes that were, lead to earlier ones:
-   kiriKeep_Relink trusts them. */
+/* Before triangles, which ask where vertices are. The link of each vertex leads to an earlier one, also that of a hole,
+   which once was in a list: kiriKeep_Relink follows all of them. */
 static bool ArePlaces(const kiriMeshData* mesh)
 {
     const kiriSquares* squares = &mesh->squares;
