@@ -1,5 +1,7 @@
 #include "kiri_cut.h"
 
+#include "kiri_lip.h"
+
 /* The range of the lattice: the box of the sheet and half its longer side around it. */
 static const double LowestCoordinate = -0.5 * KIRI_LATTICE, HighestCoordinate = 1.5 * KIRI_LATTICE;
 
@@ -7,23 +9,25 @@ static const double LowestCoordinate = -0.5 * KIRI_LATTICE, HighestCoordinate = 
    quota. */
 enum { LOOK_EFFORT = 8, ITEM_EFFORT = 512 };
 
+/* Distances in snaps: corners and edges of the mesh are taken when they are this near, and lips attract the blade from
+   this far. A cut that is drawn has its ends within ON of their points, and keeps within ON of the line between them: so
+   within 2 ON of the line that was drawn. Ends that are a snap apart are within REACH then, and those two snaps apart are
+   not. */
+static const double ON = 0.25, REACH = 1.5;
+enum { SLACK = 16 };
+
 /* One straight move of a blade. The mesh is walked as the plane triangulation that it is, whether edges are open or
    not; only the outline stops the walk. So older cuts are nothing special. */
 typedef struct BladeWalk {
     kiriMeshData* mesh;
-    kiriLatticePoint from, to;
-    double snap;
-    kiriLatticePoint at; /* where the blade is now, */
-    int32_t vertex;      /* and a vertex there; KIRI_NONE outside the sheet */
-    int32_t splits;      /* triangles made or reshaped */
-    int64_t effort;      /* to look around, about ns */
-    bool failed;         /* no memory */
+    kiriBladeTip* tip;
+    double on, reach; /* lattice steps */
+    double slack;     /* lattice steps: vertices nearer to each other would make triangles too thin to split */
+    kiriLatticePoint lineFrom, lineTo; /* the blade keeps to this line */
+    int32_t splits;   /* triangles made or reshaped */
+    int64_t effort;   /* to look around, about ns */
+    bool failed;      /* no memory */
 } BladeWalk;
-
-static bool IsSamePoint(kiriLatticePoint a, kiriLatticePoint b)
-{
-    return a.x == b.x && a.y == b.y;
-}
 
 static kiriLatticePoint VertexPoint(const BladeWalk* walk, int32_t vertex)
 {
@@ -31,22 +35,17 @@ static kiriLatticePoint VertexPoint(const BladeWalk* walk, int32_t vertex)
     return walk->mesh->vertices.data[vertex].at;
 }
 
-static int64_t LatticeDot(kiriLatticePoint o, kiriLatticePoint a, kiriLatticePoint b)
+/* Every step must bring the blade nearer to its goal: so the walk ends, whatever rounding and snapping do. */
+static bool IsNearerGoal(const BladeWalk* walk, kiriLatticePoint p)
 {
-    return ((int64_t)a.x - o.x) * ((int64_t)b.x - o.x) + ((int64_t)a.y - o.y) * ((int64_t)b.y - o.y);
-}
-
-/* Every step must bring the blade nearer to its target: so the walk ends, whatever rounding and snapping do. */
-static bool IsNearerTarget(const BladeWalk* walk, kiriLatticePoint p)
-{
-    return kiriDistanceSquared(p, walk->to) < kiriDistanceSquared(walk->at, walk->to);
+    return kiriDistanceSquared(p, walk->tip->goal) < kiriDistanceSquared(walk->tip->at, walk->tip->goal);
 }
 
 /* Where an edge of the outline passes through a vertex of another part, splitting it is no step, but the
    next step goes on from there. */
 static bool IsNearerOrHere(const BladeWalk* walk, kiriLatticePoint p)
 {
-    return IsNearerTarget(walk, p) || IsSamePoint(walk->at, p);
+    return IsNearerGoal(walk, p) || kiriLattice_IsSame(walk->tip->at, p);
 }
 
 static bool IsWithinDistance(kiriLatticePoint a, kiriLatticePoint b, double distance)
@@ -54,17 +53,12 @@ static bool IsWithinDistance(kiriLatticePoint a, kiriLatticePoint b, double dist
     return (double)kiriDistanceSquared(a, b) <= distance * distance;
 }
 
-/* Is a point so near to the line that the blade was told to follow? Measured from where the move began, not from where
-   the last snap has led: small errors must not add up to a detour. */
-static bool IsOnLine(const BladeWalk* walk, kiriLatticePoint p, double distance)
+/* Is a point so near to the line of the move? Measured from where the move began, not from where the last corner has
+   led: small errors must not add up to a detour. */
+static bool IsOnLine(const BladeWalk* walk, kiriLatticePoint p)
 {
-    double length = sqrt((double)kiriDistanceSquared(walk->from, walk->to));
-    return fabs((double)kiriOrient(walk->from, walk->to, p)) <= distance * length;
-}
-
-static kiriLatticePoint LatticeBetween(kiriLatticePoint a, kiriLatticePoint b, double share)
-{
-    return kiriMesh_Round(kiriVec2_Make(a.x + share * ((double)b.x - a.x), a.y + share * ((double)b.y - a.y)));
+    double length = sqrt((double)kiriDistanceSquared(walk->lineFrom, walk->lineTo));
+    return fabs((double)kiriOrient(walk->lineFrom, walk->lineTo, p)) <= walk->on * length;
 }
 
 static int32_t SplitEdge(BladeWalk* walk, int32_t h, kiriLatticePoint at)
@@ -85,54 +79,33 @@ static int32_t SplitTriangle(BladeWalk* walk, int32_t triangle, kiriLatticePoint
 
 /* ---- Around a vertex --------------------------------------------------------------------------------------------- */
 
-/* Half-edges that leave the point of a vertex, counter-clockwise, over open edges too: from the outline on, or all
-   around. */
-static int32_t FirstAround(const kiriMeshData* mesh, int32_t vertex)
-{
-    int32_t start = mesh->vertices.data[vertex].edge, h = start;
-    for (int32_t twin = kiriMesh_Twin(mesh, h); twin != KIRI_NONE; twin = kiriMesh_Twin(mesh, h)) {
-        h = kiriEdge_Next(twin);
-        if (h == start) {
-            break;
-        }
-    }
-    return h;
-}
-
-/* KIRI_NONE after the last. */
-static int32_t NextAround(const kiriMeshData* mesh, int32_t h, int32_t first)
-{
-    int32_t next = kiriMesh_Twin(mesh, kiriEdge_Previous(h));
-    return next == first ? KIRI_NONE : next;
-}
-
-/* Does the way to the target start in the wedge left of h, from h (with it) to the previous half-edge (without it)? */
+/* Does the way to the goal start in the wedge left of h, from h (with it) to the previous half-edge (without it)? */
 static bool WedgeHolds(const BladeWalk* walk, int32_t h)
 {
     const kiriMeshData* mesh = walk->mesh;
-    int64_t right = kiriOrient(walk->at, VertexPoint(walk, kiriMesh_Tail(mesh, kiriEdge_Next(h))), walk->to);
-    int64_t left = kiriOrient(walk->at, VertexPoint(walk, kiriMesh_Tail(mesh, kiriEdge_Previous(h))), walk->to);
+    int64_t right = kiriOrient(walk->tip->at, VertexPoint(walk, kiriMesh_Tail(mesh, kiriEdge_Next(h))), walk->tip->goal);
+    int64_t left = kiriOrient(walk->tip->at, VertexPoint(walk, kiriMesh_Tail(mesh, kiriEdge_Previous(h))), walk->tip->goal);
     return right >= 0 && left < 0;
 }
 
-/* The half-edge whose wedge holds the way to the target, or KIRI_NONE: the blade leaves the sheet. Where corners of the
+/* The half-edge whose wedge holds the way to the goal, or KIRI_NONE: the blade leaves the sheet. Where corners of the
    outline touch, twins do not lead from one to the other, but their triangles are in the same square. */
 static int32_t FindWedge(BladeWalk* walk)
 {
     const kiriMeshData* mesh = walk->mesh;
-    int32_t first = FirstAround(mesh, walk->vertex), found = KIRI_NONE;
-    for (int32_t h = first; h != KIRI_NONE; h = NextAround(mesh, h, first)) {
+    int32_t first = kiriMesh_FirstAround(mesh, walk->tip->vertex), found = KIRI_NONE;
+    for (int32_t h = first; h != KIRI_NONE; h = kiriMesh_NextAround(mesh, h, first)) {
         walk->effort += LOOK_EFFORT;
         if (WedgeHolds(walk, h)) {
             return h;
         }
     }
-    int32_t slot = mesh->squares.head[kiriSquares_At(&mesh->squares, walk->at)];
+    int32_t slot = mesh->squares.head[kiriSquares_At(&mesh->squares, walk->tip->at)];
     for (; slot != KIRI_NONE; slot = mesh->squares.nodes.data[slot].next) {
         int32_t h = 3 * mesh->squares.nodes.data[slot].triangle;
         walk->effort += LOOK_EFFORT;
         for (int32_t end = h + 3; h < end; ++h) {
-            bool isHere = IsSamePoint(VertexPoint(walk, kiriMesh_Tail(mesh, h)), walk->at);
+            bool isHere = kiriLattice_IsSame(VertexPoint(walk, kiriMesh_Tail(mesh, h)), walk->tip->at);
             if (isHere && (found == KIRI_NONE || h < found) && WedgeHolds(walk, h)) {
                 found = h;
             }
@@ -145,12 +118,12 @@ static int32_t FindWedge(BladeWalk* walk)
 static bool OpenBetween(BladeWalk* walk, int32_t vertex, kiriLatticePoint other)
 {
     const kiriMeshData* mesh = walk->mesh;
-    int32_t first = FirstAround(mesh, vertex);
-    for (int32_t h = first; h != KIRI_NONE; h = NextAround(mesh, h, first)) {
+    int32_t first = kiriMesh_FirstAround(mesh, vertex);
+    for (int32_t h = first; h != KIRI_NONE; h = kiriMesh_NextAround(mesh, h, first)) {
         int32_t previous = kiriEdge_Previous(h);
         walk->effort += 2 * LOOK_EFFORT; /* once more where the fan is torn */
-        bool leaves = IsSamePoint(VertexPoint(walk, kiriMesh_Tail(mesh, kiriEdge_Next(h))), other);
-        if (leaves || IsSamePoint(VertexPoint(walk, kiriMesh_Tail(mesh, previous)), other)) {
+        bool leaves = kiriLattice_IsSame(VertexPoint(walk, kiriMesh_Tail(mesh, kiriEdge_Next(h))), other);
+        if (leaves || kiriLattice_IsSame(VertexPoint(walk, kiriMesh_Tail(mesh, previous)), other)) {
             walk->failed = !kiriMesh_Open(walk->mesh, leaves ? h : previous);
             return !walk->failed;
         }
@@ -179,13 +152,7 @@ static bool IsThin(kiriLatticePoint a, kiriLatticePoint b, kiriLatticePoint c)
 
 static bool IsVertexAt(BladeWalk* walk, kiriLatticePoint at)
 {
-    const kiriMeshData* mesh = walk->mesh;
-    int32_t v = mesh->squares.vertexHead[kiriSquares_At(&mesh->squares, at)];
-    while (v != KIRI_NONE && !IsSamePoint(VertexPoint(walk, v), at)) {
-        walk->effort += LOOK_EFFORT;
-        v = mesh->vertices.data[v].next;
-    }
-    return v != KIRI_NONE;
+    return kiriMesh_VertexAt(walk->mesh, at, &walk->effort) != KIRI_NONE;
 }
 
 /* Has a triangle a corner at this point, with one of these edges: to the next corner, or from the previous one? */
@@ -198,7 +165,7 @@ static bool IsCornerTaken(BladeWalk* walk, kiriLatticePoint at, kiriLatticePoint
         kiriMesh_Corners(mesh, mesh->squares.nodes.data[slot].triangle, c);
         walk->effort += LOOK_EFFORT;
         for (int i = 0; i < 3; ++i) {
-            if (IsSamePoint(c[i], at) && (IsSamePoint(c[(i + 1) % 3], next) || IsSamePoint(c[(i + 2) % 3], previous))) {
+            if (kiriLattice_IsSame(c[i], at) && (kiriLattice_IsSame(c[(i + 1) % 3], next) || kiriLattice_IsSame(c[(i + 2) % 3], previous))) {
                 return true;
             }
         }
@@ -270,8 +237,8 @@ static int32_t NearestEdge(const BladeWalk* walk, int32_t triangle, kiriLatticeP
     int32_t nearest = KIRI_NONE;
     for (int i = 0; i < 3; ++i) {
         kiriLatticePoint a = c[i], b = c[(i + 1) % 3];
-        double share = (double)LatticeDot(a, b, at) / (double)kiriDistanceSquared(a, b);
-        kiriLatticePoint p = LatticeBetween(a, b, share < 0.0 ? 0.0 : share > 1.0 ? 1.0 : share);
+        double share = (double)kiriLattice_Dot(a, b, at) / (double)kiriDistanceSquared(a, b);
+        kiriLatticePoint p = kiriLattice_Between(a, b, share < 0.0 ? 0.0 : share > 1.0 ? 1.0 : share);
         if (nearest == KIRI_NONE || kiriDistanceSquared(p, at) < kiriDistanceSquared(*foot, at)) {
             nearest = 3 * triangle + i;
             *foot = p;
@@ -280,40 +247,81 @@ static int32_t NearestEdge(const BladeWalk* walk, int32_t triangle, kiriLatticeP
     return nearest;
 }
 
+/* Finds a point near this one where the edge can be split, within `on`. Beside a triangle that is only a few lattice steps
+   high it is a little beside the edge, or farther along it, so that new triangles are counter-clockwise. */
+static bool FindSplit(BladeWalk* walk, int32_t h, kiriLatticePoint* at)
+{
+    static const double along[] = { 0.0, 0.125, -0.125, 0.25, -0.25, 0.5, -0.5, 1.0, -1.0 };
+    kiriLatticePoint a = VertexPoint(walk, kiriMesh_Tail(walk->mesh, h)), p = *at,
+                     b = VertexPoint(walk, kiriMesh_Tail(walk->mesh, kiriEdge_Next(h)));
+    double length = sqrt((double)kiriDistanceSquared(a, b)), x = ((double)b.x - a.x) / length,
+           y = ((double)b.y - a.y) / length;
+    bool canSplit = CanSplitEdge(walk, h, p);
+    for (int i = 0; !canSplit && i < 9; ++i) {
+        for (int32_t steps = 1; !canSplit && steps <= SLACK; steps = steps < 0 ? -2 * steps : -steps) {
+            double s = along[i] * walk->on, t = steps == 1 ? 0.0 : steps;
+            p = kiriMesh_Round(kiriVec2_Make(at->x + s * x - t * y, at->y + s * y + t * x));
+            canSplit = CanSplitEdge(walk, h, p);
+        }
+    }
+    *at = p;
+    return canSplit;
+}
+
+/* A vertex for a point of an edge: an end where that is near, or for want of a better; or a new one. */
+static int32_t VertexOnEdge(BladeWalk* walk, int32_t h, kiriLatticePoint at)
+{
+    int32_t a = kiriMesh_Tail(walk->mesh, h), b = kiriMesh_Tail(walk->mesh, kiriEdge_Next(h));
+    bool isFirst = kiriDistanceSquared(VertexPoint(walk, a), at) <= kiriDistanceSquared(VertexPoint(walk, b), at);
+    int32_t near = isFirst ? a : b;
+    bool takesEnd = IsWithinDistance(VertexPoint(walk, near), at, walk->on) || !FindSplit(walk, h, &at);
+    return takesEnd ? near : SplitEdge(walk, h, at);
+}
+
 /* A vertex for a point in the triangle: a corner or a point of an edge where they are near, or a new one inside. */
 static int32_t VertexIn(BladeWalk* walk, int32_t triangle, kiriLatticePoint at)
 {
     int32_t corner = NearestCorner(walk, triangle, at);
-    if (IsWithinDistance(VertexPoint(walk, corner), at, walk->snap)) {
+    if (IsWithinDistance(VertexPoint(walk, corner), at, walk->on)) {
         return corner;
     }
     kiriLatticePoint foot;
     int32_t h = NearestEdge(walk, triangle, at, &foot);
-    if (IsWithinDistance(foot, at, walk->snap) && CanSplitEdge(walk, h, foot)) {
+    if (IsWithinDistance(foot, at, walk->on) && FindSplit(walk, h, &foot)) {
         return SplitEdge(walk, h, foot);
     }
     return CanSplitTriangle(walk, triangle, at) ? SplitTriangle(walk, triangle, at) : corner;
 }
 
-/* A vertex where the way to the target crosses half-edge h: one of its ends where that is near, or a new one, or an end
+/* A vertex where the way to the goal crosses half-edge h: one of its ends where that is near, or a new one, or an end
    for want of a better. KIRI_NONE: there is none that brings the blade nearer. */
 static int32_t VertexOn(BladeWalk* walk, int32_t h)
 {
     int32_t a = kiriMesh_Tail(walk->mesh, h), b = kiriMesh_Tail(walk->mesh, kiriEdge_Next(h));
-    kiriLatticePoint pa = VertexPoint(walk, a), pb = VertexPoint(walk, b);
-    double toA = (double)kiriOrient(walk->at, walk->to, pa), toB = (double)kiriOrient(walk->at, walk->to, pb);
+    kiriLatticePoint pa = VertexPoint(walk, a), pb = VertexPoint(walk, b), at = walk->tip->at, goal = walk->tip->goal;
+    double toA = (double)kiriOrient(at, goal, pa), toB = (double)kiriOrient(at, goal, pb);
     double share = toA / (toA - toB);
-    kiriLatticePoint crossing = LatticeBetween(pa, pb, share);
+    kiriLatticePoint crossing = kiriLattice_Between(pa, pb, share);
     int32_t near = share < 0.5 ? a : b, far = share < 0.5 ? b : a;
-    bool canTake = IsNearerTarget(walk, VertexPoint(walk, near));
-    if (canTake && IsWithinDistance(VertexPoint(walk, near), crossing, walk->snap) &&
-        IsOnLine(walk, VertexPoint(walk, near), 2.0 * walk->snap)) {
+    bool canTake = IsNearerGoal(walk, VertexPoint(walk, near));
+    kiriLatticePoint p = VertexPoint(walk, near);
+    bool isNear = IsWithinDistance(p, crossing, walk->slack) ||
+                  (IsWithinDistance(p, crossing, walk->on) && IsOnLine(walk, p));
+    if (canTake && isNear) {
         return near;
     }
-    if (IsNearerOrHere(walk, crossing) && CanSplitEdge(walk, h, crossing)) {
+    if (FindSplit(walk, h, &crossing) && IsNearerOrHere(walk, crossing)) {
         return SplitEdge(walk, h, crossing);
     }
-    return canTake ? near : IsNearerTarget(walk, VertexPoint(walk, far)) ? far : KIRI_NONE;
+    return canTake ? near : IsNearerGoal(walk, VertexPoint(walk, far)) ? far : KIRI_NONE;
+}
+
+static void MoveTo(BladeWalk* walk, int32_t vertex)
+{
+    if (!walk->failed) {
+        walk->tip->vertex = vertex;
+        walk->tip->at = VertexPoint(walk, vertex);
+    }
 }
 
 /* ---- Into the sheet ---------------------------------------------------------------------------------------------- */
@@ -323,11 +331,11 @@ static int32_t VertexOn(BladeWalk* walk, int32_t h)
 static double EntryOver(const BladeWalk* walk, int32_t h)
 {
     const kiriMeshData* mesh = walk->mesh;
-    kiriLatticePoint a = VertexPoint(walk, kiriMesh_Tail(mesh, h)),
+    kiriLatticePoint a = VertexPoint(walk, kiriMesh_Tail(mesh, h)), at = walk->tip->at, goal = walk->tip->goal,
                      b = VertexPoint(walk, kiriMesh_Tail(mesh, kiriEdge_Next(h)));
-    int64_t here = kiriOrient(a, b, walk->at), there = kiriOrient(a, b, walk->to);
-    if (kiriMesh_Twin(mesh, h) != KIRI_NONE || here > 0 || there <= 0 || IsSamePoint(a, walk->at) ||
-        IsSamePoint(b, walk->at) || kiriOrient(walk->at, walk->to, a) < 0 || kiriOrient(walk->at, walk->to, b) > 0) {
+    int64_t here = kiriOrient(a, b, at), there = kiriOrient(a, b, goal);
+    if (kiriMesh_Twin(mesh, h) != KIRI_NONE || here > 0 || there <= 0 || kiriLattice_IsSame(a, at) || kiriLattice_IsSame(b, at) ||
+        kiriOrient(at, goal, a) < 0 || kiriOrient(at, goal, b) > 0) {
         return 2.0;
     }
     return (double)-here / ((double)there - (double)here);
@@ -355,111 +363,219 @@ static void FindEntryInSquare(BladeWalk* walk, int32_t square, SheetEntry* entry
     }
 }
 
-/* The first and last of `count` squares of a column or row, which begins at `start`, between two coordinates in any
-   order, and two steps more. */
-static void SquaresBetween(int32_t side, int32_t start, int32_t count, double a, double b, int32_t* first,
-                           int32_t* last)
-{
-    double from = (double)start * side, low = (a < b ? a : b) - 1.0 - from, high = (a < b ? b : a) + 3.0 - from;
-    *first = low <= 0.0 ? 0 : (int32_t)(low / side);
-    *last = high < 0.0 ? -1 : (int32_t)(high / side);
-    *last = *last < count ? *last : count - 1;
-}
-
-/* Where the way to the target comes into the sheet first. Only squares along the way are looked at, row by row. */
-static int32_t FindSheetEntry(BladeWalk* walk)
-{
-    const kiriSquares* squares = &walk->mesh->squares;
-    double dx = (double)walk->to.x - walk->at.x, dy = (double)walk->to.y - walk->at.y;
-    int32_t firstRow, lastRow, first, last;
-    SheetEntry entry = { KIRI_NONE, 2.0 };
-    SquaresBetween(squares->side, squares->firstRow, squares->rows, walk->at.y, walk->to.y, &firstRow, &lastRow);
-    for (int32_t row = firstRow; row <= lastRow; ++row) {
-        double low = (((double)squares->firstRow + row) * squares->side - 3.0 - walk->at.y) / (dy != 0.0 ? dy : 1.0);
-        double high = low + ((double)squares->side + 4.0) / (dy != 0.0 ? dy : 1.0);
-        double enter = low < high ? low : high, leave = low < high ? high : low;
-        enter = dy == 0.0 || enter < 0.0 ? 0.0 : enter;
-        leave = dy == 0.0 || leave > 1.0 ? 1.0 : leave;
-        SquaresBetween(squares->side, squares->firstColumn, squares->columns, walk->at.x + enter * dx,
-                       walk->at.x + leave * dx, &first, &last);
-        for (int32_t column = first; column <= last; ++column) {
-            FindEntryInSquare(walk, row * squares->columns + column, &entry);
-        }
-    }
-    return entry.edge;
-}
-
-/* From outside, or from the outline outwards: to the next point of the sheet, or all the way to the target. */
+/* From outside, or from the outline outwards: to where the way to the goal comes into the sheet first, or all the way to
+   the goal. */
 static bool EnterSheet(BladeWalk* walk)
 {
-    int32_t h = FindSheetEntry(walk);
-    walk->vertex = h == KIRI_NONE ? KIRI_NONE : VertexOn(walk, h);
-    walk->at = walk->vertex == KIRI_NONE ? walk->to : VertexPoint(walk, walk->vertex);
+    SheetEntry entry = { KIRI_NONE, 2.0 };
+    kiriStrips strips = kiriStrips_Begin(&walk->mesh->squares, walk->tip->at, walk->tip->goal, 0.0);
+    while (kiriStrips_Next(&strips)) {
+        for (int32_t i = 0; i < strips.count; ++i) {
+            FindEntryInSquare(walk, strips.square + i * strips.stride, &entry);
+        }
+    }
+    int32_t vertex = entry.edge == KIRI_NONE ? kiriMesh_VertexAt(walk->mesh, walk->tip->goal, &walk->effort)
+                                             : VertexOn(walk, entry.edge);
+    walk->tip->vertex = vertex;
+    walk->tip->at = vertex == KIRI_NONE ? walk->tip->goal : VertexPoint(walk, vertex);
     return !walk->failed;
 }
 
 /* ---- Through the sheet ------------------------------------------------------------------------------------------- */
 
-/* Can the blade go along the edge to this end of it? It must not go past the target. */
+/* Can the blade go along the edge to this end of it? It must not go past the goal. */
 static bool CanFollow(const BladeWalk* walk, int32_t vertex)
 {
-    kiriLatticePoint p = VertexPoint(walk, vertex);
-    return IsNearerTarget(walk, p) && LatticeDot(walk->to, p, walk->at) > 0 && IsOnLine(walk, p, walk->snap);
+    kiriLatticePoint p = VertexPoint(walk, vertex), goal = walk->tip->goal;
+    return kiriLattice_IsSame(p, goal) ||
+           (IsNearerGoal(walk, p) && kiriLattice_Dot(goal, p, walk->tip->at) > 0 && IsOnLine(walk, p));
 }
 
-/* The next vertex in the triangle left of h, whose wedge holds the way to the target. KIRI_NONE: the blade stops. */
+/* The next vertex in the triangle left of h, whose wedge holds the way to the goal. KIRI_NONE: the blade stops. */
 static int32_t NextVertex(BladeWalk* walk, int32_t h)
 {
     int32_t opposite = kiriEdge_Next(h);
     int32_t a = kiriMesh_Tail(walk->mesh, opposite), b = kiriMesh_Tail(walk->mesh, kiriEdge_Next(opposite));
-    if (CanFollow(walk, a) || CanFollow(walk, b)) {
-        return CanFollow(walk, a) ? a : b;
+    bool takesA = CanFollow(walk, a), takesB = CanFollow(walk, b);
+    if (takesA && takesB) {
+        return kiriLattice_IsSame(VertexPoint(walk, b), walk->tip->goal) ? b : a;
     }
-    if (kiriOrient(VertexPoint(walk, a), VertexPoint(walk, b), walk->to) < 0) {
+    if (takesA || takesB) {
+        return takesA ? a : b;
+    }
+    if (kiriOrient(VertexPoint(walk, a), VertexPoint(walk, b), walk->tip->goal) < 0) {
         return VertexOn(walk, opposite);
     }
-    int32_t vertex = VertexIn(walk, h / 3, walk->to);
-    return vertex != KIRI_NONE && IsNearerTarget(walk, VertexPoint(walk, vertex)) ? vertex : KIRI_NONE;
+    /* The goal is a vertex of another part, which touches this one, or lies on it by a few lattice steps. */
+    int32_t vertex = VertexIn(walk, h / 3, walk->tip->goal);
+    return vertex != KIRI_NONE && IsNearerGoal(walk, VertexPoint(walk, vertex)) ? vertex : KIRI_NONE;
 }
 
-/* The blade starts amid a triangle: it needs a vertex there. */
-static void StartInTriangle(BladeWalk* walk, int32_t triangle)
-{
-    walk->vertex = VertexIn(walk, triangle, walk->at);
-    walk->at = walk->failed ? walk->at : VertexPoint(walk, walk->vertex);
-}
-
-/* A triangle under the blade. */
-static int32_t LocateBlade(BladeWalk* walk)
-{
-    const kiriSquares* squares = &walk->mesh->squares;
-    int32_t square = kiriSquares_At(squares, walk->at);
-    for (int32_t n = square == KIRI_NONE ? KIRI_NONE : squares->head[square]; n != KIRI_NONE;
-         n = squares->nodes.data[n].next) {
-        walk->effort += LOOK_EFFORT;
-    }
-    return kiriMesh_Locate(walk->mesh, walk->at);
-}
-
-/* One step of the walk. False: the blade is where it can get, or there is no memory. */
+/* One step of the walk to the goal. False: the blade is where it can get, or there is no memory. */
 static bool StepBlade(BladeWalk* walk)
 {
-    int32_t triangle = walk->vertex == KIRI_NONE ? LocateBlade(walk) : KIRI_NONE;
-    if (triangle != KIRI_NONE) {
-        StartInTriangle(walk, triangle);
-        return !walk->failed;
-    }
-    int32_t h = walk->vertex == KIRI_NONE ? KIRI_NONE : FindWedge(walk);
+    int32_t h = walk->tip->vertex == KIRI_NONE ? KIRI_NONE : FindWedge(walk);
     if (h == KIRI_NONE) {
         return EnterSheet(walk);
     }
     int32_t here = kiriMesh_Tail(walk->mesh, h), next = NextVertex(walk, h);
-    if (next == KIRI_NONE || !OpenBetween(walk, here, VertexPoint(walk, next))) {
+    if (next == KIRI_NONE || walk->failed || !OpenBetween(walk, here, VertexPoint(walk, next))) {
         return false;
     }
-    walk->vertex = next;
-    walk->at = VertexPoint(walk, next);
+    MoveTo(walk, next);
     return true;
+}
+
+/* ---- A move ------------------------------------------------------------------------------------------------------ */
+
+static kiriCorridor CorridorOf(const BladeWalk* walk, kiriLatticePoint from, kiriLatticePoint to)
+{
+    return kiriCorridor_Make(walk->mesh, from, to, walk->on + walk->slack, walk->reach);
+}
+
+/* A triangle at a point, or KIRI_NONE. */
+static int32_t LocatePoint(BladeWalk* walk, kiriLatticePoint at)
+{
+    const kiriSquares* squares = &walk->mesh->squares;
+    int32_t square = kiriSquares_At(squares, at);
+    for (int32_t n = square == KIRI_NONE ? KIRI_NONE : squares->head[square]; n != KIRI_NONE;
+         n = squares->nodes.data[n].next) {
+        walk->effort += LOOK_EFFORT;
+    }
+    return kiriMesh_Locate(walk->mesh, at);
+}
+
+/* The first point of a stroke: on a lip that is near, where the line meets it if it does; else a vertex of its own. */
+static void Start(BladeWalk* walk, kiriLatticePoint to)
+{
+    kiriBladeTip* tip = walk->tip;
+    int32_t triangle = LocatePoint(walk, tip->at);
+    if (triangle != KIRI_NONE) {
+        kiriCorridor back = CorridorOf(walk, to, tip->at);
+        kiriLipsNear near = kiriLip_FindNear(&back, KIRI_NONE);
+        walk->effort += back.effort;
+        MoveTo(walk, near.other.edge != KIRI_NONE ? VertexOnEdge(walk, near.other.edge, near.other.at)
+                                                  : VertexIn(walk, triangle, tip->at));
+    }
+    tip->phase = KIRI_BLADE_AIMS;
+}
+
+/* Where the move ends: on a lip that is near, or at a vertex of its own. Lips that lead there along the line leave
+   nothing to cut. */
+static void Aim(BladeWalk* walk, kiriLatticePoint to)
+{
+    kiriBladeTip* tip = walk->tip;
+    int32_t triangle = LocatePoint(walk, to), vertex = KIRI_NONE;
+    tip->from = tip->lip = tip->at;
+    tip->to = to;
+    tip->phase = KIRI_BLADE_LOOKS;
+    if (triangle != KIRI_NONE) {
+        kiriCorridor corridor = CorridorOf(walk, tip->at, to);
+        kiriLipsNear near = kiriLip_FindNear(&corridor, tip->vertex);
+        walk->effort += corridor.effort;
+        if (near.other.edge != KIRI_NONE) {
+            vertex = VertexOnEdge(walk, near.other.edge, near.other.at);
+        } else if (near.own.edge != KIRI_NONE && !kiriLattice_IsSame(near.own.at, tip->at)) {
+            MoveTo(walk, VertexOnEdge(walk, near.own.edge, near.own.at));
+            vertex = tip->vertex;
+        } else if (tip->vertex != KIRI_NONE && IsWithinDistance(tip->at, to, walk->on)) {
+            vertex = tip->vertex;
+        } else {
+            vertex = VertexIn(walk, triangle, to);
+        }
+        tip->to = walk->failed ? to : VertexPoint(walk, vertex);
+    }
+    if (kiriLattice_IsSame(tip->at, tip->to)) {
+        tip->phase = KIRI_BLADE_RESTS;
+    }
+}
+
+/* The next goal: a lip on the line, the place beside a lip that is to be joined, or the end. */
+static void Look(BladeWalk* walk)
+{
+    kiriBladeTip* tip = walk->tip;
+    kiriCorridor corridor = CorridorOf(walk, tip->from, tip->to);
+    kiriLipStop stop;
+    bool isFound = kiriLip_FindStop(&corridor, tip->lip, &stop);
+    tip->goal = tip->lip = tip->to;
+    if (isFound) {
+        int32_t triangle = kiriLattice_IsSame(stop.foot, stop.at) ? KIRI_NONE : LocatePoint(walk, stop.foot);
+        tip->lip = stop.at;
+        tip->goal = triangle == KIRI_NONE ? stop.at : stop.foot;
+        if (triangle != KIRI_NONE) {
+            int32_t foot = VertexIn(walk, triangle, stop.foot);
+            tip->goal = walk->failed ? stop.foot : VertexPoint(walk, foot);
+        }
+    }
+    walk->effort += corridor.effort;
+    tip->phase = KIRI_BLADE_WALKS;
+}
+
+/* Goes on along a lip where that comes back on the line before the goal. */
+static bool FollowLip(BladeWalk* walk)
+{
+    kiriBladeTip* tip = walk->tip;
+    kiriCorridor corridor = CorridorOf(walk, tip->from, tip->to);
+    kiriLipPoint place;
+    bool follows = tip->vertex != KIRI_NONE && kiriLip_Follow(&corridor, tip->vertex, tip->goal, &place);
+    walk->effort += corridor.effort;
+    int32_t vertex = follows ? VertexOnEdge(walk, place.edge, place.at) : KIRI_NONE;
+    follows = follows && !walk->failed && IsNearerGoal(walk, VertexPoint(walk, vertex));
+    if (follows) {
+        MoveTo(walk, vertex);
+    }
+    return follows;
+}
+
+static void Walk(BladeWalk* walk)
+{
+    kiriBladeTip* tip = walk->tip;
+    bool joins = !kiriLattice_IsSame(tip->goal, tip->lip);
+    if (!FollowLip(walk) && !StepBlade(walk)) {
+        tip->phase = KIRI_BLADE_RESTS;
+    } else if (kiriLattice_IsSame(tip->at, tip->goal) || (joins && IsWithinDistance(tip->at, tip->goal, walk->slack))) {
+        tip->phase = joins                                  ? KIRI_BLADE_JOINS
+                     : kiriLattice_IsSame(tip->at, tip->to) ? KIRI_BLADE_RESTS
+                                                            : KIRI_BLADE_LOOKS;
+        tip->goal = joins ? tip->lip : tip->at;
+        tip->lip = tip->at;
+    }
+}
+
+/* To the lip, and back along the cut that this makes. */
+static void Join(BladeWalk* walk)
+{
+    kiriBladeTip* tip = walk->tip;
+    if (!StepBlade(walk) || kiriLattice_IsSame(tip->at, tip->goal)) {
+        tip->at = tip->lip;
+        tip->lip = tip->goal;
+        tip->vertex = kiriMesh_VertexAt(walk->mesh, tip->at, &walk->effort);
+        tip->phase = kiriLattice_IsSame(tip->at, tip->to) ? KIRI_BLADE_RESTS : KIRI_BLADE_LOOKS;
+    }
+}
+
+static void TakeStep(BladeWalk* walk, kiriLatticePoint to)
+{
+    bool joins = walk->tip->phase == KIRI_BLADE_JOINS;
+    walk->lineFrom = joins ? walk->tip->lip : walk->tip->from;
+    walk->lineTo = joins ? walk->tip->goal : walk->tip->to;
+    switch (walk->tip->phase) {
+    case KIRI_BLADE_STARTS:
+        Start(walk, to);
+        break;
+    case KIRI_BLADE_AIMS:
+        Aim(walk, to);
+        break;
+    case KIRI_BLADE_LOOKS:
+        Look(walk);
+        break;
+    case KIRI_BLADE_WALKS:
+        Walk(walk);
+        break;
+    default:
+        Join(walk);
+        break;
+    }
 }
 
 /* The items of a step that is done. */
@@ -474,26 +590,24 @@ static int64_t CountItems(BladeWalk* walk)
 
 kiriProgress kiriCut_Move(kiriMeshData* mesh, kiriBladeTip* blade, kiriLatticePoint to, double snap, kiriQuota* quota)
 {
-    BladeWalk walk = { mesh, blade->isOnItsWay ? blade->from : blade->at, to, snap, blade->at, blade->vertex, 0, 0,
-                       false };
-    bool isOnItsWay = !IsSamePoint(walk.from, to);
+    kiriBladeTip tip = *blade;
+    double on = ON * snap;
+    BladeWalk walk = { mesh, &tip, on, REACH * snap, on < SLACK ? on : SLACK, tip.at, to, 0, 0, false };
     KIRI_ASSERT(mesh->isOpen && quota->left >= 0 && snap >= 0.0);
-    KIRI_ASSERT(blade->vertex == KIRI_NONE || IsSamePoint(VertexPoint(&walk, blade->vertex), blade->at));
+    KIRI_ASSERT(tip.vertex == KIRI_NONE || kiriLattice_IsSame(VertexPoint(&walk, tip.vertex), tip.at));
     mesh->squares.effort = 0;
-    int64_t owed = blade->owed;
-    while (kiriQuota_Pay(quota, &owed) && isOnItsWay && quota->left >= KIRI_MOST_SPLITS) {
-        isOnItsWay = StepBlade(&walk) && !IsSamePoint(walk.at, to);
-        owed = CountItems(&walk);
+    if (tip.phase == KIRI_BLADE_RESTS && !kiriLattice_IsSame(tip.at, to)) {
+        tip.phase = tip.vertex == KIRI_NONE ? KIRI_BLADE_STARTS : KIRI_BLADE_AIMS;
+    }
+    while (kiriQuota_Pay(quota, &tip.owed) && tip.phase != KIRI_BLADE_RESTS && quota->left >= KIRI_MOST_SPLITS) {
+        TakeStep(&walk, to);
+        tip.owed = CountItems(&walk);
     }
     if (walk.failed) {
         return KIRI_FAILED;
     }
-    blade->owed = owed;
-    blade->at = walk.at;
-    blade->vertex = walk.vertex;
-    blade->isOnItsWay = isOnItsWay;
-    blade->from = walk.from;
-    return isOnItsWay ? KIRI_MORE : KIRI_DONE;
+    *blade = tip;
+    return tip.phase == KIRI_BLADE_RESTS ? KIRI_DONE : KIRI_MORE;
 }
 
 static double ClampCoordinate(double x, double low, double high)
@@ -503,15 +617,9 @@ static double ClampCoordinate(double x, double low, double high)
 
 kiriBladeTip kiriCut_Place(const kiriMeshData* mesh, kiriVec2 local)
 {
-    kiriBladeTip blade;
-    blade.at =
+    return kiriCut_PlaceAt(
         kiriMesh_Round(kiriVec2_Make(ClampCoordinate(local.x / mesh->step, LowestCoordinate, HighestCoordinate),
-                                     ClampCoordinate(local.y / mesh->step, LowestCoordinate, HighestCoordinate)));
-    blade.vertex = KIRI_NONE;
-    blade.isOnItsWay = false;
-    blade.from = blade.at;
-    blade.owed = 0;
-    return blade;
+                                     ClampCoordinate(local.y / mesh->step, LowestCoordinate, HighestCoordinate))));
 }
 
 /* Cuts off what is above the limit on one axis, or below it. (u, v) of an end: its coordinates on this axis and on the

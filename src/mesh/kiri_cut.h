@@ -7,27 +7,50 @@
 
 KIRI_C_BEGIN
 
+/* What a move of the blade does next. */
+enum kiriBladePhase {
+    KIRI_BLADE_RESTS,  /* the last move is done */
+    KIRI_BLADE_STARTS, /* makes a vertex where it is */
+    KIRI_BLADE_AIMS,   /* finds the place where the move ends */
+    KIRI_BLADE_LOOKS,  /* finds the next lip on the way */
+    KIRI_BLADE_WALKS,  /* goes there, or to the end */
+    KIRI_BLADE_JOINS   /* cuts from the line to a lip beside it, and comes back */
+};
+
 /* Where the blade is. */
 typedef struct kiriBladeTip {
     kiriLatticePoint at;
-    int32_t vertex;        /* a vertex at that point, or KIRI_NONE: not in the sheet, or not yet moved */
-    bool isOnItsWay;       /* the last move was interrupted, */
-    kiriLatticePoint from; /* and began here */
-    int64_t owed;          /* items of the quota for what is done already */
+    int32_t vertex; /* a vertex at that point, or KIRI_NONE: not in the sheet, or not yet moved */
+    int32_t phase;  /* kiriBladePhase */
+    kiriLatticePoint from, to; /* the line of the move at work */
+    kiriLatticePoint goal;     /* the next place on its way; KIRI_BLADE_JOINS: the lip */
+    kiriLatticePoint lip;      /* KIRI_BLADE_WALKS: what it joins at the goal; the goal itself: nothing. KIRI_BLADE_JOINS:
+                                  where it left the line. KIRI_BLADE_LOOKS: the last lip that it met */
+    int64_t owed;              /* items of the quota for what is done already */
 } kiriBladeTip;
 
 /* A step of the blade, from vertex to vertex, splits an edge or a triangle at most: so many triangles are made or
    reshaped. Less in a quota takes the blade nowhere. */
 enum { KIRI_MOST_SPLITS = 4 };
 
-/* Moves the blade to `to` in a straight line and cuts on the way; it may leave the sheet and come back. `snap` (lattice
-   steps): a vertex or edge this near is taken instead of making a new one; the cut stays within two snaps of the line.
+/* Moves the blade to `to` in a straight line and cuts on the way; it may leave the sheet and come back. `snap`, in
+   lattice steps, says what is near. The cut keeps within half of it of the line, and takes corners and edges of the mesh
+   a quarter of it away. Lips and the outline attract it from farther, by 3/2: an end of the move meets the lip there,
+   and so do the ends of lips that the line passes. So ends of lines that are a snap apart always meet, and those two
+   snaps apart never do. A line along a lip cuts nothing.
    A step takes an item of the quota for each triangle that it makes or reshapes, and one where it finds its way
    without; and more where it looks at many squares, at many triangles in one, or around a vertex with many. What
    is more than there is left the next call takes first. KIRI_MORE: less than KIRI_MOST_SPLITS is left, and the blade is
    on its way; a call with the same `to` goes on, and in the end the mesh is what one call had made of it, bit for bit.
    KIRI_FAILED: roll the mesh back; the blade is then where it was before the call. */
 kiriProgress kiriCut_Move(kiriMeshData* mesh, kiriBladeTip* blade, kiriLatticePoint to, double snap, kiriQuota* quota);
+
+/* A blade at a lattice point, for kiriCut_Move. */
+static inline kiriBladeTip kiriCut_PlaceAt(kiriLatticePoint at)
+{
+    kiriBladeTip blade = { at, KIRI_NONE, KIRI_BLADE_RESTS, at, at, at, at, 0 };
+    return blade;
+}
 
 /* The blade at a rest point (local), for kiriCut_Move. Positions far outside are pulled in to the edge of
    the lattice's range; pass segments through kiriCut_Clip first where that matters. */

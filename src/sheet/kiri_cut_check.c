@@ -4,13 +4,18 @@ static const kiriMust TipMust[] = {
     KIRI_REALS(kiriTip, last, last),
     KIRI_INDEX_OR_NONE(KIRI_OF_VERTICES, kiriTip, blade.vertex, blade.vertex),
     KIRI_COUNTS(kiriTip, blade.owed, blade.owed),
+    KIRI_WITHIN(KIRI_BLADE_RESTS, KIRI_BLADE_JOINS, kiriTip, blade.phase, blade.phase),
 };
 
 static bool IsTip(kiriCheck* check, const kiriSheetData* sheet, const kiriTip* tip)
 {
     const kiriBladeTip* blade = &tip->blade;
     bool isFine = kiriCheck_Object(check, TipMust, tip) &&
-                  kiriCheck_That(check, kiriLattice_Has(blade->at) && kiriLattice_Has(blade->from));
+                  kiriCheck_That(check, kiriLattice_Has(blade->at) && kiriLattice_Has(blade->from) &&
+                                            kiriLattice_Has(blade->to) && kiriLattice_Has(blade->goal) &&
+                                            kiriLattice_Has(blade->lip)) &&
+                  kiriCheck_That(check, blade->phase < KIRI_BLADE_LOOKS || blade->from.x != blade->to.x ||
+                                            blade->from.y != blade->to.y);
     if (isFine && blade->vertex != KIRI_NONE) {
         kiriLatticePoint at = sheet->mesh.vertices.data[blade->vertex].at;
         isFine = kiriMesh_IsVertex(&sheet->mesh, blade->vertex) && at.x == blade->at.x && at.y == blade->at.y;

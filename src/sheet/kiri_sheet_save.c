@@ -232,9 +232,7 @@ static const kiriMember UpdateTickMembers[] = {
 static const kiriTable UpdateTickTable = KIRI_TABLE(kiriUpdate, UpdateTickMembers);
 
 static const kiriMember BladeTipMembers[] = {
-    KIRI_RUN(4, kiriBladeTip, at, vertex),
-    KIRI_BOOLS(kiriBladeTip, isOnItsWay, isOnItsWay),
-    KIRI_RUN(4, kiriBladeTip, from, from),
+    KIRI_RUN(4, kiriBladeTip, at, lip),
     KIRI_RUN(8, kiriBladeTip, owed, owed),
 };
 static const kiriTable BladeTipTable = KIRI_TABLE(kiriBladeTip, BladeTipMembers);

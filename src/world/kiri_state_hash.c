@@ -355,6 +355,9 @@ static void HashWaiting(uint64_t* hash, const kiriWorld* world, const kiriSheetD
         HashVec2(hash, sheet->cuts.data[i]->tip.last);
         HashPoint(hash, sheet->cuts.data[i]->tip.blade.at);
         kiriHash_Int32(hash, sheet->cuts.data[i]->tip.blade.vertex);
+        if (sheet->cuts.data[i]->tip.blade.phase != KIRI_BLADE_RESTS) {
+            kiriHash_Int32(hash, sheet->cuts.data[i]->tip.blade.phase);
+        }
         if (sheet->cuts.data[i]->tip.blade.owed > 0) {
             kiriHash_Int64(hash, sheet->cuts.data[i]->tip.blade.owed);
         }

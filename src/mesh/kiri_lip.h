@@ -1,0 +1,94 @@
+/* Lips near a point or along a line: what a blade joins. A lip is an edge that a cut has opened; here the outline of the
+   sheet counts as a lip, too. */
+#ifndef KIRI_LIP_H
+#define KIRI_LIP_H
+
+#include "kiri_mesh.h"
+
+KIRI_C_BEGIN
+
+/* A strip around a directed line. Distances are lattice steps. */
+typedef struct kiriCorridor {
+    const kiriMeshData* mesh;
+    kiriLatticePoint from, to;
+    double length;
+    double on;      /* points this near are on the line */
+    double reach;   /* half the width of the strip */
+    int64_t effort; /* about ns */
+} kiriCorridor;
+
+kiriCorridor kiriCorridor_Make(const kiriMeshData* mesh, kiriLatticePoint from, kiriLatticePoint to, double on,
+                               double reach);
+
+/* Returns the distance from the line, positive on its left. */
+double kiriCorridor_Side(const kiriCorridor* corridor, kiriLatticePoint p);
+
+/* Returns the way along the line, times the length of the line. Exact. */
+int64_t kiriCorridor_Progress(const kiriCorridor* corridor, kiriLatticePoint p);
+
+/* Half-edges that leave the point of a vertex, counter-clockwise, over open edges too: from the outline on, or all
+   around. NextAround returns KIRI_NONE after the last. */
+int32_t kiriMesh_FirstAround(const kiriMeshData* mesh, int32_t vertex);
+int32_t kiriMesh_NextAround(const kiriMeshData* mesh, int32_t h, int32_t first);
+
+/* Returns the newest vertex at a point, or KIRI_NONE. */
+int32_t kiriMesh_VertexAt(const kiriMeshData* mesh, kiriLatticePoint at, int64_t* effort);
+
+/* Returns (a - o) (b - o). Exact. */
+static inline int64_t kiriLattice_Dot(kiriLatticePoint o, kiriLatticePoint a, kiriLatticePoint b)
+{
+    return ((int64_t)a.x - o.x) * ((int64_t)b.x - o.x) + ((int64_t)a.y - o.y) * ((int64_t)b.y - o.y);
+}
+
+static inline bool kiriLattice_IsSame(kiriLatticePoint a, kiriLatticePoint b)
+{
+    return a.x == b.x && a.y == b.y;
+}
+
+/* Rounds the point at this share of the way from a to b. */
+kiriLatticePoint kiriLattice_Between(kiriLatticePoint a, kiriLatticePoint b, double share);
+
+/* A point on a lip. */
+typedef struct kiriLipPoint {
+    int32_t edge; /* a half-edge of the lip; KIRI_NONE: there is no lip */
+    kiriLatticePoint at;
+} kiriLipPoint;
+
+/* What a blade at corridor->from meets at corridor->to. */
+typedef struct kiriLipsNear {
+    kiriLipPoint own;   /* the nearest point of a lip that leads there from `vertex` without leaving the corridor */
+    kiriLipPoint other; /* of another lip: where the line meets it, else its nearest point */
+} kiriLipsNear;
+
+/* `vertex` is where the blade is, or KIRI_NONE. */
+kiriLipsNear kiriLip_FindNear(kiriCorridor* corridor, int32_t vertex);
+
+/* Follows lips from a vertex on, within the corridor, to the first place where they come back on the line; it is at most
+   as far as `limit`. False where they do not. */
+bool kiriLip_Follow(kiriCorridor* corridor, int32_t vertex, kiriLatticePoint limit, kiriLipPoint* place);
+
+/* A vertex of a lip that a cut along the line joins. */
+typedef struct kiriLipStop {
+    kiriLatticePoint foot; /* where the cut leaves the line for it; `at` where it is on the line */
+    kiriLatticePoint at;
+} kiriLipStop;
+
+/* The first such vertex beyond `after`. One beside the line is joined if no lip leads from it to the line, and no vertex
+   that lips lead to is nearer. False: there is none. */
+bool kiriLip_FindStop(kiriCorridor* corridor, kiriLatticePoint after, kiriLipStop* stop);
+
+/* The squares within `margin` of a segment, in strips across its longer axis, from its start on. */
+typedef struct kiriStrips {
+    const kiriSquares* squares;
+    double from[2], way[2], margin;
+    int32_t axis; /* the longer one: 0 x, 1 y */
+    int32_t index, last, step;
+    int32_t square, count, stride; /* of the strip: the first square, how many, and from one to the next */
+} kiriStrips;
+
+kiriStrips kiriStrips_Begin(const kiriSquares* squares, kiriLatticePoint from, kiriLatticePoint to, double margin);
+bool kiriStrips_Next(kiriStrips* strips);
+
+KIRI_C_END
+
+#endif
