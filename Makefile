@@ -7,7 +7,7 @@
 #   make quick    a few of them, with all calls: for config=debug beside config=sanitize
 #   make fuzz     looks for input that breaks something; FUZZ=mesh: other than calls; TIME=600: s
 #   make sweep    loads saves that are wrong in one number; ARGS='35 36 1': of world 35; config=debug: asserts
-#   make long     ten minutes of play: work and memory of its minutes
+#   make long     ten minutes of play: work and memory of its minutes; and 20 minutes of a slicing game
 #   make analyze  gcc's analyzer, cppcheck and clang-tidy over src; deps-analyze: installs these; valgrind: a few tests
 #   make scarce   refuses each request for memory of the scenes once
 #   make tsan     runs the tests with threads under the thread sanitizer
@@ -187,8 +187,9 @@ scarce: packages-bench
 	$(BUILD)/tests/test_scarce all
 
 long: packages-bench
-	@$(MAKE) --no-print-directory $(BUILD)/tests/test_long
+	@$(MAKE) --no-print-directory $(BUILD)/tests/test_long $(BUILD)/tests/test_slicing
 	$(BUILD)/tests/test_long all
+	$(BUILD)/tests/test_slicing all
 
 # gcc's analyzer, cppcheck and clang-tidy, those that are there; tests/analyze.txt has the findings that are no errors.
 # JOBS=1: one file at a time.

@@ -100,6 +100,67 @@ static void TestWhoWasAloneIsFound(void** state)
     Host_Stop(&host);
 }
 
+/* A square that is pinned at its corners. */
+static kiriSheet AddPinnedSquare(Host* host, float z, kiriPin pins[4])
+{
+    kiriSheetDef def = SquareDef(0.0f, 0.0f, z);
+    def.material.airDamping = 5.0f;
+    kiriSheet sheet = AddSquare(host, &def);
+    for (int k = 0; k < 4; ++k) {
+        kiriPinDef pin;
+        kiriDefaultPinDef(&pin);
+        pin.restPoint[0] = pin.target[0] = 0.2f * (float)(k % 2);
+        pin.restPoint[1] = pin.target[1] = 0.2f * (float)(k / 2);
+        pin.target[2] = z;
+        OK(kiriCreatePin(host->world, sheet, &pin, &pins[k]));
+    }
+    return sheet;
+}
+
+/* A sheet that fell asleep untouched is met by another: from below, so that it is the upper one, or from above. A tick
+   that is refused on the way changes nothing. */
+static void TestSleeperIsMet(void** state)
+{
+    (void)state;
+    for (int way = 0; way < 4; ++way) {
+        const float z = way % 2 == 0 ? -0.3f : 0.3f;
+        Host host;
+        kiriPin pins[4], moved[4];
+        Host_Start(&host);
+        host.every = 30;
+        kiriSheet sleeper = AddPinnedSquare(&host, 0.0f, pins);
+        if (way < 2) {
+            AddPinnedSquare(&host, z, moved);
+        }
+        for (int tick = 0; tick < 600 && IsAwake(&host, sleeper); ++tick) {
+            OK(Host_Tick(&host, dt, 2));
+        }
+        assert_false(IsAwake(&host, sleeper));
+        if (way >= 2) {
+            AddPinnedSquare(&host, z, moved); /* it was alone so far */
+        }
+        for (int tick = 0; tick < 60 && !IsAwake(&host, sleeper); ++tick) {
+            for (int k = 0; k < 4; ++k) {
+                OK(kiriPin_SetTarget(host.world, moved[k],
+                                     (float[]){ 0.2f * (float)(k % 2), 0.2f * (float)(k / 2), z * (1.0f - tick / 30.0f) }));
+            }
+            uint64_t before = Host_Hash(&host);
+            host.failOnce = true;
+            host.failAt = host.calls;
+            if (Host_Tick(&host, dt, 2) == KIRI_ERROR_MEMORY) {
+                assert_true(Host_Hash(&host) == before);
+                OK(Host_Tick(&host, dt, 2));
+            }
+            host.failAt = -1;
+        }
+        assert_true(IsAwake(&host, sleeper));
+        for (int tick = 0; tick < 30; ++tick) {
+            OK(Host_Tick(&host, dt, 2));
+        }
+        Host_Stop(&host);
+    }
+}
+
 static void TestGroupsApart(void** state)
 {
     (void)state;
@@ -378,6 +439,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestPairsAreFoundWhereNear),
         cmocka_unit_test(TestWhoWasAloneIsFound),
+        cmocka_unit_test(TestSleeperIsMet),
         cmocka_unit_test(TestGroupsApart),
         cmocka_unit_test(TestPileRestsInOrder),
         cmocka_unit_test(TestNeverCrossOnTheirWay),

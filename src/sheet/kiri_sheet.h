@@ -435,6 +435,12 @@ static inline bool kiriPiece_MayMove(const kiriPiece* piece)
     return kiriPiece_IsAwake(piece) || (piece->rest.isStirred && !piece->isGone);
 }
 
+/* Does the tick at hand look at the sheet? Only such sheets may get touches: for these there will be room. */
+static inline bool kiriSheet_IsActive(const kiriSheetData* sheet)
+{
+    return !sheet->rest.isIdle || sheet->rest.isStirred;
+}
+
 /* From when a tick moves frames until it is over: is the piece moved in it? At other times: would it be? */
 static inline bool kiriPiece_IsMoved(const kiriPiece* piece)
 {

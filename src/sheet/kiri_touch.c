@@ -61,6 +61,7 @@ bool kiriTouches_Add(kiriSheetData* sheet, const kiriTouch* touch)
     if (PieceOfTouch(sheet, touch)->isGone) {
         found.offset -= KIRI_FAR_BELOW; /* the host is told of each of its contacts */
     }
+    KIRI_ASSERT(kiriSheet_IsActive(sheet));
     KIRI_ASSERT(touch->yield == KIRI_NONE || touch->yield < sheet->touches.yields.count);
     KIRI_ASSERT(touch->point != KIRI_NONE || touch->vertex[0] < sheet->seen.surface.vertexCount);
     found.seen = WhereSeen(sheet, touch);
@@ -344,6 +345,8 @@ static bool IsRowBefore(const void* context, int32_t a, int32_t b)
 
 static void SortForces(kiriTouches* touches)
 {
+    KIRI_ASSERT(touches->order.capacity >= touches->rows.count);
+    KIRI_ASSERT(touches->last.forces.capacity >= touches->rows.count);
     touches->order.count = touches->last.forces.count = 0;
     for (int32_t i = 0; i < touches->rows.count; ++i) {
         if (kiriVec3_Dot(touches->rows.data[i].force, touches->rows.data[i].normal) > 0.0) {
@@ -362,6 +365,7 @@ void kiriTouches_End(kiriSheetData* sheet)
 {
     kiriTouches* touches = &sheet->touches;
     SortForces(touches);
+    KIRI_ASSERT(touches->last.touches.capacity >= touches->found.count);
     touches->last.touches.count = touches->last.given = 0;
     for (int32_t i = 0; i < touches->found.count; ++i) {
         if (touches->found.data[i].row != KIRI_NONE) {

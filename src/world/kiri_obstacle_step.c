@@ -273,7 +273,7 @@ static bool IsAnyMoving(const kiriWorld* world, double dt, double least)
 /* Pieces that sleep may wake when a cut takes effect: these are stirred already. */
 static bool FindTouchesOf(const TouchSearch* looking, kiriObstacleSearch* search, kiriSheetData* sheet)
 {
-    bool sleeps = sheet->rest.asleep && sheet->update->stage != KIRI_READY;
+    bool sleeps = sheet->rest.asleep && !sheet->rest.isStirred && sheet->update->stage != KIRI_READY;
     if (sleeps && !looking->isAnyMoving) {
         return true;
     }
@@ -283,6 +283,9 @@ static bool FindTouchesOf(const TouchSearch* looking, kiriObstacleSearch* search
     Around around = MakeAround(looking->world, sheet, looking->dt);
     if (HasSleepers(sheet) && !StirSleepers(looking, search, sheet, &around)) {
         return false;
+    }
+    if (sheet->rest.isIdle && sheet->rest.isStirred && !kiriTouches_Begin(sheet)) {
+        return false; /* others have begun */
     }
     return (sleeps && !sheet->rest.isStirred) || TouchAll(looking->world, search, sheet, &around);
 }
@@ -366,11 +369,6 @@ void kiriObstacles_Begin(kiriWorld* world)
     for (int32_t i = 0; i < world->obstacles.count; ++i) {
         memset(&world->obstacles.data[i]->impulse, 0, sizeof(kiriWrench));
         world->obstacles.data[i]->contacts = 0;
-    }
-    for (int32_t i = 0; world->obstacles.count > 0 && i < world->sheets.count; ++i) {
-        if (world->sheets.data[i]->rest.isStirred) {
-            kiriMotion_WakeStirred(world->sheets.data[i]);
-        }
     }
 }
 

@@ -31,7 +31,7 @@ bool kiriObstacles_FindTouches(kiriWorld* world, double dt);
 /* Room for what pieces of the sheet that sleep press with. False for memory. */
 bool kiriObstacles_ReserveRests(const kiriWorld* world, kiriSheetData* sheet);
 
-/* The tick is not refused: nothing has been given yet, and sheets wake. */
+/* The tick is not refused: nothing has been given yet. */
 void kiriObstacles_Begin(kiriWorld* world);
 
 /* Before a sheet is moved: its yield rows get what other sheets gave the same bodies. */

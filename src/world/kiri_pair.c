@@ -338,6 +338,12 @@ static bool UpdateBounds(kiriSheetData* sheet)
     return ok;
 }
 
+/* What is gone touches nothing. */
+static bool IsGone(const kiriBody* body)
+{
+    return body->sheet->layout.pieces.data[body->piece].isGone;
+}
+
 static bool LookAtPair(kiriWorld* world, int32_t a, int32_t b, double dt)
 {
     kiriPairs* pairs = &world->pairs;
@@ -345,7 +351,7 @@ static bool LookAtPair(kiriWorld* world, int32_t a, int32_t b, double dt)
     double reach = ReachOfPiece(world, one, other, dt);
     kiriBox wide = Widened(&one->box, reach);
     kiriSpan nears = { pairs->nears.count, 0 };
-    if ((one->asleep && other->asleep) || !kiriBox_Meet(&wide, &other->box) ||
+    if ((one->asleep && other->asleep) || IsGone(one) || IsGone(other) || !kiriBox_Meet(&wide, &other->box) ||
         (one->sheet->settings.groups & other->sheet->settings.groups) == 0) {
         return true;
     }
@@ -470,29 +476,41 @@ bool kiriPairs_Find(kiriWorld* world, double dt)
 
 /* ---- Sleep ---- */
 
-static void WakeBody(const kiriWorld* world, kiriFrame id)
+static void StirBody(const kiriWorld* world, kiriFrame id)
 {
     const kiriSlot* slot = kiriPool_Find(&world->frameIds, id);
-    kiriMotion_WakeFrame(slot->owner, slot->index);
+    kiriSheetData* sheet = slot->owner;
+    kiriSheet_PieceOf(sheet, slot->index)->rest.isStirred = sheet->rest.isStirred = true;
 }
 
-/* What touches something that is awake, or lay on something that is gone, wakes. */
-static void WakeTouching(kiriWorld* world, const kiriTouchingPairs* pairs)
+static bool SleepsOn(const kiriWorld* world, kiriFrame id)
 {
+    return IsPairAsleep(world, id) && !PieceOfBody(world, id)->rest.isStirred;
+}
+
+static bool StirTouching(const kiriWorld* world, const kiriTouchingPairs* pairs)
+{
+    bool any = false;
     for (int32_t i = 0; i < pairs->count; ++i) {
         const kiriTouchingPair* pair = &pairs->data[i];
-        bool isUpperAsleep = IsPairAsleep(world, pair->upper), isLowerAsleep = IsPairAsleep(world, pair->lower);
+        bool isUpperAsleep = SleepsOn(world, pair->upper), isLowerAsleep = SleepsOn(world, pair->lower);
         if (pair->touches && isUpperAsleep != isLowerAsleep) {
-            WakeBody(world, isUpperAsleep ? pair->upper : pair->lower);
+            StirBody(world, isUpperAsleep ? pair->upper : pair->lower);
+            any = true;
         }
     }
+    return any;
+}
+
+bool kiriPairs_Stir(const kiriWorld* world)
+{
+    bool anyBefore = StirTouching(world, &world->pairs.pairs), anyNext = StirTouching(world, &world->pairs.next);
+    return anyBefore || anyNext;
 }
 
 void kiriPairs_Commit(kiriWorld* world)
 {
     kiriTouchingPairs old = world->pairs.pairs;
-    WakeTouching(world, &old);
-    WakeTouching(world, &world->pairs.next);
     world->pairs.pairs = world->pairs.next;
     world->pairs.next = old;
 }

@@ -16,11 +16,15 @@ KIRI_C_BEGIN
    memory. */
 bool kiriPairs_Find(kiriWorld* world, double dt);
 
-/* What was found is in force from here on. Pieces that touch something that moves wake. */
+/* Stirs the pieces that sleep and touch something that is awake, or lay on something that is gone. Returns whether there
+   are any. */
+bool kiriPairs_Stir(const kiriWorld* world);
+
+/* What was found is in force from here on. */
 void kiriPairs_Commit(kiriWorld* world);
 
-/* Gives the sheets that are upper ones what they touch. Between kiriTouches_Begin and kiriTouches_Reserve; false for
-   memory. */
+/* Gives the sheets that are upper ones what they touch; but for those that are not active: these do not move. Between
+   kiriTouches_Begin and kiriTouches_Reserve; false for memory. */
 bool kiriPairs_AddTouches(kiriWorld* world, double dt);
 
 /* What the upper ones pressed with in the last tick acts on the lower ones in this one; and what they press with now is

@@ -36,7 +36,11 @@ static void LoadVertex(kiriSheetData* sheet, int32_t vertex, kiriVec3 impulse)
     kiriVec2 local = sheet->seen.surface.rest.data[vertex];
     for (int32_t i = span.first; i < span.first + span.count; ++i) {
         kiriSampleWeight weight = sheet->vertexSkin.weights.data[i];
-        kiriFrameData* frame = &sheet->frames.data[kiriSheet_FrameOf(sheet, weight.label)];
+        int32_t f = kiriSheet_FrameOf(sheet, weight.label);
+        kiriFrameData* frame = &sheet->frames.data[f];
+        if (!kiriPiece_IsAwake(kiriSheet_PieceOf(sheet, f))) {
+            continue; /* it is not moved, and would get all of it when it wakes */
+        }
         kiriVec3 arm = kiriVec3_Sub(kiriFrame_Carry(frame, local), frame->x),
                  part = kiriVec3_Scale(weight.value, impulse);
         kiriWrench load = { part, kiriVec3_Cross(arm, part) };
@@ -71,10 +75,12 @@ static kiriVec3 Feel(const kiriPairs* pairs, const kiriPairTouch* touch, double 
 {
     const kiriTouches* touches = &touch->upper.sheet->touches;
     kiriVec3 was = FeltForce(pairs, touch->key);
-    int32_t row = touches->found.data[touch->touch].row;
+    KIRI_ASSERT(touch->touch < touches->found.count);
+    int32_t row = touch->touch != KIRI_NONE ? touches->found.data[touch->touch].row : KIRI_NONE;
     if (row == KIRI_NONE) {
         return was; /* it was not moved */
     }
+    KIRI_ASSERT(row < touches->rows.count && touches->rows.data[row].key == touch->key);
     double part = dt / (dt + FEELING);
     kiriVec3 push = kiriVec3_Scale(1.0 / dt, touches->rows.data[row].impulse);
     return kiriVec3_AddScaled(was, part, kiriVec3_Sub(push, was));
@@ -84,6 +90,7 @@ static kiriVec3 Feel(const kiriPairs* pairs, const kiriPairTouch* touch, double 
 static void FeelAll(kiriWorld* world, double dt)
 {
     kiriPairs* pairs = &world->pairs;
+    KIRI_ASSERT(pairs->order.capacity >= pairs->touches.count && pairs->nextFelt.capacity >= pairs->touches.count);
     pairs->order.count = pairs->touches.count;
     for (int32_t i = 0; i < pairs->touches.count; ++i) {
         pairs->order.data[i] = i;

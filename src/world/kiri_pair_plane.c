@@ -155,7 +155,8 @@ bool kiriPairs_AddTouches(kiriWorld* world, double dt)
     bool ok = kiriArray_Reserve(&world->memory, &world->pairs.nextFelt, world->pairs.touches.count) &&
               kiriArray_Reserve(&world->memory, &world->pairs.order, world->pairs.touches.count);
     for (int32_t i = 0; ok && i < world->pairs.touches.count; ++i) {
-        ok = AddPlaneTouch(&world->pairs, &world->pairs.touches.data[i]);
+        kiriPairTouch* touch = &world->pairs.touches.data[i];
+        ok = !kiriSheet_IsActive(touch->upper.sheet) || AddPlaneTouch(&world->pairs, touch);
     }
     return ok;
 }

@@ -154,6 +154,9 @@ static bool FindTouches(kiriWorld* world, double dt)
 {
     bool ok = true;
     EnterStage(world, KIRI_STAGE_CONTACT);
+    if (kiriPairs_Stir(world)) {
+        ListActive(world);
+    }
     for (int32_t k = 0; ok && k < world->active.count; ++k) {
         ok = kiriTouches_Begin(kiriWorld_Active(world, k));
         StirTouched(kiriWorld_Active(world, k));
@@ -289,6 +292,16 @@ static void CommitAll(kiriWorld* world)
     }
     EnterStage(world, KIRI_STAGE_SKIN);
     kiriTasks_Run(&world->tasks, TakeJumps, world->active.count, 1, world);
+}
+
+/* Sheets that are stirred are active. */
+static void WakeStirred(kiriWorld* world)
+{
+    for (int32_t k = 0; k < world->active.count; ++k) {
+        if (kiriWorld_Active(world, k)->rest.isStirred) {
+            kiriMotion_WakeStirred(kiriWorld_Active(world, k));
+        }
+    }
 }
 
 /* Says which sheets have work left, and where it stands. */
@@ -454,7 +467,10 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
         kiriPairs_Commit(world);
         CommitAll(world);
         kiriObstacles_Begin(world);
-        ListActive(world); /* with what woke */
+        WakeStirred(world);
+        int32_t withRoom = world->active.count;
+        ListActive(world); /* without what has become idle */
+        KIRI_ASSERT(world->active.count <= withRoom); /* what woke was stirred before room was made */
         result = SolveAll(world, dt, substeps, &quotas.of[KIRI_QUOTA_ITERATIONS]);
         kiriObstacles_End(world, dt);
         for (int32_t k = 0; k < world->active.count; ++k) {
