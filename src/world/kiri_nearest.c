@@ -59,7 +59,8 @@ static Place NearestOnTriangle(kiriVec3 p, kiriVec3 a, kiriVec3 b, kiriVec3 c)
     return inside;
 }
 
-/* m: how far inside of the border edges of its triangle the place is; far, where there is none. */
+/* m: how far inside of the border the place is, by the edges of its triangle and by corners at which others have border
+   edges; far, where there are none. */
 static double WayToBorder(const kiriSheetData* sheet, const kiriNear* near)
 {
     const kiriTriangle* t = &sheet->mesh.triangles.data[near->triangle];
@@ -72,6 +73,10 @@ static double WayToBorder(const kiriSheetData* sheet, const kiriNear* near)
         double way = near->share[(k + 2) % 3] * area / kiriVec3_Length(edge);
         bool isBorder = t->twin[k] == KIRI_NONE || (t->marks >> k & 1) != 0;
         least = isBorder && way < least ? way : least;
+        kiriVec3 in = kiriVec3_AddScaled(kiriVec3_Scale(near->share[(k + 1) % 3], edge), near->share[(k + 2) % 3],
+                                         kiriVec3_Sub(apex, from));
+        double off = kiriVec3_Length(in);
+        least = sheet->probes.isBorder.data[t->vertex[k]] && off < least ? off : least;
     }
     return least;
 }
