@@ -141,8 +141,9 @@ static void TestSleeperIsMet(void** state)
         }
         for (int tick = 0; tick < 60 && !IsAwake(&host, sleeper); ++tick) {
             for (int k = 0; k < 4; ++k) {
-                OK(kiriPin_SetTarget(host.world, moved[k],
-                                     (float[]){ 0.2f * (float)(k % 2), 0.2f * (float)(k / 2), z * (1.0f - tick / 30.0f) }));
+                float height = z * (1.0f - (float)tick / 30.0f);
+                float target[3] = { 0.2f * (float)(k % 2), 0.2f * (float)(k / 2), height };
+                OK(kiriPin_SetTarget(host.world, moved[k], target));
             }
             uint64_t before = Host_Hash(&host);
             host.failOnce = true;

@@ -1,7 +1,7 @@
-/* A game in which banners of paper and cotton are sliced: pieces touch each other, a floor, a ball and a box, fall
-   asleep and are woken, and each becomes a sheet of its own. In `make test` a short game, few seeds; with the argument
-   `all` (`make long`) 60 seconds of game and 20 seeds, or those from a seed on: `all 7 2`. Sanitizers, assertions and
-   the validator look on. */
+/* A game in which banners of paper and cotton are sliced. Pieces touch each other, a floor, a ball and a box; they fall
+   asleep and wake; each piece becomes a new sheet. In `make test` the game is short. With the argument `all`, as in
+   `make long`, it takes 60 seconds and 20 seeds; `all 7 2` runs two seeds from 7 on. Sanitizers, assertions and the
+   validator look on. */
 #include "host.h"
 
 enum { ROWS = 2, MOST_BANNERS = 50, MOST_PARTS = 60, SWIPE = 20, STROKE = 3, WORKERS = 4 };
@@ -14,7 +14,7 @@ typedef struct Game {
     Host host; /* first: its hooks get the game */
     uint32_t seed;
     kiriSheet banners[MOST_BANNERS];
-    kiriSheet parts[MOST_PARTS]; /* what came off, the oldest first */
+    kiriSheet parts[MOST_PARTS]; /* detached pieces, the oldest first */
     int32_t partCount, made, slept;
     kiriObstacle ball;
     kiriBlade blade;
@@ -115,7 +115,7 @@ static void KeepPart(Game* game, kiriSheet part)
     game->made += 1;
 }
 
-/* Each piece that came off gets a sheet of its own, unless it is a crumb. */
+/* Detaches each new piece, and destroys crumbs. */
 static void DetachAll(Game* game)
 {
     enum { MOST = 256 };
@@ -157,7 +157,8 @@ static void MoveBlade(Game* game, int tick)
     if (step <= STROKE) {
         float t = (float)step / STROKE, x = game->from[0] + t * (game->to[0] - game->from[0]);
         float z = game->from[1] + t * (game->to[1] - game->from[1]);
-        assert_true(kiriBlade_MoveEdge(world, game->blade, (float[]){ x, -0.5f, z }, (float[]){ x, 0.5f, z }) >= KIRI_OK);
+        float from[3] = { x, -0.5f, z }, to[3] = { x, 0.5f, z };
+        assert_true(kiriBlade_MoveEdge(world, game->blade, from, to) >= KIRI_OK);
     }
     if (step == STROKE) {
         OK(kiriBlade_End(world, game->blade));
@@ -222,7 +223,7 @@ int main(int count, char** arguments)
 {
     isLong = count > 1;
     seeds = isLong ? 20 : 4;
-    if (count > 3) { /* from one seed on, so many */
+    if (count > 3) { /* first seed, count */
         firstSeed = (uint32_t)strtoul(arguments[2], NULL, 10);
         seeds = (uint32_t)strtoul(arguments[3], NULL, 10);
     }

@@ -70,11 +70,12 @@ static double MassOf(const kiriSystem* system, const kiriContactStep* step)
 }
 
 /* J: what an obstacle can give by moving along the normal: its kinetic energy; or no end of it, where it does not
-   yield. */
+   yield. Another piece has no more than its cushion says. */
 static double MeansOf(const kiriSystem* system, int32_t k, const kiriContactStep* step, double dt)
 {
     double speed = kiriVec3_Dot(system->contacts[k].normal, step->carried) / dt;
     double inverse = kiriContact_InverseMass(system, k, step->start, system->contacts[k].normal);
+    inverse += system->contacts[k].cushion;
     return !(fabs(speed) > 0.0) ? 0.0 : inverse > 0.0 ? 0.5 * speed * speed / inverse : DBL_MAX;
 }
 

@@ -99,13 +99,13 @@ static double OwnKinetic(const kiriSolver* solver, const kiriSystem* system, int
 }
 
 /* J: of a torque over the step. The way that a frame goes is h v+ + p+; so is its turn. */
-static double WorkOfTorque(const kiriSystem* system, const kiriFrameData* start, const kiriFrameData* end, double h)
+static double WorkOfTorque(const kiriSystem* system, kiriVec3 torque, const kiriFrameData* end, double h)
 {
     kiriVec3 lag = end->history.turnLag.u;
     if (kiriMechanics_IsAffine(&system->mechanics)) {
         lag = kiriMat3_Spin(&end->A, &end->history.turnLag);
     }
-    return kiriVec3_Dot(start->torque, kiriVec3_AddScaled(lag, h, end->spin));
+    return kiriVec3_Dot(torque, kiriVec3_AddScaled(lag, h, end->spin));
 }
 
 /* The velocity of the centre of mass of a piece stays that is free, or on which contacts alone act. */
@@ -135,7 +135,7 @@ static void SumGains(kiriSolver* solver, const kiriSystem* system)
             double before = kiriFrame_KineticEnergy(start, &system->material);
             double after = kiriFrame_KineticEnergy(end, &system->material);
             double work = start->mass * kiriVec3_Dot(gravity, way) + kiriVec3_Dot(start->force, way) +
-                          WorkOfTorque(system, start, end, solver->dt) +
+                          WorkOfTorque(system, start->torque, end, solver->dt) +
                           (kiriSystem_HasWind(system) ? kiriWind_Work(solver, system, f) : 0.0);
             kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
             piece->kinetic += OwnKinetic(solver, system, f);
@@ -248,6 +248,64 @@ void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system)
         int32_t i = solver->framePiece.data[f];
         if (solver->pieces.data[i].gain > 0.0 && !solver->after.data[f].held) {
             ScaleVelocities(&solver->pieces.data[i], &solver->momenta.data[i], &solver->after.data[f]);
+        }
+    }
+}
+
+/* ---- Other pieces ------------------------------------------------------------------------------------------------ */
+
+/* A row with a cushion is a plane of another piece. */
+static bool IsOfPiece(const kiriContactRow* row)
+{
+    return row->cushion > 0.0;
+}
+
+static void FindShared(kiriSolver* solver, const kiriSystem* system)
+{
+    KIRI_EACH(i, solver->awake.pieces) {
+        kiriPieceStep* piece = &solver->pieces.data[i];
+        piece->isShared = false;
+        piece->stored = piece->now.potential - piece->start.potential;
+    }
+    KIRI_EACH(f, solver->awake.frames) {
+        const kiriWrench* load = &system->frames[f].load;
+        kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
+        piece->isShared |= kiriVec3_Dot(load->force, load->force) + kiriVec3_Dot(load->moment, load->moment) > 0.0;
+    }
+    for (int32_t k = 0; k < system->contactCount; ++k) {
+        kiriContact_PieceOf(solver, system, k)->isShared |= IsOfPiece(&system->contacts[k]);
+    }
+}
+
+void kiriSolver_AddGained(kiriSolver* solver, const kiriSystem* system)
+{
+    kiriVec3 gravity = kiriSystem_Gravity(system);
+    FindShared(solver, system);
+    KIRI_EACH(f, solver->awake.frames) {
+        const kiriFrameData *start = &solver->before.data[f], *end = &solver->after.data[f];
+        kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
+        if (piece->isShared && !start->held) {
+            kiriVec3 way = kiriVec3_Sub(end->x, start->x), torque = kiriVec3_Sub(start->torque, start->load.moment);
+            kiriVec3 force = kiriVec3_AddScaled(kiriVec3_Sub(start->force, start->load.force), start->mass, gravity);
+            double work = kiriVec3_Dot(force, way) + WorkOfTorque(system, torque, end, solver->dt) +
+                          (kiriSystem_HasWind(system) ? kiriWind_Work(solver, system, f) : 0.0);
+            system->frames[f].gained += kiriFrame_KineticEnergy(end, &system->material) -
+                                        kiriFrame_KineticEnergy(start, &system->material) - work + piece->stored;
+            system->frames[f].passed += kiriVec3_Dot(start->load.force, way) +
+                                        WorkOfTorque(system, start->load.moment, end, solver->dt);
+            piece->stored = 0.0; /* the first frame of the piece has it */
+            system->frames[f].received =
+                kiriVec3_AddScaled(system->frames[f].received, solver->dt, start->load.force);
+        }
+    }
+    for (int32_t k = 0; k < system->contactCount; ++k) {
+        kiriFrameData* frame = &system->frames[system->contacts[k].weights[0].frame];
+        if (IsOfPiece(&system->contacts[k])) {
+            double part = kiriContact_PieceOf(solver, system, k)->stepping.part;
+            frame->passed += kiriContact_Work(solver, system, k);
+            frame->received = kiriVec3_AddScaled(frame->received, part, kiriContact_Force(solver, system, k));
+        } else if (kiriContact_PieceOf(solver, system, k)->isShared) {
+            frame->gained -= kiriVec3_Dot(kiriContact_Force(solver, system, k), solver->contacts.data[k].carried);
         }
     }
 }

@@ -38,8 +38,11 @@ typedef struct kiriFrameData {
     kiriVec3 spin;           /* angular velocity, world */
     kiriMat3 rate;           /* how A changes beside spin x A, 1/s: not at all, but for affine frames */
     kiriVec3 force, torque;  /* from the host, for one tick */
-    kiriWrench load;         /* N s, N m s about x: what other pieces pressed with in the last tick, for the next one */
+    kiriWrench load;         /* N s, N m s about x: what other pieces pressed with in the last tick, for the next one;
+                                N, N m while a tick moves frames */
     kiriVec3 support;        /* where what it lies on pushed it in the last tick: unit, or zero */
+    double gained, passed;   /* scratch, J: see kiriSolver_AddGained; a step adds to them */
+    kiriVec3 received;       /* the same, N s */
     kiriHistory history;
     int32_t held;          /* the host moves it: */
     kiriVec3 heldPosition; /* of the site at the end of the step, */

@@ -423,6 +423,7 @@ int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* system, double dt,
         return -1;
     }
     kiriSolver_AddReactions(solver, system);
+    kiriSolver_AddGained(solver, system);
     kiriSolver_EndContacts(solver, system);
     WriteFrames(solver, system);
     for (int32_t k = 0; k < system->clampCount; ++k) {

@@ -85,6 +85,8 @@ typedef struct kiriPieceStep {
     double promise;            /* J: and by how much all of it would lower the objective, were that quadratic */
     /* What the energy limit leaves of velocities: of the mean, of turning as one body, of the rest. */
     double keepMean, keepTurning, keepRest;
+    bool isShared; /* do other pieces press on it, or it on them? */
+    double stored; /* J: in links, pins and clamps by the step */
     kiriVec3 mean; /* by mass, over its frames: of offsets, or of what is carried on from the last step */
     double mass;
     int32_t wanted;          /* systems that are solved for it at least */
@@ -264,6 +266,11 @@ double kiriPieceStep_MostTaken(const kiriPieceStep* piece);
 
 /* Takes what pieces gained out of their velocities. */
 void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system);
+
+/* Then, of a piece on which others press, or which they feel: adds to frames of it by how much its energy grew in the
+   step beyond the work of gravity, of the host's forces and of obstacles that move (`gained`), and the work and the
+   impulse of the other pieces (`passed`, `received`). */
+void kiriSolver_AddGained(kiriSolver* solver, const kiriSystem* system);
 
 /* ---- Contacts (kiri_step_contact.c) ---- */
 

@@ -435,7 +435,7 @@ static inline bool kiriPiece_MayMove(const kiriPiece* piece)
     return kiriPiece_IsAwake(piece) || (piece->rest.isStirred && !piece->isGone);
 }
 
-/* Does the tick at hand look at the sheet? Only such sheets may get touches: for these there will be room. */
+/* True if the current tick processes the sheet. Only such sheets may get touches: the tick makes room for these. */
 static inline bool kiriSheet_IsActive(const kiriSheetData* sheet)
 {
     return !sheet->rest.isIdle || sheet->rest.isStirred;

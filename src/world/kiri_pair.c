@@ -1,7 +1,6 @@
 #include "kiri_pair_work.h"
 
 #include "../core/kiri_sort.h"
-#include "../core/kiri_union_find.h"
 #include "../sheet/kiri_motion.h"
 #include "../sheet/kiri_piece.h"
 #include "../sheet/kiri_probe.h"
@@ -14,11 +13,6 @@
 #define FLAT 0.1   /* of the distance that they keep: nearer than that motion says which side it is */
 
 /* ---- Bodies ---- */
-
-static bool TakesPart(const kiriSheetData* sheet)
-{
-    return sheet->settings.touchesSheets && !sheet->settings.mechanics.planar;
-}
 
 static void SumFrames(kiriPairs* pairs, const kiriSheetData* sheet, int32_t firstBody)
 {
@@ -33,6 +27,22 @@ static void SumFrames(kiriPairs* pairs, const kiriSheetData* sheet, int32_t firs
     for (int32_t i = 0; i < sheet->layout.pinFrame.count; ++i) {
         int32_t piece = sheet->layout.framePiece.data[sheet->layout.pinFrame.data[i]];
         pairs->bodies.data[firstBody + piece].isHeld = true;
+    }
+}
+
+/* How fast the fastest probe of each body is beside its mean velocity. */
+static void MeasureStir(kiriPairs* pairs, const kiriSheetData* sheet, int32_t firstBody)
+{
+    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+        kiriBody* body = &pairs->bodies.data[firstBody + p];
+        kiriSpan span = kiriPieceRow_Of(&sheet->probes.list, p);
+        double most = 0.0;
+        for (int32_t i = span.first; i < span.first + span.count; ++i) {
+            kiriVec3 beside = kiriVec3_AddScaled(sheet->probes.velocities.data[i], -1.0 / body->mass, body->momentum);
+            double squared = kiriVec3_Dot(beside, beside);
+            most = squared > most ? squared : most;
+        }
+        body->stir = sqrt(most);
     }
 }
 
@@ -56,6 +66,7 @@ static bool ListBodiesOf(kiriWorld* world, kiriSheetData* sheet)
         pairs->bodies.data[first + p] = body;
     }
     SumFrames(pairs, sheet, first);
+    MeasureStir(pairs, sheet, first);
     return true;
 }
 
@@ -98,7 +109,7 @@ static bool FindWaking(kiriWorld* world, Waking* waking)
     memset(waking, 0, sizeof(*waking));
     for (int32_t k = 0; ok && k < world->active.count; ++k) {
         kiriSheetData* sheet = kiriWorld_Active(world, k);
-        if (TakesPart(sheet) && !sheet->rest.asleep) {
+        if (kiriPair_TakesPart(sheet) && !sheet->rest.asleep) {
             ok = kiriProbes_Update(sheet);
             if (ok) {
                 AddWaking(waking, sheet);
@@ -115,8 +126,8 @@ static bool AreSeveral(const kiriWorld* world)
     int32_t count = 0;
     for (int32_t i = 0; i < world->sheets.count && count < 2; ++i) {
         kiriSheetData* sheet = world->sheets.data[i];
-        count += TakesPart(sheet) ? sheet->layout.pieces.count : 0;
-        last = TakesPart(sheet) ? sheet : last;
+        count += kiriPair_TakesPart(sheet) ? sheet->layout.pieces.count : 0;
+        last = kiriPair_TakesPart(sheet) ? sheet : last;
     }
     if (count == 1) {
         last->probes.isFresh = false;
@@ -137,7 +148,7 @@ static bool ListBodies(kiriWorld* world, const Waking* waking, double dt)
     bool ok = true;
     for (int32_t i = 0; ok && i < world->sheets.count; ++i) {
         kiriSheetData* sheet = world->sheets.data[i];
-        if (!TakesPart(sheet)) {
+        if (!kiriPair_TakesPart(sheet)) {
             continue;
         }
         ok = !sheet->rest.asleep ||
@@ -156,12 +167,14 @@ double kiriPair_Distance(const kiriBody* a, const kiriBody* b)
     return 0.5 * (a->sheet->settings.contactThickness + b->sheet->settings.contactThickness);
 }
 
-/* As far as they may come nearer in the tick, by the velocities of their probes and by gravity, and twice the distance
-   that they keep. */
+/* As far as they may come nearer in the tick, by how their probes move against each other and by gravity, and twice the
+   distance that they keep. Pieces that fall side by side do not come nearer. */
 static double ReachOfPiece(const kiriWorld* world, const kiriBody* a, const kiriBody* b, double dt)
 {
     double falling = dt * kiriVec3_Length(world->gravity);
-    return 2.0 * kiriPair_Distance(a, b) + dt * (a->speed + b->speed + falling);
+    kiriVec3 apart = kiriVec3_Scale(1.0 / a->mass, a->momentum);
+    apart = kiriVec3_AddScaled(apart, -1.0 / b->mass, b->momentum);
+    return 2.0 * kiriPair_Distance(a, b) + dt * (kiriVec3_Length(apart) + a->stir + b->stir + falling);
 }
 
 static kiriBox Widened(const kiriBox* box, double by)
@@ -338,7 +351,7 @@ static bool UpdateBounds(kiriSheetData* sheet)
     return ok;
 }
 
-/* What is gone touches nothing. */
+/* A piece that is gone touches nothing. */
 static bool IsGone(const kiriBody* body)
 {
     return body->sheet->layout.pieces.data[body->piece].isGone;
@@ -408,8 +421,7 @@ static bool LookAtAll(kiriWorld* world, double dt)
     return true;
 }
 
-/* The piece of a body, where it is there still; else null. */
-static kiriPiece* PieceOfBody(const kiriWorld* world, kiriFrame id)
+kiriPiece* kiriPair_PieceOf(const kiriWorld* world, kiriFrame id)
 {
     const kiriSlot* slot = kiriPool_Find(&world->frameIds, id);
     return slot != NULL ? kiriSheet_PieceOf(slot->owner, slot->index) : NULL;
@@ -417,7 +429,7 @@ static kiriPiece* PieceOfBody(const kiriWorld* world, kiriFrame id)
 
 static bool IsPairAsleep(const kiriWorld* world, kiriFrame id)
 {
-    const kiriPiece* piece = PieceOfBody(world, id);
+    const kiriPiece* piece = kiriPair_PieceOf(world, id);
     return piece != NULL && piece->rest.asleep;
 }
 
@@ -469,9 +481,7 @@ bool kiriPairs_Find(kiriWorld* world, double dt)
     kiriPairs* pairs = &world->pairs;
     pairs->nears.count = pairs->found.count = pairs->next.count = pairs->bodies.count = 0;
     return (!AreSeveral(world) || LookForPairs(world, dt)) && KeepSleeping(world) && SortFound(world) &&
-           kiriPairs_FindTouches(world, dt) &&
-           kiriArray_Reserve(&world->memory, &pairs->islands, 2 * (int64_t)pairs->next.count) &&
-           kiriArray_Reserve(&world->memory, &pairs->calms, 2 * (int64_t)pairs->next.count);
+           kiriPairs_FindTouches(world, dt);
 }
 
 /* ---- Sleep ---- */
@@ -485,7 +495,7 @@ static void StirBody(const kiriWorld* world, kiriFrame id)
 
 static bool SleepsOn(const kiriWorld* world, kiriFrame id)
 {
-    return IsPairAsleep(world, id) && !PieceOfBody(world, id)->rest.isStirred;
+    return IsPairAsleep(world, id) && !kiriPair_PieceOf(world, id)->rest.isStirred;
 }
 
 static bool StirTouching(const kiriWorld* world, const kiriTouchingPairs* pairs)
@@ -513,64 +523,6 @@ void kiriPairs_Commit(kiriWorld* world)
     kiriTouchingPairs old = world->pairs.pairs;
     world->pairs.pairs = world->pairs.next;
     world->pairs.next = old;
-}
-
-typedef void IslandFn(kiriPairs* pairs, kiriPiece* upper, kiriPiece* lower);
-
-static void ForgetIslands(kiriPairs* pairs, kiriPiece* upper, kiriPiece* lower)
-{
-    (void)pairs;
-    upper->island = lower->island = KIRI_NONE;
-}
-
-static int32_t NewIsland(kiriPairs* pairs, const kiriPiece* piece)
-{
-    int32_t island = pairs->islands.count++;
-    KIRI_ASSERT(island < pairs->islands.capacity && island < pairs->calms.capacity);
-    pairs->islands.data[island] = island;
-    pairs->calms.data[island] = piece->rest.calm;
-    return island;
-}
-
-static void JoinIslands(kiriPairs* pairs, kiriPiece* upper, kiriPiece* lower)
-{
-    upper->island = upper->island == KIRI_NONE ? NewIsland(pairs, upper) : upper->island;
-    lower->island = lower->island == KIRI_NONE ? NewIsland(pairs, lower) : lower->island;
-    kiriUnion_Join(pairs->islands.data, upper->island, lower->island);
-}
-
-static void TakeLeastCalm(kiriPairs* pairs, kiriPiece* upper, kiriPiece* lower)
-{
-    double* least = &pairs->calms.data[kiriUnion_Root(pairs->islands.data, upper->island)];
-    *least = upper->rest.calm < *least ? upper->rest.calm : *least;
-    *least = lower->rest.calm < *least ? lower->rest.calm : *least;
-}
-
-static void GiveLeastCalm(kiriPairs* pairs, kiriPiece* upper, kiriPiece* lower)
-{
-    upper->rest.calm = lower->rest.calm = pairs->calms.data[kiriUnion_Root(pairs->islands.data, upper->island)];
-}
-
-/* For the two pieces of each pair that touches. */
-static void ForIslands(kiriWorld* world, IslandFn* visit)
-{
-    kiriPairs* pairs = &world->pairs;
-    for (int32_t i = 0; i < pairs->pairs.count; ++i) {
-        const kiriTouchingPair* pair = &pairs->pairs.data[i];
-        kiriPiece *upper = PieceOfBody(world, pair->upper), *lower = PieceOfBody(world, pair->lower);
-        if (pair->touches && upper != NULL && lower != NULL) {
-            visit(pairs, upper, lower);
-        }
-    }
-}
-
-void kiriPairs_JoinCalm(kiriWorld* world)
-{
-    world->pairs.islands.count = 0;
-    ForIslands(world, ForgetIslands);
-    ForIslands(world, JoinIslands);
-    ForIslands(world, TakeLeastCalm);
-    ForIslands(world, GiveLeastCalm);
 }
 
 int32_t kiriPairs_CountAwake(const kiriWorld* world)

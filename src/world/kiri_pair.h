@@ -16,15 +16,14 @@ KIRI_C_BEGIN
    memory. */
 bool kiriPairs_Find(kiriWorld* world, double dt);
 
-/* Stirs the pieces that sleep and touch something that is awake, or lay on something that is gone. Returns whether there
-   are any. */
+/* Stirs pieces that sleep and touch something awake, or lay on something that is gone. Returns whether there are any. */
 bool kiriPairs_Stir(const kiriWorld* world);
 
-/* What was found is in force from here on. */
+/* Puts the new pairs in force. */
 void kiriPairs_Commit(kiriWorld* world);
 
-/* Gives the sheets that are upper ones what they touch; but for those that are not active: these do not move. Between
-   kiriTouches_Begin and kiriTouches_Reserve; false for memory. */
+/* Adds planes of lower pieces to the sheets of upper pieces. Skips sheets that are not active: these do not move. Call
+   it between kiriTouches_Begin and kiriTouches_Reserve. False for memory. */
 bool kiriPairs_AddTouches(kiriWorld* world, double dt);
 
 /* What the upper ones pressed with in the last tick acts on the lower ones in this one; and what they press with now is
@@ -32,8 +31,11 @@ bool kiriPairs_AddTouches(kiriWorld* world, double dt);
 void kiriPairs_ApplyLoads(kiriWorld* world, double dt);
 void kiriPairs_TakeLoads(kiriWorld* world, double dt);
 
-/* After the sheets are moved: pieces that touch are as calm as the least calm of them, so that they fall asleep
-   together. */
+/* After the sheets are moved: pieces that touch get no more energy from each other than they give each other. Before
+   kiriPairs_TakeLoads. */
+void kiriPairs_LimitEnergy(kiriWorld* world);
+
+/* After these: pieces that touch are as calm as the least calm of them, so that they fall asleep together. */
 void kiriPairs_JoinCalm(kiriWorld* world);
 
 /* Pairs that are in force and do not sleep. */

@@ -12,7 +12,8 @@ typedef struct kiriBody {
     int32_t piece;
     kiriFrame id; /* of the lowest frame of the piece: names it from tick to tick */
     kiriBox box;
-    double speed;      /* m/s: of its fastest probe */
+    double speed;      /* m/s: of its fastest probe, */
+    double stir;       /* m/s: and that beside its mean velocity */
     kiriVec3 momentum; /* N s, */
     double mass;       /* kg */
     bool asleep;
@@ -68,6 +69,23 @@ typedef struct kiriFeltPush {
     kiriVec3 force; /* N, on the upper one */
 } kiriFeltPush;
 
+/* A piece that is awake; and, at the lowest of them, pieces that touch each other, directly or by others. */
+typedef struct kiriIsland {
+    double mass, kinetic;    /* kg, J: of the piece; */
+    double gained, passed;   /* J: see kiriSolver_AddGained */
+    double keep, keepPush;   /* of its velocities, by the limit of energy, and of its push on others */
+    double pushed;           /* N s: of planes of other pieces on it, the sum of sizes; */
+    kiriVec3 push;           /* and the sum */
+    double calm;             /* s: of the least calm piece */
+    bool isHeld;             /* is one held by a pin, the host or an obstacle? */
+    int32_t pieces;          /* how many */
+    double surplus, sources; /* J: gained out of nothing; by the pieces that gained in all */
+    double moving, mostHeat; /* J, of all; J/kg, of the fastest piece, were it not for the others */
+    double whole, left;      /* kg; J, of all motion when pieces are limited */
+    kiriVec3 mean, velocity; /* m/s, of their centre of mass: then; and as it is due by their momentum, */
+    double keepBeside;       /* and how much is kept of what velocities have beside that */
+} kiriIsland;
+
 /* See kiri_pair.h. */
 typedef struct kiriPairs {
     kiriTouchingPairs pairs, next; /* in force, and as found for the coming tick; sorted by ids */
@@ -75,8 +93,8 @@ typedef struct kiriPairs {
     KIRI_ARRAY(kiriBody) bodies;
     kiriIndices order; /* of bodies, by the lower end of their box along x */
     KIRI_ARRAY(kiriNear) nears;
-    kiriIndices islands;      /* of pieces that touch, */
-    KIRI_ARRAY(double) calms; /* s: and the calm of the least calm one of each */
+    kiriIndices parents;            /* of pieces that are awake: which touch each other, */
+    KIRI_ARRAY(kiriIsland) islands; /* and what these have together, at the lowest of them */
     KIRI_ARRAY(kiriPairTouch) touches;
     KIRI_ARRAY(kiriFeltPush) felt, nextFelt; /* by key */
 } kiriPairs;

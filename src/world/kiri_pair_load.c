@@ -22,9 +22,22 @@ void kiriPairs_ApplyLoads(kiriWorld* world, double dt)
             if (!kiriSheet_Moves(sheet, f)) {
                 continue;
             }
-            frame->force = kiriVec3_AddScaled(frame->force, 1.0 / dt, frame->load.force);
-            frame->torque = kiriVec3_AddScaled(frame->torque, 1.0 / dt, frame->load.moment);
-            memset(&frame->load, 0, sizeof(frame->load));
+            frame->load.force = kiriVec3_Scale(1.0 / dt, frame->load.force);
+            frame->load.moment = kiriVec3_Scale(1.0 / dt, frame->load.moment);
+            frame->force = kiriVec3_Add(frame->force, frame->load.force);
+            frame->torque = kiriVec3_Add(frame->torque, frame->load.moment);
+            frame->gained = frame->passed = 0.0;
+            memset(&frame->received, 0, sizeof(kiriVec3));
+        }
+    }
+}
+
+static void ForgetLoads(kiriWorld* world)
+{
+    for (int32_t k = 0; k < world->active.count; ++k) {
+        kiriSheetData* sheet = kiriWorld_Active(world, k);
+        for (int32_t f = 0; sheet->settings.touchesSheets && f < sheet->frames.count; ++f) {
+            memset(&sheet->frames.data[f].load, 0, sizeof(kiriWrench));
         }
     }
 }
@@ -71,8 +84,9 @@ static bool HasLowerKey(const void* context, int32_t a, int32_t b)
 
 /* What the lower one feels follows what is pushed within FEELING seconds. Felt at once it would still be one tick late,
    and pieces would throw each other. */
-static kiriVec3 Feel(const kiriPairs* pairs, const kiriPairTouch* touch, double dt)
+static kiriVec3 Feel(const kiriWorld* world, const kiriPairTouch* touch, double dt)
 {
+    const kiriPairs* pairs = &world->pairs;
     const kiriTouches* touches = &touch->upper.sheet->touches;
     kiriVec3 was = FeltForce(pairs, touch->key);
     KIRI_ASSERT(touch->touch < touches->found.count);
@@ -82,7 +96,9 @@ static kiriVec3 Feel(const kiriPairs* pairs, const kiriPairTouch* touch, double 
     }
     KIRI_ASSERT(row < touches->rows.count && touches->rows.data[row].key == touch->key);
     double part = dt / (dt + FEELING);
-    kiriVec3 push = kiriVec3_Scale(1.0 / dt, touches->rows.data[row].impulse);
+    KIRI_ASSERT(kiriSheet_Moves(touch->upper.sheet, touches->rows.data[row].weights[0].frame));
+    const kiriPiece* piece = kiriSheet_PieceOf(touch->upper.sheet, touches->rows.data[row].weights[0].frame);
+    kiriVec3 push = kiriVec3_Scale(pairs->islands.data[piece->island].keepPush / dt, touches->rows.data[row].impulse);
     return kiriVec3_AddScaled(was, part, kiriVec3_Sub(push, was));
 }
 
@@ -99,7 +115,7 @@ static void FeelAll(kiriWorld* world, double dt)
     pairs->nextFelt.count = pairs->touches.count;
     for (int32_t i = 0; i < pairs->order.count; ++i) {
         const kiriPairTouch* touch = &pairs->touches.data[pairs->order.data[i]];
-        kiriFeltPush felt = { touch->key, Feel(pairs, touch, dt) };
+        kiriFeltPush felt = { touch->key, Feel(world, touch, dt) };
         pairs->nextFelt.data[i] = felt;
         for (int k = 0; k < 3 && touch->lower.vertex[k] != KIRI_NONE; ++k) {
             LoadVertex(touch->lower.sheet, touch->lower.vertex[k],
@@ -159,6 +175,7 @@ static void SettleFrames(kiriSheetData* sheet, double dt)
 
 void kiriPairs_TakeLoads(kiriWorld* world, double dt)
 {
+    ForgetLoads(world);
     FeelAll(world, dt);
     for (int32_t k = 0; k < world->active.count; ++k) {
         kiriSheetData* sheet = kiriWorld_Active(world, k);

@@ -153,7 +153,8 @@ bool kiriPairs_AddTouches(kiriWorld* world, double dt)
 {
     FindStops(world, dt);
     bool ok = kiriArray_Reserve(&world->memory, &world->pairs.nextFelt, world->pairs.touches.count) &&
-              kiriArray_Reserve(&world->memory, &world->pairs.order, world->pairs.touches.count);
+              kiriArray_Reserve(&world->memory, &world->pairs.order, world->pairs.touches.count) &&
+              kiriPairs_ReserveIslands(world);
     for (int32_t i = 0; ok && i < world->pairs.touches.count; ++i) {
         kiriPairTouch* touch = &world->pairs.touches.data[i];
         ok = !kiriSheet_IsActive(touch->upper.sheet) || AddPlaneTouch(&world->pairs, touch);

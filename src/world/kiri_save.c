@@ -21,7 +21,7 @@ static const kiriTable PairTable = KIRI_TABLE(kiriTouchingPair, PairMembers);
 static const kiriMember PairsMembers[] = {
     KIRI_PARTS(kiriPairs, pairs, PairTable), KIRI_ROOM_OF(kiriPairs, next),     KIRI_ROOM_OF(kiriPairs, found),
     KIRI_ROOM_OF(kiriPairs, bodies),         KIRI_ROOM_OF(kiriPairs, order),    KIRI_ROOM_OF(kiriPairs, nears),
-    KIRI_ROOM_OF(kiriPairs, islands),        KIRI_ROOM_OF(kiriPairs, calms),    KIRI_ROOM_OF(kiriPairs, touches),
+    KIRI_ROOM_OF(kiriPairs, parents),        KIRI_ROOM_OF(kiriPairs, islands),  KIRI_ROOM_OF(kiriPairs, touches),
     KIRI_ITEMS(8, kiriPairs, felt),          KIRI_ROOM_OF(kiriPairs, nextFelt),
 };
 static const kiriTable PairsTable = KIRI_TABLE(kiriPairs, PairsMembers);

@@ -162,10 +162,10 @@ static bool FindTouches(kiriWorld* world, double dt)
         StirTouched(kiriWorld_Active(world, k));
     }
     ok = ok && kiriObstacles_FindTouches(world, dt);
-    ok = ok && kiriPairs_AddTouches(world, dt);
     if (world->obstacles.count > 0) {
         ListActive(world); /* one may have come near a sheet that sleeps */
     }
+    ok = ok && kiriPairs_AddTouches(world, dt);
     for (int32_t k = 0; ok && k < world->active.count; ++k) {
         ok = kiriTouches_Reserve(kiriWorld_Active(world, k)) &&
              kiriObstacles_ReserveRests(world, kiriWorld_Active(world, k));
@@ -351,6 +351,7 @@ static kiriResult SolveAll(kiriWorld* world, double dt, int32_t substeps, kiriQu
     kiriPairs_ApplyLoads(world, dt);
     kiriMoves_Run(world, dt, substeps, iterations);
     result = ReportMoves(world, result);
+    kiriPairs_LimitEnergy(world);
     kiriPairs_TakeLoads(world, dt);
     kiriPairs_JoinCalm(world);
     return result;
@@ -469,8 +470,8 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
         kiriObstacles_Begin(world);
         WakeStirred(world);
         int32_t withRoom = world->active.count;
-        ListActive(world); /* without what has become idle */
-        KIRI_ASSERT(world->active.count <= withRoom); /* what woke was stirred before room was made */
+        ListActive(world); /* some sheets have become idle */
+        KIRI_ASSERT(world->active.count <= withRoom); /* sheets that woke were stirred before room was made */
         result = SolveAll(world, dt, substeps, &quotas.of[KIRI_QUOTA_ITERATIONS]);
         kiriObstacles_End(world, dt);
         for (int32_t k = 0; k < world->active.count; ++k) {
