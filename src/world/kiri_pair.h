@@ -16,7 +16,7 @@ KIRI_C_BEGIN
    memory. */
 bool kiriPairs_Find(kiriWorld* world, double dt);
 
-/* Stirs pieces that sleep and touch something awake, or lay on something that is gone. Returns whether there are any. */
+/* Stirs pieces that sleep and touch something awake, or lay on a gone piece. Returns whether any are stirred. */
 bool kiriPairs_Stir(const kiriWorld* world);
 
 /* Puts the new pairs in force. */
