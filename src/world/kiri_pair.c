@@ -167,14 +167,17 @@ double kiriPair_Distance(const kiriBody* a, const kiriBody* b)
     return 0.5 * (a->sheet->settings.contactThickness + b->sheet->settings.contactThickness);
 }
 
-/* As far as they may come nearer in the tick, by how their probes move against each other and by gravity, and twice the
-   distance that they keep. Pieces that fall side by side do not come nearer. */
+/* As far as they may come nearer in the tick, by the velocities of their probes and by gravity, and twice the distance
+   that they keep. Pieces of one sheet that fall side by side do not come nearer, unless an obstacle stops one of them. */
 static double ReachOfPiece(const kiriWorld* world, const kiriBody* a, const kiriBody* b, double dt)
 {
-    double falling = dt * kiriVec3_Length(world->gravity);
-    kiriVec3 apart = kiriVec3_Scale(1.0 / a->mass, a->momentum);
-    apart = kiriVec3_AddScaled(apart, -1.0 / b->mass, b->momentum);
-    return 2.0 * kiriPair_Distance(a, b) + dt * (kiriVec3_Length(apart) + a->stir + b->stir + falling);
+    double speed = a->speed + b->speed, falling = dt * kiriVec3_Length(world->gravity);
+    if (a->sheet == b->sheet && world->obstacles.count == 0) {
+        kiriVec3 apart = kiriVec3_Scale(1.0 / a->mass, a->momentum);
+        apart = kiriVec3_AddScaled(apart, -1.0 / b->mass, b->momentum);
+        speed = kiriVec3_Length(apart) + a->stir + b->stir;
+    }
+    return 2.0 * kiriPair_Distance(a, b) + dt * (speed + falling);
 }
 
 static kiriBox Widened(const kiriBox* box, double by)
