@@ -233,6 +233,25 @@ static void TestPileRestsInOrder(void** state)
     Host_Stop(&host);
 }
 
+/* In a high pile the lower sheets are stopped in the tick in which those above still fall. */
+static void TestHighPileRests(void** state)
+{
+    (void)state;
+    enum { HIGH = 16 };
+    Host host;
+    kiriSheet sheets[HIGH];
+    Host_Start(&host);
+    host.every = 30;
+    AddFloor(&host);
+    for (int i = 0; i < HIGH; ++i) {
+        kiriSheetDef def = SquareDef(0.002f * (float)i, 0.0f, 0.02f * (float)(i + 1));
+        sheets[i] = AddSquare(&host, &def);
+    }
+    TickUntilAsleep(&host, sheets, HIGH, 120);
+    assert_int_equal(Crossing_Measure(host.world, sheets, HIGH).crossing, 0);
+    Host_Stop(&host);
+}
+
 static void TestNeverCrossOnTheirWay(void** state)
 {
     (void)state;
@@ -443,6 +462,7 @@ int main(void)
         cmocka_unit_test(TestSleeperIsMet),
         cmocka_unit_test(TestGroupsApart),
         cmocka_unit_test(TestPileRestsInOrder),
+        cmocka_unit_test(TestHighPileRests),
         cmocka_unit_test(TestNeverCrossOnTheirWay),
         cmocka_unit_test(TestWhatTouchesWakesAndFallsAsleepTogether),
         cmocka_unit_test(TestLowerSheetFeelsTheWeight),
