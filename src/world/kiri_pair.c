@@ -168,7 +168,7 @@ double kiriPair_Distance(const kiriBody* a, const kiriBody* b)
 }
 
 /* As far as they may come nearer in the tick, by the velocities of their probes and by gravity, and twice the distance
-   that they keep. Pieces of one sheet that fall side by side do not come nearer, unless an obstacle stops one of them. */
+   that they keep. Pieces of one sheet that fall side by side do not come nearer, unless an obstacle stops one. */
 static double ReachOfPiece(const kiriWorld* world, const kiriBody* a, const kiriBody* b, double dt)
 {
     double speed = a->speed + b->speed, falling = dt * kiriVec3_Length(world->gravity);
