@@ -565,8 +565,8 @@ static bool Check_Queue(Check* check, const kiriSheetData* sheet)
         REQUIRE(isKnown, "point %d is of a cut that is no more", i);
         REQUIRE(i == 0 || point[-1].stamp <= point->stamp, "point %d was given before the one before it", i);
         REQUIRE(IsFinite(point->to.x) && IsFinite(point->to.y), "point %d is nowhere", i);
-        REQUIRE(!HasUpdate(sheet) || (point->stamp == u->cut.stamp) == (i < u->cut.count), "point %d and the update",
-                i);
+        REQUIRE(!HasUpdate(sheet) || point->stamp >= u->cut.stamp, "point %d was given before the update", i);
+        REQUIRE(!point->ends || point->cut->ended, "point %d ends a cut that goes on", i);
     }
     for (int32_t k = 0; k < sheet->cuts.count; ++k) {
         const kiriCutData* cut = sheet->cuts.data[k];

@@ -79,6 +79,7 @@ typedef struct kiriMeshData {
        of savedTriangles and those from oldTriangleCount on; the vertices of savedVertices (their source, never
        their point) and those from oldVertexCount on. So a view of the mesh needs to write no others. */
     bool isOpen; /* between Begin and Commit: only then can the mesh change, or be rolled back */
+    bool hasMet; /* since Begin a cut has met the border or a lip: only there does material part */
     uint32_t stamp;
     int32_t oldTriangleCount, oldVertexCount, oldSourceCorners;
     uint32_t oldRevision;

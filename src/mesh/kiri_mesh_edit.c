@@ -48,6 +48,7 @@ void kiriMesh_Begin(kiriMeshData* mesh)
     EmptyJournal(mesh);
     kiriSquares_Begin(&mesh->squares);
     mesh->isOpen = true;
+    mesh->hasMet = false;
     ++mesh->stamp;
     mesh->oldTriangleCount = mesh->triangles.count;
     mesh->oldVertexCount = mesh->vertices.count;
@@ -283,12 +284,15 @@ bool kiriMesh_Open(kiriMeshData* mesh, int32_t h)
     if (!SaveTriangle(mesh, h / 3) || !SaveTriangle(mesh, twin / 3)) {
         return false;
     }
+    int32_t before = mesh->vertices.count;
     ++mesh->revision;
     kiriMesh_SetOpen(mesh, h, true);
     kiriMesh_SetOpen(mesh, twin, true);
     kiriSquares_MarkEdgeDirty(&mesh->squares, mesh->vertices.data[kiriMesh_Tail(mesh, h)].at,
                               mesh->vertices.data[kiriMesh_Tail(mesh, kiriEdge_Next(h))].at);
-    return TearFan(mesh, h) && TearFan(mesh, twin);
+    bool ok = TearFan(mesh, h) && TearFan(mesh, twin);
+    mesh->hasMet |= mesh->vertices.count == before + 2; /* both ends are torn */
+    return ok;
 }
 
 static bool CanSplitSide(const kiriMeshData* mesh, int32_t h, kiriLatticePoint at)

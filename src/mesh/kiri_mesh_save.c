@@ -49,6 +49,7 @@ static const kiriMember MeshDataMembers[] = {
     KIRI_ITEMS(4, kiriMeshData, sourceCorners),
     KIRI_ITEMS(4, kiriMeshData, sources),
     KIRI_BOOLS(kiriMeshData, isOpen, isOpen),
+    KIRI_DROPPED(kiriMeshData, hasMet),
     KIRI_RUN(4, kiriMeshData, stamp, oldRevision),
     KIRI_ITEMS(4, kiriMeshData, savedTriangles),
     KIRI_ITEMS(4, kiriMeshData, savedVertices),

@@ -96,6 +96,7 @@ kiriProgress kiriPipeline_MakeSome(kiriSheetData* sheet, int32_t end, kiriQuotas
         }
         sheet->update->stage = KIRI_STAGE_GRID;
         sheet->update->isScratch = true;
+        sheet->update->cut.settlesSites = true;
     }
     return RunUpTo(sheet, end, quotas, NULL);
 }
@@ -109,16 +110,13 @@ bool kiriPipeline_Make(kiriSheetData* sheet, int32_t end)
 void kiriPipeline_Start(kiriSheetData* sheet)
 {
     kiriUpdate* u = sheet->update;
-    u->start = (kiriUpdateStart){ u->stage, u->cut.taken, u->cut.meshChanged, u->spent };
+    u->start = (kiriUpdateStart){ u->stage, u->cut, u->spent };
     u->isBegun = false;
     if (u->stage == KIRI_NONE && sheet->queue.count > 0) {
-        u->cut = (kiriCutWork){ sheet->queue.data[0].stamp, 0, 0, false };
+        u->cut = (kiriCutWork){ sheet->queue.data[0].stamp, sheet->queue.count, 0, false, false };
         u->stage = KIRI_STAGE_CUT;
         u->step = 0;
         u->spent = 0;
-        while (u->cut.count < sheet->queue.count && sheet->queue.data[u->cut.count].stamp == u->cut.stamp) {
-            u->cut.count += 1;
-        }
     }
     sheet->seen.fades.jump = sheet->seen.fades.move = 0.0;
 }
@@ -149,6 +147,7 @@ void kiriPipeline_Finish(kiriSheetData* sheet)
         }
     }
     sheet->queue.count -= u->cut.count;
+    u->isUnsettled = !u->cut.settlesSites && (u->isUnsettled || u->cut.meshChanged);
     u->stage = KIRI_NONE;
 }
 
@@ -180,6 +179,5 @@ void kiriPipeline_Abort(kiriSheetData* sheet)
     } else {
         u->stage = u->start.stage; /* it may have been started in this tick */
     }
-    u->cut.taken = u->start.taken;
-    u->cut.meshChanged = u->start.meshChanged;
+    u->cut = u->start.cut;
 }

@@ -192,6 +192,7 @@ typedef struct kiriQueuedPoint {
     kiriVec2 to;   /* local */
     int64_t stamp; /* the tick that it was given before */
     bool jump;     /* put the blade there without cutting */
+    bool ends;     /* the cut, with this point */
 } kiriQueuedPoint;
 
 /* What the def says of a sheet, for as long as it lives. */

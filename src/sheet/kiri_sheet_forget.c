@@ -27,6 +27,7 @@ static void ForgetUpdate(kiriUpdate* u, kiriMemory* memory)
     u->step = was.stage == KIRI_STAGE_CUT ? was.step : 0;
     u->spent = was.stage == KIRI_STAGE_CUT ? was.spent : 0;
     u->needsRebuild = true;
+    u->isUnsettled = was.isUnsettled;
     u->growsSince = was.growsSince;
     u->cut = was.cut;
     u->cut.meshChanged = was.cut.meshChanged || was.stage > KIRI_STAGE_CUT;

@@ -157,19 +157,19 @@ static const kiriMember SeenMembers[] = {
 };
 static const kiriTable SeenTable = KIRI_TABLE(kiriSeen, SeenMembers);
 
-static const kiriMember UpdateStartMembers[] = {
-    KIRI_RUN(4, kiriUpdateStart, stage, taken),
-    KIRI_BOOLS(kiriUpdateStart, meshChanged, meshChanged),
-    KIRI_RUN(8, kiriUpdateStart, spent, spent),
-};
-static const kiriTable UpdateStartTable = KIRI_TABLE(kiriUpdateStart, UpdateStartMembers);
-
 static const kiriMember CutWorkMembers[] = {
     KIRI_RUN(8, kiriCutWork, stamp, stamp),
     KIRI_RUN(4, kiriCutWork, count, taken),
-    KIRI_BOOLS(kiriCutWork, meshChanged, meshChanged),
+    KIRI_BOOLS(kiriCutWork, meshChanged, settlesSites),
 };
 static const kiriTable CutWorkTable = KIRI_TABLE(kiriCutWork, CutWorkMembers);
+
+static const kiriMember UpdateStartMembers[] = {
+    KIRI_RUN(4, kiriUpdateStart, stage, stage),
+    KIRI_PART(kiriUpdateStart, cut, CutWorkTable),
+    KIRI_RUN(8, kiriUpdateStart, spent, spent),
+};
+static const kiriTable UpdateStartTable = KIRI_TABLE(kiriUpdateStart, UpdateStartMembers);
 
 static const kiriMember SlitSearchMembers[] = {
     KIRI_RUN(4, kiriSlitSearch, seen, seen),
@@ -205,7 +205,7 @@ static const kiriTable SampleWorkTable = KIRI_TABLE(kiriSampleWork, SampleWorkMe
 static const kiriMember UpdateMembers[] = {
     KIRI_RUN(4, kiriUpdate, stage, step),
     KIRI_RUN(8, kiriUpdate, spent, spent),
-    KIRI_BOOLS(kiriUpdate, needsRebuild, isScratch),
+    KIRI_BOOLS(kiriUpdate, needsRebuild, isUnsettled),
     KIRI_DROPPED(kiriUpdate, start),
     KIRI_DROPPED(kiriUpdate, isBegun),
     KIRI_DROPPED(kiriUpdate, growing),
@@ -257,7 +257,7 @@ static const kiriTable CutDataTable = KIRI_TABLE(kiriCutData, CutDataMembers);
 static const kiriMember QueuedPointMembers[] = {
     KIRI_DROPPED(kiriQueuedPoint, cut),
     KIRI_RUN(8, kiriQueuedPoint, to, stamp),
-    KIRI_BOOLS(kiriQueuedPoint, jump, jump),
+    KIRI_BOOLS(kiriQueuedPoint, jump, ends),
 };
 static const kiriTable QueuedPointTable = KIRI_TABLE(kiriQueuedPoint, QueuedPointMembers);
 

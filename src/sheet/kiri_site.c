@@ -462,6 +462,15 @@ static bool IsOfCrumb(const kiriSheetData* sheet, int32_t frame)
            sheet->layout.pieces.data[sheet->layout.framePiece.data[frame]].area < sheet->settings.crumbArea;
 }
 
+bool kiriSites_MayBeFew(const kiriSheetData* sheet)
+{
+    bool mayBe = sheet->update->needsRebuild;
+    for (int32_t f = 0; !mayBe && f < sheet->frames.count && sheet->frames.count < sheet->settings.maxFrames; ++f) {
+        mayBe = NeedsAnother(sheet, f) && !IsOfCrumb(sheet, f);
+    }
+    return mayBe;
+}
+
 /* One more frame for each piece with a rigid one. */
 kiriProgress kiriSites_Resample(kiriSheetData* sheet, kiriQuota* cells)
 {

@@ -19,6 +19,9 @@ kiriProgress kiriSites_PlaceInOrphans(kiriSheetData* sheet, kiriQuota* cells);
    one a frame. There are moves after it where it added any. */
 kiriProgress kiriSites_Resample(kiriSheetData* sheet, kiriQuota* cells);
 
+/* May a frame want another beside it? Also true where nothing is known of frames. */
+bool kiriSites_MayBeFew(const kiriSheetData* sheet);
+
 /* Makes sheet->update.marks `count` zeros, and starts at the first. False for memory. */
 bool kiriSites_ClearMarks(kiriSheetData* sheet, int32_t count);
 

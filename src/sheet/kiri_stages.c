@@ -35,6 +35,15 @@ static kiriProgress TakeQueuedPoint(kiriSheetData* sheet, const kiriQueuedPoint*
 /* The steps of the stage; the first is 0. */
 enum { MAKE_ROOM, CUT_MESH };
 
+/* Ends the update with the tick of the last point, where that settles sites: later points are for the next one. */
+static void EndWithTick(kiriSheetData* sheet, const kiriQueuedPoint* last)
+{
+    kiriCutWork* cut = &sheet->update->cut;
+    bool isLast = cut->taken == sheet->queue.count || last[1].stamp != last->stamp;
+    cut->settlesSites = cut->settlesSites || last->ends;
+    cut->count = cut->settlesSites && isLast ? cut->taken : cut->count;
+}
+
 /* Takes queued points as far as the quota goes. Newborn vertices stay on the surface as it is. */
 kiriProgress kiriStage_SplitMesh(kiriSheetData* sheet, kiriQuota* triangles)
 {
@@ -44,10 +53,16 @@ kiriProgress kiriStage_SplitMesh(kiriSheetData* sheet, kiriQuota* triangles)
     u->step = progress == KIRI_DONE ? CUT_MESH : u->step;
     kiriMesh_Begin(&sheet->mesh);
     while (progress == KIRI_DONE && u->cut.taken < u->cut.count) {
-        progress = TakeQueuedPoint(sheet, &sheet->queue.data[u->cut.taken], triangles);
-        u->cut.taken += progress == KIRI_DONE;
+        const kiriQueuedPoint* point = &sheet->queue.data[u->cut.taken];
+        progress = TakeQueuedPoint(sheet, point, triangles);
+        u->cut.settlesSites = u->cut.settlesSites || sheet->mesh.hasMet;
+        if (progress == KIRI_DONE) {
+            u->cut.taken += 1;
+            EndWithTick(sheet, point);
+        }
     }
-    u->cut.meshChanged = u->cut.meshChanged || sheet->mesh.savedTriangles.count > 0;
+    u->cut.meshChanged = u->cut.meshChanged || sheet->mesh.savedTriangles.count > 0 ||
+                         (progress == KIRI_DONE && u->cut.settlesSites && u->isUnsettled && kiriSites_MayBeFew(sheet));
     bool hasRoom = progress != KIRI_FAILED && kiriSkin_Inherit(&sheet->vertexSkin, sheet->memory, &sheet->mesh) &&
                    kiriView_Resize(sheet, sheet->frames.count, sheet->points.count);
     return hasRoom ? progress : KIRI_FAILED;
@@ -178,7 +193,7 @@ static kiriProgress MakeLinks(kiriSheetData* sheet, kiriQuota* cells)
                             sites->count, cells);
 }
 
-/* Sites are added until no frame asks for one. */
+/* Sites are added until no frame asks for one, where the update settles them. */
 static kiriProgress SettleSites(kiriSheetData* sheet, kiriQuota* cells)
 {
     kiriUpdate* u = sheet->update;
@@ -186,7 +201,9 @@ static kiriProgress SettleSites(kiriSheetData* sheet, kiriQuota* cells)
         kiriProgress progress = u->step == WEIGH_CELLS ? WeighCells(sheet, cells)
                                 : u->step == ADD_SITES ? kiriSites_Resample(sheet, cells)
                                                        : DivideRegions(sheet, cells);
-        if (progress != KIRI_DONE || (u->step == ADD_SITES && u->placing.moves.count == 0)) {
+        bool isSettled = u->step == WEIGH_CELLS ? !u->cut.settlesSites
+                                                : u->step == ADD_SITES && u->placing.moves.count == 0;
+        if (progress != KIRI_DONE || isSettled) {
             return progress;
         }
         if (u->step == WEIGH_CELLS && !kiriSites_ClearMarks(sheet, u->placing.sites.count)) {

@@ -1,6 +1,7 @@
-/* The work that a cut sets off in a sheet, as far as it has come. It takes all points given before one tick together,
-   however many ticks the budget makes of it; so what comes of a cut does not depend on the budget. Each stage owns its
-   part; kiri_pipeline.h runs them. */
+/* The work that cuts set off in a sheet, as far as it has come. It takes all points that wait when it begins, whatever
+   ticks they were given before. Mesh, grid, regions and weights do not depend on where one update ends and the next
+   begins. Sites of frames would: so sites are added only where the points decide it, see settlesSites. Each stage owns
+   its part; kiri_pipeline.h runs them. */
 #ifndef KIRI_UPDATE_H
 #define KIRI_UPDATE_H
 
@@ -8,11 +9,15 @@
 
 KIRI_C_BEGIN
 
-/* The cut stage: queued points at the head of the queue, given before the same tick. */
+/* The cut stage: the points at the head of the queue. */
 typedef struct kiriCutWork {
-    int64_t stamp; /* that tick */
+    int64_t stamp; /* the tick that the first of them was given before */
     int32_t count, taken;
-    bool meshChanged;
+    bool meshChanged; /* or sites may be too few: the other stages have work */
+
+    /* A blade has met the border or a lip, or a cut has ended. The update takes no points of later ticks then, and adds
+       frames where they are too few. Others add none. So the sites do not depend on the budget. */
+    bool settlesSites;
 } kiriCutWork;
 
 /* Sites of frames, and whatever else is placed piece by piece; kiri_site.c. */
@@ -54,8 +59,8 @@ typedef struct kiriCommitCounts {
 
 /* What a tick that fails goes back to. */
 typedef struct kiriUpdateStart {
-    int32_t stage, taken;
-    bool meshChanged;
+    int32_t stage;
+    kiriCutWork cut;
     int64_t spent;
 } kiriUpdateStart;
 
@@ -65,6 +70,7 @@ typedef struct kiriUpdate {
     int64_t spent;     /* items of the budget: with stage and step it says how far the work has come */
     bool needsRebuild; /* grid, regions and shape are of no use: to be made from scratch */
     bool isScratch;    /* as they are now */
+    bool isUnsettled;  /* the mesh has changed since an update settled sites */
 
     kiriUpdateStart start;
     bool isBegun; /* in this tick */

@@ -45,7 +45,10 @@ kiriResult kiriCut_End(kiriWorld* world, kiriCut cut)
     if (data->ended) {
         return KIRI_FAIL(KIRI_ERROR_STATE, "the cut has been ended");
     }
-    data->ended = true;
+    if (!kiriArray_Reserve(&world->memory, &data->sheet->queue, (int64_t)data->sheet->queue.count + 1)) {
+        return KIRI_FAIL(KIRI_ERROR_MEMORY, NULL);
+    }
+    kiriWorld_EndCut(world, data);
     KIRI_RETURN(KIRI_OK);
 }
 
@@ -83,7 +86,7 @@ static kiriResult QueueSlice(kiriWorld* world, kiriSheetData* sheet, const kiriV
         kiriWorld_QueuePoint(world, made, ways.data[i], isStart);
         k += isStart;
     }
-    made->ended = true;
+    kiriWorld_EndCut(world, made);
     *cut = made->id;
     return KIRI_OK;
 }

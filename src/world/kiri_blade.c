@@ -39,7 +39,7 @@ static void EndCuts(kiriWorld* world, const kiriBladeData* blade)
             kiriWorld_QueuePoint(world, cut, layer->loop.start, false);
         }
         if (cut != NULL) {
-            cut->ended = true;
+            kiriWorld_EndCut(world, cut);
         }
     }
 }
@@ -49,7 +49,7 @@ static bool ReserveEnds(kiriWorld* world, const kiriBladeData* blade)
     bool ok = true;
     for (int32_t i = 0; ok && i < blade->layers.count; ++i) {
         const kiriCutData* cut = CutOf(world, &blade->layers.data[i]);
-        int64_t all = cut != NULL ? (int64_t)cut->sheet->queue.count + 2 * (int64_t)blade->layers.count : 0;
+        int64_t all = cut != NULL ? (int64_t)cut->sheet->queue.count + 3 * (int64_t)blade->layers.count : 0;
         ok = cut == NULL || kiriArray_Reserve(&world->memory, &cut->sheet->queue, all);
     }
     return ok;
@@ -188,6 +188,7 @@ static kiriResult ReserveStrokes(kiriWorld* world, const kiriBladeWork* work)
         }
         for (int32_t k = 0; k < work->strokes.count; ++k) {
             cuts += work->strokes.data[k].sheet == sheet && work->strokes.data[k].cut == NULL;
+            points += work->strokes.data[k].sheet == sheet; /* to end with */
         }
         made += cuts - sheet->cuts.count;
         if (!kiriArray_Reserve(&world->memory, &sheet->queue, points) ||
@@ -227,11 +228,15 @@ static void QueueStrokes(kiriWorld* world, kiriBladeWork* work, const CutList* m
             stroke->cut = made->data[used++];
             kiriWorld_EnlistCut(world, stroke->sheet, stroke->cut);
         }
-        stroke->cut->ended = stroke->isOver;
     }
     for (int32_t i = 0; i < work->points.count; ++i) {
         const kiriStrokePoint* point = &work->points.data[i];
         kiriWorld_QueuePoint(world, work->strokes.data[point->stroke].cut, point->rest, point->isStart);
+    }
+    for (int32_t i = 0; i < work->strokes.count; ++i) {
+        if (work->strokes.data[i].isOver) {
+            kiriWorld_EndCut(world, work->strokes.data[i].cut);
+        }
     }
 }
 

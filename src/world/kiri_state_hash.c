@@ -290,6 +290,7 @@ static void HashWork(uint64_t* hash, const kiriWorld* world, const kiriSheetData
     bool isLimited = world->budget.cells > 0 || world->budget.samples > 0;
     kiriHash_Int32(hash, isLimited && sheet->settings.fromScratch);
     kiriHash_Int32(hash, (isLimited || u->stage != KIRI_NONE) && (u->needsRebuild || u->isScratch));
+    kiriHash_Int32(hash, u->isUnsettled);
     kiriHash_Int32(hash, u->stage);
     if (u->stage != KIRI_NONE) {
         kiriHash_Int32(hash, u->step);
@@ -298,6 +299,7 @@ static void HashWork(uint64_t* hash, const kiriWorld* world, const kiriSheetData
         kiriHash_Int32(hash, u->cut.count);
         kiriHash_Int32(hash, u->cut.taken);
         kiriHash_Int32(hash, u->cut.meshChanged);
+        kiriHash_Int32(hash, u->cut.settlesSites);
         kiriGrid_HashProgress(&sheet->grid, hash);
         kiriShape_HashProgress(&sheet->shape, hash);
     }
@@ -348,6 +350,7 @@ static void HashWaiting(uint64_t* hash, const kiriWorld* world, const kiriSheetD
         const kiriQueuedPoint* point = &sheet->queue.data[i];
         HashVec2(hash, point->to);
         kiriHash_Int32(hash, point->jump);
+        kiriHash_Int32(hash, point->ends);
         kiriHash_Int64(hash, world->ticks - point->stamp);
         kiriHash_Int32(hash, point->cut->index);
     }
@@ -505,6 +508,8 @@ uint64_t kiriStateHash_Of(const kiriWorld* world)
     kiriHash_Int32(&hash, world->budget.samples);
     kiriHash_Int32(&hash, world->budget.iterations);
     kiriHash_Int32(&hash, world->turn);
+    bool isLimited = world->budget.triangles > 0 || world->budget.cells > 0 || world->budget.samples > 0;
+    kiriHash_Int32(&hash, isLimited && world->ticks % 2 == 1); /* whose turn it is */
     if (world->samplesDue > 0) {
         kiriHash_Int64(&hash, world->samplesDue);
     }

@@ -70,12 +70,16 @@ static void ListActive(kiriWorld* world)
 
 /* ---- Updates ---- */
 
-/* First come, first served; of those that came together, in the order of sheets. */
-static bool CameFirst(const void* context, int32_t a, int32_t b)
+/* Sheets take turns. In every other tick the one whose points came first is served first, so each comes to its end. In
+   the ones between it is the one whose update has had least, so a short cut does not wait for a long one. */
+static bool IsServedFirst(const void* context, int32_t a, int32_t b)
 {
     const kiriWorld* world = context;
-    int64_t one = world->sheets.data[a]->update->cut.stamp, other = world->sheets.data[b]->update->cut.stamp;
-    return one < other || (one == other && a < b);
+    const kiriUpdate *one = world->sheets.data[a]->update, *other = world->sheets.data[b]->update;
+    if (world->ticks % 2 == 0 && one->spent != other->spent) {
+        return one->spent < other->spent;
+    }
+    return one->cut.stamp < other->cut.stamp || (one->cut.stamp == other->cut.stamp && a < b);
 }
 
 static void StartAll(kiriWorld* world)
@@ -90,7 +94,7 @@ static void StartAll(kiriWorld* world)
             world->atWork.data[world->atWork.count++] = world->active.data[k];
         }
     }
-    kiriSort(world->atWork.data, world->atWork.count, CameFirst, world);
+    kiriSort(world->atWork.data, world->atWork.count, IsServedFirst, world);
 }
 
 /* While the mesh is as it is seen. False for memory. */

@@ -99,7 +99,7 @@ void kiriWorld_RemoveSheet(kiriWorld* world, kiriSheetData* sheet)
 
 kiriResult kiriWorld_AddCut(kiriWorld* world, kiriSheetData* sheet, int64_t points, kiriCutData** made)
 {
-    if (!kiriArray_Reserve(&world->memory, &sheet->queue, sheet->queue.count + points) ||
+    if (!kiriArray_Reserve(&world->memory, &sheet->queue, sheet->queue.count + points + 1) ||
         !kiriArray_Reserve(&world->memory, &sheet->cuts, (int64_t)sheet->cuts.count + 1)) {
         return KIRI_ERROR_MEMORY;
     }
@@ -127,10 +127,25 @@ void kiriWorld_EnlistCut(kiriWorld* world, kiriSheetData* sheet, kiriCutData* cu
 void kiriWorld_QueuePoint(const kiriWorld* world, kiriCutData* cut, kiriVec2 to, bool jump)
 {
     kiriSheetData* sheet = cut->sheet;
-    const kiriQueuedPoint point = { cut, to, world->ticks, jump };
+    const kiriQueuedPoint point = { cut, to, world->ticks, jump, false };
     KIRI_ASSERT(sheet->queue.count < sheet->queue.capacity);
     cut->waiting += 1;
     sheet->queue.data[sheet->queue.count++] = point;
+}
+
+void kiriWorld_EndCut(const kiriWorld* world, kiriCutData* cut)
+{
+    kiriSheetData* sheet = cut->sheet;
+    int32_t last = sheet->queue.count - 1;
+    while (last >= 0 && sheet->queue.data[last].cut != cut && sheet->queue.data[last].stamp == world->ticks) {
+        --last;
+    }
+    if (last < 0 || sheet->queue.data[last].stamp != world->ticks) {
+        kiriWorld_QueuePoint(world, cut, cut->tip.last, true);
+        last = sheet->queue.count - 1;
+    }
+    sheet->queue.data[last].ends = true;
+    cut->ended = true;
 }
 
 void kiriWorld_RemoveCut(kiriWorld* world, kiriCutData* cut)

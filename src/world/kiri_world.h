@@ -78,7 +78,7 @@ static inline kiriSheetData* kiriWorld_Active(const kiriWorld* world, int32_t k)
 kiriResult kiriWorld_AddSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* id, const char** why);
 void kiriWorld_RemoveSheet(kiriWorld* world, kiriSheetData* sheet);
 
-/* A cut with no points yet, and room for so many in the queue. */
+/* A cut with no points yet, and room for so many in the queue, and one to end with. */
 kiriResult kiriWorld_AddCut(kiriWorld* world, kiriSheetData* sheet, int64_t points, kiriCutData** made);
 void kiriWorld_RemoveCut(kiriWorld* world, kiriCutData* cut);
 
@@ -87,6 +87,10 @@ void kiriWorld_EnlistCut(kiriWorld* world, kiriSheetData* sheet, kiriCutData* cu
 
 /* A point for a cut, in the room of the queue. */
 void kiriWorld_QueuePoint(const kiriWorld* world, kiriCutData* cut, kiriVec2 to, bool jump);
+
+/* Ends a cut with its last point, or, where that was given before an earlier tick, with one more in the room of the
+   queue. */
+void kiriWorld_EndCut(const kiriWorld* world, kiriCutData* cut);
 
 /* Its id is stale then; the last pin of the sheet takes its index. */
 void kiriWorld_RemovePin(kiriWorld* world, kiriSheetData* sheet, int32_t index);
