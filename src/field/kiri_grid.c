@@ -2,6 +2,7 @@
 
 #include "../core/kiri_hash.h"
 #include "../core/kiri_sort.h"
+#include "../core/kiri_union_find.h"
 
 #include <string.h>
 
@@ -393,4 +394,18 @@ int32_t kiriGrid_CellAround(const kiriGrid* grid, const kiriMeshData* mesh, kiri
     }
     int32_t cell = kiriGrid_CellAt(grid, mesh, at);
     return cell == KIRI_NONE ? first : cell;
+}
+
+void kiriGrid_JoinCells(const kiriGrid* grid, int32_t* parent)
+{
+    kiriUnion_Init(parent, grid->cells.count);
+    for (int32_t c = 0; c < grid->cells.count; ++c) {
+        kiriSteps steps;
+        if (kiriGrid_IsCell(grid, c)) {
+            kiriGrid_GetStepsTo(grid, c, 1, &steps);
+            for (int32_t s = 0; s < steps.end[0]; ++s) {
+                kiriUnion_Join(parent, c, steps.data[s].cell);
+            }
+        }
+    }
 }

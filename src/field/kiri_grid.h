@@ -247,6 +247,10 @@ static inline bool kiriGrid_IsBefore(const kiriGrid* grid, int32_t a, int32_t b)
     return x->square != y->square ? x->square < y->square : x->triangle < y->triangle;
 }
 
+/* Joins cells that hang together, in a union-find of all cells: straight steps lead to all material of a piece, and to no
+   other. */
+void kiriGrid_JoinCells(const kiriGrid* grid, int32_t* parent);
+
 void kiriGrid_SortCells(const kiriGrid* grid, int32_t* cells, int32_t count);
 
 /* The cell that holds this part of this triangle; KIRI_NONE where it does not overlap the square around `at`. */

@@ -1,5 +1,6 @@
 #include "kiri_build.h"
 
+#include "../core/kiri_union_find.h"
 #include "kiri_pipeline.h"
 #include "kiri_seen.h"
 #include "kiri_settings.h"
@@ -139,6 +140,7 @@ static void LayFrame(kiriSheetData* sheet, const kiriSheetDef* def, int32_t inde
     frame->anchor = def->framePoints != NULL && index < def->frameCount ? kiriMesh_Snap(&sheet->mesh, site.at)
                                                                         : sheet->update->newFrames.data[index].anchor;
     frame->center = site.at;
+    frame->rigidAtStart = def->frameCount > 0 ? sheet->shape.rigid.data[index] : 0;
     frame->A = sheet->settings.mechanics.axes;
     kiriVec2 rest = kiriVec2_Add(sheet->mesh.origin, site.at);
     frame->x =
@@ -148,6 +150,23 @@ static void LayFrame(kiriSheetData* sheet, const kiriSheetDef* def, int32_t inde
         double across = kiriVec3_Dot(frame->velocity, frame->A.d);
         frame->velocity = kiriVec3_AddScaled(frame->velocity, -across, frame->A.d);
     }
+}
+
+/* False for memory. */
+static bool CountPieces(kiriSheetData* sheet, int32_t* pieces)
+{
+    const kiriGrid* grid = &sheet->grid;
+    int32_t* parent = kiriMemory_Alloc(sheet->memory, grid->cells.count * (int64_t)sizeof(int32_t));
+    if (parent == NULL) {
+        return false;
+    }
+    kiriGrid_JoinCells(grid, parent);
+    *pieces = 0;
+    for (int32_t c = 0; c < grid->cells.count; ++c) {
+        *pieces += kiriGrid_IsCell(grid, c) && kiriUnion_Root(parent, c) == c;
+    }
+    kiriMemory_Free(sheet->memory, parent);
+    return true;
 }
 
 static kiriResult BuildFromMesh(kiriSheetData* sheet, const kiriSheetDef* def, const char** why)
@@ -164,6 +183,10 @@ static kiriResult BuildFromMesh(kiriSheetData* sheet, const kiriSheetDef* def, c
     }
     sheet->update->placing.whole = kiriMesh_Area(&sheet->mesh);
     sheet->update->placing.spread = def->framePoints != NULL ? 0 : def->frameCount;
+    sheet->update->cut.settlesSites = def->frameCount == 0;
+    if (sheet->update->placing.spread > 0 && !CountPieces(sheet, &sheet->update->placing.pieces)) {
+        return KIRI_ERROR_MEMORY;
+    }
     if (!kiriPipeline_Make(sheet, KIRI_READY)) {
         return KIRI_ERROR_MEMORY;
     }

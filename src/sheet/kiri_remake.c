@@ -86,21 +86,6 @@ static void ClearChanges(kiriSheetData* sheet, const uint8_t* dirty)
 
 /* ---- Pieces ---- */
 
-/* Cells that hang together: straight steps lead to all material of a piece, and to no other. */
-static void JoinCells(const kiriGrid* grid, int32_t* parent)
-{
-    kiriUnion_Init(parent, grid->cells.count);
-    for (int32_t c = 0; c < grid->cells.count; ++c) {
-        kiriSteps steps;
-        if (kiriGrid_IsCell(grid, c)) {
-            kiriGrid_GetStepsTo(grid, c, 1, &steps);
-            for (int32_t s = 0; s < steps.end[0]; ++s) {
-                kiriUnion_Join(parent, c, steps.data[s].cell);
-            }
-        }
-    }
-}
-
 /* Are the frames of each piece in one part of the grid, and those of no other one? `pieceOf`: of the roots of parts. */
 static bool AreFramesInParts(const kiriSheetData* sheet, int32_t* parent, int32_t* pieceOf)
 {
@@ -141,7 +126,7 @@ static bool ArePiecesThose(kiriSheetData* sheet, bool* isBad)
     if (parent == NULL) {
         return false;
     }
-    JoinCells(&sheet->grid, parent);
+    kiriGrid_JoinCells(&sheet->grid, parent);
     *isBad = !AreFramesInParts(sheet, parent, parent + count) || !AreTrianglesInParts(sheet, parent, parent + count);
     kiriMemory_Free(sheet->memory, parent);
     return !*isBad;

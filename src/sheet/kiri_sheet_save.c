@@ -180,11 +180,11 @@ static const kiriTable SlitSearchTable = KIRI_TABLE(kiriSlitSearch, SlitSearchMe
 static const kiriMember PlacingWorkMembers[] = {
     KIRI_PARTS(kiriPlacingWork, sites, kiriSiteTable),
     KIRI_ITEMS(4, kiriPlacingWork, moves),
-    KIRI_RUN(4, kiriPlacingWork, movesSeen, spread),
+    KIRI_RUN(4, kiriPlacingWork, movesSeen, pieces),
     KIRI_PART(kiriPlacingWork, placer, kiriPlacerTable),
     KIRI_BOOLS(kiriPlacingWork, isTaking, isPlacing),
     KIRI_PART(kiriPlacingWork, search, SlitSearchTable),
-    KIRI_BOOLS(kiriPlacingWork, isAgain, isAgain),
+    KIRI_BOOLS(kiriPlacingWork, isAgain, isFirst),
     KIRI_RUN(8, kiriPlacingWork, whole, whole),
     KIRI_RUN(4, kiriPlacingWork, at, at),
     KIRI_ITEMS(1, kiriPlacingWork, marks),

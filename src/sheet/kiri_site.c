@@ -205,6 +205,14 @@ int32_t kiriSites_ShareOf(const kiriSheetData* sheet, double count)
 #define OPEN_REACH 1.5
 #define OPEN_FRAMES_AN_END 15.5
 
+/* All frames that are to be spread but one for each of the pieces that come later; one at least. */
+static int32_t LeftToSpread(const kiriSheetData* sheet)
+{
+    const kiriPlacingWork* placing = &sheet->update->placing;
+    int32_t left = placing->spread - placing->sites.count - (placing->pieces - 1);
+    return left > 1 ? left : 1;
+}
+
 /* How many frames the piece in the placer starts with. */
 static int32_t FramesFor(const kiriSheetData* sheet)
 {
@@ -213,7 +221,8 @@ static int32_t FramesFor(const kiriSheetData* sheet)
     }
     int32_t most = kiriSites_MostIn(sheet->update->placing.placer.cells.count);
     if (sheet->settings.frameLength == 0.0) {
-        int32_t share = kiriSites_ShareOf(sheet, sheet->update->placing.spread);
+        int32_t share = kiriSites_ShareOf(sheet, sheet->update->placing.spread), left = LeftToSpread(sheet);
+        most = left < most ? left : most;
         return share < most ? share : most;
     }
     double even = TakenArea(sheet) / (sheet->settings.frameLength * sheet->settings.frameLength);
@@ -280,6 +289,7 @@ static kiriProgress StartOrphan(kiriSheetData* sheet, int32_t cell, kiriQuota* c
         u->placing.marks.data[u->placing.placer.cells.data[i]] = 1;
     }
     int32_t count = FramesFor(sheet);
+    u->placing.pieces -= u->placing.pieces > 0;
     return StartPlacing(sheet, count, SpacingOf(sheet, count)) ? KIRI_DONE : KIRI_FAILED;
 }
 
@@ -326,29 +336,35 @@ bool kiriSites_ClearMarks(kiriSheetData* sheet, int32_t count)
 
 /* ---- Re-sampling ---- */
 
-/* Has the frame a weight above rigidWeight over more than rigidArea? */
-static bool IsRigid(const kiriSheetData* sheet, int32_t frame)
+/* The area over which the frame has a weight above rigidWeight, in times of rigidArea. As much as in the new sheet
+   counts as little enough. */
+static double Rigidity(const kiriSheetData* sheet, int32_t frame)
 {
+    int64_t rigid = sheet->shape.rigid.data[frame];
     double square = sheet->grid.side * sheet->grid.side / 1099511627776.0; /* 2^40, see kiriShape.rigid */
-    return (double)sheet->shape.rigid.data[frame] * square > sheet->settings.rigidArea;
+    bool isMore = frame >= sheet->frames.count || rigid > sheet->frames.data[frame].rigidAtStart;
+    return isMore ? (double)rigid * square / sheet->settings.rigidArea : 0.0;
 }
 
-/* Is the region of the frame too large to be one? By its radius of gyration, so that long ones count as large; a square
-   is as large as its side. */
-static bool IsLarge(const kiriSheetData* sheet, int32_t frame)
+/* The squared size of the region of a frame, in times of the largest that it may have. By its radius of gyration, so
+   that long ones count as large; a square is as large as its side. */
+static double Largeness(const kiriSheetData* sheet, int32_t frame)
 {
     if (sheet->settings.frameLength == 0.0) {
-        return false;
+        return 0.0;
     }
     kiriMoments m = kiriTally_Moments(&sheet->regions.material.data[frame], kiriSheet_Extent(sheet));
     kiriMoments about = kiriMoments_About(&m, kiriMoments_Center(&m));
     /* A quarter more than the length that frames are placed at: their regions differ. */
-    return 6.0 * (about.uu + about.vv) > 1.5625 * sheet->settings.frameLength * sheet->settings.frameLength * m.area;
+    double most = 1.5625 * sheet->settings.frameLength * sheet->settings.frameLength;
+    return 6.0 * (about.uu + about.vv) / (most * m.area);
 }
 
-static bool NeedsAnother(const kiriSheetData* sheet, int32_t frame)
+/* Above 1: the frame needs another beside it. */
+static double NeedOf(const kiriSheetData* sheet, int32_t frame)
 {
-    return IsRigid(sheet, frame) || IsLarge(sheet, frame);
+    double rigidity = Rigidity(sheet, frame), largeness = Largeness(sheet, frame);
+    return rigidity > largeness ? rigidity : largeness;
 }
 
 /* Marks the cells of the piece in which the weight of a rigid frame exceeds rigidWeight, or whose region is too
@@ -365,13 +381,13 @@ static bool MarkRigidCells(kiriSheetData* sheet)
         int32_t cell = u->placing.placer.cells.data[i], owner = sheet->regions.field.owner.data[cell];
         kiriSpan span = sheet->shape.spans.data[cell];
         double sum = kiriShape_Sum(&sheet->shape, span);
-        isLarge = owner == last ? isLarge : IsLarge(sheet, owner);
+        isLarge = owner == last ? isLarge : Largeness(sheet, owner) > 1.0;
         last = owner;
         u->placing.allowed.data[cell] = isLarge;
         for (int32_t k = span.first; k < span.first + span.count; ++k) {
             const kiriCellWeight* weight = &sheet->shape.weights.data[k];
             u->placing.allowed.data[cell] |= kiriCellWeight_Raw(weight) / sum > sheet->shape.rigidWeight &&
-                                             IsRigid(sheet, kiriSheet_FrameOf(sheet, weight->label));
+                                             Rigidity(sheet, kiriSheet_FrameOf(sheet, weight->label)) > 1.0;
         }
     }
     return true;
@@ -401,31 +417,43 @@ static bool TakeSitesOfPiece(kiriSheetData* sheet, bool* old)
     return ok;
 }
 
-/* A crumb gets no more, nor a piece with as many as the grid carries. */
-static bool MayGetMore(const kiriSheetData* sheet)
+/* How many more sites the piece in the placer gets. Where all are new they are placed again, to lie evenly: in the first
+   round, and as long as more than a quarter of the frames need another. Areas shrink then as the count grows, but it
+   grows by half at most. Else there is one for every two frames in need, for a new site helps its neighbours, too. A
+   crumb gets none, nor does a piece get more than the grid carries. */
+static int32_t SitesToAdd(kiriSheetData* sheet, bool areNew)
 {
-    const kiriPlacingWork* placing = &sheet->update->placing;
-    return !IsCrumbTaken(sheet) && placing->own.count < kiriSites_MostIn(placing->placer.cells.count);
+    kiriPlacingWork* placing = &sheet->update->placing;
+    int32_t own = placing->own.count, most = kiriSites_MostIn(placing->placer.cells.count) - own,
+            left = sheet->settings.maxFrames - placing->sites.count, needing = 0;
+    double largest = 1.0;
+    for (int32_t i = 0; i < own; ++i) {
+        double need = NeedOf(sheet, placing->own.data[i]);
+        needing += need > 1.0;
+        largest = need > largest ? need : largest;
+    }
+    most = left < most ? left : most;
+    placing->isAgain = areNew && (placing->isFirst || needing > own / 4) && most > 0 && !IsCrumbTaken(sheet);
+    double more = placing->isAgain ? own * (largest < 1.5 ? largest - 1.0 : 0.5) : 0.5 * needing + 0.5;
+    more = more < 1.0 ? 1.0 : more;
+    return most < 1 || IsCrumbTaken(sheet) ? 0 : more < most ? (int32_t)more : most;
 }
 
-/* One more site in the piece in the placer, in a rigid cell. In a piece all of whose sites are new they are all placed
-   again, to lie evenly. */
+/* More sites in the piece in the placer, in rigid cells or evenly. */
 static bool AddToPiece(kiriSheetData* sheet)
 {
-    kiriUpdate* u = sheet->update;
+    kiriPlacingWork* placing = &sheet->update->placing;
     bool old;
     if (!MarkRigidCells(sheet) || !TakeSitesOfPiece(sheet, &old)) {
         return false;
     }
-    bool more = MayGetMore(sheet);
-    u->placing.isAgain = !old && more;
-    if (u->placing.isAgain) {
-        int32_t count = u->placing.own.count + 1;
+    int32_t more = SitesToAdd(sheet, !old);
+    if (placing->isAgain) {
+        int32_t count = placing->own.count + more;
         return StartPlacing(sheet, count, SpacingOf(sheet, count));
     }
-    u->placing.placer.known = old ? &sheet->regions.field : NULL;
-    return kiriPlacer_Start(&u->placing.placer, sheet->memory, &sheet->grid, &sheet->mesh, u->placing.allowed.data,
-                            more ? 1 : 0);
+    placing->placer.known = &sheet->regions.field;
+    return kiriPlacer_Start(&placing->placer, sheet->memory, &sheet->grid, &sheet->mesh, placing->allowed.data, more);
 }
 
 static kiriProgress StartResample(kiriSheetData* sheet, int32_t frame, kiriQuota* cells)
@@ -466,18 +494,18 @@ bool kiriSites_MayBeFew(const kiriSheetData* sheet)
 {
     bool mayBe = sheet->update->needsRebuild;
     for (int32_t f = 0; !mayBe && f < sheet->frames.count && sheet->frames.count < sheet->settings.maxFrames; ++f) {
-        mayBe = NeedsAnother(sheet, f) && !IsOfCrumb(sheet, f);
+        mayBe = NeedOf(sheet, f) > 1.0 && !IsOfCrumb(sheet, f);
     }
     return mayBe;
 }
 
-/* One more frame for each piece with a rigid one. */
+/* More frames for each piece with a rigid one. */
 kiriProgress kiriSites_Resample(kiriSheetData* sheet, kiriQuota* cells)
 {
     kiriUpdate* u = sheet->update;
     for (; u->placing.at < u->placing.marks.count && u->placing.sites.count < sheet->settings.maxFrames;
          ++u->placing.at) {
-        if (!IsAtPiece(sheet) && (u->placing.marks.data[u->placing.at] || !NeedsAnother(sheet, u->placing.at) ||
+        if (!IsAtPiece(sheet) && (u->placing.marks.data[u->placing.at] || !(NeedOf(sheet, u->placing.at) > 1.0) ||
                                   IsOfCrumb(sheet, u->placing.at))) {
             continue;
         }

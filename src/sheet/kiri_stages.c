@@ -131,6 +131,7 @@ kiriProgress kiriStage_Regions(kiriSheetData* sheet, kiriQuota* cells)
         if (!kiriSites_Relocate(sheet)) {
             return KIRI_FAILED;
         }
+        u->placing.isFirst = true;
         u->step = DIVIDE_REGIONS;
     }
     for (;;) {
@@ -209,6 +210,7 @@ static kiriProgress SettleSites(kiriSheetData* sheet, kiriQuota* cells)
         if (u->step == WEIGH_CELLS && !kiriSites_ClearMarks(sheet, u->placing.sites.count)) {
             return KIRI_FAILED;
         }
+        u->placing.isFirst = u->placing.isFirst && u->step != ADD_SITES;
         u->step = u->step == DIVIDE_AGAIN ? WEIGH_CELLS : u->step + 1;
     }
 }

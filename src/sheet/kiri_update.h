@@ -25,12 +25,14 @@ typedef struct kiriPlacingWork {
     kiriSites sites; /* of the frames that are there, then of new ones */
     KIRI_ARRAY(kiriSiteMove) moves;
     int32_t movesSeen; /* by the regions */
-    int32_t spread;    /* frames to spread over the sheet, at its start */
+    int32_t spread;    /* frames to spread over the sheet, at its start, */
+    int32_t pieces;    /* and pieces that have none yet */
     kiriPlacer placer;
     bool isTaking;               /* a piece into the placer, */
     bool isPlacing;              /* in it */
     kiriSlitSearch search;       /* for its slit ends */
     bool isAgain;                /* all sites of the piece in the placer are placed again */
+    bool isFirst;                /* round of re-sampling in this update */
     double whole;                /* m^2 of the sheet; while things are spread over it */
     int32_t at;                  /* orphan, frame or piece that is being seen to */
     KIRI_ARRAY(uint8_t) marks;   /* of cells, frames or pieces */

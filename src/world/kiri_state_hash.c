@@ -176,6 +176,7 @@ static void HashFrame(uint64_t* hash, const kiriFrameData* frame)
     HashVec2(hash, frame->site.at);
     HashVec2(hash, frame->center);
     kiriHash_Double(hash, frame->mass);
+    kiriHash_Int64(hash, frame->rigidAtStart);
     HashVec3(hash, kiriVec3_Make(frame->inertia[0], frame->inertia[1], frame->inertia[2]));
     HashVec3(hash, frame->x);
     HashVec3(hash, frame->A.u);
