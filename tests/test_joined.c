@@ -1,5 +1,5 @@
-/* Points that wait for a budget are one update, whatever ticks they were given before; sheets take turns. What comes of
-   it in the end is what comes of it without a budget. */
+/* Pending points are one update, whatever ticks they were given before, and sheets take turns. The result equals that
+   without a budget, bit for bit. */
 #include "host.h"
 
 #include "layout_hash.h"
@@ -43,7 +43,7 @@ static void Settle(Host* host, int32_t* commits)
 
 /* ---- Random strokes ---- */
 
-/* Draws a stroke over some ticks, lifts some ticks later, and begins anew. It decides by its own seed alone, so two
+/* Draws a stroke over some ticks, lifts some ticks later, and begins the next one. It reads its own seed alone, so two
    worlds get the same calls. */
 typedef struct Pen {
     kiriCut cut;
@@ -184,7 +184,7 @@ static void TestSameInTheEnd(void** state)
 
 /* ---- Lips part soon ---- */
 
-/* Ticks from the last points of a blade that crosses the sheet in so many ticks until it is in two pieces. */
+/* Returns the ticks from the last points of a blade, which crosses the sheet in `bladeTicks`, until there are two pieces. */
 static int32_t TicksToPart(const kiriBudget* budget, int32_t squares, int32_t bladeTicks)
 {
     Host host;

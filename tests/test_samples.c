@@ -38,7 +38,7 @@ static const Row table[ROWS] = {
     [VORTEX] = { "vortex", 68, 4225, 2, 5, 5, 1 },
     [FALLING_GUY] = { "fallingguy", 100, 289, 1, 10, 10, 1 },
     [RUBBER] = { "rubber", 50, 1353, 5, 39, 39, 3 },
-    [FLAT] = { "flat", 64, 297, 5, 44, 48, 6 },
+    [FLAT] = { "flat", 64, 297, 5, 36, 42, 6 },
 };
 
 static void StartWith(Scene* scene, const char* name, const SceneOptions* options)

@@ -101,18 +101,18 @@ typedef void kiriTaskFn(int32_t start, int32_t end, void* taskContext); /* the i
 typedef void* kiriStartTaskFn(void* user, kiriTaskFn* task, int32_t itemCount, int32_t minRange, void* taskContext);
 typedef void kiriFinishTaskFn(void* user, void* handle);
 
-/* The most work that one tick may do, over all sheets, first come first served. 0: no limit. Triangles, cells and
-   samples share a tick: what is spent of one leaves as much less of the other two. Half of the cells, say, leave half
-   of the samples; so the work on cuts takes no longer than the costliest of the three limits. What does not fit goes on
-   in the next tick, and in the end is what it would have been without a limit: the points given to a sheet before one
-   tick take effect together, when all that follows from them is done. Until then the lips of a fresh cut move together.
-   A step that cannot be parted and counts more than a whole limit is done in a tick of its own. Pieces that wait to be
-   detached get half of every other tick, whatever other sheets have to do.
-   How long lips wait: a cut from side to side takes 7 items of cells for each cell of the grid where frames are many,
-   36 where they are few (each has more of the sheet), and 0.2 to 1.3 of samples for each vertex; a cut half as long a
-   third to all of that. So on a sheet and grid of 64 x 64 squares with 9 frames, 2000 cells and 500 samples part a
-   cut from side to side after 83 ticks, one half as long after 31; 10 000 and 2000 after 17 and 7.
-   tests/bench_delay.c prints the table. */
+/* The most work that one tick may do, over all sheets. 0: no limit. Triangles, cells and samples share one allowance:
+   using 30 % of one leaves 70 % of the others. So the work on cuts takes no longer than the costliest of the three limits
+   alone. A single step that exceeds the whole limit is not split. It runs alone in its tick.
+   Work that does not fit goes on in the next tick. Until a cut takes effect its lips move together. All points of a sheet
+   that are pending when work on them begins take effect together, whatever ticks they were given before. So when a cut
+   takes effect depends on the budget, too. Its result does not: when all work is done, mesh, grid, regions, weights and
+   sites of frames equal, bit for bit, a run of the same calls without a budget. Motion differs.
+   Sheets take turns. In every other tick the sheet whose points came first is served first, in the ticks between the
+   sheet whose work has used least. Pieces that wait to be detached get half of every other tick.
+   An example at 60 Hz, with 2 ms of work on cuts a tick (about 32 000 cells and 4000 samples): a cut from side to side
+   of 64 x 64 squares with 9 frames parts 17 to 67 ms after the blade has left, one of 127 x 127 squares with 24 frames
+   67 to 200 ms. A slow blade parts sooner, for its work is done on the way. tests/bench_swipe.c prints the table. */
 typedef struct kiriBudget {
     int32_t triangles; /* split by blades; 0, or KIRI_LEAST_TRIANGLES and more */
     int32_t cells;     /* looked at, or given another distance: grid, regions, shape functions; a link counts as many */
@@ -297,7 +297,7 @@ typedef struct kiriEvent {
     int32_t crumb;   /* 1: the piece is a crumb, see kiriSheetDef */
     float area;      /* m^2 of the piece, or 0 */
     int32_t stage;   /* KIRI_STAGE_..., or -1 */
-    int32_t waiting; /* blade points that wait, with those that are being worked on; or 0 */
+    int32_t waiting; /* blade points and ends of cuts that are pending or being worked on; or 0 */
 } kiriEvent;
 
 /* *events points to *count events. */
@@ -481,7 +481,8 @@ typedef struct kiriSheetDef {
 
     /* Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at least; null: frameCount
        frames are spread evenly, some of them in pairs at both sides of slit ends. The grid carries one frame for every
-       two squares of material at most: more are refused (KIRI_ERROR_ARGUMENT), and re-sampling stops there.
+       two squares of material at most: more are refused (KIRI_ERROR_ARGUMENT), and re-sampling stops there. A new sheet
+       has no more frames than frameCount, or than pieces where these are more.
        frameCount 0: as many as the sheet needs: a region is split while its size, 2.45 times its radius of gyration,
        exceeds 1.25 frameLength, after cuts too: so arms that a cut leaves get frames along them. frameLength 0: it
        follows from `accuracy`, the relative error of the shape under the sheet's own weight that is good enough, but is
@@ -492,9 +493,11 @@ typedef struct kiriSheetDef {
     const float* framePoints;
     int32_t maxFrames; /* re-sampling stops here; default 256 */
 
-    /* Where the weight of one frame exceeds rigidWeight over an area larger than rigidArea (m^2), frames are added
-       (section 5 of the paper), also at once: a sheet that is to stay rigid sets frameCount and maxFrames to 1.
-       rigidArea 0: a quarter of the area that a frame has at the start. */
+    /* Re-sampling (section 5 of the paper): a frame whose weight exceeds rigidWeight over an area larger than rigidArea
+       (m^2) gets others beside it. In a new sheet this is done only with frameCount 0. After cuts it is done where the
+       area is also larger than in the new sheet: when a cut ends, or has met the border or another cut. A sheet that is
+       to stay rigid sets frameCount and maxFrames to 1. rigidArea 0: a quarter of the area that a frame has at the
+       start. */
     float rigidWeight; /* default 0.95 */
     float rigidArea;   /* default 0 */
 
@@ -846,7 +849,7 @@ KIRI_API kiriResult kiriBeginCut(kiriWorld* world, kiriSheet sheet, const float 
 KIRI_API kiriResult kiriCut_Extend(kiriWorld* world, kiriCut cut, const float* restPoints, int32_t count);
 
 /* No more points come. After the tick in which the last of them takes effect the id is stale, and
-   KIRI_EVENT_CUT_FINISHED tells. */
+   KIRI_EVENT_CUT_FINISHED tells. Frames that the sheet needs after the cut are added then. */
 KIRI_API kiriResult kiriCut_End(kiriWorld* world, kiriCut cut);
 
 /* A blade (a straight edge) that moves in world space from blade[0]-blade[1] to blade[3]-blade[2] cuts where the swept

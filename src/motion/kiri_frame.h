@@ -30,7 +30,7 @@ typedef struct kiriFrameData {
     kiriLatticePoint anchor; /* a point of the material in the site's cell: finds the cell again after a cut */
     kiriVec2 center;         /* local m */
     double area;             /* m^2 */
-    int64_t rigidAtStart;    /* as kiriShape.rigid: what it held rigidly in a new sheet whose host gave the count */
+    int64_t rigidAtStart;    /* kiriShape.rigid in the new sheet, where the host gave the count; else 0 */
     double mass;             /* kg */
     double inertia[3];       /* integrals of density uu, uv, vv about the center, kg m^2 */
     kiriVec3 x;              /* m */

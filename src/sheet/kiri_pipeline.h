@@ -35,7 +35,7 @@ bool kiriPipeline_Make(kiriSheetData* sheet, int32_t end);
 /* The same as far as the quotas go. KIRI_MORE: again with new ones. */
 kiriProgress kiriPipeline_MakeSome(kiriSheetData* sheet, int32_t end, kiriQuotas* quotas);
 
-/* At the start of a tick: begins an update with all points that wait, where none is at hand. */
+/* At the start of a tick: begins an update with all pending points, unless one is under way. */
 void kiriPipeline_Start(kiriSheetData* sheet);
 
 /* Has the stage at hand a quota with something left? */

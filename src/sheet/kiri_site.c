@@ -336,8 +336,8 @@ bool kiriSites_ClearMarks(kiriSheetData* sheet, int32_t count)
 
 /* ---- Re-sampling ---- */
 
-/* The area over which the frame has a weight above rigidWeight, in times of rigidArea. As much as in the new sheet
-   counts as little enough. */
+/* Returns the area over which the frame's weight exceeds rigidWeight, divided by rigidArea. 0 where the area does not exceed
+   that of the new sheet. */
 static double Rigidity(const kiriSheetData* sheet, int32_t frame)
 {
     int64_t rigid = sheet->shape.rigid.data[frame];
@@ -346,8 +346,8 @@ static double Rigidity(const kiriSheetData* sheet, int32_t frame)
     return isMore ? (double)rigid * square / sheet->settings.rigidArea : 0.0;
 }
 
-/* The squared size of the region of a frame, in times of the largest that it may have. By its radius of gyration, so
-   that long ones count as large; a square is as large as its side. */
+/* Returns the squared size of a frame's region, divided by the largest that it may have. The size follows from the radius
+   of gyration, so long regions count as large. A square is as large as its side. */
 static double Largeness(const kiriSheetData* sheet, int32_t frame)
 {
     if (sheet->settings.frameLength == 0.0) {

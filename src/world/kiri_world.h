@@ -78,7 +78,7 @@ static inline kiriSheetData* kiriWorld_Active(const kiriWorld* world, int32_t k)
 kiriResult kiriWorld_AddSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* id, const char** why);
 void kiriWorld_RemoveSheet(kiriWorld* world, kiriSheetData* sheet);
 
-/* A cut with no points yet, and room for so many in the queue, and one to end with. */
+/* Adds a cut without points. Reserves room in the queue for `points`, and for one more that may end the cut. */
 kiriResult kiriWorld_AddCut(kiriWorld* world, kiriSheetData* sheet, int64_t points, kiriCutData** made);
 void kiriWorld_RemoveCut(kiriWorld* world, kiriCutData* cut);
 
@@ -88,8 +88,7 @@ void kiriWorld_EnlistCut(kiriWorld* world, kiriSheetData* sheet, kiriCutData* cu
 /* A point for a cut, in the room of the queue. */
 void kiriWorld_QueuePoint(const kiriWorld* world, kiriCutData* cut, kiriVec2 to, bool jump);
 
-/* Ends a cut with its last point, or, where that was given before an earlier tick, with one more in the room of the
-   queue. */
+/* Ends a cut with its last point. Where that was given before an earlier tick, queues one more, in the queue's room. */
 void kiriWorld_EndCut(const kiriWorld* world, kiriCutData* cut);
 
 /* Its id is stale then; the last pin of the sheet takes its index. */
