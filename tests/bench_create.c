@@ -140,14 +140,15 @@ static bool BenchFrames(void)
     static const struct {
         int32_t squares, grid, frames;
         double aim;
-    } rows[] = { { 64, 32, 25, 5.0 },           { 64, 64, 25, (double)NAN },  { 64, 64, 100, (double)NAN },
-                 { 256, 32, 25, 60.0 },         { 256, 256, 25, (double)NAN }, { 256, 256, 50, (double)NAN } };
+    } rows[] = { { 64, 32, 25, 5.0 },   { 64, 64, 25, (double)NAN },   { 64, 64, 100, (double)NAN },
+                 { 256, 32, 25, 60.0 }, { 256, 256, 25, (double)NAN }, { 256, 256, 50, (double)NAN } };
     Table table;
-    bool fine = Table_Start(&table, "frames",
-                            "A square is created with so many frames: how many it has, ms, ms with maxFrames set to the "
-                            "same, and the ratio.\nAims: no more frames than asked for; 1.5 times; on a quiet core 5 ms "
-                            "of 64 x 64 squares with 25 frames, 60 of 256 x 256.",
-                            columns);
+    bool fine =
+        Table_Start(&table, "frames",
+                    "A square is created with so many frames: how many it has, ms, ms with maxFrames set to the "
+                    "same, and the ratio.\nAims: no more frames than asked for; 1.5 times; on a quiet core 5 ms "
+                    "of 64 x 64 squares with 25 frames, 60 of 256 x 256.",
+                    columns);
     for (size_t i = 0; fine && i < sizeof rows / sizeof rows[0]; i++) {
         double best[2] = { 1e30, 1e30 };
         int32_t made[2] = { 0, 0 };

@@ -91,9 +91,8 @@ static bool PrintRow(Table* table, int32_t squares, int32_t frames, bool isShort
 
 int main(void)
 {
-    static const char* const columns[] = {
-        "cut", "squares", "frames", "cells a cell", "samples a vertex", "about 1 ms", "about 2 ms", NULL
-    };
+    static const char* const columns[] = { "cut",        "squares",    "frames", "cells a cell", "samples a vertex",
+                                           "about 1 ms", "about 2 ms", NULL };
     static const char title[] = "Ticks until the lips of a cut part, by the budget: 16 000 cells and 2000 samples, or "
                                 "twice as many; a sheet of so many squares each way,\nits grid as fine. Items of work "
                                 "in all, for each cell and vertex of the sheet.";

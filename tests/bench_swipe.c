@@ -9,14 +9,14 @@ static const double TICK_MS = 1000.0 / 60.0, BUDGET_MS = 2.0;
 
 typedef struct Swipe {
     int32_t squares, frames;
-    int32_t ticks;    /* that the blade takes from side to side */
-    double aimMs;     /* from when it has left until the lips part; NaN: none */
+    int32_t ticks; /* that the blade takes from side to side */
+    double aimMs;  /* from when it has left until the lips part; NaN: none */
 } Swipe;
 
 typedef struct Course {
-    kiriProfile cuts;                       /* work on cuts, summed */
-    double ms[MOST_TICKS], plain;           /* of each tick from the first of the cut, and of one before */
-    int32_t ticks, late;                    /* until the lips have parted: in all, and after the blade has left */
+    kiriProfile cuts;             /* work on cuts, summed */
+    double ms[MOST_TICKS], plain; /* of each tick from the first of the cut, and of one before */
+    int32_t ticks, late;          /* until the lips have parted: in all, and after the blade has left */
 } Course;
 
 static bool Start(const Swipe* swipe, const kiriBudget* budget, kiriWorld** world, kiriSheet* sheet)

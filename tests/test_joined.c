@@ -161,9 +161,8 @@ static void TestSameInTheEnd(void** state)
 {
     (void)state;
     static const kiriBudget none = { 0, 0, 0, 0 };
-    static const kiriBudget budgets[] = {
-        { 16, 6, 4, 0 }, { 40, 60, 20, 0 }, { 100, 400, 100, 0 }, { 0, 1500, 400, 0 }, { 30, 0, 0, 0 }, { 0, 0, 50, 0 }
-    };
+    static const kiriBudget budgets[] = { { 16, 6, 4, 0 },     { 40, 60, 20, 0 }, { 100, 400, 100, 0 },
+                                          { 0, 1500, 400, 0 }, { 30, 0, 0, 0 },   { 0, 0, 50, 0 } };
     int32_t fewer = 0, added = 0, parted = 0;
     for (uint32_t run = 1; run <= 36; ++run) {
         Outcome plain = DrawAtRandom(run, &none);
@@ -184,7 +183,8 @@ static void TestSameInTheEnd(void** state)
 
 /* ---- Lips part soon ---- */
 
-/* Returns the ticks from the last points of a blade, which crosses the sheet in `bladeTicks`, until there are two pieces. */
+/* Returns the ticks from the last points of a blade, which crosses the sheet in `bladeTicks`, until there are two
+   pieces. */
 static int32_t TicksToPart(const kiriBudget* budget, int32_t squares, int32_t bladeTicks)
 {
     Host host;
@@ -333,12 +333,48 @@ static void TestFramesWhenCutEnds(void** state)
     }
 }
 
+/* The end of a cut is a point of its own where the others came before: it may be refused memory, and called again. */
+static void TestEndIsRefused(void** state)
+{
+    (void)state;
+    int32_t refused = 0;
+    for (int32_t points = 1; points < 40; ++points) {
+        Host host;
+        kiriCut cut;
+        kiriEvent event;
+        static const kiriBudget budget = { 16, 10, 10, 0 };
+        StartStill(&host, &budget);
+        kiriSheet sheet = AddFine(&host, 8);
+        OK(kiriBeginCut(host.world, sheet, (const float[]){ 0.2f, 0.5f }, &cut));
+        for (int32_t k = 1; k < points; ++k) {
+            OK(kiriCut_Extend(host.world, cut, (const float[]){ 0.2f + 0.01f * (float)k, 0.5f }, 1));
+        }
+        TickOn(&host);
+        host.failAt = host.calls;
+        kiriResult result = kiriCut_End(host.world, cut);
+        host.failAt = -1;
+        if (result != KIRI_OK) {
+            assert_int_equal(result, KIRI_ERROR_MEMORY);
+            OK(kiriCut_End(host.world, cut));
+            refused += 1;
+        }
+        int32_t finished = 0;
+        for (int32_t tick = 0; tick < 2000 && finished == 0; ++tick) {
+            TickOn(&host);
+            finished = Host_Events(&host, KIRI_EVENT_CUT_FINISHED, &event);
+        }
+        assert_int_equal(finished, 1);
+        Host_Stop(&host);
+    }
+    assert_true(refused > 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestSameInTheEnd),       cmocka_unit_test(TestSlowBladePartsSoon),
-        cmocka_unit_test(TestShortCutGoesFirst),  cmocka_unit_test(TestLongCutComesToItsEnd),
-        cmocka_unit_test(TestFramesWhenCutEnds),
+        cmocka_unit_test(TestSameInTheEnd),      cmocka_unit_test(TestSlowBladePartsSoon),
+        cmocka_unit_test(TestShortCutGoesFirst), cmocka_unit_test(TestLongCutComesToItsEnd),
+        cmocka_unit_test(TestFramesWhenCutEnds), cmocka_unit_test(TestEndIsRefused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -374,8 +374,7 @@ static Rectangle MakeShape(kiriSheetDef* def, uint32_t* seed)
     bool isThere[MASK * MASK];
     int32_t to[(SHAPE_SQUARES + 1) * (SHAPE_SQUARES + 1)], vertices = 0, triangles = 0;
     uint32_t share = Random(seed) % 5;
-    Rectangle r =
-        Rectangle_Make(def, 1.0f, (float)RandomBetween(seed, 0.1, 1.0), SHAPE_SQUARES, SHAPE_SQUARES);
+    Rectangle r = Rectangle_Make(def, 1.0f, (float)RandomBetween(seed, 0.1, 1.0), SHAPE_SQUARES, SHAPE_SQUARES);
     for (int32_t i = 0; i < MASK * MASK; ++i) {
         isThere[i] = Random(seed) % 8 >= share || i == MASK * MASK / 2;
     }
@@ -404,8 +403,8 @@ static Rectangle MakeShape(kiriSheetDef* def, uint32_t* seed)
     return r;
 }
 
-/* A new sheet has as many frames as the host asked for, or as it has pieces: whatever its shape and its grid, and however
-   rigid frames are. After cuts there may be more. */
+/* A new sheet has no more frames than the host asked for, or than it has pieces: whatever its shape and its grid, and
+   however rigid frames are. After cuts there may be more. */
 static void NoMoreThanTheHostGave(void** state)
 {
     (void)state;

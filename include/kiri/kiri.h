@@ -102,16 +102,16 @@ typedef void* kiriStartTaskFn(void* user, kiriTaskFn* task, int32_t itemCount, i
 typedef void kiriFinishTaskFn(void* user, void* handle);
 
 /* The most work that one tick may do, over all sheets. 0: no limit. Triangles, cells and samples share one allowance:
-   using 30 % of one leaves 70 % of the others. So the work on cuts takes no longer than the costliest of the three limits
-   alone. A single step that exceeds the whole limit is not split. It runs alone in its tick.
-   Work that does not fit goes on in the next tick. Until a cut takes effect its lips move together. All points of a sheet
-   that are pending when work on them begins take effect together, whatever ticks they were given before. So when a cut
-   takes effect depends on the budget, too. Its result does not: when all work is done, mesh, grid, regions, weights and
-   sites of frames equal, bit for bit, a run of the same calls without a budget. Motion differs.
+   using 30 % of one leaves 70 % of the others. So the work on cuts takes no longer than the costliest of the three
+   limits alone. A single step that exceeds the whole limit is not split. It runs alone in its tick.
+   Work that does not fit goes on in the next tick. Until a cut takes effect its lips move together. All points of a
+   sheet that are pending when work on them begins take effect together, whatever ticks they were given before. So the
+   tick in which a cut takes effect depends on the budget, too. Its result does not: when all work is done, mesh, grid,
+   regions, weights and sites of frames equal, bit for bit, a run of the same calls without a budget. Motion differs.
    Sheets take turns. In every other tick the sheet whose points came first is served first, in the ticks between the
    sheet whose work has used least. Pieces that wait to be detached get half of every other tick.
    An example at 60 Hz, with 2 ms of work on cuts a tick (about 32 000 cells and 4000 samples): a cut from side to side
-   of 64 x 64 squares with 9 frames parts 17 to 67 ms after the blade has left, one of 127 x 127 squares with 24 frames
+   of 64 x 64 squares with 9 frames parts 17 to 100 ms after the blade has left, one of 127 x 127 squares with 24 frames
    67 to 200 ms. A slow blade parts sooner, for its work is done on the way. tests/bench_swipe.c prints the table. */
 typedef struct kiriBudget {
     int32_t triangles; /* split by blades; 0, or KIRI_LEAST_TRIANGLES and more */

@@ -247,7 +247,7 @@ static inline bool kiriGrid_IsBefore(const kiriGrid* grid, int32_t a, int32_t b)
     return x->square != y->square ? x->square < y->square : x->triangle < y->triangle;
 }
 
-/* Joins cells that hang together, in a union-find of all cells: straight steps lead to all material of a piece, and to no
+/* Joins the cells of each piece in a union-find of all cells. Straight steps lead to all material of a piece, and to no
    other. */
 void kiriGrid_JoinCells(const kiriGrid* grid, int32_t* parent);
 

@@ -336,8 +336,8 @@ bool kiriSites_ClearMarks(kiriSheetData* sheet, int32_t count)
 
 /* ---- Re-sampling ---- */
 
-/* Returns the area over which the frame's weight exceeds rigidWeight, divided by rigidArea. 0 where the area does not exceed
-   that of the new sheet. */
+/* Returns the area over which the frame's weight exceeds rigidWeight, divided by rigidArea. 0 where the area does not
+   exceed that of the new sheet. */
 static double Rigidity(const kiriSheetData* sheet, int32_t frame)
 {
     int64_t rigid = sheet->shape.rigid.data[frame];
@@ -346,8 +346,8 @@ static double Rigidity(const kiriSheetData* sheet, int32_t frame)
     return isMore ? (double)rigid * square / sheet->settings.rigidArea : 0.0;
 }
 
-/* Returns the squared size of a frame's region, divided by the largest that it may have. The size follows from the radius
-   of gyration, so long regions count as large. A square is as large as its side. */
+/* Returns the squared size of a frame's region, divided by the largest that it may have. The size follows from the
+   radius of gyration, so long regions count as large. A square is as large as its side. */
 static double Largeness(const kiriSheetData* sheet, int32_t frame)
 {
     if (sheet->settings.frameLength == 0.0) {
@@ -417,10 +417,10 @@ static bool TakeSitesOfPiece(kiriSheetData* sheet, bool* old)
     return ok;
 }
 
-/* How many more sites the piece in the placer gets. Where all are new they are placed again, to lie evenly: in the first
-   round, and as long as more than a quarter of the frames need another. Areas shrink then as the count grows, but it
-   grows by half at most. Else there is one for every two frames in need, for a new site helps its neighbours, too. A
-   crumb gets none, nor does a piece get more than the grid carries. */
+/* Returns how many more sites the piece in the placer gets. Where all sites are new they are placed again, to lie
+   evenly: in the first round, and while more than a quarter of the frames need another. Areas shrink then as the count grows.
+   The count grows by half at most. Else there is one site for every two frames in need, for a new site helps its
+   neighbours, too. A crumb gets none, and a piece gets no more than the grid carries. */
 static int32_t SitesToAdd(kiriSheetData* sheet, bool areNew)
 {
     kiriPlacingWork* placing = &sheet->update->placing;

@@ -202,8 +202,8 @@ static kiriProgress SettleSites(kiriSheetData* sheet, kiriQuota* cells)
         kiriProgress progress = u->step == WEIGH_CELLS ? WeighCells(sheet, cells)
                                 : u->step == ADD_SITES ? kiriSites_Resample(sheet, cells)
                                                        : DivideRegions(sheet, cells);
-        bool isSettled = u->step == WEIGH_CELLS ? !u->cut.settlesSites
-                                                : u->step == ADD_SITES && u->placing.moves.count == 0;
+        bool isSettled =
+            u->step == WEIGH_CELLS ? !u->cut.settlesSites : u->step == ADD_SITES && u->placing.moves.count == 0;
         if (progress != KIRI_DONE || isSettled) {
             return progress;
         }
