@@ -790,6 +790,12 @@ static void MoreIsTakenThanWaits(kiriSheetData* sheet)
     sheet->update->cut.taken = sheet->update->cut.count + 1;
 }
 
+static void PointEndsACutThatGoesOn(kiriSheetData* sheet)
+{
+    sheet->queue.data[0].ends = true;
+    sheet->queue.data[0].cut->ended = false;
+}
+
 static void OwnerOfMaterialIsNone(kiriSheetData* sheet)
 {
     sheet->update->refit.ownership.squares.data[0].owner = 1 << 20;
@@ -824,6 +830,7 @@ static void TestWork(void** state)
     };
     static const Spoiler refused[] = {
         { "MoreIsTakenThanWaits", MoreIsTakenThanWaits },
+        { "PointEndsACutThatGoesOn", PointEndsACutThatGoesOn },
         { "OwnerOfMaterialIsNone", OwnerOfMaterialIsNone },
     };
     Host host;

@@ -58,7 +58,8 @@ static bool IsQueue(kiriCheck* check, const kiriSheetData* sheet)
 {
     bool isFine = true;
     for (int32_t k = 0; isFine && k < sheet->queue.count; ++k) {
-        isFine = kiriCheck_Object(check, PointMust, &sheet->queue.data[k]);
+        const kiriQueuedPoint* point = &sheet->queue.data[k];
+        isFine = kiriCheck_Object(check, PointMust, point) && kiriCheck_That(check, !point->ends || point->cut->ended);
     }
     return isFine;
 }

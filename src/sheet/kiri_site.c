@@ -418,8 +418,8 @@ static bool TakeSitesOfPiece(kiriSheetData* sheet, bool* old)
 }
 
 /* Returns how many more sites the piece in the placer gets. Where all sites are new they are placed again, to lie
-   evenly: in the first round, and while more than a quarter of the frames need another. Areas shrink then as the count grows.
-   The count grows by half at most. Else there is one site for every two frames in need, for a new site helps its
+   evenly: in the first round, and while more than a quarter of the frames need another. Areas shrink then as the count
+   grows. The count grows by half at most. Else there is one site for every two frames in need, for a new site helps its
    neighbours, too. A crumb gets none, and a piece gets no more than the grid carries. */
 static int32_t SitesToAdd(kiriSheetData* sheet, bool areNew)
 {
