@@ -333,7 +333,8 @@ static void TestFramesWhenCutEnds(void** state)
     }
 }
 
-/* The end of a cut is a point of its own where the others came before: it may be refused memory, and called again. */
+/* kiriCut_End queues a point where the cut has none in this tick. A refused allocation fails the call, which may be made
+   again. */
 static void TestEndIsRefused(void** state)
 {
     (void)state;

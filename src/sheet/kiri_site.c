@@ -336,8 +336,8 @@ bool kiriSites_ClearMarks(kiriSheetData* sheet, int32_t count)
 
 /* ---- Re-sampling ---- */
 
-/* Returns the area over which the frame's weight exceeds rigidWeight, divided by rigidArea. 0 where the area does not
-   exceed that of the new sheet. */
+/* Returns the area over which the frame's weight exceeds rigidWeight, divided by rigidArea. 0 where the new sheet
+   had as much. */
 static double Rigidity(const kiriSheetData* sheet, int32_t frame)
 {
     int64_t rigid = sheet->shape.rigid.data[frame];
