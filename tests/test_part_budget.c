@@ -289,7 +289,8 @@ static void StartAhead(Host* host, int disturbance, bool hasBudget, bool* wasMad
     assert_int_equal(kiriFrame_DetachPiece(host->world, frame, &made), KIRI_PENDING);
     for (int32_t tick = 0; tick < 150 && !*wasMade; ++tick) {
         host->failAt = disturbance == REFUSE ? host->calls + tick % 16 : -1;
-        TickOnce(host, 60, &result);
+        result = Host_Tick(host, 1.0f / 60.0f, 1);
+        assert_true(result >= 0 || (disturbance == REFUSE && result == KIRI_ERROR_MEMORY));
         *wasMade = *wasMade || (ahead->part != NULL && ahead->part->update != NULL &&
                                 ahead->part->update->stage == KIRI_STAGE_CONSTANTS);
     }

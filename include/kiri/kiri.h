@@ -813,11 +813,12 @@ KIRI_API kiriResult kiriFrame_GetPiece(const kiriWorld* world, kiriFrame frame, 
    Costs what the piece takes to make, and a look at the weights of what is left; where indices change more.
    KIRI_PENDING: work on a cut is at hand in the sheet, or it takes more samples than the budget leaves calls before the
    next tick; *detached is 0. When the work is done, what is the piece of this frame then becomes a sheet, and
-   KIRI_EVENT_PIECE_DETACHED names it. About 1.5 samples for each vertex of the piece, 0.7 for each cell, and one for 80
-   vertices of the rest are paid before, over several ticks if need be, of many pieces one after the other; until then
-   further cuts of the sheet wait. A piece that is worth more than the samples of a tick is made as they are paid, and
-   leaves when it is made: in one tick all the same, which takes an eighth of the work. What a call does at once the
-   coming ticks have less. KIRI_ERROR_STATE: nothing would be left of the sheet. */
+   KIRI_EVENT_PIECE_DETACHED names it. Samples pay for it before, over several ticks if need be, of many pieces one after
+   the other: of the first that waits 3 for each vertex, 2.5 to 9 for each cell (the more frames, the more) and 100 for
+   each frame, of others 3 for each vertex and 1.4 for each cell; and one for 80 vertices of the rest. Until then further
+   cuts of the sheet wait. The first piece is made as it is paid, and leaves at the start of the tick after the last
+   sample is paid. That tick takes an eighth of the work; after a load, the first tick makes again what saves leave out.
+   What a call does at once the coming ticks have less. KIRI_ERROR_STATE: nothing would be left of the sheet. */
 KIRI_API kiriResult kiriFrame_DetachPiece(kiriWorld* world, kiriFrame frame, kiriSheet* detached);
 
 /* The same without keeping the piece: ids of its frames and pins are stale. Costs as much, but for making a sheet: that

@@ -55,8 +55,9 @@ static bool MakeSome(kiriSheetData* sheet, kiriMemory* memory, kiriQuotas* quota
     return progress != KIRI_FAILED;
 }
 
-void kiriAhead_GoOn(kiriSheetData* sheet, kiriFrame frame, kiriMemory* memory, kiriQuotas* quotas)
+bool kiriAhead_GoOn(kiriSheetData* sheet, kiriFrame frame, kiriMemory* memory, int64_t paid)
 {
+    enum { CELLS_FOR_A_SAMPLE = 5, SAMPLES_FOR_A_SAMPLE = 1 };
     kiriAhead* ahead = &sheet->ahead;
     if (!IsMadeOf(sheet, frame)) {
         kiriAhead_Drop(sheet, memory);
@@ -65,9 +66,19 @@ void kiriAhead_GoOn(kiriSheetData* sheet, kiriFrame frame, kiriMemory* memory, k
         ahead->revision = sheet->mesh.revision;
         ahead->memory = kiriMemory_Like(memory);
     }
-    if (!(ahead->gathered == NULL ? StartAhead(sheet, quotas) : MakeSome(sheet, memory, quotas))) {
+    int64_t more = paid - ahead->spent;
+    if (ahead->isMade || more <= 0) {
+        return true;
+    }
+    kiriQuotas quotas = kiriQuotas_Unlimited();
+    quotas.of[KIRI_QUOTA_CELLS].left = CELLS_FOR_A_SAMPLE * more;
+    quotas.of[KIRI_QUOTA_SAMPLES].left = SAMPLES_FOR_A_SAMPLE * more;
+    ahead->spent = paid;
+    bool ok = ahead->gathered == NULL ? StartAhead(sheet, &quotas) : MakeSome(sheet, memory, &quotas);
+    if (!ok) {
         kiriAhead_Drop(sheet, memory);
     }
+    return ok;
 }
 
 kiriSheetData* kiriAhead_Take(kiriSheetData* sheet, kiriFrame frame)
@@ -75,11 +86,6 @@ kiriSheetData* kiriAhead_Take(kiriSheetData* sheet, kiriFrame frame)
     kiriSheetData* part = IsMadeOf(sheet, frame) ? sheet->ahead.part : NULL;
     sheet->ahead.part = part != NULL ? NULL : sheet->ahead.part;
     return part;
-}
-
-bool kiriAhead_IsAtWork(const kiriSheetData* sheet, kiriFrame frame)
-{
-    return IsMadeOf(sheet, frame) && !sheet->ahead.isMade;
 }
 
 const kiriGathered* kiriAhead_Gathered(const kiriSheetData* sheet, const uint8_t* stays)

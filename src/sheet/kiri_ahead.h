@@ -1,5 +1,6 @@
-/* The sheet of a piece is made little by little while the piece waits to leave: so the tick in which it does has less
-   to do. Nothing depends on how far that has come, and what is made may be dropped at any time. */
+/* A cache: the sheet of a piece is made little by little while the piece waits to leave, so that the tick in which it
+   leaves has less to do. No tick depends on how far it has come, saves leave it out, and it may be dropped at any
+   time. */
 #ifndef KIRI_AHEAD_H
 #define KIRI_AHEAD_H
 
@@ -8,12 +9,10 @@
 
 KIRI_C_BEGIN
 
-/* Goes on with the sheet of the piece of this frame, as far as the quotas go; of any other piece it is dropped. Fields
-   belong to the mesh as it is. `memory` is that of all sheets. Where it is refused all begins anew. */
-void kiriAhead_GoOn(kiriSheetData* sheet, kiriFrame frame, kiriMemory* memory, kiriQuotas* quotas);
-
-/* Has the sheet of the piece of this frame been begun, and is not all there yet that can be made ahead? */
-bool kiriAhead_IsAtWork(const kiriSheetData* sheet, kiriFrame frame);
+/* Goes on with the sheet of the piece of this frame, as far as `paid` samples pay in all; drops that of any other piece.
+   A cache that is behind, as after a load, catches up at once. Fields belong to the mesh as it is. `memory` is that of
+   all sheets. False for memory: the cache is dropped. */
+bool kiriAhead_GoOn(kiriSheetData* sheet, kiriFrame frame, kiriMemory* memory, int64_t paid);
 
 /* What has been made for the piece of this frame, which is the caller's from now on; null: nothing. */
 kiriSheetData* kiriAhead_Take(kiriSheetData* sheet, kiriFrame frame);

@@ -160,7 +160,7 @@ typedef struct kiriTaking {
     KIRI_ARRAY(uint8_t) cells;
 } kiriTaking;
 
-/* The sheet of a piece that is to leave, as far as it is made before that, see kiri_ahead.h. Nothing depends on it. */
+/* The sheet of a piece that waits to leave, as far as it is made before that: a cache, see kiri_ahead.h. */
 typedef struct kiriAhead {
     kiriFrame frame; /* names the piece; 0: none */
     int32_t piece;
@@ -168,6 +168,7 @@ typedef struct kiriAhead {
     struct kiriSheetData* part;    /* null: not begun */
     struct kiriGathered* gathered; /* what belongs to the piece; null: not yet */
     bool isMade;                   /* is all of the part there that depends on the mesh alone? */
+    int64_t spent;                 /* of the samples that were paid */
     kiriMemory memory;             /* of that */
 } kiriAhead;
 

@@ -20,10 +20,12 @@ kiriResult kiriParts_DropCrumbs(kiriWorld* world, kiriSheetData* sheet, double a
 /* Does something wait, while no work is at hand in the sheet? No work begins before that is done. */
 bool kiriParts_AreDue(const kiriSheetData* sheet);
 
-/* At the end of a tick: what is due, once samples have paid for it. Returns how many pieces have become sheets:
-   sheet->leaving begins with their frames until ForgetMade. Where memory is refused they wait on. */
-int32_t kiriParts_Finish(kiriWorld* world, kiriSheetData* sheet, kiriQuota* samples);
-void kiriParts_ForgetMade(kiriSheetData* sheet, int32_t made);
+/* At the end of a tick: pays for what is due with what samples are left, over several ticks if need be. */
+void kiriParts_Pay(kiriWorld* world, kiriSheetData* sheet, kiriQuota* samples);
+
+/* At the start of a tick: takes out what is paid, and tells of the sheets by events; what is not paid in full is made
+   ahead. How much is paid is the only thing that decides. On failure nothing has changed, and all waits on. */
+kiriResult kiriParts_Leave(kiriWorld* world, kiriSheetData* sheet);
 
 KIRI_C_END
 

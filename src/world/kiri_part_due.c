@@ -23,7 +23,17 @@ bool kiriParts_AreDue(const kiriSheetData* sheet)
     return !kiriPart_IsBusy(sheet) && (sheet->leaving.count > 0 || kiriPieces_AnyGone(sheet));
 }
 
-/* Samples for what is gone, and for the first `count` of those that leave. */
+static int32_t CountFrames(const kiriSheetData* sheet, int32_t piece)
+{
+    int32_t count = 0;
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        count += sheet->layout.framePiece.data[i] == piece;
+    }
+    return count;
+}
+
+/* Samples for what is gone, and for the first `count` of those that leave. The first of these is made ahead, which takes
+   more work than to make it at once. */
 static int64_t CostOfLeaving(const kiriWorld* world, const kiriSheetData* sheet, int32_t count)
 {
     const kiriPiece* pieces = sheet->layout.pieces.data;
@@ -34,84 +44,95 @@ static int64_t CostOfLeaving(const kiriWorld* world, const kiriSheetData* sheet,
     for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
         gone += pieces[p].isGone ? pieces[p].area / whole : 0.0;
     }
-    for (int32_t k = 0; k < count; ++k) {
+    int32_t first = count > 0 ? kiriPart_PieceOfFrame(world, sheet->leaving.data[0]) : KIRI_NONE;
+    double ahead = first != KIRI_NONE ? pieces[first].area / whole : 0.0;
+    for (int32_t k = 1; k < count; ++k) {
         share += pieces[kiriPart_PieceOfFrame(world, sheet->leaving.data[k])].area / whole;
     }
-    return (int64_t)(kiriRemoval_Samples(sheet, gone + share) + kiriExtraction_Samples(sheet, share));
+    double samples = kiriRemoval_Samples(sheet, gone + ahead + share) + kiriExtraction_Samples(sheet, share);
+    return (int64_t)(samples +
+                     (first != KIRI_NONE ? kiriExtraction_SamplesAhead(sheet, ahead, CountFrames(sheet, first)) : 0.0));
 }
 
-/* Is the first of those that leave made ahead, and not done? Where there is no limit it is done at once. */
-static bool IsAtWork(const kiriWorld* world, const kiriSheetData* sheet)
+/* How many of the pieces that leave so many samples pay for, with what is gone. KIRI_NONE: not even the first. */
+static int32_t CountWithin(const kiriWorld* world, const kiriSheetData* sheet, int64_t samples)
 {
-    return world->budget.samples > 0 && sheet->leaving.count > 0 && kiriAhead_IsAtWork(sheet, sheet->leaving.data[0]);
-}
-
-/* How many of those that leave the samples pay for, what was paid before with them: one at least, which takes several
-   ticks if need be. KIRI_NONE: it is not paid for yet. */
-static int32_t PayForLeaving(const kiriWorld* world, kiriSheetData* sheet, kiriQuota* samples)
-{
-    int32_t count = sheet->leaving.count > 0, most = IsAtWork(world, sheet) ? 1 : sheet->leaving.count;
-    int64_t paid = sheet->leavingPaid, cost = CostOfLeaving(world, sheet, count);
-    while (count < most) {
-        int32_t more = most - count > 16 ? count + (most - count) / 2 : count + 1;
-        int64_t costOfMore = CostOfLeaving(world, sheet, more);
-        if (costOfMore - paid > samples->left) {
-            most = more - 1;
+    int32_t low = sheet->leaving.count > 0, high = sheet->leaving.count;
+    if (CostOfLeaving(world, sheet, low) > samples) {
+        return KIRI_NONE;
+    }
+    while (low < high) {
+        int32_t middle = low + (high - low + 1) / 2;
+        if (CostOfLeaving(world, sheet, middle) <= samples) {
+            low = middle;
         } else {
-            count = more;
-            cost = costOfMore;
+            high = middle - 1;
         }
     }
-    int64_t due = cost > paid ? cost - paid : 0;
-    bool isPaid = kiriQuota_Pay(samples, &due);
-    sheet->leavingPaid = cost - due;
-    return isPaid ? count : KIRI_NONE;
+    return low;
 }
 
-/* With what has just been paid: faster than that, so that all is made when all is paid. Cells and samples of a sheet
-   that is made anew take less than those beside a cut. */
-static void GoAhead(kiriWorld* world, kiriSheetData* sheet, int64_t samples)
+void kiriParts_Pay(kiriWorld* world, kiriSheetData* sheet, kiriQuota* samples)
 {
-    enum { CELLS_FOR_A_SAMPLE = 5, SAMPLES_FOR_A_SAMPLE = 1 };
-    kiriQuotas quotas = kiriQuotas_Unlimited();
-    quotas.of[KIRI_QUOTA_CELLS].left = CELLS_FOR_A_SAMPLE * samples;
-    quotas.of[KIRI_QUOTA_SAMPLES].left = SAMPLES_FOR_A_SAMPLE * samples;
-    if (sheet->leaving.count > 0 && samples > 0) {
-        kiriAhead_GoOn(sheet, sheet->leaving.data[0], &world->memory, &quotas);
-    }
-}
-
-int32_t kiriParts_Finish(kiriWorld* world, kiriSheetData* sheet, kiriQuota* samples)
-{
-    kiriParting parting;
     if (!kiriParts_AreDue(sheet)) {
-        return 0;
+        return;
     }
     ForgetStaleLeaving(world, sheet);
-    int64_t used = samples->used;
-    int32_t count = PayForLeaving(world, sheet, samples);
-    if (IsAtWork(world, sheet)) {
-        int64_t rest = count != KIRI_NONE ? samples->left : 0; /* it has cost more than was thought */
-        (void)kiriQuota_Pay(samples, &rest);
-        count = KIRI_NONE;
-    }
-    if (count == KIRI_NONE) {
-        GoAhead(world, sheet, samples->used - used);
-        return 0;
-    }
-    bool isDone = kiriParting_Start(&parting, world, 1);
-    parting.isInTick = true;
-    isDone = isDone && kiriParting_SourceFor(&parting, sheet) != NULL &&
-             kiriParting_MarkPieces(&parting, sheet->leaving.data, count) && kiriParting_Detach(&parting) == KIRI_OK;
-    sheet->leavingPaid = isDone ? 0 : sheet->leavingPaid;
-    kiriParting_End(&parting);
-    return isDone ? count : 0;
+    int64_t paid = sheet->leavingPaid;
+    int32_t count = CountWithin(world, sheet, samples->left < INT64_MAX - paid ? paid + samples->left : INT64_MAX);
+    int64_t cost = CostOfLeaving(world, sheet, count != KIRI_NONE ? count : sheet->leaving.count > 0);
+    int64_t due = cost > paid ? cost - paid : 0;
+    (void)kiriQuota_Pay(samples, &due);
+    sheet->leavingPaid = cost - due > paid ? cost - due : paid;
 }
 
-void kiriParts_ForgetMade(kiriSheetData* sheet, int32_t made)
+/* Room first. Events are the last of the list, see kiriWorld. */
+static kiriResult Part(kiriWorld* world, kiriSheetData* sheet, int32_t count)
 {
-    for (int32_t k = made; k < sheet->leaving.count; ++k) {
-        sheet->leaving.data[k - made] = sheet->leaving.data[k];
+    kiriParting parting;
+    kiriResult result = KIRI_ERROR_MEMORY;
+    bool hasRoom = kiriParting_Start(&parting, world, 1) &&
+                   kiriArray_Reserve(&world->memory, &world->events, (int64_t)world->events.count + count);
+    parting.isInTick = true;
+    if (hasRoom && kiriParting_SourceFor(&parting, sheet) != NULL &&
+        kiriParting_MarkPieces(&parting, sheet->leaving.data, count)) {
+        result = kiriParting_Detach(&parting);
     }
-    sheet->leaving.count -= made;
+    kiriParting_End(&parting);
+    return result;
+}
+
+static void TellMade(kiriWorld* world, kiriSheetData* sheet, int32_t count)
+{
+    for (int32_t k = 0; k < count; ++k) {
+        const kiriSheetData* part = kiriPool_Find(&world->frameIds, sheet->leaving.data[k])->owner;
+        kiriEvent* event = kiriWorld_AddEvent(world, KIRI_EVENT_PIECE_DETACHED, part);
+        event->frame = sheet->leaving.data[k];
+        event->area = (float)part->layout.pieces.data[0].area;
+        world->newEvents += 1;
+    }
+    for (int32_t k = count; k < sheet->leaving.count; ++k) {
+        sheet->leaving.data[k - count] = sheet->leaving.data[k];
+    }
+    sheet->leaving.count -= count;
+    sheet->leavingPaid = 0;
+}
+
+kiriResult kiriParts_Leave(kiriWorld* world, kiriSheetData* sheet)
+{
+    if (!kiriParts_AreDue(sheet)) {
+        return KIRI_OK;
+    }
+    ForgetStaleLeaving(world, sheet);
+    int32_t count = CountWithin(world, sheet, sheet->leavingPaid);
+    if (count == KIRI_NONE) {
+        bool ok = sheet->leaving.count == 0 ||
+                  kiriAhead_GoOn(sheet, sheet->leaving.data[0], &world->memory, sheet->leavingPaid);
+        return ok ? KIRI_OK : KIRI_ERROR_MEMORY;
+    }
+    kiriResult result = Part(world, sheet, count);
+    if (result == KIRI_OK) {
+        TellMade(world, sheet, count);
+    }
+    return result;
 }

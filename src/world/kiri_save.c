@@ -86,7 +86,7 @@ static const kiriMember WorldMembers[] = {
     KIRI_RUN(8, kiriWorld, gravity, gravity),
     KIRI_RUN(4, kiriWorld, budget, budget),
     KIRI_RUN(8, kiriWorld, samplesDue, ticks),
-    KIRI_RUN(4, kiriWorld, turn, turn),
+    KIRI_RUN(4, kiriWorld, turn, newEvents),
     KIRI_PART(kiriWorld, sheetIds, PoolTable),
     KIRI_PART(kiriWorld, cutIds, PoolTable),
     KIRI_PART(kiriWorld, frameIds, PoolTable),

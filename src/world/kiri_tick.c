@@ -68,6 +68,24 @@ static void ListActive(kiriWorld* world)
     }
 }
 
+/* ---- Pieces that leave ---- */
+
+/* Pieces that the host has taken out of a sheet while work was at hand leave when that is done and paid for: before all
+   else, so that a tick that is refused memory here has not begun. */
+static kiriResult PartAll(kiriWorld* world)
+{
+    kiriResult result = KIRI_OK;
+    for (int32_t k = 0, count = world->active.count; result == KIRI_OK && k < count; ++k) {
+        kiriSheetData* sheet = kiriWorld_Active(world, k);
+        if (kiriParts_AreDue(sheet)) {
+            EnterStage(world, KIRI_STAGE_CONSTANTS);
+        }
+        result = kiriParts_Leave(world, sheet);
+    }
+    ListActive(world); /* with the new sheets */
+    return result;
+}
+
 /* ---- Updates ---- */
 
 /* Sheets take turns. In every other tick the one whose points came first is served first, so each comes to its end. In
@@ -183,11 +201,10 @@ static bool FindTouches(kiriWorld* world, double dt)
 /* Room for the ids and events of the tick. Of each sheet that wakes in it a pin may break, too. */
 static kiriResult ReserveRoom(kiriWorld* world)
 {
-    int64_t frames = 0,
-            events = 2 * (int64_t)world->sheets.count + world->cutIds.slots.count + world->pinIds.slots.count;
+    int64_t frames = 0, events = world->events.count + 2 * (int64_t)world->sheets.count + world->cutIds.slots.count +
+                                 world->pinIds.slots.count;
     for (int32_t k = 0; k < world->active.count; ++k) {
         kiriSheetData* sheet = kiriWorld_Active(world, k);
-        events += sheet->leaving.count;
         if (IsReady(sheet) && sheet->update->cut.meshChanged) {
             frames += sheet->update->placing.sites.count - sheet->frames.count;
             events += sheet->update->next.pieces.count;
@@ -199,16 +216,6 @@ static kiriResult ReserveRoom(kiriWorld* world)
     return kiriArray_Reserve(&world->memory, &world->events, events + frames)
                ? kiriWorld_ReserveIds(world, &world->frameIds, frames)
                : KIRI_ERROR_MEMORY;
-}
-
-static kiriEvent* AddEvent(kiriWorld* world, int32_t type, const kiriSheetData* sheet)
-{
-    kiriEvent* event = &world->events.data[world->events.count++];
-    memset(event, 0, sizeof(*event));
-    event->type = type;
-    event->sheet = sheet->id;
-    event->stage = KIRI_NONE;
-    return event;
 }
 
 static void CountWork(kiriProfile* profile, const kiriSheetData* sheet)
@@ -233,7 +240,7 @@ static void CommitUpdate(kiriWorld* world, kiriSheetData* sheet)
     }
     for (int32_t piece = 0; piece < sheet->layout.pieces.count; ++piece) {
         if (sheet->layout.pieces.data[piece].cameOff && !sheet->layout.pieces.data[piece].isGone) {
-            kiriEvent* event = AddEvent(world, KIRI_EVENT_PIECE_OFF, sheet);
+            kiriEvent* event = kiriWorld_AddEvent(world, KIRI_EVENT_PIECE_OFF, sheet);
             event->frame = sheet->frames.data[sheet->layout.pieces.data[piece].frame].id;
             event->crumb = sheet->layout.pieces.data[piece].area < sheet->settings.crumbArea;
             event->area = (float)sheet->layout.pieces.data[piece].area;
@@ -241,7 +248,7 @@ static void CommitUpdate(kiriWorld* world, kiriSheetData* sheet)
     }
     for (int32_t i = oldFrames; i < sheet->frames.count; ++i) {
         if (!kiriSheet_IsGone(sheet, i)) {
-            AddEvent(world, KIRI_EVENT_FRAME_ADDED, sheet)->frame = sheet->frames.data[i].id;
+            kiriWorld_AddEvent(world, KIRI_EVENT_FRAME_ADDED, sheet)->frame = sheet->frames.data[i].id;
         }
     }
 }
@@ -252,7 +259,7 @@ static void FinishCuts(kiriWorld* world, kiriSheetData* sheet)
     for (int32_t i = 0; i < sheet->cuts.count; ++i) {
         kiriCutData* cut = sheet->cuts.data[i];
         if (cut->ended && cut->waiting == 0) {
-            AddEvent(world, KIRI_EVENT_CUT_FINISHED, sheet)->cut = cut->id;
+            kiriWorld_AddEvent(world, KIRI_EVENT_CUT_FINISHED, sheet)->cut = cut->id;
             kiriWorld_RemoveCut(world, cut);
         } else {
             cut->index = kept;
@@ -315,7 +322,7 @@ static bool ReportDeferred(kiriWorld* world)
     for (int32_t k = 0; k < world->active.count; ++k) {
         const kiriSheetData* sheet = kiriWorld_Active(world, k);
         if (sheet->queue.count > 0) {
-            kiriEvent* event = AddEvent(world, KIRI_EVENT_DEFERRED, sheet);
+            kiriEvent* event = kiriWorld_AddEvent(world, KIRI_EVENT_DEFERRED, sheet);
             event->stage = sheet->update->stage == KIRI_NONE ? KIRI_STAGE_CUT : sheet->update->stage;
             event->waiting = sheet->queue.count;
             any = true;
@@ -335,7 +342,7 @@ static kiriResult ReportMoves(kiriWorld* world, kiriResult result)
         int32_t i = kiriMoves_SheetAt(world, turn, k);
         kiriProgress progress = world->moves.of.data[i].progress;
         if (progress == KIRI_FAILED) {
-            AddEvent(world, KIRI_EVENT_DIVERGED, world->sheets.data[i]);
+            kiriWorld_AddEvent(world, KIRI_EVENT_DIVERGED, world->sheets.data[i]);
             result = KIRI_DIVERGED;
         } else if (progress == KIRI_MORE || world->sheets.data[i]->turns.waiting > 0) {
             bool isWhole = progress == KIRI_MORE;
@@ -371,7 +378,7 @@ static void BreakPins(kiriWorld* world, kiriSheetData* sheet)
 {
     for (int32_t i = 0; i < sheet->pins.count; ++i) {
         if (IsOverloaded(&sheet->pins.data[i])) {
-            AddEvent(world, KIRI_EVENT_PIN_BROKE, sheet)->pin = sheet->pins.data[i].id;
+            kiriWorld_AddEvent(world, KIRI_EVENT_PIN_BROKE, sheet)->pin = sheet->pins.data[i].id;
         }
     }
     for (int32_t i = sheet->pins.count - 1; i >= 0; --i) {
@@ -417,25 +424,13 @@ static kiriQuota SetAside(const kiriWorld* world, kiriQuotas* quotas)
     return aside;
 }
 
-/* Pieces that the host has taken out of a sheet while work was at hand go now that it is done. False where some wait
-   on. */
-static bool FinishParting(kiriWorld* world, kiriQuota* samples)
+/* False where some wait on. */
+static bool PayForParting(kiriWorld* world, kiriQuota* samples)
 {
     bool isDone = true;
-    for (int32_t i = 0, count = world->active.count; i < count; ++i) {
-        kiriSheetData* sheet = kiriWorld_Active(world, i);
-        if (kiriParts_AreDue(sheet)) {
-            EnterStage(world, KIRI_STAGE_CONSTANTS);
-        }
-        int32_t made = kiriParts_Finish(world, sheet, samples);
-        for (int32_t k = 0; k < made; ++k) {
-            const kiriSheetData* part = kiriPool_Find(&world->frameIds, sheet->leaving.data[k])->owner;
-            kiriEvent* event = AddEvent(world, KIRI_EVENT_PIECE_DETACHED, part);
-            event->frame = sheet->leaving.data[k];
-            event->area = (float)part->layout.pieces.data[0].area;
-        }
-        kiriParts_ForgetMade(sheet, made);
-        isDone = isDone && !kiriParts_AreDue(sheet);
+    for (int32_t k = 0; k < world->active.count; ++k) {
+        kiriParts_Pay(world, kiriWorld_Active(world, k), samples);
+        isDone = isDone && !kiriParts_AreDue(kiriWorld_Active(world, k));
     }
     return isDone;
 }
@@ -446,6 +441,17 @@ static void CountSpent(kiriProfile* profile, const kiriQuotas* quotas)
     profile->cellsSettled = (int32_t)quotas->of[KIRI_QUOTA_CELLS].used;
     profile->samplesRefreshed = (int32_t)quotas->of[KIRI_QUOTA_SAMPLES].used;
     profile->solverIterations = (int32_t)quotas->of[KIRI_QUOTA_ITERATIONS].used;
+}
+
+/* Those before this tick, but for those that refused ticks have left. */
+static void ForgetEvents(kiriWorld* world)
+{
+    int32_t first = world->events.count - world->newEvents;
+    for (int32_t i = 0; i < world->newEvents; ++i) {
+        world->events.data[i] = world->events.data[first + i];
+    }
+    world->events.count = world->newEvents;
+    world->newEvents = 0;
 }
 
 /* Algorithm 1 of the paper: the work on cuts (see kiri_pipeline.c for its stages), its commit, the motion of frames,
@@ -460,14 +466,19 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
     kiriQuotas_Share(&quotas, KIRI_QUOTA_SAMPLES);
     kiriMemory_FreeAll(&world->retired);
     memset(&world->profile, 0, sizeof(world->profile));
+    world->atWork.count = 0;
     ListActive(world);
-    StartAll(world);
-    kiriQuota aside = SetAside(world, &quotas);
-    bool hasRoom = FindPairs(world, dt) && UpdateAll(world, &quotas) && FindTouches(world, dt) &&
-                   kiriMoves_Prepare(world) && kiriSkinStep_Prepare(world);
-    kiriResult result = hasRoom ? ReserveRoom(world) : KIRI_ERROR_MEMORY;
+    kiriResult result = PartAll(world);
+    kiriQuota aside = { 0, 0, 0, false };
     if (result == KIRI_OK) {
-        world->events.count = 0;
+        StartAll(world);
+        aside = SetAside(world, &quotas);
+        bool hasRoom = FindPairs(world, dt) && UpdateAll(world, &quotas) && FindTouches(world, dt) &&
+                       kiriMoves_Prepare(world) && kiriSkinStep_Prepare(world);
+        result = hasRoom ? ReserveRoom(world) : KIRI_ERROR_MEMORY;
+    }
+    if (result == KIRI_OK) {
+        ForgetEvents(world);
         world->samplesDue = samplesDue;
         kiriPairs_Commit(world);
         CommitAll(world);
@@ -483,7 +494,7 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
         }
         SkinAll(world, dt);
         samples->left += aside.left;
-        bool isParted = FinishParting(world, samples);
+        bool isParted = PayForParting(world, samples);
         result = result == KIRI_OK && !isParted ? KIRI_PENDING : result;
         CountSpent(&world->profile, &quotas);
         world->profile.sheetPairs = kiriPairs_CountAwake(world);

@@ -153,3 +153,15 @@ void kiriWorld_RemoveCut(kiriWorld* world, kiriCutData* cut)
     kiriPool_Remove(&world->cutIds, cut->id);
     kiriMemory_Free(&world->memory, cut);
 }
+
+/* ---- Events ---- */
+
+kiriEvent* kiriWorld_AddEvent(kiriWorld* world, int32_t type, const kiriSheetData* sheet)
+{
+    kiriEvent* event = &world->events.data[world->events.count++];
+    memset(event, 0, sizeof(*event));
+    event->type = type;
+    event->sheet = sheet->id;
+    event->stage = KIRI_NONE;
+    return event;
+}

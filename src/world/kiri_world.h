@@ -50,6 +50,7 @@ struct kiriWorld {
     int64_t samplesDue; /* that calls have taken: the coming ticks have less */
     int64_t ticks;
     int32_t turn; /* the sheet that is moved first: the one for which the last tick had no iterations left */
+    int32_t newEvents; /* the last ones in `events`: ticks that were refused leave them to the next one that is not */
     kiriPool sheetIds, cutIds, frameIds, pinIds, obstacleIds, bladeIds;
     KIRI_ARRAY(kiriSheetData*) sheets; /* in the order of their making; */
     kiriIndices active, atWork;        /* of those that the tick at hand looks at; of those with a cut to work on */
@@ -77,6 +78,9 @@ static inline kiriSheetData* kiriWorld_Active(const kiriWorld* world, int32_t k)
    is null where the result says it all. */
 kiriResult kiriWorld_AddSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* id, const char** why);
 void kiriWorld_RemoveSheet(kiriWorld* world, kiriSheetData* sheet);
+
+/* In the room of the list, with zeros for what its type does not name. */
+kiriEvent* kiriWorld_AddEvent(kiriWorld* world, int32_t type, const kiriSheetData* sheet);
 
 /* Adds a cut without points. Reserves room in the queue for `points`, and for one more that may end the cut. */
 kiriResult kiriWorld_AddCut(kiriWorld* world, kiriSheetData* sheet, int64_t points, kiriCutData** made);

@@ -104,7 +104,8 @@ static bool AreObstacles(kiriCheck* check, const kiriWorld* world)
 static bool HasRooms(const kiriWorld* world)
 {
     int32_t sheets = world->sheets.count;
-    return world->active.capacity >= sheets && world->atWork.capacity >= sheets;
+    return world->active.capacity >= sheets && world->atWork.capacity >= sheets && world->newEvents >= 0 &&
+           world->newEvents <= world->events.count;
 }
 
 /* ---- Sheets ------------------------------------------------------------------------------------------------------ */

@@ -1,0 +1,307 @@
+/* Worlds in which cuts and pieces wait for their budget: a world that is saved and loaded in any tick goes on as its
+   twin, and a tick that is refused memory says so and loses nothing. */
+#include "host.h"
+
+#include "world/kiri_world.h"
+
+enum { LAST_ACT = 80, MOST_TICKS = 2000 };
+
+/* ---- Play ---- */
+
+static kiriSheet AnySheet(const Host* host, uint32_t* seed)
+{
+    return host->world->sheets.data[Random(seed) % (uint32_t)host->world->sheets.count]->id;
+}
+
+static void CutSheet(Host* host, uint32_t* seed)
+{
+    kiriSheet sheet = AnySheet(host, seed);
+    float from = (float)RandomBetween(seed, 0.05, 0.95), to = (float)RandomBetween(seed, 0.05, 0.95);
+    float u = (float)RandomBetween(seed, 0.1, 0.8), v = (float)RandomBetween(seed, 0.1, 0.8);
+    switch (Random(seed) % 4) {
+    case 0:
+        Host_Cut(host, sheet, (float[]){ from, -0.1f, to, 1.1f }, 2);
+        break;
+    case 1:
+        Host_Cut(host, sheet, (float[]){ -0.1f, from, 1.1f, to }, 2);
+        break;
+    case 2:
+        Host_Cut(host, sheet, (float[]){ u, v, u + 0.1f, v + 0.07f }, 2);
+        break;
+    default:
+        Host_Cut(host, sheet, (float[]){ u, v, u + 0.15f, v, u + 0.1f, v + 0.15f, u, v }, 4);
+    }
+}
+
+/* Takes a piece out of a sheet that has more than one. */
+static void TakePiece(Host* host, uint32_t* seed)
+{
+    kiriSheet sheet = AnySheet(host, seed), made;
+    uint32_t piece = Random(seed), draw = Random(seed);
+    int32_t pieces = Host_Counts(host, sheet).pieces;
+    kiriPieceState state;
+    OK(kiriSheet_GetPiece(host->world, sheet, (int32_t)(piece % (uint32_t)pieces), &state));
+    if (pieces == 1 || state.frames == 0) {
+        return;
+    }
+    kiriFrame frame = Host_FrameOf(host, sheet, (int32_t)(piece % (uint32_t)pieces));
+    kiriResult result = draw % 4 == 0 ? kiriFrame_DestroyPiece(host->world, frame)
+                                      : kiriFrame_DetachPiece(host->world, frame, &made);
+    assert_true(result == KIRI_OK || result == KIRI_PENDING || result == KIRI_ERROR_STATE);
+}
+
+static void SetBudget(Host* host, uint32_t* seed)
+{
+    kiriBudget budget = { 0, 0, 10 + (int32_t)(Random(seed) % 300), 0 };
+    budget.triangles = Random(seed) % 2 ? 16 + (int32_t)(Random(seed) % 200) : 0;
+    budget.cells = Random(seed) % 2 ? 50 + (int32_t)(Random(seed) % 2000) : 0;
+    budget.iterations = Random(seed) % 3 == 0 ? 2 + (int32_t)(Random(seed) % 30) : 0;
+    OK(kiriWorld_SetBudget(host->world, &budget));
+}
+
+static void Start(Host* host, uint32_t run)
+{
+    uint32_t seed = 77u * run + 5u;
+    Host_Start(host);
+    host->every = 16;
+    for (int32_t sheets = 1 + (int32_t)(run % 2); sheets > 0; --sheets) {
+        int32_t squares = run % 8 == 7 ? 72 : 6 + (int32_t)(Random(&seed) % 14);
+        kiriSheetDef def;
+        kiriDefaultSheetDef(&def);
+        def.gridResolution = 8 + (int32_t)(Random(&seed) % 16);
+        def.frameCount = 3 + (int32_t)(Random(&seed) % 5);
+        def.maxFrames = 64;
+        def.collisionPoints = run % 3 == 0 ? 20 : 0;
+        def.sleepSpeed = run % 4 == 0 ? def.sleepSpeed : 0.0f;
+        def.skinning = run % 5 == 1 ? KIRI_SKINNING_SMOOTH : KIRI_SKINNING_LINEAR;
+        def.model = run % 7 == 6 ? KIRI_MODEL_AFFINE : KIRI_MODEL_LINKS;
+        def.position[2] = (float)sheets;
+        kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, squares, squares);
+        kiriPin clamp;
+        OK(kiriSheet_ClampLine(host->world, sheet, (float[]){ 0.0f, 1.0f }, (float[]){ 1.0f, 1.0f }, &clamp));
+        Host_Cut(host, sheet, (float[]){ -0.1f, 0.431f, 1.1f, 0.522f }, 2);
+        Host_Cut(host, sheet, (float[]){ 0.47f, -0.1f, 0.52f, 0.6f }, 2);
+    }
+    OK(kiriWorld_Tick(host->world, 1.0f / 60.0f, 1));
+    SetBudget(host, &seed);
+}
+
+/* What a host does before a tick, until LAST_ACT: so all is done in the end, but what waits for systems. */
+static void Act(Host* host, uint32_t* seed, int32_t tick)
+{
+    uint32_t draw = Random(seed) % 24;
+    if (tick == LAST_ACT) {
+        OK(kiriWorld_SetBudget(host->world, &(kiriBudget){ 100, 1000, 100, 0 }));
+    }
+    if (tick >= LAST_ACT || host->world->sheets.count > 12) {
+        return;
+    }
+    if (draw < 3) {
+        CutSheet(host, seed);
+    } else if (draw < 8) {
+        TakePiece(host, seed);
+    } else if (draw == 8) {
+        SetBudget(host, seed);
+    }
+}
+
+/* ---- Saves ---- */
+
+/* The world becomes what it is, without all that saves leave out. */
+static void SaveAndLoad(Host* host)
+{
+    int64_t size, again;
+    OK(kiriWorld_Save(host->world, NULL, 0, &size));
+    void* bytes = malloc((size_t)size);
+    OK(kiriWorld_Save(host->world, bytes, size, &again));
+    assert_int_equal(size, again);
+    OK(kiriWorld_Load(host->world, bytes, size));
+    free(bytes);
+}
+
+/* One world goes on, the other one is loaded before each tick, or before some. */
+static void RunTwins(uint32_t run, uint32_t often, int32_t* waited)
+{
+    Host hosts[2];
+    uint32_t seeds[2] = { 901u * run, 901u * run }, times = 31u * run;
+    kiriResult results[2] = { KIRI_PENDING, KIRI_PENDING };
+    Start(&hosts[0], run);
+    Start(&hosts[1], run);
+    for (int32_t tick = 0; tick <= LAST_ACT || results[0] == KIRI_PENDING; ++tick) {
+        assert_in_range(tick, 0, MOST_TICKS);
+        if (Random(&times) % often == 0) {
+            SaveAndLoad(&hosts[1]);
+        }
+        for (int k = 0; k < 2; ++k) {
+            Act(&hosts[k], &seeds[k], tick);
+            results[k] = Host_Tick(&hosts[k], 1.0f / 60.0f, 1);
+            assert_true(results[k] >= 0);
+        }
+        for (int32_t i = 0; i < hosts[0].world->sheets.count; ++i) {
+            *waited += hosts[0].world->sheets.data[i]->leavingPaid > 0;
+        }
+        if (results[0] != results[1] || hosts[0].world->sheets.count != hosts[1].world->sheets.count ||
+            Host_Hash(&hosts[0]) != Host_Hash(&hosts[1])) {
+            fail_msg("run %u, tick %d: %s and %s, %d and %d sheets", run, (int)tick, kiriGetResultName(results[0]),
+                     kiriGetResultName(results[1]), (int)hosts[0].world->sheets.count,
+                     (int)hosts[1].world->sheets.count);
+        }
+    }
+    Host_Stop(&hosts[0]);
+    Host_Stop(&hosts[1]);
+}
+
+static void TestLoadedTwins(void** state)
+{
+    (void)state;
+    int32_t waited = 0;
+    for (uint32_t run = 1; run <= 7; ++run) {
+        RunTwins(run, 1, &waited);
+        RunTwins(run, 7, &waited);
+    }
+    assert_true(waited > 400);
+}
+
+/* ---- Memory ---- */
+
+/* What the host asks for in the end: all of it has been done, and it has heard of it. */
+typedef struct Told {
+    int32_t sheets, pieces, detached;
+    double area;
+} Told;
+
+static void CountDetached(const Host* host, Told* told)
+{
+    told->detached += Host_Events(host, KIRI_EVENT_PIECE_DETACHED, NULL);
+}
+
+static void Describe(const Host* host, Told* told)
+{
+    told->sheets = host->world->sheets.count;
+    for (int32_t i = 0; i < told->sheets; ++i) {
+        told->pieces += Host_Counts(host, host->world->sheets.data[i]->id).pieces;
+        told->area += Host_Totals(host, host->world->sheets.data[i]->id).area;
+    }
+}
+
+/* A tick whose requests for memory are refused from one on. Where any was, it says so, and nothing moved. */
+static kiriResult TickRefused(Host* host, int64_t from)
+{
+    int64_t ticks = host->world->ticks, before = host->refused;
+    int32_t lines = host->lines;
+    host->failAt = host->calls + from;
+    kiriResult result = Host_Tick(host, 1.0f / 60.0f, 1);
+    host->failAt = -1;
+    if (host->refused > before) {
+        assert_int_equal(result, KIRI_ERROR_MEMORY);
+        assert_int_equal(host->lines, lines + 1);
+        assert_true(strlen(kiriWorld_GetLastError(host->world)) > 0);
+        assert_int_equal(host->world->ticks, ticks);
+    } else {
+        assert_true(result >= 0);
+        assert_int_equal(host->world->ticks, ticks + 1);
+    }
+    return result;
+}
+
+/* The whole run, with refused ticks before those that count, or none. */
+static Told RunRefused(uint32_t run, bool refuses, int32_t* refused)
+{
+    Host host;
+    Told told = { .sheets = 0 };
+    uint32_t seed = 533u * run, draws = 17u * run;
+    kiriResult result = KIRI_PENDING;
+    Start(&host, run);
+    for (int32_t tick = 0; tick <= LAST_ACT || result == KIRI_PENDING; ++tick) {
+        assert_in_range(tick, 0, MOST_TICKS);
+        if (result >= 0) {
+            Act(&host, &seed, tick);
+        }
+        /* Only some: work on a cut that was refused memory begins again. */
+        bool isRefused = refuses && Random(&draws) % 5 == 0;
+        result = isRefused ? TickRefused(&host, (int64_t)(Random(&draws) % 40)) : Host_Tick(&host, 1.0f / 60.0f, 1);
+        for (int again = 0; result == KIRI_ERROR_MEMORY && again < 3; ++again) {
+            *refused += 1;
+            result = again < 2 ? TickRefused(&host, again) : Host_Tick(&host, 1.0f / 60.0f, 1);
+        }
+        assert_true(result >= 0);
+        CountDetached(&host, &told);
+    }
+    Describe(&host, &told);
+    Host_Stop(&host);
+    return told;
+}
+
+/* Pieces are taken when their cuts are done, however long that takes: so sheets are counted where nobody cuts. */
+static void TestRefusedTicks(void** state)
+{
+    (void)state;
+    int32_t refused = 0;
+    for (uint32_t run = 1; run <= 12; ++run) {
+        Told told = RunRefused(run, true, &refused);
+        assert_true(told.area > 0.0);
+    }
+    assert_true(refused > 60);
+}
+
+/* One piece waits, and from some tick on nothing is given, for 60 ticks: each that asked in vain says so. Then it
+   leaves, and the host hears of it once. */
+static void RunStarved(int32_t squares, int32_t from, int64_t request)
+{
+    Host host;
+    kiriSheet sheet, part;
+    Told told = { .sheets = 0 };
+    kiriBudget budget = { 0, 0, 60, 0 };
+    Host_Start(&host);
+    host.every = 16;
+    kiriSheetDef def;
+    kiriDefaultSheetDef(&def);
+    def.gridResolution = 24;
+    def.frameCount = 3;
+    def.maxFrames = 8;
+    sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, squares, squares);
+    Host_Cut(&host, sheet, (float[]){ -0.1f, 0.45f, 1.1f, 0.55f }, 2);
+    OK(kiriWorld_Tick(host.world, 1.0f / 60.0f, 1));
+    OK(kiriWorld_SetBudget(host.world, &budget));
+    assert_int_equal(kiriFrame_DetachPiece(host.world, Host_FrameOf(&host, sheet, 1), &part), KIRI_PENDING);
+    for (int32_t tick = 0; tick < from; ++tick) {
+        assert_true(Host_Tick(&host, 1.0f / 60.0f, 1) >= 0);
+        CountDetached(&host, &told);
+    }
+    kiriResult result = KIRI_PENDING;
+    for (int32_t tick = 0; tick < 60; ++tick) {
+        result = TickRefused(&host, tick == 0 ? request : 0);
+        if (result >= 0) {
+            CountDetached(&host, &told);
+        }
+    }
+    assert_true(result == KIRI_OK || result == KIRI_ERROR_MEMORY); /* it does not wait for ever */
+    for (int32_t tick = 0; tick < 400 && result != KIRI_OK; ++tick) {
+        result = Host_Tick(&host, 1.0f / 60.0f, 1);
+        CountDetached(&host, &told);
+    }
+    assert_int_equal(result, KIRI_OK);
+    assert_int_equal(told.detached, 1);
+    assert_int_equal(host.world->sheets.count, 2);
+    Host_Stop(&host);
+}
+
+static void TestStarved(void** state)
+{
+    (void)state;
+    for (int32_t from = 0; from < 40; from += 3) {
+        for (int64_t request = 0; request < 120; request += request < 8 ? 1 : 13) {
+            RunStarved(6 + from % 5, from, request);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(TestLoadedTwins),
+        cmocka_unit_test(TestRefusedTicks),
+        cmocka_unit_test(TestStarved),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
