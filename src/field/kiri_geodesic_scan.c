@@ -108,12 +108,12 @@ static void PutIntoField(const Scan* scan, kiriField* field)
     field->cursor[0] = field->cursor[1] = field->cursor[2] = field->settled.count;
 }
 
-bool kiriField_Scan(kiriField* field, kiriMemory* memory, const kiriGrid* grid, const int32_t* cells, int32_t count)
+kiriProgress kiriField_Scan(kiriField* field, kiriMemory* memory, const kiriGrid* grid, const int32_t* cells, int32_t count)
 {
     KIRI_ASSERT(field->settled.count == 0);
     Scan scan = { grid, cells, count, kiriMemory_Alloc(memory, field->distance.count * (int64_t)sizeof(ScanKey)) };
     if (scan.keys == NULL) {
-        return false;
+        return KIRI_FAILED;
     }
     TakeSeeds(&scan, field);
     bool isDone = ScanAll(&scan);
@@ -121,5 +121,5 @@ bool kiriField_Scan(kiriField* field, kiriMemory* memory, const kiriGrid* grid, 
         PutIntoField(&scan, field);
     }
     kiriMemory_Free(memory, scan.keys);
-    return isDone;
+    return isDone ? KIRI_DONE : KIRI_MORE;
 }

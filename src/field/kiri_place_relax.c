@@ -20,27 +20,30 @@ kiriProgress kiriPlacerJob_StartRound(PlacerJob* job)
     return kiriPlacerJob_StartFlood(job, &work->fresh, job->placer->oldCount, sites->count) ? KIRI_DONE : KIRI_FAILED;
 }
 
-/* Where the flood needs no quota, and the part is much of the sheet. */
-static bool ScanPart(PlacerJob* job)
+/* Where the flood needs no quota, and the part is much of the sheet. KIRI_MORE: it has to be flooded. */
+static kiriProgress ScanPart(PlacerJob* job)
 {
     kiriPlacerWork* work = job->work;
     const kiriPlacer* placer = job->placer;
     bool isBegun = work->fresh.settled.count > 0;
     if (isBegun || work->hasOld || work->winds || placer->cells.count >= job->quota->left ||
         placer->cells.count < job->grid->cells.count / 4) {
-        return false;
+        return KIRI_MORE;
     }
-    work->winds = !kiriField_Scan(&work->fresh, job->memory, job->grid, placer->cells.data, placer->cells.count);
-    return !work->winds && kiriQuota_Take(job->quota, work->fresh.settled.count);
+    kiriProgress progress =
+        kiriField_Scan(&work->fresh, job->memory, job->grid, placer->cells.data, placer->cells.count);
+    work->winds = progress == KIRI_MORE;
+    bool isPaid = progress != KIRI_DONE || kiriQuota_Take(job->quota, work->fresh.settled.count);
+    return isPaid ? progress : KIRI_MORE;
 }
 
 kiriProgress kiriPlacerJob_FloodAllNew(PlacerJob* job)
 {
-    if (ScanPart(job)) {
-        return kiriPlacerJob_GoOnTo(job, KIRI_DONE, SUM);
+    kiriProgress progress = ScanPart(job);
+    if (progress == KIRI_MORE) {
+        progress = kiriPlacerJob_Flood(job, &job->work->fresh, kiriPlacerWork_OldDistances(job->work), NULL);
     }
-    return kiriPlacerJob_GoOnTo(
-        job, kiriPlacerJob_Flood(job, &job->work->fresh, kiriPlacerWork_OldDistances(job->work), NULL), SUM);
+    return kiriPlacerJob_GoOnTo(job, progress, SUM);
 }
 
 /* The target of the new site that a cell belongs to; null where it is an old one. */

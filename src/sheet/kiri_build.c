@@ -194,8 +194,7 @@ static kiriResult BuildFromMesh(kiriSheetData* sheet, const kiriSheetDef* def, c
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
         LayFrame(sheet, def, i);
     }
-    kiriBuild_Commit(sheet);
-    return KIRI_OK;
+    return kiriBuild_Commit(sheet) ? KIRI_OK : KIRI_ERROR_MEMORY;
 }
 
 /* What is as long as all that has just been made, and later as what a cut changes. */
@@ -213,17 +212,19 @@ static void DropScratch(kiriSheetData* sheet)
     kiriArray_Release(sheet->memory, &ownership->dirty);
 }
 
-void kiriBuild_Commit(kiriSheetData* sheet)
+bool kiriBuild_Commit(kiriSheetData* sheet)
 {
     kiriStage_Commit(sheet);
-    if (sheet->vertexSkin.settling.count > 0) { /* else they are sorted, see kiri_extract.c */
-        kiriSkin_Sort(&sheet->vertexSkin, sheet->memory);
+    bool isSorted = sheet->vertexSkin.settling.count == 0; /* see kiri_extract.c */
+    if (!isSorted && !kiriSkin_Sort(&sheet->vertexSkin, sheet->memory)) {
+        return false;
     }
     kiriView_WriteTopology(sheet);
     kiriMesh_Commit(&sheet->mesh);
     sheet->update->stage = KIRI_NONE;
     sheet->update->placing.spread = 0;
     DropScratch(sheet);
+    return true;
 }
 
 kiriResult kiriBuild_FromDef(kiriSheetData* sheet, const kiriSheetDef* def, const char** why)

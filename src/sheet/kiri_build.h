@@ -10,8 +10,8 @@ KIRI_C_BEGIN
    be deleted. Ids of sheet and frames are given by the world. */
 kiriResult kiriBuild_FromDef(kiriSheetData* sheet, const kiriSheetDef* def, const char** why);
 
-/* For whoever makes a sheet otherwise: after all stages, puts the first layout in force. */
-void kiriBuild_Commit(kiriSheetData* sheet);
+/* For whoever makes a sheet otherwise: after all stages, puts the first layout in force. False for memory. */
+bool kiriBuild_Commit(kiriSheetData* sheet);
 
 KIRI_C_END
 

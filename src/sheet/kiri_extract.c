@@ -211,7 +211,9 @@ static bool CopyMotion(const kiriKept* kept, kiriSheetData* to)
         return false;
     }
     CopyFrames(kept, to);
-    kiriBuild_Commit(to);
+    if (!kiriBuild_Commit(to)) {
+        return false;
+    }
     CopyFrames(kept, to);
     CopyDirty(kept, to);
     CopyStrainOffsets(kept, to);
@@ -326,7 +328,7 @@ static kiriProgress SortWeightsOfPart(kiriSheetData* to, kiriQuotas* quotas)
         if (!PayPass(to, quotas)) {
             return KIRI_MORE;
         }
-        kiriSkin_Sort(skin, to->memory);
+        return kiriSkin_Sort(skin, to->memory) ? KIRI_DONE : KIRI_FAILED;
     }
     return KIRI_DONE;
 }

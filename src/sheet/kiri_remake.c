@@ -147,9 +147,8 @@ bool kiriRemake_Field(kiriSheetData* sheet, bool* isBad)
     *isBad = false;
     if (IsAmidWork(u)) {
         /* What was staged is in no list. */
-        kiriSkin_Sort(&sheet->vertexSkin, sheet->memory);
-        kiriSkin_Sort(&sheet->pointSkin, sheet->memory);
-        return kiriOwnership_Sort(&u->refit.ownership, sheet->memory);
+        return kiriSkin_Sort(&sheet->vertexSkin, sheet->memory) && kiriSkin_Sort(&sheet->pointSkin, sheet->memory) &&
+               kiriOwnership_Sort(&u->refit.ownership, sheet->memory);
     }
     uint8_t* dirty = kiriMemory_Alloc(sheet->memory, frames);
     if (dirty == NULL) {

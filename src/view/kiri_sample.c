@@ -141,14 +141,14 @@ void kiriSkin_Drop(kiriSkin* skin)
     skin->staged.count = 0;
 }
 
-void kiriSkin_Sort(kiriSkin* skin, kiriMemory* memory)
+bool kiriSkin_Sort(kiriSkin* skin, kiriMemory* memory)
 {
     KIRI_ASSERT(skin->staged.count == 0);
     kiriSkin sorted;
     memset(&sorted, 0, sizeof(sorted));
     SettleAll(skin);
     if (!kiriArray_Reserve(memory, &sorted.weights, skin->weights.count + (int64_t)skin->weights.count / 8)) {
-        return;
+        return false;
     }
     for (int32_t i = 0; i < skin->spans.count; ++i) {
         kiriSpan was = skin->spans.data[i], is = { 0, 0 };
@@ -160,6 +160,7 @@ void kiriSkin_Sort(kiriSkin* skin, kiriMemory* memory)
     kiriArray_Release(memory, &skin->weights);
     kiriArray_SetHeader(&skin->weights, kiriArray_GetHeader(&sorted.weights));
     skin->room = sorted.room;
+    return true;
 }
 
 /* Adds to the weights of the span, which has room; they stay sorted by label. */

@@ -58,9 +58,9 @@ void kiriSkin_Drop(kiriSkin* skin);
    keep theirs together, and other room is given back. An item of the quota is 20 samples. Never fails. */
 kiriProgress kiriSkin_Settle(kiriSkin* skin, kiriQuota* quota);
 
-/* Puts the weights in the order of samples, in which they are read, with some room for more. Where there is no memory
-   for that they stay as they are. Nothing is staged; what settles has settled. */
-void kiriSkin_Sort(kiriSkin* skin, kiriMemory* memory);
+/* Puts the weights in the order of samples, in which they are read, with some room for more. Nothing is staged; what
+   settles has settled. False for memory: they stay as they are. */
+bool kiriSkin_Sort(kiriSkin* skin, kiriMemory* memory);
 
 /* Which samples lie in which square, for samples that never move: a list a square. */
 typedef struct kiriPlaces {
