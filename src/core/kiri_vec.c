@@ -117,7 +117,7 @@ void kiriMoments_Add(kiriMoments* sum, const kiriMoments* part)
 
 kiriVec2 kiriMoments_Center(const kiriMoments* m)
 {
-    return kiriVec2_Make(m->u / m->area, m->v / m->area);
+    return m->area > 0.0 ? kiriVec2_Make(m->u / m->area, m->v / m->area) : kiriVec2_Make(0.0, 0.0);
 }
 
 kiriMoments kiriMoments_About(const kiriMoments* m, kiriVec2 o)
@@ -128,5 +128,7 @@ kiriMoments kiriMoments_About(const kiriMoments* m, kiriVec2 o)
     r.uu = m->uu - 2.0 * o.x * m->u + o.x * o.x * m->area;
     r.uv = m->uv - o.x * m->v - o.y * m->u + o.x * o.y * m->area;
     r.vv = m->vv - 2.0 * o.y * m->v + o.y * o.y * m->area;
+    r.uu = r.uu > 0.0 ? r.uu : 0.0;
+    r.vv = r.vv > 0.0 ? r.vv : 0.0;
     return r;
 }

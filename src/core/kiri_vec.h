@@ -62,6 +62,11 @@ static inline double kiriVec2_Dot(kiriVec2 a, kiriVec2 b)
 {
     return a.x * b.x + a.y * b.y;
 }
+/* Square root of what is not negative but for rounding; 0 where it is. */
+static inline double kiriRoot(double a)
+{
+    return a > 0.0 ? sqrt(a) : 0.0;
+}
 static inline double kiriVec2_Length(kiriVec2 a)
 {
     return sqrt(kiriVec2_Dot(a, a));

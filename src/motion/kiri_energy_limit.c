@@ -163,7 +163,7 @@ static double TakeEnergy(double kinetic, double* energy)
 {
     double taken = kinetic < *energy ? kinetic : *energy;
     *energy -= taken;
-    return taken < kinetic ? sqrt(1.0 - taken / kinetic) : 0.0;
+    return taken < kinetic ? kiriRoot(1.0 - taken / kinetic) : 0.0;
 }
 
 static void ScaleVelocities(const kiriPieceStep* piece, const kiriPieceMomentum* momentum, kiriFrameData* frame)

@@ -47,11 +47,9 @@ static bool AddAreaElement(PointBuilder* b, kiriVec2 point, kiriVec2 off, double
 static bool AddFour(PointBuilder* b, kiriVec2 point, const kiriMoments* material)
 {
     kiriMoments about = kiriMoments_About(material, point);
-    double perArea = 2.0 / about.area, u = sqrt(perArea * about.uu), v = u > 0.0 ? perArea * about.uv / u : 0.0;
-    double rest = perArea * about.vv - v * v;
-    const kiriVec2 off[4] = {
-        { u, v }, { -u, -v }, { 0.0, sqrt(rest > 0.0 ? rest : 0.0) }, { 0.0, -sqrt(rest > 0.0 ? rest : 0.0) }
-    };
+    double perArea = 2.0 / about.area, u = kiriRoot(perArea * about.uu), v = u > 0.0 ? perArea * about.uv / u : 0.0;
+    double rest = kiriRoot(perArea * about.vv - v * v);
+    const kiriVec2 off[4] = { { u, v }, { -u, -v }, { 0.0, rest }, { 0.0, -rest } };
     bool ok = true;
     for (int k = 0; ok && k < 4; ++k) {
         ok = AddAreaElement(b, point, off[k], 0.25 * about.area);
@@ -59,9 +57,13 @@ static bool AddFour(PointBuilder* b, kiriVec2 point, const kiriMoments* material
     return ok;
 }
 
+/* A region without area has no energy. */
 static bool AddIntegrationPoint(PointBuilder* b, const kiriSite* point, const kiriMoments* material)
 {
     const kiriVec2 here = { 0.0, 0.0 };
+    if (!(material->area > 0.0)) {
+        return true;
+    }
     return kiriShape_At(b->shape, b->memory, b->grid, b->mesh, point->cell, point->at, &b->work->weights) &&
            (b->order == 1 ? AddAreaElement(b, point->at, here, material->area) : AddFour(b, point->at, material));
 }

@@ -165,7 +165,7 @@ static void SetAngular(kiriPrediction* prediction, const kiriMat3* inertiaBefore
 {
     double before = kiriVec3_Dot(L, kiriMat3_Solve(inertiaBefore, L));
     double after = kiriVec3_Dot(L, kiriMat3_Solve(inertia, L));
-    prediction->angular = after > before ? kiriVec3_Scale(sqrt(before / after), L) : L;
+    prediction->angular = after > before ? kiriVec3_Scale(kiriRoot(before / after), L) : L;
     prediction->spin = kiriMat3_Solve(inertia, prediction->angular);
 }
 
@@ -287,7 +287,7 @@ static void PredictColumns(const kiriFrameData* frame, const kiriStepping* s, ki
     kiriMat3 free = kiriMat3_MulMat(turn, grown), rate = kiriMat3_MulMat(turn, frame->rate);
     kiriVec3 spin = kiriMat3_Mul(turn, kiriMat3_Solve(&inertia, MulTransposed(&turn, L)));
     double before = kiriVec3_Dot(L, kiriMat3_Solve(&inertia, L)), after = kiriVec3_Dot(L, spin);
-    prediction->spin = after > before ? kiriVec3_Scale(sqrt(before / after), spin) : spin;
+    prediction->spin = after > before ? kiriVec3_Scale(kiriRoot(before / after), spin) : spin;
     kiriMat3 turning = CrossColumns(prediction->spin, &free);
     prediction->carried = kiriMat3_AddScaled(&turning, 1.0, &rate);
     prediction->rate = kiriMat3_AddScaled(&prediction->carried, 1.0, &inner);

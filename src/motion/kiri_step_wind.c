@@ -17,9 +17,9 @@ typedef struct WindSpring {
 static kiriVec2 SamplePoint(const kiriFrameData* frame, int k)
 {
     double uu = frame->inertia[0] / frame->mass, uv = frame->inertia[1] / frame->mass;
-    double vv = frame->inertia[2] / frame->mass, first = sqrt(uu > 0.0 ? uu : 0.0);
-    double side = first > 0.0 ? uv / first : 0.0, rest = vv - side * side;
-    kiriVec2 root = k < 2 ? kiriVec2_Make(first, side) : kiriVec2_Make(0.0, sqrt(rest > 0.0 ? rest : 0.0));
+    double vv = frame->inertia[2] / frame->mass, first = kiriRoot(uu);
+    double side = first > 0.0 ? uv / first : 0.0, rest = kiriRoot(vv - side * side);
+    kiriVec2 root = k < 2 ? kiriVec2_Make(first, side) : kiriVec2_Make(0.0, rest);
     return kiriVec2_Add(frame->center, kiriVec2_Scale(k % 2 == 0 ? sqrt(2.0) : -sqrt(2.0), root));
 }
 

@@ -47,7 +47,7 @@ static double FarthestCorner(const kiriBox* box, kiriVec3 from)
 static double Lever(const kiriFrameData* frame, const kiriBox* box)
 {
     double corner = FarthestCorner(box, frame->x), square = frame->inertia[0] + frame->inertia[2];
-    double radius = frame->mass > 0.0 ? 6.0 * sqrt(square / frame->mass) : corner;
+    double radius = frame->mass > 0.0 ? 6.0 * kiriRoot(square / frame->mass) : corner;
     return radius < corner ? radius : corner;
 }
 
