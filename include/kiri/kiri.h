@@ -65,7 +65,7 @@ enum kiriResultCode {
     KIRI_ERROR_DEF = -2,      /* the def was not filled by its kiriDefault function */
     KIRI_ERROR_ID = -3,       /* unknown or stale id, or the id of another kind */
     KIRI_ERROR_MESH = -4,     /* the triangles do not form a sheet: degenerate, inverted, duplicate, overlapping */
-    KIRI_ERROR_STATE = -5,    /* the call comes in the wrong order */
+    KIRI_ERROR_STATE = -5,    /* the call comes in the wrong order, or from a callback that may not make it */
     KIRI_ERROR_MEMORY = -6,   /* the allocator returned null */
     KIRI_DIVERGED = -7,       /* the motion of a sheet could not be continued; it was put to rest where it was */
     KIRI_ERROR_LIMIT = -8,    /* all ids of a kind are used up: 4 194 304 at a time, 2^29 over the life of a world */
@@ -82,9 +82,16 @@ KIRI_API const char* kiriGetResultName(kiriResult result);
 
 /* ---- World ------------------------------------------------------------------------------------------------------ */
 
-/* The host's functions. A thread that reads may call `log`, and in kiriSheet_GetWeights and kiriSheet_EstimateError
-   `alloc` and `free`. All memory of a world comes from `alloc`, but for what Eigen takes while it orders the unknowns,
-   when a cut couples frames that were not coupled before. */
+/* The host's functions. They may call other worlds, and functions that take no world. Calls of their own world:
+   - While a function that takes a world without const runs, its callbacks may call kiriWorld_GetLastError alone. All
+     other functions give KIRI_ERROR_STATE and do nothing, kiriDestroyWorld too.
+   - While a function that takes a const kiriWorld runs, its callbacks may call functions that take a const kiriWorld.
+     All others give KIRI_ERROR_STATE and do nothing.
+   A refused call has a line in the log, but not where the log made it; the line of kiriWorld_GetLastError stays that of
+   the function that runs. No recording has it. These rules hold for the functions of kiriDebugDraw, too.
+   A thread that reads may call `log`, and in kiriSheet_GetWeights and kiriSheet_EstimateError `alloc` and `free`.
+   All memory of a world comes from `alloc`, but for what Eigen takes while it orders the unknowns, when a cut couples
+   frames that were not coupled before. */
 typedef void* kiriAllocFn(void* user, int64_t bytes); /* at least 16-byte aligned, or null */
 typedef void kiriFreeFn(void* user, void* pointer);
 typedef void kiriLogFn(void* user, const char* line);

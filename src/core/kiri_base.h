@@ -11,6 +11,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#if defined(_MSC_VER) && !defined(__clang__)
+#include <intrin.h>
+#endif
+
 /* Around the declarations of a header, so that C++ may include it. */
 #ifdef __cplusplus
 #define KIRI_C_BEGIN extern "C" {
@@ -102,6 +106,28 @@ static inline void kiriWord_Leave(const int32_t* word, int32_t value)
     }
 #else
     *(volatile int32_t*)at = value;
+#endif
+}
+
+/* Adds to a counter that several threads may change at the same time, who else only read. */
+static inline void kiriWord_Add(const int32_t* word, int32_t value)
+{
+    int32_t* at = (int32_t*)word;
+#if defined(__GNUC__)
+    __atomic_fetch_add(at, value, __ATOMIC_RELAXED);
+#elif defined(_MSC_VER)
+    _InterlockedExchangeAdd((long volatile*)at, value);
+#else
+    *(volatile int32_t*)at += value;
+#endif
+}
+
+static inline int32_t kiriWord_Read(const int32_t* word)
+{
+#if defined(__GNUC__)
+    return __atomic_load_n(word, __ATOMIC_RELAXED);
+#else
+    return *(const volatile int32_t*)word;
 #endif
 }
 

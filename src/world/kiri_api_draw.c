@@ -50,12 +50,17 @@ kiriResult kiriWorld_DebugDraw(const kiriWorld* world, const kiriDebugDraw* draw
     BeginBatch(&drawing.points, draw->points, draw->user);
     BeginBatch(&drawing.lines, draw->lines, draw->user);
     BeginBatch(&drawing.triangles, draw->triangles, draw->user);
-    if (draw->sheet != 0) {
-        KIRI_FIND_SHEET(sheet, draw->sheet);
-        kiriDrawing_Sheet(&drawing, sheet);
+    const kiriSheetData* only = kiriCall_Owner(&world->sheetIds, draw->sheet);
+    if (only == NULL && draw->sheet != 0) {
+        return KIRI_FAIL(KIRI_ERROR_ID, "there is no sheet with this id");
+    }
+    kiriCall_BeginCallbacks(world);
+    if (only != NULL) {
+        kiriDrawing_Sheet(&drawing, only);
     } else {
         DrawWorld(&drawing);
     }
     kiriDrawing_End(&drawing);
+    kiriCall_EndCallbacks(world);
     return KIRI_OK;
 }

@@ -21,7 +21,7 @@ kiriResult kiriSheet_GetPiece(kiriWorld* world, kiriSheet sheet, int32_t piece, 
     CHECK_PIECE(data, piece);
     LIST_PIECES(kiriPieces_ListFrames(data) && kiriPieces_ListVertices(data));
     *state = kiriPiece_State(data, piece);
-    return KIRI_OK;
+    KIRI_RETURN(KIRI_OK);
 }
 
 kiriResult kiriSheet_GetPieceMesh(kiriWorld* world, kiriSheet sheet, int32_t piece, kiriPieceMesh* mesh)
@@ -45,7 +45,7 @@ kiriResult kiriSheet_GetPieceMesh(kiriWorld* world, kiriSheet sheet, int32_t pie
     mesh->vertexCount = vertices.count;
     mesh->triangleCount = triangles.count;
     mesh->collisionPointCount = points.count;
-    return KIRI_OK;
+    KIRI_RETURN(KIRI_OK);
 }
 
 kiriResult kiriSheet_GetPieceFrames(kiriWorld* world, kiriSheet sheet, int32_t piece, const kiriFrame** frames,
@@ -59,7 +59,7 @@ kiriResult kiriSheet_GetPieceFrames(kiriWorld* world, kiriSheet sheet, int32_t p
     kiriSpan span = kiriPieceItems_Of(&data->lists.frames, piece);
     *frames = data->lists.ids.data + span.first;
     *count = data->layout.pieces.data[piece].isGone ? 0 : span.count;
-    return KIRI_OK;
+    KIRI_RETURN(KIRI_OK);
 }
 
 static int32_t PieceThatHas(const kiriWorld* world, const kiriSheetData* sheet, kiriFrame frame)

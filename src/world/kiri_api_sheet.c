@@ -166,9 +166,12 @@ kiriResult kiriCreateRectangle(kiriWorld* world, float width, float height, int3
         kiriFillRectangle(width, height, columns, rows, positions, indices);
         filled.restPositions = positions;
         filled.indices = indices;
+        world->isBusy = false;
         result = kiriCreateSheet(world, &filled, sheet);
+        world->isBusy = true;
     }
     kiriMemory_Free(&world->memory, positions);
     kiriMemory_Free(&world->memory, indices);
-    return line[0] == '\0' && result < 0 ? KIRI_FAIL(result, NULL) : result;
+    bool isSaid = line[0] != '\0' || result >= 0;
+    return isSaid ? kiriCall_End(entered, record, result) : KIRI_FAIL(result, NULL);
 }

@@ -45,9 +45,8 @@ kiriResult kiriSheet_GetSolid(kiriWorld* world, kiriSheet sheet, float thickness
     KIRI_FIND_SHEET(data, sheet);
     kiriSurface_NeedNormals(&data->seen.surface);
     double thick = thickness > 0.0f ? thickness : data->settings.material.thickness;
-    return kiriSolid_Build(solid, &world->retired, &data->seen.surface, &data->mesh, thick)
-               ? KIRI_OK
-               : KIRI_FAIL(KIRI_ERROR_MEMORY, NULL);
+    bool ok = kiriSolid_Build(solid, &world->retired, &data->seen.surface, &data->mesh, thick);
+    KIRI_RETURN(ok ? KIRI_OK : KIRI_ERROR_MEMORY);
 }
 
 static bool IsRange(int32_t first, int32_t count, int32_t all)
@@ -200,8 +199,10 @@ kiriResult kiriSheet_EstimateError(const kiriWorld* world, kiriSheet sheet, doub
         return KIRI_FAIL(KIRI_ERROR_STATE, "only sheets of KIRI_MODEL_LINKS have an estimate");
     }
     kiriMemory scratch = kiriMemory_Like(&world->memory);
+    kiriCall_BeginCallbacks(world);
     bool ok = kiriEstimate_Error(&scratch, data->frames.data, data->frames.count, data->links.links.data,
                                  data->links.links.count, &data->settings.material, relative);
+    kiriCall_EndCallbacks(world);
     return ok ? KIRI_OK : KIRI_FAIL(KIRI_ERROR_MEMORY, "out of memory");
 }
 
@@ -242,12 +243,10 @@ kiriResult kiriSheet_GetWeights(const kiriWorld* world, kiriSheet sheet, const f
     KIRI_CHECK(cell != KIRI_NONE, "restPoint lies outside the material");
     kiriPointWeights found = { NULL, 0, 0 };
     kiriMemory scratch = kiriMemory_Like(&world->memory);
-    if (!kiriShape_At(&data->shape, &scratch, &data->grid, &data->mesh, cell, kiriMesh_Local(&data->mesh, at),
-                      &found)) {
-        kiriMemory_FreeAll(&scratch);
-        return KIRI_FAIL(KIRI_ERROR_MEMORY, "out of memory");
-    }
-    for (int32_t i = 0; i < found.count && i < capacity; ++i) {
+    kiriCall_BeginCallbacks(world);
+    bool ok = kiriShape_At(&data->shape, &scratch, &data->grid, &data->mesh, cell, kiriMesh_Local(&data->mesh, at),
+                           &found);
+    for (int32_t i = 0; ok && i < found.count && i < capacity; ++i) {
         frames[i] = data->frames.data[found.data[i].frame].id;
         weights[i] = (float)found.data[i].value;
         if (gradients != NULL) {
@@ -255,7 +254,8 @@ kiriResult kiriSheet_GetWeights(const kiriWorld* world, kiriSheet sheet, const f
             gradients[2 * i + 1] = (float)found.data[i].gradient.y;
         }
     }
-    *count = found.count;
+    *count = ok ? found.count : *count;
     kiriMemory_FreeAll(&scratch);
-    return KIRI_OK;
+    kiriCall_EndCallbacks(world);
+    return ok ? KIRI_OK : KIRI_FAIL(KIRI_ERROR_MEMORY, "out of memory");
 }

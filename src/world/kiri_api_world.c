@@ -148,6 +148,11 @@ void kiriDestroyWorld(kiriWorld* world)
     if (world == NULL) {
         return;
     }
+    if (world->isBusy || kiriCall_IsRead(world)) {
+        (void)kiriCall_Refuse(world, __func__);
+        return;
+    }
+    world->isBusy = true;
     kiriRecord_Stop(world);
     while (world->sheets.count > 0) {
         kiriWorld_RemoveSheet(world, world->sheets.data[world->sheets.count - 1]);

@@ -22,9 +22,21 @@ kiriResult kiriCall_Fail(const kiriWorld* world, char* line, kiriResult result, 
     snprintf(line, KIRI_LINE_BYTES, "%s: %s (%s)", function, why != NULL ? why : ReasonOf(result),
              kiriGetResultName(result));
     if (world->log != NULL) {
+        kiriWord_Add(&world->logs, 1);
         world->log(world->user, line);
+        kiriWord_Add(&world->logs, -1);
     }
     return result;
+}
+
+/* A log that calls gets no line for it: that would be another call of it. */
+kiriResult kiriCall_Refuse(const kiriWorld* world, const char* function)
+{
+    char line[KIRI_LINE_BYTES];
+    if (kiriWord_Read(&world->logs) != 0) {
+        return KIRI_ERROR_STATE;
+    }
+    return kiriCall_Fail(world, line, KIRI_ERROR_STATE, function, "called by a callback of this world");
 }
 
 void* kiriCall_Owner(const kiriPool* pool, uint32_t id)

@@ -26,10 +26,17 @@ enum { KIRI_LINE_BYTES = sizeof(((kiriWorld*)NULL)->errorLine) };
     KIRI_PREPARES_ANY(world);                                                                                          \
     const kiriCall* record = NULL
 
+/* Callbacks of the host that run now may not call this world: a function that changes it waits for them, or one that
+   only reads does. */
 #define KIRI_PREPARES_ANY(world)                                                                                       \
     if ((world) == NULL) {                                                                                             \
         return KIRI_ERROR_ARGUMENT;                                                                                    \
     }                                                                                                                  \
+    if ((world)->isBusy || kiriCall_IsRead(world)) {                                                                   \
+        return kiriCall_Refuse(world, __func__);                                                                       \
+    }                                                                                                                  \
+    kiriWorld* const entered = (world);                                                                                \
+    entered->isBusy = true;                                                                                            \
     char* line = (world)->errorLine;                                                                                   \
     line[0] = '\0'
 
@@ -37,16 +44,20 @@ enum { KIRI_LINE_BYTES = sizeof(((kiriWorld*)NULL)->errorLine) };
     if ((world) == NULL) {                                                                                             \
         return KIRI_ERROR_ARGUMENT;                                                                                    \
     }                                                                                                                  \
+    if ((world)->isBusy) {                                                                                             \
+        return kiriCall_Refuse(world, __func__);                                                                       \
+    }                                                                                                                  \
+    kiriWorld* const entered = NULL;                                                                                   \
     char line[KIRI_LINE_BYTES];                                                                                        \
     const kiriCall* record = NULL
 
-/* Every function that is recorded returns through these; others also with a result that is no error. `why` null: the
-   result says it all. */
-#define KIRI_FAIL(result, why) kiriCall_End(record, kiriCall_Fail(world, line, result, __func__, why))
+/* Every function that takes the world without const returns through these; others also with a result that is no error.
+   `why` null: the result says it all. */
+#define KIRI_FAIL(result, why) kiriCall_End(entered, record, kiriCall_Fail(world, line, result, __func__, why))
 #define KIRI_RETURN_OR_SAY(result, why)                                                                                \
     do {                                                                                                               \
         kiriResult outcome = (result);                                                                                 \
-        return outcome < 0 ? KIRI_FAIL(outcome, why) : kiriCall_End(record, outcome);                                  \
+        return outcome < 0 ? KIRI_FAIL(outcome, why) : kiriCall_End(entered, record, outcome);                                  \
     } while (0)
 #define KIRI_RETURN(result) KIRI_RETURN_OR_SAY(result, NULL)
 
@@ -75,12 +86,34 @@ enum { KIRI_LINE_BYTES = sizeof(((kiriWorld*)NULL)->errorLine) };
 
 kiriResult kiriCall_Fail(const kiriWorld* world, char* line, kiriResult result, const char* function, const char* why);
 
-static inline kiriResult kiriCall_End(const kiriCall* record, kiriResult result)
+static inline kiriResult kiriCall_End(kiriWorld* entered, const kiriCall* record, kiriResult result)
 {
     if (record != NULL) {
         kiriRecord_End(record, result);
     }
+    if (entered != NULL) {
+        entered->isBusy = false;
+    }
     return result;
+}
+
+/* Does a callback run of a function that only reads the world? */
+static inline bool kiriCall_IsRead(const kiriWorld* world)
+{
+    return kiriWord_Read(&world->readers) != 0 || kiriWord_Read(&world->logs) != 0;
+}
+
+/* A callback has called its own world: KIRI_ERROR_STATE. The error line stays that of the call that runs. */
+kiriResult kiriCall_Refuse(const kiriWorld* world, const char* function);
+
+/* What a function that only reads puts around calls of the host's functions, but for the log. */
+static inline void kiriCall_BeginCallbacks(const kiriWorld* world)
+{
+    kiriWord_Add(&world->readers, 1);
+}
+static inline void kiriCall_EndCallbacks(const kiriWorld* world)
+{
+    kiriWord_Add(&world->readers, -1);
 }
 
 /* Null for an id that names nothing in the pool. */

@@ -208,7 +208,9 @@ static kiriResult MakeRecorded(kiriWorld* world, const Recorded* recorded, kiriR
     if (call == NULL) {
         return RefuseDifference(replay, why);
     }
+    world->isBusy = false;
     kiriResult result = wasRefused ? KIRI_ERROR_MEMORY : call->make(world, recorded->arguments);
+    world->isBusy = true;
     if (!wasRefused && result == KIRI_ERROR_MEMORY) {
         return FailToRead(KIRI_CODER_MEMORY, replay, why);
     }
@@ -276,5 +278,5 @@ kiriResult kiriWorld_Replay(kiriWorld* world, const void* recording, int64_t siz
     replay->noteCount = 0;
     kiriResult result = MakeUpToStop(world, &coder, replay, why);
     line[0] = '\0';
-    return result < 0 ? KIRI_FAIL(result, why) : result;
+    KIRI_RETURN_OR_SAY(result, why);
 }

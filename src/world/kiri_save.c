@@ -109,6 +109,9 @@ static const kiriMember WorldMembers[] = {
     KIRI_DROPPED(kiriWorld, stage),
     KIRI_DROPPED(kiriWorld, stageStart),
     KIRI_DROPPED(kiriWorld, errorLine),
+    KIRI_DROPPED(kiriWorld, isBusy),
+    KIRI_DROPPED(kiriWorld, readers),
+    KIRI_DROPPED(kiriWorld, logs),
 };
 static const kiriTable WorldTable = KIRI_TABLE(kiriWorld, WorldMembers);
 
@@ -517,6 +520,7 @@ static void TakeWorld(kiriWorld* world, kiriWorld* made)
     world->user = was.user;
     world->recorder = was.recorder;
     world->stage = was.stage;
+    world->isBusy = was.isBusy;
     memcpy(world->errorLine, was.errorLine, sizeof(was.errorLine));
     kiriMemory_AdoptAll(&world->memory, &made->memory);
 }

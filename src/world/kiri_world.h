@@ -67,6 +67,10 @@ struct kiriWorld {
     int32_t stage; /* running now, or KIRI_NONE */
     double stageStart;
     char errorLine[256]; /* of the last function that changes the world */
+
+    /* Which callbacks may call, see kiri_call.h. */
+    bool isBusy;           /* a function that takes the world without const runs */
+    int32_t readers, logs; /* callbacks that run now: of functions that only read; of the log */
 };
 
 static inline kiriSheetData* kiriWorld_Active(const kiriWorld* world, int32_t k)
