@@ -710,8 +710,12 @@ KIRI_API kiriResult kiriSheet_IsAwake(const kiriWorld* world, kiriSheet sheet, i
 KIRI_API kiriResult kiriSheet_Wake(kiriWorld* world, kiriSheet sheet);
 
 /* Every point x (m, world) of the sheet goes to R x + t at once, and is seen there; velocities turn. The columns of
-   `rotation` are where R takes the axes of the world; a planar sheet turns about its normal only. Targets of pins,
-   holds, loads and contacts stay where they are: destroy or move them first, or the sheet is drawn back. It wakes. */
+   `rotation` are where R takes the axes of the world; a planar sheet turns about its normal only. It wakes.
+   Targets of its pins, hinges, clamps and holds go along, so nothing draws it back. Setting a target to where it is then
+   is no motion. A target that the host has set nearer to its new place than to its old one stays: so the host may set
+   targets before or after.
+   Pins on an obstacle stay on it. Put the obstacle elsewhere by the same motion (kiriObstacle_SetPose), before or after.
+   Loads and contacts that wait for the next tick stay where they are. */
 KIRI_API kiriResult kiriSheet_Transform(kiriWorld* world, kiriSheet sheet, const float rotation[9],
                                         const float translation[3]);
 
@@ -1006,7 +1010,7 @@ KIRI_API kiriResult kiriSheet_HingeLine(kiriWorld* world, kiriSheet sheet, const
                                         kiriPin* hinge);
 
 /* Where the pin holds its point, or the middle of its line (m, world): at the end of the next tick, and until the next
-   call. Within the tick it goes there evenly. With KIRI_SKINNING_SMOOTH what pins and clamps hold is what is seen
+   call. Within the tick it goes there evenly. The target that kiriPin_GetState tells changes nothing. With KIRI_SKINNING_SMOOTH what pins and clamps hold is what is seen
    there; of a clamp the mean along its line, for each piece: single points of the line are seen a little off it. */
 KIRI_API kiriResult kiriPin_SetTarget(kiriWorld* world, kiriPin pin, const float target[3]);
 

@@ -125,6 +125,11 @@ static inline double kiriVec3_Length(kiriVec3 a)
     return sqrt(kiriVec3_Dot(a, a));
 }
 
+/* Is it what the host has in floats? */
+static inline bool kiriVec3_Shows(kiriVec3 a, const float shown[3])
+{
+    return (float)a.x == shown[0] && (float)a.y == shown[1] && (float)a.z == shown[2];
+}
 static inline bool kiriVec3_Equal(kiriVec3 a, kiriVec3 b)
 {
     return a.x == b.x && a.y == b.y && a.z == b.z;
@@ -147,6 +152,13 @@ static inline kiriVec3 kiriVec3_Normalize(kiriVec3 a)
 {
     double length = kiriVec3_Length(a);
     return length > 0.0 ? kiriVec3_Scale(1.0 / length, a) : a;
+}
+
+/* Is the rotation what the host has in floats, or what `given` was made of these? */
+static inline bool kiriMat3_Shows(const kiriMat3* m, const kiriMat3* given, const float shown[9])
+{
+    return (kiriVec3_Shows(m->u, &shown[0]) && kiriVec3_Shows(m->v, &shown[3]) && kiriVec3_Shows(m->d, &shown[6])) ||
+           (kiriVec3_Equal(m->u, given->u) && kiriVec3_Equal(m->v, given->v));
 }
 
 static inline kiriVec3 kiriMat3_Mul(kiriMat3 m, kiriVec3 a)

@@ -34,12 +34,98 @@ static void CarryFrame(kiriFrameData* frame, const kiriMat3* R, kiriVec3 t, bool
     TurnVector(R, &frame->heldOff);
 }
 
+/* ---- What holds it ---- */
+
+static void TurnWrench(const kiriMat3* R, kiriWrench* wrench)
+{
+    TurnVector(R, &wrench->force);
+    TurnVector(R, &wrench->moment);
+}
+
+static void TurnReaction(const kiriMat3* R, kiriReaction* reaction)
+{
+    TurnWrench(R, &reaction->gain);
+    TurnWrench(R, &reaction->pull);
+}
+
+static double SquareApart(kiriVec3 a, kiriVec3 b)
+{
+    kiriVec3 d = kiriVec3_Sub(a, b);
+    return kiriVec3_Dot(d, d);
+}
+
+/* How far apart two poses are, of something so large. */
+static double PosesApart(kiriVec3 a, const kiriMat3* A, kiriVec3 b, const kiriMat3* B, double size)
+{
+    double turned = SquareApart(A->u, B->u) + SquareApart(A->v, B->v);
+    return SquareApart(a, b) + size * size * turned;
+}
+
+static void CarryPose(const kiriMat3* R, kiriVec3 t, kiriVec3* x, kiriMat3* A)
+{
+    *x = kiriVec3_Add(kiriMat3_Mul(*R, *x), t);
+    TurnColumns(R, A);
+    *A = kiriMat3_Rotation(*A);
+}
+
+/* From where something is held to where the host wants it at the end of the next tick. Where the host wants it nearer
+   to its new place than to its old one, it has moved it already. */
+static void CarryHeld(const kiriMat3* R, kiriVec3 t, double size, kiriVec3* at, kiriMat3* axes, kiriVec3* goal,
+                      kiriMat3* goalAxes)
+{
+    kiriVec3 was = *at;
+    kiriMat3 wasAxes = *axes;
+    CarryPose(R, t, at, axes);
+    if (!(PosesApart(*goal, goalAxes, *at, axes, size) < PosesApart(*goal, goalAxes, was, &wasAxes, size))) {
+        CarryPose(R, t, goal, goalAxes);
+    }
+}
+
+void kiriCarry_Pin(kiriSheetData* sheet, int32_t index, const kiriMat3* R, kiriVec3 t)
+{
+    kiriPinData* pin = &sheet->pins.data[index];
+    kiriVec2 way = kiriVec2_Sub(kiriMesh_Local(&sheet->mesh, pin->to), kiriMesh_Local(&sheet->mesh, pin->at));
+    CarryHeld(R, t, 0.5 * kiriVec2_Length(way), &pin->lastTarget, &pin->lastRotation, &pin->target, &pin->rotation);
+}
+
+static void CarryHold(kiriFrameData* frame, const kiriMat3* R, kiriVec3 t)
+{
+    CarryHeld(R, t, kiriRoot(frame->area), &frame->heldPosition, &frame->heldRotation, &frame->goalPosition,
+              &frame->goalRotation);
+    TurnReaction(R, &frame->reaction);
+    TurnWrench(R, &frame->bore);
+}
+
+static void TurnPins(kiriSheetData* sheet, const kiriMat3* R)
+{
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        kiriPinData* pin = &sheet->pins.data[i];
+        TurnVector(R, &pin->off);
+        TurnReaction(R, &pin->reaction);
+        TurnWrench(R, &pin->bore);
+    }
+    for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
+        kiriPinShare* share = &sheet->layout.pinShares.data[k];
+        TurnVector(R, &share->off);
+        TurnReaction(R, &share->reactions[0]);
+        TurnReaction(R, &share->reactions[1]);
+        TurnWrench(R, &share->bore);
+    }
+}
+
+/* ---- All of it ---- */
+
 bool kiriCarry_FitsSheet(const kiriSheetData* sheet, const kiriMat3* R, kiriVec3 t)
 {
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
         kiriFrameData moved = sheet->frames.data[i];
         CarryFrame(&moved, R, t, false);
         if (!kiriFrame_FitsFloats(&moved)) {
+            return false;
+        }
+    }
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        if (!kiriVec3_FitsFloats(kiriVec3_Add(kiriMat3_Mul(*R, sheet->pins.data[i].target), t))) {
             return false;
         }
     }
@@ -93,14 +179,13 @@ bool kiriCarry_Sheet(kiriSheetData* sheet, const kiriMat3* R, kiriVec3 t, kiriMe
         return false;
     }
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
-        CarryFrame(&sheet->frames.data[i], R, t, sheet->settings.mechanics.model == KIRI_MODEL_LINKS);
+        kiriFrameData* frame = &sheet->frames.data[i];
+        CarryFrame(frame, R, t, sheet->settings.mechanics.model == KIRI_MODEL_LINKS);
+        if (frame->held) {
+            CarryHold(frame, R, t);
+        }
     }
-    for (int32_t i = 0; i < sheet->pins.count; ++i) {
-        TurnVector(R, &sheet->pins.data[i].off);
-    }
-    for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
-        TurnVector(R, &sheet->layout.pinShares.data[k].off);
-    }
+    TurnPins(sheet, R);
     TurnFades(&sheet->seen.fades, R);
     TurnFades(&sheet->seen.pointFades, R);
     kiriView_WritePositions(sheet);

@@ -6,9 +6,12 @@
 
 KIRI_C_BEGIN
 
-/* Each point x of the sheet goes to R x + t, with its velocity and history; what holds it stays. The arrays that the
-   host may hold go to `retired`, and others are written. False for memory: nothing has changed. */
+/* Each point x of the sheet goes to R x + t, with its velocity and history, and with its holds. The arrays that the host
+   may hold go to `retired`, and others are written. False for memory: nothing has changed. */
 bool kiriCarry_Sheet(kiriSheetData* sheet, const kiriMat3* R, kiriVec3 t, kiriMemory* retired);
+
+/* The same for where a pin holds it. */
+void kiriCarry_Pin(kiriSheetData* sheet, int32_t index, const kiriMat3* R, kiriVec3 t);
 
 /* Would frames still fit floats, see kiriFrame_FitsFloats? */
 bool kiriCarry_FitsSheet(const kiriSheetData* sheet, const kiriMat3* R, kiriVec3 t);

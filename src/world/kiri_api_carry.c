@@ -1,5 +1,6 @@
 #include "kiri_call.h"
 #include "../sheet/kiri_carry.h"
+#include "kiri_pin_step.h"
 
 /* What is wrong with a rotation of the whole space, or null. */
 static const char* FaultOfTurn(const kiriSheetData* sheet, const float rotation[9])
@@ -32,6 +33,9 @@ kiriResult kiriSheet_Transform(kiriWorld* world, kiriSheet sheet, const float ro
     kiriMat3 R = kiriMat3_Rotation(given);
     KIRI_CHECK(kiriCarry_FitsSheet(data, &R, kiriVec3_Load(translation)), "floats cannot hold what comes of it");
     bool isDone = kiriCarry_Sheet(data, &R, kiriVec3_Load(translation), &world->retired);
+    if (isDone) {
+        kiriPinStep_Carry(world, data, &R, kiriVec3_Load(translation));
+    }
     KIRI_RETURN(isDone ? KIRI_OK : KIRI_ERROR_MEMORY);
 }
 

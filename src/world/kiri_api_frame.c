@@ -69,20 +69,20 @@ kiriResult kiriFrame_Hold(kiriWorld* world, kiriFrame frame, const float positio
     const char* why = kiriCall_FaultOfRotation(sheet, rotation);
     KIRI_CHECK(why == NULL, why);
     kiriMat3 m = { kiriVec3_Load(&rotation[0]), kiriVec3_Load(&rotation[3]), kiriVec3_Load(&rotation[6]) };
-    kiriFrameData before = *data;
+    m = kiriMat3_Rotation(m);
+    if (data->held && kiriVec3_Shows(data->goalPosition, position) &&
+        kiriMat3_Shows(&data->goalRotation, &m, rotation)) {
+        KIRI_RETURN(KIRI_OK);
+    }
     data->goalPosition = kiriVec3_Load(position);
-    data->goalRotation = kiriMat3_Rotation(m);
-    if (!before.held) {
+    data->goalRotation = m;
+    if (!data->held) {
         data->held = 1;
         data->heldPosition = kiriFrame_Carry(data, data->site.at);
         data->heldRotation = kiriMat3_Rotation(data->A);
         data->isOffKnown = false;
     }
-    if (!before.held || !kiriVec3_Equal(before.goalPosition, data->goalPosition) ||
-        !kiriVec3_Equal(before.goalRotation.u, data->goalRotation.u) ||
-        !kiriVec3_Equal(before.goalRotation.v, data->goalRotation.v)) {
-        kiriMotion_WakeFrame(sheet, kiriPool_Find(&world->frameIds, frame)->index);
-    }
+    kiriMotion_WakeFrame(sheet, kiriPool_Find(&world->frameIds, frame)->index);
     KIRI_RETURN(KIRI_OK);
 }
 

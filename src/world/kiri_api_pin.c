@@ -132,7 +132,7 @@ kiriResult kiriPin_SetTarget(kiriWorld* world, kiriPin pin, const float target[3
     KIRI_CHECK(target != NULL && kiriCall_AreFinite(target, 3), "target is null or not finite");
     KIRI_FIND_PIN_SHEET(sheet, pin);
     kiriPinData* data = &sheet->pins.data[kiriPool_Find(&world->pinIds, pin)->index];
-    if (!kiriVec3_Equal(data->target, kiriVec3_Load(target))) {
+    if (!kiriVec3_Shows(data->target, target)) {
         data->target = kiriVec3_Load(target);
         kiriPinStep_Fasten(world, data);
         kiriPins_ForgetHistory(sheet, (int32_t)(data - sheet->pins.data));
@@ -151,12 +151,11 @@ kiriResult kiriPin_SetPose(kiriWorld* world, kiriPin pin, const float target[3],
     KIRI_CHECK(data->type != KIRI_PIN_POINT, "the pin holds a point, which has no rotation");
     const char* why = kiriCall_FaultOfRotation(sheet, rotation);
     KIRI_CHECK(why == NULL, why);
-    const kiriPinData before = *data;
     kiriMat3 m = { kiriVec3_Load(&rotation[0]), kiriVec3_Load(&rotation[3]), kiriVec3_Load(&rotation[6]) };
-    data->target = kiriVec3_Load(target);
-    data->rotation = kiriMat3_Rotation(m);
-    if (!kiriVec3_Equal(before.target, data->target) || !kiriVec3_Equal(before.rotation.u, data->rotation.u) ||
-        !kiriVec3_Equal(before.rotation.v, data->rotation.v)) {
+    m = kiriMat3_Rotation(m);
+    if (!kiriVec3_Shows(data->target, target) || !kiriMat3_Shows(&data->rotation, &m, rotation)) {
+        data->target = kiriVec3_Load(target);
+        data->rotation = m;
         kiriPins_ForgetHistory(sheet, (int32_t)(data - sheet->pins.data));
         kiriMotion_WakePin(sheet, (int32_t)(data - sheet->pins.data));
     }

@@ -1,5 +1,6 @@
 #include "kiri_pin_step.h"
 
+#include "../sheet/kiri_carry.h"
 #include "../sheet/kiri_motion.h"
 #include "../sheet/kiri_pin.h"
 
@@ -16,6 +17,15 @@ void kiriPinStep_Fasten(const kiriWorld* world, kiriPinData* pin)
     const kiriObstacleData* obstacle = kiriPinStep_Obstacle(world, pin);
     if (obstacle != NULL) {
         pin->anchor.local = kiriObstacle_PointToLocal(obstacle, pin->target);
+    }
+}
+
+void kiriPinStep_Carry(const kiriWorld* world, kiriSheetData* sheet, const kiriMat3* R, kiriVec3 t)
+{
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        if (kiriPinStep_Obstacle(world, &sheet->pins.data[i]) == NULL) {
+            kiriCarry_Pin(sheet, i, R, t);
+        }
     }
 }
 
