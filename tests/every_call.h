@@ -6,6 +6,7 @@
 #define EVERY_CALL(CHANGES, READS) \
     CHANGES(kiriWorld_Tick, world, 0, 0) \
     CHANGES(kiriWorld_SetGravity, world, NULL) \
+    CHANGES(kiriWorld_ShiftOrigin, world, NULL) \
     CHANGES(kiriWorld_SetBudget, world, NULL) \
     READS(kiriWorld_GetStateHash, world, NULL) \
     READS(kiriWorld_GetSheets, world, NULL, 0, NULL) \

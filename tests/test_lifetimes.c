@@ -235,6 +235,7 @@ static void Push(Desk* desk, uint32_t random)
     OK(kiriFrame_Hold(desk->host.world, frame, eye, eye));
     OK(kiriFrame_ApplyForce(desk->host.world, frame, eye, eye));
     OK(kiriWorld_SetGravity(desk->host.world, eye));
+    OK(kiriWorld_ShiftOrigin(desk->host.world, eye));
     OK(kiriWorld_SetBudget(desk->host.world, &budget));
     OK(kiriSheet_Wake(desk->host.world, desk->sheet));
 }

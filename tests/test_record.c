@@ -222,6 +222,7 @@ static void Change(Tape* tape, kiriSheet sheet)
     settings.friction = 0.25f;
     OK(kiriSheet_SetSettings(world, sheet, &settings));
     OK(kiriWorld_SetGravity(world, gravity));
+    OK(kiriWorld_ShiftOrigin(world, way));
     OK(kiriWorld_SetBudget(world, &budget));
     OK(kiriSheet_Wake(world, sheet));
     OK(kiriSheet_Transform(world, sheet, axes, way));

@@ -122,6 +122,11 @@ static kiriResult CallSetGravity(Stand* s)
     return kiriWorld_SetGravity(s->host.world, eye);
 }
 
+static kiriResult CallShiftOrigin(Stand* s)
+{
+    return kiriWorld_ShiftOrigin(s->host.world, eye);
+}
+
 static kiriResult CallSetBudget(Stand* s)
 {
     kiriBudget budget = { 0, 30, 0, 0 };
@@ -292,6 +297,7 @@ typedef struct Call {
 static const Call calls[] = {
     { "kiriWorld_Tick", CallTick, true },
     { "kiriWorld_SetGravity", CallSetGravity, false },
+    { "kiriWorld_ShiftOrigin", CallShiftOrigin, true },
     { "kiriWorld_SetBudget", CallSetBudget, false },
     { "kiriCreateSheet", CallCreateSheet, true },
     { "kiriDestroySheet", CallDestroySheet, false },

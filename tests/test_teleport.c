@@ -1,6 +1,8 @@
 /* Sheets that are put elsewhere with what holds them, and worlds whose origin is moved: nothing is kicked. */
 #include "host.h"
 
+#include "world/kiri_blade.h"
+
 /* ---- A sheet that is held ---- */
 
 enum { POINTS, HINGE, CLAMP, HOLD, ON_OBSTACLE, KINDS };
@@ -251,12 +253,213 @@ static void TestMovingPins(void** state)
     }
 }
 
+/* ---- Another origin ---- */
+
+enum { SHIFT_AT = 44, SHIFT_AGAIN = 51, SCENE_TICKS = 57 };
+
+typedef struct Everything {
+    Host host;
+    kiriObstacle ball;
+    kiriBlade blade;
+    kiriFrame held;
+    kiriSheet sheets[5];
+    float origin[3]; /* where it was at the start */
+} Everything;
+
+static void From(const Everything* all, float x, float y, float z, float place[3])
+{
+    place[0] = x - all->origin[0];
+    place[1] = y - all->origin[1];
+    place[2] = z - all->origin[2];
+}
+
+static kiriObstacle AddObstacle(Everything* all, int32_t type, float x, float y, float z)
+{
+    kiriObstacleDef def;
+    kiriObstacle obstacle;
+    kiriDefaultObstacleDef(&def);
+    def.type = type;
+    def.radius = 0.2f;
+    From(all, x, y, z, def.position);
+    OK(kiriCreateObstacle(all->host.world, &def, &obstacle));
+    return obstacle;
+}
+
+/* A sheet at that height with what the bits of `how` say. */
+enum { TOUCHES = 1, SMOOTH = 2, AFFINE = 4, SLEEPS = 8, PLANAR = 16 };
+
+static kiriSheet AddSheet(Everything* all, float x, float y, float z, int how)
+{
+    kiriSheetDef def;
+    kiriSheet sheet;
+    kiriDefaultSheetDef(&def);
+    def.gridResolution = 12;
+    def.frameCount = 6;
+    def.collisionPoints = 8;
+    def.touchesSheets = (how & TOUCHES) != 0;
+    def.skinning = (how & SMOOTH) != 0 ? KIRI_SKINNING_SMOOTH : KIRI_SKINNING_LINEAR;
+    def.model = (how & AFFINE) != 0 ? KIRI_MODEL_AFFINE : KIRI_MODEL_LINKS;
+    def.planar = (how & PLANAR) != 0;
+    def.sleepSpeed = (how & SLEEPS) != 0 ? 0.5f : 0.0f;
+    From(all, x, y, z, def.position);
+    OK(kiriCreateRectangle(all->host.world, 1.0f, 1.0f, 10, 10, &def, &sheet));
+    return sheet;
+}
+
+static void PinTo(Everything* all, kiriSheet sheet, float u, float v, float x, float y, float z, kiriObstacle obstacle)
+{
+    kiriPinDef def;
+    kiriPin pin;
+    kiriDefaultPinDef(&def);
+    def.restPoint[0] = u;
+    def.restPoint[1] = v;
+    def.obstacle = obstacle;
+    From(all, x, y, z, def.target);
+    OK(kiriCreatePin(all->host.world, sheet, &def, &pin));
+}
+
+static void StartEverything(Everything* all)
+{
+    kiriPin pin;
+    kiriFrameState state;
+    const kiriBudget budget = { 100, 1200, 400, 0 };
+    memset(all, 0, sizeof(*all));
+    Host_Start(&all->host);
+    kiriWorld* world = all->host.world;
+    AddObstacle(all, KIRI_OBSTACLE_PLANE, 0.0f, 0.0f, 0.0f);
+    all->ball = AddObstacle(all, KIRI_OBSTACLE_SPHERE, 0.5f, 0.5f, 0.6f);
+    OK(kiriObstacle_SetVelocity(world, all->ball, (float[]){ 0.3f, 0.1f, 0.2f }, (float[]){ 0.0f, 1.0f, 0.5f }));
+    all->sheets[0] = AddSheet(all, 0.0f, 0.0f, 1.0f, TOUCHES | SMOOTH); /* falls on the ball */
+    all->sheets[1] = AddSheet(all, 0.2f, 0.1f, 1.05f, TOUCHES);         /* and one on it */
+    all->sheets[2] = AddSheet(all, 3.0f, 0.0f, 1.0f, AFFINE);           /* hangs, and is cut by the blade */
+    all->sheets[3] = AddSheet(all, 6.0f, 0.0f, 0.0022f, SLEEPS);         /* lies on the floor */
+    all->sheets[4] = AddSheet(all, 9.0f, 0.0f, 1.0f, PLANAR);
+    PinTo(all, all->sheets[2], 0.0f, 0.0f, 3.0f, 0.0f, 1.0f, 0);
+    PinTo(all, all->sheets[2], 1.0f, 0.0f, 4.0f, 0.0f, 1.0f, 0);
+    PinTo(all, all->sheets[0], 1.0f, 0.0f, 1.0f, 0.0f, 1.0f, all->ball);
+    OK(kiriSheet_ClampLine(world, all->sheets[4], (float[]){ 0.0f, 0.0f }, (float[]){ 0.0f, 1.0f }, &pin));
+    all->held = Host_FrameOf(&all->host, all->sheets[1], 0);
+    OK(kiriFrame_GetState(world, all->held, &state));
+    OK(kiriFrame_Hold(world, all->held, state.position, state.rotation));
+    OK(kiriBeginBlade(world, all->sheets[2], &all->blade));
+    OK(kiriWorld_SetBudget(world, &budget));
+}
+
+/* What the host does before a tick, all by places. */
+static void ActOnEverything(Everything* all, int32_t tick)
+{
+    float from[3], to[3];
+    kiriFrameState state;
+    const float x = 2.9f + 0.02f * (float)tick;
+    From(all, x, -0.5f, 0.75f, from);
+    From(all, x, 1.0f, 0.75f, to);
+    OK(kiriBlade_MoveEdge(all->host.world, all->blade, from, to));
+    if (tick == SHIFT_AT - 6 || tick == SHIFT_AT + 5) {
+        float at = 0.008f * (float)tick;
+        Host_Cut(&all->host, all->sheets[0], (float[]){ -0.1f, at, 1.1f, at + 0.1f }, 2);
+    }
+    if (tick == SHIFT_AT - 1) {
+        OK(kiriFrame_GetState(all->host.world, all->held, &state));
+        state.position[2] += 0.125f;
+        OK(kiriFrame_Hold(all->host.world, all->held, state.position, state.rotation));
+        kiriContact contact = { .point = -1, .restPoint = { 0.5f, 0.5f }, .normal = { 0.0f, 0.0f, 1.0f } };
+        contact.offset = 0.875f - all->origin[2];
+        OK(kiriSheet_SetContacts(all->host.world, all->sheets[4], &contact, 1));
+    }
+}
+
+static void CompareEverything(const Everything* a, const Everything* b, int32_t tick)
+{
+    assert_int_equal(a->host.world->sheets.count, b->host.world->sheets.count);
+    for (int32_t s = 0; s < a->host.world->sheets.count; ++s) {
+        kiriSheet id = a->host.world->sheets.data[s]->id;
+        kiriTotals one = Host_Totals(&a->host, id), other = Host_Totals(&b->host, id);
+        double scale = 9.81 * one.mass + fabs(one.elasticEnergy), most = 0.0;
+        kiriMesh from = Host_Mesh(&a->host, id), to = Host_Mesh(&b->host, id);
+        assert_int_equal(from.vertexCount, to.vertexCount);
+        assert_memory_equal(from.restPositions, to.restPositions, 8 * (size_t)from.vertexCount);
+        for (int32_t i = 0; i < 3 * from.vertexCount; ++i) {
+            double apart = fabs((double)from.positions[i] - to.positions[i] - b->origin[i % 3]);
+            most = apart > most ? apart : most;
+        }
+        double energy = fabs(one.elasticEnergy + one.kineticEnergy - other.elasticEnergy - other.kineticEnergy);
+        int32_t awake, otherAwake;
+        OK(kiriSheet_IsAwake(a->host.world, id, &awake));
+        OK(kiriSheet_IsAwake(b->host.world, id, &otherAwake));
+        if (most > 1e-4 || energy > 1e-4 * scale || awake != otherAwake) {
+            fail_msg("tick %d, sheet %d: %g m, %g J of %g, awake %d and %d", (int)tick, (int)s, most, energy, scale,
+                     (int)awake, (int)otherAwake);
+        }
+    }
+}
+
+static void TestOrigin(void** state)
+{
+    (void)state;
+    static Everything worlds[2];
+    static const float none[3] = { 0.0f, -0.0f, 0.0f };
+    int32_t pending = 0, contacts = 0, slept = 0, layers = 0;
+    StartEverything(&worlds[0]);
+    StartEverything(&worlds[1]);
+    for (int32_t tick = 0; tick < SCENE_TICKS; ++tick) {
+        kiriResult results[2];
+        for (int k = 0; k < 2; ++k) {
+            ActOnEverything(&worlds[k], tick);
+            if (k == 1 && tick % 2 == 0) {
+                uint64_t hash = Host_Hash(&worlds[1].host);
+                OK(kiriWorld_ShiftOrigin(worlds[1].host.world, none));
+                assert_true(hash == Host_Hash(&worlds[1].host));
+            }
+            if (k == 1 && (tick == SHIFT_AT || tick == SHIFT_AGAIN)) {
+                const float by[3] = { 64.0f, -32.0f, tick == SHIFT_AT ? 16.0f : -8.0f };
+                OK(kiriWorld_ShiftOrigin(worlds[1].host.world, by));
+                for (int i = 0; i < 3; ++i) {
+                    worlds[1].origin[i] += by[i];
+                }
+                Host_Validate(&worlds[1].host);
+            }
+            results[k] = Host_Tick(&worlds[k].host, 1.0f / 60.0f, 2);
+        }
+        assert_int_equal(results[0], results[1]);
+        pending += tick >= SHIFT_AT && results[0] == KIRI_PENDING;
+        CompareEverything(&worlds[0], &worlds[1], tick);
+        kiriObstacleState states[2];
+        int32_t awake;
+        for (int k = 0; k < 2; ++k) {
+            OK(kiriObstacle_GetState(worlds[k].host.world, worlds[k].ball, &states[k]));
+        }
+        contacts += tick == SHIFT_AT ? states[0].contacts : 0;
+        OK(kiriSheet_IsAwake(worlds[0].host.world, worlds[0].sheets[3], &awake));
+        slept += tick == SHIFT_AT && !awake;
+        layers += tick == SHIFT_AT ? worlds[0].host.world->blades.data[0]->layers.count : 0;
+    }
+    assert_true(pending > 3 && contacts > 0 && slept == 1 && layers > 0); /* all of it was going on */
+    Host_Stop(&worlds[0].host);
+    Host_Stop(&worlds[1].host);
+}
+
+static void TestOriginIsChecked(void** state)
+{
+    (void)state;
+    static Everything all;
+    const float far[3] = { 0.0f, 3e38f, 0.0f }, nan[3] = { NAN, 0.0f, 0.0f };
+    StartEverything(&all);
+    uint64_t hash = Host_Hash(&all.host);
+    assert_int_equal(kiriWorld_ShiftOrigin(all.host.world, NULL), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriWorld_ShiftOrigin(all.host.world, nan), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriWorld_ShiftOrigin(all.host.world, far), KIRI_ERROR_ARGUMENT);
+    assert_true(hash == Host_Hash(&all.host));
+    Host_Stop(&all.host);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestSheetsAtRest),
         cmocka_unit_test(TestSwingingSheets),
         cmocka_unit_test(TestMovingPins),
+        cmocka_unit_test(TestOrigin),
+        cmocka_unit_test(TestOriginIsChecked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

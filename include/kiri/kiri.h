@@ -186,6 +186,13 @@ KIRI_API const char* kiriWorld_GetLastError(const kiriWorld* world);
 /* m/s^2. All pieces wake. */
 KIRI_API kiriResult kiriWorld_SetGravity(kiriWorld* world, const float gravity[3]);
 
+/* Moves the origin of the world to a point (m): subtracts it from all positions, of sheets, targets of pins and holds,
+   obstacles, blades, and contacts that wait. All goes on as it would have, to rounding; nothing wakes, and (0, 0, 0)
+   changes nothing. For worlds that are so large that floats tell too few places apart far from the origin. What the host
+   has of its own it moves itself; arrays that it got stay as they are until the next tick. KIRI_ERROR_ARGUMENT: floats
+   cannot hold what comes of it. KIRI_ERROR_MEMORY: nothing has changed. */
+KIRI_API kiriResult kiriWorld_ShiftOrigin(kiriWorld* world, const float origin[3]);
+
 /* Takes effect with the next tick. */
 KIRI_API kiriResult kiriWorld_SetBudget(kiriWorld* world, const kiriBudget* budget);
 

@@ -153,8 +153,7 @@ static void Retire(kiriMemory* retired, float** array, float* renewed)
     *array = renewed;
 }
 
-/* What the host holds stays as it is until the next tick. */
-static bool RenewShown(kiriSheetData* sheet, kiriMemory* retired)
+bool kiriCarry_Renew(kiriSheetData* sheet, kiriMemory* retired)
 {
     kiriSurface* surface = &sheet->seen.surface;
     float* positions = Renewed(&sheet->shown, surface->positions.capacity);
@@ -175,7 +174,7 @@ static bool RenewShown(kiriSheetData* sheet, kiriMemory* retired)
 
 bool kiriCarry_Sheet(kiriSheetData* sheet, const kiriMat3* R, kiriVec3 t, kiriMemory* retired)
 {
-    if (!RenewShown(sheet, retired)) {
+    if (!kiriCarry_Renew(sheet, retired)) {
         return false;
     }
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
@@ -191,6 +190,52 @@ bool kiriCarry_Sheet(kiriSheetData* sheet, const kiriMat3* R, kiriVec3 t, kiriMe
     kiriView_WritePositions(sheet);
     kiriMotion_Wake(sheet);
     return true;
+}
+
+/* ---- Another origin ---------------------------------------------------------------------------------------------- */
+
+static void Shift(kiriVec3* at, kiriVec3 origin)
+{
+    *at = kiriVec3_Sub(*at, origin);
+}
+
+static void ShiftTouches(kiriTouch* touches, int32_t count, kiriVec3 origin)
+{
+    for (int32_t i = 0; i < count; ++i) {
+        Shift(&touches[i].seen, origin);
+        touches[i].offset -= kiriVec3_Dot(touches[i].normal, origin);
+    }
+}
+
+static void ShiftContacts(kiriSheetData* sheet, kiriVec3 origin)
+{
+    kiriTouches* touches = &sheet->touches;
+    ShiftTouches(touches->found.data, touches->found.count, origin);
+    ShiftTouches(touches->last.touches.data, touches->last.touches.count, origin);
+    ShiftTouches(touches->slept.touches.data, touches->slept.touches.count, origin);
+    touches->rests.areSummed = false; /* about centres of mass of obstacles */
+    for (int32_t i = 0; i < sheet->contacts.count; ++i) {
+        kiriContact* contact = &sheet->contacts.data[i].contact;
+        contact->offset = (float)(contact->offset - kiriVec3_Dot(kiriVec3_Load(contact->normal), origin));
+    }
+}
+
+void kiriCarry_Shift(kiriSheetData* sheet, kiriVec3 origin)
+{
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        kiriFrameData* frame = &sheet->frames.data[i];
+        Shift(&frame->x, origin);
+        if (frame->held) {
+            Shift(&frame->heldPosition, origin);
+            Shift(&frame->goalPosition, origin);
+        }
+    }
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        Shift(&sheet->pins.data[i].target, origin);
+        Shift(&sheet->pins.data[i].lastTarget, origin);
+    }
+    ShiftContacts(sheet, origin);
+    kiriView_WritePositions(sheet);
 }
 
 /* ---- Velocity ---------------------------------------------------------------------------------------------------- */

@@ -13,6 +13,12 @@ bool kiriCarry_Sheet(kiriSheetData* sheet, const kiriMat3* R, kiriVec3 t, kiriMe
 /* The same for where a pin holds it. */
 void kiriCarry_Pin(kiriSheetData* sheet, int32_t index, const kiriMat3* R, kiriVec3 t);
 
+/* The origin of the world goes to another place, and nothing else changes. Before it kiriCarry_Renew: arrays that the
+   host may hold go to `retired`; until positions are written the new ones have none. False for memory: nothing has
+   changed. */
+bool kiriCarry_Renew(kiriSheetData* sheet, kiriMemory* retired);
+void kiriCarry_Shift(kiriSheetData* sheet, kiriVec3 origin);
+
 /* Would frames still fit floats, see kiriFrame_FitsFloats? */
 bool kiriCarry_FitsSheet(const kiriSheetData* sheet, const kiriMat3* R, kiriVec3 t);
 

@@ -1,5 +1,6 @@
 #include "kiri_call.h"
 #include "../sheet/kiri_carry.h"
+#include "kiri_blade.h"
 #include "kiri_pin_step.h"
 
 /* What is wrong with a rotation of the whole space, or null. */
@@ -63,5 +64,81 @@ kiriResult kiriFrame_SetPieceVelocity(kiriWorld* world, kiriFrame frame, const f
     int32_t piece = sheet->layout.framePiece.data[kiriPool_Find(&world->frameIds, frame)->index];
     KIRI_CHECK(kiriCarry_SetVelocity(sheet, piece, kiriVec3_Load(velocity), kiriVec3_Load(angularVelocity)),
                "floats cannot hold what comes of it");
+    KIRI_RETURN(KIRI_OK);
+}
+
+/* ---- Another origin ---------------------------------------------------------------------------------------------- */
+
+static bool FitsShift(const kiriWorld* world, kiriVec3 origin)
+{
+    const kiriMat3 axes = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } };
+    bool fits = true;
+    for (int32_t i = 0; fits && i < world->sheets.count; ++i) {
+        fits = kiriCarry_FitsSheet(world->sheets.data[i], &axes, kiriVec3_Scale(-1.0, origin));
+    }
+    for (int32_t i = 0; fits && i < world->obstacles.count; ++i) {
+        fits = kiriVec3_FitsFloats(kiriVec3_Sub(world->obstacles.data[i]->position, origin));
+    }
+    for (int32_t i = 0; fits && i < world->blades.count; ++i) {
+        const kiriBladeData* blade = world->blades.data[i];
+        fits = kiriVec3_FitsFloats(kiriVec3_Sub(blade->edge[0], origin)) &&
+               kiriVec3_FitsFloats(kiriVec3_Sub(blade->edge[1], origin));
+    }
+    return fits;
+}
+
+/* Room for what is seen, of all sheets or none. */
+static bool RenewAll(kiriWorld* world)
+{
+    int32_t done = 0;
+    while (done < world->sheets.count && kiriCarry_Renew(world->sheets.data[done], &world->retired)) {
+        ++done;
+    }
+    const kiriVec3 none = { 0.0, 0.0, 0.0 };
+    for (int32_t i = 0; i < done && done < world->sheets.count; ++i) {
+        kiriCarry_Shift(world->sheets.data[i], none);
+    }
+    return done == world->sheets.count;
+}
+
+static void ShiftObstacles(kiriWorld* world, kiriVec3 origin)
+{
+    for (int32_t i = 0; i < world->obstacles.count; ++i) {
+        kiriObstacleData* obstacle = world->obstacles.data[i];
+        obstacle->position = kiriVec3_Sub(obstacle->position, origin);
+        obstacle->lower = kiriVec3_Sub(obstacle->lower, origin);
+        obstacle->upper = kiriVec3_Sub(obstacle->upper, origin);
+    }
+}
+
+static void ShiftBlade(kiriBladeData* blade, kiriVec3 origin)
+{
+    for (int end = 0; end < 2 && blade->isPlaced; ++end) {
+        blade->edge[end] = kiriVec3_Sub(blade->edge[end], origin);
+    }
+    for (int32_t i = 0; i < blade->layers.count; ++i) {
+        blade->layers.data[i].at = kiriVec3_Sub(blade->layers.data[i].at, origin);
+    }
+}
+
+kiriResult kiriWorld_ShiftOrigin(kiriWorld* world, const float origin[3])
+{
+    KIRI_CHANGES(world, KIRI_CALL_WORLD_SHIFT_ORIGIN, origin);
+    KIRI_CHECK(origin != NULL && kiriCall_AreFinite(origin, 3), "origin is null or not finite");
+    kiriVec3 to = kiriVec3_Load(origin);
+    if (to.x == 0.0 && to.y == 0.0 && to.z == 0.0) {
+        KIRI_RETURN(KIRI_OK);
+    }
+    KIRI_CHECK(FitsShift(world, to), "floats cannot hold what comes of it");
+    if (!RenewAll(world)) {
+        return KIRI_FAIL(KIRI_ERROR_MEMORY, NULL);
+    }
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        kiriCarry_Shift(world->sheets.data[i], to);
+    }
+    ShiftObstacles(world, to);
+    for (int32_t i = 0; i < world->blades.count; ++i) {
+        ShiftBlade(world->blades.data[i], to);
+    }
     KIRI_RETURN(KIRI_OK);
 }

@@ -188,6 +188,7 @@ static const kiriRecordStruct sheetStruct =
 
 MAKER(World_Tick, GIVEN_FLOAT(0), GIVEN_INT(1))
 MAKER(World_SetGravity, given[0])
+MAKER(World_ShiftOrigin, given[0])
 MAKER(World_SetBudget, given[0])
 MAKER(World_Note, given[0], GIVEN_INT(1))
 MAKER(World_Load, given[0], GIVEN_INT(1))
@@ -276,6 +277,7 @@ static const kiriRecordCall recordCalls[KIRI_CALL_COUNT] = {
     [KIRI_CALL_DESTROY_WORLD] = { "kiriDestroyWorld", { OF_HASH }, MakeEnd },
     [KIRI_CALL_WORLD_TICK] = ENTRY(World_Tick, OF_FLOAT, OF_INT, OF_HASH),
     [KIRI_CALL_WORLD_SET_GRAVITY] = ENTRY(World_SetGravity, OF_FLOATS(3)),
+    [KIRI_CALL_WORLD_SHIFT_ORIGIN] = ENTRY(World_ShiftOrigin, OF_FLOATS(3)),
     [KIRI_CALL_WORLD_SET_BUDGET] = ENTRY(World_SetBudget, OF_STRUCT(budgetStruct)),
     [KIRI_CALL_WORLD_NOTE] = ENTRY(World_Note, OF_ARRAY(KIRI_ARGUMENT_BYTES, KIRI_MOST_NOTE_BYTES, NULL)),
     [KIRI_CALL_WORLD_LOAD] = ENTRY(World_Load, OF_ARRAY(KIRI_ARGUMENT_BYTES, INT32_MAX, NULL)),
