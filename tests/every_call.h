@@ -1,5 +1,5 @@
-/* Every function of the header that takes a world and returns a result, with no arguments to speak of: a list for tests.
-   CHANGES takes the world without const, READS with it. test_callbacks.c compares the list with the header. */
+/* Every function of the header that takes a world and returns a result, with no arguments to speak of: a list for
+   tests. CHANGES takes the world without const, READS with it. test_callbacks.c compares the list with the header. */
 #ifndef KIRI_EVERY_CALL_H
 #define KIRI_EVERY_CALL_H
 

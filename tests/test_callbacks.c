@@ -5,12 +5,21 @@
 
 #include <stdio.h>
 
-enum { IN_ALLOC = 1, IN_FREE = 2, IN_LOG = 4, IN_CLOCK = 8, IN_RECORD = 16, IN_START = 32, IN_FINISH = 64, IN_DRAW = 128 };
+enum {
+    IN_ALLOC = 1,
+    IN_FREE = 2,
+    IN_LOG = 4,
+    IN_CLOCK = 8,
+    IN_RECORD = 16,
+    IN_START = 32,
+    IN_FINISH = 64,
+    IN_DRAW = 128
+};
 
 typedef struct Caller {
     Host host; /* first: the allocator takes it */
     int32_t armed;
-    int32_t most; /* times that each callback calls, of the call at hand */
+    int32_t most; /* times that each callback calls, after Arm */
     bool isRead; /* the world is only read */
     int32_t called[256]; /* times, by callback */
     int64_t noted;       /* bytes of the recording */
@@ -37,7 +46,7 @@ static const Function functions[] = { EVERY_CALL(CHANGING_FUNCTION, READING_FUNC
 
 enum { FUNCTIONS = sizeof(functions) / sizeof(*functions) };
 
-/* Is each function that the header declares with a world in the list, by what it does with it? */
+/* The list has each function that the header declares with a world, with const or without. */
 static void TestListIsWhole(void** state)
 {
     (void)state;
@@ -47,7 +56,8 @@ static void TestListIsWhole(void** state)
     assert_non_null(header);
     while (fgets(line, sizeof(line), header) != NULL) {
         char name[128];
-        if (sscanf(line, "KIRI_API kiriResult %127[A-Za-z0-9_](", name) == 1 && strstr(line, "kiriWorld* world") != NULL) {
+        bool isFunction = sscanf(line, "KIRI_API kiriResult %127[A-Za-z0-9_](", name) == 1;
+        if (isFunction && strstr(line, "kiriWorld* world") != NULL) {
             bool isListed = false;
             for (int32_t i = 0; i < FUNCTIONS; ++i) {
                 isListed |= strcmp(functions[i].name, name) == 0 &&
@@ -225,7 +235,7 @@ static void TestChanging(void** state)
     assert_int_equal(callbacks, 0);
     assert_true(plain == Run(&callers[1], true, &callbacks));
     assert_int_equal(callbacks, 255 & ~IN_DRAW);
-    assert_true(callers[0].noted == callers[1].noted); /* what was refused is in no recording */
+    assert_true(callers[0].noted == callers[1].noted); /* no recording has refused calls */
 
     /* Saves: the world that is read stays busy. */
     int64_t size;

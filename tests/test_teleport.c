@@ -145,7 +145,7 @@ static void Teleport(Scene* scene, const Motion* motion, int order)
     }
 }
 
-/* What moves it and what is stored in it, with what gravity can give, J. */
+/* Kinetic, elastic and potential energy, J. */
 static double EnergyOf(const Scene* scene)
 {
     kiriTotals totals = Host_Totals(&scene->host, scene->sheet);
@@ -285,7 +285,7 @@ static kiriObstacle AddObstacle(Everything* all, int32_t type, float x, float y,
     return obstacle;
 }
 
-/* A sheet at that height with what the bits of `how` say. */
+/* Bits of `how`: settings of a sheet. */
 enum { TOUCHES = 1, SMOOTH = 2, AFFINE = 4, SLEEPS = 8, PLANAR = 16 };
 
 static kiriSheet AddSheet(Everything* all, float x, float y, float z, int how)
@@ -345,7 +345,7 @@ static void StartEverything(Everything* all)
     OK(kiriWorld_SetBudget(world, &budget));
 }
 
-/* What the host does before a tick, all by places. */
+/* Acts of the host before a tick, all at places of the world. */
 static void ActOnEverything(Everything* all, int32_t tick)
 {
     float from[3], to[3];

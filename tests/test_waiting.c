@@ -87,7 +87,7 @@ static void Start(Host* host, uint32_t run)
     SetBudget(host, &seed);
 }
 
-/* What a host does before a tick, until LAST_ACT: so all is done in the end, but what waits for systems. */
+/* Acts of the host before a tick, until LAST_ACT. Then systems have no limit, so all work ends. */
 static void Act(Host* host, uint32_t* seed, int32_t tick)
 {
     uint32_t draw = Random(seed) % 24;
@@ -108,7 +108,7 @@ static void Act(Host* host, uint32_t* seed, int32_t tick)
 
 /* ---- Saves ---- */
 
-/* The world becomes what it is, without all that saves leave out. */
+/* Loads a world from its own save: drops all caches. */
 static void SaveAndLoad(Host* host)
 {
     int64_t size, again;
@@ -165,7 +165,7 @@ static void TestLoadedTwins(void** state)
 
 /* ---- Memory ---- */
 
-/* What the host asks for in the end: all of it has been done, and it has heard of it. */
+/* Counts at the end of a run, and of events. */
 typedef struct Told {
     int32_t sheets, pieces, detached;
     double area;
@@ -185,7 +185,8 @@ static void Describe(const Host* host, Told* told)
     }
 }
 
-/* A tick whose requests for memory are refused from one on, or that one alone. Where any was, it says so, and nothing moved. */
+/* A tick whose requests for memory are refused from one on, or that one alone. Where any was, it says so, and nothing
+   moved. */
 static kiriResult TickRefused(Host* host, int64_t from, bool once)
 {
     int64_t ticks = host->world->ticks, before = host->refused;
@@ -221,7 +222,8 @@ static Told RunRefused(uint32_t run, bool refuses, int32_t* refused)
         }
         /* Only some: work on a cut that was refused memory begins again. */
         bool isRefused = refuses && Random(&draws) % 5 == 0;
-        result = isRefused ? TickRefused(&host, (int64_t)(Random(&draws) % 40), Random(&draws) % 2) : Host_Tick(&host, 1.0f / 60.0f, 1);
+        int64_t from = (int64_t)(Random(&draws) % 40);
+        result = isRefused ? TickRefused(&host, from, from % 2) : Host_Tick(&host, 1.0f / 60.0f, 1);
         for (int again = 0; result == KIRI_ERROR_MEMORY && again < 3; ++again) {
             *refused += 1;
             result = again < 2 ? TickRefused(&host, again, true) : Host_Tick(&host, 1.0f / 60.0f, 1);
@@ -234,7 +236,7 @@ static Told RunRefused(uint32_t run, bool refuses, int32_t* refused)
     return told;
 }
 
-/* Pieces are taken when their cuts are done, however long that takes: so sheets are counted where nobody cuts. */
+/* A refused tick loses nothing: all work ends, and the sheets are sound. */
 static void TestRefusedTicks(void** state)
 {
     (void)state;

@@ -87,8 +87,8 @@ KIRI_API const char* kiriGetResultName(kiriResult result);
      other functions give KIRI_ERROR_STATE and do nothing, kiriDestroyWorld too.
    - While a function that takes a const kiriWorld runs, its callbacks may call functions that take a const kiriWorld.
      All others give KIRI_ERROR_STATE and do nothing.
-   A refused call has a line in the log, but not where the log made it; the line of kiriWorld_GetLastError stays that of
-   the function that runs. No recording has it. These rules hold for the functions of kiriDebugDraw, too.
+   A refused call has a line in the log, unless the log made the call. kiriWorld_GetLastError keeps the line of the
+   function that runs, and no recording has the refused call. The functions of kiriDebugDraw follow these rules, too.
    A thread that reads may call `log`, and in kiriSheet_GetWeights and kiriSheet_EstimateError `alloc` and `free`.
    All memory of a world comes from `alloc`, but for what Eigen takes while it orders the unknowns, when a cut couples
    frames that were not coupled before. */
@@ -171,7 +171,7 @@ KIRI_API void kiriDestroyWorld(kiriWorld* world);
 /* One fixed step of dt seconds (1e-6 to 10), solved in `substeps` equal parts (1 to 64). Takes the waiting cut points,
    then moves every sheet. KIRI_PENDING: the budget is spent and more work waits: the events say which cuts; a sheet, or
    some of its pieces, may also have stood still for want of iterations.
-   KIRI_ERROR_MEMORY: nothing moved and cuts still wait, call again. What the refused work had prepared is made again:
+   KIRI_ERROR_MEMORY: nothing moved; cuts and pieces still wait, call again. Refused work is prepared again:
    until then kiriSheet_GetWeights gives KIRI_ERROR_STATE, and with a budget a cut may take effect some ticks later than
    it would have.
    KIRI_ERROR_LIMIT: the same, and it stays so until frames are destroyed.
@@ -186,11 +186,11 @@ KIRI_API const char* kiriWorld_GetLastError(const kiriWorld* world);
 /* m/s^2. All pieces wake. */
 KIRI_API kiriResult kiriWorld_SetGravity(kiriWorld* world, const float gravity[3]);
 
-/* Moves the origin of the world to a point (m): subtracts it from all positions, of sheets, targets of pins and holds,
-   obstacles, blades, and contacts that wait. All goes on as it would have, to rounding; nothing wakes, and (0, 0, 0)
-   changes nothing. For worlds that are so large that floats tell too few places apart far from the origin. What the host
-   has of its own it moves itself; arrays that it got stay as they are until the next tick. KIRI_ERROR_ARGUMENT: floats
-   cannot hold what comes of it. KIRI_ERROR_MEMORY: nothing has changed. */
+/* Moves the origin of the world to a point (m): subtracts it from the positions of sheets, targets of pins and holds,
+   obstacles, blades, and contacts that wait. The motion goes on as before, to rounding. Nothing wakes; (0, 0, 0)
+   changes nothing. Use it in large worlds: far from the origin floats lose places. The host shifts its own data itself.
+   Arrays that the library handed out keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a position would
+   not fit a float. KIRI_ERROR_MEMORY: nothing has changed. */
 KIRI_API kiriResult kiriWorld_ShiftOrigin(kiriWorld* world, const float origin[3]);
 
 /* Takes effect with the next tick. */
@@ -717,12 +717,11 @@ KIRI_API kiriResult kiriSheet_IsAwake(const kiriWorld* world, kiriSheet sheet, i
 KIRI_API kiriResult kiriSheet_Wake(kiriWorld* world, kiriSheet sheet);
 
 /* Every point x (m, world) of the sheet goes to R x + t at once, and is seen there; velocities turn. The columns of
-   `rotation` are where R takes the axes of the world; a planar sheet turns about its normal only. It wakes.
-   Targets of its pins, hinges, clamps and holds go along, so nothing draws it back. Setting a target to where it is then
-   is no motion. A target that the host has set nearer to its new place than to its old one stays: so the host may set
-   targets before or after.
-   Pins on an obstacle stay on it. Put the obstacle elsewhere by the same motion (kiriObstacle_SetPose), before or after.
-   Loads and contacts that wait for the next tick stay where they are. */
+   `rotation` are where R takes the axes of the world; a planar sheet turns about its normal only. It wakes. Targets of
+   its pins, hinges, clamps and holds go along, so nothing draws it back. To set a target to its current value changes
+   nothing. A target that the host has set nearer to the new place of the pin than to the old one stays: so the host may
+   set targets before or after. Pins on an obstacle stay on it: put the obstacle elsewhere by the same motion
+   (kiriObstacle_SetPose), before or after. Loads and contacts that wait for the next tick stay. */
 KIRI_API kiriResult kiriSheet_Transform(kiriWorld* world, kiriSheet sheet, const float rotation[9],
                                         const float translation[3]);
 
@@ -831,12 +830,13 @@ KIRI_API kiriResult kiriFrame_GetPiece(const kiriWorld* world, kiriFrame frame, 
    Costs what the piece takes to make, and a look at the weights of what is left; where indices change more.
    KIRI_PENDING: work on a cut is at hand in the sheet, or it takes more samples than the budget leaves calls before the
    next tick; *detached is 0. When the work is done, what is the piece of this frame then becomes a sheet, and
-   KIRI_EVENT_PIECE_DETACHED names it. Samples pay for it before, over several ticks if need be, of many pieces one after
-   the other: of the first that waits 3 for each vertex, 2.5 to 9 for each cell (the more frames, the more) and 100 for
-   each frame, of others 3 for each vertex and 1.4 for each cell; and one for 80 vertices of the rest. Until then further
-   cuts of the sheet wait. The first piece is made as it is paid, and leaves at the start of the tick after the last
-   sample is paid. That tick takes an eighth of the work; after a load, the first tick makes again what saves leave out.
-   What a call does at once the coming ticks have less. KIRI_ERROR_STATE: nothing would be left of the sheet. */
+   KIRI_EVENT_PIECE_DETACHED names it. Samples pay for it before, over several ticks if need be, of many pieces one
+   after the other: of the first that waits 3 for each vertex, 2.5 to 9 for each cell (the more frames, the more) and
+   100 for each frame, of others 3 for each vertex and 1.4 for each cell; and one for 80 vertices of the rest. Until
+   then further cuts of the sheet wait. The first piece is made as it is paid, and leaves at the start of the tick after
+   the last sample is paid. That tick does an eighth of the work; the first tick after a load makes the parts again that
+   saves leave out. The coming ticks have fewer samples for the work of calls.
+   KIRI_ERROR_STATE: nothing would be left of the sheet. */
 KIRI_API kiriResult kiriFrame_DetachPiece(kiriWorld* world, kiriFrame frame, kiriSheet* detached);
 
 /* The same without keeping the piece: ids of its frames and pins are stale. Costs as much, but for making a sheet: that
@@ -1017,8 +1017,9 @@ KIRI_API kiriResult kiriSheet_HingeLine(kiriWorld* world, kiriSheet sheet, const
                                         kiriPin* hinge);
 
 /* Where the pin holds its point, or the middle of its line (m, world): at the end of the next tick, and until the next
-   call. Within the tick it goes there evenly. The target that kiriPin_GetState tells changes nothing. With KIRI_SKINNING_SMOOTH what pins and clamps hold is what is seen
-   there; of a clamp the mean along its line, for each piece: single points of the line are seen a little off it. */
+   call. Within the tick it goes there evenly. The current target of kiriPin_GetState changes nothing. With
+   KIRI_SKINNING_SMOOTH what pins and clamps hold is what is seen there; of a clamp the mean along its line, for each
+   piece: single points of the line are seen a little off it. */
 KIRI_API kiriResult kiriPin_SetTarget(kiriWorld* world, kiriPin pin, const float target[3]);
 
 /* The same with the rotation of the line's material: columns are the directions of u and v and the normal. On a planar

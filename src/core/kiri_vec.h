@@ -62,7 +62,7 @@ static inline double kiriVec2_Dot(kiriVec2 a, kiriVec2 b)
 {
     return a.x * b.x + a.y * b.y;
 }
-/* Square root of what is not negative but for rounding; 0 where it is. */
+/* Square root of a number that may round below zero: 0 there. */
 static inline double kiriRoot(double a)
 {
     return a > 0.0 ? sqrt(a) : 0.0;
@@ -125,7 +125,7 @@ static inline double kiriVec3_Length(kiriVec3 a)
     return sqrt(kiriVec3_Dot(a, a));
 }
 
-/* Is it what the host has in floats? */
+/* True if the host reads these floats. */
 static inline bool kiriVec3_Shows(kiriVec3 a, const float shown[3])
 {
     return (float)a.x == shown[0] && (float)a.y == shown[1] && (float)a.z == shown[2];
@@ -154,7 +154,7 @@ static inline kiriVec3 kiriVec3_Normalize(kiriVec3 a)
     return length > 0.0 ? kiriVec3_Scale(1.0 / length, a) : a;
 }
 
-/* Is the rotation what the host has in floats, or what `given` was made of these? */
+/* True if the host reads these floats, or if `given`, the rotation nearest to them, is the same. */
 static inline bool kiriMat3_Shows(const kiriMat3* m, const kiriMat3* given, const float shown[9])
 {
     return (kiriVec3_Shows(m->u, &shown[0]) && kiriVec3_Shows(m->v, &shown[3]) && kiriVec3_Shows(m->d, &shown[6])) ||

@@ -71,7 +71,8 @@ kiriProgress kiriField_Flood(kiriField* field, const kiriRule* rule, kiriQuota* 
 /* Makes the whole flood that Start has prepared, without a limit, and from all cells ways go on; as many items as cells
    are settled. All that the seeds reach is among these cells, which come in their order; and so they are settled.
    KIRI_MORE, and nothing is done: the ways wind too much, and Flood does it. KIRI_FAILED: no memory. */
-kiriProgress kiriField_Scan(kiriField* field, kiriMemory* memory, const kiriGrid* grid, const int32_t* cells, int32_t count);
+kiriProgress kiriField_Scan(kiriField* field, kiriMemory* memory, const kiriGrid* grid, const int32_t* cells,
+                            int32_t count);
 
 /* Makes all cells FAR again, at the cost of those that a flood settled. Not after a repair. */
 void kiriField_Reset(kiriField* field);

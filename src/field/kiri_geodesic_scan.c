@@ -108,7 +108,8 @@ static void PutIntoField(const Scan* scan, kiriField* field)
     field->cursor[0] = field->cursor[1] = field->cursor[2] = field->settled.count;
 }
 
-kiriProgress kiriField_Scan(kiriField* field, kiriMemory* memory, const kiriGrid* grid, const int32_t* cells, int32_t count)
+kiriProgress kiriField_Scan(kiriField* field, kiriMemory* memory, const kiriGrid* grid, const int32_t* cells,
+                            int32_t count)
 {
     KIRI_ASSERT(field->settled.count == 0);
     Scan scan = { grid, cells, count, kiriMemory_Alloc(memory, field->distance.count * (int64_t)sizeof(ScanKey)) };

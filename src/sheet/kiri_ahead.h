@@ -9,9 +9,9 @@
 
 KIRI_C_BEGIN
 
-/* Goes on with the sheet of the piece of this frame, as far as `paid` samples pay in all; drops that of any other piece.
-   A cache that is behind, as after a load, catches up at once. Fields belong to the mesh as it is. `memory` is that of
-   all sheets. False for memory: the cache is dropped. */
+/* Goes on with the sheet of the piece of this frame, as far as `paid` samples pay in all. Drops the cache of another
+   piece. After a load the first call catches up. Fields belong to the mesh as it is. `memory` owns all sheets. False
+   for memory: the cache is dropped. */
 bool kiriAhead_GoOn(kiriSheetData* sheet, kiriFrame frame, kiriMemory* memory, int64_t paid);
 
 /* What has been made for the piece of this frame, which is the caller's from now on; null: nothing. */

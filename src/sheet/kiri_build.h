@@ -10,7 +10,7 @@ KIRI_C_BEGIN
    be deleted. Ids of sheet and frames are given by the world. */
 kiriResult kiriBuild_FromDef(kiriSheetData* sheet, const kiriSheetDef* def, const char** why);
 
-/* For whoever makes a sheet otherwise: after all stages, puts the first layout in force. False for memory. */
+/* Puts the first layout of a sheet in force, when all stages are done. False for memory. */
 bool kiriBuild_Commit(kiriSheetData* sheet);
 
 KIRI_C_END

@@ -68,8 +68,8 @@ static void CarryPose(const kiriMat3* R, kiriVec3 t, kiriVec3* x, kiriMat3* A)
     *A = kiriMat3_Rotation(*A);
 }
 
-/* From where something is held to where the host wants it at the end of the next tick. Where the host wants it nearer
-   to its new place than to its old one, it has moved it already. */
+/* Carries the pose at which something is held, and its goal for the next tick. A goal that is nearer to the new pose
+   than to the old one stays: the host has moved it already. */
 static void CarryHeld(const kiriMat3* R, kiriVec3 t, double size, kiriVec3* at, kiriMat3* axes, kiriVec3* goal,
                       kiriMat3* goalAxes)
 {

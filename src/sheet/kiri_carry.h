@@ -6,8 +6,8 @@
 
 KIRI_C_BEGIN
 
-/* Each point x of the sheet goes to R x + t, with its velocity and history, and with its holds. The arrays that the host
-   may hold go to `retired`, and others are written. False for memory: nothing has changed. */
+/* Each point x of the sheet goes to R x + t, with its velocity and history, and with its holds. The arrays that the
+   host may hold go to `retired`, and others are written. False for memory: nothing has changed. */
 bool kiriCarry_Sheet(kiriSheetData* sheet, const kiriMat3* R, kiriVec3 t, kiriMemory* retired);
 
 /* The same for where a pin holds it. */

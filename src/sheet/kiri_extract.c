@@ -245,8 +245,8 @@ double kiriExtraction_Samples(const kiriSheetData* sheet, double share)
     return share * (vertexSamples * vertices + cellSamples * sheet->grid.cellCount);
 }
 
-/* Measured over meshes of 16 to 200 squares, grids of 16 to 128 and 3 to 80 frames, with a tenth on top. Cells are paid
-   by what shape functions take of them, which grows with the frames that they have. */
+/* Measured over meshes of 16 to 200 squares, grids of 16 to 128 and 3 to 80 frames, with a tenth on top. Shape
+   functions cost more for each cell where the piece has more frames. */
 double kiriExtraction_SamplesAhead(const kiriSheetData* sheet, double share, int32_t frames)
 {
     const double vertexSamples = 3.2, cellSamples = 2.2, frameSamples = 100.0, most = 6.8, lost = 12.5;

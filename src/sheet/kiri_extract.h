@@ -30,7 +30,7 @@ kiriProgress kiriExtraction_GoOn(kiriExtraction* extraction, int32_t piece, kiri
 /* What it takes to make sheets of this share of a sheet's area, in samples. */
 double kiriExtraction_Samples(const kiriSheetData* sheet, double share);
 
-/* The same little by little (kiriExtraction_GoOn), of one piece with so many frames. */
+/* Samples to make the sheet of one piece in steps (kiriExtraction_GoOn). share: of the area; frames: of the piece. */
 double kiriExtraction_SamplesAhead(const kiriSheetData* sheet, double share, int32_t frames);
 
 void kiriExtraction_Drop(kiriExtraction* extraction);

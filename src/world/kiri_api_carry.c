@@ -87,7 +87,7 @@ static bool FitsShift(const kiriWorld* world, kiriVec3 origin)
     return fits;
 }
 
-/* Room for what is seen, of all sheets or none. */
+/* Renews the arrays that the host may hold, of all sheets or of none. */
 static bool RenewAll(kiriWorld* world)
 {
     int32_t done = 0;

@@ -26,8 +26,7 @@ enum { KIRI_LINE_BYTES = sizeof(((kiriWorld*)NULL)->errorLine) };
     KIRI_PREPARES_ANY(world);                                                                                          \
     const kiriCall* record = NULL
 
-/* Callbacks of the host that run now may not call this world: a function that changes it waits for them, or one that
-   only reads does. */
+/* Refuses calls from callbacks that run now, of a function that changes the world or of one that only reads. */
 #define KIRI_PREPARES_ANY(world)                                                                                       \
     if ((world) == NULL) {                                                                                             \
         return KIRI_ERROR_ARGUMENT;                                                                                    \
@@ -51,13 +50,13 @@ enum { KIRI_LINE_BYTES = sizeof(((kiriWorld*)NULL)->errorLine) };
     char line[KIRI_LINE_BYTES];                                                                                        \
     const kiriCall* record = NULL
 
-/* Every function that takes the world without const returns through these; others also with a result that is no error.
-   `why` null: the result says it all. */
+/* Every function that takes the world without const returns through these. Functions that only read may return results
+   that are not errors directly. `why` null: the result says it all. */
 #define KIRI_FAIL(result, why) kiriCall_End(entered, record, kiriCall_Fail(world, line, result, __func__, why))
 #define KIRI_RETURN_OR_SAY(result, why)                                                                                \
     do {                                                                                                               \
         kiriResult outcome = (result);                                                                                 \
-        return outcome < 0 ? KIRI_FAIL(outcome, why) : kiriCall_End(entered, record, outcome);                                  \
+        return outcome < 0 ? KIRI_FAIL(outcome, why) : kiriCall_End(entered, record, outcome);                         \
     } while (0)
 #define KIRI_RETURN(result) KIRI_RETURN_OR_SAY(result, NULL)
 
@@ -103,10 +102,10 @@ static inline bool kiriCall_IsRead(const kiriWorld* world)
     return kiriWord_Read(&world->readers) != 0 || kiriWord_Read(&world->logs) != 0;
 }
 
-/* A callback has called its own world: KIRI_ERROR_STATE. The error line stays that of the call that runs. */
+/* Refuses a call that a callback made on its own world: KIRI_ERROR_STATE. Keeps the error line of the running call. */
 kiriResult kiriCall_Refuse(const kiriWorld* world, const char* function);
 
-/* What a function that only reads puts around calls of the host's functions, but for the log. */
+/* A function that only reads puts these two around its calls of the host's functions, except the log. */
 static inline void kiriCall_BeginCallbacks(const kiriWorld* world)
 {
     kiriWord_Add(&world->readers, 1);

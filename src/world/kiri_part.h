@@ -20,11 +20,11 @@ kiriResult kiriParts_DropCrumbs(kiriWorld* world, kiriSheetData* sheet, double a
 /* Does something wait, while no work is at hand in the sheet? No work begins before that is done. */
 bool kiriParts_AreDue(const kiriSheetData* sheet);
 
-/* At the end of a tick: pays for what is due with what samples are left, over several ticks if need be. */
+/* Pays for the pieces that are due, with the samples that are left at the end of a tick. */
 void kiriParts_Pay(kiriWorld* world, kiriSheetData* sheet, kiriQuota* samples);
 
-/* At the start of a tick: takes out what is paid, and tells of the sheets by events; what is not paid in full is made
-   ahead. How much is paid is the only thing that decides. On failure nothing has changed, and all waits on. */
+/* Takes out the pieces that are paid, at the start of a tick, and adds an event for each new sheet. If the first piece
+   is not paid in full, goes on with its cache. The paid samples alone decide. On failure nothing has changed. */
 kiriResult kiriParts_Leave(kiriWorld* world, kiriSheetData* sheet);
 
 KIRI_C_END

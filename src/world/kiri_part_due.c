@@ -32,8 +32,8 @@ static int32_t CountFrames(const kiriSheetData* sheet, int32_t piece)
     return count;
 }
 
-/* Samples for what is gone, and for the first `count` of those that leave. The first of these is made ahead, which takes
-   more work than to make it at once. */
+/* Samples for the pieces that are gone, and for the first `count` pieces that leave. The first of these is made ahead,
+   which takes more work than making it at once. */
 static int64_t CostOfLeaving(const kiriWorld* world, const kiriSheetData* sheet, int32_t count)
 {
     const kiriPiece* pieces = sheet->layout.pieces.data;
@@ -54,7 +54,7 @@ static int64_t CostOfLeaving(const kiriWorld* world, const kiriSheetData* sheet,
                      (first != KIRI_NONE ? kiriExtraction_SamplesAhead(sheet, ahead, CountFrames(sheet, first)) : 0.0));
 }
 
-/* How many of the pieces that leave so many samples pay for, with what is gone. KIRI_NONE: not even the first. */
+/* Number of leaving pieces that these samples pay for, with all that are gone. KIRI_NONE: less than the first. */
 static int32_t CountWithin(const kiriWorld* world, const kiriSheetData* sheet, int64_t samples)
 {
     int32_t low = sheet->leaving.count > 0, high = sheet->leaving.count;
@@ -86,7 +86,6 @@ void kiriParts_Pay(kiriWorld* world, kiriSheetData* sheet, kiriQuota* samples)
     sheet->leavingPaid = cost - due > paid ? cost - due : paid;
 }
 
-/* Room first. Events are the last of the list, see kiriWorld. */
 static kiriResult Part(kiriWorld* world, kiriSheetData* sheet, int32_t count)
 {
     kiriParting parting;

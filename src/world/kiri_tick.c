@@ -70,8 +70,8 @@ static void ListActive(kiriWorld* world)
 
 /* ---- Pieces that leave ---- */
 
-/* Pieces that the host has taken out of a sheet while work was at hand leave when that is done and paid for: before all
-   else, so that a tick that is refused memory here has not begun. */
+/* Takes out the pieces that waited for a cut or for samples. Comes before anything else: a tick that is refused memory
+   here has not begun. */
 static kiriResult PartAll(kiriWorld* world)
 {
     kiriResult result = KIRI_OK;
@@ -424,7 +424,7 @@ static kiriQuota SetAside(const kiriWorld* world, kiriQuotas* quotas)
     return aside;
 }
 
-/* False where some wait on. */
+/* False if some pieces still wait. */
 static bool PayForParting(kiriWorld* world, kiriQuota* samples)
 {
     bool isDone = true;
@@ -443,7 +443,7 @@ static void CountSpent(kiriProfile* profile, const kiriQuotas* quotas)
     profile->solverIterations = (int32_t)quotas->of[KIRI_QUOTA_ITERATIONS].used;
 }
 
-/* Those before this tick, but for those that refused ticks have left. */
+/* Drops the events of the last tick. Keeps those that refused ticks have added since. */
 static void ForgetEvents(kiriWorld* world)
 {
     int32_t first = world->events.count - world->newEvents;

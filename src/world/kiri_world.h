@@ -50,7 +50,7 @@ struct kiriWorld {
     int64_t samplesDue; /* that calls have taken: the coming ticks have less */
     int64_t ticks;
     int32_t turn; /* the sheet that is moved first: the one for which the last tick had no iterations left */
-    int32_t newEvents; /* the last ones in `events`: ticks that were refused leave them to the next one that is not */
+    int32_t newEvents; /* at the end of `events`: added by refused ticks, for the next tick that is not refused */
     kiriPool sheetIds, cutIds, frameIds, pinIds, obstacleIds, bladeIds;
     KIRI_ARRAY(kiriSheetData*) sheets; /* in the order of their making; */
     kiriIndices active, atWork;        /* of those that the tick at hand looks at; of those with a cut to work on */
