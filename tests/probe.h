@@ -51,6 +51,7 @@ static inline double Probe_Clock(void* user)
         return 0.0;
     }
     int32_t stage = probe->host.world->stage;
+    probe->host.world->isBusy = false; /* a host may not look here */
     if (stage == KIRI_STAGE_SKIN && probe->isNew) {
         Probe_Record(probe); /* what is seen has followed the commit */
         probe->isNew = false;
@@ -61,6 +62,7 @@ static inline double Probe_Clock(void* user)
         probe->isReady = stage == KIRI_STAGE_CONTACT && probe->isStaged;
         probe->isStaged = stage == KIRI_STAGE_CONSTANTS;
     }
+    probe->host.world->isBusy = true;
     return 0.0;
 }
 
