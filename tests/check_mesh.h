@@ -61,9 +61,10 @@ static inline void InitRectangle(kiriMeshData* mesh, int32_t columns, int32_t ro
                                  int32_t resolution)
 {
     Rectangle r = Rectangle_Make(columns, rows, width, height);
-    const char* why = NULL;
-    kiriResult result =
-        kiriMesh_Init(mesh, Heap(), r.positions, r.vertexCount, r.indices, r.triangleCount, resolution, &why);
+    kiriFault why;
+    kiriResult result = kiriMesh_Init(
+        mesh, Heap(), &(kiriMeshInput){ r.positions, r.vertexCount, r.indices, r.triangleCount, resolution, 0.0 },
+        &why);
     Rectangle_Free(&r);
     assert_int_equal(result, KIRI_OK);
 }

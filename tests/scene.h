@@ -79,10 +79,11 @@ static inline void Scene_MakeMesh(Scene* scene, double width, double height, int
     }
     scene->width = width;
     scene->height = height;
-    const char* why = "";
-    if (kiriMesh_Init(&scene->mesh, &scene->memory, positions, (columns + 1) * (rows + 1), indices, count / 3,
-                      resolution, &why) != KIRI_OK) {
-        fail_msg("%s", why);
+    kiriFault why;
+    if (kiriMesh_Init(&scene->mesh, &scene->memory,
+                      &(kiriMeshInput){ positions, (columns + 1) * (rows + 1), indices, count / 3, resolution, 0.0 },
+                      &why) != KIRI_OK) {
+        fail_msg("%s", why.line);
     }
     kiriMesh_Begin(&scene->mesh);
     free(positions);

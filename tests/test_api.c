@@ -458,7 +458,6 @@ static void Meshes(void** state)
         { 4, 2, { 0, 1, 2, 0, 1, 3 } },          /* overlap, sharing an edge in the same direction */
         { 4, 2, { 0, 1, 3, 1, 2, 0 } },          /* overlap, crossing diagonals */
         { 7, 3, { 0, 1, 2, 0, 2, 3, 5, 6, 4 } }, /* one inside another */
-        { 4, 1, { 0, 1, 2 } },                   /* a vertex in no triangle */
     };
     for (size_t i = 0; i < sizeof(meshes) / sizeof(meshes[0]); ++i) {
         kiriSheetDef def;

@@ -351,8 +351,10 @@ static void InitShape(kiriMeshData* mesh, int32_t columns, int32_t rows, const c
     for (int32_t i = 0; i < kept; ++i) {
         r.indices[i] = number[r.indices[i]];
     }
-    const char* why = NULL;
-    assert_int_equal(kiriMesh_Init(mesh, Heap(), r.positions, vertexCount, r.indices, kept / 3, 8, &why), KIRI_OK);
+    kiriFault why;
+    assert_int_equal(
+        kiriMesh_Init(mesh, Heap(), &(kiriMeshInput){ r.positions, vertexCount, r.indices, kept / 3, 8, 0.0 }, &why),
+        KIRI_OK);
     kiriMesh_Begin(mesh);
     free(number);
     Rectangle_Free(&r);
@@ -437,10 +439,12 @@ static void TouchesSharpCorners(void** state)
     (void)state;
     const float left[] = { 0, 0, 4, 0, 4, 1 }, right[] = { 0, 0, 4, -1, 4, 0 };
     const int32_t indices[] = { 0, 1, 2 };
-    const char* why = NULL;
+    kiriFault why;
     for (int side = -1; side <= 1; side += 2) {
         kiriMeshData mesh;
-        assert_int_equal(kiriMesh_Init(&mesh, Heap(), side > 0 ? left : right, 3, indices, 1, 8, &why), KIRI_OK);
+        assert_int_equal(
+            kiriMesh_Init(&mesh, Heap(), &(kiriMeshInput){ side > 0 ? left : right, 3, indices, 1, 8, 0.0 }, &why),
+            KIRI_OK);
         kiriMesh_Begin(&mesh);
         double base = side > 0 ? 0.0 : 1.0; /* local coordinates start at the box's corner */
         CutLine(&mesh, -1.5, base - side, 3.0, base + 2.0 * side);
@@ -455,10 +459,11 @@ static void CutsThroughSplitSides(void** state)
     (void)state;
     const float positions[] = { 0, 0, 1, 0, 1, 2, 0, 2, 1, 0, 2, 0, 2, 1, 1, 1, 2, 2, 1, 2 };
     const int32_t indices[] = { 0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7, 7, 6, 8, 7, 8, 9 };
-    const char* why = NULL;
+    kiriFault why;
     for (int way = 0; way < 2; ++way) {
         kiriMeshData mesh;
-        assert_int_equal(kiriMesh_Init(&mesh, Heap(), positions, 10, indices, 6, 8, &why), KIRI_OK);
+        assert_int_equal(kiriMesh_Init(&mesh, Heap(), &(kiriMeshInput){ positions, 10, indices, 6, 8, 0.0 }, &why),
+                         KIRI_OK);
         kiriMesh_Begin(&mesh);
         assert_int_equal(CheckPieces(&mesh), 2);
         CutLine(&mesh, way == 0 ? -1.0 : 3.0, 1.0, way == 0 ? 3.0 : -1.0, 1.0);
@@ -530,8 +535,10 @@ static void PlacesWithinRange(void** state)
 static void InitLoose(kiriMeshData* mesh, const float* corners, int32_t triangles)
 {
     const int32_t indices[] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11 };
-    const char* why = NULL;
-    assert_int_equal(kiriMesh_Init(mesh, Heap(), corners, 3 * triangles, indices, triangles, 8, &why), KIRI_OK);
+    kiriFault why;
+    assert_int_equal(
+        kiriMesh_Init(mesh, Heap(), &(kiriMeshInput){ corners, 3 * triangles, indices, triangles, 8, 0.0 }, &why),
+        KIRI_OK);
     kiriMesh_Begin(mesh);
 }
 
@@ -562,7 +569,7 @@ static kiriResult InitFewSteps(kiriMeshData* mesh, uint32_t* seed, int32_t unit)
 {
     static const float eighths[] = { 0, 0, 8, 0, 8, 8, 0, 0, 8, 8, 0, 8, 8, 0, 16, 0, 8, 8, 16, 0, 16, 8, 8, 8 };
     const int32_t indices[] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11 };
-    const char* why = NULL;
+    kiriFault why;
     float corners[24];
     for (int i = 0; i < 24; ++i) {
         corners[i] = (float)unit * eighths[i];
@@ -572,7 +579,7 @@ static kiriResult InitFewSteps(kiriMeshData* mesh, uint32_t* seed, int32_t unit)
         corners[Random(seed) % 24] += far * ((float)(Random(seed) % 5) - 2.0f);
     }
     corners[15] = LATTICE_SIDE;
-    return kiriMesh_Init(mesh, Heap(), corners, 12, indices, 4, 8, &why);
+    return kiriMesh_Init(mesh, Heap(), &(kiriMeshInput){ corners, 12, indices, 4, 8, 0.0 }, &why);
 }
 
 /* Blades with places like those of the corners. */
@@ -771,9 +778,11 @@ static void InitRing(kiriMeshData* mesh)
         const int32_t corners[6] = { a, b + SPOKES, b, a, a + SPOKES, b + SPOKES };
         memcpy(&indices[6 * i], corners, sizeof(corners));
     }
-    const char* why = NULL;
+    kiriFault why;
     assert_int_equal(
-        kiriMesh_Init(mesh, Heap(), positions, (RINGS + 1) * SPOKES, indices, 2 * RINGS * SPOKES, 24, &why), KIRI_OK);
+        kiriMesh_Init(mesh, Heap(),
+                      &(kiriMeshInput){ positions, (RINGS + 1) * SPOKES, indices, 2 * RINGS * SPOKES, 24, 0.0 }, &why),
+        KIRI_OK);
 }
 
 /* Points on a slanted outline are rounded to the lattice, which moves the outline by a step: 2^-29 of the size. */
@@ -821,9 +830,11 @@ static void RollsBackWithoutMemory(void** state)
         Meter meter = { -1, 0 };
         kiriMemory memory = kiriMemory_Make(MeterAlloc, MeterFree, &meter);
         kiriMeshData mesh;
-        const char* why = NULL;
-        assert_int_equal(kiriMesh_Init(&mesh, &memory, r.positions, r.vertexCount, r.indices, r.triangleCount, 8, &why),
-                         0);
+        kiriFault why;
+        assert_int_equal(
+            kiriMesh_Init(&mesh, &memory,
+                          &(kiriMeshInput){ r.positions, r.vertexCount, r.indices, r.triangleCount, 8, 0.0 }, &why),
+            0);
         if (n % 2 == 0) {
             kiriSquares_ClearDirty(&mesh.squares);
         }
@@ -846,11 +857,13 @@ static void RollsBackAtRandom(void** state)
         Meter meter = { -1, 0 };
         kiriMemory memory = kiriMemory_Make(MeterAlloc, MeterFree, &meter);
         kiriMeshData mesh;
-        const char* why = NULL;
+        kiriFault why;
         uint32_t seed = 9 * round;
         Pool pool = { { { 0, 0 } }, 0 };
         assert_int_equal(
-            kiriMesh_Init(&mesh, &memory, r.positions, r.vertexCount, r.indices, r.triangleCount, 20, &why), 0);
+            kiriMesh_Init(&mesh, &memory,
+                          &(kiriMeshInput){ r.positions, r.vertexCount, r.indices, r.triangleCount, 20, 0.0 }, &why),
+            0);
         for (int i = 0; i < 20; ++i) {
             if (Random(&seed) % 3 == 0) {
                 kiriSquares_ClearDirty(&mesh.squares);

@@ -41,12 +41,13 @@ typedef struct Sheet {
 static void OpenSheet(Sheet* sheet, const float* positions, int32_t vertexCount, const int32_t* indices,
                       int32_t triangleCount, int32_t resolution)
 {
-    const char* why = "";
+    kiriFault why;
     memset(sheet, 0, sizeof(*sheet));
     sheet->memory = kiriMemory_Make(CountedAlloc, CountedFree, &sheet->blocks);
-    assert_int_equal(
-        kiriMesh_Init(&sheet->mesh, &sheet->memory, positions, vertexCount, indices, triangleCount, resolution, &why),
-        KIRI_OK);
+    assert_int_equal(kiriMesh_Init(&sheet->mesh, &sheet->memory,
+                                   &(kiriMeshInput){ positions, vertexCount, indices, triangleCount, resolution, 0.0 },
+                                   &why),
+                     KIRI_OK);
 }
 
 static void CloseSheet(Sheet* sheet)

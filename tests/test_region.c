@@ -81,12 +81,14 @@ static void OpenSquare(Sheet* sheet, int32_t resolution)
 {
     const float positions[8] = { 0.0f, 0.0f, 1.0f, 0.0f, 1.0f, 1.0f, 0.0f, 1.0f };
     const int32_t indices[6] = { 0, 1, 2, 0, 2, 3 };
-    const char* why = "";
+    kiriFault why;
     memset(sheet, 0, sizeof(*sheet));
     sheet->blocks.untilFailure = -1;
     sheet->slice = INT64_MAX;
     sheet->memory = kiriMemory_Make(CountedAlloc, CountedFree, &sheet->blocks);
-    assert_int_equal(kiriMesh_Init(&sheet->mesh, &sheet->memory, positions, 4, indices, 2, resolution, &why), KIRI_OK);
+    assert_int_equal(kiriMesh_Init(&sheet->mesh, &sheet->memory,
+                                   &(kiriMeshInput){ positions, 4, indices, 2, resolution, 0.0 }, &why),
+                     KIRI_OK);
     UpdateGrid(sheet);
 }
 

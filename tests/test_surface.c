@@ -43,10 +43,11 @@ static void Cloth_Init(Cloth* cloth, int32_t rows)
     /* One triangle less, so that the last one has no partner. */
     memset(cloth, 0, sizeof(*cloth));
     cloth->memory = cloth->room = kiriMemory_Make(NULL, NULL, NULL);
-    const char* why = "";
-    if (kiriMesh_Init(&cloth->mesh, &cloth->memory, positions, (SIDE + 1) * (rows + 1), indices, count / 3 - 1, 8,
+    kiriFault why;
+    if (kiriMesh_Init(&cloth->mesh, &cloth->memory,
+                      &(kiriMeshInput){ positions, (SIDE + 1) * (rows + 1), indices, count / 3 - 1, 8, 0.0 },
                       &why) != KIRI_OK) {
-        fail_msg("%s", why);
+        fail_msg("%s", why.line);
     }
 }
 

@@ -475,8 +475,8 @@ typedef struct kiriSheetDef {
     uint32_t cookie;
 
     /* The rest shape: triangles in the rest plane, counter-clockwise, at most two at an edge. Holes and several parts
-       are fine. Copied by kiriCreateSheet. Edges whose ends lie at the same places, but are different vertices, are
-       the lips of a cut that is there already. */
+       are fine. Copied by kiriCreateSheet; vertices of no triangle are left out. Edges whose ends lie at the same
+       places, but are different vertices, are the lips of a cut that is there already; weldDistance closes them. */
     const float* restPositions; /* 2 floats (u, v) a vertex */
     int32_t vertexCount;
     const int32_t* indices; /* 3 a triangle */
@@ -492,6 +492,13 @@ typedef struct kiriSheetDef {
 
     int32_t gridResolution; /* grid squares along the longer side, 1 to 4096; default 32 */
     float snapDistance;     /* m: a blade this near to a vertex or an edge takes it; 0: 1e-4 of the longer side */
+
+    /* m, 0 or more: vertices nearer than it in the rest plane are one, as meshes with seams of texture coordinates and
+       triangles without shared vertices (STL) need. In the order of vertices each becomes the nearest one that was kept
+       before and is nearer than this, or is kept; so none moves farther, and a chain of near vertices is not one point.
+       A triangle of which two corners become one vertex is left out. kiriSheet_CopySources leads to the vertices of the
+       def on each side of a seam. Default 0: vertices are as the indices say. */
+    float weldDistance;
 
     /* Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at least; null: frameCount
        frames are spread evenly, some of them in pairs at both sides of slit ends. The grid carries one frame for every
@@ -573,8 +580,8 @@ typedef struct kiriSheetDef {
 /* Fills the def with its defaults, and stamps it. It has no mesh yet. */
 KIRI_API void kiriDefaultSheetDef(kiriSheetDef* def);
 
-/* Adds a sheet. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles are no sheet; the line says which one and
-   why. */
+/* Adds a sheet. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles are no sheet. The line names a triangle, or the
+   two triangles at an edge, by their numbers in the def, and says why. */
 KIRI_API kiriResult kiriCreateSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* sheet);
 
 /* The sheet is gone, with its cuts, frames and pins; their ids are stale. */
@@ -661,6 +668,13 @@ KIRI_API kiriResult kiriSheet_CopyVertices(const kiriWorld* world, kiriSheet she
    vertices. */
 KIRI_API kiriResult kiriSheet_CopyIndices16(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle,
                                             int32_t count, uint16_t* indices);
+
+/* Copies where some triangles are in those of the def, to draw with what the host has of its own vertices: `sources`
+   gets the triangle of the def that each is a part of, `weights` 9 floats, the barycentric coordinates of its three
+   corners in it. Along a seam that weldDistance has closed, these are right on both sides, while the sourceTriangles of
+   a vertex there are on one. A triangle that is no more (its corners are equal): -1, and 0. */
+KIRI_API kiriResult kiriSheet_CopySources(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle, int32_t count,
+                                          int32_t* sources, float* weights);
 
 /* The surface with a thickness, to draw: a closed mesh, with a rim along borders, holes and the lips of cuts. First
    come the vertices of kiriMesh on the side that the normal leaves, then the same on the other side, then four for each

@@ -7,6 +7,8 @@
 
 #include "kiri_square.h"
 
+#include "../core/kiri_fault.h"
+
 KIRI_C_BEGIN
 
 enum {
@@ -88,10 +90,20 @@ typedef struct kiriMeshData {
     KIRI_ARRAY(kiriBirth) births; /* of vertex oldVertexCount and on */
 } kiriMeshData;
 
-/* Checks the caller's triangles and takes them over. On failure *why says what is wrong, in one line. `resolution` is
-   the grid's, along the longer side. The journal is open after it. */
-kiriResult kiriMesh_Init(kiriMeshData* mesh, kiriMemory* memory, const float* positions, int32_t vertexCount,
-                         const int32_t* indices, int32_t triangleCount, int32_t resolution, const char** why);
+/* The caller's triangles. */
+typedef struct kiriMeshInput {
+    const float* positions; /* 2 a vertex */
+    int32_t vertexCount;
+    const int32_t* indices; /* 3 a triangle */
+    int32_t triangleCount;
+    int32_t resolution;  /* of the grid, along the longer side */
+    double weldDistance; /* m: see kiriWeld_Find; 0: no vertices are one */
+} kiriMeshInput;
+
+/* Checks the caller's triangles and takes them over. Leaves out vertices that no triangle has, and triangles of which
+   two corners become one vertex. The fault of KIRI_ERROR_MESH names a triangle, an edge or a vertex of the caller. The journal
+   is open after it. */
+kiriResult kiriMesh_Init(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshInput* input, kiriFault* fault);
 
 /* Items of a mesh that become one of their own. */
 typedef struct kiriMeshPart {
@@ -213,8 +225,10 @@ int64_t kiriMesh_DoubledArea(const kiriMeshData* mesh);
 /* The area, m^2. */
 double kiriMesh_Area(const kiriMeshData* mesh);
 
-/* Where a vertex is in its source: barycentric coordinates, not negative, sum 1. */
+/* Where a vertex is in its source, or in another triangle of the caller that the mesh has something of: barycentric
+   coordinates, not negative, sum 1. */
 void kiriMesh_GetShare(const kiriMeshData* mesh, int32_t vertex, float share[3]);
+void kiriMesh_GetShareIn(const kiriMeshData* mesh, int32_t vertex, int32_t source, float share[3]);
 
 /* A lattice point in metres from the lattice's origin ("local"). */
 static inline kiriVec2 kiriMesh_Local(const kiriMeshData* mesh, kiriLatticePoint p)

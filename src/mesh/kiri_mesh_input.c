@@ -1,85 +1,139 @@
 #include "kiri_mesh_edit.h"
 #include "kiri_overlap.h"
+#include "kiri_weld.h"
 
 #include <string.h>
 
-typedef struct MeshInput {
-    const float* positions;
-    int32_t vertexCount;
-    const int32_t* indices;
-    int32_t triangleCount;
-} MeshInput;
-
-static kiriResult RefuseMesh(const char** why, kiriResult result, const char* line)
-{
-    *why = line;
-    return result;
-}
-
-static kiriResult RefuseForMemory(const char** why)
-{
-    return RefuseMesh(why, KIRI_ERROR_MEMORY, "the allocator returned null");
-}
-
-static kiriResult CheckInput(const MeshInput* input, int32_t resolution, const char** why)
+static kiriResult CheckInput(const kiriMeshInput* input, kiriFault* fault)
 {
     if (input->positions == NULL || input->indices == NULL) {
-        return RefuseMesh(why, KIRI_ERROR_ARGUMENT, "restPositions or indices is null");
+        KIRI_SAY(fault, "restPositions or indices is null");
+    } else if (input->vertexCount < 3 || input->triangleCount < 1 || input->triangleCount > KIRI_MOST_TRIANGLES) {
+        KIRI_SAY(fault, "vertexCount or triangleCount is out of range");
+    } else if (input->resolution < 1 || input->resolution > 4096) {
+        KIRI_SAY(fault, "gridResolution is not 1 to 4096");
     }
-    if (input->vertexCount < 3 || input->triangleCount < 1 || input->triangleCount > KIRI_MOST_TRIANGLES) {
-        return RefuseMesh(why, KIRI_ERROR_ARGUMENT, "vertexCount or triangleCount is out of range");
-    }
-    if (resolution < 1 || resolution > 4096) {
-        return RefuseMesh(why, KIRI_ERROR_ARGUMENT, "gridResolution is not 1 to 4096");
-    }
-    for (int64_t i = 0; i < 2 * (int64_t)input->vertexCount; ++i) {
+    for (int64_t i = 0; fault->line[0] == '\0' && i < 2 * (int64_t)input->vertexCount; ++i) {
         if (!(input->positions[i] - input->positions[i] == 0.0f)) {
-            return RefuseMesh(why, KIRI_ERROR_ARGUMENT, "a rest position is not finite");
+            KIRI_SAY(fault, "the rest position of vertex %lld is not finite", (long long)(i / 2));
         }
     }
-    for (int64_t i = 0; i < 3 * (int64_t)input->triangleCount; ++i) {
+    for (int64_t i = 0; fault->line[0] == '\0' && i < 3 * (int64_t)input->triangleCount; ++i) {
         if (input->indices[i] < 0 || input->indices[i] >= input->vertexCount) {
-            return RefuseMesh(why, KIRI_ERROR_ARGUMENT, "an index is out of range");
+            KIRI_SAY(fault, "triangle %lld has vertex %lld, which is not within 0 and %lld", (long long)(i / 3),
+                     (long long)input->indices[i], (long long)input->vertexCount - 1);
         }
     }
-    return KIRI_OK;
+    return fault->line[0] == '\0' ? KIRI_OK : KIRI_ERROR_ARGUMENT;
 }
 
-/* The vertices on the lattice. *extent is its upper corner. */
-static kiriResult TakeVertices(kiriMeshData* mesh, const MeshInput* input, kiriLatticePoint* extent, const char** why)
+/* ---- Vertices ---- */
+
+/* Of each of the caller's vertices. */
+typedef struct Welded {
+    kiriLatticePoint* at;
+    int32_t* to;     /* the one that it becomes; KIRI_NONE: no triangle has it */
+    int32_t* number; /* its index in the mesh; KIRI_NONE: no triangle that is left has it */
+} Welded;
+
+static bool MakeWelded(Welded* welded, const kiriMeshInput* input, kiriMemory* scratch)
+{
+    int64_t count = input->vertexCount;
+    welded->at = kiriMemory_Alloc(scratch, count * (int64_t)sizeof(kiriLatticePoint));
+    welded->to = kiriMemory_Alloc(scratch, count * (int64_t)sizeof(int32_t));
+    welded->number = kiriMemory_Alloc(scratch, count * (int64_t)sizeof(int32_t));
+    if (welded->at == NULL || welded->to == NULL || welded->number == NULL) {
+        return false;
+    }
+    for (int32_t v = 0; v < input->vertexCount; ++v) {
+        welded->to[v] = welded->number[v] = KIRI_NONE;
+    }
+    for (int64_t i = 0; i < 3 * (int64_t)input->triangleCount; ++i) {
+        welded->to[input->indices[i]] = input->indices[i];
+    }
+    return true;
+}
+
+/* Of the vertices that a triangle has. *extent is the upper corner. */
+static kiriResult PlaceVertices(kiriMeshData* mesh, const kiriMeshInput* input, const Welded* welded,
+                                kiriLatticePoint* extent, kiriFault* fault)
 {
     double low[2], high[2];
+    int32_t first = 0;
+    while (welded->to[first] == KIRI_NONE) {
+        ++first;
+    }
     for (int axis = 0; axis < 2; ++axis) {
-        low[axis] = high[axis] = input->positions[axis];
-        for (int32_t i = 1; i < input->vertexCount; ++i) {
-            double x = input->positions[2 * (int64_t)i + axis];
-            low[axis] = x < low[axis] ? x : low[axis];
-            high[axis] = x > high[axis] ? x : high[axis];
+        low[axis] = high[axis] = input->positions[2 * (int64_t)first + axis];
+        for (int32_t v = first + 1; v < input->vertexCount; ++v) {
+            double x = input->positions[2 * (int64_t)v + axis];
+            low[axis] = welded->to[v] != KIRI_NONE && x < low[axis] ? x : low[axis];
+            high[axis] = welded->to[v] != KIRI_NONE && x > high[axis] ? x : high[axis];
         }
     }
     double width = high[0] - low[0], height = high[1] - low[1];
     mesh->origin = kiriVec2_Make(low[0], low[1]);
     mesh->step = (width > height ? width : height) / KIRI_LATTICE;
     if (!(mesh->step > 0.0)) {
-        return RefuseMesh(why, KIRI_ERROR_MESH, "all rest positions are the same point");
+        KIRI_SAY(fault, "triangle 0 has no area: all rest positions are the same point");
+        return KIRI_ERROR_MESH;
     }
-    if (!kiriArray_Resize(mesh->memory, &mesh->vertices, input->vertexCount)) {
-        return RefuseForMemory(why);
-    }
-    for (int32_t i = 0; i < input->vertexCount; ++i) {
-        const float* p = &input->positions[2 * (int64_t)i];
-        kiriVertex* v = &mesh->vertices.data[i];
-        memset(v, 0, sizeof(*v));
-        v->at = kiriMesh_Snap(mesh, kiriVec2_Sub(kiriVec2_Make(p[0], p[1]), mesh->origin));
-        v->edge = KIRI_NONE;
+    for (int32_t v = 0; v < input->vertexCount; ++v) {
+        const float* p = &input->positions[2 * (int64_t)v];
+        if (welded->to[v] != KIRI_NONE) {
+            welded->at[v] = kiriMesh_Snap(mesh, kiriVec2_Sub(kiriVec2_Make(p[0], p[1]), mesh->origin));
+        }
     }
     *extent = kiriMesh_Snap(mesh, kiriVec2_Make(width, height));
     return KIRI_OK;
 }
 
-static bool MakeTrianglesRoom(kiriMeshData* mesh, int32_t count)
+/* The vertices that a triangle becomes, of the caller's. False where two of them have become one: nothing is left of
+   it. */
+static bool CornersOf(const kiriMeshInput* input, const Welded* welded, int32_t triangle, int32_t corners[3])
 {
-    int64_t blocks = ((int64_t)count + KIRI_SOURCES_A_BLOCK - 1) / KIRI_SOURCES_A_BLOCK;
+    for (int i = 0; i < 3; ++i) {
+        corners[i] = welded->to[input->indices[3 * (int64_t)triangle + i]];
+    }
+    return !(input->weldDistance > 0.0) ||
+           (corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0]);
+}
+
+/* Vertices of the mesh have the order of the caller's. Returns how many triangles are left. */
+static int32_t NumberVertices(const kiriMeshInput* input, Welded* welded, int32_t* vertexCount)
+{
+    int32_t triangles = 0, corners[3];
+    for (int32_t t = 0; t < input->triangleCount; ++t) {
+        if (CornersOf(input, welded, t, corners)) {
+            welded->number[corners[0]] = welded->number[corners[1]] = welded->number[corners[2]] = 0;
+            ++triangles;
+        }
+    }
+    *vertexCount = 0;
+    for (int32_t v = 0; v < input->vertexCount; ++v) {
+        welded->number[v] = welded->number[v] != KIRI_NONE ? (*vertexCount)++ : KIRI_NONE;
+    }
+    return triangles;
+}
+
+static void AddVertices(kiriMeshData* mesh, const kiriMeshInput* input, const Welded* welded)
+{
+    for (int32_t v = 0; v < input->vertexCount; ++v) {
+        if (welded->number[v] != KIRI_NONE) {
+            kiriVertex* vertex = &mesh->vertices.data[welded->number[v]];
+            memset(vertex, 0, sizeof(*vertex));
+            vertex->at = welded->at[v];
+            vertex->edge = KIRI_NONE;
+        }
+    }
+}
+
+/* ---- Triangles ---- */
+
+/* Of the caller's triangles each block of sources may be split some day. */
+static bool MakeTrianglesRoom(kiriMeshData* mesh, int32_t count, int32_t sources)
+{
+    int64_t blocks = ((int64_t)sources + KIRI_SOURCES_A_BLOCK - 1) / KIRI_SOURCES_A_BLOCK;
     if (!kiriArray_Reserve(mesh->memory, &mesh->triangles, count) ||
         !kiriArray_ResizeJust(mesh->memory, &mesh->sourceBlocks, blocks)) {
         return false;
@@ -91,33 +145,72 @@ static bool MakeTrianglesRoom(kiriMeshData* mesh, int32_t count)
     return true;
 }
 
-static kiriResult TakeTriangles(kiriMeshData* mesh, const MeshInput* input, const char** why)
+static kiriResult RefuseShape(kiriFault* fault, int32_t triangle, int64_t area, bool isWelded)
 {
-    if (!MakeTrianglesRoom(mesh, input->triangleCount)) {
-        return RefuseForMemory(why);
-    }
+    KIRI_SAY(fault, "triangle %lld %s%s", (long long)triangle, area < 0 ? "is clockwise" : "has no area",
+             isWelded ? ", when vertices nearer than weldDistance are one" : "");
+    return KIRI_ERROR_MESH;
+}
+
+static kiriResult AddTriangles(kiriMeshData* mesh, const kiriMeshInput* input, const Welded* welded, kiriFault* fault)
+{
+    int32_t v[3];
     for (int32_t t = 0; t < input->triangleCount; ++t) {
-        const int32_t* v = &input->indices[3 * (int64_t)t];
-        kiriLatticePoint c[3];
-        kiriMesh_AddTriangle(mesh, v[0], v[1], v[2], t, KIRI_NONE);
-        kiriMesh_Corners(mesh, t, c);
-        int64_t area = kiriOrient(c[0], c[1], c[2]);
-        if (area <= 0) {
-            return RefuseMesh(why, KIRI_ERROR_MESH, area < 0 ? "a triangle is clockwise" : "a triangle has no area");
+        if (!CornersOf(input, welded, t, v)) {
+            continue;
         }
+        int64_t area = kiriOrient(welded->at[v[0]], welded->at[v[1]], welded->at[v[2]]);
+        if (area <= 0) {
+            return RefuseShape(fault, t, area, input->weldDistance > 0.0);
+        }
+        int32_t added =
+            kiriMesh_AddTriangle(mesh, welded->number[v[0]], welded->number[v[1]], welded->number[v[2]], t, KIRI_NONE);
         for (int i = 0; i < 3; ++i) {
-            if (mesh->vertices.data[v[i]].edge == KIRI_NONE) {
-                mesh->vertices.data[v[i]].edge = 3 * t + i;
-                kiriMesh_SetSource(mesh, v[i], t);
+            kiriVertex* vertex = &mesh->vertices.data[welded->number[v[i]]];
+            if (vertex->edge == KIRI_NONE) {
+                vertex->edge = 3 * added + i;
+                kiriMesh_SetSource(mesh, welded->number[v[i]], t);
             }
         }
     }
-    for (int32_t i = 0; i < mesh->vertices.count; ++i) {
-        if (mesh->vertices.data[i].edge == KIRI_NONE) {
-            return RefuseMesh(why, KIRI_ERROR_MESH, "a vertex is in no triangle");
-        }
-    }
     return KIRI_OK;
+}
+
+static kiriResult TakeWelded(kiriMeshData* mesh, const kiriMeshInput* input, Welded* welded, kiriLatticePoint* extent,
+                             kiriMemory* scratch, kiriFault* fault)
+{
+    int32_t vertices;
+    kiriResult result = PlaceVertices(mesh, input, welded, extent, fault);
+    if (result != KIRI_OK) {
+        return result;
+    }
+    if (input->weldDistance > 0.0 &&
+        !kiriWeld_Find(welded->at, input->vertexCount, input->weldDistance / mesh->step, welded->to, scratch)) {
+        return KIRI_ERROR_MEMORY;
+    }
+    int32_t triangles = NumberVertices(input, welded, &vertices);
+    if (triangles == 0) {
+        KIRI_SAY(fault, "triangle 0 and all others have two corners nearer than weldDistance");
+        return KIRI_ERROR_MESH;
+    }
+    if (!kiriArray_Resize(mesh->memory, &mesh->vertices, vertices) ||
+        !MakeTrianglesRoom(mesh, triangles, input->triangleCount)) {
+        return KIRI_ERROR_MEMORY;
+    }
+    AddVertices(mesh, input, welded);
+    return AddTriangles(mesh, input, welded, fault);
+}
+
+/* Vertices that no triangle has are left out, and triangles of which two corners become one vertex. */
+static kiriResult TakeTriangles(kiriMeshData* mesh, const kiriMeshInput* input, kiriLatticePoint* extent,
+                                kiriFault* fault)
+{
+    kiriMemory scratch = kiriMemory_Like(mesh->memory);
+    Welded welded;
+    kiriResult result = MakeWelded(&welded, input, &scratch) ? TakeWelded(mesh, input, &welded, extent, &scratch, fault)
+                                                             : KIRI_ERROR_MEMORY;
+    kiriMemory_FreeAll(&scratch);
+    return result;
 }
 
 /* ---- Twins ---- */
@@ -228,7 +321,19 @@ static bool LinkEntries(kiriMeshData* mesh, TwinEntry a, TwinEntry b, bool hasDo
     return true;
 }
 
-static kiriResult LinkTwins(kiriMeshData* mesh, const TwinWork* work, const char** why)
+/* Names are the caller's. */
+static kiriResult RefuseEdge(const kiriMeshData* mesh, const kiriMeshInput* input, TwinEntry a, TwinEntry b,
+                             kiriFault* fault)
+{
+    int32_t h = a.half < 0 ? ~a.half : a.half, g = b.half < 0 ? ~b.half : b.half;
+    int64_t first = mesh->triangles.data[h / 3].source, second = mesh->triangles.data[g / 3].source;
+    KIRI_SAY(fault, "triangles %lld and %lld use the edge from vertex %lld to vertex %lld in the same direction",
+             (long long)first, (long long)second, (long long)input->indices[3 * first + h % 3],
+             (long long)input->indices[3 * first + (h + 1) % 3]);
+    return KIRI_ERROR_MESH;
+}
+
+static kiriResult LinkTwins(kiriMeshData* mesh, const kiriMeshInput* input, const TwinWork* work, kiriFault* fault)
 {
     for (int32_t v = 0; v < mesh->vertices.count; ++v) {
         int32_t first = v > 0 ? work->end[v - 1] : 0;
@@ -236,7 +341,7 @@ static kiriResult LinkTwins(kiriMeshData* mesh, const TwinWork* work, const char
             for (int32_t j = i + 1; j < work->end[v]; ++j) {
                 if (work->entries[i].other == work->entries[j].other &&
                     !LinkEntries(mesh, work->entries[i], work->entries[j], work->hasDoubles)) {
-                    return RefuseMesh(why, KIRI_ERROR_MESH, "two triangles use an edge in the same direction");
+                    return RefuseEdge(mesh, input, work->entries[i], work->entries[j], fault);
                 }
             }
         }
@@ -244,7 +349,7 @@ static kiriResult LinkTwins(kiriMeshData* mesh, const TwinWork* work, const char
     return KIRI_OK;
 }
 
-static kiriResult FindTwins(kiriMeshData* mesh, const char** why)
+static kiriResult FindTwins(kiriMeshData* mesh, const kiriMeshInput* input, kiriFault* fault)
 {
     kiriMemory scratch = kiriMemory_Like(mesh->memory);
     int64_t bytes = mesh->vertices.count * (int64_t)sizeof(int32_t);
@@ -254,10 +359,10 @@ static kiriResult FindTwins(kiriMeshData* mesh, const char** why)
     kiriResult result = KIRI_OK;
     if (work.point == NULL || work.degree == NULL || work.end == NULL || work.entries == NULL ||
         !FindPoints(mesh, &scratch, &work)) {
-        result = RefuseForMemory(why);
+        result = KIRI_ERROR_MEMORY;
     } else {
         ListEdges(mesh, &work);
-        result = LinkTwins(mesh, &work, why);
+        result = LinkTwins(mesh, input, &work, fault);
     }
     kiriMemory_FreeAll(&scratch);
     return result;
@@ -317,34 +422,35 @@ static bool ClaimFans(kiriMeshData* mesh)
     return true;
 }
 
-static kiriResult CheckOverlaps(const kiriMeshData* mesh, const char** why)
+static kiriResult CheckOverlaps(const kiriMeshData* mesh, kiriFault* fault)
 {
     kiriMemory scratch = kiriMemory_Like(mesh->memory);
     kiriResult result = KIRI_OK;
-    bool any = false;
-    if (!kiriOverlap_Find(mesh, &scratch, &any)) {
-        result = RefuseForMemory(why);
-    } else if (any) {
-        result = RefuseMesh(why, KIRI_ERROR_MESH, "two triangles overlap");
+    int32_t pair[2];
+    if (!kiriOverlap_Find(mesh, &scratch, pair)) {
+        result = KIRI_ERROR_MEMORY;
+    } else if (pair[0] != KIRI_NONE) {
+        KIRI_SAY(fault, "triangles %lld and %lld overlap", (long long)mesh->triangles.data[pair[0]].source,
+                 (long long)mesh->triangles.data[pair[1]].source);
+        result = KIRI_ERROR_MESH;
     }
     kiriMemory_FreeAll(&scratch);
     return result;
 }
 
-static kiriResult BuildMesh(kiriMeshData* mesh, const MeshInput* input, int32_t resolution, const char** why)
+static kiriResult BuildMesh(kiriMeshData* mesh, const kiriMeshInput* input, kiriFault* fault)
 {
     kiriLatticePoint extent = { 0, 0 };
-    kiriResult result = CheckInput(input, resolution, why);
-    result = result == KIRI_OK ? TakeVertices(mesh, input, &extent, why) : result;
-    result = result == KIRI_OK ? TakeTriangles(mesh, input, why) : result;
-    result = result == KIRI_OK ? FindTwins(mesh, why) : result;
-    result = result == KIRI_OK ? CheckOverlaps(mesh, why) : result;
+    kiriResult result = CheckInput(input, fault);
+    result = result == KIRI_OK ? TakeTriangles(mesh, input, &extent, fault) : result;
+    result = result == KIRI_OK ? FindTwins(mesh, input, fault) : result;
+    result = result == KIRI_OK ? CheckOverlaps(mesh, fault) : result;
     if (result != KIRI_OK) {
         return result;
     }
-    if (!ClaimFans(mesh) || !kiriSquares_Init(&mesh->squares, mesh->memory, extent, resolution) ||
+    if (!ClaimFans(mesh) || !kiriSquares_Init(&mesh->squares, mesh->memory, extent, input->resolution) ||
         !kiriMesh_FillSquares(mesh, &mesh->squares, mesh->memory)) {
-        return RefuseForMemory(why);
+        return KIRI_ERROR_MEMORY;
     }
     for (int32_t v = 0; v < mesh->vertices.count; ++v) {
         kiriMesh_ListVertex(mesh, v);
@@ -352,14 +458,12 @@ static kiriResult BuildMesh(kiriMeshData* mesh, const MeshInput* input, int32_t 
     return KIRI_OK;
 }
 
-kiriResult kiriMesh_Init(kiriMeshData* mesh, kiriMemory* memory, const float* positions, int32_t vertexCount,
-                         const int32_t* indices, int32_t triangleCount, int32_t resolution, const char** why)
+kiriResult kiriMesh_Init(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshInput* input, kiriFault* fault)
 {
-    MeshInput input = { positions, vertexCount, indices, triangleCount };
     memset(mesh, 0, sizeof(*mesh));
     mesh->memory = memory;
-    *why = "";
-    kiriResult result = BuildMesh(mesh, &input, resolution, why);
+    fault->line[0] = '\0';
+    kiriResult result = BuildMesh(mesh, input, fault);
     if (result != KIRI_OK) {
         return result;
     }

@@ -136,9 +136,14 @@ void kiriMesh_SetSource(kiriMeshData* mesh, int32_t vertex, int32_t source)
 
 void kiriMesh_GetShare(const kiriMeshData* mesh, int32_t vertex, float to[3])
 {
+    kiriMesh_GetShareIn(mesh, vertex, mesh->vertices.data[vertex].source, to);
+}
+
+void kiriMesh_GetShareIn(const kiriMeshData* mesh, int32_t vertex, int32_t source, float to[3])
+{
     const kiriVertex* v = &mesh->vertices.data[vertex];
     kiriLatticePoint c[3];
-    bool isThere = kiriMesh_SourceCorners(mesh, v->source, c);
+    bool isThere = kiriMesh_SourceCorners(mesh, source, c);
     KIRI_ASSERT(isThere);
     (void)isThere;
     double share[3], sum = 0.0;

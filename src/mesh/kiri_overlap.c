@@ -34,6 +34,7 @@ typedef struct OverlapTree {
     OverlapItem* items;
     OverlapNode* nodes;
     int32_t nodeCount;
+    int32_t pair[2]; /* the first two items that were found to overlap */
 } OverlapTree;
 
 /* ---- Two triangles ---- */
@@ -220,11 +221,13 @@ static void MakeNode(OverlapTree* tree, int32_t index)
 /* ---- Pairs ---- */
 
 /* Of two leaves, or of one with itself. */
-static bool LeavesOverlap(const OverlapTree* tree, const OverlapNode* a, const OverlapNode* b)
+static bool LeavesOverlap(OverlapTree* tree, const OverlapNode* a, const OverlapNode* b)
 {
     for (int32_t i = a->first; i < a->end; ++i) {
         for (int32_t j = a == b ? i + 1 : b->first; j < b->end; ++j) {
             if (ItemsOverlap(tree, &tree->items[i], &tree->items[j])) {
+                tree->pair[0] = tree->items[i].index;
+                tree->pair[1] = tree->items[j].index;
                 return true;
             }
         }
@@ -232,7 +235,7 @@ static bool LeavesOverlap(const OverlapTree* tree, const OverlapNode* a, const O
     return false;
 }
 
-static bool NodesOverlap(const OverlapTree* tree, const OverlapNode* a, const OverlapNode* b)
+static bool NodesOverlap(OverlapTree* tree, const OverlapNode* a, const OverlapNode* b)
 {
     if (a != b && !BoxesOverlap(&a->box, &b->box)) {
         return false;
@@ -303,7 +306,7 @@ static bool IsOneLoop(const kiriMeshData* mesh, int32_t* first, int32_t* count)
 /* One outline that nowhere meets itself? False for memory. */
 static bool LookAtOutline(const kiriMeshData* mesh, kiriMemory* memory, bool* isSimple)
 {
-    OverlapTree tree = { mesh, true, NULL, NULL, 0 };
+    OverlapTree tree = { mesh, true, NULL, NULL, 0, { KIRI_NONE, KIRI_NONE } };
     int32_t first, count;
     *isSimple = false;
     if (!IsOneLoop(mesh, &first, &count)) {
@@ -320,24 +323,27 @@ static bool LookAtOutline(const kiriMeshData* mesh, kiriMemory* memory, bool* is
     return fine;
 }
 
-static bool LookAtTriangles(const kiriMeshData* mesh, kiriMemory* memory, bool* any)
+static bool LookAtTriangles(const kiriMeshData* mesh, kiriMemory* memory, int32_t pair[2])
 {
-    OverlapTree tree = { mesh, false, NULL, NULL, 0 };
+    OverlapTree tree = { mesh, false, NULL, NULL, 0, { KIRI_NONE, KIRI_NONE } };
     int32_t count = mesh->triangles.count;
     bool fine = MakeTree(&tree, memory, count);
     if (fine) {
         for (int32_t t = 0; t < count; ++t) {
             tree.items[t] = ItemOfTriangle(mesh, t);
         }
-        *any = AnyOverlap(&tree, count);
+        (void)AnyOverlap(&tree, count);
+        bool isAscending = tree.pair[0] < tree.pair[1];
+        pair[0] = tree.pair[isAscending ? 0 : 1];
+        pair[1] = tree.pair[isAscending ? 1 : 0];
     }
     FreeTree(&tree, memory);
     return fine;
 }
 
-bool kiriOverlap_Find(const kiriMeshData* mesh, kiriMemory* memory, bool* any)
+bool kiriOverlap_Find(const kiriMeshData* mesh, kiriMemory* memory, int32_t pair[2])
 {
     bool isSimple;
-    *any = false;
-    return LookAtOutline(mesh, memory, &isSimple) && (isSimple || LookAtTriangles(mesh, memory, any));
+    pair[0] = pair[1] = KIRI_NONE;
+    return LookAtOutline(mesh, memory, &isSimple) && (isSimple || LookAtTriangles(mesh, memory, pair));
 }

@@ -91,9 +91,11 @@ static void SetAll(kiriSettings* settings, const kiriMeshData* mesh, const kiriS
 
 /* ---- Frames ---- */
 
-/* One point, in a cell of its own; `holder` has the site in each cell. */
-static const char* TakeFramePoint(kiriSheetData* sheet, const float* point, int32_t* holder)
+/* One point, in a cell of its own; `holder` has the site in each cell. False where that fails. */
+static bool TakeFramePoint(kiriSheetData* sheet, const kiriSheetDef* def, int32_t index, int32_t* holder,
+                           kiriFault* fault)
 {
+    const float* point = &def->framePoints[2 * (size_t)index];
     kiriSites* sites = &sheet->update->placing.sites;
     kiriLatticePoint at;
     kiriSite site = { kiriSheet_ToLocal(sheet, point), KIRI_NONE };
@@ -101,18 +103,23 @@ static const char* TakeFramePoint(kiriSheetData* sheet, const float* point, int3
         site.cell = kiriGrid_CellAt(&sheet->grid, &sheet->mesh, at);
     }
     if (site.cell == KIRI_NONE) {
-        return "a frame point lies outside the material";
+        KIRI_SAY(fault, "frame point %lld lies outside the material", (long long)index);
+        return false;
     }
     if (holder[site.cell] != KIRI_NONE || kiriSites_IsCrowded(&sheet->grid, sites, &site, holder)) {
-        return "two frame points are less than a grid square apart; a finer grid (gridResolution) tells them apart";
+        KIRI_SAY(fault,
+                 "frame point %lld is less than a grid square from an earlier one; a finer grid (gridResolution) "
+                 "tells them apart",
+                 (long long)index);
+        return false;
     }
     holder[site.cell] = sites->count;
     sites->data[sites->count++] = site;
-    return NULL;
+    return true;
 }
 
 /* The sites that the caller gave, when the grid is there. */
-static kiriResult TakeFramePoints(kiriSheetData* sheet, const kiriSheetDef* def, const char** why)
+static kiriResult TakeFramePoints(kiriSheetData* sheet, const kiriSheetDef* def, kiriFault* fault)
 {
     kiriPlacingWork* placing = &sheet->update->placing;
     if (!kiriArray_Resize(sheet->memory, &placing->own, sheet->grid.cells.count) ||
@@ -123,9 +130,7 @@ static kiriResult TakeFramePoints(kiriSheetData* sheet, const kiriSheetDef* def,
         placing->own.data[c] = KIRI_NONE;
     }
     for (int32_t i = 0; i < def->frameCount; ++i) {
-        const char* fault = TakeFramePoint(sheet, &def->framePoints[2 * i], placing->own.data);
-        if (fault != NULL) {
-            *why = fault;
+        if (!TakeFramePoint(sheet, def, i, placing->own.data, fault)) {
             return KIRI_ERROR_ARGUMENT;
         }
     }
@@ -169,13 +174,14 @@ static bool CountPieces(kiriSheetData* sheet, int32_t* pieces)
     return true;
 }
 
-static kiriResult BuildFromMesh(kiriSheetData* sheet, const kiriSheetDef* def, const char** why)
+static kiriResult BuildFromMesh(kiriSheetData* sheet, const kiriSheetDef* def, kiriFault* fault)
 {
     kiriResult result = kiriPipeline_Make(sheet, KIRI_STAGE_REGIONS) ? KIRI_OK : KIRI_ERROR_MEMORY;
     if (result == KIRI_OK && def->framePoints != NULL) {
-        result = TakeFramePoints(sheet, def, why);
+        result = TakeFramePoints(sheet, def, fault);
     } else if (result == KIRI_OK && def->frameCount > kiriSites_MostIn(sheet->grid.cellCount)) {
-        *why = "the grid carries one frame for every two cells at most; a finer one (gridResolution) carries more";
+        KIRI_SAY(fault, "the grid carries one frame for every two cells at most; a finer one (gridResolution) carries "
+                        "more");
         result = KIRI_ERROR_ARGUMENT;
     }
     if (result != KIRI_OK) {
@@ -227,17 +233,17 @@ bool kiriBuild_Commit(kiriSheetData* sheet)
     return true;
 }
 
-kiriResult kiriBuild_FromDef(kiriSheetData* sheet, const kiriSheetDef* def, const char** why)
+kiriResult kiriBuild_FromDef(kiriSheetData* sheet, const kiriSheetDef* def, kiriFault* fault)
 {
-    kiriResult result = kiriMesh_Init(&sheet->mesh, sheet->memory, def->restPositions, def->vertexCount, def->indices,
-                                      def->triangleCount, def->gridResolution, why);
+    const kiriMeshInput input = { def->restPositions, def->vertexCount,    def->indices,
+                                  def->triangleCount, def->gridResolution, def->weldDistance };
+    kiriResult result = kiriMesh_Init(&sheet->mesh, sheet->memory, &input, fault);
     if (result != KIRI_OK) {
         return result;
     }
-    *why = "out of memory";
     SetAll(&sheet->settings, &sheet->mesh, def);
     kiriSettings_Apply(sheet);
     kiriMesh_Begin(&sheet->mesh);
     sheet->solver = kiriSolver_Create(sheet->memory, &sheet->settings.mechanics);
-    return sheet->solver != NULL ? BuildFromMesh(sheet, def, why) : KIRI_ERROR_MEMORY;
+    return sheet->solver != NULL ? BuildFromMesh(sheet, def, fault) : KIRI_ERROR_MEMORY;
 }

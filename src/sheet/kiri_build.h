@@ -6,9 +6,9 @@
 
 KIRI_C_BEGIN
 
-/* Makes a new sheet what the def says, which has been checked. On failure *why says what is wrong, and the sheet is to
-   be deleted. Ids of sheet and frames are given by the world. */
-kiriResult kiriBuild_FromDef(kiriSheetData* sheet, const kiriSheetDef* def, const char** why);
+/* Makes a new sheet what the def says, which has been checked. On failure the fault says why, or ""
+   where the result says it all, and the sheet is to be deleted. Ids of sheet and frames are given by the world. */
+kiriResult kiriBuild_FromDef(kiriSheetData* sheet, const kiriSheetDef* def, kiriFault* fault);
 
 /* Puts the first layout of a sheet in force, when all stages are done. False for memory. */
 bool kiriBuild_Commit(kiriSheetData* sheet);

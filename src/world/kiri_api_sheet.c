@@ -74,7 +74,7 @@ static const char* FaultOfPaper(const kiriPaperOptions* paper)
                : "integrationPoints is not within 0 and 1048576, or integrationOrder not 1 or 2";
 }
 
-static const char* FaultOfSheet(const kiriSheetDef* def)
+static const char* FaultOfSheetValues(const kiriSheetDef* def)
 {
     const kiriSheetSettings settings = kiriSettings_Of(def);
     const char* faults[] = { kiriCall_FaultOfSettings(&settings), FaultOfPlacement(def), FaultOfFrames(def),
@@ -87,24 +87,49 @@ static const char* FaultOfSheet(const kiriSheetDef* def)
     if (!kiriCall_IsWithin(def->gridResolution, 1, 4096)) {
         return "gridResolution is not within 1 and 4096";
     }
-    if (!kiriCall_IsAtLeast(def->snapDistance, 0.0f)) {
-        return "snapDistance is below 0";
+    if (!kiriCall_IsAtLeast(def->snapDistance, 0.0f) || !kiriCall_IsAtLeast(def->weldDistance, 0.0f)) {
+        return "snapDistance or weldDistance is below 0";
     }
     return kiriCall_IsWithin(def->collisionPoints, 0, 1 << 20) ? NULL : "collisionPoints is not within 0 and 1048576";
 }
 
-kiriResult kiriCreateSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* sheet)
+static kiriResult CheckSheetDef(const kiriSheetDef* def, kiriSheet* sheet, kiriFault* fault)
 {
-    KIRI_CHANGES(world, KIRI_CALL_CREATE_SHEET, def, sheet);
-    KIRI_CHECK(def != NULL && sheet != NULL, "def or sheet is null");
+    if (def == NULL || sheet == NULL) {
+        KIRI_SAY(fault, "def or sheet is null");
+        return KIRI_ERROR_ARGUMENT;
+    }
     *sheet = 0;
     if (def->cookie != KIRI_COOKIE(kiriSheetDef)) {
-        return KIRI_FAIL(KIRI_ERROR_DEF, "the def was not filled by kiriDefaultSheetDef");
+        KIRI_SAY(fault, "the def was not filled by kiriDefaultSheetDef");
+        return KIRI_ERROR_DEF;
     }
-    const char* why = FaultOfSheet(def);
-    KIRI_CHECK(why == NULL, why);
-    kiriResult result = kiriWorld_AddSheet(world, def, sheet, &why);
-    KIRI_RETURN_OR_SAY(result, why);
+    const char* why = FaultOfSheetValues(def);
+    if (why != NULL) {
+        KIRI_SAY(fault, "%s", why);
+        return KIRI_ERROR_ARGUMENT;
+    }
+    return KIRI_OK;
+}
+
+/* Adds a sheet and records that. `function` is the one that the host has called. */
+static kiriResult AddSheet(kiriWorld* world, char* line, const char* function, const kiriSheetDef* def,
+                           kiriSheet* sheet)
+{
+    const void* const arguments[] = { def, sheet };
+    const kiriCall call = { world, KIRI_CALL_CREATE_SHEET, arguments };
+    const kiriCall* record = world->recorder.sink.write != NULL ? kiriRecord_Begin(&call) : NULL;
+    kiriFault fault = { "" };
+    kiriResult result = CheckSheetDef(def, sheet, &fault);
+    result = result == KIRI_OK ? kiriWorld_AddSheet(world, def, sheet, &fault) : result;
+    const char* why = fault.line[0] != '\0' ? fault.line : NULL;
+    return kiriCall_End(NULL, record, result < 0 ? kiriCall_Fail(world, line, result, function, why) : result);
+}
+
+kiriResult kiriCreateSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* sheet)
+{
+    KIRI_PREPARES(world);
+    return kiriCall_End(entered, record, AddSheet(world, line, __func__, def, sheet));
 }
 
 kiriResult kiriDestroySheet(kiriWorld* world, kiriSheet sheet)
@@ -166,9 +191,7 @@ kiriResult kiriCreateRectangle(kiriWorld* world, float width, float height, int3
         kiriFillRectangle(width, height, columns, rows, positions, indices);
         filled.restPositions = positions;
         filled.indices = indices;
-        world->isBusy = false;
-        result = kiriCreateSheet(world, &filled, sheet);
-        world->isBusy = true;
+        result = AddSheet(world, line, __func__, &filled, sheet);
     }
     kiriMemory_Free(&world->memory, positions);
     kiriMemory_Free(&world->memory, indices);

@@ -45,16 +45,15 @@ static bool FramesFitFloats(const kiriSheetData* sheet)
     return true;
 }
 
-kiriResult kiriWorld_AddSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* id, const char** why)
+kiriResult kiriWorld_AddSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* id, kiriFault* fault)
 {
     kiriSheetData* sheet = kiriSheet_New(&world->memory);
-    kiriResult result = sheet != NULL ? kiriBuild_FromDef(sheet, def, why) : KIRI_ERROR_MEMORY;
+    kiriResult result = sheet != NULL ? kiriBuild_FromDef(sheet, def, fault) : KIRI_ERROR_MEMORY;
     if (result == KIRI_OK && !FramesFitFloats(sheet)) {
-        *why = "floats cannot hold where it is, or how it moves";
+        KIRI_SAY(fault, "floats cannot hold where it is, or how it moves");
         result = KIRI_ERROR_ARGUMENT;
     }
     if (result == KIRI_OK) {
-        *why = NULL;
         result = kiriWorld_ReserveSheets(world, 1);
     }
     if (result == KIRI_OK) {

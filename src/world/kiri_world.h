@@ -78,9 +78,9 @@ static inline kiriSheetData* kiriWorld_Active(const kiriWorld* world, int32_t k)
     return world->sheets.data[world->active.data[k]];
 }
 
-/* Makes a sheet of the def, which has been checked, and gives it and its frames their ids. *why says what is wrong, or
-   is null where the result says it all. */
-kiriResult kiriWorld_AddSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* id, const char** why);
+/* Makes a sheet of the def, which has been checked, and gives it and its frames their ids. On failure the fault says
+   why, or "" where the result says it all. */
+kiriResult kiriWorld_AddSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* id, kiriFault* fault);
 void kiriWorld_RemoveSheet(kiriWorld* world, kiriSheetData* sheet);
 
 /* In the room of the list, with zeros for what its type does not name. */
