@@ -105,9 +105,11 @@ static void StartAll(kiriWorld* world)
     world->atWork.count = 0;
     for (int32_t k = 0; k < world->active.count; ++k) {
         kiriSheetData* sheet = kiriWorld_Active(world, k);
-        if (!kiriParts_AreDue(sheet)) {
-            kiriPipeline_Start(sheet);
+        sheet->update->isBegun = false;
+        if (kiriParts_AreDue(sheet)) {
+            continue;
         }
+        kiriPipeline_Start(sheet);
         if (sheet->update->stage != KIRI_NONE) {
             world->atWork.data[world->atWork.count++] = world->active.data[k];
         }
