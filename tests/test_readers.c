@@ -136,6 +136,20 @@ static kiriResult ReadIndices(const Scene* scene, bool well)
     return kiriSheet_CopyIndices16(WorldOf(scene), scene->sheet, 2, well ? 10 : INT32_MAX, indices);
 }
 
+static kiriResult ReadPrevious(const Scene* scene, bool well)
+{
+    int32_t vertices[10];
+    kiriSheet from;
+    return kiriSheet_CopyPrevious(WorldOf(scene), SheetOf(scene, well), 3, 10, vertices, &from);
+}
+
+static kiriResult ReadSources(const Scene* scene, bool well)
+{
+    int32_t sources[10];
+    float weights[90];
+    return kiriSheet_CopySources(WorldOf(scene), scene->sheet, well ? 2 : -1, 10, sources, weights);
+}
+
 static kiriResult ReadPoints(const Scene* scene, bool well)
 {
     const float* positions;
@@ -223,6 +237,8 @@ static const Reader readers[] = {
     { "kiriSheet_GetDirty", ReadDirty },
     { "kiriSheet_CopyVertices", ReadVertices },
     { "kiriSheet_CopyIndices16", ReadIndices },
+    { "kiriSheet_CopyPrevious", ReadPrevious },
+    { "kiriSheet_CopySources", ReadSources },
     { "kiriSheet_GetCollisionPoints", ReadPoints },
     { "kiriSheet_GetCounts", ReadCounts },
     { "kiriSheet_GetTotals", ReadTotals },

@@ -34,6 +34,7 @@ PARAMETERS = {
     "kiriSheet_CopyVertices.normals": {"direction": "out", "form": "strided", "length": "count",
                                        "stride": "normalStride"},
     "kiriSheet_CopyIndices16.indices": {"direction": "out", "form": "array", "length": "count", "width": 3},
+    "kiriSheet_CopyPrevious.vertices": {"direction": "out", "form": "array", "length": "count", "width": 1},
     "kiriSheet_CopySources.sources": {"direction": "out", "form": "array", "length": "count", "width": 1},
     "kiriSheet_CopySources.weights": {"direction": "out", "form": "array", "length": "count", "width": 9},
     "kiriCut_Extend.restPoints": {"width": 2},

@@ -664,6 +664,13 @@ KIRI_API kiriResult kiriSheet_CopyVertices(const kiriWorld* world, kiriSheet she
                                            void* positions, int32_t positionStride, void* normals,
                                            int32_t normalStride);
 
+/* For hosts that draw between two ticks: copies of some vertices the index that each had when the last tick began,
+   whatever cuts and pieces that went have changed since (a tick that was refused counts). *from is the sheet that had
+   them: another one where this one was a piece of it. A vertex that a cut tore off another gets the index of that one;
+   one that was not there -1: so have all of a sheet that was created, or loaded, since. The manual has the code. */
+KIRI_API kiriResult kiriSheet_CopyPrevious(const kiriWorld* world, kiriSheet sheet, int32_t first, int32_t count,
+                                           int32_t* vertices, kiriSheet* from);
+
 /* Copies the indices of some triangles, 3 each, as 16-bit numbers. KIRI_ERROR_STATE: there are more than 65535
    vertices. */
 KIRI_API kiriResult kiriSheet_CopyIndices16(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle,

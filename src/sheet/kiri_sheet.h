@@ -12,6 +12,7 @@
 #include "../motion/kiri_refit.h"
 #include "../motion/kiri_solver.h"
 #include "../view/kiri_bounds.h"
+#include "kiri_past.h"
 
 KIRI_C_BEGIN
 
@@ -385,6 +386,7 @@ typedef struct kiriSheetData {
     kiriSeen seen;
     kiriPieceLists lists;
     kiriProbes probes;
+    kiriPast past;
 } kiriSheetData;
 
 /* An empty sheet, zeroed; null for memory. Itself, its queue and its list of cuts are blocks of `memory`. */

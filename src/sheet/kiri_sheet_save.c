@@ -345,6 +345,7 @@ static const kiriMember LiveSheetMembers[] = {
     KIRI_DROPPED(kiriSheetData, seen),
     KIRI_DROPPED(kiriSheetData, lists),
     KIRI_DROPPED(kiriSheetData, probes),
+    KIRI_DROPPED(kiriSheetData, past),
 };
 static const kiriTable LiveSheetTable = KIRI_TABLE(kiriSheetData, LiveSheetMembers);
 

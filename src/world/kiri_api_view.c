@@ -69,6 +69,21 @@ kiriResult kiriSheet_CopyVertices(const kiriWorld* world, kiriSheet sheet, int32
     return KIRI_OK;
 }
 
+kiriResult kiriSheet_CopyPrevious(const kiriWorld* world, kiriSheet sheet, int32_t first, int32_t count,
+                                  int32_t* vertices, kiriSheet* from)
+{
+    KIRI_READS(world);
+    KIRI_CHECK((count == 0 || vertices != NULL) && from != NULL, "vertices or from is null");
+    KIRI_FIND_SHEET(data, sheet);
+    KIRI_CHECK(IsRange(first, count, data->seen.surface.vertexCount), "the sheet has no such vertices");
+    const kiriPast past = kiriPast_At(&data->past, world->begun);
+    for (int32_t i = 0; i < count; ++i) {
+        vertices[i] = kiriPast_IndexOf(&past, first + i);
+    }
+    *from = past.sheet != 0 ? past.sheet : sheet;
+    return KIRI_OK;
+}
+
 kiriResult kiriSheet_CopyIndices16(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle, int32_t count,
                                    uint16_t* indices)
 {

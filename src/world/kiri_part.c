@@ -166,11 +166,19 @@ bool kiriParting_Gather(kiriParting* parting, bool makesParts)
     return ok;
 }
 
+static bool StagePast(kiriParting* parting, kiriPartSource* source)
+{
+    kiriWorld* world = parting->world;
+    source->past = kiriPast_At(&source->removal.sheet->past, world->begun);
+    const kiriPast past = source->past;
+    return source->leavesHoles || kiriPast_Keep(&source->past, &past, &world->retired, &source->removal.kept.vertices);
+}
+
 /* The host may hold the indices, but not at the end of a tick. */
 static bool StageRemoval(kiriParting* parting, kiriPartSource* source)
 {
     kiriSheetData* sheet = source->removal.sheet;
-    return kiriRemoval_Stage(&source->removal, source->leavesHoles) &&
+    return kiriRemoval_Stage(&source->removal, source->leavesHoles) && StagePast(parting, source) &&
            (!source->leavesHoles || parting->isInTick ||
             kiriSurface_RenewIndices(&sheet->seen.surface, &sheet->shown, &parting->world->retired,
                                      parting->world->ticks));
@@ -206,12 +214,23 @@ void kiriParting_Commit(kiriParting* parting)
     for (int32_t k = 0; k < parting->sourceCount; ++k) {
         if (!parting->sources[k].waits) {
             kiriRemoval_Commit(&parting->sources[k].removal, &parting->world->retired);
+            parting->sources[k].removal.sheet->past = parting->sources[k].past;
             PointIds(parting->world, parting->sources[k].removal.sheet);
         }
     }
 }
 
 /* ---- Sheets of their own ---- */
+
+static bool MakePastOfPart(kiriWorld* world, kiriPart* part)
+{
+    const kiriGathered* gathered = &part->from->removal.gathered;
+    const kiriSheetData* from = part->from->removal.sheet;
+    kiriSpan vertices = kiriGather_Find(gathered, part->piece)->vertices;
+    const kiriPast past = kiriPast_At(&from->past, world->begun);
+    return kiriPast_Part(&part->sheet->past, &past, &world->retired, from->id, &gathered->vertices.data[vertices.first],
+                         vertices.count);
+}
 
 static bool MakePart(kiriParting* parting, kiriPart* part)
 {
@@ -220,7 +239,7 @@ static bool MakePart(kiriParting* parting, kiriPart* part)
     part->sheet = part->sheet != NULL ? part->sheet : kiriSheet_New(&parting->world->memory);
     return part->sheet != NULL &&
            (from->extraction.kept.from != NULL || kiriExtraction_Init(&from->extraction, &from->removal.gathered)) &&
-           kiriExtraction_Build(&from->extraction, part->piece, part->sheet);
+           kiriExtraction_Build(&from->extraction, part->piece, part->sheet) && MakePastOfPart(parting->world, part);
 }
 
 static bool MakeParts(kiriParting* parting)

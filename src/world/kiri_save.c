@@ -106,6 +106,7 @@ static const kiriMember WorldMembers[] = {
     KIRI_ROOM_OF(kiriWorld, skinRanges),
     KIRI_ITEMS(4, kiriWorld, events),
     KIRI_PART(kiriWorld, profile, ProfileTable),
+    KIRI_DROPPED(kiriWorld, begun),
     KIRI_DROPPED(kiriWorld, stage),
     KIRI_DROPPED(kiriWorld, stageStart),
     KIRI_DROPPED(kiriWorld, errorLine),
@@ -519,10 +520,14 @@ static void TakeWorld(kiriWorld* world, kiriWorld* made)
     world->tasks = was.tasks;
     world->user = was.user;
     world->recorder = was.recorder;
+    world->begun = was.begun;
     world->stage = was.stage;
     world->isBusy = was.isBusy;
     memcpy(world->errorLine, was.errorLine, sizeof(was.errorLine));
     kiriMemory_AdoptAll(&world->memory, &made->memory);
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        world->sheets.data[i]->past = kiriPast_None(world->begun);
+    }
 }
 
 static kiriResult LoadWorld(kiriWorld* world, const uint8_t* bytes, int64_t size, SaveBase* base, bool isTrusted,

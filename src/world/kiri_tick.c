@@ -200,6 +200,15 @@ static bool FindTouches(kiriWorld* world, double dt)
 
 /* ---- Commits ---- */
 
+/* Where new vertices were. False for memory. */
+static bool GrowPast(kiriWorld* world, kiriSheetData* sheet)
+{
+    const kiriPast past = kiriPast_At(&sheet->past, world->begun);
+    int32_t known = sheet->seen.surface.vertexCount;
+    return sheet->mesh.vertices.count <= known ||
+           kiriPast_Grow(&sheet->past, &past, &world->retired, &sheet->mesh, known);
+}
+
 /* Room for the ids and events of the tick. Of each sheet that wakes in it a pin may break, too. */
 static kiriResult ReserveRoom(kiriWorld* world)
 {
@@ -211,7 +220,8 @@ static kiriResult ReserveRoom(kiriWorld* world)
             frames += sheet->update->placing.sites.count - sheet->frames.count;
             events += sheet->update->next.pieces.count;
         }
-        if (!kiriBounds_Reserve(sheet->seen.bounds, sheet->memory, sheet->mesh.triangles.count)) {
+        if (!kiriBounds_Reserve(sheet->seen.bounds, sheet->memory, sheet->mesh.triangles.count) ||
+            !GrowPast(world, sheet)) {
             return KIRI_ERROR_MEMORY;
         }
     }
@@ -467,6 +477,7 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
     (void)kiriQuota_Pay(samples, &samplesDue);
     kiriQuotas_Share(&quotas, KIRI_QUOTA_SAMPLES);
     kiriMemory_FreeAll(&world->retired);
+    world->begun += 1;
     memset(&world->profile, 0, sizeof(world->profile));
     world->atWork.count = 0;
     ListActive(world);

@@ -69,6 +69,7 @@ kiriResult kiriWorld_AddSheet(kiriWorld* world, const kiriSheetDef* def, kiriShe
         sheet->frames.data[i].id = kiriPool_Add(&world->frameIds, &world->memory, sheet, i);
     }
     kiriView_WritePositions(sheet);
+    sheet->past = kiriPast_None(world->begun);
     *id = sheet->id;
     return KIRI_OK;
 }

@@ -1,0 +1,53 @@
+/* Where the vertices of a sheet were in its mesh, or in that of another sheet, when the last tick began: for hosts that
+   draw between two ticks. No tick depends on it. It costs nothing where no vertex gets another index. */
+#ifndef KIRI_PAST_H
+#define KIRI_PAST_H
+
+#include "../mesh/kiri_mesh.h"
+
+KIRI_C_BEGIN
+
+typedef struct kiriPast {
+    int64_t tick;    /* the number of that tick: else it is out of date, and no vertex has got another index since */
+    kiriSheet sheet; /* that had the vertices; 0: this one */
+    int32_t same;    /* vertices before this one have the index that they had */
+    int32_t* others; /* of the vertices from there on; freed with the next tick */
+    int32_t count;   /* of these; vertices beyond were not there */
+} kiriPast;
+
+/* No vertex was there. */
+static inline kiriPast kiriPast_None(int64_t tick)
+{
+    return (kiriPast){ tick, 0, 0, NULL, 0 };
+}
+
+/* What it says of a tick. */
+static inline kiriPast kiriPast_At(const kiriPast* past, int64_t tick)
+{
+    return past->tick == tick ? *past : (kiriPast){ tick, 0, INT32_MAX, NULL, 0 };
+}
+
+/* The index that a vertex had, or KIRI_NONE. */
+static inline int32_t kiriPast_IndexOf(const kiriPast* past, int32_t vertex)
+{
+    if (vertex < past->same) {
+        return vertex;
+    }
+    return vertex - past->same < past->count ? past->others[vertex - past->same] : KIRI_NONE;
+}
+
+/* These make the past of a mesh that changes, from what kiriPast_At said before. False for memory. */
+
+/* New vertices, from `first` on. One that is torn off another gets the index of that one. */
+bool kiriPast_Grow(kiriPast* to, const kiriPast* past, kiriMemory* memory, const kiriMeshData* mesh, int32_t first);
+
+/* Some vertices are kept. */
+bool kiriPast_Keep(kiriPast* to, const kiriPast* past, kiriMemory* memory, const kiriKeep* vertices);
+
+/* These vertices become a part of the sheet. */
+bool kiriPast_Part(kiriPast* to, const kiriPast* past, kiriMemory* memory, kiriSheet sheet, const int32_t* vertices,
+                   int32_t count);
+
+KIRI_C_END
+
+#endif
