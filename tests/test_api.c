@@ -185,6 +185,13 @@ static void Names(void** state)
     }
     assert_string_equal(kiriGetResultName(2), "unknown");
     assert_string_equal(kiriGetResultName(-12), "unknown");
+    for (int32_t r = KIRI_ERROR_REPLAY - 1; r <= KIRI_PENDING + 1; ++r) { /* a line each, and no two are the same */
+        assert_true(strlen(kiriGetResultText(r)) >= 4 && strchr(kiriGetResultText(r), '\n') == NULL);
+        for (int32_t other = KIRI_ERROR_REPLAY; other < r && r <= KIRI_PENDING; ++other) {
+            assert_string_not_equal(kiriGetResultText(r), kiriGetResultText(other));
+        }
+    }
+    assert_string_equal(kiriGetResultText(2), kiriGetResultText(-12));
     for (int32_t s = 0; s < KIRI_STAGE_COUNT; ++s) {
         assert_true(kiriGetStageName(s)[0] != '\0');
         for (int32_t other = 0; other < s; ++other) {
@@ -434,6 +441,43 @@ static void SheetDefInts(void** state)
     memset(&def, 0, sizeof(def));
     REFUSED_DEF(KIRI_ERROR_DEF);
     Rectangle_Free(&r);
+    Host_Stop(host);
+}
+
+/* What a program sees that has forgotten a kiriDefault function: the code, and a line that names the function. */
+static void ZeroedDefs(void** state)
+{
+    (void)state;
+    Fixture f;
+    Setup(&f);
+    Host* host = &f.host;
+    static const union {
+        kiriWorldDef world;
+        kiriSheetDef sheet;
+        kiriPinDef pin;
+        kiriObstacleDef obstacle;
+        kiriSheetSettings settings;
+        kiriDebugDraw draw;
+    } zeroed;
+    kiriWorld* world = host->world;
+    uint32_t id;
+    assert_int_equal(kiriCreateWorld(&zeroed.world, &world), KIRI_ERROR_DEF);
+    assert_null(world);
+    assert_non_null(strstr(kiriGetResultText(KIRI_ERROR_DEF), "kiriDefaultWorldDef"));
+    world = host->world;
+    REFUSED(KIRI_ERROR_DEF, kiriCreateSheet(world, &zeroed.sheet, &id));
+    assert_non_null(strstr(host->line, "kiriCreateSheet: the def was not filled by kiriDefaultSheetDef"));
+    REFUSED(KIRI_ERROR_DEF, kiriCreateRectangle(world, 1.0f, 1.0f, 1, 1, &zeroed.sheet, &id));
+    assert_non_null(strstr(host->line, "kiriCreateRectangle: the def was not filled by kiriDefaultSheetDef"));
+    REFUSED(KIRI_ERROR_DEF, kiriCreatePin(world, f.sheet, &zeroed.pin, &id));
+    assert_non_null(strstr(host->line, "kiriCreatePin: the def was not filled by kiriDefaultPinDef"));
+    REFUSED(KIRI_ERROR_DEF, kiriCreateObstacle(world, &zeroed.obstacle, &id));
+    assert_non_null(strstr(host->line, "kiriCreateObstacle: the def was not filled by kiriDefaultObstacleDef"));
+    REFUSED(KIRI_ERROR_DEF, kiriSheet_SetSettings(world, f.sheet, &zeroed.settings));
+    assert_non_null(strstr(host->line, "kiriSheet_SetSettings: the settings were not filled by kiriSheet_GetSettings"));
+    assert_int_equal(kiriWorld_DebugDraw(world, &zeroed.draw), KIRI_ERROR_DEF);
+    assert_non_null(strstr(host->line, "kiriWorld_DebugDraw: "));
+    assert_non_null(strstr(host->line, "kiriDefaultDebugDraw"));
     Host_Stop(host);
 }
 
@@ -1216,6 +1260,7 @@ int main(void)
         cmocka_unit_test(WorldArguments),
         cmocka_unit_test(SheetDefFloats),
         cmocka_unit_test(SheetDefInts),
+        cmocka_unit_test(ZeroedDefs),
         cmocka_unit_test(Meshes),
         cmocka_unit_test(FillRectangle),
         cmocka_unit_test(CreateRectangle),

@@ -138,6 +138,11 @@ static kiriResult CallCreateSheet(Stand* s)
     return kiriCreateSheet(s->host.world, &s->def, &s->made);
 }
 
+static kiriResult CallCreateRectangle(Stand* s)
+{
+    return kiriCreateRectangle(s->host.world, 1.0f, 1.0f, 4, 4, &s->def, &s->made);
+}
+
 static kiriResult CallDestroySheet(Stand* s)
 {
     return kiriDestroySheet(s->host.world, s->sheet);
@@ -300,6 +305,7 @@ static const Call calls[] = {
     { "kiriWorld_ShiftOrigin", CallShiftOrigin, true },
     { "kiriWorld_SetBudget", CallSetBudget, false },
     { "kiriCreateSheet", CallCreateSheet, true },
+    { "kiriCreateRectangle", CallCreateRectangle, true },
     { "kiriDestroySheet", CallDestroySheet, false },
     { "kiriSheet_Wake", CallWake, false },
     { "kiriSheet_GetPiece", CallGetPiece, true },

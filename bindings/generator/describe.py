@@ -49,8 +49,9 @@ PARAMETERS = {
     "kiriGetQuality.preset": {"enum": "kiriQualityPreset"},
     "kiriGetStageName.stage": {"enum": "kiriStage"},
     "kiriGetResultName.result": {"enum": "kiriResultCode"},
+    "kiriGetResultText.result": {"enum": "kiriResultCode"},
 }
-RETURNS = {"kiriGetResultName": "forever", "kiriGetStageName": "forever",
+RETURNS = {"kiriGetResultName": "forever", "kiriGetResultText": "forever", "kiriGetStageName": "forever",
            "kiriWorld_GetLastError": "until the next call that changes the world"}
 
 # Bytes and alignment.

@@ -62,7 +62,7 @@ enum kiriResultCode {
     KIRI_PENDING = 1,         /* done, and work is left for later ticks */
     KIRI_ERROR_ARGUMENT = -1, /* null pointer, NaN, infinite, or outside the documented range; or a sheet or obstacle
                                  would be where floats end, or move that fast: 4e37 m, m/s or 1/s */
-    KIRI_ERROR_DEF = -2,      /* the def was not filled by its kiriDefault function */
+    KIRI_ERROR_DEF = -2,      /* the def was not filled by its kiriDefault function, all zeros say: call that first */
     KIRI_ERROR_ID = -3,       /* unknown or stale id, or the id of another kind */
     KIRI_ERROR_MESH = -4,     /* the triangles do not form a sheet: degenerate, inverted, duplicate, overlapping */
     KIRI_ERROR_STATE = -5,    /* the call comes in the wrong order, or from a callback that may not make it */
@@ -79,6 +79,10 @@ KIRI_API int32_t kiriGetVersion(void);
 
 /* The name of a result, "KIRI_OK" and so on; "unknown" for another number. */
 KIRI_API const char* kiriGetResultName(kiriResult result);
+
+/* One line that says what a result means and what to do. For calls that have no world to keep a line: kiriCreateWorld
+   with a def that kiriDefaultWorldDef has not filled gives KIRI_ERROR_DEF, and no more than that. */
+KIRI_API const char* kiriGetResultText(kiriResult result);
 
 /* ---- World ------------------------------------------------------------------------------------------------------ */
 
@@ -159,7 +163,8 @@ typedef struct kiriWorldDef {
 /* Fills the def with its defaults, and stamps it. */
 KIRI_API void kiriDefaultWorldDef(kiriWorldDef* def);
 
-/* Makes an empty world. On failure *world is null. KIRI_ERROR_BUILD: the compiler has contracted products and sums to
+/* Makes an empty world. On failure *world is null, and the log of the def has the line; a def that was not filled has no
+   log, see kiriGetResultText. KIRI_ERROR_BUILD: the compiler has contracted products and sums to
    fused multiply-adds (-ffp-contract=fast of clang), or has reordered them; or this thread flushes small floats to zero
    (FTZ, DAZ) or does not round to nearest. The threads of later calls, and those that the host runs tasks on, are not
    checked: in such a mode their bits are others. */

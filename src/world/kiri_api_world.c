@@ -11,38 +11,49 @@ int32_t kiriGetVersion(void)
     return KIRI_VERSION;
 }
 
+/* What each result is called and means, from KIRI_ERROR_REPLAY to KIRI_PENDING. */
+static const struct {
+    const char *name, *text;
+} results[] = {
+    { "KIRI_ERROR_REPLAY",
+      "a call that was made again gave something else than recorded: replay with the library version "
+      "that recorded, and no other calls between" },
+    { "KIRI_ERROR_DATA",
+      "the bytes are damaged, cut short, of something else or of a later version: hand over all bytes "
+      "that this library version wrote" },
+    { "KIRI_ERROR_BUILD", "floats are not computed as on other machines: build with -ffp-contract=off and without "
+                          "-ffast-math, and let the processor keep small floats and round to nearest" },
+    { "KIRI_ERROR_LIMIT", "all ids of a kind are used up and nothing has changed: destroy what is not needed" },
+    { "KIRI_DIVERGED",
+      "the motion of a sheet could not be continued and it was put to rest: the events name it; give more "
+      "substeps or iterations, or smaller forces" },
+    { "KIRI_ERROR_MEMORY", "out of memory and nothing has changed: free some and call again" },
+    { "KIRI_ERROR_STATE", "the call comes at the wrong time: kiriWorld_GetLastError says what has to come first" },
+    { "KIRI_ERROR_MESH", "the triangles form no sheet: kiriWorld_GetLastError names one; set weldDistance for doubled "
+                         "vertices" },
+    { "KIRI_ERROR_ID",
+      "the id is unknown, stale or of another kind: what it named may be destroyed, detached or done" },
+    { "KIRI_ERROR_DEF", "the struct was not filled by this library version: call kiriDefaultWorldDef, "
+                        "kiriDefaultSheetDef or the like before setting fields; for settings kiriSheet_GetSettings" },
+    { "KIRI_ERROR_ARGUMENT", "a pointer or the world is null, or a number is NaN, infinite or out of range: "
+                             "kiriWorld_GetLastError, or the log, says which" },
+    { "KIRI_OK", "done" },
+    { "KIRI_PENDING", "done, and work is left: call kiriWorld_Tick again" },
+};
+
+static bool IsResult(kiriResult result)
+{
+    return kiriCall_IsWithin(result, KIRI_ERROR_REPLAY, KIRI_PENDING);
+}
+
 const char* kiriGetResultName(kiriResult result)
 {
-    switch (result) {
-    case KIRI_OK:
-        return "KIRI_OK";
-    case KIRI_PENDING:
-        return "KIRI_PENDING";
-    case KIRI_ERROR_ARGUMENT:
-        return "KIRI_ERROR_ARGUMENT";
-    case KIRI_ERROR_DEF:
-        return "KIRI_ERROR_DEF";
-    case KIRI_ERROR_ID:
-        return "KIRI_ERROR_ID";
-    case KIRI_ERROR_MESH:
-        return "KIRI_ERROR_MESH";
-    case KIRI_ERROR_STATE:
-        return "KIRI_ERROR_STATE";
-    case KIRI_ERROR_MEMORY:
-        return "KIRI_ERROR_MEMORY";
-    case KIRI_DIVERGED:
-        return "KIRI_DIVERGED";
-    case KIRI_ERROR_LIMIT:
-        return "KIRI_ERROR_LIMIT";
-    case KIRI_ERROR_BUILD:
-        return "KIRI_ERROR_BUILD";
-    case KIRI_ERROR_DATA:
-        return "KIRI_ERROR_DATA";
-    case KIRI_ERROR_REPLAY:
-        return "KIRI_ERROR_REPLAY";
-    default:
-        return "unknown";
-    }
+    return IsResult(result) ? results[result - KIRI_ERROR_REPLAY].name : "unknown";
+}
+
+const char* kiriGetResultText(kiriResult result)
+{
+    return IsResult(result) ? results[result - KIRI_ERROR_REPLAY].text : "no result of this library";
 }
 
 const char* kiriGetStageName(int32_t stage)

@@ -3,23 +3,9 @@
 #include <math.h>
 #include <stdio.h>
 
-static const char* ReasonOf(kiriResult result)
-{
-    switch (result) {
-    case KIRI_ERROR_MEMORY:
-        return "out of memory; nothing has changed";
-    case KIRI_ERROR_LIMIT:
-        return "there are no ids left; nothing has changed";
-    case KIRI_DIVERGED:
-        return "a sheet could not be moved on and rests; see the events";
-    default:
-        return "not possible";
-    }
-}
-
 kiriResult kiriCall_Fail(const kiriWorld* world, char* line, kiriResult result, const char* function, const char* why)
 {
-    snprintf(line, KIRI_LINE_BYTES, "%s: %s (%s)", function, why != NULL ? why : ReasonOf(result),
+    snprintf(line, KIRI_LINE_BYTES, "%s: %s (%s)", function, why != NULL ? why : kiriGetResultText(result),
              kiriGetResultName(result));
     if (world->log != NULL) {
         kiriWord_Add(&world->logs, 1);

@@ -166,12 +166,13 @@ bool kiriParting_Gather(kiriParting* parting, bool makesParts)
     return ok;
 }
 
+/* Vertices may get other indices. */
 static bool StagePast(kiriParting* parting, kiriPartSource* source)
 {
-    kiriWorld* world = parting->world;
-    source->past = kiriPast_At(&source->removal.sheet->past, world->begun);
-    const kiriPast past = source->past;
-    return source->leavesHoles || kiriPast_Keep(&source->past, &past, &world->retired, &source->removal.kept.vertices);
+    const kiriRemoval* removal = &source->removal;
+    const kiriPast past = kiriPast_At(&removal->sheet->past, parting->world->begun);
+    source->past = past;
+    return source->leavesHoles || kiriPast_Keep(&source->past, &past, &parting->memory, &removal->kept.vertices);
 }
 
 /* The host may hold the indices, but not at the end of a tick. */
@@ -215,6 +216,9 @@ void kiriParting_Commit(kiriParting* parting)
         if (!parting->sources[k].waits) {
             kiriRemoval_Commit(&parting->sources[k].removal, &parting->world->retired);
             parting->sources[k].removal.sheet->past = parting->sources[k].past;
+            if (!parting->sources[k].leavesHoles) { /* else it is the one that it was */
+                kiriMemory_Adopt(&parting->world->retired, parting->sources[k].past.others);
+            }
             PointIds(parting->world, parting->sources[k].removal.sheet);
         }
     }
@@ -222,14 +226,14 @@ void kiriParting_Commit(kiriParting* parting)
 
 /* ---- Sheets of their own ---- */
 
-static bool MakePastOfPart(kiriWorld* world, kiriPart* part)
+static bool MakePastOfPart(kiriParting* parting, kiriPart* part)
 {
     const kiriGathered* gathered = &part->from->removal.gathered;
     const kiriSheetData* from = part->from->removal.sheet;
     kiriSpan vertices = kiriGather_Find(gathered, part->piece)->vertices;
-    const kiriPast past = kiriPast_At(&from->past, world->begun);
-    return kiriPast_Part(&part->sheet->past, &past, &world->retired, from->id, &gathered->vertices.data[vertices.first],
-                         vertices.count);
+    const kiriPast past = kiriPast_At(&from->past, parting->world->begun);
+    return kiriPast_Part(&part->sheet->past, &past, &parting->memory, from->id,
+                         &gathered->vertices.data[vertices.first], vertices.count);
 }
 
 static bool MakePart(kiriParting* parting, kiriPart* part)
@@ -239,7 +243,7 @@ static bool MakePart(kiriParting* parting, kiriPart* part)
     part->sheet = part->sheet != NULL ? part->sheet : kiriSheet_New(&parting->world->memory);
     return part->sheet != NULL &&
            (from->extraction.kept.from != NULL || kiriExtraction_Init(&from->extraction, &from->removal.gathered)) &&
-           kiriExtraction_Build(&from->extraction, part->piece, part->sheet) && MakePastOfPart(parting->world, part);
+           kiriExtraction_Build(&from->extraction, part->piece, part->sheet) && MakePastOfPart(parting, part);
 }
 
 static bool MakeParts(kiriParting* parting)
@@ -294,6 +298,7 @@ static void AddSheetOfPart(kiriWorld* world, const kiriPart* part)
     kiriSheetData* sheet = part->sheet;
     world->sheets.data[world->sheets.count++] = sheet;
     sheet->id = kiriPool_Add(&world->sheetIds, &world->memory, sheet, 0);
+    kiriMemory_Adopt(&world->retired, sheet->past.others);
     NamePins(world, part);
     PointIds(world, sheet);
 }
