@@ -226,6 +226,10 @@ test("weights, raycasts, contacts, obstacles and copies", () => inWorld((world) 
     sheet.copyVertices(0, 289, buffer, 24, buffer.subarray(3), 24);
     assert.deepEqual([...buffer.subarray(0, 6)], [...sheet.getMesh().positions.subarray(0, 3), 0, 0, 1]);
     assert.deepEqual([...sheet.copyIndices16(0, 512)], [...sheet.getMesh().indices]);
+    assert.deepEqual([...sheet.copySources(1, 2)], [1, 2]);
+    assert.deepEqual([...sheet.copySourceWeights(1, 1)], [1, 0, 0, 0, 1, 0, 0, 0, 1]);
+    assert.equal(sheet.copyPrevious(0, 289).from.id, sheet.id);
+    assert.equal(sheet.copyPrevious(0, 289).vertices.length, 289);
     const floor = world.createObstacle({ type: kiri.ObstacleType.Plane, position: [0, 0, 1] });
     sheet.setContacts([{ point: -1, restPoint: [0.1, 0.1], normal: [0, 0, 1], offset: 1.5, friction: 1 }]);
     world.tick(1 / 60, 2);

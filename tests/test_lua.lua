@@ -82,6 +82,7 @@ function tests.enums_have_names()
     equal(kiri.EVENT_PIECE_OFF, 2)
     equal(kiri.EventType[2], "PIECE_OFF")
     equal(kiri.getResultName(kiri.ERROR_ID), "KIRI_ERROR_ID")
+    assert(kiri.getResultText(kiri.ERROR_DEF):find "kiriDefaultWorldDef")
 end
 
 function tests.errors_say_what_and_where()

@@ -368,14 +368,16 @@ static void Refuses(void** state)
     OK(kiriSheet_CopyPrevious(world, sheet, count - 4, 4, vertices, &from));
     int32_t sources[4];
     float weights[36];
-    assert_int_equal(kiriSheet_CopySources(world, sheet, 0, 1, NULL, weights), KIRI_ERROR_ARGUMENT);
-    assert_int_equal(kiriSheet_CopySources(world, sheet, 0, 1, sources, NULL), KIRI_ERROR_ARGUMENT);
-    assert_int_equal(kiriSheet_CopySources(world, sheet, -1, 1, sources, weights), KIRI_ERROR_ARGUMENT);
-    assert_int_equal(kiriSheet_CopySources(world, sheet, 0, INT32_MAX, sources, weights), KIRI_ERROR_ARGUMENT);
-    assert_int_equal(kiriSheet_CopySources(world, sheet + 1, 0, 1, sources, weights), KIRI_ERROR_ID);
-    assert_int_equal(kiriSheet_CopySources(NULL, sheet, 0, 1, sources, weights), KIRI_ERROR_ARGUMENT);
-    OK(kiriSheet_CopySources(world, sheet, 0, 0, NULL, NULL));
-    OK(kiriSheet_CopySources(world, sheet, 0, 4, sources, weights));
+    assert_int_equal(kiriSheet_CopySources(NULL, sheet, 0, 1, sources), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriSheet_CopySourceWeights(NULL, sheet, 0, 1, weights), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriSheet_CopySources(world, sheet + 1, 0, 1, sources), KIRI_ERROR_ID);
+    assert_int_equal(kiriSheet_CopySourceWeights(world, sheet + 1, 0, 1, weights), KIRI_ERROR_ID);
+    assert_int_equal(kiriSheet_CopySources(world, sheet, 0, 1, NULL), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriSheet_CopySourceWeights(world, sheet, 0, 1, NULL), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriSheet_CopySources(world, sheet, -1, 1, sources), KIRI_ERROR_ARGUMENT);
+    assert_int_equal(kiriSheet_CopySourceWeights(world, sheet, 0, INT32_MAX, weights), KIRI_ERROR_ARGUMENT);
+    OK(kiriSheet_CopySources(world, sheet, 0, 0, NULL));
+    OK(kiriSheet_CopySourceWeights(world, sheet, 0, 0, NULL));
     Host_Stop(&past.host);
 }
 

@@ -206,10 +206,16 @@ def test_vertices_in_buffers():
     raises((TypeError, BufferError), sheet.copy_vertices, 0, 1, bytes(12))
     assert sheet.copy_indices16(1, 2).tolist() == sum(mesh.indices.tolist()[1:3], [])
     raises(kiri.KiriError, sheet.copy_indices16, 0, mesh.triangleCount + 1)
+    assert sheet.copy_sources(1, 2).tolist() == [1, 2]
+    assert sheet.copy_source_weights(1, 2).tolist() == 2 * [1, 0, 0, 0, 1, 0, 0, 0, 1]
+    vertices, before = sheet.copy_previous(2, 3)
+    assert vertices.tolist() == [2, 3, 4] and before.id == sheet.id
+    raises(kiri.KiriError, sheet.copy_previous, 0, mesh.vertexCount + 1)
 
 
 def test_functions_of_no_world():
     assert kiri.version() == kiri.KIRI_VERSION and kiri.result_name(kiri.KIRI_PENDING) == "KIRI_PENDING"
+    assert "kiriDefaultWorldDef" in kiri.result_text(kiri.KIRI_ERROR_DEF)
     assert kiri.stage_name(kiri.KIRI_STAGE_SOLVE) and kiri.material(kiri.KIRI_MATERIAL_PAPER).thickness > 1e-4
     assert kiri.quality(kiri.KIRI_QUALITY_FAST).substeps >= 1
     raises(kiri.KiriError, kiri.material, 99)

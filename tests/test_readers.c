@@ -146,8 +146,13 @@ static kiriResult ReadPrevious(const Scene* scene, bool well)
 static kiriResult ReadSources(const Scene* scene, bool well)
 {
     int32_t sources[10];
+    return kiriSheet_CopySources(WorldOf(scene), scene->sheet, well ? 2 : -1, 10, sources);
+}
+
+static kiriResult ReadSourceWeights(const Scene* scene, bool well)
+{
     float weights[90];
-    return kiriSheet_CopySources(WorldOf(scene), scene->sheet, well ? 2 : -1, 10, sources, weights);
+    return kiriSheet_CopySourceWeights(WorldOf(scene), scene->sheet, 2, well ? 10 : INT32_MAX, weights);
 }
 
 static kiriResult ReadPoints(const Scene* scene, bool well)
@@ -239,6 +244,7 @@ static const Reader readers[] = {
     { "kiriSheet_CopyIndices16", ReadIndices },
     { "kiriSheet_CopyPrevious", ReadPrevious },
     { "kiriSheet_CopySources", ReadSources },
+    { "kiriSheet_CopySourceWeights", ReadSourceWeights },
     { "kiriSheet_GetCollisionPoints", ReadPoints },
     { "kiriSheet_GetCounts", ReadCounts },
     { "kiriSheet_GetTotals", ReadTotals },

@@ -36,7 +36,7 @@ PARAMETERS = {
     "kiriSheet_CopyIndices16.indices": {"direction": "out", "form": "array", "length": "count", "width": 3},
     "kiriSheet_CopyPrevious.vertices": {"direction": "out", "form": "array", "length": "count", "width": 1},
     "kiriSheet_CopySources.sources": {"direction": "out", "form": "array", "length": "count", "width": 1},
-    "kiriSheet_CopySources.weights": {"direction": "out", "form": "array", "length": "count", "width": 9},
+    "kiriSheet_CopySourceWeights.weights": {"direction": "out", "form": "array", "length": "count", "width": 9},
     "kiriCut_Extend.restPoints": {"width": 2},
     "kiriSheet_GetCollisionPoints.positions": {"width": 3},
     "kiriSheet_GetWeights.gradients": {"width": 2},

@@ -10,6 +10,8 @@ C_NUMBERS = {"float": "C.float", "double": "C.double"}
 BY_HAND = {"kiriCreateWorld": "NewWorld", "kiriDestroyWorld": "Destroy", "kiriWorld_Replay": "Replay",
            "kiriWorld_DebugDraw": "DebugDraw", "kiriFillRectangle": "FillRectangle", "kiriDefaultWorldDef": "NewWorld",
            "kiriSheet_CopyIndices16": "CopyIndices16", "kiriSheet_CopyVertices": "CopyVertices",
+           "kiriSheet_CopySources": "CopySources", "kiriSheet_CopySourceWeights": "CopySourceWeights",
+           "kiriSheet_CopyPrevious": "CopyPrevious",
            "kiriDefaultDebugDraw": "DebugDraw", "kiriFitBudget": "FitBudget", "kiriWorld_Save": "Save",
            "kiriWorld_SaveDifference": "SaveDifference", "kiriSheet_GetWeights": "Weights",
            "kiriWorld_GetLastError": "LastError"}

@@ -106,7 +106,7 @@ class Godot:
             return "ARRAY" if row else "DICTIONARY" if kind in self._structs else "OBJECT"
         real = kind in ("float", "double")
         if row:
-            return ({1: "FLOATS", 2: "VECTORS2", 3: "VECTORS3"}[row] if real else "INTS" if kind == "int32_t" else "BYTES")
+            return ({2: "VECTORS2", 3: "VECTORS3"}.get(row, "FLOATS") if real else "INTS" if kind == "int32_t" else "BYTES")
         if count > 1:
             return {2: "VECTOR2", 3: "VECTOR3", 12: "VECTORS3"}.get(count) or ("BASIS" if name == "rotation" else "FLOATS")
         return "REAL" if real else "INT"
@@ -254,9 +254,7 @@ class Godot:
         length = names.index(p["length"]) if form == "IN_ROWS" else 0
         width = self._width(p) if form in ("IN_ROWS", "OUT_ROWS", "OUT_LIST", "OUT_VIEW") else 0
         of = f"&{self._struct_name(p['type'])}" if p["type"] in self._structs else "NULL"
-        rows = f"RowsOf_{function['name']}" if form == "OUT_ROWS" else "NULL"
-        if form == "OUT_ROWS" and p["name"] == "indices" and p["type"] == "int32_t":
-            rows += "_indices"
+        rows = f"RowsOf_{function['name']}_{p['name']}" if form == "OUT_ROWS" else "NULL"
         return (f'    {{ "{naming.snake(p["name"])}", FORM_{form}, {self._type(p["type"], self._ids, self._structs, p.get("flag"))}, '
                 f'KIND_{self._kind_of(p, form)}, {count}, {length}, {width}, {int(bool(p.get("nullable")))}, '
                 f"{self._class(p['type'])}, {of}, {rows} }},")
@@ -268,7 +266,7 @@ class Godot:
         for p, form in zip(function["parameters"], method["forms"]):
             if form != "OUT_ROWS":
                 continue
-            name = f"RowsOf_{function['name']}" + ("_indices" if p["type"] == "int32_t" else "")
+            name = f"RowsOf_{function['name']}_{p['name']}"
             term = re.sub(r"^2 \* ", "", str(p["length"]))
             term = re.sub(r"[a-z]\w*", lambda word: f"(int64_t)*(int32_t*)a[{names.index(word[0])}]", term)
             lines += [f"static int64_t {name}(void* const* a)", "{", f"    return {term};", "}", ""]

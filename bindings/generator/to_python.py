@@ -18,6 +18,8 @@ BY_HAND = {"kiriCreateWorld": "World", "kiriDestroyWorld": "close", "kiriWorld_R
            "kiriSheet_SetContacts": "set_contacts", "kiriWorld_DebugDraw": "debug_draw", "kiriCreateSheet": "create_sheet",
            "kiriCreatePin": "create_pin", "kiriCreateObstacle": "create_obstacle", "kiriFrame_Hold": "hold",
            "kiriSheet_CopyVertices": "copy_vertices", "kiriSheet_CopyIndices16": "copy_indices16",
+           "kiriSheet_CopySources": "copy_sources", "kiriSheet_CopySourceWeights": "copy_source_weights",
+           "kiriSheet_CopyPrevious": "copy_previous",
            "kiriFillRectangle": "fill_rectangle", "kiriFitBudget": "fit_budget", "kiriWorld_GetLastError": "last_error"}
 CLASSES = ("World", "Sheet", "Cut", "Frame", "Pin", "Obstacle", "Blade")
 

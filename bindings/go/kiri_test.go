@@ -197,6 +197,16 @@ func TestSheetsFromArraysAndPieces(t *testing.T) {
 	if err := two.CopyVertices(0, 4, make([]byte, 47), 12, nil, 12); !errors.Is(err, ErrorArgument) {
 		t.Error(err)
 	}
+	sources, sourceWeights, before := make([]int32, 2), make([][9]float32, 2), make([]int32, 4)
+	if err := errors.Join(two.CopySources(0, sources), two.CopySourceWeights(0, sourceWeights)); err != nil {
+		t.Error(err)
+	}
+	if from, err := two.CopyPrevious(0, before); err != nil || from != two || before[3] != 3 {
+		t.Error(from, before, err)
+	}
+	if sources[1] != 1 || sourceWeights[1] != [9]float32{1, 0, 0, 0, 1, 0, 0, 0, 1} {
+		t.Error(sources, sourceWeights)
+	}
 }
 
 func TestRecordSaveAndReplay(t *testing.T) {

@@ -111,7 +111,7 @@ type Error struct {
 
 func (e *Error) Error() string {
 	if e.Line == "" {
-		return e.Call + ": " + e.Result.String()
+		return e.Call + ": " + e.Result.String() + ": " + GetResultText(e.Result)
 	}
 	return e.Call + ": " + e.Result.String() + ": " + e.Line
 }
@@ -482,6 +482,38 @@ func (self Sheet) CopyVertices(first, count int32, positions []byte, positionStr
 		unsafe.Pointer(unsafe.SliceData(positions)), C.int32_t(positionStride), unsafe.Pointer(unsafe.SliceData(normals)),
 		C.int32_t(normalStride))
 	return failure(self.World, "kiriSheet_CopyVertices", result, false)
+}
+
+// CopySources says which triangles of the def some triangles are parts of: as many as there is room for.
+func (self Sheet) CopySources(firstTriangle int32, sources []int32) error {
+	if err := self.World.check(); err != nil {
+		return err
+	}
+	result := C.kiriSheet_CopySources(self.World.c, C.kiriSheet(self.ID), C.int32_t(firstTriangle), C.int32_t(len(sources)),
+		(*C.int32_t)(unsafe.Pointer(unsafe.SliceData(sources))))
+	return failure(self.World, "kiriSheet_CopySources", result, false)
+}
+
+// CopySourceWeights says where the corners of as many triangles as there is room for are in these of the def.
+func (self Sheet) CopySourceWeights(firstTriangle int32, weights [][9]float32) error {
+	if err := self.World.check(); err != nil {
+		return err
+	}
+	result := C.kiriSheet_CopySourceWeights(self.World.c, C.kiriSheet(self.ID), C.int32_t(firstTriangle),
+		C.int32_t(len(weights)), (*C.float)(unsafe.Pointer(unsafe.SliceData(weights))))
+	return failure(self.World, "kiriSheet_CopySourceWeights", result, false)
+}
+
+// CopyPrevious says which index as many vertices as there is room for had when the last tick began, or -1, in the sheet
+// that had them.
+func (self Sheet) CopyPrevious(first int32, vertices []int32) (Sheet, error) {
+	if err := self.World.check(); err != nil {
+		return Sheet{}, err
+	}
+	from := new(C.kiriSheet)
+	result := C.kiriSheet_CopyPrevious(self.World.c, C.kiriSheet(self.ID), C.int32_t(first), C.int32_t(len(vertices)),
+		(*C.int32_t)(unsafe.Pointer(unsafe.SliceData(vertices))), from)
+	return Sheet{self.World, SheetID(*from)}, failure(self.World, "kiriSheet_CopyPrevious", result, false)
 }
 
 // CopyIndices16 copies the corners of as many triangles as there is room for.

@@ -245,7 +245,8 @@ export function fail(world, code, name) {
     if (world) {
         world._line = "";
     }
-    throw new KiriError(code, `${line || name}: ${string(wasm.kiriGetResultName(code))}`);
+    const text = line ? "" : `: ${string(wasm.kiriGetResultText(code))}`;
+    throw new KiriError(code, `${line || name}: ${string(wasm.kiriGetResultName(code))}${text}`);
 }
 
 let drawing = null; // by the corners of what is drawn

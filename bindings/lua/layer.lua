@@ -106,7 +106,8 @@ local function fail(world, name, result, changes)
     end
     local named = ffi.string(C.kiriGetResultName(result))
     error(setmetatable({result = result, name = named, line = line, call = name, message =
-        ("%s%s: %s%s"):format(place, name, named, line ~= "" and ": " .. line or "")}, Error), level)
+        ("%s%s: %s: %s"):format(place, name, named, line ~= "" and line or ffi.string(C.kiriGetResultText(result)))},
+        Error), level)
 end
 
 local function stale()

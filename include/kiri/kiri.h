@@ -681,12 +681,14 @@ KIRI_API kiriResult kiriSheet_CopyPrevious(const kiriWorld* world, kiriSheet she
 KIRI_API kiriResult kiriSheet_CopyIndices16(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle,
                                             int32_t count, uint16_t* indices);
 
-/* Copies where some triangles are in those of the def, to draw with what the host has of its own vertices: `sources`
-   gets the triangle of the def that each is a part of, `weights` 9 floats, the barycentric coordinates of its three
-   corners in it. Along a seam that weldDistance has closed, these are right on both sides, while the sourceTriangles of
-   a vertex there are on one. A triangle that is no more (its corners are equal): -1, and 0. */
+/* Copies where some triangles are in those of the def, to draw with data that the host has of its own vertices. Sources:
+   the triangle of the def that each is a part of; -1 for one that is gone (its corners are equal). Weights: 9 floats
+   each, the barycentric coordinates of its three corners in that triangle. Along a seam that weldDistance has closed
+   these are right on both sides, where sourceTriangles of a vertex name a triangle on one side. */
 KIRI_API kiriResult kiriSheet_CopySources(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle, int32_t count,
-                                          int32_t* sources, float* weights);
+                                          int32_t* sources);
+KIRI_API kiriResult kiriSheet_CopySourceWeights(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle,
+                                                int32_t count, float* weights);
 
 /* The surface with a thickness, to draw: a closed mesh, with a rim along borders, holes and the lips of cuts. First
    come the vertices of kiriMesh on the side that the normal leaves, then the same on the other side, then four for each

@@ -97,27 +97,34 @@ kiriResult kiriSheet_CopyIndices16(const kiriWorld* world, kiriSheet sheet, int3
     return KIRI_OK;
 }
 
-static void CopySource(const kiriMeshData* mesh, int32_t triangle, int32_t* source, float weights[9])
-{
-    bool isThere = kiriMesh_IsTriangle(mesh, triangle);
-    *source = isThere ? mesh->triangles.data[triangle].source : KIRI_NONE;
-    for (int i = 0; i < 3 && isThere; ++i) {
-        kiriMesh_GetShareIn(mesh, mesh->triangles.data[triangle].vertex[i], *source, &weights[3 * i]);
-    }
-    if (!isThere) {
-        memset(weights, 0, 9 * sizeof(float));
-    }
-}
-
 kiriResult kiriSheet_CopySources(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle, int32_t count,
-                                 int32_t* sources, float* weights)
+                                 int32_t* sources)
 {
     KIRI_READS(world);
-    KIRI_CHECK(count == 0 || (sources != NULL && weights != NULL), "sources or weights is null");
+    KIRI_CHECK(count == 0 || sources != NULL, "sources is null");
     KIRI_FIND_SHEET(data, sheet);
     KIRI_CHECK(IsRange(firstTriangle, count, data->seen.surface.triangleCount), "the sheet has no such triangles");
     for (int32_t i = 0; i < count; ++i) {
-        CopySource(&data->mesh, firstTriangle + i, &sources[i], &weights[9 * (int64_t)i]);
+        bool isThere = kiriMesh_IsTriangle(&data->mesh, firstTriangle + i);
+        sources[i] = isThere ? data->mesh.triangles.data[firstTriangle + i].source : KIRI_NONE;
+    }
+    return KIRI_OK;
+}
+
+kiriResult kiriSheet_CopySourceWeights(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle, int32_t count,
+                                       float* weights)
+{
+    KIRI_READS(world);
+    KIRI_CHECK(count == 0 || weights != NULL, "weights is null");
+    KIRI_FIND_SHEET(data, sheet);
+    KIRI_CHECK(IsRange(firstTriangle, count, data->seen.surface.triangleCount), "the sheet has no such triangles");
+    for (int64_t i = 0; i < 3 * (int64_t)count; ++i) {
+        const kiriTriangle* triangle = &data->mesh.triangles.data[firstTriangle + i / 3];
+        if (triangle->vertex[i % 3] == KIRI_NONE) {
+            memset(&weights[3 * i], 0, 3 * sizeof(float));
+        } else {
+            kiriMesh_GetShareIn(&data->mesh, triangle->vertex[i % 3], triangle->source, &weights[3 * i]);
+        }
     }
     return KIRI_OK;
 }

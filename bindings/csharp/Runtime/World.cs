@@ -22,7 +22,8 @@ namespace Kiri
         public readonly ResultCode Code;
 
         internal KiriException(ResultCode code, string line)
-            : base(line != "" ? line : World.Text(Native.kiriGetResultName((int)code))) { Code = code; }
+            : base(line != "" ? line : World.Text(Native.kiriGetResultName((int)code)) + ": " +
+                                       World.Text(Native.kiriGetResultText((int)code))) { Code = code; }
     }
 
     /// <summary>The host's functions. None of these may throw, or use the world.</summary>

@@ -188,6 +188,25 @@ class Sheet(Handle, _methods.Sheet):
         self.world.call("kiriSheet_CopyIndices16", self.id, first_triangle, count, indices)
         return memoryview(ffi.buffer(indices, 6 * count)[:]).cast("H")
 
+    def copy_sources(self, first_triangle, count):
+        """The triangles of the def that some triangles are parts of."""
+        sources = ffi.new("int32_t[]", max(count, 1))
+        self.world.call("kiriSheet_CopySources", self.id, first_triangle, count, sources)
+        return memoryview(ffi.buffer(sources, 4 * count)[:]).cast("i")
+
+    def copy_source_weights(self, first_triangle, count):
+        """9 floats a triangle: the barycentric coordinates of its corners in that triangle of the def."""
+        weights = ffi.new("float[]", max(9 * count, 1))
+        self.world.call("kiriSheet_CopySourceWeights", self.id, first_triangle, count, weights)
+        return memoryview(ffi.buffer(weights, 36 * count)[:]).cast("f")
+
+    def copy_previous(self, first, count):
+        """The index that some vertices had when the last tick began, or -1, and the sheet that had them, which may be
+        gone."""
+        vertices, sheet = ffi.new("int32_t[]", max(count, 1)), ffi.new("kiriSheet*")
+        self.world.call("kiriSheet_CopyPrevious", self.id, first, count, vertices, sheet)
+        return memoryview(ffi.buffer(vertices, 4 * count)[:]).cast("i"), self.world.thing("Sheet", sheet[0])
+
 
 class Cut(Handle, _methods.Cut):
     pass

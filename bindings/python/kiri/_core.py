@@ -180,7 +180,8 @@ def record(struct, world=None):
 def check(result):
     """For functions of no world."""
     if result < 0:
-        raise KiriError(result, ffi.string(load().kiriGetResultName(result)).decode(), "")
+        raise KiriError(result, ffi.string(load().kiriGetResultName(result)).decode(),
+                        ffi.string(load().kiriGetResultText(result)).decode())
     return result
 
 

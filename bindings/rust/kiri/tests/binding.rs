@@ -91,6 +91,12 @@ fn views_are_where_the_library_has_them() {
         .collect::<Vec<_>>()
         .iter()));
     assert!(sheet.copy_vertices(&world, 80, &mut vertices).is_err());
+    let (mut sources, mut weights, mut before) = (vec![0; 2], vec![[9.0f32; 9]; 2], vec![0; 3]);
+    sheet.copy_sources(&world, 1, &mut sources).unwrap();
+    sheet.copy_source_weights(&world, 1, &mut weights).unwrap();
+    assert_eq!(sheet.copy_previous(&world, 2, &mut before).unwrap(), sheet);
+    assert_eq!((sources, before), (vec![1, 2], vec![2, 3, 4]));
+    assert_eq!(weights[1], [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]);
 }
 
 #[test]
