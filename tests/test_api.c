@@ -444,7 +444,7 @@ static void SheetDefInts(void** state)
     Host_Stop(host);
 }
 
-/* What a program sees that has forgotten a kiriDefault function: the code, and a line that names the function. */
+/* A program that forgets a kiriDefault function gets a code and a line that names the function. */
 static void ZeroedDefs(void** state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Meshes as other tools write them: seams of texture coordinates, triangles without shared vertices, vertices that no
-   triangle has; and what is said of those that are no sheet. */
+/* Meshes as other tools write them: seams of texture coordinates, triangles without shared vertices, unused vertices.
+   And the lines about meshes that are refused. */
 #include "look.h"
 
 #include "mesh/kiri_weld.h"
@@ -44,7 +44,7 @@ static kiriSheet Add(Host* host, const Import* mesh, float weldDistance)
     return sheet;
 }
 
-/* Each island has texture coordinates of its own: turned, scaled and elsewhere. */
+/* Texture coordinates in an island: each island is turned, scaled and moved. */
 static void UvAt(int32_t island, double u, double v, double uv[2])
 {
     double turn = 0.7 * island, scale = 0.3 + 0.2 * island;
@@ -74,7 +74,7 @@ static void AddTriangle(Import* mesh, int32_t a, int32_t b, int32_t c, int32_t i
     mesh->island[mesh->triangles++] = island;
 }
 
-/* A block of squares with vertices of its own. */
+/* Adds a block of squares; it shares no vertices with others. */
 static void AddBlock(Import* mesh, double u, double v, double square, int32_t columns, int32_t rows, int32_t island)
 {
     int32_t first = mesh->vertices;
@@ -99,7 +99,7 @@ static void Shake(Import* mesh, double by, uint32_t* seed)
     }
 }
 
-/* Every triangle gets three vertices of its own. */
+/* No two triangles share a vertex. */
 static void MakeSoup(const Import* mesh, Import* soup)
 {
     soup->vertices = soup->triangles = 0;
@@ -132,9 +132,9 @@ static void SortByUse(Import* mesh)
     *mesh = sorted;
 }
 
-/* ---- What is made of them ---- */
+/* ---- Checks ---- */
 
-/* What the host draws: at each corner of each triangle the texture coordinates of its own island. */
+/* At each corner of each triangle the host draws the texture coordinates of the island of the triangle. */
 static void CheckUvs(const Host* host, kiriSheet sheet, const Import* mesh, double tolerance)
 {
     static int32_t sources[4 * MOST_TRIANGLES];
@@ -308,7 +308,7 @@ static void CutBoth(Host* a, Host* b, uint32_t* seed)
     }
 }
 
-/* A soup of it gives what the mesh with shared vertices gives, bit for bit, and so after cuts. */
+/* A soup and the mesh with shared vertices give the same sheet, bit for bit, also after cuts. */
 static void WeldsSoupsOfAnyMesh(void** state)
 {
     (void)state;
@@ -523,7 +523,7 @@ static void RefusedMemoryLeavesNothing(void** state)
     }
 }
 
-/* ---- What is refused ---- */
+/* ---- Refusals ---- */
 
 /* The line says this, of this call. */
 static void CheckLine(const Host* host, const char* call, const char* says)
@@ -574,7 +574,7 @@ static void NamesTheTriangle(void** state)
                  bad < other ? other : bad);
         Refuse(&host, &A, weld, KIRI_ERROR_MESH, says);
 
-        MakeAny(&B, &seed); /* any mesh, and one of its triangles once more with vertices of its own */
+        MakeAny(&B, &seed); /* any mesh, and a shifted copy of one triangle */
         other = (int32_t)(Random(&seed) % (uint32_t)B.triangles);
         for (int k = 0; k < 3; ++k) {
             const float* at = &B.rest[2 * B.indices[3 * other + k]];

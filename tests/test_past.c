@@ -8,7 +8,7 @@
 
 enum { MOST_SHEETS = 64 };
 
-/* What a host keeps of each sheet before a tick. */
+/* The host keeps this of each sheet before a tick. */
 typedef struct Copy {
     kiriSheet sheet;
     float *rest, *positions;
@@ -144,7 +144,7 @@ static void CheckSheet(Past* past, kiriSheet sheet)
     free(was);
 }
 
-/* At any time between ticks. What was there is there, unless it has been destroyed. */
+/* Checks all sheets, at any time between ticks. Every vertex of a copy is found again, unless it was destroyed. */
 static void Check(Past* past)
 {
     for (int32_t i = 0; i < past->copyCount; ++i) {

@@ -80,8 +80,8 @@ KIRI_API int32_t kiriGetVersion(void);
 /* The name of a result, "KIRI_OK" and so on; "unknown" for another number. */
 KIRI_API const char* kiriGetResultName(kiriResult result);
 
-/* One line that says what a result means and what to do. For calls that have no world to keep a line: kiriCreateWorld
-   with a def that kiriDefaultWorldDef has not filled gives KIRI_ERROR_DEF, and no more than that. */
+/* One line: the meaning of a result, and its cure. For calls without a world that keeps a line, such as kiriCreateWorld
+   with a def of zeros (KIRI_ERROR_DEF). */
 KIRI_API const char* kiriGetResultText(kiriResult result);
 
 /* ---- World ------------------------------------------------------------------------------------------------------ */
@@ -498,11 +498,11 @@ typedef struct kiriSheetDef {
     int32_t gridResolution; /* grid squares along the longer side, 1 to 4096; default 32 */
     float snapDistance;     /* m: a blade this near to a vertex or an edge takes it; 0: 1e-4 of the longer side */
 
-    /* m, 0 or more: vertices nearer than it in the rest plane are one, as meshes with seams of texture coordinates and
-       triangles without shared vertices (STL) need. In the order of vertices each becomes the nearest one that was kept
-       before and is nearer than this, or is kept; so none moves farther, and a chain of near vertices is not one point.
-       A triangle of which two corners become one vertex is left out. kiriSheet_CopySources leads to the vertices of the
-       def on each side of a seam. Default 0: vertices are as the indices say. */
+    /* Vertices nearer than this (m, rest plane; 0 or more) are one: for seams of texture coordinates, and triangles
+       without shared vertices (STL). In the order of vertices, each becomes the nearest vertex that was kept before and
+       is nearer than this; else it is kept. So none moves farther, and a chain of near vertices is not one point. A
+       triangle with two corners at one vertex is left out. kiriSheet_CopySources leads to the vertices of the def.
+       Default 0: vertices are as the indices say. */
     float weldDistance;
 
     /* Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at least; null: frameCount
@@ -585,8 +585,8 @@ typedef struct kiriSheetDef {
 /* Fills the def with its defaults, and stamps it. It has no mesh yet. */
 KIRI_API void kiriDefaultSheetDef(kiriSheetDef* def);
 
-/* Adds a sheet. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles are no sheet. The line names a triangle, or the
-   two triangles at an edge, by their numbers in the def, and says why. */
+/* Adds a sheet. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles do not form a sheet. The line names a triangle,
+   or the two triangles at an edge, by their numbers in the def, and says why. */
 KIRI_API kiriResult kiriCreateSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* sheet);
 
 /* The sheet is gone, with its cuts, frames and pins; their ids are stale. */
@@ -669,10 +669,10 @@ KIRI_API kiriResult kiriSheet_CopyVertices(const kiriWorld* world, kiriSheet she
                                            void* positions, int32_t positionStride, void* normals,
                                            int32_t normalStride);
 
-/* For hosts that draw between two ticks: copies of some vertices the index that each had when the last tick began,
-   whatever cuts and pieces that went have changed since (a tick that was refused counts). *from is the sheet that had
-   them: another one where this one was a piece of it. A vertex that a cut tore off another gets the index of that one;
-   one that was not there -1: so have all of a sheet that was created, or loaded, since. The manual has the code. */
+/* Copies the index that some vertices had when the last call of kiriWorld_Tick began, for hosts that draw between two
+   ticks. *from: the sheet that had them then, which is another one if this sheet was a piece of it. A vertex that a cut
+   tore off another one gets the index of the other. -1: the vertex did not exist; so all vertices of a sheet that was
+   created or loaded since. The manual has the code (drawing). */
 KIRI_API kiriResult kiriSheet_CopyPrevious(const kiriWorld* world, kiriSheet sheet, int32_t first, int32_t count,
                                            int32_t* vertices, kiriSheet* from);
 
@@ -681,10 +681,10 @@ KIRI_API kiriResult kiriSheet_CopyPrevious(const kiriWorld* world, kiriSheet she
 KIRI_API kiriResult kiriSheet_CopyIndices16(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle,
                                             int32_t count, uint16_t* indices);
 
-/* Copies where some triangles are in those of the def, to draw with data that the host has of its own vertices. Sources:
-   the triangle of the def that each is a part of; -1 for one that is gone (its corners are equal). Weights: 9 floats
-   each, the barycentric coordinates of its three corners in that triangle. Along a seam that weldDistance has closed
-   these are right on both sides, where sourceTriangles of a vertex name a triangle on one side. */
+/* Map triangles to the def, to draw with data that the host keeps by its own vertices. Sources: the triangle of the def that
+   contains each; -1 for one that has left (its corners are equal). Weights: 9 floats each, the barycentric coordinates of
+   its three corners in that triangle. They are right on both sides of a seam that weldDistance has closed;
+   sourceTriangles name a triangle on one side. The manual has the code (meshes). */
 KIRI_API kiriResult kiriSheet_CopySources(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle, int32_t count,
                                           int32_t* sources);
 KIRI_API kiriResult kiriSheet_CopySourceWeights(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle,

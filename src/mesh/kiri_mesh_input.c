@@ -29,7 +29,7 @@ static kiriResult CheckInput(const kiriMeshInput* input, kiriFault* fault)
 
 /* ---- Vertices ---- */
 
-/* Of each of the caller's vertices. */
+/* The caller's vertices: one entry each. */
 typedef struct Welded {
     kiriLatticePoint* at;
     int32_t* to;     /* the one that it becomes; KIRI_NONE: no triangle has it */

@@ -91,7 +91,7 @@ static void SetAll(kiriSettings* settings, const kiriMeshData* mesh, const kiriS
 
 /* ---- Frames ---- */
 
-/* One point, in a cell of its own; `holder` has the site in each cell. False where that fails. */
+/* Adds one site; `holder` has the site in each cell. False, with a fault, if its cell is missing or taken. */
 static bool TakeFramePoint(kiriSheetData* sheet, const kiriSheetDef* def, int32_t index, int32_t* holder,
                            kiriFault* fault)
 {

@@ -6,7 +6,7 @@
 
 KIRI_C_BEGIN
 
-/* Makes a new sheet what the def says, which has been checked. On failure the fault says why, or ""
+/* Builds a new sheet from a def that has been checked. On failure the fault says why, or ""
    where the result says it all, and the sheet is to be deleted. Ids of sheet and frames are given by the world. */
 kiriResult kiriBuild_FromDef(kiriSheetData* sheet, const kiriSheetDef* def, kiriFault* fault);
 

@@ -1,5 +1,5 @@
-/* Where the vertices of a sheet were in its mesh, or in that of another sheet, when the last tick began: for hosts that
-   draw between two ticks. No tick depends on it. It costs nothing where no vertex gets another index. */
+/* The indices that the vertices of a sheet had when the last tick began, in its mesh or the mesh of another sheet: for
+   hosts that draw between two ticks. No tick depends on it. It costs nothing where no vertex gets another index. */
 #ifndef KIRI_PAST_H
 #define KIRI_PAST_H
 
@@ -21,7 +21,7 @@ static inline kiriPast kiriPast_None(int64_t tick)
     return (kiriPast){ tick, 0, 0, NULL, 0 };
 }
 
-/* What it says of a tick. */
+/* Returns the past as of a tick: without changes if the stored one is older. */
 static inline kiriPast kiriPast_At(const kiriPast* past, int64_t tick)
 {
     return past->tick == tick ? *past : (kiriPast){ tick, 0, INT32_MAX, NULL, 0 };

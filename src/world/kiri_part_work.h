@@ -22,7 +22,7 @@ typedef struct kiriPart {
 typedef struct kiriPartSource {
     kiriRemoval removal;
     kiriExtraction extraction;
-    kiriPast past; /* of what is left, where its vertices get other indices */
+    kiriPast past; /* of the sheet after its loss; unused where it leaves holes */
     bool leavesHoles;
     bool waits;     /* what is to become a sheet does so later */
     double samples; /* that it costs at once */
