@@ -163,11 +163,11 @@ typedef struct kiriWorldDef {
 /* Fills the def with its defaults, and stamps it. */
 KIRI_API void kiriDefaultWorldDef(kiriWorldDef* def);
 
-/* Makes an empty world. On failure *world is null, and the log of the def has the line; a def that was not filled has no
-   log, see kiriGetResultText. KIRI_ERROR_BUILD: the compiler has contracted products and sums to
-   fused multiply-adds (-ffp-contract=fast of clang), or has reordered them; or this thread flushes small floats to zero
-   (FTZ, DAZ) or does not round to nearest. The threads of later calls, and those that the host runs tasks on, are not
-   checked: in such a mode their bits are others. */
+/* Makes an empty world. On failure *world is null, and the log of the def has the line; a def that was not filled has
+   no log, see kiriGetResultText. KIRI_ERROR_BUILD: the compiler has contracted products and sums to fused multiply-adds
+   (-ffp-contract=fast of clang), or has reordered them; or this thread flushes small floats to zero (FTZ, DAZ) or does
+   not round to nearest. The threads of later calls, and those that the host runs tasks on, are not checked: in such a
+   mode their bits are others. */
 KIRI_API kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world);
 
 /* Frees the world and all that is in it. Null is allowed. */
@@ -681,10 +681,10 @@ KIRI_API kiriResult kiriSheet_CopyPrevious(const kiriWorld* world, kiriSheet she
 KIRI_API kiriResult kiriSheet_CopyIndices16(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle,
                                             int32_t count, uint16_t* indices);
 
-/* Map triangles to the def, to draw with data that the host keeps by its own vertices. Sources: the triangle of the def that
-   contains each; -1 for one that has left (its corners are equal). Weights: 9 floats each, the barycentric coordinates of
-   its three corners in that triangle. They are right on both sides of a seam that weldDistance has closed;
-   sourceTriangles name a triangle on one side. The manual has the code (meshes). */
+/* Map triangles to the def, to draw with data that the host keeps by its own vertices. Sources: the triangle of the def
+   that contains each; -1 for one that has left (its corners are equal). Weights: 9 floats each, the barycentric
+   coordinates of its three corners in that triangle. They are right on both sides of a seam that weldDistance has
+   closed; sourceTriangles name a triangle on one side. The manual has the code (meshes). */
 KIRI_API kiriResult kiriSheet_CopySources(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle, int32_t count,
                                           int32_t* sources);
 KIRI_API kiriResult kiriSheet_CopySourceWeights(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle,
