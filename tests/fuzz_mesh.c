@@ -311,6 +311,23 @@ static void CutIt(FuzzMesh* m, Host* host, kiriSheet sheet)
     FUZZ_CHECK(result == KIRI_OK || result == KIRI_DIVERGED, "a tick gives %s", kiriGetResultName(result));
 }
 
+/* The same mesh, with vertices welded that are a part of its size apart: it is refused, or sound. */
+static void WeldIt(FuzzMesh* m, Host* host, size_t size)
+{
+    static const float parts[] = { 1e-9f, 1e-4f, 0.02f, 0.3f };
+    kiriSheet sheet;
+    if (m->def.restPositions == NULL || m->def.vertexCount < 3) {
+        return;
+    }
+    m->def.weldDistance = parts[size % 4] * (float)ExtentOf(m);
+    if (kiriCreateSheet(host->world, &m->def, &sheet) == KIRI_OK) {
+        CheckSeen(host, sheet);
+        CheckOverlaps(&host->world->sheets.data[host->world->sheets.count - 1]->mesh);
+        CutIt(m, host, sheet);
+        CheckSeen(host, sheet);
+    }
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size)
 {
     FuzzMesh m;
@@ -333,6 +350,7 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size)
             CheckArea(&m, Host_Totals(&host, sheet).area, 1e-6);
         }
     }
+    WeldIt(&m, &host, size);
     Host_Destroy(&host);
     return 0;
 }

@@ -90,7 +90,7 @@ static kiriResult PlaceVertices(kiriMeshData* mesh, const kiriMeshInput* input, 
 
 /* The vertices that a triangle becomes, of the caller's. False where two of them have become one: nothing is left of
    it. */
-static bool CornersOf(const kiriMeshInput* input, const Welded* welded, int32_t triangle, int32_t corners[3])
+static bool CornersLeft(const kiriMeshInput* input, const Welded* welded, int32_t triangle, int32_t corners[3])
 {
     for (int i = 0; i < 3; ++i) {
         corners[i] = welded->to[input->indices[3 * (int64_t)triangle + i]];
@@ -104,7 +104,7 @@ static int32_t NumberVertices(const kiriMeshInput* input, Welded* welded, int32_
 {
     int32_t triangles = 0, corners[3];
     for (int32_t t = 0; t < input->triangleCount; ++t) {
-        if (CornersOf(input, welded, t, corners)) {
+        if (CornersLeft(input, welded, t, corners)) {
             welded->number[corners[0]] = welded->number[corners[1]] = welded->number[corners[2]] = 0;
             ++triangles;
         }
@@ -156,7 +156,7 @@ static kiriResult AddTriangles(kiriMeshData* mesh, const kiriMeshInput* input, c
 {
     int32_t v[3];
     for (int32_t t = 0; t < input->triangleCount; ++t) {
-        if (!CornersOf(input, welded, t, v)) {
+        if (!CornersLeft(input, welded, t, v)) {
             continue;
         }
         int64_t area = kiriOrient(welded->at[v[0]], welded->at[v[1]], welded->at[v[2]]);

@@ -26,7 +26,7 @@ static int64_t SlotOf(const WeldGrid* grid, int64_t column, int64_t row)
 }
 
 /* The nearest that stays, or KIRI_NONE. */
-static int32_t FindNear(const WeldGrid* grid, int32_t vertex)
+static int32_t FindNearKept(const WeldGrid* grid, int32_t vertex)
 {
     kiriLatticePoint at = grid->at[vertex];
     int32_t found = KIRI_NONE;
@@ -69,7 +69,7 @@ bool kiriWeld_Find(const kiriLatticePoint* at, int32_t count, double distance, i
     WeldGrid grid = { NULL, 0, 0.0, 0, NULL, NULL };
     bool ok = MakeGrid(&grid, at, count, distance, memory);
     for (int32_t v = 0; ok && v < count; ++v) {
-        int32_t near = to[v] != KIRI_NONE ? FindNear(&grid, v) : KIRI_NONE;
+        int32_t near = to[v] != KIRI_NONE ? FindNearKept(&grid, v) : KIRI_NONE;
         if (to[v] != KIRI_NONE && near == KIRI_NONE) {
             int64_t slot = SlotOf(&grid, at[v].x / grid.side, at[v].y / grid.side);
             grid.previous[v] = grid.slots[slot];

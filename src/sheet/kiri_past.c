@@ -1,6 +1,6 @@
 #include "kiri_past.h"
 
-static bool Start(kiriPast* to, const kiriPast* past, kiriMemory* memory, int32_t same, int32_t count)
+static bool StartPast(kiriPast* to, const kiriPast* past, kiriMemory* memory, int32_t same, int32_t count)
 {
     *to =
         (kiriPast){ past->tick, past->sheet, same, kiriMemory_Alloc(memory, count * (int64_t)sizeof(int32_t)), count };
@@ -10,7 +10,7 @@ static bool Start(kiriPast* to, const kiriPast* past, kiriMemory* memory, int32_
 bool kiriPast_Grow(kiriPast* to, const kiriPast* past, kiriMemory* memory, const kiriMeshData* mesh, int32_t first)
 {
     int32_t same = past->same < first ? past->same : first;
-    if (!Start(to, past, memory, same, mesh->vertices.count - same)) {
+    if (!StartPast(to, past, memory, same, mesh->vertices.count - same)) {
         return false;
     }
     for (int32_t v = same; v < mesh->vertices.count; ++v) {
@@ -29,7 +29,7 @@ bool kiriPast_Grow(kiriPast* to, const kiriPast* past, kiriMemory* memory, const
 bool kiriPast_Keep(kiriPast* to, const kiriPast* past, kiriMemory* memory, const kiriKeep* vertices)
 {
     int32_t same = past->same < vertices->first ? past->same : vertices->first;
-    if (!Start(to, past, memory, same, vertices->count - same)) {
+    if (!StartPast(to, past, memory, same, vertices->count - same)) {
         return false;
     }
     for (int32_t v = same; v < vertices->to.count; ++v) {
@@ -45,7 +45,7 @@ bool kiriPast_Part(kiriPast* to, const kiriPast* past, kiriMemory* memory, kiriS
                    int32_t count)
 {
     KIRI_ASSERT(past->sheet == 0); /* a part is one piece until the next tick: nothing leaves it before */
-    if (!Start(to, past, memory, 0, count)) {
+    if (!StartPast(to, past, memory, 0, count)) {
         return false;
     }
     to->sheet = sheet;
