@@ -368,10 +368,10 @@ static void SheetDefFloats(void** state)
     const struct {
         float* first;
         int count;
-    } fields[] = { { def.position, 3 },      { def.axisU, 3 },         { def.axisV, 3 },     { def.velocity, 3 },
-                   { &m->youngsModulus, 1 }, { &m->poissonsRatio, 1 }, { &m->thickness, 1 }, { &m->density, 1 },
-                   { &m->airDamping, 1 },    { &m->flexDamping, 1 },   { points, 8 },        { &def.snapDistance, 1 },
-                   { &def.rigidWeight, 1 },  { &def.rigidArea, 1 },    { r.positions, 18 } };
+    } fields[] = { { def.position, 3 },      { def.axisU, 3 },         { def.axisV, 3 },      { def.velocity, 3 },
+                   { &m->youngsModulus, 1 }, { &m->poissonsRatio, 1 }, { &m->thickness, 1 },  { &m->density, 1 },
+                   { &m->airDamping, 1 },    { &m->flexDamping, 1 },   { points, 8 },         { &def.snapDistance, 1 },
+                   { &def.weldDistance, 1 }, { &def.rigidWeight, 1 },  { &def.rigidArea, 1 }, { r.positions, 18 } };
     for (size_t i = 0; i < sizeof(fields) / sizeof(fields[0]); ++i) {
         kiriSheet made = 0;
         REFUSED_FLOATS(fields[i].first, fields[i].count, kiriCreateSheet(host->world, &def, &made));
@@ -379,14 +379,15 @@ static void SheetDefFloats(void** state)
     const struct {
         float* field;
         float value;
-    } ranges[] = { { &m->youngsModulus, 0.0f }, { &m->youngsModulus, -1.0f }, { &m->poissonsRatio, -0.1f },
-                   { &m->poissonsRatio, 0.5f }, { &m->thickness, 0.0f },      { &m->thickness, -1.0f },
-                   { &m->density, 0.0f },       { &m->density, -1.0f },       { &m->airDamping, -0.1f },
-                   { &m->flexDamping, -0.1f },  { &def.snapDistance, -0.1f }, { &def.rigidWeight, 0.0f },
-                   { &def.rigidArea, -1.0f },   { &def.axisU[0], 0.0f },      { &def.axisU[0], 1.1f },
-                   { &def.axisU[1], 0.1f },     { &def.axisV[1], -2.0f },     { &def.axisV[0], 1e30f },
-                   { &points[0], -0.1f },       { &points[1], 1.1f },         { &points[2], 1e30f },
-                   { &points[3], -1e30f },      { &points[4], 16.1875f },     { &points[5], -7.1875f } };
+    } ranges[] = { { &m->youngsModulus, 0.0f },  { &m->youngsModulus, -1.0f }, { &m->poissonsRatio, -0.1f },
+                   { &m->poissonsRatio, 0.5f },  { &m->thickness, 0.0f },      { &m->thickness, -1.0f },
+                   { &m->density, 0.0f },        { &m->density, -1.0f },       { &m->airDamping, -0.1f },
+                   { &m->flexDamping, -0.1f },   { &def.snapDistance, -0.1f }, { &def.rigidWeight, 0.0f },
+                   { &def.weldDistance, -0.1f }, { &def.rigidArea, -1.0f },    { &def.axisU[0], 0.0f },
+                   { &def.axisU[0], 1.1f },      { &def.axisU[1], 0.1f },      { &def.axisV[1], -2.0f },
+                   { &def.axisV[0], 1e30f },     { &points[0], -0.1f },        { &points[1], 1.1f },
+                   { &points[2], 1e30f },        { &points[3], -1e30f },       { &points[4], 16.1875f },
+                   { &points[5], -7.1875f } };
     for (size_t i = 0; i < sizeof(ranges) / sizeof(ranges[0]); ++i) {
         float kept = *ranges[i].field;
         *ranges[i].field = ranges[i].value;

@@ -386,6 +386,17 @@ static void WeldsAsTheRuleSays(void** state)
     assert_null(memory.blocks);
 }
 
+/* The world is saved, and loaded. */
+static void GoOnElsewhere(Host* host, kiriResult (*load)(kiriWorld* world, const void* bytes, int64_t size))
+{
+    static uint8_t save[1 << 20];
+    int64_t size;
+    OK(kiriWorld_Save(host->world, save, sizeof(save), &size));
+    uint64_t hash = Host_Hash(host);
+    OK(load(host->world, save, size));
+    assert_true(Host_Hash(host) == hash);
+}
+
 /* Where two corners of a triangle are one, nothing is left of it, and its neighbours meet. */
 static void LeavesOutSlivers(void** state)
 {
@@ -399,6 +410,12 @@ static void LeavesOutSlivers(void** state)
     memcpy(A.indices, indices, sizeof(indices));
     A.vertices = 6;
     A.triangles = 4;
+    for (int v = 0; v < 6; ++v) {
+        double uv[2];
+        UvAt(0, rest[2 * v], rest[2 * v + 1], uv);
+        A.uv[2 * v] = (float)uv[0];
+        A.uv[2 * v + 1] = (float)uv[1];
+    }
     CheckCounts(&host, Add(&host, &A, 0.0f), 6, 4);
     kiriSheet sheet = Add(&host, &A, 1e-3f);
     int32_t sources[3];
@@ -412,6 +429,14 @@ static void LeavesOutSlivers(void** state)
     Host_Cut(&host, sheet, cut, 2);
     OK(Host_Tick(&host, 0.01f, 1));
     assert_int_equal(Host_Counts(&host, sheet).pieces, 2);
+    for (int i = 0; i < 2; ++i) { /* sources keep their numbers in saves, and in parts */
+        GoOnElsewhere(&host, i == 0 ? kiriWorld_Load : kiriWorld_LoadUntrusted);
+        CheckUvs(&host, sheet, &A, 1e-3);
+    }
+    kiriSheet part;
+    OK(kiriFrame_DetachPiece(host.world, Host_FrameOf(&host, sheet, 1), &part));
+    CheckUvs(&host, sheet, &A, 1e-3);
+    CheckUvs(&host, part, &A, 1e-3);
     Host_Stop(&host);
 }
 

@@ -85,6 +85,7 @@ static const Field sheetFields[] = {
     { REAL(kiriSheetDef, material.flexDamping), { 0.0, 0.01, 1e4, FLT_MAX, END }, { -1e-6, NO_NUMBER, END } },
     { WHOLE(kiriSheetDef, gridResolution), { 1, 2, 3, 7, 24, 64, END }, { 0, 4097, -1, END } },
     { REAL(kiriSheetDef, snapDistance), { 0.0, FLT_MIN, 1e-3, 0.1, 2.0, FLT_MAX, END }, { -1e-6, NO_NUMBER, END } },
+    { REAL(kiriSheetDef, weldDistance), { 0.0, FLT_MIN, 1e-6, 1e-3, END }, { -1e-6, NO_NUMBER, END } },
     { WHOLE(kiriSheetDef, frameCount), { 0, 1, 2, 24, 500, 65536, END }, { -1, 65537, END } },
     { REAL(kiriSheetDef, frameLength), { 0.0, FLT_MIN, 0.01, 1.0, FLT_MAX, END }, { -1e-6, NO_NUMBER, END } },
     { REAL(kiriSheetDef, accuracy), { 1e-4f, 0.01, 1.0, END }, { 0.0, 0.99e-4, 1.01 } },
