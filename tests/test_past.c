@@ -287,6 +287,10 @@ static void Tick(Past* past)
 {
     Host* host = &past->host;
     CopyAll(past);
+    if (Random(&past->seed) % 16 == 0) {
+        assert_int_equal(kiriWorld_Tick(host->world, -1.0f, 1), KIRI_ERROR_ARGUMENT);
+        Check(past);
+    }
     host->failAt = Random(&past->seed) % 4 == 0 ? host->calls + (int64_t)(Random(&past->seed) % 40) : -1;
     host->failOnce = true;
     kiriResult result = Host_Tick(host, 1.0f / 60.0f, 1);

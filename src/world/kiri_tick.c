@@ -477,7 +477,6 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
     (void)kiriQuota_Pay(samples, &samplesDue);
     kiriQuotas_Share(&quotas, KIRI_QUOTA_SAMPLES);
     kiriMemory_FreeAll(&world->retired);
-    world->begun += 1;
     memset(&world->profile, 0, sizeof(world->profile));
     world->atWork.count = 0;
     ListActive(world);

@@ -64,7 +64,7 @@ struct kiriWorld {
     KIRI_ARRAY(kiriSkinRange) skinRanges;
     KIRI_ARRAY(kiriEvent) events;
     kiriProfile profile;
-    int64_t begun; /* ticks, refused ones too: for kiriPast */
+    int64_t begun; /* calls of kiriWorld_Tick, refused ones too: for kiriPast */
     int32_t stage; /* running now, or KIRI_NONE */
     double stageStart;
     char errorLine[256]; /* of the last function that changes the world */
