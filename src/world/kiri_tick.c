@@ -152,6 +152,15 @@ static bool UpdateAll(kiriWorld* world, kiriQuotas* quotas)
     return ok;
 }
 
+/* The new vertices are gone again. */
+static void ForgetPast(kiriWorld* world, kiriPast* past)
+{
+    if (past->tick == world->begun) {
+        kiriMemory_Free(&world->retired, past->others);
+        *past = kiriPast_None(0);
+    }
+}
+
 static void AbortAll(kiriWorld* world)
 {
     for (int32_t k = 0; k < world->atWork.count; ++k) {
@@ -159,6 +168,7 @@ static void AbortAll(kiriWorld* world)
     }
     for (int32_t i = 0; i < world->sheets.count; ++i) {
         kiriMotion_LetRest(world->sheets.data[i]);
+        ForgetPast(world, &world->sheets.data[i]->past);
     }
 }
 
