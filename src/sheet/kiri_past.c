@@ -1,56 +1,45 @@
 #include "kiri_past.h"
 
-static bool StartPast(kiriPast* to, const kiriPast* past, kiriMemory* memory, int32_t same, int32_t count)
+bool kiriPast_Grow(kiriPast* past, int64_t tick, kiriIndices* room, kiriMemory* memory, const kiriMeshData* mesh,
+                   int32_t first)
 {
-    *to =
-        (kiriPast){ past->tick, past->sheet, same, kiriMemory_Alloc(memory, count * (int64_t)sizeof(int32_t)), count };
-    return to->others != NULL;
-}
-
-bool kiriPast_Grow(kiriPast* to, const kiriPast* past, kiriMemory* memory, const kiriMeshData* mesh, int32_t first)
-{
-    int32_t same = past->same < first ? past->same : first;
-    if (!StartPast(to, past, memory, same, mesh->vertices.count - same)) {
+    KIRI_ASSERT(past->tick != tick && first >= mesh->oldVertexCount); /* nothing has changed in the tick before */
+    int32_t count = mesh->vertices.count - first;
+    if (!kiriArray_Resize(memory, room, count)) {
         return false;
     }
-    for (int32_t v = same; v < mesh->vertices.count; ++v) {
-        const kiriBirth* birth = v < first ? NULL : &mesh->births.data[v - mesh->oldVertexCount];
-        int32_t parent = birth != NULL && birth->parent[1] == KIRI_NONE ? birth->parent[0] : KIRI_NONE;
-        if (birth == NULL) {
-            to->others[v - same] = kiriPast_IndexOf(past, v);
-        } else {
-            KIRI_ASSERT(parent < v);
-            to->others[v - same] = parent == KIRI_NONE ? KIRI_NONE : kiriPast_IndexOf(to, parent);
-        }
+    *past = (kiriPast){ tick, 0, first, room->data, count };
+    for (int32_t k = 0; k < count; ++k) {
+        const kiriBirth* birth = &mesh->births.data[first + k - mesh->oldVertexCount];
+        bool isTorn = birth->parent[1] == KIRI_NONE;
+        KIRI_ASSERT(birth->parent[0] < first + k);
+        room->data[k] = isTorn ? kiriPast_IndexOf(past, birth->parent[0]) : KIRI_NONE;
     }
     return true;
 }
 
 bool kiriPast_Keep(kiriPast* to, const kiriPast* past, kiriMemory* memory, const kiriKeep* vertices)
 {
-    int32_t same = past->same < vertices->first ? past->same : vertices->first;
-    if (!StartPast(to, past, memory, same, vertices->count - same)) {
-        return false;
-    }
-    for (int32_t v = same; v < vertices->to.count; ++v) {
+    int32_t same = past->same < vertices->first ? past->same : vertices->first, count = vertices->count - same;
+    int32_t* others = kiriMemory_Alloc(memory, count * (int64_t)sizeof(int32_t));
+    for (int32_t v = same; others != NULL && v < vertices->to.count; ++v) {
         int32_t kept = kiriKeep_To(vertices, v);
         if (kept != KIRI_NONE) {
-            to->others[kept - same] = kiriPast_IndexOf(past, v);
+            others[kept - same] = kiriPast_IndexOf(past, v);
         }
     }
-    return true;
+    *to = (kiriPast){ past->tick, past->sheet, same, others, count };
+    return others != NULL;
 }
 
 bool kiriPast_Part(kiriPast* to, const kiriPast* past, kiriMemory* memory, kiriSheet sheet, const int32_t* vertices,
                    int32_t count)
 {
     KIRI_ASSERT(past->sheet == 0); /* a part is one piece until the next tick: nothing leaves it before */
-    if (!StartPast(to, past, memory, 0, count)) {
-        return false;
+    int32_t* others = kiriMemory_Alloc(memory, count * (int64_t)sizeof(int32_t));
+    for (int32_t k = 0; others != NULL && k < count; ++k) {
+        others[k] = kiriPast_IndexOf(past, vertices[k]);
     }
-    to->sheet = sheet;
-    for (int32_t k = 0; k < count; ++k) {
-        to->others[k] = kiriPast_IndexOf(past, vertices[k]);
-    }
-    return true;
+    *to = (kiriPast){ past->tick, sheet, 0, others, count };
+    return others != NULL;
 }

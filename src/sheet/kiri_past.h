@@ -11,8 +11,8 @@ typedef struct kiriPast {
     int64_t tick;    /* the number of that tick: else it is out of date, and no vertex has got another index since */
     kiriSheet sheet; /* that had the vertices; 0: this one */
     int32_t same;    /* vertices before this one have the index that they had */
-    int32_t* others; /* of the vertices from there on; freed with the next tick */
-    int32_t count;   /* of these; vertices beyond were not there */
+    const int32_t* others; /* of the vertices from there on */
+    int32_t count;         /* of these; vertices beyond were not there */
 } kiriPast;
 
 /* No vertex was there. */
@@ -36,12 +36,14 @@ static inline int32_t kiriPast_IndexOf(const kiriPast* past, int32_t vertex)
     return vertex - past->same < past->count ? past->others[vertex - past->same] : KIRI_NONE;
 }
 
-/* These make the past of a mesh that changes, from what kiriPast_At said before. False for memory. */
+/* These make the past of a mesh that changes. False for memory. */
 
-/* New vertices, from `first` on. One that is torn off another gets the index of that one. */
-bool kiriPast_Grow(kiriPast* to, const kiriPast* past, kiriMemory* memory, const kiriMeshData* mesh, int32_t first);
+/* A tick adds vertices, from `first` on. One that is torn off another gets the index of that one. `room` holds the
+   indices until the next tick; its memory is used again. */
+bool kiriPast_Grow(kiriPast* past, int64_t tick, kiriIndices* room, kiriMemory* memory, const kiriMeshData* mesh,
+                   int32_t first);
 
-/* Some vertices are kept. */
+/* Some vertices are kept, of a mesh whose past is up to date. The indices are a block of `memory`. */
 bool kiriPast_Keep(kiriPast* to, const kiriPast* past, kiriMemory* memory, const kiriKeep* vertices);
 
 /* These vertices become a part of the sheet. */

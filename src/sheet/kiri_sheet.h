@@ -387,6 +387,7 @@ typedef struct kiriSheetData {
     kiriPieceLists lists;
     kiriProbes probes;
     kiriPast past;
+    kiriIndices pastRoom; /* for it, in ticks that add vertices */
 } kiriSheetData;
 
 /* An empty sheet, zeroed; null for memory. Itself, its queue and its list of cuts are blocks of `memory`. */

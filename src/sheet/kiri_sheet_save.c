@@ -346,6 +346,7 @@ static const kiriMember LiveSheetMembers[] = {
     KIRI_DROPPED(kiriSheetData, lists),
     KIRI_DROPPED(kiriSheetData, probes),
     KIRI_DROPPED(kiriSheetData, past),
+    KIRI_DROPPED(kiriSheetData, pastRoom),
 };
 static const kiriTable LiveSheetTable = KIRI_TABLE(kiriSheetData, LiveSheetMembers);
 

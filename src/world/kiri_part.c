@@ -217,7 +217,7 @@ void kiriParting_Commit(kiriParting* parting)
             kiriRemoval_Commit(&parting->sources[k].removal, &parting->world->retired);
             parting->sources[k].removal.sheet->past = parting->sources[k].past;
             if (!parting->sources[k].leavesHoles) { /* else it is the one that it was */
-                kiriMemory_Adopt(&parting->world->retired, parting->sources[k].past.others);
+                kiriMemory_Adopt(&parting->world->retired, (void*)parting->sources[k].past.others);
             }
             PointIds(parting->world, parting->sources[k].removal.sheet);
         }
@@ -298,7 +298,7 @@ static void AddSheetOfPart(kiriWorld* world, const kiriPart* part)
     kiriSheetData* sheet = part->sheet;
     world->sheets.data[world->sheets.count++] = sheet;
     sheet->id = kiriPool_Add(&world->sheetIds, &world->memory, sheet, 0);
-    kiriMemory_Adopt(&world->retired, sheet->past.others);
+    kiriMemory_Adopt(&world->retired, (void*)sheet->past.others);
     NamePins(world, part);
     PointIds(world, sheet);
 }

@@ -152,15 +152,6 @@ static bool UpdateAll(kiriWorld* world, kiriQuotas* quotas)
     return ok;
 }
 
-/* The new vertices are gone again. */
-static void ForgetPast(kiriWorld* world, kiriPast* past)
-{
-    if (past->tick == world->begun) {
-        kiriMemory_Free(&world->retired, past->others);
-        *past = kiriPast_None(0);
-    }
-}
-
 static void AbortAll(kiriWorld* world)
 {
     for (int32_t k = 0; k < world->atWork.count; ++k) {
@@ -168,7 +159,6 @@ static void AbortAll(kiriWorld* world)
     }
     for (int32_t i = 0; i < world->sheets.count; ++i) {
         kiriMotion_LetRest(world->sheets.data[i]);
-        ForgetPast(world, &world->sheets.data[i]->past);
     }
 }
 
@@ -210,13 +200,12 @@ static bool FindTouches(kiriWorld* world, double dt)
 
 /* ---- Commits ---- */
 
-/* Where new vertices were. False for memory. */
-static bool GrowPast(kiriWorld* world, kiriSheetData* sheet)
+/* Where new vertices were. False for memory. A tick that is refused leaves it so: none of them is there then. */
+static bool GrowPast(const kiriWorld* world, kiriSheetData* sheet)
 {
-    const kiriPast past = kiriPast_At(&sheet->past, world->begun);
     int32_t known = sheet->seen.surface.vertexCount;
     return sheet->mesh.vertices.count <= known ||
-           kiriPast_Grow(&sheet->past, &past, &world->retired, &sheet->mesh, known);
+           kiriPast_Grow(&sheet->past, world->begun, &sheet->pastRoom, sheet->memory, &sheet->mesh, known);
 }
 
 /* Room for the ids and events of the tick. Of each sheet that wakes in it a pin may break, too. */
