@@ -11,7 +11,7 @@ int32_t kiriGetVersion(void)
     return KIRI_VERSION;
 }
 
-/* What each result is called and means, from KIRI_ERROR_REPLAY to KIRI_PENDING. */
+/* Name and text of each result, from KIRI_ERROR_REPLAY to KIRI_PENDING. */
 static const struct {
     const char *name, *text;
 } results[] = {
