@@ -176,7 +176,7 @@ void kiriDestroyWorld(kiriWorld* world)
 kiriResult kiriWorld_Tick(kiriWorld* world, float dt, int32_t substeps)
 {
     KIRI_CHANGES(world, KIRI_CALL_WORLD_TICK, &dt, &substeps, NULL);
-    world->begun += 1; /* refused or not: the host has copied what it draws from */
+    world->begun += 1; /* refused ticks count: the host copies meshes before each call */
     KIRI_CHECK(kiriCall_IsAtLeast(dt, 1e-6f) && dt <= 10.0f, "dt is not within 1e-6 and 10 s");
     KIRI_CHECK(kiriCall_IsWithin(substeps, 1, 64), "substeps is not within 1 and 64");
     kiriResult result = kiriWorld_Advance(world, dt, substeps);
