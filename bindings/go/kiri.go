@@ -11,7 +11,7 @@ import (
 )
 
 // Version of the header.
-const Version = "0.11.3"
+const Version = "0.12.0"
 
 type ResultCode int32
 
@@ -22,13 +22,13 @@ const (
 	// null pointer, NaN, infinite, or outside the documented range; or a sheet or obstacle would be where floats end, or
 	// move that fast: 4e37 m, m/s or 1/s
 	ErrorArgument ResultCode = -1
-	// the def was not filled by its kiriDefault function
+	// the def was not filled by its kiriDefault function, all zeros say: call that first
 	ErrorDef ResultCode = -2
 	// unknown or stale id, or the id of another kind
 	ErrorId ResultCode = -3
 	// the triangles do not form a sheet: degenerate, inverted, duplicate, overlapping
 	ErrorMesh ResultCode = -4
-	// the call comes in the wrong order
+	// the call comes in the wrong order, or from a callback that may not make it
 	ErrorState ResultCode = -5
 	// the allocator returned null
 	ErrorMemory ResultCode = -6
@@ -380,17 +380,18 @@ type ObstacleID uint32
 // BladeID is an id as C has it; 0 is none.
 type BladeID uint32
 
-// The most work that one tick may do, over all sheets, first come first served. 0: no limit. Triangles, cells and
-// samples share a tick: what is spent of one leaves as much less of the other two. Half of the cells, say, leave half
-// of the samples; so the work on cuts takes no longer than the costliest of the three limits. What does not fit goes
-// on in the next tick, and in the end is what it would have been without a limit: the points given to a sheet before
-// one tick take effect together, when all that follows from them is done. Until then the lips of a fresh cut move
-// together. A step that cannot be parted and counts more than a whole limit is done in a tick of its own. Pieces that
-// wait to be detached get half of every other tick, whatever other sheets have to do. How long lips wait: a cut from
-// side to side takes 7 items of cells for each cell of the grid where frames are many, 36 where they are few (each
-// has more of the sheet), and 0.2 to 1.3 of samples for each vertex; a cut half as long a third to all of that. So on
-// a sheet and grid of 64 x 64 squares with 9 frames, 2000 cells and 500 samples part a cut from side to side after 83
-// ticks, one half as long after 31; 10 000 and 2000 after 17 and 7. tests/bench_delay.c prints the table.
+// The most work that one tick may do, over all sheets. 0: no limit. Triangles, cells and samples share one allowance:
+// using 30 % of one leaves 70 % of the others. So the work on cuts takes no longer than the costliest of the three
+// limits alone. A single step that exceeds the whole limit is not split. It runs alone in its tick. Work that does
+// not fit goes on in the next tick. Until a cut takes effect its lips move together. All points of a sheet that are
+// pending when work on them begins take effect together, whatever ticks they were given before. So the tick in which
+// a cut takes effect depends on the budget, too. Its result does not: when all work is done, mesh, grid, regions,
+// weights and sites of frames equal, bit for bit, a run of the same calls without a budget. Motion differs. Sheets
+// take turns. In every other tick the sheet whose points came first is served first, in the ticks between the sheet
+// whose work has used least. Pieces that wait to be detached get half of every other tick. An example at 60 Hz, with
+// 2 ms of work on cuts a tick (about 32 000 cells and 4000 samples): a cut from side to side of 64 x 64 squares with
+// 9 frames parts 17 to 100 ms after the blade has left, one of 127 x 127 squares with 24 frames 67 to 200 ms. A slow
+// blade parts sooner, for its work is done on the way. tests/bench_swipe.c prints the table.
 type Budget struct {
 	// split by blades; 0, or KIRI_LEAST_TRIANGLES and more
 	Triangles int32
@@ -425,7 +426,7 @@ type Event struct {
 	Area float32
 	// KIRI_STAGE_..., or -1
 	Stage Stage
-	// blade points that wait, with those that are being worked on; or 0
+	// blade points and ends of cuts that are pending or being worked on; or 0
 	Waiting int32
 }
 
@@ -532,8 +533,9 @@ type PaperOptions struct {
 type SheetDef struct {
 	cookie uint32
 	// The rest shape: triangles in the rest plane, counter-clockwise, at most two at an edge. Holes and several parts
-	// are fine. Copied by kiriCreateSheet. Edges whose ends lie at the same places, but are different vertices, are the
-	// lips of a cut that is there already. 2 floats (u, v) a vertex
+	// are fine. Copied by kiriCreateSheet; vertices of no triangle are left out. Edges whose ends lie at the same
+	// places, but are different vertices, are the lips of a cut that is there already; weldDistance closes them. 2
+	// floats (u, v) a vertex
 	RestPositions [][2]float32
 	// 3 a triangle
 	Indices [][3]int32
@@ -548,13 +550,20 @@ type SheetDef struct {
 	GridResolution int32
 	// m: a blade this near to a vertex or an edge takes it; 0: 1e-4 of the longer side
 	SnapDistance float32
+	// Vertices nearer than this (m, rest plane; 0 or more) are one: for seams of texture coordinates, and triangles
+	// without shared vertices (STL). In the order of vertices, each becomes the nearest vertex that was kept before and
+	// is nearer than this; else it is kept. So none moves farther, and a chain of near vertices is not one point. A
+	// triangle with two corners at one vertex is left out. kiriSheet_CopySources leads to the vertices of the def.
+	// Default 0: vertices are as the indices say.
+	WeldDistance float32
 	// Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at least; null: frameCount
 	// frames are spread evenly, some of them in pairs at both sides of slit ends. The grid carries one frame for every
-	// two squares of material at most: more are refused (KIRI_ERROR_ARGUMENT), and re-sampling stops there. frameCount
-	// 0: as many as the sheet needs: a region is split while its size, 2.45 times its radius of gyration, exceeds 1.25
-	// frameLength, after cuts too: so arms that a cut leaves get frames along them. frameLength 0: it follows from
-	// `accuracy`, the relative error of the shape under the sheet's own weight that is good enough, but is three squares
-	// of the grid at least. kiriSheet_EstimateError says what came of it. 0, or 1 and more; default 5
+	// two squares of material at most: more are refused (KIRI_ERROR_ARGUMENT), and re-sampling stops there. A new sheet
+	// has no more frames than frameCount, or than pieces where these are more. frameCount 0: as many as the sheet needs:
+	// a region is split while its size, 2.45 times its radius of gyration, exceeds 1.25 frameLength, after cuts too: so
+	// arms that a cut leaves get frames along them. frameLength 0: it follows from `accuracy`, the relative error of the
+	// shape under the sheet's own weight that is good enough, but is three squares of the grid at least.
+	// kiriSheet_EstimateError says what came of it. 0, or 1 and more; default 5
 	FrameCount int32
 	// m; used where frameCount is 0; default 0
 	FrameLength float32
@@ -563,9 +572,11 @@ type SheetDef struct {
 	FramePoints [][2]float32
 	// re-sampling stops here; default 256
 	MaxFrames int32
-	// Where the weight of one frame exceeds rigidWeight over an area larger than rigidArea (m^2), frames are added
-	// (section 5 of the paper), also at once: a sheet that is to stay rigid sets frameCount and maxFrames to 1.
-	// rigidArea 0: a quarter of the area that a frame has at the start. default 0.95
+	// Re-sampling (section 5 of the paper): a frame whose weight exceeds rigidWeight over an area larger than rigidArea
+	// (m^2) gets others beside it. In a new sheet this is done only with frameCount 0. After cuts it is done where the
+	// area is also larger than in the new sheet: when a cut ends, or has met the border or another cut. A sheet that is
+	// to stay rigid sets frameCount and maxFrames to 1. rigidArea 0: a quarter of the area that a frame has at the
+	// start. default 0.95
 	RigidWeight float32
 	// default 0
 	RigidArea float32
@@ -1047,6 +1058,7 @@ func (def *SheetDef) toC(pinner *runtime.Pinner) *C.kiriSheetDef {
 	*(*Material)(unsafe.Pointer(&c.material)) = def.Material
 	c.gridResolution = C.int32_t(def.GridResolution)
 	c.snapDistance = C.float(def.SnapDistance)
+	c.weldDistance = C.float(def.WeldDistance)
 	c.frameCount = C.int32_t(def.FrameCount)
 	c.frameLength = C.float(def.FrameLength)
 	c.accuracy = C.float(def.Accuracy)
@@ -1087,6 +1099,7 @@ func (def *SheetDef) fromC(c *C.kiriSheetDef) {
 	def.Material = *(*Material)(unsafe.Pointer(&c.material))
 	def.GridResolution = int32(c.gridResolution)
 	def.SnapDistance = float32(c.snapDistance)
+	def.WeldDistance = float32(c.weldDistance)
 	def.FrameCount = int32(c.frameCount)
 	def.FrameLength = float32(c.frameLength)
 	def.Accuracy = float32(c.accuracy)
@@ -1209,13 +1222,19 @@ func GetResultName(result ResultCode) string {
 	return C.GoString(C.kiriGetResultName(C.kiriResult(result)))
 }
 
+// One line: the meaning of a result, and its cure. For calls without a world that keeps a line, such as
+// kiriCreateWorld with a def of zeros (KIRI_ERROR_DEF).
+func GetResultText(result ResultCode) string {
+	return C.GoString(C.kiriGetResultText(C.kiriResult(result)))
+}
+
 // One fixed step of dt seconds (1e-6 to 10), solved in `substeps` equal parts (1 to 64). Takes the waiting cut
 // points, then moves every sheet. KIRI_PENDING: the budget is spent and more work waits: the events say which cuts; a
-// sheet, or some of its pieces, may also have stood still for want of iterations. KIRI_ERROR_MEMORY: nothing moved
-// and cuts still wait, call again. What the refused work had prepared is made again: until then kiriSheet_GetWeights
-// gives KIRI_ERROR_STATE, and with a budget a cut may take effect some ticks later than it would have.
-// KIRI_ERROR_LIMIT: the same, and it stays so until frames are destroyed. KIRI_DIVERGED: the sheets named by the
-// events were put to rest, the others moved. Work may wait then, too, as KIRI_EVENT_DEFERRED says.
+// sheet, or some of its pieces, may also have stood still for want of iterations. KIRI_ERROR_MEMORY: nothing moved;
+// cuts and pieces still wait, call again. Refused work is prepared again: until then kiriSheet_GetWeights gives
+// KIRI_ERROR_STATE, and with a budget a cut may take effect some ticks later than it would have. KIRI_ERROR_LIMIT:
+// the same, and it stays so until frames are destroyed. KIRI_DIVERGED: the sheets named by the events were put to
+// rest, the others moved. Work may wait then, too, as KIRI_EVENT_DEFERRED says.
 func (w *World) Tick(dt float32, substeps int32) (bool, error) {
 	if err := w.check(); err != nil {
 		return false, err
@@ -1244,6 +1263,30 @@ func (w *World) SetGravity(gravity [3]float32) (bool, error) {
 	poolWorldSetGravity.give(block)
 	runtime.KeepAlive(w)
 	if err := failure(w, "kiriWorld_SetGravity", result, true); err != nil {
+		return false, err
+	}
+	return result == C.KIRI_PENDING, nil
+}
+
+var poolWorldShiftOrigin pool[struct {
+	origin [3]float32
+}]
+
+// Moves the origin of the world to a point (m): subtracts it from the positions of sheets, targets of pins and holds,
+// obstacles, blades, and contacts that wait. The motion goes on as before, to rounding. Nothing wakes; (0, 0, 0)
+// changes nothing. Use it in large worlds: far from the origin floats lose places. The host shifts its own data
+// itself. Arrays that the library handed out keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a
+// position would not fit a float. KIRI_ERROR_MEMORY: nothing has changed.
+func (w *World) ShiftOrigin(origin [3]float32) (bool, error) {
+	if err := w.check(); err != nil {
+		return false, err
+	}
+	block := poolWorldShiftOrigin.take()
+	block.origin = origin
+	result := C.kiriWorld_ShiftOrigin(w.c, (*C.float)(unsafe.Pointer(&block.origin)))
+	poolWorldShiftOrigin.give(block)
+	runtime.KeepAlive(w)
+	if err := failure(w, "kiriWorld_ShiftOrigin", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -1472,7 +1515,8 @@ var poolWorldCreateSheet pool[struct {
 	sheet C.kiriSheet
 }]
 
-// Adds a sheet. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles are no sheet; the line says which one and why.
+// Adds a sheet. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles do not form a sheet. The line names a
+// triangle, or the two triangles at an edge, by their numbers in the def, and says why.
 func (w *World) CreateSheet(def *SheetDef) (Sheet, error) {
 	var made0 Sheet
 	if err := w.check(); err != nil {
@@ -1755,8 +1799,11 @@ var poolSheetTransform pool[struct {
 }]
 
 // Every point x (m, world) of the sheet goes to R x + t at once, and is seen there; velocities turn. The columns of
-// `rotation` are where R takes the axes of the world; a planar sheet turns about its normal only. Targets of pins,
-// holds, loads and contacts stay where they are: destroy or move them first, or the sheet is drawn back. It wakes.
+// `rotation` are where R takes the axes of the world; a planar sheet turns about its normal only. It wakes. Targets
+// of its pins, hinges, clamps and holds go along, so nothing draws it back. To set a target to its current value
+// changes nothing. A target that the host has set nearer to the new place of the pin than to the old one stays: so
+// the host may set targets before or after. Pins on an obstacle stay on it: put the obstacle elsewhere by the same
+// motion (kiriObstacle_SetPose), before or after. Loads and contacts that wait for the next tick stay.
 func (self Sheet) Transform(rotation [9]float32, translation [3]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -2106,12 +2153,13 @@ var poolFrameDetachPiece pool[struct {
 // about 40 bytes a square: crumbs are better dropped. Costs what the piece takes to make, and a look at the weights
 // of what is left; where indices change more. KIRI_PENDING: work on a cut is at hand in the sheet, or it takes more
 // samples than the budget leaves calls before the next tick; *detached is 0. When the work is done, what is the piece
-// of this frame then becomes a sheet, and KIRI_EVENT_PIECE_DETACHED names it. About 1.5 samples for each vertex of
-// the piece, 0.7 for each cell, and one for 80 vertices of the rest are paid before, over several ticks if need be,
-// of many pieces one after the other; until then further cuts of the sheet wait. A piece that is worth more than the
-// samples of a tick is made as they are paid, and leaves when it is made: in one tick all the same, which takes an
-// eighth of the work. What a call does at once the coming ticks have less. KIRI_ERROR_STATE: nothing would be left of
-// the sheet.
+// of this frame then becomes a sheet, and KIRI_EVENT_PIECE_DETACHED names it. Samples pay for it before, over several
+// ticks if need be, of many pieces one after the other: of the first that waits 3 for each vertex, 2.5 to 9 for each
+// cell (the more frames, the more) and 100 for each frame, of others 3 for each vertex and 1.4 for each cell; and one
+// for 80 vertices of the rest. Until then further cuts of the sheet wait. The first piece is made as it is paid, and
+// leaves at the start of the tick after the last sample is paid. That tick does an eighth of the work; the first tick
+// after a load makes the parts again that saves leave out. The coming ticks have fewer samples for the work of calls.
+// KIRI_ERROR_STATE: nothing would be left of the sheet.
 func (self Frame) DetachPiece() (Sheet, error) {
 	var made0 Sheet
 	if err := self.World.check(); err != nil {
@@ -2236,7 +2284,7 @@ func (self Cut) Extend(restPoints [][2]float32) (bool, error) {
 }
 
 // No more points come. After the tick in which the last of them takes effect the id is stale, and
-// KIRI_EVENT_CUT_FINISHED tells.
+// KIRI_EVENT_CUT_FINISHED tells. Frames that the sheet needs after the cut are added then.
 func (self Cut) End() (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -2662,8 +2710,9 @@ var poolPinSetTarget pool[struct {
 }]
 
 // Where the pin holds its point, or the middle of its line (m, world): at the end of the next tick, and until the
-// next call. Within the tick it goes there evenly. With KIRI_SKINNING_SMOOTH what pins and clamps hold is what is
-// seen there; of a clamp the mean along its line, for each piece: single points of the line are seen a little off it.
+// next call. Within the tick it goes there evenly. The current target of kiriPin_GetState changes nothing. With
+// KIRI_SKINNING_SMOOTH what pins and clamps hold is what is seen there; of a clamp the mean along its line, for each
+// piece: single points of the line are seen a little off it.
 func (self Pin) SetTarget(target [3]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -3021,12 +3070,14 @@ func (self Sheet) Reach(dt float32) ([3]float32, [3]float32, error) {
 var functions = map[string]string{
 	"kiriGetVersion": ".GetVersion",
 	"kiriGetResultName": ".GetResultName",
+	"kiriGetResultText": ".GetResultText",
 	"kiriDefaultWorldDef": ".NewWorld",
 	"kiriCreateWorld": ".NewWorld",
 	"kiriDestroyWorld": "World.Destroy",
 	"kiriWorld_Tick": "World.Tick",
 	"kiriWorld_GetLastError": "World.LastError",
 	"kiriWorld_SetGravity": "World.SetGravity",
+	"kiriWorld_ShiftOrigin": "World.ShiftOrigin",
 	"kiriWorld_SetBudget": "World.SetBudget",
 	"kiriWorld_GetStateHash": "World.StateHash",
 	"kiriWorld_GetSheets": "World.Sheets",
@@ -3053,7 +3104,10 @@ var functions = map[string]string{
 	"kiriSheet_GetMesh": "Sheet.Mesh",
 	"kiriSheet_GetDirty": "Sheet.Dirty",
 	"kiriSheet_CopyVertices": "Sheet.CopyVertices",
+	"kiriSheet_CopyPrevious": "Sheet.CopyPrevious",
 	"kiriSheet_CopyIndices16": "Sheet.CopyIndices16",
+	"kiriSheet_CopySources": "Sheet.CopySources",
+	"kiriSheet_CopySourceWeights": "Sheet.CopySourceWeights",
 	"kiriSheet_GetSolid": "Sheet.Solid",
 	"kiriSheet_GetCollisionPoints": "Sheet.CollisionPoints",
 	"kiriSheet_GetCounts": "Sheet.Counts",

@@ -122,6 +122,7 @@ static const Field SHEET_DEF_FIELDS[] = {
     { "material", TYPE_STRUCT, KIND_DICTIONARY, (int)offsetof(kiriSheetDef, material), 1, 0, 0, 0, CLASS_NONE, &MATERIAL },
     { "grid_resolution", TYPE_INT32, KIND_INT, (int)offsetof(kiriSheetDef, gridResolution), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "snap_distance", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriSheetDef, snapDistance), 1, 0, 0, 0, CLASS_NONE, NULL },
+    { "weld_distance", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriSheetDef, weldDistance), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "frame_count", TYPE_INT32, KIND_INT, (int)offsetof(kiriSheetDef, frameCount), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "frame_length", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriSheetDef, frameLength), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "accuracy", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriSheetDef, accuracy), 1, 0, 0, 0, CLASS_NONE, NULL },
@@ -146,7 +147,7 @@ static const Field SHEET_DEF_FIELDS[] = {
     { "paper", TYPE_STRUCT, KIND_DICTIONARY, (int)offsetof(kiriSheetDef, paper), 1, 0, 0, 0, CLASS_NONE, &PAPER_OPTIONS },
 };
 
-static const Struct SHEET_DEF = { "SheetDef", (int)sizeof(kiriSheetDef), 31, SHEET_DEF_FIELDS, FillSheetDef, NULL };
+static const Struct SHEET_DEF = { "SheetDef", (int)sizeof(kiriSheetDef), 32, SHEET_DEF_FIELDS, FillSheetDef, NULL };
 
 static const Field SHEET_SETTINGS_FIELDS[] = {
     { "material", TYPE_STRUCT, KIND_DICTIONARY, (int)offsetof(kiriSheetSettings, material), 1, 0, 0, 0, CLASS_NONE, &MATERIAL },
@@ -425,6 +426,20 @@ static const Parameter KIRI_GET_RESULT_NAME_PARAMETERS[] = {
     { "result", FORM_IN, TYPE_INT32, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
 };
 
+static const Argument KIRI_GET_RESULT_TEXT_ARGUMENTS[] = {
+    { "result", KIND_INT, CLASS_NONE },
+};
+
+static int64_t Call_kiriGetResultText(void* const* a)
+{
+    *(const char**)a[1] = kiriGetResultText(*(kiriResult*)a[0]);
+    return 0;
+}
+
+static const Parameter KIRI_GET_RESULT_TEXT_PARAMETERS[] = {
+    { "result", FORM_IN, TYPE_INT32, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
+};
+
 static int64_t Call_kiriDefaultWorldDef(void* const* a)
 {
     FillWorldDef(a[0]);
@@ -477,6 +492,20 @@ static int64_t Call_kiriWorld_SetGravity(void* const* a)
 static const Parameter WORLD_SET_GRAVITY_PARAMETERS[] = {
     { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
     { "gravity", FORM_IN_NUMBERS, TYPE_FLOAT, KIND_VECTOR3, 3, 0, 0, 0, CLASS_NONE, NULL, NULL },
+};
+
+static const Argument WORLD_SHIFT_ORIGIN_ARGUMENTS[] = {
+    { "origin", KIND_VECTOR3, CLASS_NONE },
+};
+
+static int64_t Call_kiriWorld_ShiftOrigin(void* const* a)
+{
+    return kiriWorld_ShiftOrigin(a[0], a[1]);
+}
+
+static const Parameter WORLD_SHIFT_ORIGIN_PARAMETERS[] = {
+    { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "origin", FORM_IN_NUMBERS, TYPE_FLOAT, KIND_VECTOR3, 3, 0, 0, 0, CLASS_NONE, NULL, NULL },
 };
 
 static const Argument WORLD_SET_BUDGET_ARGUMENTS[] = {
@@ -796,7 +825,7 @@ static const Argument KIRI_FILL_RECTANGLE_ARGUMENTS[] = {
     { "rows", KIND_INT, CLASS_NONE },
 };
 
-static int64_t RowsOf_kiriFillRectangle(void* const* a)
+static int64_t RowsOf_kiriFillRectangle_restPositions(void* const* a)
 {
     return ((int64_t)*(int32_t*)a[2] + 1) * ((int64_t)*(int32_t*)a[3] + 1);
 }
@@ -816,7 +845,7 @@ static const Parameter KIRI_FILL_RECTANGLE_PARAMETERS[] = {
     { "height", FORM_IN, TYPE_FLOAT, KIND_REAL, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
     { "columns", FORM_IN, TYPE_INT32, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
     { "rows", FORM_IN, TYPE_INT32, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
-    { "rest_positions", FORM_OUT_ROWS, TYPE_FLOAT, KIND_VECTORS2, 1, 0, 2, 0, CLASS_NONE, NULL, RowsOf_kiriFillRectangle },
+    { "rest_positions", FORM_OUT_ROWS, TYPE_FLOAT, KIND_VECTORS2, 1, 0, 2, 0, CLASS_NONE, NULL, RowsOf_kiriFillRectangle_restPositions },
     { "indices", FORM_OUT_ROWS, TYPE_INT32, KIND_INTS, 1, 0, 1, 0, CLASS_NONE, NULL, RowsOf_kiriFillRectangle_indices },
 };
 
@@ -852,12 +881,36 @@ static const Argument SHEET_COPY_VERTICES_ARGUMENTS[] = {
     { "count", KIND_INT, CLASS_NONE },
 };
 
+static const Argument SHEET_COPY_PREVIOUS_ARGUMENTS[] = {
+    { "first", KIND_INT, CLASS_NONE },
+    { "count", KIND_INT, CLASS_NONE },
+};
+
+static int64_t RowsOf_kiriSheet_CopyPrevious_vertices(void* const* a)
+{
+    return (int64_t)*(int32_t*)a[3];
+}
+
+static int64_t Call_kiriSheet_CopyPrevious(void* const* a)
+{
+    return kiriSheet_CopyPrevious(a[0], *(kiriSheet*)a[1], *(int32_t*)a[2], *(int32_t*)a[3], a[4], a[5]);
+}
+
+static const Parameter SHEET_COPY_PREVIOUS_PARAMETERS[] = {
+    { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "sheet", FORM_SELF, TYPE_ID, KIND_OBJECT, 1, 0, 0, 0, CLASS_SHEET, NULL, NULL },
+    { "first", FORM_IN, TYPE_INT32, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "count", FORM_IN, TYPE_INT32, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "vertices", FORM_OUT_ROWS, TYPE_INT32, KIND_INTS, 1, 0, 1, 0, CLASS_NONE, NULL, RowsOf_kiriSheet_CopyPrevious_vertices },
+    { "from", FORM_OUT, TYPE_ID, KIND_OBJECT, 1, 0, 0, 0, CLASS_SHEET, NULL, NULL },
+};
+
 static const Argument SHEET_COPY_INDICES16_ARGUMENTS[] = {
     { "first_triangle", KIND_INT, CLASS_NONE },
     { "count", KIND_INT, CLASS_NONE },
 };
 
-static int64_t RowsOf_kiriSheet_CopyIndices16(void* const* a)
+static int64_t RowsOf_kiriSheet_CopyIndices16_indices(void* const* a)
 {
     return (int64_t)*(int32_t*)a[3];
 }
@@ -872,7 +925,53 @@ static const Parameter SHEET_COPY_INDICES16_PARAMETERS[] = {
     { "sheet", FORM_SELF, TYPE_ID, KIND_OBJECT, 1, 0, 0, 0, CLASS_SHEET, NULL, NULL },
     { "first_triangle", FORM_IN, TYPE_INT32, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
     { "count", FORM_IN, TYPE_INT32, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
-    { "indices", FORM_OUT_ROWS, TYPE_UINT16, KIND_BYTES, 1, 0, 3, 0, CLASS_NONE, NULL, RowsOf_kiriSheet_CopyIndices16 },
+    { "indices", FORM_OUT_ROWS, TYPE_UINT16, KIND_BYTES, 1, 0, 3, 0, CLASS_NONE, NULL, RowsOf_kiriSheet_CopyIndices16_indices },
+};
+
+static const Argument SHEET_COPY_SOURCES_ARGUMENTS[] = {
+    { "first_triangle", KIND_INT, CLASS_NONE },
+    { "count", KIND_INT, CLASS_NONE },
+};
+
+static int64_t RowsOf_kiriSheet_CopySources_sources(void* const* a)
+{
+    return (int64_t)*(int32_t*)a[3];
+}
+
+static int64_t Call_kiriSheet_CopySources(void* const* a)
+{
+    return kiriSheet_CopySources(a[0], *(kiriSheet*)a[1], *(int32_t*)a[2], *(int32_t*)a[3], a[4]);
+}
+
+static const Parameter SHEET_COPY_SOURCES_PARAMETERS[] = {
+    { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "sheet", FORM_SELF, TYPE_ID, KIND_OBJECT, 1, 0, 0, 0, CLASS_SHEET, NULL, NULL },
+    { "first_triangle", FORM_IN, TYPE_INT32, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "count", FORM_IN, TYPE_INT32, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "sources", FORM_OUT_ROWS, TYPE_INT32, KIND_INTS, 1, 0, 1, 0, CLASS_NONE, NULL, RowsOf_kiriSheet_CopySources_sources },
+};
+
+static const Argument SHEET_COPY_SOURCE_WEIGHTS_ARGUMENTS[] = {
+    { "first_triangle", KIND_INT, CLASS_NONE },
+    { "count", KIND_INT, CLASS_NONE },
+};
+
+static int64_t RowsOf_kiriSheet_CopySourceWeights_weights(void* const* a)
+{
+    return (int64_t)*(int32_t*)a[3];
+}
+
+static int64_t Call_kiriSheet_CopySourceWeights(void* const* a)
+{
+    return kiriSheet_CopySourceWeights(a[0], *(kiriSheet*)a[1], *(int32_t*)a[2], *(int32_t*)a[3], a[4]);
+}
+
+static const Parameter SHEET_COPY_SOURCE_WEIGHTS_PARAMETERS[] = {
+    { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "sheet", FORM_SELF, TYPE_ID, KIND_OBJECT, 1, 0, 0, 0, CLASS_SHEET, NULL, NULL },
+    { "first_triangle", FORM_IN, TYPE_INT32, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "count", FORM_IN, TYPE_INT32, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "weights", FORM_OUT_ROWS, TYPE_FLOAT, KIND_FLOATS, 1, 0, 9, 0, CLASS_NONE, NULL, RowsOf_kiriSheet_CopySourceWeights_weights },
 };
 
 static const Argument SHEET_GET_SOLID_ARGUMENTS[] = {
@@ -1247,7 +1346,7 @@ static const Argument WORLD_DETACH_PIECES_ARGUMENTS[] = {
     { "frames", KIND_ARRAY, CLASS_FRAME },
 };
 
-static int64_t RowsOf_kiriWorld_DetachPieces(void* const* a)
+static int64_t RowsOf_kiriWorld_DetachPieces_detached(void* const* a)
 {
     return (int64_t)*(int32_t*)a[2];
 }
@@ -1261,7 +1360,7 @@ static const Parameter WORLD_DETACH_PIECES_PARAMETERS[] = {
     { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
     { "frames", FORM_IN_ROWS, TYPE_ID, KIND_ARRAY, 1, 2, 1, 0, CLASS_FRAME, NULL, NULL },
     { "count", FORM_IN_COUNT, TYPE_INT32, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
-    { "detached", FORM_OUT_ROWS, TYPE_ID, KIND_ARRAY, 1, 0, 1, 0, CLASS_SHEET, NULL, RowsOf_kiriWorld_DetachPieces },
+    { "detached", FORM_OUT_ROWS, TYPE_ID, KIND_ARRAY, 1, 0, 1, 0, CLASS_SHEET, NULL, RowsOf_kiriWorld_DetachPieces_detached },
 };
 
 static const Argument WORLD_DESTROY_PIECES_ARGUMENTS[] = {
@@ -1904,12 +2003,14 @@ static const Argument SHEET_GET_SOLID_ARRAYS_ARGUMENTS[] = {
 const Method METHODS[] = {
     { CLASS_KIRI, "get_version", "kiriGetVersion", RETURNS_INT, KIND_INT, CLASS_NONE, 0, 0, NULL, 0, NULL, Call_kiriGetVersion, NULL },
     { CLASS_KIRI, "get_result_name", "kiriGetResultName", RETURNS_TEXT, KIND_STRING, CLASS_NONE, 1, 1, KIRI_GET_RESULT_NAME_ARGUMENTS, 1, KIRI_GET_RESULT_NAME_PARAMETERS, Call_kiriGetResultName, NULL },
+    { CLASS_KIRI, "get_result_text", "kiriGetResultText", RETURNS_TEXT, KIND_STRING, CLASS_NONE, 1, 1, KIRI_GET_RESULT_TEXT_ARGUMENTS, 1, KIRI_GET_RESULT_TEXT_PARAMETERS, Call_kiriGetResultText, NULL },
     { CLASS_KIRI, "default_world_def", "kiriDefaultWorldDef", RETURNS_NOTHING, KIND_DICTIONARY, CLASS_NONE, 0, 0, NULL, 1, KIRI_DEFAULT_WORLD_DEF_PARAMETERS, Call_kiriDefaultWorldDef, NULL },
     { CLASS_KIRI, "create_world", "kiriCreateWorld", RETURNS_RESULT, KIND_OBJECT, CLASS_WORLD, 1, 0, KIRI_CREATE_WORLD_ARGUMENTS, 0, NULL, NULL, CreateWorld },
     { CLASS_WORLD, "destroy", "kiriDestroyWorld", RETURNS_NOTHING, KIND_NIL, CLASS_NONE, 0, 0, NULL, 0, NULL, NULL, DestroyWorld },
     { CLASS_WORLD, "tick", "kiriWorld_Tick", RETURNS_RESULT, KIND_INT, CLASS_NONE, 2, 2, WORLD_TICK_ARGUMENTS, 3, WORLD_TICK_PARAMETERS, Call_kiriWorld_Tick, NULL },
     { CLASS_WORLD, "get_last_error", "kiriWorld_GetLastError", RETURNS_TEXT, KIND_STRING, CLASS_NONE, 0, 0, NULL, 1, WORLD_GET_LAST_ERROR_PARAMETERS, Call_kiriWorld_GetLastError, NULL },
     { CLASS_WORLD, "set_gravity", "kiriWorld_SetGravity", RETURNS_RESULT, KIND_INT, CLASS_NONE, 1, 1, WORLD_SET_GRAVITY_ARGUMENTS, 2, WORLD_SET_GRAVITY_PARAMETERS, Call_kiriWorld_SetGravity, NULL },
+    { CLASS_WORLD, "shift_origin", "kiriWorld_ShiftOrigin", RETURNS_RESULT, KIND_INT, CLASS_NONE, 1, 1, WORLD_SHIFT_ORIGIN_ARGUMENTS, 2, WORLD_SHIFT_ORIGIN_PARAMETERS, Call_kiriWorld_ShiftOrigin, NULL },
     { CLASS_WORLD, "set_budget", "kiriWorld_SetBudget", RETURNS_RESULT, KIND_INT, CLASS_NONE, 1, 1, WORLD_SET_BUDGET_ARGUMENTS, 2, WORLD_SET_BUDGET_PARAMETERS, Call_kiriWorld_SetBudget, NULL },
     { CLASS_WORLD, "get_state_hash", "kiriWorld_GetStateHash", RETURNS_RESULT, KIND_INT, CLASS_NONE, 0, 0, NULL, 2, WORLD_GET_STATE_HASH_PARAMETERS, Call_kiriWorld_GetStateHash, NULL },
     { CLASS_WORLD, "get_sheets", "kiriWorld_GetSheets", RETURNS_RESULT, KIND_ARRAY, CLASS_NONE, 0, 0, NULL, 4, WORLD_GET_SHEETS_PARAMETERS, Call_kiriWorld_GetSheets, NULL },
@@ -1936,7 +2037,10 @@ const Method METHODS[] = {
     { CLASS_SHEET, "get_mesh", "kiriSheet_GetMesh", RETURNS_RESULT, KIND_DICTIONARY, CLASS_NONE, 0, 0, NULL, 3, SHEET_GET_MESH_PARAMETERS, Call_kiriSheet_GetMesh, NULL },
     { CLASS_SHEET, "get_dirty", "kiriSheet_GetDirty", RETURNS_RESULT, KIND_DICTIONARY, CLASS_NONE, 1, 1, SHEET_GET_DIRTY_ARGUMENTS, 4, SHEET_GET_DIRTY_PARAMETERS, Call_kiriSheet_GetDirty, NULL },
     { CLASS_SHEET, "copy_vertices", "kiriSheet_CopyVertices", RETURNS_RESULT, KIND_DICTIONARY, CLASS_NONE, 2, 2, SHEET_COPY_VERTICES_ARGUMENTS, 0, NULL, NULL, CopyVertices },
+    { CLASS_SHEET, "copy_previous", "kiriSheet_CopyPrevious", RETURNS_RESULT, KIND_DICTIONARY, CLASS_NONE, 2, 2, SHEET_COPY_PREVIOUS_ARGUMENTS, 6, SHEET_COPY_PREVIOUS_PARAMETERS, Call_kiriSheet_CopyPrevious, NULL },
     { CLASS_SHEET, "copy_indices16", "kiriSheet_CopyIndices16", RETURNS_RESULT, KIND_BYTES, CLASS_NONE, 2, 2, SHEET_COPY_INDICES16_ARGUMENTS, 5, SHEET_COPY_INDICES16_PARAMETERS, Call_kiriSheet_CopyIndices16, NULL },
+    { CLASS_SHEET, "copy_sources", "kiriSheet_CopySources", RETURNS_RESULT, KIND_INTS, CLASS_NONE, 2, 2, SHEET_COPY_SOURCES_ARGUMENTS, 5, SHEET_COPY_SOURCES_PARAMETERS, Call_kiriSheet_CopySources, NULL },
+    { CLASS_SHEET, "copy_source_weights", "kiriSheet_CopySourceWeights", RETURNS_RESULT, KIND_FLOATS, CLASS_NONE, 2, 2, SHEET_COPY_SOURCE_WEIGHTS_ARGUMENTS, 5, SHEET_COPY_SOURCE_WEIGHTS_PARAMETERS, Call_kiriSheet_CopySourceWeights, NULL },
     { CLASS_SHEET, "get_solid", "kiriSheet_GetSolid", RETURNS_RESULT, KIND_DICTIONARY, CLASS_NONE, 1, 1, SHEET_GET_SOLID_ARGUMENTS, 4, SHEET_GET_SOLID_PARAMETERS, Call_kiriSheet_GetSolid, NULL },
     { CLASS_SHEET, "get_collision_points", "kiriSheet_GetCollisionPoints", RETURNS_RESULT, KIND_VECTORS3, CLASS_NONE, 0, 0, NULL, 4, SHEET_GET_COLLISION_POINTS_PARAMETERS, Call_kiriSheet_GetCollisionPoints, NULL },
     { CLASS_SHEET, "get_counts", "kiriSheet_GetCounts", RETURNS_RESULT, KIND_DICTIONARY, CLASS_NONE, 0, 0, NULL, 3, SHEET_GET_COUNTS_PARAMETERS, Call_kiriSheet_GetCounts, NULL },

@@ -39,13 +39,13 @@ export enum ResultCode {
     /** null pointer, NaN, infinite, or outside the documented range; or a sheet or obstacle would be where floats end,
      *  or move that fast: 4e37 m, m/s or 1/s */
     ErrorArgument = -1,
-    /** the def was not filled by its kiriDefault function */
+    /** the def was not filled by its kiriDefault function, all zeros say: call that first */
     ErrorDef = -2,
     /** unknown or stale id, or the id of another kind */
     ErrorId = -3,
     /** the triangles do not form a sheet: degenerate, inverted, duplicate, overlapping */
     ErrorMesh = -4,
-    /** the call comes in the wrong order */
+    /** the call comes in the wrong order, or from a callback that may not make it */
     ErrorState = -5,
     /** the allocator returned null */
     ErrorMemory = -6,
@@ -217,17 +217,18 @@ export enum DrawFlag {
     All = 2047,
 }
 
-/** The most work that one tick may do, over all sheets, first come first served. 0: no limit. Triangles, cells and
- *  samples share a tick: what is spent of one leaves as much less of the other two. Half of the cells, say, leave half
- *  of the samples; so the work on cuts takes no longer than the costliest of the three limits. What does not fit goes
- *  on in the next tick, and in the end is what it would have been without a limit: the points given to a sheet before
- *  one tick take effect together, when all that follows from them is done. Until then the lips of a fresh cut move
- *  together. A step that cannot be parted and counts more than a whole limit is done in a tick of its own. Pieces that
- *  wait to be detached get half of every other tick, whatever other sheets have to do. How long lips wait: a cut from
- *  side to side takes 7 items of cells for each cell of the grid where frames are many, 36 where they are few (each has
- *  more of the sheet), and 0.2 to 1.3 of samples for each vertex; a cut half as long a third to all of that. So on a
- *  sheet and grid of 64 x 64 squares with 9 frames, 2000 cells and 500 samples part a cut from side to side after 83
- *  ticks, one half as long after 31; 10 000 and 2000 after 17 and 7. tests/bench_delay.c prints the table. */
+/** The most work that one tick may do, over all sheets. 0: no limit. Triangles, cells and samples share one allowance:
+ *  using 30 % of one leaves 70 % of the others. So the work on cuts takes no longer than the costliest of the three
+ *  limits alone. A single step that exceeds the whole limit is not split. It runs alone in its tick. Work that does not
+ *  fit goes on in the next tick. Until a cut takes effect its lips move together. All points of a sheet that are
+ *  pending when work on them begins take effect together, whatever ticks they were given before. So the tick in which a
+ *  cut takes effect depends on the budget, too. Its result does not: when all work is done, mesh, grid, regions,
+ *  weights and sites of frames equal, bit for bit, a run of the same calls without a budget. Motion differs. Sheets
+ *  take turns. In every other tick the sheet whose points came first is served first, in the ticks between the sheet
+ *  whose work has used least. Pieces that wait to be detached get half of every other tick. An example at 60 Hz, with 2
+ *  ms of work on cuts a tick (about 32 000 cells and 4000 samples): a cut from side to side of 64 x 64 squares with 9
+ *  frames parts 17 to 100 ms after the blade has left, one of 127 x 127 squares with 24 frames 67 to 200 ms. A slow
+ *  blade parts sooner, for its work is done on the way. tests/bench_swipe.c prints the table. */
 export class Budget {
     /** split by blades; 0, or KIRI_LEAST_TRIANGLES and more */
     triangles: number;
@@ -511,8 +512,9 @@ export interface PaperOptionsGiven {
 export class SheetDef {
     cookie: number;
     /** The rest shape: triangles in the rest plane, counter-clockwise, at most two at an edge. Holes and several parts
-     *  are fine. Copied by kiriCreateSheet. Edges whose ends lie at the same places, but are different vertices, are
-     *  the lips of a cut that is there already. 2 floats (u, v) a vertex */
+     *  are fine. Copied by kiriCreateSheet; vertices of no triangle are left out. Edges whose ends lie at the same
+     *  places, but are different vertices, are the lips of a cut that is there already; weldDistance closes them. 2
+     *  floats (u, v) a vertex */
     restPositions: Float32Array;
     vertexCount: number;
     /** 3 a triangle */
@@ -529,13 +531,20 @@ export class SheetDef {
     gridResolution: number;
     /** m: a blade this near to a vertex or an edge takes it; 0: 1e-4 of the longer side */
     snapDistance: number;
+    /** Vertices nearer than this (m, rest plane; 0 or more) are one: for seams of texture coordinates, and triangles
+     *  without shared vertices (STL). In the order of vertices, each becomes the nearest vertex that was kept before
+     *  and is nearer than this; else it is kept. So none moves farther, and a chain of near vertices is not one point.
+     *  A triangle with two corners at one vertex is left out. Sheet.copySources leads to the vertices of the def.
+     *  Default 0: vertices are as the indices say. */
+    weldDistance: number;
     /** Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at least; null: frameCount
      *  frames are spread evenly, some of them in pairs at both sides of slit ends. The grid carries one frame for every
-     *  two squares of material at most: more are refused (KIRI_ERROR_ARGUMENT), and re-sampling stops there. frameCount
-     *  0: as many as the sheet needs: a region is split while its size, 2.45 times its radius of gyration, exceeds 1.25
-     *  frameLength, after cuts too: so arms that a cut leaves get frames along them. frameLength 0: it follows from
-     *  `accuracy`, the relative error of the shape under the sheet's own weight that is good enough, but is three
-     *  squares of the grid at least. Sheet.estimateError says what came of it. 0, or 1 and more; default 5 */
+     *  two squares of material at most: more are refused (KIRI_ERROR_ARGUMENT), and re-sampling stops there. A new
+     *  sheet has no more frames than frameCount, or than pieces where these are more. frameCount 0: as many as the
+     *  sheet needs: a region is split while its size, 2.45 times its radius of gyration, exceeds 1.25 frameLength,
+     *  after cuts too: so arms that a cut leaves get frames along them. frameLength 0: it follows from `accuracy`, the
+     *  relative error of the shape under the sheet's own weight that is good enough, but is three squares of the grid
+     *  at least. Sheet.estimateError says what came of it. 0, or 1 and more; default 5 */
     frameCount: number;
     /** m; used where frameCount is 0; default 0 */
     frameLength: number;
@@ -544,9 +553,11 @@ export class SheetDef {
     framePoints: Float32Array | null;
     /** re-sampling stops here; default 256 */
     maxFrames: number;
-    /** Where the weight of one frame exceeds rigidWeight over an area larger than rigidArea (m^2), frames are added
-     *  (section 5 of the paper), also at once: a sheet that is to stay rigid sets frameCount and maxFrames to 1.
-     *  rigidArea 0: a quarter of the area that a frame has at the start. default 0.95 */
+    /** Re-sampling (section 5 of the paper): a frame whose weight exceeds rigidWeight over an area larger than
+     *  rigidArea (m^2) gets others beside it. In a new sheet this is done only with frameCount 0. After cuts it is done
+     *  where the area is also larger than in the new sheet: when a cut ends, or has met the border or another cut. A
+     *  sheet that is to stay rigid sets frameCount and maxFrames to 1. rigidArea 0: a quarter of the area that a frame
+     *  has at the start. default 0.95 */
     rigidWeight: number;
     /** default 0 */
     rigidArea: number;
@@ -606,8 +617,9 @@ export class SheetDef {
 export interface SheetDefGiven {
     cookie?: number;
     /** The rest shape: triangles in the rest plane, counter-clockwise, at most two at an edge. Holes and several parts
-     *  are fine. Copied by kiriCreateSheet. Edges whose ends lie at the same places, but are different vertices, are
-     *  the lips of a cut that is there already. 2 floats (u, v) a vertex */
+     *  are fine. Copied by kiriCreateSheet; vertices of no triangle are left out. Edges whose ends lie at the same
+     *  places, but are different vertices, are the lips of a cut that is there already; weldDistance closes them. 2
+     *  floats (u, v) a vertex */
     restPositions?: ArrayLike<number> | null;
     /** 3 a triangle */
     indices?: ArrayLike<number> | null;
@@ -622,13 +634,20 @@ export interface SheetDefGiven {
     gridResolution?: number;
     /** m: a blade this near to a vertex or an edge takes it; 0: 1e-4 of the longer side */
     snapDistance?: number;
+    /** Vertices nearer than this (m, rest plane; 0 or more) are one: for seams of texture coordinates, and triangles
+     *  without shared vertices (STL). In the order of vertices, each becomes the nearest vertex that was kept before
+     *  and is nearer than this; else it is kept. So none moves farther, and a chain of near vertices is not one point.
+     *  A triangle with two corners at one vertex is left out. Sheet.copySources leads to the vertices of the def.
+     *  Default 0: vertices are as the indices say. */
+    weldDistance?: number;
     /** Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at least; null: frameCount
      *  frames are spread evenly, some of them in pairs at both sides of slit ends. The grid carries one frame for every
-     *  two squares of material at most: more are refused (KIRI_ERROR_ARGUMENT), and re-sampling stops there. frameCount
-     *  0: as many as the sheet needs: a region is split while its size, 2.45 times its radius of gyration, exceeds 1.25
-     *  frameLength, after cuts too: so arms that a cut leaves get frames along them. frameLength 0: it follows from
-     *  `accuracy`, the relative error of the shape under the sheet's own weight that is good enough, but is three
-     *  squares of the grid at least. Sheet.estimateError says what came of it. 0, or 1 and more; default 5 */
+     *  two squares of material at most: more are refused (KIRI_ERROR_ARGUMENT), and re-sampling stops there. A new
+     *  sheet has no more frames than frameCount, or than pieces where these are more. frameCount 0: as many as the
+     *  sheet needs: a region is split while its size, 2.45 times its radius of gyration, exceeds 1.25 frameLength,
+     *  after cuts too: so arms that a cut leaves get frames along them. frameLength 0: it follows from `accuracy`, the
+     *  relative error of the shape under the sheet's own weight that is good enough, but is three squares of the grid
+     *  at least. Sheet.estimateError says what came of it. 0, or 1 and more; default 5 */
     frameCount?: number;
     /** m; used where frameCount is 0; default 0 */
     frameLength?: number;
@@ -637,9 +656,11 @@ export interface SheetDefGiven {
     framePoints?: ArrayLike<number> | null;
     /** re-sampling stops here; default 256 */
     maxFrames?: number;
-    /** Where the weight of one frame exceeds rigidWeight over an area larger than rigidArea (m^2), frames are added
-     *  (section 5 of the paper), also at once: a sheet that is to stay rigid sets frameCount and maxFrames to 1.
-     *  rigidArea 0: a quarter of the area that a frame has at the start. default 0.95 */
+    /** Re-sampling (section 5 of the paper): a frame whose weight exceeds rigidWeight over an area larger than
+     *  rigidArea (m^2) gets others beside it. In a new sheet this is done only with frameCount 0. After cuts it is done
+     *  where the area is also larger than in the new sheet: when a cut ends, or has met the border or another cut. A
+     *  sheet that is to stay rigid sets frameCount and maxFrames to 1. rigidArea 0: a quarter of the area that a frame
+     *  has at the start. default 0.95 */
     rigidWeight?: number;
     /** default 0 */
     rigidArea?: number;
@@ -1213,6 +1234,10 @@ export function getVersion(): number;
 /** The name of a result, "KIRI_OK" and so on; "unknown" for another number. */
 export function getResultName(result: ResultCode): string;
 
+/** One line: the meaning of a result, and its cure. For calls without a world that keeps a line, such as
+ *  kiriCreateWorld with a def of zeros (KIRI_ERROR_DEF). */
+export function getResultText(result: ResultCode): string;
+
 /** For hosts that would rather think in time than in items: the budget whose work would have taken so many microseconds
  *  a tick at the pace of the profile, which may be the sum of several. Work on cuts and linear systems share the time
  *  as they did in the profile, and each of triangles, cells and samples gets what the three took together, see
@@ -1243,7 +1268,7 @@ export class World {
     /** One fixed step of dt seconds (1e-6 to 10), solved in `substeps` equal parts (1 to 64). Takes the waiting cut
      *  points, then moves every sheet. KIRI_PENDING: the budget is spent and more work waits: the events say which
      *  cuts; a sheet, or some of its pieces, may also have stood still for want of iterations. KIRI_ERROR_MEMORY:
-     *  nothing moved and cuts still wait, call again. What the refused work had prepared is made again: until then
+     *  nothing moved; cuts and pieces still wait, call again. Refused work is prepared again: until then
      *  Sheet.getWeights gives KIRI_ERROR_STATE, and with a budget a cut may take effect some ticks later than it would
      *  have. KIRI_ERROR_LIMIT: the same, and it stays so until frames are destroyed. KIRI_DIVERGED: the sheets named by
      *  the events were put to rest, the others moved. Work may wait then, too, as KIRI_EVENT_DEFERRED says. */
@@ -1254,6 +1279,12 @@ export class World {
     getLastError(): string;
     /** m/s^2. All pieces wake. */
     setGravity(gravity: ArrayLike<number>): ResultCode;
+    /** Moves the origin of the world to a point (m): subtracts it from the positions of sheets, targets of pins and
+     *  holds, obstacles, blades, and contacts that wait. The motion goes on as before, to rounding. Nothing wakes; (0,
+     *  0, 0) changes nothing. Use it in large worlds: far from the origin floats lose places. The host shifts its own
+     *  data itself. Arrays that the library handed out keep the old positions until the next tick. KIRI_ERROR_ARGUMENT:
+     *  a position would not fit a float. KIRI_ERROR_MEMORY: nothing has changed. */
+    shiftOrigin(origin: ArrayLike<number>): ResultCode;
     /** Takes effect with the next tick. */
     setBudget(budget: BudgetGiven): ResultCode;
     /** A hash of everything that the coming ticks depend on, work that waits for its budget included: two worlds that
@@ -1309,8 +1340,8 @@ export class World {
     getEvents(): Rows<Event>;
     /** Of the last tick that was not refused. */
     getProfile(into?: Profile): Profile;
-    /** Adds a sheet. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles are no sheet; the line says which one and
-     *  why. */
+    /** Adds a sheet. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles do not form a sheet. The line names a
+     *  triangle, or the two triangles at an edge, by their numbers in the def, and says why. */
     createSheet(def: SheetDefGiven): Sheet;
     /** A sheet that is a rectangle from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles;
      *  columns and rows are 1 to 4096. def: all but the mesh, which is not read; null: the defaults. A recording has it
@@ -1354,9 +1385,24 @@ export class Sheet {
     /** Copies positions and normals of some vertices, 3 floats each, to where the host wants them; strides in bytes, 12
      *  or more. Null: without these. KIRI_ERROR_STATE: normals of a sheet that makes none. */
     copyVertices(first: number, count: number, positions?: Float32Array | null, positionStride?: number, normals?: Float32Array | null, normalStride?: number): ResultCode;
+    /** Copies the index that some vertices had when the last call of World.tick began, for hosts that draw between two
+     *  ticks. *from: the sheet that had them then, which is another one if this sheet was a piece of it. A vertex that
+     *  a cut tore off another one gets the index of the other. -1: the vertex did not exist; so all vertices of a sheet
+     *  that was created or loaded since. The manual has the code (drawing). */
+    copyPrevious(first: number, count: number): { vertices: Int32Array, from: Sheet };
     /** Copies the indices of some triangles, 3 each, as 16-bit numbers. KIRI_ERROR_STATE: there are more than 65535
      *  vertices. */
     copyIndices16(firstTriangle: number, count: number): Uint16Array;
+    /** Map triangles to the def, to draw with data that the host keeps by its own vertices. Sources: the triangle of
+     *  the def that contains each; -1 for one that has left (its corners are equal). Weights: 9 floats each, the
+     *  barycentric coordinates of its three corners in that triangle. They are right on both sides of a seam that
+     *  weldDistance has closed; sourceTriangles name a triangle on one side. The manual has the code (meshes). */
+    copySources(firstTriangle: number, count: number): Int32Array;
+    /** Map triangles to the def, to draw with data that the host keeps by its own vertices. Sources: the triangle of
+     *  the def that contains each; -1 for one that has left (its corners are equal). Weights: 9 floats each, the
+     *  barycentric coordinates of its three corners in that triangle. They are right on both sides of a seam that
+     *  weldDistance has closed; sourceTriangles name a triangle on one side. The manual has the code (meshes). */
+    copySourceWeights(firstTriangle: number, count: number): Float32Array;
     /** thickness: m, 0: that of the material. Made when it is asked for. */
     getSolid(thickness: number, into?: Solid): Solid;
     /** Collision points: 3 floats of position (m, world) a point. */
@@ -1381,9 +1427,11 @@ export class Sheet {
      *  all of them. */
     wake(): ResultCode;
     /** Every point x (m, world) of the sheet goes to R x + t at once, and is seen there; velocities turn. The columns
-     *  of `rotation` are where R takes the axes of the world; a planar sheet turns about its normal only. Targets of
-     *  pins, holds, loads and contacts stay where they are: destroy or move them first, or the sheet is drawn back. It
-     *  wakes. */
+     *  of `rotation` are where R takes the axes of the world; a planar sheet turns about its normal only. It wakes.
+     *  Targets of its pins, hinges, clamps and holds go along, so nothing draws it back. To set a target to its current
+     *  value changes nothing. A target that the host has set nearer to the new place of the pin than to the old one
+     *  stays: so the host may set targets before or after. Pins on an obstacle stay on it: put the obstacle elsewhere
+     *  by the same motion (Obstacle.setPose), before or after. Loads and contacts that wait for the next tick stay. */
     transform(rotation: ArrayLike<number>, translation: ArrayLike<number>): ResultCode;
     /** From now on it moves as a rigid body, until forces change that: `velocity` (m/s) of its centre of mass, and
      *  `angularVelocity` (rad/s) about it. What a planar sheet has across its plane is dropped; held frames follow
@@ -1489,7 +1537,7 @@ export class Cut {
     /** restPoints: 2 floats a point; count is 1 to 2^24. */
     extend(restPoints: ArrayLike<number>): ResultCode;
     /** No more points come. After the tick in which the last of them takes effect the id is stale, and
-     *  KIRI_EVENT_CUT_FINISHED tells. */
+     *  KIRI_EVENT_CUT_FINISHED tells. Frames that the sheet needs after the cut are added then. */
     end(): ResultCode;
 }
 
@@ -1524,12 +1572,13 @@ export class Frame {
      *  grid around it, at about 40 bytes a square: crumbs are better dropped. Costs what the piece takes to make, and a
      *  look at the weights of what is left; where indices change more. KIRI_PENDING: work on a cut is at hand in the
      *  sheet, or it takes more samples than the budget leaves calls before the next tick; *detached is 0. When the work
-     *  is done, what is the piece of this frame then becomes a sheet, and KIRI_EVENT_PIECE_DETACHED names it. About 1.5
-     *  samples for each vertex of the piece, 0.7 for each cell, and one for 80 vertices of the rest are paid before,
-     *  over several ticks if need be, of many pieces one after the other; until then further cuts of the sheet wait. A
-     *  piece that is worth more than the samples of a tick is made as they are paid, and leaves when it is made: in one
-     *  tick all the same, which takes an eighth of the work. What a call does at once the coming ticks have less.
-     *  KIRI_ERROR_STATE: nothing would be left of the sheet. */
+     *  is done, what is the piece of this frame then becomes a sheet, and KIRI_EVENT_PIECE_DETACHED names it. Samples
+     *  pay for it before, over several ticks if need be, of many pieces one after the other: of the first that waits 3
+     *  for each vertex, 2.5 to 9 for each cell (the more frames, the more) and 100 for each frame, of others 3 for each
+     *  vertex and 1.4 for each cell; and one for 80 vertices of the rest. Until then further cuts of the sheet wait.
+     *  The first piece is made as it is paid, and leaves at the start of the tick after the last sample is paid. That
+     *  tick does an eighth of the work; the first tick after a load makes the parts again that saves leave out. The
+     *  coming ticks have fewer samples for the work of calls. KIRI_ERROR_STATE: nothing would be left of the sheet. */
     detachPiece(): Sheet | null;
     /** The same without keeping the piece: ids of its frames and pins are stale. Costs as much, but for making a sheet:
      *  that is done at once, and the coming ticks have less. Where Sheet.getMesh has been called since the last tick,
@@ -1566,9 +1615,9 @@ export class Pin {
      *  parts of a piece that is cut have that of the piece, as does a sheet that is made of it. */
     getUserData(): bigint;
     /** Where the pin holds its point, or the middle of its line (m, world): at the end of the next tick, and until the
-     *  next call. Within the tick it goes there evenly. With KIRI_SKINNING_SMOOTH what pins and clamps hold is what is
-     *  seen there; of a clamp the mean along its line, for each piece: single points of the line are seen a little off
-     *  it. */
+     *  next call. Within the tick it goes there evenly. The current target of Pin.getState changes nothing. With
+     *  KIRI_SKINNING_SMOOTH what pins and clamps hold is what is seen there; of a clamp the mean along its line, for
+     *  each piece: single points of the line are seen a little off it. */
     setTarget(target: ArrayLike<number>): ResultCode;
     /** The same with the rotation of the line's material: columns are the directions of u and v and the normal. On a
      *  planar sheet it is about the sheet's normal. KIRI_ERROR_ARGUMENT for a pin that holds a point. */

@@ -8,7 +8,7 @@ import {
 export { KiriError, Rows, View, load, wasm };
 
 /** Of the header that this file is made from. */
-export const VERSION = "0.11.3";
+export const VERSION = "0.12.0";
 
 export const ResultCode = enumeration({ Ok: 0, Pending: 1, ErrorArgument: -1, ErrorDef: -2, ErrorId: -3, ErrorMesh:
     -4, ErrorState: -5, ErrorMemory: -6, Diverged: -7, ErrorLimit: -8, ErrorBuild: -9, ErrorData: -10, ErrorReplay:
@@ -54,12 +54,12 @@ export const layouts = {
     kiriQuality: { size: 16, fields: { framesAlong: 0, gridResolution: 4, iterations: 8, substeps: 12 } },
     kiriPaperOptions: { size: 20, fields: { fromScratch: 0, popping: 4, linearWeights: 8, integrationPoints: 12,
         integrationOrder: 16 } },
-    kiriSheetDef: { size: 204, fields: { cookie: 0, restPositions: 4, vertexCount: 8, indices: 12, triangleCount: 16,
+    kiriSheetDef: { size: 208, fields: { cookie: 0, restPositions: 4, vertexCount: 8, indices: 12, triangleCount: 16,
         position: 20, axisU: 32, axisV: 44, velocity: 56, material: 68, gridResolution: 92, snapDistance: 96,
-        frameCount: 100, frameLength: 104, accuracy: 108, framePoints: 112, maxFrames: 116, rigidWeight: 120,
-        rigidArea: 124, crumbArea: 128, friction: 132, contactThickness: 136, groups: 140, touchesSheets: 144,
-        collisionPoints: 148, iterations: 152, sleepSpeed: 156, model: 160, skinning: 164, planar: 168, timeStepping:
-        172, fadeTime: 176, normals: 180, paper: 184 } },
+        weldDistance: 100, frameCount: 104, frameLength: 108, accuracy: 112, framePoints: 116, maxFrames: 120,
+        rigidWeight: 124, rigidArea: 128, crumbArea: 132, friction: 136, contactThickness: 140, groups: 144,
+        touchesSheets: 148, collisionPoints: 152, iterations: 156, sleepSpeed: 160, model: 164, skinning: 168, planar:
+        172, timeStepping: 176, fadeTime: 180, normals: 184, paper: 188 } },
     kiriSheetSettings: { size: 76, fields: { cookie: 0, material: 4, maxFrames: 28, crumbArea: 32, friction: 36,
         contactThickness: 40, groups: 44, touchesSheets: 48, iterations: 52, sleepSpeed: 56, skinning: 60,
         timeStepping: 64, fadeTime: 68, normals: 72 } },
@@ -440,6 +440,7 @@ export class SheetDef {
     material = new Material();
     gridResolution = 0;
     snapDistance = 0;
+    weldDistance = 0;
     frameCount = 0;
     frameLength = 0;
     accuracy = 0;
@@ -477,36 +478,37 @@ function readSheetDef(o, at, world) {
     readMaterial(o.material, at + 68, world);
     o.gridResolution = I32[(at + 92) >> 2];
     o.snapDistance = F32[(at + 96) >> 2];
-    o.frameCount = I32[(at + 100) >> 2];
-    o.frameLength = F32[(at + 104) >> 2];
-    o.accuracy = F32[(at + 108) >> 2];
+    o.weldDistance = F32[(at + 100) >> 2];
+    o.frameCount = I32[(at + 104) >> 2];
+    o.frameLength = F32[(at + 108) >> 2];
+    o.accuracy = F32[(at + 112) >> 2];
     o.framePoints = null;
-    o.maxFrames = I32[(at + 116) >> 2];
-    o.rigidWeight = F32[(at + 120) >> 2];
-    o.rigidArea = F32[(at + 124) >> 2];
-    o.crumbArea = F32[(at + 128) >> 2];
-    o.friction = F32[(at + 132) >> 2];
-    o.contactThickness = F32[(at + 136) >> 2];
-    o.groups = U32[(at + 140) >> 2];
-    o.touchesSheets = I32[(at + 144) >> 2] !== 0;
-    o.collisionPoints = I32[(at + 148) >> 2];
-    o.iterations = I32[(at + 152) >> 2];
-    o.sleepSpeed = F32[(at + 156) >> 2];
-    o.model = I32[(at + 160) >> 2];
-    o.skinning = I32[(at + 164) >> 2];
-    o.planar = I32[(at + 168) >> 2] !== 0;
-    o.timeStepping = I32[(at + 172) >> 2];
-    o.fadeTime = F32[(at + 176) >> 2];
-    o.normals = I32[(at + 180) >> 2] !== 0;
-    readPaperOptions(o.paper, at + 184, world);
+    o.maxFrames = I32[(at + 120) >> 2];
+    o.rigidWeight = F32[(at + 124) >> 2];
+    o.rigidArea = F32[(at + 128) >> 2];
+    o.crumbArea = F32[(at + 132) >> 2];
+    o.friction = F32[(at + 136) >> 2];
+    o.contactThickness = F32[(at + 140) >> 2];
+    o.groups = U32[(at + 144) >> 2];
+    o.touchesSheets = I32[(at + 148) >> 2] !== 0;
+    o.collisionPoints = I32[(at + 152) >> 2];
+    o.iterations = I32[(at + 156) >> 2];
+    o.sleepSpeed = F32[(at + 160) >> 2];
+    o.model = I32[(at + 164) >> 2];
+    o.skinning = I32[(at + 168) >> 2];
+    o.planar = I32[(at + 172) >> 2] !== 0;
+    o.timeStepping = I32[(at + 176) >> 2];
+    o.fadeTime = F32[(at + 180) >> 2];
+    o.normals = I32[(at + 184) >> 2] !== 0;
+    readPaperOptions(o.paper, at + 188, world);
     return o;
 }
 
 const fieldsOfSheetDef = new Set(["cookie", "restPositions", "vertexCount", "indices", "triangleCount", "position",
-    "axisU", "axisV", "velocity", "material", "gridResolution", "snapDistance", "frameCount", "frameLength",
-    "accuracy", "framePoints", "maxFrames", "rigidWeight", "rigidArea", "crumbArea", "friction", "contactThickness",
-    "groups", "touchesSheets", "collisionPoints", "iterations", "sleepSpeed", "model", "skinning", "planar",
-    "timeStepping", "fadeTime", "normals", "paper"]);
+    "axisU", "axisV", "velocity", "material", "gridResolution", "snapDistance", "weldDistance", "frameCount",
+    "frameLength", "accuracy", "framePoints", "maxFrames", "rigidWeight", "rigidArea", "crumbArea", "friction",
+    "contactThickness", "groups", "touchesSheets", "collisionPoints", "iterations", "sleepSpeed", "model", "skinning",
+    "planar", "timeStepping", "fadeTime", "normals", "paper"]);
 
 function writeSheetDef(o, at, world) {
     known(o, fieldsOfSheetDef, "SheetDef");
@@ -542,72 +544,75 @@ function writeSheetDef(o, at, world) {
     if (o.snapDistance !== undefined) {
         F32[(at + 96) >> 2] = o.snapDistance;
     }
+    if (o.weldDistance !== undefined) {
+        F32[(at + 100) >> 2] = o.weldDistance;
+    }
     if (o.frameCount !== undefined) {
-        I32[(at + 100) >> 2] = o.frameCount;
+        I32[(at + 104) >> 2] = o.frameCount;
     }
     if (o.frameLength !== undefined) {
-        F32[(at + 104) >> 2] = o.frameLength;
+        F32[(at + 108) >> 2] = o.frameLength;
     }
     if (o.accuracy !== undefined) {
-        F32[(at + 108) >> 2] = o.accuracy;
+        F32[(at + 112) >> 2] = o.accuracy;
     }
     if (o.framePoints != null) {
-        U32[(at + 112) >> 2] = putRows("Float32Array", o.framePoints, 2, "framePoints");
-        I32[(at + 100) >> 2] = o.framePoints.length / 2;
+        U32[(at + 116) >> 2] = putRows("Float32Array", o.framePoints, 2, "framePoints");
+        I32[(at + 104) >> 2] = o.framePoints.length / 2;
     }
     if (o.maxFrames !== undefined) {
-        I32[(at + 116) >> 2] = o.maxFrames;
+        I32[(at + 120) >> 2] = o.maxFrames;
     }
     if (o.rigidWeight !== undefined) {
-        F32[(at + 120) >> 2] = o.rigidWeight;
+        F32[(at + 124) >> 2] = o.rigidWeight;
     }
     if (o.rigidArea !== undefined) {
-        F32[(at + 124) >> 2] = o.rigidArea;
+        F32[(at + 128) >> 2] = o.rigidArea;
     }
     if (o.crumbArea !== undefined) {
-        F32[(at + 128) >> 2] = o.crumbArea;
+        F32[(at + 132) >> 2] = o.crumbArea;
     }
     if (o.friction !== undefined) {
-        F32[(at + 132) >> 2] = o.friction;
+        F32[(at + 136) >> 2] = o.friction;
     }
     if (o.contactThickness !== undefined) {
-        F32[(at + 136) >> 2] = o.contactThickness;
+        F32[(at + 140) >> 2] = o.contactThickness;
     }
     if (o.groups !== undefined) {
-        U32[(at + 140) >> 2] = o.groups;
+        U32[(at + 144) >> 2] = o.groups;
     }
     if (o.touchesSheets !== undefined) {
-        I32[(at + 144) >> 2] = o.touchesSheets;
+        I32[(at + 148) >> 2] = o.touchesSheets;
     }
     if (o.collisionPoints !== undefined) {
-        I32[(at + 148) >> 2] = o.collisionPoints;
+        I32[(at + 152) >> 2] = o.collisionPoints;
     }
     if (o.iterations !== undefined) {
-        I32[(at + 152) >> 2] = o.iterations;
+        I32[(at + 156) >> 2] = o.iterations;
     }
     if (o.sleepSpeed !== undefined) {
-        F32[(at + 156) >> 2] = o.sleepSpeed;
+        F32[(at + 160) >> 2] = o.sleepSpeed;
     }
     if (o.model !== undefined) {
-        I32[(at + 160) >> 2] = o.model;
+        I32[(at + 164) >> 2] = o.model;
     }
     if (o.skinning !== undefined) {
-        I32[(at + 164) >> 2] = o.skinning;
+        I32[(at + 168) >> 2] = o.skinning;
     }
     if (o.planar !== undefined) {
-        I32[(at + 168) >> 2] = o.planar;
+        I32[(at + 172) >> 2] = o.planar;
     }
     if (o.timeStepping !== undefined) {
-        I32[(at + 172) >> 2] = o.timeStepping;
+        I32[(at + 176) >> 2] = o.timeStepping;
     }
     if (o.fadeTime !== undefined) {
-        F32[(at + 176) >> 2] = o.fadeTime;
+        F32[(at + 180) >> 2] = o.fadeTime;
     }
     if (o.normals !== undefined) {
-        I32[(at + 180) >> 2] = o.normals;
+        I32[(at + 184) >> 2] = o.normals;
     }
     if (o.paper !== undefined) {
-        writePaperOptions(o.paper, at + 184, world);
+        writePaperOptions(o.paper, at + 188, world);
     }
 }
 
@@ -1305,6 +1310,10 @@ export function getResultName(result) {
     return string(wasm.kiriGetResultName(result));
 }
 
+export function getResultText(result) {
+    return string(wasm.kiriGetResultText(result));
+}
+
 export function fitBudget(profile, microseconds, budget) {
     U8.fill(0, scratch, scratch + 144);
     writeProfile(profile, scratch, null);
@@ -1395,6 +1404,15 @@ export class World extends WorldBase {
         const $result = wasm.kiriWorld_SetGravity($world, put("Float32Array", scratch, gravity, 3, "gravity"));
         if ($result < 0) {
             fail(this, $result, "kiriWorld_SetGravity");
+        }
+        return $result;
+    }
+
+    shiftOrigin(origin) {
+        const $world = pointer(this);
+        const $result = wasm.kiriWorld_ShiftOrigin($world, put("Float32Array", scratch, origin, 3, "origin"));
+        if ($result < 0) {
+            fail(this, $result, "kiriWorld_ShiftOrigin");
         }
         return $result;
     }
@@ -1756,6 +1774,20 @@ export class Sheet extends Thing {
         }
     }
 
+    copyPrevious(first, count) {
+        const $world = pointer(this.world);
+        try {
+            const $vertices = take(4 * count);
+            const $result = wasm.kiriSheet_CopyPrevious($world, this.id, first, count, $vertices, scratch);
+            if ($result < 0) {
+                fail(this.world, $result, "kiriSheet_CopyPrevious");
+            }
+            return { vertices: copy("Int32Array", $vertices, count), from: thing(Sheet, this.world, U32[(scratch) >> 2]) };
+        } finally {
+            release();
+        }
+    }
+
     copyIndices16(firstTriangle, count) {
         const $world = pointer(this.world);
         try {
@@ -1765,6 +1797,34 @@ export class Sheet extends Thing {
                 fail(this.world, $result, "kiriSheet_CopyIndices16");
             }
             return copy("Uint16Array", $indices, 3 * count);
+        } finally {
+            release();
+        }
+    }
+
+    copySources(firstTriangle, count) {
+        const $world = pointer(this.world);
+        try {
+            const $sources = take(4 * count);
+            const $result = wasm.kiriSheet_CopySources($world, this.id, firstTriangle, count, $sources);
+            if ($result < 0) {
+                fail(this.world, $result, "kiriSheet_CopySources");
+            }
+            return copy("Int32Array", $sources, count);
+        } finally {
+            release();
+        }
+    }
+
+    copySourceWeights(firstTriangle, count) {
+        const $world = pointer(this.world);
+        try {
+            const $weights = take(4 * 9 * count);
+            const $result = wasm.kiriSheet_CopySourceWeights($world, this.id, firstTriangle, count, $weights);
+            if ($result < 0) {
+                fail(this.world, $result, "kiriSheet_CopySourceWeights");
+            }
+            return copy("Float32Array", $weights, 9 * count);
         } finally {
             release();
         }

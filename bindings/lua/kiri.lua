@@ -1,4 +1,4 @@
---- Kiri 0.11.3 for LuaJIT: cuts thin sheets while they move. This one file and the shared library are all of it.
+--- Kiri 0.12.0 for LuaJIT: cuts thin sheets while they move. This one file and the shared library are all of it.
 ---
 ---     local kiri = require "kiri"
 ---     local world = kiri.World()
@@ -79,7 +79,7 @@ struct kiriProfile { double seconds[9]; int32_t cutSegments; int32_t trianglesSp
 struct kiriMaterial { float youngsModulus; float poissonsRatio; float thickness; float density; float airDamping; float flexDamping; };
 struct kiriQuality { int32_t framesAlong; int32_t gridResolution; int32_t iterations; int32_t substeps; };
 struct kiriPaperOptions { int32_t fromScratch; int32_t popping; int32_t linearWeights; int32_t integrationPoints; int32_t integrationOrder; };
-struct kiriSheetDef { uint32_t cookie; const float* restPositions; int32_t vertexCount; const int32_t* indices; int32_t triangleCount; float position[3]; float axisU[3]; float axisV[3]; float velocity[3]; kiriMaterial material; int32_t gridResolution; float snapDistance; int32_t frameCount; float frameLength; float accuracy; const float* framePoints; int32_t maxFrames; float rigidWeight; float rigidArea; float crumbArea; float friction; float contactThickness; uint32_t groups; int32_t touchesSheets; int32_t collisionPoints; int32_t iterations; float sleepSpeed; int32_t model; int32_t skinning; int32_t planar; int32_t timeStepping; float fadeTime; int32_t normals; kiriPaperOptions paper; };
+struct kiriSheetDef { uint32_t cookie; const float* restPositions; int32_t vertexCount; const int32_t* indices; int32_t triangleCount; float position[3]; float axisU[3]; float axisV[3]; float velocity[3]; kiriMaterial material; int32_t gridResolution; float snapDistance; float weldDistance; int32_t frameCount; float frameLength; float accuracy; const float* framePoints; int32_t maxFrames; float rigidWeight; float rigidArea; float crumbArea; float friction; float contactThickness; uint32_t groups; int32_t touchesSheets; int32_t collisionPoints; int32_t iterations; float sleepSpeed; int32_t model; int32_t skinning; int32_t planar; int32_t timeStepping; float fadeTime; int32_t normals; kiriPaperOptions paper; };
 struct kiriSheetSettings { uint32_t cookie; kiriMaterial material; int32_t maxFrames; float crumbArea; float friction; float contactThickness; uint32_t groups; int32_t touchesSheets; int32_t iterations; float sleepSpeed; int32_t skinning; int32_t timeStepping; float fadeTime; int32_t normals; };
 struct kiriMesh { const float* positions; const float* normals; const float* restPositions; const int32_t* indices; const int32_t* sourceTriangles; const float* sourceWeights; int32_t vertexCount; int32_t triangleCount; uint32_t revision; };
 struct kiriRange { int32_t first; int32_t count; };
@@ -103,12 +103,14 @@ struct kiriDrawVertex { float position[3]; uint32_t color; };
 struct kiriDebugDraw { uint32_t cookie; uint32_t flags; kiriSheet sheet; float size; kiriDrawFn* points; kiriDrawFn* lines; kiriDrawFn* triangles; void* user; };
 int32_t kiriGetVersion(void);
 const char* kiriGetResultName(kiriResult result);
+const char* kiriGetResultText(kiriResult result);
 void kiriDefaultWorldDef(kiriWorldDef* def);
 kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world);
 void kiriDestroyWorld(kiriWorld* world);
 kiriResult kiriWorld_Tick(kiriWorld* world, float dt, int32_t substeps);
 const char* kiriWorld_GetLastError(const kiriWorld* world);
 kiriResult kiriWorld_SetGravity(kiriWorld* world, const float gravity[3]);
+kiriResult kiriWorld_ShiftOrigin(kiriWorld* world, const float origin[3]);
 kiriResult kiriWorld_SetBudget(kiriWorld* world, const kiriBudget* budget);
 kiriResult kiriWorld_GetStateHash(const kiriWorld* world, uint64_t* hash);
 kiriResult kiriWorld_GetSheets(const kiriWorld* world, kiriSheet* sheets, int32_t capacity, int32_t* count);
@@ -135,7 +137,10 @@ kiriResult kiriFillRectangle(float width, float height, int32_t columns, int32_t
 kiriResult kiriSheet_GetMesh(const kiriWorld* world, kiriSheet sheet, kiriMesh* mesh);
 kiriResult kiriSheet_GetDirty(const kiriWorld* world, kiriSheet sheet, uint32_t sinceRevision, kiriDirty* dirty);
 kiriResult kiriSheet_CopyVertices(const kiriWorld* world, kiriSheet sheet, int32_t first, int32_t count, void* positions, int32_t positionStride, void* normals, int32_t normalStride);
+kiriResult kiriSheet_CopyPrevious(const kiriWorld* world, kiriSheet sheet, int32_t first, int32_t count, int32_t* vertices, kiriSheet* from);
 kiriResult kiriSheet_CopyIndices16(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle, int32_t count, uint16_t* indices);
+kiriResult kiriSheet_CopySources(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle, int32_t count, int32_t* sources);
+kiriResult kiriSheet_CopySourceWeights(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle, int32_t count, float* weights);
 kiriResult kiriSheet_GetSolid(kiriWorld* world, kiriSheet sheet, float thickness, kiriSolid* solid);
 kiriResult kiriSheet_GetCollisionPoints(const kiriWorld* world, kiriSheet sheet, const float** positions, int32_t* count);
 kiriResult kiriSheet_GetCounts(const kiriWorld* world, kiriSheet sheet, kiriCounts* counts);
@@ -209,7 +214,7 @@ void kiriDefaultDebugDraw(kiriDebugDraw* draw);
 kiriResult kiriWorld_DebugDraw(const kiriWorld* world, const kiriDebugDraw* draw);
 ]]
 
-local kiri = {VERSION = "0.11.3"}
+local kiri = {VERSION = "0.12.0"}
 
 kiri.OK = 0
 kiri.PENDING = 1
@@ -367,7 +372,8 @@ local function fail(world, name, result, changes)
     end
     local named = ffi.string(C.kiriGetResultName(result))
     error(setmetatable({result = result, name = named, line = line, call = name, message =
-        ("%s%s: %s%s"):format(place, name, named, line ~= "" and ": " .. line or "")}, Error), level)
+        ("%s%s: %s: %s"):format(place, name, named, line ~= "" and line or ffi.string(C.kiriGetResultText(result)))},
+        Error), level)
 end
 
 local function stale()
@@ -612,7 +618,7 @@ structs.kiriProfile = {fields = {seconds = 9, cutSegments = "number", trianglesS
 structs.kiriMaterial = {fields = {youngsModulus = "number", poissonsRatio = "number", thickness = "number", density = "number", airDamping = "number", flexDamping = "number"}}
 structs.kiriQuality = {fields = {framesAlong = "number", gridResolution = "number", iterations = "number", substeps = "number"}}
 structs.kiriPaperOptions = {fields = {fromScratch = "number", popping = "number", linearWeights = "number", integrationPoints = "number", integrationOrder = "number"}}
-structs.kiriSheetDef = {fields = {cookie = "number", restPositions = {item = "float", count = "vertexCount", width = 2}, vertexCount = "number", indices = {item = "int32_t", count = "triangleCount", width = 3}, triangleCount = "number", position = 3, axisU = 3, axisV = 3, velocity = 3, material = "kiriMaterial", gridResolution = "number", snapDistance = "number", frameCount = "number", frameLength = "number", accuracy = "number", framePoints = {item = "float", count = "frameCount", width = 2}, maxFrames = "number", rigidWeight = "number", rigidArea = "number", crumbArea = "number", friction = "number", contactThickness = "number", groups = "number", touchesSheets = "number", collisionPoints = "number", iterations = "number", sleepSpeed = "number", model = "number", skinning = "number", planar = "number", timeStepping = "number", fadeTime = "number", normals = "number", paper = "kiriPaperOptions"}, default = "kiriDefaultSheetDef"}
+structs.kiriSheetDef = {fields = {cookie = "number", restPositions = {item = "float", count = "vertexCount", width = 2}, vertexCount = "number", indices = {item = "int32_t", count = "triangleCount", width = 3}, triangleCount = "number", position = 3, axisU = 3, axisV = 3, velocity = 3, material = "kiriMaterial", gridResolution = "number", snapDistance = "number", weldDistance = "number", frameCount = "number", frameLength = "number", accuracy = "number", framePoints = {item = "float", count = "frameCount", width = 2}, maxFrames = "number", rigidWeight = "number", rigidArea = "number", crumbArea = "number", friction = "number", contactThickness = "number", groups = "number", touchesSheets = "number", collisionPoints = "number", iterations = "number", sleepSpeed = "number", model = "number", skinning = "number", planar = "number", timeStepping = "number", fadeTime = "number", normals = "number", paper = "kiriPaperOptions"}, default = "kiriDefaultSheetDef"}
 structs.kiriSheetSettings = {fields = {cookie = "number", material = "kiriMaterial", maxFrames = "number", crumbArea = "number", friction = "number", contactThickness = "number", groups = "number", touchesSheets = "number", iterations = "number", sleepSpeed = "number", skinning = "number", timeStepping = "number", fadeTime = "number", normals = "number"}}
 structs.kiriMesh = {fields = {positions = {item = "float", count = "vertexCount", width = 3}, normals = {item = "float", count = "vertexCount", width = 3}, restPositions = {item = "float", count = "vertexCount", width = 2}, indices = {item = "int32_t", count = "triangleCount", width = 3}, sourceTriangles = {item = "int32_t", count = "vertexCount", width = 1}, sourceWeights = {item = "float", count = "vertexCount", width = 3}, vertexCount = "number", triangleCount = "number", revision = "number"}}
 structs.kiriRange = {fields = {first = "number", count = "number"}}
@@ -678,6 +684,12 @@ function kiri.getResultName(result)
     return ffi.string(C.kiriGetResultName(result))
 end
 
+--- One line: the meaning of a result, and its cure. For calls without a world that keeps a line, such as
+--- kiriCreateWorld with a def of zeros (KIRI_ERROR_DEF).
+function kiri.getResultText(result)
+    return ffi.string(C.kiriGetResultText(result))
+end
+
 --- Fills the def with its defaults, and stamps it.
 function kiri.defaultWorldDef(def)
     def = def or new.kiriWorldDef()
@@ -687,8 +699,8 @@ end
 
 --- One fixed step of dt seconds (1e-6 to 10), solved in `substeps` equal parts (1 to 64). Takes the waiting cut
 --- points, then moves every sheet. KIRI_PENDING: the budget is spent and more work waits: the events say which cuts;
---- a sheet, or some of its pieces, may also have stood still for want of iterations. KIRI_ERROR_MEMORY: nothing moved
---- and cuts still wait, call again. What the refused work had prepared is made again: until then kiriSheet_GetWeights
+--- a sheet, or some of its pieces, may also have stood still for want of iterations. KIRI_ERROR_MEMORY: nothing
+--- moved; cuts and pieces still wait, call again. Refused work is prepared again: until then kiriSheet_GetWeights
 --- gives KIRI_ERROR_STATE, and with a budget a cut may take effect some ticks later than it would have.
 --- KIRI_ERROR_LIMIT: the same, and it stays so until frames are destroyed. KIRI_DIVERGED: the sheets named by the
 --- events were put to rest, the others moved. Work may wait then, too, as KIRI_EVENT_DEFERRED says.
@@ -713,6 +725,18 @@ function World:setGravity(gravity)
     local world = self
     local result = C.kiriWorld_SetGravity(world.c, vector(1, gravity, 3))
     if result < 0 then fail(world, "kiriWorld_SetGravity", result, true) end
+    return result == 1
+end
+
+--- Moves the origin of the world to a point (m): subtracts it from the positions of sheets, targets of pins and
+--- holds, obstacles, blades, and contacts that wait. The motion goes on as before, to rounding. Nothing wakes; (0, 0,
+--- 0) changes nothing. Use it in large worlds: far from the origin floats lose places. The host shifts its own data
+--- itself. Arrays that the library handed out keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a
+--- position would not fit a float. KIRI_ERROR_MEMORY: nothing has changed.
+function World:shiftOrigin(origin)
+    local world = self
+    local result = C.kiriWorld_ShiftOrigin(world.c, vector(1, origin, 3))
+    if result < 0 then fail(world, "kiriWorld_ShiftOrigin", result, true) end
     return result == 1
 end
 
@@ -899,8 +923,8 @@ function kiri.defaultSheetDef(def)
     return def
 end
 
---- Adds a sheet. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles are no sheet; the line says which one and
---- why.
+--- Adds a sheet. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles do not form a sheet. The line names a
+--- triangle, or the two triangles at an edge, by their numbers in the def, and says why.
 function World:createSheet(def)
     local world = self
     local result = C.kiriCreateSheet(world.c, struct_of(world, def, "kiriSheetDef"), out.Sheet)
@@ -983,6 +1007,18 @@ function Sheet:copyVertices(first, count, positions, positionStride, normals, no
     return result == 1
 end
 
+--- Copies the index that some vertices had when the last call of kiriWorld_Tick began, for hosts that draw between
+--- two ticks. *from: the sheet that had them then, which is another one if this sheet was a piece of it. A vertex
+--- that a cut tore off another one gets the index of the other. -1: the vertex did not exist; so all vertices of a
+--- sheet that was created or loaded since. The manual has the code (drawing).
+function Sheet:copyPrevious(first, count, vertices)
+    local world = self.world
+    vertices = vertices or ffi.new("int32_t[?]", count)
+    local result = C.kiriSheet_CopyPrevious(world.c, self.id, first, count, vertices, out.Sheet)
+    if result < 0 then fail(world, "kiriSheet_CopyPrevious", result, false) end
+    return vertices, handle(world, out.Sheet[0], "Sheet")
+end
+
 --- Copies the indices of some triangles, 3 each, as 16-bit numbers. KIRI_ERROR_STATE: there are more than 65535
 --- vertices.
 function Sheet:copyIndices16(firstTriangle, count, indices)
@@ -991,6 +1027,30 @@ function Sheet:copyIndices16(firstTriangle, count, indices)
     local result = C.kiriSheet_CopyIndices16(world.c, self.id, firstTriangle, count, indices)
     if result < 0 then fail(world, "kiriSheet_CopyIndices16", result, false) end
     return indices
+end
+
+--- Map triangles to the def, to draw with data that the host keeps by its own vertices. Sources: the triangle of the
+--- def that contains each; -1 for one that has left (its corners are equal). Weights: 9 floats each, the barycentric
+--- coordinates of its three corners in that triangle. They are right on both sides of a seam that weldDistance has
+--- closed; sourceTriangles name a triangle on one side. The manual has the code (meshes).
+function Sheet:copySources(firstTriangle, count, sources)
+    local world = self.world
+    sources = sources or ffi.new("int32_t[?]", count)
+    local result = C.kiriSheet_CopySources(world.c, self.id, firstTriangle, count, sources)
+    if result < 0 then fail(world, "kiriSheet_CopySources", result, false) end
+    return sources
+end
+
+--- Map triangles to the def, to draw with data that the host keeps by its own vertices. Sources: the triangle of the
+--- def that contains each; -1 for one that has left (its corners are equal). Weights: 9 floats each, the barycentric
+--- coordinates of its three corners in that triangle. They are right on both sides of a seam that weldDistance has
+--- closed; sourceTriangles name a triangle on one side. The manual has the code (meshes).
+function Sheet:copySourceWeights(firstTriangle, count, weights)
+    local world = self.world
+    weights = weights or ffi.new("float[?]", 9 * count)
+    local result = C.kiriSheet_CopySourceWeights(world.c, self.id, firstTriangle, count, weights)
+    if result < 0 then fail(world, "kiriSheet_CopySourceWeights", result, false) end
+    return weights
 end
 
 --- thickness: m, 0: that of the material. Made when it is asked for.
@@ -1065,8 +1125,11 @@ function Sheet:wake()
 end
 
 --- Every point x (m, world) of the sheet goes to R x + t at once, and is seen there; velocities turn. The columns of
---- `rotation` are where R takes the axes of the world; a planar sheet turns about its normal only. Targets of pins,
---- holds, loads and contacts stay where they are: destroy or move them first, or the sheet is drawn back. It wakes.
+--- `rotation` are where R takes the axes of the world; a planar sheet turns about its normal only. It wakes. Targets
+--- of its pins, hinges, clamps and holds go along, so nothing draws it back. To set a target to its current value
+--- changes nothing. A target that the host has set nearer to the new place of the pin than to the old one stays: so
+--- the host may set targets before or after. Pins on an obstacle stay on it: put the obstacle elsewhere by the same
+--- motion (kiriObstacle_SetPose), before or after. Loads and contacts that wait for the next tick stay.
 function Sheet:transform(rotation, translation)
     local world = self.world
     local result = C.kiriSheet_Transform(world.c, self.id, vector(1, rotation, 9), vector(2, translation, 3))
@@ -1249,12 +1312,13 @@ end
 --- about 40 bytes a square: crumbs are better dropped. Costs what the piece takes to make, and a look at the weights
 --- of what is left; where indices change more. KIRI_PENDING: work on a cut is at hand in the sheet, or it takes more
 --- samples than the budget leaves calls before the next tick; *detached is 0. When the work is done, what is the
---- piece of this frame then becomes a sheet, and KIRI_EVENT_PIECE_DETACHED names it. About 1.5 samples for each
---- vertex of the piece, 0.7 for each cell, and one for 80 vertices of the rest are paid before, over several ticks if
---- need be, of many pieces one after the other; until then further cuts of the sheet wait. A piece that is worth more
---- than the samples of a tick is made as they are paid, and leaves when it is made: in one tick all the same, which
---- takes an eighth of the work. What a call does at once the coming ticks have less. KIRI_ERROR_STATE: nothing would
---- be left of the sheet.
+--- piece of this frame then becomes a sheet, and KIRI_EVENT_PIECE_DETACHED names it. Samples pay for it before, over
+--- several ticks if need be, of many pieces one after the other: of the first that waits 3 for each vertex, 2.5 to 9
+--- for each cell (the more frames, the more) and 100 for each frame, of others 3 for each vertex and 1.4 for each
+--- cell; and one for 80 vertices of the rest. Until then further cuts of the sheet wait. The first piece is made as
+--- it is paid, and leaves at the start of the tick after the last sample is paid. That tick does an eighth of the
+--- work; the first tick after a load makes the parts again that saves leave out. The coming ticks have fewer samples
+--- for the work of calls. KIRI_ERROR_STATE: nothing would be left of the sheet.
 function Frame:detachPiece()
     local world = self.world
     local result = C.kiriFrame_DetachPiece(world.c, self.id, out.Sheet)
@@ -1326,7 +1390,7 @@ function Cut:extend(restPoints, count)
 end
 
 --- No more points come. After the tick in which the last of them takes effect the id is stale, and
---- KIRI_EVENT_CUT_FINISHED tells.
+--- KIRI_EVENT_CUT_FINISHED tells. Frames that the sheet needs after the cut are added then.
 function Cut:finish()
     local world = self.world
     local result = C.kiriCut_End(world.c, self.id)
@@ -1519,9 +1583,9 @@ function Sheet:hingeLine(from, to)
 end
 
 --- Where the pin holds its point, or the middle of its line (m, world): at the end of the next tick, and until the
---- next call. Within the tick it goes there evenly. With KIRI_SKINNING_SMOOTH what pins and clamps hold is what is
---- seen there; of a clamp the mean along its line, for each piece: single points of the line are seen a little off
---- it.
+--- next call. Within the tick it goes there evenly. The current target of kiriPin_GetState changes nothing. With
+--- KIRI_SKINNING_SMOOTH what pins and clamps hold is what is seen there; of a clamp the mean along its line, for each
+--- piece: single points of the line are seen a little off it.
 function Pin:setTarget(target)
     local world = self.world
     local result = C.kiriPin_SetTarget(world.c, self.id, vector(1, target, 3))

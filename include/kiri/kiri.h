@@ -28,8 +28,8 @@
 
 /* Of this header; kiriGetVersion has that of the library. */
 #define KIRI_VERSION_MAJOR 0
-#define KIRI_VERSION_MINOR 11
-#define KIRI_VERSION_PATCH 3
+#define KIRI_VERSION_MINOR 12
+#define KIRI_VERSION_PATCH 0
 #define KIRI_VERSION (10000 * KIRI_VERSION_MAJOR + 100 * KIRI_VERSION_MINOR + KIRI_VERSION_PATCH)
 
 #if defined(KIRI_SHARED) && defined(_WIN32)

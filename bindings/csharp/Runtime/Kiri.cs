@@ -487,7 +487,7 @@ namespace Kiri
         /// <summary>One fixed step of dt seconds (1e-6 to 10), solved in `substeps` equal parts (1 to 64). Takes the waiting cut
         /// points, then moves every sheet. KIRI_PENDING: the budget is spent and more work waits: the events say which
         /// cuts; a sheet, or some of its pieces, may also have stood still for want of iterations. KIRI_ERROR_MEMORY:
-        /// nothing moved and cuts still wait, call again. What the refused work had prepared is made again: until then
+        /// nothing moved; cuts and pieces still wait, call again. Refused work is prepared again: until then
         /// kiriSheet_GetWeights gives KIRI_ERROR_STATE, and with a budget a cut may take effect some ticks later than
         /// it would have. KIRI_ERROR_LIMIT: the same, and it stays so until frames are destroyed. KIRI_DIVERGED: the
         /// sheets named by the events were put to rest, the others moved. Work may wait then, too, as
@@ -504,6 +504,16 @@ namespace Kiri
         public void SetGravity(Float3 gravity)
         {
             Check(Native.kiriWorld_SetGravity(Handle, (float*)&gravity));
+        }
+
+        /// <summary>Moves the origin of the world to a point (m): subtracts it from the positions of sheets, targets of pins and
+        /// holds, obstacles, blades, and contacts that wait. The motion goes on as before, to rounding. Nothing wakes;
+        /// (0, 0, 0) changes nothing. Use it in large worlds: far from the origin floats lose places. The host shifts
+        /// its own data itself. Arrays that the library handed out keep the old positions until the next tick.
+        /// KIRI_ERROR_ARGUMENT: a position would not fit a float. KIRI_ERROR_MEMORY: nothing has changed.</summary>
+        public void ShiftOrigin(Float3 origin)
+        {
+            Check(Native.kiriWorld_ShiftOrigin(Handle, (float*)&origin));
         }
 
         /// <summary>Takes effect with the next tick.</summary>
@@ -653,8 +663,8 @@ namespace Kiri
             return profileValue;
         }
 
-        /// <summary>Adds a sheet. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles are no sheet; the line says which one
-        /// and why.</summary>
+        /// <summary>Adds a sheet. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles do not form a sheet. The line names a
+        /// triangle, or the two triangles at an edge, by their numbers in the def, and says why.</summary>
         public Sheet CreateSheet(float[] restPositions, int[] indices, SheetDef @def, float[] framePoints = null)
         {
             @def.vertexCount = restPositions.Length / 2;
@@ -760,6 +770,13 @@ namespace Kiri
             return World.Text(Native.kiriGetResultName((int)result));
         }
 
+        /// <summary>One line: the meaning of a result, and its cure. For calls without a world that keeps a line, such as
+        /// kiriCreateWorld with a def of zeros (KIRI_ERROR_DEF).</summary>
+        public static string GetResultText(ResultCode result)
+        {
+            return World.Text(Native.kiriGetResultText((int)result));
+        }
+
         /// <summary>For hosts that would rather think in time than in items: the budget whose work would have taken so many
         /// microseconds a tick at the pace of the profile, which may be the sum of several. Work on cuts and linear
         /// systems share the time as they did in the profile, and each of triangles, cells and samples gets what the
@@ -859,6 +876,22 @@ namespace Kiri
             return dirtyValue;
         }
 
+        /// <summary>Copies the index that some vertices had when the last call of kiriWorld_Tick began, for hosts that draw
+        /// between two ticks. *from: the sheet that had them then, which is another one if this sheet was a piece of
+        /// it. A vertex that a cut tore off another one gets the index of the other. -1: the vertex did not exist; so
+        /// all vertices of a sheet that was created or loaded since. The manual has the code (drawing).</summary>
+        public Sheet CopyPrevious(int first, int[] vertices, int count = -1)
+        {
+            if (count < 0) count = vertices.Length;
+            if (count > vertices.Length) World.ThrowRange();
+            var fromValue = new SheetId();
+            fixed (int* verticesRows = vertices)
+            {
+                World.CheckRead(Native.kiriSheet_CopyPrevious(World.Handle, Id, first, count, verticesRows, &fromValue));
+            }
+            return new Sheet(World, fromValue);
+        }
+
         /// <summary>Copies the indices of some triangles, 3 each, as 16-bit numbers. KIRI_ERROR_STATE: there are more than 65535
         /// vertices.</summary>
         public void CopyIndices16(int firstTriangle, ushort[] indices, int count = -1)
@@ -868,6 +901,34 @@ namespace Kiri
             fixed (ushort* indicesRows = indices)
             {
                 World.CheckRead(Native.kiriSheet_CopyIndices16(World.Handle, Id, firstTriangle, count, indicesRows));
+            }
+        }
+
+        /// <summary>Map triangles to the def, to draw with data that the host keeps by its own vertices. Sources: the triangle
+        /// of the def that contains each; -1 for one that has left (its corners are equal). Weights: 9 floats each, the
+        /// barycentric coordinates of its three corners in that triangle. They are right on both sides of a seam that
+        /// weldDistance has closed; sourceTriangles name a triangle on one side. The manual has the code (meshes).</summary>
+        public void CopySources(int firstTriangle, int[] sources, int count = -1)
+        {
+            if (count < 0) count = sources.Length;
+            if (count > sources.Length) World.ThrowRange();
+            fixed (int* sourcesRows = sources)
+            {
+                World.CheckRead(Native.kiriSheet_CopySources(World.Handle, Id, firstTriangle, count, sourcesRows));
+            }
+        }
+
+        /// <summary>Map triangles to the def, to draw with data that the host keeps by its own vertices. Sources: the triangle
+        /// of the def that contains each; -1 for one that has left (its corners are equal). Weights: 9 floats each, the
+        /// barycentric coordinates of its three corners in that triangle. They are right on both sides of a seam that
+        /// weldDistance has closed; sourceTriangles name a triangle on one side. The manual has the code (meshes).</summary>
+        public void CopySourceWeights(int firstTriangle, float[] weights, int count = -1)
+        {
+            if (count < 0) count = weights.Length / 9;
+            if (count > weights.Length / 9) World.ThrowRange();
+            fixed (float* weightsRows = weights)
+            {
+                World.CheckRead(Native.kiriSheet_CopySourceWeights(World.Handle, Id, firstTriangle, count, weightsRows));
             }
         }
 
@@ -937,8 +998,11 @@ namespace Kiri
 
         /// <summary>Every point x (m, world) of the sheet goes to R x + t at once, and is seen there; velocities turn. The
         /// columns of `rotation` are where R takes the axes of the world; a planar sheet turns about its normal only.
-        /// Targets of pins, holds, loads and contacts stay where they are: destroy or move them first, or the sheet is
-        /// drawn back. It wakes.</summary>
+        /// It wakes. Targets of its pins, hinges, clamps and holds go along, so nothing draws it back. To set a target
+        /// to its current value changes nothing. A target that the host has set nearer to the new place of the pin than
+        /// to the old one stays: so the host may set targets before or after. Pins on an obstacle stay on it: put the
+        /// obstacle elsewhere by the same motion (kiriObstacle_SetPose), before or after. Loads and contacts that wait
+        /// for the next tick stay.</summary>
         public void Transform(Float9 rotation, Float3 translation)
         {
             World.Check(Native.kiriSheet_Transform(World.Handle, Id, (float*)&rotation, (float*)&translation));
@@ -1277,12 +1341,14 @@ namespace Kiri
         /// a square: crumbs are better dropped. Costs what the piece takes to make, and a look at the weights of what
         /// is left; where indices change more. KIRI_PENDING: work on a cut is at hand in the sheet, or it takes more
         /// samples than the budget leaves calls before the next tick; *detached is 0. When the work is done, what is
-        /// the piece of this frame then becomes a sheet, and KIRI_EVENT_PIECE_DETACHED names it. About 1.5 samples for
-        /// each vertex of the piece, 0.7 for each cell, and one for 80 vertices of the rest are paid before, over
-        /// several ticks if need be, of many pieces one after the other; until then further cuts of the sheet wait. A
-        /// piece that is worth more than the samples of a tick is made as they are paid, and leaves when it is made: in
-        /// one tick all the same, which takes an eighth of the work. What a call does at once the coming ticks have
-        /// less. KIRI_ERROR_STATE: nothing would be left of the sheet.</summary>
+        /// the piece of this frame then becomes a sheet, and KIRI_EVENT_PIECE_DETACHED names it. Samples pay for it
+        /// before, over several ticks if need be, of many pieces one after the other: of the first that waits 3 for
+        /// each vertex, 2.5 to 9 for each cell (the more frames, the more) and 100 for each frame, of others 3 for each
+        /// vertex and 1.4 for each cell; and one for 80 vertices of the rest. Until then further cuts of the sheet
+        /// wait. The first piece is made as it is paid, and leaves at the start of the tick after the last sample is
+        /// paid. That tick does an eighth of the work; the first tick after a load makes the parts again that saves
+        /// leave out. The coming ticks have fewer samples for the work of calls. KIRI_ERROR_STATE: nothing would be
+        /// left of the sheet.</summary>
         public Sheet DetachPiece()
         {
             var detachedValue = new SheetId();
@@ -1373,9 +1439,9 @@ namespace Kiri
         }
 
         /// <summary>Where the pin holds its point, or the middle of its line (m, world): at the end of the next tick, and until
-        /// the next call. Within the tick it goes there evenly. With KIRI_SKINNING_SMOOTH what pins and clamps hold is
-        /// what is seen there; of a clamp the mean along its line, for each piece: single points of the line are seen a
-        /// little off it.</summary>
+        /// the next call. Within the tick it goes there evenly. The current target of kiriPin_GetState changes nothing.
+        /// With KIRI_SKINNING_SMOOTH what pins and clamps hold is what is seen there; of a clamp the mean along its
+        /// line, for each piece: single points of the line are seen a little off it.</summary>
         public void SetTarget(Float3 target)
         {
             World.Check(Native.kiriPin_SetTarget(World.Handle, Id, (float*)&target));
@@ -1446,7 +1512,7 @@ namespace Kiri
         }
 
         /// <summary>No more points come. After the tick in which the last of them takes effect the id is stale, and
-        /// KIRI_EVENT_CUT_FINISHED tells.</summary>
+        /// KIRI_EVENT_CUT_FINISHED tells. Frames that the sheet needs after the cut are added then.</summary>
         public void End()
         {
             World.Check(Native.kiriCut_End(World.Handle, Id));

@@ -329,13 +329,13 @@ namespace Kiri
         /// <summary>null pointer, NaN, infinite, or outside the documented range; or a sheet or obstacle would be where floats
         /// end, or move that fast: 4e37 m, m/s or 1/s</summary>
         ErrorArgument = -1,
-        /// <summary>the def was not filled by its kiriDefault function</summary>
+        /// <summary>the def was not filled by its kiriDefault function, all zeros say: call that first</summary>
         ErrorDef = -2,
         /// <summary>unknown or stale id, or the id of another kind</summary>
         ErrorId = -3,
         /// <summary>the triangles do not form a sheet: degenerate, inverted, duplicate, overlapping</summary>
         ErrorMesh = -4,
-        /// <summary>the call comes in the wrong order</summary>
+        /// <summary>the call comes in the wrong order, or from a callback that may not make it</summary>
         ErrorState = -5,
         /// <summary>the allocator returned null</summary>
         ErrorMemory = -6,
@@ -516,18 +516,19 @@ namespace Kiri
         All = 2047,
     }
 
-    /// <summary>The most work that one tick may do, over all sheets, first come first served. 0: no limit. Triangles, cells and
-    /// samples share a tick: what is spent of one leaves as much less of the other two. Half of the cells, say, leave
-    /// half of the samples; so the work on cuts takes no longer than the costliest of the three limits. What does not
-    /// fit goes on in the next tick, and in the end is what it would have been without a limit: the points given to a
-    /// sheet before one tick take effect together, when all that follows from them is done. Until then the lips of a
-    /// fresh cut move together. A step that cannot be parted and counts more than a whole limit is done in a tick of
-    /// its own. Pieces that wait to be detached get half of every other tick, whatever other sheets have to do. How
-    /// long lips wait: a cut from side to side takes 7 items of cells for each cell of the grid where frames are many,
-    /// 36 where they are few (each has more of the sheet), and 0.2 to 1.3 of samples for each vertex; a cut half as
-    /// long a third to all of that. So on a sheet and grid of 64 x 64 squares with 9 frames, 2000 cells and 500 samples
-    /// part a cut from side to side after 83 ticks, one half as long after 31; 10 000 and 2000 after 17 and 7.
-    /// tests/bench_delay.c prints the table.</summary>
+    /// <summary>The most work that one tick may do, over all sheets. 0: no limit. Triangles, cells and samples share one
+    /// allowance: using 30 % of one leaves 70 % of the others. So the work on cuts takes no longer than the costliest
+    /// of the three limits alone. A single step that exceeds the whole limit is not split. It runs alone in its tick.
+    /// Work that does not fit goes on in the next tick. Until a cut takes effect its lips move together. All points of
+    /// a sheet that are pending when work on them begins take effect together, whatever ticks they were given before.
+    /// So the tick in which a cut takes effect depends on the budget, too. Its result does not: when all work is done,
+    /// mesh, grid, regions, weights and sites of frames equal, bit for bit, a run of the same calls without a budget.
+    /// Motion differs. Sheets take turns. In every other tick the sheet whose points came first is served first, in the
+    /// ticks between the sheet whose work has used least. Pieces that wait to be detached get half of every other tick.
+    /// An example at 60 Hz, with 2 ms of work on cuts a tick (about 32 000 cells and 4000 samples): a cut from side to
+    /// side of 64 x 64 squares with 9 frames parts 17 to 100 ms after the blade has left, one of 127 x 127 squares with
+    /// 24 frames 67 to 200 ms. A slow blade parts sooner, for its work is done on the way. tests/bench_swipe.c prints
+    /// the table.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Budget
     {
@@ -626,7 +627,7 @@ namespace Kiri
         public float Area;
         /// <summary>KIRI_STAGE_..., or -1</summary>
         public Stage Stage;
-        /// <summary>blade points that wait, with those that are being worked on; or 0</summary>
+        /// <summary>blade points and ends of cuts that are pending or being worked on; or 0</summary>
         public int Waiting;
     }
 
@@ -743,8 +744,9 @@ namespace Kiri
     {
         internal uint cookie;
         /// <summary>The rest shape: triangles in the rest plane, counter-clockwise, at most two at an edge. Holes and several
-        /// parts are fine. Copied by kiriCreateSheet. Edges whose ends lie at the same places, but are different
-        /// vertices, are the lips of a cut that is there already. 2 floats (u, v) a vertex</summary>
+        /// parts are fine. Copied by kiriCreateSheet; vertices of no triangle are left out. Edges whose ends lie at the
+        /// same places, but are different vertices, are the lips of a cut that is there already; weldDistance closes
+        /// them. 2 floats (u, v) a vertex</summary>
         internal float* restPositions;
         internal int vertexCount;
         /// <summary>3 a triangle</summary>
@@ -761,14 +763,21 @@ namespace Kiri
         public int GridResolution;
         /// <summary>m: a blade this near to a vertex or an edge takes it; 0: 1e-4 of the longer side</summary>
         public float SnapDistance;
+        /// <summary>Vertices nearer than this (m, rest plane; 0 or more) are one: for seams of texture coordinates, and
+        /// triangles without shared vertices (STL). In the order of vertices, each becomes the nearest vertex that was
+        /// kept before and is nearer than this; else it is kept. So none moves farther, and a chain of near vertices is
+        /// not one point. A triangle with two corners at one vertex is left out. kiriSheet_CopySources leads to the
+        /// vertices of the def. Default 0: vertices are as the indices say.</summary>
+        public float WeldDistance;
         /// <summary>Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at least; null:
         /// frameCount frames are spread evenly, some of them in pairs at both sides of slit ends. The grid carries one
         /// frame for every two squares of material at most: more are refused (KIRI_ERROR_ARGUMENT), and re-sampling
-        /// stops there. frameCount 0: as many as the sheet needs: a region is split while its size, 2.45 times its
-        /// radius of gyration, exceeds 1.25 frameLength, after cuts too: so arms that a cut leaves get frames along
-        /// them. frameLength 0: it follows from `accuracy`, the relative error of the shape under the sheet's own
-        /// weight that is good enough, but is three squares of the grid at least. kiriSheet_EstimateError says what
-        /// came of it. 0, or 1 and more; default 5</summary>
+        /// stops there. A new sheet has no more frames than frameCount, or than pieces where these are more. frameCount
+        /// 0: as many as the sheet needs: a region is split while its size, 2.45 times its radius of gyration, exceeds
+        /// 1.25 frameLength, after cuts too: so arms that a cut leaves get frames along them. frameLength 0: it follows
+        /// from `accuracy`, the relative error of the shape under the sheet's own weight that is good enough, but is
+        /// three squares of the grid at least. kiriSheet_EstimateError says what came of it. 0, or 1 and more; default
+        /// 5</summary>
         public int FrameCount;
         /// <summary>m; used where frameCount is 0; default 0</summary>
         public float FrameLength;
@@ -777,9 +786,11 @@ namespace Kiri
         internal float* framePoints;
         /// <summary>re-sampling stops here; default 256</summary>
         public int MaxFrames;
-        /// <summary>Where the weight of one frame exceeds rigidWeight over an area larger than rigidArea (m^2), frames are added
-        /// (section 5 of the paper), also at once: a sheet that is to stay rigid sets frameCount and maxFrames to 1.
-        /// rigidArea 0: a quarter of the area that a frame has at the start. default 0.95</summary>
+        /// <summary>Re-sampling (section 5 of the paper): a frame whose weight exceeds rigidWeight over an area larger than
+        /// rigidArea (m^2) gets others beside it. In a new sheet this is done only with frameCount 0. After cuts it is
+        /// done where the area is also larger than in the new sheet: when a cut ends, or has met the border or another
+        /// cut. A sheet that is to stay rigid sets frameCount and maxFrames to 1. rigidArea 0: a quarter of the area
+        /// that a frame has at the start. default 0.95</summary>
         public float RigidWeight;
         /// <summary>default 0</summary>
         public float RigidArea;
@@ -1337,7 +1348,7 @@ namespace Kiri
 #endif
 
         /// <summary>Of the header.</summary>
-        public const int Version = 1103;
+        public const int Version = 1200;
         public const int LeastTriangles = 16;
         public const int MostNoteBytes = 1048576;
 
@@ -1346,6 +1357,9 @@ namespace Kiri
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern byte* kiriGetResultName(int result);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern byte* kiriGetResultText(int result);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern void kiriDefaultWorldDef(NativeWorldDef* @def);
@@ -1364,6 +1378,9 @@ namespace Kiri
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int kiriWorld_SetGravity(IntPtr world, float* gravity);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int kiriWorld_ShiftOrigin(IntPtr world, float* origin);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int kiriWorld_SetBudget(IntPtr world, Budget* budget);
@@ -1444,7 +1461,16 @@ namespace Kiri
         public static extern int kiriSheet_CopyVertices(IntPtr world, SheetId sheet, int first, int count, void* positions, int positionStride, void* normals, int normalStride);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int kiriSheet_CopyPrevious(IntPtr world, SheetId sheet, int first, int count, int* vertices, SheetId* from);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int kiriSheet_CopyIndices16(IntPtr world, SheetId sheet, int firstTriangle, int count, ushort* @indices);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int kiriSheet_CopySources(IntPtr world, SheetId sheet, int firstTriangle, int count, int* sources);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int kiriSheet_CopySourceWeights(IntPtr world, SheetId sheet, int firstTriangle, int count, float* weights);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int kiriSheet_GetSolid(IntPtr world, SheetId sheet, float thickness, NativeSolid* solid);

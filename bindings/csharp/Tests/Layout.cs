@@ -173,7 +173,7 @@ namespace Kiri.Tests
         {
             SheetDef s;
             byte* at = (byte*)&s;
-            Is("SheetDef", sizeof(SheetDef), 224);
+            Is("SheetDef", sizeof(SheetDef), 232);
             Is("SheetDef.cookie", (byte*)&s.cookie - at, 0);
             Is("SheetDef.restPositions", (byte*)&s.restPositions - at, 8);
             Is("SheetDef.vertexCount", (byte*)&s.vertexCount - at, 16);
@@ -186,28 +186,29 @@ namespace Kiri.Tests
             Is("SheetDef.Material", (byte*)&s.Material - at, 84);
             Is("SheetDef.GridResolution", (byte*)&s.GridResolution - at, 108);
             Is("SheetDef.SnapDistance", (byte*)&s.SnapDistance - at, 112);
-            Is("SheetDef.FrameCount", (byte*)&s.FrameCount - at, 116);
-            Is("SheetDef.FrameLength", (byte*)&s.FrameLength - at, 120);
-            Is("SheetDef.Accuracy", (byte*)&s.Accuracy - at, 124);
-            Is("SheetDef.framePoints", (byte*)&s.framePoints - at, 128);
-            Is("SheetDef.MaxFrames", (byte*)&s.MaxFrames - at, 136);
-            Is("SheetDef.RigidWeight", (byte*)&s.RigidWeight - at, 140);
-            Is("SheetDef.RigidArea", (byte*)&s.RigidArea - at, 144);
-            Is("SheetDef.CrumbArea", (byte*)&s.CrumbArea - at, 148);
-            Is("SheetDef.Friction", (byte*)&s.Friction - at, 152);
-            Is("SheetDef.ContactThickness", (byte*)&s.ContactThickness - at, 156);
-            Is("SheetDef.Groups", (byte*)&s.Groups - at, 160);
-            Is("SheetDef.TouchesSheets", (byte*)&s.TouchesSheets - at, 164);
-            Is("SheetDef.CollisionPoints", (byte*)&s.CollisionPoints - at, 168);
-            Is("SheetDef.Iterations", (byte*)&s.Iterations - at, 172);
-            Is("SheetDef.SleepSpeed", (byte*)&s.SleepSpeed - at, 176);
-            Is("SheetDef.Model", (byte*)&s.Model - at, 180);
-            Is("SheetDef.Skinning", (byte*)&s.Skinning - at, 184);
-            Is("SheetDef.Planar", (byte*)&s.Planar - at, 188);
-            Is("SheetDef.TimeStepping", (byte*)&s.TimeStepping - at, 192);
-            Is("SheetDef.FadeTime", (byte*)&s.FadeTime - at, 196);
-            Is("SheetDef.Normals", (byte*)&s.Normals - at, 200);
-            Is("SheetDef.Paper", (byte*)&s.Paper - at, 204);
+            Is("SheetDef.WeldDistance", (byte*)&s.WeldDistance - at, 116);
+            Is("SheetDef.FrameCount", (byte*)&s.FrameCount - at, 120);
+            Is("SheetDef.FrameLength", (byte*)&s.FrameLength - at, 124);
+            Is("SheetDef.Accuracy", (byte*)&s.Accuracy - at, 128);
+            Is("SheetDef.framePoints", (byte*)&s.framePoints - at, 136);
+            Is("SheetDef.MaxFrames", (byte*)&s.MaxFrames - at, 144);
+            Is("SheetDef.RigidWeight", (byte*)&s.RigidWeight - at, 148);
+            Is("SheetDef.RigidArea", (byte*)&s.RigidArea - at, 152);
+            Is("SheetDef.CrumbArea", (byte*)&s.CrumbArea - at, 156);
+            Is("SheetDef.Friction", (byte*)&s.Friction - at, 160);
+            Is("SheetDef.ContactThickness", (byte*)&s.ContactThickness - at, 164);
+            Is("SheetDef.Groups", (byte*)&s.Groups - at, 168);
+            Is("SheetDef.TouchesSheets", (byte*)&s.TouchesSheets - at, 172);
+            Is("SheetDef.CollisionPoints", (byte*)&s.CollisionPoints - at, 176);
+            Is("SheetDef.Iterations", (byte*)&s.Iterations - at, 180);
+            Is("SheetDef.SleepSpeed", (byte*)&s.SleepSpeed - at, 184);
+            Is("SheetDef.Model", (byte*)&s.Model - at, 188);
+            Is("SheetDef.Skinning", (byte*)&s.Skinning - at, 192);
+            Is("SheetDef.Planar", (byte*)&s.Planar - at, 196);
+            Is("SheetDef.TimeStepping", (byte*)&s.TimeStepping - at, 200);
+            Is("SheetDef.FadeTime", (byte*)&s.FadeTime - at, 204);
+            Is("SheetDef.Normals", (byte*)&s.Normals - at, 208);
+            Is("SheetDef.Paper", (byte*)&s.Paper - at, 212);
         }
 
         static void SheetSettings()

@@ -81,6 +81,9 @@ static func get_version():
 static func get_result_name(result):
 	return Native.new().get_result_name(result)
 
+static func get_result_text(result):
+	return Native.new().get_result_text(result)
+
 static func default_world_def():
 	return Native.new().default_world_def()
 

@@ -1,6 +1,6 @@
 """Made from kiri.h by `make bindings`."""
 
-VERSION = "0.11.3"
+VERSION = "0.12.0"
 
 ARRAYS = {'kiriReplay': {'note': ('noteCount', 1)},
  'kiriSheetDef': {'restPositions': ('vertexCount', 2),
@@ -31,6 +31,7 @@ IDS = {'kiriEvent': {'sheet': 'Sheet', 'cut': 'Cut', 'frame': 'Frame', 'pin': 'P
 
 CHANGES = {'kiriWorld_Tick': True,
  'kiriWorld_SetGravity': True,
+ 'kiriWorld_ShiftOrigin': True,
  'kiriWorld_SetBudget': True,
  'kiriWorld_GetStateHash': False,
  'kiriWorld_GetSheets': False,
@@ -51,7 +52,10 @@ CHANGES = {'kiriWorld_Tick': True,
  'kiriSheet_GetMesh': False,
  'kiriSheet_GetDirty': False,
  'kiriSheet_CopyVertices': False,
+ 'kiriSheet_CopyPrevious': False,
  'kiriSheet_CopyIndices16': False,
+ 'kiriSheet_CopySources': False,
+ 'kiriSheet_CopySourceWeights': False,
  'kiriSheet_GetSolid': True,
  'kiriSheet_GetCollisionPoints': False,
  'kiriSheet_GetCounts': False,
@@ -123,12 +127,14 @@ CHANGES = {'kiriWorld_Tick': True,
 
 METHODS = {'kiriGetVersion': (None, 'version'),
  'kiriGetResultName': (None, 'result_name'),
+ 'kiriGetResultText': (None, 'result_text'),
  'kiriDefaultWorldDef': (None, 'default_world_def'),
  'kiriCreateWorld': (None, 'World'),
  'kiriDestroyWorld': ('World', 'close'),
  'kiriWorld_Tick': ('World', 'tick'),
  'kiriWorld_GetLastError': ('World', 'last_error'),
  'kiriWorld_SetGravity': ('World', 'set_gravity'),
+ 'kiriWorld_ShiftOrigin': ('World', 'shift_origin'),
  'kiriWorld_SetBudget': ('World', 'set_budget'),
  'kiriWorld_GetStateHash': ('World', 'state_hash'),
  'kiriWorld_GetSheets': ('World', 'sheets'),
@@ -155,7 +161,10 @@ METHODS = {'kiriGetVersion': (None, 'version'),
  'kiriSheet_GetMesh': ('Sheet', 'mesh'),
  'kiriSheet_GetDirty': ('Sheet', 'dirty'),
  'kiriSheet_CopyVertices': ('Sheet', 'copy_vertices'),
+ 'kiriSheet_CopyPrevious': ('Sheet', 'copy_previous'),
  'kiriSheet_CopyIndices16': ('Sheet', 'copy_indices16'),
+ 'kiriSheet_CopySources': ('Sheet', 'copy_sources'),
+ 'kiriSheet_CopySourceWeights': ('Sheet', 'copy_source_weights'),
  'kiriSheet_GetSolid': ('Sheet', 'solid'),
  'kiriSheet_GetCollisionPoints': ('Sheet', 'collision_points'),
  'kiriSheet_GetCounts': ('Sheet', 'counts'),
@@ -367,7 +376,7 @@ struct kiriProfile { double seconds[9]; int32_t cutSegments; int32_t trianglesSp
 struct kiriMaterial { float youngsModulus; float poissonsRatio; float thickness; float density; float airDamping; float flexDamping; };
 struct kiriQuality { int32_t framesAlong; int32_t gridResolution; int32_t iterations; int32_t substeps; };
 struct kiriPaperOptions { int32_t fromScratch; int32_t popping; int32_t linearWeights; int32_t integrationPoints; int32_t integrationOrder; };
-struct kiriSheetDef { uint32_t cookie; const float* restPositions; int32_t vertexCount; const int32_t* indices; int32_t triangleCount; float position[3]; float axisU[3]; float axisV[3]; float velocity[3]; kiriMaterial material; int32_t gridResolution; float snapDistance; int32_t frameCount; float frameLength; float accuracy; const float* framePoints; int32_t maxFrames; float rigidWeight; float rigidArea; float crumbArea; float friction; float contactThickness; uint32_t groups; int32_t touchesSheets; int32_t collisionPoints; int32_t iterations; float sleepSpeed; int32_t model; int32_t skinning; int32_t planar; int32_t timeStepping; float fadeTime; int32_t normals; kiriPaperOptions paper; };
+struct kiriSheetDef { uint32_t cookie; const float* restPositions; int32_t vertexCount; const int32_t* indices; int32_t triangleCount; float position[3]; float axisU[3]; float axisV[3]; float velocity[3]; kiriMaterial material; int32_t gridResolution; float snapDistance; float weldDistance; int32_t frameCount; float frameLength; float accuracy; const float* framePoints; int32_t maxFrames; float rigidWeight; float rigidArea; float crumbArea; float friction; float contactThickness; uint32_t groups; int32_t touchesSheets; int32_t collisionPoints; int32_t iterations; float sleepSpeed; int32_t model; int32_t skinning; int32_t planar; int32_t timeStepping; float fadeTime; int32_t normals; kiriPaperOptions paper; };
 struct kiriSheetSettings { uint32_t cookie; kiriMaterial material; int32_t maxFrames; float crumbArea; float friction; float contactThickness; uint32_t groups; int32_t touchesSheets; int32_t iterations; float sleepSpeed; int32_t skinning; int32_t timeStepping; float fadeTime; int32_t normals; };
 struct kiriMesh { const float* positions; const float* normals; const float* restPositions; const int32_t* indices; const int32_t* sourceTriangles; const float* sourceWeights; int32_t vertexCount; int32_t triangleCount; uint32_t revision; };
 struct kiriRange { int32_t first; int32_t count; };
@@ -391,12 +400,14 @@ struct kiriDrawVertex { float position[3]; uint32_t color; };
 struct kiriDebugDraw { uint32_t cookie; uint32_t flags; kiriSheet sheet; float size; kiriDrawFn* points; kiriDrawFn* lines; kiriDrawFn* triangles; void* user; };
 int32_t kiriGetVersion(void);
 const char* kiriGetResultName(kiriResult result);
+const char* kiriGetResultText(kiriResult result);
 void kiriDefaultWorldDef(kiriWorldDef* def);
 kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world);
 void kiriDestroyWorld(kiriWorld* world);
 kiriResult kiriWorld_Tick(kiriWorld* world, float dt, int32_t substeps);
 const char* kiriWorld_GetLastError(const kiriWorld* world);
 kiriResult kiriWorld_SetGravity(kiriWorld* world, const float gravity[3]);
+kiriResult kiriWorld_ShiftOrigin(kiriWorld* world, const float origin[3]);
 kiriResult kiriWorld_SetBudget(kiriWorld* world, const kiriBudget* budget);
 kiriResult kiriWorld_GetStateHash(const kiriWorld* world, uint64_t* hash);
 kiriResult kiriWorld_GetSheets(const kiriWorld* world, kiriSheet* sheets, int32_t capacity, int32_t* count);
@@ -423,7 +434,10 @@ kiriResult kiriFillRectangle(float width, float height, int32_t columns, int32_t
 kiriResult kiriSheet_GetMesh(const kiriWorld* world, kiriSheet sheet, kiriMesh* mesh);
 kiriResult kiriSheet_GetDirty(const kiriWorld* world, kiriSheet sheet, uint32_t sinceRevision, kiriDirty* dirty);
 kiriResult kiriSheet_CopyVertices(const kiriWorld* world, kiriSheet sheet, int32_t first, int32_t count, void* positions, int32_t positionStride, void* normals, int32_t normalStride);
+kiriResult kiriSheet_CopyPrevious(const kiriWorld* world, kiriSheet sheet, int32_t first, int32_t count, int32_t* vertices, kiriSheet* from);
 kiriResult kiriSheet_CopyIndices16(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle, int32_t count, uint16_t* indices);
+kiriResult kiriSheet_CopySources(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle, int32_t count, int32_t* sources);
+kiriResult kiriSheet_CopySourceWeights(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle, int32_t count, float* weights);
 kiriResult kiriSheet_GetSolid(kiriWorld* world, kiriSheet sheet, float thickness, kiriSolid* solid);
 kiriResult kiriSheet_GetCollisionPoints(const kiriWorld* world, kiriSheet sheet, const float** positions, int32_t* count);
 kiriResult kiriSheet_GetCounts(const kiriWorld* world, kiriSheet sheet, kiriCounts* counts);

@@ -13,6 +13,13 @@ def result_name(result):
     return core.ffi.string(core.load().kiriGetResultName(result)).decode()
 
 
+def result_text(result):
+    """One line: the meaning of a result, and its cure. For calls without a world that keeps a line, such as
+    kiriCreateWorld with a def of zeros (KIRI_ERROR_DEF).
+    """
+    return core.ffi.string(core.load().kiriGetResultText(result)).decode()
+
+
 def default_world_def():
     """Fills the def with its defaults, and stamps it."""
     structure = core.ffi.new('kiriWorldDef*')
@@ -72,7 +79,7 @@ class World:
         """One fixed step of dt seconds (1e-6 to 10), solved in `substeps` equal parts (1 to 64). Takes the waiting cut
         points, then moves every sheet. KIRI_PENDING: the budget is spent and more work waits: the events say which
         cuts; a sheet, or some of its pieces, may also have stood still for want of iterations. KIRI_ERROR_MEMORY:
-        nothing moved and cuts still wait, call again. What the refused work had prepared is made again: until then
+        nothing moved; cuts and pieces still wait, call again. Refused work is prepared again: until then
         kiriSheet_GetWeights gives KIRI_ERROR_STATE, and with a budget a cut may take effect some ticks later than
         it would have. KIRI_ERROR_LIMIT: the same, and it stays so until frames are destroyed. KIRI_DIVERGED: the
         sheets named by the events were put to rest, the others moved. Work may wait then, too, as
@@ -83,6 +90,15 @@ class World:
     def set_gravity(self, gravity):
         """m/s^2. All pieces wake."""
         return self.call('kiriWorld_SetGravity', core.vector(gravity, 3))
+
+    def shift_origin(self, origin):
+        """Moves the origin of the world to a point (m): subtracts it from the positions of sheets, targets of pins and
+        holds, obstacles, blades, and contacts that wait. The motion goes on as before, to rounding. Nothing wakes;
+        (0, 0, 0) changes nothing. Use it in large worlds: far from the origin floats lose places. The host shifts
+        its own data itself. Arrays that the library handed out keep the old positions until the next tick.
+        KIRI_ERROR_ARGUMENT: a position would not fit a float. KIRI_ERROR_MEMORY: nothing has changed.
+        """
+        return self.call('kiriWorld_ShiftOrigin', core.vector(origin, 3))
 
     def set_budget(self, **fields):
         """Takes effect with the next tick."""
@@ -209,8 +225,11 @@ class Sheet:
     def transform(self, rotation, translation):
         """Every point x (m, world) of the sheet goes to R x + t at once, and is seen there; velocities turn. The
         columns of `rotation` are where R takes the axes of the world; a planar sheet turns about its normal only.
-        Targets of pins, holds, loads and contacts stay where they are: destroy or move them first, or the sheet is
-        drawn back. It wakes.
+        It wakes. Targets of its pins, hinges, clamps and holds go along, so nothing draws it back. To set a target
+        to its current value changes nothing. A target that the host has set nearer to the new place of the pin than
+        to the old one stays: so the host may set targets before or after. Pins on an obstacle stay on it: put the
+        obstacle elsewhere by the same motion (kiriObstacle_SetPose), before or after. Loads and contacts that wait
+        for the next tick stay.
         """
         return self.world.call('kiriSheet_Transform', self.id, core.vector(rotation, 9), core.vector(translation, 3))
 
@@ -377,7 +396,7 @@ class Cut:
 
     def end(self):
         """No more points come. After the tick in which the last of them takes effect the id is stale, and
-        KIRI_EVENT_CUT_FINISHED tells.
+        KIRI_EVENT_CUT_FINISHED tells. Frames that the sheet needs after the cut are added then.
         """
         return self.world.call('kiriCut_End', self.id)
 
@@ -423,12 +442,14 @@ class Frame:
         a square: crumbs are better dropped. Costs what the piece takes to make, and a look at the weights of what
         is left; where indices change more. KIRI_PENDING: work on a cut is at hand in the sheet, or it takes more
         samples than the budget leaves calls before the next tick; *detached is 0. When the work is done, what is
-        the piece of this frame then becomes a sheet, and KIRI_EVENT_PIECE_DETACHED names it. About 1.5 samples for
-        each vertex of the piece, 0.7 for each cell, and one for 80 vertices of the rest are paid before, over
-        several ticks if need be, of many pieces one after the other; until then further cuts of the sheet wait. A
-        piece that is worth more than the samples of a tick is made as they are paid, and leaves when it is made: in
-        one tick all the same, which takes an eighth of the work. What a call does at once the coming ticks have
-        less. KIRI_ERROR_STATE: nothing would be left of the sheet.
+        the piece of this frame then becomes a sheet, and KIRI_EVENT_PIECE_DETACHED names it. Samples pay for it
+        before, over several ticks if need be, of many pieces one after the other: of the first that waits 3 for
+        each vertex, 2.5 to 9 for each cell (the more frames, the more) and 100 for each frame, of others 3 for each
+        vertex and 1.4 for each cell; and one for 80 vertices of the rest. Until then further cuts of the sheet
+        wait. The first piece is made as it is paid, and leaves at the start of the tick after the last sample is
+        paid. That tick does an eighth of the work; the first tick after a load makes the parts again that saves
+        leave out. The coming ticks have fewer samples for the work of calls. KIRI_ERROR_STATE: nothing would be
+        left of the sheet.
         """
         return self.world.thing('Sheet', self.world.get('kiriFrame_DetachPiece', 'kiriSheet', self.id))
 
@@ -478,9 +499,9 @@ class Pin:
 
     def set_target(self, target):
         """Where the pin holds its point, or the middle of its line (m, world): at the end of the next tick, and until
-        the next call. Within the tick it goes there evenly. With KIRI_SKINNING_SMOOTH what pins and clamps hold is
-        what is seen there; of a clamp the mean along its line, for each piece: single points of the line are seen a
-        little off it.
+        the next call. Within the tick it goes there evenly. The current target of kiriPin_GetState changes nothing.
+        With KIRI_SKINNING_SMOOTH what pins and clamps hold is what is seen there; of a clamp the mean along its
+        line, for each piece: single points of the line are seen a little off it.
         """
         return self.world.call('kiriPin_SetTarget', self.id, core.vector(target, 3))
 

@@ -17,7 +17,7 @@ pub struct kiriWorld {
 }
 
 /// Of the header.
-pub const KIRI_VERSION: i32 = 1103;
+pub const KIRI_VERSION: i32 = 1200;
 
 pub const KIRI_OK: i32 = 0;
 /// done, and work is left for later ticks
@@ -25,13 +25,13 @@ pub const KIRI_PENDING: i32 = 1;
 /// null pointer, NaN, infinite, or outside the documented range; or a sheet or obstacle would be
 /// where floats end, or move that fast: 4e37 m, m/s or 1/s
 pub const KIRI_ERROR_ARGUMENT: i32 = -1;
-/// the def was not filled by its kiriDefault function
+/// the def was not filled by its kiriDefault function, all zeros say: call that first
 pub const KIRI_ERROR_DEF: i32 = -2;
 /// unknown or stale id, or the id of another kind
 pub const KIRI_ERROR_ID: i32 = -3;
 /// the triangles do not form a sheet: degenerate, inverted, duplicate, overlapping
 pub const KIRI_ERROR_MESH: i32 = -4;
-/// the call comes in the wrong order
+/// the call comes in the wrong order, or from a callback that may not make it
 pub const KIRI_ERROR_STATE: i32 = -5;
 /// the allocator returned null
 pub const KIRI_ERROR_MEMORY: i32 = -6;
@@ -170,34 +170,79 @@ pub const KIRI_DRAW_OBSTACLES: i32 = 512;
 pub const KIRI_DRAW_POINTS: i32 = 1024;
 pub const KIRI_DRAW_ALL: i32 = 2047;
 
-/// The host's functions. A thread that reads may call \`log\`, and in kiriSheet_GetWeights and
-/// kiriSheet_EstimateError \`alloc\` and \`free\`. All memory of a world comes from \`alloc\`, but
-/// for what Eigen takes while it orders the unknowns, when a cut couples frames that were not
-/// coupled before. at least 16-byte aligned, or null
+/// The host's functions. They may call other worlds, and functions that take no world. Calls of
+/// their own world:
+/// - While a function that takes a world without const runs, its callbacks may call
+///   kiriWorld_GetLastError alone. All other functions give KIRI_ERROR_STATE and do nothing,
+///   kiriDestroyWorld too.
+/// - While a function that takes a const kiriWorld runs, its callbacks may call functions that take
+///   a const kiriWorld. All others give KIRI_ERROR_STATE and do nothing. A refused call has a line
+///   in the log, unless the log made the call. kiriWorld_GetLastError keeps the line of the
+///   function that runs, and no recording has the refused call. The functions of kiriDebugDraw
+///   follow these rules, too. A thread that reads may call \`log\`, and in kiriSheet_GetWeights and
+///   kiriSheet_EstimateError \`alloc\` and \`free\`. All memory of a world comes from \`alloc\`,
+///   but for what Eigen takes while it orders the unknowns, when a cut couples frames that were not
+///   coupled before. at least 16-byte aligned, or null
 pub type kiriAllocFn = Option<unsafe extern "C" fn(user: *mut c_void, bytes: i64) -> *mut c_void>;
 
-/// The host's functions. A thread that reads may call \`log\`, and in kiriSheet_GetWeights and
-/// kiriSheet_EstimateError \`alloc\` and \`free\`. All memory of a world comes from \`alloc\`, but
-/// for what Eigen takes while it orders the unknowns, when a cut couples frames that were not
-/// coupled before.
+/// The host's functions. They may call other worlds, and functions that take no world. Calls of
+/// their own world:
+/// - While a function that takes a world without const runs, its callbacks may call
+///   kiriWorld_GetLastError alone. All other functions give KIRI_ERROR_STATE and do nothing,
+///   kiriDestroyWorld too.
+/// - While a function that takes a const kiriWorld runs, its callbacks may call functions that take
+///   a const kiriWorld. All others give KIRI_ERROR_STATE and do nothing. A refused call has a line
+///   in the log, unless the log made the call. kiriWorld_GetLastError keeps the line of the
+///   function that runs, and no recording has the refused call. The functions of kiriDebugDraw
+///   follow these rules, too. A thread that reads may call \`log\`, and in kiriSheet_GetWeights and
+///   kiriSheet_EstimateError \`alloc\` and \`free\`. All memory of a world comes from \`alloc\`,
+///   but for what Eigen takes while it orders the unknowns, when a cut couples frames that were not
+///   coupled before.
 pub type kiriFreeFn = Option<unsafe extern "C" fn(user: *mut c_void, pointer: *mut c_void)>;
 
-/// The host's functions. A thread that reads may call \`log\`, and in kiriSheet_GetWeights and
-/// kiriSheet_EstimateError \`alloc\` and \`free\`. All memory of a world comes from \`alloc\`, but
-/// for what Eigen takes while it orders the unknowns, when a cut couples frames that were not
-/// coupled before.
+/// The host's functions. They may call other worlds, and functions that take no world. Calls of
+/// their own world:
+/// - While a function that takes a world without const runs, its callbacks may call
+///   kiriWorld_GetLastError alone. All other functions give KIRI_ERROR_STATE and do nothing,
+///   kiriDestroyWorld too.
+/// - While a function that takes a const kiriWorld runs, its callbacks may call functions that take
+///   a const kiriWorld. All others give KIRI_ERROR_STATE and do nothing. A refused call has a line
+///   in the log, unless the log made the call. kiriWorld_GetLastError keeps the line of the
+///   function that runs, and no recording has the refused call. The functions of kiriDebugDraw
+///   follow these rules, too. A thread that reads may call \`log\`, and in kiriSheet_GetWeights and
+///   kiriSheet_EstimateError \`alloc\` and \`free\`. All memory of a world comes from \`alloc\`,
+///   but for what Eigen takes while it orders the unknowns, when a cut couples frames that were not
+///   coupled before.
 pub type kiriLogFn = Option<unsafe extern "C" fn(user: *mut c_void, line: *const c_char)>;
 
-/// The host's functions. A thread that reads may call \`log\`, and in kiriSheet_GetWeights and
-/// kiriSheet_EstimateError \`alloc\` and \`free\`. All memory of a world comes from \`alloc\`, but
-/// for what Eigen takes while it orders the unknowns, when a cut couples frames that were not
-/// coupled before. seconds; read for the profile only, never by the simulation
+/// The host's functions. They may call other worlds, and functions that take no world. Calls of
+/// their own world:
+/// - While a function that takes a world without const runs, its callbacks may call
+///   kiriWorld_GetLastError alone. All other functions give KIRI_ERROR_STATE and do nothing,
+///   kiriDestroyWorld too.
+/// - While a function that takes a const kiriWorld runs, its callbacks may call functions that take
+///   a const kiriWorld. All others give KIRI_ERROR_STATE and do nothing. A refused call has a line
+///   in the log, unless the log made the call. kiriWorld_GetLastError keeps the line of the
+///   function that runs, and no recording has the refused call. The functions of kiriDebugDraw
+///   follow these rules, too. A thread that reads may call \`log\`, and in kiriSheet_GetWeights and
+///   kiriSheet_EstimateError \`alloc\` and \`free\`. All memory of a world comes from \`alloc\`,
+///   but for what Eigen takes while it orders the unknowns, when a cut couples frames that were not
+///   coupled before. seconds; read for the profile only, never by the simulation
 pub type kiriClockFn = Option<unsafe extern "C" fn(user: *mut c_void) -> f64>;
 
-/// The host's functions. A thread that reads may call \`log\`, and in kiriSheet_GetWeights and
-/// kiriSheet_EstimateError \`alloc\` and \`free\`. All memory of a world comes from \`alloc\`, but
-/// for what Eigen takes while it orders the unknowns, when a cut couples frames that were not
-/// coupled before. the next bytes of the recording
+/// The host's functions. They may call other worlds, and functions that take no world. Calls of
+/// their own world:
+/// - While a function that takes a world without const runs, its callbacks may call
+///   kiriWorld_GetLastError alone. All other functions give KIRI_ERROR_STATE and do nothing,
+///   kiriDestroyWorld too.
+/// - While a function that takes a const kiriWorld runs, its callbacks may call functions that take
+///   a const kiriWorld. All others give KIRI_ERROR_STATE and do nothing. A refused call has a line
+///   in the log, unless the log made the call. kiriWorld_GetLastError keeps the line of the
+///   function that runs, and no recording has the refused call. The functions of kiriDebugDraw
+///   follow these rules, too. A thread that reads may call \`log\`, and in kiriSheet_GetWeights and
+///   kiriSheet_EstimateError \`alloc\` and \`free\`. All memory of a world comes from \`alloc\`,
+///   but for what Eigen takes while it orders the unknowns, when a cut couples frames that were not
+///   coupled before. the next bytes of the recording
 pub type kiriRecordFn = Option<unsafe extern "C" fn(user: *mut c_void, bytes: *const c_void, count: i32)>;
 
 /// For hosts that lend their threads to a tick. A task is work on the items 0 to itemCount:
@@ -234,20 +279,21 @@ pub type kiriFinishTaskFn = Option<unsafe extern "C" fn(user: *mut c_void, handl
 /// triangle. They are the library's, and gone after the call.
 pub type kiriDrawFn = Option<unsafe extern "C" fn(user: *mut c_void, vertices: *const kiriDrawVertex, count: i32)>;
 
-/// The most work that one tick may do, over all sheets, first come first served. 0: no limit.
-/// Triangles, cells and samples share a tick: what is spent of one leaves as much less of the other
-/// two. Half of the cells, say, leave half of the samples; so the work on cuts takes no longer than
-/// the costliest of the three limits. What does not fit goes on in the next tick, and in the end is
-/// what it would have been without a limit: the points given to a sheet before one tick take effect
-/// together, when all that follows from them is done. Until then the lips of a fresh cut move
-/// together. A step that cannot be parted and counts more than a whole limit is done in a tick of
-/// its own. Pieces that wait to be detached get half of every other tick, whatever other sheets
-/// have to do. How long lips wait: a cut from side to side takes 7 items of cells for each cell of
-/// the grid where frames are many, 36 where they are few (each has more of the sheet), and 0.2 to
-/// 1.3 of samples for each vertex; a cut half as long a third to all of that. So on a sheet and
-/// grid of 64 x 64 squares with 9 frames, 2000 cells and 500 samples part a cut from side to side
-/// after 83 ticks, one half as long after 31; 10 000 and 2000 after 17 and 7. tests/bench_delay.c
-/// prints the table.
+/// The most work that one tick may do, over all sheets. 0: no limit. Triangles, cells and samples
+/// share one allowance: using 30 % of one leaves 70 % of the others. So the work on cuts takes no
+/// longer than the costliest of the three limits alone. A single step that exceeds the whole limit
+/// is not split. It runs alone in its tick. Work that does not fit goes on in the next tick. Until
+/// a cut takes effect its lips move together. All points of a sheet that are pending when work on
+/// them begins take effect together, whatever ticks they were given before. So the tick in which a
+/// cut takes effect depends on the budget, too. Its result does not: when all work is done, mesh,
+/// grid, regions, weights and sites of frames equal, bit for bit, a run of the same calls without a
+/// budget. Motion differs. Sheets take turns. In every other tick the sheet whose points came first
+/// is served first, in the ticks between the sheet whose work has used least. Pieces that wait to
+/// be detached get half of every other tick. An example at 60 Hz, with 2 ms of work on cuts a tick
+/// (about 32 000 cells and 4000 samples): a cut from side to side of 64 x 64 squares with 9 frames
+/// parts 17 to 100 ms after the blade has left, one of 127 x 127 squares with 24 frames 67 to 200
+/// ms. A slow blade parts sooner, for its work is done on the way. tests/bench_swipe.c prints the
+/// table.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriBudget {
@@ -337,7 +383,7 @@ pub struct kiriEvent {
     pub area: f32,
     /// KIRI_STAGE_..., or -1
     pub stage: i32,
-    /// blade points that wait, with those that are being worked on; or 0
+    /// blade points and ends of cuts that are pending or being worked on; or 0
     pub waiting: i32,
 }
 
@@ -466,9 +512,9 @@ pub struct kiriPaperOptions {
 pub struct kiriSheetDef {
     pub cookie: u32,
     /// The rest shape: triangles in the rest plane, counter-clockwise, at most two at an edge.
-    /// Holes and several parts are fine. Copied by kiriCreateSheet. Edges whose ends lie at the
-    /// same places, but are different vertices, are the lips of a cut that is there already. 2
-    /// floats (u, v) a vertex
+    /// Holes and several parts are fine. Copied by kiriCreateSheet; vertices of no triangle are
+    /// left out. Edges whose ends lie at the same places, but are different vertices, are the lips
+    /// of a cut that is there already; weldDistance closes them. 2 floats (u, v) a vertex
     pub restPositions: *const f32,
     pub vertexCount: i32,
     /// 3 a triangle
@@ -485,15 +531,23 @@ pub struct kiriSheetDef {
     pub gridResolution: i32,
     /// m: a blade this near to a vertex or an edge takes it; 0: 1e-4 of the longer side
     pub snapDistance: f32,
+    /// Vertices nearer than this (m, rest plane; 0 or more) are one: for seams of texture
+    /// coordinates, and triangles without shared vertices (STL). In the order of vertices, each
+    /// becomes the nearest vertex that was kept before and is nearer than this; else it is kept. So
+    /// none moves farther, and a chain of near vertices is not one point. A triangle with two
+    /// corners at one vertex is left out. kiriSheet_CopySources leads to the vertices of the def.
+    /// Default 0: vertices are as the indices say.
+    pub weldDistance: f32,
     /// Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at
     /// least; null: frameCount frames are spread evenly, some of them in pairs at both sides of
     /// slit ends. The grid carries one frame for every two squares of material at most: more are
-    /// refused (KIRI_ERROR_ARGUMENT), and re-sampling stops there. frameCount 0: as many as the
-    /// sheet needs: a region is split while its size, 2.45 times its radius of gyration, exceeds
-    /// 1.25 frameLength, after cuts too: so arms that a cut leaves get frames along them.
-    /// frameLength 0: it follows from \`accuracy\`, the relative error of the shape under the
-    /// sheet's own weight that is good enough, but is three squares of the grid at least.
-    /// kiriSheet_EstimateError says what came of it. 0, or 1 and more; default 5
+    /// refused (KIRI_ERROR_ARGUMENT), and re-sampling stops there. A new sheet has no more frames
+    /// than frameCount, or than pieces where these are more. frameCount 0: as many as the sheet
+    /// needs: a region is split while its size, 2.45 times its radius of gyration, exceeds 1.25
+    /// frameLength, after cuts too: so arms that a cut leaves get frames along them. frameLength 0:
+    /// it follows from \`accuracy\`, the relative error of the shape under the sheet's own weight
+    /// that is good enough, but is three squares of the grid at least. kiriSheet_EstimateError says
+    /// what came of it. 0, or 1 and more; default 5
     pub frameCount: i32,
     /// m; used where frameCount is 0; default 0
     pub frameLength: f32,
@@ -502,8 +556,10 @@ pub struct kiriSheetDef {
     pub framePoints: *const f32,
     /// re-sampling stops here; default 256
     pub maxFrames: i32,
-    /// Where the weight of one frame exceeds rigidWeight over an area larger than rigidArea (m^2),
-    /// frames are added (section 5 of the paper), also at once: a sheet that is to stay rigid sets
+    /// Re-sampling (section 5 of the paper): a frame whose weight exceeds rigidWeight over an area
+    /// larger than rigidArea (m^2) gets others beside it. In a new sheet this is done only with
+    /// frameCount 0. After cuts it is done where the area is also larger than in the new sheet:
+    /// when a cut ends, or has met the border or another cut. A sheet that is to stay rigid sets
     /// frameCount and maxFrames to 1. rigidArea 0: a quarter of the area that a frame has at the
     /// start. default 0.95
     pub rigidWeight: f32,
@@ -1026,9 +1082,13 @@ unsafe extern "C" {
     pub fn kiriGetVersion() -> i32;
     /// The name of a result, "KIRI_OK" and so on; "unknown" for another number.
     pub fn kiriGetResultName(result: kiriResult) -> *const c_char;
+    /// One line: the meaning of a result, and its cure. For calls without a world that keeps a
+    /// line, such as kiriCreateWorld with a def of zeros (KIRI_ERROR_DEF).
+    pub fn kiriGetResultText(result: kiriResult) -> *const c_char;
     /// Fills the def with its defaults, and stamps it.
     pub fn kiriDefaultWorldDef(def: *mut kiriWorldDef);
-    /// Makes an empty world. On failure \*world is null. KIRI_ERROR_BUILD: the compiler has
+    /// Makes an empty world. On failure \*world is null, and the log of the def has the line; a def
+    /// that was not filled has no log, see kiriGetResultText. KIRI_ERROR_BUILD: the compiler has
     /// contracted products and sums to fused multiply-adds (-ffp-contract=fast of clang), or has
     /// reordered them; or this thread flushes small floats to zero (FTZ, DAZ) or does not round to
     /// nearest. The threads of later calls, and those that the host runs tasks on, are not checked:
@@ -1039,12 +1099,12 @@ unsafe extern "C" {
     /// One fixed step of dt seconds (1e-6 to 10), solved in \`substeps\` equal parts (1 to 64).
     /// Takes the waiting cut points, then moves every sheet. KIRI_PENDING: the budget is spent and
     /// more work waits: the events say which cuts; a sheet, or some of its pieces, may also have
-    /// stood still for want of iterations. KIRI_ERROR_MEMORY: nothing moved and cuts still wait,
-    /// call again. What the refused work had prepared is made again: until then
-    /// kiriSheet_GetWeights gives KIRI_ERROR_STATE, and with a budget a cut may take effect some
-    /// ticks later than it would have. KIRI_ERROR_LIMIT: the same, and it stays so until frames are
-    /// destroyed. KIRI_DIVERGED: the sheets named by the events were put to rest, the others moved.
-    /// Work may wait then, too, as KIRI_EVENT_DEFERRED says.
+    /// stood still for want of iterations. KIRI_ERROR_MEMORY: nothing moved; cuts and pieces still
+    /// wait, call again. Refused work is prepared again: until then kiriSheet_GetWeights gives
+    /// KIRI_ERROR_STATE, and with a budget a cut may take effect some ticks later than it would
+    /// have. KIRI_ERROR_LIMIT: the same, and it stays so until frames are destroyed. KIRI_DIVERGED:
+    /// the sheets named by the events were put to rest, the others moved. Work may wait then, too,
+    /// as KIRI_EVENT_DEFERRED says.
     pub fn kiriWorld_Tick(world: *mut kiriWorld, dt: f32, substeps: i32) -> kiriResult;
     /// What went wrong in the last function that changes the world, in one line; "" when nothing
     /// did. A function that only reads leaves it as it is, and gives its line to the log. Valid
@@ -1052,6 +1112,13 @@ unsafe extern "C" {
     pub fn kiriWorld_GetLastError(world: *const kiriWorld) -> *const c_char;
     /// m/s^2. All pieces wake.
     pub fn kiriWorld_SetGravity(world: *mut kiriWorld, gravity: *const f32) -> kiriResult;
+    /// Moves the origin of the world to a point (m): subtracts it from the positions of sheets,
+    /// targets of pins and holds, obstacles, blades, and contacts that wait. The motion goes on as
+    /// before, to rounding. Nothing wakes; (0, 0, 0) changes nothing. Use it in large worlds: far
+    /// from the origin floats lose places. The host shifts its own data itself. Arrays that the
+    /// library handed out keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a
+    /// position would not fit a float. KIRI_ERROR_MEMORY: nothing has changed.
+    pub fn kiriWorld_ShiftOrigin(world: *mut kiriWorld, origin: *const f32) -> kiriResult;
     /// Takes effect with the next tick.
     pub fn kiriWorld_SetBudget(world: *mut kiriWorld, budget: *const kiriBudget) -> kiriResult;
     /// A hash of everything that the coming ticks depend on, work that waits for its budget
@@ -1130,8 +1197,9 @@ unsafe extern "C" {
     pub fn kiriGetQuality(preset: i32, quality: *mut kiriQuality) -> kiriResult;
     /// Fills the def with its defaults, and stamps it. It has no mesh yet.
     pub fn kiriDefaultSheetDef(def: *mut kiriSheetDef);
-    /// Adds a sheet. On failure \*sheet is 0. KIRI_ERROR_MESH: the triangles are no sheet; the line
-    /// says which one and why.
+    /// Adds a sheet. On failure \*sheet is 0. KIRI_ERROR_MESH: the triangles do not form a sheet.
+    /// The line names a triangle, or the two triangles at an edge, by their numbers in the def, and
+    /// says why.
     pub fn kiriCreateSheet(world: *mut kiriWorld, def: *const kiriSheetDef, sheet: *mut kiriSheet) -> kiriResult;
     /// The sheet is gone, with its cuts, frames and pins; their ids are stale.
     pub fn kiriDestroySheet(world: *mut kiriWorld, sheet: kiriSheet) -> kiriResult;
@@ -1158,9 +1226,27 @@ unsafe extern "C" {
     /// strides in bytes, 12 or more. Null: without these. KIRI_ERROR_STATE: normals of a sheet that
     /// makes none.
     pub fn kiriSheet_CopyVertices(world: *const kiriWorld, sheet: kiriSheet, first: i32, count: i32, positions: *mut c_void, positionStride: i32, normals: *mut c_void, normalStride: i32) -> kiriResult;
+    /// Copies the index that some vertices had when the last call of kiriWorld_Tick began, for
+    /// hosts that draw between two ticks. \*from: the sheet that had them then, which is another
+    /// one if this sheet was a piece of it. A vertex that a cut tore off another one gets the index
+    /// of the other. -1: the vertex did not exist; so all vertices of a sheet that was created or
+    /// loaded since. The manual has the code (drawing).
+    pub fn kiriSheet_CopyPrevious(world: *const kiriWorld, sheet: kiriSheet, first: i32, count: i32, vertices: *mut i32, from: *mut kiriSheet) -> kiriResult;
     /// Copies the indices of some triangles, 3 each, as 16-bit numbers. KIRI_ERROR_STATE: there are
     /// more than 65535 vertices.
     pub fn kiriSheet_CopyIndices16(world: *const kiriWorld, sheet: kiriSheet, firstTriangle: i32, count: i32, indices: *mut u16) -> kiriResult;
+    /// Map triangles to the def, to draw with data that the host keeps by its own vertices.
+    /// Sources: the triangle of the def that contains each; -1 for one that has left (its corners
+    /// are equal). Weights: 9 floats each, the barycentric coordinates of its three corners in that
+    /// triangle. They are right on both sides of a seam that weldDistance has closed;
+    /// sourceTriangles name a triangle on one side. The manual has the code (meshes).
+    pub fn kiriSheet_CopySources(world: *const kiriWorld, sheet: kiriSheet, firstTriangle: i32, count: i32, sources: *mut i32) -> kiriResult;
+    /// Map triangles to the def, to draw with data that the host keeps by its own vertices.
+    /// Sources: the triangle of the def that contains each; -1 for one that has left (its corners
+    /// are equal). Weights: 9 floats each, the barycentric coordinates of its three corners in that
+    /// triangle. They are right on both sides of a seam that weldDistance has closed;
+    /// sourceTriangles name a triangle on one side. The manual has the code (meshes).
+    pub fn kiriSheet_CopySourceWeights(world: *const kiriWorld, sheet: kiriSheet, firstTriangle: i32, count: i32, weights: *mut f32) -> kiriResult;
     /// thickness: m, 0: that of the material. Made when it is asked for.
     pub fn kiriSheet_GetSolid(world: *mut kiriWorld, sheet: kiriSheet, thickness: f32, solid: *mut kiriSolid) -> kiriResult;
     /// Collision points: 3 floats of position (m, world) a point.
@@ -1188,8 +1274,12 @@ unsafe extern "C" {
     pub fn kiriSheet_Wake(world: *mut kiriWorld, sheet: kiriSheet) -> kiriResult;
     /// Every point x (m, world) of the sheet goes to R x + t at once, and is seen there; velocities
     /// turn. The columns of \`rotation\` are where R takes the axes of the world; a planar sheet
-    /// turns about its normal only. Targets of pins, holds, loads and contacts stay where they are:
-    /// destroy or move them first, or the sheet is drawn back. It wakes.
+    /// turns about its normal only. It wakes. Targets of its pins, hinges, clamps and holds go
+    /// along, so nothing draws it back. To set a target to its current value changes nothing. A
+    /// target that the host has set nearer to the new place of the pin than to the old one stays:
+    /// so the host may set targets before or after. Pins on an obstacle stay on it: put the
+    /// obstacle elsewhere by the same motion (kiriObstacle_SetPose), before or after. Loads and
+    /// contacts that wait for the next tick stay.
     pub fn kiriSheet_Transform(world: *mut kiriWorld, sheet: kiriSheet, rotation: *const f32, translation: *const f32) -> kiriResult;
     /// From now on it moves as a rigid body, until forces change that: \`velocity\` (m/s) of its
     /// centre of mass, and \`angularVelocity\` (rad/s) about it. What a planar sheet has across its
@@ -1273,12 +1363,14 @@ unsafe extern "C" {
     /// where indices change more. KIRI_PENDING: work on a cut is at hand in the sheet, or it takes
     /// more samples than the budget leaves calls before the next tick; \*detached is 0. When the
     /// work is done, what is the piece of this frame then becomes a sheet, and
-    /// KIRI_EVENT_PIECE_DETACHED names it. About 1.5 samples for each vertex of the piece, 0.7 for
-    /// each cell, and one for 80 vertices of the rest are paid before, over several ticks if need
-    /// be, of many pieces one after the other; until then further cuts of the sheet wait. A piece
-    /// that is worth more than the samples of a tick is made as they are paid, and leaves when it
-    /// is made: in one tick all the same, which takes an eighth of the work. What a call does at
-    /// once the coming ticks have less. KIRI_ERROR_STATE: nothing would be left of the sheet.
+    /// KIRI_EVENT_PIECE_DETACHED names it. Samples pay for it before, over several ticks if need
+    /// be, of many pieces one after the other: of the first that waits 3 for each vertex, 2.5 to 9
+    /// for each cell (the more frames, the more) and 100 for each frame, of others 3 for each
+    /// vertex and 1.4 for each cell; and one for 80 vertices of the rest. Until then further cuts
+    /// of the sheet wait. The first piece is made as it is paid, and leaves at the start of the
+    /// tick after the last sample is paid. That tick does an eighth of the work; the first tick
+    /// after a load makes the parts again that saves leave out. The coming ticks have fewer samples
+    /// for the work of calls. KIRI_ERROR_STATE: nothing would be left of the sheet.
     pub fn kiriFrame_DetachPiece(world: *mut kiriWorld, frame: kiriFrame, detached: *mut kiriSheet) -> kiriResult;
     /// The same without keeping the piece: ids of its frames and pins are stale. Costs as much, but
     /// for making a sheet: that is done at once, and the coming ticks have less. Where
@@ -1309,7 +1401,7 @@ unsafe extern "C" {
     /// restPoints: 2 floats a point; count is 1 to 2^24.
     pub fn kiriCut_Extend(world: *mut kiriWorld, cut: kiriCut, restPoints: *const f32, count: i32) -> kiriResult;
     /// No more points come. After the tick in which the last of them takes effect the id is stale,
-    /// and KIRI_EVENT_CUT_FINISHED tells.
+    /// and KIRI_EVENT_CUT_FINISHED tells. Frames that the sheet needs after the cut are added then.
     pub fn kiriCut_End(world: *mut kiriWorld, cut: kiriCut) -> kiriResult;
     /// A blade (a straight edge) that moves in world space from blade\[0\]-blade\[1\] to
     /// blade\[3\]-blade\[2\] cuts where the swept quadrilateral meets the sheet as it is now, past
@@ -1393,9 +1485,10 @@ unsafe extern "C" {
     /// KIRI_ERROR_ARGUMENT.
     pub fn kiriSheet_HingeLine(world: *mut kiriWorld, sheet: kiriSheet, from: *const f32, to: *const f32, hinge: *mut kiriPin) -> kiriResult;
     /// Where the pin holds its point, or the middle of its line (m, world): at the end of the next
-    /// tick, and until the next call. Within the tick it goes there evenly. With
-    /// KIRI_SKINNING_SMOOTH what pins and clamps hold is what is seen there; of a clamp the mean
-    /// along its line, for each piece: single points of the line are seen a little off it.
+    /// tick, and until the next call. Within the tick it goes there evenly. The current target of
+    /// kiriPin_GetState changes nothing. With KIRI_SKINNING_SMOOTH what pins and clamps hold is
+    /// what is seen there; of a clamp the mean along its line, for each piece: single points of the
+    /// line are seen a little off it.
     pub fn kiriPin_SetTarget(world: *mut kiriWorld, pin: kiriPin, target: *const f32) -> kiriResult;
     /// The same with the rotation of the line's material: columns are the directions of u and v and
     /// the normal. On a planar sheet it is about the sheet's normal. KIRI_ERROR_ARGUMENT for a pin
@@ -1535,7 +1628,7 @@ const _: () = {
     assert!(offset_of!(kiriPaperOptions, linearWeights) == 8);
     assert!(offset_of!(kiriPaperOptions, integrationPoints) == 12);
     assert!(offset_of!(kiriPaperOptions, integrationOrder) == 16);
-    assert!(size_of::<kiriSheetDef>() == 224);
+    assert!(size_of::<kiriSheetDef>() == 232);
     assert!(align_of::<kiriSheetDef>() == 8);
     assert!(offset_of!(kiriSheetDef, cookie) == 0);
     assert!(offset_of!(kiriSheetDef, restPositions) == 8);
@@ -1549,28 +1642,29 @@ const _: () = {
     assert!(offset_of!(kiriSheetDef, material) == 84);
     assert!(offset_of!(kiriSheetDef, gridResolution) == 108);
     assert!(offset_of!(kiriSheetDef, snapDistance) == 112);
-    assert!(offset_of!(kiriSheetDef, frameCount) == 116);
-    assert!(offset_of!(kiriSheetDef, frameLength) == 120);
-    assert!(offset_of!(kiriSheetDef, accuracy) == 124);
-    assert!(offset_of!(kiriSheetDef, framePoints) == 128);
-    assert!(offset_of!(kiriSheetDef, maxFrames) == 136);
-    assert!(offset_of!(kiriSheetDef, rigidWeight) == 140);
-    assert!(offset_of!(kiriSheetDef, rigidArea) == 144);
-    assert!(offset_of!(kiriSheetDef, crumbArea) == 148);
-    assert!(offset_of!(kiriSheetDef, friction) == 152);
-    assert!(offset_of!(kiriSheetDef, contactThickness) == 156);
-    assert!(offset_of!(kiriSheetDef, groups) == 160);
-    assert!(offset_of!(kiriSheetDef, touchesSheets) == 164);
-    assert!(offset_of!(kiriSheetDef, collisionPoints) == 168);
-    assert!(offset_of!(kiriSheetDef, iterations) == 172);
-    assert!(offset_of!(kiriSheetDef, sleepSpeed) == 176);
-    assert!(offset_of!(kiriSheetDef, model) == 180);
-    assert!(offset_of!(kiriSheetDef, skinning) == 184);
-    assert!(offset_of!(kiriSheetDef, planar) == 188);
-    assert!(offset_of!(kiriSheetDef, timeStepping) == 192);
-    assert!(offset_of!(kiriSheetDef, fadeTime) == 196);
-    assert!(offset_of!(kiriSheetDef, normals) == 200);
-    assert!(offset_of!(kiriSheetDef, paper) == 204);
+    assert!(offset_of!(kiriSheetDef, weldDistance) == 116);
+    assert!(offset_of!(kiriSheetDef, frameCount) == 120);
+    assert!(offset_of!(kiriSheetDef, frameLength) == 124);
+    assert!(offset_of!(kiriSheetDef, accuracy) == 128);
+    assert!(offset_of!(kiriSheetDef, framePoints) == 136);
+    assert!(offset_of!(kiriSheetDef, maxFrames) == 144);
+    assert!(offset_of!(kiriSheetDef, rigidWeight) == 148);
+    assert!(offset_of!(kiriSheetDef, rigidArea) == 152);
+    assert!(offset_of!(kiriSheetDef, crumbArea) == 156);
+    assert!(offset_of!(kiriSheetDef, friction) == 160);
+    assert!(offset_of!(kiriSheetDef, contactThickness) == 164);
+    assert!(offset_of!(kiriSheetDef, groups) == 168);
+    assert!(offset_of!(kiriSheetDef, touchesSheets) == 172);
+    assert!(offset_of!(kiriSheetDef, collisionPoints) == 176);
+    assert!(offset_of!(kiriSheetDef, iterations) == 180);
+    assert!(offset_of!(kiriSheetDef, sleepSpeed) == 184);
+    assert!(offset_of!(kiriSheetDef, model) == 188);
+    assert!(offset_of!(kiriSheetDef, skinning) == 192);
+    assert!(offset_of!(kiriSheetDef, planar) == 196);
+    assert!(offset_of!(kiriSheetDef, timeStepping) == 200);
+    assert!(offset_of!(kiriSheetDef, fadeTime) == 204);
+    assert!(offset_of!(kiriSheetDef, normals) == 208);
+    assert!(offset_of!(kiriSheetDef, paper) == 212);
     assert!(size_of::<kiriSheetSettings>() == 76);
     assert!(align_of::<kiriSheetSettings>() == 4);
     assert!(offset_of!(kiriSheetSettings, cookie) == 0);
@@ -1855,7 +1949,7 @@ const _: () = {
     assert!(offset_of!(kiriPaperOptions, linearWeights) == 8);
     assert!(offset_of!(kiriPaperOptions, integrationPoints) == 12);
     assert!(offset_of!(kiriPaperOptions, integrationOrder) == 16);
-    assert!(size_of::<kiriSheetDef>() == 204);
+    assert!(size_of::<kiriSheetDef>() == 208);
     assert!(align_of::<kiriSheetDef>() == 4);
     assert!(offset_of!(kiriSheetDef, cookie) == 0);
     assert!(offset_of!(kiriSheetDef, restPositions) == 4);
@@ -1869,28 +1963,29 @@ const _: () = {
     assert!(offset_of!(kiriSheetDef, material) == 68);
     assert!(offset_of!(kiriSheetDef, gridResolution) == 92);
     assert!(offset_of!(kiriSheetDef, snapDistance) == 96);
-    assert!(offset_of!(kiriSheetDef, frameCount) == 100);
-    assert!(offset_of!(kiriSheetDef, frameLength) == 104);
-    assert!(offset_of!(kiriSheetDef, accuracy) == 108);
-    assert!(offset_of!(kiriSheetDef, framePoints) == 112);
-    assert!(offset_of!(kiriSheetDef, maxFrames) == 116);
-    assert!(offset_of!(kiriSheetDef, rigidWeight) == 120);
-    assert!(offset_of!(kiriSheetDef, rigidArea) == 124);
-    assert!(offset_of!(kiriSheetDef, crumbArea) == 128);
-    assert!(offset_of!(kiriSheetDef, friction) == 132);
-    assert!(offset_of!(kiriSheetDef, contactThickness) == 136);
-    assert!(offset_of!(kiriSheetDef, groups) == 140);
-    assert!(offset_of!(kiriSheetDef, touchesSheets) == 144);
-    assert!(offset_of!(kiriSheetDef, collisionPoints) == 148);
-    assert!(offset_of!(kiriSheetDef, iterations) == 152);
-    assert!(offset_of!(kiriSheetDef, sleepSpeed) == 156);
-    assert!(offset_of!(kiriSheetDef, model) == 160);
-    assert!(offset_of!(kiriSheetDef, skinning) == 164);
-    assert!(offset_of!(kiriSheetDef, planar) == 168);
-    assert!(offset_of!(kiriSheetDef, timeStepping) == 172);
-    assert!(offset_of!(kiriSheetDef, fadeTime) == 176);
-    assert!(offset_of!(kiriSheetDef, normals) == 180);
-    assert!(offset_of!(kiriSheetDef, paper) == 184);
+    assert!(offset_of!(kiriSheetDef, weldDistance) == 100);
+    assert!(offset_of!(kiriSheetDef, frameCount) == 104);
+    assert!(offset_of!(kiriSheetDef, frameLength) == 108);
+    assert!(offset_of!(kiriSheetDef, accuracy) == 112);
+    assert!(offset_of!(kiriSheetDef, framePoints) == 116);
+    assert!(offset_of!(kiriSheetDef, maxFrames) == 120);
+    assert!(offset_of!(kiriSheetDef, rigidWeight) == 124);
+    assert!(offset_of!(kiriSheetDef, rigidArea) == 128);
+    assert!(offset_of!(kiriSheetDef, crumbArea) == 132);
+    assert!(offset_of!(kiriSheetDef, friction) == 136);
+    assert!(offset_of!(kiriSheetDef, contactThickness) == 140);
+    assert!(offset_of!(kiriSheetDef, groups) == 144);
+    assert!(offset_of!(kiriSheetDef, touchesSheets) == 148);
+    assert!(offset_of!(kiriSheetDef, collisionPoints) == 152);
+    assert!(offset_of!(kiriSheetDef, iterations) == 156);
+    assert!(offset_of!(kiriSheetDef, sleepSpeed) == 160);
+    assert!(offset_of!(kiriSheetDef, model) == 164);
+    assert!(offset_of!(kiriSheetDef, skinning) == 168);
+    assert!(offset_of!(kiriSheetDef, planar) == 172);
+    assert!(offset_of!(kiriSheetDef, timeStepping) == 176);
+    assert!(offset_of!(kiriSheetDef, fadeTime) == 180);
+    assert!(offset_of!(kiriSheetDef, normals) == 184);
+    assert!(offset_of!(kiriSheetDef, paper) == 188);
     assert!(size_of::<kiriSheetSettings>() == 76);
     assert!(align_of::<kiriSheetSettings>() == 4);
     assert!(offset_of!(kiriSheetSettings, cookie) == 0);

@@ -147,13 +147,13 @@ pub enum ResultCode {
     /// null pointer, NaN, infinite, or outside the documented range; or a sheet or obstacle would
     /// be where floats end, or move that fast: 4e37 m, m/s or 1/s
     ErrorArgument = -1,
-    /// the def was not filled by its kiriDefault function
+    /// the def was not filled by its kiriDefault function, all zeros say: call that first
     ErrorDef = -2,
     /// unknown or stale id, or the id of another kind
     ErrorId = -3,
     /// the triangles do not form a sheet: degenerate, inverted, duplicate, overlapping
     ErrorMesh = -4,
-    /// the call comes in the wrong order
+    /// the call comes in the wrong order, or from a callback that may not make it
     ErrorState = -5,
     /// the allocator returned null
     ErrorMemory = -6,
@@ -565,20 +565,21 @@ pub const DRAW_OBSTACLES: u32 = 512;
 pub const DRAW_POINTS: u32 = 1024;
 pub const DRAW_ALL: u32 = 2047;
 
-/// The most work that one tick may do, over all sheets, first come first served. 0: no limit.
-/// Triangles, cells and samples share a tick: what is spent of one leaves as much less of the other
-/// two. Half of the cells, say, leave half of the samples; so the work on cuts takes no longer than
-/// the costliest of the three limits. What does not fit goes on in the next tick, and in the end is
-/// what it would have been without a limit: the points given to a sheet before one tick take effect
-/// together, when all that follows from them is done. Until then the lips of a fresh cut move
-/// together. A step that cannot be parted and counts more than a whole limit is done in a tick of
-/// its own. Pieces that wait to be detached get half of every other tick, whatever other sheets
-/// have to do. How long lips wait: a cut from side to side takes 7 items of cells for each cell of
-/// the grid where frames are many, 36 where they are few (each has more of the sheet), and 0.2 to
-/// 1.3 of samples for each vertex; a cut half as long a third to all of that. So on a sheet and
-/// grid of 64 x 64 squares with 9 frames, 2000 cells and 500 samples part a cut from side to side
-/// after 83 ticks, one half as long after 31; 10 000 and 2000 after 17 and 7. tests/bench_delay.c
-/// prints the table.
+/// The most work that one tick may do, over all sheets. 0: no limit. Triangles, cells and samples
+/// share one allowance: using 30 % of one leaves 70 % of the others. So the work on cuts takes no
+/// longer than the costliest of the three limits alone. A single step that exceeds the whole limit
+/// is not split. It runs alone in its tick. Work that does not fit goes on in the next tick. Until
+/// a cut takes effect its lips move together. All points of a sheet that are pending when work on
+/// them begins take effect together, whatever ticks they were given before. So the tick in which a
+/// cut takes effect depends on the budget, too. Its result does not: when all work is done, mesh,
+/// grid, regions, weights and sites of frames equal, bit for bit, a run of the same calls without a
+/// budget. Motion differs. Sheets take turns. In every other tick the sheet whose points came first
+/// is served first, in the ticks between the sheet whose work has used least. Pieces that wait to
+/// be detached get half of every other tick. An example at 60 Hz, with 2 ms of work on cuts a tick
+/// (about 32 000 cells and 4000 samples): a cut from side to side of 64 x 64 squares with 9 frames
+/// parts 17 to 100 ms after the blade has left, one of 127 x 127 squares with 24 frames 67 to 200
+/// ms. A slow blade parts sooner, for its work is done on the way. tests/bench_swipe.c prints the
+/// table.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Budget {
@@ -851,9 +852,9 @@ impl PaperOptions {
 #[derive(Clone, Copy, Debug)]
 pub struct SheetDef<'a> {
     /// The rest shape: triangles in the rest plane, counter-clockwise, at most two at an edge.
-    /// Holes and several parts are fine. Copied by [`World::create_sheet`]. Edges whose ends lie at
-    /// the same places, but are different vertices, are the lips of a cut that is there already. 2
-    /// floats (u, v) a vertex
+    /// Holes and several parts are fine. Copied by [`World::create_sheet`]; vertices of no triangle
+    /// are left out. Edges whose ends lie at the same places, but are different vertices, are the
+    /// lips of a cut that is there already; `weld_distance` closes them. 2 floats (u, v) a vertex
     pub rest_positions: &'a [[f32; 2]],
     /// 3 a triangle
     pub indices: &'a [[i32; 3]],
@@ -868,10 +869,18 @@ pub struct SheetDef<'a> {
     pub grid_resolution: i32,
     /// m: a blade this near to a vertex or an edge takes it; 0: 1e-4 of the longer side
     pub snap_distance: f32,
+    /// Vertices nearer than this (m, rest plane; 0 or more) are one: for seams of texture
+    /// coordinates, and triangles without shared vertices (STL). In the order of vertices, each
+    /// becomes the nearest vertex that was kept before and is nearer than this; else it is kept. So
+    /// none moves farther, and a chain of near vertices is not one point. A triangle with two
+    /// corners at one vertex is left out. [`Sheet::copy_sources`] leads to the vertices of the def.
+    /// Default 0: vertices are as the indices say.
+    pub weld_distance: f32,
     /// Control frames. `frame_points`: 2 floats a frame, in the material, a grid square apart at
     /// least; null: `frame_count` frames are spread evenly, some of them in pairs at both sides of
     /// slit ends. The grid carries one frame for every two squares of material at most: more are
-    /// refused ([`ResultCode::ErrorArgument`]), and re-sampling stops there. `frame_count` 0: as
+    /// refused ([`ResultCode::ErrorArgument`]), and re-sampling stops there. A new sheet has no
+    /// more frames than `frame_count`, or than pieces where these are more. `frame_count` 0: as
     /// many as the sheet needs: a region is split while its size, 2.45 times its radius of
     /// gyration, exceeds 1.25 `frame_length`, after cuts too: so arms that a cut leaves get frames
     /// along them. `frame_length` 0: it follows from accuracy, the relative error of the shape
@@ -885,10 +894,12 @@ pub struct SheetDef<'a> {
     pub frame_points: Option<&'a [[f32; 2]]>,
     /// re-sampling stops here; default 256
     pub max_frames: i32,
-    /// Where the weight of one frame exceeds `rigid_weight` over an area larger than `rigid_area`
-    /// (m^2), frames are added (section 5 of the paper), also at once: a sheet that is to stay
-    /// rigid sets `frame_count` and `max_frames` to 1. `rigid_area` 0: a quarter of the area that a
-    /// frame has at the start. default 0.95
+    /// Re-sampling (section 5 of the paper): a frame whose weight exceeds `rigid_weight` over an
+    /// area larger than `rigid_area` (m^2) gets others beside it. In a new sheet this is done only
+    /// with `frame_count` 0. After cuts it is done where the area is also larger than in the new
+    /// sheet: when a cut ends, or has met the border or another cut. A sheet that is to stay rigid
+    /// sets `frame_count` and `max_frames` to 1. `rigid_area` 0: a quarter of the area that a frame
+    /// has at the start. default 0.95
     pub rigid_weight: f32,
     /// default 0
     pub rigid_area: f32,
@@ -977,6 +988,7 @@ impl<'a> SheetDef<'a> {
             material: Material::from_raw(&raw.material),
             grid_resolution: raw.gridResolution,
             snap_distance: raw.snapDistance,
+            weld_distance: raw.weldDistance,
             frame_count: raw.frameCount,
             frame_length: raw.frameLength,
             accuracy: raw.accuracy,
@@ -1015,6 +1027,7 @@ impl<'a> SheetDef<'a> {
         raw.material = self.material.raw();
         raw.gridResolution = self.grid_resolution;
         raw.snapDistance = self.snap_distance;
+        raw.weldDistance = self.weld_distance;
         raw.frameCount = self.frame_count;
         raw.frameLength = self.frame_length;
         raw.accuracy = self.accuracy;
@@ -2029,6 +2042,14 @@ pub fn result_name(result: ResultCode) -> &'static str {
     unsafe { text(sys::kiriGetResultName(result as i32)) }
 }
 
+/// One line: the meaning of a result, and its cure. For calls without a world that keeps a line,
+/// such as [`World::new`] with a def of zeros ([`ResultCode::ErrorDef`]).
+#[must_use]
+pub fn result_text(result: ResultCode) -> &'static str {
+    // SAFETY: texts of the library stay.
+    unsafe { text(sys::kiriGetResultText(result as i32)) }
+}
+
 /// For hosts that would rather think in time than in items: the budget whose work would have taken
 /// so many microseconds a tick at the pace of the profile, which may be the sum of several. Work on
 /// cuts and linear systems share the time as they did in the profile, and each of triangles, cells
@@ -2082,8 +2103,8 @@ impl World {
     /// One fixed step of dt seconds (1e-6 to 10), solved in substeps equal parts (1 to 64). Takes
     /// the waiting cut points, then moves every sheet. [`ResultCode::Pending`]: the budget is spent
     /// and more work waits: the events say which cuts; a sheet, or some of its pieces, may also
-    /// have stood still for want of iterations. [`ResultCode::ErrorMemory`]: nothing moved and cuts
-    /// still wait, call again. What the refused work had prepared is made again: until then
+    /// have stood still for want of iterations. [`ResultCode::ErrorMemory`]: nothing moved; cuts
+    /// and pieces still wait, call again. Refused work is prepared again: until then
     /// [`Sheet::weights`] gives [`ResultCode::ErrorState`], and with a budget a cut may take effect
     /// some ticks later than it would have. [`ResultCode::ErrorLimit`]: the same, and it stays so
     /// until frames are destroyed. [`ResultCode::Diverged`]: the sheets named by the events were
@@ -2098,6 +2119,19 @@ impl World {
     pub fn set_gravity(&mut self, gravity: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriWorld_SetGravity(self.raw_mut(), gravity.as_ptr()) }, self)?;
+        Ok(())
+    }
+
+    /// Moves the origin of the world to a point (m): subtracts it from the positions of sheets,
+    /// targets of pins and holds, obstacles, blades, and contacts that wait. The motion goes on as
+    /// before, to rounding. Nothing wakes; (0, 0, 0) changes nothing. Use it in large worlds: far
+    /// from the origin floats lose places. The host shifts its own data itself. Arrays that the
+    /// library handed out keep the old positions until the next tick.
+    /// [`ResultCode::ErrorArgument`]: a position would not fit a float.
+    /// [`ResultCode::ErrorMemory`]: nothing has changed.
+    pub fn shift_origin(&mut self, origin: [f32; 3]) -> Result<()> {
+        // SAFETY: pointers are to what is named, and lengths are theirs.
+        check(unsafe { sys::kiriWorld_ShiftOrigin(self.raw_mut(), origin.as_ptr()) }, self)?;
         Ok(())
     }
 
@@ -2241,8 +2275,9 @@ impl World {
         Ok(Profile::from_raw(&profile))
     }
 
-    /// Adds a sheet. On failure \*sheet is 0. [`ResultCode::ErrorMesh`]: the triangles are no
-    /// sheet; the line says which one and why.
+    /// Adds a sheet. On failure \*sheet is 0. [`ResultCode::ErrorMesh`]: the triangles do not form
+    /// a sheet. The line names a triangle, or the two triangles at an edge, by their numbers in the
+    /// def, and says why.
     pub fn create_sheet(&mut self, def: &SheetDef<'_>) -> Result<Sheet> {
         let mut sheet = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2360,11 +2395,45 @@ impl Sheet {
         Ok(Dirty::from_raw(&dirty))
     }
 
+    /// Copies the index that some vertices had when the last call of [`World::tick`] began, for
+    /// hosts that draw between two ticks. \*from: the sheet that had them then, which is another
+    /// one if this sheet was a piece of it. A vertex that a cut tore off another one gets the index
+    /// of the other. -1: the vertex did not exist; so all vertices of a sheet that was created or
+    /// loaded since. The manual has the code (drawing).
+    pub fn copy_previous(self, world: &World, first: i32, vertices: &mut [i32]) -> Result<Sheet> {
+        let mut from = 0;
+        // SAFETY: pointers are to what is named, and lengths are theirs.
+        check_read(unsafe { sys::kiriSheet_CopyPrevious(world.raw(), self.raw(), first, vertices.len() as i32, vertices.as_mut_ptr().cast(), &mut from) })?;
+        Ok(Sheet::known(from))
+    }
+
     /// Copies the indices of some triangles, 3 each, as 16-bit numbers. [`ResultCode::ErrorState`]:
     /// there are more than 65535 vertices.
     pub fn copy_indices16(self, world: &World, first_triangle: i32, indices: &mut [[u16; 3]]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check_read(unsafe { sys::kiriSheet_CopyIndices16(world.raw(), self.raw(), first_triangle, indices.len() as i32, indices.as_mut_ptr().cast()) })?;
+        Ok(())
+    }
+
+    /// Map triangles to the def, to draw with data that the host keeps by its own vertices.
+    /// Sources: the triangle of the def that contains each; -1 for one that has left (its corners
+    /// are equal). Weights: 9 floats each, the barycentric coordinates of its three corners in that
+    /// triangle. They are right on both sides of a seam that `weld_distance` has closed;
+    /// `source_triangles` name a triangle on one side. The manual has the code (meshes).
+    pub fn copy_sources(self, world: &World, first_triangle: i32, sources: &mut [i32]) -> Result<()> {
+        // SAFETY: pointers are to what is named, and lengths are theirs.
+        check_read(unsafe { sys::kiriSheet_CopySources(world.raw(), self.raw(), first_triangle, sources.len() as i32, sources.as_mut_ptr().cast()) })?;
+        Ok(())
+    }
+
+    /// Map triangles to the def, to draw with data that the host keeps by its own vertices.
+    /// Sources: the triangle of the def that contains each; -1 for one that has left (its corners
+    /// are equal). Weights: 9 floats each, the barycentric coordinates of its three corners in that
+    /// triangle. They are right on both sides of a seam that `weld_distance` has closed;
+    /// `source_triangles` name a triangle on one side. The manual has the code (meshes).
+    pub fn copy_source_weights(self, world: &World, first_triangle: i32, weights: &mut [[f32; 9]]) -> Result<()> {
+        // SAFETY: pointers are to what is named, and lengths are theirs.
+        check_read(unsafe { sys::kiriSheet_CopySourceWeights(world.raw(), self.raw(), first_triangle, weights.len() as i32, weights.as_mut_ptr().cast()) })?;
         Ok(())
     }
 
@@ -2443,8 +2512,12 @@ impl Sheet {
 
     /// Every point x (m, world) of the sheet goes to R x + t at once, and is seen there; velocities
     /// turn. The columns of rotation are where R takes the axes of the world; a planar sheet turns
-    /// about its normal only. Targets of pins, holds, loads and contacts stay where they are:
-    /// destroy or move them first, or the sheet is drawn back. It wakes.
+    /// about its normal only. It wakes. Targets of its pins, hinges, clamps and holds go along, so
+    /// nothing draws it back. To set a target to its current value changes nothing. A target that
+    /// the host has set nearer to the new place of the pin than to the old one stays: so the host
+    /// may set targets before or after. Pins on an obstacle stay on it: put the obstacle elsewhere
+    /// by the same motion ([`Obstacle::set_pose`]), before or after. Loads and contacts that wait
+    /// for the next tick stay.
     pub fn transform(self, world: &mut World, rotation: [f32; 9], translation: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriSheet_Transform(world.raw_mut(), self.raw(), rotation.as_ptr(), translation.as_ptr()) }, world)?;
@@ -2812,13 +2885,15 @@ impl Frame {
     /// left; where indices change more. [`ResultCode::Pending`]: work on a cut is at hand in the
     /// sheet, or it takes more samples than the budget leaves calls before the next tick;
     /// \*detached is 0. When the work is done, what is the piece of this frame then becomes a
-    /// sheet, and [`EventType::PieceDetached`] names it. About 1.5 samples for each vertex of the
-    /// piece, 0.7 for each cell, and one for 80 vertices of the rest are paid before, over several
-    /// ticks if need be, of many pieces one after the other; until then further cuts of the sheet
-    /// wait. A piece that is worth more than the samples of a tick is made as they are paid, and
-    /// leaves when it is made: in one tick all the same, which takes an eighth of the work. What a
-    /// call does at once the coming ticks have less. [`ResultCode::ErrorState`]: nothing would be
-    /// left of the sheet.
+    /// sheet, and [`EventType::PieceDetached`] names it. Samples pay for it before, over several
+    /// ticks if need be, of many pieces one after the other: of the first that waits 3 for each
+    /// vertex, 2.5 to 9 for each cell (the more frames, the more) and 100 for each frame, of others
+    /// 3 for each vertex and 1.4 for each cell; and one for 80 vertices of the rest. Until then
+    /// further cuts of the sheet wait. The first piece is made as it is paid, and leaves at the
+    /// start of the tick after the last sample is paid. That tick does an eighth of the work; the
+    /// first tick after a load makes the parts again that saves leave out. The coming ticks have
+    /// fewer samples for the work of calls. [`ResultCode::ErrorState`]: nothing would be left of
+    /// the sheet.
     pub fn detach_piece(self, world: &mut World) -> Result<Option<Sheet>> {
         let mut detached = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2903,9 +2978,10 @@ impl Pin {
     }
 
     /// Where the pin holds its point, or the middle of its line (m, world): at the end of the next
-    /// tick, and until the next call. Within the tick it goes there evenly. With
-    /// [`Skinning::Smooth`] what pins and clamps hold is what is seen there; of a clamp the mean
-    /// along its line, for each piece: single points of the line are seen a little off it.
+    /// tick, and until the next call. Within the tick it goes there evenly. The current target of
+    /// [`Pin::state`] changes nothing. With [`Skinning::Smooth`] what pins and clamps hold is what
+    /// is seen there; of a clamp the mean along its line, for each piece: single points of the line
+    /// are seen a little off it.
     pub fn set_target(self, world: &mut World, target: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriPin_SetTarget(world.raw_mut(), self.raw(), target.as_ptr()) }, world)?;
@@ -2968,7 +3044,8 @@ impl Cut {
     }
 
     /// No more points come. After the tick in which the last of them takes effect the id is stale,
-    /// and [`EventType::CutFinished`] tells.
+    /// and [`EventType::CutFinished`] tells. Frames that the sheet needs after the cut are added
+    /// then.
     pub fn end(self, world: &mut World) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriCut_End(world.raw_mut(), self.raw()) }, world)?;
