@@ -711,7 +711,7 @@ static void CheckFollowed(const kiriMeshData* mesh, const Polyline* line, double
             kiriLatticePoint p =
                 kiriMesh_Round(kiriVec2_Make(a.x + s * ((double)b.x - a.x), a.y + s * ((double)b.y - a.y)));
             if (kiriMesh_Locate(mesh, p) != KIRI_NONE) {
-                assert_true(DistanceToCut(mesh, p) <= 4.0 * snap + 64.0);
+                assert_true(DistanceToCut(mesh, p) <= 5.0 * snap + 64.0);
             }
         }
     }

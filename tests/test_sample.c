@@ -145,7 +145,7 @@ static void NewbornVerticesInherit(void** state)
             ++births;
         }
     }
-    assert_true(births > 100);
+    assert_true(births > 80);
     kiriSkin_Truncate(&f.vertexSkin, 30);
     assert_int_equal(f.vertexSkin.spans.count, 30);
     Follow_Release(&f);

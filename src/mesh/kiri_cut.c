@@ -256,12 +256,12 @@ static bool FindSplit(BladeWalk* walk, int32_t h, kiriLatticePoint* at)
                      b = VertexPoint(walk, kiriMesh_Tail(walk->mesh, kiriEdge_Next(h)));
     double length = sqrt((double)kiriDistanceSquared(a, b)), x = ((double)b.x - a.x) / length,
            y = ((double)b.y - a.y) / length;
-    bool canSplit = CanSplitEdge(walk, h, p);
+    bool canSplit = CanSplitEdge(walk, h, p), isOutline = kiriMesh_Twin(walk->mesh, h) == KIRI_NONE;
     for (int i = 0; !canSplit && i < 9; ++i) {
         for (int32_t steps = 1; !canSplit && steps <= SLACK; steps = steps < 0 ? -2 * steps : -steps) {
-            double s = along[i] * walk->on, t = steps == 1 ? 0.0 : steps;
+            double s = along[i] * walk->on, t = steps == 1 || (isOutline && steps < 0) ? 0.0 : steps;
             p = kiriMesh_Round(kiriVec2_Make(at->x + s * x - t * y, at->y + s * y + t * x));
-            canSplit = CanSplitEdge(walk, h, p);
+            canSplit = kiriSquares_At(&walk->mesh->squares, p) != KIRI_NONE && CanSplitEdge(walk, h, p);
         }
     }
     *at = p;
