@@ -187,7 +187,8 @@ scarce: packages-bench
 	$(BUILD)/tests/test_scarce all
 
 long: packages-bench
-	@$(MAKE) --no-print-directory $(BUILD)/tests/test_long $(BUILD)/tests/test_slicing
+	@$(MAKE) --no-print-directory $(addprefix $(BUILD)/tests/test_,long slicing meeting)
+	$(BUILD)/tests/test_meeting 5000 1000
 	$(BUILD)/tests/test_long all
 	$(BUILD)/tests/test_slicing all
 
