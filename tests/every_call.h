@@ -27,7 +27,10 @@
     READS(kiriSheet_GetMesh, world, 0, NULL) \
     READS(kiriSheet_GetDirty, world, 0, 0, NULL) \
     READS(kiriSheet_CopyVertices, world, 0, 0, 0, NULL, 0, NULL, 0) \
+    READS(kiriSheet_CopyPrevious, world, 0, 0, 0, NULL, NULL) \
     READS(kiriSheet_CopyIndices16, world, 0, 0, 0, NULL) \
+    READS(kiriSheet_CopySources, world, 0, 0, 0, NULL) \
+    READS(kiriSheet_CopySourceWeights, world, 0, 0, 0, NULL) \
     CHANGES(kiriSheet_GetSolid, world, 0, 0, NULL) \
     READS(kiriSheet_GetCollisionPoints, world, 0, NULL, NULL) \
     READS(kiriSheet_GetCounts, world, 0, NULL) \
