@@ -436,7 +436,9 @@ static bool CheckScan(Sheet* sheet, const kiriSeed* seeds, int32_t count)
     kiriField scanned = { 0 };
     assert_true(kiriField_Resize(&scanned, &sheet->memory, sheet->grid.cells.count));
     assert_true(kiriField_Start(&scanned, &sheet->memory, seeds, count));
-    bool isScanned = kiriField_Scan(&scanned, &sheet->memory, &sheet->grid, cells, sheet->grid.cellCount);
+    kiriProgress progress = kiriField_Scan(&scanned, &sheet->memory, &sheet->grid, cells, sheet->grid.cellCount);
+    bool isScanned = progress == KIRI_DONE;
+    assert_true(isScanned || progress == KIRI_MORE); /* there is memory */
     assert_int_equal(scanned.settled.count > 0, isScanned);
     for (int32_t k = 0; isScanned && k < sheet->grid.cellCount; ++k) {
         if (scanned.distance.data[cells[k]] != KIRI_FAR) {
