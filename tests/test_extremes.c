@@ -87,7 +87,7 @@ static void AssertDiverged(Host* host, kiriSheet bad)
 {
     kiriEvent event;
     assert_int_equal(Host_Tick(host, 1.0f / 60.0f, 1), KIRI_DIVERGED);
-    assert_non_null(strstr(kiriWorld_GetLastError(host->world), "rests"));
+    assert_non_null(strstr(kiriWorld_GetLastError(host->world), "put to rest"));
     assert_int_equal(Host_Events(host, KIRI_EVENT_DIVERGED, &event), 1);
     assert_int_equal(event.sheet, bad);
 }
