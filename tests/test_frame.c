@@ -964,8 +964,8 @@ static void FailingAllocatorLeaksNothing(void** state)
     Scene_Release(&scene);
 }
 
-/* Once there is room, placing allocates nothing. */
-static void PlacingAgainAllocatesNothing(void** state)
+/* Once there is room, placing keeps no more of it: only scans take some, which they give back. */
+static void PlacingAgainKeepsNoMore(void** state)
 {
     (void)state;
     Scene scene;
@@ -973,12 +973,12 @@ static void PlacingAgainAllocatesNothing(void** state)
     Scene_Init(&scene, 1.0, 1.0, 8, 8, 24);
     Scene_BuildGrid(&scene);
     assert_true(Place(&scene, &placer, 0, 9));
-    scene.purse.budget = 0;
+    int64_t out = scene.purse.out;
     for (int32_t count = 1; count < 9; ++count) {
         placer.sites.count = 0;
         assert_true(Place(&scene, &placer, 0, count));
+        assert_int_equal(scene.purse.out, out);
     }
-    scene.purse.budget = -1;
     Scene_Release(&scene);
 }
 
@@ -997,7 +997,7 @@ int main(void)
         cmocka_unit_test(RecenterKeepsTheMotion),
         cmocka_unit_test(RecenterKeepsTheMomentum),
         cmocka_unit_test(FailingAllocatorLeaksNothing),
-        cmocka_unit_test(PlacingAgainAllocatesNothing),
+        cmocka_unit_test(PlacingAgainKeepsNoMore),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -374,10 +374,16 @@ static void CompareEverything(const Everything* a, const Everything* b, int32_t 
     for (int32_t s = 0; s < a->host.world->sheets.count; ++s) {
         kiriSheet id = a->host.world->sheets.data[s]->id;
         kiriTotals one = Host_Totals(&a->host, id), other = Host_Totals(&b->host, id);
-        double scale = 9.81 * one.mass + fabs(one.elasticEnergy), most = 0.0;
+        double scale = 9.81 * one.mass + fabs(one.elasticEnergy), most = 0.0, mostRest = 0.0;
         kiriMesh from = Host_Mesh(&a->host, id), to = Host_Mesh(&b->host, id);
         assert_int_equal(from.vertexCount, to.vertexCount);
-        assert_memory_equal(from.restPositions, to.restPositions, 8 * (size_t)from.vertexCount);
+        for (int32_t i = 0; i < 2 * from.vertexCount; ++i) { /* far off, floats place the blade more roughly */
+            double apart = fabs((double)from.restPositions[i] - to.restPositions[i]);
+            mostRest = apart > mostRest ? apart : mostRest;
+        }
+        if (mostRest > 1e-5) {
+            fail_msg("tick %d, sheet %d: %g m apart in the rest plane", (int)tick, (int)s, mostRest);
+        }
         for (int32_t i = 0; i < 3 * from.vertexCount; ++i) {
             double apart = fabs((double)from.positions[i] - to.positions[i] - b->origin[i % 3]);
             most = apart > most ? apart : most;
