@@ -3,17 +3,21 @@
 bool kiriPast_Grow(kiriPast* past, int64_t tick, kiriIndices* room, kiriMemory* memory, const kiriMeshData* mesh,
                    int32_t first)
 {
-    KIRI_ASSERT(past->tick != tick && first >= mesh->oldVertexCount); /* nothing has changed in the tick before */
-    int32_t count = mesh->vertices.count - first;
+    const kiriPast was = kiriPast_At(past, tick); /* pieces may have left at the start of the tick */
+    KIRI_ASSERT(first >= mesh->oldVertexCount && (was.count == 0 || was.others != room->data));
+    int32_t same = was.same < first ? was.same : first, count = mesh->vertices.count - same;
     if (!kiriArray_Resize(memory, room, count)) {
         return false;
     }
-    *past = (kiriPast){ tick, 0, first, room->data, count };
-    for (int32_t k = 0; k < count; ++k) {
-        const kiriBirth* birth = &mesh->births.data[first + k - mesh->oldVertexCount];
+    *past = (kiriPast){ tick, was.sheet, same, room->data, count };
+    for (int32_t v = same; v < first; ++v) {
+        room->data[v - same] = kiriPast_IndexOf(&was, v);
+    }
+    for (int32_t v = first; v < mesh->vertices.count; ++v) {
+        const kiriBirth* birth = &mesh->births.data[v - mesh->oldVertexCount];
         bool isTorn = birth->parent[1] == KIRI_NONE;
-        KIRI_ASSERT(birth->parent[0] < first + k);
-        room->data[k] = isTorn ? kiriPast_IndexOf(past, birth->parent[0]) : KIRI_NONE;
+        KIRI_ASSERT(birth->parent[0] < v);
+        room->data[v - same] = isTorn ? kiriPast_IndexOf(past, birth->parent[0]) : KIRI_NONE;
     }
     return true;
 }
