@@ -518,7 +518,7 @@ static kiriProgress RunLinks(const kiriBorder* border, kiriLinks* links, kiriQuo
         } else if (at == work->faces.count) {
             ok = FinishLinks(border, links);
         } else if (work->marks.data[work->faces.data[at]] == KIRI_FACE_FOUND) {
-            ok = kiriBorder_MakeLinksAt(border, work->faces.data[at]);
+            ok = kiriBorder_MakeLinksAt(border, work->faces.data[at]) && !work->edges.failed;
         }
         work->due += work->edges.edges.count - seen;
     }
