@@ -249,7 +249,7 @@ double kiriExtraction_Samples(const kiriSheetData* sheet, double share)
    functions cost more for each cell where the piece has more frames. */
 double kiriExtraction_SamplesAhead(const kiriSheetData* sheet, double share, int32_t frames)
 {
-    const double vertexSamples = 3.2, cellSamples = 2.2, frameSamples = 100.0, most = 6.8, lost = 12.5;
+    const double vertexSamples = 3.5, cellSamples = 2.2, frameSamples = 100.0, most = 6.8, lost = 12.5;
     double vertices = (double)sheet->mesh.vertices.count - sheet->mesh.vertexHoles, shape = most - lost / frames;
     return share * (vertexSamples * vertices + (cellSamples + (shape > 0.5 ? shape : 0.5)) * sheet->grid.cellCount) +
            frameSamples * frames;
