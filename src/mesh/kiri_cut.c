@@ -599,7 +599,8 @@ kiriProgress kiriCut_Move(kiriMeshData* mesh, kiriBladeTip* blade, kiriLatticePo
     if (tip.phase == KIRI_BLADE_RESTS && !kiriLattice_IsSame(tip.at, to)) {
         tip.phase = tip.vertex == KIRI_NONE ? KIRI_BLADE_STARTS : KIRI_BLADE_AIMS;
     }
-    while (kiriQuota_Pay(quota, &tip.owed) && tip.phase != KIRI_BLADE_RESTS && quota->left >= KIRI_MOST_SPLITS) {
+    while (!walk.failed && kiriQuota_Pay(quota, &tip.owed) && tip.phase != KIRI_BLADE_RESTS &&
+           quota->left >= KIRI_MOST_SPLITS) {
         TakeStep(&walk, to);
         tip.owed = CountItems(&walk);
     }
