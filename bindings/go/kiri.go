@@ -548,7 +548,8 @@ type SheetDef struct {
 	Material Material
 	// grid squares along the longer side, 1 to 4096; default 32
 	GridResolution int32
-	// m: a blade this near to a vertex or an edge takes it; 0: 1e-4 of the longer side
+	// m: ends of cuts this near to a lip or the border meet it, those twice as far do not, and a cut keeps within half
+	// of it of its line; 0: 1e-4 of the longer side
 	SnapDistance float32
 	// Vertices nearer than this (m, rest plane; 0 or more) are one: for seams of texture coordinates, and triangles
 	// without shared vertices (STL). In the order of vertices, each becomes the nearest vertex that was kept before and

@@ -912,7 +912,8 @@ KIRI_API kiriResult kiriSheet_Slice(kiriWorld* world, kiriSheet sheet, const flo
    whatever the sheet did in between. Where it passes a border of the material, the outline or a lip, the cut goes on
    past it, so that it parts. A cut that began amid the material, and comes by its beginning by 1.5 % of its length or
    nearer, is closed there when it has gone on by a tenth of its length or ends: so a disc comes out of a circle drawn
-   by hand. Move it at least once a tick while it is in a sheet; as often as you like before a tick. What it
+   by hand. A blade that is held still cuts nothing within 64 snap distances of the slit that it is in: cloth sways about
+   it. Move it at least once a tick while it is in a sheet; as often as you like before a tick. What it
    has met is cut with the next tick or, by the budget, a later one. It has a cut for each layer, which begins and ends
    as the blade comes in and goes out; KIRI_EVENT_CUT_FINISHED tells of them, too. */
 

@@ -24,23 +24,37 @@ static double ShareOf(const kiriVec3* edge, kiriVec3 x)
 
 /* ---- Places in the material ---- */
 
-/* Where a place in the material is seen; false where the sheet has none there. */
-static bool Seen(const kiriSheetData* sheet, kiriVec2 rest, kiriVec3* at)
+/* Finds where a place in the material is seen. A lip has a place on each side; the one nearest to `by` is taken, because
+   a piece that came off may have fallen far. False where the sheet has no material. */
+static bool Seen(const kiriSheetData* sheet, kiriVec2 rest, kiriVec3 by, kiriVec3* at)
 {
+    const kiriSquares* squares = &sheet->mesh.squares;
     kiriLatticePoint p = kiriMesh_Snap(&sheet->mesh, rest), c[3];
-    int32_t triangle = kiriMesh_Locate(&sheet->mesh, p);
-    if (triangle == KIRI_NONE) {
-        return false;
+    int32_t square = kiriSquares_At(squares, p);
+    double nearest = 1e300;
+    bool isFound = false;
+    for (int32_t n = square == KIRI_NONE ? KIRI_NONE : squares->head[square]; n != KIRI_NONE;
+         n = squares->nodes.data[n].next) {
+        int32_t triangle = squares->nodes.data[n].triangle;
+        kiriMesh_Corners(&sheet->mesh, triangle, c);
+        const int32_t* v = sheet->mesh.triangles.data[triangle].vertex;
+        const int64_t part[3] = { kiriOrient(c[1], c[2], p), kiriOrient(c[2], c[0], p), kiriOrient(c[0], c[1], p) };
+        if (part[0] < 0 || part[1] < 0 || part[2] < 0) {
+            continue;
+        }
+        double whole = (double)kiriOrient(c[0], c[1], c[2]);
+        kiriVec3 seen = kiriVec3_Make(0.0, 0.0, 0.0);
+        for (int k = 0; k < 3; ++k) {
+            seen = kiriVec3_AddScaled(seen, (double)part[k] / whole, kiriSurface_At(&sheet->seen.surface, v[k]));
+        }
+        double distance = kiriVec3_Length(kiriVec3_Sub(seen, by));
+        if (!isFound || distance < nearest) {
+            nearest = distance;
+            *at = seen;
+            isFound = true;
+        }
     }
-    kiriMesh_Corners(&sheet->mesh, triangle, c);
-    const int32_t* v = sheet->mesh.triangles.data[triangle].vertex;
-    double whole = (double)kiriOrient(c[0], c[1], c[2]);
-    *at = kiriVec3_Make(0.0, 0.0, 0.0);
-    for (int k = 0; k < 3; ++k) {
-        double share = (double)kiriOrient(c[(k + 1) % 3], c[(k + 2) % 3], p) / whole;
-        *at = kiriVec3_AddScaled(*at, share, kiriSurface_At(&sheet->seen.surface, v[k]));
-    }
-    return true;
+    return isFound;
 }
 
 /* How the frames move a vertex. */
@@ -224,7 +238,7 @@ static bool FollowShort(kiriBladeWork* work, kiriTrack* track, const kiriSection
 static bool FollowTrack(kiriBladeWork* work, kiriTrack* track)
 {
     kiriVec3 x, to = EdgeAt(work->is, track->share);
-    if (!Seen(work->sheet, track->rest, &x)) {
+    if (!Seen(work->sheet, track->rest, track->at, &x)) {
         return true;
     }
     work->drift = kiriVec3_Sub(x, track->at);
@@ -278,21 +292,31 @@ static bool AddTrack(kiriBladeWork* work, const kiriCrossing* crossing, kiriVec2
     return kiriArray_Push(&work->memory, &work->tracks, track);
 }
 
+/* The crossing where a line over a fold begins. The line is in the plane of the crossing at its other end, and begins
+   beside this one: it need only be nearer to it than to that one. */
+static kiriCrossing* OtherCrossing(kiriBladeWork* work, kiriCrossing* crossing, kiriVec2 rest)
+{
+    int32_t triangle = crossing->triangle;
+    crossing->triangle = TAKEN;
+    kiriCrossing* other = NearestCrossing(work, rest, kiriRest_Distance(crossing->rest, rest));
+    crossing->triangle = triangle;
+    return other;
+}
+
 /* From the beginning of the line to the crossing at its other end. */
 static bool EnterAlong(kiriBladeWork* work, kiriCrossing* crossing, const kiriSectionLine* line, bool fromLast,
                        double near)
 {
     const kiriSectionPoint* start = EndOfWay(work, line, fromLast);
     int32_t type = line->end[fromLast ? 1 : 0];
-    kiriCrossing* other =
-        type == KIRI_SIDE_TO ? NearestCrossing(work, start->rest, KIRI_BLADE_SAME * work->snap) : NULL;
+    kiriCrossing* other = type == KIRI_SIDE_TO ? OtherCrossing(work, crossing, start->rest) : NULL;
     const kiriTrack* lost = type == KIRI_SIDE_FROM ? LostTrack(work, start->rest, near) : NULL;
     if (!FindPath(work, line, fromLast)) {
         return false;
     }
     kiriVec2 from = lost != NULL ? lost->rest : work->path.data[0];
     kiriLoop loop = lost != NULL ? lost->loop : LoopFrom(from, type != KIRI_END_BORDER);
-    if (other != NULL && other != crossing) {
+    if (other != NULL) {
         other->triangle = TAKEN;
         if (!AddTrack(work, other, from, LoopFrom(from, true))) {
             return false;
@@ -305,25 +329,24 @@ static bool EnterAlong(kiriBladeWork* work, kiriCrossing* crossing, const kiriSe
     return kiriTrack_LeadAlong(work, track) && GoOn(work, track, crossing);
 }
 
-/* The line that leads to the crossing from where the edge was; from farther back where a border is near, for where the
-   material was then is known only nearly. */
+/* The line that leads to the crossing from where the edge was. Where the material was then is known only nearly, and an
+   edge that comes into a layer comes over a border, but for its ends: so from farther back where there is a border. */
 static bool FindLineTo(kiriBladeWork* work, const kiriCrossing* crossing, const kiriVec3* was, const kiriVec3* flat,
                        const kiriSectionLine** line, bool* fromLast)
 {
+    static const double farther[] = { 0.5, 2.0, 8.0, 0.0 };
     kiriVec3 from = EdgeAt(was, crossing->share), back = kiriVec3_Sub(from, crossing->at);
     double length = kiriVec3_Length(back);
-    back = kiriVec3_Scale(0.5 + 4.0 * work->snap / length, back);
-    const kiriVec3 farther[2] = { kiriVec3_Add(was[0], back), kiriVec3_Add(was[1], back) };
-    *line = NULL;
-    if (!CutPlane(work, farther, flat, kiriVec3_Add(from, back), crossing->at)) {
-        return false;
-    }
-    *line = LineFrom(work, crossing->rest, fromLast);
-    if (*line != NULL && (*line)->end[*fromLast ? 0 : 1] == KIRI_SIDE_FROM) {
-        if (!CutPlane(work, was, flat, from, crossing->at)) {
+    for (int i = 0; i < 4; ++i) {
+        kiriVec3 more = kiriVec3_Scale(farther[i] * (1.0 + 8.0 * work->snap / length), back);
+        const kiriVec3 edge[2] = { kiriVec3_Add(was[0], more), kiriVec3_Add(was[1], more) };
+        if (!CutPlane(work, edge, flat, kiriVec3_Add(from, more), crossing->at)) {
             return false;
         }
         *line = LineFrom(work, crossing->rest, fromLast);
+        if (*line != NULL && (*line)->end[*fromLast ? 0 : 1] != KIRI_SIDE_FROM) {
+            break;
+        }
     }
     return true;
 }
@@ -481,6 +504,26 @@ static bool PassThrough(kiriBladeWork* work)
     return ok;
 }
 
+/* ---- Layers that it was not found in ---- */
+
+/* As far as a border may be, as a share of the sheet's longer side. */
+#define FARTHEST 0.05
+
+/* Ends a layer that the edge is in no longer. It went out over a border: where one is near, the cut goes on to it. */
+static bool EndLost(kiriBladeWork* work, kiriTrack* track)
+{
+    kiriVec3 x;
+    kiriVec2 border;
+    bool ok = true;
+    if (Seen(work->sheet, track->rest, track->at, &x)) {
+        double near = 2.0 * kiriVec3_Length(kiriVec3_Sub(x, EdgeAt(work->is, track->share))) + 8.0 * work->snap;
+        double most = FARTHEST * KIRI_LATTICE * work->sheet->mesh.step;
+        near = near < most ? near : most;
+        ok = !kiriBlade_FindLip(&work->sheet->mesh, track->rest, near, false, &border) || kiriTrack_Lead(work, track, border);
+    }
+    return ok && kiriTrack_End(work, track);
+}
+
 /* ---- One step ---- */
 
 bool kiriBlade_Step(kiriBladeWork* work)
@@ -489,6 +532,8 @@ bool kiriBlade_Step(kiriBladeWork* work)
     bool ok = true;
     work->snap = sheet->settings.snap * sheet->mesh.step;
     work->firstPoint = work->points.count;
+    work->isHeld = kiriVec3_Length(kiriVec3_Sub(work->is[0], work->was[0])) < work->snap &&
+                   kiriVec3_Length(kiriVec3_Sub(work->is[1], work->was[1])) < work->snap;
     work->crossings.count = 0;
     work->drift = kiriVec3_Make(0.0, 0.0, 0.0);
     ok = kiriBounds_Update(sheet->seen.bounds, sheet->memory, &sheet->seen.surface) &&
@@ -509,7 +554,7 @@ bool kiriBlade_Step(kiriBladeWork* work)
     ok = ok && PassThrough(work);
     for (int32_t i = 0; ok && i < work->oldCount; ++i) {
         kiriTrack* track = &work->tracks.data[i];
-        ok = track->sheet != sheet || !track->isLost || track->isOver || kiriTrack_End(work, track);
+        ok = track->sheet != sheet || !track->isLost || track->isOver || EndLost(work, track);
     }
     return ok;
 }

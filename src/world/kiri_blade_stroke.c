@@ -1,6 +1,8 @@
 /* What a blade cuts: points are added to the strokes of its tracks, and loops are closed. */
 #include "kiri_blade_work.h"
 
+#include "../mesh/kiri_lip.h"
+
 /* Shares of the length of a loop: as near as CLOSING it comes by its beginning; it is closed when it has gone on by
    OVERLAP. */
 #define CLOSING 0.015
@@ -63,8 +65,138 @@ static bool CloseLoop(kiriBladeWork* work, kiriTrack* track)
     return ok;
 }
 
+/* ---- An edge that is held ---- */
+
+/* Snap distances: a way that stays nearer to lips than BESIDE is in a slit, and so is an edge that is held nearer to one
+   than SLIT. */
+#define BESIDE 1.5
+#define SLIT 64.0
+
+static kiriVec2 FootOn(kiriVec2 a, kiriVec2 b, kiriVec2 p)
+{
+    kiriVec2 way = kiriVec2_Sub(b, a);
+    double square = kiriVec2_Dot(way, way), share = square > 0.0 ? kiriVec2_Dot(kiriVec2_Sub(p, a), way) / square : 0.0;
+    return kiriVec2_Add(a, kiriVec2_Scale(share < 0.0 ? 0.0 : share > 1.0 ? 1.0 : share, way));
+}
+
+static void FindLipInTriangle(const kiriMeshData* mesh, int32_t triangle, kiriVec2 rest, bool isOpen, double* distance,
+                              kiriVec2* lip)
+{
+    for (int32_t h = 3 * triangle; h < 3 * triangle + 3; ++h) {
+        if (kiriMesh_Twin(mesh, h) == KIRI_NONE || (isOpen && kiriMesh_IsOpen(mesh, h))) {
+            kiriVec2 foot = FootOn(kiriMesh_Local(mesh, mesh->vertices.data[kiriMesh_Tail(mesh, h)].at),
+                                   kiriMesh_Local(mesh, mesh->vertices.data[kiriMesh_Tail(mesh, kiriEdge_Next(h))].at),
+                                   rest);
+            double d = kiriRest_Distance(foot, rest);
+            *lip = d < *distance ? foot : *lip;
+            *distance = d < *distance ? d : *distance;
+        }
+    }
+}
+
+bool kiriBlade_FindLip(const kiriMeshData* mesh, kiriVec2 rest, double distance, bool isOpen, kiriVec2* lip)
+{
+    kiriLatticePoint at = kiriMesh_Snap(mesh, rest);
+    kiriStrips strips = kiriStrips_Begin(&mesh->squares, at, at, distance / mesh->step);
+    double least = distance;
+    while (kiriStrips_Next(&strips)) {
+        for (int32_t i = 0; i < strips.count; ++i) {
+            int32_t slot = mesh->squares.head[strips.square + i * strips.stride];
+            for (; slot != KIRI_NONE; slot = mesh->squares.nodes.data[slot].next) {
+                FindLipInTriangle(mesh, mesh->squares.nodes.data[slot].triangle, rest, isOpen, &least, lip);
+            }
+        }
+    }
+    return least < distance;
+}
+
+/* Lips in the mesh, and those that the points of this move make. */
+static bool FindSlit(const kiriBladeWork* work, kiriVec2 rest, double distance, kiriVec2* slit)
+{
+    bool isFound = kiriBlade_FindLip(&work->sheet->mesh, rest, distance, true, slit);
+    distance = isFound ? kiriRest_Distance(*slit, rest) : distance;
+    for (int32_t i = 0; i < work->points.count; ++i) {
+        const kiriStrokePoint* point = &work->points.data[i];
+        kiriVec2 foot = FootOn(point->from, point->rest, rest);
+        bool isHere = work->strokes.data[point->stroke].sheet == work->sheet && !point->isStart;
+        if (isHere && kiriRest_Distance(foot, rest) < distance) {
+            distance = kiriRest_Distance(foot, rest);
+            *slit = foot;
+            isFound = true;
+        }
+    }
+    return isFound;
+}
+
+/* Puts a track elsewhere in the slit. */
+static bool Slide(kiriBladeWork* work, kiriTrack* track, kiriVec2 slit)
+{
+    bool ok = true;
+    track->rest = slit;
+    if (track->cut != NULL || track->stroke != KIRI_NONE) {
+        const kiriStrokePoint start = { StrokeOf(work, track), slit, slit, true };
+        ok = start.stroke != KIRI_NONE && kiriArray_Push(&work->memory, &work->points, start);
+    }
+    return ok;
+}
+
+/* The edge slides in slits that are near instead of cutting beside them. Where it is nearer to the outline it cuts to
+   it. */
+static bool LeadHeld(kiriBladeWork* work, kiriTrack* track, kiriVec2 rest)
+{
+    enum { MOST = 64 };
+    const kiriMeshData* mesh = &work->sheet->mesh;
+    double near = SLIT * work->snap, length = kiriRest_Distance(track->rest, rest);
+    int32_t count = length < 0.5 * MOST * near ? 1 + (int32_t)(length / (0.5 * near)) : 1;
+    kiriVec2 from = track->rest;
+    bool ok = true;
+    track->loop.isOpen = track->loop.isPassed = false;
+    for (int32_t i = 1; ok && i <= count; ++i) {
+        kiriVec2 at = kiriVec2_Add(from, kiriVec2_Scale((double)i / count, kiriVec2_Sub(rest, from)));
+        kiriVec2 slit, other, here;
+        bool isNear = FindSlit(work, at, near, &slit);
+        if (!isNear && FindSlit(work, at, 2.0 * near, &slit)) {
+            ok = (kiriRest_Distance(slit, track->rest) < work->snap || Slide(work, track, slit)) &&
+                 AddPoint(work, track, at);
+        } else if (!isNear) {
+            ok = AddPoint(work, track, at);
+        } else if (kiriBlade_FindLip(mesh, at, near, false, &other) &&
+                   !kiriBlade_FindLip(mesh, track->rest, work->snap, false, &here)) {
+            ok = AddPoint(work, track, at) && AddPoint(work, track, other);
+        } else if (!FindSlit(work, kiriVec2_Scale(0.5, kiriVec2_Add(track->rest, slit)), 0.25 * near, &other)) {
+            ok = AddPoint(work, track, at) && AddPoint(work, track, slit);
+        } else if (kiriRest_Distance(slit, track->rest) > work->snap) {
+            ok = Slide(work, track, slit);
+        }
+    }
+    return ok;
+}
+
+/* ---- Ways ---- */
+
+/* Does a way keep to lips, so that there is nothing to cut? One to the outline does not: it must part. */
+static bool IsInSlit(const kiriBladeWork* work, kiriVec2 from, kiriVec2 to)
+{
+    enum { PLACES = 8 };
+    kiriVec2 border;
+    bool isInSlit = !kiriBlade_FindLip(&work->sheet->mesh, to, 2.0 * BESIDE * work->snap, false, &border);
+    for (int32_t i = PLACES; isInSlit && i > 0; --i) {
+        kiriVec2 slit, at = kiriVec2_Add(from, kiriVec2_Scale((double)i / PLACES, kiriVec2_Sub(to, from)));
+        isInSlit = FindSlit(work, at, BESIDE * work->snap, &slit);
+    }
+    return isInSlit;
+}
+
 bool kiriTrack_Lead(kiriBladeWork* work, kiriTrack* track, kiriVec2 rest)
 {
+    if (work->isHeld) {
+        return LeadHeld(work, track, rest);
+    }
+    if (IsInSlit(work, track->rest, rest)) {
+        NotePassing(track, rest);
+        track->loop.length += kiriRest_Distance(track->rest, rest);
+        return Slide(work, track, rest);
+    }
     NotePassing(track, rest);
     bool ok = AddPoint(work, track, rest);
     bool hasGoneOn = track->loop.isPassed && track->loop.length > (1.0 + OVERLAP) * track->loop.then;
@@ -83,6 +215,8 @@ bool kiriTrack_LeadAlong(kiriBladeWork* work, kiriTrack* track)
     }
     return ok;
 }
+
+/* ---- The end ---- */
 
 /* Is there material around the end of a track, though it went over a border? Then it has crossed a cut. */
 static bool IsAtLip(const kiriTrack* track)

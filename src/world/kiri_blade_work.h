@@ -47,6 +47,7 @@ typedef struct kiriBladeWork {
     double elapsed;         /* s in which the sheet went on since the edge was there */
     kiriSheetData* sheet;
     double snap;      /* m */
+    bool isHeld;      /* the edge is where it was: the material alone moves */
     int32_t oldCount; /* tracks before the step */
     kiriVec3 drift;   /* how the material went on, of the last layer that was looked at */
     int32_t firstPoint;
@@ -74,6 +75,9 @@ bool kiriTrack_End(kiriBladeWork* work, kiriTrack* track);
 
 /* Is the end of the cut so near to its beginning that it may be closed? */
 bool kiriLoop_IsNear(const kiriLoop* loop, kiriVec2 end);
+
+/* Finds the point of the outline, or of lips too, that is nearest to a place, up to a distance (m). */
+bool kiriBlade_FindLip(const kiriMeshData* mesh, kiriVec2 rest, double distance, bool isOpen, kiriVec2* lip);
 
 /* Steps of the edge through one sheet. False for memory. */
 bool kiriBlade_Step(kiriBladeWork* work);

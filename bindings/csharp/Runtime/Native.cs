@@ -761,7 +761,8 @@ namespace Kiri
         public Material Material;
         /// <summary>grid squares along the longer side, 1 to 4096; default 32</summary>
         public int GridResolution;
-        /// <summary>m: a blade this near to a vertex or an edge takes it; 0: 1e-4 of the longer side</summary>
+        /// <summary>m: ends of cuts this near to a lip or the border meet it, those twice as far do not, and a cut keeps within
+        /// half of it of its line; 0: 1e-4 of the longer side</summary>
         public float SnapDistance;
         /// <summary>Vertices nearer than this (m, rest plane; 0 or more) are one: for seams of texture coordinates, and
         /// triangles without shared vertices (STL). In the order of vertices, each becomes the nearest vertex that was
