@@ -65,6 +65,7 @@ func test_constants():
 	equal(kiri.ERROR_REPLAY, -11)
 	equal(kiri.DRAW_ALL, 2047)
 	equal(kiri.get_result_name(kiri.ERROR_MESH), "KIRI_ERROR_MESH")
+	check(kiri.get_result_text(kiri.ERROR_MESH).length() > 20, "a text")
 	equal(kiri.get_stage_name(kiri.STAGE_SOLVE), "solve")
 	check(kiri.get_version() >= 800, "version")
 
@@ -134,6 +135,10 @@ func test_meshes():
 	var copied = sheet.copy_vertices(40, 5)
 	equal(copied.positions[4], mesh.positions[44])
 	equal(copied.normals.size(), 5)
+	equal(sheet.copy_sources(0, 2).size(), 6)
+	equal(sheet.copy_source_weights(0, 2).size(), 18)
+	equal(sheet.copy_previous(0, 5).vertices.size(), 5)
+	equal(world.shift_origin(Vector3(0, 0, 0)), kiri.OK)
 	equal(sheet.copy_indices16(63, 1)[0], mesh.indices[189])
 	equal(sheet.get_solid(0.01).positions.size() >= 90, true)
 	equal(sheet.get_solid_arrays(0.01)[0], sheet.get_solid(0.01).positions)

@@ -1,7 +1,7 @@
 #include "kiri_lip.h"
 
 /* About ns: to look at a triangle around a vertex, or in the list of a square; and at a vertex in a list. */
-enum { LOOK_EFFORT = 8, PASS_EFFORT = 2 };
+enum { LIP_EFFORT = 8, PASSING_EFFORT = 2 };
 
 /* ---- Corridor ---------------------------------------------------------------------------------------------------- */
 
@@ -65,7 +65,7 @@ int32_t kiriMesh_VertexAt(const kiriMeshData* mesh, kiriLatticePoint at, int64_t
     int32_t square = kiriSquares_At(&mesh->squares, at);
     int32_t v = square == KIRI_NONE ? KIRI_NONE : mesh->squares.vertexHead[square];
     while (v != KIRI_NONE && !kiriLattice_IsSame(mesh->vertices.data[v].at, at)) {
-        *effort += PASS_EFFORT;
+        *effort += PASSING_EFFORT;
         v = mesh->vertices.data[v].next;
     }
     return v;
@@ -90,7 +90,7 @@ static int32_t NextLip(kiriCorridor* corridor, LipsAround* around, int32_t* end)
     while (around->h != KIRI_NONE) {
         int32_t h = around->h, previous = kiriEdge_Previous(h);
         bool isOutline = kiriMesh_Twin(mesh, previous) == KIRI_NONE;
-        corridor->effort += LOOK_EFFORT;
+        corridor->effort += LIP_EFFORT;
         if (around->isLast || !isOutline) {
             around->h = kiriMesh_NextAround(mesh, h, around->first);
         }
@@ -281,7 +281,7 @@ typedef struct NearestLip {
     double distance;
 } NearestLip;
 
-static void TakeNearer(NearestLip* nearest, int32_t h, kiriLatticePoint at, double distance)
+static void TakeNearerLip(NearestLip* nearest, int32_t h, kiriLatticePoint at, double distance)
 {
     if (distance < nearest->distance ||
         (distance == nearest->distance && (nearest->place.edge == KIRI_NONE || h < nearest->place.edge))) {
@@ -326,7 +326,7 @@ static int32_t NextInBox(kiriCorridor* corridor, LipsInBox* box)
         box->h = 3 * mesh->squares.nodes.data[box->slot].triangle;
         box->end = box->h + 3;
         box->slot = mesh->squares.nodes.data[box->slot].next;
-        corridor->effort += LOOK_EFFORT;
+        corridor->effort += LIP_EFFORT;
     }
 }
 
@@ -336,7 +336,7 @@ static void EdgePoints(const kiriCorridor* corridor, int32_t h, kiriLatticePoint
     *b = PointOf(corridor, kiriMesh_Tail(corridor->mesh, kiriEdge_Next(h)));
 }
 
-static kiriLatticePoint FootOn(kiriLatticePoint a, kiriLatticePoint b, kiriLatticePoint p)
+static kiriLatticePoint NearestOnEdge(kiriLatticePoint a, kiriLatticePoint b, kiriLatticePoint p)
 {
     double share = (double)kiriLattice_Dot(a, b, p) / (double)kiriDistanceSquared(a, b);
     return kiriLattice_Between(a, b, share < 0.0 ? 0.0 : share > 1.0 ? 1.0 : share);
@@ -363,7 +363,7 @@ static void MeetOnLine(kiriCorridor* corridor, kiriLipPoint* place)
         double distance = sqrt((double)kiriDistanceSquared(at, to));
         if (distance <= most && kiriCorridor_Progress(corridor, at) > 0 &&
             fabs((double)kiriOrient(a, b, at)) <= 2.0 * corridor->on * length) {
-            TakeNearer(&nearest, h, at, distance);
+            TakeNearerLip(&nearest, h, at, distance);
         }
     }
     *place = nearest.place.edge != KIRI_NONE ? nearest.place : *place;
@@ -378,11 +378,11 @@ kiriLipsNear kiriLip_FindNear(kiriCorridor* corridor, int32_t vertex)
     for (int32_t h = NextInBox(corridor, &box); h != KIRI_NONE; h = NextInBox(corridor, &box)) {
         kiriLatticePoint a, b;
         EdgePoints(corridor, h, &a, &b);
-        kiriLatticePoint foot = FootOn(a, b, to);
+        kiriLatticePoint foot = NearestOnEdge(a, b, to);
         double distance = sqrt((double)kiriDistanceSquared(foot, to));
         if (distance <= own.distance || distance <= other.distance) {
             bool isOwn = hasLine && vertex != KIRI_NONE && LeadsTo(corridor, vertex, a, b);
-            TakeNearer(isOwn ? &own : &other, h, foot, distance);
+            TakeNearerLip(isOwn ? &own : &other, h, foot, distance);
         }
     }
     if (other.place.edge != KIRI_NONE && hasLine) {
@@ -429,7 +429,7 @@ static bool IsLoose(kiriCorridor* corridor, int32_t vertex)
     return true;
 }
 
-static void LookAtVertex(kiriCorridor* corridor, int32_t vertex, int64_t after, bool* isFound, kiriLipStop* stop)
+static void TakeStop(kiriCorridor* corridor, int32_t vertex, int64_t after, bool* isFound, kiriLipStop* stop)
 {
     kiriLatticePoint at = PointOf(corridor, vertex);
     int64_t progress = kiriCorridor_Progress(corridor, at), last = kiriCorridor_Progress(corridor, corridor->to),
@@ -456,10 +456,10 @@ bool kiriLip_FindStop(kiriCorridor* corridor, kiriLatticePoint after, kiriLipSto
     while (kiriStrips_Next(&strips)) {
         for (int32_t i = 0; i < strips.count; ++i) {
             int32_t v = mesh->squares.vertexHead[strips.square + i * strips.stride];
-            corridor->effort += PASS_EFFORT;
+            corridor->effort += PASSING_EFFORT;
             for (; v != KIRI_NONE; v = mesh->vertices.data[v].next) {
-                corridor->effort += PASS_EFFORT;
-                LookAtVertex(corridor, v, progress, &isFound, stop);
+                corridor->effort += PASSING_EFFORT;
+                TakeStop(corridor, v, progress, &isFound, stop);
             }
         }
         /* Vertices of later strips are farther along the line. */

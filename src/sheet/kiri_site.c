@@ -338,7 +338,7 @@ bool kiriSites_ClearMarks(kiriSheetData* sheet, int32_t count)
 
 /* Returns the area over which the frame's weight exceeds rigidWeight, divided by rigidArea. 0 where the new sheet
    had as much. */
-static double Rigidity(const kiriSheetData* sheet, int32_t frame)
+static double FrameRigidity(const kiriSheetData* sheet, int32_t frame)
 {
     int64_t rigid = sheet->shape.rigid.data[frame];
     double square = sheet->grid.side * sheet->grid.side / 1099511627776.0; /* 2^40, see kiriShape.rigid */
@@ -363,7 +363,7 @@ static double Largeness(const kiriSheetData* sheet, int32_t frame)
 /* Above 1: the frame needs another beside it. */
 static double NeedOf(const kiriSheetData* sheet, int32_t frame)
 {
-    double rigidity = Rigidity(sheet, frame), largeness = Largeness(sheet, frame);
+    double rigidity = FrameRigidity(sheet, frame), largeness = Largeness(sheet, frame);
     return rigidity > largeness ? rigidity : largeness;
 }
 
@@ -387,7 +387,7 @@ static bool MarkRigidCells(kiriSheetData* sheet)
         for (int32_t k = span.first; k < span.first + span.count; ++k) {
             const kiriCellWeight* weight = &sheet->shape.weights.data[k];
             u->placing.allowed.data[cell] |= kiriCellWeight_Raw(weight) / sum > sheet->shape.rigidWeight &&
-                                             Rigidity(sheet, kiriSheet_FrameOf(sheet, weight->label)) > 1.0;
+                                             FrameRigidity(sheet, kiriSheet_FrameOf(sheet, weight->label)) > 1.0;
         }
     }
     return true;

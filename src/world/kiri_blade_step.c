@@ -507,7 +507,7 @@ static bool PassThrough(kiriBladeWork* work)
 /* ---- Layers that it was not found in ---- */
 
 /* As far as a border may be, as a share of the sheet's longer side. */
-#define FARTHEST 0.05
+#define BORDER_DISTANCE 0.05
 
 /* Ends a layer that the edge is in no longer. It went out over a border: where one is near, the cut goes on to it. */
 static bool EndLost(kiriBladeWork* work, kiriTrack* track)
@@ -517,7 +517,7 @@ static bool EndLost(kiriBladeWork* work, kiriTrack* track)
     bool ok = true;
     if (Seen(work->sheet, track->rest, track->at, &x)) {
         double near = 2.0 * kiriVec3_Length(kiriVec3_Sub(x, EdgeAt(work->is, track->share))) + 8.0 * work->snap;
-        double most = FARTHEST * KIRI_LATTICE * work->sheet->mesh.step;
+        double most = BORDER_DISTANCE * KIRI_LATTICE * work->sheet->mesh.step;
         near = near < most ? near : most;
         ok = !kiriBlade_FindLip(&work->sheet->mesh, track->rest, near, false, &border) || kiriTrack_Lead(work, track, border);
     }

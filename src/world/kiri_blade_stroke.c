@@ -67,12 +67,12 @@ static bool CloseLoop(kiriBladeWork* work, kiriTrack* track)
 
 /* ---- An edge that is held ---- */
 
-/* Snap distances: a way that stays nearer to lips than BESIDE is in a slit, and so is an edge that is held nearer to one
+/* Snap distances: a way that stays nearer to lips than BESIDE_LIP is in a slit, and so is an edge that is held nearer to one
    than SLIT. */
-#define BESIDE 1.5
+#define BESIDE_LIP 1.5
 #define SLIT 64.0
 
-static kiriVec2 FootOn(kiriVec2 a, kiriVec2 b, kiriVec2 p)
+static kiriVec2 FootOnLip(kiriVec2 a, kiriVec2 b, kiriVec2 p)
 {
     kiriVec2 way = kiriVec2_Sub(b, a);
     double square = kiriVec2_Dot(way, way), share = square > 0.0 ? kiriVec2_Dot(kiriVec2_Sub(p, a), way) / square : 0.0;
@@ -84,7 +84,7 @@ static void FindLipInTriangle(const kiriMeshData* mesh, int32_t triangle, kiriVe
 {
     for (int32_t h = 3 * triangle; h < 3 * triangle + 3; ++h) {
         if (kiriMesh_Twin(mesh, h) == KIRI_NONE || (isOpen && kiriMesh_IsOpen(mesh, h))) {
-            kiriVec2 foot = FootOn(kiriMesh_Local(mesh, mesh->vertices.data[kiriMesh_Tail(mesh, h)].at),
+            kiriVec2 foot = FootOnLip(kiriMesh_Local(mesh, mesh->vertices.data[kiriMesh_Tail(mesh, h)].at),
                                    kiriMesh_Local(mesh, mesh->vertices.data[kiriMesh_Tail(mesh, kiriEdge_Next(h))].at),
                                    rest);
             double d = kiriRest_Distance(foot, rest);
@@ -117,7 +117,7 @@ static bool FindSlit(const kiriBladeWork* work, kiriVec2 rest, double distance, 
     distance = isFound ? kiriRest_Distance(*slit, rest) : distance;
     for (int32_t i = 0; i < work->points.count; ++i) {
         const kiriStrokePoint* point = &work->points.data[i];
-        kiriVec2 foot = FootOn(point->from, point->rest, rest);
+        kiriVec2 foot = FootOnLip(point->from, point->rest, rest);
         bool isHere = work->strokes.data[point->stroke].sheet == work->sheet && !point->isStart;
         if (isHere && kiriRest_Distance(foot, rest) < distance) {
             distance = kiriRest_Distance(foot, rest);
@@ -179,10 +179,10 @@ static bool IsInSlit(const kiriBladeWork* work, kiriVec2 from, kiriVec2 to)
 {
     enum { PLACES = 8 };
     kiriVec2 border;
-    bool isInSlit = !kiriBlade_FindLip(&work->sheet->mesh, to, 2.0 * BESIDE * work->snap, false, &border);
+    bool isInSlit = !kiriBlade_FindLip(&work->sheet->mesh, to, 2.0 * BESIDE_LIP * work->snap, false, &border);
     for (int32_t i = PLACES; isInSlit && i > 0; --i) {
         kiriVec2 slit, at = kiriVec2_Add(from, kiriVec2_Scale((double)i / PLACES, kiriVec2_Sub(to, from)));
-        isInSlit = FindSlit(work, at, BESIDE * work->snap, &slit);
+        isInSlit = FindSlit(work, at, BESIDE_LIP * work->snap, &slit);
     }
     return isInSlit;
 }

@@ -210,7 +210,7 @@ static void ScalePiece(const Member* member)
     }
 }
 
-static void AddMotion(const Member* member)
+static void AddMemberMotion(const Member* member)
 {
     kiriIsland* island = member->island;
     const kiriFrameData* frame = member->frame;
@@ -222,7 +222,7 @@ static void AddMotion(const Member* member)
 static void LimitIslands(kiriWorld* world)
 {
     kiriPairs* pairs = &world->pairs;
-    ForMembers(world, AddMotion);
+    ForMembers(world, AddMemberMotion);
     for (int32_t i = 0; i < pairs->islands.count; ++i) {
         kiriIsland* island = &pairs->islands.data[i];
         if (island == RootOf(pairs, i)) {
