@@ -135,7 +135,7 @@ func test_meshes():
 	var copied = sheet.copy_vertices(40, 5)
 	equal(copied.positions[4], mesh.positions[44])
 	equal(copied.normals.size(), 5)
-	equal(sheet.copy_sources(0, 2).size(), 6)
+	equal(sheet.copy_sources(0, 2).size(), 2)
 	equal(sheet.copy_source_weights(0, 2).size(), 18)
 	equal(sheet.copy_previous(0, 5).vertices.size(), 5)
 	equal(world.shift_origin(Vector3(0, 0, 0)), kiri.OK)
