@@ -255,7 +255,7 @@ static void TestCutsAreTakenBack(void** state)
         first++;
     }
     assert_true(first < recorded.count);
-    /* By then the basket stands still: a key that is held is not taken back. */
+    /* The basket stands still 240 ticks later: a key that is held is not taken back. */
     int32_t tick = recorded.events[first].tick, more = 240;
     assert_true(Play_Start(&play, &curtainGame, 5));
     uint64_t before = PlayUntil(&play, &recorded, tick + more, 0), after = HashOf(&play);

@@ -79,7 +79,7 @@ static Point Somewhere(Layout* layout)
     return Make(x, Uniform(layout, 0.3, 0.7));
 }
 
-/* By how much an end is short, m. */
+/* The gap of a short end, m. */
 static double Gap(Layout* layout)
 {
     return layout->snap * Uniform(layout, layout->least, layout->most);
@@ -224,7 +224,7 @@ static Point OnPolygon(Point middle, double angle, double size, int32_t i, int32
     return Along(middle, size, Direction(angle + 2.0 * PI * i / count));
 }
 
-/* Each side is a stroke of its own, one end of which is short. */
+/* Each side is a separate stroke with one short end. */
 static void MakePolygon(Layout* layout)
 {
     Point middle = Somewhere(layout);

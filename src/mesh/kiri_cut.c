@@ -445,7 +445,7 @@ static int32_t LocatePoint(BladeWalk* walk, kiriLatticePoint at)
     return kiriMesh_Locate(walk->mesh, at);
 }
 
-/* The first point of a stroke: on a lip that is near, where the line meets it if it does; else a vertex of its own. */
+/* Makes the first point of a stroke: on a near lip, where the line meets it or nearest to it; else a new vertex. */
 static void Start(BladeWalk* walk, kiriLatticePoint to)
 {
     kiriBladeTip* tip = walk->tip;
@@ -460,8 +460,8 @@ static void Start(BladeWalk* walk, kiriLatticePoint to)
     tip->phase = KIRI_BLADE_AIMS;
 }
 
-/* Where the move ends: on a lip that is near, or at a vertex of its own. Lips that lead there along the line leave
-   nothing to cut. */
+/* Finds the end of the move: on a near lip, or at a new vertex. If lips lead there along the line, the blade jumps and
+   cuts nothing. */
 static void Aim(BladeWalk* walk, kiriLatticePoint to)
 {
     kiriBladeTip* tip = walk->tip;

@@ -7,7 +7,7 @@
 
 KIRI_C_BEGIN
 
-/* What a move of the blade does next. */
+/* The next step of a move. */
 enum kiriBladePhase {
     KIRI_BLADE_RESTS,  /* the last move is done */
     KIRI_BLADE_STARTS, /* makes a vertex where it is */
@@ -24,17 +24,17 @@ typedef struct kiriBladeTip {
     int32_t phase;  /* kiriBladePhase */
     kiriLatticePoint from, to; /* the line of the move at work */
     kiriLatticePoint goal;     /* the next place on its way; KIRI_BLADE_JOINS: the lip */
-    kiriLatticePoint lip;      /* KIRI_BLADE_WALKS: what it joins at the goal; the goal itself: nothing. KIRI_BLADE_JOINS:
-                                  where it left the line. KIRI_BLADE_LOOKS: the last lip that it met */
-    int64_t owed;              /* items of the quota for what is done already */
+    kiriLatticePoint lip;      /* KIRI_BLADE_WALKS: the lip to join at the goal, or the goal itself. KIRI_BLADE_JOINS:
+                                  the place on the line to go back to. KIRI_BLADE_LOOKS: the last lip on the way */
+    int64_t owed;              /* items that finished work still costs */
 } kiriBladeTip;
 
 /* A step of the blade, from vertex to vertex, splits an edge or a triangle at most: so many triangles are made or
    reshaped. Less in a quota takes the blade nowhere. */
 enum { KIRI_MOST_SPLITS = 4 };
 
-/* Moves the blade to `to` in a straight line and cuts on the way; it may leave the sheet and come back. `snap`, in
-   lattice steps, says what is near. The cut keeps within half of it of the line, and takes corners and edges of the mesh
+/* Moves the blade to `to` in a straight line and cuts on the way; it may leave the sheet and come back. `snap` is the
+   snap distance in lattice steps. The cut keeps within half of it of the line, and takes corners and edges of the mesh
    a quarter of it away. Lips and the outline attract it from farther, by 3/2: an end of the move meets the lip there,
    and so do the ends of lips that the line passes. So ends of lines that are a snap apart always meet, and those two
    snaps apart never do. A line along a lip cuts nothing.

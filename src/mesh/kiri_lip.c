@@ -1,6 +1,6 @@
 #include "kiri_lip.h"
 
-/* About ns: to look at a triangle around a vertex, or in the list of a square; and at a vertex in a list. */
+/* Cost in ns, about: of a triangle around a vertex or in the list of a square, and of a vertex in a list. */
 enum { LIP_EFFORT = 8, PASSING_EFFORT = 2 };
 
 /* ---- Corridor ---------------------------------------------------------------------------------------------------- */

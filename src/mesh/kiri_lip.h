@@ -1,4 +1,4 @@
-/* Lips near a point or along a line: what a blade joins. A lip is an edge that a cut has opened; here the outline of the
+/* Finds the lips near a point or along a line that a blade joins. A lip is an edge that a cut has opened; here the outline of the
    sheet counts as a lip, too. */
 #ifndef KIRI_LIP_H
 #define KIRI_LIP_H
@@ -50,11 +50,11 @@ kiriLatticePoint kiriLattice_Between(kiriLatticePoint a, kiriLatticePoint b, dou
 
 /* A point on a lip. */
 typedef struct kiriLipPoint {
-    int32_t edge; /* a half-edge of the lip; KIRI_NONE: there is no lip */
+    int32_t edge; /* a half-edge of the lip, or KIRI_NONE */
     kiriLatticePoint at;
 } kiriLipPoint;
 
-/* What a blade at corridor->from meets at corridor->to. */
+/* Lips near the end of the corridor. */
 typedef struct kiriLipsNear {
     kiriLipPoint own;   /* the nearest point of a lip that leads there from `vertex` without leaving the corridor */
     kiriLipPoint other; /* of another lip: where the line meets it, else its nearest point */
