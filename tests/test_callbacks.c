@@ -19,8 +19,8 @@ enum {
 typedef struct Caller {
     Host host; /* first: the allocator takes it */
     int32_t armed;
-    int32_t most; /* times that each callback calls, after Arm */
-    bool isRead; /* the world is only read */
+    int32_t most;        /* times that each callback calls, after Arm */
+    bool isRead;         /* the world is only read */
     int32_t called[256]; /* times, by callback */
     int64_t noted;       /* bytes of the recording */
 } Caller;

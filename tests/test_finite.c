@@ -25,10 +25,10 @@ static void AddTriangle(Net* net, int32_t squares, int32_t corners[3][2], bool i
 /* Squares of the net, halved either way, of which some halves are left out. */
 static void MakeNet(Net* net, int32_t squares, bool isAlone, uint32_t* seed)
 {
-    static const int32_t halves[4][3][2] = {
-        { { 0, 0 }, { 1, 0 }, { 1, 1 } }, { { 0, 0 }, { 1, 1 }, { 0, 1 } }, { { 0, 0 }, { 1, 0 }, { 0, 1 } },
-        { { 1, 0 }, { 1, 1 }, { 0, 1 } }
-    };
+    static const int32_t halves[4][3][2] = { { { 0, 0 }, { 1, 0 }, { 1, 1 } },
+                                             { { 0, 0 }, { 1, 1 }, { 0, 1 } },
+                                             { { 0, 0 }, { 1, 0 }, { 0, 1 } },
+                                             { { 1, 0 }, { 1, 1 }, { 0, 1 } } };
     net->triangles = 0;
     net->vertices = isAlone ? 0 : (squares + 1) * (squares + 1);
     for (int32_t square = 0; square < squares * squares; ++square) {

@@ -56,8 +56,7 @@ static void HangBanner(Game* game, int i)
     def.axisV[1] = 0.0f;
     def.axisV[2] = 1.0f;
     game->banners[i] = Host_AddRectangle(&game->host, &def, 0.3f, 0.5f, 4, 6);
-    OK(kiriSheet_HingeLine(game->host.world, game->banners[i], (float[]){ 0.0f, 0.5f }, (float[]){ 0.3f, 0.5f },
-                           &pin));
+    OK(kiriSheet_HingeLine(game->host.world, game->banners[i], (float[]){ 0.0f, 0.5f }, (float[]){ 0.3f, 0.5f }, &pin));
 }
 
 static void AddObstacles(Game* game)

@@ -188,9 +188,9 @@ static bool Swipe(int32_t motion, uint32_t seed)
     bool isRight = (areas.pieces == 2 || (motion != STILL && areas.pieces > 2)) &&
                    areas.least > curtain.snap * curtain.snap && areas.second > 1e-2;
     if (!isRight) {
-        printf("swipe %u, %s, %s, %g m/s at %g degrees: %d pieces, the least %g m^2, the second %g m^2\n", (unsigned)seed,
-               motionNames[motion], knife.isRay ? "ray" : "edge", speed, angle * 180.0 / PI, areas.pieces, areas.least,
-               areas.second);
+        printf("swipe %u, %s, %s, %g m/s at %g degrees: %d pieces, the least %g m^2, the second %g m^2\n",
+               (unsigned)seed, motionNames[motion], knife.isRay ? "ray" : "edge", speed, angle * 180.0 / PI,
+               areas.pieces, areas.least, areas.second);
     }
     Stop(&curtain);
     return isRight;
@@ -338,7 +338,8 @@ static bool Finger(int32_t motion, uint32_t seed)
     const float eye[3] = { (float)Uniform(&curtain, 0.2, 0.8), -2.0f, (float)Uniform(&curtain, 0.2, 0.8) };
     OK(kiriBeginBlade(curtain.host.world, curtain.sheet, &curtain.blade));
     for (double s = -1.0; s < 1.0 + speed * dt; s += speed * dt) {
-        const float way[3] = { (float)(0.5 + s * cos(angle)) - eye[0], -eye[1], (float)(0.5 + s * sin(angle)) - eye[2] };
+        const float way[3] = { (float)(0.5 + s * cos(angle)) - eye[0], -eye[1],
+                               (float)(0.5 + s * sin(angle)) - eye[2] };
         kiriSheet met;
         kiriHit hit;
         OK(kiriWorld_Raycast(curtain.host.world, eye, way, 20.0f, &met, &hit));
@@ -371,8 +372,8 @@ int main(int argc, char** argv)
     heldSeconds = argc > 4 ? atoi(argv[4]) : heldSeconds;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestSwipeStill),  cmocka_unit_test(TestSwipeSwaying), cmocka_unit_test(TestSwipeBlown),
-        cmocka_unit_test(TestHoldSwaying), cmocka_unit_test(TestHoldBlown),
-        cmocka_unit_test(TestSaw),         cmocka_unit_test(TestChop),         cmocka_unit_test(TestFinger),
+        cmocka_unit_test(TestHoldSwaying), cmocka_unit_test(TestHoldBlown),    cmocka_unit_test(TestSaw),
+        cmocka_unit_test(TestChop),        cmocka_unit_test(TestFinger),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

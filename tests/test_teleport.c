@@ -332,7 +332,7 @@ static void StartEverything(Everything* all)
     all->sheets[0] = AddSheet(all, 0.0f, 0.0f, 1.0f, TOUCHES | SMOOTH); /* falls on the ball */
     all->sheets[1] = AddSheet(all, 0.2f, 0.1f, 1.05f, TOUCHES);         /* and one on it */
     all->sheets[2] = AddSheet(all, 3.0f, 0.0f, 1.0f, AFFINE);           /* hangs, and is cut by the blade */
-    all->sheets[3] = AddSheet(all, 6.0f, 0.0f, 0.0022f, SLEEPS);         /* lies on the floor */
+    all->sheets[3] = AddSheet(all, 6.0f, 0.0f, 0.0022f, SLEEPS);        /* lies on the floor */
     all->sheets[4] = AddSheet(all, 9.0f, 0.0f, 1.0f, PLANAR);
     PinTo(all, all->sheets[2], 0.0f, 0.0f, 3.0f, 0.0f, 1.0f, 0);
     PinTo(all, all->sheets[2], 1.0f, 0.0f, 4.0f, 0.0f, 1.0f, 0);
@@ -461,11 +461,8 @@ static void TestOriginIsChecked(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestSheetsAtRest),
-        cmocka_unit_test(TestSwingingSheets),
-        cmocka_unit_test(TestMovingPins),
-        cmocka_unit_test(TestOrigin),
-        cmocka_unit_test(TestOriginIsChecked),
+        cmocka_unit_test(TestSheetsAtRest), cmocka_unit_test(TestSwingingSheets),  cmocka_unit_test(TestMovingPins),
+        cmocka_unit_test(TestOrigin),       cmocka_unit_test(TestOriginIsChecked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -126,10 +126,18 @@ static void Start(Touching* t, int layout, int way, uint32_t seed)
     }
     OK(Host_Tick(&t->host, dt, 1));
     switch (layout) {
-    case GRID: CutGrid(t); break;
-    case DISCS: CutDiscs(t); break;
-    case STRIPS: CutStrips(t); break;
-    default: CutKirigami(t); break;
+    case GRID:
+        CutGrid(t);
+        break;
+    case DISCS:
+        CutDiscs(t);
+        break;
+    case STRIPS:
+        CutStrips(t);
+        break;
+    default:
+        CutKirigami(t);
+        break;
     }
 }
 

@@ -46,8 +46,8 @@ static void TakePiece(Host* host, uint32_t* seed)
         return;
     }
     kiriFrame frame = Host_FrameOf(host, sheet, (int32_t)(piece % (uint32_t)pieces));
-    kiriResult result = draw % 4 == 0 ? kiriFrame_DestroyPiece(host->world, frame)
-                                      : kiriFrame_DetachPiece(host->world, frame, &made);
+    kiriResult result =
+        draw % 4 == 0 ? kiriFrame_DestroyPiece(host->world, frame) : kiriFrame_DetachPiece(host->world, frame, &made);
     assert_true(result == KIRI_OK || result == KIRI_PENDING || result == KIRI_ERROR_STATE);
 }
 

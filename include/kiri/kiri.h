@@ -496,7 +496,8 @@ typedef struct kiriSheetDef {
     kiriMaterial material;
 
     int32_t gridResolution; /* grid squares along the longer side, 1 to 4096; default 32 */
-    float snapDistance; /* m: ends of cuts this near to a lip or the border meet it, those twice as far do not, and a cut
+    float
+        snapDistance; /* m: ends of cuts this near to a lip or the border meet it, those twice as far do not, and a cut
                            keeps within half of it of its line; 0: 1e-4 of the longer side */
 
     /* Vertices nearer than this (m, rest plane; 0 or more) are one: for seams of texture coordinates, and triangles

@@ -24,9 +24,9 @@ typedef struct BladeWalk {
     double on, reach; /* lattice steps */
     double slack;     /* lattice steps: vertices nearer to each other would make triangles too thin to split */
     kiriLatticePoint lineFrom, lineTo; /* the blade keeps to this line */
-    int32_t splits;   /* triangles made or reshaped */
-    int64_t effort;   /* to look around, about ns */
-    bool failed;      /* no memory */
+    int32_t splits;                    /* triangles made or reshaped */
+    int64_t effort;                    /* to look around, about ns */
+    bool failed;                       /* no memory */
 } BladeWalk;
 
 static kiriLatticePoint VertexPoint(const BladeWalk* walk, int32_t vertex)
@@ -83,8 +83,10 @@ static int32_t SplitTriangle(BladeWalk* walk, int32_t triangle, kiriLatticePoint
 static bool WedgeHolds(const BladeWalk* walk, int32_t h)
 {
     const kiriMeshData* mesh = walk->mesh;
-    int64_t right = kiriOrient(walk->tip->at, VertexPoint(walk, kiriMesh_Tail(mesh, kiriEdge_Next(h))), walk->tip->goal);
-    int64_t left = kiriOrient(walk->tip->at, VertexPoint(walk, kiriMesh_Tail(mesh, kiriEdge_Previous(h))), walk->tip->goal);
+    int64_t right =
+        kiriOrient(walk->tip->at, VertexPoint(walk, kiriMesh_Tail(mesh, kiriEdge_Next(h))), walk->tip->goal);
+    int64_t left =
+        kiriOrient(walk->tip->at, VertexPoint(walk, kiriMesh_Tail(mesh, kiriEdge_Previous(h))), walk->tip->goal);
     return right >= 0 && left < 0;
 }
 
@@ -165,7 +167,8 @@ static bool IsCornerTaken(BladeWalk* walk, kiriLatticePoint at, kiriLatticePoint
         kiriMesh_Corners(mesh, mesh->squares.nodes.data[slot].triangle, c);
         walk->effort += LOOK_EFFORT;
         for (int i = 0; i < 3; ++i) {
-            if (kiriLattice_IsSame(c[i], at) && (kiriLattice_IsSame(c[(i + 1) % 3], next) || kiriLattice_IsSame(c[(i + 2) % 3], previous))) {
+            if (kiriLattice_IsSame(c[i], at) &&
+                (kiriLattice_IsSame(c[(i + 1) % 3], next) || kiriLattice_IsSame(c[(i + 2) % 3], previous))) {
                 return true;
             }
         }
@@ -305,8 +308,8 @@ static int32_t VertexOn(BladeWalk* walk, int32_t h)
     int32_t near = share < 0.5 ? a : b, far = share < 0.5 ? b : a;
     bool canTake = IsNearerGoal(walk, VertexPoint(walk, near));
     kiriLatticePoint p = VertexPoint(walk, near);
-    bool isNear = IsWithinDistance(p, crossing, walk->slack) ||
-                  (IsWithinDistance(p, crossing, walk->on) && IsOnLine(walk, p));
+    bool isNear =
+        IsWithinDistance(p, crossing, walk->slack) || (IsWithinDistance(p, crossing, walk->on) && IsOnLine(walk, p));
     if (canTake && isNear) {
         return near;
     }
@@ -334,8 +337,8 @@ static double EntryOver(const BladeWalk* walk, int32_t h)
     kiriLatticePoint a = VertexPoint(walk, kiriMesh_Tail(mesh, h)), at = walk->tip->at, goal = walk->tip->goal,
                      b = VertexPoint(walk, kiriMesh_Tail(mesh, kiriEdge_Next(h)));
     int64_t here = kiriOrient(a, b, at), there = kiriOrient(a, b, goal);
-    if (kiriMesh_Twin(mesh, h) != KIRI_NONE || here > 0 || there <= 0 || kiriLattice_IsSame(a, at) || kiriLattice_IsSame(b, at) ||
-        kiriOrient(at, goal, a) < 0 || kiriOrient(at, goal, b) > 0) {
+    if (kiriMesh_Twin(mesh, h) != KIRI_NONE || here > 0 || there <= 0 || kiriLattice_IsSame(a, at) ||
+        kiriLattice_IsSame(b, at) || kiriOrient(at, goal, a) < 0 || kiriOrient(at, goal, b) > 0) {
         return 2.0;
     }
     return (double)-here / ((double)there - (double)here);

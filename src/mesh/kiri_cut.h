@@ -20,8 +20,8 @@ enum kiriBladePhase {
 /* Where the blade is. */
 typedef struct kiriBladeTip {
     kiriLatticePoint at;
-    int32_t vertex; /* a vertex at that point, or KIRI_NONE: not in the sheet, or not yet moved */
-    int32_t phase;  /* kiriBladePhase */
+    int32_t vertex;            /* a vertex at that point, or KIRI_NONE: not in the sheet, or not yet moved */
+    int32_t phase;             /* kiriBladePhase */
     kiriLatticePoint from, to; /* the line of the move at work */
     kiriLatticePoint goal;     /* the next place on its way; KIRI_BLADE_JOINS: the lip */
     kiriLatticePoint lip;      /* KIRI_BLADE_WALKS: the lip to join at the goal, or the goal itself. KIRI_BLADE_JOINS:

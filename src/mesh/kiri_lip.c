@@ -209,8 +209,8 @@ static bool FindCrossing(kiriCorridor* corridor, int32_t vertex, kiriLatticePoin
     LipsAround around = BeginAround(corridor, vertex);
     int32_t end;
     place->edge = NextLip(corridor, &around, &end);
-    while (place->edge != KIRI_NONE && !(Crosses(corridor, here, PointOf(corridor, end), &place->at) &&
-                                         IsAhead(corridor, start, place->at))) {
+    while (place->edge != KIRI_NONE &&
+           !(Crosses(corridor, here, PointOf(corridor, end), &place->at) && IsAhead(corridor, start, place->at))) {
         place->edge = NextLip(corridor, &around, &end);
     }
     return place->edge != KIRI_NONE;
@@ -440,8 +440,7 @@ static void TakeStop(kiriCorridor* corridor, int32_t vertex, int64_t after, bool
     }
     kiriLatticePoint foot =
         side <= corridor->on ? at : kiriLattice_Between(corridor->from, corridor->to, (double)progress / (double)last);
-    if (side <= corridor->on ||
-        (IsLoose(corridor, vertex) && kiriMesh_Locate(corridor->mesh, foot) != KIRI_NONE)) {
+    if (side <= corridor->on || (IsLoose(corridor, vertex) && kiriMesh_Locate(corridor->mesh, foot) != KIRI_NONE)) {
         *isFound = true;
         *stop = (kiriLipStop){ foot, at };
     }
@@ -485,9 +484,9 @@ static int32_t ClampLine(double coordinate, int32_t side, int32_t first, int32_t
 
 kiriStrips kiriStrips_Begin(const kiriSquares* squares, kiriLatticePoint from, kiriLatticePoint to, double margin)
 {
-    kiriStrips s = { squares, { from.x, from.y }, { (double)to.x - from.x, (double)to.y - from.y }, margin + 2.0,
-                     0,       0,                  0,                                                1,
-                     0,       0,                  0 };
+    kiriStrips s = {
+        squares, { from.x, from.y }, { (double)to.x - from.x, (double)to.y - from.y }, margin + 2.0, 0, 0, 0, 1, 0, 0, 0
+    };
     s.axis = fabs(s.way[1]) > fabs(s.way[0]) ? 1 : 0;
     s.step = s.way[s.axis] < 0.0 ? -1 : 1;
     int32_t first = s.axis == 0 ? squares->firstColumn : squares->firstRow;

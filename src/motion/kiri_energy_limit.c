@@ -291,11 +291,10 @@ void kiriSolver_AddGained(kiriSolver* solver, const kiriSystem* system)
                           (kiriSystem_HasWind(system) ? kiriWind_Work(solver, system, f) : 0.0);
             system->frames[f].gained += kiriFrame_KineticEnergy(end, &system->material) -
                                         kiriFrame_KineticEnergy(start, &system->material) - work + piece->stored;
-            system->frames[f].passed += kiriVec3_Dot(start->load.force, way) +
-                                        WorkOfTorque(system, start->load.moment, end, solver->dt);
+            system->frames[f].passed +=
+                kiriVec3_Dot(start->load.force, way) + WorkOfTorque(system, start->load.moment, end, solver->dt);
             piece->stored = 0.0; /* the first frame of the piece has it */
-            system->frames[f].received =
-                kiriVec3_AddScaled(system->frames[f].received, solver->dt, start->load.force);
+            system->frames[f].received = kiriVec3_AddScaled(system->frames[f].received, solver->dt, start->load.force);
         }
     }
     for (int32_t k = 0; k < system->contactCount; ++k) {

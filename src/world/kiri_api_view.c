@@ -291,8 +291,8 @@ kiriResult kiriSheet_GetWeights(const kiriWorld* world, kiriSheet sheet, const f
     kiriPointWeights found = { NULL, 0, 0 };
     kiriMemory scratch = kiriMemory_Like(&world->memory);
     kiriCall_BeginCallbacks(world);
-    bool ok = kiriShape_At(&data->shape, &scratch, &data->grid, &data->mesh, cell, kiriMesh_Local(&data->mesh, at),
-                           &found);
+    bool ok =
+        kiriShape_At(&data->shape, &scratch, &data->grid, &data->mesh, cell, kiriMesh_Local(&data->mesh, at), &found);
     for (int32_t i = 0; ok && i < found.count && i < capacity; ++i) {
         frames[i] = data->frames.data[found.data[i].frame].id;
         weights[i] = (float)found.data[i].value;

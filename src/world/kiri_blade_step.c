@@ -519,7 +519,8 @@ static bool EndLost(kiriBladeWork* work, kiriTrack* track)
         double near = 2.0 * kiriVec3_Length(kiriVec3_Sub(x, EdgeAt(work->is, track->share))) + 8.0 * work->snap;
         double most = BORDER_DISTANCE * KIRI_LATTICE * work->sheet->mesh.step;
         near = near < most ? near : most;
-        ok = !kiriBlade_FindLip(&work->sheet->mesh, track->rest, near, false, &border) || kiriTrack_Lead(work, track, border);
+        ok = !kiriBlade_FindLip(&work->sheet->mesh, track->rest, near, false, &border) ||
+             kiriTrack_Lead(work, track, border);
     }
     return ok && kiriTrack_End(work, track);
 }

@@ -84,9 +84,9 @@ static void FindLipInTriangle(const kiriMeshData* mesh, int32_t triangle, kiriVe
 {
     for (int32_t h = 3 * triangle; h < 3 * triangle + 3; ++h) {
         if (kiriMesh_Twin(mesh, h) == KIRI_NONE || (isOpen && kiriMesh_IsOpen(mesh, h))) {
-            kiriVec2 foot = FootOnLip(kiriMesh_Local(mesh, mesh->vertices.data[kiriMesh_Tail(mesh, h)].at),
-                                   kiriMesh_Local(mesh, mesh->vertices.data[kiriMesh_Tail(mesh, kiriEdge_Next(h))].at),
-                                   rest);
+            kiriVec2 foot =
+                FootOnLip(kiriMesh_Local(mesh, mesh->vertices.data[kiriMesh_Tail(mesh, h)].at),
+                          kiriMesh_Local(mesh, mesh->vertices.data[kiriMesh_Tail(mesh, kiriEdge_Next(h))].at), rest);
             double d = kiriRest_Distance(foot, rest);
             *lip = d < *distance ? foot : *lip;
             *distance = d < *distance ? d : *distance;

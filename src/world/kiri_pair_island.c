@@ -239,8 +239,8 @@ static void ScaleBeside(const Member* member)
     kiriFrameData* frame = member->frame;
     const kiriIsland* island = member->island;
     if (IsOwn(island) && !frame->held) {
-        frame->velocity = kiriVec3_AddScaled(island->velocity, island->keepBeside,
-                                             kiriVec3_Sub(frame->velocity, island->mean));
+        frame->velocity =
+            kiriVec3_AddScaled(island->velocity, island->keepBeside, kiriVec3_Sub(frame->velocity, island->mean));
         frame->spin = kiriVec3_Scale(island->keepBeside, frame->spin);
         frame->rate = kiriMat3_Scale(island->keepBeside, &frame->rate);
     }

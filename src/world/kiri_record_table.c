@@ -4,13 +4,27 @@
 
 /* ---- Structs ----------------------------------------------------------------------------------------------------- */
 
-#define FLOATS_FIELD(Type, field, count) { KIRI_FIELD_FLOATS, count, offsetof(Type, field), 0, NULL }
-#define INTS_FIELD(Type, field, count) { KIRI_FIELD_INTS, count, offsetof(Type, field), 0, NULL }
-#define ID_FIELD(Type, field) { KIRI_FIELD_ID, 1, offsetof(Type, field), 0, NULL }
+#define FLOATS_FIELD(Type, field, count)                                                                               \
+    {                                                                                                                  \
+        KIRI_FIELD_FLOATS, count, offsetof(Type, field), 0, NULL                                                       \
+    }
+#define INTS_FIELD(Type, field, count)                                                                                 \
+    {                                                                                                                  \
+        KIRI_FIELD_INTS, count, offsetof(Type, field), 0, NULL                                                         \
+    }
+#define ID_FIELD(Type, field)                                                                                          \
+    {                                                                                                                  \
+        KIRI_FIELD_ID, 1, offsetof(Type, field), 0, NULL                                                               \
+    }
 #define ARRAY_FIELD(kind, Type, field, count, counted, isRead)                                                         \
-    { kind, count, offsetof(Type, field), offsetof(Type, counted), isRead }
+    {                                                                                                                  \
+        kind, count, offsetof(Type, field), offsetof(Type, counted), isRead                                            \
+    }
 #define COUNT_OF(array) ((int32_t)(sizeof(array) / sizeof((array)[0])))
-#define STRUCT_OF(Type, cookie, fields, fill) { sizeof(Type), cookie, COUNT_OF(fields), fields, fill }
+#define STRUCT_OF(Type, cookie, fields, fill)                                                                          \
+    {                                                                                                                  \
+        sizeof(Type), cookie, COUNT_OF(fields), fields, fill                                                           \
+    }
 
 /* Integers without a sign, such as groups, are recorded as if they had one: all bits set is -1, one byte. */
 
@@ -114,21 +128,51 @@ static const kiriRecordStruct sheetStruct =
 
 /* ---- Calls ------------------------------------------------------------------------------------------------------- */
 
-#define OF_ID { KIRI_ARGUMENT_ID, 0, 0, NULL }
-#define OF_INT { KIRI_ARGUMENT_INT, 0, 0, NULL }
-#define OF_FLOAT { KIRI_ARGUMENT_FLOAT, 0, 0, NULL }
-#define OF_DATA { KIRI_ARGUMENT_DATA, 0, 0, NULL }
-#define OF_FLOATS(count) { KIRI_ARGUMENT_FLOATS, count, 0, NULL }
-#define OF_STRUCT(of) { KIRI_ARGUMENT_STRUCT, 0, 0, &(of) }
+#define OF_ID                                                                                                          \
+    {                                                                                                                  \
+        KIRI_ARGUMENT_ID, 0, 0, NULL                                                                                   \
+    }
+#define OF_INT                                                                                                         \
+    {                                                                                                                  \
+        KIRI_ARGUMENT_INT, 0, 0, NULL                                                                                  \
+    }
+#define OF_FLOAT                                                                                                       \
+    {                                                                                                                  \
+        KIRI_ARGUMENT_FLOAT, 0, 0, NULL                                                                                \
+    }
+#define OF_DATA                                                                                                        \
+    {                                                                                                                  \
+        KIRI_ARGUMENT_DATA, 0, 0, NULL                                                                                 \
+    }
+#define OF_FLOATS(count)                                                                                               \
+    {                                                                                                                  \
+        KIRI_ARGUMENT_FLOATS, count, 0, NULL                                                                           \
+    }
+#define OF_STRUCT(of)                                                                                                  \
+    {                                                                                                                  \
+        KIRI_ARGUMENT_STRUCT, 0, 0, &(of)                                                                              \
+    }
 #define OF_ARRAY(kind, most, of)                                                                                       \
     { kind, 0, most, of },                                                                                             \
     {                                                                                                                  \
         KIRI_ARGUMENT_COUNT, 0, 0, NULL                                                                                \
     }
-#define OF_NEW_ID { KIRI_ARGUMENT_NEW_ID, 0, 0, NULL }
-#define OF_NEW_IDS { KIRI_ARGUMENT_NEW_IDS, 0, 0, NULL }
-#define OF_NEW_INT { KIRI_ARGUMENT_NEW_INT, 0, 0, NULL }
-#define OF_HASH { KIRI_ARGUMENT_HASH, 0, 0, NULL }
+#define OF_NEW_ID                                                                                                      \
+    {                                                                                                                  \
+        KIRI_ARGUMENT_NEW_ID, 0, 0, NULL                                                                               \
+    }
+#define OF_NEW_IDS                                                                                                     \
+    {                                                                                                                  \
+        KIRI_ARGUMENT_NEW_IDS, 0, 0, NULL                                                                              \
+    }
+#define OF_NEW_INT                                                                                                     \
+    {                                                                                                                  \
+        KIRI_ARGUMENT_NEW_INT, 0, 0, NULL                                                                              \
+    }
+#define OF_HASH                                                                                                        \
+    {                                                                                                                  \
+        KIRI_ARGUMENT_HASH, 0, 0, NULL                                                                                 \
+    }
 
 /* Arguments that go by value, and those that are written. */
 #define GIVEN_ID(i) (*(const uint32_t*)given[i])
@@ -224,7 +268,10 @@ static kiriResult MakeEnd(kiriWorld* world, const void* const* given)
     return KIRI_OK;
 }
 
-#define ENTRY(Name, ...) { "kiri" #Name, { __VA_ARGS__ }, Make##Name }
+#define ENTRY(Name, ...)                                                                                               \
+    {                                                                                                                  \
+        "kiri" #Name, { __VA_ARGS__ }, Make##Name                                                                      \
+    }
 
 static const kiriRecordCall recordCalls[KIRI_CALL_COUNT] = {
     [KIRI_CALL_CREATE_WORLD] = { "kiriCreateWorld", { OF_FLOATS(3), OF_STRUCT(budgetStruct) }, MakeWorld },

@@ -496,7 +496,7 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
         kiriObstacles_Begin(world);
         WakeStirred(world);
         int32_t withRoom = world->active.count;
-        ListActive(world); /* some sheets have become idle */
+        ListActive(world);                            /* some sheets have become idle */
         KIRI_ASSERT(world->active.count <= withRoom); /* sheets that woke were stirred before room was made */
         result = SolveAll(world, dt, substeps, &quotas.of[KIRI_QUOTA_ITERATIONS]);
         kiriObstacles_End(world, dt);

@@ -49,7 +49,7 @@ struct kiriWorld {
     kiriBudget budget;
     int64_t samplesDue; /* that calls have taken: the coming ticks have less */
     int64_t ticks;
-    int32_t turn; /* the sheet that is moved first: the one for which the last tick had no iterations left */
+    int32_t turn;      /* the sheet that is moved first: the one for which the last tick had no iterations left */
     int32_t newEvents; /* at the end of `events`: added by refused ticks, for the next tick that is not refused */
     kiriPool sheetIds, cutIds, frameIds, pinIds, obstacleIds, bladeIds;
     KIRI_ARRAY(kiriSheetData*) sheets; /* in the order of their making; */
