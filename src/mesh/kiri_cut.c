@@ -414,7 +414,7 @@ static int32_t NextVertex(BladeWalk* walk, int32_t h)
     return vertex != KIRI_NONE && IsNearerGoal(walk, VertexPoint(walk, vertex)) ? vertex : KIRI_NONE;
 }
 
-/* One step of the walk to the goal. False: the blade is where it can get, or there is no memory. */
+/* Takes one step of the walk to the goal. Returns false if the blade cannot get farther, and on out of memory. */
 static bool StepBlade(BladeWalk* walk)
 {
     int32_t h = walk->tip->vertex == KIRI_NONE ? KIRI_NONE : FindWedge(walk);
