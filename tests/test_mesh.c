@@ -635,6 +635,41 @@ static void SplitsTriangles(void** state)
     kiriMemory_FreeAll(mesh.memory);
 }
 
+static void FlipsEdges(void** state)
+{
+    (void)state;
+    kiriMeshData mesh;
+    InitRectangle(&mesh, 2, 2, 2.0f, 2.0f, 4);
+    int32_t t = kiriMesh_Locate(&mesh, kiriMesh_Snap(&mesh, kiriVec2_Make(0.75, 0.25)));
+    assert_false(kiriMesh_CanFlipEdge(&mesh, Find(&mesh, 0, 0, 1, 0))); /* the outline */
+    assert_false(kiriMesh_CanFlipEdge(&mesh, Find(&mesh, 1, 0, 1, 1))); /* between two source triangles */
+    assert_int_equal(kiriMesh_SplitTriangle(&mesh, t, kiriMesh_Snap(&mesh, kiriVec2_Make(0.75, 0.25))), 9);
+    assert_int_equal(kiriMesh_SplitTriangle(&mesh, kiriMesh_Locate(&mesh, kiriMesh_Snap(&mesh, kiriVec2_Make(0.6, 0.1))),
+                                            kiriMesh_Snap(&mesh, kiriVec2_Make(0.6, 0.1))),
+                     10);
+    uint32_t revision = mesh.revision;
+    int32_t h = Find(&mesh, 0.75, 0.25, 1, 0);
+    assert_true(kiriMesh_CanFlipEdge(&mesh, Find(&mesh, 0, 0, 0.75, 0.25)));
+    assert_false(kiriMesh_CanFlipEdge(&mesh, Find(&mesh, 0.75, 0.25, 0.6, 0.1))); /* not convex */
+    int32_t count = mesh.triangles.count, flips = 0;
+    for (h = 0; h < 3 * count; ++h) {
+        if (kiriMesh_CanFlipEdge(&mesh, h)) {
+            kiriLatticePoint c = TailAt(&mesh, kiriEdge_Previous(h)),
+                             d = TailAt(&mesh, kiriEdge_Previous(kiriMesh_Twin(&mesh, h)));
+            assert_true(kiriMesh_FlipEdge(&mesh, h));
+            assert_true(kiriDistanceSquared(TailAt(&mesh, kiriEdge_Next(h)), d) == 0);
+            assert_true(kiriDistanceSquared(TailAt(&mesh, kiriEdge_Previous(h)), c) == 0);
+            assert_int_equal(CheckMesh(&mesh), 1);
+            assert_int_equal(kiriMesh_DoubledArea(&mesh), (int64_t)1 << 59);
+            ++flips;
+        }
+    }
+    assert_true(flips > 0 && mesh.revision > revision);
+    assert_int_equal(mesh.triangles.count, count);
+    assert_int_equal(mesh.vertices.count, 11);
+    kiriMemory_FreeAll(mesh.memory);
+}
+
 static void OpensEdges(void** state)
 {
     (void)state;
@@ -729,7 +764,7 @@ static void Snaps(void** state)
     kiriMemory_FreeAll(mesh.memory);
 }
 
-/* Random splits and openings. False when memory runs out. */
+/* Random splits, flips and openings. False when memory runs out. */
 static bool Scramble(kiriMeshData* mesh, uint32_t seed, int rounds)
 {
     for (int i = 0; i < rounds; ++i) {
@@ -740,7 +775,13 @@ static bool Scramble(kiriMeshData* mesh, uint32_t seed, int rounds)
         kiriLatticePoint onEdge = kiriMesh_Round(kiriVec2_Make(a.x + s * (b.x - a.x), a.y + s * (b.y - a.y)));
         kiriLatticePoint within =
             kiriMesh_Round(kiriVec2_Make(third * ((double)a.x + b.x + c.x), third * ((double)a.y + b.y + c.y)));
-        uint32_t choice = Random(&seed) % 4;
+        uint32_t choice = Random(&seed) % 5;
+        if (choice == 4) {
+            if (kiriMesh_CanFlipEdge(mesh, h) && !kiriMesh_FlipEdge(mesh, h)) {
+                return false;
+            }
+            continue;
+        }
         if (choice == 0 && kiriMesh_CanSplitEdge(mesh, h, onEdge) && kiriMesh_SplitEdge(mesh, h, onEdge) == KIRI_NONE) {
             return false;
         }
@@ -972,6 +1013,7 @@ int main(void)
         cmocka_unit_test(SplitsEdges),
         cmocka_unit_test(SplitsOpenEdges),
         cmocka_unit_test(SplitsTriangles),
+        cmocka_unit_test(FlipsEdges),
         cmocka_unit_test(OpensEdges),
         cmocka_unit_test(LeansIntoTheMaterial),
         cmocka_unit_test(Locates),

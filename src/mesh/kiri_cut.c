@@ -218,6 +218,24 @@ static bool CanSplitTriangle(BladeWalk* walk, int32_t triangle, kiriLatticePoint
     return !isTaken && kiriMesh_CanSplitTriangle(walk->mesh, triangle, at);
 }
 
+/* Flips an edge that cannot be split, so that the vertex opposite of it sees farther. The segment from there to the goal
+   then crosses one edge less, so a walk flips finitely many. */
+static bool FlipEdge(BladeWalk* walk, int32_t h)
+{
+    if (!kiriMesh_CanFlipEdge(walk->mesh, h)) {
+        return false;
+    }
+    int32_t twin = kiriMesh_Twin(walk->mesh, h);
+    kiriLatticePoint c = VertexPoint(walk, kiriMesh_Tail(walk->mesh, kiriEdge_Previous(h))),
+                     d = VertexPoint(walk, kiriMesh_Tail(walk->mesh, kiriEdge_Previous(twin)));
+    if (IsCornerTaken(walk, d, c, c)) {
+        return false;
+    }
+    walk->splits += 2;
+    walk->failed = !kiriMesh_FlipEdge(walk->mesh, h);
+    return true;
+}
+
 /* ---- Vertices for the blade -------------------------------------------------------------------------------------- */
 
 static int32_t NearestCorner(const BladeWalk* walk, int32_t triangle, kiriLatticePoint at)
@@ -296,8 +314,9 @@ static int32_t VertexIn(BladeWalk* walk, int32_t triangle, kiriLatticePoint at)
     return CanSplitTriangle(walk, triangle, at) ? SplitTriangle(walk, triangle, at) : corner;
 }
 
-/* A vertex where the way to the goal crosses half-edge h: one of its ends where that is near, or a new one, or an end
-   for want of a better. KIRI_NONE: there is none that brings the blade nearer. */
+/* Returns a vertex where the way to the goal crosses half-edge h: one of its ends where that is near, or a new one. If
+   the triangles beside h are too thin to split, flips h and returns the vertex opposite of it, where the walk is; if that
+   cannot be done, returns an end that is nearer to the goal, or KIRI_NONE. */
 static int32_t VertexOn(BladeWalk* walk, int32_t h)
 {
     int32_t a = kiriMesh_Tail(walk->mesh, h), b = kiriMesh_Tail(walk->mesh, kiriEdge_Next(h));
@@ -315,6 +334,9 @@ static int32_t VertexOn(BladeWalk* walk, int32_t h)
     }
     if (FindSplit(walk, h, &crossing) && IsNearerOrHere(walk, crossing)) {
         return SplitEdge(walk, h, crossing);
+    }
+    if (FlipEdge(walk, h)) {
+        return kiriMesh_Tail(walk->mesh, kiriEdge_Previous(h));
     }
     return canTake ? near : IsNearerGoal(walk, VertexPoint(walk, far)) ? far : KIRI_NONE;
 }
@@ -422,6 +444,9 @@ static bool StepBlade(BladeWalk* walk)
         return EnterSheet(walk);
     }
     int32_t here = kiriMesh_Tail(walk->mesh, h), next = NextVertex(walk, h);
+    if (next == here) {
+        return true; /* an edge was flipped */
+    }
     if (next == KIRI_NONE || walk->failed || !OpenBetween(walk, here, VertexPoint(walk, next))) {
         return false;
     }

@@ -464,7 +464,8 @@ bool kiriLip_FindStop(kiriCorridor* corridor, kiriLatticePoint after, kiriLipSto
         /* Vertices of later strips are farther along the line. */
         double side = mesh->squares.side, border = ((double)strips.index + (strips.step < 0 ? 1.0 : 0.0)) * side;
         double start = strips.axis == 0 ? corridor->from.x : corridor->from.y;
-        double way = fabs(strips.way[strips.axis]), ahead = strips.step * (border - start) - 2.0 * corridor->reach;
+        double way = strips.step * ((strips.axis == 0 ? corridor->to.x : corridor->to.y) - start);
+        double ahead = strips.step * (border - start) - 2.0 * corridor->reach - 2.0;
         if (isFound && way > 0.0 &&
             ahead / way * corridor->length * corridor->length > (double)kiriCorridor_Progress(corridor, stop->at)) {
             break;

@@ -248,6 +248,27 @@ int32_t kiriMesh_SplitTriangle(kiriMeshData* mesh, int32_t triangle, kiriLattice
                : KIRI_NONE;
 }
 
+bool kiriMesh_FlipEdge(kiriMeshData* mesh, int32_t h)
+{
+    KIRI_ASSERT(kiriMesh_CanFlipEdge(mesh, h));
+    int32_t g = kiriMesh_Twin(mesh, h), nextH = kiriEdge_Next(h), nextG = kiriEdge_Next(g);
+    if (!SaveWhole(mesh, h / 3) || !SaveWhole(mesh, g / 3) || !SaveHalfEdge(mesh, nextH) ||
+        !SaveHalfEdge(mesh, nextG)) {
+        return false;
+    }
+    kiriLatticePoint was[3], wasBeyond[3];
+    kiriMesh_Corners(mesh, h / 3, was);
+    kiriMesh_Corners(mesh, g / 3, wasBeyond);
+    ++mesh->revision;
+    int32_t c = kiriMesh_Tail(mesh, kiriEdge_Previous(h)), d = kiriMesh_Tail(mesh, kiriEdge_Previous(g));
+    MoveHalfEdge(mesh, nextG, h);
+    MoveHalfEdge(mesh, nextH, g);
+    mesh->triangles.data[h / 3].vertex[nextH % 3] = d;
+    mesh->triangles.data[g / 3].vertex[nextG % 3] = c;
+    kiriMesh_Link(mesh, nextH, nextG);
+    return ReshapeInSquares(mesh, h / 3, was) && ReshapeInSquares(mesh, g / 3, wasBeyond);
+}
+
 /* Half-edge h has just been opened: where that divides the fan at its tail, the part on its left gets a new vertex. */
 static bool TearFan(kiriMeshData* mesh, int32_t h)
 {
@@ -314,4 +335,18 @@ bool kiriMesh_CanSplitTriangle(const kiriMeshData* mesh, int32_t triangle, kiriL
     kiriLatticePoint c[3];
     kiriMesh_Corners(mesh, triangle, c);
     return kiriOrient(c[0], c[1], at) > 0 && kiriOrient(c[1], c[2], at) > 0 && kiriOrient(c[2], c[0], at) > 0;
+}
+
+bool kiriMesh_CanFlipEdge(const kiriMeshData* mesh, int32_t h)
+{
+    int32_t g = kiriMesh_Twin(mesh, h);
+    if (g == KIRI_NONE || kiriMesh_IsOpen(mesh, h) ||
+        mesh->triangles.data[h / 3].source != mesh->triangles.data[g / 3].source) {
+        return false;
+    }
+    kiriLatticePoint t[3], u[3];
+    kiriMesh_Corners(mesh, h / 3, t);
+    kiriMesh_Corners(mesh, g / 3, u);
+    kiriLatticePoint a = t[h % 3], b = t[(h + 1) % 3], c = t[(h + 2) % 3], d = u[(g + 2) % 3];
+    return kiriOrient(a, d, c) > 0 && kiriOrient(b, c, d) > 0;
 }

@@ -13,7 +13,7 @@ void kiriMesh_Begin(kiriMeshData* mesh);
 void kiriMesh_Commit(kiriMeshData* mesh);
 void kiriMesh_Rollback(kiriMeshData* mesh);
 
-/* All three fail only for memory; the caller then rolls back. */
+/* These fail only on out of memory; the caller then rolls back. */
 
 /* A new vertex at `at` (even coordinates) on half-edge h and its twin. The four (at the outline: two) new triangles
    must be counter-clockwise: see kiriMesh_CanSplitEdge. Returns the vertex on h's side, or KIRI_NONE. */
@@ -22,12 +22,20 @@ int32_t kiriMesh_SplitEdge(kiriMeshData* mesh, int32_t h, kiriLatticePoint at);
 /* A new vertex inside a triangle: see kiriMesh_CanSplitTriangle. Returns it, or KIRI_NONE. */
 int32_t kiriMesh_SplitTriangle(kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at);
 
+/* Replaces the edge between two triangles by the other diagonal of their quadrilateral: see kiriMesh_CanFlipEdge. The
+   new edge is half-edge kiriEdge_Next(h). */
+bool kiriMesh_FlipEdge(kiriMeshData* mesh, int32_t h);
+
 /* Opens the edge, and gives each fan at its two ends a vertex of its own. */
 bool kiriMesh_Open(kiriMeshData* mesh, int32_t h);
 
 /* Would all new triangles be counter-clockwise? Exact. */
 bool kiriMesh_CanSplitEdge(const kiriMeshData* mesh, int32_t h, kiriLatticePoint at);
 bool kiriMesh_CanSplitTriangle(const kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at);
+
+/* Returns true if the edge is closed, both triangles lie in the same source triangle, and both new ones would be
+   counter-clockwise. Exact. */
+bool kiriMesh_CanFlipEdge(const kiriMeshData* mesh, int32_t h);
 
 KIRI_C_END
 
