@@ -7,6 +7,7 @@
 #   make quick    a few of them, with all calls: for config=debug beside config=sanitize
 #   make fuzz     looks for input that breaks something; FUZZ=mesh: other than calls; TIME=600: s
 #   make sweep    loads saves that are wrong in one number; ARGS='35 36 1': of world 35; config=debug: asserts
+#   make page     cuts pages of lines and compares the pieces with Shapely's; ARGS='10 1 2000': pages, first seed, lines
 #   make long     ten minutes of play: work and memory of its minutes; and 20 minutes of a slicing game
 #   make analyze  gcc's analyzer, cppcheck and clang-tidy over src; deps-analyze: installs these; valgrind: a few tests
 #   make scarce   refuses each request for memory of the scenes once
@@ -139,7 +140,7 @@ LANGUAGE_CHECKS :=
 include bindings/install.mk $(wildcard bindings/*/rules.mk)
 
 .PHONY: all run box2d play python bindings described builds lib single example bench accuracy contact extremes gallery guide deps
-.PHONY: test quick fuzz sweep scarce long analyze deps-analyze valgrind tsan check floors fields headers format clean exports FORCE
+.PHONY: test quick fuzz sweep scarce long page analyze deps-analyze valgrind tsan check floors fields headers format clean exports FORCE
 .DEFAULT_GOAL := all
 .SECONDARY:
 .DELETE_ON_ERROR:
@@ -191,6 +192,10 @@ long: packages-bench
 	$(BUILD)/tests/test_meeting 5000 1000
 	$(BUILD)/tests/test_long all
 	$(BUILD)/tests/test_slicing all
+
+page: $(BUILD)/libkiri.so
+	@$(PYTHON) -c 'import cffi, numpy, shapely' 2>/dev/null || { echo "make page takes cffi, NumPy and Shapely"; exit 1; }
+	@KIRI_LIBRARY=$< $(PYTHON) tests/page.py $(ARGS)
 
 # gcc's analyzer, cppcheck and clang-tidy, those that are there; tests/analyze.txt has the findings that are no errors.
 # JOBS=1: one file at a time.

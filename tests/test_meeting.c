@@ -291,6 +291,20 @@ static void MakeHairpin(Layout* layout)
     layout->pieces = 1;
 }
 
+/* To and fro many times in one stroke, each time nearly on the same line. */
+static void MakeSaw(Layout* layout)
+{
+    Point middle = Somewhere(layout);
+    Point d = Direction(Angle(layout)), side = Across(d);
+    int32_t count = 4 + (int32_t)(Random(&layout->seed) >> 8) % 27;
+    Stroke* stroke = AddStroke(layout);
+    for (int32_t i = 0; i < count; ++i) {
+        double along = Uniform(layout, 0.0, 0.2), off = Uniform(layout, -0.475, 0.475) * layout->snap;
+        AddPoint(stroke, Along(Along(middle, i % 2 == 0 ? -along : along, d), off, side));
+    }
+    layout->pieces = 1;
+}
+
 /* A circle again beside itself. */
 static void MakeCircleTwice(Layout* layout)
 {
@@ -461,6 +475,7 @@ KIND(Loop)
 KIND(Twice)
 KIND(SlitTwice)
 KIND(Hairpin)
+KIND(Saw)
 KIND(CircleTwice)
 KIND(Border)
 KIND(Across)
@@ -475,13 +490,13 @@ int main(int argc, char** argv)
     firstSeed = argc > 2 ? atoi(argv[2]) : firstSeed;
     cmocka_set_test_filter(argc > 3 ? argv[3] : NULL);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestT),       cmocka_unit_test(TestL),           cmocka_unit_test(TestX),
-        cmocka_unit_test(TestP),       cmocka_unit_test(TestPinwheel),    cmocka_unit_test(TestComb),
-        cmocka_unit_test(TestSlits),   cmocka_unit_test(TestPolygon),     cmocka_unit_test(TestLoop),
-        cmocka_unit_test(TestTwice),   cmocka_unit_test(TestSlitTwice),   cmocka_unit_test(TestHairpin),
-        cmocka_unit_test(TestBorder),  cmocka_unit_test(TestCircleTwice), cmocka_unit_test(TestAcross),
-        cmocka_unit_test(TestFarT),    cmocka_unit_test(TestFarLoop),     cmocka_unit_test(TestFarComb),
-        cmocka_unit_test(TestFarTwice)
+        cmocka_unit_test(TestT),       cmocka_unit_test(TestL),         cmocka_unit_test(TestX),
+        cmocka_unit_test(TestP),       cmocka_unit_test(TestPinwheel),  cmocka_unit_test(TestComb),
+        cmocka_unit_test(TestSlits),   cmocka_unit_test(TestPolygon),   cmocka_unit_test(TestLoop),
+        cmocka_unit_test(TestTwice),   cmocka_unit_test(TestSlitTwice), cmocka_unit_test(TestHairpin),
+        cmocka_unit_test(TestSaw),     cmocka_unit_test(TestBorder),    cmocka_unit_test(TestCircleTwice),
+        cmocka_unit_test(TestAcross),  cmocka_unit_test(TestFarT),      cmocka_unit_test(TestFarLoop),
+        cmocka_unit_test(TestFarComb), cmocka_unit_test(TestFarTwice)
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -644,7 +644,8 @@ static void FlipsEdges(void** state)
     assert_false(kiriMesh_CanFlipEdge(&mesh, Find(&mesh, 0, 0, 1, 0))); /* the outline */
     assert_false(kiriMesh_CanFlipEdge(&mesh, Find(&mesh, 1, 0, 1, 1))); /* between two source triangles */
     assert_int_equal(kiriMesh_SplitTriangle(&mesh, t, kiriMesh_Snap(&mesh, kiriVec2_Make(0.75, 0.25))), 9);
-    assert_int_equal(kiriMesh_SplitTriangle(&mesh, kiriMesh_Locate(&mesh, kiriMesh_Snap(&mesh, kiriVec2_Make(0.6, 0.1))),
+    assert_int_equal(kiriMesh_SplitTriangle(&mesh,
+                                            kiriMesh_Locate(&mesh, kiriMesh_Snap(&mesh, kiriVec2_Make(0.6, 0.1))),
                                             kiriMesh_Snap(&mesh, kiriVec2_Make(0.6, 0.1))),
                      10);
     uint32_t revision = mesh.revision;

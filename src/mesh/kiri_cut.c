@@ -518,15 +518,36 @@ static void Aim(BladeWalk* walk, kiriLatticePoint to)
     }
 }
 
-/* The next goal: a lip on the line, the place beside a lip that is to be joined, or the end. */
+/* Returns the point of the line to which a blade that has left it along a lip goes back, or the end of the line. */
+static kiriLatticePoint PointOfReturn(const BladeWalk* walk, const kiriCorridor* corridor)
+{
+    const kiriBladeTip* tip = walk->tip;
+    double side = fabs(kiriCorridor_Side(corridor, tip->at)), square = corridor->length * corridor->length;
+    double progress = (double)kiriCorridor_Progress(corridor, tip->at) + KIRI_SHALLOW * side * corridor->length;
+    return tip->vertex == KIRI_NONE || side <= corridor->on || progress >= square
+               ? tip->to
+               : kiriLattice_Between(tip->from, tip->to, progress / square);
+}
+
+/* Finds the next goal: a lip on the line, the place beside a lip that is to be joined, the point where the blade comes
+   back to the line, or the end. */
 static void Look(BladeWalk* walk)
 {
     kiriBladeTip* tip = walk->tip;
     kiriCorridor corridor = CorridorOf(walk, tip->from, tip->to);
     kiriLipStop stop;
     bool isFound = kiriLip_FindStop(&corridor, tip->lip, &stop);
+    kiriLatticePoint back = PointOfReturn(walk, &corridor);
+    int64_t progress = kiriCorridor_Progress(&corridor, back);
     tip->goal = tip->lip = tip->to;
-    if (isFound) {
+    if (!kiriLattice_IsSame(back, tip->to) && (!isFound || progress < kiriCorridor_Progress(&corridor, stop.at))) {
+        int32_t triangle = LocatePoint(walk, back);
+        int32_t vertex = triangle == KIRI_NONE ? KIRI_NONE : VertexIn(walk, triangle, back);
+        if (vertex != KIRI_NONE && !walk->failed &&
+            kiriCorridor_Progress(&corridor, VertexPoint(walk, vertex)) > kiriCorridor_Progress(&corridor, tip->at)) {
+            tip->goal = tip->lip = VertexPoint(walk, vertex);
+        }
+    } else if (isFound) {
         int32_t triangle = kiriLattice_IsSame(stop.foot, stop.at) ? KIRI_NONE : LocatePoint(walk, stop.foot);
         tip->lip = stop.at;
         tip->goal = triangle == KIRI_NONE ? stop.at : stop.foot;
@@ -539,7 +560,7 @@ static void Look(BladeWalk* walk)
     tip->phase = KIRI_BLADE_WALKS;
 }
 
-/* Goes on along a lip where that comes back on the line before the goal. */
+/* Goes on along a lip where that comes back on the line before the goal, or leads on beside it. */
 static bool FollowLip(BladeWalk* walk)
 {
     kiriBladeTip* tip = walk->tip;
@@ -551,6 +572,7 @@ static bool FollowLip(BladeWalk* walk)
     follows = follows && !walk->failed && IsNearerGoal(walk, VertexPoint(walk, vertex));
     if (follows) {
         MoveTo(walk, vertex);
+        tip->phase = fabs(kiriCorridor_Side(&corridor, tip->at)) > corridor.on ? KIRI_BLADE_LOOKS : tip->phase;
     }
     return follows;
 }
@@ -561,6 +583,8 @@ static void Walk(BladeWalk* walk)
     bool joins = !kiriLattice_IsSame(tip->goal, tip->lip);
     if (!FollowLip(walk) && !StepBlade(walk)) {
         tip->phase = KIRI_BLADE_RESTS;
+    } else if (tip->phase == KIRI_BLADE_LOOKS) {
+        tip->lip = tip->at; /* the blade has left the line along a lip */
     } else if (kiriLattice_IsSame(tip->at, tip->goal) || (joins && IsWithinDistance(tip->at, tip->goal, walk->slack))) {
         tip->phase = joins                                  ? KIRI_BLADE_JOINS
                      : kiriLattice_IsSame(tip->at, tip->to) ? KIRI_BLADE_RESTS

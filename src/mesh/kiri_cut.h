@@ -37,7 +37,8 @@ enum { KIRI_MOST_SPLITS = 4 };
    snap distance in lattice steps. The cut keeps within half of it of the line, and takes corners and edges of the mesh
    a quarter of it away. Lips and the outline attract it from farther, by 3/2: an end of the move meets the lip there,
    and so do the ends of lips that the line passes. So ends of lines that are a snap apart always meet, and those two
-   snaps apart never do. A line along a lip cuts nothing.
+   snaps apart never do. Where a lip runs beside the line within the snap distance, the blade goes along the lip and cuts
+   nothing; where it leaves the lip, it cuts back to the line at a small angle.
    A step takes an item of the quota for each triangle that it makes or reshapes, and one where it finds its way
    without; and more where it looks at many squares, at many triangles in one, or around a vertex with many. What
    is more than there is left the next call takes first. KIRI_MORE: less than KIRI_MOST_SPLITS is left, and the blade is

@@ -216,8 +216,45 @@ static bool FindCrossing(kiriCorridor* corridor, int32_t vertex, kiriLatticePoin
     return place->edge != KIRI_NONE;
 }
 
-/* Follows lips on to where they come back on the line, beyond `start` and at most as far as `most`. */
-static bool FollowFrom(kiriCorridor* corridor, LipWalk* walk, kiriLatticePoint start, int64_t most, kiriLipPoint* place)
+/* A lip is followed as far as it stays within this share of the reach beside the line, if it leads farther along the line
+   than away from it by the factor KIRI_SHALLOW. */
+static const double ALONG = 2.0 / 3.0;
+
+/* The place farthest along the line to which lips lead beside it. */
+typedef struct FarthestLip {
+    kiriLipPoint place;
+    double progress;
+} FarthestLip;
+
+/* Takes the point where a lip leaves the strip beside the line, or passes the limit, or its other end. */
+static void TakeFarther(kiriCorridor* corridor, int32_t vertex, double most, FarthestLip* farthest)
+{
+    const double width = ALONG * corridor->reach;
+    kiriLatticePoint here = PointOf(corridor, vertex);
+    double side = kiriCorridor_Side(corridor, here), progress = (double)kiriCorridor_Progress(corridor, here);
+    LipsAround around = BeginAround(corridor, vertex);
+    int32_t end, h;
+    while (fabs(side) <= width && (h = NextLip(corridor, &around, &end)) != KIRI_NONE) {
+        kiriLatticePoint there = PointOf(corridor, end);
+        double share = 1.0, sideThere = kiriCorridor_Side(corridor, there),
+               progressThere = (double)kiriCorridor_Progress(corridor, there);
+        if (fabs(sideThere) > width) {
+            share = ((sideThere > 0.0 ? width : -width) - side) / (sideThere - side);
+        }
+        if (progress + share * (progressThere - progress) > most) {
+            share = (most - progress) / (progressThere - progress);
+        }
+        if (share >= 0.0 && progress + share * (progressThere - progress) > farthest->progress) {
+            farthest->place = (kiriLipPoint){ h, kiriLattice_Between(here, there, share) };
+            farthest->progress = progress + share * (progressThere - progress);
+        }
+    }
+}
+
+/* Follows lips to where they come back on the line, beyond `start` and at most as far as `most`. Returns false if they do
+   not; `farthest` then has the farthest place beside the line. */
+static bool FollowFrom(kiriCorridor* corridor, LipWalk* walk, kiriLatticePoint start, int64_t most, kiriLipPoint* place,
+                       FarthestLip* farthest)
 {
     const double beyond = (double)most + 2.0 * corridor->reach * corridor->length;
     do {
@@ -229,6 +266,7 @@ static bool FollowFrom(kiriCorridor* corridor, LipWalk* walk, kiriLatticePoint s
                 return true;
             }
         }
+        TakeFarther(corridor, walk->vertex, (double)most, farthest);
     } while ((double)walk->farthest <= beyond && StepAlong(corridor, walk));
     return false;
 }
@@ -237,24 +275,28 @@ bool kiriLip_Follow(kiriCorridor* corridor, int32_t vertex, kiriLatticePoint lim
 {
     int64_t most = kiriCorridor_Progress(corridor, limit);
     kiriLatticePoint start = PointOf(corridor, vertex);
-    double back = (double)kiriCorridor_Progress(corridor, start) - 2.0 * corridor->reach * corridor->length;
+    const double first = (double)kiriCorridor_Progress(corridor, start), width = corridor->reach * corridor->length;
+    FarthestLip farthest = { { KIRI_NONE, start }, first };
     if (FindCrossing(corridor, vertex, start, place)) {
         return kiriCorridor_Progress(corridor, place->at) <= most;
     }
+    TakeFarther(corridor, vertex, (double)most, &farthest);
     LipsAround around = BeginAround(corridor, vertex);
     int32_t end;
     while (NextLip(corridor, &around, &end) != KIRI_NONE) {
         kiriLatticePoint there = PointOf(corridor, end);
         if (fabs(kiriCorridor_Side(corridor, there)) <= corridor->reach &&
-            (double)kiriCorridor_Progress(corridor, there) >= back) {
+            (double)kiriCorridor_Progress(corridor, there) >= first - 2.0 * width) {
             LipWalk walk = BeginLipWalk(corridor, vertex);
             StepTo(corridor, &walk, end);
-            if (FollowFrom(corridor, &walk, start, most, place)) {
+            if (FollowFrom(corridor, &walk, start, most, place, &farthest)) {
                 return true;
             }
         }
     }
-    return false;
+    *place = farthest.place;
+    return place->edge != KIRI_NONE &&
+           farthest.progress - first >= KIRI_SHALLOW * fabs(kiriCorridor_Side(corridor, place->at)) * corridor->length;
 }
 
 /* Do lips lead from the vertex to an end of this edge, within the corridor? */
@@ -346,8 +388,8 @@ static kiriLatticePoint NearestOnEdge(kiriLatticePoint a, kiriLatticePoint b, ki
    that the cut stays straight. */
 static void MeetOnLine(kiriCorridor* corridor, kiriLipPoint* place)
 {
-    const double most = OBLIQUE * corridor->reach;
     kiriLatticePoint a, b, to = corridor->to;
+    const double most = OBLIQUE * sqrt((double)kiriDistanceSquared(place->at, to));
     NearestLip nearest = { { KIRI_NONE, to }, most };
     EdgePoints(corridor, place->edge, &a, &b);
     double length = sqrt((double)kiriDistanceSquared(a, b));

@@ -63,8 +63,12 @@ typedef struct kiriLipsNear {
 /* `vertex` is where the blade is, or KIRI_NONE. */
 kiriLipsNear kiriLip_FindNear(kiriCorridor* corridor, int32_t vertex);
 
-/* Follows lips from a vertex on, within the corridor, to the first place where they come back on the line; it is at most
-   as far as `limit`. False where they do not. */
+/* Slope, one over this, at which the blade leaves the line along a lip, and comes back to it. */
+enum { KIRI_SHALLOW = 3 };
+
+/* Follows lips from a vertex within the corridor, to the first place where they come back on the line, at most as far as
+   `limit`; else to the farthest place beside the line, if the lips lead there at a small angle. Returns false if there is
+   none. */
 bool kiriLip_Follow(kiriCorridor* corridor, int32_t vertex, kiriLatticePoint limit, kiriLipPoint* place);
 
 /* A vertex of a lip that a cut along the line joins. */
