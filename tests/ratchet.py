@@ -127,12 +127,14 @@ def measure():
     lines = sum(text.count("\n") for text in src.values())
     functions = [(path, *function) for path, text in src.items() for function in functions_of(text)]
     lengths = sorted(length for *_, length in functions)
-    uses = {}
+    uses, calls = {}, {}  # a callback is used without a call
     for text in code.values():
-        for name in re.findall(r"\b[A-Za-z_]\w*", re.sub(r"^[A-Za-z_][\w *]*\([^;{]*\);", "", text, flags=re.M)):
+        text = re.sub(r"^[A-Za-z_][\w *]*\([^;{]*\);", "", text, flags=re.M)
+        for name, opens in re.findall(r"\b([A-Za-z_]\w*)(\()?", text):
             uses[name] = uses.get(name, 0) + 1
+            calls[name] = calls.get(name, 0) + len(opens)
     short = [f"{path}: {name}, {length} lines" for path, name, static, length in functions
-             if static and length < SHORT and uses.get(name) == 2]
+             if static and length < SHORT and uses.get(name) == calls.get(name) == 2]
     files = includes_of(src)
     folders = {}
     for unit, targets in files.items():
