@@ -466,7 +466,7 @@ static kiriSeed NearestFor(const kiriField* field, const kiriRule* rule, int32_t
     kiriSeed best = rule->seed(rule->context, cell), value = ValueOf(field, cell);
     int32_t farthest = FarthestOf(rule);
     best = best.distance <= farthest && IsNearerSeed(best, value) ? best : value;
-    int32_t most = best.distance < farthest ? best.distance : farthest;
+    int32_t most = kiriMin(best.distance, farthest);
     for (int k = 0; k < KIRI_STEP_LENGTHS; ++k) {
         const StepsAhead ahead = LookAhead(rule->grid, cell, k);
         for (int32_t s = ahead.from; s < ahead.end; ++s) {
@@ -474,7 +474,7 @@ static kiriSeed NearestFor(const kiriField* field, const kiriRule* rule, int32_t
             if (distance[next] <= most - stepLengths[k]) {
                 kiriSeed over = { cell, distance[next] + stepLengths[k], owner[next] };
                 best = IsNearerSeed(over, best) && Passes(rule, next) ? over : best;
-                most = best.distance < most ? best.distance : most;
+                most = kiriMin(best.distance, most);
             }
         }
     }
@@ -562,7 +562,7 @@ static kiriProgress SweepRepaired(kiriField* field, kiriMemory* memory, const ki
     kiriProgress progress = KIRI_MORE;
     int64_t used;
     do {
-        int64_t give = quota->left < AT_ONCE ? quota->left : AT_ONCE;
+        int64_t give = kiriMin(quota->left, AT_ONCE);
         used = quota->used;
         kiriQuota part = { give, 0, 0, kiriQuota_IsBegun(quota) };
         if (!kiriArray_Reserve(memory, &field->log, (int64_t)field->log.count + field->settled.count + give)) {

@@ -16,7 +16,7 @@ static ScanKey KeyOf(int32_t distance, int32_t owner)
 
 static inline ScanKey Lesser(ScanKey a, ScanKey b)
 {
-    return b < a ? b : a;
+    return kiriMin(b, a);
 }
 
 static inline ScanKey Over(ScanKey from, int32_t length)

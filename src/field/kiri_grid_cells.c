@@ -54,16 +54,9 @@ static kiriProgress LookWhetherWhole(kiriGrid* grid, const kiriMeshData* mesh, i
 static int32_t FindTriangleEntry(const kiriGridWork* work, const kiriMeshData* mesh, int32_t from, int32_t end,
                                  int32_t triangle)
 {
-    int32_t last = end;
-    while (from < last) {
-        int32_t middle = from + (last - from) / 2;
-        if (kiriGridWork_TriangleAt(work, mesh, middle) < triangle) {
-            from = middle + 1;
-        } else {
-            last = middle;
-        }
-    }
-    return from < end && kiriGridWork_TriangleAt(work, mesh, from) == triangle ? from : KIRI_NONE;
+    int32_t at;
+    KIRI_SEARCH(at, from, end, kiriGridWork_TriangleAt(work, mesh, middle) < triangle);
+    return at < end && kiriGridWork_TriangleAt(work, mesh, at) == triangle ? at : KIRI_NONE;
 }
 
 /* Joins an entry of a square to those after it that a closed edge through the square leads to. */
@@ -124,7 +117,7 @@ static void ClipAtSide(ClippedPolygon* polygon, int axis, bool upper, double sid
     double depth[MOST_CORNERS], least = side;
     for (int32_t i = 0; i < polygon->count; ++i) {
         depth[i] = DepthInside(polygon->at[i], axis, upper, side);
-        least = depth[i] < least ? depth[i] : least;
+        least = kiriMin(depth[i], least);
     }
     if (least > 0.0) {
         return;
@@ -368,7 +361,7 @@ static kiriProgress FillWholeCell(kiriGrid* grid, const kiriMeshData* mesh, int3
     *lowest = work->node == mesh->squares.head[square] ? INT32_MAX : *lowest;
     while (work->node != KIRI_NONE) {
         int32_t triangle = nodes[work->node].triangle;
-        *lowest = triangle < *lowest ? triangle : *lowest;
+        *lowest = kiriMin(triangle, *lowest);
         grid->nodeCell.data[work->node] = c;
         work->node = nodes[work->node].next;
         if (!kiriGridWork_Spend(work, quota, KIRI_GRID_NODE)) {

@@ -89,12 +89,12 @@ static CoveredEnds FindCoveredEnds(const kiriMeshData* mesh, int32_t triangle, i
         int64_t qa = axis == 0 ? q.x - low.x : q.y - low.y, qs = axis == 0 ? q.y - low.y : q.x - low.x;
         if ((pa < 0) != (qa < 0)) {
             double at = (double)(ps * qa - qs * pa) / (double)(qa - pa);
-            ends.from = at < ends.from ? at : ends.from;
-            ends.to = at > ends.to ? at : ends.to;
+            ends.from = kiriMin(at, ends.from);
+            ends.to = kiriMax(at, ends.to);
         }
     }
-    ends.from = ends.from > 0.0 ? ends.from : 0.0;
-    ends.to = ends.to < side ? ends.to : side;
+    ends.from = kiriMax(ends.from, 0.0);
+    ends.to = kiriMin(ends.to, side);
     return ends;
 }
 
@@ -102,7 +102,7 @@ static CoveredEnds FindCoveredEnds(const kiriMeshData* mesh, int32_t triangle, i
 static void AddCovered(kiriStretch* sum, const kiriMeshData* mesh, kiriLatticePoint low, int axis, CoveredEnds ends)
 {
     double width = mesh->step * (ends.to - ends.from), least = kiriLeastShare * mesh->step * mesh->squares.side;
-    width = width > least ? width : least;
+    width = kiriMax(width, least);
     kiriVec2 corner = kiriMesh_Local(mesh, low);
     double along = 0.5 * mesh->step * (ends.from + ends.to);
     kiriVec2 middle = axis == 0 ? kiriVec2_Make(corner.x, corner.y + along) : kiriVec2_Make(corner.x + along, corner.y);

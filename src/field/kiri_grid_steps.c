@@ -5,13 +5,9 @@
 /* SetSteps compares bytes. */
 typedef char StepHasNoPadding[sizeof(kiriStep) == 8 ? 1 : -1];
 
-static int32_t LargerOf(int32_t a, int32_t b)
-{
-    return a > b ? a : b;
-}
-
 /* Steps touch the squares up to two rows away, in row v so many on each side of the column. */
 enum { STEP_ROWS = 2 };
+
 static int32_t StepColumns(int32_t v)
 {
     return v == -STEP_ROWS || v == STEP_ROWS ? 1 : STEP_ROWS;
@@ -41,7 +37,7 @@ static bool IsWholeAround(const kiriGrid* grid, const kiriSquares* squares, int3
 /* At least for as many as most cells have, so that most runs never move. */
 static int32_t RoomFor(int32_t count)
 {
-    return count == 0 ? 0 : LargerOf(count, KIRI_OPEN_STEPS);
+    return count == 0 ? 0 : kiriMax(count, KIRI_OPEN_STEPS);
 }
 
 /* That are stored. */
@@ -120,9 +116,9 @@ kiriProgress kiriGrid_SpreadDirty(kiriGrid* grid, const kiriMeshData* mesh, int3
     (void)quota;
     const kiriSquares* squares = &mesh->squares;
     int32_t square = work->linksDirty.data[item], column = square % squares->columns, row = square / squares->columns;
-    for (int32_t v = LargerOf(-STEP_ROWS, -row); v <= STEP_ROWS && row + v < squares->rows; ++v) {
+    for (int32_t v = kiriMax(-STEP_ROWS, -row); v <= STEP_ROWS && row + v < squares->rows; ++v) {
         int32_t reach = StepColumns(v);
-        for (int32_t u = LargerOf(-reach, -column); u <= reach && column + u < squares->columns; ++u) {
+        for (int32_t u = kiriMax(-reach, -column); u <= reach && column + u < squares->columns; ++u) {
             if (!MarkStepsDirty(grid, mesh->memory, square + v * squares->columns + u)) {
                 return KIRI_FAILED;
             }

@@ -176,7 +176,7 @@ static double FindLimit(kiriEndSearch* s)
         for (int32_t k = 2; k < s->near.count; ++k) {
             double by = LimitBy(s, k);
             first = by < limit ? k : first;
-            limit = by < limit ? by : limit;
+            limit = kiriMin(by, limit);
         }
         if (first == KIRI_NONE || IsSiteSeen(s, first)) {
             return limit;
@@ -219,7 +219,7 @@ static bool IsEndSeen(const kiriEndSearch* s, const kiriLinkEnd* end)
 static bool FindSeenEnd(kiriEndSearch* s, kiriVec2 from, kiriLinkEnd* end)
 {
     double start = s->ahead * AlongLine(&s->line, from), extent = s->border->mesh->step * KIRI_LATTICE;
-    double limit = FindLimit(s), goal = limit < start + 2.0 * extent ? limit : start + 2.0 * extent;
+    double limit = FindLimit(s), goal = kiriMin(limit, start + 2.0 * extent);
     SetCornerAt(s, limit, end);
     if (goal <= start) {
         return true;

@@ -176,7 +176,7 @@ bool kiriBorder_IsSliver(const kiriBorder* border)
     double widest = 0.0;
     for (int32_t k = 0; k < border->work->stretch.count; ++k) {
         double width = kiriGrid_Stretch(border->grid, border->mesh, border->work->stretch.data[k]).width;
-        widest = width > widest ? width : widest;
+        widest = kiriMax(width, widest);
     }
     bool isAlong = widest >= kiriSliver * border->grid->side, isNothing = widest < 1e-6 * border->grid->side;
     return (isAlong || isNothing) && HasOnlySlivers(border);

@@ -230,7 +230,7 @@ static void SetLength(const kiriBorder* border, kiriLink* link, const kiriLinkEn
     link->crossing = found || way.turnCount == 0 ? kiriWay_At(&way, a, b, 0.5 * way.length) : way.turn[0];
     link->span = way.turnCount == 0 ? kiriVec2_Sub(b, a) : kiriVec2_Scale(link->length, link->normal);
     double least = 0.1 * border->grid->side;
-    link->length = link->length > least ? link->length : least;
+    link->length = kiriMax(link->length, least);
 }
 
 /* From the stretch at hand. */

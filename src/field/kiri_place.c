@@ -85,7 +85,7 @@ static int64_t ClosenessAt(const kiriPlacerWork* work, int32_t cell)
     }
     int64_t distance = work->ends.distance.data[cell], most = work->closest;
     int64_t closeness = distance > 0 ? work->reach / distance : most;
-    return closeness < CLOSENESS ? CLOSENESS : closeness < most ? closeness : most;
+    return closeness < CLOSENESS ? CLOSENESS : kiriMin(closeness, most);
 }
 
 /* What makes a centroidal Voronoi diagram as much closer: the fourth power, as a density (Du, Faber, Gunzburger
@@ -111,7 +111,7 @@ static kiriProgress FloodOld(PlacerJob* job)
 static int64_t SampledDistance(const kiriPlacerWork* work, int32_t cell)
 {
     int64_t old = kiriPlacerWork_OldDistance(work, cell), sampled = work->sampled.data[cell];
-    return (old < sampled ? old : sampled) * ClosenessAt(work, cell);
+    return kiriMin(old, sampled) * ClosenessAt(work, cell);
 }
 
 /* In a part without a site all cells are equally far, and the first one is taken: relaxation moves the site on. */
@@ -138,7 +138,7 @@ static int32_t LookAtBlock(PlacerJob* job, SampleBlock* block)
     kiriPlacerWork* work = job->work;
     const kiriPlacer* placer = job->placer;
     int32_t first = (int32_t)(block - work->blocks.data) * SAMPLE_CELLS, left = placer->cells.count - first;
-    int32_t end = first + (left < SAMPLE_CELLS ? left : SAMPLE_CELLS);
+    int32_t end = first + kiriMin(left, SAMPLE_CELLS);
     work->farthest = KIRI_NONE;
     for (int32_t i = first; i < end; ++i) {
         FindFarthest(job, placer->cells.data[i]);
@@ -318,7 +318,7 @@ static bool StartEnds(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* gr
     if (!(reach > 0.0) || placer->ends.count == 0 || FirstStage(placer) == SUM_PART) {
         return true;
     }
-    work->reach = (int64_t)(CLOSENESS * KIRI_UNIT * (reach < most ? reach : most));
+    work->reach = (int64_t)(CLOSENESS * KIRI_UNIT * kiriMin(reach, most));
     work->closest = (int32_t)(CLOSENESS * placer->closeness + 0.5);
     work->seeds.count = 0;
     for (int32_t k = 0; k < placer->ends.count; ++k) {
@@ -340,7 +340,7 @@ bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* gr
     kiriPlacerWork* work = WorkOf(placer, memory);
     const kiriField* known = placer->known;
     KIRI_ASSERT(count >= 0);
-    count = count < placer->cells.count ? count : placer->cells.count;
+    count = kiriMin(count, placer->cells.count);
     placer->oldCount = placer->sites.count;
     placer->known = NULL;
     if (work == NULL) {
@@ -411,8 +411,8 @@ static void OrderPiece(kiriPlacer* placer, const kiriGrid* grid)
     int32_t count = placer->cells.count, first = INT32_MAX, last = 0;
     for (int32_t k = 0; k < count; ++k) {
         int32_t square = grid->cells.data[placer->cells.data[k]].square;
-        first = square < first ? square : first;
-        last = square > last ? square : last;
+        first = kiriMin(square, first);
+        last = kiriMax(square, last);
     }
     if (last - first > 8 * (int64_t)count) {
         kiriGrid_SortCells(grid, placer->cells.data, count);

@@ -4,8 +4,8 @@ bool kiriReaches_Resize(kiriReaches* reaches, kiriMemory* memory, int32_t cellCo
 {
     int32_t cells = reaches->ofCells.count, labels = reaches->ofLabel.count;
     int32_t needed = kiriReach_BlockOf(cellCount + KIRI_BLOCK_CELLS - 1);
-    if (!kiriArray_Resize(memory, &reaches->ofCells, needed > cells ? needed : cells) ||
-        !kiriArray_Resize(memory, &reaches->ofLabel, labelCount > labels ? labelCount : labels)) {
+    if (!kiriArray_Resize(memory, &reaches->ofCells, kiriMax(needed, cells)) ||
+        !kiriArray_Resize(memory, &reaches->ofLabel, kiriMax(labelCount, labels))) {
         return false;
     }
     for (; cells < reaches->ofCells.count; ++cells) {

@@ -7,7 +7,7 @@ static int32_t GridLength(double meters, double side)
 {
     const double most = 0.5 * (KIRI_FAR - 1);
     double length = KIRI_UNIT * (meters / side) + 0.5;
-    return (int32_t)(length < most ? length : most);
+    return (int32_t)kiriMin(length, most);
 }
 
 static double WayTo(const kiriSite* site, const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell)

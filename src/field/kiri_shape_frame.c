@@ -28,10 +28,10 @@ static int32_t DistanceToBorder(const kiriShapeJob* job, int32_t x)
         kiriStep step = steps.data[s];
         if (IsInRegion(job, step.cell) != IsInRegion(job, x)) {
             int32_t half = (distance[step.cell] + step.length - distance[x] + 1) / 2;
-            least = half < least ? half : least;
+            least = kiriMin(half, least);
         }
     }
-    return least > 0 ? least : 0; /* it is, but for distances that somebody made up */
+    return kiriMax(least, 0); /* it is, but for distances that somebody made up */
 }
 
 static kiriSeed BorderSeed(const void* context, int32_t cell)

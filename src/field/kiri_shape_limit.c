@@ -19,7 +19,7 @@ static int32_t ReachAt(const kiriShapeJob* job, int32_t x)
         kiriStep step = steps.data[s];
         if (owner[step.cell] != owner[x]) {
             int64_t over = (int64_t)distance[x] + step.length + distance[step.cell];
-            farthest = over > farthest ? over : farthest;
+            farthest = kiriMax(over, farthest);
         }
     }
     return farthest < KIRI_FAR ? (int32_t)farthest : KIRI_FAR - 1;

@@ -120,9 +120,9 @@ static bool TryPair(kiriSites* sites, const kiriGrid* grid, const kiriMeshData* 
 static void AddPair(kiriSites* sites, const kiriGrid* grid, const kiriMeshData* mesh, const kiriSlitEnd* end,
                     double spacing)
 {
-    double reach = 0.5 * spacing > grid->side ? 0.5 * spacing : grid->side;
+    double reach = kiriMax(0.5 * spacing, grid->side);
     while (!TryPair(sites, grid, mesh, end, reach) && reach > grid->side) {
-        reach = 0.5 * reach > grid->side ? 0.5 * reach : grid->side;
+        reach = kiriMax(0.5 * reach, grid->side);
     }
 }
 

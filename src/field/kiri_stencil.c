@@ -28,7 +28,7 @@ static double SideFrom(kiriVec2 from, kiriVec2 mine, kiriVec2 other)
     kiriVec2 way = kiriVec2_Sub(mine, other), middle = kiriVec2_Scale(0.5, kiriVec2_Add(mine, other));
     double length = kiriVec2_Length(way);
     double side = length > 0.0 ? 0.5 + 4.0 * kiriVec2_Dot(kiriVec2_Sub(from, middle), way) / length : 0.5;
-    return side > 1.0 ? 1.0 : side > 0.0 ? side : 0.0;
+    return side > 1.0 ? 1.0 : kiriMax(side, 0.0);
 }
 
 /* Cells of one square share its kernel, by the side that each is on. They follow each other in the steps. */
@@ -174,7 +174,7 @@ static void WeighLinear(kiriStencil* stencil, kiriVec2 at, kiriVec2 lean)
         }
     }
     for (int32_t i = 0; i < count; ++i) {
-        values[i] = values[i] > 0.0 ? values[i] : 0.0;
+        values[i] = kiriMax(values[i], 0.0);
     }
     MakeSumOne(values, count);
 }
@@ -303,7 +303,7 @@ static bool GatherMiddles(kiriStencil* stencil, kiriMemory* memory, const kiriGr
 static bool GatherFrames(kiriStencil* stencil, kiriMemory* memory, const kiriShape* shape)
 {
     int32_t old = stencil->columns.count;
-    if (!kiriArray_Resize(memory, &stencil->columns, old > shape->rigid.count ? old : shape->rigid.count)) {
+    if (!kiriArray_Resize(memory, &stencil->columns, kiriMax(old, shape->rigid.count))) {
         return false;
     }
     for (int32_t f = old; f < stencil->columns.count; ++f) {

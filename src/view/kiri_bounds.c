@@ -8,12 +8,12 @@
 
 static kiriVec3 Least(kiriVec3 a, kiriVec3 b)
 {
-    return kiriVec3_Make(a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z);
+    return kiriVec3_Make(kiriMin(a.x, b.x), kiriMin(a.y, b.y), kiriMin(a.z, b.z));
 }
 
 static kiriVec3 Most(kiriVec3 a, kiriVec3 b)
 {
-    return kiriVec3_Make(a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z);
+    return kiriVec3_Make(kiriMax(a.x, b.x), kiriMax(a.y, b.y), kiriMax(a.z, b.z));
 }
 
 static inline void AddTriangle(kiriBox* box, const kiriSurface* surface, const int32_t* corner)
@@ -65,11 +65,11 @@ static void WriteCodes(kiriBounds* bounds, const kiriSurface* surface)
     kiriVec2 lower = surface->rest.data[0], upper = lower;
     for (int32_t v = 0; v < surface->vertexCount; ++v) {
         kiriVec2 p = surface->rest.data[v];
-        lower = kiriVec2_Make(p.x < lower.x ? p.x : lower.x, p.y < lower.y ? p.y : lower.y);
-        upper = kiriVec2_Make(p.x > upper.x ? p.x : upper.x, p.y > upper.y ? p.y : upper.y);
+        lower = kiriVec2_Make(kiriMin(p.x, lower.x), kiriMin(p.y, lower.y));
+        upper = kiriVec2_Make(kiriMax(p.x, upper.x), kiriMax(p.y, upper.y));
     }
     double width = upper.x - lower.x, height = upper.y - lower.y;
-    double scale = 65535.0 / (width > height ? width : height);
+    double scale = 65535.0 / kiriMax(width, height);
     for (int32_t t = 0; t < surface->triangleCount; ++t) {
         bounds->codes.data[t] = CodeOf(surface, t, lower, scale);
         bounds->order.data[t] = t;
@@ -484,9 +484,9 @@ static bool Clip(double origin, double direction, double low, double high, doubl
         return origin >= low && origin <= high;
     }
     double a = (low - origin) / direction, b = (high - origin) / direction;
-    double enter = a < b ? a : b, leave = a < b ? b : a;
-    *from = enter > *from ? enter : *from;
-    *to = leave < *to ? leave : *to;
+    double enter = kiriMin(a, b), leave = kiriMax(b, a);
+    *from = kiriMax(enter, *from);
+    *to = kiriMin(leave, *to);
     return *from <= *to;
 }
 
@@ -519,7 +519,7 @@ static double LargestOf(const kiriBox* box, kiriVec3 origin)
     kiriVec3 o = kiriVec3_Make(0.0, 0.0, 0.0);
     kiriVec3 low = Least(Least(box->lower, origin), o), high = Most(Most(box->upper, origin), o);
     kiriVec3 most = Most(high, kiriVec3_Scale(-1.0, low));
-    return most.x > most.y ? (most.x > most.z ? most.x : most.z) : (most.y > most.z ? most.y : most.z);
+    return most.x > most.y ? kiriMax(most.x, most.z) : kiriMax(most.y, most.z);
 }
 
 void kiriBounds_Ray(const kiriBounds* bounds, kiriVec3 origin, kiriVec3 direction, double distance, kiriVisitFn* visit,

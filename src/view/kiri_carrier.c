@@ -41,7 +41,7 @@ void kiriCarriers_Write(kiriCarrier* carriers, const kiriFrameData* frames, int3
    degrees. Never above 8: frames back to back tell nothing. */
 static double AngleOverSine(double cosine)
 {
-    double lower = 1.0 + cosine > 0.1 ? 1.0 + cosine : 0.1, x = (2.0 - lower) / lower;
+    double lower = kiriMax(1.0 + cosine, 0.1), x = (2.0 - lower) / lower;
     double angle = (945.0 + x * (735.0 + 64.0 * x)) / (945.0 + x * (1050.0 + 225.0 * x));
     return angle * (1.0 + x);
 }
