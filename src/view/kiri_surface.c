@@ -430,14 +430,6 @@ void kiriSurface_BlendRange(kiriSurface* surface, const kiriSkin* skin, int32_t 
     kiriSkin_WritePositions(skin, &surface->patches, surface->rest.data, begin, end, kiriSurface_Places(surface));
 }
 
-void kiriSurface_Blend(kiriSurface* surface, const kiriSkin* skin, const kiriLabels* labels,
-                       const kiriFrameData* frames, int32_t frameCount, const kiriLink* links, int32_t linkCount)
-{
-    kiriSurface_TakeFrames(surface, labels, frames, frameCount, links, linkCount, NULL);
-    surface->isWritten = false;
-    kiriSurface_BlendRange(surface, skin, 0, surface->vertexCount);
-}
-
 void kiriSurface_AddFades(kiriSurface* surface, const kiriFades* fades)
 {
     for (int32_t k = 0; k < fades->fading.count; ++k) {
