@@ -40,17 +40,12 @@ static int32_t RoomFor(int32_t count)
     return count == 0 ? 0 : kiriMax(count, KIRI_OPEN_STEPS);
 }
 
-/* That are stored. */
-static int32_t CountSteps(const kiriStepRun* run)
-{
-    return kiriStepRun_IsOpen(run) ? 0 : run->end[KIRI_STEP_LENGTHS - 1] - run->first;
-}
-
 /* Room for so many steps; false for memory. */
 static bool SetStepCount(kiriGrid* grid, kiriMemory* memory, int32_t c, int32_t count)
 {
     kiriStepRun* run = &grid->runs.data[c];
-    kiriSpan span = { kiriStepRun_IsOpen(run) ? 0 : run->first, RoomFor(CountSteps(run)) };
+    bool isOpen = kiriStepRun_IsOpen(run);
+    kiriSpan span = { isOpen ? 0 : run->first, RoomFor(isOpen ? 0 : run->end[KIRI_STEP_LENGTHS - 1] - run->first) };
     bool ok = kiriSpan_Resize(&span, &grid->stepRoom, memory, &grid->steps, sizeof(kiriStep), RoomFor(count));
     run->first = span.first;
     run->end[0] = run->end[1] = run->end[2] = span.first + count;
@@ -314,12 +309,6 @@ kiriProgress kiriGrid_MakeNearSteps(kiriGrid* grid, const kiriMeshData* mesh, in
                : KIRI_FAILED;
 }
 
-/* Does a diagonal step after a straight one lead on, not back? */
-static bool IsKnightMove(kiriStep straight, kiriStep diagonal)
-{
-    return straight.u == diagonal.u || straight.v == diagonal.v;
-}
-
 /* Marks the cells reached straight, then diagonally. */
 static void MarkKnightSteps(kiriGrid* grid, const kiriSteps* steps, int32_t mark)
 {
@@ -328,7 +317,7 @@ static void MarkKnightSteps(kiriGrid* grid, const kiriSteps* steps, int32_t mark
         kiriGrid_GetStepsTo(grid, steps->data[i].cell, 2, &on);
         grid->work->due += on.end[1] - on.end[0];
         for (int32_t j = on.end[0]; j < on.end[1]; ++j) {
-            if (IsKnightMove(steps->data[i], on.data[j])) {
+            if (steps->data[i].u == on.data[j].u || steps->data[i].v == on.data[j].v) {
                 grid->work->mark.data[on.data[j].cell] = mark;
             }
         }

@@ -279,11 +279,6 @@ static bool IsRing(const kiriLinks* links, const kiriLinkEnd* end, const int32_t
     return true;
 }
 
-static bool ShareRegion(const kiriLink* a, const kiriLink* b)
-{
-    return a->i == b->i || a->i == b->j || a->j == b->i || a->j == b->j;
-}
-
 /* Of the triangle or quadrangle of the sites. Two links that share a region are two of its sides; where the ways bend
    these are not quite closed, so the areas that they give are averaged. */
 static double AreaOf(const kiriLinks* links, const kiriCorner* corner)
@@ -292,7 +287,8 @@ static double AreaOf(const kiriLinks* links, const kiriCorner* corner)
     for (int32_t a = 0; a < corner->count; ++a) {
         for (int32_t b = a + 1; b < corner->count; ++b) {
             const kiriLink *x = &links->next.data[corner->link[a]], *y = &links->next.data[corner->link[b]];
-            sum += ShareRegion(x, y) ? fabs(x->span.x * y->span.y - x->span.y * y->span.x) : 0.0;
+            bool shareRegion = x->i == y->i || x->i == y->j || x->j == y->i || x->j == y->j;
+            sum += shareRegion ? fabs(x->span.x * y->span.y - x->span.y * y->span.x) : 0.0;
         }
     }
     return corner->count == 3 ? sum / 6.0 : sum / 4.0;

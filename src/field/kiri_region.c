@@ -415,13 +415,6 @@ static bool FinishFlood(const RegionUpdate* u)
     return true;
 }
 
-static void MarkSeen(const RegionUpdate* u)
-{
-    const kiriGridChanges* changes = &u->grid->changes;
-    u->regions->seen = (kiriSeenChanges){ changes->made.count, changes->gone.count, changes->steps.count,
-                                          changes->material.count, changes->edges.count };
-}
-
 static bool BeginRegions(const RegionUpdate* u)
 {
     kiriRegions* r = u->regions;
@@ -467,7 +460,9 @@ kiriProgress kiriRegions_Update(kiriRegions* regions, kiriMemory* memory, const 
     if (regions->flooding ? !FinishFlood(&u) : !FinishRepair(&u)) {
         return KIRI_FAILED;
     }
-    MarkSeen(&u);
+    const kiriGridChanges* changes = &u.grid->changes;
+    u.regions->seen = (kiriSeenChanges){ changes->made.count, changes->gone.count, changes->steps.count,
+                                         changes->material.count, changes->edges.count };
     return KIRI_DONE;
 }
 

@@ -745,17 +745,12 @@ static bool PlaceWeight(kiriShapeJob* job, const kiriRawWeight* entry)
     return true;
 }
 
-/* The share of a square that the cell covers, in units of 2^-40. */
-static int64_t RigidShareOf(const kiriGrid* grid, int32_t cell)
-{
-    return (int64_t)(kiriGrid_Area(grid, cell) / (grid->side * grid->side) * 1099511627776.0 + 0.5);
-}
-
 /* Its weights and its material are what they shall be. */
 static void FinishCell(kiriShapeJob* job, int32_t cell)
 {
     KIRI_ASSERT(job->work->awaited.data[cell] == 0);
-    job->work->rigidShares.data[cell] = RigidShareOf(job->grid, cell);
+    double share = kiriGrid_Area(job->grid, cell) / (job->grid->side * job->grid->side);
+    job->work->rigidShares.data[cell] = (int64_t)(share * 1099511627776.0 + 0.5);
     AddRigid(job, cell, job->work->rigidShares.data[cell]);
     job->work->marks.data[cell] &= (uint8_t)~KIRI_MARK_DIRTY;
 }

@@ -48,17 +48,12 @@ static void ShareSquare(kiriStencil* stencil, int32_t first, int32_t count, kiri
     }
 }
 
-static bool IsSameSquare(kiriStep a, kiriStep b)
-{
-    return a.u == b.u && a.v == b.v;
-}
-
 static void ShareSquares(kiriStencil* stencil, kiriVec2 from)
 {
     const kiriStep* steps = stencil->steps.data;
     for (int32_t first = 1; first < stencil->steps.count;) {
         int32_t end = first + 1;
-        while (end < stencil->steps.count && IsSameSquare(steps[first], steps[end])) {
+        while (end < stencil->steps.count && steps[first].u == steps[end].u && steps[first].v == steps[end].v) {
             ++end;
         }
         if (end - first > 1) {

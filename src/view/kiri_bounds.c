@@ -655,11 +655,6 @@ static double SquareToBox(const kiriBox* box, kiriVec3 x)
     return kiriVec3_Dot(off, off);
 }
 
-static bool HasGroup(const NearSearch* search, int32_t node)
-{
-    return (search->bounds->groups.data[node] & SetOf(search->group.group)) != 0;
-}
-
 /* The child that is the nearest of those not visited yet, or `end`. */
 static int32_t NextChild(const double* squares, int32_t first, int32_t end)
 {
@@ -696,7 +691,8 @@ static void LookInNode(NearSearch* search, int32_t level, int32_t node)
     double squares[KIRI_BOUNDS_FAN];
     int32_t first, end = kiriBounds_ItemsOf(search->bounds, level, node, &first);
     for (int32_t i = first; i < end; ++i) {
-        squares[i - first] = HasGroup(search, i) ? SquareToBox(&search->bounds->nodes.data[i], search->from) : -1.0;
+        bool hasGroup = (search->bounds->groups.data[i] & SetOf(search->group.group)) != 0;
+        squares[i - first] = hasGroup ? SquareToBox(&search->bounds->nodes.data[i], search->from) : -1.0;
     }
     for (int32_t i; (i = NextChild(squares, first, end)) < end && IsNearEnough(search, squares[i - first]);) {
         squares[i - first] = -1.0;

@@ -96,14 +96,6 @@ static void LimitCurve(kiriCarrier* carrier, const kiriFrameData* frame)
     }
 }
 
-/* From center to center along the link. */
-static kiriVec2 CentreToCentre(const kiriFrameData* frames, const kiriLink* link)
-{
-    kiriVec2 start = kiriVec2_Sub(frames[link->i].site.at, frames[link->i].center);
-    kiriVec2 end = kiriVec2_Sub(frames[link->j].center, frames[link->j].site.at);
-    return kiriVec2_Add(kiriVec2_Add(start, link->span), end);
-}
-
 void kiriCarriers_Bend(kiriCarrier* carriers, kiriBend* bends, const kiriFrameData* frames, int32_t count,
                        const kiriLink* links, int32_t linkCount, const kiriIndices* some, const kiriIndices* someLinks)
 {
@@ -113,7 +105,9 @@ void kiriCarriers_Bend(kiriCarrier* carriers, kiriBend* bends, const kiriFrameDa
     for (int32_t n = 0; n < CarrierCount(someLinks, linkCount) && CarrierAt(someLinks, n) < linkCount; ++n) {
         const kiriLink* link = &links[CarrierAt(someLinks, n)];
         kiriCarrier *i = &carriers[link->i], *j = &carriers[link->j];
-        kiriVec2 way = CentreToCentre(frames, link);
+        kiriVec2 start = kiriVec2_Sub(frames[link->i].site.at, frames[link->i].center);
+        kiriVec2 end = kiriVec2_Sub(frames[link->j].center, frames[link->j].site.at);
+        kiriVec2 way = kiriVec2_Add(kiriVec2_Add(start, link->span), end); /* from centre to centre */
         AddDirectorTurn(&bends[link->i], i, j->d, way, link->width);
         AddDirectorTurn(&bends[link->j], j, i->d, kiriVec2_Scale(-1.0, way), link->width);
     }

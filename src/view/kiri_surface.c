@@ -397,12 +397,6 @@ static kiriVec3 FindMiddle(const kiriFrameData* frames, int32_t frameCount, doub
     return kiriVec3_Make(RoundToFloats(sum.x, unit), RoundToFloats(sum.y, unit), RoundToFloats(sum.z, unit));
 }
 
-/* Are patches as they were written last but for those of what is awake? */
-static bool IsPartly(const kiriSurface* surface, int32_t labelCount, bool isBent)
-{
-    return surface->isSteady && surface->patches.count == labelCount && surface->patches.isBent == isBent;
-}
-
 void kiriSurface_TakeFrames(kiriSurface* surface, const kiriLabels* labels, const kiriFrameData* frames,
                             int32_t frameCount, const kiriLink* links, int32_t linkCount, const kiriAwake* awake)
 {
@@ -413,7 +407,8 @@ void kiriSurface_TakeFrames(kiriSurface* surface, const kiriLabels* labels, cons
     if (!isSame) {
         kiriPatches_Forget(&surface->patches);
     }
-    surface->isPartly = awake != NULL && IsPartly(surface, kiriLabels_Count(labels, frameCount), isBent);
+    surface->isPartly = awake != NULL && surface->isSteady && surface->patches.isBent == isBent &&
+                        surface->patches.count == kiriLabels_Count(labels, frameCount);
     const kiriIndices* some = surface->isPartly ? &awake->frames : NULL;
     kiriCarriers_Write(surface->carriers.data, frames, frameCount, some);
     if (isBent) {
