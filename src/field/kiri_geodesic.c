@@ -136,6 +136,7 @@ static void SettleFirst(kiriField* field, int32_t cell, int32_t distance, int32_
 
 static inline kiriSeed ValueOf(const kiriField* field, int32_t cell)
 {
+    KIRI_ASSERT(cell >= 0 && cell < field->distance.count);
     kiriSeed value = { cell, field->distance.data[cell], field->owner.data[cell] };
     return value;
 }
@@ -143,6 +144,7 @@ static inline kiriSeed ValueOf(const kiriField* field, int32_t cell)
 /* There is room. */
 static void LogValue(kiriField* field, int32_t cell)
 {
+    KIRI_ASSERT(cell >= 0 && cell < field->marks.count);
     if ((field->marks.data[cell] & FIELD_LOGGED) == 0) {
         KIRI_ASSERT(field->log.count < field->log.capacity);
         field->marks.data[cell] |= FIELD_LOGGED;
@@ -168,6 +170,7 @@ static void SettleValue(kiriField* field, kiriSeed to)
 /* SettleFirst where cells may have kept a value. */
 static void SettleAgain(kiriField* field, int32_t cell, int32_t distance, int32_t owner)
 {
+    KIRI_ASSERT(cell >= 0 && cell < field->distance.count);
     int32_t has = field->distance.data[cell];
     if (distance < has || (distance == has && owner < field->owner.data[cell])) {
         SettleValue(field, (kiriSeed){ cell, distance, owner });
@@ -187,6 +190,7 @@ static inline bool Passes(const kiriRule* rule, int32_t cell)
 /* Passes, of floods. */
 static inline bool LetsPass(const kiriField* field, const kiriRule* rule, int32_t cell)
 {
+    KIRI_ASSERT(cell >= 0 && cell < field->distance.count);
     int32_t distance = field->distance.data[cell];
     return (rule->below[0] == NULL || distance < rule->below[0][cell]) &&
            (rule->below[1] == NULL || distance < rule->below[1][cell]) && Passes(rule, cell);
@@ -255,6 +259,7 @@ static inline int32_t CellAhead(const StepsAhead* ahead, int32_t s)
 /* The steps of one length. */
 static inline StepsAhead LookAhead(const kiriGrid* grid, int32_t cell, int length)
 {
+    KIRI_ASSERT(cell >= 0 && cell < grid->runs.count);
     static const int32_t openEnds[] = { 0, 4, 8, KIRI_OPEN_STEPS };
     const kiriStepRun* run = &grid->runs.data[cell];
     if (kiriStepRun_IsOpen(run)) {
@@ -291,6 +296,7 @@ static inline void SettleAroundOpen(kiriField* field, const kiriGrid* grid, cons
 static inline bool TakeStepsFrom(kiriField* field, const kiriRule* rule, int32_t from, int length, int32_t distance,
                                  int64_t most)
 {
+    KIRI_ASSERT(from >= 0 && from < field->owner.count);
     const int32_t* has = field->distance.data;
     int32_t owner = field->owner.data[from];
     if (!LetsPass(field, rule, from)) {
@@ -406,6 +412,7 @@ void kiriField_MarkStepsDirty(kiriField* field, int32_t cell)
 
 void kiriField_MarkDirty(kiriField* field, int32_t cell)
 {
+    KIRI_ASSERT(cell >= 0 && cell < field->marks.count);
     kiriField_MarkStepsDirty(field, cell);
     field->marks.data[cell] |= FIELD_PASSES;
 }
@@ -456,6 +463,7 @@ static void MarkDependentsDirty(kiriField* field, int32_t dependents)
 
 static bool MakeDependentsRoom(kiriField* field, kiriMemory* memory, const kiriRule* rule, int32_t cell)
 {
+    KIRI_ASSERT(cell >= 0 && cell < rule->grid->runs.count);
     const kiriStepRun* run = &rule->grid->runs.data[cell];
     int32_t steps = kiriStepRun_IsOpen(run) ? KIRI_OPEN_STEPS : run->end[KIRI_STEP_LENGTHS - 1] - run->first;
     return kiriArray_Reserve(memory, &field->dirty, (int64_t)field->dirty.count + steps);
@@ -530,6 +538,7 @@ static void StartSweep(kiriField* field)
    What it gives by new steps is no matter of its own: the cells that they lead to are dirty too. */
 static void SeedFrom(kiriField* field, const kiriRule* rule, int32_t cell)
 {
+    KIRI_ASSERT(cell >= 0 && cell < field->marks.count);
     bool passes = (field->marks.data[cell] & FIELD_PASSES) != 0;
     LookAround(rule, cell);
     kiriSeed best = NearestFor(field, rule, cell);

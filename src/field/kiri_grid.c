@@ -20,6 +20,7 @@ bool kiriGridWork_Pay(kiriGridWork* work, kiriQuota* quota)
 
 bool kiriGridWork_Flag(kiriGridWork* work, kiriMemory* memory, int32_t square, int flag)
 {
+    KIRI_ASSERT(square >= 0 && square < work->squareFlags.count);
     uint8_t* flags = &work->squareFlags.data[square];
     bool ok = *flags != 0 || kiriArray_Push(memory, &work->flagged, square);
     *flags |= (uint8_t)flag;
@@ -45,6 +46,7 @@ bool kiriGrid_RecordSteps(kiriGrid* grid, kiriMemory* memory, int32_t cell)
 /* The face between two cells comes or goes. */
 static bool kiriGrid_RecordLink(kiriGrid* grid, kiriMemory* memory, int32_t a, int32_t b)
 {
+    KIRI_ASSERT(a >= 0 && a < grid->cells.count);
     kiriGridWork* work = grid->work;
     return work->fromScratch ||
            (kiriGrid_RecordSteps(grid, memory, a) && kiriGrid_RecordSteps(grid, memory, b) &&
@@ -114,6 +116,7 @@ static kiriProgress SortEntries(kiriGridWork* work, const kiriMeshData* mesh, ki
 /* Gets a square's triangles, sorted, into `entries`: where they must be known one by one. */
 static kiriProgress kiriGridWork_Collect(kiriGridWork* work, const kiriMeshData* mesh, int32_t square, kiriQuota* quota)
 {
+    KIRI_ASSERT(square >= 0 && square < work->ranges.count);
     kiriNodeRange* range = &work->ranges.data[square];
     if (kiriGridWork_IsFlagged(work, square, KIRI_SQUARE_COLLECTED)) {
         return KIRI_DONE;
@@ -163,6 +166,7 @@ static kiriStretch StretchOfWhole(const kiriMeshData* mesh, int32_t square, int3
 
 kiriMoments kiriGrid_Material(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell)
 {
+    KIRI_ASSERT(cell >= 0 && cell < grid->cells.count);
     const kiriCell* at = &grid->cells.data[cell];
     return at->material == KIRI_NONE ? kiriGrid_MaterialOfWhole(grid, mesh, at->square)
                                      : grid->materials.data[at->material];
@@ -171,6 +175,7 @@ kiriMoments kiriGrid_Material(const kiriGrid* grid, const kiriMeshData* mesh, in
 /* Of a whole square term by term as kiriGrid_MaterialOfWhole has them. */
 kiriFirstMoments kiriGrid_FirstMoments(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell)
 {
+    KIRI_ASSERT(cell >= 0 && cell < grid->cells.count);
     const kiriCell* at = &grid->cells.data[cell];
     if (at->material != KIRI_NONE) {
         const kiriMoments* own = &grid->materials.data[at->material];
@@ -188,6 +193,7 @@ static int32_t StretchIndexOf(const kiriFace* face)
 
 kiriStretch kiriGrid_Stretch(const kiriGrid* grid, const kiriMeshData* mesh, int32_t face)
 {
+    KIRI_ASSERT(face >= 0 && face < grid->faces.count);
     const kiriFace* at = &grid->faces.data[face];
     int32_t index = StretchIndexOf(at);
     return index == KIRI_NONE ? StretchOfWhole(mesh, grid->cells.data[at->cell[1]].square, kiriFace_Axis(at))
@@ -218,6 +224,7 @@ static int32_t TakeOwn(void* array, kiriIndices* unused)
 
 kiriMoments* kiriGrid_OwnMaterial(kiriGrid* grid, kiriMemory* memory, int32_t cell)
 {
+    KIRI_ASSERT(cell >= 0 && cell < grid->cells.count);
     int32_t* own = &grid->cells.data[cell].material;
     if (*own == KIRI_NONE) {
         if (!MakeRoomForOwn(memory, &grid->materials, sizeof(kiriMoments), &grid->unusedMaterials)) {
@@ -230,6 +237,7 @@ kiriMoments* kiriGrid_OwnMaterial(kiriGrid* grid, kiriMemory* memory, int32_t ce
 
 kiriStretch* kiriGrid_OwnStretch(kiriGrid* grid, kiriMemory* memory, int32_t face)
 {
+    KIRI_ASSERT(face >= 0 && face < grid->faces.count);
     kiriFace* at = &grid->faces.data[face];
     if (StretchIndexOf(at) == KIRI_NONE) {
         if (!MakeRoomForOwn(memory, &grid->stretches, sizeof(kiriStretch), &grid->unusedStretches)) {
@@ -251,12 +259,14 @@ static void GiveBack(kiriIndices* unused, int32_t index)
 /* And gives it back: then it has that of a whole square, or side. */
 static void kiriGrid_DropMaterial(kiriGrid* grid, int32_t cell)
 {
+    KIRI_ASSERT(cell >= 0 && cell < grid->cells.count);
     GiveBack(&grid->unusedMaterials, grid->cells.data[cell].material);
     grid->cells.data[cell].material = KIRI_NONE;
 }
 
 static void kiriGrid_DropStretch(kiriGrid* grid, int32_t face)
 {
+    KIRI_ASSERT(face >= 0 && face < grid->faces.count);
     kiriFace* at = &grid->faces.data[face];
     GiveBack(&grid->unusedStretches, StretchIndexOf(at));
     at->kind = kiriFace_Axis(at);
@@ -286,6 +296,7 @@ static int32_t AddFace(kiriGrid* grid, kiriMemory* memory, int32_t a, int32_t b,
 
 static void UnlinkFace(kiriGrid* grid, int32_t f, int32_t cell)
 {
+    KIRI_ASSERT(cell >= 0 && cell < grid->cells.count);
     int32_t* link = &grid->cells.data[cell].firstFace;
     while (*link != f) {
         KIRI_ASSERT(*link != KIRI_NONE);
@@ -309,6 +320,7 @@ static void kiriGrid_FreeFace(kiriGrid* grid, int32_t f)
 
 static bool kiriGrid_RemoveFace(kiriGrid* grid, kiriMemory* memory, int32_t f)
 {
+    KIRI_ASSERT(f >= 0 && f < grid->faces.count);
     bool ok = kiriGrid_RecordLink(grid, memory, grid->faces.data[f].cell[0], grid->faces.data[f].cell[1]);
     kiriGrid_FreeFace(grid, f);
     return ok;
@@ -318,6 +330,8 @@ static bool kiriGrid_RemoveFace(kiriGrid* grid, kiriMemory* memory, int32_t f)
    cell with many faces, a comb, most often touches cells with few. */
 static int32_t FaceBetween(kiriGrid* grid, kiriMemory* memory, int32_t a, int32_t b, int axis)
 {
+    KIRI_ASSERT(a >= 0 && a < grid->cells.count);
+    KIRI_ASSERT(b >= 0 && b < grid->cells.count);
     int32_t f = grid->cells.data[a].firstFace, g = grid->cells.data[b].firstFace;
     while (f != KIRI_NONE && g != KIRI_NONE) {
         const kiriFace *ofA = &grid->faces.data[f], *ofB = &grid->faces.data[g];
@@ -394,6 +408,8 @@ static bool EmptyFace(kiriGrid* grid, kiriMemory* memory, int32_t f)
 /* Whole squares share their whole side. */
 static bool AddWholeFace(kiriGrid* grid, const kiriMeshData* mesh, int32_t before, int32_t square, int axis)
 {
+    KIRI_ASSERT(before >= 0 && before < grid->squareCell.count);
+    KIRI_ASSERT(square >= 0 && square < grid->squareCell.count);
     int32_t f = FaceBetween(grid, mesh->memory, grid->squareCell.data[before], grid->squareCell.data[square], axis);
     if (f != KIRI_NONE) {
         kiriGrid_DropStretch(grid, f);
@@ -404,6 +420,7 @@ static bool AddWholeFace(kiriGrid* grid, const kiriMeshData* mesh, int32_t befor
 /* Empties the faces on the lower side of a square along the axis, and keeps what they were. */
 static bool EmptyFaces(kiriGrid* grid, const kiriMeshData* mesh, int32_t square, int axis)
 {
+    KIRI_ASSERT(square >= 0 && square < grid->squareCell.count);
     kiriGridWork* work = grid->work;
     work->oldFaces.count = 0;
     for (int32_t c = work->fromScratch ? KIRI_NONE : grid->squareCell.data[square]; c != KIRI_NONE;
@@ -504,6 +521,8 @@ static kiriProgress MakeDividedSide(kiriGrid* grid, const kiriMeshData* mesh, in
 static kiriProgress MakeSide(kiriGrid* grid, const kiriMeshData* mesh, int32_t before, int32_t square, int axis,
                              kiriQuota* quota)
 {
+    KIRI_ASSERT(before >= 0 && before < grid->squareCell.count);
+    KIRI_ASSERT(square >= 0 && square < grid->squareCell.count);
     if (grid->squareCell.data[before] == KIRI_NONE || grid->squareCell.data[square] == KIRI_NONE) {
         return KIRI_DONE;
     }
@@ -574,6 +593,7 @@ static bool RunsThroughSquare(const kiriMeshData* mesh, const kiriTriangle* t, i
    covered, its triangles all hang together in it, and it has one cell: no need to join or to clip. Most squares are. */
 static kiriProgress LookWhetherWhole(kiriGrid* grid, const kiriMeshData* mesh, int32_t square, kiriQuota* quota)
 {
+    KIRI_ASSERT(square >= 0 && square < grid->whole.count);
     kiriGridWork* work = grid->work;
     const kiriSquareNode* nodes = mesh->squares.nodes.data;
     bool wasWhole = grid->whole.data[square], isWhole = mesh->squares.head[square] != KIRI_NONE;
@@ -610,6 +630,7 @@ static int32_t FindTriangleEntry(const kiriGridWork* work, const kiriMeshData* m
 /* Joins an entry of a square to those after it that a closed edge through the square leads to. */
 static void JoinEntry(kiriGridWork* work, const kiriMeshData* mesh, int32_t square, int32_t i)
 {
+    KIRI_ASSERT(square >= 0 && square < work->ranges.count);
     int32_t triangle = kiriGridWork_TriangleAt(work, mesh, i), end = work->ranges.data[square].end;
     for (int32_t h = 3 * triangle; h < 3 * triangle + 3; ++h) {
         int32_t twin = kiriMesh_Twin(mesh, h);
@@ -628,6 +649,7 @@ static void JoinEntry(kiriGridWork* work, const kiriMeshData* mesh, int32_t squa
 /* Joins the triangles of a square (algorithm 3). */
 static kiriProgress JoinTriangles(kiriGrid* grid, const kiriMeshData* mesh, int32_t square, kiriQuota* quota)
 {
+    KIRI_ASSERT(square >= 0 && square < grid->whole.count);
     kiriGridWork* work = grid->work;
     if (grid->whole.data[square]) {
         return KIRI_DONE;
@@ -771,6 +793,7 @@ static bool StoreMaterial(kiriGrid* grid, kiriMemory* memory, int32_t c, const k
 
 static bool SetMaterial(kiriGrid* grid, const kiriMeshData* mesh, int32_t c, const kiriMoments* material)
 {
+    KIRI_ASSERT(c >= 0 && c < grid->work->cellFlags.count);
     kiriMaterialChange change = { c, kiriGrid_Material(grid, mesh, c) };
     uint8_t* flags = &grid->work->cellFlags.data[c];
     if (memcmp(&change.was, material, sizeof(*material)) == 0) {
@@ -847,6 +870,7 @@ static void FinishMaterial(kiriGrid* grid, const kiriMeshData* mesh, int32_t squ
 /* The cells that the square should have, in `newCells`. */
 static kiriProgress FindCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t square, kiriQuota* quota)
 {
+    KIRI_ASSERT(square >= 0 && square < grid->whole.count);
     kiriGridWork* work = grid->work;
     if (grid->whole.data[square]) {
         return work->isSame || FindWholeCell(grid, mesh, square) ? KIRI_DONE : KIRI_FAILED;
@@ -868,6 +892,7 @@ static kiriProgress FindCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t 
    added, and where there are fewer, removed. */
 static bool TakeNewCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
 {
+    KIRI_ASSERT(square >= 0 && square < grid->squareCell.count);
     int32_t old = grid->squareCell.data[square], last = KIRI_NONE;
     grid->squareCell.data[square] = KIRI_NONE;
     for (int32_t i = 0; i < grid->work->newCells.count; ++i) {
@@ -903,6 +928,7 @@ static kiriProgress ReplaceCells(kiriGrid* grid, const kiriMeshData* mesh, int32
 /* The one cell of a whole square holds all its triangles. Where the square was whole before, nothing else changes. */
 static kiriProgress FillWholeCell(kiriGrid* grid, const kiriMeshData* mesh, int32_t square, kiriQuota* quota)
 {
+    KIRI_ASSERT(square >= 0 && square < grid->squareCell.count);
     kiriGridWork* work = grid->work;
     const kiriSquareNode* nodes = mesh->squares.nodes.data;
     int32_t c = grid->squareCell.data[square], *lowest = &grid->cells.data[c].triangle;
@@ -923,6 +949,7 @@ static kiriProgress FillWholeCell(kiriGrid* grid, const kiriMeshData* mesh, int3
    tip. */
 static bool RecordEdges(kiriGrid* grid, kiriMemory* memory, int32_t square)
 {
+    KIRI_ASSERT(square >= 0 && square < grid->squareCell.count);
     bool ok = true;
     for (int32_t c = grid->squareCell.data[square]; ok && c != KIRI_NONE; c = grid->cells.data[c].next) {
         uint8_t* flags = &grid->work->cellFlags.data[c];
@@ -935,6 +962,7 @@ static bool RecordEdges(kiriGrid* grid, kiriMemory* memory, int32_t square)
 /* The vertices of the square that find their fan by this triangle. */
 static void FillVertices(kiriGrid* grid, const kiriMeshData* mesh, int32_t square, int32_t triangle, int32_t cell)
 {
+    KIRI_ASSERT(triangle >= 0 && triangle < mesh->triangles.count);
     const int32_t* corners = mesh->triangles.data[triangle].vertex;
     for (int i = 0; i < 3; ++i) {
         const kiriVertex* v = &mesh->vertices.data[corners[i]];
@@ -947,6 +975,7 @@ static void FillVertices(kiriGrid* grid, const kiriMeshData* mesh, int32_t squar
 /* Gives the square's triangles their cells: so far they have the ranks of FindCells. */
 static kiriProgress FillCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t square, kiriQuota* quota)
 {
+    KIRI_ASSERT(square >= 0 && square < grid->whole.count);
     kiriGridWork* work = grid->work;
     if (grid->whole.data[square]) {
         return FillWholeCell(grid, mesh, square, quota);
@@ -1012,6 +1041,7 @@ kiriLatticePoint kiriGrid_Anchor(const kiriGrid* grid, const kiriMeshData* mesh,
 
 static void FreeCell(kiriGrid* grid, int32_t c)
 {
+    KIRI_ASSERT(c >= 0 && c < grid->cells.count);
     kiriGrid_DropMaterial(grid, c);
     grid->cells.data[c].next = grid->freeCell;
     grid->freeCell = c;

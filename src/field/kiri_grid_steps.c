@@ -43,6 +43,7 @@ static int32_t RoomFor(int32_t count)
 /* Room for so many steps; false for memory. */
 static bool SetStepCount(kiriGrid* grid, kiriMemory* memory, int32_t c, int32_t count)
 {
+    KIRI_ASSERT(c >= 0 && c < grid->runs.count);
     kiriStepRun* run = &grid->runs.data[c];
     bool isOpen = kiriStepRun_IsOpen(run);
     kiriSpan span = { isOpen ? 0 : run->first, RoomFor(isOpen ? 0 : run->end[KIRI_STEP_LENGTHS - 1] - run->first) };
@@ -94,6 +95,7 @@ static bool SetSteps(kiriGrid* grid, kiriMemory* memory, int32_t c, int32_t stra
 
 static bool MarkStepsDirty(kiriGrid* grid, kiriMemory* memory, int32_t square)
 {
+    KIRI_ASSERT(square >= 0 && square < grid->squareCell.count);
     if (kiriGridWork_IsFlagged(grid->work, square, KIRI_SQUARE_STEPS_DIRTY)) {
         return true;
     }
@@ -161,6 +163,7 @@ void kiriGrid_StartSteps(kiriGrid* grid, const kiriMeshData* mesh)
 /* Puts the steps of an open cell into `work`. */
 static bool ListOpenSteps(kiriGrid* grid, kiriMemory* memory, int32_t c)
 {
+    KIRI_ASSERT(c >= 0 && c < grid->cells.count);
     int32_t square = grid->cells.data[c].square;
     grid->work->steps.count = 0;
     for (int k = 0; k < KIRI_OPEN_STEPS; ++k) {
@@ -178,6 +181,7 @@ static bool ListOpenSteps(kiriGrid* grid, kiriMemory* memory, int32_t c)
    cell. */
 static bool MakeOpenSteps(kiriGrid* grid, kiriMemory* memory, int32_t c)
 {
+    KIRI_ASSERT(c >= 0 && c < grid->runs.count);
     if (kiriStepRun_IsOpen(&grid->runs.data[c])) {
         return true;
     }
@@ -242,6 +246,7 @@ static int32_t NewMark(kiriGridWork* work)
 
 static bool AddStraightSteps(kiriGrid* grid, kiriMemory* memory, int32_t c)
 {
+    KIRI_ASSERT(c >= 0 && c < grid->cells.count);
     for (int32_t f = grid->cells.data[c].firstFace; f != KIRI_NONE; f = kiriFace_Next(&grid->faces.data[f], c)) {
         if (!AddStep(grid, memory, Straight(&grid->faces.data[f], c))) {
             return false;
@@ -346,6 +351,7 @@ static bool AddKnightSteps(kiriGrid* grid, kiriMemory* memory, const kiriSteps* 
 
 kiriProgress kiriGrid_MakeKnightSteps(kiriGrid* grid, const kiriMeshData* mesh, int32_t item, kiriQuota* quota)
 {
+    KIRI_ASSERT(item >= 0 && item < grid->work->knightsDirty.count);
     (void)quota;
     kiriMemory* memory = mesh->memory;
     int32_t c = grid->work->knightsDirty.data[item];

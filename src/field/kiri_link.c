@@ -97,6 +97,7 @@ static bool IsPairTouched(const kiriBorder* border, int32_t i, int32_t j)
    each of its faces: so one of the regions must have no dirty one anywhere beside it. */
 static bool KeepPair(const kiriBorder* border, const kiriLinks* links, int32_t first, int32_t end)
 {
+    KIRI_ASSERT(first >= 0 && first < links->links.count);
     kiriLinkWork* work = border->work;
     const kiriLink* link = &links->links.data[first];
     bool ok = true, isUntouched = !IsStale(border, link->i) || !IsStale(border, link->j);
@@ -168,6 +169,7 @@ static bool FindFacesOf(const kiriBorder* border, int32_t region, int32_t cell)
 
 static bool FindFacesFrom(const kiriBorder* border, int32_t region)
 {
+    KIRI_ASSERT(region >= 0 && region < border->work->stale.count);
     const kiriRegions* regions = border->regions;
     bool ok = true,
          isAsked = regions->dirty.data[region] || (border->work->stale.data[region] & KIRI_REGION_TOUCHED) != 0;

@@ -48,6 +48,7 @@ static kiriVec2 kiriBorder_SiteAt(const kiriBorder* border, int32_t region)
 
 static void AddRegion(const kiriBorder* border, kiriNearRegions* near, int32_t cell)
 {
+    KIRI_ASSERT(cell >= 0 && cell < border->regions->field.owner.count);
     int32_t region = border->regions->field.owner.data[cell];
     for (int32_t k = 0; k < near->count; ++k) {
         if (near->region[k] == region) {

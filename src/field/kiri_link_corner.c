@@ -23,6 +23,7 @@ static int32_t NextFaceAlong(const kiriGrid* grid, int32_t cell, int32_t face, i
 /* The face between two cells, `high` being up the axis from `low`, or KIRI_NONE. */
 static int32_t FaceAlong(const kiriGrid* grid, int32_t low, int32_t high, int32_t axis)
 {
+    KIRI_ASSERT(low >= 0 && low < grid->cells.count);
     int32_t f = NextFaceAlong(grid, low, grid->cells.data[low].firstFace, axis, true);
     while (f != KIRI_NONE && grid->faces.data[f].cell[1] != high) {
         f = NextFaceAlong(grid, low, kiriFace_Next(&grid->faces.data[f], low), axis, true);
@@ -335,6 +336,7 @@ static bool MakeCorner(const kiriBorder* border, const kiriLinks* links, int32_t
 /* Is no region stale at the corners of a link? Then all links there are what they were. */
 static bool AreCornersOld(const kiriBorder* border, const kiriLinks* links, int32_t k)
 {
+    KIRI_ASSERT(k >= 0 && k < links->was.count);
     const kiriLinkWork* work = border->work;
     bool isOld = links->was.data[k] != KIRI_NONE;
     for (int e = 0; isOld && e < 2; ++e) {
@@ -349,6 +351,7 @@ static bool AreCornersOld(const kiriBorder* border, const kiriLinks* links, int3
 /* The corners whose lowest link is link k, as they are in force; *at goes on through these. */
 static bool TakeCorners(const kiriBorder* border, kiriLinks* links, int32_t k, int32_t* at)
 {
+    KIRI_ASSERT(k >= 0 && k < links->was.count);
     const kiriLinkWork* work = border->work;
     bool ok = true;
     while (*at < links->corners.count && links->corners.data[*at].link[0] < links->was.data[k]) {
@@ -367,6 +370,7 @@ static bool TakeCorners(const kiriBorder* border, kiriLinks* links, int32_t k, i
 
 static bool MakeCornersOf(const kiriBorder* border, kiriLinks* links, int32_t k)
 {
+    KIRI_ASSERT(k >= 0 && k < border->work->nextEnds.count);
     bool ok = true;
     for (int e = 0; ok && e < 2; ++e) {
         kiriCorner corner;

@@ -347,6 +347,7 @@ static kiriProgress kiriPlacerJob_SumPart(PlacerJob* job)
 
 static void AimPartCell(PlacerJob* job, int32_t cell)
 {
+    KIRI_ASSERT(cell >= 0 && cell < job->work->holds.count);
     if (job->work->holds.data[cell] == KIRI_CELL_FREE) {
         Consider(job, &job->work->targets.data[0], cell);
     }
@@ -377,6 +378,7 @@ static kiriProgress FloodOld(PlacerJob* job)
 
 static int64_t SampledDistance(const kiriPlacerWork* work, int32_t cell)
 {
+    KIRI_ASSERT(cell >= 0 && cell < work->sampled.count);
     int64_t old = kiriPlacerWork_OldDistance(work, cell), sampled = work->sampled.data[cell];
     return kiriMin(old, sampled) * ClosenessAt(work, cell);
 }
@@ -639,6 +641,7 @@ bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* gr
 
 static bool TakeCell(kiriPlacer* placer, kiriMemory* memory, int32_t cell)
 {
+    KIRI_ASSERT(cell >= 0 && cell < placer->work->marks.count);
     uint8_t* mark = &placer->work->marks.data[cell];
     if (*mark) {
         return true;

@@ -42,6 +42,7 @@ static void CountSide(const kiriShapeJob* job, kiriCountedCell counted, int32_t 
 
 static void kiriShapeJob_UncountCell(kiriShapeJob* job, int32_t cell)
 {
+    KIRI_ASSERT(cell >= 0 && cell < job->work->counted.count);
     kiriCountedCell* counted = &job->work->counted.data[cell];
     CountSide(job, *counted, -1);
     *counted = (kiriCountedCell){ KIRI_NONE, 0 };
@@ -65,6 +66,7 @@ static bool MakeSidesRoom(kiriShapeJob* job, int32_t frame, int32_t sides)
 
 static bool kiriShapeJob_CountCell(kiriShapeJob* job, int32_t cell)
 {
+    KIRI_ASSERT(cell >= 0 && cell < job->work->counted.count);
     kiriCountedCell is = { KIRI_NONE, 0 }, was = job->work->counted.data[cell];
     int32_t frame = job->regions->field.owner.data[cell];
     if (frame != KIRI_NONE) {
@@ -95,6 +97,7 @@ static int32_t kiriShapeJob_LimitOf(const kiriShapeJob* job)
 
 static bool IsInRegion(const kiriShapeJob* job, int32_t cell)
 {
+    KIRI_ASSERT(cell >= 0 && cell < job->regions->field.owner.count);
     return job->regions->field.owner.data[cell] == job->frame;
 }
 
@@ -183,6 +186,7 @@ static void LoadNewBlock(const kiriShapeJob* job, int32_t cells)
 /* Loads the distances of these cells, unless they are made from scratch. */
 static inline void LoadBlock(const kiriShapeJob* job, int32_t cells)
 {
+    KIRI_ASSERT(cells >= 0 && cells < job->work->isLoaded.count);
     if (!job->work->isLoaded.data[cells]) {
         LoadNewBlock(job, cells);
     }
@@ -223,6 +227,7 @@ static void LoadAllBlocks(kiriShapeJob* job)
    the seeds of both may differ. */
 static void MarkBorderSeedsDirty(kiriShapeJob* job, int32_t cell)
 {
+    KIRI_ASSERT(cell >= 0 && cell < job->work->wasOwner.count);
     kiriField* field = &job->work->fromBorder;
     bool inside = IsInRegion(job, cell), turned = inside != (job->work->wasOwner.data[cell] == job->frame);
     kiriSteps steps;
@@ -442,6 +447,7 @@ static kiriProgress MeasureField(kiriShapeJob* job, kiriField* field, const kiri
 /* UnloadFrame has made room. */
 static void AddRawWeight(kiriShapeJob* job, int32_t cell, int32_t fromSite, int32_t fromBorder)
 {
+    KIRI_ASSERT(cell >= 0 && cell < job->shape->spans.count);
     kiriShapeWork* work = job->work;
     double raw = fromSite == KIRI_FAR ? 0.0 : RawWeight(IsInRegion(job, cell), fromSite, fromBorder);
     bool none = job->shape->spans.data[cell].count == 0;
@@ -455,6 +461,7 @@ static void AddRawWeight(kiriShapeJob* job, int32_t cell, int32_t fromSite, int3
 /* Has the cell come to the region of the frame, or left it? */
 static bool HasTurned(const kiriShapeJob* job, int32_t cell)
 {
+    KIRI_ASSERT(cell >= 0 && cell < job->work->marks.count);
     return (job->work->marks.data[cell] & KIRI_MARK_REGION) != 0 &&
            (job->work->wasOwner.data[cell] == job->frame) != IsInRegion(job, cell);
 }
@@ -645,6 +652,7 @@ static kiriProgress kiriShapeJob_MeasureFrame(kiriShapeJob* job, kiriQuota* quot
 /* Adds a share to the rigid sums of the frames that hold the cell rigidly. */
 static void AddRigid(kiriShapeJob* job, int32_t cell, int64_t share)
 {
+    KIRI_ASSERT(cell >= 0 && cell < job->shape->spans.count);
     kiriSpan span = job->shape->spans.data[cell];
     double sum = kiriShape_Sum(job->shape, span);
     for (int32_t k = span.first; k < span.first + span.count; ++k) {
@@ -668,6 +676,7 @@ static bool AddWeightChange(kiriShapeJob* job, int32_t cell)
 /* The cell's weights or its material are about to change: they leave the rigid sums until it is finished. */
 static bool MarkSumDirty(kiriShapeJob* job, int32_t cell)
 {
+    KIRI_ASSERT(cell >= 0 && cell < job->work->marks.count);
     if ((job->work->marks.data[cell] & KIRI_MARK_DIRTY) != 0) {
         return true;
     }
@@ -678,6 +687,7 @@ static bool MarkSumDirty(kiriShapeJob* job, int32_t cell)
 
 static bool MarkWeightsDirty(kiriShapeJob* job, int32_t cell)
 {
+    KIRI_ASSERT(cell >= 0 && cell < job->work->marks.count);
     uint8_t* mark = &job->work->marks.data[cell];
     job->shape->recomputed += (*mark & KIRI_MARK_RECOMPUTED) == 0;
     *mark |= KIRI_MARK_RECOMPUTED;
@@ -694,6 +704,7 @@ static bool ResizeWeights(kiriShapeJob* job, int32_t cell, int32_t count)
 /* A cell without weights gets room for all at once. */
 static bool MakeFirstRoom(kiriShapeJob* job, int32_t cell)
 {
+    KIRI_ASSERT(cell >= 0 && cell < job->work->awaited.count);
     return MarkWeightsDirty(job, cell) && ResizeWeights(job, cell, job->work->awaited.data[cell]);
 }
 
@@ -872,6 +883,7 @@ static bool TouchCell(kiriShapeJob* job, int32_t cell)
 
 static bool MarkGone(kiriShapeJob* job, int32_t cell)
 {
+    KIRI_ASSERT(cell >= 0 && cell < job->work->rigidShares.count);
     AddRigid(job, cell, -job->work->rigidShares.data[cell]);
     ResizeWeights(job, cell, 0);
     kiriShapeJob_UncountCell(job, cell);
@@ -881,6 +893,7 @@ static bool MarkGone(kiriShapeJob* job, int32_t cell)
 
 static bool MarkSteps(kiriShapeJob* job, int32_t cell)
 {
+    KIRI_ASSERT(cell >= 0 && cell < job->work->marks.count);
     job->work->marks.data[cell] |= KIRI_MARK_STEPS;
     return AddWeightChange(job, cell) && TouchCell(job, cell);
 }
@@ -1131,6 +1144,7 @@ static void ForgetCells(kiriShape* shape, kiriMemory* memory, const int32_t* gon
 
 static void ForgetFrame(kiriShape* shape, kiriMemory* memory, int32_t frame)
 {
+    KIRI_ASSERT(frame >= 0 && frame < shape->work->frames.count);
     kiriReaches_Forget(&shape->reaches, kiriLabels_Of(&shape->labels, frame));
     kiriSpan_Resize(&shape->work->frames.data[frame].sides, &shape->work->sideRoom, memory, &shape->work->sideCounts,
                     sizeof(*shape->work->sideCounts.data), 0);

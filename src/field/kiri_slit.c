@@ -13,6 +13,7 @@ static int32_t ClockwiseOf(const kiriMeshData* mesh, int32_t h)
    else KIRI_NONE. */
 static int32_t LipAt(const kiriMeshData* mesh, int32_t vertex)
 {
+    KIRI_ASSERT(vertex >= 0 && vertex < mesh->vertices.count);
     int32_t start = mesh->vertices.data[vertex].edge, first = start, last = start;
     for (int32_t h = ClockwiseOf(mesh, first); h != KIRI_NONE; h = ClockwiseOf(mesh, h)) {
         if (h == start) {

@@ -34,6 +34,7 @@ static double SideFrom(kiriVec2 from, kiriVec2 mine, kiriVec2 other)
 /* Cells of one square share its kernel, by the side that each is on. They follow each other in the steps. */
 static void ShareSquare(kiriStencil* stencil, int32_t first, int32_t count, kiriVec2 from)
 {
+    KIRI_ASSERT(first >= 0 && first < stencil->shares.count);
     double sum = 0.0, kernel = stencil->shares.data[first];
     for (int32_t a = first; a < first + count; ++a) {
         double side = 1.0;
@@ -239,6 +240,7 @@ static bool InsertBeyond(kiriStencil* stencil, kiriMemory* memory, const kiriGri
 /* Most cells have eight others around them, and no square there is divided: then steps of the grid tell all. */
 static bool IsPlain(const kiriGrid* grid, int32_t cell)
 {
+    KIRI_ASSERT(cell >= 0 && cell < grid->cells.count);
     kiriSteps steps;
     kiriGrid_GetStepsTo(grid, cell, 2, &steps);
     bool plain = steps.end[1] == 8 && grid->whole.data[grid->cells.data[cell].square];

@@ -74,6 +74,7 @@ void kiriTurns_Start(kiriTurns* turns, kiriVec2 from, kiriVec2 to, double most)
 
 void kiriTurns_AddAround(kiriTurns* turns, const kiriSight* sight, int32_t cell)
 {
+    KIRI_ASSERT(cell >= 0 && cell < sight->grid->cells.count);
     const kiriSquares* squares = &sight->mesh->squares;
     int32_t square = sight->grid->cells.data[cell].square;
     int32_t column = square % squares->columns, row = square / squares->columns;

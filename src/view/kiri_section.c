@@ -230,6 +230,7 @@ static int32_t EndOf(int32_t end)
 /* The line from a piece on. */
 static bool AddLine(Pieces* p, kiriSection* section, kiriMemory* memory, int32_t start)
 {
+    KIRI_ASSERT(start >= 0 && start < p->pieces.count);
     Piece* piece = &p->pieces.data[start];
     kiriSectionLine line = { section->points.count, 0, { EndOf(piece->end[0]), 0 }, { piece->out[0], piece->out[0] } };
     bool ok = kiriArray_Push(memory, &section->points, piece->point[0]);

@@ -54,6 +54,7 @@ void kiriSurface_Truncate(kiriSurface* surface, int32_t frameCount)
 
 static void WriteNewVertex(kiriSurface* surface, const kiriMeshData* mesh, int32_t v)
 {
+    KIRI_ASSERT(v >= 0 && v < mesh->vertices.count);
     kiriVec2 local = kiriMesh_Local(mesh, mesh->vertices.data[v].at), rest = kiriVec2_Add(mesh->origin, local);
     surface->rest.data[v] = local;
     surface->restPositions.data[2 * (size_t)v] = (float)rest.x;
@@ -62,12 +63,14 @@ static void WriteNewVertex(kiriSurface* surface, const kiriMeshData* mesh, int32
 
 static void WriteSource(kiriSurface* surface, const kiriMeshData* mesh, int32_t v)
 {
+    KIRI_ASSERT(v >= 0 && v < surface->sourceTriangles.count);
     surface->sourceTriangles.data[v] = mesh->vertices.data[v].source;
     kiriMesh_GetShare(mesh, v, &surface->sourceWeights.data[3 * (size_t)v]);
 }
 
 static void WriteTurn(kiriSurface* surface, int32_t pair)
 {
+    KIRI_ASSERT(pair >= 0 && pair < surface->turns.count);
     const int32_t* indices = &surface->indices.data[6 * (size_t)pair];
     surface->turns.data[pair] = kiriNormals_TurnOf(indices, 2 * pair + 1 == surface->triangleCount);
 }
@@ -94,6 +97,7 @@ static void WriteOldVertices(kiriSurface* surface, const kiriMeshData* mesh, kir
 
 static void WriteTriangle(kiriSurface* surface, const kiriMeshData* mesh, int32_t t)
 {
+    KIRI_ASSERT(t >= 0 && t < mesh->triangles.count);
     memcpy(&surface->indices.data[3 * (size_t)t], mesh->triangles.data[t].vertex, 3 * sizeof(int32_t));
 }
 
