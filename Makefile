@@ -5,6 +5,7 @@
 #   make play     plays a game in a window; GAME=curtain or net, ARGS=--help
 #   make test     builds and runs all tests
 #   make quick    a few of them, with all calls: for config=debug beside config=sanitize
+#   make check    compares figures of the sources with their limits, which only get stricter; includes, fields; no build
 #   make fuzz     looks for input that breaks something; FUZZ=mesh: other than calls; TIME=600: s
 #   make sweep    loads saves that are wrong in one number; ARGS='35 36 1': of world 35; config=debug: asserts
 #   make page     cuts pages of lines and compares the pieces with Shapely's; ARGS='10 1 2000': pages, first seed, lines
@@ -135,12 +136,12 @@ LINK_TEXT := $(LINK) | $(VERSION) | $(AR) | $(LIBRARY_OBJECTS) | $(SAMPLE_OBJECT
 TO_COMPILE := $(BUILD)/compile.txt Makefile
 TO_LINK := $(BUILD)/link.txt Makefile
 
-# Each language's rules; what they add to LANGUAGE_CHECKS is run by `make check`.
+# Each language's rules; `make test` runs the targets that they add to LANGUAGE_CHECKS.
 LANGUAGE_CHECKS :=
 include bindings/install.mk $(wildcard bindings/*/rules.mk)
 
 .PHONY: all run box2d play python bindings described builds lib single example bench accuracy contact extremes gallery guide deps
-.PHONY: test quick fuzz sweep scarce long page analyze deps-analyze valgrind tsan check floors fields headers format clean exports FORCE
+.PHONY: test all-tests quick fuzz sweep scarce long page analyze deps-analyze valgrind tsan check ratchet floors fields headers format clean exports FORCE
 .DEFAULT_GOAL := all
 .SECONDARY:
 .DELETE_ON_ERROR:
@@ -170,7 +171,7 @@ play: packages-play
 	$(PLAY) $(if $(GAME),--game $(GAME)) $(ARGS)
 
 test: packages-test
-	@$(MAKE) --no-print-directory -k check
+	@$(MAKE) --no-print-directory -k all-tests
 
 fuzz: packages-fuzz
 	@$(MAKE) --no-print-directory config=fuzz CC=clang CXX=clang++ build/fuzz/tests/fuzz_$(FUZZ)
@@ -333,8 +334,8 @@ run-sweep_saves: $(BUILD)/tests/sweep_saves
 	@if $< 34 36 1 30 > $<.log 2>&1; then echo "== $<"; tail -n 1 $<.log; \
 	else echo "== $< FAILED"; tail -n 20 $<.log; exit 1; fi
 
-check: $(LONG_RUNS) $(BUILD_CHECK) $(if $(filter release,$(config)),$(LANGUAGE_CHECKS)) $(TEST_RUNS) $(FUZZ_RUNS) run-sweep_saves \
-    $(RUN) $(BOX2D) $(PLAY) floors fields headers float-guards exports example $(PYTHON_CHECK) $(DESCRIBED_CHECK)
+all-tests: $(LONG_RUNS) $(BUILD_CHECK) $(if $(filter release,$(config)),$(LANGUAGE_CHECKS)) $(TEST_RUNS) $(FUZZ_RUNS) run-sweep_saves \
+    $(RUN) $(BOX2D) $(PLAY) check headers float-guards exports example $(PYTHON_CHECK) $(DESCRIBED_CHECK)
 	@echo "all tests passed ($(config))"
 
 # The input of fuzzers and the recordings have all calls; Python loads no sanitized library.
@@ -368,6 +369,13 @@ floors:
 	done
 	@grep -H '#include "' src/*/* | $(UNIT_INCLUDES) | awk '$$1 != $$2 && $$2 !~ /_work$$/' | sort -u | tsort > /dev/null
 	@echo "src: includes go down the floors, and in no circle"
+
+# What the sources say of themselves, without a build.
+check: ratchet floors fields
+
+# Figures of the sources against tests/ratchet.txt: `$(PYTHON) tests/ratchet.py --lower` makes limits stricter.
+ratchet:
+	@$(PYTHON) tests/ratchet.py
 
 # What is saved of a struct is what it has.
 fields:

@@ -333,8 +333,10 @@ static void LookBothWays(Table* table, const Scene* scene, const char* moment)
     for (int32_t skinning = KIRI_SKINNING_LINEAR; skinning <= KIRI_SKINNING_SMOOTH; skinning++) {
         Seen seen = { 0 };
         sheet->seen.surface.skinning = skinning;
-        kiriSurface_Blend(&sheet->seen.surface, &sheet->vertexSkin, &sheet->shape.labels, sheet->frames.data,
-                          sheet->frames.count, sheet->links.links.data, sheet->links.links.count);
+        kiriSurface_TakeFrames(&sheet->seen.surface, &sheet->shape.labels, sheet->frames.data, sheet->frames.count,
+                               sheet->links.links.data, sheet->links.links.count, NULL);
+        sheet->seen.surface.isWritten = false;
+        kiriSurface_BlendRange(&sheet->seen.surface, &sheet->vertexSkin, 0, sheet->seen.surface.vertexCount);
         kiriSurface_AddFades(&sheet->seen.surface, &sheet->seen.fades);
         LookAt(&seen, sheet);
         Report(table, scene->type->name, moment, ways[skinning], &seen, sheet->frames.count);

@@ -6,6 +6,14 @@
 #include "core/kiri_hash.h"
 #include "world/kiri_state_hash.h"
 
+/* Adds bytes by FNV-1a. */
+static void HashBytes(uint64_t* hash, const void* data, size_t bytes)
+{
+    for (size_t i = 0; i < bytes; ++i) {
+        kiriHash_Word(hash, ((const unsigned char*)data)[i]);
+    }
+}
+
 static inline void HashPlace(uint64_t* hash, const kiriGrid* grid, int32_t cell)
 {
     kiriHash_Int32(hash, cell == KIRI_NONE ? KIRI_NONE : grid->cells.data[cell].square);
@@ -58,9 +66,9 @@ static inline void HashCell(uint64_t* hash, const kiriSheetData* sheet, int32_t 
     uint64_t faces = HashFaces(&sheet->grid, &sheet->mesh, cell);
     HashPlace(hash, &sheet->grid, cell);
     kiriMoments material = kiriGrid_Material(&sheet->grid, &sheet->mesh, cell);
-    kiriHash_Bytes(hash, &material, sizeof(kiriMoments));
+    HashBytes(hash, &material, sizeof(kiriMoments));
     HashSteps(hash, &sheet->grid, cell);
-    kiriHash_Bytes(hash, &faces, sizeof(faces));
+    HashBytes(hash, &faces, sizeof(faces));
     kiriHash_Int32(hash, sheet->regions.field.owner.data[cell]);
     kiriHash_Int32(hash, sheet->regions.field.distance.data[cell]);
     kiriHash_Int32(hash, sheet->regions.onBorder.data[cell]);
@@ -77,8 +85,8 @@ static inline uint64_t HashLayout(const kiriSheetData* sheet)
         }
     }
     for (int32_t f = 0; f < sheet->frames.count; ++f) {
-        kiriHash_Bytes(&hash, &sheet->regions.material.data[f], sizeof(kiriTally));
-        kiriHash_Bytes(&hash, &sheet->shape.rigid.data[f], sizeof(int64_t));
+        HashBytes(&hash, &sheet->regions.material.data[f], sizeof(kiriTally));
+        HashBytes(&hash, &sheet->shape.rigid.data[f], sizeof(int64_t));
         HashPlace(&hash, &sheet->grid, sheet->frames.data[f].site.cell);
     }
     return hash;

@@ -26,7 +26,7 @@ static uint64_t HashRest(const kiriMesh* mesh, const kiriPieceMesh* piece)
     uint64_t sum = 0;
     for (int32_t i = 0; i < piece->vertexCount; ++i) {
         uint64_t hash = KIRI_HASH_START;
-        kiriHash_Bytes(&hash, &mesh->restPositions[2 * piece->vertices[i]], 2 * sizeof(float));
+        HashBytes(&hash, &mesh->restPositions[2 * piece->vertices[i]], 2 * sizeof(float));
         sum += hash;
     }
     return sum;

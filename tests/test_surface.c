@@ -126,8 +126,10 @@ static void Write(Cloth* cloth)
 
 static void Pose(Cloth* cloth)
 {
-    kiriSurface_Blend(&cloth->surface, &cloth->skin, &cloth->labels, cloth->frames.data, cloth->frames.count,
-                      cloth->links.data, cloth->links.count);
+    kiriSurface_TakeFrames(&cloth->surface, &cloth->labels, cloth->frames.data, cloth->frames.count, cloth->links.data,
+                           cloth->links.count, NULL);
+    cloth->surface.isWritten = false;
+    kiriSurface_BlendRange(&cloth->surface, &cloth->skin, 0, cloth->surface.vertexCount);
     kiriSurface_SumNormals(&cloth->surface);
     kiriSurface_WriteRange(&cloth->surface, 0, cloth->surface.vertexCount);
 }

@@ -17,12 +17,12 @@ type ResultCode int32
 
 const (
 	Ok ResultCode = 0
-	// done, and work is left for later ticks
+	// success; work is left for later ticks
 	Pending ResultCode = 1
-	// null pointer, NaN, infinite, or outside the documented range; or a sheet or obstacle would be where floats end, or
-	// move that fast: 4e37 m, m/s or 1/s
+	// null pointer, NaN, infinite, or outside the documented range; or a position, velocity or turn of a sheet or
+	// obstacle would exceed 4e37 m, m/s or 1/s
 	ErrorArgument ResultCode = -1
-	// the def was not filled by its kiriDefault function, all zeros say: call that first
+	// the def was not filled by its kiriDefault function: call that first
 	ErrorDef ResultCode = -2
 	// unknown or stale id, or the id of another kind
 	ErrorId ResultCode = -3
@@ -32,15 +32,15 @@ const (
 	ErrorState ResultCode = -5
 	// the allocator returned null
 	ErrorMemory ResultCode = -6
-	// the motion of a sheet could not be continued; it was put to rest where it was
+	// the motion of a sheet could not be continued; the sheet was stopped where it was
 	Diverged ResultCode = -7
 	// all ids of a kind are used up: 4 194 304 at a time, 2^29 over the life of a world
 	ErrorLimit ResultCode = -8
 	// floats are not computed as on other machines, see kiriCreateWorld
 	ErrorBuild ResultCode = -9
-	// bytes that are damaged, cut short, of something else, or of a later version
+	// the bytes are damaged, cut short, of another kind, or of a later version
 	ErrorData ResultCode = -10
-	// a call that was made again gave something else than its recording has
+	// a repeated call gave another result than its recording has
 	ErrorReplay ResultCode = -11
 )
 
@@ -86,7 +86,7 @@ var namesNoteLimit = map[NoteLimit]string{
 
 func (value NoteLimit) String() string { return namesNoteLimit[value] }
 
-// What happened since the start of the last tick that was not refused.
+// Events since the start of the last tick that was not refused.
 type EventType int32
 
 const (
@@ -96,13 +96,13 @@ const (
 	EventPieceOff EventType = 2
 	// frame
 	EventFrameAdded EventType = 3
-	// the sheet was put to rest
+	// the sheet was stopped
 	EventDiverged EventType = 4
 	// stage, waiting: the budget ended in this stage of the sheet's work
 	EventDeferred EventType = 5
-	// pin: its force passed breakForce; the id is stale from now on
+	// pin: its force exceeded breakForce; the id is stale from now on
 	EventPinBroke EventType = 6
-	// sheet (the new one), frame, area: what kiriFrame_DetachPiece left waiting is done
+	// sheet (the new one), frame, area: a pending kiriFrame_DetachPiece is done
 	EventPieceDetached EventType = 7
 )
 
@@ -122,19 +122,19 @@ func (value EventType) String() string { return namesEventType[value] }
 type Stage int32
 
 const (
-	// split the mesh along the blade
+	// splits the mesh along the blade
 	StageCut Stage = 0
-	// cells and what links them
+	// cells and their connections
 	StageGrid Stage = 1
-	// geodesic distances, regions, links; placing of frames
+	// geodesic distances, regions, links; places frames
 	StageRegions Stage = 2
 	// shape functions
 	StageShape Stage = 3
 	// weights of vertices and collision points
 	StageSamples Stage = 4
-	// mass, the pattern of the solver's matrix, and when all is put in force
+	// mass, the pattern of the solver's matrix, and the commit
 	StageConstants Stage = 5
-	// what touches obstacles, other sheets and other pieces
+	// contacts with obstacles, other sheets and other pieces
 	StageContact Stage = 6
 	// the motion of the frames
 	StageSolve Stage = 7
@@ -158,7 +158,7 @@ var namesStage = map[Stage]string{
 
 func (value Stage) String() string { return namesStage[value] }
 
-// Materials to start from; src/world/kiri_preset.c says where their numbers come from.
+// Materials to start from; src/world/kiri_preset.c names the sources of their numbers.
 type MaterialPreset int32
 
 const (
@@ -205,15 +205,13 @@ func (value QualityPreset) String() string { return namesQualityPreset[value] }
 type Model int32
 
 const (
-	// Rigid frames joined by links: paper, foil, stiff cloth. 6 unknowns a frame, which its neighbours couple.
+	// Rigid frames joined by links: paper, foil, stiff cloth. 6 unknowns a frame, coupled with its neighbours.
 	ModelLinks Model = 0
-	// Affine frames joined by links: cloth and rubber, whose stretch inside a region is seen. 12 unknowns a frame, which
-	// neighbours of neighbours couple: a tick takes five to seven times as long as with KIRI_MODEL_LINKS. From 1e8 Pa or
-	// so on it needs more `iterations`, 8 say.
+	// Affine frames joined by links: cloth and rubber that stretch visibly inside a region. 12 unknowns a frame, coupled
+	// with neighbours of neighbours: a tick takes five to seven times as long. From 1e8 Pa on use 8 `iterations`.
 	ModelAffine Model = 1
-	// Affine frames, strains at integration points: the scheme of the paper, to compare with. Weights that vary across a
-	// strip cannot bend it as a cylinder, however many points there are: a clamped strip on 9 frames goes 3, 20, 51 and
-	// 70 % too short a way down where it is a 10th, 20th, 50th and 400th of its length thick. 12 unknowns a frame.
+	// Affine frames, strains at integration points: the scheme of the paper, for comparison. 12 unknowns a frame. The
+	// thinner the sheet, the less it bends; the manual has figures (accuracy).
 	ModelPoints Model = 2
 )
 
@@ -225,9 +223,9 @@ var namesModel = map[Model]string{
 
 func (value Model) String() string { return namesModel[value] }
 
-// What is seen between the frames, and met by rays, blades, obstacles, other sheets, and contacts of rest points;
-// pins, clamps and holds hold it. Where nothing touches or holds the sheet it does not change how that moves.
-// Collision points stay on the linear surface.
+// The surface between the frames. Rays, blades, obstacles, other sheets and contacts of rest points meet this
+// surface; pins, clamps and holds hold it. Where nothing touches or holds the sheet, skinning does not change its
+// motion. Collision points stay on the linear surface.
 type Skinning int32
 
 const (
@@ -244,17 +242,15 @@ var namesSkinning = map[Skinning]string{
 
 func (value Skinning) String() string { return namesSkinning[value] }
 
-// How time is stepped. Both solve one linear system an iteration.
+// Integration in time. Both solve one linear system an iteration.
 type TimeStepping int32
 
 const (
-	// TR-BDF2: trapezoid and BDF2 by turns, of second order. Motion lasts: of the energy of a swinging strip of 9 frames
-	// 96 to 98 % is left after 10 s with 2 substeps a 60th of a second and 1 iteration, 99.7 % with 4. Backward Euler
-	// takes its place in the steps in which a contact touches a piece, a pin or hold is made, moved or removed, or a
-	// frame is new or turns by more than a radian.
+	// TR-BDF2: alternates trapezoid and BDF2, of second order. Keeps the energy of motion; the manual has figures
+	// (accuracy). Backward Euler replaces it in steps in which a contact touches a piece, a pin or hold is made, moved
+	// or removed, or a frame is new or turns by more than a radian.
 	TimeSteppingSecondOrder TimeStepping = 0
-	// Backward Euler, of first order: takes energy out of all that swings, the more the longer the step. Of that strip's
-	// 0.4 % is left.
+	// Backward Euler, of first order: takes energy out of a swing, more in longer steps.
 	TimeSteppingEuler TimeStepping = 1
 )
 
@@ -265,7 +261,7 @@ var namesTimeStepping = map[TimeStepping]string{
 
 func (value TimeStepping) String() string { return namesTimeStepping[value] }
 
-// What a pin holds.
+// The types of pins.
 type PinType int32
 
 const (
@@ -282,12 +278,11 @@ var namesPinType = map[PinType]string{
 
 func (value PinType) String() string { return namesPinType[value] }
 
-// A body that sheets touch: a floor, a ball, a crate of another engine. Kiri moves no obstacle by forces. An obstacle
-// goes on with its velocities; a host that moves bodies by an engine of its own sets pose and velocities before each
-// tick, and gives the impulse that kiriObstacle_GetState tells to that engine after it. Contacts follow its motion
-// within the tick, and push no harder than its mass resists. Sheets stay half their contactThickness away from it;
-// that is what is seen of them, with smooth skinning too. A sheet that rests wakes where an obstacle near it comes,
-// goes, or has moved by half a second of its sleepSpeed. Lengths of shapes are up to 1e6 m.
+// A body that sheets touch: a floor, a ball, a crate of another engine. It moves on with its velocities; forces do
+// not move it. A host with an engine sets pose and velocities before each tick, and applies the impulse of
+// kiriObstacle_GetState to the engine's body after it. Contacts follow its motion within the tick, and push no harder
+// than its mass resists. The visible surface of sheets stays half their contactThickness away. A sleeping sheet wakes
+// where an obstacle near it comes, goes, or has moved by half a second of its sleepSpeed. Lengths are up to 1e6 m.
 type ObstacleType int32
 
 const (
@@ -316,11 +311,11 @@ var namesObstacleType = map[ObstacleType]string{
 
 func (value ObstacleType) String() string { return namesObstacleType[value] }
 
-// What is drawn.
+// The things to draw.
 type DrawFlag uint32
 
 const (
-	// a triangle for each of the mesh, in a colour of its piece, pale where that sleeps
+	// a triangle for each triangle of the mesh, in a colour of its piece; sleeping: pale
 	DrawTriangles DrawFlag = 1
 	// a line for each edge between two triangles
 	DrawEdges DrawFlag = 2
@@ -380,36 +375,26 @@ type ObstacleID uint32
 // BladeID is an id as C has it; 0 is none.
 type BladeID uint32
 
-// The most work that one tick may do, over all sheets. 0: no limit. Triangles, cells and samples share one allowance:
-// using 30 % of one leaves 70 % of the others. So the work on cuts takes no longer than the costliest of the three
-// limits alone. A single step that exceeds the whole limit is not split. It runs alone in its tick. Work that does
-// not fit goes on in the next tick. Until a cut takes effect its lips move together. All points of a sheet that are
-// pending when work on them begins take effect together, whatever ticks they were given before. So the tick in which
-// a cut takes effect depends on the budget, too. Its result does not: when all work is done, mesh, grid, regions,
-// weights and sites of frames equal, bit for bit, a run of the same calls without a budget. Motion differs. Sheets
-// take turns. In every other tick the sheet whose points came first is served first, in the ticks between the sheet
-// whose work has used least. Pieces that wait to be detached get half of every other tick. An example at 60 Hz, with
-// 2 ms of work on cuts a tick (about 32 000 cells and 4000 samples): a cut from side to side of 64 x 64 squares with
-// 9 frames parts 17 to 100 ms after the blade has left, one of 127 x 127 squares with 24 frames 67 to 200 ms. A slow
-// blade parts sooner, for its work is done on the way. tests/bench_swipe.c prints the table.
+// Limits the work of one tick, over all sheets. 0: no limit. Triangles, cells and samples share one allowance: using
+// 30 % of one leaves 70 % of the others. A single step that exceeds the whole limit is not split. It runs alone in
+// its tick. Other work goes on in the next tick. Until a cut takes effect its lips move together. The tick of the
+// effect depends on the budget. The mesh, grid, regions, weights and sites of frames after all work is done do not,
+// bit for bit; motion differs. Sheets take turns. The manual has examples and the order of turns (budget).
 type Budget struct {
 	// split by blades; 0, or KIRI_LEAST_TRIANGLES and more
 	Triangles int32
-	// looked at, or given another distance: grid, regions, shape functions; a link counts as many
+	// visited, or with a new distance: grid, regions, shape functions. A link counts as a cell
 	Cells int32
-	// vertices and collision points with new weights; and what it takes to put all that is new in force at once, which
-	// is paid before
+	// vertices and collision points with new weights, and the cost of the commit, paid before it
 	Samples int32
-	// work on linear systems, of 30 to 60 us each. A system counts 1, and 1 more for each 16 frames (5 of affine ones),
-	// for each 64 contacts, and for each 1280 products of blocks that its factorisation takes: in a square of 24, 289,
-	// 1000, 5000 frames it is 2, 36, 184, 2411. A sheet that gets fewer systems than its substeps takes longer ones.
-	// Where one system of all its pieces is more than what is left, they take turns: some are moved, the others stay
-	// where they are in this tick, with their velocity, and come first in the next; a sheet that gets none stands still,
-	// too. A piece whose system is more than the whole limit is moved alone
+	// linear systems, 30 to 60 us each. A large system counts as several, see the manual (budget). A sheet with fewer
+	// systems than substeps takes longer substeps. Pieces that do not fit take turns: the others stay where they are in
+	// this tick, with their velocity, and come first in the next. A piece whose system exceeds the whole limit is moved
+	// alone
 	Iterations int32
 }
 
-// Of the fields after `sheet` an event has those that its type names; the others are 0, `stage` is -1.
+// An event. It fills the fields that its type names, and `sheet`. Other fields are 0, and `stage` is -1.
 type Event struct {
 	// KIRI_EVENT_...
 	Type EventType
@@ -426,56 +411,54 @@ type Event struct {
 	Area float32
 	// KIRI_STAGE_..., or -1
 	Stage Stage
-	// blade points and ends of cuts that are pending or being worked on; or 0
+	// points and ends of cuts that are pending or in work; or 0
 	Waiting int32
 }
 
-// What the last tick did, and what it took.
+// Work and time of the last tick.
 type Profile struct {
 	// of the last tick; zero without a clock
 	Seconds [9]float64
 	// blade segments that took effect
 	CutSegments int32
-	// Items, as the budget counts them: more than what is split or weighed, where one takes more work.
+	// Items in the units of kiriBudget. An item that takes more work counts more than once.
 	TrianglesSplit int32
-	// Items, as the budget counts them: more than what is split or weighed, where one takes more work.
+	// Items in the units of kiriBudget. An item that takes more work counts more than once.
 	CellsSettled int32
-	// Items, as the budget counts them: more than what is split or weighed, where one takes more work.
+	// Items in the units of kiriBudget. An item that takes more work counts more than once.
 	SamplesRefreshed int32
-	// Items, as the budget counts them: more than what is split or weighed, where one takes more work.
+	// Items in the units of kiriBudget. An item that takes more work counts more than once.
 	SolverIterations int32
-	// What commits changed: cells made or with other material, cells with other weights, vertices and collision points
-	// with other weights, links that are other than before. Of how many: kiriSheet_GetCounts.
+	// Changes by commits: cells that are new or have other material, cells with other weights, vertices and collision
+	// points with other weights, links that differ. kiriSheet_GetCounts has the totals.
 	CellsChanged int32
-	// What commits changed: cells made or with other material, cells with other weights, vertices and collision points
-	// with other weights, links that are other than before. Of how many: kiriSheet_GetCounts.
+	// Changes by commits: cells that are new or have other material, cells with other weights, vertices and collision
+	// points with other weights, links that differ. kiriSheet_GetCounts has the totals.
 	WeightsChanged int32
-	// What commits changed: cells made or with other material, cells with other weights, vertices and collision points
-	// with other weights, links that are other than before. Of how many: kiriSheet_GetCounts.
+	// Changes by commits: cells that are new or have other material, cells with other weights, vertices and collision
+	// points with other weights, links that differ. kiriSheet_GetCounts has the totals.
 	VerticesChanged int32
-	// What commits changed: cells made or with other material, cells with other weights, vertices and collision points
-	// with other weights, links that are other than before. Of how many: kiriSheet_GetCounts.
+	// Changes by commits: cells that are new or have other material, cells with other weights, vertices and collision
+	// points with other weights, links that differ. kiriSheet_GetCounts has the totals.
 	PointsChanged int32
-	// What commits changed: cells made or with other material, cells with other weights, vertices and collision points
-	// with other weights, links that are other than before. Of how many: kiriSheet_GetCounts.
+	// Changes by commits: cells that are new or have other material, cells with other weights, vertices and collision
+	// points with other weights, links that differ. kiriSheet_GetCounts has the totals.
 	LinksChanged int32
 	// sheets in which a cut took effect
 	Commits int32
 	// linear systems, large and small
 	SystemsSolved int32
-	// planes given to the solver: the host's, those of obstacles, and those between sheets
+	// planes given to the solver: by the host, by obstacles, and between sheets
 	Contacts int32
-	// pairs of sheets or pieces, near each other and not both asleep
+	// pairs of sheets or pieces that are near each other and not both asleep
 	SheetPairs int32
-	// The farthest that a vertex would have jumped, m, when a cut took effect, without fadeTime; and that one went by a
-	// fade.
+	// The longest jump of a vertex when a cut took effect, as without fadeTime, and the longest way by a fade; m.
 	LargestJump float64
-	// The farthest that a vertex would have jumped, m, when a cut took effect, without fadeTime; and that one went by a
-	// fade.
+	// The longest jump of a vertex when a cut took effect, as without fadeTime, and the longest way by a fade; m.
 	LargestFade float64
 }
 
-// What a sheet is made of: homogeneous, isotropic.
+// The material of a sheet: homogeneous, isotropic.
 type Material struct {
 	// Pa, above 0
 	YoungsModulus float32
@@ -491,16 +474,12 @@ type Material struct {
 	FlexDamping float32
 }
 
-// How much work for how much accuracy. The presets are measured (`make accuracy`; tests/sweep.h has the scenes) on a
-// strip of stiff paper, 0.2 m x 0.05 m, clamped at one end, with one row of frames, and on a square of 0.2 m that
-// bends five times as easily, hangs by two corners, and has half as many rows and columns, rounded up. Let go, they
-// swing for 0.4 s at 60 ticks a second. Error: rms distance of the vertices from where a much finer run brings them,
-// by the rms way that they go; at most, over grids from 4/5 to 5/4 as fine and with frames in regular rows or moved a
-// little. FAST: 2 %. BALANCED: 0.8 %. ACCURATE: 0.4 %. What a cut leaves narrow wants more frames: see `accuracy` in
-// the sheet def.
+// Work against accuracy. The presets were measured on a swinging strip and a swinging square of paper. Error is the
+// rms distance of vertices from a much finer run, over their rms way. FAST: at most 2 %. BALANCED: 0.8 %. ACCURATE:
+// 0.4 %. Narrow arms that a cut leaves need more frames (`accuracy` of kiriSheetDef). The manual has details
+// (accuracy).
 type Quality struct {
-	// control frames in a row along a strip; a square does with half as many in either direction, rounded up: 3 x 3, 5 x
-	// 5, 9 x 9
+	// control frames in a row along a strip; a square needs 3 x 3, 5 x 5, 9 x 9
 	FramesAlong int32
 	// for the sheet def
 	GridResolution int32
@@ -510,36 +489,33 @@ type Quality struct {
 	Substeps int32
 }
 
-// The paper's own ways, to compare with; part of the sheet def.
+// Options of the paper, for comparison; part of the sheet def.
 type PaperOptions struct {
-	// 1: every cut rebuilds grid, regions and shape functions from scratch; the outcome is the same bit for bit. Default
-	// 0.
+	// 1: every cut rebuilds grid, regions and shape functions from scratch, to the same bits. Default 0.
 	FromScratch int32
-	// 1: when a cut takes effect, only new frames take their motion from the surface: what is seen jumps, and momentum
-	// is not kept. Default 0.
+	// 1: only new frames take their motion from the surface: it jumps at cuts, and momentum is not kept. Default 0.
 	Popping int32
-	// 1: the weights of frames are linear on the way from frame to frame, so the surface that is seen has a kink at each
-	// frame. Always so with KIRI_MODEL_POINTS. Default 0: their slope is zero at the frames.
+	// 1: the weights of frames are linear between frames, so the surface has a kink at each frame. Always so with
+	// KIRI_MODEL_POINTS. Default 0: the slope of weights is zero at the frames.
 	LinearWeights int32
-	// KIRI_MODEL_POINTS only. Work grows with the points: spread evenly over the sheet, at least one in every piece;
-	// default 0: four for each of frameCount. Order 1 (default) takes the strain at a point for all of the material
-	// around it, order 2 a strain linear in it, at four times the work a point. 0 to 1048576
+	// KIRI_MODEL_POINTS only. Points are spread evenly over the sheet, at least one in every piece; default 0: four for
+	// each of frameCount. Work is proportional to them. Order 1 (default) has a constant strain in the material around a
+	// point, order 2 a linear strain, at four times the work a point. 0 to 1048576
 	IntegrationPoints int32
 	// 1 or 2
 	IntegrationOrder int32
 }
 
-// Of a sheet: its rest shape, where it starts, its material, and how it is computed.
+// A sheet: its rest shape, start, material, and computation.
 type SheetDef struct {
 	cookie uint32
 	// The rest shape: triangles in the rest plane, counter-clockwise, at most two at an edge. Holes and several parts
-	// are fine. Copied by kiriCreateSheet; vertices of no triangle are left out. Edges whose ends lie at the same
-	// places, but are different vertices, are the lips of a cut that is there already; weldDistance closes them. 2
-	// floats (u, v) a vertex
+	// are allowed. kiriCreateSheet copies them and leaves out vertices without a triangle. Two edges in the same place
+	// with different vertices are the lips of an existing cut; weldDistance closes them. 2 floats (u, v) a vertex
 	RestPositions [][2]float32
 	// 3 a triangle
 	Indices [][3]int32
-	// Where it starts: x = position + u axisU + v axisV. The axes are orthonormal.
+	// Start: x = position + u axisU + v axisV (m, world). The axes are orthonormal.
 	Position [3]float32
 	AxisU [3]float32
 	AxisV [3]float32
@@ -548,23 +524,21 @@ type SheetDef struct {
 	Material Material
 	// grid squares along the longer side, 1 to 4096; default 32
 	GridResolution int32
-	// m: ends of cuts this near to a lip or the border meet it, those twice as far do not, and a cut keeps within half
-	// of it of its line; 0: 1e-4 of the longer side
+	// m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not, and a cut keeps within
+	// half of it of its line; 0: 1e-4 of the longer side
 	SnapDistance float32
-	// Vertices nearer than this (m, rest plane; 0 or more) are one: for seams of texture coordinates, and triangles
-	// without shared vertices (STL). In the order of vertices, each becomes the nearest vertex that was kept before and
-	// is nearer than this; else it is kept. So none moves farther, and a chain of near vertices is not one point. A
-	// triangle with two corners at one vertex is left out. kiriSheet_CopySources leads to the vertices of the def.
-	// Default 0: vertices are as the indices say.
+	// Merges vertices nearer than this (m, rest plane; 0 or more): for seams of texture coordinates, and triangles
+	// without shared vertices (STL). Each vertex becomes the nearest kept vertex before it within this distance, or is
+	// kept. No vertex moves farther, and a chain of near vertices stays several points. A triangle with two corners at
+	// one vertex is left out. kiriSheet_CopySources leads to the vertices of the def. Default 0: no merging.
 	WeldDistance float32
 	// Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at least; null: frameCount
-	// frames are spread evenly, some of them in pairs at both sides of slit ends. The grid carries one frame for every
-	// two squares of material at most: more are refused (KIRI_ERROR_ARGUMENT), and re-sampling stops there. A new sheet
-	// has no more frames than frameCount, or than pieces where these are more. frameCount 0: as many as the sheet needs:
-	// a region is split while its size, 2.45 times its radius of gyration, exceeds 1.25 frameLength, after cuts too: so
-	// arms that a cut leaves get frames along them. frameLength 0: it follows from `accuracy`, the relative error of the
-	// shape under the sheet's own weight that is good enough, but is three squares of the grid at least.
-	// kiriSheet_EstimateError says what came of it. 0, or 1 and more; default 5
+	// frames are spread evenly, some in pairs at both sides of slit ends. The grid carries at most one frame for every
+	// two squares of material: a def with more gives KIRI_ERROR_ARGUMENT, and re-sampling stops there. A new sheet has
+	// at most frameCount frames, or one for each piece where there are more pieces. frameCount 0: regions are split,
+	// after cuts too, until 2.45 times the radius of gyration is at most 1.25 frameLength. frameLength 0: derived from
+	// `accuracy`, the relative error of the shape under the sheet's own weight, and at least three grid squares.
+	// kiriSheet_EstimateError checks the result. 0, or 1 and more; default 5
 	FrameCount int32
 	// m; used where frameCount is 0; default 0
 	FrameLength float32
@@ -574,99 +548,81 @@ type SheetDef struct {
 	// re-sampling stops here; default 256
 	MaxFrames int32
 	// Re-sampling (section 5 of the paper): a frame whose weight exceeds rigidWeight over an area larger than rigidArea
-	// (m^2) gets others beside it. In a new sheet this is done only with frameCount 0. After cuts it is done where the
-	// area is also larger than in the new sheet: when a cut ends, or has met the border or another cut. A sheet that is
-	// to stay rigid sets frameCount and maxFrames to 1. rigidArea 0: a quarter of the area that a frame has at the
-	// start. default 0.95
+	// (m^2) gets new frames beside it. A new sheet is re-sampled only with frameCount 0. Later it happens when a cut
+	// ends or meets the border or another cut, where the area is also larger than in the new sheet. A rigid sheet has
+	// frameCount 1 and maxFrames 1. rigidArea 0: a quarter of the area of a frame at the start. default 0.95
 	RigidWeight float32
 	// default 0
 	RigidArea float32
-	// A piece with less area (m^2) is a crumb: it gets one frame if it has none, and no frames are added to it. Default
-	// 0.
+	// A piece with less area (m^2) is a crumb: it gets one frame if it has none, and no more. Default 0.
 	CrumbArea float32
-	// Contact, see below. of the sheet, 0 or more; with that of an obstacle or of another sheet counts the geometric
-	// mean. Default 0.5
+	// of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5
 	Friction float32
-	// m, 0 or more: sheets and pieces stay so far apart, and half as far from obstacles. 0: the material's thickness, a
-	// 20th of a grid square at least. Default 0
+	// m, 0 or more: distance between sheets and pieces, and twice the distance to obstacles. 0: the material's
+	// thickness, at least a 20th of a grid square. Default 0
 	ContactThickness float32
-	// obstacles and sheets touch where a bit is set in the groups of both. Default: all
+	// obstacles and sheets touch if they share a set bit. Default: all
 	Groups uint32
-	// 1: its pieces touch each other, and other sheets that have it set; not where one of the two sheets is planar. Of
-	// two pieces that are near each other the one that lies above, against gravity, is kept on its side of the other by
-	// planes; side by side the one that nothing holds, or the lighter one. So piles keep their order. The lower one
-	// feels what presses on it within 0.3 s: weight acts in full, an impact does so only while the upper one stays, and
-	// momentum is not exchanged exactly. Pieces that cross are parted at 0.25 m/s. A sheet feels others by its vertices,
-	// about one a grid square and more along borders: two edges that cross are not seen. A piece that wraps around the
-	// border of another, so that it lies on both sides of it, has one side all the same. Folds of one piece do not touch
-	// each other. Pieces that touch wake and fall asleep together. Default 0.
+	// 1: its pieces touch each other, and other sheets that have it set; not where one of two sheets is planar. Planes
+	// keep the upper piece, against gravity, on its side of the lower one; side by side, the piece that is free, or the
+	// lighter one. So piles keep their order. Folds of one piece do not touch each other. Pieces that touch wake and
+	// fall asleep together. The manual lists the limits of the method (contact). Default 0.
 	TouchesSheets int32
 	// spread evenly over the sheet, at least one in every piece; default 0: none
 	CollisionPoints int32
-	// Newton steps a substep, 1 to 64; default 2. Sheets of 1000 frames want 8, see the manual
+	// Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
 	Iterations int32
-	// A piece all of whose frames move slower than this (m/s, rms over the material of each) for half a second falls
-	// asleep: it rests, and costs next to nothing. What is new to it wakes it: a cut that changes it, when that takes
-	// effect; a pin that holds it, or the pin's pose; a hold, a load, contacts other than those it fell asleep with;
-	// something that moves and comes near. Gravity, wind, settings and kiriSheet_Wake wake all pieces of the sheet. The
-	// ticks of a sheet all of whose pieces sleep cost nothing. Default 0.001; 0: none sleeps.
+	// A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a second.
+	// It does not move, and costs almost nothing. A cut that changes it wakes it when the cut takes effect; so do a new
+	// pin, pose, hold or load, contacts that differ, and moving things that come near. Gravity, wind, settings and
+	// kiriSheet_Wake wake all pieces of the sheet. Default 0.001; 0: no piece sleeps.
 	SleepSpeed float32
 	// KIRI_MODEL_..., default KIRI_MODEL_LINKS
 	Model Model
 	// KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR
 	Skinning Skinning
-	// 1: the sheet stays in the plane where it starts, without bending; what velocities, forces and held positions have
-	// across the plane is dropped. 3 unknowns a rigid frame, 6 an affine one: two thirds of the solver's work, or about
-	// a third. Default 0.
+	// 1: the sheet stays in the plane where it starts, without bending. Parts of velocities, forces and held positions
+	// across the plane are dropped. A rigid frame has 3 unknowns, an affine one 6. Default 0.
 	Planar int32
 	// KIRI_TIME_STEPPING_..., default KIRI_TIME_STEPPING_SECOND_ORDER
 	TimeStepping TimeStepping
-	// When a cut takes effect, weights change, and what is seen between the frames would jump. The difference fades
-	// within this time (s). So does the difference of strain in links of KIRI_MODEL_LINKS whose borders have moved.
-	// Default 0.2; 0: at once.
+	// A cut that takes effect changes weights, and the surface would jump between frames. The difference fades within
+	// this time (s), and so does that in the strain of links whose borders moved. Default 0.2; 0: at once.
 	FadeTime float32
-	// 1: normals of the mesh are made in every tick. 0: kiriMesh has none, and kiriSheet_CopyVertices copies none; this
-	// saves half of the time of linear skinning. The sheet moves the same, bit for bit: where edges of obstacles or
-	// other sheets touch it, the tick makes normals for itself. So does kiriSheet_GetSolid; and what kiriSheet_GetPoint
-	// says is the same to rounding. Default 1.
+	// 1: every tick computes normals of the mesh. 0: kiriMesh has no normals, and kiriSheet_CopyVertices copies none;
+	// this saves half of the time of linear skinning. The sheet moves the same, bit for bit: contact and
+	// kiriSheet_GetSolid compute their own normals. kiriSheet_GetPoint is the same to rounding. Default 1.
 	Normals int32
-	// default: none of the paper's own ways
+	// default: all off
 	Paper PaperOptions
 }
 
-// What of the def may be changed while the sheet lives, as there. kiriSheet_GetSettings stamps it.
+// Sheet settings that can change after creation. Fields mean the same as in kiriSheetDef.
 type SheetSettings struct {
 	cookie uint32
 	Material Material
 	// re-sampling stops here; default 256
 	MaxFrames int32
-	// A piece with less area (m^2) is a crumb: it gets one frame if it has none, and no frames are added to it. Default
-	// 0.
+	// A piece with less area (m^2) is a crumb: it gets one frame if it has none, and no more. Default 0.
 	CrumbArea float32
-	// Contact, see below. of the sheet, 0 or more; with that of an obstacle or of another sheet counts the geometric
-	// mean. Default 0.5
+	// of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5
 	Friction float32
-	// m, 0 or more: sheets and pieces stay so far apart, and half as far from obstacles. 0: the material's thickness, a
-	// 20th of a grid square at least. Default 0
+	// m, 0 or more: distance between sheets and pieces, and twice the distance to obstacles. 0: the material's
+	// thickness, at least a 20th of a grid square. Default 0
 	ContactThickness float32
-	// obstacles and sheets touch where a bit is set in the groups of both. Default: all
+	// obstacles and sheets touch if they share a set bit. Default: all
 	Groups uint32
-	// 1: its pieces touch each other, and other sheets that have it set; not where one of the two sheets is planar. Of
-	// two pieces that are near each other the one that lies above, against gravity, is kept on its side of the other by
-	// planes; side by side the one that nothing holds, or the lighter one. So piles keep their order. The lower one
-	// feels what presses on it within 0.3 s: weight acts in full, an impact does so only while the upper one stays, and
-	// momentum is not exchanged exactly. Pieces that cross are parted at 0.25 m/s. A sheet feels others by its vertices,
-	// about one a grid square and more along borders: two edges that cross are not seen. A piece that wraps around the
-	// border of another, so that it lies on both sides of it, has one side all the same. Folds of one piece do not touch
-	// each other. Pieces that touch wake and fall asleep together. Default 0.
+	// 1: its pieces touch each other, and other sheets that have it set; not where one of two sheets is planar. Planes
+	// keep the upper piece, against gravity, on its side of the lower one; side by side, the piece that is free, or the
+	// lighter one. So piles keep their order. Folds of one piece do not touch each other. Pieces that touch wake and
+	// fall asleep together. The manual lists the limits of the method (contact). Default 0.
 	TouchesSheets int32
-	// Newton steps a substep, 1 to 64; default 2. Sheets of 1000 frames want 8, see the manual
+	// Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
 	Iterations int32
-	// A piece all of whose frames move slower than this (m/s, rms over the material of each) for half a second falls
-	// asleep: it rests, and costs next to nothing. What is new to it wakes it: a cut that changes it, when that takes
-	// effect; a pin that holds it, or the pin's pose; a hold, a load, contacts other than those it fell asleep with;
-	// something that moves and comes near. Gravity, wind, settings and kiriSheet_Wake wake all pieces of the sheet. The
-	// ticks of a sheet all of whose pieces sleep cost nothing. Default 0.001; 0: none sleeps.
+	// A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a second.
+	// It does not move, and costs almost nothing. A cut that changes it wakes it when the cut takes effect; so do a new
+	// pin, pose, hold or load, contacts that differ, and moving things that come near. Gravity, wind, settings and
+	// kiriSheet_Wake wake all pieces of the sheet. Default 0.001; 0: no piece sleeps.
 	SleepSpeed float32
 	// KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR
 	Skinning Skinning
@@ -674,17 +630,16 @@ type SheetSettings struct {
 	TimeStepping TimeStepping
 	// stays 0 with paper.popping
 	FadeTime float32
-	// 1: normals of the mesh are made in every tick. 0: kiriMesh has none, and kiriSheet_CopyVertices copies none; this
-	// saves half of the time of linear skinning. The sheet moves the same, bit for bit: where edges of obstacles or
-	// other sheets touch it, the tick makes normals for itself. So does kiriSheet_GetSolid; and what kiriSheet_GetPoint
-	// says is the same to rounding. Default 1.
+	// 1: every tick computes normals of the mesh. 0: kiriMesh has no normals, and kiriSheet_CopyVertices copies none;
+	// this saves half of the time of linear skinning. The sheet moves the same, bit for bit: contact and
+	// kiriSheet_GetSolid compute their own normals. kiriSheet_GetPoint is the same to rounding. Default 1.
 	Normals int32
 }
 
-// The triangles that are seen, as after the last tick. revision grows whenever indices or vertices are added or
-// changed. Rest positions are floats, 6e-8 of the distance from the origin of the rest plane apart: where triangles
-// are not much larger than that, they look flat or inverted. The library computes with the positions of the def to
-// 2^-29 of the sheet; sourceTriangles and sourceWeights are as exact as the sheet is large.
+// The triangles to draw, as after the last tick. revision grows when indices or vertices are added or changed. Rest
+// positions are floats, with a spacing of 6e-8 of the distance from the origin of the rest plane: triangles of about
+// that size may look flat or inverted. The library computes with the positions of the def to 2^-29 of the sheet;
+// sourceTriangles and sourceWeights have that precision.
 type Mesh struct {
 	// 3 a vertex, m, world
 	Positions View[[3]float32]
@@ -694,7 +649,7 @@ type Mesh struct {
 	RestPositions View[[2]float32]
 	// 3 a triangle
 	Indices View[[3]int32]
-	// 1 a vertex: the triangle of the def that it lies in,
+	// 1 a vertex: the triangle of the def that contains it,
 	SourceTriangles View[int32]
 	// 3 a vertex: and its barycentric coordinates there
 	SourceWeights View[[3]float32]
@@ -703,30 +658,30 @@ type Mesh struct {
 	Revision uint32
 }
 
-// So many items from the first on.
+// `count` items from `first` on.
 type Range struct {
 	First int32
 	Count int32
 }
 
-// What has changed in the mesh, for hosts that keep a copy of it, on a GPU say. Positions and normals change with
-// every tick; all else of a vertex, and the corners of a triangle, only in these ranges.
+// Changes of the mesh, for hosts that keep a copy, such as on a GPU. Positions and normals change in every tick.
+// Other data of a vertex, and the corners of a triangle, change only in these ranges.
 type Dirty struct {
 	// up to the last one of the mesh
 	NewVertices Range
 	// up to the last one of the mesh
 	NewTriangles Range
-	// the least ranges that hold all older ones with other data
+	// the smallest ranges that hold all older ones with other data
 	OldVertices Range
-	// the least ranges that hold all older ones with other data
+	// the smallest ranges that hold all older ones with other data
 	OldTriangles Range
 	// for the next call
 	Revision uint32
 }
 
-// The surface with a thickness, to draw: a closed mesh, with a rim along borders, holes and the lips of cuts. First
-// come the vertices of kiriMesh on the side that the normal leaves, then the same on the other side, then four for
-// each edge of the border, so that rims are flat and their edges sharp.
+// The surface with a thickness, to draw: a closed mesh, with a rim along borders, holes and lips. First the vertices
+// of kiriMesh on the side of the normal, then the same on the other side, then four for each border edge, so rims are
+// flat.
 type Solid struct {
 	// 3 a vertex, m, world
 	Positions View[[3]float32]
@@ -736,15 +691,15 @@ type Solid struct {
 	RestPositions View[[2]float32]
 	// 3 a triangle, counter-clockwise from outside
 	Indices View[[3]int32]
-	// 1 a vertex: that of kiriMesh which it stands on
+	// 1 a vertex: its vertex in kiriMesh
 	Sources View[int32]
 	VertexCount int32
 	TriangleCount int32
-	// from this one on triangles are rims
+	// rims begin at this triangle
 	RimTriangle int32
 }
 
-// How many there are of each.
+// Numbers of items in a sheet.
 type Counts struct {
 	Vertices int32
 	Triangles int32
@@ -767,18 +722,21 @@ type Totals struct {
 	AngularMomentum [3]float64
 }
 
-// What a ray meets.
+// The first point where a ray meets a sheet.
 type Hit struct {
-	// where to cut
+	// m: where to cut
 	RestPoint [2]float32
+	// m, world
 	Position [3]float32
+	// unit
 	Normal [3]float32
 	// m along the direction, which need not be a unit vector
 	Distance float32
+	// -1: none
 	Triangle int32
 }
 
-// A point of the material, as it is seen.
+// A point of the material on the visible surface.
 type PointState struct {
 	// m, world; unit
 	Position [3]float32
@@ -786,14 +744,13 @@ type PointState struct {
 	Normal [3]float32
 	// m/s, by the weights of the point
 	Velocity [3]float32
-	// in whose region it is; it names the piece, too
+	// the frame of its region; it also names the piece
 	Frame FrameID
 }
 
-// The connected parts of a sheet. A piece is named by any of its frames. To go through all of them there are indices
-// too, from 0 on to kiriCounts.pieces, in the order of first frames: they change when a piece comes off or is taken
-// away; kiriFrame_GetPiece has that of now. A cut whose work waits for its budget has not parted anything yet.
-// Momentum is about the world's origin.
+// A connected part of a sheet. Any of its frames names it. Indices from 0 to kiriCounts.pieces, in the order of first
+// frames, visit all pieces: they change when a piece comes off or goes, and kiriFrame_GetPiece returns the current
+// one. A cut with pending work has not separated anything yet. Momentum is about the world's origin.
 type PieceState struct {
 	// m^2, kg
 	Area float64
@@ -805,17 +762,17 @@ type PieceState struct {
 	Momentum [3]float64
 	// of mass, m; kg m/s; kg m^2/s
 	AngularMomentum [3]float64
-	// m, world: the least box around its vertices
+	// m, world: the smallest box around its vertices
 	Lower [3]float32
-	// m, world: the least box around its vertices
+	// m, world: the smallest box around its vertices
 	Upper [3]float32
-	// how many
+	// counts
 	Frames int32
-	// how many
+	// counts
 	Vertices int32
-	// how many
+	// counts
 	Triangles int32
-	// how many
+	// counts
 	CollisionPoints int32
 	// 1: see kiriSheetDef
 	Crumb int32
@@ -823,7 +780,7 @@ type PieceState struct {
 	Asleep int32
 }
 
-// What is in a piece, in the order of the mesh. The arrays are parts of one for all pieces, piece after piece.
+// The mesh of a piece, in the order of the sheet's mesh. The arrays are parts of one for all pieces, piece by piece.
 type PieceMesh struct {
 	// of kiriMesh
 	Vertices View[int32]
@@ -840,8 +797,9 @@ type PieceMesh struct {
 
 // Pose, motion and region of a frame.
 type FrameState struct {
+	// m
 	RestPoint [2]float32
-	// of the rest point
+	// m, world: of the rest point
 	Position [3]float32
 	// columns: direction of u, direction of v, normal; of an affine frame the columns of A, which stretch with the sheet
 	Rotation [9]float32
@@ -857,93 +815,89 @@ type FrameState struct {
 	Held int32
 }
 
-// Air that moves past the sheet, in every tick until the next call. On each square metre act, with v the velocity of
-// the air less that of the material, and n the normal: density / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)).
-// Zero velocity with drag and lift above zero: still air, which resists. All zero: none. It acts at four points of
-// the region of each frame, and follows its motion within the tick: sheets flutter, and no wind is too strong. Gusts
-// are a call a tick. Wind that stays as it is lets a sheet sleep.
+// Air that moves past the sheet. v is the velocity of the air less the velocity of the material, n the normal: each
+// square metre gets density / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)). Zero velocity with drag and lift above
+// zero: still air, which resists. All zero: none. It acts at four points of the region of each frame, and follows the
+// motion within the tick, so strong wind is stable. A sheet can sleep in constant wind.
 type Wind struct {
 	// m/s
 	Velocity [3]float32
-	// kg/m^3, 0 or more; 1.2 of air
+	// kg/m^3, 0 or more; air: 1.2
 	Density float32
-	// 0 or more: coefficients of pressure, 2 of a long plate, 1.2 of a square, and of the force along the sheet, 0.01 or
-	// so of a smooth one
+	// 0 or more: coefficients across (long plate 2, square 1.2) and along the sheet (smooth 0.01)
 	Drag float32
-	// 0 or more: coefficients of pressure, 2 of a long plate, 1.2 of a square, and of the force along the sheet, 0.01 or
-	// so of a smooth one
+	// 0 or more: coefficients across (long plate 2, square 1.2) and along the sheet (smooth 0.01)
 	Lift float32
 }
 
-// A pin holds a point of the material at its target, by a spring.
+// A pin holds a point of the material at its target by a spring.
 type PinDef struct {
 	cookie uint32
-	// in the material
+	// m, in the material
 	RestPoint [2]float32
-	// m, world: where it is held
+	// m, world
 	Target [3]float32
 	// N/m; 0: ten times Young's modulus times thickness
 	Stiffness float32
-	// N: it breaks (KIRI_EVENT_PIN_BROKE) in a tick in which it held with more; 0: never
+	// N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never
 	BreakForce float32
-	// or 0. The target goes with this obstacle from where it is when the pin is made, or kiriPin_SetTarget puts it, and
-	// the obstacle feels the pin (kiriObstacle_GetState); one with mass yields to it within the tick. When it is
-	// destroyed the target stays where it was
+	// or 0. The target moves with this obstacle from its place at creation or at the last kiriPin_SetTarget. The
+	// obstacle feels the pin (kiriObstacle_GetState); an obstacle with mass yields within the tick. If it is destroyed
+	// the target stays
 	Obstacle ObstacleID
 }
 
-// What a pin is, and where it holds.
+// Type and target of a pin.
 type PinState struct {
 	// KIRI_PIN_...
 	Type PinType
 	Sheet SheetID
-	// rest position: of a point, twice, or of the ends of the line
+	// m, rest plane: the ends of the line, or the point twice
 	From [2]float32
-	// rest position: of a point, twice, or of the ends of the line
+	// m, rest plane: the ends of the line, or the point twice
 	To [2]float32
+	// m, world
 	Target [3]float32
 	// of a line; of a point the identity
 	Rotation [9]float32
 	// N, or 0
 	BreakForce float32
-	// that it goes with, or 0
+	// that the target moves with, or 0
 	Obstacle ObstacleID
 }
 
-// A point of the material that touches something: the plane dot(normal, x) = offset keeps it on its upper side, with
-// as much force as that takes, and Coulomb friction acts along the plane. The plane is that of an obstacle of the
-// host, who finds it anew for each tick from where the sheet is seen. A contact may lie in the path of the point,
-// above or below it: one that does not reach its plane in the tick costs little and does nothing.
+// A contact of a point of the material: the plane dot(normal, x) = offset keeps the point on its upper side, and
+// Coulomb friction acts along the plane. The host computes the plane for each tick from the visible surface of the
+// sheet. A contact may lie ahead of the point; if the point does not reach it in the tick, it costs little and does
+// nothing.
 type Contact struct {
-	// index of the collision point; -1: restPoint says which point of the material
+	// index of the collision point; -1: restPoint names the point
 	Point int32
-	// in the material; only read where point is -1
+	// m, in the material; read only where point is -1
 	RestPoint [2]float32
 	// unit, out of the obstacle
 	Normal [3]float32
 	// m: of the obstacle's surface at the start of the tick
 	Offset float32
-	// m/s: of the obstacle there. The plane moves with it within the tick, and friction acts against the sliding that is
-	// left
+	// m/s: of the obstacle at the contact. The plane moves with it within the tick
 	Velocity [3]float32
 	// 0 or more: of both sides together
 	Friction float32
-	// 1/kg, 0 or more: of the obstacle as felt along the normal there, 1/m + (r x n) . I^-1 (r x n); 0: it does not
-	// yield
+	// 1/kg, 0 or more: of the obstacle along the normal, 1/m + (r x n) . I^-1 (r x n); 0: rigid
 	InverseMass float32
-	// m/s, 0 or more: a point that starts below the plane is pushed out no faster. 0: 1 m/s
+	// m/s, 0 or more: maximum speed of a point that is pushed out from below. 0: 1 m/s
 	PushSpeed float32
-	// the host's number. Contacts of one number press on one obstacle, and share its mass
+	// a number of the host. Contacts with one number press on one obstacle, and share its mass
 	Obstacle int32
 }
 
-// What a contact did in the last tick.
+// The result of a contact in the last tick.
 type ContactForce struct {
 	// N s, on the sheet: the sum over the tick. The obstacle gets the opposite
 	Impulse [3]float64
-	// m, world: where it acted, the point of the sheet at the end of the tick
+	// m, world: the point of the sheet at the end of the tick
 	Position [3]float64
-	// m: how deep the point is below the plane at the end of the tick; below 0: above it
+	// m: of the point below the plane at the end of the tick; below 0: above it
 	Depth float64
 	// as in the contact
 	Point int32
@@ -951,7 +905,7 @@ type ContactForce struct {
 	Obstacle int32
 }
 
-// Of an obstacle: its shape, where it is, its motion, and its mass.
+// An obstacle: its shape, pose, motion, and mass.
 type ObstacleDef struct {
 	cookie uint32
 	// KIRI_OBSTACLE_...
@@ -964,7 +918,7 @@ type ObstacleDef struct {
 	Height float32
 	// 2 floats a corner, m, counter-clockwise; copied
 	Outline [][2]float32
-	// m, 0 or more: prisms and boxes are that much larger, with round edges. Default 0
+	// m, 0 or more: prisms and boxes grow by this, with round edges. Default 0
 	Rounding float32
 	// m, world
 	Position [3]float32
@@ -974,40 +928,40 @@ type ObstacleDef struct {
 	Velocity [3]float32
 	// rad/s
 	AngularVelocity [3]float32
-	// m/s, world: of its surface beside that, as of a conveyor
+	// m/s, world: of its surface, added to its motion, as of a conveyor
 	SurfaceVelocity [3]float32
 	// 0 or more; default 0.5
 	Friction float32
 	// kg; 0 (default): nothing moves it
 	Mass float32
-	// kg m^2, about its centre of mass, axes of the world as it stands now: xx yy zz xy xz yz. Positive definite, but
+	// kg m^2, about its centre of mass, axes of the world in the current pose: xx yy zz xy xz yz. Positive definite, but
 	// for axes whose numbers are all 0: it does not turn about these
 	Inertia [6]float32
 	// m, from its position in its own axes
 	CenterOfMass [3]float32
-	// obstacles of the same number, but 0, are parts of one body, whose mass each of them has
+	// obstacles with the same number, except 0, are parts of one body; each has its whole mass
 	Body uint32
-	// m/s, above 0: what is inside is pushed out no faster. Default 1
+	// m/s, above 0: maximum speed at which points inside are pushed out. Default 1
 	PushSpeed float32
 	// see the sheet def. Default: all
 	Groups uint32
 }
 
-// Where it is now, with what it moves, and what it felt.
+// Pose, motion, and reaction of an obstacle.
 type ObstacleState struct {
 	Position [3]float32
 	Rotation [9]float32
 	Velocity [3]float32
 	AngularVelocity [3]float32
-	// N s, N m s about its centre of mass: what sheets and pins gave it in the last tick
+	// N s, N m s about its centre of mass: from sheets and pins in the last tick
 	Impulse [3]float64
-	// N s, N m s about its centre of mass: what sheets and pins gave it in the last tick
+	// N s, N m s about its centre of mass: from sheets and pins in the last tick
 	AngularImpulse [3]float64
 	// that pushed in the last tick
 	Contacts int32
 }
 
-// A corner of what is drawn: as it is, it may go to a GPU.
+// A corner to draw, in a layout for a GPU.
 type DrawVertex struct {
 	// m, world
 	Position [3]float32
@@ -1213,29 +1167,29 @@ func (def *ObstacleDef) fromC(c *C.kiriObstacleDef) {
 	def.Groups = uint32(c.groups)
 }
 
-// The library's version, as KIRI_VERSION.
+// Returns the version of the library, as KIRI_VERSION.
 func GetVersion() int32 {
 	return int32(C.kiriGetVersion())
 }
 
-// The name of a result, "KIRI_OK" and so on; "unknown" for another number.
+// Returns the name of a result, such as "KIRI_OK"; "unknown" for another number.
 func GetResultName(result ResultCode) string {
 	return C.GoString(C.kiriGetResultName(C.kiriResult(result)))
 }
 
-// One line: the meaning of a result, and its cure. For calls without a world that keeps a line, such as
-// kiriCreateWorld with a def of zeros (KIRI_ERROR_DEF).
+// Returns one line: the meaning of a result, and its cure. Use it after calls that have no world to keep a line, such
+// as kiriCreateWorld with a def of zeros (KIRI_ERROR_DEF).
 func GetResultText(result ResultCode) string {
 	return C.GoString(C.kiriGetResultText(C.kiriResult(result)))
 }
 
-// One fixed step of dt seconds (1e-6 to 10), solved in `substeps` equal parts (1 to 64). Takes the waiting cut
-// points, then moves every sheet. KIRI_PENDING: the budget is spent and more work waits: the events say which cuts; a
-// sheet, or some of its pieces, may also have stood still for want of iterations. KIRI_ERROR_MEMORY: nothing moved;
-// cuts and pieces still wait, call again. Refused work is prepared again: until then kiriSheet_GetWeights gives
-// KIRI_ERROR_STATE, and with a budget a cut may take effect some ticks later than it would have. KIRI_ERROR_LIMIT:
-// the same, and it stays so until frames are destroyed. KIRI_DIVERGED: the sheets named by the events were put to
-// rest, the others moved. Work may wait then, too, as KIRI_EVENT_DEFERRED says.
+// Advances by one fixed step of dt seconds (1e-6 to 10), in `substeps` equal parts (1 to 64): takes the pending cut
+// points, then moves every sheet. KIRI_PENDING: the budget is spent, and events name the cuts that still have work; a
+// sheet or some of its pieces may have stood still for want of iterations. KIRI_ERROR_MEMORY: nothing moved; cuts and
+// pieces are still pending, call again. Until the refused work is done again, kiriSheet_GetWeights gives
+// KIRI_ERROR_STATE, and with a budget a cut may take effect some ticks later. KIRI_ERROR_LIMIT: the same, until
+// frames are destroyed. KIRI_DIVERGED: sheets that events name were stopped, others moved; KIRI_EVENT_DEFERRED tells
+// of pending work.
 func (w *World) Tick(dt float32, substeps int32) (bool, error) {
 	if err := w.check(); err != nil {
 		return false, err
@@ -1253,7 +1207,7 @@ var poolWorldSetGravity pool[struct {
 	gravity [3]float32
 }]
 
-// m/s^2. All pieces wake.
+// Sets gravity (m/s^2). All pieces wake.
 func (w *World) SetGravity(gravity [3]float32) (bool, error) {
 	if err := w.check(); err != nil {
 		return false, err
@@ -1274,10 +1228,9 @@ var poolWorldShiftOrigin pool[struct {
 }]
 
 // Moves the origin of the world to a point (m): subtracts it from the positions of sheets, targets of pins and holds,
-// obstacles, blades, and contacts that wait. The motion goes on as before, to rounding. Nothing wakes; (0, 0, 0)
-// changes nothing. Use it in large worlds: far from the origin floats lose places. The host shifts its own data
-// itself. Arrays that the library handed out keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a
-// position would not fit a float. KIRI_ERROR_MEMORY: nothing has changed.
+// obstacles, blades, and pending contacts. The motion goes on as before, to rounding. Nothing wakes; (0, 0, 0)
+// changes nothing. Use it in large worlds, where floats lose precision. The host shifts its own data. Returned arrays
+// keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a position would not fit a float.
 func (w *World) ShiftOrigin(origin [3]float32) (bool, error) {
 	if err := w.check(); err != nil {
 		return false, err
@@ -1293,7 +1246,7 @@ func (w *World) ShiftOrigin(origin [3]float32) (bool, error) {
 	return result == C.KIRI_PENDING, nil
 }
 
-// Takes effect with the next tick.
+// Sets the budget from the next tick on.
 func (w *World) SetBudget(budget *Budget) (bool, error) {
 	if err := w.check(); err != nil {
 		return false, err
@@ -1310,9 +1263,9 @@ var poolWorldGetStateHash pool[struct {
 	hash C.uint64_t
 }]
 
-// A hash of everything that the coming ticks depend on, work that waits for its budget included: two worlds that got
-// the same calls have the same hash, and two with the same hash go on alike. After a refused allocation some items
-// are made again: the hash tells that while work waits, or while the budget limits cells or samples.
+// Hashes all state that the coming ticks depend on, pending work included. Two worlds with the same calls have the
+// same hash, and two worlds with the same hash go on alike. After a refused allocation some items are made again: the
+// hash differs while work is pending, or while the budget limits cells or samples.
 func (w *World) StateHash() (uint64, error) {
 	var made0 uint64
 	if err := w.check(); err != nil {
@@ -1355,8 +1308,8 @@ func (w *World) Sheets() ([]Sheet, error) {
 	return things[Sheet](w, sheets[:answer.count]), nil
 }
 
-// Puts some bytes of the host's own (1 to KIRI_MOST_NOTE_BYTES) in the recording, where a replay finds them: what its
-// camera saw, what a player pressed. The world does not change; without a recording nothing happens.
+// Writes bytes of the host (1 to KIRI_MOST_NOTE_BYTES) to the recording, such as keys that a player pressed. A replay
+// stops there. The world does not change; without a recording nothing happens.
 func (w *World) Note(bytes []byte) (bool, error) {
 	if err := w.check(); err != nil {
 		return false, err
@@ -1425,7 +1378,7 @@ var poolWorldGetEvents pool[struct {
 	count C.int32_t
 }]
 
-// *events points to *count events.
+// Gets the events: *events points to *count of them.
 func (w *World) Events() (View[Event], error) {
 	var made0 View[Event]
 	if err := w.check(); err != nil {
@@ -1445,7 +1398,7 @@ var poolWorldGetProfile pool[struct {
 	profile Profile
 }]
 
-// Of the last tick that was not refused.
+// Gets the profile of the last tick that was not refused.
 func (w *World) Profile() (Profile, error) {
 	var made0 Profile
 	if err := w.check(); err != nil {
@@ -1461,7 +1414,7 @@ func (w *World) Profile() (Profile, error) {
 	return answer.profile, nil
 }
 
-// The name of a stage, for tables; "" for a number that is none.
+// Returns the name of a stage; "" for another number.
 func GetStageName(stage Stage) string {
 	return C.GoString(C.kiriGetStageName(C.int32_t(stage)))
 }
@@ -1470,7 +1423,7 @@ var poolGetMaterial pool[struct {
 	material Material
 }]
 
-// The numbers of a preset, KIRI_MATERIAL_...
+// Gets the numbers of a preset, KIRI_MATERIAL_...
 func GetMaterial(preset MaterialPreset) (Material, error) {
 	var made0 Material
 	block := poolGetMaterial.take()
@@ -1486,7 +1439,7 @@ var poolGetQuality pool[struct {
 	quality Quality
 }]
 
-// The numbers of a preset, KIRI_QUALITY_...
+// Gets the numbers of a preset, KIRI_QUALITY_...
 func GetQuality(preset QualityPreset) (Quality, error) {
 	var made0 Quality
 	block := poolGetQuality.take()
@@ -1516,8 +1469,8 @@ var poolWorldCreateSheet pool[struct {
 	sheet C.kiriSheet
 }]
 
-// Adds a sheet. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles do not form a sheet. The line names a
-// triangle, or the two triangles at an edge, by their numbers in the def, and says why.
+// Adds a sheet. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles do not form a sheet. The line says why, and
+// names the triangle, or the two triangles at an edge, by index in the def.
 func (w *World) CreateSheet(def *SheetDef) (Sheet, error) {
 	var made0 Sheet
 	if err := w.check(); err != nil {
@@ -1535,7 +1488,7 @@ func (w *World) CreateSheet(def *SheetDef) (Sheet, error) {
 	return Sheet{w, SheetID(answer.sheet)}, nil
 }
 
-// The sheet is gone, with its cuts, frames and pins; their ids are stale.
+// Destroys the sheet with its cuts, frames and pins; their ids are stale.
 func (self Sheet) Destroy() (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -1552,9 +1505,8 @@ var poolWorldCreateRectangle pool[struct {
 	sheet C.kiriSheet
 }]
 
-// A sheet that is a rectangle from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles;
-// columns and rows are 1 to 4096. def: all but the mesh, which is not read; null: the defaults. A recording has it as
-// kiriCreateSheet.
+// Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles; columns
+// and rows are 1 to 4096. def: its mesh is not read; null: the defaults. A recording stores it as kiriCreateSheet.
 func (w *World) CreateRectangle(width float32, height float32, columns int32, rows int32, def *SheetDef) (Sheet, error) {
 	var made0 Sheet
 	if err := w.check(); err != nil {
@@ -1580,7 +1532,7 @@ var poolSheetGetSettings pool[struct {
 	settings SheetSettings
 }]
 
-// What they are now, stamped for kiriSheet_SetSettings.
+// Gets the current settings, stamped for kiriSheet_SetSettings.
 func (self Sheet) Settings() (SheetSettings, error) {
 	var made0 SheetSettings
 	if err := self.World.check(); err != nil {
@@ -1596,9 +1548,9 @@ func (self Sheet) Settings() (SheetSettings, error) {
 	return answer.settings, nil
 }
 
-// Checked as the def is: all or nothing. KIRI_ERROR_DEF: they did not come from GetSettings. The sheet wakes where
-// one is other than before. Places and velocities stay: with another mass so momentum changes. Stiffnesses that pins
-// have, and the lengths that frames were spread by, stay as they are.
+// Sets all settings, or none; checks them as kiriCreateSheet does. KIRI_ERROR_DEF: they do not come from
+// kiriSheet_GetSettings. The sheet wakes if one differs. Positions and velocities are kept, so a new mass changes the
+// momentum. The stiffness of pins and the lengths that placed the frames are kept, too.
 func (self Sheet) SetSettings(settings *SheetSettings) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -1615,7 +1567,7 @@ var poolSheetGetMesh pool[struct {
 	mesh C.kiriMesh
 }]
 
-// The arrays, without a copy.
+// Gets the arrays, without a copy.
 func (self Sheet) Mesh() (Mesh, error) {
 	var made0 Mesh
 	if err := self.World.check(); err != nil {
@@ -1635,7 +1587,7 @@ var poolSheetGetDirty pool[struct {
 	dirty Dirty
 }]
 
-// What changed since the host saw that revision; all of the mesh where that is too long ago, or 0.
+// Gets the changes since a revision; the whole mesh if the revision is too old, or 0.
 func (self Sheet) Dirty(sinceRevision uint32) (Dirty, error) {
 	var made0 Dirty
 	if err := self.World.check(); err != nil {
@@ -1655,7 +1607,7 @@ var poolSheetGetSolid pool[struct {
 	solid C.kiriSolid
 }]
 
-// thickness: m, 0: that of the material. Made when it is asked for.
+// Makes the solid surface. thickness: m, 0: the material's thickness.
 func (self Sheet) Solid(thickness float32) (Solid, error) {
 	var made0 Solid
 	if err := self.World.check(); err != nil {
@@ -1676,7 +1628,7 @@ var poolSheetGetCollisionPoints pool[struct {
 	count C.int32_t
 }]
 
-// Collision points: 3 floats of position (m, world) a point.
+// Gets the collision points: 3 floats of position (m, world) a point.
 func (self Sheet) CollisionPoints() (View[[3]float32], error) {
 	var made0 View[[3]float32]
 	if err := self.World.check(); err != nil {
@@ -1696,7 +1648,7 @@ var poolSheetGetCounts pool[struct {
 	counts Counts
 }]
 
-// Costs nothing.
+// Gets the counts, at no cost.
 func (self Sheet) Counts() (Counts, error) {
 	var made0 Counts
 	if err := self.World.check(); err != nil {
@@ -1716,7 +1668,7 @@ var poolSheetGetTotals pool[struct {
 	totals Totals
 }]
 
-// Sums over the frames, made when they are asked for.
+// Sums the totals over the frames.
 func (self Sheet) Totals() (Totals, error) {
 	var made0 Totals
 	if err := self.World.check(); err != nil {
@@ -1736,14 +1688,10 @@ var poolSheetEstimateError pool[struct {
 	relative C.double
 }]
 
-// An estimate of the error of the sheet's shape as it is now, where it rests or moves slowly: rms distance from where
-// a sheet of very many frames would be under the same loads, over the rms way that it has gone from its flat shape; 0
-// to 1, and 1 where there are too few frames to tell. It compares the strains of neighbouring links (KIRI_MODEL_LINKS
-// only; else KIRI_ERROR_STATE). Measured on cantilevers and on a sheet with a slit, of 3 to 140 frames, it is not
-// below a third of the error, and not above four times the error or, where that is below 0.5 %, 1.5 %. Where a sheet
-// also turned as a whole, as by hanging from two corners, it says up to ten times too much. It knows nothing of
-// errors of the grid, of time stepping, and of loads that are finer than frames. It takes memory and time for one
-// pass over the links, when it is called.
+// Estimates the error of the current shape of a sheet that rests or moves slowly: rms distance from a sheet of very
+// many frames under the same loads, over its rms way from the flat shape; 0 to 1, and 1 with too few frames to tell.
+// It compares strains of neighbouring links (KIRI_MODEL_LINKS only; else KIRI_ERROR_STATE), in one pass that
+// allocates memory. The manual says how good it is (accuracy).
 func (self Sheet) EstimateError() (float64, error) {
 	var made0 float64
 	if err := self.World.check(); err != nil {
@@ -1763,8 +1711,7 @@ var poolSheetIsAwake pool[struct {
 	awake C.int32_t
 }]
 
-// *awake is 0 where all pieces of the sheet sleep, see sleepSpeed; kiriPieceState says which do. kiriSheet_Wake wakes
-// all of them.
+// Read and end sleep: *awake is 0 where all pieces sleep (kiriPieceState tells which); kiriSheet_Wake wakes all.
 func (self Sheet) IsAwake() (bool, error) {
 	var made0 bool
 	if err := self.World.check(); err != nil {
@@ -1780,8 +1727,7 @@ func (self Sheet) IsAwake() (bool, error) {
 	return answer.awake != 0, nil
 }
 
-// *awake is 0 where all pieces of the sheet sleep, see sleepSpeed; kiriPieceState says which do. kiriSheet_Wake wakes
-// all of them.
+// Read and end sleep: *awake is 0 where all pieces sleep (kiriPieceState tells which); kiriSheet_Wake wakes all.
 func (self Sheet) Wake() (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -1799,12 +1745,12 @@ var poolSheetTransform pool[struct {
 	translation [3]float32
 }]
 
-// Every point x (m, world) of the sheet goes to R x + t at once, and is seen there; velocities turn. The columns of
-// `rotation` are where R takes the axes of the world; a planar sheet turns about its normal only. It wakes. Targets
-// of its pins, hinges, clamps and holds go along, so nothing draws it back. To set a target to its current value
-// changes nothing. A target that the host has set nearer to the new place of the pin than to the old one stays: so
-// the host may set targets before or after. Pins on an obstacle stay on it: put the obstacle elsewhere by the same
-// motion (kiriObstacle_SetPose), before or after. Loads and contacts that wait for the next tick stay.
+// Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and the sheet wakes. The
+// columns of `rotation` are the images of the world's axes; a planar sheet turns about its normal only. Targets of
+// pins, hinges, clamps and holds move along, so nothing pulls the sheet back. A target that the host set nearer to
+// the pin's new place than to its old one stays: the host may set targets before or after. Pins on an obstacle stay
+// on it: move the obstacle by the same motion (kiriObstacle_SetPose), before or after. Pending loads and contacts
+// stay.
 func (self Sheet) Transform(rotation [9]float32, translation [3]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -1826,9 +1772,9 @@ var poolSheetSetVelocity pool[struct {
 	angularVelocity [3]float32
 }]
 
-// From now on it moves as a rigid body, until forces change that: `velocity` (m/s) of its centre of mass, and
-// `angularVelocity` (rad/s) about it. What a planar sheet has across its plane is dropped; held frames follow their
-// hold. kiriFrame_SetPieceVelocity: of the piece with that frame alone.
+// Set rigid motion of a sheet, or of the piece with a frame, until forces change it: `velocity` (m/s) of its centre
+// of mass, and `angularVelocity` (rad/s) about it. Planar sheets drop motion across their plane; held frames stay
+// held.
 func (self Sheet) SetVelocity(velocity [3]float32, angularVelocity [3]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -1850,9 +1796,9 @@ var poolFrameSetPieceVelocity pool[struct {
 	angularVelocity [3]float32
 }]
 
-// From now on it moves as a rigid body, until forces change that: `velocity` (m/s) of its centre of mass, and
-// `angularVelocity` (rad/s) about it. What a planar sheet has across its plane is dropped; held frames follow their
-// hold. kiriFrame_SetPieceVelocity: of the piece with that frame alone.
+// Set rigid motion of a sheet, or of the piece with a frame, until forces change it: `velocity` (m/s) of its centre
+// of mass, and `angularVelocity` (rad/s) about it. Planar sheets drop motion across their plane; held frames stay
+// held.
 func (self Frame) SetPieceVelocity(velocity [3]float32, angularVelocity [3]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -1869,9 +1815,9 @@ func (self Frame) SetPieceVelocity(velocity [3]float32, angularVelocity [3]float
 	return result == C.KIRI_PENDING, nil
 }
 
-// A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A sheet that
-// kiriFrame_DetachPiece makes has that of the sheet it came from. A piece has one, named by any of its frames: the
-// parts of a piece that is cut have that of the piece, as does a sheet that is made of it.
+// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not. kiriFrame_DetachPiece
+// copies the sheet's number to the new sheet. A piece has a number, too, named by any of its frames: the parts of a
+// piece that is cut inherit it, and so does a sheet that is made of it.
 func (self Sheet) SetUserData(data uint64) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -1888,9 +1834,9 @@ var poolSheetGetUserData pool[struct {
 	data C.uint64_t
 }]
 
-// A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A sheet that
-// kiriFrame_DetachPiece makes has that of the sheet it came from. A piece has one, named by any of its frames: the
-// parts of a piece that is cut have that of the piece, as does a sheet that is made of it.
+// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not. kiriFrame_DetachPiece
+// copies the sheet's number to the new sheet. A piece has a number, too, named by any of its frames: the parts of a
+// piece that is cut inherit it, and so does a sheet that is made of it.
 func (self Sheet) UserData() (uint64, error) {
 	var made0 uint64
 	if err := self.World.check(); err != nil {
@@ -1906,9 +1852,9 @@ func (self Sheet) UserData() (uint64, error) {
 	return uint64(answer.data), nil
 }
 
-// A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A sheet that
-// kiriFrame_DetachPiece makes has that of the sheet it came from. A piece has one, named by any of its frames: the
-// parts of a piece that is cut have that of the piece, as does a sheet that is made of it.
+// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not. kiriFrame_DetachPiece
+// copies the sheet's number to the new sheet. A piece has a number, too, named by any of its frames: the parts of a
+// piece that is cut inherit it, and so does a sheet that is made of it.
 func (self Pin) SetUserData(data uint64) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -1925,9 +1871,9 @@ var poolPinGetUserData pool[struct {
 	data C.uint64_t
 }]
 
-// A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A sheet that
-// kiriFrame_DetachPiece makes has that of the sheet it came from. A piece has one, named by any of its frames: the
-// parts of a piece that is cut have that of the piece, as does a sheet that is made of it.
+// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not. kiriFrame_DetachPiece
+// copies the sheet's number to the new sheet. A piece has a number, too, named by any of its frames: the parts of a
+// piece that is cut inherit it, and so does a sheet that is made of it.
 func (self Pin) UserData() (uint64, error) {
 	var made0 uint64
 	if err := self.World.check(); err != nil {
@@ -1943,9 +1889,9 @@ func (self Pin) UserData() (uint64, error) {
 	return uint64(answer.data), nil
 }
 
-// A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A sheet that
-// kiriFrame_DetachPiece makes has that of the sheet it came from. A piece has one, named by any of its frames: the
-// parts of a piece that is cut have that of the piece, as does a sheet that is made of it.
+// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not. kiriFrame_DetachPiece
+// copies the sheet's number to the new sheet. A piece has a number, too, named by any of its frames: the parts of a
+// piece that is cut inherit it, and so does a sheet that is made of it.
 func (self Frame) SetPieceUserData(data uint64) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -1962,9 +1908,9 @@ var poolFrameGetPieceUserData pool[struct {
 	data C.uint64_t
 }]
 
-// A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A sheet that
-// kiriFrame_DetachPiece makes has that of the sheet it came from. A piece has one, named by any of its frames: the
-// parts of a piece that is cut have that of the piece, as does a sheet that is made of it.
+// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not. kiriFrame_DetachPiece
+// copies the sheet's number to the new sheet. A piece has a number, too, named by any of its frames: the parts of a
+// piece that is cut inherit it, and so does a sheet that is made of it.
 func (self Frame) PieceUserData() (uint64, error) {
 	var made0 uint64
 	if err := self.World.check(); err != nil {
@@ -1986,9 +1932,9 @@ var poolSheetRaycast pool[struct {
 	hit Hit
 }]
 
-// Where a ray first meets the sheet, up to maxDistance. KIRI_OK with hit->triangle = -1: nowhere. The first ray looks
-// at every triangle; the next tick makes boxes over them, and as long as somebody asks every now and then (in 120
-// ticks) they follow the sheet: a ray takes some microseconds, and a tick of a large sheet a quarter more.
+// Finds where a ray first meets the sheet, up to maxDistance. KIRI_OK with hit->triangle = -1: it does not. The first
+// ray visits every triangle. From the next tick on boxes over the triangles follow the sheet, until 120 ticks pass
+// without a ray: a ray takes some microseconds, and a tick of a large sheet a quarter more.
 func (self Sheet) Raycast(origin [3]float32, direction [3]float32, maxDistance float32) (Hit, error) {
 	var made0 Hit
 	if err := self.World.check(); err != nil {
@@ -2013,7 +1959,7 @@ var poolWorldRaycast pool[struct {
 	hit Hit
 }]
 
-// The first sheet that a ray meets; *sheet is 0 where there is none.
+// Finds the first sheet that a ray meets; *sheet is 0 where there is none.
 func (w *World) Raycast(origin [3]float32, direction [3]float32, maxDistance float32) (Sheet, Hit, error) {
 	var made0 Sheet
 	var made1 Hit
@@ -2037,7 +1983,7 @@ var poolSheetGetPoint pool[struct {
 	state PointState
 }]
 
-// Outside the sheet: KIRI_ERROR_ARGUMENT. On a cut, the lip that holds the point; either where both do.
+// Gets the state of a point. KIRI_ERROR_ARGUMENT: it is outside the sheet. On a cut: on a lip that has the point.
 func (self Sheet) Point(restPoint [2]float32) (PointState, error) {
 	var made0 PointState
 	if err := self.World.check(); err != nil {
@@ -2058,8 +2004,8 @@ var poolSheetGetPiece pool[struct {
 	state PieceState
 }]
 
-// The first of these calls after a cut sorts the sheet by pieces, which may fail with KIRI_ERROR_MEMORY. An index
-// that is no piece's: KIRI_ERROR_ARGUMENT.
+// Get a piece. The first of these calls after a cut sorts the sheet by pieces, and may fail with KIRI_ERROR_MEMORY.
+// KIRI_ERROR_ARGUMENT: no piece has the index.
 func (self Sheet) Piece(piece int32) (PieceState, error) {
 	var made0 PieceState
 	if err := self.World.check(); err != nil {
@@ -2079,8 +2025,8 @@ var poolSheetGetPieceMesh pool[struct {
 	mesh C.kiriPieceMesh
 }]
 
-// The first of these calls after a cut sorts the sheet by pieces, which may fail with KIRI_ERROR_MEMORY. An index
-// that is no piece's: KIRI_ERROR_ARGUMENT.
+// Get a piece. The first of these calls after a cut sorts the sheet by pieces, and may fail with KIRI_ERROR_MEMORY.
+// KIRI_ERROR_ARGUMENT: no piece has the index.
 func (self Sheet) PieceMesh(piece int32) (PieceMesh, error) {
 	var made0 PieceMesh
 	if err := self.World.check(); err != nil {
@@ -2101,7 +2047,7 @@ var poolSheetGetPieceFrames pool[struct {
 	count C.int32_t
 }]
 
-// *frames points to *count ids.
+// Gets the frames of a piece: *frames points to *count ids.
 func (self Sheet) PieceFrames(piece int32) (View[FrameID], error) {
 	var made0 View[FrameID]
 	if err := self.World.check(); err != nil {
@@ -2121,7 +2067,7 @@ var poolFrameGetPiece pool[struct {
 	piece C.int32_t
 }]
 
-// The index that the piece with this frame has now.
+// Gets the current index of the piece with this frame.
 func (self Frame) Piece() (int32, error) {
 	var made0 int32
 	if err := self.World.check(); err != nil {
@@ -2141,26 +2087,13 @@ var poolFrameDetachPiece pool[struct {
 	detached C.kiriSheet
 }]
 
-// Makes a sheet of the piece with this frame. Its frames, pins and collision points move along, in their order; they
-// keep their ids and states, and what waits for the next tick: the motion goes on as if nothing had happened, but for
-// the solver's guard over energy and step length, which is one for each sheet. A clamp or hinge that holds both
-// becomes two: the rest keeps the id, the new sheet's has one of its own (kiriSheet_GetPins). Both sheets have all
-// settings (of collisionPoints and integrationPoints the share that falls to their area), maxFrames each for itself;
-// a piece that sleeps goes on sleeping. Cuts stay with the rest: a blade in the piece cuts nothing until it is back.
-// Indices of collision points of the rest change. Its triangles and vertices keep their indices where it has more
-// than 4096 vertices, and while no more than half of them are of pieces that went: these triangles have three equal
-// corners, these vertices are of no triangle. Else all move together, and their indices change. In either case its
-// revision grows, and kiriSheet_GetDirty says what changed. The new sheet has the squares of the grid around it, at
-// about 40 bytes a square: crumbs are better dropped. Costs what the piece takes to make, and a look at the weights
-// of what is left; where indices change more. KIRI_PENDING: work on a cut is at hand in the sheet, or it takes more
-// samples than the budget leaves calls before the next tick; *detached is 0. When the work is done, what is the piece
-// of this frame then becomes a sheet, and KIRI_EVENT_PIECE_DETACHED names it. Samples pay for it before, over several
-// ticks if need be, of many pieces one after the other: of the first that waits 3 for each vertex, 2.5 to 9 for each
-// cell (the more frames, the more) and 100 for each frame, of others 3 for each vertex and 1.4 for each cell; and one
-// for 80 vertices of the rest. Until then further cuts of the sheet wait. The first piece is made as it is paid, and
-// leaves at the start of the tick after the last sample is paid. That tick does an eighth of the work; the first tick
-// after a load makes the parts again that saves leave out. The coming ticks have fewer samples for the work of calls.
-// KIRI_ERROR_STATE: nothing would be left of the sheet.
+// Makes a sheet of the piece with this frame. Frames, pins, collision points, pending loads and contacts move along,
+// with their ids and states, and the motion goes on. Both sheets have all settings. Cuts stay with the old sheet. A
+// clamp or hinge that holds both gets a copy with a new id in the new sheet. Revisions grow; kiriSheet_GetDirty has
+// the changes. KIRI_PENDING: work on a cut is pending, or the piece takes more samples than the budget leaves;
+// *detached is 0. Then samples of the coming ticks pay for it, and further cuts of the sheet wait. When all is paid
+// the piece of this frame becomes a sheet, and KIRI_EVENT_PIECE_DETACHED names it. KIRI_ERROR_STATE: nothing would be
+// left of the sheet. The manual has indices and costs (cutting).
 func (self Frame) DetachPiece() (Sheet, error) {
 	var made0 Sheet
 	if err := self.World.check(); err != nil {
@@ -2176,11 +2109,9 @@ func (self Frame) DetachPiece() (Sheet, error) {
 	return Sheet{self.World, SheetID(answer.detached)}, nil
 }
 
-// The same without keeping the piece: ids of its frames and pins are stale. Costs as much, but for making a sheet:
-// that is done at once, and the coming ticks have less. Where kiriSheet_GetMesh has been called since the last tick,
-// all indices are copied. KIRI_PENDING: work on a cut is at hand. The piece is gone all the same: its triangles are
-// in kiriMesh, with three equal corners; it touches nothing; no point of it is found. When the work is done its
-// vertices go, too; until then kiriCounts still counts it, and its kiriPieceState is all zeros.
+// Removes the piece with this frame: ids of its frames and pins are stale. Takes effect at once, and the coming ticks
+// have fewer samples. KIRI_PENDING: work on a cut is pending. Until it is done the triangles stay in kiriMesh with
+// three equal corners, the vertices stay, and kiriCounts counts the piece, with a kiriPieceState of all zeros.
 func (self Frame) DestroyPiece() (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -2193,9 +2124,9 @@ func (self Frame) DestroyPiece() (bool, error) {
 	return result == C.KIRI_PENDING, nil
 }
 
-// The same for the pieces of so many frames, of any sheets, in one pass for each sheet; frames of one piece count
-// once. Where one is refused, none goes. KIRI_PENDING: some wait, those of one sheet together. detached[i] is the
-// sheet that the piece of frames[i] has become, 0 where it waits.
+// Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet; frames of one piece count
+// once. All are done or pending, or none if one is refused. KIRI_PENDING: some are pending, all in a sheet together.
+// detached[i] is the sheet made of the piece of frames[i], 0 where it is pending.
 func (w *World) DetachPieces(frames []Frame) ([]Sheet, error) {
 	var made0 []Sheet
 	if err := w.check(); err != nil {
@@ -2211,9 +2142,9 @@ func (w *World) DetachPieces(frames []Frame) ([]Sheet, error) {
 	return things[Sheet](w, detached), nil
 }
 
-// The same for the pieces of so many frames, of any sheets, in one pass for each sheet; frames of one piece count
-// once. Where one is refused, none goes. KIRI_PENDING: some wait, those of one sheet together. detached[i] is the
-// sheet that the piece of frames[i] has become, 0 where it waits.
+// Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet; frames of one piece count
+// once. All are done or pending, or none if one is refused. KIRI_PENDING: some are pending, all in a sheet together.
+// detached[i] is the sheet made of the piece of frames[i], 0 where it is pending.
 func (w *World) DestroyPieces(frames []Frame) (bool, error) {
 	if err := w.check(); err != nil {
 		return false, err
@@ -2231,8 +2162,8 @@ var poolSheetDropCrumbs pool[struct {
 	count C.int32_t
 }]
 
-// Destroys all pieces below an area (m^2) except the largest piece, at the cost of one. *count is how many. Where
-// that one waits to become a sheet, the largest of the others stays, too.
+// Destroys all pieces below an area (m^2) except the largest piece, at the cost of one. *count is their number. If
+// the largest piece is pending to become a sheet, the largest of the others stays, too.
 func (self Sheet) DropCrumbs(area float32) (int, error) {
 	var made0 int
 	if err := self.World.check(); err != nil {
@@ -2253,8 +2184,8 @@ var poolSheetBeginCut pool[struct {
 	cut C.kiriCut
 }]
 
-// A cut is a polyline in the rest plane. Points may lie anywhere: what is outside the sheet cuts nothing. Points wait
-// until the next tick. The end of a cut that lies inside the sheet stays closed until the blade moves on.
+// Begins a cut: a polyline in the rest plane. Outside the sheet it cuts nothing. Points take effect with the next
+// tick or, by the budget, a later one. The end of a cut inside the sheet stays closed until the next point.
 func (self Sheet) BeginCut(restPoint [2]float32) (Cut, error) {
 	var made0 Cut
 	if err := self.World.check(); err != nil {
@@ -2271,7 +2202,7 @@ func (self Sheet) BeginCut(restPoint [2]float32) (Cut, error) {
 	return Cut{self.World, CutID(answer.cut)}, nil
 }
 
-// restPoints: 2 floats a point; count is 1 to 2^24.
+// Adds points. restPoints: 2 floats a point; count is 1 to 2^24.
 func (self Cut) Extend(restPoints [][2]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -2284,8 +2215,8 @@ func (self Cut) Extend(restPoints [][2]float32) (bool, error) {
 	return result == C.KIRI_PENDING, nil
 }
 
-// No more points come. After the tick in which the last of them takes effect the id is stale, and
-// KIRI_EVENT_CUT_FINISHED tells. Frames that the sheet needs after the cut are added then.
+// Ends the cut. Its id is stale after the tick in which its last point takes effect (KIRI_EVENT_CUT_FINISHED). The
+// sheet then adds the frames that it needs.
 func (self Cut) End() (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -2303,9 +2234,9 @@ var poolSheetSlice pool[struct {
 	cut C.kiriCut
 }]
 
-// A blade (a straight edge) that moves in world space from blade[0]-blade[1] to blade[3]-blade[2] cuts where the
-// swept quadrilateral meets the sheet as it is now, past borders, so that it parts what it crosses. The cut is ended
-// already. Slices of a sheet that moves do not join from tick to tick: for that take a blade.
+// Cuts where the quadrilateral swept by an edge in world space, from blade[0]-blade[1] to blade[3]-blade[2], meets
+// the current sheet; past borders, so that it separates the parts that it crosses. The cut is already ended. Slices
+// of a moving sheet do not join from tick to tick: use a blade for that.
 func (self Sheet) Slice(blade [12]float32) (Cut, error) {
 	var made0 Cut
 	if err := self.World.check(); err != nil {
@@ -2433,7 +2364,7 @@ var poolFrameGetState pool[struct {
 	state FrameState
 }]
 
-// Pose, motion and region as they are now.
+// Gets the current state.
 func (self Frame) State() (FrameState, error) {
 	var made0 FrameState
 	if err := self.World.check(); err != nil {
@@ -2449,10 +2380,10 @@ func (self Frame) State() (FrameState, error) {
 	return answer.state, nil
 }
 
-// The host moves the frame: its rest point, as it is seen, goes to `position` with `rotation` (a rotation matrix,
-// columns as above) in the next tick, evenly, and stays there until the next call. An affine frame is not stretched
-// then. On a planar sheet the rotation is about its normal. Null, null: it is free again. Contacts do not push
-// material that held frames carry for more than half: it goes where the host has it, through obstacles too.
+// Holds the frame: its rest point on the visible surface moves evenly to `position` (m, world) with `rotation` (a
+// rotation matrix, columns as above) in the next tick, and stays there until the next call. A held affine frame is
+// not stretched. On a planar sheet the rotation is about its normal. Null, null: frees it. Contacts do not push
+// material of which held frames carry more than half: it moves through obstacles.
 func (self Frame) Hold(position *[3]float32, rotation *[9]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -2470,9 +2401,9 @@ var poolFrameGetReaction pool[struct {
 	torque [3]float64
 }]
 
-// With what the host's hold acted on the sheet: force (N, world) and torque (N m) about the frame's rest point; means
-// over the last tick, impulses divided by its dt. They carry the frame's own weight and change its momentum, too.
-// Zero for a frame that was free. A piece that sleeps keeps those that it fell asleep with.
+// Gets the force (N, world) and torque (N m, about the frame's rest point) that the hold applied to the sheet: means
+// over the last tick, impulses divided by its dt. They include the frame's own weight and change of momentum. Zero
+// for a free frame. A sleeping piece keeps the values with which it fell asleep.
 func (self Frame) Reaction() ([3]float64, [3]float64, error) {
 	var made0 [3]float64
 	var made1 [3]float64
@@ -2494,7 +2425,7 @@ var poolFrameApplyForce pool[struct {
 	torque [3]float32
 }]
 
-// A force (N, world) on the frame's centre of mass and a torque (N m).
+// Applies a force (N, world) at the frame's centre of mass and a torque (N m).
 func (self Frame) ApplyForce(force [3]float32, torque [3]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -2517,7 +2448,7 @@ var poolSheetApplyForce pool[struct {
 	torque [3]float32
 }]
 
-// A force (N, world) on a point of the material and a torque (N m).
+// Applies a force (N, world) at a point of the material and a torque (N m).
 func (self Sheet) ApplyForce(restPoint [2]float32, force [3]float32, torque [3]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -2541,9 +2472,8 @@ var poolSheetApplyLineLoad pool[struct {
 	forcePerLength [3]float32
 }]
 
-// A force (N, world) on each metre of a straight line of the rest plane, as far as it lies in the material, edges
-// included. Where it runs along a cut, each lip gets half. The ends differ; a line that meets no material:
-// KIRI_ERROR_ARGUMENT.
+// Applies a force (N/m, world) along a straight line of the rest plane where it lies in the material, edges included.
+// Along a cut each lip gets half. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no material.
 func (self Sheet) ApplyLineLoad(from [2]float32, to [2]float32, forcePerLength [3]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -2561,7 +2491,7 @@ func (self Sheet) ApplyLineLoad(from [2]float32, to [2]float32, forcePerLength [
 	return result == C.KIRI_PENDING, nil
 }
 
-// A pressure (Pa) that pushes the whole sheet along its normal, or against it where below 0.
+// Applies a pressure (Pa) to the whole sheet along its normal; below 0: against it.
 func (self Sheet) ApplyPressure(pressure float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -2579,8 +2509,9 @@ var poolSheetApplyImpulse pool[struct {
 	impulse [3]float32
 }]
 
-// An impulse (N s, world) on a point of the material, where it is seen now. Velocities change at once, by as much as
-// the frames that carry the point resist; a held frame's part is lost. Outside the sheet: KIRI_ERROR_ARGUMENT.
+// Applies an impulse (N s, world) at a point of the material on the visible surface. Velocities change at once, by
+// the mass of the frames that carry the point; a held frame's share is lost. KIRI_ERROR_ARGUMENT: it is outside the
+// sheet.
 func (self Sheet) ApplyImpulse(restPoint [2]float32, impulse [3]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -2597,7 +2528,7 @@ func (self Sheet) ApplyImpulse(restPoint [2]float32, impulse [3]float32) (bool, 
 	return result == C.KIRI_PENDING, nil
 }
 
-// Copied; it blows until the next call.
+// Copies the wind; it blows until the next call.
 func (self Sheet) SetWind(wind *Wind) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -2626,7 +2557,7 @@ var poolSheetCreatePin pool[struct {
 	pin C.kiriPin
 }]
 
-// Pins a point of the sheet. On failure *pin is 0. A point outside the sheet: KIRI_ERROR_ARGUMENT.
+// Pins a point of the sheet. On failure *pin is 0. KIRI_ERROR_ARGUMENT: it is outside the sheet.
 func (self Sheet) CreatePin(def *PinDef) (Pin, error) {
 	var made0 Pin
 	if err := self.World.check(); err != nil {
@@ -2648,15 +2579,13 @@ var poolSheetClampLine pool[struct {
 	clamp C.kiriPin
 }]
 
-// Pins along a straight line of the rest plane, an edge of the sheet or any other. A clamp holds place and direction
-// of the material there, as a vice does; a hinge its place only, so that the sheet may turn about the line. Both
-// begin where the material is now; the line stays straight, and as long as it is at rest: so material that is bent
-// there is pulled straight, and pieces that have come apart are pulled together, however fast that makes them.
-// They hold what the line meets, edges included, with the stiffness that the material has between the line and the
-// frames that it meets. So a clamp along an edge is where the drawing has it, whatever the number of frames, where
-// kiriFrame_Hold clamps at a frame's site. A clamp through the sheet parts what is on its two sides, so that neither
-// bends the other. A line that runs along a cut holds both lips; one beside it, by a 512th of a square of the grid or
-// more, holds one. The ends differ; a line that meets no material: KIRI_ERROR_ARGUMENT.
+// Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds the place and direction
+// of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The line is
+// straight, with its rest length: bent material is pulled straight, and separate pieces are pulled together, at any
+// speed. Both hold the material on the line, edges included, with its stiffness from the line to the frames around
+// it. A clamp through the sheet separates the bending of its two sides. A line along a cut holds both lips; a line
+// beside it, by a 512th of a grid square or more, holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no
+// material.
 func (self Sheet) ClampLine(from [2]float32, to [2]float32) (Pin, error) {
 	var made0 Pin
 	if err := self.World.check(); err != nil {
@@ -2680,15 +2609,13 @@ var poolSheetHingeLine pool[struct {
 	hinge C.kiriPin
 }]
 
-// Pins along a straight line of the rest plane, an edge of the sheet or any other. A clamp holds place and direction
-// of the material there, as a vice does; a hinge its place only, so that the sheet may turn about the line. Both
-// begin where the material is now; the line stays straight, and as long as it is at rest: so material that is bent
-// there is pulled straight, and pieces that have come apart are pulled together, however fast that makes them.
-// They hold what the line meets, edges included, with the stiffness that the material has between the line and the
-// frames that it meets. So a clamp along an edge is where the drawing has it, whatever the number of frames, where
-// kiriFrame_Hold clamps at a frame's site. A clamp through the sheet parts what is on its two sides, so that neither
-// bends the other. A line that runs along a cut holds both lips; one beside it, by a 512th of a square of the grid or
-// more, holds one. The ends differ; a line that meets no material: KIRI_ERROR_ARGUMENT.
+// Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds the place and direction
+// of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The line is
+// straight, with its rest length: bent material is pulled straight, and separate pieces are pulled together, at any
+// speed. Both hold the material on the line, edges included, with its stiffness from the line to the frames around
+// it. A clamp through the sheet separates the bending of its two sides. A line along a cut holds both lips; a line
+// beside it, by a 512th of a grid square or more, holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no
+// material.
 func (self Sheet) HingeLine(from [2]float32, to [2]float32) (Pin, error) {
 	var made0 Pin
 	if err := self.World.check(); err != nil {
@@ -2710,10 +2637,10 @@ var poolPinSetTarget pool[struct {
 	target [3]float32
 }]
 
-// Where the pin holds its point, or the middle of its line (m, world): at the end of the next tick, and until the
-// next call. Within the tick it goes there evenly. The current target of kiriPin_GetState changes nothing. With
-// KIRI_SKINNING_SMOOTH what pins and clamps hold is what is seen there; of a clamp the mean along its line, for each
-// piece: single points of the line are seen a little off it.
+// Sets the target of the pin's point, or of the middle of its line (m, world), for the end of the next tick and until
+// the next call. The pin moves there evenly within the tick. The current target of kiriPin_GetState changes nothing.
+// With KIRI_SKINNING_SMOOTH pins and clamps hold the visible surface; a clamp holds its mean along the line for each
+// piece, so single points are slightly off the line.
 func (self Pin) SetTarget(target [3]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -2734,8 +2661,8 @@ var poolPinSetPose pool[struct {
 	rotation [9]float32
 }]
 
-// The same with the rotation of the line's material: columns are the directions of u and v and the normal. On a
-// planar sheet it is about the sheet's normal. KIRI_ERROR_ARGUMENT for a pin that holds a point.
+// Sets the target and the rotation of the line's material: columns are the directions of u and v and the normal. On a
+// planar sheet it is about the sheet's normal. KIRI_ERROR_ARGUMENT: the pin holds a point.
 func (self Pin) SetPose(target [3]float32, rotation [9]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -2752,7 +2679,7 @@ func (self Pin) SetPose(target [3]float32, rotation [9]float32) (bool, error) {
 	return result == C.KIRI_PENDING, nil
 }
 
-// As in the def, for pins of all types; N, 0: it never breaks.
+// Sets the force (N) that breaks a pin of any type; 0: it never breaks.
 func (self Pin) SetBreakForce(breakForce float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -2769,7 +2696,7 @@ var poolPinGetState pool[struct {
 	state PinState
 }]
 
-// What it is, and where it holds now.
+// Gets the current state.
 func (self Pin) State() (PinState, error) {
 	var made0 PinState
 	if err := self.World.check(); err != nil {
@@ -2790,10 +2717,10 @@ var poolPinGetReaction pool[struct {
 	torque [3]float64
 }]
 
-// With what the pin acted on the sheet: force (N, world) and torque (N m) about its target; means over the last tick,
-// impulses divided by its dt. So the reactions of all pins and held frames are the weight of a sheet at rest, and in
-// motion what changes its momentum (as far as `iterations` have the tick solved). Zero before the first tick. A piece
-// that sleeps keeps those that it fell asleep with.
+// Gets the force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over the last
+// tick, impulses divided by its dt. The reactions of all pins and held frames are the weight of a sheet at rest, and
+// change its momentum in motion (as far as `iterations` solve the tick). Zero before the first tick. A sleeping piece
+// keeps the values with which it fell asleep.
 func (self Pin) Reaction() ([3]float64, [3]float64, error) {
 	var made0 [3]float64
 	var made1 [3]float64
@@ -2837,7 +2764,7 @@ func (self Sheet) Pins() ([]Pin, error) {
 	return things[Pin](self.World, pins[:answer.count]), nil
 }
 
-// It lets go; its id is stale.
+// Destroys the pin; its id is stale.
 func (self Pin) Destroy() (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -2850,8 +2777,8 @@ func (self Pin) Destroy() (bool, error) {
 	return result == C.KIRI_PENDING, nil
 }
 
-// The contacts of the next tick; they replace those of an earlier call, and are gone after the tick. A contact is
-// known again by its point, or its rest point, and its obstacle: what it pushed with is where the next tick starts.
+// Sets the contacts of the next tick; they replace those set before, and end with the tick. A contact with the point,
+// or rest point, and obstacle of an earlier one starts with the earlier impulse.
 func (self Sheet) SetContacts(contacts []Contact) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -2869,9 +2796,9 @@ var poolSheetGetContactForces pool[struct {
 	count C.int32_t
 }]
 
-// One for each contact that was set before the last tick, in the order given. The sum of the impulses, with those of
-// gravity, loads and obstacles, is the change of momentum of a piece that nothing holds. A piece that sleeps goes on
-// to press with what it fell asleep with.
+// Gets one result for each contact that was set before the last tick, in that order. The sum of these impulses and of
+// the impulses of gravity, loads and obstacles is the change of momentum of a free piece. A sleeping piece goes on to
+// press with the values with which it fell asleep.
 func (self Sheet) ContactForces() (View[ContactForce], error) {
 	var made0 View[ContactForce]
 	if err := self.World.check(); err != nil {
@@ -2923,7 +2850,7 @@ func (w *World) CreateObstacle(def *ObstacleDef) (Obstacle, error) {
 	return Obstacle{w, ObstacleID(answer.obstacle)}, nil
 }
 
-// It is gone, its id stale. What rested on it wakes.
+// Destroys an obstacle; its id is stale. Pieces that rested on it wake.
 func (self Obstacle) Destroy() (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -2941,8 +2868,7 @@ var poolObstacleSetPose pool[struct {
 	rotation [9]float32
 }]
 
-// Where it is when the next tick starts. It did not move there: velocities alone say what sheets feel. rotation: a
-// rotation matrix, columns as in the def.
+// Teleports the obstacle (m, world). Sheets react to its velocity (kiriObstacle_SetVelocity), not to the jump.
 func (self Obstacle) SetPose(position [3]float32, rotation [9]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -2964,7 +2890,7 @@ var poolObstacleSetVelocity pool[struct {
 	angularVelocity [3]float32
 }]
 
-// With what it moves in the next tick and from then on.
+// Set the velocity (m/s, rad/s) for the next and all later ticks.
 func (self Obstacle) SetVelocity(velocity [3]float32, angularVelocity [3]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -2985,7 +2911,7 @@ var poolObstacleSetSurfaceVelocity pool[struct {
 	velocity [3]float32
 }]
 
-// With what it moves in the next tick and from then on.
+// Set the velocity (m/s, rad/s) for the next and all later ticks.
 func (self Obstacle) SetSurfaceVelocity(velocity [3]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -3006,7 +2932,7 @@ var poolObstacleSetMass pool[struct {
 	centerOfMass [3]float32
 }]
 
-// As in the def.
+// Sets mass (kg), inertia and centre of mass, as in the def.
 func (self Obstacle) SetMass(mass float32, inertia [6]float32, centerOfMass [3]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -3027,7 +2953,7 @@ var poolObstacleGetState pool[struct {
 	state ObstacleState
 }]
 
-// Pose and velocities as they are now.
+// Gets the current state.
 func (self Obstacle) State() (ObstacleState, error) {
 	var made0 ObstacleState
 	if err := self.World.check(); err != nil {
@@ -3048,9 +2974,9 @@ var poolSheetGetReach pool[struct {
 	upper [3]float32
 }]
 
-// The box (m, world) that holds all that the sheet may touch in a tick of dt: a host needs no obstacles or contacts
-// outside. It reaches as far around the sheet as its fastest point can go by its velocity and gravity, twice, and the
-// contact thickness. Obstacles that move themselves come as much nearer. dt as in kiriWorld_Tick.
+// Gets a box (m, world) around all that the sheet can touch in a tick of dt (s, as in kiriWorld_Tick): a host needs
+// no obstacles or contacts outside. Its margin is twice the way of the fastest point by velocity and gravity, plus
+// the contact thickness. For moving obstacles add their own way.
 func (self Sheet) Reach(dt float32) ([3]float32, [3]float32, error) {
 	var made0 [3]float32
 	var made1 [3]float32

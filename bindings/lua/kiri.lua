@@ -674,18 +674,18 @@ local C, ffi, now, new, out, room, fail, passed = core.C, core.ffi, core.now, co
 local vector, id_of, ids_of, rows_of, struct_of, handle, list_of, make_room = core.vector, core.id_of, core.ids_of,
     core.rows_of, core.struct_of, core.handle, core.list_of, core.make_room
 
---- The library's version, as KIRI_VERSION.
+--- Returns the version of the library, as KIRI_VERSION.
 function kiri.getVersion()
     return C.kiriGetVersion()
 end
 
---- The name of a result, "KIRI_OK" and so on; "unknown" for another number.
+--- Returns the name of a result, such as "KIRI_OK"; "unknown" for another number.
 function kiri.getResultName(result)
     return ffi.string(C.kiriGetResultName(result))
 end
 
---- One line: the meaning of a result, and its cure. For calls without a world that keeps a line, such as
---- kiriCreateWorld with a def of zeros (KIRI_ERROR_DEF).
+--- Returns one line: the meaning of a result, and its cure. Use it after calls that have no world to keep a line,
+--- such as kiriCreateWorld with a def of zeros (KIRI_ERROR_DEF).
 function kiri.getResultText(result)
     return ffi.string(C.kiriGetResultText(result))
 end
@@ -697,13 +697,13 @@ function kiri.defaultWorldDef(def)
     return def
 end
 
---- One fixed step of dt seconds (1e-6 to 10), solved in `substeps` equal parts (1 to 64). Takes the waiting cut
---- points, then moves every sheet. KIRI_PENDING: the budget is spent and more work waits: the events say which cuts;
---- a sheet, or some of its pieces, may also have stood still for want of iterations. KIRI_ERROR_MEMORY: nothing
---- moved; cuts and pieces still wait, call again. Refused work is prepared again: until then kiriSheet_GetWeights
---- gives KIRI_ERROR_STATE, and with a budget a cut may take effect some ticks later than it would have.
---- KIRI_ERROR_LIMIT: the same, and it stays so until frames are destroyed. KIRI_DIVERGED: the sheets named by the
---- events were put to rest, the others moved. Work may wait then, too, as KIRI_EVENT_DEFERRED says.
+--- Advances by one fixed step of dt seconds (1e-6 to 10), in `substeps` equal parts (1 to 64): takes the pending cut
+--- points, then moves every sheet. KIRI_PENDING: the budget is spent, and events name the cuts that still have work;
+--- a sheet or some of its pieces may have stood still for want of iterations. KIRI_ERROR_MEMORY: nothing moved; cuts
+--- and pieces are still pending, call again. Until the refused work is done again, kiriSheet_GetWeights gives
+--- KIRI_ERROR_STATE, and with a budget a cut may take effect some ticks later. KIRI_ERROR_LIMIT: the same, until
+--- frames are destroyed. KIRI_DIVERGED: sheets that events name were stopped, others moved; KIRI_EVENT_DEFERRED tells
+--- of pending work.
 function World:tick(dt, substeps)
     local world = self
     local result = C.kiriWorld_Tick(world.c, dt, substeps)
@@ -712,15 +712,14 @@ function World:tick(dt, substeps)
     return result == 1
 end
 
---- What went wrong in the last function that changes the world, in one line; "" when nothing did. A function that
---- only reads leaves it as it is, and gives its line to the log. Valid until the next function that changes the
---- world.
+--- Returns one line: the reason why the last function that changes the world failed; "" if it did not. A function
+--- that only reads does not change the line, and logs its own. Valid until the next function that changes the world.
 function World:getLastError()
     local world = self
     return ffi.string(C.kiriWorld_GetLastError(world.c))
 end
 
---- m/s^2. All pieces wake.
+--- Sets gravity (m/s^2). All pieces wake.
 function World:setGravity(gravity)
     local world = self
     local result = C.kiriWorld_SetGravity(world.c, vector(1, gravity, 3))
@@ -729,10 +728,9 @@ function World:setGravity(gravity)
 end
 
 --- Moves the origin of the world to a point (m): subtracts it from the positions of sheets, targets of pins and
---- holds, obstacles, blades, and contacts that wait. The motion goes on as before, to rounding. Nothing wakes; (0, 0,
---- 0) changes nothing. Use it in large worlds: far from the origin floats lose places. The host shifts its own data
---- itself. Arrays that the library handed out keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a
---- position would not fit a float. KIRI_ERROR_MEMORY: nothing has changed.
+--- holds, obstacles, blades, and pending contacts. The motion goes on as before, to rounding. Nothing wakes; (0, 0,
+--- 0) changes nothing. Use it in large worlds, where floats lose precision. The host shifts its own data. Returned
+--- arrays keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a position would not fit a float.
 function World:shiftOrigin(origin)
     local world = self
     local result = C.kiriWorld_ShiftOrigin(world.c, vector(1, origin, 3))
@@ -740,7 +738,7 @@ function World:shiftOrigin(origin)
     return result == 1
 end
 
---- Takes effect with the next tick.
+--- Sets the budget from the next tick on.
 function World:setBudget(budget)
     local world = self
     local result = C.kiriWorld_SetBudget(world.c, struct_of(world, budget, "kiriBudget"))
@@ -748,9 +746,9 @@ function World:setBudget(budget)
     return result == 1
 end
 
---- A hash of everything that the coming ticks depend on, work that waits for its budget included: two worlds that got
---- the same calls have the same hash, and two with the same hash go on alike. After a refused allocation some items
---- are made again: the hash tells that while work waits, or while the budget limits cells or samples.
+--- Hashes all state that the coming ticks depend on, pending work included. Two worlds with the same calls have the
+--- same hash, and two worlds with the same hash go on alike. After a refused allocation some items are made again:
+--- the hash differs while work is pending, or while the budget limits cells or samples.
 function World:getStateHash()
     local world = self
     local result = C.kiriWorld_GetStateHash(world.c, out.uint64_t)
@@ -768,8 +766,8 @@ function World:getSheets()
     return list_of(world, room.kiriSheet, out.int32_t[0], "Sheet")
 end
 
---- Puts some bytes of the host's own (1 to KIRI_MOST_NOTE_BYTES) in the recording, where a replay finds them: what
---- its camera saw, what a player pressed. The world does not change; without a recording nothing happens.
+--- Writes bytes of the host (1 to KIRI_MOST_NOTE_BYTES) to the recording, such as keys that a player pressed. A
+--- replay stops there. The world does not change; without a recording nothing happens.
 function World:note(bytes, count)
     local world = self
     count = count or #bytes
@@ -778,16 +776,14 @@ function World:note(bytes, count)
     return result == 1
 end
 
---- Makes the calls of a recording up to the next tick or note, and that one. The world is to be new, as
---- kiriCreateWorld makes it; gravity and budget become those of the recording. What the host has of its own, such as
---- memory, log and tasks, stays the host's. Ids are those of the recording: kiriWorld_GetSheets has those of sheets.
---- KIRI_PENDING: more follows, call it again. KIRI_OK: that was the end. KIRI_ERROR_REPLAY: a call gave another
---- result, other ids or another state than recorded; the line says which. The next call goes on behind it.
---- KIRI_ERROR_DATA: the bytes are no recording, damaged, cut short, or of a later version; the line says where. Calls
---- before that place have been made. So has the last one of a recording that ends within a call, as that of a run
---- which crashed. KIRI_ERROR_STATE: the world is not new. KIRI_ERROR_MEMORY: the next call was refused memory, and
---- may be tried again. Calls that were refused memory when they were recorded are left out: they changed nothing.
---- Where that was a tick and a budget limits cells or samples, the next hashes may differ.
+--- Makes the calls of a recording up to the next tick or note, included. The world must be new. Gravity and budget
+--- become those in the recording; memory, log and tasks stay the host's. Ids are as recorded (kiriWorld_GetSheets).
+--- KIRI_PENDING: more calls follow, call again. KIRI_OK: the recording ended. KIRI_ERROR_REPLAY: a call gave another
+--- result, other ids or another state than recorded; the line names it, and the next call goes on behind it.
+--- KIRI_ERROR_DATA: the bytes are not a recording, damaged, cut short, or of a later version; the line says where.
+--- The calls before that place were made, and the last call of a recording that ends inside one, as after a crash.
+--- KIRI_ERROR_STATE: the world is not new. KIRI_ERROR_MEMORY: call again. Calls that were refused memory when
+--- recorded are skipped. After such a tick the next hashes may differ where a budget limits cells or samples.
 function World:replay(recording, replay, size)
     local world = self
     size = size or #recording
@@ -867,7 +863,7 @@ function World:loadDifference(base, bytes, baseSize, size)
     return result == 1
 end
 
---- *events points to *count events.
+--- Gets the events: *events points to *count of them.
 function World:getEvents()
     local world = self
     local result = C.kiriWorld_GetEvents(world.c, out.kiriEventRows, out.int32_t)
@@ -875,7 +871,7 @@ function World:getEvents()
     return new.kiriEventArray(out.kiriEventRows[0], out.int32_t[0], 1, world.cell, now[world.cell])
 end
 
---- Of the last tick that was not refused.
+--- Gets the profile of the last tick that was not refused.
 function World:getProfile(profile)
     local world = self
     profile = profile or new.kiriProfile()
@@ -884,23 +880,22 @@ function World:getProfile(profile)
     return profile
 end
 
---- For hosts that would rather think in time than in items: the budget whose work would have taken so many
---- microseconds a tick at the pace of the profile, which may be the sum of several. Work on cuts and linear systems
---- share the time as they did in the profile, and each of triangles, cells and samples gets what the three took
---- together, see kiriBudget. Each item that the profile has some of is set; others stay. The simulation never reads a
---- clock: the choice is the host's, and a replay must hand in the same budgets.
+--- Converts microseconds a tick into a budget, at the pace of the profile, which may be the sum of several. Cuts and
+--- linear systems share the time as in the profile. Each of triangles, cells and samples gets the time of all three,
+--- see kiriBudget. Sets only the limits for which the profile recorded work. The simulation never reads a clock: the
+--- host chooses, and a replay must set the same budgets.
 function kiri.fitBudget(profile, microseconds, budget)
     local result = C.kiriFitBudget(struct_of(nil, profile, "kiriProfile"), microseconds, budget)
     if result < 0 then fail(nil, "kiriFitBudget", result, false) end
     return result == 1
 end
 
---- The name of a stage, for tables; "" for a number that is none.
+--- Returns the name of a stage; "" for another number.
 function kiri.getStageName(stage)
     return ffi.string(C.kiriGetStageName(stage))
 end
 
---- The numbers of a preset, KIRI_MATERIAL_...
+--- Gets the numbers of a preset, KIRI_MATERIAL_...
 function kiri.getMaterial(preset, material)
     material = material or new.kiriMaterial()
     local result = C.kiriGetMaterial(preset, material)
@@ -908,7 +903,7 @@ function kiri.getMaterial(preset, material)
     return material
 end
 
---- The numbers of a preset, KIRI_QUALITY_...
+--- Gets the numbers of a preset, KIRI_QUALITY_...
 function kiri.getQuality(preset, quality)
     quality = quality or new.kiriQuality()
     local result = C.kiriGetQuality(preset, quality)
@@ -923,8 +918,8 @@ function kiri.defaultSheetDef(def)
     return def
 end
 
---- Adds a sheet. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles do not form a sheet. The line names a
---- triangle, or the two triangles at an edge, by their numbers in the def, and says why.
+--- Adds a sheet. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles do not form a sheet. The line says why, and
+--- names the triangle, or the two triangles at an edge, by index in the def.
 function World:createSheet(def)
     local world = self
     local result = C.kiriCreateSheet(world.c, struct_of(world, def, "kiriSheetDef"), out.Sheet)
@@ -932,7 +927,7 @@ function World:createSheet(def)
     return handle(world, out.Sheet[0], "Sheet")
 end
 
---- The sheet is gone, with its cuts, frames and pins; their ids are stale.
+--- Destroys the sheet with its cuts, frames and pins; their ids are stale.
 function Sheet:destroy()
     local world = self.world
     local result = C.kiriDestroySheet(world.c, self.id)
@@ -940,9 +935,9 @@ function Sheet:destroy()
     return result == 1
 end
 
---- A sheet that is a rectangle from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles;
---- columns and rows are 1 to 4096. def: all but the mesh, which is not read; null: the defaults. A recording has it
---- as kiriCreateSheet.
+--- Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles;
+--- columns and rows are 1 to 4096. def: its mesh is not read; null: the defaults. A recording stores it as
+--- kiriCreateSheet.
 function World:createRectangle(width, height, columns, rows, def)
     local world = self
     local result = C.kiriCreateRectangle(world.c, width, height, columns, rows, struct_of(world, def, "kiriSheetDef"), out.Sheet)
@@ -950,7 +945,7 @@ function World:createRectangle(width, height, columns, rows, def)
     return handle(world, out.Sheet[0], "Sheet")
 end
 
---- What they are now, stamped for kiriSheet_SetSettings.
+--- Gets the current settings, stamped for kiriSheet_SetSettings.
 function Sheet:getSettings(settings)
     local world = self.world
     settings = settings or new.kiriSheetSettings()
@@ -959,9 +954,9 @@ function Sheet:getSettings(settings)
     return settings
 end
 
---- Checked as the def is: all or nothing. KIRI_ERROR_DEF: they did not come from GetSettings. The sheet wakes where
---- one is other than before. Places and velocities stay: with another mass so momentum changes. Stiffnesses that pins
---- have, and the lengths that frames were spread by, stay as they are.
+--- Sets all settings, or none; checks them as kiriCreateSheet does. KIRI_ERROR_DEF: they do not come from
+--- kiriSheet_GetSettings. The sheet wakes if one differs. Positions and velocities are kept, so a new mass changes
+--- the momentum. The stiffness of pins and the lengths that placed the frames are kept, too.
 function Sheet:setSettings(settings)
     local world = self.world
     local result = C.kiriSheet_SetSettings(world.c, self.id, struct_of(world, settings, "kiriSheetSettings"))
@@ -969,8 +964,8 @@ function Sheet:setSettings(settings)
     return result == 1
 end
 
---- A rectangle from (0, 0) to (width, height) for a sheet def: writes 2 * (columns + 1) * (rows + 1) floats and 6 *
---- columns * rows indices. columns and rows are 1 to 4096.
+--- Fills in a rectangle from (0, 0) to (width, height) for a sheet def: writes 2 * (columns + 1) * (rows + 1) floats
+--- and 6 * columns * rows indices. columns and rows are 1 to 4096.
 function kiri.fillRectangle(width, height, columns, rows, restPositions, indices)
     restPositions = restPositions or ffi.new("float[?]", 2 * (columns + 1) * (rows + 1))
     indices = indices or ffi.new("int32_t[?]", 6 * columns * rows)
@@ -979,7 +974,7 @@ function kiri.fillRectangle(width, height, columns, rows, restPositions, indices
     return restPositions, indices
 end
 
---- The arrays, without a copy.
+--- Gets the arrays, without a copy.
 function Sheet:getMesh(mesh)
     local world = self.world
     mesh = mesh or new.kiriMeshView()
@@ -989,7 +984,7 @@ function Sheet:getMesh(mesh)
     return mesh
 end
 
---- What changed since the host saw that revision; all of the mesh where that is too long ago, or 0.
+--- Gets the changes since a revision; the whole mesh if the revision is too old, or 0.
 function Sheet:getDirty(sinceRevision, dirty)
     local world = self.world
     dirty = dirty or new.kiriDirty()
@@ -998,8 +993,8 @@ function Sheet:getDirty(sinceRevision, dirty)
     return dirty
 end
 
---- Copies positions and normals of some vertices, 3 floats each, to where the host wants them; strides in bytes, 12
---- or more. Null: without these. KIRI_ERROR_STATE: normals of a sheet that makes none.
+--- Copies positions and normals of some vertices, 3 floats each; strides in bytes, 12 or more. Null: does not copy
+--- these. KIRI_ERROR_STATE: the sheet makes no normals.
 function Sheet:copyVertices(first, count, positions, positionStride, normals, normalStride)
     local world = self.world
     local result = C.kiriSheet_CopyVertices(world.c, self.id, first, count, positions, positionStride, normals, normalStride)
@@ -1007,10 +1002,10 @@ function Sheet:copyVertices(first, count, positions, positionStride, normals, no
     return result == 1
 end
 
---- Copies the index that some vertices had when the last call of kiriWorld_Tick began, for hosts that draw between
---- two ticks. *from: the sheet that had them then, which is another one if this sheet was a piece of it. A vertex
---- that a cut tore off another one gets the index of the other. -1: the vertex did not exist; so all vertices of a
---- sheet that was created or loaded since. The manual has the code (drawing).
+--- Copies the index that each vertex had when the last call of kiriWorld_Tick began, for hosts that draw between two
+--- ticks. *from: the sheet that had the vertices then; another sheet if this one was a piece of it. A vertex that a
+--- cut separated from another gets the index of the other. -1: the vertex did not exist, as in a sheet that was
+--- created or loaded since. The manual has the code (drawing).
 function Sheet:copyPrevious(first, count, vertices)
     local world = self.world
     vertices = vertices or ffi.new("int32_t[?]", count)
@@ -1019,8 +1014,7 @@ function Sheet:copyPrevious(first, count, vertices)
     return vertices, handle(world, out.Sheet[0], "Sheet")
 end
 
---- Copies the indices of some triangles, 3 each, as 16-bit numbers. KIRI_ERROR_STATE: there are more than 65535
---- vertices.
+--- Copies indices of some triangles as 16-bit numbers, 3 each. KIRI_ERROR_STATE: there are more than 65535 vertices.
 function Sheet:copyIndices16(firstTriangle, count, indices)
     local world = self.world
     indices = indices or ffi.new("uint16_t[?]", 3 * count)
@@ -1029,9 +1023,9 @@ function Sheet:copyIndices16(firstTriangle, count, indices)
     return indices
 end
 
---- Map triangles to the def, to draw with data that the host keeps by its own vertices. Sources: the triangle of the
---- def that contains each; -1 for one that has left (its corners are equal). Weights: 9 floats each, the barycentric
---- coordinates of its three corners in that triangle. They are right on both sides of a seam that weldDistance has
+--- Map triangles to the def, to draw with the host's data for its own vertices. Sources: the triangle of the def that
+--- contains each; -1 for a triangle that was removed (its corners are equal). Weights: 9 floats each, the barycentric
+--- coordinates of its three corners in that triangle. They are correct on both sides of a seam that weldDistance
 --- closed; sourceTriangles name a triangle on one side. The manual has the code (meshes).
 function Sheet:copySources(firstTriangle, count, sources)
     local world = self.world
@@ -1041,9 +1035,9 @@ function Sheet:copySources(firstTriangle, count, sources)
     return sources
 end
 
---- Map triangles to the def, to draw with data that the host keeps by its own vertices. Sources: the triangle of the
---- def that contains each; -1 for one that has left (its corners are equal). Weights: 9 floats each, the barycentric
---- coordinates of its three corners in that triangle. They are right on both sides of a seam that weldDistance has
+--- Map triangles to the def, to draw with the host's data for its own vertices. Sources: the triangle of the def that
+--- contains each; -1 for a triangle that was removed (its corners are equal). Weights: 9 floats each, the barycentric
+--- coordinates of its three corners in that triangle. They are correct on both sides of a seam that weldDistance
 --- closed; sourceTriangles name a triangle on one side. The manual has the code (meshes).
 function Sheet:copySourceWeights(firstTriangle, count, weights)
     local world = self.world
@@ -1053,7 +1047,7 @@ function Sheet:copySourceWeights(firstTriangle, count, weights)
     return weights
 end
 
---- thickness: m, 0: that of the material. Made when it is asked for.
+--- Makes the solid surface. thickness: m, 0: the material's thickness.
 function Sheet:getSolid(thickness, solid)
     local world = self.world
     solid = solid or new.kiriSolidView()
@@ -1063,7 +1057,7 @@ function Sheet:getSolid(thickness, solid)
     return solid
 end
 
---- Collision points: 3 floats of position (m, world) a point.
+--- Gets the collision points: 3 floats of position (m, world) a point.
 function Sheet:getCollisionPoints()
     local world = self.world
     local result = C.kiriSheet_GetCollisionPoints(world.c, self.id, out.floatRows, out.int32_t)
@@ -1071,7 +1065,7 @@ function Sheet:getCollisionPoints()
     return new.floatArray(out.floatRows[0], out.int32_t[0], 3, world.cell, now[world.cell])
 end
 
---- Costs nothing.
+--- Gets the counts, at no cost.
 function Sheet:getCounts(counts)
     local world = self.world
     counts = counts or new.kiriCounts()
@@ -1080,7 +1074,7 @@ function Sheet:getCounts(counts)
     return counts
 end
 
---- Sums over the frames, made when they are asked for.
+--- Sums the totals over the frames.
 function Sheet:getTotals(totals)
     local world = self.world
     totals = totals or new.kiriTotals()
@@ -1089,14 +1083,10 @@ function Sheet:getTotals(totals)
     return totals
 end
 
---- An estimate of the error of the sheet's shape as it is now, where it rests or moves slowly: rms distance from
---- where a sheet of very many frames would be under the same loads, over the rms way that it has gone from its flat
---- shape; 0 to 1, and 1 where there are too few frames to tell. It compares the strains of neighbouring links
---- (KIRI_MODEL_LINKS only; else KIRI_ERROR_STATE). Measured on cantilevers and on a sheet with a slit, of 3 to 140
---- frames, it is not below a third of the error, and not above four times the error or, where that is below 0.5 %,
---- 1.5 %. Where a sheet also turned as a whole, as by hanging from two corners, it says up to ten times too much. It
---- knows nothing of errors of the grid, of time stepping, and of loads that are finer than frames. It takes memory
---- and time for one pass over the links, when it is called.
+--- Estimates the error of the current shape of a sheet that rests or moves slowly: rms distance from a sheet of very
+--- many frames under the same loads, over its rms way from the flat shape; 0 to 1, and 1 with too few frames to tell.
+--- It compares strains of neighbouring links (KIRI_MODEL_LINKS only; else KIRI_ERROR_STATE), in one pass that
+--- allocates memory. The manual says how good it is (accuracy).
 function Sheet:estimateError()
     local world = self.world
     local result = C.kiriSheet_EstimateError(world.c, self.id, out.double)
@@ -1105,8 +1095,7 @@ function Sheet:estimateError()
     return relative
 end
 
---- *awake is 0 where all pieces of the sheet sleep, see sleepSpeed; kiriPieceState says which do. kiriSheet_Wake
---- wakes all of them.
+--- Read and end sleep: *awake is 0 where all pieces sleep (kiriPieceState tells which); kiriSheet_Wake wakes all.
 function Sheet:isAwake()
     local world = self.world
     local result = C.kiriSheet_IsAwake(world.c, self.id, out.int32_t)
@@ -1115,8 +1104,7 @@ function Sheet:isAwake()
     return awake
 end
 
---- *awake is 0 where all pieces of the sheet sleep, see sleepSpeed; kiriPieceState says which do. kiriSheet_Wake
---- wakes all of them.
+--- Read and end sleep: *awake is 0 where all pieces sleep (kiriPieceState tells which); kiriSheet_Wake wakes all.
 function Sheet:wake()
     local world = self.world
     local result = C.kiriSheet_Wake(world.c, self.id)
@@ -1124,12 +1112,12 @@ function Sheet:wake()
     return result == 1
 end
 
---- Every point x (m, world) of the sheet goes to R x + t at once, and is seen there; velocities turn. The columns of
---- `rotation` are where R takes the axes of the world; a planar sheet turns about its normal only. It wakes. Targets
---- of its pins, hinges, clamps and holds go along, so nothing draws it back. To set a target to its current value
---- changes nothing. A target that the host has set nearer to the new place of the pin than to the old one stays: so
---- the host may set targets before or after. Pins on an obstacle stay on it: put the obstacle elsewhere by the same
---- motion (kiriObstacle_SetPose), before or after. Loads and contacts that wait for the next tick stay.
+--- Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and the sheet wakes. The
+--- columns of `rotation` are the images of the world's axes; a planar sheet turns about its normal only. Targets of
+--- pins, hinges, clamps and holds move along, so nothing pulls the sheet back. A target that the host set nearer to
+--- the pin's new place than to its old one stays: the host may set targets before or after. Pins on an obstacle stay
+--- on it: move the obstacle by the same motion (kiriObstacle_SetPose), before or after. Pending loads and contacts
+--- stay.
 function Sheet:transform(rotation, translation)
     local world = self.world
     local result = C.kiriSheet_Transform(world.c, self.id, vector(1, rotation, 9), vector(2, translation, 3))
@@ -1137,9 +1125,9 @@ function Sheet:transform(rotation, translation)
     return result == 1
 end
 
---- From now on it moves as a rigid body, until forces change that: `velocity` (m/s) of its centre of mass, and
---- `angularVelocity` (rad/s) about it. What a planar sheet has across its plane is dropped; held frames follow their
---- hold. kiriFrame_SetPieceVelocity: of the piece with that frame alone.
+--- Set rigid motion of a sheet, or of the piece with a frame, until forces change it: `velocity` (m/s) of its centre
+--- of mass, and `angularVelocity` (rad/s) about it. Planar sheets drop motion across their plane; held frames stay
+--- held.
 function Sheet:setVelocity(velocity, angularVelocity)
     local world = self.world
     local result = C.kiriSheet_SetVelocity(world.c, self.id, vector(1, velocity, 3), vector(2, angularVelocity, 3))
@@ -1147,9 +1135,9 @@ function Sheet:setVelocity(velocity, angularVelocity)
     return result == 1
 end
 
---- From now on it moves as a rigid body, until forces change that: `velocity` (m/s) of its centre of mass, and
---- `angularVelocity` (rad/s) about it. What a planar sheet has across its plane is dropped; held frames follow their
---- hold. kiriFrame_SetPieceVelocity: of the piece with that frame alone.
+--- Set rigid motion of a sheet, or of the piece with a frame, until forces change it: `velocity` (m/s) of its centre
+--- of mass, and `angularVelocity` (rad/s) about it. Planar sheets drop motion across their plane; held frames stay
+--- held.
 function Frame:setPieceVelocity(velocity, angularVelocity)
     local world = self.world
     local result = C.kiriFrame_SetPieceVelocity(world.c, self.id, vector(1, velocity, 3), vector(2, angularVelocity, 3))
@@ -1157,9 +1145,9 @@ function Frame:setPieceVelocity(velocity, angularVelocity)
     return result == 1
 end
 
---- A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A sheet that
---- kiriFrame_DetachPiece makes has that of the sheet it came from. A piece has one, named by any of its frames: the
---- parts of a piece that is cut have that of the piece, as does a sheet that is made of it.
+--- Store a number of the host, 0 at first. No tick depends on it, and the state hash does not. kiriFrame_DetachPiece
+--- copies the sheet's number to the new sheet. A piece has a number, too, named by any of its frames: the parts of a
+--- piece that is cut inherit it, and so does a sheet that is made of it.
 function Sheet:setUserData(data)
     local world = self.world
     local result = C.kiriSheet_SetUserData(world.c, self.id, data)
@@ -1167,9 +1155,9 @@ function Sheet:setUserData(data)
     return result == 1
 end
 
---- A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A sheet that
---- kiriFrame_DetachPiece makes has that of the sheet it came from. A piece has one, named by any of its frames: the
---- parts of a piece that is cut have that of the piece, as does a sheet that is made of it.
+--- Store a number of the host, 0 at first. No tick depends on it, and the state hash does not. kiriFrame_DetachPiece
+--- copies the sheet's number to the new sheet. A piece has a number, too, named by any of its frames: the parts of a
+--- piece that is cut inherit it, and so does a sheet that is made of it.
 function Sheet:getUserData()
     local world = self.world
     local result = C.kiriSheet_GetUserData(world.c, self.id, out.uint64_t)
@@ -1178,9 +1166,9 @@ function Sheet:getUserData()
     return data
 end
 
---- A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A sheet that
---- kiriFrame_DetachPiece makes has that of the sheet it came from. A piece has one, named by any of its frames: the
---- parts of a piece that is cut have that of the piece, as does a sheet that is made of it.
+--- Store a number of the host, 0 at first. No tick depends on it, and the state hash does not. kiriFrame_DetachPiece
+--- copies the sheet's number to the new sheet. A piece has a number, too, named by any of its frames: the parts of a
+--- piece that is cut inherit it, and so does a sheet that is made of it.
 function Pin:setUserData(data)
     local world = self.world
     local result = C.kiriPin_SetUserData(world.c, self.id, data)
@@ -1188,9 +1176,9 @@ function Pin:setUserData(data)
     return result == 1
 end
 
---- A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A sheet that
---- kiriFrame_DetachPiece makes has that of the sheet it came from. A piece has one, named by any of its frames: the
---- parts of a piece that is cut have that of the piece, as does a sheet that is made of it.
+--- Store a number of the host, 0 at first. No tick depends on it, and the state hash does not. kiriFrame_DetachPiece
+--- copies the sheet's number to the new sheet. A piece has a number, too, named by any of its frames: the parts of a
+--- piece that is cut inherit it, and so does a sheet that is made of it.
 function Pin:getUserData()
     local world = self.world
     local result = C.kiriPin_GetUserData(world.c, self.id, out.uint64_t)
@@ -1199,9 +1187,9 @@ function Pin:getUserData()
     return data
 end
 
---- A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A sheet that
---- kiriFrame_DetachPiece makes has that of the sheet it came from. A piece has one, named by any of its frames: the
---- parts of a piece that is cut have that of the piece, as does a sheet that is made of it.
+--- Store a number of the host, 0 at first. No tick depends on it, and the state hash does not. kiriFrame_DetachPiece
+--- copies the sheet's number to the new sheet. A piece has a number, too, named by any of its frames: the parts of a
+--- piece that is cut inherit it, and so does a sheet that is made of it.
 function Frame:setPieceUserData(data)
     local world = self.world
     local result = C.kiriFrame_SetPieceUserData(world.c, self.id, data)
@@ -1209,9 +1197,9 @@ function Frame:setPieceUserData(data)
     return result == 1
 end
 
---- A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A sheet that
---- kiriFrame_DetachPiece makes has that of the sheet it came from. A piece has one, named by any of its frames: the
---- parts of a piece that is cut have that of the piece, as does a sheet that is made of it.
+--- Store a number of the host, 0 at first. No tick depends on it, and the state hash does not. kiriFrame_DetachPiece
+--- copies the sheet's number to the new sheet. A piece has a number, too, named by any of its frames: the parts of a
+--- piece that is cut inherit it, and so does a sheet that is made of it.
 function Frame:getPieceUserData()
     local world = self.world
     local result = C.kiriFrame_GetPieceUserData(world.c, self.id, out.uint64_t)
@@ -1220,9 +1208,9 @@ function Frame:getPieceUserData()
     return data
 end
 
---- Where a ray first meets the sheet, up to maxDistance. KIRI_OK with hit->triangle = -1: nowhere. The first ray
---- looks at every triangle; the next tick makes boxes over them, and as long as somebody asks every now and then (in
---- 120 ticks) they follow the sheet: a ray takes some microseconds, and a tick of a large sheet a quarter more.
+--- Finds where a ray first meets the sheet, up to maxDistance. KIRI_OK with hit->triangle = -1: it does not. The
+--- first ray visits every triangle. From the next tick on boxes over the triangles follow the sheet, until 120 ticks
+--- pass without a ray: a ray takes some microseconds, and a tick of a large sheet a quarter more.
 function Sheet:raycast(origin, direction, maxDistance, hit)
     local world = self.world
     hit = hit or new.kiriHit()
@@ -1231,7 +1219,7 @@ function Sheet:raycast(origin, direction, maxDistance, hit)
     return hit
 end
 
---- The first sheet that a ray meets; *sheet is 0 where there is none.
+--- Finds the first sheet that a ray meets; *sheet is 0 where there is none.
 function World:raycast(origin, direction, maxDistance, hit)
     local world = self
     hit = hit or new.kiriHit()
@@ -1240,7 +1228,7 @@ function World:raycast(origin, direction, maxDistance, hit)
     return handle(world, out.Sheet[0], "Sheet"), hit
 end
 
---- Outside the sheet: KIRI_ERROR_ARGUMENT. On a cut, the lip that holds the point; either where both do.
+--- Gets the state of a point. KIRI_ERROR_ARGUMENT: it is outside the sheet. On a cut: on a lip that has the point.
 function Sheet:getPoint(restPoint, state)
     local world = self.world
     state = state or new.kiriPointStateView()
@@ -1250,9 +1238,9 @@ function Sheet:getPoint(restPoint, state)
     return state
 end
 
---- The shape functions at a rest point: up to `capacity` frames with their weights (sum 1) and, unless null,
---- gradients (2 floats a frame, 1/m). *count is how many there are, however many fit. Outside the sheet:
---- KIRI_ERROR_ARGUMENT; while work on a cut waits for its budget: KIRI_ERROR_STATE.
+--- Gets the shape functions at a rest point: up to `capacity` frames with their weights (sum 1) and, unless null,
+--- gradients (2 floats a frame, 1/m). *count is how many there are, also above capacity. KIRI_ERROR_ARGUMENT: it is
+--- outside the sheet. KIRI_ERROR_STATE: work on a cut is pending.
 function Sheet:getWeights(restPoint)
     local world = self.world
     local result = C.kiriSheet_GetWeights(world.c, self.id, vector(1, restPoint, 2), room.kiriFrame, room.float, room.float2, room.size, out.int32_t)
@@ -1261,8 +1249,8 @@ function Sheet:getWeights(restPoint)
     return list_of(world, room.kiriFrame, out.int32_t[0], "Frame"), list_of(world, room.float, out.int32_t[0], nil), list_of(world, room.float2, out.int32_t[0] * 2, nil)
 end
 
---- The first of these calls after a cut sorts the sheet by pieces, which may fail with KIRI_ERROR_MEMORY. An index
---- that is no piece's: KIRI_ERROR_ARGUMENT.
+--- Get a piece. The first of these calls after a cut sorts the sheet by pieces, and may fail with KIRI_ERROR_MEMORY.
+--- KIRI_ERROR_ARGUMENT: no piece has the index.
 function Sheet:getPiece(piece, state)
     local world = self.world
     state = state or new.kiriPieceState()
@@ -1271,8 +1259,8 @@ function Sheet:getPiece(piece, state)
     return state
 end
 
---- The first of these calls after a cut sorts the sheet by pieces, which may fail with KIRI_ERROR_MEMORY. An index
---- that is no piece's: KIRI_ERROR_ARGUMENT.
+--- Get a piece. The first of these calls after a cut sorts the sheet by pieces, and may fail with KIRI_ERROR_MEMORY.
+--- KIRI_ERROR_ARGUMENT: no piece has the index.
 function Sheet:getPieceMesh(piece, mesh)
     local world = self.world
     mesh = mesh or new.kiriPieceMeshView()
@@ -1282,7 +1270,7 @@ function Sheet:getPieceMesh(piece, mesh)
     return mesh
 end
 
---- *frames points to *count ids.
+--- Gets the frames of a piece: *frames points to *count ids.
 function Sheet:getPieceFrames(piece)
     local world = self.world
     local result = C.kiriSheet_GetPieceFrames(world.c, self.id, piece, out.kiriFrameRows, out.int32_t)
@@ -1290,7 +1278,7 @@ function Sheet:getPieceFrames(piece)
     return new.kiriFrameArray(out.kiriFrameRows[0], out.int32_t[0], 1, world.cell, now[world.cell])
 end
 
---- The index that the piece with this frame has now.
+--- Gets the current index of the piece with this frame.
 function Frame:getPiece()
     local world = self.world
     local result = C.kiriFrame_GetPiece(world.c, self.id, out.int32_t)
@@ -1299,26 +1287,13 @@ function Frame:getPiece()
     return piece
 end
 
---- Makes a sheet of the piece with this frame. Its frames, pins and collision points move along, in their order; they
---- keep their ids and states, and what waits for the next tick: the motion goes on as if nothing had happened, but
---- for the solver's guard over energy and step length, which is one for each sheet. A clamp or hinge that holds both
---- becomes two: the rest keeps the id, the new sheet's has one of its own (kiriSheet_GetPins). Both sheets have all
---- settings (of collisionPoints and integrationPoints the share that falls to their area), maxFrames each for itself;
---- a piece that sleeps goes on sleeping. Cuts stay with the rest: a blade in the piece cuts nothing until it is back.
---- Indices of collision points of the rest change. Its triangles and vertices keep their indices where it has more
---- than 4096 vertices, and while no more than half of them are of pieces that went: these triangles have three equal
---- corners, these vertices are of no triangle. Else all move together, and their indices change. In either case its
---- revision grows, and kiriSheet_GetDirty says what changed. The new sheet has the squares of the grid around it, at
---- about 40 bytes a square: crumbs are better dropped. Costs what the piece takes to make, and a look at the weights
---- of what is left; where indices change more. KIRI_PENDING: work on a cut is at hand in the sheet, or it takes more
---- samples than the budget leaves calls before the next tick; *detached is 0. When the work is done, what is the
---- piece of this frame then becomes a sheet, and KIRI_EVENT_PIECE_DETACHED names it. Samples pay for it before, over
---- several ticks if need be, of many pieces one after the other: of the first that waits 3 for each vertex, 2.5 to 9
---- for each cell (the more frames, the more) and 100 for each frame, of others 3 for each vertex and 1.4 for each
---- cell; and one for 80 vertices of the rest. Until then further cuts of the sheet wait. The first piece is made as
---- it is paid, and leaves at the start of the tick after the last sample is paid. That tick does an eighth of the
---- work; the first tick after a load makes the parts again that saves leave out. The coming ticks have fewer samples
---- for the work of calls. KIRI_ERROR_STATE: nothing would be left of the sheet.
+--- Makes a sheet of the piece with this frame. Frames, pins, collision points, pending loads and contacts move along,
+--- with their ids and states, and the motion goes on. Both sheets have all settings. Cuts stay with the old sheet. A
+--- clamp or hinge that holds both gets a copy with a new id in the new sheet. Revisions grow; kiriSheet_GetDirty has
+--- the changes. KIRI_PENDING: work on a cut is pending, or the piece takes more samples than the budget leaves;
+--- *detached is 0. Then samples of the coming ticks pay for it, and further cuts of the sheet wait. When all is paid
+--- the piece of this frame becomes a sheet, and KIRI_EVENT_PIECE_DETACHED names it. KIRI_ERROR_STATE: nothing would
+--- be left of the sheet. The manual has indices and costs (cutting).
 function Frame:detachPiece()
     local world = self.world
     local result = C.kiriFrame_DetachPiece(world.c, self.id, out.Sheet)
@@ -1326,11 +1301,9 @@ function Frame:detachPiece()
     return handle(world, out.Sheet[0], "Sheet")
 end
 
---- The same without keeping the piece: ids of its frames and pins are stale. Costs as much, but for making a sheet:
---- that is done at once, and the coming ticks have less. Where kiriSheet_GetMesh has been called since the last tick,
---- all indices are copied. KIRI_PENDING: work on a cut is at hand. The piece is gone all the same: its triangles are
---- in kiriMesh, with three equal corners; it touches nothing; no point of it is found. When the work is done its
---- vertices go, too; until then kiriCounts still counts it, and its kiriPieceState is all zeros.
+--- Removes the piece with this frame: ids of its frames and pins are stale. Takes effect at once, and the coming
+--- ticks have fewer samples. KIRI_PENDING: work on a cut is pending. Until it is done the triangles stay in kiriMesh
+--- with three equal corners, the vertices stay, and kiriCounts counts the piece, with a kiriPieceState of all zeros.
 function Frame:destroyPiece()
     local world = self.world
     local result = C.kiriFrame_DestroyPiece(world.c, self.id)
@@ -1338,9 +1311,9 @@ function Frame:destroyPiece()
     return result == 1
 end
 
---- The same for the pieces of so many frames, of any sheets, in one pass for each sheet; frames of one piece count
---- once. Where one is refused, none goes. KIRI_PENDING: some wait, those of one sheet together. detached[i] is the
---- sheet that the piece of frames[i] has become, 0 where it waits.
+--- Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet; frames of one piece
+--- count once. All are done or pending, or none if one is refused. KIRI_PENDING: some are pending, all in a sheet
+--- together. detached[i] is the sheet made of the piece of frames[i], 0 where it is pending.
 function World:detachPieces(frames, count)
     local world = self
     frames, count = ids_of(world, frames, count, "kiriFrame")
@@ -1350,9 +1323,9 @@ function World:detachPieces(frames, count)
     return list_of(world, detached, count, "Sheet", false)
 end
 
---- The same for the pieces of so many frames, of any sheets, in one pass for each sheet; frames of one piece count
---- once. Where one is refused, none goes. KIRI_PENDING: some wait, those of one sheet together. detached[i] is the
---- sheet that the piece of frames[i] has become, 0 where it waits.
+--- Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet; frames of one piece
+--- count once. All are done or pending, or none if one is refused. KIRI_PENDING: some are pending, all in a sheet
+--- together. detached[i] is the sheet made of the piece of frames[i], 0 where it is pending.
 function World:destroyPieces(frames, count)
     local world = self
     frames, count = ids_of(world, frames, count, "kiriFrame")
@@ -1361,8 +1334,8 @@ function World:destroyPieces(frames, count)
     return result == 1
 end
 
---- Destroys all pieces below an area (m^2) except the largest piece, at the cost of one. *count is how many. Where
---- that one waits to become a sheet, the largest of the others stays, too.
+--- Destroys all pieces below an area (m^2) except the largest piece, at the cost of one. *count is their number. If
+--- the largest piece is pending to become a sheet, the largest of the others stays, too.
 function Sheet:dropCrumbs(area)
     local world = self.world
     local result = C.kiriSheet_DropCrumbs(world.c, self.id, area, out.int32_t)
@@ -1371,8 +1344,8 @@ function Sheet:dropCrumbs(area)
     return count
 end
 
---- A cut is a polyline in the rest plane. Points may lie anywhere: what is outside the sheet cuts nothing. Points
---- wait until the next tick. The end of a cut that lies inside the sheet stays closed until the blade moves on.
+--- Begins a cut: a polyline in the rest plane. Outside the sheet it cuts nothing. Points take effect with the next
+--- tick or, by the budget, a later one. The end of a cut inside the sheet stays closed until the next point.
 function Sheet:beginCut(restPoint)
     local world = self.world
     local result = C.kiriBeginCut(world.c, self.id, vector(1, restPoint, 2), out.Cut)
@@ -1380,7 +1353,7 @@ function Sheet:beginCut(restPoint)
     return handle(world, out.Cut[0], "Cut")
 end
 
---- restPoints: 2 floats a point; count is 1 to 2^24.
+--- Adds points. restPoints: 2 floats a point; count is 1 to 2^24.
 function Cut:extend(restPoints, count)
     local world = self.world
     restPoints, count = rows_of(restPoints, count, "float", 2)
@@ -1389,8 +1362,8 @@ function Cut:extend(restPoints, count)
     return result == 1
 end
 
---- No more points come. After the tick in which the last of them takes effect the id is stale, and
---- KIRI_EVENT_CUT_FINISHED tells. Frames that the sheet needs after the cut are added then.
+--- Ends the cut. Its id is stale after the tick in which its last point takes effect (KIRI_EVENT_CUT_FINISHED). The
+--- sheet then adds the frames that it needs.
 function Cut:finish()
     local world = self.world
     local result = C.kiriCut_End(world.c, self.id)
@@ -1398,9 +1371,9 @@ function Cut:finish()
     return result == 1
 end
 
---- A blade (a straight edge) that moves in world space from blade[0]-blade[1] to blade[3]-blade[2] cuts where the
---- swept quadrilateral meets the sheet as it is now, past borders, so that it parts what it crosses. The cut is ended
---- already. Slices of a sheet that moves do not join from tick to tick: for that take a blade.
+--- Cuts where the quadrilateral swept by an edge in world space, from blade[0]-blade[1] to blade[3]-blade[2], meets
+--- the current sheet; past borders, so that it separates the parts that it crosses. The cut is already ended. Slices
+--- of a moving sheet do not join from tick to tick: use a blade for that.
 function Sheet:slice(blade)
     local world = self.world
     local result = C.kiriSheet_Slice(world.c, self.id, vector(1, blade, 12), out.Cut)
@@ -1452,7 +1425,7 @@ function Sheet:getFrames()
     return list_of(world, room.kiriFrame, out.int32_t[0], "Frame")
 end
 
---- Pose, motion and region as they are now.
+--- Gets the current state.
 function Frame:getState(state)
     local world = self.world
     state = state or new.kiriFrameState()
@@ -1461,10 +1434,10 @@ function Frame:getState(state)
     return state
 end
 
---- The host moves the frame: its rest point, as it is seen, goes to `position` with `rotation` (a rotation matrix,
---- columns as above) in the next tick, evenly, and stays there until the next call. An affine frame is not stretched
---- then. On a planar sheet the rotation is about its normal. Null, null: it is free again. Contacts do not push
---- material that held frames carry for more than half: it goes where the host has it, through obstacles too.
+--- Holds the frame: its rest point on the visible surface moves evenly to `position` (m, world) with `rotation` (a
+--- rotation matrix, columns as above) in the next tick, and stays there until the next call. A held affine frame is
+--- not stretched. On a planar sheet the rotation is about its normal. Null, null: frees it. Contacts do not push
+--- material of which held frames carry more than half: it moves through obstacles.
 function Frame:hold(position, rotation)
     local world = self.world
     local result = C.kiriFrame_Hold(world.c, self.id, position and vector(1, position, 3), rotation and vector(2, rotation, 9))
@@ -1472,9 +1445,9 @@ function Frame:hold(position, rotation)
     return result == 1
 end
 
---- With what the host's hold acted on the sheet: force (N, world) and torque (N m) about the frame's rest point;
---- means over the last tick, impulses divided by its dt. They carry the frame's own weight and change its momentum,
---- too. Zero for a frame that was free. A piece that sleeps keeps those that it fell asleep with.
+--- Gets the force (N, world) and torque (N m, about the frame's rest point) that the hold applied to the sheet: means
+--- over the last tick, impulses divided by its dt. They include the frame's own weight and change of momentum. Zero
+--- for a free frame. A sleeping piece keeps the values with which it fell asleep.
 function Frame:getReaction(force, torque)
     local world = self.world
     force = force or ffi.new("double[?]", 3)
@@ -1484,7 +1457,7 @@ function Frame:getReaction(force, torque)
     return force, torque
 end
 
---- A force (N, world) on the frame's centre of mass and a torque (N m).
+--- Applies a force (N, world) at the frame's centre of mass and a torque (N m).
 function Frame:applyForce(force, torque)
     local world = self.world
     local result = C.kiriFrame_ApplyForce(world.c, self.id, vector(1, force, 3), vector(2, torque, 3))
@@ -1492,7 +1465,7 @@ function Frame:applyForce(force, torque)
     return result == 1
 end
 
---- A force (N, world) on a point of the material and a torque (N m).
+--- Applies a force (N, world) at a point of the material and a torque (N m).
 function Sheet:applyForce(restPoint, force, torque)
     local world = self.world
     local result = C.kiriSheet_ApplyForce(world.c, self.id, vector(1, restPoint, 2), vector(2, force, 3), vector(3, torque, 3))
@@ -1500,9 +1473,8 @@ function Sheet:applyForce(restPoint, force, torque)
     return result == 1
 end
 
---- A force (N, world) on each metre of a straight line of the rest plane, as far as it lies in the material, edges
---- included. Where it runs along a cut, each lip gets half. The ends differ; a line that meets no material:
---- KIRI_ERROR_ARGUMENT.
+--- Applies a force (N/m, world) along a straight line of the rest plane where it lies in the material, edges
+--- included. Along a cut each lip gets half. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no material.
 function Sheet:applyLineLoad(from, to, forcePerLength)
     local world = self.world
     local result = C.kiriSheet_ApplyLineLoad(world.c, self.id, vector(1, from, 2), vector(2, to, 2), vector(3, forcePerLength, 3))
@@ -1510,7 +1482,7 @@ function Sheet:applyLineLoad(from, to, forcePerLength)
     return result == 1
 end
 
---- A pressure (Pa) that pushes the whole sheet along its normal, or against it where below 0.
+--- Applies a pressure (Pa) to the whole sheet along its normal; below 0: against it.
 function Sheet:applyPressure(pressure)
     local world = self.world
     local result = C.kiriSheet_ApplyPressure(world.c, self.id, pressure)
@@ -1518,8 +1490,9 @@ function Sheet:applyPressure(pressure)
     return result == 1
 end
 
---- An impulse (N s, world) on a point of the material, where it is seen now. Velocities change at once, by as much as
---- the frames that carry the point resist; a held frame's part is lost. Outside the sheet: KIRI_ERROR_ARGUMENT.
+--- Applies an impulse (N s, world) at a point of the material on the visible surface. Velocities change at once, by
+--- the mass of the frames that carry the point; a held frame's share is lost. KIRI_ERROR_ARGUMENT: it is outside the
+--- sheet.
 function Sheet:applyImpulse(restPoint, impulse)
     local world = self.world
     local result = C.kiriSheet_ApplyImpulse(world.c, self.id, vector(1, restPoint, 2), vector(2, impulse, 3))
@@ -1527,7 +1500,7 @@ function Sheet:applyImpulse(restPoint, impulse)
     return result == 1
 end
 
---- Copied; it blows until the next call.
+--- Copies the wind; it blows until the next call.
 function Sheet:setWind(wind)
     local world = self.world
     local result = C.kiriSheet_SetWind(world.c, self.id, struct_of(world, wind, "kiriWind"))
@@ -1542,7 +1515,7 @@ function kiri.defaultPinDef(def)
     return def
 end
 
---- Pins a point of the sheet. On failure *pin is 0. A point outside the sheet: KIRI_ERROR_ARGUMENT.
+--- Pins a point of the sheet. On failure *pin is 0. KIRI_ERROR_ARGUMENT: it is outside the sheet.
 function Sheet:createPin(def)
     local world = self.world
     local result = C.kiriCreatePin(world.c, self.id, struct_of(world, def, "kiriPinDef"), out.Pin)
@@ -1550,15 +1523,13 @@ function Sheet:createPin(def)
     return handle(world, out.Pin[0], "Pin")
 end
 
---- Pins along a straight line of the rest plane, an edge of the sheet or any other. A clamp holds place and direction
---- of the material there, as a vice does; a hinge its place only, so that the sheet may turn about the line. Both
---- begin where the material is now; the line stays straight, and as long as it is at rest: so material that is bent
---- there is pulled straight, and pieces that have come apart are pulled together, however fast that makes them.
---- They hold what the line meets, edges included, with the stiffness that the material has between the line and the
---- frames that it meets. So a clamp along an edge is where the drawing has it, whatever the number of frames, where
---- kiriFrame_Hold clamps at a frame's site. A clamp through the sheet parts what is on its two sides, so that neither
---- bends the other. A line that runs along a cut holds both lips; one beside it, by a 512th of a square of the grid
---- or more, holds one. The ends differ; a line that meets no material: KIRI_ERROR_ARGUMENT.
+--- Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds the place and
+--- direction of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The line
+--- is straight, with its rest length: bent material is pulled straight, and separate pieces are pulled together, at
+--- any speed. Both hold the material on the line, edges included, with its stiffness from the line to the frames
+--- around it. A clamp through the sheet separates the bending of its two sides. A line along a cut holds both lips; a
+--- line beside it, by a 512th of a grid square or more, holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line
+--- meets no material.
 function Sheet:clampLine(from, to)
     local world = self.world
     local result = C.kiriSheet_ClampLine(world.c, self.id, vector(1, from, 2), vector(2, to, 2), out.Pin)
@@ -1566,15 +1537,13 @@ function Sheet:clampLine(from, to)
     return handle(world, out.Pin[0], "Pin")
 end
 
---- Pins along a straight line of the rest plane, an edge of the sheet or any other. A clamp holds place and direction
---- of the material there, as a vice does; a hinge its place only, so that the sheet may turn about the line. Both
---- begin where the material is now; the line stays straight, and as long as it is at rest: so material that is bent
---- there is pulled straight, and pieces that have come apart are pulled together, however fast that makes them.
---- They hold what the line meets, edges included, with the stiffness that the material has between the line and the
---- frames that it meets. So a clamp along an edge is where the drawing has it, whatever the number of frames, where
---- kiriFrame_Hold clamps at a frame's site. A clamp through the sheet parts what is on its two sides, so that neither
---- bends the other. A line that runs along a cut holds both lips; one beside it, by a 512th of a square of the grid
---- or more, holds one. The ends differ; a line that meets no material: KIRI_ERROR_ARGUMENT.
+--- Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds the place and
+--- direction of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The line
+--- is straight, with its rest length: bent material is pulled straight, and separate pieces are pulled together, at
+--- any speed. Both hold the material on the line, edges included, with its stiffness from the line to the frames
+--- around it. A clamp through the sheet separates the bending of its two sides. A line along a cut holds both lips; a
+--- line beside it, by a 512th of a grid square or more, holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line
+--- meets no material.
 function Sheet:hingeLine(from, to)
     local world = self.world
     local result = C.kiriSheet_HingeLine(world.c, self.id, vector(1, from, 2), vector(2, to, 2), out.Pin)
@@ -1582,10 +1551,10 @@ function Sheet:hingeLine(from, to)
     return handle(world, out.Pin[0], "Pin")
 end
 
---- Where the pin holds its point, or the middle of its line (m, world): at the end of the next tick, and until the
---- next call. Within the tick it goes there evenly. The current target of kiriPin_GetState changes nothing. With
---- KIRI_SKINNING_SMOOTH what pins and clamps hold is what is seen there; of a clamp the mean along its line, for each
---- piece: single points of the line are seen a little off it.
+--- Sets the target of the pin's point, or of the middle of its line (m, world), for the end of the next tick and
+--- until the next call. The pin moves there evenly within the tick. The current target of kiriPin_GetState changes
+--- nothing. With KIRI_SKINNING_SMOOTH pins and clamps hold the visible surface; a clamp holds its mean along the line
+--- for each piece, so single points are slightly off the line.
 function Pin:setTarget(target)
     local world = self.world
     local result = C.kiriPin_SetTarget(world.c, self.id, vector(1, target, 3))
@@ -1593,8 +1562,8 @@ function Pin:setTarget(target)
     return result == 1
 end
 
---- The same with the rotation of the line's material: columns are the directions of u and v and the normal. On a
---- planar sheet it is about the sheet's normal. KIRI_ERROR_ARGUMENT for a pin that holds a point.
+--- Sets the target and the rotation of the line's material: columns are the directions of u and v and the normal. On
+--- a planar sheet it is about the sheet's normal. KIRI_ERROR_ARGUMENT: the pin holds a point.
 function Pin:setPose(target, rotation)
     local world = self.world
     local result = C.kiriPin_SetPose(world.c, self.id, vector(1, target, 3), vector(2, rotation, 9))
@@ -1602,7 +1571,7 @@ function Pin:setPose(target, rotation)
     return result == 1
 end
 
---- As in the def, for pins of all types; N, 0: it never breaks.
+--- Sets the force (N) that breaks a pin of any type; 0: it never breaks.
 function Pin:setBreakForce(breakForce)
     local world = self.world
     local result = C.kiriPin_SetBreakForce(world.c, self.id, breakForce)
@@ -1610,7 +1579,7 @@ function Pin:setBreakForce(breakForce)
     return result == 1
 end
 
---- What it is, and where it holds now.
+--- Gets the current state.
 function Pin:getState(state)
     local world = self.world
     state = state or new.kiriPinStateView()
@@ -1620,10 +1589,10 @@ function Pin:getState(state)
     return state
 end
 
---- With what the pin acted on the sheet: force (N, world) and torque (N m) about its target; means over the last
---- tick, impulses divided by its dt. So the reactions of all pins and held frames are the weight of a sheet at rest,
---- and in motion what changes its momentum (as far as `iterations` have the tick solved). Zero before the first tick.
---- A piece that sleeps keeps those that it fell asleep with.
+--- Gets the force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over the
+--- last tick, impulses divided by its dt. The reactions of all pins and held frames are the weight of a sheet at
+--- rest, and change its momentum in motion (as far as `iterations` solve the tick). Zero before the first tick. A
+--- sleeping piece keeps the values with which it fell asleep.
 function Pin:getReaction(force, torque)
     local world = self.world
     force = force or ffi.new("double[?]", 3)
@@ -1642,7 +1611,7 @@ function Sheet:getPins()
     return list_of(world, room.kiriPin, out.int32_t[0], "Pin")
 end
 
---- It lets go; its id is stale.
+--- Destroys the pin; its id is stale.
 function Pin:destroy()
     local world = self.world
     local result = C.kiriDestroyPin(world.c, self.id)
@@ -1650,8 +1619,8 @@ function Pin:destroy()
     return result == 1
 end
 
---- The contacts of the next tick; they replace those of an earlier call, and are gone after the tick. A contact is
---- known again by its point, or its rest point, and its obstacle: what it pushed with is where the next tick starts.
+--- Sets the contacts of the next tick; they replace those set before, and end with the tick. A contact with the
+--- point, or rest point, and obstacle of an earlier one starts with the earlier impulse.
 function Sheet:setContacts(contacts, count)
     local world = self.world
     contacts, count = rows_of(contacts, count, "kiriContact", 1)
@@ -1660,9 +1629,9 @@ function Sheet:setContacts(contacts, count)
     return result == 1
 end
 
---- One for each contact that was set before the last tick, in the order given. The sum of the impulses, with those of
---- gravity, loads and obstacles, is the change of momentum of a piece that nothing holds. A piece that sleeps goes on
---- to press with what it fell asleep with.
+--- Gets one result for each contact that was set before the last tick, in that order. The sum of these impulses and
+--- of the impulses of gravity, loads and obstacles is the change of momentum of a free piece. A sleeping piece goes
+--- on to press with the values with which it fell asleep.
 function Sheet:getContactForces()
     local world = self.world
     local result = C.kiriSheet_GetContactForces(world.c, self.id, out.kiriContactForceRows, out.int32_t)
@@ -1685,7 +1654,7 @@ function World:createObstacle(def)
     return handle(world, out.Obstacle[0], "Obstacle")
 end
 
---- It is gone, its id stale. What rested on it wakes.
+--- Destroys an obstacle; its id is stale. Pieces that rested on it wake.
 function Obstacle:destroy()
     local world = self.world
     local result = C.kiriDestroyObstacle(world.c, self.id)
@@ -1693,8 +1662,7 @@ function Obstacle:destroy()
     return result == 1
 end
 
---- Where it is when the next tick starts. It did not move there: velocities alone say what sheets feel. rotation: a
---- rotation matrix, columns as in the def.
+--- Teleports the obstacle (m, world). Sheets react to its velocity (kiriObstacle_SetVelocity), not to the jump.
 function Obstacle:setPose(position, rotation)
     local world = self.world
     local result = C.kiriObstacle_SetPose(world.c, self.id, vector(1, position, 3), vector(2, rotation, 9))
@@ -1702,7 +1670,7 @@ function Obstacle:setPose(position, rotation)
     return result == 1
 end
 
---- With what it moves in the next tick and from then on.
+--- Set the velocity (m/s, rad/s) for the next and all later ticks.
 function Obstacle:setVelocity(velocity, angularVelocity)
     local world = self.world
     local result = C.kiriObstacle_SetVelocity(world.c, self.id, vector(1, velocity, 3), vector(2, angularVelocity, 3))
@@ -1710,7 +1678,7 @@ function Obstacle:setVelocity(velocity, angularVelocity)
     return result == 1
 end
 
---- With what it moves in the next tick and from then on.
+--- Set the velocity (m/s, rad/s) for the next and all later ticks.
 function Obstacle:setSurfaceVelocity(velocity)
     local world = self.world
     local result = C.kiriObstacle_SetSurfaceVelocity(world.c, self.id, vector(1, velocity, 3))
@@ -1718,7 +1686,7 @@ function Obstacle:setSurfaceVelocity(velocity)
     return result == 1
 end
 
---- As in the def.
+--- Sets mass (kg), inertia and centre of mass, as in the def.
 function Obstacle:setMass(mass, inertia, centerOfMass)
     local world = self.world
     local result = C.kiriObstacle_SetMass(world.c, self.id, mass, vector(1, inertia, 6), vector(2, centerOfMass, 3))
@@ -1726,7 +1694,7 @@ function Obstacle:setMass(mass, inertia, centerOfMass)
     return result == 1
 end
 
---- Pose and velocities as they are now.
+--- Gets the current state.
 function Obstacle:getState(state)
     local world = self.world
     state = state or new.kiriObstacleState()
@@ -1735,9 +1703,9 @@ function Obstacle:getState(state)
     return state
 end
 
---- The box (m, world) that holds all that the sheet may touch in a tick of dt: a host needs no obstacles or contacts
---- outside. It reaches as far around the sheet as its fastest point can go by its velocity and gravity, twice, and
---- the contact thickness. Obstacles that move themselves come as much nearer. dt as in kiriWorld_Tick.
+--- Gets a box (m, world) around all that the sheet can touch in a tick of dt (s, as in kiriWorld_Tick): a host needs
+--- no obstacles or contacts outside. Its margin is twice the way of the fastest point by velocity and gravity, plus
+--- the contact thickness. For moving obstacles add their own way.
 function Sheet:getReach(dt, lower, upper)
     local world = self.world
     lower = lower or ffi.new("float[?]", 3)

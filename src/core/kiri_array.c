@@ -19,9 +19,9 @@ void kiriArray_SetHeader(void* array, kiriArrayHeader header)
 static int64_t NextCapacity(int64_t capacity, int64_t need)
 {
     int64_t next = 2 * capacity, least = need + need / 8;
-    next = next < least ? least : next;
-    next = next < 8 ? 8 : next;
-    return next > INT32_MAX ? INT32_MAX : next;
+    next = kiriMax(least, next);
+    next = kiriMax(8, next);
+    return kiriMin(INT32_MAX, next);
 }
 
 /* Another block, of so many items, for what is there. */
@@ -83,7 +83,7 @@ kiriProgress kiriArray_Fill(const kiriRoom* room, kiriQuota* quota, int64_t byte
     kiriArrayHeader header = kiriArray_GetHeader(room->array);
     int64_t most = bytesAnItem / (int64_t)room->itemBytes;
     while (header.count < room->need) {
-        int64_t items = room->need - header.count < most ? room->need - header.count : most;
+        int64_t items = kiriMin(room->need - header.count, most);
         if (!kiriQuota_Take(quota, 1)) {
             return KIRI_MORE;
         }
@@ -132,7 +132,7 @@ static kiriProgress GrowRoom(kiriGrowing* growing, const kiriRoom* room, kiriQuo
         return KIRI_FAILED;
     }
     while (growing->moved < size) {
-        int64_t bytes = size - growing->moved < atOnce ? size - growing->moved : atOnce;
+        int64_t bytes = kiriMin(size - growing->moved, atOnce);
         if (!kiriQuota_Pay(quota, &growing->owed)) {
             return KIRI_MORE;
         }

@@ -91,9 +91,6 @@ kiriProgress kiriRooms_MakeReady(const kiriRoom* rooms, int32_t count, kiriQuota
 #define kiriArray_ReserveJust(memory, array, need)                                                                     \
     ((int64_t)(need) <= (array)->capacity || kiriArray_GrowTo((memory), (array), (need), sizeof(*(array)->data)))
 
-#define kiriArray_ReserveReady(memory, array, need)                                                                    \
-    ((int64_t)(need) <= (array)->capacity || kiriArray_GrowReady((memory), (array), (need), sizeof(*(array)->data)))
-
 /* Room for `size` items, and the count set to it; new items are not initialised. */
 #define kiriArray_Resize(memory, array, size)                                                                          \
     (kiriArray_Reserve(memory, array, size) ? ((array)->count = (int32_t)(size), true) : false)

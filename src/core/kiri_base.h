@@ -28,6 +28,30 @@ KIRI_C_BEGIN
 
 enum { KIRI_NONE = -1 };
 
+/* ---- Numbers ---- */
+
+/* Numbers of any type. The first argument is returned if it is less (greater), else the second one, also for NaN.
+   Arguments are evaluated twice. */
+#define kiriMin(a, b) ((a) < (b) ? (a) : (b))
+#define kiriMax(a, b) ((a) > (b) ? (a) : (b))
+#define kiriClamp(x, low, high) ((x) < (low) ? (low) : (x) > (high) ? (high) : (x))
+
+/* Binary search: sets `at` to the first index from `first` to `end` for which isBelow is false, or to `end`. isBelow is
+   an expression of the index `middle`; it is true for the items up to some index, and false from there on. */
+#define KIRI_SEARCH(at, first, end, isBelow)                                                                           \
+    do {                                                                                                               \
+        int32_t stop = (end);                                                                                          \
+        (at) = (first);                                                                                                \
+        while ((at) < stop) {                                                                                          \
+            int32_t middle = (at) + (stop - (at)) / 2;                                                                 \
+            if (isBelow) {                                                                                             \
+                (at) = middle + 1;                                                                                     \
+            } else {                                                                                                   \
+                stop = middle;                                                                                         \
+            }                                                                                                          \
+        }                                                                                                              \
+    } while (0)
+
 /* ---- Assertions ---- */
 
 /* Checked where KIRI_ASSERTS is defined, as `make config=debug` and `config=sanitize` do; elsewhere they cost nothing.
@@ -154,7 +178,7 @@ static inline bool kiriQuota_Take(kiriQuota* quota, int64_t items)
     if (items > quota->left && kiriQuota_IsBegun(quota)) {
         return false;
     }
-    quota->left -= items < quota->left ? items : quota->left;
+    quota->left -= kiriMin(items, quota->left);
     quota->used += items;
     return true;
 }
@@ -162,7 +186,7 @@ static inline bool kiriQuota_Take(kiriQuota* quota, int64_t items)
 /* The same, where what is larger than the whole quota counts as all of it. */
 static inline bool kiriQuota_TakeAtMostAll(kiriQuota* quota, int64_t items)
 {
-    int64_t counted = items < quota->left ? items : quota->left;
+    int64_t counted = kiriMin(items, quota->left);
     if (items > counted && kiriQuota_IsBegun(quota)) {
         return false;
     }
@@ -180,7 +204,7 @@ static inline bool kiriQuota_IsSpent(const kiriQuota* quota)
    depends on what it was given in all, not on the parts. Unlike kiriQuota_Take it never exceeds a limit. */
 static inline bool kiriQuota_Pay(kiriQuota* quota, int64_t* owed)
 {
-    int64_t items = *owed < quota->left ? *owed : quota->left;
+    int64_t items = kiriMin(*owed, quota->left);
     quota->left -= items;
     quota->used += items;
     *owed -= items;

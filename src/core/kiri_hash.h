@@ -11,10 +11,7 @@ KIRI_C_BEGIN
 
 #define KIRI_HASH_START UINT64_C(14695981039346656037)
 
-/* FNV-1a (Fowler, Noll, Vo), byte by byte. */
-void kiriHash_Bytes(uint64_t* hash, const void* data, size_t bytes);
-
-/* A whole number as if it were one byte of FNV-1a, for lists of indices. */
+/* Adds a whole number as one byte of FNV-1a (Fowler, Noll, Vo), for lists of indices. */
 static inline void kiriHash_Word(uint64_t* hash, uint64_t value)
 {
     *hash = (*hash ^ value) * UINT64_C(1099511628211);

@@ -10,7 +10,7 @@ void kiriTasks_Run(const kiriTasks* tasks, kiriTaskFn* task, int32_t count, int3
         return;
     }
     int32_t even = count / tasks->workers / RANGES_A_WORKER;
-    void* handle = tasks->start(tasks->user, task, count, even > least ? even : least, context);
+    void* handle = tasks->start(tasks->user, task, count, kiriMax(even, least), context);
     if (handle != NULL) {
         tasks->finish(tasks->user, handle);
     }

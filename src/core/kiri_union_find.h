@@ -29,7 +29,7 @@ static inline int32_t kiriUnion_Root(int32_t* parent, int32_t i)
 static inline void kiriUnion_Join(int32_t* parent, int32_t i, int32_t j)
 {
     int32_t a = kiriUnion_Root(parent, i), b = kiriUnion_Root(parent, j);
-    parent[a < b ? b : a] = a < b ? a : b;
+    parent[kiriMax(b, a)] = kiriMin(a, b);
 }
 
 KIRI_C_END

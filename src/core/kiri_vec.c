@@ -4,7 +4,7 @@ double kiriVec2_DistanceToWay(kiriVec2 p, kiriVec2 a, kiriVec2 b)
 {
     kiriVec2 way = kiriVec2_Sub(b, a), to = kiriVec2_Sub(p, a);
     double square = kiriVec2_Dot(way, way), t = square > 0.0 ? kiriVec2_Dot(to, way) / square : 0.0;
-    t = t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t;
+    t = kiriClamp(t, 0.0, 1.0);
     return kiriVec2_Length(kiriVec2_Sub(to, kiriVec2_Scale(t, way)));
 }
 
@@ -128,7 +128,7 @@ kiriMoments kiriMoments_About(const kiriMoments* m, kiriVec2 o)
     r.uu = m->uu - 2.0 * o.x * m->u + o.x * o.x * m->area;
     r.uv = m->uv - o.x * m->v - o.y * m->u + o.x * o.y * m->area;
     r.vv = m->vv - 2.0 * o.y * m->v + o.y * o.y * m->area;
-    r.uu = r.uu > 0.0 ? r.uu : 0.0;
-    r.vv = r.vv > 0.0 ? r.vv : 0.0;
+    r.uu = kiriMax(r.uu, 0.0);
+    r.vv = kiriMax(r.vv, 0.0);
     return r;
 }

@@ -26,6 +26,7 @@ static void TakeFromBorder(kiriBorderCells* lists, const kiriBorderCell* at)
 
 void kiriBorderCells_Put(kiriBorderCells* lists, int32_t cell, int32_t region)
 {
+    KIRI_ASSERT(cell >= 0 && cell < lists->cells.count);
     kiriBorderCell* at = &lists->cells.data[cell];
     if (at->region == region) {
         return;

@@ -5,13 +5,9 @@
 /* SetSteps compares bytes. */
 typedef char StepHasNoPadding[sizeof(kiriStep) == 8 ? 1 : -1];
 
-static int32_t LargerOf(int32_t a, int32_t b)
-{
-    return a > b ? a : b;
-}
-
 /* Steps touch the squares up to two rows away, in row v so many on each side of the column. */
 enum { STEP_ROWS = 2 };
+
 static int32_t StepColumns(int32_t v)
 {
     return v == -STEP_ROWS || v == STEP_ROWS ? 1 : STEP_ROWS;
@@ -41,20 +37,16 @@ static bool IsWholeAround(const kiriGrid* grid, const kiriSquares* squares, int3
 /* At least for as many as most cells have, so that most runs never move. */
 static int32_t RoomFor(int32_t count)
 {
-    return count == 0 ? 0 : LargerOf(count, KIRI_OPEN_STEPS);
-}
-
-/* That are stored. */
-static int32_t CountSteps(const kiriStepRun* run)
-{
-    return kiriStepRun_IsOpen(run) ? 0 : run->end[KIRI_STEP_LENGTHS - 1] - run->first;
+    return count == 0 ? 0 : kiriMax(count, KIRI_OPEN_STEPS);
 }
 
 /* Room for so many steps; false for memory. */
 static bool SetStepCount(kiriGrid* grid, kiriMemory* memory, int32_t c, int32_t count)
 {
+    KIRI_ASSERT(c >= 0 && c < grid->runs.count);
     kiriStepRun* run = &grid->runs.data[c];
-    kiriSpan span = { kiriStepRun_IsOpen(run) ? 0 : run->first, RoomFor(CountSteps(run)) };
+    bool isOpen = kiriStepRun_IsOpen(run);
+    kiriSpan span = { isOpen ? 0 : run->first, RoomFor(isOpen ? 0 : run->end[KIRI_STEP_LENGTHS - 1] - run->first) };
     bool ok = kiriSpan_Resize(&span, &grid->stepRoom, memory, &grid->steps, sizeof(kiriStep), RoomFor(count));
     run->first = span.first;
     run->end[0] = run->end[1] = run->end[2] = span.first + count;
@@ -103,6 +95,7 @@ static bool SetSteps(kiriGrid* grid, kiriMemory* memory, int32_t c, int32_t stra
 
 static bool MarkStepsDirty(kiriGrid* grid, kiriMemory* memory, int32_t square)
 {
+    KIRI_ASSERT(square >= 0 && square < grid->squareCell.count);
     if (kiriGridWork_IsFlagged(grid->work, square, KIRI_SQUARE_STEPS_DIRTY)) {
         return true;
     }
@@ -120,9 +113,9 @@ kiriProgress kiriGrid_SpreadDirty(kiriGrid* grid, const kiriMeshData* mesh, int3
     (void)quota;
     const kiriSquares* squares = &mesh->squares;
     int32_t square = work->linksDirty.data[item], column = square % squares->columns, row = square / squares->columns;
-    for (int32_t v = LargerOf(-STEP_ROWS, -row); v <= STEP_ROWS && row + v < squares->rows; ++v) {
+    for (int32_t v = kiriMax(-STEP_ROWS, -row); v <= STEP_ROWS && row + v < squares->rows; ++v) {
         int32_t reach = StepColumns(v);
-        for (int32_t u = LargerOf(-reach, -column); u <= reach && column + u < squares->columns; ++u) {
+        for (int32_t u = kiriMax(-reach, -column); u <= reach && column + u < squares->columns; ++u) {
             if (!MarkStepsDirty(grid, mesh->memory, square + v * squares->columns + u)) {
                 return KIRI_FAILED;
             }
@@ -170,6 +163,7 @@ void kiriGrid_StartSteps(kiriGrid* grid, const kiriMeshData* mesh)
 /* Puts the steps of an open cell into `work`. */
 static bool ListOpenSteps(kiriGrid* grid, kiriMemory* memory, int32_t c)
 {
+    KIRI_ASSERT(c >= 0 && c < grid->cells.count);
     int32_t square = grid->cells.data[c].square;
     grid->work->steps.count = 0;
     for (int k = 0; k < KIRI_OPEN_STEPS; ++k) {
@@ -187,6 +181,7 @@ static bool ListOpenSteps(kiriGrid* grid, kiriMemory* memory, int32_t c)
    cell. */
 static bool MakeOpenSteps(kiriGrid* grid, kiriMemory* memory, int32_t c)
 {
+    KIRI_ASSERT(c >= 0 && c < grid->runs.count);
     if (kiriStepRun_IsOpen(&grid->runs.data[c])) {
         return true;
     }
@@ -251,6 +246,7 @@ static int32_t NewMark(kiriGridWork* work)
 
 static bool AddStraightSteps(kiriGrid* grid, kiriMemory* memory, int32_t c)
 {
+    KIRI_ASSERT(c >= 0 && c < grid->cells.count);
     for (int32_t f = grid->cells.data[c].firstFace; f != KIRI_NONE; f = kiriFace_Next(&grid->faces.data[f], c)) {
         if (!AddStep(grid, memory, Straight(&grid->faces.data[f], c))) {
             return false;
@@ -318,12 +314,6 @@ kiriProgress kiriGrid_MakeNearSteps(kiriGrid* grid, const kiriMeshData* mesh, in
                : KIRI_FAILED;
 }
 
-/* Does a diagonal step after a straight one lead on, not back? */
-static bool IsKnightMove(kiriStep straight, kiriStep diagonal)
-{
-    return straight.u == diagonal.u || straight.v == diagonal.v;
-}
-
 /* Marks the cells reached straight, then diagonally. */
 static void MarkKnightSteps(kiriGrid* grid, const kiriSteps* steps, int32_t mark)
 {
@@ -332,7 +322,7 @@ static void MarkKnightSteps(kiriGrid* grid, const kiriSteps* steps, int32_t mark
         kiriGrid_GetStepsTo(grid, steps->data[i].cell, 2, &on);
         grid->work->due += on.end[1] - on.end[0];
         for (int32_t j = on.end[0]; j < on.end[1]; ++j) {
-            if (IsKnightMove(steps->data[i], on.data[j])) {
+            if (steps->data[i].u == on.data[j].u || steps->data[i].v == on.data[j].v) {
                 grid->work->mark.data[on.data[j].cell] = mark;
             }
         }
@@ -361,6 +351,7 @@ static bool AddKnightSteps(kiriGrid* grid, kiriMemory* memory, const kiriSteps* 
 
 kiriProgress kiriGrid_MakeKnightSteps(kiriGrid* grid, const kiriMeshData* mesh, int32_t item, kiriQuota* quota)
 {
+    KIRI_ASSERT(item >= 0 && item < grid->work->knightsDirty.count);
     (void)quota;
     kiriMemory* memory = mesh->memory;
     int32_t c = grid->work->knightsDirty.data[item];

@@ -1,4 +1,4 @@
-/* What the files of the grid share: the update at hand. Private to kiri_grid*.c. */
+/* The update that kiri_grid.c and kiri_grid_steps.c work on. Private to them, and to saves. */
 #ifndef KIRI_GRID_WORK_H
 #define KIRI_GRID_WORK_H
 
@@ -95,12 +95,6 @@ struct kiriGridWork {
 /* KIRI_MORE: the quota is spent amid the item, which is to be gone on with. Work is done first and paid for then. */
 typedef kiriProgress kiriGridStageFn(kiriGrid* grid, const kiriMeshData* mesh, int32_t item, kiriQuota* quota);
 
-/* The cells of a square that has changed. */
-kiriGridStageFn kiriGrid_MakeCells;
-
-/* The faces on all sides of a square with new cells. */
-kiriGridStageFn kiriGrid_MakeFaces;
-
 /* Finds the cells from which a step may touch a square where a face came or went. */
 kiriGridStageFn kiriGrid_SpreadDirty;
 
@@ -118,21 +112,15 @@ static inline bool kiriGridWork_IsFlagged(const kiriGridWork* work, int32_t squa
 
 bool kiriGridWork_Flag(kiriGridWork* work, kiriMemory* memory, int32_t square, int flag);
 
-/* Puts the square in the list of a flag, once an update. */
-bool kiriGridWork_AddOnce(kiriGridWork* work, kiriMemory* memory, int32_t square, int flag, kiriIndices* list);
-
-/* Takes from the quota what is due, or what it has of it; false where some is still due. */
+/* Takes the due work from the quota, as far as that goes; false if some is still due. */
 bool kiriGridWork_Pay(kiriGridWork* work, kiriQuota* quota);
 
-/* So much has been done of what may be long. False: pause. */
+/* Adds work that may be long. False: pause. */
 static inline bool kiriGridWork_Spend(kiriGridWork* work, kiriQuota* quota, int32_t cost)
 {
     work->due += cost;
     return work->due < KIRI_GRID_PAYS_AT || kiriGridWork_Pay(work, quota);
 }
-
-/* Gets a square's triangles, sorted, into `entries`: where they must be known one by one. */
-kiriProgress kiriGridWork_Collect(kiriGridWork* work, const kiriMeshData* mesh, int32_t square, kiriQuota* quota);
 
 static inline int32_t kiriGridWork_TriangleAt(const kiriGridWork* work, const kiriMeshData* mesh, int32_t entry)
 {
@@ -143,23 +131,10 @@ static inline int32_t kiriGridWork_TriangleAt(const kiriGridWork* work, const ki
 /* The cell's steps, or one of its faces, are no more what they were. */
 bool kiriGrid_RecordSteps(kiriGrid* grid, kiriMemory* memory, int32_t cell);
 
-/* The face between two cells comes or goes. */
-bool kiriGrid_RecordLink(kiriGrid* grid, kiriMemory* memory, int32_t a, int32_t b);
-
-/* What the cell of a whole square covers. */
-kiriMoments kiriGrid_MaterialOfWhole(const kiriGrid* grid, const kiriMeshData* mesh, int32_t square);
-
 /* The cell, or the face, gets a material, or a stretch, of its own, which means nothing yet; null for memory. One that
    has its own keeps it. Pointers to others do not stay. */
 kiriMoments* kiriGrid_OwnMaterial(kiriGrid* grid, kiriMemory* memory, int32_t cell);
 kiriStretch* kiriGrid_OwnStretch(kiriGrid* grid, kiriMemory* memory, int32_t face);
-
-/* And gives it back: then it has that of a whole square, or side. */
-void kiriGrid_DropMaterial(kiriGrid* grid, int32_t cell);
-void kiriGrid_DropStretch(kiriGrid* grid, int32_t face);
-
-void kiriGrid_FreeFace(kiriGrid* grid, int32_t face);
-bool kiriGrid_RemoveFace(kiriGrid* grid, kiriMemory* memory, int32_t face);
 
 /* Readies a grid from scratch for steps. */
 void kiriGrid_StartSteps(kiriGrid* grid, const kiriMeshData* mesh);

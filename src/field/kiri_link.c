@@ -27,16 +27,8 @@ static bool IsPairBefore(const kiriLink* a, const kiriLink* b)
 
 int32_t kiriLink_FirstOfPair(const kiriLink* links, int32_t count, int32_t i, int32_t j)
 {
-    int32_t low = 0, high = count;
-    while (low < high) {
-        int32_t middle = low + (high - low) / 2;
-        const kiriLink* link = &links[middle];
-        if (link->i < i || (link->i == i && link->j < j)) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
+    int32_t low;
+    KIRI_SEARCH(low, 0, count, links[middle].i < i || (links[middle].i == i && links[middle].j < j));
     return low;
 }
 
@@ -95,15 +87,9 @@ static void FindStaleBeside(const kiriBorder* border, int32_t region)
 static bool IsPairTouched(const kiriBorder* border, int32_t i, int32_t j)
 {
     const kiriRegionPair* pairs = border->work->touched.data;
-    int32_t low = 0, high = border->work->touched.count;
-    while (low < high) {
-        int32_t middle = low + (high - low) / 2;
-        if (pairs[middle].i < i || (pairs[middle].i == i && pairs[middle].j < j)) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
+    int32_t low;
+    KIRI_SEARCH(low, 0, border->work->touched.count,
+                pairs[middle].i < i || (pairs[middle].i == i && pairs[middle].j < j));
     return low < border->work->touched.count && pairs[low].i == i && pairs[low].j == j;
 }
 
@@ -111,6 +97,7 @@ static bool IsPairTouched(const kiriBorder* border, int32_t i, int32_t j)
    each of its faces: so one of the regions must have no dirty one anywhere beside it. */
 static bool KeepPair(const kiriBorder* border, const kiriLinks* links, int32_t first, int32_t end)
 {
+    KIRI_ASSERT(first >= 0 && first < links->links.count);
     kiriLinkWork* work = border->work;
     const kiriLink* link = &links->links.data[first];
     bool ok = true, isUntouched = !IsStale(border, link->i) || !IsStale(border, link->j);
@@ -182,6 +169,7 @@ static bool FindFacesOf(const kiriBorder* border, int32_t region, int32_t cell)
 
 static bool FindFacesFrom(const kiriBorder* border, int32_t region)
 {
+    KIRI_ASSERT(region >= 0 && region < border->work->stale.count);
     const kiriRegions* regions = border->regions;
     bool ok = true,
          isAsked = regions->dirty.data[region] || (border->work->stale.data[region] & KIRI_REGION_TOUCHED) != 0;
@@ -274,7 +262,7 @@ static bool TakeOldLinks(const kiriBorder* border, const kiriLinks* links)
     for (int32_t k = 0; areThere && k < work->order.count; ++k) {
         kiriNewLink* made = &work->made.data[work->order.data[k]];
         int32_t first = kiriLink_FirstOfPair(links->links.data, links->links.count, made->link.i, made->link.j);
-        old = first > old ? first : old;
+        old = kiriMax(first, old);
         while (old < links->links.count &&
                (IsPairBefore(&links->links.data[old], &made->link) || work->ends.data[old].isShort)) {
             ++old;

@@ -23,6 +23,7 @@ static int32_t NextFaceAlong(const kiriGrid* grid, int32_t cell, int32_t face, i
 /* The face between two cells, `high` being up the axis from `low`, or KIRI_NONE. */
 static int32_t FaceAlong(const kiriGrid* grid, int32_t low, int32_t high, int32_t axis)
 {
+    KIRI_ASSERT(low >= 0 && low < grid->cells.count);
     int32_t f = NextFaceAlong(grid, low, grid->cells.data[low].firstFace, axis, true);
     while (f != KIRI_NONE && grid->faces.data[f].cell[1] != high) {
         f = NextFaceAlong(grid, low, kiriFace_Next(&grid->faces.data[f], low), axis, true);
@@ -176,7 +177,7 @@ bool kiriBorder_IsSliver(const kiriBorder* border)
     double widest = 0.0;
     for (int32_t k = 0; k < border->work->stretch.count; ++k) {
         double width = kiriGrid_Stretch(border->grid, border->mesh, border->work->stretch.data[k]).width;
-        widest = width > widest ? width : widest;
+        widest = kiriMax(width, widest);
     }
     bool isAlong = widest >= kiriSliver * border->grid->side, isNothing = widest < 1e-6 * border->grid->side;
     return (isAlong || isNothing) && HasOnlySlivers(border);
@@ -279,11 +280,6 @@ static bool IsRing(const kiriLinks* links, const kiriLinkEnd* end, const int32_t
     return true;
 }
 
-static bool ShareRegion(const kiriLink* a, const kiriLink* b)
-{
-    return a->i == b->i || a->i == b->j || a->j == b->i || a->j == b->j;
-}
-
 /* Of the triangle or quadrangle of the sites. Two links that share a region are two of its sides; where the ways bend
    these are not quite closed, so the areas that they give are averaged. */
 static double AreaOf(const kiriLinks* links, const kiriCorner* corner)
@@ -292,7 +288,8 @@ static double AreaOf(const kiriLinks* links, const kiriCorner* corner)
     for (int32_t a = 0; a < corner->count; ++a) {
         for (int32_t b = a + 1; b < corner->count; ++b) {
             const kiriLink *x = &links->next.data[corner->link[a]], *y = &links->next.data[corner->link[b]];
-            sum += ShareRegion(x, y) ? fabs(x->span.x * y->span.y - x->span.y * y->span.x) : 0.0;
+            bool shareRegion = x->i == y->i || x->i == y->j || x->j == y->i || x->j == y->j;
+            sum += shareRegion ? fabs(x->span.x * y->span.y - x->span.y * y->span.x) : 0.0;
         }
     }
     return corner->count == 3 ? sum / 6.0 : sum / 4.0;
@@ -339,6 +336,7 @@ static bool MakeCorner(const kiriBorder* border, const kiriLinks* links, int32_t
 /* Is no region stale at the corners of a link? Then all links there are what they were. */
 static bool AreCornersOld(const kiriBorder* border, const kiriLinks* links, int32_t k)
 {
+    KIRI_ASSERT(k >= 0 && k < links->was.count);
     const kiriLinkWork* work = border->work;
     bool isOld = links->was.data[k] != KIRI_NONE;
     for (int e = 0; isOld && e < 2; ++e) {
@@ -353,6 +351,7 @@ static bool AreCornersOld(const kiriBorder* border, const kiriLinks* links, int3
 /* The corners whose lowest link is link k, as they are in force; *at goes on through these. */
 static bool TakeCorners(const kiriBorder* border, kiriLinks* links, int32_t k, int32_t* at)
 {
+    KIRI_ASSERT(k >= 0 && k < links->was.count);
     const kiriLinkWork* work = border->work;
     bool ok = true;
     while (*at < links->corners.count && links->corners.data[*at].link[0] < links->was.data[k]) {
@@ -371,6 +370,7 @@ static bool TakeCorners(const kiriBorder* border, kiriLinks* links, int32_t k, i
 
 static bool MakeCornersOf(const kiriBorder* border, kiriLinks* links, int32_t k)
 {
+    KIRI_ASSERT(k >= 0 && k < border->work->nextEnds.count);
     bool ok = true;
     for (int e = 0; ok && e < 2; ++e) {
         kiriCorner corner;

@@ -10,6 +10,7 @@ enum { LINK_ITEMS = 80, STRETCH_FACE_ITEMS = 5 };
 
 kiriBorderSide kiriBorder_SideOf(const kiriBorder* border, int32_t face)
 {
+    KIRI_ASSERT(face >= 0 && face < border->grid->faces.count);
     const kiriFace* f = &border->grid->faces.data[face];
     const int32_t* owner = border->regions->field.owner.data;
     int32_t low = owner[f->cell[0]] < owner[f->cell[1]] ? 0 : 1;
@@ -41,6 +42,7 @@ bool kiriBorder_IsFaceBefore(const void* context, int32_t a, int32_t b)
 static bool GatherFacesAt(const kiriBorder* border, const kiriBorderSide* from, int32_t cell, kiriFaceMark mark,
                           kiriFaceMark next)
 {
+    KIRI_ASSERT(cell >= 0 && cell < border->regions->onBorder.count);
     const kiriGrid* grid = border->grid;
     bool may = border->regions->onBorder.data[cell] && border->regions->field.owner.data[cell] == from->i;
     for (int32_t f = may ? grid->cells.data[cell].firstFace : KIRI_NONE; f != KIRI_NONE;) {
@@ -86,11 +88,13 @@ static bool GatherStretch(const kiriBorder* border, int32_t face, kiriFaceMark n
 /* Of the k-th face of the stretch. */
 static kiriStretch StretchOfFace(const kiriBorder* border, int32_t k)
 {
+    KIRI_ASSERT(k >= 0 && k < border->work->stretch.count);
     return kiriGrid_Stretch(border->grid, border->mesh, border->work->stretch.data[k]);
 }
 
 static int32_t AxisOfFace(const kiriBorder* border, int32_t k)
 {
+    KIRI_ASSERT(k >= 0 && k < border->work->stretch.count);
     return kiriFace_Axis(&border->grid->faces.data[border->work->stretch.data[k]]);
 }
 
@@ -230,7 +234,7 @@ static void SetLength(const kiriBorder* border, kiriLink* link, const kiriLinkEn
     link->crossing = found || way.turnCount == 0 ? kiriWay_At(&way, a, b, 0.5 * way.length) : way.turn[0];
     link->span = way.turnCount == 0 ? kiriVec2_Sub(b, a) : kiriVec2_Scale(link->length, link->normal);
     double least = 0.1 * border->grid->side;
-    link->length = link->length > least ? link->length : least;
+    link->length = kiriMax(link->length, least);
 }
 
 /* From the stretch at hand. */

@@ -140,26 +140,6 @@ static inline kiriProgress kiriPlacerJob_GoOnTo(PlacerJob* job, kiriProgress pro
     return progress;
 }
 
-/* Ways go on only from cells that are nearer than these distances, or null. */
-kiriProgress kiriPlacerJob_Flood(PlacerJob* job, kiriField* field, const int32_t* below, const int32_t* andBelow);
-
-/* Makes a field ready to flood from sites first to end. */
-bool kiriPlacerJob_StartFlood(PlacerJob* job, kiriField* field, int32_t first, int32_t end);
-
-/* How much denser sites shall be at a cell. */
-int64_t kiriPlacerWork_DensityAt(const kiriPlacerWork* work, int32_t cell);
-
-/* Ready for a round of relaxation; and its stages. */
-kiriProgress kiriPlacerJob_StartRound(PlacerJob* job);
-kiriProgress kiriPlacerJob_FloodAllNew(PlacerJob* job);
-kiriProgress kiriPlacerJob_SumRegions(PlacerJob* job);
-kiriProgress kiriPlacerJob_AimNearCenters(PlacerJob* job);
-kiriProgress kiriPlacerJob_AimAtCenters(PlacerJob* job);
-
-/* The stages for one site by itself. */
-kiriProgress kiriPlacerJob_SumPart(PlacerJob* job);
-kiriProgress kiriPlacerJob_AimPart(PlacerJob* job);
-
 KIRI_C_END
 
 #endif

@@ -4,8 +4,8 @@ bool kiriReaches_Resize(kiriReaches* reaches, kiriMemory* memory, int32_t cellCo
 {
     int32_t cells = reaches->ofCells.count, labels = reaches->ofLabel.count;
     int32_t needed = kiriReach_BlockOf(cellCount + KIRI_BLOCK_CELLS - 1);
-    if (!kiriArray_Resize(memory, &reaches->ofCells, needed > cells ? needed : cells) ||
-        !kiriArray_Resize(memory, &reaches->ofLabel, labelCount > labels ? labelCount : labels)) {
+    if (!kiriArray_Resize(memory, &reaches->ofCells, kiriMax(needed, cells)) ||
+        !kiriArray_Resize(memory, &reaches->ofLabel, kiriMax(labelCount, labels))) {
         return false;
     }
     for (; cells < reaches->ofCells.count; ++cells) {
@@ -25,6 +25,7 @@ void kiriReaches_Clear(kiriReaches* reaches)
 
 int32_t kiriReaches_Find(const kiriReaches* reaches, int32_t label, int32_t cells)
 {
+    KIRI_ASSERT(cells >= 0 && cells < reaches->ofCells.count);
     int32_t block = reaches->ofCells.data[cells];
     while (block != KIRI_NONE && reaches->heads.data[block].label != label) {
         block = reaches->heads.data[block].nextOfCells;
@@ -53,6 +54,7 @@ static int32_t TakeBlock(kiriReaches* reaches)
 
 int32_t kiriReaches_Add(kiriReaches* reaches, int32_t label, int32_t cells)
 {
+    KIRI_ASSERT(label >= 0 && label < reaches->ofLabel.count);
     int32_t index = TakeBlock(reaches), next = reaches->ofLabel.data[label];
     kiriReachBlock* block = &reaches->blocks.data[index];
     reaches->heads.data[index] = (kiriReachHead){ label, reaches->ofCells.data[cells] };
@@ -71,6 +73,7 @@ int32_t kiriReaches_Add(kiriReaches* reaches, int32_t label, int32_t cells)
 
 void kiriReaches_Remove(kiriReaches* reaches, int32_t index)
 {
+    KIRI_ASSERT(index >= 0 && index < reaches->heads.count);
     kiriReachBlock *blocks = reaches->blocks.data, *block = &blocks[index];
     kiriReachHead* head = &reaches->heads.data[index];
     int32_t* link = &reaches->ofCells.data[block->cells];
@@ -94,6 +97,7 @@ void kiriReaches_Remove(kiriReaches* reaches, int32_t index)
 
 void kiriReaches_Forget(kiriReaches* reaches, int32_t label)
 {
+    KIRI_ASSERT(label >= 0 && label < reaches->ofLabel.count);
     while (reaches->ofLabel.data[label] != KIRI_NONE) {
         kiriReaches_Remove(reaches, reaches->ofLabel.data[label]);
     }
@@ -128,6 +132,7 @@ static kiriReach NextReach(const kiriReaches* reaches, int32_t block, int32_t k)
 
 kiriReach kiriReaches_First(const kiriReaches* reaches, int32_t label)
 {
+    KIRI_ASSERT(label >= 0 && label < reaches->ofLabel.count);
     return NextReach(reaches, reaches->ofLabel.data[label], 0);
 }
 

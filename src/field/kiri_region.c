@@ -7,7 +7,7 @@ static int32_t GridLength(double meters, double side)
 {
     const double most = 0.5 * (KIRI_FAR - 1);
     double length = KIRI_UNIT * (meters / side) + 0.5;
-    return (int32_t)(length < most ? length : most);
+    return (int32_t)kiriMin(length, most);
 }
 
 static double WayTo(const kiriSite* site, const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell)
@@ -53,6 +53,8 @@ bool kiriSite_Seed(const kiriSite* site, int32_t owner, kiriMemory* memory, cons
 /* May a step lead from one square to the other? */
 static bool AreNear(const kiriGrid* grid, const kiriMeshData* mesh, int32_t a, int32_t b)
 {
+    KIRI_ASSERT(a >= 0 && a < grid->cells.count);
+    KIRI_ASSERT(b >= 0 && b < grid->cells.count);
     int32_t columns = mesh->squares.columns, apart = grid->cells.data[a].square - grid->cells.data[b].square;
     apart = (apart < 0 ? -apart : apart) + 2;
     return apart <= 4 || (apart >= columns && apart <= columns + 4) ||
@@ -160,6 +162,7 @@ static bool MakeRegionRoom(const RegionUpdate* u)
 /* With the owner that it has. */
 static void SetBorder(kiriRegions* regions, int32_t cell, bool isBorder)
 {
+    KIRI_ASSERT(cell >= 0 && cell < regions->onBorder.count);
     regions->onBorder.data[cell] = isBorder;
     kiriBorderCells_Put(&regions->border, cell, isBorder ? regions->field.owner.data[cell] : KIRI_NONE);
 }
@@ -415,13 +418,6 @@ static bool FinishFlood(const RegionUpdate* u)
     return true;
 }
 
-static void MarkSeen(const RegionUpdate* u)
-{
-    const kiriGridChanges* changes = &u->grid->changes;
-    u->regions->seen = (kiriSeenChanges){ changes->made.count, changes->gone.count, changes->steps.count,
-                                          changes->material.count, changes->edges.count };
-}
-
 static bool BeginRegions(const RegionUpdate* u)
 {
     kiriRegions* r = u->regions;
@@ -467,7 +463,9 @@ kiriProgress kiriRegions_Update(kiriRegions* regions, kiriMemory* memory, const 
     if (regions->flooding ? !FinishFlood(&u) : !FinishRepair(&u)) {
         return KIRI_FAILED;
     }
-    MarkSeen(&u);
+    const kiriGridChanges* changes = &u.grid->changes;
+    u.regions->seen = (kiriSeenChanges){ changes->made.count, changes->gone.count, changes->steps.count,
+                                         changes->material.count, changes->edges.count };
     return KIRI_DONE;
 }
 

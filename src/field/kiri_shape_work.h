@@ -1,4 +1,4 @@
-/* What kiri_shape.c, kiri_shape_frame.c and kiri_shape_limit.c share: the update at hand. Private to them. */
+/* The update that kiri_shape.c works on. Private to it, and to saves. */
 #ifndef KIRI_SHAPE_WORK_H
 #define KIRI_SHAPE_WORK_H
 
@@ -112,20 +112,6 @@ typedef struct kiriShapeJob {
     int32_t siteCount;
     int32_t frame, label;
 } kiriShapeJob;
-
-/* Counts how far distances to the site of its region have to go for the sake of a cell, as it is now. */
-bool kiriShapeJob_CountCell(kiriShapeJob* job, int32_t cell);
-
-/* The cell is no more. */
-void kiriShapeJob_UncountCell(kiriShapeJob* job, int32_t cell);
-
-/* How far those of the frame at hand go: as far as the cells of its region ask for, in whole sides, so that it seldom
-   changes. */
-int32_t kiriShapeJob_LimitOf(const kiriShapeJob* job);
-
-/* Measures the distances of the frame at hand again: brings its blocks up to date, and adds the weights that follow to
-   job->work->rawWeights. An item of the quota: see kiriField_Flood and kiriField_Repair. */
-kiriProgress kiriShapeJob_MeasureFrame(kiriShapeJob* job, kiriQuota* quota);
 
 KIRI_C_END
 

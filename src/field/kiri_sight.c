@@ -178,6 +178,7 @@ bool kiriSight_MayLookIn(const kiriSight* sight, int32_t cell)
 
 bool kiriSight_MayLookAt(const kiriSight* sight, int32_t square)
 {
+    KIRI_ASSERT(square >= 0 && square < sight->grid->squareCell.count);
     for (int32_t c = sight->grid->squareCell.data[square]; c != KIRI_NONE; c = sight->grid->cells.data[c].next) {
         if (kiriSight_MayLookIn(sight, c)) {
             return true;

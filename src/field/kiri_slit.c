@@ -13,6 +13,7 @@ static int32_t ClockwiseOf(const kiriMeshData* mesh, int32_t h)
    else KIRI_NONE. */
 static int32_t LipAt(const kiriMeshData* mesh, int32_t vertex)
 {
+    KIRI_ASSERT(vertex >= 0 && vertex < mesh->vertices.count);
     int32_t start = mesh->vertices.data[vertex].edge, first = start, last = start;
     for (int32_t h = ClockwiseOf(mesh, first); h != KIRI_NONE; h = ClockwiseOf(mesh, h)) {
         if (h == start) {
@@ -120,9 +121,9 @@ static bool TryPair(kiriSites* sites, const kiriGrid* grid, const kiriMeshData* 
 static void AddPair(kiriSites* sites, const kiriGrid* grid, const kiriMeshData* mesh, const kiriSlitEnd* end,
                     double spacing)
 {
-    double reach = 0.5 * spacing > grid->side ? 0.5 * spacing : grid->side;
+    double reach = kiriMax(0.5 * spacing, grid->side);
     while (!TryPair(sites, grid, mesh, end, reach) && reach > grid->side) {
-        reach = 0.5 * reach > grid->side ? 0.5 * reach : grid->side;
+        reach = kiriMax(0.5 * reach, grid->side);
     }
 }
 

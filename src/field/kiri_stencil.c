@@ -28,12 +28,13 @@ static double SideFrom(kiriVec2 from, kiriVec2 mine, kiriVec2 other)
     kiriVec2 way = kiriVec2_Sub(mine, other), middle = kiriVec2_Scale(0.5, kiriVec2_Add(mine, other));
     double length = kiriVec2_Length(way);
     double side = length > 0.0 ? 0.5 + 4.0 * kiriVec2_Dot(kiriVec2_Sub(from, middle), way) / length : 0.5;
-    return side > 1.0 ? 1.0 : side > 0.0 ? side : 0.0;
+    return side > 1.0 ? 1.0 : kiriMax(side, 0.0);
 }
 
 /* Cells of one square share its kernel, by the side that each is on. They follow each other in the steps. */
 static void ShareSquare(kiriStencil* stencil, int32_t first, int32_t count, kiriVec2 from)
 {
+    KIRI_ASSERT(first >= 0 && first < stencil->shares.count);
     double sum = 0.0, kernel = stencil->shares.data[first];
     for (int32_t a = first; a < first + count; ++a) {
         double side = 1.0;
@@ -48,17 +49,12 @@ static void ShareSquare(kiriStencil* stencil, int32_t first, int32_t count, kiri
     }
 }
 
-static bool IsSameSquare(kiriStep a, kiriStep b)
-{
-    return a.u == b.u && a.v == b.v;
-}
-
 static void ShareSquares(kiriStencil* stencil, kiriVec2 from)
 {
     const kiriStep* steps = stencil->steps.data;
     for (int32_t first = 1; first < stencil->steps.count;) {
         int32_t end = first + 1;
-        while (end < stencil->steps.count && IsSameSquare(steps[first], steps[end])) {
+        while (end < stencil->steps.count && steps[first].u == steps[end].u && steps[first].v == steps[end].v) {
             ++end;
         }
         if (end - first > 1) {
@@ -174,7 +170,7 @@ static void WeighLinear(kiriStencil* stencil, kiriVec2 at, kiriVec2 lean)
         }
     }
     for (int32_t i = 0; i < count; ++i) {
-        values[i] = values[i] > 0.0 ? values[i] : 0.0;
+        values[i] = kiriMax(values[i], 0.0);
     }
     MakeSumOne(values, count);
 }
@@ -244,6 +240,7 @@ static bool InsertBeyond(kiriStencil* stencil, kiriMemory* memory, const kiriGri
 /* Most cells have eight others around them, and no square there is divided: then steps of the grid tell all. */
 static bool IsPlain(const kiriGrid* grid, int32_t cell)
 {
+    KIRI_ASSERT(cell >= 0 && cell < grid->cells.count);
     kiriSteps steps;
     kiriGrid_GetStepsTo(grid, cell, 2, &steps);
     bool plain = steps.end[1] == 8 && grid->whole.data[grid->cells.data[cell].square];
@@ -303,7 +300,7 @@ static bool GatherMiddles(kiriStencil* stencil, kiriMemory* memory, const kiriGr
 static bool GatherFrames(kiriStencil* stencil, kiriMemory* memory, const kiriShape* shape)
 {
     int32_t old = stencil->columns.count;
-    if (!kiriArray_Resize(memory, &stencil->columns, old > shape->rigid.count ? old : shape->rigid.count)) {
+    if (!kiriArray_Resize(memory, &stencil->columns, kiriMax(old, shape->rigid.count))) {
         return false;
     }
     for (int32_t f = old; f < stencil->columns.count; ++f) {

@@ -2,17 +2,12 @@
 
 /* ---- Corners where ways may turn --------------------------------------------------------------------------------- */
 
-static bool IsOnePlace(kiriLatticePoint a, kiriLatticePoint b)
-{
-    return a.x == b.x && a.y == b.y;
-}
-
 /* By place, for the triangles of a square come in no order. */
 static bool IsTurnBefore(const kiriTurn* a, const kiriTurn* b)
 {
     const kiriLatticePoint p[3] = { a->at, a->before, a->after }, q[3] = { b->at, b->before, b->after };
     for (int k = 0; k < 3; ++k) {
-        if (!IsOnePlace(p[k], q[k])) {
+        if (p[k].x != q[k].x || p[k].y != q[k].y) {
             return p[k].x != q[k].x ? p[k].x < q[k].x : p[k].y < q[k].y;
         }
     }
@@ -79,6 +74,7 @@ void kiriTurns_Start(kiriTurns* turns, kiriVec2 from, kiriVec2 to, double most)
 
 void kiriTurns_AddAround(kiriTurns* turns, const kiriSight* sight, int32_t cell)
 {
+    KIRI_ASSERT(cell >= 0 && cell < sight->grid->cells.count);
     const kiriSquares* squares = &sight->mesh->squares;
     int32_t square = sight->grid->cells.data[cell].square;
     int32_t column = square % squares->columns, row = square / squares->columns;

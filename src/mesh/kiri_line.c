@@ -25,10 +25,10 @@ static void ClipBy(double first, double last, bool keep, double* from, double* t
         *to = *from;
     } else if (first < 0.0) {
         double t = first / (first - last);
-        *from = t > *from ? t : *from;
+        *from = kiriMax(t, *from);
     } else if (last < 0.0) {
         double t = first / (first - last);
-        *to = t < *to ? t : *to;
+        *to = kiriMin(t, *to);
     }
 }
 
@@ -86,10 +86,10 @@ static kiriSpan RowsOf(const SideLine* line, int32_t column)
     double left = ((double)squares->firstColumn + column) * squares->side - 1.0;
     for (int k = 0; k < 2; ++k) {
         double t = dx != 0.0 ? (left + k * squares->side - a->x) / dx : k;
-        y[k] = a->y + (t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t) * dy;
+        y[k] = a->y + kiriClamp(t, 0.0, 1.0) * dy;
     }
-    double low = (y[0] < y[1] ? y[0] : y[1]) * squares->perStep - squares->firstRow;
-    double high = (y[0] < y[1] ? y[1] : y[0]) * squares->perStep - squares->firstRow;
+    double low = kiriMin(y[0], y[1]) * squares->perStep - squares->firstRow;
+    double high = kiriMax(y[1], y[0]) * squares->perStep - squares->firstRow;
     int32_t first = Within(low - 1.0, squares->rows - 1);
     kiriSpan rows = { first, Within(high + 2.0, squares->rows - 1) - first + 1 };
     return rows;
@@ -106,8 +106,8 @@ static bool CoverLine(const SideLine* beside, kiriMemory* memory, kiriLine* line
 {
     const kiriSquares* squares = &beside->mesh->squares;
     const kiriLatticePoint* p = beside->ends;
-    double low = (p[0].x < p[1].x ? p[0].x : p[1].x) * squares->perStep - squares->firstColumn;
-    double high = (p[0].x < p[1].x ? p[1].x : p[0].x) * squares->perStep - squares->firstColumn;
+    double low = kiriMin(p[0].x, p[1].x) * squares->perStep - squares->firstColumn;
+    double high = kiriMax(p[1].x, p[0].x) * squares->perStep - squares->firstColumn;
     int32_t first = line->covers.count, last = Within(high + 1.0, squares->columns - 1);
     for (int32_t column = Within(low - 1.0, squares->columns - 1); column <= last; ++column) {
         kiriSpan rows = RowsOf(beside, column);
@@ -155,7 +155,7 @@ static int32_t CoverAt(const kiriLine* line, const kiriIndices* order, int32_t* 
     }
     const kiriLineCover* cover = &line->covers.data[order->data[*next]];
     double change = cover->from <= t ? cover->to : cover->from;
-    *end = change < *end ? change : *end;
+    *end = kiriMin(change, *end);
     return cover->from <= t ? cover->node : KIRI_NONE;
 }
 

@@ -117,8 +117,8 @@ static int32_t NearestEven(double x)
 {
     const double most = (1 << 30) - 1;
     double half = 0.5 * x + 0.5;
-    half = half < most ? half : most;
-    half = half > -most ? half : -most;
+    half = kiriMin(half, most);
+    half = kiriMax(half, -most);
     int64_t floor = (int64_t)half;
     floor -= (double)floor > half ? 1 : 0;
     return (int32_t)(2 * floor);

@@ -73,7 +73,7 @@ static kiriResult PlaceVertices(kiriMeshData* mesh, const kiriMeshInput* input, 
     }
     double width = high[0] - low[0], height = high[1] - low[1];
     mesh->origin = kiriVec2_Make(low[0], low[1]);
-    mesh->step = (width > height ? width : height) / KIRI_LATTICE;
+    mesh->step = kiriMax(width, height) / KIRI_LATTICE;
     if (!(mesh->step > 0.0)) {
         KIRI_SAY(fault, "triangle 0 has no area: all rest positions are the same point");
         return KIRI_ERROR_MESH;

@@ -123,10 +123,10 @@ static bool StartSquares(kiriMeshData* mesh, const kiriMeshData* from)
     kiriLatticePoint lower = mesh->vertices.data[0].at, upper = lower;
     for (int32_t v = 1; v < mesh->vertices.count; ++v) {
         kiriLatticePoint at = mesh->vertices.data[v].at;
-        lower.x = at.x < lower.x ? at.x : lower.x;
-        lower.y = at.y < lower.y ? at.y : lower.y;
-        upper.x = at.x > upper.x ? at.x : upper.x;
-        upper.y = at.y > upper.y ? at.y : upper.y;
+        lower.x = kiriMin(at.x, lower.x);
+        lower.y = kiriMin(at.y, lower.y);
+        upper.x = kiriMax(at.x, upper.x);
+        upper.y = kiriMax(at.y, upper.y);
     }
     return kiriSquares_InitPart(&mesh->squares, mesh->memory, &from->squares, lower, upper);
 }

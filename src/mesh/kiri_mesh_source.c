@@ -8,15 +8,8 @@
 /* In a list of ascending numbers, `stride` bytes apart: the first that is not below `number`. */
 static int32_t FirstFrom(const int32_t* numbers, size_t stride, int32_t count, int32_t number)
 {
-    int32_t low = 0, high = count;
-    while (low < high) {
-        int32_t middle = (low + high) / 2;
-        if (*(const int32_t*)(const void*)((const char*)numbers + stride * (size_t)middle) < number) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
+    int32_t low;
+    KIRI_SEARCH(low, 0, count, *(const int32_t*)(const void*)((const char*)numbers + stride * (size_t)middle) < number);
     return low;
 }
 
@@ -117,7 +110,7 @@ static void ShareNearestEdge(const kiriLatticePoint c[3], kiriLatticePoint at, d
         kiriLatticePoint a = c[i], b = c[(i + 1) % 3];
         double x = (double)b.x - a.x, y = (double)b.y - a.y, u = (double)at.x - a.x, v = (double)at.y - a.y;
         double along = (u * x + v * y) / (x * x + y * y);
-        along = along < 0.0 ? 0.0 : along > 1.0 ? 1.0 : along;
+        along = kiriClamp(along, 0.0, 1.0);
         double du = u - along * x, dv = v - along * y, distance = du * du + dv * dv;
         if (i == 0 || distance < nearest) {
             nearest = distance;

@@ -46,9 +46,9 @@ static int64_t MostIntrusion(kiriLatticePoint p, kiriLatticePoint q, int64_t are
     int64_t length =
         (q.x > p.x ? (int64_t)q.x - p.x : (int64_t)p.x - q.x) + (q.y > p.y ? (int64_t)q.y - p.y : (int64_t)p.y - q.y);
     int64_t most = OVERLAP_TOLERANCE * length, least = LATTICE_ROUNDING * length;
-    most = most < area / 2 ? most : area / 2;
-    most = most < -outer ? most : -outer;
-    return most > least ? most : least;
+    most = kiriMin(most, area / 2);
+    most = kiriMin(most, -outer);
+    return kiriMax(most, least);
 }
 
 /* Is triangle b on the outer side of an edge of triangle a, but for the tolerance? */
@@ -60,8 +60,8 @@ static bool EdgeSeparates(const kiriLatticePoint a[3], const kiriLatticePoint b[
         int64_t inner = kiriOrient(p, q, b[0]), outer = inner;
         for (int k = 1; k < 3; ++k) {
             int64_t above = kiriOrient(p, q, b[k]);
-            inner = above > inner ? above : inner;
-            outer = above < outer ? above : outer;
+            inner = kiriMax(above, inner);
+            outer = kiriMin(above, outer);
         }
         if (inner <= MostIntrusion(p, q, area, outer)) {
             return true;
@@ -133,12 +133,12 @@ static bool ItemsOverlap(const OverlapTree* tree, const OverlapItem* a, const Ov
 
 static kiriLatticePoint LowerCorner(kiriLatticePoint a, kiriLatticePoint b)
 {
-    return (kiriLatticePoint){ a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y };
+    return (kiriLatticePoint){ kiriMin(a.x, b.x), kiriMin(a.y, b.y) };
 }
 
 static kiriLatticePoint UpperCorner(kiriLatticePoint a, kiriLatticePoint b)
 {
-    return (kiriLatticePoint){ a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y };
+    return (kiriLatticePoint){ kiriMax(a.x, b.x), kiriMax(a.y, b.y) };
 }
 
 static OverlapItem ItemOfTriangle(const kiriMeshData* mesh, int32_t triangle)

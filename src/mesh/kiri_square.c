@@ -13,14 +13,12 @@ static int64_t CeilDivide(int64_t a, int64_t b)
 
 static int32_t Min3(int32_t a, int32_t b, int32_t c)
 {
-    int32_t ab = a < b ? a : b;
-    return ab < c ? ab : c;
+    return kiriMin(kiriMin(a, b), c);
 }
 
 static int32_t Max3(int32_t a, int32_t b, int32_t c)
 {
-    int32_t ab = a > b ? a : b;
-    return ab > c ? ab : c;
+    return kiriMax(kiriMax(a, b), c);
 }
 
 /* Empty squares, whose number and side are set. */
@@ -45,7 +43,7 @@ static bool AllocateSquares(kiriSquares* squares, kiriMemory* memory)
 
 bool kiriSquares_Init(kiriSquares* squares, kiriMemory* memory, kiriLatticePoint extent, int32_t resolution)
 {
-    int64_t longer = extent.x > extent.y ? extent.x : extent.y;
+    int64_t longer = kiriMax(extent.x, extent.y);
     memset(squares, 0, sizeof(*squares));
     squares->side = (int32_t)(2 * CeilDivide(longer + 2, 2 * (int64_t)resolution));
     squares->columns = (int32_t)CeilDivide((int64_t)extent.x + 2, squares->side);
@@ -66,8 +64,8 @@ static void TakeLines(const kiriSquares* like, int32_t lower, int32_t upper, int
 {
     int32_t end = *first + *count, from = LineOf(like, lower) - KIRI_SQUARES_BESIDE,
             to = LineOf(like, upper) + KIRI_SQUARES_BESIDE + 1;
-    *first = from > *first ? from : *first;
-    *count = (to < end ? to : end) - *first;
+    *first = kiriMax(from, *first);
+    *count = kiriMin(to, end) - *first;
     KIRI_ASSERT(*count > 0);
 }
 
@@ -414,10 +412,8 @@ bool kiriSquares_Insert(kiriSquares* squares, kiriMemory* memory, int32_t triang
 
 static SquareBox JoinBoxes(SquareBox a, SquareBox b)
 {
-    SquareBox box = { a.firstColumn < b.firstColumn ? a.firstColumn : b.firstColumn,
-                      a.lastColumn > b.lastColumn ? a.lastColumn : b.lastColumn,
-                      a.firstRow < b.firstRow ? a.firstRow : b.firstRow,
-                      a.lastRow > b.lastRow ? a.lastRow : b.lastRow };
+    SquareBox box = { kiriMin(a.firstColumn, b.firstColumn), kiriMax(a.lastColumn, b.lastColumn),
+                      kiriMin(a.firstRow, b.firstRow), kiriMax(a.lastRow, b.lastRow) };
     return box;
 }
 

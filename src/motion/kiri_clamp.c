@@ -16,7 +16,7 @@ void kiriClamp_Shape(kiriClampRow* row, const kiriClampShape* shape, kiriVec2 si
     link->moment = shape->moment;
     row->outer = shape->outer;
     row->material = shape->material;
-    link->length = fabs(away) > shape->least ? fabs(away) : shape->least;
+    link->length = kiriMax(fabs(away), shape->least);
     link->normal = away < 0.0 ? kiriVec2_Scale(-1.0, left) : left;
     link->tangent = kiriVec2_Make(-link->normal.y, link->normal.x);
     link->span = kiriVec2_Scale(link->length, link->normal);

@@ -7,9 +7,7 @@
 
 KIRI_C_BEGIN
 
-enum {
-    KIRI_CLAMP_STRAINS = (int)KIRI_STRAINS > (int)KIRI_AFFINE_STRAINS ? (int)KIRI_STRAINS : (int)KIRI_AFFINE_STRAINS
-};
+enum { KIRI_CLAMP_STRAINS = kiriMax((int)KIRI_STRAINS, (int)KIRI_AFFINE_STRAINS) };
 
 /* What a line has in one region. It stands for a link: the line is a held frame whose site is the foot of the way from
    the region's site to the line, so strains, stiffness and damping are those of a link between them (kiri_strain.h).

@@ -91,8 +91,8 @@ static void FindMeans(kiriSolver* solver, const kiriSystem* system)
         }
         double fast = (kiriVec3_Length(step->carried) + fabs(step->lift)) / solver->dt;
         double given = MeansOf(system, k, step, solver->dt);
-        piece->obstacleSpeed = fast > piece->obstacleSpeed ? fast : piece->obstacleSpeed;
-        piece->means = given > piece->means ? given : piece->means;
+        piece->obstacleSpeed = kiriMax(fast, piece->obstacleSpeed);
+        piece->means = kiriMax(given, piece->means);
         piece->isNear = true;
     }
     double gravity = kiriVec3_Length(kiriSystem_Gravity(system));
@@ -145,12 +145,12 @@ static void GuessState(const kiriSolver* solver, const kiriSystem* system, int32
     step->isActive = was > 0.0 ? was + stop > 0.0 : gap < 0.0;
     step->push = 0.0;
     step->drag = kiriVec3_Make(0.0, 0.0, 0.0);
-    double pressing = was > 0.0 ? was : stop > 0.0 ? stop : 0.0;
+    double pressing = was > 0.0 ? was : kiriMax(stop, 0.0);
     step->limit = step->isActive ? row->friction * pressing : 0.0;
     double length = kiriVec3_Length(slide);
     step->sticks = inertia * length <= step->limit || kiriVec3_Length(step->held) < 0.999 * row->friction * was;
     step->direction = kiriVec3_Scale(length > KIRI_SLIDE_FLOOR ? 1.0 / length : 0.0, slide);
-    step->known = pressing > stop ? pressing : stop;
+    step->known = kiriMax(pressing, stop);
 }
 
 /* Of the pieces that are new. */

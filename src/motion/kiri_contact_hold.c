@@ -12,7 +12,7 @@
 /* m: how far the obstacle is pushed down. */
 static double Yielded(const kiriContactStep* step)
 {
-    double held = step->push - (step->solved > 0.0 ? step->solved : 0.0);
+    double held = step->push - kiriMax(step->solved, 0.0);
     double more = held > 0.0 ? held * (step->shared - step->give) : 0.0;
     return step->push > 0.0 ? step->push * step->give + more : 0.0;
 }
@@ -169,7 +169,7 @@ static bool TakeHeld(kiriSolver* solver, const kiriSystem* system)
     KIRI_EACH(i, solver->awake.pieces) {
         kiriPieceStep* piece = &solver->pieces.data[i];
         double most = piece->start.potential + piece->means;
-        most = most > piece->now.potential ? most : piece->now.potential;
+        most = kiriMax(most, piece->now.potential);
         if (piece->isSearching && piece->sum.potential <= most) {
             piece->now = piece->sum;
             piece->isHeldUp = true;

@@ -60,10 +60,10 @@ static void FindMore(kiriSolver* solver)
         bool isClear = size > ONE_SIDED * ONE_SIDED * piece->pressed * piece->pressed;
         piece->more = 1.0;
         if (piece->isPinned && isClear && fit > 0.0) {
-            double more = fit / size < MOST_MORE ? fit / size : MOST_MORE;
-            piece->keepForces *= more < 1.0 ? more : 1.0;
-            piece->given = kiriVec3_Scale(more < 1.0 ? more : 1.0, piece->given);
-            piece->more = more < 1.0 ? 1.0 : more;
+            double more = kiriMin(fit / size, MOST_MORE);
+            piece->keepForces *= kiriMin(more, 1.0);
+            piece->given = kiriVec3_Scale(kiriMin(more, 1.0), piece->given);
+            piece->more = kiriMax(1.0, more);
         }
     }
 }
@@ -105,7 +105,7 @@ static void GivePushes(const kiriSolver* solver, const kiriSystem* system)
         if (IsShort(solver, system, k)) {
             FindPower(solver, system, k, &ofObstacle, &ofSheet);
             system->yields[system->contacts[k].yield].before += ofObstacle;
-            system->yields[system->contacts[k].yield].most += ofSheet > 0.0 ? ofSheet : 0.0;
+            system->yields[system->contacts[k].yield].most += kiriMax(ofSheet, 0.0);
         }
     }
     for (int32_t k = 0; k < system->contactCount; ++k) {

@@ -35,7 +35,7 @@ typedef struct kiriCurl {
 static inline double kiriLink_LoneWidth(const kiriLink* link)
 {
     double lone = 2.0 * link->outer - link->width;
-    return lone > 0.0 ? lone : 0.0;
+    return kiriMax(lone, 0.0);
 }
 
 /* Where `curling` of the outer width stiffens. */

@@ -58,7 +58,7 @@ int32_t kiriElement_MostMembers(const kiriSystem* system)
     for (int32_t k = kiriElement_LinkCount(system) + kiriElement_CornerCount(system); k < kiriElement_Count(system);
          ++k) {
         int32_t count = AreaElementOf(system, k)->count;
-        most = count > most ? count : most;
+        most = kiriMax(count, most);
     }
     return most;
 }
@@ -70,7 +70,7 @@ static double CountedPart(const kiriSystem* system, int32_t k)
     double part = kiriElement_Link(system, k) != NULL ? system->linkParts[k] : 1.0;
     for (int32_t n = 0; corner != NULL && n < corner->count; ++n) {
         double other = system->linkParts[corner->link[n]];
-        part = other < part ? other : part;
+        part = kiriMin(other, part);
     }
     return part;
 }

@@ -11,9 +11,7 @@
 KIRI_C_BEGIN
 
 /* An element has at most so many strains. */
-enum {
-    KIRI_MOST_STRAINS = (int)KIRI_STRAINS > (int)KIRI_AFFINE_STRAINS ? (int)KIRI_STRAINS : (int)KIRI_AFFINE_STRAINS
-};
+enum { KIRI_MOST_STRAINS = kiriMax((int)KIRI_STRAINS, (int)KIRI_AFFINE_STRAINS) };
 
 static inline bool kiriMechanics_IsAffine(const kiriMechanics* mechanics)
 {

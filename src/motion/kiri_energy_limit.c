@@ -161,7 +161,7 @@ void kiriSolver_FindGains(kiriSolver* solver, const kiriSystem* system)
 /* The factor that takes an energy out of velocities that have `kinetic`; what they do not have is left in `energy`. */
 static double TakeEnergy(double kinetic, double* energy)
 {
-    double taken = kinetic < *energy ? kinetic : *energy;
+    double taken = kiriMin(kinetic, *energy);
     *energy -= taken;
     return taken < kinetic ? kiriRoot(1.0 - taken / kinetic) : 0.0;
 }
@@ -238,8 +238,8 @@ void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system)
     LimitPushes(solver, system);
     KIRI_EACH(i, solver->awake.pieces) {
         kiriPieceStep* piece = &solver->pieces.data[i];
-        double energy = piece->gain > 0.0 ? piece->gain : 0.0, rest = piece->kinetic - piece->turning;
-        piece->keepRest = TakeEnergy(rest > 0.0 ? rest : 0.0, &energy);
+        double energy = kiriMax(piece->gain, 0.0), rest = piece->kinetic - piece->turning;
+        piece->keepRest = TakeEnergy(kiriMax(rest, 0.0), &energy);
         piece->keepTurning = TakeEnergy(piece->turning, &energy);
         bool isOwn = piece->isFree || (piece->isPushed && !IsThrown(piece));
         piece->keepMean = isOwn ? 1.0 : TakeEnergy(piece->moving, &energy);

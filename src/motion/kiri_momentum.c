@@ -16,7 +16,7 @@ static void GatherCenters(const kiriFrameData* before, const kiriFrameData* afte
     }
     KIRI_EACH(i, awake->pieces) {
         kiriPieceMomentum* p = &pieces[i];
-        double share = 1.0 / (p->mass > DBL_MIN ? p->mass : DBL_MIN);
+        double share = 1.0 / kiriMax(p->mass, DBL_MIN);
         p->centerBefore = kiriVec3_Scale(share, p->centerBefore);
         p->velocityBefore = kiriVec3_Scale(share, p->velocityBefore);
         p->centerAfter = kiriVec3_Scale(share, p->centerAfter);

@@ -31,7 +31,7 @@ static void StartSearch(kiriSolver* solver, const kiriSystem* system)
         if (!kiriMechanics_IsAffine(&system->mechanics)) {
             kiriFrameRow change = kiriSolver_Expand(solver, 1.0, &solver->move.data[solver->size * f]);
             double turn = kiriVec3_Length(change.by[1]);
-            piece->scale = turn > piece->scale ? turn : piece->scale;
+            piece->scale = kiriMax(turn, piece->scale);
         }
     }
     KIRI_EACH(i, solver->awake.pieces) {
@@ -65,7 +65,7 @@ static void TryStep(kiriSolver* solver, const kiriSystem* system)
 static bool IsAffordable(const kiriPieceStep* piece)
 {
     double most = piece->start.potential + piece->means;
-    most = most > piece->now.potential ? most : piece->now.potential;
+    most = kiriMax(most, piece->now.potential);
     return !piece->isNear || piece->solved < FREE_SYSTEMS || piece->sum.potential <= most;
 }
 
@@ -106,7 +106,7 @@ static void AllowPrediction(kiriSolver* solver, const kiriSystem* system)
     KIRI_EACH(i, solver->awake.pieces) {
         kiriPieceStep* piece = &solver->pieces.data[i];
         double rise = MOST_RISE * piece->now.objective, predicted = piece->sum.objective;
-        double allowed = (predicted > rise ? predicted : rise) * (1.0 + KIRI_ROUNDING) + piece->noise;
+        double allowed = kiriMax(predicted, rise) * (1.0 + KIRI_ROUNDING) + piece->noise;
         bool isAllowed = piece->isSearching && piece->isFirst;
         piece->enough = isAllowed && allowed > piece->enough ? allowed : piece->enough;
     }

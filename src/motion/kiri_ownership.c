@@ -68,7 +68,7 @@ static int32_t OwnerBefore(const kiriOwnership* ownership, const kiriMeshData* m
         if (owned[k].triangle == triangle) {
             return owned[k].owner;
         }
-        lowest = owned[k].owner < lowest ? owned[k].owner : lowest;
+        lowest = kiriMin(owned[k].owner, lowest);
     }
     return lowest;
 }

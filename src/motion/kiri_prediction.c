@@ -318,7 +318,7 @@ static kiriVec3 AngleBetween(const kiriMat3* a, const kiriMat3* b)
     kiriVec3 sine =
         kiriVec3_Add(kiriVec3_Add(kiriVec3_Cross(a->u, b->u), kiriVec3_Cross(a->v, b->v)), kiriVec3_Cross(a->d, b->d));
     double trace = kiriVec3_Dot(a->u, b->u) + kiriVec3_Dot(a->v, b->v) + kiriVec3_Dot(a->d, b->d);
-    kiriVec3 w = kiriVec3_Scale(2.0 / (1.0 + trace > 1e-3 ? 1.0 + trace : 1e-3), sine);
+    kiriVec3 w = kiriVec3_Scale(2.0 / kiriMax(1.0 + trace, 1e-3), sine);
     return kiriVec3_Scale(1.0 / (1.0 + kiriVec3_Dot(w, w) / 12.0), w);
 }
 

@@ -413,7 +413,7 @@ int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* system, double dt,
 {
     KIRI_ASSERT(most >= 1);
     kiriSolver_Begin(solver, system, dt);
-    int32_t done = kiriSolver_Minimise(solver, system, iterations < most ? iterations : most, most);
+    int32_t done = kiriSolver_Minimise(solver, system, kiriMin(iterations, most), most);
     if (done >= 0) {
         kiriSolver_LimitEnergy(solver, system);
         ForgetHistories(solver, system);

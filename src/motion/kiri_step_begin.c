@@ -234,7 +234,7 @@ static double DampingShare(const kiriSolver* solver, const kiriSystem* system, i
     }
     for (int32_t n = 0; corner != NULL && n < corner->count; ++n) {
         double share = kiriStrain_Damping(&solver->startStrain.data[KIRI_MOST_STRAINS * corner->link[n]]);
-        least = share < least ? share : least;
+        least = kiriMin(share, least);
     }
     return least;
 }

@@ -112,8 +112,8 @@ static void SetSprings(const kiriSolver* solver, const kiriSystem* system, int32
     double inertia = kiriContact_Inertia(solver, system, k),
            part = kiriContact_PieceOf(solver, system, k)->stepping.part;
     double asked = step->known / SINKING, most = MOST_SPRING * inertia;
-    double spring = asked > STIFFNESS * inertia ? asked : STIFFNESS * inertia;
-    spring = spring < most ? spring : most;
+    double spring = kiriMax(asked, STIFFNESS * inertia);
+    spring = kiriMin(spring, most);
     double share = yield != NULL && yield->pressed > 1 ? yield->pressed : 1.0;
     double soft = part * part * share;
     kiriVec3 along = kiriVec3_Length(step->direction) > 0.5 ? step->direction : row->normal;
@@ -290,7 +290,7 @@ static void Activate(kiriContactStep* step, double friction, double inertia, dou
     double length = kiriVec3_Length(slide);
     step->isActive = true;
     step->limit = friction * inertia * depth;
-    step->known = inertia * depth > step->known ? inertia * depth : step->known;
+    step->known = kiriMax(inertia * depth, step->known);
     step->sticks = inertia * length <= step->limit;
     step->direction = kiriVec3_Scale(length > KIRI_SLIDE_FLOOR ? 1.0 / length : 0.0, slide);
 }
@@ -328,12 +328,12 @@ static bool Review(const kiriSolver* solver, const kiriSystem* system, int32_t k
         return depth > SINK_TOLERANCE;
     }
     double beyond = depth - step->push / step->stiffness;
-    step->known = step->push > step->known ? step->push : step->known;
+    step->known = kiriMax(step->push, step->known);
     if (!(step->push + inertia * beyond > 0.0)) {
         step->isActive = false;
         return step->push < -tolerance;
     }
-    return ReviewFriction(step, row->friction * (step->push > 0.0 ? step->push : 0.0), slide,
+    return ReviewFriction(step, row->friction * kiriMax(step->push, 0.0), slide,
                           kiriContact_PieceOf(solver, system, k)->solved <= EARLY, tolerance);
 }
 
@@ -349,7 +349,7 @@ void kiriSolver_ReviewContacts(kiriSolver* solver, const kiriSystem* system)
         if (piece->isIterated) {
             kiriContactStep* step = &solver->contacts.data[k];
             TakeForces(step, piece->scale);
-            piece->mostPush = step->push > piece->mostPush ? step->push : piece->mostPush;
+            piece->mostPush = kiriMax(step->push, piece->mostPush);
         }
     }
     for (int32_t k = 0; k < system->contactCount; ++k) {

@@ -115,7 +115,7 @@ double kiriWind_Work(const kiriSolver* solver, const kiriSystem* system, int32_t
         first += kiriVec3_Dot(way, ForceOf(&before, from));
         last += kiriVec3_Dot(way, ForceOf(&spring, to));
     }
-    return first > last ? first : last;
+    return kiriMax(first, last);
 }
 
 kiriWrench kiriWind_OnFrame(const kiriSolver* solver, const kiriSystem* system, int32_t f)

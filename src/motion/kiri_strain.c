@@ -169,7 +169,7 @@ static kiriVec2 PivotOf(const kiriFrameData* frame)
 static double LeverOf(const kiriLink* link, const kiriFrameData* const frames[2])
 {
     double apart = kiriVec2_Dot(kiriVec2_Sub(PivotOf(frames[1]), PivotOf(frames[0])), link->normal), l = link->length;
-    return apart < 0.5 * l ? 0.5 * l : apart < l ? apart : l;
+    return apart < 0.5 * l ? 0.5 * l : kiriMin(apart, l);
 }
 
 /* The strain is signed along n: the length alone would be at rest again where the frames have passed through each
@@ -286,7 +286,7 @@ static double LongestArc(const kiriLink* link, const kiriFrameData* const frames
     double behind = kiriVec2_Dot(kiriVec2_Sub(PivotOf(frames[1]), link->centroid), link->normal);
     double c = before + behind, e = 0.5 * (before - behind);
     double most = c > 0.0 ? 1.4 * c - 36.0 * e * e / c : 0.0;
-    return most > 0.0 ? most : 0.0;
+    return kiriMax(most, 0.0);
 }
 
 /* Takes off what the arc between the two sites adds to the gap. Folds of more than two radians are no arcs: there the
@@ -337,7 +337,7 @@ double kiriStrain_Openness(double bending, double twist, double* slope)
 {
     const double per = 1.0 / (HALF_TURN * HALF_TURN - OPEN_FOLD * OPEN_FOLD);
     double share = per * (HALF_TURN * HALF_TURN - bending * bending - twist * twist);
-    share = share < 0.0 ? 0.0 : share < 1.0 ? share : 1.0;
+    share = share < 0.0 ? 0.0 : kiriMin(share, 1.0);
     *slope = share > 0.0 && share < 1.0 ? -2.0 * per * (1.0 - share) : 0.0;
     return share * (2.0 - share);
 }
@@ -370,7 +370,7 @@ static void TakeRibbon(const kiriLink* link, double poissonsRatio, const kiriCur
     double held = kiriCurl_Held(curl->perSquare * b * b, &byQ), sum = t * t - 2.0 * nu * b * b;
     double stiff = curl->perSquare * lone / ((1.0 - nu) * (link->width + link->outer)), part = stiff * held * sum;
     double z = t * t * part, room = HALF_TURN * HALF_TURN - t * t - b * b;
-    double R = room > LEAST_ROOM ? room : LEAST_ROOM, per = 1.0 / sqrt(z * z + R * R);
+    double R = kiriMax(room, LEAST_ROOM), per = 1.0 / sqrt(z * z + R * R);
     double factor = sqrt(1.0 + part * R * per), shorter = lone * link->width / (24.0 * link->length);
     strain[KIRI_STRETCH] += shorter * open * t * t;
     strain[KIRI_TWIST] *= factor;
@@ -433,7 +433,7 @@ double kiriStrain_Damping(const double strain[KIRI_STRAINS])
 {
     double fold = strain[KIRI_BENDING] * strain[KIRI_BENDING] + strain[KIRI_TWIST] * strain[KIRI_TWIST];
     double share = (HALF_TURN * HALF_TURN - fold) / (HALF_TURN * HALF_TURN - OPEN_FOLD * OPEN_FOLD);
-    return share < 0.0 ? 0.0 : share < 1.0 ? share : 1.0;
+    return share < 0.0 ? 0.0 : kiriMin(share, 1.0);
 }
 
 double kiriStrain_NormalGapWidth(const kiriLink* link, double poissonsRatio)

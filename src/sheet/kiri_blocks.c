@@ -120,7 +120,7 @@ static bool IsFull(const kiriFrameMask* mask)
 static int32_t EndOfBlock(const kiriSheetData* sheet, int32_t block)
 {
     int32_t count = sheet->seen.surface.vertexCount;
-    return (block + 1) * KIRI_BLOCK < count ? (block + 1) * KIRI_BLOCK : count;
+    return kiriMin((block + 1) * KIRI_BLOCK, count);
 }
 
 static void WriteMask(kiriSheetData* sheet, int32_t block)

@@ -24,7 +24,7 @@ static kiriMat3 AxesOf(const kiriSheetDef* def)
 /* Newton's iteration from above. */
 static double CubeRoot(double a)
 {
-    double x = a > 1.0 ? a : 1.0;
+    double x = kiriMax(a, 1.0);
     for (int i = 0; i < 200; ++i) {
         x = (2.0 * x + a / (x * x)) / 3.0;
     }
@@ -44,7 +44,7 @@ static double BendingLength(const kiriMaterial* m)
 static double SpacingFor(const kiriSheetDef* def, double longer)
 {
     double bent = def->planar ? longer : 2.0 * BendingLength(&def->material);
-    return sqrt((double)def->accuracy) * (bent < longer ? bent : longer);
+    return sqrt((double)def->accuracy) * kiriMin(bent, longer);
 }
 
 static void SetFrames(kiriSettings* settings, const kiriMeshData* mesh, const kiriSheetDef* def)
@@ -54,9 +54,9 @@ static void SetFrames(kiriSettings* settings, const kiriMeshData* mesh, const ki
     if (def->frameCount == 0) {
         double least = 3.0 * mesh->step * mesh->squares.side;
         double length = def->frameLength > 0.0f ? def->frameLength : SpacingFor(def, KIRI_LATTICE * mesh->step);
-        settings->frameLength = length > least ? length : least;
+        settings->frameLength = kiriMax(length, least);
         share = settings->frameLength * settings->frameLength;
-        points = 4.0 * area / share < 1e6 ? 4.0 * area / share : 1e6;
+        points = kiriMin(4.0 * area / share, 1e6);
     }
     settings->integrationPoints = points;
     settings->rigidWeight = def->rigidWeight;

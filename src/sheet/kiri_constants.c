@@ -33,11 +33,6 @@ static bool ReservePoints(kiriSheetData* sheet)
            kiriView_Resize(sheet, sheet->update->placing.sites.count, (int32_t)need);
 }
 
-static int32_t Larger(int32_t a, int32_t b)
-{
-    return a > b ? a : b;
-}
-
 static kiriSystem NextSystem(const kiriSheetData* sheet, int32_t frameCount)
 {
     const kiriUpdate* u = sheet->update;
@@ -129,7 +124,7 @@ static kiriProgress PrepareCommit(kiriSheetData* sheet, kiriQuota* samples)
     }
     bool ok = (!kiriSheet_KeepsStrains(sheet) ||
                kiriStrainOffsets_Reserve(&sheet->strainOffsets, sheet->memory,
-                                         Larger(sheet->links.next.count, sheet->links.links.count),
+                                         kiriMax(sheet->links.next.count, sheet->links.links.count),
                                          u->placing.sites.count)) &&
               BuildAreaElements(sheet) && kiriPins_Stage(sheet) && ReservePoints(sheet) &&
               kiriArray_Reserve(sheet->memory, &sheet->frames, u->placing.sites.count) &&

@@ -95,7 +95,7 @@ static bool CopyContacts(const kiriKept* kept, kiriSheetData* to)
     const kiriSheetData* from = kept->from;
     const kiriTouches* touches = &from->touches;
     int32_t remembered = touches->last.touches.count + touches->slept.touches.count;
-    int32_t most = from->contacts.count > remembered ? from->contacts.count : remembered;
+    int32_t most = kiriMax(from->contacts.count, remembered);
     if (!kiriArray_Reserve(to->memory, &to->contacts, most) ||
         !kiriArray_Reserve(&to->shown, &to->touches.nextTold, most) || !kiriTouches_Room(to, most)) {
         return false;
@@ -251,7 +251,7 @@ double kiriExtraction_SamplesAhead(const kiriSheetData* sheet, double share, int
 {
     const double vertexSamples = 3.5, cellSamples = 2.2, frameSamples = 100.0, most = 6.8, lost = 12.5;
     double vertices = (double)sheet->mesh.vertices.count - sheet->mesh.vertexHoles, shape = most - lost / frames;
-    return share * (vertexSamples * vertices + (cellSamples + (shape > 0.5 ? shape : 0.5)) * sheet->grid.cellCount) +
+    return share * (vertexSamples * vertices + (cellSamples + kiriMax(shape, 0.5)) * sheet->grid.cellCount) +
            frameSamples * frames;
 }
 

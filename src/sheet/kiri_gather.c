@@ -15,7 +15,7 @@ static kiriProgress ReserveMap(kiriKeep* map, kiriMemory* memory, int32_t items,
     if (!kiriArray_Reserve(memory, &map->to, items)) {
         return KIRI_FAILED;
     }
-    map->to.count = map->to.count < items ? map->to.count : items;
+    map->to.count = kiriMin(map->to.count, items);
     while (map->to.count < items) {
         int32_t end = items - map->to.count < ROOM_AN_ITEM ? items : map->to.count + ROOM_AN_ITEM;
         if (!kiriQuota_Take(quota, 1)) {
@@ -386,15 +386,8 @@ kiriProgress kiriGather_GoOn(kiriGathered* gathered, kiriQuota* quota)
 
 const kiriGatheredPiece* kiriGather_Find(const kiriGathered* gathered, int32_t piece)
 {
-    int32_t low = 0, high = gathered->pieces.count - 1;
-    while (low < high) {
-        int32_t middle = (low + high) / 2;
-        if (gathered->pieces.data[middle].piece < piece) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
+    int32_t low;
+    KIRI_SEARCH(low, 0, gathered->pieces.count - 1, gathered->pieces.data[middle].piece < piece);
     KIRI_ASSERT(gathered->pieces.data[low].piece == piece);
     return &gathered->pieces.data[low];
 }

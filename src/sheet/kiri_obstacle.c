@@ -36,8 +36,8 @@ static void BoundAlong(const kiriObstacleData* obstacle, kiriVec3 axis, double d
     kiriVec3 local = kiriObstacle_ToLocal(obstacle, axis);
     double at = kiriVec3_Dot(axis, obstacle->position), way = dt * kiriVec3_Dot(axis, obstacle->velocity);
     double turn = dt * kiriObstacle_TurnSpeed(obstacle);
-    *lower = at - kiriObstacleShape_Reach(shape, kiriVec3_Scale(-1.0, local)) - turn + (way < 0.0 ? way : 0.0);
-    *upper = at + kiriObstacleShape_Reach(shape, local) + turn + (way > 0.0 ? way : 0.0);
+    *lower = at - kiriObstacleShape_Reach(shape, kiriVec3_Scale(-1.0, local)) - turn + kiriMin(way, 0.0);
+    *upper = at + kiriObstacleShape_Reach(shape, local) + turn + kiriMax(way, 0.0);
 }
 
 void kiriObstacle_Bound(kiriObstacleData* obstacle, double dt)

@@ -92,8 +92,8 @@ static bool MeetsLine(const void* context, const kiriBox* box)
             continue;
         }
         double enter = (out[k] > 0.0 ? low : high) / out[k], leave = (out[k] > 0.0 ? high : low) / out[k];
-        from = enter > from ? enter : from;
-        to = leave < to ? leave : to;
+        from = kiriMax(enter, from);
+        to = kiriMin(leave, to);
     }
     return from <= to;
 }
@@ -155,7 +155,7 @@ static EdgePoint MakePoint(const kiriMeeting* meeting, kiriVec3 at, const kiriVe
         sum = kiriVec3_Add(sum, point.faces[k]);
     }
     point.out = kiriVec3_Normalize(sum);
-    point.below = thinnest < meeting->square ? thinnest : meeting->square;
+    point.below = kiriMin(thinnest, meeting->square);
     point.above = obstacle->shape.rounding + meeting->gap + meeting->reach;
     point.item = 0;
     return point;
@@ -194,8 +194,8 @@ static void ClipEdge(const kiriMeeting* meeting, kiriVec3 from, kiriVec3 step, i
             continue;
         }
         double s = d[k] > 0.0 ? enter / d[k] : leave / d[k], t = d[k] > 0.0 ? leave / d[k] : enter / d[k];
-        start = s > start ? s : start;
-        end = t < end ? t : end;
+        start = kiriMax(s, start);
+        end = kiriMin(t, end);
     }
     *first = start <= end ? (int32_t)start : 0;
     *last = start <= end ? (int32_t)end : -1;
@@ -321,8 +321,8 @@ static kiriBox BoxAround(const EdgePoint* point)
 {
     kiriVec3 a = kiriVec3_AddScaled(point->at, point->above, point->out);
     kiriVec3 b = kiriVec3_AddScaled(point->at, -point->below, point->out);
-    kiriBox box = { { a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z },
-                    { a.x < b.x ? b.x : a.x, a.y < b.y ? b.y : a.y, a.z < b.z ? b.z : a.z } };
+    kiriBox box = { { kiriMin(a.x, b.x), kiriMin(a.y, b.y), kiriMin(a.z, b.z) },
+                    { kiriMax(b.x, a.x), kiriMax(b.y, a.y), kiriMax(b.z, a.z) } };
     return box;
 }
 

@@ -8,7 +8,7 @@ static double ShareOfSegment(kiriVec3 a, kiriVec3 b, kiriVec3 p)
     kiriVec3 along = kiriVec3_Sub(b, a);
     double square = kiriVec3_Dot(along, along);
     double t = square > 0.0 ? kiriVec3_Dot(kiriVec3_Sub(p, a), along) / square : 0.0;
-    return t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t;
+    return kiriClamp(t, 0.0, 1.0);
 }
 
 static kiriVec3 BlendOfThree(const kiriVec3 x[3], const double share[3])
@@ -50,7 +50,7 @@ static void NearestToAxis(double half, const kiriVec3 x[3], double share[3])
     for (int turn = 0; turn < TURNS; ++turn) {
         NearestOfTriangle(x, onAxis, share);
         double z = BlendOfThree(x, share).z;
-        onAxis.z = z < -half ? -half : z > half ? half : z;
+        onAxis.z = kiriClamp(z, -half, half);
         if (half <= 0.0) {
             return;
         }
@@ -63,7 +63,7 @@ static bool IsCoarse(const kiriMeeting* meeting, const kiriVec3 x[3])
     double longest = 0.0;
     for (int k = 0; k < 3; ++k) {
         double length = kiriVec3_Length(kiriVec3_Sub(x[(k + 1) % 3], x[k]));
-        longest = length > longest ? length : longest;
+        longest = kiriMax(length, longest);
     }
     return longest * longest > 16.0 * meeting->gap * meeting->obstacle->shape.radius;
 }

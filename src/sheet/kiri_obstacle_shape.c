@@ -28,7 +28,7 @@ static kiriVec2 FromEdge(const kiriObstacleShape* shape, int32_t edge, kiriVec2 
     int32_t next = edge + 1 < shape->count ? edge + 1 : 0;
     kiriVec2 a = shape->outline[edge], along = kiriVec2_Sub(shape->outline[next], a);
     double t = kiriVec2_Dot(kiriVec2_Sub(p, a), along) / kiriVec2_Dot(along, along);
-    t = t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t;
+    t = kiriClamp(t, 0.0, 1.0);
     return kiriVec2_Sub(p, kiriVec2_Make(a.x + t * along.x, a.y + t * along.y));
 }
 
@@ -136,7 +136,7 @@ static kiriVec3 AnySide(kiriVec3 across)
 /* All points so far from a part of the third axis: a capsule, or, where that has no length, a sphere. */
 static kiriNearest NearestOnCapsule(const kiriObstacleShape* shape, kiriVec3 p, kiriVec3 across)
 {
-    double z = p.z < -shape->half ? -shape->half : p.z > shape->half ? shape->half : p.z;
+    double z = kiriClamp(p.z, -shape->half, shape->half);
     kiriVec3 way = kiriVec3_Make(p.x, p.y, p.z - z);
     double length = kiriVec3_Length(way);
     kiriNearest nearest = { length - shape->radius, AnySide(across) };
@@ -192,7 +192,7 @@ double kiriObstacleShape_Reach(const kiriObstacleShape* shape, kiriVec3 directio
     double farthest = -KIRI_ENDLESS;
     for (int32_t i = 0; i < shape->count; ++i) {
         double far = kiriVec2_Dot(shape->outline[i], kiriVec2_Make(direction.x, direction.y));
-        farthest = far > farthest ? far : farthest;
+        farthest = kiriMax(far, farthest);
     }
     return reach + farthest + shape->rounding;
 }
@@ -218,9 +218,9 @@ static double HalfWidth(const kiriObstacleShape* shape)
         double deepest = 0.0;
         for (int32_t k = 0; k < shape->count; ++k) {
             double below = -AboveEdge(shape, i, shape->outline[k]);
-            deepest = below > deepest ? below : deepest;
+            deepest = kiriMax(below, deepest);
         }
-        least = deepest < least ? deepest : least;
+        least = kiriMin(deepest, least);
     }
     return 0.5 * least;
 }
@@ -258,7 +258,7 @@ static bool PrismEdgeAt(const kiriObstacleShape* shape, int32_t index, kiriObsta
 bool kiriObstacleShape_EdgeAt(const kiriObstacleShape* shape, int32_t index, kiriObstacleEdge* edge)
 {
     double width = HalfWidth(shape);
-    edge->thinnest = width < shape->half ? width : shape->half;
+    edge->thinnest = kiriMin(width, shape->half);
     return shape->type == KIRI_OBSTACLE_CYLINDER ? RimAt(shape, index, edge) : PrismEdgeAt(shape, index, edge);
 }
 

@@ -27,10 +27,8 @@ kiriBox kiriSheet_Box(const kiriSheetData* sheet)
     kiriBox box = { kiriSurface_At(surface, first), kiriSurface_At(surface, first) };
     for (int32_t v = first + 1; v < surface->vertexCount; ++v) {
         kiriVec3 x = kiriSurface_At(surface, kiriMesh_IsVertex(&sheet->mesh, v) ? v : first);
-        box.lower = kiriVec3_Make(x.x < box.lower.x ? x.x : box.lower.x, x.y < box.lower.y ? x.y : box.lower.y,
-                                  x.z < box.lower.z ? x.z : box.lower.z);
-        box.upper = kiriVec3_Make(x.x > box.upper.x ? x.x : box.upper.x, x.y > box.upper.y ? x.y : box.upper.y,
-                                  x.z > box.upper.z ? x.z : box.upper.z);
+        box.lower = kiriVec3_Make(kiriMin(x.x, box.lower.x), kiriMin(x.y, box.lower.y), kiriMin(x.z, box.lower.z));
+        box.upper = kiriVec3_Make(kiriMax(x.x, box.upper.x), kiriMax(x.y, box.upper.y), kiriMax(x.z, box.upper.z));
     }
     return box;
 }
@@ -48,7 +46,7 @@ static double Lever(const kiriFrameData* frame, const kiriBox* box)
 {
     double corner = FarthestCorner(box, frame->x), square = frame->inertia[0] + frame->inertia[2];
     double radius = frame->mass > 0.0 ? 6.0 * kiriRoot(square / frame->mass) : corner;
-    return radius < corner ? radius : corner;
+    return kiriMin(radius, corner);
 }
 
 double kiriSheet_SpeedLimit(const kiriSheetData* sheet, const kiriBox* box)
@@ -61,7 +59,7 @@ double kiriSheet_SpeedLimit(const kiriSheetData* sheet, const kiriBox* box)
         }
         double turn = kiriVec3_Length(frame->spin) + kiriVec3_Length(frame->rate.u) + kiriVec3_Length(frame->rate.v);
         double speed = kiriVec3_Length(frame->velocity) + turn * Lever(frame, box);
-        fastest = speed > fastest ? speed : fastest;
+        fastest = kiriMax(speed, fastest);
     }
     return fastest;
 }
@@ -280,8 +278,8 @@ static void CollectVertices(const kiriMeeting* meeting)
         if (search->marks.data[vertex] != search->mark && kiriMesh_IsVertex(&meeting->sheet->mesh, vertex)) {
             search->marks.data[vertex] = search->mark;
             search->vertices.data[search->vertices.count++] = vertex;
-            low = vertex < low ? vertex : low;
-            high = vertex > high ? vertex : high;
+            low = kiriMin(vertex, low);
+            high = kiriMax(vertex, high);
         }
     }
     if (high - low > 16 * (int64_t)search->vertices.count) {

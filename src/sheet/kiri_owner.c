@@ -54,7 +54,7 @@ static bool AreLinked(const LineWork* work, int32_t a, int32_t b)
 {
     const kiriLinks* links = &work->sheet->links;
     const kiriLink* list = work->isStaged ? links->next.data : links->links.data;
-    int32_t count = work->isStaged ? links->next.count : links->links.count, i = a < b ? a : b, j = a < b ? b : a;
+    int32_t count = work->isStaged ? links->next.count : links->links.count, i = kiriMin(a, b), j = kiriMax(b, a);
     for (int32_t k = 0; k < count; ++k) {
         if (list[k].i == i && list[k].j == j) {
             return true;

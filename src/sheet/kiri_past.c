@@ -5,7 +5,7 @@ bool kiriPast_Grow(kiriPast* past, int64_t tick, kiriIndices* room, kiriMemory* 
 {
     const kiriPast was = kiriPast_At(past, tick); /* pieces may have left at the start of the tick */
     KIRI_ASSERT(first >= mesh->oldVertexCount && (was.count == 0 || was.others != room->data));
-    int32_t same = was.same < first ? was.same : first, count = mesh->vertices.count - same;
+    int32_t same = kiriMin(was.same, first), count = mesh->vertices.count - same;
     if (!kiriArray_Resize(memory, room, count)) {
         return false;
     }
@@ -24,7 +24,7 @@ bool kiriPast_Grow(kiriPast* past, int64_t tick, kiriIndices* room, kiriMemory* 
 
 bool kiriPast_Keep(kiriPast* to, const kiriPast* past, kiriMemory* memory, const kiriKeep* vertices)
 {
-    int32_t same = past->same < vertices->first ? past->same : vertices->first, count = vertices->count - same;
+    int32_t same = kiriMin(past->same, vertices->first), count = vertices->count - same;
     int32_t* others = kiriMemory_Alloc(memory, count * (int64_t)sizeof(int32_t));
     for (int32_t v = same; others != NULL && v < vertices->to.count; ++v) {
         int32_t kept = kiriKeep_To(vertices, v);

@@ -241,7 +241,7 @@ static int32_t EndOfSpans(const kiriPieceItems* list)
     int32_t end = 0;
     for (int32_t p = 0; p < list->spans.count; ++p) {
         kiriSpan span = list->spans.data[p];
-        end = span.first + span.count > end ? span.first + span.count : end;
+        end = kiriMax(span.first + span.count, end);
     }
     return end;
 }
@@ -351,8 +351,8 @@ static void Bound(const kiriSheetData* sheet, kiriSpan span, float lower[3], flo
     for (int32_t i = 1; i < span.count; ++i) {
         const float* x = positions + 3 * (size_t)vertices[i];
         for (int k = 0; k < 3; ++k) {
-            least[k] = x[k] < least[k] ? x[k] : least[k];
-            most[k] = x[k] > most[k] ? x[k] : most[k];
+            least[k] = kiriMin(x[k], least[k]);
+            most[k] = kiriMax(x[k], most[k]);
         }
     }
     memcpy(lower, least, sizeof(least));

@@ -32,15 +32,15 @@ static kiriVec2 PointAlong(const RestLine* line, double t)
 static double MomentOf(const RestLine* line, const kiriLineShare* share)
 {
     double about = share->second - share->first * share->first / share->length;
-    return line->length * line->length * line->length * (about > 0.0 ? about : 0.0);
+    return line->length * line->length * line->length * kiriMax(about, 0.0);
 }
 
 /* How much of the width is at free ends: see kiriLink. `foot` is where the way from the site meets the line. */
 static double OuterOf(const RestLine* line, const kiriLineShare* share, double foot)
 {
     double before = share->open[0] ? foot - share->ends[0] : 0.0, behind = share->open[1] ? share->ends[1] - foot : 0.0;
-    double outer = (before > 0.0 ? before : 0.0) + (behind > 0.0 ? behind : 0.0);
-    return line->length * (outer < share->length ? outer : share->length);
+    double outer = kiriMax(before, 0.0) + kiriMax(behind, 0.0);
+    return line->length * kiriMin(outer, share->length);
 }
 
 /* What a share has of a line, for the site of its frame. */
@@ -298,7 +298,7 @@ static void WriteHinge(kiriSheetData* sheet, const kiriPinShare* pinned, double 
     RestLine line = RestLineOf(sheet, pin);
     kiriClampShape shape = ShapeOf(sheet, &line, &pinned->share, site);
     double away = fabs(kiriVec2_Dot(kiriVec2_Sub(site, line.from), kiriVec2_Make(-line.along.y, line.along.x)));
-    double length = away > shape.least ? away : shape.least;
+    double length = kiriMax(away, shape.least);
     double stiffness = (double)material->youngsModulus * material->thickness * shape.width / length;
     kiriMat3 rotation = RotationAfter(pin, to);
     kiriVec2 arm = kiriVec2_Scale(sqrt(shape.moment / shape.width), line.along);

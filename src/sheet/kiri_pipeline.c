@@ -45,7 +45,7 @@ void kiriQuotas_Share(kiriQuotas* quotas, int spent)
         if (kind != spent && left < limit && limit < INT64_MAX && quotas->limits[kind] < INT64_MAX) {
             int64_t most = left * quotas->limits[kind] / limit; /* each has 31 bits */
             kiriQuota* quota = &quotas->of[kind];
-            quota->left = quota->left < most ? quota->left : most;
+            quota->left = kiriMin(quota->left, most);
             quota->isShared = true;
         }
     }

@@ -212,8 +212,8 @@ static void BoundPieces(kiriSheetData* sheet)
         }
         kiriBox* box = &probes->boxes.data[probes->vertexPiece.data[v]];
         kiriVec3 x = kiriSurface_At(&sheet->seen.surface, v), *a = &box->lower, *b = &box->upper;
-        *a = kiriVec3_Make(x.x < a->x ? x.x : a->x, x.y < a->y ? x.y : a->y, x.z < a->z ? x.z : a->z);
-        *b = kiriVec3_Make(x.x > b->x ? x.x : b->x, x.y > b->y ? x.y : b->y, x.z > b->z ? x.z : b->z);
+        *a = kiriVec3_Make(kiriMin(x.x, a->x), kiriMin(x.y, a->y), kiriMin(x.z, a->z));
+        *b = kiriVec3_Make(kiriMax(x.x, b->x), kiriMax(x.y, b->y), kiriMax(x.z, b->z));
     }
 }
 
@@ -226,7 +226,7 @@ static void MeasureVelocities(kiriSheetData* sheet)
         for (int32_t i = span.first; i < span.first + span.count; ++i) {
             probes->velocities.data[i] = kiriProbe_Velocity(sheet, probes->list.items.data[i]);
             double squared = kiriVec3_Dot(probes->velocities.data[i], probes->velocities.data[i]);
-            most = squared > most ? squared : most;
+            most = kiriMax(squared, most);
         }
         probes->speeds.data[p] = sqrt(most);
     }

@@ -25,7 +25,7 @@ static int64_t CountCrossings(const kiriSheetData* sheet)
         }
     }
     double spacing = sqrt(2.0 * width * height / (mesh->triangles.count + 1.0)), crossings = 3.0 * way / spacing;
-    return (int64_t)(crossings < most ? crossings : most) + u->cut.count;
+    return (int64_t)kiriMin(crossings, most) + u->cut.count;
 }
 
 enum { ROOMS = 16 };
@@ -62,7 +62,7 @@ static void ListRooms(kiriSheetData* sheet, int64_t more, kiriRoom rooms[ROOMS])
 static int64_t CrossingsInTick(const kiriQuota* triangles, int64_t crossings)
 {
     int64_t most = triangles->left / ROOM_TRIANGLES + 1;
-    return most < 4 * crossings ? most : 4 * crossings;
+    return kiriMin(most, 4 * crossings);
 }
 
 bool kiriRoom_IsLow(kiriSheetData* sheet, const kiriQuota* triangles)

@@ -326,7 +326,7 @@ static void TakeVertexJumps(kiriSheetData* sheet)
     look.anySleeps = AnySleeps(sheet);
     kiriFades_Start(&sheet->seen.fades);
     for (int32_t begin = 0; begin < surface->vertexCount; begin += KIRI_BLOCK) {
-        int32_t end = begin + KIRI_BLOCK < surface->vertexCount ? begin + KIRI_BLOCK : surface->vertexCount;
+        int32_t end = kiriMin(begin + KIRI_BLOCK, surface->vertexCount);
         if (MayBeElsewhere(sheet, &look, begin, end)) {
             LookAtJumps(sheet, &look, begin, end);
         }

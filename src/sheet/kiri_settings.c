@@ -31,7 +31,7 @@ kiriSheetSettings kiriSettings_Of(const kiriSheetDef* def)
 static double ContactThickness(const kiriSheetSettings* given, double square)
 {
     double least = LEAST_CONTACT_THICKNESS * square, own = given->material.thickness;
-    return given->contactThickness > 0.0f ? given->contactThickness : own > least ? own : least;
+    return given->contactThickness > 0.0f ? given->contactThickness : kiriMax(own, least);
 }
 
 void kiriSettings_Take(kiriSettings* settings, const kiriSheetSettings* given, double square)

@@ -58,15 +58,15 @@ static bool AddAcross(const SeverWork* work, int32_t to, const kiriLineShare* ow
         }
         share = &work->sheet->lineShares.data[work->sheet->lineShares.count - 1];
     }
-    t = t > high ? high : t;
-    t = t < low ? low : t;
+    t = kiriMin(high, t);
+    t = kiriMax(low, t);
     share->length += length;
     share->first += length * t;
     share->second += length * (t * t + length * length / 12.0);
     share->load += length;
     share->firstLoad += length * t;
-    share->ends[0] = own->ends[0] < share->ends[0] ? own->ends[0] : share->ends[0];
-    share->ends[1] = own->ends[1] > share->ends[1] ? own->ends[1] : share->ends[1];
+    share->ends[0] = kiriMin(own->ends[0], share->ends[0]);
+    share->ends[1] = kiriMax(own->ends[1], share->ends[1]);
     return true;
 }
 
@@ -79,7 +79,7 @@ static bool SpreadShare(const SeverWork* work, kiriLineShare own)
         bool isOwn = link->i == own.frame || link->j == own.frame;
         sum += isOwn && IsAcross(work, link, &t, &width) ? width : 0.0;
     }
-    double spread = own.alone < sum ? own.alone : sum;
+    double spread = kiriMin(own.alone, sum);
     for (int32_t k = 0; spread > 0.0 && k < work->linkCount; ++k) {
         const kiriLink* link = &work->links[k];
         bool isOwn = link->i == own.frame || link->j == own.frame;
@@ -98,7 +98,7 @@ static bool SeverBorder(const SeverWork* work, const kiriLinePart* part)
 {
     int32_t left = kiriOwner_OfNode(work->sheet, part->node[0], work->isStaged);
     int32_t right = kiriOwner_OfNode(work->sheet, part->node[1], work->isStaged);
-    int32_t i = left < right ? left : right, j = left < right ? right : left;
+    int32_t i = kiriMin(left, right), j = kiriMax(right, left);
     for (int32_t k = 0; i != KIRI_NONE && i != j && k < work->linkCount; ++k) {
         double t, width;
         if (work->links[k].i == i && work->links[k].j == j && IsAcross(work, &work->links[k], &t, &width)) {

@@ -25,7 +25,7 @@ static bool MakeFlags(kiriSheetData* sheet)
 {
     kiriUpdate* u = sheet->update;
     int32_t old = u->placing.flags.count, squares = sheet->mesh.squares.columns * sheet->mesh.squares.rows;
-    int32_t most = sheet->grid.cells.count > squares ? sheet->grid.cells.count : squares;
+    int32_t most = kiriMax(sheet->grid.cells.count, squares);
     if (most > old && !kiriArray_Resize(sheet->memory, &u->placing.flags, most)) {
         return false;
     }
@@ -192,7 +192,7 @@ int32_t kiriSites_ShareOf(const kiriSheetData* sheet, double count)
         return 1;
     }
     int32_t whole = (int32_t)(count * (TakenArea(sheet) / sheet->update->placing.whole) + 0.5);
-    return whole > 1 ? whole : 1;
+    return kiriMax(whole, 1);
 }
 
 /* Around slit ends, where strains are large, sites are closer: `closeness` times at an end, less and less up to `reach`
@@ -210,7 +210,7 @@ static int32_t LeftToSpread(const kiriSheetData* sheet)
 {
     const kiriPlacingWork* placing = &sheet->update->placing;
     int32_t left = placing->spread - placing->sites.count - (placing->pieces - 1);
-    return left > 1 ? left : 1;
+    return kiriMax(left, 1);
 }
 
 /* How many frames the piece in the placer starts with. */
@@ -222,15 +222,15 @@ static int32_t FramesFor(const kiriSheetData* sheet)
     int32_t most = kiriSites_MostIn(sheet->update->placing.placer.cells.count);
     if (sheet->settings.frameLength == 0.0) {
         int32_t share = kiriSites_ShareOf(sheet, sheet->update->placing.spread), left = LeftToSpread(sheet);
-        most = left < most ? left : most;
-        return share < most ? share : most;
+        most = kiriMin(left, most);
+        return kiriMin(share, most);
     }
     double even = TakenArea(sheet) / (sheet->settings.frameLength * sheet->settings.frameLength);
     double full = OPEN_CLOSENESS * OPEN_CLOSENESS * even;
     double count = even + OPEN_FRAMES_AN_END * sheet->update->placing.placer.ends.count;
-    count = 0.5 + (count < full ? count : full);
+    count = 0.5 + kiriMin(count, full);
     int32_t left = sheet->settings.maxFrames - sheet->update->placing.sites.count;
-    most = left < most ? left : most;
+    most = kiriMin(left, most);
     return count < 1.0 || most < 1 ? 1 : count < most ? (int32_t)count : most;
 }
 
@@ -242,7 +242,7 @@ static bool StartPlacing(kiriSheetData* sheet, int32_t count, double spacing)
     bool isOpen = sheet->settings.frameLength > 0.0;
     double closeness = isOpen ? OPEN_CLOSENESS : GIVEN_CLOSENESS, reach = isOpen ? OPEN_REACH : GIVEN_REACH;
     double most = 0.5 * spacing / sheet->grid.side; /* two squares apart */
-    closeness = closeness < most ? closeness : most > 1.0 ? most : 1.0;
+    closeness = closeness < most ? closeness : kiriMax(most, 1.0);
     placer->sites.count = 0;
     placer->closeness = closeness;
     placer->reach = closeness > 1.0 ? reach * spacing : 0.0;
@@ -364,7 +364,7 @@ static double Largeness(const kiriSheetData* sheet, int32_t frame)
 static double NeedOf(const kiriSheetData* sheet, int32_t frame)
 {
     double rigidity = FrameRigidity(sheet, frame), largeness = Largeness(sheet, frame);
-    return rigidity > largeness ? rigidity : largeness;
+    return kiriMax(rigidity, largeness);
 }
 
 /* Marks the cells of the piece in which the weight of a rigid frame exceeds rigidWeight, or whose region is too
@@ -430,12 +430,12 @@ static int32_t SitesToAdd(kiriSheetData* sheet, bool areNew)
     for (int32_t i = 0; i < own; ++i) {
         double need = NeedOf(sheet, placing->own.data[i]);
         needing += need > 1.0;
-        largest = need > largest ? need : largest;
+        largest = kiriMax(need, largest);
     }
-    most = left < most ? left : most;
+    most = kiriMin(left, most);
     placing->isAgain = areNew && (placing->isFirst || needing > own / 4) && most > 0 && !IsCrumbTaken(sheet);
     double more = placing->isAgain ? own * (largest < 1.5 ? largest - 1.0 : 0.5) : 0.5 * needing + 0.5;
-    more = more < 1.0 ? 1.0 : more;
+    more = kiriMax(1.0, more);
     return most < 1 || IsCrumbTaken(sheet) ? 0 : more < most ? (int32_t)more : most;
 }
 

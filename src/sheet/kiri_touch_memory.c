@@ -5,15 +5,8 @@
 /* The first that has this key or a larger one. */
 static int32_t FindForce(const kiriTouchMemory* memory, uint64_t key)
 {
-    int32_t low = 0, high = memory->forces.count;
-    while (low < high) {
-        int32_t middle = low + (high - low) / 2;
-        if (memory->forces.data[middle].key < key) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
+    int32_t low;
+    KIRI_SEARCH(low, 0, memory->forces.count, memory->forces.data[middle].key < key);
     return low;
 }
 

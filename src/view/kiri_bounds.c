@@ -1,19 +1,37 @@
-#include "kiri_bounds_work.h"
+#include "kiri_bounds.h"
 
 #include "../core/kiri_sort.h"
 
 #include <string.h>
 
+enum { KIRI_BOUNDS_LEAF = 8, KIRI_BOUNDS_FAN = 4 }; /* triangles of a leaf, children of a node */
+
+/* Its corners are one, see kiriSurface_HideTriangle. */
+static bool kiriBounds_IsHidden(const kiriSurface* surface, int32_t triangle)
+{
+    const int32_t* corner = &surface->indices.data[3 * (size_t)triangle];
+    return corner[0] == corner[1];
+}
+
+/* The children of a node, or the triangles of a leaf: the items from *first up to the end that it returns. */
+static int32_t kiriBounds_ItemsOf(const kiriBounds* bounds, int32_t level, int32_t node, int32_t* first)
+{
+    int32_t fan = level == 0 ? KIRI_BOUNDS_LEAF : KIRI_BOUNDS_FAN, start = level == 0 ? 0 : bounds->firsts[level - 1];
+    int32_t end = level == 0 ? bounds->order.count : bounds->firsts[level];
+    *first = start + fan * (node - bounds->firsts[level]);
+    return end - *first < fan ? end : *first + fan;
+}
+
 /* ---- Boxes ---- */
 
 static kiriVec3 Least(kiriVec3 a, kiriVec3 b)
 {
-    return kiriVec3_Make(a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z);
+    return kiriVec3_Make(kiriMin(a.x, b.x), kiriMin(a.y, b.y), kiriMin(a.z, b.z));
 }
 
 static kiriVec3 Most(kiriVec3 a, kiriVec3 b)
 {
-    return kiriVec3_Make(a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z);
+    return kiriVec3_Make(kiriMax(a.x, b.x), kiriMax(a.y, b.y), kiriMax(a.z, b.z));
 }
 
 static inline void AddTriangle(kiriBox* box, const kiriSurface* surface, const int32_t* corner)
@@ -65,11 +83,11 @@ static void WriteCodes(kiriBounds* bounds, const kiriSurface* surface)
     kiriVec2 lower = surface->rest.data[0], upper = lower;
     for (int32_t v = 0; v < surface->vertexCount; ++v) {
         kiriVec2 p = surface->rest.data[v];
-        lower = kiriVec2_Make(p.x < lower.x ? p.x : lower.x, p.y < lower.y ? p.y : lower.y);
-        upper = kiriVec2_Make(p.x > upper.x ? p.x : upper.x, p.y > upper.y ? p.y : upper.y);
+        lower = kiriVec2_Make(kiriMin(p.x, lower.x), kiriMin(p.y, lower.y));
+        upper = kiriVec2_Make(kiriMax(p.x, upper.x), kiriMax(p.y, upper.y));
     }
     double width = upper.x - lower.x, height = upper.y - lower.y;
-    double scale = 65535.0 / (width > height ? width : height);
+    double scale = 65535.0 / kiriMax(width, height);
     for (int32_t t = 0; t < surface->triangleCount; ++t) {
         bounds->codes.data[t] = CodeOf(surface, t, lower, scale);
         bounds->order.data[t] = t;
@@ -97,7 +115,7 @@ static void SortByBits(const uint32_t* codes, int shift, const int32_t* from, in
     }
 }
 
-void kiriBounds_SortByCodes(kiriBounds* bounds, int32_t count)
+static void kiriBounds_SortByCodes(kiriBounds* bounds, int32_t count)
 {
     const uint32_t* codes = bounds->codes.data;
     int32_t *a = bounds->order.data, *b = bounds->other.data;
@@ -211,7 +229,7 @@ static void FitNodes(kiriBounds* bounds)
     }
 }
 
-void kiriBounds_Fit(kiriBounds* bounds, const kiriSurface* surface)
+static void kiriBounds_Fit(kiriBounds* bounds, const kiriSurface* surface)
 {
     FitLeaves(bounds, surface);
     FitNodes(bounds);
@@ -484,9 +502,9 @@ static bool Clip(double origin, double direction, double low, double high, doubl
         return origin >= low && origin <= high;
     }
     double a = (low - origin) / direction, b = (high - origin) / direction;
-    double enter = a < b ? a : b, leave = a < b ? b : a;
-    *from = enter > *from ? enter : *from;
-    *to = leave < *to ? leave : *to;
+    double enter = kiriMin(a, b), leave = kiriMax(b, a);
+    *from = kiriMax(enter, *from);
+    *to = kiriMin(leave, *to);
     return *from <= *to;
 }
 
@@ -519,7 +537,7 @@ static double LargestOf(const kiriBox* box, kiriVec3 origin)
     kiriVec3 o = kiriVec3_Make(0.0, 0.0, 0.0);
     kiriVec3 low = Least(Least(box->lower, origin), o), high = Most(Most(box->upper, origin), o);
     kiriVec3 most = Most(high, kiriVec3_Scale(-1.0, low));
-    return most.x > most.y ? (most.x > most.z ? most.x : most.z) : (most.y > most.z ? most.y : most.z);
+    return most.x > most.y ? kiriMax(most.x, most.z) : kiriMax(most.y, most.z);
 }
 
 void kiriBounds_Ray(const kiriBounds* bounds, kiriVec3 origin, kiriVec3 direction, double distance, kiriVisitFn* visit,
@@ -536,5 +554,167 @@ void kiriBounds_Ray(const kiriBounds* bounds, kiriVec3 origin, kiriVec3 directio
     walk.slack = 1e-9 * LargestOf(&bounds->nodes.data[root], origin);
     if (MeetsRay(&walk, &bounds->nodes.data[root])) {
         WalkRay(&walk, bounds->levelCount - 1, root);
+    }
+}
+
+/* ---- Groups ---- */
+
+/* KIRI_NONE for a triangle that is not seen. */
+static int32_t GroupOf(const kiriSurface* surface, const int32_t* ofVertex, int32_t triangle)
+{
+    return kiriBounds_IsHidden(surface, triangle) ? KIRI_NONE : ofVertex[surface->indices.data[3 * (size_t)triangle]];
+}
+
+/* As a set: groups of the same number modulo 64 look the same, so boxes of pieces that lie on each other are told apart
+   also near the root. */
+static uint64_t SetOf(int32_t group)
+{
+    return group == KIRI_NONE ? 0 : UINT64_C(1) << (group & 63);
+}
+
+/* Those that the items of a node are of. */
+static uint64_t GroupsOfNode(const kiriBounds* bounds, const kiriSurface* surface, const int32_t* ofVertex,
+                             int32_t level, int32_t node)
+{
+    int32_t first, end = kiriBounds_ItemsOf(bounds, level, node, &first);
+    uint64_t groups = 0;
+    for (int32_t i = first; i < end; ++i) {
+        groups |= level > 0 ? bounds->groups.data[i] : SetOf(GroupOf(surface, ofVertex, bounds->order.data[i]));
+    }
+    return groups;
+}
+
+/* Returns how many leaves have triangles of several groups. */
+static int32_t WriteGroups(kiriBounds* bounds, const kiriSurface* surface, const int32_t* ofVertex)
+{
+    int32_t mixed = 0;
+    for (int32_t level = 0; level < bounds->levelCount; ++level) {
+        int32_t end = level + 1 < bounds->levelCount ? bounds->firsts[level + 1] : bounds->nodes.count;
+        for (int32_t node = bounds->firsts[level]; node < end; ++node) {
+            uint64_t groups = GroupsOfNode(bounds, surface, ofVertex, level, node);
+            bounds->groups.data[node] = groups;
+            mixed += level == 0 && (groups & (groups - 1)) != 0;
+        }
+    }
+    return mixed;
+}
+
+/* Group by group, and in the order of before within each: groups that part have large boxes together. */
+static void SortByGroup(kiriBounds* bounds, const kiriSurface* surface, const int32_t* ofVertex)
+{
+    for (int32_t t = 0; t < surface->triangleCount; ++t) {
+        bounds->codes.data[t] = (uint32_t)(GroupOf(surface, ofVertex, t) + 1);
+    }
+    kiriBounds_SortByCodes(bounds, surface->triangleCount);
+    kiriBounds_Fit(bounds, surface);
+}
+
+bool kiriBounds_Group(kiriBounds* bounds, kiriMemory* memory, const kiriSurface* surface, const int32_t* ofVertex,
+                      int32_t groupCount)
+{
+    KIRI_ASSERT(kiriBounds_IsFresh(bounds, surface));
+    int32_t count = surface->triangleCount, leaves = count / KIRI_BOUNDS_LEAF;
+    if (!kiriArray_Resize(memory, &bounds->groups, bounds->nodes.count)) {
+        return false;
+    }
+    /* Sorted by group no more leaves are mixed than there are groups; between sorts, some of new triangles. */
+    if (WriteGroups(bounds, surface, ofVertex) <= groupCount + leaves / 16) {
+        return true;
+    }
+    if (!kiriArray_Reserve(memory, &bounds->codes, count) || !kiriArray_Reserve(memory, &bounds->other, count)) {
+        return false;
+    }
+    SortByGroup(bounds, surface, ofVertex);
+    WriteGroups(bounds, surface, ofVertex);
+    return true;
+}
+
+/* ---- The nearest ---- */
+
+#define ROUNDING_OF_BOXES (1.0 + 1e-9) /* of squares of distances: a box is never farther than what is in it */
+
+typedef struct NearSearch {
+    const kiriBounds* bounds;
+    const kiriSurface* surface;
+    kiriGroup group;
+    kiriVec3 from;
+    double most;
+    kiriNearFn* look;
+    void* context;
+} NearSearch;
+
+static double OffSide(double x, double lower, double upper)
+{
+    return x < lower ? lower - x : x > upper ? x - upper : 0.0;
+}
+
+static double SquareToBox(const kiriBox* box, kiriVec3 x)
+{
+    kiriVec3 off = kiriVec3_Make(OffSide(x.x, box->lower.x, box->upper.x), OffSide(x.y, box->lower.y, box->upper.y),
+                                 OffSide(x.z, box->lower.z, box->upper.z));
+    return kiriVec3_Dot(off, off);
+}
+
+/* The child that is the nearest of those not visited yet, or `end`. */
+static int32_t NextChild(const double* squares, int32_t first, int32_t end)
+{
+    int32_t best = end;
+    for (int32_t i = first; i < end; ++i) {
+        bool isLeft = squares[i - first] >= 0.0;
+        best = isLeft && (best == end || squares[i - first] < squares[best - first]) ? i : best;
+    }
+    return best;
+}
+
+static bool IsNearEnough(const NearSearch* search, double square)
+{
+    return square <= search->most * ROUNDING_OF_BOXES;
+}
+
+static void LookInLeaf(NearSearch* search, int32_t leaf)
+{
+    int32_t first, end = kiriBounds_ItemsOf(search->bounds, 0, leaf, &first);
+    for (int32_t i = first; i < end; ++i) {
+        int32_t triangle = search->bounds->order.data[i];
+        if (GroupOf(search->surface, search->group.ofVertex, triangle) != search->group.group) {
+            continue;
+        }
+        kiriBox box = kiriBox_OfTriangle(search->surface, triangle);
+        if (IsNearEnough(search, SquareToBox(&box, search->from))) {
+            search->most = search->look(search->context, triangle);
+        }
+    }
+}
+
+static void LookInNode(NearSearch* search, int32_t level, int32_t node)
+{
+    double squares[KIRI_BOUNDS_FAN];
+    int32_t first, end = kiriBounds_ItemsOf(search->bounds, level, node, &first);
+    for (int32_t i = first; i < end; ++i) {
+        bool hasGroup = (search->bounds->groups.data[i] & SetOf(search->group.group)) != 0;
+        squares[i - first] = hasGroup ? SquareToBox(&search->bounds->nodes.data[i], search->from) : -1.0;
+    }
+    for (int32_t i; (i = NextChild(squares, first, end)) < end && IsNearEnough(search, squares[i - first]);) {
+        squares[i - first] = -1.0;
+        if (level > 1) {
+            LookInNode(search, level - 1, i);
+        } else {
+            LookInLeaf(search, i);
+        }
+    }
+}
+
+void kiriBounds_Nearest(const kiriBounds* bounds, const kiriSurface* surface, kiriGroup group, kiriVec3 from,
+                        double most, kiriNearFn* look, void* context)
+{
+    NearSearch search = { bounds, surface, group, from, most, look, context };
+    int32_t root = bounds->nodes.count - 1;
+    KIRI_ASSERT(kiriBounds_IsFresh(bounds, surface) && bounds->groups.count == bounds->nodes.count);
+    if (root >= 0 && IsNearEnough(&search, SquareToBox(&bounds->nodes.data[root], from))) {
+        if (bounds->levelCount > 1) {
+            LookInNode(&search, bounds->levelCount - 1, root);
+        } else {
+            LookInLeaf(&search, root);
+        }
     }
 }

@@ -41,7 +41,7 @@ void kiriCarriers_Write(kiriCarrier* carriers, const kiriFrameData* frames, int3
    degrees. Never above 8: frames back to back tell nothing. */
 static double AngleOverSine(double cosine)
 {
-    double lower = 1.0 + cosine > 0.1 ? 1.0 + cosine : 0.1, x = (2.0 - lower) / lower;
+    double lower = kiriMax(1.0 + cosine, 0.1), x = (2.0 - lower) / lower;
     double angle = (945.0 + x * (735.0 + 64.0 * x)) / (945.0 + x * (1050.0 + 225.0 * x));
     return angle * (1.0 + x);
 }
@@ -96,14 +96,6 @@ static void LimitCurve(kiriCarrier* carrier, const kiriFrameData* frame)
     }
 }
 
-/* From center to center along the link. */
-static kiriVec2 CentreToCentre(const kiriFrameData* frames, const kiriLink* link)
-{
-    kiriVec2 start = kiriVec2_Sub(frames[link->i].site.at, frames[link->i].center);
-    kiriVec2 end = kiriVec2_Sub(frames[link->j].center, frames[link->j].site.at);
-    return kiriVec2_Add(kiriVec2_Add(start, link->span), end);
-}
-
 void kiriCarriers_Bend(kiriCarrier* carriers, kiriBend* bends, const kiriFrameData* frames, int32_t count,
                        const kiriLink* links, int32_t linkCount, const kiriIndices* some, const kiriIndices* someLinks)
 {
@@ -113,7 +105,9 @@ void kiriCarriers_Bend(kiriCarrier* carriers, kiriBend* bends, const kiriFrameDa
     for (int32_t n = 0; n < CarrierCount(someLinks, linkCount) && CarrierAt(someLinks, n) < linkCount; ++n) {
         const kiriLink* link = &links[CarrierAt(someLinks, n)];
         kiriCarrier *i = &carriers[link->i], *j = &carriers[link->j];
-        kiriVec2 way = CentreToCentre(frames, link);
+        kiriVec2 start = kiriVec2_Sub(frames[link->i].site.at, frames[link->i].center);
+        kiriVec2 end = kiriVec2_Sub(frames[link->j].center, frames[link->j].site.at);
+        kiriVec2 way = kiriVec2_Add(kiriVec2_Add(start, link->span), end); /* from centre to centre */
         AddDirectorTurn(&bends[link->i], i, j->d, way, link->width);
         AddDirectorTurn(&bends[link->j], j, i->d, kiriVec2_Scale(-1.0, way), link->width);
     }

@@ -42,7 +42,7 @@ static double TimeLeft(const kiriFades* fades, const kiriFading* older, double j
 static void TakeOne(kiriFades* fades, const kiriFading* older, kiriVec3 offset)
 {
     double jump = kiriVec3_Length(kiriVec3_Sub(offset, older->offset));
-    fades->jump = jump > fades->jump ? jump : fades->jump;
+    fades->jump = kiriMax(jump, fades->jump);
     if (fades->time > 0.0 && kiriVec3_Length(offset) > fades->least) {
         kiriFading next = { older->sample, TimeLeft(fades, older, jump), offset };
         KIRI_ASSERT(fades->fading.count < fades->older); /* Reserve has made room */
@@ -80,7 +80,7 @@ void kiriFades_Advance(kiriFades* fades, double dt)
         double share = dt < fading.left ? (fading.left - dt) / fading.left : 0.0;
         double length = kiriVec3_Length(fading.offset), left = share * length;
         left = left > fades->least ? left : 0.0;
-        fades->move = length - left > fades->move ? length - left : fades->move;
+        fades->move = kiriMax(length - left, fades->move);
         fading.left -= dt;
         fading.offset = kiriVec3_Scale(share, fading.offset);
         if (left > 0.0) {

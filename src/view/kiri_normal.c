@@ -120,6 +120,7 @@ static bool InsertPair(int32_t* pairs, int32_t* count, int32_t pair)
 /* The pairs of the fan of a vertex: counter-clockwise all around or to its end, else clockwise from where it began. */
 static bool ListPairs(const kiriMeshData* mesh, int32_t vertex, int32_t* pairs, int32_t* count)
 {
+    KIRI_ASSERT(vertex >= 0 && vertex < mesh->vertices.count);
     int32_t start = mesh->vertices.data[vertex].edge, h = start;
     bool ok = true;
     *count = 0;

@@ -308,6 +308,7 @@ void kiriPlaces_Keep(kiriPlaces* places, const kiriKeep* samples)
 /* There is room for every square. */
 static void AddSquare(kiriRefresh* refresh, int32_t square)
 {
+    KIRI_ASSERT(square >= 0 && square < refresh->marks.count);
     if (!refresh->marks.data[square]) {
         refresh->marks.data[square] = 1;
         refresh->squares.data[refresh->squares.count++] = square;
@@ -420,6 +421,7 @@ static int32_t NextOf(const Samples* samples, int32_t sample)
 
 static int32_t CellOfSample(const Samples* samples, int32_t square, int32_t sample)
 {
+    KIRI_ASSERT(square >= 0 && square < samples->grid->squareCell.count);
     int32_t first = samples->grid->squareCell.data[square];
     if (samples->grid->cells.data[first].next == KIRI_NONE) {
         return first;
@@ -511,6 +513,7 @@ kiriProgress kiriRefresh_Points(kiriRefresh* refresh, kiriSkin* skin, const kiri
 kiriVec3 kiriSkin_Position(const kiriSkin* skin, const kiriLabels* labels, int32_t sample, const kiriFrameData* frames,
                            kiriVec2 local)
 {
+    KIRI_ASSERT(sample >= 0 && sample < skin->spans.count);
     kiriVec3 x = { 0.0, 0.0, 0.0 };
     kiriSpan span = skin->spans.data[sample];
     for (int32_t i = span.first; i < span.first + span.count; ++i) {

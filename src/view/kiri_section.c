@@ -31,7 +31,7 @@ static void SetEndSide(kiriWindow* window, int side, const kiriVec3 corner[4], k
         kiriVec3 inward = side == KIRI_SIDE_SECOND ? along : kiriVec3_Scale(-1.0, along);
         double atA = kiriVec3_Dot(inward, a), atB = kiriVec3_Dot(inward, b);
         window->inward[side] = inward;
-        window->level[side] = atA < atB ? atA : atB;
+        window->level[side] = kiriMin(atA, atB);
     }
 }
 
@@ -105,7 +105,7 @@ static kiriSectionPoint Between(kiriSectionPoint a, kiriSectionPoint b, double t
 /* Where the plane crosses an edge: from both of its triangles the same bits. `other` is the third corner. */
 static void CrossEdge(const Pieces* p, Piece* piece, int k, int32_t a, int32_t b, int32_t other)
 {
-    int32_t low = a < b ? a : b, high = a < b ? b : a;
+    int32_t low = kiriMin(a, b), high = kiriMax(b, a);
     const kiriVec2* rest = p->surface->rest.data;
     kiriSectionPoint from = { rest[low], kiriSurface_At(p->surface, low) },
                      to = { rest[high], kiriSurface_At(p->surface, high) };
@@ -230,6 +230,7 @@ static int32_t EndOf(int32_t end)
 /* The line from a piece on. */
 static bool AddLine(Pieces* p, kiriSection* section, kiriMemory* memory, int32_t start)
 {
+    KIRI_ASSERT(start >= 0 && start < p->pieces.count);
     Piece* piece = &p->pieces.data[start];
     kiriSectionLine line = { section->points.count, 0, { EndOf(piece->end[0]), 0 }, { piece->out[0], piece->out[0] } };
     bool ok = kiriArray_Push(memory, &section->points, piece->point[0]);

@@ -10,6 +10,7 @@ typedef struct SolidArrays {
 
 static int32_t SolidCorner(const kiriMeshData* mesh, int32_t t, int k)
 {
+    KIRI_ASSERT(t >= 0 && t < mesh->triangles.count);
     return mesh->triangles.data[t].vertex[k % 3];
 }
 

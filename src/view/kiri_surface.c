@@ -54,6 +54,7 @@ void kiriSurface_Truncate(kiriSurface* surface, int32_t frameCount)
 
 static void WriteNewVertex(kiriSurface* surface, const kiriMeshData* mesh, int32_t v)
 {
+    KIRI_ASSERT(v >= 0 && v < mesh->vertices.count);
     kiriVec2 local = kiriMesh_Local(mesh, mesh->vertices.data[v].at), rest = kiriVec2_Add(mesh->origin, local);
     surface->rest.data[v] = local;
     surface->restPositions.data[2 * (size_t)v] = (float)rest.x;
@@ -62,12 +63,14 @@ static void WriteNewVertex(kiriSurface* surface, const kiriMeshData* mesh, int32
 
 static void WriteSource(kiriSurface* surface, const kiriMeshData* mesh, int32_t v)
 {
+    KIRI_ASSERT(v >= 0 && v < surface->sourceTriangles.count);
     surface->sourceTriangles.data[v] = mesh->vertices.data[v].source;
     kiriMesh_GetShare(mesh, v, &surface->sourceWeights.data[3 * (size_t)v]);
 }
 
 static void WriteTurn(kiriSurface* surface, int32_t pair)
 {
+    KIRI_ASSERT(pair >= 0 && pair < surface->turns.count);
     const int32_t* indices = &surface->indices.data[6 * (size_t)pair];
     surface->turns.data[pair] = kiriNormals_TurnOf(indices, 2 * pair + 1 == surface->triangleCount);
 }
@@ -94,6 +97,7 @@ static void WriteOldVertices(kiriSurface* surface, const kiriMeshData* mesh, kir
 
 static void WriteTriangle(kiriSurface* surface, const kiriMeshData* mesh, int32_t t)
 {
+    KIRI_ASSERT(t >= 0 && t < mesh->triangles.count);
     memcpy(&surface->indices.data[3 * (size_t)t], mesh->triangles.data[t].vertex, 3 * sizeof(int32_t));
 }
 
@@ -397,12 +401,6 @@ static kiriVec3 FindMiddle(const kiriFrameData* frames, int32_t frameCount, doub
     return kiriVec3_Make(RoundToFloats(sum.x, unit), RoundToFloats(sum.y, unit), RoundToFloats(sum.z, unit));
 }
 
-/* Are patches as they were written last but for those of what is awake? */
-static bool IsPartly(const kiriSurface* surface, int32_t labelCount, bool isBent)
-{
-    return surface->isSteady && surface->patches.count == labelCount && surface->patches.isBent == isBent;
-}
-
 void kiriSurface_TakeFrames(kiriSurface* surface, const kiriLabels* labels, const kiriFrameData* frames,
                             int32_t frameCount, const kiriLink* links, int32_t linkCount, const kiriAwake* awake)
 {
@@ -413,7 +411,8 @@ void kiriSurface_TakeFrames(kiriSurface* surface, const kiriLabels* labels, cons
     if (!isSame) {
         kiriPatches_Forget(&surface->patches);
     }
-    surface->isPartly = awake != NULL && IsPartly(surface, kiriLabels_Count(labels, frameCount), isBent);
+    surface->isPartly = awake != NULL && surface->isSteady && surface->patches.isBent == isBent &&
+                        surface->patches.count == kiriLabels_Count(labels, frameCount);
     const kiriIndices* some = surface->isPartly ? &awake->frames : NULL;
     kiriCarriers_Write(surface->carriers.data, frames, frameCount, some);
     if (isBent) {
@@ -428,14 +427,6 @@ void kiriSurface_TakeFrames(kiriSurface* surface, const kiriLabels* labels, cons
 void kiriSurface_BlendRange(kiriSurface* surface, const kiriSkin* skin, int32_t begin, int32_t end)
 {
     kiriSkin_WritePositions(skin, &surface->patches, surface->rest.data, begin, end, kiriSurface_Places(surface));
-}
-
-void kiriSurface_Blend(kiriSurface* surface, const kiriSkin* skin, const kiriLabels* labels,
-                       const kiriFrameData* frames, int32_t frameCount, const kiriLink* links, int32_t linkCount)
-{
-    kiriSurface_TakeFrames(surface, labels, frames, frameCount, links, linkCount, NULL);
-    surface->isWritten = false;
-    kiriSurface_BlendRange(surface, skin, 0, surface->vertexCount);
 }
 
 void kiriSurface_AddFades(kiriSurface* surface, const kiriFades* fades)

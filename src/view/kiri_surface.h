@@ -121,10 +121,6 @@ void kiriSurface_TakeFrames(kiriSurface* surface, const kiriLabels* labels, cons
 /* Where the vertices from `begin` to `end` are. Writes nothing else: ranges may be written at the same time. */
 void kiriSurface_BlendRange(kiriSurface* surface, const kiriSkin* skin, int32_t begin, int32_t end);
 
-/* Both, for all vertices. */
-void kiriSurface_Blend(kiriSurface* surface, const kiriSkin* skin, const kiriLabels* labels,
-                       const kiriFrameData* frames, int32_t frameCount, const kiriLink* links, int32_t linkCount);
-
 /* Moves the vertices that are seen elsewhere. */
 void kiriSurface_AddFades(kiriSurface* surface, const kiriFades* fades);
 

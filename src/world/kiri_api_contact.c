@@ -61,7 +61,7 @@ static const char* FaultOfContacts(const kiriSheetData* sheet, const kiriContact
 /* Room for a contact of each point at once, so that later calls, and ticks, need no memory. */
 static bool ReserveContacts(kiriSheetData* data, int32_t count)
 {
-    int32_t room = count > data->points.count ? count : data->points.count;
+    int32_t room = kiriMax(count, data->points.count);
     return kiriArray_Reserve(data->memory, &data->contacts, room) &&
            kiriArray_Reserve(&data->shown, &data->touches.nextTold, room) && kiriTouches_Room(data, room);
 }

@@ -49,7 +49,7 @@ static bool IsConvex(const kiriObstacleDef* def)
             if (left < -1e-5 * length * kiriVec2_Length(way)) {
                 return false;
             }
-            farthest = left > farthest ? left : farthest;
+            farthest = kiriMax(left, farthest);
         }
         if (!(length > 0.0 && farthest > 0.0)) {
             return false;
@@ -183,7 +183,7 @@ static double FarthestFromAxis(const kiriObstacleShape* shape)
     double farthest = shape->type == KIRI_OBSTACLE_PLANE ? KIRI_ENDLESS : shape->radius;
     for (int32_t i = 0; i < shape->count; ++i) {
         double length = kiriVec2_Length(shape->outline[i]);
-        farthest = length > farthest ? length : farthest;
+        farthest = kiriMax(length, farthest);
     }
     return farthest + shape->rounding;
 }

@@ -3,7 +3,6 @@
 #include "../sheet/kiri_pin.h"
 #include "kiri_pin_step.h"
 
-#include <math.h>
 #include <string.h>
 
 void kiriDefaultPinDef(kiriPinDef* def)

@@ -140,15 +140,8 @@ static void MoveGroups(int32_t start, int32_t end, void* context)
 int32_t kiriMoves_SheetAt(const kiriWorld* world, int32_t turn, int32_t k)
 {
     const kiriIndices* active = &world->active;
-    int32_t low = 0, high = active->count;
-    while (low < high) {
-        int32_t middle = low + (high - low) / 2;
-        if (active->data[middle] < turn) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
+    int32_t low;
+    KIRI_SEARCH(low, 0, active->count, active->data[middle] < turn);
     return active->data[(low + k) % active->count];
 }
 

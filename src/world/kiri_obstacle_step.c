@@ -406,7 +406,7 @@ kiriObstacleData* kiriObstacles_OwnerOf(const kiriWorld* world, uint64_t key)
 bool kiriObstacles_ReserveRests(const kiriWorld* world, kiriSheetData* sheet)
 {
     int32_t touches = sheet->touches.last.touches.count + sheet->touches.slept.touches.count;
-    int32_t most = touches < world->obstacles.count ? touches : world->obstacles.count;
+    int32_t most = kiriMin(touches, world->obstacles.count);
     return kiriArray_Reserve(sheet->memory, &sheet->touches.rests.on, most);
 }
 

@@ -40,7 +40,7 @@ static void MeasureStir(kiriPairs* pairs, const kiriSheetData* sheet, int32_t fi
         for (int32_t i = span.first; i < span.first + span.count; ++i) {
             kiriVec3 beside = kiriVec3_AddScaled(sheet->probes.velocities.data[i], -1.0 / body->mass, body->momentum);
             double squared = kiriVec3_Dot(beside, beside);
-            most = squared > most ? squared : most;
+            most = kiriMax(squared, most);
         }
         body->stir = sqrt(most);
     }
@@ -81,7 +81,7 @@ static double FastestOf(const kiriSheetData* sheet)
 {
     double fastest = 0.0;
     for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
-        fastest = sheet->probes.speeds.data[p] > fastest ? sheet->probes.speeds.data[p] : fastest;
+        fastest = kiriMax(sheet->probes.speeds.data[p], fastest);
     }
     return fastest;
 }
@@ -98,8 +98,8 @@ static void AddWaking(Waking* waking, const kiriSheetData* sheet)
             waking->any = true;
         }
     }
-    waking->speed = speed > waking->speed ? speed : waking->speed;
-    waking->thickness = thickness > waking->thickness ? thickness : waking->thickness;
+    waking->speed = kiriMax(speed, waking->speed);
+    waking->thickness = kiriMax(thickness, waking->thickness);
 }
 
 /* False for memory. */
@@ -294,15 +294,9 @@ static uint64_t NameOf(kiriFrame a, kiriFrame b)
 static const kiriTouchingPair* FindOld(const kiriPairs* pairs, kiriFrame a, kiriFrame b)
 {
     uint64_t name = NameOf(a, b);
-    int32_t low = 0, high = pairs->pairs.count;
-    while (low < high) {
-        int32_t middle = low + (high - low) / 2;
-        if (NameOf(pairs->pairs.data[middle].upper, pairs->pairs.data[middle].lower) < name) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
+    int32_t low;
+    KIRI_SEARCH(low, 0, pairs->pairs.count,
+                NameOf(pairs->pairs.data[middle].upper, pairs->pairs.data[middle].lower) < name);
     const kiriTouchingPair* found = &pairs->pairs.data[low];
     return low < pairs->pairs.count && NameOf(found->upper, found->lower) == name ? found : NULL;
 }
@@ -402,8 +396,8 @@ static bool LookAtAll(kiriWorld* world, double dt)
     }
     for (int32_t i = 0; i < pairs->bodies.count; ++i) {
         const kiriBody* body = &pairs->bodies.data[i];
-        fastest = body->speed > fastest ? body->speed : fastest;
-        thickest = kiriPair_Distance(body, body) > thickest ? kiriPair_Distance(body, body) : thickest;
+        fastest = kiriMax(body->speed, fastest);
+        thickest = kiriMax(kiriPair_Distance(body, body), thickest);
         pairs->order.data[i] = i;
     }
     double reach = 2.0 * thickest + dt * (2.0 * fastest + dt * kiriVec3_Length(world->gravity));
@@ -416,7 +410,7 @@ static bool LookAtAll(kiriWorld* world, double dt)
             if (pairs->bodies.data[b].box.lower.x > end) {
                 break;
             }
-            if (!LookAtPair(world, a < b ? a : b, a < b ? b : a, dt)) {
+            if (!LookAtPair(world, kiriMin(a, b), kiriMax(b, a), dt)) {
                 return false;
             }
         }

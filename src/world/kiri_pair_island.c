@@ -16,7 +16,7 @@ static int32_t MostPieces(const kiriSheetData* sheet)
 {
     bool isReady = sheet->update->stage == KIRI_READY && sheet->update->cut.meshChanged;
     int32_t now = sheet->layout.pieces.count, next = isReady ? sheet->update->next.pieces.count : 0;
-    return next > now ? next : now;
+    return kiriMax(next, now);
 }
 
 bool kiriPairs_ReserveIslands(kiriWorld* world)
@@ -116,14 +116,14 @@ static void AddGained(const Member* member)
    others only with the energy that it passed on. */
 static double DueOf(const kiriIsland* piece)
 {
-    double passed = piece->passed < 0.0 ? piece->passed : 0.0;
-    return piece->gained > passed ? piece->gained : passed;
+    double passed = kiriMin(piece->passed, 0.0);
+    return kiriMax(piece->gained, passed);
 }
 
 /* Returns the kinetic energy by mass that the piece has without its gain, J/kg. */
 static double OwnHeat(const kiriIsland* piece)
 {
-    return (piece->kinetic - (piece->gained > 0.0 ? piece->gained : 0.0)) / piece->mass;
+    return (piece->kinetic - kiriMax(piece->gained, 0.0)) / piece->mass;
 }
 
 static void SumDues(kiriPairs* pairs)
@@ -133,10 +133,10 @@ static void SumDues(kiriPairs* pairs)
         kiriIsland* island = RootOf(pairs, i);
         double due = DueOf(piece);
         island->surplus += due;
-        island->sources += due > 0.0 ? due : 0.0;
+        island->sources += kiriMax(due, 0.0);
         island->moving += piece->kinetic;
         island->pieces += 1;
-        island->mostHeat = OwnHeat(piece) > island->mostHeat ? OwnHeat(piece) : island->mostHeat;
+        island->mostHeat = kiriMax(OwnHeat(piece), island->mostHeat);
     }
 }
 
@@ -190,8 +190,8 @@ static void LimitPieces(kiriPairs* pairs)
         kiriIsland *piece = &pairs->islands.data[i], *island = RootOf(pairs, i);
         double due = DueOf(piece), above = piece->kinetic - piece->mass * island->mostHeat;
         double part = IsOwn(island) || !(island->surplus > 0.0) ? 0.0 : island->surplus / island->sources;
-        double taken = above > part * due ? above : part * due;
-        piece->keep = due > 0.0 ? KeepWithout(piece->kinetic, taken < due ? taken : due) : 1.0;
+        double taken = kiriMax(above, part * due);
+        piece->keep = due > 0.0 ? KeepWithout(piece->kinetic, kiriMin(taken, due)) : 1.0;
         piece->keepPush = taken > HARD * piece->mass ? piece->keep : 1.0;
         double speed = sqrt(2.0 * piece->kinetic / piece->mass), push = kiriVec3_Length(piece->push);
         double most = 2.0 * push + piece->mass * (speed + PUSH_SLACK);
@@ -288,7 +288,7 @@ void kiriPairs_JoinCalm(kiriWorld* world)
                 if (isGiven) {
                     rest->calm = island->calm;
                 } else {
-                    island->calm = rest->calm < island->calm ? rest->calm : island->calm;
+                    island->calm = kiriMin(rest->calm, island->calm);
                 }
             }
         }

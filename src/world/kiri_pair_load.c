@@ -63,15 +63,8 @@ static void LoadVertex(kiriSheetData* sheet, int32_t vertex, kiriVec3 impulse)
 
 static kiriVec3 FeltForce(const kiriPairs* pairs, uint64_t key)
 {
-    int32_t low = 0, high = pairs->felt.count;
-    while (low < high) {
-        int32_t middle = low + (high - low) / 2;
-        if (pairs->felt.data[middle].key < key) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
+    int32_t low;
+    KIRI_SEARCH(low, 0, pairs->felt.count, pairs->felt.data[middle].key < key);
     return low < pairs->felt.count && pairs->felt.data[low].key == key ? pairs->felt.data[low].force
                                                                        : kiriVec3_Make(0.0, 0.0, 0.0);
 }

@@ -44,11 +44,9 @@ static kiriVec3 PlaneVelocity(const kiriPairs* pairs, const kiriPairTouch* pair)
 {
     double stopped = pairs->bodies.data[pair->bodies[1]].least;
     const kiriFrameData* frame = LargestFrame(&pair->lower);
-    double rises = kiriVec3_Dot(pair->velocity, pair->normal), most = pair->lift > 0.0 ? pair->lift : 0.0;
+    double rises = kiriVec3_Dot(pair->velocity, pair->normal), most = kiriMax(pair->lift, 0.0);
     bool isCarried = kiriVec3_Dot(frame->support, pair->normal) > FIRM;
-    double least = isCarried || stopped > 0.0 ? 0.0 : stopped, taken = rises < least  ? least
-                                                                       : rises > most ? most
-                                                                                      : rises;
+    double least = isCarried || stopped > 0.0 ? 0.0 : stopped, taken = kiriClamp(rises, least, most);
     return frame->held ? pair->velocity : kiriVec3_AddScaled(pair->velocity, taken - rises, pair->normal);
 }
 
@@ -129,7 +127,7 @@ static void StopFalls(kiriWorld* world, double dt)
             const kiriPairTouch* touch = &pairs->touches.data[i];
             kiriBody *upper = &pairs->bodies.data[touch->bodies[0]], *lower = &pairs->bodies.data[touch->bodies[1]];
             double rises = kiriVec3_Dot(touch->normal, touch->velocity), before = upper->least;
-            rises = rises > lower->least ? rises : lower->least;
+            rises = kiriMax(rises, lower->least);
             RaisePlane(upper, world, touch->normal, (touch->gap - kiriPair_Distance(upper, lower)) / dt + rises);
             isChanged |= upper->least > before;
         }

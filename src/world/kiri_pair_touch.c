@@ -89,7 +89,7 @@ static double Approach(const kiriWorld* world, const kiriPairTouch* touch, doubl
 {
     double falls = -kiriVec3_Dot(touch->normal, PlaceVelocity(&touch->upper));
     double rises = kiriVec3_Dot(touch->normal, touch->velocity);
-    double speed = falls + (rises > 0.0 ? rises : 0.0) + dt * kiriVec3_Length(world->gravity);
+    double speed = falls + kiriMax(rises, 0.0) + dt * kiriVec3_Length(world->gravity);
     return speed > 0.0 ? dt * speed : 0.0;
 }
 

@@ -91,7 +91,7 @@ kiriResult kiriParts_Destroy(kiriWorld* world, const kiriFrame* frames, int32_t 
 {
     kiriParting parting;
     kiriResult result = KIRI_ERROR_MEMORY;
-    if (kiriParting_Start(&parting, world, count < world->sheets.count ? count : world->sheets.count) &&
+    if (kiriParting_Start(&parting, world, kiriMin(count, world->sheets.count)) &&
         kiriParting_MarkPieces(&parting, frames, count)) {
         result = kiriParting_LeavesSome(&parting) ? Destroy(&parting) : KIRI_ERROR_STATE;
     }

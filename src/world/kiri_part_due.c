@@ -57,19 +57,12 @@ static int64_t CostOfLeaving(const kiriWorld* world, const kiriSheetData* sheet,
 /* Number of leaving pieces that these samples pay for, with all that are gone. KIRI_NONE: less than the first. */
 static int32_t CountWithin(const kiriWorld* world, const kiriSheetData* sheet, int64_t samples)
 {
-    int32_t low = sheet->leaving.count > 0, high = sheet->leaving.count;
-    if (CostOfLeaving(world, sheet, low) > samples) {
+    int32_t least = sheet->leaving.count > 0, end;
+    if (CostOfLeaving(world, sheet, least) > samples) {
         return KIRI_NONE;
     }
-    while (low < high) {
-        int32_t middle = low + (high - low + 1) / 2;
-        if (CostOfLeaving(world, sheet, middle) <= samples) {
-            low = middle;
-        } else {
-            high = middle - 1;
-        }
-    }
-    return low;
+    KIRI_SEARCH(end, least + 1, sheet->leaving.count + 1, CostOfLeaving(world, sheet, middle) <= samples);
+    return end - 1;
 }
 
 void kiriParts_Pay(kiriWorld* world, kiriSheetData* sheet, kiriQuota* samples)
@@ -83,7 +76,7 @@ void kiriParts_Pay(kiriWorld* world, kiriSheetData* sheet, kiriQuota* samples)
     int64_t cost = CostOfLeaving(world, sheet, count != KIRI_NONE ? count : sheet->leaving.count > 0);
     int64_t due = cost > paid ? cost - paid : 0;
     (void)kiriQuota_Pay(samples, &due);
-    sheet->leavingPaid = cost - due > paid ? cost - due : paid;
+    sheet->leavingPaid = kiriMax(cost - due, paid);
 }
 
 static kiriResult Part(kiriWorld* world, kiriSheetData* sheet, int32_t count)

@@ -61,7 +61,7 @@ static void Soften(kiriPinAnchor* anchor, const kiriObstacleData* obstacle, kiri
     anchor->give.v = kiriVec3_Scale(pins, GiveAlong(&body, arm, kiriVec3_Make(0.0, 1.0, 0.0)));
     anchor->give.d = kiriVec3_Scale(pins, GiveAlong(&body, arm, kiriVec3_Make(0.0, 0.0, 1.0)));
     double turning = anchor->give.u.x + anchor->give.v.y + anchor->give.d.z - 3.0 * pins * body.inverseMass;
-    anchor->most = pins * body.inverseMass + (turning > 0.0 ? turning : 0.0);
+    anchor->most = pins * body.inverseMass + kiriMax(turning, 0.0);
 }
 
 static void Clear(kiriPinAnchor* anchor)

@@ -47,8 +47,7 @@ static void ListRanges(kiriWorld* world)
         const kiriSheetData* sheet = kiriWorld_Active(world, k);
         int32_t vertices = IsInRanges(world, k) ? sheet->mesh.vertices.count : 0;
         for (int32_t v = 0; v < vertices; v += RANGE_VERTICES) {
-            kiriSkinRange range = { world->active.data[k], v,
-                                    v + RANGE_VERTICES < vertices ? v + RANGE_VERTICES : vertices };
+            kiriSkinRange range = { world->active.data[k], v, kiriMin(v + RANGE_VERTICES, vertices) };
             world->skinRanges.data[world->skinRanges.count++] = range;
         }
     }

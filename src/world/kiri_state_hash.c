@@ -414,7 +414,7 @@ static void HashRest(uint64_t* hash, const kiriSheetData* sheet)
     const kiriPiece* pieces = sheet->layout.pieces.data;
     double least = pieces[0].rest.calm;
     for (int32_t p = 1; p < sheet->layout.pieces.count; ++p) {
-        least = pieces[p].rest.calm < least ? pieces[p].rest.calm : least;
+        least = kiriMin(pieces[p].rest.calm, least);
     }
     kiriHash_Double(hash, least);
     kiriHash_Int32(hash, sheet->rest.asleep);

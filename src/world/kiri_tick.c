@@ -402,8 +402,8 @@ static void BreakPins(kiriWorld* world, kiriSheetData* sheet)
 static void CountJumps(kiriProfile* profile, const kiriSheetData* sheet)
 {
     const kiriFades* fades = &sheet->seen.fades;
-    profile->largestJump = fades->jump > profile->largestJump ? fades->jump : profile->largestJump;
-    profile->largestFade = fades->move > profile->largestFade ? fades->move : profile->largestFade;
+    profile->largestJump = kiriMax(fades->jump, profile->largestJump);
+    profile->largestFade = kiriMax(fades->move, profile->largestFade);
 }
 
 static void SkinAll(kiriWorld* world, double dt)

@@ -358,10 +358,10 @@ namespace Kiri
         }
     }
 
-    /// <summary>The triangles that are seen, as after the last tick. revision grows whenever indices or vertices are added or
-    /// changed. Rest positions are floats, 6e-8 of the distance from the origin of the rest plane apart: where
-    /// triangles are not much larger than that, they look flat or inverted. The library computes with the positions of
-    /// the def to 2^-29 of the sheet; sourceTriangles and sourceWeights are as exact as the sheet is large.</summary>
+    /// <summary>The triangles to draw, as after the last tick. revision grows when indices or vertices are added or changed.
+    /// Rest positions are floats, with a spacing of 6e-8 of the distance from the origin of the rest plane: triangles
+    /// of about that size may look flat or inverted. The library computes with the positions of the def to 2^-29 of the
+    /// sheet; sourceTriangles and sourceWeights have that precision.</summary>
     public unsafe struct MeshView
     {
         readonly World world;
@@ -388,7 +388,7 @@ namespace Kiri
         /// <summary>3 a triangle</summary>
         public IntView Indices { get { return new IntView(Now(), raw.indices, 3 * raw.triangleCount); } }
 
-        /// <summary>1 a vertex: the triangle of the def that it lies in,</summary>
+        /// <summary>1 a vertex: the triangle of the def that contains it,</summary>
         public IntView SourceTriangles { get { return new IntView(Now(), raw.sourceTriangles, raw.vertexCount); } }
 
         /// <summary>3 a vertex: and its barycentric coordinates there</summary>
@@ -401,9 +401,9 @@ namespace Kiri
         public uint Revision { get { return raw.Revision; } }
     }
 
-    /// <summary>The surface with a thickness, to draw: a closed mesh, with a rim along borders, holes and the lips of cuts.
-    /// First come the vertices of kiriMesh on the side that the normal leaves, then the same on the other side, then
-    /// four for each edge of the border, so that rims are flat and their edges sharp.</summary>
+    /// <summary>The surface with a thickness, to draw: a closed mesh, with a rim along borders, holes and lips. First the
+    /// vertices of kiriMesh on the side of the normal, then the same on the other side, then four for each border edge,
+    /// so rims are flat.</summary>
     public unsafe struct SolidView
     {
         readonly World world;
@@ -430,18 +430,19 @@ namespace Kiri
         /// <summary>3 a triangle, counter-clockwise from outside</summary>
         public IntView Indices { get { return new IntView(Now(), raw.indices, 3 * raw.triangleCount); } }
 
-        /// <summary>1 a vertex: that of kiriMesh which it stands on</summary>
+        /// <summary>1 a vertex: its vertex in kiriMesh</summary>
         public IntView Sources { get { return new IntView(Now(), raw.sources, raw.vertexCount); } }
 
         public int VertexCount { get { return raw.vertexCount; } }
 
         public int TriangleCount { get { return raw.triangleCount; } }
 
-        /// <summary>from this one on triangles are rims</summary>
+        /// <summary>rims begin at this triangle</summary>
         public int RimTriangle { get { return raw.RimTriangle; } }
     }
 
-    /// <summary>What is in a piece, in the order of the mesh. The arrays are parts of one for all pieces, piece after piece.</summary>
+    /// <summary>The mesh of a piece, in the order of the sheet's mesh. The arrays are parts of one for all pieces, piece by
+    /// piece.</summary>
     public unsafe struct PieceMeshView
     {
         readonly World world;
@@ -484,14 +485,13 @@ namespace Kiri
         public Pin Get(PinId id) { return new Pin(this, id); }
         public Sheet Get(SheetId id) { return new Sheet(this, id); }
 
-        /// <summary>One fixed step of dt seconds (1e-6 to 10), solved in `substeps` equal parts (1 to 64). Takes the waiting cut
-        /// points, then moves every sheet. KIRI_PENDING: the budget is spent and more work waits: the events say which
-        /// cuts; a sheet, or some of its pieces, may also have stood still for want of iterations. KIRI_ERROR_MEMORY:
-        /// nothing moved; cuts and pieces still wait, call again. Refused work is prepared again: until then
-        /// kiriSheet_GetWeights gives KIRI_ERROR_STATE, and with a budget a cut may take effect some ticks later than
-        /// it would have. KIRI_ERROR_LIMIT: the same, and it stays so until frames are destroyed. KIRI_DIVERGED: the
-        /// sheets named by the events were put to rest, the others moved. Work may wait then, too, as
-        /// KIRI_EVENT_DEFERRED says.</summary>
+        /// <summary>Advances by one fixed step of dt seconds (1e-6 to 10), in `substeps` equal parts (1 to 64): takes the
+        /// pending cut points, then moves every sheet. KIRI_PENDING: the budget is spent, and events name the cuts that
+        /// still have work; a sheet or some of its pieces may have stood still for want of iterations.
+        /// KIRI_ERROR_MEMORY: nothing moved; cuts and pieces are still pending, call again. Until the refused work is
+        /// done again, kiriSheet_GetWeights gives KIRI_ERROR_STATE, and with a budget a cut may take effect some ticks
+        /// later. KIRI_ERROR_LIMIT: the same, until frames are destroyed. KIRI_DIVERGED: sheets that events name were
+        /// stopped, others moved; KIRI_EVENT_DEFERRED tells of pending work.</summary>
         public Status Tick(float dt, int substeps)
         {
             int result;
@@ -500,32 +500,31 @@ namespace Kiri
             return result == 0 ? Status.Done : Status.Pending;
         }
 
-        /// <summary>m/s^2. All pieces wake.</summary>
+        /// <summary>Sets gravity (m/s^2). All pieces wake.</summary>
         public void SetGravity(Float3 gravity)
         {
             Check(Native.kiriWorld_SetGravity(Handle, (float*)&gravity));
         }
 
         /// <summary>Moves the origin of the world to a point (m): subtracts it from the positions of sheets, targets of pins and
-        /// holds, obstacles, blades, and contacts that wait. The motion goes on as before, to rounding. Nothing wakes;
-        /// (0, 0, 0) changes nothing. Use it in large worlds: far from the origin floats lose places. The host shifts
-        /// its own data itself. Arrays that the library handed out keep the old positions until the next tick.
-        /// KIRI_ERROR_ARGUMENT: a position would not fit a float. KIRI_ERROR_MEMORY: nothing has changed.</summary>
+        /// holds, obstacles, blades, and pending contacts. The motion goes on as before, to rounding. Nothing wakes;
+        /// (0, 0, 0) changes nothing. Use it in large worlds, where floats lose precision. The host shifts its own
+        /// data. Returned arrays keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a position would not
+        /// fit a float.</summary>
         public void ShiftOrigin(Float3 origin)
         {
             Check(Native.kiriWorld_ShiftOrigin(Handle, (float*)&origin));
         }
 
-        /// <summary>Takes effect with the next tick.</summary>
+        /// <summary>Sets the budget from the next tick on.</summary>
         public void SetBudget(Budget budget)
         {
             Check(Native.kiriWorld_SetBudget(Handle, &budget));
         }
 
-        /// <summary>A hash of everything that the coming ticks depend on, work that waits for its budget included: two worlds
-        /// that got the same calls have the same hash, and two with the same hash go on alike. After a refused
-        /// allocation some items are made again: the hash tells that while work waits, or while the budget limits cells
-        /// or samples.</summary>
+        /// <summary>Hashes all state that the coming ticks depend on, pending work included. Two worlds with the same calls have
+        /// the same hash, and two worlds with the same hash go on alike. After a refused allocation some items are made
+        /// again: the hash differs while work is pending, or while the budget limits cells or samples.</summary>
         public ulong GetStateHash()
         {
             ulong hashValue = 0;
@@ -552,8 +551,8 @@ namespace Kiri
             return sheets;
         }
 
-        /// <summary>Puts some bytes of the host's own (1 to KIRI_MOST_NOTE_BYTES) in the recording, where a replay finds them:
-        /// what its camera saw, what a player pressed. The world does not change; without a recording nothing happens.</summary>
+        /// <summary>Writes bytes of the host (1 to KIRI_MOST_NOTE_BYTES) to the recording, such as keys that a player pressed. A
+        /// replay stops there. The world does not change; without a recording nothing happens.</summary>
         public void Note(byte[] bytes)
         {
             fixed (byte* bytesRows = bytes)
@@ -646,7 +645,7 @@ namespace Kiri
             }
         }
 
-        /// <summary>*events points to *count events.</summary>
+        /// <summary>Gets the events: *events points to *count of them.</summary>
         public EventView GetEvents()
         {
             Event* eventsValue = null;
@@ -655,7 +654,7 @@ namespace Kiri
             return new EventView(this, eventsValue, count);
         }
 
-        /// <summary>Of the last tick that was not refused.</summary>
+        /// <summary>Gets the profile of the last tick that was not refused.</summary>
         public Profile GetProfile()
         {
             var profileValue = new Profile();
@@ -663,8 +662,8 @@ namespace Kiri
             return profileValue;
         }
 
-        /// <summary>Adds a sheet. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles do not form a sheet. The line names a
-        /// triangle, or the two triangles at an edge, by their numbers in the def, and says why.</summary>
+        /// <summary>Adds a sheet. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles do not form a sheet. The line says why,
+        /// and names the triangle, or the two triangles at an edge, by index in the def.</summary>
         public Sheet CreateSheet(float[] restPositions, int[] indices, SheetDef @def, float[] framePoints = null)
         {
             @def.vertexCount = restPositions.Length / 2;
@@ -683,9 +682,9 @@ namespace Kiri
             return new Sheet(this, sheetValue);
         }
 
-        /// <summary>A sheet that is a rectangle from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows
-        /// triangles; columns and rows are 1 to 4096. def: all but the mesh, which is not read; null: the defaults. A
-        /// recording has it as kiriCreateSheet.</summary>
+        /// <summary>Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles;
+        /// columns and rows are 1 to 4096. def: its mesh is not read; null: the defaults. A recording stores it as
+        /// kiriCreateSheet.</summary>
         public Sheet CreateRectangle(float width, float height, int columns, int rows, SheetDef? @def = null)
         {
             SheetDef defValue = @def.GetValueOrDefault();
@@ -694,7 +693,7 @@ namespace Kiri
             return new Sheet(this, sheetValue);
         }
 
-        /// <summary>The first sheet that a ray meets; *sheet is 0 where there is none.</summary>
+        /// <summary>Finds the first sheet that a ray meets; *sheet is 0 where there is none.</summary>
         public bool Raycast(Float3 origin, Float3 direction, float maxDistance, out Sheet sheet, out Hit hit)
         {
             var sheetValue = new SheetId();
@@ -705,9 +704,9 @@ namespace Kiri
             return hitValue.Triangle >= 0;
         }
 
-        /// <summary>The same for the pieces of so many frames, of any sheets, in one pass for each sheet; frames of one piece
-        /// count once. Where one is refused, none goes. KIRI_PENDING: some wait, those of one sheet together.
-        /// detached[i] is the sheet that the piece of frames[i] has become, 0 where it waits.</summary>
+        /// <summary>Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet; frames of one
+        /// piece count once. All are done or pending, or none if one is refused. KIRI_PENDING: some are pending, all in
+        /// a sheet together. detached[i] is the sheet made of the piece of frames[i], 0 where it is pending.</summary>
         public Status DetachPieces(FrameId[] frames, SheetId[] detached, int count = -1)
         {
             int result;
@@ -722,9 +721,9 @@ namespace Kiri
             return result == 0 ? Status.Done : Status.Pending;
         }
 
-        /// <summary>The same for the pieces of so many frames, of any sheets, in one pass for each sheet; frames of one piece
-        /// count once. Where one is refused, none goes. KIRI_PENDING: some wait, those of one sheet together.
-        /// detached[i] is the sheet that the piece of frames[i] has become, 0 where it waits.</summary>
+        /// <summary>Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet; frames of one
+        /// piece count once. All are done or pending, or none if one is refused. KIRI_PENDING: some are pending, all in
+        /// a sheet together. detached[i] is the sheet made of the piece of frames[i], 0 where it is pending.</summary>
         public Status DestroyPieces(FrameId[] frames, int count = -1)
         {
             int result;
@@ -764,24 +763,23 @@ namespace Kiri
     public static unsafe partial class Library
     {
 
-        /// <summary>The name of a result, "KIRI_OK" and so on; "unknown" for another number.</summary>
+        /// <summary>Returns the name of a result, such as "KIRI_OK"; "unknown" for another number.</summary>
         public static string GetResultName(ResultCode result)
         {
             return World.Text(Native.kiriGetResultName((int)result));
         }
 
-        /// <summary>One line: the meaning of a result, and its cure. For calls without a world that keeps a line, such as
-        /// kiriCreateWorld with a def of zeros (KIRI_ERROR_DEF).</summary>
+        /// <summary>Returns one line: the meaning of a result, and its cure. Use it after calls that have no world to keep a
+        /// line, such as kiriCreateWorld with a def of zeros (KIRI_ERROR_DEF).</summary>
         public static string GetResultText(ResultCode result)
         {
             return World.Text(Native.kiriGetResultText((int)result));
         }
 
-        /// <summary>For hosts that would rather think in time than in items: the budget whose work would have taken so many
-        /// microseconds a tick at the pace of the profile, which may be the sum of several. Work on cuts and linear
-        /// systems share the time as they did in the profile, and each of triangles, cells and samples gets what the
-        /// three took together, see kiriBudget. Each item that the profile has some of is set; others stay. The
-        /// simulation never reads a clock: the choice is the host's, and a replay must hand in the same budgets.</summary>
+        /// <summary>Converts microseconds a tick into a budget, at the pace of the profile, which may be the sum of several.
+        /// Cuts and linear systems share the time as in the profile. Each of triangles, cells and samples gets the time
+        /// of all three, see kiriBudget. Sets only the limits for which the profile recorded work. The simulation never
+        /// reads a clock: the host chooses, and a replay must set the same budgets.</summary>
         public static void FitBudget(Profile profile, float microseconds, ref Budget budget)
         {
             fixed (Budget* budgetValue = &budget)
@@ -790,13 +788,13 @@ namespace Kiri
             }
         }
 
-        /// <summary>The name of a stage, for tables; "" for a number that is none.</summary>
+        /// <summary>Returns the name of a stage; "" for another number.</summary>
         public static string GetStageName(Stage stage)
         {
             return World.Text(Native.kiriGetStageName((int)stage));
         }
 
-        /// <summary>The numbers of a preset, KIRI_MATERIAL_...</summary>
+        /// <summary>Gets the numbers of a preset, KIRI_MATERIAL_...</summary>
         public static Material GetMaterial(MaterialPreset preset)
         {
             var materialValue = new Material();
@@ -804,7 +802,7 @@ namespace Kiri
             return materialValue;
         }
 
-        /// <summary>The numbers of a preset, KIRI_QUALITY_...</summary>
+        /// <summary>Gets the numbers of a preset, KIRI_QUALITY_...</summary>
         public static Quality GetQuality(QualityPreset preset)
         {
             var qualityValue = new Quality();
@@ -812,8 +810,8 @@ namespace Kiri
             return qualityValue;
         }
 
-        /// <summary>A rectangle from (0, 0) to (width, height) for a sheet def: writes 2 * (columns + 1) * (rows + 1) floats and
-        /// 6 * columns * rows indices. columns and rows are 1 to 4096.</summary>
+        /// <summary>Fills in a rectangle from (0, 0) to (width, height) for a sheet def: writes 2 * (columns + 1) * (rows + 1)
+        /// floats and 6 * columns * rows indices. columns and rows are 1 to 4096.</summary>
         public static void FillRectangle(float width, float height, int columns, int rows, out float[] restPositions, out int[] indices)
         {
             restPositions = new float[2 * (Math.Max(0, Math.Min(columns, 4096)) + 1) * (Math.Max(0, Math.Min(rows, 4096)) + 1)];
@@ -838,13 +836,13 @@ namespace Kiri
         public override int GetHashCode() { return Id.GetHashCode(); }
         public static implicit operator SheetId(Sheet handle) { return handle.Id; }
 
-        /// <summary>The sheet is gone, with its cuts, frames and pins; their ids are stale.</summary>
+        /// <summary>Destroys the sheet with its cuts, frames and pins; their ids are stale.</summary>
         public void Destroy()
         {
             World.Check(Native.kiriDestroySheet(World.Handle, Id));
         }
 
-        /// <summary>What they are now, stamped for kiriSheet_SetSettings.</summary>
+        /// <summary>Gets the current settings, stamped for kiriSheet_SetSettings.</summary>
         public SheetSettings GetSettings()
         {
             var settingsValue = new SheetSettings();
@@ -852,15 +850,15 @@ namespace Kiri
             return settingsValue;
         }
 
-        /// <summary>Checked as the def is: all or nothing. KIRI_ERROR_DEF: they did not come from GetSettings. The sheet wakes
-        /// where one is other than before. Places and velocities stay: with another mass so momentum changes.
-        /// Stiffnesses that pins have, and the lengths that frames were spread by, stay as they are.</summary>
+        /// <summary>Sets all settings, or none; checks them as kiriCreateSheet does. KIRI_ERROR_DEF: they do not come from
+        /// kiriSheet_GetSettings. The sheet wakes if one differs. Positions and velocities are kept, so a new mass
+        /// changes the momentum. The stiffness of pins and the lengths that placed the frames are kept, too.</summary>
         public void SetSettings(SheetSettings settings)
         {
             World.Check(Native.kiriSheet_SetSettings(World.Handle, Id, &settings));
         }
 
-        /// <summary>The arrays, without a copy.</summary>
+        /// <summary>Gets the arrays, without a copy.</summary>
         public MeshView GetMesh()
         {
             var meshValue = new NativeMesh();
@@ -868,7 +866,7 @@ namespace Kiri
             return new MeshView(World, meshValue);
         }
 
-        /// <summary>What changed since the host saw that revision; all of the mesh where that is too long ago, or 0.</summary>
+        /// <summary>Gets the changes since a revision; the whole mesh if the revision is too old, or 0.</summary>
         public Dirty GetDirty(uint sinceRevision)
         {
             var dirtyValue = new Dirty();
@@ -876,10 +874,10 @@ namespace Kiri
             return dirtyValue;
         }
 
-        /// <summary>Copies the index that some vertices had when the last call of kiriWorld_Tick began, for hosts that draw
-        /// between two ticks. *from: the sheet that had them then, which is another one if this sheet was a piece of
-        /// it. A vertex that a cut tore off another one gets the index of the other. -1: the vertex did not exist; so
-        /// all vertices of a sheet that was created or loaded since. The manual has the code (drawing).</summary>
+        /// <summary>Copies the index that each vertex had when the last call of kiriWorld_Tick began, for hosts that draw
+        /// between two ticks. *from: the sheet that had the vertices then; another sheet if this one was a piece of it.
+        /// A vertex that a cut separated from another gets the index of the other. -1: the vertex did not exist, as in
+        /// a sheet that was created or loaded since. The manual has the code (drawing).</summary>
         public Sheet CopyPrevious(int first, int[] vertices, int count = -1)
         {
             if (count < 0) count = vertices.Length;
@@ -892,7 +890,7 @@ namespace Kiri
             return new Sheet(World, fromValue);
         }
 
-        /// <summary>Copies the indices of some triangles, 3 each, as 16-bit numbers. KIRI_ERROR_STATE: there are more than 65535
+        /// <summary>Copies indices of some triangles as 16-bit numbers, 3 each. KIRI_ERROR_STATE: there are more than 65535
         /// vertices.</summary>
         public void CopyIndices16(int firstTriangle, ushort[] indices, int count = -1)
         {
@@ -904,10 +902,10 @@ namespace Kiri
             }
         }
 
-        /// <summary>Map triangles to the def, to draw with data that the host keeps by its own vertices. Sources: the triangle
-        /// of the def that contains each; -1 for one that has left (its corners are equal). Weights: 9 floats each, the
-        /// barycentric coordinates of its three corners in that triangle. They are right on both sides of a seam that
-        /// weldDistance has closed; sourceTriangles name a triangle on one side. The manual has the code (meshes).</summary>
+        /// <summary>Map triangles to the def, to draw with the host's data for its own vertices. Sources: the triangle of the
+        /// def that contains each; -1 for a triangle that was removed (its corners are equal). Weights: 9 floats each,
+        /// the barycentric coordinates of its three corners in that triangle. They are correct on both sides of a seam
+        /// that weldDistance closed; sourceTriangles name a triangle on one side. The manual has the code (meshes).</summary>
         public void CopySources(int firstTriangle, int[] sources, int count = -1)
         {
             if (count < 0) count = sources.Length;
@@ -918,10 +916,10 @@ namespace Kiri
             }
         }
 
-        /// <summary>Map triangles to the def, to draw with data that the host keeps by its own vertices. Sources: the triangle
-        /// of the def that contains each; -1 for one that has left (its corners are equal). Weights: 9 floats each, the
-        /// barycentric coordinates of its three corners in that triangle. They are right on both sides of a seam that
-        /// weldDistance has closed; sourceTriangles name a triangle on one side. The manual has the code (meshes).</summary>
+        /// <summary>Map triangles to the def, to draw with the host's data for its own vertices. Sources: the triangle of the
+        /// def that contains each; -1 for a triangle that was removed (its corners are equal). Weights: 9 floats each,
+        /// the barycentric coordinates of its three corners in that triangle. They are correct on both sides of a seam
+        /// that weldDistance closed; sourceTriangles name a triangle on one side. The manual has the code (meshes).</summary>
         public void CopySourceWeights(int firstTriangle, float[] weights, int count = -1)
         {
             if (count < 0) count = weights.Length / 9;
@@ -932,7 +930,7 @@ namespace Kiri
             }
         }
 
-        /// <summary>thickness: m, 0: that of the material. Made when it is asked for.</summary>
+        /// <summary>Makes the solid surface. thickness: m, 0: the material's thickness.</summary>
         public SolidView GetSolid(float thickness)
         {
             var solidValue = new NativeSolid();
@@ -940,7 +938,7 @@ namespace Kiri
             return new SolidView(World, solidValue);
         }
 
-        /// <summary>Collision points: 3 floats of position (m, world) a point.</summary>
+        /// <summary>Gets the collision points: 3 floats of position (m, world) a point.</summary>
         public FloatView GetCollisionPoints()
         {
             float* positionsValue = null;
@@ -949,7 +947,7 @@ namespace Kiri
             return new FloatView(World, positionsValue, 3 * count);
         }
 
-        /// <summary>Costs nothing.</summary>
+        /// <summary>Gets the counts, at no cost.</summary>
         public Counts GetCounts()
         {
             var countsValue = new Counts();
@@ -957,7 +955,7 @@ namespace Kiri
             return countsValue;
         }
 
-        /// <summary>Sums over the frames, made when they are asked for.</summary>
+        /// <summary>Sums the totals over the frames.</summary>
         public Totals GetTotals()
         {
             var totalsValue = new Totals();
@@ -965,14 +963,10 @@ namespace Kiri
             return totalsValue;
         }
 
-        /// <summary>An estimate of the error of the sheet's shape as it is now, where it rests or moves slowly: rms distance
-        /// from where a sheet of very many frames would be under the same loads, over the rms way that it has gone from
-        /// its flat shape; 0 to 1, and 1 where there are too few frames to tell. It compares the strains of
-        /// neighbouring links (KIRI_MODEL_LINKS only; else KIRI_ERROR_STATE). Measured on cantilevers and on a sheet
-        /// with a slit, of 3 to 140 frames, it is not below a third of the error, and not above four times the error
-        /// or, where that is below 0.5 %, 1.5 %. Where a sheet also turned as a whole, as by hanging from two corners,
-        /// it says up to ten times too much. It knows nothing of errors of the grid, of time stepping, and of loads
-        /// that are finer than frames. It takes memory and time for one pass over the links, when it is called.</summary>
+        /// <summary>Estimates the error of the current shape of a sheet that rests or moves slowly: rms distance from a sheet of
+        /// very many frames under the same loads, over its rms way from the flat shape; 0 to 1, and 1 with too few
+        /// frames to tell. It compares strains of neighbouring links (KIRI_MODEL_LINKS only; else KIRI_ERROR_STATE), in
+        /// one pass that allocates memory. The manual says how good it is (accuracy).</summary>
         public double EstimateError()
         {
             double relativeValue = 0;
@@ -980,8 +974,8 @@ namespace Kiri
             return relativeValue;
         }
 
-        /// <summary>*awake is 0 where all pieces of the sheet sleep, see sleepSpeed; kiriPieceState says which do.
-        /// kiriSheet_Wake wakes all of them.</summary>
+        /// <summary>Read and end sleep: *awake is 0 where all pieces sleep (kiriPieceState tells which); kiriSheet_Wake wakes
+        /// all.</summary>
         public bool IsAwake()
         {
             int awakeValue = 0;
@@ -989,44 +983,43 @@ namespace Kiri
             return awakeValue != 0;
         }
 
-        /// <summary>*awake is 0 where all pieces of the sheet sleep, see sleepSpeed; kiriPieceState says which do.
-        /// kiriSheet_Wake wakes all of them.</summary>
+        /// <summary>Read and end sleep: *awake is 0 where all pieces sleep (kiriPieceState tells which); kiriSheet_Wake wakes
+        /// all.</summary>
         public void Wake()
         {
             World.Check(Native.kiriSheet_Wake(World.Handle, Id));
         }
 
-        /// <summary>Every point x (m, world) of the sheet goes to R x + t at once, and is seen there; velocities turn. The
-        /// columns of `rotation` are where R takes the axes of the world; a planar sheet turns about its normal only.
-        /// It wakes. Targets of its pins, hinges, clamps and holds go along, so nothing draws it back. To set a target
-        /// to its current value changes nothing. A target that the host has set nearer to the new place of the pin than
-        /// to the old one stays: so the host may set targets before or after. Pins on an obstacle stay on it: put the
-        /// obstacle elsewhere by the same motion (kiriObstacle_SetPose), before or after. Loads and contacts that wait
-        /// for the next tick stay.</summary>
+        /// <summary>Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and the sheet
+        /// wakes. The columns of `rotation` are the images of the world's axes; a planar sheet turns about its normal
+        /// only. Targets of pins, hinges, clamps and holds move along, so nothing pulls the sheet back. A target that
+        /// the host set nearer to the pin's new place than to its old one stays: the host may set targets before or
+        /// after. Pins on an obstacle stay on it: move the obstacle by the same motion (kiriObstacle_SetPose), before
+        /// or after. Pending loads and contacts stay.</summary>
         public void Transform(Float9 rotation, Float3 translation)
         {
             World.Check(Native.kiriSheet_Transform(World.Handle, Id, (float*)&rotation, (float*)&translation));
         }
 
-        /// <summary>From now on it moves as a rigid body, until forces change that: `velocity` (m/s) of its centre of mass, and
-        /// `angularVelocity` (rad/s) about it. What a planar sheet has across its plane is dropped; held frames follow
-        /// their hold. kiriFrame_SetPieceVelocity: of the piece with that frame alone.</summary>
+        /// <summary>Set rigid motion of a sheet, or of the piece with a frame, until forces change it: `velocity` (m/s) of its
+        /// centre of mass, and `angularVelocity` (rad/s) about it. Planar sheets drop motion across their plane; held
+        /// frames stay held.</summary>
         public void SetVelocity(Float3 velocity, Float3 angularVelocity)
         {
             World.Check(Native.kiriSheet_SetVelocity(World.Handle, Id, (float*)&velocity, (float*)&angularVelocity));
         }
 
-        /// <summary>A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A sheet that
-        /// kiriFrame_DetachPiece makes has that of the sheet it came from. A piece has one, named by any of its frames:
-        /// the parts of a piece that is cut have that of the piece, as does a sheet that is made of it.</summary>
+        /// <summary>Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
+        /// kiriFrame_DetachPiece copies the sheet's number to the new sheet. A piece has a number, too, named by any of
+        /// its frames: the parts of a piece that is cut inherit it, and so does a sheet that is made of it.</summary>
         public void SetUserData(ulong data)
         {
             World.Check(Native.kiriSheet_SetUserData(World.Handle, Id, data));
         }
 
-        /// <summary>A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A sheet that
-        /// kiriFrame_DetachPiece makes has that of the sheet it came from. A piece has one, named by any of its frames:
-        /// the parts of a piece that is cut have that of the piece, as does a sheet that is made of it.</summary>
+        /// <summary>Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
+        /// kiriFrame_DetachPiece copies the sheet's number to the new sheet. A piece has a number, too, named by any of
+        /// its frames: the parts of a piece that is cut inherit it, and so does a sheet that is made of it.</summary>
         public ulong GetUserData()
         {
             ulong dataValue = 0;
@@ -1034,10 +1027,9 @@ namespace Kiri
             return dataValue;
         }
 
-        /// <summary>Where a ray first meets the sheet, up to maxDistance. KIRI_OK with hit-&gt;triangle = -1: nowhere. The first
-        /// ray looks at every triangle; the next tick makes boxes over them, and as long as somebody asks every now and
-        /// then (in 120 ticks) they follow the sheet: a ray takes some microseconds, and a tick of a large sheet a
-        /// quarter more.</summary>
+        /// <summary>Finds where a ray first meets the sheet, up to maxDistance. KIRI_OK with hit-&gt;triangle = -1: it does not.
+        /// The first ray visits every triangle. From the next tick on boxes over the triangles follow the sheet, until
+        /// 120 ticks pass without a ray: a ray takes some microseconds, and a tick of a large sheet a quarter more.</summary>
         public bool Raycast(Float3 origin, Float3 direction, float maxDistance, out Hit hit)
         {
             var hitValue = new Hit();
@@ -1046,7 +1038,8 @@ namespace Kiri
             return hitValue.Triangle >= 0;
         }
 
-        /// <summary>Outside the sheet: KIRI_ERROR_ARGUMENT. On a cut, the lip that holds the point; either where both do.</summary>
+        /// <summary>Gets the state of a point. KIRI_ERROR_ARGUMENT: it is outside the sheet. On a cut: on a lip that has the
+        /// point.</summary>
         public PointState GetPoint(Float2 restPoint)
         {
             var stateValue = new PointState();
@@ -1054,9 +1047,9 @@ namespace Kiri
             return stateValue;
         }
 
-        /// <summary>The shape functions at a rest point: up to `capacity` frames with their weights (sum 1) and, unless null,
-        /// gradients (2 floats a frame, 1/m). *count is how many there are, however many fit. Outside the sheet:
-        /// KIRI_ERROR_ARGUMENT; while work on a cut waits for its budget: KIRI_ERROR_STATE.</summary>
+        /// <summary>Gets the shape functions at a rest point: up to `capacity` frames with their weights (sum 1) and, unless
+        /// null, gradients (2 floats a frame, 1/m). *count is how many there are, also above capacity.
+        /// KIRI_ERROR_ARGUMENT: it is outside the sheet. KIRI_ERROR_STATE: work on a cut is pending.</summary>
         public int GetWeights(Float2 restPoint, FrameId[] frames, float[] weights, float[] gradients)
         {
             World.CheckRoom(weights, 1 * frames.Length);
@@ -1071,8 +1064,8 @@ namespace Kiri
             return count;
         }
 
-        /// <summary>The first of these calls after a cut sorts the sheet by pieces, which may fail with KIRI_ERROR_MEMORY. An
-        /// index that is no piece's: KIRI_ERROR_ARGUMENT.</summary>
+        /// <summary>Get a piece. The first of these calls after a cut sorts the sheet by pieces, and may fail with
+        /// KIRI_ERROR_MEMORY. KIRI_ERROR_ARGUMENT: no piece has the index.</summary>
         public PieceState GetPiece(int piece)
         {
             var stateValue = new PieceState();
@@ -1080,8 +1073,8 @@ namespace Kiri
             return stateValue;
         }
 
-        /// <summary>The first of these calls after a cut sorts the sheet by pieces, which may fail with KIRI_ERROR_MEMORY. An
-        /// index that is no piece's: KIRI_ERROR_ARGUMENT.</summary>
+        /// <summary>Get a piece. The first of these calls after a cut sorts the sheet by pieces, and may fail with
+        /// KIRI_ERROR_MEMORY. KIRI_ERROR_ARGUMENT: no piece has the index.</summary>
         public PieceMeshView GetPieceMesh(int piece)
         {
             var meshValue = new NativePieceMesh();
@@ -1089,7 +1082,7 @@ namespace Kiri
             return new PieceMeshView(World, meshValue);
         }
 
-        /// <summary>*frames points to *count ids.</summary>
+        /// <summary>Gets the frames of a piece: *frames points to *count ids.</summary>
         public FrameIdView GetPieceFrames(int piece)
         {
             FrameId* framesValue = null;
@@ -1098,8 +1091,8 @@ namespace Kiri
             return new FrameIdView(World, framesValue, count);
         }
 
-        /// <summary>Destroys all pieces below an area (m^2) except the largest piece, at the cost of one. *count is how many.
-        /// Where that one waits to become a sheet, the largest of the others stays, too.</summary>
+        /// <summary>Destroys all pieces below an area (m^2) except the largest piece, at the cost of one. *count is their
+        /// number. If the largest piece is pending to become a sheet, the largest of the others stays, too.</summary>
         public int DropCrumbs(float area)
         {
             int countValue = 0;
@@ -1107,9 +1100,9 @@ namespace Kiri
             return countValue;
         }
 
-        /// <summary>A cut is a polyline in the rest plane. Points may lie anywhere: what is outside the sheet cuts nothing.
-        /// Points wait until the next tick. The end of a cut that lies inside the sheet stays closed until the blade
-        /// moves on.</summary>
+        /// <summary>Begins a cut: a polyline in the rest plane. Outside the sheet it cuts nothing. Points take effect with the
+        /// next tick or, by the budget, a later one. The end of a cut inside the sheet stays closed until the next
+        /// point.</summary>
         public Cut BeginCut(Float2 restPoint)
         {
             var cutValue = new CutId();
@@ -1117,9 +1110,9 @@ namespace Kiri
             return new Cut(World, cutValue);
         }
 
-        /// <summary>A blade (a straight edge) that moves in world space from blade[0]-blade[1] to blade[3]-blade[2] cuts where
-        /// the swept quadrilateral meets the sheet as it is now, past borders, so that it parts what it crosses. The
-        /// cut is ended already. Slices of a sheet that moves do not join from tick to tick: for that take a blade.</summary>
+        /// <summary>Cuts where the quadrilateral swept by an edge in world space, from blade[0]-blade[1] to blade[3]-blade[2],
+        /// meets the current sheet; past borders, so that it separates the parts that it crosses. The cut is already
+        /// ended. Slices of a moving sheet do not join from tick to tick: use a blade for that.</summary>
         public Cut Slice(Float12 blade)
         {
             var cutValue = new CutId();
@@ -1145,41 +1138,40 @@ namespace Kiri
             return frames;
         }
 
-        /// <summary>A force (N, world) on a point of the material and a torque (N m).</summary>
+        /// <summary>Applies a force (N, world) at a point of the material and a torque (N m).</summary>
         public void ApplyForce(Float2 restPoint, Float3 force, Float3 torque)
         {
             World.Check(Native.kiriSheet_ApplyForce(World.Handle, Id, (float*)&restPoint, (float*)&force, (float*)&torque));
         }
 
-        /// <summary>A force (N, world) on each metre of a straight line of the rest plane, as far as it lies in the material,
-        /// edges included. Where it runs along a cut, each lip gets half. The ends differ; a line that meets no
-        /// material: KIRI_ERROR_ARGUMENT.</summary>
+        /// <summary>Applies a force (N/m, world) along a straight line of the rest plane where it lies in the material, edges
+        /// included. Along a cut each lip gets half. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no material.</summary>
         public void ApplyLineLoad(Float2 from, Float2 to, Float3 forcePerLength)
         {
             World.Check(Native.kiriSheet_ApplyLineLoad(World.Handle, Id, (float*)&from, (float*)&to, (float*)&forcePerLength));
         }
 
-        /// <summary>A pressure (Pa) that pushes the whole sheet along its normal, or against it where below 0.</summary>
+        /// <summary>Applies a pressure (Pa) to the whole sheet along its normal; below 0: against it.</summary>
         public void ApplyPressure(float pressure)
         {
             World.Check(Native.kiriSheet_ApplyPressure(World.Handle, Id, pressure));
         }
 
-        /// <summary>An impulse (N s, world) on a point of the material, where it is seen now. Velocities change at once, by as
-        /// much as the frames that carry the point resist; a held frame's part is lost. Outside the sheet:
-        /// KIRI_ERROR_ARGUMENT.</summary>
+        /// <summary>Applies an impulse (N s, world) at a point of the material on the visible surface. Velocities change at
+        /// once, by the mass of the frames that carry the point; a held frame's share is lost. KIRI_ERROR_ARGUMENT: it
+        /// is outside the sheet.</summary>
         public void ApplyImpulse(Float2 restPoint, Float3 impulse)
         {
             World.Check(Native.kiriSheet_ApplyImpulse(World.Handle, Id, (float*)&restPoint, (float*)&impulse));
         }
 
-        /// <summary>Copied; it blows until the next call.</summary>
+        /// <summary>Copies the wind; it blows until the next call.</summary>
         public void SetWind(Wind wind)
         {
             World.Check(Native.kiriSheet_SetWind(World.Handle, Id, &wind));
         }
 
-        /// <summary>Pins a point of the sheet. On failure *pin is 0. A point outside the sheet: KIRI_ERROR_ARGUMENT.</summary>
+        /// <summary>Pins a point of the sheet. On failure *pin is 0. KIRI_ERROR_ARGUMENT: it is outside the sheet.</summary>
         public Pin CreatePin(PinDef @def)
         {
             var pinValue = new PinId();
@@ -1187,18 +1179,13 @@ namespace Kiri
             return new Pin(World, pinValue);
         }
 
-        /// <summary>Pins along a straight line of the rest plane, an edge of the sheet or any other. A clamp holds place and
-        /// direction of the material there, as a vice does; a hinge its place only, so that the sheet may turn about
-        /// the line. Both begin where the material is now; the line stays straight, and as long as it is at rest: so
-        /// material that is bent there is pulled straight, and pieces that have come apart are pulled together, however
-        /// fast that makes them.
-        ///
-        /// They hold what the line meets, edges included, with the stiffness that the material has between the line and
-        /// the frames that it meets. So a clamp along an edge is where the drawing has it, whatever the number of
-        /// frames, where kiriFrame_Hold clamps at a frame's site. A clamp through the sheet parts what is on its two
-        /// sides, so that neither bends the other. A line that runs along a cut holds both lips; one beside it, by a
-        /// 512th of a square of the grid or more, holds one. The ends differ; a line that meets no material:
-        /// KIRI_ERROR_ARGUMENT.</summary>
+        /// <summary>Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds the place and
+        /// direction of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The
+        /// line is straight, with its rest length: bent material is pulled straight, and separate pieces are pulled
+        /// together, at any speed. Both hold the material on the line, edges included, with its stiffness from the line
+        /// to the frames around it. A clamp through the sheet separates the bending of its two sides. A line along a
+        /// cut holds both lips; a line beside it, by a 512th of a grid square or more, holds one. The ends differ.
+        /// KIRI_ERROR_ARGUMENT: the line meets no material.</summary>
         public Pin ClampLine(Float2 from, Float2 to)
         {
             var clampValue = new PinId();
@@ -1206,18 +1193,13 @@ namespace Kiri
             return new Pin(World, clampValue);
         }
 
-        /// <summary>Pins along a straight line of the rest plane, an edge of the sheet or any other. A clamp holds place and
-        /// direction of the material there, as a vice does; a hinge its place only, so that the sheet may turn about
-        /// the line. Both begin where the material is now; the line stays straight, and as long as it is at rest: so
-        /// material that is bent there is pulled straight, and pieces that have come apart are pulled together, however
-        /// fast that makes them.
-        ///
-        /// They hold what the line meets, edges included, with the stiffness that the material has between the line and
-        /// the frames that it meets. So a clamp along an edge is where the drawing has it, whatever the number of
-        /// frames, where kiriFrame_Hold clamps at a frame's site. A clamp through the sheet parts what is on its two
-        /// sides, so that neither bends the other. A line that runs along a cut holds both lips; one beside it, by a
-        /// 512th of a square of the grid or more, holds one. The ends differ; a line that meets no material:
-        /// KIRI_ERROR_ARGUMENT.</summary>
+        /// <summary>Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds the place and
+        /// direction of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The
+        /// line is straight, with its rest length: bent material is pulled straight, and separate pieces are pulled
+        /// together, at any speed. Both hold the material on the line, edges included, with its stiffness from the line
+        /// to the frames around it. A clamp through the sheet separates the bending of its two sides. A line along a
+        /// cut holds both lips; a line beside it, by a 512th of a grid square or more, holds one. The ends differ.
+        /// KIRI_ERROR_ARGUMENT: the line meets no material.</summary>
         public Pin HingeLine(Float2 from, Float2 to)
         {
             var hingeValue = new PinId();
@@ -1243,9 +1225,8 @@ namespace Kiri
             return pins;
         }
 
-        /// <summary>The contacts of the next tick; they replace those of an earlier call, and are gone after the tick. A contact
-        /// is known again by its point, or its rest point, and its obstacle: what it pushed with is where the next tick
-        /// starts.</summary>
+        /// <summary>Sets the contacts of the next tick; they replace those set before, and end with the tick. A contact with the
+        /// point, or rest point, and obstacle of an earlier one starts with the earlier impulse.</summary>
         public void SetContacts(Contact[] contacts, int count = -1)
         {
             if (count < 0) count = contacts.Length;
@@ -1256,9 +1237,9 @@ namespace Kiri
             }
         }
 
-        /// <summary>One for each contact that was set before the last tick, in the order given. The sum of the impulses, with
-        /// those of gravity, loads and obstacles, is the change of momentum of a piece that nothing holds. A piece that
-        /// sleeps goes on to press with what it fell asleep with.</summary>
+        /// <summary>Gets one result for each contact that was set before the last tick, in that order. The sum of these impulses
+        /// and of the impulses of gravity, loads and obstacles is the change of momentum of a free piece. A sleeping
+        /// piece goes on to press with the values with which it fell asleep.</summary>
         public ContactForceView GetContactForces()
         {
             ContactForce* forcesValue = null;
@@ -1267,10 +1248,9 @@ namespace Kiri
             return new ContactForceView(World, forcesValue, count);
         }
 
-        /// <summary>The box (m, world) that holds all that the sheet may touch in a tick of dt: a host needs no obstacles or
-        /// contacts outside. It reaches as far around the sheet as its fastest point can go by its velocity and
-        /// gravity, twice, and the contact thickness. Obstacles that move themselves come as much nearer. dt as in
-        /// kiriWorld_Tick.</summary>
+        /// <summary>Gets a box (m, world) around all that the sheet can touch in a tick of dt (s, as in kiriWorld_Tick): a host
+        /// needs no obstacles or contacts outside. Its margin is twice the way of the fastest point by velocity and
+        /// gravity, plus the contact thickness. For moving obstacles add their own way.</summary>
         public void GetReach(float dt, out Float3 lower, out Float3 upper)
         {
             var lowerValue = new Float3();
@@ -1293,25 +1273,25 @@ namespace Kiri
         public override int GetHashCode() { return Id.GetHashCode(); }
         public static implicit operator FrameId(Frame handle) { return handle.Id; }
 
-        /// <summary>From now on it moves as a rigid body, until forces change that: `velocity` (m/s) of its centre of mass, and
-        /// `angularVelocity` (rad/s) about it. What a planar sheet has across its plane is dropped; held frames follow
-        /// their hold. kiriFrame_SetPieceVelocity: of the piece with that frame alone.</summary>
+        /// <summary>Set rigid motion of a sheet, or of the piece with a frame, until forces change it: `velocity` (m/s) of its
+        /// centre of mass, and `angularVelocity` (rad/s) about it. Planar sheets drop motion across their plane; held
+        /// frames stay held.</summary>
         public void SetPieceVelocity(Float3 velocity, Float3 angularVelocity)
         {
             World.Check(Native.kiriFrame_SetPieceVelocity(World.Handle, Id, (float*)&velocity, (float*)&angularVelocity));
         }
 
-        /// <summary>A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A sheet that
-        /// kiriFrame_DetachPiece makes has that of the sheet it came from. A piece has one, named by any of its frames:
-        /// the parts of a piece that is cut have that of the piece, as does a sheet that is made of it.</summary>
+        /// <summary>Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
+        /// kiriFrame_DetachPiece copies the sheet's number to the new sheet. A piece has a number, too, named by any of
+        /// its frames: the parts of a piece that is cut inherit it, and so does a sheet that is made of it.</summary>
         public void SetPieceUserData(ulong data)
         {
             World.Check(Native.kiriFrame_SetPieceUserData(World.Handle, Id, data));
         }
 
-        /// <summary>A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A sheet that
-        /// kiriFrame_DetachPiece makes has that of the sheet it came from. A piece has one, named by any of its frames:
-        /// the parts of a piece that is cut have that of the piece, as does a sheet that is made of it.</summary>
+        /// <summary>Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
+        /// kiriFrame_DetachPiece copies the sheet's number to the new sheet. A piece has a number, too, named by any of
+        /// its frames: the parts of a piece that is cut inherit it, and so does a sheet that is made of it.</summary>
         public ulong GetPieceUserData()
         {
             ulong dataValue = 0;
@@ -1319,7 +1299,7 @@ namespace Kiri
             return dataValue;
         }
 
-        /// <summary>The index that the piece with this frame has now.</summary>
+        /// <summary>Gets the current index of the piece with this frame.</summary>
         public int GetPiece()
         {
             int pieceValue = 0;
@@ -1327,28 +1307,13 @@ namespace Kiri
             return pieceValue;
         }
 
-        /// <summary>Makes a sheet of the piece with this frame. Its frames, pins and collision points move along, in their
-        /// order; they keep their ids and states, and what waits for the next tick: the motion goes on as if nothing
-        /// had happened, but for the solver's guard over energy and step length, which is one for each sheet. A clamp
-        /// or hinge that holds both becomes two: the rest keeps the id, the new sheet's has one of its own
-        /// (kiriSheet_GetPins). Both sheets have all settings (of collisionPoints and integrationPoints the share that
-        /// falls to their area), maxFrames each for itself; a piece that sleeps goes on sleeping. Cuts stay with the
-        /// rest: a blade in the piece cuts nothing until it is back. Indices of collision points of the rest change.
-        /// Its triangles and vertices keep their indices where it has more than 4096 vertices, and while no more than
-        /// half of them are of pieces that went: these triangles have three equal corners, these vertices are of no
-        /// triangle. Else all move together, and their indices change. In either case its revision grows, and
-        /// kiriSheet_GetDirty says what changed. The new sheet has the squares of the grid around it, at about 40 bytes
-        /// a square: crumbs are better dropped. Costs what the piece takes to make, and a look at the weights of what
-        /// is left; where indices change more. KIRI_PENDING: work on a cut is at hand in the sheet, or it takes more
-        /// samples than the budget leaves calls before the next tick; *detached is 0. When the work is done, what is
-        /// the piece of this frame then becomes a sheet, and KIRI_EVENT_PIECE_DETACHED names it. Samples pay for it
-        /// before, over several ticks if need be, of many pieces one after the other: of the first that waits 3 for
-        /// each vertex, 2.5 to 9 for each cell (the more frames, the more) and 100 for each frame, of others 3 for each
-        /// vertex and 1.4 for each cell; and one for 80 vertices of the rest. Until then further cuts of the sheet
-        /// wait. The first piece is made as it is paid, and leaves at the start of the tick after the last sample is
-        /// paid. That tick does an eighth of the work; the first tick after a load makes the parts again that saves
-        /// leave out. The coming ticks have fewer samples for the work of calls. KIRI_ERROR_STATE: nothing would be
-        /// left of the sheet.</summary>
+        /// <summary>Makes a sheet of the piece with this frame. Frames, pins, collision points, pending loads and contacts move
+        /// along, with their ids and states, and the motion goes on. Both sheets have all settings. Cuts stay with the
+        /// old sheet. A clamp or hinge that holds both gets a copy with a new id in the new sheet. Revisions grow;
+        /// kiriSheet_GetDirty has the changes. KIRI_PENDING: work on a cut is pending, or the piece takes more samples
+        /// than the budget leaves; *detached is 0. Then samples of the coming ticks pay for it, and further cuts of the
+        /// sheet wait. When all is paid the piece of this frame becomes a sheet, and KIRI_EVENT_PIECE_DETACHED names
+        /// it. KIRI_ERROR_STATE: nothing would be left of the sheet. The manual has indices and costs (cutting).</summary>
         public Sheet DetachPiece()
         {
             var detachedValue = new SheetId();
@@ -1356,12 +1321,10 @@ namespace Kiri
             return new Sheet(World, detachedValue);
         }
 
-        /// <summary>The same without keeping the piece: ids of its frames and pins are stale. Costs as much, but for making a
-        /// sheet: that is done at once, and the coming ticks have less. Where kiriSheet_GetMesh has been called since
-        /// the last tick, all indices are copied. KIRI_PENDING: work on a cut is at hand. The piece is gone all the
-        /// same: its triangles are in kiriMesh, with three equal corners; it touches nothing; no point of it is found.
-        /// When the work is done its vertices go, too; until then kiriCounts still counts it, and its kiriPieceState is
-        /// all zeros.</summary>
+        /// <summary>Removes the piece with this frame: ids of its frames and pins are stale. Takes effect at once, and the
+        /// coming ticks have fewer samples. KIRI_PENDING: work on a cut is pending. Until it is done the triangles stay
+        /// in kiriMesh with three equal corners, the vertices stay, and kiriCounts counts the piece, with a
+        /// kiriPieceState of all zeros.</summary>
         public Status DestroyPiece()
         {
             int result;
@@ -1369,7 +1332,7 @@ namespace Kiri
             return result == 0 ? Status.Done : Status.Pending;
         }
 
-        /// <summary>Pose, motion and region as they are now.</summary>
+        /// <summary>Gets the current state.</summary>
         public FrameState GetState()
         {
             var stateValue = new FrameState();
@@ -1377,11 +1340,10 @@ namespace Kiri
             return stateValue;
         }
 
-        /// <summary>The host moves the frame: its rest point, as it is seen, goes to `position` with `rotation` (a rotation
-        /// matrix, columns as above) in the next tick, evenly, and stays there until the next call. An affine frame is
-        /// not stretched then. On a planar sheet the rotation is about its normal. Null, null: it is free again.
-        /// Contacts do not push material that held frames carry for more than half: it goes where the host has it,
-        /// through obstacles too.</summary>
+        /// <summary>Holds the frame: its rest point on the visible surface moves evenly to `position` (m, world) with `rotation`
+        /// (a rotation matrix, columns as above) in the next tick, and stays there until the next call. A held affine
+        /// frame is not stretched. On a planar sheet the rotation is about its normal. Null, null: frees it. Contacts
+        /// do not push material of which held frames carry more than half: it moves through obstacles.</summary>
         public void Hold(Float3? position = null, Float9? rotation = null)
         {
             Float3 positionValue = position.GetValueOrDefault();
@@ -1389,9 +1351,9 @@ namespace Kiri
             World.Check(Native.kiriFrame_Hold(World.Handle, Id, position.HasValue ? (float*)&positionValue : null, rotation.HasValue ? (float*)&rotationValue : null));
         }
 
-        /// <summary>With what the host's hold acted on the sheet: force (N, world) and torque (N m) about the frame's rest
-        /// point; means over the last tick, impulses divided by its dt. They carry the frame's own weight and change
-        /// its momentum, too. Zero for a frame that was free. A piece that sleeps keeps those that it fell asleep with.</summary>
+        /// <summary>Gets the force (N, world) and torque (N m, about the frame's rest point) that the hold applied to the sheet:
+        /// means over the last tick, impulses divided by its dt. They include the frame's own weight and change of
+        /// momentum. Zero for a free frame. A sleeping piece keeps the values with which it fell asleep.</summary>
         public void GetReaction(out Double3 force, out Double3 torque)
         {
             var forceValue = new Double3();
@@ -1401,7 +1363,7 @@ namespace Kiri
             torque = torqueValue;
         }
 
-        /// <summary>A force (N, world) on the frame's centre of mass and a torque (N m).</summary>
+        /// <summary>Applies a force (N, world) at the frame's centre of mass and a torque (N m).</summary>
         public void ApplyForce(Float3 force, Float3 torque)
         {
             World.Check(Native.kiriFrame_ApplyForce(World.Handle, Id, (float*)&force, (float*)&torque));
@@ -1420,17 +1382,17 @@ namespace Kiri
         public override int GetHashCode() { return Id.GetHashCode(); }
         public static implicit operator PinId(Pin handle) { return handle.Id; }
 
-        /// <summary>A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A sheet that
-        /// kiriFrame_DetachPiece makes has that of the sheet it came from. A piece has one, named by any of its frames:
-        /// the parts of a piece that is cut have that of the piece, as does a sheet that is made of it.</summary>
+        /// <summary>Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
+        /// kiriFrame_DetachPiece copies the sheet's number to the new sheet. A piece has a number, too, named by any of
+        /// its frames: the parts of a piece that is cut inherit it, and so does a sheet that is made of it.</summary>
         public void SetUserData(ulong data)
         {
             World.Check(Native.kiriPin_SetUserData(World.Handle, Id, data));
         }
 
-        /// <summary>A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A sheet that
-        /// kiriFrame_DetachPiece makes has that of the sheet it came from. A piece has one, named by any of its frames:
-        /// the parts of a piece that is cut have that of the piece, as does a sheet that is made of it.</summary>
+        /// <summary>Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
+        /// kiriFrame_DetachPiece copies the sheet's number to the new sheet. A piece has a number, too, named by any of
+        /// its frames: the parts of a piece that is cut inherit it, and so does a sheet that is made of it.</summary>
         public ulong GetUserData()
         {
             ulong dataValue = 0;
@@ -1438,29 +1400,29 @@ namespace Kiri
             return dataValue;
         }
 
-        /// <summary>Where the pin holds its point, or the middle of its line (m, world): at the end of the next tick, and until
-        /// the next call. Within the tick it goes there evenly. The current target of kiriPin_GetState changes nothing.
-        /// With KIRI_SKINNING_SMOOTH what pins and clamps hold is what is seen there; of a clamp the mean along its
-        /// line, for each piece: single points of the line are seen a little off it.</summary>
+        /// <summary>Sets the target of the pin's point, or of the middle of its line (m, world), for the end of the next tick
+        /// and until the next call. The pin moves there evenly within the tick. The current target of kiriPin_GetState
+        /// changes nothing. With KIRI_SKINNING_SMOOTH pins and clamps hold the visible surface; a clamp holds its mean
+        /// along the line for each piece, so single points are slightly off the line.</summary>
         public void SetTarget(Float3 target)
         {
             World.Check(Native.kiriPin_SetTarget(World.Handle, Id, (float*)&target));
         }
 
-        /// <summary>The same with the rotation of the line's material: columns are the directions of u and v and the normal. On
-        /// a planar sheet it is about the sheet's normal. KIRI_ERROR_ARGUMENT for a pin that holds a point.</summary>
+        /// <summary>Sets the target and the rotation of the line's material: columns are the directions of u and v and the
+        /// normal. On a planar sheet it is about the sheet's normal. KIRI_ERROR_ARGUMENT: the pin holds a point.</summary>
         public void SetPose(Float3 target, Float9 rotation)
         {
             World.Check(Native.kiriPin_SetPose(World.Handle, Id, (float*)&target, (float*)&rotation));
         }
 
-        /// <summary>As in the def, for pins of all types; N, 0: it never breaks.</summary>
+        /// <summary>Sets the force (N) that breaks a pin of any type; 0: it never breaks.</summary>
         public void SetBreakForce(float breakForce)
         {
             World.Check(Native.kiriPin_SetBreakForce(World.Handle, Id, breakForce));
         }
 
-        /// <summary>What it is, and where it holds now.</summary>
+        /// <summary>Gets the current state.</summary>
         public PinState GetState()
         {
             var stateValue = new PinState();
@@ -1468,10 +1430,10 @@ namespace Kiri
             return stateValue;
         }
 
-        /// <summary>With what the pin acted on the sheet: force (N, world) and torque (N m) about its target; means over the
-        /// last tick, impulses divided by its dt. So the reactions of all pins and held frames are the weight of a
-        /// sheet at rest, and in motion what changes its momentum (as far as `iterations` have the tick solved). Zero
-        /// before the first tick. A piece that sleeps keeps those that it fell asleep with.</summary>
+        /// <summary>Gets the force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over
+        /// the last tick, impulses divided by its dt. The reactions of all pins and held frames are the weight of a
+        /// sheet at rest, and change its momentum in motion (as far as `iterations` solve the tick). Zero before the
+        /// first tick. A sleeping piece keeps the values with which it fell asleep.</summary>
         public void GetReaction(out Double3 force, out Double3 torque)
         {
             var forceValue = new Double3();
@@ -1481,7 +1443,7 @@ namespace Kiri
             torque = torqueValue;
         }
 
-        /// <summary>It lets go; its id is stale.</summary>
+        /// <summary>Destroys the pin; its id is stale.</summary>
         public void Destroy()
         {
             World.Check(Native.kiriDestroyPin(World.Handle, Id));
@@ -1500,7 +1462,7 @@ namespace Kiri
         public override int GetHashCode() { return Id.GetHashCode(); }
         public static implicit operator CutId(Cut handle) { return handle.Id; }
 
-        /// <summary>restPoints: 2 floats a point; count is 1 to 2^24.</summary>
+        /// <summary>Adds points. restPoints: 2 floats a point; count is 1 to 2^24.</summary>
         public void Extend(float[] restPoints, int count = -1)
         {
             if (count < 0) count = restPoints.Length / 2;
@@ -1511,8 +1473,8 @@ namespace Kiri
             }
         }
 
-        /// <summary>No more points come. After the tick in which the last of them takes effect the id is stale, and
-        /// KIRI_EVENT_CUT_FINISHED tells. Frames that the sheet needs after the cut are added then.</summary>
+        /// <summary>Ends the cut. Its id is stale after the tick in which its last point takes effect (KIRI_EVENT_CUT_FINISHED).
+        /// The sheet then adds the frames that it needs.</summary>
         public void End()
         {
             World.Check(Native.kiriCut_End(World.Handle, Id));
@@ -1564,38 +1526,37 @@ namespace Kiri
         public override int GetHashCode() { return Id.GetHashCode(); }
         public static implicit operator ObstacleId(Obstacle handle) { return handle.Id; }
 
-        /// <summary>It is gone, its id stale. What rested on it wakes.</summary>
+        /// <summary>Destroys an obstacle; its id is stale. Pieces that rested on it wake.</summary>
         public void Destroy()
         {
             World.Check(Native.kiriDestroyObstacle(World.Handle, Id));
         }
 
-        /// <summary>Where it is when the next tick starts. It did not move there: velocities alone say what sheets feel.
-        /// rotation: a rotation matrix, columns as in the def.</summary>
+        /// <summary>Teleports the obstacle (m, world). Sheets react to its velocity (kiriObstacle_SetVelocity), not to the jump.</summary>
         public void SetPose(Float3 position, Float9 rotation)
         {
             World.Check(Native.kiriObstacle_SetPose(World.Handle, Id, (float*)&position, (float*)&rotation));
         }
 
-        /// <summary>With what it moves in the next tick and from then on.</summary>
+        /// <summary>Set the velocity (m/s, rad/s) for the next and all later ticks.</summary>
         public void SetVelocity(Float3 velocity, Float3 angularVelocity)
         {
             World.Check(Native.kiriObstacle_SetVelocity(World.Handle, Id, (float*)&velocity, (float*)&angularVelocity));
         }
 
-        /// <summary>With what it moves in the next tick and from then on.</summary>
+        /// <summary>Set the velocity (m/s, rad/s) for the next and all later ticks.</summary>
         public void SetSurfaceVelocity(Float3 velocity)
         {
             World.Check(Native.kiriObstacle_SetSurfaceVelocity(World.Handle, Id, (float*)&velocity));
         }
 
-        /// <summary>As in the def.</summary>
+        /// <summary>Sets mass (kg), inertia and centre of mass, as in the def.</summary>
         public void SetMass(float mass, Float6 inertia, Float3 centerOfMass)
         {
             World.Check(Native.kiriObstacle_SetMass(World.Handle, Id, mass, (float*)&inertia, (float*)&centerOfMass));
         }
 
-        /// <summary>Pose and velocities as they are now.</summary>
+        /// <summary>Gets the current state.</summary>
         public ObstacleState GetState()
         {
             var stateValue = new ObstacleState();

@@ -324,12 +324,12 @@ namespace Kiri
     public enum ResultCode
     {
         Ok = 0,
-        /// <summary>done, and work is left for later ticks</summary>
+        /// <summary>success; work is left for later ticks</summary>
         Pending = 1,
-        /// <summary>null pointer, NaN, infinite, or outside the documented range; or a sheet or obstacle would be where floats
-        /// end, or move that fast: 4e37 m, m/s or 1/s</summary>
+        /// <summary>null pointer, NaN, infinite, or outside the documented range; or a position, velocity or turn of a sheet or
+        /// obstacle would exceed 4e37 m, m/s or 1/s</summary>
         ErrorArgument = -1,
-        /// <summary>the def was not filled by its kiriDefault function, all zeros say: call that first</summary>
+        /// <summary>the def was not filled by its kiriDefault function: call that first</summary>
         ErrorDef = -2,
         /// <summary>unknown or stale id, or the id of another kind</summary>
         ErrorId = -3,
@@ -339,19 +339,19 @@ namespace Kiri
         ErrorState = -5,
         /// <summary>the allocator returned null</summary>
         ErrorMemory = -6,
-        /// <summary>the motion of a sheet could not be continued; it was put to rest where it was</summary>
+        /// <summary>the motion of a sheet could not be continued; the sheet was stopped where it was</summary>
         Diverged = -7,
         /// <summary>all ids of a kind are used up: 4 194 304 at a time, 2^29 over the life of a world</summary>
         ErrorLimit = -8,
         /// <summary>floats are not computed as on other machines, see kiriCreateWorld</summary>
         ErrorBuild = -9,
-        /// <summary>bytes that are damaged, cut short, of something else, or of a later version</summary>
+        /// <summary>the bytes are damaged, cut short, of another kind, or of a later version</summary>
         ErrorData = -10,
-        /// <summary>a call that was made again gave something else than its recording has</summary>
+        /// <summary>a repeated call gave another result than its recording has</summary>
         ErrorReplay = -11,
     }
 
-    /// <summary>What happened since the start of the last tick that was not refused.</summary>
+    /// <summary>Events since the start of the last tick that was not refused.</summary>
     public enum EventType
     {
         /// <summary>cut: all of it is in the mesh; the id is stale from now on</summary>
@@ -360,32 +360,32 @@ namespace Kiri
         PieceOff = 2,
         /// <summary>frame</summary>
         FrameAdded = 3,
-        /// <summary>the sheet was put to rest</summary>
+        /// <summary>the sheet was stopped</summary>
         Diverged = 4,
         /// <summary>stage, waiting: the budget ended in this stage of the sheet's work</summary>
         Deferred = 5,
-        /// <summary>pin: its force passed breakForce; the id is stale from now on</summary>
+        /// <summary>pin: its force exceeded breakForce; the id is stale from now on</summary>
         PinBroke = 6,
-        /// <summary>sheet (the new one), frame, area: what kiriFrame_DetachPiece left waiting is done</summary>
+        /// <summary>sheet (the new one), frame, area: a pending kiriFrame_DetachPiece is done</summary>
         PieceDetached = 7,
     }
 
     /// <summary>The stages of a tick in their order.</summary>
     public enum Stage
     {
-        /// <summary>split the mesh along the blade</summary>
+        /// <summary>splits the mesh along the blade</summary>
         Cut = 0,
-        /// <summary>cells and what links them</summary>
+        /// <summary>cells and their connections</summary>
         Grid = 1,
-        /// <summary>geodesic distances, regions, links; placing of frames</summary>
+        /// <summary>geodesic distances, regions, links; places frames</summary>
         Regions = 2,
         /// <summary>shape functions</summary>
         Shape = 3,
         /// <summary>weights of vertices and collision points</summary>
         Samples = 4,
-        /// <summary>mass, the pattern of the solver's matrix, and when all is put in force</summary>
+        /// <summary>mass, the pattern of the solver's matrix, and the commit</summary>
         Constants = 5,
-        /// <summary>what touches obstacles, other sheets and other pieces</summary>
+        /// <summary>contacts with obstacles, other sheets and other pieces</summary>
         Contact = 6,
         /// <summary>the motion of the frames</summary>
         Solve = 7,
@@ -394,7 +394,7 @@ namespace Kiri
         Count = 9,
     }
 
-    /// <summary>Materials to start from; src/world/kiri_preset.c says where their numbers come from.</summary>
+    /// <summary>Materials to start from; src/world/kiri_preset.c names the sources of their numbers.</summary>
     public enum MaterialPreset
     {
         /// <summary>printing paper, 0.11 mm</summary>
@@ -419,22 +419,20 @@ namespace Kiri
     /// <summary>How a sheet deforms.</summary>
     public enum Model
     {
-        /// <summary>Rigid frames joined by links: paper, foil, stiff cloth. 6 unknowns a frame, which its neighbours couple.</summary>
+        /// <summary>Rigid frames joined by links: paper, foil, stiff cloth. 6 unknowns a frame, coupled with its neighbours.</summary>
         Links = 0,
-        /// <summary>Affine frames joined by links: cloth and rubber, whose stretch inside a region is seen. 12 unknowns a frame,
-        /// which neighbours of neighbours couple: a tick takes five to seven times as long as with KIRI_MODEL_LINKS.
-        /// From 1e8 Pa or so on it needs more `iterations`, 8 say.</summary>
+        /// <summary>Affine frames joined by links: cloth and rubber that stretch visibly inside a region. 12 unknowns a frame,
+        /// coupled with neighbours of neighbours: a tick takes five to seven times as long. From 1e8 Pa on use 8
+        /// `iterations`.</summary>
         Affine = 1,
-        /// <summary>Affine frames, strains at integration points: the scheme of the paper, to compare with. Weights that vary
-        /// across a strip cannot bend it as a cylinder, however many points there are: a clamped strip on 9 frames goes
-        /// 3, 20, 51 and 70 % too short a way down where it is a 10th, 20th, 50th and 400th of its length thick. 12
-        /// unknowns a frame.</summary>
+        /// <summary>Affine frames, strains at integration points: the scheme of the paper, for comparison. 12 unknowns a frame.
+        /// The thinner the sheet, the less it bends; the manual has figures (accuracy).</summary>
         Points = 2,
     }
 
-    /// <summary>What is seen between the frames, and met by rays, blades, obstacles, other sheets, and contacts of rest points;
-    /// pins, clamps and holds hold it. Where nothing touches or holds the sheet it does not change how that moves.
-    /// Collision points stay on the linear surface.</summary>
+    /// <summary>The surface between the frames. Rays, blades, obstacles, other sheets and contacts of rest points meet this
+    /// surface; pins, clamps and holds hold it. Where nothing touches or holds the sheet, skinning does not change its
+    /// motion. Collision points stay on the linear surface.</summary>
     public enum Skinning
     {
         /// <summary>each frame carries a flat patch; the weights blend them (equation 1 of the paper)</summary>
@@ -443,20 +441,18 @@ namespace Kiri
         Smooth = 1,
     }
 
-    /// <summary>How time is stepped. Both solve one linear system an iteration.</summary>
+    /// <summary>Integration in time. Both solve one linear system an iteration.</summary>
     public enum TimeStepping
     {
-        /// <summary>TR-BDF2: trapezoid and BDF2 by turns, of second order. Motion lasts: of the energy of a swinging strip of 9
-        /// frames 96 to 98 % is left after 10 s with 2 substeps a 60th of a second and 1 iteration, 99.7 % with 4.
-        /// Backward Euler takes its place in the steps in which a contact touches a piece, a pin or hold is made, moved
-        /// or removed, or a frame is new or turns by more than a radian.</summary>
+        /// <summary>TR-BDF2: alternates trapezoid and BDF2, of second order. Keeps the energy of motion; the manual has figures
+        /// (accuracy). Backward Euler replaces it in steps in which a contact touches a piece, a pin or hold is made,
+        /// moved or removed, or a frame is new or turns by more than a radian.</summary>
         SecondOrder = 0,
-        /// <summary>Backward Euler, of first order: takes energy out of all that swings, the more the longer the step. Of that
-        /// strip's 0.4 % is left.</summary>
+        /// <summary>Backward Euler, of first order: takes energy out of a swing, more in longer steps.</summary>
         Euler = 1,
     }
 
-    /// <summary>What a pin holds.</summary>
+    /// <summary>The types of pins.</summary>
     public enum PinType
     {
         Point = 0,
@@ -464,13 +460,12 @@ namespace Kiri
         Clamp = 2,
     }
 
-    /// <summary>A body that sheets touch: a floor, a ball, a crate of another engine. Kiri moves no obstacle by forces. An
-    /// obstacle goes on with its velocities; a host that moves bodies by an engine of its own sets pose and velocities
-    /// before each tick, and gives the impulse that kiriObstacle_GetState tells to that engine after it. Contacts
-    /// follow its motion within the tick, and push no harder than its mass resists. Sheets stay half their
-    /// contactThickness away from it; that is what is seen of them, with smooth skinning too. A sheet that rests wakes
-    /// where an obstacle near it comes, goes, or has moved by half a second of its sleepSpeed. Lengths of shapes are up
-    /// to 1e6 m.</summary>
+    /// <summary>A body that sheets touch: a floor, a ball, a crate of another engine. It moves on with its velocities; forces do
+    /// not move it. A host with an engine sets pose and velocities before each tick, and applies the impulse of
+    /// kiriObstacle_GetState to the engine's body after it. Contacts follow its motion within the tick, and push no
+    /// harder than its mass resists. The visible surface of sheets stays half their contactThickness away. A sleeping
+    /// sheet wakes where an obstacle near it comes, goes, or has moved by half a second of its sleepSpeed. Lengths are
+    /// up to 1e6 m.</summary>
     public enum ObstacleType
     {
         /// <summary>all below the plane through its position; the third column of its rotation points out</summary>
@@ -487,11 +482,11 @@ namespace Kiri
         Prism = 5,
     }
 
-    /// <summary>What is drawn.</summary>
+    /// <summary>The things to draw.</summary>
     [Flags]
     public enum DrawFlag : uint
     {
-        /// <summary>a triangle for each of the mesh, in a colour of its piece, pale where that sleeps</summary>
+        /// <summary>a triangle for each triangle of the mesh, in a colour of its piece; sleeping: pale</summary>
         Triangles = 1,
         /// <summary>a line for each edge between two triangles</summary>
         Edges = 2,
@@ -516,39 +511,29 @@ namespace Kiri
         All = 2047,
     }
 
-    /// <summary>The most work that one tick may do, over all sheets. 0: no limit. Triangles, cells and samples share one
-    /// allowance: using 30 % of one leaves 70 % of the others. So the work on cuts takes no longer than the costliest
-    /// of the three limits alone. A single step that exceeds the whole limit is not split. It runs alone in its tick.
-    /// Work that does not fit goes on in the next tick. Until a cut takes effect its lips move together. All points of
-    /// a sheet that are pending when work on them begins take effect together, whatever ticks they were given before.
-    /// So the tick in which a cut takes effect depends on the budget, too. Its result does not: when all work is done,
-    /// mesh, grid, regions, weights and sites of frames equal, bit for bit, a run of the same calls without a budget.
-    /// Motion differs. Sheets take turns. In every other tick the sheet whose points came first is served first, in the
-    /// ticks between the sheet whose work has used least. Pieces that wait to be detached get half of every other tick.
-    /// An example at 60 Hz, with 2 ms of work on cuts a tick (about 32 000 cells and 4000 samples): a cut from side to
-    /// side of 64 x 64 squares with 9 frames parts 17 to 100 ms after the blade has left, one of 127 x 127 squares with
-    /// 24 frames 67 to 200 ms. A slow blade parts sooner, for its work is done on the way. tests/bench_swipe.c prints
-    /// the table.</summary>
+    /// <summary>Limits the work of one tick, over all sheets. 0: no limit. Triangles, cells and samples share one allowance:
+    /// using 30 % of one leaves 70 % of the others. A single step that exceeds the whole limit is not split. It runs
+    /// alone in its tick. Other work goes on in the next tick. Until a cut takes effect its lips move together. The
+    /// tick of the effect depends on the budget. The mesh, grid, regions, weights and sites of frames after all work is
+    /// done do not, bit for bit; motion differs. Sheets take turns. The manual has examples and the order of turns
+    /// (budget).</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Budget
     {
         /// <summary>split by blades; 0, or KIRI_LEAST_TRIANGLES and more</summary>
         public int Triangles;
-        /// <summary>looked at, or given another distance: grid, regions, shape functions; a link counts as many</summary>
+        /// <summary>visited, or with a new distance: grid, regions, shape functions. A link counts as a cell</summary>
         public int Cells;
-        /// <summary>vertices and collision points with new weights; and what it takes to put all that is new in force at once,
-        /// which is paid before</summary>
+        /// <summary>vertices and collision points with new weights, and the cost of the commit, paid before it</summary>
         public int Samples;
-        /// <summary>work on linear systems, of 30 to 60 us each. A system counts 1, and 1 more for each 16 frames (5 of affine
-        /// ones), for each 64 contacts, and for each 1280 products of blocks that its factorisation takes: in a square
-        /// of 24, 289, 1000, 5000 frames it is 2, 36, 184, 2411. A sheet that gets fewer systems than its substeps
-        /// takes longer ones. Where one system of all its pieces is more than what is left, they take turns: some are
-        /// moved, the others stay where they are in this tick, with their velocity, and come first in the next; a sheet
-        /// that gets none stands still, too. A piece whose system is more than the whole limit is moved alone</summary>
+        /// <summary>linear systems, 30 to 60 us each. A large system counts as several, see the manual (budget). A sheet with
+        /// fewer systems than substeps takes longer substeps. Pieces that do not fit take turns: the others stay where
+        /// they are in this tick, with their velocity, and come first in the next. A piece whose system exceeds the
+        /// whole limit is moved alone</summary>
         public int Iterations;
     }
 
-    /// <summary>Of a world: gravity, budget, and the host's functions.</summary>
+    /// <summary>Settings of a world: gravity, budget, and functions of the host.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct NativeWorldDef
     {
@@ -557,24 +542,24 @@ namespace Kiri
         public Float3 Gravity;
         /// <summary>default: no limit</summary>
         public Budget Budget;
-        /// <summary>null: malloc and free. Both or none.</summary>
+        /// <summary>null: malloc and free. Set both or none.</summary>
         public IntPtr Alloc;
         public IntPtr Free;
         /// <summary>one line for each error; null: silent</summary>
         public IntPtr Log;
-        /// <summary>null: the profile counts, and shows no times</summary>
+        /// <summary>null: the profile has counts, and no times</summary>
         public IntPtr Clock;
-        /// <summary>null: a tick runs in its caller alone. Both or none.</summary>
+        /// <summary>null: a tick runs in the calling thread alone. Set both or none.</summary>
         public IntPtr StartTask;
         public IntPtr FinishTask;
-        /// <summary>threads that may work on a task, the caller of the tick with them, 0 to 1024: sizes ranges; up to 1: no task
-        /// is started. Default 0</summary>
+        /// <summary>threads that may work on a task, the caller of the tick included, 0 to 1024. It sets the size of ranges. 0
+        /// and 1: no task is started. Default 0</summary>
         public int WorkerCount;
-        /// <summary>handed to the functions above</summary>
+        /// <summary>passed to the functions above</summary>
         public void* User;
-        /// <summary>gets the recording of the world, see kiriWorld_Replay; null: there is none</summary>
+        /// <summary>receives the recording of the world, see kiriWorld_Replay; null: no recording</summary>
         public IntPtr Record;
-        /// <summary>the recording has the state hash after so many ticks, and at the end; 0: never. Default 60</summary>
+        /// <summary>ticks between state hashes in the recording; one is at its end. 0: none. Default 60</summary>
         public int RecordHashTicks;
 
         /// <summary>With the defaults of the library.</summary>
@@ -589,17 +574,17 @@ namespace Kiri
         }
     }
 
-    /// <summary>How far a replay has come: all zero at its start, but for `untrusted`.</summary>
+    /// <summary>Progress of a replay. Set all fields but `untrusted` to zero before the first call.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct NativeReplay
     {
-        /// <summary>in the recording: where it goes on</summary>
+        /// <summary>bytes of the recording that were read</summary>
         public long Offset;
-        /// <summary>made so far</summary>
+        /// <summary>calls made so far</summary>
         public long Calls;
-        /// <summary>that were not refused</summary>
+        /// <summary>ticks made so far, without refused ones</summary>
         public long Ticks;
-        /// <summary>where it stopped at a note: its bytes, in the recording; else null</summary>
+        /// <summary>bytes of the note where the replay stopped, in the recording; else null</summary>
         public void* Note;
         public int NoteCount;
         /// <summary>set by the host, 1: somebody may have made the recording to do harm. Saves that it loads are loaded by
@@ -608,7 +593,7 @@ namespace Kiri
         public int Untrusted;
     }
 
-    /// <summary>Of the fields after `sheet` an event has those that its type names; the others are 0, `stage` is -1.</summary>
+    /// <summary>An event. It fills the fields that its type names, and `sheet`. Other fields are 0, and `stage` is -1.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Event
     {
@@ -627,11 +612,11 @@ namespace Kiri
         public float Area;
         /// <summary>KIRI_STAGE_..., or -1</summary>
         public Stage Stage;
-        /// <summary>blade points and ends of cuts that are pending or being worked on; or 0</summary>
+        /// <summary>points and ends of cuts that are pending or in work; or 0</summary>
         public int Waiting;
     }
 
-    /// <summary>What the last tick did, and what it took.</summary>
+    /// <summary>Work and time of the last tick.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Profile
     {
@@ -639,46 +624,44 @@ namespace Kiri
         public Double9 Seconds;
         /// <summary>blade segments that took effect</summary>
         public int CutSegments;
-        /// <summary>Items, as the budget counts them: more than what is split or weighed, where one takes more work.</summary>
+        /// <summary>Items in the units of kiriBudget. An item that takes more work counts more than once.</summary>
         public int TrianglesSplit;
-        /// <summary>Items, as the budget counts them: more than what is split or weighed, where one takes more work.</summary>
+        /// <summary>Items in the units of kiriBudget. An item that takes more work counts more than once.</summary>
         public int CellsSettled;
-        /// <summary>Items, as the budget counts them: more than what is split or weighed, where one takes more work.</summary>
+        /// <summary>Items in the units of kiriBudget. An item that takes more work counts more than once.</summary>
         public int SamplesRefreshed;
-        /// <summary>Items, as the budget counts them: more than what is split or weighed, where one takes more work.</summary>
+        /// <summary>Items in the units of kiriBudget. An item that takes more work counts more than once.</summary>
         public int SolverIterations;
-        /// <summary>What commits changed: cells made or with other material, cells with other weights, vertices and collision
-        /// points with other weights, links that are other than before. Of how many: kiriSheet_GetCounts.</summary>
+        /// <summary>Changes by commits: cells that are new or have other material, cells with other weights, vertices and
+        /// collision points with other weights, links that differ. kiriSheet_GetCounts has the totals.</summary>
         public int CellsChanged;
-        /// <summary>What commits changed: cells made or with other material, cells with other weights, vertices and collision
-        /// points with other weights, links that are other than before. Of how many: kiriSheet_GetCounts.</summary>
+        /// <summary>Changes by commits: cells that are new or have other material, cells with other weights, vertices and
+        /// collision points with other weights, links that differ. kiriSheet_GetCounts has the totals.</summary>
         public int WeightsChanged;
-        /// <summary>What commits changed: cells made or with other material, cells with other weights, vertices and collision
-        /// points with other weights, links that are other than before. Of how many: kiriSheet_GetCounts.</summary>
+        /// <summary>Changes by commits: cells that are new or have other material, cells with other weights, vertices and
+        /// collision points with other weights, links that differ. kiriSheet_GetCounts has the totals.</summary>
         public int VerticesChanged;
-        /// <summary>What commits changed: cells made or with other material, cells with other weights, vertices and collision
-        /// points with other weights, links that are other than before. Of how many: kiriSheet_GetCounts.</summary>
+        /// <summary>Changes by commits: cells that are new or have other material, cells with other weights, vertices and
+        /// collision points with other weights, links that differ. kiriSheet_GetCounts has the totals.</summary>
         public int PointsChanged;
-        /// <summary>What commits changed: cells made or with other material, cells with other weights, vertices and collision
-        /// points with other weights, links that are other than before. Of how many: kiriSheet_GetCounts.</summary>
+        /// <summary>Changes by commits: cells that are new or have other material, cells with other weights, vertices and
+        /// collision points with other weights, links that differ. kiriSheet_GetCounts has the totals.</summary>
         public int LinksChanged;
         /// <summary>sheets in which a cut took effect</summary>
         public int Commits;
         /// <summary>linear systems, large and small</summary>
         public int SystemsSolved;
-        /// <summary>planes given to the solver: the host's, those of obstacles, and those between sheets</summary>
+        /// <summary>planes given to the solver: by the host, by obstacles, and between sheets</summary>
         public int Contacts;
-        /// <summary>pairs of sheets or pieces, near each other and not both asleep</summary>
+        /// <summary>pairs of sheets or pieces that are near each other and not both asleep</summary>
         public int SheetPairs;
-        /// <summary>The farthest that a vertex would have jumped, m, when a cut took effect, without fadeTime; and that one went
-        /// by a fade.</summary>
+        /// <summary>The longest jump of a vertex when a cut took effect, as without fadeTime, and the longest way by a fade; m.</summary>
         public double LargestJump;
-        /// <summary>The farthest that a vertex would have jumped, m, when a cut took effect, without fadeTime; and that one went
-        /// by a fade.</summary>
+        /// <summary>The longest jump of a vertex when a cut took effect, as without fadeTime, and the longest way by a fade; m.</summary>
         public double LargestFade;
     }
 
-    /// <summary>What a sheet is made of: homogeneous, isotropic.</summary>
+    /// <summary>The material of a sheet: homogeneous, isotropic.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Material
     {
@@ -696,18 +679,14 @@ namespace Kiri
         public float FlexDamping;
     }
 
-    /// <summary>How much work for how much accuracy. The presets are measured (`make accuracy`; tests/sweep.h has the scenes) on
-    /// a strip of stiff paper, 0.2 m x 0.05 m, clamped at one end, with one row of frames, and on a square of 0.2 m
-    /// that bends five times as easily, hangs by two corners, and has half as many rows and columns, rounded up. Let
-    /// go, they swing for 0.4 s at 60 ticks a second. Error: rms distance of the vertices from where a much finer run
-    /// brings them, by the rms way that they go; at most, over grids from 4/5 to 5/4 as fine and with frames in regular
-    /// rows or moved a little. FAST: 2 %. BALANCED: 0.8 %. ACCURATE: 0.4 %. What a cut leaves narrow wants more frames:
-    /// see `accuracy` in the sheet def.</summary>
+    /// <summary>Work against accuracy. The presets were measured on a swinging strip and a swinging square of paper. Error is
+    /// the rms distance of vertices from a much finer run, over their rms way. FAST: at most 2 %. BALANCED: 0.8 %.
+    /// ACCURATE: 0.4 %. Narrow arms that a cut leaves need more frames (`accuracy` of kiriSheetDef). The manual has
+    /// details (accuracy).</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Quality
     {
-        /// <summary>control frames in a row along a strip; a square does with half as many in either direction, rounded up: 3 x
-        /// 3, 5 x 5, 9 x 9</summary>
+        /// <summary>control frames in a row along a strip; a square needs 3 x 3, 5 x 5, 9 x 9</summary>
         public int FramesAlong;
         /// <summary>for the sheet def</summary>
         public int GridResolution;
@@ -717,42 +696,41 @@ namespace Kiri
         public int Substeps;
     }
 
-    /// <summary>The paper's own ways, to compare with; part of the sheet def.</summary>
+    /// <summary>Options of the paper, for comparison; part of the sheet def.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct PaperOptions
     {
-        /// <summary>1: every cut rebuilds grid, regions and shape functions from scratch; the outcome is the same bit for bit.
-        /// Default 0.</summary>
+        /// <summary>1: every cut rebuilds grid, regions and shape functions from scratch, to the same bits. Default 0.</summary>
         public Flag FromScratch;
-        /// <summary>1: when a cut takes effect, only new frames take their motion from the surface: what is seen jumps, and
-        /// momentum is not kept. Default 0.</summary>
+        /// <summary>1: only new frames take their motion from the surface: it jumps at cuts, and momentum is not kept. Default
+        /// 0.</summary>
         public Flag Popping;
-        /// <summary>1: the weights of frames are linear on the way from frame to frame, so the surface that is seen has a kink
-        /// at each frame. Always so with KIRI_MODEL_POINTS. Default 0: their slope is zero at the frames.</summary>
+        /// <summary>1: the weights of frames are linear between frames, so the surface has a kink at each frame. Always so with
+        /// KIRI_MODEL_POINTS. Default 0: the slope of weights is zero at the frames.</summary>
         public Flag LinearWeights;
-        /// <summary>KIRI_MODEL_POINTS only. Work grows with the points: spread evenly over the sheet, at least one in every
-        /// piece; default 0: four for each of frameCount. Order 1 (default) takes the strain at a point for all of the
-        /// material around it, order 2 a strain linear in it, at four times the work a point. 0 to 1048576</summary>
+        /// <summary>KIRI_MODEL_POINTS only. Points are spread evenly over the sheet, at least one in every piece; default 0:
+        /// four for each of frameCount. Work is proportional to them. Order 1 (default) has a constant strain in the
+        /// material around a point, order 2 a linear strain, at four times the work a point. 0 to 1048576</summary>
         public int IntegrationPoints;
         /// <summary>1 or 2</summary>
         public int IntegrationOrder;
     }
 
-    /// <summary>Of a sheet: its rest shape, where it starts, its material, and how it is computed.</summary>
+    /// <summary>A sheet: its rest shape, start, material, and computation.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct SheetDef
     {
         internal uint cookie;
         /// <summary>The rest shape: triangles in the rest plane, counter-clockwise, at most two at an edge. Holes and several
-        /// parts are fine. Copied by kiriCreateSheet; vertices of no triangle are left out. Edges whose ends lie at the
-        /// same places, but are different vertices, are the lips of a cut that is there already; weldDistance closes
-        /// them. 2 floats (u, v) a vertex</summary>
+        /// parts are allowed. kiriCreateSheet copies them and leaves out vertices without a triangle. Two edges in the
+        /// same place with different vertices are the lips of an existing cut; weldDistance closes them. 2 floats (u,
+        /// v) a vertex</summary>
         internal float* restPositions;
         internal int vertexCount;
         /// <summary>3 a triangle</summary>
         internal int* indices;
         internal int triangleCount;
-        /// <summary>Where it starts: x = position + u axisU + v axisV. The axes are orthonormal.</summary>
+        /// <summary>Start: x = position + u axisU + v axisV (m, world). The axes are orthonormal.</summary>
         public Float3 Position;
         public Float3 AxisU;
         public Float3 AxisV;
@@ -761,24 +739,23 @@ namespace Kiri
         public Material Material;
         /// <summary>grid squares along the longer side, 1 to 4096; default 32</summary>
         public int GridResolution;
-        /// <summary>m: ends of cuts this near to a lip or the border meet it, those twice as far do not, and a cut keeps within
-        /// half of it of its line; 0: 1e-4 of the longer side</summary>
+        /// <summary>m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not, and a cut keeps
+        /// within half of it of its line; 0: 1e-4 of the longer side</summary>
         public float SnapDistance;
-        /// <summary>Vertices nearer than this (m, rest plane; 0 or more) are one: for seams of texture coordinates, and
-        /// triangles without shared vertices (STL). In the order of vertices, each becomes the nearest vertex that was
-        /// kept before and is nearer than this; else it is kept. So none moves farther, and a chain of near vertices is
-        /// not one point. A triangle with two corners at one vertex is left out. kiriSheet_CopySources leads to the
-        /// vertices of the def. Default 0: vertices are as the indices say.</summary>
+        /// <summary>Merges vertices nearer than this (m, rest plane; 0 or more): for seams of texture coordinates, and triangles
+        /// without shared vertices (STL). Each vertex becomes the nearest kept vertex before it within this distance,
+        /// or is kept. No vertex moves farther, and a chain of near vertices stays several points. A triangle with two
+        /// corners at one vertex is left out. kiriSheet_CopySources leads to the vertices of the def. Default 0: no
+        /// merging.</summary>
         public float WeldDistance;
         /// <summary>Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at least; null:
-        /// frameCount frames are spread evenly, some of them in pairs at both sides of slit ends. The grid carries one
-        /// frame for every two squares of material at most: more are refused (KIRI_ERROR_ARGUMENT), and re-sampling
-        /// stops there. A new sheet has no more frames than frameCount, or than pieces where these are more. frameCount
-        /// 0: as many as the sheet needs: a region is split while its size, 2.45 times its radius of gyration, exceeds
-        /// 1.25 frameLength, after cuts too: so arms that a cut leaves get frames along them. frameLength 0: it follows
-        /// from `accuracy`, the relative error of the shape under the sheet's own weight that is good enough, but is
-        /// three squares of the grid at least. kiriSheet_EstimateError says what came of it. 0, or 1 and more; default
-        /// 5</summary>
+        /// frameCount frames are spread evenly, some in pairs at both sides of slit ends. The grid carries at most one
+        /// frame for every two squares of material: a def with more gives KIRI_ERROR_ARGUMENT, and re-sampling stops
+        /// there. A new sheet has at most frameCount frames, or one for each piece where there are more pieces.
+        /// frameCount 0: regions are split, after cuts too, until 2.45 times the radius of gyration is at most 1.25
+        /// frameLength. frameLength 0: derived from `accuracy`, the relative error of the shape under the sheet's own
+        /// weight, and at least three grid squares. kiriSheet_EstimateError checks the result. 0, or 1 and more;
+        /// default 5</summary>
         public int FrameCount;
         /// <summary>m; used where frameCount is 0; default 0</summary>
         public float FrameLength;
@@ -788,64 +765,53 @@ namespace Kiri
         /// <summary>re-sampling stops here; default 256</summary>
         public int MaxFrames;
         /// <summary>Re-sampling (section 5 of the paper): a frame whose weight exceeds rigidWeight over an area larger than
-        /// rigidArea (m^2) gets others beside it. In a new sheet this is done only with frameCount 0. After cuts it is
-        /// done where the area is also larger than in the new sheet: when a cut ends, or has met the border or another
-        /// cut. A sheet that is to stay rigid sets frameCount and maxFrames to 1. rigidArea 0: a quarter of the area
-        /// that a frame has at the start. default 0.95</summary>
+        /// rigidArea (m^2) gets new frames beside it. A new sheet is re-sampled only with frameCount 0. Later it
+        /// happens when a cut ends or meets the border or another cut, where the area is also larger than in the new
+        /// sheet. A rigid sheet has frameCount 1 and maxFrames 1. rigidArea 0: a quarter of the area of a frame at the
+        /// start. default 0.95</summary>
         public float RigidWeight;
         /// <summary>default 0</summary>
         public float RigidArea;
-        /// <summary>A piece with less area (m^2) is a crumb: it gets one frame if it has none, and no frames are added to it.
-        /// Default 0.</summary>
+        /// <summary>A piece with less area (m^2) is a crumb: it gets one frame if it has none, and no more. Default 0.</summary>
         public float CrumbArea;
-        /// <summary>Contact, see below. of the sheet, 0 or more; with that of an obstacle or of another sheet counts the
-        /// geometric mean. Default 0.5</summary>
+        /// <summary>of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5</summary>
         public float Friction;
-        /// <summary>m, 0 or more: sheets and pieces stay so far apart, and half as far from obstacles. 0: the material's
-        /// thickness, a 20th of a grid square at least. Default 0</summary>
+        /// <summary>m, 0 or more: distance between sheets and pieces, and twice the distance to obstacles. 0: the material's
+        /// thickness, at least a 20th of a grid square. Default 0</summary>
         public float ContactThickness;
-        /// <summary>obstacles and sheets touch where a bit is set in the groups of both. Default: all</summary>
+        /// <summary>obstacles and sheets touch if they share a set bit. Default: all</summary>
         public uint Groups;
-        /// <summary>1: its pieces touch each other, and other sheets that have it set; not where one of the two sheets is
-        /// planar. Of two pieces that are near each other the one that lies above, against gravity, is kept on its side
-        /// of the other by planes; side by side the one that nothing holds, or the lighter one. So piles keep their
-        /// order. The lower one feels what presses on it within 0.3 s: weight acts in full, an impact does so only
-        /// while the upper one stays, and momentum is not exchanged exactly. Pieces that cross are parted at 0.25 m/s.
-        /// A sheet feels others by its vertices, about one a grid square and more along borders: two edges that cross
-        /// are not seen. A piece that wraps around the border of another, so that it lies on both sides of it, has one
-        /// side all the same. Folds of one piece do not touch each other. Pieces that touch wake and fall asleep
-        /// together. Default 0.</summary>
+        /// <summary>1: its pieces touch each other, and other sheets that have it set; not where one of two sheets is planar.
+        /// Planes keep the upper piece, against gravity, on its side of the lower one; side by side, the piece that is
+        /// free, or the lighter one. So piles keep their order. Folds of one piece do not touch each other. Pieces that
+        /// touch wake and fall asleep together. The manual lists the limits of the method (contact). Default 0.</summary>
         public Flag TouchesSheets;
         /// <summary>spread evenly over the sheet, at least one in every piece; default 0: none</summary>
         public int CollisionPoints;
-        /// <summary>Newton steps a substep, 1 to 64; default 2. Sheets of 1000 frames want 8, see the manual</summary>
+        /// <summary>Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual</summary>
         public int Iterations;
-        /// <summary>A piece all of whose frames move slower than this (m/s, rms over the material of each) for half a second
-        /// falls asleep: it rests, and costs next to nothing. What is new to it wakes it: a cut that changes it, when
-        /// that takes effect; a pin that holds it, or the pin's pose; a hold, a load, contacts other than those it fell
-        /// asleep with; something that moves and comes near. Gravity, wind, settings and kiriSheet_Wake wake all pieces
-        /// of the sheet. The ticks of a sheet all of whose pieces sleep cost nothing. Default 0.001; 0: none sleeps.</summary>
+        /// <summary>A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a
+        /// second. It does not move, and costs almost nothing. A cut that changes it wakes it when the cut takes
+        /// effect; so do a new pin, pose, hold or load, contacts that differ, and moving things that come near.
+        /// Gravity, wind, settings and kiriSheet_Wake wake all pieces of the sheet. Default 0.001; 0: no piece sleeps.</summary>
         public float SleepSpeed;
         /// <summary>KIRI_MODEL_..., default KIRI_MODEL_LINKS</summary>
         public Model Model;
         /// <summary>KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR</summary>
         public Skinning Skinning;
-        /// <summary>1: the sheet stays in the plane where it starts, without bending; what velocities, forces and held positions
-        /// have across the plane is dropped. 3 unknowns a rigid frame, 6 an affine one: two thirds of the solver's
-        /// work, or about a third. Default 0.</summary>
+        /// <summary>1: the sheet stays in the plane where it starts, without bending. Parts of velocities, forces and held
+        /// positions across the plane are dropped. A rigid frame has 3 unknowns, an affine one 6. Default 0.</summary>
         public Flag Planar;
         /// <summary>KIRI_TIME_STEPPING_..., default KIRI_TIME_STEPPING_SECOND_ORDER</summary>
         public TimeStepping TimeStepping;
-        /// <summary>When a cut takes effect, weights change, and what is seen between the frames would jump. The difference
-        /// fades within this time (s). So does the difference of strain in links of KIRI_MODEL_LINKS whose borders have
-        /// moved. Default 0.2; 0: at once.</summary>
+        /// <summary>A cut that takes effect changes weights, and the surface would jump between frames. The difference fades
+        /// within this time (s), and so does that in the strain of links whose borders moved. Default 0.2; 0: at once.</summary>
         public float FadeTime;
-        /// <summary>1: normals of the mesh are made in every tick. 0: kiriMesh has none, and kiriSheet_CopyVertices copies none;
-        /// this saves half of the time of linear skinning. The sheet moves the same, bit for bit: where edges of
-        /// obstacles or other sheets touch it, the tick makes normals for itself. So does kiriSheet_GetSolid; and what
-        /// kiriSheet_GetPoint says is the same to rounding. Default 1.</summary>
+        /// <summary>1: every tick computes normals of the mesh. 0: kiriMesh has no normals, and kiriSheet_CopyVertices copies
+        /// none; this saves half of the time of linear skinning. The sheet moves the same, bit for bit: contact and
+        /// kiriSheet_GetSolid compute their own normals. kiriSheet_GetPoint is the same to rounding. Default 1.</summary>
         public Flag Normals;
-        /// <summary>default: none of the paper's own ways</summary>
+        /// <summary>default: all off</summary>
         public PaperOptions Paper;
 
         /// <summary>With the defaults of the library.</summary>
@@ -860,7 +826,7 @@ namespace Kiri
         }
     }
 
-    /// <summary>What of the def may be changed while the sheet lives, as there. kiriSheet_GetSettings stamps it.</summary>
+    /// <summary>Sheet settings that can change after creation. Fields mean the same as in kiriSheetDef.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct SheetSettings
     {
@@ -868,34 +834,26 @@ namespace Kiri
         public Material Material;
         /// <summary>re-sampling stops here; default 256</summary>
         public int MaxFrames;
-        /// <summary>A piece with less area (m^2) is a crumb: it gets one frame if it has none, and no frames are added to it.
-        /// Default 0.</summary>
+        /// <summary>A piece with less area (m^2) is a crumb: it gets one frame if it has none, and no more. Default 0.</summary>
         public float CrumbArea;
-        /// <summary>Contact, see below. of the sheet, 0 or more; with that of an obstacle or of another sheet counts the
-        /// geometric mean. Default 0.5</summary>
+        /// <summary>of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5</summary>
         public float Friction;
-        /// <summary>m, 0 or more: sheets and pieces stay so far apart, and half as far from obstacles. 0: the material's
-        /// thickness, a 20th of a grid square at least. Default 0</summary>
+        /// <summary>m, 0 or more: distance between sheets and pieces, and twice the distance to obstacles. 0: the material's
+        /// thickness, at least a 20th of a grid square. Default 0</summary>
         public float ContactThickness;
-        /// <summary>obstacles and sheets touch where a bit is set in the groups of both. Default: all</summary>
+        /// <summary>obstacles and sheets touch if they share a set bit. Default: all</summary>
         public uint Groups;
-        /// <summary>1: its pieces touch each other, and other sheets that have it set; not where one of the two sheets is
-        /// planar. Of two pieces that are near each other the one that lies above, against gravity, is kept on its side
-        /// of the other by planes; side by side the one that nothing holds, or the lighter one. So piles keep their
-        /// order. The lower one feels what presses on it within 0.3 s: weight acts in full, an impact does so only
-        /// while the upper one stays, and momentum is not exchanged exactly. Pieces that cross are parted at 0.25 m/s.
-        /// A sheet feels others by its vertices, about one a grid square and more along borders: two edges that cross
-        /// are not seen. A piece that wraps around the border of another, so that it lies on both sides of it, has one
-        /// side all the same. Folds of one piece do not touch each other. Pieces that touch wake and fall asleep
-        /// together. Default 0.</summary>
+        /// <summary>1: its pieces touch each other, and other sheets that have it set; not where one of two sheets is planar.
+        /// Planes keep the upper piece, against gravity, on its side of the lower one; side by side, the piece that is
+        /// free, or the lighter one. So piles keep their order. Folds of one piece do not touch each other. Pieces that
+        /// touch wake and fall asleep together. The manual lists the limits of the method (contact). Default 0.</summary>
         public Flag TouchesSheets;
-        /// <summary>Newton steps a substep, 1 to 64; default 2. Sheets of 1000 frames want 8, see the manual</summary>
+        /// <summary>Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual</summary>
         public int Iterations;
-        /// <summary>A piece all of whose frames move slower than this (m/s, rms over the material of each) for half a second
-        /// falls asleep: it rests, and costs next to nothing. What is new to it wakes it: a cut that changes it, when
-        /// that takes effect; a pin that holds it, or the pin's pose; a hold, a load, contacts other than those it fell
-        /// asleep with; something that moves and comes near. Gravity, wind, settings and kiriSheet_Wake wake all pieces
-        /// of the sheet. The ticks of a sheet all of whose pieces sleep cost nothing. Default 0.001; 0: none sleeps.</summary>
+        /// <summary>A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a
+        /// second. It does not move, and costs almost nothing. A cut that changes it wakes it when the cut takes
+        /// effect; so do a new pin, pose, hold or load, contacts that differ, and moving things that come near.
+        /// Gravity, wind, settings and kiriSheet_Wake wake all pieces of the sheet. Default 0.001; 0: no piece sleeps.</summary>
         public float SleepSpeed;
         /// <summary>KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR</summary>
         public Skinning Skinning;
@@ -903,17 +861,16 @@ namespace Kiri
         public TimeStepping TimeStepping;
         /// <summary>stays 0 with paper.popping</summary>
         public float FadeTime;
-        /// <summary>1: normals of the mesh are made in every tick. 0: kiriMesh has none, and kiriSheet_CopyVertices copies none;
-        /// this saves half of the time of linear skinning. The sheet moves the same, bit for bit: where edges of
-        /// obstacles or other sheets touch it, the tick makes normals for itself. So does kiriSheet_GetSolid; and what
-        /// kiriSheet_GetPoint says is the same to rounding. Default 1.</summary>
+        /// <summary>1: every tick computes normals of the mesh. 0: kiriMesh has no normals, and kiriSheet_CopyVertices copies
+        /// none; this saves half of the time of linear skinning. The sheet moves the same, bit for bit: contact and
+        /// kiriSheet_GetSolid compute their own normals. kiriSheet_GetPoint is the same to rounding. Default 1.</summary>
         public Flag Normals;
     }
 
-    /// <summary>The triangles that are seen, as after the last tick. revision grows whenever indices or vertices are added or
-    /// changed. Rest positions are floats, 6e-8 of the distance from the origin of the rest plane apart: where
-    /// triangles are not much larger than that, they look flat or inverted. The library computes with the positions of
-    /// the def to 2^-29 of the sheet; sourceTriangles and sourceWeights are as exact as the sheet is large.</summary>
+    /// <summary>The triangles to draw, as after the last tick. revision grows when indices or vertices are added or changed.
+    /// Rest positions are floats, with a spacing of 6e-8 of the distance from the origin of the rest plane: triangles
+    /// of about that size may look flat or inverted. The library computes with the positions of the def to 2^-29 of the
+    /// sheet; sourceTriangles and sourceWeights have that precision.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct NativeMesh
     {
@@ -925,7 +882,7 @@ namespace Kiri
         public float* restPositions;
         /// <summary>3 a triangle</summary>
         public int* indices;
-        /// <summary>1 a vertex: the triangle of the def that it lies in,</summary>
+        /// <summary>1 a vertex: the triangle of the def that contains it,</summary>
         public int* sourceTriangles;
         /// <summary>3 a vertex: and its barycentric coordinates there</summary>
         public float* sourceWeights;
@@ -934,7 +891,7 @@ namespace Kiri
         public uint Revision;
     }
 
-    /// <summary>So many items from the first on.</summary>
+    /// <summary>`count` items from `first` on.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Range
     {
@@ -942,8 +899,8 @@ namespace Kiri
         public int Count;
     }
 
-    /// <summary>What has changed in the mesh, for hosts that keep a copy of it, on a GPU say. Positions and normals change with
-    /// every tick; all else of a vertex, and the corners of a triangle, only in these ranges.</summary>
+    /// <summary>Changes of the mesh, for hosts that keep a copy, such as on a GPU. Positions and normals change in every tick.
+    /// Other data of a vertex, and the corners of a triangle, change only in these ranges.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Dirty
     {
@@ -951,17 +908,17 @@ namespace Kiri
         public Range NewVertices;
         /// <summary>up to the last one of the mesh</summary>
         public Range NewTriangles;
-        /// <summary>the least ranges that hold all older ones with other data</summary>
+        /// <summary>the smallest ranges that hold all older ones with other data</summary>
         public Range OldVertices;
-        /// <summary>the least ranges that hold all older ones with other data</summary>
+        /// <summary>the smallest ranges that hold all older ones with other data</summary>
         public Range OldTriangles;
         /// <summary>for the next call</summary>
         public uint Revision;
     }
 
-    /// <summary>The surface with a thickness, to draw: a closed mesh, with a rim along borders, holes and the lips of cuts.
-    /// First come the vertices of kiriMesh on the side that the normal leaves, then the same on the other side, then
-    /// four for each edge of the border, so that rims are flat and their edges sharp.</summary>
+    /// <summary>The surface with a thickness, to draw: a closed mesh, with a rim along borders, holes and lips. First the
+    /// vertices of kiriMesh on the side of the normal, then the same on the other side, then four for each border edge,
+    /// so rims are flat.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct NativeSolid
     {
@@ -973,15 +930,15 @@ namespace Kiri
         public float* restPositions;
         /// <summary>3 a triangle, counter-clockwise from outside</summary>
         public int* indices;
-        /// <summary>1 a vertex: that of kiriMesh which it stands on</summary>
+        /// <summary>1 a vertex: its vertex in kiriMesh</summary>
         public int* sources;
         public int vertexCount;
         public int triangleCount;
-        /// <summary>from this one on triangles are rims</summary>
+        /// <summary>rims begin at this triangle</summary>
         public int RimTriangle;
     }
 
-    /// <summary>How many there are of each.</summary>
+    /// <summary>Numbers of items in a sheet.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Counts
     {
@@ -1008,20 +965,23 @@ namespace Kiri
         public Double3 AngularMomentum;
     }
 
-    /// <summary>What a ray meets.</summary>
+    /// <summary>The first point where a ray meets a sheet.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Hit
     {
-        /// <summary>where to cut</summary>
+        /// <summary>m: where to cut</summary>
         public Float2 RestPoint;
+        /// <summary>m, world</summary>
         public Float3 Position;
+        /// <summary>unit</summary>
         public Float3 Normal;
         /// <summary>m along the direction, which need not be a unit vector</summary>
         public float Distance;
+        /// <summary>-1: none</summary>
         public int Triangle;
     }
 
-    /// <summary>A point of the material, as it is seen.</summary>
+    /// <summary>A point of the material on the visible surface.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct PointState
     {
@@ -1031,14 +991,13 @@ namespace Kiri
         public Float3 Normal;
         /// <summary>m/s, by the weights of the point</summary>
         public Float3 Velocity;
-        /// <summary>in whose region it is; it names the piece, too</summary>
+        /// <summary>the frame of its region; it also names the piece</summary>
         public FrameId Frame;
     }
 
-    /// <summary>The connected parts of a sheet. A piece is named by any of its frames. To go through all of them there are
-    /// indices too, from 0 on to kiriCounts.pieces, in the order of first frames: they change when a piece comes off or
-    /// is taken away; kiriFrame_GetPiece has that of now. A cut whose work waits for its budget has not parted anything
-    /// yet. Momentum is about the world's origin.</summary>
+    /// <summary>A connected part of a sheet. Any of its frames names it. Indices from 0 to kiriCounts.pieces, in the order of
+    /// first frames, visit all pieces: they change when a piece comes off or goes, and kiriFrame_GetPiece returns the
+    /// current one. A cut with pending work has not separated anything yet. Momentum is about the world's origin.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct PieceState
     {
@@ -1052,17 +1011,17 @@ namespace Kiri
         public Double3 Momentum;
         /// <summary>of mass, m; kg m/s; kg m^2/s</summary>
         public Double3 AngularMomentum;
-        /// <summary>m, world: the least box around its vertices</summary>
+        /// <summary>m, world: the smallest box around its vertices</summary>
         public Float3 Lower;
-        /// <summary>m, world: the least box around its vertices</summary>
+        /// <summary>m, world: the smallest box around its vertices</summary>
         public Float3 Upper;
-        /// <summary>how many</summary>
+        /// <summary>counts</summary>
         public int Frames;
-        /// <summary>how many</summary>
+        /// <summary>counts</summary>
         public int Vertices;
-        /// <summary>how many</summary>
+        /// <summary>counts</summary>
         public int Triangles;
-        /// <summary>how many</summary>
+        /// <summary>counts</summary>
         public int CollisionPoints;
         /// <summary>1: see kiriSheetDef</summary>
         public Flag Crumb;
@@ -1070,7 +1029,8 @@ namespace Kiri
         public Flag Asleep;
     }
 
-    /// <summary>What is in a piece, in the order of the mesh. The arrays are parts of one for all pieces, piece after piece.</summary>
+    /// <summary>The mesh of a piece, in the order of the sheet's mesh. The arrays are parts of one for all pieces, piece by
+    /// piece.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct NativePieceMesh
     {
@@ -1091,8 +1051,9 @@ namespace Kiri
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct FrameState
     {
+        /// <summary>m</summary>
         public Float2 RestPoint;
-        /// <summary>of the rest point</summary>
+        /// <summary>m, world: of the rest point</summary>
         public Float3 Position;
         /// <summary>columns: direction of u, direction of v, normal; of an affine frame the columns of A, which stretch with the
         /// sheet</summary>
@@ -1109,42 +1070,39 @@ namespace Kiri
         public Flag Held;
     }
 
-    /// <summary>Air that moves past the sheet, in every tick until the next call. On each square metre act, with v the velocity
-    /// of the air less that of the material, and n the normal: density / 2 times |v| (drag (v.n) n + lift (v - (v.n)
-    /// n)). Zero velocity with drag and lift above zero: still air, which resists. All zero: none. It acts at four
-    /// points of the region of each frame, and follows its motion within the tick: sheets flutter, and no wind is too
-    /// strong. Gusts are a call a tick. Wind that stays as it is lets a sheet sleep.</summary>
+    /// <summary>Air that moves past the sheet. v is the velocity of the air less the velocity of the material, n the normal:
+    /// each square metre gets density / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)). Zero velocity with drag and
+    /// lift above zero: still air, which resists. All zero: none. It acts at four points of the region of each frame,
+    /// and follows the motion within the tick, so strong wind is stable. A sheet can sleep in constant wind.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Wind
     {
         /// <summary>m/s</summary>
         public Float3 Velocity;
-        /// <summary>kg/m^3, 0 or more; 1.2 of air</summary>
+        /// <summary>kg/m^3, 0 or more; air: 1.2</summary>
         public float Density;
-        /// <summary>0 or more: coefficients of pressure, 2 of a long plate, 1.2 of a square, and of the force along the sheet,
-        /// 0.01 or so of a smooth one</summary>
+        /// <summary>0 or more: coefficients across (long plate 2, square 1.2) and along the sheet (smooth 0.01)</summary>
         public float Drag;
-        /// <summary>0 or more: coefficients of pressure, 2 of a long plate, 1.2 of a square, and of the force along the sheet,
-        /// 0.01 or so of a smooth one</summary>
+        /// <summary>0 or more: coefficients across (long plate 2, square 1.2) and along the sheet (smooth 0.01)</summary>
         public float Lift;
     }
 
-    /// <summary>A pin holds a point of the material at its target, by a spring.</summary>
+    /// <summary>A pin holds a point of the material at its target by a spring.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct PinDef
     {
         internal uint cookie;
-        /// <summary>in the material</summary>
+        /// <summary>m, in the material</summary>
         public Float2 RestPoint;
-        /// <summary>m, world: where it is held</summary>
+        /// <summary>m, world</summary>
         public Float3 Target;
         /// <summary>N/m; 0: ten times Young's modulus times thickness</summary>
         public float Stiffness;
-        /// <summary>N: it breaks (KIRI_EVENT_PIN_BROKE) in a tick in which it held with more; 0: never</summary>
+        /// <summary>N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never</summary>
         public float BreakForce;
-        /// <summary>or 0. The target goes with this obstacle from where it is when the pin is made, or kiriPin_SetTarget puts
-        /// it, and the obstacle feels the pin (kiriObstacle_GetState); one with mass yields to it within the tick. When
-        /// it is destroyed the target stays where it was</summary>
+        /// <summary>or 0. The target moves with this obstacle from its place at creation or at the last kiriPin_SetTarget. The
+        /// obstacle feels the pin (kiriObstacle_GetState); an obstacle with mass yields within the tick. If it is
+        /// destroyed the target stays</summary>
         public ObstacleId Obstacle;
 
         /// <summary>With the defaults of the library.</summary>
@@ -1159,64 +1117,63 @@ namespace Kiri
         }
     }
 
-    /// <summary>What a pin is, and where it holds.</summary>
+    /// <summary>Type and target of a pin.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct PinState
     {
         /// <summary>KIRI_PIN_...</summary>
         public PinType Type;
         public SheetId Sheet;
-        /// <summary>rest position: of a point, twice, or of the ends of the line</summary>
+        /// <summary>m, rest plane: the ends of the line, or the point twice</summary>
         public Float2 From;
-        /// <summary>rest position: of a point, twice, or of the ends of the line</summary>
+        /// <summary>m, rest plane: the ends of the line, or the point twice</summary>
         public Float2 To;
+        /// <summary>m, world</summary>
         public Float3 Target;
         /// <summary>of a line; of a point the identity</summary>
         public Float9 Rotation;
         /// <summary>N, or 0</summary>
         public float BreakForce;
-        /// <summary>that it goes with, or 0</summary>
+        /// <summary>that the target moves with, or 0</summary>
         public ObstacleId Obstacle;
     }
 
-    /// <summary>A point of the material that touches something: the plane dot(normal, x) = offset keeps it on its upper side,
-    /// with as much force as that takes, and Coulomb friction acts along the plane. The plane is that of an obstacle of
-    /// the host, who finds it anew for each tick from where the sheet is seen. A contact may lie in the path of the
-    /// point, above or below it: one that does not reach its plane in the tick costs little and does nothing.</summary>
+    /// <summary>A contact of a point of the material: the plane dot(normal, x) = offset keeps the point on its upper side, and
+    /// Coulomb friction acts along the plane. The host computes the plane for each tick from the visible surface of the
+    /// sheet. A contact may lie ahead of the point; if the point does not reach it in the tick, it costs little and
+    /// does nothing.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Contact
     {
-        /// <summary>index of the collision point; -1: restPoint says which point of the material</summary>
+        /// <summary>index of the collision point; -1: restPoint names the point</summary>
         public int Point;
-        /// <summary>in the material; only read where point is -1</summary>
+        /// <summary>m, in the material; read only where point is -1</summary>
         public Float2 RestPoint;
         /// <summary>unit, out of the obstacle</summary>
         public Float3 Normal;
         /// <summary>m: of the obstacle's surface at the start of the tick</summary>
         public float Offset;
-        /// <summary>m/s: of the obstacle there. The plane moves with it within the tick, and friction acts against the sliding
-        /// that is left</summary>
+        /// <summary>m/s: of the obstacle at the contact. The plane moves with it within the tick</summary>
         public Float3 Velocity;
         /// <summary>0 or more: of both sides together</summary>
         public float Friction;
-        /// <summary>1/kg, 0 or more: of the obstacle as felt along the normal there, 1/m + (r x n) . I^-1 (r x n); 0: it does
-        /// not yield</summary>
+        /// <summary>1/kg, 0 or more: of the obstacle along the normal, 1/m + (r x n) . I^-1 (r x n); 0: rigid</summary>
         public float InverseMass;
-        /// <summary>m/s, 0 or more: a point that starts below the plane is pushed out no faster. 0: 1 m/s</summary>
+        /// <summary>m/s, 0 or more: maximum speed of a point that is pushed out from below. 0: 1 m/s</summary>
         public float PushSpeed;
-        /// <summary>the host's number. Contacts of one number press on one obstacle, and share its mass</summary>
+        /// <summary>a number of the host. Contacts with one number press on one obstacle, and share its mass</summary>
         public int Obstacle;
     }
 
-    /// <summary>What a contact did in the last tick.</summary>
+    /// <summary>The result of a contact in the last tick.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct ContactForce
     {
         /// <summary>N s, on the sheet: the sum over the tick. The obstacle gets the opposite</summary>
         public Double3 Impulse;
-        /// <summary>m, world: where it acted, the point of the sheet at the end of the tick</summary>
+        /// <summary>m, world: the point of the sheet at the end of the tick</summary>
         public Double3 Position;
-        /// <summary>m: how deep the point is below the plane at the end of the tick; below 0: above it</summary>
+        /// <summary>m: of the point below the plane at the end of the tick; below 0: above it</summary>
         public double Depth;
         /// <summary>as in the contact</summary>
         public int Point;
@@ -1224,7 +1181,7 @@ namespace Kiri
         public int Obstacle;
     }
 
-    /// <summary>Of an obstacle: its shape, where it is, its motion, and its mass.</summary>
+    /// <summary>An obstacle: its shape, pose, motion, and mass.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct ObstacleDef
     {
@@ -1241,7 +1198,7 @@ namespace Kiri
         internal float* outline;
         /// <summary>3 to 64</summary>
         internal int outlineCount;
-        /// <summary>m, 0 or more: prisms and boxes are that much larger, with round edges. Default 0</summary>
+        /// <summary>m, 0 or more: prisms and boxes grow by this, with round edges. Default 0</summary>
         public float Rounding;
         /// <summary>m, world</summary>
         public Float3 Position;
@@ -1251,20 +1208,20 @@ namespace Kiri
         public Float3 Velocity;
         /// <summary>rad/s</summary>
         public Float3 AngularVelocity;
-        /// <summary>m/s, world: of its surface beside that, as of a conveyor</summary>
+        /// <summary>m/s, world: of its surface, added to its motion, as of a conveyor</summary>
         public Float3 SurfaceVelocity;
         /// <summary>0 or more; default 0.5</summary>
         public float Friction;
         /// <summary>kg; 0 (default): nothing moves it</summary>
         public float Mass;
-        /// <summary>kg m^2, about its centre of mass, axes of the world as it stands now: xx yy zz xy xz yz. Positive definite,
-        /// but for axes whose numbers are all 0: it does not turn about these</summary>
+        /// <summary>kg m^2, about its centre of mass, axes of the world in the current pose: xx yy zz xy xz yz. Positive
+        /// definite, but for axes whose numbers are all 0: it does not turn about these</summary>
         public Float6 Inertia;
         /// <summary>m, from its position in its own axes</summary>
         public Float3 CenterOfMass;
-        /// <summary>obstacles of the same number, but 0, are parts of one body, whose mass each of them has</summary>
+        /// <summary>obstacles with the same number, except 0, are parts of one body; each has its whole mass</summary>
         public uint Body;
-        /// <summary>m/s, above 0: what is inside is pushed out no faster. Default 1</summary>
+        /// <summary>m/s, above 0: maximum speed at which points inside are pushed out. Default 1</summary>
         public float PushSpeed;
         /// <summary>see the sheet def. Default: all</summary>
         public uint Groups;
@@ -1281,7 +1238,7 @@ namespace Kiri
         }
     }
 
-    /// <summary>Where it is now, with what it moves, and what it felt.</summary>
+    /// <summary>Pose, motion, and reaction of an obstacle.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct ObstacleState
     {
@@ -1289,15 +1246,15 @@ namespace Kiri
         public Float9 Rotation;
         public Float3 Velocity;
         public Float3 AngularVelocity;
-        /// <summary>N s, N m s about its centre of mass: what sheets and pins gave it in the last tick</summary>
+        /// <summary>N s, N m s about its centre of mass: from sheets and pins in the last tick</summary>
         public Double3 Impulse;
-        /// <summary>N s, N m s about its centre of mass: what sheets and pins gave it in the last tick</summary>
+        /// <summary>N s, N m s about its centre of mass: from sheets and pins in the last tick</summary>
         public Double3 AngularImpulse;
         /// <summary>that pushed in the last tick</summary>
         public int Contacts;
     }
 
-    /// <summary>A corner of what is drawn: as it is, it may go to a GPU.</summary>
+    /// <summary>A corner to draw, in a layout for a GPU.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct DrawVertex
     {
@@ -1307,14 +1264,14 @@ namespace Kiri
         public uint Color;
     }
 
-    /// <summary>What is drawn, and by whom.</summary>
+    /// <summary>Flags, filter and functions of debug draw.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct DebugDraw
     {
         internal uint cookie;
         /// <summary>KIRI_DRAW_..., added up; default: all but TRIANGLES and EDGES</summary>
         public DrawFlag Flags;
-        /// <summary>only this one is drawn, without obstacles and blades; 0 (default): all</summary>
+        /// <summary>draws only this one, without obstacles and blades; 0 (default): all</summary>
         public SheetId Sheet;
         /// <summary>m, above 0: length of axes and normals; a plane is 20 times as wide. Default 0.05</summary>
         public float Size;
@@ -1324,7 +1281,7 @@ namespace Kiri
         public IntPtr Lines;
         /// <summary>the same</summary>
         public IntPtr Triangles;
-        /// <summary>handed to these functions</summary>
+        /// <summary>passed to these functions</summary>
         internal void* user;
 
         /// <summary>With the defaults of the library.</summary>

@@ -20,12 +20,12 @@ pub struct kiriWorld {
 pub const KIRI_VERSION: i32 = 1200;
 
 pub const KIRI_OK: i32 = 0;
-/// done, and work is left for later ticks
+/// success; work is left for later ticks
 pub const KIRI_PENDING: i32 = 1;
-/// null pointer, NaN, infinite, or outside the documented range; or a sheet or obstacle would be
-/// where floats end, or move that fast: 4e37 m, m/s or 1/s
+/// null pointer, NaN, infinite, or outside the documented range; or a position, velocity or turn of
+/// a sheet or obstacle would exceed 4e37 m, m/s or 1/s
 pub const KIRI_ERROR_ARGUMENT: i32 = -1;
-/// the def was not filled by its kiriDefault function, all zeros say: call that first
+/// the def was not filled by its kiriDefault function: call that first
 pub const KIRI_ERROR_DEF: i32 = -2;
 /// unknown or stale id, or the id of another kind
 pub const KIRI_ERROR_ID: i32 = -3;
@@ -35,15 +35,15 @@ pub const KIRI_ERROR_MESH: i32 = -4;
 pub const KIRI_ERROR_STATE: i32 = -5;
 /// the allocator returned null
 pub const KIRI_ERROR_MEMORY: i32 = -6;
-/// the motion of a sheet could not be continued; it was put to rest where it was
+/// the motion of a sheet could not be continued; the sheet was stopped where it was
 pub const KIRI_DIVERGED: i32 = -7;
 /// all ids of a kind are used up: 4 194 304 at a time, 2^29 over the life of a world
 pub const KIRI_ERROR_LIMIT: i32 = -8;
 /// floats are not computed as on other machines, see kiriCreateWorld
 pub const KIRI_ERROR_BUILD: i32 = -9;
-/// bytes that are damaged, cut short, of something else, or of a later version
+/// the bytes are damaged, cut short, of another kind, or of a later version
 pub const KIRI_ERROR_DATA: i32 = -10;
-/// a call that was made again gave something else than its recording has
+/// a repeated call gave another result than its recording has
 pub const KIRI_ERROR_REPLAY: i32 = -11;
 
 pub const KIRI_LEAST_TRIANGLES: i32 = 16;
@@ -56,28 +56,28 @@ pub const KIRI_EVENT_CUT_FINISHED: i32 = 1;
 pub const KIRI_EVENT_PIECE_OFF: i32 = 2;
 /// frame
 pub const KIRI_EVENT_FRAME_ADDED: i32 = 3;
-/// the sheet was put to rest
+/// the sheet was stopped
 pub const KIRI_EVENT_DIVERGED: i32 = 4;
 /// stage, waiting: the budget ended in this stage of the sheet's work
 pub const KIRI_EVENT_DEFERRED: i32 = 5;
-/// pin: its force passed breakForce; the id is stale from now on
+/// pin: its force exceeded breakForce; the id is stale from now on
 pub const KIRI_EVENT_PIN_BROKE: i32 = 6;
-/// sheet (the new one), frame, area: what kiriFrame_DetachPiece left waiting is done
+/// sheet (the new one), frame, area: a pending kiriFrame_DetachPiece is done
 pub const KIRI_EVENT_PIECE_DETACHED: i32 = 7;
 
-/// split the mesh along the blade
+/// splits the mesh along the blade
 pub const KIRI_STAGE_CUT: i32 = 0;
-/// cells and what links them
+/// cells and their connections
 pub const KIRI_STAGE_GRID: i32 = 1;
-/// geodesic distances, regions, links; placing of frames
+/// geodesic distances, regions, links; places frames
 pub const KIRI_STAGE_REGIONS: i32 = 2;
 /// shape functions
 pub const KIRI_STAGE_SHAPE: i32 = 3;
 /// weights of vertices and collision points
 pub const KIRI_STAGE_SAMPLES: i32 = 4;
-/// mass, the pattern of the solver's matrix, and when all is put in force
+/// mass, the pattern of the solver's matrix, and the commit
 pub const KIRI_STAGE_CONSTANTS: i32 = 5;
-/// what touches obstacles, other sheets and other pieces
+/// contacts with obstacles, other sheets and other pieces
 pub const KIRI_STAGE_CONTACT: i32 = 6;
 /// the motion of the frames
 pub const KIRI_STAGE_SOLVE: i32 = 7;
@@ -100,17 +100,15 @@ pub const KIRI_QUALITY_BALANCED: i32 = 1;
 pub const KIRI_QUALITY_ACCURATE: i32 = 2;
 pub const KIRI_QUALITY_COUNT: i32 = 3;
 
-/// Rigid frames joined by links: paper, foil, stiff cloth. 6 unknowns a frame, which its neighbours
-/// couple.
+/// Rigid frames joined by links: paper, foil, stiff cloth. 6 unknowns a frame, coupled with its
+/// neighbours.
 pub const KIRI_MODEL_LINKS: i32 = 0;
-/// Affine frames joined by links: cloth and rubber, whose stretch inside a region is seen. 12
-/// unknowns a frame, which neighbours of neighbours couple: a tick takes five to seven times as
-/// long as with KIRI_MODEL_LINKS. From 1e8 Pa or so on it needs more \`iterations\`, 8 say.
+/// Affine frames joined by links: cloth and rubber that stretch visibly inside a region. 12
+/// unknowns a frame, coupled with neighbours of neighbours: a tick takes five to seven times as
+/// long. From 1e8 Pa on use 8 \`iterations\`.
 pub const KIRI_MODEL_AFFINE: i32 = 1;
-/// Affine frames, strains at integration points: the scheme of the paper, to compare with. Weights
-/// that vary across a strip cannot bend it as a cylinder, however many points there are: a clamped
-/// strip on 9 frames goes 3, 20, 51 and 70 % too short a way down where it is a 10th, 20th, 50th
-/// and 400th of its length thick. 12 unknowns a frame.
+/// Affine frames, strains at integration points: the scheme of the paper, for comparison. 12
+/// unknowns a frame. The thinner the sheet, the less it bends; the manual has figures (accuracy).
 pub const KIRI_MODEL_POINTS: i32 = 2;
 
 /// each frame carries a flat patch; the weights blend them (equation 1 of the paper)
@@ -118,14 +116,11 @@ pub const KIRI_SKINNING_LINEAR: i32 = 0;
 /// each carries a patch that bends towards its neighbours: no bumps at the frames
 pub const KIRI_SKINNING_SMOOTH: i32 = 1;
 
-/// TR-BDF2: trapezoid and BDF2 by turns, of second order. Motion lasts: of the energy of a swinging
-/// strip of 9 frames 96 to 98 % is left after 10 s with 2 substeps a 60th of a second and 1
-/// iteration, 99.7 % with 4. Backward Euler takes its place in the steps in which a contact touches
-/// a piece, a pin or hold is made, moved or removed, or a frame is new or turns by more than a
-/// radian.
+/// TR-BDF2: alternates trapezoid and BDF2, of second order. Keeps the energy of motion; the manual
+/// has figures (accuracy). Backward Euler replaces it in steps in which a contact touches a piece,
+/// a pin or hold is made, moved or removed, or a frame is new or turns by more than a radian.
 pub const KIRI_TIME_STEPPING_SECOND_ORDER: i32 = 0;
-/// Backward Euler, of first order: takes energy out of all that swings, the more the longer the
-/// step. Of that strip's 0.4 % is left.
+/// Backward Euler, of first order: takes energy out of a swing, more in longer steps.
 pub const KIRI_TIME_STEPPING_EULER: i32 = 1;
 
 pub const KIRI_PIN_POINT: i32 = 0;
@@ -146,7 +141,7 @@ pub const KIRI_OBSTACLE_CYLINDER: i32 = 4;
 /// without end
 pub const KIRI_OBSTACLE_PRISM: i32 = 5;
 
-/// a triangle for each of the mesh, in a colour of its piece, pale where that sleeps
+/// a triangle for each triangle of the mesh, in a colour of its piece; sleeping: pale
 pub const KIRI_DRAW_TRIANGLES: i32 = 1;
 /// a line for each edge between two triangles
 pub const KIRI_DRAW_EDGES: i32 = 2;
@@ -170,151 +165,118 @@ pub const KIRI_DRAW_OBSTACLES: i32 = 512;
 pub const KIRI_DRAW_POINTS: i32 = 1024;
 pub const KIRI_DRAW_ALL: i32 = 2047;
 
-/// The host's functions. They may call other worlds, and functions that take no world. Calls of
-/// their own world:
-/// - While a function that takes a world without const runs, its callbacks may call
-///   kiriWorld_GetLastError alone. All other functions give KIRI_ERROR_STATE and do nothing,
-///   kiriDestroyWorld too.
-/// - While a function that takes a const kiriWorld runs, its callbacks may call functions that take
-///   a const kiriWorld. All others give KIRI_ERROR_STATE and do nothing. A refused call has a line
-///   in the log, unless the log made the call. kiriWorld_GetLastError keeps the line of the
-///   function that runs, and no recording has the refused call. The functions of kiriDebugDraw
-///   follow these rules, too. A thread that reads may call \`log\`, and in kiriSheet_GetWeights and
-///   kiriSheet_EstimateError \`alloc\` and \`free\`. All memory of a world comes from \`alloc\`,
-///   but for what Eigen takes while it orders the unknowns, when a cut couples frames that were not
-///   coupled before. at least 16-byte aligned, or null
+/// Functions of the host. They may call other worlds, and functions that take no world. They may
+/// call their own world:
+/// - inside a function that takes a world without const: kiriWorld_GetLastError alone;
+/// - inside a function that takes a const kiriWorld: functions that take a const kiriWorld.
+///
+/// Other calls, kiriDestroyWorld too, give KIRI_ERROR_STATE and do nothing but log a line (manual,
+/// budget). A reading thread may call \`log\`, and in kiriSheet_GetWeights and
+/// kiriSheet_EstimateError \`alloc\` and \`free\`. All memory of a world comes from \`alloc\`,
+/// except memory of Eigen when a cut couples frames that were not coupled before. at least 16-byte
+/// aligned, or null
 pub type kiriAllocFn = Option<unsafe extern "C" fn(user: *mut c_void, bytes: i64) -> *mut c_void>;
 
-/// The host's functions. They may call other worlds, and functions that take no world. Calls of
-/// their own world:
-/// - While a function that takes a world without const runs, its callbacks may call
-///   kiriWorld_GetLastError alone. All other functions give KIRI_ERROR_STATE and do nothing,
-///   kiriDestroyWorld too.
-/// - While a function that takes a const kiriWorld runs, its callbacks may call functions that take
-///   a const kiriWorld. All others give KIRI_ERROR_STATE and do nothing. A refused call has a line
-///   in the log, unless the log made the call. kiriWorld_GetLastError keeps the line of the
-///   function that runs, and no recording has the refused call. The functions of kiriDebugDraw
-///   follow these rules, too. A thread that reads may call \`log\`, and in kiriSheet_GetWeights and
-///   kiriSheet_EstimateError \`alloc\` and \`free\`. All memory of a world comes from \`alloc\`,
-///   but for what Eigen takes while it orders the unknowns, when a cut couples frames that were not
-///   coupled before.
+/// Functions of the host. They may call other worlds, and functions that take no world. They may
+/// call their own world:
+/// - inside a function that takes a world without const: kiriWorld_GetLastError alone;
+/// - inside a function that takes a const kiriWorld: functions that take a const kiriWorld.
+///
+/// Other calls, kiriDestroyWorld too, give KIRI_ERROR_STATE and do nothing but log a line (manual,
+/// budget). A reading thread may call \`log\`, and in kiriSheet_GetWeights and
+/// kiriSheet_EstimateError \`alloc\` and \`free\`. All memory of a world comes from \`alloc\`,
+/// except memory of Eigen when a cut couples frames that were not coupled before.
 pub type kiriFreeFn = Option<unsafe extern "C" fn(user: *mut c_void, pointer: *mut c_void)>;
 
-/// The host's functions. They may call other worlds, and functions that take no world. Calls of
-/// their own world:
-/// - While a function that takes a world without const runs, its callbacks may call
-///   kiriWorld_GetLastError alone. All other functions give KIRI_ERROR_STATE and do nothing,
-///   kiriDestroyWorld too.
-/// - While a function that takes a const kiriWorld runs, its callbacks may call functions that take
-///   a const kiriWorld. All others give KIRI_ERROR_STATE and do nothing. A refused call has a line
-///   in the log, unless the log made the call. kiriWorld_GetLastError keeps the line of the
-///   function that runs, and no recording has the refused call. The functions of kiriDebugDraw
-///   follow these rules, too. A thread that reads may call \`log\`, and in kiriSheet_GetWeights and
-///   kiriSheet_EstimateError \`alloc\` and \`free\`. All memory of a world comes from \`alloc\`,
-///   but for what Eigen takes while it orders the unknowns, when a cut couples frames that were not
-///   coupled before.
+/// Functions of the host. They may call other worlds, and functions that take no world. They may
+/// call their own world:
+/// - inside a function that takes a world without const: kiriWorld_GetLastError alone;
+/// - inside a function that takes a const kiriWorld: functions that take a const kiriWorld.
+///
+/// Other calls, kiriDestroyWorld too, give KIRI_ERROR_STATE and do nothing but log a line (manual,
+/// budget). A reading thread may call \`log\`, and in kiriSheet_GetWeights and
+/// kiriSheet_EstimateError \`alloc\` and \`free\`. All memory of a world comes from \`alloc\`,
+/// except memory of Eigen when a cut couples frames that were not coupled before.
 pub type kiriLogFn = Option<unsafe extern "C" fn(user: *mut c_void, line: *const c_char)>;
 
-/// The host's functions. They may call other worlds, and functions that take no world. Calls of
-/// their own world:
-/// - While a function that takes a world without const runs, its callbacks may call
-///   kiriWorld_GetLastError alone. All other functions give KIRI_ERROR_STATE and do nothing,
-///   kiriDestroyWorld too.
-/// - While a function that takes a const kiriWorld runs, its callbacks may call functions that take
-///   a const kiriWorld. All others give KIRI_ERROR_STATE and do nothing. A refused call has a line
-///   in the log, unless the log made the call. kiriWorld_GetLastError keeps the line of the
-///   function that runs, and no recording has the refused call. The functions of kiriDebugDraw
-///   follow these rules, too. A thread that reads may call \`log\`, and in kiriSheet_GetWeights and
-///   kiriSheet_EstimateError \`alloc\` and \`free\`. All memory of a world comes from \`alloc\`,
-///   but for what Eigen takes while it orders the unknowns, when a cut couples frames that were not
-///   coupled before. seconds; read for the profile only, never by the simulation
+/// Functions of the host. They may call other worlds, and functions that take no world. They may
+/// call their own world:
+/// - inside a function that takes a world without const: kiriWorld_GetLastError alone;
+/// - inside a function that takes a const kiriWorld: functions that take a const kiriWorld.
+///
+/// Other calls, kiriDestroyWorld too, give KIRI_ERROR_STATE and do nothing but log a line (manual,
+/// budget). A reading thread may call \`log\`, and in kiriSheet_GetWeights and
+/// kiriSheet_EstimateError \`alloc\` and \`free\`. All memory of a world comes from \`alloc\`,
+/// except memory of Eigen when a cut couples frames that were not coupled before. seconds; read for
+/// the profile only, never by the simulation
 pub type kiriClockFn = Option<unsafe extern "C" fn(user: *mut c_void) -> f64>;
 
-/// The host's functions. They may call other worlds, and functions that take no world. Calls of
-/// their own world:
-/// - While a function that takes a world without const runs, its callbacks may call
-///   kiriWorld_GetLastError alone. All other functions give KIRI_ERROR_STATE and do nothing,
-///   kiriDestroyWorld too.
-/// - While a function that takes a const kiriWorld runs, its callbacks may call functions that take
-///   a const kiriWorld. All others give KIRI_ERROR_STATE and do nothing. A refused call has a line
-///   in the log, unless the log made the call. kiriWorld_GetLastError keeps the line of the
-///   function that runs, and no recording has the refused call. The functions of kiriDebugDraw
-///   follow these rules, too. A thread that reads may call \`log\`, and in kiriSheet_GetWeights and
-///   kiriSheet_EstimateError \`alloc\` and \`free\`. All memory of a world comes from \`alloc\`,
-///   but for what Eigen takes while it orders the unknowns, when a cut couples frames that were not
-///   coupled before. the next bytes of the recording
+/// Functions of the host. They may call other worlds, and functions that take no world. They may
+/// call their own world:
+/// - inside a function that takes a world without const: kiriWorld_GetLastError alone;
+/// - inside a function that takes a const kiriWorld: functions that take a const kiriWorld.
+///
+/// Other calls, kiriDestroyWorld too, give KIRI_ERROR_STATE and do nothing but log a line (manual,
+/// budget). A reading thread may call \`log\`, and in kiriSheet_GetWeights and
+/// kiriSheet_EstimateError \`alloc\` and \`free\`. All memory of a world comes from \`alloc\`,
+/// except memory of Eigen when a cut couples frames that were not coupled before. the next bytes of
+/// the recording
 pub type kiriRecordFn = Option<unsafe extern "C" fn(user: *mut c_void, bytes: *const c_void, count: i32)>;
 
-/// For hosts that lend their threads to a tick. A task is work on the items 0 to itemCount:
-/// \`start\` has the function called, from whatever threads, for ranges of at least minRange items
-/// (the last one may be shorter) that together are all of them, each once, and returns something
-/// that names the task; \`finish\` returns when all these calls have. \`start\` may also make all
-/// calls itself, and return null: then there is no \`finish\`. What a thread wrote must be seen by
-/// those that go on after \`finish\`, as with any lock. A tick has one task at a time. Within one
-/// the library does not call the host, and how the items are shared out does not change one bit of
-/// what comes of them. the items from start up to, without, end
+/// For hosts that lend their threads to a tick. \`start\` calls the task, from any threads, for
+/// ranges of at least minRange items (the last range may be shorter). The ranges cover the items 0
+/// to itemCount, each once. It returns a handle, and \`finish\` returns when all these calls have
+/// returned. \`start\` may make all calls itself and return null: then \`finish\` is not called.
+/// Writes of the task must be visible after \`finish\`, as after a lock. A tick runs one task at a
+/// time; the library does not call the host inside one. The division into ranges does not change
+/// one bit of the result. the items from start up to, without, end
 pub type kiriTaskFn = Option<unsafe extern "C" fn(start: i32, end: i32, taskContext: *mut c_void)>;
 
-/// For hosts that lend their threads to a tick. A task is work on the items 0 to itemCount:
-/// \`start\` has the function called, from whatever threads, for ranges of at least minRange items
-/// (the last one may be shorter) that together are all of them, each once, and returns something
-/// that names the task; \`finish\` returns when all these calls have. \`start\` may also make all
-/// calls itself, and return null: then there is no \`finish\`. What a thread wrote must be seen by
-/// those that go on after \`finish\`, as with any lock. A tick has one task at a time. Within one
-/// the library does not call the host, and how the items are shared out does not change one bit of
-/// what comes of them.
+/// For hosts that lend their threads to a tick. \`start\` calls the task, from any threads, for
+/// ranges of at least minRange items (the last range may be shorter). The ranges cover the items 0
+/// to itemCount, each once. It returns a handle, and \`finish\` returns when all these calls have
+/// returned. \`start\` may make all calls itself and return null: then \`finish\` is not called.
+/// Writes of the task must be visible after \`finish\`, as after a lock. A tick runs one task at a
+/// time; the library does not call the host inside one. The division into ranges does not change
+/// one bit of the result.
 pub type kiriStartTaskFn = Option<unsafe extern "C" fn(user: *mut c_void, task: kiriTaskFn, itemCount: i32, minRange: i32, taskContext: *mut c_void) -> *mut c_void>;
 
-/// For hosts that lend their threads to a tick. A task is work on the items 0 to itemCount:
-/// \`start\` has the function called, from whatever threads, for ranges of at least minRange items
-/// (the last one may be shorter) that together are all of them, each once, and returns something
-/// that names the task; \`finish\` returns when all these calls have. \`start\` may also make all
-/// calls itself, and return null: then there is no \`finish\`. What a thread wrote must be seen by
-/// those that go on after \`finish\`, as with any lock. A tick has one task at a time. Within one
-/// the library does not call the host, and how the items are shared out does not change one bit of
-/// what comes of them.
+/// For hosts that lend their threads to a tick. \`start\` calls the task, from any threads, for
+/// ranges of at least minRange items (the last range may be shorter). The ranges cover the items 0
+/// to itemCount, each once. It returns a handle, and \`finish\` returns when all these calls have
+/// returned. \`start\` may make all calls itself and return null: then \`finish\` is not called.
+/// Writes of the task must be visible after \`finish\`, as after a lock. A tick runs one task at a
+/// time; the library does not call the host inside one. The division into ranges does not change
+/// one bit of the result.
 pub type kiriFinishTaskFn = Option<unsafe extern "C" fn(user: *mut c_void, handle: *mut c_void)>;
 
-/// Gets the next vertices, up to 240 in a call: one for a point, two for a line, three for a
-/// triangle. They are the library's, and gone after the call.
+/// Receives up to 240 vertices, valid during the call: one for a point, two for a line, three for a
+/// triangle.
 pub type kiriDrawFn = Option<unsafe extern "C" fn(user: *mut c_void, vertices: *const kiriDrawVertex, count: i32)>;
 
-/// The most work that one tick may do, over all sheets. 0: no limit. Triangles, cells and samples
-/// share one allowance: using 30 % of one leaves 70 % of the others. So the work on cuts takes no
-/// longer than the costliest of the three limits alone. A single step that exceeds the whole limit
-/// is not split. It runs alone in its tick. Work that does not fit goes on in the next tick. Until
-/// a cut takes effect its lips move together. All points of a sheet that are pending when work on
-/// them begins take effect together, whatever ticks they were given before. So the tick in which a
-/// cut takes effect depends on the budget, too. Its result does not: when all work is done, mesh,
-/// grid, regions, weights and sites of frames equal, bit for bit, a run of the same calls without a
-/// budget. Motion differs. Sheets take turns. In every other tick the sheet whose points came first
-/// is served first, in the ticks between the sheet whose work has used least. Pieces that wait to
-/// be detached get half of every other tick. An example at 60 Hz, with 2 ms of work on cuts a tick
-/// (about 32 000 cells and 4000 samples): a cut from side to side of 64 x 64 squares with 9 frames
-/// parts 17 to 100 ms after the blade has left, one of 127 x 127 squares with 24 frames 67 to 200
-/// ms. A slow blade parts sooner, for its work is done on the way. tests/bench_swipe.c prints the
-/// table.
+/// Limits the work of one tick, over all sheets. 0: no limit. Triangles, cells and samples share
+/// one allowance: using 30 % of one leaves 70 % of the others. A single step that exceeds the whole
+/// limit is not split. It runs alone in its tick. Other work goes on in the next tick. Until a cut
+/// takes effect its lips move together. The tick of the effect depends on the budget. The mesh,
+/// grid, regions, weights and sites of frames after all work is done do not, bit for bit; motion
+/// differs. Sheets take turns. The manual has examples and the order of turns (budget).
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriBudget {
     /// split by blades; 0, or KIRI_LEAST_TRIANGLES and more
     pub triangles: i32,
-    /// looked at, or given another distance: grid, regions, shape functions; a link counts as many
+    /// visited, or with a new distance: grid, regions, shape functions. A link counts as a cell
     pub cells: i32,
-    /// vertices and collision points with new weights; and what it takes to put all that is new in
-    /// force at once, which is paid before
+    /// vertices and collision points with new weights, and the cost of the commit, paid before it
     pub samples: i32,
-    /// work on linear systems, of 30 to 60 us each. A system counts 1, and 1 more for each 16
-    /// frames (5 of affine ones), for each 64 contacts, and for each 1280 products of blocks that
-    /// its factorisation takes: in a square of 24, 289, 1000, 5000 frames it is 2, 36, 184, 2411. A
-    /// sheet that gets fewer systems than its substeps takes longer ones. Where one system of all
-    /// its pieces is more than what is left, they take turns: some are moved, the others stay where
-    /// they are in this tick, with their velocity, and come first in the next; a sheet that gets
-    /// none stands still, too. A piece whose system is more than the whole limit is moved alone
+    /// linear systems, 30 to 60 us each. A large system counts as several, see the manual (budget).
+    /// A sheet with fewer systems than substeps takes longer substeps. Pieces that do not fit take
+    /// turns: the others stay where they are in this tick, with their velocity, and come first in
+    /// the next. A piece whose system exceeds the whole limit is moved alone
     pub iterations: i32,
 }
 
-/// Of a world: gravity, budget, and the host's functions.
+/// Settings of a world: gravity, budget, and functions of the host.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriWorldDef {
@@ -323,38 +285,38 @@ pub struct kiriWorldDef {
     pub gravity: [f32; 3],
     /// default: no limit
     pub budget: kiriBudget,
-    /// null: malloc and free. Both or none.
+    /// null: malloc and free. Set both or none.
     pub alloc: kiriAllocFn,
     pub free: kiriFreeFn,
     /// one line for each error; null: silent
     pub log: kiriLogFn,
-    /// null: the profile counts, and shows no times
+    /// null: the profile has counts, and no times
     pub clock: kiriClockFn,
-    /// null: a tick runs in its caller alone. Both or none.
+    /// null: a tick runs in the calling thread alone. Set both or none.
     pub startTask: kiriStartTaskFn,
     pub finishTask: kiriFinishTaskFn,
-    /// threads that may work on a task, the caller of the tick with them, 0 to 1024: sizes ranges;
-    /// up to 1: no task is started. Default 0
+    /// threads that may work on a task, the caller of the tick included, 0 to 1024. It sets the
+    /// size of ranges. 0 and 1: no task is started. Default 0
     pub workerCount: i32,
-    /// handed to the functions above
+    /// passed to the functions above
     pub user: *mut c_void,
-    /// gets the recording of the world, see kiriWorld_Replay; null: there is none
+    /// receives the recording of the world, see kiriWorld_Replay; null: no recording
     pub record: kiriRecordFn,
-    /// the recording has the state hash after so many ticks, and at the end; 0: never. Default 60
+    /// ticks between state hashes in the recording; one is at its end. 0: none. Default 60
     pub recordHashTicks: i32,
 }
 
-/// How far a replay has come: all zero at its start, but for \`untrusted\`.
+/// Progress of a replay. Set all fields but \`untrusted\` to zero before the first call.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriReplay {
-    /// in the recording: where it goes on
+    /// bytes of the recording that were read
     pub offset: i64,
-    /// made so far
+    /// calls made so far
     pub calls: i64,
-    /// that were not refused
+    /// ticks made so far, without refused ones
     pub ticks: i64,
-    /// where it stopped at a note: its bytes, in the recording; else null
+    /// bytes of the note where the replay stopped, in the recording; else null
     pub note: *const c_void,
     pub noteCount: i32,
     /// set by the host, 1: somebody may have made the recording to do harm. Saves that it loads are
@@ -363,7 +325,7 @@ pub struct kiriReplay {
     pub untrusted: i32,
 }
 
-/// Of the fields after \`sheet\` an event has those that its type names; the others are 0,
+/// An event. It fills the fields that its type names, and \`sheet\`. Other fields are 0, and
 /// \`stage\` is -1.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
@@ -383,11 +345,11 @@ pub struct kiriEvent {
     pub area: f32,
     /// KIRI_STAGE_..., or -1
     pub stage: i32,
-    /// blade points and ends of cuts that are pending or being worked on; or 0
+    /// points and ends of cuts that are pending or in work; or 0
     pub waiting: i32,
 }
 
-/// What the last tick did, and what it took.
+/// Work and time of the last tick.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriProfile {
@@ -395,55 +357,51 @@ pub struct kiriProfile {
     pub seconds: [f64; 9],
     /// blade segments that took effect
     pub cutSegments: i32,
-    /// Items, as the budget counts them: more than what is split or weighed, where one takes more
-    /// work.
+    /// Items in the units of kiriBudget. An item that takes more work counts more than once.
     pub trianglesSplit: i32,
-    /// Items, as the budget counts them: more than what is split or weighed, where one takes more
-    /// work.
+    /// Items in the units of kiriBudget. An item that takes more work counts more than once.
     pub cellsSettled: i32,
-    /// Items, as the budget counts them: more than what is split or weighed, where one takes more
-    /// work.
+    /// Items in the units of kiriBudget. An item that takes more work counts more than once.
     pub samplesRefreshed: i32,
-    /// Items, as the budget counts them: more than what is split or weighed, where one takes more
-    /// work.
+    /// Items in the units of kiriBudget. An item that takes more work counts more than once.
     pub solverIterations: i32,
-    /// What commits changed: cells made or with other material, cells with other weights, vertices
-    /// and collision points with other weights, links that are other than before. Of how many:
-    /// kiriSheet_GetCounts.
+    /// Changes by commits: cells that are new or have other material, cells with other weights,
+    /// vertices and collision points with other weights, links that differ. kiriSheet_GetCounts has
+    /// the totals.
     pub cellsChanged: i32,
-    /// What commits changed: cells made or with other material, cells with other weights, vertices
-    /// and collision points with other weights, links that are other than before. Of how many:
-    /// kiriSheet_GetCounts.
+    /// Changes by commits: cells that are new or have other material, cells with other weights,
+    /// vertices and collision points with other weights, links that differ. kiriSheet_GetCounts has
+    /// the totals.
     pub weightsChanged: i32,
-    /// What commits changed: cells made or with other material, cells with other weights, vertices
-    /// and collision points with other weights, links that are other than before. Of how many:
-    /// kiriSheet_GetCounts.
+    /// Changes by commits: cells that are new or have other material, cells with other weights,
+    /// vertices and collision points with other weights, links that differ. kiriSheet_GetCounts has
+    /// the totals.
     pub verticesChanged: i32,
-    /// What commits changed: cells made or with other material, cells with other weights, vertices
-    /// and collision points with other weights, links that are other than before. Of how many:
-    /// kiriSheet_GetCounts.
+    /// Changes by commits: cells that are new or have other material, cells with other weights,
+    /// vertices and collision points with other weights, links that differ. kiriSheet_GetCounts has
+    /// the totals.
     pub pointsChanged: i32,
-    /// What commits changed: cells made or with other material, cells with other weights, vertices
-    /// and collision points with other weights, links that are other than before. Of how many:
-    /// kiriSheet_GetCounts.
+    /// Changes by commits: cells that are new or have other material, cells with other weights,
+    /// vertices and collision points with other weights, links that differ. kiriSheet_GetCounts has
+    /// the totals.
     pub linksChanged: i32,
     /// sheets in which a cut took effect
     pub commits: i32,
     /// linear systems, large and small
     pub systemsSolved: i32,
-    /// planes given to the solver: the host's, those of obstacles, and those between sheets
+    /// planes given to the solver: by the host, by obstacles, and between sheets
     pub contacts: i32,
-    /// pairs of sheets or pieces, near each other and not both asleep
+    /// pairs of sheets or pieces that are near each other and not both asleep
     pub sheetPairs: i32,
-    /// The farthest that a vertex would have jumped, m, when a cut took effect, without fadeTime;
-    /// and that one went by a fade.
+    /// The longest jump of a vertex when a cut took effect, as without fadeTime, and the longest
+    /// way by a fade; m.
     pub largestJump: f64,
-    /// The farthest that a vertex would have jumped, m, when a cut took effect, without fadeTime;
-    /// and that one went by a fade.
+    /// The longest jump of a vertex when a cut took effect, as without fadeTime, and the longest
+    /// way by a fade; m.
     pub largestFade: f64,
 }
 
-/// What a sheet is made of: homogeneous, isotropic.
+/// The material of a sheet: homogeneous, isotropic.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriMaterial {
@@ -461,19 +419,14 @@ pub struct kiriMaterial {
     pub flexDamping: f32,
 }
 
-/// How much work for how much accuracy. The presets are measured (\`make accuracy\`; tests/sweep.h
-/// has the scenes) on a strip of stiff paper, 0.2 m x 0.05 m, clamped at one end, with one row of
-/// frames, and on a square of 0.2 m that bends five times as easily, hangs by two corners, and has
-/// half as many rows and columns, rounded up. Let go, they swing for 0.4 s at 60 ticks a second.
-/// Error: rms distance of the vertices from where a much finer run brings them, by the rms way that
-/// they go; at most, over grids from 4/5 to 5/4 as fine and with frames in regular rows or moved a
-/// little. FAST: 2 %. BALANCED: 0.8 %. ACCURATE: 0.4 %. What a cut leaves narrow wants more frames:
-/// see \`accuracy\` in the sheet def.
+/// Work against accuracy. The presets were measured on a swinging strip and a swinging square of
+/// paper. Error is the rms distance of vertices from a much finer run, over their rms way. FAST: at
+/// most 2 %. BALANCED: 0.8 %. ACCURATE: 0.4 %. Narrow arms that a cut leaves need more frames
+/// (\`accuracy\` of kiriSheetDef). The manual has details (accuracy).
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriQuality {
-    /// control frames in a row along a strip; a square does with half as many in either direction,
-    /// rounded up: 3 x 3, 5 x 5, 9 x 9
+    /// control frames in a row along a strip; a square needs 3 x 3, 5 x 5, 9 x 9
     pub framesAlong: i32,
     /// for the sheet def
     pub gridResolution: i32,
@@ -483,44 +436,43 @@ pub struct kiriQuality {
     pub substeps: i32,
 }
 
-/// The paper's own ways, to compare with; part of the sheet def.
+/// Options of the paper, for comparison; part of the sheet def.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriPaperOptions {
-    /// 1: every cut rebuilds grid, regions and shape functions from scratch; the outcome is the
-    /// same bit for bit. Default 0.
+    /// 1: every cut rebuilds grid, regions and shape functions from scratch, to the same bits.
+    /// Default 0.
     pub fromScratch: i32,
-    /// 1: when a cut takes effect, only new frames take their motion from the surface: what is seen
-    /// jumps, and momentum is not kept. Default 0.
+    /// 1: only new frames take their motion from the surface: it jumps at cuts, and momentum is not
+    /// kept. Default 0.
     pub popping: i32,
-    /// 1: the weights of frames are linear on the way from frame to frame, so the surface that is
-    /// seen has a kink at each frame. Always so with KIRI_MODEL_POINTS. Default 0: their slope is
-    /// zero at the frames.
+    /// 1: the weights of frames are linear between frames, so the surface has a kink at each frame.
+    /// Always so with KIRI_MODEL_POINTS. Default 0: the slope of weights is zero at the frames.
     pub linearWeights: i32,
-    /// KIRI_MODEL_POINTS only. Work grows with the points: spread evenly over the sheet, at least
-    /// one in every piece; default 0: four for each of frameCount. Order 1 (default) takes the
-    /// strain at a point for all of the material around it, order 2 a strain linear in it, at four
-    /// times the work a point. 0 to 1048576
+    /// KIRI_MODEL_POINTS only. Points are spread evenly over the sheet, at least one in every
+    /// piece; default 0: four for each of frameCount. Work is proportional to them. Order 1
+    /// (default) has a constant strain in the material around a point, order 2 a linear strain, at
+    /// four times the work a point. 0 to 1048576
     pub integrationPoints: i32,
     /// 1 or 2
     pub integrationOrder: i32,
 }
 
-/// Of a sheet: its rest shape, where it starts, its material, and how it is computed.
+/// A sheet: its rest shape, start, material, and computation.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriSheetDef {
     pub cookie: u32,
     /// The rest shape: triangles in the rest plane, counter-clockwise, at most two at an edge.
-    /// Holes and several parts are fine. Copied by kiriCreateSheet; vertices of no triangle are
-    /// left out. Edges whose ends lie at the same places, but are different vertices, are the lips
-    /// of a cut that is there already; weldDistance closes them. 2 floats (u, v) a vertex
+    /// Holes and several parts are allowed. kiriCreateSheet copies them and leaves out vertices
+    /// without a triangle. Two edges in the same place with different vertices are the lips of an
+    /// existing cut; weldDistance closes them. 2 floats (u, v) a vertex
     pub restPositions: *const f32,
     pub vertexCount: i32,
     /// 3 a triangle
     pub indices: *const i32,
     pub triangleCount: i32,
-    /// Where it starts: x = position + u axisU + v axisV. The axes are orthonormal.
+    /// Start: x = position + u axisU + v axisV (m, world). The axes are orthonormal.
     pub position: [f32; 3],
     pub axisU: [f32; 3],
     pub axisV: [f32; 3],
@@ -529,26 +481,24 @@ pub struct kiriSheetDef {
     pub material: kiriMaterial,
     /// grid squares along the longer side, 1 to 4096; default 32
     pub gridResolution: i32,
-    /// m: ends of cuts this near to a lip or the border meet it, those twice as far do not, and a
-    /// cut keeps within half of it of its line; 0: 1e-4 of the longer side
+    /// m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not, and
+    /// a cut keeps within half of it of its line; 0: 1e-4 of the longer side
     pub snapDistance: f32,
-    /// Vertices nearer than this (m, rest plane; 0 or more) are one: for seams of texture
-    /// coordinates, and triangles without shared vertices (STL). In the order of vertices, each
-    /// becomes the nearest vertex that was kept before and is nearer than this; else it is kept. So
-    /// none moves farther, and a chain of near vertices is not one point. A triangle with two
-    /// corners at one vertex is left out. kiriSheet_CopySources leads to the vertices of the def.
-    /// Default 0: vertices are as the indices say.
+    /// Merges vertices nearer than this (m, rest plane; 0 or more): for seams of texture
+    /// coordinates, and triangles without shared vertices (STL). Each vertex becomes the nearest
+    /// kept vertex before it within this distance, or is kept. No vertex moves farther, and a chain
+    /// of near vertices stays several points. A triangle with two corners at one vertex is left
+    /// out. kiriSheet_CopySources leads to the vertices of the def. Default 0: no merging.
     pub weldDistance: f32,
     /// Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at
-    /// least; null: frameCount frames are spread evenly, some of them in pairs at both sides of
-    /// slit ends. The grid carries one frame for every two squares of material at most: more are
-    /// refused (KIRI_ERROR_ARGUMENT), and re-sampling stops there. A new sheet has no more frames
-    /// than frameCount, or than pieces where these are more. frameCount 0: as many as the sheet
-    /// needs: a region is split while its size, 2.45 times its radius of gyration, exceeds 1.25
-    /// frameLength, after cuts too: so arms that a cut leaves get frames along them. frameLength 0:
-    /// it follows from \`accuracy\`, the relative error of the shape under the sheet's own weight
-    /// that is good enough, but is three squares of the grid at least. kiriSheet_EstimateError says
-    /// what came of it. 0, or 1 and more; default 5
+    /// least; null: frameCount frames are spread evenly, some in pairs at both sides of slit ends.
+    /// The grid carries at most one frame for every two squares of material: a def with more gives
+    /// KIRI_ERROR_ARGUMENT, and re-sampling stops there. A new sheet has at most frameCount frames,
+    /// or one for each piece where there are more pieces. frameCount 0: regions are split, after
+    /// cuts too, until 2.45 times the radius of gyration is at most 1.25 frameLength. frameLength
+    /// 0: derived from \`accuracy\`, the relative error of the shape under the sheet's own weight,
+    /// and at least three grid squares. kiriSheet_EstimateError checks the result. 0, or 1 and
+    /// more; default 5
     pub frameCount: i32,
     /// m; used where frameCount is 0; default 0
     pub frameLength: f32,
@@ -558,72 +508,63 @@ pub struct kiriSheetDef {
     /// re-sampling stops here; default 256
     pub maxFrames: i32,
     /// Re-sampling (section 5 of the paper): a frame whose weight exceeds rigidWeight over an area
-    /// larger than rigidArea (m^2) gets others beside it. In a new sheet this is done only with
-    /// frameCount 0. After cuts it is done where the area is also larger than in the new sheet:
-    /// when a cut ends, or has met the border or another cut. A sheet that is to stay rigid sets
-    /// frameCount and maxFrames to 1. rigidArea 0: a quarter of the area that a frame has at the
-    /// start. default 0.95
+    /// larger than rigidArea (m^2) gets new frames beside it. A new sheet is re-sampled only with
+    /// frameCount 0. Later it happens when a cut ends or meets the border or another cut, where the
+    /// area is also larger than in the new sheet. A rigid sheet has frameCount 1 and maxFrames 1.
+    /// rigidArea 0: a quarter of the area of a frame at the start. default 0.95
     pub rigidWeight: f32,
     /// default 0
     pub rigidArea: f32,
-    /// A piece with less area (m^2) is a crumb: it gets one frame if it has none, and no frames are
-    /// added to it. Default 0.
+    /// A piece with less area (m^2) is a crumb: it gets one frame if it has none, and no more.
+    /// Default 0.
     pub crumbArea: f32,
-    /// Contact, see below. of the sheet, 0 or more; with that of an obstacle or of another sheet
-    /// counts the geometric mean. Default 0.5
+    /// of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5
     pub friction: f32,
-    /// m, 0 or more: sheets and pieces stay so far apart, and half as far from obstacles. 0: the
-    /// material's thickness, a 20th of a grid square at least. Default 0
+    /// m, 0 or more: distance between sheets and pieces, and twice the distance to obstacles. 0:
+    /// the material's thickness, at least a 20th of a grid square. Default 0
     pub contactThickness: f32,
-    /// obstacles and sheets touch where a bit is set in the groups of both. Default: all
+    /// obstacles and sheets touch if they share a set bit. Default: all
     pub groups: u32,
-    /// 1: its pieces touch each other, and other sheets that have it set; not where one of the two
-    /// sheets is planar. Of two pieces that are near each other the one that lies above, against
-    /// gravity, is kept on its side of the other by planes; side by side the one that nothing
-    /// holds, or the lighter one. So piles keep their order. The lower one feels what presses on it
-    /// within 0.3 s: weight acts in full, an impact does so only while the upper one stays, and
-    /// momentum is not exchanged exactly. Pieces that cross are parted at 0.25 m/s. A sheet feels
-    /// others by its vertices, about one a grid square and more along borders: two edges that cross
-    /// are not seen. A piece that wraps around the border of another, so that it lies on both sides
-    /// of it, has one side all the same. Folds of one piece do not touch each other. Pieces that
-    /// touch wake and fall asleep together. Default 0.
+    /// 1: its pieces touch each other, and other sheets that have it set; not where one of two
+    /// sheets is planar. Planes keep the upper piece, against gravity, on its side of the lower
+    /// one; side by side, the piece that is free, or the lighter one. So piles keep their order.
+    /// Folds of one piece do not touch each other. Pieces that touch wake and fall asleep together.
+    /// The manual lists the limits of the method (contact). Default 0.
     pub touchesSheets: i32,
     /// spread evenly over the sheet, at least one in every piece; default 0: none
     pub collisionPoints: i32,
-    /// Newton steps a substep, 1 to 64; default 2. Sheets of 1000 frames want 8, see the manual
+    /// Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
     pub iterations: i32,
-    /// A piece all of whose frames move slower than this (m/s, rms over the material of each) for
-    /// half a second falls asleep: it rests, and costs next to nothing. What is new to it wakes it:
-    /// a cut that changes it, when that takes effect; a pin that holds it, or the pin's pose; a
-    /// hold, a load, contacts other than those it fell asleep with; something that moves and comes
-    /// near. Gravity, wind, settings and kiriSheet_Wake wake all pieces of the sheet. The ticks of
-    /// a sheet all of whose pieces sleep cost nothing. Default 0.001; 0: none sleeps.
+    /// A piece falls asleep when all its frames move slower than this (m/s, rms over their
+    /// material) for half a second. It does not move, and costs almost nothing. A cut that changes
+    /// it wakes it when the cut takes effect; so do a new pin, pose, hold or load, contacts that
+    /// differ, and moving things that come near. Gravity, wind, settings and kiriSheet_Wake wake
+    /// all pieces of the sheet. Default 0.001; 0: no piece sleeps.
     pub sleepSpeed: f32,
     /// KIRI_MODEL_..., default KIRI_MODEL_LINKS
     pub model: i32,
     /// KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR
     pub skinning: i32,
-    /// 1: the sheet stays in the plane where it starts, without bending; what velocities, forces
-    /// and held positions have across the plane is dropped. 3 unknowns a rigid frame, 6 an affine
-    /// one: two thirds of the solver's work, or about a third. Default 0.
+    /// 1: the sheet stays in the plane where it starts, without bending. Parts of velocities,
+    /// forces and held positions across the plane are dropped. A rigid frame has 3 unknowns, an
+    /// affine one 6. Default 0.
     pub planar: i32,
     /// KIRI_TIME_STEPPING_..., default KIRI_TIME_STEPPING_SECOND_ORDER
     pub timeStepping: i32,
-    /// When a cut takes effect, weights change, and what is seen between the frames would jump. The
-    /// difference fades within this time (s). So does the difference of strain in links of
-    /// KIRI_MODEL_LINKS whose borders have moved. Default 0.2; 0: at once.
+    /// A cut that takes effect changes weights, and the surface would jump between frames. The
+    /// difference fades within this time (s), and so does that in the strain of links whose borders
+    /// moved. Default 0.2; 0: at once.
     pub fadeTime: f32,
-    /// 1: normals of the mesh are made in every tick. 0: kiriMesh has none, and
+    /// 1: every tick computes normals of the mesh. 0: kiriMesh has no normals, and
     /// kiriSheet_CopyVertices copies none; this saves half of the time of linear skinning. The
-    /// sheet moves the same, bit for bit: where edges of obstacles or other sheets touch it, the
-    /// tick makes normals for itself. So does kiriSheet_GetSolid; and what kiriSheet_GetPoint says
-    /// is the same to rounding. Default 1.
+    /// sheet moves the same, bit for bit: contact and kiriSheet_GetSolid compute their own normals.
+    /// kiriSheet_GetPoint is the same to rounding. Default 1.
     pub normals: i32,
-    /// default: none of the paper's own ways
+    /// default: all off
     pub paper: kiriPaperOptions,
 }
 
-/// What of the def may be changed while the sheet lives, as there. kiriSheet_GetSettings stamps it.
+/// Sheet settings that can change after creation. Fields mean the same as in kiriSheetDef.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriSheetSettings {
@@ -631,36 +572,29 @@ pub struct kiriSheetSettings {
     pub material: kiriMaterial,
     /// re-sampling stops here; default 256
     pub maxFrames: i32,
-    /// A piece with less area (m^2) is a crumb: it gets one frame if it has none, and no frames are
-    /// added to it. Default 0.
+    /// A piece with less area (m^2) is a crumb: it gets one frame if it has none, and no more.
+    /// Default 0.
     pub crumbArea: f32,
-    /// Contact, see below. of the sheet, 0 or more; with that of an obstacle or of another sheet
-    /// counts the geometric mean. Default 0.5
+    /// of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5
     pub friction: f32,
-    /// m, 0 or more: sheets and pieces stay so far apart, and half as far from obstacles. 0: the
-    /// material's thickness, a 20th of a grid square at least. Default 0
+    /// m, 0 or more: distance between sheets and pieces, and twice the distance to obstacles. 0:
+    /// the material's thickness, at least a 20th of a grid square. Default 0
     pub contactThickness: f32,
-    /// obstacles and sheets touch where a bit is set in the groups of both. Default: all
+    /// obstacles and sheets touch if they share a set bit. Default: all
     pub groups: u32,
-    /// 1: its pieces touch each other, and other sheets that have it set; not where one of the two
-    /// sheets is planar. Of two pieces that are near each other the one that lies above, against
-    /// gravity, is kept on its side of the other by planes; side by side the one that nothing
-    /// holds, or the lighter one. So piles keep their order. The lower one feels what presses on it
-    /// within 0.3 s: weight acts in full, an impact does so only while the upper one stays, and
-    /// momentum is not exchanged exactly. Pieces that cross are parted at 0.25 m/s. A sheet feels
-    /// others by its vertices, about one a grid square and more along borders: two edges that cross
-    /// are not seen. A piece that wraps around the border of another, so that it lies on both sides
-    /// of it, has one side all the same. Folds of one piece do not touch each other. Pieces that
-    /// touch wake and fall asleep together. Default 0.
+    /// 1: its pieces touch each other, and other sheets that have it set; not where one of two
+    /// sheets is planar. Planes keep the upper piece, against gravity, on its side of the lower
+    /// one; side by side, the piece that is free, or the lighter one. So piles keep their order.
+    /// Folds of one piece do not touch each other. Pieces that touch wake and fall asleep together.
+    /// The manual lists the limits of the method (contact). Default 0.
     pub touchesSheets: i32,
-    /// Newton steps a substep, 1 to 64; default 2. Sheets of 1000 frames want 8, see the manual
+    /// Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
     pub iterations: i32,
-    /// A piece all of whose frames move slower than this (m/s, rms over the material of each) for
-    /// half a second falls asleep: it rests, and costs next to nothing. What is new to it wakes it:
-    /// a cut that changes it, when that takes effect; a pin that holds it, or the pin's pose; a
-    /// hold, a load, contacts other than those it fell asleep with; something that moves and comes
-    /// near. Gravity, wind, settings and kiriSheet_Wake wake all pieces of the sheet. The ticks of
-    /// a sheet all of whose pieces sleep cost nothing. Default 0.001; 0: none sleeps.
+    /// A piece falls asleep when all its frames move slower than this (m/s, rms over their
+    /// material) for half a second. It does not move, and costs almost nothing. A cut that changes
+    /// it wakes it when the cut takes effect; so do a new pin, pose, hold or load, contacts that
+    /// differ, and moving things that come near. Gravity, wind, settings and kiriSheet_Wake wake
+    /// all pieces of the sheet. Default 0.001; 0: no piece sleeps.
     pub sleepSpeed: f32,
     /// KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR
     pub skinning: i32,
@@ -668,19 +602,18 @@ pub struct kiriSheetSettings {
     pub timeStepping: i32,
     /// stays 0 with paper.popping
     pub fadeTime: f32,
-    /// 1: normals of the mesh are made in every tick. 0: kiriMesh has none, and
+    /// 1: every tick computes normals of the mesh. 0: kiriMesh has no normals, and
     /// kiriSheet_CopyVertices copies none; this saves half of the time of linear skinning. The
-    /// sheet moves the same, bit for bit: where edges of obstacles or other sheets touch it, the
-    /// tick makes normals for itself. So does kiriSheet_GetSolid; and what kiriSheet_GetPoint says
-    /// is the same to rounding. Default 1.
+    /// sheet moves the same, bit for bit: contact and kiriSheet_GetSolid compute their own normals.
+    /// kiriSheet_GetPoint is the same to rounding. Default 1.
     pub normals: i32,
 }
 
-/// The triangles that are seen, as after the last tick. revision grows whenever indices or vertices
-/// are added or changed. Rest positions are floats, 6e-8 of the distance from the origin of the
-/// rest plane apart: where triangles are not much larger than that, they look flat or inverted. The
-/// library computes with the positions of the def to 2^-29 of the sheet; sourceTriangles and
-/// sourceWeights are as exact as the sheet is large.
+/// The triangles to draw, as after the last tick. revision grows when indices or vertices are added
+/// or changed. Rest positions are floats, with a spacing of 6e-8 of the distance from the origin of
+/// the rest plane: triangles of about that size may look flat or inverted. The library computes
+/// with the positions of the def to 2^-29 of the sheet; sourceTriangles and sourceWeights have that
+/// precision.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriMesh {
@@ -692,7 +625,7 @@ pub struct kiriMesh {
     pub restPositions: *const f32,
     /// 3 a triangle
     pub indices: *const i32,
-    /// 1 a vertex: the triangle of the def that it lies in,
+    /// 1 a vertex: the triangle of the def that contains it,
     pub sourceTriangles: *const i32,
     /// 3 a vertex: and its barycentric coordinates there
     pub sourceWeights: *const f32,
@@ -701,7 +634,7 @@ pub struct kiriMesh {
     pub revision: u32,
 }
 
-/// So many items from the first on.
+/// \`count\` items from \`first\` on.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriRange {
@@ -709,9 +642,9 @@ pub struct kiriRange {
     pub count: i32,
 }
 
-/// What has changed in the mesh, for hosts that keep a copy of it, on a GPU say. Positions and
-/// normals change with every tick; all else of a vertex, and the corners of a triangle, only in
-/// these ranges.
+/// Changes of the mesh, for hosts that keep a copy, such as on a GPU. Positions and normals change
+/// in every tick. Other data of a vertex, and the corners of a triangle, change only in these
+/// ranges.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriDirty {
@@ -719,18 +652,17 @@ pub struct kiriDirty {
     pub newVertices: kiriRange,
     /// up to the last one of the mesh
     pub newTriangles: kiriRange,
-    /// the least ranges that hold all older ones with other data
+    /// the smallest ranges that hold all older ones with other data
     pub oldVertices: kiriRange,
-    /// the least ranges that hold all older ones with other data
+    /// the smallest ranges that hold all older ones with other data
     pub oldTriangles: kiriRange,
     /// for the next call
     pub revision: u32,
 }
 
-/// The surface with a thickness, to draw: a closed mesh, with a rim along borders, holes and the
-/// lips of cuts. First come the vertices of kiriMesh on the side that the normal leaves, then the
-/// same on the other side, then four for each edge of the border, so that rims are flat and their
-/// edges sharp.
+/// The surface with a thickness, to draw: a closed mesh, with a rim along borders, holes and lips.
+/// First the vertices of kiriMesh on the side of the normal, then the same on the other side, then
+/// four for each border edge, so rims are flat.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriSolid {
@@ -742,15 +674,15 @@ pub struct kiriSolid {
     pub restPositions: *const f32,
     /// 3 a triangle, counter-clockwise from outside
     pub indices: *const i32,
-    /// 1 a vertex: that of kiriMesh which it stands on
+    /// 1 a vertex: its vertex in kiriMesh
     pub sources: *const i32,
     pub vertexCount: i32,
     pub triangleCount: i32,
-    /// from this one on triangles are rims
+    /// rims begin at this triangle
     pub rimTriangle: i32,
 }
 
-/// How many there are of each.
+/// Numbers of items in a sheet.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriCounts {
@@ -777,20 +709,23 @@ pub struct kiriTotals {
     pub angularMomentum: [f64; 3],
 }
 
-/// What a ray meets.
+/// The first point where a ray meets a sheet.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriHit {
-    /// where to cut
+    /// m: where to cut
     pub restPoint: [f32; 2],
+    /// m, world
     pub position: [f32; 3],
+    /// unit
     pub normal: [f32; 3],
     /// m along the direction, which need not be a unit vector
     pub distance: f32,
+    /// -1: none
     pub triangle: i32,
 }
 
-/// A point of the material, as it is seen.
+/// A point of the material on the visible surface.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriPointState {
@@ -800,14 +735,14 @@ pub struct kiriPointState {
     pub normal: [f32; 3],
     /// m/s, by the weights of the point
     pub velocity: [f32; 3],
-    /// in whose region it is; it names the piece, too
+    /// the frame of its region; it also names the piece
     pub frame: kiriFrame,
 }
 
-/// The connected parts of a sheet. A piece is named by any of its frames. To go through all of them
-/// there are indices too, from 0 on to kiriCounts.pieces, in the order of first frames: they change
-/// when a piece comes off or is taken away; kiriFrame_GetPiece has that of now. A cut whose work
-/// waits for its budget has not parted anything yet. Momentum is about the world's origin.
+/// A connected part of a sheet. Any of its frames names it. Indices from 0 to kiriCounts.pieces, in
+/// the order of first frames, visit all pieces: they change when a piece comes off or goes, and
+/// kiriFrame_GetPiece returns the current one. A cut with pending work has not separated anything
+/// yet. Momentum is about the world's origin.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriPieceState {
@@ -821,17 +756,17 @@ pub struct kiriPieceState {
     pub momentum: [f64; 3],
     /// of mass, m; kg m/s; kg m^2/s
     pub angularMomentum: [f64; 3],
-    /// m, world: the least box around its vertices
+    /// m, world: the smallest box around its vertices
     pub lower: [f32; 3],
-    /// m, world: the least box around its vertices
+    /// m, world: the smallest box around its vertices
     pub upper: [f32; 3],
-    /// how many
+    /// counts
     pub frames: i32,
-    /// how many
+    /// counts
     pub vertices: i32,
-    /// how many
+    /// counts
     pub triangles: i32,
-    /// how many
+    /// counts
     pub collisionPoints: i32,
     /// 1: see kiriSheetDef
     pub crumb: i32,
@@ -839,8 +774,8 @@ pub struct kiriPieceState {
     pub asleep: i32,
 }
 
-/// What is in a piece, in the order of the mesh. The arrays are parts of one for all pieces, piece
-/// after piece.
+/// The mesh of a piece, in the order of the sheet's mesh. The arrays are parts of one for all
+/// pieces, piece by piece.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriPieceMesh {
@@ -861,8 +796,9 @@ pub struct kiriPieceMesh {
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriFrameState {
+    /// m
     pub restPoint: [f32; 2],
-    /// of the rest point
+    /// m, world: of the rest point
     pub position: [f32; 3],
     /// columns: direction of u, direction of v, normal; of an affine frame the columns of A, which
     /// stretch with the sheet
@@ -879,105 +815,100 @@ pub struct kiriFrameState {
     pub held: i32,
 }
 
-/// Air that moves past the sheet, in every tick until the next call. On each square metre act, with
-/// v the velocity of the air less that of the material, and n the normal: density / 2 times |v|
-/// (drag (v.n) n + lift (v - (v.n) n)). Zero velocity with drag and lift above zero: still air,
-/// which resists. All zero: none. It acts at four points of the region of each frame, and follows
-/// its motion within the tick: sheets flutter, and no wind is too strong. Gusts are a call a tick.
-/// Wind that stays as it is lets a sheet sleep.
+/// Air that moves past the sheet. v is the velocity of the air less the velocity of the material, n
+/// the normal: each square metre gets density / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)).
+/// Zero velocity with drag and lift above zero: still air, which resists. All zero: none. It acts
+/// at four points of the region of each frame, and follows the motion within the tick, so strong
+/// wind is stable. A sheet can sleep in constant wind.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriWind {
     /// m/s
     pub velocity: [f32; 3],
-    /// kg/m^3, 0 or more; 1.2 of air
+    /// kg/m^3, 0 or more; air: 1.2
     pub density: f32,
-    /// 0 or more: coefficients of pressure, 2 of a long plate, 1.2 of a square, and of the force
-    /// along the sheet, 0.01 or so of a smooth one
+    /// 0 or more: coefficients across (long plate 2, square 1.2) and along the sheet (smooth 0.01)
     pub drag: f32,
-    /// 0 or more: coefficients of pressure, 2 of a long plate, 1.2 of a square, and of the force
-    /// along the sheet, 0.01 or so of a smooth one
+    /// 0 or more: coefficients across (long plate 2, square 1.2) and along the sheet (smooth 0.01)
     pub lift: f32,
 }
 
-/// A pin holds a point of the material at its target, by a spring.
+/// A pin holds a point of the material at its target by a spring.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriPinDef {
     pub cookie: u32,
-    /// in the material
+    /// m, in the material
     pub restPoint: [f32; 2],
-    /// m, world: where it is held
+    /// m, world
     pub target: [f32; 3],
     /// N/m; 0: ten times Young's modulus times thickness
     pub stiffness: f32,
-    /// N: it breaks (KIRI_EVENT_PIN_BROKE) in a tick in which it held with more; 0: never
+    /// N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never
     pub breakForce: f32,
-    /// or 0. The target goes with this obstacle from where it is when the pin is made, or
-    /// kiriPin_SetTarget puts it, and the obstacle feels the pin (kiriObstacle_GetState); one with
-    /// mass yields to it within the tick. When it is destroyed the target stays where it was
+    /// or 0. The target moves with this obstacle from its place at creation or at the last
+    /// kiriPin_SetTarget. The obstacle feels the pin (kiriObstacle_GetState); an obstacle with mass
+    /// yields within the tick. If it is destroyed the target stays
     pub obstacle: kiriObstacle,
 }
 
-/// What a pin is, and where it holds.
+/// Type and target of a pin.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriPinState {
     /// KIRI_PIN_...
     pub type_: i32,
     pub sheet: kiriSheet,
-    /// rest position: of a point, twice, or of the ends of the line
+    /// m, rest plane: the ends of the line, or the point twice
     pub from: [f32; 2],
-    /// rest position: of a point, twice, or of the ends of the line
+    /// m, rest plane: the ends of the line, or the point twice
     pub to: [f32; 2],
+    /// m, world
     pub target: [f32; 3],
     /// of a line; of a point the identity
     pub rotation: [f32; 9],
     /// N, or 0
     pub breakForce: f32,
-    /// that it goes with, or 0
+    /// that the target moves with, or 0
     pub obstacle: kiriObstacle,
 }
 
-/// A point of the material that touches something: the plane dot(normal, x) = offset keeps it on
-/// its upper side, with as much force as that takes, and Coulomb friction acts along the plane. The
-/// plane is that of an obstacle of the host, who finds it anew for each tick from where the sheet
-/// is seen. A contact may lie in the path of the point, above or below it: one that does not reach
-/// its plane in the tick costs little and does nothing.
+/// A contact of a point of the material: the plane dot(normal, x) = offset keeps the point on its
+/// upper side, and Coulomb friction acts along the plane. The host computes the plane for each tick
+/// from the visible surface of the sheet. A contact may lie ahead of the point; if the point does
+/// not reach it in the tick, it costs little and does nothing.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriContact {
-    /// index of the collision point; -1: restPoint says which point of the material
+    /// index of the collision point; -1: restPoint names the point
     pub point: i32,
-    /// in the material; only read where point is -1
+    /// m, in the material; read only where point is -1
     pub restPoint: [f32; 2],
     /// unit, out of the obstacle
     pub normal: [f32; 3],
     /// m: of the obstacle's surface at the start of the tick
     pub offset: f32,
-    /// m/s: of the obstacle there. The plane moves with it within the tick, and friction acts
-    /// against the sliding that is left
+    /// m/s: of the obstacle at the contact. The plane moves with it within the tick
     pub velocity: [f32; 3],
     /// 0 or more: of both sides together
     pub friction: f32,
-    /// 1/kg, 0 or more: of the obstacle as felt along the normal there, 1/m + (r x n) . I^-1 (r x
-    /// n); 0: it does not yield
+    /// 1/kg, 0 or more: of the obstacle along the normal, 1/m + (r x n) . I^-1 (r x n); 0: rigid
     pub inverseMass: f32,
-    /// m/s, 0 or more: a point that starts below the plane is pushed out no faster. 0: 1 m/s
+    /// m/s, 0 or more: maximum speed of a point that is pushed out from below. 0: 1 m/s
     pub pushSpeed: f32,
-    /// the host's number. Contacts of one number press on one obstacle, and share its mass
+    /// a number of the host. Contacts with one number press on one obstacle, and share its mass
     pub obstacle: i32,
 }
 
-/// What a contact did in the last tick.
+/// The result of a contact in the last tick.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriContactForce {
     /// N s, on the sheet: the sum over the tick. The obstacle gets the opposite
     pub impulse: [f64; 3],
-    /// m, world: where it acted, the point of the sheet at the end of the tick
+    /// m, world: the point of the sheet at the end of the tick
     pub position: [f64; 3],
-    /// m: how deep the point is below the plane at the end of the tick; below 0: above it
+    /// m: of the point below the plane at the end of the tick; below 0: above it
     pub depth: f64,
     /// as in the contact
     pub point: i32,
@@ -985,7 +916,7 @@ pub struct kiriContactForce {
     pub obstacle: i32,
 }
 
-/// Of an obstacle: its shape, where it is, its motion, and its mass.
+/// An obstacle: its shape, pose, motion, and mass.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriObstacleDef {
@@ -1002,7 +933,7 @@ pub struct kiriObstacleDef {
     pub outline: *const f32,
     /// 3 to 64
     pub outlineCount: i32,
-    /// m, 0 or more: prisms and boxes are that much larger, with round edges. Default 0
+    /// m, 0 or more: prisms and boxes grow by this, with round edges. Default 0
     pub rounding: f32,
     /// m, world
     pub position: [f32; 3],
@@ -1012,26 +943,26 @@ pub struct kiriObstacleDef {
     pub velocity: [f32; 3],
     /// rad/s
     pub angularVelocity: [f32; 3],
-    /// m/s, world: of its surface beside that, as of a conveyor
+    /// m/s, world: of its surface, added to its motion, as of a conveyor
     pub surfaceVelocity: [f32; 3],
     /// 0 or more; default 0.5
     pub friction: f32,
     /// kg; 0 (default): nothing moves it
     pub mass: f32,
-    /// kg m^2, about its centre of mass, axes of the world as it stands now: xx yy zz xy xz yz.
+    /// kg m^2, about its centre of mass, axes of the world in the current pose: xx yy zz xy xz yz.
     /// Positive definite, but for axes whose numbers are all 0: it does not turn about these
     pub inertia: [f32; 6],
     /// m, from its position in its own axes
     pub centerOfMass: [f32; 3],
-    /// obstacles of the same number, but 0, are parts of one body, whose mass each of them has
+    /// obstacles with the same number, except 0, are parts of one body; each has its whole mass
     pub body: u32,
-    /// m/s, above 0: what is inside is pushed out no faster. Default 1
+    /// m/s, above 0: maximum speed at which points inside are pushed out. Default 1
     pub pushSpeed: f32,
     /// see the sheet def. Default: all
     pub groups: u32,
 }
 
-/// Where it is now, with what it moves, and what it felt.
+/// Pose, motion, and reaction of an obstacle.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriObstacleState {
@@ -1039,15 +970,15 @@ pub struct kiriObstacleState {
     pub rotation: [f32; 9],
     pub velocity: [f32; 3],
     pub angularVelocity: [f32; 3],
-    /// N s, N m s about its centre of mass: what sheets and pins gave it in the last tick
+    /// N s, N m s about its centre of mass: from sheets and pins in the last tick
     pub impulse: [f64; 3],
-    /// N s, N m s about its centre of mass: what sheets and pins gave it in the last tick
+    /// N s, N m s about its centre of mass: from sheets and pins in the last tick
     pub angularImpulse: [f64; 3],
     /// that pushed in the last tick
     pub contacts: i32,
 }
 
-/// A corner of what is drawn: as it is, it may go to a GPU.
+/// A corner to draw, in a layout for a GPU.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriDrawVertex {
@@ -1057,14 +988,14 @@ pub struct kiriDrawVertex {
     pub color: u32,
 }
 
-/// What is drawn, and by whom.
+/// Flags, filter and functions of debug draw.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriDebugDraw {
     pub cookie: u32,
     /// KIRI_DRAW_..., added up; default: all but TRIANGLES and EDGES
     pub flags: u32,
-    /// only this one is drawn, without obstacles and blades; 0 (default): all
+    /// draws only this one, without obstacles and blades; 0 (default): all
     pub sheet: kiriSheet,
     /// m, above 0: length of axes and normals; a plane is 20 times as wide. Default 0.05
     pub size: f32,
@@ -1074,78 +1005,73 @@ pub struct kiriDebugDraw {
     pub lines: kiriDrawFn,
     /// the same
     pub triangles: kiriDrawFn,
-    /// handed to these functions
+    /// passed to these functions
     pub user: *mut c_void,
 }
 
 unsafe extern "C" {
-    /// The library's version, as KIRI_VERSION.
+    /// Returns the version of the library, as KIRI_VERSION.
     pub fn kiriGetVersion() -> i32;
-    /// The name of a result, "KIRI_OK" and so on; "unknown" for another number.
+    /// Returns the name of a result, such as "KIRI_OK"; "unknown" for another number.
     pub fn kiriGetResultName(result: kiriResult) -> *const c_char;
-    /// One line: the meaning of a result, and its cure. For calls without a world that keeps a
-    /// line, such as kiriCreateWorld with a def of zeros (KIRI_ERROR_DEF).
+    /// Returns one line: the meaning of a result, and its cure. Use it after calls that have no
+    /// world to keep a line, such as kiriCreateWorld with a def of zeros (KIRI_ERROR_DEF).
     pub fn kiriGetResultText(result: kiriResult) -> *const c_char;
     /// Fills the def with its defaults, and stamps it.
     pub fn kiriDefaultWorldDef(def: *mut kiriWorldDef);
-    /// Makes an empty world. On failure \*world is null, and the log of the def has the line; a def
-    /// that was not filled has no log, see kiriGetResultText. KIRI_ERROR_BUILD: the compiler has
-    /// contracted products and sums to fused multiply-adds (-ffp-contract=fast of clang), or has
-    /// reordered them; or this thread flushes small floats to zero (FTZ, DAZ) or does not round to
-    /// nearest. The threads of later calls, and those that the host runs tasks on, are not checked:
-    /// in such a mode their bits are others.
+    /// Creates an empty world. On failure \*world is null, and the log of the def gets the line; a
+    /// def that was not filled has no log, see kiriGetResultText. KIRI_ERROR_BUILD: the compiler
+    /// contracted or reordered float operations (-ffp-contract=fast of clang), or this thread
+    /// flushes small floats to zero (FTZ, DAZ) or does not round to nearest. The threads of later
+    /// calls and of tasks are not checked: in such a mode they give other bits.
     pub fn kiriCreateWorld(def: *const kiriWorldDef, world: *mut *mut kiriWorld) -> kiriResult;
-    /// Frees the world and all that is in it. Null is allowed.
+    /// Frees the world and all its content. Null is allowed.
     pub fn kiriDestroyWorld(world: *mut kiriWorld);
-    /// One fixed step of dt seconds (1e-6 to 10), solved in \`substeps\` equal parts (1 to 64).
-    /// Takes the waiting cut points, then moves every sheet. KIRI_PENDING: the budget is spent and
-    /// more work waits: the events say which cuts; a sheet, or some of its pieces, may also have
-    /// stood still for want of iterations. KIRI_ERROR_MEMORY: nothing moved; cuts and pieces still
-    /// wait, call again. Refused work is prepared again: until then kiriSheet_GetWeights gives
-    /// KIRI_ERROR_STATE, and with a budget a cut may take effect some ticks later than it would
-    /// have. KIRI_ERROR_LIMIT: the same, and it stays so until frames are destroyed. KIRI_DIVERGED:
-    /// the sheets named by the events were put to rest, the others moved. Work may wait then, too,
-    /// as KIRI_EVENT_DEFERRED says.
+    /// Advances by one fixed step of dt seconds (1e-6 to 10), in \`substeps\` equal parts (1 to
+    /// 64): takes the pending cut points, then moves every sheet. KIRI_PENDING: the budget is
+    /// spent, and events name the cuts that still have work; a sheet or some of its pieces may have
+    /// stood still for want of iterations. KIRI_ERROR_MEMORY: nothing moved; cuts and pieces are
+    /// still pending, call again. Until the refused work is done again, kiriSheet_GetWeights gives
+    /// KIRI_ERROR_STATE, and with a budget a cut may take effect some ticks later.
+    /// KIRI_ERROR_LIMIT: the same, until frames are destroyed. KIRI_DIVERGED: sheets that events
+    /// name were stopped, others moved; KIRI_EVENT_DEFERRED tells of pending work.
     pub fn kiriWorld_Tick(world: *mut kiriWorld, dt: f32, substeps: i32) -> kiriResult;
-    /// What went wrong in the last function that changes the world, in one line; "" when nothing
-    /// did. A function that only reads leaves it as it is, and gives its line to the log. Valid
-    /// until the next function that changes the world.
+    /// Returns one line: the reason why the last function that changes the world failed; "" if it
+    /// did not. A function that only reads does not change the line, and logs its own. Valid until
+    /// the next function that changes the world.
     pub fn kiriWorld_GetLastError(world: *const kiriWorld) -> *const c_char;
-    /// m/s^2. All pieces wake.
+    /// Sets gravity (m/s^2). All pieces wake.
     pub fn kiriWorld_SetGravity(world: *mut kiriWorld, gravity: *const f32) -> kiriResult;
     /// Moves the origin of the world to a point (m): subtracts it from the positions of sheets,
-    /// targets of pins and holds, obstacles, blades, and contacts that wait. The motion goes on as
-    /// before, to rounding. Nothing wakes; (0, 0, 0) changes nothing. Use it in large worlds: far
-    /// from the origin floats lose places. The host shifts its own data itself. Arrays that the
-    /// library handed out keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a
-    /// position would not fit a float. KIRI_ERROR_MEMORY: nothing has changed.
+    /// targets of pins and holds, obstacles, blades, and pending contacts. The motion goes on as
+    /// before, to rounding. Nothing wakes; (0, 0, 0) changes nothing. Use it in large worlds, where
+    /// floats lose precision. The host shifts its own data. Returned arrays keep the old positions
+    /// until the next tick. KIRI_ERROR_ARGUMENT: a position would not fit a float.
     pub fn kiriWorld_ShiftOrigin(world: *mut kiriWorld, origin: *const f32) -> kiriResult;
-    /// Takes effect with the next tick.
+    /// Sets the budget from the next tick on.
     pub fn kiriWorld_SetBudget(world: *mut kiriWorld, budget: *const kiriBudget) -> kiriResult;
-    /// A hash of everything that the coming ticks depend on, work that waits for its budget
-    /// included: two worlds that got the same calls have the same hash, and two with the same hash
-    /// go on alike. After a refused allocation some items are made again: the hash tells that while
-    /// work waits, or while the budget limits cells or samples.
+    /// Hashes all state that the coming ticks depend on, pending work included. Two worlds with the
+    /// same calls have the same hash, and two worlds with the same hash go on alike. After a
+    /// refused allocation some items are made again: the hash differs while work is pending, or
+    /// while the budget limits cells or samples.
     pub fn kiriWorld_GetStateHash(world: *const kiriWorld, hash: *mut u64) -> kiriResult;
     /// Writes up to \`capacity\` ids of the world's sheets, in the order of their making; \*count
     /// is how many there are.
     pub fn kiriWorld_GetSheets(world: *const kiriWorld, sheets: *mut kiriSheet, capacity: i32, count: *mut i32) -> kiriResult;
-    /// Puts some bytes of the host's own (1 to KIRI_MOST_NOTE_BYTES) in the recording, where a
-    /// replay finds them: what its camera saw, what a player pressed. The world does not change;
-    /// without a recording nothing happens.
+    /// Writes bytes of the host (1 to KIRI_MOST_NOTE_BYTES) to the recording, such as keys that a
+    /// player pressed. A replay stops there. The world does not change; without a recording nothing
+    /// happens.
     pub fn kiriWorld_Note(world: *mut kiriWorld, bytes: *const c_void, count: i32) -> kiriResult;
-    /// Makes the calls of a recording up to the next tick or note, and that one. The world is to be
-    /// new, as kiriCreateWorld makes it; gravity and budget become those of the recording. What the
-    /// host has of its own, such as memory, log and tasks, stays the host's. Ids are those of the
-    /// recording: kiriWorld_GetSheets has those of sheets. KIRI_PENDING: more follows, call it
-    /// again. KIRI_OK: that was the end. KIRI_ERROR_REPLAY: a call gave another result, other ids
-    /// or another state than recorded; the line says which. The next call goes on behind it.
-    /// KIRI_ERROR_DATA: the bytes are no recording, damaged, cut short, or of a later version; the
-    /// line says where. Calls before that place have been made. So has the last one of a recording
-    /// that ends within a call, as that of a run which crashed. KIRI_ERROR_STATE: the world is not
-    /// new. KIRI_ERROR_MEMORY: the next call was refused memory, and may be tried again. Calls that
-    /// were refused memory when they were recorded are left out: they changed nothing. Where that
-    /// was a tick and a budget limits cells or samples, the next hashes may differ.
+    /// Makes the calls of a recording up to the next tick or note, included. The world must be new.
+    /// Gravity and budget become those in the recording; memory, log and tasks stay the host's. Ids
+    /// are as recorded (kiriWorld_GetSheets). KIRI_PENDING: more calls follow, call again. KIRI_OK:
+    /// the recording ended. KIRI_ERROR_REPLAY: a call gave another result, other ids or another
+    /// state than recorded; the line names it, and the next call goes on behind it.
+    /// KIRI_ERROR_DATA: the bytes are not a recording, damaged, cut short, or of a later version;
+    /// the line says where. The calls before that place were made, and the last call of a recording
+    /// that ends inside one, as after a crash. KIRI_ERROR_STATE: the world is not new.
+    /// KIRI_ERROR_MEMORY: call again. Calls that were refused memory when recorded are skipped.
+    /// After such a tick the next hashes may differ where a budget limits cells or samples.
     pub fn kiriWorld_Replay(world: *mut kiriWorld, recording: *const c_void, size: i64, replay: *mut kiriReplay) -> kiriResult;
     /// Writes the world. \*size: bytes that there are. \`bytes\` null: they are counted only, and
     /// capacity does not matter; else it has room for \`capacity\`. Writes nothing where that is
@@ -1179,235 +1105,205 @@ unsafe extern "C" {
     /// bytes of your own. Any world, and on any machine, with the same base. KIRI_ERROR_DATA: base
     /// is no save, the bytes are no difference, or one to another base.
     pub fn kiriWorld_LoadDifference(world: *mut kiriWorld, base: *const c_void, baseSize: i64, bytes: *const c_void, size: i64) -> kiriResult;
-    /// \*events points to \*count events.
+    /// Gets the events: \*events points to \*count of them.
     pub fn kiriWorld_GetEvents(world: *const kiriWorld, events: *mut *const kiriEvent, count: *mut i32) -> kiriResult;
-    /// Of the last tick that was not refused.
+    /// Gets the profile of the last tick that was not refused.
     pub fn kiriWorld_GetProfile(world: *const kiriWorld, profile: *mut kiriProfile) -> kiriResult;
-    /// For hosts that would rather think in time than in items: the budget whose work would have
-    /// taken so many microseconds a tick at the pace of the profile, which may be the sum of
-    /// several. Work on cuts and linear systems share the time as they did in the profile, and each
-    /// of triangles, cells and samples gets what the three took together, see kiriBudget. Each item
-    /// that the profile has some of is set; others stay. The simulation never reads a clock: the
-    /// choice is the host's, and a replay must hand in the same budgets.
+    /// Converts microseconds a tick into a budget, at the pace of the profile, which may be the sum
+    /// of several. Cuts and linear systems share the time as in the profile. Each of triangles,
+    /// cells and samples gets the time of all three, see kiriBudget. Sets only the limits for which
+    /// the profile recorded work. The simulation never reads a clock: the host chooses, and a
+    /// replay must set the same budgets.
     pub fn kiriFitBudget(profile: *const kiriProfile, microseconds: f32, budget: *mut kiriBudget) -> kiriResult;
-    /// The name of a stage, for tables; "" for a number that is none.
+    /// Returns the name of a stage; "" for another number.
     pub fn kiriGetStageName(stage: i32) -> *const c_char;
-    /// The numbers of a preset, KIRI_MATERIAL_...
+    /// Gets the numbers of a preset, KIRI_MATERIAL_...
     pub fn kiriGetMaterial(preset: i32, material: *mut kiriMaterial) -> kiriResult;
-    /// The numbers of a preset, KIRI_QUALITY_...
+    /// Gets the numbers of a preset, KIRI_QUALITY_...
     pub fn kiriGetQuality(preset: i32, quality: *mut kiriQuality) -> kiriResult;
     /// Fills the def with its defaults, and stamps it. It has no mesh yet.
     pub fn kiriDefaultSheetDef(def: *mut kiriSheetDef);
     /// Adds a sheet. On failure \*sheet is 0. KIRI_ERROR_MESH: the triangles do not form a sheet.
-    /// The line names a triangle, or the two triangles at an edge, by their numbers in the def, and
-    /// says why.
+    /// The line says why, and names the triangle, or the two triangles at an edge, by index in the
+    /// def.
     pub fn kiriCreateSheet(world: *mut kiriWorld, def: *const kiriSheetDef, sheet: *mut kiriSheet) -> kiriResult;
-    /// The sheet is gone, with its cuts, frames and pins; their ids are stale.
+    /// Destroys the sheet with its cuts, frames and pins; their ids are stale.
     pub fn kiriDestroySheet(world: *mut kiriWorld, sheet: kiriSheet) -> kiriResult;
-    /// A sheet that is a rectangle from (0, 0) to (width, height) of the rest plane, of 2 \*
-    /// columns \* rows triangles; columns and rows are 1 to 4096. def: all but the mesh, which is
-    /// not read; null: the defaults. A recording has it as kiriCreateSheet.
+    /// Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 \* columns
+    /// \* rows triangles; columns and rows are 1 to 4096. def: its mesh is not read; null: the
+    /// defaults. A recording stores it as kiriCreateSheet.
     pub fn kiriCreateRectangle(world: *mut kiriWorld, width: f32, height: f32, columns: i32, rows: i32, def: *const kiriSheetDef, sheet: *mut kiriSheet) -> kiriResult;
-    /// What they are now, stamped for kiriSheet_SetSettings.
+    /// Gets the current settings, stamped for kiriSheet_SetSettings.
     pub fn kiriSheet_GetSettings(world: *const kiriWorld, sheet: kiriSheet, settings: *mut kiriSheetSettings) -> kiriResult;
-    /// Checked as the def is: all or nothing. KIRI_ERROR_DEF: they did not come from GetSettings.
-    /// The sheet wakes where one is other than before. Places and velocities stay: with another
-    /// mass so momentum changes. Stiffnesses that pins have, and the lengths that frames were
-    /// spread by, stay as they are.
+    /// Sets all settings, or none; checks them as kiriCreateSheet does. KIRI_ERROR_DEF: they do not
+    /// come from kiriSheet_GetSettings. The sheet wakes if one differs. Positions and velocities
+    /// are kept, so a new mass changes the momentum. The stiffness of pins and the lengths that
+    /// placed the frames are kept, too.
     pub fn kiriSheet_SetSettings(world: *mut kiriWorld, sheet: kiriSheet, settings: *const kiriSheetSettings) -> kiriResult;
-    /// A rectangle from (0, 0) to (width, height) for a sheet def: writes 2 \* (columns + 1) \*
-    /// (rows + 1) floats and 6 \* columns \* rows indices. columns and rows are 1 to 4096.
+    /// Fills in a rectangle from (0, 0) to (width, height) for a sheet def: writes 2 \* (columns +
+    /// 1) \* (rows + 1) floats and 6 \* columns \* rows indices. columns and rows are 1 to 4096.
     pub fn kiriFillRectangle(width: f32, height: f32, columns: i32, rows: i32, restPositions: *mut f32, indices: *mut i32) -> kiriResult;
-    /// The arrays, without a copy.
+    /// Gets the arrays, without a copy.
     pub fn kiriSheet_GetMesh(world: *const kiriWorld, sheet: kiriSheet, mesh: *mut kiriMesh) -> kiriResult;
-    /// What changed since the host saw that revision; all of the mesh where that is too long ago,
-    /// or 0.
+    /// Gets the changes since a revision; the whole mesh if the revision is too old, or 0.
     pub fn kiriSheet_GetDirty(world: *const kiriWorld, sheet: kiriSheet, sinceRevision: u32, dirty: *mut kiriDirty) -> kiriResult;
-    /// Copies positions and normals of some vertices, 3 floats each, to where the host wants them;
-    /// strides in bytes, 12 or more. Null: without these. KIRI_ERROR_STATE: normals of a sheet that
-    /// makes none.
+    /// Copies positions and normals of some vertices, 3 floats each; strides in bytes, 12 or more.
+    /// Null: does not copy these. KIRI_ERROR_STATE: the sheet makes no normals.
     pub fn kiriSheet_CopyVertices(world: *const kiriWorld, sheet: kiriSheet, first: i32, count: i32, positions: *mut c_void, positionStride: i32, normals: *mut c_void, normalStride: i32) -> kiriResult;
-    /// Copies the index that some vertices had when the last call of kiriWorld_Tick began, for
-    /// hosts that draw between two ticks. \*from: the sheet that had them then, which is another
-    /// one if this sheet was a piece of it. A vertex that a cut tore off another one gets the index
-    /// of the other. -1: the vertex did not exist; so all vertices of a sheet that was created or
-    /// loaded since. The manual has the code (drawing).
+    /// Copies the index that each vertex had when the last call of kiriWorld_Tick began, for hosts
+    /// that draw between two ticks. \*from: the sheet that had the vertices then; another sheet if
+    /// this one was a piece of it. A vertex that a cut separated from another gets the index of the
+    /// other. -1: the vertex did not exist, as in a sheet that was created or loaded since. The
+    /// manual has the code (drawing).
     pub fn kiriSheet_CopyPrevious(world: *const kiriWorld, sheet: kiriSheet, first: i32, count: i32, vertices: *mut i32, from: *mut kiriSheet) -> kiriResult;
-    /// Copies the indices of some triangles, 3 each, as 16-bit numbers. KIRI_ERROR_STATE: there are
-    /// more than 65535 vertices.
+    /// Copies indices of some triangles as 16-bit numbers, 3 each. KIRI_ERROR_STATE: there are more
+    /// than 65535 vertices.
     pub fn kiriSheet_CopyIndices16(world: *const kiriWorld, sheet: kiriSheet, firstTriangle: i32, count: i32, indices: *mut u16) -> kiriResult;
-    /// Map triangles to the def, to draw with data that the host keeps by its own vertices.
-    /// Sources: the triangle of the def that contains each; -1 for one that has left (its corners
-    /// are equal). Weights: 9 floats each, the barycentric coordinates of its three corners in that
-    /// triangle. They are right on both sides of a seam that weldDistance has closed;
-    /// sourceTriangles name a triangle on one side. The manual has the code (meshes).
+    /// Map triangles to the def, to draw with the host's data for its own vertices. Sources: the
+    /// triangle of the def that contains each; -1 for a triangle that was removed (its corners are
+    /// equal). Weights: 9 floats each, the barycentric coordinates of its three corners in that
+    /// triangle. They are correct on both sides of a seam that weldDistance closed; sourceTriangles
+    /// name a triangle on one side. The manual has the code (meshes).
     pub fn kiriSheet_CopySources(world: *const kiriWorld, sheet: kiriSheet, firstTriangle: i32, count: i32, sources: *mut i32) -> kiriResult;
-    /// Map triangles to the def, to draw with data that the host keeps by its own vertices.
-    /// Sources: the triangle of the def that contains each; -1 for one that has left (its corners
-    /// are equal). Weights: 9 floats each, the barycentric coordinates of its three corners in that
-    /// triangle. They are right on both sides of a seam that weldDistance has closed;
-    /// sourceTriangles name a triangle on one side. The manual has the code (meshes).
+    /// Map triangles to the def, to draw with the host's data for its own vertices. Sources: the
+    /// triangle of the def that contains each; -1 for a triangle that was removed (its corners are
+    /// equal). Weights: 9 floats each, the barycentric coordinates of its three corners in that
+    /// triangle. They are correct on both sides of a seam that weldDistance closed; sourceTriangles
+    /// name a triangle on one side. The manual has the code (meshes).
     pub fn kiriSheet_CopySourceWeights(world: *const kiriWorld, sheet: kiriSheet, firstTriangle: i32, count: i32, weights: *mut f32) -> kiriResult;
-    /// thickness: m, 0: that of the material. Made when it is asked for.
+    /// Makes the solid surface. thickness: m, 0: the material's thickness.
     pub fn kiriSheet_GetSolid(world: *mut kiriWorld, sheet: kiriSheet, thickness: f32, solid: *mut kiriSolid) -> kiriResult;
-    /// Collision points: 3 floats of position (m, world) a point.
+    /// Gets the collision points: 3 floats of position (m, world) a point.
     pub fn kiriSheet_GetCollisionPoints(world: *const kiriWorld, sheet: kiriSheet, positions: *mut *const f32, count: *mut i32) -> kiriResult;
-    /// Costs nothing.
+    /// Gets the counts, at no cost.
     pub fn kiriSheet_GetCounts(world: *const kiriWorld, sheet: kiriSheet, counts: *mut kiriCounts) -> kiriResult;
-    /// Sums over the frames, made when they are asked for.
+    /// Sums the totals over the frames.
     pub fn kiriSheet_GetTotals(world: *const kiriWorld, sheet: kiriSheet, totals: *mut kiriTotals) -> kiriResult;
-    /// An estimate of the error of the sheet's shape as it is now, where it rests or moves slowly:
-    /// rms distance from where a sheet of very many frames would be under the same loads, over the
-    /// rms way that it has gone from its flat shape; 0 to 1, and 1 where there are too few frames
-    /// to tell. It compares the strains of neighbouring links (KIRI_MODEL_LINKS only; else
-    /// KIRI_ERROR_STATE). Measured on cantilevers and on a sheet with a slit, of 3 to 140 frames,
-    /// it is not below a third of the error, and not above four times the error or, where that is
-    /// below 0.5 %, 1.5 %. Where a sheet also turned as a whole, as by hanging from two corners, it
-    /// says up to ten times too much. It knows nothing of errors of the grid, of time stepping, and
-    /// of loads that are finer than frames. It takes memory and time for one pass over the links,
-    /// when it is called.
+    /// Estimates the error of the current shape of a sheet that rests or moves slowly: rms distance
+    /// from a sheet of very many frames under the same loads, over its rms way from the flat shape;
+    /// 0 to 1, and 1 with too few frames to tell. It compares strains of neighbouring links
+    /// (KIRI_MODEL_LINKS only; else KIRI_ERROR_STATE), in one pass that allocates memory. The
+    /// manual says how good it is (accuracy).
     pub fn kiriSheet_EstimateError(world: *const kiriWorld, sheet: kiriSheet, relative: *mut f64) -> kiriResult;
-    /// \*awake is 0 where all pieces of the sheet sleep, see sleepSpeed; kiriPieceState says which
-    /// do. kiriSheet_Wake wakes all of them.
+    /// Read and end sleep: \*awake is 0 where all pieces sleep (kiriPieceState tells which);
+    /// kiriSheet_Wake wakes all.
     pub fn kiriSheet_IsAwake(world: *const kiriWorld, sheet: kiriSheet, awake: *mut i32) -> kiriResult;
-    /// \*awake is 0 where all pieces of the sheet sleep, see sleepSpeed; kiriPieceState says which
-    /// do. kiriSheet_Wake wakes all of them.
+    /// Read and end sleep: \*awake is 0 where all pieces sleep (kiriPieceState tells which);
+    /// kiriSheet_Wake wakes all.
     pub fn kiriSheet_Wake(world: *mut kiriWorld, sheet: kiriSheet) -> kiriResult;
-    /// Every point x (m, world) of the sheet goes to R x + t at once, and is seen there; velocities
-    /// turn. The columns of \`rotation\` are where R takes the axes of the world; a planar sheet
-    /// turns about its normal only. It wakes. Targets of its pins, hinges, clamps and holds go
-    /// along, so nothing draws it back. To set a target to its current value changes nothing. A
-    /// target that the host has set nearer to the new place of the pin than to the old one stays:
-    /// so the host may set targets before or after. Pins on an obstacle stay on it: put the
-    /// obstacle elsewhere by the same motion (kiriObstacle_SetPose), before or after. Loads and
-    /// contacts that wait for the next tick stay.
+    /// Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and
+    /// the sheet wakes. The columns of \`rotation\` are the images of the world's axes; a planar
+    /// sheet turns about its normal only. Targets of pins, hinges, clamps and holds move along, so
+    /// nothing pulls the sheet back. A target that the host set nearer to the pin's new place than
+    /// to its old one stays: the host may set targets before or after. Pins on an obstacle stay on
+    /// it: move the obstacle by the same motion (kiriObstacle_SetPose), before or after. Pending
+    /// loads and contacts stay.
     pub fn kiriSheet_Transform(world: *mut kiriWorld, sheet: kiriSheet, rotation: *const f32, translation: *const f32) -> kiriResult;
-    /// From now on it moves as a rigid body, until forces change that: \`velocity\` (m/s) of its
-    /// centre of mass, and \`angularVelocity\` (rad/s) about it. What a planar sheet has across its
-    /// plane is dropped; held frames follow their hold. kiriFrame_SetPieceVelocity: of the piece
-    /// with that frame alone.
+    /// Set rigid motion of a sheet, or of the piece with a frame, until forces change it:
+    /// \`velocity\` (m/s) of its centre of mass, and \`angularVelocity\` (rad/s) about it. Planar
+    /// sheets drop motion across their plane; held frames stay held.
     pub fn kiriSheet_SetVelocity(world: *mut kiriWorld, sheet: kiriSheet, velocity: *const f32, angularVelocity: *const f32) -> kiriResult;
-    /// From now on it moves as a rigid body, until forces change that: \`velocity\` (m/s) of its
-    /// centre of mass, and \`angularVelocity\` (rad/s) about it. What a planar sheet has across its
-    /// plane is dropped; held frames follow their hold. kiriFrame_SetPieceVelocity: of the piece
-    /// with that frame alone.
+    /// Set rigid motion of a sheet, or of the piece with a frame, until forces change it:
+    /// \`velocity\` (m/s) of its centre of mass, and \`angularVelocity\` (rad/s) about it. Planar
+    /// sheets drop motion across their plane; held frames stay held.
     pub fn kiriFrame_SetPieceVelocity(world: *mut kiriWorld, frame: kiriFrame, velocity: *const f32, angularVelocity: *const f32) -> kiriResult;
-    /// A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A
-    /// sheet that kiriFrame_DetachPiece makes has that of the sheet it came from. A piece has one,
-    /// named by any of its frames: the parts of a piece that is cut have that of the piece, as does
-    /// a sheet that is made of it.
+    /// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
+    /// kiriFrame_DetachPiece copies the sheet's number to the new sheet. A piece has a number, too,
+    /// named by any of its frames: the parts of a piece that is cut inherit it, and so does a sheet
+    /// that is made of it.
     pub fn kiriSheet_SetUserData(world: *mut kiriWorld, sheet: kiriSheet, data: u64) -> kiriResult;
-    /// A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A
-    /// sheet that kiriFrame_DetachPiece makes has that of the sheet it came from. A piece has one,
-    /// named by any of its frames: the parts of a piece that is cut have that of the piece, as does
-    /// a sheet that is made of it.
+    /// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
+    /// kiriFrame_DetachPiece copies the sheet's number to the new sheet. A piece has a number, too,
+    /// named by any of its frames: the parts of a piece that is cut inherit it, and so does a sheet
+    /// that is made of it.
     pub fn kiriSheet_GetUserData(world: *const kiriWorld, sheet: kiriSheet, data: *mut u64) -> kiriResult;
-    /// A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A
-    /// sheet that kiriFrame_DetachPiece makes has that of the sheet it came from. A piece has one,
-    /// named by any of its frames: the parts of a piece that is cut have that of the piece, as does
-    /// a sheet that is made of it.
+    /// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
+    /// kiriFrame_DetachPiece copies the sheet's number to the new sheet. A piece has a number, too,
+    /// named by any of its frames: the parts of a piece that is cut inherit it, and so does a sheet
+    /// that is made of it.
     pub fn kiriPin_SetUserData(world: *mut kiriWorld, pin: kiriPin, data: u64) -> kiriResult;
-    /// A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A
-    /// sheet that kiriFrame_DetachPiece makes has that of the sheet it came from. A piece has one,
-    /// named by any of its frames: the parts of a piece that is cut have that of the piece, as does
-    /// a sheet that is made of it.
+    /// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
+    /// kiriFrame_DetachPiece copies the sheet's number to the new sheet. A piece has a number, too,
+    /// named by any of its frames: the parts of a piece that is cut inherit it, and so does a sheet
+    /// that is made of it.
     pub fn kiriPin_GetUserData(world: *const kiriWorld, pin: kiriPin, data: *mut u64) -> kiriResult;
-    /// A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A
-    /// sheet that kiriFrame_DetachPiece makes has that of the sheet it came from. A piece has one,
-    /// named by any of its frames: the parts of a piece that is cut have that of the piece, as does
-    /// a sheet that is made of it.
+    /// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
+    /// kiriFrame_DetachPiece copies the sheet's number to the new sheet. A piece has a number, too,
+    /// named by any of its frames: the parts of a piece that is cut inherit it, and so does a sheet
+    /// that is made of it.
     pub fn kiriFrame_SetPieceUserData(world: *mut kiriWorld, frame: kiriFrame, data: u64) -> kiriResult;
-    /// A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A
-    /// sheet that kiriFrame_DetachPiece makes has that of the sheet it came from. A piece has one,
-    /// named by any of its frames: the parts of a piece that is cut have that of the piece, as does
-    /// a sheet that is made of it.
+    /// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
+    /// kiriFrame_DetachPiece copies the sheet's number to the new sheet. A piece has a number, too,
+    /// named by any of its frames: the parts of a piece that is cut inherit it, and so does a sheet
+    /// that is made of it.
     pub fn kiriFrame_GetPieceUserData(world: *const kiriWorld, frame: kiriFrame, data: *mut u64) -> kiriResult;
-    /// Where a ray first meets the sheet, up to maxDistance. KIRI_OK with hit-\>triangle = -1:
-    /// nowhere. The first ray looks at every triangle; the next tick makes boxes over them, and as
-    /// long as somebody asks every now and then (in 120 ticks) they follow the sheet: a ray takes
-    /// some microseconds, and a tick of a large sheet a quarter more.
+    /// Finds where a ray first meets the sheet, up to maxDistance. KIRI_OK with hit-\>triangle =
+    /// -1: it does not. The first ray visits every triangle. From the next tick on boxes over the
+    /// triangles follow the sheet, until 120 ticks pass without a ray: a ray takes some
+    /// microseconds, and a tick of a large sheet a quarter more.
     pub fn kiriSheet_Raycast(world: *const kiriWorld, sheet: kiriSheet, origin: *const f32, direction: *const f32, maxDistance: f32, hit: *mut kiriHit) -> kiriResult;
-    /// The first sheet that a ray meets; \*sheet is 0 where there is none.
+    /// Finds the first sheet that a ray meets; \*sheet is 0 where there is none.
     pub fn kiriWorld_Raycast(world: *const kiriWorld, origin: *const f32, direction: *const f32, maxDistance: f32, sheet: *mut kiriSheet, hit: *mut kiriHit) -> kiriResult;
-    /// Outside the sheet: KIRI_ERROR_ARGUMENT. On a cut, the lip that holds the point; either where
-    /// both do.
+    /// Gets the state of a point. KIRI_ERROR_ARGUMENT: it is outside the sheet. On a cut: on a lip
+    /// that has the point.
     pub fn kiriSheet_GetPoint(world: *const kiriWorld, sheet: kiriSheet, restPoint: *const f32, state: *mut kiriPointState) -> kiriResult;
-    /// The shape functions at a rest point: up to \`capacity\` frames with their weights (sum 1)
-    /// and, unless null, gradients (2 floats a frame, 1/m). \*count is how many there are, however
-    /// many fit. Outside the sheet: KIRI_ERROR_ARGUMENT; while work on a cut waits for its budget:
-    /// KIRI_ERROR_STATE.
+    /// Gets the shape functions at a rest point: up to \`capacity\` frames with their weights (sum
+    /// 1) and, unless null, gradients (2 floats a frame, 1/m). \*count is how many there are, also
+    /// above capacity. KIRI_ERROR_ARGUMENT: it is outside the sheet. KIRI_ERROR_STATE: work on a
+    /// cut is pending.
     pub fn kiriSheet_GetWeights(world: *const kiriWorld, sheet: kiriSheet, restPoint: *const f32, frames: *mut kiriFrame, weights: *mut f32, gradients: *mut f32, capacity: i32, count: *mut i32) -> kiriResult;
-    /// The first of these calls after a cut sorts the sheet by pieces, which may fail with
-    /// KIRI_ERROR_MEMORY. An index that is no piece's: KIRI_ERROR_ARGUMENT.
+    /// Get a piece. The first of these calls after a cut sorts the sheet by pieces, and may fail
+    /// with KIRI_ERROR_MEMORY. KIRI_ERROR_ARGUMENT: no piece has the index.
     pub fn kiriSheet_GetPiece(world: *mut kiriWorld, sheet: kiriSheet, piece: i32, state: *mut kiriPieceState) -> kiriResult;
-    /// The first of these calls after a cut sorts the sheet by pieces, which may fail with
-    /// KIRI_ERROR_MEMORY. An index that is no piece's: KIRI_ERROR_ARGUMENT.
+    /// Get a piece. The first of these calls after a cut sorts the sheet by pieces, and may fail
+    /// with KIRI_ERROR_MEMORY. KIRI_ERROR_ARGUMENT: no piece has the index.
     pub fn kiriSheet_GetPieceMesh(world: *mut kiriWorld, sheet: kiriSheet, piece: i32, mesh: *mut kiriPieceMesh) -> kiriResult;
-    /// \*frames points to \*count ids.
+    /// Gets the frames of a piece: \*frames points to \*count ids.
     pub fn kiriSheet_GetPieceFrames(world: *mut kiriWorld, sheet: kiriSheet, piece: i32, frames: *mut *const kiriFrame, count: *mut i32) -> kiriResult;
-    /// The index that the piece with this frame has now.
+    /// Gets the current index of the piece with this frame.
     pub fn kiriFrame_GetPiece(world: *const kiriWorld, frame: kiriFrame, piece: *mut i32) -> kiriResult;
-    /// Makes a sheet of the piece with this frame. Its frames, pins and collision points move
-    /// along, in their order; they keep their ids and states, and what waits for the next tick: the
-    /// motion goes on as if nothing had happened, but for the solver's guard over energy and step
-    /// length, which is one for each sheet. A clamp or hinge that holds both becomes two: the rest
-    /// keeps the id, the new sheet's has one of its own (kiriSheet_GetPins). Both sheets have all
-    /// settings (of collisionPoints and integrationPoints the share that falls to their area),
-    /// maxFrames each for itself; a piece that sleeps goes on sleeping. Cuts stay with the rest: a
-    /// blade in the piece cuts nothing until it is back. Indices of collision points of the rest
-    /// change. Its triangles and vertices keep their indices where it has more than 4096 vertices,
-    /// and while no more than half of them are of pieces that went: these triangles have three
-    /// equal corners, these vertices are of no triangle. Else all move together, and their indices
-    /// change. In either case its revision grows, and kiriSheet_GetDirty says what changed. The new
-    /// sheet has the squares of the grid around it, at about 40 bytes a square: crumbs are better
-    /// dropped. Costs what the piece takes to make, and a look at the weights of what is left;
-    /// where indices change more. KIRI_PENDING: work on a cut is at hand in the sheet, or it takes
-    /// more samples than the budget leaves calls before the next tick; \*detached is 0. When the
-    /// work is done, what is the piece of this frame then becomes a sheet, and
-    /// KIRI_EVENT_PIECE_DETACHED names it. Samples pay for it before, over several ticks if need
-    /// be, of many pieces one after the other: of the first that waits 3 for each vertex, 2.5 to 9
-    /// for each cell (the more frames, the more) and 100 for each frame, of others 3 for each
-    /// vertex and 1.4 for each cell; and one for 80 vertices of the rest. Until then further cuts
-    /// of the sheet wait. The first piece is made as it is paid, and leaves at the start of the
-    /// tick after the last sample is paid. That tick does an eighth of the work; the first tick
-    /// after a load makes the parts again that saves leave out. The coming ticks have fewer samples
-    /// for the work of calls. KIRI_ERROR_STATE: nothing would be left of the sheet.
+    /// Makes a sheet of the piece with this frame. Frames, pins, collision points, pending loads
+    /// and contacts move along, with their ids and states, and the motion goes on. Both sheets have
+    /// all settings. Cuts stay with the old sheet. A clamp or hinge that holds both gets a copy
+    /// with a new id in the new sheet. Revisions grow; kiriSheet_GetDirty has the changes.
+    /// KIRI_PENDING: work on a cut is pending, or the piece takes more samples than the budget
+    /// leaves; \*detached is 0. Then samples of the coming ticks pay for it, and further cuts of
+    /// the sheet wait. When all is paid the piece of this frame becomes a sheet, and
+    /// KIRI_EVENT_PIECE_DETACHED names it. KIRI_ERROR_STATE: nothing would be left of the sheet.
+    /// The manual has indices and costs (cutting).
     pub fn kiriFrame_DetachPiece(world: *mut kiriWorld, frame: kiriFrame, detached: *mut kiriSheet) -> kiriResult;
-    /// The same without keeping the piece: ids of its frames and pins are stale. Costs as much, but
-    /// for making a sheet: that is done at once, and the coming ticks have less. Where
-    /// kiriSheet_GetMesh has been called since the last tick, all indices are copied. KIRI_PENDING:
-    /// work on a cut is at hand. The piece is gone all the same: its triangles are in kiriMesh,
-    /// with three equal corners; it touches nothing; no point of it is found. When the work is done
-    /// its vertices go, too; until then kiriCounts still counts it, and its kiriPieceState is all
-    /// zeros.
+    /// Removes the piece with this frame: ids of its frames and pins are stale. Takes effect at
+    /// once, and the coming ticks have fewer samples. KIRI_PENDING: work on a cut is pending. Until
+    /// it is done the triangles stay in kiriMesh with three equal corners, the vertices stay, and
+    /// kiriCounts counts the piece, with a kiriPieceState of all zeros.
     pub fn kiriFrame_DestroyPiece(world: *mut kiriWorld, frame: kiriFrame) -> kiriResult;
-    /// The same for the pieces of so many frames, of any sheets, in one pass for each sheet; frames
-    /// of one piece count once. Where one is refused, none goes. KIRI_PENDING: some wait, those of
-    /// one sheet together. detached\[i\] is the sheet that the piece of frames\[i\] has become, 0
-    /// where it waits.
+    /// Detach or remove the pieces of \`count\` frames, of any sheets, in one pass for each sheet;
+    /// frames of one piece count once. All are done or pending, or none if one is refused.
+    /// KIRI_PENDING: some are pending, all in a sheet together. detached\[i\] is the sheet made of
+    /// the piece of frames\[i\], 0 where it is pending.
     pub fn kiriWorld_DetachPieces(world: *mut kiriWorld, frames: *const kiriFrame, count: i32, detached: *mut kiriSheet) -> kiriResult;
-    /// The same for the pieces of so many frames, of any sheets, in one pass for each sheet; frames
-    /// of one piece count once. Where one is refused, none goes. KIRI_PENDING: some wait, those of
-    /// one sheet together. detached\[i\] is the sheet that the piece of frames\[i\] has become, 0
-    /// where it waits.
+    /// Detach or remove the pieces of \`count\` frames, of any sheets, in one pass for each sheet;
+    /// frames of one piece count once. All are done or pending, or none if one is refused.
+    /// KIRI_PENDING: some are pending, all in a sheet together. detached\[i\] is the sheet made of
+    /// the piece of frames\[i\], 0 where it is pending.
     pub fn kiriWorld_DestroyPieces(world: *mut kiriWorld, frames: *const kiriFrame, count: i32) -> kiriResult;
     /// Destroys all pieces below an area (m^2) except the largest piece, at the cost of one.
-    /// \*count is how many. Where that one waits to become a sheet, the largest of the others
-    /// stays, too.
+    /// \*count is their number. If the largest piece is pending to become a sheet, the largest of
+    /// the others stays, too.
     pub fn kiriSheet_DropCrumbs(world: *mut kiriWorld, sheet: kiriSheet, area: f32, count: *mut i32) -> kiriResult;
-    /// A cut is a polyline in the rest plane. Points may lie anywhere: what is outside the sheet
-    /// cuts nothing. Points wait until the next tick. The end of a cut that lies inside the sheet
-    /// stays closed until the blade moves on.
+    /// Begins a cut: a polyline in the rest plane. Outside the sheet it cuts nothing. Points take
+    /// effect with the next tick or, by the budget, a later one. The end of a cut inside the sheet
+    /// stays closed until the next point.
     pub fn kiriBeginCut(world: *mut kiriWorld, sheet: kiriSheet, restPoint: *const f32, cut: *mut kiriCut) -> kiriResult;
-    /// restPoints: 2 floats a point; count is 1 to 2^24.
+    /// Adds points. restPoints: 2 floats a point; count is 1 to 2^24.
     pub fn kiriCut_Extend(world: *mut kiriWorld, cut: kiriCut, restPoints: *const f32, count: i32) -> kiriResult;
-    /// No more points come. After the tick in which the last of them takes effect the id is stale,
-    /// and KIRI_EVENT_CUT_FINISHED tells. Frames that the sheet needs after the cut are added then.
+    /// Ends the cut. Its id is stale after the tick in which its last point takes effect
+    /// (KIRI_EVENT_CUT_FINISHED). The sheet then adds the frames that it needs.
     pub fn kiriCut_End(world: *mut kiriWorld, cut: kiriCut) -> kiriResult;
-    /// A blade (a straight edge) that moves in world space from blade\[0\]-blade\[1\] to
-    /// blade\[3\]-blade\[2\] cuts where the swept quadrilateral meets the sheet as it is now, past
-    /// borders, so that it parts what it crosses. The cut is ended already. Slices of a sheet that
-    /// moves do not join from tick to tick: for that take a blade.
+    /// Cuts where the quadrilateral swept by an edge in world space, from blade\[0\]-blade\[1\] to
+    /// blade\[3\]-blade\[2\], meets the current sheet; past borders, so that it separates the parts
+    /// that it crosses. The cut is already ended. Slices of a moving sheet do not join from tick to
+    /// tick: use a blade for that.
     pub fn kiriSheet_Slice(world: *mut kiriWorld, sheet: kiriSheet, blade: *const f32, cut: *mut kiriCut) -> kiriResult;
     /// sheet 0: it cuts all sheets, also those that are made later and pieces that get a sheet of
     /// their own. A blade for one sheet whose sheet is gone cuts nothing.
@@ -1423,126 +1319,117 @@ unsafe extern "C" {
     pub fn kiriBlade_End(world: *mut kiriWorld, blade: kiriBlade) -> kiriResult;
     /// Writes up to \`capacity\` ids of the sheet's frames; \*count is how many there are.
     pub fn kiriSheet_GetFrames(world: *const kiriWorld, sheet: kiriSheet, frames: *mut kiriFrame, capacity: i32, count: *mut i32) -> kiriResult;
-    /// Pose, motion and region as they are now.
+    /// Gets the current state.
     pub fn kiriFrame_GetState(world: *const kiriWorld, frame: kiriFrame, state: *mut kiriFrameState) -> kiriResult;
-    /// The host moves the frame: its rest point, as it is seen, goes to \`position\` with
-    /// \`rotation\` (a rotation matrix, columns as above) in the next tick, evenly, and stays there
-    /// until the next call. An affine frame is not stretched then. On a planar sheet the rotation
-    /// is about its normal. Null, null: it is free again. Contacts do not push material that held
-    /// frames carry for more than half: it goes where the host has it, through obstacles too.
+    /// Holds the frame: its rest point on the visible surface moves evenly to \`position\` (m,
+    /// world) with \`rotation\` (a rotation matrix, columns as above) in the next tick, and stays
+    /// there until the next call. A held affine frame is not stretched. On a planar sheet the
+    /// rotation is about its normal. Null, null: frees it. Contacts do not push material of which
+    /// held frames carry more than half: it moves through obstacles.
     pub fn kiriFrame_Hold(world: *mut kiriWorld, frame: kiriFrame, position: *const f32, rotation: *const f32) -> kiriResult;
-    /// With what the host's hold acted on the sheet: force (N, world) and torque (N m) about the
-    /// frame's rest point; means over the last tick, impulses divided by its dt. They carry the
-    /// frame's own weight and change its momentum, too. Zero for a frame that was free. A piece
-    /// that sleeps keeps those that it fell asleep with.
+    /// Gets the force (N, world) and torque (N m, about the frame's rest point) that the hold
+    /// applied to the sheet: means over the last tick, impulses divided by its dt. They include the
+    /// frame's own weight and change of momentum. Zero for a free frame. A sleeping piece keeps the
+    /// values with which it fell asleep.
     pub fn kiriFrame_GetReaction(world: *const kiriWorld, frame: kiriFrame, force: *mut f64, torque: *mut f64) -> kiriResult;
-    /// A force (N, world) on the frame's centre of mass and a torque (N m).
+    /// Applies a force (N, world) at the frame's centre of mass and a torque (N m).
     pub fn kiriFrame_ApplyForce(world: *mut kiriWorld, frame: kiriFrame, force: *const f32, torque: *const f32) -> kiriResult;
-    /// A force (N, world) on a point of the material and a torque (N m).
+    /// Applies a force (N, world) at a point of the material and a torque (N m).
     pub fn kiriSheet_ApplyForce(world: *mut kiriWorld, sheet: kiriSheet, restPoint: *const f32, force: *const f32, torque: *const f32) -> kiriResult;
-    /// A force (N, world) on each metre of a straight line of the rest plane, as far as it lies in
-    /// the material, edges included. Where it runs along a cut, each lip gets half. The ends
-    /// differ; a line that meets no material: KIRI_ERROR_ARGUMENT.
+    /// Applies a force (N/m, world) along a straight line of the rest plane where it lies in the
+    /// material, edges included. Along a cut each lip gets half. The ends differ.
+    /// KIRI_ERROR_ARGUMENT: the line meets no material.
     pub fn kiriSheet_ApplyLineLoad(world: *mut kiriWorld, sheet: kiriSheet, from: *const f32, to: *const f32, forcePerLength: *const f32) -> kiriResult;
-    /// A pressure (Pa) that pushes the whole sheet along its normal, or against it where below 0.
+    /// Applies a pressure (Pa) to the whole sheet along its normal; below 0: against it.
     pub fn kiriSheet_ApplyPressure(world: *mut kiriWorld, sheet: kiriSheet, pressure: f32) -> kiriResult;
-    /// An impulse (N s, world) on a point of the material, where it is seen now. Velocities change
-    /// at once, by as much as the frames that carry the point resist; a held frame's part is lost.
-    /// Outside the sheet: KIRI_ERROR_ARGUMENT.
+    /// Applies an impulse (N s, world) at a point of the material on the visible surface.
+    /// Velocities change at once, by the mass of the frames that carry the point; a held frame's
+    /// share is lost. KIRI_ERROR_ARGUMENT: it is outside the sheet.
     pub fn kiriSheet_ApplyImpulse(world: *mut kiriWorld, sheet: kiriSheet, restPoint: *const f32, impulse: *const f32) -> kiriResult;
-    /// Copied; it blows until the next call.
+    /// Copies the wind; it blows until the next call.
     pub fn kiriSheet_SetWind(world: *mut kiriWorld, sheet: kiriSheet, wind: *const kiriWind) -> kiriResult;
     /// Fills the def with its defaults, and stamps it.
     pub fn kiriDefaultPinDef(def: *mut kiriPinDef);
-    /// Pins a point of the sheet. On failure \*pin is 0. A point outside the sheet:
-    /// KIRI_ERROR_ARGUMENT.
+    /// Pins a point of the sheet. On failure \*pin is 0. KIRI_ERROR_ARGUMENT: it is outside the
+    /// sheet.
     pub fn kiriCreatePin(world: *mut kiriWorld, sheet: kiriSheet, def: *const kiriPinDef, pin: *mut kiriPin) -> kiriResult;
-    /// Pins along a straight line of the rest plane, an edge of the sheet or any other. A clamp
-    /// holds place and direction of the material there, as a vice does; a hinge its place only, so
-    /// that the sheet may turn about the line. Both begin where the material is now; the line stays
-    /// straight, and as long as it is at rest: so material that is bent there is pulled straight,
-    /// and pieces that have come apart are pulled together, however fast that makes them.
-    ///
-    /// They hold what the line meets, edges included, with the stiffness that the material has
-    /// between the line and the frames that it meets. So a clamp along an edge is where the drawing
-    /// has it, whatever the number of frames, where kiriFrame_Hold clamps at a frame's site. A
-    /// clamp through the sheet parts what is on its two sides, so that neither bends the other. A
-    /// line that runs along a cut holds both lips; one beside it, by a 512th of a square of the
-    /// grid or more, holds one. The ends differ; a line that meets no material:
-    /// KIRI_ERROR_ARGUMENT.
+    /// Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds
+    /// the place and direction of its material, as a vice does; a hinge only the place, so the
+    /// sheet can turn about the line. The line is straight, with its rest length: bent material is
+    /// pulled straight, and separate pieces are pulled together, at any speed. Both hold the
+    /// material on the line, edges included, with its stiffness from the line to the frames around
+    /// it. A clamp through the sheet separates the bending of its two sides. A line along a cut
+    /// holds both lips; a line beside it, by a 512th of a grid square or more, holds one. The ends
+    /// differ. KIRI_ERROR_ARGUMENT: the line meets no material.
     pub fn kiriSheet_ClampLine(world: *mut kiriWorld, sheet: kiriSheet, from: *const f32, to: *const f32, clamp: *mut kiriPin) -> kiriResult;
-    /// Pins along a straight line of the rest plane, an edge of the sheet or any other. A clamp
-    /// holds place and direction of the material there, as a vice does; a hinge its place only, so
-    /// that the sheet may turn about the line. Both begin where the material is now; the line stays
-    /// straight, and as long as it is at rest: so material that is bent there is pulled straight,
-    /// and pieces that have come apart are pulled together, however fast that makes them.
-    ///
-    /// They hold what the line meets, edges included, with the stiffness that the material has
-    /// between the line and the frames that it meets. So a clamp along an edge is where the drawing
-    /// has it, whatever the number of frames, where kiriFrame_Hold clamps at a frame's site. A
-    /// clamp through the sheet parts what is on its two sides, so that neither bends the other. A
-    /// line that runs along a cut holds both lips; one beside it, by a 512th of a square of the
-    /// grid or more, holds one. The ends differ; a line that meets no material:
-    /// KIRI_ERROR_ARGUMENT.
+    /// Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds
+    /// the place and direction of its material, as a vice does; a hinge only the place, so the
+    /// sheet can turn about the line. The line is straight, with its rest length: bent material is
+    /// pulled straight, and separate pieces are pulled together, at any speed. Both hold the
+    /// material on the line, edges included, with its stiffness from the line to the frames around
+    /// it. A clamp through the sheet separates the bending of its two sides. A line along a cut
+    /// holds both lips; a line beside it, by a 512th of a grid square or more, holds one. The ends
+    /// differ. KIRI_ERROR_ARGUMENT: the line meets no material.
     pub fn kiriSheet_HingeLine(world: *mut kiriWorld, sheet: kiriSheet, from: *const f32, to: *const f32, hinge: *mut kiriPin) -> kiriResult;
-    /// Where the pin holds its point, or the middle of its line (m, world): at the end of the next
-    /// tick, and until the next call. Within the tick it goes there evenly. The current target of
-    /// kiriPin_GetState changes nothing. With KIRI_SKINNING_SMOOTH what pins and clamps hold is
-    /// what is seen there; of a clamp the mean along its line, for each piece: single points of the
-    /// line are seen a little off it.
+    /// Sets the target of the pin's point, or of the middle of its line (m, world), for the end of
+    /// the next tick and until the next call. The pin moves there evenly within the tick. The
+    /// current target of kiriPin_GetState changes nothing. With KIRI_SKINNING_SMOOTH pins and
+    /// clamps hold the visible surface; a clamp holds its mean along the line for each piece, so
+    /// single points are slightly off the line.
     pub fn kiriPin_SetTarget(world: *mut kiriWorld, pin: kiriPin, target: *const f32) -> kiriResult;
-    /// The same with the rotation of the line's material: columns are the directions of u and v and
-    /// the normal. On a planar sheet it is about the sheet's normal. KIRI_ERROR_ARGUMENT for a pin
-    /// that holds a point.
+    /// Sets the target and the rotation of the line's material: columns are the directions of u and
+    /// v and the normal. On a planar sheet it is about the sheet's normal. KIRI_ERROR_ARGUMENT: the
+    /// pin holds a point.
     pub fn kiriPin_SetPose(world: *mut kiriWorld, pin: kiriPin, target: *const f32, rotation: *const f32) -> kiriResult;
-    /// As in the def, for pins of all types; N, 0: it never breaks.
+    /// Sets the force (N) that breaks a pin of any type; 0: it never breaks.
     pub fn kiriPin_SetBreakForce(world: *mut kiriWorld, pin: kiriPin, breakForce: f32) -> kiriResult;
-    /// What it is, and where it holds now.
+    /// Gets the current state.
     pub fn kiriPin_GetState(world: *const kiriWorld, pin: kiriPin, state: *mut kiriPinState) -> kiriResult;
-    /// With what the pin acted on the sheet: force (N, world) and torque (N m) about its target;
-    /// means over the last tick, impulses divided by its dt. So the reactions of all pins and held
-    /// frames are the weight of a sheet at rest, and in motion what changes its momentum (as far as
-    /// \`iterations\` have the tick solved). Zero before the first tick. A piece that sleeps keeps
-    /// those that it fell asleep with.
+    /// Gets the force (N, world) and torque (N m, about the target) that the pin applied to the
+    /// sheet: means over the last tick, impulses divided by its dt. The reactions of all pins and
+    /// held frames are the weight of a sheet at rest, and change its momentum in motion (as far as
+    /// \`iterations\` solve the tick). Zero before the first tick. A sleeping piece keeps the
+    /// values with which it fell asleep.
     pub fn kiriPin_GetReaction(world: *const kiriWorld, pin: kiriPin, force: *mut f64, torque: *mut f64) -> kiriResult;
     /// Writes up to \`capacity\` ids of the sheet's pins, of all types; \*count is how many there
     /// are.
     pub fn kiriSheet_GetPins(world: *const kiriWorld, sheet: kiriSheet, pins: *mut kiriPin, capacity: i32, count: *mut i32) -> kiriResult;
-    /// It lets go; its id is stale.
+    /// Destroys the pin; its id is stale.
     pub fn kiriDestroyPin(world: *mut kiriWorld, pin: kiriPin) -> kiriResult;
-    /// The contacts of the next tick; they replace those of an earlier call, and are gone after the
-    /// tick. A contact is known again by its point, or its rest point, and its obstacle: what it
-    /// pushed with is where the next tick starts.
+    /// Sets the contacts of the next tick; they replace those set before, and end with the tick. A
+    /// contact with the point, or rest point, and obstacle of an earlier one starts with the
+    /// earlier impulse.
     pub fn kiriSheet_SetContacts(world: *mut kiriWorld, sheet: kiriSheet, contacts: *const kiriContact, count: i32) -> kiriResult;
-    /// One for each contact that was set before the last tick, in the order given. The sum of the
-    /// impulses, with those of gravity, loads and obstacles, is the change of momentum of a piece
-    /// that nothing holds. A piece that sleeps goes on to press with what it fell asleep with.
+    /// Gets one result for each contact that was set before the last tick, in that order. The sum
+    /// of these impulses and of the impulses of gravity, loads and obstacles is the change of
+    /// momentum of a free piece. A sleeping piece goes on to press with the values with which it
+    /// fell asleep.
     pub fn kiriSheet_GetContactForces(world: *const kiriWorld, sheet: kiriSheet, forces: *mut *const kiriContactForce, count: *mut i32) -> kiriResult;
     /// Fills the def with its defaults, and stamps it.
     pub fn kiriDefaultObstacleDef(def: *mut kiriObstacleDef);
     /// Adds an obstacle. On failure \*obstacle is 0.
     pub fn kiriCreateObstacle(world: *mut kiriWorld, def: *const kiriObstacleDef, obstacle: *mut kiriObstacle) -> kiriResult;
-    /// It is gone, its id stale. What rested on it wakes.
+    /// Destroys an obstacle; its id is stale. Pieces that rested on it wake.
     pub fn kiriDestroyObstacle(world: *mut kiriWorld, obstacle: kiriObstacle) -> kiriResult;
-    /// Where it is when the next tick starts. It did not move there: velocities alone say what
-    /// sheets feel. rotation: a rotation matrix, columns as in the def.
+    /// Teleports the obstacle (m, world). Sheets react to its velocity (kiriObstacle_SetVelocity),
+    /// not to the jump.
     pub fn kiriObstacle_SetPose(world: *mut kiriWorld, obstacle: kiriObstacle, position: *const f32, rotation: *const f32) -> kiriResult;
-    /// With what it moves in the next tick and from then on.
+    /// Set the velocity (m/s, rad/s) for the next and all later ticks.
     pub fn kiriObstacle_SetVelocity(world: *mut kiriWorld, obstacle: kiriObstacle, velocity: *const f32, angularVelocity: *const f32) -> kiriResult;
-    /// With what it moves in the next tick and from then on.
+    /// Set the velocity (m/s, rad/s) for the next and all later ticks.
     pub fn kiriObstacle_SetSurfaceVelocity(world: *mut kiriWorld, obstacle: kiriObstacle, velocity: *const f32) -> kiriResult;
-    /// As in the def.
+    /// Sets mass (kg), inertia and centre of mass, as in the def.
     pub fn kiriObstacle_SetMass(world: *mut kiriWorld, obstacle: kiriObstacle, mass: f32, inertia: *const f32, centerOfMass: *const f32) -> kiriResult;
-    /// Pose and velocities as they are now.
+    /// Gets the current state.
     pub fn kiriObstacle_GetState(world: *const kiriWorld, obstacle: kiriObstacle, state: *mut kiriObstacleState) -> kiriResult;
-    /// The box (m, world) that holds all that the sheet may touch in a tick of dt: a host needs no
-    /// obstacles or contacts outside. It reaches as far around the sheet as its fastest point can
-    /// go by its velocity and gravity, twice, and the contact thickness. Obstacles that move
-    /// themselves come as much nearer. dt as in kiriWorld_Tick.
+    /// Gets a box (m, world) around all that the sheet can touch in a tick of dt (s, as in
+    /// kiriWorld_Tick): a host needs no obstacles or contacts outside. Its margin is twice the way
+    /// of the fastest point by velocity and gravity, plus the contact thickness. For moving
+    /// obstacles add their own way.
     pub fn kiriSheet_GetReach(world: *const kiriWorld, sheet: kiriSheet, dt: f32, lower: *mut f32, upper: *mut f32) -> kiriResult;
     /// Fills it with its defaults, and stamps it.
     pub fn kiriDefaultDebugDraw(draw: *mut kiriDebugDraw);
-    /// Draws the world as after the last tick, by the host's functions. Only reads the world, and
+    /// Draws the world as after the last tick, by functions of the host. Only reads the world, and
     /// takes no memory.
     pub fn kiriWorld_DebugDraw(world: *const kiriWorld, draw: *const kiriDebugDraw) -> kiriResult;
 }

@@ -142,12 +142,12 @@ impl Blade {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ResultCode {
     Ok = 0,
-    /// done, and work is left for later ticks
+    /// success; work is left for later ticks
     Pending = 1,
-    /// null pointer, NaN, infinite, or outside the documented range; or a sheet or obstacle would
-    /// be where floats end, or move that fast: 4e37 m, m/s or 1/s
+    /// null pointer, NaN, infinite, or outside the documented range; or a position, velocity or
+    /// turn of a sheet or obstacle would exceed 4e37 m, m/s or 1/s
     ErrorArgument = -1,
-    /// the def was not filled by its kiriDefault function, all zeros say: call that first
+    /// the def was not filled by its kiriDefault function: call that first
     ErrorDef = -2,
     /// unknown or stale id, or the id of another kind
     ErrorId = -3,
@@ -157,15 +157,15 @@ pub enum ResultCode {
     ErrorState = -5,
     /// the allocator returned null
     ErrorMemory = -6,
-    /// the motion of a sheet could not be continued; it was put to rest where it was
+    /// the motion of a sheet could not be continued; the sheet was stopped where it was
     Diverged = -7,
     /// all ids of a kind are used up: 4 194 304 at a time, 2^29 over the life of a world
     ErrorLimit = -8,
     /// floats are not computed as on other machines, see [`World::new`]
     ErrorBuild = -9,
-    /// bytes that are damaged, cut short, of something else, or of a later version
+    /// the bytes are damaged, cut short, of another kind, or of a later version
     ErrorData = -10,
-    /// a call that was made again gave something else than its recording has
+    /// a repeated call gave another result than its recording has
     ErrorReplay = -11,
 }
 
@@ -202,7 +202,7 @@ pub const LEAST_TRIANGLES: i32 = 16;
 
 pub const MOST_NOTE_BYTES: i32 = 1048576;
 
-/// What happened since the start of the last tick that was not refused.
+/// Events since the start of the last tick that was not refused.
 #[non_exhaustive]
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -213,13 +213,13 @@ pub enum EventType {
     PieceOff = 2,
     /// frame
     FrameAdded = 3,
-    /// the sheet was put to rest
+    /// the sheet was stopped
     Diverged = 4,
     /// stage, waiting: the budget ended in this stage of the sheet's work
     Deferred = 5,
-    /// pin: its force passed `break_force`; the id is stale from now on
+    /// pin: its force exceeded `break_force`; the id is stale from now on
     PinBroke = 6,
-    /// sheet (the new one), frame, area: what [`Frame::detach_piece`] left waiting is done
+    /// sheet (the new one), frame, area: a pending [`Frame::detach_piece`] is done
     PieceDetached = 7,
 }
 
@@ -251,19 +251,19 @@ impl EventType {
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Stage {
-    /// split the mesh along the blade
+    /// splits the mesh along the blade
     Cut = 0,
-    /// cells and what links them
+    /// cells and their connections
     Grid = 1,
-    /// geodesic distances, regions, links; placing of frames
+    /// geodesic distances, regions, links; places frames
     Regions = 2,
     /// shape functions
     Shape = 3,
     /// weights of vertices and collision points
     Samples = 4,
-    /// mass, the pattern of the solver's matrix, and when all is put in force
+    /// mass, the pattern of the solver's matrix, and the commit
     Constants = 5,
-    /// what touches obstacles, other sheets and other pieces
+    /// contacts with obstacles, other sheets and other pieces
     Contact = 6,
     /// the motion of the frames
     Solve = 7,
@@ -296,7 +296,7 @@ impl Stage {
     }
 }
 
-/// Materials to start from; src/world/kiri_preset.c says where their numbers come from.
+/// Materials to start from; src/world/kiri_preset.c names the sources of their numbers.
 #[non_exhaustive]
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -364,17 +364,16 @@ impl QualityPreset {
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Model {
-    /// Rigid frames joined by links: paper, foil, stiff cloth. 6 unknowns a frame, which its
-    /// neighbours couple.
+    /// Rigid frames joined by links: paper, foil, stiff cloth. 6 unknowns a frame, coupled with its
+    /// neighbours.
     Links = 0,
-    /// Affine frames joined by links: cloth and rubber, whose stretch inside a region is seen. 12
-    /// unknowns a frame, which neighbours of neighbours couple: a tick takes five to seven times as
-    /// long as with [`Model::Links`]. From 1e8 Pa or so on it needs more iterations, 8 say.
+    /// Affine frames joined by links: cloth and rubber that stretch visibly inside a region. 12
+    /// unknowns a frame, coupled with neighbours of neighbours: a tick takes five to seven times as
+    /// long. From 1e8 Pa on use 8 iterations.
     Affine = 1,
-    /// Affine frames, strains at integration points: the scheme of the paper, to compare with.
-    /// Weights that vary across a strip cannot bend it as a cylinder, however many points there
-    /// are: a clamped strip on 9 frames goes 3, 20, 51 and 70 % too short a way down where it is a
-    /// 10th, 20th, 50th and 400th of its length thick. 12 unknowns a frame.
+    /// Affine frames, strains at integration points: the scheme of the paper, for comparison. 12
+    /// unknowns a frame. The thinner the sheet, the less it bends; the manual has figures
+    /// (accuracy).
     Points = 2,
 }
 
@@ -397,9 +396,9 @@ impl Model {
     }
 }
 
-/// What is seen between the frames, and met by rays, blades, obstacles, other sheets, and contacts
-/// of rest points; pins, clamps and holds hold it. Where nothing touches or holds the sheet it does
-/// not change how that moves. Collision points stay on the linear surface.
+/// The surface between the frames. Rays, blades, obstacles, other sheets and contacts of rest
+/// points meet this surface; pins, clamps and holds hold it. Where nothing touches or holds the
+/// sheet, skinning does not change its motion. Collision points stay on the linear surface.
 #[non_exhaustive]
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -428,19 +427,17 @@ impl Skinning {
     }
 }
 
-/// How time is stepped. Both solve one linear system an iteration.
+/// Integration in time. Both solve one linear system an iteration.
 #[non_exhaustive]
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum TimeStepping {
-    /// TR-BDF2: trapezoid and BDF2 by turns, of second order. Motion lasts: of the energy of a
-    /// swinging strip of 9 frames 96 to 98 % is left after 10 s with 2 substeps a 60th of a second
-    /// and 1 iteration, 99.7 % with 4. Backward Euler takes its place in the steps in which a
-    /// contact touches a piece, a pin or hold is made, moved or removed, or a frame is new or turns
-    /// by more than a radian.
+    /// TR-BDF2: alternates trapezoid and BDF2, of second order. Keeps the energy of motion; the
+    /// manual has figures (accuracy). Backward Euler replaces it in steps in which a contact
+    /// touches a piece, a pin or hold is made, moved or removed, or a frame is new or turns by more
+    /// than a radian.
     SecondOrder = 0,
-    /// Backward Euler, of first order: takes energy out of all that swings, the more the longer the
-    /// step. Of that strip's 0.4 % is left.
+    /// Backward Euler, of first order: takes energy out of a swing, more in longer steps.
     Euler = 1,
 }
 
@@ -462,7 +459,7 @@ impl TimeStepping {
     }
 }
 
-/// What a pin holds.
+/// The types of pins.
 #[non_exhaustive]
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -491,13 +488,12 @@ impl PinType {
     }
 }
 
-/// A body that sheets touch: a floor, a ball, a crate of another engine. Kiri moves no obstacle by
-/// forces. An obstacle goes on with its velocities; a host that moves bodies by an engine of its
-/// own sets pose and velocities before each tick, and gives the impulse that [`Obstacle::state`]
-/// tells to that engine after it. Contacts follow its motion within the tick, and push no harder
-/// than its mass resists. Sheets stay half their `contact_thickness` away from it; that is what is
-/// seen of them, with smooth skinning too. A sheet that rests wakes where an obstacle near it
-/// comes, goes, or has moved by half a second of its `sleep_speed`. Lengths of shapes are up to 1e6
+/// A body that sheets touch: a floor, a ball, a crate of another engine. It moves on with its
+/// velocities; forces do not move it. A host with an engine sets pose and velocities before each
+/// tick, and applies the impulse of [`Obstacle::state`] to the engine's body after it. Contacts
+/// follow its motion within the tick, and push no harder than its mass resists. The visible surface
+/// of sheets stays half their `contact_thickness` away. A sleeping sheet wakes where an obstacle
+/// near it comes, goes, or has moved by half a second of its `sleep_speed`. Lengths are up to 1e6
 /// m.
 #[non_exhaustive]
 #[repr(i32)]
@@ -540,8 +536,8 @@ impl ObstacleType {
     }
 }
 
-// What is drawn.
-/// a triangle for each of the mesh, in a colour of its piece, pale where that sleeps
+// The things to draw.
+/// a triangle for each triangle of the mesh, in a colour of its piece; sleeping: pale
 pub const DRAW_TRIANGLES: u32 = 1;
 /// a line for each edge between two triangles
 pub const DRAW_EDGES: u32 = 2;
@@ -565,38 +561,25 @@ pub const DRAW_OBSTACLES: u32 = 512;
 pub const DRAW_POINTS: u32 = 1024;
 pub const DRAW_ALL: u32 = 2047;
 
-/// The most work that one tick may do, over all sheets. 0: no limit. Triangles, cells and samples
-/// share one allowance: using 30 % of one leaves 70 % of the others. So the work on cuts takes no
-/// longer than the costliest of the three limits alone. A single step that exceeds the whole limit
-/// is not split. It runs alone in its tick. Work that does not fit goes on in the next tick. Until
-/// a cut takes effect its lips move together. All points of a sheet that are pending when work on
-/// them begins take effect together, whatever ticks they were given before. So the tick in which a
-/// cut takes effect depends on the budget, too. Its result does not: when all work is done, mesh,
-/// grid, regions, weights and sites of frames equal, bit for bit, a run of the same calls without a
-/// budget. Motion differs. Sheets take turns. In every other tick the sheet whose points came first
-/// is served first, in the ticks between the sheet whose work has used least. Pieces that wait to
-/// be detached get half of every other tick. An example at 60 Hz, with 2 ms of work on cuts a tick
-/// (about 32 000 cells and 4000 samples): a cut from side to side of 64 x 64 squares with 9 frames
-/// parts 17 to 100 ms after the blade has left, one of 127 x 127 squares with 24 frames 67 to 200
-/// ms. A slow blade parts sooner, for its work is done on the way. tests/bench_swipe.c prints the
-/// table.
+/// Limits the work of one tick, over all sheets. 0: no limit. Triangles, cells and samples share
+/// one allowance: using 30 % of one leaves 70 % of the others. A single step that exceeds the whole
+/// limit is not split. It runs alone in its tick. Other work goes on in the next tick. Until a cut
+/// takes effect its lips move together. The tick of the effect depends on the budget. The mesh,
+/// grid, regions, weights and sites of frames after all work is done do not, bit for bit; motion
+/// differs. Sheets take turns. The manual has examples and the order of turns (budget).
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Budget {
     /// split by blades; 0, or KIRI_LEAST_TRIANGLES and more
     pub triangles: i32,
-    /// looked at, or given another distance: grid, regions, shape functions; a link counts as many
+    /// visited, or with a new distance: grid, regions, shape functions. A link counts as a cell
     pub cells: i32,
-    /// vertices and collision points with new weights; and what it takes to put all that is new in
-    /// force at once, which is paid before
+    /// vertices and collision points with new weights, and the cost of the commit, paid before it
     pub samples: i32,
-    /// work on linear systems, of 30 to 60 us each. A system counts 1, and 1 more for each 16
-    /// frames (5 of affine ones), for each 64 contacts, and for each 1280 products of blocks that
-    /// its factorisation takes: in a square of 24, 289, 1000, 5000 frames it is 2, 36, 184, 2411. A
-    /// sheet that gets fewer systems than its substeps takes longer ones. Where one system of all
-    /// its pieces is more than what is left, they take turns: some are moved, the others stay where
-    /// they are in this tick, with their velocity, and come first in the next; a sheet that gets
-    /// none stands still, too. A piece whose system is more than the whole limit is moved alone
+    /// linear systems, 30 to 60 us each. A large system counts as several, see the manual (budget).
+    /// A sheet with fewer systems than substeps takes longer substeps. Pieces that do not fit take
+    /// turns: the others stay where they are in this tick, with their velocity, and come first in
+    /// the next. A piece whose system exceeds the whole limit is moved alone
     pub iterations: i32,
 }
 
@@ -623,7 +606,7 @@ impl Budget {
     }
 }
 
-/// What the last tick did, and what it took.
+/// Work and time of the last tick.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Profile {
@@ -631,51 +614,47 @@ pub struct Profile {
     pub seconds: [f64; 9],
     /// blade segments that took effect
     pub cut_segments: i32,
-    /// Items, as the budget counts them: more than what is split or weighed, where one takes more
-    /// work.
+    /// Items in the units of [`Budget`]. An item that takes more work counts more than once.
     pub triangles_split: i32,
-    /// Items, as the budget counts them: more than what is split or weighed, where one takes more
-    /// work.
+    /// Items in the units of [`Budget`]. An item that takes more work counts more than once.
     pub cells_settled: i32,
-    /// Items, as the budget counts them: more than what is split or weighed, where one takes more
-    /// work.
+    /// Items in the units of [`Budget`]. An item that takes more work counts more than once.
     pub samples_refreshed: i32,
-    /// Items, as the budget counts them: more than what is split or weighed, where one takes more
-    /// work.
+    /// Items in the units of [`Budget`]. An item that takes more work counts more than once.
     pub solver_iterations: i32,
-    /// What commits changed: cells made or with other material, cells with other weights, vertices
-    /// and collision points with other weights, links that are other than before. Of how many:
-    /// [`Sheet::counts`].
+    /// Changes by commits: cells that are new or have other material, cells with other weights,
+    /// vertices and collision points with other weights, links that differ. [`Sheet::counts`] has
+    /// the totals.
     pub cells_changed: i32,
-    /// What commits changed: cells made or with other material, cells with other weights, vertices
-    /// and collision points with other weights, links that are other than before. Of how many:
-    /// [`Sheet::counts`].
+    /// Changes by commits: cells that are new or have other material, cells with other weights,
+    /// vertices and collision points with other weights, links that differ. [`Sheet::counts`] has
+    /// the totals.
     pub weights_changed: i32,
-    /// What commits changed: cells made or with other material, cells with other weights, vertices
-    /// and collision points with other weights, links that are other than before. Of how many:
-    /// [`Sheet::counts`].
+    /// Changes by commits: cells that are new or have other material, cells with other weights,
+    /// vertices and collision points with other weights, links that differ. [`Sheet::counts`] has
+    /// the totals.
     pub vertices_changed: i32,
-    /// What commits changed: cells made or with other material, cells with other weights, vertices
-    /// and collision points with other weights, links that are other than before. Of how many:
-    /// [`Sheet::counts`].
+    /// Changes by commits: cells that are new or have other material, cells with other weights,
+    /// vertices and collision points with other weights, links that differ. [`Sheet::counts`] has
+    /// the totals.
     pub points_changed: i32,
-    /// What commits changed: cells made or with other material, cells with other weights, vertices
-    /// and collision points with other weights, links that are other than before. Of how many:
-    /// [`Sheet::counts`].
+    /// Changes by commits: cells that are new or have other material, cells with other weights,
+    /// vertices and collision points with other weights, links that differ. [`Sheet::counts`] has
+    /// the totals.
     pub links_changed: i32,
     /// sheets in which a cut took effect
     pub commits: i32,
     /// linear systems, large and small
     pub systems_solved: i32,
-    /// planes given to the solver: the host's, those of obstacles, and those between sheets
+    /// planes given to the solver: by the host, by obstacles, and between sheets
     pub contacts: i32,
-    /// pairs of sheets or pieces, near each other and not both asleep
+    /// pairs of sheets or pieces that are near each other and not both asleep
     pub sheet_pairs: i32,
-    /// The farthest that a vertex would have jumped, m, when a cut took effect, without
-    /// `fade_time`; and that one went by a fade.
+    /// The longest jump of a vertex when a cut took effect, as without `fade_time`, and the longest
+    /// way by a fade; m.
     pub largest_jump: f64,
-    /// The farthest that a vertex would have jumped, m, when a cut took effect, without
-    /// `fade_time`; and that one went by a fade.
+    /// The longest jump of a vertex when a cut took effect, as without `fade_time`, and the longest
+    /// way by a fade; m.
     pub largest_fade: f64,
 }
 
@@ -715,7 +694,7 @@ impl Profile {
     }
 }
 
-/// What a sheet is made of: homogeneous, isotropic.
+/// The material of a sheet: homogeneous, isotropic.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Material {
@@ -758,19 +737,14 @@ impl Material {
     }
 }
 
-/// How much work for how much accuracy. The presets are measured (`make accuracy`; tests/sweep.h
-/// has the scenes) on a strip of stiff paper, 0.2 m x 0.05 m, clamped at one end, with one row of
-/// frames, and on a square of 0.2 m that bends five times as easily, hangs by two corners, and has
-/// half as many rows and columns, rounded up. Let go, they swing for 0.4 s at 60 ticks a second.
-/// Error: rms distance of the vertices from where a much finer run brings them, by the rms way that
-/// they go; at most, over grids from 4/5 to 5/4 as fine and with frames in regular rows or moved a
-/// little. FAST: 2 %. BALANCED: 0.8 %. ACCURATE: 0.4 %. What a cut leaves narrow wants more frames:
-/// see accuracy in the sheet def.
+/// Work against accuracy. The presets were measured on a swinging strip and a swinging square of
+/// paper. Error is the rms distance of vertices from a much finer run, over their rms way. FAST: at
+/// most 2 %. BALANCED: 0.8 %. ACCURATE: 0.4 %. Narrow arms that a cut leaves need more frames
+/// (accuracy of [`SheetDef`]). The manual has details (accuracy).
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Quality {
-    /// control frames in a row along a strip; a square does with half as many in either direction,
-    /// rounded up: 3 x 3, 5 x 5, 9 x 9
+    /// control frames in a row along a strip; a square needs 3 x 3, 5 x 5, 9 x 9
     pub frames_along: i32,
     /// for the sheet def
     pub grid_resolution: i32,
@@ -803,23 +777,22 @@ impl Quality {
     }
 }
 
-/// The paper's own ways, to compare with; part of the sheet def.
+/// Options of the paper, for comparison; part of the sheet def.
 #[derive(Clone, Copy, Debug)]
 pub struct PaperOptions {
-    /// 1: every cut rebuilds grid, regions and shape functions from scratch; the outcome is the
-    /// same bit for bit. Default 0.
+    /// 1: every cut rebuilds grid, regions and shape functions from scratch, to the same bits.
+    /// Default 0.
     pub from_scratch: bool,
-    /// 1: when a cut takes effect, only new frames take their motion from the surface: what is seen
-    /// jumps, and momentum is not kept. Default 0.
+    /// 1: only new frames take their motion from the surface: it jumps at cuts, and momentum is not
+    /// kept. Default 0.
     pub popping: bool,
-    /// 1: the weights of frames are linear on the way from frame to frame, so the surface that is
-    /// seen has a kink at each frame. Always so with [`Model::Points`]. Default 0: their slope is
-    /// zero at the frames.
+    /// 1: the weights of frames are linear between frames, so the surface has a kink at each frame.
+    /// Always so with [`Model::Points`]. Default 0: the slope of weights is zero at the frames.
     pub linear_weights: bool,
-    /// [`Model::Points`] only. Work grows with the points: spread evenly over the sheet, at least
-    /// one in every piece; default 0: four for each of `frame_count`. Order 1 (default) takes the
-    /// strain at a point for all of the material around it, order 2 a strain linear in it, at four
-    /// times the work a point. 0 to 1048576
+    /// [`Model::Points`] only. Points are spread evenly over the sheet, at least one in every
+    /// piece; default 0: four for each of `frame_count`. Work is proportional to them. Order 1
+    /// (default) has a constant strain in the material around a point, order 2 a linear strain, at
+    /// four times the work a point. 0 to 1048576
     pub integration_points: i32,
     /// 1 or 2
     pub integration_order: i32,
@@ -848,17 +821,17 @@ impl PaperOptions {
     }
 }
 
-/// Of a sheet: its rest shape, where it starts, its material, and how it is computed.
+/// A sheet: its rest shape, start, material, and computation.
 #[derive(Clone, Copy, Debug)]
 pub struct SheetDef<'a> {
     /// The rest shape: triangles in the rest plane, counter-clockwise, at most two at an edge.
-    /// Holes and several parts are fine. Copied by [`World::create_sheet`]; vertices of no triangle
-    /// are left out. Edges whose ends lie at the same places, but are different vertices, are the
-    /// lips of a cut that is there already; `weld_distance` closes them. 2 floats (u, v) a vertex
+    /// Holes and several parts are allowed. [`World::create_sheet`] copies them and leaves out
+    /// vertices without a triangle. Two edges in the same place with different vertices are the
+    /// lips of an existing cut; `weld_distance` closes them. 2 floats (u, v) a vertex
     pub rest_positions: &'a [[f32; 2]],
     /// 3 a triangle
     pub indices: &'a [[i32; 3]],
-    /// Where it starts: x = position + u `axis_u` + v `axis_v`. The axes are orthonormal.
+    /// Start: x = position + u `axis_u` + v `axis_v` (m, world). The axes are orthonormal.
     pub position: [f32; 3],
     pub axis_u: [f32; 3],
     pub axis_v: [f32; 3],
@@ -867,26 +840,24 @@ pub struct SheetDef<'a> {
     pub material: Material,
     /// grid squares along the longer side, 1 to 4096; default 32
     pub grid_resolution: i32,
-    /// m: ends of cuts this near to a lip or the border meet it, those twice as far do not, and a
-    /// cut keeps within half of it of its line; 0: 1e-4 of the longer side
+    /// m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not, and
+    /// a cut keeps within half of it of its line; 0: 1e-4 of the longer side
     pub snap_distance: f32,
-    /// Vertices nearer than this (m, rest plane; 0 or more) are one: for seams of texture
-    /// coordinates, and triangles without shared vertices (STL). In the order of vertices, each
-    /// becomes the nearest vertex that was kept before and is nearer than this; else it is kept. So
-    /// none moves farther, and a chain of near vertices is not one point. A triangle with two
-    /// corners at one vertex is left out. [`Sheet::copy_sources`] leads to the vertices of the def.
-    /// Default 0: vertices are as the indices say.
+    /// Merges vertices nearer than this (m, rest plane; 0 or more): for seams of texture
+    /// coordinates, and triangles without shared vertices (STL). Each vertex becomes the nearest
+    /// kept vertex before it within this distance, or is kept. No vertex moves farther, and a chain
+    /// of near vertices stays several points. A triangle with two corners at one vertex is left
+    /// out. [`Sheet::copy_sources`] leads to the vertices of the def. Default 0: no merging.
     pub weld_distance: f32,
     /// Control frames. `frame_points`: 2 floats a frame, in the material, a grid square apart at
-    /// least; null: `frame_count` frames are spread evenly, some of them in pairs at both sides of
-    /// slit ends. The grid carries one frame for every two squares of material at most: more are
-    /// refused ([`ResultCode::ErrorArgument`]), and re-sampling stops there. A new sheet has no
-    /// more frames than `frame_count`, or than pieces where these are more. `frame_count` 0: as
-    /// many as the sheet needs: a region is split while its size, 2.45 times its radius of
-    /// gyration, exceeds 1.25 `frame_length`, after cuts too: so arms that a cut leaves get frames
-    /// along them. `frame_length` 0: it follows from accuracy, the relative error of the shape
-    /// under the sheet's own weight that is good enough, but is three squares of the grid at least.
-    /// [`Sheet::estimate_error`] says what came of it. 0, or 1 and more; default 5
+    /// least; null: `frame_count` frames are spread evenly, some in pairs at both sides of slit
+    /// ends. The grid carries at most one frame for every two squares of material: a def with more
+    /// gives [`ResultCode::ErrorArgument`], and re-sampling stops there. A new sheet has at most
+    /// `frame_count` frames, or one for each piece where there are more pieces. `frame_count` 0:
+    /// regions are split, after cuts too, until 2.45 times the radius of gyration is at most 1.25
+    /// `frame_length`. `frame_length` 0: derived from accuracy, the relative error of the shape
+    /// under the sheet's own weight, and at least three grid squares. [`Sheet::estimate_error`]
+    /// checks the result. 0, or 1 and more; default 5
     pub frame_count: i32,
     /// m; used where `frame_count` is 0; default 0
     pub frame_length: f32,
@@ -896,68 +867,60 @@ pub struct SheetDef<'a> {
     /// re-sampling stops here; default 256
     pub max_frames: i32,
     /// Re-sampling (section 5 of the paper): a frame whose weight exceeds `rigid_weight` over an
-    /// area larger than `rigid_area` (m^2) gets others beside it. In a new sheet this is done only
-    /// with `frame_count` 0. After cuts it is done where the area is also larger than in the new
-    /// sheet: when a cut ends, or has met the border or another cut. A sheet that is to stay rigid
-    /// sets `frame_count` and `max_frames` to 1. `rigid_area` 0: a quarter of the area that a frame
-    /// has at the start. default 0.95
+    /// area larger than `rigid_area` (m^2) gets new frames beside it. A new sheet is re-sampled
+    /// only with `frame_count` 0. Later it happens when a cut ends or meets the border or another
+    /// cut, where the area is also larger than in the new sheet. A rigid sheet has `frame_count` 1
+    /// and `max_frames` 1. `rigid_area` 0: a quarter of the area of a frame at the start. default
+    /// 0.95
     pub rigid_weight: f32,
     /// default 0
     pub rigid_area: f32,
-    /// A piece with less area (m^2) is a crumb: it gets one frame if it has none, and no frames are
-    /// added to it. Default 0.
+    /// A piece with less area (m^2) is a crumb: it gets one frame if it has none, and no more.
+    /// Default 0.
     pub crumb_area: f32,
-    /// Contact, see below. of the sheet, 0 or more; with that of an obstacle or of another sheet
-    /// counts the geometric mean. Default 0.5
+    /// of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5
     pub friction: f32,
-    /// m, 0 or more: sheets and pieces stay so far apart, and half as far from obstacles. 0: the
-    /// material's thickness, a 20th of a grid square at least. Default 0
+    /// m, 0 or more: distance between sheets and pieces, and twice the distance to obstacles. 0:
+    /// the material's thickness, at least a 20th of a grid square. Default 0
     pub contact_thickness: f32,
-    /// obstacles and sheets touch where a bit is set in the groups of both. Default: all
+    /// obstacles and sheets touch if they share a set bit. Default: all
     pub groups: u32,
-    /// 1: its pieces touch each other, and other sheets that have it set; not where one of the two
-    /// sheets is planar. Of two pieces that are near each other the one that lies above, against
-    /// gravity, is kept on its side of the other by planes; side by side the one that nothing
-    /// holds, or the lighter one. So piles keep their order. The lower one feels what presses on it
-    /// within 0.3 s: weight acts in full, an impact does so only while the upper one stays, and
-    /// momentum is not exchanged exactly. Pieces that cross are parted at 0.25 m/s. A sheet feels
-    /// others by its vertices, about one a grid square and more along borders: two edges that cross
-    /// are not seen. A piece that wraps around the border of another, so that it lies on both sides
-    /// of it, has one side all the same. Folds of one piece do not touch each other. Pieces that
-    /// touch wake and fall asleep together. Default 0.
+    /// 1: its pieces touch each other, and other sheets that have it set; not where one of two
+    /// sheets is planar. Planes keep the upper piece, against gravity, on its side of the lower
+    /// one; side by side, the piece that is free, or the lighter one. So piles keep their order.
+    /// Folds of one piece do not touch each other. Pieces that touch wake and fall asleep together.
+    /// The manual lists the limits of the method (contact). Default 0.
     pub touches_sheets: bool,
     /// spread evenly over the sheet, at least one in every piece; default 0: none
     pub collision_points: i32,
-    /// Newton steps a substep, 1 to 64; default 2. Sheets of 1000 frames want 8, see the manual
+    /// Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
     pub iterations: i32,
-    /// A piece all of whose frames move slower than this (m/s, rms over the material of each) for
-    /// half a second falls asleep: it rests, and costs next to nothing. What is new to it wakes it:
-    /// a cut that changes it, when that takes effect; a pin that holds it, or the pin's pose; a
-    /// hold, a load, contacts other than those it fell asleep with; something that moves and comes
-    /// near. Gravity, wind, settings and [`Sheet::wake`] wake all pieces of the sheet. The ticks of
-    /// a sheet all of whose pieces sleep cost nothing. Default 0.001; 0: none sleeps.
+    /// A piece falls asleep when all its frames move slower than this (m/s, rms over their
+    /// material) for half a second. It does not move, and costs almost nothing. A cut that changes
+    /// it wakes it when the cut takes effect; so do a new pin, pose, hold or load, contacts that
+    /// differ, and moving things that come near. Gravity, wind, settings and [`Sheet::wake`] wake
+    /// all pieces of the sheet. Default 0.001; 0: no piece sleeps.
     pub sleep_speed: f32,
     /// KIRI_MODEL_..., default [`Model::Links`]
     pub model: Model,
     /// KIRI_SKINNING_..., default [`Skinning::Linear`]
     pub skinning: Skinning,
-    /// 1: the sheet stays in the plane where it starts, without bending; what velocities, forces
-    /// and held positions have across the plane is dropped. 3 unknowns a rigid frame, 6 an affine
-    /// one: two thirds of the solver's work, or about a third. Default 0.
+    /// 1: the sheet stays in the plane where it starts, without bending. Parts of velocities,
+    /// forces and held positions across the plane are dropped. A rigid frame has 3 unknowns, an
+    /// affine one 6. Default 0.
     pub planar: bool,
     /// KIRI_TIME_STEPPING_..., default [`TimeStepping::SecondOrder`]
     pub time_stepping: TimeStepping,
-    /// When a cut takes effect, weights change, and what is seen between the frames would jump. The
-    /// difference fades within this time (s). So does the difference of strain in links of
-    /// [`Model::Links`] whose borders have moved. Default 0.2; 0: at once.
+    /// A cut that takes effect changes weights, and the surface would jump between frames. The
+    /// difference fades within this time (s), and so does that in the strain of links whose borders
+    /// moved. Default 0.2; 0: at once.
     pub fade_time: f32,
-    /// 1: normals of the mesh are made in every tick. 0: [`Mesh`] has none, and
+    /// 1: every tick computes normals of the mesh. 0: [`Mesh`] has no normals, and
     /// [`Sheet::copy_vertices`] copies none; this saves half of the time of linear skinning. The
-    /// sheet moves the same, bit for bit: where edges of obstacles or other sheets touch it, the
-    /// tick makes normals for itself. So does [`Sheet::solid`]; and what [`Sheet::point`] says is
-    /// the same to rounding. Default 1.
+    /// sheet moves the same, bit for bit: contact and [`Sheet::solid`] compute their own normals.
+    /// [`Sheet::point`] is the same to rounding. Default 1.
     pub normals: bool,
-    /// default: none of the paper's own ways
+    /// default: all off
     pub paper: PaperOptions,
 }
 
@@ -1058,43 +1021,36 @@ impl<'a> SheetDef<'a> {
     }
 }
 
-/// What of the def may be changed while the sheet lives, as there. [`Sheet::settings`] stamps it.
+/// Sheet settings that can change after creation. Fields mean the same as in [`SheetDef`].
 #[derive(Clone, Copy, Debug)]
 pub struct SheetSettings {
     cookie: u32,
     pub material: Material,
     /// re-sampling stops here; default 256
     pub max_frames: i32,
-    /// A piece with less area (m^2) is a crumb: it gets one frame if it has none, and no frames are
-    /// added to it. Default 0.
+    /// A piece with less area (m^2) is a crumb: it gets one frame if it has none, and no more.
+    /// Default 0.
     pub crumb_area: f32,
-    /// Contact, see below. of the sheet, 0 or more; with that of an obstacle or of another sheet
-    /// counts the geometric mean. Default 0.5
+    /// of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5
     pub friction: f32,
-    /// m, 0 or more: sheets and pieces stay so far apart, and half as far from obstacles. 0: the
-    /// material's thickness, a 20th of a grid square at least. Default 0
+    /// m, 0 or more: distance between sheets and pieces, and twice the distance to obstacles. 0:
+    /// the material's thickness, at least a 20th of a grid square. Default 0
     pub contact_thickness: f32,
-    /// obstacles and sheets touch where a bit is set in the groups of both. Default: all
+    /// obstacles and sheets touch if they share a set bit. Default: all
     pub groups: u32,
-    /// 1: its pieces touch each other, and other sheets that have it set; not where one of the two
-    /// sheets is planar. Of two pieces that are near each other the one that lies above, against
-    /// gravity, is kept on its side of the other by planes; side by side the one that nothing
-    /// holds, or the lighter one. So piles keep their order. The lower one feels what presses on it
-    /// within 0.3 s: weight acts in full, an impact does so only while the upper one stays, and
-    /// momentum is not exchanged exactly. Pieces that cross are parted at 0.25 m/s. A sheet feels
-    /// others by its vertices, about one a grid square and more along borders: two edges that cross
-    /// are not seen. A piece that wraps around the border of another, so that it lies on both sides
-    /// of it, has one side all the same. Folds of one piece do not touch each other. Pieces that
-    /// touch wake and fall asleep together. Default 0.
+    /// 1: its pieces touch each other, and other sheets that have it set; not where one of two
+    /// sheets is planar. Planes keep the upper piece, against gravity, on its side of the lower
+    /// one; side by side, the piece that is free, or the lighter one. So piles keep their order.
+    /// Folds of one piece do not touch each other. Pieces that touch wake and fall asleep together.
+    /// The manual lists the limits of the method (contact). Default 0.
     pub touches_sheets: bool,
-    /// Newton steps a substep, 1 to 64; default 2. Sheets of 1000 frames want 8, see the manual
+    /// Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
     pub iterations: i32,
-    /// A piece all of whose frames move slower than this (m/s, rms over the material of each) for
-    /// half a second falls asleep: it rests, and costs next to nothing. What is new to it wakes it:
-    /// a cut that changes it, when that takes effect; a pin that holds it, or the pin's pose; a
-    /// hold, a load, contacts other than those it fell asleep with; something that moves and comes
-    /// near. Gravity, wind, settings and [`Sheet::wake`] wake all pieces of the sheet. The ticks of
-    /// a sheet all of whose pieces sleep cost nothing. Default 0.001; 0: none sleeps.
+    /// A piece falls asleep when all its frames move slower than this (m/s, rms over their
+    /// material) for half a second. It does not move, and costs almost nothing. A cut that changes
+    /// it wakes it when the cut takes effect; so do a new pin, pose, hold or load, contacts that
+    /// differ, and moving things that come near. Gravity, wind, settings and [`Sheet::wake`] wake
+    /// all pieces of the sheet. Default 0.001; 0: no piece sleeps.
     pub sleep_speed: f32,
     /// KIRI_SKINNING_..., default [`Skinning::Linear`]
     pub skinning: Skinning,
@@ -1102,11 +1058,10 @@ pub struct SheetSettings {
     pub time_stepping: TimeStepping,
     /// stays 0 with paper.popping
     pub fade_time: f32,
-    /// 1: normals of the mesh are made in every tick. 0: [`Mesh`] has none, and
+    /// 1: every tick computes normals of the mesh. 0: [`Mesh`] has no normals, and
     /// [`Sheet::copy_vertices`] copies none; this saves half of the time of linear skinning. The
-    /// sheet moves the same, bit for bit: where edges of obstacles or other sheets touch it, the
-    /// tick makes normals for itself. So does [`Sheet::solid`]; and what [`Sheet::point`] says is
-    /// the same to rounding. Default 1.
+    /// sheet moves the same, bit for bit: contact and [`Sheet::solid`] compute their own normals.
+    /// [`Sheet::point`] is the same to rounding. Default 1.
     pub normals: bool,
 }
 
@@ -1151,11 +1106,11 @@ impl SheetSettings {
     }
 }
 
-/// The triangles that are seen, as after the last tick. revision grows whenever indices or vertices
-/// are added or changed. Rest positions are floats, 6e-8 of the distance from the origin of the
-/// rest plane apart: where triangles are not much larger than that, they look flat or inverted. The
-/// library computes with the positions of the def to 2^-29 of the sheet; `source_triangles` and
-/// `source_weights` are as exact as the sheet is large.
+/// The triangles to draw, as after the last tick. revision grows when indices or vertices are added
+/// or changed. Rest positions are floats, with a spacing of 6e-8 of the distance from the origin of
+/// the rest plane: triangles of about that size may look flat or inverted. The library computes
+/// with the positions of the def to 2^-29 of the sheet; `source_triangles` and `source_weights`
+/// have that precision.
 #[derive(Clone, Copy, Debug)]
 pub struct Mesh<'a> {
     /// 3 a vertex, m, world
@@ -1166,7 +1121,7 @@ pub struct Mesh<'a> {
     pub rest_positions: &'a [[f32; 2]],
     /// 3 a triangle
     pub indices: &'a [[i32; 3]],
-    /// 1 a vertex: the triangle of the def that it lies in,
+    /// 1 a vertex: the triangle of the def that contains it,
     pub source_triangles: &'a [i32],
     /// 3 a vertex: and its barycentric coordinates there
     pub source_weights: &'a [[f32; 3]],
@@ -1192,7 +1147,7 @@ impl<'a> Mesh<'a> {
     }
 }
 
-/// So many items from the first on.
+/// count items from first on.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Range {
@@ -1221,9 +1176,9 @@ impl Range {
     }
 }
 
-/// What has changed in the mesh, for hosts that keep a copy of it, on a GPU say. Positions and
-/// normals change with every tick; all else of a vertex, and the corners of a triangle, only in
-/// these ranges.
+/// Changes of the mesh, for hosts that keep a copy, such as on a GPU. Positions and normals change
+/// in every tick. Other data of a vertex, and the corners of a triangle, change only in these
+/// ranges.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Dirty {
@@ -1231,9 +1186,9 @@ pub struct Dirty {
     pub new_vertices: Range,
     /// up to the last one of the mesh
     pub new_triangles: Range,
-    /// the least ranges that hold all older ones with other data
+    /// the smallest ranges that hold all older ones with other data
     pub old_vertices: Range,
-    /// the least ranges that hold all older ones with other data
+    /// the smallest ranges that hold all older ones with other data
     pub old_triangles: Range,
     /// for the next call
     pub revision: u32,
@@ -1263,10 +1218,9 @@ impl Dirty {
     }
 }
 
-/// The surface with a thickness, to draw: a closed mesh, with a rim along borders, holes and the
-/// lips of cuts. First come the vertices of [`Mesh`] on the side that the normal leaves, then the
-/// same on the other side, then four for each edge of the border, so that rims are flat and their
-/// edges sharp.
+/// The surface with a thickness, to draw: a closed mesh, with a rim along borders, holes and lips.
+/// First the vertices of [`Mesh`] on the side of the normal, then the same on the other side, then
+/// four for each border edge, so rims are flat.
 #[derive(Clone, Copy, Debug)]
 pub struct Solid<'a> {
     /// 3 a vertex, m, world
@@ -1277,11 +1231,11 @@ pub struct Solid<'a> {
     pub rest_positions: &'a [[f32; 2]],
     /// 3 a triangle, counter-clockwise from outside
     pub indices: &'a [[i32; 3]],
-    /// 1 a vertex: that of [`Mesh`] which it stands on
+    /// 1 a vertex: its vertex in [`Mesh`]
     pub sources: &'a [i32],
     pub vertex_count: i32,
     pub triangle_count: i32,
-    /// from this one on triangles are rims
+    /// rims begin at this triangle
     pub rim_triangle: i32,
 }
 
@@ -1301,7 +1255,7 @@ impl<'a> Solid<'a> {
     }
 }
 
-/// How many there are of each.
+/// Numbers of items in a sheet.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Counts {
@@ -1380,16 +1334,19 @@ impl Totals {
     }
 }
 
-/// What a ray meets.
+/// The first point where a ray meets a sheet.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Hit {
-    /// where to cut
+    /// m: where to cut
     pub rest_point: [f32; 2],
+    /// m, world
     pub position: [f32; 3],
+    /// unit
     pub normal: [f32; 3],
     /// m along the direction, which need not be a unit vector
     pub distance: f32,
+    /// -1: none
     pub triangle: i32,
 }
 
@@ -1417,7 +1374,7 @@ impl Hit {
     }
 }
 
-/// A point of the material, as it is seen.
+/// A point of the material on the visible surface.
 #[derive(Clone, Copy, Debug)]
 pub struct PointState {
     /// m, world; unit
@@ -1426,7 +1383,7 @@ pub struct PointState {
     pub normal: [f32; 3],
     /// m/s, by the weights of the point
     pub velocity: [f32; 3],
-    /// in whose region it is; it names the piece, too
+    /// the frame of its region; it also names the piece
     pub frame: Frame,
 }
 
@@ -1442,10 +1399,10 @@ impl PointState {
     }
 }
 
-/// The connected parts of a sheet. A piece is named by any of its frames. To go through all of them
-/// there are indices too, from 0 on to [`Counts`].pieces, in the order of first frames: they change
-/// when a piece comes off or is taken away; [`Frame::piece`] has that of now. A cut whose work
-/// waits for its budget has not parted anything yet. Momentum is about the world's origin.
+/// A connected part of a sheet. Any of its frames names it. Indices from 0 to [`Counts`].pieces, in
+/// the order of first frames, visit all pieces: they change when a piece comes off or goes, and
+/// [`Frame::piece`] returns the current one. A cut with pending work has not separated anything
+/// yet. Momentum is about the world's origin.
 #[derive(Clone, Copy, Debug)]
 pub struct PieceState {
     /// m^2, kg
@@ -1458,17 +1415,17 @@ pub struct PieceState {
     pub momentum: [f64; 3],
     /// of mass, m; kg m/s; kg m^2/s
     pub angular_momentum: [f64; 3],
-    /// m, world: the least box around its vertices
+    /// m, world: the smallest box around its vertices
     pub lower: [f32; 3],
-    /// m, world: the least box around its vertices
+    /// m, world: the smallest box around its vertices
     pub upper: [f32; 3],
-    /// how many
+    /// counts
     pub frames: i32,
-    /// how many
+    /// counts
     pub vertices: i32,
-    /// how many
+    /// counts
     pub triangles: i32,
-    /// how many
+    /// counts
     pub collision_points: i32,
     /// 1: see [`SheetDef`]
     pub crumb: bool,
@@ -1497,8 +1454,8 @@ impl PieceState {
     }
 }
 
-/// What is in a piece, in the order of the mesh. The arrays are parts of one for all pieces, piece
-/// after piece.
+/// The mesh of a piece, in the order of the sheet's mesh. The arrays are parts of one for all
+/// pieces, piece by piece.
 #[derive(Clone, Copy, Debug)]
 pub struct PieceMesh<'a> {
     /// of [`Mesh`]
@@ -1532,8 +1489,9 @@ impl<'a> PieceMesh<'a> {
 /// Pose, motion and region of a frame.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameState {
+    /// m
     pub rest_point: [f32; 2],
-    /// of the rest point
+    /// m, world: of the rest point
     pub position: [f32; 3],
     /// columns: direction of u, direction of v, normal; of an affine frame the columns of A, which
     /// stretch with the sheet
@@ -1566,24 +1524,21 @@ impl FrameState {
     }
 }
 
-/// Air that moves past the sheet, in every tick until the next call. On each square metre act, with
-/// v the velocity of the air less that of the material, and n the normal: density / 2 times |v|
-/// (drag (v.n) n + lift (v - (v.n) n)). Zero velocity with drag and lift above zero: still air,
-/// which resists. All zero: none. It acts at four points of the region of each frame, and follows
-/// its motion within the tick: sheets flutter, and no wind is too strong. Gusts are a call a tick.
-/// Wind that stays as it is lets a sheet sleep.
+/// Air that moves past the sheet. v is the velocity of the air less the velocity of the material, n
+/// the normal: each square metre gets density / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)).
+/// Zero velocity with drag and lift above zero: still air, which resists. All zero: none. It acts
+/// at four points of the region of each frame, and follows the motion within the tick, so strong
+/// wind is stable. A sheet can sleep in constant wind.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Wind {
     /// m/s
     pub velocity: [f32; 3],
-    /// kg/m^3, 0 or more; 1.2 of air
+    /// kg/m^3, 0 or more; air: 1.2
     pub density: f32,
-    /// 0 or more: coefficients of pressure, 2 of a long plate, 1.2 of a square, and of the force
-    /// along the sheet, 0.01 or so of a smooth one
+    /// 0 or more: coefficients across (long plate 2, square 1.2) and along the sheet (smooth 0.01)
     pub drag: f32,
-    /// 0 or more: coefficients of pressure, 2 of a long plate, 1.2 of a square, and of the force
-    /// along the sheet, 0.01 or so of a smooth one
+    /// 0 or more: coefficients across (long plate 2, square 1.2) and along the sheet (smooth 0.01)
     pub lift: f32,
 }
 
@@ -1610,20 +1565,20 @@ impl Wind {
     }
 }
 
-/// A pin holds a point of the material at its target, by a spring.
+/// A pin holds a point of the material at its target by a spring.
 #[derive(Clone, Copy, Debug)]
 pub struct PinDef {
-    /// in the material
+    /// m, in the material
     pub rest_point: [f32; 2],
-    /// m, world: where it is held
+    /// m, world
     pub target: [f32; 3],
     /// N/m; 0: ten times Young's modulus times thickness
     pub stiffness: f32,
-    /// N: it breaks ([`EventType::PinBroke`]) in a tick in which it held with more; 0: never
+    /// N: it breaks in a tick with a larger force ([`EventType::PinBroke`]); 0: never
     pub break_force: f32,
-    /// or 0. The target goes with this obstacle from where it is when the pin is made, or
-    /// [`Pin::set_target`] puts it, and the obstacle feels the pin ([`Obstacle::state`]); one with
-    /// mass yields to it within the tick. When it is destroyed the target stays where it was
+    /// or 0. The target moves with this obstacle from its place at creation or at the last
+    /// [`Pin::set_target`]. The obstacle feels the pin ([`Obstacle::state`]); an obstacle with mass
+    /// yields within the tick. If it is destroyed the target stays
     pub obstacle: Option<Obstacle>,
 }
 
@@ -1665,22 +1620,23 @@ impl PinDef {
     }
 }
 
-/// What a pin is, and where it holds.
+/// Type and target of a pin.
 #[derive(Clone, Copy, Debug)]
 pub struct PinState {
     /// KIRI_PIN_...
     pub kind: PinType,
     pub sheet: Sheet,
-    /// rest position: of a point, twice, or of the ends of the line
+    /// m, rest plane: the ends of the line, or the point twice
     pub from: [f32; 2],
-    /// rest position: of a point, twice, or of the ends of the line
+    /// m, rest plane: the ends of the line, or the point twice
     pub to: [f32; 2],
+    /// m, world
     pub target: [f32; 3],
     /// of a line; of a point the identity
     pub rotation: [f32; 9],
     /// N, or 0
     pub break_force: f32,
-    /// that it goes with, or 0
+    /// that the target moves with, or 0
     pub obstacle: Option<Obstacle>,
 }
 
@@ -1700,33 +1656,30 @@ impl PinState {
     }
 }
 
-/// A point of the material that touches something: the plane dot(normal, x) = offset keeps it on
-/// its upper side, with as much force as that takes, and Coulomb friction acts along the plane. The
-/// plane is that of an obstacle of the host, who finds it anew for each tick from where the sheet
-/// is seen. A contact may lie in the path of the point, above or below it: one that does not reach
-/// its plane in the tick costs little and does nothing.
+/// A contact of a point of the material: the plane dot(normal, x) = offset keeps the point on its
+/// upper side, and Coulomb friction acts along the plane. The host computes the plane for each tick
+/// from the visible surface of the sheet. A contact may lie ahead of the point; if the point does
+/// not reach it in the tick, it costs little and does nothing.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Contact {
-    /// index of the collision point; -1: `rest_point` says which point of the material
+    /// index of the collision point; -1: `rest_point` names the point
     pub point: i32,
-    /// in the material; only read where point is -1
+    /// m, in the material; read only where point is -1
     pub rest_point: [f32; 2],
     /// unit, out of the obstacle
     pub normal: [f32; 3],
     /// m: of the obstacle's surface at the start of the tick
     pub offset: f32,
-    /// m/s: of the obstacle there. The plane moves with it within the tick, and friction acts
-    /// against the sliding that is left
+    /// m/s: of the obstacle at the contact. The plane moves with it within the tick
     pub velocity: [f32; 3],
     /// 0 or more: of both sides together
     pub friction: f32,
-    /// 1/kg, 0 or more: of the obstacle as felt along the normal there, 1/m + (r x n) . I^-1 (r x
-    /// n); 0: it does not yield
+    /// 1/kg, 0 or more: of the obstacle along the normal, 1/m + (r x n) . I^-1 (r x n); 0: rigid
     pub inverse_mass: f32,
-    /// m/s, 0 or more: a point that starts below the plane is pushed out no faster. 0: 1 m/s
+    /// m/s, 0 or more: maximum speed of a point that is pushed out from below. 0: 1 m/s
     pub push_speed: f32,
-    /// the host's number. Contacts of one number press on one obstacle, and share its mass
+    /// a number of the host. Contacts with one number press on one obstacle, and share its mass
     pub obstacle: i32,
 }
 
@@ -1758,15 +1711,15 @@ impl Contact {
     }
 }
 
-/// What a contact did in the last tick.
+/// The result of a contact in the last tick.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct ContactForce {
     /// N s, on the sheet: the sum over the tick. The obstacle gets the opposite
     pub impulse: [f64; 3],
-    /// m, world: where it acted, the point of the sheet at the end of the tick
+    /// m, world: the point of the sheet at the end of the tick
     pub position: [f64; 3],
-    /// m: how deep the point is below the plane at the end of the tick; below 0: above it
+    /// m: of the point below the plane at the end of the tick; below 0: above it
     pub depth: f64,
     /// as in the contact
     pub point: i32,
@@ -1798,7 +1751,7 @@ impl ContactForce {
     }
 }
 
-/// Of an obstacle: its shape, where it is, its motion, and its mass.
+/// An obstacle: its shape, pose, motion, and mass.
 #[derive(Clone, Copy, Debug)]
 pub struct ObstacleDef<'a> {
     /// KIRI_OBSTACLE_...
@@ -1811,7 +1764,7 @@ pub struct ObstacleDef<'a> {
     pub height: f32,
     /// 2 floats a corner, m, counter-clockwise; copied
     pub outline: &'a [[f32; 2]],
-    /// m, 0 or more: prisms and boxes are that much larger, with round edges. Default 0
+    /// m, 0 or more: prisms and boxes grow by this, with round edges. Default 0
     pub rounding: f32,
     /// m, world
     pub position: [f32; 3],
@@ -1821,20 +1774,20 @@ pub struct ObstacleDef<'a> {
     pub velocity: [f32; 3],
     /// rad/s
     pub angular_velocity: [f32; 3],
-    /// m/s, world: of its surface beside that, as of a conveyor
+    /// m/s, world: of its surface, added to its motion, as of a conveyor
     pub surface_velocity: [f32; 3],
     /// 0 or more; default 0.5
     pub friction: f32,
     /// kg; 0 (default): nothing moves it
     pub mass: f32,
-    /// kg m^2, about its centre of mass, axes of the world as it stands now: xx yy zz xy xz yz.
+    /// kg m^2, about its centre of mass, axes of the world in the current pose: xx yy zz xy xz yz.
     /// Positive definite, but for axes whose numbers are all 0: it does not turn about these
     pub inertia: [f32; 6],
     /// m, from its position in its own axes
     pub center_of_mass: [f32; 3],
-    /// obstacles of the same number, but 0, are parts of one body, whose mass each of them has
+    /// obstacles with the same number, except 0, are parts of one body; each has its whole mass
     pub body: u32,
-    /// m/s, above 0: what is inside is pushed out no faster. Default 1
+    /// m/s, above 0: maximum speed at which points inside are pushed out. Default 1
     pub push_speed: f32,
     /// see the sheet def. Default: all
     pub groups: u32,
@@ -1905,7 +1858,7 @@ impl<'a> ObstacleDef<'a> {
     }
 }
 
-/// Where it is now, with what it moves, and what it felt.
+/// Pose, motion, and reaction of an obstacle.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct ObstacleState {
@@ -1913,9 +1866,9 @@ pub struct ObstacleState {
     pub rotation: [f32; 9],
     pub velocity: [f32; 3],
     pub angular_velocity: [f32; 3],
-    /// N s, N m s about its centre of mass: what sheets and pins gave it in the last tick
+    /// N s, N m s about its centre of mass: from sheets and pins in the last tick
     pub impulse: [f64; 3],
-    /// N s, N m s about its centre of mass: what sheets and pins gave it in the last tick
+    /// N s, N m s about its centre of mass: from sheets and pins in the last tick
     pub angular_impulse: [f64; 3],
     /// that pushed in the last tick
     pub contacts: i32,
@@ -1947,7 +1900,7 @@ impl ObstacleState {
     }
 }
 
-/// A corner of what is drawn: as it is, it may go to a GPU.
+/// A corner to draw, in a layout for a GPU.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct DrawVertex {
@@ -1978,7 +1931,7 @@ impl DrawVertex {
     }
 }
 
-/// What happened since the start of the last tick that was not refused.
+/// Events since the start of the last tick that was not refused.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Event {
@@ -1999,7 +1952,7 @@ pub enum Event {
         sheet: Sheet,
         frame: Frame,
     },
-    /// the sheet was put to rest
+    /// the sheet was stopped
     Diverged {
         sheet: Sheet,
     },
@@ -2009,12 +1962,12 @@ pub enum Event {
         stage: Stage,
         waiting: i32,
     },
-    /// pin: its force passed `break_force`; the id is stale from now on
+    /// pin: its force exceeded `break_force`; the id is stale from now on
     PinBroke {
         sheet: Sheet,
         pin: Pin,
     },
-    /// sheet (the new one), frame, area: what [`Frame::detach_piece`] left waiting is done
+    /// sheet (the new one), frame, area: a pending [`Frame::detach_piece`] is done
     PieceDetached {
         sheet: Sheet,
         frame: Frame,
@@ -2036,41 +1989,40 @@ impl Event {
     }
 }
 
-/// The name of a result, "[`ResultCode::Ok`]" and so on; "unknown" for another number.
+/// Returns the name of a result, such as "[`ResultCode::Ok`]"; "unknown" for another number.
 #[must_use]
 pub fn result_name(result: ResultCode) -> &'static str {
     // SAFETY: texts of the library stay.
     unsafe { text(sys::kiriGetResultName(result as i32)) }
 }
 
-/// One line: the meaning of a result, and its cure. For calls without a world that keeps a line,
-/// such as [`World::new`] with a def of zeros ([`ResultCode::ErrorDef`]).
+/// Returns one line: the meaning of a result, and its cure. Use it after calls that have no world
+/// to keep a line, such as [`World::new`] with a def of zeros ([`ResultCode::ErrorDef`]).
 #[must_use]
 pub fn result_text(result: ResultCode) -> &'static str {
     // SAFETY: texts of the library stay.
     unsafe { text(sys::kiriGetResultText(result as i32)) }
 }
 
-/// For hosts that would rather think in time than in items: the budget whose work would have taken
-/// so many microseconds a tick at the pace of the profile, which may be the sum of several. Work on
-/// cuts and linear systems share the time as they did in the profile, and each of triangles, cells
-/// and samples gets what the three took together, see [`Budget`]. Each item that the profile has
-/// some of is set; others stay. The simulation never reads a clock: the choice is the host's, and a
-/// replay must hand in the same budgets.
+/// Converts microseconds a tick into a budget, at the pace of the profile, which may be the sum of
+/// several. Cuts and linear systems share the time as in the profile. Each of triangles, cells and
+/// samples gets the time of all three, see [`Budget`]. Sets only the limits for which the profile
+/// recorded work. The simulation never reads a clock: the host chooses, and a replay must set the
+/// same budgets.
 pub fn fit_budget(profile: &Profile, microseconds: f32, budget: &mut Budget) -> Result<()> {
     // SAFETY: pointers are to what is named, and lengths are theirs.
     fail(unsafe { sys::kiriFitBudget(&profile.raw(), microseconds, std::ptr::from_mut(budget).cast()) })?;
     Ok(())
 }
 
-/// The name of a stage, for tables; "" for a number that is none.
+/// Returns the name of a stage; "" for another number.
 #[must_use]
 pub fn stage_name(stage: Stage) -> &'static str {
     // SAFETY: texts of the library stay.
     unsafe { text(sys::kiriGetStageName(stage as i32)) }
 }
 
-/// The numbers of a preset, KIRI_MATERIAL_...
+/// Gets the numbers of a preset, KIRI_MATERIAL_...
 pub fn material(preset: MaterialPreset) -> Result<Material> {
     let mut material = MaybeUninit::<sys::kiriMaterial>::uninit();
     // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2080,7 +2032,7 @@ pub fn material(preset: MaterialPreset) -> Result<Material> {
     Ok(Material::from_raw(&material))
 }
 
-/// The numbers of a preset, KIRI_QUALITY_...
+/// Gets the numbers of a preset, KIRI_QUALITY_...
 pub fn quality(preset: QualityPreset) -> Result<Quality> {
     let mut quality = MaybeUninit::<sys::kiriQuality>::uninit();
     // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2090,8 +2042,8 @@ pub fn quality(preset: QualityPreset) -> Result<Quality> {
     Ok(Quality::from_raw(&quality))
 }
 
-/// A rectangle from (0, 0) to (width, height) for a sheet def: writes 2 \* (columns + 1) \* (rows +
-/// 1) floats and 6 \* columns \* rows indices. columns and rows are 1 to 4096.
+/// Fills in a rectangle from (0, 0) to (width, height) for a sheet def: writes 2 \* (columns + 1)
+/// \* (rows + 1) floats and 6 \* columns \* rows indices. columns and rows are 1 to 4096.
 pub fn fill_rectangle(width: f32, height: f32, columns: i32, rows: i32) -> Result<(Vec<[f32; 2]>, Vec<[i32; 3]>)> {
     let mut rest_positions = vec![[f32::default(); 2]; (2 * (columns.clamp(0, 4096) as usize + 1) * (rows.clamp(0, 4096) as usize + 1)) / 2];
     let mut indices = vec![[i32::default(); 3]; (6 * columns.clamp(0, 4096) as usize * rows.clamp(0, 4096) as usize) / 3];
@@ -2101,22 +2053,22 @@ pub fn fill_rectangle(width: f32, height: f32, columns: i32, rows: i32) -> Resul
 }
 
 impl World {
-    /// One fixed step of dt seconds (1e-6 to 10), solved in substeps equal parts (1 to 64). Takes
-    /// the waiting cut points, then moves every sheet. [`ResultCode::Pending`]: the budget is spent
-    /// and more work waits: the events say which cuts; a sheet, or some of its pieces, may also
-    /// have stood still for want of iterations. [`ResultCode::ErrorMemory`]: nothing moved; cuts
-    /// and pieces still wait, call again. Refused work is prepared again: until then
+    /// Advances by one fixed step of dt seconds (1e-6 to 10), in substeps equal parts (1 to 64):
+    /// takes the pending cut points, then moves every sheet. [`ResultCode::Pending`]: the budget is
+    /// spent, and events name the cuts that still have work; a sheet or some of its pieces may have
+    /// stood still for want of iterations. [`ResultCode::ErrorMemory`]: nothing moved; cuts and
+    /// pieces are still pending, call again. Until the refused work is done again,
     /// [`Sheet::weights`] gives [`ResultCode::ErrorState`], and with a budget a cut may take effect
-    /// some ticks later than it would have. [`ResultCode::ErrorLimit`]: the same, and it stays so
-    /// until frames are destroyed. [`ResultCode::Diverged`]: the sheets named by the events were
-    /// put to rest, the others moved. Work may wait then, too, as [`EventType::Deferred`] says.
+    /// some ticks later. [`ResultCode::ErrorLimit`]: the same, until frames are destroyed.
+    /// [`ResultCode::Diverged`]: sheets that events name were stopped, others moved;
+    /// [`EventType::Deferred`] tells of pending work.
     pub fn tick(&mut self, dt: f32, substeps: i32) -> Result<Status> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         let result = check(unsafe { sys::kiriWorld_Tick(self.raw_mut(), dt, substeps) }, self)?;
         Ok(Status::of(result))
     }
 
-    /// m/s^2. All pieces wake.
+    /// Sets gravity (m/s^2). All pieces wake.
     pub fn set_gravity(&mut self, gravity: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriWorld_SetGravity(self.raw_mut(), gravity.as_ptr()) }, self)?;
@@ -2124,29 +2076,27 @@ impl World {
     }
 
     /// Moves the origin of the world to a point (m): subtracts it from the positions of sheets,
-    /// targets of pins and holds, obstacles, blades, and contacts that wait. The motion goes on as
-    /// before, to rounding. Nothing wakes; (0, 0, 0) changes nothing. Use it in large worlds: far
-    /// from the origin floats lose places. The host shifts its own data itself. Arrays that the
-    /// library handed out keep the old positions until the next tick.
-    /// [`ResultCode::ErrorArgument`]: a position would not fit a float.
-    /// [`ResultCode::ErrorMemory`]: nothing has changed.
+    /// targets of pins and holds, obstacles, blades, and pending contacts. The motion goes on as
+    /// before, to rounding. Nothing wakes; (0, 0, 0) changes nothing. Use it in large worlds, where
+    /// floats lose precision. The host shifts its own data. Returned arrays keep the old positions
+    /// until the next tick. [`ResultCode::ErrorArgument`]: a position would not fit a float.
     pub fn shift_origin(&mut self, origin: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriWorld_ShiftOrigin(self.raw_mut(), origin.as_ptr()) }, self)?;
         Ok(())
     }
 
-    /// Takes effect with the next tick.
+    /// Sets the budget from the next tick on.
     pub fn set_budget(&mut self, budget: &Budget) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriWorld_SetBudget(self.raw_mut(), &budget.raw()) }, self)?;
         Ok(())
     }
 
-    /// A hash of everything that the coming ticks depend on, work that waits for its budget
-    /// included: two worlds that got the same calls have the same hash, and two with the same hash
-    /// go on alike. After a refused allocation some items are made again: the hash tells that while
-    /// work waits, or while the budget limits cells or samples.
+    /// Hashes all state that the coming ticks depend on, pending work included. Two worlds with the
+    /// same calls have the same hash, and two worlds with the same hash go on alike. After a
+    /// refused allocation some items are made again: the hash differs while work is pending, or
+    /// while the budget limits cells or samples.
     pub fn state_hash(&self) -> Result<u64> {
         let mut hash: u64 = Default::default();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2174,9 +2124,9 @@ impl World {
         Ok(sheets)
     }
 
-    /// Puts some bytes of the host's own (1 to KIRI_MOST_NOTE_BYTES) in the recording, where a
-    /// replay finds them: what its camera saw, what a player pressed. The world does not change;
-    /// without a recording nothing happens.
+    /// Writes bytes of the host (1 to KIRI_MOST_NOTE_BYTES) to the recording, such as keys that a
+    /// player pressed. A replay stops there. The world does not change; without a recording nothing
+    /// happens.
     pub fn note(&mut self, bytes: &[u8]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriWorld_Note(self.raw_mut(), bytes.as_ptr().cast(), bytes.len() as i32) }, self)?;
@@ -2266,7 +2216,7 @@ impl World {
         Ok(())
     }
 
-    /// Of the last tick that was not refused.
+    /// Gets the profile of the last tick that was not refused.
     pub fn profile(&self) -> Result<Profile> {
         let mut profile = MaybeUninit::<sys::kiriProfile>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2277,8 +2227,8 @@ impl World {
     }
 
     /// Adds a sheet. On failure \*sheet is 0. [`ResultCode::ErrorMesh`]: the triangles do not form
-    /// a sheet. The line names a triangle, or the two triangles at an edge, by their numbers in the
-    /// def, and says why.
+    /// a sheet. The line says why, and names the triangle, or the two triangles at an edge, by
+    /// index in the def.
     pub fn create_sheet(&mut self, def: &SheetDef<'_>) -> Result<Sheet> {
         let mut sheet = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2286,9 +2236,9 @@ impl World {
         Ok(Sheet::known(sheet))
     }
 
-    /// A sheet that is a rectangle from (0, 0) to (width, height) of the rest plane, of 2 \*
-    /// columns \* rows triangles; columns and rows are 1 to 4096. def: all but the mesh, which is
-    /// not read; null: the defaults. A recording has it as [`World::create_sheet`].
+    /// Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 \* columns
+    /// \* rows triangles; columns and rows are 1 to 4096. def: its mesh is not read; null: the
+    /// defaults. A recording stores it as [`World::create_sheet`].
     pub fn create_rectangle(&mut self, width: f32, height: f32, columns: i32, rows: i32, def: Option<&SheetDef<'_>>) -> Result<Sheet> {
         let def = def.map(|def| def.raw());
         let mut sheet = 0;
@@ -2297,7 +2247,7 @@ impl World {
         Ok(Sheet::known(sheet))
     }
 
-    /// The first sheet that a ray meets; \*sheet is 0 where there is none.
+    /// Finds the first sheet that a ray meets; \*sheet is 0 where there is none.
     pub fn raycast(&self, origin: [f32; 3], direction: [f32; 3], max_distance: f32) -> Result<Option<(Sheet, Hit)>> {
         let mut sheet = 0;
         let mut hit = MaybeUninit::<sys::kiriHit>::uninit();
@@ -2308,10 +2258,10 @@ impl World {
         Ok((hit.triangle >= 0).then(|| (Sheet::known(sheet), Hit::from_raw(&hit))))
     }
 
-    /// The same for the pieces of so many frames, of any sheets, in one pass for each sheet; frames
-    /// of one piece count once. Where one is refused, none goes. [`ResultCode::Pending`]: some
-    /// wait, those of one sheet together. detached\[i\] is the sheet that the piece of frames\[i\]
-    /// has become, 0 where it waits.
+    /// Detach or remove the pieces of count frames, of any sheets, in one pass for each sheet;
+    /// frames of one piece count once. All are done or pending, or none if one is refused.
+    /// [`ResultCode::Pending`]: some are pending, all in a sheet together. detached\[i\] is the
+    /// sheet made of the piece of frames\[i\], 0 where it is pending.
     pub fn detach_pieces(&mut self, frames: &[Frame]) -> Result<Vec<Option<Sheet>>> {
         let mut detached = vec![None::<Sheet>; frames.len()];
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2319,10 +2269,10 @@ impl World {
         Ok(detached)
     }
 
-    /// The same for the pieces of so many frames, of any sheets, in one pass for each sheet; frames
-    /// of one piece count once. Where one is refused, none goes. [`ResultCode::Pending`]: some
-    /// wait, those of one sheet together. detached\[i\] is the sheet that the piece of frames\[i\]
-    /// has become, 0 where it waits.
+    /// Detach or remove the pieces of count frames, of any sheets, in one pass for each sheet;
+    /// frames of one piece count once. All are done or pending, or none if one is refused.
+    /// [`ResultCode::Pending`]: some are pending, all in a sheet together. detached\[i\] is the
+    /// sheet made of the piece of frames\[i\], 0 where it is pending.
     pub fn destroy_pieces(&mut self, frames: &[Frame]) -> Result<Status> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         let result = check(unsafe { sys::kiriWorld_DestroyPieces(self.raw_mut(), frames.as_ptr().cast(), frames.len() as i32) }, self)?;
@@ -2348,14 +2298,14 @@ impl World {
 }
 
 impl Sheet {
-    /// The sheet is gone, with its cuts, frames and pins; their ids are stale.
+    /// Destroys the sheet with its cuts, frames and pins; their ids are stale.
     pub fn destroy(self, world: &mut World) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriDestroySheet(world.raw_mut(), self.raw()) }, world)?;
         Ok(())
     }
 
-    /// What they are now, stamped for [`Sheet::set_settings`].
+    /// Gets the current settings, stamped for [`Sheet::set_settings`].
     pub fn settings(self, world: &World) -> Result<SheetSettings> {
         let mut settings = MaybeUninit::<sys::kiriSheetSettings>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2365,17 +2315,17 @@ impl Sheet {
         Ok(SheetSettings::from_raw(&settings))
     }
 
-    /// Checked as the def is: all or nothing. [`ResultCode::ErrorDef`]: they did not come from
-    /// GetSettings. The sheet wakes where one is other than before. Places and velocities stay:
-    /// with another mass so momentum changes. Stiffnesses that pins have, and the lengths that
-    /// frames were spread by, stay as they are.
+    /// Sets all settings, or none; checks them as [`World::create_sheet`] does.
+    /// [`ResultCode::ErrorDef`]: they do not come from [`Sheet::settings`]. The sheet wakes if one
+    /// differs. Positions and velocities are kept, so a new mass changes the momentum. The
+    /// stiffness of pins and the lengths that placed the frames are kept, too.
     pub fn set_settings(self, world: &mut World, settings: &SheetSettings) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriSheet_SetSettings(world.raw_mut(), self.raw(), &settings.raw()) }, world)?;
         Ok(())
     }
 
-    /// The arrays, without a copy.
+    /// Gets the arrays, without a copy.
     pub fn mesh(self, world: &World) -> Result<Mesh<'_>> {
         let mut mesh = MaybeUninit::<sys::kiriMesh>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2385,8 +2335,7 @@ impl Sheet {
         Ok(Mesh::from_raw(&mesh))
     }
 
-    /// What changed since the host saw that revision; all of the mesh where that is too long ago,
-    /// or 0.
+    /// Gets the changes since a revision; the whole mesh if the revision is too old, or 0.
     pub fn dirty(self, world: &World, since_revision: u32) -> Result<Dirty> {
         let mut dirty = MaybeUninit::<sys::kiriDirty>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2396,11 +2345,11 @@ impl Sheet {
         Ok(Dirty::from_raw(&dirty))
     }
 
-    /// Copies the index that some vertices had when the last call of [`World::tick`] began, for
-    /// hosts that draw between two ticks. \*from: the sheet that had them then, which is another
-    /// one if this sheet was a piece of it. A vertex that a cut tore off another one gets the index
-    /// of the other. -1: the vertex did not exist; so all vertices of a sheet that was created or
-    /// loaded since. The manual has the code (drawing).
+    /// Copies the index that each vertex had when the last call of [`World::tick`] began, for hosts
+    /// that draw between two ticks. \*from: the sheet that had the vertices then; another sheet if
+    /// this one was a piece of it. A vertex that a cut separated from another gets the index of the
+    /// other. -1: the vertex did not exist, as in a sheet that was created or loaded since. The
+    /// manual has the code (drawing).
     pub fn copy_previous(self, world: &World, first: i32, vertices: &mut [i32]) -> Result<Sheet> {
         let mut from = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2408,7 +2357,7 @@ impl Sheet {
         Ok(Sheet::known(from))
     }
 
-    /// Copies the indices of some triangles, 3 each, as 16-bit numbers. [`ResultCode::ErrorState`]:
+    /// Copies indices of some triangles as 16-bit numbers, 3 each. [`ResultCode::ErrorState`]:
     /// there are more than 65535 vertices.
     pub fn copy_indices16(self, world: &World, first_triangle: i32, indices: &mut [[u16; 3]]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2416,10 +2365,10 @@ impl Sheet {
         Ok(())
     }
 
-    /// Map triangles to the def, to draw with data that the host keeps by its own vertices.
-    /// Sources: the triangle of the def that contains each; -1 for one that has left (its corners
-    /// are equal). Weights: 9 floats each, the barycentric coordinates of its three corners in that
-    /// triangle. They are right on both sides of a seam that `weld_distance` has closed;
+    /// Map triangles to the def, to draw with the host's data for its own vertices. Sources: the
+    /// triangle of the def that contains each; -1 for a triangle that was removed (its corners are
+    /// equal). Weights: 9 floats each, the barycentric coordinates of its three corners in that
+    /// triangle. They are correct on both sides of a seam that `weld_distance` closed;
     /// `source_triangles` name a triangle on one side. The manual has the code (meshes).
     pub fn copy_sources(self, world: &World, first_triangle: i32, sources: &mut [i32]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2427,10 +2376,10 @@ impl Sheet {
         Ok(())
     }
 
-    /// Map triangles to the def, to draw with data that the host keeps by its own vertices.
-    /// Sources: the triangle of the def that contains each; -1 for one that has left (its corners
-    /// are equal). Weights: 9 floats each, the barycentric coordinates of its three corners in that
-    /// triangle. They are right on both sides of a seam that `weld_distance` has closed;
+    /// Map triangles to the def, to draw with the host's data for its own vertices. Sources: the
+    /// triangle of the def that contains each; -1 for a triangle that was removed (its corners are
+    /// equal). Weights: 9 floats each, the barycentric coordinates of its three corners in that
+    /// triangle. They are correct on both sides of a seam that `weld_distance` closed;
     /// `source_triangles` name a triangle on one side. The manual has the code (meshes).
     pub fn copy_source_weights(self, world: &World, first_triangle: i32, weights: &mut [[f32; 9]]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2438,7 +2387,7 @@ impl Sheet {
         Ok(())
     }
 
-    /// thickness: m, 0: that of the material. Made when it is asked for.
+    /// Makes the solid surface. thickness: m, 0: the material's thickness.
     pub fn solid(self, world: &mut World, thickness: f32) -> Result<Solid<'_>> {
         let mut solid = MaybeUninit::<sys::kiriSolid>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2448,7 +2397,7 @@ impl Sheet {
         Ok(Solid::from_raw(&solid))
     }
 
-    /// Collision points: 3 floats of position (m, world) a point.
+    /// Gets the collision points: 3 floats of position (m, world) a point.
     pub fn collision_points(self, world: &World) -> Result<&[[f32; 3]]> {
         let mut positions = std::ptr::null();
         let mut count = 0;
@@ -2457,7 +2406,7 @@ impl Sheet {
         Ok(unsafe { view(positions, count) })
     }
 
-    /// Costs nothing.
+    /// Gets the counts, at no cost.
     pub fn counts(self, world: &World) -> Result<Counts> {
         let mut counts = MaybeUninit::<sys::kiriCounts>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2467,7 +2416,7 @@ impl Sheet {
         Ok(Counts::from_raw(&counts))
     }
 
-    /// Sums over the frames, made when they are asked for.
+    /// Sums the totals over the frames.
     pub fn totals(self, world: &World) -> Result<Totals> {
         let mut totals = MaybeUninit::<sys::kiriTotals>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2477,16 +2426,11 @@ impl Sheet {
         Ok(Totals::from_raw(&totals))
     }
 
-    /// An estimate of the error of the sheet's shape as it is now, where it rests or moves slowly:
-    /// rms distance from where a sheet of very many frames would be under the same loads, over the
-    /// rms way that it has gone from its flat shape; 0 to 1, and 1 where there are too few frames
-    /// to tell. It compares the strains of neighbouring links ([`Model::Links`] only; else
-    /// [`ResultCode::ErrorState`]). Measured on cantilevers and on a sheet with a slit, of 3 to 140
-    /// frames, it is not below a third of the error, and not above four times the error or, where
-    /// that is below 0.5 %, 1.5 %. Where a sheet also turned as a whole, as by hanging from two
-    /// corners, it says up to ten times too much. It knows nothing of errors of the grid, of time
-    /// stepping, and of loads that are finer than frames. It takes memory and time for one pass
-    /// over the links, when it is called.
+    /// Estimates the error of the current shape of a sheet that rests or moves slowly: rms distance
+    /// from a sheet of very many frames under the same loads, over its rms way from the flat shape;
+    /// 0 to 1, and 1 with too few frames to tell. It compares strains of neighbouring links
+    /// ([`Model::Links`] only; else [`ResultCode::ErrorState`]), in one pass that allocates memory.
+    /// The manual says how good it is (accuracy).
     pub fn estimate_error(self, world: &World) -> Result<f64> {
         let mut relative: f64 = Default::default();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2494,8 +2438,8 @@ impl Sheet {
         Ok(relative)
     }
 
-    /// \*awake is 0 where all pieces of the sheet sleep, see `sleep_speed`; [`PieceState`] says
-    /// which do. [`Sheet::wake`] wakes all of them.
+    /// Read and end sleep: \*awake is 0 where all pieces sleep ([`PieceState`] tells which);
+    /// [`Sheet::wake`] wakes all.
     pub fn is_awake(self, world: &World) -> Result<bool> {
         let mut awake: i32 = Default::default();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2503,52 +2447,50 @@ impl Sheet {
         Ok(awake != 0)
     }
 
-    /// \*awake is 0 where all pieces of the sheet sleep, see `sleep_speed`; [`PieceState`] says
-    /// which do. [`Sheet::wake`] wakes all of them.
+    /// Read and end sleep: \*awake is 0 where all pieces sleep ([`PieceState`] tells which);
+    /// [`Sheet::wake`] wakes all.
     pub fn wake(self, world: &mut World) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriSheet_Wake(world.raw_mut(), self.raw()) }, world)?;
         Ok(())
     }
 
-    /// Every point x (m, world) of the sheet goes to R x + t at once, and is seen there; velocities
-    /// turn. The columns of rotation are where R takes the axes of the world; a planar sheet turns
-    /// about its normal only. It wakes. Targets of its pins, hinges, clamps and holds go along, so
-    /// nothing draws it back. To set a target to its current value changes nothing. A target that
-    /// the host has set nearer to the new place of the pin than to the old one stays: so the host
-    /// may set targets before or after. Pins on an obstacle stay on it: put the obstacle elsewhere
-    /// by the same motion ([`Obstacle::set_pose`]), before or after. Loads and contacts that wait
-    /// for the next tick stay.
+    /// Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and
+    /// the sheet wakes. The columns of rotation are the images of the world's axes; a planar sheet
+    /// turns about its normal only. Targets of pins, hinges, clamps and holds move along, so
+    /// nothing pulls the sheet back. A target that the host set nearer to the pin's new place than
+    /// to its old one stays: the host may set targets before or after. Pins on an obstacle stay on
+    /// it: move the obstacle by the same motion ([`Obstacle::set_pose`]), before or after. Pending
+    /// loads and contacts stay.
     pub fn transform(self, world: &mut World, rotation: [f32; 9], translation: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriSheet_Transform(world.raw_mut(), self.raw(), rotation.as_ptr(), translation.as_ptr()) }, world)?;
         Ok(())
     }
 
-    /// From now on it moves as a rigid body, until forces change that: velocity (m/s) of its centre
-    /// of mass, and `angular_velocity` (rad/s) about it. What a planar sheet has across its plane
-    /// is dropped; held frames follow their hold. [`Frame::set_piece_velocity`]: of the piece with
-    /// that frame alone.
+    /// Set rigid motion of a sheet, or of the piece with a frame, until forces change it: velocity
+    /// (m/s) of its centre of mass, and `angular_velocity` (rad/s) about it. Planar sheets drop
+    /// motion across their plane; held frames stay held.
     pub fn set_velocity(self, world: &mut World, velocity: [f32; 3], angular_velocity: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriSheet_SetVelocity(world.raw_mut(), self.raw(), velocity.as_ptr(), angular_velocity.as_ptr()) }, world)?;
         Ok(())
     }
 
-    /// A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A
-    /// sheet that [`Frame::detach_piece`] makes has that of the sheet it came from. A piece has
-    /// one, named by any of its frames: the parts of a piece that is cut have that of the piece, as
-    /// does a sheet that is made of it.
+    /// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
+    /// [`Frame::detach_piece`] copies the sheet's number to the new sheet. A piece has a number,
+    /// too, named by any of its frames: the parts of a piece that is cut inherit it, and so does a
+    /// sheet that is made of it.
     pub fn set_user_data(self, world: &mut World, data: u64) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriSheet_SetUserData(world.raw_mut(), self.raw(), data) }, world)?;
         Ok(())
     }
 
-    /// A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A
-    /// sheet that [`Frame::detach_piece`] makes has that of the sheet it came from. A piece has
-    /// one, named by any of its frames: the parts of a piece that is cut have that of the piece, as
-    /// does a sheet that is made of it.
+    /// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
+    /// [`Frame::detach_piece`] copies the sheet's number to the new sheet. A piece has a number,
+    /// too, named by any of its frames: the parts of a piece that is cut inherit it, and so does a
+    /// sheet that is made of it.
     pub fn user_data(self, world: &World) -> Result<u64> {
         let mut data: u64 = Default::default();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2556,10 +2498,10 @@ impl Sheet {
         Ok(data)
     }
 
-    /// Where a ray first meets the sheet, up to `max_distance`. [`ResultCode::Ok`] with
-    /// hit-\>triangle = -1: nowhere. The first ray looks at every triangle; the next tick makes
-    /// boxes over them, and as long as somebody asks every now and then (in 120 ticks) they follow
-    /// the sheet: a ray takes some microseconds, and a tick of a large sheet a quarter more.
+    /// Finds where a ray first meets the sheet, up to `max_distance`. [`ResultCode::Ok`] with
+    /// hit-\>triangle = -1: it does not. The first ray visits every triangle. From the next tick on
+    /// boxes over the triangles follow the sheet, until 120 ticks pass without a ray: a ray takes
+    /// some microseconds, and a tick of a large sheet a quarter more.
     pub fn raycast(self, world: &World, origin: [f32; 3], direction: [f32; 3], max_distance: f32) -> Result<Option<Hit>> {
         let mut hit = MaybeUninit::<sys::kiriHit>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2569,8 +2511,8 @@ impl Sheet {
         Ok((hit.triangle >= 0).then(|| Hit::from_raw(&hit)))
     }
 
-    /// Outside the sheet: [`ResultCode::ErrorArgument`]. On a cut, the lip that holds the point;
-    /// either where both do.
+    /// Gets the state of a point. [`ResultCode::ErrorArgument`]: it is outside the sheet. On a cut:
+    /// on a lip that has the point.
     pub fn point(self, world: &World, rest_point: [f32; 2]) -> Result<PointState> {
         let mut state = MaybeUninit::<sys::kiriPointState>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2580,10 +2522,10 @@ impl Sheet {
         Ok(PointState::from_raw(&state))
     }
 
-    /// The shape functions at a rest point: up to capacity frames with their weights (sum 1) and,
-    /// unless null, gradients (2 floats a frame, 1/m). \*count is how many there are, however many
-    /// fit. Outside the sheet: [`ResultCode::ErrorArgument`]; while work on a cut waits for its
-    /// budget: [`ResultCode::ErrorState`].
+    /// Gets the shape functions at a rest point: up to capacity frames with their weights (sum 1)
+    /// and, unless null, gradients (2 floats a frame, 1/m). \*count is how many there are, also
+    /// above capacity. [`ResultCode::ErrorArgument`]: it is outside the sheet.
+    /// [`ResultCode::ErrorState`]: work on a cut is pending.
     pub fn weights(self, world: &World, rest_point: [f32; 2]) -> Result<(Vec<Frame>, Vec<f32>, Vec<[f32; 2]>)> {
         let mut frames = Vec::<Frame>::new();
         let mut weights = Vec::<f32>::new();
@@ -2608,8 +2550,8 @@ impl Sheet {
         Ok((frames, weights, gradients))
     }
 
-    /// The first of these calls after a cut sorts the sheet by pieces, which may fail with
-    /// [`ResultCode::ErrorMemory`]. An index that is no piece's: [`ResultCode::ErrorArgument`].
+    /// Get a piece. The first of these calls after a cut sorts the sheet by pieces, and may fail
+    /// with [`ResultCode::ErrorMemory`]. [`ResultCode::ErrorArgument`]: no piece has the index.
     pub fn piece(self, world: &mut World, piece: i32) -> Result<PieceState> {
         let mut state = MaybeUninit::<sys::kiriPieceState>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2619,8 +2561,8 @@ impl Sheet {
         Ok(PieceState::from_raw(&state))
     }
 
-    /// The first of these calls after a cut sorts the sheet by pieces, which may fail with
-    /// [`ResultCode::ErrorMemory`]. An index that is no piece's: [`ResultCode::ErrorArgument`].
+    /// Get a piece. The first of these calls after a cut sorts the sheet by pieces, and may fail
+    /// with [`ResultCode::ErrorMemory`]. [`ResultCode::ErrorArgument`]: no piece has the index.
     pub fn piece_mesh(self, world: &mut World, piece: i32) -> Result<PieceMesh<'_>> {
         let mut mesh = MaybeUninit::<sys::kiriPieceMesh>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2630,7 +2572,7 @@ impl Sheet {
         Ok(PieceMesh::from_raw(&mesh))
     }
 
-    /// \*frames points to \*count ids.
+    /// Gets the frames of a piece: \*frames points to \*count ids.
     pub fn piece_frames(self, world: &mut World, piece: i32) -> Result<&[Frame]> {
         let mut frames = std::ptr::null();
         let mut count = 0;
@@ -2640,8 +2582,8 @@ impl Sheet {
     }
 
     /// Destroys all pieces below an area (m^2) except the largest piece, at the cost of one.
-    /// \*count is how many. Where that one waits to become a sheet, the largest of the others
-    /// stays, too.
+    /// \*count is their number. If the largest piece is pending to become a sheet, the largest of
+    /// the others stays, too.
     pub fn drop_crumbs(self, world: &mut World, area: f32) -> Result<i32> {
         let mut count: i32 = Default::default();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2649,9 +2591,9 @@ impl Sheet {
         Ok(count)
     }
 
-    /// A cut is a polyline in the rest plane. Points may lie anywhere: what is outside the sheet
-    /// cuts nothing. Points wait until the next tick. The end of a cut that lies inside the sheet
-    /// stays closed until the blade moves on.
+    /// Begins a cut: a polyline in the rest plane. Outside the sheet it cuts nothing. Points take
+    /// effect with the next tick or, by the budget, a later one. The end of a cut inside the sheet
+    /// stays closed until the next point.
     pub fn begin_cut(self, world: &mut World, rest_point: [f32; 2]) -> Result<Cut> {
         let mut cut = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2659,10 +2601,10 @@ impl Sheet {
         Ok(Cut::known(cut))
     }
 
-    /// A blade (a straight edge) that moves in world space from blade\[0\]-blade\[1\] to
-    /// blade\[3\]-blade\[2\] cuts where the swept quadrilateral meets the sheet as it is now, past
-    /// borders, so that it parts what it crosses. The cut is ended already. Slices of a sheet that
-    /// moves do not join from tick to tick: for that take a blade.
+    /// Cuts where the quadrilateral swept by an edge in world space, from blade\[0\]-blade\[1\] to
+    /// blade\[3\]-blade\[2\], meets the current sheet; past borders, so that it separates the parts
+    /// that it crosses. The cut is already ended. Slices of a moving sheet do not join from tick to
+    /// tick: use a blade for that.
     pub fn slice(self, world: &mut World, blade: [f32; 12]) -> Result<Cut> {
         let mut cut = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2689,47 +2631,47 @@ impl Sheet {
         Ok(frames)
     }
 
-    /// A force (N, world) on a point of the material and a torque (N m).
+    /// Applies a force (N, world) at a point of the material and a torque (N m).
     pub fn apply_force(self, world: &mut World, rest_point: [f32; 2], force: [f32; 3], torque: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriSheet_ApplyForce(world.raw_mut(), self.raw(), rest_point.as_ptr(), force.as_ptr(), torque.as_ptr()) }, world)?;
         Ok(())
     }
 
-    /// A force (N, world) on each metre of a straight line of the rest plane, as far as it lies in
-    /// the material, edges included. Where it runs along a cut, each lip gets half. The ends
-    /// differ; a line that meets no material: [`ResultCode::ErrorArgument`].
+    /// Applies a force (N/m, world) along a straight line of the rest plane where it lies in the
+    /// material, edges included. Along a cut each lip gets half. The ends differ.
+    /// [`ResultCode::ErrorArgument`]: the line meets no material.
     pub fn apply_line_load(self, world: &mut World, from: [f32; 2], to: [f32; 2], force_per_length: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriSheet_ApplyLineLoad(world.raw_mut(), self.raw(), from.as_ptr(), to.as_ptr(), force_per_length.as_ptr()) }, world)?;
         Ok(())
     }
 
-    /// A pressure (Pa) that pushes the whole sheet along its normal, or against it where below 0.
+    /// Applies a pressure (Pa) to the whole sheet along its normal; below 0: against it.
     pub fn apply_pressure(self, world: &mut World, pressure: f32) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriSheet_ApplyPressure(world.raw_mut(), self.raw(), pressure) }, world)?;
         Ok(())
     }
 
-    /// An impulse (N s, world) on a point of the material, where it is seen now. Velocities change
-    /// at once, by as much as the frames that carry the point resist; a held frame's part is lost.
-    /// Outside the sheet: [`ResultCode::ErrorArgument`].
+    /// Applies an impulse (N s, world) at a point of the material on the visible surface.
+    /// Velocities change at once, by the mass of the frames that carry the point; a held frame's
+    /// share is lost. [`ResultCode::ErrorArgument`]: it is outside the sheet.
     pub fn apply_impulse(self, world: &mut World, rest_point: [f32; 2], impulse: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriSheet_ApplyImpulse(world.raw_mut(), self.raw(), rest_point.as_ptr(), impulse.as_ptr()) }, world)?;
         Ok(())
     }
 
-    /// Copied; it blows until the next call.
+    /// Copies the wind; it blows until the next call.
     pub fn set_wind(self, world: &mut World, wind: &Wind) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriSheet_SetWind(world.raw_mut(), self.raw(), &wind.raw()) }, world)?;
         Ok(())
     }
 
-    /// Pins a point of the sheet. On failure \*pin is 0. A point outside the sheet:
-    /// [`ResultCode::ErrorArgument`].
+    /// Pins a point of the sheet. On failure \*pin is 0. [`ResultCode::ErrorArgument`]: it is
+    /// outside the sheet.
     pub fn create_pin(self, world: &mut World, def: &PinDef) -> Result<Pin> {
         let mut pin = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2737,19 +2679,14 @@ impl Sheet {
         Ok(Pin::known(pin))
     }
 
-    /// Pins along a straight line of the rest plane, an edge of the sheet or any other. A clamp
-    /// holds place and direction of the material there, as a vice does; a hinge its place only, so
-    /// that the sheet may turn about the line. Both begin where the material is now; the line stays
-    /// straight, and as long as it is at rest: so material that is bent there is pulled straight,
-    /// and pieces that have come apart are pulled together, however fast that makes them.
-    ///
-    /// They hold what the line meets, edges included, with the stiffness that the material has
-    /// between the line and the frames that it meets. So a clamp along an edge is where the drawing
-    /// has it, whatever the number of frames, where [`Frame::hold`] clamps at a frame's site. A
-    /// clamp through the sheet parts what is on its two sides, so that neither bends the other. A
-    /// line that runs along a cut holds both lips; one beside it, by a 512th of a square of the
-    /// grid or more, holds one. The ends differ; a line that meets no material:
-    /// [`ResultCode::ErrorArgument`].
+    /// Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds
+    /// the place and direction of its material, as a vice does; a hinge only the place, so the
+    /// sheet can turn about the line. The line is straight, with its rest length: bent material is
+    /// pulled straight, and separate pieces are pulled together, at any speed. Both hold the
+    /// material on the line, edges included, with its stiffness from the line to the frames around
+    /// it. A clamp through the sheet separates the bending of its two sides. A line along a cut
+    /// holds both lips; a line beside it, by a 512th of a grid square or more, holds one. The ends
+    /// differ. [`ResultCode::ErrorArgument`]: the line meets no material.
     pub fn clamp_line(self, world: &mut World, from: [f32; 2], to: [f32; 2]) -> Result<Pin> {
         let mut clamp = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2757,19 +2694,14 @@ impl Sheet {
         Ok(Pin::known(clamp))
     }
 
-    /// Pins along a straight line of the rest plane, an edge of the sheet or any other. A clamp
-    /// holds place and direction of the material there, as a vice does; a hinge its place only, so
-    /// that the sheet may turn about the line. Both begin where the material is now; the line stays
-    /// straight, and as long as it is at rest: so material that is bent there is pulled straight,
-    /// and pieces that have come apart are pulled together, however fast that makes them.
-    ///
-    /// They hold what the line meets, edges included, with the stiffness that the material has
-    /// between the line and the frames that it meets. So a clamp along an edge is where the drawing
-    /// has it, whatever the number of frames, where [`Frame::hold`] clamps at a frame's site. A
-    /// clamp through the sheet parts what is on its two sides, so that neither bends the other. A
-    /// line that runs along a cut holds both lips; one beside it, by a 512th of a square of the
-    /// grid or more, holds one. The ends differ; a line that meets no material:
-    /// [`ResultCode::ErrorArgument`].
+    /// Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds
+    /// the place and direction of its material, as a vice does; a hinge only the place, so the
+    /// sheet can turn about the line. The line is straight, with its rest length: bent material is
+    /// pulled straight, and separate pieces are pulled together, at any speed. Both hold the
+    /// material on the line, edges included, with its stiffness from the line to the frames around
+    /// it. A clamp through the sheet separates the bending of its two sides. A line along a cut
+    /// holds both lips; a line beside it, by a 512th of a grid square or more, holds one. The ends
+    /// differ. [`ResultCode::ErrorArgument`]: the line meets no material.
     pub fn hinge_line(self, world: &mut World, from: [f32; 2], to: [f32; 2]) -> Result<Pin> {
         let mut hinge = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2796,18 +2728,19 @@ impl Sheet {
         Ok(pins)
     }
 
-    /// The contacts of the next tick; they replace those of an earlier call, and are gone after the
-    /// tick. A contact is known again by its point, or its rest point, and its obstacle: what it
-    /// pushed with is where the next tick starts.
+    /// Sets the contacts of the next tick; they replace those set before, and end with the tick. A
+    /// contact with the point, or rest point, and obstacle of an earlier one starts with the
+    /// earlier impulse.
     pub fn set_contacts(self, world: &mut World, contacts: &[Contact]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriSheet_SetContacts(world.raw_mut(), self.raw(), contacts.as_ptr().cast(), contacts.len() as i32) }, world)?;
         Ok(())
     }
 
-    /// One for each contact that was set before the last tick, in the order given. The sum of the
-    /// impulses, with those of gravity, loads and obstacles, is the change of momentum of a piece
-    /// that nothing holds. A piece that sleeps goes on to press with what it fell asleep with.
+    /// Gets one result for each contact that was set before the last tick, in that order. The sum
+    /// of these impulses and of the impulses of gravity, loads and obstacles is the change of
+    /// momentum of a free piece. A sleeping piece goes on to press with the values with which it
+    /// fell asleep.
     pub fn contact_forces(self, world: &World) -> Result<&[ContactForce]> {
         let mut forces = std::ptr::null();
         let mut count = 0;
@@ -2816,10 +2749,10 @@ impl Sheet {
         Ok(unsafe { view(forces, count) })
     }
 
-    /// The box (m, world) that holds all that the sheet may touch in a tick of dt: a host needs no
-    /// obstacles or contacts outside. It reaches as far around the sheet as its fastest point can
-    /// go by its velocity and gravity, twice, and the contact thickness. Obstacles that move
-    /// themselves come as much nearer. dt as in [`World::tick`].
+    /// Gets a box (m, world) around all that the sheet can touch in a tick of dt (s, as in
+    /// [`World::tick`]): a host needs no obstacles or contacts outside. Its margin is twice the way
+    /// of the fastest point by velocity and gravity, plus the contact thickness. For moving
+    /// obstacles add their own way.
     pub fn reach(self, world: &World, dt: f32) -> Result<([f32; 3], [f32; 3])> {
         let mut lower: [f32; 3] = Default::default();
         let mut upper: [f32; 3] = Default::default();
@@ -2830,30 +2763,29 @@ impl Sheet {
 }
 
 impl Frame {
-    /// From now on it moves as a rigid body, until forces change that: velocity (m/s) of its centre
-    /// of mass, and `angular_velocity` (rad/s) about it. What a planar sheet has across its plane
-    /// is dropped; held frames follow their hold. [`Frame::set_piece_velocity`]: of the piece with
-    /// that frame alone.
+    /// Set rigid motion of a sheet, or of the piece with a frame, until forces change it: velocity
+    /// (m/s) of its centre of mass, and `angular_velocity` (rad/s) about it. Planar sheets drop
+    /// motion across their plane; held frames stay held.
     pub fn set_piece_velocity(self, world: &mut World, velocity: [f32; 3], angular_velocity: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriFrame_SetPieceVelocity(world.raw_mut(), self.raw(), velocity.as_ptr(), angular_velocity.as_ptr()) }, world)?;
         Ok(())
     }
 
-    /// A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A
-    /// sheet that [`Frame::detach_piece`] makes has that of the sheet it came from. A piece has
-    /// one, named by any of its frames: the parts of a piece that is cut have that of the piece, as
-    /// does a sheet that is made of it.
+    /// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
+    /// [`Frame::detach_piece`] copies the sheet's number to the new sheet. A piece has a number,
+    /// too, named by any of its frames: the parts of a piece that is cut inherit it, and so does a
+    /// sheet that is made of it.
     pub fn set_piece_user_data(self, world: &mut World, data: u64) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriFrame_SetPieceUserData(world.raw_mut(), self.raw(), data) }, world)?;
         Ok(())
     }
 
-    /// A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A
-    /// sheet that [`Frame::detach_piece`] makes has that of the sheet it came from. A piece has
-    /// one, named by any of its frames: the parts of a piece that is cut have that of the piece, as
-    /// does a sheet that is made of it.
+    /// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
+    /// [`Frame::detach_piece`] copies the sheet's number to the new sheet. A piece has a number,
+    /// too, named by any of its frames: the parts of a piece that is cut inherit it, and so does a
+    /// sheet that is made of it.
     pub fn piece_user_data(self, world: &World) -> Result<u64> {
         let mut data: u64 = Default::default();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2861,7 +2793,7 @@ impl Frame {
         Ok(data)
     }
 
-    /// The index that the piece with this frame has now.
+    /// Gets the current index of the piece with this frame.
     pub fn piece(self, world: &World) -> Result<i32> {
         let mut piece: i32 = Default::default();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2869,32 +2801,15 @@ impl Frame {
         Ok(piece)
     }
 
-    /// Makes a sheet of the piece with this frame. Its frames, pins and collision points move
-    /// along, in their order; they keep their ids and states, and what waits for the next tick: the
-    /// motion goes on as if nothing had happened, but for the solver's guard over energy and step
-    /// length, which is one for each sheet. A clamp or hinge that holds both becomes two: the rest
-    /// keeps the id, the new sheet's has one of its own ([`Sheet::pins`]). Both sheets have all
-    /// settings (of `collision_points` and `integration_points` the share that falls to their
-    /// area), `max_frames` each for itself; a piece that sleeps goes on sleeping. Cuts stay with
-    /// the rest: a blade in the piece cuts nothing until it is back. Indices of collision points of
-    /// the rest change. Its triangles and vertices keep their indices where it has more than 4096
-    /// vertices, and while no more than half of them are of pieces that went: these triangles have
-    /// three equal corners, these vertices are of no triangle. Else all move together, and their
-    /// indices change. In either case its revision grows, and [`Sheet::dirty`] says what changed.
-    /// The new sheet has the squares of the grid around it, at about 40 bytes a square: crumbs are
-    /// better dropped. Costs what the piece takes to make, and a look at the weights of what is
-    /// left; where indices change more. [`ResultCode::Pending`]: work on a cut is at hand in the
-    /// sheet, or it takes more samples than the budget leaves calls before the next tick;
-    /// \*detached is 0. When the work is done, what is the piece of this frame then becomes a
-    /// sheet, and [`EventType::PieceDetached`] names it. Samples pay for it before, over several
-    /// ticks if need be, of many pieces one after the other: of the first that waits 3 for each
-    /// vertex, 2.5 to 9 for each cell (the more frames, the more) and 100 for each frame, of others
-    /// 3 for each vertex and 1.4 for each cell; and one for 80 vertices of the rest. Until then
-    /// further cuts of the sheet wait. The first piece is made as it is paid, and leaves at the
-    /// start of the tick after the last sample is paid. That tick does an eighth of the work; the
-    /// first tick after a load makes the parts again that saves leave out. The coming ticks have
-    /// fewer samples for the work of calls. [`ResultCode::ErrorState`]: nothing would be left of
-    /// the sheet.
+    /// Makes a sheet of the piece with this frame. Frames, pins, collision points, pending loads
+    /// and contacts move along, with their ids and states, and the motion goes on. Both sheets have
+    /// all settings. Cuts stay with the old sheet. A clamp or hinge that holds both gets a copy
+    /// with a new id in the new sheet. Revisions grow; [`Sheet::dirty`] has the changes.
+    /// [`ResultCode::Pending`]: work on a cut is pending, or the piece takes more samples than the
+    /// budget leaves; \*detached is 0. Then samples of the coming ticks pay for it, and further
+    /// cuts of the sheet wait. When all is paid the piece of this frame becomes a sheet, and
+    /// [`EventType::PieceDetached`] names it. [`ResultCode::ErrorState`]: nothing would be left of
+    /// the sheet. The manual has indices and costs (cutting).
     pub fn detach_piece(self, world: &mut World) -> Result<Option<Sheet>> {
         let mut detached = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2902,20 +2817,17 @@ impl Frame {
         Ok(Sheet::from_raw(detached))
     }
 
-    /// The same without keeping the piece: ids of its frames and pins are stale. Costs as much, but
-    /// for making a sheet: that is done at once, and the coming ticks have less. Where
-    /// [`Sheet::mesh`] has been called since the last tick, all indices are copied.
-    /// [`ResultCode::Pending`]: work on a cut is at hand. The piece is gone all the same: its
-    /// triangles are in [`Mesh`], with three equal corners; it touches nothing; no point of it is
-    /// found. When the work is done its vertices go, too; until then [`Counts`] still counts it,
-    /// and its [`PieceState`] is all zeros.
+    /// Removes the piece with this frame: ids of its frames and pins are stale. Takes effect at
+    /// once, and the coming ticks have fewer samples. [`ResultCode::Pending`]: work on a cut is
+    /// pending. Until it is done the triangles stay in [`Mesh`] with three equal corners, the
+    /// vertices stay, and [`Counts`] counts the piece, with a [`PieceState`] of all zeros.
     pub fn destroy_piece(self, world: &mut World) -> Result<Status> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         let result = check(unsafe { sys::kiriFrame_DestroyPiece(world.raw_mut(), self.raw()) }, world)?;
         Ok(Status::of(result))
     }
 
-    /// Pose, motion and region as they are now.
+    /// Gets the current state.
     pub fn state(self, world: &World) -> Result<FrameState> {
         let mut state = MaybeUninit::<sys::kiriFrameState>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2925,21 +2837,21 @@ impl Frame {
         Ok(FrameState::from_raw(&state))
     }
 
-    /// The host moves the frame: its rest point, as it is seen, goes to position with rotation (a
-    /// rotation matrix, columns as above) in the next tick, evenly, and stays there until the next
-    /// call. An affine frame is not stretched then. On a planar sheet the rotation is about its
-    /// normal. Null, null: it is free again. Contacts do not push material that held frames carry
-    /// for more than half: it goes where the host has it, through obstacles too.
+    /// Holds the frame: its rest point on the visible surface moves evenly to position (m, world)
+    /// with rotation (a rotation matrix, columns as above) in the next tick, and stays there until
+    /// the next call. A held affine frame is not stretched. On a planar sheet the rotation is about
+    /// its normal. Null, null: frees it. Contacts do not push material of which held frames carry
+    /// more than half: it moves through obstacles.
     pub fn hold(self, world: &mut World, position: Option<[f32; 3]>, rotation: Option<[f32; 9]>) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriFrame_Hold(world.raw_mut(), self.raw(), position.as_ref().map_or(std::ptr::null(), |rows| rows.as_ptr()), rotation.as_ref().map_or(std::ptr::null(), |rows| rows.as_ptr())) }, world)?;
         Ok(())
     }
 
-    /// With what the host's hold acted on the sheet: force (N, world) and torque (N m) about the
-    /// frame's rest point; means over the last tick, impulses divided by its dt. They carry the
-    /// frame's own weight and change its momentum, too. Zero for a frame that was free. A piece
-    /// that sleeps keeps those that it fell asleep with.
+    /// Gets the force (N, world) and torque (N m, about the frame's rest point) that the hold
+    /// applied to the sheet: means over the last tick, impulses divided by its dt. They include the
+    /// frame's own weight and change of momentum. Zero for a free frame. A sleeping piece keeps the
+    /// values with which it fell asleep.
     pub fn reaction(self, world: &World) -> Result<([f64; 3], [f64; 3])> {
         let mut force: [f64; 3] = Default::default();
         let mut torque: [f64; 3] = Default::default();
@@ -2948,7 +2860,7 @@ impl Frame {
         Ok((force, torque))
     }
 
-    /// A force (N, world) on the frame's centre of mass and a torque (N m).
+    /// Applies a force (N, world) at the frame's centre of mass and a torque (N m).
     pub fn apply_force(self, world: &mut World, force: [f32; 3], torque: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriFrame_ApplyForce(world.raw_mut(), self.raw(), force.as_ptr(), torque.as_ptr()) }, world)?;
@@ -2957,20 +2869,20 @@ impl Frame {
 }
 
 impl Pin {
-    /// A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A
-    /// sheet that [`Frame::detach_piece`] makes has that of the sheet it came from. A piece has
-    /// one, named by any of its frames: the parts of a piece that is cut have that of the piece, as
-    /// does a sheet that is made of it.
+    /// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
+    /// [`Frame::detach_piece`] copies the sheet's number to the new sheet. A piece has a number,
+    /// too, named by any of its frames: the parts of a piece that is cut inherit it, and so does a
+    /// sheet that is made of it.
     pub fn set_user_data(self, world: &mut World, data: u64) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriPin_SetUserData(world.raw_mut(), self.raw(), data) }, world)?;
         Ok(())
     }
 
-    /// A number of the host's own; 0 at first. No tick depends on it, nor does the state hash. A
-    /// sheet that [`Frame::detach_piece`] makes has that of the sheet it came from. A piece has
-    /// one, named by any of its frames: the parts of a piece that is cut have that of the piece, as
-    /// does a sheet that is made of it.
+    /// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
+    /// [`Frame::detach_piece`] copies the sheet's number to the new sheet. A piece has a number,
+    /// too, named by any of its frames: the parts of a piece that is cut inherit it, and so does a
+    /// sheet that is made of it.
     pub fn user_data(self, world: &World) -> Result<u64> {
         let mut data: u64 = Default::default();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2978,34 +2890,34 @@ impl Pin {
         Ok(data)
     }
 
-    /// Where the pin holds its point, or the middle of its line (m, world): at the end of the next
-    /// tick, and until the next call. Within the tick it goes there evenly. The current target of
-    /// [`Pin::state`] changes nothing. With [`Skinning::Smooth`] what pins and clamps hold is what
-    /// is seen there; of a clamp the mean along its line, for each piece: single points of the line
-    /// are seen a little off it.
+    /// Sets the target of the pin's point, or of the middle of its line (m, world), for the end of
+    /// the next tick and until the next call. The pin moves there evenly within the tick. The
+    /// current target of [`Pin::state`] changes nothing. With [`Skinning::Smooth`] pins and clamps
+    /// hold the visible surface; a clamp holds its mean along the line for each piece, so single
+    /// points are slightly off the line.
     pub fn set_target(self, world: &mut World, target: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriPin_SetTarget(world.raw_mut(), self.raw(), target.as_ptr()) }, world)?;
         Ok(())
     }
 
-    /// The same with the rotation of the line's material: columns are the directions of u and v and
-    /// the normal. On a planar sheet it is about the sheet's normal. [`ResultCode::ErrorArgument`]
-    /// for a pin that holds a point.
+    /// Sets the target and the rotation of the line's material: columns are the directions of u and
+    /// v and the normal. On a planar sheet it is about the sheet's normal.
+    /// [`ResultCode::ErrorArgument`]: the pin holds a point.
     pub fn set_pose(self, world: &mut World, target: [f32; 3], rotation: [f32; 9]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriPin_SetPose(world.raw_mut(), self.raw(), target.as_ptr(), rotation.as_ptr()) }, world)?;
         Ok(())
     }
 
-    /// As in the def, for pins of all types; N, 0: it never breaks.
+    /// Sets the force (N) that breaks a pin of any type; 0: it never breaks.
     pub fn set_break_force(self, world: &mut World, break_force: f32) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriPin_SetBreakForce(world.raw_mut(), self.raw(), break_force) }, world)?;
         Ok(())
     }
 
-    /// What it is, and where it holds now.
+    /// Gets the current state.
     pub fn state(self, world: &World) -> Result<PinState> {
         let mut state = MaybeUninit::<sys::kiriPinState>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -3015,11 +2927,11 @@ impl Pin {
         Ok(PinState::from_raw(&state))
     }
 
-    /// With what the pin acted on the sheet: force (N, world) and torque (N m) about its target;
-    /// means over the last tick, impulses divided by its dt. So the reactions of all pins and held
-    /// frames are the weight of a sheet at rest, and in motion what changes its momentum (as far as
-    /// iterations have the tick solved). Zero before the first tick. A piece that sleeps keeps
-    /// those that it fell asleep with.
+    /// Gets the force (N, world) and torque (N m, about the target) that the pin applied to the
+    /// sheet: means over the last tick, impulses divided by its dt. The reactions of all pins and
+    /// held frames are the weight of a sheet at rest, and change its momentum in motion (as far as
+    /// iterations solve the tick). Zero before the first tick. A sleeping piece keeps the values
+    /// with which it fell asleep.
     pub fn reaction(self, world: &World) -> Result<([f64; 3], [f64; 3])> {
         let mut force: [f64; 3] = Default::default();
         let mut torque: [f64; 3] = Default::default();
@@ -3028,7 +2940,7 @@ impl Pin {
         Ok((force, torque))
     }
 
-    /// It lets go; its id is stale.
+    /// Destroys the pin; its id is stale.
     pub fn destroy(self, world: &mut World) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriDestroyPin(world.raw_mut(), self.raw()) }, world)?;
@@ -3037,16 +2949,15 @@ impl Pin {
 }
 
 impl Cut {
-    /// `rest_points`: 2 floats a point; count is 1 to 2^24.
+    /// Adds points. `rest_points`: 2 floats a point; count is 1 to 2^24.
     pub fn extend(self, world: &mut World, rest_points: &[[f32; 2]]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriCut_Extend(world.raw_mut(), self.raw(), rest_points.as_ptr().cast(), rest_points.len() as i32) }, world)?;
         Ok(())
     }
 
-    /// No more points come. After the tick in which the last of them takes effect the id is stale,
-    /// and [`EventType::CutFinished`] tells. Frames that the sheet needs after the cut are added
-    /// then.
+    /// Ends the cut. Its id is stale after the tick in which its last point takes effect
+    /// ([`EventType::CutFinished`]). The sheet then adds the frames that it needs.
     pub fn end(self, world: &mut World) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriCut_End(world.raw_mut(), self.raw()) }, world)?;
@@ -3081,43 +2992,43 @@ impl Blade {
 }
 
 impl Obstacle {
-    /// It is gone, its id stale. What rested on it wakes.
+    /// Destroys an obstacle; its id is stale. Pieces that rested on it wake.
     pub fn destroy(self, world: &mut World) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriDestroyObstacle(world.raw_mut(), self.raw()) }, world)?;
         Ok(())
     }
 
-    /// Where it is when the next tick starts. It did not move there: velocities alone say what
-    /// sheets feel. rotation: a rotation matrix, columns as in the def.
+    /// Teleports the obstacle (m, world). Sheets react to its velocity
+    /// ([`Obstacle::set_velocity`]), not to the jump.
     pub fn set_pose(self, world: &mut World, position: [f32; 3], rotation: [f32; 9]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriObstacle_SetPose(world.raw_mut(), self.raw(), position.as_ptr(), rotation.as_ptr()) }, world)?;
         Ok(())
     }
 
-    /// With what it moves in the next tick and from then on.
+    /// Set the velocity (m/s, rad/s) for the next and all later ticks.
     pub fn set_velocity(self, world: &mut World, velocity: [f32; 3], angular_velocity: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriObstacle_SetVelocity(world.raw_mut(), self.raw(), velocity.as_ptr(), angular_velocity.as_ptr()) }, world)?;
         Ok(())
     }
 
-    /// With what it moves in the next tick and from then on.
+    /// Set the velocity (m/s, rad/s) for the next and all later ticks.
     pub fn set_surface_velocity(self, world: &mut World, velocity: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriObstacle_SetSurfaceVelocity(world.raw_mut(), self.raw(), velocity.as_ptr()) }, world)?;
         Ok(())
     }
 
-    /// As in the def.
+    /// Sets mass (kg), inertia and centre of mass, as in the def.
     pub fn set_mass(self, world: &mut World, mass: f32, inertia: [f32; 6], center_of_mass: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriObstacle_SetMass(world.raw_mut(), self.raw(), mass, inertia.as_ptr(), center_of_mass.as_ptr()) }, world)?;
         Ok(())
     }
 
-    /// Pose and velocities as they are now.
+    /// Gets the current state.
     pub fn state(self, world: &World) -> Result<ObstacleState> {
         let mut state = MaybeUninit::<sys::kiriObstacleState>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
