@@ -386,10 +386,9 @@ static bool IsLed(const kiriBladeWork* work, const kiriSectionLine* line)
     kiriVec2 rest = MiddleOf(&work->section, line).rest;
     double near = 2.0 * KIRI_BLADE_SAME * work->snap + kiriVec3_Length(work->drift);
     bool isLed = false;
-    for (int32_t i = work->firstPoint; !isLed && i < work->points.count; ++i) {
-        const kiriStrokePoint* point = &work->points.data[i];
-        isLed = work->strokes.data[point->stroke].sheet == work->sheet &&
-                kiriVec2_DistanceToWay(rest, point->from, point->rest) < near;
+    for (int32_t i = work->firstPending; !isLed && i < work->pending.count; ++i) {
+        const kiriPendingLip* lip = &work->pending.data[i];
+        isLed = lip->sheet == work->sheet && kiriVec2_DistanceToWay(rest, lip->from, lip->to) < near;
     }
     return isLed;
 }
@@ -532,7 +531,7 @@ bool kiriBlade_Step(kiriBladeWork* work)
     kiriSheetData* sheet = work->sheet;
     bool ok = true;
     work->snap = sheet->settings.snap * sheet->mesh.step;
-    work->firstPoint = work->points.count;
+    work->firstPending = work->pending.count;
     work->isHeld = kiriVec3_Length(kiriVec3_Sub(work->is[0], work->was[0])) < work->snap &&
                    kiriVec3_Length(kiriVec3_Sub(work->is[1], work->was[1])) < work->snap;
     work->crossings.count = 0;

@@ -18,9 +18,15 @@ typedef struct kiriStroke {
 
 typedef struct kiriStrokePoint {
     int32_t stroke;
-    kiriVec2 from, rest; /* the cut is at `from` before */
+    kiriVec2 rest;
     bool isStart;
 } kiriStrokePoint;
+
+/* A cut that is not in the mesh yet: local rest points. */
+typedef struct kiriPendingLip {
+    const kiriSheetData* sheet;
+    kiriVec2 from, to;
+} kiriPendingLip;
 
 /* A layer on its way. */
 typedef struct kiriTrack {
@@ -41,6 +47,7 @@ typedef struct kiriBladeWork {
     KIRI_ARRAY(kiriTrack) tracks;
     KIRI_ARRAY(kiriStroke) strokes;
     KIRI_ARRAY(kiriStrokePoint) points;
+    KIRI_ARRAY(kiriPendingLip) pending; /* of the queues, then of this move */
 
     /* One step for one sheet. */
     kiriVec3 was[2], is[2]; /* the edge */
@@ -50,7 +57,7 @@ typedef struct kiriBladeWork {
     bool isHeld;      /* the edge is where it was: the material alone moves */
     int32_t oldCount; /* tracks before the step */
     kiriVec3 drift;   /* how the material went on, of the last layer that was looked at */
-    int32_t firstPoint;
+    int32_t firstPending;
     kiriCrossings crossings; /* of the edge as it is; those without share are seen to */
     kiriSection section;
     KIRI_ARRAY(kiriSectionPoint) middles; /* of lines */
