@@ -128,7 +128,7 @@ static bool ListPending(kiriBladeWork* work, const kiriWorld* world, const kiriB
             const kiriQueuedPoint* point = &sheet->queue.data[k];
             KIRI_ASSERT(point->cut->index >= 0 && point->cut->index < ends.count);
             kiriVec2* end = &ends.data[point->cut->index];
-            const kiriPendingLip lip = { sheet, *end, point->to };
+            const kiriPendingLip lip = { sheet, *end, point->to, KIRI_NONE };
             ok = point->jump || kiriArray_Push(&work->memory, &work->pending, lip);
             *end = point->to;
         }

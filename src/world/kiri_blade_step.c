@@ -508,18 +508,38 @@ static bool PassThrough(kiriBladeWork* work)
 /* As far as a border may be, as a share of the sheet's longer side. */
 #define BORDER_DISTANCE 0.05
 
-/* Ends a layer that the edge is in no longer. It went out over a border: where one is near, the cut goes on to it. */
+/* Finds the nearest point of what other tracks cut in this step, nearer than `distance`. */
+static bool FindOtherWay(const kiriBladeWork* work, const kiriTrack* track, double distance, kiriVec2* place)
+{
+    bool isFound = false;
+    for (int32_t i = work->firstPending; i < work->pending.count; ++i) {
+        const kiriPendingLip* lip = &work->pending.data[i];
+        kiriVec2 foot = kiriRest_Foot(lip->from, lip->to, track->rest);
+        double d = kiriRest_Distance(foot, track->rest);
+        if (lip->sheet == work->sheet && lip->stroke != track->stroke && d < distance) {
+            distance = d;
+            *place = foot;
+            isFound = true;
+        }
+    }
+    return isFound;
+}
+
+/* Ends a layer that the edge is in no longer. The edge went out over a border, or came in again on another way: where
+   one of these is near, the cut goes on to it. */
 static bool EndLost(kiriBladeWork* work, kiriTrack* track)
 {
     kiriVec3 x;
-    kiriVec2 border;
+    kiriVec2 place;
     bool ok = true;
     if (Seen(work->sheet, track->rest, track->at, &x)) {
         double near = 2.0 * kiriVec3_Length(kiriVec3_Sub(x, EdgeAt(work->is, track->share))) + 8.0 * work->snap;
         double most = BORDER_DISTANCE * KIRI_LATTICE * work->sheet->mesh.step;
         near = near < most ? near : most;
-        ok = !kiriBlade_FindLip(&work->sheet->mesh, track->rest, near, false, &border) ||
-             kiriTrack_Lead(work, track, border);
+        bool isFound = kiriBlade_FindLip(&work->sheet->mesh, track->rest, near, false, &place);
+        near = isFound ? kiriRest_Distance(track->rest, place) : near;
+        isFound = FindOtherWay(work, track, near, &place) || isFound;
+        ok = !isFound || kiriTrack_Lead(work, track, place);
     }
     return ok && kiriTrack_End(work, track);
 }

@@ -27,7 +27,7 @@ static int32_t StrokeOf(kiriBladeWork* work, kiriTrack* track)
 static bool AddCut(kiriBladeWork* work, int32_t stroke, kiriVec2 from, kiriVec2 to)
 {
     const kiriStrokePoint point = { stroke, to, false };
-    const kiriPendingLip lip = { work->sheet, from, to };
+    const kiriPendingLip lip = { work->sheet, from, to, stroke };
     return kiriArray_Push(&work->memory, &work->points, point) && kiriArray_Push(&work->memory, &work->pending, lip);
 }
 
@@ -84,7 +84,7 @@ static bool CloseLoop(kiriBladeWork* work, kiriTrack* track)
 #define ON_LIP 0.75
 #define SLIT 64.0
 
-static kiriVec2 FootOnLip(kiriVec2 a, kiriVec2 b, kiriVec2 p)
+kiriVec2 kiriRest_Foot(kiriVec2 a, kiriVec2 b, kiriVec2 p)
 {
     kiriVec2 way = kiriVec2_Sub(b, a);
     double square = kiriVec2_Dot(way, way), share = square > 0.0 ? kiriVec2_Dot(kiriVec2_Sub(p, a), way) / square : 0.0;
@@ -97,7 +97,7 @@ static void FindLipInTriangle(const kiriMeshData* mesh, int32_t triangle, kiriVe
     for (int32_t h = 3 * triangle; h < 3 * triangle + 3; ++h) {
         if (kiriMesh_Twin(mesh, h) == KIRI_NONE || (isOpen && kiriMesh_IsOpen(mesh, h))) {
             kiriVec2 foot =
-                FootOnLip(kiriMesh_Local(mesh, mesh->vertices.data[kiriMesh_Tail(mesh, h)].at),
+                kiriRest_Foot(kiriMesh_Local(mesh, mesh->vertices.data[kiriMesh_Tail(mesh, h)].at),
                           kiriMesh_Local(mesh, mesh->vertices.data[kiriMesh_Tail(mesh, kiriEdge_Next(h))].at), rest);
             double d = kiriRest_Distance(foot, rest);
             *lip = d < *distance ? foot : *lip;
@@ -129,7 +129,7 @@ static bool FindSlit(const kiriBladeWork* work, kiriVec2 rest, double distance, 
     distance = isFound ? kiriRest_Distance(*slit, rest) : distance;
     for (int32_t i = 0; i < work->pending.count; ++i) {
         const kiriPendingLip* lip = &work->pending.data[i];
-        kiriVec2 foot = FootOnLip(lip->from, lip->to, rest);
+        kiriVec2 foot = kiriRest_Foot(lip->from, lip->to, rest);
         if (lip->sheet == work->sheet && kiriRest_Distance(foot, rest) < distance) {
             distance = kiriRest_Distance(foot, rest);
             *slit = foot;

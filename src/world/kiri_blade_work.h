@@ -26,6 +26,7 @@ typedef struct kiriStrokePoint {
 typedef struct kiriPendingLip {
     const kiriSheetData* sheet;
     kiriVec2 from, to;
+    int32_t stroke; /* KIRI_NONE: in the queue */
 } kiriPendingLip;
 
 /* A layer on its way. */
@@ -71,6 +72,9 @@ static inline double kiriRest_Distance(kiriVec2 a, kiriVec2 b)
 {
     return kiriVec2_Length(kiriVec2_Sub(a, b));
 }
+
+/* Returns the point of the segment from a to b that is nearest to p. */
+kiriVec2 kiriRest_Foot(kiriVec2 a, kiriVec2 b, kiriVec2 p);
 
 /* A track goes on: to a place; or along work->path, without the points at its beginning where it is already. False for
    memory. */
