@@ -303,7 +303,17 @@ static kiriCrossing* OtherCrossing(kiriBladeWork* work, kiriCrossing* crossing, 
     return other;
 }
 
-/* From the beginning of the line to the crossing at its other end. */
+/* As far as a border or a lip that a blade went over unseen may be, as a share of the sheet's longer side. */
+#define BORDER_DISTANCE 0.05
+
+static double LimitDistance(const kiriBladeWork* work, double near)
+{
+    double most = BORDER_DISTANCE * KIRI_LATTICE * work->sheet->mesh.step;
+    return near < most ? near : most;
+}
+
+/* From the beginning of the line to the crossing at its other end. A blade comes amid the material over a lip: where one
+   is near, the cut begins there. */
 static bool EnterAlong(kiriBladeWork* work, kiriCrossing* crossing, const kiriSectionLine* line, bool fromLast,
                        double near)
 {
@@ -315,7 +325,9 @@ static bool EnterAlong(kiriBladeWork* work, kiriCrossing* crossing, const kiriSe
         return false;
     }
     kiriVec2 from = lost != NULL ? lost->rest : work->path.data[0];
-    kiriLoop loop = lost != NULL ? lost->loop : LoopFrom(from, type != KIRI_END_BORDER);
+    bool isAtLip = type == KIRI_END_BORDER ||
+                   (type == KIRI_SIDE_FROM && lost == NULL && kiriBlade_FindSlit(work, from, LimitDistance(work, near), &from));
+    kiriLoop loop = lost != NULL ? lost->loop : LoopFrom(from, !isAtLip);
     if (other != NULL) {
         other->triangle = TAKEN;
         if (!AddTrack(work, other, from, LoopFrom(from, true))) {
@@ -505,9 +517,6 @@ static bool PassThrough(kiriBladeWork* work)
 
 /* ---- Layers that it was not found in ---- */
 
-/* As far as a border may be, as a share of the sheet's longer side. */
-#define BORDER_DISTANCE 0.05
-
 /* Finds the nearest point of what other tracks cut in this step, nearer than `distance`. */
 static bool FindOtherWay(const kiriBladeWork* work, const kiriTrack* track, double distance, kiriVec2* place)
 {
@@ -534,8 +543,7 @@ static bool EndLost(kiriBladeWork* work, kiriTrack* track)
     bool ok = true;
     if (Seen(work->sheet, track->rest, track->at, &x)) {
         double near = 2.0 * kiriVec3_Length(kiriVec3_Sub(x, EdgeAt(work->is, track->share))) + 8.0 * work->snap;
-        double most = BORDER_DISTANCE * KIRI_LATTICE * work->sheet->mesh.step;
-        near = near < most ? near : most;
+        near = LimitDistance(work, near);
         bool isFound = kiriBlade_FindLip(&work->sheet->mesh, track->rest, near, false, &place);
         near = isFound ? kiriRest_Distance(track->rest, place) : near;
         isFound = FindOtherWay(work, track, near, &place) || isFound;

@@ -122,8 +122,7 @@ bool kiriBlade_FindLip(const kiriMeshData* mesh, kiriVec2 rest, double distance,
     return least < distance;
 }
 
-/* Finds the nearest lip, in the mesh or pending. */
-static bool FindSlit(const kiriBladeWork* work, kiriVec2 rest, double distance, kiriVec2* slit)
+bool kiriBlade_FindSlit(const kiriBladeWork* work, kiriVec2 rest, double distance, kiriVec2* slit)
 {
     bool isFound = kiriBlade_FindLip(&work->sheet->mesh, rest, distance, true, slit);
     distance = isFound ? kiriRest_Distance(*slit, rest) : distance;
@@ -171,8 +170,8 @@ static bool LeadHeld(kiriBladeWork* work, kiriTrack* track, kiriVec2 rest)
     for (int32_t i = 1; ok && i <= count; ++i) {
         kiriVec2 at = kiriVec2_Add(from, kiriVec2_Scale((double)i / count, kiriVec2_Sub(rest, from)));
         kiriVec2 slit, other, here;
-        bool isNear = FindSlit(work, at, near, &slit);
-        if (!isNear && FindSlit(work, at, 2.0 * near, &slit)) {
+        bool isNear = kiriBlade_FindSlit(work, at, near, &slit);
+        if (!isNear && kiriBlade_FindSlit(work, at, 2.0 * near, &slit)) {
             ok = (kiriRest_Distance(slit, track->rest) < work->snap || Slide(work, track, slit)) &&
                  AddPoint(work, track, at);
         } else if (!isNear) {
@@ -180,7 +179,7 @@ static bool LeadHeld(kiriBladeWork* work, kiriTrack* track, kiriVec2 rest)
         } else if (kiriBlade_FindLip(mesh, at, near, false, &other) &&
                    !kiriBlade_FindLip(mesh, track->rest, work->snap, false, &here)) {
             ok = AddPoint(work, track, at) && AddPoint(work, track, other);
-        } else if (!FindSlit(work, kiriVec2_Scale(0.5, kiriVec2_Add(track->rest, slit)), 0.25 * near, &other)) {
+        } else if (!kiriBlade_FindSlit(work, kiriVec2_Scale(0.5, kiriVec2_Add(track->rest, slit)), 0.25 * near, &other)) {
             ok = AddPoint(work, track, at) && AddPoint(work, track, slit);
         } else if (kiriRest_Distance(slit, track->rest) > work->snap) {
             ok = Slide(work, track, slit);
@@ -202,13 +201,13 @@ static bool IsInSlit(const kiriBladeWork* work, kiriVec2 from, kiriVec2 to, kiri
     int32_t places = 1 + (int32_t)fmin(length, MOST_PLACES);
     kiriVec2 slit, last;
     bool isInSlit =
-        places <= MOST_PLACES && FindSlit(work, to, BESIDE_LIP * work->snap, end) &&
+        places <= MOST_PLACES && kiriBlade_FindSlit(work, to, BESIDE_LIP * work->snap, end) &&
         !kiriBlade_FindLip(&work->sheet->mesh, to, 2.0 * BESIDE_LIP * work->snap, false, &slit);
     last = *end;
     for (int32_t i = places - 1; isInSlit && i >= 0; --i) {
         kiriVec2 at = kiriVec2_Add(from, kiriVec2_Scale((double)i / places, kiriVec2_Sub(to, from)));
-        isInSlit = FindSlit(work, at, BESIDE_LIP * work->snap, &slit) &&
-                   FindSlit(work, kiriVec2_Scale(0.5, kiriVec2_Add(last, slit)), ON_LIP * work->snap, &last);
+        isInSlit = kiriBlade_FindSlit(work, at, BESIDE_LIP * work->snap, &slit) &&
+                   kiriBlade_FindSlit(work, kiriVec2_Scale(0.5, kiriVec2_Add(last, slit)), ON_LIP * work->snap, &last);
         last = slit;
     }
     return isInSlit;

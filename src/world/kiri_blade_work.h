@@ -90,6 +90,9 @@ bool kiriLoop_IsNear(const kiriLoop* loop, kiriVec2 end);
 /* Finds the point of the outline, or of lips too, that is nearest to a place, up to a distance (m). */
 bool kiriBlade_FindLip(const kiriMeshData* mesh, kiriVec2 rest, double distance, bool isOpen, kiriVec2* lip);
 
+/* Finds the nearest point of the lips of the sheet at work, in the mesh or pending, up to a distance (m). */
+bool kiriBlade_FindSlit(const kiriBladeWork* work, kiriVec2 rest, double distance, kiriVec2* slit);
+
 /* Steps of the edge through one sheet. False for memory. */
 bool kiriBlade_Step(kiriBladeWork* work);
 
