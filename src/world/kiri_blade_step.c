@@ -325,8 +325,8 @@ static bool EnterAlong(kiriBladeWork* work, kiriCrossing* crossing, const kiriSe
         return false;
     }
     kiriVec2 from = lost != NULL ? lost->rest : work->path.data[0];
-    bool isAtLip = type == KIRI_END_BORDER ||
-                   (type == KIRI_SIDE_FROM && lost == NULL && kiriBlade_FindSlit(work, from, LimitDistance(work, near), &from));
+    bool isAtLip = type == KIRI_END_BORDER || (type == KIRI_SIDE_FROM && lost == NULL &&
+                                               kiriBlade_FindSlit(work, from, LimitDistance(work, near), &from));
     kiriLoop loop = lost != NULL ? lost->loop : LoopFrom(from, !isAtLip);
     if (other != NULL) {
         other->triangle = TAKEN;

@@ -96,9 +96,9 @@ static void FindLipInTriangle(const kiriMeshData* mesh, int32_t triangle, kiriVe
 {
     for (int32_t h = 3 * triangle; h < 3 * triangle + 3; ++h) {
         if (kiriMesh_Twin(mesh, h) == KIRI_NONE || (isOpen && kiriMesh_IsOpen(mesh, h))) {
-            kiriVec2 foot =
-                kiriRest_Foot(kiriMesh_Local(mesh, mesh->vertices.data[kiriMesh_Tail(mesh, h)].at),
-                          kiriMesh_Local(mesh, mesh->vertices.data[kiriMesh_Tail(mesh, kiriEdge_Next(h))].at), rest);
+            kiriVec2 foot = kiriRest_Foot(
+                kiriMesh_Local(mesh, mesh->vertices.data[kiriMesh_Tail(mesh, h)].at),
+                kiriMesh_Local(mesh, mesh->vertices.data[kiriMesh_Tail(mesh, kiriEdge_Next(h))].at), rest);
             double d = kiriRest_Distance(foot, rest);
             *lip = d < *distance ? foot : *lip;
             *distance = d < *distance ? d : *distance;
@@ -138,7 +138,7 @@ bool kiriBlade_FindSlit(const kiriBladeWork* work, kiriVec2 rest, double distanc
     return isFound;
 }
 
-/* Forgets what of a loop was no way around. */
+/* Shortens a loop to the straight way from its start. */
 static void StraightenLoop(kiriTrack* track)
 {
     track->loop.isPassed = false;
@@ -179,7 +179,8 @@ static bool LeadHeld(kiriBladeWork* work, kiriTrack* track, kiriVec2 rest)
         } else if (kiriBlade_FindLip(mesh, at, near, false, &other) &&
                    !kiriBlade_FindLip(mesh, track->rest, work->snap, false, &here)) {
             ok = AddPoint(work, track, at) && AddPoint(work, track, other);
-        } else if (!kiriBlade_FindSlit(work, kiriVec2_Scale(0.5, kiriVec2_Add(track->rest, slit)), 0.25 * near, &other)) {
+        } else if (!kiriBlade_FindSlit(work, kiriVec2_Scale(0.5, kiriVec2_Add(track->rest, slit)), 0.25 * near,
+                                       &other)) {
             ok = AddPoint(work, track, at) && AddPoint(work, track, slit);
         } else if (kiriRest_Distance(slit, track->rest) > work->snap) {
             ok = Slide(work, track, slit);
@@ -193,16 +194,15 @@ static bool LeadHeld(kiriBladeWork* work, kiriTrack* track, kiriVec2 rest)
 
 /* Follows a slit along a way that keeps to it. There is nothing to cut then, and the track goes on from the slit itself,
    not from beside it. The feet of points a snap apart must lead along lips: one that jumps to another slit would leave
-   what is between them. A way to the outline is cut, so that it parts. */
+   a bridge between the slits. A way to the outline is cut, so that it parts. */
 static bool IsInSlit(const kiriBladeWork* work, kiriVec2 from, kiriVec2 to, kiriVec2* end)
 {
     enum { MOST_PLACES = 4096 };
     double length = kiriRest_Distance(from, to) / work->snap;
     int32_t places = 1 + (int32_t)fmin(length, MOST_PLACES);
     kiriVec2 slit, last;
-    bool isInSlit =
-        places <= MOST_PLACES && kiriBlade_FindSlit(work, to, BESIDE_LIP * work->snap, end) &&
-        !kiriBlade_FindLip(&work->sheet->mesh, to, 2.0 * BESIDE_LIP * work->snap, false, &slit);
+    bool isInSlit = places <= MOST_PLACES && kiriBlade_FindSlit(work, to, BESIDE_LIP * work->snap, end) &&
+                    !kiriBlade_FindLip(&work->sheet->mesh, to, 2.0 * BESIDE_LIP * work->snap, false, &slit);
     last = *end;
     for (int32_t i = places - 1; isInSlit && i >= 0; --i) {
         kiriVec2 at = kiriVec2_Add(from, kiriVec2_Scale((double)i / places, kiriVec2_Sub(to, from)));
