@@ -9,7 +9,7 @@
 #   make fuzz     looks for input that breaks something; FUZZ=mesh: other than calls; TIME=600: s
 #   make sweep    loads saves that are wrong in one number; ARGS='35 36 1': of world 35; config=debug: asserts
 #   make page     cuts pages of lines and compares the pieces with Shapely's; ARGS='10 1 2000': pages, first seed, lines
-#   make long     ten minutes of play: work and memory of its minutes; and 20 minutes of a slicing game
+#   make long     ten minutes of play, 20 minutes of a slicing game, 6000 swipes of a blade, blades held for ten minutes
 #   make analyze  gcc's analyzer, cppcheck and clang-tidy over src; deps-analyze: installs these; valgrind: a few tests
 #   make scarce   refuses each request for memory of the scenes once
 #   make tsan     runs the tests with threads under the thread sanitizer
@@ -189,8 +189,12 @@ scarce: packages-bench
 	$(BUILD)/tests/test_scarce all
 
 long: packages-bench
-	@$(MAKE) --no-print-directory $(addprefix $(BUILD)/tests/test_,long slicing meeting)
+	@$(MAKE) --no-print-directory $(addprefix $(BUILD)/tests/test_,long slicing meeting swipe)
 	$(BUILD)/tests/test_meeting 5000 1000
+	$(BUILD)/tests/test_swipe 2000 1 TestSwipeStill
+	-$(BUILD)/tests/test_swipe 2000 1 TestSwipeSwaying # about 6 in 1000 fail
+	-$(BUILD)/tests/test_swipe 2000 1 TestSwipeBlown
+	for kind in Swaying Blown; do $(BUILD)/tests/test_swipe 4 1 "TestHold$$kind" 600 || exit 1; done
 	$(BUILD)/tests/test_long all
 	$(BUILD)/tests/test_slicing all
 

@@ -833,10 +833,14 @@ KIRI_API kiriResult kiriSheet_Slice(kiriWorld* world, kiriSheet sheet, const flo
    whatever the sheet did in between. Where it passes a border of the material, the outline or a lip, the cut goes on
    past it, so that it parts. A cut that began amid the material, and comes by its beginning by 1.5 % of its length or
    nearer, is closed there when it has gone on by a tenth of its length or ends: so a disc comes out of a circle drawn
-   by hand. A blade that is held still cuts nothing within 64 snap distances of the slit that it is in: cloth sways about
-   it. Move it at least once a tick while it is in a sheet; as often as you like before a tick. What it
-   has met is cut with the next tick or, by the budget, a later one. It has a cut for each layer, which begins and ends
-   as the blade comes in and goes out; KIRI_EVENT_CUT_FINISHED tells of them, too. */
+   by hand. A way out and straight back does not close. A blade that is held still cuts nothing within 64 snap distances of
+   its slit. A way that stays within 1.5 snap distances of a slit cuts nothing. Cloth that slips off the edge by a fold
+   does not part: the cut ends in the cloth.
+   Move a blade at least once a tick while it is in a sheet; more often is fine. The next tick makes these cuts;
+   with a budget, a later tick may. Pending cuts count as slits. Where a blade cuts a moving sheet follows from the
+   calls and the budget, for the sheet moves differently once it has parted. Saves and state hashes hold all of it. A
+   blade has a cut for each layer. The cut begins and ends as the blade comes in and goes out;
+   KIRI_EVENT_CUT_FINISHED reports it. */
 
 /* sheet 0: it cuts all sheets, also those that are made later and pieces that get a sheet of their own. A blade for one
    sheet whose sheet is gone cuts nothing. */

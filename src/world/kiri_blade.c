@@ -110,6 +110,32 @@ static bool StartTracks(kiriBladeWork* work, const kiriWorld* world, const kiriB
     return true;
 }
 
+/* Lists the cuts that are in the queues. */
+static bool ListPending(kiriBladeWork* work, const kiriWorld* world, const kiriBladeData* blade)
+{
+    KIRI_ARRAY(kiriVec2) ends = { NULL, 0, 0 };
+    bool ok = true;
+    for (int32_t i = 0; ok && i < world->sheets.count; ++i) {
+        const kiriSheetData* sheet = world->sheets.data[i];
+        if (sheet->queue.count == 0 || (blade->sheet != 0 && blade->sheet != sheet->id)) {
+            continue;
+        }
+        ends.count = 0;
+        for (int32_t k = 0; ok && k < sheet->cuts.count; ++k) {
+            ok = kiriArray_Push(&work->memory, &ends, sheet->cuts.data[k]->committed.last);
+        }
+        for (int32_t k = 0; ok && k < sheet->queue.count; ++k) {
+            const kiriQueuedPoint* point = &sheet->queue.data[k];
+            KIRI_ASSERT(point->cut->index >= 0 && point->cut->index < ends.count);
+            kiriVec2* end = &ends.data[point->cut->index];
+            const kiriPendingLip lip = { sheet, *end, point->to, KIRI_NONE };
+            ok = point->jump || kiriArray_Push(&work->memory, &work->pending, lip);
+            *end = point->to;
+        }
+    }
+    return ok;
+}
+
 /* ---- Steps ---- */
 
 /* A plane stands for what the edge sweeps: where its ways are askew it goes in steps. Not more than MOST_STEPS. */
@@ -274,7 +300,7 @@ kiriResult kiriWorld_MoveBlade(kiriWorld* world, kiriBladeData* blade, kiriVec3 
     memset(&work, 0, sizeof(work));
     work.memory = kiriMemory_Like(&world->memory);
     kiriResult result = KIRI_ERROR_MEMORY;
-    if (StartTracks(&work, world, blade) && TakeSteps(&work, world, blade, edge)) {
+    if (ListPending(&work, world, blade) && StartTracks(&work, world, blade) && TakeSteps(&work, world, blade, edge)) {
         result = Apply(world, blade, &work);
     }
     kiriMemory_FreeAll(&work.memory);

@@ -303,7 +303,17 @@ static kiriCrossing* OtherCrossing(kiriBladeWork* work, kiriCrossing* crossing, 
     return other;
 }
 
-/* From the beginning of the line to the crossing at its other end. */
+/* As far as a border or a lip that a blade went over unseen may be, as a share of the sheet's longer side. */
+#define BORDER_DISTANCE 0.05
+
+static double LimitDistance(const kiriBladeWork* work, double near)
+{
+    double most = BORDER_DISTANCE * KIRI_LATTICE * work->sheet->mesh.step;
+    return near < most ? near : most;
+}
+
+/* From the beginning of the line to the crossing at its other end. A blade comes amid the material over a lip: where one
+   is near, the cut begins there. */
 static bool EnterAlong(kiriBladeWork* work, kiriCrossing* crossing, const kiriSectionLine* line, bool fromLast,
                        double near)
 {
@@ -315,7 +325,9 @@ static bool EnterAlong(kiriBladeWork* work, kiriCrossing* crossing, const kiriSe
         return false;
     }
     kiriVec2 from = lost != NULL ? lost->rest : work->path.data[0];
-    kiriLoop loop = lost != NULL ? lost->loop : LoopFrom(from, type != KIRI_END_BORDER);
+    bool isAtLip = type == KIRI_END_BORDER || (type == KIRI_SIDE_FROM && lost == NULL &&
+                                               kiriBlade_FindSlit(work, from, LimitDistance(work, near), &from));
+    kiriLoop loop = lost != NULL ? lost->loop : LoopFrom(from, !isAtLip);
     if (other != NULL) {
         other->triangle = TAKEN;
         if (!AddTrack(work, other, from, LoopFrom(from, true))) {
@@ -386,10 +398,9 @@ static bool IsLed(const kiriBladeWork* work, const kiriSectionLine* line)
     kiriVec2 rest = MiddleOf(&work->section, line).rest;
     double near = 2.0 * KIRI_BLADE_SAME * work->snap + kiriVec3_Length(work->drift);
     bool isLed = false;
-    for (int32_t i = work->firstPoint; !isLed && i < work->points.count; ++i) {
-        const kiriStrokePoint* point = &work->points.data[i];
-        isLed = work->strokes.data[point->stroke].sheet == work->sheet &&
-                kiriVec2_DistanceToWay(rest, point->from, point->rest) < near;
+    for (int32_t i = work->firstPending; !isLed && i < work->pending.count; ++i) {
+        const kiriPendingLip* lip = &work->pending.data[i];
+        isLed = lip->sheet == work->sheet && kiriVec2_DistanceToWay(rest, lip->from, lip->to) < near;
     }
     return isLed;
 }
@@ -506,21 +517,37 @@ static bool PassThrough(kiriBladeWork* work)
 
 /* ---- Layers that it was not found in ---- */
 
-/* As far as a border may be, as a share of the sheet's longer side. */
-#define BORDER_DISTANCE 0.05
+/* Finds the nearest point of what other tracks cut in this step, nearer than `distance`. */
+static bool FindOtherWay(const kiriBladeWork* work, const kiriTrack* track, double distance, kiriVec2* place)
+{
+    bool isFound = false;
+    for (int32_t i = work->firstPending; i < work->pending.count; ++i) {
+        const kiriPendingLip* lip = &work->pending.data[i];
+        kiriVec2 foot = kiriRest_Foot(lip->from, lip->to, track->rest);
+        double d = kiriRest_Distance(foot, track->rest);
+        if (lip->sheet == work->sheet && lip->stroke != track->stroke && d < distance) {
+            distance = d;
+            *place = foot;
+            isFound = true;
+        }
+    }
+    return isFound;
+}
 
-/* Ends a layer that the edge is in no longer. It went out over a border: where one is near, the cut goes on to it. */
+/* Ends a layer that the edge is in no longer. The edge went out over a border, or came in again on another way: where
+   one of these is near, the cut goes on to it. */
 static bool EndLost(kiriBladeWork* work, kiriTrack* track)
 {
     kiriVec3 x;
-    kiriVec2 border;
+    kiriVec2 place;
     bool ok = true;
     if (Seen(work->sheet, track->rest, track->at, &x)) {
         double near = 2.0 * kiriVec3_Length(kiriVec3_Sub(x, EdgeAt(work->is, track->share))) + 8.0 * work->snap;
-        double most = BORDER_DISTANCE * KIRI_LATTICE * work->sheet->mesh.step;
-        near = near < most ? near : most;
-        ok = !kiriBlade_FindLip(&work->sheet->mesh, track->rest, near, false, &border) ||
-             kiriTrack_Lead(work, track, border);
+        near = LimitDistance(work, near);
+        bool isFound = kiriBlade_FindLip(&work->sheet->mesh, track->rest, near, false, &place);
+        near = isFound ? kiriRest_Distance(track->rest, place) : near;
+        isFound = FindOtherWay(work, track, near, &place) || isFound;
+        ok = !isFound || kiriTrack_Lead(work, track, place);
     }
     return ok && kiriTrack_End(work, track);
 }
@@ -532,7 +559,7 @@ bool kiriBlade_Step(kiriBladeWork* work)
     kiriSheetData* sheet = work->sheet;
     bool ok = true;
     work->snap = sheet->settings.snap * sheet->mesh.step;
-    work->firstPoint = work->points.count;
+    work->firstPending = work->pending.count;
     work->isHeld = kiriVec3_Length(kiriVec3_Sub(work->is[0], work->was[0])) < work->snap &&
                    kiriVec3_Length(kiriVec3_Sub(work->is[1], work->was[1])) < work->snap;
     work->crossings.count = 0;

@@ -18,9 +18,16 @@ typedef struct kiriStroke {
 
 typedef struct kiriStrokePoint {
     int32_t stroke;
-    kiriVec2 from, rest; /* the cut is at `from` before */
+    kiriVec2 rest;
     bool isStart;
 } kiriStrokePoint;
+
+/* A cut that is not in the mesh yet: local rest points. */
+typedef struct kiriPendingLip {
+    const kiriSheetData* sheet;
+    kiriVec2 from, to;
+    int32_t stroke; /* KIRI_NONE: in the queue */
+} kiriPendingLip;
 
 /* A layer on its way. */
 typedef struct kiriTrack {
@@ -41,6 +48,7 @@ typedef struct kiriBladeWork {
     KIRI_ARRAY(kiriTrack) tracks;
     KIRI_ARRAY(kiriStroke) strokes;
     KIRI_ARRAY(kiriStrokePoint) points;
+    KIRI_ARRAY(kiriPendingLip) pending; /* of the queues, then of this move */
 
     /* One step for one sheet. */
     kiriVec3 was[2], is[2]; /* the edge */
@@ -50,7 +58,7 @@ typedef struct kiriBladeWork {
     bool isHeld;      /* the edge is where it was: the material alone moves */
     int32_t oldCount; /* tracks before the step */
     kiriVec3 drift;   /* how the material went on, of the last layer that was looked at */
-    int32_t firstPoint;
+    int32_t firstPending;
     kiriCrossings crossings; /* of the edge as it is; those without share are seen to */
     kiriSection section;
     KIRI_ARRAY(kiriSectionPoint) middles; /* of lines */
@@ -65,6 +73,9 @@ static inline double kiriRest_Distance(kiriVec2 a, kiriVec2 b)
     return kiriVec2_Length(kiriVec2_Sub(a, b));
 }
 
+/* Returns the point of the segment from a to b that is nearest to p. */
+kiriVec2 kiriRest_Foot(kiriVec2 a, kiriVec2 b, kiriVec2 p);
+
 /* A track goes on: to a place; or along work->path, without the points at its beginning where it is already. False for
    memory. */
 bool kiriTrack_Lead(kiriBladeWork* work, kiriTrack* track, kiriVec2 rest);
@@ -78,6 +89,9 @@ bool kiriLoop_IsNear(const kiriLoop* loop, kiriVec2 end);
 
 /* Finds the point of the outline, or of lips too, that is nearest to a place, up to a distance (m). */
 bool kiriBlade_FindLip(const kiriMeshData* mesh, kiriVec2 rest, double distance, bool isOpen, kiriVec2* lip);
+
+/* Finds the nearest point of the lips of the sheet at work, in the mesh or pending, up to a distance (m). */
+bool kiriBlade_FindSlit(const kiriBladeWork* work, kiriVec2 rest, double distance, kiriVec2* slit);
 
 /* Steps of the edge through one sheet. False for memory. */
 bool kiriBlade_Step(kiriBladeWork* work);
