@@ -1,6 +1,6 @@
 /* The block matrix against a dense one, summed and solved here. */
 #include "core/kiri_archive.h"
-#include "motion/kiri_block_factor.h"
+#include "solver/kiri_matrix.h"
 #include "support.h"
 
 #include <math.h>
@@ -201,7 +201,7 @@ static void TestVectors(void** state)
             kiriMatrix* matrix = kiriMatrix_Create(&memory, size);
             assert_non_null(matrix);
             if (refuses) {
-                kiriMatrix_RefuseLongVectors(matrix);
+                kiriMatrix_RefuseAvx(matrix);
             }
             MakeElements(&seed, size, frames, 16);
             assert_true(kiriMatrix_Shape(matrix, frames, pairs, pairCount));
