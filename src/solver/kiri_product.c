@@ -28,7 +28,8 @@ typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));
     {                                                                                                                  \
         double* out = p->out + (ptrdiff_t)column * p->outStride + row;                                                 \
         const double *a = p->a + row, *b = p->b + column;                                                              \
-        Lanes *c0 = (Lanes*)out, *c1 = (Lanes*)(out + p->outStride), *c2 = (Lanes*)(out + 2 * (ptrdiff_t)p->outStride); \
+        Lanes *c0 = (Lanes*)out, *c1 = (Lanes*)(out + p->outStride),                                                   \
+              *c2 = (Lanes*)(out + 2 * (ptrdiff_t)p->outStride);                                                       \
         Lanes s00 = c0[0], s10 = c0[1], s20 = c0[2], s01 = c1[0], s11 = c1[1], s21 = c1[2];                            \
         Lanes s02 = c2[0], s12 = c2[1], s22 = c2[2];                                                                   \
         for (int32_t k = 0; k < p->depth; ++k, a += p->aStride, b += p->bStride) {                                     \
