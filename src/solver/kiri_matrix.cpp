@@ -21,9 +21,11 @@ extern "C" {
    is shared by all threads. */
 #if defined(KIRI_ASSERTS)
 #define EIGEN_NO_MALLOC
-static thread_local bool kiriOrders;
-#define eigen_assert(condition) KIRI_ASSERT((condition) || kiriOrders)
+static thread_local bool kiriIsOrdering;
+#define KIRI_SET_ORDERING(isOrdering) (kiriIsOrdering = (isOrdering))
+#define eigen_assert(condition) KIRI_ASSERT((condition) || kiriIsOrdering)
 #else
+#define KIRI_SET_ORDERING(isOrdering) ((void)0)
 #define eigen_assert(condition) KIRI_ASSERT(condition)
 #endif
 
@@ -68,7 +70,7 @@ struct Pattern {
    the lower triangle of a square: L, with D in place of its diagonal of ones. Numbers above D mean nothing. */
 struct Panel {
     int32_t column, width; /* first column; count of columns */
-    int32_t row, below;    /* into `rows`: rows below the columns, ascending; their count */
+    int32_t row, below;    /* into factor.row: rows below the columns, ascending; their count */
     int32_t update;        /* into `updates`: the first one that changes this panel */
     int64_t values;        /* into `factors` */
 };
@@ -89,19 +91,17 @@ struct kiriMatrix {
     int64_t products, chosenProducts; /* of blocks, in a factorisation of all panels and of the chosen panels */
     KIRI_ARRAY(kiriPair) pairs;       /* of the pattern: a < b, ascending */
     KIRI_ARRAY(int32_t) order;        /* position of each frame */
-    Pattern pattern;                  /* of the matrix */
+    Pattern pattern, factor;          /* of the matrix; of the factor, column by column */
     KIRI_ARRAY(Panel) panels;         /* and one more, where all of them end */
     KIRI_ARRAY(int32_t) panelOf;      /* of each column */
     kiriIndices chosen;               /* panels with a chosen frame */
     kiriIndices frames;               /* chosen frames */
     kiriIndices idle;                 /* columns of chosen panels without a chosen frame: they get the identity */
     KIRI_ARRAY(uint8_t) isChosen;     /* of each panel */
-    KIRI_ARRAY(int32_t) rows;
     KIRI_ARRAY(Update) updates;
     KIRI_ARRAY(double) values, factors, right;
     KIRI_ARRAY(double) scaled, part;          /* scratch: rows of a panel times D; the right side of a panel */
-    Pattern factor;                           /* scratch: pattern of the factor, column by column */
-    KIRI_ARRAY(int64_t) keys;                 /* scratch: pairs of 32-bit numbers to sort */
+    KIRI_ARRAY(kiriPair) blocks;              /* scratch: column and row of each block */
     KIRI_ARRAY(int32_t) child, sibling, mark; /* scratch: the elimination tree; position of a row in a panel */
 };
 
@@ -110,9 +110,15 @@ namespace
 
 /* ---- Symbolic factorisation ---- */
 
-int64_t MakeKey(int32_t high, int32_t low)
+bool IsBefore(kiriPair one, kiriPair other)
 {
-    return ((int64_t)high << 32) + low;
+    return one.a != other.a ? one.a < other.a : one.b < other.b;
+}
+
+kiriPair MakePair(int32_t one, int32_t other)
+{
+    kiriPair pair = { std::min(one, other), std::max(one, other) };
+    return pair;
 }
 
 bool ReserveFrames(kiriMatrix* matrix)
@@ -132,42 +138,36 @@ bool ReserveFrames(kiriMatrix* matrix)
 /* Copies the pairs: each once, the lower frame first, ascending. */
 bool SortPairs(kiriMatrix* matrix, const kiriPair* pairs, int64_t pairCount)
 {
-    if (!kiriArray_Resize(matrix->memory, &matrix->keys, pairCount)) {
+    if (!kiriArray_Resize(matrix->memory, &matrix->pairs, pairCount)) {
         return false;
     }
-    int64_t *keys = matrix->keys.data, *end = keys;
+    kiriPair *begin = matrix->pairs.data, *end = begin;
     for (int64_t k = 0; k < pairCount; ++k) {
-        int32_t a = std::min(pairs[k].a, pairs[k].b), b = std::max(pairs[k].a, pairs[k].b);
-        KIRI_ASSERT(a >= 0 && b < matrix->count);
-        if (a < b) {
-            *end++ = MakeKey(a, b);
-        }
+        kiriPair pair = MakePair(pairs[k].a, pairs[k].b);
+        KIRI_ASSERT(pair.a >= 0 && pair.b < matrix->count);
+        *end = pair;
+        end += pair.a < pair.b;
     }
-    std::sort(keys, end);
-    end = std::unique(keys, end);
-    if (!kiriArray_Resize(matrix->memory, &matrix->pairs, end - keys)) {
-        return false;
-    }
-    for (int32_t k = 0; k < matrix->pairs.count; ++k) {
-        matrix->pairs.data[k].a = (int32_t)(keys[k] >> 32);
-        matrix->pairs.data[k].b = (int32_t)(keys[k] & INT32_MAX);
-    }
+    std::sort(begin, end, IsBefore);
+    end = std::unique(begin, end, [](kiriPair one, kiriPair other) { return !IsBefore(one, other); });
+    matrix->pairs.count = (int32_t)(end - begin);
     return true;
 }
 
-/* Orders the frames by approximate minimum degree, which keeps the factor sparse. Throws on out of memory. */
-void OrderFrames(kiriMatrix* matrix)
-{
+/* Orders the frames by approximate minimum degree, which keeps the factor sparse. Fails on out of memory. */
+bool OrderFrames(kiriMatrix* matrix)
+try {
     int32_t count = matrix->count;
+    KIRI_SET_ORDERING(true);
     std::vector<Eigen::Triplet<double>> entries;
     entries.reserve((size_t)count + 2 * (size_t)matrix->pairs.count);
     for (int32_t f = 0; f < count; ++f) {
-        entries.push_back(Eigen::Triplet<double>(f, f, 1.0));
+        entries.emplace_back(f, f, 1.0);
     }
     for (int32_t k = 0; k < matrix->pairs.count; ++k) {
         kiriPair pair = matrix->pairs.data[k];
-        entries.push_back(Eigen::Triplet<double>(pair.a, pair.b, 1.0));
-        entries.push_back(Eigen::Triplet<double>(pair.b, pair.a, 1.0));
+        entries.emplace_back(pair.a, pair.b, 1.0);
+        entries.emplace_back(pair.b, pair.a, 1.0);
     }
     Eigen::SparseMatrix<double> graph(count, count);
     graph.setFromTriplets(entries.begin(), entries.end());
@@ -177,53 +177,38 @@ void OrderFrames(kiriMatrix* matrix)
     for (int32_t position = 0; position < count; ++position) {
         matrix->order.data[order.indices()[position]] = position;
     }
-}
-
-/* Fails on out of memory. */
-bool TryOrderFrames(kiriMatrix* matrix)
-{
-    bool isDone = true;
-#if defined(KIRI_ASSERTS)
-    kiriOrders = true;
-#endif
-    try {
-        OrderFrames(matrix);
-    } catch (...) {
-        isDone = false;
-    }
-#if defined(KIRI_ASSERTS)
-    kiriOrders = false;
-#endif
-    return isDone;
+    KIRI_SET_ORDERING(false);
+    return true;
+} catch (...) {
+    KIRI_SET_ORDERING(false);
+    return false;
 }
 
 bool FillPattern(kiriMatrix* matrix)
 {
     Pattern* pattern = &matrix->pattern;
-    const int32_t* order = matrix->order.data;
-    int64_t blocks = (int64_t)matrix->count + matrix->pairs.count;
-    if (!kiriArray_Resize(matrix->memory, &matrix->keys, blocks) ||
-        !kiriArray_Resize(matrix->memory, &pattern->row, blocks)) {
+    int32_t count = matrix->count;
+    int64_t blockCount = (int64_t)count + matrix->pairs.count;
+    if (!kiriArray_Resize(matrix->memory, &matrix->blocks, blockCount) ||
+        !kiriArray_Resize(matrix->memory, &pattern->row, blockCount)) {
         return false;
     }
-    int64_t *keys = matrix->keys.data, *end = keys;
-    for (int32_t c = 0; c < matrix->count; ++c) {
-        *end++ = MakeKey(c, c);
+    kiriPair* blocks = matrix->blocks.data;
+    for (int32_t c = 0; c < count; ++c) {
+        blocks[c] = MakePair(c, c);
     }
     for (int32_t k = 0; k < matrix->pairs.count; ++k) {
-        int32_t a = order[matrix->pairs.data[k].a], b = order[matrix->pairs.data[k].b];
-        *end++ = MakeKey(std::min(a, b), std::max(a, b));
+        kiriPair pair = matrix->pairs.data[k];
+        blocks[count + k] = MakePair(matrix->order.data[pair.a], matrix->order.data[pair.b]);
     }
-    std::sort(keys, end);
+    std::sort(blocks, blocks + blockCount, IsBefore);
     for (int32_t k = 0; k < pattern->row.count; ++k) {
-        int32_t column = (int32_t)(keys[k] >> 32), row = (int32_t)(keys[k] & INT32_MAX);
-        KIRI_ASSERT(column <= row);
-        if (row == column) {
-            pattern->start.data[column] = k;
+        if (blocks[k].a == blocks[k].b) {
+            pattern->start.data[blocks[k].a] = k;
         }
-        pattern->row.data[k] = row;
+        pattern->row.data[k] = blocks[k].b;
     }
-    pattern->start.data[matrix->count] = pattern->row.count;
+    pattern->start.data[count] = pattern->row.count;
     return true;
 }
 
@@ -296,25 +281,17 @@ bool JoinColumns(kiriMatrix* matrix)
     return kiriArray_Push(matrix->memory, &matrix->panels, end);
 }
 
-/* Copies the rows of each panel, and reserves its values. */
+/* Reserves the values. */
 bool PlacePanels(kiriMatrix* matrix)
 {
     int64_t area = (int64_t)matrix->size * matrix->size, values = 0;
     int32_t highest = 0, widest = 0;
-    if (!kiriArray_Resize(matrix->memory, &matrix->rows, matrix->factor.row.count)) {
-        return false;
-    }
-    matrix->rows.count = 0;
     for (int32_t p = 0; p < matrix->panels.count; ++p) {
         Panel* panel = &matrix->panels.data[p];
-        const int32_t* from = matrix->factor.row.data + panel->row;
-        panel->row = matrix->rows.count;
         panel->values = values;
         values += area * panel->width * (panel->width + panel->below);
         highest = std::max(highest, panel->width + panel->below);
         widest = std::max(widest, panel->width);
-        std::copy(from, from + panel->below, matrix->rows.data + panel->row);
-        matrix->rows.count += panel->below;
     }
     return kiriArray_Resize(matrix->memory, &matrix->values, area * matrix->pattern.row.count) &&
            kiriArray_Resize(matrix->memory, &matrix->factors, values) &&
@@ -326,7 +303,7 @@ bool PlacePanels(kiriMatrix* matrix)
 template <typename Visit> void VisitUpdates(const kiriMatrix* matrix, int32_t p, Visit visit)
 {
     const Panel* panel = &matrix->panels.data[p];
-    const int32_t *rows = matrix->rows.data + panel->row, *panelOf = matrix->panelOf.data;
+    const int32_t *rows = matrix->factor.row.data + panel->row, *panelOf = matrix->panelOf.data;
     for (int32_t first = 0, end; first < panel->below; first = end) {
         for (end = first + 1; end < panel->below && panelOf[rows[end]] == panelOf[rows[first]];) {
             ++end;
@@ -360,7 +337,7 @@ bool ListUpdates(kiriMatrix* matrix)
 /* Shapes the matrix of `pairs`. Fails on out of memory, or on more than `most` blocks of the factor. */
 bool ShapePairs(kiriMatrix* matrix, int64_t most)
 {
-    if (!TryOrderFrames(matrix) || !FillPattern(matrix) || !Eliminate(matrix, most) || !JoinColumns(matrix) ||
+    if (!OrderFrames(matrix) || !FillPattern(matrix) || !Eliminate(matrix, most) || !JoinColumns(matrix) ||
         !PlacePanels(matrix) || !ListUpdates(matrix)) {
         return false;
     }
@@ -712,7 +689,7 @@ void StartPanel(kiriMatrix* matrix, const Panel* panel)
         mark[panel->column + n] = n;
     }
     for (int32_t n = 0; n < panel->below; ++n) {
-        mark[matrix->rows.data[panel->row + n]] = panel->width + n;
+        mark[matrix->factor.row.data[panel->row + n]] = panel->width + n;
     }
     for (int32_t n = 0; n < panel->width; ++n) {
         const int32_t* start = &matrix->pattern.start.data[panel->column + n];
@@ -750,7 +727,7 @@ void SubtractColumns(kiriMatrix* matrix, const Panel* panel, const Update* updat
     int32_t size = matrix->size;
     const Panel* from = &matrix->panels.data[update->panel];
     const double* values = matrix->factors.data + from->values + (ptrdiff_t)product.aStride * k;
-    const int32_t *rows = matrix->rows.data + from->row, *mark = matrix->mark.data;
+    const int32_t *rows = matrix->factor.row.data + from->row, *mark = matrix->mark.data;
     for (int32_t c = 0; c < update->count; ++c) {
         int32_t first = update->first + c;
         double* out = matrix->factors.data + panel->values + (ptrdiff_t)product.outStride * size * mark[rows[first]];
@@ -777,8 +754,8 @@ void UpdatePanel(kiriMatrix* matrix, const Panel* panel, const Update* update)
               matrix->scaled.data);
     for (int32_t k = 0; k < width; k += MOST_COLUMNS) {
         int32_t depth = std::min(width - k, (int32_t)MOST_COLUMNS);
-        kiriProduct product = { nullptr, nullptr, nullptr, size * (panel->width + panel->below), height, count,
-                                0,       size,    depth };
+        int32_t target = size * (panel->width + panel->below);
+        kiriProduct product = { nullptr, nullptr, nullptr, target, height, count, 0, size, depth };
         SubtractColumns(matrix, panel, update, k, product);
     }
 }
@@ -848,15 +825,8 @@ void SubtractOwn(kiriMatrix* matrix, double* values, int32_t height, int32_t fir
 {
     int32_t size = matrix->size;
     const double* from = values + (ptrdiff_t)height * first;
-    const kiriProduct product = { values + (ptrdiff_t)height * c + c,
-                                  from + c,
-                                  matrix->scaled.data,
-                                  height,
-                                  height,
-                                  size,
-                                  height - c,
-                                  size,
-                                  last - first };
+    double* out = values + (ptrdiff_t)height * c + c;
+    kiriProduct product = { out, from + c, matrix->scaled.data, height, height, size, height - c, size, last - first };
     ScaleRows(from, height, first, last - first, c, size, matrix->scaled.data);
     SubtractProduct(matrix, product);
 }
@@ -996,7 +966,7 @@ template <int Size> void SolvePanels(kiriMatrix* matrix)
     double *all = matrix->right.data, *part = matrix->part.data;
     for (int32_t k = 0; k < matrix->chosen.count; ++k) {
         const Panel* panel = &matrix->panels.data[matrix->chosen.data[k]];
-        const int32_t width = Size * panel->width, *rows = matrix->rows.data + panel->row;
+        const int32_t width = Size * panel->width, *rows = matrix->factor.row.data + panel->row;
         CopyNumbers(part, all + Size * panel->column, width);
         memset(part + width, 0, sizeof(double) * (size_t)(Size * panel->below));
         SolvePanelDown(matrix->factors.data + panel->values, width + Size * panel->below, width, part);
@@ -1007,7 +977,7 @@ template <int Size> void SolvePanels(kiriMatrix* matrix)
     }
     for (int32_t k = matrix->chosen.count - 1; k >= 0; --k) {
         const Panel* panel = &matrix->panels.data[matrix->chosen.data[k]];
-        const int32_t width = Size * panel->width, *rows = matrix->rows.data + panel->row;
+        const int32_t width = Size * panel->width, *rows = matrix->factor.row.data + panel->row;
         CopyNumbers(part, all + Size * panel->column, width);
         for (int32_t n = 0; n < panel->below; ++n) {
             CopyNumbers(part + width + Size * n, all + Size * rows[n], Size);
