@@ -111,7 +111,7 @@ static bool TimeOurs(kiriSolver* solver, double* solution, SolverTimes* times)
     return fine;
 }
 
-/* `ours` is what the ratio compares with. */
+/* The ratio compares with the times of `ours`. */
 static void PrintSolver(Table* table, const kiriSolver* solver, const char* name, const SolverTimes* times,
                         const SolverTimes* ours, double error)
 {

@@ -28,7 +28,7 @@ static inline double MatrixNumber(uint32_t* seed)
     return (double)((int32_t)(*seed >> 8 & 255) - 128) * (1.0 / 128.0);
 }
 
-/* A ring of elements of four frames, on a diagonal of ones. Returns 0 if there is no solution. */
+/* A ring of elements of four frames, on a diagonal of ones. Returns 0 on failure. */
 static inline uint64_t MatrixHash(kiriMemory* memory, int32_t size, bool refusesAvx)
 {
     static kiriPair pairs[MATRIX_ELEMENTS * MATRIX_MEMBERS * MATRIX_MEMBERS];

@@ -273,7 +273,7 @@ static void TestNotPositive(void** state)
     kiriMemory_FreeAll(&memory);
 }
 
-/* The bits of a solution are those of every other target. */
+/* Every target gives these bits. */
 static void TestHashes(void** state)
 {
     (void)state;

@@ -1,6 +1,7 @@
-/* Supernodal left-looking L D L^T on Eigen's fixed-size expressions (Chen, Davis, Hager, Rajamanickam 2008, CHOLMOD, has
-   the same scheme). Each number is an ascending sum of its own, so vector length, compiler and optimisation do not change
-   bits. Eigen's own factorisations are not used: their sums depend on the processor, or they go entry by entry. */
+/* Supernodal left-looking L D L^T on Eigen's fixed-size expressions; CHOLMOD has the same scheme (Chen, Davis, Hager,
+   Rajamanickam 2008). Each number is summed separately, in ascending order, so vector length, compiler and optimisation
+   do not change bits. Eigen's own factorisations are not used: their sums depend on the processor, or they go entry by
+   entry. */
 #include "../core/kiri_float.h"
 
 #include "kiri_matrix.h"
@@ -227,8 +228,8 @@ bool AddRows(kiriMatrix* matrix, const Pattern* from, int32_t column, int32_t c)
     return true;
 }
 
-/* Column c of the factor has the rows of the matrix and those of its children in the elimination tree: columns whose
-   first row below the diagonal is c. Fails on out of memory, or on more than `most` blocks. */
+/* Column c of the factor has the rows of the matrix and of the column's children in the elimination tree. A child is a
+   column whose first row below the diagonal is c. Fails on out of memory, or on more than `most` blocks. */
 bool Eliminate(kiriMatrix* matrix, int64_t most)
 {
     Pattern* factor = &matrix->factor;

@@ -70,7 +70,7 @@ void kiriMatrix_AddSquares(kiriMatrix* matrix, const int32_t* frames, int32_t fr
                            const double* k, int32_t rows);
 
 /* Factors the matrix. If rounding makes a pivot negative, adds a few units in the last place to the diagonal first.
-   Returns false if there is no factor even then. */
+   Returns false if a pivot is still not positive. */
 bool kiriMatrix_Factor(kiriMatrix* matrix);
 
 /* Solves after Factor returned true. Both arrays have size numbers a frame. */

@@ -22,7 +22,7 @@ typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));
 #define UNROLL _Pragma("GCC unroll 6")
 #endif
 
-/* Three vectors of rows by three columns: as many sums as there are registers. */
+/* Three vectors of rows by three columns: nine sums, which fit the registers. */
 #define DEFINE_TILE(SubtractTile, Lanes)                                                                               \
     INLINE void SubtractTile(const kiriProduct* p, int32_t row, int32_t column)                                        \
     {                                                                                                                  \

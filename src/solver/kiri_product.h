@@ -18,8 +18,8 @@ typedef struct kiriProduct {
 /* Returns true if kiriProduct_SubtractByAvx may be called: the compiler has the kernel, and the processor has AVX. */
 bool kiriProduct_HasAvx(void);
 
-/* Subtracts the product. Each number is an ascending sum of its own without fused multiply-add, so the bits are those
-   of any other vector length. */
+/* Subtracts the product. Each number is summed separately, in ascending order, without fused multiply-add. So all
+   vector lengths give the same bits. */
 void kiriProduct_SubtractByAvx(const kiriProduct* product);
 
 KIRI_C_END
