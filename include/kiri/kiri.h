@@ -94,8 +94,8 @@ KIRI_API const char* kiriGetResultText(kiriResult result);
    A refused call has a line in the log, unless the log made the call. kiriWorld_GetLastError keeps the line of the
    function that runs, and no recording has the refused call. The functions of kiriDebugDraw follow these rules, too.
    A thread that reads may call `log`, and in kiriSheet_GetWeights and kiriSheet_EstimateError `alloc` and `free`.
-   All memory of a world comes from `alloc`, but for what Eigen takes while it orders the unknowns, when a cut couples
-   frames that were not coupled before. */
+   All memory of a world comes from `alloc`, but for what Eigen takes while it orders the unknowns: when a cut couples
+   frames that were not coupled before, and when a save is loaded. */
 typedef void* kiriAllocFn(void* user, int64_t bytes); /* at least 16-byte aligned, or null */
 typedef void kiriFreeFn(void* user, void* pointer);
 typedef void kiriLogFn(void* user, const char* line);
