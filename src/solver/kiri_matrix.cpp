@@ -18,8 +18,8 @@ extern "C" {
 #undef __FMA__
 #undef __AVX512F__
 
-/* Debug builds prove that Eigen allocates nothing but for the order. EIGEN_RUNTIME_NO_MALLOC does the same, but its flag
-   is shared by all threads. */
+/* Debug builds prove that Eigen allocates for the order only. EIGEN_RUNTIME_NO_MALLOC does the same, but all threads
+   share its flag. */
 #if defined(KIRI_ASSERTS)
 #define EIGEN_NO_MALLOC
 static thread_local bool kiriIsOrdering;
@@ -745,7 +745,7 @@ void SubtractColumns(kiriMatrix* matrix, const Panel* panel, const Update* updat
     }
 }
 
-/* Subtracts an earlier panel. MOST_COLUMNS at once: their rows stay in the cache while all columns of the panel pass. */
+/* Subtracts an earlier panel, MOST_COLUMNS at once: their rows stay in the cache for all columns of the panel. */
 void UpdatePanel(kiriMatrix* matrix, const Panel* panel, const Update* update)
 {
     int32_t size = matrix->size;
@@ -761,8 +761,8 @@ void UpdatePanel(kiriMatrix* matrix, const Panel* panel, const Update* update)
     }
 }
 
-/* Factors a diagonal block. `divisor` gets the rows of L, column by column, and `inverse` 1 / D. Fails if a pivot is not
-   positive. */
+/* Factors a diagonal block. `divisor` gets the rows of L, column by column, and `inverse` 1 / D. Fails if a pivot is
+   not positive. */
 template <int Size> bool FactorBlock(double* block, ptrdiff_t stride, double* divisor, double* inverse)
 {
     for (int m = 0; m < Size; ++m) {
