@@ -181,8 +181,8 @@ pub const KIRI_DRAW_ALL: i32 = 2047;
 ///   function that runs, and no recording has the refused call. The functions of kiriDebugDraw
 ///   follow these rules, too. A thread that reads may call \`log\`, and in kiriSheet_GetWeights and
 ///   kiriSheet_EstimateError \`alloc\` and \`free\`. All memory of a world comes from \`alloc\`,
-///   but for what Eigen takes while it orders the unknowns, when a cut couples frames that were not
-///   coupled before. at least 16-byte aligned, or null
+///   but for what Eigen takes while it orders the unknowns: when a cut couples frames that were not
+///   coupled before, and when a save is loaded. at least 16-byte aligned, or null
 pub type kiriAllocFn = Option<unsafe extern "C" fn(user: *mut c_void, bytes: i64) -> *mut c_void>;
 
 /// The host's functions. They may call other worlds, and functions that take no world. Calls of
@@ -196,8 +196,8 @@ pub type kiriAllocFn = Option<unsafe extern "C" fn(user: *mut c_void, bytes: i64
 ///   function that runs, and no recording has the refused call. The functions of kiriDebugDraw
 ///   follow these rules, too. A thread that reads may call \`log\`, and in kiriSheet_GetWeights and
 ///   kiriSheet_EstimateError \`alloc\` and \`free\`. All memory of a world comes from \`alloc\`,
-///   but for what Eigen takes while it orders the unknowns, when a cut couples frames that were not
-///   coupled before.
+///   but for what Eigen takes while it orders the unknowns: when a cut couples frames that were not
+///   coupled before, and when a save is loaded.
 pub type kiriFreeFn = Option<unsafe extern "C" fn(user: *mut c_void, pointer: *mut c_void)>;
 
 /// The host's functions. They may call other worlds, and functions that take no world. Calls of
@@ -211,8 +211,8 @@ pub type kiriFreeFn = Option<unsafe extern "C" fn(user: *mut c_void, pointer: *m
 ///   function that runs, and no recording has the refused call. The functions of kiriDebugDraw
 ///   follow these rules, too. A thread that reads may call \`log\`, and in kiriSheet_GetWeights and
 ///   kiriSheet_EstimateError \`alloc\` and \`free\`. All memory of a world comes from \`alloc\`,
-///   but for what Eigen takes while it orders the unknowns, when a cut couples frames that were not
-///   coupled before.
+///   but for what Eigen takes while it orders the unknowns: when a cut couples frames that were not
+///   coupled before, and when a save is loaded.
 pub type kiriLogFn = Option<unsafe extern "C" fn(user: *mut c_void, line: *const c_char)>;
 
 /// The host's functions. They may call other worlds, and functions that take no world. Calls of
@@ -226,8 +226,9 @@ pub type kiriLogFn = Option<unsafe extern "C" fn(user: *mut c_void, line: *const
 ///   function that runs, and no recording has the refused call. The functions of kiriDebugDraw
 ///   follow these rules, too. A thread that reads may call \`log\`, and in kiriSheet_GetWeights and
 ///   kiriSheet_EstimateError \`alloc\` and \`free\`. All memory of a world comes from \`alloc\`,
-///   but for what Eigen takes while it orders the unknowns, when a cut couples frames that were not
-///   coupled before. seconds; read for the profile only, never by the simulation
+///   but for what Eigen takes while it orders the unknowns: when a cut couples frames that were not
+///   coupled before, and when a save is loaded. seconds; read for the profile only, never by the
+///   simulation
 pub type kiriClockFn = Option<unsafe extern "C" fn(user: *mut c_void) -> f64>;
 
 /// The host's functions. They may call other worlds, and functions that take no world. Calls of
@@ -241,8 +242,8 @@ pub type kiriClockFn = Option<unsafe extern "C" fn(user: *mut c_void) -> f64>;
 ///   function that runs, and no recording has the refused call. The functions of kiriDebugDraw
 ///   follow these rules, too. A thread that reads may call \`log\`, and in kiriSheet_GetWeights and
 ///   kiriSheet_EstimateError \`alloc\` and \`free\`. All memory of a world comes from \`alloc\`,
-///   but for what Eigen takes while it orders the unknowns, when a cut couples frames that were not
-///   coupled before. the next bytes of the recording
+///   but for what Eigen takes while it orders the unknowns: when a cut couples frames that were not
+///   coupled before, and when a save is loaded. the next bytes of the recording
 pub type kiriRecordFn = Option<unsafe extern "C" fn(user: *mut c_void, bytes: *const c_void, count: i32)>;
 
 /// For hosts that lend their threads to a tick. A task is work on the items 0 to itemCount:
