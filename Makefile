@@ -363,7 +363,7 @@ builds: lib $(RUN)
 
 # The folders of src are floors: a file includes from its own and from those below, never from above; and no two units
 # include each other, directly or by a detour (tsort says where). kiri_X_work.h is private to the files of X.
-FLOORS := core mesh field motion view sheet world
+FLOORS := core mesh field solver motion view sheet world
 UNIT_INCLUDES = sed -nE 's|^src/[a-z]+/(kiri_[a-z_0-9]+)\.[a-z]+:\#include "(\.\./[a-z]+/)?(kiri_[a-z_0-9]+)\.h"|\1 \3|p'
 
 floors:
@@ -563,14 +563,16 @@ $(BUILD)/tests/test_affine $(BUILD)/tests/test_estimate $(BUILD)/tests/test_poin
 
 # ---- The same bits everywhere ----
 
-# What prints the hashes, and what makes the calls of a recording, without other libraries. They are linked from objects,
+# What prints the hashes, what makes the calls of a recording, and what solves linear systems, without other libraries. They are linked from objects,
 # for archives differ between machines.
 STORM ?= $(BUILD)/tests/storm
 REPLAY ?= $(BUILD)/tests/replay
+MATRIX ?= $(BUILD)/tests/matrix
 
 $(STORM): $(patsubst %,$(BUILD)/tests/%.c.o,storm storm_types storm_acts storm_cuts storm_seen)
 $(REPLAY): $(BUILD)/tests/replay_hash.c.o
-$(STORM) $(REPLAY): $(LIBRARY_OBJECTS) $(TO_LINK)
+$(MATRIX): $(BUILD)/tests/matrix_hash.c.o
+$(STORM) $(REPLAY) $(MATRIX): $(LIBRARY_OBJECTS) $(TO_LINK)
 	@echo "  $@"
 	@$(LINK) -o $@ $(filter %.o,$^) $(STORM_LIBRARIES) -lm
 

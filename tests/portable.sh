@@ -1,7 +1,8 @@
 #!/bin/sh
 # Builds the storm (tests/storm.h) for each machine and compiler that is here, runs it, and compares what it prints with
-# tests/data/storm.txt; and replays the recordings of games, which have state hashes in them. Options are those that a
-# host might have: nothing turns fused multiply-add off but the sources.
+# tests/data/storm.txt; replays the recordings of games, which have state hashes in them; and solves linear systems whose
+# hashes are in tests/matrix_hash.h. Options are those that a host might have: nothing turns fused multiply-add off but
+# the sources.
 #
 # From the environment: MAKE; TARGETS, names of targets, else all; TIME, seconds after which no target is begun.
 set -u
@@ -61,7 +62,7 @@ build() {
     c=$(echo "$options" | sed 's/gnu\*/gnu11/') plus=$(echo "$options" | sed 's/gnu\*/gnu++14/')
     ${MAKE:-make} --no-print-directory BUILD="$place" config=release CC="$cc" CXX="$cxx" \
         FLAGS="-Wall -Wextra -fno-math-errno -DNDEBUG -MMD -MP" FLAGS_release="-DNDEBUG $link" \
-        PACKAGES=: CFLAGS="$c" CXXFLAGS="$plus" STORM="$program" REPLAY="$replay" "$@" "$program" "$replay" > "$place/log" 2>&1
+        PACKAGES=: CFLAGS="$c" CXXFLAGS="$plus" STORM="$program" REPLAY="$replay" MATRIX="$matrix" "$@" "$program" "$replay" "$matrix" > "$place/log" 2>&1
 }
 
 # The hashes that are wanted: those of the repository, or none where no world may be made.
@@ -72,9 +73,11 @@ wanted() {
     esac
 }
 
-# Names a recording that goes otherwise than it was recorded. Where no world may be made, there is none.
-wrong_recording() {
+# Names a linear system with another solution, or a recording that goes otherwise than it was recorded. Where no world may
+# be made, there is none.
+wrong_result() {
     [ "$name" != clang-fused ] || return 0
+    WINEDEBUG=-all $run "$matrix" 2>> "$place/errors" || echo "a linear system"
     for recording in tests/data/recordings/*; do
         WINEDEBUG=-all $run "$replay" "$recording" > "$place/replay.log" 2>> "$place/errors" || echo "$recording"
     done
@@ -82,6 +85,7 @@ wrong_recording() {
 
 try() {
     place=build/portable/$name program=build/portable/$name/storm$suffix replay=build/portable/$name/replay$suffix
+    matrix=build/portable/$name/matrix$suffix
     mkdir -p "$place"
     if [ -n "${TIME:-}" ] && [ $(($(date +%s) - start)) -ge "$TIME" ]; then
         say "$name" "skipped: no time left"
@@ -102,7 +106,7 @@ try() {
     fi
     WINEDEBUG=-all $run "$program" 2> "$place/errors" | tr -d '\r' > "$place/hashes"
     wanted > "$place/wanted"
-    wrong=$(wrong_recording | head -n 1)
+    wrong=$(wrong_result | head -n 1)
     if cmp -s "$place/hashes" "$place/wanted" && [ -z "$wrong" ]; then
         say "$name" "agrees"
         passed=$((passed + 1))

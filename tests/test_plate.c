@@ -3,7 +3,7 @@
 #include "voronoi.h"
 
 #include "motion/kiri_curl.h"
-#include "motion/kiri_block_factor.h"
+#include "solver/kiri_matrix.h"
 #include "motion/kiri_trace.h"
 
 #include <stdio.h>

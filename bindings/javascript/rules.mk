@@ -20,7 +20,7 @@ WASM_OBJECTS := $(patsubst %,$(WASM)/%.o,$(wildcard src/*/*.c src/*/*.cpp) bindi
 
 # What ticks spend their time in is compiled for speed, within reason; all else for size.
 WASM_HOT_SOURCES := $(addsuffix .c, \
-    $(addprefix src/motion/kiri_,affine area_element block_factor contact_assembly curl element newton objective panel prediction solver step_begin \
+    $(addprefix src/motion/kiri_,affine area_element contact_assembly curl element newton objective prediction solver step_begin \
         step_contact step_end strain trace) \
     $(addprefix src/view/kiri_,blend carrier fade normal solid surface) \
     $(addprefix src/field/kiri_,geodesic reach shape stencil way) $(addprefix src/sheet/kiri_,obstacle_touch touch))
@@ -32,7 +32,7 @@ wasm: $(WASM)/kiri.wasm
 # What was compiled with other options is compiled again.
 $(WASM_OBJECTS): bindings/javascript/rules.mk
 $(WASM_OBJECTS): WASM_SIZE = $(WASM_COLD)
-$(WASM_HOT_SOURCES:%=$(WASM)/%.o): WASM_SIZE = $(WASM_HOT)
+$(WASM_HOT_SOURCES:%=$(WASM)/%.o) $(WASM)/src/solver/kiri_matrix.cpp.o: WASM_SIZE = $(WASM_HOT)
 
 $(WASM)/%.c.o: %.c
 	@mkdir -p $(@D)

@@ -90,7 +90,8 @@ KIRI_API const char* kiriGetResultText(kiriResult result);
 
    Other calls, kiriDestroyWorld too, give KIRI_ERROR_STATE and do nothing but log a line (manual, budget). A reading
    thread may call `log`, and in kiriSheet_GetWeights and kiriSheet_EstimateError `alloc` and `free`. All memory of a
-   world comes from `alloc`, except memory of Eigen when a cut couples frames that were not coupled before. */
+   world comes from `alloc`, except memory in which Eigen orders the unknowns: when a cut couples frames that were not
+   coupled before, and when a save is loaded. */
 typedef void* kiriAllocFn(void* user, int64_t bytes); /* at least 16-byte aligned, or null */
 typedef void kiriFreeFn(void* user, void* pointer);
 typedef void kiriLogFn(void* user, const char* line);

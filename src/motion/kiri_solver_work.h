@@ -13,7 +13,7 @@
 #ifndef KIRI_SOLVER_WORK_H
 #define KIRI_SOLVER_WORK_H
 
-#include "kiri_block_factor.h"
+#include "../solver/kiri_matrix.h"
 #include "kiri_element.h"
 #include "kiri_momentum.h"
 
