@@ -1,6 +1,4 @@
-/* What it takes to save a world and to go back: whole, and as the difference to a save of up to a second before, as a
-   game does that keeps every tick of some seconds. The scenes, and a crowd of sheets of which one is cut now and
-   then. */
+/* What it takes to save a world and to go back. The scenes, and a crowd of sheets of which one is cut now and then. */
 #define _POSIX_C_SOURCE 199309L
 
 #include "../samples/scene.h"
@@ -15,12 +13,11 @@ typedef struct Bytes {
 } Bytes;
 
 typedef struct Sizes {
-    Bytes base, difference;
-    kiriWorld* other;                      /* that it is loaded into */
-    Series tick, save, load, change, back; /* ms: of a tick; of the world; of differences */
-    Series untrusted;                      /* ms of a load */
-    Series full, calm, cut;                /* KB: saves; differences without a cut since the base, and with */
-    bool isCut;                            /* a cut took effect since the base */
+    Bytes base;
+    kiriWorld* other;        /* that it is loaded into */
+    Series tick, save, load; /* ms */
+    Series untrusted;        /* ms of a load */
+    Series full;             /* KB */
 } Sizes;
 
 static void Fail(const char* what)
@@ -45,33 +42,17 @@ static double Since(double start)
     return 1e3 * (Bench_Clock(NULL) - start);
 }
 
-/* Room for both is there before: a game keeps its buffers. */
+/* The room is there before: a game keeps its buffers. */
 static void SaveBase(Sizes* sizes, const kiriWorld* world)
 {
     if (kiriWorld_Save(world, NULL, 0, &sizes->base.size) != KIRI_OK) {
         Fail("no save");
     }
     Bytes_Reserve(&sizes->base, sizes->base.size);
-    Bytes_Reserve(&sizes->difference, 2 * sizes->base.size + 4096);
     double start = Bench_Clock(NULL);
     kiriWorld_Save(world, sizes->base.data, sizes->base.capacity, &sizes->base.size);
     Series_Add(&sizes->save, Since(start));
     Series_Add(&sizes->full, 1e-3 * (double)sizes->base.size);
-    sizes->isCut = false;
-}
-
-static void SaveChange(Sizes* sizes, const kiriWorld* world)
-{
-    kiriProfile profile;
-    kiriWorld_GetProfile(world, &profile);
-    sizes->isCut = sizes->isCut || profile.commits > 0 || profile.trianglesSplit > 0 || profile.cellsSettled > 0;
-    double start = Bench_Clock(NULL);
-    if (kiriWorld_SaveDifference(world, sizes->base.data, sizes->base.size, sizes->difference.data,
-                                 sizes->difference.capacity, &sizes->difference.size) != KIRI_OK) {
-        Fail("no difference");
-    }
-    Series_Add(&sizes->change, Since(start));
-    Series_Add(sizes->isCut ? &sizes->cut : &sizes->calm, 1e-3 * (double)sizes->difference.size);
 }
 
 /* As bytes of others, and as one's own. */
@@ -86,17 +67,11 @@ static kiriResult LoadBase(Sizes* sizes)
     return result;
 }
 
-/* Both ways back lead to the same state. */
 static void GoBack(Sizes* sizes, const kiriWorld* world)
 {
     uint64_t is, was;
+    SaveBase(sizes, world);
     kiriResult result = LoadBase(sizes);
-    double start = Bench_Clock(NULL);
-    if (result == KIRI_OK) {
-        result = kiriWorld_LoadDifference(sizes->other, sizes->base.data, sizes->base.size, sizes->difference.data,
-                                          sizes->difference.size);
-    }
-    Series_Add(&sizes->back, Since(start));
     kiriWorld_GetStateHash(world, &is);
     kiriWorld_GetStateHash(sizes->other, &was);
     if (result != KIRI_OK || is != was) {
@@ -107,11 +82,6 @@ static void GoBack(Sizes* sizes, const kiriWorld* world)
 static void AfterTick(Sizes* sizes, const kiriWorld* world, int32_t tick, double milliseconds)
 {
     Series_Add(&sizes->tick, milliseconds);
-    if (tick % BASE_TICKS == 0) {
-        SaveBase(sizes, world);
-        return;
-    }
-    SaveChange(sizes, world);
     if (tick % LOAD_TICKS == LOAD_TICKS - 1) {
         GoBack(sizes, world);
     }
@@ -166,15 +136,13 @@ static void PlayCrowd(Sizes* sizes)
 static void Print(Table* table, const char* name, Sizes* sizes)
 {
     Table_Text(table, name);
-    Series* numbers[] = { &sizes->tick, &sizes->full, &sizes->save,   &sizes->load, &sizes->untrusted,
-                          &sizes->calm, &sizes->cut,  &sizes->change, &sizes->back };
+    Series* numbers[] = { &sizes->tick, &sizes->full, &sizes->save, &sizes->load, &sizes->untrusted };
     for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
         Table_Number(table, Series_Median(numbers[k]));
         Series_Free(numbers[k]);
     }
     kiriDestroyWorld(sizes->other);
     free(sizes->base.data);
-    free(sizes->difference.data);
 }
 
 /* A world for the way back. */
@@ -193,15 +161,10 @@ static Sizes Start(void)
 int main(int count, char** names)
 {
     static const char* const scenes[] = { "spiral", "kirigami", "patchwork", "vortex", "fallingguy", "bunny" };
-    static const char* const columns[] = { "scene",   "tick ms", "full KB",       "save ms", "load ms", "untrusted ms",
-                                           "calm KB", "cut KB",  "difference ms", "back ms", NULL };
+    static const char* const columns[] = { "scene", "tick ms", "KB", "save ms", "load ms", "untrusted ms", NULL };
     Table table;
     Bench_WeighClock();
-    if (!Table_Start(
-            &table, "save",
-            "Saves, and differences to a save of the last second: medians. untrusted: a load of bytes of others.\n"
-            "calm: no cut since that save",
-            columns)) {
+    if (!Table_Start(&table, "save", "Saves: medians. untrusted: a load of bytes of others.", columns)) {
         return 1;
     }
     for (size_t i = 0; i <= sizeof scenes / sizeof scenes[0]; i++) {

@@ -260,14 +260,8 @@ def test_save_and_load():
     for wrong in (b"", saved[:-1], saved[:9] + b"x" + saved[10:]):
         raises(kiri.KiriError, other.load, wrong)
     assert other.state_hash() == before
-    later = world.save(saved)
-    assert len(later) < len(saved)
-    other.load(later, saved)
-    assert other.save() == world.save()
-    raises(kiri.KiriError, other.load, later)
     other.load(saved, untrusted=True)
     assert other.state_hash() == before_all
-    raises(ValueError, other.load, later, saved, untrusted=True)
     world.load(saved)
     assert sheet.counts().vertices == len(sheet.mesh().positions)
 

@@ -277,15 +277,8 @@ static void GoBack(Tape* tape)
     OK(kiriWorld_Save(world, bytes, size, &size));
     Tape_Tick(tape);
     Tape_Tick(tape);
-    int64_t more = 0;
-    OK(kiriWorld_SaveDifference(world, bytes, size, NULL, 0, &more));
-    void* difference = malloc((size_t)more);
-    assert_non_null(difference);
-    OK(kiriWorld_SaveDifference(world, bytes, size, difference, more, &more));
     OK(kiriWorld_LoadUntrusted(world, bytes, size));
     OK(kiriWorld_Load(world, bytes, size));
-    OK(kiriWorld_LoadDifference(world, bytes, size, difference, more));
-    free(difference);
     assert_int_equal(kiriWorld_Load(world, bytes, size - 1), KIRI_ERROR_DATA);
     free(bytes);
     Tape_Tick(tape);

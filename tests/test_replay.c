@@ -326,22 +326,20 @@ typedef struct Bytes {
     int64_t size;
 } Bytes;
 
-/* A save, or the difference to one. */
-static Bytes SaveOf(const Tape* tape, const Bytes* base)
+static Bytes SaveOf(const Tape* tape)
 {
     const kiriWorld* world = tape->host.world;
     Bytes bytes = { NULL, 0 };
     for (int pass = 0; pass < 2; ++pass) {
-        OK(base == NULL ? kiriWorld_Save(world, bytes.data, bytes.size, &bytes.size)
-                        : kiriWorld_SaveDifference(world, base->data, base->size, bytes.data, bytes.size, &bytes.size));
+        OK(kiriWorld_Save(world, bytes.data, bytes.size, &bytes.size));
         bytes.data = bytes.data != NULL ? bytes.data : malloc((size_t)bytes.size);
         assert_non_null(bytes.data);
     }
     return bytes;
 }
 
-/* A sheet, a save of it and a load, while a cut is being worked on or not; by a difference or not. */
-static void RecordLoad(Tape* tape, bool isAtWork, bool isDifference)
+/* A sheet, a save of it and a load, while a cut is being worked on or not. */
+static void RecordLoad(Tape* tape, bool isAtWork)
 {
     const kiriBudget one = { 0, 1, 0, 0 };
     Tape_Start(tape);
@@ -353,14 +351,8 @@ static void RecordLoad(Tape* tape, bool isAtWork, bool isDifference)
             Tape_Tick(tape);
         }
     }
-    Bytes base = SaveOf(tape, NULL);
+    Bytes base = SaveOf(tape);
     OK(kiriWorld_Load(tape->host.world, base.data, base.size));
-    if (isDifference) {
-        Tape_Tick(tape);
-        Bytes difference = SaveOf(tape, &base);
-        OK(kiriWorld_LoadDifference(tape->host.world, base.data, base.size, difference.data, difference.size));
-        free(difference.data);
-    }
     free(base.data);
     Slash(tape, sheet);
     Tape_Stop(tape);
@@ -370,7 +362,7 @@ static void TestUntrustedLoad(void** state)
 {
     (void)state;
     Tape tape, again;
-    RecordLoad(&tape, false, false);
+    RecordLoad(&tape, false);
     for (int untrusted = 0; untrusted <= 1; ++untrusted) {
         Tape_Start(&again);
         again.replay.untrusted = untrusted;
@@ -401,24 +393,9 @@ static void TestUntrustedLoadAtWork(void** state)
 {
     (void)state;
     Tape tape, again;
-    RecordLoad(&tape, true, false);
+    RecordLoad(&tape, true);
     int32_t trusted = PlayWithout(&again, &tape, KIRI_ERROR_REPLAY);
     assert_true(trusted > KIRI_STAGE_GRID && StageOf(&again) != trusted);
-    Tape_Stop(&again);
-    Tape_Free(&again);
-    Tape_Free(&tape);
-}
-
-static void TestUntrustedDifference(void** state)
-{
-    (void)state;
-    Tape tape, again;
-    RecordLoad(&tape, false, true);
-    PlayWithout(&again, &tape, KIRI_ERROR_DATA);
-    assert_non_null(strstr(kiriWorld_GetLastError(again.host.world), "kiriWorld_LoadDifference"));
-    int64_t offset = again.replay.offset;
-    assert_int_equal(Tape_Play(&again, &tape), KIRI_ERROR_DATA);
-    assert_int_equal(again.replay.offset, offset);
     Tape_Stop(&again);
     Tape_Free(&again);
     Tape_Free(&tape);
@@ -440,7 +417,6 @@ int main(void)
         cmocka_unit_test(TestRecordedRefusals),
         cmocka_unit_test(TestUntrustedLoad),
         cmocka_unit_test(TestUntrustedLoadAtWork),
-        cmocka_unit_test(TestUntrustedDifference),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

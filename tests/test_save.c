@@ -20,17 +20,6 @@ static Bytes Save(const kiriWorld* world)
     return bytes;
 }
 
-static Bytes SaveDifference(const kiriWorld* world, Bytes base)
-{
-    Bytes bytes = { NULL, 0 };
-    assert_int_equal(kiriWorld_SaveDifference(world, base.data, base.size, NULL, 0, &bytes.size), KIRI_OK);
-    bytes.data = malloc((size_t)bytes.size);
-    int64_t size = 0;
-    assert_int_equal(kiriWorld_SaveDifference(world, base.data, base.size, bytes.data, bytes.size, &size), KIRI_OK);
-    assert_int_equal(size, bytes.size);
-    return bytes;
-}
-
 static uint64_t HashOf(const kiriWorld* world)
 {
     uint64_t hash = 0;
@@ -125,69 +114,6 @@ static void test_work_that_waits_goes_on(void** state)
     (void)state;
     for (int32_t k = 0; k < 3; ++k) {
         RunStorm(3 * k % STORM_TYPES, (uint32_t)(1 + k), &budgets[k]);
-    }
-}
-
-/* ---- Differences ------------------------------------------------------------------------------------------------- */
-
-/* What comes of base and difference is what all bytes say. */
-static void CheckDifference(const kiriWorld* world, Bytes base, kiriWorld* other)
-{
-    Bytes bytes = Save(world), difference = SaveDifference(world, base);
-    assert_int_equal(kiriWorld_LoadDifference(other, base.data, base.size, difference.data, difference.size), KIRI_OK);
-    Bytes again = Save(other);
-    AssertSame(bytes, again);
-    free(bytes.data);
-    free(difference.data);
-    free(again.data);
-}
-
-/* A storm goes back to where a save was, by differences to an older one, and goes on as it did. */
-static void RollStorm(int32_t kind, uint32_t seed, const kiriBudget* budget)
-{
-    enum { TICKS = 36, NEW_BASE = 9, BACK = 12 };
-    Storm storm, other, past;
-    Host host, otherHost;
-    StartStorm(&storm, &host, kind, seed, budget);
-    StartStorm(&other, &otherHost, (kind + 3) % STORM_TYPES, seed, NULL);
-    Bytes base = Save(storm.world), difference = { NULL, 0 };
-    uint64_t hash = 0;
-    for (int32_t tick = 0; tick < TICKS; ++tick) {
-        if (tick % BACK == 0) {
-            past = storm;
-            free(difference.data);
-            difference = SaveDifference(storm.world, base);
-        }
-        Storm_Tick(&storm);
-        CheckDifference(storm.world, base, other.world);
-        if (tick % BACK == NEW_BASE - 2) {
-            hash = HashOf(storm.world);
-            storm = past;
-            assert_int_equal(
-                kiriWorld_LoadDifference(storm.world, base.data, base.size, difference.data, difference.size), KIRI_OK);
-            for (int32_t k = 0; k < NEW_BASE - 1; ++k) {
-                Storm_Tick(&storm);
-                CheckDifference(storm.world, base, other.world);
-            }
-            assert_int_equal(HashOf(storm.world), hash);
-        }
-        if (tick % BACK == NEW_BASE) {
-            free(base.data);
-            base = Save(storm.world);
-        }
-    }
-    free(base.data);
-    free(difference.data);
-    Host_Destroy(&host);
-    Host_Destroy(&otherHost);
-}
-
-static void test_a_storm_goes_back(void** state)
-{
-    static const kiriBudget budget = { 64, 60, 20, 0 };
-    (void)state;
-    for (int32_t kind = 0; kind < STORM_TYPES; ++kind) {
-        RollStorm(kind, 1, kind % 3 == 0 ? &budget : NULL);
     }
 }
 
@@ -348,65 +274,6 @@ static void test_saves_of_other_versions_are_refused(void** state)
     Host_Stop(&host);
 }
 
-static void AssertNoDifference(Host* host, Bytes base, Bytes difference, uint64_t hash)
-{
-    assert_int_equal(kiriWorld_LoadDifference(host->world, base.data, base.size, difference.data, difference.size),
-                     KIRI_ERROR_DATA);
-    assert_true(HashOf(host->world) == hash);
-}
-
-/* Differences that are changed or cut short, to another save, or to none, change nothing. */
-static void test_differences_are_checked(void** state)
-{
-    (void)state;
-    Host host;
-    StartSmall(&host);
-    Bytes base = Save(host.world);
-    Host_Tick(&host, 1.0f / 60.0f, 1);
-    Bytes later = Save(host.world), difference = SaveDifference(host.world, base);
-    uint64_t hash = HashOf(host.world);
-    Host_Tick(&host, 1.0f / 60.0f, 1);
-    uint64_t now = HashOf(host.world);
-    AssertNoDifference(&host, later, difference, now);
-    AssertNoDifference(&host, difference, difference, now);
-    AssertNoDifference(&host, base, base, now);
-    for (Bytes part = difference; part.size > 0;) {
-        part.size -= 1;
-        AssertNoDifference(&host, base, part, now);
-    }
-    for (int64_t bit = 0; bit < 8 * difference.size; bit += 11) {
-        difference.data[bit / 8] ^= (uint8_t)(1 << bit % 8);
-        AssertNoDifference(&host, base, difference, now);
-        difference.data[bit / 8] ^= (uint8_t)(1 << bit % 8);
-    }
-    base.data[base.size / 2] ^= 1;
-    AssertNoDifference(&host, base, difference, now);
-    base.data[base.size / 2] ^= 1;
-    assert_int_equal(kiriWorld_LoadDifference(host.world, base.data, base.size, difference.data, difference.size),
-                     KIRI_OK);
-    assert_true(HashOf(host.world) == hash);
-
-    /* With too few bytes it says how many it takes, and writes none behind those that there are. */
-    for (int64_t capacity = 0; capacity < difference.size; capacity += 1 + capacity / 7) {
-        uint8_t* few = malloc((size_t)capacity + 1);
-        int64_t size = 0;
-        few[capacity] = 0x77;
-        assert_int_equal(kiriWorld_SaveDifference(host.world, base.data, base.size, few, capacity, &size),
-                         KIRI_ERROR_ARGUMENT);
-        assert_true(size == difference.size && few[capacity] == 0x77);
-        free(few);
-    }
-    int64_t size = 0;
-    assert_int_equal(kiriWorld_SaveDifference(host.world, difference.data, difference.size, NULL, 0, &size),
-                     KIRI_ERROR_DATA);
-    assert_int_equal(kiriWorld_SaveDifference(host.world, base.data, base.size - 1, NULL, 0, &size), KIRI_ERROR_DATA);
-    assert_true(HashOf(host.world) == hash);
-    free(base.data);
-    free(later.data);
-    free(difference.data);
-    Host_Stop(&host);
-}
-
 /* Saving asks for none; loading fails as a whole. */
 static void test_memory_may_be_refused(void** state)
 {
@@ -444,13 +311,11 @@ int main(void)
         cmocka_unit_test(test_a_storm_goes_on),
         cmocka_unit_test(test_work_that_waits_goes_on),
         cmocka_unit_test(test_work_inside_a_square_goes_on),
-        cmocka_unit_test(test_a_storm_goes_back),
         cmocka_unit_test(test_what_is_cut_short_is_refused),
         cmocka_unit_test(test_no_bit_may_change),
         cmocka_unit_test(test_calls_are_checked),
         cmocka_unit_test(test_saves_of_other_versions_are_refused),
         cmocka_unit_test(test_memory_may_be_refused),
-        cmocka_unit_test(test_differences_are_checked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -55,7 +55,7 @@ static void CheckGoesOn(const Storm* storm, kiriWorld* trusting, kiriWorld* othe
     Storm a = *storm, b = *storm;
     a.world = trusting;
     b.world = other;
-    Save save = Saved_Make(storm->world, NULL);
+    Save save = Saved_Make(storm->world);
     OK(kiriWorld_Load(trusting, save.bytes, save.size));
     OK(kiriWorld_LoadUntrusted(other, save.bytes, save.size));
     bool isAtWork = IsAtWork(storm->world);
@@ -171,7 +171,7 @@ static void TestWorkBeginsAgain(void** state)
     bool isDone = false;
     for (int32_t tick = 0; tick < MOST_TICKS && !isDone; ++tick) {
         isDone = Host_Tick(&host, 0.01f, 1) == KIRI_OK;
-        Save save = Saved_Make(host.world, NULL);
+        Save save = Saved_Make(host.world);
         int32_t stage = host.world->sheets.data[0]->update->stage;
         isSeen[isDone ? 0 : stage] = 1;
         OK(kiriWorld_LoadUntrusted(other.world, save.bytes, save.size));
@@ -228,7 +228,7 @@ static void TestSmallSavesTakeLittle(void** state)
     def.frameCount = 1;
     Host_AddRectangle(&host, &def, 1.0f, 1.0f, 1, 1);
     OK(Host_Tick(&host, 0.01f, 1));
-    Save good = Saved_Make(host.world, NULL);
+    Save good = Saved_Make(host.world);
     for (size_t k = 0; k < sizeof(numbers) / sizeof(numbers[0]); ++k) {
         assert_true(MostMemory(&good, numbers[k]) <= MEMORY_FREE + MEMORY_A_BYTE * good.size);
     }
@@ -245,7 +245,7 @@ static void TestMemoryMayBeRefused(void** state)
     StartCut(&host, &unlimited);
     Finish(&host);
     Host_Start(&other);
-    Save save = Saved_Make(host.world, NULL);
+    Save save = Saved_Make(host.world);
     uint64_t hash = HashOf(other.world);
     kiriResult result = KIRI_ERROR_MEMORY;
     for (int64_t n = 0; result == KIRI_ERROR_MEMORY; ++n) {

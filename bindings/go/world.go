@@ -352,37 +352,26 @@ func FitBudget(profile *Profile, microseconds float32, budget Budget) (Budget, e
 }
 
 // Save gives all that the coming ticks depend on. See Load.
-func (w *World) Save() ([]byte, error) { return w.save("kiriWorld_Save", nil) }
-
-// SaveDifference gives what has changed since a save. See LoadDifference.
-func (w *World) SaveDifference(base []byte) ([]byte, error) {
-	return w.save("kiriWorld_SaveDifference", base)
-}
-
-func (w *World) save(call string, base []byte) ([]byte, error) {
+func (w *World) Save() ([]byte, error) {
 	if err := w.check(); err != nil {
 		return nil, err
 	}
 	write := func(bytes []byte, size *C.int64_t) C.kiriResult {
-		to, room := unsafe.Pointer(unsafe.SliceData(bytes)), C.int64_t(len(bytes))
-		if base == nil {
-			return C.kiriWorld_Save(w.c, to, room, size)
-		}
-		return C.kiriWorld_SaveDifference(w.c, unsafe.Pointer(unsafe.SliceData(base)), C.int64_t(len(base)), to, room, size)
+		return C.kiriWorld_Save(w.c, unsafe.Pointer(unsafe.SliceData(bytes)), C.int64_t(len(bytes)), size)
 	}
 	var size C.int64_t
-	if err := failure(w, call, write(nil, &size), false); err != nil {
+	if err := failure(w, "kiriWorld_Save", write(nil, &size), false); err != nil {
 		return nil, err
 	}
 	bytes := make([]byte, size)
-	return bytes, failure(w, call, write(bytes, &size), false)
+	return bytes, failure(w, "kiriWorld_Save", write(bytes, &size), false)
 }
 
 // Replay is how far a replay has come: the zero value at its start.
 type Replay struct {
 	Offset, Calls, Ticks int64
 	Note                 []byte // where it stopped at a note: its bytes, in the recording
-	Untrusted            bool   // set by the host: as LoadUntrusted, and without differences
+	Untrusted            bool   // set by the host: as LoadUntrusted
 }
 
 // Replay makes the calls of a recording up to the next tick or note. true: more follows, call it again.

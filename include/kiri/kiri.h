@@ -233,7 +233,7 @@ typedef struct kiriReplay {
     const void* note; /* where it stopped at a note: its bytes, in the recording; else null */
     int32_t noteCount;
     int32_t untrusted; /* set by the host, 1: somebody may have made the recording to do harm. Saves that it loads are
-                          loaded by kiriWorld_LoadUntrusted, differences not at all (KIRI_ERROR_DATA). Where a cut was
+                          loaded by kiriWorld_LoadUntrusted. Where a cut was
                           being worked on in a save, states may then differ from those recorded (KIRI_ERROR_REPLAY) */
 } kiriReplay;
 
@@ -276,21 +276,6 @@ KIRI_API kiriResult kiriWorld_Load(kiriWorld* world, const void* bytes, int64_t 
    kiriWorld_Load, but that with a budget a later cut may take effect in another tick. Work on a cut that is at hand
    begins again: the cut does the same, and takes effect later. */
 KIRI_API kiriResult kiriWorld_LoadUntrusted(kiriWorld* world, const void* bytes, int64_t size);
-
-/* What has changed since a save, for hosts that go back a little: a save now and then, and a difference to it each
-   tick. Where no cut is being worked on it has poses, velocities and contacts; a cut adds what it changed. All of the
-   world is compared with the base, so it takes about as long as a save (tests/README.md has sizes and times).
-   base: what kiriWorld_Save wrote of this world, or what it was loaded from, with all calls since. *size and `bytes` as
-   in kiriWorld_Save; where capacity is not enough, what is in `bytes` means nothing. KIRI_ERROR_DATA: base is no save.
-   Only reads the world. */
-KIRI_API kiriResult kiriWorld_SaveDifference(const kiriWorld* world, const void* base, int64_t baseSize, void* bytes,
-                                             int64_t capacity, int64_t* size);
-
-/* The world becomes what it was when the difference was written, as kiriWorld_Load: both are bytes of your own. Any
-   world, and on any machine, with the same base. KIRI_ERROR_DATA: base is no save, the bytes are no difference, or one
-   to another base. */
-KIRI_API kiriResult kiriWorld_LoadDifference(kiriWorld* world, const void* base, int64_t baseSize, const void* bytes,
-                                             int64_t size);
 
 /* ---- Events ----------------------------------------------------------------------------------------------------- */
 

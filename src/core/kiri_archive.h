@@ -94,14 +94,6 @@ typedef struct kiriTable {
 
 typedef enum kiriArchiveMode { KIRI_ARCHIVE_MEASURE, KIRI_ARCHIVE_WRITE, KIRI_ARCHIVE_READ } kiriArchiveMode;
 
-/* Bytes that others are written, or read, as a difference to. */
-typedef struct kiriArchiveBase {
-    const uint8_t* bytes; /* or null: there are none */
-    int64_t at, end;      /* what follows is compared with those from `at` on, as far as `end` */
-    int64_t equal, other; /* so many of the token at hand: bytes that are those of the base, then others */
-    int64_t token;        /* WRITE: where it is; KIRI_NONE: none is open */
-} kiriArchiveBase;
-
 struct kiriArchive {
     kiriArchiveMode mode;
     uint8_t* bytes;     /* null where they are measured */
@@ -110,7 +102,6 @@ struct kiriArchive {
     kiriMemory* memory; /* READ: of what is made */
     bool isBad;   /* READ: these bytes are none that were written; what is read then is zero. WRITE: more than `size` */
     bool isShort; /* no memory */
-    kiriArchiveBase base;
 };
 
 kiriArchive kiriArchive_Measure(void);
@@ -126,11 +117,6 @@ static inline bool kiriArchive_HasFailed(const kiriArchive* archive)
 {
     return archive->isBad || archive->isShort;
 }
-
-/* What follows is a difference to these bytes, which have the same objects as they were; then, as it is again. The less
-   has changed, the fewer bytes it takes; they are right whatever the base has. */
-void kiriArchive_BeginDifference(kiriArchive* archive, const uint8_t* base, int64_t size);
-void kiriArchive_EndDifference(kiriArchive* archive);
 
 /* Bytes that were read are nonsense, unless `isFine`. */
 void kiriArchive_Expect(kiriArchive* archive, bool isFine);

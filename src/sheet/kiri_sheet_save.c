@@ -352,7 +352,7 @@ static const kiriTable LiveSheetTable = KIRI_TABLE(kiriSheetData, LiveSheetMembe
 
 /* ---- Both directions --------------------------------------------------------------------------------------------- */
 
-void kiriSheet_ArchiveStill(kiriArchive* archive, kiriSheetData* sheet)
+static void ArchiveStill(kiriArchive* archive, kiriSheetData* sheet)
 {
     bool reads = kiriArchive_Reads(archive);
     archive->memory = &sheet->own;
@@ -455,8 +455,12 @@ static void MoveProbes(kiriArchive* archive, kiriSheetData* sheet)
     }
 }
 
-void kiriSheet_ArchiveLive(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* memory)
+void kiriSheet_Archive(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* memory)
 {
+    ArchiveStill(archive, sheet);
+    if (kiriArchive_HasFailed(archive)) {
+        return;
+    }
     archive->memory = &sheet->own;
     kiriArchive_Object(archive, &LiveSheetTable, sheet);
     kiriSolver_Archive(archive, &sheet->solver, &sheet->settings.mechanics);

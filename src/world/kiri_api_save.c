@@ -29,28 +29,3 @@ kiriResult kiriWorld_LoadUntrusted(kiriWorld* world, const void* bytes, int64_t 
     kiriResult result = kiriSave_Read(world, bytes, size, false, &why);
     KIRI_RETURN_OR_SAY(result, why);
 }
-
-kiriResult kiriWorld_SaveDifference(const kiriWorld* world, const void* base, int64_t baseSize, void* bytes,
-                                    int64_t capacity, int64_t* size)
-{
-    KIRI_READS(world);
-    KIRI_CHECK(base != NULL && baseSize >= 0, "base is null, or baseSize below 0");
-    KIRI_CHECK(size != NULL && capacity >= 0, "size is null, or capacity below 0");
-    const char* why = "capacity is less than the bytes of the difference";
-    kiriResult result = kiriSave_WriteDifference(world, base, baseSize, bytes, capacity, size, &why);
-    why = result == KIRI_ERROR_ARGUMENT ? "capacity is less than the bytes of the difference" : why;
-    KIRI_RETURN_OR_SAY(result, why);
-}
-
-kiriResult kiriWorld_LoadDifference(kiriWorld* world, const void* base, int64_t baseSize, const void* bytes,
-                                    int64_t size)
-{
-    int32_t baseCount = baseSize <= INT32_MAX ? (int32_t)baseSize : INT32_MIN;
-    int32_t count = size <= INT32_MAX ? (int32_t)size : INT32_MIN;
-    KIRI_CHANGES(world, KIRI_CALL_WORLD_LOAD_DIFFERENCE, base, &baseCount, bytes, &count);
-    KIRI_CHECK(base != NULL && baseSize >= 0, "base is null, or baseSize below 0");
-    KIRI_CHECK(bytes != NULL && size >= 0, "bytes is null, or size below 0");
-    const char* why = NULL;
-    kiriResult result = kiriSave_ReadDifference(world, base, baseSize, bytes, size, &why);
-    KIRI_RETURN_OR_SAY(result, why);
-}

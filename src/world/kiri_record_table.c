@@ -194,7 +194,6 @@ MAKER(World_SetBudget, given[0])
 MAKER(World_Note, given[0], GIVEN_INT(1))
 MAKER(World_Load, given[0], GIVEN_INT(1))
 MAKER(World_LoadUntrusted, given[0], GIVEN_INT(1))
-MAKER(World_LoadDifference, given[0], GIVEN_INT(1), given[2], GIVEN_INT(3))
 MAKER(CreateSheet, given[0], GIVEN_NEW(1))
 MAKER(DestroySheet, GIVEN_ID(0))
 MAKER(Sheet_SetSettings, GIVEN_ID(0), given[1])
@@ -283,8 +282,6 @@ static const kiriRecordCall recordCalls[KIRI_CALL_COUNT] = {
     [KIRI_CALL_WORLD_NOTE] = ENTRY(World_Note, OF_ARRAY(KIRI_ARGUMENT_BYTES, KIRI_MOST_NOTE_BYTES, NULL)),
     [KIRI_CALL_WORLD_LOAD] = ENTRY(World_Load, OF_ARRAY(KIRI_ARGUMENT_BYTES, INT32_MAX, NULL)),
     [KIRI_CALL_WORLD_LOAD_UNTRUSTED] = ENTRY(World_LoadUntrusted, OF_ARRAY(KIRI_ARGUMENT_BYTES, INT32_MAX, NULL)),
-    [KIRI_CALL_WORLD_LOAD_DIFFERENCE] = ENTRY(World_LoadDifference, OF_ARRAY(KIRI_ARGUMENT_BYTES, INT32_MAX, NULL),
-                                              OF_ARRAY(KIRI_ARGUMENT_BYTES, INT32_MAX, NULL)),
     [KIRI_CALL_CREATE_SHEET] = ENTRY(CreateSheet, OF_STRUCT(sheetStruct), OF_NEW_ID),
     [KIRI_CALL_DESTROY_SHEET] = ENTRY(DestroySheet, OF_ID),
     [KIRI_CALL_SHEET_SET_SETTINGS] = ENTRY(Sheet_SetSettings, OF_ID, OF_STRUCT(settingsStruct)),

@@ -14,13 +14,6 @@ kiriResult kiriSave_Write(const kiriWorld* world, void* bytes, int64_t capacity,
    the frames, and the work at hand begins again. */
 kiriResult kiriSave_Read(kiriWorld* world, const void* bytes, int64_t size, bool isTrusted, const char** why);
 
-/* The same of what has changed since another save of this world, or of what it was loaded from. KIRI_ERROR_DATA: that
-   is none. */
-kiriResult kiriSave_WriteDifference(const kiriWorld* world, const void* from, int64_t fromSize, void* bytes,
-                                    int64_t capacity, int64_t* size, const char** why);
-kiriResult kiriSave_ReadDifference(kiriWorld* world, const void* from, int64_t fromSize, const void* bytes,
-                                   int64_t size, const char** why);
-
 KIRI_C_END
 
 #endif

@@ -216,8 +216,8 @@ namespace Kiri
         readonly byte[] recording;
         NativeReplay raw;
 
-        /// <summary>Untrusted: somebody may have made the recording to do harm. What it loads is loaded by LoadUntrusted, and
-        /// differences not at all.</summary>
+        /// <summary>Untrusted: somebody may have made the recording to do harm. What it loads is loaded by
+        /// LoadUntrusted.</summary>
         public Replay(byte[] recording, bool untrusted = false)
         {
             this.recording = recording;

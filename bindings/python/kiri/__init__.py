@@ -74,29 +74,20 @@ class World(_core.World, _methods.World):
         while self.call("kiriWorld_Replay", ffi.from_buffer(recording), len(recording), at) == KIRI_PENDING:
             yield ffi.buffer(at.note, at.noteCount)[:] if at.note != ffi.NULL else None
 
-    def save(self, base=None):
-        """All that the coming ticks depend on, as bytes: see load. With a base, which an earlier call has returned: what
-        has changed since."""
+    def save(self):
+        """All that the coming ticks depend on, as bytes: see load."""
         size = ffi.new("int64_t*")
-        name, before = ("kiriWorld_Save", ()) if base is None else (
-            "kiriWorld_SaveDifference", (ffi.from_buffer(base), len(base)))
 
         def take():
             data = bytearray(size[0])
-            self._check(getattr(self.lib, name)(self._world, *before, ffi.from_buffer(data), size[0], size))
+            self._check(self.lib.kiriWorld_Save(self._world, ffi.from_buffer(data), size[0], size))
             return bytes(data)
-        return self.call(name, *before, ffi.NULL, 0, size, take=take)
+        return self.call("kiriWorld_Save", ffi.NULL, 0, size, take=take)
 
-    def load(self, data, base=None, untrusted=False):
-        """The world becomes what was saved; objects go on naming what they named then. A base as that of save. Untrusted: a
-        save of others, who may have made it to do harm; differences are for bytes of your own."""
-        if untrusted and base is not None:
-            raise ValueError("a difference to a base is loaded as it is: only a whole save may be untrusted")
-        if base is None:
-            name = "kiriWorld_LoadUntrusted" if untrusted else "kiriWorld_Load"
-            self.call(name, ffi.from_buffer(data), len(data))
-        else:
-            self.call("kiriWorld_LoadDifference", ffi.from_buffer(base), len(base), ffi.from_buffer(data), len(data))
+    def load(self, data, untrusted=False):
+        """The world becomes what was saved; objects go on naming what they named then. Untrusted: a save of others, who may
+        have made it to do harm."""
+        self.call("kiriWorld_LoadUntrusted" if untrusted else "kiriWorld_Load", ffi.from_buffer(data), len(data))
 
     def detach_pieces(self, frames):
         """The pieces of these frames as sheets, None for those that wait: see Frame.detach_piece. In one pass;

@@ -272,8 +272,7 @@ impl<'r> Replay<'r> {
         Self { raw, recording, _note: PhantomData }
     }
 
-    /// Of a recording that somebody may have made to do harm: what it loads is loaded by [`World::load_untrusted`], and
-    /// differences not at all.
+    /// Of a recording that somebody may have made to do harm: what it loads is loaded by [`World::load_untrusted`].
     pub fn untrusted(recording: &'r [u8]) -> Self {
         let mut replay = Self::new(recording);
         replay.raw.untrusted = 1;
