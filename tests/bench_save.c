@@ -13,11 +13,10 @@ typedef struct Bytes {
 } Bytes;
 
 typedef struct Sizes {
-    Bytes base;
-    kiriWorld* other;        /* that it is loaded into */
-    Series tick, save, load; /* ms */
-    Series untrusted;        /* ms of a load */
-    Series full;             /* KB */
+    kiriWorld* other; /* that it is loaded into */
+    Bytes save, snapshot;
+    Series tick, saving, loading, copying, restoring; /* ms */
+    Series savedSize, copiedSize;                     /* KB */
 } Sizes;
 
 static void Fail(const char* what)
@@ -42,36 +41,28 @@ static double Since(double start)
     return 1e3 * (Bench_Clock(NULL) - start);
 }
 
+typedef kiriResult WriteFn(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size);
+typedef kiriResult ReadFn(kiriWorld* world, const void* bytes, int64_t size);
+
 /* The room is there before: a game keeps its buffers. */
-static void SaveBase(Sizes* sizes, const kiriWorld* world)
+static void Write(WriteFn* write, const kiriWorld* world, Bytes* bytes, Series* time, Series* size)
 {
-    if (kiriWorld_Save(world, NULL, 0, &sizes->base.size) != KIRI_OK) {
-        Fail("no save");
+    if (write(world, NULL, 0, &bytes->size) != KIRI_OK) {
+        Fail("no bytes");
     }
-    Bytes_Reserve(&sizes->base, sizes->base.size);
+    Bytes_Reserve(bytes, bytes->size);
     double start = Bench_Clock(NULL);
-    kiriWorld_Save(world, sizes->base.data, sizes->base.capacity, &sizes->base.size);
-    Series_Add(&sizes->save, Since(start));
-    Series_Add(&sizes->full, 1e-3 * (double)sizes->base.size);
+    write(world, bytes->data, bytes->capacity, &bytes->size);
+    Series_Add(time, Since(start));
+    Series_Add(size, 1e-3 * (double)bytes->size);
 }
 
-/* As bytes of others, and as one's own. */
-static kiriResult LoadBase(Sizes* sizes)
-{
-    double start = Bench_Clock(NULL);
-    kiriResult result = kiriWorld_LoadUntrusted(sizes->other, sizes->base.data, sizes->base.size);
-    Series_Add(&sizes->untrusted, Since(start));
-    start = Bench_Clock(NULL);
-    result = result == KIRI_OK ? kiriWorld_Load(sizes->other, sizes->base.data, sizes->base.size) : result;
-    Series_Add(&sizes->load, Since(start));
-    return result;
-}
-
-static void GoBack(Sizes* sizes, const kiriWorld* world)
+static void Read(ReadFn* read, Sizes* sizes, const kiriWorld* world, const Bytes* bytes, Series* time)
 {
     uint64_t is, was;
-    SaveBase(sizes, world);
-    kiriResult result = LoadBase(sizes);
+    double start = Bench_Clock(NULL);
+    kiriResult result = read(sizes->other, bytes->data, bytes->size);
+    Series_Add(time, Since(start));
     kiriWorld_GetStateHash(world, &is);
     kiriWorld_GetStateHash(sizes->other, &was);
     if (result != KIRI_OK || is != was) {
@@ -83,7 +74,10 @@ static void AfterTick(Sizes* sizes, const kiriWorld* world, int32_t tick, double
 {
     Series_Add(&sizes->tick, milliseconds);
     if (tick % LOAD_TICKS == LOAD_TICKS - 1) {
-        GoBack(sizes, world);
+        Write(kiriWorld_Save, world, &sizes->save, &sizes->saving, &sizes->savedSize);
+        Read(kiriWorld_Load, sizes, world, &sizes->save, &sizes->loading);
+        Write(kiriWorld_Snapshot, world, &sizes->snapshot, &sizes->copying, &sizes->copiedSize);
+        Read(kiriWorld_Restore, sizes, world, &sizes->snapshot, &sizes->restoring);
     }
 }
 
@@ -136,13 +130,15 @@ static void PlayCrowd(Sizes* sizes)
 static void Print(Table* table, const char* name, Sizes* sizes)
 {
     Table_Text(table, name);
-    Series* numbers[] = { &sizes->tick, &sizes->full, &sizes->save, &sizes->load, &sizes->untrusted };
+    Series* numbers[] = { &sizes->tick,       &sizes->savedSize, &sizes->saving,   &sizes->loading,
+                          &sizes->copiedSize, &sizes->copying,   &sizes->restoring };
     for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
         Table_Number(table, Series_Median(numbers[k]));
         Series_Free(numbers[k]);
     }
     kiriDestroyWorld(sizes->other);
-    free(sizes->base.data);
+    free(sizes->save.data);
+    free(sizes->snapshot.data);
 }
 
 /* A world for the way back. */
@@ -161,10 +157,11 @@ static Sizes Start(void)
 int main(int count, char** names)
 {
     static const char* const scenes[] = { "spiral", "kirigami", "patchwork", "vortex", "fallingguy", "bunny" };
-    static const char* const columns[] = { "scene", "tick ms", "KB", "save ms", "load ms", "untrusted ms", NULL };
+    static const char* const columns[] = { "scene",       "tick ms",     "save KB",    "save ms", "load ms",
+                                           "snapshot KB", "snapshot ms", "restore ms", NULL };
     Table table;
     Bench_WeighClock();
-    if (!Table_Start(&table, "save", "Saves: medians. untrusted: a load of bytes of others.", columns)) {
+    if (!Table_Start(&table, "save", "Saves and snapshots: medians.", columns)) {
         return 1;
     }
     for (size_t i = 0; i <= sizeof scenes / sizeof scenes[0]; i++) {

@@ -14,7 +14,9 @@
     CHANGES(kiriWorld_Replay, world, NULL, 0, NULL)                                                                    \
     READS(kiriWorld_Save, world, NULL, 0, NULL)                                                                        \
     CHANGES(kiriWorld_Load, world, NULL, 0)                                                                            \
-    CHANGES(kiriWorld_LoadUntrusted, world, NULL, 0)                                                                   \
+    CHANGES(kiriWorld_FinishCuts, world)                                                                               \
+    READS(kiriWorld_Snapshot, world, NULL, 0, NULL)                                                                    \
+    CHANGES(kiriWorld_Restore, world, NULL, 0)                                                                         \
     READS(kiriWorld_GetEvents, world, NULL, NULL)                                                                      \
     READS(kiriWorld_GetProfile, world, NULL)                                                                           \
     CHANGES(kiriCreateSheet, world, NULL, NULL)                                                                        \

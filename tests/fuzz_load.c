@@ -1,6 +1,6 @@
 /* Bytes given to loads. The input changes some bytes of a good save of a world to which a storm
    has happened. As they are, all loads refuse them. Then the sum of the save is made right, as somebody does who means
-   harm, and kiriWorld_LoadUntrusted refuses it; or what comes of it is a world that goes on: it ticks, is cut, is read
+   harm, and kiriWorld_Load refuses it; or what comes of it is a world that goes on: it ticks, is cut, is read
    and saved. It may move in any way, but it reads and writes no memory that is not its own, ends each call, and gives
    all memory back. */
 #include "fuzz_saved.h"
@@ -78,12 +78,6 @@ static kiriResult Load(kiriWorld* world, const void* context)
     return kiriWorld_Load(world, changed->bytes, changed->size);
 }
 
-static kiriResult LoadUntrusted(kiriWorld* world, const void* context)
-{
-    const Save* changed = context;
-    return kiriWorld_LoadUntrusted(world, changed->bytes, changed->size);
-}
-
 int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size)
 {
     FuzzBytes bytes = { data, size, 0, 0.0f };
@@ -95,7 +89,6 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size)
     }
     if (!Saved_HasSum(&changed)) {
         Saved_Refuse(Load, &changed);
-        Saved_Refuse(LoadUntrusted, &changed);
     }
     Saved_MendSum(&changed);
     Saved_Try(&changed, &saved->storm);

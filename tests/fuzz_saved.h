@@ -30,6 +30,7 @@ typedef struct Saved {
 
 const Saved* Saved_Get(int32_t index);
 
+/* No work is at hand. */
 Save Saved_Make(const kiriWorld* world);
 Save Saved_Copy(const Save* save);
 
@@ -40,7 +41,7 @@ bool Saved_HasSum(const Save* save);
 /* It ticks, is cut, is read and saved: as its budget has it, and then so that the work at hand is done. */
 void Saved_GoOn(Storm* storm);
 
-/* Loads bytes that may be anything by kiriWorld_LoadUntrusted into a world, which goes on; or is refused, and then
+/* Loads bytes that may be anything by kiriWorld_Load into a world, which goes on; or is refused, and then
    nothing has changed. */
 void Saved_Try(const Save* save, const Storm* storm);
 

@@ -166,6 +166,8 @@ test("save, load", () => inWorld((world) => {
     inWorld((other) => {
         other.load(base);
         assert.equal(other.getSheets()[0].getCounts().pieces, 1);
+        other.restore(world.snapshot());
+        other.finishCuts();
         assert.equal(other.getStateHash(), hash);
         throwsCode(() => other.load(base.subarray(0, 100)), ResultCode.ErrorData);
         assert.equal(other.getStateHash(), hash);

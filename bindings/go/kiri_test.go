@@ -226,7 +226,7 @@ func TestRecordSaveAndReplay(t *testing.T) {
 	if lines != 1 {
 		t.Error(lines)
 	}
-	again, at, notes := must(NewWorld(nil)), Replay{Untrusted: true}, 0
+	again, at, notes := must(NewWorld(nil)), Replay{}, 0
 	for must(again.Replay(recording, &at)) {
 		if string(at.Note) == "hello" {
 			notes++

@@ -1,5 +1,7 @@
 #include "kiri_archive.h"
 
+#include "kiri_hash.h"
+
 #include <string.h>
 
 /* An array is written as its count, its capacity, and its items: as they are, or as four bytes that repeat. */
@@ -9,20 +11,20 @@ enum { MEMORY_A_BYTE = 64, MEMORY_FREE = 1 << 20 }; /* that arrays may take for 
 
 kiriArchive kiriArchive_Measure(void)
 {
-    kiriArchive archive = { KIRI_ARCHIVE_MEASURE, NULL, 0, INT64_MAX, 0, NULL, false, false };
+    kiriArchive archive = { KIRI_ARCHIVE_MEASURE, NULL, 0, INT64_MAX, 0, NULL, false, false, false };
     return archive;
 }
 
 kiriArchive kiriArchive_Write(void* bytes, int64_t size)
 {
-    kiriArchive archive = { KIRI_ARCHIVE_WRITE, bytes, 0, size, 0, NULL, false, false };
+    kiriArchive archive = { KIRI_ARCHIVE_WRITE, bytes, 0, size, 0, NULL, false, false, false };
     return archive;
 }
 
 kiriArchive kiriArchive_Read(const void* bytes, int64_t size, kiriMemory* memory)
 {
     int64_t room = size < INT64_MAX / (2 * MEMORY_A_BYTE) ? MEMORY_FREE + MEMORY_A_BYTE * size : INT64_MAX;
-    kiriArchive archive = { KIRI_ARCHIVE_READ, (uint8_t*)(uintptr_t)bytes, 0, size, room, memory, false, false };
+    kiriArchive archive = { KIRI_ARCHIVE_READ, (uint8_t*)(uintptr_t)bytes, 0, size, room, memory, false, false, false };
     return archive;
 }
 
@@ -85,6 +87,10 @@ void kiriArchive_Numbers(kiriArchive* archive, void* numbers, int32_t width, int
 static void MoveBools(kiriArchive* archive, void* bools, int32_t count)
 {
     uint8_t* bytes = bools;
+    if (archive->isWhole) {
+        kiriArchive_Numbers(archive, bools, 1, count);
+        return;
+    }
     for (int32_t k = 0; k < count; ++k) {
         uint8_t byte = kiriArchive_Reads(archive) ? 0 : bytes[k] != 0;
         kiriArchive_Numbers(archive, &byte, 1, 1);
@@ -141,6 +147,10 @@ static bool Repeats(const uint8_t* bytes, int64_t count)
 /* Lists of marks are mostly the same number over and over. */
 static void MoveItems(kiriArchive* archive, uint8_t* data, int32_t width, int64_t bytes)
 {
+    if (archive->isWhole) {
+        kiriArchive_Numbers(archive, data, 1, bytes);
+        return;
+    }
     uint8_t tag = !kiriArchive_Reads(archive) && Repeats(data, bytes) ? ITEMS_REPEAT : ITEMS_AS_THEY_ARE;
     kiriArchive_Numbers(archive, &tag, 1, 1);
     if (tag != ITEMS_REPEAT) {
@@ -186,7 +196,9 @@ static void MoveArrayOfParts(kiriArchive* archive, const kiriMember* member, voi
 static void MoveSpace(kiriArchive* archive, const kiriMember* member, void* array)
 {
     kiriArrayHeader header = MoveHeader(archive, array, member->size, true);
-    if (header.count > 0 && kiriArchive_Reads(archive)) {
+    if (archive->isWhole && member->kind == KIRI_MEMBER_SHOWN) {
+        kiriArchive_Numbers(archive, header.data, 1, header.count * (int64_t)member->size);
+    } else if (header.count > 0 && kiriArchive_Reads(archive)) {
         memset(header.data, 0, (size_t)header.count * (size_t)member->size);
     }
 }
@@ -246,6 +258,7 @@ static void MoveField(kiriArchive* archive, const kiriMember* member, uint8_t* o
         MoveHeader(archive, at, member->size, false);
         break;
     case KIRI_MEMBER_SPACE:
+    case KIRI_MEMBER_SHOWN:
         MoveSpace(archive, member, at);
         break;
     case KIRI_MEMBER_OWNED:
@@ -266,16 +279,20 @@ void kiriArchive_Object(kiriArchive* archive, const kiriTable* table, void* obje
     }
 }
 
-/* Is an object in memory what it is as bytes, on a machine that keeps numbers so? */
-static bool IsTight(const kiriTable* table)
+/* True if an object in memory is its bytes: always for numbers without padding, in a snapshot for all that owns
+   nothing. */
+static bool IsFlat(const kiriTable* table, bool isWhole)
 {
     int32_t size = 0;
+    bool isFlat = true;
     for (int32_t k = 0; k < table->count; ++k) {
         const kiriMember* member = &table->fields[k];
-        bool isTight = member->kind == KIRI_MEMBER_RUN || (member->kind == KIRI_MEMBER_PART && IsTight(member->table));
-        size += isTight ? member->size : 0;
+        bool isNumbers = member->kind == KIRI_MEMBER_RUN || (member->kind == KIRI_MEMBER_BOOLS && isWhole) ||
+                         (member->kind == KIRI_MEMBER_PART && IsFlat(member->table, isWhole));
+        isFlat = isFlat && isNumbers;
+        size += member->size;
     }
-    return size == table->size;
+    return isFlat && (isWhole || size == table->size);
 }
 
 /* How many bytes an object is that has no arrays; KIRI_NONE where that is not the same of all. */
@@ -295,17 +312,31 @@ static int64_t BytesOfObject(const kiriTable* table)
 
 void kiriArchive_Objects(kiriArchive* archive, const kiriTable* table, void* objects, int64_t count)
 {
-    if (count > 1 && IsLittleEndian() && IsTight(table)) {
+    if (count > 1 && IsLittleEndian() && IsFlat(table, archive->isWhole)) {
         kiriArchive_Numbers(archive, objects, 1, count * table->size);
         return;
     }
-    int64_t each = archive->mode == KIRI_ARCHIVE_MEASURE ? BytesOfObject(table) : KIRI_NONE;
+    int64_t each = archive->mode == KIRI_ARCHIVE_MEASURE && !archive->isWhole ? BytesOfObject(table) : KIRI_NONE;
     if (each != KIRI_NONE) {
         TakeBytes(archive, each * count);
         return;
     }
     for (int64_t n = 0; n < count && !kiriArchive_HasFailed(archive); ++n) {
         kiriArchive_Object(archive, table, (uint8_t*)objects + n * table->size);
+    }
+}
+
+void kiriArchive_HashLayout(const kiriTable* table, uint64_t* hash)
+{
+    kiriHash_Int32(hash, table->size);
+    for (int32_t k = 0; k < table->count; ++k) {
+        const kiriMember* member = &table->fields[k];
+        kiriHash_Int32(hash, member->kind);
+        kiriHash_Int32(hash, member->offset);
+        kiriHash_Int32(hash, member->size);
+        if (member->table != NULL) {
+            kiriArchive_HashLayout(member->table, hash);
+        }
     }
 }
 

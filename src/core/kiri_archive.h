@@ -20,6 +20,7 @@ enum kiriMemberKind {
     KIRI_MEMBER_PARTS,  /* a KIRI_ARRAY of structs */
     KIRI_MEMBER_ROOM,   /* a KIRI_ARRAY: its room alone; it is empty when it is read */
     KIRI_MEMBER_SPACE,  /* a KIRI_ARRAY: its room and its count; whoever reads it writes the items anew */
+    KIRI_MEMBER_SHOWN,  /* the same; but in a snapshot the items, too */
     KIRI_MEMBER_OWNED,  /* a pointer to a struct in a block of its own, or null */
     KIRI_MEMBER_CUSTOM, /* what a function says, of the whole object */
     KIRI_MEMBER_DROPPED /* nothing: it is zero when it is read */
@@ -75,6 +76,10 @@ typedef struct kiriTable {
     {                                                                                                                  \
         KIRI_MEMBER_SPACE, 0, (int32_t)offsetof(Type, field), KIRI_ITEM_SIZE(Type, field), NULL, NULL                  \
     }
+#define KIRI_SHOWN_OF(Type, field)                                                                                     \
+    {                                                                                                                  \
+        KIRI_MEMBER_SHOWN, 0, (int32_t)offsetof(Type, field), KIRI_ITEM_SIZE(Type, field), NULL, NULL                  \
+    }
 #define KIRI_OWNED(Type, field, table)                                                                                 \
     {                                                                                                                  \
         KIRI_MEMBER_OWNED, 0, (int32_t)offsetof(Type, field), 0, &table, NULL                                          \
@@ -102,6 +107,8 @@ struct kiriArchive {
     kiriMemory* memory; /* READ: of what is made */
     bool isBad;   /* READ: these bytes are none that were written; what is read then is zero. WRITE: more than `size` */
     bool isShort; /* no memory */
+    bool
+        isWhole; /* a snapshot: derived data too, and structs as they lie in memory. Else a save: what cannot be made again */
 };
 
 kiriArchive kiriArchive_Measure(void);
@@ -141,9 +148,8 @@ int32_t kiriArchive_Count(kiriArchive* archive, int64_t count, int64_t least, in
 void kiriArchive_Object(kiriArchive* archive, const kiriTable* table, void* object);
 void kiriArchive_Objects(kiriArchive* archive, const kiriTable* table, void* objects, int64_t count);
 
-/* Gives back what reading has made of an object, which becomes zero. What it drops has been given back before, and what
-   functions of its own read is no memory. */
-void kiriArchive_Forget(const kiriTable* table, void* object, kiriMemory* memory);
+/* Hashes sizes and places of all fields. */
+void kiriArchive_HashLayout(const kiriTable* table, uint64_t* hash);
 
 /* A block of so many numbers, of *block. */
 void kiriArchive_Block(kiriArchive* archive, void** block, int32_t width, int64_t count);

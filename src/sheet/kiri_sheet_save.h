@@ -8,17 +8,17 @@
 
 KIRI_C_BEGIN
 
-extern const kiriTable kiriUpdateTable;
-
 /* Moves a sheet with its cuts. Where bytes are read the sheet is new; its cuts become blocks of `memory`. */
 void kiriSheet_Archive(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* memory);
 
-/* When it is read, of bytes that nobody trusts: what follows from the mesh and the frames is forgotten, and with it
-   the work at hand, which begins again. False for memory. */
-bool kiriSheet_ForgetWork(kiriSheetData* sheet);
+/* The part of it that any tick changes; the other part comes before. */
+void kiriSheet_ArchiveLive(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* memory);
 
-/* When it is read, and nothing has failed: what follows from them. False for memory. */
-bool kiriSheet_EndReading(kiriSheetData* sheet);
+/* Hashes sizes and places of all fields of a sheet. */
+void kiriSheet_HashLayout(uint64_t* hash);
+
+/* When it is read, and nothing has failed: what follows from the rest. False for memory. */
+bool kiriSheet_EndReading(kiriSheetData* sheet, bool isWhole);
 
 /* One obstacle, which is made where bytes are read. */
 void kiriObstacle_Archive(kiriArchive* archive, kiriObstacleData** obstacle, kiriMemory* memory);

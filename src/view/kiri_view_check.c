@@ -4,14 +4,6 @@
 
 /* ---- Rules ------------------------------------------------------------------------------------------------------- */
 
-static const kiriMust IsSampleOrNone[] = { KIRI_INDEX_OR_NONE(KIRI_OF_SAMPLES, kiriSpan, first, first) };
-
-static const kiriMust PlacesMust[] = {
-    KIRI_ITEMS_MUST(kiriPlaces, head, IsSampleOrNone),
-    KIRI_ITEMS_MUST(kiriPlaces, next, IsSampleOrNone),
-    KIRI_LENGTH(KIRI_OF_SAMPLES, kiriPlaces, next),
-};
-
 static const kiriMust FadingMust[] = {
     KIRI_INDEX(KIRI_OF_SAMPLES, kiriFading, sample, sample),
     KIRI_REALS(kiriFading, left, offset),
@@ -35,65 +27,7 @@ static const kiriMust SurfaceMust[] = {
     KIRI_WITHIN(0, KIRI_CHANGES - 1, kiriSurface, lastChange, lastChange),
 };
 
-/* ---- Weights ----------------------------------------------------------------------------------------------------- */
-
-/* Labels ascend; and weights are parts of 1. */
-static bool AreWeightsIn(kiriCheck* check, kiriRooms* rooms, const kiriSkin* skin, const kiriLabels* labels,
-                         kiriSpan span)
-{
-    const int32_t frames = (int32_t)check->count[KIRI_OF_FRAMES];
-    bool areFine = kiriCheck_Span(check, rooms, span);
-    int32_t last = KIRI_NONE;
-    double sum = 0.0;
-    for (int32_t k = span.first; areFine && k < span.first + span.count; ++k) {
-        kiriSampleWeight weight = skin->weights.data[k];
-        areFine = weight.label > last && kiriLabels_Has(labels, weight.label, frames) && weight.value > 0.0f &&
-                  weight.value <= 1.0f;
-        last = weight.label;
-        sum += weight.value;
-    }
-    return kiriCheck_That(check, areFine && (span.count == 0 || (sum > 0.999 && sum < 1.001)));
-}
-
-static bool AreSettling(kiriCheck* check, const kiriSkin* skin, kiriRooms* rooms)
-{
-    bool areFine = true;
-    for (int32_t k = 0; areFine && k < skin->settling.count; ++k) {
-        kiriReweighed settling = skin->settling.data[k];
-        areFine = kiriCheck_That(check, settling.sample >= 0 && settling.sample < skin->spans.count) &&
-                  kiriCheck_Span(check, rooms, settling.span);
-    }
-    return areFine;
-}
-
-bool kiriSkin_Check(const kiriSkin* skin, const kiriLabels* labels, kiriCheck* check, int32_t samples,
-                    const kiriMeshData* holes)
-{
-    kiriRooms rooms;
-    bool areFine = kiriCheck_That(check, skin->spans.count == samples) &&
-                   kiriCheck_StartRooms(check, &rooms, &skin->weights, sizeof(kiriSampleWeight), &skin->room);
-    for (int32_t i = 0; areFine && i < samples; ++i) {
-        bool isHole = holes != NULL && !kiriMesh_IsVertex(holes, i);
-        areFine = kiriCheck_That(check, isHole == (skin->spans.data[i].count == 0)) &&
-                  AreWeightsIn(check, &rooms, skin, labels, skin->spans.data[i]);
-    }
-    areFine = areFine && AreSettling(check, skin, &rooms);
-    kiriMemory_Free(&check->memory, areFine ? rooms.taken : NULL);
-    return areFine;
-}
-
-/* Lists lead to earlier samples: so each ends, and kiriKeep_Relink may trust them. */
-bool kiriPlaces_Check(const kiriPlaces* places, kiriCheck* check, int32_t samples)
-{
-    check->count[KIRI_OF_SAMPLES] = samples;
-    bool areFine = kiriCheck_That(check, places->head.count <= check->count[KIRI_OF_SQUARES] &&
-                                             (samples == 0 || places->head.count == check->count[KIRI_OF_SQUARES])) &&
-                   kiriCheck_Object(check, PlacesMust, places);
-    for (int32_t i = 0; areFine && i < samples; ++i) {
-        areFine = kiriCheck_That(check, places->next.data[i] < i);
-    }
-    return areFine;
-}
+/* ---- Fades ------------------------------------------------------------------------------------------------------- */
 
 /* By sample, each once. */
 bool kiriFades_Check(const kiriFades* fades, kiriCheck* check, int32_t samples)

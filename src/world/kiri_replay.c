@@ -186,10 +186,8 @@ static kiriResult MakeRecorded(kiriWorld* world, const Recorded* recorded, kiriR
                                char why[REASON_BYTES])
 {
     bool wasRefused = recorded->hasResult && recorded->result == KIRI_ERROR_MEMORY;
-    bool isUntrusted = replay->untrusted && recorded->number == KIRI_CALL_WORLD_LOAD;
-    const kiriRecordCall* call = isUntrusted ? kiriRecord_Find(KIRI_CALL_WORLD_LOAD_UNTRUSTED) : recorded->shape;
     world->isBusy = false;
-    kiriResult result = wasRefused ? KIRI_ERROR_MEMORY : call->make(world, recorded->arguments);
+    kiriResult result = wasRefused ? KIRI_ERROR_MEMORY : recorded->shape->make(world, recorded->arguments);
     world->isBusy = true;
     if (!wasRefused && result == KIRI_ERROR_MEMORY) {
         return FailToRead(KIRI_CODER_MEMORY, replay, why);

@@ -274,8 +274,21 @@ static const char* FaultOfBytes(const uint8_t* bytes, int64_t size)
     return isSame ? NULL : "the bytes are not those that were saved";
 }
 
+static bool IsWorkAtHand(const kiriWorld* world)
+{
+    bool isAtHand = false;
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        isAtHand = isAtHand || world->sheets.data[i]->update->stage != KIRI_NONE;
+    }
+    return isAtHand;
+}
+
 kiriResult kiriSave_Write(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size)
 {
+    if (IsWorkAtHand(world)) {
+        *size = 0;
+        return KIRI_PENDING;
+    }
     kiriArchive archive = kiriArchive_Measure();
     ArchiveWorld(&archive, Unlocked(world));
     *size = HEAD_BYTES + archive.at + SUM_BYTES;
@@ -306,44 +319,35 @@ static void DropSheets(kiriWorld* world, kiriMemory* shown)
     world->sheets.count = 0;
 }
 
-/* Of bytes that nobody trusts, before they are checked. */
-static void ForgetWork(kiriArchive* archive, kiriWorld* made)
-{
-    for (int32_t i = 0; i < made->sheets.count && !kiriArchive_HasFailed(archive); ++i) {
-        archive->isShort |= !kiriSheet_ForgetWork(made->sheets.data[i]);
-    }
-}
-
-static void CheckWorld(kiriArchive* archive, kiriWorld* made)
+/* Checks what was read of a save, and makes what follows from it. */
+static void FinishSave(kiriArchive* archive, kiriWorld* made)
 {
     bool isShort = false, isFine = kiriArchive_HasFailed(archive) || kiriWorld_Check(made, &isShort);
     archive->isShort |= isShort;
     kiriArchive_Expect(archive, isFine);
-}
-
-/* And after that. */
-static void RemakeFields(kiriArchive* archive, kiriWorld* made)
-{
     for (int32_t i = 0; i < made->sheets.count && !kiriArchive_HasFailed(archive); ++i) {
         bool isBad = false, isMade = kiriRemake_Field(made->sheets.data[i], &isBad);
         archive->isShort |= !isMade && !isBad;
         kiriArchive_Expect(archive, !isBad);
     }
+    isFine = kiriArchive_HasFailed(archive) || kiriWorld_CheckMade(made, &isShort);
+    archive->isShort |= isShort;
+    kiriArchive_Expect(archive, isFine);
 }
 
-static kiriResult ReadWorld(kiriWorld* made, const uint8_t* bytes, int64_t size, bool isTrusted)
+static kiriResult ReadWorld(kiriWorld* made, const uint8_t* bytes, int64_t size, bool isWhole)
 {
-    kiriArchive archive = kiriArchive_Read(bytes + HEAD_BYTES, size - HEAD_BYTES - SUM_BYTES, &made->memory);
+    kiriArchive archive = kiriArchive_Read(bytes, size, &made->memory);
+    archive.isWhole = isWhole;
+    archive.room = isWhole ? INT64_MAX : archive.room;
     ArchiveWorld(&archive, made);
     kiriArchive_Expect(&archive, archive.at == archive.size);
     kiriArchive_Expect(&archive, kiriArchive_HasFailed(&archive) || ClaimIds(made));
-    if (!isTrusted) {
-        ForgetWork(&archive, made);
-        CheckWorld(&archive, made);
-        RemakeFields(&archive, made);
+    if (!isWhole) {
+        FinishSave(&archive, made);
     }
     for (int32_t i = 0; i < made->sheets.count && !kiriArchive_HasFailed(&archive); ++i) {
-        archive.isShort |= !kiriSheet_EndReading(made->sheets.data[i]);
+        archive.isShort |= !kiriSheet_EndReading(made->sheets.data[i], isWhole);
     }
     return archive.isBad ? KIRI_ERROR_DATA : archive.isShort ? KIRI_ERROR_MEMORY : KIRI_OK;
 }
@@ -372,22 +376,75 @@ static void TakeWorld(kiriWorld* world, kiriWorld* made)
     }
 }
 
-kiriResult kiriSave_Read(kiriWorld* world, const void* bytes, int64_t size, bool isTrusted, const char** why)
+/* From the bytes between head and sum. */
+static kiriResult BecomeWorld(kiriWorld* world, const uint8_t* bytes, int64_t size, bool isWhole)
+{
+    kiriWorld made;
+    memset(&made, 0, sizeof(made));
+    made.memory = kiriMemory_Like(&world->memory);
+    kiriResult result = ReadWorld(&made, bytes, size, isWhole);
+    if (result == KIRI_OK) {
+        TakeWorld(world, &made);
+    } else {
+        DropSheets(&made, NULL);
+        kiriMemory_FreeAll(&made.memory);
+    }
+    return result;
+}
+
+kiriResult kiriSave_Read(kiriWorld* world, const void* bytes, int64_t size, const char** why)
 {
     *why = FaultOfBytes(bytes, size);
     if (*why != NULL) {
         return KIRI_ERROR_DATA;
     }
-    kiriWorld made;
-    memset(&made, 0, sizeof(made));
-    made.memory = kiriMemory_Like(&world->memory);
-    kiriResult result = ReadWorld(&made, bytes, size, isTrusted);
-    if (result != KIRI_OK) {
-        *why = result == KIRI_ERROR_MEMORY ? NULL : "the bytes have a right sum, but no world";
-        DropSheets(&made, NULL);
-        kiriMemory_FreeAll(&made.memory);
-        return result;
+    kiriResult result = BecomeWorld(world, (const uint8_t*)bytes + HEAD_BYTES, size - HEAD_BYTES - SUM_BYTES, false);
+    *why = result == KIRI_ERROR_DATA ? "the bytes have a right sum, but no world" : NULL;
+    return result;
+}
+
+/* ---- Snapshots --------------------------------------------------------------------------------------------------- */
+
+/* Comes before the world. Bytes of another build, or of another layout, do not match. */
+typedef struct SnapshotHead {
+    char magic[8];
+    uint64_t layout;
+    int64_t size;
+} SnapshotHead;
+
+static SnapshotHead HeadOfSnapshot(int64_t size)
+{
+    SnapshotHead head = { { 'K', 'i', 'r', 'i', 'S', 'n', 'a', 'p' }, KIRI_HASH_START, size };
+    kiriHash_Int32(&head.layout, KIRI_VERSION);
+    kiriArchive_HashLayout(&WorldTable, &head.layout);
+    kiriArchive_HashLayout(&BladeDataTable, &head.layout);
+    kiriSheet_HashLayout(&head.layout);
+    return head;
+}
+
+kiriResult kiriSnapshot_Write(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size)
+{
+    kiriArchive archive = kiriArchive_Measure();
+    archive.isWhole = true;
+    ArchiveWorld(&archive, Unlocked(world));
+    *size = (int64_t)sizeof(SnapshotHead) + archive.at;
+    if (bytes == NULL || capacity < *size) {
+        return bytes == NULL ? KIRI_OK : KIRI_ERROR_ARGUMENT;
     }
-    TakeWorld(world, &made);
+    SnapshotHead head = HeadOfSnapshot(*size);
+    memcpy(bytes, &head, sizeof(head));
+    archive = kiriArchive_Write((uint8_t*)bytes + sizeof(head), *size - (int64_t)sizeof(head));
+    archive.isWhole = true;
+    ArchiveWorld(&archive, Unlocked(world));
+    KIRI_ASSERT(!archive.isBad && archive.at == archive.size);
     return KIRI_OK;
+}
+
+kiriResult kiriSnapshot_Read(kiriWorld* world, const void* bytes, int64_t size)
+{
+    const SnapshotHead head = HeadOfSnapshot(size);
+    if (size < (int64_t)sizeof(head) || memcmp(bytes, &head, sizeof(head)) != 0) {
+        return KIRI_ERROR_DATA;
+    }
+    return BecomeWorld(world, (const uint8_t*)bytes + sizeof(head), size - (int64_t)sizeof(head), true);
 }

@@ -189,6 +189,9 @@ namespace Kiri.Tests
                 byte[] saved = world.Save();
                 other.Load(saved);
                 Equal(other.GetStateHash(), hash);
+                other.Restore(world.Snapshot());
+                other.FinishCuts();
+                Equal(other.GetStateHash(), hash);
                 world.Tick(Dt, 1);
                 other.Tick(Dt, 1);
                 Equal(other.GetStateHash(), world.GetStateHash());
