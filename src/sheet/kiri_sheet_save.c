@@ -361,6 +361,9 @@ static void ArchiveDerived(kiriArchive* archive, kiriSheetData* sheet)
     kiriArchive_Object(archive, &kiriSkinTable, &sheet->vertexSkin);
     kiriArchive_Object(archive, &kiriSkinTable, &sheet->pointSkin);
     kiriArchive_Object(archive, &kiriPlacesTable, &sheet->pointPlaces);
+    archive->memory = &sheet->shown;
+    kiriArchive_Object(archive, &kiriRestSurfaceTable, &sheet->seen.surface);
+    archive->memory = &sheet->own;
     kiriGrid_ArchiveGrowing(archive, &sheet->grid, &sheet->mesh);
     kiriShape_ArchiveGrowing(archive, &sheet->shape, sheet->memory);
     kiriRoom_ArchiveGrowing(archive, sheet);
@@ -501,10 +504,10 @@ void kiriSheet_Archive(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* m
 void kiriSheet_HashLayout(uint64_t* hash)
 {
     const kiriTable* tables[] = {
-        &StillSheetTable, &LiveSheetTable, &kiriStillSurfaceTable, &kiriLiveSurfaceTable,
-        &SeenTable,       &ToldTable,      &kiriGridTable,         &kiriRegionsTable,
-        &kiriShapeTable,  &kiriLinksTable, &UpdateTable,           &kiriSkinTable,
-        &kiriPlacesTable, &ProbesTable,    &CutDataTable,          &QueuedPointTable,
+        &StillSheetTable, &LiveSheetTable,   &kiriStillSurfaceTable, &kiriLiveSurfaceTable, &SeenTable,
+        &ToldTable,       &kiriGridTable,    &kiriRegionsTable,      &kiriShapeTable,       &kiriLinksTable,
+        &UpdateTable,     &kiriSkinTable,    &kiriPlacesTable,       &kiriRestSurfaceTable, &ProbesTable,
+        &CutDataTable,    &QueuedPointTable,
     };
     for (size_t k = 0; k < sizeof(tables) / sizeof(tables[0]); ++k) {
         kiriArchive_HashLayout(tables[k], hash);

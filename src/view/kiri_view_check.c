@@ -1,7 +1,5 @@
 #include "kiri_view_check.h"
 
-#include "kiri_normal.h"
-
 /* ---- Rules ------------------------------------------------------------------------------------------------------- */
 
 static const kiriMust FadingMust[] = {
@@ -50,19 +48,7 @@ bool kiriSurface_HasRoom(const kiriSurface* surface)
     int64_t vertices = surface->vertexCount;
     return vertices >= 0 && surface->positions.count == 3 * vertices && surface->places.count == 3 * vertices &&
            surface->normals.count == 3 * vertices && surface->slopes.count == 4 * vertices &&
-           surface->rest.count == vertices && surface->positions.capacity >= 3 * vertices + 1 &&
-           surface->places.capacity >= 3 * vertices + 1;
-}
-
-static bool ArePairsTurned(const kiriSurface* surface)
-{
-    int32_t count = surface->triangleCount / 2 + surface->triangleCount % 2;
-    bool areFine = surface->turns.count == count;
-    for (int32_t pair = 0; areFine && pair < count; ++pair) {
-        bool isAlone = 2 * pair + 1 == surface->triangleCount;
-        areFine = surface->turns.data[pair] == kiriNormals_TurnOf(&surface->indices.data[6 * (size_t)pair], isAlone);
-    }
-    return areFine;
+           surface->positions.capacity >= 3 * vertices + 1 && surface->places.capacity >= 3 * vertices + 1;
 }
 
 /* All rows are as long as the mesh is large, and there is a patch for each frame that is seen. */
@@ -71,10 +57,9 @@ static bool AreRowsOfSurface(const kiriSurface* surface, const kiriMeshData* mes
     int64_t vertices = mesh->vertices.count, triangles = mesh->triangles.count;
     int64_t floats = surface->patches.isBent ? KIRI_BENT_FLOATS : KIRI_FLAT_FLOATS;
     return surface->vertexCount == vertices && surface->triangleCount == triangles && kiriSurface_HasRoom(surface) &&
-           surface->restPositions.count == 2 * vertices && surface->sourceWeights.count == 3 * vertices &&
-           surface->sourceTriangles.count == vertices && surface->indices.count == 3 * triangles &&
-           ArePairsTurned(surface) && surface->carriers.count >= frames && surface->bends.count >= frames &&
-           surface->patches.count >= 0 && surface->patches.count <= labels &&
+           surface->sourceWeights.count == 3 * vertices && surface->sourceTriangles.count == vertices &&
+           surface->indices.count == 3 * triangles && surface->carriers.count >= frames &&
+           surface->bends.count >= frames && surface->patches.count >= 0 && surface->patches.count <= labels &&
            surface->patches.floats.capacity >= KIRI_BENT_FLOATS * labels &&
            surface->patches.floats.capacity >= floats * surface->patches.count &&
            surface->patches.isOther.capacity >= labels;
@@ -105,16 +90,6 @@ static bool IsOfMesh(const kiriSurface* surface, const kiriMeshData* mesh)
            surface->longer == KIRI_LATTICE * mesh->step;
 }
 
-static bool AreRestPlaces(const kiriSurface* surface, const kiriMeshData* mesh)
-{
-    bool areFine = true;
-    for (int32_t v = 0; areFine && v < mesh->vertices.count; ++v) {
-        kiriVec2 rest = surface->rest.data[v], local = kiriMesh_Local(mesh, mesh->vertices.data[v].at);
-        areFine = rest.x == local.x && rest.y == local.y;
-    }
-    return areFine;
-}
-
 /* Corners are those of the mesh, or all one where the triangle is not seen. */
 static bool AreCornersOfSurface(const kiriSurface* surface, const kiriMeshData* mesh)
 {
@@ -133,6 +108,5 @@ bool kiriSurface_Check(const kiriSurface* surface, const kiriLabels* labels, con
     int32_t frames = (int32_t)check->count[KIRI_OF_FRAMES];
     return kiriCheck_That(check, AreRowsOfSurface(surface, mesh, frames, kiriLabels_Count(labels, frames))) &&
            kiriCheck_Object(check, SurfaceMust, surface) &&
-           kiriCheck_That(check, IsOfMesh(surface, mesh) && AreCornersOfSurface(surface, mesh) &&
-                                     AreRestPlaces(surface, mesh) && AreChanges(surface));
+           kiriCheck_That(check, IsOfMesh(surface, mesh) && AreCornersOfSurface(surface, mesh) && AreChanges(surface));
 }

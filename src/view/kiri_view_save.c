@@ -54,15 +54,20 @@ static const kiriTable PatchesTable = KIRI_TABLE(kiriPatches, PatchesMembers);
 
 /* What only the work on cuts changes, and whoever takes pieces out. */
 static const kiriMember StillSurfaceMembers[] = {
-    KIRI_ITEMS(4, kiriSurface, restPositions),
     KIRI_ITEMS(4, kiriSurface, sourceWeights),
     KIRI_ITEMS(4, kiriSurface, indices),
     KIRI_ITEMS(4, kiriSurface, sourceTriangles),
-    KIRI_ITEMS(8, kiriSurface, rest),
-    KIRI_ITEMS(1, kiriSurface, turns),
     KIRI_RUN(4, kiriSurface, changes, lastChange),
 };
 const kiriTable kiriStillSurfaceTable = KIRI_TABLE(kiriSurface, StillSurfaceMembers);
+
+/* What saves derive from the mesh. */
+static const kiriMember RestSurfaceMembers[] = {
+    KIRI_ITEMS(4, kiriSurface, restPositions),
+    KIRI_ITEMS(8, kiriSurface, rest),
+    KIRI_ITEMS(1, kiriSurface, turns),
+};
+const kiriTable kiriRestSurfaceTable = KIRI_TABLE(kiriSurface, RestSurfaceMembers);
 
 /* And what changes in any tick. Vertices and normals are made anew. */
 static const kiriMember LiveSurfaceMembers[] = {
