@@ -27,7 +27,7 @@ typedef struct SceneReplay {
 } SceneReplay;
 
 /* Replays the file once, and says on stderr where something is other than recorded; then makes a scene that starts from
-   it. The type: what a recording that is of no scene looks like. */
+   it. The type: the looks of a recording without a scene. */
 bool SceneReplay_Start(SceneReplay* replay, const char* path, Scene* scene, const SceneType* type,
                        const kiriWorldDef* def);
 

@@ -1,4 +1,4 @@
-/* What it takes to save a world and to go back. The scenes, and a crowd of sheets of which one is cut now and then. */
+/* Sizes and times of saves and snapshots: of scenes, and of a crowd of sheets where one is cut now and then. */
 #define _POSIX_C_SOURCE 199309L
 
 #include "../samples/scene.h"

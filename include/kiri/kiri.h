@@ -261,14 +261,14 @@ KIRI_API kiriResult kiriWorld_Replay(kiriWorld* world, const void* recording, in
 KIRI_API kiriResult kiriWorld_Save(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size);
 
 /* Finishes the work on cuts at once, whatever the budget is, and without moving anything. Cuts that wait for a budget
-   take effect. The events come with those of the next tick. KIRI_ERROR_MEMORY, KIRI_ERROR_LIMIT: as in kiriWorld_Tick.
+   take effect. The next tick reports the events. KIRI_ERROR_MEMORY, KIRI_ERROR_LIMIT: as in kiriWorld_Tick.
    Arrays that the world handed out end as with a tick. */
 KIRI_API kiriResult kiriWorld_FinishCuts(kiriWorld* world);
 
 /* Replaces the world by a saved one. It may have any hooks; its own allocation, log, clock and tasks stay. The bytes may
    come from anybody: a malicious save may give a strange world but cannot crash the program, and takes memory in
    proportion to its size. Takes about as long as to create the sheets. The profile has no times until the next tick.
-   Arrays that the old world handed out live until then. KIRI_ERROR_DATA: the bytes are no save, damaged, or of another
+   Arrays that the old world handed out live until then. KIRI_ERROR_DATA: the bytes are not a save, damaged, or of another
    version. KIRI_ERROR_MEMORY. Then nothing has changed. A recording has the bytes, up to 2^31 of them. */
 KIRI_API kiriResult kiriWorld_Load(kiriWorld* world, const void* bytes, int64_t size);
 
@@ -277,9 +277,8 @@ KIRI_API kiriResult kiriWorld_Load(kiriWorld* world, const void* bytes, int64_t 
    kiriWorld_Save. */
 KIRI_API kiriResult kiriWorld_Snapshot(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size);
 
-/* Replaces the world by what it, or another one, was when the snapshot was made; ids name the same things. The bytes
-   are trusted: hand over only what kiriWorld_Snapshot has written. KIRI_ERROR_DATA: no snapshot of this build of the
-   library. KIRI_ERROR_MEMORY. KIRI_ERROR_STATE: the world is recorded. Then nothing has changed. Hooks and arrays as
+/* Replaces the world by the world of the snapshot; ids name the same things. The bytes are trusted: hand over only the
+   output of kiriWorld_Snapshot. KIRI_ERROR_DATA: not a snapshot of this build of the library. KIRI_ERROR_MEMORY. KIRI_ERROR_STATE: the world is recorded. Then nothing has changed. Hooks and arrays as
    with kiriWorld_Load. */
 KIRI_API kiriResult kiriWorld_Restore(kiriWorld* world, const void* bytes, int64_t size);
 

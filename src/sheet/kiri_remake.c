@@ -63,7 +63,7 @@ static bool RunStages(kiriSheetData* sheet, bool* isBad)
     return ok;
 }
 
-/* As the commit of an update, but for what was read. */
+/* Puts all of it in force, as the commit of an update. Saved arrays stay. */
 static bool Commit(kiriSheetData* sheet)
 {
     kiriUpdate* u = sheet->update;

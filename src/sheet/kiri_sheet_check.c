@@ -107,7 +107,7 @@ static bool IsLayout(kiriCheck* check, const kiriSheetData* sheet)
            kiriCheck_That(check, AreShares(&layout->pinShares, sheet));
 }
 
-/* What is of links, which are made when the rest has been checked. */
+/* Arrays with an item a link. Links are derived after the other checks. */
 static bool IsOfLinks(kiriCheck* check, const kiriSheetData* sheet)
 {
     int32_t links = sheet->links.links.count, offsets = sheet->strainOffsets.strainOffsets.count;

@@ -8,11 +8,11 @@
 
 KIRI_C_BEGIN
 
-/* All that a save has, but for what the world knows: ids, and settings that the host gave. */
+/* Checks all saved fields, but not ids and settings of the host: the world checks these. */
 bool kiriSheet_Check(kiriSheetData* sheet, kiriCheck* check);
 
-/* And when the rest was made (kiriRemake_Field): what is of links. After it all rooms are large enough that ticks use
-   without asking for them. */
+/* Checks arrays with an item a link, after kiriRemake_Field. Then all rooms are large enough for ticks that do not ask
+   for room. */
 bool kiriSheet_CheckMade(const kiriSheetData* sheet, kiriCheck* check);
 
 /* In what may be cut of the rest plane. */

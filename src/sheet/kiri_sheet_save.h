@@ -17,7 +17,7 @@ void kiriSheet_ArchiveLive(kiriArchive* archive, kiriSheetData* sheet, kiriMemor
 /* Hashes sizes and places of all fields of a sheet. */
 void kiriSheet_HashLayout(uint64_t* hash);
 
-/* When it is read, and nothing has failed: what follows from the rest. False for memory. */
+/* Derives vertices, boxes and probes of a sheet that was read without a failure. False for memory. */
 bool kiriSheet_EndReading(kiriSheetData* sheet, bool isWhole);
 
 /* One obstacle, which is made where bytes are read. */

@@ -83,7 +83,7 @@ void kiriSurface_Truncate(kiriSurface* surface, int32_t frameCount);
    all of the mesh. */
 void kiriSurface_WriteTopology(kiriSurface* surface, const kiriMeshData* mesh);
 
-/* Of a surface that was read: rest places, and turns of its indices. False for memory. */
+/* Derives rest positions, and turns of the indices, after a load. False for memory. */
 bool kiriSurface_RemakeRest(kiriSurface* surface, kiriMemory* memory, const kiriMeshData* mesh);
 
 /* Arrays for what is left of those that the host reads, which may hold the old ones. */

@@ -255,7 +255,7 @@ static kiriWorld* Unlocked(const kiriWorld* world)
     return (kiriWorld*)(uintptr_t)world; /* archives that do not read bytes change nothing */
 }
 
-/* Returns what is wrong with the bytes, or null. */
+/* Returns the fault of the bytes, or null. */
 static const char* FaultOfBytes(const uint8_t* bytes, int64_t size)
 {
     SaveHead head;
@@ -319,7 +319,7 @@ static void DropSheets(kiriWorld* world, kiriMemory* shown)
     world->sheets.count = 0;
 }
 
-/* Checks what was read of a save, and makes what follows from it. */
+/* Checks the fields of a save, and derives the others. */
 static void FinishSave(kiriArchive* archive, kiriWorld* made)
 {
     bool isShort = false, isFine = kiriArchive_HasFailed(archive) || kiriWorld_Check(made, &isShort);

@@ -10,13 +10,12 @@ KIRI_C_BEGIN
    *size is 0: a cut is being worked on. */
 kiriResult kiriSave_Write(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size);
 
-/* Makes the world what it was; its hooks stay. Bytes may be made by somebody who means harm: what was read is checked,
-   and grid, regions, shape functions and links are made anew. KIRI_ERROR_DATA, and *why says what is wrong with the
-   bytes, or KIRI_ERROR_MEMORY: nothing has changed. */
+/* Replaces the world by the saved one; hooks stay. The bytes are untrusted: fields are checked, and all derived data is
+   made again. KIRI_ERROR_DATA, with a reason in *why, or KIRI_ERROR_MEMORY: nothing has changed. */
 kiriResult kiriSave_Read(kiriWorld* world, const void* bytes, int64_t size, const char** why);
 
-/* The same with all that there is, as it lies in memory, and without checks: for the same process. KIRI_ERROR_DATA: the
-   bytes are no snapshot of this build. */
+/* The same with all data as it lies in memory, and without checks: for the same process. KIRI_ERROR_DATA: not a
+   snapshot of this build. */
 kiriResult kiriSnapshot_Write(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size);
 kiriResult kiriSnapshot_Read(kiriWorld* world, const void* bytes, int64_t size);
 
