@@ -281,18 +281,18 @@ void kiriArchive_Object(kiriArchive* archive, const kiriTable* table, void* obje
 
 /* True if an object in memory is its bytes: always for numbers without padding, in a snapshot for all that owns
    nothing. */
-static bool IsFlat(const kiriTable* table, bool isWhole)
+static bool IsTight(const kiriTable* table, bool isWhole)
 {
     int32_t size = 0;
-    bool isFlat = true;
+    bool isTight = true;
     for (int32_t k = 0; k < table->count; ++k) {
         const kiriMember* member = &table->fields[k];
         bool isNumbers = member->kind == KIRI_MEMBER_RUN || (member->kind == KIRI_MEMBER_BOOLS && isWhole) ||
-                         (member->kind == KIRI_MEMBER_PART && IsFlat(member->table, isWhole));
-        isFlat = isFlat && isNumbers;
+                         (member->kind == KIRI_MEMBER_PART && IsTight(member->table, isWhole));
+        isTight = isTight && isNumbers;
         size += member->size;
     }
-    return isFlat && (isWhole || size == table->size);
+    return isTight && (isWhole || size == table->size);
 }
 
 /* How many bytes an object is that has no arrays; KIRI_NONE where that is not the same of all. */
@@ -312,7 +312,7 @@ static int64_t BytesOfObject(const kiriTable* table)
 
 void kiriArchive_Objects(kiriArchive* archive, const kiriTable* table, void* objects, int64_t count)
 {
-    if (count > 1 && IsLittleEndian() && IsFlat(table, archive->isWhole)) {
+    if (count > 1 && IsLittleEndian() && IsTight(table, archive->isWhole)) {
         kiriArchive_Numbers(archive, objects, 1, count * table->size);
         return;
     }
