@@ -7,7 +7,9 @@
 #include "fuzz_saved.h"
 #include "host.h"
 
+#include "core/kiri_hash.h"
 #include "sheet/kiri_update.h"
+#include "world/kiri_state_hash.h"
 #include "world/kiri_world.h"
 
 enum { WORLDS = 24, MOST_TICKS = 24, TWIN_TICKS = 5 };
@@ -209,6 +211,80 @@ static void TestTwinsAgree(void** state)
     for (int32_t k = 0; k < worldCount; ++k) {
         PlayWorld(firstWorld + k);
     }
+}
+
+/* Triangles that are large for the grid, and meshes with holes. */
+static void TestOddMeshes(void** state)
+{
+    (void)state;
+    static Weather weather;
+    for (int32_t world = SAVED_LARGE; world < SAVED_WORLDS; ++world) {
+        const Saved* saved = Saved_Get(world);
+        Host other;
+        Host_Start(&weather.host);
+        Host_Start(&other);
+        OK(kiriWorld_Load(weather.host.world, saved->later.bytes, saved->later.size));
+        assert_int_equal(weather.host.world->sheets.data[0]->mesh.vertexHoles > 0, world >= SAVED_HOLES);
+        weather.storm = saved->storm;
+        weather.storm.world = weather.host.world;
+        weather.world = world;
+        weather.last = "a load";
+        CheckTwins(&weather, &other);
+        Host_Destroy(&other);
+        Host_Destroy(&weather.host);
+    }
+}
+
+/* ---- Work that is finished --------------------------------------------------------------------------------------- */
+
+static void StartCut(Host* host, const kiriBudget* budget)
+{
+    static const float around[] = { 0.2f, 0.5f, 0.8f, 0.5f, 0.8f, 0.9f, 0.4f, 0.9f, 0.4f, 0.2f, 0.9f, 0.2f };
+    Host_Start(host);
+    kiriSheetDef def = Host_SmallDef();
+    def.collisionPoints = 20;
+    kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 4, 4);
+    Host_Cut(host, sheet, around, 6);
+    OK(kiriWorld_SetBudget(host->world, budget));
+}
+
+/* Triangles, frames, pieces and the weights of vertices: not where they are. */
+static uint64_t LayoutOf(const Host* host)
+{
+    uint64_t hash = KIRI_HASH_START;
+    kiriStateHash_AddLayout(&hash, host->world->sheets.data[0]);
+    return hash;
+}
+
+/* In whatever step a tick has left the work, and where memory is refused first: the cut does the same. */
+static void TestFinishedCuts(void** state)
+{
+    (void)state;
+    const kiriBudget little = { 64, 5, 3, 0 }, unlimited = { 0 };
+    Host host, whole;
+    StartCut(&whole, &unlimited);
+    OK(Host_Tick(&whole, 0.01f, 1));
+    StartCut(&host, &little);
+    int32_t refused = 0;
+    for (int32_t tick = 0; Host_Tick(&host, 0.01f, 1) == KIRI_PENDING; ++tick) {
+        Bytes snapshot = Write(host.world, kiriWorld_Snapshot);
+        for (int64_t n = 0; n < 3; ++n) {
+            host.failAt = n > 0 ? host.calls + tick % 7 + n : -1;
+            host.failOnce = true;
+            kiriResult result = kiriWorld_FinishCuts(host.world);
+            host.failAt = -1;
+            assert_true(result == KIRI_OK || (n > 0 && result == KIRI_ERROR_MEMORY));
+            refused += result != KIRI_OK;
+            OK(kiriWorld_FinishCuts(host.world));
+            Host_Validate(&host);
+            assert_true(LayoutOf(&host) == LayoutOf(&whole));
+            OK(kiriWorld_Restore(host.world, snapshot.data, snapshot.size));
+        }
+        free(snapshot.data);
+    }
+    assert_true(refused > 10);
+    Host_Destroy(&host);
+    Host_Destroy(&whole);
 }
 
 /* ---- Bytes that are none ----------------------------------------------------------------------------------------- */
@@ -441,6 +517,7 @@ int main(int count, char** arguments)
     worldCount = count > 1 ? atoi(arguments[1]) : WORLDS;
     firstWorld = count > 2 ? atoi(arguments[2]) : 0;
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(TestOddMeshes),      cmocka_unit_test(TestFinishedCuts),
         cmocka_unit_test(TestTwinsAgree),     cmocka_unit_test(TestBytesCutShort),
         cmocka_unit_test(TestBitsThatChange), cmocka_unit_test(TestMisuse),
         cmocka_unit_test(TestOtherVersions),  cmocka_unit_test(TestRefusedMemory),
