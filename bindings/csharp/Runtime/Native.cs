@@ -589,7 +589,7 @@ namespace Kiri
         }
     }
 
-    /// <summary>How far a replay has come: all zero at its start, but for `untrusted`.</summary>
+    /// <summary>How far a replay has come: all zero at its start.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct NativeReplay
     {
@@ -602,10 +602,6 @@ namespace Kiri
         /// <summary>where it stopped at a note: its bytes, in the recording; else null</summary>
         public void* Note;
         public int NoteCount;
-        /// <summary>set by the host, 1: somebody may have made the recording to do harm. Saves that it loads are loaded by
-        /// kiriWorld_LoadUntrusted, differences not at all (KIRI_ERROR_DATA). Where a cut was being worked on in a
-        /// save, states may then differ from those recorded (KIRI_ERROR_REPLAY)</summary>
-        public int Untrusted;
     }
 
     /// <summary>Of the fields after `sheet` an event has those that its type names; the others are 0, `stage` is -1.</summary>
@@ -1402,16 +1398,16 @@ namespace Kiri
         public static extern int kiriWorld_Save(IntPtr world, void* bytes, long capacity, long* size);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int kiriWorld_FinishCuts(IntPtr world);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int kiriWorld_Load(IntPtr world, void* bytes, long size);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
-        public static extern int kiriWorld_LoadUntrusted(IntPtr world, void* bytes, long size);
+        public static extern int kiriWorld_Snapshot(IntPtr world, void* bytes, long capacity, long* size);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
-        public static extern int kiriWorld_SaveDifference(IntPtr world, void* @base, long @baseSize, void* bytes, long capacity, long* size);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
-        public static extern int kiriWorld_LoadDifference(IntPtr world, void* @base, long @baseSize, void* bytes, long size);
+        public static extern int kiriWorld_Restore(IntPtr world, void* bytes, long size);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int kiriWorld_GetEvents(IntPtr world, Event** events, int* count);
