@@ -540,10 +540,10 @@ $(BUILD)/tests/test_games: TEST_LIBRARIES = $(BUILD)/libkiri.a -lbox2d -lOSMesa 
 # Threads read a world, or work on its ticks.
 $(BUILD)/tests/test_readers $(BUILD)/tests/test_tasks $(BUILD)/tests/bench_tasks: override LDFLAGS += -pthread
 
-$(addprefix $(BUILD)/tests/,test_save test_saves test_unchanged test_untrusted test_waiting): \
+$(addprefix $(BUILD)/tests/,test_saves test_unchanged test_waiting): \
     $(patsubst %,$(BUILD)/tests/%.c.o,storm_types storm_acts storm_cuts storm_seen)
 
-$(BUILD)/tests/test_untrusted: $(patsubst %,$(BUILD)/tests/%.c.o,fuzz fuzz_saved)
+$(BUILD)/tests/test_saves: $(patsubst %,$(BUILD)/tests/%.c.o,fuzz fuzz_saved)
 
 # Fuzzers: with the main of libFuzzer, or one that runs what it is given.
 FUZZ_MAIN := $(if $(filter fuzz,$(config)),,$(BUILD)/tests/fuzz_main.c.o)

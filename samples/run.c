@@ -415,8 +415,7 @@ static bool RunReplay(const Options* options, const kiriWorldDef* def)
 {
     Scene scene;
     SceneReplay replay;
-    bool fine =
-        SceneReplay_Start(&replay, options->replay, !options->untrusted, &scene, Scene_FindType(options->scene), def);
+    bool fine = SceneReplay_Start(&replay, options->replay, &scene, Scene_FindType(options->scene), def);
     if (fine) {
         fine = RunScene(&scene, &replay, options) && replay.isRight;
         Scene_Stop(&scene);

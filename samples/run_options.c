@@ -14,7 +14,6 @@ void Options_PrintHelp(void)
            "  --film FILE           a moving picture of them too, an animated PNG\n"
            "  --record FILE         all calls of the library, to be replayed\n"
            "  --replay FILE         a recording instead of a scene's script\n"
-           "  --untrusted           somebody may have made it to do harm\n"
            "  --data FOLDER         where the outlines are (samples/data)\n"
            "  --ticks N             sixtieths of a second to run (the scene's own)\n"
            "  --size WxH            of a picture, in pixels, 100x100 or more (640x480)\n"
@@ -76,8 +75,7 @@ static bool ReadFlag(const char* name, Options* options)
                   { "--points", &options->debug.points },
                   { "--plain", &options->plain },
                   { "--smooth", &options->smooth },
-                  { "--paper", &options->asPaper },
-                  { "--untrusted", &options->untrusted } };
+                  { "--paper", &options->asPaper } };
     for (size_t i = 0; i < sizeof flags / sizeof flags[0]; i++) {
         if (strcmp(name, flags[i].name) == 0) {
             *flags[i].flag = true;

@@ -18,7 +18,6 @@ typedef struct Options {
     int32_t solid;    /* mm; 0: the surface alone */
     float closeUp[3]; /* rest point, m, and factor; factor 0: as the scene has it */
     bool plain, asPaper, smooth, quiet, help;
-    bool untrusted; /* the recording */
 } Options;
 
 void Options_PrintHelp(void);

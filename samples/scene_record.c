@@ -178,11 +178,6 @@ static bool StartScene(Scene* scene, const SceneType* type, const kiriWorldDef* 
     return result == KIRI_OK;
 }
 
-static void Rewind(SceneReplay* replay)
-{
-    replay->at = (kiriReplay){ .untrusted = replay->at.untrusted };
-}
-
 /* All of it, for the number of its ticks and what is wrong with it. */
 static void Check(SceneReplay* replay, Scene* scene)
 {
@@ -195,14 +190,14 @@ static void Check(SceneReplay* replay, Scene* scene)
     }
     replay->isRight = result == KIRI_OK;
     replay->ticks = (int32_t)replay->at.ticks;
-    Rewind(replay);
+    replay->at = (kiriReplay){ 0 };
     Scene_Stop(scene);
 }
 
-bool SceneReplay_Start(SceneReplay* replay, const char* path, bool isTrusted, Scene* scene, const SceneType* type,
+bool SceneReplay_Start(SceneReplay* replay, const char* path, Scene* scene, const SceneType* type,
                        const kiriWorldDef* def)
 {
-    *replay = (SceneReplay){ .at.untrusted = !isTrusted };
+    *replay = (SceneReplay){ 0 };
     if (!ReadAll(replay, path)) {
         fprintf(stderr, "cannot read %s\n", path);
         return false;
@@ -224,7 +219,7 @@ bool SceneReplay_Start(SceneReplay* replay, const char* path, bool isTrusted, Sc
         TakeNote(scene, &replay->at);
     } else {
         Scene_Stop(scene);
-        Rewind(replay);
+        replay->at = (kiriReplay){ 0 };
         return StartScene(scene, type, def);
     }
     return true;

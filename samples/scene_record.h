@@ -27,8 +27,8 @@ typedef struct SceneReplay {
 } SceneReplay;
 
 /* Replays the file once, and says on stderr where something is other than recorded; then makes a scene that starts from
-   it. The type: what a recording that is of no scene looks like. `isTrusted`: nobody has made it to do harm. */
-bool SceneReplay_Start(SceneReplay* replay, const char* path, bool isTrusted, Scene* scene, const SceneType* type,
+   it. The type: the looks of a recording without a scene. */
+bool SceneReplay_Start(SceneReplay* replay, const char* path, Scene* scene, const SceneType* type,
                        const kiriWorldDef* def);
 
 /* Up to the next tick, in place of Scene_Tick. */

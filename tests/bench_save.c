@@ -1,6 +1,4 @@
-/* What it takes to save a world and to go back: whole, and as the difference to a save of up to a second before, as a
-   game does that keeps every tick of some seconds. The scenes, and a crowd of sheets of which one is cut now and
-   then. */
+/* Sizes and times of saves and snapshots: of scenes, and of a crowd of sheets where one is cut now and then. */
 #define _POSIX_C_SOURCE 199309L
 
 #include "../samples/scene.h"
@@ -15,12 +13,10 @@ typedef struct Bytes {
 } Bytes;
 
 typedef struct Sizes {
-    Bytes base, difference;
-    kiriWorld* other;                      /* that it is loaded into */
-    Series tick, save, load, change, back; /* ms: of a tick; of the world; of differences */
-    Series untrusted;                      /* ms of a load */
-    Series full, calm, cut;                /* KB: saves; differences without a cut since the base, and with */
-    bool isCut;                            /* a cut took effect since the base */
+    kiriWorld* other; /* that it is loaded into */
+    Bytes save, snapshot;
+    Series tick, saving, loading, copying, restoring; /* ms */
+    Series savedSize, copiedSize;                     /* KB */
 } Sizes;
 
 static void Fail(const char* what)
@@ -45,58 +41,28 @@ static double Since(double start)
     return 1e3 * (Bench_Clock(NULL) - start);
 }
 
-/* Room for both is there before: a game keeps its buffers. */
-static void SaveBase(Sizes* sizes, const kiriWorld* world)
+typedef kiriResult WriteFn(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size);
+typedef kiriResult ReadFn(kiriWorld* world, const void* bytes, int64_t size);
+
+/* The room is there before: a game keeps its buffers. */
+static void Write(WriteFn* write, const kiriWorld* world, Bytes* bytes, Series* time, Series* size)
 {
-    if (kiriWorld_Save(world, NULL, 0, &sizes->base.size) != KIRI_OK) {
-        Fail("no save");
+    if (write(world, NULL, 0, &bytes->size) != KIRI_OK) {
+        Fail("no bytes");
     }
-    Bytes_Reserve(&sizes->base, sizes->base.size);
-    Bytes_Reserve(&sizes->difference, 2 * sizes->base.size + 4096);
+    Bytes_Reserve(bytes, bytes->size);
     double start = Bench_Clock(NULL);
-    kiriWorld_Save(world, sizes->base.data, sizes->base.capacity, &sizes->base.size);
-    Series_Add(&sizes->save, Since(start));
-    Series_Add(&sizes->full, 1e-3 * (double)sizes->base.size);
-    sizes->isCut = false;
+    write(world, bytes->data, bytes->capacity, &bytes->size);
+    Series_Add(time, Since(start));
+    Series_Add(size, 1e-3 * (double)bytes->size);
 }
 
-static void SaveChange(Sizes* sizes, const kiriWorld* world)
-{
-    kiriProfile profile;
-    kiriWorld_GetProfile(world, &profile);
-    sizes->isCut = sizes->isCut || profile.commits > 0 || profile.trianglesSplit > 0 || profile.cellsSettled > 0;
-    double start = Bench_Clock(NULL);
-    if (kiriWorld_SaveDifference(world, sizes->base.data, sizes->base.size, sizes->difference.data,
-                                 sizes->difference.capacity, &sizes->difference.size) != KIRI_OK) {
-        Fail("no difference");
-    }
-    Series_Add(&sizes->change, Since(start));
-    Series_Add(sizes->isCut ? &sizes->cut : &sizes->calm, 1e-3 * (double)sizes->difference.size);
-}
-
-/* As bytes of others, and as one's own. */
-static kiriResult LoadBase(Sizes* sizes)
-{
-    double start = Bench_Clock(NULL);
-    kiriResult result = kiriWorld_LoadUntrusted(sizes->other, sizes->base.data, sizes->base.size);
-    Series_Add(&sizes->untrusted, Since(start));
-    start = Bench_Clock(NULL);
-    result = result == KIRI_OK ? kiriWorld_Load(sizes->other, sizes->base.data, sizes->base.size) : result;
-    Series_Add(&sizes->load, Since(start));
-    return result;
-}
-
-/* Both ways back lead to the same state. */
-static void GoBack(Sizes* sizes, const kiriWorld* world)
+static void Read(ReadFn* read, Sizes* sizes, const kiriWorld* world, const Bytes* bytes, Series* time)
 {
     uint64_t is, was;
-    kiriResult result = LoadBase(sizes);
     double start = Bench_Clock(NULL);
-    if (result == KIRI_OK) {
-        result = kiriWorld_LoadDifference(sizes->other, sizes->base.data, sizes->base.size, sizes->difference.data,
-                                          sizes->difference.size);
-    }
-    Series_Add(&sizes->back, Since(start));
+    kiriResult result = read(sizes->other, bytes->data, bytes->size);
+    Series_Add(time, Since(start));
     kiriWorld_GetStateHash(world, &is);
     kiriWorld_GetStateHash(sizes->other, &was);
     if (result != KIRI_OK || is != was) {
@@ -107,13 +73,11 @@ static void GoBack(Sizes* sizes, const kiriWorld* world)
 static void AfterTick(Sizes* sizes, const kiriWorld* world, int32_t tick, double milliseconds)
 {
     Series_Add(&sizes->tick, milliseconds);
-    if (tick % BASE_TICKS == 0) {
-        SaveBase(sizes, world);
-        return;
-    }
-    SaveChange(sizes, world);
     if (tick % LOAD_TICKS == LOAD_TICKS - 1) {
-        GoBack(sizes, world);
+        Write(kiriWorld_Save, world, &sizes->save, &sizes->saving, &sizes->savedSize);
+        Read(kiriWorld_Load, sizes, world, &sizes->save, &sizes->loading);
+        Write(kiriWorld_Snapshot, world, &sizes->snapshot, &sizes->copying, &sizes->copiedSize);
+        Read(kiriWorld_Restore, sizes, world, &sizes->snapshot, &sizes->restoring);
     }
 }
 
@@ -166,15 +130,15 @@ static void PlayCrowd(Sizes* sizes)
 static void Print(Table* table, const char* name, Sizes* sizes)
 {
     Table_Text(table, name);
-    Series* numbers[] = { &sizes->tick, &sizes->full, &sizes->save,   &sizes->load, &sizes->untrusted,
-                          &sizes->calm, &sizes->cut,  &sizes->change, &sizes->back };
+    Series* numbers[] = { &sizes->tick,       &sizes->savedSize, &sizes->saving,   &sizes->loading,
+                          &sizes->copiedSize, &sizes->copying,   &sizes->restoring };
     for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
         Table_Number(table, Series_Median(numbers[k]));
         Series_Free(numbers[k]);
     }
     kiriDestroyWorld(sizes->other);
-    free(sizes->base.data);
-    free(sizes->difference.data);
+    free(sizes->save.data);
+    free(sizes->snapshot.data);
 }
 
 /* A world for the way back. */
@@ -193,15 +157,11 @@ static Sizes Start(void)
 int main(int count, char** names)
 {
     static const char* const scenes[] = { "spiral", "kirigami", "patchwork", "vortex", "fallingguy", "bunny" };
-    static const char* const columns[] = { "scene",   "tick ms", "full KB",       "save ms", "load ms", "untrusted ms",
-                                           "calm KB", "cut KB",  "difference ms", "back ms", NULL };
+    static const char* const columns[] = { "scene",       "tick ms",     "save KB",    "save ms", "load ms",
+                                           "snapshot KB", "snapshot ms", "restore ms", NULL };
     Table table;
     Bench_WeighClock();
-    if (!Table_Start(
-            &table, "save",
-            "Saves, and differences to a save of the last second: medians. untrusted: a load of bytes of others.\n"
-            "calm: no cut since that save",
-            columns)) {
+    if (!Table_Start(&table, "save", "Saves and snapshots: medians.", columns)) {
         return 1;
     }
     for (size_t i = 0; i <= sizeof scenes / sizeof scenes[0]; i++) {

@@ -84,7 +84,7 @@ def main():
                 faults.append(f"{struct}.{name} is in its table twice")
             seen[struct].add(name)
             expected = {"RUN": "value", "BOOLS": "value", "PART": "value", "ITEMS": "array", "PARTS": "array",
-                        "ROOM_OF": "array", "SPACE_OF": "array", "OWNED": "pointer"}.get(macro, how)
+                        "ROOM_OF": "array", "SPACE_OF": "array", "SHOWN_OF": "array", "OWNED": "pointer"}.get(macro, how)
             if how != expected or (width and width_of(structs, names, kind) != width):
                 faults.append(f"{struct}.{name} is no {macro}" + (f" of width {width}" if width else ""))
     for struct, names_seen in seen.items():

@@ -93,7 +93,7 @@ static void AddSheet(FuzzTape* tape)
 /* What the input has made nobody trusts. */
 static kiriResult Play(FuzzTape* tape, const uint8_t* bytes, int64_t size, bool goesOn)
 {
-    kiriReplay replay = { .untrusted = goesOn };
+    kiriReplay replay = { 0 };
     kiriResult result = KIRI_PENDING;
     for (int i = 0; (i < MOST_STOPS || !goesOn) && (result == KIRI_PENDING || (goesOn && result == KIRI_ERROR_REPLAY));
          ++i) {

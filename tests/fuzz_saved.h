@@ -8,7 +8,7 @@
 
 /* Those from SAVED_LARGE on have triangles that are large for the grid, and from SAVED_HOLES on a mesh with holes. */
 enum { SAVED_LARGE = 96, SAVED_HOLES = 98, SAVED_WORLDS = 100 };
-enum { SAVED_HEAD_BYTES = 32, SAVED_SUM_BYTES = 8 };
+enum { SAVED_HEAD_BYTES = 24, SAVED_SUM_BYTES = 8 };
 
 /* Refuses memory where it would hold too much. */
 typedef struct SavedHost {
@@ -22,16 +22,16 @@ typedef struct Save {
     int64_t size;
 } Save;
 
-/* Of a storm: a save, a later one, and the difference between these. */
+/* Of a storm: a save, and a later one. */
 typedef struct Saved {
     Storm storm;
-    Save base, later, difference;
+    Save base, later;
 } Saved;
 
 const Saved* Saved_Get(int32_t index);
 
-/* The difference to another one, or all where there is none. */
-Save Saved_Make(const kiriWorld* world, const Save* base);
+/* No work is at hand. */
+Save Saved_Make(const kiriWorld* world);
 Save Saved_Copy(const Save* save);
 
 /* Of the bytes as they are. */
@@ -41,7 +41,7 @@ bool Saved_HasSum(const Save* save);
 /* It ticks, is cut, is read and saved: as its budget has it, and then so that the work at hand is done. */
 void Saved_GoOn(Storm* storm);
 
-/* Loads bytes that may be anything by kiriWorld_LoadUntrusted into a world, which goes on; or is refused, and then
+/* Loads bytes that may be anything by kiriWorld_Load into a world, which goes on; or is refused, and then
    nothing has changed. */
 void Saved_Try(const Save* save, const Storm* storm);
 

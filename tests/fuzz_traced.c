@@ -90,7 +90,7 @@ const Traced* Traced_Get(int32_t index)
         def.free = GiveBlock;
         FUZZ_CHECK(kiriCreateWorld(&def, &world) == KIRI_OK, "no world");
         FUZZ_CHECK(kiriWorld_Load(world, saved->later.bytes, saved->later.size) == KIRI_OK, "a good save is refused");
-        t->save = Saved_Make(world, NULL);
+        t->save = Saved_Make(world);
         tracing = t;
         FUZZ_CHECK(kiriWorld_Save(world, t->save.bytes, t->save.size, &t->save.size) == KIRI_OK, "no save");
         tracing = NULL;

@@ -27,11 +27,15 @@ static kiriResult MoveOn(Storm* storm, const kiriWorldDef* def)
 {
     int64_t size = 0;
     kiriWorld* next = NULL;
-    kiriResult result = kiriWorld_Save(storm->world, NULL, 0, &size);
+    bool isSaved = kiriWorld_Save(storm->world, NULL, 0, &size) == KIRI_OK && storm->type->budget.cells == 0 &&
+                   storm->type->budget.samples == 0 && storm->type->budget.triangles == 0;
+    kiriResult result = isSaved ? KIRI_OK : kiriWorld_Snapshot(storm->world, NULL, 0, &size);
     void* bytes = result == KIRI_OK ? malloc((size_t)size) : NULL;
-    result = bytes == NULL ? KIRI_ERROR_MEMORY : kiriWorld_Save(storm->world, bytes, size, &size);
+    result = bytes == NULL ? KIRI_ERROR_MEMORY
+             : isSaved     ? kiriWorld_Save(storm->world, bytes, size, &size)
+                           : kiriWorld_Snapshot(storm->world, bytes, size, &size);
     result = result == KIRI_OK ? kiriCreateWorld(def, &next) : result;
-    result = result == KIRI_OK ? kiriWorld_Load(next, bytes, size) : result;
+    result = result != KIRI_OK ? result : (isSaved ? kiriWorld_Load : kiriWorld_Restore)(next, bytes, size);
     free(bytes);
     if (result == KIRI_OK) {
         kiriDestroyWorld(storm->world);

@@ -1,5 +1,5 @@
 /* Saves that are wrong in one number: each number of a field in turn, and some of each list, with each of some odd
-   values. kiriWorld_LoadUntrusted refuses such bytes, and nothing has changed; or the world that comes of them goes on
+   values. kiriWorld_Load refuses such bytes, and nothing has changed; or the world that comes of them goes on
    as in fuzz_load.c.
 
    sweep_saves [FIRST [END [ITEMS [APART]]]]: worlds; how many numbers of a list; and that only each so manyth save is

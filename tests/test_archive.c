@@ -1,4 +1,4 @@
-/* State as bytes, of a struct that has all kinds of fields: whole, as differences, damaged, and without memory. */
+/* State as bytes, of a struct that has all kinds of fields: whole, damaged, and without memory. */
 #include "core/kiri_archive.h"
 #include "support.h"
 
@@ -56,7 +56,6 @@ static void ArchiveRow(kiriArchive* archive, void* object)
     kiriArchive_Block(archive, (void**)&thing->block, 4, BLOCK);
 }
 
-/* The array of arrays comes last: a difference does not know what of the base is behind one. */
 static const kiriMember ThingMembers[] = {
     KIRI_RUN(4, Thing, first, second),   KIRI_RUN(8, Thing, wide, wide), KIRI_BOOLS(Thing, flags, flags),
     KIRI_PART(Thing, marks, MarkTable),  KIRI_ITEMS(4, Thing, items),    KIRI_PARTS(Thing, points, PointTable),
@@ -163,36 +162,24 @@ typedef struct Bytes {
     int64_t size;
 } Bytes;
 
-/* Whole, or as a difference to a base. */
-static void Move(kiriArchive* archive, Thing* thing, const Bytes* base)
-{
-    if (base != NULL) {
-        kiriArchive_BeginDifference(archive, base->data, base->size);
-    }
-    kiriArchive_Object(archive, &ThingTable, thing);
-    if (base != NULL) {
-        kiriArchive_EndDifference(archive);
-    }
-}
-
 /* In a block that is not larger than it has to be, so that a sanitizer sees who writes beyond. */
-static Bytes Write(Thing* thing, const Bytes* base)
+static Bytes Write(Thing* thing)
 {
     kiriArchive measure = kiriArchive_Measure();
-    Move(&measure, thing, base);
+    kiriArchive_Object(&measure, &ThingTable, thing);
     Bytes bytes = { malloc((size_t)measure.at + 1), measure.at };
     kiriArchive archive = kiriArchive_Write(bytes.data, bytes.size);
-    Move(&archive, thing, base);
+    kiriArchive_Object(&archive, &ThingTable, thing);
     assert_false(archive.isBad);
     assert_int_equal(archive.at, bytes.size);
     return bytes;
 }
 
-static kiriArchive Read(Thing* thing, Bytes bytes, const Bytes* base, kiriMemory* memory)
+static kiriArchive Read(Thing* thing, Bytes bytes, kiriMemory* memory)
 {
     memset(thing, 0, sizeof(*thing));
     kiriArchive archive = kiriArchive_Read(bytes.data, bytes.size, memory);
-    Move(&archive, thing, base);
+    kiriArchive_Object(&archive, &ThingTable, thing);
     kiriArchive_Expect(&archive, archive.at == archive.size);
     return archive;
 }
@@ -239,11 +226,11 @@ static void TestWhole(void** state)
         uint32_t random = seed;
         Thing thing, read;
         MakeThing(&thing, &memory, &random, (int32_t)(seed % 12));
-        Bytes bytes = Write(&thing, NULL);
-        kiriArchive archive = Read(&read, bytes, NULL, &memory);
+        Bytes bytes = Write(&thing);
+        kiriArchive archive = Read(&read, bytes, &memory);
         assert_false(kiriArchive_HasFailed(&archive));
         AssertSameThing(&thing, &read);
-        Bytes again = Write(&read, NULL);
+        Bytes again = Write(&read);
         AssertSameBytes(bytes, again);
         free(bytes.data);
         free(again.data);
@@ -275,96 +262,18 @@ static void TestNoRoom(void** state)
     Purse purse;
     kiriMemory memory = Memory(&purse);
     uint32_t seed = 5;
-    Thing thing, other;
-    MakeThing(&thing, &memory, &seed, 8);
-    MakeThing(&other, &memory, &seed, 8);
-    Bytes base = Write(&other, NULL);
-    for (int isDifference = 0; isDifference < 2; ++isDifference) {
-        const Bytes* to = isDifference ? &base : NULL;
-        Bytes bytes = Write(&thing, to);
-        for (int64_t size = 0; size < bytes.size; ++size) {
-            uint8_t* few = malloc((size_t)size + 1);
-            few[size] = 77;
-            kiriArchive archive = kiriArchive_Write(few, size);
-            Move(&archive, &thing, to);
-            assert_true(archive.isBad && archive.at <= size && few[size] == 77);
-            free(few);
-        }
-        free(bytes.data);
-    }
-    free(base.data);
-    kiriMemory_FreeAll(&memory);
-}
-
-/* ---- Differences ------------------------------------------------------------------------------------------------- */
-
-static void CheckDifference(Thing* thing, const Bytes* base, kiriMemory* memory)
-{
-    Bytes whole = Write(thing, NULL), difference = Write(thing, base);
-    Thing read;
-    kiriArchive archive = Read(&read, difference, base, memory);
-    assert_false(kiriArchive_HasFailed(&archive));
-    AssertSameThing(thing, &read);
-    Bytes again = Write(&read, NULL);
-    AssertSameBytes(whole, again);
-    free(whole.data);
-    free(difference.data);
-    free(again.data);
-}
-
-/* To what it was, to another thing, and to bytes that are none. */
-static void TestDifferences(void** state)
-{
-    (void)state;
-    Purse purse;
-    kiriMemory memory = Memory(&purse);
-    for (uint32_t seed = 1; seed < 150; ++seed) {
-        uint32_t random = seed;
-        Thing thing;
-        MakeThing(&thing, &memory, &random, (int32_t)(seed % 15));
-        Bytes base = Write(&thing, NULL);
-        Bytes none = Write(&thing, &base);
-        assert_true(none.size <= 8); /* a token: all is equal */
-        CheckDifference(&thing, &base, &memory);
-        for (int32_t k = 0; k < 4; ++k) {
-            Change(&thing, &memory, &random);
-            CheckDifference(&thing, &base, &memory);
-        }
-        for (int64_t n = 0; n < base.size; n += 1 + (int64_t)(Random(&random) % 9)) {
-            base.data[n] = (uint8_t)Random(&random);
-        }
-        CheckDifference(&thing, &base, &memory);
-        base.size /= 2;
-        CheckDifference(&thing, &base, &memory);
-        free(base.data);
-        free(none.data);
-        kiriMemory_FreeAll(&memory);
-    }
-    assert_int_equal(purse.out, 0);
-}
-
-/* What changes little takes few bytes, also where an array before it got longer. */
-static void TestDifferencesAreSmall(void** state)
-{
-    (void)state;
-    Purse purse;
-    kiriMemory memory = Memory(&purse);
-    uint32_t seed = 9;
     Thing thing;
-    MakeThing(&thing, &memory, &seed, 3);
-    thing.points.count = 0;
-    for (int32_t k = 0; k < 500; ++k) {
-        Point point = { RandomBetween(&seed, 0.0, 1.0), RandomBetween(&seed, 0.0, 1.0) };
-        assert_true(kiriArray_Push(&memory, &thing.points, point));
+    MakeThing(&thing, &memory, &seed, 8);
+    Bytes bytes = Write(&thing);
+    for (int64_t size = 0; size < bytes.size; ++size) {
+        uint8_t* few = malloc((size_t)size + 1);
+        few[size] = 77;
+        kiriArchive archive = kiriArchive_Write(few, size);
+        kiriArchive_Object(&archive, &ThingTable, &thing);
+        assert_true(archive.isBad && archive.at <= size && few[size] == 77);
+        free(few);
     }
-    Bytes base = Write(&thing, NULL);
-    assert_true(kiriArray_Push(&memory, &thing.items, 12345));
-    assert_true(kiriArray_Push(&memory, &thing.items, 54321));
-    thing.points.data[250].x = 3.0;
-    Bytes difference = Write(&thing, &base);
-    assert_true(base.size > 8000 && difference.size < 200);
-    free(base.data);
-    free(difference.data);
+    free(bytes.data);
     kiriMemory_FreeAll(&memory);
 }
 
@@ -457,15 +366,15 @@ static void AssertSound(Thing* thing)
     assert_true(thing->bags.count >= 0 && thing->bags.count <= thing->bags.capacity);
     assert_true(thing->space.count >= 0 && thing->space.count <= thing->space.capacity);
     assert_true(thing->rowCount >= 0 && thing->rowCount <= MOST_ROW && thing->block != NULL);
-    Bytes bytes = Write(thing, NULL);
+    Bytes bytes = Write(thing);
     assert_true(bytes.size > 0);
     free(bytes.data);
 }
 
-static void CheckDamaged(Bytes bytes, const Bytes* base, kiriMemory* memory, int32_t* refused)
+static void CheckDamaged(Bytes bytes, kiriMemory* memory, int32_t* refused)
 {
     Thing read;
-    kiriArchive archive = Read(&read, bytes, base, memory);
+    kiriArchive archive = Read(&read, bytes, memory);
     assert_false(archive.isShort);
     assert_true(archive.room >= 0);
     *refused += archive.isBad;
@@ -475,7 +384,7 @@ static void CheckDamaged(Bytes bytes, const Bytes* base, kiriMemory* memory, int
     kiriMemory_FreeAll(memory);
 }
 
-/* Each bit of a thing, and of a difference, is turned; and each is cut short. */
+/* Each bit of a thing is turned; and it is cut short anywhere. */
 static void TestDamaged(void** state)
 {
     (void)state;
@@ -484,29 +393,24 @@ static void TestDamaged(void** state)
     uint32_t seed = 21;
     Thing thing;
     MakeThing(&thing, &memory, &seed, 7);
-    Bytes base = Write(&thing, NULL);
     Change(&thing, &memory, &seed);
-    for (int isDifference = 0; isDifference < 2; ++isDifference) {
-        const Bytes* to = isDifference ? &base : NULL;
-        Bytes bytes = Write(&thing, to);
-        int32_t refused = 0, cut = 0;
-        for (int64_t bit = 0; bit < 8 * bytes.size; ++bit) {
-            bytes.data[bit / 8] ^= (uint8_t)(1 << bit % 8);
-            CheckDamaged(bytes, to, &readMemory, &refused);
-            bytes.data[bit / 8] ^= (uint8_t)(1 << bit % 8);
-        }
-        assert_true(refused > 100);
-        for (int64_t size = 0; size < bytes.size; ++size) {
-            Bytes part = { malloc((size_t)size + 1), size };
-            memcpy(part.data, bytes.data, (size_t)size);
-            CheckDamaged(part, to, &readMemory, &cut);
-            free(part.data);
-        }
-        assert_int_equal(cut, bytes.size);
-        free(bytes.data);
+    Bytes bytes = Write(&thing);
+    int32_t refused = 0, cut = 0;
+    for (int64_t bit = 0; bit < 8 * bytes.size; ++bit) {
+        bytes.data[bit / 8] ^= (uint8_t)(1 << bit % 8);
+        CheckDamaged(bytes, &readMemory, &refused);
+        bytes.data[bit / 8] ^= (uint8_t)(1 << bit % 8);
     }
+    assert_true(refused > 100);
+    for (int64_t size = 0; size < bytes.size; ++size) {
+        Bytes part = { malloc((size_t)size + 1), size };
+        memcpy(part.data, bytes.data, (size_t)size);
+        CheckDamaged(part, &readMemory, &cut);
+        free(part.data);
+    }
+    assert_int_equal(cut, bytes.size);
+    free(bytes.data);
     assert_int_equal(readPurse.out, 0);
-    free(base.data);
     kiriMemory_FreeAll(&memory);
 }
 
@@ -540,41 +444,30 @@ static void TestMemoryIsRefused(void** state)
     uint32_t seed = 33;
     Thing thing;
     MakeThing(&thing, &memory, &seed, 9);
-    Bytes base = Write(&thing, NULL);
     Change(&thing, &memory, &seed);
-    for (int isDifference = 0; isDifference < 2; ++isDifference) {
-        const Bytes* to = isDifference ? &base : NULL;
-        Bytes bytes = Write(&thing, to);
-        bool isRefused = true;
-        int32_t n = 0;
-        for (; isRefused; ++n) {
-            Thing read;
-            readPurse.left = n;
-            kiriArchive archive = Read(&read, bytes, to, &readMemory);
-            assert_false(archive.isBad);
-            isRefused = archive.isShort;
-            assert_true(isRefused || readPurse.left == 0);
-            kiriMemory_FreeAll(&readMemory);
-            assert_int_equal(readPurse.out, 0);
-        }
-        assert_true(n > 10);
-        free(bytes.data);
+    Bytes bytes = Write(&thing);
+    bool isRefused = true;
+    int32_t n = 0;
+    for (; isRefused; ++n) {
+        Thing read;
+        readPurse.left = n;
+        kiriArchive archive = Read(&read, bytes, &readMemory);
+        assert_false(archive.isBad);
+        isRefused = archive.isShort;
+        assert_true(isRefused || readPurse.left == 0);
+        kiriMemory_FreeAll(&readMemory);
+        assert_int_equal(readPurse.out, 0);
     }
-    free(base.data);
+    assert_true(n > 10);
+    free(bytes.data);
     kiriMemory_FreeAll(&memory);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestWhole),
-        cmocka_unit_test(TestOrderOfBytes),
-        cmocka_unit_test(TestNoRoom),
-        cmocka_unit_test(TestDifferences),
-        cmocka_unit_test(TestDifferencesAreSmall),
-        cmocka_unit_test(TestGrowing),
-        cmocka_unit_test(TestDamaged),
-        cmocka_unit_test(TestLimits),
+        cmocka_unit_test(TestWhole),           cmocka_unit_test(TestOrderOfBytes), cmocka_unit_test(TestNoRoom),
+        cmocka_unit_test(TestGrowing),         cmocka_unit_test(TestDamaged),      cmocka_unit_test(TestLimits),
         cmocka_unit_test(TestMemoryIsRefused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

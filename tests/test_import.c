@@ -387,13 +387,13 @@ static void WeldsAsTheRuleSays(void** state)
 }
 
 /* The world is saved, and loaded. */
-static void GoOnElsewhere(Host* host, kiriResult (*load)(kiriWorld* world, const void* bytes, int64_t size))
+static void GoOnElsewhere(Host* host)
 {
     static uint8_t save[1 << 20];
     int64_t size;
     OK(kiriWorld_Save(host->world, save, sizeof(save), &size));
     uint64_t hash = Host_Hash(host);
-    OK(load(host->world, save, size));
+    OK(kiriWorld_Load(host->world, save, size));
     assert_true(Host_Hash(host) == hash);
 }
 
@@ -429,10 +429,8 @@ static void LeavesOutSlivers(void** state)
     Host_Cut(&host, sheet, cut, 2);
     OK(Host_Tick(&host, 0.01f, 1));
     assert_int_equal(Host_Counts(&host, sheet).pieces, 2);
-    for (int i = 0; i < 2; ++i) { /* sources keep their numbers in saves, and in parts */
-        GoOnElsewhere(&host, i == 0 ? kiriWorld_Load : kiriWorld_LoadUntrusted);
-        CheckUvs(&host, sheet, &A, 1e-3);
-    }
+    GoOnElsewhere(&host); /* sources keep their numbers in saves, and in parts */
+    CheckUvs(&host, sheet, &A, 1e-3);
     kiriSheet part;
     OK(kiriFrame_DetachPiece(host.world, Host_FrameOf(&host, sheet, 1), &part));
     CheckUvs(&host, sheet, &A, 1e-3);
@@ -508,13 +506,11 @@ static void GoesOnFromSavesAndRecordings(void** state)
     int64_t size;
     OK(kiriWorld_Save(host.world, save, sizeof(save), &size));
     uint64_t hash = Host_Hash(&host);
-    for (int i = 0; i < 2; ++i) {
-        Host_Start(&other);
-        OK((i == 0 ? kiriWorld_Load : kiriWorld_LoadUntrusted)(other.world, save, size));
-        assert_true(Host_Hash(&other) == hash);
-        CheckUvs(&other, sheet, &B, 1e-4);
-        Host_Stop(&other);
-    }
+    Host_Start(&other);
+    OK(kiriWorld_Load(other.world, save, size));
+    assert_true(Host_Hash(&other) == hash);
+    CheckUvs(&other, sheet, &B, 1e-4);
+    Host_Stop(&other);
     Host_Stop(&host);
     Host_Start(&other);
     kiriReplay replay;

@@ -40,7 +40,7 @@ typedef struct Period {
     double seconds;              /* of the processor, in ticks */
 } Period;
 
-/* Bytes of a save, or of a difference to one. */
+/* Bytes of a save. */
 typedef struct Saved {
     void* bytes;
     int64_t size, capacity;
@@ -56,7 +56,7 @@ typedef struct Play {
     kiriWorld* world;
     kiriSheet sheet;
     Parts parts, partsBefore;
-    Saved base, before; /* of the sheet when it was new; the difference to that from before the cut at hand */
+    Saved base, before; /* of the sheet when it was new; that from before the cut at hand */
     bool staysOne;      /* the sheet goes back to when it was new, and no other comes */
     int32_t tick, left;
     kiriCut cut;
@@ -83,17 +83,17 @@ static void SaveBase(Play* play)
 
 static void SaveBefore(Play* play)
 {
-    Saved *base = &play->base, *before = &play->before;
-    OK(kiriWorld_SaveDifference(play->world, base->bytes, base->size, NULL, 0, &before->size));
+    Saved* before = &play->before;
+    OK(kiriWorld_Save(play->world, NULL, 0, &before->size));
     Saved_Reserve(before, before->size);
-    OK(kiriWorld_SaveDifference(play->world, base->bytes, base->size, before->bytes, before->capacity, &before->size));
+    OK(kiriWorld_Save(play->world, before->bytes, before->capacity, &before->size));
     play->partsBefore = play->parts;
 }
 
 /* The world is again what it was before the last cut. */
 static void TakeBack(Play* play)
 {
-    OK(kiriWorld_LoadDifference(play->world, play->base.bytes, play->base.size, play->before.bytes, play->before.size));
+    OK(kiriWorld_Load(play->world, play->before.bytes, play->before.size));
     play->parts = play->partsBefore;
     play->now.undone += 1;
 }

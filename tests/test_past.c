@@ -240,14 +240,14 @@ static void ChangeBudget(Past* past)
     OK(kiriWorld_SetBudget(past->host.world, &budgets[Random(&past->seed) % 3]));
 }
 
-/* The world as it is now, from its own save: all that is in it is new. */
+/* The world as it is now, from its own snapshot: all that is in it is new. */
 static void Load(Past* past)
 {
     int64_t size;
-    OK(kiriWorld_Save(past->host.world, NULL, 0, &size));
+    OK(kiriWorld_Snapshot(past->host.world, NULL, 0, &size));
     void* bytes = malloc((size_t)size);
-    OK(kiriWorld_Save(past->host.world, bytes, size, &size));
-    OK(kiriWorld_Load(past->host.world, bytes, size));
+    OK(kiriWorld_Snapshot(past->host.world, bytes, size, &size));
+    OK(kiriWorld_Restore(past->host.world, bytes, size));
     free(bytes);
     Forget(past);
 }

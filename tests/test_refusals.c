@@ -638,21 +638,21 @@ static void TestWeightsAfterRefusal(void** state)
     Stand_Stop(&s);
 }
 
-/* ---- Saves after a refused tick ---- */
+/* ---- Snapshots after a refused tick ---- */
 
-static void LoadInto(Host* host, const kiriWorld* world)
+static void RestoreIn(Host* host, const kiriWorld* world)
 {
     int64_t size;
-    OK(kiriWorld_Save(world, NULL, 0, &size));
+    OK(kiriWorld_Snapshot(world, NULL, 0, &size));
     void* bytes = malloc((size_t)size);
     assert_non_null(bytes);
-    OK(kiriWorld_Save(world, bytes, size, &size));
-    OK(kiriWorld_Load(host->world, bytes, size));
+    OK(kiriWorld_Snapshot(world, bytes, size, &size));
+    OK(kiriWorld_Restore(host->world, bytes, size));
     free(bytes);
 }
 
-/* Loads what is saved then, and goes on with both worlds. False where nothing was refused. */
-static bool GoOnFromSave(int32_t work, int64_t n)
+/* Restores what a snapshot has then, and goes on with both worlds. False where nothing was refused. */
+static bool GoOnFromSnapshot(int32_t work, int64_t n)
 {
     Stand s;
     Host other;
@@ -661,7 +661,7 @@ static bool GoOnFromSave(int32_t work, int64_t n)
     bool isRefused = CallPoorly(&s, &calls[0], n, n % 2 == 0) == KIRI_ERROR_MEMORY;
     if (isRefused) {
         Host_Start(&other);
-        LoadInto(&other, s.host.world);
+        RestoreIn(&other, s.host.world);
         for (int tick = 0; tick < 3; ++tick) {
             assert_true(Host_Hash(&other) == Host_Hash(&s.host));
             OK(CallTick(&s));
@@ -673,12 +673,12 @@ static bool GoOnFromSave(int32_t work, int64_t n)
     return isRefused;
 }
 
-static void TestSaveAfterRefusal(void** state)
+static void TestSnapshotAfterRefusal(void** state)
 {
     (void)state;
     for (int32_t work = 0; work < STATES; ++work) {
         int64_t n = 0;
-        while (GoOnFromSave(work, n)) {
+        while (GoOnFromSnapshot(work, n)) {
             ++n;
         }
         assert_true(n > 4);
@@ -745,7 +745,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestCallsRefused),        cmocka_unit_test(TestTicksRefused),
         cmocka_unit_test(TestRefusedAtRandom),     cmocka_unit_test(TestPointsAfterRefusal),
-        cmocka_unit_test(TestWeightsAfterRefusal), cmocka_unit_test(TestSaveAfterRefusal),
+        cmocka_unit_test(TestWeightsAfterRefusal), cmocka_unit_test(TestSnapshotAfterRefusal),
         cmocka_unit_test(TestDetachAfterRefusal),  cmocka_unit_test(TestBlocksAfterRefusal)
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -24,17 +24,16 @@ static void RecordScene(const char* name, int32_t ticks, Scene* scene)
     assert_true(SceneRecord_Close(file, filePath));
 }
 
-static void CheckReplay(const char* name, int32_t ticks, bool isTrusted)
+static void CheckReplay(const char* name, int32_t ticks)
 {
     Scene recorded, scene;
     SceneReplay replay;
     kiriWorldDef def;
     kiriDefaultWorldDef(&def);
     RecordScene(name, ticks, &recorded);
-    assert_true(SceneReplay_Start(&replay, filePath, isTrusted, &scene, Scene_GetType(0), &def));
+    assert_true(SceneReplay_Start(&replay, filePath, &scene, Scene_GetType(0), &def));
     assert_true(replay.isRight);
     assert_int_equal(replay.ticks, ticks);
-    assert_int_equal(replay.at.untrusted, !isTrusted);
     for (int32_t i = 0; i < ticks; i++) {
         assert_int_equal(SceneReplay_Tick(&replay, &scene), KIRI_PENDING);
     }
@@ -56,8 +55,8 @@ static void CheckReplay(const char* name, int32_t ticks, bool isTrusted)
 static void TestReplay(void** state)
 {
     (void)state;
-    CheckReplay("bunny", Scene_FindType("bunny")->firstCut + 20, true);
-    CheckReplay("kirigami", Scene_FindType("kirigami")->firstCut + 3, false);
+    CheckReplay("bunny", Scene_FindType("bunny")->firstCut + 20);
+    CheckReplay("kirigami", Scene_FindType("kirigami")->firstCut + 3);
     remove(filePath);
 }
 
@@ -69,9 +68,9 @@ static void TestNoRecording(void** state)
     FILE* file;
     kiriWorldDef def;
     kiriDefaultWorldDef(&def);
-    assert_false(SceneReplay_Start(&replay, "build/no such file", true, &scene, Scene_GetType(0), &def));
+    assert_false(SceneReplay_Start(&replay, "build/no such file", &scene, Scene_GetType(0), &def));
     SceneReplay_Free(&replay);
-    assert_false(SceneReplay_Start(&replay, "README.md", false, &scene, Scene_GetType(0), &def));
+    assert_false(SceneReplay_Start(&replay, "README.md", &scene, Scene_GetType(0), &def));
     assert_false(replay.isRight);
     SceneReplay_Free(&replay);
     assert_false(SceneRecord_Open(&file, "build/no such folder/file", &def));

@@ -108,15 +108,15 @@ static void Act(Host* host, uint32_t* seed, int32_t tick)
 
 /* ---- Saves ---- */
 
-/* Loads a world from its own save: drops all caches. */
-static void SaveAndLoad(Host* host)
+/* Restores a world from its own snapshot: drops all caches. */
+static void DropCaches(Host* host)
 {
     int64_t size, again;
-    OK(kiriWorld_Save(host->world, NULL, 0, &size));
+    OK(kiriWorld_Snapshot(host->world, NULL, 0, &size));
     void* bytes = malloc((size_t)size);
-    OK(kiriWorld_Save(host->world, bytes, size, &again));
+    OK(kiriWorld_Snapshot(host->world, bytes, size, &again));
     assert_int_equal(size, again);
-    OK(kiriWorld_Load(host->world, bytes, size));
+    OK(kiriWorld_Restore(host->world, bytes, size));
     free(bytes);
 }
 
@@ -131,7 +131,7 @@ static void RunTwins(uint32_t run, uint32_t often, int32_t* waited)
     for (int32_t tick = 0; tick <= LAST_ACT || results[0] == KIRI_PENDING; ++tick) {
         assert_in_range(tick, 0, MOST_TICKS);
         if (Random(&times) % often == 0) {
-            SaveAndLoad(&hosts[1]);
+            DropCaches(&hosts[1]);
         }
         for (int k = 0; k < 2; ++k) {
             Act(&hosts[k], &seeds[k], tick);

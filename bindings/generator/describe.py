@@ -22,7 +22,7 @@ NULLABLE = {"kiriSheetDef.framePoints", "kiriObstacleDef.outline", "kiriMesh.nor
             "kiriWorldDef.alloc", "kiriWorldDef.free", "kiriWorldDef.log", "kiriWorldDef.clock",
             "kiriDebugDraw.points", "kiriDebugDraw.lines", "kiriDebugDraw.triangles", "kiriDebugDraw.user",
             "kiriWorldDef.startTask", "kiriWorldDef.finishTask", "kiriWorldDef.user", "kiriWorldDef.record",
-            "kiriDestroyWorld.world", "kiriCreateRectangle.def", "kiriWorld_Save.bytes", "kiriWorld_SaveDifference.bytes",
+            "kiriDestroyWorld.world", "kiriCreateRectangle.def", "kiriWorld_Save.bytes", "kiriWorld_Snapshot.bytes",
             "kiriSheet_CopyVertices.positions", "kiriSheet_CopyVertices.normals", "kiriSheet_GetWeights.gradients",
             "kiriFrame_Hold.position", "kiriFrame_Hold.rotation", "kiriBeginBlade.sheet"}
 PARAMETERS = {

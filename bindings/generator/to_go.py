@@ -13,7 +13,8 @@ BY_HAND = {"kiriCreateWorld": "NewWorld", "kiriDestroyWorld": "Destroy", "kiriWo
            "kiriSheet_CopySources": "CopySources", "kiriSheet_CopySourceWeights": "CopySourceWeights",
            "kiriSheet_CopyPrevious": "CopyPrevious",
            "kiriDefaultDebugDraw": "DebugDraw", "kiriFitBudget": "FitBudget", "kiriWorld_Save": "Save",
-           "kiriWorld_SaveDifference": "SaveDifference", "kiriSheet_GetWeights": "Weights",
+           "kiriWorld_Snapshot": "Snapshot",
+           "kiriSheet_GetWeights": "Weights",
            "kiriWorld_GetLastError": "LastError"}
 HAND_STRUCTS = {"kiriWorldDef", "kiriReplay", "kiriDebugDraw"}
 WORDS = {"type": "kind", "range": "span", "func": "function"}

@@ -27,7 +27,8 @@ AS_SCRIPTS_SEE = [
 ]
 # Where a comment says little but how C gives something.
 SAYS = {
-    "kiriWorld_Save": "The world as bytes.",
+    "kiriWorld_Save": "The world as bytes; none while a cut is being worked on.",
+    "kiriWorld_Snapshot": "The world as bytes for this process.",
     "kiriWorld_GetEvents": "What happened in the last tick, one dictionary each: `type`, and what such an event has.",
     "kiriSheet_GetPieceFrames": "The frames of a piece; the first one names it.",
     "kiriSheet_IsAwake": "False where all pieces of the sheet sleep, see sleep_speed; kiriPieceState says which do. "

@@ -424,7 +424,7 @@ class Call:
         fail = f"fail({'null' if static else self.world}, $result, \"{self.function['name']}\");"
         check = ["if ($result < 0) {", f"    {fail}", "}"]
         body = []
-        if self.function["name"] in ("kiriWorld_Tick", "kiriWorld_Load", "kiriWorld_LoadUntrusted", "kiriWorld_LoadDifference",
+        if self.function["name"] in ("kiriWorld_Tick", "kiriWorld_FinishCuts", "kiriWorld_Load", "kiriWorld_Restore",
                                      "kiriWorld_Replay"):
             body.append("this._epoch++;")
         if self.two:

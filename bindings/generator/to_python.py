@@ -11,8 +11,7 @@ DEFAULTS = {"substeps": "1", "angularVelocity": "(0.0, 0.0, 0.0)", "torque": "(0
             "kiriObstacle_SetPose.rotation": "(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)"}
 # By hand, for they are other in Python than in C.
 BY_HAND = {"kiriCreateWorld": "World", "kiriDestroyWorld": "close", "kiriWorld_Replay": "replay", "kiriWorld_Save": "save",
-           "kiriWorld_SaveDifference": "save", "kiriWorld_Load": "load", "kiriWorld_LoadUntrusted": "load",
-           "kiriWorld_LoadDifference": "load",
+           "kiriWorld_Load": "load", "kiriWorld_Snapshot": "snapshot", "kiriWorld_Restore": "restore",
            "kiriWorld_DetachPieces": "detach_pieces", "kiriWorld_Note": "note", "kiriWorld_Raycast": "raycast",
            "kiriSheet_Raycast": "raycast", "kiriSheet_GetWeights": "weights", "kiriSheet_SetSettings": "set_settings",
            "kiriSheet_SetContacts": "set_contacts", "kiriWorld_DebugDraw": "debug_draw", "kiriCreateSheet": "create_sheet",

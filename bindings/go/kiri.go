@@ -1322,13 +1322,26 @@ func (w *World) Note(bytes []byte) (bool, error) {
 	return result == C.KIRI_PENDING, nil
 }
 
-// The world becomes what was saved, from a world with whatever hooks; its own stay: allocation, log, clock and tasks.
-// The profile has no times until the next tick. What it had before is gone, but arrays that it handed out live until
-// the next tick. KIRI_ERROR_DATA: the bytes are no save, or cut short, changed, or of a version that this library
-// does not read. KIRI_ERROR_MEMORY. Then nothing has changed. For bytes of your own: the sum in a save finds damage,
-// not malice, and nothing else is looked at. Bytes of others, made up with a right sum, may crash the program here:
-// for these there is kiriWorld_LoadUntrusted. A recording has the bytes, up to 2^31 of them; kiriReplay.untrusted is
-// for recordings of others.
+// Finishes the work on cuts at once, whatever the budget is, and without moving anything. Cuts that wait for a budget
+// take effect. The next tick reports the events. KIRI_ERROR_MEMORY, KIRI_ERROR_LIMIT: as in kiriWorld_Tick. Arrays
+// that the world handed out end as with a tick.
+func (w *World) FinishCuts() (bool, error) {
+	if err := w.check(); err != nil {
+		return false, err
+	}
+	result := C.kiriWorld_FinishCuts(w.c)
+	runtime.KeepAlive(w)
+	if err := failure(w, "kiriWorld_FinishCuts", result, true); err != nil {
+		return false, err
+	}
+	return result == C.KIRI_PENDING, nil
+}
+
+// Replaces the world by a saved one. It may have any hooks; its own allocation, log, clock and tasks stay. The bytes
+// may come from anybody: a malicious save may give a strange world but cannot crash the program, and takes memory in
+// proportion to its size. Takes about as long as to create the sheets. The profile has no times until the next tick.
+// Arrays that the old world handed out live until then. KIRI_ERROR_DATA: the bytes are not a save, damaged, or of
+// another version. KIRI_ERROR_MEMORY. Then nothing has changed. A recording has the bytes, up to 2^31 of them.
 func (w *World) Load(bytes []byte) (bool, error) {
 	if err := w.check(); err != nil {
 		return false, err
@@ -1341,33 +1354,17 @@ func (w *World) Load(bytes []byte) (bool, error) {
 	return result == C.KIRI_PENDING, nil
 }
 
-// The same for bytes of others, who may have made them to do harm: what the world becomes may then be strange, but it
-// is one that all calls are good for. What follows from the mesh and the frames is not read but made anew, which
-// takes about as long as to create the sheets. A world in which no cut is being worked on goes on bit for bit as
-// after kiriWorld_Load, but that with a budget a later cut may take effect in another tick. Work on a cut that is at
-// hand begins again: the cut does the same, and takes effect later.
-func (w *World) LoadUntrusted(bytes []byte) (bool, error) {
+// Replaces the world by the world of the snapshot; ids name the same things. The bytes are trusted: hand over only
+// the output of kiriWorld_Snapshot. KIRI_ERROR_DATA: the bytes are not a snapshot of this build of the library.
+// KIRI_ERROR_STATE: the world is recorded. KIRI_ERROR_MEMORY. Then nothing has changed. Hooks and arrays as with
+// kiriWorld_Load.
+func (w *World) Restore(bytes []byte) (bool, error) {
 	if err := w.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriWorld_LoadUntrusted(w.c, unsafe.Pointer(unsafe.SliceData(bytes)), C.int64_t(len(bytes)))
+	result := C.kiriWorld_Restore(w.c, unsafe.Pointer(unsafe.SliceData(bytes)), C.int64_t(len(bytes)))
 	runtime.KeepAlive(w)
-	if err := failure(w, "kiriWorld_LoadUntrusted", result, true); err != nil {
-		return false, err
-	}
-	return result == C.KIRI_PENDING, nil
-}
-
-// The world becomes what it was when the difference was written, as kiriWorld_Load: both are bytes of your own. Any
-// world, and on any machine, with the same base. KIRI_ERROR_DATA: base is no save, the bytes are no difference, or
-// one to another base.
-func (w *World) LoadDifference(base []byte, bytes []byte) (bool, error) {
-	if err := w.check(); err != nil {
-		return false, err
-	}
-	result := C.kiriWorld_LoadDifference(w.c, unsafe.Pointer(unsafe.SliceData(base)), C.int64_t(len(base)), unsafe.Pointer(unsafe.SliceData(bytes)), C.int64_t(len(bytes)))
-	runtime.KeepAlive(w)
-	if err := failure(w, "kiriWorld_LoadDifference", result, true); err != nil {
+	if err := failure(w, "kiriWorld_Restore", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -3011,10 +3008,10 @@ var functions = map[string]string{
 	"kiriWorld_Note": "World.Note",
 	"kiriWorld_Replay": "World.Replay",
 	"kiriWorld_Save": "World.Save",
+	"kiriWorld_FinishCuts": "World.FinishCuts",
 	"kiriWorld_Load": "World.Load",
-	"kiriWorld_LoadUntrusted": "World.LoadUntrusted",
-	"kiriWorld_SaveDifference": "World.SaveDifference",
-	"kiriWorld_LoadDifference": "World.LoadDifference",
+	"kiriWorld_Snapshot": "World.Snapshot",
+	"kiriWorld_Restore": "World.Restore",
 	"kiriWorld_GetEvents": "World.Events",
 	"kiriWorld_GetProfile": "World.Profile",
 	"kiriFitBudget": ".FitBudget",

@@ -217,17 +217,16 @@ func TestRecordSaveAndReplay(t *testing.T) {
 	def.Log = func(string) { lines++ }
 	world, _ := halved(&def)
 	must(world.Note([]byte("hello")))
-	base := must(world.Save())
 	for range 100 {
 		must(world.Tick(1.0/60, 1))
 	}
-	difference, hash := must(world.SaveDifference(base)), must(world.StateHash())
+	save, hash := must(world.Save()), must(world.StateHash())
 	world.SetGravity([3]float32{float32(math.NaN()), 0, 0})
 	world.Destroy()
 	if lines != 1 {
 		t.Error(lines)
 	}
-	again, at, notes := must(NewWorld(nil)), Replay{Untrusted: true}, 0
+	again, at, notes := must(NewWorld(nil)), Replay{}, 0
 	for must(again.Replay(recording, &at)) {
 		if string(at.Note) == "hello" {
 			notes++
@@ -237,9 +236,9 @@ func TestRecordSaveAndReplay(t *testing.T) {
 		t.Error(notes, at)
 	}
 	other := must(NewWorld(nil))
-	must(other.LoadDifference(base, difference))
+	must(other.Load(save))
 	if must(other.StateHash()) != hash {
-		t.Error("the difference gives another state")
+		t.Error("the save gives another state")
 	}
 }
 

@@ -351,38 +351,36 @@ func FitBudget(profile *Profile, microseconds float32, budget Budget) (Budget, e
 	return budget, failure(nil, "kiriFitBudget", result, false)
 }
 
-// Save gives all that the coming ticks depend on. See Load.
-func (w *World) Save() ([]byte, error) { return w.save("kiriWorld_Save", nil) }
-
-// SaveDifference gives what has changed since a save. See LoadDifference.
-func (w *World) SaveDifference(base []byte) ([]byte, error) {
-	return w.save("kiriWorld_SaveDifference", base)
+// Save gives the world as bytes, none while a cut is being worked on. See Load and FinishCuts.
+func (w *World) Save() ([]byte, error) {
+	return w.write("kiriWorld_Save", func(to unsafe.Pointer, room C.int64_t, size *C.int64_t) C.kiriResult {
+		return C.kiriWorld_Save(w.c, to, room, size)
+	})
 }
 
-func (w *World) save(call string, base []byte) ([]byte, error) {
+// Snapshot gives all of the world, for rollback in this process. See Restore.
+func (w *World) Snapshot() ([]byte, error) {
+	return w.write("kiriWorld_Snapshot", func(to unsafe.Pointer, room C.int64_t, size *C.int64_t) C.kiriResult {
+		return C.kiriWorld_Snapshot(w.c, to, room, size)
+	})
+}
+
+func (w *World) write(name string, call func(unsafe.Pointer, C.int64_t, *C.int64_t) C.kiriResult) ([]byte, error) {
 	if err := w.check(); err != nil {
 		return nil, err
 	}
-	write := func(bytes []byte, size *C.int64_t) C.kiriResult {
-		to, room := unsafe.Pointer(unsafe.SliceData(bytes)), C.int64_t(len(bytes))
-		if base == nil {
-			return C.kiriWorld_Save(w.c, to, room, size)
-		}
-		return C.kiriWorld_SaveDifference(w.c, unsafe.Pointer(unsafe.SliceData(base)), C.int64_t(len(base)), to, room, size)
-	}
 	var size C.int64_t
-	if err := failure(w, call, write(nil, &size), false); err != nil {
+	if err := failure(w, name, call(nil, 0, &size), false); err != nil || size == 0 {
 		return nil, err
 	}
 	bytes := make([]byte, size)
-	return bytes, failure(w, call, write(bytes, &size), false)
+	return bytes, failure(w, name, call(unsafe.Pointer(unsafe.SliceData(bytes)), size, &size), false)
 }
 
 // Replay is how far a replay has come: the zero value at its start.
 type Replay struct {
 	Offset, Calls, Ticks int64
 	Note                 []byte // where it stopped at a note: its bytes, in the recording
-	Untrusted            bool   // set by the host: as LoadUntrusted, and without differences
 }
 
 // Replay makes the calls of a recording up to the next tick or note. true: more follows, call it again.
@@ -397,9 +395,6 @@ func (w *World) Replay(recording []byte, at *Replay) (bool, error) {
 		pinner.Pin(start)
 	}
 	c := C.kiriReplay{offset: C.int64_t(at.Offset), calls: C.int64_t(at.Calls), ticks: C.int64_t(at.Ticks)}
-	if at.Untrusted {
-		c.untrusted = 1
-	}
 	result := C.kiriWorld_Replay(w.c, start, C.int64_t(len(recording)), &c)
 	w.epoch++
 	at.Offset, at.Calls, at.Ticks, at.Note = int64(c.offset), int64(c.calls), int64(c.ticks), nil

@@ -33,10 +33,9 @@ static const Field REPLAY_FIELDS[] = {
     { "calls", TYPE_INT64, KIND_INT, (int)offsetof(kiriReplay, calls), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "ticks", TYPE_INT64, KIND_INT, (int)offsetof(kiriReplay, ticks), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "note", TYPE_BYTE, KIND_BYTES, (int)offsetof(kiriReplay, note), 1, (int)offsetof(kiriReplay, noteCount), 1, 1, CLASS_NONE, NULL },
-    { "untrusted", TYPE_INT32, KIND_INT, (int)offsetof(kiriReplay, untrusted), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-static const Struct REPLAY = { "Replay", (int)sizeof(kiriReplay), 5, REPLAY_FIELDS, NULL, NULL };
+static const Struct REPLAY = { "Replay", (int)sizeof(kiriReplay), 4, REPLAY_FIELDS, NULL, NULL };
 
 /* Fields of events, by type. */
 static const uint32_t EVENT_MASKS[] = { 0x1, 0x7, 0x6b, 0xb, 0x3, 0x183, 0x13, 0x4b };
@@ -588,6 +587,15 @@ static const Parameter WORLD_SAVE_PARAMETERS[] = {
     { "size", FORM_OUT_COUNT, TYPE_INT64, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
 };
 
+static int64_t Call_kiriWorld_FinishCuts(void* const* a)
+{
+    return kiriWorld_FinishCuts(a[0]);
+}
+
+static const Parameter WORLD_FINISH_CUTS_PARAMETERS[] = {
+    { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
+};
+
 static const Argument WORLD_LOAD_ARGUMENTS[] = {
     { "bytes", KIND_BYTES, CLASS_NONE },
 };
@@ -603,54 +611,30 @@ static const Parameter WORLD_LOAD_PARAMETERS[] = {
     { "size", FORM_IN_COUNT, TYPE_INT64, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
 };
 
-static const Argument WORLD_LOAD_UNTRUSTED_ARGUMENTS[] = {
-    { "bytes", KIND_BYTES, CLASS_NONE },
-};
-
-static int64_t Call_kiriWorld_LoadUntrusted(void* const* a)
+static int64_t Call_kiriWorld_Snapshot(void* const* a)
 {
-    return kiriWorld_LoadUntrusted(a[0], a[1], *(int64_t*)a[2]);
+    return kiriWorld_Snapshot(a[0], a[1], *(int64_t*)a[2], a[3]);
 }
 
-static const Parameter WORLD_LOAD_UNTRUSTED_PARAMETERS[] = {
+static const Parameter WORLD_SNAPSHOT_PARAMETERS[] = {
     { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
-    { "bytes", FORM_IN_ROWS, TYPE_BYTE, KIND_BYTES, 1, 2, 1, 0, CLASS_NONE, NULL, NULL },
-    { "size", FORM_IN_COUNT, TYPE_INT64, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
-};
-
-static const Argument WORLD_SAVE_DIFFERENCE_ARGUMENTS[] = {
-    { "base", KIND_BYTES, CLASS_NONE },
-};
-
-static int64_t Call_kiriWorld_SaveDifference(void* const* a)
-{
-    return kiriWorld_SaveDifference(a[0], a[1], *(int64_t*)a[2], a[3], *(int64_t*)a[4], a[5]);
-}
-
-static const Parameter WORLD_SAVE_DIFFERENCE_PARAMETERS[] = {
-    { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
-    { "base", FORM_IN_ROWS, TYPE_BYTE, KIND_BYTES, 1, 2, 1, 0, CLASS_NONE, NULL, NULL },
-    { "base_size", FORM_IN_COUNT, TYPE_INT64, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
     { "bytes", FORM_OUT_LIST, TYPE_BYTE, KIND_BYTES, 1, 0, 1, 1, CLASS_NONE, NULL, NULL },
     { "capacity", FORM_CAPACITY, TYPE_INT64, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
     { "size", FORM_OUT_COUNT, TYPE_INT64, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
 };
 
-static const Argument WORLD_LOAD_DIFFERENCE_ARGUMENTS[] = {
-    { "base", KIND_BYTES, CLASS_NONE },
+static const Argument WORLD_RESTORE_ARGUMENTS[] = {
     { "bytes", KIND_BYTES, CLASS_NONE },
 };
 
-static int64_t Call_kiriWorld_LoadDifference(void* const* a)
+static int64_t Call_kiriWorld_Restore(void* const* a)
 {
-    return kiriWorld_LoadDifference(a[0], a[1], *(int64_t*)a[2], a[3], *(int64_t*)a[4]);
+    return kiriWorld_Restore(a[0], a[1], *(int64_t*)a[2]);
 }
 
-static const Parameter WORLD_LOAD_DIFFERENCE_PARAMETERS[] = {
+static const Parameter WORLD_RESTORE_PARAMETERS[] = {
     { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
-    { "base", FORM_IN_ROWS, TYPE_BYTE, KIND_BYTES, 1, 2, 1, 0, CLASS_NONE, NULL, NULL },
-    { "base_size", FORM_IN_COUNT, TYPE_INT64, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
-    { "bytes", FORM_IN_ROWS, TYPE_BYTE, KIND_BYTES, 1, 4, 1, 0, CLASS_NONE, NULL, NULL },
+    { "bytes", FORM_IN_ROWS, TYPE_BYTE, KIND_BYTES, 1, 2, 1, 0, CLASS_NONE, NULL, NULL },
     { "size", FORM_IN_COUNT, TYPE_INT64, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
 };
 
@@ -2017,10 +2001,10 @@ const Method METHODS[] = {
     { CLASS_WORLD, "note", "kiriWorld_Note", RETURNS_RESULT, KIND_INT, CLASS_NONE, 1, 1, WORLD_NOTE_ARGUMENTS, 3, WORLD_NOTE_PARAMETERS, Call_kiriWorld_Note, NULL },
     { CLASS_WORLD, "replay", "kiriWorld_Replay", RETURNS_RESULT, KIND_INT, CLASS_NONE, 2, 2, WORLD_REPLAY_ARGUMENTS, 4, WORLD_REPLAY_PARAMETERS, Call_kiriWorld_Replay, NULL },
     { CLASS_WORLD, "save", "kiriWorld_Save", RETURNS_RESULT, KIND_BYTES, CLASS_NONE, 0, 0, NULL, 4, WORLD_SAVE_PARAMETERS, Call_kiriWorld_Save, NULL },
+    { CLASS_WORLD, "finish_cuts", "kiriWorld_FinishCuts", RETURNS_RESULT, KIND_INT, CLASS_NONE, 0, 0, NULL, 1, WORLD_FINISH_CUTS_PARAMETERS, Call_kiriWorld_FinishCuts, NULL },
     { CLASS_WORLD, "load", "kiriWorld_Load", RETURNS_RESULT, KIND_INT, CLASS_NONE, 1, 1, WORLD_LOAD_ARGUMENTS, 3, WORLD_LOAD_PARAMETERS, Call_kiriWorld_Load, NULL },
-    { CLASS_WORLD, "load_untrusted", "kiriWorld_LoadUntrusted", RETURNS_RESULT, KIND_INT, CLASS_NONE, 1, 1, WORLD_LOAD_UNTRUSTED_ARGUMENTS, 3, WORLD_LOAD_UNTRUSTED_PARAMETERS, Call_kiriWorld_LoadUntrusted, NULL },
-    { CLASS_WORLD, "save_difference", "kiriWorld_SaveDifference", RETURNS_RESULT, KIND_BYTES, CLASS_NONE, 1, 1, WORLD_SAVE_DIFFERENCE_ARGUMENTS, 6, WORLD_SAVE_DIFFERENCE_PARAMETERS, Call_kiriWorld_SaveDifference, NULL },
-    { CLASS_WORLD, "load_difference", "kiriWorld_LoadDifference", RETURNS_RESULT, KIND_INT, CLASS_NONE, 2, 2, WORLD_LOAD_DIFFERENCE_ARGUMENTS, 5, WORLD_LOAD_DIFFERENCE_PARAMETERS, Call_kiriWorld_LoadDifference, NULL },
+    { CLASS_WORLD, "snapshot", "kiriWorld_Snapshot", RETURNS_RESULT, KIND_BYTES, CLASS_NONE, 0, 0, NULL, 4, WORLD_SNAPSHOT_PARAMETERS, Call_kiriWorld_Snapshot, NULL },
+    { CLASS_WORLD, "restore", "kiriWorld_Restore", RETURNS_RESULT, KIND_INT, CLASS_NONE, 1, 1, WORLD_RESTORE_ARGUMENTS, 3, WORLD_RESTORE_PARAMETERS, Call_kiriWorld_Restore, NULL },
     { CLASS_WORLD, "get_events", "kiriWorld_GetEvents", RETURNS_RESULT, KIND_ARRAY, CLASS_NONE, 0, 0, NULL, 3, WORLD_GET_EVENTS_PARAMETERS, Call_kiriWorld_GetEvents, NULL },
     { CLASS_WORLD, "get_profile", "kiriWorld_GetProfile", RETURNS_RESULT, KIND_DICTIONARY, CLASS_NONE, 0, 0, NULL, 2, WORLD_GET_PROFILE_PARAMETERS, Call_kiriWorld_GetProfile, NULL },
     { CLASS_KIRI, "fit_budget", "kiriFitBudget", RETURNS_RESULT, KIND_INT, CLASS_NONE, 3, 3, KIRI_FIT_BUDGET_ARGUMENTS, 3, KIRI_FIT_BUDGET_PARAMETERS, Call_kiriFitBudget, NULL },

@@ -275,7 +275,7 @@ export interface WorldDefGiven {
 
 export function defaultWorldDef(into?: WorldDef): WorldDef;
 
-/** Progress of a replay. Set all fields but `untrusted` to zero before the first call. */
+/** Progress of a replay. Set all fields to zero before the first call. */
 export class Replay {
     /** bytes of the recording that were read */
     offset: number;
@@ -286,10 +286,6 @@ export class Replay {
     /** bytes of the note where the replay stopped, in the recording; else null */
     note: Uint8Array | null;
     noteCount: number;
-    /** set by the host, 1: somebody may have made the recording to do harm. Saves that it loads are loaded by
-     *  World.loadUntrusted, differences not at all (KIRI_ERROR_DATA). Where a cut was being worked on in a save, states
-     *  may then differ from those recorded (KIRI_ERROR_REPLAY) */
-    untrusted: number;
 }
 /** What a host gives as Replay: what is left out is 0. */
 export interface ReplayGiven {
@@ -299,10 +295,6 @@ export interface ReplayGiven {
     calls?: number;
     /** ticks made so far, without refused ones */
     ticks?: number;
-    /** set by the host, 1: somebody may have made the recording to do harm. Saves that it loads are loaded by
-     *  World.loadUntrusted, differences not at all (KIRI_ERROR_DATA). Where a cut was being worked on in a save, states
-     *  may then differ from those recorded (KIRI_ERROR_REPLAY) */
-    untrusted?: number;
 }
 
 /** An event. It fills the fields that its type names, and `sheet`. Other fields are 0, and `stage` is -1. */
@@ -1231,35 +1223,31 @@ export class World {
      *  crash. KIRI_ERROR_STATE: the world is not new. KIRI_ERROR_MEMORY: call again. Calls that were refused memory
      *  when recorded are skipped. After such a tick the next hashes may differ where a budget limits cells or samples. */
     replay(recording: Uint8Array, replay: Replay): ResultCode;
-    /** Writes the world. *size: bytes that there are. `bytes` null: they are counted only, and capacity does not
-     *  matter; else it has room for `capacity`. Writes nothing where that is less than *size (KIRI_ERROR_ARGUMENT).
-     *  Only reads the world. */
+    /** Writes the world, which only is read. *size: bytes of the save. `bytes` null: they are counted only, and
+     *  capacity is not read; else it has room for `capacity`. KIRI_ERROR_ARGUMENT: that is less than *size; nothing is
+     *  written. KIRI_PENDING: a cut is being worked on; *size is 0, and nothing is written. Save after a later tick, or
+     *  after World.finishCuts. */
     save(): Uint8Array;
-    /** The world becomes what was saved, from a world with whatever hooks; its own stay: allocation, log, clock and
-     *  tasks. The profile has no times until the next tick. What it had before is gone, but arrays that it handed out
-     *  live until the next tick. KIRI_ERROR_DATA: the bytes are no save, or cut short, changed, or of a version that
-     *  this library does not read. KIRI_ERROR_MEMORY. Then nothing has changed. For bytes of your own: the sum in a
-     *  save finds damage, not malice, and nothing else is looked at. Bytes of others, made up with a right sum, may
-     *  crash the program here: for these there is World.loadUntrusted. A recording has the bytes, up to 2^31 of them;
-     *  kiriReplay.untrusted is for recordings of others. */
+    /** Finishes the work on cuts at once, whatever the budget is, and without moving anything. Cuts that wait for a
+     *  budget take effect. The next tick reports the events. KIRI_ERROR_MEMORY, KIRI_ERROR_LIMIT: as in World.tick.
+     *  Arrays that the world handed out end as with a tick. */
+    finishCuts(): ResultCode;
+    /** Replaces the world by a saved one. It may have any hooks; its own allocation, log, clock and tasks stay. The
+     *  bytes may come from anybody: a malicious save may give a strange world but cannot crash the program, and takes
+     *  memory in proportion to its size. Takes about as long as to create the sheets. The profile has no times until
+     *  the next tick. Arrays that the old world handed out live until then. KIRI_ERROR_DATA: the bytes are not a save,
+     *  damaged, or of another version. KIRI_ERROR_MEMORY. Then nothing has changed. A recording has the bytes, up to
+     *  2^31 of them. */
     load(bytes: Uint8Array): ResultCode;
-    /** The same for bytes of others, who may have made them to do harm: what the world becomes may then be strange, but
-     *  it is one that all calls are good for. What follows from the mesh and the frames is not read but made anew,
-     *  which takes about as long as to create the sheets. A world in which no cut is being worked on goes on bit for
-     *  bit as after World.load, but that with a budget a later cut may take effect in another tick. Work on a cut that
-     *  is at hand begins again: the cut does the same, and takes effect later. */
-    loadUntrusted(bytes: Uint8Array): ResultCode;
-    /** What has changed since a save, for hosts that go back a little: a save now and then, and a difference to it each
-     *  tick. Where no cut is being worked on it has poses, velocities and contacts; a cut adds what it changed. All of
-     *  the world is compared with the base, so it takes about as long as a save (tests/README.md has sizes and times).
-     *  base: what World.save wrote of this world, or what it was loaded from, with all calls since. *size and `bytes`
-     *  as in World.save; where capacity is not enough, what is in `bytes` means nothing. KIRI_ERROR_DATA: base is no
-     *  save. Only reads the world. */
-    saveDifference(base: Uint8Array): Uint8Array;
-    /** The world becomes what it was when the difference was written, as World.load: both are bytes of your own. Any
-     *  world, and on any machine, with the same base. KIRI_ERROR_DATA: base is no save, the bytes are no difference, or
-     *  one to another base. */
-    loadDifference(base: Uint8Array, bytes: Uint8Array): ResultCode;
+    /** For rollback: copies all of the world, also work on cuts and pieces that wait, into memory of the host. Much
+     *  faster than a save, and exact to the bit. The bytes are good for this process only: never store or send them.
+     *  Arguments as of World.save. */
+    snapshot(): Uint8Array;
+    /** Replaces the world by the world of the snapshot; ids name the same things. The bytes are trusted: hand over only
+     *  the output of World.snapshot. KIRI_ERROR_DATA: the bytes are not a snapshot of this build of the library.
+     *  KIRI_ERROR_STATE: the world is recorded. KIRI_ERROR_MEMORY. Then nothing has changed. Hooks and arrays as with
+     *  World.load. */
+    restore(bytes: Uint8Array): ResultCode;
     /** Gets the events: *events points to *count of them. */
     getEvents(): Rows<Event>;
     /** Gets the profile of the last tick that was not refused. */

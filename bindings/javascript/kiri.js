@@ -42,7 +42,7 @@ export const layouts = {
     kiriBudget: { size: 16, fields: { triangles: 0, cells: 4, samples: 8, iterations: 12 } },
     kiriWorldDef: { size: 72, fields: { cookie: 0, gravity: 4, budget: 16, alloc: 32, free: 36, log: 40, clock: 44,
         startTask: 48, finishTask: 52, workerCount: 56, user: 60, record: 64, recordHashTicks: 68 } },
-    kiriReplay: { size: 40, fields: { offset: 0, calls: 8, ticks: 16, note: 24, noteCount: 28, untrusted: 32 } },
+    kiriReplay: { size: 32, fields: { offset: 0, calls: 8, ticks: 16, note: 24, noteCount: 28 } },
     kiriEvent: { size: 36, fields: { type: 0, sheet: 4, cut: 8, frame: 12, pin: 16, crumb: 20, area: 24, stage: 28,
         waiting: 32 } },
     kiriProfile: { size: 144, fields: { seconds: 0, cutSegments: 72, trianglesSplit: 76, cellsSettled: 80,
@@ -173,7 +173,6 @@ export class Replay {
     ticks = 0;
     note = null;
     noteCount = 0;
-    untrusted = 0;
 }
 
 function readReplay(o, at, world) {
@@ -182,11 +181,10 @@ function readReplay(o, at, world) {
     o.ticks = int64(at + 16);
     o.note = bytesAt(U32[(at + 24) >> 2], I32[(at + 28) >> 2]);
     o.noteCount = I32[(at + 28) >> 2];
-    o.untrusted = I32[(at + 32) >> 2];
     return o;
 }
 
-const fieldsOfReplay = new Set(["offset", "calls", "ticks", "note", "noteCount", "untrusted"]);
+const fieldsOfReplay = new Set(["offset", "calls", "ticks", "note", "noteCount"]);
 
 function writeReplay(o, at, world) {
     known(o, fieldsOfReplay, "Replay");
@@ -198,9 +196,6 @@ function writeReplay(o, at, world) {
     }
     if (o.ticks !== undefined) {
         U64[(at + 16) >> 3] = BigInt(o.ticks);
-    }
-    if (o.untrusted !== undefined) {
-        I32[(at + 32) >> 2] = o.untrusted;
     }
 }
 
@@ -1475,7 +1470,7 @@ export class World extends WorldBase {
         try {
             this._epoch++;
             const $recording = putRows("Uint8Array", recording, 1, "recording");
-            U8.fill(0, scratch, scratch + 40);
+            U8.fill(0, scratch, scratch + 32);
             writeReplay(replay, scratch, this);
             const $result = wasm.kiriWorld_Replay($world, $recording, BigInt(recording.length), scratch);
             if ($result < 0) {
@@ -1507,6 +1502,16 @@ export class World extends WorldBase {
         }
     }
 
+    finishCuts() {
+        const $world = pointer(this);
+        this._epoch++;
+        const $result = wasm.kiriWorld_FinishCuts($world);
+        if ($result < 0) {
+            fail(this, $result, "kiriWorld_FinishCuts");
+        }
+        return $result;
+    }
+
     load(bytes) {
         const $world = pointer(this);
         try {
@@ -1522,34 +1527,18 @@ export class World extends WorldBase {
         }
     }
 
-    loadUntrusted(bytes) {
+    snapshot() {
         const $world = pointer(this);
         try {
-            this._epoch++;
-            const $bytes = putRows("Uint8Array", bytes, 1, "bytes");
-            const $result = wasm.kiriWorld_LoadUntrusted($world, $bytes, BigInt(bytes.length));
+            let $result = wasm.kiriWorld_Snapshot($world, 0, 0n, scratch);
             if ($result < 0) {
-                fail(this, $result, "kiriWorld_LoadUntrusted");
-            }
-            return $result;
-        } finally {
-            release();
-        }
-    }
-
-    saveDifference(base) {
-        const $world = pointer(this);
-        try {
-            const $base = putRows("Uint8Array", base, 1, "base");
-            let $result = wasm.kiriWorld_SaveDifference($world, $base, BigInt(base.length), 0, 0n, scratch);
-            if ($result < 0) {
-                fail(this, $result, "kiriWorld_SaveDifference");
+                fail(this, $result, "kiriWorld_Snapshot");
             }
             const $capacity = int64(scratch);
             const $bytes = take($capacity);
-            $result = wasm.kiriWorld_SaveDifference($world, $base, BigInt(base.length), $bytes, BigInt($capacity), scratch);
+            $result = wasm.kiriWorld_Snapshot($world, $bytes, BigInt($capacity), scratch);
             if ($result < 0) {
-                fail(this, $result, "kiriWorld_SaveDifference");
+                fail(this, $result, "kiriWorld_Snapshot");
             }
             return copy("Uint8Array", $bytes, $capacity);
         } finally {
@@ -1557,15 +1546,14 @@ export class World extends WorldBase {
         }
     }
 
-    loadDifference(base, bytes) {
+    restore(bytes) {
         const $world = pointer(this);
         try {
             this._epoch++;
-            const $base = putRows("Uint8Array", base, 1, "base");
             const $bytes = putRows("Uint8Array", bytes, 1, "bytes");
-            const $result = wasm.kiriWorld_LoadDifference($world, $base, BigInt(base.length), $bytes, BigInt(bytes.length));
+            const $result = wasm.kiriWorld_Restore($world, $bytes, BigInt(bytes.length));
             if ($result < 0) {
-                fail(this, $result, "kiriWorld_LoadDifference");
+                fail(this, $result, "kiriWorld_Restore");
             }
             return $result;
         } finally {

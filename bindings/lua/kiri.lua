@@ -73,7 +73,7 @@ typedef void kiriFinishTaskFn(void* user, void* handle);
 typedef void kiriDrawFn(void* user, const kiriDrawVertex* vertices, int32_t count);
 struct kiriBudget { int32_t triangles; int32_t cells; int32_t samples; int32_t iterations; };
 struct kiriWorldDef { uint32_t cookie; float gravity[3]; kiriBudget budget; kiriAllocFn* alloc; kiriFreeFn* free; kiriLogFn* log; kiriClockFn* clock; kiriStartTaskFn* startTask; kiriFinishTaskFn* finishTask; int32_t workerCount; void* user; kiriRecordFn* record; int32_t recordHashTicks; };
-struct kiriReplay { int64_t offset; int64_t calls; int64_t ticks; const void* note; int32_t noteCount; int32_t untrusted; };
+struct kiriReplay { int64_t offset; int64_t calls; int64_t ticks; const void* note; int32_t noteCount; };
 struct kiriEvent { int32_t type; kiriSheet sheet; kiriCut cut; kiriFrame frame; kiriPin pin; int32_t crumb; float area; int32_t stage; int32_t waiting; };
 struct kiriProfile { double seconds[9]; int32_t cutSegments; int32_t trianglesSplit; int32_t cellsSettled; int32_t samplesRefreshed; int32_t solverIterations; int32_t cellsChanged; int32_t weightsChanged; int32_t verticesChanged; int32_t pointsChanged; int32_t linksChanged; int32_t commits; int32_t systemsSolved; int32_t contacts; int32_t sheetPairs; double largestJump; double largestFade; };
 struct kiriMaterial { float youngsModulus; float poissonsRatio; float thickness; float density; float airDamping; float flexDamping; };
@@ -117,10 +117,10 @@ kiriResult kiriWorld_GetSheets(const kiriWorld* world, kiriSheet* sheets, int32_
 kiriResult kiriWorld_Note(kiriWorld* world, const void* bytes, int32_t count);
 kiriResult kiriWorld_Replay(kiriWorld* world, const void* recording, int64_t size, kiriReplay* replay);
 kiriResult kiriWorld_Save(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size);
+kiriResult kiriWorld_FinishCuts(kiriWorld* world);
 kiriResult kiriWorld_Load(kiriWorld* world, const void* bytes, int64_t size);
-kiriResult kiriWorld_LoadUntrusted(kiriWorld* world, const void* bytes, int64_t size);
-kiriResult kiriWorld_SaveDifference(const kiriWorld* world, const void* base, int64_t baseSize, void* bytes, int64_t capacity, int64_t* size);
-kiriResult kiriWorld_LoadDifference(kiriWorld* world, const void* base, int64_t baseSize, const void* bytes, int64_t size);
+kiriResult kiriWorld_Snapshot(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size);
+kiriResult kiriWorld_Restore(kiriWorld* world, const void* bytes, int64_t size);
 kiriResult kiriWorld_GetEvents(const kiriWorld* world, const kiriEvent** events, int32_t* count);
 kiriResult kiriWorld_GetProfile(const kiriWorld* world, kiriProfile* profile);
 kiriResult kiriFitBudget(const kiriProfile* profile, float microseconds, kiriBudget* budget);
@@ -612,7 +612,7 @@ end
 
 structs.kiriBudget = {fields = {triangles = "number", cells = "number", samples = "number", iterations = "number"}}
 structs.kiriWorldDef = {fields = {cookie = "number", gravity = 3, budget = "kiriBudget", alloc = "callback", free = "callback", log = "callback", clock = "callback", startTask = "callback", finishTask = "callback", workerCount = "number", user = "pointer", record = "callback", recordHashTicks = "number"}, default = "kiriDefaultWorldDef"}
-structs.kiriReplay = {fields = {offset = "number", calls = "number", ticks = "number", note = {item = "void", count = "noteCount", width = 1}, noteCount = "number", untrusted = "number"}}
+structs.kiriReplay = {fields = {offset = "number", calls = "number", ticks = "number", note = {item = "void", count = "noteCount", width = 1}, noteCount = "number"}}
 structs.kiriEvent = {fields = {type = "number", sheet = "id", cut = "id", frame = "id", pin = "id", crumb = "number", area = "number", stage = "number", waiting = "number"}}
 structs.kiriProfile = {fields = {seconds = 9, cutSegments = "number", trianglesSplit = "number", cellsSettled = "number", samplesRefreshed = "number", solverIterations = "number", cellsChanged = "number", weightsChanged = "number", verticesChanged = "number", pointsChanged = "number", linksChanged = "number", commits = "number", systemsSolved = "number", contacts = "number", sheetPairs = "number", largestJump = "number", largestFade = "number"}}
 structs.kiriMaterial = {fields = {youngsModulus = "number", poissonsRatio = "number", thickness = "number", density = "number", airDamping = "number", flexDamping = "number"}}
@@ -793,9 +793,10 @@ function World:replay(recording, replay, size)
     return result == 1
 end
 
---- Writes the world. *size: bytes that there are. `bytes` null: they are counted only, and capacity does not matter;
---- else it has room for `capacity`. Writes nothing where that is less than *size (KIRI_ERROR_ARGUMENT). Only reads
---- the world.
+--- Writes the world, which only is read. *size: bytes of the save. `bytes` null: they are counted only, and capacity
+--- is not read; else it has room for `capacity`. KIRI_ERROR_ARGUMENT: that is less than *size; nothing is written.
+--- KIRI_PENDING: a cut is being worked on; *size is 0, and nothing is written. Save after a later tick, or after
+--- kiriWorld_FinishCuts.
 function World:save(bytes, capacity)
     local world = self
     local result = C.kiriWorld_Save(world.c, bytes, capacity or 0, out.int64_t)
@@ -806,13 +807,21 @@ function World:save(bytes, capacity)
     return ffi.string(bytes, size)
 end
 
---- The world becomes what was saved, from a world with whatever hooks; its own stay: allocation, log, clock and
---- tasks. The profile has no times until the next tick. What it had before is gone, but arrays that it handed out
---- live until the next tick. KIRI_ERROR_DATA: the bytes are no save, or cut short, changed, or of a version that this
---- library does not read. KIRI_ERROR_MEMORY. Then nothing has changed. For bytes of your own: the sum in a save finds
---- damage, not malice, and nothing else is looked at. Bytes of others, made up with a right sum, may crash the
---- program here: for these there is kiriWorld_LoadUntrusted. A recording has the bytes, up to 2^31 of them;
---- kiriReplay.untrusted is for recordings of others.
+--- Finishes the work on cuts at once, whatever the budget is, and without moving anything. Cuts that wait for a
+--- budget take effect. The next tick reports the events. KIRI_ERROR_MEMORY, KIRI_ERROR_LIMIT: as in kiriWorld_Tick.
+--- Arrays that the world handed out end as with a tick.
+function World:finishCuts()
+    local world = self
+    local result = C.kiriWorld_FinishCuts(world.c)
+    if result < 0 then fail(world, "kiriWorld_FinishCuts", result, true) end
+    return result == 1
+end
+
+--- Replaces the world by a saved one. It may have any hooks; its own allocation, log, clock and tasks stay. The bytes
+--- may come from anybody: a malicious save may give a strange world but cannot crash the program, and takes memory in
+--- proportion to its size. Takes about as long as to create the sheets. The profile has no times until the next tick.
+--- Arrays that the old world handed out live until then. KIRI_ERROR_DATA: the bytes are not a save, damaged, or of
+--- another version. KIRI_ERROR_MEMORY. Then nothing has changed. A recording has the bytes, up to 2^31 of them.
 function World:load(bytes, size)
     local world = self
     size = size or #bytes
@@ -821,45 +830,28 @@ function World:load(bytes, size)
     return result == 1
 end
 
---- The same for bytes of others, who may have made them to do harm: what the world becomes may then be strange, but
---- it is one that all calls are good for. What follows from the mesh and the frames is not read but made anew, which
---- takes about as long as to create the sheets. A world in which no cut is being worked on goes on bit for bit as
---- after kiriWorld_Load, but that with a budget a later cut may take effect in another tick. Work on a cut that is at
---- hand begins again: the cut does the same, and takes effect later.
-function World:loadUntrusted(bytes, size)
+--- For rollback: copies all of the world, also work on cuts and pieces that wait, into memory of the host. Much
+--- faster than a save, and exact to the bit. The bytes are good for this process only: never store or send them.
+--- Arguments as of kiriWorld_Save.
+function World:snapshot(bytes, capacity)
     local world = self
-    size = size or #bytes
-    local result = C.kiriWorld_LoadUntrusted(world.c, bytes, size)
-    if result < 0 then fail(world, "kiriWorld_LoadUntrusted", result, true) end
-    return result == 1
-end
-
---- What has changed since a save, for hosts that go back a little: a save now and then, and a difference to it each
---- tick. Where no cut is being worked on it has poses, velocities and contacts; a cut adds what it changed. All of
---- the world is compared with the base, so it takes about as long as a save (tests/README.md has sizes and times).
---- base: what kiriWorld_Save wrote of this world, or what it was loaded from, with all calls since. *size and `bytes`
---- as in kiriWorld_Save; where capacity is not enough, what is in `bytes` means nothing. KIRI_ERROR_DATA: base is no
---- save. Only reads the world.
-function World:saveDifference(base, bytes, capacity, baseSize)
-    local world = self
-    baseSize = baseSize or #base
-    local result = C.kiriWorld_SaveDifference(world.c, base, baseSize, bytes, capacity or 0, out.int64_t)
-    if result < 0 then fail(world, "kiriWorld_SaveDifference", result, false) end
+    local result = C.kiriWorld_Snapshot(world.c, bytes, capacity or 0, out.int64_t)
+    if result < 0 then fail(world, "kiriWorld_Snapshot", result, false) end
     if bytes then return tonumber(out.int64_t[0]) end
     bytes = ffi.new("uint8_t[?]", out.int64_t[0])
-    local size = self:saveDifference(base, bytes, out.int64_t[0], baseSize)
+    local size = self:snapshot(bytes, out.int64_t[0])
     return ffi.string(bytes, size)
 end
 
---- The world becomes what it was when the difference was written, as kiriWorld_Load: both are bytes of your own. Any
---- world, and on any machine, with the same base. KIRI_ERROR_DATA: base is no save, the bytes are no difference, or
---- one to another base.
-function World:loadDifference(base, bytes, baseSize, size)
+--- Replaces the world by the world of the snapshot; ids name the same things. The bytes are trusted: hand over only
+--- the output of kiriWorld_Snapshot. KIRI_ERROR_DATA: the bytes are not a snapshot of this build of the library.
+--- KIRI_ERROR_STATE: the world is recorded. KIRI_ERROR_MEMORY. Then nothing has changed. Hooks and arrays as with
+--- kiriWorld_Load.
+function World:restore(bytes, size)
     local world = self
-    baseSize = baseSize or #base
     size = size or #bytes
-    local result = C.kiriWorld_LoadDifference(world.c, base, baseSize, bytes, size)
-    if result < 0 then fail(world, "kiriWorld_LoadDifference", result, true) end
+    local result = C.kiriWorld_Restore(world.c, bytes, size)
+    if result < 0 then fail(world, "kiriWorld_Restore", result, true) end
     return result == 1
 end
 

@@ -204,16 +204,13 @@ enum kiriNoteLimit { KIRI_MOST_NOTE_BYTES = 1 << 20 };
    stops there. The world does not change; without a recording nothing happens. */
 KIRI_API kiriResult kiriWorld_Note(kiriWorld* world, const void* bytes, int32_t count);
 
-/* Progress of a replay. Set all fields but `untrusted` to zero before the first call. */
+/* Progress of a replay. Set all fields to zero before the first call. */
 typedef struct kiriReplay {
     int64_t offset;   /* bytes of the recording that were read */
     int64_t calls;    /* calls made so far */
     int64_t ticks;    /* ticks made so far, without refused ones */
     const void* note; /* bytes of the note where the replay stopped, in the recording; else null */
     int32_t noteCount;
-    int32_t untrusted; /* set by the host, 1: somebody may have made the recording to do harm. Saves that it loads are
-                          loaded by kiriWorld_LoadUntrusted, differences not at all (KIRI_ERROR_DATA). Where a cut was
-                          being worked on in a save, states may then differ from those recorded (KIRI_ERROR_REPLAY) */
 } kiriReplay;
 
 /* Makes the calls of a recording up to the next tick or note, included. The world must be new. Gravity and budget
@@ -228,45 +225,39 @@ KIRI_API kiriResult kiriWorld_Replay(kiriWorld* world, const void* recording, in
 
 /* ---- Save and load ---------------------------------------------------------------------------------------------- */
 
-/* All that the coming ticks depend on, as bytes: sheets, cuts that wait or are being worked on, pins, obstacles,
-   blades, ids, events. A world that is loaded goes on as the one that was saved would have, bit for bit, and ids name
-   what they named: on another machine, and in another build of the same version of the library. */
+/* A save has what cannot be made again: mesh, frames, cuts that wait, pins, obstacles, blades, ids, events. A world that
+   is loaded goes on as the saved one, bit for bit, and ids name the same things: on another machine, and in another
+   build of the same version of the library. Only a budget tells them apart: a later cut may take effect in another
+   tick. */
 
-/* Writes the world. *size: bytes that there are. `bytes` null: they are counted only, and capacity does not matter;
-   else it has room for `capacity`. Writes nothing where that is less than *size (KIRI_ERROR_ARGUMENT). Only reads the
-   world. */
+/* Writes the world, which only is read. *size: bytes of the save. `bytes` null: they are counted only, and capacity is
+   not read; else it has room for `capacity`. KIRI_ERROR_ARGUMENT: that is less than *size; nothing is written.
+   KIRI_PENDING: a cut is being worked on; *size is 0, and nothing is written. Save after a later tick, or after
+   kiriWorld_FinishCuts. */
 KIRI_API kiriResult kiriWorld_Save(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size);
 
-/* The world becomes what was saved, from a world with whatever hooks; its own stay: allocation, log, clock and tasks.
-   The profile has no times until the next tick. What it had before is gone, but arrays that it handed out live until
-   the next tick. KIRI_ERROR_DATA: the bytes are no save, or cut short, changed, or of a version that this library does
-   not read. KIRI_ERROR_MEMORY. Then nothing has changed. For bytes of your own: the sum in a save finds damage, not
-   malice, and nothing else is looked at. Bytes of others, made up with a right sum, may crash the program here: for
-   these there is kiriWorld_LoadUntrusted. A recording has the bytes, up to 2^31 of them; kiriReplay.untrusted is for
-   recordings of others. */
+/* Finishes the work on cuts at once, whatever the budget is, and without moving anything. Cuts that wait for a budget
+   take effect. The next tick reports the events. KIRI_ERROR_MEMORY, KIRI_ERROR_LIMIT: as in kiriWorld_Tick.
+   Arrays that the world handed out end as with a tick. */
+KIRI_API kiriResult kiriWorld_FinishCuts(kiriWorld* world);
+
+/* Replaces the world by a saved one. It may have any hooks; its own allocation, log, clock and tasks stay. The bytes may
+   come from anybody: a malicious save may give a strange world but cannot crash the program, and takes memory in
+   proportion to its size. Takes about as long as to create the sheets. The profile has no times until the next tick.
+   Arrays that the old world handed out live until then. KIRI_ERROR_DATA: the bytes are not a save, damaged, or of another
+   version. KIRI_ERROR_MEMORY. Then nothing has changed. A recording has the bytes, up to 2^31 of them. */
 KIRI_API kiriResult kiriWorld_Load(kiriWorld* world, const void* bytes, int64_t size);
 
-/* The same for bytes of others, who may have made them to do harm: what the world becomes may then be strange, but it
-   is one that all calls are good for. What follows from the mesh and the frames is not read but made anew, which takes
-   about as long as to create the sheets. A world in which no cut is being worked on goes on bit for bit as after
-   kiriWorld_Load, but that with a budget a later cut may take effect in another tick. Work on a cut that is at hand
-   begins again: the cut does the same, and takes effect later. */
-KIRI_API kiriResult kiriWorld_LoadUntrusted(kiriWorld* world, const void* bytes, int64_t size);
+/* For rollback: copies all of the world, also work on cuts and pieces that wait, into memory of the host. Much faster
+   than a save, and exact to the bit. The bytes are good for this process only: never store or send them. Arguments as of
+   kiriWorld_Save. */
+KIRI_API kiriResult kiriWorld_Snapshot(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size);
 
-/* What has changed since a save, for hosts that go back a little: a save now and then, and a difference to it each
-   tick. Where no cut is being worked on it has poses, velocities and contacts; a cut adds what it changed. All of the
-   world is compared with the base, so it takes about as long as a save (tests/README.md has sizes and times).
-   base: what kiriWorld_Save wrote of this world, or what it was loaded from, with all calls since. *size and `bytes` as
-   in kiriWorld_Save; where capacity is not enough, what is in `bytes` means nothing. KIRI_ERROR_DATA: base is no save.
-   Only reads the world. */
-KIRI_API kiriResult kiriWorld_SaveDifference(const kiriWorld* world, const void* base, int64_t baseSize, void* bytes,
-                                             int64_t capacity, int64_t* size);
-
-/* The world becomes what it was when the difference was written, as kiriWorld_Load: both are bytes of your own. Any
-   world, and on any machine, with the same base. KIRI_ERROR_DATA: base is no save, the bytes are no difference, or one
-   to another base. */
-KIRI_API kiriResult kiriWorld_LoadDifference(kiriWorld* world, const void* base, int64_t baseSize, const void* bytes,
-                                             int64_t size);
+/* Replaces the world by the world of the snapshot; ids name the same things. The bytes are trusted: hand over only the
+   output of kiriWorld_Snapshot. KIRI_ERROR_DATA: the bytes are not a snapshot of this build of the library.
+   KIRI_ERROR_STATE: the world is recorded. KIRI_ERROR_MEMORY. Then nothing has changed. Hooks and arrays as with
+   kiriWorld_Load. */
+KIRI_API kiriResult kiriWorld_Restore(kiriWorld* world, const void* bytes, int64_t size);
 
 /* ---- Events ----------------------------------------------------------------------------------------------------- */
 

@@ -161,7 +161,6 @@ class Game {
         this.tape = new Tape();
         const simulation = new Simulation(this.options(), null);
         this.replay = new Replay();
-        this.replay.untrusted = 1; // a link may be anybody's
         // The first note says what sheet it was.
         simulation.world.replay(this.recording, this.replay);
         if (this.replay.note) {

@@ -1,5 +1,7 @@
 #include "kiri_archive.h"
 
+#include "kiri_hash.h"
+
 #include <string.h>
 
 /* An array is written as its count, its capacity, and its items: as they are, or as four bytes that repeat. */
@@ -9,20 +11,20 @@ enum { MEMORY_A_BYTE = 64, MEMORY_FREE = 1 << 20 }; /* that arrays may take for 
 
 kiriArchive kiriArchive_Measure(void)
 {
-    kiriArchive archive = { KIRI_ARCHIVE_MEASURE, NULL, 0, INT64_MAX, 0, NULL, false, false, { 0 } };
+    kiriArchive archive = { KIRI_ARCHIVE_MEASURE, NULL, 0, INT64_MAX, 0, NULL, false, false, false };
     return archive;
 }
 
 kiriArchive kiriArchive_Write(void* bytes, int64_t size)
 {
-    kiriArchive archive = { KIRI_ARCHIVE_WRITE, bytes, 0, size, 0, NULL, false, false, { 0 } };
+    kiriArchive archive = { KIRI_ARCHIVE_WRITE, bytes, 0, size, 0, NULL, false, false, false };
     return archive;
 }
 
 kiriArchive kiriArchive_Read(const void* bytes, int64_t size, kiriMemory* memory)
 {
     int64_t room = size < INT64_MAX / (2 * MEMORY_A_BYTE) ? MEMORY_FREE + MEMORY_A_BYTE * size : INT64_MAX;
-    kiriArchive archive = { KIRI_ARCHIVE_READ, (uint8_t*)(uintptr_t)bytes, 0, size, room, memory, false, false, { 0 } };
+    kiriArchive archive = { KIRI_ARCHIVE_READ, (uint8_t*)(uintptr_t)bytes, 0, size, room, memory, false, false, false };
     return archive;
 }
 
@@ -66,201 +68,10 @@ static void CopyNumbers(uint8_t* to, const uint8_t* from, int32_t width, int64_t
     }
 }
 
-/* ---- Differences ------------------------------------------------------------------------------------------------- */
-
-/* A difference is a row of tokens: two numbers of four bytes, how many bytes are those of the base, and how many follow
-   that are not. */
-enum { TOKEN_BYTES = 8, UNIT_BYTES = 8, MOST_AT_ONCE = 1 << 30 };
-
-static void PutWord(uint8_t* bytes, int64_t word)
-{
-    for (int k = 0; k < 4; ++k) {
-        bytes[k] = (uint8_t)(word >> 8 * k);
-    }
-}
-
-static int64_t GetWord(const uint8_t* bytes)
-{
-    return (int64_t)bytes[0] | (int64_t)bytes[1] << 8 | (int64_t)bytes[2] << 16 | (int64_t)bytes[3] << 24;
-}
-
-static void CloseToken(kiriArchive* archive)
-{
-    kiriArchiveBase* base = &archive->base;
-    if (base->token != KIRI_NONE && archive->bytes != NULL && !kiriArchive_HasFailed(archive)) {
-        PutWord(archive->bytes + base->token, base->equal);
-        PutWord(archive->bytes + base->token + 4, base->other);
-    }
-    base->token = KIRI_NONE;
-    base->equal = base->other = 0;
-}
-
-static void OpenToken(kiriArchive* archive)
-{
-    archive->base.token = archive->at;
-    TakeBytes(archive, TOKEN_BYTES);
-}
-
-/* Some bytes that are those of the base, or not. A few that are do not end a row of others. */
-static void PutUnit(kiriArchive* archive, const uint8_t* bytes, int64_t count, bool isEqual)
-{
-    kiriArchiveBase* base = &archive->base;
-    bool isOver = (isEqual && base->other > 0) || base->equal + base->other > MOST_AT_ONCE;
-    if (isOver) {
-        CloseToken(archive);
-    }
-    if (base->token == KIRI_NONE) {
-        OpenToken(archive);
-    }
-    if (isEqual) {
-        base->equal += count;
-        return;
-    }
-    base->other += count;
-    uint8_t* to = TakeBytes(archive, count);
-    if (to != NULL) {
-        memcpy(to, bytes, (size_t)count);
-    }
-}
-
-static void StepBase(kiriArchiveBase* base, int64_t count)
-{
-    base->at = count < base->end - base->at ? base->at + count : base->end;
-}
-
-/* How many bytes, whole units but for the last, are those of the base. */
-static int64_t CountEqual(const kiriArchiveBase* base, const uint8_t* bytes, int64_t count)
-{
-    int64_t left = base->end - base->at, most = count < left ? count : left, n = 0;
-    const uint8_t* was = base->bytes + base->at;
-    while (n + 64 <= most && memcmp(bytes + n, was + n, 64) == 0) {
-        n += 64;
-    }
-    while (n + UNIT_BYTES <= most && memcmp(bytes + n, was + n, UNIT_BYTES) == 0) {
-        n += UNIT_BYTES;
-    }
-    return most - n < UNIT_BYTES && most == count && memcmp(bytes + n, was + n, (size_t)(most - n)) == 0 ? most : n;
-}
-
-static void PutDifference(kiriArchive* archive, const uint8_t* bytes, int64_t count)
-{
-    for (int64_t n = 0; n < count;) {
-        int64_t left = count - n < MOST_AT_ONCE ? count - n : MOST_AT_ONCE;
-        int64_t equal = CountEqual(&archive->base, bytes + n, left);
-        int64_t other = equal > 0 ? 0 : count - n < UNIT_BYTES ? count - n : UNIT_BYTES;
-        bool isWorth = equal >= UNIT_BYTES || (equal > 0 && archive->base.other == 0);
-        PutUnit(archive, bytes + n, equal + other, isWorth);
-        StepBase(&archive->base, equal + other);
-        n += equal + other;
-    }
-}
-
-static void ReadToken(kiriArchive* archive)
-{
-    const uint8_t* bytes = TakeBytes(archive, TOKEN_BYTES);
-    if (bytes != NULL) {
-        archive->base.equal = GetWord(bytes);
-        archive->base.other = GetWord(bytes + 4);
-    }
-    kiriArchive_Expect(archive, archive->base.equal + archive->base.other > 0);
-}
-
-static void GetDifference(kiriArchive* archive, uint8_t* bytes, int64_t count)
-{
-    kiriArchiveBase* base = &archive->base;
-    while (count > 0 && !kiriArchive_HasFailed(archive)) {
-        if (base->equal + base->other == 0) {
-            ReadToken(archive);
-        }
-        bool isEqual = base->equal > 0;
-        int64_t* left = isEqual ? &base->equal : &base->other;
-        int64_t some = count < *left ? count : *left;
-        kiriArchive_Expect(archive, !isEqual || some <= base->end - base->at);
-        const uint8_t* from = kiriArchive_HasFailed(archive) ? NULL
-                              : isEqual                      ? base->bytes + base->at
-                                                             : TakeBytes(archive, some);
-        if (from != NULL) {
-            memcpy(bytes, from, (size_t)some);
-            StepBase(base, some);
-            bytes += some;
-            count -= some;
-            *left -= some;
-        }
-    }
-    if (count > 0) {
-        memset(bytes, 0, (size_t)count);
-    }
-}
-
-void kiriArchive_BeginDifference(kiriArchive* archive, const uint8_t* base, int64_t size)
-{
-    static const uint8_t nothing = 0;
-    archive->base = (kiriArchiveBase){ base != NULL ? base : &nothing, 0, base != NULL ? size : 0, 0, 0, KIRI_NONE };
-}
-
-void kiriArchive_EndDifference(kiriArchive* archive)
-{
-    kiriArchive_Expect(archive, archive->base.equal == 0 && archive->base.other == 0);
-    if (!kiriArchive_Reads(archive)) {
-        CloseToken(archive);
-    }
-    archive->base = (kiriArchiveBase){ NULL, 0, 0, 0, 0, KIRI_NONE };
-}
-
-/* The number that the base has next; 0 where there is none. */
-static int64_t PeekInt32(const kiriArchive* archive, int64_t ahead)
-{
-    const kiriArchiveBase* base = &archive->base;
-    bool isThere = base->bytes != NULL && base->end - base->at >= ahead + 4;
-    return isThere ? GetWord(base->bytes + base->at + ahead) : 0;
-}
-
-/* What follows is compared with so many bytes of the base; after it, with what comes behind these. */
-static int64_t EnterBase(kiriArchive* archive, int64_t bytes)
-{
-    kiriArchiveBase* base = &archive->base;
-    int64_t end = base->end;
-    base->end = bytes < end - base->at ? base->at + bytes : end;
-    return end;
-}
-
-static void LeaveBase(kiriArchive* archive, int64_t end)
-{
-    archive->base.at = archive->base.end;
-    archive->base.end = end;
-}
-
 /* ---- Numbers ----------------------------------------------------------------------------------------------------- */
-
-static void MoveDifference(kiriArchive* archive, uint8_t* numbers, int32_t width, int64_t count)
-{
-    enum { ROOM = 256 };
-    uint8_t room[ROOM];
-    bool isPlain = width == 1 || IsLittleEndian();
-    int64_t each = isPlain ? count : ROOM / width;
-    for (int64_t n = 0; n < count; n += each) {
-        int64_t some = count - n < each ? count - n : each;
-        uint8_t *at = numbers + n * width, *bytes = isPlain ? at : room;
-        if (!kiriArchive_Reads(archive)) {
-            if (!isPlain) {
-                CopyNumbers(room, at, width, some);
-            }
-            PutDifference(archive, bytes, some * width);
-            continue;
-        }
-        GetDifference(archive, bytes, some * width);
-        if (!isPlain) {
-            CopyNumbers(at, room, width, some);
-        }
-    }
-}
 
 void kiriArchive_Numbers(kiriArchive* archive, void* numbers, int32_t width, int64_t count)
 {
-    if (archive->base.bytes != NULL) {
-        MoveDifference(archive, numbers, width, count);
-        return;
-    }
     uint8_t* bytes = count == 0 ? NULL : TakeBytes(archive, count * width);
     if (bytes != NULL && kiriArchive_Reads(archive)) {
         CopyNumbers(numbers, bytes, width, count);
@@ -276,6 +87,10 @@ void kiriArchive_Numbers(kiriArchive* archive, void* numbers, int32_t width, int
 static void MoveBools(kiriArchive* archive, void* bools, int32_t count)
 {
     uint8_t* bytes = bools;
+    if (archive->isWhole) {
+        kiriArchive_Numbers(archive, bools, 1, count);
+        return;
+    }
     for (int32_t k = 0; k < count; ++k) {
         uint8_t byte = kiriArchive_Reads(archive) ? 0 : bytes[k] != 0;
         kiriArchive_Numbers(archive, &byte, 1, 1);
@@ -332,6 +147,10 @@ static bool Repeats(const uint8_t* bytes, int64_t count)
 /* Lists of marks are mostly the same number over and over. */
 static void MoveItems(kiriArchive* archive, uint8_t* data, int32_t width, int64_t bytes)
 {
+    if (archive->isWhole) {
+        kiriArchive_Numbers(archive, data, 1, bytes);
+        return;
+    }
     uint8_t tag = !kiriArchive_Reads(archive) && Repeats(data, bytes) ? ITEMS_REPEAT : ITEMS_AS_THEY_ARE;
     kiriArchive_Numbers(archive, &tag, 1, 1);
     if (tag != ITEMS_REPEAT) {
@@ -350,54 +169,36 @@ static void MoveItems(kiriArchive* archive, uint8_t* data, int32_t width, int64_
     }
 }
 
-/* How many bytes the items of an array are in the base, behind its capacity and count. */
-static int64_t ItemsInBase(const kiriArchive* archive, int64_t ahead, int64_t itemBytes)
-{
-    const kiriArchiveBase* base = &archive->base;
-    int64_t count = PeekInt32(archive, ahead - 4);
-    bool isThere = base->bytes != NULL && count > 0 && base->end - base->at > ahead;
-    return !isThere ? 0 : base->bytes[base->at + ahead] == ITEMS_REPEAT ? 1 + REPEATED_BYTES : 1 + count * itemBytes;
-}
-
 static void MoveArrayOfNumbers(kiriArchive* archive, const kiriMember* member, void* array)
 {
-    int64_t was = ItemsInBase(archive, 8, member->size);
     kiriArrayHeader header = MoveHeader(archive, array, member->size, true);
-    int64_t end = EnterBase(archive, was);
     if (header.count > 0) {
         MoveItems(archive, header.data, member->width, header.count * (int64_t)member->size);
     }
-    LeaveBase(archive, end);
 }
 
 int32_t kiriArchive_Row(kiriArchive* archive, void* numbers, int32_t width, int32_t count, int32_t room)
 {
-    int64_t was = PeekInt32(archive, 0) * width;
     count = kiriArchive_Count(archive, count, 0, kiriArchive_Reads(archive) ? room : INT32_MAX);
-    int64_t end = EnterBase(archive, was);
     kiriArchive_Numbers(archive, numbers, width, count);
-    LeaveBase(archive, end);
     return count;
 }
 
-static int64_t BytesOfObject(const kiriTable* table);
-
 static void MoveArrayOfParts(kiriArchive* archive, const kiriMember* member, void* array)
 {
-    int64_t each = BytesOfObject(member->table), was = each == KIRI_NONE ? INT64_MAX : PeekInt32(archive, 4) * each;
     kiriArrayHeader header = MoveHeader(archive, array, member->size, true);
-    int64_t end = EnterBase(archive, was);
     if (header.count > 0) {
         memset(header.data, 0, kiriArchive_Reads(archive) ? (size_t)header.count * (size_t)member->size : 0);
         kiriArchive_Objects(archive, member->table, header.data, header.count);
     }
-    LeaveBase(archive, end);
 }
 
 static void MoveSpace(kiriArchive* archive, const kiriMember* member, void* array)
 {
     kiriArrayHeader header = MoveHeader(archive, array, member->size, true);
-    if (header.count > 0 && kiriArchive_Reads(archive)) {
+    if (archive->isWhole && member->kind == KIRI_MEMBER_SHOWN) {
+        kiriArchive_Numbers(archive, header.data, 1, header.count * (int64_t)member->size);
+    } else if (header.count > 0 && kiriArchive_Reads(archive)) {
         memset(header.data, 0, (size_t)header.count * (size_t)member->size);
     }
 }
@@ -410,14 +211,9 @@ void kiriArchive_Block(kiriArchive* archive, void** block, int32_t width, int64_
     if (kiriArchive_Reads(archive)) {
         *block = MakeBlock(archive, count * width);
     }
-    const kiriArchiveBase* base = &archive->base;
-    bool isThere = base->bytes != NULL && base->end > base->at;
-    int64_t was = !isThere ? 0 : base->bytes[base->at] == ITEMS_REPEAT ? 1 + REPEATED_BYTES : 1 + count * width;
-    int64_t end = EnterBase(archive, was);
     if (*block != NULL) {
         MoveItems(archive, *block, width, count * width);
     }
-    LeaveBase(archive, end);
 }
 
 /* ---- Objects ----------------------------------------------------------------------------------------------------- */
@@ -426,11 +222,7 @@ static void MoveOwned(kiriArchive* archive, const kiriMember* member, void* poin
 {
     void* object;
     memcpy(&object, pointer, sizeof(object));
-    bool wasThere = PeekInt32(archive, 0) == 1;
     int32_t isThere = kiriArchive_Count(archive, object != NULL, 0, 1);
-    if (wasThere != isThere) {
-        LeaveBase(archive, EnterBase(archive, isThere ? 0 : INT64_MAX)); /* it is not known what follows */
-    }
     if (isThere && kiriArchive_Reads(archive)) {
         object = MakeBlock(archive, member->table->size);
         if (object != NULL) {
@@ -466,6 +258,7 @@ static void MoveField(kiriArchive* archive, const kiriMember* member, uint8_t* o
         MoveHeader(archive, at, member->size, false);
         break;
     case KIRI_MEMBER_SPACE:
+    case KIRI_MEMBER_SHOWN:
         MoveSpace(archive, member, at);
         break;
     case KIRI_MEMBER_OWNED:
@@ -486,16 +279,20 @@ void kiriArchive_Object(kiriArchive* archive, const kiriTable* table, void* obje
     }
 }
 
-/* Is an object in memory what it is as bytes, on a machine that keeps numbers so? */
-static bool IsTight(const kiriTable* table)
+/* True if an object in memory is its bytes: always for numbers without padding, in a snapshot for all that owns
+   nothing. */
+static bool IsTight(const kiriTable* table, bool isWhole)
 {
     int32_t size = 0;
+    bool isTight = true;
     for (int32_t k = 0; k < table->count; ++k) {
         const kiriMember* member = &table->fields[k];
-        bool isTight = member->kind == KIRI_MEMBER_RUN || (member->kind == KIRI_MEMBER_PART && IsTight(member->table));
-        size += isTight ? member->size : 0;
+        bool isNumbers = member->kind == KIRI_MEMBER_RUN || (member->kind == KIRI_MEMBER_BOOLS && isWhole) ||
+                         (member->kind == KIRI_MEMBER_PART && IsTight(member->table, isWhole));
+        isTight = isTight && isNumbers;
+        size += member->size;
     }
-    return size == table->size;
+    return isTight && (isWhole || size == table->size);
 }
 
 /* How many bytes an object is that has no arrays; KIRI_NONE where that is not the same of all. */
@@ -515,18 +312,31 @@ static int64_t BytesOfObject(const kiriTable* table)
 
 void kiriArchive_Objects(kiriArchive* archive, const kiriTable* table, void* objects, int64_t count)
 {
-    if (count > 1 && IsLittleEndian() && IsTight(table)) {
+    if (count > 1 && IsLittleEndian() && IsTight(table, archive->isWhole)) {
         kiriArchive_Numbers(archive, objects, 1, count * table->size);
         return;
     }
-    int64_t each =
-        archive->mode == KIRI_ARCHIVE_MEASURE && archive->base.bytes == NULL ? BytesOfObject(table) : KIRI_NONE;
+    int64_t each = archive->mode == KIRI_ARCHIVE_MEASURE && !archive->isWhole ? BytesOfObject(table) : KIRI_NONE;
     if (each != KIRI_NONE) {
         TakeBytes(archive, each * count);
         return;
     }
     for (int64_t n = 0; n < count && !kiriArchive_HasFailed(archive); ++n) {
         kiriArchive_Object(archive, table, (uint8_t*)objects + n * table->size);
+    }
+}
+
+void kiriArchive_HashLayout(const kiriTable* table, uint64_t* hash)
+{
+    kiriHash_Int32(hash, table->size);
+    for (int32_t k = 0; k < table->count; ++k) {
+        const kiriMember* member = &table->fields[k];
+        kiriHash_Int32(hash, member->kind);
+        kiriHash_Int32(hash, member->offset);
+        kiriHash_Int32(hash, member->size);
+        if (member->table != NULL) {
+            kiriArchive_HashLayout(member->table, hash);
+        }
     }
 }
 

@@ -20,6 +20,7 @@ enum kiriMemberKind {
     KIRI_MEMBER_PARTS,  /* a KIRI_ARRAY of structs */
     KIRI_MEMBER_ROOM,   /* a KIRI_ARRAY: its room alone; it is empty when it is read */
     KIRI_MEMBER_SPACE,  /* a KIRI_ARRAY: its room and its count; whoever reads it writes the items anew */
+    KIRI_MEMBER_SHOWN,  /* the same; but in a snapshot the items, too */
     KIRI_MEMBER_OWNED,  /* a pointer to a struct in a block of its own, or null */
     KIRI_MEMBER_CUSTOM, /* what a function says, of the whole object */
     KIRI_MEMBER_DROPPED /* nothing: it is zero when it is read */
@@ -75,6 +76,10 @@ typedef struct kiriTable {
     {                                                                                                                  \
         KIRI_MEMBER_SPACE, 0, (int32_t)offsetof(Type, field), KIRI_ITEM_SIZE(Type, field), NULL, NULL                  \
     }
+#define KIRI_SHOWN_OF(Type, field)                                                                                     \
+    {                                                                                                                  \
+        KIRI_MEMBER_SHOWN, 0, (int32_t)offsetof(Type, field), KIRI_ITEM_SIZE(Type, field), NULL, NULL                  \
+    }
 #define KIRI_OWNED(Type, field, table)                                                                                 \
     {                                                                                                                  \
         KIRI_MEMBER_OWNED, 0, (int32_t)offsetof(Type, field), 0, &table, NULL                                          \
@@ -94,14 +99,6 @@ typedef struct kiriTable {
 
 typedef enum kiriArchiveMode { KIRI_ARCHIVE_MEASURE, KIRI_ARCHIVE_WRITE, KIRI_ARCHIVE_READ } kiriArchiveMode;
 
-/* Bytes that others are written, or read, as a difference to. */
-typedef struct kiriArchiveBase {
-    const uint8_t* bytes; /* or null: there are none */
-    int64_t at, end;      /* what follows is compared with those from `at` on, as far as `end` */
-    int64_t equal, other; /* so many of the token at hand: bytes that are those of the base, then others */
-    int64_t token;        /* WRITE: where it is; KIRI_NONE: none is open */
-} kiriArchiveBase;
-
 struct kiriArchive {
     kiriArchiveMode mode;
     uint8_t* bytes;     /* null where they are measured */
@@ -110,7 +107,8 @@ struct kiriArchive {
     kiriMemory* memory; /* READ: of what is made */
     bool isBad;   /* READ: these bytes are none that were written; what is read then is zero. WRITE: more than `size` */
     bool isShort; /* no memory */
-    kiriArchiveBase base;
+    bool
+        isWhole; /* a snapshot: derived data too, and structs as they lie in memory. Else a save: what cannot be made again */
 };
 
 kiriArchive kiriArchive_Measure(void);
@@ -126,11 +124,6 @@ static inline bool kiriArchive_HasFailed(const kiriArchive* archive)
 {
     return archive->isBad || archive->isShort;
 }
-
-/* What follows is a difference to these bytes, which have the same objects as they were; then, as it is again. The less
-   has changed, the fewer bytes it takes; they are right whatever the base has. */
-void kiriArchive_BeginDifference(kiriArchive* archive, const uint8_t* base, int64_t size);
-void kiriArchive_EndDifference(kiriArchive* archive);
 
 /* Bytes that were read are nonsense, unless `isFine`. */
 void kiriArchive_Expect(kiriArchive* archive, bool isFine);
@@ -155,9 +148,8 @@ int32_t kiriArchive_Count(kiriArchive* archive, int64_t count, int64_t least, in
 void kiriArchive_Object(kiriArchive* archive, const kiriTable* table, void* object);
 void kiriArchive_Objects(kiriArchive* archive, const kiriTable* table, void* objects, int64_t count);
 
-/* Gives back what reading has made of an object, which becomes zero. What it drops has been given back before, and what
-   functions of its own read is no memory. */
-void kiriArchive_Forget(const kiriTable* table, void* object, kiriMemory* memory);
+/* Hashes sizes and places of all fields. */
+void kiriArchive_HashLayout(const kiriTable* table, uint64_t* hash);
 
 /* A block of so many numbers, of *block. */
 void kiriArchive_Block(kiriArchive* archive, void** block, int32_t width, int64_t count);

@@ -4,7 +4,6 @@
 #define KIRI_CHECK_H
 
 #include "kiri_array.h"
-#include "kiri_span.h"
 
 KIRI_C_BEGIN
 
@@ -75,9 +74,6 @@ typedef struct kiriMust {
 #define KIRI_INDEX(of, Type, first, last) KIRI_MUST_RUN(KIRI_RULE_BETWEEN, of, 0, -1, Type, first, last)
 #define KIRI_INDEX_OR_NONE(of, Type, first, last) KIRI_MUST_RUN(KIRI_RULE_BETWEEN, of, KIRI_NONE, -1, Type, first, last)
 
-/* From 0 to all there are. */
-#define KIRI_UP_TO(of, Type, first, last) KIRI_MUST_RUN(KIRI_RULE_BETWEEN, of, 0, 0, Type, first, last)
-
 /* From low to high. */
 #define KIRI_WITHIN(low, high, Type, first, last)                                                                      \
     KIRI_MUST_RUN(KIRI_RULE_BETWEEN, KIRI_OF_NOTHING, low, high, Type, first, last)
@@ -144,17 +140,6 @@ static inline bool kiriChains_Take(kiriChains* chains, int32_t item)
 
 /* The list that begins with an item, or with KIRI_NONE. */
 bool kiriCheck_Chain(kiriCheck* check, kiriChains* chains, int32_t head);
-
-/* Spans of one array: no two have the same room, and none that is free. */
-typedef struct kiriRooms {
-    uint8_t* taken;
-    kiriArrayHeader items;
-    size_t itemBytes;
-} kiriRooms;
-
-bool kiriCheck_StartRooms(kiriCheck* check, kiriRooms* rooms, const void* array, size_t itemBytes,
-                          const kiriSpans* spans);
-bool kiriCheck_Span(kiriCheck* check, kiriRooms* rooms, kiriSpan span);
 
 /* So many bytes of 0; null where there is no memory, and where there was none before. */
 uint8_t* kiriCheck_Bytes(kiriCheck* check, int64_t count);

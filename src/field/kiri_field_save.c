@@ -18,7 +18,7 @@ static const kiriMember FieldMembers[] = {
     KIRI_ITEMS(4, kiriField, log),      KIRI_ITEMS(4, kiriField, heap),         KIRI_ITEMS(4, kiriField, dirty),
     KIRI_ITEMS(1, kiriField, marks),    KIRI_RUN(4, kiriField, cursor, cursor),
 };
-const kiriTable kiriFieldTable = KIRI_TABLE(kiriField, FieldMembers);
+static const kiriTable FieldTable = KIRI_TABLE(kiriField, FieldMembers);
 
 static const kiriMember NewCellMembers[] = {
     KIRI_RUN(4, kiriNewCell, triangle, cell),
@@ -109,14 +109,19 @@ static const kiriMember BorderCellsMembers[] = {
 static const kiriTable BorderCellsTable = KIRI_TABLE(kiriBorderCells, BorderCellsMembers);
 
 static const kiriMember RegionsMembers[] = {
-    KIRI_PART(kiriRegions, field, kiriFieldTable), KIRI_ITEMS(4, kiriRegions, siteAt),
-    KIRI_ITEMS(1, kiriRegions, onBorder),          KIRI_PART(kiriRegions, border, BorderCellsTable),
-    KIRI_ITEMS(8, kiriRegions, material),          KIRI_ITEMS(1, kiriRegions, dirty),
-    KIRI_ITEMS(4, kiriRegions, changes),           KIRI_ITEMS(4, kiriRegions, orphans),
-    KIRI_BOOLS(kiriRegions, running, following),   KIRI_RUN(4, kiriRegions, followed, followed),
-    KIRI_ITEMS(1, kiriRegions, isChanged),         KIRI_RUN(4, kiriRegions, seen, seen),
+    KIRI_PART(kiriRegions, field, FieldTable),    KIRI_ITEMS(4, kiriRegions, siteAt),
+    KIRI_ITEMS(1, kiriRegions, onBorder),         KIRI_PART(kiriRegions, border, BorderCellsTable),
+    KIRI_ITEMS(8, kiriRegions, material),         KIRI_ITEMS(4, kiriRegions, changes),
+    KIRI_ITEMS(4, kiriRegions, orphans),          KIRI_BOOLS(kiriRegions, running, following),
+    KIRI_RUN(4, kiriRegions, followed, followed), KIRI_ITEMS(1, kiriRegions, isChanged),
+    KIRI_RUN(4, kiriRegions, seen, seen),
 };
 const kiriTable kiriRegionsTable = KIRI_TABLE(kiriRegions, RegionsMembers);
+
+static const kiriMember SavedRegionsMembers[] = {
+    KIRI_ITEMS(1, kiriRegions, dirty),
+};
+const kiriTable kiriSavedRegionsTable = KIRI_TABLE(kiriRegions, SavedRegionsMembers);
 
 static const kiriMember ShapeFrameMembers[] = {
     KIRI_RUN(4, kiriShapeFrame, limit, firstTouch),
@@ -131,8 +136,8 @@ static const kiriMember RawWeightMembers[] = {
 static const kiriTable RawWeightTable = KIRI_TABLE(kiriRawWeight, RawWeightMembers);
 
 static const kiriMember ShapeWorkMembers[] = {
-    KIRI_PART(kiriShapeWork, fromSite, kiriFieldTable),
-    KIRI_PART(kiriShapeWork, fromBorder, kiriFieldTable),
+    KIRI_PART(kiriShapeWork, fromSite, FieldTable),
+    KIRI_PART(kiriShapeWork, fromBorder, FieldTable),
     KIRI_ITEMS(4, kiriShapeWork, seeds),
     KIRI_RUN(4, kiriShapeWork, frameStage, frameStage),
     KIRI_ITEMS(4, kiriShapeWork, loaded),
@@ -171,19 +176,23 @@ static const kiriMember ReachesMembers[] = {
 static const kiriTable ReachesTable = KIRI_TABLE(kiriReaches, ReachesMembers);
 
 static const kiriMember ShapeMembers[] = {
-    KIRI_PART(kiriShape, labels, LabelsTable),
     KIRI_ITEMS(4, kiriShape, spans),
     KIRI_ITEMS(4, kiriShape, weights),
     KIRI_RUN(4, kiriShape, room, room),
     KIRI_PART(kiriShape, reaches, ReachesTable),
     KIRI_ITEMS(8, kiriShape, rigid),
-    KIRI_RUN(8, kiriShape, rigidWeight, rigidWeight),
-    KIRI_BOOLS(kiriShape, eased, eased),
     KIRI_ITEMS(4, kiriShape, changes),
     KIRI_RUN(8, kiriShape, recomputed, recomputed),
     KIRI_OWNED(kiriShape, work, ShapeWorkTable),
 };
 const kiriTable kiriShapeTable = KIRI_TABLE(kiriShape, ShapeMembers);
+
+static const kiriMember SavedShapeMembers[] = {
+    KIRI_PART(kiriShape, labels, LabelsTable),
+    KIRI_RUN(8, kiriShape, rigidWeight, rigidWeight),
+    KIRI_BOOLS(kiriShape, eased, eased),
+};
+const kiriTable kiriSavedShapeTable = KIRI_TABLE(kiriShape, SavedShapeMembers);
 
 static const kiriMember LinkMembers[] = {
     KIRI_RUN(4, kiriLink, i, j),
@@ -300,11 +309,11 @@ static const kiriTable SampleBlockTable = KIRI_TABLE(SampleBlock, SampleBlockMem
 static const kiriMember PlacerWorkMembers[] = {
     KIRI_BOOLS(kiriPlacerWork, hasOld, hasOld),
     KIRI_CUSTOM(kiriPlacerWork, old, MoveOldField),
-    KIRI_PART(kiriPlacerWork, flooded, kiriFieldTable),
-    KIRI_PART(kiriPlacerWork, ends, kiriFieldTable),
+    KIRI_PART(kiriPlacerWork, flooded, FieldTable),
+    KIRI_PART(kiriPlacerWork, ends, FieldTable),
     KIRI_RUN(8, kiriPlacerWork, reach, reach),
     KIRI_RUN(4, kiriPlacerWork, closest, closest),
-    KIRI_PART(kiriPlacerWork, fresh, kiriFieldTable),
+    KIRI_PART(kiriPlacerWork, fresh, FieldTable),
     KIRI_ITEMS(4, kiriPlacerWork, sampled),
     KIRI_ITEMS(4, kiriPlacerWork, holds),
     KIRI_ITEMS(1, kiriPlacerWork, marks),
@@ -342,51 +351,5 @@ void kiriPlacer_EndReading(kiriPlacer* placer, const kiriField* known)
 {
     if (placer->work != NULL && placer->work->hasOld && placer->work->old == NULL) {
         placer->work->old = known;
-    }
-}
-
-/* ---- What is made anew ---- */
-
-void kiriGrid_Forget(kiriGrid* grid, kiriMemory* memory)
-{
-    if (grid->work != NULL) {
-        kiriGrowing_Drop(&grid->work->growing);
-    }
-    kiriArchive_Forget(&kiriGridTable, grid, memory);
-}
-
-void kiriRegions_Forget(kiriRegions* regions, kiriMemory* memory)
-{
-    kiriArchive_Forget(&kiriRegionsTable, regions, memory);
-}
-
-void kiriShape_Forget(kiriShape* shape, kiriMemory* memory)
-{
-    kiriShape kept;
-    memset(&kept, 0, sizeof(kept));
-    kept.labels = shape->labels;
-    kept.rigidWeight = shape->rigidWeight;
-    kept.eased = shape->eased;
-    memset(&shape->labels, 0, sizeof(shape->labels));
-    if (shape->work != NULL) {
-        kiriGrowing_Drop(&shape->work->growing);
-    }
-    kiriArchive_Forget(&kiriShapeTable, shape, memory);
-    *shape = kept;
-}
-
-void kiriLinks_Forget(kiriLinks* links, kiriMemory* memory)
-{
-    kiriLinkWork* work = links->work;
-    kiriArray_Release(memory, &links->next);
-    kiriArray_Release(memory, &links->nextCorners);
-    kiriArray_Release(memory, &links->was);
-    kiriArray_Release(memory, &links->wasCorner);
-    if (work != NULL) {
-        kiriArrayHeader ends = kiriArray_GetHeader(&work->ends);
-        memset(&work->ends, 0, sizeof(work->ends));
-        kiriArchive_Forget(&LinkWorkTable, work, memory);
-        kiriArray_SetHeader(&work->ends, ends);
-        kiriLinks_EndReading(links, memory);
     }
 }

@@ -32,10 +32,6 @@ static const kiriMust AreaElementsMust[] = {
     KIRI_ITEMS_MUST(kiriAreaElements, shares, FrameShareMust),
 };
 
-static const kiriMust OwnershipMust[] = {
-    KIRI_UP_TO(KIRI_OF_TRIANGLES, kiriOwnership, triangleCount, triangleCount),
-};
-
 static const kiriMust MechanicsMust[] = {
     KIRI_WITHIN(KIRI_MODEL_LINKS, KIRI_MODEL_POINTS, kiriMechanics, model, model),
     KIRI_REALS(kiriMechanics, axes, axes),
@@ -80,52 +76,4 @@ bool kiriAreaElements_Check(const kiriAreaElements* elements, kiriCheck* check)
         areFine = areFine && next <= elements->shares.count;
     }
     return kiriCheck_That(check, areFine && next == elements->shares.count);
-}
-
-/* ---- Owners ------------------------------------------------------------------------------------------------------ */
-
-/* Owners of the parts of a square. */
-static bool ArePartsOwned(kiriCheck* check, const kiriOwnership* ownership, kiriRooms* rooms,
-                          const kiriSquareOwners* owners)
-{
-    int64_t frames = check->count[KIRI_OF_FRAMES];
-    bool areFine = kiriCheck_That(check, owners->owner >= KIRI_NONE && owners->owner < frames) &&
-                   kiriCheck_Span(check, rooms, owners->parts);
-    for (int32_t k = owners->parts.first; areFine && k < owners->parts.first + owners->parts.count; ++k) {
-        const kiriTriangleOwner* owned = &ownership->triangleOwners.data[k];
-        areFine = owned->triangle >= 0 && owned->triangle < check->count[KIRI_OF_TRIANGLES] &&
-                  owned->owner >= KIRI_NONE && owned->owner < frames;
-    }
-    return kiriCheck_That(check, areFine);
-}
-
-static bool AreOwners(kiriCheck* check, const kiriOwnership* ownership)
-{
-    kiriRooms rooms;
-    bool areFine =
-        kiriCheck_StartRooms(check, &rooms, &ownership->triangleOwners, sizeof(kiriTriangleOwner), &ownership->spans);
-    for (int32_t s = 0; areFine && s < ownership->squares.count; ++s) {
-        areFine = ArePartsOwned(check, ownership, &rooms, &ownership->squares.data[s]);
-    }
-    kiriMemory_Free(&check->memory, areFine ? rooms.taken : NULL);
-    return areFine;
-}
-
-/* Triangles that are newer than the owners know which older ones they were split from. */
-static bool HaveParents(const kiriOwnership* ownership, const kiriMeshData* mesh)
-{
-    bool have = true;
-    for (int32_t t = ownership->triangleCount; have && t < mesh->triangles.count; ++t) {
-        have = !kiriMesh_IsTriangle(mesh, t) || mesh->triangles.data[t].parent != KIRI_NONE;
-    }
-    return have;
-}
-
-bool kiriOwnership_Check(const kiriOwnership* ownership, kiriCheck* check, const kiriMeshData* mesh)
-{
-    return kiriCheck_Object(check, OwnershipMust, ownership) &&
-           kiriCheck_That(check, ownership->squares.count == ownership->isDirty.count &&
-                                     ownership->squares.count == check->count[KIRI_OF_SQUARES] &&
-                                     HaveParents(ownership, mesh)) &&
-           AreOwners(check, ownership);
 }

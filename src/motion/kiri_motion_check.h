@@ -1,4 +1,4 @@
-/* Are frames, area elements and owners of material that were read such that they can be moved? */
+/* Are frames and area elements that were read such that they can be moved? */
 #ifndef KIRI_MOTION_CHECK_H
 #define KIRI_MOTION_CHECK_H
 
@@ -10,9 +10,6 @@ KIRI_C_BEGIN
 
 bool kiriFrame_Check(const kiriFrameData* frame, kiriCheck* check, const kiriMeshData* mesh);
 bool kiriAreaElements_Check(const kiriAreaElements* elements, kiriCheck* check);
-
-/* No material is changing its owner. */
-bool kiriOwnership_Check(const kiriOwnership* ownership, kiriCheck* check, const kiriMeshData* mesh);
 
 bool kiriMechanics_Check(const kiriMechanics* mechanics, kiriCheck* check);
 

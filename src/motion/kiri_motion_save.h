@@ -8,8 +8,10 @@
 
 KIRI_C_BEGIN
 
-extern const kiriTable kiriFrameTable, kiriAreaElementsTable, kiriStrainOffsetsTable, kiriRefitTable,
-    kiriMechanicsTable;
+extern const kiriTable kiriFrameTable, kiriAreaElementsTable, kiriStrainOffsetsTable, kiriMechanicsTable;
+
+/* What only snapshots have. */
+extern const kiriTable kiriRefitTable;
 
 /* The solver, which is made where bytes are read: the pattern of its matrix is made anew from the pairs of frames. */
 void kiriSolver_Archive(kiriArchive* archive, kiriSolver** solver, const kiriMechanics* mechanics);

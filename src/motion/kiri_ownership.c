@@ -221,29 +221,6 @@ void kiriOwnership_Drop(kiriOwnership* ownership)
     ClearDirtySquares(ownership);
 }
 
-bool kiriOwnership_Sort(kiriOwnership* ownership, kiriMemory* memory)
-{
-    KIRI_ASSERT(ownership->staged.count == 0);
-    KIRI_ARRAY(kiriTriangleOwner) sorted = { NULL, 0, 0 };
-    if (!kiriArray_Reserve(memory, &sorted, ownership->triangleOwners.count)) {
-        return false;
-    }
-    memset(&ownership->spans, 0, sizeof(ownership->spans));
-    for (int32_t s = 0; s < ownership->squares.count; ++s) {
-        kiriSpan *parts = &ownership->squares.data[s].parts, was = *parts;
-        if (was.count > 0) {
-            *parts = (kiriSpan){ 0, 0 };
-            /* There is room. */
-            kiriSpan_Resize(parts, &ownership->spans, memory, &sorted, sizeof(kiriTriangleOwner), was.count);
-            memcpy(sorted.data + parts->first, ownership->triangleOwners.data + was.first,
-                   sizeof(kiriTriangleOwner) * (size_t)was.count);
-        }
-    }
-    kiriArray_Release(memory, &ownership->triangleOwners);
-    kiriArray_SetHeader(&ownership->triangleOwners, kiriArray_GetHeader(&sorted));
-    return true;
-}
-
 void kiriOwnership_Commit(kiriOwnership* ownership, const kiriMeshData* mesh)
 {
     for (int32_t k = 0; k < ownership->staged.count; ++k) {

@@ -75,9 +75,6 @@ kiriProgress kiriOwnership_Stage(kiriOwnership* ownership, kiriMemory* memory, c
 /* Forgets what is dirty and staged. */
 void kiriOwnership_Drop(kiriOwnership* ownership);
 
-/* Makes the list of owners anew, without room that nobody uses. False for memory; then nothing has changed. */
-bool kiriOwnership_Sort(kiriOwnership* ownership, kiriMemory* memory);
-
 /* What is staged comes in force. Never fails. */
 void kiriOwnership_Commit(kiriOwnership* ownership, const kiriMeshData* mesh);
 

@@ -131,15 +131,6 @@ static void CommitFrames(kiriSheetData* sheet)
     TakeFits(sheet);
 }
 
-/* The frame in whose region a point is. In a save that somebody made up a point may name a cell that does not exist:
-   then the point keeps its frame. */
-static int32_t FrameAround(const kiriSheetData* sheet, const kiriSample* point)
-{
-    bool isKnown = point->cell < sheet->regions.field.owner.count;
-    int32_t owner = isKnown ? sheet->regions.field.owner.data[point->cell] : KIRI_NONE;
-    return owner != KIRI_NONE ? owner : point->frame;
-}
-
 static void CommitPoints(kiriSheetData* sheet)
 {
     kiriUpdate* u = sheet->update;
@@ -151,7 +142,7 @@ static void CommitPoints(kiriSheetData* sheet)
         kiriPlaces_Add(&sheet->pointPlaces, sheet->memory, &sheet->mesh, u->samples.newPoints.data[i].at);
     }
     for (int32_t i = 0; i < sheet->points.count; ++i) {
-        sheet->points.data[i].frame = FrameAround(sheet, &sheet->points.data[i]);
+        sheet->points.data[i].frame = sheet->regions.field.owner.data[sheet->points.data[i].cell];
     }
     u->samples.newPoints.count = u->samples.movedPoints.count = 0;
 }

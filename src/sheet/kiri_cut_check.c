@@ -3,8 +3,8 @@
 static const kiriMust TipMust[] = {
     KIRI_REALS(kiriTip, last, last),
     KIRI_INDEX_OR_NONE(KIRI_OF_VERTICES, kiriTip, blade.vertex, blade.vertex),
-    KIRI_COUNTS(kiriTip, blade.owed, blade.owed),
-    KIRI_WITHIN(KIRI_BLADE_RESTS, KIRI_BLADE_JOINS, kiriTip, blade.phase, blade.phase),
+    KIRI_WITHIN(0, 0, kiriTip, blade.owed, blade.owed),
+    KIRI_WITHIN(KIRI_BLADE_RESTS, KIRI_BLADE_RESTS, kiriTip, blade.phase, blade.phase),
 };
 
 static bool IsTip(kiriCheck* check, const kiriSheetData* sheet, const kiriTip* tip)
@@ -13,9 +13,7 @@ static bool IsTip(kiriCheck* check, const kiriSheetData* sheet, const kiriTip* t
     bool isFine = kiriCheck_Object(check, TipMust, tip) &&
                   kiriCheck_That(check, kiriLattice_Has(blade->at) && kiriLattice_Has(blade->from) &&
                                             kiriLattice_Has(blade->to) && kiriLattice_Has(blade->goal) &&
-                                            kiriLattice_Has(blade->lip)) &&
-                  kiriCheck_That(check, blade->phase < KIRI_BLADE_LOOKS || blade->from.x != blade->to.x ||
-                                            blade->from.y != blade->to.y);
+                                            kiriLattice_Has(blade->lip));
     if (isFine && blade->vertex != KIRI_NONE) {
         kiriLatticePoint at = sheet->mesh.vertices.data[blade->vertex].at;
         isFine = kiriMesh_IsVertex(&sheet->mesh, blade->vertex) && at.x == blade->at.x && at.y == blade->at.y;

@@ -215,17 +215,6 @@ static int32_t CountLeaving(const kiriSheetData* sheet, const uint8_t* stays)
     return count;
 }
 
-/* No frame of a piece that stays has its site in what was gathered: else bytes were made up. */
-static bool AreOthersLeft(const kiriSheetData* sheet, const uint8_t* stays)
-{
-    bool areLeft = true;
-    for (int32_t f = 0; areLeft && f < sheet->frames.count; ++f) {
-        areLeft =
-            !stays[sheet->layout.framePiece.data[f]] || !sheet->taking.cells.data[sheet->frames.data[f].site.cell];
-    }
-    return areLeft;
-}
-
 /* Frames of a piece that is gathered have their cell marked. */
 static bool TakePieces(kiriGathered* gathered, const uint8_t* stays)
 {
@@ -239,7 +228,7 @@ static bool TakePieces(kiriGathered* gathered, const uint8_t* stays)
             last = piece;
         }
     }
-    return ok && gathered->pieces.count == CountLeaving(sheet, stays) && AreOthersLeft(sheet, stays);
+    return ok && gathered->pieces.count == CountLeaving(sheet, stays);
 }
 
 static void ClearCells(kiriGathered* gathered)

@@ -40,21 +40,6 @@ int32_t kiriKept_FrameOfPin(const kiriKept* kept, int32_t pin)
     return longest != NULL ? longest->frame : KIRI_NONE;
 }
 
-/* What is kept shares no corner and no closed edge with what is not: else bytes were made up. */
-static bool AreTrianglesApart(const kiriKept* kept)
-{
-    const kiriMeshData* mesh = &kept->from->mesh;
-    bool areApart = true;
-    for (int32_t h = 0; areApart && h < 3 * mesh->triangles.count; ++h) {
-        bool isKept = kiriKeep_Has(&kept->triangles, h / 3);
-        int32_t twin = kiriMesh_Twin(mesh, h);
-        areApart =
-            isKept == kiriKeep_Has(&kept->vertices, mesh->triangles.data[h / 3].vertex[h % 3]) &&
-            (twin == KIRI_NONE || kiriMesh_IsOpen(mesh, h) || isKept == kiriKeep_Has(&kept->triangles, twin / 3));
-    }
-    return areApart;
-}
-
 static bool MapMesh(kiriKept* kept)
 {
     const kiriMeshData* mesh = &kept->from->mesh;
@@ -69,7 +54,7 @@ static bool MapMesh(kiriKept* kept)
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
         kiriKeep_Add(&kept->triangles, kiriKeep_Has(&kept->vertices, mesh->triangles.data[t].vertex[0]));
     }
-    return AreTrianglesApart(kept);
+    return true;
 }
 
 static bool ReserveRest(kiriKept* kept)

@@ -1,5 +1,5 @@
-/* Grid, regions, shape functions and the ends of links made anew of the mesh and the frames: what they are after a
-   commit, whatever bytes have said. */
+/* Derives the data that saves leave out from the mesh and the frames: grid, regions, shape functions, links, weights of
+   samples, owners of material. */
 #ifndef KIRI_REMAKE_H
 #define KIRI_REMAKE_H
 
@@ -7,9 +7,8 @@
 
 KIRI_C_BEGIN
 
-/* Of a sheet without them (kiriSheet_ForgetWork) that is right in all else. Where the work on a cut has changed the
-   mesh it makes them itself, when it goes on. False for memory, or, with *isBad, where they cannot be made, or are not
-   those of the pieces: frames, or weights of vertices, are not where the material of their piece is. */
+/* Runs the stages of a sheet whose saved fields were checked. False for memory; or, with *isBad, if two sites share a
+   cell, or frames lie in other pieces than the save says. */
 bool kiriRemake_Field(kiriSheetData* sheet, bool* isBad);
 
 KIRI_C_END

@@ -20,19 +20,6 @@ bool kiriRemoval_Init(kiriRemoval* removal, kiriSheetData* sheet)
 
 /* ---- Ready ---- */
 
-/* Cells go with their triangles: else bytes were made up. */
-static bool GoWithTriangles(const kiriRemoval* removal, int32_t square)
-{
-    const kiriSheetData* sheet = removal->sheet;
-    const kiriSquareNode* nodes = sheet->mesh.squares.nodes.data;
-    bool are = true;
-    for (int32_t n = sheet->mesh.squares.head[square]; are && n != KIRI_NONE; n = nodes[n].next) {
-        int32_t owner = sheet->regions.field.owner.data[sheet->grid.nodeCell.data[n]];
-        are = kiriKeep_Has(&removal->kept.triangles, nodes[n].triangle) == kiriKeep_Has(&removal->kept.frames, owner);
-    }
-    return are;
-}
-
 /* Cells that go, in the order of squares. */
 static bool ListCells(kiriRemoval* removal)
 {
@@ -41,7 +28,6 @@ static bool ListCells(kiriRemoval* removal)
     bool ok = true;
     for (int32_t s = 0; ok && s < sheet->grid.squareCell.count; ++s) {
         bool isListed = false;
-        ok = GoWithTriangles(removal, s);
         for (int32_t c = sheet->grid.squareCell.data[s]; ok && c != KIRI_NONE; c = sheet->grid.cells.data[c].next) {
             if (!kiriKeep_Has(&removal->kept.frames, sheet->regions.field.owner.data[c])) {
                 ok = kiriArray_Push(memory, &removal->cells, c) &&

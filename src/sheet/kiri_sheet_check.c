@@ -1,6 +1,5 @@
 #include "kiri_sheet_check.h"
 
-#include "../field/kiri_link_check.h"
 #include "../mesh/kiri_mesh_check.h"
 #include "../motion/kiri_motion_check.h"
 #include "../view/kiri_view_check.h"
@@ -76,15 +75,6 @@ static bool ArePieces(kiriCheck* check, const kiriLayout* layout)
     return areFine && kiriCheck_That(check, pieces == layout->pieces.count && IsAnyLeft(layout));
 }
 
-static bool AreLinksOfPieces(const kiriLayout* layout, const kiriLink* links, int32_t count)
-{
-    bool areFine = true;
-    for (int32_t k = 0; areFine && k < count; ++k) {
-        areFine = layout->framePiece.data[links[k].i] == layout->framePiece.data[links[k].j];
-    }
-    return areFine;
-}
-
 static bool AreShares(const kiriPinShares* shares, const kiriSheetData* sheet)
 {
     bool areFine = true;
@@ -106,19 +96,27 @@ static const kiriMust RowsMust[] = {
     KIRI_ITEMS_MUST(kiriSheetData, strainOffsets.strainOffsets, OffsetsMust),
 };
 
-/* In force. */
+/* In force, but for what names links. */
 static bool IsLayout(kiriCheck* check, const kiriSheetData* sheet)
 {
     const kiriLayout* layout = &sheet->layout;
-    int32_t links = sheet->links.links.count, offsets = sheet->strainOffsets.strainOffsets.count;
     check->count[KIRI_OF_PINS] = sheet->pins.count;
-    check->count[KIRI_OF_LINKS] = links;
+    check->count[KIRI_OF_LINKS] = INT32_MAX;
     return ArePieces(check, layout) && kiriCheck_Object(check, LayoutMust, layout) &&
            kiriAreaElements_Check(&layout->areaElements, check) && kiriCheck_Object(check, RowsMust, sheet) &&
-           kiriCheck_That(check, AreLinksOfPieces(layout, sheet->links.links.data, links) &&
-                                     AreShares(&layout->pinShares, sheet) &&
-                                     (offsets == 0 || (offsets == links && kiriSheet_KeepsStrains(sheet))) &&
-                                     sheet->linkParts.count == (layout->severed.count > 0 ? links : 0));
+           kiriCheck_That(check, AreShares(&layout->pinShares, sheet));
+}
+
+/* Arrays with an item a link. Links are derived after the other checks. */
+static bool IsOfLinks(kiriCheck* check, const kiriSheetData* sheet)
+{
+    int32_t links = sheet->links.links.count, offsets = sheet->strainOffsets.strainOffsets.count;
+    bool isFine = (offsets == 0 || (offsets == links && kiriSheet_KeepsStrains(sheet))) &&
+                  sheet->linkParts.count == (sheet->layout.severed.count > 0 ? links : 0);
+    for (int32_t k = 0; isFine && k < sheet->layout.severed.count; ++k) {
+        isFine = sheet->layout.severed.data[k].link < links;
+    }
+    return kiriCheck_That(check, isFine);
 }
 
 /* Frames of an area element are of one piece. */
@@ -132,38 +130,6 @@ static bool AreElementsOfPieces(const kiriLayout* layout)
             areFine = shares[n - 1].frame < shares[n].frame &&
                       layout->framePiece.data[shares[n].frame] == layout->framePiece.data[shares[0].frame];
         }
-    }
-    return areFine;
-}
-
-/* Weights of a sample are of frames of one piece. Labels ascend: kiriSkin_Check has seen it. */
-static bool AreSamplesOfPieces(const kiriSheetData* sheet, const kiriSkin* skin)
-{
-    const int32_t* framePiece = sheet->layout.framePiece.data;
-    bool areFine = true;
-    if (sheet->layout.pieces.count == 1) {
-        return true;
-    }
-    for (int32_t i = 0; areFine && i < skin->spans.count; ++i) {
-        kiriSpan span = skin->spans.data[i];
-        for (int32_t k = span.first + 1; areFine && k < span.first + span.count; ++k) {
-            int32_t label = skin->weights.data[k].label, before = skin->weights.data[k - 1].label;
-            areFine = framePiece[kiriSheet_FrameOf(sheet, label)] == framePiece[kiriSheet_FrameOf(sheet, before)];
-        }
-    }
-    return areFine;
-}
-
-/* And so are the corners of triangles that are joined. */
-static bool AreTrianglesOfPieces(const kiriSheetData* sheet)
-{
-    const kiriMeshData* mesh = &sheet->mesh;
-    bool areFine = true, areSeveral = sheet->layout.pieces.count > 1;
-    for (int32_t t = 0; areFine && areSeveral && t < mesh->triangles.count; ++t) {
-        const int32_t* corners = mesh->triangles.data[t].vertex;
-        areFine = !kiriMesh_IsTriangle(mesh, t) ||
-                  (kiriPiece_OfVertex(sheet, corners[0]) == kiriPiece_OfVertex(sheet, corners[1]) &&
-                   kiriPiece_OfVertex(sheet, corners[0]) == kiriPiece_OfVertex(sheet, corners[2]));
     }
     return areFine;
 }
@@ -258,19 +224,6 @@ static bool AreContacts(kiriCheck* check, const kiriSheetData* sheet)
     return areFine && IsTouchMemory(check, sheet, &touches->last) && IsTouchMemory(check, sheet, &touches->slept);
 }
 
-/* Points are in the list of the square that they are in. */
-static bool AreListedWhereTheyAre(const kiriSheetData* sheet)
-{
-    const kiriPlaces* places = &sheet->pointPlaces;
-    bool areFine = true;
-    for (int32_t s = 0; areFine && s < places->head.count; ++s) {
-        for (int32_t i = places->head.data[s]; areFine && i != KIRI_NONE; i = places->next.data[i]) {
-            areFine = kiriSquares_At(&sheet->mesh.squares, sheet->points.data[i].at) == s;
-        }
-    }
-    return areFine;
-}
-
 static bool ArePoints(kiriCheck* check, const kiriSheetData* sheet)
 {
     bool areFine = kiriCheck_That(check, sheet->seen.pointCount >= 0 && sheet->seen.pointCount <= sheet->points.count &&
@@ -281,8 +234,7 @@ static bool ArePoints(kiriCheck* check, const kiriSheetData* sheet)
         areFine = kiriCheck_That(check, IsInSquare(sheet, point->at) && point->frame >= 0 &&
                                             point->frame < sheet->frames.count && point->cell >= 0);
     }
-    return areFine && kiriPlaces_Check(&sheet->pointPlaces, check, sheet->points.count) &&
-           kiriCheck_That(check, AreListedWhereTheyAre(sheet));
+    return areFine;
 }
 
 /* ---- What is seen ------------------------------------------------------------------------------------------------ */
@@ -354,9 +306,8 @@ static bool AreSettings(kiriCheck* check, const kiriSettings* settings)
 
 static bool AreFramesSound(kiriCheck* check, const kiriSheetData* sheet)
 {
-    bool areFine =
-        kiriCheck_That(check, sheet->frames.count > 0 && sheet->regions.dirty.capacity >= sheet->frames.count &&
-                                  kiriLabels_AreSound(&sheet->shape.labels, sheet->frames.count));
+    bool areFine = kiriCheck_That(check, sheet->frames.count > 0 && sheet->regions.dirty.count == sheet->frames.count &&
+                                             kiriLabels_AreSound(&sheet->shape.labels, sheet->frames.count));
     for (int32_t f = 0; areFine && f < sheet->frames.count; ++f) {
         areFine = kiriFrame_Check(&sheet->frames.data[f], check, &sheet->mesh);
     }
@@ -400,12 +351,12 @@ bool kiriSheet_Check(kiriSheetData* sheet, kiriCheck* check)
     check->count[KIRI_OF_FRAMES] = sheet->frames.count;
     bool isMesh =
         kiriMesh_Check(&sheet->mesh, check) && AreSettings(check, &sheet->settings) && AreFramesSound(check, sheet);
-    return isMesh && kiriLinks_Check(&sheet->links, check) && IsLayout(check, sheet) && AreTurns(check, sheet) &&
-           ArePins(check, sheet) &&
-           kiriSkin_Check(&sheet->vertexSkin, &sheet->shape.labels, check, sheet->mesh.vertices.count, &sheet->mesh) &&
-           kiriSkin_Check(&sheet->pointSkin, &sheet->shape.labels, check, sheet->points.count, NULL) &&
-           kiriCheck_That(check, AreElementsOfPieces(&sheet->layout) && AreSamplesOfPieces(sheet, &sheet->vertexSkin) &&
-                                     AreSamplesOfPieces(sheet, &sheet->pointSkin) && AreTrianglesOfPieces(sheet)) &&
-           kiriUpdate_Check(check, sheet) && ArePoints(check, sheet) && kiriCuts_Check(sheet, check) &&
-           IsSeen(check, sheet) && AreContacts(check, sheet) && HasRoomForRows(check, sheet);
+    return isMesh && IsLayout(check, sheet) && AreTurns(check, sheet) && ArePins(check, sheet) &&
+           kiriCheck_That(check, AreElementsOfPieces(&sheet->layout)) && ArePoints(check, sheet) &&
+           kiriCuts_Check(sheet, check) && IsSeen(check, sheet) && AreContacts(check, sheet);
+}
+
+bool kiriSheet_CheckMade(const kiriSheetData* sheet, kiriCheck* check)
+{
+    return IsOfLinks(check, sheet) && HasRoomForRows(check, sheet);
 }

@@ -1,5 +1,4 @@
-/* Is a sheet that was read one with which ticks and calls may go on, when what follows from its mesh and its frames was
-   forgotten (kiriSheet_ForgetWork)? */
+/* Is a sheet that was read one with which ticks and calls may go on? */
 #ifndef KIRI_SHEET_CHECK_H
 #define KIRI_SHEET_CHECK_H
 
@@ -9,9 +8,12 @@
 
 KIRI_C_BEGIN
 
-/* All of it, but for what the world knows: ids, and settings that the host gave. After it all rooms are large enough
-   that ticks use without asking for them. */
+/* Checks all saved fields, but not ids and settings of the host: the world checks these. */
 bool kiriSheet_Check(kiriSheetData* sheet, kiriCheck* check);
+
+/* Checks arrays with an item a link, after kiriRemake_Field. Then all rooms are large enough for ticks that do not ask
+   for room. */
+bool kiriSheet_CheckMade(const kiriSheetData* sheet, kiriCheck* check);
 
 /* In what may be cut of the rest plane. */
 static inline bool kiriLattice_Has(kiriLatticePoint at)
@@ -22,9 +24,6 @@ static inline bool kiriLattice_Has(kiriLatticePoint at)
 
 /* The cuts of a sheet, and the points that wait. */
 bool kiriCuts_Check(const kiriSheetData* sheet, kiriCheck* check);
-
-/* How far the work on a cut has come, and who owns what. */
-bool kiriUpdate_Check(kiriCheck* check, const kiriSheetData* sheet);
 
 bool kiriObstacle_Check(const kiriObstacleData* obstacle, kiriCheck* check);
 

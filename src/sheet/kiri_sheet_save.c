@@ -145,7 +145,7 @@ static const kiriMember SeenMembers[] = {
     KIRI_DROPPED(kiriSeen, bounds),
     KIRI_PART(kiriSeen, fades, kiriFadesTable),
     KIRI_PART(kiriSeen, pointFades, kiriFadesTable),
-    KIRI_SPACE_OF(kiriSeen, exactPoints),
+    KIRI_SHOWN_OF(kiriSeen, exactPoints),
     KIRI_RUN(4, kiriSeen, pointCount, pointCount),
     KIRI_DROPPED(kiriSeen, pointPositions),
     KIRI_ROOM_OF(kiriSeen, pointsBefore),
@@ -202,12 +202,17 @@ static const kiriMember SampleWorkMembers[] = {
 };
 static const kiriTable SampleWorkTable = KIRI_TABLE(kiriSampleWork, SampleWorkMembers);
 
+static const kiriMember SavedUpdateMembers[] = {
+    KIRI_BOOLS(kiriUpdate, isUnsettled, isUnsettled),
+};
+static const kiriTable SavedUpdateTable = KIRI_TABLE(kiriUpdate, SavedUpdateMembers);
+
 static const kiriMember UpdateMembers[] = {
     KIRI_RUN(4, kiriUpdate, stage, step),
     KIRI_RUN(8, kiriUpdate, spent, spent),
-    KIRI_BOOLS(kiriUpdate, needsRebuild, isUnsettled),
-    KIRI_DROPPED(kiriUpdate, start),
-    KIRI_DROPPED(kiriUpdate, isBegun),
+    KIRI_BOOLS(kiriUpdate, needsRebuild, isScratch),
+    KIRI_PART(kiriUpdate, start, UpdateStartTable),
+    KIRI_BOOLS(kiriUpdate, isBegun, isBegun),
     KIRI_DROPPED(kiriUpdate, growing),
     KIRI_RUN(4, kiriUpdate, growsSince, growsSince),
     KIRI_PART(kiriUpdate, cut, CutWorkTable),
@@ -222,14 +227,7 @@ static const kiriMember UpdateMembers[] = {
     KIRI_ITEMS(4, kiriUpdate, parent),
     KIRI_RUN(4, kiriUpdate, counts, counts),
 };
-const kiriTable kiriUpdateTable = KIRI_TABLE(kiriUpdate, UpdateMembers);
-
-/* What each tick begins with. */
-static const kiriMember UpdateTickMembers[] = {
-    KIRI_PART(kiriUpdate, start, UpdateStartTable),
-    KIRI_BOOLS(kiriUpdate, isBegun, isBegun),
-};
-static const kiriTable UpdateTickTable = KIRI_TABLE(kiriUpdate, UpdateTickMembers);
+static const kiriTable UpdateTable = KIRI_TABLE(kiriUpdate, UpdateMembers);
 
 static const kiriMember BladeTipMembers[] = {
     KIRI_RUN(4, kiriBladeTip, at, lip),
@@ -269,7 +267,7 @@ static const kiriMember ToldMembers[] = {
 static const kiriTable ToldTable = KIRI_TABLE(kiriTouches, ToldMembers);
 
 static const kiriMember ShownPointsMembers[] = {
-    KIRI_SPACE_OF(kiriSeen, pointPositions),
+    KIRI_SHOWN_OF(kiriSeen, pointPositions),
 };
 static const kiriTable ShownPointsTable = KIRI_TABLE(kiriSeen, ShownPointsMembers);
 
@@ -300,15 +298,15 @@ static const kiriTable QueueTable = KIRI_TABLE(kiriSheetData, QueueMembers);
 /* What changes with the work on cuts alone. */
 static const kiriMember StillSheetMembers[] = {
     KIRI_PART(kiriSheetData, mesh, kiriMeshTable),
-    KIRI_PART(kiriSheetData, grid, kiriGridTable),
-    KIRI_PART(kiriSheetData, regions, kiriRegionsTable),
-    KIRI_PART(kiriSheetData, shape, kiriShapeTable),
-    KIRI_OWNED(kiriSheetData, update, kiriUpdateTable),
-    KIRI_PART(kiriSheetData, links, kiriLinksTable),
+    KIRI_DROPPED(kiriSheetData, grid),
+    KIRI_PART(kiriSheetData, regions, kiriSavedRegionsTable),
+    KIRI_PART(kiriSheetData, shape, kiriSavedShapeTable),
+    KIRI_OWNED(kiriSheetData, update, SavedUpdateTable),
+    KIRI_DROPPED(kiriSheetData, links),
     KIRI_ITEMS(4, kiriSheetData, points),
-    KIRI_PART(kiriSheetData, vertexSkin, kiriSkinTable),
-    KIRI_PART(kiriSheetData, pointSkin, kiriSkinTable),
-    KIRI_PART(kiriSheetData, pointPlaces, kiriPlacesTable),
+    KIRI_DROPPED(kiriSheetData, vertexSkin),
+    KIRI_DROPPED(kiriSheetData, pointSkin),
+    KIRI_DROPPED(kiriSheetData, pointPlaces),
     KIRI_DROPPED(kiriSheetData, taking),
 };
 static const kiriTable StillSheetTable = KIRI_TABLE(kiriSheetData, StillSheetMembers);
@@ -352,7 +350,30 @@ static const kiriTable LiveSheetTable = KIRI_TABLE(kiriSheetData, LiveSheetMembe
 
 /* ---- Both directions --------------------------------------------------------------------------------------------- */
 
-void kiriSheet_ArchiveStill(kiriArchive* archive, kiriSheetData* sheet)
+/* What saves derive from the mesh and the frames, and the work on a cut. */
+static void ArchiveDerived(kiriArchive* archive, kiriSheetData* sheet)
+{
+    kiriArchive_Object(archive, &kiriGridTable, &sheet->grid);
+    kiriArchive_Object(archive, &kiriRegionsTable, &sheet->regions);
+    kiriArchive_Object(archive, &kiriShapeTable, &sheet->shape);
+    kiriArchive_Object(archive, &kiriLinksTable, &sheet->links);
+    kiriArchive_Object(archive, &UpdateTable, sheet->update);
+    kiriArchive_Object(archive, &kiriSkinTable, &sheet->vertexSkin);
+    kiriArchive_Object(archive, &kiriSkinTable, &sheet->pointSkin);
+    kiriArchive_Object(archive, &kiriPlacesTable, &sheet->pointPlaces);
+    archive->memory = &sheet->shown;
+    kiriArchive_Object(archive, &kiriRestSurfaceTable, &sheet->seen.surface);
+    archive->memory = &sheet->own;
+    kiriGrid_ArchiveGrowing(archive, &sheet->grid, &sheet->mesh);
+    kiriShape_ArchiveGrowing(archive, &sheet->shape, sheet->memory);
+    kiriRoom_ArchiveGrowing(archive, sheet);
+    if (kiriArchive_Reads(archive) && !kiriArchive_HasFailed(archive)) {
+        kiriLinks_EndReading(&sheet->links, &sheet->own);
+        kiriPlacer_EndReading(&sheet->update->placing.placer, &sheet->regions.field);
+    }
+}
+
+static void ArchiveStill(kiriArchive* archive, kiriSheetData* sheet)
 {
     bool reads = kiriArchive_Reads(archive);
     archive->memory = &sheet->own;
@@ -363,8 +384,6 @@ void kiriSheet_ArchiveStill(kiriArchive* archive, kiriSheetData* sheet)
     kiriArchive_Expect(archive, sheet->update != NULL);
     if (reads && !kiriArchive_HasFailed(archive)) {
         kiriMesh_EndReading(&sheet->mesh, &sheet->own);
-        kiriLinks_EndReading(&sheet->links, &sheet->own);
-        kiriPlacer_EndReading(&sheet->update->placing.placer, &sheet->regions.field);
     }
 }
 
@@ -402,7 +421,7 @@ static bool AreWeightsSeen(const kiriSheetData* sheet)
     const kiriSurface* surface = &sheet->seen.surface;
     return !sheet->seen.isElsewhere && surface->isSteady &&
            surface->patches.count == kiriLabels_Count(&sheet->shape.labels, sheet->frames.count) &&
-           surface->vertexCount == sheet->seen.vertexCount && surface->vertexCount == sheet->vertexSkin.spans.count;
+           surface->vertexCount == sheet->seen.vertexCount && surface->vertexCount == sheet->mesh.vertices.count;
 }
 
 static void MoveVertices(kiriArchive* archive, kiriSheetData* sheet)
@@ -432,7 +451,7 @@ static void MoveSeen(kiriArchive* archive, kiriSheetData* sheet)
     kiriArchive_Object(archive, &ToldTable, &sheet->touches);
     kiriArchive_Object(archive, &kiriLiveSurfaceTable, &sheet->seen.surface);
     archive->memory = &sheet->own;
-    if (!kiriArchive_HasFailed(archive)) {
+    if (!archive->isWhole && !kiriArchive_HasFailed(archive)) {
         MoveVertices(archive, sheet);
         MovePoints(archive, sheet);
     }
@@ -461,18 +480,38 @@ void kiriSheet_ArchiveLive(kiriArchive* archive, kiriSheetData* sheet, kiriMemor
     kiriArchive_Object(archive, &LiveSheetTable, sheet);
     kiriSolver_Archive(archive, &sheet->solver, &sheet->settings.mechanics);
     if (!kiriArchive_HasFailed(archive)) {
-        kiriArchive_Object(archive, &UpdateTickTable, sheet->update);
         MoveSeen(archive, sheet);
         MoveBounds(archive, sheet->seen.bounds);
         MoveProbes(archive, sheet);
-        kiriGrid_ArchiveGrowing(archive, &sheet->grid, &sheet->mesh);
-        kiriShape_ArchiveGrowing(archive, &sheet->shape, sheet->memory);
-        kiriRoom_ArchiveGrowing(archive, sheet);
+    }
+    if (archive->isWhole && !kiriArchive_HasFailed(archive)) {
+        ArchiveDerived(archive, sheet);
     }
     archive->memory = memory;
     kiriArchive_Object(archive, &QueueTable, sheet);
     MoveCuts(archive, sheet);
     MoveQueue(archive, sheet);
+}
+
+void kiriSheet_Archive(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* memory)
+{
+    ArchiveStill(archive, sheet);
+    if (!kiriArchive_HasFailed(archive)) {
+        kiriSheet_ArchiveLive(archive, sheet, memory);
+    }
+}
+
+void kiriSheet_HashLayout(uint64_t* hash)
+{
+    const kiriTable* tables[] = {
+        &StillSheetTable, &LiveSheetTable,   &kiriStillSurfaceTable, &kiriLiveSurfaceTable, &SeenTable,
+        &ToldTable,       &kiriGridTable,    &kiriRegionsTable,      &kiriShapeTable,       &kiriLinksTable,
+        &UpdateTable,     &kiriSkinTable,    &kiriPlacesTable,       &kiriRestSurfaceTable, &ProbesTable,
+        &CutDataTable,    &QueuedPointTable,
+    };
+    for (size_t k = 0; k < sizeof(tables) / sizeof(tables[0]); ++k) {
+        kiriArchive_HashLayout(tables[k], hash);
+    }
 }
 
 /* What array `from` has goes to `to`, which has as many items or was empty. */
@@ -504,17 +543,19 @@ static bool RemakeProbes(kiriSheetData* sheet)
 }
 
 /* Boxes, normals and probes are made anew where they were there. */
-bool kiriSheet_EndReading(kiriSheetData* sheet)
+bool kiriSheet_EndReading(kiriSheetData* sheet, bool isWhole)
 {
     kiriSurface* surface = &sheet->seen.surface;
-    bool hasNormals = surface->hasNormals, isKept = !AreWeightsSeen(sheet),
+    bool hasNormals = surface->hasNormals, isKept = isWhole || !AreWeightsSeen(sheet),
          hasBounds = sheet->seen.bounds->levelCount > 0;
     if (!isKept) {
         kiriSurface_BlendRange(surface, &sheet->vertexSkin, 0, surface->vertexCount);
         kiriSurface_AddFades(surface, &sheet->seen.fades);
     }
     surface->hasNormals = false;
-    kiriSurface_WriteRange(surface, 0, surface->vertexCount);
+    if (!isWhole) {
+        kiriSurface_WriteRange(surface, 0, surface->vertexCount);
+    }
     if (hasNormals && !isKept) {
         kiriSurface_NeedNormals(surface);
     }

@@ -8,19 +8,17 @@
 
 KIRI_C_BEGIN
 
-extern const kiriTable kiriUpdateTable;
+/* Moves a sheet with its cuts. Where bytes are read the sheet is new; its cuts become blocks of `memory`. */
+void kiriSheet_Archive(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* memory);
 
-/* What only the work on cuts changes, and whoever takes pieces out; then what changes in any tick, with the cuts. Where
-   bytes are read the sheet is new, and what is not its own is made of blocks of `memory`. */
-void kiriSheet_ArchiveStill(kiriArchive* archive, kiriSheetData* sheet);
+/* The part of it that any tick changes; the other part comes before. */
 void kiriSheet_ArchiveLive(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* memory);
 
-/* When both are read, of bytes that nobody trusts: what follows from the mesh and the frames is forgotten, and with it
-   the work at hand, which begins again. False for memory. */
-bool kiriSheet_ForgetWork(kiriSheetData* sheet);
+/* Hashes sizes and places of all fields of a sheet. */
+void kiriSheet_HashLayout(uint64_t* hash);
 
-/* When both are read, and nothing has failed: what follows from them. False for memory. */
-bool kiriSheet_EndReading(kiriSheetData* sheet);
+/* Derives vertices, boxes and probes of a sheet that was read without a failure. False for memory. */
+bool kiriSheet_EndReading(kiriSheetData* sheet, bool isWhole);
 
 /* One obstacle, which is made where bytes are read. */
 void kiriObstacle_Archive(kiriArchive* archive, kiriObstacleData** obstacle, kiriMemory* memory);

@@ -166,6 +166,24 @@ void kiriSurface_WriteTopology(kiriSurface* surface, const kiriMeshData* mesh)
     }
 }
 
+bool kiriSurface_RemakeRest(kiriSurface* surface, kiriMemory* memory, const kiriMeshData* mesh)
+{
+    int32_t vertices = surface->vertexCount, triangles = surface->triangleCount;
+    KIRI_ASSERT(vertices == mesh->vertices.count && triangles == mesh->triangles.count);
+    if (!kiriArray_Resize(memory, &surface->restPositions, 2 * (int64_t)vertices) ||
+        !kiriArray_Resize(memory, &surface->rest, vertices) ||
+        !kiriArray_Resize(memory, &surface->turns, triangles / 2 + triangles % 2)) {
+        return false;
+    }
+    for (int32_t v = 0; v < vertices; ++v) {
+        WriteNewVertex(surface, mesh, v);
+    }
+    for (int32_t pair = 0; pair < surface->turns.count; ++pair) {
+        WriteTurn(surface, pair);
+    }
+    return true;
+}
+
 static kiriRange RangeFrom(int32_t first, int32_t end)
 {
     kiriRange range = { first, end - first };

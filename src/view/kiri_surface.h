@@ -83,6 +83,9 @@ void kiriSurface_Truncate(kiriSurface* surface, int32_t frameCount);
    all of the mesh. */
 void kiriSurface_WriteTopology(kiriSurface* surface, const kiriMeshData* mesh);
 
+/* Derives rest positions, and turns of the indices, after a load. False for memory. */
+bool kiriSurface_RemakeRest(kiriSurface* surface, kiriMemory* memory, const kiriMeshData* mesh);
+
 /* Arrays for what is left of those that the host reads, which may hold the old ones. */
 typedef struct kiriShown {
     KIRI_ARRAY(float) positions, normals, restPositions, sourceWeights;

@@ -1,16 +1,6 @@
 #include "kiri_view_check.h"
 
-#include "kiri_normal.h"
-
 /* ---- Rules ------------------------------------------------------------------------------------------------------- */
-
-static const kiriMust IsSampleOrNone[] = { KIRI_INDEX_OR_NONE(KIRI_OF_SAMPLES, kiriSpan, first, first) };
-
-static const kiriMust PlacesMust[] = {
-    KIRI_ITEMS_MUST(kiriPlaces, head, IsSampleOrNone),
-    KIRI_ITEMS_MUST(kiriPlaces, next, IsSampleOrNone),
-    KIRI_LENGTH(KIRI_OF_SAMPLES, kiriPlaces, next),
-};
 
 static const kiriMust FadingMust[] = {
     KIRI_INDEX(KIRI_OF_SAMPLES, kiriFading, sample, sample),
@@ -35,65 +25,7 @@ static const kiriMust SurfaceMust[] = {
     KIRI_WITHIN(0, KIRI_CHANGES - 1, kiriSurface, lastChange, lastChange),
 };
 
-/* ---- Weights ----------------------------------------------------------------------------------------------------- */
-
-/* Labels ascend; and weights are parts of 1. */
-static bool AreWeightsIn(kiriCheck* check, kiriRooms* rooms, const kiriSkin* skin, const kiriLabels* labels,
-                         kiriSpan span)
-{
-    const int32_t frames = (int32_t)check->count[KIRI_OF_FRAMES];
-    bool areFine = kiriCheck_Span(check, rooms, span);
-    int32_t last = KIRI_NONE;
-    double sum = 0.0;
-    for (int32_t k = span.first; areFine && k < span.first + span.count; ++k) {
-        kiriSampleWeight weight = skin->weights.data[k];
-        areFine = weight.label > last && kiriLabels_Has(labels, weight.label, frames) && weight.value > 0.0f &&
-                  weight.value <= 1.0f;
-        last = weight.label;
-        sum += weight.value;
-    }
-    return kiriCheck_That(check, areFine && (span.count == 0 || (sum > 0.999 && sum < 1.001)));
-}
-
-static bool AreSettling(kiriCheck* check, const kiriSkin* skin, kiriRooms* rooms)
-{
-    bool areFine = true;
-    for (int32_t k = 0; areFine && k < skin->settling.count; ++k) {
-        kiriReweighed settling = skin->settling.data[k];
-        areFine = kiriCheck_That(check, settling.sample >= 0 && settling.sample < skin->spans.count) &&
-                  kiriCheck_Span(check, rooms, settling.span);
-    }
-    return areFine;
-}
-
-bool kiriSkin_Check(const kiriSkin* skin, const kiriLabels* labels, kiriCheck* check, int32_t samples,
-                    const kiriMeshData* holes)
-{
-    kiriRooms rooms;
-    bool areFine = kiriCheck_That(check, skin->spans.count == samples) &&
-                   kiriCheck_StartRooms(check, &rooms, &skin->weights, sizeof(kiriSampleWeight), &skin->room);
-    for (int32_t i = 0; areFine && i < samples; ++i) {
-        bool isHole = holes != NULL && !kiriMesh_IsVertex(holes, i);
-        areFine = kiriCheck_That(check, isHole == (skin->spans.data[i].count == 0)) &&
-                  AreWeightsIn(check, &rooms, skin, labels, skin->spans.data[i]);
-    }
-    areFine = areFine && AreSettling(check, skin, &rooms);
-    kiriMemory_Free(&check->memory, areFine ? rooms.taken : NULL);
-    return areFine;
-}
-
-/* Lists lead to earlier samples: so each ends, and kiriKeep_Relink may trust them. */
-bool kiriPlaces_Check(const kiriPlaces* places, kiriCheck* check, int32_t samples)
-{
-    check->count[KIRI_OF_SAMPLES] = samples;
-    bool areFine = kiriCheck_That(check, places->head.count <= check->count[KIRI_OF_SQUARES] &&
-                                             (samples == 0 || places->head.count == check->count[KIRI_OF_SQUARES])) &&
-                   kiriCheck_Object(check, PlacesMust, places);
-    for (int32_t i = 0; areFine && i < samples; ++i) {
-        areFine = kiriCheck_That(check, places->next.data[i] < i);
-    }
-    return areFine;
-}
+/* ---- Fades ------------------------------------------------------------------------------------------------------- */
 
 /* By sample, each once. */
 bool kiriFades_Check(const kiriFades* fades, kiriCheck* check, int32_t samples)
@@ -116,19 +48,7 @@ bool kiriSurface_HasRoom(const kiriSurface* surface)
     int64_t vertices = surface->vertexCount;
     return vertices >= 0 && surface->positions.count == 3 * vertices && surface->places.count == 3 * vertices &&
            surface->normals.count == 3 * vertices && surface->slopes.count == 4 * vertices &&
-           surface->rest.count == vertices && surface->positions.capacity >= 3 * vertices + 1 &&
-           surface->places.capacity >= 3 * vertices + 1;
-}
-
-static bool ArePairsTurned(const kiriSurface* surface)
-{
-    int32_t count = surface->triangleCount / 2 + surface->triangleCount % 2;
-    bool areFine = surface->turns.count == count;
-    for (int32_t pair = 0; areFine && pair < count; ++pair) {
-        bool isAlone = 2 * pair + 1 == surface->triangleCount;
-        areFine = surface->turns.data[pair] == kiriNormals_TurnOf(&surface->indices.data[6 * (size_t)pair], isAlone);
-    }
-    return areFine;
+           surface->positions.capacity >= 3 * vertices + 1 && surface->places.capacity >= 3 * vertices + 1;
 }
 
 /* All rows are as long as the mesh is large, and there is a patch for each frame that is seen. */
@@ -137,10 +57,9 @@ static bool AreRowsOfSurface(const kiriSurface* surface, const kiriMeshData* mes
     int64_t vertices = mesh->vertices.count, triangles = mesh->triangles.count;
     int64_t floats = surface->patches.isBent ? KIRI_BENT_FLOATS : KIRI_FLAT_FLOATS;
     return surface->vertexCount == vertices && surface->triangleCount == triangles && kiriSurface_HasRoom(surface) &&
-           surface->restPositions.count == 2 * vertices && surface->sourceWeights.count == 3 * vertices &&
-           surface->sourceTriangles.count == vertices && surface->indices.count == 3 * triangles &&
-           ArePairsTurned(surface) && surface->carriers.count >= frames && surface->bends.count >= frames &&
-           surface->patches.count >= 0 && surface->patches.count <= labels &&
+           surface->sourceWeights.count == 3 * vertices && surface->sourceTriangles.count == vertices &&
+           surface->indices.count == 3 * triangles && surface->carriers.count >= frames &&
+           surface->bends.count >= frames && surface->patches.count >= 0 && surface->patches.count <= labels &&
            surface->patches.floats.capacity >= KIRI_BENT_FLOATS * labels &&
            surface->patches.floats.capacity >= floats * surface->patches.count &&
            surface->patches.isOther.capacity >= labels;
@@ -171,16 +90,6 @@ static bool IsOfMesh(const kiriSurface* surface, const kiriMeshData* mesh)
            surface->longer == KIRI_LATTICE * mesh->step;
 }
 
-static bool AreRestPlaces(const kiriSurface* surface, const kiriMeshData* mesh)
-{
-    bool areFine = true;
-    for (int32_t v = 0; areFine && v < mesh->vertices.count; ++v) {
-        kiriVec2 rest = surface->rest.data[v], local = kiriMesh_Local(mesh, mesh->vertices.data[v].at);
-        areFine = rest.x == local.x && rest.y == local.y;
-    }
-    return areFine;
-}
-
 /* Corners are those of the mesh, or all one where the triangle is not seen. */
 static bool AreCornersOfSurface(const kiriSurface* surface, const kiriMeshData* mesh)
 {
@@ -199,6 +108,5 @@ bool kiriSurface_Check(const kiriSurface* surface, const kiriLabels* labels, con
     int32_t frames = (int32_t)check->count[KIRI_OF_FRAMES];
     return kiriCheck_That(check, AreRowsOfSurface(surface, mesh, frames, kiriLabels_Count(labels, frames))) &&
            kiriCheck_Object(check, SurfaceMust, surface) &&
-           kiriCheck_That(check, IsOfMesh(surface, mesh) && AreCornersOfSurface(surface, mesh) &&
-                                     AreRestPlaces(surface, mesh) && AreChanges(surface));
+           kiriCheck_That(check, IsOfMesh(surface, mesh) && AreCornersOfSurface(surface, mesh) && AreChanges(surface));
 }

@@ -1,4 +1,4 @@
-/* Are weights of samples, fades and the surface that were read such that they can be shown? */
+/* Are fades and the surface that were read such that they can be shown? */
 #ifndef KIRI_VIEW_CHECK_H
 #define KIRI_VIEW_CHECK_H
 
@@ -6,14 +6,6 @@
 #include "kiri_surface.h"
 
 KIRI_C_BEGIN
-
-/* Weights of so many samples, of frames in force; none are staged. Each sample has some, but those of vertices that are
-   holes. `holes`: their mesh, or null. */
-bool kiriSkin_Check(const kiriSkin* skin, const kiriLabels* labels, kiriCheck* check, int32_t samples,
-                    const kiriMeshData* holes);
-
-/* Lists of so many samples by square. */
-bool kiriPlaces_Check(const kiriPlaces* places, kiriCheck* check, int32_t samples);
 
 bool kiriFades_Check(const kiriFades* fades, kiriCheck* check, int32_t samples);
 

@@ -54,29 +54,34 @@ static const kiriTable PatchesTable = KIRI_TABLE(kiriPatches, PatchesMembers);
 
 /* What only the work on cuts changes, and whoever takes pieces out. */
 static const kiriMember StillSurfaceMembers[] = {
-    KIRI_ITEMS(4, kiriSurface, restPositions),
     KIRI_ITEMS(4, kiriSurface, sourceWeights),
     KIRI_ITEMS(4, kiriSurface, indices),
     KIRI_ITEMS(4, kiriSurface, sourceTriangles),
-    KIRI_ITEMS(8, kiriSurface, rest),
-    KIRI_ITEMS(1, kiriSurface, turns),
     KIRI_RUN(4, kiriSurface, changes, lastChange),
 };
 const kiriTable kiriStillSurfaceTable = KIRI_TABLE(kiriSurface, StillSurfaceMembers);
+
+/* What saves derive from the mesh. */
+static const kiriMember RestSurfaceMembers[] = {
+    KIRI_ITEMS(4, kiriSurface, restPositions),
+    KIRI_ITEMS(8, kiriSurface, rest),
+    KIRI_ITEMS(1, kiriSurface, turns),
+};
+const kiriTable kiriRestSurfaceTable = KIRI_TABLE(kiriSurface, RestSurfaceMembers);
 
 /* And what changes in any tick. Vertices and normals are made anew. */
 static const kiriMember LiveSurfaceMembers[] = {
     KIRI_RUN(4, kiriSurface, skinning, skinning),
     KIRI_RUN(8, kiriSurface, origin, longer),
-    KIRI_SPACE_OF(kiriSurface, positions),
-    KIRI_SPACE_OF(kiriSurface, normals),
+    KIRI_SHOWN_OF(kiriSurface, positions),
+    KIRI_SHOWN_OF(kiriSurface, normals),
     KIRI_RUN(4, kiriSurface, vertexCount, revision),
     KIRI_DROPPED(kiriSurface, lentAt),
-    KIRI_SPACE_OF(kiriSurface, slopes),
+    KIRI_SHOWN_OF(kiriSurface, slopes),
     KIRI_RUN(8, kiriSurface, pose, middle),
-    KIRI_SPACE_OF(kiriSurface, places),
+    KIRI_SHOWN_OF(kiriSurface, places),
     KIRI_ITEMS(8, kiriSurface, carriers),
-    KIRI_SPACE_OF(kiriSurface, bends),
+    KIRI_SHOWN_OF(kiriSurface, bends),
     KIRI_PART(kiriSurface, patches, PatchesTable),
     KIRI_BOOLS(kiriSurface, isWritten, hasNormals),
     KIRI_DROPPED(kiriSurface, hasSlopes),

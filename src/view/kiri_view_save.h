@@ -9,7 +9,7 @@
 KIRI_C_BEGIN
 
 extern const kiriTable kiriSkinTable, kiriPlacesTable, kiriRefreshTable, kiriFadesTable;
-extern const kiriTable kiriStillSurfaceTable, kiriLiveSurfaceTable;
+extern const kiriTable kiriStillSurfaceTable, kiriLiveSurfaceTable, kiriRestSurfaceTable;
 
 KIRI_C_END
 

@@ -1,13 +1,14 @@
 #include "kiri_call.h"
 #include "kiri_save.h"
+#include "kiri_tick.h"
 
 kiriResult kiriWorld_Save(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size)
 {
     KIRI_READS(world);
     KIRI_CHECK(size != NULL && capacity >= 0, "size is null, or capacity below 0");
     kiriResult result = kiriSave_Write(world, bytes, capacity, size);
-    KIRI_CHECK(result == KIRI_OK, "capacity is less than the bytes of a save");
-    return KIRI_OK;
+    KIRI_CHECK(result != KIRI_ERROR_ARGUMENT, "capacity is less than the bytes of a save");
+    return result;
 }
 
 kiriResult kiriWorld_Load(kiriWorld* world, const void* bytes, int64_t size)
@@ -16,41 +17,34 @@ kiriResult kiriWorld_Load(kiriWorld* world, const void* bytes, int64_t size)
     KIRI_CHANGES(world, KIRI_CALL_WORLD_LOAD, bytes, &count);
     KIRI_CHECK(bytes != NULL && size >= 0, "bytes is null, or size below 0");
     const char* why = NULL;
-    kiriResult result = kiriSave_Read(world, bytes, size, true, &why);
+    kiriResult result = kiriSave_Read(world, bytes, size, &why);
     KIRI_RETURN_OR_SAY(result, why);
 }
 
-kiriResult kiriWorld_LoadUntrusted(kiriWorld* world, const void* bytes, int64_t size)
+kiriResult kiriWorld_FinishCuts(kiriWorld* world)
 {
-    int32_t count = size <= INT32_MAX ? (int32_t)size : INT32_MIN;
-    KIRI_CHANGES(world, KIRI_CALL_WORLD_LOAD_UNTRUSTED, bytes, &count);
-    KIRI_CHECK(bytes != NULL && size >= 0, "bytes is null, or size below 0");
-    const char* why = NULL;
-    kiriResult result = kiriSave_Read(world, bytes, size, false, &why);
-    KIRI_RETURN_OR_SAY(result, why);
+    KIRI_CHANGES(world, KIRI_CALL_WORLD_FINISH_CUTS, NULL);
+    world->begun += 1; /* vertices change as in a tick */
+    kiriResult result = kiriWorld_FinishUpdates(world);
+    KIRI_RETURN_OR_SAY(result, result == KIRI_ERROR_LIMIT ? "there are no ids left for new frames" : NULL);
 }
 
-kiriResult kiriWorld_SaveDifference(const kiriWorld* world, const void* base, int64_t baseSize, void* bytes,
-                                    int64_t capacity, int64_t* size)
+kiriResult kiriWorld_Snapshot(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size)
 {
     KIRI_READS(world);
-    KIRI_CHECK(base != NULL && baseSize >= 0, "base is null, or baseSize below 0");
     KIRI_CHECK(size != NULL && capacity >= 0, "size is null, or capacity below 0");
-    const char* why = "capacity is less than the bytes of the difference";
-    kiriResult result = kiriSave_WriteDifference(world, base, baseSize, bytes, capacity, size, &why);
-    why = result == KIRI_ERROR_ARGUMENT ? "capacity is less than the bytes of the difference" : why;
-    KIRI_RETURN_OR_SAY(result, why);
+    kiriResult result = kiriSnapshot_Write(world, bytes, capacity, size);
+    KIRI_CHECK(result == KIRI_OK, "capacity is less than the bytes of a snapshot");
+    return KIRI_OK;
 }
 
-kiriResult kiriWorld_LoadDifference(kiriWorld* world, const void* base, int64_t baseSize, const void* bytes,
-                                    int64_t size)
+kiriResult kiriWorld_Restore(kiriWorld* world, const void* bytes, int64_t size)
 {
-    int32_t baseCount = baseSize <= INT32_MAX ? (int32_t)baseSize : INT32_MIN;
-    int32_t count = size <= INT32_MAX ? (int32_t)size : INT32_MIN;
-    KIRI_CHANGES(world, KIRI_CALL_WORLD_LOAD_DIFFERENCE, base, &baseCount, bytes, &count);
-    KIRI_CHECK(base != NULL && baseSize >= 0, "base is null, or baseSize below 0");
+    KIRI_PREPARES(world);
     KIRI_CHECK(bytes != NULL && size >= 0, "bytes is null, or size below 0");
-    const char* why = NULL;
-    kiriResult result = kiriSave_ReadDifference(world, base, baseSize, bytes, size, &why);
-    KIRI_RETURN_OR_SAY(result, why);
+    if (world->recorder.sink.write != NULL) {
+        return KIRI_FAIL(KIRI_ERROR_STATE, "the world is recorded: snapshots are of one process, recordings are not");
+    }
+    kiriResult result = kiriSnapshot_Read(world, bytes, size);
+    KIRI_RETURN_OR_SAY(result, result == KIRI_ERROR_DATA ? "the bytes are no snapshot of this build" : NULL);
 }

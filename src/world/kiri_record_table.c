@@ -193,8 +193,6 @@ MAKER(World_ShiftOrigin, given[0])
 MAKER(World_SetBudget, given[0])
 MAKER(World_Note, given[0], GIVEN_INT(1))
 MAKER(World_Load, given[0], GIVEN_INT(1))
-MAKER(World_LoadUntrusted, given[0], GIVEN_INT(1))
-MAKER(World_LoadDifference, given[0], GIVEN_INT(1), given[2], GIVEN_INT(3))
 MAKER(CreateSheet, given[0], GIVEN_NEW(1))
 MAKER(DestroySheet, GIVEN_ID(0))
 MAKER(Sheet_SetSettings, GIVEN_ID(0), given[1])
@@ -268,6 +266,12 @@ static kiriResult MakeEnd(kiriWorld* world, const void* const* given)
     return KIRI_OK;
 }
 
+static kiriResult MakeFinishCuts(kiriWorld* world, const void* const* given)
+{
+    (void)given;
+    return kiriWorld_FinishCuts(world);
+}
+
 #define ENTRY(Name, ...)                                                                                               \
     {                                                                                                                  \
         "kiri" #Name, { __VA_ARGS__ }, Make##Name                                                                      \
@@ -282,9 +286,7 @@ static const kiriRecordCall recordCalls[KIRI_CALL_COUNT] = {
     [KIRI_CALL_WORLD_SET_BUDGET] = ENTRY(World_SetBudget, OF_STRUCT(budgetStruct)),
     [KIRI_CALL_WORLD_NOTE] = ENTRY(World_Note, OF_ARRAY(KIRI_ARGUMENT_BYTES, KIRI_MOST_NOTE_BYTES, NULL)),
     [KIRI_CALL_WORLD_LOAD] = ENTRY(World_Load, OF_ARRAY(KIRI_ARGUMENT_BYTES, INT32_MAX, NULL)),
-    [KIRI_CALL_WORLD_LOAD_UNTRUSTED] = ENTRY(World_LoadUntrusted, OF_ARRAY(KIRI_ARGUMENT_BYTES, INT32_MAX, NULL)),
-    [KIRI_CALL_WORLD_LOAD_DIFFERENCE] = ENTRY(World_LoadDifference, OF_ARRAY(KIRI_ARGUMENT_BYTES, INT32_MAX, NULL),
-                                              OF_ARRAY(KIRI_ARGUMENT_BYTES, INT32_MAX, NULL)),
+    [KIRI_CALL_WORLD_FINISH_CUTS] = { "kiriWorld_FinishCuts", { { 0 } }, MakeFinishCuts },
     [KIRI_CALL_CREATE_SHEET] = ENTRY(CreateSheet, OF_STRUCT(sheetStruct), OF_NEW_ID),
     [KIRI_CALL_DESTROY_SHEET] = ENTRY(DestroySheet, OF_ID),
     [KIRI_CALL_SHEET_SET_SETTINGS] = ENTRY(Sheet_SetSettings, OF_ID, OF_STRUCT(settingsStruct)),

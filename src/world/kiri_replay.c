@@ -168,13 +168,6 @@ static kiriResult FailInCall(const Recorded* recorded, const kiriReplay* replay,
     return result;
 }
 
-static kiriResult RefuseDifference(const kiriReplay* replay, char why[REASON_BYTES])
-{
-    snprintf(why, REASON_BYTES, "call %lld is kiriWorld_LoadDifference, and the recording is not trusted",
-             (long long)replay->calls + 1);
-    return KIRI_ERROR_DATA;
-}
-
 /* True where a replay stops. */
 static bool Pass(kiriReplay* replay, const Recorded* recorded, kiriResult result, int64_t bytes)
 {
@@ -188,28 +181,13 @@ static bool Pass(kiriReplay* replay, const Recorded* recorded, kiriResult result
     return isTick || isNote;
 }
 
-/* What is called: another load where nobody trusts the recording; null: nothing stands for a difference. */
-static const kiriRecordCall* CallFor(const Recorded* recorded, const kiriReplay* replay)
-{
-    bool isLoad = recorded->number == KIRI_CALL_WORLD_LOAD,
-         isDifference = recorded->number == KIRI_CALL_WORLD_LOAD_DIFFERENCE;
-    if (!replay->untrusted || !(isLoad || isDifference)) {
-        return recorded->shape;
-    }
-    return isLoad ? kiriRecord_Find(KIRI_CALL_WORLD_LOAD_UNTRUSTED) : NULL;
-}
-
 /* The call, unless it was refused memory. */
 static kiriResult MakeRecorded(kiriWorld* world, const Recorded* recorded, kiriReplay* replay, int64_t bytes,
                                char why[REASON_BYTES])
 {
     bool wasRefused = recorded->hasResult && recorded->result == KIRI_ERROR_MEMORY;
-    const kiriRecordCall* call = CallFor(recorded, replay);
-    if (call == NULL) {
-        return RefuseDifference(replay, why);
-    }
     world->isBusy = false;
-    kiriResult result = wasRefused ? KIRI_ERROR_MEMORY : call->make(world, recorded->arguments);
+    kiriResult result = wasRefused ? KIRI_ERROR_MEMORY : recorded->shape->make(world, recorded->arguments);
     world->isBusy = true;
     if (!wasRefused && result == KIRI_ERROR_MEMORY) {
         return FailToRead(KIRI_CODER_MEMORY, replay, why);

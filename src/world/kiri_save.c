@@ -118,101 +118,9 @@ static const kiriTable WorldTable = KIRI_TABLE(kiriWorld, WorldMembers);
 
 /* ---- Both directions --------------------------------------------------------------------------------------------- */
 
-enum { SAVE_VERSION = 1, HEAD_BYTES = 32, SUM_BYTES = 8, SHEET_HEAD_BYTES = 24 };
+enum { SAVE_VERSION = 2, HEAD_BYTES = 24, SUM_BYTES = 8 };
 
-/* A save that another one is a difference to. */
-typedef struct SaveBase {
-    const uint8_t* bytes;
-    int64_t first, at, size; /* where the first sheet is, and the one to look at; without the sum */
-    uint64_t sum;
-} SaveBase;
-
-/* Comes before the two parts of a sheet, in a save; and in a difference to one. */
-typedef struct SheetHead {
-    uint32_t id;
-    int32_t unused;      /* 0 */
-    int64_t still, live; /* bytes of the parts; of a difference 0 */
-} SheetHead;
-
-static const kiriMember SheetHeadMembers[] = {
-    KIRI_RUN(4, SheetHead, id, unused),
-    KIRI_RUN(8, SheetHead, still, live),
-};
-static const kiriTable SheetHeadTable = KIRI_TABLE(SheetHead, SheetHeadMembers);
-
-/* What of the base is the sheet with this id; zero where it has none. The search begins where the last one ended. */
-static SheetHead FindInBase(SaveBase* base, uint32_t id, int64_t* at)
-{
-    SheetHead head;
-    int64_t start = base->at;
-    bool isPast = false;
-    while (!isPast || base->at < start) {
-        kiriArchive archive = kiriArchive_Read(base->bytes + base->at, base->size - base->at, NULL);
-        kiriArchive_Object(&archive, &SheetHeadTable, &head);
-        int64_t left = archive.size - archive.at;
-        if (archive.isBad || head.still < 0 || head.live < 0 || head.still > left || head.live > left - head.still) {
-            isPast = isPast || start == base->first;
-            base->at = base->first;
-            if (isPast) {
-                break;
-            }
-            isPast = true;
-            continue;
-        }
-        *at = base->at + archive.at;
-        base->at = *at + head.still + head.live;
-        if (head.id == id) {
-            return head;
-        }
-    }
-    return (SheetHead){ 0, 0, 0, 0 };
-}
-
-static void BeginPart(kiriArchive* archive, const SaveBase* base, int64_t at, int64_t size)
-{
-    if (base != NULL) {
-        kiriArchive_BeginDifference(archive, size > 0 ? base->bytes + at : NULL, size);
-    }
-}
-
-static void EndSection(kiriArchive* archive, const SaveBase* base)
-{
-    if (base != NULL) {
-        kiriArchive_EndDifference(archive);
-    }
-}
-
-/* Lengths are known when both parts are written. */
-static void PatchHead(kiriArchive* archive, int64_t at, SheetHead* head)
-{
-    if (archive->mode == KIRI_ARCHIVE_WRITE && !kiriArchive_HasFailed(archive)) {
-        kiriArchive patch = kiriArchive_Write(archive->bytes + at, archive->at - at);
-        kiriArchive_Object(&patch, &SheetHeadTable, head);
-    }
-}
-
-static void ArchiveSheet(kiriArchive* archive, kiriWorld* world, kiriSheetData* sheet, SaveBase* base)
-{
-    int64_t start = archive->at, inBase = 0;
-    SheetHead head = { sheet->id, 0, 0, 0 }, was = { 0, 0, 0, 0 };
-    kiriArchive_Object(archive, &SheetHeadTable, &head);
-    if (base != NULL) {
-        was = FindInBase(base, head.id, &inBase);
-    }
-    BeginPart(archive, base, inBase, was.still);
-    kiriSheet_ArchiveStill(archive, sheet);
-    EndSection(archive, base);
-    head.still = base == NULL ? archive->at - start - SHEET_HEAD_BYTES : 0;
-    if (!kiriArchive_HasFailed(archive)) {
-        BeginPart(archive, base, inBase + was.still, was.live);
-        kiriSheet_ArchiveLive(archive, sheet, &world->memory);
-        EndSection(archive, base);
-    }
-    head.live = base == NULL ? archive->at - start - SHEET_HEAD_BYTES - head.still : 0;
-    PatchHead(archive, start, &head);
-}
-
-static void ArchiveSheets(kiriArchive* archive, kiriWorld* world, SaveBase* base)
+static void ArchiveSheets(kiriArchive* archive, kiriWorld* world)
 {
     for (int32_t i = 0; i < world->sheets.count && !kiriArchive_HasFailed(archive); ++i) {
         if (kiriArchive_Reads(archive)) {
@@ -220,7 +128,7 @@ static void ArchiveSheets(kiriArchive* archive, kiriWorld* world, SaveBase* base
             archive->isShort |= world->sheets.data[i] == NULL;
         }
         if (world->sheets.data[i] != NULL) {
-            ArchiveSheet(archive, world, world->sheets.data[i], base);
+            kiriSheet_Archive(archive, world->sheets.data[i], &world->memory);
         }
     }
 }
@@ -238,25 +146,15 @@ static void ArchiveBlades(kiriArchive* archive, kiriWorld* world)
     }
 }
 
-/* The world without its sheets, after the number of bytes that it takes; then these. */
-static void ArchiveWorld(kiriArchive* archive, kiriWorld* world, SaveBase* base)
+static void ArchiveWorld(kiriArchive* archive, kiriWorld* world)
 {
-    int64_t start = archive->at, size = 0;
     archive->memory = &world->memory;
-    kiriArchive_Numbers(archive, &size, 8, 1);
-    BeginPart(archive, base, HEAD_BYTES + 8, base != NULL ? base->first - HEAD_BYTES - 8 : 0);
     kiriArchive_Object(archive, &WorldTable, world);
     for (int32_t i = 0; i < world->obstacles.count && !kiriArchive_HasFailed(archive); ++i) {
         kiriObstacle_Archive(archive, &world->obstacles.data[i], &world->memory);
     }
     ArchiveBlades(archive, world);
-    EndSection(archive, base);
-    size = archive->at - start - 8;
-    if (archive->mode == KIRI_ARCHIVE_WRITE && !kiriArchive_HasFailed(archive)) {
-        kiriArchive patch = kiriArchive_Write(archive->bytes + start, 8);
-        kiriArchive_Numbers(&patch, &size, 8, 1);
-    }
-    ArchiveSheets(archive, world, base);
+    ArchiveSheets(archive, world);
 }
 
 /* ---- Ids --------------------------------------------------------------------------------------------------------- */
@@ -307,20 +205,18 @@ static bool ClaimIds(kiriWorld* world)
 /* ---- The format -------------------------------------------------------------------------------------------------- */
 
 static const char saveMagic[8] = { 'K', 'i', 'r', 'i', 'S', 'a', 'v', 'e' };
-static const char differenceMagic[8] = { 'K', 'i', 'r', 'i', 'D', 'i', 'f', 'f' };
 
 /* What comes before the world; the sum of all bytes comes after it. */
 typedef struct SaveHead {
     char magic[8];
     int32_t version, library;
-    int64_t size;  /* of all bytes */
-    uint64_t base; /* of a difference: the sum of its base */
+    int64_t size; /* of all bytes */
 } SaveHead;
 
 static const kiriMember SaveHeadMembers[] = {
     KIRI_RUN(1, SaveHead, magic, magic),
     KIRI_RUN(4, SaveHead, version, library),
-    KIRI_RUN(8, SaveHead, size, base),
+    KIRI_RUN(8, SaveHead, size, size),
 };
 static const kiriTable SaveHeadTable = KIRI_TABLE(SaveHead, SaveHeadMembers);
 
@@ -359,95 +255,55 @@ static kiriWorld* Unlocked(const kiriWorld* world)
     return (kiriWorld*)(uintptr_t)world; /* archives that do not read bytes change nothing */
 }
 
-/* Where the head is in order, all but the sum: null and what is there; else what is wrong. */
-static const char* FaultOfHead(const uint8_t* bytes, int64_t size, const char magic[8], SaveHead* head)
+/* Returns the fault of the bytes, or null. */
+static const char* FaultOfBytes(const uint8_t* bytes, int64_t size)
 {
+    SaveHead head;
     kiriArchive archive = kiriArchive_Read(bytes, size, NULL);
-    kiriArchive_Object(&archive, &SaveHeadTable, head);
-    if (archive.isBad || memcmp(head->magic, magic, sizeof(head->magic)) != 0) {
-        return magic == saveMagic ? "these bytes are no save of kiriWorld_Save"
-                                  : "these bytes are no difference of kiriWorld_SaveDifference";
+    kiriArchive_Object(&archive, &SaveHeadTable, &head);
+    if (archive.isBad || memcmp(head.magic, saveMagic, sizeof(head.magic)) != 0) {
+        return "these bytes are no save of kiriWorld_Save";
     }
-    if (head->version != SAVE_VERSION || head->library != KIRI_VERSION) {
+    if (head.version != SAVE_VERSION || head.library != KIRI_VERSION) {
         return "the bytes are of another version of the library";
     }
-    return head->size == size && size >= HEAD_BYTES + SUM_BYTES + 8 ? NULL : "the bytes are not as many as were saved";
-}
-
-static const char* FaultOfBytes(const uint8_t* bytes, int64_t size, const char magic[8], SaveHead* head)
-{
-    const char* why = FaultOfHead(bytes, size, magic, head);
-    bool isSame = why != NULL || WordAt(bytes + size - SUM_BYTES, SUM_BYTES) == SumBytes(bytes, size - SUM_BYTES);
-    return isSame ? why : "the bytes are not those that were saved";
-}
-
-/* Of a save whose head is in order. False where its parts are not. */
-static bool FindBase(SaveBase* base, const uint8_t* bytes, int64_t size)
-{
-    int64_t world = (int64_t)WordAt(bytes + HEAD_BYTES, 8), first = HEAD_BYTES + 8;
-    base->bytes = bytes;
-    base->size = size - SUM_BYTES;
-    base->sum = WordAt(bytes + size - SUM_BYTES, SUM_BYTES);
-    bool isFine = world >= 0 && world <= base->size - first;
-    base->first = base->at = isFine ? first + world : first;
-    return isFine;
-}
-
-static int64_t MeasureWorld(const kiriWorld* world, SaveBase* base)
-{
-    kiriArchive archive = kiriArchive_Measure();
-    ArchiveWorld(&archive, Unlocked(world), base);
-    return HEAD_BYTES + archive.at + SUM_BYTES;
-}
-
-/* With the base, which may be null. False where the bytes are too few. */
-static bool WriteWorld(const kiriWorld* world, SaveBase* base, uint8_t* bytes, int64_t capacity, int64_t* size)
-{
-    kiriArchive archive = kiriArchive_Write(bytes, capacity);
-    SaveHead head = { { 0 }, SAVE_VERSION, KIRI_VERSION, 0, base != NULL ? base->sum : 0 };
-    memcpy(head.magic, base != NULL ? differenceMagic : saveMagic, sizeof(head.magic));
-    kiriArchive_Object(&archive, &SaveHeadTable, &head);
-    ArchiveWorld(&archive, Unlocked(world), base);
-    head.size = archive.at + SUM_BYTES;
-    if (archive.isBad || head.size > capacity) {
-        return false;
+    if (head.size != size || size < HEAD_BYTES + SUM_BYTES) {
+        return "the bytes are not as many as were saved";
     }
-    kiriArchive again = kiriArchive_Write(bytes, HEAD_BYTES);
-    kiriArchive_Object(&again, &SaveHeadTable, &head);
-    uint64_t sum = SumBytes(bytes, archive.at);
-    kiriArchive_Numbers(&archive, &sum, 8, 1);
-    *size = archive.at;
-    return true;
+    bool isSame = WordAt(bytes + size - SUM_BYTES, SUM_BYTES) == SumBytes(bytes, size - SUM_BYTES);
+    return isSame ? NULL : "the bytes are not those that were saved";
 }
 
-/* Of a whole world nothing is written where it does not fit: it is measured in no time. To measure a difference takes
-   as long as to write it. */
-static kiriResult SaveWorld(const kiriWorld* world, SaveBase* base, void* bytes, int64_t capacity, int64_t* size)
+static bool IsWorkAtHand(const kiriWorld* world)
 {
-    bool isMeasured = bytes == NULL || base == NULL;
-    int64_t least = isMeasured ? MeasureWorld(world, base) : 0;
-    if (bytes != NULL && least <= capacity && WriteWorld(world, base, bytes, capacity, size)) {
-        return KIRI_OK;
+    bool isAtHand = false;
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        isAtHand = isAtHand || world->sheets.data[i]->update->stage != KIRI_NONE;
     }
-    *size = isMeasured ? least : MeasureWorld(world, base);
-    return bytes == NULL ? KIRI_OK : KIRI_ERROR_ARGUMENT;
+    return isAtHand;
 }
 
 kiriResult kiriSave_Write(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size)
 {
-    return SaveWorld(world, NULL, bytes, capacity, size);
-}
-
-kiriResult kiriSave_WriteDifference(const kiriWorld* world, const void* from, int64_t fromSize, void* bytes,
-                                    int64_t capacity, int64_t* size, const char** why)
-{
-    SaveHead head;
-    SaveBase base;
-    *why = FaultOfHead(from, fromSize, saveMagic, &head);
-    if (*why == NULL && !FindBase(&base, from, fromSize)) {
-        *why = "the bytes are not those that were saved";
+    if (IsWorkAtHand(world)) {
+        *size = 0;
+        return KIRI_PENDING;
     }
-    return *why != NULL ? KIRI_ERROR_DATA : SaveWorld(world, &base, bytes, capacity, size);
+    kiriArchive archive = kiriArchive_Measure();
+    ArchiveWorld(&archive, Unlocked(world));
+    *size = HEAD_BYTES + archive.at + SUM_BYTES;
+    if (bytes == NULL || capacity < *size) {
+        return bytes == NULL ? KIRI_OK : KIRI_ERROR_ARGUMENT;
+    }
+    SaveHead head = { { 0 }, SAVE_VERSION, KIRI_VERSION, *size };
+    memcpy(head.magic, saveMagic, sizeof(head.magic));
+    archive = kiriArchive_Write(bytes, *size);
+    kiriArchive_Object(&archive, &SaveHeadTable, &head);
+    ArchiveWorld(&archive, Unlocked(world));
+    uint64_t sum = SumBytes(bytes, archive.at);
+    kiriArchive_Numbers(&archive, &sum, 8, 1);
+    KIRI_ASSERT(!archive.isBad && archive.at == *size);
+    return KIRI_OK;
 }
 
 /* ---- A world from bytes ------------------------------------------------------------------------------------------ */
@@ -463,45 +319,35 @@ static void DropSheets(kiriWorld* world, kiriMemory* shown)
     world->sheets.count = 0;
 }
 
-/* Of bytes that nobody trusts, before they are checked. */
-static void ForgetWork(kiriArchive* archive, kiriWorld* made)
-{
-    for (int32_t i = 0; i < made->sheets.count && !kiriArchive_HasFailed(archive); ++i) {
-        archive->isShort |= !kiriSheet_ForgetWork(made->sheets.data[i]);
-    }
-}
-
-static void CheckWorld(kiriArchive* archive, kiriWorld* made)
+/* Checks the fields of a save, and derives the others. */
+static void FinishSave(kiriArchive* archive, kiriWorld* made)
 {
     bool isShort = false, isFine = kiriArchive_HasFailed(archive) || kiriWorld_Check(made, &isShort);
     archive->isShort |= isShort;
     kiriArchive_Expect(archive, isFine);
-}
-
-/* And after that. */
-static void RemakeFields(kiriArchive* archive, kiriWorld* made)
-{
     for (int32_t i = 0; i < made->sheets.count && !kiriArchive_HasFailed(archive); ++i) {
         bool isBad = false, isMade = kiriRemake_Field(made->sheets.data[i], &isBad);
         archive->isShort |= !isMade && !isBad;
         kiriArchive_Expect(archive, !isBad);
     }
+    isFine = kiriArchive_HasFailed(archive) || kiriWorld_CheckMade(made, &isShort);
+    archive->isShort |= isShort;
+    kiriArchive_Expect(archive, isFine);
 }
 
-static kiriResult ReadWorld(kiriWorld* made, const uint8_t* bytes, int64_t size, SaveBase* base, bool isTrusted)
+static kiriResult ReadWorld(kiriWorld* made, const uint8_t* bytes, int64_t size, bool isWhole)
 {
-    kiriArchive archive = kiriArchive_Read(bytes + HEAD_BYTES, size - HEAD_BYTES - SUM_BYTES, &made->memory);
-    archive.room += base != NULL ? kiriArchive_Read(NULL, base->size, NULL).room : 0;
-    ArchiveWorld(&archive, made, base);
+    kiriArchive archive = kiriArchive_Read(bytes, size, &made->memory);
+    archive.isWhole = isWhole;
+    archive.room = isWhole ? INT64_MAX : archive.room;
+    ArchiveWorld(&archive, made);
     kiriArchive_Expect(&archive, archive.at == archive.size);
     kiriArchive_Expect(&archive, kiriArchive_HasFailed(&archive) || ClaimIds(made));
-    if (!isTrusted) {
-        ForgetWork(&archive, made);
-        CheckWorld(&archive, made);
-        RemakeFields(&archive, made);
+    if (!isWhole) {
+        FinishSave(&archive, made);
     }
     for (int32_t i = 0; i < made->sheets.count && !kiriArchive_HasFailed(&archive); ++i) {
-        archive.isShort |= !kiriSheet_EndReading(made->sheets.data[i]);
+        archive.isShort |= !kiriSheet_EndReading(made->sheets.data[i], isWhole);
     }
     return archive.isBad ? KIRI_ERROR_DATA : archive.isShort ? KIRI_ERROR_MEMORY : KIRI_OK;
 }
@@ -530,39 +376,75 @@ static void TakeWorld(kiriWorld* world, kiriWorld* made)
     }
 }
 
-static kiriResult LoadWorld(kiriWorld* world, const uint8_t* bytes, int64_t size, SaveBase* base, bool isTrusted,
-                            const char** why)
+/* From the bytes between head and sum. */
+static kiriResult BecomeWorld(kiriWorld* world, const uint8_t* bytes, int64_t size, bool isWhole)
 {
     kiriWorld made;
     memset(&made, 0, sizeof(made));
     made.memory = kiriMemory_Like(&world->memory);
-    kiriResult result = ReadWorld(&made, bytes, size, base, isTrusted);
-    if (result != KIRI_OK) {
-        *why = result == KIRI_ERROR_MEMORY ? NULL : "the bytes have a right sum, but no world";
+    kiriResult result = ReadWorld(&made, bytes, size, isWhole);
+    if (result == KIRI_OK) {
+        TakeWorld(world, &made);
+    } else {
         DropSheets(&made, NULL);
         kiriMemory_FreeAll(&made.memory);
-        return result;
     }
-    TakeWorld(world, &made);
+    return result;
+}
+
+kiriResult kiriSave_Read(kiriWorld* world, const void* bytes, int64_t size, const char** why)
+{
+    *why = FaultOfBytes(bytes, size);
+    if (*why != NULL) {
+        return KIRI_ERROR_DATA;
+    }
+    kiriResult result = BecomeWorld(world, (const uint8_t*)bytes + HEAD_BYTES, size - HEAD_BYTES - SUM_BYTES, false);
+    *why = result == KIRI_ERROR_DATA ? "the bytes have a right sum, but no world" : NULL;
+    return result;
+}
+
+/* ---- Snapshots --------------------------------------------------------------------------------------------------- */
+
+/* Comes before the world. Bytes of another build, or of another layout, do not match. */
+typedef struct SnapshotHead {
+    char magic[8];
+    uint64_t layout;
+    int64_t size;
+} SnapshotHead;
+
+static SnapshotHead HeadOfSnapshot(int64_t size)
+{
+    SnapshotHead head = { { 'K', 'i', 'r', 'i', 'S', 'n', 'a', 'p' }, KIRI_HASH_START, size };
+    kiriHash_Int32(&head.layout, KIRI_VERSION);
+    kiriArchive_HashLayout(&WorldTable, &head.layout);
+    kiriArchive_HashLayout(&BladeDataTable, &head.layout);
+    kiriSheet_HashLayout(&head.layout);
+    return head;
+}
+
+kiriResult kiriSnapshot_Write(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size)
+{
+    kiriArchive archive = kiriArchive_Measure();
+    archive.isWhole = true;
+    ArchiveWorld(&archive, Unlocked(world));
+    *size = (int64_t)sizeof(SnapshotHead) + archive.at;
+    if (bytes == NULL || capacity < *size) {
+        return bytes == NULL ? KIRI_OK : KIRI_ERROR_ARGUMENT;
+    }
+    SnapshotHead head = HeadOfSnapshot(*size);
+    memcpy(bytes, &head, sizeof(head));
+    archive = kiriArchive_Write((uint8_t*)bytes + sizeof(head), *size - (int64_t)sizeof(head));
+    archive.isWhole = true;
+    ArchiveWorld(&archive, Unlocked(world));
+    KIRI_ASSERT(!archive.isBad && archive.at == archive.size);
     return KIRI_OK;
 }
 
-kiriResult kiriSave_Read(kiriWorld* world, const void* bytes, int64_t size, bool isTrusted, const char** why)
+kiriResult kiriSnapshot_Read(kiriWorld* world, const void* bytes, int64_t size)
 {
-    SaveHead head;
-    *why = FaultOfBytes(bytes, size, saveMagic, &head);
-    return *why != NULL ? KIRI_ERROR_DATA : LoadWorld(world, bytes, size, NULL, isTrusted, why);
-}
-
-kiriResult kiriSave_ReadDifference(kiriWorld* world, const void* from, int64_t fromSize, const void* bytes,
-                                   int64_t size, const char** why)
-{
-    SaveHead head, fromHead;
-    SaveBase base;
-    *why = FaultOfBytes(bytes, size, differenceMagic, &head);
-    *why = *why == NULL ? FaultOfBytes(from, fromSize, saveMagic, &fromHead) : *why;
-    if (*why == NULL && (!FindBase(&base, from, fromSize) || base.sum != head.base)) {
-        *why = "these bytes are a difference to another save";
+    const SnapshotHead head = HeadOfSnapshot(size);
+    if (size < (int64_t)sizeof(head) || memcmp(bytes, &head, sizeof(head)) != 0) {
+        return KIRI_ERROR_DATA;
     }
-    return *why != NULL ? KIRI_ERROR_DATA : LoadWorld(world, bytes, size, &base, true, why);
+    return BecomeWorld(world, (const uint8_t*)bytes + sizeof(head), size - (int64_t)sizeof(head), true);
 }

@@ -6,20 +6,18 @@
 
 KIRI_C_BEGIN
 
-/* *size: how many bytes there are. `bytes` null: no more than that. KIRI_ERROR_ARGUMENT: they do not fit. */
+/* *size: bytes of the save. `bytes` null: no more than that. KIRI_ERROR_ARGUMENT: they do not fit. KIRI_PENDING, and
+   *size is 0: a cut is being worked on. */
 kiriResult kiriSave_Write(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size);
 
-/* Makes the world what it was; its hooks stay. KIRI_ERROR_DATA, and *why says what is wrong with the bytes, or
-   KIRI_ERROR_MEMORY: nothing has changed. Of bytes that are not trusted nothing is read that follows from the mesh and
-   the frames, and the work at hand begins again. */
-kiriResult kiriSave_Read(kiriWorld* world, const void* bytes, int64_t size, bool isTrusted, const char** why);
+/* Replaces the world by the saved one; hooks stay. The bytes are untrusted: fields are checked, and all derived data is
+   made again. KIRI_ERROR_DATA, with a reason in *why, or KIRI_ERROR_MEMORY: nothing has changed. */
+kiriResult kiriSave_Read(kiriWorld* world, const void* bytes, int64_t size, const char** why);
 
-/* The same of what has changed since another save of this world, or of what it was loaded from. KIRI_ERROR_DATA: that
-   is none. */
-kiriResult kiriSave_WriteDifference(const kiriWorld* world, const void* from, int64_t fromSize, void* bytes,
-                                    int64_t capacity, int64_t* size, const char** why);
-kiriResult kiriSave_ReadDifference(kiriWorld* world, const void* from, int64_t fromSize, const void* bytes,
-                                   int64_t size, const char** why);
+/* The same with all data as it lies in memory, and without checks: for the same process. KIRI_ERROR_DATA: not a
+   snapshot of this build. */
+kiriResult kiriSnapshot_Write(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size);
+kiriResult kiriSnapshot_Read(kiriWorld* world, const void* bytes, int64_t size);
 
 KIRI_C_END
 

@@ -100,13 +100,14 @@ static bool IsServedFirst(const void* context, int32_t a, int32_t b)
     return one->cut.stamp < other->cut.stamp || (one->cut.stamp == other->cut.stamp && a < b);
 }
 
-static void StartAll(kiriWorld* world)
+/* No work begins while pieces are to leave. `finishes`: but work that has begun goes on. */
+static void StartAll(kiriWorld* world, bool finishes)
 {
     world->atWork.count = 0;
     for (int32_t k = 0; k < world->active.count; ++k) {
         kiriSheetData* sheet = kiriWorld_Active(world, k);
         sheet->update->isBegun = false;
-        if (kiriParts_AreDue(sheet)) {
+        if (kiriParts_AreDue(sheet) && !(finishes && sheet->update->stage != KIRI_NONE)) {
             continue;
         }
         kiriPipeline_Start(sheet);
@@ -482,7 +483,7 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
     kiriResult result = PartAll(world);
     kiriQuota aside = { 0, 0, 0, false };
     if (result == KIRI_OK) {
-        StartAll(world);
+        StartAll(world, false);
         aside = SetAside(world, &quotas);
         bool hasRoom = FindPairs(world, dt) && UpdateAll(world, &quotas) && FindTouches(world, dt) &&
                        kiriMoves_Prepare(world) && kiriSkinStep_Prepare(world);
@@ -517,5 +518,36 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
         world->profile = last;
         world->stage = KIRI_NONE;
     }
+    return result;
+}
+
+/* A tick without motion. The next tick reports its events, too. */
+kiriResult kiriWorld_FinishUpdates(kiriWorld* world)
+{
+    kiriQuotas unlimited = kiriQuotas_Unlimited();
+    const kiriProfile profile = world->profile;
+    int32_t events = world->events.count;
+    ListActive(world);
+    StartAll(world, true);
+    kiriResult result = UpdateAll(world, &unlimited) && kiriMoves_Prepare(world) && kiriSkinStep_Prepare(world)
+                            ? ReserveRoom(world)
+                            : KIRI_ERROR_MEMORY;
+    if (result == KIRI_OK) {
+        for (int32_t k = 0; k < world->active.count; ++k) {
+            StirTouched(kiriWorld_Active(world, k));
+        }
+        CommitAll(world);
+        WakeStirred(world);
+        for (int32_t k = 0; k < world->active.count; ++k) {
+            world->moves.of.data[world->active.data[k]].progress = KIRI_DONE;
+        }
+        SkinAll(world, 0.0);
+        EnterStage(world, KIRI_NONE);
+        world->newEvents += world->events.count - events;
+    } else {
+        AbortAll(world);
+        world->stage = KIRI_NONE;
+    }
+    world->profile = profile;
     return result;
 }

@@ -10,6 +10,10 @@ KIRI_C_BEGIN
    nothing moved. */
 kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps);
 
+/* Finishes the updates that are at work, or begins and finishes those that wait, whatever the budget is. Nothing moves.
+   KIRI_ERROR_MEMORY or KIRI_ERROR_LIMIT: as a tick that is refused. */
+kiriResult kiriWorld_FinishUpdates(kiriWorld* world);
+
 KIRI_C_END
 
 #endif

@@ -131,6 +131,18 @@ static bool AreLeaving(const kiriWorld* world, const kiriSheetData* sheet)
     return areFine;
 }
 
+bool kiriWorld_CheckMade(kiriWorld* world, bool* isShort)
+{
+    kiriCheck check;
+    memset(&check, 0, sizeof(check));
+    bool isFine = true;
+    for (int32_t i = 0; isFine && i < world->sheets.count; ++i) {
+        isFine = kiriSheet_CheckMade(world->sheets.data[i], &check);
+    }
+    *isShort = check.isShort && !check.isBad;
+    return isFine && kiriCheck_IsFine(&check);
+}
+
 bool kiriWorld_Check(kiriWorld* world, bool* isShort)
 {
     kiriCheck check;

@@ -9,6 +9,9 @@ KIRI_C_BEGIN
 /* Ids have found what they name. False: it is none, or, *isShort, there was no memory to tell. */
 bool kiriWorld_Check(kiriWorld* world, bool* isShort);
 
+/* The same for derived data, after it was made. */
+bool kiriWorld_CheckMade(kiriWorld* world, bool* isShort);
+
 KIRI_C_END
 
 #endif

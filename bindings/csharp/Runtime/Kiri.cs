@@ -561,9 +561,10 @@ namespace Kiri
             }
         }
 
-        /// <summary>Writes the world. *size: bytes that there are. `bytes` null: they are counted only, and capacity does not
-        /// matter; else it has room for `capacity`. Writes nothing where that is less than *size (KIRI_ERROR_ARGUMENT).
-        /// Only reads the world.</summary>
+        /// <summary>Writes the world, which only is read. *size: bytes of the save. `bytes` null: they are counted only, and
+        /// capacity is not read; else it has room for `capacity`. KIRI_ERROR_ARGUMENT: that is less than *size; nothing
+        /// is written. KIRI_PENDING: a cut is being worked on; *size is 0, and nothing is written. Save after a later
+        /// tick, or after kiriWorld_FinishCuts.</summary>
         public long Save(byte[] bytes)
         {
             long size = 0;
@@ -581,13 +582,20 @@ namespace Kiri
             return bytes;
         }
 
-        /// <summary>The world becomes what was saved, from a world with whatever hooks; its own stay: allocation, log, clock and
-        /// tasks. The profile has no times until the next tick. What it had before is gone, but arrays that it handed
-        /// out live until the next tick. KIRI_ERROR_DATA: the bytes are no save, or cut short, changed, or of a version
-        /// that this library does not read. KIRI_ERROR_MEMORY. Then nothing has changed. For bytes of your own: the sum
-        /// in a save finds damage, not malice, and nothing else is looked at. Bytes of others, made up with a right
-        /// sum, may crash the program here: for these there is kiriWorld_LoadUntrusted. A recording has the bytes, up
-        /// to 2^31 of them; kiriReplay.untrusted is for recordings of others.</summary>
+        /// <summary>Finishes the work on cuts at once, whatever the budget is, and without moving anything. Cuts that wait for a
+        /// budget take effect. The next tick reports the events. KIRI_ERROR_MEMORY, KIRI_ERROR_LIMIT: as in
+        /// kiriWorld_Tick. Arrays that the world handed out end as with a tick.</summary>
+        public void FinishCuts()
+        {
+            Check(Native.kiriWorld_FinishCuts(Handle));
+        }
+
+        /// <summary>Replaces the world by a saved one. It may have any hooks; its own allocation, log, clock and tasks stay. The
+        /// bytes may come from anybody: a malicious save may give a strange world but cannot crash the program, and
+        /// takes memory in proportion to its size. Takes about as long as to create the sheets. The profile has no
+        /// times until the next tick. Arrays that the old world handed out live until then. KIRI_ERROR_DATA: the bytes
+        /// are not a save, damaged, or of another version. KIRI_ERROR_MEMORY. Then nothing has changed. A recording has
+        /// the bytes, up to 2^31 of them.</summary>
         public void Load(byte[] bytes)
         {
             fixed (byte* bytesRows = bytes)
@@ -596,52 +604,35 @@ namespace Kiri
             }
         }
 
-        /// <summary>The same for bytes of others, who may have made them to do harm: what the world becomes may then be strange,
-        /// but it is one that all calls are good for. What follows from the mesh and the frames is not read but made
-        /// anew, which takes about as long as to create the sheets. A world in which no cut is being worked on goes on
-        /// bit for bit as after kiriWorld_Load, but that with a budget a later cut may take effect in another tick.
-        /// Work on a cut that is at hand begins again: the cut does the same, and takes effect later.</summary>
-        public void LoadUntrusted(byte[] bytes)
-        {
-            fixed (byte* bytesRows = bytes)
-            {
-                Check(Native.kiriWorld_LoadUntrusted(Handle, bytesRows, bytes.Length));
-            }
-        }
-
-        /// <summary>What has changed since a save, for hosts that go back a little: a save now and then, and a difference to it
-        /// each tick. Where no cut is being worked on it has poses, velocities and contacts; a cut adds what it
-        /// changed. All of the world is compared with the base, so it takes about as long as a save (tests/README.md
-        /// has sizes and times). base: what kiriWorld_Save wrote of this world, or what it was loaded from, with all
-        /// calls since. *size and `bytes` as in kiriWorld_Save; where capacity is not enough, what is in `bytes` means
-        /// nothing. KIRI_ERROR_DATA: base is no save. Only reads the world.</summary>
-        public long SaveDifference(byte[] @base, byte[] bytes)
+        /// <summary>For rollback: copies all of the world, also work on cuts and pieces that wait, into memory of the host. Much
+        /// faster than a save, and exact to the bit. The bytes are good for this process only: never store or send
+        /// them. Arguments as of kiriWorld_Save.</summary>
+        public long Snapshot(byte[] bytes)
         {
             long size = 0;
-            fixed (byte* baseRows = @base)
             fixed (byte* bytesRows = bytes)
             {
-                CheckRead(Native.kiriWorld_SaveDifference(Handle, baseRows, @base.Length, bytesRows, (bytes == null ? 0 : bytes.Length), &size));
+                CheckRead(Native.kiriWorld_Snapshot(Handle, bytesRows, (bytes == null ? 0 : bytes.Length), &size));
             }
             return size;
         }
 
-        public byte[] SaveDifference(byte[] @base)
+        public byte[] Snapshot()
         {
-            var bytes = new byte[SaveDifference(@base, null)];
-            SaveDifference(@base, bytes);
+            var bytes = new byte[Snapshot(null)];
+            Snapshot(bytes);
             return bytes;
         }
 
-        /// <summary>The world becomes what it was when the difference was written, as kiriWorld_Load: both are bytes of your
-        /// own. Any world, and on any machine, with the same base. KIRI_ERROR_DATA: base is no save, the bytes are no
-        /// difference, or one to another base.</summary>
-        public void LoadDifference(byte[] @base, byte[] bytes)
+        /// <summary>Replaces the world by the world of the snapshot; ids name the same things. The bytes are trusted: hand over
+        /// only the output of kiriWorld_Snapshot. KIRI_ERROR_DATA: the bytes are not a snapshot of this build of the
+        /// library. KIRI_ERROR_STATE: the world is recorded. KIRI_ERROR_MEMORY. Then nothing has changed. Hooks and
+        /// arrays as with kiriWorld_Load.</summary>
+        public void Restore(byte[] bytes)
         {
-            fixed (byte* baseRows = @base)
             fixed (byte* bytesRows = bytes)
             {
-                Check(Native.kiriWorld_LoadDifference(Handle, baseRows, @base.Length, bytesRows, bytes.Length));
+                Check(Native.kiriWorld_Restore(Handle, bytesRows, bytes.Length));
             }
         }
 

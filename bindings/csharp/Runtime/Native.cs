@@ -574,7 +574,7 @@ namespace Kiri
         }
     }
 
-    /// <summary>Progress of a replay. Set all fields but `untrusted` to zero before the first call.</summary>
+    /// <summary>Progress of a replay. Set all fields to zero before the first call.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct NativeReplay
     {
@@ -587,10 +587,6 @@ namespace Kiri
         /// <summary>bytes of the note where the replay stopped, in the recording; else null</summary>
         public void* Note;
         public int NoteCount;
-        /// <summary>set by the host, 1: somebody may have made the recording to do harm. Saves that it loads are loaded by
-        /// kiriWorld_LoadUntrusted, differences not at all (KIRI_ERROR_DATA). Where a cut was being worked on in a
-        /// save, states may then differ from those recorded (KIRI_ERROR_REPLAY)</summary>
-        public int Untrusted;
     }
 
     /// <summary>An event. It fills the fields that its type names, and `sheet`. Other fields are 0, and `stage` is -1.</summary>
@@ -1359,16 +1355,16 @@ namespace Kiri
         public static extern int kiriWorld_Save(IntPtr world, void* bytes, long capacity, long* size);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int kiriWorld_FinishCuts(IntPtr world);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int kiriWorld_Load(IntPtr world, void* bytes, long size);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
-        public static extern int kiriWorld_LoadUntrusted(IntPtr world, void* bytes, long size);
+        public static extern int kiriWorld_Snapshot(IntPtr world, void* bytes, long capacity, long* size);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
-        public static extern int kiriWorld_SaveDifference(IntPtr world, void* @base, long @baseSize, void* bytes, long capacity, long* size);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
-        public static extern int kiriWorld_LoadDifference(IntPtr world, void* @base, long @baseSize, void* bytes, long size);
+        public static extern int kiriWorld_Restore(IntPtr world, void* bytes, long size);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int kiriWorld_GetEvents(IntPtr world, Event** events, int* count);

@@ -216,12 +216,9 @@ namespace Kiri
         readonly byte[] recording;
         NativeReplay raw;
 
-        /// <summary>Untrusted: somebody may have made the recording to do harm. What it loads is loaded by LoadUntrusted, and
-        /// differences not at all.</summary>
-        public Replay(byte[] recording, bool untrusted = false)
+        public Replay(byte[] recording)
         {
             this.recording = recording;
-            raw.Untrusted = untrusted ? 1 : 0;
         }
 
         /// <summary>Makes the calls up to the next tick or note, and that one, in a world that was new at the start.</summary>

@@ -90,7 +90,6 @@ namespace Kiri.Tests
             Is("NativeReplay.Ticks", (byte*)&s.Ticks - at, 16);
             Is("NativeReplay.Note", (byte*)&s.Note - at, 24);
             Is("NativeReplay.NoteCount", (byte*)&s.NoteCount - at, 32);
-            Is("NativeReplay.Untrusted", (byte*)&s.Untrusted - at, 36);
         }
 
         static void Event()

@@ -66,37 +66,38 @@ class World(_core.World, _methods.World):
         note = bytes(memoryview(note))
         self.call("kiriWorld_Note", note, len(note))
 
-    def replay(self, recording, untrusted=False):
+    def replay(self, recording):
         """Makes the calls of a recording. Yields after each tick None, and each note as bytes. A call that goes otherwise
-        than recorded, and a damaged recording, raise KiriError. Untrusted: of others, see load."""
+        than recorded, and a damaged recording, raise KiriError."""
         recording = bytes(memoryview(recording))
-        at = ffi.new("kiriReplay*", {"untrusted": int(untrusted)})
+        at = ffi.new("kiriReplay*")
         while self.call("kiriWorld_Replay", ffi.from_buffer(recording), len(recording), at) == KIRI_PENDING:
             yield ffi.buffer(at.note, at.noteCount)[:] if at.note != ffi.NULL else None
 
-    def save(self, base=None):
-        """All that the coming ticks depend on, as bytes: see load. With a base, which an earlier call has returned: what
-        has changed since."""
+    def _bytes(self, name):
         size = ffi.new("int64_t*")
-        name, before = ("kiriWorld_Save", ()) if base is None else (
-            "kiriWorld_SaveDifference", (ffi.from_buffer(base), len(base)))
 
         def take():
             data = bytearray(size[0])
-            self._check(getattr(self.lib, name)(self._world, *before, ffi.from_buffer(data), size[0], size))
+            self._check(getattr(self.lib, name)(self._world, ffi.from_buffer(data), size[0], size))
             return bytes(data)
-        return self.call(name, *before, ffi.NULL, 0, size, take=take)
+        return self.call(name, ffi.NULL, 0, size, take=take)
 
-    def load(self, data, base=None, untrusted=False):
-        """The world becomes what was saved; objects go on naming what they named then. A base as that of save. Untrusted: a
-        save of others, who may have made it to do harm; differences are for bytes of your own."""
-        if untrusted and base is not None:
-            raise ValueError("a difference to a base is loaded as it is: only a whole save may be untrusted")
-        if base is None:
-            name = "kiriWorld_LoadUntrusted" if untrusted else "kiriWorld_Load"
-            self.call(name, ffi.from_buffer(data), len(data))
-        else:
-            self.call("kiriWorld_LoadDifference", ffi.from_buffer(base), len(base), ffi.from_buffer(data), len(data))
+    def save(self):
+        """The world as bytes: see load. None while a cut is being worked on: see finish_cuts."""
+        return self._bytes("kiriWorld_Save")
+
+    def load(self, data):
+        """The world becomes what was saved; objects go on naming what they named then. The bytes may come from anybody."""
+        self.call("kiriWorld_Load", ffi.from_buffer(data), len(data))
+
+    def snapshot(self):
+        """All of the world, for rollback in this process: see restore."""
+        return self._bytes("kiriWorld_Snapshot")
+
+    def restore(self, data):
+        """The world becomes what it was when the snapshot was made."""
+        self.call("kiriWorld_Restore", ffi.from_buffer(data), len(data))
 
     def detach_pieces(self, frames):
         """The pieces of these frames as sheets, None for those that wait: see Frame.detach_piece. In one pass;

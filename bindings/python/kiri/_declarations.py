@@ -38,10 +38,10 @@ CHANGES = {'kiriWorld_Tick': True,
  'kiriWorld_Note': True,
  'kiriWorld_Replay': True,
  'kiriWorld_Save': False,
+ 'kiriWorld_FinishCuts': True,
  'kiriWorld_Load': True,
- 'kiriWorld_LoadUntrusted': True,
- 'kiriWorld_SaveDifference': False,
- 'kiriWorld_LoadDifference': True,
+ 'kiriWorld_Snapshot': False,
+ 'kiriWorld_Restore': True,
  'kiriWorld_GetEvents': False,
  'kiriWorld_GetProfile': False,
  'kiriCreateSheet': True,
@@ -141,10 +141,10 @@ METHODS = {'kiriGetVersion': (None, 'version'),
  'kiriWorld_Note': ('World', 'note'),
  'kiriWorld_Replay': ('World', 'replay'),
  'kiriWorld_Save': ('World', 'save'),
+ 'kiriWorld_FinishCuts': ('World', 'finish_cuts'),
  'kiriWorld_Load': ('World', 'load'),
- 'kiriWorld_LoadUntrusted': ('World', 'load'),
- 'kiriWorld_SaveDifference': ('World', 'save'),
- 'kiriWorld_LoadDifference': ('World', 'load'),
+ 'kiriWorld_Snapshot': ('World', 'snapshot'),
+ 'kiriWorld_Restore': ('World', 'restore'),
  'kiriWorld_GetEvents': ('World', 'events'),
  'kiriWorld_GetProfile': ('World', 'profile'),
  'kiriFitBudget': (None, 'fit_budget'),
@@ -370,7 +370,7 @@ typedef void kiriFinishTaskFn(void* user, void* handle);
 typedef void kiriDrawFn(void* user, const kiriDrawVertex* vertices, int32_t count);
 struct kiriBudget { int32_t triangles; int32_t cells; int32_t samples; int32_t iterations; };
 struct kiriWorldDef { uint32_t cookie; float gravity[3]; kiriBudget budget; kiriAllocFn* alloc; kiriFreeFn* free; kiriLogFn* log; kiriClockFn* clock; kiriStartTaskFn* startTask; kiriFinishTaskFn* finishTask; int32_t workerCount; void* user; kiriRecordFn* record; int32_t recordHashTicks; };
-struct kiriReplay { int64_t offset; int64_t calls; int64_t ticks; const void* note; int32_t noteCount; int32_t untrusted; };
+struct kiriReplay { int64_t offset; int64_t calls; int64_t ticks; const void* note; int32_t noteCount; };
 struct kiriEvent { int32_t type; kiriSheet sheet; kiriCut cut; kiriFrame frame; kiriPin pin; int32_t crumb; float area; int32_t stage; int32_t waiting; };
 struct kiriProfile { double seconds[9]; int32_t cutSegments; int32_t trianglesSplit; int32_t cellsSettled; int32_t samplesRefreshed; int32_t solverIterations; int32_t cellsChanged; int32_t weightsChanged; int32_t verticesChanged; int32_t pointsChanged; int32_t linksChanged; int32_t commits; int32_t systemsSolved; int32_t contacts; int32_t sheetPairs; double largestJump; double largestFade; };
 struct kiriMaterial { float youngsModulus; float poissonsRatio; float thickness; float density; float airDamping; float flexDamping; };
@@ -414,10 +414,10 @@ kiriResult kiriWorld_GetSheets(const kiriWorld* world, kiriSheet* sheets, int32_
 kiriResult kiriWorld_Note(kiriWorld* world, const void* bytes, int32_t count);
 kiriResult kiriWorld_Replay(kiriWorld* world, const void* recording, int64_t size, kiriReplay* replay);
 kiriResult kiriWorld_Save(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size);
+kiriResult kiriWorld_FinishCuts(kiriWorld* world);
 kiriResult kiriWorld_Load(kiriWorld* world, const void* bytes, int64_t size);
-kiriResult kiriWorld_LoadUntrusted(kiriWorld* world, const void* bytes, int64_t size);
-kiriResult kiriWorld_SaveDifference(const kiriWorld* world, const void* base, int64_t baseSize, void* bytes, int64_t capacity, int64_t* size);
-kiriResult kiriWorld_LoadDifference(kiriWorld* world, const void* base, int64_t baseSize, const void* bytes, int64_t size);
+kiriResult kiriWorld_Snapshot(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size);
+kiriResult kiriWorld_Restore(kiriWorld* world, const void* bytes, int64_t size);
 kiriResult kiriWorld_GetEvents(const kiriWorld* world, const kiriEvent** events, int32_t* count);
 kiriResult kiriWorld_GetProfile(const kiriWorld* world, kiriProfile* profile);
 kiriResult kiriFitBudget(const kiriProfile* profile, float microseconds, kiriBudget* budget);

@@ -119,6 +119,13 @@ class World:
         things, = self.lists('kiriWorld_GetSheets', ('kiriSheet',))
         return [self.thing('Sheet', thing) for thing in things]
 
+    def finish_cuts(self):
+        """Finishes the work on cuts at once, whatever the budget is, and without moving anything. Cuts that wait for a
+        budget take effect. The next tick reports the events. KIRI_ERROR_MEMORY, KIRI_ERROR_LIMIT: as in
+        kiriWorld_Tick. Arrays that the world handed out end as with a tick.
+        """
+        return self.call('kiriWorld_FinishCuts')
+
     def events(self):
         """Gets the events: *events points to *count of them."""
         return self.get_array(

@@ -173,8 +173,8 @@ pub const KIRI_DRAW_ALL: i32 = 2047;
 /// Other calls, kiriDestroyWorld too, give KIRI_ERROR_STATE and do nothing but log a line (manual,
 /// budget). A reading thread may call \`log\`, and in kiriSheet_GetWeights and
 /// kiriSheet_EstimateError \`alloc\` and \`free\`. All memory of a world comes from \`alloc\`,
-/// except memory of Eigen when a cut couples frames that were not coupled before. at least 16-byte
-/// aligned, or null
+/// except memory in which Eigen orders the unknowns: when a cut couples frames that were not
+/// coupled before, and when a save is loaded. at least 16-byte aligned, or null
 pub type kiriAllocFn = Option<unsafe extern "C" fn(user: *mut c_void, bytes: i64) -> *mut c_void>;
 
 /// Functions of the host. They may call other worlds, and functions that take no world. They may
@@ -185,7 +185,8 @@ pub type kiriAllocFn = Option<unsafe extern "C" fn(user: *mut c_void, bytes: i64
 /// Other calls, kiriDestroyWorld too, give KIRI_ERROR_STATE and do nothing but log a line (manual,
 /// budget). A reading thread may call \`log\`, and in kiriSheet_GetWeights and
 /// kiriSheet_EstimateError \`alloc\` and \`free\`. All memory of a world comes from \`alloc\`,
-/// except memory of Eigen when a cut couples frames that were not coupled before.
+/// except memory in which Eigen orders the unknowns: when a cut couples frames that were not
+/// coupled before, and when a save is loaded.
 pub type kiriFreeFn = Option<unsafe extern "C" fn(user: *mut c_void, pointer: *mut c_void)>;
 
 /// Functions of the host. They may call other worlds, and functions that take no world. They may
@@ -196,7 +197,8 @@ pub type kiriFreeFn = Option<unsafe extern "C" fn(user: *mut c_void, pointer: *m
 /// Other calls, kiriDestroyWorld too, give KIRI_ERROR_STATE and do nothing but log a line (manual,
 /// budget). A reading thread may call \`log\`, and in kiriSheet_GetWeights and
 /// kiriSheet_EstimateError \`alloc\` and \`free\`. All memory of a world comes from \`alloc\`,
-/// except memory of Eigen when a cut couples frames that were not coupled before.
+/// except memory in which Eigen orders the unknowns: when a cut couples frames that were not
+/// coupled before, and when a save is loaded.
 pub type kiriLogFn = Option<unsafe extern "C" fn(user: *mut c_void, line: *const c_char)>;
 
 /// Functions of the host. They may call other worlds, and functions that take no world. They may
@@ -207,8 +209,9 @@ pub type kiriLogFn = Option<unsafe extern "C" fn(user: *mut c_void, line: *const
 /// Other calls, kiriDestroyWorld too, give KIRI_ERROR_STATE and do nothing but log a line (manual,
 /// budget). A reading thread may call \`log\`, and in kiriSheet_GetWeights and
 /// kiriSheet_EstimateError \`alloc\` and \`free\`. All memory of a world comes from \`alloc\`,
-/// except memory of Eigen when a cut couples frames that were not coupled before. seconds; read for
-/// the profile only, never by the simulation
+/// except memory in which Eigen orders the unknowns: when a cut couples frames that were not
+/// coupled before, and when a save is loaded. seconds; read for the profile only, never by the
+/// simulation
 pub type kiriClockFn = Option<unsafe extern "C" fn(user: *mut c_void) -> f64>;
 
 /// Functions of the host. They may call other worlds, and functions that take no world. They may
@@ -219,8 +222,8 @@ pub type kiriClockFn = Option<unsafe extern "C" fn(user: *mut c_void) -> f64>;
 /// Other calls, kiriDestroyWorld too, give KIRI_ERROR_STATE and do nothing but log a line (manual,
 /// budget). A reading thread may call \`log\`, and in kiriSheet_GetWeights and
 /// kiriSheet_EstimateError \`alloc\` and \`free\`. All memory of a world comes from \`alloc\`,
-/// except memory of Eigen when a cut couples frames that were not coupled before. the next bytes of
-/// the recording
+/// except memory in which Eigen orders the unknowns: when a cut couples frames that were not
+/// coupled before, and when a save is loaded. the next bytes of the recording
 pub type kiriRecordFn = Option<unsafe extern "C" fn(user: *mut c_void, bytes: *const c_void, count: i32)>;
 
 /// For hosts that lend their threads to a tick. \`start\` calls the task, from any threads, for
@@ -306,7 +309,7 @@ pub struct kiriWorldDef {
     pub recordHashTicks: i32,
 }
 
-/// Progress of a replay. Set all fields but \`untrusted\` to zero before the first call.
+/// Progress of a replay. Set all fields to zero before the first call.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriReplay {
@@ -319,10 +322,6 @@ pub struct kiriReplay {
     /// bytes of the note where the replay stopped, in the recording; else null
     pub note: *const c_void,
     pub noteCount: i32,
-    /// set by the host, 1: somebody may have made the recording to do harm. Saves that it loads are
-    /// loaded by kiriWorld_LoadUntrusted, differences not at all (KIRI_ERROR_DATA). Where a cut was
-    /// being worked on in a save, states may then differ from those recorded (KIRI_ERROR_REPLAY)
-    pub untrusted: i32,
 }
 
 /// An event. It fills the fields that its type names, and \`sheet\`. Other fields are 0, and
@@ -1073,38 +1072,33 @@ unsafe extern "C" {
     /// KIRI_ERROR_MEMORY: call again. Calls that were refused memory when recorded are skipped.
     /// After such a tick the next hashes may differ where a budget limits cells or samples.
     pub fn kiriWorld_Replay(world: *mut kiriWorld, recording: *const c_void, size: i64, replay: *mut kiriReplay) -> kiriResult;
-    /// Writes the world. \*size: bytes that there are. \`bytes\` null: they are counted only, and
-    /// capacity does not matter; else it has room for \`capacity\`. Writes nothing where that is
-    /// less than \*size (KIRI_ERROR_ARGUMENT). Only reads the world.
+    /// Writes the world, which only is read. \*size: bytes of the save. \`bytes\` null: they are
+    /// counted only, and capacity is not read; else it has room for \`capacity\`.
+    /// KIRI_ERROR_ARGUMENT: that is less than \*size; nothing is written. KIRI_PENDING: a cut is
+    /// being worked on; \*size is 0, and nothing is written. Save after a later tick, or after
+    /// kiriWorld_FinishCuts.
     pub fn kiriWorld_Save(world: *const kiriWorld, bytes: *mut c_void, capacity: i64, size: *mut i64) -> kiriResult;
-    /// The world becomes what was saved, from a world with whatever hooks; its own stay:
-    /// allocation, log, clock and tasks. The profile has no times until the next tick. What it had
-    /// before is gone, but arrays that it handed out live until the next tick. KIRI_ERROR_DATA: the
-    /// bytes are no save, or cut short, changed, or of a version that this library does not read.
-    /// KIRI_ERROR_MEMORY. Then nothing has changed. For bytes of your own: the sum in a save finds
-    /// damage, not malice, and nothing else is looked at. Bytes of others, made up with a right
-    /// sum, may crash the program here: for these there is kiriWorld_LoadUntrusted. A recording has
-    /// the bytes, up to 2^31 of them; kiriReplay.untrusted is for recordings of others.
+    /// Finishes the work on cuts at once, whatever the budget is, and without moving anything. Cuts
+    /// that wait for a budget take effect. The next tick reports the events. KIRI_ERROR_MEMORY,
+    /// KIRI_ERROR_LIMIT: as in kiriWorld_Tick. Arrays that the world handed out end as with a tick.
+    pub fn kiriWorld_FinishCuts(world: *mut kiriWorld) -> kiriResult;
+    /// Replaces the world by a saved one. It may have any hooks; its own allocation, log, clock and
+    /// tasks stay. The bytes may come from anybody: a malicious save may give a strange world but
+    /// cannot crash the program, and takes memory in proportion to its size. Takes about as long as
+    /// to create the sheets. The profile has no times until the next tick. Arrays that the old
+    /// world handed out live until then. KIRI_ERROR_DATA: the bytes are not a save, damaged, or of
+    /// another version. KIRI_ERROR_MEMORY. Then nothing has changed. A recording has the bytes, up
+    /// to 2^31 of them.
     pub fn kiriWorld_Load(world: *mut kiriWorld, bytes: *const c_void, size: i64) -> kiriResult;
-    /// The same for bytes of others, who may have made them to do harm: what the world becomes may
-    /// then be strange, but it is one that all calls are good for. What follows from the mesh and
-    /// the frames is not read but made anew, which takes about as long as to create the sheets. A
-    /// world in which no cut is being worked on goes on bit for bit as after kiriWorld_Load, but
-    /// that with a budget a later cut may take effect in another tick. Work on a cut that is at
-    /// hand begins again: the cut does the same, and takes effect later.
-    pub fn kiriWorld_LoadUntrusted(world: *mut kiriWorld, bytes: *const c_void, size: i64) -> kiriResult;
-    /// What has changed since a save, for hosts that go back a little: a save now and then, and a
-    /// difference to it each tick. Where no cut is being worked on it has poses, velocities and
-    /// contacts; a cut adds what it changed. All of the world is compared with the base, so it
-    /// takes about as long as a save (tests/README.md has sizes and times). base: what
-    /// kiriWorld_Save wrote of this world, or what it was loaded from, with all calls since. \*size
-    /// and \`bytes\` as in kiriWorld_Save; where capacity is not enough, what is in \`bytes\` means
-    /// nothing. KIRI_ERROR_DATA: base is no save. Only reads the world.
-    pub fn kiriWorld_SaveDifference(world: *const kiriWorld, base: *const c_void, baseSize: i64, bytes: *mut c_void, capacity: i64, size: *mut i64) -> kiriResult;
-    /// The world becomes what it was when the difference was written, as kiriWorld_Load: both are
-    /// bytes of your own. Any world, and on any machine, with the same base. KIRI_ERROR_DATA: base
-    /// is no save, the bytes are no difference, or one to another base.
-    pub fn kiriWorld_LoadDifference(world: *mut kiriWorld, base: *const c_void, baseSize: i64, bytes: *const c_void, size: i64) -> kiriResult;
+    /// For rollback: copies all of the world, also work on cuts and pieces that wait, into memory
+    /// of the host. Much faster than a save, and exact to the bit. The bytes are good for this
+    /// process only: never store or send them. Arguments as of kiriWorld_Save.
+    pub fn kiriWorld_Snapshot(world: *const kiriWorld, bytes: *mut c_void, capacity: i64, size: *mut i64) -> kiriResult;
+    /// Replaces the world by the world of the snapshot; ids name the same things. The bytes are
+    /// trusted: hand over only the output of kiriWorld_Snapshot. KIRI_ERROR_DATA: the bytes are not
+    /// a snapshot of this build of the library. KIRI_ERROR_STATE: the world is recorded.
+    /// KIRI_ERROR_MEMORY. Then nothing has changed. Hooks and arrays as with kiriWorld_Load.
+    pub fn kiriWorld_Restore(world: *mut kiriWorld, bytes: *const c_void, size: i64) -> kiriResult;
     /// Gets the events: \*events points to \*count of them.
     pub fn kiriWorld_GetEvents(world: *const kiriWorld, events: *mut *const kiriEvent, count: *mut i32) -> kiriResult;
     /// Gets the profile of the last tick that was not refused.
@@ -1464,7 +1458,6 @@ const _: () = {
     assert!(offset_of!(kiriReplay, ticks) == 16);
     assert!(offset_of!(kiriReplay, note) == 24);
     assert!(offset_of!(kiriReplay, noteCount) == 32);
-    assert!(offset_of!(kiriReplay, untrusted) == 36);
     assert!(size_of::<kiriEvent>() == 36);
     assert!(align_of::<kiriEvent>() == 4);
     assert!(offset_of!(kiriEvent, type_) == 0);
@@ -1778,14 +1771,13 @@ const _: () = {
     assert!(offset_of!(kiriWorldDef, user) == 60);
     assert!(offset_of!(kiriWorldDef, record) == 64);
     assert!(offset_of!(kiriWorldDef, recordHashTicks) == 68);
-    assert!(size_of::<kiriReplay>() == 40);
+    assert!(size_of::<kiriReplay>() == 32);
     assert!(align_of::<kiriReplay>() == 8);
     assert!(offset_of!(kiriReplay, offset) == 0);
     assert!(offset_of!(kiriReplay, calls) == 8);
     assert!(offset_of!(kiriReplay, ticks) == 16);
     assert!(offset_of!(kiriReplay, note) == 24);
     assert!(offset_of!(kiriReplay, noteCount) == 28);
-    assert!(offset_of!(kiriReplay, untrusted) == 32);
     assert!(size_of::<kiriEvent>() == 36);
     assert!(align_of::<kiriEvent>() == 4);
     assert!(offset_of!(kiriEvent, type_) == 0);

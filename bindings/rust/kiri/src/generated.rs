@@ -2133,9 +2133,11 @@ impl World {
         Ok(())
     }
 
-    /// Writes the world. \*size: bytes that there are. bytes null: they are counted only, and
-    /// capacity does not matter; else it has room for capacity. Writes nothing where that is less
-    /// than \*size ([`ResultCode::ErrorArgument`]). Only reads the world.
+    /// Writes the world, which only is read. \*size: bytes of the save. bytes null: they are
+    /// counted only, and capacity is not read; else it has room for capacity.
+    /// [`ResultCode::ErrorArgument`]: that is less than \*size; nothing is written.
+    /// [`ResultCode::Pending`]: a cut is being worked on; \*size is 0, and nothing is written. Save
+    /// after a later tick, or after [`World::finish_cuts`].
     pub fn save(&self) -> Result<Vec<u8>> {
         let mut bytes = Vec::<u8>::new();
         let mut size = 0;
@@ -2154,47 +2156,39 @@ impl World {
         Ok(bytes)
     }
 
-    /// The world becomes what was saved, from a world with whatever hooks; its own stay:
-    /// allocation, log, clock and tasks. The profile has no times until the next tick. What it had
-    /// before is gone, but arrays that it handed out live until the next tick.
-    /// [`ResultCode::ErrorData`]: the bytes are no save, or cut short, changed, or of a version
-    /// that this library does not read. [`ResultCode::ErrorMemory`]. Then nothing has changed. For
-    /// bytes of your own: the sum in a save finds damage, not malice, and nothing else is looked
-    /// at. Bytes of others, made up with a right sum, may crash the program here: for these there
-    /// is [`World::load_untrusted`]. A recording has the bytes, up to 2^31 of them;
-    /// [`Replay`].untrusted is for recordings of others.
+    /// Finishes the work on cuts at once, whatever the budget is, and without moving anything. Cuts
+    /// that wait for a budget take effect. The next tick reports the events.
+    /// [`ResultCode::ErrorMemory`], [`ResultCode::ErrorLimit`]: as in [`World::tick`]. Arrays that
+    /// the world handed out end as with a tick.
+    pub fn finish_cuts(&mut self) -> Result<()> {
+        // SAFETY: pointers are to what is named, and lengths are theirs.
+        check(unsafe { sys::kiriWorld_FinishCuts(self.raw_mut()) }, self)?;
+        Ok(())
+    }
+
+    /// Replaces the world by a saved one. It may have any hooks; its own allocation, log, clock and
+    /// tasks stay. The bytes may come from anybody: a malicious save may give a strange world but
+    /// cannot crash the program, and takes memory in proportion to its size. Takes about as long as
+    /// to create the sheets. The profile has no times until the next tick. Arrays that the old
+    /// world handed out live until then. [`ResultCode::ErrorData`]: the bytes are not a save,
+    /// damaged, or of another version. [`ResultCode::ErrorMemory`]. Then nothing has changed. A
+    /// recording has the bytes, up to 2^31 of them.
     pub fn load(&mut self, bytes: &[u8]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriWorld_Load(self.raw_mut(), bytes.as_ptr().cast(), bytes.len() as i64) }, self)?;
         Ok(())
     }
 
-    /// The same for bytes of others, who may have made them to do harm: what the world becomes may
-    /// then be strange, but it is one that all calls are good for. What follows from the mesh and
-    /// the frames is not read but made anew, which takes about as long as to create the sheets. A
-    /// world in which no cut is being worked on goes on bit for bit as after [`World::load`], but
-    /// that with a budget a later cut may take effect in another tick. Work on a cut that is at
-    /// hand begins again: the cut does the same, and takes effect later.
-    pub fn load_untrusted(&mut self, bytes: &[u8]) -> Result<()> {
-        // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriWorld_LoadUntrusted(self.raw_mut(), bytes.as_ptr().cast(), bytes.len() as i64) }, self)?;
-        Ok(())
-    }
-
-    /// What has changed since a save, for hosts that go back a little: a save now and then, and a
-    /// difference to it each tick. Where no cut is being worked on it has poses, velocities and
-    /// contacts; a cut adds what it changed. All of the world is compared with the base, so it
-    /// takes about as long as a save (tests/README.md has sizes and times). base: what
-    /// [`World::save`] wrote of this world, or what it was loaded from, with all calls since.
-    /// \*size and bytes as in [`World::save`]; where capacity is not enough, what is in bytes means
-    /// nothing. [`ResultCode::ErrorData`]: base is no save. Only reads the world.
-    pub fn save_difference(&self, base: &[u8]) -> Result<Vec<u8>> {
+    /// For rollback: copies all of the world, also work on cuts and pieces that wait, into memory
+    /// of the host. Much faster than a save, and exact to the bit. The bytes are good for this
+    /// process only: never store or send them. Arguments as of [`World::save`].
+    pub fn snapshot(&self) -> Result<Vec<u8>> {
         let mut bytes = Vec::<u8>::new();
         let mut size = 0;
         let mut capacity = 0;
         loop {
             // SAFETY: the arrays have room for so many.
-            check_read(unsafe { sys::kiriWorld_SaveDifference(self.raw(), base.as_ptr().cast(), base.len() as i64, if capacity == 0 { std::ptr::null_mut() } else { bytes.as_mut_ptr().cast() }, capacity as i64, &mut size) })?;
+            check_read(unsafe { sys::kiriWorld_Snapshot(self.raw(), if capacity == 0 { std::ptr::null_mut() } else { bytes.as_mut_ptr().cast() }, capacity as i64, &mut size) })?;
             let needed = size as usize;
             if needed <= capacity {
                 unsafe { bytes.set_len(needed) };
@@ -2206,13 +2200,14 @@ impl World {
         Ok(bytes)
     }
 
-    /// The world becomes what it was when the difference was written, as [`World::load`]: both are
-    /// bytes of your own. Any world, and on any machine, with the same base.
-    /// [`ResultCode::ErrorData`]: base is no save, the bytes are no difference, or one to another
-    /// base.
-    pub fn load_difference(&mut self, base: &[u8], bytes: &[u8]) -> Result<()> {
+    /// Replaces the world by the world of the snapshot; ids name the same things. The bytes are
+    /// trusted: hand over only the output of [`World::snapshot`]. [`ResultCode::ErrorData`]: the
+    /// bytes are not a snapshot of this build of the library. [`ResultCode::ErrorState`]: the world
+    /// is recorded. [`ResultCode::ErrorMemory`]. Then nothing has changed. Hooks and arrays as with
+    /// [`World::load`].
+    pub fn restore(&mut self, bytes: &[u8]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriWorld_LoadDifference(self.raw_mut(), base.as_ptr().cast(), base.len() as i64, bytes.as_ptr().cast(), bytes.len() as i64) }, self)?;
+        check(unsafe { sys::kiriWorld_Restore(self.raw_mut(), bytes.as_ptr().cast(), bytes.len() as i64) }, self)?;
         Ok(())
     }
 

@@ -268,16 +268,8 @@ pub struct Replay<'r> {
 
 impl<'r> Replay<'r> {
     pub fn new(recording: &'r [u8]) -> Self {
-        let raw = sys::kiriReplay { offset: 0, calls: 0, ticks: 0, note: std::ptr::null(), noteCount: 0, untrusted: 0 };
+        let raw = sys::kiriReplay { offset: 0, calls: 0, ticks: 0, note: std::ptr::null(), noteCount: 0 };
         Self { raw, recording, _note: PhantomData }
-    }
-
-    /// Of a recording that somebody may have made to do harm: what it loads is loaded by [`World::load_untrusted`], and
-    /// differences not at all.
-    pub fn untrusted(recording: &'r [u8]) -> Self {
-        let mut replay = Self::new(recording);
-        replay.raw.untrusted = 1;
-        replay
     }
 
     /// Makes the calls up to the next tick or note, and that one, in a world that was new at the start.
