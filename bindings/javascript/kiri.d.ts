@@ -491,8 +491,8 @@ export class SheetDef {
     material: Material;
     /** grid squares along the longer side, 1 to 4096; default 32 */
     gridResolution: number;
-    /** m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not, and a cut keeps within
-     *  half of it of its line; 0: 1e-4 of the longer side */
+    /** m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not. A cut keeps within half
+     *  of it of its line, or goes along a lip this near; 0: 1e-4 of the longer side */
     snapDistance: number;
     /** Merges vertices nearer than this (m, rest plane; 0 or more): for seams of texture coordinates, and triangles
      *  without shared vertices (STL). Each vertex becomes the nearest kept vertex before it within this distance, or is
@@ -581,8 +581,8 @@ export interface SheetDefGiven {
     material?: MaterialGiven;
     /** grid squares along the longer side, 1 to 4096; default 32 */
     gridResolution?: number;
-    /** m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not, and a cut keeps within
-     *  half of it of its line; 0: 1e-4 of the longer side */
+    /** m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not. A cut keeps within half
+     *  of it of its line, or goes along a lip this near; 0: 1e-4 of the longer side */
     snapDistance?: number;
     /** Merges vertices nearer than this (m, rest plane; 0 or more): for seams of texture coordinates, and triangles
      *  without shared vertices (STL). Each vertex becomes the nearest kept vertex before it within this distance, or is

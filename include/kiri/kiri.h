@@ -26,7 +26,7 @@
 
 /* Version of this header. kiriGetVersion() returns the version of the linked library. */
 #define KIRI_VERSION_MAJOR 0
-#define KIRI_VERSION_MINOR 12
+#define KIRI_VERSION_MINOR 13
 #define KIRI_VERSION_PATCH 0
 #define KIRI_VERSION (10000 * KIRI_VERSION_MAJOR + 100 * KIRI_VERSION_MINOR + KIRI_VERSION_PATCH)
 
@@ -450,8 +450,9 @@ typedef struct kiriSheetDef {
 
     int32_t gridResolution; /* grid squares along the longer side, 1 to 4096; default 32 */
     float
-        snapDistance; /* m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not, and a
-                         cut keeps within half of it of its line; 0: 1e-4 of the longer side */
+        snapDistance; /* m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not. A cut
+                         keeps within half of it of its line, or goes along a lip this near; 0: 1e-4 of the longer
+                         side */
 
     /* Merges vertices nearer than this (m, rest plane; 0 or more): for seams of texture coordinates, and triangles
        without shared vertices (STL). Each vertex becomes the nearest kept vertex before it within this distance, or is
@@ -826,8 +827,8 @@ KIRI_API kiriResult kiriSheet_Slice(kiriWorld* world, kiriSheet sheet, const flo
    past it, so that it parts. A cut that began amid the material, and comes by its beginning by 1.5 % of its length or
    nearer, is closed there when it has gone on by a tenth of its length or ends: so a disc comes out of a circle drawn
    by hand. A way out and straight back does not close. A blade that is held still cuts nothing within 64 snap distances of
-   its slit. A way that stays within 1.5 snap distances of a slit cuts nothing. Cloth that slips off the edge by a fold
-   does not part: the cut ends in the cloth.
+   its slit. A way that stays within 1.5 snap distances of a slit cuts nothing. In cloth that sways, a slow blade may
+   leave a bridge.
    Move a blade at least once a tick while it is in a sheet; more often is fine. The next tick makes these cuts;
    with a budget, a later tick may. Pending cuts count as slits. Where a blade cuts a moving sheet follows from the
    calls and the budget, for the sheet moves differently once it has parted. Saves and state hashes hold all of it. A

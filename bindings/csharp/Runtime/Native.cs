@@ -735,8 +735,8 @@ namespace Kiri
         public Material Material;
         /// <summary>grid squares along the longer side, 1 to 4096; default 32</summary>
         public int GridResolution;
-        /// <summary>m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not, and a cut keeps
-        /// within half of it of its line; 0: 1e-4 of the longer side</summary>
+        /// <summary>m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not. A cut keeps within
+        /// half of it of its line, or goes along a lip this near; 0: 1e-4 of the longer side</summary>
         public float SnapDistance;
         /// <summary>Merges vertices nearer than this (m, rest plane; 0 or more): for seams of texture coordinates, and triangles
         /// without shared vertices (STL). Each vertex becomes the nearest kept vertex before it within this distance,
@@ -1302,7 +1302,7 @@ namespace Kiri
 #endif
 
         /// <summary>Of the header.</summary>
-        public const int Version = 1200;
+        public const int Version = 1300;
         public const int LeastTriangles = 16;
         public const int MostNoteBytes = 1048576;
 

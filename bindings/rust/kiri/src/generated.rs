@@ -840,8 +840,9 @@ pub struct SheetDef<'a> {
     pub material: Material,
     /// grid squares along the longer side, 1 to 4096; default 32
     pub grid_resolution: i32,
-    /// m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not, and
-    /// a cut keeps within half of it of its line; 0: 1e-4 of the longer side
+    /// m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not. A
+    /// cut keeps within half of it of its line, or goes along a lip this near; 0: 1e-4 of the
+    /// longer side
     pub snap_distance: f32,
     /// Merges vertices nearer than this (m, rest plane; 0 or more): for seams of texture
     /// coordinates, and triangles without shared vertices (STL). Each vertex becomes the nearest
