@@ -276,7 +276,7 @@ static bool Check_Provenance(Check* check, const kiriMeshData* mesh)
     }
     for (int32_t v = 0; v < mesh->vertices.count; ++v) {
         const kiriVertex* vertex = &mesh->vertices.data[v];
-        double x = 0.0, y = 0.0, sum = 0.0, near = 4e-7 * 536870912.0;
+        double x = 0.0, y = 0.0, sum = 0.0, near = 5e-7 * 536870912.0;
         REQUIRE(found[v] || !kiriMesh_IsVertex(mesh, v), "vertex %d takes its source %d from elsewhere", v,
                 vertex->source);
         if (!kiriMesh_IsVertex(mesh, v)) {
@@ -317,7 +317,7 @@ static bool Check_Births(Check* check, const kiriMeshData* mesh)
                 y += birth->share[k] * mesh->vertices.data[birth->parent[k]].at.y;
             }
         }
-        REQUIRE(IsNear(x, at.x, 20.0) && IsNear(y, at.y, 20.0), "vertex %d is not where its parents have it", vertex);
+        REQUIRE(IsNear(x, at.x, 4.0) && IsNear(y, at.y, 4.0), "vertex %d is not where its parents have it", vertex);
     }
     return true;
 }

@@ -282,7 +282,8 @@ static bool FindSplit(BladeWalk* walk, int32_t h, kiriLatticePoint* at)
         for (int32_t steps = 1; !canSplit && steps <= SLACK; steps = steps < 0 ? -2 * steps : -steps) {
             double s = along[i] * walk->on, t = steps == 1 || (isOutline && steps < 0) ? 0.0 : steps;
             p = kiriMesh_Round(kiriVec2_Make(at->x + s * x - t * y, at->y + s * y + t * x));
-            canSplit = kiriSquares_At(&walk->mesh->squares, p) != KIRI_NONE && CanSplitEdge(walk, h, p);
+            bool isBetween = kiriLattice_Dot(a, b, p) > 0 && kiriLattice_Dot(b, a, p) > 0;
+            canSplit = isBetween && kiriSquares_At(&walk->mesh->squares, p) != KIRI_NONE && CanSplitEdge(walk, h, p);
         }
     }
     *at = p;
@@ -529,6 +530,18 @@ static kiriLatticePoint PointOfReturn(const BladeWalk* walk, const kiriCorridor*
                : kiriLattice_Between(tip->from, tip->to, progress / square);
 }
 
+/* Makes a vertex at this point the next goal, unless it is not ahead. */
+static bool TakeGoal(BladeWalk* walk, const kiriCorridor* corridor, kiriLatticePoint at)
+{
+    int32_t triangle = LocatePoint(walk, at), vertex = triangle == KIRI_NONE ? KIRI_NONE : VertexIn(walk, triangle, at);
+    if (vertex == KIRI_NONE || walk->failed ||
+        kiriCorridor_Progress(corridor, VertexPoint(walk, vertex)) <= kiriCorridor_Progress(corridor, walk->tip->at)) {
+        return false;
+    }
+    walk->tip->goal = walk->tip->lip = VertexPoint(walk, vertex);
+    return true;
+}
+
 /* Finds the next goal: a lip on the line, the place beside a lip that is to be joined, the point where the blade comes
    back to the line, or the end. */
 static void Look(BladeWalk* walk)
@@ -538,16 +551,12 @@ static void Look(BladeWalk* walk)
     kiriLipStop stop;
     bool isFound = kiriLip_FindStop(&corridor, tip->lip, &stop);
     kiriLatticePoint back = PointOfReturn(walk, &corridor);
-    int64_t progress = kiriCorridor_Progress(&corridor, back);
+    int64_t limit = kiriCorridor_Progress(&corridor, isFound ? stop.at : tip->to);
     tip->goal = tip->lip = tip->to;
-    if (!kiriLattice_IsSame(back, tip->to) && (!isFound || progress < kiriCorridor_Progress(&corridor, stop.at))) {
-        int32_t triangle = LocatePoint(walk, back);
-        int32_t vertex = triangle == KIRI_NONE ? KIRI_NONE : VertexIn(walk, triangle, back);
-        if (vertex != KIRI_NONE && !walk->failed &&
-            kiriCorridor_Progress(&corridor, VertexPoint(walk, vertex)) > kiriCorridor_Progress(&corridor, tip->at)) {
-            tip->goal = tip->lip = VertexPoint(walk, vertex);
-        }
-    } else if (isFound) {
+    if (kiriCorridor_Progress(&corridor, back) < limit && TakeGoal(walk, &corridor, back)) {
+        isFound = false;
+    }
+    if (isFound) {
         int32_t triangle = kiriLattice_IsSame(stop.foot, stop.at) ? KIRI_NONE : LocatePoint(walk, stop.foot);
         tip->lip = stop.at;
         tip->goal = triangle == KIRI_NONE ? stop.at : stop.foot;
