@@ -578,7 +578,8 @@ static bool FollowLip(BladeWalk* walk)
     bool follows = tip->vertex != KIRI_NONE && kiriLip_Follow(&corridor, tip->vertex, tip->goal, &place);
     walk->effort += corridor.effort;
     int32_t vertex = follows ? VertexOnEdge(walk, place.edge, place.at) : KIRI_NONE;
-    follows = follows && !walk->failed && IsNearerGoal(walk, VertexPoint(walk, vertex));
+    follows = follows && !walk->failed && IsNearerGoal(walk, VertexPoint(walk, vertex)) &&
+              kiriCorridor_Progress(&corridor, VertexPoint(walk, vertex)) > kiriCorridor_Progress(&corridor, tip->at);
     if (follows) {
         MoveTo(walk, vertex);
         tip->phase = fabs(kiriCorridor_Side(&corridor, tip->at)) > corridor.on ? KIRI_BLADE_LOOKS : tip->phase;
