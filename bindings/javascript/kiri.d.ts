@@ -1357,9 +1357,9 @@ export class Sheet {
     raycast(origin: ArrayLike<number>, direction: ArrayLike<number>, maxDistance: number, into?: Hit): Hit;
     /** Gets the state of a point. KIRI_ERROR_ARGUMENT: it is outside the sheet. On a cut: on a lip that has the point. */
     getPoint(restPoint: ArrayLike<number>, into?: PointState): PointState;
-    /** Gets the shape functions at a rest point: up to `capacity` frames with their weights (sum 1) and, unless null,
-     *  gradients (2 floats a frame, 1/m). *count is how many there are, also above capacity. KIRI_ERROR_ARGUMENT: it is
-     *  outside the sheet. KIRI_ERROR_STATE: work on a cut is pending. */
+    /** Gets the shape functions at a rest point: up to `capacity` frames with their weights, whose sum is 1, and,
+     *  unless null, gradients (2 floats a frame, 1/m). *count is how many there are, also above capacity.
+     *  KIRI_ERROR_ARGUMENT: it is outside the sheet. KIRI_ERROR_STATE: work on a cut is pending. */
     getWeights(restPoint: ArrayLike<number>): { frames: Frame[], weights: Float32Array, gradients: Float32Array };
     /** Get a piece. The first of these calls after a cut sorts the sheet by pieces, and may fail with
      *  KIRI_ERROR_MEMORY. KIRI_ERROR_ARGUMENT: no piece has the index. */

@@ -1230,9 +1230,9 @@ function Sheet:getPoint(restPoint, state)
     return state
 end
 
---- Gets the shape functions at a rest point: up to `capacity` frames with their weights (sum 1) and, unless null,
---- gradients (2 floats a frame, 1/m). *count is how many there are, also above capacity. KIRI_ERROR_ARGUMENT: it is
---- outside the sheet. KIRI_ERROR_STATE: work on a cut is pending.
+--- Gets the shape functions at a rest point: up to `capacity` frames with their weights, whose sum is 1, and, unless
+--- null, gradients (2 floats a frame, 1/m). *count is how many there are, also above capacity. KIRI_ERROR_ARGUMENT:
+--- it is outside the sheet. KIRI_ERROR_STATE: work on a cut is pending.
 function Sheet:getWeights(restPoint)
     local world = self.world
     local result = C.kiriSheet_GetWeights(world.c, self.id, vector(1, restPoint, 2), room.kiriFrame, room.float, room.float2, room.size, out.int32_t)

@@ -734,7 +734,7 @@ typedef struct kiriPointState {
 KIRI_API kiriResult kiriSheet_GetPoint(const kiriWorld* world, kiriSheet sheet, const float restPoint[2],
                                        kiriPointState* state);
 
-/* Gets the shape functions at a rest point: up to `capacity` frames with their weights (sum 1) and, unless null,
+/* Gets the shape functions at a rest point: up to `capacity` frames with their weights, whose sum is 1, and, unless null,
    gradients (2 floats a frame, 1/m). *count is how many there are, also above capacity. KIRI_ERROR_ARGUMENT: it is
    outside the sheet. KIRI_ERROR_STATE: work on a cut is pending. */
 KIRI_API kiriResult kiriSheet_GetWeights(const kiriWorld* world, kiriSheet sheet, const float restPoint[2],

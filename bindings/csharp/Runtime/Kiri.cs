@@ -1038,8 +1038,8 @@ namespace Kiri
             return stateValue;
         }
 
-        /// <summary>Gets the shape functions at a rest point: up to `capacity` frames with their weights (sum 1) and, unless
-        /// null, gradients (2 floats a frame, 1/m). *count is how many there are, also above capacity.
+        /// <summary>Gets the shape functions at a rest point: up to `capacity` frames with their weights, whose sum is 1, and,
+        /// unless null, gradients (2 floats a frame, 1/m). *count is how many there are, also above capacity.
         /// KIRI_ERROR_ARGUMENT: it is outside the sheet. KIRI_ERROR_STATE: work on a cut is pending.</summary>
         public int GetWeights(Float2 restPoint, FrameId[] frames, float[] weights, float[] gradients)
         {

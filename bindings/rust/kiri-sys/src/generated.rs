@@ -1242,10 +1242,10 @@ unsafe extern "C" {
     /// Gets the state of a point. KIRI_ERROR_ARGUMENT: it is outside the sheet. On a cut: on a lip
     /// that has the point.
     pub fn kiriSheet_GetPoint(world: *const kiriWorld, sheet: kiriSheet, restPoint: *const f32, state: *mut kiriPointState) -> kiriResult;
-    /// Gets the shape functions at a rest point: up to \`capacity\` frames with their weights (sum
-    /// 1) and, unless null, gradients (2 floats a frame, 1/m). \*count is how many there are, also
-    /// above capacity. KIRI_ERROR_ARGUMENT: it is outside the sheet. KIRI_ERROR_STATE: work on a
-    /// cut is pending.
+    /// Gets the shape functions at a rest point: up to \`capacity\` frames with their weights,
+    /// whose sum is 1, and, unless null, gradients (2 floats a frame, 1/m). \*count is how many
+    /// there are, also above capacity. KIRI_ERROR_ARGUMENT: it is outside the sheet.
+    /// KIRI_ERROR_STATE: work on a cut is pending.
     pub fn kiriSheet_GetWeights(world: *const kiriWorld, sheet: kiriSheet, restPoint: *const f32, frames: *mut kiriFrame, weights: *mut f32, gradients: *mut f32, capacity: i32, count: *mut i32) -> kiriResult;
     /// Get a piece. The first of these calls after a cut sorts the sheet by pieces, and may fail
     /// with KIRI_ERROR_MEMORY. KIRI_ERROR_ARGUMENT: no piece has the index.

@@ -2518,9 +2518,9 @@ impl Sheet {
         Ok(PointState::from_raw(&state))
     }
 
-    /// Gets the shape functions at a rest point: up to capacity frames with their weights (sum 1)
-    /// and, unless null, gradients (2 floats a frame, 1/m). \*count is how many there are, also
-    /// above capacity. [`ResultCode::ErrorArgument`]: it is outside the sheet.
+    /// Gets the shape functions at a rest point: up to capacity frames with their weights, whose
+    /// sum is 1, and, unless null, gradients (2 floats a frame, 1/m). \*count is how many there
+    /// are, also above capacity. [`ResultCode::ErrorArgument`]: it is outside the sheet.
     /// [`ResultCode::ErrorState`]: work on a cut is pending.
     pub fn weights(self, world: &World, rest_point: [f32; 2]) -> Result<(Vec<Frame>, Vec<f32>, Vec<[f32; 2]>)> {
         let mut frames = Vec::<Frame>::new();
