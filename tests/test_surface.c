@@ -179,9 +179,6 @@ static void Cut(Cloth* cloth, int32_t count, uint32_t* seed)
         if (k % 3 == 1 && kiriMesh_CanSplitEdge(mesh, h, half)) {
             assert_int_not_equal(kiriMesh_SplitEdge(mesh, h, half), KIRI_NONE);
         }
-        if (k % 4 == 3 && kiriMesh_CanFlipEdge(mesh, h)) {
-            assert_true(kiriMesh_FlipEdge(mesh, h));
-        }
         assert_true(kiriMesh_Open(mesh, h));
     }
 }

@@ -221,7 +221,7 @@ namespace Kiri.Tests
             int notes = 0;
             using (var world = new World())
             {
-                var replay = new Replay(recording.ToArray(), true);
+                var replay = new Replay(recording.ToArray());
                 while (replay.Step(world) == Status.Pending)
                 {
                     if (replay.Note != null) notes += replay.Note.Length;
