@@ -312,8 +312,7 @@ static double LimitDistance(const kiriBladeWork* work, double near)
     return near < most ? near : most;
 }
 
-/* From the beginning of the line to the crossing at its other end. A blade comes amid the material over a lip: where one
-   is near, the cut begins there. */
+/* From the beginning of the line to the crossing at its other end. */
 static bool EnterAlong(kiriBladeWork* work, kiriCrossing* crossing, const kiriSectionLine* line, bool fromLast,
                        double near)
 {
@@ -325,9 +324,7 @@ static bool EnterAlong(kiriBladeWork* work, kiriCrossing* crossing, const kiriSe
         return false;
     }
     kiriVec2 from = lost != NULL ? lost->rest : work->path.data[0];
-    bool isAtLip = type == KIRI_END_BORDER || (type == KIRI_SIDE_FROM && lost == NULL &&
-                                               kiriBlade_FindSlit(work, from, LimitDistance(work, near), &from));
-    kiriLoop loop = lost != NULL ? lost->loop : LoopFrom(from, !isAtLip);
+    kiriLoop loop = lost != NULL ? lost->loop : LoopFrom(from, type != KIRI_END_BORDER);
     if (other != NULL) {
         other->triangle = TAKEN;
         if (!AddTrack(work, other, from, LoopFrom(from, true))) {
