@@ -765,20 +765,65 @@ static void TestRaysMakeNoDifference(void** state)
     assert_true(hashes[0] == hashes[1]);
 }
 
+/* A ray goes straight through a sheet that falls: two pieces, and no crumb. */
+static void TestFallingSheets(void** state)
+{
+    (void)state;
+    for (int32_t k = 0; k < 120; ++k) {
+        kiriWorldDef worldDef;
+        kiriSheetDef sheetDef;
+        kiriWorld* world;
+        kiriSheet sheet;
+        kiriBlade blade;
+        kiriCounts counts;
+        kiriDefaultWorldDef(&worldDef);
+        kiriDefaultSheetDef(&sheetDef);
+        worldDef.gravity[1] = -1.0f - (float)(k % 10);
+        sheetDef.frameCount = 1 + k % 7;
+        OK(kiriCreateWorld(&worldDef, &world));
+        OK(kiriCreateRectangle(world, 1.0f, 0.5f, 8 << k % 3, 4 << k % 3, &sheetDef, &sheet));
+        OK(kiriBeginBlade(world, sheet, &blade));
+        const int32_t steps = 6 + k % 25;
+        for (int32_t i = 0; i < steps; ++i) {
+            const float along = (float)i / (float)(steps - 1), height = 0.12f + 0.0026f * (float)(k * 37 % 100);
+            const float origin[3] = { 1.2f * along - 0.1f, height, 1.0f }, direction[3] = { 0.0f, 0.0f, -1.0f };
+            OK(kiriBlade_MoveRay(world, blade, origin, direction, 2.0f));
+            OK(kiriWorld_Tick(world, 1.0f / 60.0f, 1 + k % 2));
+        }
+        OK(kiriBlade_End(world, blade));
+        OK(kiriWorld_Tick(world, 1.0f / 60.0f, 1));
+        OK(kiriSheet_GetCounts(world, sheet, &counts));
+        assert_int_equal(counts.pieces, 2);
+        kiriDestroyWorld(world);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestSwipesPart),         cmocka_unit_test(TestTwentySwipes),
-        cmocka_unit_test(TestBackAndForth),       cmocka_unit_test(TestLoops),
-        cmocka_unit_test(TestCirclesByHand),      cmocka_unit_test(TestCirclesAfterWaiting),
-        cmocka_unit_test(TestClosedLoop),         cmocka_unit_test(TestStandsStill),
-        cmocka_unit_test(TestLeavesAndComesBack), cmocka_unit_test(TestShortEdge),
-        cmocka_unit_test(TestTurningEdge),        cmocka_unit_test(TestFold),
-        cmocka_unit_test(TestSeveralPieces),      cmocka_unit_test(TestAllSheets),
-        cmocka_unit_test(TestFallsPast),          cmocka_unit_test(TestFallsAlong),
-        cmocka_unit_test(TestDetached),           cmocka_unit_test(TestOpensAtOnce),
-        cmocka_unit_test(TestRefusals),           cmocka_unit_test(TestExtremeEdges),
-        cmocka_unit_test(TestWithoutMemory),      cmocka_unit_test(TestRaysMakeNoDifference),
+        cmocka_unit_test(TestSwipesPart),
+        cmocka_unit_test(TestTwentySwipes),
+        cmocka_unit_test(TestBackAndForth),
+        cmocka_unit_test(TestLoops),
+        cmocka_unit_test(TestCirclesByHand),
+        cmocka_unit_test(TestCirclesAfterWaiting),
+        cmocka_unit_test(TestFallingSheets),
+        cmocka_unit_test(TestClosedLoop),
+        cmocka_unit_test(TestStandsStill),
+        cmocka_unit_test(TestLeavesAndComesBack),
+        cmocka_unit_test(TestShortEdge),
+        cmocka_unit_test(TestTurningEdge),
+        cmocka_unit_test(TestFold),
+        cmocka_unit_test(TestSeveralPieces),
+        cmocka_unit_test(TestAllSheets),
+        cmocka_unit_test(TestFallsPast),
+        cmocka_unit_test(TestFallsAlong),
+        cmocka_unit_test(TestDetached),
+        cmocka_unit_test(TestOpensAtOnce),
+        cmocka_unit_test(TestRefusals),
+        cmocka_unit_test(TestExtremeEdges),
+        cmocka_unit_test(TestWithoutMemory),
+        cmocka_unit_test(TestRaysMakeNoDifference),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
