@@ -306,12 +306,6 @@ static kiriCrossing* OtherCrossing(kiriBladeWork* work, kiriCrossing* crossing, 
 /* As far as a border or a lip that a blade went over unseen may be, as a share of the sheet's longer side. */
 #define BORDER_DISTANCE 0.05
 
-static double LimitDistance(const kiriBladeWork* work, double near)
-{
-    double most = BORDER_DISTANCE * KIRI_LATTICE * work->sheet->mesh.step;
-    return near < most ? near : most;
-}
-
 /* From the beginning of the line to the crossing at its other end. */
 static bool EnterAlong(kiriBladeWork* work, kiriCrossing* crossing, const kiriSectionLine* line, bool fromLast,
                        double near)
@@ -540,7 +534,7 @@ static bool EndLost(kiriBladeWork* work, kiriTrack* track)
     bool ok = true;
     if (Seen(work->sheet, track->rest, track->at, &x)) {
         double near = 2.0 * kiriVec3_Length(kiriVec3_Sub(x, EdgeAt(work->is, track->share))) + 8.0 * work->snap;
-        near = LimitDistance(work, near);
+        near = kiriMin(near, BORDER_DISTANCE * KIRI_LATTICE * work->sheet->mesh.step);
         bool isFound = kiriBlade_FindLip(&work->sheet->mesh, track->rest, near, false, &place);
         near = isFound ? kiriRest_Distance(track->rest, place) : near;
         isFound = FindOtherWay(work, track, near, &place) || isFound;
