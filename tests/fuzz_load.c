@@ -1,6 +1,6 @@
 /* Bytes given to loads. The input changes some bytes of a good save of a world to which a storm
    has happened. As they are, all loads refuse them. Then the sum of the save is made right, as somebody does who means
-   harm, and kiriWorld_Load refuses it; or what comes of it is a world that goes on: it ticks, is cut, is read
+   harm, and kiriWorld_Load refuses it; or it becomes a world that goes on: it ticks, is cut, is read
    and saved. It may move in any way, but it reads and writes no memory that is not its own, ends each call, and gives
    all memory back. */
 #include "fuzz_saved.h"

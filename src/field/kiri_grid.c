@@ -143,7 +143,7 @@ static kiriProgress kiriGridWork_Collect(kiriGridWork* work, const kiriMeshData*
 
 /* ---- Of whole squares -------------------------------------------------------------------------------------------- */
 
-/* What the cell of a whole square covers. */
+/* The area that the cell of a whole square covers. */
 static kiriMoments kiriGrid_MaterialOfWhole(const kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
 {
     double x = grid->side, area = x * x;
@@ -347,7 +347,7 @@ static int32_t FaceBetween(kiriGrid* grid, kiriMemory* memory, int32_t a, int32_
     return AddFace(grid, memory, a, b, axis);
 }
 
-/* What a triangle covers of a side: its ends, in lattice steps from the lower end of the side. */
+/* The part of a side that a triangle covers: its ends, in lattice steps from the lower end of the side. */
 typedef struct CoveredEnds {
     double from, to;
 } CoveredEnds;
@@ -680,7 +680,7 @@ static double DepthInside(kiriVec2 p, int axis, bool upper, double side)
     return upper ? side - x : x;
 }
 
-/* Cuts off what is outside one side of the square (Sutherland and Hodgman 1974). An edge is followed from its inner end
+/* Cuts off the part outside one side of the square (Sutherland and Hodgman 1974). An edge is followed from its inner end
    whichever way the triangle runs, so neighbours at this edge get the very same point. */
 static void ClipAtSide(ClippedPolygon* polygon, int axis, bool upper, double side)
 {
@@ -839,7 +839,7 @@ static bool FindWholeCell(kiriGrid* grid, const kiriMeshData* mesh, int32_t squa
     return kiriArray_Push(mesh->memory, &grid->work->newCells, whole);
 }
 
-/* Adds what a triangle covers to its cell. Cells come by lowest triangle; so far nodes know them by their rank. */
+/* Adds the material of a triangle to its cell. Cells come by lowest triangle; so far nodes know them by their rank. */
 static bool MeasureEntry(kiriGrid* grid, const kiriMeshData* mesh, int32_t square, int32_t i)
 {
     kiriGridWork* work = grid->work;

@@ -36,7 +36,7 @@ typedef struct kiriEndSearch {
     kiriSight sight;
     kiriBorderLine line;
     double ahead;
-    double least; /* m: what is as near is one point */
+    double least; /* m: points nearer than this are one */
 } kiriEndSearch;
 
 static kiriVec2 kiriBorder_SiteAt(const kiriBorder* border, int32_t region)
@@ -72,7 +72,7 @@ static void AddRegionsAround(const kiriBorder* border, kiriNearRegions* near, in
     }
 }
 
-/* Adds the regions near an end: that of region i first, then that of region j. */
+/* Adds the regions near an end: region i first, then region j. */
 static void kiriNearRegions_AddAt(const kiriBorder* border, const kiriLinkEnd* end, kiriNearRegions* near)
 {
     AddRegion(border, near, end->cell[0]);
@@ -300,7 +300,7 @@ static bool kiriEndSearch_FindTurnedCorner(const kiriEndSearch* s, kiriLinkEnd* 
     return fabs(off[0]) + fabs(off[1]) < s->least && kiriSight_IsClear(&s->sight, s->grid->look, end->at);
 }
 
-/* How much farther the site of region i is than that of region j. */
+/* How much farther the site of region i is than the site of region j. */
 static double FartherAt(const kiriEndSearch* s, kiriVec2 at)
 {
     kiriVec2 slope;

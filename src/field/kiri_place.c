@@ -99,7 +99,7 @@ static int64_t kiriPlacerWork_DensityAt(const kiriPlacerWork* work, int32_t cell
     return squared * squared / ((int64_t)CLOSENESS * CLOSENESS * CLOSENESS * CLOSENESS);
 }
 
-/* ---- Relaxation: new sites go to the centroids of their regions; one site by itself to that of its part ---- */
+/* ---- Relaxation: new sites go to the centroids of their regions; one site by itself to its part's ---- */
 
 enum { MOST_ROUNDS = 20, AREA_UNITS = 1 << 24 };
 

@@ -48,7 +48,7 @@ static void kiriShapeJob_UncountCell(kiriShapeJob* job, int32_t cell)
     *counted = (kiriCountedCell){ KIRI_NONE, 0 };
 }
 
-/* Room to count up to so many sides. */
+/* Room to count sides up to this number. */
 static bool MakeSidesRoom(kiriShapeJob* job, int32_t frame, int32_t sides)
 {
     kiriShapeWork* work = job->work;
@@ -266,7 +266,7 @@ static void MarkStepsAround(kiriShapeJob* job, int32_t cell)
     }
 }
 
-/* Loads a cell about which something has changed, and marks what may change in the fields. */
+/* Loads a changed cell, and marks what may change in the fields. */
 static void LoadTouched(kiriShapeJob* job, int32_t cell)
 {
     kiriShapeWork* work = job->work;

@@ -63,7 +63,7 @@ static bool RunStages(kiriSheetData* sheet, bool* isBad)
     return ok;
 }
 
-/* Puts all of it in force, as the commit of an update. Saved arrays stay. */
+/* Commits the remade data, like the commit of an update. Saved arrays stay. */
 static bool Commit(kiriSheetData* sheet)
 {
     kiriUpdate* u = sheet->update;
