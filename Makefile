@@ -361,18 +361,16 @@ described: $(BUILD)/libkiri.so
 builds: lib $(RUN)
 	@sh tests/test_build.sh
 
-# The folders of src are floors: a file includes from its own and from those below, never from above; and no two units
-# include each other, directly or by a detour (tsort says where). kiri_X_work.h is private to the files of X.
+# The folders of src are floors: a file includes from its own and from lower ones, never from higher ones. Circles inside a
+# folder are counted by the ratchet.
 FLOORS := core mesh field solver motion view sheet world
-UNIT_INCLUDES = sed -nE 's|^src/[a-z]+/(kiri_[a-z_0-9]+)\.[a-z]+:\#include "(\.\./[a-z]+/)?(kiri_[a-z_0-9]+)\.h"|\1 \3|p'
 
 floors:
 	@upper="$(FLOORS)"; for floor in $(FLOORS); do \
 	    upper=$${upper#* }; [ "$$floor" != "$$upper" ] || break; \
 	    for up in $$upper; do ! grep -n "#include \"\.\./$$up/" src/$$floor/* || exit 1; done; \
 	done
-	@grep -H '#include "' src/*/* | $(UNIT_INCLUDES) | awk '$$1 != $$2 && $$2 !~ /_work$$/' | sort -u | tsort > /dev/null
-	@echo "src: includes go down the floors, and in no circle"
+	@echo "src: includes go down the floors"
 
 # What the sources say of themselves, without a build.
 check: ratchet floors fields

@@ -4,7 +4,7 @@
 #include "bench.h"
 
 #include "eigen_solvers.h"
-#include "motion/kiri_solver_work.h"
+#include "motion/kiri_solver.h"
 #include "world/kiri_world.h"
 
 enum { SQUARES = 64, TICKS = 6, MOST_ROUNDS = 1000, DENSE_FRAMES = 300, SLOW_FRAMES = 2000, RUNS = 5 };

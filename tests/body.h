@@ -3,8 +3,8 @@
 #ifndef KIRI_TEST_BODY_H
 #define KIRI_TEST_BODY_H
 
-#include "motion/kiri_affine.h"
-#include "motion/kiri_integration.h"
+#include "motion/kiri_strain.h"
+#include "motion/kiri_element.h"
 #include "scene.h"
 #include "motion/kiri_solver.h"
 #include "pieces.h"

@@ -3,7 +3,7 @@
 #ifndef KIRI_TEST_CHECK_MESH_H
 #define KIRI_TEST_CHECK_MESH_H
 
-#include "mesh/kiri_mesh_edit.h"
+#include "mesh/kiri_mesh.h"
 #include "mesh_pieces.h"
 #include "support.h"
 #include "validate.h"

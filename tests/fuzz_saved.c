@@ -1,6 +1,6 @@
 #include "fuzz_saved.h"
 
-#include "core/kiri_hash.h"
+#include "core/kiri_archive.h"
 
 #include <stdlib.h>
 #include <string.h>

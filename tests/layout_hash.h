@@ -3,8 +3,8 @@
 #ifndef KIRI_TEST_LAYOUT_HASH_H
 #define KIRI_TEST_LAYOUT_HASH_H
 
-#include "core/kiri_hash.h"
-#include "world/kiri_state_hash.h"
+#include "core/kiri_archive.h"
+#include "world/kiri_state.h"
 
 /* Adds bytes by FNV-1a. */
 static void HashBytes(uint64_t* hash, const void* data, size_t bytes)

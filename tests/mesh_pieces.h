@@ -2,7 +2,7 @@
 #ifndef KIRI_TEST_MESH_PIECES_H
 #define KIRI_TEST_MESH_PIECES_H
 
-#include "core/kiri_union_find.h"
+#include "core/kiri_array.h"
 #include "mesh/kiri_mesh.h"
 
 /* Gives each triangle the number of its piece, by the lowest triangles; returns how many pieces there are. */

@@ -2,9 +2,9 @@
 #ifndef KIRI_TEST_SCENE_H
 #define KIRI_TEST_SCENE_H
 
-#include "field/kiri_place.h"
+#include "field/kiri_site.h"
 #include "field/kiri_stencil.h"
-#include "mesh/kiri_mesh_edit.h"
+#include "mesh/kiri_mesh.h"
 #include "motion/kiri_frame.h"
 #include "support.h"
 

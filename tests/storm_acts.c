@@ -1,6 +1,6 @@
 #include "storm.h"
 
-#include "core/kiri_hash.h"
+#include "core/kiri_archive.h"
 
 /* ---- Random numbers ---- */
 

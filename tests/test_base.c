@@ -1,9 +1,7 @@
 /* Arrays, spans, ids, sets, hashes, sorting, rotations, moments: the ground floor, against independent computations. */
-#include "core/kiri_hash.h"
+#include "core/kiri_archive.h"
 #include "core/kiri_pool.h"
-#include "core/kiri_sort.h"
-#include "core/kiri_span.h"
-#include "core/kiri_union_find.h"
+#include "core/kiri_array.h"
 #include "scene.h"
 #include "core/kiri_vec.h"
 

@@ -2,7 +2,7 @@
    random surfaces, after cuts, however far the parts have moved; and who never asks has none. */
 #include "host.h"
 #include "scene.h"
-#include "view/kiri_ray.h"
+#include "view/kiri_bounds.h"
 #include "view/kiri_section.h"
 #include "world/kiri_world.h"
 

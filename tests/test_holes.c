@@ -1,8 +1,8 @@
 /* What stays known of a large sheet when pieces leave it, and what is left keeps its indices. */
 #include "host.h"
 
-#include "sheet/kiri_blocks.h"
-#include "sheet/kiri_piece_list.h"
+#include "sheet/kiri_seen.h"
+#include "sheet/kiri_piece.h"
 #include "world/kiri_world.h"
 
 enum { SQUARES = 72, STRIPS = 8 };

@@ -2,7 +2,7 @@
    And the lines about meshes that are refused. */
 #include "look.h"
 
-#include "mesh/kiri_weld.h"
+#include "mesh/kiri_mesh_build.h"
 
 #include <stdio.h>
 

@@ -1,5 +1,7 @@
 /* Skinning and normals: plain C gives the bits that the lanes of the machine give, and ranges those of the whole. */
 #define KIRI_PLAIN_LANES
+#define kiriCarriers_Write Plain_WriteCarriers
+#define kiriCarriers_Bend Plain_BendCarriers
 #define kiriPatches_Reserve Plain_ReservePatches
 #define kiriPatches_Write Plain_WritePatches
 #define kiriPatches_Forget Plain_ForgetPatches
@@ -9,8 +11,9 @@
 #define kiriNormals_Sum Plain_SumNormals
 #define kiriNormals_SumOne Plain_SumOneNormal
 #define kiriNormals_Write Plain_WriteNormals
-#include "view/kiri_blend.c"
-#include "view/kiri_normal.c"
+#include "view/kiri_skin.c"
+#undef kiriCarriers_Write
+#undef kiriCarriers_Bend
 #undef kiriPatches_Reserve
 #undef kiriPatches_Write
 #undef kiriPatches_Forget

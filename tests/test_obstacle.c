@@ -1,5 +1,5 @@
 /* Obstacles: their shapes against sums made another way, their place in a world, and what touches them. */
-#include "sheet/kiri_obstacle_shape.h"
+#include "sheet/kiri_obstacle.h"
 #include "host.h"
 
 /* ---- Shapes ------------------------------------------------------------------------------------------------------ */

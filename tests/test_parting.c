@@ -2,7 +2,7 @@
 #include "host.h"
 
 #include "layout_hash.h"
-#include "sheet/kiri_remove.h"
+#include "sheet/kiri_detach.h"
 #include "sheet/kiri_update.h"
 
 enum { MOST_SHEETS = 64, MOST_PIECES = 600 };

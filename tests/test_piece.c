@@ -1,7 +1,7 @@
 /* Pieces: what is in them, and sheets of their own. Where the header can tell, only it is asked. */
 #include "host.h"
 
-#include "sheet/kiri_piece_list.h"
+#include "sheet/kiri_piece.h"
 #include "world/kiri_world.h"
 
 enum { MOST_PIECES = 4096 };

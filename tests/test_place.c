@@ -2,8 +2,8 @@
 #include "host.h"
 #include "scene.h"
 
-#include "field/kiri_slit.h"
-#include "sheet/kiri_site.h"
+#include "field/kiri_site.h"
+#include "sheet/kiri_sheet_site.h"
 #include "world/kiri_world.h"
 
 /* ---- Pairs at slit ends ---- */

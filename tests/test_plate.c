@@ -2,9 +2,8 @@
    whose regions are exact Voronoi diagrams. */
 #include "voronoi.h"
 
-#include "motion/kiri_curl.h"
+#include "motion/kiri_strain.h"
 #include "solver/kiri_matrix.h"
-#include "motion/kiri_trace.h"
 
 #include <stdio.h>
 
@@ -401,7 +400,7 @@ static void FreeEdgesAreFree(void** state)
 
 /* ---- Curl -------------------------------------------------------------------------------------------------------- */
 
-/* The share of a strip's anticlastic stiffness that is left when it is bent: see kiri_curl.h. */
+/* The share of a strip's anticlastic stiffness that is left when it is bent: see kiri_strain.h. */
 static double ExactCurl(double theta)
 {
     return 2.0 / theta * (cosh(theta) - cos(theta)) / (sinh(theta) + sin(theta));
@@ -438,7 +437,7 @@ static void StripsStiffenAsTheirCurlIsHeldBack(void** state)
     }
 }
 
-/* A link of a strip one region wide that bends and twists, by itself: the energy of a ribbon (kiri_curl.h), but for the
+/* A link of a strip one region wide that bends and twists, by itself: the energy of a ribbon (kiri_strain.h), but for the
    mean stretch, which is given. */
 static void RibbonsBendAndTwist(void** state)
 {

@@ -4,7 +4,7 @@
 #include "storm.h"
 #include "tape.h"
 
-#include "world/kiri_record.h"
+#include "world/kiri_call.h"
 
 #include <stdio.h>
 #include <sys/mman.h>
@@ -403,7 +403,7 @@ static void TestHeaderAndTableAgree(void** state)
         }
         found++;
         if (IsInTable(name) == IsLook(name)) {
-            fail_msg("%s is to be in kiri_record_table.c, or in IsLook", name);
+            fail_msg("%s is to be in kiri_call.c, or in IsLook", name);
         }
     }
     fclose(header);

@@ -1,9 +1,8 @@
 /* A cut that takes effect changes how the sheet is divided, and not how it moves. */
 #include "probe.h"
 
-#include "motion/kiri_element.h"
-#include "sheet/kiri_pipeline.h"
-#include "sheet/kiri_stages.h"
+#include "motion/kiri_solver.h"
+#include "sheet/kiri_update.h"
 #include "sheet/kiri_seen.h"
 
 #include <stdio.h>

@@ -2,7 +2,7 @@
    stage, each allocation is refused once, and all from there on. */
 #include "look.h"
 
-#include "sheet/kiri_blocks.h"
+#include "sheet/kiri_seen.h"
 #include "sheet/kiri_update.h"
 #include "layout_hash.h"
 

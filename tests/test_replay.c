@@ -2,7 +2,7 @@
 #include "tape.h"
 
 #include "sheet/kiri_update.h"
-#include "world/kiri_record.h"
+#include "world/kiri_call.h"
 #include "world/kiri_world.h"
 
 /* ---- Small recordings -------------------------------------------------------------------------------------------- */

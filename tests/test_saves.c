@@ -7,9 +7,9 @@
 #include "fuzz_saved.h"
 #include "host.h"
 
-#include "core/kiri_hash.h"
+#include "core/kiri_archive.h"
 #include "sheet/kiri_update.h"
-#include "world/kiri_state_hash.h"
+#include "world/kiri_state.h"
 #include "world/kiri_world.h"
 
 enum { WORLDS = 24, MOST_TICKS = 24, TWIN_TICKS = 5 };

@@ -2,7 +2,7 @@
 
 #include "follow.h"
 
-#include "field/kiri_shape_work.h"
+#include "field/kiri_shape.h"
 
 #include <sys/mman.h>
 

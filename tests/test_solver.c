@@ -1,6 +1,6 @@
 /* Sheets of frames and links filled by hand, against closed forms, an elastica integrated here, and each other. */
-#include "motion/kiri_prediction.h"
-#include "motion/kiri_solver_work.h"
+#include "motion/kiri_frame.h"
+#include "motion/kiri_solver.h"
 #include "pieces.h"
 #include "motion/kiri_strain.h"
 #include "support.h"

@@ -1,8 +1,7 @@
 /* The surface: skinning against sums of its own, what commits write, what hosts are told and copy, and bent patches. */
-#include "view/kiri_normal.h"
 #include "view/kiri_surface.h"
 
-#include "mesh/kiri_mesh_edit.h"
+#include "mesh/kiri_mesh.h"
 #include "support.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 /* Exact sums: of any order, taken away again, and precise for slivers. */
-#include "core/kiri_tally.h"
+#include "core/kiri_vec.h"
 #include "support.h"
 
 #include <string.h>

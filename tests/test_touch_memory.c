@@ -1,5 +1,5 @@
 /* What touches pushed with, against a list in which each force is put into its place by itself. */
-#include "sheet/kiri_touch_memory.h"
+#include "sheet/kiri_touch.h"
 #include "support.h"
 
 #include <string.h>

@@ -16,11 +16,11 @@ static bool leavesRoomOut;
 #include "layout_hash.h"
 #include "storm.h"
 
-#include "field/kiri_grid_work.h"
-#include "field/kiri_shape_work.h"
+#include "field/kiri_grid.h"
+#include "field/kiri_shape.h"
 #include "sheet/kiri_sheet_save.h"
 #include "sheet/kiri_update.h"
-#include "view/kiri_view_save.h"
+#include "view/kiri_view_check.h"
 #include "world/kiri_world.h"
 
 /* ---- Memory ---- */

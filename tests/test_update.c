@@ -457,7 +457,7 @@ static void TestBudgetFromTime(void** state)
    is how many there are. */
 static uint64_t LayoutAfterCut(uint32_t seed, int32_t changeAt, int32_t* ticks)
 {
-    enum { LINKS = 3 }; /* a step of the stage, see kiri_stages.c */
+    enum { LINKS = 3 }; /* a step of the stage, see kiri_update.c */
     Host host;
     Host_Start(&host);
     kiriSheetDef def = Host_SmallDef();

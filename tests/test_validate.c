@@ -1,5 +1,5 @@
 /* The checks of validate.h see what they are for: a sound world, made wrong in memory in one way at a time. */
-#include "field/kiri_grid_work.h"
+#include "field/kiri_grid.h"
 #include "host.h"
 #include "sheet/kiri_piece.h"
 #include "sheet/kiri_update.h"

@@ -1,6 +1,6 @@
 #include "scene.h"
 
-#include "field/kiri_way.h"
+#include "field/kiri_path.h"
 
 /* A sheet of one region: all squares may be looked at. */
 typedef struct Plain {

@@ -3,7 +3,6 @@
 #define KIRI_TEST_VORONOI_H
 
 #include "motion/kiri_solver.h"
-#include "motion/kiri_element.h"
 #include "pieces.h"
 #include "support.h"
 

@@ -158,7 +158,7 @@ var namesStage = map[Stage]string{
 
 func (value Stage) String() string { return namesStage[value] }
 
-// Materials to start from; src/world/kiri_preset.c names the sources of their numbers.
+// Materials to start from; src/world/kiri_api_world.c names the sources of their numbers.
 type MaterialPreset int32
 
 const (

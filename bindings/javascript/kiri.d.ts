@@ -106,7 +106,7 @@ export enum Stage {
     Count = 9,
 }
 
-/** Materials to start from; src/world/kiri_preset.c names the sources of their numbers. */
+/** Materials to start from; src/world/kiri_api_world.c names the sources of their numbers. */
 export enum MaterialPreset {
     /** printing paper, 0.11 mm */
     Paper = 0,

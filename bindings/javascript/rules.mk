@@ -20,10 +20,8 @@ WASM_OBJECTS := $(patsubst %,$(WASM)/%.o,$(wildcard src/*/*.c src/*/*.cpp) bindi
 
 # What ticks spend their time in is compiled for speed, within reason; all else for size.
 WASM_HOT_SOURCES := $(addsuffix .c, \
-    $(addprefix src/motion/kiri_,affine area_element contact_assembly curl element newton objective prediction solver step_begin \
-        step_contact step_end strain trace) \
-    $(addprefix src/view/kiri_,blend carrier fade normal solid surface) \
-    $(addprefix src/field/kiri_,geodesic reach shape stencil way) $(addprefix src/sheet/kiri_,obstacle_touch touch))
+    $(addprefix src/motion/kiri_,contact_row element frame solver step strain) $(addprefix src/view/kiri_,sample skin surface) \
+    $(addprefix src/field/kiri_,geodesic path shape stencil) src/sheet/kiri_touch)
 
 .PHONY: wasm
 

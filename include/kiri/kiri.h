@@ -348,7 +348,7 @@ typedef struct kiriMaterial {
     float flexDamping;   /* s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation */
 } kiriMaterial;
 
-/* Materials to start from; src/world/kiri_preset.c names the sources of their numbers. */
+/* Materials to start from; src/world/kiri_api_world.c names the sources of their numbers. */
 enum kiriMaterialPreset {
     KIRI_MATERIAL_PAPER,  /* printing paper, 0.11 mm */
     KIRI_MATERIAL_COTTON, /* cloth, 0.5 mm; the default of a sheet def */

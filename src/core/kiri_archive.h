@@ -1,11 +1,108 @@
-/* State as bytes, and back. Tables of fields say what of a struct is kept; size, bytes and reading follow from the same
-   tables. Numbers are little-endian by value, without padding and pointers, so bytes are the same on every machine. */
+/* Hashes of 64 bits. A hash begins as KIRI_HASH_START, and each call adds to it. Numbers are added by value, so the
+   hash is the same on machines of either byte order. */
 #ifndef KIRI_ARCHIVE_H
 #define KIRI_ARCHIVE_H
 
+#include "kiri_base.h"
 #include "kiri_array.h"
 
+#include <string.h>
+
 KIRI_C_BEGIN
+
+#define KIRI_HASH_START UINT64_C(14695981039346656037)
+
+/* Adds a whole number as one byte of FNV-1a (Fowler, Noll, Vo), for lists of indices. */
+static inline void kiriHash_Word(uint64_t* hash, uint64_t value)
+{
+    *hash = (*hash ^ value) * UINT64_C(1099511628211);
+}
+
+/* The same for numbers whose highest bits matter: they are brought down, for a product carries bits up alone. */
+static inline void kiriHash_Int64(uint64_t* hash, int64_t value)
+{
+    uint64_t mixed = (*hash ^ (uint64_t)value) * UINT64_C(0x9E3779B97F4A7C15);
+    *hash = mixed ^ mixed >> 32;
+}
+
+static inline void kiriHash_Int32(uint64_t* hash, int32_t value)
+{
+    kiriHash_Int64(hash, value);
+}
+
+/* Two at the price of one. */
+static inline void kiriHash_Pair(uint64_t* hash, int32_t first, int32_t second)
+{
+    kiriHash_Int64(hash, (int64_t)((uint64_t)(uint32_t)first << 32 | (uint32_t)second));
+}
+
+/* Its bits: 0.0 and -0.0 differ. */
+static inline void kiriHash_Double(uint64_t* hash, double value)
+{
+    int64_t bits;
+    memcpy(&bits, &value, sizeof(bits));
+    kiriHash_Int64(hash, bits);
+}
+
+/* Numbers in few bytes, the same on all machines. A coder either writes or reads, and each function does what its coder
+   does: so one description of data serves for both ways. Integers take 7 bits a byte, small ones of either sign one
+   byte; floats are 4 bytes, the lowest first. */
+
+enum { KIRI_SINK_BYTES = 512 };
+
+/* Where a coder writes to: the host's function, which gets some bytes at a time. */
+typedef struct kiriSink {
+    kiriRecordFn* write;
+    void* user;
+    int32_t count;
+    uint8_t bytes[KIRI_SINK_BYTES];
+} kiriSink;
+
+/* Hands over what it still has. */
+void kiriSink_Flush(kiriSink* sink);
+
+/* Why a coder that reads stopped. From then on it reads zeros. */
+typedef enum kiriCoderFault {
+    KIRI_CODER_FINE,
+    KIRI_CODER_SHORT,   /* the bytes end too early */
+    KIRI_CODER_DAMAGED, /* they mean nothing */
+    KIRI_CODER_NEWER,   /* a later version wrote them */
+    KIRI_CODER_MEMORY   /* there is no memory for an array */
+} kiriCoderFault;
+
+typedef struct kiriCoder {
+    kiriSink* sink; /* null: it reads, */
+    const uint8_t *at, *end;
+    kiriMemory* memory; /* which arrays are from, */
+    kiriCoderFault fault;
+} kiriCoder;
+
+static inline bool kiriCoder_Reads(const kiriCoder* coder)
+{
+    return coder->sink == NULL;
+}
+
+/* Keeps the first fault. */
+void kiriCoder_Stop(kiriCoder* coder, kiriCoderFault fault);
+
+/* They write what is there, which may be read-only, or read into it; it has been initialised in either case. */
+void kiriCoder_Byte(kiriCoder* coder, uint8_t* value);
+void kiriCoder_Unsigned(kiriCoder* coder, uint64_t* value);
+void kiriCoder_Signed(kiriCoder* coder, int64_t* value);
+void kiriCoder_Int(kiriCoder* coder, int32_t* value);
+void kiriCoder_Id(kiriCoder* coder, uint32_t* value);
+void kiriCoder_Float(kiriCoder* coder, float* value);
+void kiriCoder_Hash(kiriCoder* coder, uint64_t* value);
+
+/* Neighbours are near each other, as in the indices of a mesh. */
+void kiriCoder_Indices(kiriCoder* coder, int32_t* values, int64_t count);
+
+/* For a coder that reads: zeroed memory for `count` items of so many bytes, each of which takes `least` bytes or more
+   to read. Null where there are not so many bytes, or no memory. */
+void* kiriCoder_Alloc(kiriCoder* coder, int64_t count, int64_t itemBytes, int64_t least);
+
+/* State as bytes, and back. Tables of fields say what of a struct is kept; size, bytes and reading follow from the same
+   tables. Numbers are little-endian by value, without padding and pointers, so bytes are the same on every machine. */
 
 typedef struct kiriArchive kiriArchive;
 

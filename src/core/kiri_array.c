@@ -179,3 +179,190 @@ void kiriArray_Release(kiriMemory* memory, void* array)
     kiriMemory_Free(memory, header.data);
     kiriArray_SetHeader(array, empty);
 }
+
+static bool IsLess(const void* context, int32_t a, int32_t b)
+{
+    (void)context;
+    return a < b;
+}
+
+/* Shell 1959, with Knuth's gaps: little code, and what is nearly in order costs next to nothing. */
+void kiriSort(int32_t* items, int32_t count, kiriBeforeFn* before, const void* context)
+{
+    KIRI_ASSERT(count >= 0);
+    int32_t gap = 1;
+    before = before != NULL ? before : IsLess;
+    while (gap < count / 3) {
+        gap = 3 * gap + 1;
+    }
+    for (; gap > 0; gap /= 3) {
+        for (int32_t i = gap; i < count; ++i) {
+            int32_t moving = items[i], j = i;
+            for (; j >= gap && before(context, moving, items[j - gap]); j -= gap) {
+                items[j] = items[j - gap];
+            }
+            items[j] = moving;
+        }
+    }
+}
+
+enum { DIGIT_BITS = 11, DIGITS = 1 << DIGIT_BITS };
+
+/* In the order of one digit, and of those below it as they were. */
+static void SortByDigit(const int32_t* items, int32_t* to, int32_t count, int shift)
+{
+    int32_t first[DIGITS + 1] = { 0 };
+    for (int32_t i = 0; i < count; ++i) {
+        first[((items[i] >> shift) & (DIGITS - 1)) + 1] += 1;
+    }
+    for (int32_t d = 0; d < DIGITS; ++d) {
+        first[d + 1] += first[d];
+    }
+    for (int32_t i = 0; i < count; ++i) {
+        to[first[(items[i] >> shift) & (DIGITS - 1)]++] = items[i];
+    }
+}
+
+void kiriSort_Numbers(int32_t* items, int32_t* room, int32_t count)
+{
+    int32_t all = 0, *from = items, *to = room;
+    for (int32_t i = 0; i < count; ++i) {
+        KIRI_ASSERT(items[i] >= 0);
+        all |= items[i];
+    }
+    for (int shift = 0; shift < 31 && all >> shift > 0; shift += DIGIT_BITS) {
+        SortByDigit(from, to, count, shift);
+        from = to;
+        to = from == items ? room : items;
+    }
+    if (from != items) {
+        memcpy(items, from, sizeof(*items) * (size_t)count);
+    }
+}
+
+/* Merges the two runs at hand, the left one from `room`; false where it did not come to the end of `most` moves. */
+static bool MergeRuns(kiriSorting* s, int32_t* items, int32_t* room, int32_t count, kiriBeforeFn* before,
+                      const void* context, int32_t* most)
+{
+    int32_t middle = s->block + s->width, end = count - middle > s->width ? middle + s->width : count;
+    if (s->to < s->block) {
+        if (before(context, items[middle - 1], items[middle])) {
+            return true;
+        }
+        memcpy(room, items + s->block, sizeof(*items) * (size_t)s->width);
+        s->to = s->block;
+        s->left = 0;
+        s->right = middle;
+    }
+    for (; s->left < s->width; --*most) {
+        if (*most <= 0) {
+            return false;
+        }
+        bool takesRight = s->right < end && before(context, items[s->right], room[s->left]);
+        items[s->to++] = takesRight ? items[s->right++] : room[s->left++];
+    }
+    return true;
+}
+
+bool kiriSorting_GoOn(kiriSorting* s, int32_t* items, int32_t* room, int32_t count, kiriBeforeFn* before,
+                      const void* context, int32_t most)
+{
+    before = before != NULL ? before : IsLess;
+    s->to = s->width > 0 ? s->to : KIRI_NONE;
+    for (s->width = s->width > 0 ? s->width : 1; s->width < count; s->width *= 2, s->block = 0) {
+        for (; s->block < count - s->width; s->block += 2 * s->width, s->to = KIRI_NONE, --most) {
+            if (most <= 0 || !MergeRuns(s, items, room, count, before, context, &most)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* The size class of a span with so many items: its room is 1 << class. */
+static int SizeClassOf(int32_t count)
+{
+    int size = 0;
+    while ((int64_t)1 << size < count) {
+        ++size;
+    }
+    return size;
+}
+
+static unsigned char* ItemAt(const void* array, size_t itemBytes, int32_t index)
+{
+    kiriArrayHeader header = kiriArray_GetHeader(array);
+    KIRI_ASSERT(index >= 0 && index < header.count);
+    return (unsigned char*)header.data + (size_t)index * itemBytes;
+}
+
+/* Room of a size class; KIRI_NONE for memory. */
+static int32_t TakeRoom(kiriSpans* spans, kiriMemory* memory, void* array, size_t itemBytes, int size)
+{
+    int32_t first = spans->freeHead[size] - 1;
+    if (first != KIRI_NONE) {
+        memcpy(&spans->freeHead[size], ItemAt(array, itemBytes, first), sizeof(int32_t));
+        return first;
+    }
+    first = kiriArray_GetHeader(array).count;
+    int64_t need = first + ((int64_t)1 << size);
+    if (!kiriArray_Grow(memory, array, need, itemBytes)) {
+        return KIRI_NONE;
+    }
+    kiriArrayHeader header = kiriArray_GetHeader(array);
+    header.count = (int32_t)need;
+    kiriArray_SetHeader(array, header);
+    return first;
+}
+
+static void GiveRoom(kiriSpans* spans, void* array, size_t itemBytes, int32_t first, int size)
+{
+    memcpy(ItemAt(array, itemBytes, first), &spans->freeHead[size], sizeof(int32_t));
+    spans->freeHead[size] = first + 1;
+}
+
+/* Moves into free room of the new size, so that its own stays whole: halves are never joined again. Where there is no
+   free room it keeps the start of its own and gives back the halves that it no longer needs. */
+static void ShrinkSpan(kiriSpan* span, kiriSpans* spans, void* array, size_t itemBytes, int32_t count)
+{
+    int from = SizeClassOf(span->count), to = SizeClassOf(count);
+    int32_t was = span->first;
+    if (spans->freeHead[to] != 0) {
+        span->first = TakeRoom(spans, NULL, array, itemBytes, to);
+        memcpy(ItemAt(array, itemBytes, span->first), ItemAt(array, itemBytes, was), itemBytes * (size_t)count);
+        GiveRoom(spans, array, itemBytes, was, from);
+        return;
+    }
+    for (int size = to; size < from; ++size) {
+        GiveRoom(spans, array, itemBytes, was + ((int32_t)1 << size), size);
+    }
+}
+
+bool kiriSpan_Resize(kiriSpan* span, kiriSpans* spans, kiriMemory* memory, void* array, size_t itemBytes, int32_t count)
+{
+    KIRI_ASSERT(count >= 0 && span->count >= 0 && itemBytes >= sizeof(int32_t));
+    int from = SizeClassOf(span->count), to = SizeClassOf(count);
+    if (count > 0 && (span->count == 0 || from < to)) {
+        int32_t first = TakeRoom(spans, memory, array, itemBytes, to);
+        if (first == KIRI_NONE) {
+            return false;
+        }
+        if (span->count > 0) {
+            memcpy(ItemAt(array, itemBytes, first), ItemAt(array, itemBytes, span->first),
+                   itemBytes * (size_t)span->count);
+            GiveRoom(spans, array, itemBytes, span->first, from);
+        }
+        span->first = first;
+    } else if (count == 0 && span->count > 0) {
+        GiveRoom(spans, array, itemBytes, span->first, from);
+    } else if (count > 0 && to < from) {
+        ShrinkSpan(span, spans, array, itemBytes, count);
+    }
+    span->count = count;
+    return true;
+}
+
+bool kiriSpan_IsAlike(kiriSpan a, kiriSpan b)
+{
+    return a.count > 0 && b.count > 0 && SizeClassOf(a.count) == SizeClassOf(b.count);
+}

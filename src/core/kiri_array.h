@@ -103,6 +103,81 @@ kiriProgress kiriRooms_MakeReady(const kiriRoom* rooms, int32_t count, kiriQuota
     (kiriArray_Reserve(memory, array, (int64_t)(array)->count + 1) ? ((array)->data[(array)->count++] = (item), true)  \
                                                                    : false)
 
+/* Sorting of indices. */
+
+/* Does item a come before item b? A strict order: of two different items one comes before the other, so that the result
+   does not depend on the order before. */
+typedef bool kiriBeforeFn(const void* context, int32_t a, int32_t b);
+
+/* In place, without memory. `before` null: by the items themselves. */
+void kiriSort(int32_t* items, int32_t count, kiriBeforeFn* before, const void* context);
+
+/* Items of 0 and above, the lowest first, in a time that grows as their number. `room` has room for as many. */
+void kiriSort_Numbers(int32_t* items, int32_t* room, int32_t count);
+
+/* How far a sorting that may be interrupted has come; zeroed: at its start. */
+typedef struct kiriSorting {
+    int32_t width, block;    /* the runs that are merged, and the first of the two at hand */
+    int32_t to, left, right; /* where the merged run goes on, and its two halves; `to` below `block`: not begun */
+} kiriSorting;
+
+/* Goes on sorting for about `most` moves; true when it is done. Merges runs, and leaves alone what is in order. `room`
+   has room for as many items. */
+bool kiriSorting_GoOn(kiriSorting* sorting, int32_t* items, int32_t* room, int32_t count, kiriBeforeFn* before,
+                      const void* context, int32_t most);
+
+/* Rows of items that grow and shrink, all in one array: the weights of each sample, say. A span has room for the least
+   power of two that holds its items; room that is given back is used again. */
+
+typedef struct kiriSpan {
+    int32_t first, count;
+} kiriSpan;
+
+enum { KIRI_SPAN_SIZES = 31 };
+
+/* Where the free room is: heads of lists that run through the free items themselves. */
+typedef struct kiriSpans {
+    int32_t freeHead[KIRI_SPAN_SIZES]; /* plus 1, so that zeroed spans are empty */
+} kiriSpans;
+
+/* Gives the span room for `count` items and sets its count; the first items stay what they are, new ones are not
+   initialised. It may move the items, also where it shrinks. `array` points to the KIRI_ARRAY that holds the items of
+   all spans; an item has itemBytes, at least 4. False for memory, and then nothing has changed. To shrink, or to count
+   0, never fails. */
+bool kiriSpan_Resize(kiriSpan* span, kiriSpans* spans, kiriMemory* memory, void* array, size_t itemBytes,
+                     int32_t count);
+
+/* Have both room for the same number of items? */
+bool kiriSpan_IsAlike(kiriSpan a, kiriSpan b);
+
+/* Union-find over indices: which items hang together. The caller has the array `parent`, with an entry for each item;
+   the root of a set is its lowest item, whatever the order of joining. */
+
+/* Each item a set of its own. */
+static inline void kiriUnion_Init(int32_t* parent, int32_t count)
+{
+    for (int32_t i = 0; i < count; ++i) {
+        parent[i] = i;
+    }
+}
+
+/* Halves the path on its way. */
+static inline int32_t kiriUnion_Root(int32_t* parent, int32_t i)
+{
+    KIRI_ASSERT(i >= 0);
+    while (parent[i] != i) {
+        KIRI_ASSERT(parent[i] >= 0 && parent[i] < i);
+        i = parent[i] = parent[parent[i]];
+    }
+    return i;
+}
+
+static inline void kiriUnion_Join(int32_t* parent, int32_t i, int32_t j)
+{
+    int32_t a = kiriUnion_Root(parent, i), b = kiriUnion_Root(parent, j);
+    parent[kiriMax(b, a)] = kiriMin(a, b);
+}
+
 KIRI_C_END
 
 #endif

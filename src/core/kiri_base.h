@@ -4,12 +4,12 @@
 #define KIRI_BASE_H
 
 #include "kiri_float.h"
-
 #include "../../include/kiri/kiri.h"
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #if defined(_MSC_VER) && !defined(__clang__)
 #include <intrin.h>
@@ -210,6 +210,42 @@ static inline bool kiriQuota_Pay(kiriQuota* quota, int64_t* owed)
     *owed -= items;
     return *owed == 0;
 }
+
+KIRI_C_END
+
+/* Why something is refused: one line, which names the item by its number. */
+
+KIRI_C_BEGIN
+
+typedef struct kiriFault {
+    char line[160]; /* "": the result says it all */
+} kiriFault;
+
+/* Writes the line. Numbers are long long: snprintf of the web build reads %s and %lld only. */
+#define KIRI_SAY(fault, ...) ((void)snprintf((fault)->line, sizeof((fault)->line), __VA_ARGS__))
+
+KIRI_C_END
+
+/* Work that the host may spread over its threads. */
+
+KIRI_C_BEGIN
+
+/* The host's hooks; null: all runs in the caller. */
+typedef struct kiriTasks {
+    kiriStartTaskFn* start;
+    kiriFinishTaskFn* finish;
+    void* user;
+    int32_t workers;
+} kiriTasks;
+
+static inline bool kiriTasks_AreGiven(const kiriTasks* tasks)
+{
+    return tasks->start != NULL && tasks->workers > 1;
+}
+
+/* Does the items 0 to `count`, in ranges of `least` and more, and returns when all are done. Ranges run side by side,
+   in any order: none may read what another writes, nor allocate, free, log or read the clock. */
+void kiriTasks_Run(const kiriTasks* tasks, kiriTaskFn* task, int32_t count, int32_t least, void* context);
 
 KIRI_C_END
 

@@ -1,6 +1,6 @@
 /* The same bits on every machine: each operation on floats and doubles is rounded by itself, in its own type. Every
    file includes this one first, so that a host may compile the sources with options of its own. What cannot be had by a
-   pragma does not compile, or creates no world (kiri_exact.h). */
+   pragma does not compile, or creates no world (kiri_vec.h). */
 #ifndef KIRI_FLOAT_H
 #define KIRI_FLOAT_H
 

@@ -1,4 +1,7 @@
 #include "kiri_vec.h"
+#include "kiri_lanes.h"
+
+#include <float.h>
 
 double kiriVec2_DistanceToWay(kiriVec2 p, kiriVec2 a, kiriVec2 b)
 {
@@ -131,4 +134,104 @@ kiriMoments kiriMoments_About(const kiriMoments* m, kiriVec2 o)
     r.uu = kiriMax(r.uu, 0.0);
     r.vv = kiriMax(r.vv, 0.0);
     return r;
+}
+
+/* What is volatile is not known to the compiler, which would compute it by itself, without the processor's
+   instructions. */
+
+/* a b + c is zero where a b is rounded, and what was rounded off where it is not. */
+static bool IsProductRounded(void)
+{
+    volatile double a = 1.0 + DBL_EPSILON, c = -(1.0 + 2.0 * DBL_EPSILON);
+    volatile float f = 1.0f + FLT_EPSILON, g = -(1.0f + 2.0f * FLT_EPSILON);
+    double d = a, e = c;
+    float h = f, k = g;
+    return d * d + e == 0.0 && h * h + k == 0.0f;
+}
+
+static bool AreLanesRounded(void)
+{
+    volatile float f = 1.0f + FLT_EPSILON, g = -(1.0f + 2.0f * FLT_EPSILON);
+    kiriLanes lanes = kiriLanes_Splat(f);
+    float sums[4];
+    kiriLanes_Store(sums, kiriLanes_Add(kiriLanes_Mul(lanes, lanes), kiriLanes_Splat(g)));
+    return sums[0] == 0.0f && sums[1] == 0.0f && sums[2] == 0.0f && sums[3] == 0.0f;
+}
+
+/* Sums go from left to right, and x / y is no x times 1 / y. */
+static bool IsOrderKept(void)
+{
+    volatile double large = 2.0 / DBL_EPSILON, small = 1.0, three = 3.0, five = 5.0;
+    double l = large, s = small, x = five, y = three;
+    volatile double inverse = 1.0 / y;
+    return s + l - l == 0.0 && x / y != x * inverse;
+}
+
+bool kiriExact_AreFloats(void)
+{
+    return IsProductRounded() && AreLanesRounded() && IsOrderKept();
+}
+
+/* The least normal number halves, and the half doubles again, which it does not where it is read as zero. */
+static bool AreSmallKept(void)
+{
+    volatile double least = DBL_MIN, half = 0.5 * DBL_MIN;
+    volatile float leastFloat = FLT_MIN, halfFloat = 0.5f * FLT_MIN;
+    double d = least, e = half;
+    float f = leastFloat, g = halfFloat;
+    return 0.5 * d > 0.0 && 2.0 * e == d && 0.5f * f > 0.0f && 2.0f * g == f;
+}
+
+static bool AreNearest(void)
+{
+    volatile double one = 1.0, less = 0.25 * DBL_EPSILON, more = 0.75 * DBL_EPSILON;
+    double a = one, b = less, c = more;
+    return a + b == a && a + c > a && -a - b == -a && -a - c < -a;
+}
+
+bool kiriExact_IsModePlain(void)
+{
+    return AreSmallKept() && AreNearest();
+}
+
+static const int64_t lowRange = (int64_t)1 << 62;
+static const double highUnits = 1152921504606846976.0; /* 2^60 */
+static const double lowUnits = 4611686018427387904.0;  /* 2^62 */
+
+/* The double becomes whole numbers once and for all: what is rounded off here is the same when it is taken away. */
+static void AddShare(kiriExact* sum, double share, int sign)
+{
+    double scaled = share * highUnits;
+    int64_t high = (int64_t)scaled;
+    int64_t low = (int64_t)((scaled - (double)high) * lowUnits);
+    sum->low += sign * low;
+    /* -1, 0 or 1: at random, so without a branch. */
+    int64_t carry = (int64_t)(((uint64_t)sum->low + (uint64_t)lowRange) >> 62) - 1;
+    sum->high += sign * high + carry;
+    sum->low -= carry * lowRange;
+}
+
+static double ToShare(kiriExact sum)
+{
+    return ((double)sum.high + (double)sum.low / lowUnits) / highUnits;
+}
+
+void kiriTally_Add(kiriTally* tally, const kiriMoments* moments, int sign, double extent)
+{
+    KIRI_ASSERT((sign == 1 || sign == -1) && extent > 0.0);
+    double one = 1.0 / extent, two = one * one, three = two * one, four = two * two;
+    AddShare(&tally->area, two * moments->area, sign);
+    AddShare(&tally->u, three * moments->u, sign);
+    AddShare(&tally->v, three * moments->v, sign);
+    AddShare(&tally->uu, four * moments->uu, sign);
+    AddShare(&tally->uv, four * moments->uv, sign);
+    AddShare(&tally->vv, four * moments->vv, sign);
+}
+
+kiriMoments kiriTally_Moments(const kiriTally* tally, double extent)
+{
+    double two = extent * extent, three = two * extent, four = two * two;
+    kiriMoments moments = { two * ToShare(tally->area), three * ToShare(tally->u), three * ToShare(tally->v),
+                            four * ToShare(tally->uu),  four * ToShare(tally->uv), four * ToShare(tally->vv) };
+    return moments;
 }

@@ -205,6 +205,34 @@ kiriVec2 kiriMoments_Center(const kiriMoments* m);
 /* The same area about another origin. */
 kiriMoments kiriMoments_About(const kiriMoments* m, kiriVec2 origin);
 
+/* Tells at run time what no macro tells of the arithmetic of floats, as clang's -ffp-contract=fast, which heeds no
+   pragma. See kiri_float.h. */
+
+/* Is each operation rounded by itself, in the order that the sources say? */
+bool kiriExact_AreFloats(void);
+
+/* Is the processor, in this thread, in the mode in which programs start: sums are rounded to the nearest number, and
+   none is taken for zero because it is small? */
+bool kiriExact_IsModePlain(void);
+
+/* Exact sums: the same whatever the order of adding, and what was added can be taken away again. So the mass of a
+   region needs no walk over its cells when one of them changes. */
+
+/* A share of a scale: high * 2^-60 + low * 2^-122, with 0 <= low < 2^62. So each number has one form only, and a
+   sliver of 1e-14 of a square of a grid of 4096 squares keeps the digits of its double. */
+typedef struct kiriExact {
+    int64_t high, low;
+} kiriExact;
+
+/* Moments of material (see kiriMoments); coordinates are at most `extent` (m, local). */
+typedef struct kiriTally {
+    kiriExact area, u, v, uu, uv, vv;
+} kiriTally;
+
+/* The area in a tally, of however many parts, is at most 7 extent^2 at a time. `sign` is 1 or -1. */
+void kiriTally_Add(kiriTally* tally, const kiriMoments* moments, int sign, double extent);
+kiriMoments kiriTally_Moments(const kiriTally* tally, double extent);
+
 KIRI_C_END
 
 #endif

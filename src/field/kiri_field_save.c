@@ -1,9 +1,9 @@
 #include "kiri_field_save.h"
 
-#include "kiri_grid_work.h"
-#include "kiri_link_work.h"
-#include "kiri_place_work.h"
-#include "kiri_shape_work.h"
+#include "kiri_grid.h"
+#include "kiri_link.h"
+#include "kiri_site.h"
+#include "kiri_shape.h"
 
 #include <string.h>
 

@@ -4,7 +4,7 @@
 
 #include "../core/kiri_archive.h"
 #include "kiri_link.h"
-#include "kiri_place.h"
+#include "kiri_site.h"
 #include "kiri_shape.h"
 
 KIRI_C_BEGIN

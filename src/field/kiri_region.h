@@ -2,9 +2,9 @@
 #ifndef KIRI_REGION_H
 #define KIRI_REGION_H
 
-#include "kiri_border_cell.h"
+#include "kiri_grid.h"
 #include "kiri_geodesic.h"
-#include "../core/kiri_tally.h"
+#include "../core/kiri_vec.h"
 
 KIRI_C_BEGIN
 

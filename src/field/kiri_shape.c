@@ -1,8 +1,7 @@
 #include "kiri_shape.h"
 
-#include "kiri_shape_work.h"
-#include "../core/kiri_hash.h"
-#include "../core/kiri_sort.h"
+#include "../core/kiri_archive.h"
+#include "../core/kiri_array.h"
 
 #include <string.h>
 

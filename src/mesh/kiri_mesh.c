@@ -1,4 +1,5 @@
 #include "kiri_mesh.h"
+#include "../core/kiri_array.h"
 
 #include <string.h>
 
@@ -133,4 +134,609 @@ kiriLatticePoint kiriMesh_Round(kiriVec2 lattice)
 kiriLatticePoint kiriMesh_Snap(const kiriMeshData* mesh, kiriVec2 local)
 {
     return kiriMesh_Round(kiriVec2_Make(local.x / mesh->step, local.y / mesh->step));
+}
+
+/* ---- The journal ------------------------------------------------------------------------------------------------- */
+
+static bool SaveTriangle(kiriMeshData* mesh, int32_t triangle)
+{
+    KIRI_ASSERT(mesh->isOpen && triangle >= 0 && triangle < mesh->triangles.count);
+    kiriTriangle* t = &mesh->triangles.data[triangle];
+    if (triangle >= mesh->oldTriangleCount || (t->marks & KIRI_TRIANGLE_SAVED) != 0) {
+        return true;
+    }
+    kiriSavedTriangle saved = { triangle, *t };
+    if (!kiriArray_Push(mesh->memory, &mesh->savedTriangles, saved)) {
+        return false;
+    }
+    t->marks |= KIRI_TRIANGLE_SAVED;
+    return true;
+}
+
+static bool SaveVertex(kiriMeshData* mesh, int32_t vertex)
+{
+    KIRI_ASSERT(mesh->isOpen && vertex >= 0 && vertex < mesh->vertices.count);
+    kiriVertex* v = &mesh->vertices.data[vertex];
+    if (vertex >= mesh->oldVertexCount || v->stamp == mesh->stamp) {
+        return true;
+    }
+    kiriSavedVertex saved = { vertex, *v };
+    if (!kiriArray_Push(mesh->memory, &mesh->savedVertices, saved)) {
+        return false;
+    }
+    v->stamp = mesh->stamp;
+    return true;
+}
+
+static void EmptyJournal(kiriMeshData* mesh)
+{
+    for (int32_t i = 0; i < mesh->savedTriangles.count; ++i) {
+        mesh->triangles.data[mesh->savedTriangles.data[i].index].marks &= ~KIRI_TRIANGLE_SAVED;
+    }
+    mesh->savedTriangles.count = 0;
+    mesh->savedVertices.count = 0;
+}
+
+void kiriMesh_Begin(kiriMeshData* mesh)
+{
+    EmptyJournal(mesh);
+    kiriSquares_Begin(&mesh->squares);
+    mesh->isOpen = true;
+    mesh->hasMet = false;
+    ++mesh->stamp;
+    mesh->oldTriangleCount = mesh->triangles.count;
+    mesh->oldVertexCount = mesh->vertices.count;
+    mesh->oldSourceCorners = mesh->sourceCorners.count;
+    mesh->oldRevision = mesh->revision;
+    mesh->births.count = 0;
+}
+
+void kiriMesh_Commit(kiriMeshData* mesh)
+{
+    EmptyJournal(mesh);
+    kiriSquares_Commit(&mesh->squares);
+    mesh->isOpen = false;
+}
+
+static bool InsertSquares(kiriMeshData* mesh, int32_t triangle)
+{
+    kiriLatticePoint corners[3];
+    kiriMesh_Corners(mesh, triangle, corners);
+    return kiriSquares_Insert(&mesh->squares, mesh->memory, triangle, corners);
+}
+
+/* The triangle is not as it was when its corners were these. */
+static bool ReshapeInSquares(kiriMeshData* mesh, int32_t triangle, const kiriLatticePoint was[3])
+{
+    kiriLatticePoint is[3];
+    kiriMesh_Corners(mesh, triangle, is);
+    return kiriSquares_Reshape(&mesh->squares, mesh->memory, triangle, was, is);
+}
+
+void kiriMesh_Rollback(kiriMeshData* mesh)
+{
+    if (!mesh->isOpen) {
+        return;
+    }
+    kiriSquares_Rollback(&mesh->squares);
+    kiriMesh_RollbackSources(mesh);
+    for (int32_t i = 0; i < mesh->savedVertices.count; ++i) {
+        mesh->vertices.data[mesh->savedVertices.data[i].index] = mesh->savedVertices.data[i].was;
+    }
+    for (int32_t i = 0; i < mesh->savedTriangles.count; ++i) {
+        mesh->triangles.data[mesh->savedTriangles.data[i].index] = mesh->savedTriangles.data[i].was;
+    }
+    for (int32_t v = mesh->vertices.count - 1; v >= mesh->oldVertexCount; --v) {
+        const kiriVertex* vertex = &mesh->vertices.data[v];
+        mesh->squares.vertexHead[kiriSquares_At(&mesh->squares, vertex->at)] = vertex->next;
+    }
+    mesh->triangles.count = mesh->oldTriangleCount;
+    mesh->vertices.count = mesh->oldVertexCount;
+    mesh->revision = mesh->oldRevision;
+    mesh->births.count = 0;
+    EmptyJournal(mesh);
+}
+
+/* ---- Changing the mesh ------------------------------------------------------------------------------------------- */
+
+/* Half-edge h becomes half-edge g: its twin, its mark, and its tail's way to find it. */
+static void MoveHalfEdge(kiriMeshData* mesh, int32_t h, int32_t g)
+{
+    kiriVertex* tail = &mesh->vertices.data[kiriMesh_Tail(mesh, g)];
+    kiriMesh_SetOpen(mesh, g, kiriMesh_IsOpen(mesh, h));
+    kiriMesh_Link(mesh, g, kiriMesh_Twin(mesh, h));
+    kiriMesh_SetOpen(mesh, h, false);
+    if (tail->edge == h) {
+        tail->edge = g;
+    }
+}
+
+/* Saves a triangle that is to be split. */
+static bool SaveWhole(kiriMeshData* mesh, int32_t triangle)
+{
+    return SaveTriangle(mesh, triangle) && kiriMesh_KeepSource(mesh, triangle);
+}
+
+/* Saves what moving half-edge h to another triangle changes. */
+static bool SaveHalfEdge(kiriMeshData* mesh, int32_t h)
+{
+    int32_t twin = kiriMesh_Twin(mesh, h);
+    return SaveVertex(mesh, kiriMesh_Tail(mesh, h)) && (twin == KIRI_NONE || SaveTriangle(mesh, twin / 3));
+}
+
+static bool ReserveSplit(kiriMeshData* mesh)
+{
+    int64_t vertices = (int64_t)mesh->vertices.count + 2, triangles = (int64_t)mesh->triangles.count + 2;
+    return triangles <= KIRI_MOST_TRIANGLES && kiriArray_Reserve(mesh->memory, &mesh->vertices, vertices) &&
+           kiriArray_Reserve(mesh->memory, &mesh->triangles, triangles) &&
+           kiriArray_Reserve(mesh->memory, &mesh->births, (int64_t)mesh->births.count + 2);
+}
+
+/* Room for it is reserved. */
+static int32_t AddVertex(kiriMeshData* mesh, kiriLatticePoint at, int32_t source, const kiriBirth* birth)
+{
+    KIRI_ASSERT(mesh->isOpen && mesh->vertices.count < mesh->vertices.capacity);
+    KIRI_ASSERT(mesh->births.count == mesh->vertices.count - mesh->oldVertexCount);
+    int32_t index = mesh->vertices.count++;
+    kiriVertex* v = &mesh->vertices.data[index];
+    memset(v, 0, sizeof(*v));
+    v->at = at;
+    v->edge = KIRI_NONE;
+    kiriMesh_ListVertex(mesh, index);
+    kiriMesh_SetSource(mesh, index, source);
+    mesh->births.data[mesh->births.count++] = *birth;
+    return index;
+}
+
+/* A new vertex on half-edge h, born of the two ends on its own side. */
+static int32_t AddOnEdge(kiriMeshData* mesh, int32_t h, kiriLatticePoint at)
+{
+    int32_t a = kiriMesh_Tail(mesh, h), b = kiriMesh_Tail(mesh, kiriEdge_Next(h));
+    double toA = sqrt((double)kiriDistanceSquared(mesh->vertices.data[a].at, at));
+    double toB = sqrt((double)kiriDistanceSquared(mesh->vertices.data[b].at, at));
+    kiriBirth birth = { { a, b, KIRI_NONE }, { toB / (toA + toB), toA / (toA + toB), 0.0 } };
+    return AddVertex(mesh, at, mesh->triangles.data[h / 3].source, &birth);
+}
+
+/* One side of a split edge: (a, b, c) with h from a to b becomes (a, p, c) and a new (p, b, c). Returns the half-edge
+   from p to b. */
+static int32_t SplitSide(kiriMeshData* mesh, int32_t h, int32_t p)
+{
+    int32_t next = kiriEdge_Next(h), b = kiriMesh_Tail(mesh, next), c = kiriMesh_Tail(mesh, kiriEdge_Previous(h));
+    int32_t added = 3 * kiriMesh_AddTriangle(mesh, p, b, c, mesh->triangles.data[h / 3].source, h / 3);
+    kiriMesh_SetOpen(mesh, added, kiriMesh_IsOpen(mesh, h));
+    MoveHalfEdge(mesh, next, added + 1);
+    mesh->triangles.data[next / 3].vertex[next % 3] = p;
+    kiriMesh_Link(mesh, next, added + 2);
+    mesh->vertices.data[p].edge = added;
+    return added;
+}
+
+/* One side of a split edge: the triangle that it was, and the one that was added. */
+static bool SideToSquares(kiriMeshData* mesh, int32_t h, const kiriLatticePoint was[3], int32_t added)
+{
+    return ReshapeInSquares(mesh, h / 3, was) && InsertSquares(mesh, added / 3);
+}
+
+int32_t kiriMesh_SplitEdge(kiriMeshData* mesh, int32_t h, kiriLatticePoint at)
+{
+    KIRI_ASSERT(kiriMesh_CanSplitEdge(mesh, h, at));
+    int32_t g = kiriMesh_Twin(mesh, h);
+    if (!ReserveSplit(mesh) || !SaveWhole(mesh, h / 3) || !SaveHalfEdge(mesh, kiriEdge_Next(h)) ||
+        (g != KIRI_NONE && (!SaveWhole(mesh, g / 3) || !SaveHalfEdge(mesh, kiriEdge_Next(g))))) {
+        return KIRI_NONE;
+    }
+    kiriLatticePoint was[3], wasBeyond[3];
+    kiriMesh_Corners(mesh, h / 3, was);
+    ++mesh->revision;
+    int32_t p = AddOnEdge(mesh, h, at);
+    int32_t added = SplitSide(mesh, h, p);
+    if (g == KIRI_NONE) {
+        return SideToSquares(mesh, h, was, added) ? p : KIRI_NONE;
+    }
+    kiriMesh_Corners(mesh, g / 3, wasBeyond);
+    int32_t q = kiriMesh_IsOpen(mesh, g) ? AddOnEdge(mesh, g, at) : p;
+    int32_t addedBeyond = SplitSide(mesh, g, q);
+    kiriMesh_Link(mesh, h, addedBeyond);
+    kiriMesh_Link(mesh, added, g);
+    return SideToSquares(mesh, h, was, added) && SideToSquares(mesh, g, wasBeyond, addedBeyond) ? p : KIRI_NONE;
+}
+
+static kiriBirth BirthInside(const kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at)
+{
+    kiriLatticePoint c[3];
+    kiriMesh_Corners(mesh, triangle, c);
+    double area = (double)kiriOrient(c[0], c[1], c[2]);
+    kiriBirth birth;
+    for (int i = 0; i < 3; ++i) {
+        birth.parent[i] = mesh->triangles.data[triangle].vertex[i];
+        birth.share[i] = (double)kiriOrient(c[(i + 1) % 3], c[(i + 2) % 3], at) / area;
+    }
+    return birth;
+}
+
+int32_t kiriMesh_SplitTriangle(kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at)
+{
+    KIRI_ASSERT(kiriMesh_CanSplitTriangle(mesh, triangle, at));
+    int32_t h = 3 * triangle;
+    if (!ReserveSplit(mesh) || !SaveWhole(mesh, triangle) || !SaveHalfEdge(mesh, h + 1) || !SaveHalfEdge(mesh, h + 2)) {
+        return KIRI_NONE;
+    }
+    kiriLatticePoint corners[3];
+    kiriMesh_Corners(mesh, triangle, corners);
+    ++mesh->revision;
+    kiriTriangle was = mesh->triangles.data[triangle];
+    kiriBirth birth = BirthInside(mesh, triangle, at);
+    int32_t p = AddVertex(mesh, at, was.source, &birth);
+    int32_t k = 3 * kiriMesh_AddTriangle(mesh, was.vertex[1], was.vertex[2], p, was.source, triangle);
+    int32_t l = 3 * kiriMesh_AddTriangle(mesh, was.vertex[2], was.vertex[0], p, was.source, triangle);
+    MoveHalfEdge(mesh, h + 1, k);
+    MoveHalfEdge(mesh, h + 2, l);
+    mesh->triangles.data[triangle].vertex[2] = p;
+    mesh->vertices.data[p].edge = h + 2;
+    kiriMesh_Link(mesh, h + 1, k + 2);
+    kiriMesh_Link(mesh, k + 1, l + 2);
+    kiriMesh_Link(mesh, l + 1, h + 2);
+    return ReshapeInSquares(mesh, triangle, corners) && InsertSquares(mesh, k / 3) && InsertSquares(mesh, l / 3)
+               ? p
+               : KIRI_NONE;
+}
+
+bool kiriMesh_FlipEdge(kiriMeshData* mesh, int32_t h)
+{
+    KIRI_ASSERT(kiriMesh_CanFlipEdge(mesh, h));
+    int32_t g = kiriMesh_Twin(mesh, h), nextH = kiriEdge_Next(h), nextG = kiriEdge_Next(g);
+    if (!SaveWhole(mesh, h / 3) || !SaveWhole(mesh, g / 3) || !SaveHalfEdge(mesh, nextH) ||
+        !SaveHalfEdge(mesh, nextG)) {
+        return false;
+    }
+    kiriLatticePoint was[3], wasBeyond[3];
+    kiriMesh_Corners(mesh, h / 3, was);
+    kiriMesh_Corners(mesh, g / 3, wasBeyond);
+    ++mesh->revision;
+    int32_t c = kiriMesh_Tail(mesh, kiriEdge_Previous(h)), d = kiriMesh_Tail(mesh, kiriEdge_Previous(g));
+    MoveHalfEdge(mesh, nextG, h);
+    MoveHalfEdge(mesh, nextH, g);
+    mesh->triangles.data[h / 3].vertex[nextH % 3] = d;
+    mesh->triangles.data[g / 3].vertex[nextG % 3] = c;
+    kiriMesh_Link(mesh, nextH, nextG);
+    return ReshapeInSquares(mesh, h / 3, was) && ReshapeInSquares(mesh, g / 3, wasBeyond);
+}
+
+/* Half-edge h has just been opened: where that divides the fan at its tail, the part on its left gets a new vertex. */
+static bool TearFan(kiriMeshData* mesh, int32_t h)
+{
+    int32_t old = kiriMesh_Tail(mesh, h), twin = kiriMesh_Twin(mesh, h), last = h;
+    for (int32_t c = h; c != KIRI_NONE; c = kiriMesh_CounterClockwise(mesh, c)) {
+        last = c;
+        if (!SaveTriangle(mesh, c / 3)) {
+            return false;
+        }
+    }
+    if (kiriEdge_Previous(last) == twin) {
+        return true; /* all around: the end of a cut */
+    }
+    if (!SaveVertex(mesh, old) || !ReserveSplit(mesh)) {
+        return false;
+    }
+    kiriBirth birth = { { old, KIRI_NONE, KIRI_NONE }, { 1.0, 0.0, 0.0 } };
+    int32_t torn = AddVertex(mesh, mesh->vertices.data[old].at, mesh->triangles.data[h / 3].source, &birth);
+    for (int32_t c = h; c != KIRI_NONE; c = kiriMesh_CounterClockwise(mesh, c)) {
+        mesh->triangles.data[c / 3].vertex[c % 3] = torn;
+    }
+    mesh->vertices.data[torn].edge = h;
+    mesh->vertices.data[old].edge = kiriEdge_Next(twin);
+    kiriMesh_SetSource(mesh, old, mesh->triangles.data[twin / 3].source);
+    return true;
+}
+
+bool kiriMesh_Open(kiriMeshData* mesh, int32_t h)
+{
+    int32_t twin = kiriMesh_Twin(mesh, h);
+    if (twin == KIRI_NONE || kiriMesh_IsOpen(mesh, h)) {
+        return true;
+    }
+    if (!SaveTriangle(mesh, h / 3) || !SaveTriangle(mesh, twin / 3)) {
+        return false;
+    }
+    int32_t before = mesh->vertices.count;
+    ++mesh->revision;
+    kiriMesh_SetOpen(mesh, h, true);
+    kiriMesh_SetOpen(mesh, twin, true);
+    kiriSquares_MarkEdgeDirty(&mesh->squares, mesh->vertices.data[kiriMesh_Tail(mesh, h)].at,
+                              mesh->vertices.data[kiriMesh_Tail(mesh, kiriEdge_Next(h))].at);
+    bool ok = TearFan(mesh, h) && TearFan(mesh, twin);
+    mesh->hasMet |= mesh->vertices.count == before + 2; /* both ends are torn */
+    return ok;
+}
+
+static bool CanSplitSide(const kiriMeshData* mesh, int32_t h, kiriLatticePoint at)
+{
+    kiriLatticePoint c[3];
+    kiriMesh_Corners(mesh, h / 3, c);
+    kiriLatticePoint a = c[h % 3], b = c[(h + 1) % 3], apex = c[(h + 2) % 3];
+    return kiriOrient(a, at, apex) > 0 && kiriOrient(at, b, apex) > 0;
+}
+
+bool kiriMesh_CanSplitEdge(const kiriMeshData* mesh, int32_t h, kiriLatticePoint at)
+{
+    int32_t twin = kiriMesh_Twin(mesh, h);
+    return CanSplitSide(mesh, h, at) && (twin == KIRI_NONE || CanSplitSide(mesh, twin, at));
+}
+
+bool kiriMesh_CanSplitTriangle(const kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at)
+{
+    kiriLatticePoint c[3];
+    kiriMesh_Corners(mesh, triangle, c);
+    return kiriOrient(c[0], c[1], at) > 0 && kiriOrient(c[1], c[2], at) > 0 && kiriOrient(c[2], c[0], at) > 0;
+}
+
+bool kiriMesh_CanFlipEdge(const kiriMeshData* mesh, int32_t h)
+{
+    int32_t g = kiriMesh_Twin(mesh, h);
+    if (g == KIRI_NONE || kiriMesh_IsOpen(mesh, h) ||
+        mesh->triangles.data[h / 3].source != mesh->triangles.data[g / 3].source) {
+        return false;
+    }
+    kiriLatticePoint t[3], u[3];
+    kiriMesh_Corners(mesh, h / 3, t);
+    kiriMesh_Corners(mesh, g / 3, u);
+    kiriLatticePoint a = t[h % 3], b = t[(h + 1) % 3], c = t[(h + 2) % 3], d = u[(g + 2) % 3];
+    return kiriOrient(a, d, c) > 0 && kiriOrient(b, c, d) > 0;
+}
+
+/* Half-edges keep their place in their triangle. */
+static int32_t EdgeTo(const kiriKeep* triangles, int32_t h)
+{
+    int32_t triangle = h == KIRI_NONE ? KIRI_NONE : kiriKeep_To(triangles, h / 3);
+    return triangle == KIRI_NONE ? KIRI_NONE : 3 * triangle + h % 3;
+}
+
+/* An open edge whose other side is not kept becomes one of the outline. Who a triangle was split from matters only
+   until the cut is in force: see kiri_refit.c. */
+static void RenumberTriangle(kiriTriangle* t, const kiriKeep* triangles, const kiriKeep* vertices)
+{
+    for (int i = 0; i < 3; ++i) {
+        t->vertex[i] = kiriKeep_To(vertices, t->vertex[i]);
+        t->twin[i] = EdgeTo(triangles, t->twin[i]);
+        t->marks &= t->twin[i] == KIRI_NONE ? ~(1 << i) : ~0;
+    }
+    t->parent = kiriKeep_To(triangles, t->parent);
+}
+
+/* ---- A part as a mesh of its own --------------------------------------------------------------------------------- */
+
+enum { COPIED_AN_ITEM = 4, LISTED_AN_ITEM = 8 };
+
+static bool StartPart(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshData* from, const kiriMeshPart* triangles,
+                      const kiriMeshPart* vertices)
+{
+    memset(mesh, 0, sizeof(*mesh));
+    mesh->memory = memory;
+    mesh->origin = from->origin;
+    mesh->step = from->step;
+    mesh->revision = from->revision + 1;
+    return kiriArray_Reserve(memory, &mesh->vertices, vertices->items.count) &&
+           kiriArray_Reserve(memory, &mesh->triangles, triangles->items.count);
+}
+
+static bool CopyVertices(kiriMeshData* mesh, const kiriMeshData* from, const kiriMeshPart* triangles,
+                         const kiriMeshPart* vertices, kiriQuota* quota)
+{
+    while (mesh->vertices.count < vertices->items.count) {
+        int32_t k = mesh->vertices.count;
+        if (k % COPIED_AN_ITEM == 0 && !kiriQuota_Take(quota, 1)) {
+            return false;
+        }
+        kiriVertex vertex = from->vertices.data[vertices->items.data[k]];
+        vertex.edge = EdgeTo(triangles->keep, vertex.edge);
+        KIRI_ASSERT(vertex.edge != KIRI_NONE);
+        vertex.stamp = 0;
+        mesh->vertices.data[mesh->vertices.count++] = vertex;
+    }
+    return true;
+}
+
+static bool CopyTriangles(kiriMeshData* mesh, const kiriMeshData* from, const kiriMeshPart* triangles,
+                          const kiriMeshPart* vertices, kiriQuota* quota)
+{
+    while (mesh->triangles.count < triangles->items.count) {
+        int32_t k = mesh->triangles.count;
+        if (k % COPIED_AN_ITEM == 0 && !kiriQuota_Take(quota, 1)) {
+            return false;
+        }
+        kiriTriangle triangle = from->triangles.data[triangles->items.data[k]];
+        RenumberTriangle(&triangle, triangles->keep, vertices->keep);
+        triangle.marks &= KIRI_TRIANGLE_OPEN;
+        mesh->triangles.data[mesh->triangles.count++] = triangle;
+    }
+    return true;
+}
+
+static int32_t DropRepeated(int32_t* sorted, int32_t count)
+{
+    int32_t left = 0;
+    for (int32_t i = 0; i < count; ++i) {
+        if (left == 0 || sorted[i] != sorted[left - 1]) {
+            sorted[left++] = sorted[i];
+        }
+    }
+    return left;
+}
+
+/* Those of the caller's triangles that the part has something of. */
+static bool ListSources(kiriMeshData* mesh)
+{
+    int32_t count = mesh->triangles.count;
+    int32_t* room = kiriMemory_Alloc(mesh->memory, (int64_t)sizeof(int32_t) * count);
+    bool ok = room != NULL && kiriArray_Resize(mesh->memory, &mesh->sources, count);
+    for (int32_t t = 0; ok && t < count; ++t) {
+        mesh->sources.data[t] = mesh->triangles.data[t].source;
+    }
+    if (ok) {
+        kiriSort_Numbers(mesh->sources.data, room, count);
+        mesh->sources.count = DropRepeated(mesh->sources.data, count);
+    }
+    kiriMemory_Free(mesh->memory, room);
+    return ok;
+}
+
+static kiriProgress CopySources(kiriMeshData* mesh, const kiriMeshData* from, kiriQuota* quota)
+{
+    if (mesh->sources.count > 0) {
+        return KIRI_DONE;
+    }
+    if (!kiriQuota_Take(quota, mesh->triangles.count / COPIED_AN_ITEM)) {
+        return KIRI_MORE;
+    }
+    if (!ListSources(mesh) ||
+        !kiriArray_ResizeJust(mesh->memory, &mesh->sourceCorners, 3 * (int64_t)mesh->sources.count)) {
+        return KIRI_FAILED;
+    }
+    for (int32_t k = 0; k < mesh->sources.count; ++k) {
+        kiriMesh_SourceCorners(from, mesh->sources.data[k], &mesh->sourceCorners.data[3 * (size_t)k]);
+    }
+    return KIRI_DONE;
+}
+
+static bool StartSquares(kiriMeshData* mesh, const kiriMeshData* from)
+{
+    kiriLatticePoint lower = mesh->vertices.data[0].at, upper = lower;
+    for (int32_t v = 1; v < mesh->vertices.count; ++v) {
+        kiriLatticePoint at = mesh->vertices.data[v].at;
+        lower.x = kiriMin(at.x, lower.x);
+        lower.y = kiriMin(at.y, lower.y);
+        upper.x = kiriMax(at.x, upper.x);
+        upper.y = kiriMax(at.y, upper.y);
+    }
+    return kiriSquares_InitPart(&mesh->squares, mesh->memory, &from->squares, lower, upper);
+}
+
+/* Until kiriMesh_Begin the old counts say how many triangles and vertices are in their squares. */
+static kiriProgress FillSquaresOfPart(kiriMeshData* mesh, const kiriMeshData* from, kiriQuota* quota)
+{
+    if (mesh->squares.columns == 0 && !StartSquares(mesh, from)) {
+        return KIRI_FAILED;
+    }
+    for (; mesh->oldTriangleCount < mesh->triangles.count; ++mesh->oldTriangleCount) {
+        kiriLatticePoint corners[3];
+        if (!kiriQuota_Take(quota, 1)) {
+            return KIRI_MORE;
+        }
+        kiriMesh_Corners(mesh, mesh->oldTriangleCount, corners);
+        if (!kiriSquares_Insert(&mesh->squares, mesh->memory, mesh->oldTriangleCount, corners)) {
+            return KIRI_FAILED;
+        }
+    }
+    for (; mesh->oldVertexCount < mesh->vertices.count; ++mesh->oldVertexCount) {
+        if (mesh->oldVertexCount % LISTED_AN_ITEM == 0 && !kiriQuota_Take(quota, 1)) {
+            return KIRI_MORE;
+        }
+        kiriMesh_ListVertex(mesh, mesh->oldVertexCount);
+    }
+    return KIRI_DONE;
+}
+
+kiriProgress kiriMesh_MakePart(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshData* from,
+                               const kiriMeshPart* triangles, const kiriMeshPart* vertices, kiriQuota* quota)
+{
+    KIRI_ASSERT(!mesh->isOpen);
+    if (mesh->memory == NULL && !StartPart(mesh, memory, from, triangles, vertices)) {
+        return KIRI_FAILED;
+    }
+    if (!CopyVertices(mesh, from, triangles, vertices, quota) ||
+        !CopyTriangles(mesh, from, triangles, vertices, quota)) {
+        return KIRI_MORE;
+    }
+    kiriProgress progress = CopySources(mesh, from, quota);
+    progress = progress == KIRI_DONE ? FillSquaresOfPart(mesh, from, quota) : progress;
+    if (progress == KIRI_DONE) {
+        kiriMesh_Begin(mesh);
+    }
+    return progress;
+}
+
+/* ---- What is left ------------------------------------------------------------------------------------------------ */
+
+static void EndLoss(kiriMeshData* mesh)
+{
+    mesh->births.count = 0;
+    mesh->oldTriangleCount = mesh->triangles.count;
+    mesh->oldVertexCount = mesh->vertices.count;
+    mesh->revision += 1;
+}
+
+void kiriMesh_Keep(kiriMeshData* mesh, const kiriKeep* triangles, const kiriKeep* vertices, const int32_t* squares,
+                   int32_t squareCount)
+{
+    KIRI_ASSERT(!mesh->isOpen && mesh->savedTriangles.count == 0);
+    int32_t originals = 0;
+    for (int32_t t = 0; t < mesh->triangles.count; ++t) {
+        if (kiriKeep_Has(triangles, t)) {
+            RenumberTriangle(&mesh->triangles.data[t], triangles, vertices);
+            originals += t < mesh->originals;
+        }
+    }
+    mesh->originals = originals;
+    for (int32_t v = 0; v < mesh->vertices.count; ++v) {
+        mesh->vertices.data[v].edge = EdgeTo(triangles, mesh->vertices.data[v].edge);
+    }
+    kiriKeep_Relink(vertices, mesh->squares.vertexHead, mesh->squares.columns * mesh->squares.rows,
+                    &mesh->vertices.data[0].next, sizeof(kiriVertex));
+    kiriSquares_Keep(&mesh->squares, triangles, squares, squareCount);
+    kiriKeep_Compact(triangles, &mesh->triangles, 1, sizeof(kiriTriangle));
+    kiriKeep_Compact(vertices, &mesh->vertices, 1, sizeof(kiriVertex));
+    mesh->triangleHoles = mesh->vertexHoles = 0;
+    EndLoss(mesh);
+}
+
+/* ---- With holes -------------------------------------------------------------------------------------------------- */
+
+/* What is left beside a triangle that goes ends there. Only an edge that is open may have it beside it. */
+static void LeaveNeighbours(kiriMeshData* mesh, const kiriMeshLoss* loss, int32_t triangle)
+{
+    const kiriTriangle* t = &mesh->triangles.data[triangle];
+    for (int i = 0; i < 3; ++i) {
+        int32_t twin = t->marks & 1 << i ? t->twin[i] : KIRI_NONE;
+        if (twin != KIRI_NONE && kiriKeep_Has(&loss->keepTriangles, twin / 3)) {
+            kiriTriangle* beside = &mesh->triangles.data[twin / 3];
+            beside->twin[twin % 3] = KIRI_NONE;
+            beside->marks &= ~(1 << (twin % 3));
+        }
+    }
+}
+
+static void UnlistVertices(kiriMeshData* mesh, const kiriKeep* keep, int32_t square)
+{
+    int32_t* link = &mesh->squares.vertexHead[square];
+    while (*link != KIRI_NONE) {
+        kiriVertex* vertex = &mesh->vertices.data[*link];
+        if (kiriKeep_Has(keep, *link)) {
+            link = &vertex->next;
+        } else {
+            *link = vertex->next;
+        }
+    }
+}
+
+void kiriMesh_LeaveHoles(kiriMeshData* mesh, const kiriMeshLoss* loss)
+{
+    KIRI_ASSERT(!mesh->isOpen && mesh->savedTriangles.count == 0);
+    for (int32_t k = 0; k < loss->squares->count; ++k) {
+        UnlistVertices(mesh, &loss->keepVertices, loss->squares->data[k]);
+    }
+    kiriSquares_Keep(&mesh->squares, &loss->keepTriangles, loss->squares->data, loss->squares->count);
+    for (int32_t k = 0; k < loss->triangles->count; ++k) {
+        LeaveNeighbours(mesh, loss, loss->triangles->data[k]);
+        kiriTriangle* t = &mesh->triangles.data[loss->triangles->data[k]];
+        *t = (kiriTriangle){
+            { KIRI_NONE, KIRI_NONE, KIRI_NONE }, { KIRI_NONE, KIRI_NONE, KIRI_NONE }, t->source, KIRI_NONE, 0
+        };
+    }
+    for (int32_t k = 0; k < loss->vertices->count; ++k) {
+        mesh->vertices.data[loss->vertices->data[k]].edge = KIRI_NONE;
+    }
+    mesh->triangleHoles += loss->triangles->count;
+    mesh->vertexHoles += loss->vertices->count;
+    EndLoss(mesh);
 }

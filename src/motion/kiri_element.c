@@ -1,269 +1,327 @@
 #include "kiri_element.h"
 
-#include <string.h>
+/* F_u, F_v, D_u, D_v, D: or what a strain changes by with each. */
+typedef struct SurfaceState {
+    kiriVec3 u, v, du, dv, d;
+} SurfaceState;
 
-static const kiriAreaElement* AreaElementOf(const kiriSystem* system, int32_t k)
+static void AddVector(kiriVec3* sum, double a, kiriVec3 b)
 {
-    return &system->areaElements->elements.data[k - kiriElement_LinkCount(system) - kiriElement_CornerCount(system)];
+    *sum = kiriVec3_AddScaled(*sum, a, b);
 }
 
-int kiriElement_StrainCount(const kiriSystem* system, int32_t k)
+static SurfaceState SurfaceStateOf(const kiriAreaElement* element, const kiriFrameShare* shares,
+                                   const kiriFrameData* frames, const kiriPose* poses)
 {
-    bool planar = system->mechanics.planar;
-    if (kiriElement_Corner(system, k) != NULL) {
-        return planar || kiriMechanics_IsAffine(&system->mechanics) ? 1 : KIRI_TRACES;
+    kiriVec3 zero = { 0.0, 0.0, 0.0 };
+    SurfaceState s = { zero, zero, zero, zero, zero };
+    for (int32_t k = 0; k < element->count; ++k) {
+        const kiriFrameShare* share = &shares[element->first + k];
+        kiriPose pose = poses != NULL ? poses[share->frame] : kiriPose_Of(&frames[share->frame]);
+        AddVector(&s.u, share->move.x, pose.x);
+        AddVector(&s.u, share->u.x, pose.A.u);
+        AddVector(&s.u, share->v.x, pose.A.v);
+        AddVector(&s.v, share->move.y, pose.x);
+        AddVector(&s.v, share->u.y, pose.A.u);
+        AddVector(&s.v, share->v.y, pose.A.v);
+        AddVector(&s.d, share->weight, pose.A.d);
+        AddVector(&s.du, share->slope.x, pose.A.d);
+        AddVector(&s.dv, share->slope.y, pose.A.d);
     }
-    if (kiriElement_Link(system, k) == NULL) {
-        return AreaElementOf(system, k)->lastRow - AreaElementOf(system, k)->firstRow;
-    }
-    return kiriMechanics_IsAffine(&system->mechanics) ? (planar ? KIRI_AFFINE_BENDING : KIRI_AFFINE_STRAINS)
-                                                      : (planar ? KIRI_PLANE_BENDING + 1 : KIRI_STRAINS);
+    return s;
 }
 
-int32_t kiriElement_Members(const kiriSystem* system, int32_t k, int32_t* members)
+static void StrainsOf(const SurfaceState* s, double lean, double strain[KIRI_AREA_STRAINS])
 {
-    const kiriLink* link = kiriElement_Link(system, k);
-    if (link != NULL) {
-        KIRI_ASSERT(link->i >= 0 && link->i < link->j && link->j < system->frameCount);
-        members[0] = link->i;
-        members[1] = link->j;
-        return 2;
-    }
-    if (kiriElement_Corner(system, k) != NULL) {
-        int32_t ends[4][2];
-        kiriTrace_Members(kiriElement_Corner(system, k), system->links, members, ends);
-        return kiriElement_Corner(system, k)->count;
-    }
-    const kiriAreaElement* element = AreaElementOf(system, k);
-    for (int32_t m = 0; m < element->count; ++m) {
-        members[m] = system->areaElements->shares.data[element->first + m].frame;
-        KIRI_ASSERT(members[m] >= 0 && members[m] < system->frameCount);
-        KIRI_ASSERT(m == 0 || members[m - 1] < members[m]);
-    }
-    return element->count;
+    double uu = kiriVec3_Dot(s->u, s->u), vv = kiriVec3_Dot(s->v, s->v);
+    double leanU = kiriVec3_Dot(s->u, s->d), leanV = kiriVec3_Dot(s->v, s->d);
+    double bendU = kiriVec3_Dot(s->u, s->du), bendV = kiriVec3_Dot(s->v, s->dv);
+    strain[KIRI_AREA_DILATION] = 0.5 * (uu + vv + lean * (leanU * leanU + leanV * leanV)) - 1.0;
+    strain[KIRI_AREA_STRETCH] = 0.5 * (uu - vv + lean * (leanU * leanU - leanV * leanV));
+    strain[KIRI_AREA_SHEAR] = kiriVec3_Dot(s->u, s->v) + lean * leanU * leanV;
+    strain[KIRI_AREA_DOME] = bendU + bendV;
+    strain[KIRI_AREA_SADDLE] = bendU - bendV;
+    strain[KIRI_AREA_TWIST] = kiriVec3_Dot(s->u, s->dv) + kiriVec3_Dot(s->v, s->du);
+    strain[KIRI_AREA_LEAN_U] = leanU;
+    strain[KIRI_AREA_LEAN_V] = leanV;
+    strain[KIRI_AREA_THICKNESS] = 0.5 * (kiriVec3_Dot(s->d, s->d) - 1.0);
 }
 
-int32_t kiriElement_FirstMember(const kiriSystem* system, int32_t k)
+/* The derivative of each strain by the shape. */
+static void SlopesOf(const SurfaceState* s, double lean, SurfaceState slope[KIRI_AREA_STRAINS])
 {
-    const kiriLink* link = kiriElement_Link(system, k);
-    if (kiriElement_Corner(system, k) != NULL) {
-        link = &system->links[kiriElement_Corner(system, k)->link[0]];
-    }
-    return link != NULL ? link->i : system->areaElements->shares.data[AreaElementOf(system, k)->first].frame;
-}
-
-int32_t kiriElement_MostMembers(const kiriSystem* system)
-{
-    int32_t most = kiriElement_CornerCount(system) > 0 ? 4 : 2;
-    for (int32_t k = kiriElement_LinkCount(system) + kiriElement_CornerCount(system); k < kiriElement_Count(system);
-         ++k) {
-        int32_t count = AreaElementOf(system, k)->count;
-        most = kiriMax(count, most);
-    }
-    return most;
-}
-
-/* What counts of an element: of a corner as much as of the link that counts least. */
-static double CountedPart(const kiriSystem* system, int32_t k)
-{
-    const kiriCorner* corner = kiriElement_Corner(system, k);
-    double part = kiriElement_Link(system, k) != NULL ? system->linkParts[k] : 1.0;
-    for (int32_t n = 0; corner != NULL && n < corner->count; ++n) {
-        double other = system->linkParts[corner->link[n]];
-        part = kiriMin(other, part);
-    }
-    return part;
-}
-
-void kiriElement_Stiffness(const kiriSystem* system, int32_t k, double* stiffness)
-{
-    const kiriLink* link = kiriElement_Link(system, k);
-    if (kiriElement_Corner(system, k) != NULL) {
-        double all[KIRI_TRACES];
-        kiriTrace_Stiffness(kiriElement_Corner(system, k), &system->material, all);
-        bool isAffine = kiriMechanics_IsAffine(&system->mechanics);
-        stiffness[0] = all[isAffine ? KIRI_TRACE_CURVATURE : KIRI_TRACE_STRETCH];
-        stiffness[1] = all[KIRI_TRACE_CURVATURE]; /* counts where it has two strains */
-    } else if (link == NULL) {
-        kiriAreaElement_Stiffness(AreaElementOf(system, k), &system->material, stiffness);
-    } else if (kiriMechanics_IsAffine(&system->mechanics)) {
-        kiriAffine_Stiffness(link, &system->material, stiffness);
-    } else {
-        kiriStrain_Stiffness(link, &system->material, stiffness);
-    }
-    double part = system->linkParts != NULL ? CountedPart(system, k) : 1.0;
-    for (int e = 0; part < 1.0 && e < kiriElement_StrainCount(system, k); ++e) {
-        stiffness[e] *= part;
+    kiriVec3 zero = { 0.0, 0.0, 0.0 }, minusV = kiriVec3_Scale(-1.0, s->v), minusDv = kiriVec3_Scale(-1.0, s->dv);
+    double leanU = lean * kiriVec3_Dot(s->u, s->d), leanV = lean * kiriVec3_Dot(s->v, s->d);
+    kiriVec3 u = kiriVec3_AddScaled(s->u, leanU, s->d), v = kiriVec3_AddScaled(s->v, leanV, s->d);
+    kiriVec3 byU = kiriVec3_Scale(leanU, s->u), byV = kiriVec3_Scale(leanV, s->v);
+    const SurfaceState slopes[KIRI_AREA_STRAINS] = {
+        { u, v, zero, zero, kiriVec3_Add(byU, byV) },
+        { u, kiriVec3_Scale(-1.0, v), zero, zero, kiriVec3_Sub(byU, byV) },
+        { v, u, zero, zero, kiriVec3_AddScaled(kiriVec3_Scale(leanU, s->v), leanV, s->u) },
+        { s->du, s->dv, s->u, s->v, zero },
+        { s->du, minusDv, s->u, minusV, zero },
+        { s->dv, s->du, s->v, s->u, zero },
+        { s->d, zero, zero, zero, s->u },
+        { zero, s->d, zero, zero, s->v },
+        { zero, zero, zero, zero, s->d },
+    };
+    for (int e = 0; e < KIRI_AREA_STRAINS; ++e) {
+        slope[e] = slopes[e];
     }
 }
 
-/* The frames of a link, and their poses: those given, or as the frames are. */
-typedef struct LinkEnds {
-    const kiriFrameData* frames[2];
-    kiriPose poses[2];
-} LinkEnds;
-
-static LinkEnds LinkEndsOf(const kiriSystem* system, const kiriLink* link, const kiriPose* poses)
+static kiriVec3 AlongColumns(const SurfaceState* slope, kiriVec2 a)
 {
-    LinkEnds ends;
-    ends.frames[0] = &system->frames[link->i];
-    ends.frames[1] = &system->frames[link->j];
-    ends.poses[0] = poses != NULL ? poses[link->i] : kiriPose_Of(ends.frames[0]);
-    ends.poses[1] = poses != NULL ? poses[link->j] : kiriPose_Of(ends.frames[1]);
-    return ends;
+    return kiriVec3_AddScaled(kiriVec3_Scale(a.x, slope->u), a.y, slope->v);
 }
 
-static void MeasureRigidLink(const kiriSystem* system, const kiriLink* link, const kiriPose* poses, double* strain,
-                             kiriStrainRow* rows)
+static kiriFrameRow FrameRowOf(const SurfaceState* slope, const kiriFrameShare* share)
 {
-    LinkEnds ends = LinkEndsOf(system, link, poses);
-    const kiriPose* const endPoses[2] = { &ends.poses[0], &ends.poses[1] };
-    kiriStrain_Measure(link, &system->material, ends.frames, endPoses, strain, rows);
+    kiriVec3 bend = kiriVec3_AddScaled(kiriVec3_Scale(share->slope.x, slope->du), share->slope.y, slope->dv);
+    kiriFrameRow row = { { AlongColumns(slope, share->move), AlongColumns(slope, share->u),
+                           AlongColumns(slope, share->v), kiriVec3_AddScaled(bend, share->weight, slope->d) } };
+    return row;
 }
 
-static void MeasureRigidRows(const kiriSystem* system, const kiriLink* link, const kiriPose* poses, double* strain,
-                             kiriFrameRow* rows)
+void kiriAreaElement_Measure(const kiriAreaElement* element, const kiriFrameShare* shares, const kiriFrameData* frames,
+                             const kiriPose* poses, double* strain, kiriFrameRow* rows)
 {
-    kiriStrainRow found[KIRI_STRAINS];
-    MeasureRigidLink(system, link, poses, strain, rows != NULL ? found : NULL);
-    for (int e = 0; rows != NULL && e < KIRI_STRAINS; ++e) {
-        for (int end = 0; end < 2; ++end) {
-            rows[2 * e + end].by[0] = found[e].end[end].move;
-            rows[2 * e + end].by[1] = found[e].end[end].turn;
-        }
+    SurfaceState shape = SurfaceStateOf(element, shares, frames, poses), slope[KIRI_AREA_STRAINS];
+    double all[KIRI_AREA_STRAINS];
+    StrainsOf(&shape, element->lean, all);
+    for (int e = element->firstRow; e < element->lastRow; ++e) {
+        strain[e - element->firstRow] = all[e];
     }
-}
-
-static void AddFrameRow(kiriFrameRow* row, double a, kiriVec3 move, kiriVec3 turn)
-{
-    row->by[0] = kiriVec3_AddScaled(row->by[0], a, move);
-    row->by[1] = kiriVec3_AddScaled(row->by[1], a, turn);
-}
-
-static void MeasureCorner(const kiriSystem* system, const kiriCorner* corner, const kiriPose* poses, double* strain,
-                          kiriFrameRow* rows)
-{
-    int32_t count = corner->count, traces = system->mechanics.planar ? KIRI_TRACE_STRETCH + 1 : KIRI_TRACES;
-    double strains[4][KIRI_STRAINS];
-    kiriStrainRow found[4][KIRI_STRAINS];
-    const double* const all[4] = { strains[0], strains[1], strains[2], strains[3] };
-    for (int32_t k = 0; k < count; ++k) {
-        MeasureRigidLink(system, &system->links[corner->link[k]], poses, strains[k], rows != NULL ? found[k] : NULL);
-    }
-    kiriTrace trace = kiriTrace_Measure(corner, system->links, all, system->mechanics.planar);
-    memcpy(strain, trace.strain, sizeof(double) * (size_t)traces);
-    if (rows == NULL) {
-        return;
-    }
-    int32_t members[4], ends[4][2];
-    kiriTrace_Members(corner, system->links, members, ends);
-    memset(rows, 0, sizeof(*rows) * (size_t)(traces * count));
-    for (int32_t k = 0; k < count; ++k) {
-        for (int s = 0; s < 2 * traces; ++s) {
-            const kiriStrainRow* row = &found[k][kiriTrace_Source(s)];
-            for (int end = 0; end < 2; ++end) {
-                AddFrameRow(&rows[count * (s / 2) + ends[k][end]], trace.by[k][s], row->end[end].move,
-                            row->end[end].turn);
+    if (rows != NULL) {
+        SlopesOf(&shape, element->lean, slope);
+        for (int e = element->firstRow; e < element->lastRow; ++e) {
+            for (int32_t k = 0; k < element->count; ++k) {
+                *rows++ = FrameRowOf(&slope[e], &shares[element->first + k]);
             }
         }
     }
 }
 
-static void MeasureAffineCorner(const kiriSystem* system, const kiriCorner* corner, const kiriPose* poses,
-                                double* strain, kiriFrameRow* rows)
+void kiriAreaElement_Stiffness(const kiriAreaElement* element, const kiriMaterial* material, double* stiffness)
 {
-    int32_t members[4], ends[4][2];
-    kiriTrace_Members(corner, system->links, members, ends);
-    *strain = 0.0;
-    if (rows != NULL) {
-        memset(rows, 0, sizeof(*rows) * (size_t)corner->count);
+    double E = (double)material->youngsModulus, nu = (double)material->poissonsRatio, h = (double)material->thickness;
+    double G = 0.5 * E / (1.0 + nu) * h * element->area, K = 0.5 * E / (1.0 - nu) * h * element->area,
+           bend = h * h / 12.0;
+    const double all[KIRI_AREA_STRAINS] = { K, G, G, bend * K, bend * G, bend * G, G, G, E * h * element->area };
+    for (int e = element->firstRow; e < element->lastRow; ++e) {
+        stiffness[e - element->firstRow] = all[e];
     }
-    for (int32_t k = 0; k < corner->count; ++k) {
-        LinkEnds link = LinkEndsOf(system, &system->links[corner->link[k]], poses);
-        const kiriPose* const endPoses[2] = { &link.poses[0], &link.poses[1] };
-        kiriFrameRow* own[2] = { NULL, NULL };
-        for (int end = 0; rows != NULL && end < 2; ++end) {
-            own[end] = &rows[ends[k][end]];
+}
+
+bool kiriAreaElements_Keep(kiriAreaElements* elements, kiriMemory* memory, const kiriAreaElements* from,
+                           const kiriKeep* frames)
+{
+    bool ok = true;
+    for (int32_t k = 0; ok && k < from->elements.count; ++k) {
+        kiriAreaElement element = from->elements.data[k];
+        const kiriFrameShare* shares = &from->shares.data[element.first];
+        if (kiriKeep_Has(frames, shares[0].frame)) {
+            element.first = elements->shares.count;
+            ok = kiriArray_Push(memory, &elements->elements, element);
+            for (int32_t n = 0; ok && n < element.count; ++n) {
+                kiriFrameShare share = shares[n];
+                share.frame = kiriKeep_To(frames, share.frame);
+                ok = kiriArray_Push(memory, &elements->shares, share);
+            }
         }
-        kiriAffine_AddTrace(corner->weight[k], endPoses, strain, rows != NULL ? own : NULL);
     }
+    return ok;
 }
 
-void kiriElement_Measure(const kiriSystem* system, int32_t k, const kiriPose* poses, double* strain, kiriFrameRow* rows)
-{
-    const kiriLink* link = kiriElement_Link(system, k);
-    if (kiriElement_Corner(system, k) != NULL && kiriMechanics_IsAffine(&system->mechanics)) {
-        MeasureAffineCorner(system, kiriElement_Corner(system, k), poses, strain, rows);
-    } else if (kiriElement_Corner(system, k) != NULL) {
-        MeasureCorner(system, kiriElement_Corner(system, k), poses, strain, rows);
-    } else if (link == NULL) {
-        kiriAreaElement_Measure(AreaElementOf(system, k), system->areaElements->shares.data, system->frames, poses,
-                                strain, rows);
-    } else if (kiriMechanics_IsAffine(&system->mechanics)) {
-        LinkEnds ends = LinkEndsOf(system, link, poses);
-        const kiriPose* const endPoses[2] = { &ends.poses[0], &ends.poses[1] };
-        kiriAffine_Measure(link, &system->material, ends.frames, endPoses, strain, (kiriFrameRow(*)[2])rows);
-    } else {
-        MeasureRigidRows(system, link, poses, strain, rows);
-    }
-}
+typedef struct PointBuilder {
+    kiriMemory* memory;
+    const kiriGrid* grid;
+    const kiriMeshData* mesh;
+    const kiriShape* shape;
+    const kiriMoments* material; /* of each frame's region */
+    kiriIntegrationWork* work;
+    kiriAreaElements* elements;
+    double perArea; /* points, 1/m^2 */
+    int32_t order;
+    int32_t lastRow;
+} PointBuilder;
 
-kiriTrace kiriElement_Trace(const kiriSystem* system, int32_t k, const double* strains)
-{
-    const kiriCorner* corner = kiriElement_Corner(system, k);
-    const double* all[4] = { NULL, NULL, NULL, NULL };
-    for (int32_t n = 0; n < corner->count; ++n) {
-        all[n] = &strains[KIRI_MOST_STRAINS * (size_t)corner->link[n]];
-    }
-    return kiriTrace_Measure(corner, system->links, all, system->mechanics.planar);
-}
+static const kiriMoments NoMaterial = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
-/* Offsets stay what they are in folds, where they fade as all do. */
-static void TakeCornerOffsets(const kiriSystem* system, int32_t k, const double* strain, double* pulling)
-{
-    const kiriCorner* corner = kiriElement_Corner(system, k);
-    const double* all[4] = { NULL, NULL, NULL, NULL };
-    for (int32_t n = 0; n < corner->count; ++n) {
-        all[n] = system->strainOffsets[corner->link[n]].strain;
-    }
-    kiriTrace offset = kiriTrace_Measure(corner, system->links, all, system->mechanics.planar);
-    for (int e = 0; e < kiriElement_StrainCount(system, k); ++e) {
-        pulling[e] = strain[e] - offset.strain[e];
-    }
-}
+/* ---- Elements ---------------------------------------------------------------------------------------------------- */
 
-void kiriElement_TakeOffsets(const kiriSystem* system, int32_t k, const double* strain, double* pulling)
+/* Linear-blend skinning, x(p) = sum of w_i(p) (x_i + A_i (p - c_i)), at a place `off` the point, with the weights
+   linear around it. */
+static bool AddAreaElement(PointBuilder* b, kiriVec2 point, kiriVec2 off, double area)
 {
-    int count = kiriElement_StrainCount(system, k);
-    if (system->strainOffsets != NULL && kiriElement_IsRigidCorner(system, k)) {
-        TakeCornerOffsets(system, k, strain, pulling);
-        return;
-    }
-    if (system->strainOffsets == NULL || !kiriElement_IsRigidLink(system, k)) {
-        memcpy(pulling, strain, sizeof(double) * (size_t)count);
-        return;
-    }
-    const double* offset = system->strainOffsets[k].strain;
-    for (int e = 0; e < count; ++e) {
-        pulling[e] = strain[e] - offset[e];
-    }
-    if (count > KIRI_NORMAL_STOP) { /* the stop only pushes */
-        double over = fabs(strain[KIRI_NORMAL_STOP]) - fabs(offset[KIRI_NORMAL_STOP]);
-        pulling[KIRI_NORMAL_STOP] = over <= 0.0 ? 0.0 : strain[KIRI_NORMAL_STOP] > 0.0 ? over : -over;
-    }
-}
-
-double kiriSolver_ElasticEnergy(const kiriSystem* system)
-{
-    double sum = 0.0;
-    for (int32_t k = 0; k < kiriElement_Count(system); ++k) {
-        double strain[KIRI_MOST_STRAINS], stiffness[KIRI_MOST_STRAINS], pulling[KIRI_MOST_STRAINS];
-        kiriElement_Measure(system, k, NULL, strain, NULL);
-        kiriElement_Stiffness(system, k, stiffness);
-        kiriElement_TakeOffsets(system, k, strain, pulling);
-        for (int e = 0; e < kiriElement_StrainCount(system, k); ++e) {
-            sum += 0.5 * stiffness[e] * pulling[e] * pulling[e];
+    const kiriPointWeights* weights = &b->work->weights;
+    kiriAreaElement element = { area, 0.0, b->elements->shares.count, weights->count, 0, b->lastRow };
+    kiriVec2 at = kiriVec2_Add(point, off);
+    for (int32_t k = 0; k < weights->count; ++k) {
+        kiriPointWeight w = weights->data[k];
+        kiriVec2 arm = kiriVec2_Sub(at, kiriMoments_Center(&b->material[w.frame]));
+        kiriFrameShare share = { w.frame,
+                                 w.gradient,
+                                 kiriVec2_Scale(arm.x, w.gradient),
+                                 kiriVec2_Scale(arm.y, w.gradient),
+                                 w.value + kiriVec2_Dot(w.gradient, off),
+                                 w.gradient };
+        share.u.x += share.weight;
+        share.v.y += share.weight;
+        if (!kiriArray_Push(b->memory, &b->elements->shares, share)) {
+            return false;
         }
+    }
+    return kiriArray_Push(b->memory, &b->elements->elements, element);
+}
+
+/* Two pairs of places on either side of the point, that together have the region's second moments: the columns of
+   their Cholesky factor. */
+static bool AddFour(PointBuilder* b, kiriVec2 point, const kiriMoments* material)
+{
+    kiriMoments about = kiriMoments_About(material, point);
+    double perArea = 2.0 / about.area, u = kiriRoot(perArea * about.uu), v = u > 0.0 ? perArea * about.uv / u : 0.0;
+    double rest = kiriRoot(perArea * about.vv - v * v);
+    const kiriVec2 off[4] = { { u, v }, { -u, -v }, { 0.0, rest }, { 0.0, -rest } };
+    bool ok = true;
+    for (int k = 0; ok && k < 4; ++k) {
+        ok = AddAreaElement(b, point, off[k], 0.25 * about.area);
+    }
+    return ok;
+}
+
+/* A region without area has no energy. */
+static bool AddIntegrationPoint(PointBuilder* b, const kiriSite* point, const kiriMoments* material)
+{
+    const kiriVec2 here = { 0.0, 0.0 };
+    if (!(material->area > 0.0)) {
+        return true;
+    }
+    return kiriShape_At(b->shape, b->memory, b->grid, b->mesh, point->cell, point->at, &b->work->weights) &&
+           (b->order == 1 ? AddAreaElement(b, point->at, here, material->area) : AddFour(b, point->at, material));
+}
+
+/* ---- Points of a piece ------------------------------------------------------------------------------------------ */
+
+static kiriMoments MaterialOfPiece(const PointBuilder* b)
+{
+    kiriMoments sum = NoMaterial;
+    for (int32_t k = 0; k < b->work->placer.cells.count; ++k) {
+        kiriMoments material = kiriGrid_Material(b->grid, b->mesh, b->work->placer.cells.data[k]);
+        kiriMoments_Add(&sum, &material);
     }
     return sum;
+}
+
+static bool PlaceIntegrationPoints(PointBuilder* b, double area)
+{
+    kiriPlacer* placer = &b->work->placer;
+    kiriQuota endless = { INT64_MAX, 0, 0, false };
+    double share = area * b->perArea + 0.5;
+    int32_t count = share < 2.0 ? 1 : share < placer->cells.count ? (int32_t)share : placer->cells.count;
+    placer->sites.count = 0;
+    return kiriPlacer_Start(placer, b->memory, b->grid, b->mesh, NULL, count) &&
+           kiriPlacer_Run(placer, b->memory, b->grid, b->mesh, &endless) == KIRI_DONE;
+}
+
+static bool FloodFromPoints(PointBuilder* b)
+{
+    kiriIntegrationWork* work = b->work;
+    const kiriSites* points = &work->placer.sites;
+    kiriRule rule = { b->grid, KIRI_FAR - 1, NULL, NULL, NULL, NULL, { NULL, NULL } };
+    kiriQuota endless = { INT64_MAX, 0, 0, false };
+    kiriField_Reset(&work->field);
+    work->seeds.count = 0;
+    for (int32_t i = 0; i < points->count; ++i) {
+        if (!kiriSite_Seed(&points->data[i], i, b->memory, b->grid, b->mesh, &work->seeds)) {
+            return false;
+        }
+    }
+    return kiriField_Resize(&work->field, b->memory, b->grid->cells.count) &&
+           kiriField_Start(&work->field, b->memory, work->seeds.data, work->seeds.count) &&
+           kiriField_Flood(&work->field, &rule, &endless) == KIRI_DONE;
+}
+
+/* The regions of points, as placing defines them: a point's own cell is its own. */
+static bool DividePiece(PointBuilder* b)
+{
+    kiriIntegrationWork* work = b->work;
+    const kiriSites* points = &work->placer.sites;
+    if (!kiriArray_Resize(b->memory, &work->material, points->count) || !FloodFromPoints(b)) {
+        return false;
+    }
+    for (int32_t i = 0; i < points->count; ++i) {
+        work->field.owner.data[points->data[i].cell] = i;
+        work->material.data[i] = NoMaterial;
+    }
+    for (int32_t k = 0; k < work->placer.cells.count; ++k) {
+        int32_t cell = work->placer.cells.data[k];
+        kiriMoments material = kiriGrid_Material(b->grid, b->mesh, cell);
+        kiriMoments_Add(&work->material.data[work->field.owner.data[cell]], &material);
+    }
+    return true;
+}
+
+static bool AddPiecePoints(PointBuilder* b, int32_t cell)
+{
+    kiriIntegrationWork* work = b->work;
+    if (!kiriPlacer_TakePiece(&work->placer, b->memory, b->grid, cell)) {
+        return false;
+    }
+    for (int32_t k = 0; k < work->placer.cells.count; ++k) {
+        work->seen.data[work->placer.cells.data[k]] = 1;
+    }
+    kiriMoments material = MaterialOfPiece(b);
+    const kiriSites* points = &work->placer.sites;
+    bool ok = PlaceIntegrationPoints(b, material.area);
+    if (ok && points->count == 1) { /* without a flood: confetti comes in thousands */
+        return AddIntegrationPoint(b, &points->data[0], &material);
+    }
+    ok = ok && DividePiece(b);
+    for (int32_t i = 0; ok && i < points->count; ++i) {
+        ok = AddIntegrationPoint(b, &points->data[i], &work->material.data[i]);
+    }
+    return ok;
+}
+
+/* ---- All ------------------------------------------------------------------------------------------------------ */
+
+static bool ClearSeen(PointBuilder* b)
+{
+    if (!kiriArray_Resize(b->memory, &b->work->seen, b->grid->cells.count)) {
+        return false;
+    }
+    for (int32_t c = 0; c < b->grid->cells.count; ++c) {
+        b->work->seen.data[c] = 0;
+    }
+    return true;
+}
+
+/* In the order of cells, as are the pieces below. */
+static double TotalArea(const kiriGrid* grid)
+{
+    double total = 0.0;
+    for (int32_t s = 0; s < grid->squareCell.count; ++s) {
+        for (int32_t c = grid->squareCell.data[s]; c != KIRI_NONE; c = grid->cells.data[c].next) {
+            total += kiriGrid_Area(grid, c);
+        }
+    }
+    return total;
+}
+
+bool kiriIntegration_Build(kiriAreaElements* elements, kiriIntegrationWork* work, kiriMemory* memory,
+                           const kiriGrid* grid, const kiriMeshData* mesh, const kiriShape* shape,
+                           const kiriMoments* material, double count, int32_t order, bool planar)
+{
+    PointBuilder b = { memory, grid, mesh, shape, material, work, elements, 0.0, order, KIRI_AREA_STRAINS };
+    b.perArea = count / TotalArea(grid);
+    b.lastRow = planar ? KIRI_AREA_SHEAR + 1 : KIRI_AREA_STRAINS;
+    elements->elements.count = elements->shares.count = 0;
+    bool ok = ClearSeen(&b);
+    for (int32_t s = 0; ok && s < grid->squareCell.count; ++s) {
+        for (int32_t c = grid->squareCell.data[s]; ok && c != KIRI_NONE; c = grid->cells.data[c].next) {
+            ok = work->seen.data[c] || AddPiecePoints(&b, c);
+        }
+    }
+    return ok;
 }

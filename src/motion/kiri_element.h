@@ -1,90 +1,97 @@
-/* Elements: what joins frames elastically. First the links, unless the model is that of integration points, then the
-   corners of these links, unless Poisson's ratio is zero, then the area elements. Element k of a system has strains,
-   each with a stiffness; its energy is the sum of 1/2 stiffness strain^2. */
+/* Area elements: pieces of the mid-surface that several affine frames deform together. Their strains are those at a
+   point; kiri_strain.h and kiri_solver.h make them, each with its own deformation gradient. */
 #ifndef KIRI_ELEMENT_H
 #define KIRI_ELEMENT_H
 
-#include "kiri_affine.h"
-#include "kiri_solver.h"
-#include "kiri_trace.h"
+#include "kiri_frame.h"
+#include "../field/kiri_link.h"
+#include "../field/kiri_site.h"
+#include "../field/kiri_stencil.h"
 
 KIRI_C_BEGIN
 
-/* An element has at most so many strains. */
-enum { KIRI_MOST_STRAINS = kiriMax((int)KIRI_STRAINS, (int)KIRI_AFFINE_STRAINS) };
+/* With F = [F_u F_v] the deformation gradient of the mid-surface, D the director, D_u and D_v its slopes; Green
+   strains, plane stress. Every energy is 1/2 stiffness strain^2; G = E / (2 (1 + nu)), K = E / (2 (1 - nu)), a the
+   area. With a element's `lean` above zero the products of F_u and F_v in the first three count their parts along D 1 +
+   lean times.
 
-static inline bool kiriMechanics_IsAffine(const kiriMechanics* mechanics)
-{
-    return mechanics->model != KIRI_MODEL_LINKS;
-}
+   strain     what                                   stiffness
+   area       (F_u . F_u + F_v . F_v) / 2 - 1        K h a
+   stretch    (F_u . F_u - F_v . F_v) / 2            G h a
+   shear      F_u . F_v                              G h a
+   dome       F_u . D_u + F_v . D_v                  K h^3 a / 12
+   saddle     F_u . D_u - F_v . D_v                  G h^3 a / 12
+   twist      F_u . D_v + F_v . D_u                  G h^3 a / 12
+   lean u, v  F_u . D, F_v . D                       G h a
+   thickness  (D . D - 1) / 2                        E h a */
+enum {
+    KIRI_AREA_DILATION,
+    KIRI_AREA_STRETCH,
+    KIRI_AREA_SHEAR,
+    KIRI_AREA_DOME,
+    KIRI_AREA_SADDLE,
+    KIRI_AREA_TWIST,
+    KIRI_AREA_LEAN_U,
+    KIRI_AREA_LEAN_V,
+    KIRI_AREA_THICKNESS,
+    KIRI_AREA_STRAINS
+};
 
-static inline int32_t kiriElement_LinkCount(const kiriSystem* system)
-{
-    return system->mechanics.model == KIRI_MODEL_POINTS ? 0 : system->linkCount;
-}
+/* What one frame adds to the deformation gradient of an element. */
+typedef struct kiriFrameShare {
+    int32_t frame;
+    kiriVec2 move, u, v; /* F = sum of x (x) move + A_u (x) u + A_v (x) v */
+    double weight;       /* D = sum of weight d */
+    kiriVec2 slope;      /* its gradient */
+} kiriFrameShare;
 
-static inline int32_t kiriElement_CornerCount(const kiriSystem* system)
-{
-    bool isLinked = kiriElement_LinkCount(system) > 0 && system->material.poissonsRatio > 0.0f;
-    /* Area elements have the membrane of affine frames. */
-    bool isFlat = kiriMechanics_IsAffine(&system->mechanics) && system->mechanics.planar;
-    return isLinked && !isFlat ? system->cornerCount : 0;
-}
+typedef struct kiriAreaElement {
+    double area; /* m^2 */
+    double lean;
+    int32_t first, count;      /* shares, by frame */
+    int32_t firstRow, lastRow; /* the strains that count */
+} kiriAreaElement;
 
-static inline int32_t kiriElement_Count(const kiriSystem* system)
-{
-    return kiriElement_LinkCount(system) + kiriElement_CornerCount(system) +
-           (system->areaElements != NULL ? system->areaElements->elements.count : 0);
-}
+typedef struct kiriAreaElements {
+    KIRI_ARRAY(kiriAreaElement) elements;
+    KIRI_ARRAY(kiriFrameShare) shares;
+} kiriAreaElements;
 
-/* Null where the element is no link. */
-static inline const kiriLink* kiriElement_Link(const kiriSystem* system, int32_t k)
-{
-    KIRI_ASSERT(k >= 0 && k < kiriElement_Count(system));
-    return k < kiriElement_LinkCount(system) ? &system->links[k] : NULL;
-}
+/* How a strain changes with the columns of a frame: x, A_u, A_v, d. */
+typedef struct kiriFrameRow {
+    kiriVec3 by[4];
+} kiriFrameRow;
 
-/* Null where the element is no corner. */
-static inline const kiriCorner* kiriElement_Corner(const kiriSystem* system, int32_t k)
-{
-    int32_t corner = k - kiriElement_LinkCount(system);
-    return corner >= 0 && corner < kiriElement_CornerCount(system) ? &system->corners[corner] : NULL;
-}
+/* The strains of an element from firstRow to lastRow and, unless `rows` is null, their derivatives: `count` a strain.
+   Poses are those of all frames; null: as the frames are. */
+void kiriAreaElement_Measure(const kiriAreaElement* element, const kiriFrameShare* shares, const kiriFrameData* frames,
+                             const kiriPose* poses, double* strain, kiriFrameRow* rows);
 
-/* Is it a link between rigid frames? */
-static inline bool kiriElement_IsRigidLink(const kiriSystem* system, int32_t k)
-{
-    return !kiriMechanics_IsAffine(&system->mechanics) && kiriElement_Link(system, k) != NULL;
-}
+/* Adds those of `from` whose frames are kept, which are all or none of an element's. False for memory. */
+bool kiriAreaElements_Keep(kiriAreaElements* elements, kiriMemory* memory, const kiriAreaElements* from,
+                           const kiriKeep* frames);
+void kiriAreaElement_Stiffness(const kiriAreaElement* element, const kiriMaterial* material, double* stiffness);
 
-/* Is it a corner between rigid frames? */
-static inline bool kiriElement_IsRigidCorner(const kiriSystem* system, int32_t k)
-{
-    return !kiriMechanics_IsAffine(&system->mechanics) && kiriElement_Corner(system, k) != NULL;
-}
+/* The integration points of sections 5 and 6 of the paper: places where the strain is taken, of material that
+   linear-blend skinning deforms. */
 
-/* Writes the frames of an element, and returns how many there are; all of them are of the piece of the first. */
-int32_t kiriElement_Members(const kiriSystem* system, int32_t k, int32_t* members);
-int32_t kiriElement_FirstMember(const kiriSystem* system, int32_t k);
+/* Scratch, kept from one update to the next for the room that it has. A zeroed one is empty. */
+typedef struct kiriIntegrationWork {
+    kiriPlacer placer; /* for the piece at hand */
+    kiriField field;   /* from its points */
+    kiriSeeds seeds;
+    KIRI_ARRAY(uint8_t) seen;         /* of each cell: its piece has its points */
+    KIRI_ARRAY(kiriMoments) material; /* of the region of each point of the piece at hand */
+    kiriPointWeights weights;         /* at the point at hand */
+} kiriIntegrationWork;
 
-/* The largest number of frames that an element has, 2 or more. */
-int32_t kiriElement_MostMembers(const kiriSystem* system);
-
-/* The strains that can be other than zero come first: how many they are. */
-int kiriElement_StrainCount(const kiriSystem* system, int32_t k);
-
-void kiriElement_Stiffness(const kiriSystem* system, int32_t k, double* stiffness);
-
-/* The strains and, unless `rows` is null, their derivatives: one row a strain and member. Poses are those of all
-   frames; null: as the frames are. */
-void kiriElement_Measure(const kiriSystem* system, int32_t k, const kiriPose* poses, double* strain,
-                         kiriFrameRow* rows);
-
-/* The trace of a corner between rigid frames from strains that are known already, KIRI_MOST_STRAINS of each element. */
-kiriTrace kiriElement_Trace(const kiriSystem* system, int32_t k, const double* strains);
-
-/* The strains without their offsets: those that pull. */
-void kiriElement_TakeOffsets(const kiriSystem* system, int32_t k, const double* strain, double* pulling);
+/* `count` points, which need not be whole, relaxed on the grid, at least one in every piece. Each stands for its region
+   of the grid. With order 1 the strain at the point holds for all of it; with order 2 the strain is linear in it (after
+   the elastons of Martin et al. 2010): it is taken at four places that have the region's second moments, which costs
+   four times as much. `material` is that of each frame's region. */
+bool kiriIntegration_Build(kiriAreaElements* elements, kiriIntegrationWork* work, kiriMemory* memory,
+                           const kiriGrid* grid, const kiriMeshData* mesh, const kiriShape* shape,
+                           const kiriMoments* material, double count, int32_t order, bool planar);
 
 KIRI_C_END
 

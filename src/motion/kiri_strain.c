@@ -1,7 +1,5 @@
 #include "kiri_strain.h"
 
-#include "kiri_curl.h"
-
 #include <string.h>
 
 /* An offset g of the ends of a strip that is clamped there makes it longer by 3/5 g^2 / l, where a straight line has
@@ -321,7 +319,7 @@ static void FadeStrains(const MeanAxes* axes, double* strain, kiriStrainRow* row
     }
 }
 
-/* The bending of a strip that curls: see kiri_curl.h. */
+/* The bending of a strip that curls: see kiri_strain.h. */
 static void TakeCurl(const kiriCurl* curl, double* strain, kiriStrainRow* row)
 {
     if (curl->gain > 0.0) {
@@ -359,7 +357,7 @@ static void TakeFold(double most, double twist, double* bending, kiriStrainRow* 
 }
 
 /* Twisted by t, a strip one region wide shortens by W^2 t^2 / (24 l), for its edges are helices; what these stretch
-   beyond the mean is that of the curl, with t^2 - nu b^2 for -nu b^2: see kiri_curl.h. That counts as a larger twist,
+   beyond the mean is that of the curl, with t^2 - nu b^2 for -nu b^2: see kiri_strain.h. That counts as a larger twist,
    but as none beyond half a turn: with z for what it adds to t^2 and R = pi^2 - t^2 - b^2 it adds z R / sqrt(z^2 +
    R^2), which is z where the angle is small, and never lets the energy fall as it grows. */
 static void TakeRibbon(const kiriLink* link, double poissonsRatio, const kiriCurl* curl, double* strain,
@@ -455,4 +453,700 @@ void kiriStrain_Stiffness(const kiriLink* link, const kiriMaterial* material, do
     stiffness[KIRI_TWIST] = bending * (1.0 - nu) * (inner + 2.0 * outer);
     stiffness[KIRI_NORMAL_GAP] = KIRI_NORMAL_GAP_BETA * bending * kiriStrain_NormalGapWidth(link, nu) / (l * l);
     stiffness[KIRI_NORMAL_STOP] = membrane * link->width;
+}
+
+static void TraceStretch(kiriTrace* trace, int k, double alongNormal, double alongTangent, const double* strain)
+{
+    trace->by[k][KIRI_TRACED_STRETCH] = alongNormal;
+    trace->by[k][KIRI_TRACED_SHEAR] = alongTangent;
+    trace->strain[KIRI_TRACE_STRETCH] += alongNormal * strain[KIRI_STRETCH] + alongTangent * strain[KIRI_SHEAR];
+}
+
+static void TraceCurvature(kiriTrace* trace, int k, double alongNormal, double alongTangent, const double* strain)
+{
+    double bending = strain[KIRI_BENDING], twist = strain[KIRI_TWIST], slope;
+    double open = kiriStrain_Openness(bending, twist, &slope);
+    double sum = alongNormal * bending + alongTangent * twist;
+    trace->by[k][KIRI_TRACED_BENDING] = open * alongNormal + 2.0 * slope * sum * bending;
+    trace->by[k][KIRI_TRACED_TWIST] = open * alongTangent + 2.0 * slope * sum * twist;
+    trace->strain[KIRI_TRACE_CURVATURE] += open * sum;
+}
+
+kiriTrace kiriTrace_Measure(const kiriCorner* corner, const kiriLink* links, const double* const strains[4],
+                            bool planar)
+{
+    kiriTrace trace;
+    trace.strain[KIRI_TRACE_STRETCH] = trace.strain[KIRI_TRACE_CURVATURE] = 0.0;
+    for (int k = 0; k < corner->count; ++k) {
+        const kiriLink* link = &links[corner->link[k]];
+        double alongNormal = kiriVec2_Dot(corner->weight[k], link->normal);
+        double alongTangent = kiriVec2_Dot(corner->weight[k], link->tangent);
+        TraceStretch(&trace, k, alongNormal, alongTangent, strains[k]);
+        if (!planar) {
+            TraceCurvature(&trace, k, alongNormal, alongTangent, strains[k]);
+        }
+    }
+    return trace;
+}
+
+/* Adds a frame to those that there are, in order, unless it is there. */
+static int32_t AddMember(int32_t* members, int32_t count, int32_t frame)
+{
+    int32_t at = count;
+    while (at > 0 && members[at - 1] > frame) {
+        --at;
+    }
+    if (at > 0 && members[at - 1] == frame) {
+        return count;
+    }
+    KIRI_ASSERT(count < 4);
+    for (int32_t m = count; m > at; --m) {
+        members[m] = members[m - 1];
+    }
+    members[at] = frame;
+    return count + 1;
+}
+
+static int32_t PlaceOf(const int32_t* members, int32_t count, int32_t frame)
+{
+    int32_t at = 0;
+    while (at < count && members[at] != frame) {
+        ++at;
+    }
+    return at;
+}
+
+void kiriTrace_Members(const kiriCorner* corner, const kiriLink* links, int32_t members[4], int32_t ends[4][2])
+{
+    int32_t count = 0;
+    KIRI_ASSERT(corner->count == 3 || corner->count == 4);
+    for (int k = 0; k < corner->count; ++k) {
+        count = AddMember(members, count, links[corner->link[k]].i);
+        count = AddMember(members, count, links[corner->link[k]].j);
+    }
+    KIRI_ASSERT(count == corner->count);
+    for (int k = 0; k < corner->count; ++k) {
+        ends[k][0] = PlaceOf(members, count, links[corner->link[k]].i);
+        ends[k][1] = PlaceOf(members, count, links[corner->link[k]].j);
+    }
+}
+
+void kiriTrace_Stiffness(const kiriCorner* corner, const kiriMaterial* material, double stiffness[KIRI_TRACES])
+{
+    double h = (double)material->thickness, nu = (double)material->poissonsRatio;
+    double membrane = (double)material->youngsModulus * h / (1.0 - nu * nu);
+    stiffness[KIRI_TRACE_STRETCH] = nu * membrane * corner->area;
+    stiffness[KIRI_TRACE_CURVATURE] = nu * membrane * h * h / 12.0 * corner->area;
+}
+
+bool kiriStrainOffsets_Reserve(kiriStrainOffsets* strainOffsets, kiriMemory* memory, int32_t linkCount,
+                               int32_t frameCount)
+{
+    return kiriArray_Reserve(memory, &strainOffsets->strainOffsets, linkCount) &&
+           kiriArray_Reserve(memory, &strainOffsets->older, linkCount) &&
+           kiriArray_Reserve(memory, &strainOffsets->from, linkCount) &&
+           kiriArray_Reserve(memory, &strainOffsets->frames, frameCount) &&
+           kiriArray_Reserve(memory, &strainOffsets->mayMove, frameCount);
+}
+
+void kiriStrainOffsets_Remember(kiriStrainOffsets* strainOffsets, const kiriFrameData* frames, int32_t frameCount,
+                                const uint8_t* mayMove)
+{
+    KIRI_ASSERT(frameCount <= strainOffsets->frames.capacity && frameCount <= strainOffsets->mayMove.capacity);
+    strainOffsets->frames.count = strainOffsets->mayMove.count = frameCount;
+    for (int32_t f = 0; f < frameCount; ++f) {
+        strainOffsets->mayMove.data[f] = mayMove[f];
+        if (mayMove[f]) {
+            strainOffsets->frames.data[f] = frames[f];
+        }
+    }
+}
+
+/* Links and frames are compared byte by byte, so they must have no padding. */
+typedef char kiriLinkHasNoPadding[sizeof(kiriLink) == 2 * sizeof(int32_t) + 20 * sizeof(double) ? 1 : -1];
+typedef char kiriPoseHasNoPadding[sizeof(kiriPose) == 12 * sizeof(double) ? 1 : -1];
+
+static void MeasureLink(const kiriLink* link, const kiriMaterial* material, const kiriFrameData* i,
+                        const kiriFrameData* j, double* strain)
+{
+    const kiriFrameData* const ends[2] = { i, j };
+    const kiriPose now[2] = { kiriPose_Of(i), kiriPose_Of(j) };
+    const kiriPose* const poses[2] = { &now[0], &now[1] };
+    kiriStrain_Measure(link, material, ends, poses, strain, NULL);
+}
+
+const kiriFrameData* kiriStrainOffsets_FrameBefore(const kiriStrainOffsets* strainOffsets, const kiriFrameData* frames,
+                                                   int32_t frame)
+{
+    KIRI_ASSERT(frame >= 0 && frame < strainOffsets->mayMove.count);
+    return strainOffsets->mayMove.data[frame] ? &strainOffsets->frames.data[frame] : &frames[frame];
+}
+
+static bool IsFrameUnmoved(const kiriStrainOffsets* strainOffsets, const kiriFrameData* frames, int32_t f)
+{
+    const kiriFrameData *was = kiriStrainOffsets_FrameBefore(strainOffsets, frames, f), *is = &frames[f];
+    return was == is || (memcmp(&was->x, &is->x, sizeof(is->x)) == 0 && memcmp(&was->A, &is->A, sizeof(is->A)) == 0 &&
+                         memcmp(&was->center, &is->center, sizeof(is->center)) == 0);
+}
+
+static bool IsLinkBefore(const kiriLink* a, const kiriLink* b)
+{
+    return a->i != b->i ? a->i < b->i : a->j < b->j;
+}
+
+/* Of a link with an older one, or none. */
+static kiriStrainOffset StrainOffsetOf(const kiriStrainOffsets* strainOffsets, const kiriLink* link,
+                                       const kiriLink* old, const kiriStrainOffset* older, const kiriFrameData* frames,
+                                       const kiriMaterial* material)
+{
+    kiriStrainOffset offset;
+    double was[KIRI_STRAINS] = { 0.0 };
+    MeasureLink(link, material, &frames[link->i], &frames[link->j], offset.strain);
+    if (old != NULL) {
+        MeasureLink(old, material, kiriStrainOffsets_FrameBefore(strainOffsets, frames, old->i),
+                    kiriStrainOffsets_FrameBefore(strainOffsets, frames, old->j), was);
+    }
+    for (int e = 0; e < KIRI_STRAINS; ++e) {
+        offset.strain[e] -= old != NULL ? was[e] - older->strain[e] : 0.0;
+    }
+    return offset;
+}
+
+/* Which old link each goes on from. One that is what the next old one was is not looked at. */
+static void FindOlder(kiriStrainOffsets* strainOffsets, const kiriLink* old, int32_t oldCount, const kiriLink* links,
+                      int32_t linkCount, const int32_t* was)
+{
+    int32_t o = 0;
+    for (int32_t k = 0; k < linkCount; ++k) {
+        bool known = was != NULL && was[k] == o;
+        if (!known) {
+            while (o < oldCount && IsLinkBefore(&old[o], &links[k])) {
+                ++o;
+            }
+            known = o < oldCount && !IsLinkBefore(&links[k], &old[o]);
+        }
+        strainOffsets->from.data[k] = known ? o : KIRI_NONE;
+        o += known;
+    }
+}
+
+/* A link keeps its index, as a rule. */
+static void SaveOlder(kiriStrainOffsets* strainOffsets, int32_t linkCount)
+{
+    for (int32_t k = 0; k < linkCount; ++k) {
+        int32_t from = strainOffsets->from.data[k];
+        if (from != k && from != KIRI_NONE && from < strainOffsets->strainOffsets.count) {
+            strainOffsets->older.data[from] = strainOffsets->strainOffsets.data[from];
+        }
+    }
+}
+
+void kiriStrainOffsets_Take(kiriStrainOffsets* strainOffsets, const kiriLink* old, int32_t oldCount,
+                            const kiriLink* links, int32_t linkCount, const int32_t* was, const kiriFrameData* frames,
+                            const kiriMaterial* material)
+{
+    KIRI_ASSERT(linkCount <= strainOffsets->strainOffsets.capacity && linkCount <= strainOffsets->from.capacity);
+    const kiriStrainOffset none = { { 0.0 } };
+    int32_t had = strainOffsets->strainOffsets.count;
+    kiriStrainOffset* offsets = strainOffsets->strainOffsets.data;
+    FindOlder(strainOffsets, old, oldCount, links, linkCount, was);
+    SaveOlder(strainOffsets, linkCount);
+    for (int32_t k = 0; k < linkCount; ++k) {
+        int32_t from = strainOffsets->from.data[k];
+        const kiriStrainOffset* older = from == KIRI_NONE || from >= had ? &none
+                                        : from == k                      ? &offsets[k]
+                                                                         : &strainOffsets->older.data[from];
+        bool isSame = from != KIRI_NONE &&
+                      ((was != NULL && was[k] == from) || memcmp(&old[from], &links[k], sizeof(*links)) == 0);
+        if (!isSame || !IsFrameUnmoved(strainOffsets, frames, links[k].i) ||
+            !IsFrameUnmoved(strainOffsets, frames, links[k].j)) {
+            offsets[k] = StrainOffsetOf(strainOffsets, &links[k], from != KIRI_NONE ? &old[from] : NULL, older, frames,
+                                        material);
+        } else if (older != &offsets[k]) {
+            offsets[k] = *older;
+        }
+    }
+    strainOffsets->strainOffsets.count = linkCount;
+}
+
+void kiriStrainOffsets_Advance(kiriStrainOffsets* strainOffsets, const kiriIndices* elements, double dt, double time)
+{
+    double keep = time / (time + dt);
+    KIRI_EACH(k, *elements) {
+        for (int e = 0; k < strainOffsets->strainOffsets.count && e < KIRI_STRAINS; ++e) {
+            double* strain = &strainOffsets->strainOffsets.data[k].strain[e];
+            *strain = fabs(*strain) > 1e-12 ? keep * *strain : 0.0;
+        }
+    }
+}
+
+kiriCurl kiriCurl_Of(const kiriLink* link, const kiriMaterial* material, double curling)
+{
+    double nu = (double)material->poissonsRatio, h = (double)material->thickness;
+    double W = 2.0 * link->outer - kiriLink_LoneWidth(link); /* of the strip */
+    double inner = (1.0 - nu) * (link->width - link->outer), outer = (1.0 - nu * nu) * link->outer;
+    double ratio = W * W / (link->length * h);
+    kiriCurl curl = { nu * nu * curling / (inner + outer), 3.0 * (1.0 - nu * nu) * ratio * ratio };
+    return curl;
+}
+
+/* F to 0.01, without functions other than the square root: with q = theta^4 it is 1 - q / 180 where theta is small,
+   2 / theta where it is large. */
+#define CURL_FIT 0.0054
+#define CURL_FIRST (CURL_FIT + 1.0 / 45.0)
+#define CURL_SECOND (CURL_FIT / 16.0)
+
+static double CurledShare(double q, double* slope)
+{
+    double above = 1.0 + CURL_FIT * q, below = 1.0 + (CURL_FIRST + CURL_SECOND * q) * q;
+    double share = sqrt(sqrt(above / below));
+    *slope = 0.25 * share * (CURL_FIT / above - (CURL_FIRST + 2.0 * CURL_SECOND * q) / below);
+    return share;
+}
+
+/* 1 - F is 1 - F^4 by 1 + F + F^2 + F^3. */
+double kiriCurl_Held(double q, double* slope)
+{
+    double byQ, share = CurledShare(q, &byQ), below = 1.0 + (CURL_FIRST + CURL_SECOND * q) * q;
+    double sum = (1.0 + share) * (1.0 + share * share), bySum = byQ * (1.0 + (2.0 + 3.0 * share) * share);
+    double held = (1.0 / 45.0 + CURL_SECOND * q) / (below * sum);
+    *slope = CURL_SECOND / (below * sum) - held * ((CURL_FIRST + 2.0 * CURL_SECOND * q) / below + bySum / sum);
+    return held;
+}
+
+double kiriCurl_Factor(const kiriCurl* curl, double squaredAngle, double* slope)
+{
+    double byQ, share = CurledShare(curl->perSquare * squaredAngle, &byQ);
+    double factor = sqrt(1.0 + curl->gain * (1.0 - share));
+    *slope = -0.5 * curl->gain * curl->perSquare * byQ / factor;
+    return factor;
+}
+
+#define GAP_SHARE 0.3    /* of the membrane stiffness, against gaps in the plane */
+#define LEAN_PENALTY 3.0 /* see kiri_strain.h: leaning counts 1 + 3 times */
+
+/* ---- Links ------------------------------------------------------------------------------------------------------ */
+
+/* The mean director of two frames. It changes with the director of end k by by[k] times the part of that change across
+   the mean. */
+typedef struct MeanDirector {
+    kiriVec3 d;
+    double by[2];
+} MeanDirector;
+
+/* Where the sheet is folded flat on itself there is no mean: the first frame's director serves. */
+static MeanDirector FindMeanDirector(const kiriPose* const poses[2])
+{
+    kiriVec3 sum = kiriVec3_Add(poses[0]->A.d, poses[1]->A.d);
+    double length = kiriVec3_Length(sum), first = kiriVec3_Length(poses[0]->A.d);
+    if (length > 1e-6) {
+        MeanDirector mean = { kiriVec3_Scale(1.0 / length, sum), { 1.0 / length, 1.0 / length } };
+        return mean;
+    }
+    MeanDirector mean = { kiriVec3_Scale(first > 1e-6 ? 1.0 / first : 0.0, poses[0]->A.d),
+                          { first > 1e-6 ? 1.0 / first : 0.0, 0.0 } };
+    return mean;
+}
+
+static kiriVec3 AcrossDirector(const MeanDirector* mean, kiriVec3 a)
+{
+    return kiriVec3_AddScaled(a, -kiriVec3_Dot(a, mean->d), mean->d);
+}
+
+/* A difference of the two frames, sum over the ends of +-(x move + A_u at.x + A_v at.y): the gap at a point, or, with
+   move 0, the difference of the slopes along a direction. */
+typedef struct FrameDifference {
+    double move;
+    kiriVec2 at[2];
+    kiriVec3 value;
+} FrameDifference;
+
+static FrameDifference TakeDifference(double move, kiriVec2 first, kiriVec2 second, const kiriPose* const poses[2])
+{
+    FrameDifference g = { move, { first, second }, { 0.0, 0.0, 0.0 } };
+    g.value = kiriVec3_Scale(move, kiriVec3_Sub(poses[1]->x, poses[0]->x));
+    kiriVec3 along = kiriVec3_Sub(kiriPose_Along(poses[1], second), kiriPose_Along(poses[0], first));
+    g.value = kiriVec3_Add(g.value, along);
+    return g;
+}
+
+static FrameDifference GapAt(const kiriFrameData* const frames[2], const kiriPose* const poses[2], kiriVec2 at)
+{
+    return TakeDifference(1.0, kiriVec2_Sub(at, frames[0]->center), kiriVec2_Sub(at, frames[1]->center), poses);
+}
+
+/* The derivative of a strain by the ends of a difference and by its mean director's turn. */
+static void WriteRow(const FrameDifference* g, const MeanDirector* mean, kiriVec3 byValue, kiriVec3 byMean,
+                     kiriFrameRow row[2])
+{
+    for (int k = 0; k < 2; ++k) {
+        kiriVec3 by = kiriVec3_Scale(k == 0 ? -1.0 : 1.0, byValue);
+        row[k].by[0] = kiriVec3_Scale(g->move, by);
+        row[k].by[1] = kiriVec3_Scale(g->at[k].x, by);
+        row[k].by[2] = kiriVec3_Scale(g->at[k].y, by);
+        row[k].by[3] = kiriVec3_Scale(mean->by[k], AcrossDirector(mean, byMean));
+    }
+}
+
+/* The part in the plane, one row an axis of space: P g = g - d (d . g). */
+static void MeasureInPlane(const FrameDifference* g, const MeanDirector* mean, double* strain, kiriFrameRow rows[][2])
+{
+    const kiriVec3 axes[3] = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } };
+    double along = kiriVec3_Dot(g->value, mean->d);
+    for (int a = 0; a < 3; ++a) {
+        double lean = kiriVec3_Dot(axes[a], mean->d);
+        strain[a] = kiriVec3_Dot(axes[a], g->value) - along * lean;
+        if (rows != NULL) {
+            kiriVec3 byMean = kiriVec3_Scale(-1.0, kiriVec3_AddScaled(kiriVec3_Scale(along, axes[a]), lean, g->value));
+            WriteRow(g, mean, AcrossDirector(mean, axes[a]), byMean, rows[a]);
+        }
+    }
+}
+
+/* The difference of the directors, of which a strip that curls has more: see kiri_strain.h. */
+static void MeasureBending(const kiriCurl* curl, const kiriPose* const poses[2], double* strain, kiriFrameRow rows[][2])
+{
+    const kiriVec3 axes[3] = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } }, zero = { 0.0, 0.0, 0.0 };
+    kiriVec3 bent = kiriVec3_Sub(poses[1]->A.d, poses[0]->A.d);
+    double slope, factor = kiriCurl_Factor(curl, kiriVec3_Dot(bent, bent), &slope);
+    for (int a = 0; a < 3; ++a) {
+        double part = kiriVec3_Dot(axes[a], bent);
+        strain[a] = factor * part;
+        if (rows != NULL) {
+            kiriVec3 by = kiriVec3_AddScaled(kiriVec3_Scale(factor, axes[a]), 2.0 * slope * part, bent);
+            kiriFrameRow first = { { zero, zero, zero, kiriVec3_Scale(-1.0, by) } };
+            kiriFrameRow second = { { zero, zero, zero, by } };
+            rows[a][0] = first;
+            rows[a][1] = second;
+        }
+    }
+}
+
+void kiriAffine_AddTrace(kiriVec2 p, const kiriPose* const poses[2], double* strain, kiriFrameRow* const rows[2])
+{
+    kiriVec3 bent = kiriVec3_Sub(poses[1]->A.d, poses[0]->A.d);
+    kiriVec3 along = kiriVec3_Add(kiriPose_Along(poses[0], p), kiriPose_Along(poses[1], p));
+    *strain += 0.5 * kiriVec3_Dot(bent, along);
+    for (int k = 0; rows != NULL && k < 2; ++k) {
+        kiriVec3* by = rows[k]->by;
+        by[1] = kiriVec3_AddScaled(by[1], 0.5 * p.x, bent);
+        by[2] = kiriVec3_AddScaled(by[2], 0.5 * p.y, bent);
+        by[3] = kiriVec3_AddScaled(by[3], k == 0 ? -0.5 : 0.5, along);
+    }
+}
+
+static void MeasureTwist(const kiriLink* link, const kiriPose* const poses[2], double* strain, kiriFrameRow row[2])
+{
+    *strain = 0.0;
+    if (row == NULL) {
+        kiriAffine_AddTrace(link->tangent, poses, strain, NULL);
+    } else {
+        kiriFrameRow* const rows[2] = { &row[0], &row[1] };
+        memset(row, 0, 2 * sizeof(*row));
+        kiriAffine_AddTrace(link->tangent, poses, strain, rows);
+    }
+}
+
+static void MeasureNormalGap(const kiriLink* link, const FrameDifference* g, const MeanDirector* mean, double* strain,
+                             kiriFrameRow rows[][2])
+{
+    kiriVec3 zero = { 0.0, 0.0, 0.0 };
+    double gap = kiriVec3_Dot(g->value, mean->d), over = fabs(gap) - KIRI_NORMAL_STOP_SHARE * link->length;
+    strain[0] = gap;
+    strain[1] = over <= 0.0 ? 0.0 : gap > 0.0 ? over : -over;
+    if (rows != NULL) {
+        WriteRow(g, mean, mean->d, g->value, rows[0]);
+        WriteRow(g, mean, over > 0.0 ? mean->d : zero, over > 0.0 ? g->value : zero, rows[1]);
+    }
+}
+
+void kiriAffine_Measure(const kiriLink* link, const kiriMaterial* material, const kiriFrameData* const frames[2],
+                        const kiriPose* const poses[2], double strain[KIRI_AFFINE_STRAINS], kiriFrameRow rows[][2])
+{
+    /* Rows of bending see twist too, which does not stiffen: only of strips one region wide, where it is little. */
+    kiriCurl curl = kiriCurl_Of(link, material, kiriLink_LoneWidth(link));
+    MeanDirector mean = FindMeanDirector(poses);
+    FrameDifference b = GapAt(frames, poses, link->centroid), m = GapAt(frames, poses, link->crossing);
+    FrameDifference side = TakeDifference(0.0, link->tangent, link->tangent, poses);
+    MeasureInPlane(&b, &mean, strain + KIRI_AFFINE_GAP, rows);
+    MeasureInPlane(&side, &mean, strain + KIRI_AFFINE_PLANE_BENDING,
+                   rows != NULL ? rows + KIRI_AFFINE_PLANE_BENDING : NULL);
+    MeasureBending(&curl, poses, strain + KIRI_AFFINE_BENDING, rows != NULL ? rows + KIRI_AFFINE_BENDING : NULL);
+    MeasureTwist(link, poses, strain + KIRI_AFFINE_TWIST, rows != NULL ? rows[KIRI_AFFINE_TWIST] : NULL);
+    MeasureNormalGap(link, &m, &mean, strain + KIRI_AFFINE_NORMAL_GAP,
+                     rows != NULL ? rows + KIRI_AFFINE_NORMAL_GAP : NULL);
+}
+
+void kiriAffine_Stiffness(const kiriLink* link, const kiriMaterial* material, double stiffness[KIRI_AFFINE_STRAINS])
+{
+    double h = (double)material->thickness, nu = (double)material->poissonsRatio, l = link->length;
+    double membrane = (double)material->youngsModulus * h / l, bending = membrane * h * h / (12.0 * (1.0 - nu * nu));
+    for (int a = 0; a < 3; ++a) {
+        stiffness[KIRI_AFFINE_GAP + a] = GAP_SHARE * membrane * link->width;
+        stiffness[KIRI_AFFINE_PLANE_BENDING + a] = membrane * link->moment;
+        stiffness[KIRI_AFFINE_BENDING + a] = bending * (1.0 - nu) * (link->width + nu * link->outer);
+    }
+    stiffness[KIRI_AFFINE_TWIST] = bending * (1.0 - nu) * (1.0 - nu) * link->outer;
+    stiffness[KIRI_AFFINE_NORMAL_GAP] = KIRI_NORMAL_GAP_BETA * bending * kiriStrain_NormalGapWidth(link, nu) / (l * l);
+    stiffness[KIRI_AFFINE_NORMAL_STOP] = membrane * link->width;
+}
+
+/* ---- Regions ---------------------------------------------------------------------------------------------------- */
+
+/* The share of a frame in the element that is being made; shares are kept in the order of frames. */
+static kiriFrameShare* FrameShareOf(kiriAreaElements* elements, kiriMemory* memory, kiriAreaElement* element,
+                                    int32_t frame)
+{
+    int32_t k = element->first + element->count;
+    while (k > element->first && elements->shares.data[k - 1].frame > frame) {
+        --k;
+    }
+    if (k > element->first && elements->shares.data[k - 1].frame == frame) {
+        return &elements->shares.data[k - 1];
+    }
+    kiriFrameShare fresh = { frame, { 0.0, 0.0 }, { 0.0, 0.0 }, { 0.0, 0.0 }, 0.0, { 0.0, 0.0 } };
+    if (!kiriArray_Push(memory, &elements->shares, fresh)) {
+        return NULL;
+    }
+    for (int32_t n = elements->shares.count - 1; n > k; --n) {
+        elements->shares.data[n] = elements->shares.data[n - 1];
+    }
+    elements->shares.data[k] = fresh;
+    ++element->count;
+    return &elements->shares.data[k];
+}
+
+/* What the frame at one end of a border brings to the integral of gap (x) n, times `scale`. */
+static void AddEnd(kiriFrameShare* share, const kiriLink* link, kiriVec2 center, double scale)
+{
+    kiriVec2 normal = kiriVec2_Scale(scale, link->sum), arm = kiriVec2_Sub(link->centroid, center);
+    share->move = kiriVec2_Add(share->move, normal);
+    share->u =
+        kiriVec2_Add(share->u, kiriVec2_Add(kiriVec2_Scale(arm.x, normal), kiriVec2_Scale(scale, link->spread[0])));
+    share->v =
+        kiriVec2_Add(share->v, kiriVec2_Add(kiriVec2_Scale(arm.y, normal), kiriVec2_Scale(scale, link->spread[1])));
+}
+
+/* What the elements of regions are made from: the links of region i are links[start[i]] to links[start[i + 1]]. */
+typedef struct RegionLinks {
+    kiriMemory* memory;
+    const kiriMoments* material; /* of each region */
+    KIRI_ARRAY(int32_t) start;
+    KIRI_ARRAY(const kiriLink*) links;
+} RegionLinks;
+
+static bool AddBorder(kiriAreaElements* elements, const RegionLinks* regions, kiriAreaElement* element,
+                      const kiriLink* link)
+{
+    for (int end = 0; end < 2; ++end) {
+        int32_t frame = end == 0 ? link->i : link->j;
+        kiriFrameShare* share = FrameShareOf(elements, regions->memory, element, frame);
+        if (share == NULL) {
+            return false;
+        }
+        double half = 0.5 / element->area;
+        AddEnd(share, link, kiriMoments_Center(&regions->material[frame]), end == 0 ? -half : half);
+    }
+    return true;
+}
+
+/* An element with the frame's own A. */
+static bool BeginAreaElement(kiriAreaElements* elements, kiriMemory* memory, kiriAreaElement* element, int32_t frame)
+{
+    kiriFrameShare* share = FrameShareOf(elements, memory, element, frame);
+    if (share != NULL) {
+        share->u.x = share->v.y = share->weight = 1.0;
+    }
+    return share != NULL;
+}
+
+static bool AddMembrane(kiriAreaElements* elements, const RegionLinks* regions, int32_t frame)
+{
+    double area = regions->material[frame].area;
+    kiriAreaElement element = {
+        area, LEAN_PENALTY, elements->shares.count, 0, KIRI_AREA_DILATION, KIRI_AREA_SHEAR + 1
+    };
+    bool ok = BeginAreaElement(elements, regions->memory, &element, frame);
+    for (int32_t k = regions->start.data[frame]; ok && k < regions->start.data[frame + 1]; ++k) {
+        ok = AddBorder(elements, regions, &element, regions->links.data[k]);
+    }
+    return ok && kiriArray_Push(regions->memory, &elements->elements, element);
+}
+
+static bool AddDirector(kiriAreaElements* elements, const RegionLinks* regions, int32_t frame)
+{
+    double area = regions->material[frame].area;
+    kiriAreaElement element = { area, 0.0, elements->shares.count, 0, KIRI_AREA_LEAN_U, KIRI_AREA_STRAINS };
+    return BeginAreaElement(elements, regions->memory, &element, frame) &&
+           kiriArray_Push(regions->memory, &elements->elements, element);
+}
+
+static bool CollectLinksByRegion(RegionLinks* regions, const kiriLink* links, int32_t linkCount, int32_t frameCount)
+{
+    if (!kiriArray_Resize(regions->memory, &regions->start, (int64_t)frameCount + 1) ||
+        !kiriArray_Resize(regions->memory, &regions->links, 2 * (int64_t)linkCount)) {
+        return false;
+    }
+    int32_t* start = regions->start.data;
+    for (int32_t i = 0; i <= frameCount; ++i) {
+        start[i] = 0;
+    }
+    for (int32_t k = 0; k < linkCount; ++k) {
+        ++start[links[k].i];
+        ++start[links[k].j];
+    }
+    for (int32_t i = 0; i < frameCount; ++i) {
+        start[i + 1] += start[i];
+    }
+    for (int32_t k = linkCount - 1; k >= 0; --k) {
+        regions->links.data[--start[links[k].i]] = &links[k];
+        regions->links.data[--start[links[k].j]] = &links[k];
+    }
+    return true;
+}
+
+bool kiriAffine_Build(kiriAreaElements* elements, kiriMemory* memory, const kiriLink* links, int32_t linkCount,
+                      const kiriMoments* material, int32_t frameCount, bool planar)
+{
+    RegionLinks regions = { memory, material, { 0 }, { 0 } };
+    elements->elements.count = elements->shares.count = 0;
+    bool ok = CollectLinksByRegion(&regions, links, linkCount, frameCount);
+    for (int32_t i = 0; ok && i < frameCount; ++i) {
+        ok = AddMembrane(elements, &regions, i) && (planar || AddDirector(elements, &regions, i));
+    }
+    kiriArray_Release(memory, &regions.start);
+    kiriArray_Release(memory, &regions.links);
+    return ok;
+}
+
+void kiriClamp_Shape(kiriClampRow* row, const kiriClampShape* shape, kiriVec2 site)
+{
+    kiriLink* link = &row->link;
+    kiriVec2 off = kiriVec2_Sub(site, shape->from), left = { -shape->along.y, shape->along.x };
+    double away = kiriVec2_Dot(off, left);
+    row->foot = kiriVec2_Add(shape->from, kiriVec2_Scale(kiriVec2_Dot(off, shape->along), shape->along));
+    row->isAffine = shape->isAffine;
+    memset(link, 0, sizeof(*link));
+    link->i = KIRI_NONE;
+    link->j = row->frame;
+    link->width = shape->width;
+    link->moment = shape->moment;
+    row->outer = shape->outer;
+    row->material = shape->material;
+    link->length = kiriMax(fabs(away), shape->least);
+    link->normal = away < 0.0 ? kiriVec2_Scale(-1.0, left) : left;
+    link->tangent = kiriVec2_Make(-link->normal.y, link->normal.x);
+    link->span = kiriVec2_Scale(link->length, link->normal);
+    kiriVec2 half = kiriVec2_Scale(0.5, link->span);
+    link->centroid = shape->isAffine ? shape->centroid : kiriVec2_Add(shape->centroid, half);
+    link->crossing = kiriVec2_Add(row->foot, half);
+}
+
+/* The line as a frame: what the strains of a link read of one that is held. */
+static kiriFrameData LineFrame(const kiriClampRow* row)
+{
+    kiriFrameData frame;
+    memset(&frame, 0, sizeof(frame));
+    frame.site.at = frame.center = row->foot;
+    frame.held = 1;
+    return frame;
+}
+
+void kiriClamp_Measure(const kiriClampRow* row, const kiriFrameData* frame, const kiriPose* line, const kiriPose* pose,
+                       double* strain, kiriFrameRow* rows)
+{
+    const kiriFrameData held = LineFrame(row);
+    const kiriFrameData* const frames[2] = { &held, frame };
+    const kiriPose* const poses[2] = { line, pose };
+    if (row->isAffine) {
+        kiriFrameRow both[KIRI_AFFINE_STRAINS][2];
+        kiriAffine_Measure(&row->link, row->material, frames, poses, strain, rows != NULL ? both : NULL);
+        for (int e = 0; rows != NULL && e < KIRI_AFFINE_STRAINS; ++e) {
+            rows[e] = both[e][1];
+        }
+    } else {
+        kiriStrainRow both[KIRI_STRAINS];
+        kiriStrain_Measure(&row->link, row->material, frames, poses, strain, rows != NULL ? both : NULL);
+        for (int e = 0; rows != NULL && e < KIRI_STRAINS; ++e) {
+            memset(&rows[e], 0, sizeof(rows[e]));
+            rows[e].by[0] = both[e].end[1].move;
+            rows[e].by[1] = both[e].end[1].turn;
+        }
+    }
+}
+
+/* How many strains can be other than zero, see kiriElement_StrainCount. */
+static int StrainCount(bool isAffine, bool isPlanar)
+{
+    return isAffine ? (isPlanar ? (int)KIRI_AFFINE_BENDING : (int)KIRI_AFFINE_STRAINS)
+                    : (isPlanar ? (int)KIRI_PLANE_BENDING + 1 : (int)KIRI_STRAINS);
+}
+
+/* Along the line the material neither stretches nor curls, and beside it hardly: so it is as stiff as where both
+   directions strain. */
+static void SetRigidStiffness(kiriClampRow* row, const kiriMaterial* material)
+{
+    double h = (double)material->thickness, nu = (double)material->poissonsRatio, l = row->link.length;
+    double membrane = (double)material->youngsModulus * h / (l * (1.0 - nu * nu)), bending = membrane * h * h / 12.0;
+    kiriStrain_Stiffness(&row->link, material, row->stiffness);
+    row->stiffness[KIRI_STRETCH] = membrane * row->link.width;
+    row->stiffness[KIRI_BENDING] = bending * row->link.width;
+    row->stiffness[KIRI_TWIST] = bending * (1.0 - nu) * (row->link.width + row->outer);
+    row->stiffness[KIRI_NORMAL_GAP] = KIRI_NORMAL_GAP_BETA * bending * row->link.width / (l * l);
+}
+
+/* The same of an affine frame, whose rows of bending see twist too. */
+static void SetAffineStiffness(kiriClampRow* row, const kiriMaterial* material)
+{
+    double h = (double)material->thickness, nu = (double)material->poissonsRatio, l = row->link.length;
+    double W = row->link.width, membrane = (double)material->youngsModulus * h / l;
+    double bending = membrane * h * h / (12.0 * (1.0 - nu * nu)), twisted = (1.0 - nu) * (W + row->outer) - W;
+    kiriAffine_Stiffness(&row->link, material, row->stiffness);
+    for (int a = 0; a < 3; ++a) {
+        row->stiffness[KIRI_AFFINE_GAP + a] = KIRI_CLAMP_AFFINE_GAP * membrane * W;
+        row->stiffness[KIRI_AFFINE_BENDING + a] = bending * W;
+    }
+    row->stiffness[KIRI_AFFINE_TWIST] = twisted > 0.0 ? bending * twisted : 0.0;
+    row->stiffness[KIRI_AFFINE_NORMAL_GAP] = KIRI_NORMAL_GAP_BETA * bending * W / (l * l);
+}
+
+void kiriClamp_Begin(kiriClampRow* row, bool isPlanar, const kiriMaterial* material, double damping,
+                     const kiriFrameData* frame, const kiriPose* start)
+{
+    row->strainCount = StrainCount(row->isAffine, isPlanar);
+    row->stopping = false;
+    row->isAffine ? SetAffineStiffness(row, material) : SetRigidStiffness(row, material);
+    kiriClamp_Measure(row, frame, &row->start, start, row->startStrain, NULL);
+    double share = damping * (row->isAffine ? 1.0 : kiriStrain_Damping(row->startStrain));
+    for (int e = 0; e < row->strainCount; ++e) {
+        row->loss[e] = share * row->stiffness[e];
+    }
+}
+
+void kiriClamp_TakeOffsets(const kiriClampRow* row, const double* strain, double* pulling)
+{
+    for (int e = 0; e < row->strainCount; ++e) {
+        pulling[e] = strain[e] - row->offset[e];
+    }
+    if (!row->isAffine && row->strainCount > KIRI_NORMAL_STOP) { /* the stop only pushes */
+        double over = fabs(strain[KIRI_NORMAL_STOP]) - fabs(row->offset[KIRI_NORMAL_STOP]);
+        pulling[KIRI_NORMAL_STOP] = over <= 0.0 ? 0.0 : strain[KIRI_NORMAL_STOP] > 0.0 ? over : -over;
+    }
+}
+
+bool kiriClamp_IsStopped(const kiriClampRow* row, const double* strain)
+{
+    return !row->isAffine && row->strainCount > KIRI_NORMAL_STOP && strain[KIRI_NORMAL_STOP] != 0.0;
+}
+
+double kiriClamp_Noise(const kiriClampRow* row, const kiriPose* start)
+{
+    double reach = kiriVec3_Length(start->x) + row->link.length, sum = 0.0;
+    for (int e = 0; e < row->strainCount; ++e) {
+        bool isAngle = row->isAffine ? e >= KIRI_AFFINE_PLANE_BENDING && e < KIRI_AFFINE_NORMAL_GAP
+                                     : e >= KIRI_PLANE_BENDING && e <= KIRI_TWIST;
+        bool isStop = e == (row->isAffine ? (int)KIRI_AFFINE_NORMAL_STOP : (int)KIRI_NORMAL_STOP);
+        sum += isStop ? 0.0 : (isAngle ? 1.0 : reach * reach) * row->stiffness[e];
+    }
+    return sum;
 }

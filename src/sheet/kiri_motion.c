@@ -1,9 +1,9 @@
 #include "kiri_motion.h"
 
-#include "../motion/kiri_prediction.h"
-#include "kiri_follow.h"
+#include "../motion/kiri_frame.h"
+#include "kiri_pin.h"
 #include "kiri_touch.h"
-#include "kiri_piece_turn.h"
+#include "kiri_piece.h"
 
 #include <string.h>
 

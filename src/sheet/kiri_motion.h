@@ -21,7 +21,7 @@ void kiriMotion_WakeStirred(kiriSheetData* sheet);
 void kiriMotion_LetRest(kiriSheetData* sheet);
 
 /* Moves the frames by dt in equal substeps, but for those of pieces that sleep, fall asleep or wait
-   (kiri_piece_turn.h). Items of the quota are what linear systems count (kiriSolver_SystemItems). KIRI_MORE: there was
+   (kiri_piece.h). Items of the quota are what linear systems count (kiriSolver_SystemItems). KIRI_MORE: there was
    none left, and the frames are where they were. KIRI_FAILED: the motion could not be continued, the frames rest where
    they were. Forces and contacts are used up. */
 kiriProgress kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps, kiriQuota* systems);

@@ -1,10 +1,305 @@
 #include "kiri_pin.h"
-
-#include "kiri_sever.h"
-
-#include "../motion/kiri_element.h"
+#include "kiri_motion.h"
+#include "kiri_seen.h"
+#include "kiri_sheet_site.h"
+#include "../motion/kiri_solver.h"
+#include "../motion/kiri_frame.h"
 
 #include <string.h>
+
+/* ---- Place ------------------------------------------------------------------------------------------------------- */
+
+static void TurnVector(const kiriMat3* R, kiriVec3* a)
+{
+    *a = kiriMat3_Mul(*R, *a);
+}
+
+static void TurnColumns(const kiriMat3* R, kiriMat3* A)
+{
+    *A = kiriMat3_MulMat(*R, *A);
+}
+
+static void CarryFrame(kiriFrameData* frame, const kiriMat3* R, kiriVec3 t, bool isRigid)
+{
+    frame->x = kiriVec3_Add(kiriMat3_Mul(*R, frame->x), t);
+    TurnColumns(R, &frame->A);
+    frame->A = isRigid ? kiriMat3_Rotation(frame->A) : frame->A;
+    TurnVector(R, &frame->velocity);
+    TurnVector(R, &frame->spin);
+    TurnColumns(R, &frame->rate);
+    TurnVector(R, &frame->history.gain);
+    TurnVector(R, &frame->history.lag);
+    TurnVector(R, &frame->history.pull);
+    TurnColumns(R, &frame->history.turnGain);
+    TurnColumns(R, &frame->history.turnLag);
+    TurnColumns(R, &frame->history.turnPull);
+    TurnVector(R, &frame->heldOff);
+}
+
+/* ---- What holds it ---- */
+
+static void TurnWrench(const kiriMat3* R, kiriWrench* wrench)
+{
+    TurnVector(R, &wrench->force);
+    TurnVector(R, &wrench->moment);
+}
+
+static void TurnReaction(const kiriMat3* R, kiriReaction* reaction)
+{
+    TurnWrench(R, &reaction->gain);
+    TurnWrench(R, &reaction->pull);
+}
+
+static double SquareApart(kiriVec3 a, kiriVec3 b)
+{
+    kiriVec3 d = kiriVec3_Sub(a, b);
+    return kiriVec3_Dot(d, d);
+}
+
+/* How far apart two poses are, of something so large. */
+static double PosesApart(kiriVec3 a, const kiriMat3* A, kiriVec3 b, const kiriMat3* B, double size)
+{
+    double turned = SquareApart(A->u, B->u) + SquareApart(A->v, B->v);
+    return SquareApart(a, b) + size * size * turned;
+}
+
+static void CarryPose(const kiriMat3* R, kiriVec3 t, kiriVec3* x, kiriMat3* A)
+{
+    *x = kiriVec3_Add(kiriMat3_Mul(*R, *x), t);
+    TurnColumns(R, A);
+    *A = kiriMat3_Rotation(*A);
+}
+
+/* Carries the pose at which something is held, and its goal for the next tick. A goal that is nearer to the new pose
+   than to the old one stays: the host has moved it already. */
+static void CarryHeld(const kiriMat3* R, kiriVec3 t, double size, kiriVec3* at, kiriMat3* axes, kiriVec3* goal,
+                      kiriMat3* goalAxes)
+{
+    kiriVec3 was = *at;
+    kiriMat3 wasAxes = *axes;
+    CarryPose(R, t, at, axes);
+    if (!(PosesApart(*goal, goalAxes, *at, axes, size) < PosesApart(*goal, goalAxes, was, &wasAxes, size))) {
+        CarryPose(R, t, goal, goalAxes);
+    }
+}
+
+void kiriCarry_Pin(kiriSheetData* sheet, int32_t index, const kiriMat3* R, kiriVec3 t)
+{
+    kiriPinData* pin = &sheet->pins.data[index];
+    kiriVec2 way = kiriVec2_Sub(kiriMesh_Local(&sheet->mesh, pin->to), kiriMesh_Local(&sheet->mesh, pin->at));
+    CarryHeld(R, t, 0.5 * kiriVec2_Length(way), &pin->lastTarget, &pin->lastRotation, &pin->target, &pin->rotation);
+}
+
+static void CarryHold(kiriFrameData* frame, const kiriMat3* R, kiriVec3 t)
+{
+    CarryHeld(R, t, kiriRoot(frame->area), &frame->heldPosition, &frame->heldRotation, &frame->goalPosition,
+              &frame->goalRotation);
+    TurnReaction(R, &frame->reaction);
+    TurnWrench(R, &frame->bore);
+}
+
+static void TurnPins(kiriSheetData* sheet, const kiriMat3* R)
+{
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        kiriPinData* pin = &sheet->pins.data[i];
+        TurnVector(R, &pin->off);
+        TurnReaction(R, &pin->reaction);
+        TurnWrench(R, &pin->bore);
+    }
+    for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
+        kiriPinShare* share = &sheet->layout.pinShares.data[k];
+        TurnVector(R, &share->off);
+        TurnReaction(R, &share->reactions[0]);
+        TurnReaction(R, &share->reactions[1]);
+        TurnWrench(R, &share->bore);
+    }
+}
+
+/* ---- All of it ---- */
+
+bool kiriCarry_FitsSheet(const kiriSheetData* sheet, const kiriMat3* R, kiriVec3 t)
+{
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        kiriFrameData moved = sheet->frames.data[i];
+        CarryFrame(&moved, R, t, false);
+        if (!kiriFrame_FitsFloats(&moved)) {
+            return false;
+        }
+    }
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        if (!kiriVec3_FitsFloats(kiriVec3_Add(kiriMat3_Mul(*R, sheet->pins.data[i].target), t))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static void TurnFades(kiriFades* fades, const kiriMat3* R)
+{
+    for (int32_t k = 0; k < fades->fading.count; ++k) {
+        TurnVector(R, &fades->fading.data[k].offset);
+    }
+}
+
+/* Another block for an array of which all is written anew. */
+static float* Renewed(kiriMemory* memory, int32_t capacity)
+{
+    return kiriMemory_Alloc(memory, (int64_t)sizeof(float) * (capacity > 0 ? capacity : 1));
+}
+
+static void Retire(kiriMemory* retired, float** array, float* renewed)
+{
+    if (*array != NULL) {
+        kiriMemory_Adopt(retired, *array);
+    }
+    *array = renewed;
+}
+
+bool kiriCarry_Renew(kiriSheetData* sheet, kiriMemory* retired)
+{
+    kiriSurface* surface = &sheet->seen.surface;
+    float* positions = Renewed(&sheet->shown, surface->positions.capacity);
+    float* normals = Renewed(&sheet->shown, surface->normals.capacity);
+    float* points = Renewed(&sheet->shown, sheet->seen.pointPositions.capacity);
+    if (positions == NULL || normals == NULL || points == NULL) {
+        kiriMemory_Free(&sheet->shown, positions);
+        kiriMemory_Free(&sheet->shown, normals);
+        kiriMemory_Free(&sheet->shown, points);
+        return false;
+    }
+    Retire(retired, &surface->positions.data, positions);
+    Retire(retired, &surface->normals.data, normals);
+    Retire(retired, &sheet->seen.pointPositions.data, points);
+    surface->isWritten = surface->isSteady = false;
+    return true;
+}
+
+bool kiriCarry_Sheet(kiriSheetData* sheet, const kiriMat3* R, kiriVec3 t, kiriMemory* retired)
+{
+    if (!kiriCarry_Renew(sheet, retired)) {
+        return false;
+    }
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        kiriFrameData* frame = &sheet->frames.data[i];
+        CarryFrame(frame, R, t, sheet->settings.mechanics.model == KIRI_MODEL_LINKS);
+        if (frame->held) {
+            CarryHold(frame, R, t);
+        }
+    }
+    TurnPins(sheet, R);
+    TurnFades(&sheet->seen.fades, R);
+    TurnFades(&sheet->seen.pointFades, R);
+    kiriView_WritePositions(sheet);
+    kiriMotion_Wake(sheet);
+    return true;
+}
+
+/* ---- Another origin ---------------------------------------------------------------------------------------------- */
+
+static void Shift(kiriVec3* at, kiriVec3 origin)
+{
+    *at = kiriVec3_Sub(*at, origin);
+}
+
+static void ShiftTouches(kiriTouch* touches, int32_t count, kiriVec3 origin)
+{
+    for (int32_t i = 0; i < count; ++i) {
+        Shift(&touches[i].seen, origin);
+        touches[i].offset -= kiriVec3_Dot(touches[i].normal, origin);
+    }
+}
+
+static void ShiftContacts(kiriSheetData* sheet, kiriVec3 origin)
+{
+    kiriTouches* touches = &sheet->touches;
+    ShiftTouches(touches->found.data, touches->found.count, origin);
+    ShiftTouches(touches->last.touches.data, touches->last.touches.count, origin);
+    ShiftTouches(touches->slept.touches.data, touches->slept.touches.count, origin);
+    touches->rests.areSummed = false; /* about centres of mass of obstacles */
+    for (int32_t i = 0; i < sheet->contacts.count; ++i) {
+        kiriContact* contact = &sheet->contacts.data[i].contact;
+        contact->offset = (float)(contact->offset - kiriVec3_Dot(kiriVec3_Load(contact->normal), origin));
+    }
+}
+
+void kiriCarry_Shift(kiriSheetData* sheet, kiriVec3 origin)
+{
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        kiriFrameData* frame = &sheet->frames.data[i];
+        Shift(&frame->x, origin);
+        if (frame->held) {
+            Shift(&frame->heldPosition, origin);
+            Shift(&frame->goalPosition, origin);
+        }
+    }
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        Shift(&sheet->pins.data[i].target, origin);
+        Shift(&sheet->pins.data[i].lastTarget, origin);
+    }
+    ShiftContacts(sheet, origin);
+    kiriView_WritePositions(sheet);
+}
+
+/* ---- Velocity ---------------------------------------------------------------------------------------------------- */
+
+static bool IsOf(const kiriSheetData* sheet, int32_t frame, int32_t piece)
+{
+    return piece == KIRI_NONE || sheet->layout.framePiece.data[frame] == piece;
+}
+
+static kiriVec3 CenterOf(const kiriSheetData* sheet, int32_t piece)
+{
+    kiriVec3 sum = { 0.0, 0.0, 0.0 };
+    double mass = 0.0;
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        if (IsOf(sheet, i, piece)) {
+            sum = kiriVec3_AddScaled(sum, sheet->frames.data[i].mass, sheet->frames.data[i].x);
+            mass += sheet->frames.data[i].mass;
+        }
+    }
+    return kiriVec3_Scale(1.0 / mass, sum);
+}
+
+static void GiveVelocity(kiriFrameData* frame, kiriVec3 center, kiriVec3 velocity, kiriVec3 spin)
+{
+    frame->velocity = kiriVec3_Add(velocity, kiriVec3_Cross(spin, kiriVec3_Sub(frame->x, center)));
+    frame->spin = spin;
+    memset(&frame->rate, 0, sizeof(frame->rate));
+    memset(&frame->history, 0, sizeof(frame->history));
+}
+
+static bool FitsVelocity(const kiriSheetData* sheet, int32_t piece, kiriVec3 center, kiriVec3 velocity, kiriVec3 spin)
+{
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        kiriFrameData given = sheet->frames.data[i];
+        GiveVelocity(&given, center, velocity, spin);
+        if (IsOf(sheet, i, piece) && !kiriFrame_FitsFloats(&given)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* In a planar sheet, what is across the plane is dropped. */
+bool kiriCarry_SetVelocity(kiriSheetData* sheet, int32_t piece, kiriVec3 velocity, kiriVec3 spin)
+{
+    const kiriMechanics* mechanics = &sheet->settings.mechanics;
+    kiriVec3 d = mechanics->axes.d, center = CenterOf(sheet, piece);
+    if (mechanics->planar) {
+        velocity = kiriVec3_AddScaled(velocity, -kiriVec3_Dot(velocity, d), d);
+        spin = kiriVec3_Scale(kiriVec3_Dot(spin, d), d);
+    }
+    if (!FitsVelocity(sheet, piece, center, velocity, spin)) {
+        return false;
+    }
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        if (IsOf(sheet, i, piece)) {
+            GiveVelocity(&sheet->frames.data[i], center, velocity, spin);
+            kiriMotion_WakeFrame(sheet, i);
+        }
+    }
+    return true;
+}
 
 /* ---- Geometry of lines ------------------------------------------------------------------------------------------- */
 
@@ -580,4 +875,342 @@ void kiriPins_ClearReactions(kiriSheetData* sheet)
 {
     kiriPins_BeginReactions(sheet);
     kiriPins_TakeReactions(sheet, 1.0);
+}
+
+#define SETTLING 0.05  /* s: within which targets go over to what is seen */
+#define CLAMP_RATE 0.2 /* of that of pins: a clamp bends the sheet, and with it the surface that it asks */
+#define LEAST 1e-5     /* of the longer side: less is not seen, and stays */
+
+/* ---- What is seen is what is held ---- */
+
+/* The share of a frame in what is seen at a point. */
+static double ShareAt(const kiriSheetData* sheet, const kiriPointPlace* place, int32_t frame)
+{
+    double sum = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        kiriSpan span = sheet->vertexSkin.spans.data[sheet->mesh.triangles.data[place->triangle].vertex[k]];
+        for (int32_t i = span.first; i < span.first + span.count; ++i) {
+            const kiriSampleWeight* weight = &sheet->vertexSkin.weights.data[i];
+            sum += kiriSheet_FrameOf(sheet, weight->label) == frame ? place->shares[k] * weight->value : 0.0;
+        }
+    }
+    return sum;
+}
+
+/* False where nothing of the frame is seen: outside, or at the other lip of a cut. */
+static bool FindSeen(const kiriSheetData* sheet, int32_t frame, kiriLatticePoint at, kiriVec3* seen)
+{
+    kiriPointPlace place;
+    if (!kiriPoint_Find(sheet, at, &place) || !(ShareAt(sheet, &place, frame) > 0.0)) {
+        return false;
+    }
+    *seen = kiriPoint_Position(sheet, &place);
+    return true;
+}
+
+/* A line may run along an edge of the sheet: a little towards the site there is material for certain. */
+static bool FindSeenBeside(const kiriSheetData* sheet, int32_t frame, kiriVec2 at, kiriVec3* seen)
+{
+    kiriVec2 way = kiriVec2_Sub(sheet->frames.data[frame].site.at, at);
+    double length = kiriVec2_Length(way), aside = sheet->grid.side / 1024.0;
+    kiriVec2 beside = kiriVec2_Add(at, kiriVec2_Scale(length > aside ? aside / length : 1.0, way));
+    return FindSeen(sheet, frame, kiriMesh_Snap(&sheet->mesh, beside), seen);
+}
+
+/* Takes a part of the way to what was measured; all of it where nothing was known. */
+static void Settle(const kiriSheetData* sheet, kiriVec3* off, kiriVec3 measured, bool isKnown, double dt)
+{
+    kiriVec3 change = kiriVec3_Sub(measured, *off);
+    if (!isKnown) {
+        *off = measured;
+    } else if (kiriVec3_Length(change) > LEAST * kiriSheet_Extent(sheet)) {
+        *off = kiriVec3_AddScaled(*off, dt < SETTLING ? dt / SETTLING : 1.0, change);
+    }
+}
+
+static void SettlePoint(kiriSheetData* sheet, int32_t index, double dt)
+{
+    kiriPinData* pin = &sheet->pins.data[index];
+    int32_t frame = sheet->layout.pinFrame.data[index];
+    const kiriFrameData* data = &sheet->frames.data[frame];
+    kiriVec3 seen;
+    if (FindSeen(sheet, frame, pin->at, &seen)) {
+        kiriVec3 own = kiriFrame_Carry(data, kiriMesh_Local(&sheet->mesh, pin->at));
+        Settle(sheet, &pin->off, kiriVec3_Sub(own, seen), pin->offFrame == data->id, dt);
+        pin->offFrame = data->id;
+    }
+}
+
+/* Do they hold the same piece for the same clamp? */
+static bool IsSameHold(const kiriSheetData* sheet, const kiriPinShare* a, const kiriPinShare* b)
+{
+    const int32_t* pieces = sheet->layout.framePiece.data;
+    return a->pin == b->pin && pieces[a->share.frame] == pieces[b->share.frame];
+}
+
+static bool IsFirstOfHold(const kiriSheetData* sheet, int32_t k)
+{
+    const kiriPinShare* shares = sheet->layout.pinShares.data;
+    for (int32_t i = k - 1; i >= 0 && shares[i].pin == shares[k].pin; --i) {
+        if (IsSameHold(sheet, &shares[i], &shares[k])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Where the pose has to be moved for the piece to be seen on the line: the mean along it. */
+static bool FindHoldOff(const kiriSheetData* sheet, int32_t first, kiriVec3* off)
+{
+    const kiriPinShares* shares = &sheet->layout.pinShares;
+    kiriVec3 sum = { 0.0, 0.0, 0.0 }, seen;
+    double length = 0.0;
+    for (int32_t k = first; k < shares->count && shares->data[k].pin == shares->data[first].pin; ++k) {
+        const kiriPinShare* pinned = &shares->data[k];
+        kiriVec2 at = kiriPin_Centroid(sheet, pinned);
+        if (IsSameHold(sheet, &shares->data[first], pinned) && FindSeenBeside(sheet, pinned->share.frame, at, &seen)) {
+            kiriVec3 missing = kiriVec3_Sub(kiriPin_PlaceOf(sheet, &sheet->pins.data[pinned->pin], at), seen);
+            sum = kiriVec3_AddScaled(sum, pinned->share.length, kiriVec3_Add(pinned->off, missing));
+            length += pinned->share.length;
+        }
+    }
+    *off = length > 0.0 ? kiriVec3_Scale(1.0 / length, sum) : sum;
+    return length > 0.0;
+}
+
+/* All that it holds of a piece is moved as one. Were each share moved by what is missing there, the line would bend: a
+   sheet that is curled along its clamp is far too stiff, and turns its surface there, which asks for more. */
+static void SettleClamp(kiriSheetData* sheet, int32_t first, double dt)
+{
+    kiriPinShares* shares = &sheet->layout.pinShares;
+    kiriVec3 off;
+    if (!FindHoldOff(sheet, first, &off)) {
+        return;
+    }
+    for (int32_t k = first; k < shares->count && shares->data[k].pin == shares->data[first].pin; ++k) {
+        if (IsSameHold(sheet, &shares->data[first], &shares->data[k])) {
+            Settle(sheet, &shares->data[k].off, off, true, CLAMP_RATE * dt);
+        }
+    }
+}
+
+static void SettleFrame(kiriSheetData* sheet, int32_t f, double dt)
+{
+    kiriFrameData* frame = &sheet->frames.data[f];
+    kiriVec3 seen;
+    if (frame->held && FindSeen(sheet, f, kiriMesh_Snap(&sheet->mesh, frame->site.at), &seen)) {
+        kiriVec3 own = kiriFrame_Carry(frame, frame->site.at);
+        Settle(sheet, &frame->heldOff, kiriVec3_Sub(own, seen), frame->isOffKnown, dt);
+        frame->isOffKnown = true;
+    }
+}
+
+static void DropOffs(kiriSheetData* sheet)
+{
+    const kiriVec3 none = { 0.0, 0.0, 0.0 };
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        sheet->pins.data[i].off = none;
+        sheet->pins.data[i].offFrame = 0;
+    }
+    for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
+        sheet->layout.pinShares.data[k].off = none;
+    }
+    KIRI_EACH(f, kiriSolver_Awake(sheet->solver)->frames) {
+        sheet->frames.data[f].heldOff = none;
+        sheet->frames.data[f].isOffKnown = false;
+    }
+}
+
+void kiriFollow_Begin(kiriSheetData* sheet, double dt)
+{
+    if (sheet->settings.skinning == KIRI_SKINNING_LINEAR) {
+        DropOffs(sheet);
+        return;
+    }
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        if (kiriPins_IsAwakePoint(sheet, i)) {
+            SettlePoint(sheet, i, dt);
+        }
+    }
+    for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
+        const kiriPinShare* pinned = &sheet->layout.pinShares.data[k];
+        bool isClamp = sheet->pins.data[pinned->pin].type == KIRI_PIN_CLAMP;
+        if (isClamp && kiriSheet_Moves(sheet, pinned->share.frame) && IsFirstOfHold(sheet, k)) {
+            SettleClamp(sheet, k, dt);
+        }
+    }
+    KIRI_EACH(f, kiriSolver_Awake(sheet->solver)->frames) {
+        SettleFrame(sheet, f, dt);
+    }
+}
+
+/* ---- Steps ---- */
+
+static bool IsSameMat(const kiriMat3* a, const kiriMat3* b)
+{
+    return kiriVec3_Equal(a->u, b->u) && kiriVec3_Equal(a->v, b->v) && kiriVec3_Equal(a->d, b->d);
+}
+
+/* Its part of the way that is left: the last step ends at the goal. */
+static void MoveHeld(kiriFrameData* frame, int32_t left)
+{
+    kiriVec3 goal = kiriVec3_Add(frame->goalPosition, frame->heldOff);
+    if (left == 1) {
+        frame->heldPosition = goal;
+        frame->heldRotation = frame->goalRotation;
+        return;
+    }
+    double part = 1.0 / left;
+    kiriVec3 way = kiriVec3_Sub(goal, frame->heldPosition);
+    frame->heldPosition = kiriVec3_AddScaled(frame->heldPosition, part, way);
+    if (!IsSameMat(&frame->heldRotation, &frame->goalRotation)) {
+        kiriMat3 mean = kiriMat3_Scale(1.0 - part, &frame->heldRotation);
+        mean = kiriMat3_AddScaled(&mean, part, &frame->goalRotation);
+        frame->heldRotation = kiriMat3_RotationFrom(frame->heldRotation, mean);
+    }
+}
+
+static bool IsAnyPinMoved(const kiriSheetData* sheet)
+{
+    bool any = false;
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        const kiriPinData* pin = &sheet->pins.data[i];
+        any |= !kiriVec3_Equal(pin->target, pin->lastTarget) || !IsSameMat(&pin->rotation, &pin->lastRotation);
+    }
+    return any;
+}
+
+/* By the end of the step, `after` s after the start of the tick. Pins that hold points of what is awake have the first
+   rows, in their order. */
+static bool Yield(kiriSheetData* sheet, double after, double h)
+{
+    bool any = false;
+    int32_t row = 0;
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        kiriPinAnchor* anchor = &sheet->pins.data[i].anchor;
+        if (!kiriPins_IsAwakePoint(sheet, i)) {
+            continue;
+        }
+        if (anchor->most > 0.0) {
+            kiriVec3 given = kiriVec3_Scale(-1.0, sheet->pinReactions.data[row].impulse.force);
+            anchor->way = kiriVec3_Scale(after, kiriMat3_Mul(anchor->give, given));
+            anchor->softness = after * h * anchor->most;
+            any = true;
+        }
+        ++row;
+    }
+    return any;
+}
+
+/* Rows of pins that rest are the same in all steps, and are there. */
+void kiriFollow_Step(kiriSheetData* sheet, int32_t i, int32_t n, double h)
+{
+    if (Yield(sheet, (i + 1) * h, h) || IsAnyPinMoved(sheet)) {
+        kiriPins_WriteRows(sheet, (double)i / n, i + 1 == n ? 1.0 : (i + 1.0) / n);
+    }
+    KIRI_EACH(f, kiriSolver_Awake(sheet->solver)->frames) {
+        if (sheet->frames.data[f].held) {
+            MoveHeld(&sheet->frames.data[f], n - i);
+        }
+    }
+}
+
+void kiriLoad_AtPoint(kiriSheetData* sheet, int32_t frame, kiriVec2 at, kiriVec3 force, kiriVec3 torque)
+{
+    KIRI_ASSERT(frame >= 0 && frame < sheet->frames.count);
+    kiriFrameData* data = &sheet->frames.data[frame];
+    kiriVec3 arm = kiriVec3_Sub(kiriFrame_Carry(data, at), data->x);
+    data->force = kiriVec3_Add(data->force, force);
+    data->torque = kiriVec3_Add(data->torque, kiriVec3_Add(torque, kiriVec3_Cross(arm, force)));
+}
+
+void kiriLoad_AlongLine(kiriSheetData* sheet, kiriLatticePoint from, kiriLatticePoint to, kiriVec3 perLength)
+{
+    kiriVec2 a = kiriMesh_Local(&sheet->mesh, from), way = kiriVec2_Sub(kiriMesh_Local(&sheet->mesh, to), a);
+    double length = kiriVec2_Length(way);
+    for (int32_t k = 0; k < sheet->lineShares.count; ++k) {
+        const kiriLineShare* share = &sheet->lineShares.data[k];
+        kiriVec2 at = kiriVec2_Add(a, kiriVec2_Scale(share->firstLoad / share->load, way));
+        kiriVec3 none = { 0.0, 0.0, 0.0 };
+        kiriLoad_AtPoint(sheet, share->frame, at, kiriVec3_Scale(length * share->load, perLength), none);
+    }
+}
+
+/* The resultant on a region acts at its centroid, where its frame has its centre. The length of A_u x A_v, 1 for a
+   rigid frame, is by how much an affine one stretches the area. */
+void kiriLoad_OnSurface(kiriSheetData* sheet, double pressure)
+{
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        kiriFrameData* frame = &sheet->frames.data[i];
+        kiriVec3 across = kiriVec3_Cross(frame->A.u, frame->A.v);
+        frame->force = kiriVec3_AddScaled(frame->force, pressure * frame->area, across);
+    }
+}
+
+/* ---- Impulses ---------------------------------------------------------------------------------------------------- */
+
+/* What acts across the plane of a planar sheet is dropped. */
+static void Push(const kiriSheetData* sheet, kiriFrameData* frame, kiriVec3 impulse, kiriVec3 moment)
+{
+    const kiriMechanics* mechanics = &sheet->settings.mechanics;
+    kiriVec3 d = mechanics->axes.d;
+    kiriMat3 inertia = kiriFrame_Inertia(frame, &sheet->settings.material);
+    if (mechanics->planar) {
+        impulse = kiriVec3_AddScaled(impulse, -kiriVec3_Dot(impulse, d), d);
+        double about = kiriVec3_Dot(d, kiriMat3_Mul(inertia, d));
+        frame->spin = kiriVec3_AddScaled(frame->spin, kiriVec3_Dot(moment, d) / about, d);
+    } else {
+        frame->spin = kiriVec3_Add(frame->spin, kiriMat3_Solve(&inertia, moment));
+    }
+    frame->velocity = kiriVec3_AddScaled(frame->velocity, 1.0 / frame->mass, impulse);
+}
+
+/* The parts of the impulse that this frame gets by the corners of the triangle; or, KIRI_NONE, each frame its own. */
+static void PushFrames(kiriSheetData* sheet, const kiriPointPlace* place, kiriVec3 off, kiriVec3 impulse, int32_t only,
+                       kiriFrameData* frames)
+{
+    const int32_t* corners = sheet->mesh.triangles.data[place->triangle].vertex;
+    for (int k = 0; k < 3; ++k) {
+        kiriVec2 local = kiriMesh_Local(&sheet->mesh, sheet->mesh.vertices.data[corners[k]].at);
+        kiriSpan span = sheet->vertexSkin.spans.data[corners[k]];
+        for (int32_t i = span.first; i < span.first + span.count; ++i) {
+            kiriSampleWeight weight = sheet->vertexSkin.weights.data[i];
+            int32_t f = kiriSheet_FrameOf(sheet, weight.label);
+            if (only == KIRI_NONE || only == f) {
+                kiriFrameData* frame = only == KIRI_NONE ? &frames[f] : frames;
+                kiriVec3 arm = kiriVec3_Add(kiriVec3_Sub(kiriFrame_Carry(frame, local), frame->x), off);
+                kiriVec3 part = kiriVec3_Scale(place->shares[k] * weight.value, impulse);
+                Push(sheet, frame, part, kiriVec3_Cross(arm, part));
+            }
+        }
+    }
+}
+
+static bool FitsImpulse(kiriSheetData* sheet, const kiriPointPlace* place, kiriVec3 off, kiriVec3 impulse)
+{
+    const int32_t* corners = sheet->mesh.triangles.data[place->triangle].vertex;
+    for (int k = 0; k < 3; ++k) {
+        kiriSpan span = sheet->vertexSkin.spans.data[corners[k]];
+        for (int32_t i = span.first; i < span.first + span.count; ++i) {
+            int32_t f = kiriSheet_FrameOf(sheet, sheet->vertexSkin.weights.data[i].label);
+            kiriFrameData pushed = sheet->frames.data[f];
+            PushFrames(sheet, place, off, impulse, f, &pushed);
+            if (!kiriFrame_FitsFloats(&pushed)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* What is seen lies off where the weights have the point, where it fades or its patches are bent: each share of the
+   impulse acts as if that much beside its frame's own point, so that the sum acts where the point is seen. */
+bool kiriLoad_Impulse(kiriSheetData* sheet, const kiriPointPlace* place, kiriVec3 impulse)
+{
+    kiriVec3 off = kiriVec3_Sub(kiriPoint_Position(sheet, place), kiriPoint_Blend(sheet, place).x);
+    if (!FitsImpulse(sheet, place, off, impulse)) {
+        return false;
+    }
+    PushFrames(sheet, place, off, impulse, KIRI_NONE, sheet->frames.data);
+    return true;
 }

@@ -1,10 +1,34 @@
-/* Pins: points and lines of the material that the host holds. */
+/* A sheet, or a piece of it, that the host puts elsewhere or gives another velocity, all at once. */
 #ifndef KIRI_PIN_H
 #define KIRI_PIN_H
 
-#include "kiri_owner.h"
+#include "kiri_sheet.h"
+#include "kiri_piece.h"
+#include "kiri_seen.h"
 
 KIRI_C_BEGIN
+
+/* Each point x of the sheet goes to R x + t, with its velocity and history, and with its holds. The arrays that the
+   host may hold go to `retired`, and others are written. False for memory: nothing has changed. */
+bool kiriCarry_Sheet(kiriSheetData* sheet, const kiriMat3* R, kiriVec3 t, kiriMemory* retired);
+
+/* The same for where a pin holds it. */
+void kiriCarry_Pin(kiriSheetData* sheet, int32_t index, const kiriMat3* R, kiriVec3 t);
+
+/* The origin of the world goes to another place, and nothing else changes. Before it kiriCarry_Renew: arrays that the
+   host may hold go to `retired`; until positions are written the new ones have none. False for memory: nothing has
+   changed. */
+bool kiriCarry_Renew(kiriSheetData* sheet, kiriMemory* retired);
+void kiriCarry_Shift(kiriSheetData* sheet, kiriVec3 origin);
+
+/* Would frames still fit floats, see kiriFrame_FitsFloats? */
+bool kiriCarry_FitsSheet(const kiriSheetData* sheet, const kiriMat3* R, kiriVec3 t);
+
+/* The frames of a piece, or of all (KIRI_NONE), move as one rigid body: `spin` about their centre of mass. False, and
+   changes nothing, where frames would not fit floats. */
+bool kiriCarry_SetVelocity(kiriSheetData* sheet, int32_t piece, kiriVec3 velocity, kiriVec3 spin);
+
+/* Pins: points and lines of the material that the host holds. */
 
 /* Adds a pin and all the room that it needs. A point is held by `frame`; a line by the frames of sheet->lineShares.
    False for memory. */
@@ -25,7 +49,7 @@ void kiriPins_WriteLinkParts(kiriSheetData* sheet);
 /* After the commit: reactions on a frame that was held before go on with their history. */
 void kiriPins_KeepReactions(kiriSheetData* sheet, const kiriPinShares* old);
 
-/* After the commit, where links keep their strains (kiri_strain_offset.h): clamps go on with the strains that they had
+/* After the commit, where links keep their strains (kiri_strain.h): clamps go on with the strains that they had
    when frames were as before it and shares were `old`; on a frame that they did not hold they begin without any. */
 void kiriPins_KeepStrains(kiriSheetData* sheet, const kiriPinShares* old);
 
@@ -57,6 +81,43 @@ void kiriPins_SumShares(kiriSheetData* sheet);
 
 /* Where the motion could not be continued: pins and holds had nothing to bear. */
 void kiriPins_ClearReactions(kiriSheetData* sheet);
+
+/* Where pins and held frames hold the sheet in the steps of a tick.
+
+   What the host moves goes on evenly: each step takes its part of the way.
+
+   What is seen is what is held: a smooth surface (KIRI_SKINNING_SMOOTH) lies off where a frame by itself has a point. A
+   pin holds that point of its frame, so its target is moved by as much as the frame's own point is off what was seen
+   last; so is a held frame. A clamp's own point is its line: its pose is moved by what is seen off the line, more and
+   more until the mean along the line is zero. All that it holds of a piece is moved as one: a line that bends would
+   curl the sheet. That takes some ticks; when it changes no more the sheet may sleep. Hinges turn freely, so the
+   surface does not bend at them, and is seen on the line anyway.
+
+   An obstacle with mass yields to a pin. Its host will give it the impulses of the whole tick at once, before it moves
+   it: so it does here. With W the velocity that an impulse gives the target, and J what the pin has given so far in the
+   tick, the target is t W J away at the time t of the tick, and the force F of a step of h moves it by t h W F. */
+
+/* At the start of a tick of dt. */
+void kiriFollow_Begin(kiriSheetData* sheet, double dt);
+
+/* Before step i of n, of h seconds. */
+void kiriFollow_Step(kiriSheetData* sheet, int32_t i, int32_t n, double h);
+
+/* Loads of the host on the material, for the next tick: they add to the forces of frames. */
+
+/* A force (N) on a point of the material that the frame holds, and a torque (N m). */
+void kiriLoad_AtPoint(kiriSheetData* sheet, int32_t frame, kiriVec2 at, kiriVec3 force, kiriVec3 torque);
+
+/* A force along a line (N/m of the rest line) on what of it is in sheet->lineShares. */
+void kiriLoad_AlongLine(kiriSheetData* sheet, kiriLatticePoint from, kiriLatticePoint to, kiriVec3 perLength);
+
+/* A pressure (Pa) on the side that the normal leaves: it pushes along the normal of each frame as it is now. */
+void kiriLoad_OnSurface(kiriSheetData* sheet, double pressure);
+
+/* An impulse (N s) on a point as it is seen, at once: each frame that carries the point gets its share. The sheet gets
+   the impulse, and its moment about where the point is seen. False, and changes nothing, where frames would not fit
+   floats. */
+bool kiriLoad_Impulse(kiriSheetData* sheet, const kiriPointPlace* place, kiriVec3 impulse);
 
 KIRI_C_END
 

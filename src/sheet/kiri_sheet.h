@@ -1,20 +1,65 @@
-/* The data of a sheet. Grid, regions and shape functions follow the mesh in place, for as many ticks as their budget
-   asks. What moves the sheet is in force: frames, links, weights as they were when the work was last complete. New ones
-   are staged beside them in kiriUpdate, and one commit puts them in force. */
+/* The indices that the vertices of a sheet had when the last tick began, in its mesh or the mesh of another sheet: for
+   hosts that draw between two ticks. No tick depends on it. It costs nothing where no vertex gets another index. */
 #ifndef KIRI_SHEET_H
 #define KIRI_SHEET_H
 
-#include "../field/kiri_place.h"
+#include "../mesh/kiri_mesh.h"
+#include "../field/kiri_site.h"
 #include "../mesh/kiri_cut.h"
-#include "../mesh/kiri_line.h"
-#include "../motion/kiri_integration.h"
+#include "../motion/kiri_element.h"
 #include "../core/kiri_pool.h"
 #include "../motion/kiri_refit.h"
 #include "../motion/kiri_solver.h"
 #include "../view/kiri_bounds.h"
-#include "kiri_past.h"
 
 KIRI_C_BEGIN
+
+typedef struct kiriPast {
+    int64_t tick;    /* the number of that tick: else it is out of date, and no vertex has got another index since */
+    kiriSheet sheet; /* that had the vertices; 0: this one */
+    int32_t same;    /* vertices before this one have the index that they had */
+    const int32_t* others; /* of the vertices from there on */
+    int32_t count;         /* of these; vertices beyond were not there */
+} kiriPast;
+
+/* No vertex was there. */
+static inline kiriPast kiriPast_None(int64_t tick)
+{
+    return (kiriPast){ tick, 0, 0, NULL, 0 };
+}
+
+/* Returns the past as of a tick: without changes if the stored one is older. */
+static inline kiriPast kiriPast_At(const kiriPast* past, int64_t tick)
+{
+    return past->tick == tick ? *past : (kiriPast){ tick, 0, INT32_MAX, NULL, 0 };
+}
+
+/* The index that a vertex had, or KIRI_NONE. */
+static inline int32_t kiriPast_IndexOf(const kiriPast* past, int32_t vertex)
+{
+    if (vertex < past->same) {
+        return vertex;
+    }
+    return vertex - past->same < past->count ? past->others[vertex - past->same] : KIRI_NONE;
+}
+
+/* These make the past of a mesh that changes. False for memory. */
+
+/* A tick adds vertices, from `first` on. One that is torn off another gets the index of that one. `room` holds the
+   indices until the next tick; its memory is used again. */
+bool kiriPast_Grow(kiriPast* past, int64_t tick, kiriIndices* room, kiriMemory* memory, const kiriMeshData* mesh,
+                   int32_t first);
+
+/* Some vertices are kept, of a mesh whose past is up to date. The indices are a block of `memory`. */
+bool kiriPast_Keep(kiriPast* to, const kiriPast* past, kiriMemory* memory, const kiriKeep* vertices);
+
+/* These vertices become a part of the sheet. */
+bool kiriPast_Part(kiriPast* to, const kiriPast* past, kiriMemory* memory, kiriSheet sheet, const int32_t* vertices,
+                   int32_t count);
+
+/* The data of a sheet. Grid, regions and shape functions follow the mesh in place, for as many ticks as their budget
+   asks. What moves the sheet is in force: frames, links, weights as they were when the work was last complete. New ones
+   are staged beside them in kiriUpdate, and one commit puts them in force. */
 
 /* s: a piece that is slower than sleepSpeed for so long falls asleep, and what goes no farther meanwhile does not wake
    it. */
@@ -25,7 +70,7 @@ typedef struct kiriRest {
     double calm;    /* s for which it has been slower than sleepSpeed */
     bool asleep;    /* it was not moved by the last tick, and rests */
     bool isStirred; /* in the tick at hand something that moves comes near, or a cut changes it: it shall wake */
-    bool waits;     /* in the tick at hand the budget has no systems left for it, see kiri_piece_turn.h */
+    bool waits;     /* in the tick at hand the budget has no systems left for it, see kiri_piece.h */
     bool isFading;  /* scratch: some of it is seen elsewhere; */
     bool isCalm;    /* scratch: it was slower than sleepSpeed in this tick */
 } kiriRest;
@@ -38,7 +83,7 @@ typedef struct kiriPiece {
     bool isGone;    /* the host has destroyed it: it is not seen, and goes when the work at hand is done */
     bool isTouched; /* its frames, links or samples are not those of its origin */
     int32_t island; /* scratch: of pieces that touch, see kiri_pair.c */
-    int32_t work;   /* scratch: its part of a linear system, see kiri_piece_turn.c */
+    int32_t work;   /* scratch: its part of a linear system, see kiri_piece.c */
     kiriRest rest;
 } kiriPiece;
 
@@ -56,9 +101,9 @@ typedef struct kiriLineShare {
 typedef struct kiriPinShare {
     int32_t pin; /* its index */
     kiriLineShare share;
-    double offset[KIRI_CLAMP_STRAINS]; /* of a clamp's strains, see kiri_strain_offset.h */
+    double offset[KIRI_CLAMP_STRAINS]; /* of a clamp's strains, see kiri_strain.h */
     kiriReaction reactions[2];         /* of a clamp one, of a hinge those of its two springs */
-    kiriVec3 off;                      /* m, of a clamp: see kiri_follow.h */
+    kiriVec3 off;                      /* m, of a clamp: see kiri_pin.h */
     kiriWrench bore;                   /* its part of the pin's */
 } kiriPinShare;
 
@@ -120,7 +165,7 @@ typedef struct kiriPinAnchor {
     double softness;       /* m/N: and by how much a force moves it in the step at hand */
 } kiriPinAnchor;
 
-/* The vertices by which the sheet feels others, see kiri_probe.h. */
+/* The vertices by which the sheet feels others, see kiri_touch.h. */
 typedef struct kiriProbes {
     bool isFresh;                    /* neither mesh nor pieces have changed since */
     bool areGrouped;                 /* do the bounds know the pieces, unless they were made anew? */
@@ -133,7 +178,7 @@ typedef struct kiriProbes {
     kiriPieceRow list;               /* the probes, by piece */
     KIRI_ARRAY(kiriVec3) velocities; /* of probes, in the order of the list */
     KIRI_ARRAY(kiriBox) boxes;       /* of pieces, as they are seen */
-    KIRI_ARRAY(int32_t) touch;       /* of each vertex: what it touches in the tick at hand, for kiri_pair_touch.c */
+    KIRI_ARRAY(int32_t) touch;       /* of each vertex: what it touches in the tick at hand, for kiri_pair.c */
     KIRI_ARRAY(double) speeds;       /* m/s, of each piece: of its fastest probe */
 } kiriProbes;
 
@@ -148,20 +193,20 @@ typedef struct kiriPinData {
     kiriMat3 lastRotation;
     double breakForce;     /* N; 0: never */
     kiriPinAnchor anchor;  /* of a point */
-    kiriVec3 off;          /* m, of a point: see kiri_follow.h; */
+    kiriVec3 off;          /* m, of a point: see kiri_pin.h; */
     kiriFrame offFrame;    /* of the frame that held it then */
     double stiffness;      /* of a point */
     kiriReaction reaction; /* of a point */
     kiriWrench bore;       /* about the target: mean of the last tick that moved the sheet */
 } kiriPinData;
 
-/* Maps for taking pieces out, see kiri_gather.h: they keep nothing, but while that is done. */
+/* Maps for taking pieces out, see kiri_detach.h: they keep nothing, but while that is done. */
 typedef struct kiriTaking {
     kiriKeep vertices, triangles;
     KIRI_ARRAY(uint8_t) cells;
 } kiriTaking;
 
-/* The sheet of a piece that waits to leave, as far as it is made before that: a cache, see kiri_ahead.h. */
+/* The sheet of a piece that waits to leave, as far as it is made before that: a cache, see kiri_piece.h. */
 typedef struct kiriAhead {
     kiriFrame frame; /* names the piece; 0: none */
     int32_t piece;
@@ -229,7 +274,7 @@ typedef struct kiriSheetRest {
     bool isIdle; /* they sleep, and no tick has anything to do for it until one wakes, or it gets a cut or contacts */
 } kiriSheetRest;
 
-/* See kiri_piece_turn.h. */
+/* See kiri_piece.h. */
 typedef struct kiriPieceTurns {
     int32_t next;    /* a frame of the piece that is moved first */
     int32_t waiting; /* pieces that wait in the tick at hand */
@@ -305,12 +350,12 @@ typedef struct kiriGivenContact {
     double share[3];
 } kiriGivenContact;
 
-/* Two bits for each frame, by its label, see kiri_blocks.c. */
+/* Two bits for each frame, by its label, see kiri_seen.c. */
 typedef struct kiriFrameMask {
     uint64_t bits[4];
 } kiriFrameMask;
 
-/* Of each block of vertices, see kiri_blocks.h. */
+/* Of each block of vertices, see kiri_seen.h. */
 typedef struct kiriBlocks {
     KIRI_ARRAY(uint8_t) touched;      /* some have other weights, or fade */
     KIRI_ARRAY(uint8_t) stale;        /* triangles around them are others, so are their normals */
@@ -471,6 +516,29 @@ static inline double kiriSheet_Extent(const kiriSheetData* sheet)
 
 /* The lattice point of a rest position; false where it is too far out to have one. */
 bool kiriSheet_ToLattice(const kiriSheetData* sheet, const float rest[2], kiriLatticePoint* at);
+
+/* Settings of a sheet that its host may change while it lives. */
+
+/* What the def says of them. */
+kiriSheetSettings kiriSettings_Of(const kiriSheetDef* def);
+
+/* Takes them over, checked; `square` is the side of a grid square, m. What only the def says is there already. */
+void kiriSettings_Take(kiriSettings* settings, const kiriSheetSettings* given, double square);
+
+/* Hands the settings to the parts of a new sheet that keep their own. */
+void kiriSettings_Apply(kiriSheetData* sheet);
+
+/* Takes over others in a sheet that lives, with all that follows. False for memory: then nothing has changed. */
+bool kiriSettings_Change(kiriSheetData* sheet, const kiriSheetSettings* given);
+
+/* A sheet from its def. */
+
+/* Builds a new sheet from a def that has been checked. On failure the fault says why, or ""
+   where the result says it all, and the sheet is to be deleted. Ids of sheet and frames are given by the world. */
+kiriResult kiriBuild_FromDef(kiriSheetData* sheet, const kiriSheetDef* def, kiriFault* fault);
+
+/* Puts the first layout of a sheet in force, when all stages are done. False for memory. */
+bool kiriBuild_Commit(kiriSheetData* sheet);
 
 KIRI_C_END
 

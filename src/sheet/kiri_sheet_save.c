@@ -1,12 +1,11 @@
 #include "kiri_sheet_save.h"
 
 #include "../field/kiri_field_save.h"
-#include "../mesh/kiri_mesh_save.h"
-#include "../motion/kiri_motion_save.h"
+#include "../mesh/kiri_mesh_check.h"
+#include "../motion/kiri_motion_check.h"
 #include "../view/kiri_view_check.h"
-#include "../view/kiri_view_save.h"
-#include "kiri_probe.h"
-#include "kiri_room.h"
+#include "kiri_touch.h"
+#include "kiri_update.h"
 #include "kiri_seen.h"
 
 #include <string.h>

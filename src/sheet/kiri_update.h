@@ -1,11 +1,12 @@
 /* The work that cuts set off in a sheet, as far as it has come. It takes all points that wait when it begins, whatever
    ticks they were given before. Mesh, grid, regions and weights do not depend on where one update ends and the next
    begins. Sites of frames would: so sites are added only where the points decide it, see settlesSites. Each stage owns
-   its part; kiri_pipeline.h runs them. */
+   its part; kiri_update.h runs them. */
 #ifndef KIRI_UPDATE_H
 #define KIRI_UPDATE_H
 
 #include "kiri_sheet.h"
+#include "../core/kiri_archive.h"
 
 KIRI_C_BEGIN
 
@@ -20,7 +21,7 @@ typedef struct kiriCutWork {
     bool settlesSites;
 } kiriCutWork;
 
-/* Sites of frames, and whatever else is placed piece by piece; kiri_site.c. */
+/* Sites of frames, and whatever else is placed piece by piece; kiri_sheet_site.c. */
 typedef struct kiriPlacingWork {
     kiriSites sites; /* of the frames that are there, then of new ones */
     KIRI_ARRAY(kiriSiteMove) moves;
@@ -102,6 +103,102 @@ static inline bool kiriUpdate_IsFieldCurrent(const kiriUpdate* update)
     bool isUntouched = update->stage == KIRI_NONE || (update->stage == KIRI_STAGE_CUT && !update->cut.meshChanged);
     return isUntouched && !update->needsRebuild;
 }
+
+/* Room for what a cut makes: arrays as large as the sheet grow before it, over several ticks where the budget says
+   so. */
+
+/* Before points of an update are taken: room for what they may make. More than was guessed gets room when arrays are
+   full, all at one go: so whoever goes on in a new tick asks whether room is low. */
+bool kiriRoom_IsLow(kiriSheetData* sheet, const kiriQuota* triangles);
+kiriProgress kiriRoom_ForCut(kiriSheetData* sheet, kiriQuota* triangles);
+
+/* Before samples are weighed, of which the squares are known. */
+kiriProgress kiriRoom_ForWeights(kiriSheetData* sheet, kiriQuota* samples);
+
+/* Where squares have more samples than an even mesh has: room for those that the quota leaves for this tick. */
+kiriProgress kiriRoom_ForMoreWeights(kiriSheetData* sheet, kiriQuota* samples);
+
+/* The array that is growing, as bytes, after all else of the sheet. */
+void kiriRoom_ArchiveGrowing(kiriArchive* archive, kiriSheetData* sheet);
+
+/* The stages of the work on a cut, in their order, and what its commit does. Each stage goes on where the quota of the
+   last tick ended, and costs what the cut touched. KIRI_FAILED is for memory. kiri_update.h runs them. */
+
+kiriProgress kiriStage_SplitMesh(kiriSheetData* sheet, kiriQuota* triangles);
+kiriProgress kiriStage_Grid(kiriSheetData* sheet, kiriQuota* cells);
+kiriProgress kiriStage_Regions(kiriSheetData* sheet, kiriQuota* cells);
+kiriProgress kiriStage_Shape(kiriSheetData* sheet, kiriQuota* cells);
+kiriProgress kiriStage_Samples(kiriSheetData* sheet, kiriQuota* samples);
+kiriProgress kiriStage_Constants(kiriSheetData* sheet, kiriQuota* samples);
+
+/* After a commit, in later ticks and before samples are weighed again: see kiriSkin_Settle. */
+kiriProgress kiriStage_Settle(kiriSheetData* sheet, kiriQuota* samples);
+
+/* A stage in steps: goes on with sheet->update->step, which starts with 0. */
+typedef kiriProgress kiriStageStep(kiriSheetData* sheet, kiriQuota* quota);
+kiriProgress kiriStage_RunSteps(kiriSheetData* sheet, kiriQuota* quota, kiriStageStep* const* steps, int32_t count);
+
+/* Of a sheet that is made: the first step of the constants, which depends on the mesh alone. */
+kiriProgress kiriStage_Owners(kiriSheetData* sheet, kiriQuota* samples);
+
+/* Stages the solver for so many frames, with the links and the layout that are staged. False for memory. */
+bool kiriStage_Solver(kiriSheetData* sheet, int32_t frameCount);
+
+/* What this tick did to the mesh becomes final. Never fails. */
+void kiriStage_CommitMesh(kiriSheetData* sheet);
+
+/* After the last stage: what is staged comes in force. New frames take their motion from the surface as it was (section
+   5 of the paper). Never fails. */
+void kiriStage_Commit(kiriSheetData* sheet);
+
+/* Forgets what is staged. */
+void kiriStage_Drop(kiriSheetData* sheet);
+
+/* The one table of stages: a tick, a new sheet and the part of a sheet all run it. */
+
+enum { KIRI_QUOTA_TRIANGLES, KIRI_QUOTA_CELLS, KIRI_QUOTA_SAMPLES, KIRI_QUOTA_ITERATIONS, KIRI_QUOTA_COUNT };
+
+/* What is left of the budget in this tick. */
+typedef struct kiriQuotas {
+    kiriQuota of[KIRI_QUOTA_COUNT];
+    int64_t limits[KIRI_QUOTA_COUNT]; /* what a tick has; INT64_MAX: no limit */
+} kiriQuotas;
+
+/* 0: no limit. */
+kiriQuotas kiriQuotas_Of(const kiriBudget* budget);
+kiriQuotas kiriQuotas_Unlimited(void);
+
+/* What has been spent of one kind of work on cuts leaves as much less of the other two: so a tick takes as long as the
+   costliest of the three does alone. */
+void kiriQuotas_Share(kiriQuotas* quotas, int spent);
+
+/* Is told which stage begins, for the profile. */
+typedef struct kiriWatch {
+    void (*enter)(void* context, int32_t stage);
+    void* context;
+} kiriWatch;
+
+/* For a sheet that has its mesh, and nothing else: runs the stages from the grid up to the stage `end`, without a
+   limit. Again for the next ones. False for memory. */
+bool kiriPipeline_Make(kiriSheetData* sheet, int32_t end);
+
+/* The same as far as the quotas go. KIRI_MORE: again with new ones. */
+kiriProgress kiriPipeline_MakeSome(kiriSheetData* sheet, int32_t end, kiriQuotas* quotas);
+
+/* At the start of a tick: begins an update with all pending points, unless one is under way. */
+void kiriPipeline_Start(kiriSheetData* sheet);
+
+/* Has the stage at hand a quota with something left? */
+bool kiriPipeline_CanRun(const kiriSheetData* sheet, const kiriQuotas* quotas);
+
+/* Carries the work at hand on as far as the quotas go. KIRI_DONE: it is ready to commit. KIRI_FAILED: abort it. */
+kiriProgress kiriPipeline_Run(kiriSheetData* sheet, kiriQuotas* quotas, const kiriWatch* watch);
+
+/* After a commit, or when the points changed nothing: they leave the queue. */
+void kiriPipeline_Finish(kiriSheetData* sheet);
+
+/* Takes back what this tick has done, as far as anyone can see. Grid, regions and shape are made from scratch then. */
+void kiriPipeline_Abort(kiriSheetData* sheet);
 
 KIRI_C_END
 

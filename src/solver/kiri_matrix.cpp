@@ -8,7 +8,6 @@
 #include "kiri_product.h"
 extern "C" {
 #include "../core/kiri_archive.h"
-#include "../core/kiri_hash.h"
 }
 
 /* A host may use Eigen with other options: its instances of Eigen's inline functions must not replace ours. */

@@ -1,6 +1,6 @@
 #include "kiri_section.h"
 
-#include "../core/kiri_sort.h"
+#include "../core/kiri_array.h"
 
 /* ---- Windows ---- */
 

@@ -4,6 +4,7 @@
 
 #include "../core/kiri_check.h"
 #include "kiri_surface.h"
+#include "../core/kiri_archive.h"
 
 KIRI_C_BEGIN
 
@@ -13,6 +14,11 @@ bool kiriFades_Check(const kiriFades* fades, kiriCheck* check, int32_t samples);
 bool kiriSurface_HasRoom(const kiriSurface* surface);
 bool kiriSurface_Check(const kiriSurface* surface, const kiriLabels* labels, const kiriMeshData* mesh,
                        kiriCheck* check);
+
+/* Weights of samples and the surface as bytes: see core/kiri_archive.h. */
+
+extern const kiriTable kiriSkinTable, kiriPlacesTable, kiriRefreshTable, kiriFadesTable;
+extern const kiriTable kiriStillSurfaceTable, kiriLiveSurfaceTable, kiriRestSurfaceTable;
 
 KIRI_C_END
 

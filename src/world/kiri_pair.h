@@ -41,6 +41,31 @@ void kiriPairs_JoinCalm(kiriWorld* world);
 /* Pairs that are in force and do not sleep. */
 int32_t kiriPairs_CountAwake(const kiriWorld* world);
 
+/* Shared by the files of pairs: kiri_pair.c (which pieces are near each other), kiri_pair.c (where they touch),
+   kiri_pair.c (loads) and kiri_pair.c (energy and calm of pieces that touch). No other file of the library
+   includes it. */
+
+static inline bool kiriPair_TakesPart(const kiriSheetData* sheet)
+{
+    return sheet->settings.touchesSheets && !sheet->settings.mechanics.planar;
+}
+
+/* The piece of a body, where it is there still; else null. */
+kiriPiece* kiriPair_PieceOf(const kiriWorld* world, kiriFrame id);
+
+/* m: so far apart two bodies stay. */
+double kiriPair_Distance(const kiriBody* a, const kiriBody* b);
+
+/* m/s: of the place that is near a probe. */
+kiriVec3 kiriNear_PlaceVelocity(const kiriPairs* pairs, const kiriNear* near);
+
+/* From what is near: where the pairs that come in force next touch. False for memory. */
+bool kiriPairs_FindTouches(kiriWorld* world, double dt);
+
+/* Makes room for the islands of the current tick. Call it when all sheets that may be active are listed. False for
+   memory. */
+bool kiriPairs_ReserveIslands(kiriWorld* world);
+
 KIRI_C_END
 
 #endif

@@ -1,8 +1,10 @@
-#include "kiri_part_work.h"
-
-#include "../sheet/kiri_ahead.h"
+#include "kiri_part.h"
+#include "../sheet/kiri_piece.h"
 #include "../sheet/kiri_seen.h"
 #include "../sheet/kiri_update.h"
+#include "../sheet/kiri_motion.h"
+#include "../sheet/kiri_pin.h"
+#include "../sheet/kiri_touch.h"
 
 #include <string.h>
 
@@ -342,6 +344,273 @@ kiriResult kiriParts_Detach(kiriWorld* world, const kiriFrame* frames, int32_t c
     for (int32_t i = 0; result >= 0 && i < count; ++i) {
         const kiriSheetData* sheet = kiriPool_Find(&world->frameIds, frames[i])->owner;
         ids[i] = IsSource(&parting, sheet) ? 0 : sheet->id; /* else the frame would have left it */
+    }
+    kiriParting_End(&parting);
+    return result;
+}
+
+/* Pieces that wait: for the end of the work on a cut, or until the budget has paid for them. */
+
+/* Those that are destroyed meanwhile become nothing; others were detached by a call while the budget was awaited. */
+static void ForgetStaleLeaving(kiriWorld* world, kiriSheetData* sheet)
+{
+    int32_t kept = 0;
+    for (int32_t k = 0; k < sheet->leaving.count; ++k) {
+        kiriFrame frame = sheet->leaving.data[k];
+        const kiriSlot* slot = kiriPool_Find(&world->frameIds, frame);
+        if (slot != NULL && slot->owner == sheet) {
+            sheet->leaving.data[kept++] = frame;
+        }
+    }
+    sheet->leaving.count = kept;
+}
+
+bool kiriParts_AreDue(const kiriSheetData* sheet)
+{
+    return !kiriPart_IsBusy(sheet) && (sheet->leaving.count > 0 || kiriPieces_AnyGone(sheet));
+}
+
+static int32_t CountFrames(const kiriSheetData* sheet, int32_t piece)
+{
+    int32_t count = 0;
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        count += sheet->layout.framePiece.data[i] == piece;
+    }
+    return count;
+}
+
+/* Samples for the pieces that are gone, and for the first `count` pieces that leave. The first of these is made ahead,
+   which takes more work than making it at once. */
+static int64_t CostOfLeaving(const kiriWorld* world, const kiriSheetData* sheet, int32_t count)
+{
+    const kiriPiece* pieces = sheet->layout.pieces.data;
+    double whole = 0.0, gone = 0.0, share = 0.0;
+    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+        whole += pieces[p].area;
+    }
+    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+        gone += pieces[p].isGone ? pieces[p].area / whole : 0.0;
+    }
+    int32_t first = count > 0 ? kiriPart_PieceOfFrame(world, sheet->leaving.data[0]) : KIRI_NONE;
+    double ahead = first != KIRI_NONE ? pieces[first].area / whole : 0.0;
+    for (int32_t k = 1; k < count; ++k) {
+        share += pieces[kiriPart_PieceOfFrame(world, sheet->leaving.data[k])].area / whole;
+    }
+    double samples = kiriRemoval_Samples(sheet, gone + ahead + share) + kiriExtraction_Samples(sheet, share);
+    return (int64_t)(samples +
+                     (first != KIRI_NONE ? kiriExtraction_SamplesAhead(sheet, ahead, CountFrames(sheet, first)) : 0.0));
+}
+
+/* Number of leaving pieces that these samples pay for, with all that are gone. KIRI_NONE: less than the first. */
+static int32_t CountWithin(const kiriWorld* world, const kiriSheetData* sheet, int64_t samples)
+{
+    int32_t least = sheet->leaving.count > 0, end;
+    if (CostOfLeaving(world, sheet, least) > samples) {
+        return KIRI_NONE;
+    }
+    KIRI_SEARCH(end, least + 1, sheet->leaving.count + 1, CostOfLeaving(world, sheet, middle) <= samples);
+    return end - 1;
+}
+
+void kiriParts_Pay(kiriWorld* world, kiriSheetData* sheet, kiriQuota* samples)
+{
+    if (!kiriParts_AreDue(sheet)) {
+        return;
+    }
+    ForgetStaleLeaving(world, sheet);
+    int64_t paid = sheet->leavingPaid;
+    int32_t count = CountWithin(world, sheet, samples->left < INT64_MAX - paid ? paid + samples->left : INT64_MAX);
+    int64_t cost = CostOfLeaving(world, sheet, count != KIRI_NONE ? count : sheet->leaving.count > 0);
+    int64_t due = cost > paid ? cost - paid : 0;
+    (void)kiriQuota_Pay(samples, &due);
+    sheet->leavingPaid = kiriMax(cost - due, paid);
+}
+
+static kiriResult Part(kiriWorld* world, kiriSheetData* sheet, int32_t count)
+{
+    kiriParting parting;
+    kiriResult result = KIRI_ERROR_MEMORY;
+    bool hasRoom = kiriParting_Start(&parting, world, 1) &&
+                   kiriArray_Reserve(&world->memory, &world->events, (int64_t)world->events.count + count);
+    parting.isInTick = true;
+    if (hasRoom && kiriParting_SourceFor(&parting, sheet) != NULL &&
+        kiriParting_MarkPieces(&parting, sheet->leaving.data, count)) {
+        result = kiriParting_Detach(&parting);
+    }
+    kiriParting_End(&parting);
+    return result;
+}
+
+static void TellMade(kiriWorld* world, kiriSheetData* sheet, int32_t count)
+{
+    for (int32_t k = 0; k < count; ++k) {
+        const kiriSheetData* part = kiriPool_Find(&world->frameIds, sheet->leaving.data[k])->owner;
+        kiriEvent* event = kiriWorld_AddEvent(world, KIRI_EVENT_PIECE_DETACHED, part);
+        event->frame = sheet->leaving.data[k];
+        event->area = (float)part->layout.pieces.data[0].area;
+        world->newEvents += 1;
+    }
+    for (int32_t k = count; k < sheet->leaving.count; ++k) {
+        sheet->leaving.data[k - count] = sheet->leaving.data[k];
+    }
+    sheet->leaving.count -= count;
+    sheet->leavingPaid = 0;
+}
+
+kiriResult kiriParts_Leave(kiriWorld* world, kiriSheetData* sheet)
+{
+    if (!kiriParts_AreDue(sheet)) {
+        return KIRI_OK;
+    }
+    ForgetStaleLeaving(world, sheet);
+    int32_t count = CountWithin(world, sheet, sheet->leavingPaid);
+    if (count == KIRI_NONE) {
+        bool ok = sheet->leaving.count == 0 ||
+                  kiriAhead_GoOn(sheet, sheet->leaving.data[0], &world->memory, sheet->leavingPaid);
+        return ok ? KIRI_OK : KIRI_ERROR_MEMORY;
+    }
+    kiriResult result = Part(world, sheet, count);
+    if (result == KIRI_OK) {
+        TellMade(world, sheet, count);
+    }
+    return result;
+}
+
+/* Pieces that are taken away. */
+
+static void ForgetIds(kiriWorld* world, const kiriRemoval* removal)
+{
+    kiriSheetData* sheet = removal->sheet;
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        if (!removal->kept.pieces.data[sheet->layout.framePiece.data[i]]) {
+            kiriPool_Remove(&world->frameIds, sheet->frames.data[i].id);
+            sheet->frames.data[i].id = 0;
+        }
+    }
+}
+
+/* Those that hold nothing of what is left. The last one takes the place of each. */
+static void RemovePins(kiriWorld* world, const kiriRemoval* removal)
+{
+    kiriSheetData* sheet = removal->sheet;
+    for (int32_t i = sheet->pins.count - 1; i >= 0; --i) {
+        if (kiriKept_FrameOfPin(&removal->kept, i) == KIRI_NONE) {
+            kiriPool_Remove(&world->pinIds, sheet->pins.data[i].id);
+            kiriPins_Remove(sheet, i);
+        }
+    }
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        kiriPool_Find(&world->pinIds, sheet->pins.data[i].id)->index = i;
+    }
+}
+
+/* Nobody sees or touches the pieces any more, until they can be taken away. */
+static void MarkRemoved(kiriWorld* world, const kiriRemoval* removal)
+{
+    kiriSheetData* sheet = removal->sheet;
+    ForgetIds(world, removal);
+    RemovePins(world, removal);
+    for (int32_t p = 0; p < removal->kept.pieces.count; ++p) {
+        sheet->layout.pieces.data[p].isGone = !removal->kept.pieces.data[p];
+    }
+    kiriTouches_Sort(sheet); /* nothing that is gone pushes */
+    kiriMotion_SumRest(sheet);
+    kiriView_HideGone(sheet);
+}
+
+static void ForgetPins(kiriWorld* world, const kiriRemoval* removal)
+{
+    for (int32_t i = 0; i < removal->sheet->pins.count; ++i) {
+        if (!kiriKeep_Has(&removal->kept.pins, i)) {
+            kiriPool_Remove(&world->pinIds, removal->sheet->pins.data[i].id);
+        }
+    }
+}
+
+/* The host may hold the indices. */
+static bool RenewIndices(kiriParting* parting)
+{
+    bool ok = true;
+    for (int32_t k = 0; ok && k < parting->sourceCount; ++k) {
+        kiriSheetData* sheet = parting->sources[k].removal.sheet;
+        ok = !parting->sources[k].waits || kiriSurface_RenewIndices(&sheet->seen.surface, &sheet->shown,
+                                                                    &parting->world->retired, parting->world->ticks);
+    }
+    return ok;
+}
+
+static kiriResult Destroy(kiriParting* parting)
+{
+    kiriParting_ChooseWhatWaits(parting, false);
+    if (!kiriParting_Gather(parting, false) || !kiriParting_Stage(parting) || !RenewIndices(parting)) {
+        return KIRI_ERROR_MEMORY;
+    }
+    for (int32_t k = 0; k < parting->sourceCount; ++k) {
+        const kiriRemoval* removal = &parting->sources[k].removal;
+        if (parting->sources[k].waits) {
+            MarkRemoved(parting->world, removal);
+        } else {
+            ForgetIds(parting->world, removal);
+            ForgetPins(parting->world, removal);
+        }
+    }
+    kiriParting_Commit(parting);
+    kiriParting_Charge(parting);
+    return kiriParting_Result(parting);
+}
+
+kiriResult kiriParts_Destroy(kiriWorld* world, const kiriFrame* frames, int32_t count)
+{
+    kiriParting parting;
+    kiriResult result = KIRI_ERROR_MEMORY;
+    if (kiriParting_Start(&parting, world, kiriMin(count, world->sheets.count)) &&
+        kiriParting_MarkPieces(&parting, frames, count)) {
+        result = kiriParting_LeavesSome(&parting) ? Destroy(&parting) : KIRI_ERROR_STATE;
+    }
+    kiriParting_End(&parting);
+    return result;
+}
+
+/* ---- Crumbs ---- */
+
+/* The largest of the pieces that are kept; or of those of them that do not wait to become a sheet. */
+static int32_t LargestKept(const kiriWorld* world, const kiriKept* kept, bool isToStay)
+{
+    const kiriLayout* layout = &kept->from->layout;
+    int32_t largest = KIRI_NONE;
+    for (int32_t p = 0; p < layout->pieces.count; ++p) {
+        bool isLarger = largest == KIRI_NONE || layout->pieces.data[p].area > layout->pieces.data[largest].area;
+        if (kept->pieces.data[p] && isLarger && !(isToStay && kiriPart_IsLeaving(world, kept->from, p))) {
+            largest = p;
+        }
+    }
+    return largest;
+}
+
+/* Marks what goes, and returns how many pieces these are. */
+static int32_t MarkBelow(const kiriWorld* world, kiriKept* kept, double area)
+{
+    const kiriLayout* layout = &kept->from->layout;
+    int32_t dropped = 0, largest = LargestKept(world, kept, false);
+    int32_t second = kiriPart_IsLeaving(world, kept->from, largest) ? LargestKept(world, kept, true) : largest;
+    for (int32_t p = 0; p < layout->pieces.count; ++p) {
+        bool stays = p == largest || p == second || layout->pieces.data[p].area >= area;
+        dropped += kept->pieces.data[p] && !stays;
+        kept->pieces.data[p] = kept->pieces.data[p] && stays;
+    }
+    return dropped;
+}
+
+kiriResult kiriParts_DropCrumbs(kiriWorld* world, kiriSheetData* sheet, double area, int32_t* count)
+{
+    kiriParting parting;
+    kiriPartSource* source = kiriParting_Start(&parting, world, 1) ? kiriParting_AddSource(&parting, sheet) : NULL;
+    kiriResult result = source != NULL ? KIRI_OK : KIRI_ERROR_MEMORY;
+    *count = 0;
+    if (result == KIRI_OK) {
+        int32_t dropped = MarkBelow(world, &source->removal.kept, area);
+        result = dropped > 0 ? Destroy(&parting) : KIRI_OK;
+        *count = result >= 0 ? dropped : 0;
     }
     kiriParting_End(&parting);
     return result;

@@ -1,6 +1,6 @@
 /* Makes the calls of a recording again. */
 #include "kiri_call.h"
-#include "kiri_state_hash.h"
+#include "kiri_state.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,19 +1,15 @@
 #include "kiri_tick.h"
 
 #include "kiri_part.h"
-#include "../core/kiri_sort.h"
+#include "../core/kiri_array.h"
 #include "../sheet/kiri_motion.h"
 #include "../sheet/kiri_piece.h"
-#include "../sheet/kiri_piece_turn.h"
-#include "../sheet/kiri_pipeline.h"
+#include "../sheet/kiri_update.h"
 #include "../sheet/kiri_seen.h"
-#include "../sheet/kiri_stages.h"
 #include "../sheet/kiri_touch.h"
 #include "kiri_blade.h"
-#include "kiri_move_step.h"
-#include "kiri_obstacle_step.h"
+#include "kiri_move.h"
 #include "kiri_pair.h"
-#include "kiri_skin_step.h"
 
 #include <string.h>
 
@@ -466,7 +462,7 @@ static void ForgetEvents(kiriWorld* world)
     world->newEvents = 0;
 }
 
-/* Algorithm 1 of the paper: the work on cuts (see kiri_pipeline.c for its stages), its commit, the motion of frames,
+/* Algorithm 1 of the paper: the work on cuts (see kiri_update.c for its stages), its commit, the motion of frames,
    and what is seen. */
 kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
 {

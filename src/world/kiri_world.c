@@ -1,6 +1,6 @@
 #include "kiri_world.h"
 
-#include "../sheet/kiri_build.h"
+#include "../sheet/kiri_sheet.h"
 #include "../sheet/kiri_motion.h"
 #include "../sheet/kiri_pin.h"
 #include "../sheet/kiri_seen.h"

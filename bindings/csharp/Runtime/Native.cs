@@ -394,7 +394,7 @@ namespace Kiri
         Count = 9,
     }
 
-    /// <summary>Materials to start from; src/world/kiri_preset.c names the sources of their numbers.</summary>
+    /// <summary>Materials to start from; src/world/kiri_api_world.c names the sources of their numbers.</summary>
     public enum MaterialPreset
     {
         /// <summary>printing paper, 0.11 mm</summary>

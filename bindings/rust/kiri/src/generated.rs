@@ -296,7 +296,7 @@ impl Stage {
     }
 }
 
-/// Materials to start from; src/world/kiri_preset.c names the sources of their numbers.
+/// Materials to start from; src/world/kiri_api_world.c names the sources of their numbers.
 #[non_exhaustive]
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

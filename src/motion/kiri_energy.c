@@ -1,0 +1,487 @@
+#include "kiri_energy.h"
+#include "kiri_solver.h"
+#include "kiri_step.h"
+
+/* ---- The frames after the step ---- */
+
+void kiriSolver_ClearMeans(kiriSolver* solver)
+{
+    KIRI_EACH(i, solver->awake.pieces) {
+        solver->pieces.data[i].mean = kiriVec3_Make(0.0, 0.0, 0.0);
+        solver->pieces.data[i].mass = 0.0;
+    }
+}
+
+/* No inner force moves the centre of mass of a free piece: it is where the prediction ends, however far the iteration
+   came. */
+void kiriSolver_CenterFreePieces(kiriSolver* solver, const kiriSystem* system)
+{
+    kiriSolver_ClearMeans(solver);
+    KIRI_EACH(f, solver->awake.frames) {
+        kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
+        kiriVec3 off = kiriVec3_Sub(solver->predictions.data[f].pose.x, solver->poses.data[f].x);
+        piece->mean = kiriVec3_AddScaled(piece->mean, system->frames[f].mass, off);
+        piece->mass += system->frames[f].mass;
+    }
+    KIRI_EACH(f, solver->awake.frames) {
+        const kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
+        kiriVec3* x = &solver->poses.data[f].x;
+        double squared =
+            kiriVec3_Dot(piece->mean, piece->mean) / (piece->mass * piece->stepping.part * piece->stepping.part);
+        if (piece->isFree && 0.5 * squared > piece->noise) {
+            *x = kiriVec3_AddScaled(*x, 1.0 / piece->mass, piece->mean);
+        }
+    }
+}
+
+static void WriteStepEnd(kiriSolver* solver, const kiriSystem* system)
+{
+    KIRI_EACH(f, solver->awake.frames) {
+        const kiriPrediction* prediction = &solver->predictions.data[f];
+        const kiriStepping* stepping = &kiriSolver_PieceOf(solver, f)->stepping;
+        const kiriFrameData* before = &solver->before.data[f];
+        kiriFrameData* frame = &solver->after.data[f];
+        *frame = *before;
+        frame->x = solver->poses.data[f].x;
+        frame->A = solver->poses.data[f].A;
+        if (frame->held) {
+            kiriStepEnd_Held(prediction, stepping, frame);
+        } else if (kiriMechanics_IsAffine(&system->mechanics)) {
+            kiriStepEnd_Affine(prediction, stepping, before, frame);
+        } else {
+            kiriStepEnd_Rigid(prediction, stepping, before, frame);
+        }
+    }
+}
+
+/* What contacts gave to each piece, about the origin. */
+static void SumContacts(kiriSolver* solver, const kiriSystem* system)
+{
+    for (int32_t k = 0; k < system->contactCount; ++k) {
+        int32_t i = solver->framePiece.data[system->contacts[k].weights[0].frame];
+        kiriVec3 point = kiriContact_Point(solver, system, k, solver->poses.data);
+        kiriVec3 impulse = kiriVec3_Scale(solver->pieces.data[i].stepping.part, kiriContact_Force(solver, system, k));
+        if (system->mechanics.planar) {
+            impulse = kiriMechanics_InPlane(&system->mechanics, impulse);
+        }
+        kiriWrench given = { impulse, kiriVec3_Cross(point, impulse) };
+        kiriWrench_Add(&solver->momenta.data[i].pushed, 1.0, &given);
+    }
+}
+
+static void RestoreMomentum(kiriSolver* solver, const kiriSystem* system)
+{
+    const kiriVec3* normal = system->mechanics.planar ? &system->mechanics.axes.d : NULL;
+    KIRI_EACH(i, solver->awake.pieces) {
+        kiriPieceMomentum start = { .isFree = solver->pieces.data[i].isFree,
+                                    .isPushed = solver->pieces.data[i].isPushed };
+        solver->momenta.data[i] = start;
+    }
+    SumContacts(solver, system);
+    kiriMomentum_Restore(solver->before.data, solver->after.data, &solver->awake, solver->framePiece.data,
+                         solver->momenta.data, &system->material, kiriSystem_Gravity(system), solver->dt, normal);
+}
+
+/* ---- Gains ---- */
+
+static double MeanKinetic(const kiriPieceMomentum* momentum)
+{
+    return 0.5 * momentum->mass * kiriVec3_Dot(momentum->velocityAfter, momentum->velocityAfter);
+}
+
+/* Of a frame after the step, beside what its piece's mean velocity has. */
+static double OwnKinetic(const kiriSolver* solver, const kiriSystem* system, int32_t f)
+{
+    kiriFrameData frame = solver->after.data[f];
+    const kiriPieceMomentum* momentum = &solver->momenta.data[solver->framePiece.data[f]];
+    frame.velocity = kiriVec3_Sub(frame.velocity, momentum->velocityAfter);
+    return kiriFrame_KineticEnergy(&frame, &system->material);
+}
+
+/* J: of a torque over the step. The way that a frame goes is h v+ + p+; so is its turn. */
+static double WorkOfTorque(const kiriSystem* system, kiriVec3 torque, const kiriFrameData* end, double h)
+{
+    kiriVec3 lag = end->history.turnLag.u;
+    if (kiriMechanics_IsAffine(&system->mechanics)) {
+        lag = kiriMat3_Spin(&end->A, &end->history.turnLag);
+    }
+    return kiriVec3_Dot(torque, kiriVec3_AddScaled(lag, h, end->spin));
+}
+
+/* The velocity of the centre of mass of a piece stays that is free, or on which contacts alone act. */
+double kiriPieceStep_MostTaken(const kiriPieceStep* piece)
+{
+    return piece->kinetic + (piece->isFree || piece->isPushed ? 0.0 : piece->moving);
+}
+
+/* By how much kinetic and potential energy grow in the step beyond the work of gravity and of the host's forces; what
+   rounding explains is no gain. A held frame counts as moved before the step. */
+static void SumGains(kiriSolver* solver, const kiriSystem* system)
+{
+    kiriVec3 gravity = kiriSystem_Gravity(system);
+    KIRI_EACH(i, solver->awake.pieces) {
+        kiriPieceStep* piece = &solver->pieces.data[i];
+        const kiriPieceMomentum* momentum = &solver->momenta.data[i];
+        piece->kinetic = 0.0;
+        piece->turning = 0.5 * kiriVec3_Dot(momentum->spin, momentum->angular);
+        piece->moving = MeanKinetic(momentum);
+        piece->gain = -KIRI_ROUNDING * (piece->start.potential + piece->now.potential) - piece->noise +
+                      piece->now.potential - piece->start.potential;
+    }
+    KIRI_EACH(f, solver->awake.frames) {
+        const kiriFrameData *start = &solver->before.data[f], *end = &solver->after.data[f];
+        if (!start->held) {
+            kiriVec3 way = kiriVec3_Sub(end->x, start->x);
+            double before = kiriFrame_KineticEnergy(start, &system->material);
+            double after = kiriFrame_KineticEnergy(end, &system->material);
+            double work = start->mass * kiriVec3_Dot(gravity, way) + kiriVec3_Dot(start->force, way) +
+                          WorkOfTorque(system, start->torque, end, solver->dt) +
+                          (kiriSystem_HasWind(system) ? kiriWind_Work(solver, system, f) : 0.0);
+            kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
+            piece->kinetic += OwnKinetic(solver, system, f);
+            piece->gain += after - before - work - KIRI_ROUNDING * (before + after + fabs(work));
+        }
+    }
+    for (int32_t k = 0; k < system->contactCount; ++k) {
+        kiriSolver_PieceOf(solver, system->contacts[k].weights[0].frame)->gain -= kiriContact_Work(solver, system, k);
+    }
+}
+
+void kiriSolver_FindGains(kiriSolver* solver, const kiriSystem* system)
+{
+    kiriSolver_CenterFreePieces(solver, system);
+    kiriSolver_BalanceContacts(solver, system);
+    WriteStepEnd(solver, system);
+    RestoreMomentum(solver, system);
+    SumGains(solver, system);
+}
+
+/* ---- Limit ---- */
+
+/* The factor that takes an energy out of velocities that have `kinetic`; what they do not have is left in `energy`. */
+static double TakeEnergy(double kinetic, double* energy)
+{
+    double taken = kiriMin(kinetic, *energy);
+    *energy -= taken;
+    return taken < kinetic ? kiriRoot(1.0 - taken / kinetic) : 0.0;
+}
+
+static void ScaleVelocities(const kiriPieceStep* piece, const kiriPieceMomentum* momentum, kiriFrameData* frame)
+{
+    kiriVec3 mean = momentum->velocityAfter, arm = kiriVec3_Sub(frame->x, momentum->centerAfter);
+    kiriVec3 round = kiriVec3_Cross(momentum->spin, arm);
+    kiriVec3 rest = kiriVec3_Sub(kiriVec3_Sub(frame->velocity, mean), round);
+    kiriVec3 spin = kiriVec3_Sub(frame->spin, momentum->spin);
+    frame->velocity = kiriVec3_AddScaled(kiriVec3_Scale(piece->keepMean, mean), piece->keepTurning, round);
+    frame->velocity = kiriVec3_AddScaled(frame->velocity, piece->keepRest, rest);
+    frame->spin = kiriVec3_Scale(piece->keepTurning, momentum->spin);
+    frame->spin = kiriVec3_AddScaled(frame->spin, piece->keepRest, spin);
+    frame->rate = kiriMat3_Scale(piece->keepRest, &frame->rate);
+}
+
+#define TRIALS 8
+#define TOLERABLE 0.05 /* of what a piece has to spend, see kiri_contact_row.c: rounding and rest have less */
+
+/* What neither the velocities beside those of a rigid body nor its turning have. */
+static double Excess(const kiriPieceStep* piece)
+{
+    return piece->gain - piece->kinetic;
+}
+
+static bool IsThrown(const kiriPieceStep* piece)
+{
+    return piece->isPushed && Excess(piece) > (piece->isHeldUp ? 0.0 : TOLERABLE * piece->means);
+}
+
+static void TryPushes(kiriSolver* solver, const kiriSystem* system, int trial)
+{
+    KIRI_EACH(i, solver->awake.pieces) {
+        kiriPieceStep* piece = &solver->pieces.data[i];
+        double part = trial < TRIALS ? (double)(TRIALS - 1 - trial) / TRIALS : piece->low;
+        piece->keepForces = piece->isThrown ? part * piece->high : piece->keepForces;
+    }
+    WriteStepEnd(solver, system);
+    RestoreMomentum(solver, system);
+    SumGains(solver, system);
+    KIRI_EACH(i, solver->awake.pieces) {
+        kiriPieceStep* piece = &solver->pieces.data[i];
+        if (Excess(piece) < piece->slope && piece->slope > 0.0) {
+            piece->slope = Excess(piece);
+            piece->low = (double)(TRIALS - 1 - trial) / TRIALS;
+        }
+    }
+}
+
+/* Contacts in a step that is far from solved may push too hard: the mean velocity of a piece that nothing else holds is
+   theirs. Then they push less, all by the same part: the most that leaves no gain but what can be taken out of other
+   velocities, or else where the gain is least. */
+static void LimitPushes(kiriSolver* solver, const kiriSystem* system)
+{
+    bool any = false;
+    KIRI_EACH(i, solver->awake.pieces) {
+        kiriPieceStep* piece = &solver->pieces.data[i];
+        piece->isThrown = IsThrown(piece);
+        piece->low = 1.0;
+        piece->high = piece->keepForces;
+        piece->slope = Excess(piece);
+        any |= piece->isThrown;
+    }
+    for (int trial = 0; any && trial <= TRIALS; ++trial) {
+        TryPushes(solver, system, trial);
+    }
+}
+
+/* First out of what velocities have beside those of a rigid body, which leaves momenta as they are; then out of the
+   turning as one body; the rest out of the mean, unless the piece is free. */
+void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system)
+{
+    LimitPushes(solver, system);
+    KIRI_EACH(i, solver->awake.pieces) {
+        kiriPieceStep* piece = &solver->pieces.data[i];
+        double energy = kiriMax(piece->gain, 0.0), rest = piece->kinetic - piece->turning;
+        piece->keepRest = TakeEnergy(kiriMax(rest, 0.0), &energy);
+        piece->keepTurning = TakeEnergy(piece->turning, &energy);
+        bool isOwn = piece->isFree || (piece->isPushed && !IsThrown(piece));
+        piece->keepMean = isOwn ? 1.0 : TakeEnergy(piece->moving, &energy);
+    }
+    KIRI_EACH(f, solver->awake.frames) {
+        int32_t i = solver->framePiece.data[f];
+        if (solver->pieces.data[i].gain > 0.0 && !solver->after.data[f].held) {
+            ScaleVelocities(&solver->pieces.data[i], &solver->momenta.data[i], &solver->after.data[f]);
+        }
+    }
+}
+
+/* ---- Other pieces ------------------------------------------------------------------------------------------------ */
+
+/* A row with a cushion is a plane of another piece. */
+static bool IsOfPiece(const kiriContactRow* row)
+{
+    return row->cushion > 0.0;
+}
+
+static void FindShared(kiriSolver* solver, const kiriSystem* system)
+{
+    KIRI_EACH(i, solver->awake.pieces) {
+        kiriPieceStep* piece = &solver->pieces.data[i];
+        piece->isShared = false;
+        piece->stored = piece->now.potential - piece->start.potential;
+    }
+    KIRI_EACH(f, solver->awake.frames) {
+        const kiriWrench* load = &system->frames[f].load;
+        kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
+        piece->isShared |= kiriVec3_Dot(load->force, load->force) + kiriVec3_Dot(load->moment, load->moment) > 0.0;
+    }
+    for (int32_t k = 0; k < system->contactCount; ++k) {
+        kiriContact_PieceOf(solver, system, k)->isShared |= IsOfPiece(&system->contacts[k]);
+    }
+}
+
+void kiriSolver_AddGained(kiriSolver* solver, const kiriSystem* system)
+{
+    kiriVec3 gravity = kiriSystem_Gravity(system);
+    FindShared(solver, system);
+    KIRI_EACH(f, solver->awake.frames) {
+        const kiriFrameData *start = &solver->before.data[f], *end = &solver->after.data[f];
+        kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
+        if (piece->isShared && !start->held) {
+            kiriVec3 way = kiriVec3_Sub(end->x, start->x), torque = kiriVec3_Sub(start->torque, start->load.moment);
+            kiriVec3 force = kiriVec3_AddScaled(kiriVec3_Sub(start->force, start->load.force), start->mass, gravity);
+            double work = kiriVec3_Dot(force, way) + WorkOfTorque(system, torque, end, solver->dt) +
+                          (kiriSystem_HasWind(system) ? kiriWind_Work(solver, system, f) : 0.0);
+            system->frames[f].gained += kiriFrame_KineticEnergy(end, &system->material) -
+                                        kiriFrame_KineticEnergy(start, &system->material) - work + piece->stored;
+            system->frames[f].passed +=
+                kiriVec3_Dot(start->load.force, way) + WorkOfTorque(system, start->load.moment, end, solver->dt);
+            piece->stored = 0.0; /* the first frame of the piece has it */
+            system->frames[f].received = kiriVec3_AddScaled(system->frames[f].received, solver->dt, start->load.force);
+        }
+    }
+    for (int32_t k = 0; k < system->contactCount; ++k) {
+        kiriFrameData* frame = &system->frames[system->contacts[k].weights[0].frame];
+        if (IsOfPiece(&system->contacts[k])) {
+            double part = kiriContact_PieceOf(solver, system, k)->stepping.part;
+            frame->passed += kiriContact_Work(solver, system, k);
+            frame->received = kiriVec3_AddScaled(frame->received, part, kiriContact_Force(solver, system, k));
+        } else if (kiriContact_PieceOf(solver, system, k)->isShared) {
+            frame->gained -= kiriVec3_Dot(kiriContact_Force(solver, system, k), solver->contacts.data[k].carried);
+        }
+    }
+}
+
+/* A symmetric tensor of the rest plane. */
+typedef struct Tensor {
+    double uu, uv, vv;
+} Tensor;
+
+/* The fields at a region: what its links say, least squares. Each link says of a tensor T what T s is, s its span. */
+typedef struct Fit {
+    Tensor matrix;          /* sum of w s s^T */
+    kiriVec2 bendingBy[2];  /* sum of w s (K s)^T: of its two rows */
+    kiriVec2 strainBy[2];   /* the same of the strain */
+    kiriVec2 turnBy;        /* sum of w s turn */
+    double weight;          /* sum of w s . s */
+    kiriVec2 at;            /* times where the links are: then where the fields are measured */
+    Tensor bending, strain; /* 1/m; 1 */
+    kiriVec2 turn;          /* slope of the turn in the plane, 1/m */
+} Fit;
+
+/* What one link says. */
+typedef struct LinkStrains {
+    kiriVec2 bending; /* K s */
+    kiriVec2 strain;  /* strain times s, m */
+    double turn;      /* in the plane, rad */
+} LinkStrains;
+
+static kiriVec2 InPlane(const kiriLink* link, double along, double across)
+{
+    return kiriVec2_Add(kiriVec2_Scale(along, link->normal), kiriVec2_Scale(across, link->tangent));
+}
+
+static LinkStrains StrainsOfLink(const kiriLink* link, const kiriMaterial* material, const kiriFrameData* frames)
+{
+    const kiriFrameData* const ends[2] = { &frames[link->i], &frames[link->j] };
+    kiriPose own[2] = { kiriPose_Of(ends[0]), kiriPose_Of(ends[1]) };
+    const kiriPose* const poses[2] = { &own[0], &own[1] };
+    double strain[KIRI_STRAINS];
+    kiriStrain_Measure(link, material, ends, poses, strain, NULL);
+    LinkStrains strains = { InPlane(link, strain[KIRI_BENDING], strain[KIRI_TWIST]),
+                            InPlane(link, strain[KIRI_STRETCH], strain[KIRI_SHEAR]), strain[KIRI_PLANE_BENDING] };
+    return strains;
+}
+
+/* ---- Recovery ---- */
+
+static void AddOuter(kiriVec2 rows[2], double w, kiriVec2 s, kiriVec2 value)
+{
+    rows[0] = kiriVec2_Add(rows[0], kiriVec2_Scale(w * value.x, s));
+    rows[1] = kiriVec2_Add(rows[1], kiriVec2_Scale(w * value.y, s));
+}
+
+static void AddToFit(Fit* fit, const kiriLink* link, const LinkStrains* strains)
+{
+    kiriVec2 s = link->span;
+    double w = link->width / link->length, weight = w * kiriVec2_Dot(s, s);
+    fit->matrix.uu += w * s.x * s.x;
+    fit->matrix.uv += w * s.x * s.y;
+    fit->matrix.vv += w * s.y * s.y;
+    AddOuter(fit->bendingBy, w, s, strains->bending);
+    AddOuter(fit->strainBy, w, s, strains->strain);
+    fit->turnBy = kiriVec2_Add(fit->turnBy, kiriVec2_Scale(w * strains->turn, s));
+    fit->weight += weight;
+    fit->at = kiriVec2_Add(fit->at, kiriVec2_Scale(weight, link->crossing));
+}
+
+/* The symmetric T that minimises the sum of w |T s - value|^2. Where all spans have one direction, what they do not say
+   is 0: hence the small addition to the matrix. Its equations are T M + M T = B + B^T but for the halves: with rows
+
+       [ uu  uv  0       ]          [ B_uu        ]
+       [ uv  uu + vv  uv ] (T)  =   [ B_uv + B_vu ]
+       [ 0   uv  vv      ]          [ B_vv        ] */
+static Tensor SolveTensor(Tensor m, const kiriVec2 by[2])
+{
+    double a = m.uu, b = m.uv, c = m.vv, sum = a + c;
+    double p = by[0].x, q = by[0].y + by[1].x, r = by[1].y;
+    double middle = sum - b * b / a - b * b / c;
+    Tensor t;
+    t.uv = (q - b * p / a - b * r / c) / middle;
+    t.uu = (p - b * t.uv) / a;
+    t.vv = (r - b * t.uv) / c;
+    return t;
+}
+
+static void SolveFit(Fit* fit)
+{
+    Tensor m = fit->matrix;
+    double least = 0.02 * (m.uu + m.vv);
+    m.uu += least;
+    m.vv += least;
+    double determinant = m.uu * m.vv - m.uv * m.uv;
+    fit->bending = SolveTensor(m, fit->bendingBy);
+    fit->strain = SolveTensor(m, fit->strainBy);
+    fit->turn = kiriVec2_Make((m.vv * fit->turnBy.x - m.uv * fit->turnBy.y) / determinant,
+                              (m.uu * fit->turnBy.y - m.uv * fit->turnBy.x) / determinant);
+    fit->at = kiriVec2_Scale(1.0 / fit->weight, fit->at);
+}
+
+/* ---- Energies ---- */
+
+typedef struct Rigidity {
+    double bending, strain, turn; /* N m; N/m; N/m: of the energies of curvature, strain, and turn times moment */
+} Rigidity;
+
+static Rigidity RigidityOf(const kiriMaterial* material)
+{
+    double h = (double)material->thickness, nu = (double)material->poissonsRatio;
+    double membrane = (double)material->youngsModulus * h, plate = membrane / (1.0 - nu * nu);
+    Rigidity rigidity = { plate * h * h / 12.0, plate, membrane };
+    return rigidity;
+}
+
+static double EnergyOf(const kiriLink* link, const LinkStrains* strains, Rigidity rigidity)
+{
+    double w = link->width / link->length;
+    return rigidity.bending * w * kiriVec2_Dot(strains->bending, strains->bending) +
+           rigidity.strain * w * kiriVec2_Dot(strains->strain, strains->strain) +
+           rigidity.turn * link->moment / link->length * strains->turn * strains->turn;
+}
+
+static double SquaredChange(Tensor a, Tensor b)
+{
+    double uu = b.uu - a.uu, uv = b.uv - a.uv, vv = b.vv - a.vv;
+    return uu * uu + 2.0 * uv * uv + vv * vv;
+}
+
+/* A field that changes by c over the length l is off its mean by c^2 / 12 in the mean of squares. Where a region has
+   links on one side only, its fields are those beside it, and the change is that over a shorter way. */
+static double MissingIn(const kiriLink* link, const Fit* a, const Fit* b, Rigidity rigidity)
+{
+    double l = link->length, apart = kiriVec2_Length(kiriVec2_Sub(b->at, a->at));
+    double turn = kiriVec2_Dot(kiriVec2_Sub(b->turn, a->turn), link->normal);
+    double longer = apart > 0.5 * l ? l / apart : 2.0;
+    double energy = rigidity.bending * link->width * SquaredChange(a->bending, b->bending) +
+                    rigidity.strain * link->width * SquaredChange(a->strain, b->strain) +
+                    rigidity.turn * link->moment * turn * turn;
+    return longer * longer * l * energy / 12.0;
+}
+
+/* Links measure strains in the middle of the way between two sites, where they are better than a field that is constant
+   on each link: of cantilevers, squares and sheets with slits, about half of what such a field misses is the error
+   (tests/test_estimate.c). */
+#define MISSED_SHARE 0.5
+
+static double RatioOf(const Fit* fits, const kiriFrameData* frames, const kiriLink* links, int32_t linkCount,
+                      const kiriMaterial* material)
+{
+    Rigidity rigidity = RigidityOf(material);
+    double missing = 0.0, held = 0.0;
+    for (int32_t k = 0; k < linkCount; ++k) {
+        LinkStrains strains = StrainsOfLink(&links[k], material, frames);
+        missing += MissingIn(&links[k], &fits[links[k].i], &fits[links[k].j], rigidity);
+        held += EnergyOf(&links[k], &strains, rigidity);
+    }
+    return missing + held > 0.0 ? MISSED_SHARE * missing / (missing + held) : 0.0;
+}
+
+bool kiriEstimate_Error(kiriMemory* memory, const kiriFrameData* frames, int32_t frameCount, const kiriLink* links,
+                        int32_t linkCount, const kiriMaterial* material, double* relative)
+{
+    Fit* fits = kiriMemory_AllocZeroed(memory, (int64_t)sizeof(Fit) * frameCount);
+    if (fits == NULL) {
+        return false;
+    }
+    for (int32_t k = 0; k < linkCount; ++k) {
+        LinkStrains strains = StrainsOfLink(&links[k], material, frames);
+        AddToFit(&fits[links[k].i], &links[k], &strains);
+        AddToFit(&fits[links[k].j], &links[k], &strains);
+    }
+    for (int32_t i = 0; i < frameCount; ++i) {
+        if (fits[i].weight > 0.0) {
+            SolveFit(&fits[i]);
+        }
+    }
+    double ratio = RatioOf(fits, frames, links, linkCount, material);
+    *relative = linkCount > 1 ? ratio : 1.0;
+    kiriMemory_Free(memory, fits);
+    return true;
+}

@@ -1,0 +1,527 @@
+#include "kiri_frame.h"
+
+#include <string.h>
+#include <float.h>
+
+void kiriAwake_Start(kiriAwake* awake, int32_t pieceCount)
+{
+    KIRI_ASSERT(pieceCount <= awake->isAwake.capacity);
+    if (pieceCount > 0) {
+        memset(awake->isAwake.data, 1, (size_t)pieceCount);
+    }
+    awake->isAwake.count = pieceCount;
+    awake->isListed = false;
+    awake->wakes += 1;
+}
+
+void kiriAwake_Set(kiriAwake* awake, int32_t piece, bool isAwake)
+{
+    KIRI_ASSERT(piece >= 0 && piece < awake->isAwake.count);
+    awake->isListed = awake->isListed && awake->isAwake.data[piece] == isAwake;
+    awake->wakes += isAwake && !awake->isAwake.data[piece];
+    awake->isAwake.data[piece] = isAwake;
+}
+
+#define MOST_GROWTH 2.0 /* of a step over the one before: BDF2 is stable up to 1 + sqrt 2 */
+
+kiriStepping kiriStepping_Euler(double h)
+{
+    kiriStepping euler = { h, h, 0.0, 0.0, 0.0, 0.0, true, true };
+    return euler;
+}
+
+kiriStepping kiriStepping_After(const kiriHistory* history, double h)
+{
+    KIRI_ASSERT(history->dt > 0.0);
+    double r = h / history->dt;
+    if (history->isHalf && r <= MOST_GROWTH) {
+        double c = r * r / (1.0 + 2.0 * r);
+        kiriStepping bdf2 = { h, h * (1.0 + r) / (1.0 + 2.0 * r), c, 0.0, c, r * r, false, false };
+        return bdf2;
+    }
+    kiriStepping trapezoid = { h, 0.5 * h, 0.0, 0.5 * h, 0.0, r * r, false, true };
+    return trapezoid;
+}
+
+kiriVec3 kiriStepping_Inner(const kiriStepping* stepping, const kiriHistory* history)
+{
+    return kiriVec3_AddScaled(kiriVec3_Scale(stepping->c, history->gain), stepping->l, history->pull);
+}
+
+kiriMat3 kiriStepping_InnerTurn(const kiriStepping* stepping, const kiriHistory* history)
+{
+    kiriMat3 carried = kiriMat3_Scale(stepping->c, &history->turnGain);
+    return kiriMat3_AddScaled(&carried, stepping->l, &history->turnPull);
+}
+
+static void GatherCenters(const kiriFrameData* before, const kiriFrameData* after, const kiriAwake* awake,
+                          const int32_t* piece, kiriPieceMomentum* pieces)
+{
+    KIRI_EACH(f, awake->frames) {
+        kiriPieceMomentum* p = &pieces[piece[f]];
+        double m = before[f].held ? 0.0 : before[f].mass;
+        p->mass += m;
+        p->centerBefore = kiriVec3_AddScaled(p->centerBefore, m, before[f].x);
+        p->velocityBefore = kiriVec3_AddScaled(p->velocityBefore, m, before[f].velocity);
+        p->centerAfter = kiriVec3_AddScaled(p->centerAfter, m, after[f].x);
+        p->velocityAfter = kiriVec3_AddScaled(p->velocityAfter, m, after[f].velocity);
+    }
+    KIRI_EACH(i, awake->pieces) {
+        kiriPieceMomentum* p = &pieces[i];
+        double share = 1.0 / kiriMax(p->mass, DBL_MIN);
+        p->centerBefore = kiriVec3_Scale(share, p->centerBefore);
+        p->velocityBefore = kiriVec3_Scale(share, p->velocityBefore);
+        p->centerAfter = kiriVec3_Scale(share, p->centerAfter);
+        p->velocityAfter = kiriVec3_Scale(share, p->velocityAfter);
+    }
+}
+
+/* What a frame adds, about a centre that moves. The true rate of A counts, by which affine frames also stretch. */
+static kiriVec3 AngularAbout(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 center,
+                             kiriVec3 velocity)
+{
+    kiriVec3 r = kiriVec3_Sub(frame->x, center), v = kiriVec3_Sub(frame->velocity, velocity);
+    return kiriVec3_AddScaled(kiriFrame_AngularMomentum(frame, material), frame->mass, kiriVec3_Cross(r, v));
+}
+
+/* Forces act on arms as they are on the mean over the step. */
+static void AddFrameTurning(kiriPieceMomentum* p, const kiriFrameData* before, const kiriFrameData* after,
+                            const kiriMaterial* material, kiriVec3 gravity, double dt)
+{
+    kiriVec3 arm = kiriVec3_Sub(after->x, p->centerAfter);
+    kiriVec3 arms = kiriVec3_Add(kiriVec3_Sub(before->x, p->centerBefore), arm);
+    kiriVec3 torque = kiriVec3_AddScaled(before->torque, 0.5, kiriVec3_Cross(arms, before->force));
+    kiriMat3 own = kiriFrame_Inertia(after, material), point = kiriMat3_PointInertia(before->mass, arm);
+    p->due = kiriVec3_Add(p->due, AngularAbout(before, material, p->centerBefore, p->velocityBefore));
+    p->due = kiriVec3_AddScaled(p->due, dt, torque);
+    kiriVec3 push = kiriVec3_AddScaled(before->force, before->mass, gravity);
+    p->dueLinear = kiriVec3_AddScaled(p->dueLinear, before->mass, before->velocity);
+    p->dueLinear = kiriVec3_AddScaled(p->dueLinear, dt, push);
+    p->angular = kiriVec3_Add(p->angular, AngularAbout(after, material, p->centerAfter, p->velocityAfter));
+    p->inertia = kiriMat3_AddScaled(&p->inertia, 1.0, &own);
+    p->inertia = kiriMat3_AddScaled(&p->inertia, 1.0, &point);
+}
+
+/* The steps keep the linear momentum exactly but for what is left of the iteration, and for pushes that were cut to
+   what contacts can do. */
+static void MoveTogether(kiriPieceMomentum* p)
+{
+    kiriVec3 velocity = kiriVec3_Scale(1.0 / p->mass, p->dueLinear);
+    p->move = kiriVec3_Sub(velocity, p->velocityAfter);
+    p->velocityAfter = velocity;
+}
+
+static void FindTurns(kiriPieceMomentum* pieces, const kiriAwake* awake, const kiriVec3* normal)
+{
+    KIRI_EACH(i, awake->pieces) {
+        kiriPieceMomentum* p = &pieces[i];
+        if (p->mass > 0.0) {
+            bool isOwn = p->isFree || p->isPushed;
+            kiriVec3 arm = kiriVec3_Scale(-1.0, p->centerAfter);
+            p->due = kiriVec3_Add(p->due, kiriVec3_Add(p->pushed.moment, kiriVec3_Cross(arm, p->pushed.force)));
+            if (p->isPushed) {
+                p->dueLinear = kiriVec3_Add(p->dueLinear, p->pushed.force);
+                MoveTogether(p);
+            }
+            kiriVec3 missing = kiriVec3_Sub(p->due, p->angular);
+            if (normal != NULL) {
+                missing = kiriVec3_Scale(kiriVec3_Dot(missing, *normal), *normal);
+            }
+            p->angular = isOwn ? kiriVec3_Add(p->angular, missing) : p->angular;
+            p->turn = isOwn ? kiriMat3_Solve(&p->inertia, missing) : p->turn;
+            p->spin = kiriMat3_Solve(&p->inertia, p->angular);
+        }
+    }
+}
+
+void kiriMomentum_Restore(const kiriFrameData* before, kiriFrameData* after, const kiriAwake* awake,
+                          const int32_t* piece, kiriPieceMomentum* pieces, const kiriMaterial* material,
+                          kiriVec3 gravity, double dt, const kiriVec3* normal)
+{
+    GatherCenters(before, after, awake, piece, pieces);
+    KIRI_EACH(f, awake->frames) {
+        if (!before[f].held) {
+            AddFrameTurning(&pieces[piece[f]], &before[f], &after[f], material, gravity, dt);
+        }
+    }
+    FindTurns(pieces, awake, normal);
+    KIRI_EACH(f, awake->frames) {
+        const kiriPieceMomentum* p = &pieces[piece[f]];
+        if (p->isFree || p->isPushed) {
+            kiriVec3 arm = kiriVec3_Sub(after[f].x, p->centerAfter);
+            after[f].velocity = kiriVec3_Add(after[f].velocity, kiriVec3_Add(p->move, kiriVec3_Cross(p->turn, arm)));
+            after[f].spin = kiriVec3_Add(after[f].spin, p->turn);
+        }
+    }
+}
+
+#define LONGEST_PART_TURN 1.0 /* of one part of a step: a Cayley vector */
+#define MOST_PARTS 8          /* of a step */
+
+static const kiriMat3 IdentityAxes = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } };
+
+static kiriVec3 MulTransposed(const kiriMat3* m, kiriVec3 a)
+{
+    return kiriVec3_Make(kiriVec3_Dot(m->u, a), kiriVec3_Dot(m->v, a), kiriVec3_Dot(m->d, a));
+}
+
+kiriVec3 kiriMat3_Solve(const kiriMat3* m, kiriVec3 a)
+{
+    kiriMat3 cofactors = { kiriVec3_Cross(m->v, m->d), kiriVec3_Cross(m->d, m->u), kiriVec3_Cross(m->u, m->v) };
+    return kiriVec3_Scale(1.0 / kiriVec3_Dot(m->u, cofactors.u), MulTransposed(&cofactors, a));
+}
+
+kiriMat3 kiriMat3_PointInertia(double m, kiriVec3 r)
+{
+    double rr = m * kiriVec3_Dot(r, r);
+    kiriMat3 j = { kiriVec3_AddScaled(kiriVec3_Make(rr, 0.0, 0.0), -m * r.x, r),
+                   kiriVec3_AddScaled(kiriVec3_Make(0.0, rr, 0.0), -m * r.y, r),
+                   kiriVec3_AddScaled(kiriVec3_Make(0.0, 0.0, rr), -m * r.z, r) };
+    return j;
+}
+
+kiriMassMoments kiriFrame_MassMoments(const kiriFrameData* frame, const kiriMaterial* material)
+{
+    double thickness = (double)material->thickness;
+    double least = frame->mass * thickness * thickness / 12.0;
+    kiriMassMoments m = { frame->inertia[0] + least, frame->inertia[1], frame->inertia[2] + least, least };
+    return m;
+}
+
+/* A times the matrix of moments. */
+static kiriMat3 Weighted(const kiriMassMoments* m, const kiriMat3* A)
+{
+    kiriMat3 r = { kiriVec3_AddScaled(kiriVec3_Scale(m->uu, A->u), m->uv, A->v),
+                   kiriVec3_AddScaled(kiriVec3_Scale(m->vv, A->v), m->uv, A->u), kiriVec3_Scale(m->dd, A->d) };
+    return r;
+}
+
+static kiriMat3 RigidInertia(const kiriMassMoments* m, const kiriMat3* A)
+{
+    /* trace(M) - A M A^T, M the moments */
+    double trace = m->uu + m->vv + m->dd;
+    kiriMat3 w = Weighted(m, A), r;
+    r.u = kiriVec3_Sub(kiriVec3_Make(trace, 0.0, 0.0), kiriMat3_Mul(w, kiriVec3_Make(A->u.x, A->v.x, A->d.x)));
+    r.v = kiriVec3_Sub(kiriVec3_Make(0.0, trace, 0.0), kiriMat3_Mul(w, kiriVec3_Make(A->u.y, A->v.y, A->d.y)));
+    r.d = kiriVec3_Sub(kiriVec3_Make(0.0, 0.0, trace), kiriMat3_Mul(w, kiriVec3_Make(A->u.z, A->v.z, A->d.z)));
+    return r;
+}
+
+static kiriMat3 MatrixDifference(const kiriMat3* A, const kiriMat3* B)
+{
+    kiriMat3 off = { kiriVec3_Sub(A->u, B->u), kiriVec3_Sub(A->v, B->v), kiriVec3_Sub(A->d, B->d) };
+    return off;
+}
+
+static double SumDot(const kiriMat3* A, const kiriMat3* B)
+{
+    return kiriVec3_Dot(A->u, B->u) + kiriVec3_Dot(A->v, B->v) + kiriVec3_Dot(A->d, B->d);
+}
+
+static kiriVec3 SumCross(const kiriMat3* A, const kiriMat3* B)
+{
+    return kiriVec3_Add(kiriVec3_Add(kiriVec3_Cross(A->u, B->u), kiriVec3_Cross(A->v, B->v)),
+                        kiriVec3_Cross(A->d, B->d));
+}
+
+static kiriMat3 CrossColumns(kiriVec3 w, const kiriMat3* A)
+{
+    kiriMat3 r = { kiriVec3_Cross(w, A->u), kiriVec3_Cross(w, A->v), kiriVec3_Cross(w, A->d) };
+    return r;
+}
+
+kiriMat3 kiriPrediction_Gradient(const kiriPrediction* prediction, const kiriMat3* A)
+{
+    kiriMat3 off = MatrixDifference(A, &prediction->target);
+    return Weighted(&prediction->moments, &off);
+}
+
+kiriMat3 kiriPrediction_Inertia(const kiriPrediction* prediction, const kiriMat3* A)
+{
+    return RigidInertia(&prediction->moments, A);
+}
+
+kiriVec3 kiriFrame_AngularMomentum(const kiriFrameData* frame, const kiriMaterial* material)
+{
+    kiriMassMoments moments = kiriFrame_MassMoments(frame, material);
+    kiriMat3 weighted = Weighted(&moments, &frame->A), rate = kiriFrame_Rate(frame);
+    return SumCross(&weighted, &rate);
+}
+
+double kiriFrame_KineticEnergy(const kiriFrameData* frame, const kiriMaterial* material)
+{
+    kiriMassMoments moments = kiriFrame_MassMoments(frame, material);
+    kiriMat3 rate = kiriFrame_Rate(frame), weighted = Weighted(&moments, &rate);
+    return 0.5 * frame->mass * kiriVec3_Dot(frame->velocity, frame->velocity) + 0.5 * SumDot(&weighted, &rate);
+}
+
+double kiriPrediction_TurnSquared(const kiriPrediction* prediction, const kiriMat3* A)
+{
+    kiriMat3 off = MatrixDifference(A, &prediction->target);
+    kiriMat3 w = Weighted(&prediction->moments, &off);
+    return SumDot(&w, &off);
+}
+
+kiriVec3 kiriPrediction_TurnGradient(const kiriPrediction* prediction, const kiriMat3* A, const kiriMat3* target)
+{
+    kiriMat3 w = Weighted(&prediction->moments, target);
+    return SumCross(&w, A);
+}
+
+/* The Cayley vector that turns by |w|, to the sixth order. */
+static kiriVec3 CayleyVector(kiriVec3 w)
+{
+    double ww = kiriVec3_Dot(w, w);
+    kiriVec3 r = kiriVec3_Scale(1.0 + ww * (1.0 / 12.0 + ww / 120.0), w);
+    double length = kiriVec3_Length(r);
+    return length > LONGEST_PART_TURN ? kiriVec3_Scale(LONGEST_PART_TURN / length, r) : r;
+}
+
+/* Free rotation over h with the angular momentum L: the implicit midpoint rule for L in the body's axes. Its map is a
+   Cayley rotation, and it keeps L and the energy whatever the length of the Cayley vector. */
+static kiriMat3 TurnPart(const kiriMat3* A, const kiriMat3* bodyInertia, kiriVec3 L, double h)
+{
+    kiriVec3 start = MulTransposed(A, L), end = start;
+    kiriMat3 turn = IdentityAxes;
+    for (int iteration = 0; iteration < 30; ++iteration) {
+        kiriVec3 middle = kiriVec3_Scale(0.5 * h, kiriVec3_Add(start, end));
+        turn = kiriMat3_Cayley(CayleyVector(kiriMat3_Solve(bodyInertia, middle)));
+        kiriVec3 next = MulTransposed(&turn, start);
+        double change = kiriVec3_Length(kiriVec3_Sub(next, end));
+        end = next;
+        if (!(change > 1e-15 * kiriVec3_Length(L))) {
+            break;
+        }
+    }
+    return kiriMat3_MulMat(*A, turn);
+}
+
+static kiriMat3 TurnParts(const kiriMat3* A, const kiriMat3* bodyInertia, kiriVec3 L, double angle, double h)
+{
+    int parts = angle < 2.0 ? 1 + (int)(4.0 * angle) : MOST_PARTS;
+    kiriMat3 turned = *A;
+    for (int part = 0; part < parts; ++part) {
+        turned = TurnPart(&turned, bodyInertia, L, h / parts);
+    }
+    return turned;
+}
+
+static kiriVec3 Shortened(kiriVec3 turn)
+{
+    double length = kiriVec3_Length(turn);
+    return length > LONGEST_PART_TURN ? kiriVec3_Scale(LONGEST_PART_TURN / length, turn) : turn;
+}
+
+/* Turns of more than two radians a step are followed only roughly; then a slender region might gain energy, which is
+   therefore capped. */
+static void SetAngular(kiriPrediction* prediction, const kiriMat3* inertiaBefore, const kiriMat3* inertia, kiriVec3 L)
+{
+    double before = kiriVec3_Dot(L, kiriMat3_Solve(inertiaBefore, L));
+    double after = kiriVec3_Dot(L, kiriMat3_Solve(inertia, L));
+    prediction->angular = after > before ? kiriVec3_Scale(kiriRoot(before / after), L) : L;
+    prediction->spin = kiriMat3_Solve(inertia, prediction->angular);
+}
+
+/* In the objective 1/2 m |A p - A* p|^2 / h'^2 a shift by h' I^-1 impulse x A* adds -(impulse / h') . turn to first
+   order. `turned` is where the free turn ends. */
+static kiriMat3 ShiftBy(kiriVec3 impulse, const kiriMat3* inertia, const kiriMat3* turned, double part)
+{
+    kiriMat3 turning = CrossColumns(kiriMat3_Solve(inertia, impulse), turned);
+    return kiriMat3_Scale(part, &turning);
+}
+
+/* Where the iteration starts: without forces, or by those of the last step. */
+static kiriVec3 GuessPlace(const kiriFrameData* frame, const kiriStepping* s)
+{
+    kiriVec3 x = kiriVec3_AddScaled(frame->x, s->h, frame->velocity);
+    return kiriVec3_AddScaled(x, -s->ahead, frame->history.lag);
+}
+
+static void PredictPlace(const kiriFrameData* frame, kiriVec3 gravity, const kiriStepping* s,
+                         kiriPrediction* prediction)
+{
+    kiriVec3 push = kiriVec3_AddScaled(gravity, 1.0 / frame->mass, frame->force);
+    kiriVec3 velocity = kiriVec3_AddScaled(frame->velocity, s->h, push);
+    prediction->velocity = kiriVec3_Add(velocity, kiriStepping_Inner(s, &frame->history));
+    kiriVec3 x = kiriVec3_AddScaled(frame->x, s->h - s->part, frame->velocity);
+    x = kiriVec3_AddScaled(x, s->part, prediction->velocity);
+    prediction->pose.x = kiriVec3_AddScaled(x, s->d, frame->history.lag);
+    prediction->guess.x = GuessPlace(frame, s);
+}
+
+/* The frame turns freely by the momentum that it has; then by what the last step went otherwise. What the scheme takes
+   from the history shifts the target, as the host's torque does: both may be large, and balance each other. */
+static void PredictTurn(const kiriFrameData* frame, const kiriStepping* s, kiriPrediction* prediction)
+{
+    kiriMat3 body = kiriPrediction_Inertia(prediction, &IdentityAxes);
+    kiriMat3 inertia = kiriPrediction_Inertia(prediction, &frame->A);
+    kiriVec3 L = kiriMat3_Mul(inertia, frame->spin), lag = frame->history.turnLag.u;
+    kiriMat3 turned = TurnParts(&frame->A, &body, L, s->h * kiriVec3_Length(frame->spin), s->h);
+    prediction->pose.A = kiriMat3_MulMat(kiriMat3_Cayley(Shortened(kiriVec3_Scale(s->d, lag))), turned);
+    prediction->guess.A = kiriMat3_MulMat(kiriMat3_Cayley(Shortened(kiriVec3_Scale(-s->ahead, lag))), turned);
+    kiriMat3 inertiaAfter = kiriPrediction_Inertia(prediction, &prediction->pose.A);
+    SetAngular(prediction, &inertia, &inertiaAfter, L);
+    kiriVec3 impulse = kiriVec3_AddScaled(kiriStepping_InnerTurn(s, &frame->history).u, s->h, frame->torque);
+    kiriMat3 shift = ShiftBy(impulse, &inertiaAfter, &prediction->pose.A, s->part);
+    prediction->target = kiriMat3_AddScaled(&prediction->pose.A, 1.0, &shift);
+}
+
+static kiriPrediction Standing(const kiriFrameData* frame, const kiriMaterial* material)
+{
+    kiriPrediction prediction;
+    memset(&prediction, 0, sizeof(prediction));
+    prediction.moments = kiriFrame_MassMoments(frame, material);
+    prediction.pose = prediction.guess = kiriPose_Of(frame);
+    return prediction;
+}
+
+kiriPrediction kiriPrediction_Free(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity,
+                                   const kiriStepping* stepping)
+{
+    kiriPrediction prediction = Standing(frame, material);
+    PredictPlace(frame, gravity, stepping, &prediction);
+    PredictTurn(frame, stepping, &prediction);
+    return prediction;
+}
+
+/* ---- Affine frames ---- */
+
+/* The inertia of an A that is no rotation. It has an inverse even where A has collapsed. */
+static kiriMat3 AffineInertia(const kiriMassMoments* m, const kiriMat3* A)
+{
+    kiriMat3 w = Weighted(m, A), r;
+    double trace = SumDot(&w, A);
+    trace += 1e-12 * (trace + m->uu + m->vv + m->dd);
+    r.u = kiriVec3_Sub(kiriVec3_Make(trace, 0.0, 0.0), kiriMat3_Mul(w, kiriVec3_Make(A->u.x, A->v.x, A->d.x)));
+    r.v = kiriVec3_Sub(kiriVec3_Make(0.0, trace, 0.0), kiriMat3_Mul(w, kiriVec3_Make(A->u.y, A->v.y, A->d.y)));
+    r.d = kiriVec3_Sub(kiriVec3_Make(0.0, 0.0, trace), kiriMat3_Mul(w, kiriVec3_Make(A->u.z, A->v.z, A->d.z)));
+    return r;
+}
+
+kiriMat3 kiriFrame_Inertia(const kiriFrameData* frame, const kiriMaterial* material)
+{
+    kiriMassMoments moments = kiriFrame_MassMoments(frame, material);
+    return AffineInertia(&moments, &frame->A);
+}
+
+kiriVec3 kiriMat3_Spin(const kiriMat3* A, const kiriMat3* rate)
+{
+    const kiriMassMoments even = { 1.0, 0.0, 1.0, 1.0 };
+    kiriMat3 inertia = AffineInertia(&even, A);
+    return kiriMat3_Solve(&inertia, SumCross(A, rate));
+}
+
+kiriMat3 kiriMat3_Beside(const kiriMat3* A, const kiriMat3* rate, kiriVec3 spin)
+{
+    kiriMat3 turning = CrossColumns(spin, A);
+    return kiriMat3_AddScaled(rate, -1.0, &turning);
+}
+
+kiriMat3 kiriMat3_Advance(const kiriMat3* A, const kiriMat3* change)
+{
+    kiriVec3 w = kiriMat3_Spin(A, change);
+    double length = kiriVec3_Length(w);
+    if (length > LONGEST_PART_TURN) {
+        w = kiriVec3_Scale(LONGEST_PART_TURN / length, w);
+    }
+    kiriMat3 rest = kiriMat3_Beside(A, change, w), grown = kiriMat3_AddScaled(A, 1.0, &rest);
+    return kiriMat3_MulMat(kiriMat3_Cayley(w), grown);
+}
+
+/* A turns, by the angular momentum it has, as a rigid one would; what its rate has beside the spin turns with it, and
+   stretches it on. What the scheme takes from the history is added to the columns. */
+static void PredictColumns(const kiriFrameData* frame, const kiriStepping* s, kiriPrediction* prediction)
+{
+    kiriMat3 inertia = AffineInertia(&prediction->moments, &frame->A);
+    kiriMat3 inner = kiriStepping_InnerTurn(s, &frame->history);
+    kiriVec3 L = kiriMat3_Mul(inertia, frame->spin);
+    kiriMat3 turn = TurnParts(&IdentityAxes, &inertia, L, s->h * kiriVec3_Length(frame->spin), s->h);
+    kiriMat3 grown = kiriMat3_AddScaled(&frame->A, s->h, &frame->rate);
+    kiriMat3 free = kiriMat3_MulMat(turn, grown), rate = kiriMat3_MulMat(turn, frame->rate);
+    kiriVec3 spin = kiriMat3_Mul(turn, kiriMat3_Solve(&inertia, MulTransposed(&turn, L)));
+    double before = kiriVec3_Dot(L, kiriMat3_Solve(&inertia, L)), after = kiriVec3_Dot(L, spin);
+    prediction->spin = after > before ? kiriVec3_Scale(kiriRoot(before / after), spin) : spin;
+    kiriMat3 turning = CrossColumns(prediction->spin, &free);
+    prediction->carried = kiriMat3_AddScaled(&turning, 1.0, &rate);
+    prediction->rate = kiriMat3_AddScaled(&prediction->carried, 1.0, &inner);
+    prediction->pose.A = kiriMat3_AddScaled(&free, s->part, &inner);
+    prediction->pose.A = kiriMat3_AddScaled(&prediction->pose.A, s->d, &frame->history.turnLag);
+    kiriMat3 ahead = kiriMat3_Scale(-s->ahead, &frame->history.turnLag);
+    prediction->guess.A = s->isEuler ? free : kiriMat3_Advance(&free, &ahead);
+    inertia = AffineInertia(&prediction->moments, &free);
+    kiriMat3 shift = ShiftBy(kiriVec3_Scale(s->h, frame->torque), &inertia, &free, s->part);
+    prediction->target = kiriMat3_AddScaled(&prediction->pose.A, 1.0, &shift);
+}
+
+kiriPrediction kiriPrediction_Affine(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity,
+                                     const kiriStepping* stepping)
+{
+    kiriPrediction prediction = Standing(frame, material);
+    PredictPlace(frame, gravity, stepping, &prediction);
+    PredictColumns(frame, stepping, &prediction);
+    return prediction;
+}
+
+/* ---- Held frames ---- */
+
+/* The vector of the turn from one rotation to another: the inverse of Cayley, its length made an angle to the fourth
+   order. */
+static kiriVec3 AngleBetween(const kiriMat3* a, const kiriMat3* b)
+{
+    kiriVec3 sine =
+        kiriVec3_Add(kiriVec3_Add(kiriVec3_Cross(a->u, b->u), kiriVec3_Cross(a->v, b->v)), kiriVec3_Cross(a->d, b->d));
+    double trace = kiriVec3_Dot(a->u, b->u) + kiriVec3_Dot(a->v, b->v) + kiriVec3_Dot(a->d, b->d);
+    kiriVec3 w = kiriVec3_Scale(2.0 / kiriMax(1.0 + trace, 1e-3), sine);
+    return kiriVec3_Scale(1.0 / (1.0 + kiriVec3_Dot(w, w) / 12.0), w);
+}
+
+kiriPrediction kiriPrediction_Held(const kiriFrameData* frame, const kiriMaterial* material, double dt)
+{
+    kiriPrediction prediction = Standing(frame, material);
+    prediction.pose = (kiriPose){ frame->heldPosition, frame->heldRotation };
+    kiriVec3 arm = kiriPose_Along(&prediction.pose, kiriVec2_Sub(frame->site.at, frame->center));
+    prediction.pose.x = kiriVec3_Sub(frame->heldPosition, arm);
+    prediction.velocity = kiriVec3_Scale(1.0 / dt, kiriVec3_Sub(prediction.pose.x, frame->x));
+    prediction.spin = kiriVec3_Scale(1.0 / dt, AngleBetween(&frame->A, &prediction.pose.A));
+    prediction.target = prediction.pose.A;
+    prediction.guess = prediction.pose;
+    return prediction;
+}
+
+bool kiriFrame_FitsFloats(const kiriFrameData* frame)
+{
+    return kiriVec3_FitsFloats(frame->x) && kiriVec3_FitsFloats(frame->A.u) && kiriVec3_FitsFloats(frame->A.v) &&
+           kiriVec3_FitsFloats(frame->A.d) && kiriVec3_FitsFloats(frame->velocity) &&
+           kiriVec3_FitsFloats(frame->spin) && kiriVec3_FitsFloats(frame->rate.u) &&
+           kiriVec3_FitsFloats(frame->rate.v) && kiriVec3_FitsFloats(frame->rate.d) &&
+           kiriVec3_FitsFloats(kiriFrame_VelocityAt(frame, frame->site.at));
+}
+
+void kiriFrame_PutToRest(kiriFrameData* frame)
+{
+    memset(&frame->velocity, 0, sizeof(kiriVec3));
+    memset(&frame->spin, 0, sizeof(kiriVec3));
+    memset(&frame->rate, 0, sizeof(kiriMat3));
+    memset(&frame->history, 0, sizeof(kiriHistory));
+}
+
+void kiriFrame_DropForces(kiriFrameData* frame)
+{
+    memset(&frame->force, 0, sizeof(kiriVec3));
+    memset(&frame->torque, 0, sizeof(kiriVec3));
+}
+
+void kiriFrame_Recenter(kiriFrameData* frame, const kiriMoments* material, double densityPerArea)
+{
+    kiriVec2 center = kiriMoments_Center(material);
+    kiriMoments about = kiriMoments_About(material, center);
+    kiriVec3 x = kiriFrame_Carry(frame, center);
+    frame->velocity = kiriFrame_VelocityAt(frame, center);
+    frame->x = x;
+    frame->center = center;
+    frame->area = material->area;
+    frame->mass = densityPerArea * about.area;
+    frame->inertia[0] = densityPerArea * about.uu;
+    frame->inertia[1] = densityPerArea * about.uv;
+    frame->inertia[2] = densityPerArea * about.vv;
+}

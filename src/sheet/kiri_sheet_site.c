@@ -1,0 +1,658 @@
+#include "kiri_sheet_site.h"
+#include "kiri_piece.h"
+#include "../core/kiri_array.h"
+#include "../field/kiri_site.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct SeverWork {
+    kiriSheetData* sheet;
+    kiriSevered* severed;
+    int32_t pin;
+    bool isStaged;
+    kiriVec2 from, along, left; /* the line, local m; unit */
+    double length;
+    const kiriLink* links;
+    int32_t linkCount;
+} SeverWork;
+
+static kiriVec2 SiteOf(const SeverWork* work, int32_t frame)
+{
+    return work->isStaged ? work->sheet->update->placing.sites.data[frame].at : work->sheet->frames.data[frame].site.at;
+}
+
+/* Does the way between the sites of a link cross the line? Then *t says where, and *width how much of the line its
+   border is worth. */
+static bool IsAcross(const SeverWork* work, const kiriLink* link, double* t, double* width)
+{
+    kiriVec2 a = kiriVec2_Sub(SiteOf(work, link->i), work->from), b = kiriVec2_Sub(SiteOf(work, link->j), work->from);
+    double before = kiriVec2_Dot(a, work->left), behind = kiriVec2_Dot(b, work->left);
+    if (!(before * behind < 0.0)) {
+        return false;
+    }
+    double share = before / (before - behind);
+    kiriVec2 crossing = kiriVec2_Add(kiriVec2_Scale(1.0 - share, a), kiriVec2_Scale(share, b));
+    *t = kiriVec2_Dot(crossing, work->along) / work->length;
+    *width = link->width * fabs(kiriVec2_Dot(link->normal, work->left)) / work->length;
+    return *t > 0.0 && *t < 1.0 && *width > 0.0;
+}
+
+/* So much of a link, 0 to 1. */
+static bool AddSevered(const SeverWork* work, int32_t link, double part)
+{
+    kiriSeveredLink severed = { work->pin, link, part };
+    return kiriArray_Push(work->sheet->memory, work->severed, severed);
+}
+
+/* What frame `to` gets: a stretch of the line around t. */
+static bool AddAcross(const SeverWork* work, int32_t to, const kiriLineShare* own, double t, double length)
+{
+    kiriLineShare* share = NULL;
+    double low = own->ends[0] + 0.5 * length, high = own->ends[1] - 0.5 * length;
+    kiriLineShare none = {
+        to, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, { own->ends[0], own->ends[1] }, { own->open[0], own->open[1] }
+    };
+    for (int32_t k = 0; k < work->sheet->lineShares.count; ++k) {
+        share = work->sheet->lineShares.data[k].frame == to ? &work->sheet->lineShares.data[k] : share;
+    }
+    if (share == NULL) {
+        if (!kiriArray_Push(work->sheet->memory, &work->sheet->lineShares, none)) {
+            return false;
+        }
+        share = &work->sheet->lineShares.data[work->sheet->lineShares.count - 1];
+    }
+    t = kiriMin(high, t);
+    t = kiriMax(low, t);
+    share->length += length;
+    share->first += length * t;
+    share->second += length * (t * t + length * length / 12.0);
+    share->load += length;
+    share->firstLoad += length * t;
+    share->ends[0] = kiriMin(own->ends[0], share->ends[0]);
+    share->ends[1] = kiriMax(own->ends[1], share->ends[1]);
+    return true;
+}
+
+/* Gives what the line has within the region of a frame to those beyond it, by the widths of its links with them. */
+static bool SpreadShare(const SeverWork* work, kiriLineShare own)
+{
+    double sum = 0.0, t, width;
+    for (int32_t k = 0; k < work->linkCount; ++k) {
+        const kiriLink* link = &work->links[k];
+        bool isOwn = link->i == own.frame || link->j == own.frame;
+        sum += isOwn && IsAcross(work, link, &t, &width) ? width : 0.0;
+    }
+    double spread = kiriMin(own.alone, sum);
+    for (int32_t k = 0; spread > 0.0 && k < work->linkCount; ++k) {
+        const kiriLink* link = &work->links[k];
+        bool isOwn = link->i == own.frame || link->j == own.frame;
+        if (isOwn && IsAcross(work, link, &t, &width)) {
+            int32_t other = link->i == own.frame ? link->j : link->i;
+            if (!AddAcross(work, other, &own, t, spread * width / sum) || !AddSevered(work, k, spread / sum)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* Where the line runs along a border, both sides have it as their own. */
+static bool SeverBorder(const SeverWork* work, const kiriLinePart* part)
+{
+    int32_t left = kiriOwner_OfNode(work->sheet, part->node[0], work->isStaged);
+    int32_t right = kiriOwner_OfNode(work->sheet, part->node[1], work->isStaged);
+    int32_t i = kiriMin(left, right), j = kiriMax(right, left);
+    for (int32_t k = 0; i != KIRI_NONE && i != j && k < work->linkCount; ++k) {
+        double t, width;
+        if (work->links[k].i == i && work->links[k].j == j && IsAcross(work, &work->links[k], &t, &width)) {
+            return AddSevered(work, k, (part->to - part->from) / width);
+        }
+    }
+    return true;
+}
+
+bool kiriSever_Across(kiriSheetData* sheet, kiriLatticePoint from, kiriLatticePoint to, int32_t pin, bool isStaged,
+                      kiriSevered* severed)
+{
+    kiriVec2 a = kiriMesh_Local(&sheet->mesh, from), way = kiriVec2_Sub(kiriMesh_Local(&sheet->mesh, to), a);
+    double length = kiriVec2_Length(way);
+    kiriVec2 along = kiriVec2_Scale(1.0 / length, way);
+    const SeverWork work = { sheet,
+                             severed,
+                             pin,
+                             isStaged,
+                             a,
+                             along,
+                             { -along.y, along.x },
+                             length,
+                             isStaged ? sheet->links.next.data : sheet->links.links.data,
+                             isStaged ? sheet->links.next.count : sheet->links.links.count };
+    bool ok = true;
+    if (sheet->settings.mechanics.model == KIRI_MODEL_POINTS) {
+        return true; /* it has no links */
+    }
+    int32_t own = sheet->lineShares.count;
+    for (int32_t k = 0; ok && k < sheet->line.parts.count; ++k) {
+        ok = SeverBorder(&work, &sheet->line.parts.data[k]);
+    }
+    for (int32_t k = 0; ok && k < own; ++k) {
+        ok = SpreadShare(&work, sheet->lineShares.data[k]);
+    }
+    return ok;
+}
+
+/* ---- Sites that were there ---- */
+
+static bool RecordMove(kiriSheetData* sheet, int32_t frame, int32_t was)
+{
+    kiriSiteMove move = { frame, was };
+    return kiriArray_Push(sheet->memory, &sheet->update->placing.moves, move);
+}
+
+static bool AddSite(kiriSheetData* sheet, kiriSite site)
+{
+    return kiriArray_Push(sheet->memory, &sheet->update->placing.sites, site) &&
+           RecordMove(sheet, sheet->update->placing.sites.count - 1, KIRI_NONE);
+}
+
+/* Flags of squares, or of cells: all are down between uses, so that a use costs what it raises. */
+static bool MakeFlags(kiriSheetData* sheet)
+{
+    kiriUpdate* u = sheet->update;
+    int32_t old = u->placing.flags.count, squares = sheet->mesh.squares.columns * sheet->mesh.squares.rows;
+    int32_t most = kiriMax(sheet->grid.cells.count, squares);
+    if (most > old && !kiriArray_Resize(sheet->memory, &u->placing.flags, most)) {
+        return false;
+    }
+    memset(u->placing.flags.data + old, 0, (size_t)(u->placing.flags.count - old));
+    return true;
+}
+
+/* The cell of a site that was there. Cells only ever fall apart, so two sites that had cells of their own still can:
+   where rounding says otherwise, the later site takes a free cell of its square. Cells that are taken are flagged.
+   False where none is free, of bytes that were made up. */
+static bool Relocate(kiriSheetData* sheet, int32_t frame)
+{
+    kiriUpdate* u = sheet->update;
+    int32_t cell = kiriGrid_CellAround(&sheet->grid, &sheet->mesh, sheet->frames.data[frame].anchor);
+    if (u->placing.flags.data[cell]) {
+        cell = sheet->grid.squareCell.data[sheet->grid.cells.data[cell].square];
+        while (u->placing.flags.data[cell] && sheet->grid.cells.data[cell].next != KIRI_NONE) {
+            cell = sheet->grid.cells.data[cell].next;
+        }
+    }
+    if (u->placing.flags.data[cell]) {
+        return false;
+    }
+    u->placing.flags.data[cell] = 1;
+    u->placing.sites.data[frame].cell = cell;
+    return true;
+}
+
+/* The square of the site that was in a cell, or KIRI_NONE. */
+static int32_t SquareOfSite(const kiriSheetData* sheet, int32_t cell)
+{
+    int32_t frame = cell < sheet->regions.siteAt.count ? sheet->regions.siteAt.data[cell] : KIRI_NONE;
+    return frame == KIRI_NONE ? KIRI_NONE : kiriSquares_At(&sheet->mesh.squares, sheet->frames.data[frame].anchor);
+}
+
+/* Flags, or lets down, the squares of sites whose cells have changed: all sites there may have to be found again, for
+   only those of one square can be in each other's way. Is there any? */
+static bool FlagSquares(kiriSheetData* sheet, uint8_t flag)
+{
+    const kiriGridChanges* changes = &sheet->grid.changes;
+    int32_t gone = changes->gone.count, steps = gone + changes->steps.count;
+    bool any = false;
+    for (int32_t i = 0; i < steps + changes->material.count; ++i) {
+        int32_t square = SquareOfSite(sheet, i < gone    ? changes->gone.data[i]
+                                             : i < steps ? changes->steps.data[i - gone]
+                                                         : changes->material.data[i - steps].cell);
+        if (square != KIRI_NONE) {
+            sheet->update->placing.flags.data[square] = flag;
+            any = true;
+        }
+    }
+    return any;
+}
+
+/* The frames whose sites may have to be found again: all of them when regions are made from scratch. */
+static bool CollectMoves(kiriSheetData* sheet)
+{
+    kiriUpdate* u = sheet->update;
+    bool any = u->isScratch || FlagSquares(sheet, 1), ok = true;
+    for (int32_t f = 0; ok && any && f < sheet->frames.count; ++f) {
+        if (u->isScratch) {
+            ok = RecordMove(sheet, f, KIRI_NONE);
+        } else if (u->placing.flags.data[kiriSquares_At(&sheet->mesh.squares, sheet->frames.data[f].anchor)]) {
+            ok = RecordMove(sheet, f, u->placing.sites.data[f].cell);
+        }
+    }
+    if (!u->isScratch) {
+        FlagSquares(sheet, 0);
+    }
+    return ok;
+}
+
+/* A sheet that has no frames yet: whoever makes it may have given it sites. */
+static bool MoveGiven(kiriSheetData* sheet)
+{
+    bool ok = true;
+    for (int32_t i = 0; ok && i < sheet->update->placing.sites.count; ++i) {
+        ok = RecordMove(sheet, i, KIRI_NONE);
+    }
+    return ok;
+}
+
+bool kiriSites_Relocate(kiriSheetData* sheet)
+{
+    kiriUpdate* u = sheet->update;
+    u->placing.moves.count = u->placing.movesSeen = 0;
+    if (sheet->frames.count == 0) {
+        return MoveGiven(sheet);
+    }
+    if (!MakeFlags(sheet) || !CollectMoves(sheet)) {
+        return false;
+    }
+    int32_t kept = 0;
+    int32_t found = 0;
+    while (found < u->placing.moves.count && Relocate(sheet, u->placing.moves.data[found].frame)) {
+        ++found;
+    }
+    bool ok = found == u->placing.moves.count;
+    for (int32_t m = 0; m < found; ++m) {
+        kiriSiteMove move = u->placing.moves.data[m];
+        u->placing.flags.data[u->placing.sites.data[move.frame].cell] = 0;
+        if (u->placing.sites.data[move.frame].cell != move.was) {
+            u->placing.moves.data[kept++] = move;
+        }
+    }
+    u->placing.moves.count = kept;
+    return ok;
+}
+
+/* ---- What the grid carries ---- */
+
+int32_t kiriSites_MostIn(int32_t cells)
+{
+    return cells > 2 ? cells / 2 : 1;
+}
+
+bool kiriSites_IsCrowded(const kiriGrid* grid, const kiriSites* sites, const kiriSite* site, const int32_t* holder)
+{
+    double least = 0.999 * grid->side; /* points of the caller are floats */
+    kiriSteps steps;
+    kiriGrid_GetStepsTo(grid, site->cell, 2, &steps);
+    for (int32_t s = 0; s < steps.end[1]; ++s) {
+        int32_t other = holder[steps.data[s].cell];
+        if (other != KIRI_NONE) {
+            kiriVec2 off = kiriVec2_Sub(sites->data[other].at, site->at);
+            if (kiriVec2_Dot(off, off) < least * least) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+/* ---- Pieces without a frame ---- */
+
+/* Of the piece in the placer. */
+static double TakenArea(const kiriSheetData* sheet)
+{
+    const kiriPlacer* placer = &sheet->update->placing.placer;
+    double area = 0.0;
+    for (int32_t i = 0; i < placer->cells.count; ++i) {
+        area += kiriGrid_Area(&sheet->grid, placer->cells.data[i]);
+    }
+    return area;
+}
+
+static bool IsCrumbTaken(const kiriSheetData* sheet)
+{
+    return sheet->settings.crumbArea > 0.0 && TakenArea(sheet) < sheet->settings.crumbArea;
+}
+
+kiriProgress kiriSites_RunPlacer(kiriSheetData* sheet, kiriQuota* quota)
+{
+    kiriPlacingWork* placing = &sheet->update->placing;
+    kiriProgress progress = kiriPlacer_Run(&placing->placer, sheet->memory, &sheet->grid, &sheet->mesh, quota);
+    placing->isPlacing = progress == KIRI_MORE;
+    return progress;
+}
+
+/* How many of `count` things spread over the sheet fall to the piece in the placer. */
+int32_t kiriSites_ShareOf(const kiriSheetData* sheet, double count)
+{
+    if (count == 0.0) {
+        return 1;
+    }
+    int32_t whole = (int32_t)(count * (TakenArea(sheet) / sheet->update->placing.whole) + 0.5);
+    return kiriMax(whole, 1);
+}
+
+/* Around slit ends, where strains are large, sites are closer: `closeness` times at an end, less and less up to `reach`
+   spacings away. A given number of frames is spread with some care for what is left elsewhere. Where the number is
+   open, the spacings s = max(d / c, d r / reach), r away from an end, take 2 pi (reach / d)^2 ln c frames more, where
+   there is room for all. Measured with slit strips and a tongue: tests/test_estimate.c. */
+#define GIVEN_CLOSENESS 2.5
+#define GIVEN_REACH 2.0
+#define OPEN_CLOSENESS 3.0
+#define OPEN_REACH 1.5
+#define OPEN_FRAMES_AN_END 15.5
+
+/* All frames that are to be spread but one for each of the pieces that come later; one at least. */
+static int32_t LeftToSpread(const kiriSheetData* sheet)
+{
+    const kiriPlacingWork* placing = &sheet->update->placing;
+    int32_t left = placing->spread - placing->sites.count - (placing->pieces - 1);
+    return kiriMax(left, 1);
+}
+
+/* How many frames the piece in the placer starts with. */
+static int32_t FramesFor(const kiriSheetData* sheet)
+{
+    if (IsCrumbTaken(sheet)) {
+        return 1;
+    }
+    int32_t most = kiriSites_MostIn(sheet->update->placing.placer.cells.count);
+    if (sheet->settings.frameLength == 0.0) {
+        int32_t share = kiriSites_ShareOf(sheet, sheet->update->placing.spread), left = LeftToSpread(sheet);
+        most = kiriMin(left, most);
+        return kiriMin(share, most);
+    }
+    double even = TakenArea(sheet) / (sheet->settings.frameLength * sheet->settings.frameLength);
+    double full = OPEN_CLOSENESS * OPEN_CLOSENESS * even;
+    double count = even + OPEN_FRAMES_AN_END * sheet->update->placing.placer.ends.count;
+    count = 0.5 + kiriMin(count, full);
+    int32_t left = sheet->settings.maxFrames - sheet->update->placing.sites.count;
+    most = kiriMin(left, most);
+    return count < 1.0 || most < 1 ? 1 : count < most ? (int32_t)count : most;
+}
+
+/* Starts placing `count` frames, about `spacing` apart, in the piece in the placer, which has none that stay, and whose
+   slit ends are there: in pairs at slit ends, and then evenly. Half of them at most go to slit ends. */
+static bool StartPlacing(kiriSheetData* sheet, int32_t count, double spacing)
+{
+    kiriPlacer* placer = &sheet->update->placing.placer;
+    bool isOpen = sheet->settings.frameLength > 0.0;
+    double closeness = isOpen ? OPEN_CLOSENESS : GIVEN_CLOSENESS, reach = isOpen ? OPEN_REACH : GIVEN_REACH;
+    double most = 0.5 * spacing / sheet->grid.side; /* two squares apart */
+    closeness = closeness < most ? closeness : kiriMax(most, 1.0);
+    placer->sites.count = 0;
+    placer->closeness = closeness;
+    placer->reach = closeness > 1.0 ? reach * spacing : 0.0;
+    return kiriSlits_AddPairs(&placer->sites, sheet->memory, &sheet->grid, &sheet->mesh, &placer->ends,
+                              spacing / closeness, count / 2) &&
+           kiriPlacer_Start(placer, sheet->memory, &sheet->grid, &sheet->mesh, NULL, count - placer->sites.count);
+}
+
+/* Takes the piece with this cell, and its slit ends, into the placer. */
+static kiriProgress TakePiece(kiriSheetData* sheet, int32_t cell, kiriQuota* cells)
+{
+    kiriPlacingWork* placing = &sheet->update->placing;
+    kiriPlacer* placer = &placing->placer;
+    if (!placing->isTaking) {
+        placing->search = (kiriSlitSearch){ 0, 0 };
+        if (!kiriPlacer_StartPiece(placer, sheet->memory, &sheet->grid, cell)) {
+            return KIRI_FAILED;
+        }
+    }
+    kiriProgress progress = kiriPlacer_GoOnWithPiece(placer, sheet->memory, &sheet->grid, cells);
+    if (progress == KIRI_DONE) {
+        progress = kiriSlits_FindEnds(&placer->ends, &placing->search, sheet->memory, &sheet->grid, &sheet->mesh,
+                                      placer->cells.data, placer->cells.count, cells);
+    }
+    placing->isTaking = progress == KIRI_MORE;
+    return progress;
+}
+
+/* How far apart `count` frames are in the piece in the placer, away from slit ends. */
+static double SpacingOf(const kiriSheetData* sheet, int32_t count)
+{
+    return sheet->settings.frameLength > 0.0 ? sheet->settings.frameLength : sqrt(TakenArea(sheet) / count);
+}
+
+/* Starts placing frames in the piece of an orphan, and marks its cells as seen to. */
+static kiriProgress StartOrphan(kiriSheetData* sheet, int32_t cell, kiriQuota* cells)
+{
+    kiriUpdate* u = sheet->update;
+    kiriProgress progress = TakePiece(sheet, cell, cells);
+    if (progress != KIRI_DONE) {
+        return progress;
+    }
+    for (int32_t i = 0; i < u->placing.placer.cells.count; ++i) {
+        u->placing.marks.data[u->placing.placer.cells.data[i]] = 1;
+    }
+    int32_t count = FramesFor(sheet);
+    u->placing.pieces -= u->placing.pieces > 0;
+    return StartPlacing(sheet, count, SpacingOf(sheet, count)) ? KIRI_DONE : KIRI_FAILED;
+}
+
+static bool IsAtPiece(const kiriSheetData* sheet)
+{
+    return sheet->update->placing.isTaking || sheet->update->placing.isPlacing;
+}
+
+/* Frames for the pieces that have none, at least one each (section 5 of the paper). */
+kiriProgress kiriSites_PlaceInOrphans(kiriSheetData* sheet, kiriQuota* cells)
+{
+    kiriUpdate* u = sheet->update;
+    for (; u->placing.at < sheet->regions.orphans.count; ++u->placing.at) {
+        int32_t cell = sheet->regions.orphans.data[u->placing.at];
+        if (!IsAtPiece(sheet) && u->placing.marks.data[cell]) {
+            continue;
+        }
+        kiriProgress progress = u->placing.isPlacing ? KIRI_DONE : StartOrphan(sheet, cell, cells);
+        progress = progress == KIRI_DONE ? kiriSites_RunPlacer(sheet, cells) : progress;
+        if (progress != KIRI_DONE) {
+            return progress;
+        }
+        for (int32_t i = 0; i < u->placing.placer.sites.count; ++i) {
+            if (!AddSite(sheet, u->placing.placer.sites.data[i])) {
+                return KIRI_FAILED;
+            }
+        }
+    }
+    return KIRI_DONE;
+}
+
+bool kiriSites_ClearMarks(kiriSheetData* sheet, int32_t count)
+{
+    kiriUpdate* u = sheet->update;
+    u->placing.at = 0;
+    if (!kiriArray_Resize(sheet->memory, &u->placing.marks, count)) {
+        return false;
+    }
+    if (count > 0) {
+        memset(u->placing.marks.data, 0, (size_t)count);
+    }
+    return true;
+}
+
+/* ---- Re-sampling ---- */
+
+/* Returns the area over which the frame's weight exceeds rigidWeight, divided by rigidArea. 0 where the new sheet
+   had as much. */
+static double FrameRigidity(const kiriSheetData* sheet, int32_t frame)
+{
+    int64_t rigid = sheet->shape.rigid.data[frame];
+    double square = sheet->grid.side * sheet->grid.side / 1099511627776.0; /* 2^40, see kiriShape.rigid */
+    bool isMore = frame >= sheet->frames.count || rigid > sheet->frames.data[frame].rigidAtStart;
+    return isMore ? (double)rigid * square / sheet->settings.rigidArea : 0.0;
+}
+
+/* Returns the squared size of a frame's region, divided by the largest that it may have. The size follows from the
+   radius of gyration, so long regions count as large. A square is as large as its side. */
+static double Largeness(const kiriSheetData* sheet, int32_t frame)
+{
+    if (sheet->settings.frameLength == 0.0) {
+        return 0.0;
+    }
+    kiriMoments m = kiriTally_Moments(&sheet->regions.material.data[frame], kiriSheet_Extent(sheet));
+    kiriMoments about = kiriMoments_About(&m, kiriMoments_Center(&m));
+    /* A quarter more than the length that frames are placed at: their regions differ. */
+    double most = 1.5625 * sheet->settings.frameLength * sheet->settings.frameLength;
+    return 6.0 * (about.uu + about.vv) / (most * m.area);
+}
+
+/* Above 1: the frame needs another beside it. */
+static double NeedOf(const kiriSheetData* sheet, int32_t frame)
+{
+    double rigidity = FrameRigidity(sheet, frame), largeness = Largeness(sheet, frame);
+    return kiriMax(rigidity, largeness);
+}
+
+/* Marks the cells of the piece in which the weight of a rigid frame exceeds rigidWeight, or whose region is too
+   large. */
+static bool MarkRigidCells(kiriSheetData* sheet)
+{
+    kiriUpdate* u = sheet->update;
+    if (!kiriArray_Resize(sheet->memory, &u->placing.allowed, sheet->grid.cells.count)) {
+        return false;
+    }
+    int32_t last = KIRI_NONE; /* cells come region by region, more or less */
+    bool isLarge = false;
+    for (int32_t i = 0; i < u->placing.placer.cells.count; ++i) {
+        int32_t cell = u->placing.placer.cells.data[i], owner = sheet->regions.field.owner.data[cell];
+        kiriSpan span = sheet->shape.spans.data[cell];
+        double sum = kiriShape_Sum(&sheet->shape, span);
+        isLarge = owner == last ? isLarge : Largeness(sheet, owner) > 1.0;
+        last = owner;
+        u->placing.allowed.data[cell] = isLarge;
+        for (int32_t k = span.first; k < span.first + span.count; ++k) {
+            const kiriCellWeight* weight = &sheet->shape.weights.data[k];
+            u->placing.allowed.data[cell] |= kiriCellWeight_Raw(weight) / sum > sheet->shape.rigidWeight &&
+                                             FrameRigidity(sheet, kiriSheet_FrameOf(sheet, weight->label)) > 1.0;
+        }
+    }
+    return true;
+}
+
+/* The frames of the piece in the placer, and its sites; *old says whether one of them was there before this update. */
+static bool TakeSitesOfPiece(kiriSheetData* sheet, bool* old)
+{
+    kiriUpdate* u = sheet->update;
+    u->placing.placer.sites.count = u->placing.own.count = 0;
+    *old = false;
+    for (int32_t i = 0; i < u->placing.placer.cells.count; ++i) {
+        int32_t frame = sheet->regions.siteAt.data[u->placing.placer.cells.data[i]];
+        if (frame != KIRI_NONE) {
+            u->placing.marks.data[frame] = 1;
+            *old = *old || frame < sheet->frames.count;
+            if (!kiriArray_Push(sheet->memory, &u->placing.own, frame)) {
+                return false;
+            }
+        }
+    }
+    kiriSort(u->placing.own.data, u->placing.own.count, NULL, NULL);
+    bool ok = true;
+    for (int32_t i = 0; ok && i < u->placing.own.count; ++i) {
+        ok = kiriArray_Push(sheet->memory, &u->placing.placer.sites, u->placing.sites.data[u->placing.own.data[i]]);
+    }
+    return ok;
+}
+
+/* Returns how many more sites the piece in the placer gets. Where all sites are new they are placed again, to lie
+   evenly: in the first round, and while more than a quarter of the frames need another. Areas shrink then as the count
+   grows. The count grows by half at most. Else there is one site for every two frames in need, for a new site helps its
+   neighbours, too. A crumb gets none, and a piece gets no more than the grid carries. */
+static int32_t SitesToAdd(kiriSheetData* sheet, bool areNew)
+{
+    kiriPlacingWork* placing = &sheet->update->placing;
+    int32_t own = placing->own.count, most = kiriSites_MostIn(placing->placer.cells.count) - own,
+            left = sheet->settings.maxFrames - placing->sites.count, needing = 0;
+    double largest = 1.0;
+    for (int32_t i = 0; i < own; ++i) {
+        double need = NeedOf(sheet, placing->own.data[i]);
+        needing += need > 1.0;
+        largest = kiriMax(need, largest);
+    }
+    most = kiriMin(left, most);
+    placing->isAgain = areNew && (placing->isFirst || needing > own / 4) && most > 0 && !IsCrumbTaken(sheet);
+    double more = placing->isAgain ? own * (largest < 1.5 ? largest - 1.0 : 0.5) : 0.5 * needing + 0.5;
+    more = kiriMax(1.0, more);
+    return most < 1 || IsCrumbTaken(sheet) ? 0 : more < most ? (int32_t)more : most;
+}
+
+/* More sites in the piece in the placer, in rigid cells or evenly. */
+static bool AddToPiece(kiriSheetData* sheet)
+{
+    kiriPlacingWork* placing = &sheet->update->placing;
+    bool old;
+    if (!MarkRigidCells(sheet) || !TakeSitesOfPiece(sheet, &old)) {
+        return false;
+    }
+    int32_t more = SitesToAdd(sheet, !old);
+    if (placing->isAgain) {
+        int32_t count = placing->own.count + more;
+        return StartPlacing(sheet, count, SpacingOf(sheet, count));
+    }
+    placing->placer.known = &sheet->regions.field;
+    return kiriPlacer_Start(&placing->placer, sheet->memory, &sheet->grid, &sheet->mesh, placing->allowed.data, more);
+}
+
+static kiriProgress StartResample(kiriSheetData* sheet, int32_t frame, kiriQuota* cells)
+{
+    kiriProgress progress = TakePiece(sheet, sheet->update->placing.sites.data[frame].cell, cells);
+    return progress != KIRI_DONE || AddToPiece(sheet) ? progress : KIRI_FAILED;
+}
+
+/* New sites take the indices of those of the piece that were placed again, then new ones. A piece that has no cell for
+   one more stays as it is. */
+static bool GiveSites(kiriSheetData* sheet)
+{
+    kiriUpdate* u = sheet->update;
+    bool ok = true, isAgain = u->placing.isAgain;
+    int32_t next = isAgain ? 0 : u->placing.placer.oldCount;
+    if (isAgain && u->placing.placer.sites.count <= u->placing.own.count) {
+        return true;
+    }
+    for (int32_t i = 0; ok && isAgain && i < u->placing.own.count; ++i) {
+        int32_t f = u->placing.own.data[i];
+        ok = RecordMove(sheet, f, u->placing.sites.data[f].cell);
+        u->placing.sites.data[f] = u->placing.placer.sites.data[next++];
+    }
+    while (ok && next < u->placing.placer.sites.count) {
+        ok = AddSite(sheet, u->placing.placer.sites.data[next++]);
+    }
+    return ok;
+}
+
+/* Was the piece of the frame a crumb already? Then it is one. */
+static bool IsOfCrumb(const kiriSheetData* sheet, int32_t frame)
+{
+    return frame < sheet->frames.count &&
+           sheet->layout.pieces.data[sheet->layout.framePiece.data[frame]].area < sheet->settings.crumbArea;
+}
+
+bool kiriSites_MayBeFew(const kiriSheetData* sheet)
+{
+    bool mayBe = sheet->update->needsRebuild;
+    for (int32_t f = 0; !mayBe && f < sheet->frames.count && sheet->frames.count < sheet->settings.maxFrames; ++f) {
+        mayBe = NeedOf(sheet, f) > 1.0 && !IsOfCrumb(sheet, f);
+    }
+    return mayBe;
+}
+
+/* More frames for each piece with a rigid one. */
+kiriProgress kiriSites_Resample(kiriSheetData* sheet, kiriQuota* cells)
+{
+    kiriUpdate* u = sheet->update;
+    for (; u->placing.at < u->placing.marks.count && u->placing.sites.count < sheet->settings.maxFrames;
+         ++u->placing.at) {
+        if (!IsAtPiece(sheet) && (u->placing.marks.data[u->placing.at] || !(NeedOf(sheet, u->placing.at) > 1.0) ||
+                                  IsOfCrumb(sheet, u->placing.at))) {
+            continue;
+        }
+        kiriProgress progress = u->placing.isPlacing ? KIRI_DONE : StartResample(sheet, u->placing.at, cells);
+        progress = progress == KIRI_DONE ? kiriSites_RunPlacer(sheet, cells) : progress;
+        if (progress != KIRI_DONE) {
+            return progress;
+        }
+        if (!GiveSites(sheet)) {
+            return KIRI_FAILED;
+        }
+    }
+    return KIRI_DONE;
+}

@@ -1,0 +1,896 @@
+#include "kiri_update.h"
+#include "kiri_piece.h"
+#include "kiri_pin.h"
+#include "kiri_seen.h"
+#include "kiri_sheet_site.h"
+
+#include <string.h>
+
+/* For each edge that a blade crosses; a triangle is in two squares or so, and a vertex has few weights. */
+enum { ROOM_VERTICES = 3, ROOM_TRIANGLES = 3, ROOM_NODES = 6, ROOM_WEIGHTS = 24, ROOM_CORNERS = 24 };
+
+enum { ROOM_BYTES = 768 }; /* that an item moves */
+
+/* About as many edges as the points of the update cross, in a mesh of even triangles; at most as many as it has
+   vertices. */
+static int64_t CountCrossings(const kiriSheetData* sheet)
+{
+    const kiriUpdate* u = sheet->update;
+    const kiriMeshData* mesh = &sheet->mesh;
+    double way = 0.0, most = mesh->vertices.count, width = (double)mesh->squares.columns * mesh->squares.side,
+           height = (double)mesh->squares.rows * mesh->squares.side;
+    for (int32_t i = u->cut.taken; i < u->cut.count; ++i) {
+        const kiriQueuedPoint* point = &sheet->queue.data[i];
+        kiriVec2 from = i > 0 && sheet->queue.data[i - 1].cut == point->cut ? sheet->queue.data[i - 1].to
+                                                                            : point->cut->tip.last,
+                 to = point->to;
+        if (!point->jump && kiriCut_Clip(mesh, &from, &to)) {
+            way += kiriVec2_Length(kiriVec2_Sub(to, from)) / mesh->step;
+        }
+    }
+    double spacing = sqrt(2.0 * width * height / (mesh->triangles.count + 1.0)), crossings = 3.0 * way / spacing;
+    return (int64_t)kiriMin(crossings, most) + u->cut.count;
+}
+
+enum { ROOMS = 16 };
+
+static void ListRooms(kiriSheetData* sheet, int64_t more, kiriRoom rooms[ROOMS])
+{
+    kiriMemory *own = sheet->memory, *shown = &sheet->shown;
+    kiriMeshData* mesh = &sheet->mesh;
+    kiriSkin* skin = &sheet->vertexSkin;
+    kiriSurface* s = &sheet->seen.surface;
+    int64_t vertices = mesh->vertices.count + ROOM_VERTICES * more,
+            added = mesh->triangles.count + ROOM_TRIANGLES * more, corners = 3 * (added + 1),
+            blocks = mesh->sources.count > 0 ? 0 : mesh->sourceCorners.count + ROOM_CORNERS * more;
+    const kiriRoom all[ROOMS] = { KIRI_ROOM(own, &mesh->vertices, vertices),
+                                  KIRI_ROOM(own, &mesh->triangles, added),
+                                  KIRI_ROOM(own, &mesh->squares.nodes, mesh->squares.nodes.count + ROOM_NODES * more),
+                                  KIRI_ROOM(own, &mesh->sourceCorners, blocks),
+                                  KIRI_ROOM(own, &skin->spans, vertices),
+                                  KIRI_ROOM(own, &skin->weights, skin->weights.count + ROOM_WEIGHTS * more),
+                                  KIRI_ROOM(shown, &s->restPositions, 2 * vertices),
+                                  KIRI_ROOM(shown, &s->sourceWeights, 3 * vertices),
+                                  KIRI_ROOM(shown, &s->sourceTriangles, vertices),
+                                  KIRI_ROOM(shown, &s->indices, corners),
+                                  KIRI_ROOM(shown, &s->turns, added / 2 + 1),
+                                  KIRI_ROOM(shown, &s->rest, vertices),
+                                  KIRI_CHANGING_ROOM(shown, &s->positions, 3 * vertices + 1),
+                                  KIRI_CHANGING_ROOM(shown, &s->normals, 3 * vertices),
+                                  KIRI_CHANGING_ROOM(shown, &s->places, 3 * vertices + 1),
+                                  KIRI_CHANGING_ROOM(shown, &s->slopes, 4 * vertices) };
+    memcpy(rooms, all, sizeof(all));
+}
+
+/* What a tick may need: each triangle made takes an item. */
+static int64_t CrossingsInTick(const kiriQuota* triangles, int64_t crossings)
+{
+    int64_t most = triangles->left / ROOM_TRIANGLES + 1;
+    return kiriMin(most, 4 * crossings);
+}
+
+bool kiriRoom_IsLow(kiriSheetData* sheet, const kiriQuota* triangles)
+{
+    kiriRoom rooms[ROOMS];
+    bool isLow = false;
+    ListRooms(sheet, CrossingsInTick(triangles, CountCrossings(sheet)), rooms);
+    for (int32_t i = 0; i < ROOMS; ++i) {
+        isLow |= rooms[i].need > kiriArray_GetHeader(rooms[i].array).capacity;
+    }
+    return isLow;
+}
+
+/* What has been moved counts no more where pieces have gone. */
+static void StartGrowing(kiriSheetData* sheet)
+{
+    kiriUpdate* u = sheet->update;
+    if (u->growsSince != sheet->mesh.revision) {
+        kiriGrowing_Drop(&u->growing);
+        u->growsSince = sheet->mesh.revision;
+    }
+}
+
+kiriProgress kiriRoom_ForCut(kiriSheetData* sheet, kiriQuota* triangles)
+{
+    kiriUpdate* u = sheet->update;
+    kiriRoom rooms[ROOMS];
+    StartGrowing(sheet);
+    int64_t crossings = CountCrossings(sheet), inTick = CrossingsInTick(triangles, crossings);
+    ListRooms(sheet, u->cut.taken > 0 && crossings < inTick ? inTick : crossings, rooms);
+    return kiriGrowing_GoOn(&u->growing, rooms, ROOMS, triangles, ROOM_BYTES);
+}
+
+enum { WEIGHT_ROOMS = 2, WEIGHT_BYTES = 512 }; /* that an item moves */
+
+/* In a mesh of even triangles. */
+static void ListWeightRooms(kiriSheetData* sheet, kiriRoom rooms[WEIGHT_ROOMS])
+{
+    const kiriSquares* squares = &sheet->mesh.squares;
+    kiriSkin* skin = &sheet->vertexSkin;
+    int64_t vertices = sheet->mesh.vertices.count, all = (int64_t)squares->columns * squares->rows,
+            more = vertices * sheet->update->samples.refresh.squares.count / all,
+            each = skin->weights.count / (vertices > 0 ? vertices : 1) + 1;
+    const kiriRoom both[WEIGHT_ROOMS] = { KIRI_ROOM(sheet->memory, &skin->staged, more),
+                                          KIRI_ROOM(sheet->memory, &skin->weights, skin->weights.count + each * more) };
+    memcpy(rooms, both, sizeof(both));
+}
+
+kiriProgress kiriRoom_ForWeights(kiriSheetData* sheet, kiriQuota* samples)
+{
+    kiriRoom rooms[WEIGHT_ROOMS];
+    ListWeightRooms(sheet, rooms);
+    StartGrowing(sheet);
+    return kiriGrowing_GoOn(&sheet->update->growing, rooms, WEIGHT_ROOMS, samples, WEIGHT_BYTES);
+}
+
+/* An array that is small grows when it is full, at one go. */
+static void PassOverSmall(kiriRoom* room)
+{
+    enum { SMALL_BYTES = 1 << 18 };
+    int64_t bytes = kiriArray_GetHeader(room->array).count * (int64_t)room->itemBytes;
+    room->need = bytes < SMALL_BYTES ? 0 : room->need;
+}
+
+kiriProgress kiriRoom_ForMoreWeights(kiriSheetData* sheet, kiriQuota* samples)
+{
+    kiriRoom rooms[WEIGHT_ROOMS];
+    kiriSkin* skin = &sheet->vertexSkin;
+    int64_t vertices = sheet->mesh.vertices.count, more = samples->left < vertices ? samples->left : 0,
+            each = skin->weights.count / (vertices > 0 ? vertices : 1) + 1;
+    StartGrowing(sheet);
+    ListWeightRooms(sheet, rooms);
+    rooms[0].need = skin->staged.count + more;
+    rooms[1].need = skin->weights.count + each * more;
+    PassOverSmall(&rooms[0]);
+    PassOverSmall(&rooms[1]);
+    return kiriGrowing_GoOn(&sheet->update->growing, rooms, WEIGHT_ROOMS, samples, WEIGHT_BYTES);
+}
+
+/* What counts no more is not kept: its array may have become shorter. */
+void kiriRoom_ArchiveGrowing(kiriArchive* archive, kiriSheetData* sheet)
+{
+    kiriRoom rooms[ROOMS + WEIGHT_ROOMS];
+    kiriUpdate* u = sheet->update;
+    kiriGrowing none = { NULL, NULL, NULL, 0, 0, u->growing.owed };
+    bool counts = kiriArchive_Reads(archive) || u->growsSince == sheet->mesh.revision;
+    ListRooms(sheet, 0, rooms);
+    ListWeightRooms(sheet, rooms + ROOMS);
+    kiriArchive_Growing(archive, counts ? &u->growing : &none, rooms, ROOMS + WEIGHT_ROOMS);
+}
+
+/* ---- Cut: appendix A --------------------------------------------------------------------------------------------- */
+
+/* Moves the blade of a cut to the next point of its polyline. */
+static kiriProgress TakeQueuedPoint(kiriSheetData* sheet, const kiriQueuedPoint* point, kiriQuota* triangles)
+{
+    kiriMeshData* mesh = &sheet->mesh;
+    kiriTip* tip = &point->cut->tip;
+    kiriVec2 from = tip->last, to = point->to;
+    if (point->jump || !kiriCut_Clip(mesh, &from, &to)) {
+        tip->last = point->to;
+        tip->blade = kiriCut_Place(mesh, point->to);
+        return KIRI_DONE;
+    }
+    kiriLatticePoint start = kiriMesh_Snap(mesh, from);
+    if (tip->blade.vertex == KIRI_NONE && (start.x != tip->blade.at.x || start.y != tip->blade.at.y)) {
+        tip->blade = kiriCut_Place(mesh, from); /* it comes from far outside */
+    }
+    kiriProgress progress = kiriCut_Move(mesh, &tip->blade, kiriMesh_Snap(mesh, to), sheet->settings.snap, triangles);
+    if (progress == KIRI_DONE) {
+        tip->last = point->to;
+    }
+    return progress;
+}
+
+/* The steps of the stage; the first is 0. */
+enum { MAKE_ROOM, CUT_MESH };
+
+/* Ends the update with the tick of the last point, where that settles sites: later points are for the next one. */
+static void EndWithTick(kiriSheetData* sheet, const kiriQueuedPoint* last)
+{
+    kiriCutWork* cut = &sheet->update->cut;
+    bool isLast = cut->taken == sheet->queue.count || last[1].stamp != last->stamp;
+    cut->settlesSites = cut->settlesSites || last->ends;
+    cut->count = cut->settlesSites && isLast ? cut->taken : cut->count;
+}
+
+/* Takes queued points as far as the quota goes. Newborn vertices stay on the surface as it is. */
+kiriProgress kiriStage_SplitMesh(kiriSheetData* sheet, kiriQuota* triangles)
+{
+    kiriUpdate* u = sheet->update;
+    u->step = u->step == CUT_MESH && kiriRoom_IsLow(sheet, triangles) ? MAKE_ROOM : u->step;
+    kiriProgress progress = u->step == MAKE_ROOM ? kiriRoom_ForCut(sheet, triangles) : KIRI_DONE;
+    u->step = progress == KIRI_DONE ? CUT_MESH : u->step;
+    kiriMesh_Begin(&sheet->mesh);
+    while (progress == KIRI_DONE && u->cut.taken < u->cut.count) {
+        const kiriQueuedPoint* point = &sheet->queue.data[u->cut.taken];
+        progress = TakeQueuedPoint(sheet, point, triangles);
+        u->cut.settlesSites = u->cut.settlesSites || sheet->mesh.hasMet;
+        if (progress == KIRI_DONE) {
+            u->cut.taken += 1;
+            EndWithTick(sheet, point);
+        }
+    }
+    u->cut.meshChanged = u->cut.meshChanged || sheet->mesh.savedTriangles.count > 0 ||
+                         (progress == KIRI_DONE && u->cut.settlesSites && u->isUnsettled && kiriSites_MayBeFew(sheet));
+    bool hasRoom = progress != KIRI_FAILED && kiriSkin_Inherit(&sheet->vertexSkin, sheet->memory, &sheet->mesh) &&
+                   kiriView_Resize(sheet, sheet->frames.count, sheet->points.count);
+    return hasRoom ? progress : KIRI_FAILED;
+}
+
+void kiriStage_CommitMesh(kiriSheetData* sheet)
+{
+    if (sheet->mesh.savedTriangles.count > 0) {
+        kiriPieceLists_Forget(&sheet->lists);
+        sheet->probes.isFresh = false;
+        kiriView_WriteTopology(sheet);
+    }
+    kiriMesh_Commit(&sheet->mesh);
+    for (int32_t i = 0; i < sheet->cuts.count; ++i) {
+        sheet->cuts.data[i]->committed = sheet->cuts.data[i]->tip;
+    }
+}
+
+/* ---- Grid, regions, shape functions: sections 4.1, 4.2 and 5 ----------------------------------------------------- */
+
+/* The steps of the two stages that have more than one; each starts with its first, 0. */
+enum { RELOCATE_SITES, DIVIDE_REGIONS, PLACE_IN_ORPHANS };
+enum { WEIGH_CELLS, ADD_SITES, DIVIDE_AGAIN, MAKE_LINKS };
+
+kiriProgress kiriStage_Grid(kiriSheetData* sheet, kiriQuota* cells)
+{
+    kiriUpdate* u = sheet->update;
+    if (u->needsRebuild || (sheet->settings.fromScratch && !u->isScratch)) {
+        kiriGrid_Reset(&sheet->grid);
+        kiriRegions_Reset(&sheet->regions);
+        kiriShape_Reset(&sheet->shape);
+        u->needsRebuild = false;
+        u->isScratch = true;
+    }
+    kiriProgress progress = kiriGrid_Update(&sheet->grid, &sheet->mesh, cells);
+    if (progress == KIRI_DONE) {
+        const kiriGridChanges* changes = &sheet->grid.changes;
+        if (!kiriOwnership_NoteDirty(&u->refit.ownership, sheet->memory, &sheet->mesh) ||
+            !kiriRefresh_NoteDirty(&u->samples.refresh, sheet->memory, &sheet->mesh)) {
+            return KIRI_FAILED;
+        }
+        kiriSquares_ClearDirty(&sheet->mesh.squares);
+        u->counts.cells = changes->made.count + changes->material.count;
+    }
+    return progress;
+}
+
+/* ---- Regions ---- */
+
+static kiriProgress DivideRegions(kiriSheetData* sheet, kiriQuota* cells)
+{
+    kiriUpdate* u = sheet->update;
+    kiriProgress progress = kiriRegions_Update(
+        &sheet->regions, sheet->memory, &sheet->grid, &sheet->mesh, u->placing.sites.data, u->placing.sites.count,
+        u->placing.moves.data + u->placing.movesSeen, u->placing.moves.count - u->placing.movesSeen, cells);
+    if (progress == KIRI_DONE) {
+        u->placing.movesSeen = u->placing.moves.count;
+    }
+    return progress;
+}
+
+kiriProgress kiriStage_Regions(kiriSheetData* sheet, kiriQuota* cells)
+{
+    kiriUpdate* u = sheet->update;
+    if (u->step == RELOCATE_SITES) {
+        if (!kiriSites_Relocate(sheet)) {
+            return KIRI_FAILED;
+        }
+        u->placing.isFirst = true;
+        u->step = DIVIDE_REGIONS;
+    }
+    for (;;) {
+        kiriProgress progress =
+            u->step == DIVIDE_REGIONS ? DivideRegions(sheet, cells) : kiriSites_PlaceInOrphans(sheet, cells);
+        if (progress != KIRI_DONE) {
+            return progress;
+        }
+        if (u->step == DIVIDE_REGIONS && sheet->regions.orphans.count == 0) {
+            return KIRI_DONE;
+        }
+        if (u->step == DIVIDE_REGIONS && !kiriSites_ClearMarks(sheet, sheet->grid.cells.count)) {
+            return KIRI_FAILED;
+        }
+        u->step = u->step == DIVIDE_REGIONS ? PLACE_IN_ORPHANS : DIVIDE_REGIONS;
+    }
+}
+
+/* ---- Shape, and re-sampling (section 5) ---- */
+
+static kiriProgress WeighCells(kiriSheetData* sheet, kiriQuota* cells)
+{
+    kiriUpdate* u = sheet->update;
+    kiriProgress progress = kiriShape_Update(&sheet->shape, sheet->memory, &sheet->grid, &sheet->mesh, &sheet->regions,
+                                             u->placing.sites.data, u->placing.sites.count, u->placing.moves.data,
+                                             u->placing.moves.count, cells);
+    if (progress == KIRI_DONE) {
+        if (!kiriOwnership_NoteChanges(&u->refit.ownership, sheet->memory, &sheet->grid, &sheet->mesh,
+                                       &sheet->regions)) {
+            return KIRI_FAILED;
+        }
+        kiriGrid_ClearChanges(&sheet->grid);
+        kiriRegions_ClearChanges(&sheet->regions);
+        u->placing.moves.count = u->placing.movesSeen = 0;
+    }
+    return progress;
+}
+
+static bool MeasureRegions(kiriSheetData* sheet)
+{
+    kiriUpdate* u = sheet->update;
+    double extent = kiriSheet_Extent(sheet);
+    int32_t known = u->material.count;
+    if (!kiriArray_Resize(sheet->memory, &u->material, u->placing.sites.count)) {
+        return false;
+    }
+    for (int32_t i = 0; i < u->placing.sites.count; ++i) {
+        if (i < known && !sheet->regions.dirty.data[i]) {
+            continue;
+        }
+        u->material.data[i] = kiriTally_Moments(&sheet->regions.material.data[i], extent);
+    }
+    return true;
+}
+
+static kiriProgress MakeLinks(kiriSheetData* sheet, kiriQuota* cells)
+{
+    const kiriSites* sites = &sheet->update->placing.sites;
+    return kiriLinks_Update(&sheet->links, sheet->memory, &sheet->grid, &sheet->mesh, &sheet->regions, sites->data,
+                            sites->count, cells);
+}
+
+/* Sites are added until no frame asks for one, where the update settles them. */
+static kiriProgress SettleSites(kiriSheetData* sheet, kiriQuota* cells)
+{
+    kiriUpdate* u = sheet->update;
+    for (;;) {
+        kiriProgress progress = u->step == WEIGH_CELLS ? WeighCells(sheet, cells)
+                                : u->step == ADD_SITES ? kiriSites_Resample(sheet, cells)
+                                                       : DivideRegions(sheet, cells);
+        bool isSettled =
+            u->step == WEIGH_CELLS ? !u->cut.settlesSites : u->step == ADD_SITES && u->placing.moves.count == 0;
+        if (progress != KIRI_DONE || isSettled) {
+            return progress;
+        }
+        if (u->step == WEIGH_CELLS && !kiriSites_ClearMarks(sheet, u->placing.sites.count)) {
+            return KIRI_FAILED;
+        }
+        u->placing.isFirst = u->placing.isFirst && u->step != ADD_SITES;
+        u->step = u->step == DIVIDE_AGAIN ? WEIGH_CELLS : u->step + 1;
+    }
+}
+
+kiriProgress kiriStage_Shape(kiriSheetData* sheet, kiriQuota* cells)
+{
+    if (sheet->update->step != MAKE_LINKS) {
+        kiriProgress progress = SettleSites(sheet, cells);
+        if (progress != KIRI_DONE || !MeasureRegions(sheet)) {
+            return progress != KIRI_DONE ? progress : KIRI_FAILED;
+        }
+        sheet->update->step = MAKE_LINKS;
+    }
+    return MakeLinks(sheet, cells);
+}
+
+/* ---- Samples: section 6 ------------------------------------------------------------------------------------------ */
+
+/* The points that were staged, in their new cells. */
+static bool MoveCollisionPoints(kiriSheetData* sheet)
+{
+    kiriUpdate* u = sheet->update;
+    for (int32_t k = 0; k < sheet->pointSkin.staged.count; ++k) {
+        int32_t point = sheet->pointSkin.staged.data[k].sample;
+        kiriLatticePoint at = sheet->points.data[point].at;
+        kiriSample moved = { at, kiriGrid_CellAround(&sheet->grid, &sheet->mesh, at), point };
+        if (!kiriArray_Push(sheet->memory, &u->samples.movedPoints, moved)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* A piece with points only changes into one without when it falls apart. */
+static bool NeedsPoints(const kiriSheetData* sheet)
+{
+    return sheet->settings.collisionPoints > 0.0 && sheet->update->next.pieces.count != sheet->layout.pieces.count;
+}
+
+/* Marks the pieces that hold a point. */
+static bool MarkPiecesWithPoints(kiriSheetData* sheet)
+{
+    kiriUpdate* u = sheet->update;
+    if (!kiriSites_ClearMarks(sheet, u->next.pieces.count)) {
+        return false;
+    }
+    u->placing.whole = NeedsPoints(sheet) ? kiriMesh_Area(&sheet->mesh) : 0.0;
+    for (int32_t i = 0; NeedsPoints(sheet) && i < sheet->points.count; ++i) {
+        int32_t cell = kiriGrid_CellAround(&sheet->grid, &sheet->mesh, sheet->points.data[i].at);
+        u->placing.marks.data[u->next.framePiece.data[sheet->regions.field.owner.data[cell]]] = 1;
+    }
+    return true;
+}
+
+static bool StartPlacingPoints(kiriSheetData* sheet, int32_t piece)
+{
+    kiriUpdate* u = sheet->update;
+    int32_t frame = u->next.pieces.data[piece].frame;
+    u->placing.placer.sites.count = 0;
+    return kiriPlacer_TakePiece(&u->placing.placer, sheet->memory, &sheet->grid, u->placing.sites.data[frame].cell) &&
+           kiriPlacer_Start(&u->placing.placer, sheet->memory, &sheet->grid, &sheet->mesh, NULL,
+                            kiriSites_ShareOf(sheet, sheet->settings.collisionPoints));
+}
+
+static bool AddCollisionPoints(kiriSheetData* sheet)
+{
+    kiriUpdate* u = sheet->update;
+    for (int32_t i = 0; i < u->placing.placer.sites.count; ++i) {
+        int32_t cell = u->placing.placer.sites.data[i].cell, sample = sheet->points.count + u->samples.newPoints.count;
+        kiriLatticePoint at = kiriGrid_Anchor(&sheet->grid, &sheet->mesh, cell);
+        cell = kiriGrid_CellAround(&sheet->grid, &sheet->mesh, at); /* the tip of a triangle may be another's, too */
+        kiriSample point = { at, cell, KIRI_NONE };
+        if (!kiriArray_Push(sheet->memory, &u->samples.newPoints, point) ||
+            !kiriSkin_Stage(&sheet->pointSkin, sheet->memory, &sheet->shape, &sheet->grid, &sheet->mesh, sample, cell,
+                            kiriMesh_Local(&sheet->mesh, point.at))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Collision points for each piece that has none. */
+static kiriProgress PlaceCollisionPoints(kiriSheetData* sheet, kiriQuota* samples)
+{
+    kiriUpdate* u = sheet->update;
+    for (; NeedsPoints(sheet) && u->placing.at < u->next.pieces.count; ++u->placing.at) {
+        if (u->placing.marks.data[u->placing.at]) {
+            continue;
+        }
+        if (!u->placing.isPlacing && !StartPlacingPoints(sheet, u->placing.at)) {
+            return KIRI_FAILED;
+        }
+        kiriProgress progress = kiriSites_RunPlacer(sheet, samples);
+        if (progress != KIRI_DONE) {
+            return progress;
+        }
+        if (!AddCollisionPoints(sheet)) {
+            return KIRI_FAILED;
+        }
+    }
+    return KIRI_DONE;
+}
+
+static kiriProgress JoinPieces(kiriSheetData* sheet, kiriQuota* samples)
+{
+    if (!kiriQuota_Take(samples, 1)) {
+        return KIRI_MORE;
+    }
+    return kiriPieces_Stage(sheet) ? KIRI_DONE : KIRI_FAILED;
+}
+
+static kiriProgress FindSamples(kiriSheetData* sheet, kiriQuota* samples)
+{
+    kiriSampleWork* work = &sheet->update->samples;
+    return kiriRefresh_Start(&work->refresh, sheet->memory, &sheet->shape, &sheet->grid, &sheet->mesh,
+                             work->oldVertices, samples);
+}
+
+static kiriProgress WeighVertices(kiriSheetData* sheet, kiriQuota* samples)
+{
+    kiriProgress progress = kiriRoom_ForMoreWeights(sheet, samples);
+    return progress == KIRI_DONE
+               ? kiriRefresh_Vertices(&sheet->update->samples.refresh, &sheet->vertexSkin, sheet->memory, &sheet->shape,
+                                      &sheet->grid, &sheet->mesh, samples)
+               : progress;
+}
+
+static kiriProgress WeighPoints(kiriSheetData* sheet, kiriQuota* samples)
+{
+    kiriProgress progress =
+        kiriRefresh_Points(&sheet->update->samples.refresh, &sheet->pointSkin, &sheet->pointPlaces, &sheet->points,
+                           sheet->memory, &sheet->shape, &sheet->grid, &sheet->mesh, samples);
+    return progress != KIRI_DONE || (MoveCollisionPoints(sheet) && MarkPiecesWithPoints(sheet)) ? progress
+                                                                                                : KIRI_FAILED;
+}
+
+kiriProgress kiriStage_RunSteps(kiriSheetData* sheet, kiriQuota* quota, kiriStageStep* const* steps, int32_t count)
+{
+    kiriProgress progress = KIRI_DONE;
+    while (progress == KIRI_DONE && sheet->update->step < count) {
+        progress = steps[sheet->update->step](sheet, quota);
+        sheet->update->step += progress == KIRI_DONE;
+    }
+    return progress;
+}
+
+kiriProgress kiriStage_Settle(kiriSheetData* sheet, kiriQuota* samples)
+{
+    kiriProgress progress = kiriSkin_Settle(&sheet->vertexSkin, samples);
+    return progress == KIRI_DONE ? kiriSkin_Settle(&sheet->pointSkin, samples) : progress;
+}
+
+kiriProgress kiriStage_Samples(kiriSheetData* sheet, kiriQuota* samples)
+{
+    static kiriStageStep* const steps[] = { kiriStage_Settle, JoinPieces,  FindSamples,         kiriRoom_ForWeights,
+                                            WeighVertices,    WeighPoints, PlaceCollisionPoints };
+    return kiriStage_RunSteps(sheet, samples, steps, (int32_t)(sizeof(steps) / sizeof(steps[0])));
+}
+
+typedef struct PipelineStage {
+    int quota;
+    kiriProgress (*run)(kiriSheetData* sheet, kiriQuota* quota);
+} PipelineStage;
+
+/* What a cut sets off, in the order of KIRI_STAGE. Any stage may spend its quota, or run out of memory; nothing is in
+   force before the commit. */
+static const PipelineStage pipeline[KIRI_READY] = {
+    { KIRI_QUOTA_TRIANGLES, kiriStage_SplitMesh }, /* appendix A, algorithm 4 */
+    { KIRI_QUOTA_CELLS, kiriStage_Grid },          /* section 4.2, algorithm 3 */
+    { KIRI_QUOTA_CELLS, kiriStage_Regions },       /* section 5: frames for pieces that have none */
+    { KIRI_QUOTA_CELLS, kiriStage_Shape },         /* section 4.1, algorithm 2; re-sampling of section 5 */
+    { KIRI_QUOTA_SAMPLES, kiriStage_Samples },     /* section 6 */
+    { KIRI_QUOTA_SAMPLES, kiriStage_Constants },   /* owners of material, new frames, the pattern of the matrix */
+};
+
+kiriQuotas kiriQuotas_Of(const kiriBudget* budget)
+{
+    const int32_t items[KIRI_QUOTA_COUNT] = { budget->triangles, budget->cells, budget->samples, budget->iterations };
+    kiriQuotas quotas;
+    for (int kind = 0; kind < KIRI_QUOTA_COUNT; ++kind) {
+        quotas.limits[kind] = items[kind] > 0 ? items[kind] : INT64_MAX;
+        quotas.of[kind] = (kiriQuota){ quotas.limits[kind], 0, 0, false };
+    }
+    return quotas;
+}
+
+kiriQuotas kiriQuotas_Unlimited(void)
+{
+    const kiriBudget unlimited = { 0, 0, 0, 0 };
+    return kiriQuotas_Of(&unlimited);
+}
+
+void kiriQuotas_Share(kiriQuotas* quotas, int spent)
+{
+    int64_t left = quotas->of[spent].left, limit = quotas->limits[spent];
+    for (int kind = 0; kind < KIRI_QUOTA_ITERATIONS; ++kind) {
+        if (kind != spent && left < limit && limit < INT64_MAX && quotas->limits[kind] < INT64_MAX) {
+            int64_t most = left * quotas->limits[kind] / limit; /* each has 31 bits */
+            kiriQuota* quota = &quotas->of[kind];
+            quota->left = kiriMin(quota->left, most);
+            quota->isShared = true;
+        }
+    }
+}
+
+static kiriProgress RunUpTo(kiriSheetData* sheet, int32_t end, kiriQuotas* quotas, const kiriWatch* watch)
+{
+    kiriUpdate* u = sheet->update;
+    kiriProgress progress = KIRI_DONE;
+    while (progress == KIRI_DONE && u->stage < end) {
+        KIRI_ASSERT(u->stage >= KIRI_STAGE_CUT && u->stage < KIRI_READY);
+        kiriQuota* quota = &quotas->of[pipeline[u->stage].quota];
+        int64_t done = quota->used + quota->beyond;
+        if (watch != NULL) {
+            watch->enter(watch->context, u->stage);
+        }
+        progress = quota->left > 0 ? pipeline[u->stage].run(sheet, quota) : KIRI_MORE;
+        u->spent += quota->used + quota->beyond - done;
+        quota->left = progress == KIRI_MORE ? 0 : quota->left; /* too little for the next item: nobody else gets it */
+        kiriQuotas_Share(quotas, pipeline[u->stage].quota);
+        if (progress == KIRI_DONE) {
+            /* A blade may move outside the sheet, or along edges that are open already. */
+            bool isOver = u->stage == KIRI_STAGE_CUT && !u->cut.meshChanged;
+            u->stage = isOver ? KIRI_READY : u->stage + 1;
+            u->step = 0;
+        }
+    }
+    return progress;
+}
+
+/* Weights for all vertices, none yet. */
+static bool StartSkin(kiriSheetData* sheet)
+{
+    kiriSkin* skin = &sheet->vertexSkin;
+    if (!kiriArray_Resize(sheet->memory, &skin->spans, sheet->mesh.vertices.count)) {
+        return false;
+    }
+    memset(skin->spans.data, 0, sizeof(kiriSpan) * (size_t)skin->spans.count);
+    return true;
+}
+
+kiriProgress kiriPipeline_MakeSome(kiriSheetData* sheet, int32_t end, kiriQuotas* quotas)
+{
+    if (sheet->update == NULL) {
+        sheet->update = kiriMemory_AllocZeroed(sheet->memory, sizeof(kiriUpdate));
+        if (sheet->update == NULL || !StartSkin(sheet)) {
+            return KIRI_FAILED;
+        }
+        sheet->update->stage = KIRI_STAGE_GRID;
+        sheet->update->isScratch = true;
+        sheet->update->cut.settlesSites = true;
+    }
+    return RunUpTo(sheet, end, quotas, NULL);
+}
+
+bool kiriPipeline_Make(kiriSheetData* sheet, int32_t end)
+{
+    kiriQuotas unlimited = kiriQuotas_Unlimited();
+    return kiriPipeline_MakeSome(sheet, end, &unlimited) == KIRI_DONE;
+}
+
+void kiriPipeline_Start(kiriSheetData* sheet)
+{
+    kiriUpdate* u = sheet->update;
+    u->start = (kiriUpdateStart){ u->stage, u->cut, u->spent };
+    u->isBegun = false;
+    if (u->stage == KIRI_NONE && sheet->queue.count > 0) {
+        u->cut = (kiriCutWork){ sheet->queue.data[0].stamp, sheet->queue.count, 0, false, false };
+        u->stage = KIRI_STAGE_CUT;
+        u->step = 0;
+        u->spent = 0;
+    }
+    sheet->seen.fades.jump = sheet->seen.fades.move = 0.0;
+}
+
+bool kiriPipeline_CanRun(const kiriSheetData* sheet, const kiriQuotas* quotas)
+{
+    int32_t stage = sheet->update->stage;
+    KIRI_ASSERT(stage != KIRI_NONE);
+    return stage == KIRI_READY || quotas->of[pipeline[stage].quota].left > 0;
+}
+
+kiriProgress kiriPipeline_Run(kiriSheetData* sheet, kiriQuotas* quotas, const kiriWatch* watch)
+{
+    KIRI_ASSERT(sheet->update->stage != KIRI_NONE && !sheet->update->isBegun);
+    sheet->update->isBegun = true;
+    return RunUpTo(sheet, KIRI_READY, quotas, watch);
+}
+
+void kiriPipeline_Finish(kiriSheetData* sheet)
+{
+    kiriUpdate* u = sheet->update;
+    KIRI_ASSERT(u->stage == KIRI_READY && u->cut.taken == u->cut.count && u->cut.count <= sheet->queue.count);
+    for (int32_t i = 0; i < sheet->queue.count; ++i) {
+        if (i < u->cut.count) {
+            sheet->queue.data[i].cut->waiting -= 1;
+        } else {
+            sheet->queue.data[i - u->cut.count] = sheet->queue.data[i];
+        }
+    }
+    sheet->queue.count -= u->cut.count;
+    u->isUnsettled = !u->cut.settlesSites && (u->isUnsettled || u->cut.meshChanged);
+    u->stage = KIRI_NONE;
+}
+
+/* The mesh, and the blades in it, as the tick found them. */
+static void RollBackMesh(kiriSheetData* sheet)
+{
+    kiriMesh_Rollback(&sheet->mesh);
+    kiriMesh_Commit(&sheet->mesh); /* nothing: between two ticks the journal is closed */
+    kiriSkin_Truncate(&sheet->vertexSkin, sheet->mesh.vertices.count);
+    kiriView_Truncate(sheet);
+    for (int32_t i = 0; i < sheet->cuts.count; ++i) {
+        sheet->cuts.data[i]->tip = sheet->cuts.data[i]->committed;
+    }
+}
+
+void kiriPipeline_Abort(kiriSheetData* sheet)
+{
+    kiriUpdate* u = sheet->update;
+    if (u->isBegun) {
+        RollBackMesh(sheet);
+        if (u->stage > KIRI_STAGE_CUT && u->cut.meshChanged) {
+            kiriStage_Drop(sheet);
+            u->needsRebuild = true;
+        }
+        u->step = 0;
+        u->isBegun = false;
+        u->spent = u->start.stage == KIRI_STAGE_CUT ? u->start.spent : 0;
+        u->stage = u->start.stage > KIRI_STAGE_CUT ? KIRI_STAGE_GRID : u->start.stage;
+    } else {
+        u->stage = u->start.stage; /* it may have been started in this tick */
+    }
+    u->cut = u->start.cut;
+}
+
+/* Before the commit all frames that carry a vertex are of one piece. A sheet that is being made has none yet. */
+static uint64_t PieceDataAt(const kiriSheetData* sheet, int32_t triangle)
+{
+    kiriSpan span = sheet->vertexSkin.spans.data[sheet->mesh.triangles.data[triangle].vertex[0]];
+    int32_t label = span.count > 0 ? sheet->vertexSkin.weights.data[span.first].label : KIRI_NONE;
+    return label != KIRI_NONE ? sheet->frames.data[kiriSheet_FrameOf(sheet, label)].pieceData : 0;
+}
+
+/* One that appears, without its motion. */
+static kiriFrameData MakeFrame(const kiriSheetData* sheet, const kiriNewFrame* from)
+{
+    kiriFrameData frame;
+    memset(&frame, 0, sizeof(frame));
+    frame.anchor = from->anchor;
+    frame.center = kiriMesh_Local(&sheet->mesh, frame.anchor);
+    frame.pieceData = PieceDataAt(sheet, from->triangle);
+    return frame;
+}
+
+/* From the surface: position, velocity, and the rotation nearest to its slope; for an affine frame the slope itself. */
+static void TakeMotion(const kiriSheetData* sheet, kiriFrameData* frame, int32_t triangle)
+{
+    kiriMotion motion = kiriSkin_Motion(&sheet->vertexSkin, &sheet->shape.labels, sheet->frames.data, &sheet->mesh,
+                                        triangle, frame->anchor);
+    frame->x = motion.x;
+    frame->velocity = motion.velocity;
+    if (sheet->settings.mechanics.model == KIRI_MODEL_LINKS) {
+        frame->A = kiriMat3_Rotation(motion.A);
+        frame->spin = motion.spin;
+    } else {
+        frame->A = motion.A;
+        frame->spin = kiriMat3_Spin(&motion.A, &motion.rate);
+        frame->rate = kiriMat3_Beside(&motion.A, &motion.rate, frame->spin);
+    }
+}
+
+/* What the frames with new material do, all from the motion before: see kiri_refit.h. */
+static void FitFrames(kiriSheetData* sheet, int32_t oldCount)
+{
+    kiriUpdate* u = sheet->update;
+    if (!sheet->settings.popping) {
+        kiriRefit_Solve(&u->refit, sheet->frames.data, oldCount, &sheet->mesh, &sheet->regions, u->material.data,
+                        &sheet->settings.material, sheet->settings.mechanics.model == KIRI_MODEL_LINKS);
+    }
+}
+
+/* Of a piece that diverges and is torn so far apart that doubles do not tell how it turns. */
+static void PutLostToRest(kiriSheetData* sheet)
+{
+    bool isFitted = sheet->update->refit.fits.count > 0; /* else velocities are those that the host gave */
+    for (int32_t f = 0; isFitted && f < sheet->frames.count; ++f) {
+        if (!kiriFrame_FitsFloats(&sheet->frames.data[f])) {
+            kiriFrame_PutToRest(&sheet->frames.data[f]);
+        }
+    }
+}
+
+static void TakeFits(kiriSheetData* sheet)
+{
+    kiriRefit* refit = &sheet->update->refit;
+    for (int32_t k = 0; k < refit->fits.count; ++k) {
+        const kiriFrameData* state = &refit->fits.data[k].state;
+        kiriFrameData* frame = &sheet->frames.data[refit->fits.data[k].frame];
+        frame->x = state->x;
+        frame->A = state->A;
+        frame->velocity = state->velocity;
+        frame->spin = state->spin;
+        frame->rate = state->rate;
+    }
+    const kiriLayout* next = &sheet->update->next;
+    kiriRefit_LimitEnergy(refit, sheet->frames.data, sheet->frames.count, next->framePiece.data, next->pieces.count,
+                          &sheet->settings.material);
+    PutLostToRest(sheet);
+    kiriRefit_Commit(refit, &sheet->mesh);
+}
+
+/* Accelerations stay; torque and angular momentum of a rigid frame go with its mass. */
+static void RecenterFrame(const kiriSheetData* sheet, kiriFrameData* frame, const kiriMoments* material,
+                          double densityPerArea)
+{
+    double before = frame->mass;
+    kiriFrame_Recenter(frame, material, densityPerArea);
+    if (before > 0.0 && sheet->settings.mechanics.model == KIRI_MODEL_LINKS) {
+        frame->history.turnGain = kiriMat3_Scale(frame->mass / before, &frame->history.turnGain);
+        frame->history.turnPull = kiriMat3_Scale(frame->mass / before, &frame->history.turnPull);
+    }
+}
+
+/* Frames that appear, and what those with new material do. What is fitted needs no motion from the surface. */
+static void AddFrames(kiriSheetData* sheet)
+{
+    const kiriUpdate* u = sheet->update;
+    const kiriRefit* refit = &u->refit;
+    int32_t oldCount = sheet->frames.count, fit = 0;
+    int32_t firstNew = u->placing.sites.count - u->newFrames.count; /* of a sheet that is being made they are there */
+    for (int32_t i = oldCount; i < u->placing.sites.count; ++i) {
+        sheet->frames.data[i] = MakeFrame(sheet, &u->newFrames.data[i - firstNew]);
+    }
+    FitFrames(sheet, oldCount);
+    for (int32_t i = oldCount; i < u->placing.sites.count; ++i) {
+        while (fit < refit->fits.count && refit->fits.data[fit].frame < i) {
+            ++fit;
+        }
+        if (fit == refit->fits.count || refit->fits.data[fit].frame != i) {
+            TakeMotion(sheet, &sheet->frames.data[i], u->newFrames.data[i - firstNew].triangle);
+        }
+    }
+    sheet->frames.count = u->placing.sites.count;
+}
+
+static void CommitFrames(kiriSheetData* sheet)
+{
+    const kiriUpdate* u = sheet->update;
+    double densityPerArea = (double)sheet->settings.material.density * sheet->settings.material.thickness;
+    AddFrames(sheet);
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        sheet->frames.data[i].site = u->placing.sites.data[i];
+        if (sheet->regions.dirty.data[i]) {
+            RecenterFrame(sheet, &sheet->frames.data[i], &u->material.data[i], densityPerArea);
+            sheet->regions.dirty.data[i] = 0;
+        }
+    }
+    TakeFits(sheet);
+}
+
+static void CommitPoints(kiriSheetData* sheet)
+{
+    kiriUpdate* u = sheet->update;
+    for (int32_t i = 0; i < u->samples.movedPoints.count; ++i) {
+        sheet->points.data[u->samples.movedPoints.data[i].frame].cell = u->samples.movedPoints.data[i].cell;
+    }
+    for (int32_t i = 0; i < u->samples.newPoints.count; ++i) {
+        sheet->points.data[sheet->points.count++] = u->samples.newPoints.data[i];
+        kiriPlaces_Add(&sheet->pointPlaces, sheet->memory, &sheet->mesh, u->samples.newPoints.data[i].at);
+    }
+    for (int32_t i = 0; i < sheet->points.count; ++i) {
+        sheet->points.data[i].frame = sheet->regions.field.owner.data[sheet->points.data[i].cell];
+    }
+    u->samples.newPoints.count = u->samples.movedPoints.count = 0;
+}
+
+void kiriStage_Commit(kiriSheetData* sheet)
+{
+    kiriUpdate* u = sheet->update;
+    u->counts.weights = (int32_t)sheet->shape.recomputed;
+    u->counts.vertices = sheet->vertexSkin.staged.count;
+    u->counts.points = sheet->pointSkin.staged.count;
+    u->counts.links = sheet->links.changed;
+    kiriPieceLists_Forget(&sheet->lists);
+    sheet->probes.isFresh = false;
+    int32_t oldLinks = sheet->links.links.count;
+    bool keepsStrains = kiriSheet_KeepsStrains(sheet);
+    if (keepsStrains) {
+        kiriStrainOffsets_Remember(&sheet->strainOffsets, sheet->frames.data, sheet->frames.count,
+                                   sheet->regions.dirty.data);
+    }
+    CommitFrames(sheet);
+    CommitPoints(sheet);
+    kiriView_TouchStaged(sheet);
+    kiriSkin_Commit(&sheet->vertexSkin);
+    kiriSkin_Commit(&sheet->pointSkin);
+    kiriLinks_Commit(&sheet->links);
+    if (keepsStrains) {
+        const int32_t* was = sheet->links.was.count > 0 ? sheet->links.was.data : NULL;
+        kiriStrainOffsets_Take(&sheet->strainOffsets, sheet->links.next.data, oldLinks, sheet->links.links.data,
+                               sheet->links.links.count, was, sheet->frames.data, &sheet->settings.material);
+    }
+    kiriSolver_Commit(sheet->solver);
+    kiriLayout layout = sheet->layout;
+    sheet->layout = u->next;
+    u->next = layout;
+    kiriPieces_KeepGone(sheet, &u->next);
+    kiriPieces_KeepRest(sheet, &u->next);
+    kiriPins_WriteLinkParts(sheet);
+    kiriPins_KeepReactions(sheet, &u->next.pinShares);
+    if (keepsStrains) {
+        kiriPins_KeepStrains(sheet, &u->next.pinShares);
+    }
+    kiriShape_ClearChanges(&sheet->shape);
+    u->isScratch = false;
+    sheet->seen.isElsewhere = true;
+    u->samples.oldVertices = sheet->mesh.vertices.count;
+}
+
+void kiriStage_Drop(kiriSheetData* sheet)
+{
+    kiriUpdate* u = sheet->update;
+    kiriSkin_Drop(&sheet->vertexSkin);
+    kiriSkin_Drop(&sheet->pointSkin);
+    u->samples.newPoints.count = u->samples.movedPoints.count = 0;
+    u->placing.sites.count = sheet->frames.count;
+    u->placing.moves.count = u->placing.movesSeen = 0;
+    u->placing.isTaking = u->placing.isPlacing = false;
+    kiriLinks_Drop(&sheet->links);
+    kiriRefresh_Drop(&u->samples.refresh);
+    kiriRefit_Drop(&u->refit);
+}

@@ -1,0 +1,961 @@
+#include "kiri_move.h"
+#include "../core/kiri_array.h"
+#include "../sheet/kiri_motion.h"
+#include "../sheet/kiri_seen.h"
+#include "../sheet/kiri_pin.h"
+#include "../sheet/kiri_touch.h"
+#include "../sheet/kiri_piece.h"
+#include "../sheet/kiri_update.h"
+
+#include <string.h>
+
+/* ---- Groups ---- */
+
+/* Of several touches of one obstacle, which come after each other, one is enough. */
+static bool AddMeet(kiriWorld* world, int32_t sheet, const kiriObstacleData* obstacle, const kiriObstacleData** last)
+{
+    bool isNew = obstacle != NULL && obstacle != *last && kiriObstacle_IsMovable(obstacle);
+    kiriMeet meet = { isNew ? kiriObstacles_NumberOf(obstacle) : 0, sheet };
+    *last = obstacle != NULL ? obstacle : *last;
+    return !isNew || kiriArray_Push(&world->memory, &world->moves.meets, meet);
+}
+
+/* Whatever the sheet may give an impulse to, and would move by it; with what it touched last, should it sleep. */
+static bool ListMeets(kiriWorld* world, int32_t sheet)
+{
+    const kiriSheetData* data = world->sheets.data[sheet];
+    const kiriObstacleData* last = NULL;
+    bool ok = true;
+    const kiriTouchMemory* memories[] = { &data->touches.last, &data->touches.slept };
+    for (int32_t i = 0; ok && i < data->touches.found.count; ++i) {
+        ok = AddMeet(world, sheet, kiriObstacles_OwnerOf(world, data->touches.found.data[i].key), &last);
+    }
+    for (int n = 0; n < 2; ++n) {
+        for (int32_t i = 0; ok && i < memories[n]->touches.count; ++i) {
+            ok = AddMeet(world, sheet, kiriObstacles_OwnerOf(world, memories[n]->touches.data[i].key), &last);
+        }
+    }
+    for (int32_t i = 0; ok && i < data->pins.count; ++i) {
+        ok = AddMeet(world, sheet, kiriPinStep_Obstacle(world, &data->pins.data[i]), &last);
+    }
+    return ok;
+}
+
+static bool HasLowerNumber(const void* context, int32_t a, int32_t b)
+{
+    const kiriMeet* meets = context;
+    return meets[a].number < meets[b].number || (meets[a].number == meets[b].number && a < b);
+}
+
+/* Sheets that move the same body: each finds in its yield rows what those before it gave. */
+static bool JoinByBodies(kiriWorld* world)
+{
+    kiriMoves* moves = &world->moves;
+    bool ok = true;
+    moves->meets.count = 0;
+    for (int32_t i = 0; ok && i < world->sheets.count; ++i) {
+        ok = ListMeets(world, i);
+    }
+    if (!ok || !kiriArray_Resize(&world->memory, &moves->order, moves->meets.count)) {
+        return false;
+    }
+    for (int32_t k = 0; k < moves->order.count; ++k) {
+        moves->order.data[k] = k;
+    }
+    kiriSort(moves->order.data, moves->order.count, HasLowerNumber, moves->meets.data);
+    for (int32_t k = 1; k < moves->order.count; ++k) {
+        const kiriMeet *a = &moves->meets.data[moves->order.data[k - 1]], *b = &moves->meets.data[moves->order.data[k]];
+        if (a->number == b->number) {
+            kiriUnion_Join(moves->parent.data, a->sheet, b->sheet);
+        }
+    }
+    return true;
+}
+
+bool kiriMoves_Prepare(kiriWorld* world)
+{
+    kiriMoves* moves = &world->moves;
+    int32_t count = world->sheets.count;
+    if (!kiriArray_Resize(&world->memory, &moves->of, count) ||
+        !kiriArray_Resize(&world->memory, &moves->parent, count) ||
+        !kiriArray_Reserve(&world->memory, &moves->heads, count)) {
+        return false;
+    }
+    kiriUnion_Init(moves->parent.data, count);
+    return !kiriTasks_AreGiven(&world->tasks) || world->obstacles.count == 0 || JoinByBodies(world);
+}
+
+/* ---- Moving ---- */
+
+typedef struct MoveTask {
+    kiriWorld* world;
+    double dt;
+    int32_t substeps;
+    kiriQuota systems; /* each sheet may take all of them: together they will not */
+} MoveTask;
+
+/* What moves by it is of one group; what does not gets it when all are moved, in the order of sheets. */
+static void GiveImpulses(const MoveTask* task, int32_t i, bool areMovable)
+{
+    kiriSheetData* sheet = task->world->sheets.data[i];
+    kiriObstacles_TakeImpulses(task->world, sheet, task->dt, areMovable);
+    if (task->world->moves.of.data[i].progress != KIRI_MORE) {
+        kiriPinStep_End(task->world, sheet, task->dt, areMovable);
+    }
+}
+
+/* Where no system is left, and all is seen as it is: so of many sheets those that wait cost next to nothing. */
+static bool StandsStill(const MoveTask* task, kiriSheetData* sheet)
+{
+    return kiriQuota_IsSpent(&task->systems) && kiriView_IsSettled(sheet) && kiriMotion_Wait(sheet, task->dt);
+}
+
+static void MoveSheet(const MoveTask* task, int32_t i)
+{
+    kiriWorld* world = task->world;
+    kiriMove* move = &world->moves.of.data[i];
+    kiriQuota systems = task->systems;
+    if (StandsStill(task, world->sheets.data[i])) {
+        move->progress = KIRI_MORE;
+        move->systems = 0;
+        return;
+    }
+    kiriObstacles_LoadYields(world, world->sheets.data[i]);
+    kiriPinStep_Begin(world, world->sheets.data[i], task->dt);
+    move->progress = kiriMotion_Solve(world->sheets.data[i], world->gravity, task->dt, task->substeps, &systems);
+    move->systems = systems.used - task->systems.used;
+    GiveImpulses(task, i, true);
+}
+
+static void MoveGroups(int32_t start, int32_t end, void* context)
+{
+    const MoveTask* task = context;
+    const kiriMoves* moves = &task->world->moves;
+    for (int32_t k = start; k < end; ++k) {
+        for (int32_t i = moves->heads.data[k]; i != KIRI_NONE; i = moves->of.data[i].next) {
+            MoveSheet(task, i);
+        }
+    }
+}
+
+/* In the order in which sheets are moved. */
+int32_t kiriMoves_SheetAt(const kiriWorld* world, int32_t turn, int32_t k)
+{
+    const kiriIndices* active = &world->active;
+    int32_t low;
+    KIRI_SEARCH(low, 0, active->count, active->data[middle] < turn);
+    return active->data[(low + k) % active->count];
+}
+
+static int32_t SheetAt(const kiriWorld* world, int32_t k)
+{
+    return kiriMoves_SheetAt(world, world->turn, k);
+}
+
+/* From the first one on: as many as have enough systems whatever they take, and one at least; all where there are
+   none. */
+static int32_t EndOfWave(const MoveTask* task, int32_t first)
+{
+    const kiriWorld* world = task->world;
+    int32_t end = kiriQuota_IsSpent(&task->systems) ? world->active.count : first;
+    int64_t most = 0;
+    while (end < world->active.count) {
+        most += kiriMotion_MostItems(world->sheets.data[SheetAt(world, end)], task->substeps);
+        if (most > task->systems.left && end > first) {
+            break;
+        }
+        ++end;
+    }
+    return end;
+}
+
+/* The groups of these sheets, each in their order. */
+static void ListGroups(kiriWorld* world, int32_t first, int32_t end)
+{
+    kiriMoves* moves = &world->moves;
+    moves->heads.count = 0;
+    for (int32_t k = first; k < end; ++k) {
+        moves->of.data[kiriUnion_Root(moves->parent.data, SheetAt(world, k))].tail = KIRI_NONE;
+    }
+    for (int32_t k = first; k < end; ++k) {
+        int32_t i = SheetAt(world, k);
+        int32_t* tail = &moves->of.data[kiriUnion_Root(moves->parent.data, i)].tail;
+        if (*tail == KIRI_NONE) {
+            moves->heads.data[moves->heads.count++] = i;
+        } else {
+            moves->of.data[*tail].next = i;
+        }
+        *tail = i;
+        moves->of.data[i].next = KIRI_NONE;
+    }
+}
+
+/* Sheets that systems are enough for move side by side; the others one after the other, each with what is left. */
+void kiriMoves_Run(kiriWorld* world, double dt, int32_t substeps, kiriQuota* systems)
+{
+    for (int32_t first = 0, end; first < world->active.count; first = end) {
+        MoveTask task = { world, dt, substeps, *systems };
+        end = EndOfWave(&task, first);
+        ListGroups(world, first, end);
+        kiriTasks_Run(&world->tasks, MoveGroups, world->moves.heads.count, 1, &task);
+        for (int32_t k = first; k < end; ++k) {
+            GiveImpulses(&task, SheetAt(world, k), false);
+            kiriQuota_Take(systems, world->moves.of.data[SheetAt(world, k)].systems);
+            world->profile.systemsSolved += kiriSolver_TakeSolved(world->sheets.data[SheetAt(world, k)]->solver);
+        }
+    }
+}
+
+kiriObstacleData* kiriPinStep_Obstacle(const kiriWorld* world, const kiriPinData* pin)
+{
+    const kiriSlot* slot = pin->anchor.obstacle != 0 ? kiriPool_Find(&world->obstacleIds, pin->anchor.obstacle) : NULL;
+    return slot != NULL ? slot->owner : NULL;
+}
+
+void kiriPinStep_Fasten(const kiriWorld* world, kiriPinData* pin)
+{
+    const kiriObstacleData* obstacle = kiriPinStep_Obstacle(world, pin);
+    if (obstacle != NULL) {
+        pin->anchor.local = kiriObstacle_PointToLocal(obstacle, pin->target);
+    }
+}
+
+void kiriPinStep_Carry(const kiriWorld* world, kiriSheetData* sheet, const kiriMat3* R, kiriVec3 t)
+{
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        if (kiriPinStep_Obstacle(world, &sheet->pins.data[i]) == NULL) {
+            kiriCarry_Pin(sheet, i, R, t);
+        }
+    }
+}
+
+/* Obstacles of one body share its mass; so do their pins. */
+static bool AreOneBody(const kiriObstacleData* a, const kiriObstacleData* b)
+{
+    return a == b || (a->body != 0 && a->body == b->body);
+}
+
+static int32_t CountPinsOn(const kiriWorld* world, const kiriSheetData* sheet, const kiriObstacleData* obstacle)
+{
+    int32_t count = 0;
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        const kiriObstacleData* other = kiriPinStep_Obstacle(world, &sheet->pins.data[i]);
+        count += other != NULL && AreOneBody(obstacle, other);
+    }
+    return count;
+}
+
+/* What an impulse along an axis gives the point. */
+static kiriVec3 GiveAlong(const kiriYieldRow* body, kiriVec3 arm, kiriVec3 axis)
+{
+    kiriVec3 spin = kiriMat3_Mul(body->inverseInertia, kiriVec3_Cross(arm, axis));
+    return kiriVec3_AddScaled(kiriVec3_Cross(spin, arm), body->inverseMass, axis);
+}
+
+/* Each of several pins on a body has its share of the mass. */
+static void Soften(kiriPinAnchor* anchor, const kiriObstacleData* obstacle, kiriVec3 target, int32_t pins)
+{
+    kiriYieldRow body = kiriObstacle_YieldRow(obstacle);
+    kiriVec3 arm = kiriVec3_Sub(target, body.center);
+    anchor->give.u = kiriVec3_Scale(pins, GiveAlong(&body, arm, kiriVec3_Make(1.0, 0.0, 0.0)));
+    anchor->give.v = kiriVec3_Scale(pins, GiveAlong(&body, arm, kiriVec3_Make(0.0, 1.0, 0.0)));
+    anchor->give.d = kiriVec3_Scale(pins, GiveAlong(&body, arm, kiriVec3_Make(0.0, 0.0, 1.0)));
+    double turning = anchor->give.u.x + anchor->give.v.y + anchor->give.d.z - 3.0 * pins * body.inverseMass;
+    anchor->most = pins * body.inverseMass + kiriMax(turning, 0.0);
+}
+
+static void Clear(kiriPinAnchor* anchor)
+{
+    const kiriVec3 none = { 0.0, 0.0, 0.0 };
+    memset(&anchor->give, 0, sizeof(anchor->give));
+    anchor->most = anchor->softness = 0.0;
+    anchor->way = none;
+}
+
+/* A piece that sleeps does not mind what moves less than it would itself before it woke. */
+static bool IsTargetStill(const kiriSheetData* sheet, const kiriPinData* pin, kiriVec3 from, kiriVec3 to)
+{
+    double least = KIRI_CALM_SECONDS * sheet->settings.sleepSpeed;
+    return kiriSheet_PieceOf(sheet, sheet->layout.pinFrame.data[pin - sheet->pins.data])->rest.asleep &&
+           kiriVec3_Length(kiriVec3_Sub(from, pin->target)) <= least &&
+           kiriVec3_Length(kiriVec3_Sub(to, pin->target)) <= least;
+}
+
+static void BeginPin(const kiriWorld* world, kiriSheetData* sheet, int32_t index, double dt)
+{
+    kiriPinData* pin = &sheet->pins.data[index];
+    const kiriObstacleData* obstacle = kiriPinStep_Obstacle(world, pin);
+    if (obstacle == NULL) {
+        return;
+    }
+    kiriObstacleData later = *obstacle;
+    kiriObstacle_Advance(&later, dt);
+    kiriVec3 from = kiriObstacle_PointToWorld(obstacle, pin->anchor.local);
+    kiriVec3 to = kiriObstacle_PointToWorld(&later, pin->anchor.local);
+    if (!IsTargetStill(sheet, pin, from, to) &&
+        (!kiriVec3_Equal(from, pin->target) || !kiriVec3_Equal(to, pin->target))) {
+        pin->lastTarget = from;
+        pin->target = to;
+        kiriPins_ForgetHistory(sheet, index);
+        kiriMotion_WakePin(sheet, index);
+    }
+    Soften(&pin->anchor, obstacle, from, CountPinsOn(world, sheet, obstacle));
+}
+
+void kiriPinStep_Begin(const kiriWorld* world, kiriSheetData* sheet, double dt)
+{
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        Clear(&sheet->pins.data[i].anchor);
+        BeginPin(world, sheet, i, dt);
+    }
+}
+
+void kiriPinStep_End(const kiriWorld* world, const kiriSheetData* sheet, double dt, bool areMovable)
+{
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        const kiriPinData* pin = &sheet->pins.data[i];
+        kiriObstacleData* obstacle = kiriPinStep_Obstacle(world, pin);
+        if (obstacle != NULL && kiriObstacle_IsMovable(obstacle) == areMovable) {
+            kiriObstacle_TakeImpulse(obstacle, kiriVec3_Scale(-dt, pin->bore.force), pin->target);
+        }
+    }
+}
+
+/* ---- The list ---------------------------------------------------------------------------------------------------- */
+
+kiriResult kiriObstacles_Reserve(kiriWorld* world)
+{
+    return kiriArray_Reserve(&world->memory, &world->obstacles, (int64_t)world->obstacles.count + 1)
+               ? kiriWorld_ReserveIds(world, &world->obstacleIds, 1)
+               : KIRI_ERROR_MEMORY;
+}
+
+void kiriObstacles_Add(kiriWorld* world, kiriObstacleData* obstacle)
+{
+    world->obstacles.data[world->obstacles.count++] = obstacle;
+    obstacle->id = kiriPool_Add(&world->obstacleIds, &world->memory, obstacle, 0);
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        world->sheets.data[i]->touches.rests.areSummed = false; /* its slot may have been that of another */
+    }
+}
+
+/* ---- What rests near them ---------------------------------------------------------------------------------------- */
+
+/* m: an obstacle that goes no farther wakes nobody. */
+static double LeastDrift(const kiriWorld* world)
+{
+    double least = KIRI_ENDLESS;
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        double far = KIRI_CALM_SECONDS * world->sheets.data[i]->settings.sleepSpeed;
+        least = far > 0.0 && far < least ? far : least;
+    }
+    return least;
+}
+
+static bool IsTouching(const kiriObstacleData* obstacle, const kiriSheetData* sheet)
+{
+    kiriBox box = kiriSheet_Box(sheet);
+    return (obstacle->groups & sheet->settings.groups) != 0 &&
+           kiriObstacle_IsNear(obstacle, box.lower, box.upper, sheet->settings.contactThickness);
+}
+
+/* What of the sheet is within reach of an obstacle that is bound. False for memory. */
+static bool FindNear(kiriObstacleSearch* search, kiriSheetData* sheet, const kiriObstacleData* obstacle, double reach)
+{
+    return kiriBounds_Update(sheet->seen.bounds, sheet->memory, &sheet->seen.surface) &&
+           kiriObstacleSearch_Near(search, sheet, obstacle, reach);
+}
+
+static void WakeNear(kiriWorld* world, kiriSheetData* sheet, const kiriObstacleData* obstacle)
+{
+    kiriObstacleSearch* search = &world->obstacleSearch;
+    const kiriIndices* triangles = &search->triangles;
+    search->memory = &world->memory;
+    if (sheet->layout.pieces.count == 1 || !FindNear(search, sheet, obstacle, sheet->settings.contactThickness)) {
+        kiriMotion_Wake(sheet);
+        return;
+    }
+    for (int32_t i = 0; i < triangles->count; ++i) {
+        kiriMotion_WakePiece(sheet, kiriPiece_OfTriangle(sheet, triangles->data[i]));
+    }
+}
+
+static void WakeAround(kiriWorld* world, kiriObstacleData* obstacle)
+{
+    kiriObstacle_Bound(obstacle, 0.0);
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        if (IsTouching(obstacle, world->sheets.data[i])) {
+            WakeNear(world, world->sheets.data[i], obstacle);
+        }
+    }
+}
+
+void kiriObstacles_Remove(kiriWorld* world, kiriObstacleData* obstacle)
+{
+    int32_t kept = 0;
+    WakeAround(world, obstacle);
+    for (int32_t i = 0; i < world->obstacles.count; ++i) {
+        if (world->obstacles.data[i] != obstacle) {
+            world->obstacles.data[kept++] = world->obstacles.data[i];
+        }
+    }
+    world->obstacles.count = kept;
+    kiriPool_Remove(&world->obstacleIds, obstacle->id);
+    kiriMemory_Free(&world->memory, obstacle);
+}
+
+/* m: how far its farthest point goes to another pose. */
+static double WayToObstacle(const kiriObstacleData* obstacle, kiriVec3 position, kiriMat3 rotation)
+{
+    kiriObstacleData turning = *obstacle;
+    const kiriMat3* r = &obstacle->rotation;
+    double turn = kiriVec3_Length(kiriVec3_Sub(rotation.u, r->u)) + kiriVec3_Length(kiriVec3_Sub(rotation.v, r->v));
+    if (turn > 0.1) {
+        return KIRI_ENDLESS;
+    }
+    turning.spin = kiriVec3_Scale(
+        0.5, kiriVec3_Add(kiriVec3_Cross(r->u, rotation.u),
+                          kiriVec3_Add(kiriVec3_Cross(r->v, rotation.v), kiriVec3_Cross(r->d, rotation.d))));
+    return kiriVec3_Length(kiriVec3_Sub(position, obstacle->position)) + kiriObstacle_TurnSpeed(&turning);
+}
+
+void kiriObstacles_Put(kiriWorld* world, kiriObstacleData* obstacle, kiriVec3 position, kiriMat3 rotation)
+{
+    double way = WayToObstacle(obstacle, position, rotation);
+    if (way > LeastDrift(world)) {
+        WakeAround(world, obstacle);
+    }
+    obstacle->drift += way;
+    obstacle->position = position;
+    obstacle->rotation = rotation;
+}
+
+/* ---- Touches ----------------------------------------------------------------------------------------------------- */
+
+static bool IsMoving(const kiriObstacleData* obstacle, double dt, double least)
+{
+    double speed = kiriVec3_Length(obstacle->velocity) + kiriObstacle_TurnSpeed(obstacle);
+    return obstacle->drift + dt * speed > least;
+}
+
+int64_t kiriObstacles_NumberOf(const kiriObstacleData* obstacle)
+{
+    return (int64_t)(obstacle->body != 0 ? (uint64_t)obstacle->body << 32 : (uint64_t)obstacle->id << 32 | 1u);
+}
+
+/* The row of its body, once for each sheet. */
+static int32_t YieldOfObstacle(kiriSheetData* sheet, const kiriObstacleData* obstacle)
+{
+    int32_t index = kiriTouches_FindYield(sheet, kiriObstacles_NumberOf(obstacle));
+    if (index == KIRI_NONE) {
+        kiriYieldRow row = kiriObstacle_YieldRow(obstacle);
+        row.number = kiriObstacles_NumberOf(obstacle);
+        index = kiriTouches_AddYield(sheet, &row);
+    }
+    return index;
+}
+
+static bool ComesFirst(const void* context, int32_t a, int32_t b)
+{
+    const kiriWorld* world = context;
+    double x = world->obstacles.data[a]->lower.x, y = world->obstacles.data[b]->lower.x;
+    return x < y || (x == y && a < b);
+}
+
+/* By where they begin along x, with the way that they go, twice. False for memory. */
+static bool SortObstacles(kiriWorld* world, double dt)
+{
+    kiriIndices* order = &world->obstacleOrder;
+    if (!kiriArray_Resize(&world->memory, order, world->obstacles.count)) {
+        return false;
+    }
+    for (int32_t i = 0; i < order->count; ++i) {
+        kiriObstacle_Bound(world->obstacles.data[i], 2.0 * dt);
+        order->data[i] = i;
+    }
+    kiriSort(order->data, order->count, ComesFirst, world);
+    return true;
+}
+
+/* What a sheet may touch. */
+typedef struct Around {
+    kiriBox box;
+    double speed, reach;
+} Around;
+
+static Around MakeAround(const kiriWorld* world, const kiriSheetData* sheet, double dt)
+{
+    Around around;
+    around.box = kiriSheet_Box(sheet);
+    around.speed = sheet->rest.asleep ? 0.0 : kiriSheet_SpeedLimit(sheet, &around.box);
+    around.reach = kiriReach_Of(around.speed, world->gravity, dt) + sheet->settings.contactThickness;
+    return around;
+}
+
+/* The next obstacle in their order that the sheet may touch, from *at on; null where there is none. */
+static kiriObstacleData* NextNear(const kiriWorld* world, const kiriSheetData* sheet, const Around* around, int32_t* at)
+{
+    while (*at < world->obstacleOrder.count) {
+        kiriObstacleData* obstacle = world->obstacles.data[world->obstacleOrder.data[(*at)++]];
+        if (obstacle->lower.x > around->box.upper.x + around->reach) {
+            return NULL;
+        }
+        if ((obstacle->groups & sheet->settings.groups) != 0 &&
+            kiriObstacle_IsNear(obstacle, around->box.lower, around->box.upper, around->reach)) {
+            return obstacle;
+        }
+    }
+    return NULL;
+}
+
+/* A tick in which all sheets look for touches. */
+typedef struct TouchSearch {
+    kiriWorld* world;
+    double dt, least;
+    bool isAnyMoving;
+} TouchSearch;
+
+static void Stir(kiriSheetData* sheet, int32_t piece)
+{
+    kiriRest* rest = &sheet->layout.pieces.data[piece].rest;
+    rest->isStirred = rest->isStirred || rest->asleep;
+    sheet->rest.isStirred = sheet->rest.isStirred || rest->asleep;
+}
+
+/* False for memory. */
+static bool StirNear(kiriObstacleSearch* search, kiriSheetData* sheet, const kiriObstacleData* obstacle, double reach)
+{
+    const kiriIndices* triangles = &search->triangles;
+    if (sheet->layout.pieces.count == 1) {
+        Stir(sheet, 0);
+        return true;
+    }
+    bool ok = FindNear(search, sheet, obstacle, reach);
+    for (int32_t i = 0; ok && i < triangles->count; ++i) {
+        Stir(sheet, kiriPiece_OfTriangle(sheet, triangles->data[i]));
+    }
+    return ok;
+}
+
+/* Something that moves comes near: pieces that sleep shall wake. False for memory. */
+static bool StirSleepers(const TouchSearch* looking, kiriObstacleSearch* search, kiriSheetData* sheet,
+                         const Around* around)
+{
+    double fall = kiriReach_Of(0.0, looking->world->gravity, looking->dt);
+    const Around still = { around->box, 0.0, fall + sheet->settings.contactThickness };
+    int32_t at = 0;
+    bool ok = true;
+    for (kiriObstacleData* obstacle; ok && (obstacle = NextNear(looking->world, sheet, &still, &at)) != NULL;) {
+        ok = !IsMoving(obstacle, looking->dt, looking->least) || StirNear(search, sheet, obstacle, still.reach);
+    }
+    return ok;
+}
+
+static bool HasSleepers(const kiriSheetData* sheet)
+{
+    bool any = false;
+    for (int32_t p = 0; !any && p < sheet->layout.pieces.count; ++p) {
+        any = sheet->layout.pieces.data[p].rest.asleep;
+    }
+    return any;
+}
+
+static bool TouchAll(const kiriWorld* world, kiriObstacleSearch* search, kiriSheetData* sheet, const Around* around)
+{
+    int32_t at = 0;
+    bool ok = true;
+    for (kiriObstacleData* obstacle; ok && (obstacle = NextNear(world, sheet, around, &at)) != NULL;) {
+        int32_t yield = YieldOfObstacle(sheet, obstacle);
+        ok = yield != KIRI_NONE && kiriBounds_Update(sheet->seen.bounds, sheet->memory, &sheet->seen.surface) &&
+             kiriObstacleSearch_Reserve(search, sheet) &&
+             kiriObstacleSearch_Run(search, sheet, obstacle, around->speed, yield);
+    }
+    return ok;
+}
+
+static bool IsAnyMoving(const kiriWorld* world, double dt, double least)
+{
+    bool any = false;
+    for (int32_t i = 0; i < world->obstacles.count; ++i) {
+        any |= IsMoving(world->obstacles.data[i], dt, least);
+    }
+    return any;
+}
+
+/* Pieces that sleep may wake when a cut takes effect: these are stirred already. */
+static bool FindTouchesOf(const TouchSearch* looking, kiriObstacleSearch* search, kiriSheetData* sheet)
+{
+    bool sleeps = sheet->rest.asleep && !sheet->rest.isStirred && sheet->update->stage != KIRI_READY;
+    if (sleeps && !looking->isAnyMoving) {
+        return true;
+    }
+    if (sleeps && !kiriBounds_Update(sheet->seen.bounds, sheet->memory, &sheet->seen.surface)) {
+        return false;
+    }
+    Around around = MakeAround(looking->world, sheet, looking->dt);
+    if (HasSleepers(sheet) && !StirSleepers(looking, search, sheet, &around)) {
+        return false;
+    }
+    if (sheet->rest.isIdle && sheet->rest.isStirred && !kiriTouches_Begin(sheet)) {
+        return false; /* others have begun */
+    }
+    return (sleeps && !sheet->rest.isStirred) || TouchAll(looking->world, search, sheet, &around);
+}
+
+/* In a task nothing may be allocated. A sheet that comes short of room is as before, and looks again when all are
+   done. */
+static void TryTouchesOf(const TouchSearch* looking, kiriObstacleSearch* search, kiriSheetData* sheet)
+{
+    kiriTouches* touches = &sheet->touches;
+    kiriMemory *own = sheet->memory, none = kiriMemory_None();
+    int32_t found = touches->found.count, yields = touches->yields.count;
+    sheet->memory = search->memory = &none;
+    touches->isShort = !FindTouchesOf(looking, search, sheet);
+    sheet->memory = own;
+    search->memory = &looking->world->memory;
+    touches->found.count = touches->isShort ? found : touches->found.count;
+    touches->yields.count = touches->isShort ? yields : touches->yields.count;
+}
+
+/* Each search looks for every so many-th sheet: so those that are near each other in the list, and alike, are shared
+   out. */
+static void LookForTouches(int32_t start, int32_t end, void* context)
+{
+    const TouchSearch* looking = context;
+    const kiriWorld* world = looking->world;
+    for (int32_t k = start; k < end; ++k) {
+        for (int32_t i = k; i < world->sheets.count; i += world->searches.count) {
+            TryTouchesOf(looking, &world->searches.data[k], world->sheets.data[i]);
+        }
+    }
+}
+
+static void ReadySearch(kiriWorld* world, kiriObstacleSearch* search, double dt)
+{
+    search->memory = &world->memory;
+    search->dt = dt;
+    search->gravity = world->gravity;
+}
+
+/* Two a worker, so that they end at about the same time. False for memory. */
+static bool LookInTasks(TouchSearch* looking)
+{
+    kiriWorld* world = looking->world;
+    int32_t made = world->searches.count, wanted = 2 * world->tasks.workers;
+    if (made < wanted && !kiriArray_Resize(&world->memory, &world->searches, wanted)) {
+        return false;
+    }
+    for (int32_t k = made; k < wanted; ++k) {
+        memset(&world->searches.data[k], 0, sizeof(kiriObstacleSearch));
+    }
+    for (int32_t k = 0; k < wanted; ++k) {
+        ReadySearch(world, &world->searches.data[k], looking->dt);
+    }
+    kiriTasks_Run(&world->tasks, LookForTouches, wanted, 1, looking);
+    return true;
+}
+
+bool kiriObstacles_FindTouches(kiriWorld* world, double dt)
+{
+    if (world->obstacles.count == 0) {
+        return true;
+    }
+    double least = LeastDrift(world);
+    TouchSearch looking = { world, dt, least, IsAnyMoving(world, dt, least) };
+    bool areTasks = kiriTasks_AreGiven(&world->tasks);
+    bool ok = SortObstacles(world, dt) && (!areTasks || LookInTasks(&looking));
+    ReadySearch(world, &world->obstacleSearch, dt);
+    for (int32_t i = 0; ok && i < world->sheets.count; ++i) {
+        kiriSheetData* sheet = world->sheets.data[i];
+        kiriObstacleSearch* search =
+            areTasks ? &world->searches.data[i % world->searches.count] : &world->obstacleSearch;
+        ok = (areTasks && !sheet->touches.isShort) || FindTouchesOf(&looking, search, sheet);
+    }
+    return ok;
+}
+
+/* ---- What comes of them ------------------------------------------------------------------------------------------ */
+
+void kiriObstacles_Begin(kiriWorld* world)
+{
+    for (int32_t i = 0; i < world->obstacles.count; ++i) {
+        memset(&world->obstacles.data[i]->impulse, 0, sizeof(kiriWrench));
+        world->obstacles.data[i]->contacts = 0;
+    }
+}
+
+/* What other sheets gave the body in this tick. */
+static void LoadYield(const kiriWorld* world, kiriYieldRow* row)
+{
+    for (int32_t i = 0; i < world->obstacles.count; ++i) {
+        const kiriObstacleData* obstacle = world->obstacles.data[i];
+        if (kiriObstacles_NumberOf(obstacle) == row->number) {
+            kiriVec3 arm = kiriVec3_Sub(kiriObstacle_CenterOfMass(obstacle), row->center);
+            kiriWrench_Add(&row->impulse, 1.0, &obstacle->impulse);
+            row->impulse.moment = kiriVec3_Add(row->impulse.moment, kiriVec3_Cross(arm, obstacle->impulse.force));
+        }
+    }
+}
+
+void kiriObstacles_LoadYields(const kiriWorld* world, kiriSheetData* sheet)
+{
+    for (int32_t k = 0; k < sheet->touches.yields.count; ++k) {
+        kiriYieldRow* row = &sheet->touches.yields.data[k];
+        if (row->number > 0 && row->inverseMass > 0.0) {
+            LoadYield(world, row);
+        }
+    }
+}
+
+kiriObstacleData* kiriObstacles_OwnerOf(const kiriWorld* world, uint64_t key)
+{
+    int32_t slot = kiriObstacle_SlotOfKey(key);
+    return key >> 60 == KIRI_TOUCH_OBSTACLE && slot < world->obstacleIds.slots.count
+               ? world->obstacleIds.slots.data[slot].owner
+               : NULL;
+}
+
+bool kiriObstacles_ReserveRests(const kiriWorld* world, kiriSheetData* sheet)
+{
+    int32_t touches = sheet->touches.last.touches.count + sheet->touches.slept.touches.count;
+    int32_t most = kiriMin(touches, world->obstacles.count);
+    return kiriArray_Reserve(sheet->memory, &sheet->touches.rests.on, most);
+}
+
+/* Touches of one obstacle come after each other, mostly. */
+static kiriRestLoad* RestLoadOn(kiriRestLoads* rests, int32_t slot, kiriVec3 center)
+{
+    for (int32_t k = rests->on.count - 1; k >= 0; --k) {
+        if (rests->on.data[k].slot == slot) {
+            return &rests->on.data[k];
+        }
+    }
+    KIRI_ASSERT(rests->on.count < rests->on.capacity);
+    kiriRestLoad* load = &rests->on.data[rests->on.count++];
+    memset(load, 0, sizeof(*load));
+    load->slot = slot;
+    load->center = center;
+    return load;
+}
+
+static void AddToRests(const kiriWorld* world, kiriRestLoads* rests, const kiriTouch* touch)
+{
+    const kiriObstacleData* obstacle = kiriObstacles_OwnerOf(world, touch->key);
+    kiriVec3 impulse = kiriVec3_Scale(rests->dt, touch->force);
+    if (obstacle != NULL && kiriVec3_Dot(impulse, touch->normal) > 0.0) {
+        kiriVec3 center = kiriObstacle_CenterOfMass(obstacle), back = kiriVec3_Scale(-1.0, impulse);
+        kiriRestLoad* load = RestLoadOn(rests, kiriObstacle_SlotOfKey(touch->key), center);
+        kiriVec3 turn = kiriVec3_Cross(kiriVec3_Sub(touch->seen, center), back);
+        load->impulse.force = kiriVec3_Add(load->impulse.force, back);
+        load->impulse.moment = kiriVec3_Add(load->impulse.moment, turn);
+        load->contacts += 1;
+    }
+}
+
+static kiriObstacleData* OwnerOfSlot(const kiriWorld* world, int32_t slot)
+{
+    return world->obstacleIds.slots.data[slot].owner;
+}
+
+static bool AreRestsSummed(const kiriWorld* world, const kiriRestLoads* rests, double dt)
+{
+    bool are = rests->areSummed && rests->dt == dt;
+    for (int32_t k = 0; are && k < rests->on.count; ++k) {
+        const kiriObstacleData* obstacle = OwnerOfSlot(world, rests->on.data[k].slot);
+        kiriVec3 was = rests->on.data[k].center, is = obstacle != NULL ? kiriObstacle_CenterOfMass(obstacle) : was;
+        are = obstacle != NULL && was.x == is.x && was.y == is.y && was.z == is.z;
+    }
+    return are;
+}
+
+/* Of each sheet by itself, so that the sums can be kept. */
+static void SumRests(const kiriWorld* world, kiriSheetData* sheet, double dt)
+{
+    kiriRestLoads* rests = &sheet->touches.rests;
+    if (!AreRestsSummed(world, rests, dt)) {
+        rests->on.count = 0;
+        rests->dt = dt;
+        rests->areSummed = true;
+        for (int32_t i = 0; i < sheet->touches.slept.touches.count; ++i) {
+            AddToRests(world, rests, &sheet->touches.slept.touches.data[i]);
+        }
+    }
+}
+
+static void GiveRests(const kiriWorld* world, const kiriRestLoads* rests, bool areMovable)
+{
+    for (int32_t k = 0; k < rests->on.count; ++k) {
+        const kiriRestLoad* load = &rests->on.data[k];
+        kiriObstacleData* obstacle = OwnerOfSlot(world, load->slot);
+        if (kiriObstacle_IsMovable(obstacle) == areMovable) {
+            kiriWrench_Add(&obstacle->impulse, 1.0, &load->impulse);
+            obstacle->contacts += load->contacts;
+        }
+    }
+}
+
+static void GiveRow(const kiriWorld* world, const kiriContactRow* row, kiriVec3 at, bool areMovable)
+{
+    kiriObstacleData* obstacle = kiriObstacles_OwnerOf(world, row->key);
+    if (obstacle != NULL && kiriObstacle_IsMovable(obstacle) == areMovable &&
+        kiriVec3_Dot(row->impulse, row->normal) > 0.0) {
+        kiriObstacle_TakeImpulse(obstacle, kiriVec3_Scale(-1.0, row->impulse), at);
+        obstacle->contacts += 1;
+    }
+}
+
+void kiriObstacles_TakeImpulses(const kiriWorld* world, kiriSheetData* sheet, double dt, bool areMovable)
+{
+    const kiriTouches* touches = &sheet->touches;
+    SumRests(world, sheet, dt);
+    GiveRests(world, &touches->rests, areMovable);
+    for (int32_t i = 0; i < touches->found.count; ++i) {
+        const kiriTouch* touch = &touches->found.data[i];
+        if (touch->row != KIRI_NONE) {
+            GiveRow(world, &touches->rows.data[touch->row], touch->seen, areMovable);
+        }
+    }
+}
+
+void kiriObstacles_End(kiriWorld* world, double dt)
+{
+    double least = world->obstacles.count > 0 ? LeastDrift(world) : 0.0;
+    for (int32_t i = 0; i < world->obstacles.count; ++i) {
+        kiriObstacleData* obstacle = world->obstacles.data[i];
+        kiriObstacle_Advance(obstacle, dt);
+        obstacle->drift = obstacle->drift > least ? 0.0 : obstacle->drift;
+    }
+}
+
+enum { RANGE_VERTICES = 2048 }; /* about 10 us; a multiple of 4, see kiri_surface.c */
+
+typedef struct SkinTask {
+    kiriWorld* world;
+    double dt;
+} SkinTask;
+
+static bool StoodStill(const kiriWorld* world, int32_t k)
+{
+    return world->moves.of.data[world->active.data[k]].isStill;
+}
+
+/* Without tasks, and where a sheet is one range, sleeps or stood still, all is done at one go. */
+static bool IsInRanges(const kiriWorld* world, int32_t k)
+{
+    const kiriSheetData* sheet = kiriWorld_Active(world, k);
+    return kiriTasks_AreGiven(&world->tasks) && !StoodStill(world, k) && !sheet->rest.asleep &&
+           sheet->mesh.vertices.count > RANGE_VERTICES;
+}
+
+bool kiriSkinStep_Prepare(kiriWorld* world)
+{
+    int64_t count = 0;
+    for (int32_t i = 0; kiriTasks_AreGiven(&world->tasks) && i < world->sheets.count; ++i) {
+        count += world->sheets.data[i]->mesh.vertices.count / RANGE_VERTICES + 1;
+    }
+    return kiriArray_Reserve(&world->memory, &world->skinRanges, count);
+}
+
+/* Sheets for which the budget had nothing left stood where they were written last. */
+static void FindStill(kiriWorld* world)
+{
+    for (int32_t k = 0; k < world->active.count; ++k) {
+        kiriMove* move = &world->moves.of.data[world->active.data[k]];
+        move->isStill = move->progress == KIRI_MORE && kiriView_IsSettled(kiriWorld_Active(world, k));
+    }
+}
+
+static void ListRanges(kiriWorld* world)
+{
+    world->skinRanges.count = 0;
+    for (int32_t k = 0; k < world->active.count; ++k) {
+        const kiriSheetData* sheet = kiriWorld_Active(world, k);
+        int32_t vertices = IsInRanges(world, k) ? sheet->mesh.vertices.count : 0;
+        for (int32_t v = 0; v < vertices; v += RANGE_VERTICES) {
+            kiriSkinRange range = { world->active.data[k], v, kiriMin(v + RANGE_VERTICES, vertices) };
+            world->skinRanges.data[world->skinRanges.count++] = range;
+        }
+    }
+}
+
+static void BeginSheets(int32_t start, int32_t end, void* context)
+{
+    const SkinTask* task = context;
+    for (int32_t k = start; k < end; ++k) {
+        kiriSheetData* sheet = kiriWorld_Active(task->world, k);
+        if (StoodStill(task->world, k)) {
+            continue;
+        }
+        if (!sheet->rest.asleep) {
+            kiriView_Fade(sheet, task->dt);
+        }
+        if (IsInRanges(task->world, k)) {
+            kiriView_TakeFrames(sheet);
+            continue;
+        }
+        if (!sheet->rest.asleep || sheet->seen.isElsewhere) {
+            kiriView_WritePositions(sheet);
+        }
+        kiriView_KeepBounds(sheet);
+    }
+}
+
+static void BlendRanges(int32_t start, int32_t end, void* context)
+{
+    const SkinTask* task = context;
+    for (int32_t k = start; k < end; ++k) {
+        kiriSkinRange range = task->world->skinRanges.data[k];
+        kiriView_BlendRange(task->world->sheets.data[range.sheet], range.begin, range.end);
+    }
+}
+
+static void SumSheets(int32_t start, int32_t end, void* context)
+{
+    const SkinTask* task = context;
+    for (int32_t k = start; k < end; ++k) {
+        kiriSheetData* sheet = kiriWorld_Active(task->world, k);
+        if (IsInRanges(task->world, k)) {
+            kiriView_Sum(sheet);
+        }
+    }
+}
+
+static void WriteRanges(int32_t start, int32_t end, void* context)
+{
+    const SkinTask* task = context;
+    for (int32_t k = start; k < end; ++k) {
+        kiriSkinRange range = task->world->skinRanges.data[k];
+        kiriView_WriteRange(task->world->sheets.data[range.sheet], range.begin, range.end);
+    }
+}
+
+static void EndSheets(int32_t start, int32_t end, void* context)
+{
+    const SkinTask* task = context;
+    for (int32_t k = start; k < end; ++k) {
+        kiriSheetData* sheet = kiriWorld_Active(task->world, k);
+        if (IsInRanges(task->world, k)) {
+            kiriView_EndWriting(sheet);
+            kiriView_KeepBounds(sheet);
+        }
+    }
+}
+
+void kiriSkinStep_Run(kiriWorld* world, double dt)
+{
+    SkinTask task = { world, dt };
+    FindStill(world);
+    ListRanges(world);
+    kiriTasks_Run(&world->tasks, BeginSheets, world->active.count, 1, &task);
+    if (world->skinRanges.count > 0) {
+        kiriTasks_Run(&world->tasks, BlendRanges, world->skinRanges.count, 1, &task);
+        kiriTasks_Run(&world->tasks, SumSheets, world->active.count, 1, &task);
+        kiriTasks_Run(&world->tasks, WriteRanges, world->skinRanges.count, 1, &task);
+        kiriTasks_Run(&world->tasks, EndSheets, world->active.count, 1, &task);
+    }
+    for (int32_t k = 0; k < world->active.count; ++k) {
+        if (!StoodStill(world, k) && !kiriWorld_Active(world, k)->rest.asleep) {
+            kiriView_Trim(kiriWorld_Active(world, k));
+        }
+    }
+}

@@ -1,0 +1,33 @@
+/* The world as bytes, and back: see core/kiri_archive.h. */
+#ifndef KIRI_STATE_H
+#define KIRI_STATE_H
+
+#include "kiri_world.h"
+
+KIRI_C_BEGIN
+
+/* *size: bytes of the save. `bytes` null: no more than that. KIRI_ERROR_ARGUMENT: they do not fit. KIRI_PENDING, and
+   *size is 0: a cut is being worked on. */
+kiriResult kiriSave_Write(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size);
+
+/* Replaces the world by the saved one; hooks stay. The bytes are untrusted: fields are checked, and all derived data is
+   made again. KIRI_ERROR_DATA, with a reason in *why, or KIRI_ERROR_MEMORY: nothing has changed. */
+kiriResult kiriSave_Read(kiriWorld* world, const void* bytes, int64_t size, const char** why);
+
+/* The same with all data as it lies in memory, and without checks: for the same process. KIRI_ERROR_DATA: not a
+   snapshot of this build. */
+kiriResult kiriSnapshot_Write(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size);
+kiriResult kiriSnapshot_Read(kiriWorld* world, const void* bytes, int64_t size);
+
+/* The state hash. */
+
+/* A hash of everything that the coming ticks depend on, derived data included. Field by field, so that padding
+   never counts. */
+uint64_t kiriStateHash_Of(const kiriWorld* world);
+
+/* Its part for what is in force in a sheet but for its motion: mesh, links, weights of samples, pieces. */
+void kiriStateHash_AddLayout(uint64_t* hash, const kiriSheetData* sheet);
+
+KIRI_C_END
+
+#endif
