@@ -277,79 +277,6 @@ static void TestNoRoom(void** state)
     kiriMemory_FreeAll(&memory);
 }
 
-/* ---- Arrays that grow -------------------------------------------------------------------------------------------- */
-
-enum { GROWN = 1000, BYTES_AN_ITEM = 64 };
-
-/* Two bags that get more room, little by little. */
-typedef struct Grower {
-    Bag bags[2];
-    kiriRoom rooms[2];
-    kiriGrowing growing;
-} Grower;
-
-static void StartGrower(Grower* grower, kiriMemory* memory)
-{
-    memset(grower, 0, sizeof(*grower));
-    for (int k = 0; k < 2; ++k) {
-        const kiriRoom room = KIRI_ROOM(memory, &grower->bags[k].words, 3 * GROWN);
-        grower->rooms[k] = room;
-    }
-}
-
-static void MoveGrower(kiriArchive* archive, Grower* grower)
-{
-    kiriArchive_Objects(archive, &BagTable, grower->bags, 2);
-    kiriArchive_Growing(archive, &grower->growing, grower->rooms, 2);
-}
-
-static kiriProgress Grow(Grower* grower, int64_t items)
-{
-    kiriQuota quota = { items, 0, 0, false };
-    return kiriGrowing_GoOn(&grower->growing, grower->rooms, 2, &quota, BYTES_AN_ITEM);
-}
-
-/* After each few items it is read from bytes, and takes as many more as it takes without. */
-static void TestGrowing(void** state)
-{
-    (void)state;
-    Purse purse, readPurse;
-    kiriMemory memory = Memory(&purse), readMemory = Memory(&readPurse);
-    uint8_t bytes[16384];
-    uint32_t seed = 8;
-    Grower grower;
-    int32_t amid = 0;
-    StartGrower(&grower, &memory);
-    AddWords(&memory, &grower.bags[0], GROWN, &seed);
-    AddWords(&memory, &grower.bags[1], GROWN, &seed);
-    for (kiriProgress progress = KIRI_MORE; progress == KIRI_MORE;) {
-        progress = Grow(&grower, 3);
-        Grower read;
-        StartGrower(&read, &readMemory);
-        kiriArchive archive = kiriArchive_Write(bytes, sizeof(bytes));
-        MoveGrower(&archive, &grower);
-        assert_false(archive.isBad);
-        archive = kiriArchive_Read(bytes, archive.at, &readMemory);
-        MoveGrower(&archive, &read);
-        assert_false(kiriArchive_HasFailed(&archive));
-        assert_true((read.growing.data != NULL) == (grower.growing.data != NULL));
-        if (grower.growing.data != NULL) {
-            assert_true(read.growing.moved == grower.growing.moved && read.growing.owed == grower.growing.owed);
-            assert_true(read.growing.capacity == grower.growing.capacity);
-            amid += read.growing.moved > 0;
-        }
-        assert_int_equal(Grow(&read, INT64_MAX), KIRI_DONE);
-        for (int k = 0; k < 2; ++k) {
-            assert_true(read.bags[k].words.count == GROWN && read.bags[k].words.capacity >= 3 * GROWN);
-            assert_memory_equal(read.bags[k].words.data, grower.bags[k].words.data, sizeof(uint16_t) * GROWN);
-        }
-        kiriMemory_FreeAll(&readMemory);
-    }
-    assert_true(amid > 5 && grower.bags[1].words.capacity >= 3 * GROWN);
-    kiriMemory_FreeAll(&memory);
-    assert_int_equal(purse.out + readPurse.out, 0);
-}
-
 /* ---- Bytes that are none ----------------------------------------------------------------------------------------- */
 
 /* Whatever was read: arrays have room for what is in them, bools are bools, and it can be written. */
@@ -467,7 +394,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestWhole),           cmocka_unit_test(TestOrderOfBytes), cmocka_unit_test(TestNoRoom),
-        cmocka_unit_test(TestGrowing),         cmocka_unit_test(TestDamaged),      cmocka_unit_test(TestLimits),
+        cmocka_unit_test(TestDamaged),      cmocka_unit_test(TestLimits),
         cmocka_unit_test(TestMemoryIsRefused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

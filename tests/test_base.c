@@ -110,90 +110,6 @@ static void RoomsAreMadeReady(void** state)
     assert_int_equal(purse.out, 0);
 }
 
-/* Some items a call, and in the end what was in the arrays is in them. */
-static void ArraysGrowInParts(void** state)
-{
-    (void)state;
-    enum { COUNT = 1000, BYTES = 80 }; /* an item of the quota: ten of the first, twenty of the second */
-    Purse purse = { -1, 0 };
-    kiriMemory memory = kiriMemory_Make(PurseAlloc, PurseFree, &purse);
-    KIRI_ARRAY(int64_t) first = { 0 };
-    KIRI_ARRAY(int32_t) second = { 0 };
-    kiriIndices empty = { 0 };
-    for (int32_t i = 0; i < COUNT; ++i) {
-        assert_true(kiriArray_Push(&memory, &first, 3 * (int64_t)i) && kiriArray_Push(&memory, &second, 5 * i));
-    }
-    const kiriRoom rooms[] = { KIRI_ROOM(&memory, &first, 3 * COUNT), KIRI_CHANGING_ROOM(&memory, &second, 3 * COUNT),
-                               KIRI_ROOM(&memory, &empty, 7) };
-    kiriGrowing growing = { 0 };
-    int64_t used = 0;
-    for (kiriProgress progress = KIRI_MORE; progress == KIRI_MORE;) {
-        kiriQuota quota = { 30, 0, 0, false };
-        progress = kiriGrowing_GoOn(&growing, rooms, 3, &quota, BYTES);
-        assert_int_not_equal(progress, KIRI_FAILED);
-        assert_true(quota.used > 0 && quota.used <= (second.capacity < 3 * COUNT ? 30 : COUNT / 20));
-        assert_true(first.capacity >= 3 * COUNT || used + quota.used < COUNT / 10);
-        used += quota.used;
-    }
-    assert_int_equal(used, COUNT / 10 + COUNT / 20);
-    assert_true(first.capacity >= 3 * COUNT && second.capacity >= 3 * COUNT && empty.capacity >= 7);
-    assert_true(first.count == COUNT && second.count == COUNT && empty.count == 0);
-    for (int32_t i = 0; i < COUNT; ++i) {
-        assert_true(first.data[i] == 3 * (int64_t)i && second.data[i] == 5 * i);
-    }
-    assert_int_equal(purse.out, 3); /* no block is left over */
-    kiriMemory_FreeAll(&memory);
-}
-
-/* Given up, begun anew, and without memory. */
-static void GrowingIsDropped(void** state)
-{
-    (void)state;
-    enum { COUNT = 100 };
-    Purse purse = { -1, 0 };
-    kiriMemory memory = kiriMemory_Make(PurseAlloc, PurseFree, &purse);
-    kiriIndices array = { 0 };
-    kiriGrowing growing = { 0 };
-    kiriQuota one = { 1, 0, 0, false }, all = { INT64_MAX, 0, 0, false };
-    for (int32_t i = 0; i < COUNT; ++i) {
-        assert_true(kiriArray_Push(&memory, &array, i));
-    }
-    const kiriRoom room = KIRI_ROOM(&memory, &array, 5 * COUNT);
-    assert_int_equal(kiriGrowing_GoOn(&growing, &room, 1, &one, 40), KIRI_MORE);
-    assert_int_equal(purse.out, 2);
-    array.data[0] = 7; /* it has been copied already */
-    kiriGrowing_Drop(&growing);
-    assert_int_equal(purse.out, 1);
-    purse.budget = 0;
-    assert_int_equal(kiriGrowing_GoOn(&growing, &room, 1, &all, 40), KIRI_FAILED);
-    purse.budget = -1;
-    assert_int_equal(kiriGrowing_GoOn(&growing, &room, 1, &all, 40), KIRI_DONE);
-    assert_true(array.data[0] == 7 && array.data[COUNT - 1] == COUNT - 1 && array.capacity >= 5 * COUNT);
-    assert_int_equal(purse.out, 1);
-    kiriMemory_FreeAll(&memory);
-}
-
-/* More is needed when it goes on. */
-static void GrowingForMoreBeginsAnew(void** state)
-{
-    (void)state;
-    enum { COUNT = 100 };
-    Purse purse = { -1, 0 };
-    kiriMemory memory = kiriMemory_Make(PurseAlloc, PurseFree, &purse);
-    kiriIndices array = { 0 };
-    kiriGrowing growing = { 0 };
-    for (int32_t i = 0; i < COUNT; ++i) {
-        assert_true(kiriArray_Push(&memory, &array, i));
-    }
-    kiriQuota one = { 1, 0, 0, false }, all = { INT64_MAX, 0, 0, false };
-    const kiriRoom some = KIRI_ROOM(&memory, &array, 5 * COUNT), more = KIRI_ROOM(&memory, &array, 50 * COUNT);
-    assert_int_equal(kiriGrowing_GoOn(&growing, &some, 1, &one, 40), KIRI_MORE);
-    assert_int_equal(kiriGrowing_GoOn(&growing, &more, 1, &all, 40), KIRI_DONE);
-    assert_true(array.capacity >= 50 * COUNT && array.data[COUNT - 1] == COUNT - 1);
-    assert_int_equal(purse.out, 1);
-    kiriMemory_FreeAll(&memory);
-}
-
 /* Zeros, so many bytes for an item, after what is there; without memory nothing. */
 static void ArraysAreFilledInSteps(void** state)
 {
@@ -849,9 +765,6 @@ int main(void)
         cmocka_unit_test(ArraysFail),
         cmocka_unit_test(ArraysGrowReady),
         cmocka_unit_test(RoomsAreMadeReady),
-        cmocka_unit_test(ArraysGrowInParts),
-        cmocka_unit_test(GrowingIsDropped),
-        cmocka_unit_test(GrowingForMoreBeginsAnew),
         cmocka_unit_test(ArraysAreFilledInSteps),
         cmocka_unit_test(MemoryByDefault),
         cmocka_unit_test(PoolsFindWhatIsThere),

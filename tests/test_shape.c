@@ -737,40 +737,6 @@ static void SitesMove(void** state)
     Scene_Release(&scene);
 }
 
-/* Another frame, when there is no room for what it reaches: no call moves more of what is there than its quota says. */
-static void RoomGrowsLittleByLittle(void** state)
-{
-    enum { SLICE = 7, MOVED_BYTES = 128 };
-    (void)state;
-    uint32_t seed = 5;
-    Scene scene;
-    Follow f;
-    Scene_InitMesh(&scene, 1.0, 1.0, 8, 8, 40, 0.0, seed);
-    kiriMesh_Commit(&scene.mesh);
-    Follow_Start(&f, &scene, 8, 0, &seed);
-    Follow_Commit(&f);
-    kiriShape_DropScratch(&f.shape, f.memory);
-    Follow_AddSite(&f, &seed);
-    Follow_AllRegions(&f);
-    kiriProgress progress = KIRI_MORE;
-    int32_t pauses = 0;
-    for (int64_t moved = 0; progress == KIRI_MORE;) {
-        kiriQuota quota = { SLICE, 0, 0, false };
-        progress = kiriShape_Update(&f.shape, f.memory, &f.grid, f.mesh, &f.regions, f.sites.data, f.sites.count,
-                                    f.moves.data, f.moves.count, &quota);
-        const kiriGrowing* growing = &f.shape.work->growing;
-        int64_t now = growing->data != NULL ? growing->moved : 0;
-        pauses += now > moved;
-        assert_true(now - moved <= (SLICE + 1) * MOVED_BYTES);
-        moved = now;
-    }
-    assert_int_equal(progress, KIRI_DONE);
-    assert_true(pauses > 20);
-    CompareWithScratch(&f);
-    Follow_Release(&f);
-    Scene_Release(&scene);
-}
-
 /* `changes` has every cell whose weights differ from what they were, and those whose steps do, each once. */
 static void ChangesAreComplete(void** state)
 {
@@ -966,7 +932,6 @@ int main(void)
         cmocka_unit_test(CutSheetsEqualThoseFromScratch),
         cmocka_unit_test(CutsTakenBackEqualThoseFromScratch),
         cmocka_unit_test(SitesMove),
-        cmocka_unit_test(RoomGrowsLittleByLittle),
         cmocka_unit_test(ChangesAreComplete),
         cmocka_unit_test(StencilsEqualPoints),
         cmocka_unit_test(PointsOnlyRead),

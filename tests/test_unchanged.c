@@ -109,12 +109,11 @@ static void WriteWorld(Bytes* bytes, kiriWorld* world)
     bytes->size = sizeof(hash);
 }
 
-/* What each tick makes anew before it reads it, how far arrays have grown, and the indices of cells. */
+/* What each tick makes anew before it reads it, and the indices of cells. */
 typedef struct Hidden {
     kiriSheetData sheet;
     kiriUpdate update;
     kiriBounds bounds;
-    kiriGrowing ofGrid, ofShape;
     int32_t cells[MOST_FRAMES];
 } Hidden;
 
@@ -123,12 +122,7 @@ static void Hide(kiriSheetData* sheet, Hidden* hidden)
     hidden->sheet = *sheet;
     hidden->update = *sheet->update;
     hidden->bounds = *sheet->seen.bounds;
-    hidden->ofGrid = sheet->grid.work->growing;
-    hidden->ofShape = sheet->shape.work->growing;
     memset(&sheet->update->start, 0, sizeof(kiriUpdateStart));
-    memset(&sheet->update->growing, 0, sizeof(kiriGrowing));
-    memset(&sheet->grid.work->growing, 0, sizeof(kiriGrowing));
-    memset(&sheet->shape.work->growing, 0, sizeof(kiriGrowing));
     sheet->update->isBegun = false;
     sheet->seen.blocks.hasUnknown = false;
     sheet->seen.surface.hasNormals = false;
@@ -149,8 +143,6 @@ static void Show(kiriSheetData* sheet, const Hidden* hidden)
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
         sheet->frames.data[i].site.cell = hidden->cells[i];
     }
-    sheet->grid.work->growing = hidden->ofGrid;
-    sheet->shape.work->growing = hidden->ofShape;
     *sheet->seen.bounds = hidden->bounds;
     *sheet->update = hidden->update;
     *sheet = hidden->sheet;

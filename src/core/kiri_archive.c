@@ -503,37 +503,3 @@ void kiriArchive_HashLayout(const kiriTable* table, uint64_t* hash)
         }
     }
 }
-
-/* ---- Arrays that grow -------------------------------------------------------------------------------------------- */
-
-void kiriArchive_Growing(kiriArchive* archive, kiriGrowing* growing, const kiriRoom* rooms, int32_t count)
-{
-    int32_t grows = KIRI_NONE;
-    for (int32_t k = 0; k < count && growing->data != NULL; ++k) {
-        grows = kiriArray_GetHeader(rooms[k].array).data == growing->from ? k : grows;
-    }
-    grows = kiriArchive_Count(archive, grows, KIRI_NONE, count - 1);
-    kiriArchive_Numbers(archive, &growing->owed, 8, 1);
-    kiriArchive_Expect(archive, growing->owed >= 0 && growing->owed <= INT32_MAX);
-    if (grows == KIRI_NONE) {
-        return;
-    }
-    kiriArchive_Numbers(archive, &growing->capacity, 8, 1);
-    kiriArchive_Numbers(archive, &growing->moved, 8, 1);
-    kiriArrayHeader header = kiriArray_GetHeader(rooms[grows].array);
-    int64_t itemBytes = (int64_t)rooms[grows].itemBytes;
-    kiriArchive_Expect(archive, growing->capacity >= header.capacity && growing->capacity <= INT32_MAX &&
-                                    growing->moved >= 0 && growing->moved <= header.count * itemBytes);
-    if (!kiriArchive_Reads(archive) || kiriArchive_HasFailed(archive)) {
-        return;
-    }
-    kiriMemory* memory = archive->memory;
-    archive->memory = rooms[grows].memory;
-    growing->data = MakeBlock(archive, growing->capacity * itemBytes);
-    archive->memory = memory;
-    growing->memory = rooms[grows].memory;
-    growing->from = header.data;
-    if (growing->data != NULL && growing->moved > 0) {
-        memcpy(growing->data, header.data, (size_t)growing->moved);
-    }
-}

@@ -251,9 +251,6 @@ void kiriArchive_HashLayout(const kiriTable* table, uint64_t* hash);
 /* A block of so many numbers, of *block. */
 void kiriArchive_Block(kiriArchive* archive, void** block, int32_t width, int64_t count);
 
-/* One array of several that grow: see kiriGrowing. Those are read before. */
-void kiriArchive_Growing(kiriArchive* archive, kiriGrowing* growing, const kiriRoom* rooms, int32_t count);
-
 KIRI_C_END
 
 #endif

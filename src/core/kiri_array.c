@@ -111,67 +111,6 @@ kiriProgress kiriRooms_MakeReady(const kiriRoom* rooms, int32_t count, kiriQuota
     return KIRI_DONE;
 }
 
-/* The new block of an array; false for memory. */
-static bool BeginGrowing(kiriGrowing* growing, const kiriRoom* room, kiriArrayHeader header)
-{
-    kiriGrowing_Drop(growing);
-    int64_t capacity = NextCapacity(header.capacity, room->need);
-    char* data = capacity < room->need ? NULL : kiriMemory_Alloc(room->memory, capacity * (int64_t)room->itemBytes);
-    if (data != NULL) {
-        *growing = (kiriGrowing){ room->memory, header.data, data, capacity, 0, growing->owed };
-    }
-    return data != NULL;
-}
-
-static kiriProgress GrowRoom(kiriGrowing* growing, const kiriRoom* room, kiriQuota* quota, int64_t bytesAnItem)
-{
-    kiriArrayHeader header = kiriArray_GetHeader(room->array);
-    int64_t size = header.count * (int64_t)room->itemBytes, atOnce = room->changes && size > 0 ? size : bytesAnItem;
-    bool isGrowing = growing->data != NULL && growing->from == header.data && growing->capacity >= room->need;
-    if (!isGrowing && !BeginGrowing(growing, room, header)) {
-        return KIRI_FAILED;
-    }
-    while (growing->moved < size) {
-        int64_t bytes = kiriMin(size - growing->moved, atOnce);
-        if (!kiriQuota_Pay(quota, &growing->owed)) {
-            return KIRI_MORE;
-        }
-        memcpy(growing->data + growing->moved, (const char*)header.data + growing->moved, (size_t)bytes);
-        growing->moved += bytes;
-        growing->owed += bytes / bytesAnItem;
-    }
-    kiriMemory_Free(room->memory, header.data);
-    header.data = growing->data;
-    header.capacity = (int32_t)growing->capacity;
-    kiriArray_SetHeader(room->array, header);
-    growing->data = NULL;
-    return KIRI_DONE;
-}
-
-kiriProgress kiriGrowing_GoOn(kiriGrowing* growing, const kiriRoom* rooms, int32_t count, kiriQuota* quota,
-                              int64_t bytesAnItem)
-{
-    kiriProgress progress = KIRI_DONE;
-    for (int32_t i = 0; progress == KIRI_DONE && i < count; ++i) {
-        if (rooms[i].need > kiriArray_GetHeader(rooms[i].array).capacity) {
-            progress = GrowRoom(growing, &rooms[i], quota, bytesAnItem);
-        }
-    }
-    if (progress == KIRI_DONE) {
-        kiriGrowing_Drop(growing);
-        progress = kiriQuota_Pay(quota, &growing->owed) ? KIRI_DONE : KIRI_MORE;
-    }
-    return progress;
-}
-
-void kiriGrowing_Drop(kiriGrowing* growing)
-{
-    if (growing->data != NULL) {
-        kiriMemory_Free(growing->memory, growing->data);
-        growing->data = NULL;
-    }
-}
-
 void kiriArray_Release(kiriMemory* memory, void* array)
 {
     kiriArrayHeader header = kiriArray_GetHeader(array);

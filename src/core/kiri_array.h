@@ -49,33 +49,12 @@ typedef struct kiriRoom {
     void* array;
     size_t itemBytes;
     int64_t need;
-    bool changes; /* what is in it, in each tick: then it is moved in one go */
 } kiriRoom;
 
 #define KIRI_ROOM(memory, array, need)                                                                                 \
     {                                                                                                                  \
-        (memory), (array), sizeof(*(array)->data), (need), false                                                       \
+        (memory), (array), sizeof(*(array)->data), (need)                                                              \
     }
-#define KIRI_CHANGING_ROOM(memory, array, need)                                                                        \
-    {                                                                                                                  \
-        (memory), (array), sizeof(*(array)->data), (need), true                                                        \
-    }
-
-/* An array that grows little by little; zeroed: none. The new block is there, and some of the items are in it. */
-typedef struct kiriGrowing {
-    kiriMemory* memory;
-    const void* from; /* the old block */
-    char* data;
-    int64_t capacity, moved; /* items, bytes */
-    int64_t owed;            /* to the quota */
-} kiriGrowing;
-
-/* Makes room in several arrays, one after the other, as far as the quota goes: it takes an item for each bytesAnItem
-   that are moved, so no tick moves all of a large sheet. KIRI_MORE: go on with a new quota, before what is in the
-   arrays changes; where it does all the same, kiriGrowing_Drop begins anew. */
-kiriProgress kiriGrowing_GoOn(kiriGrowing* growing, const kiriRoom* rooms, int32_t count, kiriQuota* quota,
-                              int64_t bytesAnItem);
-void kiriGrowing_Drop(kiriGrowing* growing);
 
 /* Makes room, and as many items as the room says, all zero, as far as the quota goes, of which each bytesAnItem take
    one: so the system gives the pages little by little. */

@@ -40,7 +40,6 @@ static const kiriMember StepMembers[] = {
 static const kiriTable StepTable = KIRI_TABLE(kiriStep, StepMembers);
 
 static const kiriMember GridWorkMembers[] = {
-    KIRI_DROPPED(kiriGridWork, growing),
     KIRI_BOOLS(kiriGridWork, running, removed),
     KIRI_RUN(8, kiriGridWork, due, due),
     KIRI_RUN(4, kiriGridWork, stage, part),
@@ -156,7 +155,6 @@ static const kiriMember ShapeWorkMembers[] = {
     KIRI_ITEMS(4, kiriShapeWork, dirty),
     KIRI_RUN(4, kiriShapeWork, stage, next),
     KIRI_RUN(8, kiriShapeWork, due, due),
-    KIRI_DROPPED(kiriShapeWork, growing),
 };
 static const kiriTable ShapeWorkTable = KIRI_TABLE(kiriShapeWork, ShapeWorkMembers);
 

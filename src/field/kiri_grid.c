@@ -1152,53 +1152,6 @@ static bool StartGridFromScratch(kiriGrid* grid, const kiriMeshData* mesh)
     return ReserveCells(grid, mesh);
 }
 
-enum { GRID_ROOMS = 12 };
-
-/* Room for a cell more in half of the squares that changed, and for steps around them. */
-static void ListGridRooms(kiriGrid* grid, const kiriMeshData* mesh, kiriRoom rooms[GRID_ROOMS])
-{
-    kiriGridWork* work = grid->work;
-    int64_t more = mesh->squares.dirty.count / 2 + 64, cells = grid->cells.count + more;
-    int64_t notOpen = 5 * (int64_t)mesh->squares.dirty.count + 64; /* a cut, and two rows of squares on each side */
-    int64_t materials = grid->materials.count + mesh->squares.dirty.count + more,
-            stretches = grid->stretches.count + 2 * (mesh->squares.dirty.count + more);
-    kiriMemory* memory = mesh->memory;
-    const kiriRoom all[GRID_ROOMS] = { KIRI_ROOM(memory, &grid->cells, cells),
-                                       KIRI_ROOM(memory, &grid->runs, cells),
-                                       KIRI_ROOM(memory, &work->cellFlags, cells),
-                                       KIRI_ROOM(memory, &work->mark, cells),
-                                       KIRI_ROOM(memory, &grid->faces, grid->faces.count + 2 * more),
-                                       KIRI_ROOM(memory, &grid->materials, materials),
-                                       KIRI_ROOM(memory, &grid->unusedMaterials, materials),
-                                       KIRI_ROOM(memory, &grid->stretches, stretches),
-                                       KIRI_ROOM(memory, &grid->unusedStretches, stretches),
-                                       KIRI_ROOM(memory, &grid->steps, grid->steps.count + KIRI_OPEN_STEPS * notOpen),
-                                       KIRI_ROOM(memory, &grid->nodeCell, mesh->squares.nodes.capacity),
-                                       KIRI_ROOM(memory, &grid->vertexCell, mesh->vertices.capacity) };
-    memcpy(rooms, all, sizeof(all));
-}
-
-/* So that no tick moves all arrays. */
-static kiriProgress MakeRoomForCells(kiriGrid* grid, const kiriMeshData* mesh, kiriQuota* quota)
-{
-    enum { CELL_BYTES = 512 }; /* that an item moves */
-    kiriRoom rooms[GRID_ROOMS];
-    if (grid->work == NULL || grid->squareCell.count == 0) {
-        return KIRI_DONE;
-    }
-    ListGridRooms(grid, mesh, rooms);
-    return kiriGrowing_GoOn(&grid->work->growing, rooms, GRID_ROOMS, quota, CELL_BYTES);
-}
-
-void kiriGrid_ArchiveGrowing(kiriArchive* archive, kiriGrid* grid, const kiriMeshData* mesh)
-{
-    kiriRoom rooms[GRID_ROOMS];
-    if (grid->work != NULL) {
-        ListGridRooms(grid, mesh, rooms);
-        kiriArchive_Growing(archive, &grid->work->growing, rooms, GRID_ROOMS);
-    }
-}
-
 static bool StartGridUpdate(kiriGrid* grid, const kiriMeshData* mesh)
 {
     if (grid->work == NULL) {
@@ -1248,10 +1201,6 @@ static kiriProgress RunGridStages(kiriGrid* grid, const kiriMeshData* mesh, kiri
 kiriProgress kiriGrid_Update(kiriGrid* grid, const kiriMeshData* mesh, kiriQuota* quota)
 {
     if (grid->work == NULL || !grid->work->running) {
-        kiriProgress room = MakeRoomForCells(grid, mesh, quota);
-        if (room != KIRI_DONE) {
-            return room;
-        }
         if (!StartGridUpdate(grid, mesh)) {
             return KIRI_FAILED;
         }
@@ -1328,7 +1277,6 @@ void kiriGrid_Reset(kiriGrid* grid)
     changes->edges.count = 0;
     memset(&grid->stepRoom, 0, sizeof(grid->stepRoom));
     if (grid->work != NULL) {
-        kiriGrowing_Drop(&grid->work->growing);
         grid->work->cellFlags.count = grid->work->mark.count = 0;
         EndGridUpdate(grid->work);
     }
@@ -1359,7 +1307,6 @@ void kiriGrid_Keep(kiriGrid* grid, kiriMemory* memory, const kiriKeep* triangles
                    const int32_t* gone, int32_t goneCount)
 {
     KIRI_ASSERT(!grid->work->running && grid->changes.steps.count == 0 && grid->changes.gone.count == 0);
-    kiriGrowing_Drop(&grid->work->growing); /* what has been moved is no more what is there */
     for (int32_t k = 0; k < goneCount; ++k) {
         TakeCellAway(grid, memory, gone[k]);
     }

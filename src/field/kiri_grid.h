@@ -140,9 +140,6 @@ void kiriGrid_ClearChanges(kiriGrid* grid);
 /* How far the update at hand has come, for the state hash: it is not all in what the quota has given. */
 void kiriGrid_HashProgress(const kiriGrid* grid, uint64_t* hash);
 
-/* The array of it that is growing, as bytes, after all else of grid and mesh. */
-void kiriGrid_ArchiveGrowing(kiriArchive* archive, kiriGrid* grid, const kiriMeshData* mesh);
-
 /* Gives back the room of lists that were long while all was made, and that what changes makes as long as it needs. Not
    during an update, nor before its changes are cleared. */
 void kiriGrid_DropScratch(kiriGrid* grid, kiriMemory* memory);
@@ -322,7 +319,6 @@ typedef struct kiriOldFace {
 } kiriOldFace;
 
 struct kiriGridWork {
-    kiriGrowing growing; /* before an update */
     bool running, fromScratch;
     bool removed;        /* a cell is gone */
     int64_t due;         /* of what is done the quota has not given this yet */

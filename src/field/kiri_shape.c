@@ -542,46 +542,24 @@ static int64_t ItemsToUnload(const kiriShapeJob* job, kiriLoadedBlock loaded)
     return ITEMS_OF_BLOCK + changed / CHANGED_AN_ITEM;
 }
 
-enum { UNLOAD_ROOMS = 3 };
-
 /* For all that may come out of the fields. */
-static void ListUnloadRooms(kiriShape* shape, kiriMemory* memory, kiriRoom rooms[UNLOAD_ROOMS])
+static bool ReserveUnload(kiriShapeJob* job)
 {
-    kiriShapeWork* work = shape->work;
-    int64_t blocks = kiriReaches_RoomFor(&shape->reaches, work->loaded.count),
+    kiriReaches* reaches = &job->shape->reaches;
+    kiriShapeWork* work = job->work;
+    int64_t blocks = kiriReaches_RoomFor(reaches, work->loaded.count),
             weights = work->rawWeights.count + (int64_t)KIRI_BLOCK_CELLS * work->loaded.count;
-    const kiriRoom all[UNLOAD_ROOMS] = { KIRI_ROOM(memory, &shape->reaches.blocks, blocks),
-                                         KIRI_ROOM(memory, &shape->reaches.heads, blocks),
-                                         KIRI_ROOM(memory, &work->rawWeights, weights) };
-    memcpy(rooms, all, sizeof(all));
-}
-
-/* So that no tick moves all of it. */
-static kiriProgress MakeRoomToUnload(kiriShapeJob* job, kiriQuota* quota)
-{
-    enum { MOVED_BYTES = 128 }; /* for an item: most are the first in their page */
-    kiriRoom rooms[UNLOAD_ROOMS];
-    ListUnloadRooms(job->shape, job->memory, rooms);
-    return kiriGrowing_GoOn(&job->work->growing, rooms, UNLOAD_ROOMS, quota, MOVED_BYTES);
-}
-
-void kiriShape_ArchiveGrowing(kiriArchive* archive, kiriShape* shape, kiriMemory* memory)
-{
-    kiriRoom rooms[UNLOAD_ROOMS];
-    if (shape->work != NULL) {
-        ListUnloadRooms(shape, memory, rooms);
-        kiriArchive_Growing(archive, &shape->work->growing, rooms, UNLOAD_ROOMS);
-        kiriArchive_Expect(archive, shape->work->growing.data == NULL || shape->work->frameStage == KIRI_FRAME_UNLOAD);
-    }
+    return kiriArray_Reserve(job->memory, &reaches->blocks, blocks) &&
+           kiriArray_Reserve(job->memory, &reaches->heads, blocks) &&
+           kiriArray_Reserve(job->memory, &work->rawWeights, weights);
 }
 
 /* Brings the blocks up to date with the fields, and empties these. */
 static kiriProgress UnloadFrame(kiriShapeJob* job, kiriQuota* quota)
 {
     kiriShapeWork* work = job->work;
-    kiriProgress progress = MakeRoomToUnload(job, quota);
-    if (progress != KIRI_DONE) {
-        return progress;
+    if (!ReserveUnload(job)) {
+        return KIRI_FAILED;
     }
     for (; work->loaded.count > 0; --work->loaded.count) {
         kiriLoadedBlock loaded = work->loaded.data[work->loaded.count - 1];
@@ -1218,7 +1196,5 @@ void kiriShape_Reset(kiriShape* shape)
         work->stage = KIRI_SHAPE_REST;
         work->frameStage = KIRI_FRAME_REST;
         work->due = 0;
-        kiriGrowing_Drop(&work->growing);
-        work->growing.owed = 0;
     }
 }

@@ -90,9 +90,6 @@ void kiriShape_ClearChanges(kiriShape* shape);
 /* How far the update at hand has come, for the state hash: it is not all in what the quota has given. */
 void kiriShape_HashProgress(const kiriShape* shape, uint64_t* hash);
 
-/* The array of it that is growing, as bytes, after all else. */
-void kiriShape_ArchiveGrowing(kiriArchive* archive, kiriShape* shape, kiriMemory* memory);
-
 /* Gives back the room of what is as long as what an update changes. Not during an update. */
 void kiriShape_DropScratch(kiriShape* shape, kiriMemory* memory);
 void kiriShape_Reset(kiriShape* shape);
@@ -190,7 +187,6 @@ struct kiriShapeWork {
     kiriShapeStage stage;
     int32_t next;        /* item of the stage at which the work goes on */
     int64_t due;         /* for blocks that were loaded: the quota has not given it yet */
-    kiriGrowing growing; /* what the frame at hand needs room for */
 };
 
 /* An update, and the frame at hand. */

@@ -212,8 +212,6 @@ static const kiriMember UpdateMembers[] = {
     KIRI_BOOLS(kiriUpdate, needsRebuild, isScratch),
     KIRI_PART(kiriUpdate, start, UpdateStartTable),
     KIRI_BOOLS(kiriUpdate, isBegun, isBegun),
-    KIRI_DROPPED(kiriUpdate, growing),
-    KIRI_RUN(4, kiriUpdate, growsSince, growsSince),
     KIRI_PART(kiriUpdate, cut, CutWorkTable),
     KIRI_PART(kiriUpdate, placing, PlacingWorkTable),
     KIRI_ITEMS(8, kiriUpdate, material),
@@ -363,9 +361,6 @@ static void ArchiveDerived(kiriArchive* archive, kiriSheetData* sheet)
     archive->memory = &sheet->shown;
     kiriArchive_Object(archive, &kiriRestSurfaceTable, &sheet->seen.surface);
     archive->memory = &sheet->own;
-    kiriGrid_ArchiveGrowing(archive, &sheet->grid, &sheet->mesh);
-    kiriShape_ArchiveGrowing(archive, &sheet->shape, sheet->memory);
-    kiriRoom_ArchiveGrowing(archive, sheet);
     if (kiriArchive_Reads(archive) && !kiriArchive_HasFailed(archive)) {
         kiriLinks_EndReading(&sheet->links, &sheet->own);
         kiriPlacer_EndReading(&sheet->update->placing.placer, &sheet->regions.field);

@@ -78,8 +78,6 @@ typedef struct kiriUpdate {
     kiriUpdateStart start;
     bool isBegun; /* in this tick */
 
-    kiriGrowing growing; /* of arrays before a cut, */
-    uint32_t growsSince; /* at this revision of the mesh */
     kiriCutWork cut;
     kiriPlacingWork placing;
     KIRI_ARRAY(kiriMoments) material; /* of each frame's region */
@@ -103,23 +101,6 @@ static inline bool kiriUpdate_IsFieldCurrent(const kiriUpdate* update)
     bool isUntouched = update->stage == KIRI_NONE || (update->stage == KIRI_STAGE_CUT && !update->cut.meshChanged);
     return isUntouched && !update->needsRebuild;
 }
-
-/* Room for what a cut makes: arrays as large as the sheet grow before it, over several ticks where the budget says
-   so. */
-
-/* Before points of an update are taken: room for what they may make. More than was guessed gets room when arrays are
-   full, all at one go: so whoever goes on in a new tick asks whether room is low. */
-bool kiriRoom_IsLow(kiriSheetData* sheet, const kiriQuota* triangles);
-kiriProgress kiriRoom_ForCut(kiriSheetData* sheet, kiriQuota* triangles);
-
-/* Before samples are weighed, of which the squares are known. */
-kiriProgress kiriRoom_ForWeights(kiriSheetData* sheet, kiriQuota* samples);
-
-/* Where squares have more samples than an even mesh has: room for those that the quota leaves for this tick. */
-kiriProgress kiriRoom_ForMoreWeights(kiriSheetData* sheet, kiriQuota* samples);
-
-/* The array that is growing, as bytes, after all else of the sheet. */
-void kiriRoom_ArchiveGrowing(kiriArchive* archive, kiriSheetData* sheet);
 
 /* The stages of the work on a cut, in their order, and what its commit does. Each stage goes on where the quota of the
    last tick ended, and costs what the cut touched. KIRI_FAILED is for memory. kiri_update.h runs them. */
