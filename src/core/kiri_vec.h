@@ -34,6 +34,17 @@ static inline int64_t kiriOrient(kiriLatticePoint a, kiriLatticePoint b, kiriLat
     return ((int64_t)b.x - a.x) * ((int64_t)c.y - a.y) - ((int64_t)b.y - a.y) * ((int64_t)c.x - a.x);
 }
 
+static inline bool kiriLattice_IsSame(kiriLatticePoint a, kiriLatticePoint b)
+{
+    return a.x == b.x && a.y == b.y;
+}
+
+/* Returns (a - o) (b - o). Exact. */
+static inline int64_t kiriLattice_Dot(kiriLatticePoint o, kiriLatticePoint a, kiriLatticePoint b)
+{
+    return ((int64_t)a.x - o.x) * ((int64_t)b.x - o.x) + ((int64_t)a.y - o.y) * ((int64_t)b.y - o.y);
+}
+
 static inline int64_t kiriDistanceSquared(kiriLatticePoint a, kiriLatticePoint b)
 {
     int64_t x = (int64_t)b.x - a.x, y = (int64_t)b.y - a.y;

@@ -34,17 +34,6 @@ int32_t kiriMesh_NextAround(const kiriMeshData* mesh, int32_t h, int32_t first);
 /* Returns the newest vertex at a point, or KIRI_NONE. */
 int32_t kiriMesh_VertexAt(const kiriMeshData* mesh, kiriLatticePoint at, int64_t* effort);
 
-/* Returns (a - o) (b - o). Exact. */
-static inline int64_t kiriLattice_Dot(kiriLatticePoint o, kiriLatticePoint a, kiriLatticePoint b)
-{
-    return ((int64_t)a.x - o.x) * ((int64_t)b.x - o.x) + ((int64_t)a.y - o.y) * ((int64_t)b.y - o.y);
-}
-
-static inline bool kiriLattice_IsSame(kiriLatticePoint a, kiriLatticePoint b)
-{
-    return a.x == b.x && a.y == b.y;
-}
-
 /* Rounds the point at this share of the way from a to b. */
 kiriLatticePoint kiriLattice_Between(kiriLatticePoint a, kiriLatticePoint b, double share);
 

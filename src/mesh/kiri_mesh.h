@@ -162,6 +162,18 @@ static inline int32_t kiriMesh_Tail(const kiriMeshData* mesh, int32_t h)
     return kiriMesh_TriangleOf(mesh, h)->vertex[h % 3];
 }
 
+static inline int32_t kiriMesh_Head(const kiriMeshData* mesh, int32_t h)
+{
+    return kiriMesh_Tail(mesh, kiriEdge_Next(h));
+}
+
+/* Returns the lattice point of a vertex. */
+static inline kiriLatticePoint kiriMesh_At(const kiriMeshData* mesh, int32_t vertex)
+{
+    KIRI_ASSERT(vertex >= 0 && vertex < mesh->vertices.count);
+    return mesh->vertices.data[vertex].at;
+}
+
 static inline int32_t kiriMesh_Twin(const kiriMeshData* mesh, int32_t h)
 {
     return kiriMesh_TriangleOf(mesh, h)->twin[h % 3];
