@@ -92,27 +92,6 @@ static void AddSmallSheet(Storm* storm, int32_t squares, int32_t grid)
     Storm_KeepSheet(storm, sheet);
 }
 
-/* A strip is cut off a sheet that is so large that its mesh keeps its indices, and goes. */
-static void LeaveHoles(Storm* storm)
-{
-    const float way[4] = { -0.1f, 0.87f, 1.1f, 0.9f };
-    const kiriFrame* frames;
-    kiriPieceState pieces[2];
-    kiriSheet sheet = storm->sheets[0];
-    kiriCut cut;
-    int32_t count;
-    bool isCut = kiriBeginCut(storm->world, sheet, way, &cut) == KIRI_OK &&
-                 kiriCut_Extend(storm->world, cut, way + 2, 1) == KIRI_OK &&
-                 kiriCut_End(storm->world, cut) == KIRI_OK && kiriWorld_Tick(storm->world, 0.01f, 1) >= 0 &&
-                 kiriSheet_GetPiece(storm->world, sheet, 0, &pieces[0]) == KIRI_OK &&
-                 kiriSheet_GetPiece(storm->world, sheet, 1, &pieces[1]) == KIRI_OK;
-    FUZZ_CHECK(isCut, "%s", kiriWorld_GetLastError(storm->world));
-    int32_t strip = pieces[0].area < pieces[1].area ? 0 : 1;
-    bool isGone = kiriSheet_GetPieceFrames(storm->world, sheet, strip, &frames, &count) == KIRI_OK &&
-                  kiriFrame_DestroyPiece(storm->world, frames[0]) == KIRI_OK;
-    FUZZ_CHECK(isGone, "%s", kiriWorld_GetLastError(storm->world));
-}
-
 /* Storms of all types; the later ones have so little budget that each stage of the work on a cut is caught half way. */
 static void StartStorm(Storm* storm, int32_t index, SavedHost* host)
 {
@@ -122,13 +101,9 @@ static void StartStorm(Storm* storm, int32_t index, SavedHost* host)
     storm->type = &Storm_Types[index % STORM_TYPES];
     storm->seed = 1 + (uint32_t)index;
     FUZZ_CHECK(kiriCreateWorld(&def, &storm->world) == KIRI_OK, "no world");
-    bool hasHoles = index >= SAVED_HOLES, isLarge = index >= SAVED_LARGE && !hasHoles;
-    AddSmallSheet(storm, hasHoles ? 66 : 4, isLarge ? 40 : 0);
+    AddSmallSheet(storm, 4, index >= SAVED_LARGE ? 40 : 0);
     if (storm->type->touches) {
         AddSmallSheet(storm, 4, 0);
-    }
-    if (hasHoles) {
-        LeaveHoles(storm);
     }
     for (int32_t i = 0; storm->type->obstacles && i < STORM_OBSTACLES; ++i) {
         Storm_AddObstacle(storm);

@@ -6,8 +6,8 @@
 #include "fuzz.h"
 #include "storm.h"
 
-/* Those from SAVED_LARGE on have triangles that are large for the grid, and from SAVED_HOLES on a mesh with holes. */
-enum { SAVED_LARGE = 96, SAVED_HOLES = 98, SAVED_WORLDS = 100 };
+/* Those from SAVED_LARGE on have triangles that are large for the grid. */
+enum { SAVED_LARGE = 96, SAVED_WORLDS = 98 };
 enum { SAVED_HEAD_BYTES = 24, SAVED_SUM_BYTES = 8 };
 
 /* Refuses memory where it would hold too much. */

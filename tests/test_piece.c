@@ -348,7 +348,7 @@ static Before Remember(Host* host, kiriSheet sheet)
 {
     Before before = { *DataOf(host, sheet), Host_Totals(host, sheet) };
     kiriSheetData* data = &before.data;
-    assert_true(kiriPieces_ListFrames(DataOf(host, sheet)) && kiriPieces_ListTriangles(DataOf(host, sheet)));
+    assert_true(kiriPieces_ListFrames(DataOf(host, sheet)) && kiriPieces_ListMesh(DataOf(host, sheet)));
     data->lists = DataOf(host, sheet)->lists;
     COPY(data->mesh.triangles);
     COPY(data->mesh.vertices);

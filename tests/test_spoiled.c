@@ -313,36 +313,6 @@ static int32_t FrameOfPiece(const kiriSheetData* sheet, int32_t piece)
     return frame;
 }
 
-/* Nobody follows the links of holes, but they are made anew with all others. */
-static void HoleIsBeforeALaterVertex(kiriSheetData* sheet)
-{
-    int32_t hole = 0;
-    while (kiriMesh_IsVertex(&sheet->mesh, hole)) {
-        ++hole;
-    }
-    sheet->mesh.vertices.data[hole].next = sheet->mesh.vertices.count - 1;
-}
-
-static void TestHoles(void** state)
-{
-    (void)state;
-    static const Spoiler spoilers[] = {
-        { "HoleIsBeforeALaterVertex", HoleIsBeforeALaterVertex },
-    };
-    const float way[4] = { -0.1f, 0.1f, 1.1f, 0.13f };
-    Host host;
-    Host_Start(&host);
-    kiriSheetDef def = Host_SmallDef();
-    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 66, 66);
-    Host_Cut(&host, sheet, way, 2);
-    OK(Host_Tick(&host, 0.01f, 1));
-    const kiriSheetData* data = host.world->sheets.data[0];
-    int32_t strip = data->layout.pieces.data[0].area < data->layout.pieces.data[1].area ? 0 : 1;
-    OK(kiriFrame_DestroyPiece(host.world, Host_FrameOf(&host, sheet, strip)));
-    assert_true(data->mesh.vertexHoles > 0);
-    CHECK_ALL_REFUSED(&host, spoilers);
-}
-
 /* Each is right where it is, but in the midst of the other piece. */
 static void FramesChangePlaces(kiriSheetData* sheet)
 {
@@ -382,7 +352,7 @@ int main(void)
         cmocka_unit_test(TestMesh),   cmocka_unit_test(TestLists),
         cmocka_unit_test(TestLayout), cmocka_unit_test(TestFrames),
         cmocka_unit_test(TestSeen),   cmocka_unit_test(TestCuts),
-        cmocka_unit_test(TestHoles),  cmocka_unit_test(TestPiecesElsewhere),
+        cmocka_unit_test(TestPiecesElsewhere),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -160,7 +160,7 @@ static void TestLoadedTwins(void** state)
         RunTwins(run, 1, &waited);
         RunTwins(run, 7, &waited);
     }
-    assert_true(waited > 200);
+    assert_true(waited > 100);
 }
 
 /* ---- Memory ---- */

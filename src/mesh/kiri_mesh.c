@@ -506,49 +506,25 @@ static void RenumberTriangle(kiriTriangle* t, const kiriKeep* triangles, const k
 
 /* ---- A part as a mesh of its own --------------------------------------------------------------------------------- */
 
-enum { COPIED_AN_ITEM = 4, LISTED_AN_ITEM = 8 };
-
-static bool StartPart(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshData* from, const kiriMeshPart* triangles,
+static bool CopyItems(kiriMeshData* mesh, const kiriMeshData* from, const kiriMeshPart* triangles,
                       const kiriMeshPart* vertices)
 {
-    memset(mesh, 0, sizeof(*mesh));
-    mesh->memory = memory;
-    mesh->origin = from->origin;
-    mesh->step = from->step;
-    mesh->revision = from->revision + 1;
-    return kiriArray_Reserve(memory, &mesh->vertices, vertices->items.count) &&
-           kiriArray_Reserve(memory, &mesh->triangles, triangles->items.count);
-}
-
-static bool CopyVertices(kiriMeshData* mesh, const kiriMeshData* from, const kiriMeshPart* triangles,
-                         const kiriMeshPart* vertices, kiriQuota* quota)
-{
-    while (mesh->vertices.count < vertices->items.count) {
-        int32_t k = mesh->vertices.count;
-        if (k % COPIED_AN_ITEM == 0 && !kiriQuota_Take(quota, 1)) {
-            return false;
-        }
+    if (!kiriArray_Resize(mesh->memory, &mesh->vertices, vertices->items.count) ||
+        !kiriArray_Resize(mesh->memory, &mesh->triangles, triangles->items.count)) {
+        return false;
+    }
+    for (int32_t k = 0; k < mesh->vertices.count; ++k) {
         kiriVertex vertex = from->vertices.data[vertices->items.data[k]];
         vertex.edge = EdgeTo(triangles->keep, vertex.edge);
         KIRI_ASSERT(vertex.edge != KIRI_NONE);
         vertex.stamp = 0;
-        mesh->vertices.data[mesh->vertices.count++] = vertex;
+        mesh->vertices.data[k] = vertex;
     }
-    return true;
-}
-
-static bool CopyTriangles(kiriMeshData* mesh, const kiriMeshData* from, const kiriMeshPart* triangles,
-                          const kiriMeshPart* vertices, kiriQuota* quota)
-{
-    while (mesh->triangles.count < triangles->items.count) {
-        int32_t k = mesh->triangles.count;
-        if (k % COPIED_AN_ITEM == 0 && !kiriQuota_Take(quota, 1)) {
-            return false;
-        }
+    for (int32_t k = 0; k < mesh->triangles.count; ++k) {
         kiriTriangle triangle = from->triangles.data[triangles->items.data[k]];
         RenumberTriangle(&triangle, triangles->keep, vertices->keep);
         triangle.marks &= KIRI_TRIANGLE_OPEN;
-        mesh->triangles.data[mesh->triangles.count++] = triangle;
+        mesh->triangles.data[k] = triangle;
     }
     return true;
 }
@@ -581,22 +557,16 @@ static bool ListSources(kiriMeshData* mesh)
     return ok;
 }
 
-static kiriProgress CopySources(kiriMeshData* mesh, const kiriMeshData* from, kiriQuota* quota)
+static bool CopySources(kiriMeshData* mesh, const kiriMeshData* from)
 {
-    if (mesh->sources.count > 0) {
-        return KIRI_DONE;
-    }
-    if (!kiriQuota_Take(quota, mesh->triangles.count / COPIED_AN_ITEM)) {
-        return KIRI_MORE;
-    }
     if (!ListSources(mesh) ||
         !kiriArray_ResizeJust(mesh->memory, &mesh->sourceCorners, 3 * (int64_t)mesh->sources.count)) {
-        return KIRI_FAILED;
+        return false;
     }
     for (int32_t k = 0; k < mesh->sources.count; ++k) {
         kiriMesh_SourceCorners(from, mesh->sources.data[k], &mesh->sourceCorners.data[3 * (size_t)k]);
     }
-    return KIRI_DONE;
+    return true;
 }
 
 static bool StartSquares(kiriMeshData* mesh, const kiriMeshData* from)
@@ -612,48 +582,24 @@ static bool StartSquares(kiriMeshData* mesh, const kiriMeshData* from)
     return kiriSquares_InitPart(&mesh->squares, mesh->memory, &from->squares, lower, upper);
 }
 
-/* Until kiriMesh_Begin the old counts say how many triangles and vertices are in their squares. */
-static kiriProgress FillSquaresOfPart(kiriMeshData* mesh, const kiriMeshData* from, kiriQuota* quota)
+bool kiriMesh_MakePart(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshData* from,
+                       const kiriMeshPart* triangles, const kiriMeshPart* vertices)
 {
-    if (mesh->squares.columns == 0 && !StartSquares(mesh, from)) {
-        return KIRI_FAILED;
+    KIRI_ASSERT(mesh->memory == NULL && triangles->items.count > 0 && vertices->items.count > 0);
+    memset(mesh, 0, sizeof(*mesh));
+    mesh->memory = memory;
+    mesh->origin = from->origin;
+    mesh->step = from->step;
+    mesh->revision = from->revision + 1;
+    if (!CopyItems(mesh, from, triangles, vertices) || !CopySources(mesh, from) || !StartSquares(mesh, from) ||
+        !kiriMesh_FillSquares(mesh, &mesh->squares, memory)) {
+        return false;
     }
-    for (; mesh->oldTriangleCount < mesh->triangles.count; ++mesh->oldTriangleCount) {
-        kiriLatticePoint corners[3];
-        if (!kiriQuota_Take(quota, 1)) {
-            return KIRI_MORE;
-        }
-        kiriMesh_Corners(mesh, mesh->oldTriangleCount, corners);
-        if (!kiriSquares_Insert(&mesh->squares, mesh->memory, mesh->oldTriangleCount, corners)) {
-            return KIRI_FAILED;
-        }
+    for (int32_t v = 0; v < mesh->vertices.count; ++v) {
+        kiriMesh_ListVertex(mesh, v);
     }
-    for (; mesh->oldVertexCount < mesh->vertices.count; ++mesh->oldVertexCount) {
-        if (mesh->oldVertexCount % LISTED_AN_ITEM == 0 && !kiriQuota_Take(quota, 1)) {
-            return KIRI_MORE;
-        }
-        kiriMesh_ListVertex(mesh, mesh->oldVertexCount);
-    }
-    return KIRI_DONE;
-}
-
-kiriProgress kiriMesh_MakePart(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshData* from,
-                               const kiriMeshPart* triangles, const kiriMeshPart* vertices, kiriQuota* quota)
-{
-    KIRI_ASSERT(!mesh->isOpen);
-    if (mesh->memory == NULL && !StartPart(mesh, memory, from, triangles, vertices)) {
-        return KIRI_FAILED;
-    }
-    if (!CopyVertices(mesh, from, triangles, vertices, quota) ||
-        !CopyTriangles(mesh, from, triangles, vertices, quota)) {
-        return KIRI_MORE;
-    }
-    kiriProgress progress = CopySources(mesh, from, quota);
-    progress = progress == KIRI_DONE ? FillSquaresOfPart(mesh, from, quota) : progress;
-    if (progress == KIRI_DONE) {
-        kiriMesh_Begin(mesh);
-    }
-    return progress;
+    kiriMesh_Begin(mesh);
+    return true;
 }
 
 /* ---- What is left ------------------------------------------------------------------------------------------------ */

@@ -110,11 +110,10 @@ typedef struct kiriMeshPart {
     const kiriKeep* keep; /* keeps these */
 } kiriMeshPart;
 
-/* A part of another mesh, on the same lattice and the squares around it: these triangles and vertices, a vertex with
-   its whole fan. The mesh is zeroed, or KIRI_MORE was said of it. An item of the quota is a triangle that comes into
-   its squares, or four triangles or vertices that are copied. The journal is open when it is done, and not before. */
-kiriProgress kiriMesh_MakePart(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshData* from,
-                               const kiriMeshPart* triangles, const kiriMeshPart* vertices, kiriQuota* quota);
+/* Copies a part of another mesh, on the same lattice and the squares around it: these triangles and vertices, a vertex
+   with its whole fan. The mesh is zeroed. The journal is open after it. False for memory. */
+bool kiriMesh_MakePart(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshData* from,
+                       const kiriMeshPart* triangles, const kiriMeshPart* vertices);
 
 /* Takes away the triangles and vertices that are not kept; a vertex goes with its whole fan. `squares`: all squares
    that these triangles are in. Not while the journal is open. Never fails. */

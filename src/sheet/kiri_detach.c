@@ -10,33 +10,50 @@
 
 #include <string.h>
 
-bool kiriKept_Init(kiriKept* kept, const kiriSheetData* from)
+/* ---- Maps and lists ---------------------------------------------------------------------------------------------- */
+
+static bool InitSubset(kiriSubset* subset, const kiriSheetData* from, kiriMemory* memory)
 {
-    memset(kept, 0, sizeof(*kept));
-    kept->from = from;
-    kept->memory = kiriMemory_Like(from->memory);
-    if (!kiriArray_Resize(&kept->memory, &kept->pieces, from->layout.pieces.count)) {
+    subset->from = from;
+    if (!kiriArray_Resize(memory, &subset->pieces, from->layout.pieces.count)) {
         return false;
     }
-    memset(kept->pieces.data, 0, (size_t)kept->pieces.count);
+    memset(subset->pieces.data, 0, (size_t)subset->pieces.count);
     return true;
 }
 
-static bool IsFrameKept(const kiriKept* kept, int32_t frame)
+bool kiriDetach_Init(kiriDetach* detach, kiriSheetData* sheet)
 {
-    return kept->pieces.data[kept->from->layout.framePiece.data[frame]] != 0;
+    memset(detach, 0, sizeof(*detach));
+    detach->sheet = sheet;
+    detach->memory = kiriMemory_Like(sheet->memory);
+    return InitSubset(&detach->rest, sheet, &detach->memory);
 }
 
-int32_t kiriKept_FrameOfPin(const kiriKept* kept, int32_t pin)
+void kiriDetach_Drop(kiriDetach* detach)
 {
-    const kiriLayout* layout = &kept->from->layout;
+    if (detach->sheet != NULL) {
+        kiriShown_Release(&detach->shown, &detach->sheet->shown);
+        kiriArray_Release(&detach->sheet->shown, &detach->points);
+        kiriMemory_FreeAll(&detach->memory);
+    }
+}
+
+static bool HasFrame(const kiriSubset* subset, int32_t frame)
+{
+    return subset->pieces.data[subset->from->layout.framePiece.data[frame]] != 0;
+}
+
+int32_t kiriSubset_FrameOfPin(const kiriSubset* subset, int32_t pin)
+{
+    const kiriLayout* layout = &subset->from->layout;
     const kiriLineShare* longest = NULL;
-    if (IsFrameKept(kept, layout->pinFrame.data[pin])) {
+    if (HasFrame(subset, layout->pinFrame.data[pin])) {
         return layout->pinFrame.data[pin];
     }
     for (int32_t k = 0; k < layout->pinShares.count; ++k) {
         const kiriPinShare* pinned = &layout->pinShares.data[k];
-        if (pinned->pin == pin && IsFrameKept(kept, pinned->share.frame) &&
+        if (pinned->pin == pin && HasFrame(subset, pinned->share.frame) &&
             (longest == NULL || pinned->share.length > longest->length)) {
             longest = &pinned->share;
         }
@@ -44,706 +61,348 @@ int32_t kiriKept_FrameOfPin(const kiriKept* kept, int32_t pin)
     return longest != NULL ? longest->frame : KIRI_NONE;
 }
 
-static bool MapMesh(kiriKept* kept)
+static double AreaOfAll(const kiriSheetData* sheet)
 {
-    const kiriMeshData* mesh = &kept->from->mesh;
-    if (!kiriKeep_Init(&kept->triangles, &kept->memory, mesh->triangles.count) ||
-        !kiriKeep_Init(&kept->vertices, &kept->memory, mesh->vertices.count)) {
+    double area = 0.0;
+    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+        area += sheet->layout.pieces.data[p].area;
+    }
+    return area;
+}
+
+double kiriSubset_Share(const kiriSubset* subset)
+{
+    double area = 0.0;
+    for (int32_t p = 0; p < subset->pieces.count; ++p) {
+        area += subset->pieces.data[p] ? subset->from->layout.pieces.data[p].area : 0.0;
+    }
+    return area / AreaOfAll(subset->from);
+}
+
+double kiriDetach_Samples(const kiriSheetData* sheet, double share, bool makesParts)
+{
+    const double passSamples = 0.15, vertexSamples = 3.0, cellSamples = 1.4;
+    double vertices = sheet->mesh.vertices.count;
+    double parts = share * (vertexSamples * vertices + cellSamples * sheet->grid.cellCount);
+    return 1.0 + passSamples * vertices + (makesParts ? parts : 0.0);
+}
+
+typedef int32_t PieceOfItem(const kiriDetach* detach, int32_t item);
+
+static int32_t PieceOfVertex(const kiriDetach* detach, int32_t vertex)
+{
+    return detach->vertexPiece.data[vertex];
+}
+
+static int32_t PieceOfTriangle(const kiriDetach* detach, int32_t triangle)
+{
+    return detach->vertexPiece.data[detach->sheet->mesh.triangles.data[triangle].vertex[0]];
+}
+
+static int32_t PieceOfFrame(const kiriDetach* detach, int32_t frame)
+{
+    return detach->sheet->layout.framePiece.data[frame];
+}
+
+static int32_t PieceOfPoint(const kiriDetach* detach, int32_t point)
+{
+    return PieceOfFrame(detach, detach->sheet->points.data[point].frame);
+}
+
+static int32_t PieceOfLink(const kiriDetach* detach, int32_t link)
+{
+    return PieceOfFrame(detach, detach->sheet->links.links.data[link].i);
+}
+
+static int32_t PieceOfFade(const kiriDetach* detach, int32_t k)
+{
+    return PieceOfVertex(detach, detach->sheet->seen.fades.fading.data[k].sample);
+}
+
+static int32_t PieceOfPointFade(const kiriDetach* detach, int32_t k)
+{
+    return PieceOfPoint(detach, detach->sheet->seen.pointFades.fading.data[k].sample);
+}
+
+static int32_t PieceOfLast(const kiriDetach* detach, int32_t k)
+{
+    return kiriTouch_Piece(detach->sheet, &detach->sheet->touches.last.touches.data[k]);
+}
+
+static int32_t PieceOfSlept(const kiriDetach* detach, int32_t k)
+{
+    return kiriTouch_Piece(detach->sheet, &detach->sheet->touches.slept.touches.data[k]);
+}
+
+static bool FindVertexPieces(kiriDetach* detach)
+{
+    int32_t count = detach->sheet->mesh.vertices.count;
+    if (!kiriArray_Resize(&detach->memory, &detach->vertexPiece, count)) {
         return false;
     }
-    for (int32_t v = 0; v < mesh->vertices.count; ++v) {
-        int32_t piece = kiriPiece_OfVertex(kept->from, v);
-        kiriKeep_Add(&kept->vertices, piece != KIRI_NONE && kept->pieces.data[piece] != 0);
-    }
-    for (int32_t t = 0; t < mesh->triangles.count; ++t) {
-        kiriKeep_Add(&kept->triangles, kiriKeep_Has(&kept->vertices, mesh->triangles.data[t].vertex[0]));
+    for (int32_t v = 0; v < count; ++v) {
+        detach->vertexPiece.data[v] = kiriPiece_OfVertex(detach->sheet, v);
     }
     return true;
 }
 
-static bool ReserveRest(kiriKept* kept)
+static bool MapItems(kiriDetach* detach, kiriKeep* map, int32_t count, PieceOfItem* pieceOf)
 {
-    const kiriSheetData* from = kept->from;
-    return kiriKeep_Init(&kept->frames, &kept->memory, from->frames.count) &&
-           kiriKeep_Init(&kept->points, &kept->memory, from->points.count) &&
-           kiriKeep_Init(&kept->pins, &kept->memory, from->pins.count) &&
-           kiriKeep_Init(&kept->links, &kept->memory, from->links.links.count);
-}
-
-/* There is room. */
-static void MapRest(kiriKept* kept)
-{
-    const kiriSheetData* from = kept->from;
-    for (int32_t i = 0; i < from->frames.count; ++i) {
-        kiriKeep_Add(&kept->frames, IsFrameKept(kept, i));
-    }
-    for (int32_t i = 0; i < from->points.count; ++i) {
-        kiriKeep_Add(&kept->points, IsFrameKept(kept, from->points.data[i].frame));
-    }
-    for (int32_t i = 0; i < from->pins.count; ++i) {
-        kiriKeep_Add(&kept->pins, kiriKept_FrameOfPin(kept, i) != KIRI_NONE);
-    }
-    for (int32_t k = 0; k < from->links.links.count; ++k) {
-        kiriKeep_Add(&kept->links, IsFrameKept(kept, from->links.links.data[k].i));
-    }
-}
-
-bool kiriKept_LeaveHoles(kiriKept* kept)
-{
-    kept->vertices = kiriKeep_LeaveHoles(&kept->from->taking.vertices);
-    kept->triangles = kiriKeep_LeaveHoles(&kept->from->taking.triangles);
-    if (!ReserveRest(kept)) {
+    if (!kiriKeep_Init(map, &detach->memory, count)) {
         return false;
     }
-    MapRest(kept);
+    for (int32_t i = 0; i < count; ++i) {
+        kiriKeep_Add(map, detach->rest.pieces.data[pieceOf(detach, i)] != 0);
+    }
     return true;
 }
 
-bool kiriKept_Map(kiriKept* kept)
+/* Lists the items of pieces that leave. With a map also makes room for it: it keeps nothing yet. */
+static bool ListItems(kiriDetach* detach, int32_t kind, kiriKeep* map, int32_t count, PieceOfItem* pieceOf)
 {
-    if (!MapMesh(kept) || !ReserveRest(kept)) {
+    kiriMemory* memory = &detach->memory;
+    int32_t* pieces = kiriMemory_Alloc(memory, (int64_t)sizeof(int32_t) * count);
+    bool ok = pieces != NULL && (map == NULL || kiriKeep_Init(map, memory, count));
+    for (int32_t i = 0; ok && i < count; ++i) {
+        int32_t piece = pieceOf(detach, i);
+        pieces[i] = detach->rest.pieces.data[piece] ? KIRI_NONE : piece;
+        if (map != NULL) {
+            kiriKeep_Add(map, false);
+        }
+    }
+    ok = ok && kiriPieceItems_List(&detach->of[kind], memory, detach->rest.pieces.count, pieces, count);
+    kiriMemory_Free(memory, pieces);
+    return ok;
+}
+
+static bool MapPins(kiriDetach* detach)
+{
+    int32_t count = detach->sheet->pins.count;
+    if (!kiriKeep_Init(&detach->rest.pins, &detach->memory, count)) {
         return false;
     }
-    MapRest(kept);
+    for (int32_t i = 0; i < count; ++i) {
+        kiriKeep_Add(&detach->rest.pins, kiriSubset_FrameOfPin(&detach->rest, i) != KIRI_NONE);
+    }
     return true;
 }
 
-/* ---- One piece after the other ---- */
-
-bool kiriKept_InitParts(kiriKept* kept, const kiriSheetData* from)
+static bool ListParts(kiriDetach* detach)
 {
-    return kiriKept_Init(kept, from) && ReserveRest(kept);
+    const kiriSheetData* sheet = detach->sheet;
+    const kiriTouches* touches = &sheet->touches;
+    kiriSubset* part = &detach->part;
+    return InitSubset(part, sheet, &detach->memory) &&
+           ListItems(detach, KIRI_LISTED_VERTICES, &part->vertices, sheet->mesh.vertices.count, PieceOfVertex) &&
+           ListItems(detach, KIRI_LISTED_TRIANGLES, &part->triangles, sheet->mesh.triangles.count, PieceOfTriangle) &&
+           ListItems(detach, KIRI_LISTED_FRAMES, &part->frames, sheet->frames.count, PieceOfFrame) &&
+           ListItems(detach, KIRI_LISTED_POINTS, &part->points, sheet->points.count, PieceOfPoint) &&
+           ListItems(detach, KIRI_LISTED_LINKS, NULL, sheet->links.links.count, PieceOfLink) &&
+           ListItems(detach, KIRI_LISTED_FADES, NULL, sheet->seen.fades.fading.count, PieceOfFade) &&
+           ListItems(detach, KIRI_LISTED_POINT_FADES, NULL, sheet->seen.pointFades.fading.count, PieceOfPointFade) &&
+           ListItems(detach, KIRI_LISTED_LAST, NULL, touches->last.touches.count, PieceOfLast) &&
+           ListItems(detach, KIRI_LISTED_SLEPT, NULL, touches->slept.touches.count, PieceOfSlept);
 }
 
-void kiriKept_TakePart(kiriKept* kept, int32_t piece, const kiriIndices* vertices, const kiriIndices* triangles)
+bool kiriDetach_Map(kiriDetach* detach, bool makesParts)
 {
-    kept->vertices = kept->from->taking.vertices;
-    kept->triangles = kept->from->taking.triangles;
-    kept->pieces.data[piece] = 1;
-    kiriKeep_Take(&kept->vertices, vertices->data, vertices->count);
-    kiriKeep_Take(&kept->triangles, triangles->data, triangles->count);
-    MapRest(kept);
+    const kiriSheetData* sheet = detach->sheet;
+    kiriSubset* rest = &detach->rest;
+    KIRI_ASSERT(kiriUpdate_IsFieldCurrent(sheet->update));
+    KIRI_ASSERT(rest->pieces.count == sheet->layout.pieces.count);
+    detach->area = AreaOfAll(sheet);
+    return FindVertexPieces(detach) && MapItems(detach, &rest->vertices, sheet->mesh.vertices.count, PieceOfVertex) &&
+           MapItems(detach, &rest->triangles, sheet->mesh.triangles.count, PieceOfTriangle) &&
+           MapItems(detach, &rest->frames, sheet->frames.count, PieceOfFrame) &&
+           MapItems(detach, &rest->points, sheet->points.count, PieceOfPoint) &&
+           MapItems(detach, &rest->links, sheet->links.links.count, PieceOfLink) && MapPins(detach) &&
+           (!makesParts || ListParts(detach));
 }
 
-void kiriKept_DropPart(kiriKept* kept, int32_t piece, const kiriIndices* vertices, const kiriIndices* triangles)
-{
-    kept->pieces.data[piece] = 0;
-    kiriKeep_Drop(&kept->vertices, vertices->data, vertices->count);
-    kiriKeep_Drop(&kept->triangles, triangles->data, triangles->count);
-    kiriKeep_Restart(&kept->frames);
-    kiriKeep_Restart(&kept->points);
-    kiriKeep_Restart(&kept->pins);
-    kiriKeep_Restart(&kept->links);
-}
+/* ---- What follows pieces ----------------------------------------------------------------------------------------- */
 
-/* ---- What follows ---- */
-
-bool kiriKept_FollowContact(const kiriKept* kept, kiriGivenContact* given)
+/* Renumbers a contact of the host. False if its point is not in the subset. */
+static bool FollowContact(const kiriSubset* subset, kiriGivenContact* given)
 {
     if (given->contact.point >= 0) {
-        given->contact.point = kiriKeep_To(&kept->points, given->contact.point);
+        given->contact.point = kiriKeep_To(&subset->points, given->contact.point);
         return given->contact.point != KIRI_NONE;
     }
-    bool isKept = true;
+    bool isIn = true;
     for (int n = 0; n < 3 && given->vertex[n] != KIRI_NONE; ++n) {
-        given->vertex[n] = kiriKeep_To(&kept->vertices, given->vertex[n]);
-        isKept = isKept && given->vertex[n] != KIRI_NONE;
+        given->vertex[n] = kiriKeep_To(&subset->vertices, given->vertex[n]);
+        isIn = isIn && given->vertex[n] != KIRI_NONE;
     }
-    return isKept;
+    return isIn;
 }
 
-bool kiriKept_FollowTouch(const kiriKept* kept, kiriTouch* touch)
+/* Renumbers a contact and its key. False if it is not in the subset, or if the key cannot be renumbered. */
+static bool FollowTouch(const kiriSubset* subset, kiriTouch* touch)
 {
-    bool isKept = true;
+    bool isIn = true;
     if (touch->key >> 60 != KIRI_TOUCH_OBSTACLE) {
-        return kiriTouch_Follow(touch, &kept->points, &kept->vertices);
+        return kiriTouch_Follow(touch, &subset->points, &subset->vertices);
     }
     for (int n = 0; n < 3 && touch->vertex[n] != KIRI_NONE; ++n) {
-        touch->vertex[n] = kiriKeep_To(&kept->vertices, touch->vertex[n]);
-        isKept = isKept && touch->vertex[n] != KIRI_NONE;
+        touch->vertex[n] = kiriKeep_To(&subset->vertices, touch->vertex[n]);
+        isIn = isIn && touch->vertex[n] != KIRI_NONE;
     }
-    return isKept && kiriObstacle_FollowKey(&touch->key, &kept->vertices, &kept->triangles);
+    return isIn && kiriObstacle_FollowKey(&touch->key, &subset->vertices, &subset->triangles);
 }
 
-double kiriKept_Share(const kiriKept* kept)
+/* ---- A part ------------------------------------------------------------------------------------------------------ */
+
+/* The items of the part of this kind, in ascending order. */
+static kiriIndices ItemsOf(const kiriDetach* detach, int32_t kind, int32_t piece)
 {
-    const kiriLayout* layout = &kept->from->layout;
-    double share = 0.0, whole = 0.0;
-    for (int32_t p = 0; p < layout->pieces.count; ++p) {
-        whole += layout->pieces.data[p].area;
-        share += kept->pieces.data[p] ? layout->pieces.data[p].area : 0.0;
-    }
-    return share / whole;
+    kiriSpan span = detach->of[kind].spans.data[piece];
+    return (kiriIndices){ detach->of[kind].items.data + span.first, span.count, span.count };
 }
 
-/* ---- Room ---- */
-
-enum { ROOM_AN_ITEM = 64 }; /* entries of maps that are written */
-
-/* A map of all items, which keeps none. It keeps none at rest, too: so what is new is all there is to write. */
-static kiriProgress ReserveMap(kiriKeep* map, kiriMemory* memory, int32_t items, kiriQuota* quota)
+/* Settings that are spread over the sheet are divided by area. */
+static void CopySettings(const kiriDetach* detach, int32_t piece, kiriSheetData* to)
 {
-    if (!kiriArray_Reserve(memory, &map->to, items)) {
-        return KIRI_FAILED;
-    }
-    map->to.count = kiriMin(map->to.count, items);
-    while (map->to.count < items) {
-        int32_t end = items - map->to.count < ROOM_AN_ITEM ? items : map->to.count + ROOM_AN_ITEM;
-        if (!kiriQuota_Take(quota, 1)) {
-            return KIRI_MORE;
-        }
-        while (map->to.count < end) {
-            map->to.data[map->to.count++] = KIRI_NONE;
-        }
-    }
-    return KIRI_DONE;
-}
-
-static kiriProgress ReserveCellMaps(kiriTaking* taking, kiriMemory* memory, int32_t cells, kiriQuota* quota)
-{
-    int32_t known = taking->cells.count;
-    if (!kiriArray_Reserve(memory, &taking->cells, cells)) {
-        return KIRI_FAILED;
-    }
-    if (known < cells && !kiriQuota_Take(quota, (cells - known) / ROOM_AN_ITEM)) {
-        return KIRI_MORE;
-    }
-    for (int32_t c = known; c < cells; ++c) {
-        taking->cells.data[c] = 0;
-    }
-    taking->cells.count = cells;
-    return KIRI_DONE;
-}
-
-bool kiriGather_IsReserved(const kiriSheetData* sheet)
-{
-    const kiriTaking* taking = &sheet->taking;
-    return taking->vertices.to.count == sheet->mesh.vertices.count &&
-           taking->triangles.to.count == sheet->mesh.triangles.count && taking->cells.count == sheet->grid.cells.count;
-}
-
-kiriProgress kiriGather_Reserve(kiriSheetData* sheet, kiriQuota* quota)
-{
-    kiriTaking* taking = &sheet->taking;
-    KIRI_ASSERT(taking->vertices.count == 0 && taking->triangles.count == 0);
-    kiriProgress progress = ReserveMap(&taking->vertices, sheet->memory, sheet->mesh.vertices.count, quota);
-    progress = progress == KIRI_DONE ? ReserveMap(&taking->triangles, sheet->memory, sheet->mesh.triangles.count, quota)
-                                     : progress;
-    return progress == KIRI_DONE ? ReserveCellMaps(taking, sheet->memory, sheet->grid.cells.count, quota) : progress;
-}
-
-/* ---- Cells ---- */
-
-static bool TakeGatheredCell(kiriGathered* gathered, int32_t cell)
-{
-    uint8_t* mark = &gathered->sheet->taking.cells.data[cell];
-    if (!*mark && !kiriArray_Push(gathered->memory, &gathered->cells, cell)) {
-        return false;
-    }
-    *mark = 1;
-    return true;
-}
-
-/* ---- Triangles and vertices ---- */
-
-static bool TakeItem(kiriMemory* memory, kiriKeep* map, kiriIndices* items, int32_t item)
-{
-    if (map->to.data[item] == KIRI_NONE && !kiriArray_Push(memory, items, item)) {
-        return false;
-    }
-    map->to.data[item] = 0;
-    return true;
-}
-
-/* With its vertices. */
-static bool TakeTriangle(kiriGathered* gathered, int32_t triangle)
-{
-    kiriTaking* taking = &gathered->sheet->taking;
-    const int32_t* vertex = gathered->sheet->mesh.triangles.data[triangle].vertex;
-    bool ok = TakeItem(gathered->memory, &taking->triangles, &gathered->triangles, triangle);
-    for (int k = 0; ok && k < 3; ++k) {
-        ok = TakeItem(gathered->memory, &taking->vertices, &gathered->vertices, vertex[k]);
-    }
-    return ok;
-}
-
-static bool TakeTrianglesOf(kiriGathered* gathered, int32_t cell)
-{
-    const kiriSheetData* sheet = gathered->sheet;
-    const kiriSquareNode* nodes = sheet->mesh.squares.nodes.data;
-    bool ok = true;
-    for (int32_t n = sheet->mesh.squares.head[sheet->grid.cells.data[cell].square]; ok && n != KIRI_NONE;
-         n = nodes[n].next) {
-        bool isIn = sheet->grid.nodeCell.data[n] == cell;
-        gathered->left -= isIn;
-        ok = !isIn || TakeTriangle(gathered, nodes[n].triangle);
-    }
-    return ok;
-}
-
-/* Goes on from a cell that was taken: straight steps lead to all material of a piece, and to no other. */
-static bool TakeAround(kiriGathered* gathered, int32_t cell)
-{
-    kiriSteps steps;
-    bool ok = TakeTrianglesOf(gathered, cell);
-    kiriGrid_GetStepsTo(&gathered->sheet->grid, cell, 1, &steps);
-    for (int32_t s = 0; ok && s < steps.end[0]; ++s) {
-        ok = TakeGatheredCell(gathered, steps.data[s].cell);
-    }
-    return ok;
-}
-
-/* In their order they are near each other in memory. */
-static bool SortSpan(kiriGathered* gathered, kiriIndices* items, kiriSpan span)
-{
-    bool ok = kiriArray_Reserve(gathered->memory, &gathered->room, span.count);
-    if (ok && span.count > 0) {
-        kiriSort_Numbers(items->data + span.first, gathered->room.data, span.count);
-    }
-    return ok;
-}
-
-static void ClearMap(kiriKeep* map, const int32_t* items, int32_t count)
-{
-    for (int32_t k = 0; k < count; ++k) {
-        map->to.data[items[k]] = KIRI_NONE;
-    }
-}
-
-/* ---- What bytes may have that somebody made up ---- */
-
-static int64_t CountSquaresOf(const kiriMeshData* mesh, int32_t triangle)
-{
-    kiriLatticePoint c[3];
-    kiriMesh_Corners(mesh, triangle, c);
-    return kiriSquares_CountOverlaps(&mesh->squares, c);
-}
-
-static bool AreNeighboursTaken(const kiriSheetData* sheet, int32_t triangle)
-{
-    bool areTaken = true;
-    for (int32_t h = 3 * triangle; areTaken && h < 3 * triangle + 3; ++h) {
-        int32_t twin = kiriMesh_Twin(&sheet->mesh, h);
-        areTaken = twin == KIRI_NONE || kiriMesh_IsOpen(&sheet->mesh, h) ||
-                   sheet->taking.triangles.to.data[twin / 3] != KIRI_NONE;
-    }
-    return areTaken;
-}
-
-/* Does the piece hang together with nothing else? All that its triangles have in squares is in its cells, which has
-   been counted, and what they share an edge with is of it. An item of the quota is a triangle. */
-static kiriProgress LookWhether(kiriGathered* gathered, kiriQuota* quota)
-{
-    const kiriSheetData* sheet = gathered->sheet;
-    bool isWhole = true;
-    for (; isWhole && gathered->checked < gathered->triangles.count; ++gathered->checked) {
-        if (!kiriQuota_Take(quota, 1)) {
-            return KIRI_MORE;
-        }
-        gathered->left += CountSquaresOf(&sheet->mesh, gathered->triangles.data[gathered->checked]);
-        isWhole = AreNeighboursTaken(sheet, gathered->triangles.data[gathered->checked]);
-    }
-    return isWhole && gathered->left == 0 ? KIRI_DONE : KIRI_FAILED;
-}
-
-/* ---- Marks ---- */
-
-static void MarkItems(kiriKeep* map, const kiriIndices* items)
-{
-    for (int32_t k = 0; k < items->count; ++k) {
-        map->to.data[items->data[k]] = 0;
-    }
-    map->count = items->count;
-}
-
-/* ---- Pieces ---- */
-
-/* All of the piece that the last cell is of. Its marks go again, so that those of each piece are alone. */
-static bool TakeWholePiece(kiriGathered* gathered, int32_t piece)
-{
-    kiriTaking* taking = &gathered->sheet->taking;
-    kiriIndices *triangles = &gathered->triangles, *vertices = &gathered->vertices;
-    kiriGatheredPiece taken = { piece, { triangles->count, 0 }, { vertices->count, 0 } };
-    kiriQuota unlimited = { INT64_MAX, 0, 0, false };
-    bool ok = true;
-    for (int32_t k = gathered->cells.count - 1; ok && k < gathered->cells.count; ++k) {
-        ok = TakeAround(gathered, gathered->cells.data[k]);
-    }
-    ok = ok && LookWhether(gathered, &unlimited) == KIRI_DONE;
-    taken.triangles.count = triangles->count - taken.triangles.first;
-    taken.vertices.count = vertices->count - taken.vertices.first;
-    ClearMap(&taking->triangles, triangles->data + taken.triangles.first, taken.triangles.count);
-    ClearMap(&taking->vertices, vertices->data + taken.vertices.first, taken.vertices.count);
-    return ok && kiriArray_Push(gathered->memory, &gathered->pieces, taken);
-}
-
-static int32_t CountLeaving(const kiriSheetData* sheet, const uint8_t* stays)
-{
-    int32_t count = 0;
-    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
-        count += !stays[p];
-    }
-    return count;
-}
-
-/* Frames of a piece that is gathered have their cell marked. */
-static bool TakePieces(kiriGathered* gathered, const uint8_t* stays)
-{
-    const kiriSheetData* sheet = gathered->sheet;
-    bool ok = true;
-    int32_t last = KIRI_NONE;
-    for (int32_t f = 0; ok && f < sheet->frames.count; ++f) {
-        int32_t piece = sheet->layout.framePiece.data[f], cell = sheet->frames.data[f].site.cell;
-        if (!stays[piece] && !sheet->taking.cells.data[cell]) {
-            ok = piece > last && TakeGatheredCell(gathered, cell) && TakeWholePiece(gathered, piece);
-            last = piece;
-        }
-    }
-    return ok && gathered->pieces.count == CountLeaving(sheet, stays);
-}
-
-static void ClearCells(kiriGathered* gathered)
-{
-    for (int32_t k = 0; k < gathered->cells.count; ++k) {
-        gathered->sheet->taking.cells.data[gathered->cells.data[k]] = 0;
-    }
-}
-
-static bool ListSquares(kiriGathered* gathered)
-{
-    kiriIndices* squares = &gathered->squares;
-    if (!kiriArray_Resize(gathered->memory, squares, gathered->cells.count) ||
-        !kiriArray_Reserve(gathered->memory, &gathered->room, gathered->cells.count)) {
-        return false;
-    }
-    for (int32_t k = 0; k < gathered->cells.count; ++k) {
-        squares->data[k] = gathered->sheet->grid.cells.data[gathered->cells.data[k]].square;
-    }
-    kiriSort_Numbers(squares->data, gathered->room.data, squares->count);
-    int32_t count = 0;
-    for (int32_t k = 0; k < squares->count; ++k) {
-        if (count == 0 || squares->data[k] != squares->data[count - 1]) {
-            squares->data[count++] = squares->data[k];
-        }
-    }
-    squares->count = count;
-    return true;
-}
-
-static bool StartGathering(kiriGathered* gathered, kiriSheetData* sheet, kiriMemory* memory)
-{
-    kiriQuota unlimited = { INT64_MAX, 0, 0, false };
-    KIRI_ASSERT(kiriUpdate_IsFieldCurrent(sheet->update));
-    kiriGather_Pause(sheet);
-    memset(gathered, 0, sizeof(*gathered));
-    gathered->sheet = sheet;
-    gathered->memory = memory;
-    return kiriGather_Reserve(sheet, &unlimited) == KIRI_DONE;
-}
-
-static bool SortGathered(kiriGathered* gathered)
-{
-    bool ok = SortSpan(gathered, &gathered->cells, (kiriSpan){ 0, gathered->cells.count });
-    for (int32_t p = 0; ok && p < gathered->pieces.count; ++p) {
-        ok = SortSpan(gathered, &gathered->triangles, gathered->pieces.data[p].triangles) &&
-             SortSpan(gathered, &gathered->vertices, gathered->pieces.data[p].vertices);
-    }
-    gathered->isDone = ok && ListSquares(gathered);
-    return gathered->isDone;
-}
-
-bool kiriGather_Make(kiriGathered* gathered, kiriSheetData* sheet, kiriMemory* memory, const uint8_t* stays)
-{
-    if (!StartGathering(gathered, sheet, memory)) {
-        return false;
-    }
-    bool ok = TakePieces(gathered, stays);
-    ClearCells(gathered);
-    return ok && SortGathered(gathered);
-}
-
-/* ---- Little by little ---- */
-
-bool kiriGather_Start(kiriGathered* gathered, kiriSheetData* sheet, kiriMemory* memory, int32_t frame)
-{
-    const kiriGatheredPiece none = { sheet->layout.framePiece.data[frame], { 0, 0 }, { 0, 0 } };
-    return StartGathering(gathered, sheet, memory) && kiriArray_Push(memory, &gathered->pieces, none) &&
-           kiriArray_Push(memory, &gathered->cells, sheet->frames.data[frame].site.cell);
-}
-
-/* Marks stay from call to call: so a call costs what it takes, and not what has been taken before. */
-static void MarkTaken(kiriGathered* gathered)
-{
-    kiriTaking* taking = &gathered->sheet->taking;
-    for (int32_t k = 0; k < gathered->cells.count && !gathered->isUnderWay; ++k) {
-        taking->cells.data[gathered->cells.data[k]] = 1;
-    }
-    if (!gathered->isUnderWay) {
-        MarkItems(&taking->triangles, &gathered->triangles);
-        MarkItems(&taking->vertices, &gathered->vertices);
-    }
-    gathered->isUnderWay = true;
-}
-
-void kiriGather_Pause(kiriSheetData* sheet)
-{
-    kiriGathered* gathered = sheet->ahead.gathered;
-    if (gathered != NULL && gathered->isUnderWay) {
-        ClearCells(gathered);
-        ClearMap(&sheet->taking.triangles, gathered->triangles.data, gathered->triangles.count);
-        ClearMap(&sheet->taking.vertices, gathered->vertices.data, gathered->vertices.count);
-        sheet->taking.triangles.count = sheet->taking.vertices.count = 0;
-        gathered->isUnderWay = false;
-    }
-}
-
-/* What the cell is worth, in items. */
-static int64_t EffortOf(const kiriGathered* gathered, int32_t cell)
-{
-    const kiriSheetData* sheet = gathered->sheet;
-    return 1 + kiriSquares_CountNodes(&sheet->mesh.squares, sheet->grid.cells.data[cell].square) / 2;
-}
-
-static bool TakeSome(kiriGathered* gathered, kiriQuota* quota)
-{
-    bool ok = true;
-    MarkTaken(gathered);
-    while (ok && gathered->looked < gathered->cells.count && kiriQuota_Pay(quota, &gathered->due)) {
-        int32_t cell = gathered->cells.data[gathered->looked++];
-        gathered->due = EffortOf(gathered, cell);
-        ok = TakeAround(gathered, cell);
-    }
-    return ok;
-}
-
-static kiriProgress LookWhetherAll(kiriGathered* gathered, kiriQuota* quota)
-{
-    if (gathered->checked == gathered->triangles.count) {
-        return KIRI_DONE;
-    }
-    MarkTaken(gathered);
-    return LookWhether(gathered, quota);
-}
-
-kiriProgress kiriGather_GoOn(kiriGathered* gathered, kiriQuota* quota)
-{
-    KIRI_ASSERT(!gathered->isDone && kiriGather_IsReserved(gathered->sheet));
-    if (gathered->looked < gathered->cells.count && !TakeSome(gathered, quota)) {
-        return KIRI_FAILED;
-    }
-    kiriProgress progress = gathered->looked == gathered->cells.count ? LookWhetherAll(gathered, quota) : KIRI_MORE;
-    if (progress == KIRI_DONE && !kiriQuota_Take(quota, 1 + gathered->triangles.count / 4)) {
-        progress = KIRI_MORE;
-    }
-    if (progress != KIRI_DONE) {
-        return progress;
-    }
-    kiriGather_Pause(gathered->sheet);
-    gathered->pieces.data[0].triangles.count = gathered->triangles.count;
-    gathered->pieces.data[0].vertices.count = gathered->vertices.count;
-    return SortGathered(gathered) ? KIRI_DONE : KIRI_FAILED;
-}
-
-const kiriGatheredPiece* kiriGather_Find(const kiriGathered* gathered, int32_t piece)
-{
-    int32_t low;
-    KIRI_SEARCH(low, 0, gathered->pieces.count - 1, gathered->pieces.data[middle].piece < piece);
-    KIRI_ASSERT(gathered->pieces.data[low].piece == piece);
-    return &gathered->pieces.data[low];
-}
-
-/* ---- All of them ---- */
-
-void kiriGather_Mark(kiriGathered* gathered)
-{
-    KIRI_ASSERT(!gathered->isMarked);
-    MarkItems(&gathered->sheet->taking.triangles, &gathered->triangles);
-    MarkItems(&gathered->sheet->taking.vertices, &gathered->vertices);
-    gathered->isMarked = true;
-}
-
-void kiriGather_Unmark(kiriGathered* gathered)
-{
-    if (gathered->isMarked) {
-        kiriTaking* taking = &gathered->sheet->taking;
-        ClearMap(&taking->triangles, gathered->triangles.data, gathered->triangles.count);
-        ClearMap(&taking->vertices, gathered->vertices.data, gathered->vertices.count);
-        taking->triangles.count = taking->vertices.count = 0;
-        gathered->isMarked = false;
-    }
-}
-
-/* What is spread over the sheet falls to its parts by area. */
-static void CopySettings(const kiriKept* kept, kiriSheetData* to)
-{
-    const kiriSheetData* from = kept->from;
-    double share = kiriKept_Share(kept);
+    const kiriSheetData* from = detach->sheet;
+    double share = from->layout.pieces.data[piece].area / detach->area;
     to->settings = from->settings;
     to->settings.collisionPoints = share * from->settings.collisionPoints;
     to->settings.integrationPoints = share * from->settings.integrationPoints;
     kiriSettings_Apply(to);
 }
 
-/* The cell of the part with the material of one of the sheet. */
-static int32_t CellInPart(const kiriKept* kept, const kiriSheetData* to, int32_t cell)
+/* The cell of the part with the material of a cell of the sheet. */
+static int32_t CellInPart(const kiriDetach* detach, const kiriSheetData* to, int32_t cell)
 {
-    const kiriCell* was = &kept->from->grid.cells.data[cell];
-    int32_t found =
-        to->grid.squareCell.data[kiriSquares_InPart(&to->mesh.squares, &kept->from->mesh.squares, was->square)];
-    while (to->grid.cells.data[found].triangle != kiriKeep_To(&kept->triangles, was->triangle)) {
+    const kiriSheetData* from = detach->sheet;
+    const kiriCell* was = &from->grid.cells.data[cell];
+    int32_t square = kiriSquares_InPart(&to->mesh.squares, &from->mesh.squares, was->square);
+    int32_t found = to->grid.squareCell.data[square];
+    while (to->grid.cells.data[found].triangle != kiriKeep_To(&detach->part.triangles, was->triangle)) {
         found = to->grid.cells.data[found].next;
     }
     return found;
 }
 
-static bool CopySites(const kiriKept* kept, kiriSheetData* to)
+static bool CopySites(const kiriDetach* detach, const kiriIndices* frames, kiriSheetData* to)
 {
-    const kiriSheetData* from = kept->from;
+    kiriSites* sites = &to->update->placing.sites;
+    if (!kiriArray_Resize(to->memory, sites, frames->count)) {
+        return false;
+    }
+    for (int32_t k = 0; k < frames->count; ++k) {
+        kiriSite site = detach->sheet->frames.data[frames->data[k]].site;
+        site.cell = CellInPart(detach, to, site.cell);
+        sites->data[k] = site;
+    }
+    return true;
+}
+
+static bool CopyPoints(const kiriDetach* detach, int32_t piece, kiriSheetData* to)
+{
+    const kiriIndices points = ItemsOf(detach, KIRI_LISTED_POINTS, piece);
     bool ok = true;
-    for (int32_t i = 0; ok && i < from->frames.count; ++i) {
-        if (kiriKeep_To(&kept->frames, i) != KIRI_NONE) {
-            kiriSite site = from->frames.data[i].site;
-            site.cell = CellInPart(kept, to, site.cell);
-            ok = kiriArray_Push(to->memory, &to->update->placing.sites, site);
-        }
+    for (int32_t k = 0; ok && k < points.count; ++k) {
+        kiriSample point = { detach->sheet->points.data[points.data[k]].at, KIRI_NONE, KIRI_NONE };
+        kiriSpan none = { 0, 0 };
+        ok = kiriArray_Push(to->memory, &to->points, point) &&
+             kiriArray_Push(to->memory, &to->pointSkin.spans, none) &&
+             kiriPlaces_Add(&to->pointPlaces, to->memory, &to->mesh, point.at);
     }
     return ok;
 }
 
-static bool CopyPoints(const kiriKept* kept, kiriSheetData* to)
+static bool CopyPins(const kiriSubset* part, kiriSheetData* to)
 {
-    const kiriSheetData* from = kept->from;
-    bool ok = true;
-    for (int32_t i = 0; ok && i < from->points.count; ++i) {
-        if (kiriKeep_To(&kept->points, i) != KIRI_NONE) {
-            kiriSample point = { from->points.data[i].at, KIRI_NONE, KIRI_NONE };
-            kiriSpan none = { 0, 0 };
-            ok = kiriArray_Push(to->memory, &to->points, point) &&
-                 kiriArray_Push(to->memory, &to->pointSkin.spans, none) &&
-                 kiriPlaces_Add(&to->pointPlaces, to->memory, &to->mesh, point.at);
-        }
-    }
-    return ok;
-}
-
-static bool CopyPins(const kiriKept* kept, kiriSheetData* to)
-{
-    const kiriSheetData* from = kept->from;
+    const kiriSheetData* from = part->from;
     bool ok = true;
     for (int32_t i = 0; ok && i < from->pins.count; ++i) {
-        if (kiriKeep_To(&kept->pins, i) != KIRI_NONE) {
-            ok = kiriPins_Add(to, &from->pins.data[i], kiriKeep_To(&kept->frames, kiriKept_FrameOfPin(kept, i)));
-        }
+        int32_t frame = kiriSubset_FrameOfPin(part, i);
+        ok = frame == KIRI_NONE || kiriPins_Add(to, &from->pins.data[i], kiriKeep_To(&part->frames, frame));
     }
     return ok;
 }
 
-/* What pushed when the piece was moved last, with the force. */
-static void CopyTouches(const kiriKept* kept, const kiriTouchMemory* from, kiriTouchMemory* to, kiriIndices* order)
+/* Copies remembered contacts, with their forces. */
+static void CopyTouches(const kiriDetach* detach, const kiriIndices* items, const kiriTouchMemory* from,
+                        kiriSheetData* to, kiriTouchMemory* memory)
 {
-    int32_t before = to->touches.count;
-    for (int32_t i = 0; i < from->touches.count; ++i) {
-        kiriTouch touch = from->touches.data[i];
-        if (kiriKept_FollowTouch(kept, &touch)) {
-            kiriTouchMemory_Add(to, &touch, kiriTouches_ForceOf(kept->from, from->touches.data[i].key));
+    int32_t before = memory->touches.count;
+    for (int32_t k = 0; k < items->count; ++k) {
+        kiriTouch touch = from->touches.data[items->data[k]];
+        kiriVec3 force = kiriTouches_ForceOf(detach->sheet, touch.key);
+        if (FollowTouch(&detach->part, &touch)) {
+            kiriTouchMemory_Add(memory, &touch, force);
         }
     }
-    kiriTouchMemory_SortForces(to, before, order);
+    kiriTouchMemory_SortForces(memory, before, &to->touches.order);
 }
 
-/* Room for contacts is what SetContacts reserves, so that none is needed later. */
-static bool CopyContacts(const kiriKept* kept, kiriSheetData* to)
+/* Reserves what SetContacts reserves, so that later ticks need no memory. */
+static bool CopyContacts(const kiriDetach* detach, int32_t piece, kiriSheetData* to)
 {
-    const kiriSheetData* from = kept->from;
-    const kiriTouches* touches = &from->touches;
-    int32_t remembered = touches->last.touches.count + touches->slept.touches.count;
-    int32_t most = kiriMax(from->contacts.count, remembered);
+    const kiriSheetData* from = detach->sheet;
+    const kiriIndices last = ItemsOf(detach, KIRI_LISTED_LAST, piece);
+    const kiriIndices slept = ItemsOf(detach, KIRI_LISTED_SLEPT, piece);
+    int32_t remembered = last.count + slept.count, most = kiriMax(from->contacts.count, remembered);
     if (!kiriArray_Reserve(to->memory, &to->contacts, most) ||
         !kiriArray_Reserve(&to->shown, &to->touches.nextTold, most) || !kiriTouches_Room(to, most)) {
         return false;
     }
     for (int32_t i = 0; i < from->contacts.count; ++i) {
         kiriGivenContact given = from->contacts.data[i];
-        if (kiriKept_FollowContact(kept, &given)) {
+        if (FollowContact(&detach->part, &given)) {
             to->contacts.data[to->contacts.count++] = given;
         }
     }
-    CopyTouches(kept, &touches->last, &to->touches.last, &to->touches.order);
-    CopyTouches(kept, &touches->slept, &to->touches.slept, &to->touches.order);
+    CopyTouches(detach, &last, &from->touches.last, to, &to->touches.last);
+    CopyTouches(detach, &slept, &from->touches.slept, to, &to->touches.slept);
     return true;
 }
 
-/* Frames as they are to the last bit, whatever a commit does to new ones. */
-static void CopyFrames(const kiriKept* kept, kiriSheetData* to)
+/* Copies the frames to the last bit, whatever a commit does to new ones. */
+static void CopyFrames(const kiriSheetData* from, const kiriIndices* frames, kiriSheetData* to)
 {
-    to->frames.count = to->update->placing.sites.count;
-    for (int32_t i = 0; i < kept->from->frames.count; ++i) {
-        if (kiriKeep_To(&kept->frames, i) != KIRI_NONE) {
-            kiriFrameData* frame = &to->frames.data[kiriKeep_To(&kept->frames, i)];
-            *frame = kept->from->frames.data[i];
-            frame->site = to->update->placing.sites.data[kiriKeep_To(&kept->frames, i)];
-        }
+    KIRI_ASSERT(to->update->placing.sites.count == frames->count && to->frames.capacity >= frames->count);
+    to->frames.count = frames->count;
+    for (int32_t k = 0; k < frames->count; ++k) {
+        to->frames.data[k] = from->frames.data[frames->data[k]];
+        to->frames.data[k].site = to->update->placing.sites.data[k];
     }
 }
 
-/* Where a frame has a mass that the next commit is to take from its region again: other material gives it one, see
-   kiri_sheet.c. */
-static void CopyDirty(const kiriKept* kept, kiriSheetData* to)
+/* Vertices and points go on fading. */
+static bool CopyFades(const kiriIndices* items, const kiriFades* from, const kiriKeep* samples, kiriFades* to,
+                      kiriMemory* memory)
 {
-    const kiriSheetData* from = kept->from;
-    for (int32_t i = 0; i < from->frames.count; ++i) {
-        if (kiriKeep_To(&kept->frames, i) != KIRI_NONE) {
-            to->regions.dirty.data[kiriKeep_To(&kept->frames, i)] = from->regions.dirty.data[i];
-        }
-    }
-}
-
-/* What is still seen elsewhere goes on to fade. Samples keep their order. */
-static bool CopyFades(kiriFades* to, kiriMemory* memory, const kiriFades* from, const kiriKeep* samples)
-{
-    if (from->fading.count == 0) {
-        return true;
-    }
-    if (!kiriFades_Reserve(to, memory, samples->count)) {
+    if (items->count > 0 && !kiriFades_Reserve(to, memory, samples->count)) {
         return false;
     }
-    for (int32_t k = 0; k < from->fading.count; ++k) {
-        kiriFading fading = from->fading.data[k];
+    for (int32_t k = 0; k < items->count; ++k) {
+        kiriFading fading = from->fading.data[items->data[k]];
         fading.sample = kiriKeep_To(samples, fading.sample);
-        if (fading.sample != KIRI_NONE) {
-            to->fading.data[to->fading.count++] = fading;
-        }
+        to->fading.data[to->fading.count++] = fading;
     }
     return true;
 }
 
-static bool CopyAllFades(const kiriKept* kept, kiriSheetData* to)
+/* The links of a part are in the order of the sheet. */
+static void CopyStrainOffsets(const kiriSheetData* from, const kiriIndices* links, kiriSheetData* to)
 {
-    const kiriSheetData* from = kept->from;
-    return CopyFades(&to->seen.fades, to->memory, &from->seen.fades, &kept->vertices) &&
-           CopyFades(&to->seen.pointFades, to->memory, &from->seen.pointFades, &kept->points);
-}
-
-/* Links come in the order that they had. */
-static void CopyStrainOffsets(const kiriKept* kept, kiriSheetData* to)
-{
-    const kiriSheetData* from = kept->from;
-    int32_t count = 0;
-    for (int32_t k = 0; k < from->strainOffsets.strainOffsets.count && count < to->strainOffsets.strainOffsets.count;
-         ++k) {
-        if (kiriKeep_To(&kept->frames, from->links.links.data[k].i) != KIRI_NONE) {
-            to->strainOffsets.strainOffsets.data[count++] = from->strainOffsets.strainOffsets.data[k];
+    if (from->strainOffsets.strainOffsets.count > 0) {
+        KIRI_ASSERT(to->strainOffsets.strainOffsets.count == links->count);
+        for (int32_t k = 0; k < links->count; ++k) {
+            to->strainOffsets.strainOffsets.data[k] = from->strainOffsets.strainOffsets.data[links->data[k]];
         }
     }
 }
 
-/* Shares come in the order that they had. */
-static void CopyPinHistory(const kiriKept* kept, kiriSheetData* to)
+/* So are the shares of its pins. */
+static void CopyPinHistory(const kiriSubset* part, kiriSheetData* to)
 {
-    const kiriPinShares* shares = &kept->from->layout.pinShares;
+    const kiriPinShares* shares = &part->from->layout.pinShares;
     int32_t count = 0;
     for (int32_t k = 0; k < shares->count && count < to->layout.pinShares.count; ++k) {
-        if (kiriKeep_To(&kept->frames, shares->data[k].share.frame) != KIRI_NONE) {
+        if (kiriKeep_Has(&part->frames, shares->data[k].share.frame)) {
             kiriPinShare* share = &to->layout.pinShares.data[count++];
             memcpy(share->offset, shares->data[k].offset, sizeof(share->offset));
             memcpy(share->reactions, shares->data[k].reactions, sizeof(share->reactions));
@@ -753,236 +412,323 @@ static void CopyPinHistory(const kiriKept* kept, kiriSheetData* to)
     }
 }
 
-/* Of the one piece that it is. */
-static void CopyRest(const kiriKept* kept, kiriSheetData* to)
+/* Makes the field from scratch, with the sites of the frames. */
+static bool MakeField(const kiriDetach* detach, int32_t piece, const kiriIndices* frames, kiriSheetData* to)
 {
-    for (int32_t i = 0; i < kept->from->frames.count; ++i) {
-        if (kiriKeep_To(&kept->frames, i) != KIRI_NONE) {
-            to->layout.pieces.data[0].rest = kiriSheet_PieceOf(kept->from, i)->rest;
-        }
-    }
-    kiriMotion_SumRest(to);
+    return kiriPipeline_Make(to, KIRI_STAGE_REGIONS) && CopySites(detach, frames, to) &&
+           CopyPoints(detach, piece, to) && CopyPins(&detach->part, to) && CopyContacts(detach, piece, to) &&
+           kiriPipeline_Make(to, KIRI_READY);
 }
 
-/* What may change until the piece leaves: all but the fields. */
-static bool CopyMotion(const kiriKept* kept, kiriSheetData* to)
+/* Makes all of the part. No frame is added: the next cut asks for more where they are too few. */
+static bool FillPart(kiriDetach* detach, int32_t piece, kiriSheetData* to)
 {
+    const kiriSheetData* from = detach->sheet;
+    const kiriSubset* part = &detach->part;
+    const kiriIndices frames = ItemsOf(detach, KIRI_LISTED_FRAMES, piece);
+    const kiriIndices links = ItemsOf(detach, KIRI_LISTED_LINKS, piece);
+    const kiriIndices fades = ItemsOf(detach, KIRI_LISTED_FADES, piece);
+    const kiriIndices pointFades = ItemsOf(detach, KIRI_LISTED_POINT_FADES, piece);
+    const kiriMeshPart vertices = { ItemsOf(detach, KIRI_LISTED_VERTICES, piece), &part->vertices };
+    const kiriMeshPart triangles = { ItemsOf(detach, KIRI_LISTED_TRIANGLES, piece), &part->triangles };
+    CopySettings(detach, piece, to);
+    to->settings.maxFrames = 0;
+    to->seen.bounds->patience = from->seen.bounds->patience;
     to->solver = kiriSolver_Create(to->memory, &to->settings.mechanics);
-    if (to->solver == NULL || !CopyPins(kept, to) || !CopyContacts(kept, to) || !kiriPipeline_Make(to, KIRI_READY) ||
-        !CopyAllFades(kept, to)) {
+    if (to->solver == NULL || !kiriMesh_MakePart(&to->mesh, to->memory, &from->mesh, &triangles, &vertices) ||
+        !MakeField(detach, piece, &frames, to) ||
+        !CopyFades(&fades, &from->seen.fades, &part->vertices, &to->seen.fades, to->memory) ||
+        !CopyFades(&pointFades, &from->seen.pointFades, &part->points, &to->seen.pointFades, to->memory)) {
         return false;
     }
-    CopyFrames(kept, to);
+    CopyFrames(from, &frames, to);
     if (!kiriBuild_Commit(to)) {
         return false;
     }
-    CopyFrames(kept, to);
-    CopyDirty(kept, to);
-    CopyStrainOffsets(kept, to);
-    CopyPinHistory(kept, to);
+    CopyFrames(from, &frames, to);
+    for (int32_t k = 0; k < frames.count; ++k) { /* a changed material leaves regions dirty, see kiri_sheet.c */
+        to->regions.dirty.data[k] = from->regions.dirty.data[frames.data[k]];
+    }
+    CopyStrainOffsets(from, &links, to);
+    CopyPinHistory(part, to);
     kiriPins_SumShares(to);
-    CopyRest(kept, to);
+    to->layout.pieces.data[0].rest = from->layout.pieces.data[piece].rest;
+    kiriMotion_SumRest(to);
     kiriView_WritePositions(to);
+    to->settings.maxFrames = from->settings.maxFrames;
     return true;
 }
 
-/* ---- One piece after the other ---- */
-
-bool kiriExtraction_Init(kiriExtraction* extraction, const kiriGathered* gathered)
+bool kiriDetach_MakePart(kiriDetach* detach, int32_t piece, kiriSheetData* to)
 {
-    memset(extraction, 0, sizeof(*extraction));
-    extraction->gathered = gathered;
-    return kiriKept_InitParts(&extraction->kept, gathered->sheet);
-}
-
-static kiriIndices ItemsOfSpan(const kiriIndices* items, kiriSpan span)
-{
-    return (kiriIndices){ items->data + span.first, span.count, span.count };
-}
-
-double kiriExtraction_Samples(const kiriSheetData* sheet, double share)
-{
-    const double vertexSamples = 3.0, cellSamples = 1.4;
-    double vertices = (double)sheet->mesh.vertices.count - sheet->mesh.vertexHoles;
-    return share * (vertexSamples * vertices + cellSamples * sheet->grid.cellCount);
-}
-
-/* Measured over meshes of 16 to 200 squares, grids of 16 to 128 and 3 to 80 frames, with a tenth on top. Shape
-   functions cost more for each cell where the piece has more frames. */
-double kiriExtraction_SamplesAhead(const kiriSheetData* sheet, double share, int32_t frames)
-{
-    const double vertexSamples = 3.5, cellSamples = 2.2, frameSamples = 100.0, most = 6.8, lost = 12.5;
-    double vertices = (double)sheet->mesh.vertices.count - sheet->mesh.vertexHoles, shape = most - lost / frames;
-    return share * (vertexSamples * vertices + (cellSamples + kiriMax(shape, 0.5)) * sheet->grid.cellCount) +
-           frameSamples * frames;
-}
-
-/* The part at hand: its vertices and triangles. */
-typedef struct PartMembers {
-    kiriMeshPart vertices, triangles;
-} PartMembers;
-
-static PartMembers TakeItemsOf(kiriExtraction* extraction, int32_t piece)
-{
-    kiriKept* kept = &extraction->kept;
-    const kiriGatheredPiece* found = kiriGather_Find(extraction->gathered, piece);
-    PartMembers items = { { ItemsOfSpan(&extraction->gathered->vertices, found->vertices), &kept->vertices },
-                          { ItemsOfSpan(&extraction->gathered->triangles, found->triangles), &kept->triangles } };
-    kiriKept_TakePart(kept, piece, &items.vertices.items, &items.triangles.items);
-    return items;
-}
-
-static void DropPiece(kiriExtraction* extraction, int32_t piece, const PartMembers* items)
-{
-    kiriKept_DropPart(&extraction->kept, piece, &items->vertices.items, &items->triangles.items);
-}
-
-static kiriProgress MakeMeshOfPart(kiriExtraction* extraction, int32_t piece, kiriSheetData* to, kiriQuota* quota)
-{
-    if (to->mesh.isOpen) {
-        return KIRI_DONE;
+    KIRI_ASSERT(piece >= 0 && piece < detach->part.pieces.count && !detach->rest.pieces.data[piece]);
+    kiriKeep* maps[] = { &detach->part.vertices, &detach->part.triangles, &detach->part.frames, &detach->part.points };
+    detach->part.pieces.data[piece] = 1;
+    for (int k = KIRI_LISTED_VERTICES; k <= KIRI_LISTED_POINTS; ++k) {
+        const kiriIndices items = ItemsOf(detach, k, piece);
+        kiriKeep_Take(maps[k], items.data, items.count);
     }
-    PartMembers items = TakeItemsOf(extraction, piece);
-    kiriProgress progress = kiriMesh_MakePart(&to->mesh, to->memory, &extraction->kept.from->mesh, &items.triangles,
-                                              &items.vertices, quota);
-    if (progress == KIRI_DONE) {
-        CopySettings(&extraction->kept, to);
+    bool ok = FillPart(detach, piece, to);
+    for (int k = KIRI_LISTED_VERTICES; k <= KIRI_LISTED_POINTS; ++k) {
+        const kiriIndices items = ItemsOf(detach, k, piece);
+        kiriKeep_Drop(maps[k], items.data, items.count);
     }
-    DropPiece(extraction, piece, &items);
-    return progress;
-}
-
-/* When its cells are there. */
-static bool FillCellsOfPart(kiriExtraction* extraction, int32_t piece, kiriSheetData* to)
-{
-    PartMembers items = TakeItemsOf(extraction, piece);
-    bool ok = CopySites(&extraction->kept, to) && CopyPoints(&extraction->kept, to);
-    DropPiece(extraction, piece, &items);
+    detach->part.pieces.data[piece] = 0;
     return ok;
 }
 
-static kiriProgress MakeFieldsOfPart(kiriExtraction* extraction, int32_t piece, kiriSheetData* to, kiriQuotas* quotas)
-{
-    to->settings.maxFrames = 0; /* whoever wants another frame has asked before, or asks with the next cut */
-    kiriProgress progress = kiriPipeline_MakeSome(to, KIRI_STAGE_REGIONS, quotas);
-    if (progress == KIRI_DONE && to->update->placing.sites.count == 0 && !FillCellsOfPart(extraction, piece, to)) {
-        return KIRI_FAILED;
-    }
-    return progress == KIRI_DONE ? kiriPipeline_MakeSome(to, KIRI_STAGE_CONSTANTS, quotas) : progress;
-}
+/* ---- The rest ---------------------------------------------------------------------------------------------------- */
 
-enum { VERTICES_AN_ITEM = 8 }; /* of samples: of what passes over all of them, but writes no weights */
-
-/* A step that takes so long with all vertices is paid as a whole. */
-static bool PayPass(const kiriSheetData* to, kiriQuotas* quotas)
+/* Lists the cells that leave, in the order of squares. */
+static bool ListCells(kiriDetach* detach)
 {
-    return kiriQuota_Take(&quotas->of[KIRI_QUOTA_SAMPLES], 1 + to->mesh.vertices.count / VERTICES_AN_ITEM);
-}
-
-/* Weights where they are read fastest, before the commit: nothing changes them any more. */
-static kiriProgress SortWeightsOfPart(kiriSheetData* to, kiriQuotas* quotas)
-{
-    kiriSkin* skin = &to->vertexSkin;
-    if (skin->staged.count > 0) {
-        kiriSkin_Commit(skin);
-    }
-    if (skin->settling.count > 0) {
-        if (!PayPass(to, quotas)) {
-            return KIRI_MORE;
+    const kiriSheetData* sheet = detach->sheet;
+    kiriMemory* memory = &detach->memory;
+    bool ok = true;
+    for (int32_t s = 0; ok && s < sheet->grid.squareCell.count; ++s) {
+        bool isListed = false;
+        for (int32_t c = sheet->grid.squareCell.data[s]; ok && c != KIRI_NONE; c = sheet->grid.cells.data[c].next) {
+            if (!kiriKeep_Has(&detach->rest.frames, sheet->regions.field.owner.data[c])) {
+                ok = kiriArray_Push(memory, &detach->cells, c) &&
+                     (isListed || kiriArray_Push(memory, &detach->squares, s));
+                isListed = true;
+            }
         }
-        return kiriSkin_Sort(skin, to->memory) ? KIRI_DONE : KIRI_FAILED;
     }
-    return KIRI_DONE;
-}
-
-enum { SHOWN_ROOMS = 9 };
-
-static void ListShownRooms(kiriSheetData* to, kiriRoom rooms[SHOWN_ROOMS])
-{
-    kiriMemory* shown = &to->shown;
-    kiriSurface* s = &to->seen.surface;
-    int64_t vertices = to->mesh.vertices.count, triangles = to->mesh.triangles.count;
-    const kiriRoom all[SHOWN_ROOMS] = { KIRI_ROOM(shown, &s->positions, 3 * vertices + 1),
-                                        KIRI_ROOM(shown, &s->normals, 3 * vertices),
-                                        KIRI_ROOM(shown, &s->slopes, 4 * vertices),
-                                        KIRI_ROOM(shown, &s->restPositions, 2 * vertices),
-                                        KIRI_ROOM(shown, &s->rest, vertices),
-                                        KIRI_ROOM(shown, &s->sourceWeights, 3 * vertices),
-                                        KIRI_ROOM(shown, &s->sourceTriangles, vertices),
-                                        KIRI_ROOM(shown, &s->indices, 3 * triangles),
-                                        KIRI_ROOM(shown, &s->turns, (triangles + 1) / 2) };
-    memcpy(rooms, all, sizeof(all));
-}
-
-/* The system gives fresh memory when it is written first: so that is done now, and not all at once in the tick in which
-   the piece leaves. */
-static kiriProgress TouchShownRooms(kiriSheetData* to, kiriQuotas* quotas)
-{
-    enum { TOUCHED_BYTES = 1024 }; /* for an item */
-    kiriRoom rooms[SHOWN_ROOMS];
-    kiriQuota* samples = &quotas->of[KIRI_QUOTA_SAMPLES];
-    kiriProgress progress = KIRI_DONE;
-    ListShownRooms(to, rooms);
-    for (int i = 0; progress == KIRI_DONE && i < SHOWN_ROOMS && samples->left < INT64_MAX / 2; ++i) {
-        progress = kiriArray_Fill(&rooms[i], samples, TOUCHED_BYTES);
-    }
-    return progress;
-}
-
-/* All that is seen of it but where. */
-static kiriProgress WriteTopologyOfPart(kiriSheetData* to, kiriQuotas* quotas)
-{
-    if (to->seen.surface.vertexCount > 0) {
-        return KIRI_DONE;
-    }
-    kiriProgress progress = TouchShownRooms(to, quotas);
-    if (progress != KIRI_DONE) {
-        return progress;
-    }
-    if (!PayPass(to, quotas)) {
-        return KIRI_MORE;
-    }
-    if (!kiriView_Resize(to, to->update->placing.sites.count, to->points.count)) {
-        return KIRI_FAILED;
-    }
-    kiriSurface_WriteTopology(&to->seen.surface, &to->mesh);
-    return KIRI_DONE;
-}
-
-kiriProgress kiriExtraction_GoOn(kiriExtraction* extraction, int32_t piece, kiriSheetData* to, kiriQuotas* quotas)
-{
-    kiriProgress progress = MakeMeshOfPart(extraction, piece, to, &quotas->of[KIRI_QUOTA_CELLS]);
-    progress = progress == KIRI_DONE ? MakeFieldsOfPart(extraction, piece, to, quotas) : progress;
-    progress = progress == KIRI_DONE ? SortWeightsOfPart(to, quotas) : progress;
-    progress = progress == KIRI_DONE ? kiriStage_Owners(to, &quotas->of[KIRI_QUOTA_SAMPLES]) : progress;
-    return progress == KIRI_DONE ? WriteTopologyOfPart(to, quotas) : progress;
-}
-
-static bool EndPart(kiriExtraction* extraction, int32_t piece, kiriSheetData* to)
-{
-    const kiriSheetData* from = extraction->kept.from;
-    PartMembers items = TakeItemsOf(extraction, piece);
-    CopySettings(&extraction->kept, to); /* as they are now */
-    to->settings.maxFrames = 0;
-    to->seen.bounds->patience = from->seen.bounds->patience;
-    bool ok = CopyMotion(&extraction->kept, to);
-    to->settings.maxFrames = from->settings.maxFrames;
-    DropPiece(extraction, piece, &items);
     return ok;
 }
 
-bool kiriExtraction_Build(kiriExtraction* extraction, int32_t piece, kiriSheetData* to)
+static bool StagePieces(kiriDetach* detach)
 {
-    kiriQuotas unlimited = kiriQuotas_Unlimited();
-    return kiriExtraction_GoOn(extraction, piece, to, &unlimited) == KIRI_DONE && EndPart(extraction, piece, to);
+    kiriSheetData* sheet = detach->sheet;
+    const kiriSubset* rest = &detach->rest;
+    const kiriLayout* layout = &sheet->layout;
+    kiriLayout* next = &sheet->update->next;
+    kiriKeep pieces;
+    next->pieces.count = next->framePiece.count = 0;
+    bool ok = kiriKeep_Init(&pieces, &detach->memory, layout->pieces.count) &&
+              kiriArray_Reserve(sheet->memory, &next->pieces, layout->pieces.count) &&
+              kiriArray_Reserve(sheet->memory, &next->framePiece, layout->framePiece.count);
+    for (int32_t p = 0; ok && p < layout->pieces.count; ++p) {
+        const kiriPiece* was = &layout->pieces.data[p];
+        kiriPiece piece = { .area = was->area,
+                            .frame = kiriKeep_To(&rest->frames, was->frame),
+                            .origin = KIRI_NONE,
+                            .rest = was->rest };
+        kiriKeep_Add(&pieces, rest->pieces.data[p] != 0);
+        if (rest->pieces.data[p]) {
+            next->pieces.data[next->pieces.count++] = piece;
+        }
+    }
+    for (int32_t f = 0; ok && f < layout->framePiece.count; ++f) {
+        if (kiriKeep_Has(&rest->frames, f)) {
+            next->framePiece.data[next->framePiece.count++] = kiriKeep_To(&pieces, layout->framePiece.data[f]);
+        }
+    }
+    return ok;
 }
 
-void kiriExtraction_Drop(kiriExtraction* extraction)
+static bool StagePins(kiriDetach* detach)
 {
-    if (extraction->kept.from != NULL) {
-        kiriMemory_FreeAll(&extraction->kept.memory);
+    kiriSheetData* sheet = detach->sheet;
+    const kiriSubset* rest = &detach->rest;
+    const kiriLayout* layout = &sheet->layout;
+    kiriLayout* next = &sheet->update->next;
+    bool ok = true;
+    next->pinFrame.count = next->pinShares.count = next->severed.count = 0;
+    for (int32_t i = 0; ok && i < sheet->pins.count; ++i) {
+        int32_t frame = kiriSubset_FrameOfPin(rest, i);
+        ok = frame == KIRI_NONE || kiriArray_Push(sheet->memory, &next->pinFrame, kiriKeep_To(&rest->frames, frame));
+    }
+    for (int32_t k = 0; ok && k < layout->pinShares.count; ++k) {
+        kiriPinShare pinned = layout->pinShares.data[k];
+        pinned.pin = kiriKeep_To(&rest->pins, pinned.pin);
+        pinned.share.frame = kiriKeep_To(&rest->frames, pinned.share.frame);
+        ok = pinned.share.frame == KIRI_NONE || kiriArray_Push(sheet->memory, &next->pinShares, pinned);
+    }
+    for (int32_t k = 0; ok && k < layout->severed.count; ++k) {
+        kiriSeveredLink severed = layout->severed.data[k];
+        severed.pin = kiriKeep_To(&rest->pins, severed.pin);
+        severed.link = kiriKeep_To(&rest->links, severed.link);
+        ok = severed.link == KIRI_NONE || kiriArray_Push(sheet->memory, &next->severed, severed);
+    }
+    return ok;
+}
+
+/* Contact keys contain indices, so forces are looked up before these change. */
+static bool ListForces(kiriDetach* detach)
+{
+    const kiriTouches* touches = &detach->sheet->touches;
+    int32_t last = touches->last.touches.count, slept = touches->slept.touches.count;
+    if (!kiriArray_Resize(&detach->memory, &detach->forces, (int64_t)last + slept)) {
+        return false;
+    }
+    for (int32_t i = 0; i < last + slept; ++i) {
+        const kiriTouch* touch = i < last ? &touches->last.touches.data[i] : &touches->slept.touches.data[i - last];
+        detach->forces.data[i] = kiriTouches_ForceOf(detach->sheet, touch->key);
+    }
+    return true;
+}
+
+static bool StageLabels(kiriDetach* detach)
+{
+    const kiriLabels* labels = &detach->sheet->shape.labels;
+    int32_t count = kiriLabels_Count(labels, detach->sheet->frames.count);
+    bool ok = kiriKeep_Init(&detach->labels, &detach->memory, count);
+    if (ok) {
+        kiriLabels_Map(labels, &detach->rest.frames, &detach->labels);
+    }
+    return ok;
+}
+
+bool kiriDetach_Stage(kiriDetach* detach)
+{
+    kiriSheetData* sheet = detach->sheet;
+    const kiriSubset* rest = &detach->rest;
+    kiriAreaElements* elements = &sheet->update->next.areaElements;
+    KIRI_ASSERT(kiriUpdate_IsFieldCurrent(sheet->update));
+    KIRI_ASSERT(rest->frames.to.count == sheet->frames.count && rest->frames.count > 0);
+    elements->elements.count = elements->shares.count = 0;
+    return ListCells(detach) && StageLabels(detach) && ListForces(detach) && StagePieces(detach) &&
+           StagePins(detach) &&
+           kiriAreaElements_Keep(elements, sheet->memory, &sheet->layout.areaElements, &rest->frames) &&
+           kiriLinks_Keep(&sheet->links, sheet->memory, &rest->links, &rest->frames) &&
+           kiriShown_Reserve(&detach->shown, &sheet->shown, &rest->triangles, &rest->vertices) &&
+           kiriArray_Reserve(&sheet->shown, &detach->points, 3 * (int64_t)rest->points.count) &&
+           kiriStage_Solver(sheet, rest->frames.count);
+}
+
+static void KeepFields(kiriDetach* detach)
+{
+    kiriSheetData* sheet = detach->sheet;
+    const kiriSubset* rest = &detach->rest;
+    const int32_t *cells = detach->cells.data, *squares = detach->squares.data;
+    int32_t cellCount = detach->cells.count, squareCount = detach->squares.count;
+    kiriMesh_Keep(&sheet->mesh, &rest->triangles, &rest->vertices, squares, squareCount);
+    kiriGrid_Keep(&sheet->grid, sheet->memory, &rest->triangles, &rest->vertices, cells, cellCount);
+    kiriRegions_Keep(&sheet->regions, &rest->frames, cells, cellCount);
+    kiriShape_Keep(&sheet->shape, sheet->memory, &rest->frames, &detach->labels, cells, cellCount);
+    kiriOwnership_Keep(&sheet->update->refit.ownership, &sheet->grid, &sheet->mesh, &sheet->regions, &rest->triangles,
+                       &rest->frames, squares, squareCount);
+}
+
+static void KeepSamples(kiriDetach* detach)
+{
+    kiriSheetData* sheet = detach->sheet;
+    const kiriSubset* rest = &detach->rest;
+    kiriKeep_Compact(&rest->points, &sheet->points, 1, sizeof(kiriSample));
+    for (int32_t i = 0; i < sheet->points.count; ++i) {
+        sheet->points.data[i].frame = kiriKeep_To(&rest->frames, sheet->points.data[i].frame);
+    }
+    kiriPlaces_Keep(&sheet->pointPlaces, &rest->points);
+    kiriSkin_Keep(&sheet->pointSkin, &rest->points, &detach->labels);
+    kiriSkin_Keep(&sheet->vertexSkin, &rest->vertices, &detach->labels);
+    kiriFades_Keep(&sheet->seen.fades, &rest->vertices);
+    kiriFades_Keep(&sheet->seen.pointFades, &rest->points);
+    sheet->update->samples.oldVertices = sheet->mesh.vertices.count;
+}
+
+static void KeepTouches(kiriDetach* detach, kiriTouchMemory* memory, const kiriVec3* forces)
+{
+    int32_t count = memory->touches.count;
+    memory->touches.count = memory->forces.count = memory->given = 0;
+    for (int32_t i = 0; i < count; ++i) {
+        kiriTouch touch = memory->touches.data[i];
+        if (FollowTouch(&detach->rest, &touch)) {
+            kiriTouchMemory_Add(memory, &touch, forces[i]);
+        }
+    }
+    kiriTouchMemory_SortForces(memory, 0, &detach->sheet->touches.order);
+}
+
+static void KeepContacts(kiriDetach* detach)
+{
+    kiriSheetData* sheet = detach->sheet;
+    int32_t left = 0, last = sheet->touches.last.touches.count;
+    for (int32_t i = 0; i < sheet->contacts.count; ++i) {
+        kiriGivenContact given = sheet->contacts.data[i];
+        if (FollowContact(&detach->rest, &given)) {
+            sheet->contacts.data[left++] = given;
+        }
+    }
+    sheet->contacts.count = left;
+    KeepTouches(detach, &sheet->touches.last, detach->forces.data);
+    KeepTouches(detach, &sheet->touches.slept, detach->forces.data + last);
+    sheet->touches.rests.areSummed = false;
+}
+
+/* Puts the staged layout in force, like kiriStage_Commit. */
+static void CommitLayout(kiriDetach* detach)
+{
+    kiriSheetData* sheet = detach->sheet;
+    const kiriSubset* rest = &detach->rest;
+    kiriLayout layout = sheet->layout;
+    kiriKeep_Compact(&rest->frames, &sheet->frames, 1, sizeof(kiriFrameData));
+    kiriKeep_Compact(&rest->frames, &sheet->update->material, 1, sizeof(kiriMoments));
+    kiriKeep_Compact(&rest->frames, &sheet->update->placing.sites, 1, sizeof(kiriSite));
+    kiriKeep_Compact(&rest->pins, &sheet->pins, 1, sizeof(kiriPinData));
+    kiriKeep_Compact(&rest->links, &sheet->strainOffsets.strainOffsets, 1, sizeof(kiriStrainOffset));
+    kiriLinks_Commit(&sheet->links);
+    kiriSolver_Commit(sheet->solver);
+    sheet->layout = sheet->update->next;
+    sheet->update->next = layout;
+    kiriPins_WriteLinkParts(sheet);
+    kiriPins_SumShares(sheet);
+    kiriMotion_SumRest(sheet);
+}
+
+static void KeepBlades(const kiriDetach* detach)
+{
+    const kiriKeep* vertices = &detach->rest.vertices;
+    for (int32_t i = 0; i < detach->sheet->cuts.count; ++i) {
+        kiriCutData* cut = detach->sheet->cuts.data[i];
+        cut->tip.blade.vertex = kiriKeep_To(vertices, cut->tip.blade.vertex);
+        cut->committed.blade.vertex = kiriKeep_To(vertices, cut->committed.blade.vertex);
     }
 }
+
+static void KeepSeen(kiriDetach* detach, kiriMemory* retired)
+{
+    kiriSheetData* sheet = detach->sheet;
+    kiriSeen* seen = &sheet->seen;
+    const kiriSubset* rest = &detach->rest;
+    kiriBlocks_Forget(&seen->blocks);
+    kiriSurface_Keep(&seen->surface, &detach->shown, &rest->triangles, &rest->vertices, &sheet->mesh,
+                     rest->frames.count, retired);
+    kiriBounds_Forget(seen->bounds);
+    kiriBlocks_Truncate(&seen->blocks, rest->vertices.count, rest->frames.count);
+    seen->vertexCount = rest->vertices.count;
+    kiriKeep_Compact(&rest->points, &seen->exactPoints, 1, sizeof(kiriVec3));
+    if (seen->pointPositions.count > 0) {
+        kiriKeep_Copy(&rest->points, detach->points.data, seen->pointPositions.data, 3 * sizeof(float));
+        detach->points.count = 3 * rest->points.count;
+    }
+    kiriArrayHeader was = kiriArray_GetHeader(&seen->pointPositions);
+    kiriArray_SetHeader(&seen->pointPositions, kiriArray_GetHeader(&detach->points));
+    kiriMemory_Adopt(retired, was.data);
+    seen->pointCount = rest->points.count;
+    memset(&detach->shown, 0, sizeof(detach->shown));
+    memset(&detach->points, 0, sizeof(detach->points));
+    kiriPieceLists_Retire(&sheet->lists, retired);
+    sheet->probes.isFresh = false;
+}
+
+/* State that a sheet keeps from tick to tick belongs here and into FillPart. */
+void kiriDetach_Commit(kiriDetach* detach, kiriMemory* retired)
+{
+    kiriSettings* settings = &detach->sheet->settings;
+    double share = kiriSubset_Share(&detach->rest); /* by the old layout */
+    settings->collisionPoints *= share;
+    settings->integrationPoints *= share;
+    KeepFields(detach);
+    KeepSamples(detach);
+    KeepContacts(detach);
+    CommitLayout(detach);
+    KeepBlades(detach);
+    KeepSeen(detach, retired);
+}
+
+/* ---- Fields of a load -------------------------------------------------------------------------------------------- */
 
 /* Did the stages end where sites are found again, though all that this takes memory for is there? Then two sites are in
    one cell. */
@@ -1084,393 +830,3 @@ bool kiriRemake_Field(kiriSheetData* sheet, bool* isBad)
     return ok;
 }
 
-bool kiriRemoval_Init(kiriRemoval* removal, kiriSheetData* sheet)
-{
-    memset(removal, 0, sizeof(*removal));
-    removal->sheet = sheet;
-    return kiriKept_Init(&removal->kept, sheet);
-}
-
-/* ---- Ready ---- */
-
-/* Cells that go, in the order of squares. */
-static bool ListCells(kiriRemoval* removal)
-{
-    const kiriSheetData* sheet = removal->sheet;
-    kiriMemory* memory = &removal->kept.memory;
-    bool ok = true;
-    for (int32_t s = 0; ok && s < sheet->grid.squareCell.count; ++s) {
-        bool isListed = false;
-        for (int32_t c = sheet->grid.squareCell.data[s]; ok && c != KIRI_NONE; c = sheet->grid.cells.data[c].next) {
-            if (!kiriKeep_Has(&removal->kept.frames, sheet->regions.field.owner.data[c])) {
-                ok = kiriArray_Push(memory, &removal->cells, c) &&
-                     (isListed || kiriArray_Push(memory, &removal->squares, s));
-                isListed = true;
-            }
-        }
-    }
-    return ok;
-}
-
-static bool ListGathered(kiriRemoval* removal)
-{
-    kiriGather_Mark(&removal->gathered);
-    removal->cells = removal->gathered.cells;
-    removal->squares = removal->gathered.squares;
-    return kiriKept_LeaveHoles(&removal->kept);
-}
-
-static bool StagePieces(kiriRemoval* removal)
-{
-    kiriSheetData* sheet = removal->sheet;
-    kiriMemory* scratch = &removal->kept.memory;
-    const kiriLayout* layout = &sheet->layout;
-    kiriLayout* next = &sheet->update->next;
-    kiriKeep pieces;
-    next->pieces.count = next->framePiece.count = 0;
-    bool ok = kiriKeep_Init(&pieces, scratch, layout->pieces.count) &&
-              kiriArray_Reserve(sheet->memory, &next->pieces, layout->pieces.count) &&
-              kiriArray_Reserve(sheet->memory, &next->framePiece, layout->framePiece.count);
-    for (int32_t p = 0; ok && p < layout->pieces.count; ++p) {
-        const kiriPiece* was = &layout->pieces.data[p];
-        kiriPiece piece = { .area = was->area,
-                            .frame = kiriKeep_To(&removal->kept.frames, was->frame),
-                            .origin = KIRI_NONE,
-                            .rest = was->rest };
-        kiriKeep_Add(&pieces, removal->kept.pieces.data[p] != 0);
-        if (removal->kept.pieces.data[p]) {
-            next->pieces.data[next->pieces.count++] = piece;
-        }
-    }
-    for (int32_t f = 0; ok && f < layout->framePiece.count; ++f) {
-        if (kiriKeep_Has(&removal->kept.frames, f)) {
-            next->framePiece.data[next->framePiece.count++] = kiriKeep_To(&pieces, layout->framePiece.data[f]);
-        }
-    }
-    return ok;
-}
-
-static bool StagePins(kiriRemoval* removal)
-{
-    kiriSheetData* sheet = removal->sheet;
-    const kiriKept* kept = &removal->kept;
-    const kiriLayout* layout = &sheet->layout;
-    kiriLayout* next = &sheet->update->next;
-    bool ok = true;
-    next->pinFrame.count = next->pinShares.count = next->severed.count = 0;
-    for (int32_t i = 0; ok && i < sheet->pins.count; ++i) {
-        int32_t frame = kiriKept_FrameOfPin(kept, i);
-        ok = frame == KIRI_NONE || kiriArray_Push(sheet->memory, &next->pinFrame, kiriKeep_To(&kept->frames, frame));
-    }
-    for (int32_t k = 0; ok && k < layout->pinShares.count; ++k) {
-        kiriPinShare pinned = layout->pinShares.data[k];
-        pinned.pin = kiriKeep_To(&kept->pins, pinned.pin);
-        pinned.share.frame = kiriKeep_To(&kept->frames, pinned.share.frame);
-        ok = pinned.share.frame == KIRI_NONE || kiriArray_Push(sheet->memory, &next->pinShares, pinned);
-    }
-    for (int32_t k = 0; ok && k < layout->severed.count; ++k) {
-        kiriSeveredLink severed = layout->severed.data[k];
-        severed.pin = kiriKeep_To(&kept->pins, severed.pin);
-        severed.link = kiriKeep_To(&kept->links, severed.link);
-        ok = severed.link == KIRI_NONE || kiriArray_Push(sheet->memory, &next->severed, severed);
-    }
-    return ok;
-}
-
-/* What each touch that is remembered pushed with: of the last tick, and then of pieces that sleep. */
-static bool ListForces(kiriRemoval* removal)
-{
-    const kiriTouches* touches = &removal->sheet->touches;
-    int32_t last = touches->last.touches.count, slept = touches->slept.touches.count;
-    if (!kiriArray_Resize(&removal->kept.memory, &removal->forces, (int64_t)last + slept)) {
-        return false;
-    }
-    for (int32_t i = 0; i < last + slept; ++i) {
-        const kiriTouch* touch = i < last ? &touches->last.touches.data[i] : &touches->slept.touches.data[i - last];
-        removal->forces.data[i] = kiriTouches_ForceOf(removal->sheet, touch->key);
-    }
-    return true;
-}
-
-static bool StageLayout(kiriRemoval* removal)
-{
-    kiriSheetData* sheet = removal->sheet;
-    kiriAreaElements* elements = &sheet->update->next.areaElements;
-    elements->elements.count = elements->shares.count = 0;
-    return StagePieces(removal) && StagePins(removal) &&
-           kiriAreaElements_Keep(elements, sheet->memory, &sheet->layout.areaElements, &removal->kept.frames) &&
-           kiriLinks_Keep(&sheet->links, sheet->memory, &removal->kept.links, &removal->kept.frames);
-}
-
-bool kiriRemoval_Gather(kiriRemoval* removal)
-{
-    const kiriGathered* known = kiriAhead_Gathered(removal->sheet, removal->kept.pieces.data);
-    if (known != NULL) {
-        removal->gathered = *known;
-    }
-    return known != NULL ||
-           kiriGather_Make(&removal->gathered, removal->sheet, &removal->kept.memory, removal->kept.pieces.data);
-}
-
-enum { SMALL_SHEET = 4096 }; /* vertices: a pass over them takes no longer than a tick */
-
-bool kiriRemoval_IsWorthAPass(const kiriSheetData* sheet, double share)
-{
-    int32_t vertices = sheet->mesh.vertices.count, holes = sheet->mesh.vertexHoles;
-    return vertices <= SMALL_SHEET || 2.0 * (holes + share * (vertices - holes)) > vertices;
-}
-
-double kiriRemoval_Samples(const kiriSheetData* sheet, double share)
-{
-    enum {
-        RENUMBERED_VERTICES = 80,
-        PASSED_VERTICES = 12
-    }; /* for one: owners get other indices, and what a host holds is copied; all moves together */
-    const kiriMeshData* mesh = &sheet->mesh;
-    double vertices = (double)mesh->vertices.count - mesh->vertexHoles;
-    double pass = kiriRemoval_IsWorthAPass(sheet, share) ? vertices / PASSED_VERTICES : 0.0;
-    return 1.0 + vertices / RENUMBERED_VERTICES + pass;
-}
-
-static bool StageLabels(kiriRemoval* removal)
-{
-    kiriSheetData* sheet = removal->sheet;
-    kiriLabels* labels = &sheet->shape.labels;
-    if (removal->leavesHoles) {
-        return kiriLabels_Reserve(labels, sheet->memory, sheet->frames.count);
-    }
-    bool ok = kiriKeep_Init(&removal->labels, &removal->kept.memory, kiriLabels_Count(labels, sheet->frames.count));
-    if (ok) {
-        kiriLabels_Map(labels, &removal->kept.frames, &removal->labels);
-    }
-    return ok;
-}
-
-static bool StageItems(kiriRemoval* removal)
-{
-    const kiriKept* kept = &removal->kept;
-    return removal->leavesHoles
-               ? ListGathered(removal)
-               : kiriKept_Map(&removal->kept) && ListCells(removal) &&
-                     kiriShown_Reserve(&removal->shown, &removal->sheet->shown, &kept->triangles, &kept->vertices);
-}
-
-bool kiriRemoval_Stage(kiriRemoval* removal, bool leavesHoles)
-{
-    kiriSheetData* sheet = removal->sheet;
-    KIRI_ASSERT(kiriUpdate_IsFieldCurrent(sheet->update));
-    kiriGather_Pause(sheet);
-    removal->leavesHoles = leavesHoles;
-    return StageItems(removal) && StageLabels(removal) && ListForces(removal) && StageLayout(removal) &&
-           kiriArray_Reserve(&sheet->shown, &removal->points, 3 * (int64_t)removal->kept.points.count) &&
-           kiriStage_Solver(sheet, removal->kept.frames.count);
-}
-
-/* ---- Gone ---- */
-
-/* What labels become, where all is passed over in any case. */
-static const kiriKeep* LabelsOf(const kiriRemoval* removal)
-{
-    return removal->leavesHoles ? NULL : &removal->labels;
-}
-
-static void KeepMesh(kiriRemoval* removal)
-{
-    kiriMeshData* mesh = &removal->sheet->mesh;
-    const kiriKept* kept = &removal->kept;
-    const kiriGathered* gone = &removal->gathered;
-    if (removal->leavesHoles) {
-        const kiriMeshLoss loss = { &gone->triangles, &gone->vertices, &gone->squares, kept->triangles,
-                                    kept->vertices };
-        kiriMesh_LeaveHoles(mesh, &loss);
-    } else {
-        kiriMesh_Keep(mesh, &kept->triangles, &kept->vertices, removal->squares.data, removal->squares.count);
-    }
-}
-
-static void KeepFields(kiriRemoval* removal)
-{
-    kiriSheetData* sheet = removal->sheet;
-    const kiriKept* kept = &removal->kept;
-    const int32_t *cells = removal->cells.data, *squares = removal->squares.data;
-    int32_t cellCount = removal->cells.count, squareCount = removal->squares.count;
-    KeepMesh(removal);
-    kiriGrid_Keep(&sheet->grid, sheet->memory, &kept->triangles, &kept->vertices, cells, cellCount);
-    kiriRegions_Keep(&sheet->regions, &kept->frames, cells, cellCount);
-    kiriShape_Keep(&sheet->shape, sheet->memory, &kept->frames, LabelsOf(removal), cells, cellCount);
-    kiriOwnership_Keep(&sheet->update->refit.ownership, &sheet->grid, &sheet->mesh, &sheet->regions, &kept->triangles,
-                       &kept->frames, squares, squareCount);
-}
-
-static void KeepPoints(kiriRemoval* removal)
-{
-    kiriSheetData* sheet = removal->sheet;
-    kiriKeep_Compact(&removal->kept.points, &sheet->points, 1, sizeof(kiriSample));
-    for (int32_t i = 0; i < sheet->points.count; ++i) {
-        sheet->points.data[i].frame = kiriKeep_To(&removal->kept.frames, sheet->points.data[i].frame);
-    }
-    kiriPlaces_Keep(&sheet->pointPlaces, &removal->kept.points);
-    kiriSkin_Keep(&sheet->pointSkin, &removal->kept.points, LabelsOf(removal));
-    if (removal->leavesHoles) {
-        kiriSkin_LeaveHoles(&sheet->vertexSkin, &removal->gathered.vertices);
-    } else {
-        kiriSkin_Keep(&sheet->vertexSkin, &removal->kept.vertices, LabelsOf(removal));
-    }
-}
-
-static void KeepContacts(const kiriKept* kept, kiriSheetData* sheet)
-{
-    int32_t left = 0;
-    for (int32_t i = 0; i < sheet->contacts.count; ++i) {
-        kiriGivenContact given = sheet->contacts.data[i];
-        if (kiriKept_FollowContact(kept, &given)) {
-            sheet->contacts.data[left++] = given;
-        }
-    }
-    sheet->contacts.count = left;
-}
-
-/* Forces go by keys, and keys by indices: they are remembered anew. */
-static void KeepTouches(kiriRemoval* removal, kiriTouchMemory* memory, const kiriVec3* forces)
-{
-    int32_t count = memory->touches.count;
-    memory->touches.count = memory->forces.count = memory->given = 0;
-    for (int32_t i = 0; i < count; ++i) {
-        kiriTouch touch = memory->touches.data[i];
-        if (kiriKept_FollowTouch(&removal->kept, &touch)) {
-            kiriTouchMemory_Add(memory, &touch, forces[i]);
-        }
-    }
-    kiriTouchMemory_SortForces(memory, 0, &removal->sheet->touches.order);
-}
-
-/* What the sheet keeps of its pieces from tick to tick, beside fields and what is staged: state that is new belongs
-   here, and into kiri_detach.c. */
-static void KeepState(kiriRemoval* removal)
-{
-    kiriSheetData* sheet = removal->sheet;
-    kiriUpdate* u = sheet->update;
-    const kiriKept* kept = &removal->kept;
-    kiriKeep_Compact(&kept->frames, &sheet->frames, 1, sizeof(kiriFrameData));
-    kiriKeep_Compact(&kept->frames, &u->material, 1, sizeof(kiriMoments));
-    kiriKeep_Compact(&kept->frames, &u->placing.sites, 1, sizeof(kiriSite));
-    kiriKeep_Compact(&kept->pins, &sheet->pins, 1, sizeof(kiriPinData));
-    kiriKeep_Compact(&kept->links, &sheet->strainOffsets.strainOffsets, 1, sizeof(kiriStrainOffset));
-    KeepContacts(kept, sheet);
-    int32_t last = sheet->touches.last.touches.count;
-    KeepTouches(removal, &sheet->touches.last, removal->forces.data);
-    KeepTouches(removal, &sheet->touches.slept, removal->forces.data + last);
-    sheet->touches.rests.areSummed = false;
-    kiriFades_Keep(&sheet->seen.fades, &kept->vertices);
-    kiriFades_Keep(&sheet->seen.pointFades, &kept->points);
-    u->samples.oldVertices = sheet->mesh.vertices.count;
-}
-
-static void KeepSettings(kiriRemoval* removal)
-{
-    kiriSettings* settings = &removal->sheet->settings;
-    double share = kiriKept_Share(&removal->kept);
-    settings->collisionPoints *= share;
-    settings->integrationPoints *= share;
-}
-
-static void MoveBlade(const kiriRemoval* removal, kiriBladeTip* blade)
-{
-    blade->vertex = kiriKeep_To(&removal->kept.vertices, blade->vertex);
-}
-
-static void MoveBlades(const kiriRemoval* removal)
-{
-    for (int32_t i = 0; i < removal->sheet->cuts.count; ++i) {
-        kiriCutData* cut = removal->sheet->cuts.data[i];
-        MoveBlade(removal, &cut->tip.blade);
-        MoveBlade(removal, &cut->committed.blade);
-    }
-}
-
-/* What is staged comes in force, as in kiriStage_Commit. */
-static void CommitStaged(kiriRemoval* removal)
-{
-    kiriSheetData* sheet = removal->sheet;
-    kiriLayout layout = sheet->layout;
-    kiriLinks_Commit(&sheet->links);
-    kiriSolver_Commit(sheet->solver);
-    sheet->layout = sheet->update->next;
-    sheet->update->next = layout;
-    kiriPins_WriteLinkParts(sheet);
-    kiriPins_SumShares(sheet);
-    kiriMotion_SumRest(sheet);
-}
-
-static void ReplaceFloats(void* array, void* fresh, kiriMemory* retired)
-{
-    kiriArrayHeader was = kiriArray_GetHeader(array);
-    kiriArray_SetHeader(array, kiriArray_GetHeader(fresh));
-    kiriMemory_Adopt(retired, was.data);
-}
-
-static void KeepSurface(kiriRemoval* removal, kiriMemory* retired)
-{
-    kiriSheetData* sheet = removal->sheet;
-    const kiriKept* kept = &removal->kept;
-    if (removal->leavesHoles) {
-        kiriSurface_LeaveHoles(&sheet->seen.surface, &removal->gathered.triangles, &sheet->mesh, kept->frames.count);
-        kiriBlocks_LeaveHoles(&sheet->seen.blocks, &removal->gathered.vertices, &kept->frames);
-    } else {
-        kiriBlocks_Forget(&sheet->seen.blocks);
-        kiriSurface_Keep(&sheet->seen.surface, &removal->shown, &kept->triangles, &kept->vertices, &sheet->mesh,
-                         kept->frames.count, retired);
-        kiriBounds_Forget(sheet->seen.bounds);
-        sheet->seen.vertexCount = kept->vertices.count;
-    }
-}
-
-static void KeepSeen(kiriRemoval* removal, kiriMemory* retired)
-{
-    kiriSheetData* sheet = removal->sheet;
-    const kiriKept* kept = &removal->kept;
-    KeepSurface(removal, retired);
-    kiriBlocks_Truncate(&sheet->seen.blocks, sheet->seen.surface.vertexCount, sheet->frames.count);
-    kiriKeep_Compact(&kept->points, &sheet->seen.exactPoints, 1, sizeof(kiriVec3));
-    if (sheet->seen.pointPositions.count > 0) {
-        kiriKeep_Copy(&kept->points, removal->points.data, sheet->seen.pointPositions.data, 3 * sizeof(float));
-        removal->points.count = 3 * kept->points.count;
-    }
-    ReplaceFloats(&sheet->seen.pointPositions, &removal->points, retired);
-    sheet->seen.pointCount = kept->points.count;
-}
-
-static void KeepLists(kiriRemoval* removal, kiriMemory* retired)
-{
-    kiriPieceLists* lists = &removal->sheet->lists;
-    if (removal->leavesHoles) {
-        kiriPieceLists_LeaveHoles(lists, removal->kept.pieces.data, retired);
-    } else {
-        kiriPieceLists_Retire(lists, retired);
-    }
-}
-
-void kiriRemoval_Commit(kiriRemoval* removal, kiriMemory* retired)
-{
-    KeepSettings(removal); /* by the layout as it is */
-    KeepFields(removal);
-    KeepPoints(removal);
-    KeepState(removal);
-    CommitStaged(removal);
-    MoveBlades(removal);
-    KeepSeen(removal, retired);
-    KeepLists(removal, retired);
-    removal->sheet->probes.isFresh = false;
-    memset(&removal->shown, 0, sizeof(removal->shown));
-    memset(&removal->points, 0, sizeof(removal->points));
-}
-
-void kiriRemoval_Drop(kiriRemoval* removal)
-{
-    if (removal->sheet != NULL) {
-        kiriGather_Unmark(&removal->gathered);
-        kiriShown_Release(&removal->shown, &removal->sheet->shown);
-        kiriArray_Release(&removal->sheet->shown, &removal->points);
-        kiriMemory_FreeAll(&removal->kept.memory);
-    }
-}

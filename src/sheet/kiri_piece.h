@@ -4,7 +4,6 @@
 
 #include "kiri_update.h"
 #include "kiri_sheet.h"
-#include "kiri_detach.h"
 
 KIRI_C_BEGIN
 
@@ -40,29 +39,26 @@ int32_t kiriOwner_OfNode(const kiriSheetData* sheet, int32_t node, bool isStaged
    False for memory. */
 bool kiriOwner_FindShares(kiriSheetData* sheet, kiriLatticePoint from, kiriLatticePoint to, bool isStaged);
 
-/* What is in each piece of a sheet, for the host: lists that are made when it asks for them. */
+/* The items of each piece, in lists that are made when the host asks for them. */
 
-/* Bring lists up to date: that costs nothing where neither mesh nor pieces have changed. Vertices: with how many
-   triangles each piece has. False for memory. */
+/* Lists the items of each piece in ascending order. pieces[i] is the piece of item i, or KIRI_NONE. False for memory. */
+bool kiriPieceItems_List(kiriPieceItems* list, kiriMemory* memory, int32_t pieceCount, const int32_t* pieces,
+                         int32_t count);
+
+/* Bring lists up to date: frames with collision points, or vertices with triangles. This costs nothing if neither mesh
+   nor pieces have changed. False for memory. */
 bool kiriPieces_ListFrames(kiriSheetData* sheet);
-bool kiriPieces_ListVertices(kiriSheetData* sheet);
-bool kiriPieces_ListTriangles(kiriSheetData* sheet);
+bool kiriPieces_ListMesh(kiriSheetData* sheet);
 
-/* Mesh or pieces have changed. */
+/* The mesh or the pieces have changed. */
 static inline void kiriPieceLists_Forget(kiriPieceLists* lists)
 {
-    lists->hasFrames = lists->hasVertices = lists->hasTriangles = false;
+    lists->hasFrames = lists->hasMesh = false;
 }
 
-/* Where the piece is in one of the lists. */
 kiriSpan kiriPieceItems_Of(const kiriPieceItems* list, int32_t piece);
 
-/* Pieces that `stays` is 0 for go, and their vertices and triangles leave holes. So what is listed of the others stays
-   where it is; frames and points get other indices. The host may hold what was listed: arrays that go get the owner
-   `retired`. */
-void kiriPieceLists_LeaveHoles(kiriPieceLists* lists, const uint8_t* stays, kiriMemory* retired);
-
-/* All lists go, and arrays get the owner `retired`. */
+/* Removes all lists. Arrays, which the host may hold, get the owner `retired`. */
 void kiriPieceLists_Retire(kiriPieceLists* lists, kiriMemory* retired);
 
 /* What the host asks about a piece; frames and vertices are listed. */
@@ -82,23 +78,6 @@ void kiriPieceTurns_Take(kiriSheetData* sheet);
 
 /* The tick is over: nobody waits. */
 void kiriPieceTurns_End(kiriSheetData* sheet);
-
-/* A cache: the sheet of a piece is made little by little while the piece waits to leave, so that the tick in which it
-   leaves has less to do. No tick depends on how far it has come, saves leave it out, and it may be dropped at any
-   time. */
-
-/* Goes on with the sheet of the piece of this frame, as far as `paid` samples pay in all. Drops the cache of another
-   piece. After a load the first call catches up. Fields belong to the mesh as it is. `memory` owns all sheets. False
-   for memory: the cache is dropped. */
-bool kiriAhead_GoOn(kiriSheetData* sheet, kiriFrame frame, kiriMemory* memory, int64_t paid);
-
-/* What has been made for the piece of this frame, which is the caller's from now on; null: nothing. */
-kiriSheetData* kiriAhead_Take(kiriSheetData* sheet, kiriFrame frame);
-
-/* What belongs to the pieces that `stays` is 0 for, where that is known, until the next call; or null. */
-const kiriGathered* kiriAhead_Gathered(const kiriSheetData* sheet, const uint8_t* stays);
-
-void kiriAhead_Drop(kiriSheetData* sheet, kiriMemory* memory);
 
 KIRI_C_END
 

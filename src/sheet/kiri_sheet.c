@@ -218,8 +218,6 @@ kiriSheetData* kiriSheet_New(kiriMemory* memory)
 void kiriSheet_Delete(kiriSheetData* sheet, kiriMemory* memory)
 {
     if (sheet != NULL) {
-        kiriSheet_Delete(sheet->ahead.part, memory);
-        kiriMemory_FreeAll(&sheet->ahead.memory);
         kiriMemory_FreeAll(&sheet->shown);
         kiriMemory_FreeAll(&sheet->own);
         kiriArray_Release(memory, &sheet->queue);
@@ -597,8 +595,7 @@ static void DropScratch(kiriSheetData* sheet)
 bool kiriBuild_Commit(kiriSheetData* sheet)
 {
     kiriStage_Commit(sheet);
-    bool isSorted = sheet->vertexSkin.settling.count == 0; /* see kiri_detach.c */
-    if (!isSorted && !kiriSkin_Sort(&sheet->vertexSkin, sheet->memory)) {
+    if (!kiriSkin_Sort(&sheet->vertexSkin, sheet->memory)) {
         return false;
     }
     kiriView_WriteTopology(sheet);

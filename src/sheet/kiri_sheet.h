@@ -127,7 +127,7 @@ typedef struct kiriLayout {
     kiriAreaElements areaElements;  /* of affine frames */
 } kiriLayout;
 
-/* What is in each piece, by index. Where pieces have gone there may be items of none in between. */
+/* The items of each piece, by index. */
 typedef struct kiriPieceItems {
     KIRI_ARRAY(kiriSpan) spans; /* of each piece */
     KIRI_ARRAY(int32_t) items;
@@ -135,10 +135,8 @@ typedef struct kiriPieceItems {
 
 /* Made when the host asks for them. */
 typedef struct kiriPieceLists {
-    bool hasFrames, hasVertices,
-        hasTriangles; /* listed, and neither mesh nor pieces have changed since. Of triangles the
-                                                  spans are known with the vertices. */
-    kiriPieceItems frames, vertices, triangles, points; /* points: with the frames */
+    bool hasFrames, hasMesh;                            /* current: neither mesh nor pieces have changed since */
+    kiriPieceItems frames, points, vertices, triangles; /* frames and points are listed together, so is the mesh */
     KIRI_ARRAY(kiriFrame) ids;                          /* of the frames */
     KIRI_ARRAY(int32_t) corners;                        /* of the triangles */
 } kiriPieceLists;
@@ -199,24 +197,6 @@ typedef struct kiriPinData {
     kiriReaction reaction; /* of a point */
     kiriWrench bore;       /* about the target: mean of the last tick that moved the sheet */
 } kiriPinData;
-
-/* Maps for taking pieces out, see kiri_detach.h: they keep nothing, but while that is done. */
-typedef struct kiriTaking {
-    kiriKeep vertices, triangles;
-    KIRI_ARRAY(uint8_t) cells;
-} kiriTaking;
-
-/* The sheet of a piece that waits to leave, as far as it is made before that: a cache, see kiri_piece.h. */
-typedef struct kiriAhead {
-    kiriFrame frame; /* names the piece; 0: none */
-    int32_t piece;
-    uint32_t revision;             /* of the mesh that it is made of */
-    struct kiriSheetData* part;    /* null: not begun */
-    struct kiriGathered* gathered; /* what belongs to the piece; null: not yet */
-    bool isMade;                   /* is all of the part there that depends on the mesh alone? */
-    int64_t spent;                 /* of the samples that were paid */
-    kiriMemory memory;             /* of that */
-} kiriAhead;
 
 /* How far a cut has come. */
 typedef struct kiriTip {
@@ -414,8 +394,6 @@ typedef struct kiriSheetData {
     KIRI_ARRAY(kiriGivenContact) contacts; /* of the next tick */
     KIRI_ARRAY(kiriFrame) leaving;         /* their pieces become sheets when the work at hand is done */
     int64_t leavingPaid;                   /* samples, for taking them out, and what the host has destroyed */
-    kiriAhead ahead;                       /* for the first of them */
-    kiriTaking taking;
 
     /* Room reserved by whoever makes it needed, so that a tick without a cut allocates nothing. */
     KIRI_ARRAY(kiriPinRow) pinRows;     /* points, then two for each share of a hinge */

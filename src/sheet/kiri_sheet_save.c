@@ -304,7 +304,6 @@ static const kiriMember StillSheetMembers[] = {
     KIRI_DROPPED(kiriSheetData, vertexSkin),
     KIRI_DROPPED(kiriSheetData, pointSkin),
     KIRI_DROPPED(kiriSheetData, pointPlaces),
-    KIRI_DROPPED(kiriSheetData, taking),
 };
 static const kiriTable StillSheetTable = KIRI_TABLE(kiriSheetData, StillSheetMembers);
 
@@ -325,7 +324,6 @@ static const kiriMember LiveSheetMembers[] = {
     KIRI_PARTS(kiriSheetData, contacts, GivenContactTable),
     KIRI_ITEMS(4, kiriSheetData, leaving),
     KIRI_RUN(8, kiriSheetData, leavingPaid, leavingPaid),
-    KIRI_DROPPED(kiriSheetData, ahead),
     KIRI_ITEMS(8, kiriSheetData, linkParts),
     KIRI_ROOM_OF(kiriSheetData, pinRows),
     KIRI_ROOM_OF(kiriSheetData, clampRows),

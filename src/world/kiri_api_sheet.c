@@ -327,7 +327,7 @@ kiriResult kiriSheet_GetPiece(kiriWorld* world, kiriSheet sheet, int32_t piece, 
     KIRI_CHECK(state != NULL, "state is null");
     KIRI_FIND_SHEET(data, sheet);
     CHECK_PIECE(data, piece);
-    LIST_PIECES(kiriPieces_ListFrames(data) && kiriPieces_ListVertices(data));
+    LIST_PIECES(kiriPieces_ListFrames(data) && kiriPieces_ListMesh(data));
     *state = kiriPiece_State(data, piece);
     KIRI_RETURN(KIRI_OK);
 }
@@ -338,7 +338,7 @@ kiriResult kiriSheet_GetPieceMesh(kiriWorld* world, kiriSheet sheet, int32_t pie
     KIRI_CHECK(mesh != NULL, "mesh is null");
     KIRI_FIND_SHEET(data, sheet);
     CHECK_PIECE(data, piece);
-    LIST_PIECES(kiriPieces_ListFrames(data) && kiriPieces_ListTriangles(data));
+    LIST_PIECES(kiriPieces_ListFrames(data) && kiriPieces_ListMesh(data));
     const kiriPieceLists* lists = &data->lists;
     kiriSpan vertices = kiriPieceItems_Of(&lists->vertices, piece);
     kiriSpan triangles = kiriPieceItems_Of(&lists->triangles, piece);

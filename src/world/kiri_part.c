@@ -1,4 +1,5 @@
 #include "kiri_part.h"
+#include "../sheet/kiri_detach.h"
 #include "../sheet/kiri_piece.h"
 #include "../sheet/kiri_seen.h"
 #include "../sheet/kiri_update.h"
@@ -8,84 +9,96 @@
 
 #include <string.h>
 
-bool kiriParting_Start(kiriParting* parting, kiriWorld* world, int32_t sheets)
+/* A sheet that loses pieces. */
+typedef struct PartSource {
+    kiriDetach detach;
+    kiriPast past;  /* of the sheet after the loss */
+    bool waits;     /* its pieces leave in a later tick */
+    double samples; /* the cost if they leave at once */
+} PartSource;
+
+/* A piece that leaves. */
+typedef struct Part {
+    PartSource* from;
+    kiriFrame frame;      /* names the piece */
+    kiriSheetData* sheet; /* that it becomes; null: not made yet */
+    int32_t piece;
+} Part;
+
+/* What one call, or one tick of a sheet, detaches or removes. */
+typedef struct Parting {
+    kiriWorld* world;
+    kiriMemory memory;
+    PartSource* sources;
+    int32_t sourceCount, sourceRoom;
+    bool isInTick;
+    KIRI_ARRAY(Part) parts;
+} Parting;
+
+/* Makes room for so many sheets that lose pieces. False for memory. Call EndParting in any case. */
+static bool StartParting(Parting* parting, kiriWorld* world, int32_t sheets)
 {
     memset(parting, 0, sizeof(*parting));
     parting->world = world;
     parting->memory = kiriMemory_Like(&world->memory);
     parting->sourceRoom = sheets;
-    parting->sources = kiriMemory_AllocZeroed(&parting->memory, sheets * (int64_t)sizeof(kiriPartSource));
+    parting->sources = kiriMemory_AllocZeroed(&parting->memory, sheets * (int64_t)sizeof(PartSource));
     return parting->sources != NULL;
 }
 
-void kiriParting_End(kiriParting* parting)
+static void EndParting(Parting* parting)
 {
     for (int32_t k = 0; k < parting->sourceCount; ++k) {
-        kiriExtraction_Drop(&parting->sources[k].extraction);
-        kiriRemoval_Drop(&parting->sources[k].removal);
-        if (!parting->sources[k].waits) {
-            kiriAhead_Drop(parting->sources[k].removal.sheet, &parting->world->memory);
-        }
+        kiriDetach_Drop(&parting->sources[k].detach);
     }
     kiriMemory_FreeAll(&parting->memory);
 }
 
-bool kiriPart_IsBusy(const kiriSheetData* sheet)
-{
-    return !kiriUpdate_IsFieldCurrent(sheet->update);
-}
+/* ---- Which pieces ------------------------------------------------------------------------------------------------ */
 
-/* ---- Which pieces ---- */
-
-kiriPartSource* kiriParting_AddSource(kiriParting* parting, kiriSheetData* sheet)
+/* Adds a sheet from which nothing leaves yet but what is gone. Null for memory. */
+static PartSource* AddSource(Parting* parting, kiriSheetData* sheet)
 {
     KIRI_ASSERT(parting->sourceCount < parting->sourceRoom);
-    kiriPartSource* source = &parting->sources[parting->sourceCount++];
-    kiriRemoval* removal = &source->removal;
-    if (!kiriRemoval_Init(removal, sheet)) {
+    PartSource* source = &parting->sources[parting->sourceCount++];
+    if (!kiriDetach_Init(&source->detach, sheet)) {
         return NULL;
     }
-    for (int32_t p = 0; p < removal->kept.pieces.count; ++p) {
-        removal->kept.pieces.data[p] = !sheet->layout.pieces.data[p].isGone;
+    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+        source->detach.rest.pieces.data[p] = !sheet->layout.pieces.data[p].isGone;
     }
     return source;
 }
 
-kiriPartSource* kiriParting_SourceFor(kiriParting* parting, kiriSheetData* sheet)
+static PartSource* FindSource(const Parting* parting, const kiriSheetData* sheet)
 {
     for (int32_t k = 0; k < parting->sourceCount; ++k) {
-        if (parting->sources[k].removal.sheet == sheet) {
+        if (parting->sources[k].detach.sheet == sheet) {
             return &parting->sources[k];
         }
     }
-    return kiriParting_AddSource(parting, sheet);
+    return NULL;
 }
 
-static bool IsSource(const kiriParting* parting, const kiriSheetData* sheet)
-{
-    bool any = false;
-    for (int32_t k = 0; k < parting->sourceCount; ++k) {
-        any = any || parting->sources[k].removal.sheet == sheet;
-    }
-    return any;
-}
-
-int32_t kiriPart_PieceOfFrame(const kiriWorld* world, kiriFrame frame)
+static int32_t PieceOfFrame(const kiriWorld* world, kiriFrame frame)
 {
     const kiriSlot* slot = kiriPool_Find(&world->frameIds, frame);
+    KIRI_ASSERT(slot != NULL);
     return ((const kiriSheetData*)slot->owner)->layout.framePiece.data[slot->index];
 }
 
-bool kiriParting_MarkPieces(kiriParting* parting, const kiriFrame* frames, int32_t count)
+/* Marks the pieces of frames to leave, and lists each once. False for memory. */
+static bool MarkPieces(Parting* parting, const kiriFrame* frames, int32_t count)
 {
     for (int32_t i = 0; i < count; ++i) {
         kiriSheetData* sheet = kiriPool_Find(&parting->world->frameIds, frames[i])->owner;
-        kiriPart part = { kiriParting_SourceFor(parting, sheet), frames[i], NULL,
-                          kiriPart_PieceOfFrame(parting->world, frames[i]) };
+        PartSource* source = FindSource(parting, sheet);
+        Part part = { source != NULL ? source : AddSource(parting, sheet), frames[i], NULL,
+                      PieceOfFrame(parting->world, frames[i]) };
         if (part.from == NULL) {
             return false;
         }
-        uint8_t* stays = &part.from->removal.kept.pieces.data[part.piece];
+        uint8_t* stays = &part.from->detach.rest.pieces.data[part.piece];
         if (*stays && !kiriArray_Push(&parting->memory, &parting->parts, part)) {
             return false;
         }
@@ -94,32 +107,34 @@ bool kiriParting_MarkPieces(kiriParting* parting, const kiriFrame* frames, int32
     return true;
 }
 
-bool kiriPart_IsLeaving(const kiriWorld* world, const kiriSheetData* sheet, int32_t piece)
+/* Does the piece wait to become a sheet? */
+static bool IsLeaving(const kiriWorld* world, const kiriSheetData* sheet, int32_t piece)
 {
     for (int32_t k = 0; k < sheet->leaving.count; ++k) {
         if (kiriPool_Find(&world->frameIds, sheet->leaving.data[k]) != NULL &&
-            kiriPart_PieceOfFrame(world, sheet->leaving.data[k]) == piece) {
+            PieceOfFrame(world, sheet->leaving.data[k]) == piece) {
             return true;
         }
     }
     return false;
 }
 
-bool kiriParting_LeavesSome(const kiriParting* parting)
+/* Is something left of each sheet? */
+static bool LeavesSome(const Parting* parting)
 {
     bool all = true;
     for (int32_t k = 0; k < parting->sourceCount; ++k) {
-        const kiriKept* kept = &parting->sources[k].removal.kept;
+        const kiriSubset* rest = &parting->sources[k].detach.rest;
         bool some = false;
-        for (int32_t p = 0; p < kept->pieces.count && !some; ++p) {
-            some = kept->pieces.data[p] && !kiriPart_IsLeaving(parting->world, kept->from, p);
+        for (int32_t p = 0; p < rest->pieces.count && !some; ++p) {
+            some = rest->pieces.data[p] && !IsLeaving(parting->world, rest->from, p);
         }
         all = all && some;
     }
     return all;
 }
 
-kiriResult kiriParting_Result(const kiriParting* parting)
+static kiriResult ResultOf(const Parting* parting)
 {
     kiriResult result = KIRI_OK;
     for (int32_t k = 0; k < parting->sourceCount; ++k) {
@@ -128,26 +143,27 @@ kiriResult kiriParting_Result(const kiriParting* parting)
     return result;
 }
 
-/* ---- What it costs ---- */
+/* ---- Costs ------------------------------------------------------------------------------------------------------- */
 
-void kiriParting_ChooseWhatWaits(kiriParting* parting, bool makesSheets)
+/* A call does at once what the samples of one tick pay for, sheet by sheet; the rest waits. A sheet with work on a cut,
+   or with pieces that wait already, waits in any case. */
+static void ChooseWhatWaits(Parting* parting, bool makesSheets)
 {
     kiriWorld* world = parting->world;
     double left = world->budget.samples > 0 ? (double)world->budget.samples - (double)world->samplesDue : 1e18;
     for (int32_t k = 0; k < parting->sourceCount; ++k) {
-        kiriPartSource* source = &parting->sources[k];
-        const kiriSheetData* sheet = source->removal.sheet;
-        double share = 1.0 - kiriKept_Share(&source->removal.kept);
-        source->leavesHoles = !kiriRemoval_IsWorthAPass(sheet, share);
-        source->samples =
-            kiriRemoval_Samples(sheet, share) + (makesSheets ? kiriExtraction_Samples(sheet, share) : 0.0);
-        source->waits = !parting->isInTick && (kiriPart_IsBusy(sheet) ||
-                                               (makesSheets && (source->samples > left || kiriParts_AreDue(sheet))));
+        PartSource* source = &parting->sources[k];
+        const kiriSheetData* sheet = source->detach.sheet;
+        bool isBusy = !kiriUpdate_IsFieldCurrent(sheet->update);
+        source->samples = kiriDetach_Samples(sheet, 1.0 - kiriSubset_Share(&source->detach.rest), makesSheets);
+        source->waits = !parting->isInTick &&
+                        (isBusy || (makesSheets && (source->samples > left || kiriParts_AreDue(sheet))));
         left -= source->waits ? 0.0 : source->samples;
     }
 }
 
-void kiriParting_Charge(const kiriParting* parting)
+/* Calls are paid by the coming ticks. */
+static void Charge(const Parting* parting)
 {
     kiriWorld* world = parting->world;
     for (int32_t k = 0; k < parting->sourceCount && world->budget.samples > 0 && !parting->isInTick; ++k) {
@@ -155,49 +171,32 @@ void kiriParting_Charge(const kiriParting* parting)
     }
 }
 
-/* ---- Out of their sheets ---- */
+/* ---- Out of their sheets ----------------------------------------------------------------------------------------- */
 
-bool kiriParting_Gather(kiriParting* parting, bool makesParts)
+static bool MapSources(Parting* parting, bool makesParts)
 {
     bool ok = true;
     for (int32_t k = 0; ok && k < parting->sourceCount; ++k) {
-        kiriPartSource* source = &parting->sources[k];
-        bool isNeeded = makesParts || source->leavesHoles;
-        ok = source->waits || !isNeeded || kiriRemoval_Gather(&source->removal);
+        PartSource* source = &parting->sources[k];
+        ok = source->waits || kiriDetach_Map(&source->detach, makesParts);
     }
     return ok;
 }
 
-/* Vertices may get other indices. */
-static bool StagePast(kiriParting* parting, kiriPartSource* source)
-{
-    const kiriRemoval* removal = &source->removal;
-    const kiriPast past = kiriPast_At(&removal->sheet->past, parting->world->begun);
-    source->past = past;
-    return source->leavesHoles || kiriPast_Keep(&source->past, &past, &parting->memory, &removal->kept.vertices);
-}
-
-/* The host may hold the indices, but not at the end of a tick. */
-static bool StageRemoval(kiriParting* parting, kiriPartSource* source)
-{
-    kiriSheetData* sheet = source->removal.sheet;
-    return kiriRemoval_Stage(&source->removal, source->leavesHoles) && StagePast(parting, source) &&
-           (!source->leavesHoles || parting->isInTick ||
-            kiriSurface_RenewIndices(&sheet->seen.surface, &sheet->shown, &parting->world->retired,
-                                     parting->world->ticks));
-}
-
-bool kiriParting_Stage(kiriParting* parting)
+static bool StageSources(Parting* parting)
 {
     bool ok = true;
     for (int32_t k = 0; ok && k < parting->sourceCount; ++k) {
-        kiriPartSource* source = &parting->sources[k];
-        ok = source->waits || StageRemoval(parting, source);
+        PartSource* source = &parting->sources[k];
+        const kiriPast past = kiriPast_At(&source->detach.sheet->past, parting->world->begun);
+        ok = source->waits ||
+             (kiriDetach_Stage(&source->detach) &&
+              kiriPast_Keep(&source->past, &past, &parting->memory, &source->detach.rest.vertices));
     }
     return ok;
 }
 
-/* Ids name what has moved to this sheet, or to another place in it. */
+/* Ids name items that have moved to this sheet, or to another place in it. */
 static void PointIds(kiriWorld* world, kiriSheetData* sheet)
 {
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
@@ -212,66 +211,51 @@ static void PointIds(kiriWorld* world, kiriSheetData* sheet)
     }
 }
 
-void kiriParting_Commit(kiriParting* parting)
+static void CommitSources(Parting* parting)
 {
     for (int32_t k = 0; k < parting->sourceCount; ++k) {
-        if (!parting->sources[k].waits) {
-            kiriRemoval_Commit(&parting->sources[k].removal, &parting->world->retired);
-            parting->sources[k].removal.sheet->past = parting->sources[k].past;
-            if (!parting->sources[k].leavesHoles) { /* else it is the one that it was */
-                kiriMemory_Adopt(&parting->world->retired, (void*)parting->sources[k].past.others);
-            }
-            PointIds(parting->world, parting->sources[k].removal.sheet);
+        PartSource* source = &parting->sources[k];
+        kiriSheetData* sheet = source->detach.sheet;
+        if (!source->waits) {
+            kiriDetach_Commit(&source->detach, &parting->world->retired);
+            sheet->past = source->past;
+            kiriMemory_Adopt(&parting->world->retired, (void*)source->past.others);
+            PointIds(parting->world, sheet);
         }
     }
 }
 
-/* ---- Sheets of their own ---- */
+/* ---- Sheets of their own ----------------------------------------------------------------------------------------- */
 
-static bool MakePastOfPart(kiriParting* parting, kiriPart* part)
+static bool MakePart(Parting* parting, Part* part)
 {
-    const kiriGathered* gathered = &part->from->removal.gathered;
-    const kiriSheetData* from = part->from->removal.sheet;
-    kiriSpan vertices = kiriGather_Find(gathered, part->piece)->vertices;
+    kiriDetach* detach = &part->from->detach;
+    const kiriSheetData* from = detach->sheet;
     const kiriPast past = kiriPast_At(&from->past, parting->world->begun);
-    return kiriPast_Part(&part->sheet->past, &past, &parting->memory, from->id,
-                         &gathered->vertices.data[vertices.first], vertices.count);
+    const kiriPieceItems* vertices = &detach->of[KIRI_LISTED_VERTICES];
+    kiriSpan span = kiriPieceItems_Of(vertices, part->piece);
+    part->sheet = kiriSheet_New(&parting->world->memory);
+    return part->sheet != NULL && kiriDetach_MakePart(detach, part->piece, part->sheet) &&
+           kiriPast_Part(&part->sheet->past, &past, &parting->memory, from->id, &vertices->items.data[span.first],
+                         span.count);
 }
 
-static bool MakePart(kiriParting* parting, kiriPart* part)
-{
-    kiriPartSource* from = part->from;
-    part->sheet = kiriAhead_Take(from->removal.sheet, part->frame);
-    part->sheet = part->sheet != NULL ? part->sheet : kiriSheet_New(&parting->world->memory);
-    return part->sheet != NULL &&
-           (from->extraction.kept.from != NULL || kiriExtraction_Init(&from->extraction, &from->removal.gathered)) &&
-           kiriExtraction_Build(&from->extraction, part->piece, part->sheet) && MakePastOfPart(parting, part);
-}
-
-static bool MakeParts(kiriParting* parting)
+static bool MakeParts(Parting* parting)
 {
     bool ok = true;
     for (int32_t k = 0; ok && k < parting->parts.count; ++k) {
-        kiriPart* part = &parting->parts.data[k];
-        ok = part->from->waits || MakePart(parting, part);
+        ok = parting->parts.data[k].from->waits || MakePart(parting, &parting->parts.data[k]);
     }
     return ok;
 }
 
-static void DeleteParts(kiriParting* parting)
-{
-    for (int32_t k = 0; k < parting->parts.count; ++k) {
-        kiriSheet_Delete(parting->parts.data[k].sheet, &parting->world->memory);
-    }
-}
-
-/* Room for the ids of the parts, and of pins that hold more than one; and in the lists of those that wait. */
-static kiriResult ReserveIdsOfParts(kiriParting* parting)
+/* Reserves the ids of the parts and of pins that hold several, and room in the lists of those that wait. */
+static kiriResult ReserveIdsOfParts(Parting* parting)
 {
     int64_t pins = 0;
     int32_t made = 0;
     for (int32_t k = 0; k < parting->parts.count; ++k) {
-        kiriSheetData *sheet = parting->parts.data[k].sheet, *from = parting->parts.data[k].from->removal.sheet;
+        kiriSheetData *sheet = parting->parts.data[k].sheet, *from = parting->parts.data[k].from->detach.sheet;
         pins += sheet != NULL ? sheet->pins.count : 0;
         made += sheet != NULL;
         if (!kiriArray_Reserve(from->memory, &from->leaving, (int64_t)from->leaving.count + parting->parts.count)) {
@@ -282,20 +266,21 @@ static kiriResult ReserveIdsOfParts(kiriParting* parting)
     return result == KIRI_OK ? kiriWorld_ReserveIds(parting->world, &parting->world->pinIds, pins) : result;
 }
 
-/* A line may hold more pieces than one: then what is left keeps the pin's id, or else the first part, and others get
-   another. What is left does not point to its pins yet. */
-static void NamePins(kiriWorld* world, const kiriPart* part)
+/* A line may hold several pieces. Then the rest keeps the pin's id, or else the first part, and others get a new one.
+   The ids of the rest do not point to its pins yet. */
+static void NamePins(kiriWorld* world, const Part* part)
 {
+    const kiriDetach* detach = &part->from->detach;
     for (int32_t i = 0; i < part->sheet->pins.count; ++i) {
         kiriPinData* pin = &part->sheet->pins.data[i];
         const kiriSlot* slot = kiriPool_Find(&world->pinIds, pin->id);
-        if (slot->owner != part->from->removal.sheet || kiriKeep_Has(&part->from->removal.kept.pins, slot->index)) {
+        if (slot->owner != detach->sheet || kiriKeep_Has(&detach->rest.pins, slot->index)) {
             pin->id = kiriPool_Add(&world->pinIds, &world->memory, part->sheet, i);
         }
     }
 }
 
-static void AddSheetOfPart(kiriWorld* world, const kiriPart* part)
+static void AddSheetOfPart(kiriWorld* world, const Part* part)
 {
     kiriSheetData* sheet = part->sheet;
     world->sheets.data[world->sheets.count++] = sheet;
@@ -305,53 +290,57 @@ static void AddSheetOfPart(kiriWorld* world, const kiriPart* part)
     PointIds(world, sheet);
 }
 
-/* When the work at hand is done, unless it is listed already. */
-static void AddLeaving(kiriWorld* world, const kiriPart* part)
+/* Lists a piece that waits, unless it is listed already. */
+static void AddLeaving(kiriWorld* world, const Part* part)
 {
-    kiriSheetData* sheet = part->from->removal.sheet;
-    if (!kiriPart_IsLeaving(world, sheet, part->piece)) {
+    kiriSheetData* sheet = part->from->detach.sheet;
+    if (!IsLeaving(world, sheet, part->piece)) {
         sheet->leaving.data[sheet->leaving.count++] = part->frame;
         sheet->rest.isIdle = false;
     }
 }
 
-kiriResult kiriParting_Detach(kiriParting* parting)
+static kiriResult Detach(Parting* parting)
 {
-    kiriParting_ChooseWhatWaits(parting, true);
-    bool ok = kiriParting_Gather(parting, parting->parts.count > 0) && MakeParts(parting) && kiriParting_Stage(parting);
+    ChooseWhatWaits(parting, true);
+    bool ok = MapSources(parting, parting->parts.count > 0) && MakeParts(parting) && StageSources(parting);
     kiriResult result = ok ? ReserveIdsOfParts(parting) : KIRI_ERROR_MEMORY;
+    for (int32_t k = 0; k < parting->parts.count; ++k) {
+        const Part* part = &parting->parts.data[k];
+        if (result != KIRI_OK) {
+            kiriSheet_Delete(part->sheet, &parting->world->memory);
+        } else if (part->sheet != NULL) {
+            AddSheetOfPart(parting->world, part);
+        } else {
+            AddLeaving(parting->world, part);
+        }
+    }
     if (result != KIRI_OK) {
-        DeleteParts(parting);
         return result;
     }
-    for (int32_t k = 0; k < parting->parts.count; ++k) {
-        const kiriPart* part = &parting->parts.data[k];
-        part->sheet != NULL ? AddSheetOfPart(parting->world, part) : AddLeaving(parting->world, part);
-    }
-    kiriParting_Commit(parting);
-    kiriParting_Charge(parting);
-    return kiriParting_Result(parting);
+    CommitSources(parting);
+    Charge(parting);
+    return ResultOf(parting);
 }
 
 kiriResult kiriParts_Detach(kiriWorld* world, const kiriFrame* frames, int32_t count, kiriSheet* ids)
 {
-    kiriParting parting;
+    Parting parting;
     kiriResult result = KIRI_ERROR_MEMORY;
-    if (kiriParting_Start(&parting, world, kiriMin(count, world->sheets.count)) &&
-        kiriParting_MarkPieces(&parting, frames, count)) {
-        result = kiriParting_LeavesSome(&parting) ? kiriParting_Detach(&parting) : KIRI_ERROR_STATE;
+    if (StartParting(&parting, world, kiriMin(count, world->sheets.count)) && MarkPieces(&parting, frames, count)) {
+        result = LeavesSome(&parting) ? Detach(&parting) : KIRI_ERROR_STATE;
     }
     for (int32_t i = 0; result >= 0 && i < count; ++i) {
         const kiriSheetData* sheet = kiriPool_Find(&world->frameIds, frames[i])->owner;
-        ids[i] = IsSource(&parting, sheet) ? 0 : sheet->id; /* else the frame would have left it */
+        ids[i] = FindSource(&parting, sheet) != NULL ? 0 : sheet->id; /* else the frame would have left it */
     }
-    kiriParting_End(&parting);
+    EndParting(&parting);
     return result;
 }
 
-/* Pieces that wait: for the end of the work on a cut, or until the budget has paid for them. */
+/* ---- Pieces that wait -------------------------------------------------------------------------------------------- */
 
-/* Those that are destroyed meanwhile become nothing; others were detached by a call while the budget was awaited. */
+/* Frames of pieces that were removed meanwhile are stale; others were detached by a call. */
 static void ForgetStaleLeaving(kiriWorld* world, kiriSheetData* sheet)
 {
     int32_t kept = 0;
@@ -367,49 +356,33 @@ static void ForgetStaleLeaving(kiriWorld* world, kiriSheetData* sheet)
 
 bool kiriParts_AreDue(const kiriSheetData* sheet)
 {
-    return !kiriPart_IsBusy(sheet) && (sheet->leaving.count > 0 || kiriPieces_AnyGone(sheet));
+    return kiriUpdate_IsFieldCurrent(sheet->update) && (sheet->leaving.count > 0 || kiriPieces_AnyGone(sheet));
 }
 
-static int32_t CountFrames(const kiriSheetData* sheet, int32_t piece)
-{
-    int32_t count = 0;
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
-        count += sheet->layout.framePiece.data[i] == piece;
-    }
-    return count;
-}
-
-/* Samples for the pieces that are gone, and for the first `count` pieces that leave. The first of these is made ahead,
-   which takes more work than making it at once. */
-static int64_t CostOfLeaving(const kiriWorld* world, const kiriSheetData* sheet, int32_t count)
+/* Returns how many of the pieces that wait `samples` pay for, first come first, with all that are gone. KIRI_NONE: less
+   than the first. *cost is the cost of these, or of the first. */
+static int32_t CountPaid(const kiriWorld* world, const kiriSheetData* sheet, int64_t samples, int64_t* cost)
 {
     const kiriPiece* pieces = sheet->layout.pieces.data;
-    double whole = 0.0, gone = 0.0, share = 0.0;
+    double whole = 0.0, gone = 0.0, leaving = 0.0, none = kiriDetach_Samples(sheet, 0.0, true);
     for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
         whole += pieces[p].area;
+        gone += pieces[p].isGone ? pieces[p].area : 0.0;
     }
-    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
-        gone += pieces[p].isGone ? pieces[p].area / whole : 0.0;
+    KIRI_ASSERT(gone < whole);
+    *cost = (int64_t)none;
+    for (int32_t k = 0; k < sheet->leaving.count; ++k) {
+        leaving += pieces[PieceOfFrame(world, sheet->leaving.data[k])].area;
+        int64_t next = (int64_t)kiriDetach_Samples(sheet, leaving / whole, true);
+        if (k > 0 && next > samples) {
+            return k;
+        }
+        *cost = next;
+        if (next > samples) {
+            return KIRI_NONE;
+        }
     }
-    int32_t first = count > 0 ? kiriPart_PieceOfFrame(world, sheet->leaving.data[0]) : KIRI_NONE;
-    double ahead = first != KIRI_NONE ? pieces[first].area / whole : 0.0;
-    for (int32_t k = 1; k < count; ++k) {
-        share += pieces[kiriPart_PieceOfFrame(world, sheet->leaving.data[k])].area / whole;
-    }
-    double samples = kiriRemoval_Samples(sheet, gone + ahead + share) + kiriExtraction_Samples(sheet, share);
-    return (int64_t)(samples +
-                     (first != KIRI_NONE ? kiriExtraction_SamplesAhead(sheet, ahead, CountFrames(sheet, first)) : 0.0));
-}
-
-/* Number of leaving pieces that these samples pay for, with all that are gone. KIRI_NONE: less than the first. */
-static int32_t CountWithin(const kiriWorld* world, const kiriSheetData* sheet, int64_t samples)
-{
-    int32_t least = sheet->leaving.count > 0, end;
-    if (CostOfLeaving(world, sheet, least) > samples) {
-        return KIRI_NONE;
-    }
-    KIRI_SEARCH(end, least + 1, sheet->leaving.count + 1, CostOfLeaving(world, sheet, middle) <= samples);
-    return end - 1;
+    return *cost <= samples ? sheet->leaving.count : KIRI_NONE;
 }
 
 void kiriParts_Pay(kiriWorld* world, kiriSheetData* sheet, kiriQuota* samples)
@@ -418,31 +391,39 @@ void kiriParts_Pay(kiriWorld* world, kiriSheetData* sheet, kiriQuota* samples)
         return;
     }
     ForgetStaleLeaving(world, sheet);
-    int64_t paid = sheet->leavingPaid;
-    int32_t count = CountWithin(world, sheet, samples->left < INT64_MAX - paid ? paid + samples->left : INT64_MAX);
-    int64_t cost = CostOfLeaving(world, sheet, count != KIRI_NONE ? count : sheet->leaving.count > 0);
+    int64_t paid = sheet->leavingPaid, cost;
+    CountPaid(world, sheet, samples->left < INT64_MAX - paid ? paid + samples->left : INT64_MAX, &cost);
     int64_t due = cost > paid ? cost - paid : 0;
     (void)kiriQuota_Pay(samples, &due);
     sheet->leavingPaid = kiriMax(cost - due, paid);
 }
 
-static kiriResult Part(kiriWorld* world, kiriSheetData* sheet, int32_t count)
+static kiriResult LeaveFirst(kiriWorld* world, kiriSheetData* sheet, int32_t count)
 {
-    kiriParting parting;
+    Parting parting;
     kiriResult result = KIRI_ERROR_MEMORY;
-    bool hasRoom = kiriParting_Start(&parting, world, 1) &&
+    bool hasRoom = StartParting(&parting, world, 1) &&
                    kiriArray_Reserve(&world->memory, &world->events, (int64_t)world->events.count + count);
     parting.isInTick = true;
-    if (hasRoom && kiriParting_SourceFor(&parting, sheet) != NULL &&
-        kiriParting_MarkPieces(&parting, sheet->leaving.data, count)) {
-        result = kiriParting_Detach(&parting);
+    if (hasRoom && AddSource(&parting, sheet) != NULL && MarkPieces(&parting, sheet->leaving.data, count)) {
+        result = Detach(&parting);
     }
-    kiriParting_End(&parting);
+    EndParting(&parting);
     return result;
 }
 
-static void TellMade(kiriWorld* world, kiriSheetData* sheet, int32_t count)
+kiriResult kiriParts_Leave(kiriWorld* world, kiriSheetData* sheet)
 {
+    if (!kiriParts_AreDue(sheet)) {
+        return KIRI_OK;
+    }
+    ForgetStaleLeaving(world, sheet);
+    int64_t cost;
+    int32_t count = CountPaid(world, sheet, sheet->leavingPaid, &cost);
+    kiriResult result = count != KIRI_NONE ? LeaveFirst(world, sheet, count) : KIRI_OK;
+    if (result != KIRI_OK || count == KIRI_NONE) {
+        return result;
+    }
     for (int32_t k = 0; k < count; ++k) {
         const kiriSheetData* part = kiriPool_Find(&world->frameIds, sheet->leaving.data[k])->owner;
         kiriEvent* event = kiriWorld_AddEvent(world, KIRI_EVENT_PIECE_DETACHED, part);
@@ -455,46 +436,28 @@ static void TellMade(kiriWorld* world, kiriSheetData* sheet, int32_t count)
     }
     sheet->leaving.count -= count;
     sheet->leavingPaid = 0;
+    return KIRI_OK;
 }
 
-kiriResult kiriParts_Leave(kiriWorld* world, kiriSheetData* sheet)
-{
-    if (!kiriParts_AreDue(sheet)) {
-        return KIRI_OK;
-    }
-    ForgetStaleLeaving(world, sheet);
-    int32_t count = CountWithin(world, sheet, sheet->leavingPaid);
-    if (count == KIRI_NONE) {
-        bool ok = sheet->leaving.count == 0 ||
-                  kiriAhead_GoOn(sheet, sheet->leaving.data[0], &world->memory, sheet->leavingPaid);
-        return ok ? KIRI_OK : KIRI_ERROR_MEMORY;
-    }
-    kiriResult result = Part(world, sheet, count);
-    if (result == KIRI_OK) {
-        TellMade(world, sheet, count);
-    }
-    return result;
-}
+/* ---- Pieces that are removed ------------------------------------------------------------------------------------- */
 
-/* Pieces that are taken away. */
-
-static void ForgetIds(kiriWorld* world, const kiriRemoval* removal)
+static void ForgetFrames(kiriWorld* world, const kiriDetach* detach)
 {
-    kiriSheetData* sheet = removal->sheet;
+    kiriSheetData* sheet = detach->sheet;
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
-        if (!removal->kept.pieces.data[sheet->layout.framePiece.data[i]]) {
+        if (!detach->rest.pieces.data[sheet->layout.framePiece.data[i]]) {
             kiriPool_Remove(&world->frameIds, sheet->frames.data[i].id);
             sheet->frames.data[i].id = 0;
         }
     }
 }
 
-/* Those that hold nothing of what is left. The last one takes the place of each. */
-static void RemovePins(kiriWorld* world, const kiriRemoval* removal)
+/* Removes pins that hold nothing of the rest. The last pin takes the place of each. */
+static void RemovePins(kiriWorld* world, const kiriDetach* detach)
 {
-    kiriSheetData* sheet = removal->sheet;
+    kiriSheetData* sheet = detach->sheet;
     for (int32_t i = sheet->pins.count - 1; i >= 0; --i) {
-        if (kiriKept_FrameOfPin(&removal->kept, i) == KIRI_NONE) {
+        if (kiriSubset_FrameOfPin(&detach->rest, i) == KIRI_NONE) {
             kiriPool_Remove(&world->pinIds, sheet->pins.data[i].id);
             kiriPins_Remove(sheet, i);
         }
@@ -504,114 +467,113 @@ static void RemovePins(kiriWorld* world, const kiriRemoval* removal)
     }
 }
 
-/* Nobody sees or touches the pieces any more, until they can be taken away. */
-static void MarkRemoved(kiriWorld* world, const kiriRemoval* removal)
+/* Hides the pieces until they can be removed: nobody sees or touches them. */
+static void HidePieces(kiriWorld* world, const kiriDetach* detach)
 {
-    kiriSheetData* sheet = removal->sheet;
-    ForgetIds(world, removal);
-    RemovePins(world, removal);
-    for (int32_t p = 0; p < removal->kept.pieces.count; ++p) {
-        sheet->layout.pieces.data[p].isGone = !removal->kept.pieces.data[p];
+    kiriSheetData* sheet = detach->sheet;
+    ForgetFrames(world, detach);
+    RemovePins(world, detach);
+    for (int32_t p = 0; p < detach->rest.pieces.count; ++p) {
+        sheet->layout.pieces.data[p].isGone = !detach->rest.pieces.data[p];
     }
     kiriTouches_Sort(sheet); /* nothing that is gone pushes */
     kiriMotion_SumRest(sheet);
     kiriView_HideGone(sheet);
 }
 
-static void ForgetPins(kiriWorld* world, const kiriRemoval* removal)
+static void ForgetPins(kiriWorld* world, const kiriDetach* detach)
 {
-    for (int32_t i = 0; i < removal->sheet->pins.count; ++i) {
-        if (!kiriKeep_Has(&removal->kept.pins, i)) {
-            kiriPool_Remove(&world->pinIds, removal->sheet->pins.data[i].id);
+    for (int32_t i = 0; i < detach->sheet->pins.count; ++i) {
+        if (!kiriKeep_Has(&detach->rest.pins, i)) {
+            kiriPool_Remove(&world->pinIds, detach->sheet->pins.data[i].id);
         }
     }
 }
 
-/* The host may hold the indices. */
-static bool RenewIndices(kiriParting* parting)
+/* The host may hold the indices, in which triangles are to be hidden. */
+static bool RenewIndices(Parting* parting)
 {
     bool ok = true;
     for (int32_t k = 0; ok && k < parting->sourceCount; ++k) {
-        kiriSheetData* sheet = parting->sources[k].removal.sheet;
+        kiriSheetData* sheet = parting->sources[k].detach.sheet;
         ok = !parting->sources[k].waits || kiriSurface_RenewIndices(&sheet->seen.surface, &sheet->shown,
                                                                     &parting->world->retired, parting->world->ticks);
     }
     return ok;
 }
 
-static kiriResult Destroy(kiriParting* parting)
+static kiriResult Destroy(Parting* parting)
 {
-    kiriParting_ChooseWhatWaits(parting, false);
-    if (!kiriParting_Gather(parting, false) || !kiriParting_Stage(parting) || !RenewIndices(parting)) {
+    ChooseWhatWaits(parting, false);
+    if (!MapSources(parting, false) || !StageSources(parting) || !RenewIndices(parting)) {
         return KIRI_ERROR_MEMORY;
     }
     for (int32_t k = 0; k < parting->sourceCount; ++k) {
-        const kiriRemoval* removal = &parting->sources[k].removal;
+        const kiriDetach* detach = &parting->sources[k].detach;
         if (parting->sources[k].waits) {
-            MarkRemoved(parting->world, removal);
+            HidePieces(parting->world, detach);
         } else {
-            ForgetIds(parting->world, removal);
-            ForgetPins(parting->world, removal);
+            ForgetFrames(parting->world, detach);
+            ForgetPins(parting->world, detach);
         }
     }
-    kiriParting_Commit(parting);
-    kiriParting_Charge(parting);
-    return kiriParting_Result(parting);
+    CommitSources(parting);
+    Charge(parting);
+    return ResultOf(parting);
 }
 
 kiriResult kiriParts_Destroy(kiriWorld* world, const kiriFrame* frames, int32_t count)
 {
-    kiriParting parting;
+    Parting parting;
     kiriResult result = KIRI_ERROR_MEMORY;
-    if (kiriParting_Start(&parting, world, kiriMin(count, world->sheets.count)) &&
-        kiriParting_MarkPieces(&parting, frames, count)) {
-        result = kiriParting_LeavesSome(&parting) ? Destroy(&parting) : KIRI_ERROR_STATE;
+    if (StartParting(&parting, world, kiriMin(count, world->sheets.count)) && MarkPieces(&parting, frames, count)) {
+        result = LeavesSome(&parting) ? Destroy(&parting) : KIRI_ERROR_STATE;
     }
-    kiriParting_End(&parting);
+    EndParting(&parting);
     return result;
 }
 
-/* ---- Crumbs ---- */
+/* ---- Crumbs ------------------------------------------------------------------------------------------------------ */
 
-/* The largest of the pieces that are kept; or of those of them that do not wait to become a sheet. */
-static int32_t LargestKept(const kiriWorld* world, const kiriKept* kept, bool isToStay)
+/* The largest piece of the subset; with isToStay only of those that do not wait to become a sheet. */
+static int32_t LargestOf(const kiriWorld* world, const kiriSubset* subset, bool isToStay)
 {
-    const kiriLayout* layout = &kept->from->layout;
+    const kiriPiece* pieces = subset->from->layout.pieces.data;
     int32_t largest = KIRI_NONE;
-    for (int32_t p = 0; p < layout->pieces.count; ++p) {
-        bool isLarger = largest == KIRI_NONE || layout->pieces.data[p].area > layout->pieces.data[largest].area;
-        if (kept->pieces.data[p] && isLarger && !(isToStay && kiriPart_IsLeaving(world, kept->from, p))) {
+    for (int32_t p = 0; p < subset->pieces.count; ++p) {
+        bool isLarger = largest == KIRI_NONE || pieces[p].area > pieces[largest].area;
+        if (subset->pieces.data[p] && isLarger && !(isToStay && IsLeaving(world, subset->from, p))) {
             largest = p;
         }
     }
     return largest;
 }
 
-/* Marks what goes, and returns how many pieces these are. */
-static int32_t MarkBelow(const kiriWorld* world, kiriKept* kept, double area)
+/* Marks the pieces to leave, and returns their number. */
+static int32_t MarkBelow(const kiriWorld* world, kiriSubset* rest, double area)
 {
-    const kiriLayout* layout = &kept->from->layout;
-    int32_t dropped = 0, largest = LargestKept(world, kept, false);
-    int32_t second = kiriPart_IsLeaving(world, kept->from, largest) ? LargestKept(world, kept, true) : largest;
-    for (int32_t p = 0; p < layout->pieces.count; ++p) {
-        bool stays = p == largest || p == second || layout->pieces.data[p].area >= area;
-        dropped += kept->pieces.data[p] && !stays;
-        kept->pieces.data[p] = kept->pieces.data[p] && stays;
+    const kiriPiece* pieces = rest->from->layout.pieces.data;
+    int32_t dropped = 0, largest = LargestOf(world, rest, false);
+    int32_t second = IsLeaving(world, rest->from, largest) ? LargestOf(world, rest, true) : largest;
+    for (int32_t p = 0; p < rest->pieces.count; ++p) {
+        bool stays = p == largest || p == second || pieces[p].area >= area;
+        dropped += rest->pieces.data[p] && !stays;
+        rest->pieces.data[p] = rest->pieces.data[p] && stays;
     }
     return dropped;
 }
 
 kiriResult kiriParts_DropCrumbs(kiriWorld* world, kiriSheetData* sheet, double area, int32_t* count)
 {
-    kiriParting parting;
-    kiriPartSource* source = kiriParting_Start(&parting, world, 1) ? kiriParting_AddSource(&parting, sheet) : NULL;
+    Parting parting;
+    PartSource* source = StartParting(&parting, world, 1) ? AddSource(&parting, sheet) : NULL;
     kiriResult result = source != NULL ? KIRI_OK : KIRI_ERROR_MEMORY;
     *count = 0;
     if (result == KIRI_OK) {
-        int32_t dropped = MarkBelow(world, &source->removal.kept, area);
+        int32_t dropped = MarkBelow(world, &source->detach.rest, area);
         result = dropped > 0 ? Destroy(&parting) : KIRI_OK;
         *count = result >= 0 ? dropped : 0;
     }
-    kiriParting_End(&parting);
+    EndParting(&parting);
     return result;
 }
