@@ -201,11 +201,6 @@ typedef struct kiriMoments {
     double area, u, v, uu, uv, vv;
 } kiriMoments;
 
-/* The first three of them. */
-typedef struct kiriFirstMoments {
-    double area, u, v;
-} kiriFirstMoments;
-
 /* Those of a triangle, which must be counter-clockwise. */
 kiriMoments kiriMoments_Triangle(kiriVec2 a, kiriVec2 b, kiriVec2 c);
 void kiriMoments_Add(kiriMoments* sum, const kiriMoments* part);

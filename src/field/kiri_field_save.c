@@ -40,15 +40,9 @@ static const kiriMember StepMembers[] = {
 static const kiriTable StepTable = KIRI_TABLE(kiriStep, StepMembers);
 
 static const kiriMember GridWorkMembers[] = {
-    KIRI_BOOLS(kiriGridWork, running, removed),
-    KIRI_RUN(8, kiriGridWork, due, due),
-    KIRI_RUN(4, kiriGridWork, stage, part),
-    KIRI_BOOLS(kiriGridWork, isAmidPart, isAmidPart),
-    KIRI_RUN(4, kiriGridWork, node, other),
-    KIRI_BOOLS(kiriGridWork, isSame, isSorting),
-    KIRI_RUN(4, kiriGridWork, sorting, sorting),
-    KIRI_ITEMS(4, kiriGridWork, sortRoom),
-    KIRI_BOOLS(kiriGridWork, isMerging, isMerging),
+    KIRI_BOOLS(kiriGridWork, running, outOfMemory),
+    KIRI_RUN(8, kiriGridWork, debt, debt),
+    KIRI_RUN(4, kiriGridWork, stage, item),
     KIRI_ITEMS(4, kiriGridWork, facesDirty),
     KIRI_ITEMS(4, kiriGridWork, linksDirty),
     KIRI_ITEMS(4, kiriGridWork, stepsDirty),

@@ -307,7 +307,7 @@ static int64_t Plus(int64_t sum, double moment)
 /* Every cell counts for something, so that every region has a center. */
 static void AddMaterial(const PlacerJob* job, SiteTarget* target, int32_t cell)
 {
-    const kiriFirstMoments material = kiriGrid_FirstMoments(job->grid, job->mesh, cell);
+    const kiriMoments material = kiriGrid_Material(job->grid, job->mesh, cell);
     double side = job->grid->side;
     int64_t area = (int64_t)(AREA_UNITS * (material.area / (side * side)) + 0.5);
     area = area > 0 ? area : 1;
