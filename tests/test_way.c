@@ -22,7 +22,6 @@ static void Look(Plain* p)
     Scene_BuildGrid(&p->scene);
     p->owner = calloc((size_t)p->scene.grid.cells.count, sizeof(int32_t));
     p->sight = (kiriSight){ &p->scene.grid, &p->scene.mesh, p->owner, &p->region, 1, &p->edges };
-    p->edges.memory = &p->scene.memory;
     assert_true(kiriSightEdges_Start(&p->edges, &p->scene.mesh));
 }
 

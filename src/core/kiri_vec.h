@@ -83,6 +83,25 @@ static inline double kiriVec2_Length(kiriVec2 a)
     return sqrt(kiriVec2_Dot(a, a));
 }
 
+static inline kiriVec2 kiriVec2_AddScaled(kiriVec2 a, double s, kiriVec2 b)
+{
+    return kiriVec2_Add(a, kiriVec2_Scale(s, b));
+}
+static inline double kiriVec2_Distance(kiriVec2 a, kiriVec2 b)
+{
+    return kiriVec2_Length(kiriVec2_Sub(a, b));
+}
+/* Positive where b is to the left of a. */
+static inline double kiriVec2_Cross(kiriVec2 a, kiriVec2 b)
+{
+    return a.x * b.y - a.y * b.x;
+}
+/* Turns a to the left by a quarter. */
+static inline kiriVec2 kiriVec2_Left(kiriVec2 a)
+{
+    return kiriVec2_Make(-a.y, a.x);
+}
+
 /* From the segment between a and b. */
 double kiriVec2_DistanceToWay(kiriVec2 p, kiriVec2 a, kiriVec2 b);
 

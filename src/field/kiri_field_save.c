@@ -209,7 +209,6 @@ static const kiriMember NewLinkMembers[] = {
     KIRI_PART(kiriNewLink, link, LinkTable),
     KIRI_PART(kiriNewLink, ends, LinkEndsTable),
     KIRI_RUN(4, kiriNewLink, face, face),
-    KIRI_BOOLS(kiriNewLink, isOld, isOld),
 };
 static const kiriTable NewLinkTable = KIRI_TABLE(kiriNewLink, NewLinkMembers);
 
@@ -221,9 +220,11 @@ static const kiriMember SightEdgeMembers[] = {
 static const kiriTable SightEdgeTable = KIRI_TABLE(kiriSightEdge, SightEdgeMembers);
 
 static const kiriMember SightEdgesMembers[] = {
-    KIRI_DROPPED(kiriSightEdges, memory),   KIRI_PARTS(kiriSightEdges, edges, SightEdgeTable),
-    KIRI_ITEMS(4, kiriSightEdges, squares), KIRI_ITEMS(4, kiriSightEdges, spans),
-    KIRI_ITEMS(4, kiriSightEdges, listed),  KIRI_BOOLS(kiriSightEdges, failed, failed),
+    KIRI_PARTS(kiriSightEdges, edges, SightEdgeTable),
+    KIRI_ITEMS(4, kiriSightEdges, squares),
+    KIRI_ITEMS(4, kiriSightEdges, spans),
+    KIRI_ITEMS(4, kiriSightEdges, listed),
+    KIRI_BOOLS(kiriSightEdges, failed, failed),
 };
 static const kiriTable SightEdgesTable = KIRI_TABLE(kiriSightEdges, SightEdgesMembers);
 
@@ -233,20 +234,14 @@ static const kiriMember LinkWorkMembers[] = {
     KIRI_RUN(8, kiriLinkWork, due, due),
     KIRI_ITEMS(1, kiriLinkWork, marks),
     KIRI_ITEMS(1, kiriLinkWork, stale),
-    KIRI_ITEMS(4, kiriLinkWork, touched),
     KIRI_ITEMS(4, kiriLinkWork, faces),
-    KIRI_ITEMS(4, kiriLinkWork, whole),
-    KIRI_ITEMS(4, kiriLinkWork, stretch),
     KIRI_PARTS(kiriLinkWork, made, NewLinkTable),
-    KIRI_ITEMS(4, kiriLinkWork, order),
+    KIRI_ITEMS(4, kiriLinkWork, to),
     KIRI_PARTS(kiriLinkWork, ends, LinkEndsTable),
     KIRI_PARTS(kiriLinkWork, nextEnds, LinkEndsTable),
-    KIRI_ROOM_OF(kiriLinkWork, pairs),
-    KIRI_ROOM_OF(kiriLinkWork, nextPairs),
-    KIRI_DROPPED(kiriLinkWork, isTwin),
-    KIRI_ROOM_OF(kiriLinkWork, before),
-    KIRI_ROOM_OF(kiriLinkWork, now),
     KIRI_PART(kiriLinkWork, edges, SightEdgesTable),
+    KIRI_ROOM_OF(kiriLinkWork, order),
+    KIRI_ROOM_OF(kiriLinkWork, stretch),
 };
 static const kiriTable LinkWorkTable = KIRI_TABLE(kiriLinkWork, LinkWorkMembers);
 
@@ -257,13 +252,9 @@ static const kiriMember CornerMembers[] = {
 static const kiriTable CornerTable = KIRI_TABLE(kiriCorner, CornerMembers);
 
 static const kiriMember LinksMembers[] = {
-    KIRI_PARTS(kiriLinks, links, LinkTable),
-    KIRI_PARTS(kiriLinks, next, LinkTable),
-    KIRI_RUN(4, kiriLinks, changed, changed),
-    KIRI_ROOM_OF(kiriLinks, was),
-    KIRI_ROOM_OF(kiriLinks, wasCorner),
-    KIRI_PARTS(kiriLinks, corners, CornerTable),
-    KIRI_PARTS(kiriLinks, nextCorners, CornerTable),
+    KIRI_PARTS(kiriLinks, links, LinkTable),     KIRI_PARTS(kiriLinks, next, LinkTable),
+    KIRI_RUN(4, kiriLinks, changed, changed),    KIRI_ROOM_OF(kiriLinks, was),
+    KIRI_PARTS(kiriLinks, corners, CornerTable), KIRI_PARTS(kiriLinks, nextCorners, CornerTable),
     KIRI_OWNED(kiriLinks, work, LinkWorkTable),
 };
 const kiriTable kiriLinksTable = KIRI_TABLE(kiriLinks, LinksMembers);
@@ -330,14 +321,6 @@ static const kiriMember PlacerMembers[] = {
     KIRI_OWNED(kiriPlacer, work, PlacerWorkTable),
 };
 const kiriTable kiriPlacerTable = KIRI_TABLE(kiriPlacer, PlacerMembers);
-
-void kiriLinks_EndReading(kiriLinks* links, kiriMemory* memory)
-{
-    if (links->work != NULL) {
-        links->work->edges.memory = memory;
-        links->work->isTwin = false;
-    }
-}
 
 void kiriPlacer_EndReading(kiriPlacer* placer, const kiriField* known)
 {

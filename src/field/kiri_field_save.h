@@ -16,7 +16,6 @@ extern const kiriTable kiriGridTable, kiriRegionsTable, kiriShapeTable, kiriLink
 extern const kiriTable kiriSiteTable, kiriSavedRegionsTable, kiriSavedShapeTable;
 
 /* Where bytes were read: pointers into what was read beside. `known`: the field that the placer was given. */
-void kiriLinks_EndReading(kiriLinks* links, kiriMemory* memory);
 void kiriPlacer_EndReading(kiriPlacer* placer, const kiriField* known);
 
 KIRI_C_END

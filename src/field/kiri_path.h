@@ -1,4 +1,4 @@
-/* Straight ways in the rest plane: where they meet the outline or a slit. */
+/* Straight and shortest ways in the rest plane of the cut sheet, in the Euclidean metric. */
 #ifndef KIRI_PATH_H
 #define KIRI_PATH_H
 
@@ -6,7 +6,7 @@
 
 KIRI_C_BEGIN
 
-/* An edge of the material in a square. */
+/* An edge of the material in a square: of the outline, or one lip of a slit. The material is to its left. */
 typedef struct kiriSightEdge {
     kiriVec2 tail, head, after; /* local m; after: the head of the next edge */
     int32_t edge;               /* half-edge */
@@ -14,26 +14,24 @@ typedef struct kiriSightEdge {
     bool isTurn; /* the material has a corner of more than half a turn at the head, in this square */
 } kiriSightEdge;
 
-/* The edges of squares that were looked at, kept while mesh and grid do not change. A zeroed one with its memory is
-   empty. */
+/* Cache: the edges of squares, valid while mesh and grid do not change. A zeroed one is empty. */
 typedef struct kiriSightEdges {
-    kiriMemory* memory;
     KIRI_ARRAY(kiriSightEdge) edges;
-    KIRI_ARRAY(int32_t) squares; /* that were looked at, */
-    KIRI_ARRAY(kiriSpan) spans;  /* and the edges of each of these */
-    KIRI_ARRAY(int32_t) listed;  /* of each square: where it is in `squares`, or KIRI_NONE */
-    bool failed;                 /* for memory: what was seen since is of no use */
+    KIRI_ARRAY(int32_t) squares; /* the squares in the cache, */
+    KIRI_ARRAY(kiriSpan) spans;  /* and the edges of each */
+    KIRI_ARRAY(int32_t) listed;  /* for each square: index in `squares`, or KIRI_NONE */
+    bool failed;                 /* out of memory: everything seen since then is void */
 } kiriSightEdges;
 
-/* Readies it for the squares of a mesh, and forgets all edges. False for memory. */
+/* Empties the cache for the squares of a mesh. False when out of memory. */
 bool kiriSightEdges_Start(kiriSightEdges* edges, const kiriMeshData* mesh);
 
-/* What may be looked at: squares that hold a cell of one of these regions. So what is seen depends on nothing that does
-   not make one of them dirty. */
+/* Sight is limited to squares with a cell of one of these regions: so the result depends only on things whose changes
+   make one of them dirty. */
 typedef struct kiriSight {
     const kiriGrid* grid;
     const kiriMeshData* mesh;
-    const int32_t* owner; /* of each cell: its region */
+    const int32_t* owner; /* region of each cell */
     const int32_t* regions;
     int32_t regionCount;
     kiriSightEdges* edges;
@@ -42,32 +40,17 @@ typedef struct kiriSight {
 typedef enum kiriSightEnd {
     KIRI_SIGHT_CLEAR,
     KIRI_SIGHT_EDGE, /* the outline, or an open edge */
-    KIRI_SIGHT_LOST  /* a square that may not be looked at */
+    KIRI_SIGHT_LOST  /* a square outside the regions */
 } kiriSightEnd;
 
-/* What was met: */
 typedef struct kiriSightHit {
-    double share; /* how far one sees, of the way */
+    double share; /* visible part of the way, 0 to 1 */
     int32_t edge; /* EDGE: its half-edge, which has the start of the way to its left */
 } kiriSightHit;
 
-/* Looks from p to q, local m, both in the material or on its edges. What is within a millionth of a square's side of p,
+/* Looks from p to q, local m, both in the material or on its edges. Anything within a millionth of a square's side of p,
    of q or of the way only touches it: both may lie on edges, and the way may run along one. */
 kiriSightEnd kiriSight_Cast(const kiriSight* sight, kiriVec2 p, kiriVec2 q, kiriSightHit* hit);
-
-/* The edges of the material in a square, in no particular order: the outline, and both lips of slits. Each keeps the
-   material to its left. They stay where they are until the next call. */
-const kiriSightEdge* kiriSight_EdgesOf(const kiriSight* sight, int32_t square, int32_t* count);
-
-kiriLatticePoint kiriSight_HeadOf(const kiriMeshData* mesh, int32_t h);
-
-/* The next edge of the material after one, around its head, and the one before it. */
-int32_t kiriSight_EdgeAfter(const kiriMeshData* mesh, int32_t h);
-int32_t kiriSight_EdgeBefore(const kiriMeshData* mesh, int32_t h);
-
-/* Is a cell of one of the regions? Has a square such a cell? */
-bool kiriSight_MayLookIn(const kiriSight* sight, int32_t cell);
-bool kiriSight_MayLookAt(const kiriSight* sight, int32_t square);
 
 static inline bool kiriSight_IsClear(const kiriSight* sight, kiriVec2 p, kiriVec2 q)
 {
@@ -75,13 +58,16 @@ static inline bool kiriSight_IsClear(const kiriSight* sight, kiriVec2 p, kiriVec
     return kiriSight_Cast(sight, p, q, &hit) == KIRI_SIGHT_CLEAR;
 }
 
-/* The shortest way between two points of the cut sheet, in the Euclidean metric: straight from corner to corner of the
-   outline and of slits. */
+kiriLatticePoint kiriSight_HeadOf(const kiriMeshData* mesh, int32_t h);
+
+/* Return the next edge of the material, around the head of one, and the previous edge. */
+int32_t kiriSight_EdgeAfter(const kiriMeshData* mesh, int32_t h);
+int32_t kiriSight_EdgeBefore(const kiriMeshData* mesh, int32_t h);
 
 enum { KIRI_MOST_TURNS = 62, KIRI_MOST_SCANNED = 256, KIRI_WAY_TURNS = 24 };
 
-/* A corner of the material of more than half a turn: where a way may turn. The edges before and after it keep the
-   material to their left; at the end of a slit they are its two sides. */
+/* A corner of the material of more than half a turn: where a shortest way may turn. The edges before and after it keep
+   the material to their left; at the end of a slit they are its two sides. */
 typedef struct kiriTurn {
     kiriLatticePoint at, before, after;
 } kiriTurn;
@@ -94,9 +80,10 @@ typedef struct kiriTurns {
     int32_t count;
     int32_t scanned[KIRI_MOST_SCANNED]; /* squares */
     int32_t scannedCount;
-    bool isFull; /* there are more than there is room for: no way is found */
+    bool isFull; /* there are more corners than room: no way is found */
 } kiriTurns;
 
+/* A way: straight from corner to corner of the outline and of slits. */
 typedef struct kiriWay {
     kiriVec2 turn[KIRI_WAY_TURNS]; /* local m, in the order of the way */
     int32_t turnCount;
@@ -105,13 +92,13 @@ typedef struct kiriWay {
 
 void kiriTurns_Start(kiriTurns* turns, kiriVec2 from, kiriVec2 to, double most);
 
-/* Adds the corners in the square of a cell and in those around it, of those that may be looked at. */
+/* Adds the corners in the square of a cell and in the squares around it, as far as sight goes. */
 void kiriTurns_AddAround(kiriTurns* turns, const kiriSight* sight, int32_t cell);
 
-/* The shortest way over these corners; false where there is none. */
+/* Finds the shortest way over these corners; false where there is none. */
 bool kiriWay_Find(const kiriTurns* turns, const kiriSight* sight, kiriWay* way);
 
-/* The point of a way at so much of its length. */
+/* Returns the point of a way after this part of its length, m. */
 kiriVec2 kiriWay_At(const kiriWay* way, kiriVec2 from, kiriVec2 to, double length);
 
 KIRI_C_END

@@ -126,13 +126,11 @@ static bool IsPairOfLink(const kiriSystem* system, int32_t k, kiriPair pair)
     return found;
 }
 
-/* Is the element one of those in force? */
+/* Has the pattern the pairs of an element already? A corner of three regions has only the pairs of its links. */
 static bool IsInForce(const kiriSystem* system, int32_t k)
 {
-    int32_t links = kiriElement_LinkCount(system), corner = k - links;
-    return k < links                                  ? system->linkWas[k] != KIRI_NONE
-           : corner < kiriElement_CornerCount(system) ? system->cornerWas[corner] != KIRI_NONE
-                                                      : false;
+    const kiriCorner* corner = kiriElement_Corner(system, k);
+    return k < kiriElement_LinkCount(system) ? system->linkWas[k] != KIRI_NONE : corner != NULL && corner->count == 3;
 }
 
 /* Of frames that share an element: of all, or of those alone that are not in force. */

@@ -86,7 +86,7 @@ typedef struct kiriSystem {
     const double* linkParts;   /* what counts of each link, 0 to 1; null: all */
     const kiriCorner* corners; /* of these links */
     int32_t cornerCount;
-    const int32_t *linkWas, *cornerWas;    /* KIRI_NONE of what is not in force before it is staged; null: not known */
+    const int32_t* linkWas; /* for each link: index in the system before, or KIRI_NONE; null: not known */
     const kiriStrainOffset* strainOffsets; /* one a link between rigid frames, or null */
     const kiriAreaElements* areaElements;  /* of affine frames; may be null where there are none */
     const kiriPinRow* pins;

@@ -99,7 +99,6 @@ static kiriSystem NextSystem(const kiriSheetData* sheet, int32_t frameCount)
     next.cornerCount = sheet->links.nextCorners.count;
     next.areaElements = &u->next.areaElements;
     next.linkWas = sheet->links.was.count > 0 ? sheet->links.was.data : NULL;
-    next.cornerWas = sheet->links.was.count > 0 ? sheet->links.wasCorner.data : NULL;
     return next;
 }
 

@@ -360,7 +360,6 @@ static void ArchiveDerived(kiriArchive* archive, kiriSheetData* sheet)
     kiriArchive_Object(archive, &kiriRestSurfaceTable, &sheet->seen.surface);
     archive->memory = &sheet->own;
     if (kiriArchive_Reads(archive) && !kiriArchive_HasFailed(archive)) {
-        kiriLinks_EndReading(&sheet->links, &sheet->own);
         kiriPlacer_EndReading(&sheet->update->placing.placer, &sheet->regions.field);
     }
 }
