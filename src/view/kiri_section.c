@@ -2,9 +2,9 @@
 
 #include "../core/kiri_array.h"
 
-/* ---- Windows ---- */
+/* ---- Windows ----------------------------------------------------------------------------------------------------- */
 
-/* Where the side has no length, all is inside. */
+/* Sets a side along a and b. If it has no length, all is inside. */
 static void SetSide(kiriWindow* window, int side, kiriVec3 a, kiriVec3 b, kiriVec3 inside)
 {
     kiriVec3 inward = kiriVec3_Cross(window->normal, kiriVec3_Sub(b, a));
@@ -14,19 +14,19 @@ static void SetSide(kiriWindow* window, int side, kiriVec3 a, kiriVec3 b, kiriVe
     window->level[side] = isTurned ? -level : level;
 }
 
-static bool IsOutside(const kiriWindow* window, int side, kiriVec3 at)
-{
-    double level = window->level[side], depth = kiriVec3_Dot(window->inward[side], at) - level;
-    return depth < -1e-9 * (fabs(level) + fabs(depth + level));
-}
-
-/* The side that an end of the edge goes along. Where the corners are no convex quadrilateral (a ray from an eye that
-   hardly moves, say), that line would cut off some of the edge: then the side is where the end is farthest out. */
+/* Sets the side along which an end of the edge moves. If the corners are no convex quadrilateral (a ray from an eye that
+   hardly moves, say), that line would cut off a part of the edge: then the side is where the end is farthest out. */
 static void SetEndSide(kiriWindow* window, int side, const kiriVec3 corner[4], kiriVec3 inside)
 {
     const kiriVec3 a = corner[side], b = corner[(side + 1) % 4];
+    bool isConvex = true;
     SetSide(window, side, a, b, inside);
-    if (IsOutside(window, side, corner[(side + 2) % 4]) || IsOutside(window, side, corner[(side + 3) % 4])) {
+    for (int k = 2; k < 4; ++k) {
+        double level = window->level[side], at = kiriVec3_Dot(window->inward[side], corner[(side + k) % 4]),
+               depth = at - level;
+        isConvex = isConvex && !(depth < -1e-9 * (fabs(level) + fabs(depth + level)));
+    }
+    if (!isConvex) {
         kiriVec3 along = kiriVec3_Add(kiriVec3_Sub(corner[0], corner[1]), kiriVec3_Sub(corner[3], corner[2]));
         kiriVec3 inward = side == KIRI_SIDE_SECOND ? along : kiriVec3_Scale(-1.0, along);
         double atA = kiriVec3_Dot(inward, a), atB = kiriVec3_Dot(inward, b);
@@ -57,7 +57,7 @@ bool kiriWindow_Make(kiriWindow* window, const kiriVec3 corner[4], kiriVec3 from
     return true;
 }
 
-/* Boxes a little larger, for the window's own plane is rounded, too. */
+/* Boxes are enlarged a little: the plane of the window is rounded, too. */
 static bool MeetsWindow(const void* context, const kiriBox* box)
 {
     const kiriWindow* window = context;
@@ -69,15 +69,15 @@ static bool MeetsWindow(const void* context, const kiriBox* box)
            kiriBox_MeetWithin(&window->box, box, slack);
 }
 
-/* ---- Pieces of lines: one a triangle ---- */
+/* ---- Pieces of lines: one a triangle ----------------------------------------------------------------------------- */
 
-enum { OPEN = -1 }; /* an end that goes on in the next triangle, if there is one */
+enum { OPEN_END = -1 }; /* an end that goes on in the next triangle, if there is one */
 
-/* What of a triangle lies in the window. Above the plane is to its left. */
+/* The part of a line in a triangle. The side above the plane is to its left. */
 typedef struct Piece {
     kiriSectionPoint point[2];
     int32_t end[2];
-    int32_t edge[2][2]; /* of open ends: vertices of the edge, the lower first */
+    int64_t edge[2]; /* of open ends: the edge of the mesh, by its vertices */
     kiriVec2 out[2];
     int32_t next; /* the piece that goes on from its end, or KIRI_NONE */
     bool isReached, isDone;
@@ -102,7 +102,7 @@ static kiriSectionPoint Between(kiriSectionPoint a, kiriSectionPoint b, double t
     return point;
 }
 
-/* Where the plane crosses an edge: from both of its triangles the same bits. `other` is the third corner. */
+/* Writes the end where the plane crosses an edge, with the same bits from both triangles. `other` is the third corner. */
 static void CrossEdge(const Pieces* p, Piece* piece, int k, int32_t a, int32_t b, int32_t other)
 {
     int32_t low = kiriMin(a, b), high = kiriMax(b, a);
@@ -113,33 +113,13 @@ static void CrossEdge(const Pieces* p, Piece* piece, int k, int32_t a, int32_t b
     kiriVec2 way = kiriVec2_Sub(rest[high], rest[low]), in = kiriVec2_Sub(rest[other], rest[low]);
     kiriVec2 out = kiriVec2_Make(way.y, -way.x);
     piece->point[k] = Between(from, to, t);
-    piece->end[k] = OPEN;
-    piece->edge[k][0] = low;
-    piece->edge[k][1] = high;
+    piece->end[k] = OPEN_END;
+    piece->edge[k] = (int64_t)low << 32 | high;
     piece->out[k] = kiriVec2_Scale((kiriVec2_Dot(out, in) > 0.0 ? -1.0 : 1.0) / kiriVec2_Length(way), out);
 }
 
-/* Cuts off what is outside of a side; false where all is. */
-static bool ClipSide(const Pieces* p, Piece* piece, int side)
-{
-    double depth[2];
-    for (int k = 0; k < 2; ++k) {
-        depth[k] = kiriVec3_Dot(p->window->inward[side], piece->point[k].at) - p->window->level[side];
-    }
-    if (depth[0] < 0.0 && depth[1] < 0.0) {
-        return false;
-    }
-    for (int k = 0; k < 2; ++k) {
-        if (depth[k] < 0.0) {
-            double t = depth[k] / (depth[k] - depth[1 - k]);
-            piece->point[k] = Between(piece->point[k], piece->point[1 - k], t);
-            piece->end[k] = side;
-        }
-    }
-    return true;
-}
-
-/* A vertex in the plane counts as above it: so each triangle is crossed by two of its edges, or by none. */
+/* Cuts a triangle with the plane and the window. Returns false if nothing is left. A vertex in the plane counts as above
+   it: so each triangle is crossed by two of its edges, or by none. */
 static bool CrossTriangle(const Pieces* p, int32_t triangle, Piece* piece)
 {
     const int32_t* v = &p->surface->indices.data[3 * (size_t)triangle];
@@ -155,8 +135,19 @@ static bool CrossTriangle(const Pieces* p, int32_t triangle, Piece* piece)
     CrossEdge(p, piece, first, v[odd], v[next], v[last]);
     CrossEdge(p, piece, 1 - first, v[odd], v[last], v[next]);
     for (int side = 0; side < KIRI_SIDES; ++side) {
-        if (!ClipSide(p, piece, side)) {
+        double depth[2];
+        for (int k = 0; k < 2; ++k) {
+            depth[k] = kiriVec3_Dot(p->window->inward[side], piece->point[k].at) - p->window->level[side];
+        }
+        if (depth[0] < 0.0 && depth[1] < 0.0) {
             return false;
+        }
+        for (int k = 0; k < 2; ++k) {
+            if (depth[k] < 0.0) {
+                piece->point[k] =
+                    Between(piece->point[k], piece->point[1 - k], depth[k] / (depth[k] - depth[1 - k]));
+                piece->end[k] = side;
+            }
         }
     }
     piece->next = KIRI_NONE;
@@ -164,102 +155,59 @@ static bool CrossTriangle(const Pieces* p, int32_t triangle, Piece* piece)
     return true;
 }
 
+static bool IsEdgeBefore(const void* context, int32_t a, int32_t b)
+{
+    const Piece* pieces = context;
+    return pieces[a].edge[0] != pieces[b].edge[0] ? pieces[a].edge[0] < pieces[b].edge[0] : a < b;
+}
+
+/* Collects the pieces, and links each to the piece that starts at the edge where it ends. There is none across an open
+   edge of the mesh: its two sides have different vertices. */
 static bool CollectPieces(Pieces* p, kiriMemory* memory)
 {
     for (int32_t i = 0; i < p->triangles.count; ++i) {
         Piece piece;
-        if (!CrossTriangle(p, p->triangles.data[i], &piece)) {
-            continue;
-        }
-        if (!kiriArray_Push(memory, &p->pieces, piece) ||
-            (piece.end[0] == OPEN && !kiriArray_Push(memory, &p->starts, p->pieces.count - 1))) {
+        if (CrossTriangle(p, p->triangles.data[i], &piece) &&
+            (!kiriArray_Push(memory, &p->pieces, piece) ||
+             (piece.end[0] == OPEN_END && !kiriArray_Push(memory, &p->starts, p->pieces.count - 1)))) {
             return false;
+        }
+    }
+    Piece* pieces = p->pieces.data;
+    const int32_t *starts = p->starts.data, count = p->starts.count;
+    kiriSort(p->starts.data, count, IsEdgeBefore, pieces);
+    for (int32_t i = 0; i < p->pieces.count; ++i) {
+        int32_t k = count;
+        if (pieces[i].end[1] == OPEN_END) {
+            KIRI_SEARCH(k, 0, count, pieces[starts[middle]].edge[0] < pieces[i].edge[1]);
+        }
+        if (k < count && pieces[starts[k]].edge[0] == pieces[i].edge[1]) {
+            pieces[i].next = starts[k];
+            pieces[starts[k]].isReached = true;
         }
     }
     return true;
 }
 
-/* ---- Lines ---- */
-
-static int CompareEdges(const int32_t a[2], const int32_t b[2])
-{
-    return a[0] != b[0] ? (a[0] < b[0] ? -1 : 1) : a[1] != b[1] ? (a[1] < b[1] ? -1 : 1) : 0;
-}
-
-static bool IsEdgeBefore(const void* context, int32_t a, int32_t b)
-{
-    const Pieces* p = context;
-    int order = CompareEdges(p->pieces.data[a].edge[0], p->pieces.data[b].edge[0]);
-    return order < 0 || (order == 0 && a < b);
-}
-
-/* The piece that starts at the edge where this one ends, or KIRI_NONE. */
-static int32_t NextTriangle(const Pieces* p, const Piece* piece)
-{
-    int32_t low = 0, high = p->starts.count;
-    while (low < high) {
-        int32_t middle = low + (high - low) / 2, at = p->starts.data[middle];
-        int order = CompareEdges(p->pieces.data[at].edge[0], piece->edge[1]);
-        if (order == 0) {
-            return at;
-        }
-        low = order < 0 ? middle + 1 : low;
-        high = order < 0 ? high : middle;
-    }
-    return KIRI_NONE;
-}
-
-/* Across an open edge of the mesh there is none: its two sides have vertices of their own. */
-static void LinkPieces(Pieces* p)
-{
-    kiriSort(p->starts.data, p->starts.count, IsEdgeBefore, p);
-    for (int32_t i = 0; i < p->pieces.count; ++i) {
-        Piece* piece = &p->pieces.data[i];
-        piece->next = piece->end[1] == OPEN ? NextTriangle(p, piece) : KIRI_NONE;
-        if (piece->next != KIRI_NONE) {
-            p->pieces.data[piece->next].isReached = true;
-        }
-    }
-}
-
-static int32_t EndOf(int32_t end)
-{
-    return end == OPEN ? KIRI_END_BORDER : end;
-}
-
-/* The line from a piece on. */
+/* Adds the line that begins with a piece. */
 static bool AddLine(Pieces* p, kiriSection* section, kiriMemory* memory, int32_t start)
 {
     KIRI_ASSERT(start >= 0 && start < p->pieces.count);
-    Piece* piece = &p->pieces.data[start];
-    kiriSectionLine line = { section->points.count, 0, { EndOf(piece->end[0]), 0 }, { piece->out[0], piece->out[0] } };
-    bool ok = kiriArray_Push(memory, &section->points, piece->point[0]);
-    for (int32_t i = start; ok && i != KIRI_NONE && !p->pieces.data[i].isDone; i = p->pieces.data[i].next) {
-        piece = &p->pieces.data[i];
-        piece->isDone = true;
-        ok = kiriArray_Push(memory, &section->points, piece->point[1]);
+    Piece *first = &p->pieces.data[start], *last = first;
+    kiriSectionLine line = { section->points.count, 0, { 0, 0 }, { first->out[0], first->out[0] } };
+    bool ok = kiriArray_Push(memory, &section->points, first->point[0]);
+    for (int32_t i = start; ok && i != KIRI_NONE && !p->pieces.data[i].isDone; i = last->next) {
+        last = &p->pieces.data[i];
+        last->isDone = true;
+        ok = kiriArray_Push(memory, &section->points, last->point[1]);
+    }
+    const int32_t end[2] = { first->end[0], last->end[1] };
+    for (int k = 0; k < 2; ++k) {
+        line.end[k] = last->next != KIRI_NONE ? KIRI_END_LOOP : end[k] == OPEN_END ? KIRI_END_BORDER : end[k];
     }
     line.count = section->points.count - line.first;
-    line.end[1] = EndOf(piece->end[1]);
-    line.out[1] = piece->out[1];
-    if (piece->next != KIRI_NONE) {
-        line.end[0] = line.end[1] = KIRI_END_LOOP;
-    }
+    line.out[1] = last->out[1];
     return ok && kiriArray_Push(memory, &section->lines, line);
-}
-
-/* Lines that begin somewhere, then those that do not. */
-static bool AddLines(Pieces* p, kiriSection* section, kiriMemory* memory)
-{
-    bool ok = true;
-    for (int pass = 0; pass < 2; ++pass) {
-        for (int32_t i = 0; ok && i < p->pieces.count; ++i) {
-            if (!p->pieces.data[i].isDone && (pass == 1 || !p->pieces.data[i].isReached)) {
-                ok = AddLine(p, section, memory, i);
-            }
-        }
-    }
-    return ok;
 }
 
 bool kiriSection_Add(kiriSection* section, kiriMemory* memory, const kiriSurface* surface, const kiriBounds* bounds,
@@ -267,9 +215,13 @@ bool kiriSection_Add(kiriSection* section, kiriMemory* memory, const kiriSurface
 {
     Pieces p = { surface, window, { NULL, 0, 0 }, { NULL, 0, 0 }, { NULL, 0, 0 } };
     bool ok = kiriBounds_Find(bounds, surface, MeetsWindow, window, memory, &p.triangles) && CollectPieces(&p, memory);
-    if (ok) {
-        LinkPieces(&p);
-        ok = AddLines(&p, section, memory);
+    /* Lines that begin somewhere, then loops. */
+    for (int pass = 0; pass < 2; ++pass) {
+        for (int32_t i = 0; ok && i < p.pieces.count; ++i) {
+            if (!p.pieces.data[i].isDone && (pass == 1 || !p.pieces.data[i].isReached)) {
+                ok = AddLine(&p, section, memory, i);
+            }
+        }
     }
     kiriArray_Release(memory, &p.pieces);
     kiriArray_Release(memory, &p.triangles);
@@ -277,19 +229,21 @@ bool kiriSection_Add(kiriSection* section, kiriMemory* memory, const kiriSurface
     return ok;
 }
 
-/* ---- Sweeps: two windows that share a side ---- */
+/* ---- Sweeps: two windows that share a side ----------------------------------------------------------------------- */
 
+/* An end of a line is 2 * line + (0 or 1). */
 typedef struct Seam {
     kiriSection parts; /* lines of the first window, then of the second */
     int32_t firstCount;
-    KIRI_ARRAY(int32_t) mates; /* of each end, 2 * line + (0 or 1): the end that it goes on from, or KIRI_NONE */
-    KIRI_ARRAY(bool) done;     /* lines */
+    kiriIndices mates;     /* of each end: the end that it goes on from, or KIRI_NONE */
+    KIRI_ARRAY(bool) done; /* of each line */
 } Seam;
 
 static bool IsAtSeam(const Seam* seam, int32_t end)
 {
-    int32_t side = seam->parts.lines.data[end / 2].end[end % 2];
-    return end / 2 < seam->firstCount ? side == KIRI_SIDE_TO : side == KIRI_SIDE_FROM;
+    KIRI_ASSERT(end >= 0 && end / 2 < seam->parts.lines.count);
+    return seam->parts.lines.data[end / 2].end[end % 2] ==
+           (end / 2 < seam->firstCount ? KIRI_SIDE_TO : KIRI_SIDE_FROM);
 }
 
 static kiriVec2 RestOfEnd(const Seam* seam, int32_t end)
@@ -298,101 +252,83 @@ static kiriVec2 RestOfEnd(const Seam* seam, int32_t end)
     return seam->parts.points.data[line->first + (end % 2 == 0 ? 0 : line->count - 1)].rest;
 }
 
-/* Both windows find the same points on the seam, but for rounding: the nearest is the right one. */
+/* Both windows find the same points on the seam, but for rounding: so the nearest free end is the mate. */
 static void MateEnds(Seam* seam)
 {
-    int32_t middle = 2 * seam->firstCount, count = 2 * seam->parts.lines.count;
-    for (int32_t a = 0; a < middle; ++a) {
+    int32_t second = 2 * seam->firstCount, *mates = seam->mates.data;
+    for (int32_t i = 0; i < seam->mates.count; ++i) {
+        mates[i] = KIRI_NONE;
+        seam->done.data[i / 2] = false;
+    }
+    for (int32_t a = 0; a < second; ++a) {
         double nearest = 1e300;
-        int32_t mate = KIRI_NONE;
-        for (int32_t b = middle; IsAtSeam(seam, a) && b < count; ++b) {
+        for (int32_t b = second; IsAtSeam(seam, a) && b < seam->mates.count; ++b) {
             double distance = kiriVec2_Length(kiriVec2_Sub(RestOfEnd(seam, a), RestOfEnd(seam, b)));
-            if (IsAtSeam(seam, b) && seam->mates.data[b] == KIRI_NONE && distance < nearest) {
+            if (IsAtSeam(seam, b) && mates[b] == KIRI_NONE && distance < nearest) {
                 nearest = distance;
-                mate = b;
+                mates[a] = b;
             }
         }
-        if (mate != KIRI_NONE) {
-            seam->mates.data[a] = mate;
-            seam->mates.data[mate] = a;
+        if (mates[a] != KIRI_NONE) {
+            mates[mates[a]] = a;
         }
     }
 }
 
-/* The points of a line from one of its ends on. */
-static bool AddPoints(const Seam* seam, kiriSection* section, kiriMemory* memory, int32_t from)
-{
-    const kiriSectionLine* line = &seam->parts.lines.data[from / 2];
-    bool ok = true;
-    for (int32_t i = 0; ok && i < line->count; ++i) {
-        int32_t at = line->first + (from % 2 == 0 ? i : line->count - 1 - i);
-        ok = kiriArray_Push(memory, &section->points, seam->parts.points.data[at]);
-    }
-    return ok;
-}
-
-static bool JoinFrom(Seam* seam, kiriSection* section, kiriMemory* memory, int32_t start)
+/* Adds the line that begins with an end of a part. */
+static bool JoinLine(Seam* seam, kiriSection* section, kiriMemory* memory, int32_t start)
 {
     const kiriSectionLine* lines = seam->parts.lines.data;
-    kiriSectionLine line = lines[start / 2];
+    kiriSectionLine line = { section->points.count, 0, { KIRI_END_LOOP, KIRI_END_LOOP }, { { 0, 0 }, { 0, 0 } } };
     int32_t at = start, end = start;
-    line.first = section->points.count;
     while (at != KIRI_NONE && !seam->done.data[at / 2]) {
+        const kiriSectionLine* part = &lines[at / 2];
         seam->done.data[at / 2] = true;
-        if (!AddPoints(seam, section, memory, at)) {
-            return false;
+        for (int32_t i = 0; i < part->count; ++i) {
+            int32_t point = part->first + (at % 2 == 0 ? i : part->count - 1 - i);
+            if (!kiriArray_Push(memory, &section->points, seam->parts.points.data[point])) {
+                return false;
+            }
         }
         end = at ^ 1;
         at = seam->mates.data[end];
     }
-    line.count = section->points.count - line.first;
-    line.end[0] = at == KIRI_NONE ? lines[start / 2].end[start % 2] : KIRI_END_LOOP;
-    line.out[0] = lines[start / 2].out[start % 2];
-    line.end[1] = at == KIRI_NONE ? lines[end / 2].end[end % 2] : KIRI_END_LOOP;
-    line.out[1] = lines[end / 2].out[end % 2];
-    return kiriArray_Push(memory, &section->lines, line);
-}
-
-/* Lines that end somewhere, then those that do not. */
-static bool JoinLines(Seam* seam, kiriSection* section, kiriMemory* memory)
-{
-    bool ok = true;
-    section->points.count = section->lines.count = 0;
-    for (int pass = 0; pass < 2; ++pass) {
-        for (int32_t end = 0; ok && end < 2 * seam->parts.lines.count; ++end) {
-            if (!seam->done.data[end / 2] && (pass == 1 || seam->mates.data[end] == KIRI_NONE)) {
-                ok = JoinFrom(seam, section, memory, end);
-            }
-        }
+    if (at == KIRI_NONE) {
+        line.end[0] = lines[start / 2].end[start % 2];
+        line.end[1] = lines[end / 2].end[end % 2];
     }
-    return ok;
-}
-
-static bool AddHalf(kiriSection* section, kiriMemory* memory, const kiriSurface* surface, const kiriBounds* bounds,
-                    kiriVec3 a, kiriVec3 b, kiriVec3 c, kiriVec3 d)
-{
-    const kiriVec3 corner[4] = { a, b, c, d };
-    kiriWindow window;
-    kiriVec3 from = kiriVec3_Scale(0.5, kiriVec3_Add(a, b)), to = kiriVec3_Scale(0.5, kiriVec3_Add(c, d));
-    return !kiriWindow_Make(&window, corner, from, to) || kiriSection_Add(section, memory, surface, bounds, &window);
+    line.out[0] = lines[start / 2].out[start % 2];
+    line.out[1] = lines[end / 2].out[end % 2];
+    line.count = section->points.count - line.first;
+    return kiriArray_Push(memory, &section->lines, line);
 }
 
 bool kiriSection_Sweep(kiriSection* section, kiriMemory* memory, const kiriSurface* surface, const kiriBounds* bounds,
                        const kiriVec3 edge[4])
 {
+    const kiriVec3 halves[2][4] = { { edge[0], edge[1], edge[2], edge[0] }, { edge[0], edge[2], edge[2], edge[3] } };
     Seam seam = { { { NULL, 0, 0 }, { NULL, 0, 0 } }, 0, { NULL, 0, 0 }, { NULL, 0, 0 } };
-    bool ok = AddHalf(&seam.parts, memory, surface, bounds, edge[0], edge[1], edge[2], edge[0]);
-    seam.firstCount = seam.parts.lines.count;
-    ok = ok && AddHalf(&seam.parts, memory, surface, bounds, edge[0], edge[2], edge[2], edge[3]) &&
-         kiriArray_Resize(memory, &seam.mates, 2 * (int64_t)seam.parts.lines.count) &&
-         kiriArray_Resize(memory, &seam.done, seam.parts.lines.count);
-    for (int32_t i = 0; ok && i < 2 * seam.parts.lines.count; ++i) {
-        seam.mates.data[i] = KIRI_NONE;
-        seam.done.data[i / 2] = false;
+    bool ok = true;
+    for (int k = 0; ok && k < 2; ++k) {
+        const kiriVec3* c = halves[k];
+        kiriVec3 from = kiriVec3_Scale(0.5, kiriVec3_Add(c[0], c[1])), to = kiriVec3_Scale(0.5, kiriVec3_Add(c[2], c[3]));
+        kiriWindow window;
+        seam.firstCount = seam.parts.lines.count;
+        ok = !kiriWindow_Make(&window, c, from, to) || kiriSection_Add(&seam.parts, memory, surface, bounds, &window);
     }
+    int32_t lines = seam.parts.lines.count;
+    ok = ok && kiriArray_Resize(memory, &seam.mates, 2 * (int64_t)lines) && kiriArray_Resize(memory, &seam.done, lines);
     if (ok) {
         MateEnds(&seam);
-        ok = JoinLines(&seam, section, memory);
+    }
+    section->points.count = section->lines.count = 0;
+    /* Lines that end somewhere, then loops. */
+    for (int pass = 0; pass < 2; ++pass) {
+        for (int32_t end = 0; ok && end < 2 * lines; ++end) {
+            if (!seam.done.data[end / 2] && (pass == 1 || seam.mates.data[end] == KIRI_NONE)) {
+                ok = JoinLine(&seam, section, memory, end);
+            }
+        }
     }
     kiriArray_Release(memory, &seam.parts.points);
     kiriArray_Release(memory, &seam.parts.lines);
@@ -401,14 +337,15 @@ bool kiriSection_Sweep(kiriSection* section, kiriMemory* memory, const kiriSurfa
     return ok;
 }
 
-/* ---- Paths ---- */
+/* ---- Paths ------------------------------------------------------------------------------------------------------- */
 
 static kiriVec2 RestAt(const kiriSection* section, const kiriSectionLine* line, bool fromLast, int32_t i)
 {
+    KIRI_ASSERT(i >= 0 && i < line->count);
     return section->points.data[line->first + (fromLast ? line->count - 1 - i : i)].rest;
 }
 
-/* How many points of the line, from i on, the straight way from point i may jump to. */
+/* Returns how many points a straight way from point i may jump. */
 static int32_t JumpFrom(const kiriSection* section, const kiriSectionLine* line, bool fromLast, int32_t i,
                         double tolerance)
 {
@@ -425,21 +362,21 @@ static int32_t JumpFrom(const kiriSection* section, const kiriSectionLine* line,
     return jump;
 }
 
+/* Adds a point beyond an end of the line, if that is at a border. */
+static bool AddBeyond(const kiriSection* section, const kiriSectionLine* line, int end, double reach,
+                      kiriMemory* memory, kiriRestPoints* path)
+{
+    kiriVec2 at = RestAt(section, line, end == 1, 0);
+    return line->end[end] != KIRI_END_BORDER ||
+           kiriArray_Push(memory, path, kiriVec2_Add(at, kiriVec2_Scale(reach, line->out[end])));
+}
+
 bool kiriSection_Path(const kiriSection* section, const kiriSectionLine* line, bool fromLast, double reach,
                       double tolerance, kiriMemory* memory, kiriRestPoints* path)
 {
-    int start = fromLast ? 1 : 0, end = 1 - start;
-    bool ok = true;
-    if (line->end[start] == KIRI_END_BORDER) {
-        kiriVec2 out = kiriVec2_Scale(reach, line->out[start]);
-        ok = kiriArray_Push(memory, path, kiriVec2_Add(RestAt(section, line, fromLast, 0), out));
-    }
+    bool ok = AddBeyond(section, line, fromLast ? 1 : 0, reach, memory, path);
     for (int32_t i = 0; ok && i < line->count; i += JumpFrom(section, line, fromLast, i, tolerance)) {
         ok = kiriArray_Push(memory, path, RestAt(section, line, fromLast, i));
     }
-    if (ok && line->end[end] == KIRI_END_BORDER) {
-        kiriVec2 out = kiriVec2_Scale(reach, line->out[end]);
-        ok = kiriArray_Push(memory, path, kiriVec2_Add(RestAt(section, line, fromLast, line->count - 1), out));
-    }
-    return ok;
+    return ok && AddBeyond(section, line, fromLast ? 0 : 1, reach, memory, path);
 }
