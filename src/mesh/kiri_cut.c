@@ -2,20 +2,21 @@
 #include "../core/kiri_array.h"
 #include "kiri_lip.h"
 
-#define BESIDE (1.0 / 1024.0) /* of the side of a square: how far beside the line the material is sought */
+/* ---- The material along a line ----------------------------------------------------------------------------------- */
 
-/* A line beside the line at hand: its ends are odd, so no vertex is on one of them, and it runs along no edge that is
+/* Distance beside the line at which the material is searched, in sides of a square. */
+#define BESIDE (1.0 / 1024.0)
+
+/* A line beside the traced one. Its ends are odd, so no vertex is on one of them, and it runs along no edge that is
    parallel to an axis. */
 typedef struct SideLine {
     const kiriMeshData* mesh;
     kiriLatticePoint ends[2];
 } SideLine;
 
-/* ---- Clipping --------------------------------------------------------------------------------------------------- */
-
-/* Keeps of [*from, *to] where a linear function that has these values at the ends of the line is above zero. Where it
-   is zero throughout `keep` decides. Neighbours that share a side have the same function but for its sign, so what they
-   keep has no gap and no overlap. */
+/* Cuts [*from, *to] to where a linear function with these values at the ends of the line is above zero. Where it is zero
+   throughout `keep` decides. Neighbors that share a side have the same function but for its sign, so the parts that they
+   keep have no gap and no overlap. */
 static void ClipBy(double first, double last, bool keep, double* from, double* to)
 {
     if (first == 0.0 && last == 0.0) {
@@ -31,67 +32,31 @@ static void ClipBy(double first, double last, bool keep, double* from, double* t
     }
 }
 
-static void ClipBySquare(const SideLine* line, int32_t square, double* from, double* to)
-{
-    const kiriSquares* squares = &line->mesh->squares;
-    const kiriLatticePoint low = kiriSquares_Corner(squares, square), *p = line->ends;
-    const double side = squares->side;
-    ClipBy((double)p[0].x - low.x, (double)p[1].x - low.x, true, from, to);
-    ClipBy(low.x + side - p[0].x, low.x + side - p[1].x, false, from, to);
-    ClipBy((double)p[0].y - low.y, (double)p[1].y - low.y, true, from, to);
-    ClipBy(low.y + side - p[0].y, low.y + side - p[1].y, false, from, to);
-}
-
-static void ClipByTriangle(const SideLine* line, int32_t triangle, double* from, double* to)
-{
-    kiriLatticePoint corners[3];
-    kiriMesh_Corners(line->mesh, triangle, corners);
-    for (int i = 0; i < 3; ++i) {
-        kiriLatticePoint a = corners[i], b = corners[(i + 1) % 3];
-        bool isUp = a.y < b.y || (a.y == b.y && a.x < b.x);
-        ClipBy((double)kiriOrient(a, b, line->ends[0]), (double)kiriOrient(a, b, line->ends[1]), isUp, from, to);
-    }
-}
-
-/* ---- The triangles along a line ---------------------------------------------------------------------------------- */
-
 static bool CoverSquare(const SideLine* beside, kiriMemory* memory, int32_t square, kiriLine* line)
 {
     const kiriSquares* squares = &beside->mesh->squares;
+    const kiriLatticePoint low = kiriSquares_Corner(squares, square), *p = beside->ends;
+    const double side = squares->side;
     kiriLineCover whole = { 0.0, 1.0, KIRI_NONE };
-    ClipBySquare(beside, square, &whole.from, &whole.to);
+    ClipBy((double)p[0].x - low.x, (double)p[1].x - low.x, true, &whole.from, &whole.to);
+    ClipBy(low.x + side - p[0].x, low.x + side - p[1].x, false, &whole.from, &whole.to);
+    ClipBy((double)p[0].y - low.y, (double)p[1].y - low.y, true, &whole.from, &whole.to);
+    ClipBy(low.y + side - p[0].y, low.y + side - p[1].y, false, &whole.from, &whole.to);
     for (int32_t node = squares->head[square]; whole.from < whole.to && node != KIRI_NONE;
          node = squares->nodes.data[node].next) {
         kiriLineCover cover = { whole.from, whole.to, node };
-        ClipByTriangle(beside, squares->nodes.data[node].triangle, &cover.from, &cover.to);
+        kiriLatticePoint c[3];
+        kiriMesh_Corners(beside->mesh, squares->nodes.data[node].triangle, c);
+        for (int i = 0; i < 3; ++i) {
+            kiriLatticePoint a = c[i], b = c[(i + 1) % 3];
+            bool isUp = a.y < b.y || (a.y == b.y && a.x < b.x);
+            ClipBy((double)kiriOrient(a, b, p[0]), (double)kiriOrient(a, b, p[1]), isUp, &cover.from, &cover.to);
+        }
         if (cover.from < cover.to && !kiriArray_Push(memory, &line->covers, cover)) {
             return false;
         }
     }
     return true;
-}
-
-static int32_t Within(double a, int32_t most)
-{
-    return a < 0.0 ? 0 : a > most ? most : (int32_t)a;
-}
-
-/* The rows that the line may run through in a column, with one more at both ends for rounding. */
-static kiriSpan RowsOf(const SideLine* line, int32_t column)
-{
-    const kiriSquares* squares = &line->mesh->squares;
-    const kiriLatticePoint *a = &line->ends[0], *b = &line->ends[1];
-    double dx = (double)b->x - a->x, dy = (double)b->y - a->y, y[2];
-    double left = ((double)squares->firstColumn + column) * squares->side - 1.0;
-    for (int k = 0; k < 2; ++k) {
-        double t = dx != 0.0 ? (left + k * squares->side - a->x) / dx : k;
-        y[k] = a->y + kiriClamp(t, 0.0, 1.0) * dy;
-    }
-    double low = kiriMin(y[0], y[1]) * squares->perStep - squares->firstRow;
-    double high = kiriMax(y[1], y[0]) * squares->perStep - squares->firstRow;
-    int32_t first = Within(low - 1.0, squares->rows - 1);
-    kiriSpan rows = { first, Within(high + 2.0, squares->rows - 1) - first + 1 };
-    return rows;
 }
 
 static bool IsCoverBefore(const void* context, int32_t a, int32_t b)
@@ -100,18 +65,23 @@ static bool IsCoverBefore(const void* context, int32_t a, int32_t b)
     return x->from != y->from ? x->from < y->from : x->to != y->to ? x->to < y->to : a < b;
 }
 
-/* Adds what covers the line beside the one at hand, and puts it in order. */
-static bool CoverLine(const SideLine* beside, kiriMemory* memory, kiriLine* line, kiriIndices* order)
+/* Adds the covers of the line beside the traced one, to its left (way 1) or right (-1), and sorts them. */
+static bool CoverLine(const kiriMeshData* mesh, kiriMemory* memory, const kiriLatticePoint ends[2], double way,
+                      kiriLine* line, kiriIndices* order)
 {
-    const kiriSquares* squares = &beside->mesh->squares;
-    const kiriLatticePoint* p = beside->ends;
-    double low = kiriMin(p[0].x, p[1].x) * squares->perStep - squares->firstColumn;
-    double high = kiriMax(p[1].x, p[0].x) * squares->perStep - squares->firstColumn;
-    int32_t first = line->covers.count, last = Within(high + 1.0, squares->columns - 1);
-    for (int32_t column = Within(low - 1.0, squares->columns - 1); column <= last; ++column) {
-        kiriSpan rows = RowsOf(beside, column);
-        for (int32_t k = 0; k < rows.count; ++k) {
-            if (!CoverSquare(beside, memory, (rows.first + k) * squares->columns + column, line)) {
+    kiriVec2 along = { (double)ends[1].x - ends[0].x, (double)ends[1].y - ends[0].y };
+    double beside = way * BESIDE * mesh->squares.side / kiriVec2_Length(along);
+    int32_t first = line->covers.count;
+    SideLine side = { mesh, { ends[0], ends[1] } };
+    for (int k = 0; k < 2; ++k) {
+        side.ends[k] = kiriMesh_Round(kiriVec2_Make(ends[k].x - beside * along.y, ends[k].y + beside * along.x));
+        side.ends[k].x += 1;
+        side.ends[k].y += 1;
+    }
+    kiriStrips strips = kiriStrips_Begin(&mesh->squares, side.ends[0], side.ends[1], 0.0);
+    while (kiriStrips_Next(&strips)) {
+        for (int32_t i = 0; i < strips.count; ++i) {
+            if (!CoverSquare(&side, memory, strips.square + i * strips.stride, line)) {
                 return false;
             }
         }
@@ -126,24 +96,8 @@ static bool CoverLine(const SideLine* beside, kiriMemory* memory, kiriLine* line
     return true;
 }
 
-/* ---- Both sides -------------------------------------------------------------------------------------------------- */
-
-/* To the left for way 1, to the right for -1. */
-static SideLine LineBeside(const kiriMeshData* mesh, kiriLatticePoint from, kiriLatticePoint to, double way)
-{
-    kiriVec2 along = { (double)to.x - from.x, (double)to.y - from.y };
-    double beside = way * BESIDE * mesh->squares.side / kiriVec2_Length(along);
-    const kiriLatticePoint ends[2] = { from, to };
-    SideLine line = { mesh, { { 0, 0 }, { 0, 0 } } };
-    for (int k = 0; k < 2; ++k) {
-        line.ends[k] = kiriMesh_Round(kiriVec2_Make(ends[k].x - beside * along.y, ends[k].y + beside * along.x));
-        line.ends[k].x += 1;
-        line.ends[k].y += 1;
-    }
-    return line;
-}
-
-/* What covers the line at t, from *next on in the order, or KIRI_NONE; *end is moved to where that changes. */
+/* Returns the node that covers the line at t, or KIRI_NONE. *next is its place in the order; *end is moved to where the
+   cover changes. */
 static int32_t CoverAt(const kiriLine* line, const kiriIndices* order, int32_t* next, double t, double* end)
 {
     while (*next < order->count && line->covers.data[order->data[*next]].to <= t) {
@@ -158,52 +112,45 @@ static int32_t CoverAt(const kiriLine* line, const kiriIndices* order, int32_t* 
     return cover->from <= t ? cover->node : KIRI_NONE;
 }
 
-static bool MergeSides(kiriLine* line, kiriMemory* memory)
-{
-    int32_t next[2] = { 0, 0 };
-    for (double t = 0.0; t < 1.0;) {
-        kiriLinePart part = { t, 1.0, { KIRI_NONE, KIRI_NONE } };
-        part.node[0] = CoverAt(line, &line->order[0], &next[0], t, &part.to);
-        part.node[1] = CoverAt(line, &line->order[1], &next[1], t, &part.to);
-        bool isCovered = part.node[0] != KIRI_NONE || part.node[1] != KIRI_NONE;
-        if (isCovered && !kiriArray_Push(memory, &line->parts, part)) {
-            return false;
-        }
-        t = part.to;
-    }
-    return true;
-}
-
 bool kiriLine_Trace(kiriLine* line, kiriMemory* memory, const kiriMeshData* mesh, kiriLatticePoint from,
                     kiriLatticePoint to)
 {
-    KIRI_ASSERT(from.x != to.x || from.y != to.y);
+    const kiriLatticePoint ends[2] = { from, to };
+    int32_t next[2] = { 0, 0 };
+    bool ok = true;
+    KIRI_ASSERT(!kiriLattice_IsSame(from, to));
     line->parts.count = line->covers.count = 0;
-    for (int k = 0; k < 2; ++k) {
-        SideLine beside = LineBeside(mesh, from, to, k == 0 ? 1.0 : -1.0);
-        if (!CoverLine(&beside, memory, line, &line->order[k])) {
-            return false;
-        }
+    for (int k = 0; ok && k < 2; ++k) {
+        ok = CoverLine(mesh, memory, ends, k == 0 ? 1.0 : -1.0, line, &line->order[k]);
     }
-    return MergeSides(line, memory);
+    for (double t = 0.0; ok && t < 1.0;) {
+        kiriLinePart part = { t, 1.0, { KIRI_NONE, KIRI_NONE } };
+        for (int k = 0; k < 2; ++k) {
+            part.node[k] = CoverAt(line, &line->order[k], &next[k], t, &part.to);
+        }
+        bool isCovered = part.node[0] != KIRI_NONE || part.node[1] != KIRI_NONE;
+        ok = !isCovered || kiriArray_Push(memory, &line->parts, part);
+        t = part.to;
+    }
+    return ok;
 }
 
-/* The range of the lattice: the box of the sheet and half its longer side around it. */
+/* ---- The blade --------------------------------------------------------------------------------------------------- */
+
+/* Range of the lattice: the box of the sheet and half its longer side around it. */
 static const double LowestCoordinate = -0.5 * KIRI_LATTICE, HighestCoordinate = 1.5 * KIRI_LATTICE;
 
-/* About ns: to look at a triangle around a vertex, or in the list of a square; and what is worth an item of the
-   quota. */
+/* Cost in ns, about, of a triangle around a vertex or in the list of a square; and of an item of the quota. */
 enum { LOOK_EFFORT = 8, ITEM_EFFORT = 512 };
 
-/* Distances in snaps: corners and edges of the mesh are taken when they are this near, and lips attract the blade from
-   this far. A cut that is drawn has its ends within ON of their points, and keeps within ON of the line between them: so
-   within 2 ON of the line that was drawn. Ends that are a snap apart are within REACH then, and those two snaps apart are
-   not. */
+/* Distances in snaps: the blade takes corners and edges of the mesh within ON, and lips within REACH. The ends of a cut
+   are within ON of their points, and the cut within ON of the line between them: so within 2 ON of the line that was
+   drawn. Then ends that are a snap apart are within REACH, and ends two snaps apart are not. */
 static const double ON = 0.25, REACH = 1.5;
 enum { SLACK = 16 };
 
-/* One straight move of a blade. The mesh is walked as the plane triangulation that it is, whether edges are open or
-   not; only the outline stops the walk. So older cuts are nothing special. */
+/* One straight move of a blade. It walks the mesh as the plane triangulation that it is, whether edges are open or not;
+   only the outline stops the walk. So older cuts are not special. */
 typedef struct BladeWalk {
     kiriMeshData* mesh;
     kiriBladeTip* tip;
@@ -211,14 +158,13 @@ typedef struct BladeWalk {
     double slack;     /* lattice steps: vertices nearer to each other would make triangles too thin to split */
     kiriLatticePoint lineFrom, lineTo; /* the blade keeps to this line */
     int32_t splits;                    /* triangles made or reshaped */
-    int64_t effort;                    /* to look around, about ns */
-    bool failed;                       /* no memory */
+    int64_t effort;                    /* of searches, about ns */
+    bool failed;                       /* out of memory */
 } BladeWalk;
 
 static kiriLatticePoint VertexPoint(const BladeWalk* walk, int32_t vertex)
 {
-    KIRI_ASSERT(vertex >= 0 && vertex < walk->mesh->vertices.count);
-    return walk->mesh->vertices.data[vertex].at;
+    return kiriMesh_At(walk->mesh, vertex);
 }
 
 /* Every step must bring the blade nearer to its goal: so the walk ends, whatever rounding and snapping do. */
@@ -227,20 +173,13 @@ static bool IsNearerGoal(const BladeWalk* walk, kiriLatticePoint p)
     return kiriDistanceSquared(p, walk->tip->goal) < kiriDistanceSquared(walk->tip->at, walk->tip->goal);
 }
 
-/* Where an edge of the outline passes through a vertex of another part, splitting it is no step, but the
-   next step goes on from there. */
-static bool IsNearerOrHere(const BladeWalk* walk, kiriLatticePoint p)
-{
-    return IsNearerGoal(walk, p) || kiriLattice_IsSame(walk->tip->at, p);
-}
-
 static bool IsWithinDistance(kiriLatticePoint a, kiriLatticePoint b, double distance)
 {
     return (double)kiriDistanceSquared(a, b) <= distance * distance;
 }
 
-/* Is a point so near to the line of the move? Measured from where the move began, not from where the last corner has
-   led: small errors must not add up to a detour. */
+/* Returns true if a point is within `on` of the line of the move. That is the line from the begin of the move, not from
+   the last corner: small errors must not add up to a detour. */
 static bool IsOnLine(const BladeWalk* walk, kiriLatticePoint p)
 {
     double length = sqrt((double)kiriDistanceSquared(walk->lineFrom, walk->lineTo));
@@ -255,29 +194,18 @@ static int32_t SplitEdge(BladeWalk* walk, int32_t h, kiriLatticePoint at)
     return vertex;
 }
 
-static int32_t SplitTriangle(BladeWalk* walk, int32_t triangle, kiriLatticePoint at)
-{
-    walk->splits += 3;
-    int32_t vertex = kiriMesh_SplitTriangle(walk->mesh, triangle, at);
-    walk->failed = walk->failed || vertex == KIRI_NONE;
-    return vertex;
-}
-
 /* ---- Around a vertex --------------------------------------------------------------------------------------------- */
 
-/* Does the way to the goal start in the wedge left of h, from h (with it) to the previous half-edge (without it)? */
+/* Returns true if the way to the goal starts in the wedge left of h, from h (inclusive) to the previous half-edge
+   (exclusive). */
 static bool WedgeHolds(const BladeWalk* walk, int32_t h)
 {
-    const kiriMeshData* mesh = walk->mesh;
-    int64_t right =
-        kiriOrient(walk->tip->at, VertexPoint(walk, kiriMesh_Tail(mesh, kiriEdge_Next(h))), walk->tip->goal);
-    int64_t left =
-        kiriOrient(walk->tip->at, VertexPoint(walk, kiriMesh_Tail(mesh, kiriEdge_Previous(h))), walk->tip->goal);
-    return right >= 0 && left < 0;
+    kiriLatticePoint right = kiriMesh_HeadAt(walk->mesh, h), left = kiriMesh_TailAt(walk->mesh, kiriEdge_Previous(h));
+    return kiriOrient(walk->tip->at, right, walk->tip->goal) >= 0 && kiriOrient(walk->tip->at, left, walk->tip->goal) < 0;
 }
 
-/* The half-edge whose wedge holds the way to the goal, or KIRI_NONE: the blade leaves the sheet. Where corners of the
-   outline touch, twins do not lead from one to the other, but their triangles are in the same square. */
+/* Returns the half-edge whose wedge holds the way to the goal, or KIRI_NONE: the blade leaves the sheet. Where corners of
+   the outline touch, twins do not lead from one to the other, but their triangles are in the same square. */
 static int32_t FindWedge(BladeWalk* walk)
 {
     const kiriMeshData* mesh = walk->mesh;
@@ -290,10 +218,10 @@ static int32_t FindWedge(BladeWalk* walk)
     }
     int32_t slot = mesh->squares.head[kiriSquares_At(&mesh->squares, walk->tip->at)];
     for (; slot != KIRI_NONE; slot = mesh->squares.nodes.data[slot].next) {
-        int32_t h = 3 * mesh->squares.nodes.data[slot].triangle;
         walk->effort += LOOK_EFFORT;
-        for (int32_t end = h + 3; h < end; ++h) {
-            bool isHere = kiriLattice_IsSame(VertexPoint(walk, kiriMesh_Tail(mesh, h)), walk->tip->at);
+        for (int i = 0; i < 3; ++i) {
+            int32_t h = 3 * mesh->squares.nodes.data[slot].triangle + i;
+            bool isHere = kiriLattice_IsSame(kiriMesh_TailAt(mesh, h), walk->tip->at);
             if (isHere && (found == KIRI_NONE || h < found) && WedgeHolds(walk, h)) {
                 found = h;
             }
@@ -302,7 +230,7 @@ static int32_t FindWedge(BladeWalk* walk)
     return found;
 }
 
-/* Opens the edge from a vertex to a neighbouring point. */
+/* Opens the edge from a vertex to a neighboring point. */
 static bool OpenBetween(BladeWalk* walk, int32_t vertex, kiriLatticePoint other)
 {
     const kiriMeshData* mesh = walk->mesh;
@@ -310,8 +238,8 @@ static bool OpenBetween(BladeWalk* walk, int32_t vertex, kiriLatticePoint other)
     for (int32_t h = first; h != KIRI_NONE; h = kiriMesh_NextAround(mesh, h, first)) {
         int32_t previous = kiriEdge_Previous(h);
         walk->effort += 2 * LOOK_EFFORT; /* once more where the fan is torn */
-        bool leaves = kiriLattice_IsSame(VertexPoint(walk, kiriMesh_Tail(mesh, kiriEdge_Next(h))), other);
-        if (leaves || kiriLattice_IsSame(VertexPoint(walk, kiriMesh_Tail(mesh, previous)), other)) {
+        bool leaves = kiriLattice_IsSame(kiriMesh_HeadAt(mesh, h), other);
+        if (leaves || kiriLattice_IsSame(kiriMesh_TailAt(mesh, previous), other)) {
             walk->failed = !kiriMesh_Open(walk->mesh, leaves ? h : previous);
             return !walk->failed;
         }
@@ -323,19 +251,18 @@ static bool OpenBetween(BladeWalk* walk, int32_t vertex, kiriLatticePoint other)
 
 /* Parts of the caller's sheet that are not joined may lie on each other by a few lattice steps (kiri_mesh_build.c). A
    split in one, at a vertex of the other, must not make an edge that the other has: each half-edge is alone between its
-   ends. What they have in common is within 64 steps (along both axes) of an edge of one of them, so an edge there has a
-   thin triangle on one side. Other splits inside the sheet need not look. */
-enum { THIN_TRIANGLE = 256 };
-
-static int64_t StepsBetween(kiriLatticePoint a, kiriLatticePoint b)
-{
-    int64_t x = (int64_t)b.x - a.x, y = (int64_t)b.y - a.y;
-    return (x < 0 ? -x : x) + (y < 0 ? -y : y);
-}
-
+   ends. The parts overlap only within 64 steps (along both axes) of an edge of one of them, so an edge there has a thin
+   triangle on one side. Other splits inside the sheet need no search. */
 static bool IsThin(kiriLatticePoint a, kiriLatticePoint b, kiriLatticePoint c)
 {
-    return kiriOrient(a, b, c) <= THIN_TRIANGLE * (StepsBetween(a, b) + StepsBetween(b, c) + StepsBetween(c, a)) / 2;
+    enum { THIN = 256 };
+    const kiriLatticePoint p[4] = { a, b, c, a };
+    int64_t around = 0;
+    for (int i = 0; i < 3; ++i) {
+        int64_t x = (int64_t)p[i + 1].x - p[i].x, y = (int64_t)p[i + 1].y - p[i].y;
+        around += kiriMax(x, -x) + kiriMax(y, -y);
+    }
+    return kiriOrient(a, b, c) <= THIN * around / 2;
 }
 
 static bool IsVertexAt(BladeWalk* walk, kiriLatticePoint at)
@@ -343,7 +270,8 @@ static bool IsVertexAt(BladeWalk* walk, kiriLatticePoint at)
     return kiriMesh_VertexAt(walk->mesh, at, &walk->effort) != KIRI_NONE;
 }
 
-/* Has a triangle a corner at this point, with one of these edges: to the next corner, or from the previous one? */
+/* Returns true if a triangle has a corner at this point, and one of these edges: to the next or from the previous
+   corner. */
 static bool IsCornerTaken(BladeWalk* walk, kiriLatticePoint at, kiriLatticePoint next, kiriLatticePoint previous)
 {
     const kiriMeshData* mesh = walk->mesh;
@@ -362,42 +290,37 @@ static bool IsCornerTaken(BladeWalk* walk, kiriLatticePoint at, kiriLatticePoint
     return false;
 }
 
-/* The two triangles on one side of a split edge. */
-static bool IsSideThin(const BladeWalk* walk, int32_t h, kiriLatticePoint at)
-{
-    kiriLatticePoint c[3];
-    kiriMesh_Corners(walk->mesh, h / 3, c);
-    return IsThin(c[h % 3], at, c[(h + 2) % 3]) || IsThin(at, c[(h + 1) % 3], c[(h + 2) % 3]);
-}
-
-static bool IsSideTaken(BladeWalk* walk, int32_t h, kiriLatticePoint at)
-{
-    kiriLatticePoint c[3];
-    kiriMesh_Corners(walk->mesh, h / 3, c);
-    kiriLatticePoint a = c[h % 3], b = c[(h + 1) % 3], apex = c[(h + 2) % 3];
-    return IsCornerTaken(walk, at, apex, a) || IsCornerTaken(walk, at, b, apex);
-}
-
 static bool CanSplitEdge(BladeWalk* walk, int32_t h, kiriLatticePoint at)
 {
-    int32_t twin = kiriMesh_Twin(walk->mesh, h);
+    const int32_t sides[2] = { h, kiriMesh_Twin(walk->mesh, h) };
+    int count = sides[1] == KIRI_NONE ? 1 : 2;
+    bool isThin = count == 1, isTaken = false;
+    kiriLatticePoint ends[2][2], apex[2];
     if (!kiriMesh_CanSplitEdge(walk->mesh, h, at)) {
         return false;
     }
-    bool mustLook = twin == KIRI_NONE || IsSideThin(walk, h, at) || IsSideThin(walk, twin, at);
-    return !mustLook || !IsVertexAt(walk, at) ||
-           (!IsSideTaken(walk, h, at) && (twin == KIRI_NONE || !IsSideTaken(walk, twin, at)));
+    for (int k = 0; k < count; ++k) {
+        ends[k][0] = kiriMesh_TailAt(walk->mesh, sides[k]);
+        ends[k][1] = kiriMesh_HeadAt(walk->mesh, sides[k]);
+        apex[k] = kiriMesh_TailAt(walk->mesh, kiriEdge_Previous(sides[k]));
+        isThin = isThin || IsThin(ends[k][0], at, apex[k]) || IsThin(at, ends[k][1], apex[k]);
+    }
+    bool mustLook = isThin && IsVertexAt(walk, at);
+    for (int k = 0; mustLook && k < count; ++k) {
+        isTaken = isTaken || IsCornerTaken(walk, at, apex[k], ends[k][0]) || IsCornerTaken(walk, at, ends[k][1], apex[k]);
+    }
+    return !isTaken;
 }
 
 static bool CanSplitTriangle(BladeWalk* walk, int32_t triangle, kiriLatticePoint at)
 {
     kiriLatticePoint c[3];
-    bool mustLook = false, isTaken = false;
+    bool isThin = false, isTaken = false;
     kiriMesh_Corners(walk->mesh, triangle, c);
     for (int i = 0; i < 3; ++i) {
-        mustLook = mustLook || IsThin(c[i], c[(i + 1) % 3], at);
+        isThin = isThin || IsThin(c[i], c[(i + 1) % 3], at);
     }
-    mustLook = mustLook && IsVertexAt(walk, at);
+    bool mustLook = isThin && IsVertexAt(walk, at);
     for (int i = 0; i < 3 && mustLook; ++i) {
         isTaken = isTaken || IsCornerTaken(walk, at, c[i], c[(i + 1) % 3]);
     }
@@ -411,9 +334,8 @@ static bool FlipEdge(BladeWalk* walk, int32_t h)
     if (!kiriMesh_CanFlipEdge(walk->mesh, h)) {
         return false;
     }
-    int32_t twin = kiriMesh_Twin(walk->mesh, h);
-    kiriLatticePoint c = VertexPoint(walk, kiriMesh_Tail(walk->mesh, kiriEdge_Previous(h))),
-                     d = VertexPoint(walk, kiriMesh_Tail(walk->mesh, kiriEdge_Previous(twin)));
+    kiriLatticePoint c = kiriMesh_TailAt(walk->mesh, kiriEdge_Previous(h)),
+                     d = kiriMesh_TailAt(walk->mesh, kiriEdge_Previous(kiriMesh_Twin(walk->mesh, h)));
     if (IsCornerTaken(walk, d, c, c)) {
         return false;
     }
@@ -424,43 +346,12 @@ static bool FlipEdge(BladeWalk* walk, int32_t h)
 
 /* ---- Vertices for the blade -------------------------------------------------------------------------------------- */
 
-static int32_t NearestCorner(const BladeWalk* walk, int32_t triangle, kiriLatticePoint at)
-{
-    const int32_t* v = walk->mesh->triangles.data[triangle].vertex;
-    int32_t nearest = v[0];
-    for (int i = 1; i < 3; ++i) {
-        if (kiriDistanceSquared(VertexPoint(walk, v[i]), at) < kiriDistanceSquared(VertexPoint(walk, nearest), at)) {
-            nearest = v[i];
-        }
-    }
-    return nearest;
-}
-
-/* The half-edge of the triangle that is nearest to a point in it, and the foot of the point on it. */
-static int32_t NearestEdge(const BladeWalk* walk, int32_t triangle, kiriLatticePoint at, kiriLatticePoint* foot)
-{
-    kiriLatticePoint c[3];
-    kiriMesh_Corners(walk->mesh, triangle, c);
-    int32_t nearest = KIRI_NONE;
-    for (int i = 0; i < 3; ++i) {
-        kiriLatticePoint a = c[i], b = c[(i + 1) % 3];
-        double share = (double)kiriLattice_Dot(a, b, at) / (double)kiriDistanceSquared(a, b);
-        kiriLatticePoint p = kiriLattice_Between(a, b, share < 0.0 ? 0.0 : share > 1.0 ? 1.0 : share);
-        if (nearest == KIRI_NONE || kiriDistanceSquared(p, at) < kiriDistanceSquared(*foot, at)) {
-            nearest = 3 * triangle + i;
-            *foot = p;
-        }
-    }
-    return nearest;
-}
-
 /* Finds a point near this one where the edge can be split, within `on`. Beside a triangle that is only a few lattice steps
    high it is a little beside the edge, or farther along it, so that new triangles are counter-clockwise. */
 static bool FindSplit(BladeWalk* walk, int32_t h, kiriLatticePoint* at)
 {
     static const double along[] = { 0.0, 0.125, -0.125, 0.25, -0.25, 0.5, -0.5, 1.0, -1.0 };
-    kiriLatticePoint a = VertexPoint(walk, kiriMesh_Tail(walk->mesh, h)), p = *at,
-                     b = VertexPoint(walk, kiriMesh_Tail(walk->mesh, kiriEdge_Next(h)));
+    kiriLatticePoint a = kiriMesh_TailAt(walk->mesh, h), b = kiriMesh_HeadAt(walk->mesh, h), p = *at;
     double length = sqrt((double)kiriDistanceSquared(a, b)), x = ((double)b.x - a.x) / length,
            y = ((double)b.y - a.y) / length;
     bool canSplit = CanSplitEdge(walk, h, p), isOutline = kiriMesh_Twin(walk->mesh, h) == KIRI_NONE;
@@ -476,50 +367,70 @@ static bool FindSplit(BladeWalk* walk, int32_t h, kiriLatticePoint* at)
     return canSplit;
 }
 
-/* A vertex for a point of an edge: an end where that is near, or for want of a better; or a new one. */
+/* Returns a vertex for a point of an edge: the nearer end, if it is near or the edge cannot be split; else a new one. */
 static int32_t VertexOnEdge(BladeWalk* walk, int32_t h, kiriLatticePoint at)
 {
-    int32_t a = kiriMesh_Tail(walk->mesh, h), b = kiriMesh_Tail(walk->mesh, kiriEdge_Next(h));
+    int32_t a = kiriMesh_Tail(walk->mesh, h), b = kiriMesh_Head(walk->mesh, h);
     bool isFirst = kiriDistanceSquared(VertexPoint(walk, a), at) <= kiriDistanceSquared(VertexPoint(walk, b), at);
     int32_t near = isFirst ? a : b;
     bool takesEnd = IsWithinDistance(VertexPoint(walk, near), at, walk->on) || !FindSplit(walk, h, &at);
     return takesEnd ? near : SplitEdge(walk, h, at);
 }
 
-/* A vertex for a point in the triangle: a corner or a point of an edge where they are near, or a new one inside. */
+/* Returns a vertex for a point in the triangle: a corner or a point of an edge if it is near, else a new one inside. */
 static int32_t VertexIn(BladeWalk* walk, int32_t triangle, kiriLatticePoint at)
 {
-    int32_t corner = NearestCorner(walk, triangle, at);
-    if (IsWithinDistance(VertexPoint(walk, corner), at, walk->on)) {
+    const int32_t* v = walk->mesh->triangles.data[triangle].vertex;
+    kiriLatticePoint c[3], foot = at;
+    int nearest = 0;
+    int32_t h = KIRI_NONE;
+    kiriMesh_Corners(walk->mesh, triangle, c);
+    for (int i = 1; i < 3; ++i) {
+        nearest = kiriDistanceSquared(c[i], at) < kiriDistanceSquared(c[nearest], at) ? i : nearest;
+    }
+    int32_t corner = v[nearest];
+    if (IsWithinDistance(c[nearest], at, walk->on)) {
         return corner;
     }
-    kiriLatticePoint foot;
-    int32_t h = NearestEdge(walk, triangle, at, &foot);
+    for (int i = 0; i < 3; ++i) {
+        kiriLatticePoint p = kiriLattice_Nearest(c[i], c[(i + 1) % 3], at);
+        if (h == KIRI_NONE || kiriDistanceSquared(p, at) < kiriDistanceSquared(foot, at)) {
+            h = 3 * triangle + i;
+            foot = p;
+        }
+    }
     if (IsWithinDistance(foot, at, walk->on) && FindSplit(walk, h, &foot)) {
         return SplitEdge(walk, h, foot);
     }
-    return CanSplitTriangle(walk, triangle, at) ? SplitTriangle(walk, triangle, at) : corner;
+    if (!CanSplitTriangle(walk, triangle, at)) {
+        return corner;
+    }
+    walk->splits += 3;
+    int32_t vertex = kiriMesh_SplitTriangle(walk->mesh, triangle, at);
+    walk->failed = walk->failed || vertex == KIRI_NONE;
+    return vertex;
 }
 
-/* Returns a vertex where the way to the goal crosses half-edge h: one of its ends where that is near, or a new one. If
+/* Returns a vertex where the way to the goal crosses half-edge h: one of its ends if it is near, or a new one. If
    the triangles beside h are too thin to split, flips h and returns the vertex opposite of it, where the walk is; if that
    cannot be done, returns an end that is nearer to the goal, or KIRI_NONE. */
 static int32_t VertexOn(BladeWalk* walk, int32_t h)
 {
-    int32_t a = kiriMesh_Tail(walk->mesh, h), b = kiriMesh_Tail(walk->mesh, kiriEdge_Next(h));
+    int32_t a = kiriMesh_Tail(walk->mesh, h), b = kiriMesh_Head(walk->mesh, h);
     kiriLatticePoint pa = VertexPoint(walk, a), pb = VertexPoint(walk, b), at = walk->tip->at, goal = walk->tip->goal;
     double toA = (double)kiriOrient(at, goal, pa), toB = (double)kiriOrient(at, goal, pb);
     double share = toA / (toA - toB);
-    kiriLatticePoint crossing = kiriLattice_Between(pa, pb, share);
+    kiriLatticePoint crossing = kiriLattice_Between(pa, pb, share), p = share < 0.5 ? pa : pb;
     int32_t near = share < 0.5 ? a : b, far = share < 0.5 ? b : a;
-    bool canTake = IsNearerGoal(walk, VertexPoint(walk, near));
-    kiriLatticePoint p = VertexPoint(walk, near);
+    bool canTake = IsNearerGoal(walk, p);
     bool isNear =
         IsWithinDistance(p, crossing, walk->slack) || (IsWithinDistance(p, crossing, walk->on) && IsOnLine(walk, p));
     if (canTake && isNear) {
         return near;
     }
-    if (FindSplit(walk, h, &crossing) && IsNearerOrHere(walk, crossing)) {
+    /* Where an edge of the outline passes through a vertex of another part, the split is no step, but the next step goes on
+       from there. */
+    if (FindSplit(walk, h, &crossing) && (IsNearerGoal(walk, crossing) || kiriLattice_IsSame(at, crossing))) {
         return SplitEdge(walk, h, crossing);
     }
     if (FlipEdge(walk, h)) {
@@ -538,56 +449,47 @@ static void MoveTo(BladeWalk* walk, int32_t vertex)
 
 /* ---- Into the sheet ---------------------------------------------------------------------------------------------- */
 
-/* The first point, as a share of the way, where the way comes in over half-edge h; 2 where it does not. Both ends count
-   as part of the edge: a corner that the way only touches is taken, and left again at once. */
+/* Returns the share of the way where it comes in over half-edge h; 2 if it does not. Both ends count as part of the edge:
+   a corner that the way only touches is taken, and left again at once. */
 static double EntryOver(const BladeWalk* walk, int32_t h)
 {
-    const kiriMeshData* mesh = walk->mesh;
-    kiriLatticePoint a = VertexPoint(walk, kiriMesh_Tail(mesh, h)), at = walk->tip->at, goal = walk->tip->goal,
-                     b = VertexPoint(walk, kiriMesh_Tail(mesh, kiriEdge_Next(h)));
+    kiriLatticePoint a = kiriMesh_TailAt(walk->mesh, h), b = kiriMesh_HeadAt(walk->mesh, h), at = walk->tip->at,
+                     goal = walk->tip->goal;
     int64_t here = kiriOrient(a, b, at), there = kiriOrient(a, b, goal);
-    if (kiriMesh_Twin(mesh, h) != KIRI_NONE || here > 0 || there <= 0 || kiriLattice_IsSame(a, at) ||
+    if (kiriMesh_Twin(walk->mesh, h) != KIRI_NONE || here > 0 || there <= 0 || kiriLattice_IsSame(a, at) ||
         kiriLattice_IsSame(b, at) || kiriOrient(at, goal, a) < 0 || kiriOrient(at, goal, b) > 0) {
         return 2.0;
     }
     return (double)-here / ((double)there - (double)here);
 }
 
-typedef struct SheetEntry {
-    int32_t edge;
-    double share;
-} SheetEntry;
-
-static void FindEntryInSquare(BladeWalk* walk, int32_t square, SheetEntry* entry)
+/* Goes from outside, or from the outline outwards, to where the way to the goal first comes into the sheet; or all the way
+   to the goal. */
+static bool EnterSheet(BladeWalk* walk)
 {
     const kiriMeshData* mesh = walk->mesh;
-    walk->effort += LOOK_EFFORT;
-    for (int32_t i = mesh->squares.head[square]; i != KIRI_NONE; i = mesh->squares.nodes.data[i].next) {
-        int32_t h = 3 * mesh->squares.nodes.data[i].triangle;
-        walk->effort += LOOK_EFFORT;
-        for (int32_t end = h + 3; h < end; ++h) {
-            double share = EntryOver(walk, h);
-            if (share < entry->share || (share == entry->share && share <= 1.0 && h < entry->edge)) {
-                entry->edge = h;
-                entry->share = share;
+    int32_t edge = KIRI_NONE;
+    double least = 2.0;
+    kiriStrips strips = kiriStrips_Begin(&mesh->squares, walk->tip->at, walk->tip->goal, 0.0);
+    while (kiriStrips_Next(&strips)) {
+        for (int32_t i = 0; i < strips.count; ++i) {
+            int32_t slot = mesh->squares.head[strips.square + i * strips.stride];
+            walk->effort += LOOK_EFFORT;
+            for (; slot != KIRI_NONE; slot = mesh->squares.nodes.data[slot].next) {
+                walk->effort += LOOK_EFFORT;
+                for (int k = 0; k < 3; ++k) {
+                    int32_t h = 3 * mesh->squares.nodes.data[slot].triangle + k;
+                    double share = EntryOver(walk, h);
+                    if (share < least || (share == least && share <= 1.0 && h < edge)) {
+                        edge = h;
+                        least = share;
+                    }
+                }
             }
         }
     }
-}
-
-/* From outside, or from the outline outwards: to where the way to the goal comes into the sheet first, or all the way to
-   the goal. */
-static bool EnterSheet(BladeWalk* walk)
-{
-    SheetEntry entry = { KIRI_NONE, 2.0 };
-    kiriStrips strips = kiriStrips_Begin(&walk->mesh->squares, walk->tip->at, walk->tip->goal, 0.0);
-    while (kiriStrips_Next(&strips)) {
-        for (int32_t i = 0; i < strips.count; ++i) {
-            FindEntryInSquare(walk, strips.square + i * strips.stride, &entry);
-        }
-    }
-    int32_t vertex = entry.edge == KIRI_NONE ? kiriMesh_VertexAt(walk->mesh, walk->tip->goal, &walk->effort)
-                                             : VertexOn(walk, entry.edge);
+    int32_t vertex =
+        edge == KIRI_NONE ? kiriMesh_VertexAt(mesh, walk->tip->goal, &walk->effort) : VertexOn(walk, edge);
     walk->tip->vertex = vertex;
     walk->tip->at = vertex == KIRI_NONE ? walk->tip->goal : VertexPoint(walk, vertex);
     return !walk->failed;
@@ -595,7 +497,7 @@ static bool EnterSheet(BladeWalk* walk)
 
 /* ---- Through the sheet ------------------------------------------------------------------------------------------- */
 
-/* Can the blade go along the edge to this end of it? It must not go past the goal. */
+/* Returns true if the blade can go along the edge to this end of it. It must not go past the goal. */
 static bool CanFollow(const BladeWalk* walk, int32_t vertex)
 {
     kiriLatticePoint p = VertexPoint(walk, vertex), goal = walk->tip->goal;
@@ -603,17 +505,13 @@ static bool CanFollow(const BladeWalk* walk, int32_t vertex)
            (IsNearerGoal(walk, p) && kiriLattice_Dot(goal, p, walk->tip->at) > 0 && IsOnLine(walk, p));
 }
 
-/* The next vertex in the triangle left of h, whose wedge holds the way to the goal. KIRI_NONE: the blade stops. */
+/* Returns the next vertex in the triangle left of h, whose wedge holds the way to the goal. KIRI_NONE: the blade stops. */
 static int32_t NextVertex(BladeWalk* walk, int32_t h)
 {
-    int32_t opposite = kiriEdge_Next(h);
-    int32_t a = kiriMesh_Tail(walk->mesh, opposite), b = kiriMesh_Tail(walk->mesh, kiriEdge_Next(opposite));
+    int32_t opposite = kiriEdge_Next(h), a = kiriMesh_Tail(walk->mesh, opposite), b = kiriMesh_Head(walk->mesh, opposite);
     bool takesA = CanFollow(walk, a), takesB = CanFollow(walk, b);
-    if (takesA && takesB) {
-        return kiriLattice_IsSame(VertexPoint(walk, b), walk->tip->goal) ? b : a;
-    }
     if (takesA || takesB) {
-        return takesA ? a : b;
+        return takesB && (!takesA || kiriLattice_IsSame(VertexPoint(walk, b), walk->tip->goal)) ? b : a;
     }
     if (kiriOrient(VertexPoint(walk, a), VertexPoint(walk, b), walk->tip->goal) < 0) {
         return VertexOn(walk, opposite);
@@ -648,15 +546,11 @@ static kiriCorridor CorridorOf(const BladeWalk* walk, kiriLatticePoint from, kir
     return kiriCorridor_Make(walk->mesh, from, to, walk->on + walk->slack, walk->reach);
 }
 
-/* A triangle at a point, or KIRI_NONE. */
+/* Returns a triangle at a point, or KIRI_NONE. */
 static int32_t LocatePoint(BladeWalk* walk, kiriLatticePoint at)
 {
-    const kiriSquares* squares = &walk->mesh->squares;
-    int32_t square = kiriSquares_At(squares, at);
-    for (int32_t n = square == KIRI_NONE ? KIRI_NONE : squares->head[square]; n != KIRI_NONE;
-         n = squares->nodes.data[n].next) {
-        walk->effort += LOOK_EFFORT;
-    }
+    int32_t square = kiriSquares_At(&walk->mesh->squares, at);
+    walk->effort += square == KIRI_NONE ? 0 : LOOK_EFFORT * (int64_t)kiriSquares_CountNodes(&walk->mesh->squares, square);
     return kiriMesh_Locate(walk->mesh, at);
 }
 
@@ -755,7 +649,7 @@ static void Look(BladeWalk* walk)
     tip->phase = KIRI_BLADE_WALKS;
 }
 
-/* Goes on along a lip where that comes back on the line before the goal, or leads on beside it. */
+/* Goes on along a lip, if it comes back on the line before the goal, or leads on beside the line. */
 static bool FollowLip(BladeWalk* walk)
 {
     kiriBladeTip* tip = walk->tip;
@@ -790,7 +684,7 @@ static void Walk(BladeWalk* walk)
     }
 }
 
-/* To the lip, and back along the cut that this makes. */
+/* Cuts to the lip, and jumps back along that cut. */
 static void Join(BladeWalk* walk)
 {
     kiriBladeTip* tip = walk->tip;
@@ -826,21 +720,11 @@ static void TakeStep(BladeWalk* walk, kiriLatticePoint to)
     }
 }
 
-/* The items of a step that is done. */
-static int64_t CountItems(BladeWalk* walk)
-{
-    kiriSquares* squares = &walk->mesh->squares;
-    int64_t items = (walk->splits > 0 ? walk->splits : 1) + (walk->effort + squares->effort) / ITEM_EFFORT;
-    walk->splits = 0;
-    walk->effort = squares->effort = 0;
-    return items;
-}
-
 kiriProgress kiriCut_Move(kiriMeshData* mesh, kiriBladeTip* blade, kiriLatticePoint to, double snap, kiriQuota* quota)
 {
     kiriBladeTip tip = *blade;
     double on = ON * snap;
-    BladeWalk walk = { mesh, &tip, on, REACH * snap, on < SLACK ? on : SLACK, tip.at, to, 0, 0, false };
+    BladeWalk walk = { mesh, &tip, on, REACH * snap, kiriMin(on, SLACK), tip.at, to, 0, 0, false };
     KIRI_ASSERT(mesh->isOpen && quota->left >= 0 && snap >= 0.0);
     KIRI_ASSERT(tip.vertex == KIRI_NONE || kiriLattice_IsSame(VertexPoint(&walk, tip.vertex), tip.at));
     mesh->squares.effort = 0;
@@ -850,7 +734,9 @@ kiriProgress kiriCut_Move(kiriMeshData* mesh, kiriBladeTip* blade, kiriLatticePo
     while (!walk.failed && kiriQuota_Pay(quota, &tip.owed) && tip.phase != KIRI_BLADE_RESTS &&
            quota->left >= KIRI_MOST_SPLITS) {
         TakeStep(&walk, to);
-        tip.owed = CountItems(&walk);
+        tip.owed = kiriMax(walk.splits, 1) + (walk.effort + mesh->squares.effort) / ITEM_EFFORT;
+        walk.splits = 0;
+        walk.effort = mesh->squares.effort = 0;
     }
     if (walk.failed) {
         return KIRI_FAILED;
@@ -859,20 +745,15 @@ kiriProgress kiriCut_Move(kiriMeshData* mesh, kiriBladeTip* blade, kiriLatticePo
     return tip.phase == KIRI_BLADE_RESTS ? KIRI_DONE : KIRI_MORE;
 }
 
-static double ClampCoordinate(double x, double low, double high)
-{
-    return x < low ? low : x > high ? high : x;
-}
-
 kiriBladeTip kiriCut_Place(const kiriMeshData* mesh, kiriVec2 local)
 {
-    return kiriCut_PlaceAt(
-        kiriMesh_Round(kiriVec2_Make(ClampCoordinate(local.x / mesh->step, LowestCoordinate, HighestCoordinate),
-                                     ClampCoordinate(local.y / mesh->step, LowestCoordinate, HighestCoordinate))));
+    double x = local.x / mesh->step, y = local.y / mesh->step;
+    return kiriCut_PlaceAt(kiriMesh_Round(kiriVec2_Make(kiriClamp(x, LowestCoordinate, HighestCoordinate),
+                                                        kiriClamp(y, LowestCoordinate, HighestCoordinate))));
 }
 
-/* Cuts off what is above the limit on one axis, or below it. (u, v) of an end: its coordinates on this axis and on the
-   other. Halves and shares, so that the largest numbers stay finite. */
+/* Cuts off the part above (or below) the limit on one axis. u and v: coordinates on this axis and on the other. Halves keep
+   the largest numbers finite. */
 static bool ClipAxis(double* fromU, double* fromV, double* toU, double* toV, double limit, bool above)
 {
     bool fromOut = above ? *fromU > limit : *fromU < limit, toOut = above ? *toU > limit : *toU < limit;

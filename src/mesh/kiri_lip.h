@@ -1,5 +1,5 @@
-/* Finds the lips near a point or along a line that a blade joins. A lip is an edge that a cut has opened; here the outline of the
-   sheet counts as a lip, too. */
+/* Finds the lips that a blade joins, near a point or along a line. A lip is an edge that a cut has opened; here the outline
+   of the sheet counts as a lip, too. */
 #ifndef KIRI_LIP_H
 #define KIRI_LIP_H
 
@@ -37,6 +37,9 @@ int32_t kiriMesh_VertexAt(const kiriMeshData* mesh, kiriLatticePoint at, int64_t
 /* Rounds the point at this share of the way from a to b. */
 kiriLatticePoint kiriLattice_Between(kiriLatticePoint a, kiriLatticePoint b, double share);
 
+/* Rounds the point of the segment from a to b that is nearest to p. */
+kiriLatticePoint kiriLattice_Nearest(kiriLatticePoint a, kiriLatticePoint b, kiriLatticePoint p);
+
 /* A point on a lip. */
 typedef struct kiriLipPoint {
     int32_t edge; /* a half-edge of the lip, or KIRI_NONE */
@@ -69,18 +72,6 @@ typedef struct kiriLipStop {
 /* The first such vertex beyond `after`. One beside the line is joined if no lip leads from it to the line, and no vertex
    that lips lead to is nearer. False: there is none. */
 bool kiriLip_FindStop(kiriCorridor* corridor, kiriLatticePoint after, kiriLipStop* stop);
-
-/* The squares within `margin` of a segment, in strips across its longer axis, from its start on. */
-typedef struct kiriStrips {
-    const kiriSquares* squares;
-    double from[2], way[2], margin;
-    int32_t axis; /* the longer one: 0 x, 1 y */
-    int32_t index, last, step;
-    int32_t square, count, stride; /* of the strip: the first square, how many, and from one to the next */
-} kiriStrips;
-
-kiriStrips kiriStrips_Begin(const kiriSquares* squares, kiriLatticePoint from, kiriLatticePoint to, double margin);
-bool kiriStrips_Next(kiriStrips* strips);
 
 KIRI_C_END
 

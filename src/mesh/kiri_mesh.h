@@ -173,6 +173,16 @@ static inline kiriLatticePoint kiriMesh_At(const kiriMeshData* mesh, int32_t ver
     return mesh->vertices.data[vertex].at;
 }
 
+/* Returns the lattice points of the ends of a half-edge. */
+static inline kiriLatticePoint kiriMesh_TailAt(const kiriMeshData* mesh, int32_t h)
+{
+    return kiriMesh_At(mesh, kiriMesh_Tail(mesh, h));
+}
+static inline kiriLatticePoint kiriMesh_HeadAt(const kiriMeshData* mesh, int32_t h)
+{
+    return kiriMesh_At(mesh, kiriMesh_Head(mesh, h));
+}
+
 static inline int32_t kiriMesh_Twin(const kiriMeshData* mesh, int32_t h)
 {
     return kiriMesh_TriangleOf(mesh, h)->twin[h % 3];

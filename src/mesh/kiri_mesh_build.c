@@ -363,8 +363,8 @@ static bool EdgeSeparates(const kiriLatticePoint a[3], const kiriLatticePoint b[
 /* Returns true if two edges of the outline meet elsewhere than where one follows the other around a bend. */
 static bool EdgesMeet(const kiriMeshData* mesh, int32_t g, int32_t h)
 {
-    kiriLatticePoint a = kiriMesh_At(mesh, kiriMesh_Tail(mesh, g)), b = kiriMesh_At(mesh, kiriMesh_Head(mesh, g));
-    kiriLatticePoint c = kiriMesh_At(mesh, kiriMesh_Tail(mesh, h)), d = kiriMesh_At(mesh, kiriMesh_Head(mesh, h));
+    kiriLatticePoint a = kiriMesh_TailAt(mesh, g), b = kiriMesh_HeadAt(mesh, g);
+    kiriLatticePoint c = kiriMesh_TailAt(mesh, h), d = kiriMesh_HeadAt(mesh, h);
     if (kiriLattice_IsSame(b, c)) {
         return kiriOrient(a, b, d) == 0 && kiriLattice_Dot(b, a, d) >= 0;
     }
@@ -484,8 +484,7 @@ static int32_t ListLoop(const kiriMeshData* mesh, int32_t first, OverlapItem* it
 {
     int32_t count = 0, h = first;
     do {
-        const kiriLatticePoint ends[2] = { kiriMesh_At(mesh, kiriMesh_Tail(mesh, h)),
-                                           kiriMesh_At(mesh, kiriMesh_Head(mesh, h)) };
+        const kiriLatticePoint ends[2] = { kiriMesh_TailAt(mesh, h), kiriMesh_HeadAt(mesh, h) };
         items[count++] = MakeOverlapItem(ends, 2, 1, h);
         h = kiriEdge_Next(h);
         while (kiriMesh_Twin(mesh, h) != KIRI_NONE) {

@@ -409,3 +409,57 @@ void kiriSquares_Keep(kiriSquares* squares, const kiriKeep* triangles, const int
         nodes[n].triangle = kiriKeep_To(triangles, nodes[n].triangle);
     }
 }
+
+/* ---- Strips ------------------------------------------------------------------------------------------------------ */
+
+/* Returns the column or row of a coordinate, from the first one of the squares on, clamped to -1 and `count`. */
+static int32_t ClampLine(double coordinate, int32_t side, int32_t first, int32_t count)
+{
+    double line = (coordinate + 1.0) / side - first;
+    return line < 0.0 ? -1 : line >= count ? count : (int32_t)line;
+}
+
+kiriStrips kiriStrips_Begin(const kiriSquares* squares, kiriLatticePoint from, kiriLatticePoint to, double margin)
+{
+    kiriStrips s = {
+        squares, { from.x, from.y }, { (double)to.x - from.x, (double)to.y - from.y }, margin + 2.0, 0, 0, 0, 1, 0, 0, 0
+    };
+    s.axis = fabs(s.way[1]) > fabs(s.way[0]) ? 1 : 0;
+    s.step = s.way[s.axis] < 0.0 ? -1 : 1;
+    int32_t first = s.axis == 0 ? squares->firstColumn : squares->firstRow;
+    int32_t count = s.axis == 0 ? squares->columns : squares->rows;
+    double start = s.from[s.axis] - s.step * s.margin, end = s.from[s.axis] + s.way[s.axis] + s.step * s.margin;
+    s.index = ClampLine(start, squares->side, first, count) + first;
+    s.last = ClampLine(end, squares->side, first, count) + first;
+    return s;
+}
+
+bool kiriStrips_Next(kiriStrips* s)
+{
+    const kiriSquares* squares = s->squares;
+    const int32_t first[2] = { squares->firstColumn, squares->firstRow }, count[2] = { squares->columns, squares->rows },
+                  stride[2] = { 1, squares->columns };
+    int32_t axis = s->axis, across = 1 - axis, side = squares->side;
+    while (s->step * (s->last - s->index) >= 0) {
+        int32_t strip = s->index - first[axis];
+        double near = (double)s->index * side - 1.0 - s->margin, far = near + side + 2.0 * s->margin;
+        double way = s->way[axis];
+        s->index += s->step;
+        if (strip < 0 || strip >= count[axis]) {
+            continue;
+        }
+        double a = way == 0.0 ? 0.0 : ((way > 0.0 ? near : far) - s->from[axis]) / way;
+        double b = way == 0.0 ? 1.0 : ((way > 0.0 ? far : near) - s->from[axis]) / way;
+        double p = s->from[across] + kiriClamp(a, 0.0, 1.0) * s->way[across];
+        double q = s->from[across] + kiriClamp(b, 0.0, 1.0) * s->way[across];
+        int32_t low = ClampLine(kiriMin(p, q) - s->margin, side, first[across], count[across]);
+        int32_t high = ClampLine(kiriMax(p, q) + s->margin, side, first[across], count[across]);
+        low = kiriMax(low, 0);
+        high = kiriMin(high, count[across] - 1);
+        s->stride = stride[across];
+        s->square = strip * stride[axis] + low * stride[across];
+        s->count = high < low ? 0 : high - low + 1;
+        return true;
+    }
+    return false;
+}

@@ -128,6 +128,20 @@ bool kiriSquares_FindOverlaps(const kiriSquares* squares, const kiriLatticePoint
 /* Returns the number of squares that a triangle overlaps. */
 int64_t kiriSquares_CountOverlaps(const kiriSquares* squares, const kiriLatticePoint corners[3]);
 
+/* The squares within `margin` of a segment, in strips across its longer axis, from its start on. */
+typedef struct kiriStrips {
+    const kiriSquares* squares;
+    double from[2], way[2], margin;
+    int32_t axis; /* the longer one: 0 x, 1 y */
+    int32_t index, last, step;
+    int32_t square, count, stride; /* of the current strip: first square, number, and distance between squares */
+} kiriStrips;
+
+kiriStrips kiriStrips_Begin(const kiriSquares* squares, kiriLatticePoint from, kiriLatticePoint to, double margin);
+
+/* Goes to the next strip. Returns false after the last. */
+bool kiriStrips_Next(kiriStrips* strips);
+
 KIRI_C_END
 
 #endif
