@@ -203,7 +203,6 @@ static bool Check_PiecesOfMesh(Check* check, const kiriSheetData* sheet)
 {
     const kiriMeshData* mesh = &sheet->mesh;
     int32_t pieces = mesh->triangles.count, *parent = Check_Unions(check, pieces);
-    pieces -= mesh->triangleHoles;
     check->part = "pieces";
     for (int32_t h = 0; h < 3 * mesh->triangles.count; ++h) {
         int32_t twin = kiriMesh_Twin(mesh, h);
@@ -416,10 +415,7 @@ static bool Check_Skin(Check* check, const kiriSheetData* sheet, const kiriSkin*
         return false;
     }
     for (int32_t i = 0; i < count; ++i) {
-        bool isHole = skin == &sheet->vertexSkin && !kiriMesh_IsVertex(&sheet->mesh, i);
-        REQUIRE(!isHole || skin->spans.data[i].count == 0, "vertex %d is a hole, and has weights", i);
-        if (!isHole &&
-            (!Rooms_Take(check, &rooms, skin->spans.data[i], i) || !Check_SampleWeights(check, sheet, skin, i))) {
+        if (!Rooms_Take(check, &rooms, skin->spans.data[i], i) || !Check_SampleWeights(check, sheet, skin, i)) {
             return false;
         }
     }
@@ -476,11 +472,6 @@ static bool Check_Topology(Check* check, const kiriSheetData* sheet)
     REQUIRE(surface->revision == mesh->revision, "revision %u of %u", surface->revision, mesh->revision);
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
         const int32_t *is = mesh->triangles.data[t].vertex, unseen[3] = { is[0], is[0], is[0] };
-        const int32_t* seen = &surface->indices.data[3 * (size_t)t];
-        if (!kiriMesh_IsTriangle(mesh, t)) {
-            REQUIRE(seen[0] == seen[1] && seen[1] == seen[2], "triangle %d is a hole, and seen", t);
-            continue;
-        }
         REQUIRE(memcmp(&surface->indices.data[3 * (size_t)t], Check_IsVertexGone(sheet, is[0]) ? unseen : is,
                        3 * sizeof(int32_t)) == 0,
                 "triangle %d has other corners", t);
@@ -488,13 +479,10 @@ static bool Check_Topology(Check* check, const kiriSheetData* sheet)
     for (int32_t v = 0; v < mesh->vertices.count; ++v) {
         kiriVec2 rest = kiriMesh_Local(mesh, mesh->vertices.data[v].at);
         REQUIRE(surface->rest.data[v].x == rest.x && surface->rest.data[v].y == rest.y, "vertex %d rests elsewhere", v);
-        float share[3] = { 0.0f, 0.0f, 0.0f };
-        bool isVertex = kiriMesh_IsVertex(mesh, v);
-        if (isVertex) {
-            kiriMesh_GetShare(mesh, v, share);
-        }
-        REQUIRE(!isVertex || (surface->sourceTriangles.data[v] == mesh->vertices.data[v].source &&
-                              memcmp(&surface->sourceWeights.data[3 * (size_t)v], share, sizeof(share)) == 0),
+        float share[3];
+        kiriMesh_GetShare(mesh, v, share);
+        REQUIRE(surface->sourceTriangles.data[v] == mesh->vertices.data[v].source &&
+                    memcmp(&surface->sourceWeights.data[3 * (size_t)v], share, sizeof(share)) == 0,
                 "vertex %d has another source", v);
     }
     return true;

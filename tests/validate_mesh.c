@@ -5,27 +5,6 @@
 
 /* ---- Triangles and edges ---- */
 
-/* Nothing is left of them, and all are counted. */
-static bool Check_Holes(Check* check, const kiriMeshData* mesh)
-{
-    int32_t triangles = 0, vertices = 0;
-    for (int32_t t = 0; t < mesh->triangles.count; ++t) {
-        const kiriTriangle* hole = &mesh->triangles.data[t];
-        for (int i = 0; i < 3 && !kiriMesh_IsTriangle(mesh, t); ++i) {
-            REQUIRE(hole->vertex[i] == KIRI_NONE && hole->twin[i] == KIRI_NONE && hole->marks == 0,
-                    "something is left of triangle %d", t);
-        }
-        triangles += !kiriMesh_IsTriangle(mesh, t);
-    }
-    for (int32_t v = 0; v < mesh->vertices.count; ++v) {
-        vertices += !kiriMesh_IsVertex(mesh, v);
-    }
-    REQUIRE(triangles == mesh->triangleHoles && vertices == mesh->vertexHoles,
-            "%d holes of triangles, counted %d; %d of vertices, counted %d", triangles, mesh->triangleHoles, vertices,
-            mesh->vertexHoles);
-    return true;
-}
-
 static bool Check_Triangles(Check* check, const kiriMeshData* mesh)
 {
     int32_t corners = mesh->sourceCorners.count;
@@ -33,9 +12,6 @@ static bool Check_Triangles(Check* check, const kiriMeshData* mesh)
             "%d sources have %d corners", mesh->sources.count, corners);
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
         const kiriTriangle* triangle = &mesh->triangles.data[t];
-        if (!kiriMesh_IsTriangle(mesh, t)) {
-            continue;
-        }
         for (int i = 0; i < 3; ++i) {
             REQUIRE(IsIndex(triangle->vertex[i], mesh->vertices.count), "triangle %d has vertex %d", t,
                     triangle->vertex[i]);
@@ -67,9 +43,6 @@ static bool Check_Twins(Check* check, const kiriMeshData* mesh)
 {
     for (int32_t h = 0; h < 3 * mesh->triangles.count; ++h) {
         int32_t twin = kiriMesh_Twin(mesh, h);
-        if (!kiriMesh_IsTriangle(mesh, h / 3)) {
-            continue;
-        }
         if (twin == KIRI_NONE) {
             REQUIRE(!kiriMesh_IsOpen(mesh, h), "half-edge %d of the outline is marked open", h);
             continue;
@@ -116,15 +89,12 @@ static bool Check_Places(Check* check, const kiriMeshData* mesh, bool isConformi
     }
     table.slot = Check_Ints(check, (int64_t)table.mask + 1, KIRI_NONE);
     for (int32_t h = 0; h < count; ++h) {
-        if (!kiriMesh_IsTriangle(mesh, h / 3)) {
-            continue;
-        }
         uint32_t slot = EdgeTable_Slot(&table, Validate_TailAt(mesh, h), Validate_TailAt(mesh, kiriEdge_Next(h)));
         REQUIRE(table.slot[slot] == KIRI_NONE, "half-edges %d and %d lie on each other", table.slot[slot], h);
         table.slot[slot] = h;
     }
     for (int32_t h = 0; isConforming && h < count; ++h) {
-        if (kiriMesh_IsTriangle(mesh, h / 3) && kiriMesh_Twin(mesh, h) == KIRI_NONE) {
+        if (kiriMesh_Twin(mesh, h) == KIRI_NONE) {
             uint32_t slot = EdgeTable_Slot(&table, Validate_TailAt(mesh, kiriEdge_Next(h)), Validate_TailAt(mesh, h));
             REQUIRE(table.slot[slot] == KIRI_NONE, "half-edges %d and %d are not twins", h, table.slot[slot]);
         }
@@ -146,18 +116,14 @@ static bool Check_Fans(Check* check, const kiriMeshData* mesh)
     }
     for (int32_t h = 0; h < count; ++h) {
         int32_t vertex = kiriMesh_Tail(mesh, h), root = Union_Root(fan, h);
-        if (vertex == KIRI_NONE) {
-            fans -= 1;
-            continue;
-        }
         rootOf[vertex] = rootOf[vertex] == KIRI_NONE ? root : rootOf[vertex];
         REQUIRE(rootOf[vertex] == root, "vertex %d is in two fans, of half-edges %d and %d", vertex, rootOf[vertex],
                 root);
     }
-    REQUIRE(fans == mesh->vertices.count - mesh->vertexHoles, "%d fans, %d vertices", fans, mesh->vertices.count);
+    REQUIRE(fans == mesh->vertices.count, "%d fans, %d vertices", fans, mesh->vertices.count);
     for (int32_t v = 0; v < mesh->vertices.count; ++v) {
         int32_t edge = mesh->vertices.data[v].edge;
-        REQUIRE(edge == KIRI_NONE || IsIndex(edge, count), "vertex %d has half-edge %d", v, edge);
+        REQUIRE(IsIndex(edge, count), "vertex %d has half-edge %d", v, edge);
         REQUIRE(edge == KIRI_NONE || kiriMesh_Tail(mesh, edge) == v, "vertex %d has half-edge %d", v, edge);
     }
     return true;
@@ -197,7 +163,6 @@ static bool Check_Squares(Check* check, const kiriMeshData* mesh)
             int32_t t = squares->nodes.data[i].triangle;
             kiriLatticePoint corners[3];
             REQUIRE(IsIndex(t, mesh->triangles.count), "square %d lists triangle %d", s, t);
-            REQUIRE(kiriMesh_IsTriangle(mesh, t), "square %d lists triangle %d, which is a hole", s, t);
             kiriMesh_Corners(mesh, t, corners);
             REQUIRE(seen[t] != s, "square %d lists triangle %d twice", s, t);
             REQUIRE(kiriSquares_Overlap(squares, s, corners), "square %d lists triangle %d, which is elsewhere", s, t);
@@ -207,10 +172,8 @@ static bool Check_Squares(Check* check, const kiriMeshData* mesh)
     }
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
         kiriLatticePoint c[3];
-        if (kiriMesh_IsTriangle(mesh, t)) {
-            kiriMesh_Corners(mesh, t, c);
-            expected += CountOverlaps(squares, c);
-        }
+        kiriMesh_Corners(mesh, t, c);
+        expected += CountOverlaps(squares, c);
     }
     REQUIRE(listed == expected, "squares list %d triangles of %d", listed, expected);
     for (int32_t i = squares->freeNode; i != KIRI_NONE; i = squares->nodes.data[i].next) {
@@ -232,13 +195,12 @@ static bool Check_VertexLists(Check* check, const kiriMeshData* mesh)
         int32_t last = INT32_MAX;
         for (int32_t v = squares->vertexHead[s]; v != KIRI_NONE; v = mesh->vertices.data[v].next) {
             REQUIRE(IsIndex(v, mesh->vertices.count) && v < last, "square %d lists vertex %d after %d", s, v, last);
-            REQUIRE(kiriMesh_IsVertex(mesh, v) && kiriSquares_At(squares, mesh->vertices.data[v].at) == s,
-                    "square %d lists vertex %d", s, v);
+            REQUIRE(kiriSquares_At(squares, mesh->vertices.data[v].at) == s, "square %d lists vertex %d", s, v);
             last = v;
             ++listed;
         }
     }
-    REQUIRE(listed == mesh->vertices.count - mesh->vertexHoles, "squares list %d vertices of %d", listed,
+    REQUIRE(listed == mesh->vertices.count, "squares list %d vertices of %d", listed,
             mesh->vertices.count);
     return true;
 }
@@ -269,19 +231,12 @@ static bool Check_Provenance(Check* check, const kiriMeshData* mesh)
     uint8_t* found = Check_Bytes(check, mesh->vertices.count);
     for (int32_t h = 0; h < 3 * mesh->triangles.count; ++h) {
         int32_t v = kiriMesh_Tail(mesh, h);
-        if (v == KIRI_NONE) {
-            continue;
-        }
         found[v] |= mesh->vertices.data[v].source == mesh->triangles.data[h / 3].source;
     }
     for (int32_t v = 0; v < mesh->vertices.count; ++v) {
         const kiriVertex* vertex = &mesh->vertices.data[v];
         double x = 0.0, y = 0.0, sum = 0.0, near = 5e-7 * 536870912.0;
-        REQUIRE(found[v] || !kiriMesh_IsVertex(mesh, v), "vertex %d takes its source %d from elsewhere", v,
-                vertex->source);
-        if (!kiriMesh_IsVertex(mesh, v)) {
-            continue;
-        }
+        REQUIRE(found[v], "vertex %d takes its source %d from elsewhere", v, vertex->source);
         float share[3];
         kiriLatticePoint corners[3];
         kiriMesh_GetShare(mesh, v, share);
@@ -325,7 +280,7 @@ static bool Check_Births(Check* check, const kiriMeshData* mesh)
 bool Check_Mesh(Check* check, const kiriMeshData* mesh, bool isConforming)
 {
     check->part = "mesh";
-    return Check_Holes(check, mesh) && Check_Triangles(check, mesh) && Check_Twins(check, mesh) &&
+    return Check_Triangles(check, mesh) && Check_Twins(check, mesh) &&
            Check_Places(check, mesh, isConforming) && Check_Fans(check, mesh) && Check_Squares(check, mesh) &&
            Check_VertexLists(check, mesh) && Check_DirtySquares(check, mesh) && Check_Provenance(check, mesh) &&
            Check_Births(check, mesh);

@@ -26,14 +26,6 @@ void kiriKeep_Drop(kiriKeep* keep, const int32_t* items, int32_t count)
     keep->count = 0;
 }
 
-kiriKeep kiriKeep_LeaveHoles(const kiriKeep* gone)
-{
-    kiriKeep keep = *gone;
-    keep.count = gone->to.count - gone->count;
-    keep.leavesHoles = true;
-    return keep;
-}
-
 /* The end of the run of items, from `from` on, that are kept all, or none of them. */
 static int32_t EndOfRun(const kiriKeep* keep, int32_t from)
 {
@@ -61,7 +53,7 @@ static void MoveRuns(const kiriKeep* keep, unsigned char* to, const unsigned cha
 void kiriKeep_Compact(const kiriKeep* keep, void* array, int32_t each, size_t entryBytes)
 {
     kiriArrayHeader header = kiriArray_GetHeader(array);
-    if (header.count > 0 && !keep->leavesHoles) {
+    if (header.count > 0) {
         KIRI_ASSERT(header.count == each * keep->to.count);
         MoveRuns(keep, header.data, header.data, keep->first, (size_t)each * entryBytes);
         header.count = each * keep->count;

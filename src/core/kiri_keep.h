@@ -10,7 +10,6 @@ typedef struct kiriKeep {
     KIRI_ARRAY(int32_t) to; /* of each item: its new index, or KIRI_NONE */
     int32_t count;          /* items that are kept */
     int32_t first;          /* the first that is not, or the number of items: those before it stay where they are */
-    bool leavesHoles; /* all stay where they are: then `to` is KIRI_NONE for those that are kept, and for no others */
 } kiriKeep;
 
 /* A map of no items, with room for so many. False for memory. */
@@ -19,9 +18,6 @@ bool kiriKeep_Init(kiriKeep* keep, kiriMemory* memory, int32_t items);
 /* Where none is kept: these are, from the lowest to the highest. And none again. */
 void kiriKeep_Take(kiriKeep* keep, const int32_t* items, int32_t count);
 void kiriKeep_Drop(kiriKeep* keep, const int32_t* items, int32_t count);
-
-/* Keeps what `gone` does not, where it is: what goes leaves holes. Only while `gone` is there and stays as it is. */
-kiriKeep kiriKeep_LeaveHoles(const kiriKeep* gone);
 
 /* The next item. There is room. */
 static inline void kiriKeep_Add(kiriKeep* keep, bool isKept)
@@ -44,8 +40,7 @@ static inline int32_t kiriKeep_To(const kiriKeep* keep, int32_t item)
     if (item < keep->first) {
         return item;
     }
-    int32_t to = keep->to.data[item];
-    return !keep->leavesHoles ? to : to == KIRI_NONE ? item : KIRI_NONE;
+    return keep->to.data[item];
 }
 
 static inline bool kiriKeep_Has(const kiriKeep* keep, int32_t item)
@@ -56,7 +51,7 @@ static inline bool kiriKeep_Has(const kiriKeep* keep, int32_t item)
 /* Does any item get another index? */
 static inline bool kiriKeep_Moves(const kiriKeep* keep)
 {
-    return !keep->leavesHoles && keep->count > keep->first;
+    return keep->count > keep->first;
 }
 
 /* Moves the kept items of a KIRI_ARRAY together, which has `each` entries of entryBytes an item; an empty one stays

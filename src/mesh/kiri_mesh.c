@@ -73,11 +73,9 @@ int64_t kiriMesh_DoubledArea(const kiriMeshData* mesh)
 {
     int64_t sum = 0;
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
-        if (kiriMesh_IsTriangle(mesh, t)) {
-            kiriLatticePoint c[3];
-            kiriMesh_Corners(mesh, t, c);
-            sum += kiriOrient(c[0], c[1], c[2]);
-        }
+        kiriLatticePoint c[3];
+        kiriMesh_Corners(mesh, t, c);
+        sum += kiriOrient(c[0], c[1], c[2]);
     }
     return sum;
 }
@@ -604,14 +602,6 @@ bool kiriMesh_MakePart(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshDat
 
 /* ---- What is left ------------------------------------------------------------------------------------------------ */
 
-static void EndLoss(kiriMeshData* mesh)
-{
-    mesh->births.count = 0;
-    mesh->oldTriangleCount = mesh->triangles.count;
-    mesh->oldVertexCount = mesh->vertices.count;
-    mesh->revision += 1;
-}
-
 void kiriMesh_Keep(kiriMeshData* mesh, const kiriKeep* triangles, const kiriKeep* vertices, const int32_t* squares,
                    int32_t squareCount)
 {
@@ -632,57 +622,8 @@ void kiriMesh_Keep(kiriMeshData* mesh, const kiriKeep* triangles, const kiriKeep
     kiriSquares_Keep(&mesh->squares, triangles, squares, squareCount);
     kiriKeep_Compact(triangles, &mesh->triangles, 1, sizeof(kiriTriangle));
     kiriKeep_Compact(vertices, &mesh->vertices, 1, sizeof(kiriVertex));
-    mesh->triangleHoles = mesh->vertexHoles = 0;
-    EndLoss(mesh);
-}
-
-/* ---- With holes -------------------------------------------------------------------------------------------------- */
-
-/* What is left beside a triangle that goes ends there. Only an edge that is open may have it beside it. */
-static void LeaveNeighbours(kiriMeshData* mesh, const kiriMeshLoss* loss, int32_t triangle)
-{
-    const kiriTriangle* t = &mesh->triangles.data[triangle];
-    for (int i = 0; i < 3; ++i) {
-        int32_t twin = t->marks & 1 << i ? t->twin[i] : KIRI_NONE;
-        if (twin != KIRI_NONE && kiriKeep_Has(&loss->keepTriangles, twin / 3)) {
-            kiriTriangle* beside = &mesh->triangles.data[twin / 3];
-            beside->twin[twin % 3] = KIRI_NONE;
-            beside->marks &= ~(1 << (twin % 3));
-        }
-    }
-}
-
-static void UnlistVertices(kiriMeshData* mesh, const kiriKeep* keep, int32_t square)
-{
-    int32_t* link = &mesh->squares.vertexHead[square];
-    while (*link != KIRI_NONE) {
-        kiriVertex* vertex = &mesh->vertices.data[*link];
-        if (kiriKeep_Has(keep, *link)) {
-            link = &vertex->next;
-        } else {
-            *link = vertex->next;
-        }
-    }
-}
-
-void kiriMesh_LeaveHoles(kiriMeshData* mesh, const kiriMeshLoss* loss)
-{
-    KIRI_ASSERT(!mesh->isOpen && mesh->savedTriangles.count == 0);
-    for (int32_t k = 0; k < loss->squares->count; ++k) {
-        UnlistVertices(mesh, &loss->keepVertices, loss->squares->data[k]);
-    }
-    kiriSquares_Keep(&mesh->squares, &loss->keepTriangles, loss->squares->data, loss->squares->count);
-    for (int32_t k = 0; k < loss->triangles->count; ++k) {
-        LeaveNeighbours(mesh, loss, loss->triangles->data[k]);
-        kiriTriangle* t = &mesh->triangles.data[loss->triangles->data[k]];
-        *t = (kiriTriangle){
-            { KIRI_NONE, KIRI_NONE, KIRI_NONE }, { KIRI_NONE, KIRI_NONE, KIRI_NONE }, t->source, KIRI_NONE, 0
-        };
-    }
-    for (int32_t k = 0; k < loss->vertices->count; ++k) {
-        mesh->vertices.data[loss->vertices->data[k]].edge = KIRI_NONE;
-    }
-    mesh->triangleHoles += loss->triangles->count;
-    mesh->vertexHoles += loss->vertices->count;
-    EndLoss(mesh);
+    mesh->births.count = 0;
+    mesh->oldTriangleCount = mesh->triangles.count;
+    mesh->oldVertexCount = mesh->vertices.count;
+    mesh->revision += 1;
 }

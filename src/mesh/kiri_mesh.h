@@ -64,9 +64,6 @@ typedef struct kiriMeshData {
     kiriSquares squares;
     uint32_t revision; /* grows with every change */
 
-    /* Holes: triangles without vertices, and vertices without an edge, that were taken away. None is in a square. */
-    int32_t triangleHoles, vertexHoles;
-
     /* Corners of the caller's triangles, three a triangle, for where vertices are in them: see kiri_mesh_build.c.
        Triangles before `originals` are the caller's, by their source; one that was never split has the corners of its
        source itself. Of others these lie in blocks, from sourceCorners on. A part lists the sources that its triangles
@@ -119,25 +116,6 @@ bool kiriMesh_MakePart(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshDat
    that these triangles are in. Not while the journal is open. Never fails. */
 void kiriMesh_Keep(kiriMeshData* mesh, const kiriKeep* triangles, const kiriKeep* vertices, const int32_t* squares,
                    int32_t squareCount);
-
-/* What goes from a mesh that keeps the indices of all else. */
-typedef struct kiriMeshLoss {
-    const kiriIndices *triangles, *vertices, *squares; /* squares: all that these triangles are in */
-    kiriKeep keepTriangles, keepVertices;              /* the others; these leave holes */
-} kiriMeshLoss;
-
-/* The same at the cost of what goes. */
-void kiriMesh_LeaveHoles(kiriMeshData* mesh, const kiriMeshLoss* loss);
-
-static inline bool kiriMesh_IsTriangle(const kiriMeshData* mesh, int32_t triangle)
-{
-    return mesh->triangles.data[triangle].vertex[0] != KIRI_NONE;
-}
-
-static inline bool kiriMesh_IsVertex(const kiriMeshData* mesh, int32_t vertex)
-{
-    return mesh->vertices.data[vertex].edge != KIRI_NONE;
-}
 
 /* ---- Half-edges ---- */
 

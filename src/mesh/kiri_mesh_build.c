@@ -626,7 +626,7 @@ static int32_t FindOriginal(const kiriMeshData* mesh, int32_t source)
     if (t >= count || triangles[t].source != source) {
         KIRI_SEARCH(t, 0, count, triangles[middle].source < source);
     }
-    return t < count && triangles[t].source == source && kiriMesh_IsTriangle(mesh, t) ? t : KIRI_NONE;
+    return t < count && triangles[t].source == source ? t : KIRI_NONE;
 }
 
 /* Returns where the corners are stored, or KIRI_NONE. */

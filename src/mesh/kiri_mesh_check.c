@@ -93,7 +93,7 @@ static bool AreSourcesThere(const kiriMeshData* mesh)
     int64_t most = KIRI_SOURCES_A_BLOCK * (int64_t)mesh->sourceBlocks.count;
     for (int32_t t = 0; areFine && t < mesh->triangles.count; ++t) {
         bool isKnown = mesh->sources.count > 0 || mesh->triangles.data[t].source < most;
-        areFine = !kiriMesh_IsTriangle(mesh, t) || (isKnown && kiriMesh_HasSource(mesh, t));
+        areFine = isKnown && kiriMesh_HasSource(mesh, t);
     }
     return areFine;
 }
@@ -125,20 +125,19 @@ static bool IsWithin(const LatticeBox* box, kiriLatticePoint at)
     return at.x > box->low.x && at.x < box->high.x && at.y > box->low.y && at.y < box->high.y;
 }
 
-/* Before triangles, which ask where vertices are. The link of each vertex leads to an earlier one, also that of a hole,
-   which once was in a list: kiriKeep_Relink follows all of them. */
+/* Checks where vertices are, before triangles need it. The link of each vertex leads to an earlier one:
+   kiriKeep_Relink follows all of them. */
 static bool ArePlaces(const kiriMeshData* mesh)
 {
     const kiriSquares* squares = &mesh->squares;
     LatticeBox box = BoxOfSquares(squares, 0, 0, squares->rows, squares->columns);
     bool areFine = true;
-    int32_t holes = 0;
     for (int32_t v = 0; areFine && v < mesh->vertices.count; ++v) {
         const kiriVertex* vertex = &mesh->vertices.data[v];
-        areFine = IsWithin(&box, vertex->at) && ((vertex->at.x | vertex->at.y) & 1) == 0 && vertex->next < v;
-        holes += !kiriMesh_IsVertex(mesh, v);
+        areFine = vertex->edge != KIRI_NONE && IsWithin(&box, vertex->at) &&
+                  ((vertex->at.x | vertex->at.y) & 1) == 0 && vertex->next < v;
     }
-    return areFine && holes == mesh->vertexHoles;
+    return areFine;
 }
 
 /* The vertices of a square, later ones first. Counts them, and writes where they are. */
@@ -149,7 +148,7 @@ static bool AreVerticesOf(const kiriMeshData* mesh, kiriSquarePlace at, kiriSqua
     int32_t last = mesh->vertices.count;
     for (int32_t v = squares->vertexHead[at.row * squares->columns + at.column]; v != KIRI_NONE;
          v = mesh->vertices.data[v].next) {
-        if (v < 0 || v >= last || !kiriMesh_IsVertex(mesh, v) || !IsWithin(&box, mesh->vertices.data[v].at)) {
+        if (v < 0 || v >= last || !IsWithin(&box, mesh->vertices.data[v].at)) {
             return false;
         }
         in[v] = at;
@@ -171,19 +170,10 @@ static bool AreVertexLists(const kiriMeshData* mesh, kiriSquarePlace* in)
             areFine = AreVerticesOf(mesh, at, in, &listed);
         }
     }
-    return areFine && listed == mesh->vertices.count - mesh->vertexHoles;
+    return areFine && listed == mesh->vertices.count;
 }
 
 /* ---- Triangles --------------------------------------------------------------------------------------------------- */
-
-static bool IsHole(const kiriTriangle* triangle)
-{
-    bool isHole = triangle->marks == 0;
-    for (int i = 0; i < 3; ++i) {
-        isHole = isHole && triangle->vertex[i] == KIRI_NONE && triangle->twin[i] == KIRI_NONE;
-    }
-    return isHole;
-}
 
 typedef struct SquaresBox {
     const kiriSquares* squares;
@@ -247,7 +237,7 @@ static bool IsSound(const kiriMeshData* mesh, int32_t t, const kiriSquarePlace* 
                     int64_t* left)
 {
     const int32_t* vertex = mesh->triangles.data[t].vertex;
-    if (vertex[1] == KIRI_NONE || vertex[2] == KIRI_NONE) {
+    if (vertex[0] == KIRI_NONE || vertex[1] == KIRI_NONE || vertex[2] == KIRI_NONE) {
         return false;
     }
     kiriLatticePoint c[3];
@@ -268,15 +258,11 @@ static bool IsSound(const kiriMeshData* mesh, int32_t t, const kiriSquarePlace* 
 static bool AreTriangles(const kiriMeshData* mesh, const kiriSquarePlace* in, kiriOverlaps* overlaps)
 {
     int64_t left = mesh->squares.nodes.count;
-    int32_t holes = 0;
-    bool areFine = true;
+    bool areFine = mesh->triangles.count > 0;
     for (int32_t t = 0; areFine && t < mesh->triangles.count; ++t) {
-        bool isHole = !kiriMesh_IsTriangle(mesh, t);
-        areFine = mesh->triangles.data[t].parent < t &&
-                  (isHole ? IsHole(&mesh->triangles.data[t]) : IsSound(mesh, t, in, &overlaps[t], &left));
-        holes += isHole;
+        areFine = mesh->triangles.data[t].parent < t && IsSound(mesh, t, in, &overlaps[t], &left);
     }
-    return areFine && holes == mesh->triangleHoles && holes < mesh->triangles.count;
+    return areFine;
 }
 
 /* ---- Fans -------------------------------------------------------------------------------------------------------- */
@@ -361,15 +347,13 @@ static void TakeFan(Fan* fan, int32_t start)
    corners. */
 static bool AreFans(const kiriMeshData* mesh)
 {
-    int32_t corners = 3 * (mesh->triangles.count - mesh->triangleHoles);
+    int32_t corners = 3 * mesh->triangles.count;
     bool areFine = true;
     for (int32_t v = 0; areFine && v < mesh->vertices.count; ++v) {
-        if (kiriMesh_IsVertex(mesh, v)) {
-            Fan fan = { mesh, v, mesh->vertices.data[v].source, 0, true, false };
-            TakeFan(&fan, mesh->vertices.data[v].edge);
-            areFine = fan.isFine && fan.hasSource;
-            corners -= fan.count;
-        }
+        Fan fan = { mesh, v, mesh->vertices.data[v].source, 0, true, false };
+        TakeFan(&fan, mesh->vertices.data[v].edge);
+        areFine = fan.isFine && fan.hasSource;
+        corners -= fan.count;
     }
     return areFine && corners == 0;
 }
@@ -390,7 +374,7 @@ static bool TakeFromLargeBox(const kiriMeshData* mesh, int32_t square, int32_t t
     return kiriSquares_Overlap(&mesh->squares, square, c);
 }
 
-/* Takes a square out; false where the triangle is not in it, or was listed there before. Of a hole there is none. */
+/* Takes a square out; false where the triangle is not in it, or was listed there before. */
 static bool TakeOverlap(const kiriMeshData* mesh, int32_t row, int32_t column, int32_t t, kiriOverlaps* o)
 {
     if (o->columns == 0) {

@@ -222,8 +222,7 @@ void kiriPieces_KeepRest(kiriSheetData* sheet, const kiriLayout* old)
 
 int32_t kiriPiece_OfTriangle(const kiriSheetData* sheet, int32_t triangle)
 {
-    int32_t vertex = sheet->mesh.triangles.data[triangle].vertex[0];
-    return vertex != KIRI_NONE ? kiriPiece_OfVertex(sheet, vertex) : KIRI_NONE;
+    return kiriPiece_OfVertex(sheet, sheet->mesh.triangles.data[triangle].vertex[0]);
 }
 
 /* While an update is at hand regions may be half done: then the frame that weighs most at the corners. */

@@ -10,7 +10,7 @@ KIRI_C_BEGIN
 /* Stages the pieces that come in force with the next commit, from the links that are staged. False for memory. */
 bool kiriPieces_Stage(kiriSheetData* sheet);
 
-/* The piece of a triangle; KIRI_NONE for a hole. */
+/* The piece of a triangle. */
 int32_t kiriPiece_OfTriangle(const kiriSheetData* sheet, int32_t triangle);
 
 /* Is any piece gone? */

@@ -185,29 +185,6 @@ kiriFrameMask kiriBlocks_MaskOfOther(const kiriPatches* patches)
     return mask;
 }
 
-/* ---- Frames that go ---- */
-
-static void KeepMoved(kiriBlocks* blocks, const kiriKeep* frames)
-{
-    for (int32_t i = 0; i < blocks->moved.count; ++i) {
-        int32_t to = i < frames->to.count ? kiriKeep_To(frames, i) : KIRI_NONE;
-        if (to != KIRI_NONE) {
-            blocks->moved.data[to] = blocks->moved.data[i];
-        }
-    }
-    for (int32_t i = frames->count; i < blocks->moved.count; ++i) {
-        blocks->moved.data[i] = 0;
-    }
-}
-
-void kiriBlocks_LeaveHoles(kiriBlocks* blocks, const kiriIndices* vertices, const kiriKeep* frames)
-{
-    for (int32_t k = 0; k < vertices->count; ++k) {
-        kiriBlocks_ForgetOne(blocks, vertices->data[k] / KIRI_BLOCK);
-    }
-    KeepMoved(blocks, frames);
-}
-
 /* ---- Masks ---- */
 
 static const uint64_t ALL_BITS = UINT64_MAX;
@@ -266,7 +243,7 @@ static int32_t FindMover(const kiriSheetData* sheet, int32_t block)
 {
     const uint8_t* moves = sheet->seen.blocks.moved.data;
     for (int32_t v = block * KIRI_BLOCK; v < EndOfBlock(sheet, block); ++v) {
-        kiriSpan span = sheet->vertexSkin.spans.data[v]; /* of a hole it is empty */
+        kiriSpan span = sheet->vertexSkin.spans.data[v];
         int32_t label = span.count > 0 ? sheet->vertexSkin.weights.data[span.first].label : KIRI_NONE;
         if (label != KIRI_NONE && moves[kiriSheet_FrameOf(sheet, label)]) {
             return label;
@@ -439,8 +416,8 @@ static void StaleChanges(kiriSheetData* sheet)
 static void HideTriangles(kiriSheetData* sheet)
 {
     for (int32_t t = 0; t < sheet->mesh.triangles.count; ++t) {
-        int32_t piece = kiriMesh_IsTriangle(&sheet->mesh, t) ? kiriPiece_OfTriangle(sheet, t) : KIRI_NONE;
-        if (piece != KIRI_NONE && sheet->layout.pieces.data[piece].isGone) {
+        int32_t piece = kiriPiece_OfTriangle(sheet, t);
+        if (sheet->layout.pieces.data[piece].isGone) {
             StaleCorners(sheet, &sheet->seen.surface.indices.data[3 * (size_t)t]);
             kiriSurface_HideTriangle(&sheet->seen.surface, t);
         }
@@ -543,8 +520,7 @@ static bool MayBeElsewhere(const kiriSheetData* sheet, const JumpLook* look, int
 
 static bool IsVertexAwake(const kiriSheetData* sheet, int32_t vertex)
 {
-    int32_t piece = kiriPiece_OfVertex(sheet, vertex);
-    return piece != KIRI_NONE && kiriPiece_IsMoved(&sheet->layout.pieces.data[piece]);
+    return kiriPiece_IsMoved(&sheet->layout.pieces.data[kiriPiece_OfVertex(sheet, vertex)]);
 }
 
 static void TakeOffsets(kiriSheetData* sheet, const JumpLook* look, const float* was, const float* is, int32_t begin,
@@ -552,9 +528,7 @@ static void TakeOffsets(kiriSheetData* sheet, const JumpLook* look, const float*
 {
     for (int32_t v = begin; v < end; ++v, was += 3, is += 3) {
         kiriVec3 offset = kiriVec3_Sub(kiriVec3_Load(was), kiriVec3_Load(is));
-        if (kiriMesh_IsVertex(&sheet->mesh, v)) {
-            kiriFades_Take(&sheet->seen.fades, v, kiriVec3_Add(offset, look->shift));
-        }
+        kiriFades_Take(&sheet->seen.fades, v, kiriVec3_Add(offset, look->shift));
     }
 }
 

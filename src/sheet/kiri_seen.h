@@ -38,10 +38,6 @@ void kiriBlocks_Truncate(kiriBlocks* blocks, int32_t vertexCount, int32_t frameC
 /* Vertices or frames have other indices: nothing is known. */
 void kiriBlocks_Forget(kiriBlocks* blocks);
 
-/* These vertices are gone, and frames with them: others have new indices, and their labels. The rest is as well known
-   as before. */
-void kiriBlocks_LeaveHoles(kiriBlocks* blocks, const kiriIndices* vertices, const kiriKeep* frames);
-
 /* Of these vertices some have other weights, or are new: who moves them is found anew. */
 void kiriBlocks_ForgetOne(kiriBlocks* blocks, int32_t block);
 

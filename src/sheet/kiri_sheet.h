@@ -436,13 +436,13 @@ static inline kiriPiece* kiriSheet_PieceOf(const kiriSheetData* sheet, int32_t f
     return &sheet->layout.pieces.data[sheet->layout.framePiece.data[frame]];
 }
 
-/* The piece of the material that a vertex belongs to: its frames are all of one. KIRI_NONE for a hole. */
+/* The piece that a vertex belongs to: all its frames are of one. */
 static inline int32_t kiriPiece_OfVertex(const kiriSheetData* sheet, int32_t vertex)
 {
     kiriSpan span = sheet->vertexSkin.spans.data[vertex];
-    return span.count > 0 ? sheet->layout.framePiece
-                                .data[kiriSheet_FrameOf(sheet, sheet->vertexSkin.weights.data[span.first].label)]
-                          : KIRI_NONE;
+    KIRI_ASSERT(span.count > 0);
+    return sheet->layout.framePiece
+        .data[kiriSheet_FrameOf(sheet, sheet->vertexSkin.weights.data[span.first].label)];
 }
 
 /* Has the host destroyed the piece of a frame? It stays, unseen, until the work at hand is done. */

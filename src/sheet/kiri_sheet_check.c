@@ -23,7 +23,7 @@ static bool IsTip(kiriCheck* check, const kiriSheetData* sheet, const kiriTip* t
                                             kiriLattice_Has(blade->lip));
     if (isFine && blade->vertex != KIRI_NONE) {
         kiriLatticePoint at = sheet->mesh.vertices.data[blade->vertex].at;
-        isFine = kiriMesh_IsVertex(&sheet->mesh, blade->vertex) && at.x == blade->at.x && at.y == blade->at.y;
+        isFine = at.x == blade->at.x && at.y == blade->at.y;
     }
     return kiriCheck_That(check, isFine);
 }
@@ -256,8 +256,7 @@ static bool IsPlace(const kiriSheetData* sheet, int32_t point, const int32_t ver
     bool isFine = point >= KIRI_NONE && point < sheet->points.count && (point != KIRI_NONE || vertex[0] != KIRI_NONE);
     for (int k = 0; isFine && k < 3 && point == KIRI_NONE; ++k) {
         isFine = vertex[k] == KIRI_NONE ||
-                 (vertex[k] >= 0 && vertex[k] < sheet->mesh.vertices.count &&
-                  kiriMesh_IsVertex(&sheet->mesh, vertex[k]) && (k == 0 || vertex[k - 1] != KIRI_NONE));
+                 (vertex[k] >= 0 && vertex[k] < sheet->mesh.vertices.count && (k == 0 || vertex[k - 1] != KIRI_NONE));
     }
     return isFine;
 }
@@ -319,17 +318,6 @@ static bool AreBlocks(const kiriBlocks* blocks, const kiriSheetData* sheet)
     return areFine;
 }
 
-/* No hole fades. */
-static bool AreFadingVertices(const kiriSheetData* sheet)
-{
-    const kiriFades* fades = &sheet->seen.fades;
-    bool are = true;
-    for (int32_t k = 0; are && k < fades->fading.count; ++k) {
-        are = kiriMesh_IsVertex(&sheet->mesh, fades->fading.data[k].sample);
-    }
-    return are;
-}
-
 static bool AreFadesSet(const kiriFades* fades, const kiriSettings* settings)
 {
     return fades->time == settings->fadeTime && fades->least == settings->leastFade;
@@ -340,7 +328,6 @@ static bool IsSeen(kiriCheck* check, const kiriSheetData* sheet)
     const kiriSeen* seen = &sheet->seen;
     return kiriSurface_Check(&seen->surface, &sheet->shape.labels, &sheet->mesh, check) &&
            kiriFades_Check(&seen->fades, check, sheet->mesh.vertices.count) &&
-           kiriCheck_That(check, AreFadingVertices(sheet)) &&
            kiriFades_Check(&seen->pointFades, check, sheet->points.count) &&
            kiriCheck_That(check, AreFadesSet(&seen->fades, &sheet->settings) &&
                                      AreFadesSet(&seen->pointFades, &sheet->settings) &&

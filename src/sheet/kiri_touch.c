@@ -21,13 +21,9 @@ kiriBox kiriSheet_Box(const kiriSheetData* sheet)
     if (kiriBounds_IsFresh(sheet->seen.bounds, surface)) {
         return kiriBounds_All(sheet->seen.bounds);
     }
-    int32_t first = 0;
-    while (!kiriMesh_IsVertex(&sheet->mesh, first)) {
-        ++first;
-    }
-    kiriBox box = { kiriSurface_At(surface, first), kiriSurface_At(surface, first) };
-    for (int32_t v = first + 1; v < surface->vertexCount; ++v) {
-        kiriVec3 x = kiriSurface_At(surface, kiriMesh_IsVertex(&sheet->mesh, v) ? v : first);
+    kiriBox box = { kiriSurface_At(surface, 0), kiriSurface_At(surface, 0) };
+    for (int32_t v = 1; v < surface->vertexCount; ++v) {
+        kiriVec3 x = kiriSurface_At(surface, v);
         box.lower = kiriVec3_Make(kiriMin(x.x, box.lower.x), kiriMin(x.y, box.lower.y), kiriMin(x.z, box.lower.z));
         box.upper = kiriVec3_Make(kiriMax(x.x, box.upper.x), kiriMax(x.y, box.upper.y), kiriMax(x.z, box.upper.z));
     }
@@ -276,7 +272,7 @@ static void CollectVertices(const kiriMeeting* meeting)
     search->vertices.count = 0;
     for (int64_t i = 0; i < 3 * (int64_t)search->triangles.count; ++i) {
         int32_t vertex = indices[3 * (int64_t)search->triangles.data[i / 3] + i % 3];
-        if (search->marks.data[vertex] != search->mark && kiriMesh_IsVertex(&meeting->sheet->mesh, vertex)) {
+        if (search->marks.data[vertex] != search->mark) {
             search->marks.data[vertex] = search->mark;
             search->vertices.data[search->vertices.count++] = vertex;
             low = kiriMin(vertex, low);
@@ -442,7 +438,6 @@ static void DropSleepers(kiriObstacleSearch* search, const kiriSheetData* sheet)
     int32_t kept = 0;
     for (int32_t i = 0; i < search->triangles.count; ++i) {
         int32_t triangle = search->triangles.data[i], piece = kiriPiece_OfTriangle(sheet, triangle);
-        KIRI_ASSERT(piece != KIRI_NONE); /* no hole is found */
         if (kiriPiece_MayMove(&sheet->layout.pieces.data[piece])) {
             search->triangles.data[kept++] = triangle;
         }
@@ -598,7 +593,7 @@ static void MarkBorder(kiriSheetData* sheet)
 {
     for (int32_t t = 0; t < sheet->mesh.triangles.count; ++t) {
         const kiriTriangle* triangle = &sheet->mesh.triangles.data[t];
-        for (int i = 0; kiriMesh_IsTriangle(&sheet->mesh, t) && i < 3; ++i) {
+        for (int i = 0; i < 3; ++i) {
             if ((triangle->marks >> i & 1) != 0 || triangle->twin[i] == KIRI_NONE) {
                 MarkBorderEdge(sheet, triangle->vertex[i], triangle->vertex[(i + 1) % 3]);
             }
@@ -668,9 +663,6 @@ static void BoundPieces(kiriSheetData* sheet)
         probes->boxes.data[p].upper = kiriVec3_Make(-HUGE_VAL, -HUGE_VAL, -HUGE_VAL);
     }
     for (int32_t v = 0; v < probes->vertexPiece.count; ++v) {
-        if (probes->vertexPiece.data[v] == KIRI_NONE) {
-            continue; /* a hole */
-        }
         kiriBox* box = &probes->boxes.data[probes->vertexPiece.data[v]];
         kiriVec3 x = kiriSurface_At(&sheet->seen.surface, v), *a = &box->lower, *b = &box->upper;
         *a = kiriVec3_Make(kiriMin(x.x, a->x), kiriMin(x.y, a->y), kiriMin(x.z, a->z));

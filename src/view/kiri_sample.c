@@ -249,15 +249,6 @@ void kiriSkin_Keep(kiriSkin* skin, const kiriKeep* samples, const kiriKeep* labe
     }
 }
 
-void kiriSkin_LeaveHoles(kiriSkin* skin, const kiriIndices* samples)
-{
-    KIRI_ASSERT(skin->staged.count == 0);
-    SettleAll(skin);
-    for (int32_t k = 0; k < samples->count; ++k) {
-        DropSpan(skin, &skin->spans.data[samples->data[k]]);
-    }
-}
-
 /* ---- Where samples are ------------------------------------------------------------------------------------------ */
 
 static int32_t SquareCount(const kiriMeshData* mesh)

@@ -111,9 +111,6 @@ void kiriSkin_Truncate(kiriSkin* skin, int32_t sampleCount);
 void kiriSkin_Keep(kiriSkin* skin, const kiriKeep* samples, const kiriKeep* labels);
 void kiriPlaces_Keep(kiriPlaces* places, const kiriKeep* samples);
 
-/* The same where the samples leave holes, which have no weights then, and labels stay. */
-void kiriSkin_LeaveHoles(kiriSkin* skin, const kiriIndices* samples);
-
 kiriVec3 kiriSkin_Position(const kiriSkin* skin, const kiriLabels* labels, int32_t sample, const kiriFrameData* frames,
                            kiriVec2 local);
 

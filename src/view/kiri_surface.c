@@ -109,7 +109,7 @@ static int32_t CountBorders(const kiriMeshData* mesh)
     int32_t count = 0;
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
         for (int k = 0; k < 3; ++k) {
-            count += kiriMesh_IsTriangle(mesh, t) && kiriMesh_IsBorder(mesh, 3 * t + k);
+            count += kiriMesh_IsBorder(mesh, 3 * t + k);
         }
     }
     return count;
@@ -199,7 +199,7 @@ bool kiriSolid_Build(kiriSolid* solid, kiriMemory* memory, const kiriSurface* su
     AddSides(&to, surface, 0.5 * thickness);
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
         for (int k = 0; k < 3; ++k) {
-            if (kiriMesh_IsTriangle(mesh, t) && kiriMesh_IsBorder(mesh, 3 * t + k)) {
+            if (kiriMesh_IsBorder(mesh, 3 * t + k)) {
                 AddRim(&to, surface, SolidCorner(mesh, t, k), SolidCorner(mesh, t, k + 1), 0.5 * thickness);
             }
         }
@@ -472,27 +472,6 @@ void kiriSurface_HideTriangle(kiriSurface* surface, int32_t triangle)
 {
     HideIndices(surface, triangle);
     WriteTurn(surface, triangle / 2);
-}
-
-void kiriSurface_LeaveHoles(kiriSurface* surface, const kiriIndices* triangles, const kiriMeshData* mesh,
-                            int32_t frameCount)
-{
-    kiriChange change = ChangeTo(surface, mesh);
-    for (int32_t k = 0; k < triangles->count; ++k) {
-        int32_t triangle = triangles->data[k];
-        bool isNextOfPair = k + 1 < triangles->count && triangles->data[k + 1] / 2 == triangle / 2;
-        HideIndices(surface, triangle);
-        if (!isNextOfPair) { /* both of a pair at once */
-            WriteTurn(surface, triangle / 2);
-        }
-        Extend(&change.triangles, triangle);
-    }
-    RememberChange(surface, &change);
-    surface->revision = mesh->revision;
-    surface->carriers.count = surface->bends.count = frameCount;
-    surface->pose += 1;
-    surface->isWritten = surface->isSteady = false; /* frames have other indices */
-    kiriPatches_Forget(&surface->patches);
 }
 
 /* ---- What is left ---- */

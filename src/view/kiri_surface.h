@@ -157,10 +157,6 @@ void kiriShown_Release(kiriShown* shown, kiriMemory* memory);
 void kiriSurface_Keep(kiriSurface* surface, kiriShown* shown, const kiriKeep* triangles, const kiriKeep* vertices,
                       const kiriMeshData* mesh, int32_t frameCount, kiriMemory* retired);
 
-/* The same where triangles and vertices leave holes. The host does not hold the indices. */
-void kiriSurface_LeaveHoles(kiriSurface* surface, const kiriIndices* triangles, const kiriMeshData* mesh,
-                            int32_t frameCount);
-
 /* The host gets the indices, after so many ticks. Any number of threads may say so at the same time. */
 void kiriSurface_LendIndices(const kiriSurface* surface, int64_t ticks);
 

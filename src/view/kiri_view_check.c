@@ -97,8 +97,7 @@ static bool AreCornersOfSurface(const kiriSurface* surface, const kiriMeshData* 
     for (int32_t t = 0; areFine && t < mesh->triangles.count; ++t) {
         const int32_t *is = &surface->indices.data[3 * (size_t)t], *should = mesh->triangles.data[t].vertex;
         bool isHidden = is[0] == is[1] && is[0] == is[2] && is[0] >= 0 && is[0] < mesh->vertices.count;
-        areFine = isHidden ||
-                  (kiriMesh_IsTriangle(mesh, t) && is[0] == should[0] && is[1] == should[1] && is[2] == should[2]);
+        areFine = isHidden || (is[0] == should[0] && is[1] == should[1] && is[2] == should[2]);
     }
     return areFine;
 }

@@ -106,8 +106,7 @@ kiriResult kiriSheet_CopySources(const kiriWorld* world, kiriSheet sheet, int32_
     KIRI_FIND_SHEET(data, sheet);
     KIRI_CHECK(IsRange(firstTriangle, count, data->seen.surface.triangleCount), "the sheet has no such triangles");
     for (int32_t i = 0; i < count; ++i) {
-        bool isThere = kiriMesh_IsTriangle(&data->mesh, firstTriangle + i);
-        sources[i] = isThere ? data->mesh.triangles.data[firstTriangle + i].source : KIRI_NONE;
+        sources[i] = data->mesh.triangles.data[firstTriangle + i].source;
     }
     return KIRI_OK;
 }
@@ -121,11 +120,7 @@ kiriResult kiriSheet_CopySourceWeights(const kiriWorld* world, kiriSheet sheet, 
     KIRI_CHECK(IsRange(firstTriangle, count, data->seen.surface.triangleCount), "the sheet has no such triangles");
     for (int64_t i = 0; i < 3 * (int64_t)count; ++i) {
         const kiriTriangle* triangle = &data->mesh.triangles.data[firstTriangle + i / 3];
-        if (triangle->vertex[i % 3] == KIRI_NONE) {
-            memset(&weights[3 * i], 0, 3 * sizeof(float));
-        } else {
-            kiriMesh_GetShareIn(&data->mesh, triangle->vertex[i % 3], triangle->source, &weights[3 * i]);
-        }
+        kiriMesh_GetShareIn(&data->mesh, triangle->vertex[i % 3], triangle->source, &weights[3 * i]);
     }
     return KIRI_OK;
 }

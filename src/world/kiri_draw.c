@@ -70,7 +70,7 @@ static uint32_t ColorOfPiece(const kiriSheetData* sheet, int32_t piece)
 static int32_t SeenPieceOf(const kiriSheetData* sheet, int32_t triangle)
 {
     int32_t piece = kiriPiece_OfTriangle(sheet, triangle);
-    return piece == KIRI_NONE || sheet->layout.pieces.data[piece].isGone ? KIRI_NONE : piece;
+    return sheet->layout.pieces.data[piece].isGone ? KIRI_NONE : piece;
 }
 
 /* An edge between two triangles is that of the one with the lower half-edge. */
@@ -133,7 +133,7 @@ static void DrawBoxesFrom(kiriDrawing* drawing, const kiriSheetData* sheet, int3
     kiriBox boxes[BOXES_A_PASS];
     bool isSeen[BOXES_A_PASS] = { false };
     for (int32_t v = 0; v < sheet->mesh.vertices.count; ++v) {
-        int32_t piece = kiriMesh_IsVertex(&sheet->mesh, v) ? kiriPiece_OfVertex(sheet, v) : KIRI_NONE;
+        int32_t piece = kiriPiece_OfVertex(sheet, v);
         if (piece < first || piece >= first + BOXES_A_PASS || sheet->layout.pieces.data[piece].isGone) {
             continue;
         }
