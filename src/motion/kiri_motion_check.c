@@ -268,9 +268,7 @@ static const kiriMember RefitMembers[] = {
     KIRI_PART(kiriRefit, ownership, OwnershipTable),
     KIRI_ROOM_OF(kiriRefit, fits),
     KIRI_RUN(4, kiriRefit, most, most),
-    KIRI_ROOM_OF(kiriRefit, gained),
-    KIRI_ROOM_OF(kiriRefit, firstOf),
-    KIRI_ROOM_OF(kiriRefit, nextOf),
+    KIRI_ROOM_OF(kiriRefit, bodies),
 };
 const kiriTable kiriRefitTable = KIRI_TABLE(kiriRefit, RefitMembers);
 

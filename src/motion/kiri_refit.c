@@ -2,10 +2,7 @@
 
 #include <string.h>
 
-/* ---- Owners in force ----
-
-   A triangle is convex, so what it has in a square lies in one cell; and cells only ever fall apart, so what the parts
-   of the triangle have there later has lain in that cell. */
+/* ---- Dirty squares ----------------------------------------------------------------------------------------------- */
 
 static bool NoteSquare(kiriOwnership* ownership, kiriMemory* memory, int32_t square)
 {
@@ -20,13 +17,12 @@ static bool NoteSquare(kiriOwnership* ownership, kiriMemory* memory, int32_t squ
 static bool ReserveOwners(kiriOwnership* ownership, kiriMemory* memory, const kiriMeshData* mesh)
 {
     int32_t count = mesh->squares.columns * mesh->squares.rows;
-    const kiriSquareOwners none = { KIRI_NONE, { 0, 0 } };
     if (!kiriArray_ReserveJust(memory, &ownership->squares, count) ||
         !kiriArray_ReserveJust(memory, &ownership->isDirty, count)) {
         return false;
     }
     while (ownership->squares.count < count) {
-        ownership->squares.data[ownership->squares.count++] = none;
+        ownership->squares.data[ownership->squares.count++] = (kiriSquareOwners){ KIRI_NONE, { 0, 0 } };
         ownership->isDirty.data[ownership->isDirty.count++] = 0;
     }
     return true;
@@ -52,34 +48,38 @@ bool kiriOwnership_NoteChanges(kiriOwnership* ownership, kiriMemory* memory, con
     return ok;
 }
 
-/* A part that rounding brought into a square where its triangle was not goes to the lowest owner there. */
+/* ---- Staging -----------------------------------------------------------------------------------------------------
+
+   A triangle is convex, so its material in a square lies in one cell; and cells only ever fall apart, so the parts that
+   the triangle has there later were in that cell. */
+
+/* Returns the owner before the update. A part that rounding brought into a square where its triangle was not goes to the
+   lowest owner there. */
 static int32_t OwnerBefore(const kiriOwnership* ownership, const kiriMeshData* mesh, int32_t square, int32_t triangle)
 {
     const kiriSquareOwners* owners = &ownership->squares.data[square];
+    int32_t lowest = INT32_MAX;
     if (owners->parts.count == 0) {
         return owners->owner;
     }
     while (triangle >= ownership->triangleCount) {
         triangle = mesh->triangles.data[triangle].parent;
     }
-    const kiriTriangleOwner* owned = &ownership->triangleOwners.data[owners->parts.first];
-    int32_t lowest = owned[0].owner;
-    for (int32_t k = 0; k < owners->parts.count; ++k) {
-        if (owned[k].triangle == triangle) {
-            return owned[k].owner;
+    for (int32_t k = owners->parts.first; k < owners->parts.first + owners->parts.count; ++k) {
+        const kiriTriangleOwner* owned = &ownership->triangleOwners.data[k];
+        if (owned->triangle == triangle) {
+            return owned->owner;
         }
-        lowest = kiriMin(owned[k].owner, lowest);
+        lowest = kiriMin(owned->owner, lowest);
     }
     return lowest;
 }
 
-/* ---- Staging ---- */
-
-/* The transfer between two frames, an empty one where there was none. */
+/* Returns the transfer between two frames, a new one where there was none; null when out of memory. */
 static kiriTransfer* FindTransfer(kiriOwnership* ownership, kiriMemory* memory, int32_t to, int32_t from)
 {
     KIRI_ASSERT(to >= 0 && to < ownership->first.count && from >= 0 && from < ownership->first.count);
-    int32_t before = KIRI_NONE, at = ownership->first.data[to];
+    int32_t before = KIRI_NONE, at = ownership->first.data[to], index = ownership->transfers.count;
     while (at != KIRI_NONE && ownership->transfers.data[at].from < from) {
         before = at;
         at = ownership->transfers.data[at].next;
@@ -87,43 +87,34 @@ static kiriTransfer* FindTransfer(kiriOwnership* ownership, kiriMemory* memory, 
     if (at != KIRI_NONE && ownership->transfers.data[at].from == from) {
         return &ownership->transfers.data[at];
     }
-    kiriTransfer transfer = { from, at, { { 0, 0 }, { 0, 0 }, { 0, 0 }, { 0, 0 }, { 0, 0 }, { 0, 0 } } };
+    kiriTransfer transfer = { .from = from, .next = at };
     if (!kiriArray_Push(memory, &ownership->transfers, transfer)) {
         return NULL;
     }
-    int32_t index = ownership->transfers.count - 1;
     *(before == KIRI_NONE ? &ownership->first.data[to] : &ownership->transfers.data[before].next) = index;
     return &ownership->transfers.data[index];
 }
 
-static bool StageTransfers(kiriOwnership* ownership, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                           const kiriRegions* regions, int32_t square)
+/* Finds the material of a square that changes owner, and stages its owners. A square without cells has none. */
+static bool StageSquare(kiriOwnership* ownership, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
+                        const int32_t* owner, int32_t square)
 {
-    double extent = kiriOwnership_Extent(mesh);
-    for (int32_t c = grid->squareCell.data[square]; c != KIRI_NONE; c = grid->cells.data[c].next) {
-        int32_t to = regions->field.owner.data[c];
+    int32_t cell = grid->squareCell.data[square];
+    for (int32_t c = cell; c != KIRI_NONE; c = grid->cells.data[c].next) {
         int32_t from = OwnerBefore(ownership, mesh, square, grid->cells.data[c].triangle);
-        if (from != KIRI_NONE && from != to) {
-            kiriTransfer* transfer = FindTransfer(ownership, memory, to, from);
+        if (from != KIRI_NONE && from != owner[c]) {
+            kiriTransfer* transfer = FindTransfer(ownership, memory, owner[c], from);
+            kiriMoments material = kiriGrid_Material(grid, mesh, c);
             if (transfer == NULL) {
                 return false;
             }
-            kiriMoments material = kiriGrid_Material(grid, mesh, c);
-            kiriTally_Add(&transfer->material, &material, 1, extent);
+            kiriTally_Add(&transfer->material, &material, 1, KIRI_LATTICE * mesh->step);
         }
     }
-    return true;
-}
-
-/* A square without material has no cells to own. */
-static bool StageOwners(kiriOwnership* ownership, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                        const kiriRegions* regions, int32_t square)
-{
-    int32_t cell = grid->squareCell.data[square];
     if (cell == KIRI_NONE) {
         return true;
     }
-    kiriStagedOwners staged = { square, { regions->field.owner.data[cell], { 0, 0 } } };
+    kiriStagedOwners staged = { square, { owner[cell], { 0, 0 } } };
     bool isDivided = grid->cells.data[cell].next != KIRI_NONE;
     int32_t count = isDivided ? kiriSquares_CountNodes(&mesh->squares, square) : 0;
     if (!kiriArray_Reserve(memory, &ownership->staged, (int64_t)ownership->staged.count + 1) ||
@@ -133,9 +124,8 @@ static bool StageOwners(kiriOwnership* ownership, kiriMemory* memory, const kiri
     }
     int32_t n = mesh->squares.head[square];
     for (int32_t k = 0; k < count; ++k, n = mesh->squares.nodes.data[n].next) {
-        kiriTriangleOwner owned = { mesh->squares.nodes.data[n].triangle,
-                                    regions->field.owner.data[grid->nodeCell.data[n]] };
-        ownership->triangleOwners.data[staged.owners.parts.first + k] = owned;
+        ownership->triangleOwners.data[staged.owners.parts.first + k] =
+            (kiriTriangleOwner){ mesh->squares.nodes.data[n].triangle, owner[grid->nodeCell.data[n]] };
     }
     ownership->staged.data[ownership->staged.count++] = staged;
     return true;
@@ -147,7 +137,7 @@ static void FreeParts(kiriOwnership* ownership, kiriSpan* parts)
     kiriSpan_Resize(parts, &ownership->spans, NULL, &ownership->triangleOwners, sizeof(kiriTriangleOwner), 0);
 }
 
-static void DropStagedOwners(kiriOwnership* ownership)
+static void DropStaged(kiriOwnership* ownership)
 {
     for (int32_t k = 0; k < ownership->staged.count; ++k) {
         FreeParts(ownership, &ownership->staged.data[k].owners.parts);
@@ -156,55 +146,49 @@ static void DropStagedOwners(kiriOwnership* ownership)
     ownership->due = 0;
 }
 
-static bool ClearTransfers(kiriOwnership* ownership, kiriMemory* memory, int32_t frameCount)
-{
-    DropStagedOwners(ownership);
-    if (!kiriArray_Resize(memory, &ownership->first, frameCount)) {
-        return false;
-    }
-    for (int32_t f = 0; f < frameCount; ++f) {
-        ownership->first.data[f] = KIRI_NONE;
-    }
-    return true;
-}
-
 static bool StartStaging(kiriOwnership* ownership, kiriMemory* memory, const kiriMeshData* mesh, int32_t frameCount,
                          bool isScratch)
 {
-    bool ok = ReserveOwners(ownership, memory, mesh) && ClearTransfers(ownership, memory, frameCount);
+    DropStaged(ownership);
+    bool ok = ReserveOwners(ownership, memory, mesh) && kiriArray_Resize(memory, &ownership->first, frameCount);
+    for (int32_t f = 0; ok && f < frameCount; ++f) {
+        ownership->first.data[f] = KIRI_NONE;
+    }
     for (int32_t s = 0; ok && isScratch && s < ownership->isDirty.count; ++s) {
         ok = NoteSquare(ownership, memory, s);
     }
     return ok;
 }
 
-/* Of the k-th dirty square. One that is not divided has one owner, which takes little. */
-static int64_t ItemsOfSquare(const kiriGrid* grid, const kiriMeshData* mesh, int32_t square, int32_t k)
+kiriProgress kiriRefit_Stage(kiriRefit* refit, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
+                             const kiriRegions* regions, bool isScratch, kiriQuota* quota)
 {
     enum { WHOLE_AN_ITEM = 8, NODES_AN_ITEM = 8 };
-    int32_t cell = grid->squareCell.data[square];
-    bool isDivided = cell != KIRI_NONE && grid->cells.data[cell].next != KIRI_NONE;
-    return isDivided ? 1 + kiriSquares_CountNodes(&mesh->squares, square) / NODES_AN_ITEM : k % WHOLE_AN_ITEM == 0;
-}
-
-kiriProgress kiriOwnership_Stage(kiriOwnership* ownership, kiriMemory* memory, const kiriGrid* grid,
-                                 const kiriMeshData* mesh, const kiriRegions* regions, bool isScratch, kiriQuota* quota)
-{
-    if (ownership->next == 0 && !StartStaging(ownership, memory, mesh, regions->material.count, isScratch)) {
+    kiriOwnership* ownership = &refit->ownership;
+    int32_t frameCount = regions->material.count;
+    if (ownership->next == 0 && !StartStaging(ownership, memory, mesh, frameCount, isScratch)) {
         return KIRI_FAILED;
     }
-    while (kiriQuota_Pay(quota, &ownership->due)) {
-        if (ownership->next == ownership->dirty.count) {
-            return KIRI_DONE;
-        }
-        int32_t square = ownership->dirty.data[ownership->next++];
-        if (!StageTransfers(ownership, memory, grid, mesh, regions, square) ||
-            !StageOwners(ownership, memory, grid, mesh, regions, square)) {
+    KIRI_ASSERT(ownership->first.count == frameCount);
+    while (kiriQuota_Pay(quota, &ownership->due) && ownership->next < ownership->dirty.count) {
+        int32_t square = ownership->dirty.data[ownership->next++], cell = grid->squareCell.data[square];
+        bool isDivided = cell != KIRI_NONE && grid->cells.data[cell].next != KIRI_NONE;
+        if (!StageSquare(ownership, memory, grid, mesh, regions->field.owner.data, square)) {
             return KIRI_FAILED;
         }
-        ownership->due = ItemsOfSquare(grid, mesh, square, ownership->next);
+        ownership->due = isDivided ? 1 + kiriSquares_CountNodes(&mesh->squares, square) / NODES_AN_ITEM
+                                   : ownership->next % WHOLE_AN_ITEM == 0;
     }
-    return KIRI_MORE;
+    if (ownership->due > 0) {
+        return KIRI_MORE;
+    }
+    refit->most = 0;
+    for (int32_t f = 0; f < frameCount; ++f) {
+        refit->most += ownership->first.data[f] != KIRI_NONE;
+    }
+    bool hasRoom =
+        kiriArray_Reserve(memory, &refit->fits, refit->most) && kiriArray_Reserve(memory, &refit->bodies, frameCount);
+    return hasRoom ? KIRI_DONE : KIRI_FAILED;
 }
 
 static void ClearDirtySquares(kiriOwnership* ownership)
@@ -215,53 +199,24 @@ static void ClearDirtySquares(kiriOwnership* ownership)
     ownership->dirty.count = 0;
 }
 
-void kiriOwnership_Drop(kiriOwnership* ownership)
+void kiriRefit_Drop(kiriRefit* refit)
 {
-    DropStagedOwners(ownership);
-    ClearDirtySquares(ownership);
+    DropStaged(&refit->ownership);
+    ClearDirtySquares(&refit->ownership);
+    refit->fits.count = 0;
 }
 
-void kiriOwnership_Commit(kiriOwnership* ownership, const kiriMeshData* mesh)
+void kiriRefit_Commit(kiriRefit* refit, const kiriMeshData* mesh)
 {
+    kiriOwnership* ownership = &refit->ownership;
     for (int32_t k = 0; k < ownership->staged.count; ++k) {
         kiriSquareOwners* owners = &ownership->squares.data[ownership->staged.data[k].square];
         FreeParts(ownership, &owners->parts);
         *owners = ownership->staged.data[k].owners;
     }
-    ownership->staged.count = ownership->transfers.count = ownership->next = 0;
+    ownership->staged.count = 0; /* their parts are in place */
     ownership->triangleCount = mesh->triangles.count;
-    ClearDirtySquares(ownership);
-}
-
-/* ---- What is left ---- */
-
-/* Triangles of what is gone leave the parts of the square. */
-static void DropParts(kiriOwnership* ownership, const kiriKeep* triangles, kiriSpan* parts)
-{
-    kiriTriangleOwner* owned = ownership->triangleOwners.data + parts->first;
-    int32_t kept = 0;
-    for (int32_t k = 0; k < parts->count; ++k) {
-        if (kiriKeep_Has(triangles, owned[k].triangle)) {
-            owned[kept++] = owned[k];
-        }
-    }
-    /* To shrink never fails. */
-    kiriSpan_Resize(parts, &ownership->spans, NULL, &ownership->triangleOwners, sizeof(kiriTriangleOwner), kept);
-}
-
-static void RenumberOwners(kiriOwnership* ownership, const kiriKeep* triangles, const kiriKeep* frames)
-{
-    for (int32_t s = 0; s < ownership->squares.count; ++s) {
-        kiriSquareOwners* owners = &ownership->squares.data[s];
-        if (owners->owner >= frames->first) {
-            owners->owner = frames->to.data[owners->owner];
-        }
-        for (int32_t k = owners->parts.first; k < owners->parts.first + owners->parts.count; ++k) {
-            kiriTriangleOwner* owned = &ownership->triangleOwners.data[k];
-            owned->triangle = kiriKeep_To(triangles, owned->triangle);
-            owned->owner = kiriKeep_To(frames, owned->owner);
-        }
-    }
+    kiriRefit_Drop(refit);
 }
 
 void kiriOwnership_Keep(kiriOwnership* ownership, const kiriGrid* grid, const kiriMeshData* mesh,
@@ -269,14 +224,27 @@ void kiriOwnership_Keep(kiriOwnership* ownership, const kiriGrid* grid, const ki
                         const int32_t* of, int32_t count)
 {
     KIRI_ASSERT(ownership->dirty.count == 0 && ownership->staged.count == 0);
+    kiriTriangleOwner* owned = ownership->triangleOwners.data;
     for (int32_t k = 0; k < count; ++k) {
-        kiriSquareOwners* owners = &ownership->squares.data[of[k]];
-        int32_t cell = grid->squareCell.data[of[k]];
+        kiriSpan* parts = &ownership->squares.data[of[k]].parts;
+        int32_t cell = grid->squareCell.data[of[k]], kept = 0;
         bool isDivided = cell != KIRI_NONE && grid->cells.data[cell].next != KIRI_NONE;
-        isDivided ? DropParts(ownership, triangles, &owners->parts) : FreeParts(ownership, &owners->parts);
+        for (int32_t p = parts->first; isDivided && p < parts->first + parts->count; ++p) {
+            if (kiriKeep_Has(triangles, owned[p].triangle)) {
+                owned[parts->first + kept++] = owned[p];
+            }
+        }
+        /* To shrink never fails. */
+        kiriSpan_Resize(parts, &ownership->spans, NULL, &ownership->triangleOwners, sizeof(kiriTriangleOwner), kept);
     }
-    if (kiriKeep_Moves(triangles) || kiriKeep_Moves(frames)) {
-        RenumberOwners(ownership, triangles, frames);
+    bool moves = kiriKeep_Moves(triangles) || kiriKeep_Moves(frames);
+    for (int32_t s = 0; moves && s < ownership->squares.count; ++s) {
+        kiriSquareOwners* owners = &ownership->squares.data[s];
+        owners->owner = kiriKeep_To(frames, owners->owner);
+        for (int32_t p = owners->parts.first; p < owners->parts.first + owners->parts.count; ++p) {
+            owned[p].triangle = kiriKeep_To(triangles, owned[p].triangle);
+            owned[p].owner = kiriKeep_To(frames, owned[p].owner);
+        }
     }
     for (int32_t k = 0; k < count; ++k) {
         int32_t cell = grid->squareCell.data[of[k]];
@@ -285,34 +253,7 @@ void kiriOwnership_Keep(kiriOwnership* ownership, const kiriGrid* grid, const ki
     ownership->triangleCount = mesh->triangles.count;
 }
 
-kiriProgress kiriRefit_Stage(kiriRefit* refit, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
-                             const kiriRegions* regions, bool isScratch, kiriQuota* quota)
-{
-    kiriProgress progress = kiriOwnership_Stage(&refit->ownership, memory, grid, mesh, regions, isScratch, quota);
-    refit->most = 0;
-    for (int32_t f = 0; progress == KIRI_DONE && f < refit->ownership.first.count; ++f) {
-        refit->most += refit->ownership.first.data[f] != KIRI_NONE;
-    }
-    int32_t frameCount = refit->ownership.first.count;
-    bool hasRoom =
-        kiriArray_Reserve(memory, &refit->fits, refit->most) && kiriArray_Reserve(memory, &refit->gained, frameCount) &&
-        kiriArray_Reserve(memory, &refit->firstOf, frameCount) && kiriArray_Reserve(memory, &refit->nextOf, frameCount);
-    return hasRoom ? progress : KIRI_FAILED;
-}
-
-void kiriRefit_Drop(kiriRefit* refit)
-{
-    kiriOwnership_Drop(&refit->ownership);
-    refit->fits.count = 0;
-}
-
-void kiriRefit_Commit(kiriRefit* refit, const kiriMeshData* mesh)
-{
-    kiriOwnership_Commit(&refit->ownership, mesh);
-    refit->fits.count = 0;
-}
-
-/* ---- Parts ----
+/* ---- Fits --------------------------------------------------------------------------------------------------------
 
    The part of a new region that comes from one frame moved, before the commit, as a frame would that has the mass and
    centre of that part. So the functions for frames serve for parts. */
@@ -325,8 +266,8 @@ typedef struct MotionFit {
     double extent, densityPerArea;
     bool isRigid;
 
-    kiriFrameData* state; /* that is sought; its centre, x and velocity are final before the second pass */
-    double mass;          /* of the parts */
+    kiriFrameData* state; /* result; its centre, x and velocity are final before the second pass */
+    double mass;          /* sum over the parts */
     kiriMat3 A, rate;     /* their means */
     kiriMat3 positions;   /* integral of density times position times the rest way from the centre, */
     kiriMat3 velocities;  /* and of density times velocity times that way */
@@ -334,28 +275,26 @@ typedef struct MotionFit {
     double energy;        /* kinetic */
 } MotionFit;
 
-static void SubtractExact(kiriExact* sum, kiriExact part)
-{
-    sum->high -= part.high;
-    sum->low -= part.low;
-    if (sum->low < 0) {
-        sum->low += (int64_t)1 << 62;
-        sum->high -= 1;
-    }
-}
+typedef char TallyIsSixNumbers[sizeof(kiriTally) == 6 * sizeof(kiriExact) ? 1 : -1];
 
 /* Exact, so that nothing is left where nothing stayed. */
 static void SubtractTally(kiriTally* sum, const kiriTally* part)
 {
-    SubtractExact(&sum->area, part->area);
-    SubtractExact(&sum->u, part->u);
-    SubtractExact(&sum->v, part->v);
-    SubtractExact(&sum->uu, part->uu);
-    SubtractExact(&sum->uv, part->uv);
-    SubtractExact(&sum->vv, part->vv);
+    kiriExact a[6], b[6];
+    memcpy(a, sum, sizeof(a));
+    memcpy(b, part, sizeof(b));
+    for (int k = 0; k < 6; ++k) {
+        a[k].high -= b[k].high;
+        a[k].low -= b[k].low;
+        if (a[k].low < 0) {
+            a[k].low += (int64_t)1 << 62;
+            a[k].high -= 1;
+        }
+    }
+    memcpy(sum, a, sizeof(a));
 }
 
-/* The part with the material of a tally, as it moved before. */
+/* Visits the part with the material of a tally, as it moved before. */
 static void VisitPart(MotionFit* fit, int32_t from, const kiriTally* tally,
                       void visit(MotionFit* fit, const kiriFrameData* part))
 {
@@ -367,7 +306,7 @@ static void VisitPart(MotionFit* fit, int32_t from, const kiriTally* tally,
     }
 }
 
-/* What stayed with the frame, then what came to it. */
+/* Visits the part that stayed with the frame, then the parts that came to it. */
 static void VisitParts(MotionFit* fit, int32_t frame, const kiriTally* region,
                        void visit(MotionFit* fit, const kiriFrameData* part))
 {
@@ -392,16 +331,6 @@ static void SumMeans(MotionFit* fit, const kiriFrameData* part)
     sum->spin = kiriVec3_AddScaled(sum->spin, part->mass, part->spin);
     fit->A = kiriMat3_AddScaled(&fit->A, part->mass, &part->A);
     fit->rate = kiriMat3_AddScaled(&fit->rate, part->mass, &rate);
-}
-
-static void DivideMeans(MotionFit* fit)
-{
-    double share = 1.0 / fit->mass;
-    fit->state->x = kiriVec3_Scale(share, fit->state->x);
-    fit->state->velocity = kiriVec3_Scale(share, fit->state->velocity);
-    fit->state->spin = kiriVec3_Scale(share, fit->state->spin);
-    fit->A = kiriMat3_Scale(share, &fit->A);
-    fit->rate = kiriMat3_Scale(share, &fit->rate);
 }
 
 /* Adds the integral of density times position times the way from the centre at rest over a part: its centre is at
@@ -431,8 +360,8 @@ static void SumIntegrals(MotionFit* fit, const kiriFrameData* part)
     fit->energy += kiriFrame_KineticEnergy(part, fit->material);
 }
 
-/* The slope whose integral comes nearest to `integral`. It starts from the mean slope, which stays across a region that
-   is a thread. */
+/* Returns the slope whose integral comes nearest to `integral`. It starts from the mean slope, which stays across a
+   region that is a thread. */
 static kiriMat3 NearestSlope(const MotionFit* fit, const kiriMat3* mean, const kiriMat3* integral)
 {
     kiriMassMoments m = kiriFrame_MassMoments(fit->state, fit->material);
@@ -443,15 +372,6 @@ static kiriMat3 NearestSlope(const MotionFit* fit, const kiriMat3* mean, const k
     slope.u = kiriVec3_AddScaled(kiriVec3_AddScaled(slope.u, vv / det, u), -m.uv / det, v);
     slope.v = kiriVec3_AddScaled(kiriVec3_AddScaled(slope.v, uu / det, v), -m.uv / det, u);
     return slope;
-}
-
-/* The spin makes up for the angular momentum that the slope alone would lose. */
-static void TakeMissingTurn(MotionFit* fit)
-{
-    kiriFrameData* state = fit->state;
-    kiriVec3 missing = kiriVec3_Sub(fit->angular, kiriFrame_AngularMomentum(state, fit->material));
-    kiriMat3 inertia = kiriFrame_Inertia(state, fit->material);
-    state->spin = kiriVec3_Add(state->spin, kiriMat3_Solve(&inertia, missing));
 }
 
 static void FitState(MotionFit* fit)
@@ -466,10 +386,13 @@ static void FitState(MotionFit* fit)
         state->spin = kiriMat3_Spin(&state->A, &rate);
         state->rate = kiriMat3_Beside(&state->A, &rate, state->spin);
     }
-    TakeMissingTurn(fit);
+    /* The spin makes up for the angular momentum that the slope alone would lose. */
+    kiriVec3 missing = kiriVec3_Sub(fit->angular, kiriFrame_AngularMomentum(state, fit->material));
+    kiriMat3 inertia = kiriFrame_Inertia(state, fit->material);
+    state->spin = kiriVec3_Add(state->spin, kiriMat3_Solve(&inertia, missing));
 }
 
-/* False where all the material is new. */
+/* Fits a frame; false where all its material is new. */
 static bool FitFrame(MotionFit* fit, int32_t frame, const kiriTally* region, const kiriMoments* material)
 {
     kiriVec3 zero = { 0.0, 0.0, 0.0 };
@@ -482,7 +405,12 @@ static bool FitFrame(MotionFit* fit, int32_t frame, const kiriTally* region, con
     if (!(fit->mass > 0.0)) {
         return false;
     }
-    DivideMeans(fit);
+    double share = 1.0 / fit->mass;
+    state->x = kiriVec3_Scale(share, state->x);
+    state->velocity = kiriVec3_Scale(share, state->velocity);
+    state->spin = kiriVec3_Scale(share, state->spin);
+    fit->A = kiriMat3_Scale(share, &fit->A);
+    fit->rate = kiriMat3_Scale(share, &fit->rate);
     VisitParts(fit, frame, region, SumIntegrals);
     FitState(fit);
     return true;
@@ -498,7 +426,7 @@ void kiriRefit_Solve(kiriRefit* refit, const kiriFrameData* frames, int32_t fram
     fit.frames = frames;
     fit.frameCount = frameCount;
     fit.material = material;
-    fit.extent = kiriOwnership_Extent(mesh);
+    fit.extent = KIRI_LATTICE * mesh->step;
     fit.densityPerArea = (double)material->density * material->thickness;
     fit.isRigid = isRigid;
     refit->fits.count = 0;
@@ -506,7 +434,8 @@ void kiriRefit_Solve(kiriRefit* refit, const kiriFrameData* frames, int32_t fram
         if (refit->ownership.first.data[f] == KIRI_NONE || frames[f].held) {
             continue;
         }
-        kiriFit* next = &refit->fits.data[refit->fits.count]; /* Stage has made room */
+        KIRI_ASSERT(refit->fits.count < refit->fits.capacity); /* Stage has made room */
+        kiriFit* next = &refit->fits.data[refit->fits.count];
         next->state = frames[f];
         fit.state = &next->state;
         if (FitFrame(&fit, f, &regions->material.data[f], &regionMoments[f])) {
@@ -517,64 +446,12 @@ void kiriRefit_Solve(kiriRefit* refit, const kiriFrameData* frames, int32_t fram
     }
 }
 
-/* ---- Limit of energy ----
+/* ---- Limit of energy ---------------------------------------------------------------------------------------------
 
    A region that is flatter than the parts it came from has less inertia, and turns faster with the same angular
    momentum: its kinetic energy grows. As a rule other fits of the piece have lost more. If not, the energy is taken out
    of the motion that the piece has beside moving and turning as one body, which leaves its momentum as it is. Only a
    piece that has no such motion turns slower. */
-
-/* A piece as one rigid body, with the motion that has its momenta. */
-typedef struct RigidBody {
-    int32_t piece;
-    double energy, mass;
-    kiriVec3 x, velocity, angular, spin;
-    kiriMat3 inertia;
-} RigidBody;
-
-static void AddLinear(RigidBody* body, const kiriFrameData* frame, const kiriMaterial* material)
-{
-    body->mass += frame->mass;
-    body->energy += kiriFrame_KineticEnergy(frame, material);
-    body->x = kiriVec3_AddScaled(body->x, frame->mass, frame->x);
-    body->velocity = kiriVec3_AddScaled(body->velocity, frame->mass, frame->velocity);
-}
-
-static void AddTurning(RigidBody* body, const kiriFrameData* frame, const kiriMaterial* material)
-{
-    kiriVec3 arm = kiriVec3_Sub(frame->x, body->x), velocity = kiriVec3_Sub(frame->velocity, body->velocity);
-    kiriMat3 own = kiriFrame_Inertia(frame, material), point = kiriMat3_PointInertia(frame->mass, arm);
-    body->inertia = kiriMat3_AddScaled(&body->inertia, 1.0, &own);
-    body->inertia = kiriMat3_AddScaled(&body->inertia, 1.0, &point);
-    body->angular = kiriVec3_Add(body->angular, kiriFrame_AngularMomentum(frame, material));
-    body->angular = kiriVec3_AddScaled(body->angular, frame->mass, kiriVec3_Cross(arm, velocity));
-}
-
-static void GatherBody(RigidBody* body, const kiriRefit* refit, const kiriFrameData* frames,
-                       const kiriMaterial* material)
-{
-    int32_t first = refit->firstOf.data[body->piece];
-    for (int32_t f = first; f != KIRI_NONE; f = refit->nextOf.data[f]) {
-        AddLinear(body, &frames[f], material);
-    }
-    body->x = kiriVec3_Scale(1.0 / body->mass, body->x);
-    body->velocity = kiriVec3_Scale(1.0 / body->mass, body->velocity);
-    for (int32_t f = first; f != KIRI_NONE; f = refit->nextOf.data[f]) {
-        AddTurning(body, &frames[f], material);
-    }
-    body->spin = kiriMat3_Solve(&body->inertia, body->angular);
-}
-
-/* Keeps the velocity as one body, `turning` of the turning as one body, and `rest` of all else. */
-static void ScaleMotion(const RigidBody* body, kiriFrameData* frame, double turning, double rest)
-{
-    kiriVec3 round = kiriVec3_Cross(body->spin, kiriVec3_Sub(frame->x, body->x));
-    kiriVec3 beside = kiriVec3_Sub(kiriVec3_Sub(frame->velocity, body->velocity), round);
-    kiriVec3 spin = kiriVec3_Sub(frame->spin, body->spin);
-    frame->velocity = kiriVec3_AddScaled(kiriVec3_AddScaled(body->velocity, turning, round), rest, beside);
-    frame->spin = kiriVec3_AddScaled(kiriVec3_Scale(turning, body->spin), rest, spin);
-    frame->rate = kiriMat3_Scale(rest, &frame->rate);
-}
 
 /* sqrt(part / whole), at most 1; 0 where `part` is not above 0. */
 static double RootOfShare(double part, double whole)
@@ -582,44 +459,56 @@ static double RootOfShare(double part, double whole)
     return part > 0.0 && whole > part ? sqrt(part / whole) : part > 0.0 ? 1.0 : 0.0;
 }
 
-static void LimitPieceEnergy(const kiriRefit* refit, int32_t piece, kiriFrameData* frames, const kiriMaterial* material)
+/* Sums the momenta of the pieces that gained energy. */
+static void GatherBodies(kiriFitBody* bodies, int32_t pieceCount, const kiriFrameData* frames, int32_t frameCount,
+                         const int32_t* framePiece, const kiriMaterial* material)
 {
-    RigidBody body;
-    memset(&body, 0, sizeof(body));
-    body.piece = piece;
-    GatherBody(&body, refit, frames, material);
-    double moving = 0.5 * body.mass * kiriVec3_Dot(body.velocity, body.velocity);
-    double turning = 0.5 * kiriVec3_Dot(body.spin, body.angular), due = body.energy - refit->gained.data[piece];
-    double ofRest = RootOfShare(due - moving - turning, body.energy - moving - turning);
-    double ofTurning = ofRest > 0.0 ? 1.0 : RootOfShare(due - moving, turning);
-    for (int32_t f = refit->firstOf.data[piece]; f != KIRI_NONE; f = refit->nextOf.data[f]) {
-        if (!frames[f].held) {
-            ScaleMotion(&body, &frames[f], ofTurning, ofRest);
+    for (int32_t f = 0; f < frameCount; ++f) {
+        kiriFitBody* body = &bodies[framePiece[f]];
+        if (body->gained > 0.0) {
+            body->mass += frames[f].mass;
+            body->energy += kiriFrame_KineticEnergy(&frames[f], material);
+            body->x = kiriVec3_AddScaled(body->x, frames[f].mass, frames[f].x);
+            body->velocity = kiriVec3_AddScaled(body->velocity, frames[f].mass, frames[f].velocity);
+        }
+    }
+    for (int32_t p = 0; p < pieceCount; ++p) {
+        if (bodies[p].gained > 0.0) {
+            bodies[p].x = kiriVec3_Scale(1.0 / bodies[p].mass, bodies[p].x);
+            bodies[p].velocity = kiriVec3_Scale(1.0 / bodies[p].mass, bodies[p].velocity);
+        }
+    }
+    for (int32_t f = 0; f < frameCount; ++f) {
+        kiriFitBody* body = &bodies[framePiece[f]];
+        if (body->gained > 0.0) {
+            kiriVec3 arm = kiriVec3_Sub(frames[f].x, body->x);
+            kiriVec3 velocity = kiriVec3_Sub(frames[f].velocity, body->velocity);
+            kiriMat3 own = kiriFrame_Inertia(&frames[f], material);
+            kiriMat3 point = kiriMat3_PointInertia(frames[f].mass, arm);
+            body->inertia = kiriMat3_AddScaled(&body->inertia, 1.0, &own);
+            body->inertia = kiriMat3_AddScaled(&body->inertia, 1.0, &point);
+            body->angular = kiriVec3_Add(body->angular, kiriFrame_AngularMomentum(&frames[f], material));
+            body->angular = kiriVec3_AddScaled(body->angular, frames[f].mass, kiriVec3_Cross(arm, velocity));
         }
     }
 }
 
-/* The frames of each piece, in their order, and what its fits have gained. Stage has made room. */
-static void ListByPiece(kiriRefit* refit, int32_t frameCount, const int32_t* framePiece, int32_t pieceCount)
+/* Finds the factors of a body's motion that take the gained energy out of it. */
+static void FindFactors(kiriFitBody* body)
 {
-    KIRI_ASSERT(pieceCount <= refit->firstOf.capacity && frameCount <= refit->nextOf.capacity);
-    for (int32_t p = 0; p < pieceCount; ++p) {
-        refit->firstOf.data[p] = KIRI_NONE;
-        refit->gained.data[p] = 0.0;
-    }
-    for (int32_t f = frameCount - 1; f >= 0; --f) {
-        refit->nextOf.data[f] = refit->firstOf.data[framePiece[f]];
-        refit->firstOf.data[framePiece[f]] = f;
-    }
-    for (int32_t k = 0; k < refit->fits.count; ++k) {
-        refit->gained.data[framePiece[refit->fits.data[k].frame]] += refit->fits.data[k].gained;
-    }
+    body->spin = kiriMat3_Solve(&body->inertia, body->angular);
+    double moving = 0.5 * body->mass * kiriVec3_Dot(body->velocity, body->velocity);
+    double turning = 0.5 * kiriVec3_Dot(body->spin, body->angular), due = body->energy - body->gained;
+    body->beside = RootOfShare(due - moving - turning, body->energy - moving - turning);
+    body->turning = body->beside > 0.0 ? 1.0 : RootOfShare(due - moving, turning);
 }
 
 void kiriRefit_LimitEnergy(kiriRefit* refit, kiriFrameData* frames, int32_t frameCount, const int32_t* framePiece,
                            int32_t pieceCount, const kiriMaterial* material)
 {
+    kiriFitBody* bodies = refit->bodies.data;
     double gained = 0.0, rounding = 0.0;
+    KIRI_ASSERT(pieceCount <= refit->bodies.capacity);
     for (int32_t k = 0; k < refit->fits.count; ++k) {
         gained += refit->fits.data[k].gained;
         rounding += 1e-13 * kiriFrame_KineticEnergy(&refit->fits.data[k].state, material);
@@ -627,10 +516,26 @@ void kiriRefit_LimitEnergy(kiriRefit* refit, kiriFrameData* frames, int32_t fram
     if (!(gained > rounding)) {
         return;
     }
-    ListByPiece(refit, frameCount, framePiece, pieceCount);
+    memset(bodies, 0, sizeof(*bodies) * (size_t)pieceCount);
+    for (int32_t k = 0; k < refit->fits.count; ++k) {
+        bodies[framePiece[refit->fits.data[k].frame]].gained += refit->fits.data[k].gained;
+    }
+    GatherBodies(bodies, pieceCount, frames, frameCount, framePiece, material);
     for (int32_t p = 0; p < pieceCount; ++p) {
-        if (refit->gained.data[p] > 0.0) {
-            LimitPieceEnergy(refit, p, frames, material);
+        if (bodies[p].gained > 0.0) {
+            FindFactors(&bodies[p]);
+        }
+    }
+    for (int32_t f = 0; f < frameCount; ++f) {
+        const kiriFitBody* body = &bodies[framePiece[f]];
+        if (body->gained > 0.0 && !frames[f].held) {
+            kiriVec3 round = kiriVec3_Cross(body->spin, kiriVec3_Sub(frames[f].x, body->x));
+            kiriVec3 rest = kiriVec3_Sub(kiriVec3_Sub(frames[f].velocity, body->velocity), round);
+            kiriVec3 spin = kiriVec3_Sub(frames[f].spin, body->spin);
+            frames[f].velocity =
+                kiriVec3_AddScaled(kiriVec3_AddScaled(body->velocity, body->turning, round), body->beside, rest);
+            frames[f].spin = kiriVec3_AddScaled(kiriVec3_Scale(body->turning, body->spin), body->beside, spin);
+            frames[f].rate = kiriMat3_Scale(body->beside, &frames[f].rate);
         }
     }
 }

@@ -795,10 +795,9 @@ static bool Commit(kiriSheetData* sheet)
     kiriLinks_Commit(&sheet->links);
     kiriSkin_Commit(&sheet->vertexSkin);
     kiriSkin_Commit(&sheet->pointSkin);
-    kiriOwnership_Commit(&u->refit.ownership, &sheet->mesh);
+    kiriRefit_Commit(&u->refit, &sheet->mesh);
     kiriShape_ClearChanges(&sheet->shape);
     kiriRefresh_Drop(&u->samples.refresh);
-    kiriRefit_Drop(&u->refit);
     for (int32_t f = 0; f < sheet->frames.count; ++f) {
         sheet->frames.data[f].site = u->placing.sites.data[f];
     }
