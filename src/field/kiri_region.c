@@ -2,79 +2,62 @@
 
 /* ---- Seeds ------------------------------------------------------------------------------------------------------- */
 
-/* A site of bytes that were made up may be anywhere: ways go on from there. */
-static int32_t GridLength(double meters, double side)
+static double DistanceTo(const kiriSite* site, const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell)
 {
-    const double most = 0.5 * (KIRI_FAR - 1);
-    double length = KIRI_UNIT * (meters / side) + 0.5;
-    return (int32_t)kiriMin(length, most);
-}
-
-static double WayTo(const kiriSite* site, const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell)
-{
-    return kiriVec2_Length(kiriVec2_Sub(kiriGrid_Middle(grid, mesh, cell), site->at));
+    return kiriVec2_Distance(kiriGrid_Middle(grid, mesh, cell), site->at);
 }
 
 static bool IsAtMiddle(const kiriSite* site, const kiriGrid* grid, const kiriMeshData* mesh)
 {
-    return WayTo(site, grid, mesh, site->cell) <= 0.01 * grid->side;
+    return DistanceTo(site, grid, mesh, site->cell) <= 0.01 * grid->side;
 }
 
-/* In the site's own cell, or one step away from it. */
+/* Returns the seed in the site's own cell, or one step away from it. A site from untrusted bytes may be anywhere: its
+   distance is capped so that ways can go on from there. */
 static kiriSeed SeedNear(const kiriSite* site, int32_t owner, const kiriGrid* grid, const kiriMeshData* mesh,
                          int32_t cell)
 {
-    kiriSeed seed = { cell, GridLength(WayTo(site, grid, mesh, cell), grid->side), owner };
     if (IsAtMiddle(site, grid, mesh)) {
-        seed.distance = cell == site->cell ? 0 : KIRI_FAR;
+        return (kiriSeed){ cell, cell == site->cell ? 0 : KIRI_FAR, owner };
     }
-    return seed;
+    const double most = 0.5 * (KIRI_FAR - 1);
+    double length = KIRI_UNIT * (DistanceTo(site, grid, mesh, cell) / grid->side) + 0.5;
+    return (kiriSeed){ cell, (int32_t)kiriMin(length, most), owner };
 }
 
 bool kiriSite_Seed(const kiriSite* site, int32_t owner, kiriMemory* memory, const kiriGrid* grid,
                    const kiriMeshData* mesh, kiriSeeds* seeds)
 {
-    kiriSeed own = SeedNear(site, owner, grid, mesh, site->cell);
     kiriSteps steps;
-    if (!kiriArray_Push(memory, seeds, own)) {
-        return false;
-    }
     kiriGrid_GetSteps(grid, site->cell, &steps);
     int32_t end = IsAtMiddle(site, grid, mesh) ? 0 : steps.end[KIRI_STEP_LENGTHS - 1];
-    for (int32_t s = 0; s < end; ++s) {
-        kiriSeed seed = SeedNear(site, owner, grid, mesh, steps.data[s].cell);
-        if (!kiriArray_Push(memory, seeds, seed)) {
-            return false;
-        }
+    bool ok = true;
+    for (int32_t s = -1; ok && s < end; ++s) {
+        kiriSeed seed = SeedNear(site, owner, grid, mesh, s < 0 ? site->cell : steps.data[s].cell);
+        ok = kiriArray_Push(memory, seeds, seed);
     }
-    return true;
-}
-
-/* May a step lead from one square to the other? */
-static bool AreNear(const kiriGrid* grid, const kiriMeshData* mesh, int32_t a, int32_t b)
-{
-    KIRI_ASSERT(a >= 0 && a < grid->cells.count);
-    KIRI_ASSERT(b >= 0 && b < grid->cells.count);
-    int32_t columns = mesh->squares.columns, apart = grid->cells.data[a].square - grid->cells.data[b].square;
-    apart = (apart < 0 ? -apart : apart) + 2;
-    return apart <= 4 || (apart >= columns && apart <= columns + 4) ||
-           (apart >= 2 * columns && apart <= 2 * columns + 4);
+    return ok;
 }
 
 kiriSeed kiriSite_SeedAt(const kiriSite* site, int32_t owner, const kiriGrid* grid, const kiriMeshData* mesh,
                          int32_t cell)
 {
-    kiriSeed none = { cell, KIRI_FAR, KIRI_NONE };
-    kiriSteps steps;
-    if (!AreNear(grid, mesh, cell, site->cell)) {
-        return none;
-    }
-    kiriGrid_GetSteps(grid, cell, &steps);
+    KIRI_ASSERT(kiriGrid_IsCell(grid, cell) && kiriGrid_IsCell(grid, site->cell));
+    /* Most cells are too far for a step: more than two squares along an axis. */
+    int32_t columns = mesh->squares.columns,
+            apart = grid->cells.data[cell].square - grid->cells.data[site->cell].square;
+    apart = kiriMax(apart, -apart) + 2;
+    bool isClose =
+        apart <= 4 || (apart >= columns && apart <= columns + 4) || (apart >= 2 * columns && apart <= 2 * columns + 4);
     bool near = cell == site->cell;
-    for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1] && !near; ++s) {
-        near = steps.data[s].cell == site->cell;
+    if (isClose && !near) {
+        kiriSteps steps;
+        kiriGrid_GetSteps(grid, cell, &steps);
+        for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1] && !near; ++s) {
+            near = steps.data[s].cell == site->cell;
+        }
     }
-    return near ? SeedNear(site, owner, grid, mesh, cell) : none;
+    return near ? SeedNear(site, owner, grid, mesh, cell) : (kiriSeed){ cell, KIRI_FAR, KIRI_NONE };
 }
 
 /* ---- An update --------------------------------------------------------------------------------------------------- */
@@ -88,10 +71,9 @@ typedef struct RegionUpdate {
     int32_t siteCount;
     const kiriSiteMove* moves;
     int32_t moveCount;
-    double extent; /* of the tallies */
 } RegionUpdate;
 
-/* The nearest seed of a cell. One that holds a site takes only that site's. So no region is ever empty: a site is
+/* Returns the nearest seed of a cell. A cell that holds a site takes only that site's. So no region is ever empty: a site is
    within half a diagonal of its cell's middle, and every way into that cell is at least a side long. */
 static kiriSeed NearestSiteSeed(const void* context, int32_t cell)
 {
@@ -125,21 +107,17 @@ static void MarkRegionDirty(kiriRegions* regions, int32_t frame)
 static void AddToRegion(const RegionUpdate* u, int32_t frame, kiriMoments material, int sign)
 {
     if (frame != KIRI_NONE) {
-        kiriTally_Add(&u->regions->material.data[frame], &material, sign, u->extent);
+        kiriTally_Add(&u->regions->material.data[frame], &material, sign, u->mesh->step * KIRI_LATTICE);
         u->regions->dirty.data[frame] = 1;
     }
 }
 
-static kiriMoments MaterialOf(const RegionUpdate* u, int32_t cell)
-{
-    return kiriGrid_Material(u->grid, u->mesh, cell);
-}
-
-/* Room for all cells and frames. */
+/* Makes room for all cells and frames. */
 static bool MakeRegionRoom(const RegionUpdate* u)
 {
     kiriRegions* r = u->regions;
     int32_t cell = r->siteAt.count, frame = r->material.count, cellCount = u->grid->cells.count;
+    const kiriTally none = { .area = { 0, 0 } };
     if (!kiriField_Resize(&r->field, u->memory, cellCount) || !kiriArray_Resize(u->memory, &r->siteAt, cellCount) ||
         !kiriArray_Resize(u->memory, &r->onBorder, cellCount) ||
         !kiriBorderCells_Resize(&r->border, u->memory, cellCount, u->siteCount) ||
@@ -153,13 +131,13 @@ static bool MakeRegionRoom(const RegionUpdate* u)
         r->onBorder.data[cell] = r->isChanged.data[cell] = 0;
     }
     for (; frame < u->siteCount; ++frame) {
-        r->material.data[frame] = (kiriTally){ { 0, 0 }, { 0, 0 }, { 0, 0 }, { 0, 0 }, { 0, 0 }, { 0, 0 } };
+        r->material.data[frame] = none;
         r->dirty.data[frame] = 0;
     }
     return true;
 }
 
-/* With the owner that it has. */
+/* Sets whether a cell is on the border of its region. */
 static void SetBorder(kiriRegions* regions, int32_t cell, bool isBorder)
 {
     KIRI_ASSERT(cell >= 0 && cell < regions->onBorder.count);
@@ -167,12 +145,12 @@ static void SetBorder(kiriRegions* regions, int32_t cell, bool isBorder)
     kiriBorderCells_Put(&regions->border, cell, isBorder ? regions->field.owner.data[cell] : KIRI_NONE);
 }
 
-/* ---- What has changed ------------------------------------------------------------------------------------------ */
+/* ---- Changes of the grid and of sites ---------------------------------------------------------------------------- */
 
 static void MarkDirtyAround(const RegionUpdate* u, int32_t cell)
 {
     kiriSteps steps;
-    if (kiriGrid_IsCell(u->grid, cell)) {
+    if (cell != KIRI_NONE && kiriGrid_IsCell(u->grid, cell)) {
         kiriGrid_GetSteps(u->grid, cell, &steps);
         kiriField_MarkStepsDirty(&u->regions->field, cell);
         for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
@@ -181,7 +159,7 @@ static void MarkDirtyAround(const RegionUpdate* u, int32_t cell)
     }
 }
 
-/* False where two sites come to one cell, of bytes that were made up. */
+/* False where two sites come to one cell: only untrusted bytes say so. */
 static bool MoveSites(const RegionUpdate* u)
 {
     int32_t* siteAt = u->regions->siteAt.data;
@@ -204,14 +182,14 @@ static bool MoveSites(const RegionUpdate* u)
     return true;
 }
 
-/* What the grid has changed since the last update. */
+/* Follows the grid's changes since the last update. */
 static void FollowGrid(const RegionUpdate* u)
 {
     kiriRegions* r = u->regions;
     const kiriGridChanges* changes = &u->grid->changes;
     for (int32_t k = r->seen.gone; k < changes->gone.count; ++k) {
         int32_t cell = changes->gone.data[k];
-        AddToRegion(u, r->field.owner.data[cell], MaterialOf(u, cell), -1);
+        AddToRegion(u, r->field.owner.data[cell], kiriGrid_Material(u->grid, u->mesh, cell), -1);
         kiriField_Forget(&r->field, cell);
         r->siteAt.data[cell] = KIRI_NONE;
         SetBorder(r, cell, false);
@@ -220,7 +198,7 @@ static void FollowGrid(const RegionUpdate* u)
         const kiriMaterialChange* change = &changes->material.data[k];
         int32_t owner = r->field.owner.data[change->cell];
         AddToRegion(u, owner, change->was, -1);
-        AddToRegion(u, owner, MaterialOf(u, change->cell), 1);
+        AddToRegion(u, owner, kiriGrid_Material(u->grid, u->mesh, change->cell), 1);
     }
     for (int32_t k = r->seen.steps; k < changes->steps.count; ++k) {
         int32_t cell = changes->steps.data[k];
@@ -233,30 +211,15 @@ static void FollowGrid(const RegionUpdate* u)
     }
 }
 
-static bool MarkDirtyCells(const RegionUpdate* u)
-{
-    FollowGrid(u);
-    if (!MoveSites(u)) {
-        return false;
-    }
-    for (int32_t k = 0; k < u->moveCount; ++k) {
-        if (u->moves[k].was != KIRI_NONE) {
-            MarkDirtyAround(u, u->moves[k].was);
-        }
-        MarkDirtyAround(u, u->sites[u->moves[k].frame].cell);
-    }
-    return true;
-}
-
-/* From scratch: the seeds of all sites, without those in the cell of another site (see NearestSiteSeed). */
+/* Starts from scratch with the seeds of all sites, but for seeds in the cell of another site (see NearestSiteSeed). */
 static bool StartRegionFlood(const RegionUpdate* u)
 {
     kiriSeeds seeds = { 0 };
-    bool ok = MoveSites(u);
+    bool ok = true;
+    int32_t kept = 0;
     for (int32_t i = 0; ok && i < u->siteCount; ++i) {
         ok = kiriSite_Seed(&u->sites[i], i, u->memory, u->grid, u->mesh, &seeds);
     }
-    int32_t kept = 0;
     for (int32_t k = 0; ok && k < seeds.count; ++k) {
         int32_t holder = u->regions->siteAt.data[seeds.data[k].cell];
         if (holder == KIRI_NONE || holder == seeds.data[k].owner) {
@@ -268,7 +231,7 @@ static bool StartRegionFlood(const RegionUpdate* u)
     return ok;
 }
 
-/* ---- What follows from it ---------------------------------------------------------------------------------------- */
+/* ---- Borders, material and changes ------------------------------------------------------------------------------- */
 
 static void FindBorder(const RegionUpdate* u, int32_t cell)
 {
@@ -282,7 +245,7 @@ static void FindBorder(const RegionUpdate* u, int32_t cell)
     SetBorder(u->regions, cell, border);
 }
 
-/* The cell has another owner, so its neighbours may be on a border, or no more. */
+/* Finds the borders around a cell that has another owner. */
 static void FindBordersAround(const RegionUpdate* u, int32_t cell)
 {
     kiriSteps steps;
@@ -299,7 +262,7 @@ static void FindBordersAround(const RegionUpdate* u, int32_t cell)
     }
 }
 
-/* Each cell is among the changes once, as it was before the first. */
+/* Each cell is among the changes once, with the values before the first. */
 static bool AddRegionChange(const RegionUpdate* u, kiriSeed was)
 {
     if (u->regions->isChanged.data[was.cell]) {
@@ -309,24 +272,7 @@ static bool AddRegionChange(const RegionUpdate* u, kiriSeed was)
     return kiriArray_Push(u->memory, &u->regions->changes, was);
 }
 
-/* An update may undo what an earlier one did. */
-static void DropUnchanged(const RegionUpdate* u)
-{
-    kiriRegions* r = u->regions;
-    int32_t kept = 0;
-    for (int32_t k = 0; k < r->changes.count; ++k) {
-        kiriSeed was = r->changes.data[k];
-        bool same = was.distance == r->field.distance.data[was.cell] && was.owner == r->field.owner.data[was.cell];
-        if (same || !kiriGrid_IsCell(u->grid, was.cell)) {
-            r->isChanged.data[was.cell] = 0;
-        } else {
-            r->changes.data[kept++] = was;
-        }
-    }
-    r->changes.count = kept;
-}
-
-/* What follows for region, border and changes where a cell was other than it is. */
+/* Updates region, border and changes for a cell that had other values. */
 static bool FollowChange(const RegionUpdate* u, kiriSeed was)
 {
     kiriRegions* r = u->regions;
@@ -338,66 +284,51 @@ static bool FollowChange(const RegionUpdate* u, kiriSeed was)
     }
     MarkRegionDirty(r, owner);
     if (was.owner != owner) {
-        AddToRegion(u, was.owner, MaterialOf(u, was.cell), -1);
-        AddToRegion(u, owner, MaterialOf(u, was.cell), 1);
+        kiriMoments material = kiriGrid_Material(u->grid, u->mesh, was.cell);
+        AddToRegion(u, was.owner, material, -1);
+        AddToRegion(u, owner, material, 1);
         FindBordersAround(u, was.cell);
     }
     return AddRegionChange(u, was) && (owner != KIRI_NONE || kiriArray_Push(u->memory, &r->orphans, was.cell));
 }
 
-static void DropOrphans(const RegionUpdate* u)
-{
-    kiriRegions* r = u->regions;
-    int32_t kept = 0;
-    for (int32_t k = 0; k < r->orphans.count; ++k) {
-        int32_t cell = r->orphans.data[k];
-        if (kiriGrid_IsCell(u->grid, cell) && r->field.owner.data[cell] == KIRI_NONE) {
-            r->orphans.data[kept++] = cell;
-        }
-    }
-    r->orphans.count = kept;
-}
-
-enum { ITEMS_OF_CHANGE = 2 };
-
-/* What follows from all that the repair has changed. */
-static kiriProgress FollowLog(const RegionUpdate* u, kiriQuota* quota)
-{
-    kiriRegions* r = u->regions;
-    for (; r->followed < r->field.log.count; ++r->followed) {
-        if (!kiriQuota_Take(quota, ITEMS_OF_CHANGE)) {
-            return KIRI_MORE;
-        }
-        if (!FollowChange(u, r->field.log.data[r->followed])) {
-            return KIRI_FAILED;
-        }
-    }
-    return KIRI_DONE;
-}
-
+/* Finds borders where steps changed, and orphans among new cells; drops orphans that got an owner, and changes that an
+   earlier update made and this one undid. */
 static bool FinishRepair(const RegionUpdate* u)
 {
     kiriRegions* r = u->regions;
     const kiriGridChanges* changes = &u->grid->changes;
-    bool ok = true;
+    int32_t orphans = 0, kept = 0;
     for (int32_t k = r->seen.steps; k < changes->steps.count; ++k) {
         FindBorder(u, changes->steps.data[k]);
     }
-    for (int32_t k = r->seen.made; ok && k < changes->made.count; ++k) {
+    for (int32_t k = 0; k < r->orphans.count; ++k) {
+        int32_t cell = r->orphans.data[k];
+        r->orphans.data[orphans] = cell;
+        orphans += kiriGrid_IsCell(u->grid, cell) && r->field.owner.data[cell] == KIRI_NONE;
+    }
+    r->orphans.count = orphans;
+    for (int32_t k = r->seen.made; k < changes->made.count; ++k) {
         int32_t cell = changes->made.data[k];
-        if (r->field.owner.data[cell] == KIRI_NONE) {
-            ok = kiriArray_Push(u->memory, &r->orphans, cell);
+        if (r->field.owner.data[cell] == KIRI_NONE && !kiriArray_Push(u->memory, &r->orphans, cell)) {
+            return false;
         }
     }
-    if (ok) {
-        kiriGrid_SortCells(u->grid, r->orphans.data, r->orphans.count);
-        DropUnchanged(u);
-        r->field.log.count = 0;
+    kiriGrid_SortCells(u->grid, r->orphans.data, r->orphans.count);
+    for (int32_t k = 0; k < r->changes.count; ++k) {
+        kiriSeed was = r->changes.data[k];
+        bool same = was.distance == r->field.distance.data[was.cell] && was.owner == r->field.owner.data[was.cell];
+        bool isKept = !same && kiriGrid_IsCell(u->grid, was.cell);
+        r->isChanged.data[was.cell] = isKept;
+        r->changes.data[kept] = was;
+        kept += isKept;
     }
-    return ok;
+    r->changes.count = kept;
+    r->field.log.count = 0;
+    return true;
 }
 
-/* All cells, in their order. */
+/* Sums material and finds borders, changes and orphans: all cells, in their order. */
 static bool FinishFlood(const RegionUpdate* u)
 {
     kiriRegions* r = u->regions;
@@ -407,7 +338,7 @@ static bool FinishFlood(const RegionUpdate* u)
             kiriSeed was = { c, KIRI_FAR, KIRI_NONE };
             int32_t owner = r->field.owner.data[c];
             KIRI_ASSERT(owner >= KIRI_NONE && owner < u->siteCount);
-            AddToRegion(u, owner, MaterialOf(u, c), 1);
+            AddToRegion(u, owner, kiriGrid_Material(u->grid, u->mesh, c), 1);
             FindBorder(u, c);
             if (owner == KIRI_NONE ? !kiriArray_Push(u->memory, &r->orphans, c) : !AddRegionChange(u, was)) {
                 return false;
@@ -422,27 +353,44 @@ static bool BeginRegions(const RegionUpdate* u)
 {
     kiriRegions* r = u->regions;
     r->flooding = r->material.count == 0; /* no frames yet, so nothing of the field to keep */
-    if (!MakeRegionRoom(u) || (r->flooding && !StartRegionFlood(u))) {
+    if (!MakeRegionRoom(u)) {
         return false;
     }
-    return r->flooding || MarkDirtyCells(u);
+    if (r->flooding) {
+        return MoveSites(u) && StartRegionFlood(u);
+    }
+    FollowGrid(u);
+    if (!MoveSites(u)) {
+        return false;
+    }
+    for (int32_t k = 0; k < u->moveCount; ++k) {
+        MarkDirtyAround(u, u->moves[k].was);
+        MarkDirtyAround(u, u->sites[u->moves[k].frame].cell);
+    }
+    return true;
 }
 
+/* Makes the field right, and then everything that follows from it. */
 static kiriProgress DivideCells(const RegionUpdate* u, kiriQuota* quota)
 {
+    enum { ITEMS_OF_CHANGE = 2 };
     kiriRegions* r = u->regions;
     kiriRule rule = { u->grid, KIRI_FAR, NULL, NearestSiteSeed, u, NULL, { NULL, NULL } };
+    kiriProgress progress = KIRI_DONE;
     if (r->flooding) {
         return kiriField_Flood(&r->field, &rule, quota);
     }
-    kiriProgress progress = r->following ? KIRI_DONE : kiriField_Repair(&r->field, u->memory, &rule, quota);
-    if (progress == KIRI_DONE && !r->following) {
-        DropOrphans(u);
-        r->following = true;
+    if (!r->following) {
+        progress = kiriField_Repair(&r->field, u->memory, &rule, quota);
+        r->following = progress == KIRI_DONE;
         r->followed = 0;
     }
-    progress = progress == KIRI_DONE ? FollowLog(u, quota) : progress;
-    r->following = r->following && progress == KIRI_MORE;
+    while (progress == KIRI_DONE && r->followed < r->field.log.count) {
+        if (!kiriQuota_Take(quota, ITEMS_OF_CHANGE)) {
+            return KIRI_MORE;
+        }
+        progress = FollowChange(u, r->field.log.data[r->followed++]) ? KIRI_DONE : KIRI_FAILED;
+    }
     return progress;
 }
 
@@ -450,7 +398,7 @@ kiriProgress kiriRegions_Update(kiriRegions* regions, kiriMemory* memory, const 
                                 const kiriMeshData* mesh, const kiriSite* sites, int32_t siteCount,
                                 const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota)
 {
-    RegionUpdate u = { regions, memory, grid, mesh, sites, siteCount, moves, moveCount, mesh->step * KIRI_LATTICE };
+    RegionUpdate u = { regions, memory, grid, mesh, sites, siteCount, moves, moveCount };
     KIRI_ASSERT(siteCount >= regions->material.count && grid->cells.count >= regions->siteAt.count);
     if (!regions->running && !BeginRegions(&u)) {
         return KIRI_FAILED;
@@ -460,28 +408,14 @@ kiriProgress kiriRegions_Update(kiriRegions* regions, kiriMemory* memory, const 
     if (progress != KIRI_DONE) {
         return progress;
     }
+    regions->following = false;
     if (regions->flooding ? !FinishFlood(&u) : !FinishRepair(&u)) {
         return KIRI_FAILED;
     }
-    const kiriGridChanges* changes = &u.grid->changes;
-    u.regions->seen = (kiriSeenChanges){ changes->made.count, changes->gone.count, changes->steps.count,
-                                         changes->material.count, changes->edges.count };
+    const kiriGridChanges* changes = &grid->changes;
+    regions->seen = (kiriSeenChanges){ changes->made.count, changes->gone.count, changes->steps.count,
+                                       changes->material.count, changes->edges.count };
     return KIRI_DONE;
-}
-
-/* All cells are asked, in one plain pass: what is gone has no owner any more. */
-static void RenumberCells(kiriRegions* regions, const kiriKeep* frames)
-{
-    int32_t *owner = regions->field.owner.data, *siteAt = regions->siteAt.data;
-    const int32_t *to = frames->to.data, first = frames->first;
-    for (int32_t c = 0; c < regions->siteAt.count; ++c) {
-        if (owner[c] >= first) {
-            owner[c] = to[owner[c]];
-        }
-        if (siteAt[c] >= first) {
-            siteAt[c] = to[siteAt[c]];
-        }
-    }
 }
 
 void kiriRegions_Keep(kiriRegions* regions, const kiriKeep* frames, const int32_t* gone, int32_t goneCount)
@@ -492,8 +426,9 @@ void kiriRegions_Keep(kiriRegions* regions, const kiriKeep* frames, const int32_
         regions->siteAt.data[gone[k]] = KIRI_NONE;
         SetBorder(regions, gone[k], false);
     }
-    if (kiriKeep_Moves(frames)) {
-        RenumberCells(regions, frames);
+    for (int32_t c = 0; kiriKeep_Moves(frames) && c < regions->siteAt.count; ++c) {
+        regions->field.owner.data[c] = kiriKeep_To(frames, regions->field.owner.data[c]);
+        regions->siteAt.data[c] = kiriKeep_To(frames, regions->siteAt.data[c]);
     }
     kiriBorderCells_Keep(&regions->border, frames);
     kiriKeep_Compact(frames, &regions->material, 1, sizeof(kiriTally));
@@ -511,11 +446,10 @@ void kiriRegions_ClearChanges(kiriRegions* regions)
 
 void kiriRegions_Reset(kiriRegions* regions)
 {
+    kiriRegions_ClearChanges(regions);
     kiriField_Clear(&regions->field);
     regions->siteAt.count = regions->onBorder.count = regions->isChanged.count = 0;
     kiriBorderCells_Reset(&regions->border);
-    regions->material.count = regions->dirty.count = 0;
-    regions->changes.count = regions->orphans.count = 0;
-    regions->seen = (kiriSeenChanges){ 0, 0, 0, 0, 0 };
+    regions->material.count = regions->dirty.count = regions->orphans.count = 0;
     regions->running = regions->following = false;
 }
