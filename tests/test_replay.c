@@ -118,16 +118,10 @@ static void TestNewerVersions(void** state)
     Tape tape, again;
     RecordSmall(&tape);
     assert_int_equal(PlayChanged(&tape, VERSION_BYTE, 3, &again), KIRI_ERROR_DATA);
-    assert_non_null(strstr(again.host.line, "later version"));
+    assert_non_null(strstr(again.host.line, "another version"));
     Tape_Stop(&again);
     Tape_Free(&again);
     tape.bytes[VERSION_BYTE] ^= 3;
-    /* A def with more fields than there are. */
-    assert_int_equal(PlayChanged(&tape, GRAVITY_BYTE + 12, 2, &again), KIRI_ERROR_DATA);
-    assert_non_null(strstr(again.host.line, "later version"));
-    Tape_Stop(&again);
-    Tape_Free(&again);
-    Tape_Free(&tape);
 }
 
 static void TestAnotherResult(void** state)
@@ -220,31 +214,6 @@ static void TestGarbage(void** state)
         Tape_Stop(&again);
         Tape_Free(&again);
         free(broken.bytes);
-    }
-    Tape_Free(&tape);
-}
-
-/* A world that was made without gravity, without a budget or without either: no call writes that. */
-static void TestWorldOfNothing(void** state)
-{
-    (void)state;
-    Tape tape;
-    RecordSmall(&tape);
-    for (uint8_t nulls = 1; nulls <= 3; nulls++) {
-        Tape again, broken = { 0 };
-        const uint8_t call[2] = { KIRI_CALL_CREATE_WORLD << 1 | 1, nulls }, none[8] = { 0 };
-        Tape_Write(&broken, tape.bytes, GRAVITY_BYTE - 1);
-        Tape_Write(&broken, call, 2);
-        if ((nulls & 1) == 0) {
-            Tape_Write(&broken, tape.bytes + GRAVITY_BYTE, 12);
-        }
-        Tape_Write(&broken, none, nulls & 2 ? 1 : 8); /* a budget without limits, and the result */
-        Tape_Start(&again);
-        assert_int_equal(Tape_Play(&again, &broken), KIRI_ERROR_REPLAY);
-        assert_non_null(strstr(again.host.line, "kiriCreateWorld"));
-        Tape_Stop(&again);
-        Tape_Free(&again);
-        Tape_Free(&broken);
     }
     Tape_Free(&tape);
 }
@@ -369,7 +338,6 @@ int main(void)
         cmocka_unit_test(TestCutShort),
         cmocka_unit_test(TestFlippedBits),
         cmocka_unit_test(TestGarbage),
-        cmocka_unit_test(TestWorldOfNothing),
         cmocka_unit_test(TestRefusedReplay),
         cmocka_unit_test(TestRecordedRefusals),
         cmocka_unit_test(TestLoad),

@@ -1341,7 +1341,7 @@ func (w *World) FinishCuts() (bool, error) {
 // may come from anybody: a malicious save may give a strange world but cannot crash the program, and takes memory in
 // proportion to its size. Takes about as long as to create the sheets. The profile has no times until the next tick.
 // Arrays that the old world handed out live until then. KIRI_ERROR_DATA: the bytes are not a save, damaged, or of
-// another version. KIRI_ERROR_MEMORY. Then nothing has changed. A recording has the bytes, up to 2^31 of them.
+// another version. KIRI_ERROR_MEMORY. Then nothing has changed. `size` is below 2^31. A recording has the bytes.
 func (w *World) Load(bytes []byte) (bool, error) {
 	if err := w.check(); err != nil {
 		return false, err

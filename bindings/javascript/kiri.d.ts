@@ -1218,7 +1218,7 @@ export class World {
      *  become those in the recording; memory, log and tasks stay the host's. Ids are as recorded (World.getSheets).
      *  KIRI_PENDING: more calls follow, call again. KIRI_OK: the recording ended. KIRI_ERROR_REPLAY: a call gave
      *  another result, other ids or another state than recorded; the line names it, and the next call goes on behind
-     *  it. KIRI_ERROR_DATA: the bytes are not a recording, damaged, cut short, or of a later version; the line says
+     *  it. KIRI_ERROR_DATA: the bytes are not a recording, damaged, cut short, or of another version; the line says
      *  where. The calls before that place were made, and the last call of a recording that ends inside one, as after a
      *  crash. KIRI_ERROR_STATE: the world is not new. KIRI_ERROR_MEMORY: call again. Calls that were refused memory
      *  when recorded are skipped. After such a tick the next hashes may differ where a budget limits cells or samples. */
@@ -1236,8 +1236,8 @@ export class World {
      *  bytes may come from anybody: a malicious save may give a strange world but cannot crash the program, and takes
      *  memory in proportion to its size. Takes about as long as to create the sheets. The profile has no times until
      *  the next tick. Arrays that the old world handed out live until then. KIRI_ERROR_DATA: the bytes are not a save,
-     *  damaged, or of another version. KIRI_ERROR_MEMORY. Then nothing has changed. A recording has the bytes, up to
-     *  2^31 of them. */
+     *  damaged, or of another version. KIRI_ERROR_MEMORY. Then nothing has changed. `size` is below 2^31. A recording
+     *  has the bytes. */
     load(bytes: Uint8Array): ResultCode;
     /** For rollback: copies all of the world, also work on cuts and pieces that wait, into memory of the host. Much
      *  faster than a save, and exact to the bit. The bytes are good for this process only: never store or send them.

@@ -780,7 +780,7 @@ end
 --- become those in the recording; memory, log and tasks stay the host's. Ids are as recorded (kiriWorld_GetSheets).
 --- KIRI_PENDING: more calls follow, call again. KIRI_OK: the recording ended. KIRI_ERROR_REPLAY: a call gave another
 --- result, other ids or another state than recorded; the line names it, and the next call goes on behind it.
---- KIRI_ERROR_DATA: the bytes are not a recording, damaged, cut short, or of a later version; the line says where.
+--- KIRI_ERROR_DATA: the bytes are not a recording, damaged, cut short, or of another version; the line says where.
 --- The calls before that place were made, and the last call of a recording that ends inside one, as after a crash.
 --- KIRI_ERROR_STATE: the world is not new. KIRI_ERROR_MEMORY: call again. Calls that were refused memory when
 --- recorded are skipped. After such a tick the next hashes may differ where a budget limits cells or samples.
@@ -821,7 +821,7 @@ end
 --- may come from anybody: a malicious save may give a strange world but cannot crash the program, and takes memory in
 --- proportion to its size. Takes about as long as to create the sheets. The profile has no times until the next tick.
 --- Arrays that the old world handed out live until then. KIRI_ERROR_DATA: the bytes are not a save, damaged, or of
---- another version. KIRI_ERROR_MEMORY. Then nothing has changed. A recording has the bytes, up to 2^31 of them.
+--- another version. KIRI_ERROR_MEMORY. Then nothing has changed. `size` is below 2^31. A recording has the bytes.
 function World:load(bytes, size)
     local world = self
     size = size or #bytes

@@ -192,11 +192,11 @@ KIRI_API kiriResult kiriWorld_GetSheets(const kiriWorld* world, kiriSheet* sheet
 
 /* ---- Recording -------------------------------------------------------------------------------------------------- */
 
-/* A recording stores each call that changes a world, failed calls too, with arguments, result and new ids. The same
-   bytes give the same run, bit for bit, on any machine, with the same version of the library. The recording is all
-   bytes that `record` of the world def received, in order. `record` receives the arguments of a call before the call
-   does anything, so the recording of a crash includes the call that crashed. kiriDestroyWorld writes the end. Recording
-   takes no memory and little time. The manual has sizes (budget). */
+/* A recording stores each call that changes a world, with arguments, result and new ids: failed calls too, but not calls
+   that were refused for a bad argument. The same bytes give the same run, bit for bit, on any machine, with the same
+   version of the library. The recording is all bytes that `record` of the world def received, in order. `record`
+   receives the arguments of a call before the call does anything, so the recording of a crash includes the call that
+   crashed. kiriDestroyWorld writes the end. Recording takes no memory and little time. The manual has sizes (budget). */
 
 enum kiriNoteLimit { KIRI_MOST_NOTE_BYTES = 1 << 20 };
 
@@ -217,7 +217,7 @@ typedef struct kiriReplay {
    become those in the recording; memory, log and tasks stay the host's. Ids are as recorded (kiriWorld_GetSheets).
    KIRI_PENDING: more calls follow, call again. KIRI_OK: the recording ended. KIRI_ERROR_REPLAY: a call gave another
    result, other ids or another state than recorded; the line names it, and the next call goes on behind it.
-   KIRI_ERROR_DATA: the bytes are not a recording, damaged, cut short, or of a later version; the line says where. The
+   KIRI_ERROR_DATA: the bytes are not a recording, damaged, cut short, or of another version; the line says where. The
    calls before that place were made, and the last call of a recording that ends inside one, as after a crash.
    KIRI_ERROR_STATE: the world is not new. KIRI_ERROR_MEMORY: call again. Calls that were refused memory when recorded
    are skipped. After such a tick the next hashes may differ where a budget limits cells or samples. */
@@ -245,7 +245,7 @@ KIRI_API kiriResult kiriWorld_FinishCuts(kiriWorld* world);
    come from anybody: a malicious save may give a strange world but cannot crash the program, and takes memory in
    proportion to its size. Takes about as long as to create the sheets. The profile has no times until the next tick.
    Arrays that the old world handed out live until then. KIRI_ERROR_DATA: the bytes are not a save, damaged, or of another
-   version. KIRI_ERROR_MEMORY. Then nothing has changed. A recording has the bytes, up to 2^31 of them. */
+   version. KIRI_ERROR_MEMORY. Then nothing has changed. `size` is below 2^31. A recording has the bytes. */
 KIRI_API kiriResult kiriWorld_Load(kiriWorld* world, const void* bytes, int64_t size);
 
 /* For rollback: copies all of the world, also work on cuts and pieces that wait, into memory of the host. Much faster

@@ -191,6 +191,19 @@ static inline bool kiriMat3_Shows(const kiriMat3* m, const kiriMat3* given, cons
            (kiriVec3_Equal(m->u, given->u) && kiriVec3_Equal(m->v, given->v));
 }
 
+/* Columns, one after the other. */
+static inline kiriMat3 kiriMat3_Load(const float columns[9])
+{
+    kiriMat3 m = { kiriVec3_Load(&columns[0]), kiriVec3_Load(&columns[3]), kiriVec3_Load(&columns[6]) };
+    return m;
+}
+static inline void kiriMat3_Store(float columns[9], kiriMat3 m)
+{
+    kiriVec3_Store(&columns[0], m.u);
+    kiriVec3_Store(&columns[3], m.v);
+    kiriVec3_Store(&columns[6], m.d);
+}
+
 static inline kiriVec3 kiriMat3_Mul(kiriMat3 m, kiriVec3 a)
 {
     return kiriVec3_AddScaled(kiriVec3_AddScaled(kiriVec3_Scale(a.x, m.u), a.y, m.v), a.z, m.d);

@@ -1,4 +1,3 @@
-/* Materials and qualities for those who have no measurements of their own. */
 #include "kiri_call.h"
 #include "kiri_state.h"
 #include "kiri_tick.h"
@@ -8,6 +7,8 @@
 #include "../sheet/kiri_pin.h"
 #include "../sheet/kiri_piece.h"
 
+#include <float.h>
+#include <stdio.h>
 #include <string.h>
 
 /* What is measured has its source; the rest (damping, and what is called assumed) is chosen for its look.
@@ -28,7 +29,7 @@ static const kiriMaterial materials[KIRI_MATERIAL_COUNT] = {
 
 kiriResult kiriGetMaterial(int32_t preset, kiriMaterial* material)
 {
-    if (!kiriCall_IsWithin(preset, 0, KIRI_MATERIAL_COUNT - 1) || material == NULL) {
+    if (preset < 0 || preset >= KIRI_MATERIAL_COUNT || material == NULL) {
         return KIRI_ERROR_ARGUMENT;
     }
     *material = materials[preset];
@@ -46,7 +47,7 @@ static const kiriQuality qualities[KIRI_QUALITY_COUNT] = {
 
 kiriResult kiriGetQuality(int32_t preset, kiriQuality* quality)
 {
-    if (!kiriCall_IsWithin(preset, 0, KIRI_QUALITY_COUNT - 1) || quality == NULL) {
+    if (preset < 0 || preset >= KIRI_QUALITY_COUNT || quality == NULL) {
         return KIRI_ERROR_ARGUMENT;
     }
     *quality = qualities[preset];
@@ -90,7 +91,7 @@ static const struct {
 
 static bool IsResult(kiriResult result)
 {
-    return kiriCall_IsWithin(result, KIRI_ERROR_REPLAY, KIRI_PENDING);
+    return result >= KIRI_ERROR_REPLAY && result <= KIRI_PENDING;
 }
 
 const char* kiriGetResultName(kiriResult result)
@@ -107,7 +108,7 @@ const char* kiriGetStageName(int32_t stage)
 {
     static const char* const names[KIRI_STAGE_COUNT] = { "cut",       "grid",    "regions", "shape", "samples",
                                                          "constants", "contact", "solve",   "skin" };
-    return kiriCall_IsWithin(stage, 0, KIRI_STAGE_COUNT - 1) ? names[stage] : "";
+    return stage >= 0 && stage < KIRI_STAGE_COUNT ? names[stage] : "";
 }
 
 void kiriDefaultWorldDef(kiriWorldDef* def)
@@ -120,34 +121,14 @@ void kiriDefaultWorldDef(kiriWorldDef* def)
     }
 }
 
-static bool IsBudget(const kiriBudget* budget)
-{
-    return (budget->triangles == 0 || budget->triangles >= KIRI_LEAST_TRIANGLES) && budget->cells >= 0 &&
-           budget->samples >= 0 && budget->iterations >= 0;
-}
-
-static const char* FaultOfWorld(const kiriWorldDef* def)
-{
-    if ((def->alloc == NULL) != (def->free == NULL) || !IsBudget(&def->budget) ||
-        !kiriCall_AreFinite(def->gravity, 3)) {
-        return "kiriCreateWorld: only one of alloc and free is null, budget is out of range, or gravity is not finite "
-               "(KIRI_ERROR_ARGUMENT)";
-    }
-    if (def->recordHashTicks < 0) {
-        return "kiriCreateWorld: recordHashTicks is below 0 (KIRI_ERROR_ARGUMENT)";
-    }
-    if ((def->startTask == NULL) != (def->finishTask == NULL) || !kiriCall_IsWithin(def->workerCount, 0, 1024)) {
-        return "kiriCreateWorld: only one of startTask and finishTask is null, or workerCount is not within 0 and 1024 "
-               "(KIRI_ERROR_ARGUMENT)";
-    }
-    return NULL;
-}
-
-/* There is no world yet to keep a line. */
+/* There is no world yet to keep a line. `why` null: the line has the text of the result. */
 static kiriResult RefuseWorld(const kiriWorldDef* def, kiriResult result, const char* why)
 {
     if (def->log != NULL) {
-        def->log(def->user, why);
+        char line[256];
+        snprintf(line, sizeof(line), "kiriCreateWorld: %s (%s)", why != NULL ? why : kiriGetResultText(result),
+                 kiriGetResultName(result));
+        def->log(def->user, line);
     }
     return result;
 }
@@ -161,24 +142,27 @@ kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world)
     if (def->cookie != KIRI_COOKIE(kiriWorldDef)) {
         return KIRI_ERROR_DEF;
     }
-    const char* why = FaultOfWorld(def);
-    if (why != NULL) {
-        return RefuseWorld(def, KIRI_ERROR_ARGUMENT, why);
+    kiriFault fault = { "" };
+    if (kiriStruct_Check(&kiriWorldDefStruct, "def", NULL, def, &fault) != KIRI_OK) {
+        return RefuseWorld(def, KIRI_ERROR_ARGUMENT, fault.line);
+    }
+    if ((def->alloc == NULL) != (def->free == NULL) || (def->startTask == NULL) != (def->finishTask == NULL)) {
+        return RefuseWorld(def, KIRI_ERROR_ARGUMENT,
+                           "only one of alloc and free is null, or only one of startTask and finishTask");
     }
     if (!kiriExact_IsModePlain()) {
         return RefuseWorld(def, KIRI_ERROR_BUILD,
-                           "kiriCreateWorld: this thread flushes small floats to zero (FTZ, DAZ) or does not round to "
-                           "nearest; set the processor's mode back (KIRI_ERROR_BUILD)");
+                           "this thread flushes small floats to zero (FTZ, DAZ) or does not round to nearest; set the "
+                           "processor's mode back");
     }
     if (!kiriExact_AreFloats()) {
         return RefuseWorld(def, KIRI_ERROR_BUILD,
-                           "kiriCreateWorld: the library is compiled with fused multiply-add or reordered sums; add "
-                           "-ffp-contract=off (KIRI_ERROR_BUILD)");
+                           "the library is compiled with fused multiply-add or reordered sums; add -ffp-contract=off");
     }
     kiriMemory memory = kiriMemory_Make(def->alloc, def->free, def->user);
     kiriWorld* made = memory.alloc(memory.user, sizeof(*made)); /* owns itself: no block of its memory */
     if (made == NULL) {
-        return RefuseWorld(def, KIRI_ERROR_MEMORY, "kiriCreateWorld: out of memory (KIRI_ERROR_MEMORY)");
+        return RefuseWorld(def, KIRI_ERROR_MEMORY, NULL);
     }
     memset(made, 0, sizeof(*made));
     made->memory = kiriMemory_Like(&memory);
@@ -222,18 +206,15 @@ void kiriDestroyWorld(kiriWorld* world)
 
 kiriResult kiriWorld_Tick(kiriWorld* world, float dt, int32_t substeps)
 {
-    KIRI_CHANGES(world, KIRI_CALL_WORLD_TICK, &dt, &substeps, NULL);
+    KIRI_CHANGES(World_Tick, &dt, &substeps);
     world->begun += 1; /* refused ticks count: the host copies meshes before each call */
-    KIRI_CHECK(kiriCall_IsAtLeast(dt, 1e-6f) && dt <= 10.0f, "dt is not within 1e-6 and 10 s");
-    KIRI_CHECK(kiriCall_IsWithin(substeps, 1, 64), "substeps is not within 1 and 64");
+    KIRI_CHECK(dt >= 1e-6f && dt <= 10.0f, "dt is not within 1e-6 and 10 s");
+    KIRI_CHECK(substeps >= 1 && substeps <= 64, "substeps is not within 1 and 64");
     kiriResult result = kiriWorld_Advance(world, dt, substeps);
-    if (result == KIRI_ERROR_MEMORY) {
-        return KIRI_FAIL(result, "out of memory; nothing moved, and cuts still wait");
-    }
-    if (result == KIRI_ERROR_LIMIT) {
-        return KIRI_FAIL(result, "there are no ids left for new frames; nothing moved, and cuts still wait");
-    }
-    KIRI_RETURN(result);
+    return KIRI_FAIL(result, result == KIRI_ERROR_MEMORY  ? "out of memory; nothing moved, and cuts still wait"
+                             : result == KIRI_ERROR_LIMIT ? "there are no ids left for new frames; nothing moved, and "
+                                                            "cuts still wait"
+                                                          : NULL);
 }
 
 const char* kiriWorld_GetLastError(const kiriWorld* world)
@@ -243,8 +224,7 @@ const char* kiriWorld_GetLastError(const kiriWorld* world)
 
 kiriResult kiriWorld_SetGravity(kiriWorld* world, const float gravity[3])
 {
-    KIRI_CHANGES(world, KIRI_CALL_WORLD_SET_GRAVITY, gravity);
-    KIRI_CHECK(gravity != NULL && kiriCall_AreFinite(gravity, 3), "gravity is null or not finite");
+    KIRI_CHANGES(World_SetGravity, gravity);
     kiriVec3 before = world->gravity;
     world->gravity = kiriVec3_Load(gravity);
     for (int32_t i = 0; i < world->sheets.count && !kiriVec3_Equal(before, world->gravity); ++i) {
@@ -255,9 +235,7 @@ kiriResult kiriWorld_SetGravity(kiriWorld* world, const float gravity[3])
 
 kiriResult kiriWorld_SetBudget(kiriWorld* world, const kiriBudget* budget)
 {
-    KIRI_CHANGES(world, KIRI_CALL_WORLD_SET_BUDGET, budget);
-    KIRI_CHECK(budget != NULL && IsBudget(budget),
-               "budget is null, or below 0, or its triangles below KIRI_LEAST_TRIANGLES");
+    KIRI_CHANGES(World_SetBudget, budget);
     world->budget = *budget;
     KIRI_RETURN(KIRI_OK);
 }
@@ -265,16 +243,14 @@ kiriResult kiriWorld_SetBudget(kiriWorld* world, const kiriBudget* budget)
 /* The recording has it; the world itself does not care. */
 kiriResult kiriWorld_Note(kiriWorld* world, const void* bytes, int32_t count)
 {
-    KIRI_CHANGES(world, KIRI_CALL_WORLD_NOTE, bytes, &count);
-    KIRI_CHECK(bytes != NULL && kiriCall_IsWithin(count, 1, KIRI_MOST_NOTE_BYTES),
-               "bytes is null, or count not within 1 and 1048576");
+    KIRI_CHANGES(World_Note, bytes, &count);
     KIRI_RETURN(KIRI_OK);
 }
 
 kiriResult kiriWorld_GetSheets(const kiriWorld* world, kiriSheet* sheets, int32_t capacity, int32_t* count)
 {
     KIRI_READS(world);
-    KIRI_CHECK(count != NULL && (capacity == 0 || (capacity > 0 && sheets != NULL)), "count is null, or sheets is");
+    KIRI_CHECK_LIST(sheets);
     for (int32_t i = 0; i < world->sheets.count && i < capacity; ++i) {
         sheets[i] = world->sheets.data[i]->id;
     }
@@ -285,7 +261,7 @@ kiriResult kiriWorld_GetSheets(const kiriWorld* world, kiriSheet* sheets, int32_
 kiriResult kiriWorld_GetStateHash(const kiriWorld* world, uint64_t* hash)
 {
     KIRI_READS(world);
-    KIRI_CHECK(hash != NULL, "hash is null");
+    KIRI_CHECK_OUT(hash);
     *hash = kiriStateHash_Of(world);
     return KIRI_OK;
 }
@@ -293,7 +269,8 @@ kiriResult kiriWorld_GetStateHash(const kiriWorld* world, uint64_t* hash)
 kiriResult kiriWorld_GetEvents(const kiriWorld* world, const kiriEvent** events, int32_t* count)
 {
     KIRI_READS(world);
-    KIRI_CHECK(events != NULL && count != NULL, "events or count is null");
+    KIRI_CHECK_OUT(events);
+    KIRI_CHECK_OUT(count);
     *events = world->events.data;
     *count = world->events.count;
     return KIRI_OK;
@@ -302,7 +279,7 @@ kiriResult kiriWorld_GetEvents(const kiriWorld* world, const kiriEvent** events,
 kiriResult kiriWorld_GetProfile(const kiriWorld* world, kiriProfile* profile)
 {
     KIRI_READS(world);
-    KIRI_CHECK(profile != NULL, "profile is null");
+    KIRI_CHECK_OUT(profile);
     *profile = world->profile;
     return KIRI_OK;
 }
@@ -343,7 +320,9 @@ static void FitCuts(const kiriProfile* profile, double times, kiriBudget* budget
 
 kiriResult kiriFitBudget(const kiriProfile* profile, float microseconds, kiriBudget* budget)
 {
-    if (profile == NULL || budget == NULL || !kiriCall_IsAbove(microseconds, 0.0f) || !IsBudget(budget)) {
+    kiriFault fault;
+    if (profile == NULL || budget == NULL || !(microseconds > 0.0f && microseconds <= FLT_MAX) ||
+        kiriStruct_Check(kiriArguments[KIRI_ARGUMENT_BUDGET].of, "", NULL, budget, &fault) != KIRI_OK) {
         return KIRI_ERROR_ARGUMENT;
     }
     for (int i = 0; i < KIRI_STAGE_COUNT; ++i) {
@@ -362,44 +341,38 @@ kiriResult kiriFitBudget(const kiriProfile* profile, float microseconds, kiriBud
 
 kiriResult kiriSheet_SetUserData(kiriWorld* world, kiriSheet sheet, uint64_t data)
 {
-    KIRI_CHANGES(world, KIRI_CALL_SHEET_SET_USER_DATA, &sheet, &data);
-    KIRI_FIND_SHEET(found, sheet);
-    found->settings.userData = data;
+    KIRI_CHANGES(Sheet_SetUserData, &sheet, &data);
+    call->sheet->settings.userData = data;
     KIRI_RETURN(KIRI_OK);
 }
 
 kiriResult kiriSheet_GetUserData(const kiriWorld* world, kiriSheet sheet, uint64_t* data)
 {
-    KIRI_READS(world);
-    KIRI_CHECK(data != NULL, "data is null");
-    KIRI_FIND_SHEET(found, sheet);
+    KIRI_READS_OF(sheet, data);
     *data = found->settings.userData;
     return KIRI_OK;
 }
 
 kiriResult kiriPin_SetUserData(kiriWorld* world, kiriPin pin, uint64_t data)
 {
-    KIRI_CHANGES(world, KIRI_CALL_PIN_SET_USER_DATA, &pin, &data);
-    KIRI_FIND_PIN_SHEET(sheet, pin);
-    sheet->pins.data[kiriPool_Find(&world->pinIds, pin)->index].userData = data;
+    KIRI_CHANGES(Pin_SetUserData, &pin, &data);
+    call->sheet->pins.data[call->index].userData = data;
     KIRI_RETURN(KIRI_OK);
 }
 
 kiriResult kiriPin_GetUserData(const kiriWorld* world, kiriPin pin, uint64_t* data)
 {
-    KIRI_READS(world);
-    KIRI_CHECK(data != NULL, "data is null");
-    KIRI_FIND_PIN_SHEET(sheet, pin);
-    *data = sheet->pins.data[kiriPool_Find(&world->pinIds, pin)->index].userData;
+    KIRI_READS_OF(pin, data);
+    *data = found->pins.data[slot->index].userData;
     return KIRI_OK;
 }
 
 /* All frames of the piece have it, and hand it to new ones. */
 kiriResult kiriFrame_SetPieceUserData(kiriWorld* world, kiriFrame frame, uint64_t data)
 {
-    KIRI_CHANGES(world, KIRI_CALL_FRAME_SET_PIECE_USER_DATA, &frame, &data);
-    KIRI_FIND_FRAME_SHEET(sheet, frame);
-    int32_t piece = sheet->layout.framePiece.data[kiriPool_Find(&world->frameIds, frame)->index];
+    KIRI_CHANGES(Frame_SetPieceUserData, &frame, &data);
+    kiriSheetData* sheet = call->sheet;
+    int32_t piece = sheet->layout.framePiece.data[call->index];
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
         if (sheet->layout.framePiece.data[i] == piece) {
             sheet->frames.data[i].pieceData = data;
@@ -410,85 +383,23 @@ kiriResult kiriFrame_SetPieceUserData(kiriWorld* world, kiriFrame frame, uint64_
 
 kiriResult kiriFrame_GetPieceUserData(const kiriWorld* world, kiriFrame frame, uint64_t* data)
 {
-    KIRI_READS(world);
-    KIRI_CHECK(data != NULL, "data is null");
-    KIRI_FIND_FRAME_SHEET(sheet, frame);
-    *data = sheet->frames.data[kiriPool_Find(&world->frameIds, frame)->index].pieceData;
+    KIRI_READS_OF(frame, data);
+    *data = found->frames.data[slot->index].pieceData;
     return KIRI_OK;
-}
-
-static const char* FaultOfMaterial(const kiriMaterial* m)
-{
-    if (!kiriCall_IsAbove(m->youngsModulus, 0.0f) || !kiriCall_IsAbove(m->thickness, 0.0f) ||
-        !kiriCall_IsAbove(m->density, 0.0f)) {
-        return "Young's modulus, thickness or density is not above 0";
-    }
-    if (!kiriCall_IsAtLeast(m->poissonsRatio, 0.0f) || m->poissonsRatio >= 0.5f) {
-        return "Poisson's ratio is not within 0 and 0.5";
-    }
-    return kiriCall_IsAtLeast(m->airDamping, 0.0f) && kiriCall_IsAtLeast(m->flexDamping, 0.0f) ? NULL
-                                                                                               : "a damping is below 0";
-}
-
-static const char* FaultOfTouching(const kiriSheetSettings* s)
-{
-    if (!kiriCall_IsAtLeast(s->friction, 0.0f) || !kiriCall_IsAtLeast(s->contactThickness, 0.0f)) {
-        return "friction or contactThickness is below 0";
-    }
-    return kiriCall_IsWithin(s->touchesSheets, 0, 1) ? NULL : "touchesSheets is not 0 or 1";
-}
-
-static const char* FaultOfMotion(const kiriSheetSettings* s)
-{
-    if (!kiriCall_IsWithin(s->timeStepping, KIRI_TIME_STEPPING_SECOND_ORDER, KIRI_TIME_STEPPING_EULER)) {
-        return "timeStepping is not one of KIRI_TIME_STEPPING";
-    }
-    if (!kiriCall_IsWithin(s->skinning, KIRI_SKINNING_LINEAR, KIRI_SKINNING_SMOOTH)) {
-        return "skinning is not one of KIRI_SKINNING";
-    }
-    if (!kiriCall_IsAtLeast(s->sleepSpeed, 0.0f) || !kiriCall_IsAtLeast(s->fadeTime, 0.0f)) {
-        return "sleepSpeed or fadeTime is below 0";
-    }
-    if (!kiriCall_IsWithin(s->normals, 0, 1)) {
-        return "normals is not 0 or 1";
-    }
-    return kiriCall_IsWithin(s->iterations, 1, 64) ? NULL : "iterations is not within 1 and 64";
-}
-
-const char* kiriCall_FaultOfSettings(const kiriSheetSettings* settings)
-{
-    const char* faults[] = { FaultOfMaterial(&settings->material), FaultOfTouching(settings), FaultOfMotion(settings) };
-    for (int i = 0; i < 3; ++i) {
-        if (faults[i] != NULL) {
-            return faults[i];
-        }
-    }
-    return settings->maxFrames >= 1 && kiriCall_IsAtLeast(settings->crumbArea, 0.0f)
-               ? NULL
-               : "maxFrames is below 1, or crumbArea below 0";
 }
 
 kiriResult kiriSheet_GetSettings(const kiriWorld* world, kiriSheet sheet, kiriSheetSettings* settings)
 {
-    KIRI_READS(world);
-    KIRI_CHECK(settings != NULL, "settings is null");
-    KIRI_FIND_SHEET(data, sheet);
-    *settings = data->settings.given;
+    KIRI_READS_OF(sheet, settings);
+    *settings = found->settings.given;
     settings->cookie = KIRI_COOKIE(kiriSheetSettings);
     return KIRI_OK;
 }
 
 kiriResult kiriSheet_SetSettings(kiriWorld* world, kiriSheet sheet, const kiriSheetSettings* settings)
 {
-    KIRI_CHANGES(world, KIRI_CALL_SHEET_SET_SETTINGS, &sheet, settings);
-    KIRI_CHECK(settings != NULL, "settings is null");
-    if (settings->cookie != KIRI_COOKIE(kiriSheetSettings)) {
-        return KIRI_FAIL(KIRI_ERROR_DEF, "the settings were not filled by kiriSheet_GetSettings");
-    }
-    const char* why = kiriCall_FaultOfSettings(settings);
-    KIRI_CHECK(why == NULL, why);
-    KIRI_FIND_SHEET(data, sheet);
-    KIRI_RETURN(kiriSettings_Change(data, settings) ? KIRI_OK : KIRI_ERROR_MEMORY);
+    KIRI_CHANGES(Sheet_SetSettings, &sheet, settings);
+    KIRI_RETURN(kiriSettings_Change(call->sheet, settings) ? KIRI_OK : KIRI_ERROR_MEMORY);
 }
 
 kiriResult kiriWorld_Save(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size)
@@ -502,20 +413,20 @@ kiriResult kiriWorld_Save(const kiriWorld* world, void* bytes, int64_t capacity,
 
 kiriResult kiriWorld_Load(kiriWorld* world, const void* bytes, int64_t size)
 {
-    int32_t count = size <= INT32_MAX ? (int32_t)size : INT32_MIN; /* recordings have no larger arrays */
-    KIRI_CHANGES(world, KIRI_CALL_WORLD_LOAD, bytes, &count);
-    KIRI_CHECK(bytes != NULL && size >= 0, "bytes is null, or size below 0");
+    int32_t count = size >= 0 && size <= INT32_MAX ? (int32_t)size : KIRI_NONE;
+    KIRI_CHANGES(World_Load, bytes, &count);
+    KIRI_CHECK(bytes != NULL && count >= 0, "bytes is null, or size not within 0 and 2147483647");
     const char* why = NULL;
     kiriResult result = kiriSave_Read(world, bytes, size, &why);
-    KIRI_RETURN_OR_SAY(result, why);
+    return KIRI_FAIL(result, why);
 }
 
 kiriResult kiriWorld_FinishCuts(kiriWorld* world)
 {
-    KIRI_CHANGES(world, KIRI_CALL_WORLD_FINISH_CUTS, NULL);
+    KIRI_CHANGES(World_FinishCuts, NULL);
     world->begun += 1; /* vertices change as in a tick */
     kiriResult result = kiriWorld_FinishUpdates(world);
-    KIRI_RETURN_OR_SAY(result, result == KIRI_ERROR_LIMIT ? "there are no ids left for new frames" : NULL);
+    return KIRI_FAIL(result, result == KIRI_ERROR_LIMIT ? "there are no ids left for new frames" : NULL);
 }
 
 kiriResult kiriWorld_Snapshot(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size)
@@ -535,44 +446,33 @@ kiriResult kiriWorld_Restore(kiriWorld* world, const void* bytes, int64_t size)
         return KIRI_FAIL(KIRI_ERROR_STATE, "the world is recorded: snapshots are of one process, recordings are not");
     }
     kiriResult result = kiriSnapshot_Read(world, bytes, size);
-    KIRI_RETURN_OR_SAY(result, result == KIRI_ERROR_DATA ? "the bytes are no snapshot of this build" : NULL);
+    return KIRI_FAIL(result, result == KIRI_ERROR_DATA ? "the bytes are no snapshot of this build" : NULL);
 }
 
-/* A load of nothing wakes nobody. */
-static bool IsLoad(const float load[3])
-{
-    return load[0] != 0.0f || load[1] != 0.0f || load[2] != 0.0f;
-}
-
+/* Wakes the frame for loads that are not zero. */
 static void WakeFor(kiriSheetData* sheet, int32_t frame, const float force[3], const float torque[3])
 {
-    if (IsLoad(force) || IsLoad(torque)) {
+    const kiriVec3 none = { 0.0, 0.0, 0.0 };
+    if (!kiriVec3_Equal(kiriVec3_Load(force), none) || !kiriVec3_Equal(kiriVec3_Load(torque), none)) {
         kiriMotion_WakeFrame(sheet, frame);
     }
 }
 
 kiriResult kiriFrame_ApplyForce(kiriWorld* world, kiriFrame frame, const float force[3], const float torque[3])
 {
-    KIRI_CHANGES(world, KIRI_CALL_FRAME_APPLY_FORCE, &frame, force, torque);
-    KIRI_CHECK(force != NULL && torque != NULL && kiriCall_AreFinite(force, 3) && kiriCall_AreFinite(torque, 3),
-               "force or torque is null or not finite");
-    KIRI_FIND_FRAME_SHEET(sheet, frame);
-    int32_t index = kiriPool_Find(&world->frameIds, frame)->index;
-    kiriFrameData* data = &sheet->frames.data[index];
+    KIRI_CHANGES(Frame_ApplyForce, &frame, force, torque);
+    kiriFrameData* data = &call->sheet->frames.data[call->index];
     data->force = kiriVec3_Add(data->force, kiriVec3_Load(force));
     data->torque = kiriVec3_Add(data->torque, kiriVec3_Load(torque));
-    WakeFor(sheet, index, force, torque);
+    WakeFor(call->sheet, call->index, force, torque);
     KIRI_RETURN(KIRI_OK);
 }
 
 kiriResult kiriSheet_ApplyForce(kiriWorld* world, kiriSheet sheet, const float restPoint[2], const float force[3],
                                 const float torque[3])
 {
-    KIRI_CHANGES(world, KIRI_CALL_SHEET_APPLY_FORCE, &sheet, restPoint, force, torque);
-    KIRI_CHECK(restPoint != NULL && kiriCall_AreFinite(restPoint, 2), "restPoint is null or not finite");
-    KIRI_CHECK(force != NULL && torque != NULL && kiriCall_AreFinite(force, 3) && kiriCall_AreFinite(torque, 3),
-               "force or torque is null or not finite");
-    KIRI_FIND_SHEET(data, sheet);
+    KIRI_CHANGES(Sheet_ApplyForce, &sheet, restPoint, force, torque);
+    kiriSheetData* data = call->sheet;
     kiriLatticePoint at;
     int32_t frame = kiriSheet_ToLattice(data, restPoint, &at) ? kiriOwner_At(data, at) : KIRI_NONE;
     KIRI_CHECK(frame != KIRI_NONE, "restPoint lies outside the material");
@@ -584,16 +484,12 @@ kiriResult kiriSheet_ApplyForce(kiriWorld* world, kiriSheet sheet, const float r
 kiriResult kiriSheet_ApplyLineLoad(kiriWorld* world, kiriSheet sheet, const float from[2], const float to[2],
                                    const float forcePerLength[3])
 {
-    KIRI_CHANGES(world, KIRI_CALL_SHEET_APPLY_LINE_LOAD, &sheet, from, to, forcePerLength);
-    KIRI_CHECK(forcePerLength != NULL && kiriCall_AreFinite(forcePerLength, 3), "forcePerLength is null or not finite");
-    KIRI_FIND_SHEET(data, sheet);
+    KIRI_CHANGES(Sheet_ApplyLineLoad, &sheet, from, to, forcePerLength);
+    kiriSheetData* data = call->sheet;
     kiriLatticePoint ends[2];
-    const char* why = kiriCall_FaultOfLine(data, from, to, ends);
-    KIRI_CHECK(why == NULL, why);
-    if (!kiriOwner_FindShares(data, ends[0], ends[1], false)) {
-        return KIRI_FAIL(KIRI_ERROR_MEMORY, NULL);
-    }
-    KIRI_CHECK(data->lineShares.count > 0, "the line meets no material");
+    const char* why;
+    kiriResult result = kiriCall_FindLine(data, from, to, ends, &why);
+    KIRI_REQUIRE(result == KIRI_OK, result, why);
     kiriLoad_AlongLine(data, ends[0], ends[1], kiriVec3_Load(forcePerLength));
     for (int32_t k = 0; k < data->lineShares.count; ++k) {
         WakeFor(data, data->lineShares.data[k].frame, forcePerLength, forcePerLength);
@@ -603,52 +499,34 @@ kiriResult kiriSheet_ApplyLineLoad(kiriWorld* world, kiriSheet sheet, const floa
 
 kiriResult kiriSheet_ApplyPressure(kiriWorld* world, kiriSheet sheet, float pressure)
 {
-    KIRI_CHANGES(world, KIRI_CALL_SHEET_APPLY_PRESSURE, &sheet, &pressure);
-    KIRI_CHECK(kiriCall_AreFinite(&pressure, 1), "pressure is not finite");
-    KIRI_FIND_SHEET(data, sheet);
-    kiriLoad_OnSurface(data, pressure);
+    KIRI_CHANGES(Sheet_ApplyPressure, &sheet, &pressure);
+    kiriLoad_OnSurface(call->sheet, pressure);
     if (pressure != 0.0f) {
-        kiriMotion_Wake(data);
+        kiriMotion_Wake(call->sheet);
     }
     KIRI_RETURN(KIRI_OK);
 }
 
 kiriResult kiriSheet_ApplyImpulse(kiriWorld* world, kiriSheet sheet, const float restPoint[2], const float impulse[3])
 {
-    KIRI_CHANGES(world, KIRI_CALL_SHEET_APPLY_IMPULSE, &sheet, restPoint, impulse);
-    KIRI_CHECK(restPoint != NULL && kiriCall_AreFinite(restPoint, 2), "restPoint is null or not finite");
-    KIRI_CHECK(impulse != NULL && kiriCall_AreFinite(impulse, 3), "impulse is null or not finite");
-    KIRI_FIND_SHEET(data, sheet);
+    KIRI_CHANGES(Sheet_ApplyImpulse, &sheet, restPoint, impulse);
+    kiriSheetData* data = call->sheet;
     kiriLatticePoint at;
     kiriPointPlace place;
     KIRI_CHECK(kiriSheet_ToLattice(data, restPoint, &at) && kiriPoint_Find(data, at, &place),
                "restPoint lies outside the material");
     KIRI_CHECK(kiriLoad_Impulse(data, &place, kiriVec3_Load(impulse)), "floats cannot hold what comes of it");
-    if (IsLoad(impulse)) {
+    if (impulse[0] != 0.0f || impulse[1] != 0.0f || impulse[2] != 0.0f) {
         int32_t vertex = data->mesh.triangles.data[place.triangle].vertex[0];
         kiriMotion_WakePiece(data, kiriPiece_OfVertex(data, vertex));
     }
     KIRI_RETURN(KIRI_OK);
 }
 
-static const char* FaultOfWind(const kiriWind* wind)
-{
-    if (!kiriCall_AreFinite(wind->velocity, 3)) {
-        return "velocity is not finite";
-    }
-    return kiriCall_IsAtLeast(wind->density, 0.0f) && kiriCall_IsAtLeast(wind->drag, 0.0f) &&
-                   kiriCall_IsAtLeast(wind->lift, 0.0f)
-               ? NULL
-               : "density, drag or lift is below 0";
-}
-
 kiriResult kiriSheet_SetWind(kiriWorld* world, kiriSheet sheet, const kiriWind* wind)
 {
-    KIRI_CHANGES(world, KIRI_CALL_SHEET_SET_WIND, &sheet, wind);
-    KIRI_CHECK(wind != NULL, "wind is null");
-    const char* why = FaultOfWind(wind);
-    KIRI_CHECK(why == NULL, why);
-    KIRI_FIND_SHEET(data, sheet);
+    KIRI_CHANGES(Sheet_SetWind, &sheet, wind);
+    kiriSheetData* data = call->sheet;
     const kiriAir air = { kiriVec3_Load(wind->velocity), wind->density, wind->drag, wind->lift };
     const kiriAir* was = &data->settings.air;
     if (!kiriVec3_Equal(air.velocity, was->velocity) || air.density != was->density || air.drag != was->drag ||

@@ -1,791 +1,716 @@
 #include "kiri_call.h"
-#include "kiri_state.h"
 #include "../mesh/kiri_mesh.h"
+#include "../sheet/kiri_obstacle.h"
 
-#include <string.h>
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
-const uint8_t kiriRecordMagic[KIRI_RECORD_MAGIC_BYTES] = { 'K', 'i', 'r', 'i', 'R', 'e', 'c', '\n' };
-
-/* ---- Structs ----------------------------------------------------------------------------------------------------- */
-
-static void CodeNumbers(kiriCoder* coder, const kiriRecordField* field, char* at)
-{
-    for (int32_t i = 0; i < field->count; ++i) {
-        if (field->kind == KIRI_FIELD_FLOATS) {
-            kiriCoder_Float(coder, (float*)(void*)at + i);
-        } else if (field->kind == KIRI_FIELD_INTS) {
-            kiriCoder_Int(coder, (int32_t*)(void*)at + i);
-        } else {
-            kiriCoder_Id(coder, (uint32_t*)(void*)at + i);
-        }
-    }
-}
-
-static void CodeFloats(kiriCoder* coder, float* values, int64_t count)
-{
-    for (int64_t i = 0; i < count; ++i) {
-        kiriCoder_Float(coder, &values[i]);
-    }
-}
-
-/* Floats take 4 bytes, indices at least one. */
-static void CodeArray(kiriCoder* coder, const kiriRecordField* field, char* def, void** array)
-{
-    int32_t counted;
-    memcpy(&counted, def + field->counted, sizeof(counted));
-    int64_t count = (int64_t)field->count * counted;
-    bool isFloats = field->kind == KIRI_FIELD_FLOATS_AT;
-    if (kiriCoder_Reads(coder)) {
-        *array = kiriCoder_Alloc(coder, count, 4, isFloats ? 4 : 1);
-    }
-    if (*array != NULL && isFloats) {
-        CodeFloats(coder, *array, count);
-    } else if (*array != NULL) {
-        kiriCoder_Indices(coder, *array, count);
-    }
-}
-
-/* 0: null. 1: it follows. 2: its call refuses the def without a look at it. */
-static void CodePointer(kiriCoder* coder, const kiriRecordField* field, char* def)
-{
-    void* array;
-    memcpy(&array, def + field->offset, sizeof(array));
-    bool isRead = field->isRead(def);
-    uint8_t how = array == NULL ? 0 : isRead ? 1 : 2;
-    kiriCoder_Byte(coder, &how);
-    if (how > 2 || (how > 0 && isRead != (how == 1))) {
-        kiriCoder_Stop(coder, KIRI_CODER_DAMAGED);
-        how = 0;
-    }
-    if (kiriCoder_Reads(coder)) {
-        array = how == 2 ? def : NULL;
-    }
-    if (how == 1) {
-        CodeArray(coder, field, def, &array);
-    }
-    if (kiriCoder_Reads(coder)) {
-        memcpy(def + field->offset, &array, sizeof(array));
-    }
-}
-
-/* How many fields there are; 0: its cookie is not that of the struct, so nobody knows what it is. */
-static void CodeStruct(kiriCoder* coder, const kiriRecordStruct* of, void* def)
-{
-    uint32_t cookie = of->cookie;
-    if (!kiriCoder_Reads(coder) && cookie != 0) {
-        memcpy(&cookie, def, sizeof(cookie));
-    }
-    uint64_t count = cookie == of->cookie ? (uint64_t)of->fieldCount : 0;
-    kiriCoder_Unsigned(coder, &count);
-    if (count > (uint64_t)of->fieldCount) {
-        kiriCoder_Stop(coder, KIRI_CODER_NEWER);
-        count = 0;
-    }
-    if (kiriCoder_Reads(coder) && count > 0 && of->fill != NULL) {
-        of->fill(def);
-    }
-    for (uint64_t i = 0; i < count; ++i) {
-        const kiriRecordField* field = &of->fields[i];
-        if (field->kind >= KIRI_FIELD_FLOATS_AT) {
-            CodePointer(coder, field, def);
-        } else {
-            CodeNumbers(coder, field, (char*)def + field->offset);
-        }
-    }
-}
-
-/* ---- Arguments --------------------------------------------------------------------------------------------------- */
-
-static bool IsPointer(kiriArgumentKind kind)
-{
-    return kind >= KIRI_ARGUMENT_FLOATS && kind != KIRI_ARGUMENT_HASH;
-}
-
-static bool IsArray(kiriArgumentKind kind)
-{
-    return kind >= KIRI_ARGUMENT_POINTS && kind <= KIRI_ARGUMENT_BYTES;
-}
-
-uint64_t kiriRecord_FindNulls(const kiriRecordCall* call, const void* const arguments[])
-{
-    uint64_t nulls = 0;
-    for (int i = 0; i < KIRI_RECORD_ARGUMENTS && call->arguments[i].kind != KIRI_ARGUMENT_NONE; ++i) {
-        nulls |= (uint64_t)(IsPointer(call->arguments[i].kind) && arguments[i] == NULL) << i;
-    }
-    return nulls;
-}
-
-static void CodeItems(kiriCoder* coder, const kiriRecordArgument* argument, void* items, int32_t count)
-{
-    for (int32_t i = 0; i < count; ++i) {
-        switch (argument->kind) {
-        case KIRI_ARGUMENT_POINTS:
-            CodeFloats(coder, (float*)items + 2 * (int64_t)i, 2);
-            break;
-        case KIRI_ARGUMENT_IDS:
-            kiriCoder_Id(coder, (uint32_t*)items + i);
-            break;
-        case KIRI_ARGUMENT_STRUCTS:
-            CodeStruct(coder, argument->of, (char*)items + (int64_t)i * argument->of->bytes);
-            break;
-        default:
-            kiriCoder_Byte(coder, (uint8_t*)items + i);
-            break;
-        }
-    }
-}
-
-static int64_t BytesOfItem(const kiriRecordArgument* argument)
-{
-    switch (argument->kind) {
-    case KIRI_ARGUMENT_POINTS:
-        return 2 * sizeof(float);
-    case KIRI_ARGUMENT_STRUCTS:
-        return argument->of->bytes;
-    default:
-        return argument->kind == KIRI_ARGUMENT_BYTES ? 1 : sizeof(uint32_t);
-    }
-}
-
-/* Its count, and then the items, where the call reads them: else its pointer may point to anything. */
-static const void* CodeCounted(kiriCoder* coder, const kiriRecordArgument* argument, const void* items, int32_t* count,
-                               bool isNull)
-{
-    kiriCoder_Int(coder, count);
-    if (isNull || *count < 1 || *count > argument->most) {
-        return isNull ? NULL : count;
-    }
-    void* there = kiriCoder_Reads(coder) ? kiriCoder_Alloc(coder, *count, BytesOfItem(argument), 1) : (void*)items;
-    if (there != NULL) {
-        CodeItems(coder, argument, there, *count);
-    }
-    return there;
-}
-
-/* As many ids as the array before its count has; without one the call refuses either null. */
-static void* RoomForIds(kiriCoder* coder, const void* array, kiriRecordValue* value)
-{
-    int32_t count = value[-1].number;
-    return count < 1 ? value : array == NULL ? NULL : kiriMemory_AllocZeroed(coder->memory, 4 * (int64_t)count);
-}
-
-/* An argument of a coder that reads points to its value, or to memory. */
-static const void* RoomForArgument(kiriCoder* coder, const kiriRecordArgument* argument, kiriRecordValue* value)
-{
-    void* place =
-        argument->kind == KIRI_ARGUMENT_STRUCT ? kiriMemory_AllocZeroed(coder->memory, argument->of->bytes) : value;
-    if (place == NULL) {
-        kiriCoder_Stop(coder, KIRI_CODER_MEMORY);
-    }
-    return place;
-}
-
-static void CodeSingle(kiriCoder* coder, const kiriRecordArgument* argument, void* at)
-{
-    switch (argument->kind) {
-    case KIRI_ARGUMENT_ID:
-        kiriCoder_Id(coder, at);
-        break;
-    case KIRI_ARGUMENT_INT:
-        kiriCoder_Int(coder, at);
-        break;
-    case KIRI_ARGUMENT_FLOAT:
-        kiriCoder_Float(coder, at);
-        break;
-    case KIRI_ARGUMENT_DATA:
-        kiriCoder_Unsigned(coder, at);
-        break;
-    case KIRI_ARGUMENT_FLOATS:
-        CodeFloats(coder, at, argument->count);
-        break;
-    case KIRI_ARGUMENT_STRUCT:
-        CodeStruct(coder, argument->of, at);
-        break;
-    default: /* counts are written with their arrays, what the call writes with its result */
-        break;
-    }
-}
-
-void kiriRecord_CodeArguments(kiriCoder* coder, const kiriRecordCall* call, const void* arguments[],
-                              kiriRecordValue values[], uint64_t nulls)
-{
-    bool reads = kiriCoder_Reads(coder);
-    for (int i = 0; i < KIRI_RECORD_ARGUMENTS && call->arguments[i].kind != KIRI_ARGUMENT_NONE; ++i) {
-        const kiriRecordArgument* argument = &call->arguments[i];
-        bool isNull = (nulls >> i & 1) != 0 && IsPointer(argument->kind);
-        if (IsArray(argument->kind)) {
-            int32_t* count = reads ? &values[i + 1].number : (int32_t*)arguments[i + 1];
-            arguments[i] = CodeCounted(coder, argument, arguments[i], count, isNull);
-            continue;
-        }
-        if (reads && argument->kind == KIRI_ARGUMENT_NEW_IDS) {
-            arguments[i] = isNull ? NULL : RoomForIds(coder, arguments[i - 2], &values[i]);
-        } else if (reads) {
-            arguments[i] = isNull ? NULL : RoomForArgument(coder, argument, &values[i]);
-        }
-        if (arguments[i] != NULL) {
-            CodeSingle(coder, argument, (void*)arguments[i]);
-        }
-    }
-}
-
-/* ---- Outcome ----------------------------------------------------------------------------------------------------- */
-
-static void CodeHash(kiriCoder* coder, kiriRecordHash* hash)
-{
-    kiriCoder_Int(coder, &hash->isThere);
-    if (hash->isThere != 0) {
-        kiriCoder_Hash(coder, &hash->hash);
-    }
-}
-
-static void CodeNew(kiriCoder* coder, const kiriRecordArgument* argument, const void* const arguments[], int i)
-{
-    void* at = (void*)arguments[i];
-    if (argument->kind == KIRI_ARGUMENT_NEW_ID) {
-        kiriCoder_Id(coder, at);
-    } else if (argument->kind == KIRI_ARGUMENT_NEW_INT) {
-        kiriCoder_Int(coder, at);
-    } else if (argument->kind == KIRI_ARGUMENT_NEW_IDS) {
-        for (int32_t k = 0; k < *(const int32_t*)arguments[i - 1]; ++k) {
-            kiriCoder_Id(coder, (uint32_t*)at + k);
-        }
-    }
-}
-
-void kiriRecord_CodeOutcome(kiriCoder* coder, const kiriRecordCall* call, const void* const arguments[],
-                            kiriResult* result)
-{
-    kiriCoder_Int(coder, result);
-    for (int i = 0; i < KIRI_RECORD_ARGUMENTS && call->arguments[i].kind != KIRI_ARGUMENT_NONE; ++i) {
-        if (call->arguments[i].kind == KIRI_ARGUMENT_HASH) {
-            CodeHash(coder, (kiriRecordHash*)arguments[i]);
-        } else if (*result >= 0 && arguments[i] != NULL) {
-            CodeNew(coder, &call->arguments[i], arguments, i);
-        }
-    }
-}
-
-/* ---- Recording --------------------------------------------------------------------------------------------------- */
-
-static kiriCoder CoderOf(kiriWorld* world)
-{
-    kiriCoder coder = { &world->recorder.sink, NULL, NULL, NULL, KIRI_CODER_FINE };
-    return coder;
-}
-
-const kiriCall* kiriRecord_Begin(const kiriCall* call)
-{
-    kiriCoder coder = CoderOf(call->world);
-    KIRI_ASSERT(!call->world->recorder.isOpen);
-    call->world->recorder.isOpen = true;
-    const kiriRecordCall* shape = kiriRecord_Find((uint64_t)call->number);
-    const void* arguments[KIRI_RECORD_ARGUMENTS] = { NULL };
-    for (int i = 0; i < KIRI_RECORD_ARGUMENTS && shape->arguments[i].kind != KIRI_ARGUMENT_NONE; ++i) {
-        arguments[i] = call->arguments[i];
-    }
-    uint64_t nulls = kiriRecord_FindNulls(shape, arguments);
-    uint64_t number = (uint64_t)call->number << 1 | (nulls != 0);
-    kiriCoder_Unsigned(&coder, &number);
-    if (nulls != 0) {
-        kiriCoder_Unsigned(&coder, &nulls);
-    }
-    kiriRecord_CodeArguments(&coder, shape, arguments, NULL, nulls);
-    kiriSink_Flush(coder.sink);
-    return call;
-}
-
-/* The hash is dear beside a tick, so it is not taken after each. */
-static kiriRecordHash TakeHash(const kiriCall* call, kiriResult result)
-{
-    kiriRecorder* recorder = &call->world->recorder;
-    kiriRecordHash taken = { 0, 0 };
-    if (call->number == KIRI_CALL_WORLD_TICK && (result >= 0 || result == KIRI_DIVERGED)) {
-        taken.isThere = recorder->hashTicks > 0 && ++recorder->ticks % recorder->hashTicks == 0;
-    } else if (call->number == KIRI_CALL_DESTROY_WORLD) {
-        taken.isThere = recorder->hashTicks > 0;
-    }
-    taken.hash = taken.isThere ? kiriStateHash_Of(call->world) : 0;
-    return taken;
-}
-
-void kiriRecord_End(const kiriCall* call, kiriResult result)
-{
-    kiriCoder coder = CoderOf(call->world);
-    const kiriRecordCall* shape = kiriRecord_Find((uint64_t)call->number);
-    const void* arguments[KIRI_RECORD_ARGUMENTS] = { NULL };
-    kiriRecordHash hash = { 0, 0 };
-    KIRI_ASSERT(call->world->recorder.isOpen);
-    call->world->recorder.isOpen = false;
-    for (int i = 0; i < KIRI_RECORD_ARGUMENTS && shape->arguments[i].kind != KIRI_ARGUMENT_NONE; ++i) {
-        bool isHash = shape->arguments[i].kind == KIRI_ARGUMENT_HASH;
-        hash = isHash ? TakeHash(call, result) : hash;
-        arguments[i] = isHash ? &hash : call->arguments[i];
-    }
-    kiriRecord_CodeOutcome(&coder, shape, arguments, &result);
-    kiriSink_Flush(coder.sink);
-}
-
-void kiriRecord_Start(kiriWorld* world, const kiriWorldDef* def)
-{
-    kiriRecorder* recorder = &world->recorder;
-    if (def->record == NULL) {
-        return;
-    }
-    recorder->sink.write = def->record;
-    recorder->sink.user = def->user;
-    recorder->hashTicks = def->recordHashTicks;
-    kiriCoder coder = CoderOf(world);
-    uint64_t versions[2] = { KIRI_RECORD_VERSION, KIRI_VERSION };
-    for (int i = 0; i < KIRI_RECORD_MAGIC_BYTES; ++i) {
-        uint8_t byte = kiriRecordMagic[i];
-        kiriCoder_Byte(&coder, &byte);
-    }
-    kiriCoder_Unsigned(&coder, &versions[0]);
-    kiriCoder_Unsigned(&coder, &versions[1]);
-    const void* arguments[] = { def->gravity, &def->budget };
-    const kiriCall call = { world, KIRI_CALL_CREATE_WORLD, arguments };
-    kiriRecord_End(kiriRecord_Begin(&call), KIRI_OK);
-}
-
-void kiriRecord_Stop(kiriWorld* world)
-{
-    const void* arguments[] = { NULL };
-    const kiriCall call = { world, KIRI_CALL_DESTROY_WORLD, arguments };
-    if (world->recorder.sink.write != NULL) {
-        kiriRecord_End(kiriRecord_Begin(&call), KIRI_OK);
-    }
-}
-
-/* What the arguments of each recorded call are. */
-
-/* ---- Structs ----------------------------------------------------------------------------------------------------- */
-
-#define FLOATS_FIELD(Type, field, count)                                                                               \
-    {                                                                                                                  \
-        KIRI_FIELD_FLOATS, count, offsetof(Type, field), 0, NULL                                                       \
-    }
-#define INTS_FIELD(Type, field, count)                                                                                 \
-    {                                                                                                                  \
-        KIRI_FIELD_INTS, count, offsetof(Type, field), 0, NULL                                                         \
-    }
-#define ID_FIELD(Type, field)                                                                                          \
-    {                                                                                                                  \
-        KIRI_FIELD_ID, 1, offsetof(Type, field), 0, NULL                                                               \
-    }
-#define ARRAY_FIELD(kind, Type, field, count, counted, isRead)                                                         \
-    {                                                                                                                  \
-        kind, count, offsetof(Type, field), offsetof(Type, counted), isRead                                            \
-    }
-#define COUNT_OF(array) ((int32_t)(sizeof(array) / sizeof((array)[0])))
-#define STRUCT_OF(Type, cookie, fields, fill)                                                                          \
-    {                                                                                                                  \
-        sizeof(Type), cookie, COUNT_OF(fields), fields, fill                                                           \
-    }
-
-/* Integers without a sign, such as groups, are recorded as if they had one: all bits set is -1, one byte. */
-
-static const kiriRecordField budgetFields[] = { INTS_FIELD(kiriBudget, triangles, 4) };
-static const kiriRecordStruct budgetStruct = STRUCT_OF(kiriBudget, 0, budgetFields, NULL);
-
-static const kiriRecordField windFields[] = { FLOATS_FIELD(kiriWind, velocity, 6) };
-static const kiriRecordStruct windStruct = STRUCT_OF(kiriWind, 0, windFields, NULL);
-
-static const kiriRecordField contactFields[] = { INTS_FIELD(kiriContact, point, 1),
-                                                 FLOATS_FIELD(kiriContact, restPoint, 12),
-                                                 INTS_FIELD(kiriContact, obstacle, 1) };
-static const kiriRecordStruct contactStruct = STRUCT_OF(kiriContact, 0, contactFields, NULL);
-
-static void FillPinDef(void* def)
-{
-    kiriDefaultPinDef(def);
-}
-
-static const kiriRecordField pinFields[] = { FLOATS_FIELD(kiriPinDef, restPoint, 7), ID_FIELD(kiriPinDef, obstacle) };
-static const kiriRecordStruct pinStruct = STRUCT_OF(kiriPinDef, KIRI_COOKIE(kiriPinDef), pinFields, FillPinDef);
-
-static void FillSettings(void* settings)
-{
-    ((kiriSheetSettings*)settings)->cookie = KIRI_COOKIE(kiriSheetSettings);
-}
-
-static const kiriRecordField settingsFields[] = {
-    FLOATS_FIELD(kiriSheetSettings, material, 6),   INTS_FIELD(kiriSheetSettings, maxFrames, 1),
-    FLOATS_FIELD(kiriSheetSettings, crumbArea, 3),  INTS_FIELD(kiriSheetSettings, groups, 3),
-    FLOATS_FIELD(kiriSheetSettings, sleepSpeed, 1), INTS_FIELD(kiriSheetSettings, skinning, 2),
-    FLOATS_FIELD(kiriSheetSettings, fadeTime, 1),   INTS_FIELD(kiriSheetSettings, normals, 1),
-};
-static const kiriRecordStruct settingsStruct =
-    STRUCT_OF(kiriSheetSettings, KIRI_COOKIE(kiriSheetSettings), settingsFields, FillSettings);
-
-static bool ReadsOutline(const void* def)
-{
-    const kiriObstacleDef* of = def;
-    return of->type == KIRI_OBSTACLE_PRISM && kiriCall_IsWithin(of->outlineCount, 3, 64);
-}
-
-static void FillObstacleDef(void* def)
-{
-    kiriDefaultObstacleDef(def);
-}
-
-static const kiriRecordField obstacleFields[] = {
-    INTS_FIELD(kiriObstacleDef, type, 1),
-    FLOATS_FIELD(kiriObstacleDef, size, 5),
-    INTS_FIELD(kiriObstacleDef, outlineCount, 1),
-    ARRAY_FIELD(KIRI_FIELD_FLOATS_AT, kiriObstacleDef, outline, 2, outlineCount, ReadsOutline),
-    FLOATS_FIELD(kiriObstacleDef, rounding, 22),
-    FLOATS_FIELD(kiriObstacleDef, friction, 11),
-    INTS_FIELD(kiriObstacleDef, body, 1),
-    FLOATS_FIELD(kiriObstacleDef, pushSpeed, 1),
-    INTS_FIELD(kiriObstacleDef, groups, 1),
-};
-static const kiriRecordStruct obstacleStruct =
-    STRUCT_OF(kiriObstacleDef, KIRI_COOKIE(kiriObstacleDef), obstacleFields, FillObstacleDef);
-
-static bool ReadsMesh(const void* def)
-{
-    const kiriSheetDef* of = def;
-    return of->vertexCount >= 3 && kiriCall_IsWithin(of->triangleCount, 1, KIRI_MOST_TRIANGLES);
-}
-
-static bool ReadsFramePoints(const void* def)
-{
-    return kiriCall_IsWithin(((const kiriSheetDef*)def)->frameCount, 1, 65536);
-}
-
-static void FillSheetDef(void* def)
-{
-    kiriDefaultSheetDef(def);
-}
-
-static const kiriRecordField sheetFields[] = {
-    INTS_FIELD(kiriSheetDef, vertexCount, 1),
-    INTS_FIELD(kiriSheetDef, triangleCount, 1),
-    ARRAY_FIELD(KIRI_FIELD_FLOATS_AT, kiriSheetDef, restPositions, 2, vertexCount, ReadsMesh),
-    ARRAY_FIELD(KIRI_FIELD_INDICES_AT, kiriSheetDef, indices, 3, triangleCount, ReadsMesh),
-    FLOATS_FIELD(kiriSheetDef, position, 12),
-    FLOATS_FIELD(kiriSheetDef, material, 6),
-    INTS_FIELD(kiriSheetDef, gridResolution, 1),
-    FLOATS_FIELD(kiriSheetDef, snapDistance, 1),
-    INTS_FIELD(kiriSheetDef, frameCount, 1),
-    FLOATS_FIELD(kiriSheetDef, frameLength, 2),
-    ARRAY_FIELD(KIRI_FIELD_FLOATS_AT, kiriSheetDef, framePoints, 2, frameCount, ReadsFramePoints),
-    INTS_FIELD(kiriSheetDef, maxFrames, 1),
-    FLOATS_FIELD(kiriSheetDef, rigidWeight, 5),
-    INTS_FIELD(kiriSheetDef, groups, 4),
-    FLOATS_FIELD(kiriSheetDef, sleepSpeed, 1),
-    INTS_FIELD(kiriSheetDef, model, 4),
-    FLOATS_FIELD(kiriSheetDef, fadeTime, 1),
-    INTS_FIELD(kiriSheetDef, normals, 6),
-    FLOATS_FIELD(kiriSheetDef, weldDistance, 1),
-};
-static const kiriRecordStruct sheetStruct =
-    STRUCT_OF(kiriSheetDef, KIRI_COOKIE(kiriSheetDef), sheetFields, FillSheetDef);
-
-/* ---- Calls ------------------------------------------------------------------------------------------------------- */
-
-#define OF_ID                                                                                                          \
-    {                                                                                                                  \
-        KIRI_ARGUMENT_ID, 0, 0, NULL                                                                                   \
-    }
-#define OF_INT                                                                                                         \
-    {                                                                                                                  \
-        KIRI_ARGUMENT_INT, 0, 0, NULL                                                                                  \
-    }
-#define OF_FLOAT                                                                                                       \
-    {                                                                                                                  \
-        KIRI_ARGUMENT_FLOAT, 0, 0, NULL                                                                                \
-    }
-#define OF_DATA                                                                                                        \
-    {                                                                                                                  \
-        KIRI_ARGUMENT_DATA, 0, 0, NULL                                                                                 \
-    }
-#define OF_FLOATS(count)                                                                                               \
-    {                                                                                                                  \
-        KIRI_ARGUMENT_FLOATS, count, 0, NULL                                                                           \
-    }
-#define OF_STRUCT(of)                                                                                                  \
-    {                                                                                                                  \
-        KIRI_ARGUMENT_STRUCT, 0, 0, &(of)                                                                              \
-    }
-#define OF_ARRAY(kind, most, of)                                                                                       \
-    { kind, 0, most, of },                                                                                             \
-    {                                                                                                                  \
-        KIRI_ARGUMENT_COUNT, 0, 0, NULL                                                                                \
-    }
-#define OF_NEW_ID                                                                                                      \
-    {                                                                                                                  \
-        KIRI_ARGUMENT_NEW_ID, 0, 0, NULL                                                                               \
-    }
-#define OF_NEW_IDS                                                                                                     \
-    {                                                                                                                  \
-        KIRI_ARGUMENT_NEW_IDS, 0, 0, NULL                                                                              \
-    }
-#define OF_NEW_INT                                                                                                     \
-    {                                                                                                                  \
-        KIRI_ARGUMENT_NEW_INT, 0, 0, NULL                                                                              \
-    }
-#define OF_HASH                                                                                                        \
-    {                                                                                                                  \
-        KIRI_ARGUMENT_HASH, 0, 0, NULL                                                                                 \
-    }
-
-/* Arguments that go by value, and those that are written. */
-#define GIVEN_ID(i) (*(const uint32_t*)given[i])
-#define GIVEN_INT(i) (*(const int32_t*)given[i])
-#define GIVEN_FLOAT(i) (*(const float*)given[i])
-#define GIVEN_DATA(i) (*(const uint64_t*)given[i])
-#define GIVEN_NEW(i) ((uint32_t*)(void*)given[i])
-
-#define MAKER(Name, ...)                                                                                               \
-    static kiriResult Make##Name(kiriWorld* world, const void* const* given)                                           \
-    {                                                                                                                  \
-        return kiri##Name(world, __VA_ARGS__);                                                                         \
-    }
-
-MAKER(World_Tick, GIVEN_FLOAT(0), GIVEN_INT(1))
-MAKER(World_SetGravity, given[0])
-MAKER(World_ShiftOrigin, given[0])
-MAKER(World_SetBudget, given[0])
-MAKER(World_Note, given[0], GIVEN_INT(1))
-MAKER(World_Load, given[0], GIVEN_INT(1))
-MAKER(CreateSheet, given[0], GIVEN_NEW(1))
-MAKER(DestroySheet, GIVEN_ID(0))
-MAKER(Sheet_SetSettings, GIVEN_ID(0), given[1])
-MAKER(Sheet_Wake, GIVEN_ID(0))
-MAKER(Sheet_Transform, GIVEN_ID(0), given[1], given[2])
-MAKER(Sheet_SetVelocity, GIVEN_ID(0), given[1], given[2])
-MAKER(Frame_SetPieceVelocity, GIVEN_ID(0), given[1], given[2])
-MAKER(Sheet_SetUserData, GIVEN_ID(0), GIVEN_DATA(1))
-MAKER(Pin_SetUserData, GIVEN_ID(0), GIVEN_DATA(1))
-MAKER(Frame_SetPieceUserData, GIVEN_ID(0), GIVEN_DATA(1))
-MAKER(Frame_DetachPiece, GIVEN_ID(0), GIVEN_NEW(1))
-MAKER(Frame_DestroyPiece, GIVEN_ID(0))
-MAKER(World_DetachPieces, given[0], GIVEN_INT(1), GIVEN_NEW(2))
-MAKER(World_DestroyPieces, given[0], GIVEN_INT(1))
-MAKER(Sheet_DropCrumbs, GIVEN_ID(0), GIVEN_FLOAT(1), (int32_t*)(void*)given[2])
-MAKER(BeginCut, GIVEN_ID(0), given[1], GIVEN_NEW(2))
-MAKER(Cut_Extend, GIVEN_ID(0), given[1], GIVEN_INT(2))
-MAKER(Cut_End, GIVEN_ID(0))
-MAKER(Sheet_Slice, GIVEN_ID(0), given[1], GIVEN_NEW(2))
-MAKER(BeginBlade, GIVEN_ID(0), GIVEN_NEW(1))
-MAKER(Blade_MoveEdge, GIVEN_ID(0), given[1], given[2])
-MAKER(Blade_MoveRay, GIVEN_ID(0), given[1], given[2], GIVEN_FLOAT(3))
-MAKER(Blade_End, GIVEN_ID(0))
-MAKER(Frame_Hold, GIVEN_ID(0), given[1], given[2])
-MAKER(Frame_ApplyForce, GIVEN_ID(0), given[1], given[2])
-MAKER(Sheet_ApplyForce, GIVEN_ID(0), given[1], given[2], given[3])
-MAKER(Sheet_ApplyLineLoad, GIVEN_ID(0), given[1], given[2], given[3])
-MAKER(Sheet_ApplyPressure, GIVEN_ID(0), GIVEN_FLOAT(1))
-MAKER(Sheet_ApplyImpulse, GIVEN_ID(0), given[1], given[2])
-MAKER(Sheet_SetWind, GIVEN_ID(0), given[1])
-MAKER(CreatePin, GIVEN_ID(0), given[1], GIVEN_NEW(2))
-MAKER(Sheet_ClampLine, GIVEN_ID(0), given[1], given[2], GIVEN_NEW(3))
-MAKER(Sheet_HingeLine, GIVEN_ID(0), given[1], given[2], GIVEN_NEW(3))
-MAKER(Pin_SetTarget, GIVEN_ID(0), given[1])
-MAKER(Pin_SetPose, GIVEN_ID(0), given[1], given[2])
-MAKER(Pin_SetBreakForce, GIVEN_ID(0), GIVEN_FLOAT(1))
-MAKER(DestroyPin, GIVEN_ID(0))
-MAKER(Sheet_SetContacts, GIVEN_ID(0), given[1], GIVEN_INT(2))
-MAKER(CreateObstacle, given[0], GIVEN_NEW(1))
-MAKER(DestroyObstacle, GIVEN_ID(0))
-MAKER(Obstacle_SetPose, GIVEN_ID(0), given[1], given[2])
-MAKER(Obstacle_SetVelocity, GIVEN_ID(0), given[1], given[2])
-MAKER(Obstacle_SetSurfaceVelocity, GIVEN_ID(0), given[1])
-MAKER(Obstacle_SetMass, GIVEN_ID(0), GIVEN_FLOAT(1), given[2], given[3])
-
-/* The world is there already: it gets what the def of the recorded one said. */
-static kiriResult MakeWorld(kiriWorld* world, const void* const* given)
-{
-    float gravity[3];
-    const float* wanted = given[0];
-    const kiriBudget *budget = given[1], *was = &world->budget;
-    if (wanted == NULL || budget == NULL) { /* no call writes that */
-        return KIRI_ERROR_ARGUMENT;
-    }
-    kiriResult result = KIRI_OK;
-    kiriVec3_Store(gravity, world->gravity);
-    for (int i = 0; i < 3 && result == KIRI_OK; ++i) {
-        result = wanted[i] == gravity[i] ? KIRI_OK : kiriWorld_SetGravity(world, wanted);
-        kiriVec3_Store(gravity, world->gravity);
-    }
-    bool isSame = budget->triangles == was->triangles && budget->cells == was->cells &&
-                  budget->samples == was->samples && budget->iterations == was->iterations;
-    return result != KIRI_OK || isSame ? result : kiriWorld_SetBudget(world, budget);
-}
-
-/* It stays for the host to look at. */
-static kiriResult MakeEnd(kiriWorld* world, const void* const* given)
-{
-    (void)world;
-    (void)given;
-    return KIRI_OK;
-}
-
-static kiriResult MakeFinishCuts(kiriWorld* world, const void* const* given)
-{
-    (void)given;
-    return kiriWorld_FinishCuts(world);
-}
-
-#define ENTRY(Name, ...)                                                                                               \
-    {                                                                                                                  \
-        "kiri" #Name, { __VA_ARGS__ }, Make##Name                                                                      \
-    }
-
-static const kiriRecordCall recordCalls[KIRI_CALL_COUNT] = {
-    [KIRI_CALL_CREATE_WORLD] = { "kiriCreateWorld", { OF_FLOATS(3), OF_STRUCT(budgetStruct) }, MakeWorld },
-    [KIRI_CALL_DESTROY_WORLD] = { "kiriDestroyWorld", { OF_HASH }, MakeEnd },
-    [KIRI_CALL_WORLD_TICK] = ENTRY(World_Tick, OF_FLOAT, OF_INT, OF_HASH),
-    [KIRI_CALL_WORLD_SET_GRAVITY] = ENTRY(World_SetGravity, OF_FLOATS(3)),
-    [KIRI_CALL_WORLD_SHIFT_ORIGIN] = ENTRY(World_ShiftOrigin, OF_FLOATS(3)),
-    [KIRI_CALL_WORLD_SET_BUDGET] = ENTRY(World_SetBudget, OF_STRUCT(budgetStruct)),
-    [KIRI_CALL_WORLD_NOTE] = ENTRY(World_Note, OF_ARRAY(KIRI_ARGUMENT_BYTES, KIRI_MOST_NOTE_BYTES, NULL)),
-    [KIRI_CALL_WORLD_LOAD] = ENTRY(World_Load, OF_ARRAY(KIRI_ARGUMENT_BYTES, INT32_MAX, NULL)),
-    [KIRI_CALL_WORLD_FINISH_CUTS] = { "kiriWorld_FinishCuts", { { 0 } }, MakeFinishCuts },
-    [KIRI_CALL_CREATE_SHEET] = ENTRY(CreateSheet, OF_STRUCT(sheetStruct), OF_NEW_ID),
-    [KIRI_CALL_DESTROY_SHEET] = ENTRY(DestroySheet, OF_ID),
-    [KIRI_CALL_SHEET_SET_SETTINGS] = ENTRY(Sheet_SetSettings, OF_ID, OF_STRUCT(settingsStruct)),
-    [KIRI_CALL_SHEET_WAKE] = ENTRY(Sheet_Wake, OF_ID),
-    [KIRI_CALL_SHEET_TRANSFORM] = ENTRY(Sheet_Transform, OF_ID, OF_FLOATS(9), OF_FLOATS(3)),
-    [KIRI_CALL_SHEET_SET_VELOCITY] = ENTRY(Sheet_SetVelocity, OF_ID, OF_FLOATS(3), OF_FLOATS(3)),
-    [KIRI_CALL_FRAME_SET_PIECE_VELOCITY] = ENTRY(Frame_SetPieceVelocity, OF_ID, OF_FLOATS(3), OF_FLOATS(3)),
-    [KIRI_CALL_SHEET_SET_USER_DATA] = ENTRY(Sheet_SetUserData, OF_ID, OF_DATA),
-    [KIRI_CALL_PIN_SET_USER_DATA] = ENTRY(Pin_SetUserData, OF_ID, OF_DATA),
-    [KIRI_CALL_FRAME_SET_PIECE_USER_DATA] = ENTRY(Frame_SetPieceUserData, OF_ID, OF_DATA),
-    [KIRI_CALL_FRAME_DETACH_PIECE] = ENTRY(Frame_DetachPiece, OF_ID, OF_NEW_ID),
-    [KIRI_CALL_FRAME_DESTROY_PIECE] = ENTRY(Frame_DestroyPiece, OF_ID),
-    [KIRI_CALL_WORLD_DETACH_PIECES] =
-        ENTRY(World_DetachPieces, OF_ARRAY(KIRI_ARGUMENT_IDS, INT32_MAX, NULL), OF_NEW_IDS),
-    [KIRI_CALL_WORLD_DESTROY_PIECES] = ENTRY(World_DestroyPieces, OF_ARRAY(KIRI_ARGUMENT_IDS, INT32_MAX, NULL)),
-    [KIRI_CALL_SHEET_DROP_CRUMBS] = ENTRY(Sheet_DropCrumbs, OF_ID, OF_FLOAT, OF_NEW_INT),
-    [KIRI_CALL_BEGIN_CUT] = ENTRY(BeginCut, OF_ID, OF_FLOATS(2), OF_NEW_ID),
-    [KIRI_CALL_CUT_EXTEND] = ENTRY(Cut_Extend, OF_ID, OF_ARRAY(KIRI_ARGUMENT_POINTS, 1 << 24, NULL)),
-    [KIRI_CALL_CUT_END] = ENTRY(Cut_End, OF_ID),
-    [KIRI_CALL_SHEET_SLICE] = ENTRY(Sheet_Slice, OF_ID, OF_FLOATS(12), OF_NEW_ID),
-    [KIRI_CALL_BEGIN_BLADE] = ENTRY(BeginBlade, OF_ID, OF_NEW_ID),
-    [KIRI_CALL_BLADE_MOVE_EDGE] = ENTRY(Blade_MoveEdge, OF_ID, OF_FLOATS(3), OF_FLOATS(3)),
-    [KIRI_CALL_BLADE_MOVE_RAY] = ENTRY(Blade_MoveRay, OF_ID, OF_FLOATS(3), OF_FLOATS(3), OF_FLOAT),
-    [KIRI_CALL_BLADE_END] = ENTRY(Blade_End, OF_ID),
-    [KIRI_CALL_FRAME_HOLD] = ENTRY(Frame_Hold, OF_ID, OF_FLOATS(3), OF_FLOATS(9)),
-    [KIRI_CALL_FRAME_APPLY_FORCE] = ENTRY(Frame_ApplyForce, OF_ID, OF_FLOATS(3), OF_FLOATS(3)),
-    [KIRI_CALL_SHEET_APPLY_FORCE] = ENTRY(Sheet_ApplyForce, OF_ID, OF_FLOATS(2), OF_FLOATS(3), OF_FLOATS(3)),
-    [KIRI_CALL_SHEET_APPLY_LINE_LOAD] = ENTRY(Sheet_ApplyLineLoad, OF_ID, OF_FLOATS(2), OF_FLOATS(2), OF_FLOATS(3)),
-    [KIRI_CALL_SHEET_APPLY_PRESSURE] = ENTRY(Sheet_ApplyPressure, OF_ID, OF_FLOAT),
-    [KIRI_CALL_SHEET_APPLY_IMPULSE] = ENTRY(Sheet_ApplyImpulse, OF_ID, OF_FLOATS(2), OF_FLOATS(3)),
-    [KIRI_CALL_SHEET_SET_WIND] = ENTRY(Sheet_SetWind, OF_ID, OF_STRUCT(windStruct)),
-    [KIRI_CALL_CREATE_PIN] = ENTRY(CreatePin, OF_ID, OF_STRUCT(pinStruct), OF_NEW_ID),
-    [KIRI_CALL_SHEET_CLAMP_LINE] = ENTRY(Sheet_ClampLine, OF_ID, OF_FLOATS(2), OF_FLOATS(2), OF_NEW_ID),
-    [KIRI_CALL_SHEET_HINGE_LINE] = ENTRY(Sheet_HingeLine, OF_ID, OF_FLOATS(2), OF_FLOATS(2), OF_NEW_ID),
-    [KIRI_CALL_PIN_SET_TARGET] = ENTRY(Pin_SetTarget, OF_ID, OF_FLOATS(3)),
-    [KIRI_CALL_PIN_SET_POSE] = ENTRY(Pin_SetPose, OF_ID, OF_FLOATS(3), OF_FLOATS(9)),
-    [KIRI_CALL_PIN_SET_BREAK_FORCE] = ENTRY(Pin_SetBreakForce, OF_ID, OF_FLOAT),
-    [KIRI_CALL_DESTROY_PIN] = ENTRY(DestroyPin, OF_ID),
-    [KIRI_CALL_SHEET_SET_CONTACTS] =
-        ENTRY(Sheet_SetContacts, OF_ID, OF_ARRAY(KIRI_ARGUMENT_STRUCTS, INT32_MAX, &contactStruct)),
-    [KIRI_CALL_CREATE_OBSTACLE] = ENTRY(CreateObstacle, OF_STRUCT(obstacleStruct), OF_NEW_ID),
-    [KIRI_CALL_DESTROY_OBSTACLE] = ENTRY(DestroyObstacle, OF_ID),
-    [KIRI_CALL_OBSTACLE_SET_POSE] = ENTRY(Obstacle_SetPose, OF_ID, OF_FLOATS(3), OF_FLOATS(9)),
-    [KIRI_CALL_OBSTACLE_SET_VELOCITY] = ENTRY(Obstacle_SetVelocity, OF_ID, OF_FLOATS(3), OF_FLOATS(3)),
-    [KIRI_CALL_OBSTACLE_SET_SURFACE_VELOCITY] = ENTRY(Obstacle_SetSurfaceVelocity, OF_ID, OF_FLOATS(3)),
-    [KIRI_CALL_OBSTACLE_SET_MASS] = ENTRY(Obstacle_SetMass, OF_ID, OF_FLOAT, OF_FLOATS(6), OF_FLOATS(3)),
-};
-
-const kiriRecordCall* kiriRecord_Find(uint64_t number)
-{
-    return number < KIRI_CALL_COUNT && recordCalls[number].name != NULL ? &recordCalls[number] : NULL;
-}
-
-kiriResult kiriCall_Fail(const kiriWorld* world, char* line, kiriResult result, const char* function, const char* why)
-{
-    snprintf(line, KIRI_LINE_BYTES, "%s: %s (%s)", function, why != NULL ? why : kiriGetResultText(result),
-             kiriGetResultName(result));
-    if (world->log != NULL) {
-        kiriWord_Add(&world->logs, 1);
-        world->log(world->user, line);
-        kiriWord_Add(&world->logs, -1);
-    }
-    return result;
-}
-
-/* A log that calls gets no line for it: that would be another call of it. */
-kiriResult kiriCall_Refuse(const kiriWorld* world, const char* function)
-{
-    char line[KIRI_LINE_BYTES];
-    if (kiriWord_Read(&world->logs) != 0) {
-        return KIRI_ERROR_STATE;
-    }
-    return kiriCall_Fail(world, line, KIRI_ERROR_STATE, function, "called by a callback of this world");
-}
-
-void* kiriCall_Owner(const kiriPool* pool, uint32_t id)
-{
-    const kiriSlot* slot = kiriPool_Find(pool, id);
-    return slot != NULL ? slot->owner : NULL;
-}
+/* ---- Faults ------------------------------------------------------------------------------------------------------ */
 
 bool kiriCall_AreFinite(const float* values, int64_t count)
 {
+    bool areFinite = true;
     for (int64_t i = 0; i < count; ++i) {
-        if (!isfinite(values[i])) {
+        areFinite = areFinite && isfinite(values[i]);
+    }
+    return areFinite;
+}
+
+static const char* FaultOfTriangles(const void* value)
+{
+    int32_t triangles = *(const int32_t*)value;
+    return triangles == 0 || triangles >= KIRI_LEAST_TRIANGLES ? NULL : "is below KIRI_LEAST_TRIANGLES, and not 0";
+}
+
+static const char* FaultOfDirection(const void* value)
+{
+    const float* direction = value;
+    return direction[0] != 0.0f || direction[1] != 0.0f || direction[2] != 0.0f ? NULL : "is zero";
+}
+
+static const char* FaultOfNormal(const void* value)
+{
+    return fabs(kiriVec3_Length(kiriVec3_Load(value)) - 1.0) <= 1e-3 ? NULL : "is not a unit vector";
+}
+
+static bool AreOrthonormal(kiriVec3 u, kiriVec3 v)
+{
+    return fabs(kiriVec3_Dot(u, u) - 1.0) < 1e-3 && fabs(kiriVec3_Dot(v, v) - 1.0) < 1e-3 &&
+           fabs(kiriVec3_Dot(u, v)) < 1e-3;
+}
+
+static const char* FaultOfRotation(const void* value)
+{
+    const float* columns = value;
+    kiriVec3 u = kiriVec3_Load(&columns[0]), v = kiriVec3_Load(&columns[3]), d = kiriVec3_Load(&columns[6]);
+    if (!AreOrthonormal(u, v) || !AreOrthonormal(v, d) || !AreOrthonormal(d, u)) {
+        return "is not orthonormal";
+    }
+    return kiriVec3_Dot(kiriVec3_Cross(u, v), d) > 0.0 ? NULL : "mirrors";
+}
+
+static const char* FaultOfInertia(const void* value)
+{
+    kiriMat3 inverse;
+    return kiriObstacle_InvertInertia(value, &inverse) ? NULL
+                                                       : "is not positive definite, but for axes that are all zero";
+}
+
+static const char* FaultOfSheetDef(const void* value)
+{
+    const kiriSheetDef* def = value;
+    if (!AreOrthonormal(kiriVec3_Load(def->axisU), kiriVec3_Load(def->axisV))) {
+        return "has an axisU and an axisV that are not orthonormal";
+    }
+    return def->frameCount == 0 && def->framePoints != NULL ? "has framePoints, and no frameCount" : NULL;
+}
+
+/* Tests that every corner lies to the left of every edge, but for rounding of floats, and that no edge is a point. */
+static bool IsConvex(const kiriObstacleDef* def)
+{
+    for (int32_t i = 0; i < def->outlineCount; ++i) {
+        const float *a = &def->outline[2 * i], *b = &def->outline[2 * ((i + 1) % def->outlineCount)];
+        double x = (double)b[0] - a[0], y = (double)b[1] - a[1], length = sqrt(x * x + y * y), farthest = 0.0;
+        for (int32_t k = 0; k < def->outlineCount; ++k) {
+            double wayX = (double)def->outline[2 * k] - a[0], wayY = (double)def->outline[2 * k + 1] - a[1];
+            double left = x * wayY - y * wayX;
+            if (left < -1e-5 * length * sqrt(wayX * wayX + wayY * wayY)) {
+                return false;
+            }
+            farthest = kiriMax(left, farthest);
+        }
+        if (!(length > 0.0 && farthest > 0.0)) {
             return false;
         }
     }
     return true;
 }
 
-bool kiriCall_IsAbove(float value, float low)
+#define LONGEST 1e6 /* m */
+
+static bool IsLength(float value)
 {
-    return isfinite(value) && value > low;
+    return value > 0.0f && value <= LONGEST;
 }
 
-bool kiriCall_IsAtLeast(float value, float low)
+static const char* FaultOfObstacleDef(const void* value)
 {
-    return isfinite(value) && value >= low;
+    const kiriObstacleDef* def = value;
+    bool isPrism = def->type == KIRI_OBSTACLE_PRISM, isCylinder = def->type == KIRI_OBSTACLE_CYLINDER;
+    bool isCapsule = def->type == KIRI_OBSTACLE_CAPSULE;
+    if ((isCylinder || isCapsule || def->type == KIRI_OBSTACLE_SPHERE) && !IsLength(def->radius)) {
+        return "has a radius that is not above 0 and up to 1e6";
+    }
+    if (isCylinder && !IsLength(def->height)) {
+        return "has a height that is not above 0 and up to 1e6";
+    }
+    if ((isCapsule || isPrism) && !(def->height >= 0.0f && def->height <= LONGEST)) {
+        return "has a height that is not within 0 and 1e6";
+    }
+    if (def->type == KIRI_OBSTACLE_BOX &&
+        !(IsLength(def->size[0]) && IsLength(def->size[1]) && IsLength(def->size[2]))) {
+        return "has a size that is not above 0 and up to 1e6";
+    }
+    if (isPrism && (def->outline == NULL || def->outlineCount < 3)) {
+        return "has no outline, or an outlineCount that is not within 3 and 64";
+    }
+    return isPrism && !IsConvex(def) ? "has an outline that is not a convex polygon, counter-clockwise" : NULL;
 }
 
-bool kiriCall_IsWithin(int32_t value, int32_t low, int32_t high)
+/* ---- Structs ----------------------------------------------------------------------------------------------------- */
+
+/* Every member is listed: the cookie and functions of the host alone are not. OF is the struct. */
+#define MEMBER(member) .name = #member, .offset = (int32_t)offsetof(OF, member)
+#define NUMBERS_IN(member) MEMBER(member), .count = (int32_t)sizeof(((OF*)NULL)->member) / 4
+#define INTS_IN(member, ...)                                                                                           \
+    {                                                                                                                  \
+        .form = KIRI_FORM_INTS, NUMBERS_IN(member), __VA_ARGS__                                                        \
+    }
+#define FLOATS_IN(member, ...)                                                                                         \
+    {                                                                                                                  \
+        .form = KIRI_FORM_FLOATS, NUMBERS_IN(member), __VA_ARGS__                                                      \
+    }
+#define ARRAY_IN(form_, member, items, counted, ...)                                                                   \
+    {                                                                                                                  \
+        .form = form_, MEMBER(member), .count = items, .refers = (int32_t)offsetof(OF, counted), __VA_ARGS__           \
+    }
+#define STRUCT_IN(member, struct_)                                                                                     \
+    {                                                                                                                  \
+        .form = KIRI_FORM_STRUCT, MEMBER(member), .of = &struct_                                                       \
+    }
+#define STRUCT_OF(Type, cookie, filledBy, members)                                                                     \
+    {                                                                                                                  \
+        (int32_t)sizeof(Type), cookie, filledBy, (int32_t)(sizeof(members) / sizeof((members)[0])), members            \
+    }
+
+#define WITHIN(low_, high_) .low = (low_), .high = (high_)
+#define ANY_NUMBER WITHIN(1.0, 0.0)
+#define ANY_FINITE WITHIN(-FLT_MAX, FLT_MAX)
+#define FROM_0 WITHIN(0.0, FLT_MAX)
+#define ABOVE_0 WITHIN(1e-45, FLT_MAX) /* no positive float is less */
+#define FITTING WITHIN(-0.125 * FLT_MAX, 0.125 * FLT_MAX)
+#define COUNTING WITHIN(0, INT32_MAX)
+#define YES_OR_NO WITHIN(0, 1)
+
+#define OF kiriBudget
+static const kiriValue budgetMembers[] = {
+    INTS_IN(triangles, COUNTING, .fault = FaultOfTriangles),
+    INTS_IN(cells, COUNTING),
+    INTS_IN(samples, COUNTING),
+    INTS_IN(iterations, COUNTING),
+};
+#undef OF
+static const kiriStruct budgetStruct = STRUCT_OF(kiriBudget, 0, NULL, budgetMembers);
+
+#define OF kiriWorldDef
+static const kiriValue worldDefMembers[] = {
+    FLOATS_IN(gravity, ANY_FINITE),
+    STRUCT_IN(budget, budgetStruct),
+    INTS_IN(workerCount, WITHIN(0, 1024)),
+    INTS_IN(recordHashTicks, COUNTING),
+};
+#undef OF
+const kiriStruct kiriWorldDefStruct =
+    STRUCT_OF(kiriWorldDef, KIRI_COOKIE(kiriWorldDef), "kiriDefaultWorldDef", worldDefMembers);
+
+#define OF kiriWind
+static const kiriValue windMembers[] = {
+    FLOATS_IN(velocity, ANY_FINITE),
+    FLOATS_IN(density, FROM_0),
+    FLOATS_IN(drag, FROM_0),
+    FLOATS_IN(lift, FROM_0),
+};
+#undef OF
+static const kiriStruct windStruct = STRUCT_OF(kiriWind, 0, NULL, windMembers);
+
+#define OF kiriContact
+static const kiriValue contactMembers[] = {
+    INTS_IN(point, WITHIN(-1, INT32_MAX)),
+    FLOATS_IN(restPoint, ANY_NUMBER), /* read where there is no point */
+    FLOATS_IN(normal, ANY_FINITE, .fault = FaultOfNormal),
+    FLOATS_IN(offset, ANY_FINITE),
+    FLOATS_IN(velocity, ANY_FINITE),
+    FLOATS_IN(friction, FROM_0),
+    FLOATS_IN(inverseMass, FROM_0),
+    FLOATS_IN(pushSpeed, FROM_0),
+    INTS_IN(obstacle, ANY_NUMBER),
+};
+#undef OF
+static const kiriStruct contactStruct = STRUCT_OF(kiriContact, 0, NULL, contactMembers);
+
+#define OF kiriPinDef
+static const kiriValue pinDefMembers[] = {
+    FLOATS_IN(restPoint, ANY_FINITE),
+    FLOATS_IN(target, ANY_FINITE),
+    FLOATS_IN(stiffness, FROM_0),
+    FLOATS_IN(breakForce, FROM_0),
+    { .form = KIRI_FORM_ID, NUMBERS_IN(obstacle), .refers = (int32_t)offsetof(kiriWorld, obstacleIds),
+      .isOptional = true },
+};
+#undef OF
+static const kiriStruct pinDefStruct =
+    STRUCT_OF(kiriPinDef, KIRI_COOKIE(kiriPinDef), "kiriDefaultPinDef", pinDefMembers);
+
+#define OF kiriMaterial
+static const kiriValue materialMembers[] = {
+    FLOATS_IN(youngsModulus, ABOVE_0),
+    FLOATS_IN(poissonsRatio, WITHIN(0.0, 0.49999997)), /* the last float below 0.5 */
+    FLOATS_IN(thickness, ABOVE_0),
+    FLOATS_IN(density, ABOVE_0),
+    FLOATS_IN(airDamping, FROM_0),
+    FLOATS_IN(flexDamping, FROM_0),
+};
+#undef OF
+static const kiriStruct materialStruct = STRUCT_OF(kiriMaterial, 0, NULL, materialMembers);
+
+/* What the settings and the def have. */
+#define SETTINGS_MEMBERS                                                                                               \
+    STRUCT_IN(material, materialStruct), INTS_IN(maxFrames, WITHIN(1, INT32_MAX)), FLOATS_IN(crumbArea, FROM_0),       \
+        FLOATS_IN(friction, FROM_0), FLOATS_IN(contactThickness, FROM_0), INTS_IN(groups, ANY_NUMBER),                 \
+        INTS_IN(touchesSheets, YES_OR_NO), INTS_IN(iterations, WITHIN(1, 64)), FLOATS_IN(sleepSpeed, FROM_0),          \
+        INTS_IN(skinning, WITHIN(KIRI_SKINNING_LINEAR, KIRI_SKINNING_SMOOTH)),                                         \
+        INTS_IN(timeStepping, WITHIN(KIRI_TIME_STEPPING_SECOND_ORDER, KIRI_TIME_STEPPING_EULER)),                      \
+        FLOATS_IN(fadeTime, FROM_0), INTS_IN(normals, YES_OR_NO)
+
+#define OF kiriSheetSettings
+static const kiriValue settingsMembers[] = { SETTINGS_MEMBERS };
+#undef OF
+const kiriStruct kiriSettingsStruct =
+    STRUCT_OF(kiriSheetSettings, KIRI_COOKIE(kiriSheetSettings), "kiriSheet_GetSettings", settingsMembers);
+
+#define OF kiriPaperOptions
+static const kiriValue paperMembers[] = {
+    INTS_IN(fromScratch, YES_OR_NO),
+    INTS_IN(popping, YES_OR_NO),
+    INTS_IN(linearWeights, YES_OR_NO),
+    INTS_IN(integrationPoints, WITHIN(0, 1 << 20)),
+    INTS_IN(integrationOrder, WITHIN(1, 2)),
+};
+#undef OF
+static const kiriStruct paperStruct = STRUCT_OF(kiriPaperOptions, 0, NULL, paperMembers);
+
+#define OF kiriSheetDef
+static const kiriValue sheetDefMembers[] = {
+    INTS_IN(vertexCount, WITHIN(3, INT32_MAX)), /* counts before arrays */
+    INTS_IN(triangleCount, WITHIN(1, KIRI_MOST_TRIANGLES)),
+    INTS_IN(frameCount, WITHIN(0, 65536)),
+    ARRAY_IN(KIRI_FORM_FLOATS_AT, restPositions, 2, vertexCount, ANY_NUMBER),
+    ARRAY_IN(KIRI_FORM_INDICES_AT, indices, 3, triangleCount, ANY_NUMBER),
+    ARRAY_IN(KIRI_FORM_FLOATS_AT, framePoints, 2, frameCount, ANY_FINITE),
+    FLOATS_IN(position, ANY_FINITE),
+    FLOATS_IN(axisU, ANY_FINITE),
+    FLOATS_IN(axisV, ANY_FINITE),
+    FLOATS_IN(velocity, ANY_FINITE),
+    INTS_IN(gridResolution, WITHIN(1, 4096)),
+    FLOATS_IN(snapDistance, FROM_0),
+    FLOATS_IN(weldDistance, FROM_0),
+    FLOATS_IN(frameLength, FROM_0),
+    FLOATS_IN(accuracy, WITHIN(1e-4f, 1.0)),
+    FLOATS_IN(rigidWeight, ABOVE_0),
+    FLOATS_IN(rigidArea, FROM_0),
+    INTS_IN(collisionPoints, WITHIN(0, 1 << 20)),
+    INTS_IN(model, WITHIN(KIRI_MODEL_LINKS, KIRI_MODEL_POINTS)),
+    INTS_IN(planar, YES_OR_NO),
+    STRUCT_IN(paper, paperStruct),
+    SETTINGS_MEMBERS,
+};
+#undef OF
+static const kiriStruct sheetDefStruct =
+    STRUCT_OF(kiriSheetDef, KIRI_COOKIE(kiriSheetDef), "kiriDefaultSheetDef", sheetDefMembers);
+
+#define OF kiriObstacleDef
+static const kiriValue obstacleDefMembers[] = {
+    INTS_IN(type, WITHIN(KIRI_OBSTACLE_PLANE, KIRI_OBSTACLE_PRISM)),
+    FLOATS_IN(size, ANY_NUMBER), /* which of them are read depends on the type */
+    FLOATS_IN(radius, ANY_NUMBER),
+    FLOATS_IN(height, ANY_NUMBER),
+    INTS_IN(outlineCount, WITHIN(0, 64)),
+    ARRAY_IN(KIRI_FORM_FLOATS_AT, outline, 2, outlineCount, WITHIN(-LONGEST, LONGEST)),
+    FLOATS_IN(rounding, WITHIN(0.0, LONGEST)),
+    FLOATS_IN(position, FITTING),
+    FLOATS_IN(rotation, ANY_FINITE, .fault = FaultOfRotation),
+    FLOATS_IN(velocity, FITTING),
+    FLOATS_IN(angularVelocity, FITTING),
+    FLOATS_IN(surfaceVelocity, FITTING),
+    FLOATS_IN(friction, FROM_0),
+    FLOATS_IN(mass, FROM_0),
+    FLOATS_IN(inertia, ANY_FINITE, .fault = FaultOfInertia),
+    FLOATS_IN(centerOfMass, ANY_FINITE),
+    INTS_IN(body, ANY_NUMBER),
+    FLOATS_IN(pushSpeed, ABOVE_0),
+    INTS_IN(groups, ANY_NUMBER),
+};
+#undef OF
+static const kiriStruct obstacleDefStruct =
+    STRUCT_OF(kiriObstacleDef, KIRI_COOKIE(kiriObstacleDef), "kiriDefaultObstacleDef", obstacleDefMembers);
+
+/* ---- Arguments --------------------------------------------------------------------------------------------------- */
+
+#define ID_OF(kind, ...)                                                                                               \
+    {                                                                                                                  \
+        .form = KIRI_FORM_ID, .name = #kind, .refers = (int32_t)offsetof(kiriWorld, kind##Ids), __VA_ARGS__            \
+    }
+#define FLOATS_OF(count_, ...)                                                                                         \
+    {                                                                                                                  \
+        .form = KIRI_FORM_FLOATS, .count = count_, __VA_ARGS__                                                         \
+    }
+#define STRUCT_ARGUMENT(struct_, ...)                                                                                  \
+    {                                                                                                                  \
+        .form = KIRI_FORM_STRUCT, .of = &struct_, __VA_ARGS__                                                          \
+    }
+#define ARRAY_ARGUMENT(item_, ...)                                                                                     \
+    {                                                                                                                  \
+        .form = KIRI_FORM_ARRAY, .item = &item_, __VA_ARGS__                                                           \
+    }
+
+static const kiriValue byteItem = { .form = KIRI_FORM_BYTE }, contactItem = STRUCT_ARGUMENT(contactStruct, .count = 1);
+
+const kiriValue kiriArguments[KIRI_ARGUMENT_KINDS] = {
+    [KIRI_ARGUMENT_SHEET] = ID_OF(sheet, .isOptional = false),
+    [KIRI_ARGUMENT_ANY_SHEET] = ID_OF(sheet, .isOptional = true),
+    [KIRI_ARGUMENT_FRAME] = ID_OF(frame, .isOptional = false),
+    [KIRI_ARGUMENT_PIN] = ID_OF(pin, .isOptional = false),
+    [KIRI_ARGUMENT_OBSTACLE] = ID_OF(obstacle, .isOptional = false),
+    [KIRI_ARGUMENT_CUT] = ID_OF(cut, .isOptional = false),
+    [KIRI_ARGUMENT_BLADE] = ID_OF(blade, .isOptional = false),
+    [KIRI_ARGUMENT_INT] = { .form = KIRI_FORM_INTS, .count = 1, ANY_NUMBER },
+    [KIRI_ARGUMENT_COUNT] = { .form = KIRI_FORM_COUNT },
+    [KIRI_ARGUMENT_FLOAT] = FLOATS_OF(1, ANY_NUMBER),
+    [KIRI_ARGUMENT_FINITE] = FLOATS_OF(1, ANY_FINITE),
+    [KIRI_ARGUMENT_SIZE] = FLOATS_OF(1, FROM_0),
+    [KIRI_ARGUMENT_LENGTH] = FLOATS_OF(1, ABOVE_0),
+    [KIRI_ARGUMENT_DATA] = { .form = KIRI_FORM_DATA },
+    [KIRI_ARGUMENT_POINT] = FLOATS_OF(2, ANY_FINITE),
+    [KIRI_ARGUMENT_VECTOR] = FLOATS_OF(3, ANY_FINITE),
+    [KIRI_ARGUMENT_VECTOR_OR_NULL] = FLOATS_OF(3, ANY_FINITE, .isOptional = true),
+    [KIRI_ARGUMENT_PLACE] = FLOATS_OF(3, FITTING),
+    [KIRI_ARGUMENT_DIRECTION] = FLOATS_OF(3, ANY_FINITE, .fault = FaultOfDirection),
+    [KIRI_ARGUMENT_ROTATION] = FLOATS_OF(9, ANY_FINITE, .fault = FaultOfRotation),
+    [KIRI_ARGUMENT_ROTATION_OR_NULL] = FLOATS_OF(9, ANY_FINITE, .fault = FaultOfRotation, .isOptional = true),
+    [KIRI_ARGUMENT_INERTIA] = FLOATS_OF(6, ANY_FINITE, .fault = FaultOfInertia),
+    [KIRI_ARGUMENT_QUAD] = FLOATS_OF(12, ANY_FINITE),
+    [KIRI_ARGUMENT_BUDGET] = STRUCT_ARGUMENT(budgetStruct, .count = 1),
+    [KIRI_ARGUMENT_WIND] = STRUCT_ARGUMENT(windStruct, .count = 1),
+    [KIRI_ARGUMENT_SETTINGS] = STRUCT_ARGUMENT(kiriSettingsStruct, .count = 1),
+    [KIRI_ARGUMENT_PIN_DEF] = STRUCT_ARGUMENT(pinDefStruct, .count = 1),
+    [KIRI_ARGUMENT_SHEET_DEF] = STRUCT_ARGUMENT(sheetDefStruct, .fault = FaultOfSheetDef),
+    [KIRI_ARGUMENT_OBSTACLE_DEF] = STRUCT_ARGUMENT(obstacleDefStruct, .fault = FaultOfObstacleDef),
+    [KIRI_ARGUMENT_NOTE] = ARRAY_ARGUMENT(byteItem, WITHIN(1, KIRI_MOST_NOTE_BYTES)),
+    [KIRI_ARGUMENT_SAVE] = ARRAY_ARGUMENT(byteItem, ANY_NUMBER), /* kiriWorld_Load checks the size */
+    [KIRI_ARGUMENT_POINTS] = ARRAY_ARGUMENT(kiriArguments[KIRI_ARGUMENT_POINT], WITHIN(1, 1 << 24)),
+    [KIRI_ARGUMENT_FRAMES] = ARRAY_ARGUMENT(kiriArguments[KIRI_ARGUMENT_FRAME], COUNTING),
+    [KIRI_ARGUMENT_CONTACTS] = ARRAY_ARGUMENT(contactItem, COUNTING),
+    [KIRI_ARGUMENT_NEW_ID] = { .form = KIRI_FORM_NEW },
+    [KIRI_ARGUMENT_NEW_COUNT] = { .form = KIRI_FORM_NEW },
+    [KIRI_ARGUMENT_NEW_IDS] = { .form = KIRI_FORM_NEWS },
+};
+
+/* ---- Rows -------------------------------------------------------------------------------------------------------- */
+
+/* How `Make` passes an argument on. */
+#define GIVEN(Type, i) (*(const Type*)at[i])
+#define PASS_SHEET(i) GIVEN(uint32_t, i)
+#define PASS_ANY_SHEET PASS_SHEET
+#define PASS_FRAME PASS_SHEET
+#define PASS_PIN PASS_SHEET
+#define PASS_OBSTACLE PASS_SHEET
+#define PASS_CUT PASS_SHEET
+#define PASS_BLADE PASS_SHEET
+#define PASS_INT(i) GIVEN(int32_t, i)
+#define PASS_COUNT PASS_INT
+#define PASS_FLOAT(i) GIVEN(float, i)
+#define PASS_FINITE PASS_FLOAT
+#define PASS_SIZE PASS_FLOAT
+#define PASS_LENGTH PASS_FLOAT
+#define PASS_DATA(i) GIVEN(uint64_t, i)
+#define PASS_POINT(i) at[i]
+#define PASS_VECTOR PASS_POINT
+#define PASS_VECTOR_OR_NULL PASS_POINT
+#define PASS_PLACE PASS_POINT
+#define PASS_DIRECTION PASS_POINT
+#define PASS_ROTATION PASS_POINT
+#define PASS_ROTATION_OR_NULL PASS_POINT
+#define PASS_INERTIA PASS_POINT
+#define PASS_QUAD PASS_POINT
+#define PASS_BUDGET PASS_POINT
+#define PASS_WIND PASS_POINT
+#define PASS_SETTINGS PASS_POINT
+#define PASS_PIN_DEF PASS_POINT
+#define PASS_SHEET_DEF PASS_POINT
+#define PASS_OBSTACLE_DEF PASS_POINT
+#define PASS_NOTE PASS_POINT
+#define PASS_SAVE PASS_POINT
+#define PASS_POINTS PASS_POINT
+#define PASS_FRAMES PASS_POINT
+#define PASS_CONTACTS PASS_POINT
+#define PASS_NEW_ID(i) (void*)at[i]
+#define PASS_NEW_COUNT PASS_NEW_ID
+#define PASS_NEW_IDS PASS_NEW_ID
+
+#define MAKE(Name, ...)                                                                                                \
+    static kiriResult Make##Name(kiriWorld* world, const void* const* at)                                              \
+    {                                                                                                                  \
+        (void)at;                                                                                                      \
+        return kiri##Name(world __VA_ARGS__);                                                                          \
+    }
+#define MAKE0(Name) MAKE(Name, )
+#define MAKE1(Name, A) MAKE(Name, , PASS_##A(0))
+#define MAKE2(Name, A, B) MAKE(Name, , PASS_##A(0), PASS_##B(1))
+#define MAKE3(Name, A, B, C) MAKE(Name, , PASS_##A(0), PASS_##B(1), PASS_##C(2))
+#define MAKE4(Name, A, B, C, D) MAKE(Name, , PASS_##A(0), PASS_##B(1), PASS_##C(2), PASS_##D(3))
+KIRI_CALLS(MAKE0, MAKE1, MAKE2, MAKE3, MAKE4)
+
+/* A replay has its world already: it gets what the def of the recorded one said. */
+static kiriResult MakeCreateWorld(kiriWorld* world, const void* const* at)
 {
-    return value >= low && value <= high;
+    float gravity[3];
+    kiriVec3_Store(gravity, world->gravity);
+    kiriResult result = memcmp(gravity, at[0], sizeof(gravity)) != 0 ? kiriWorld_SetGravity(world, at[0]) : KIRI_OK;
+    bool isSame = memcmp(&world->budget, at[1], sizeof(kiriBudget)) == 0;
+    return result != KIRI_OK || isSame ? result : kiriWorld_SetBudget(world, at[1]);
 }
 
-bool kiriCall_AreOrthonormal(const float a[3], const float b[3])
+/* The world stays for the host to look at. */
+static kiriResult MakeDestroyWorld(kiriWorld* world, const void* const* at)
 {
-    if (!kiriCall_AreFinite(a, 3) || !kiriCall_AreFinite(b, 3)) {
+    (void)world;
+    (void)at;
+    return KIRI_OK;
+}
+
+#define ROW(Name, ...) [KIRI_CALL_##Name] = { "kiri" #Name, Make##Name, { __VA_ARGS__ } },
+#define ROW0(Name) ROW(Name, KIRI_ARGUMENT_NONE)
+#define ROW1(Name, A) ROW(Name, KIRI_ARGUMENT_##A)
+#define ROW2(Name, A, B) ROW(Name, KIRI_ARGUMENT_##A, KIRI_ARGUMENT_##B)
+#define ROW3(Name, A, B, C) ROW(Name, KIRI_ARGUMENT_##A, KIRI_ARGUMENT_##B, KIRI_ARGUMENT_##C)
+#define ROW4(Name, A, B, C, D) ROW(Name, KIRI_ARGUMENT_##A, KIRI_ARGUMENT_##B, KIRI_ARGUMENT_##C, KIRI_ARGUMENT_##D)
+
+const kiriCallRow kiriCallRows[KIRI_CALL_COUNT] = {
+    ROW2(CreateWorld, VECTOR, BUDGET) ROW0(DestroyWorld) KIRI_CALLS(ROW0, ROW1, ROW2, ROW3, ROW4)
+};
+
+/* ---- Checks ------------------------------------------------------------------------------------------------------ */
+
+enum { NUMBER_BYTES = 48 };
+
+/* Writes a number with up to four decimals. Where snprintf of the web build is, %g is missing. */
+static const char* WriteNumber(char text[NUMBER_BYTES], double number)
+{
+    double size = fabs(number);
+    const char* sign = number < 0.0 ? "-" : "";
+    char decimals[8] = "", power[24] = "";
+    int32_t exponent = 0;
+    if (!(size <= DBL_MAX)) {
+        snprintf(text, NUMBER_BYTES, "%s%s", sign, isnan(number) ? "NaN" : "infinity");
+        return text;
+    }
+    bool isLarge = size >= 1e10, isSmall = size > 0.0 && size < 1e-4;
+    for (; isLarge && size >= 10.0; ++exponent) {
+        size /= 10.0;
+    }
+    for (; isSmall && size < 0.9999; --exponent) {
+        size *= 10.0;
+    }
+    if (exponent != 0) {
+        snprintf(power, sizeof(power), "e%lld", (long long)exponent);
+    }
+    long long parts = (long long)(size * 1e4 + 0.5), rest = parts % 10000;
+    for (int i = 0; rest > 0; ++i, rest = rest % 1000 * 10) {
+        decimals[0] = '.';
+        decimals[i + 1] = (char)('0' + rest / 1000);
+    }
+    snprintf(text, NUMBER_BYTES, "%s%lld%s%s", sign, parts / 10000, decimals, power);
+    return text;
+}
+
+static void Prepend(kiriFault* fault, const char* text, size_t length)
+{
+    size_t last = sizeof(fault->line) - 1;
+    length = kiriMin(length, last);
+    memmove(fault->line + length, fault->line, last - length);
+    memcpy(fault->line, text, length);
+    fault->line[last] = '\0';
+}
+
+/* The checks write lines that go on behind the name of the value: " is null", "[2] is NaN, not finite", or for a member
+   of a struct ".friction is -1, not 0 or more". */
+
+static kiriResult CheckNumbers(const kiriValue* value, const void* at, int64_t count, kiriFault* fault)
+{
+    bool areFloats = value->form == KIRI_FORM_FLOATS || value->form == KIRI_FORM_FLOATS_AT;
+    double number = 0.0;
+    int64_t i = 0;
+    for (bool isFine = value->low <= value->high; isFine && i < count; i += isFine) {
+        number = areFloats ? (double)((const float*)at)[i] : (double)((const int32_t*)at)[i];
+        isFine = number >= value->low && number <= value->high;
+    }
+    if (value->low > value->high || i == count) {
+        return KIRI_OK;
+    }
+    char is[NUMBER_BYTES], low[NUMBER_BYTES], high[NUMBER_BYTES], index[NUMBER_BYTES] = "";
+    if (count > 1) {
+        snprintf(index, sizeof(index), "[%lld]", (long long)i);
+    }
+    WriteNumber(is, number);
+    if (value->high == (double)FLT_MAX) {
+        const char* least = value->low < 0.0 ? "finite" : value->low == 0.0 ? "0 or more" : "above 0";
+        KIRI_SAY(fault, "%s is %s, not %s", index, is, least);
+    } else {
+        KIRI_SAY(fault, "%s is %s, not within %s and %s", index, is, WriteNumber(low, value->low),
+                 WriteNumber(high, value->high));
+    }
+    return KIRI_ERROR_ARGUMENT;
+}
+
+static const kiriSlot* FindSlot(const kiriValue* value, const kiriWorld* world, const void* id)
+{
+    return kiriPool_Find((const kiriPool*)(const void*)((const char*)world + value->refers), *(const uint32_t*)id);
+}
+
+static kiriResult CheckValue(const kiriValue* value, const kiriWorld* world, const void* at, kiriFault* fault)
+{
+    kiriResult result = KIRI_OK;
+    if (at == NULL) {
+        KIRI_SAY(fault, " is null");
+        return value->isOptional ? KIRI_OK : KIRI_ERROR_ARGUMENT;
+    }
+    if (value->form == KIRI_FORM_INTS || value->form == KIRI_FORM_FLOATS) {
+        result = CheckNumbers(value, at, value->count, fault);
+    } else if (value->form == KIRI_FORM_STRUCT && value->of->cookie != 0 && *(const uint32_t*)at != value->of->cookie) {
+        KIRI_SAY(fault, " was not filled by %s", value->of->filledBy);
+        result = KIRI_ERROR_DEF;
+    } else if (value->form == KIRI_FORM_STRUCT) {
+        result = kiriStruct_Check(value->of, "", world, at, fault);
+    } else if (value->form == KIRI_FORM_ID && !(value->isOptional && *(const uint32_t*)at == 0) &&
+               FindSlot(value, world, at) == NULL) {
+        KIRI_SAY(fault, " is %lld: there is no %s with this id", (long long)*(const uint32_t*)at, value->name);
+        result = KIRI_ERROR_ID;
+    }
+    const char* why = result == KIRI_OK && value->fault != NULL ? value->fault(at) : NULL;
+    if (why != NULL) {
+        KIRI_SAY(fault, " %s", why);
+        result = KIRI_ERROR_ARGUMENT;
+    }
+    return result;
+}
+
+kiriResult kiriStruct_Check(const kiriStruct* of, const char* name, const kiriWorld* world, const void* at,
+                            kiriFault* fault)
+{
+    for (int32_t i = 0; i < of->count; ++i) {
+        const kiriValue* member = &of->members[i];
+        const char* place = (const char*)at + member->offset;
+        kiriResult result = KIRI_OK;
+        KIRI_ASSERT(member->offset >= 0 && member->offset < of->bytes);
+        if (member->form >= KIRI_FORM_FLOATS_AT) {
+            const void* array;
+            int32_t count;
+            memcpy(&array, place, sizeof(array));
+            memcpy(&count, (const char*)at + member->refers, sizeof(count));
+            result = array != NULL ? CheckNumbers(member, array, (int64_t)member->count * count, fault) : KIRI_OK;
+        } else {
+            result = CheckValue(member, world, place, fault);
+        }
+        if (result != KIRI_OK) {
+            Prepend(fault, member->name, strlen(member->name));
+            Prepend(fault, ".", 1);
+            Prepend(fault, name, strlen(name));
+            return result;
+        }
+    }
+    return KIRI_OK;
+}
+
+/* ---- Calls ------------------------------------------------------------------------------------------------------- */
+
+/* Checks the items of an array, and before them the count, which is the next argument. */
+static kiriResult CheckArray(const kiriValue* value, const kiriWorld* world, const void* const at[2], kiriFault* fault)
+{
+    const kiriValue* item = value->item;
+    int32_t count = *(const int32_t*)at[1];
+    kiriResult result = CheckNumbers(value, &count, 1, fault);
+    if (result != KIRI_OK) {
+        Prepend(fault, ": count", strlen(": count"));
+    } else if (count != 0 && (at[0] == NULL || item->form == KIRI_FORM_BYTE)) {
+        result = CheckValue(item, world, at[0], fault);
+    } else if (item->form == KIRI_FORM_FLOATS) {
+        result = CheckNumbers(item, at[0], (int64_t)item->count * count, fault);
+    } else {
+        int32_t bytes = item->of != NULL ? item->of->bytes : (int32_t)sizeof(uint32_t);
+        for (int64_t k = 0; result == KIRI_OK && k < count; ++k) {
+            result = CheckValue(item, world, (const char*)at[0] + k * bytes, fault);
+        }
+    }
+    return result;
+}
+
+/* Checks argument i; a fault names it as the call lists it, as in "&sheet, velocity". */
+static kiriResult CheckArgument(const kiriCall* call, int i, kiriFault* fault)
+{
+    const kiriValue* value = &kiriArguments[kiriCallRows[call->number].kinds[i]];
+    const void* const* at = &call->arguments[i];
+    kiriResult result = KIRI_OK;
+    if (value->form == KIRI_FORM_ARRAY) {
+        result = CheckArray(value, call->world, at, fault);
+    } else if (value->form != KIRI_FORM_NEWS || *(const int32_t*)at[-1] > 0) {
+        result = CheckValue(value, call->world, at[0], fault);
+    }
+    if (result != KIRI_OK) {
+        const char* from = call->names;
+        for (; i > 0; ++from) {
+            i -= *from == ',';
+        }
+        from += strspn(from, " &");
+        Prepend(fault, from, strcspn(from, ","));
+    }
+    return result;
+}
+
+/* Sets what the call is to write to 0, for calls that fail. */
+static void ClearNew(const kiriValue* value, const void* const at[])
+{
+    int32_t count = value->form == KIRI_FORM_NEW ? 1 : value->form == KIRI_FORM_NEWS ? *(const int32_t*)at[-1] : 0;
+    if (count > 0 && at[0] != NULL) {
+        memset((void*)at[0], 0, (size_t)count * sizeof(uint32_t));
+    }
+}
+
+bool kiriCall_Begin(kiriCall* call)
+{
+    kiriWorld* world = call->world;
+    kiriFault fault;
+    if (world == NULL || world->isBusy || kiriCall_IsRead(world)) {
+        call->result = world == NULL ? KIRI_ERROR_ARGUMENT : kiriCall_Refuse(world, call->function);
         return false;
     }
-    kiriVec3 u = kiriVec3_Load(a), v = kiriVec3_Load(b);
-    return fabs(kiriVec3_Dot(u, u) - 1.0) < 1e-3 && fabs(kiriVec3_Dot(v, v) - 1.0) < 1e-3 &&
-           fabs(kiriVec3_Dot(u, v)) < 1e-3;
+    world->isBusy = true;
+    world->errorLine[0] = '\0';
+    if (call->number == KIRI_NONE) {
+        return true;
+    }
+    const uint8_t* kinds = kiriCallRows[call->number].kinds;
+    for (int i = 0; i < KIRI_CALL_ARGUMENTS && kinds[i] != KIRI_ARGUMENT_NONE; ++i) {
+        ClearNew(&kiriArguments[kinds[i]], &call->arguments[i]);
+    }
+    for (int i = 0; i < KIRI_CALL_ARGUMENTS && kinds[i] != KIRI_ARGUMENT_NONE && call->result == KIRI_OK; ++i) {
+        call->result = CheckArgument(call, i, &fault);
+    }
+    if (call->result == KIRI_OK && kiriArguments[kinds[0]].form == KIRI_FORM_ID) {
+        const kiriSlot* slot = FindSlot(&kiriArguments[kinds[0]], world, call->arguments[0]);
+        bool isSheet =
+            kinds[0] == KIRI_ARGUMENT_SHEET || kinds[0] == KIRI_ARGUMENT_FRAME || kinds[0] == KIRI_ARGUMENT_PIN;
+        call->owner = slot != NULL ? slot->owner : NULL;
+        call->index = slot != NULL ? slot->index : KIRI_NONE;
+        call->sheet = isSheet ? call->owner : NULL;
+    }
+    if (call->result != KIRI_OK) {
+        kiriCall_End(world, call, call->function, call->result, fault.line);
+        return false;
+    }
+    if (world->recorder.sink.write != NULL) {
+        kiriRecord_Begin(call);
+        call->isRecorded = true;
+    }
+    return true;
 }
 
-const char* kiriCall_FaultOfRotation(const kiriSheetData* sheet, const float rotation[9])
+static void Log(const kiriWorld* world, char* line, kiriResult result, const char* function, const char* why)
 {
-    kiriMat3 m = { kiriVec3_Load(&rotation[0]), kiriVec3_Load(&rotation[3]), kiriVec3_Load(&rotation[6]) };
-    bool isPlanar = sheet->settings.mechanics.planar;
-    if (!kiriCall_AreOrthonormal(&rotation[0], &rotation[3]) || !kiriCall_AreOrthonormal(&rotation[3], &rotation[6]) ||
-        !kiriCall_AreOrthonormal(&rotation[6], &rotation[0])) {
-        return "rotation is not orthonormal";
+    bool hasReason = why != NULL && why[0] != '\0';
+    snprintf(line, sizeof(world->errorLine), "%s: %s (%s)", function, hasReason ? why : kiriGetResultText(result),
+             kiriGetResultName(result));
+    if (world->log != NULL) {
+        kiriWord_Add(&world->logs, 1);
+        world->log(world->user, line);
+        kiriWord_Add(&world->logs, -1);
     }
-    if (!(kiriVec3_Dot(kiriVec3_Cross(m.u, m.v), m.d) > 0.0)) {
-        return "rotation mirrors";
-    }
-    return isPlanar && !(kiriVec3_Dot(m.d, sheet->settings.mechanics.axes.d) > 0.999999)
-               ? "rotation turns a planar sheet out of its plane"
-               : NULL;
 }
 
-const char* kiriCall_FaultOfLine(const kiriSheetData* sheet, const float from[2], const float to[2],
-                                 kiriLatticePoint ends[2])
+kiriResult kiriCall_End(const kiriWorld* world, kiriCall* call, const char* function, kiriResult result,
+                        const char* why)
 {
-    if (from == NULL || to == NULL || !kiriCall_AreFinite(from, 2) || !kiriCall_AreFinite(to, 2)) {
-        return "from or to is null or not finite";
+    char line[sizeof(world->errorLine)];
+    if (result < 0) {
+        Log(world, call != NULL ? call->world->errorLine : line, result, call != NULL ? call->function : function, why);
     }
-    if (!kiriSheet_ToLattice(sheet, from, &ends[0]) || !kiriSheet_ToLattice(sheet, to, &ends[1])) {
-        return "from or to lies too far outside the sheet";
+    if (call != NULL && call->isRecorded) {
+        kiriRecord_End(call, result);
     }
-    return ends[0].x == ends[1].x && ends[0].y == ends[1].y ? "from and to are the same point" : NULL;
+    if (call != NULL) {
+        KIRI_ASSERT(call->world->isBusy);
+        call->world->isBusy = false;
+    }
+    return result;
+}
+
+/* A log that calls gets no line for it: that would be another call of the log. */
+kiriResult kiriCall_Refuse(const kiriWorld* world, const char* function)
+{
+    char line[sizeof(world->errorLine)];
+    if (kiriWord_Read(&world->logs) == 0) {
+        Log(world, line, KIRI_ERROR_STATE, function, "called by a callback of this world");
+    }
+    return KIRI_ERROR_STATE;
 }

@@ -1,6 +1,6 @@
-/* Recording: what functions that change the world were given, and what came of it, as bytes for the host. A table
-   (kiri_call.c) says for each of them what its arguments are; one function (kiriRecord_CodeArguments) writes
-   them by it, and reads them for kiriWorld_Replay. */
+/* How public functions begin and end. A table lists each function that changes the world, with the kinds of its
+   arguments: by it kiriCall_Begin checks and records them, and kiriWorld_Replay reads them and calls the function. Functions
+   that only read check their few arguments in line, which costs less than a walk over the table. */
 #ifndef KIRI_CALL_H
 #define KIRI_CALL_H
 
@@ -8,288 +8,268 @@
 
 KIRI_C_BEGIN
 
-/* The numbers of calls in recordings. A number never gets another meaning, nor is used again. */
-enum kiriCallNumber {
-    KIRI_CALL_CREATE_WORLD = 1,
-    KIRI_CALL_DESTROY_WORLD = 2,
-    KIRI_CALL_WORLD_TICK = 3,
-    KIRI_CALL_WORLD_SET_GRAVITY = 4,
-    KIRI_CALL_WORLD_SET_BUDGET = 5,
-    KIRI_CALL_WORLD_NOTE = 6,
-    KIRI_CALL_CREATE_SHEET = 7,
-    KIRI_CALL_DESTROY_SHEET = 8,
-    KIRI_CALL_SHEET_SET_SETTINGS = 9,
-    KIRI_CALL_SHEET_WAKE = 10,
-    KIRI_CALL_SHEET_TRANSFORM = 11,
-    KIRI_CALL_SHEET_SET_VELOCITY = 12,
-    KIRI_CALL_FRAME_SET_PIECE_VELOCITY = 13,
-    KIRI_CALL_SHEET_SET_USER_DATA = 14,
-    KIRI_CALL_PIN_SET_USER_DATA = 15,
-    KIRI_CALL_FRAME_SET_PIECE_USER_DATA = 16,
-    KIRI_CALL_FRAME_DETACH_PIECE = 17,
-    KIRI_CALL_FRAME_DESTROY_PIECE = 18,
-    KIRI_CALL_WORLD_DETACH_PIECES = 19,
-    KIRI_CALL_WORLD_DESTROY_PIECES = 20,
-    KIRI_CALL_SHEET_DROP_CRUMBS = 21,
-    KIRI_CALL_BEGIN_CUT = 22,
-    KIRI_CALL_CUT_EXTEND = 23,
-    KIRI_CALL_CUT_END = 24,
-    KIRI_CALL_SHEET_SLICE = 25,
-    KIRI_CALL_BEGIN_BLADE = 26,
-    KIRI_CALL_BLADE_MOVE_EDGE = 27,
-    KIRI_CALL_BLADE_MOVE_RAY = 28,
-    KIRI_CALL_BLADE_END = 29,
-    KIRI_CALL_FRAME_HOLD = 30,
-    KIRI_CALL_FRAME_APPLY_FORCE = 31,
-    KIRI_CALL_SHEET_APPLY_FORCE = 32,
-    KIRI_CALL_SHEET_APPLY_LINE_LOAD = 33,
-    KIRI_CALL_SHEET_APPLY_PRESSURE = 34,
-    KIRI_CALL_SHEET_APPLY_IMPULSE = 35,
-    KIRI_CALL_SHEET_SET_WIND = 36,
-    KIRI_CALL_CREATE_PIN = 37,
-    KIRI_CALL_SHEET_CLAMP_LINE = 38,
-    KIRI_CALL_SHEET_HINGE_LINE = 39,
-    KIRI_CALL_PIN_SET_TARGET = 40,
-    KIRI_CALL_PIN_SET_POSE = 41,
-    KIRI_CALL_PIN_SET_BREAK_FORCE = 42,
-    KIRI_CALL_DESTROY_PIN = 43,
-    KIRI_CALL_SHEET_SET_CONTACTS = 44,
-    KIRI_CALL_CREATE_OBSTACLE = 45,
-    KIRI_CALL_DESTROY_OBSTACLE = 46,
-    KIRI_CALL_OBSTACLE_SET_POSE = 47,
-    KIRI_CALL_OBSTACLE_SET_VELOCITY = 48,
-    KIRI_CALL_OBSTACLE_SET_SURFACE_VELOCITY = 49,
-    KIRI_CALL_OBSTACLE_SET_MASS = 50,
-    KIRI_CALL_WORLD_LOAD = 51,
-    KIRI_CALL_WORLD_SHIFT_ORIGIN = 54,
-    KIRI_CALL_WORLD_FINISH_CUTS = 55,
-    KIRI_CALL_COUNT
-};
-
-enum {
-    KIRI_RECORD_VERSION = 1,
-    KIRI_RECORD_MAGIC_BYTES = 8,
-    KIRI_RECORD_ARGUMENTS = 5, /* that a call has at most, without its world */
-    KIRI_RECORD_FLOATS = 12    /* that an argument has at most, but for arrays with a count */
-};
-
-extern const uint8_t kiriRecordMagic[KIRI_RECORD_MAGIC_BYTES];
-
 /* ---- The table ---- */
 
-typedef enum kiriFieldKind {
-    KIRI_FIELD_FLOATS, /* so many */
-    KIRI_FIELD_INTS,   /* so many */
-    KIRI_FIELD_ID,
-    KIRI_FIELD_FLOATS_AT, /* a pointer to so many for each that `counted` counts */
-    KIRI_FIELD_INDICES_AT
-} kiriFieldKind;
+/* X2(Name, A, B): kiriName(world, a, b). The place of a row is the number of the call in recordings. */
+#define KIRI_CALLS(X0, X1, X2, X3, X4)                                                                                 \
+    X2(World_Tick, FLOAT, INT)                                                                                         \
+    X1(World_SetGravity, VECTOR)                                                                                       \
+    X1(World_ShiftOrigin, VECTOR)                                                                                      \
+    X1(World_SetBudget, BUDGET)                                                                                        \
+    X2(World_Note, NOTE, COUNT)                                                                                        \
+    X2(World_Load, SAVE, COUNT)                                                                                        \
+    X0(World_FinishCuts)                                                                                               \
+    X2(CreateSheet, SHEET_DEF, NEW_ID)                                                                                 \
+    X1(DestroySheet, SHEET)                                                                                            \
+    X2(Sheet_SetSettings, SHEET, SETTINGS)                                                                             \
+    X1(Sheet_Wake, SHEET)                                                                                              \
+    X3(Sheet_Transform, SHEET, ROTATION, VECTOR)                                                                       \
+    X3(Sheet_SetVelocity, SHEET, VECTOR, VECTOR)                                                                       \
+    X3(Frame_SetPieceVelocity, FRAME, VECTOR, VECTOR)                                                                  \
+    X2(Sheet_SetUserData, SHEET, DATA)                                                                                 \
+    X2(Pin_SetUserData, PIN, DATA)                                                                                     \
+    X2(Frame_SetPieceUserData, FRAME, DATA)                                                                            \
+    X2(Frame_DetachPiece, FRAME, NEW_ID)                                                                               \
+    X1(Frame_DestroyPiece, FRAME)                                                                                      \
+    X3(World_DetachPieces, FRAMES, COUNT, NEW_IDS)                                                                     \
+    X2(World_DestroyPieces, FRAMES, COUNT)                                                                             \
+    X3(Sheet_DropCrumbs, SHEET, SIZE, NEW_COUNT)                                                                       \
+    X3(BeginCut, SHEET, POINT, NEW_ID)                                                                                 \
+    X3(Cut_Extend, CUT, POINTS, COUNT)                                                                                 \
+    X1(Cut_End, CUT)                                                                                                   \
+    X3(Sheet_Slice, SHEET, QUAD, NEW_ID)                                                                               \
+    X2(BeginBlade, ANY_SHEET, NEW_ID)                                                                                  \
+    X3(Blade_MoveEdge, BLADE, VECTOR, VECTOR)                                                                          \
+    X4(Blade_MoveRay, BLADE, VECTOR, DIRECTION, LENGTH)                                                                \
+    X1(Blade_End, BLADE)                                                                                               \
+    X3(Frame_Hold, FRAME, VECTOR_OR_NULL, ROTATION_OR_NULL)                                                            \
+    X3(Frame_ApplyForce, FRAME, VECTOR, VECTOR)                                                                        \
+    X4(Sheet_ApplyForce, SHEET, POINT, VECTOR, VECTOR)                                                                 \
+    X4(Sheet_ApplyLineLoad, SHEET, POINT, POINT, VECTOR)                                                               \
+    X2(Sheet_ApplyPressure, SHEET, FINITE)                                                                             \
+    X3(Sheet_ApplyImpulse, SHEET, POINT, VECTOR)                                                                       \
+    X2(Sheet_SetWind, SHEET, WIND)                                                                                     \
+    X3(CreatePin, SHEET, PIN_DEF, NEW_ID)                                                                              \
+    X4(Sheet_ClampLine, SHEET, POINT, POINT, NEW_ID)                                                                   \
+    X4(Sheet_HingeLine, SHEET, POINT, POINT, NEW_ID)                                                                   \
+    X2(Pin_SetTarget, PIN, VECTOR)                                                                                     \
+    X3(Pin_SetPose, PIN, VECTOR, ROTATION)                                                                             \
+    X2(Pin_SetBreakForce, PIN, SIZE)                                                                                   \
+    X1(DestroyPin, PIN)                                                                                                \
+    X3(Sheet_SetContacts, SHEET, CONTACTS, COUNT)                                                                      \
+    X2(CreateObstacle, OBSTACLE_DEF, NEW_ID)                                                                           \
+    X1(DestroyObstacle, OBSTACLE)                                                                                      \
+    X3(Obstacle_SetPose, OBSTACLE, PLACE, ROTATION)                                                                    \
+    X3(Obstacle_SetVelocity, OBSTACLE, PLACE, PLACE)                                                                   \
+    X2(Obstacle_SetSurfaceVelocity, OBSTACLE, PLACE)                                                                   \
+    X4(Obstacle_SetMass, OBSTACLE, SIZE, INERTIA, VECTOR)
 
-typedef struct kiriRecordField {
-    kiriFieldKind kind;
-    int32_t count, offset;
-    int32_t counted;                 /* the offset of an int32_t, which comes before */
-    bool (*isRead)(const void* def); /* whether its call reads the array: else nobody knows that it is one */
-} kiriRecordField;
+#define KIRI_NUMBER(Name, ...) KIRI_CALL_##Name,
+#define KIRI_NUMBER0(Name) KIRI_CALL_##Name,
+enum kiriCallNumber {
+    KIRI_CALL_CreateWorld,
+    KIRI_CALL_DestroyWorld,
+    KIRI_CALLS(KIRI_NUMBER0, KIRI_NUMBER, KIRI_NUMBER, KIRI_NUMBER, KIRI_NUMBER) KIRI_CALL_COUNT
+};
 
-/* New fields come last: recordings of older versions have fewer. */
-typedef struct kiriRecordStruct {
-    int32_t bytes;
-    uint32_t cookie; /* its first field, or 0: it has none */
-    int32_t fieldCount;
-    const kiriRecordField* fields;
-    void (*fill)(void* def); /* with what fields have that a recording has not; null: zeros */
-} kiriRecordStruct;
+enum { KIRI_CALL_ARGUMENTS = 4 }; /* maximum, without the world */
 
-typedef enum kiriArgumentKind {
-    KIRI_ARGUMENT_NONE, /* there are no more */
+/* The kinds of arguments. Those by value, and then pointers. */
+typedef enum kiriArgument {
+    KIRI_ARGUMENT_NONE,
+    KIRI_ARGUMENT_SHEET,
+    KIRI_ARGUMENT_ANY_SHEET, /* or 0 */
+    KIRI_ARGUMENT_FRAME,
+    KIRI_ARGUMENT_PIN,
+    KIRI_ARGUMENT_OBSTACLE,
+    KIRI_ARGUMENT_CUT,
+    KIRI_ARGUMENT_BLADE,
+    KIRI_ARGUMENT_INT,    /* unchecked */
+    KIRI_ARGUMENT_COUNT,  /* of the array just before it */
+    KIRI_ARGUMENT_FLOAT,  /* unchecked */
+    KIRI_ARGUMENT_FINITE, /* float */
+    KIRI_ARGUMENT_SIZE,   /* float, 0 or more */
+    KIRI_ARGUMENT_LENGTH, /* float, above 0 */
+    KIRI_ARGUMENT_DATA,   /* 64 bits */
 
-    /* By value. */
-    KIRI_ARGUMENT_ID,
-    KIRI_ARGUMENT_INT,
-    KIRI_ARGUMENT_FLOAT,
-    KIRI_ARGUMENT_DATA,  /* 64 bits */
-    KIRI_ARGUMENT_COUNT, /* of the array just before */
+    KIRI_ARGUMENT_POINT,  /* 2 floats */
+    KIRI_ARGUMENT_VECTOR, /* 3 floats */
+    KIRI_ARGUMENT_VECTOR_OR_NULL,
+    KIRI_ARGUMENT_PLACE, /* 3 floats that kiriVec3_FitsFloats accepts */
+    KIRI_ARGUMENT_DIRECTION,
+    KIRI_ARGUMENT_ROTATION,
+    KIRI_ARGUMENT_ROTATION_OR_NULL,
+    KIRI_ARGUMENT_INERTIA,
+    KIRI_ARGUMENT_QUAD,
+    KIRI_ARGUMENT_BUDGET, /* structs */
+    KIRI_ARGUMENT_WIND,
+    KIRI_ARGUMENT_SETTINGS,
+    KIRI_ARGUMENT_PIN_DEF,
+    KIRI_ARGUMENT_SHEET_DEF,
+    KIRI_ARGUMENT_OBSTACLE_DEF,
+    KIRI_ARGUMENT_NOTE, /* arrays, each with a COUNT behind it */
+    KIRI_ARGUMENT_SAVE,
+    KIRI_ARGUMENT_POINTS,
+    KIRI_ARGUMENT_FRAMES,
+    KIRI_ARGUMENT_CONTACTS,
+    KIRI_ARGUMENT_NEW_ID, /* results; one a call at most */
+    KIRI_ARGUMENT_NEW_COUNT,
+    KIRI_ARGUMENT_NEW_IDS, /* as many as the COUNT just before it */
+    KIRI_ARGUMENT_KINDS
+} kiriArgument;
 
-    /* Pointers to what the call reads; arrays have `most` items at most, or the call reads none of them. */
-    KIRI_ARGUMENT_FLOATS,
-    KIRI_ARGUMENT_STRUCT,
-    KIRI_ARGUMENT_POINTS, /* arrays: of 2 floats, */
-    KIRI_ARGUMENT_IDS,
-    KIRI_ARGUMENT_STRUCTS,
-    KIRI_ARGUMENT_BYTES,
-
-    /* Pointers to where the call writes. */
-    KIRI_ARGUMENT_NEW_ID,
-    KIRI_ARGUMENT_NEW_IDS, /* as many as the count just before */
-    KIRI_ARGUMENT_NEW_INT,
-    KIRI_ARGUMENT_HASH /* no argument: the state hash afterwards, see kiriRecordHash */
-} kiriArgumentKind;
-
-typedef struct kiriRecordArgument {
-    kiriArgumentKind kind;
-    int32_t count, most;
-    const kiriRecordStruct* of;
-} kiriRecordArgument;
-
-typedef struct kiriRecordHash {
-    int32_t isThere;
-    uint64_t hash;
-} kiriRecordHash;
-
-/* `arguments`: pointers to those that go by value, and the others themselves. */
+/* `arguments`: pointers to arguments that go by value, and arguments that are pointers. */
 typedef kiriResult kiriMakeCallFn(kiriWorld* world, const void* const* arguments);
 
-typedef struct kiriRecordCall {
+typedef struct kiriCallRow {
     const char* name;
-    kiriRecordArgument arguments[KIRI_RECORD_ARGUMENTS];
-    kiriMakeCallFn* make;
-} kiriRecordCall;
+    kiriMakeCallFn* make; /* calls the function */
+    uint8_t kinds[KIRI_CALL_ARGUMENTS];
+} kiriCallRow;
 
-/* Null for a number that no call has. */
-const kiriRecordCall* kiriRecord_Find(uint64_t number);
+extern const kiriCallRow kiriCallRows[KIRI_CALL_COUNT];
 
-/* ---- Coding ---- */
+/* ---- Values ---- */
 
-/* Room for what an argument points to. */
-typedef union kiriRecordValue {
-    uint32_t id;
-    int32_t number;
-    float real, reals[KIRI_RECORD_FLOATS];
-    uint64_t data;
-    kiriRecordHash hash;
-} kiriRecordValue;
+typedef enum kiriForm {
+    KIRI_FORM_INTS,
+    KIRI_FORM_FLOATS,
+    KIRI_FORM_BYTE,
+    KIRI_FORM_DATA,
+    KIRI_FORM_ID,
+    KIRI_FORM_STRUCT,
+    KIRI_FORM_COUNT,   /* belongs to the array before it */
+    KIRI_FORM_ARRAY,   /* of items `of`; its count is the next argument */
+    KIRI_FORM_NEW,     /* an id or a count that the call writes, */
+    KIRI_FORM_NEWS,    /* or several ids */
+    KIRI_FORM_FLOATS_AT, /* members of a struct: a pointer to numbers, or null */
+    KIRI_FORM_INDICES_AT
+} kiriForm;
 
-/* A coder that reads makes the arguments: they are, or have room, in values, which is zeroed, or in its memory. */
-void kiriRecord_CodeArguments(kiriCoder* coder, const kiriRecordCall* call, const void* arguments[],
-                              kiriRecordValue values[], uint64_t nulls);
+struct kiriStruct;
 
-/* One bit for each argument that is null. */
-uint64_t kiriRecord_FindNulls(const kiriRecordCall* call, const void* const arguments[]);
+/* What an argument may be, or a member of a struct. */
+typedef struct kiriValue {
+    const char* name; /* of the member; of ids: what they name */
+    kiriForm form;
+    int32_t count;    /* numbers; of arrays in structs: numbers an item */
+    int32_t offset;   /* in the struct */
+    int32_t refers;   /* of an id: offset of its pool in kiriWorld; of an array in a struct: offset of its count */
+    double low, high; /* range of numbers, inclusive; low > high: unchecked. Of an array: range of its count */
+    bool isOptional;  /* may be null, or the id 0 */
+    const struct kiriStruct* of;
+    const struct kiriValue* item;
+    const char* (*fault)(const void* value); /* tells what else is wrong, as "is not orthonormal", or null; or null */
+} kiriValue;
 
-/* The result, and what the call wrote to its arguments. */
-void kiriRecord_CodeOutcome(kiriCoder* coder, const kiriRecordCall* call, const void* const arguments[],
-                            kiriResult* result);
+typedef struct kiriStruct {
+    int32_t bytes;
+    uint32_t cookie;      /* its first member, or 0: it has none */
+    const char* filledBy; /* the function that sets the cookie */
+    int32_t count;
+    const kiriValue* members;
+} kiriStruct;
 
-/* ---- Recording ---- */
-
-/* A call that is being recorded. */
-typedef struct kiriCall {
-    kiriWorld* world;
-    int32_t number;
-    const void* const* arguments;
-} kiriCall;
-
-void kiriRecord_Start(kiriWorld* world, const kiriWorldDef* def);
-
-/* Hands over the arguments before the call does anything: so they are there even if it never returns. Null: nothing is
-   recorded. */
-const kiriCall* kiriRecord_Begin(const kiriCall* call);
-void kiriRecord_End(const kiriCall* call, kiriResult result);
-
-/* Before a world goes. */
-void kiriRecord_Stop(kiriWorld* world);
-
-/* What every public function does first: it looks at its arguments, turns ids into pointers, and says in one line what
-   is wrong. */
-
-enum { KIRI_LINE_BYTES = sizeof(((kiriWorld*)NULL)->errorLine) };
+extern const kiriValue kiriArguments[KIRI_ARGUMENT_KINDS];
+extern const kiriStruct kiriSettingsStruct, kiriWorldDefStruct;
 
 /* The defs are stamped with their size, so that a def of another version, or a forgotten default, is found out. */
 #define KIRI_COOKIE(Type) (0x4b000000u | (uint32_t)sizeof(Type))
 
-/* How a public function begins: one that changes the world, with its number and its arguments for the recording, those
-   that go by value by their address; one that only makes what somebody looks at, so that no tick depends on it; one
-   that only reads. The first two keep their line in the world, the last one gives it to the log alone, so that several
-   threads may read. Without a world there is only the code. */
-#define KIRI_CHANGES(world, number, ...)                                                                               \
-    KIRI_PREPARES_ANY(world);                                                                                          \
+/* Checks the members of a struct, and not its cookie. The fault names the first bad one, as in "name.friction is -1, ...".
+   `world` finds ids; it may be null for a struct without ids. */
+kiriResult kiriStruct_Check(const kiriStruct* of, const char* name, const kiriWorld* world, const void* at,
+                            kiriFault* fault);
+
+/* ---- Calls ---- */
+
+/* A call of a function that takes the world without const. */
+typedef struct kiriCall {
+    kiriWorld* world;
+    int32_t number;       /* or KIRI_NONE: not in the table */
+    const char* function; /* for the error line */
+    const char* names;    /* of the arguments, as in "&sheet, velocity" */
+    const void* const* arguments;
+    bool isRecorded;
+    int32_t index;        /* of the frame or pin that an id names, in its sheet */
+    void* owner;          /* what an id names, or the sheet with the frame or pin */
+    kiriSheetData* sheet; /* the same, if it is a sheet */
+    kiriResult result;    /* if Begin fails */
+} kiriCall;
+
+/* Refuses calls from callbacks; checks the arguments, finds what ids name, sets new ids to 0, and records the call. If it
+   fails the call is over. */
+bool kiriCall_Begin(kiriCall* call);
+
+/* Ends the call, or for null a function that only reads: `result`, with a line in the log if it is an error. `why` null
+   or empty: the line has the text of the result. */
+kiriResult kiriCall_End(const kiriWorld* world, kiriCall* call, const char* function, kiriResult result,
+                        const char* why);
+
+/* Refuses a call that a callback made on its own world: KIRI_ERROR_STATE. Keeps the error line of the running call. */
+kiriResult kiriCall_Refuse(const kiriWorld* world, const char* function);
+
+#define KIRI_BEGIN(number, function, names, arguments)                                                                 \
+    kiriCall thisCall = { world, number, function, names, arguments, false, 0, NULL, NULL, KIRI_OK };                  \
+    kiriCall* const call = &thisCall;                                                                                  \
+    if (!kiriCall_Begin(call)) {                                                                                       \
+        return call->result;                                                                                           \
+    }
+
+/* How a function begins that changes the world: with its name in the table and its arguments, those that go by value by
+   their address. */
+#define KIRI_CHANGES(Name, ...)                                                                                        \
     const void* const callArguments[] = { __VA_ARGS__ };                                                               \
-    const kiriCall thisCall = { (world), (number), callArguments };                                                    \
-    const kiriCall* record = (world)->recorder.sink.write != NULL ? kiriRecord_Begin(&thisCall) : NULL
+    KIRI_BEGIN(KIRI_CALL_##Name, __func__, #__VA_ARGS__, callArguments)
 
-#define KIRI_PREPARES(world)                                                                                           \
-    KIRI_PREPARES_ANY(world);                                                                                          \
-    const kiriCall* record = NULL
+/* How a function begins that takes the world without const, but changes nothing on which a tick depends. */
+#define KIRI_PREPARES(world) KIRI_BEGIN(KIRI_NONE, __func__, "", NULL)
 
-/* Refuses calls from callbacks that run now, of a function that changes the world or of one that only reads. */
-#define KIRI_PREPARES_ANY(world)                                                                                       \
-    if ((world) == NULL) {                                                                                             \
-        return KIRI_ERROR_ARGUMENT;                                                                                    \
-    }                                                                                                                  \
-    if ((world)->isBusy || kiriCall_IsRead(world)) {                                                                   \
-        return kiriCall_Refuse(world, __func__);                                                                       \
-    }                                                                                                                  \
-    kiriWorld* const entered = (world);                                                                                \
-    entered->isBusy = true;                                                                                            \
-    char* line = (world)->errorLine;                                                                                   \
-    line[0] = '\0'
-
+/* How a function begins that only reads. Several threads may read, so its error line goes to the log alone. */
 #define KIRI_READS(world)                                                                                              \
+    kiriCall* const call = NULL;                                                                                       \
     if ((world) == NULL) {                                                                                             \
         return KIRI_ERROR_ARGUMENT;                                                                                    \
     }                                                                                                                  \
     if ((world)->isBusy) {                                                                                             \
         return kiriCall_Refuse(world, __func__);                                                                       \
-    }                                                                                                                  \
-    kiriWorld* const entered = NULL;                                                                                   \
-    char line[KIRI_LINE_BYTES];                                                                                        \
-    const kiriCall* record = NULL
+    }
 
-/* Every function that takes the world without const returns through these. Functions that only read may return results
-   that are not errors directly. `why` null: the result says it all. */
-#define KIRI_FAIL(result, why) kiriCall_End(entered, record, kiriCall_Fail(world, line, result, __func__, why))
-#define KIRI_RETURN_OR_SAY(result, why)                                                                                \
-    do {                                                                                                               \
-        kiriResult outcome = (result);                                                                                 \
-        return outcome < 0 ? KIRI_FAIL(outcome, why) : kiriCall_End(entered, record, outcome);                         \
-    } while (0)
-#define KIRI_RETURN(result) KIRI_RETURN_OR_SAY(result, NULL)
+/* How all of them end; functions that only read may return KIRI_OK directly. */
+#define KIRI_FAIL(result, why) kiriCall_End(world, call, __func__, result, why)
+#define KIRI_RETURN(result) return KIRI_FAIL(result, NULL)
 
-#define KIRI_CHECK(condition, why)                                                                                     \
+#define KIRI_REQUIRE(condition, result, why)                                                                           \
     do {                                                                                                               \
         if (!(condition)) {                                                                                            \
-            return KIRI_FAIL(KIRI_ERROR_ARGUMENT, why);                                                                \
+            return KIRI_FAIL(result, why);                                                                             \
         }                                                                                                              \
     } while (0)
+#define KIRI_CHECK(condition, why) KIRI_REQUIRE(condition, KIRI_ERROR_ARGUMENT, why)
 
-/* Declares `pointer`, what owns the id. */
-#define KIRI_FIND(Type, pointer, pool, id, kind)                                                                       \
-    Type* pointer = (Type*)kiriCall_Owner(&world->pool, id);                                                           \
-    do {                                                                                                               \
-        if (pointer == NULL) {                                                                                         \
-            return KIRI_FAIL(KIRI_ERROR_ID, "there is no " kind " with this id");                                      \
-        }                                                                                                              \
-    } while (0)
+#define KIRI_CHECK_OUT(pointer) KIRI_CHECK((pointer) != NULL, #pointer " is null")
+#define KIRI_CHECK_LIST(items)                                                                                         \
+    KIRI_CHECK(count != NULL && (capacity == 0 || (capacity > 0 && (items) != NULL)), "count or " #items " is null")
+#define KIRI_CHECK_FLOATS(values, count)                                                                               \
+    KIRI_CHECK((values) != NULL && kiriCall_AreFinite(values, count), #values " is null or not finite")
 
-#define KIRI_FIND_SHEET(pointer, id) KIRI_FIND(kiriSheetData, pointer, sheetIds, id, "sheet")
-#define KIRI_FIND_FRAME_SHEET(pointer, id) KIRI_FIND(kiriSheetData, pointer, frameIds, id, "frame")
-#define KIRI_FIND_PIN_SHEET(pointer, id) KIRI_FIND(kiriSheetData, pointer, pinIds, id, "pin")
-#define KIRI_FIND_OBSTACLE(pointer, id) KIRI_FIND(kiriObstacleData, pointer, obstacleIds, id, "obstacle")
-#define KIRI_FIND_CUT(pointer, id) KIRI_FIND(kiriCutData, pointer, cutIds, id, "cut")
-#define KIRI_FIND_BLADE(pointer, id) KIRI_FIND(kiriBladeData, pointer, bladeIds, id, "blade")
+/* Declares `slot` of an id, and `found`: the sheet, or the sheet of the frame or pin. */
+#define KIRI_FIND(kind)                                                                                                \
+    const kiriSlot* slot = kiriPool_Find(&world->kind##Ids, kind);                                                     \
+    KIRI_REQUIRE(slot != NULL, KIRI_ERROR_ID, "there is no " #kind " with this id");                                   \
+    kiriSheetData* found = slot->owner
 
-kiriResult kiriCall_Fail(const kiriWorld* world, char* line, kiriResult result, const char* function, const char* why);
-
-static inline kiriResult kiriCall_End(kiriWorld* entered, const kiriCall* record, kiriResult result)
-{
-    if (record != NULL) {
-        kiriRecord_End(record, result);
-    }
-    if (entered != NULL) {
-        entered->isBusy = false;
-    }
-    return result;
-}
+/* The usual beginning of a function that only reads: of an id, and one pointer where it writes. */
+#define KIRI_READS_OF(kind, out)                                                                                       \
+    KIRI_READS(world);                                                                                                 \
+    KIRI_CHECK_OUT(out);                                                                                               \
+    KIRI_FIND(kind)
 
 /* Does a callback run of a function that only reads the world? */
 static inline bool kiriCall_IsRead(const kiriWorld* world)
 {
     return kiriWord_Read(&world->readers) != 0 || kiriWord_Read(&world->logs) != 0;
 }
-
-/* Refuses a call that a callback made on its own world: KIRI_ERROR_STATE. Keeps the error line of the running call. */
-kiriResult kiriCall_Refuse(const kiriWorld* world, const char* function);
 
 /* A function that only reads puts these two around its calls of the host's functions, except the log. */
 static inline void kiriCall_BeginCallbacks(const kiriWorld* world)
@@ -301,24 +281,28 @@ static inline void kiriCall_EndCallbacks(const kiriWorld* world)
     kiriWord_Add(&world->readers, -1);
 }
 
-/* Null for an id that names nothing in the pool. */
-void* kiriCall_Owner(const kiriPool* pool, uint32_t id);
-
 bool kiriCall_AreFinite(const float* values, int64_t count);
-bool kiriCall_IsAbove(float value, float low);
-bool kiriCall_IsAtLeast(float value, float low);
-bool kiriCall_IsWithin(int32_t value, int32_t low, int32_t high);
-bool kiriCall_AreOrthonormal(const float a[3], const float b[3]);
 
-/* What is wrong with the settings of a sheet, or null. Their cookie is not looked at. */
-const char* kiriCall_FaultOfSettings(const kiriSheetSettings* settings);
+/* Tests whether a planar sheet stays in its plane if its normal is turned to d. */
+bool kiriCall_KeepsPlane(const kiriSheetData* sheet, kiriVec3 d);
 
-/* What is wrong with the rotation of a part of the sheet, or null. */
-const char* kiriCall_FaultOfRotation(const kiriSheetData* sheet, const float rotation[9]);
+/* Snaps the ends of a line of the rest plane, and finds the frames along it (kiriOwner_FindShares). On failure *why says
+   what is wrong, or is null. */
+kiriResult kiriCall_FindLine(kiriSheetData* sheet, const float from[2], const float to[2], kiriLatticePoint ends[2],
+                             const char** why);
 
-/* What is wrong with a line of the rest plane, or null and its ends. */
-const char* kiriCall_FaultOfLine(const kiriSheetData* sheet, const float from[2], const float to[2],
-                                 kiriLatticePoint ends[2]);
+/* ---- Recording ---- */
+
+enum { KIRI_RECORD_VERSION = 2, KIRI_RECORD_MAGIC_BYTES = 8 };
+
+/* The calls of the recording, one after the other: number, arguments, result and what the call wrote. Begin hands the
+   arguments to the host before the call does anything: so they are there even if it never returns. */
+void kiriRecord_Start(kiriWorld* world, const kiriWorldDef* def);
+void kiriRecord_Begin(const kiriCall* call);
+void kiriRecord_End(const kiriCall* call, kiriResult result);
+
+/* Before a world goes. */
+void kiriRecord_Stop(kiriWorld* world);
 
 KIRI_C_END
 

@@ -8,21 +8,45 @@
 
 /* ---- Batches ----------------------------------------------------------------------------------------------------- */
 
-static void FlushBatch(kiriDrawBatch* batch)
+enum { BATCH_VERTICES = 240 }; /* whole lines and triangles */
+
+typedef struct Batch {
+    kiriDrawFn* draw; /* null: nothing is drawn */
+    int32_t count;
+    kiriDrawVertex vertices[BATCH_VERTICES];
+} Batch;
+
+typedef struct Drawing {
+    const kiriWorld* world;
+    void* user;
+    uint32_t flags; /* KIRI_DRAW_... */
+    double size;    /* m, of axes and normals */
+    Batch batches[3]; /* of points, lines and triangles */
+} Drawing;
+
+static uint32_t Color(uint32_t red, uint32_t green, uint32_t blue)
+{
+    return 0xff000000u | blue << 16 | green << 8 | red;
+}
+
+static void FlushBatch(Drawing* drawing, Batch* batch)
 {
     if (batch->count > 0) {
-        batch->draw(batch->user, batch->vertices, batch->count);
+        batch->draw(drawing->user, batch->vertices, batch->count);
     }
     batch->count = 0;
 }
 
-static void AddToBatch(kiriDrawBatch* batch, const kiriVec3* corners, int32_t count, uint32_t color)
+/* Draws a point, a line or a triangle, by the count of its corners. */
+static void Draw(Drawing* drawing, const kiriVec3* corners, int32_t count, uint32_t color)
 {
+    KIRI_ASSERT(count >= 1 && count <= 3);
+    Batch* batch = &drawing->batches[count - 1];
     if (batch->draw == NULL) {
         return;
     }
-    if (batch->count + count > KIRI_DRAW_BATCH) {
-        FlushBatch(batch);
+    if (batch->count + count > BATCH_VERTICES) {
+        FlushBatch(drawing, batch);
     }
     for (int32_t i = 0; i < count; ++i) {
         kiriDrawVertex* vertex = &batch->vertices[batch->count++];
@@ -31,27 +55,10 @@ static void AddToBatch(kiriDrawBatch* batch, const kiriVec3* corners, int32_t co
     }
 }
 
-void kiriDrawing_Point(kiriDrawing* drawing, kiriVec3 at, uint32_t color)
-{
-    AddToBatch(&drawing->points, &at, 1, color);
-}
-
-void kiriDrawing_Line(kiriDrawing* drawing, kiriVec3 from, kiriVec3 to, uint32_t color)
+static void DrawLine(Drawing* drawing, kiriVec3 from, kiriVec3 to, uint32_t color)
 {
     const kiriVec3 ends[2] = { from, to };
-    AddToBatch(&drawing->lines, ends, 2, color);
-}
-
-void kiriDrawing_Triangle(kiriDrawing* drawing, const kiriVec3 corners[3], uint32_t color)
-{
-    AddToBatch(&drawing->triangles, corners, 3, color);
-}
-
-void kiriDrawing_End(kiriDrawing* drawing)
-{
-    FlushBatch(&drawing->points);
-    FlushBatch(&drawing->lines);
-    FlushBatch(&drawing->triangles);
+    Draw(drawing, ends, 2, color);
 }
 
 /* ---- Mesh -------------------------------------------------------------------------------------------------------- */
@@ -63,35 +70,27 @@ static uint32_t ColorOfPiece(const kiriSheetData* sheet, int32_t piece)
                                           { 0, 114, 178 }, { 213, 94, 0 },   { 204, 121, 167 }, { 150, 150, 150 } };
     const uint8_t* c = colors[piece % 8];
     uint32_t pale = sheet->layout.pieces.data[piece].rest.asleep ? 1 : 0;
-    return kiriDrawing_Color((c[0] + 255 * pale) >> pale, (c[1] + 255 * pale) >> pale, (c[2] + 255 * pale) >> pale);
+    return Color((c[0] + 255 * pale) >> pale, (c[1] + 255 * pale) >> pale, (c[2] + 255 * pale) >> pale);
 }
 
-/* KIRI_NONE for a triangle that is not seen. */
-static int32_t SeenPieceOf(const kiriSheetData* sheet, int32_t triangle)
-{
-    int32_t piece = kiriPiece_OfTriangle(sheet, triangle);
-    return sheet->layout.pieces.data[piece].isGone ? KIRI_NONE : piece;
-}
-
-/* An edge between two triangles is that of the one with the lower half-edge. */
-static void DrawEdges(kiriDrawing* drawing, const kiriSheetData* sheet, int32_t triangle, const kiriVec3 corners[3])
+/* Draws an edge between two triangles with the triangle that has the lower half-edge. */
+static void DrawEdges(Drawing* drawing, const kiriSheetData* sheet, int32_t triangle, const kiriVec3 corners[3])
 {
     for (int32_t k = 0; k < 3; ++k) {
         int32_t h = 3 * triangle + k;
         bool isBorder = kiriMesh_IsBorder(&sheet->mesh, h);
-        if (isBorder && (drawing->flags & KIRI_DRAW_BORDERS) != 0) {
-            kiriDrawing_Line(drawing, corners[k], corners[(k + 1) % 3], kiriDrawing_Color(200, 30, 30));
-        } else if (!isBorder && (drawing->flags & KIRI_DRAW_EDGES) != 0 && h < kiriMesh_Twin(&sheet->mesh, h)) {
-            kiriDrawing_Line(drawing, corners[k], corners[(k + 1) % 3], kiriDrawing_Color(110, 115, 125));
+        uint32_t flag = isBorder ? KIRI_DRAW_BORDERS : KIRI_DRAW_EDGES;
+        if ((drawing->flags & flag) != 0 && (isBorder || h < kiriMesh_Twin(&sheet->mesh, h))) {
+            DrawLine(drawing, corners[k], corners[(k + 1) % 3], isBorder ? Color(200, 30, 30) : Color(110, 115, 125));
         }
     }
 }
 
-static void DrawMesh(kiriDrawing* drawing, const kiriSheetData* sheet)
+static void DrawMesh(Drawing* drawing, const kiriSheetData* sheet)
 {
     for (int32_t t = 0; t < sheet->mesh.triangles.count; ++t) {
-        int32_t piece = SeenPieceOf(sheet, t);
-        if (piece == KIRI_NONE) {
+        int32_t piece = kiriPiece_OfTriangle(sheet, t);
+        if (sheet->layout.pieces.data[piece].isGone) {
             continue;
         }
         kiriVec3 corners[3];
@@ -99,7 +98,7 @@ static void DrawMesh(kiriDrawing* drawing, const kiriSheetData* sheet)
             corners[k] = kiriSurface_At(&sheet->seen.surface, sheet->mesh.triangles.data[t].vertex[k]);
         }
         if ((drawing->flags & KIRI_DRAW_TRIANGLES) != 0) {
-            kiriDrawing_Triangle(drawing, corners, ColorOfPiece(sheet, piece));
+            Draw(drawing, corners, 3, ColorOfPiece(sheet, piece));
         }
         DrawEdges(drawing, sheet, t, corners);
     }
@@ -116,19 +115,19 @@ static kiriVec3 CornerOfBox(const kiriBox* box, int i)
                          (i & 4) != 0 ? box->upper.z : box->lower.z);
 }
 
-static void DrawBox(kiriDrawing* drawing, const kiriBox* box, uint32_t color)
+static void DrawBox(Drawing* drawing, const kiriBox* box, uint32_t color)
 {
     for (int i = 0; i < 8; ++i) {
         for (int bit = 1; bit < 8; bit *= 2) {
             if ((i & bit) == 0) {
-                kiriDrawing_Line(drawing, CornerOfBox(box, i), CornerOfBox(box, i | bit), color);
+                DrawLine(drawing, CornerOfBox(box, i), CornerOfBox(box, i | bit), color);
             }
         }
     }
 }
 
 /* A box for each of some pieces by one pass over the vertices: lists of pieces would take memory. */
-static void DrawBoxesFrom(kiriDrawing* drawing, const kiriSheetData* sheet, int32_t first)
+static void DrawBoxesFrom(Drawing* drawing, const kiriSheetData* sheet, int32_t first)
 {
     kiriBox boxes[BOXES_A_PASS];
     bool isSeen[BOXES_A_PASS] = { false };
@@ -154,7 +153,7 @@ static void DrawBoxesFrom(kiriDrawing* drawing, const kiriSheetData* sheet, int3
 
 /* ---- Frames and links -------------------------------------------------------------------------------------------- */
 
-static void DrawFrames(kiriDrawing* drawing, const kiriSheetData* sheet)
+static void DrawFrames(Drawing* drawing, const kiriSheetData* sheet)
 {
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
         const kiriFrameData* frame = &sheet->frames.data[i];
@@ -162,20 +161,17 @@ static void DrawFrames(kiriDrawing* drawing, const kiriSheetData* sheet)
             continue;
         }
         kiriVec3 at = kiriFrame_Carry(frame, frame->site.at);
-        kiriDrawing_Point(drawing, at, frame->held ? kiriDrawing_Color(220, 40, 40) : kiriDrawing_Color(25, 25, 30));
-        kiriDrawing_Line(drawing, at, kiriVec3_AddScaled(at, drawing->size, frame->A.u),
-                         kiriDrawing_Color(230, 40, 40));
-        kiriDrawing_Line(drawing, at, kiriVec3_AddScaled(at, drawing->size, frame->A.v),
-                         kiriDrawing_Color(40, 170, 40));
-        kiriDrawing_Line(drawing, at, kiriVec3_AddScaled(at, drawing->size, frame->A.d),
-                         kiriDrawing_Color(40, 40, 230));
+        Draw(drawing, &at, 1, frame->held ? Color(220, 40, 40) : Color(25, 25, 30));
+        DrawLine(drawing, at, kiriVec3_AddScaled(at, drawing->size, frame->A.u), Color(230, 40, 40));
+        DrawLine(drawing, at, kiriVec3_AddScaled(at, drawing->size, frame->A.v), Color(40, 170, 40));
+        DrawLine(drawing, at, kiriVec3_AddScaled(at, drawing->size, frame->A.d), Color(40, 40, 230));
     }
 }
 
-/* The middle of the border is where the two frames have it, in the mean. */
-static void DrawLinks(kiriDrawing* drawing, const kiriSheetData* sheet)
+/* Draws each link by way of the middle of its border, at the mean of the two places where its frames carry it. */
+static void DrawLinks(Drawing* drawing, const kiriSheetData* sheet)
 {
-    const uint32_t color = kiriDrawing_Color(30, 30, 35);
+    const uint32_t color = Color(30, 30, 35);
     for (int32_t k = 0; k < sheet->links.links.count; ++k) {
         const kiriLink* link = &sheet->links.links.data[k];
         const kiriFrameData *a = &sheet->frames.data[link->i], *b = &sheet->frames.data[link->j];
@@ -184,28 +180,28 @@ static void DrawLinks(kiriDrawing* drawing, const kiriSheetData* sheet)
         }
         kiriVec3 middle = kiriVec3_Add(kiriFrame_Carry(a, link->centroid), kiriFrame_Carry(b, link->centroid));
         middle = kiriVec3_Scale(0.5, middle);
-        kiriDrawing_Line(drawing, kiriFrame_Carry(a, a->site.at), middle, color);
-        kiriDrawing_Line(drawing, middle, kiriFrame_Carry(b, b->site.at), color);
+        DrawLine(drawing, kiriFrame_Carry(a, a->site.at), middle, color);
+        DrawLine(drawing, middle, kiriFrame_Carry(b, b->site.at), color);
     }
 }
 
 /* ---- Pins and contacts ------------------------------------------------------------------------------------------- */
 
-static void DrawPin(kiriDrawing* drawing, const kiriSheetData* sheet, const kiriPinData* pin)
+static void DrawPin(Drawing* drawing, const kiriSheetData* sheet, const kiriPinData* pin)
 {
-    const uint32_t color = kiriDrawing_Color(170, 0, 170);
+    const uint32_t color = Color(170, 0, 170);
     kiriPointPlace place;
-    kiriDrawing_Point(drawing, pin->target, color);
+    Draw(drawing, &pin->target, 1, color);
     if (pin->type != KIRI_PIN_POINT) {
         kiriVec2 half = kiriVec2_Sub(kiriMesh_Local(&sheet->mesh, pin->to), kiriMesh_Local(&sheet->mesh, pin->at));
         kiriVec3 way = kiriVec3_AddScaled(kiriVec3_Scale(0.5 * half.x, pin->rotation.u), 0.5 * half.y, pin->rotation.v);
-        kiriDrawing_Line(drawing, kiriVec3_Sub(pin->target, way), kiriVec3_Add(pin->target, way), color);
+        DrawLine(drawing, kiriVec3_Sub(pin->target, way), kiriVec3_Add(pin->target, way), color);
     } else if (kiriPoint_Find(sheet, pin->at, &place)) {
-        kiriDrawing_Line(drawing, pin->target, kiriPoint_Position(sheet, &place), color);
+        DrawLine(drawing, pin->target, kiriPoint_Position(sheet, &place), color);
     }
 }
 
-/* Where the point of a touch is seen now. */
+/* Returns where the surface shows the point of a contact now. */
 static kiriVec3 PlaceOfTouch(const kiriSheetData* sheet, const kiriTouch* touch)
 {
     kiriVec3 at = { 0.0, 0.0, 0.0 };
@@ -220,76 +216,33 @@ static kiriVec3 PlaceOfTouch(const kiriSheetData* sheet, const kiriTouch* touch)
     return at;
 }
 
-static void DrawContacts(kiriDrawing* drawing, const kiriSheetData* sheet, const kiriTouchMemory* memory)
+static void DrawContacts(Drawing* drawing, const kiriSheetData* sheet, const kiriTouchMemory* memory)
 {
-    const uint32_t color = kiriDrawing_Color(0, 150, 170);
+    const uint32_t color = Color(0, 150, 170);
     for (int32_t i = 0; i < memory->touches.count; ++i) {
         const kiriTouch* touch = &memory->touches.data[i];
         kiriVec3 force = kiriTouches_ForceOf(sheet, touch->key);
         if (kiriVec3_Dot(force, force) > 0.0) {
             kiriVec3 at = PlaceOfTouch(sheet, touch);
-            kiriDrawing_Point(drawing, at, color);
-            kiriDrawing_Line(drawing, at, kiriVec3_AddScaled(at, drawing->size, touch->normal), color);
+            Draw(drawing, &at, 1, color);
+            DrawLine(drawing, at, kiriVec3_AddScaled(at, drawing->size, touch->normal), color);
         }
     }
 }
 
-/* ---- All of it --------------------------------------------------------------------------------------------------- */
-
-void kiriDrawing_Sheet(kiriDrawing* drawing, const kiriSheetData* sheet)
-{
-    if ((drawing->flags & (KIRI_DRAW_TRIANGLES | KIRI_DRAW_EDGES | KIRI_DRAW_BORDERS)) != 0) {
-        DrawMesh(drawing, sheet);
-    }
-    for (int32_t p = 0; (drawing->flags & KIRI_DRAW_BOXES) != 0 && p < sheet->layout.pieces.count; p += BOXES_A_PASS) {
-        DrawBoxesFrom(drawing, sheet, p);
-    }
-    if ((drawing->flags & KIRI_DRAW_FRAMES) != 0) {
-        DrawFrames(drawing, sheet);
-    }
-    if ((drawing->flags & KIRI_DRAW_LINKS) != 0) {
-        DrawLinks(drawing, sheet);
-    }
-    for (int32_t i = 0; (drawing->flags & KIRI_DRAW_PINS) != 0 && i < sheet->pins.count; ++i) {
-        DrawPin(drawing, sheet, &sheet->pins.data[i]);
-    }
-    if ((drawing->flags & KIRI_DRAW_CONTACTS) != 0) {
-        DrawContacts(drawing, sheet, &sheet->touches.last);
-        DrawContacts(drawing, sheet, &sheet->touches.slept);
-    }
-    for (int32_t i = 0; (drawing->flags & KIRI_DRAW_POINTS) != 0 && i < sheet->points.count; ++i) {
-        kiriDrawing_Point(drawing, sheet->seen.exactPoints.data[i], kiriDrawing_Color(215, 25, 115));
-    }
-}
-
-void kiriDrawing_Blades(kiriDrawing* drawing)
-{
-    const uint32_t color = kiriDrawing_Color(0, 0, 0);
-    for (int32_t i = 0; i < drawing->world->blades.count; ++i) {
-        const kiriBladeData* blade = drawing->world->blades.data[i];
-        if (blade->isPlaced) {
-            kiriDrawing_Line(drawing, blade->edge[0], blade->edge[1], color);
-        }
-        for (int32_t k = 0; k < blade->layers.count; ++k) {
-            kiriDrawing_Point(drawing, blade->layers.data[k].at, color);
-        }
-    }
-}
-
-/* Obstacles as lines. */
+/* ---- Obstacles --------------------------------------------------------------------------------------------------- */
 
 enum { CIRCLE_SIDES = 32 };
 
 typedef struct ObstacleDrawing {
-    kiriDrawing* drawing;
+    Drawing* drawing;
     const kiriObstacleData* obstacle;
-    uint32_t color;
 } ObstacleDrawing;
 
 static void DrawLocal(const ObstacleDrawing* of, kiriVec3 from, kiriVec3 to)
 {
-    kiriDrawing_Line(of->drawing, kiriObstacle_PointToWorld(of->obstacle, from),
-                     kiriObstacle_PointToWorld(of->obstacle, to), of->color);
+    DrawLine(of->drawing, kiriObstacle_PointToWorld(of->obstacle, from),
+                     kiriObstacle_PointToWorld(of->obstacle, to), Color(90, 70, 50));
 }
 
 /* Some sides of a circle of vectors u and v, its radius long, around a middle. */
@@ -352,175 +305,87 @@ static void DrawPlane(const ObstacleDrawing* of, double size)
 static void DrawObstacle(const ObstacleDrawing* of)
 {
     const kiriObstacleShape* shape = &of->obstacle->shape;
-    double endless = 10.0 * of->drawing->size, half = shape->half < KIRI_ENDLESS ? shape->half : endless;
-    double radius = shape->radius;
-    switch (shape->type) {
-    case KIRI_OBSTACLE_PLANE:
-        DrawPlane(of, of->drawing->size);
-        break;
-    case KIRI_OBSTACLE_SPHERE:
-        DrawArc(of, kiriVec3_Make(0.0, 0.0, 0.0), kiriVec3_Make(radius, 0.0, 0.0), kiriVec3_Make(0.0, radius, 0.0),
-                CIRCLE_SIDES);
-        DrawRoundEnds(of, radius, 0.0);
-        break;
-    case KIRI_OBSTACLE_CAPSULE:
-        DrawTube(of, radius, half);
-        DrawRoundEnds(of, radius, half);
-        break;
-    case KIRI_OBSTACLE_CYLINDER:
-        DrawTube(of, radius, half);
-        break;
-    default:
+    double size = of->drawing->size, radius = shape->radius;
+    double half = shape->half < KIRI_ENDLESS ? shape->half : 10.0 * size;
+    const kiriVec3 middle = { 0.0, 0.0, 0.0 }, u = { radius, 0.0, 0.0 }, v = { 0.0, radius, 0.0 };
+    if (shape->type == KIRI_OBSTACLE_PLANE) {
+        DrawPlane(of, size);
+    } else if (shape->type == KIRI_OBSTACLE_PRISM) {
         DrawPrism(of, half);
-        break;
+    } else if (shape->type == KIRI_OBSTACLE_SPHERE) {
+        DrawArc(of, middle, u, v, CIRCLE_SIDES);
+    } else {
+        DrawTube(of, radius, half);
+    }
+    if (shape->type == KIRI_OBSTACLE_SPHERE || shape->type == KIRI_OBSTACLE_CAPSULE) {
+        DrawRoundEnds(of, radius, half);
     }
 }
 
-void kiriDrawing_Obstacles(kiriDrawing* drawing)
+/* ---- All of it --------------------------------------------------------------------------------------------------- */
+
+static void DrawSheet(Drawing* drawing, const kiriSheetData* sheet)
 {
-    for (int32_t i = 0; i < drawing->world->obstacles.count; ++i) {
-        const ObstacleDrawing of = { drawing, drawing->world->obstacles.data[i], kiriDrawing_Color(90, 70, 50) };
+    uint32_t flags = drawing->flags;
+    if ((flags & (KIRI_DRAW_TRIANGLES | KIRI_DRAW_EDGES | KIRI_DRAW_BORDERS)) != 0) {
+        DrawMesh(drawing, sheet);
+    }
+    for (int32_t p = 0; (flags & KIRI_DRAW_BOXES) != 0 && p < sheet->layout.pieces.count; p += BOXES_A_PASS) {
+        DrawBoxesFrom(drawing, sheet, p);
+    }
+    if ((flags & KIRI_DRAW_FRAMES) != 0) {
+        DrawFrames(drawing, sheet);
+    }
+    if ((flags & KIRI_DRAW_LINKS) != 0) {
+        DrawLinks(drawing, sheet);
+    }
+    for (int32_t i = 0; (flags & KIRI_DRAW_PINS) != 0 && i < sheet->pins.count; ++i) {
+        DrawPin(drawing, sheet, &sheet->pins.data[i]);
+    }
+    if ((flags & KIRI_DRAW_CONTACTS) != 0) {
+        DrawContacts(drawing, sheet, &sheet->touches.last);
+        DrawContacts(drawing, sheet, &sheet->touches.slept);
+    }
+    for (int32_t i = 0; (flags & KIRI_DRAW_POINTS) != 0 && i < sheet->points.count; ++i) {
+        Draw(drawing, &sheet->seen.exactPoints.data[i], 1, Color(215, 25, 115));
+    }
+}
+
+static void DrawBlade(Drawing* drawing, const kiriBladeData* blade)
+{
+    if (blade->isPlaced) {
+        DrawLine(drawing, blade->edge[0], blade->edge[1], Color(0, 0, 0));
+    }
+    for (int32_t k = 0; k < blade->layers.count; ++k) {
+        Draw(drawing, &blade->layers.data[k].at, 1, Color(0, 0, 0));
+    }
+}
+
+void kiriDraw_World(const kiriWorld* world, const kiriDebugDraw* draw, const kiriSheetData* only)
+{
+    Drawing drawing;
+    drawing.world = world;
+    drawing.user = draw->user;
+    drawing.flags = draw->flags;
+    drawing.size = draw->size;
+    kiriDrawFn* const functions[3] = { draw->points, draw->lines, draw->triangles };
+    for (int i = 0; i < 3; ++i) {
+        drawing.batches[i].draw = functions[i];
+        drawing.batches[i].count = 0;
+    }
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        if (only == NULL || only == world->sheets.data[i]) {
+            DrawSheet(&drawing, world->sheets.data[i]);
+        }
+    }
+    for (int32_t i = 0; only == NULL && (draw->flags & KIRI_DRAW_OBSTACLES) != 0 && i < world->obstacles.count; ++i) {
+        const ObstacleDrawing of = { &drawing, world->obstacles.data[i] };
         DrawObstacle(&of);
     }
-}
-
-#define STEEP 0.5           /* beside a border: what is off along the surface, by what is off across it */
-#define FLAT_TRIANGLE 0.25  /* of the distance that they keep: lower than that, and */
-#define INSIDE_TRIANGLE 0.5 /* the same: no farther inside of the border than that, lips lie beside each other */
-
-/* Where on a triangle a place is: inside (KIRI_NONE), on edge 0 to 2, or at corner 0 to 2. */
-typedef struct Place {
-    double share[3];
-    int edge, corner;
-} Place;
-
-static Place AtCorner(int corner)
-{
-    Place place = { { 0.0, 0.0, 0.0 }, KIRI_NONE, corner };
-    place.share[corner] = 1.0;
-    return place;
-}
-
-static Place OnEdge(int edge, double t)
-{
-    Place place = { { 0.0, 0.0, 0.0 }, edge, KIRI_NONE };
-    place.share[edge] = 1.0 - t;
-    place.share[(edge + 1) % 3] = t;
-    return place;
-}
-
-/* Ericson, Real-Time Collision Detection, 5.1.5: by the Voronoi regions of corners, edges and the inside. */
-static Place NearestOnTriangle(kiriVec3 p, kiriVec3 a, kiriVec3 b, kiriVec3 c)
-{
-    kiriVec3 ab = kiriVec3_Sub(b, a), ac = kiriVec3_Sub(c, a);
-    kiriVec3 ap = kiriVec3_Sub(p, a), bp = kiriVec3_Sub(p, b), cp = kiriVec3_Sub(p, c);
-    double d1 = kiriVec3_Dot(ab, ap), d2 = kiriVec3_Dot(ac, ap);
-    double d3 = kiriVec3_Dot(ab, bp), d4 = kiriVec3_Dot(ac, bp);
-    double d5 = kiriVec3_Dot(ab, cp), d6 = kiriVec3_Dot(ac, cp);
-    double onA = d3 * d6 - d5 * d4, onB = d5 * d2 - d1 * d6, onC = d1 * d4 - d3 * d2;
-    if (d1 <= 0.0 && d2 <= 0.0) {
-        return AtCorner(0);
+    for (int32_t i = 0; only == NULL && (draw->flags & KIRI_DRAW_BLADES) != 0 && i < world->blades.count; ++i) {
+        DrawBlade(&drawing, world->blades.data[i]);
     }
-    if (d3 >= 0.0 && d4 <= d3) {
-        return AtCorner(1);
+    for (int i = 0; i < 3; ++i) {
+        FlushBatch(&drawing, &drawing.batches[i]);
     }
-    if (d6 >= 0.0 && d5 <= d6) {
-        return AtCorner(2);
-    }
-    if (onC <= 0.0 && d1 >= 0.0 && d3 <= 0.0) {
-        return OnEdge(0, d1 / (d1 - d3));
-    }
-    if (onB <= 0.0 && d2 >= 0.0 && d6 <= 0.0) {
-        return OnEdge(2, 1.0 - d2 / (d2 - d6));
-    }
-    if (onA <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) {
-        return OnEdge(1, (d4 - d3) / ((d4 - d3) + (d5 - d6)));
-    }
-    double sum = onA + onB + onC;
-    Place inside = { { onA / sum, onB / sum, onC / sum }, KIRI_NONE, KIRI_NONE };
-    return inside;
-}
-
-/* m: how far inside of the border the place is, by the edges of its triangle and by corners at which others have border
-   edges; far, where there are none. */
-static double WayToBorder(const kiriSheetData* sheet, const kiriNear* near)
-{
-    const kiriTriangle* t = &sheet->mesh.triangles.data[near->triangle];
-    const kiriSurface* surface = &sheet->seen.surface;
-    double least = HUGE_VAL;
-    for (int k = 0; k < 3; ++k) {
-        kiriVec3 from = kiriSurface_At(surface, t->vertex[k]), to = kiriSurface_At(surface, t->vertex[(k + 1) % 3]);
-        kiriVec3 apex = kiriSurface_At(surface, t->vertex[(k + 2) % 3]), edge = kiriVec3_Sub(to, from);
-        double area = kiriVec3_Length(kiriVec3_Cross(edge, kiriVec3_Sub(apex, from)));
-        double way = near->share[(k + 2) % 3] * area / kiriVec3_Length(edge);
-        bool isBorder = t->twin[k] == KIRI_NONE || (t->marks >> k & 1) != 0;
-        least = isBorder && way < least ? way : least;
-        kiriVec3 in = kiriVec3_AddScaled(kiriVec3_Scale(near->share[(k + 1) % 3], edge), near->share[(k + 2) % 3],
-                                         kiriVec3_Sub(apex, from));
-        double off = kiriVec3_Length(in);
-        least = sheet->probes.isBorder.data[t->vertex[k]] && off < least ? off : least;
-    }
-    return least;
-}
-
-/* The place on one triangle; its distance, squared. */
-static double Measure(kiriNear* near, const kiriBody* bodies, int32_t triangle)
-{
-    const kiriSheetData* sheet = bodies[near->other].sheet;
-    const kiriSurface* surface = &sheet->seen.surface;
-    const int32_t* corners = &surface->indices.data[3 * (size_t)triangle];
-    kiriVec3 a = kiriSurface_At(surface, corners[0]), b = kiriSurface_At(surface, corners[1]);
-    kiriVec3 c = kiriSurface_At(surface, corners[2]);
-    kiriVec3 p = kiriSurface_At(&bodies[near->body].sheet->seen.surface, near->vertex);
-    Place place = NearestOnTriangle(p, a, b, c);
-    kiriVec3 q = kiriVec3_Scale(place.share[0], a);
-    q = kiriVec3_AddScaled(kiriVec3_AddScaled(q, place.share[1], b), place.share[2], c);
-    kiriVec3 off = kiriVec3_Sub(p, q);
-    near->triangle = triangle;
-    memcpy(near->share, place.share, sizeof(near->share));
-    near->normal = kiriVec3_Normalize(kiriVec3_Cross(kiriVec3_Sub(b, a), kiriVec3_Sub(c, a)));
-    near->height = kiriVec3_Dot(near->normal, off);
-    return kiriVec3_Dot(off, off);
-}
-
-/* Lips of a fresh cut lie in one plane, and may overlap a little when they move: they are beside each other, and not
-   one on the other. */
-static bool IsBeside(const kiriNear* near, const kiriBody* bodies, double distance, double squared)
-{
-    const kiriSheetData* sheet = bodies[near->other].sheet;
-    double across = near->height * near->height, way = WayToBorder(sheet, near);
-    bool isLip = bodies[near->body].sheet->probes.isBorder.data[near->vertex];
-    return (way <= 0.0 && squared - across >= STEEP * STEEP * across) ||
-           (isLip && way < INSIDE_TRIANGLE * distance && fabs(near->height) < FLAT_TRIANGLE * distance);
-}
-
-typedef struct Looking {
-    kiriNear* near;
-    const kiriBody* bodies;
-    double least; /* m^2 */
-    bool found;
-} Looking;
-
-static double LookAtTriangle(void* context, int32_t triangle)
-{
-    Looking* looking = context;
-    kiriNear one = *looking->near;
-    double squared = Measure(&one, looking->bodies, triangle);
-    bool isLower = looking->found && squared == looking->least && triangle < looking->near->triangle;
-    if (squared < looking->least || isLower) {
-        looking->least = squared;
-        *looking->near = one;
-        looking->found = true;
-    }
-    return looking->least;
-}
-
-bool kiriNearest_Find(kiriNear* near, const kiriBody* bodies, double reach, double distance)
-{
-    Looking looking = { near, bodies, reach * reach, false };
-    const kiriSheetData* other = bodies[near->other].sheet;
-    kiriVec3 from = kiriSurface_At(&bodies[near->body].sheet->seen.surface, near->vertex);
-    kiriGroup piece = { other->probes.vertexPiece.data, bodies[near->other].piece };
-    kiriBounds_Nearest(other->seen.bounds, &other->seen.surface, piece, from, looking.least, LookAtTriangle, &looking);
-    return looking.found && !IsBeside(near, bodies, distance, looking.least);
 }

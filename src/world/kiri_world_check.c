@@ -113,8 +113,9 @@ static bool HasRooms(const kiriWorld* world)
 /* What the host gave is what it may give. */
 static bool AreGiven(const kiriSettings* settings)
 {
+    kiriFault fault;
     const kiriSheetSettings* given = &settings->given;
-    return kiriCall_FaultOfSettings(given) == NULL &&
+    return kiriStruct_Check(&kiriSettingsStruct, "", NULL, given, &fault) == KIRI_OK &&
            memcmp(&given->material, &settings->material, sizeof(given->material)) == 0 &&
            given->iterations == settings->iterations && given->skinning == settings->skinning &&
            given->timeStepping == settings->mechanics.timeStepping;

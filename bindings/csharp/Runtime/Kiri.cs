@@ -594,8 +594,8 @@ namespace Kiri
         /// bytes may come from anybody: a malicious save may give a strange world but cannot crash the program, and
         /// takes memory in proportion to its size. Takes about as long as to create the sheets. The profile has no
         /// times until the next tick. Arrays that the old world handed out live until then. KIRI_ERROR_DATA: the bytes
-        /// are not a save, damaged, or of another version. KIRI_ERROR_MEMORY. Then nothing has changed. A recording has
-        /// the bytes, up to 2^31 of them.</summary>
+        /// are not a save, damaged, or of another version. KIRI_ERROR_MEMORY. Then nothing has changed. `size` is below
+        /// 2^31. A recording has the bytes.</summary>
         public void Load(byte[] bytes)
         {
             fixed (byte* bytesRows = bytes)

@@ -2172,8 +2172,8 @@ impl World {
     /// cannot crash the program, and takes memory in proportion to its size. Takes about as long as
     /// to create the sheets. The profile has no times until the next tick. Arrays that the old
     /// world handed out live until then. [`ResultCode::ErrorData`]: the bytes are not a save,
-    /// damaged, or of another version. [`ResultCode::ErrorMemory`]. Then nothing has changed. A
-    /// recording has the bytes, up to 2^31 of them.
+    /// damaged, or of another version. [`ResultCode::ErrorMemory`]. Then nothing has changed. size
+    /// is below 2^31. A recording has the bytes.
     pub fn load(&mut self, bytes: &[u8]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriWorld_Load(self.raw_mut(), bytes.as_ptr().cast(), bytes.len() as i64) }, self)?;
