@@ -3,43 +3,38 @@
 
 #include <string.h>
 
-static int32_t CarrierCount(const kiriIndices* list, int32_t count)
+/* Items of a list, or all if there is none. */
+static int32_t ItemCount(const kiriIndices* list, int32_t count)
 {
     return list != NULL ? list->count : count;
 }
 
-static int32_t CarrierAt(const kiriIndices* list, int32_t n)
+static int32_t ItemAt(const kiriIndices* list, int32_t n)
 {
     return list != NULL ? list->data[n] : n;
 }
 
 void kiriCarriers_Write(kiriCarrier* carriers, const kiriFrameData* frames, int32_t count, const kiriIndices* some)
 {
-    for (int32_t n = 0; n < CarrierCount(some, count); ++n) {
-        int32_t i = CarrierAt(some, n);
-        kiriCarrier* carrier = &carriers[i];
-        memset(carrier, 0, sizeof(*carrier));
-        carrier->u = frames[i].A.u;
-        carrier->v = frames[i].A.v;
-        carrier->x = frames[i].x;
-        carrier->center = frames[i].center;
-        carrier->six = 6.0;
-        carrier->d = kiriVec3_Normalize(kiriVec3_Cross(carrier->u, carrier->v));
+    for (int32_t n = 0; n < ItemCount(some, count); ++n) {
+        int32_t i = ItemAt(some, n);
+        kiriVec3 u = frames[i].A.u, v = frames[i].A.v, d = kiriVec3_Normalize(kiriVec3_Cross(u, v));
+        KIRI_ASSERT(i >= 0 && i < count);
+        carriers[i] = (kiriCarrier){ u, v, d, frames[i].x, frames[i].center, 0.0, 0.0, 0.0, 6.0 };
     }
 }
 
-/* ---- Curvature ----
+/* ---- Curvature ----------------------------------------------------------------------------------------------------
 
-   In a flat patch the surface bulges: half-way between two frames that stand at an angle t on a cylinder of radius R,
-   both patches are R t^2 / 8 outside. So the patch of a frame follows the arc that its neighbours' directors tell. Be K
-   the curvature, g = K q and f^2 = g . g: the patch goes from q to q sin f / f in the plane, and up by
-   q . g (1 - cos f) / f^2. That is exact for one direction of bending, which is what thin sheets have, and right to the
-   second order elsewhere.
+   Flat patches bulge: half-way between two frames that stand at an angle t on a cylinder of radius R, both are R t^2 / 8
+   outside. So the patch of a frame follows the arc that the directors of its neighbors tell. Let K be the curvature,
+   g = K q and f^2 = g . g: the patch goes from q to q sin f / f in the plane, and up by q . g (1 - cos f) / f^2. That is
+   exact for one direction of bending, which thin sheets have, and right to the second order elsewhere.
 
-   A frame that stretches by s has arcs s times as long for the same angles: K and six, divided by s^2, say so. */
+   A frame that stretches by s has arcs s times as long for the same angles: so K and six are divided by s^2. */
 
-/* The angle, of which this is the cosine, over its sine: Pade's [4/4] of the half-angle's arc tangent, 0.7 % off at 120
-   degrees. Never above 8: frames back to back tell nothing. */
+/* Returns an angle over its sine, from its cosine: Pade's [4/4] of the arc tangent of the half-angle, 0.7 % off at 120
+   degrees. At most 8, for frames back to back. */
 static double AngleOverSine(double cosine)
 {
     double lower = kiriMax(1.0 + cosine, 0.1), x = (2.0 - lower) / lower;
@@ -47,7 +42,7 @@ static double AngleOverSine(double cosine)
     return angle * (1.0 + x);
 }
 
-/* How the director of `other` leans, seen from a frame, where it is s away. */
+/* Adds how the director of another frame, s away, leans seen from a frame. */
 static void AddDirectorTurn(kiriBend* bend, const kiriCarrier* carrier, kiriVec3 other, kiriVec2 s, double weight)
 {
     double k = -weight * AngleOverSine(kiriVec3_Dot(carrier->d, other));
@@ -60,36 +55,32 @@ static void AddDirectorTurn(kiriBend* bend, const kiriCarrier* carrier, kiriVec3
     bend->rvv += s.y * tv;
 }
 
-/* The symmetric K that best takes each way s to its lean; where the neighbours, all in a row, leave it open, the least.
-   That share, a thousandth, also says how far K may follow the noise across a row. */
-static void Curve(kiriCarrier* carrier, const kiriBend* bend)
+/* Finds the symmetric K that best takes each way s to its lean. The share `least`, a thousandth, chooses the least K where
+   neighbors in a row leave it open, and limits how far K follows the noise across the row.
+
+   The patch is bent less where it would turn too far: there are creases, narrow bridges, and neighbors on both sides of a
+   slit that bend apart, so neighbors do not tell how the region bends. */
+static void BendCarrier(kiriCarrier* carrier, const kiriBend* bend, const kiriFrameData* frame)
 {
+    const double mostTurn = 0.2; /* rad, rms over the region: on an arc that is 40 degrees from frame to frame */
     double least = 1e-3 * (bend->uu + bend->vv), m = bend->uv;
     double a = bend->uu + least, c = bend->vv + least, b = bend->uu + bend->vv + 2.0 * least;
     double det = a * (b * c - m * m) - m * m * c;
     double square = kiriVec3_Length(kiriVec3_Cross(carrier->u, carrier->v));
     /* A patch that is nearly a line, or is stretched 1e12 times, stays flat: floats cannot hold `six`. */
-    if (!(det > 0.0 && square > 1e-24 && square < 1e24)) {
-        return;
+    if (det > 0.0 && square > 1e-24 && square < 1e24) {
+        double scale = 1.0 / (square * det);
+        carrier->six = 6.0 / square;
+        carrier->uu = scale * ((b * c - m * m) * bend->ruu - m * c * bend->ruv + m * m * bend->rvv);
+        carrier->uv = scale * (-m * c * bend->ruu + a * c * bend->ruv - a * m * bend->rvv);
+        carrier->vv = scale * (m * m * bend->ruu - a * m * bend->ruv + (a * b - m * m) * bend->rvv);
     }
-    double scale = 1.0 / (square * det);
-    carrier->six = 6.0 / square;
-    carrier->uu = scale * ((b * c - m * m) * bend->ruu - m * c * bend->ruv + m * m * bend->rvv);
-    carrier->uv = scale * (-m * c * bend->ruu + a * c * bend->ruv - a * m * bend->rvv);
-    carrier->vv = scale * (m * m * bend->ruu - a * m * bend->ruv + (a * b - m * m) * bend->rvv);
-}
-
-/* rad: rms of the angle by which a patch may turn over its region. On an arc that is 40 degrees from frame to frame. */
-static const double mostTurn = 0.2;
-
-/* Where neighbours turn farther, they do not tell how the region bends: there are creases, narrow bridges, and
-   neighbours on both sides of a slit that bend apart. A patch that is less bent is strained less there. */
-static void LimitCurve(kiriCarrier* carrier, const kiriFrameData* frame)
-{
     double uu = carrier->uu, uv = carrier->uv, vv = carrier->vv;
-    const double* m = frame->inertia;
-    double square = (uu * uu + uv * uv) * m[0] + 2.0 * uv * (uu + vv) * m[1] + (uv * uv + vv * vv) * m[2];
-    double turn = frame->mass > 0.0 && square > 0.0 ? sqrt(6.0 * square / (carrier->six * frame->mass)) : 0.0;
+    const double* moments = frame->inertia;
+    double squareTurn = (uu * uu + uv * uv) * moments[0] + 2.0 * uv * (uu + vv) * moments[1] +
+                        (uv * uv + vv * vv) * moments[2];
+    double turn =
+        frame->mass > 0.0 && squareTurn > 0.0 ? sqrt(6.0 * squareTurn / (carrier->six * frame->mass)) : 0.0;
     if (turn > mostTurn) {
         carrier->uu *= mostTurn / turn;
         carrier->uv *= mostTurn / turn;
@@ -100,24 +91,26 @@ static void LimitCurve(kiriCarrier* carrier, const kiriFrameData* frame)
 void kiriCarriers_Bend(kiriCarrier* carriers, kiriBend* bends, const kiriFrameData* frames, int32_t count,
                        const kiriLink* links, int32_t linkCount, const kiriIndices* some, const kiriIndices* someLinks)
 {
-    for (int32_t n = 0; n < CarrierCount(some, count); ++n) {
-        memset(&bends[CarrierAt(some, n)], 0, sizeof(kiriBend));
+    for (int32_t n = 0; n < ItemCount(some, count); ++n) {
+        bends[ItemAt(some, n)] = (kiriBend){ 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
     }
-    for (int32_t n = 0; n < CarrierCount(someLinks, linkCount) && CarrierAt(someLinks, n) < linkCount; ++n) {
-        const kiriLink* link = &links[CarrierAt(someLinks, n)];
+    for (int32_t n = 0; n < ItemCount(someLinks, linkCount) && ItemAt(someLinks, n) < linkCount; ++n) {
+        const kiriLink* link = &links[ItemAt(someLinks, n)];
+        KIRI_ASSERT(link->i >= 0 && link->i < count && link->j >= 0 && link->j < count);
         kiriCarrier *i = &carriers[link->i], *j = &carriers[link->j];
         kiriVec2 start = kiriVec2_Sub(frames[link->i].site.at, frames[link->i].center);
         kiriVec2 end = kiriVec2_Sub(frames[link->j].center, frames[link->j].site.at);
-        kiriVec2 way = kiriVec2_Add(kiriVec2_Add(start, link->span), end); /* from centre to centre */
+        kiriVec2 way = kiriVec2_Add(kiriVec2_Add(start, link->span), end); /* from center to center */
         AddDirectorTurn(&bends[link->i], i, j->d, way, link->width);
         AddDirectorTurn(&bends[link->j], j, i->d, kiriVec2_Scale(-1.0, way), link->width);
     }
-    for (int32_t n = 0; n < CarrierCount(some, count); ++n) {
-        int32_t i = CarrierAt(some, n);
-        Curve(&carriers[i], &bends[i]);
-        LimitCurve(&carriers[i], &frames[i]);
+    for (int32_t n = 0; n < ItemCount(some, count); ++n) {
+        int32_t i = ItemAt(some, n);
+        BendCarrier(&carriers[i], &bends[i], &frames[i]);
     }
 }
+
+/* ---- Rows of floats ---------------------------------------------------------------------------------------------- */
 
 bool kiriPatches_Reserve(kiriPatches* patches, kiriMemory* memory, int32_t count)
 {
@@ -130,42 +123,29 @@ void kiriPatches_Forget(kiriPatches* patches)
     patches->count = 0;
 }
 
-/* ---- Rows of floats ---- */
-
-/* A row: origin, u, v; the origin is where the patch has the local origin. */
-static void WriteFlat(float* row, const kiriCarrier* carrier, kiriVec3 from)
+/* Writes a row. Flat: the point where the patch has the local origin; u; v. Bent: center, curvature in two parts, twice six;
+   x; u; v; six d. Each vector has a fourth float, 0. */
+static void WriteRow(float* row, const kiriCarrier* carrier, kiriVec3 from, bool isBent)
 {
-    kiriVec3 origin = kiriVec3_Sub(carrier->x, from);
-    origin = kiriVec3_AddScaled(origin, -carrier->center.x, carrier->u);
-    origin = kiriVec3_AddScaled(origin, -carrier->center.y, carrier->v);
-    kiriVec3_Store(row, origin);
-    kiriVec3_Store(row + 4, carrier->u);
-    kiriVec3_Store(row + 8, carrier->v);
-    row[3] = row[7] = row[11] = 0.0f;
-}
-
-static void WriteFour(float* four, double a, double b, double c, double d)
-{
-    four[0] = (float)a;
-    four[1] = (float)b;
-    four[2] = (float)c;
-    four[3] = (float)d;
-}
-
-/* A row: center; curvature in two parts; twice six; x, u, v, six d. */
-static void WriteBent(float* row, const kiriCarrier* carrier, kiriVec3 from)
-{
-    WriteFour(row, carrier->center.x, carrier->center.y, carrier->uu, carrier->vv);
-    WriteFour(row + 4, carrier->uv, carrier->uv, 2.0 * carrier->six, 2.0 * carrier->six);
-    const kiriVec3 axes[4] = { kiriVec3_Sub(carrier->x, from), carrier->u, carrier->v,
-                               kiriVec3_Scale(6.0, carrier->d) };
-    for (int k = 0; k < 4; ++k) {
-        WriteFour(row + 8 + 4 * k, axes[k].x, axes[k].y, axes[k].z, 0.0);
+    kiriVec3 vectors[4] = { kiriVec3_Sub(carrier->x, from), carrier->u, carrier->v, kiriVec3_Scale(6.0, carrier->d) };
+    if (isBent) {
+        const double first[8] = { carrier->center.x, carrier->center.y, carrier->uu,        carrier->vv,
+                                  carrier->uv,       carrier->uv,       2.0 * carrier->six, 2.0 * carrier->six };
+        for (int k = 0; k < 8; ++k) {
+            *row++ = (float)first[k];
+        }
+    } else {
+        vectors[0] = kiriVec3_AddScaled(vectors[0], -carrier->center.x, carrier->u);
+        vectors[0] = kiriVec3_AddScaled(vectors[0], -carrier->center.y, carrier->v);
+    }
+    for (int k = 0; k < (isBent ? 4 : 3); ++k) {
+        kiriVec3_Store(row + 4 * k, vectors[k]);
+        row[4 * k + 3] = 0.0f;
     }
 }
 
-/* A frame that gets another center carries the same flat patch, but for the last bits of its doubles. Of floats only
-   those near 0 tell. */
+/* Compares a row with its previous values. A frame that gets another center carries the same flat patch, but for the last
+   bits of its doubles. They show only in floats near 0. */
 static uint8_t ChangeOfRow(const float* was, const float* row, size_t each)
 {
     const float least = 1e-12f;
@@ -179,47 +159,28 @@ static uint8_t ChangeOfRow(const float* was, const float* row, size_t each)
     return change;
 }
 
-static void ClearUnused(kiriPatches* patches, const kiriLabels* labels, size_t each)
-{
-    for (int32_t label = 0; label < labels->itemOf.count; ++label) {
-        if (labels->itemOf.data[label] == KIRI_NONE) {
-            memset(patches->floats.data + each * (size_t)label, 0, sizeof(float) * each);
-        }
-    }
-}
-
-/* All rows are empty, or as they were written last. Returns how many are. */
-static int32_t StartWriting(kiriPatches* patches, const kiriLabels* labels, int32_t rows, bool isBent, size_t each)
-{
-    int32_t known = patches->isBent == isBent ? patches->count : 0;
-    patches->areOther = patches->count != rows;
-    patches->count = patches->isOther.count = rows;
-    patches->isBent = isBent;
-    patches->floats.count = (int32_t)each * rows;
-    KIRI_ASSERT(patches->floats.count <= patches->floats.capacity);
-    if (rows > 0) {
-        memset(patches->isOther.data, 0, (size_t)rows);
-    }
-    if (known != rows) {
-        ClearUnused(patches, labels, each);
-    }
-    return known;
-}
-
 bool kiriPatches_Write(kiriPatches* patches, const kiriLabels* labels, const kiriCarrier* carriers, int32_t count,
                        kiriVec3 from, bool isBent, const kiriIndices* some)
 {
     size_t each = isBent ? KIRI_BENT_FLOATS : KIRI_FLAT_FLOATS;
-    int32_t rows = kiriLabels_Count(labels, count), known = StartWriting(patches, labels, rows, isBent, each);
+    int32_t rows = kiriLabels_Count(labels, count), known = patches->isBent == isBent ? patches->count : 0;
     KIRI_ASSERT(some == NULL || known == rows);
-    for (int32_t n = 0; n < (some != NULL ? some->count : count); ++n) {
-        int32_t i = some != NULL ? some->data[n] : n, at = kiriLabels_Of(labels, i);
-        float row[KIRI_BENT_FLOATS], *was = patches->floats.data + each * (size_t)at;
-        if (isBent) {
-            WriteBent(row, &carriers[i], from);
-        } else {
-            WriteFlat(row, &carriers[i], from);
+    patches->areOther = patches->count != rows;
+    patches->count = patches->isOther.count = rows;
+    patches->isBent = isBent;
+    patches->floats.count = (int32_t)each * rows;
+    KIRI_ASSERT(patches->floats.count <= patches->floats.capacity && rows <= patches->isOther.capacity);
+    for (int32_t at = 0; at < rows; ++at) {
+        patches->isOther.data[at] = KIRI_PATCH_SAME;
+        if (known != rows && at < labels->itemOf.count && labels->itemOf.data[at] == KIRI_NONE) {
+            memset(patches->floats.data + each * (size_t)at, 0, sizeof(float) * each);
         }
+    }
+    for (int32_t n = 0; n < ItemCount(some, count); ++n) {
+        int32_t i = ItemAt(some, n), at = kiriLabels_Of(labels, i);
+        float row[KIRI_BENT_FLOATS], *was = patches->floats.data + each * (size_t)at;
+        KIRI_ASSERT(at >= 0 && at < rows);
+        WriteRow(row, &carriers[i], from, isBent);
         patches->isOther.data[at] = at >= known ? KIRI_PATCH_OTHER : ChangeOfRow(was, row, each);
         patches->areOther |= patches->isOther.data[at] != KIRI_PATCH_SAME;
         memcpy(was, row, sizeof(float) * each);
@@ -240,7 +201,7 @@ bool kiriPatches_MayMove(const kiriPatches* patches, const kiriSkin* skin, int32
     return mayMove;
 }
 
-/* ---- Positions ---- */
+/* ---- Positions --------------------------------------------------------------------------------------------------- */
 
 static kiriLanes BlendFlat(const float* rows, const kiriSampleWeight* weight, const kiriSampleWeight* end, kiriVec2 p)
 {
@@ -254,7 +215,7 @@ static kiriLanes BlendFlat(const float* rows, const kiriSampleWeight* weight, co
     return sum;
 }
 
-/* x + a u + b v + bow d, a and b being lanes of `flat`. */
+/* at = x + a u + b v + bow d. a and b are lanes of `flat`. */
 #define CARRY_BENT(row, flat, a, b, bow, at)                                                                           \
     do {                                                                                                               \
         (at) = kiriLanes_Add(kiriLanes_Load((row) + 8),                                                                \
@@ -263,9 +224,9 @@ static kiriLanes BlendFlat(const float* rows, const kiriSampleWeight* weight, co
         (at) = kiriLanes_Add(at, kiriLanes_Mul(kiriLanes_Pick(bow, a, a, a, a), kiriLanes_Load((row) + 20)));          \
     } while (0)
 
-/* Two frames at a time. With q = p - center and g = K q the lanes have q, g, then q . g and g . g, then q - bow g;
+/* Adds two frames at a time. With q = p - center and g = K q the lanes hold q, g, then q . g and g . g, then q - bow g;
    `half` is half of bow. sin f / f and (1 - cos f) / f^2 are fractions over 12 + f^2: one thousandth off at 40 degrees,
-   and however strongly bent never farther from the center than twice q. */
+   and at any curvature at most twice as far from the center as q. */
 static kiriLanes AddBent(kiriLanes sum, const float* rows, kiriSampleWeight first, kiriSampleWeight second, kiriLanes p)
 {
     const float* a = rows + (ptrdiff_t)KIRI_BENT_FLOATS * first.label;
@@ -284,7 +245,7 @@ static kiriLanes AddBent(kiriLanes sum, const float* rows, kiriSampleWeight firs
     return kiriLanes_Add(sum, kiriLanes_Mul(kiriLanes_Splat(second.value), at));
 }
 
-/* An odd last one has a partner that counts nothing. */
+/* If the number is odd, the last has a partner of weight 0. */
 static kiriLanes BlendBent(const float* rows, const kiriSampleWeight* weight, const kiriSampleWeight* end, kiriVec2 p)
 {
     float x = (float)p.x, y = (float)p.y;
@@ -298,7 +259,7 @@ static kiriLanes BlendBent(const float* rows, const kiriSampleWeight* weight, co
     return sum;
 }
 
-/* Loops of their own, for speed. */
+/* Two loops, for speed. */
 void kiriSkin_WritePositions(const kiriSkin* skin, const kiriPatches* patches, const kiriVec2* rest, int32_t begin,
                              int32_t end, float* positions)
 {
@@ -317,8 +278,8 @@ void kiriSkin_WritePositions(const kiriSkin* skin, const kiriPatches* patches, c
 
 /* ---- Two triangles ----------------------------------------------------------------------------------------------- */
 
-/* Which of their six corners come in which order: as they are; turned by their edges j and k, which they share, from
-   1 + 3 j + k on; one alone, followed by one without area. */
+/* Orders of the six corners of two triangles: as they are; if edge j of the first is edge k of the second, turned, at
+   1 + 3 j + k; a triangle alone, followed by one without area. */
 enum { PAIR_AS_IS, PAIR_TURNED, PAIR_ALONE = PAIR_TURNED + 9, PAIR_TURNS };
 static const uint8_t pairOrders[PAIR_TURNS][6] = {
     { 0, 1, 2, 3, 4, 5 }, { 1, 2, 0, 3, 4, 5 }, { 1, 2, 0, 4, 5, 3 }, { 1, 2, 0, 5, 3, 4 },
@@ -338,15 +299,6 @@ uint8_t kiriNormals_TurnOf(const int32_t* indices, bool isAlone)
     return (uint8_t)turn;
 }
 
-static void GetPair(const kiriCorners* corners, int32_t pair, int32_t v[6])
-{
-    const int32_t* indices = corners->indices + 6 * (ptrdiff_t)pair;
-    const uint8_t* order = pairOrders[corners->turns[pair]];
-    for (int i = 0; i < 6; ++i) {
-        v[i] = indices[order[i]];
-    }
-}
-
 /* ---- Sums -------------------------------------------------------------------------------------------------------- */
 
 static kiriLanes EdgeAlong(const float* x, int32_t from, int32_t to)
@@ -354,128 +306,97 @@ static kiriLanes EdgeAlong(const float* x, int32_t from, int32_t to)
     return kiriLanes_Sub(kiriLanes_Load(x + 3 * (ptrdiff_t)to), kiriLanes_Load(x + 3 * (ptrdiff_t)from));
 }
 
-static void AddSlope(float* slopes, int32_t vertex, kiriLanes slope)
+/* A slope that a vertex gets from a pair of triangles. */
+typedef struct PairSlope {
+    int32_t vertex;
+    kiriLanes slope;
+} PairSlope;
+
+/* Writes the slopes of a pair. Returns their number. The cross product of two sides is twice the area times the normal:
+   sums are area-weighted. If the triangles share an edge, its corners get one sum from both. */
+static inline int GetPairSlopes(const kiriCorners* corners, int32_t pair, const float* positions, PairSlope slopes[6])
 {
-    float* sum = slopes + 4 * (ptrdiff_t)vertex;
-    kiriLanes_Store(sum, kiriLanes_Add(kiriLanes_Load(sum), slope));
+    const int32_t* indices = corners->indices + 6 * (ptrdiff_t)pair;
+    const uint8_t* order = pairOrders[corners->turns[pair]];
+    int32_t v[6];
+    for (int i = 0; i < 6; ++i) {
+        v[i] = indices[order[i]];
+    }
+    kiriLanes ac = EdgeAlong(positions, v[0], v[2]), first = kiriLanes_Cross(EdgeAlong(positions, v[0], v[1]), ac);
+    slopes[0] = (PairSlope){ v[1], first };
+    if (v[0] == v[3] && v[2] == v[4]) {
+        kiriLanes second = kiriLanes_Cross(ac, EdgeAlong(positions, v[0], v[5])), both = kiriLanes_Add(first, second);
+        slopes[1] = (PairSlope){ v[5], second };
+        slopes[2] = (PairSlope){ v[0], both };
+        slopes[3] = (PairSlope){ v[2], both };
+        return 4;
+    }
+    kiriLanes second = kiriLanes_Cross(EdgeAlong(positions, v[3], v[4]), EdgeAlong(positions, v[3], v[5]));
+    slopes[1] = (PairSlope){ v[0], first };
+    slopes[2] = (PairSlope){ v[2], first };
+    for (int k = 3; k < 6; ++k) {
+        slopes[k] = (PairSlope){ v[k], second };
+    }
+    return 6;
 }
 
-/* The cross product of two sides is twice the area times the normal: sums are area-weighted. Where two triangles share
-   an edge, their corners on it get one sum from both. */
 void kiriNormals_Sum(float* slopes, int32_t vertexCount, const float* positions, const kiriCorners* corners)
 {
     memset(slopes, 0, 4 * sizeof(float) * (size_t)vertexCount);
-    for (int32_t t = 0; t < corners->triangleCount; t += 2) {
-        int32_t v[6];
-        GetPair(corners, t / 2, v);
-        kiriLanes ac = EdgeAlong(positions, v[0], v[2]), first = kiriLanes_Cross(EdgeAlong(positions, v[0], v[1]), ac);
-        AddSlope(slopes, v[1], first);
-        if (v[0] == v[3] && v[2] == v[4]) {
-            kiriLanes second = kiriLanes_Cross(ac, EdgeAlong(positions, v[0], v[5])),
-                      both = kiriLanes_Add(first, second);
-            AddSlope(slopes, v[5], second);
-            AddSlope(slopes, v[0], both);
-            AddSlope(slopes, v[2], both);
-        } else {
-            kiriLanes second = kiriLanes_Cross(EdgeAlong(positions, v[3], v[4]), EdgeAlong(positions, v[3], v[5]));
-            AddSlope(slopes, v[0], first);
-            AddSlope(slopes, v[2], first);
-            AddSlope(slopes, v[3], second);
-            AddSlope(slopes, v[4], second);
-            AddSlope(slopes, v[5], second);
+    for (int32_t pair = 0; 2 * pair < corners->triangleCount; ++pair) {
+        PairSlope of[6];
+        int count = GetPairSlopes(corners, pair, positions, of);
+        for (int k = 0; k < count; ++k) {
+            float* sum = slopes + 4 * (ptrdiff_t)of[k].vertex;
+            KIRI_ASSERT(of[k].vertex >= 0 && of[k].vertex < vertexCount);
+            kiriLanes_Store(sum, kiriLanes_Add(kiriLanes_Load(sum), of[k].slope));
         }
     }
-}
-
-/* The same for one vertex of a pair, in the same order. */
-static kiriLanes AddPairTo(kiriLanes sum, int32_t vertex, const float* positions, const int32_t* v)
-{
-    kiriLanes ac = EdgeAlong(positions, v[0], v[2]), first = kiriLanes_Cross(EdgeAlong(positions, v[0], v[1]), ac);
-    if (v[0] == v[3] && v[2] == v[4]) {
-        kiriLanes second = kiriLanes_Cross(ac, EdgeAlong(positions, v[0], v[5])), both = kiriLanes_Add(first, second);
-        const kiriLanes by[4] = { first, second, both, both };
-        const int32_t of[4] = { v[1], v[5], v[0], v[2] };
-        for (int k = 0; k < 4; ++k) {
-            sum = of[k] == vertex ? kiriLanes_Add(sum, by[k]) : sum;
-        }
-        return sum;
-    }
-    kiriLanes second = kiriLanes_Cross(EdgeAlong(positions, v[3], v[4]), EdgeAlong(positions, v[3], v[5]));
-    for (int k = 0; k < 6; ++k) {
-        sum = v[k] == vertex ? kiriLanes_Add(sum, k < 3 ? first : second) : sum;
-    }
-    return sum;
-}
-
-enum { MOST_PAIRS = 64 }; /* around a vertex */
-
-/* Into a row of pairs that ascends, once; false where there is no room. */
-static bool InsertPair(int32_t* pairs, int32_t* count, int32_t pair)
-{
-    int32_t at = *count;
-    while (at > 0 && pairs[at - 1] > pair) {
-        --at;
-    }
-    if (at > 0 && pairs[at - 1] == pair) {
-        return true;
-    }
-    if (*count == MOST_PAIRS) {
-        return false;
-    }
-    memmove(pairs + at + 1, pairs + at, sizeof(*pairs) * (size_t)(*count - at));
-    pairs[at] = pair;
-    *count += 1;
-    return true;
-}
-
-/* The pairs of the fan of a vertex: counter-clockwise all around or to its end, else clockwise from where it began. */
-static bool ListPairs(const kiriMeshData* mesh, int32_t vertex, int32_t* pairs, int32_t* count)
-{
-    KIRI_ASSERT(vertex >= 0 && vertex < mesh->vertices.count);
-    int32_t start = mesh->vertices.data[vertex].edge, h = start;
-    bool ok = true;
-    *count = 0;
-    while (ok && h != KIRI_NONE) {
-        ok = InsertPair(pairs, count, h / 6);
-        h = kiriMesh_CounterClockwise(mesh, h);
-        if (h == start) {
-            return ok;
-        }
-    }
-    h = start == KIRI_NONE ? KIRI_NONE : kiriMesh_Clockwise(mesh, start);
-    while (ok && h != KIRI_NONE) {
-        ok = InsertPair(pairs, count, h / 6);
-        h = kiriMesh_Clockwise(mesh, h);
-    }
-    return ok;
 }
 
 bool kiriNormals_SumOne(float* slopes, int32_t vertex, const float* positions, const kiriCorners* corners,
                         const kiriMeshData* mesh)
 {
-    int32_t pairs[MOST_PAIRS], count;
+    enum { MOST_PAIRS = 64 };
+    int32_t pairs[MOST_PAIRS], count = 0, edge = mesh->vertices.data[vertex].edge, first = edge;
     kiriLanes sum = kiriLanes_Splat(0.0f);
-    if (!ListPairs(mesh, vertex, pairs, &count)) {
-        return false;
+    KIRI_ASSERT(vertex >= 0 && vertex < mesh->vertices.count);
+    for (int32_t h = edge; h != KIRI_NONE;) {
+        first = h;
+        h = kiriMesh_Clockwise(mesh, h);
+        h = h == edge ? KIRI_NONE : h;
+    }
+    /* The pairs of the fan, in ascending order, each once. */
+    for (int32_t h = first; h != KIRI_NONE;) {
+        int32_t pair = h / 6, at = count;
+        while (at > 0 && pairs[at - 1] > pair) {
+            --at;
+        }
+        if (at == 0 || pairs[at - 1] != pair) {
+            if (count == MOST_PAIRS) {
+                return false;
+            }
+            memmove(pairs + at + 1, pairs + at, sizeof(*pairs) * (size_t)(count - at));
+            pairs[at] = pair;
+            ++count;
+        }
+        h = kiriMesh_CounterClockwise(mesh, h);
+        h = h == first ? KIRI_NONE : h;
     }
     for (int32_t k = 0; k < count; ++k) {
-        int32_t v[6];
-        GetPair(corners, pairs[k], v);
-        sum = AddPairTo(sum, vertex, positions, v);
+        PairSlope of[6];
+        int slopeCount = GetPairSlopes(corners, pairs[k], positions, of);
+        for (int i = 0; i < slopeCount; ++i) {
+            sum = of[i].vertex == vertex ? kiriLanes_Add(sum, of[i].slope) : sum;
+        }
     }
     kiriLanes_Store(slopes + 4 * (ptrdiff_t)vertex, sum);
     return true;
 }
 
-/* A length that fits a float may have a square that does not. */
-static void WriteNormal(float* normal, const float* slope)
-{
-    kiriVec3 unit = kiriVec3_Normalize(kiriVec3_Load(slope));
-    bool known = kiriVec3_Dot(unit, unit) > 0.0;
-    kiriVec3_Store(normal, known ? unit : kiriVec3_Make(0.0, 0.0, 1.0));
-}
+/* ---- Normals ----------------------------------------------------------------------------------------------------- */
 
-/* Four squared lengths: x, y and z of each are brought together first. */
+/* Returns four squared lengths. First x, y and z of each are brought together. */
 static kiriLanes SquaresOf(const float* slopes)
 {
     kiriLanes a = kiriLanes_Load(slopes), b = kiriLanes_Load(slopes + 4);
@@ -497,13 +418,15 @@ static void WriteFourNormals(float* normals, const float* slopes)
         if (square[k] > 1e-30f && square[k] < 1e30f) {
             kiriLanes unit = kiriLanes_Mul(kiriLanes_Splat(scale[k]), kiriLanes_Load(slopes + 4 * k));
             kiriLanes_StoreThree(normals + 3 * k, unit);
-        } else {
-            WriteNormal(normals + 3 * k, slopes + 4 * k);
+        } else { /* a length that fits a float may have a square that does not */
+            kiriVec3 unit = kiriVec3_Normalize(kiriVec3_Load(slopes + 4 * k));
+            bool isKnown = kiriVec3_Dot(unit, unit) > 0.0;
+            kiriVec3_Store(normals + 3 * k, isKnown ? unit : kiriVec3_Make(0.0, 0.0, 1.0));
         }
     }
 }
 
-/* The last ones are written by fours too, so that ranges do not change any. */
+/* The last are written by fours, too, so that ranges do not change a bit. */
 void kiriNormals_Write(float* normals, const float* slopes, int32_t begin, int32_t end)
 {
     int32_t v = begin;

@@ -1,4 +1,4 @@
-/* The patches that frames carry: flat ones, or bent as their neighbours tell. */
+/* Skinning: the patches that frames carry, the positions of samples, and normals. */
 #ifndef KIRI_SKIN_H
 #define KIRI_SKIN_H
 
@@ -17,77 +17,76 @@ typedef struct kiriCarrier {
     double uu, uv, vv, six; /* curvature K, 1/m; 6 for a rigid frame */
 } kiriCarrier;
 
-/* What a frame's neighbours tell about its curvature: normal equations. */
+/* Normal equations for the curvature of a patch, from the neighbors of its frame. */
 typedef struct kiriBend {
-    double uu, uv, vv;    /* sums of W s s */
-    double ruu, ruv, rvv; /* and of W s t, t being how the director turns over s */
+    double uu, uv, vv;    /* sums of w s s; s: way to the neighbor, w: width of the link */
+    double ruu, ruv, rvv; /* sums of w s t; t: turn of the director over s */
 } kiriBend;
 
-/* Flat patches; `count` frames have one each. Here and below only `some` of them are written, unless that is null. */
+/* Writes flat patches, one a frame. Here and below only `some` frames are written, unless that is null. */
 void kiriCarriers_Write(kiriCarrier* carriers, const kiriFrameData* frames, int32_t count, const kiriIndices* some);
 
-/* Bends them as the links tell: all, or those of `someLinks`, ascending, that are below linkCount. `bends` is scratch,
-   one a frame. */
+/* Bends the patches by the links: all links, or `someLinks` (ascending) below linkCount. `bends` is scratch, one a
+   frame. */
 void kiriCarriers_Bend(kiriCarrier* carriers, kiriBend* bends, const kiriFrameData* frames, int32_t count,
                        const kiriLink* links, int32_t linkCount, const kiriIndices* some, const kiriIndices* someLinks);
 
 /* Linear-blend skinning in floats (section 4.1 of the paper). */
 
-/* Carriers as skinning reads them, in rows of floats: a row a label of weights. */
+/* Carriers as rows of floats, for skinning: a row for each label of weights. */
 enum { KIRI_FLAT_FLOATS = 12, KIRI_BENT_FLOATS = 24 };
 
-/* Is a patch other than before it was written last? By rounding alone: nobody could see it. */
+/* Change of a row when it was last written. ROUNDED: the change is too small to be visible. */
 enum kiriPatchChange { KIRI_PATCH_SAME, KIRI_PATCH_ROUNDED, KIRI_PATCH_OTHER };
 
 typedef struct kiriPatches {
     KIRI_ARRAY(float) floats;
-    KIRI_ARRAY(uint8_t) isOther; /* one a row: KIRI_PATCH_... */
+    KIRI_ARRAY(uint8_t) isOther; /* of each row: KIRI_PATCH_... */
     int32_t count;               /* of rows */
     bool isBent;
-    bool areOther; /* is any? */
+    bool areOther; /* a row is not KIRI_PATCH_SAME */
 } kiriPatches;
 
-/* Room for so many. */
 bool kiriPatches_Reserve(kiriPatches* patches, kiriMemory* memory, int32_t count);
 
-/* Those of `count` frames, which have these labels. Positions are measured from `from`: near the sheet floats tell its
-   points apart. Only those of `some`, unless that is null, may be other than they were written last. Returns whether
-   any patch is other than before. */
+/* Writes the rows of `count` frames, at their labels. Positions are relative to `from`, near the sheet, so that floats are
+   exact enough. Only `some` frames, unless that is null, may have changed. Returns true if a row changed. */
 bool kiriPatches_Write(kiriPatches* patches, const kiriLabels* labels, const kiriCarrier* carriers, int32_t count,
                        kiriVec3 from, bool isBent, const kiriIndices* some);
 
-/* None is as before when they are written next. */
+/* Makes all rows count as changed when they are written next. */
 void kiriPatches_Forget(kiriPatches* patches);
 
-/* May a sample from `begin` to `end` be elsewhere, because a patch that carries it is other than before? */
+/* Returns true if a patch that carries a sample from `begin` to `end` has changed. */
 bool kiriPatches_MayMove(const kiriPatches* patches, const kiriSkin* skin, int32_t begin, int32_t end);
 
-/* Where the samples from `begin` to `end` are, 3 floats each, by their rest points. Writes nothing else: ranges may be
-   written at the same time. */
+/* Writes the positions of the samples from `begin` to `end`, 3 floats each, from their rest points. Ranges may be written
+   in parallel. */
 void kiriSkin_WritePositions(const kiriSkin* skin, const kiriPatches* patches, const kiriVec2* rest, int32_t begin,
                              int32_t end, float* positions);
 
-/* Normals of vertices: the mean of those of their triangles, by area. */
+/* Normals of vertices: area-weighted means of the normals of their triangles. */
 
-/* Triangles by their corners, 3 each, and how each two are turned: to a, b, c and a, c, d where they share an edge. */
+/* Triangles, and the turn of each pair of them: to corners a, b, c and a, c, d if they share an edge. */
 typedef struct kiriCorners {
-    const int32_t* indices;
-    const uint8_t* turns; /* one for two triangles, see kiriNormals_TurnOf */
+    const int32_t* indices; /* 3 a triangle */
+    const uint8_t* turns;   /* one a pair, see kiriNormals_TurnOf */
     int32_t triangleCount;
 } kiriCorners;
 
-/* Of two triangles, or of one alone. */
+/* Returns the turn of two triangles, or of one alone. */
 uint8_t kiriNormals_TurnOf(const int32_t* indices, bool isAlone);
 
-/* Sums for the normals, 4 floats a vertex, by 3 floats of position each. One float more than the positions is read. */
+/* Writes the sums for the normals, 4 floats a vertex, from 3 floats of position each. Reads one float beyond the
+   positions. */
 void kiriNormals_Sum(float* slopes, int32_t vertexCount, const float* positions, const kiriCorners* corners);
 
-/* The sum of one vertex anew, the same bits. The mesh is that of the corners, but for triangles that are hidden. False
-   where too many triangles meet in it: nothing is written. */
+/* Writes the sum of one vertex, with the same bits. The mesh has the same triangles, some of which may be hidden. Returns
+   false if too many triangles meet in the vertex: then nothing is written. */
 bool kiriNormals_SumOne(float* slopes, int32_t vertex, const float* positions, const kiriCorners* corners,
                         const kiriMeshData* mesh);
 
-/* The normals from `begin` to `end`, 3 floats each; up where triangles tell none. Writes nothing else. */
+/* Writes the normals from `begin` to `end`, 3 floats each: up where the sum is 0. Ranges may be written in parallel. */
 void kiriNormals_Write(float* normals, const float* slopes, int32_t begin, int32_t end);
 
 KIRI_C_END
