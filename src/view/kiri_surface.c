@@ -4,6 +4,8 @@
 
 #include <string.h>
 
+/* ---- Fades ------------------------------------------------------------------------------------------------------- */
+
 bool kiriFades_Reserve(kiriFades* fades, kiriMemory* memory, int32_t sampleCount)
 {
     return kiriArray_Reserve(memory, &fades->fading, sampleCount);
@@ -34,26 +36,8 @@ void kiriFades_Keep(kiriFades* fades, const kiriKeep* samples)
     fades->fading.count = kept;
 }
 
-/* A jump on top of another leaves both as much time as they are long. */
-static double TimeLeft(const kiriFades* fades, const kiriFading* older, double jump)
-{
-    double length = kiriVec3_Length(older->offset), sum = length + jump;
-    return sum > 0.0 ? (length * older->left + jump * fades->time) / sum : 0.0;
-}
-
-static void TakeOne(kiriFades* fades, const kiriFading* older, kiriVec3 offset)
-{
-    double jump = kiriVec3_Length(kiriVec3_Sub(offset, older->offset));
-    fades->jump = kiriMax(jump, fades->jump);
-    if (fades->time > 0.0 && kiriVec3_Length(offset) > fades->least) {
-        kiriFading next = { older->sample, TimeLeft(fades, older, jump), offset };
-        KIRI_ASSERT(fades->fading.count < fades->older); /* Reserve has made room */
-        fades->fading.data[fades->fading.count++] = next;
-    }
-}
-
-/* What fades goes to the end of the room; from there it is merged to the front with what comes. As there is room for
-   every sample, the front stays behind. */
+/* Moves the old fades to the end of the room. From there they are merged to the front with the new jumps. There is room for
+   every sample, so the front stays behind. */
 void kiriFades_Start(kiriFades* fades)
 {
     kiriFading* data = fades->fading.data;
@@ -71,7 +55,14 @@ void kiriFades_TakeJump(kiriFades* fades, int32_t sample, kiriVec3 offset)
     if (kiriFades_Has(fades, sample)) {
         older = fades->fading.data[fades->older++];
     }
-    TakeOne(fades, &older, offset);
+    double jump = kiriVec3_Length(kiriVec3_Sub(offset, older.offset)), length = kiriVec3_Length(older.offset);
+    fades->jump = kiriMax(jump, fades->jump);
+    if (fades->time > 0.0 && kiriVec3_Length(offset) > fades->least) {
+        /* A jump on top of another: the mean of both times, weighted by lengths. */
+        double sum = length + jump, left = sum > 0.0 ? (length * older.left + jump * fades->time) / sum : 0.0;
+        KIRI_ASSERT(fades->fading.count < fades->older); /* Reserve has made room */
+        fades->fading.data[fades->fading.count++] = (kiriFading){ sample, left, offset };
+    }
 }
 
 void kiriFades_Advance(kiriFades* fades, double dt)
@@ -92,54 +83,20 @@ void kiriFades_Advance(kiriFades* fades, double dt)
     fades->fading.count = kept;
 }
 
+/* ---- Solid ------------------------------------------------------------------------------------------------------- */
+
 typedef struct SolidArrays {
     float *positions, *normals, *restPositions;
-    int32_t *indices, *sources;
+    int32_t *sources, *indices;
     int32_t vertexCount, triangleCount;
 } SolidArrays;
 
-static int32_t SolidCorner(const kiriMeshData* mesh, int32_t t, int k)
-{
-    KIRI_ASSERT(t >= 0 && t < mesh->triangles.count);
-    return mesh->triangles.data[t].vertex[k % 3];
-}
-
-static int32_t CountBorders(const kiriMeshData* mesh)
-{
-    int32_t count = 0;
-    for (int32_t t = 0; t < mesh->triangles.count; ++t) {
-        for (int k = 0; k < 3; ++k) {
-            count += kiriMesh_IsBorder(mesh, 3 * t + k);
-        }
-    }
-    return count;
-}
-
-static bool Allocate(SolidArrays* to, kiriMemory* memory, int64_t vertices, int64_t triangles)
-{
-    const int64_t f = sizeof(float), n = sizeof(int32_t);
-    to->positions = kiriMemory_Alloc(memory, 3 * f * vertices);
-    to->normals = kiriMemory_Alloc(memory, 3 * f * vertices);
-    to->restPositions = kiriMemory_Alloc(memory, 2 * f * vertices);
-    to->sources = kiriMemory_Alloc(memory, n * vertices);
-    to->indices = kiriMemory_Alloc(memory, 3 * n * triangles);
-    if (to->positions != NULL && to->normals != NULL && to->restPositions != NULL && to->sources != NULL &&
-        to->indices != NULL) {
-        return true;
-    }
-    kiriMemory_Free(memory, to->positions);
-    kiriMemory_Free(memory, to->normals);
-    kiriMemory_Free(memory, to->restPositions);
-    kiriMemory_Free(memory, to->sources);
-    kiriMemory_Free(memory, to->indices);
-    return false;
-}
-
-/* `above` m along the normal of the surface. */
+/* Adds a vertex, `above` (m) along the normal of the surface. */
 static void AddSolidVertex(SolidArrays* to, const kiriSurface* surface, int32_t vertex, double above, kiriVec3 normal)
 {
     int32_t n = to->vertexCount++;
     kiriVec3 out = kiriVec3_Load(&surface->normals.data[3 * vertex]);
+    KIRI_ASSERT(vertex >= 0 && vertex < surface->vertexCount);
     kiriVec3_Store(&to->positions[3 * n], kiriVec3_AddScaled(kiriSurface_At(surface, vertex), above, out));
     kiriVec3_Store(&to->normals[3 * n], normal);
     memcpy(&to->restPositions[2 * n], &surface->restPositions.data[2 * vertex], 2 * sizeof(float));
@@ -152,24 +109,7 @@ static void AddSolidTriangle(SolidArrays* to, int32_t a, int32_t b, int32_t c)
     memcpy(&to->indices[3 * (int64_t)to->triangleCount++], corners, sizeof(corners));
 }
 
-static void AddSides(SolidArrays* to, const kiriSurface* surface, double half)
-{
-    for (int side = 0; side < 2; ++side) {
-        for (int32_t v = 0; v < surface->vertexCount; ++v) {
-            kiriVec3 normal = kiriVec3_Load(&surface->normals.data[3 * v]);
-            AddSolidVertex(to, surface, v, side == 0 ? half : -half, kiriVec3_Scale(side == 0 ? 1.0 : -1.0, normal));
-        }
-    }
-    for (int side = 0; side < 2; ++side) {
-        int32_t first = side * surface->vertexCount;
-        for (int32_t t = 0; t < surface->triangleCount; ++t) {
-            const int32_t* corners = &surface->indices.data[3 * (int64_t)t];
-            AddSolidTriangle(to, first + corners[0], first + corners[1 + side], first + corners[2 - side]);
-        }
-    }
-}
-
-/* Four vertices of their own, so that it is flat and its edges are sharp. */
+/* Adds the rim along an edge. It has four vertices of its own, so that it is flat and its edges are sharp. */
 static void AddRim(SolidArrays* to, const kiriSurface* surface, int32_t a, int32_t b, double half)
 {
     kiriVec3 along = kiriVec3_Sub(kiriSurface_At(surface, b), kiriSurface_At(surface, a));
@@ -177,10 +117,9 @@ static void AddRim(SolidArrays* to, const kiriSurface* surface, int32_t a, int32
         kiriVec3_Add(kiriVec3_Load(&surface->normals.data[3 * a]), kiriVec3_Load(&surface->normals.data[3 * b]));
     kiriVec3 out = kiriVec3_Normalize(kiriVec3_Cross(along, up));
     int32_t first = to->vertexCount;
-    AddSolidVertex(to, surface, a, half, out);
-    AddSolidVertex(to, surface, b, half, out);
-    AddSolidVertex(to, surface, a, -half, out);
-    AddSolidVertex(to, surface, b, -half, out);
+    for (int k = 0; k < 4; ++k) {
+        AddSolidVertex(to, surface, k % 2 == 0 ? a : b, k < 2 ? half : -half, out);
+    }
     AddSolidTriangle(to, first + 1, first, first + 2);
     AddSolidTriangle(to, first + 1, first + 2, first + 3);
 }
@@ -188,26 +127,45 @@ static void AddRim(SolidArrays* to, const kiriSurface* surface, int32_t a, int32
 bool kiriSolid_Build(kiriSolid* solid, kiriMemory* memory, const kiriSurface* surface, const kiriMeshData* mesh,
                      double thickness)
 {
-    int64_t borders = CountBorders(mesh);
+    const double half = 0.5 * thickness;
+    int64_t borders = 0, halves = 3 * (int64_t)mesh->triangles.count;
+    KIRI_ASSERT(mesh->triangles.count == surface->triangleCount);
+    for (int32_t h = 0; h < halves; ++h) {
+        borders += kiriMesh_IsBorder(mesh, h);
+    }
     int64_t vertices = 2 * (int64_t)surface->vertexCount + 4 * borders;
     int64_t triangles = 2 * (int64_t)surface->triangleCount + 2 * borders;
-    SolidArrays to = { NULL, NULL, NULL, NULL, NULL, 0, 0 };
-    KIRI_ASSERT(mesh->triangles.count == surface->triangleCount);
-    if (vertices > INT32_MAX || triangles > INT32_MAX / 3 || !Allocate(&to, memory, vertices, triangles)) {
+    float* block = vertices > INT32_MAX || triangles > INT32_MAX / 3
+                       ? NULL
+                       : kiriMemory_Alloc(memory, 8 * (int64_t)sizeof(float) * vertices +
+                                                      (int64_t)sizeof(int32_t) * (vertices + 3 * triangles));
+    if (block == NULL) {
         return false;
     }
-    AddSides(&to, surface, 0.5 * thickness);
-    for (int32_t t = 0; t < mesh->triangles.count; ++t) {
-        for (int k = 0; k < 3; ++k) {
-            if (kiriMesh_IsBorder(mesh, 3 * t + k)) {
-                AddRim(&to, surface, SolidCorner(mesh, t, k), SolidCorner(mesh, t, k + 1), 0.5 * thickness);
-            }
+    int32_t* sources = (int32_t*)(void*)(block + 8 * vertices);
+    SolidArrays to = { block, block + 3 * vertices, block + 6 * vertices, sources, sources + vertices, 0, 0 };
+    for (int side = 0; side < 2; ++side) {
+        for (int32_t v = 0; v < surface->vertexCount; ++v) {
+            kiriVec3 normal = kiriVec3_Load(&surface->normals.data[3 * v]);
+            AddSolidVertex(&to, surface, v, side == 0 ? half : -half, kiriVec3_Scale(side == 0 ? 1.0 : -1.0, normal));
+        }
+        for (int32_t t = 0, first = side * surface->vertexCount; t < surface->triangleCount; ++t) {
+            const int32_t* corners = &surface->indices.data[3 * (int64_t)t];
+            AddSolidTriangle(&to, first + corners[0], first + corners[1 + side], first + corners[2 - side]);
         }
     }
+    for (int32_t h = 0; h < halves; ++h) {
+        if (kiriMesh_IsBorder(mesh, h)) {
+            AddRim(&to, surface, kiriMesh_Tail(mesh, h), kiriMesh_Head(mesh, h), half);
+        }
+    }
+    KIRI_ASSERT(to.vertexCount == vertices && to.triangleCount == triangles);
     *solid = (kiriSolid){ to.positions, to.normals,     to.restPositions, to.indices,
                           to.sources,   to.vertexCount, to.triangleCount, 2 * surface->triangleCount };
     return true;
 }
+
+/* ---- Room -------------------------------------------------------------------------------------------------------- */
 
 /* Places are written as soon as there is room: the tick in which a sheet comes far from the origin of the world shall
    not be the first to touch all of it. */
@@ -254,7 +212,7 @@ void kiriSurface_Truncate(kiriSurface* surface, int32_t frameCount)
     surface->carriers.count = surface->bends.count = frameCount;
 }
 
-/* ---- Topology ---- */
+/* ---- Topology ---------------------------------------------------------------------------------------------------- */
 
 static void WriteNewVertex(kiriSurface* surface, const kiriMeshData* mesh, int32_t v)
 {
@@ -325,17 +283,7 @@ static void WriteOldTriangles(kiriSurface* surface, const kiriMeshData* mesh, ki
     }
 }
 
-static kiriChange ChangeTo(const kiriSurface* surface, const kiriMeshData* mesh)
-{
-    kiriChange change;
-    memset(&change, 0, sizeof(change));
-    change.from = surface->revision;
-    change.to = mesh->revision;
-    change.oldVertexCount = surface->vertexCount;
-    change.oldTriangleCount = surface->triangleCount;
-    return change;
-}
-
+/* Adds a change that is complete to the ring. */
 static void RememberChange(kiriSurface* surface, const kiriChange* change)
 {
     surface->lastChange = (surface->lastChange + 1) % KIRI_CHANGES;
@@ -345,7 +293,9 @@ static void RememberChange(kiriSurface* surface, const kiriChange* change)
 
 void kiriSurface_WriteTopology(kiriSurface* surface, const kiriMeshData* mesh)
 {
-    kiriChange change = ChangeTo(surface, mesh);
+    kiriChange change = {
+        surface->revision, mesh->revision, surface->vertexCount, surface->triangleCount, { 0, 0 }, { 0, 0 }
+    };
     surface->origin = mesh->origin;
     surface->longer = KIRI_LATTICE * mesh->step;
     surface->pose += 1;
@@ -388,19 +338,13 @@ bool kiriSurface_RemakeRest(kiriSurface* surface, kiriMemory* memory, const kiri
     return true;
 }
 
-static kiriRange RangeFrom(int32_t first, int32_t end)
-{
-    kiriRange range = { first, end - first };
-    return range;
-}
-
-/* Adds the part of `more` that is below `end`: from there on all is new. */
+/* Extends a range by the part of another one below `end`. Items from there on are new. */
 static void Unite(kiriRange* range, kiriRange more, int32_t end)
 {
     if (more.count > 0 && more.first < end) {
         int32_t last = more.first + more.count - 1;
         Extend(range, more.first);
-        Extend(range, last < end ? last : end - 1);
+        Extend(range, kiriMin(last, end - 1));
     }
 }
 
@@ -418,12 +362,10 @@ void kiriSurface_GetDirty(const kiriSurface* surface, uint32_t sinceRevision, ki
         ++back;
     }
     if (at != sinceRevision) {
-        dirty->newVertices = RangeFrom(0, surface->vertexCount);
-        dirty->newTriangles = RangeFrom(0, surface->triangleCount);
-        return;
+        vertices = triangles = back = 0;
     }
-    dirty->newVertices = RangeFrom(vertices, surface->vertexCount);
-    dirty->newTriangles = RangeFrom(triangles, surface->triangleCount);
+    dirty->newVertices = (kiriRange){ vertices, surface->vertexCount - vertices };
+    dirty->newTriangles = (kiriRange){ triangles, surface->triangleCount - triangles };
     for (int32_t i = 0; i < back; ++i) {
         const kiriChange* change = &surface->changes[(surface->lastChange + KIRI_CHANGES - i) % KIRI_CHANGES];
         Unite(&dirty->oldVertices, change->vertices, vertices);
@@ -431,7 +373,7 @@ void kiriSurface_GetDirty(const kiriSurface* surface, uint32_t sinceRevision, ki
     }
 }
 
-/* ---- What is not seen ---- */
+/* ---- Hidden triangles -------------------------------------------------------------------------------------------- */
 
 static int32_t LentAfter(int64_t ticks)
 {
@@ -447,13 +389,10 @@ bool kiriSurface_RenewIndices(kiriSurface* surface, kiriMemory* memory, kiriMemo
 {
     kiriIndices fresh = { NULL, 0, 0 };
     kiriArrayHeader was = kiriArray_GetHeader(&surface->indices);
-    if (surface->lentAt != LentAfter(ticks)) {
-        return true;
+    if (surface->lentAt != LentAfter(ticks) || !kiriArray_Resize(memory, &fresh, was.count)) {
+        return surface->lentAt != LentAfter(ticks);
     }
-    if (!kiriArray_Resize(memory, &fresh, was.count)) {
-        return false;
-    }
-    if (was.count > 0) { /* else there may be no array */
+    if (was.count > 0) { /* an empty array may be null */
         memcpy(fresh.data, was.data, sizeof(int32_t) * (size_t)was.count);
     }
     kiriArray_SetHeader(&surface->indices, kiriArray_GetHeader(&fresh));
@@ -462,73 +401,57 @@ bool kiriSurface_RenewIndices(kiriSurface* surface, kiriMemory* memory, kiriMemo
     return true;
 }
 
-static void HideIndices(kiriSurface* surface, int32_t triangle)
-{
-    int32_t* corners = &surface->indices.data[3 * (size_t)triangle];
-    corners[1] = corners[2] = corners[0];
-}
-
 void kiriSurface_HideTriangle(kiriSurface* surface, int32_t triangle)
 {
-    HideIndices(surface, triangle);
+    int32_t* corners = &surface->indices.data[3 * (size_t)triangle];
+    KIRI_ASSERT(triangle >= 0 && triangle < surface->triangleCount);
+    corners[1] = corners[2] = corners[0];
     WriteTurn(surface, triangle / 2);
 }
 
-/* ---- What is left ---- */
+/* ---- Compaction -------------------------------------------------------------------------------------------------- */
+
+/* The arrays that the host may hold: numbers an item, and which items. */
+#define HOST_ARRAYS(X)                                                                                                 \
+    X(positions, 3, vertices)                                                                                          \
+    X(normals, 3, vertices)                                                                                            \
+    X(restPositions, 2, vertices)                                                                                      \
+    X(sourceWeights, 3, vertices)                                                                                      \
+    X(sourceTriangles, 1, vertices)                                                                                    \
+    X(indices, 3, triangles)
 
 bool kiriShown_Reserve(kiriShown* shown, kiriMemory* memory, const kiriKeep* triangles, const kiriKeep* vertices)
 {
-    int64_t vertexCount = vertices->count, triangleCount = triangles->count;
+    bool ok = true;
     memset(shown, 0, sizeof(*shown));
-    return kiriArray_Reserve(memory, &shown->positions, 3 * vertexCount + 1) &&
-           kiriArray_Reserve(memory, &shown->normals, 3 * vertexCount) &&
-           kiriArray_Reserve(memory, &shown->restPositions, 2 * vertexCount) &&
-           kiriArray_Reserve(memory, &shown->sourceWeights, 3 * vertexCount) &&
-           kiriArray_Reserve(memory, &shown->sourceTriangles, vertexCount) &&
-           kiriArray_Reserve(memory, &shown->indices, 3 * triangleCount);
+#define RESERVE_HOST_ARRAY(name, each, of) ok = ok && kiriArray_Reserve(memory, &shown->name, (each) * (int64_t)(of)->count + 1);
+    HOST_ARRAYS(RESERVE_HOST_ARRAY)
+    return ok;
 }
 
 void kiriShown_Release(kiriShown* shown, kiriMemory* memory)
 {
-    kiriArray_Release(memory, &shown->positions);
-    kiriArray_Release(memory, &shown->normals);
-    kiriArray_Release(memory, &shown->restPositions);
-    kiriArray_Release(memory, &shown->sourceWeights);
-    kiriArray_Release(memory, &shown->sourceTriangles);
-    kiriArray_Release(memory, &shown->indices);
+#define RELEASE_HOST_ARRAY(name, each, of) kiriArray_Release(memory, &shown->name);
+    HOST_ARRAYS(RELEASE_HOST_ARRAY)
 }
 
-/* The array, with `each` entries of 4 bytes an item, becomes `fresh` with what is kept. */
+/* Replaces an array by `fresh`, with the items that are kept, `each` numbers of 4 bytes an item. */
 static void TakeKept(const kiriKeep* keep, void* array, const void* fresh, int32_t each, kiriMemory* retired)
 {
     kiriArrayHeader was = kiriArray_GetHeader(array), is = kiriArray_GetHeader(fresh);
     kiriKeep_Copy(keep, is.data, was.data, 4 * (size_t)each);
     is.count = each * keep->count;
+    KIRI_ASSERT(is.count <= is.capacity);
     kiriArray_SetHeader(array, is);
     kiriMemory_Adopt(retired, was.data);
-}
-
-static void RenumberIndices(kiriSurface* surface, const kiriMeshData* mesh)
-{
-    for (int32_t t = 0; t < surface->triangleCount; ++t) {
-        WriteTriangle(surface, mesh, t);
-    }
-    surface->turns.count = surface->triangleCount / 2 + surface->triangleCount % 2;
-    for (int32_t pair = 0; 2 * pair < surface->triangleCount; ++pair) {
-        WriteTurn(surface, pair);
-    }
 }
 
 void kiriSurface_Keep(kiriSurface* surface, kiriShown* shown, const kiriKeep* triangles, const kiriKeep* vertices,
                       const kiriMeshData* mesh, int32_t frameCount, kiriMemory* retired)
 {
     kiriSurface_NeedNormals(surface); /* in another order sums have other bits */
-    TakeKept(vertices, &surface->positions, &shown->positions, 3, retired);
-    TakeKept(vertices, &surface->normals, &shown->normals, 3, retired);
-    TakeKept(vertices, &surface->restPositions, &shown->restPositions, 2, retired);
-    TakeKept(vertices, &surface->sourceWeights, &shown->sourceWeights, 3, retired);
-    TakeKept(vertices, &surface->sourceTriangles, &shown->sourceTriangles, 1, retired);
-    TakeKept(triangles, &surface->indices, &shown->indices, 3, retired);
+#define TAKE_HOST_ARRAY(name, each, of) TakeKept(of, &surface->name, &shown->name, each, retired);
+    HOST_ARRAYS(TAKE_HOST_ARRAY)
     kiriKeep_Compact(vertices, &surface->rest, 1, sizeof(kiriVec2));
     kiriKeep_Compact(vertices, &surface->places, 3, sizeof(float));
     surface->slopes.count = 4 * vertices->count;
@@ -541,10 +464,16 @@ void kiriSurface_Keep(kiriSurface* surface, kiriShown* shown, const kiriKeep* tr
     surface->pose += 1;
     surface->isWritten = surface->isSteady = false;
     kiriPatches_Forget(&surface->patches);
-    RenumberIndices(surface, mesh);
+    for (int32_t t = 0; t < surface->triangleCount; ++t) {
+        WriteTriangle(surface, mesh, t);
+    }
+    surface->turns.count = surface->triangleCount / 2 + surface->triangleCount % 2;
+    for (int32_t pair = 0; 2 * pair < surface->triangleCount; ++pair) {
+        WriteTurn(surface, pair);
+    }
 }
 
-/* ---- Copies ---- */
+/* ---- Copies ------------------------------------------------------------------------------------------------------ */
 
 static void CopyStrided(const float* from, int32_t count, void* to, int32_t stride)
 {
@@ -573,10 +502,8 @@ bool kiriSurface_CopyIndices16(const kiriSurface* surface, int32_t firstTriangle
     return true;
 }
 
-/* ---- Positions ---- */
+/* ---- Positions --------------------------------------------------------------------------------------------------- */
 
-/* The middle of the frames, to a power of two between two and four times the longer side: so it is 0 for all sheets
-   near the origin of the world, and seldom changes. Floats hold it. */
 static double RoundToFloats(double x, double unit)
 {
     double steps = x / unit;
@@ -586,6 +513,8 @@ static double RoundToFloats(double x, double unit)
     return (float)x;
 }
 
+/* Returns the middle of the frames, rounded to a power of two between two and four times the longer side: so it is 0 for all
+   sheets near the origin of the world, and seldom changes. */
 static kiriVec3 FindMiddle(const kiriFrameData* frames, int32_t frameCount, double longer)
 {
     double unit = 1.0;
@@ -607,9 +536,8 @@ void kiriSurface_TakeFrames(kiriSurface* surface, const kiriLabels* labels, cons
 {
     bool isBent = surface->skinning == KIRI_SKINNING_SMOOTH && linkCount > 0;
     kiriVec3 was = surface->middle, middle = FindMiddle(frames, frameCount, surface->longer);
-    bool isSame = was.x == middle.x && was.y == middle.y && was.z == middle.z;
     surface->middle = middle;
-    if (!isSame) {
+    if (!kiriVec3_Equal(was, middle)) {
         kiriPatches_Forget(&surface->patches);
     }
     surface->isPartly = awake != NULL && surface->isSteady && surface->patches.isBent == isBent &&
@@ -665,29 +593,22 @@ void kiriSurface_SumNormals(kiriSurface* surface)
     }
 }
 
-/* Four vertices at a time: three lanes of x, y, z, x and so on. */
-static void WriteFar(kiriSurface* surface, int32_t begin, int32_t end)
+void kiriSurface_WriteRange(kiriSurface* surface, int32_t begin, int32_t end)
 {
     const kiriVec3 m = surface->middle;
     const float middle[6] = { (float)m.x, (float)m.y, (float)m.z, (float)m.x, (float)m.y, (float)m.z };
-    const kiriLanes xyzx = kiriLanes_Load(middle), yzxy = kiriLanes_Load(middle + 1), zxyz = kiriLanes_Load(middle + 2);
-    const float* from = surface->places.data + 3 * (ptrdiff_t)begin;
-    float* to = surface->positions.data + 3 * (ptrdiff_t)begin;
-    int32_t v = begin;
-    for (; v + 4 <= end; v += 4, from += 12, to += 12) {
-        kiriLanes_Store(to, kiriLanes_Add(xyzx, kiriLanes_Load(from)));
-        kiriLanes_Store(to + 4, kiriLanes_Add(yzxy, kiriLanes_Load(from + 4)));
-        kiriLanes_Store(to + 8, kiriLanes_Add(zxyz, kiriLanes_Load(from + 8)));
+    const ptrdiff_t last = kiriSurface_IsFar(surface) ? 3 * (ptrdiff_t)end : 0;
+    ptrdiff_t i = 3 * (ptrdiff_t)begin;
+    KIRI_ASSERT(begin >= 0 && begin <= end && end <= surface->vertexCount);
+    /* Four vertices at a time are three lanes: x, y, z, x and so on. */
+    for (; i + 12 <= last; i += 12) {
+        for (int k = 0; k < 3; ++k) {
+            kiriLanes local = kiriLanes_Load(surface->places.data + i + 4 * k);
+            kiriLanes_Store(surface->positions.data + i + 4 * k, kiriLanes_Add(kiriLanes_Load(middle + k), local));
+        }
     }
-    for (int32_t k = 0; k < 3 * (end - v); ++k) {
-        to[k] = middle[k % 3] + from[k];
-    }
-}
-
-void kiriSurface_WriteRange(kiriSurface* surface, int32_t begin, int32_t end)
-{
-    if (kiriSurface_IsFar(surface)) {
-        WriteFar(surface, begin, end);
+    for (; i < last; ++i) {
+        surface->positions.data[i] = middle[i % 3] + surface->places.data[i];
     }
     if (surface->hasNormals) {
         kiriNormals_Write(surface->normals.data, surface->slopes.data, begin, end);

@@ -1,5 +1,5 @@
-/* What is left of a jump when a cut takes effect: samples are seen to go on where they were, and go over to where the
-   new weights have them within a few ticks. */
+/* The surface in world space: the arrays that the host reads. Fades hide the jump when a cut takes effect: samples start at
+   their previous positions and go over to the new ones within a few ticks. */
 #ifndef KIRI_SURFACE_H
 #define KIRI_SURFACE_H
 
@@ -12,41 +12,41 @@ KIRI_C_BEGIN
 
 typedef struct kiriFading {
     int32_t sample;
-    double left; /* s until it is gone */
+    double left; /* s until its end */
     kiriVec3 offset;
 } kiriFading;
 
-/* Of a row of samples: those that are seen elsewhere than their weights have them. */
+/* Samples that are not at the positions of their weights. */
 typedef struct kiriFades {
     double time;                   /* s that a jump takes; 0: samples jump at once */
-    double least;                  /* m: what is less is not seen */
-    KIRI_ARRAY(kiriFading) fading; /* by sample */
-    int32_t older;                 /* while jumps are taken: the next of those from before, at the end of the room */
-    double jump, move;             /* m, in this tick: the longest jump that came, and way that a fade went */
+    double least;                  /* m: shorter offsets are dropped */
+    KIRI_ARRAY(kiriFading) fading; /* in the order of samples */
+    int32_t older;                 /* while jumps are taken: the next old fade, at the end of the room */
+    double jump, move;             /* m, in this tick: the longest jump, and the longest way of a fade */
 } kiriFades;
 
-/* Room for so many samples, so that the others do not fail; none is needed where jumps take no time. */
+/* Makes room for fades of this many samples, so that the other functions cannot fail. */
 bool kiriFades_Reserve(kiriFades* fades, kiriMemory* memory, int32_t sampleCount);
 
-/* Gives memory back where nothing fades. */
+/* Frees the memory if nothing fades. */
 void kiriFades_Trim(kiriFades* fades, kiriMemory* memory);
 void kiriFades_Release(kiriFades* fades, kiriMemory* memory);
 
-/* Samples are taken away. */
+/* Removes the samples that are not kept. */
 void kiriFades_Keep(kiriFades* fades, const kiriKeep* samples);
 
-/* A cut takes effect: Start, then Take, in their order, for each sample that fades, or whose place may be another. The
-   sample is seen so far from where it would be if nothing faded: from here on that fades. */
+/* When a cut takes effect: Start, then Take, in ascending order, for each sample that fades or may have jumped. `offset` is
+   from the new position of its weights to the position that was last written. */
 void kiriFades_Start(kiriFades* fades);
 void kiriFades_TakeJump(kiriFades* fades, int32_t sample, kiriVec3 offset);
 
-/* Does the sample, which is the next to take, fade already? */
+/* Returns true if the sample, the next to take, fades already. */
 static inline bool kiriFades_Has(const kiriFades* fades, int32_t sample)
 {
     return fades->older < fades->fading.capacity && fades->fading.data[fades->older].sample == sample;
 }
 
-/* Or one before `end`? */
+/* Returns true if a sample before `end` that is not yet taken fades. */
 static inline bool kiriFades_HasBelow(const kiriFades* fades, int32_t end)
 {
     return fades->older < fades->fading.capacity && fades->fading.data[fades->older].sample < end;
@@ -59,17 +59,14 @@ static inline void kiriFades_Take(kiriFades* fades, int32_t sample, kiriVec3 off
     }
 }
 
-/* Time goes on. */
+/* Shortens all offsets, after a tick of dt. */
 void kiriFades_Advance(kiriFades* fades, double dt);
-
-/* The surface that the host sees: the mesh as the frames carry it. It has corners and rest positions of its own, so
-   that the mesh may change while the surface still shows what was before. */
 
 /* A commit, for hosts that keep the mesh elsewhere. */
 typedef struct kiriChange {
     uint32_t from, to; /* revisions */
     int32_t oldVertexCount, oldTriangleCount;
-    kiriRange vertices, triangles; /* the least that hold all old ones that are other than before */
+    kiriRange vertices, triangles; /* the smallest ranges that hold all old items that changed */
 } kiriChange;
 
 enum { KIRI_CHANGES = 32 };
@@ -79,45 +76,46 @@ typedef struct kiriSurface {
     kiriVec2 origin;  /* m, rest plane: of local coordinates */
     double longer;    /* m: side of the sheet */
 
-    /* What the host reads. */
+    /* Arrays that the host reads. The mesh may change before they do. */
     KIRI_ARRAY(float) positions, normals, restPositions, sourceWeights;
     KIRI_ARRAY(int32_t) indices, sourceTriangles;
     int32_t vertexCount, triangleCount;
     uint32_t revision;
-    int32_t lentAt; /* the tick after which the host got the indices last, from 1 on */
+    int32_t lentAt; /* 1 + the tick after which the host last got the indices */
 
     KIRI_ARRAY(kiriVec2) rest; /* local m */
-    KIRI_ARRAY(uint8_t) turns; /* of the indices, for normals: see kiriCorners */
-    KIRI_ARRAY(float) slopes;  /* 4 a vertex: sums for the normals */
+    KIRI_ARRAY(uint8_t) turns; /* of pairs of triangles, for normals: see kiriCorners */
+    KIRI_ARRAY(float) slopes;  /* sums for the normals, 4 a vertex */
     int64_t pose;              /* grows whenever positions or corners may have changed */
-    kiriVec3 middle;           /* m: near the sheet; 0 where that is near the origin of the world */
-    KIRI_ARRAY(float) places;  /* 3 a vertex, from `middle`, where that is not 0: else the positions have them */
+    kiriVec3 middle;           /* m: near the sheet; 0 if the sheet is near the origin of the world */
+    KIRI_ARRAY(float) places;  /* positions from `middle`, 3 a vertex; unused if `middle` is 0 */
     KIRI_ARRAY(kiriCarrier) carriers;
     KIRI_ARRAY(kiriBend) bends;
     kiriPatches patches;
-    bool isWritten;                /* the arrays show the patches as they are; */
-    bool isSteady;                 /* they did when positions were written last, but for what fades; */
-    bool isPartly;                 /* and since then patches have changed of what is awake alone */
-    bool wantsNormals, hasNormals; /* the host asks for them; they are those of where vertices are seen, */
-    bool hasSlopes;                /* and so are the sums that they are made of */
+    bool isWritten;    /* positions are up to date with the patches */
+    bool isSteady;     /* positions were up to date when last written, but for fades */
+    bool isPartly;     /* isSteady, and since then only patches of awake frames have changed */
+    bool wantsNormals; /* the host asks for normals */
+    bool hasNormals;   /* normals are up to date with the positions */
+    bool hasSlopes;    /* slopes are up to date with the positions */
 
     kiriChange changes[KIRI_CHANGES]; /* a ring */
     int32_t changeCount, lastChange;
 } kiriSurface;
 
-/* Floats far from the origin of the world tell corners no more apart. */
+/* Returns true if the sheet is so far from the origin of the world that floats would round its positions too much. */
 static inline bool kiriSurface_IsFar(const kiriSurface* surface)
 {
     return surface->middle.x != 0.0 || surface->middle.y != 0.0 || surface->middle.z != 0.0;
 }
 
-/* 3 floats a vertex, from `middle`. */
+/* Returns the positions from `middle`, 3 floats a vertex. */
 static inline float* kiriSurface_Places(const kiriSurface* surface)
 {
     return kiriSurface_IsFar(surface) ? surface->places.data : surface->positions.data;
 }
 
-/* Where a vertex is seen: to 1e-6 of the sheet's size. */
+/* Returns the position of a vertex in world space, exact to 1e-6 of the size of the sheet. */
 static inline kiriVec3 kiriSurface_At(const kiriSurface* surface, int32_t vertex)
 {
     return kiriVec3_Add(surface->middle, kiriVec3_Load(kiriSurface_Places(surface) + 3 * (ptrdiff_t)vertex));
@@ -139,32 +137,32 @@ void kiriSurface_Truncate(kiriSurface* surface, int32_t frameCount);
    all of the mesh. */
 void kiriSurface_WriteTopology(kiriSurface* surface, const kiriMeshData* mesh);
 
-/* Derives rest positions, and turns of the indices, after a load. False for memory. */
+/* Derives rest positions and turns, after a load. Returns false on out of memory. */
 bool kiriSurface_RemakeRest(kiriSurface* surface, kiriMemory* memory, const kiriMeshData* mesh);
 
-/* Arrays for what is left of those that the host reads, which may hold the old ones. */
+/* Arrays that replace those of a surface. The host may still hold the old ones. */
 typedef struct kiriShown {
     KIRI_ARRAY(float) positions, normals, restPositions, sourceWeights;
     KIRI_ARRAY(int32_t) indices, sourceTriangles;
 } kiriShown;
 
-/* Room for what is kept, in the memory of the surface. False for memory: what is there is to be released. */
+/* Makes room for the items that are kept, in the memory of the surface. Returns false on out of memory: then Release. */
 bool kiriShown_Reserve(kiriShown* shown, kiriMemory* memory, const kiriKeep* triangles, const kiriKeep* vertices);
 void kiriShown_Release(kiriShown* shown, kiriMemory* memory);
 
-/* Triangles, vertices and frames have been taken away from the mesh: so they are from the surface. What is left is seen
-   where it was. The arrays that the host may hold get the owner `retired`. Never fails. */
+/* Removes the triangles, vertices and frames that were removed from the mesh. The others keep their positions. The old
+   arrays get the owner `retired`. Cannot fail. */
 void kiriSurface_Keep(kiriSurface* surface, kiriShown* shown, const kiriKeep* triangles, const kiriKeep* vertices,
                       const kiriMeshData* mesh, int32_t frameCount, kiriMemory* retired);
 
-/* The host gets the indices, after so many ticks. Any number of threads may say so at the same time. */
+/* Notes that the host gets the indices in this tick. Safe to call from several threads. */
 void kiriSurface_LendIndices(const kiriSurface* surface, int64_t ticks);
 
-/* Where the host holds the indices, they get a new array, and the old one gets the owner `retired`. False for
+/* Copies the indices to a new array if the host holds them; the old one gets the owner `retired`. Returns false on out of
    memory. */
 bool kiriSurface_RenewIndices(kiriSurface* surface, kiriMemory* memory, kiriMemory* retired, int64_t ticks);
 
-/* A triangle is seen no more: all its corners are the first. */
+/* Hides a triangle: sets its corners to the first. */
 void kiriSurface_HideTriangle(kiriSurface* surface, int32_t triangle);
 
 /* Takes over where the frames are, which have these labels in weights. The links tell a smooth surface how to bend; a
@@ -173,39 +171,37 @@ void kiriSurface_HideTriangle(kiriSurface* surface, int32_t triangle);
 void kiriSurface_TakeFrames(kiriSurface* surface, const kiriLabels* labels, const kiriFrameData* frames,
                             int32_t frameCount, const kiriLink* links, int32_t linkCount, const kiriAwake* awake);
 
-/* Where the vertices from `begin` to `end` are. Writes nothing else: ranges may be written at the same time. */
+/* Writes the positions of the vertices from `begin` to `end`, without fades. Ranges may be written in parallel. */
 void kiriSurface_BlendRange(kiriSurface* surface, const kiriSkin* skin, int32_t begin, int32_t end);
 
-/* Moves the vertices that are seen elsewhere. */
+/* Adds the offsets of fades to the positions. */
 void kiriSurface_AddFades(kiriSurface* surface, const kiriFades* fades);
 
-/* Once in a tick, when all vertices are where they are seen: the sums that normals are made of, where the host asks for
-   these. */
+/* Writes the sums for the normals, once in a tick when all positions are written, if the host asks for normals. */
 void kiriSurface_SumNormals(kiriSurface* surface);
 
-/* That of one vertex, the others being known. False where too many triangles meet in it. */
+/* Writes the sum of one vertex. Returns false if too many triangles meet in it. */
 bool kiriSurface_SumNormal(kiriSurface* surface, const kiriMeshData* mesh, int32_t vertex);
 
-/* Then the positions and normals that the host reads, of the vertices from `begin` to `end`. Writes nothing else. */
+/* Writes the positions and normals that the host reads, of the vertices from `begin` to `end`. Ranges may be written in
+   parallel. */
 void kiriSurface_WriteRange(kiriSurface* surface, int32_t begin, int32_t end);
 
-/* Before normals are read: makes them where the tick did not, the same bits. */
+/* Makes the normals if the tick did not, with the same bits. */
 void kiriSurface_NeedNormals(kiriSurface* surface);
 
-/* What has changed since the host saw that revision: all, where that is too long ago. */
+/* Writes the changes since a revision; everything, if it is too old. */
 void kiriSurface_GetDirty(const kiriSurface* surface, uint32_t sinceRevision, kiriDirty* dirty);
 
-/* Copies of `count` items from `first` on. Null: without these. Strides in bytes. */
+/* Copies positions and normals of `count` vertices. Null: does not copy these. Strides in bytes. */
 void kiriSurface_CopyVertices(const kiriSurface* surface, int32_t first, int32_t count, void* positions,
                               int32_t positionStride, void* normals, int32_t normalStride);
 
-/* False where the vertices are too many for 16 bits (65535 restarts primitives, and is no vertex). */
+/* Returns false if there are too many vertices for 16 bits. 65535 restarts primitives, so it is not a vertex. */
 bool kiriSurface_CopyIndices16(const kiriSurface* surface, int32_t firstTriangle, int32_t count, uint16_t* indices);
 
-/* The surface with a thickness, to draw: its two sides, and a rim along all borders, lips of cuts included. */
-
-/* Of the surface as it is seen now; `mesh` says where it is open. The arrays are blocks of `memory`. False for memory:
-   nothing is left of them. */
+/* Builds the surface with a thickness, to draw: its two sides, and a rim along all borders, also lips of cuts. The arrays
+   are in one block of `memory`. Returns false on out of memory. */
 bool kiriSolid_Build(kiriSolid* solid, kiriMemory* memory, const kiriSurface* surface, const kiriMeshData* mesh,
                      double thickness);
 
