@@ -122,22 +122,14 @@ static const kiriMember ShapeFrameMembers[] = {
 };
 static const kiriTable ShapeFrameTable = KIRI_TABLE(kiriShapeFrame, ShapeFrameMembers);
 
-static const kiriMember RawWeightMembers[] = {
-    KIRI_RUN(4, kiriRawWeight, cell, frame),
-    KIRI_RUN(8, kiriRawWeight, raw, raw),
-};
-static const kiriTable RawWeightTable = KIRI_TABLE(kiriRawWeight, RawWeightMembers);
-
 static const kiriMember ShapeWorkMembers[] = {
     KIRI_PART(kiriShapeWork, fromSite, FieldTable),
     KIRI_PART(kiriShapeWork, fromBorder, FieldTable),
     KIRI_ITEMS(4, kiriShapeWork, seeds),
-    KIRI_RUN(4, kiriShapeWork, frameStage, frameStage),
     KIRI_ITEMS(4, kiriShapeWork, loaded),
     KIRI_ITEMS(1, kiriShapeWork, isLoaded),
     KIRI_ITEMS(1, kiriShapeWork, marks),
     KIRI_ITEMS(4, kiriShapeWork, wasOwner),
-    KIRI_ITEMS(4, kiriShapeWork, awaited),
     KIRI_ITEMS(8, kiriShapeWork, rigidShares),
     KIRI_ITEMS(4, kiriShapeWork, counted),
     KIRI_ITEMS(4, kiriShapeWork, sideCounts),
@@ -145,10 +137,11 @@ static const kiriMember ShapeWorkMembers[] = {
     KIRI_PARTS(kiriShapeWork, frames, ShapeFrameTable),
     KIRI_ITEMS(4, kiriShapeWork, dirtyFrames),
     KIRI_ITEMS(4, kiriShapeWork, touches),
-    KIRI_PARTS(kiriShapeWork, rawWeights, RawWeightTable),
     KIRI_ITEMS(4, kiriShapeWork, dirty),
-    KIRI_RUN(4, kiriShapeWork, stage, next),
-    KIRI_RUN(8, kiriShapeWork, due, due),
+    KIRI_ITEMS(4, kiriShapeWork, weights),
+    KIRI_BOOLS(kiriShapeWork, running, isMeasuring),
+    KIRI_RUN(4, kiriShapeWork, stage, item),
+    KIRI_RUN(8, kiriShapeWork, debt, debt),
 };
 static const kiriTable ShapeWorkTable = KIRI_TABLE(kiriShapeWork, ShapeWorkMembers);
 

@@ -5,133 +5,149 @@
 
 #include <string.h>
 
-/* How far distances to the site of a frame have to go. */
+/* Marks of a cell. */
+enum {
+    MARK_STEPS = 1, /* new, or its steps changed */
+    MARK_GONE = 2,
+    MARK_REGION = 4,      /* its owner or the distance to its site changed */
+    MARK_CHANGED = 8,     /* it is in shape->changes, */
+    MARK_RECOMPUTED = 16, /* and counted in shape->recomputed */
+    MARK_DIRTY = 32,      /* it is in work->dirty */
+    MARK_SEED = 64,       /* the site of the current frame may send it a seed */
+    MARK_SEEN = 128,      /* the cells that its steps lead to are loaded */
+};
 
-/* How far distances to the site of its region have to go for the sake of a cell x: to itself, and where a step leads
-   over the border to y, to the last cell that gets weight from there. Let the nearest way from such a cell c to the
-   border come in by y. Then d <= D(x) + |xy| + |yc|, and the weight is above zero only where d > 2 e = D(x) + |xy| -
+/* An update, and the frame that is measured. */
+typedef struct ShapeJob {
+    kiriShape* shape;
+    kiriShapeWork* work;
+    kiriMemory* memory;
+    const kiriGrid* grid;
+    const kiriMeshData* mesh;
+    const kiriRegions* regions;
+    const kiriSite* sites;
+    int32_t siteCount;
+    kiriQuota* quota;
+    bool outOfMemory; /* the update fails */
+    int32_t frame, label;
+} ShapeJob;
+
+static void AppendCell(ShapeJob* job, kiriIndices* list, int32_t cell)
+{
+    bool ok = kiriArray_Push(job->memory, list, cell);
+    job->outOfMemory = job->outOfMemory || !ok;
+}
+
+/* ---- How far the distances of a frame go ------------------------------------------------------------------------- */
+
+/* Returns how far distances to the site of its region have to go for the sake of a cell x: to itself, and where a step
+   leads over the border to y, to the last cell that gets weight from there. Let the nearest way from such a cell c to
+   the border come in by y. Then d <= D(x) + |xy| + |yc|, and the weight is above zero only where d > 2 e = D(x) + |xy| -
    D(y) + 2 |yc|: where |yc| < D(y), and so d < D(x) + |xy| + D(y). */
-static int32_t ReachAt(const kiriShapeJob* job, int32_t x)
+static int32_t FarthestFor(const ShapeJob* job, int32_t x)
 {
     const kiriField* field = &job->regions->field;
     const int32_t *owner = field->owner.data, *distance = field->distance.data;
-    kiriSteps steps;
     int64_t farthest = distance[x];
-    if (!job->regions->onBorder.data[x]) {
-        return distance[x] < KIRI_FAR ? distance[x] : KIRI_FAR - 1;
-    }
-    kiriGrid_GetSteps(job->grid, x, &steps);
-    for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        kiriStep step = steps.data[s];
-        if (owner[step.cell] != owner[x]) {
+    KIRI_ASSERT(owner[x] != KIRI_NONE && distance[x] < KIRI_FAR);
+    if (job->regions->onBorder.data[x]) {
+        kiriSteps steps;
+        kiriGrid_GetSteps(job->grid, x, &steps);
+        for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
+            kiriStep step = steps.data[s];
             int64_t over = (int64_t)distance[x] + step.length + distance[step.cell];
-            farthest = kiriMax(over, farthest);
+            farthest = owner[step.cell] != owner[x] ? kiriMax(over, farthest) : farthest;
         }
     }
-    return farthest < KIRI_FAR ? (int32_t)farthest : KIRI_FAR - 1;
+    return (int32_t)kiriMin(farthest, KIRI_FAR - 1);
 }
 
-static void CountSide(const kiriShapeJob* job, kiriCountedCell counted, int32_t more)
+/* Counts a cell for the limit of a frame, and no longer for another one. A label of KIRI_NONE: for none. */
+static void CountFor(ShapeJob* job, int32_t cell, kiriCountedCell is)
 {
-    if (counted.label != KIRI_NONE) {
-        int32_t frame = kiriLabels_Item(&job->shape->labels, counted.label);
-        job->work->sideCounts.data[job->work->frames.data[frame].sides.first + counted.sides] += more;
-    }
-}
-
-static void kiriShapeJob_UncountCell(kiriShapeJob* job, int32_t cell)
-{
-    KIRI_ASSERT(cell >= 0 && cell < job->work->counted.count);
-    kiriCountedCell* counted = &job->work->counted.data[cell];
-    CountSide(job, *counted, -1);
-    *counted = (kiriCountedCell){ KIRI_NONE, 0 };
-}
-
-/* Room to count sides up to this number. */
-static bool MakeSidesRoom(kiriShapeJob* job, int32_t frame, int32_t sides)
-{
+    KIRI_ASSERT(cell >= 0 && cell < job->work->counted.count && is.sides >= 0);
     kiriShapeWork* work = job->work;
-    kiriSpan* span = &work->frames.data[frame].sides;
-    int32_t k = span->count;
-    if (sides >= k && !kiriSpan_Resize(span, &work->sideRoom, job->memory, &work->sideCounts,
-                                       sizeof(*work->sideCounts.data), sides + 1)) {
-        return false;
+    kiriCountedCell* was = &work->counted.data[cell];
+    if (is.label == was->label && is.sides == was->sides) {
+        return;
     }
-    for (; k <= sides; ++k) {
-        work->sideCounts.data[span->first + k] = 0;
+    if (is.label != KIRI_NONE) {
+        kiriSpan* span = &work->frames.data[kiriLabels_Item(&job->shape->labels, is.label)].sides;
+        int32_t k = span->count;
+        if (is.sides >= k && !kiriSpan_Resize(span, &work->sideRoom, job->memory, &work->sideCounts,
+                                              sizeof(*work->sideCounts.data), is.sides + 1)) {
+            job->outOfMemory = true;
+            return;
+        }
+        for (; k <= is.sides; ++k) {
+            work->sideCounts.data[span->first + k] = 0;
+        }
+        work->sideCounts.data[span->first + is.sides] += 1;
     }
-    return true;
+    if (was->label != KIRI_NONE) {
+        kiriSpan span = work->frames.data[kiriLabels_Item(&job->shape->labels, was->label)].sides;
+        KIRI_ASSERT(was->sides < span.count && work->sideCounts.data[span.first + was->sides] > 0);
+        work->sideCounts.data[span.first + was->sides] -= 1;
+    }
+    *was = is;
 }
 
-static bool kiriShapeJob_CountCell(kiriShapeJob* job, int32_t cell)
+static void CountCell(ShapeJob* job, int32_t cell)
 {
-    KIRI_ASSERT(cell >= 0 && cell < job->work->counted.count);
-    kiriCountedCell is = { KIRI_NONE, 0 }, was = job->work->counted.data[cell];
+    kiriCountedCell is = { KIRI_NONE, 0 };
     int32_t frame = job->regions->field.owner.data[cell];
     if (frame != KIRI_NONE) {
         is.label = kiriLabels_Of(&job->shape->labels, frame);
-        is.sides = ReachAt(job, cell) / KIRI_UNIT;
+        is.sides = FarthestFor(job, cell) / KIRI_UNIT;
     }
-    if (is.label == was.label && is.sides == was.sides) {
-        return true;
-    }
-    if (frame != KIRI_NONE && !MakeSidesRoom(job, frame, is.sides)) {
-        return false;
-    }
-    kiriShapeJob_UncountCell(job, cell);
-    CountSide(job, is, 1);
-    job->work->counted.data[cell] = is;
-    return true;
+    CountFor(job, cell, is);
 }
 
-static int32_t kiriShapeJob_LimitOf(const kiriShapeJob* job)
+/* Returns the limit of the distances of the frame. */
+static int32_t FindLimit(const ShapeJob* job)
 {
     const kiriSpan span = job->work->frames.data[job->frame].sides;
     int64_t sides = span.count;
     while (sides > 1 && job->work->sideCounts.data[span.first + sides - 1] == 0) {
         --sides;
     }
-    return sides < 1 ? KIRI_UNIT : sides * KIRI_UNIT < KIRI_FAR ? (int32_t)(sides * KIRI_UNIT) : KIRI_FAR - 1;
+    return sides < 1 ? KIRI_UNIT : (int32_t)kiriMin(sides * KIRI_UNIT, KIRI_FAR - 1);
 }
 
-static bool IsInRegion(const kiriShapeJob* job, int32_t cell)
+/* ---- Algorithm 2: seeds and weights ------------------------------------------------------------------------------ */
+
+static bool IsInRegion(const ShapeJob* job, int32_t cell)
 {
     KIRI_ASSERT(cell >= 0 && cell < job->regions->field.owner.count);
     return job->regions->field.owner.data[cell] == job->frame;
 }
 
-/* ---- Seeds ------------------------------------------------------------------------------------------------------- */
-
 static kiriSeed SiteSeed(const void* context, int32_t cell)
 {
-    const kiriShapeJob* job = context;
+    const ShapeJob* job = context;
     const kiriSeed none = { cell, KIRI_FAR, KIRI_NONE };
-    bool may = (job->work->marks.data[cell] & KIRI_MARK_SEED) != 0;
+    bool may = (job->work->marks.data[cell] & MARK_SEED) != 0;
     return may ? kiriSite_SeedAt(&job->sites[job->frame], KIRI_NONE, job->grid, job->mesh, cell) : none;
 }
 
 /* The border lies on the way between x and y where the distances to their sites are equal. A half is rounded up. */
-static int32_t DistanceToBorder(const kiriShapeJob* job, int32_t x)
+static kiriSeed BorderSeed(const void* context, int32_t x)
 {
+    const ShapeJob* job = context;
     const int32_t* distance = job->regions->field.distance.data;
-    kiriSteps steps;
-    kiriGrid_GetSteps(job->grid, x, &steps);
-    int32_t least = KIRI_FAR;
-    for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        kiriStep step = steps.data[s];
-        if (IsInRegion(job, step.cell) != IsInRegion(job, x)) {
-            int32_t half = (distance[step.cell] + step.length - distance[x] + 1) / 2;
-            least = kiriMin(half, least);
+    kiriSeed seed = { x, KIRI_FAR, KIRI_NONE };
+    if (job->regions->onBorder.data[x] && job->work->fromSite.distance.data[x] != KIRI_FAR) {
+        kiriSteps steps;
+        kiriGrid_GetSteps(job->grid, x, &steps);
+        for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
+            kiriStep step = steps.data[s];
+            if (IsInRegion(job, step.cell) != IsInRegion(job, x)) {
+                int32_t half = (distance[step.cell] + step.length - distance[x] + 1) / 2;
+                seed.distance = kiriMin(half, seed.distance);
+            }
         }
     }
-    return kiriMax(least, 0); /* it is, but for distances that somebody made up */
-}
-
-static kiriSeed BorderSeed(const void* context, int32_t cell)
-{
-    const kiriShapeJob* job = context;
-    bool has = job->regions->onBorder.data[cell] && job->work->fromSite.distance.data[cell] != KIRI_FAR;
-    kiriSeed seed = { cell, has ? DistanceToBorder(job, cell) : KIRI_FAR, KIRI_NONE };
+    KIRI_ASSERT(seed.distance >= 0);
     return seed;
 }
 
@@ -140,7 +156,7 @@ static kiriSeed BorderSeed(const void* context, int32_t cell)
    way goes on depends only on e where it passes: so there is still one fixed point, and a repair finds it. */
 static bool HasWeight(const void* context, int32_t cell)
 {
-    const kiriShapeJob* job = context;
+    const ShapeJob* job = context;
     int64_t d = job->work->fromSite.distance.data[cell], e = job->work->fromBorder.distance.data[cell];
     return d != KIRI_FAR && (d > 2 * e || IsInRegion(job, cell));
 }
@@ -161,19 +177,164 @@ static double RawWeight(bool inside, int32_t d, int32_t e)
     return (double)d > 2.0 * e ? 0.5 * (1.0 - e / ((double)d - e)) : 0.0;
 }
 
-/* ---- Its blocks -------------------------------------------------------------------------------------------------- */
+/* ---- Changes of grid and regions --------------------------------------------------------------------------------- */
 
-enum { ITEMS_OF_LOAD = 8 };
+static void MarkFrameDirty(ShapeJob* job, int32_t frame)
+{
+    kiriShapeWork* work = job->work;
+    KIRI_ASSERT(frame >= KIRI_NONE && frame < job->siteCount);
+    if (frame != KIRI_NONE && !work->frames.data[frame].dirty) {
+        KIRI_ASSERT(work->dirtyFrames.count < work->dirtyFrames.capacity);
+        work->frames.data[frame].dirty = true;
+        work->dirtyFrames.data[work->dirtyFrames.count++] = frame;
+    }
+}
 
-/* There is room for all. */
-static void LoadNewBlock(const kiriShapeJob* job, int32_t cells)
+/* Tells all frames that reach a changed cell. */
+static void TouchCell(ShapeJob* job, int32_t cell)
 {
     kiriShapeWork* work = job->work;
     const kiriReaches* reaches = &job->shape->reaches;
+    for (int32_t b = reaches->ofCells.data[kiriReach_BlockOf(cell)]; b != KIRI_NONE;
+         b = reaches->heads.data[b].nextOfCells) {
+        if (reaches->blocks.data[b].fromSite[cell % KIRI_BLOCK_CELLS] != KIRI_FAR) {
+            int32_t frame = kiriLabels_Item(&job->shape->labels, reaches->heads.data[b].label);
+            kiriTouchedCell touched = { cell, work->frames.data[frame].firstTouch };
+            MarkFrameDirty(job, frame);
+            work->frames.data[frame].firstTouch = work->touches.count;
+            if (!kiriArray_Push(job->memory, &work->touches, touched)) {
+                work->frames.data[frame].firstTouch = touched.next;
+                job->outOfMemory = true;
+            }
+        }
+    }
+}
+
+/* Lists a cell with other distances or material. */
+static void MarkDirty(ShapeJob* job, int32_t cell)
+{
+    KIRI_ASSERT(kiriGrid_IsCell(job->grid, cell));
+    if ((job->work->marks.data[cell] & MARK_DIRTY) == 0) {
+        job->work->marks.data[cell] |= MARK_DIRTY;
+        AppendCell(job, &job->work->dirty, cell);
+    }
+}
+
+static void MarkChanged(ShapeJob* job, int32_t cell)
+{
+    KIRI_ASSERT(kiriGrid_IsCell(job->grid, cell));
+    if ((job->work->marks.data[cell] & MARK_CHANGED) == 0) {
+        job->work->marks.data[cell] |= MARK_CHANGED;
+        AppendCell(job, &job->shape->changes, cell);
+    }
+}
+
+/* Adds a share to the rigid sums of the frames that hold the cell rigidly. */
+static void AddRigid(ShapeJob* job, int32_t cell, int64_t share)
+{
+    kiriShape* shape = job->shape;
+    kiriSpan span = shape->spans.data[cell];
+    double sum = kiriShape_Sum(shape, span);
+    for (int32_t k = span.first; k < span.first + span.count; ++k) {
+        const kiriCellWeight* weight = &shape->weights.data[k];
+        if (kiriCellWeight_Raw(weight) / sum > shape->rigidWeight) {
+            shape->rigid.data[kiriLabels_Item(&shape->labels, weight->label)] += share;
+        }
+    }
+}
+
+static bool MarkGone(ShapeJob* job, int32_t item)
+{
+    kiriShape* shape = job->shape;
+    int32_t cell = job->grid->changes.gone.data[item];
+    AddRigid(job, cell, -job->work->rigidShares.data[cell]);
+    kiriSpan_Resize(&shape->spans.data[cell], &shape->room, job->memory, &shape->weights, sizeof(kiriCellWeight), 0);
+    CountFor(job, cell, (kiriCountedCell){ KIRI_NONE, 0 });
+    job->work->marks.data[cell] |= MARK_GONE;
+    TouchCell(job, cell);
+    job->work->debt += 1;
+    return true;
+}
+
+static bool MarkSteps(ShapeJob* job, int32_t item)
+{
+    int32_t cell = job->grid->changes.steps.data[item];
+    job->work->marks.data[cell] |= MARK_STEPS;
+    MarkChanged(job, cell);
+    TouchCell(job, cell);
+    job->work->debt += 1;
+    return true;
+}
+
+static bool MarkMaterial(ShapeJob* job, int32_t item)
+{
+    MarkDirty(job, job->grid->changes.material.data[item].cell);
+    job->work->debt += 1;
+    return true;
+}
+
+static bool MarkRegion(ShapeJob* job, int32_t item)
+{
+    kiriSeed was = job->regions->changes.data[item];
+    uint8_t* mark = &job->work->marks.data[was.cell];
+    *mark |= MARK_REGION;
+    job->work->wasOwner.data[was.cell] = was.owner;
+    MarkFrameDirty(job, was.owner);
+    MarkFrameDirty(job, job->regions->field.owner.data[was.cell]);
+    if ((*mark & MARK_STEPS) == 0) {
+        TouchCell(job, was.cell);
+    }
+    job->work->debt += 1;
+    return true;
+}
+
+/* Counts how far distances have to go for the sake of a cell that has changed, and of the cells beside it. */
+static void CountAround(ShapeJob* job, int32_t cell)
+{
+    kiriSteps steps;
+    kiriGrid_GetSteps(job->grid, cell, &steps);
+    CountCell(job, cell);
+    for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
+        int32_t beside = steps.data[s].cell;
+        if ((job->work->marks.data[beside] & (MARK_STEPS | MARK_REGION)) == 0) {
+            CountCell(job, beside);
+        }
+    }
+}
+
+static bool CountSteps(ShapeJob* job, int32_t item)
+{
+    CountAround(job, job->grid->changes.steps.data[item]);
+    job->work->debt += 1;
+    return true;
+}
+
+static bool CountRegion(ShapeJob* job, int32_t item)
+{
+    int32_t cell = job->regions->changes.data[item].cell;
+    if ((job->work->marks.data[cell] & MARK_STEPS) == 0) {
+        CountAround(job, cell);
+    }
+    job->work->debt += 1;
+    return true;
+}
+
+/* ---- Distances of a frame, from its blocks ----------------------------------------------------------------------- */
+
+/* Loads the distances of a block of cells, unless they are made from scratch. */
+static void LoadBlock(const ShapeJob* job, int32_t cells)
+{
+    enum { COST_OF_LOAD = 8 };
+    kiriShapeWork* work = job->work;
+    const kiriReaches* reaches = &job->shape->reaches;
+    KIRI_ASSERT(cells >= 0 && cells < work->isLoaded.count);
+    if (work->isLoaded.data[cells]) {
+        return;
+    }
     int32_t block = kiriReaches_Find(reaches, job->label, cells), first = cells * KIRI_BLOCK_CELLS;
     KIRI_ASSERT(work->loaded.count < work->loaded.capacity);
-    work->isLoaded.data[cells] = KIRI_BLOCK_LOADED;
-    work->due += ITEMS_OF_LOAD;
+    work->isLoaded.data[cells] = 1;
+    work->debt += COST_OF_LOAD;
     work->loaded.data[work->loaded.count++] = (kiriLoadedBlock){ cells, block };
     if (block != KIRI_NONE && !work->frames.data[job->frame].moved) {
         const kiriReachBlock* from = &reaches->blocks.data[block];
@@ -182,58 +343,32 @@ static void LoadNewBlock(const kiriShapeJob* job, int32_t cells)
     }
 }
 
-/* Loads the distances of these cells, unless they are made from scratch. */
-static inline void LoadBlock(const kiriShapeJob* job, int32_t cells)
-{
-    KIRI_ASSERT(cells >= 0 && cells < job->work->isLoaded.count);
-    if (!job->work->isLoaded.data[cells]) {
-        LoadNewBlock(job, cells);
-    }
-}
-
 /* Loads the cells that the steps of this one lead to. */
 static void LoadAround(const void* context, int32_t cell)
 {
-    const kiriShapeJob* job = context;
+    const ShapeJob* job = context;
     uint8_t* mark = &job->work->marks.data[cell];
-    if ((*mark & KIRI_MARK_SEEN) != 0) {
-        return;
-    }
-    *mark |= KIRI_MARK_SEEN;
-    const kiriStepRun* run = &job->grid->runs.data[cell];
-    if (kiriStepRun_IsOpen(run)) {
-        const int32_t* around = kiriGrid_AroundOpen(job->grid, run);
-        for (int k = 0; k < KIRI_OPEN_STEPS; ++k) {
-            LoadBlock(job, kiriReach_BlockOf(around[job->grid->openTo[k]]));
+    if ((*mark & MARK_SEEN) == 0) {
+        kiriSteps steps;
+        kiriGrid_GetSteps(job->grid, cell, &steps);
+        for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
+            LoadBlock(job, kiriReach_BlockOf(steps.data[s].cell));
         }
-        return;
-    }
-    for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        LoadBlock(job, kiriReach_BlockOf(job->grid->steps.data[s].cell));
+        *mark |= MARK_SEEN;
     }
 }
 
-/* Where the site has moved, nothing of what was is of use; but weights of cells that are out of reach now must go. */
-static void LoadAllBlocks(kiriShapeJob* job)
+/* Marks the seeds that may differ where a cell has another owner or distance: its own seed, and the seeds of cells beside
+   it across the border of the region. */
+static void MarkBorderSeedsDirty(ShapeJob* job, int32_t cell)
 {
-    const kiriReaches* reaches = &job->shape->reaches;
-    for (int32_t b = reaches->ofLabel.data[job->label]; b != KIRI_NONE; b = reaches->blocks.data[b].nextOfFrame) {
-        LoadBlock(job, reaches->blocks.data[b].cells);
-    }
-}
-
-/* A cell has another owner or distance. So where the border of the frame's region runs between it and a cell beside it,
-   the seeds of both may differ. */
-static void MarkBorderSeedsDirty(kiriShapeJob* job, int32_t cell)
-{
-    KIRI_ASSERT(cell >= 0 && cell < job->work->wasOwner.count);
+    KIRI_ASSERT((job->work->marks.data[cell] & MARK_REGION) != 0);
     kiriField* field = &job->work->fromBorder;
     bool inside = IsInRegion(job, cell), turned = inside != (job->work->wasOwner.data[cell] == job->frame);
     kiriSteps steps;
     LoadAround(job, cell);
     if (turned) {
         kiriField_MarkDirty(field, cell);
-        job->work->isLoaded.data[kiriReach_BlockOf(cell)] |= KIRI_BLOCK_TURNED;
     } else if (!job->regions->onBorder.data[cell]) {
         return;
     }
@@ -247,9 +382,9 @@ static void MarkBorderSeedsDirty(kiriShapeJob* job, int32_t cell)
     }
 }
 
-/* The steps of a cell have changed. Of those that they lead to, cells that the frame does not reach yet do not know of
-   it: other frames, or none, have touched them. */
-static void MarkStepsAround(kiriShapeJob* job, int32_t cell)
+/* Marks a cell with other steps. It also marks new cells beside it that the frame does not reach yet: only frames that
+   reached them have touched them. */
+static void MarkStepsAround(ShapeJob* job, int32_t cell)
 {
     kiriShapeWork* work = job->work;
     kiriSteps steps;
@@ -259,33 +394,35 @@ static void MarkStepsAround(kiriShapeJob* job, int32_t cell)
     kiriGrid_GetSteps(job->grid, cell, &steps);
     for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
         int32_t beside = steps.data[s].cell;
-        if (work->fromSite.distance.data[beside] == KIRI_FAR && (work->marks.data[beside] & KIRI_MARK_STEPS) != 0) {
+        if (work->fromSite.distance.data[beside] == KIRI_FAR && (work->marks.data[beside] & MARK_STEPS) != 0) {
             kiriField_MarkStepsDirty(&work->fromSite, beside);
         }
     }
 }
 
-/* Loads a changed cell, and marks what may change in the fields. */
-static void LoadTouched(kiriShapeJob* job, int32_t cell)
+/* Loads a changed cell, and marks the cells whose distances may differ. */
+static void LoadTouched(ShapeJob* job, int32_t cell)
 {
+    enum { COST_OF_TOUCH = 2 };
     kiriShapeWork* work = job->work;
     uint8_t mark = work->marks.data[cell];
     LoadBlock(job, kiriReach_BlockOf(cell));
-    if ((mark & KIRI_MARK_GONE) != 0) {
+    work->debt += COST_OF_TOUCH;
+    if ((mark & MARK_GONE) != 0) {
         kiriField_Forget(&work->fromSite, cell);
         kiriField_Forget(&work->fromBorder, cell);
         return;
     }
-    if ((mark & KIRI_MARK_STEPS) != 0) {
+    if ((mark & MARK_STEPS) != 0) {
         MarkStepsAround(job, cell);
     }
-    if ((mark & KIRI_MARK_REGION) != 0) {
+    if ((mark & MARK_REGION) != 0) {
         MarkBorderSeedsDirty(job, cell);
     }
 }
 
-/* The limit is another: cells beyond it lose their distance, or distances have to go on from those near the old one. */
-static void LoadBeyond(kiriShapeJob* job, int32_t limit)
+/* Follows another limit: cells beyond it lose their distance, or distances have to go on from those near the old one. */
+static void LoadBeyond(ShapeJob* job, int32_t limit)
 {
     kiriShapeWork* work = job->work;
     const kiriReaches* reaches = &job->shape->reaches;
@@ -295,7 +432,7 @@ static void LoadBeyond(kiriShapeJob* job, int32_t limit)
         for (int32_t k = 0; k < KIRI_BLOCK_CELLS; ++k) {
             int32_t cell = block->cells * KIRI_BLOCK_CELLS + k;
             if (block->fromSite[k] <= rim || block->fromSite[k] == KIRI_FAR ||
-                (work->marks.data[cell] & KIRI_MARK_GONE) != 0) {
+                (work->marks.data[cell] & MARK_GONE) != 0) {
                 continue;
             }
             LoadBlock(job, block->cells);
@@ -309,33 +446,23 @@ static void LoadBeyond(kiriShapeJob* job, int32_t limit)
     }
 }
 
-enum { ITEMS_OF_TOUCH = 2 };
-
-/* The cells about which something has changed. */
-static kiriProgress LoadAllTouched(kiriShapeJob* job, kiriQuota* quota)
-{
-    kiriShapeFrame* frame = &job->work->frames.data[job->frame];
-    for (; !frame->moved && frame->firstTouch != KIRI_NONE; --frame->touches) {
-        if (!kiriQuota_Take(quota, ITEMS_OF_TOUCH)) {
-            return KIRI_MORE;
-        }
-        kiriTouchedCell touched = job->work->touches.data[frame->firstTouch];
-        LoadTouched(job, touched.cell);
-        frame->firstTouch = touched.next;
-    }
-    return KIRI_DONE;
-}
-
-/* The seeds of a site depend on the steps of its cell, so cells there are dirty too. */
-static void LoadChanges(kiriShapeJob* job, int32_t limit)
+/* Loads the changes for a frame whose site stays. Seeds of a site depend on the steps of its cell. */
+static void LoadChanges(ShapeJob* job, int32_t limit)
 {
     kiriShapeWork* work = job->work;
+    const kiriShapeFrame* frame = &work->frames.data[job->frame];
     int32_t cell = job->sites[job->frame].cell;
-    kiriSteps steps;
-    if (limit != work->frames.data[job->frame].limit) {
+    for (int32_t t = frame->firstTouch; t != KIRI_NONE; t = work->touches.data[t].next) {
+        LoadTouched(job, work->touches.data[t].cell);
+    }
+    for (int32_t k = 0; k < work->seeds.count; ++k) {
+        LoadBlock(job, kiriReach_BlockOf(work->seeds.data[k].cell));
+    }
+    if (limit != frame->limit) {
         LoadBeyond(job, limit);
     }
-    if ((work->marks.data[cell] & KIRI_MARK_STEPS) != 0) {
+    if ((work->marks.data[cell] & MARK_STEPS) != 0) {
+        kiriSteps steps;
         LoadAround(job, cell);
         kiriGrid_GetSteps(job->grid, cell, &steps);
         for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
@@ -344,58 +471,48 @@ static void LoadChanges(kiriShapeJob* job, int32_t limit)
     }
 }
 
-static bool StartFromSite(kiriShapeJob* job)
+/* Starts the distances to the site. Where it has moved, no old distance is of use; but all blocks are loaded, because
+   cells out of reach lose their weight. */
+static bool StartFromSite(ShapeJob* job)
 {
     kiriShapeWork* work = job->work;
     kiriShapeFrame* frame = &work->frames.data[job->frame];
-    int32_t limit = kiriShapeJob_LimitOf(job);
+    const kiriReaches* reaches = &job->shape->reaches;
+    int32_t limit = FindLimit(job);
     work->seeds.count = 0;
     if (!kiriSite_Seed(&job->sites[job->frame], KIRI_NONE, job->memory, job->grid, job->mesh, &work->seeds)) {
         return false;
     }
     for (int32_t k = 0; k < work->seeds.count; ++k) {
-        work->marks.data[work->seeds.data[k].cell] |= KIRI_MARK_SEED;
-        LoadBlock(job, kiriReach_BlockOf(work->seeds.data[k].cell));
+        work->marks.data[work->seeds.data[k].cell] |= MARK_SEED;
     }
-    if (frame->moved) {
-        LoadAllBlocks(job);
-    } else {
+    if (!frame->moved) {
         LoadChanges(job, limit);
+        frame->limit = limit;
+        return true;
     }
     frame->limit = limit;
-    return !frame->moved || kiriField_Start(&work->fromSite, job->memory, work->seeds.data, work->seeds.count);
-}
-
-static bool SeedBorder(kiriShapeJob* job)
-{
-    kiriShapeWork* work = job->work;
-    const uint8_t* onBorder = job->regions->onBorder.data;
-    work->seeds.count = 0;
-    for (int32_t k = 0; k < work->fromSite.settled.count; ++k) {
-        int32_t cell = work->fromSite.settled.data[k];
-        if (onBorder[cell]) {
-            kiriSeed seed = { cell, DistanceToBorder(job, cell), KIRI_NONE };
-            if (seed.distance < KIRI_FAR && !kiriArray_Push(job->memory, &work->seeds, seed)) {
-                return false;
-            }
-        }
+    for (int32_t k = 0; k < work->seeds.count; ++k) {
+        LoadBlock(job, kiriReach_BlockOf(work->seeds.data[k].cell));
     }
-    return kiriField_Start(&work->fromBorder, job->memory, work->seeds.data, work->seeds.count);
+    for (int32_t b = reaches->ofLabel.data[job->label]; b != KIRI_NONE; b = reaches->blocks.data[b].nextOfFrame) {
+        LoadBlock(job, reaches->blocks.data[b].cells);
+    }
+    return kiriField_Start(&work->fromSite, job->memory, work->seeds.data, work->seeds.count);
 }
 
-/* Where the distance to the site has changed, ways to the border may pass that did not, or no more. */
-static kiriProgress MarkForBorder(kiriShapeJob* job, kiriQuota* quota)
+/* Starts the distances to the border. Where the distance to the site has changed, ways to the border may pass that did
+   not, or no longer. */
+static bool StartFromBorder(ShapeJob* job)
 {
-    enum { MARKED_AN_ITEM = 4 };
+    enum { MARKED_AN_ITEM = 4, SEEDED_AN_ITEM = 16 };
     kiriShapeWork* work = job->work;
     for (; work->fromSite.log.count > 0; --work->fromSite.log.count) {
         int32_t last = work->fromSite.log.count - 1;
         kiriSeed was = work->fromSite.log.data[last];
         bool isOther = work->fromSite.distance.data[was.cell] != was.distance;
-        bool mayTurn = isOther && (work->marks.data[was.cell] & KIRI_MARK_REGION) != 0;
-        if (!kiriQuota_Take(quota, mayTurn || last % MARKED_AN_ITEM == 0)) {
-            return KIRI_MORE;
-        }
+        bool mayTurn = isOther && (work->marks.data[was.cell] & MARK_REGION) != 0;
+        work->debt += mayTurn || last % MARKED_AN_ITEM == 0;
         if (isOther) {
             kiriField_MarkDirty(&work->fromBorder, was.cell);
         }
@@ -403,619 +520,253 @@ static kiriProgress MarkForBorder(kiriShapeJob* job, kiriQuota* quota)
             MarkBorderSeedsDirty(job, was.cell);
         }
     }
-    return KIRI_DONE;
-}
-
-static kiriProgress StartFromBorder(kiriShapeJob* job, kiriQuota* quota)
-{
-    enum { SEEDED_AN_ITEM = 16 };
-    kiriShapeWork* work = job->work;
-    kiriProgress progress = KIRI_DONE;
     if (!work->frames.data[job->frame].moved) {
-        progress = MarkForBorder(job, quota);
-    } else if (!kiriQuota_TakeAtMostAll(quota, work->fromSite.settled.count / SEEDED_AN_ITEM)) {
-        progress = KIRI_MORE;
-    } else if (!SeedBorder(job)) {
-        progress = KIRI_FAILED;
+        return true;
     }
-    work->frameStage = progress == KIRI_DONE ? KIRI_FRAME_BORDER : KIRI_FRAME_SEEDS;
-    return progress;
+    work->seeds.count = 0;
+    work->debt += work->fromSite.settled.count / SEEDED_AN_ITEM;
+    for (int32_t k = 0; k < work->fromSite.settled.count; ++k) {
+        kiriSeed seed = BorderSeed(job, work->fromSite.settled.data[k]);
+        if (seed.distance < KIRI_FAR && !kiriArray_Push(job->memory, &work->seeds, seed)) {
+            return false;
+        }
+    }
+    return kiriField_Start(&work->fromBorder, job->memory, work->seeds.data, work->seeds.count);
 }
 
-/* Fields that are made from scratch are empty where no block is loaded. */
-static kiriLookFn* LookFor(const kiriShapeJob* job)
+/* Floods or repairs a field. A flooded one is empty where no block is loaded. False: the quota is spent. */
+static bool MeasureField(ShapeJob* job, kiriField* field, int32_t limit, kiriPassFn* pass, kiriSeedFn* seed)
 {
-    return job->work->frames.data[job->frame].moved ? NULL : LoadAround;
-}
-
-static kiriProgress MeasureField(kiriShapeJob* job, kiriField* field, const kiriRule* rule, kiriQuota* quota)
-{
+    bool moved = job->work->frames.data[job->frame].moved;
+    const kiriRule rule = { job->grid, limit, pass, seed, job, moved ? NULL : LoadAround, { NULL, NULL } };
     int32_t k = field->settled.count;
-    if (!job->work->frames.data[job->frame].moved) {
-        return kiriField_Repair(field, job->memory, rule, quota);
-    }
-    kiriProgress progress = kiriField_Flood(field, rule, quota);
-    for (; k < field->settled.count; ++k) {
+    kiriProgress progress = moved ? kiriField_Flood(field, &rule, job->quota)
+                                  : kiriField_Repair(field, job->memory, &rule, job->quota);
+    for (; moved && k < field->settled.count; ++k) {
         LoadBlock(job, kiriReach_BlockOf(field->settled.data[k]));
     }
-    return progress;
+    job->outOfMemory = job->outOfMemory || progress == KIRI_FAILED;
+    return progress != KIRI_MORE;
 }
 
 /* ---- Back into its blocks ---------------------------------------------------------------------------------------- */
 
-/* UnloadFrame has made room. */
-static void AddRawWeight(kiriShapeJob* job, int32_t cell, int32_t fromSite, int32_t fromBorder)
+/* Puts the distances of a block of cells back and empties the fields there. Distances to the border are known one step
+   farther than ways go on: those are dropped. Cells with other distances, and those that came to the region of the
+   frame or left it, get other weights. */
+static void UnloadBlock(ShapeJob* job, kiriLoadedBlock loaded)
 {
-    KIRI_ASSERT(cell >= 0 && cell < job->shape->spans.count);
+    enum { COST_OF_BLOCK = 2, CHANGED_AN_ITEM = 2 };
     kiriShapeWork* work = job->work;
-    double raw = fromSite == KIRI_FAR ? 0.0 : RawWeight(IsInRegion(job, cell), fromSite, fromBorder);
-    bool none = job->shape->spans.data[cell].count == 0;
-    if (raw > 0.0 || !none) {
-        work->awaited.data[cell] += none;
-        KIRI_ASSERT(work->rawWeights.count < work->rawWeights.capacity);
-        work->rawWeights.data[work->rawWeights.count++] = (kiriRawWeight){ cell, job->frame, raw };
-    }
-}
-
-/* Has the cell come to the region of the frame, or left it? */
-static bool HasTurned(const kiriShapeJob* job, int32_t cell)
-{
-    KIRI_ASSERT(cell >= 0 && cell < job->work->marks.count);
-    return (job->work->marks.data[cell] & KIRI_MARK_REGION) != 0 &&
-           (job->work->wasOwner.data[cell] == job->frame) != IsInRegion(job, cell);
-}
-
-/* Distances to the border are given one step farther than ways go on: does the frame reach any of these cells? */
-static bool DropBeyond(const int32_t* fromSite, int32_t* fromBorder)
-{
+    kiriReaches* reaches = &job->shape->reaches;
+    int32_t first = loaded.cells * KIRI_BLOCK_CELLS, changed = 0;
+    int32_t *fromSite = &work->fromSite.distance.data[first], *fromBorder = &work->fromBorder.distance.data[first];
     bool any = false;
     for (int32_t k = 0; k < KIRI_BLOCK_CELLS; ++k) {
-        fromBorder[k] = fromSite[k] == KIRI_FAR ? KIRI_FAR : fromBorder[k];
         any = any || fromSite[k] != KIRI_FAR;
     }
-    return any;
-}
-
-/* The distances go back into the block. Weights follow where they have changed. */
-static void UnloadCells(kiriShapeJob* job, kiriReachBlock* block, const int32_t* fromSite, const int32_t* fromBorder)
-{
+    int32_t index = any && loaded.block == KIRI_NONE ? kiriReaches_Add(reaches, job->label, loaded.cells) : loaded.block;
+    kiriReachBlock* block = index != KIRI_NONE ? &reaches->blocks.data[index] : NULL;
     for (int32_t k = 0; k < KIRI_BLOCK_CELLS; ++k) {
-        int32_t cell = block->cells * KIRI_BLOCK_CELLS + k;
-        bool same = block->fromSite[k] == fromSite[k] && block->fromBorder[k] == fromBorder[k];
-        bool is = fromSite[k] != KIRI_FAR || block->fromSite[k] != KIRI_FAR;
-        block->fromSite[k] = fromSite[k];
-        block->fromBorder[k] = fromBorder[k];
-        if (is && (!same || HasTurned(job, cell)) && kiriGrid_IsCell(job->grid, cell)) {
-            AddRawWeight(job, cell, fromSite[k], fromBorder[k]);
+        uint8_t* mark = &work->marks.data[first + k];
+        if (block != NULL && (fromSite[k] != KIRI_FAR || block->fromSite[k] != KIRI_FAR)) {
+            int32_t border = fromSite[k] == KIRI_FAR ? KIRI_FAR : fromBorder[k];
+            bool same = block->fromSite[k] == fromSite[k] && block->fromBorder[k] == border;
+            bool turned = (*mark & MARK_REGION) != 0 &&
+                          (work->wasOwner.data[first + k] == job->frame) != IsInRegion(job, first + k);
+            changed += !same;
+            if ((!same || turned) && kiriGrid_IsCell(job->grid, first + k)) {
+                MarkDirty(job, first + k);
+            }
+            block->fromSite[k] = fromSite[k];
+            block->fromBorder[k] = border;
         }
-    }
-}
-
-/* Has nothing changed in the block? */
-static bool IsAsLoaded(const kiriShapeJob* job, int32_t cells, const kiriReachBlock* block)
-{
-    const kiriShapeWork* work = job->work;
-    int32_t first = cells * KIRI_BLOCK_CELLS;
-    return !work->frames.data[job->frame].moved && work->isLoaded.data[cells] == KIRI_BLOCK_LOADED &&
-           memcmp(block->fromSite, &work->fromSite.distance.data[first], sizeof(block->fromSite)) == 0 &&
-           memcmp(block->fromBorder, &work->fromBorder.distance.data[first], sizeof(block->fromBorder)) == 0;
-}
-
-static void UnloadBlock(kiriShapeJob* job, kiriLoadedBlock loaded)
-{
-    kiriShapeWork* work = job->work;
-    kiriReaches* reaches = &job->shape->reaches;
-    int32_t first = loaded.cells * KIRI_BLOCK_CELLS, block = loaded.block;
-    int32_t *fromSite = &work->fromSite.distance.data[first], *fromBorder = &work->fromBorder.distance.data[first];
-    bool any = DropBeyond(fromSite, fromBorder);
-    if (any && block == KIRI_NONE) {
-        block = kiriReaches_Add(reaches, job->label, loaded.cells);
-    }
-    if (block != KIRI_NONE && !IsAsLoaded(job, loaded.cells, &reaches->blocks.data[block])) {
-        UnloadCells(job, &reaches->blocks.data[block], fromSite, fromBorder);
-    }
-    if (!any && block != KIRI_NONE) {
-        kiriReaches_Remove(reaches, block);
-    }
-    for (int32_t k = 0; k < KIRI_BLOCK_CELLS; ++k) {
         fromSite[k] = fromBorder[k] = KIRI_FAR;
-        work->marks.data[first + k] &= (uint8_t) ~(KIRI_MARK_SEED | KIRI_MARK_SEEN);
+        *mark &= (uint8_t) ~(MARK_SEED | MARK_SEEN);
+    }
+    if (!any && block != NULL) {
+        kiriReaches_Remove(reaches, index);
     }
     work->isLoaded.data[loaded.cells] = 0;
+    work->debt += COST_OF_BLOCK + changed / CHANGED_AN_ITEM;
 }
 
-/* Of a block, which is looked for in several places of memory; and of cells with other distances, which may get another
-   weight. */
-static int64_t ItemsToUnload(const kiriShapeJob* job, kiriLoadedBlock loaded)
-{
-    enum { ITEMS_OF_BLOCK = 2, CHANGED_AN_ITEM = 2 };
-    const kiriShapeWork* work = job->work;
-    const kiriReachBlock* block = loaded.block != KIRI_NONE ? &job->shape->reaches.blocks.data[loaded.block] : NULL;
-    int32_t first = loaded.cells * KIRI_BLOCK_CELLS, changed = 0;
-    const int32_t *fromSite = &work->fromSite.distance.data[first],
-                  *fromBorder = &work->fromBorder.distance.data[first];
-    for (int32_t k = 0; k < KIRI_BLOCK_CELLS; ++k) {
-        int32_t wasSite = block != NULL ? block->fromSite[k] : KIRI_FAR;
-        int32_t wasBorder = block != NULL ? block->fromBorder[k] : KIRI_FAR;
-        changed += (fromSite[k] != wasSite) | ((fromBorder[k] != wasBorder) & (fromSite[k] != KIRI_FAR));
-    }
-    return ITEMS_OF_BLOCK + changed / CHANGED_AN_ITEM;
-}
-
-/* For all that may come out of the fields. */
-static bool ReserveUnload(kiriShapeJob* job)
+/* Brings the blocks up to date with the fields, and empties the fields. False for memory. */
+static bool UnloadFrame(ShapeJob* job)
 {
     kiriReaches* reaches = &job->shape->reaches;
     kiriShapeWork* work = job->work;
-    int64_t blocks = kiriReaches_RoomFor(reaches, work->loaded.count),
-            weights = work->rawWeights.count + (int64_t)KIRI_BLOCK_CELLS * work->loaded.count;
-    return kiriArray_Reserve(job->memory, &reaches->blocks, blocks) &&
-           kiriArray_Reserve(job->memory, &reaches->heads, blocks) &&
-           kiriArray_Reserve(job->memory, &work->rawWeights, weights);
-}
-
-/* Brings the blocks up to date with the fields, and empties these. */
-static kiriProgress UnloadFrame(kiriShapeJob* job, kiriQuota* quota)
-{
-    kiriShapeWork* work = job->work;
-    if (!ReserveUnload(job)) {
-        return KIRI_FAILED;
+    int64_t blocks = kiriReaches_RoomFor(reaches, work->loaded.count);
+    if (!kiriArray_Reserve(job->memory, &reaches->blocks, blocks) ||
+        !kiriArray_Reserve(job->memory, &reaches->heads, blocks)) {
+        return false;
     }
     for (; work->loaded.count > 0; --work->loaded.count) {
-        kiriLoadedBlock loaded = work->loaded.data[work->loaded.count - 1];
-        if (!kiriQuota_Take(quota, ItemsToUnload(job, loaded))) {
-            return KIRI_MORE;
-        }
-        UnloadBlock(job, loaded);
+        UnloadBlock(job, work->loaded.data[work->loaded.count - 1]);
     }
     work->fromSite.settled.count = work->fromSite.log.count = 0;
     work->fromBorder.settled.count = work->fromBorder.log.count = 0;
-    work->frameStage = KIRI_FRAME_REST;
-    return KIRI_DONE;
+    return true;
 }
 
-/* ---- Algorithm 2 of a frame -------------------------------------------------------------------------------------- */
+/* Measures a frame in three parts: distances to its site, then to its border; then they go back into its blocks. */
+enum { MEASURE_SITE, MEASURE_BORDER, MEASURE_UNLOAD, MEASURE_PARTS };
 
-static kiriProgress StartFrame(kiriShapeJob* job, kiriQuota* quota)
-{
-    kiriProgress progress = LoadAllTouched(job, quota);
-    if (progress == KIRI_DONE) {
-        job->work->frameStage = KIRI_FRAME_SITE;
-        progress = StartFromSite(job) ? KIRI_DONE : KIRI_FAILED;
-    }
-    return progress;
-}
-
-static kiriProgress MeasureFromSite(kiriShapeJob* job, kiriQuota* quota)
+static bool MeasureFrame(ShapeJob* job, int32_t item)
 {
     kiriShapeWork* work = job->work;
-    const kiriRule rule = { job->grid,     work->frames.data[job->frame].limit, NULL, SiteSeed, job, LookFor(job),
-                            { NULL, NULL } };
-    kiriProgress progress = MeasureField(job, &work->fromSite, &rule, quota);
-    if (progress == KIRI_DONE) {
-        work->frameStage = KIRI_FRAME_SEEDS;
+    int32_t part = item % MEASURE_PARTS;
+    bool starts = !work->isMeasuring, ok = true, isDone = true;
+    job->frame = work->dirtyFrames.data[item / MEASURE_PARTS];
+    job->label = kiriLabels_Of(&job->shape->labels, job->frame);
+    if (part == MEASURE_SITE) {
+        ok = !starts || StartFromSite(job);
+        isDone = !ok || MeasureField(job, &work->fromSite, work->frames.data[job->frame].limit, NULL, SiteSeed);
+    } else if (part == MEASURE_BORDER) {
+        ok = !starts || StartFromBorder(job);
+        isDone = !ok || MeasureField(job, &work->fromBorder, KIRI_FAR - 1, HasWeight, BorderSeed);
+    } else {
+        ok = UnloadFrame(job);
     }
-    return progress;
-}
-
-static kiriProgress MeasureFromBorder(kiriShapeJob* job, kiriQuota* quota)
-{
-    kiriShapeWork* work = job->work;
-    const kiriRule rule = { job->grid, KIRI_FAR - 1, HasWeight, BorderSeed, job, LookFor(job), { NULL, NULL } };
-    kiriProgress progress = MeasureField(job, &work->fromBorder, &rule, quota);
-    if (progress == KIRI_DONE) {
-        work->frameStage = KIRI_FRAME_UNLOAD;
-    }
-    return progress;
-}
-
-/* By kiriFrameStage. */
-static kiriProgress (*const frameStages[])(kiriShapeJob* job, kiriQuota* quota) = {
-    StartFrame, MeasureFromSite, MeasureFromBorder, UnloadFrame, StartFromBorder,
-};
-
-static kiriProgress kiriShapeJob_MeasureFrame(kiriShapeJob* job, kiriQuota* quota)
-{
-    kiriProgress progress = KIRI_DONE;
-    do {
-        bool isPaid = kiriQuota_Pay(quota, &job->work->due);
-        progress = isPaid ? frameStages[job->work->frameStage](job, quota) : KIRI_MORE;
-    } while (progress == KIRI_DONE && job->work->frameStage != KIRI_FRAME_REST);
-    return progress;
+    job->outOfMemory = job->outOfMemory || !ok;
+    work->isMeasuring = !isDone;
+    return isDone;
 }
 
 /* ---- The weights of a cell --------------------------------------------------------------------------------------- */
 
-/* Adds a share to the rigid sums of the frames that hold the cell rigidly. */
-static void AddRigid(kiriShapeJob* job, int32_t cell, int64_t share)
+/* Lists the weights that the distances give a cell, in work->weights, by label. False for memory. */
+static bool ListWeights(ShapeJob* job, int32_t cell)
 {
-    KIRI_ASSERT(cell >= 0 && cell < job->shape->spans.count);
-    kiriSpan span = job->shape->spans.data[cell];
-    double sum = kiriShape_Sum(job->shape, span);
-    for (int32_t k = span.first; k < span.first + span.count; ++k) {
-        const kiriCellWeight* weight = &job->shape->weights.data[k];
-        if (kiriCellWeight_Raw(weight) / sum > job->shape->rigidWeight) {
-            job->shape->rigid.data[kiriLabels_Item(&job->shape->labels, weight->label)] += share;
+    kiriShapeWork* work = job->work;
+    const kiriReaches* reaches = &job->shape->reaches;
+    int32_t k = cell % KIRI_BLOCK_CELLS, owner = job->regions->field.owner.data[cell];
+    int32_t own = owner != KIRI_NONE ? kiriLabels_Of(&job->shape->labels, owner) : KIRI_NONE;
+    work->weights.count = 0;
+    for (int32_t b = reaches->ofCells.data[kiriReach_BlockOf(cell)]; b != KIRI_NONE;
+         b = reaches->heads.data[b].nextOfCells) {
+        const kiriReachBlock* block = &reaches->blocks.data[b];
+        int32_t label = reaches->heads.data[b].label, at = work->weights.count;
+        double raw =
+            block->fromSite[k] != KIRI_FAR ? RawWeight(label == own, block->fromSite[k], block->fromBorder[k]) : 0.0;
+        if (raw > 0.0) {
+            const kiriCellWeight weight = kiriCellWeight_Make(label, raw);
+            if (!kiriArray_Push(job->memory, &work->weights, weight)) {
+                return false;
+            }
+            for (; at > 0 && work->weights.data[at - 1].label > label; --at) {
+                work->weights.data[at] = work->weights.data[at - 1];
+            }
+            work->weights.data[at] = weight;
         }
     }
+    return true;
 }
 
-static bool AddWeightChange(kiriShapeJob* job, int32_t cell)
+/* Gives a cell the weights that its distances give, and its share of the rigid sums. */
+static bool WeighCell(ShapeJob* job, int32_t item)
 {
-    KIRI_ASSERT(kiriGrid_IsCell(job->grid, cell));
-    if ((job->work->marks.data[cell] & KIRI_MARK_CHANGED) != 0) {
-        return true;
-    }
-    job->work->marks.data[cell] |= KIRI_MARK_CHANGED;
-    return kiriArray_Push(job->memory, &job->shape->changes, cell);
-}
-
-/* The cell's weights or its material are about to change: they leave the rigid sums until it is finished. */
-static bool MarkSumDirty(kiriShapeJob* job, int32_t cell)
-{
-    KIRI_ASSERT(cell >= 0 && cell < job->work->marks.count);
-    if ((job->work->marks.data[cell] & KIRI_MARK_DIRTY) != 0) {
-        return true;
-    }
-    job->work->marks.data[cell] |= KIRI_MARK_DIRTY;
-    AddRigid(job, cell, -job->work->rigidShares.data[cell]);
-    return kiriArray_Push(job->memory, &job->work->dirty, cell);
-}
-
-static bool MarkWeightsDirty(kiriShapeJob* job, int32_t cell)
-{
-    KIRI_ASSERT(cell >= 0 && cell < job->work->marks.count);
-    uint8_t* mark = &job->work->marks.data[cell];
-    job->shape->recomputed += (*mark & KIRI_MARK_RECOMPUTED) == 0;
-    *mark |= KIRI_MARK_RECOMPUTED;
-    return MarkSumDirty(job, cell) && AddWeightChange(job, cell);
-}
-
-static bool ResizeWeights(kiriShapeJob* job, int32_t cell, int32_t count)
-{
+    enum { WEIGHTS_AN_ITEM = 3 };
     kiriShape* shape = job->shape;
-    return kiriSpan_Resize(&shape->spans.data[cell], &shape->room, job->memory, &shape->weights,
-                           sizeof(*shape->weights.data), count);
-}
-
-/* A cell without weights gets room for all at once. */
-static bool MakeFirstRoom(kiriShapeJob* job, int32_t cell)
-{
-    KIRI_ASSERT(cell >= 0 && cell < job->work->awaited.count);
-    return MarkWeightsDirty(job, cell) && ResizeWeights(job, cell, job->work->awaited.data[cell]);
-}
-
-/* Puts, changes or takes away one weight among those that are there. */
-static bool ReplaceWeight(kiriShapeJob* job, const kiriRawWeight* entry)
-{
-    KIRI_ASSERT(entry->frame >= 0 && entry->frame < job->siteCount && kiriGrid_IsCell(job->grid, entry->cell));
-    kiriSpan* span = &job->shape->spans.data[entry->cell];
-    kiriCellWeight* weights = job->shape->weights.data + span->first;
-    int32_t k = 0, label = kiriLabels_Of(&job->shape->labels, entry->frame);
-    while (k < span->count && weights[k].label < label) {
-        ++k;
-    }
-    bool found = k < span->count && weights[k].label == label, kept = entry->raw > 0.0;
-    if (found ? kiriCellWeight_Raw(&weights[k]) == entry->raw : !kept) {
-        return true;
-    }
-    if (!MarkWeightsDirty(job, entry->cell)) {
-        return false;
-    }
-    if (found && !kept) {
-        memmove(weights + k, weights + k + 1, (size_t)(span->count - k - 1) * sizeof(*weights));
-        return ResizeWeights(job, entry->cell, span->count - 1);
-    }
-    if (!found) {
-        if (!ResizeWeights(job, entry->cell, span->count + 1)) {
-            return false;
+    kiriShapeWork* work = job->work;
+    int32_t cell = work->dirty.data[item];
+    kiriSpan* span = &shape->spans.data[cell];
+    bool ok = ListWeights(job, cell);
+    size_t bytes = sizeof(kiriCellWeight) * (size_t)work->weights.count;
+    AddRigid(job, cell, -work->rigidShares.data[cell]);
+    if (span->count != work->weights.count ||
+        (bytes > 0 && memcmp(&shape->weights.data[span->first], work->weights.data, bytes) != 0)) {
+        shape->recomputed += (work->marks.data[cell] & MARK_RECOMPUTED) == 0;
+        work->marks.data[cell] |= MARK_RECOMPUTED;
+        MarkChanged(job, cell);
+        ok = ok && kiriSpan_Resize(span, &shape->room, job->memory, &shape->weights, sizeof(kiriCellWeight),
+                                   work->weights.count);
+        if (ok && bytes > 0) {
+            memcpy(&shape->weights.data[span->first], work->weights.data, bytes);
         }
-        weights = job->shape->weights.data + span->first;
-        memmove(weights + k + 1, weights + k, (size_t)(span->count - k - 1) * sizeof(*weights));
     }
-    weights[k] = kiriCellWeight_Make(label, entry->raw);
-    return true;
-}
-
-static bool PlaceWeight(kiriShapeJob* job, const kiriRawWeight* entry)
-{
-    int32_t* awaited = &job->work->awaited.data[entry->cell];
-    if (*awaited == 0) {
-        return ReplaceWeight(job, entry);
-    }
-    if (job->shape->spans.data[entry->cell].count == 0 && !MakeFirstRoom(job, entry->cell)) {
-        return false;
-    }
-    kiriSpan span = job->shape->spans.data[entry->cell];
-    KIRI_ASSERT(*awaited > 0 && *awaited <= span.count && entry->raw > 0.0);
-    job->shape->weights.data[span.first + span.count - (*awaited)--] =
-        kiriCellWeight_Make(kiriLabels_Of(&job->shape->labels, entry->frame), entry->raw);
-    return true;
-}
-
-/* Its weights and its material are what they shall be. */
-static void FinishCell(kiriShapeJob* job, int32_t cell)
-{
-    KIRI_ASSERT(job->work->awaited.data[cell] == 0);
     double share = kiriGrid_Area(job->grid, cell) / (job->grid->side * job->grid->side);
-    job->work->rigidShares.data[cell] = (int64_t)(share * 1099511627776.0 + 0.5);
-    AddRigid(job, cell, job->work->rigidShares.data[cell]);
-    job->work->marks.data[cell] &= (uint8_t)~KIRI_MARK_DIRTY;
+    work->rigidShares.data[cell] = (int64_t)(share * 1099511627776.0 + 0.5);
+    AddRigid(job, cell, work->rigidShares.data[cell]);
+    work->marks.data[cell] &= (uint8_t)~MARK_DIRTY;
+    work->debt += 1 + work->weights.count / WEIGHTS_AN_ITEM;
+    job->outOfMemory = job->outOfMemory || !ok;
+    return true;
 }
 
 /* ---- The update -------------------------------------------------------------------------------------------------- */
 
-/* Arrays that are read by whole blocks of cells. */
-static bool MakeBlocksRoom(kiriShapeJob* job)
-{
-    kiriShapeWork* work = job->work;
-    int32_t old = work->marks.count, was = work->isLoaded.count;
-    int32_t blocks = kiriReach_BlockOf(job->grid->cells.count + KIRI_BLOCK_CELLS - 1);
-    int32_t cells = blocks * KIRI_BLOCK_CELLS;
-    if (!kiriReaches_Resize(&job->shape->reaches, job->memory, cells,
-                            kiriLabels_Count(&job->shape->labels, job->siteCount)) ||
-        !kiriField_Resize(&work->fromSite, job->memory, cells) ||
-        !kiriField_Resize(&work->fromBorder, job->memory, cells) ||
-        !kiriArray_Resize(job->memory, &work->marks, cells) || !kiriArray_Reserve(job->memory, &work->loaded, blocks) ||
-        !kiriArray_Resize(job->memory, &work->isLoaded, blocks)) {
-        return false;
-    }
-    memset(work->marks.data + old, 0, (size_t)(cells - old));
-    memset(work->isLoaded.data + was, 0, (size_t)(blocks - was));
-    return true;
-}
+/* Algorithm 2, each stage over its items. An item returns false where the quota is spent amid it. */
+typedef bool ShapeStageFn(ShapeJob* job, int32_t item);
+enum { SHAPE_STAGES = 8 };
+static ShapeStageFn* const shapeStages[SHAPE_STAGES] = {
+    MarkGone,     /* cells that changed, and the frames that reach them */
+    MarkSteps,    /* the same */
+    MarkMaterial, /* the same */
+    MarkRegion,   /* the same */
+    CountSteps,   /* how far distances have to go; when all is marked */
+    CountRegion,  /* the same */
+    MeasureFrame, /* distances to the site and to the border */
+    WeighCell,    /* the weights that follow from them */
+};
 
-static bool MakeCellsRoom(kiriShapeJob* job)
+/* Makes room for all cells and frames. The fields, marks and blocks are read by whole blocks of cells. */
+static bool ReserveShape(ShapeJob* job)
 {
     kiriShape* shape = job->shape;
     kiriShapeWork* work = job->work;
-    int32_t cells = job->grid->cells.count, c = shape->spans.count;
-    if (!kiriArray_Resize(job->memory, &shape->spans, cells) ||
-        !kiriArray_Resize(job->memory, &work->wasOwner, cells) ||
-        !kiriArray_Resize(job->memory, &work->awaited, cells) ||
-        !kiriArray_Resize(job->memory, &work->counted, cells) ||
-        !kiriArray_Resize(job->memory, &work->rigidShares, cells)) {
+    kiriMemory* memory = job->memory;
+    int32_t cells = job->grid->cells.count, blocks = kiriReach_BlockOf(cells + KIRI_BLOCK_CELLS - 1);
+    int32_t whole = blocks * KIRI_BLOCK_CELLS, c = shape->spans.count;
+    int32_t marks = work->marks.count, loaded = work->isLoaded.count;
+    if (!kiriReaches_Resize(&shape->reaches, memory, whole, kiriLabels_Count(&shape->labels, job->siteCount)) ||
+        !kiriField_Resize(&work->fromSite, memory, whole) || !kiriField_Resize(&work->fromBorder, memory, whole) ||
+        !kiriArray_Resize(memory, &work->marks, whole) || !kiriArray_Reserve(memory, &work->loaded, blocks) ||
+        !kiriArray_Resize(memory, &work->isLoaded, blocks) || !kiriArray_Resize(memory, &shape->spans, cells) ||
+        !kiriArray_Resize(memory, &work->wasOwner, cells) || !kiriArray_Resize(memory, &work->counted, cells) ||
+        !kiriArray_Resize(memory, &work->rigidShares, cells) ||
+        !kiriArray_Reserve(memory, &shape->rigid, job->siteCount) ||
+        !kiriArray_Reserve(memory, &work->dirtyFrames, job->siteCount) ||
+        !kiriArray_Reserve(memory, &work->frames, job->siteCount)) {
         return false;
     }
+    memset(work->marks.data + marks, 0, (size_t)(whole - marks));
+    memset(work->isLoaded.data + loaded, 0, (size_t)(blocks - loaded));
     for (; c < cells; ++c) {
         shape->spans.data[c] = (kiriSpan){ 0, 0 };
-        work->awaited.data[c] = 0;
         work->counted.data[c] = (kiriCountedCell){ KIRI_NONE, 0 };
         work->rigidShares.data[c] = 0;
     }
-    return true;
-}
-
-static bool MakeFramesRoom(kiriShapeJob* job)
-{
-    kiriShape* shape = job->shape;
-    kiriShapeWork* work = job->work;
-    if (!kiriArray_Reserve(job->memory, &shape->rigid, job->siteCount) ||
-        !kiriArray_Reserve(job->memory, &work->dirtyFrames, job->siteCount) ||
-        !kiriArray_Reserve(job->memory, &work->frames, job->siteCount)) {
-        return false;
-    }
     while (shape->rigid.count < job->siteCount) {
         shape->rigid.data[shape->rigid.count++] = 0;
-        work->frames.data[work->frames.count++] = (kiriShapeFrame){ 0, { 0, 0 }, 0, KIRI_NONE, false, false };
+        work->frames.data[work->frames.count++] = (kiriShapeFrame){ 0, { 0, 0 }, KIRI_NONE, false, false };
     }
     return true;
 }
 
-static void MarkFrameDirty(kiriShapeJob* job, int32_t frame)
+static bool StartShapeUpdate(ShapeJob* job, const kiriSiteMove* moves, int32_t moveCount)
 {
     kiriShapeWork* work = job->work;
-    KIRI_ASSERT(frame >= KIRI_NONE && frame < job->siteCount);
-    if (frame != KIRI_NONE && !work->frames.data[frame].dirty) {
-        work->frames.data[frame].dirty = true;
-        work->dirtyFrames.data[work->dirtyFrames.count++] = frame;
-    }
-}
-
-static void StartStage(kiriShapeWork* work, kiriShapeStage stage)
-{
-    work->stage = stage;
-    work->next = 0;
-}
-
-static bool BeginWeights(kiriShapeJob* job, const kiriSiteMove* moves, int32_t moveCount)
-{
-    kiriShapeWork* work = job->work;
-    if (!MakeBlocksRoom(job) || !MakeCellsRoom(job) || !MakeFramesRoom(job)) {
+    if (!ReserveShape(job)) {
         return false;
     }
     for (int32_t k = 0; k < moveCount; ++k) {
         MarkFrameDirty(job, moves[k].frame);
         work->frames.data[moves[k].frame].moved = true;
     }
-    work->rawWeights.count = work->dirty.count = work->touches.count = 0;
-    StartStage(work, KIRI_SHAPE_MARK);
+    work->dirty.count = work->touches.count = 0;
+    work->stage = work->item = 0;
+    work->running = true;
     return true;
-}
-
-/* ---- What has changed -------------------------------------------------------------------------------------------- */
-
-/* All frames that reach the cell have to look at it. */
-static bool TouchCell(kiriShapeJob* job, int32_t cell)
-{
-    kiriShapeWork* work = job->work;
-    const kiriReaches* reaches = &job->shape->reaches;
-    kiriReachHead head;
-    for (int32_t b = reaches->ofCells.data[kiriReach_BlockOf(cell)]; b != KIRI_NONE; b = head.nextOfCells) {
-        head = reaches->heads.data[b];
-        if (reaches->blocks.data[b].fromSite[cell % KIRI_BLOCK_CELLS] != KIRI_FAR) {
-            int32_t f = kiriLabels_Item(&job->shape->labels, head.label);
-            kiriShapeFrame* frame = &work->frames.data[f];
-            kiriTouchedCell touched = { cell, frame->firstTouch };
-            MarkFrameDirty(job, f);
-            frame->firstTouch = work->touches.count;
-            frame->touches += 1;
-            if (!kiriArray_Push(job->memory, &work->touches, touched)) {
-                return false;
-            }
-        }
-    }
-    return true;
-}
-
-static bool MarkGone(kiriShapeJob* job, int32_t cell)
-{
-    KIRI_ASSERT(cell >= 0 && cell < job->work->rigidShares.count);
-    AddRigid(job, cell, -job->work->rigidShares.data[cell]);
-    ResizeWeights(job, cell, 0);
-    kiriShapeJob_UncountCell(job, cell);
-    job->work->marks.data[cell] |= KIRI_MARK_GONE;
-    return TouchCell(job, cell);
-}
-
-static bool MarkSteps(kiriShapeJob* job, int32_t cell)
-{
-    KIRI_ASSERT(cell >= 0 && cell < job->work->marks.count);
-    job->work->marks.data[cell] |= KIRI_MARK_STEPS;
-    return AddWeightChange(job, cell) && TouchCell(job, cell);
-}
-
-/* Another owner or distance. */
-static bool MarkRegion(kiriShapeJob* job, kiriSeed was)
-{
-    uint8_t* mark = &job->work->marks.data[was.cell];
-    bool isTouched = (*mark & KIRI_MARK_STEPS) != 0;
-    *mark |= KIRI_MARK_REGION;
-    job->work->wasOwner.data[was.cell] = was.owner;
-    MarkFrameDirty(job, was.owner);
-    MarkFrameDirty(job, job->regions->field.owner.data[was.cell]);
-    return isTouched || TouchCell(job, was.cell);
-}
-
-/* Counts how far distances have to go for the sake of a cell that has changed, and of those beside it. */
-static bool CountAround(kiriShapeJob* job, int32_t cell)
-{
-    kiriSteps steps;
-    kiriGrid_GetSteps(job->grid, cell, &steps);
-    const uint8_t* marks = job->work->marks.data;
-    bool ok = kiriShapeJob_CountCell(job, cell);
-    for (int32_t s = 0; ok && s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        int32_t beside = steps.data[s].cell;
-        ok = (marks[beside] & (KIRI_MARK_STEPS | KIRI_MARK_REGION)) != 0 || kiriShapeJob_CountCell(job, beside);
-    }
-    return ok;
-}
-
-/* What the grid and the regions have changed; and once more, when all is marked. */
-typedef enum ChangeList {
-    LIST_GONE,
-    LIST_STEPS,
-    LIST_MATERIAL,
-    LIST_REGION,
-    LIST_COUNT_STEPS,
-    LIST_COUNT_REGION
-} ChangeList;
-
-static bool MarkChange(kiriShapeJob* job, ChangeList list, int32_t k)
-{
-    const kiriGridChanges* changes = &job->grid->changes;
-    switch (list) {
-    case LIST_GONE:
-        return MarkGone(job, changes->gone.data[k]);
-    case LIST_STEPS:
-        return MarkSteps(job, changes->steps.data[k]);
-    case LIST_MATERIAL:
-        return MarkSumDirty(job, changes->material.data[k].cell);
-    case LIST_REGION:
-        return MarkRegion(job, job->regions->changes.data[k]);
-    case LIST_COUNT_STEPS:
-        return CountAround(job, changes->steps.data[k]);
-    default: {
-        int32_t cell = job->regions->changes.data[k].cell;
-        return (job->work->marks.data[cell] & KIRI_MARK_STEPS) != 0 || CountAround(job, cell);
-    }
-    }
-}
-
-enum { PLACED_AN_ITEM = 3 };
-
-/* Goes on at work->next, which counts through all lists. An item is a cell that is marked, or counted with those beside
-   it. */
-static kiriProgress MarkChanges(kiriShapeJob* job, kiriQuota* quota)
-{
-    kiriShapeWork* work = job->work;
-    const kiriGridChanges* changes = &job->grid->changes;
-    const int32_t counts[] = { changes->gone.count,         changes->steps.count, changes->material.count,
-                               job->regions->changes.count, changes->steps.count, job->regions->changes.count };
-    int32_t first = 0;
-    for (ChangeList list = LIST_GONE; list <= LIST_COUNT_REGION; ++list) {
-        for (; work->next < first + counts[list]; ++work->next) {
-            if (!kiriQuota_Take(quota, 1)) {
-                return KIRI_MORE;
-            }
-            if (!MarkChange(job, list, work->next - first)) {
-                return KIRI_FAILED;
-            }
-        }
-        first += counts[list];
-    }
-    kiriSort(work->dirtyFrames.data, work->dirtyFrames.count, NULL, NULL);
-    StartStage(work, KIRI_SHAPE_MEASURE);
-    return KIRI_DONE;
-}
-
-/* ---- The stages -------------------------------------------------------------------------------------------------- */
-
-static kiriProgress MeasureDirtyFrames(kiriShapeJob* job, kiriQuota* quota)
-{
-    kiriShapeWork* work = job->work;
-    for (; work->next < work->dirtyFrames.count; ++work->next) {
-        job->frame = work->dirtyFrames.data[work->next];
-        job->label = kiriLabels_Of(&job->shape->labels, job->frame);
-        kiriProgress progress = kiriShapeJob_MeasureFrame(job, quota);
-        if (progress != KIRI_DONE) {
-            return progress;
-        }
-    }
-    StartStage(work, job->shape->weights.count == 0 ? KIRI_SHAPE_MAKE_ROOM : KIRI_SHAPE_PLACE);
-    return KIRI_DONE;
-}
-
-/* Where no cell has weights yet, they get room in the order of cells: so weights of neighbours lie close together. */
-static kiriProgress MakeFirstRooms(kiriShapeJob* job, kiriQuota* quota)
-{
-    kiriShapeWork* work = job->work;
-    for (; work->next < job->grid->cells.count; ++work->next) {
-        if (work->awaited.data[work->next] > 0) {
-            if (!kiriQuota_Take(quota, 1)) {
-                return KIRI_MORE;
-            }
-            if (!MakeFirstRoom(job, work->next)) {
-                return KIRI_FAILED;
-            }
-        }
-    }
-    StartStage(work, KIRI_SHAPE_PLACE);
-    return KIRI_DONE;
-}
-
-static kiriProgress PlaceWeights(kiriShapeJob* job, kiriQuota* quota)
-{
-    kiriShapeWork* work = job->work;
-    for (; work->next < work->rawWeights.count; ++work->next) {
-        if (!kiriQuota_Take(quota, work->next % PLACED_AN_ITEM == 0)) {
-            return KIRI_MORE;
-        }
-        if (!PlaceWeight(job, &work->rawWeights.data[work->next])) {
-            return KIRI_FAILED;
-        }
-    }
-    StartStage(work, KIRI_SHAPE_FINISH);
-    return KIRI_DONE;
 }
 
 /* Clears the marks of this update, and takes cells that are gone out of the list of changes. */
-static void EndWeights(kiriShapeJob* job)
+static void EndShapeUpdate(ShapeJob* job)
 {
     kiriShape* shape = job->shape;
     const kiriGridChanges* changes = &job->grid->changes;
     uint8_t* marks = job->work->marks.data;
-    const uint8_t kept = (uint8_t) ~(KIRI_MARK_STEPS | KIRI_MARK_GONE | KIRI_MARK_REGION);
+    const uint8_t kept = (uint8_t) ~(MARK_STEPS | MARK_GONE | MARK_REGION);
     int32_t count = 0;
     for (int32_t k = 0; k < changes->steps.count; ++k) {
         marks[changes->steps.data[k]] &= kept;
@@ -1025,7 +776,7 @@ static void EndWeights(kiriShapeJob* job)
     }
     for (int32_t k = 0; k < shape->changes.count; ++k) {
         int32_t cell = shape->changes.data[k];
-        if ((marks[cell] & KIRI_MARK_GONE) == 0) {
+        if ((marks[cell] & MARK_GONE) == 0) {
             shape->changes.data[count++] = cell;
         }
     }
@@ -1035,36 +786,12 @@ static void EndWeights(kiriShapeJob* job)
     }
     for (int32_t k = 0; k < job->work->dirtyFrames.count; ++k) {
         kiriShapeFrame* frame = &job->work->frames.data[job->work->dirtyFrames.data[k]];
-        frame->touches = 0;
         frame->firstTouch = KIRI_NONE;
         frame->moved = frame->dirty = false;
     }
     job->work->dirtyFrames.count = 0;
-    job->work->stage = KIRI_SHAPE_REST;
+    job->work->running = false;
 }
-
-static kiriProgress FinishCells(kiriShapeJob* job, kiriQuota* quota)
-{
-    kiriShapeWork* work = job->work;
-    for (; work->next < work->dirty.count; ++work->next) {
-        if (!kiriQuota_Take(quota, 1)) {
-            return KIRI_MORE;
-        }
-        FinishCell(job, work->dirty.data[work->next]);
-    }
-    EndWeights(job);
-    return KIRI_DONE;
-}
-
-/* Algorithm 2, each stage over its items. */
-static kiriProgress (*const shapeStages[])(kiriShapeJob* job, kiriQuota* quota) = {
-    NULL,
-    MarkChanges,        /* cells, and the frames that reach them */
-    MeasureDirtyFrames, /* distances to the site and to the border, and the raw weights that follow from them */
-    MakeFirstRooms,     /* only where no cell has weights yet */
-    PlaceWeights,       /* the raw weights, in the spans of their cells */
-    FinishCells,        /* their rigid sums */
-};
 
 kiriProgress kiriShape_Update(kiriShape* shape, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                               const kiriRegions* regions, const kiriSite* sites, int32_t siteCount,
@@ -1073,97 +800,80 @@ kiriProgress kiriShape_Update(kiriShape* shape, kiriMemory* memory, const kiriGr
     if (shape->work == NULL) {
         shape->work = kiriMemory_AllocZeroed(memory, sizeof(*shape->work));
     }
-    if (shape->work == NULL) {
-        return KIRI_FAILED;
-    }
+    kiriShapeWork* work = shape->work;
     KIRI_ASSERT(!regions->running && regions->material.count == siteCount);
-    kiriShapeJob job = { shape, shape->work, memory, grid, mesh, regions, sites, siteCount, 0, 0 };
-    if (shape->work->stage == KIRI_SHAPE_REST && !BeginWeights(&job, moves, moveCount)) {
+    ShapeJob job = { shape, work, memory, grid, mesh, regions, sites, siteCount, quota, false, KIRI_NONE, KIRI_NONE };
+    if (work == NULL || (!work->running && !StartShapeUpdate(&job, moves, moveCount))) {
         return KIRI_FAILED;
     }
-    kiriProgress progress = KIRI_DONE;
-    while (progress == KIRI_DONE && shape->work->stage != KIRI_SHAPE_REST) {
-        progress = shapeStages[shape->work->stage](&job, quota);
+    for (; work->stage < SHAPE_STAGES; ++work->stage, work->item = 0) {
+        const int32_t counts[SHAPE_STAGES] = { grid->changes.gone.count,
+                                               grid->changes.steps.count,
+                                               grid->changes.material.count,
+                                               regions->changes.count,
+                                               grid->changes.steps.count,
+                                               regions->changes.count,
+                                               MEASURE_PARTS * work->dirtyFrames.count,
+                                               work->dirty.count };
+        KIRI_ASSERT(work->item <= counts[work->stage]);
+        for (; work->item < counts[work->stage]; ++work->item) {
+            bool isDone = kiriQuota_Pay(quota, &work->debt) && shapeStages[work->stage](&job, work->item);
+            if (job.outOfMemory || !isDone) {
+                return job.outOfMemory ? KIRI_FAILED : KIRI_MORE;
+            }
+        }
     }
-    return progress;
+    if (!kiriQuota_Pay(quota, &work->debt)) {
+        return KIRI_MORE;
+    }
+    EndShapeUpdate(&job);
+    return KIRI_DONE;
 }
 
 void kiriShape_HashProgress(const kiriShape* shape, uint64_t* hash)
 {
-    if (shape->work != NULL && shape->work->stage != KIRI_SHAPE_REST) {
-        kiriHash_Int64(hash, shape->work->due);
+    if (shape->work != NULL && shape->work->running) {
+        kiriHash_Int64(hash, shape->work->debt);
+        kiriHash_Pair(hash, shape->work->stage, shape->work->item);
     }
-}
-
-static void RelabelWeights(kiriShape* shape, const kiriKeep* labels)
-{
-    const int32_t* to = labels->to.data;
-    for (int32_t c = 0; c < shape->spans.count; ++c) {
-        kiriCellWeight* weight = shape->weights.data + shape->spans.data[c].first;
-        for (const kiriCellWeight* end = weight + shape->spans.data[c].count; weight < end; ++weight) {
-            int32_t now = to[weight->label];
-            weight->label = now != KIRI_NONE ? now : 0; /* never gone, but for bytes that were made up */
-        }
-        kiriCountedCell* counted = &shape->work->counted.data[c];
-        counted->label = counted->label != KIRI_NONE ? to[counted->label] : KIRI_NONE;
-    }
-}
-
-static void ForgetCells(kiriShape* shape, kiriMemory* memory, const int32_t* gone, int32_t goneCount)
-{
-    for (int32_t k = 0; k < goneCount; ++k) {
-        kiriSpan_Resize(&shape->spans.data[gone[k]], &shape->room, memory, &shape->weights,
-                        sizeof(*shape->weights.data), 0);
-        shape->work->rigidShares.data[gone[k]] = 0;
-        shape->work->counted.data[gone[k]] = (kiriCountedCell){ KIRI_NONE, 0 };
-    }
-}
-
-static void ForgetFrame(kiriShape* shape, kiriMemory* memory, int32_t frame)
-{
-    KIRI_ASSERT(frame >= 0 && frame < shape->work->frames.count);
-    kiriReaches_Forget(&shape->reaches, kiriLabels_Of(&shape->labels, frame));
-    kiriSpan_Resize(&shape->work->frames.data[frame].sides, &shape->work->sideRoom, memory, &shape->work->sideCounts,
-                    sizeof(*shape->work->sideCounts.data), 0);
-}
-
-/* Frames are those that are left. */
-static void KeepLabels(kiriShape* shape, const kiriKeep* frames, const kiriKeep* labels)
-{
-    if (labels == NULL) {
-        kiriLabels_Keep(&shape->labels, frames);
-        shape->reaches.ofLabel.count = kiriLabels_Count(&shape->labels, frames->count);
-        return;
-    }
-    kiriReaches_Relabel(&shape->reaches, labels);
-    if (kiriKeep_Moves(labels)) {
-        RelabelWeights(shape, labels);
-    }
-    kiriLabels_Forget(&shape->labels);
 }
 
 void kiriShape_Keep(kiriShape* shape, kiriMemory* memory, const kiriKeep* frames, const kiriKeep* labels,
                     const int32_t* gone, int32_t goneCount)
 {
-    KIRI_ASSERT(shape->work->stage == KIRI_SHAPE_REST && shape->changes.count == 0);
-    ForgetCells(shape, memory, gone, goneCount);
+    kiriShapeWork* work = shape->work;
+    KIRI_ASSERT(!work->running && shape->changes.count == 0);
+    for (int32_t k = 0; k < goneCount; ++k) {
+        kiriSpan_Resize(&shape->spans.data[gone[k]], &shape->room, memory, &shape->weights, sizeof(kiriCellWeight), 0);
+        work->rigidShares.data[gone[k]] = 0;
+        work->counted.data[gone[k]] = (kiriCountedCell){ KIRI_NONE, 0 };
+    }
     for (int32_t f = frames->first; f < frames->to.count; ++f) {
         if (!kiriKeep_Has(frames, f)) {
-            ForgetFrame(shape, memory, f);
+            kiriReaches_Forget(&shape->reaches, kiriLabels_Of(&shape->labels, f));
+            kiriSpan_Resize(&work->frames.data[f].sides, &work->sideRoom, memory, &work->sideCounts,
+                            sizeof(*work->sideCounts.data), 0);
         }
     }
-    KeepLabels(shape, frames, labels);
+    kiriReaches_Relabel(&shape->reaches, labels);
+    for (int32_t c = 0; kiriKeep_Moves(labels) && c < shape->spans.count; ++c) {
+        kiriSpan span = shape->spans.data[c];
+        for (int32_t k = span.first; k < span.first + span.count; ++k) {
+            shape->weights.data[k].label = kiriKeep_To(labels, shape->weights.data[k].label);
+            KIRI_ASSERT(shape->weights.data[k].label != KIRI_NONE);
+        }
+        work->counted.data[c].label = kiriKeep_To(labels, work->counted.data[c].label);
+    }
+    kiriLabels_Forget(&shape->labels);
     kiriKeep_Compact(frames, &shape->rigid, 1, sizeof(int64_t));
-    kiriKeep_Compact(frames, &shape->work->frames, 1, sizeof(kiriShapeFrame));
+    kiriKeep_Compact(frames, &work->frames, 1, sizeof(kiriShapeFrame));
 }
 
 void kiriShape_DropScratch(kiriShape* shape, kiriMemory* memory)
 {
-    KIRI_ASSERT(shape->work->stage == KIRI_SHAPE_REST && shape->changes.count == 0);
-    shape->work->dirty.count = 0;
+    KIRI_ASSERT(!shape->work->running && shape->changes.count == 0);
     kiriArray_Release(memory, &shape->changes);
     kiriArray_Release(memory, &shape->work->dirty);
-    kiriArray_Release(memory, &shape->work->rawWeights);
     kiriArray_Release(memory, &shape->work->touches);
     kiriArray_Shorten(memory, &shape->weights, sizeof(*shape->weights.data));
     kiriArray_Shorten(memory, &shape->reaches.blocks, sizeof(*shape->reaches.blocks.data));
@@ -1172,9 +882,9 @@ void kiriShape_DropScratch(kiriShape* shape, kiriMemory* memory)
 
 void kiriShape_ClearChanges(kiriShape* shape)
 {
-    KIRI_ASSERT(shape->work == NULL || shape->work->stage == KIRI_SHAPE_REST);
+    KIRI_ASSERT(shape->work == NULL || !shape->work->running);
     for (int32_t k = 0; k < shape->changes.count; ++k) {
-        shape->work->marks.data[shape->changes.data[k]] &= (uint8_t) ~(KIRI_MARK_CHANGED | KIRI_MARK_RECOMPUTED);
+        shape->work->marks.data[shape->changes.data[k]] &= (uint8_t) ~(MARK_CHANGED | MARK_RECOMPUTED);
     }
     shape->changes.count = 0;
     shape->recomputed = 0;
@@ -1193,8 +903,7 @@ void kiriShape_Reset(kiriShape* shape)
         work->marks.count = work->isLoaded.count = work->loaded.count = 0;
         work->frames.count = work->dirtyFrames.count = work->sideCounts.count = 0;
         memset(&work->sideRoom, 0, sizeof(work->sideRoom));
-        work->stage = KIRI_SHAPE_REST;
-        work->frameStage = KIRI_FRAME_REST;
-        work->due = 0;
+        work->running = work->isMeasuring = false;
+        work->debt = 0;
     }
 }
