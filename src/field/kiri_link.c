@@ -197,8 +197,8 @@ static bool HasStraightStep(const kiriGrid* grid, int32_t from, int32_t to)
 }
 
 /* Finds the four cells around a node of the grid, the lower or upper end of a face, in a circle from the face's cells
-   on. Faces join each to the next, and none is a sliver: no slit and no outline runs to the node. Where slits leave more
-   than one ring the first in the order of cells counts, which is the order of steps. */
+   on. Faces join each to the next, and none is a sliver: no slit and no outline runs to the node. Where slits leave
+   more than one ring the first in the order of cells counts, which is the order of steps. */
 static bool FindRing(const LinkUpdate* u, const kiriFace* face, bool upper, int32_t ring[4])
 {
     const kiriGrid* grid = u->grid;
@@ -458,7 +458,7 @@ static double AlongLine(const BorderLine* line, kiriVec2 p)
 /* Two points as near as this, in sides of a square, are one; a border as short is none. */
 static const double kiriBorderLeast = 1e-6;
 
-static void StartSearch(EndSearch* s, const LinkUpdate* u, const kiriLinkEnd* grid, const int32_t cells[2], int around)
+static void StartEndSearch(EndSearch* s, const LinkUpdate* u, const kiriLinkEnd* grid, const int32_t cells[2], int around)
 {
     s->u = u;
     s->grid = grid;
@@ -567,9 +567,10 @@ static bool FindSlitEnd(const EndSearch* s, kiriLinkEnd* end)
     double side = u->grid->side;
     for (int32_t k = 0; k < 2 * u->work->stretch.count; ++k) {
         const kiriBorderFace* face = &u->work->stretch.data[k / 2];
+        int32_t looks = 0;
         kiriSlitEnd slit;
         if (kiriVec2_Distance(face->stretch.middle, s->grid->at) < 3.0 * side &&
-            kiriSlits_FindEndIn(u->grid, u->mesh, u->grid->faces.data[face->face].cell[k % 2], &slit)) {
+            kiriSlits_FindEndIn(u->grid, u->mesh, u->grid->faces.data[face->face].cell[k % 2], &slit, &looks)) {
             double aside = kiriVec2_Dot(kiriVec2_Sub(slit.at, s->line.middle), s->line.normal);
             double back = s->ahead * kiriVec2_Dot(slit.along, s->line.tangent);
             kiriVec2 before = kiriVec2_AddScaled(slit.at, 1e-3 * side, slit.along);
@@ -742,8 +743,8 @@ static bool FindBorderBefore(const EndSearch* s, kiriVec2* at, kiriVec2* ahead)
     return kiriVec2_Distance(*at, before) < 2.0 * side && kiriSight_IsClear(&s->sight, before, *at);
 }
 
-/* Finds where the border comes to an edge. It starts from the edge where the grid has the end, or, where the corner that
-   the grid has is none, from the edge that the border leads to. */
+/* Finds where the border comes to an edge. It starts from the edge where the grid has the end, or, where the corner
+   that the grid has is none, from the edge that the border leads to. */
 static bool FindTurnedOpenEnd(EndSearch* s, kiriLinkEnd* end)
 {
     kiriVec2 from = s->grid->look, ahead = kiriVec2_Sub(s->grid->at, s->grid->look);
@@ -761,7 +762,8 @@ static bool FindTurnedOpenEnd(EndSearch* s, kiriLinkEnd* end)
 
 /* ---- Exact ends -------------------------------------------------------------------------------------------------- */
 
-/* Finds how far the sites are that take part in the end: of the link's regions, and of others that the grid has there. */
+/* Finds how far the sites are that take part in the end: of the link's regions, and of others that the grid has there.
+   */
 static bool FindReaches(EndSearch* s)
 {
     for (int32_t k = 0; k < s->near.count; ++k) {
@@ -795,7 +797,7 @@ static bool FindExactEnd(const LinkUpdate* u, int which, kiriLinkEnd* end)
     if (end->kind == KIRI_END_INNER) {
         return false;
     }
-    StartSearch(&s, u, end, end->cell, 2);
+    StartEndSearch(&s, u, end, end->cell, 2);
     s.ahead = which == 0 ? -1.0 : 1.0;
     if (FindSlitEnd(&s, &found)) {
         found.isExact = found.isSeen = true;
@@ -840,8 +842,9 @@ static void SetSpurious(const LinkUpdate* u, kiriLink* link, kiriLinkEnds* ends)
     SetStraight(link, ends);
 }
 
-/* Does the stretch run along slivers of cells beside a slit, or across the end of such slivers? Their middles are off by
-   half a square, so their regions mean nothing, and such a border is spurious. Across a narrow strip there is one. */
+/* Does the stretch run along slivers of cells beside a slit, or across the end of such slivers? Their middles are off
+   by half a square, so their regions mean nothing, and such a border is spurious. Across a narrow strip there is one.
+   */
 static bool IsAlongSlivers(const LinkUpdate* u)
 {
     double widest = 0.0;
@@ -954,8 +957,8 @@ static bool FindWay(const LinkUpdate* u, const kiriLink* link, const kiriLinkEnd
 }
 
 /* Sets length, span and crossing, which is half-way: both sites are as far from there. Lengths on the grid exceed true
-   ones by up to 3 %, and by parts of a side at both ends. They are taken only where the true way is not found, and where
-   they are not clearly longer the way is straight. */
+   ones by up to 3 %, and by parts of a side at both ends. They are taken only where the true way is not found, and
+   where they are not clearly longer the way is straight. */
 static void SetLength(const LinkUpdate* u, kiriLink* link, const kiriLinkEnds* ends)
 {
     kiriVec2 a = SiteAt(u, link->i), b = SiteAt(u, link->j);
@@ -1104,16 +1107,16 @@ static bool FindBetweenLimits(EndSearch* s, kiriVec2* at)
     return high - low > s->least;
 }
 
-/* Makes the link of the regions of two cells, i < j, where their border is so short that the grid has none. near: an end
-   of a link of region i, in the first cell. False where no such border is seen. Reads only regions one step from the
-   first cell. */
+/* Makes the link of the regions of two cells, i < j, where their border is so short that the grid has none. near: an
+   end of a link of region i, in the first cell. False where no such border is seen. Reads only regions one step from
+   the first cell. */
 static bool MakeShortLink(const LinkUpdate* u, const kiriLinkEnd* near, const int32_t cells[2], kiriNewLink* made)
 {
     EndSearch s;
     kiriVec2 at;
     double most = 4.0 * u->grid->side;
     kiriLink* link = &made->link;
-    StartSearch(&s, u, near, cells, 1);
+    StartEndSearch(&s, u, near, cells, 1);
     memset(made, 0, sizeof(*made));
     made->ends.isShort = true;
     made->face = KIRI_NONE;
@@ -1312,10 +1315,10 @@ static bool IsRing(const kiriLinks* links, const kiriLinkEnd* end, const int32_t
 /* Below this determinant of N, relative to its trace squared, the links of a corner have one direction. */
 static const double kiriFlatCorner = 1e-3;
 
-/* Adds the corner at an end of link k, unless there is none, or a lower link has it as well. The sites are a triangle or
-   a quadrangle, and two links that share a region are two of its sides. Where ways bend the sides do not quite close, so
-   the areas that they give are averaged. */
-static bool AddCorner(const LinkUpdate* u, int32_t k, const kiriLinkEnd* end)
+/* Adds the corner at an end of link k, unless there is none, or a lower link has it as well. The sites are a triangle
+   or a quadrangle, and two links that share a region are two of its sides. Where ways bend the sides do not quite
+   close, so the areas that they give are averaged. */
+static bool AddLinkCorner(const LinkUpdate* u, int32_t k, const kiriLinkEnd* end)
 {
     const kiriLink* next = u->links->next.data;
     int32_t list[4], count = end->kind == KIRI_END_CORNER ? ListLinksAt(u, end, list) : 0;
@@ -1371,8 +1374,8 @@ static bool MakeCorners(const LinkUpdate* u)
     links->nextCorners.count = 0;
     for (int32_t k = 0; ok && k < links->next.count; ++k) {
         if (!AreCornersKept(u, k)) {
-            ok = AddCorner(u, k, &u->work->nextEnds.data[k].end[0]) &&
-                 AddCorner(u, k, &u->work->nextEnds.data[k].end[1]);
+            ok = AddLinkCorner(u, k, &u->work->nextEnds.data[k].end[0]) &&
+                 AddLinkCorner(u, k, &u->work->nextEnds.data[k].end[1]);
             continue;
         }
         for (; ok && old < links->corners.count && links->corners.data[old].link[0] <= links->was.data[k]; ++old) {
@@ -1426,8 +1429,8 @@ static bool IsListedFrom(const LinkUpdate* u, int32_t region, int32_t other)
            u->work->to.data[at] == KIRI_NONE;
 }
 
-/* Lists the border faces of a region whose links are made. A dirty region also makes those beside it stale: where a link
-   ends depends on the regions there. */
+/* Lists the border faces of a region whose links are made. A dirty region also makes those beside it stale: where a
+   link ends depends on the regions there. */
 static bool ListFaces(const LinkUpdate* u, int32_t region)
 {
     const kiriRegions* regions = u->regions;

@@ -102,7 +102,7 @@ typedef struct kiriLinks {
     KIRI_ARRAY(kiriLink) links;
     KIRI_ARRAY(kiriLink) next; /* result of kiriLinks_Update; Commit swaps */
     int32_t changed;           /* links of `next` that differ from the old ones */
-    /* For each next link (after the commit, for each link): index of the equal old link, or KIRI_NONE for a link that
+    /* For each next link, and after the commit for each link: index of the equal old link, or KIRI_NONE where the link
        was made. Empty: unknown. */
     kiriIndices was;
     /* Sorted by their links. Where four regions meet, all four pairs of neighbours are linked. */

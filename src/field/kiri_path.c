@@ -314,8 +314,8 @@ typedef struct WayNode {
 } WayNode;
 
 /* A search over the corners, from the start to the goal, which is the last node: A*, by the straight line to the goal
-   (Hart, Nilsson and Raphael 1968). Whether one can go from a node to another is tested only when that would be the next
-   step. */
+   (Hart, Nilsson and Raphael 1968). Whether one can go from a node to another is tested only when that would be the
+   next step. */
 typedef struct WaySearch {
     const kiriSight* sight;
     WayNode node[KIRI_MOST_TURNS + 2];

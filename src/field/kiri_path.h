@@ -48,8 +48,8 @@ typedef struct kiriSightHit {
     int32_t edge; /* EDGE: its half-edge, which has the start of the way to its left */
 } kiriSightHit;
 
-/* Looks from p to q, local m, both in the material or on its edges. Anything within a millionth of a square's side of p,
-   of q or of the way only touches it: both may lie on edges, and the way may run along one. */
+/* Looks from p to q, local m, both in the material or on its edges. Anything within a millionth of a square's side of
+   p, of q or of the way only touches it: both may lie on edges, and the way may run along one. */
 kiriSightEnd kiriSight_Cast(const kiriSight* sight, kiriVec2 p, kiriVec2 q, kiriSightHit* hit);
 
 static inline bool kiriSight_IsClear(const kiriSight* sight, kiriVec2 p, kiriVec2 q)

@@ -73,8 +73,8 @@ typedef struct RegionUpdate {
     int32_t moveCount;
 } RegionUpdate;
 
-/* Returns the nearest seed of a cell. A cell that holds a site takes only that site's. So no region is ever empty: a site is
-   within half a diagonal of its cell's middle, and every way into that cell is at least a side long. */
+/* Returns the nearest seed of a cell. A cell that holds a site takes only that site's. So no region is ever empty: a
+   site is within half a diagonal of its cell's middle, and every way into that cell is at least a side long. */
 static kiriSeed NearestSiteSeed(const void* context, int32_t cell)
 {
     const RegionUpdate* u = context;

@@ -17,8 +17,8 @@ typedef struct kiriSite {
 typedef KIRI_ARRAY(kiriSite) kiriSites;
 typedef KIRI_ARRAY(kiriSeed) kiriSeeds;
 
-/* Adds the seeds of distances to the site. Where it lies off the middle of its square, the cells one step away are seeds
-   as well, so that distances know where in its cell the site is. False when out of memory. */
+/* Adds the seeds of distances to the site. Where it lies off the middle of its square, the cells one step away are
+   seeds as well, so that distances know where in its cell the site is. False when out of memory. */
 bool kiriSite_Seed(const kiriSite* site, int32_t owner, kiriMemory* memory, const kiriGrid* grid,
                    const kiriMeshData* mesh, kiriSeeds* seeds);
 
@@ -40,8 +40,8 @@ typedef struct kiriRegions {
     kiriBorderCells border;         /* for each frame: the border cells of its region */
     KIRI_ARRAY(kiriTally) material; /* for each frame: material of its region, exact */
     KIRI_ARRAY(uint8_t)
-    dirty; /* for each frame: its region, distances in it, or its cells' steps, material or edges
-                                  changed since the sheet's commit */
+    dirty; /* for each frame, until the sheet's commit: its region, distances in it, or its
+                                       cells' steps, material or edges changed */
 
     /* Since kiriRegions_ClearChanges: live cells whose owner or distance changed, with the old values. */
     KIRI_ARRAY(kiriSeed) changes;
@@ -71,8 +71,8 @@ kiriProgress kiriRegions_Update(kiriRegions* regions, kiriMemory* memory, const 
                                 const kiriMeshData* mesh, const kiriSite* sites, int32_t siteCount,
                                 const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota);
 
-/* Takes away the frames that are not kept, and the cells of their regions, which `gone` lists; other frames get their new
-   index. Not during an update, nor before its changes are cleared. Cannot fail. */
+/* Takes away the frames that are not kept, and the cells of their regions, which `gone` lists; other frames get their
+   new index. Not during an update, nor before its changes are cleared. Cannot fail. */
 void kiriRegions_Keep(kiriRegions* regions, const kiriKeep* frames, const int32_t* gone, int32_t goneCount);
 
 /* Clears `changes`; `dirty` stays until the sheet's commit clears it. */

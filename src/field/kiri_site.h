@@ -1,5 +1,4 @@
-/* Slit ends: where an open edge ends inside the material. The sheet bends and stretches around them, so borders between
-   regions must be there. */
+/* Where control frames are placed (section 5 of the paper): evenly, and in pairs at slit ends. */
 #ifndef KIRI_SITE_H
 #define KIRI_SITE_H
 
@@ -7,45 +6,46 @@
 
 KIRI_C_BEGIN
 
+/* Where an open edge ends inside the material. The sheet bends and stretches around slit ends, so borders between
+   regions must be there. */
 typedef struct kiriSlitEnd {
     kiriVec2 at;    /* local m */
     kiriVec2 along; /* unit: the way on from the slit */
-    int32_t cell;   /* that holds it */
+    int32_t cell;   /* the cell that holds it */
 } kiriSlitEnd;
 
 typedef KIRI_ARRAY(kiriSlitEnd) kiriSlitEnds;
 
-/* The first slit end in a cell; false where there is none. */
-bool kiriSlits_FindEndIn(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell, kiriSlitEnd* end);
+/* Finds the first slit end in a cell; false where there is none. Adds the number of vertices that it read to *looks. */
+bool kiriSlits_FindEndIn(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell, kiriSlitEnd* end,
+                         int32_t* looks);
 
-/* How far a search has come that a budget may interrupt; zeros at its start. */
+/* Progress of a search that a budget may interrupt; zeros at its start. */
 typedef struct kiriSlitSearch {
     int32_t seen; /* cells */
-    int64_t owed; /* items, for the last of them */
+    int64_t owed; /* items for the last of them */
 } kiriSlitSearch;
 
-/* The slit ends in these cells, one a cell at most, in the order of the cells. An item is some vertices looked at, or
-   some cells without any. After KIRI_FAILED, start again. */
+/* Finds the slit ends in these cells, one a cell at most, in the order of the cells. An item is 3 vertices, or 16
+   cells. After KIRI_FAILED, start again. */
 kiriProgress kiriSlits_FindEnds(kiriSlitEnds* ends, kiriSlitSearch* search, kiriMemory* memory, const kiriGrid* grid,
                                 const kiriMeshData* mesh, const int32_t* cells, int32_t cellCount, kiriQuota* quota);
 
 /* Adds a pair of sites at each slit end, with a way of `spacing` from the one to the other over the end: so the line on
-   which the slit would go on is a border between their regions. An end gets a closer pair where there is no room, but
-   not closer than two squares, and none where other sites are too near. In the order of the ends, until there are
-   `most` sites. Each is in a cell of its own. False for memory. */
+   which the slit would go on is a border between their regions. An end without room gets a closer pair, but not closer
+   than two squares, and none where other sites are too near. In the order of the ends, until there are `most` sites,
+   each in another cell. False when out of memory. */
 bool kiriSlits_AddPairs(kiriSites* sites, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                         const kiriSlitEnds* ends, double spacing, int32_t most);
 
-/* Where control frames are placed (section 5 of the paper). */
-
-typedef struct kiriPlacerWork kiriPlacerWork; /* private to kiri_sheet_site.c */
+typedef struct kiriPlacerWork kiriPlacerWork; /* private */
 
 /* Puts sites evenly into a part of the sheet: farthest-point sampling, then Lloyd relaxation of the new ones only. A
    job that a budget may interrupt. */
 typedef struct kiriPlacer {
-    kiriSites sites;           /* those that were there, then the new ones; right when Run is done */
-    int32_t oldCount;          /* sites before it stay where they are */
-    KIRI_ARRAY(int32_t) cells; /* the part: cells that hang together, in their order (or all cells, of many pieces) */
+    kiriSites sites;   /* old sites, then the new ones; right when Run is done */
+    int32_t oldCount;  /* sites before it stay where they are */
+    kiriIndices cells; /* the part: cells that hang together, in their order (or all cells, of many pieces) */
     /* Distances to the sites that are there, as kiriRegions has them, where the caller knows them; they must stay
        until the job is done. Null: they are flooded. Start takes it, and makes it null. */
     const kiriField* known;
@@ -65,10 +65,10 @@ bool kiriPlacer_TakePiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid
 bool kiriPlacer_StartPiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, int32_t cell);
 kiriProgress kiriPlacer_GoOnWithPiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, kiriQuota* quota);
 
-/* For the part in placer->cells and the sites in placer->sites, which lie in it, each in a cell of its own: `count`
-   more, or one in each free cell where there are fewer. Sampling takes only cells that `allowed` marks (one byte a cell
-   of the grid; null: all); it is read now and not kept. One site in a part without sites goes to the cell nearest to
-   the centroid, without relaxation: confetti comes in thousands. False for memory. */
+/* Starts to place `count` more sites in the part in placer->cells, or one in each free cell where there are fewer. The
+   sites in placer->sites lie in the part, each in another cell. Sampling takes only cells that `allowed` marks (one
+   byte a cell of the grid; null: all); it is read now and not kept. One site in a part without sites goes to the cell
+   nearest to the centroid, without relaxation: confetti comes in thousands. False when out of memory. */
 bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                       const uint8_t* allowed, int32_t count);
 
@@ -79,7 +79,7 @@ kiriProgress kiriPlacer_Run(kiriPlacer* placer, kiriMemory* memory, const kiriGr
 /* The site that a frame takes in a cell. */
 kiriSite kiriFrames_SiteIn(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell);
 
-/* The work of a placer at hand: private to kiri_place*.c, and to who saves it. */
+/* Work of a placer. Private to kiri_site.c and to snapshots. */
 
 typedef enum PlacerStage {
     PLACER_RESTS,
@@ -97,13 +97,13 @@ typedef enum PlacerStage {
     PLACER_STAGES
 } PlacerStage;
 
-/* Where a new site shall go. The material is summed in whole numbers, so that the order of adding does not matter:
+/* Where a new site goes. The material is summed in whole numbers, so that the order of adding does not matter:
    area in units of 1 / AREA_UNITS of a square, moments in as many of its sides. */
 typedef struct SiteTarget {
     int64_t area, u, v;
     kiriVec2 center;
-    int32_t cell; /* of the region, nearest to the center */
-    bool isFound; /* it need not be looked for */
+    int32_t cell; /* the cell of the region nearest to the center, so far */
+    bool isFound; /* the search is over */
     double distance;
 } SiteTarget;
 
@@ -131,89 +131,15 @@ struct kiriPlacerWork {
     KIRI_ARRAY(SampleBlock) blocks; /* of the part */
     kiriSeeds seeds;
     PlacerStage stage;
-    int32_t cursor;   /* of the stage: how many cells of its list it has seen */
-    int64_t due;      /* cells that were looked at, and that the quota has not given yet */
-    int32_t left;     /* sites still to sample */
-    int32_t farthest; /* cell found so far, or KIRI_NONE */
-    int32_t lost;     /* targets that AIM_NEAR has not found */
+    int32_t cursor; /* cells of its list that the stage has done */
+    int64_t due;    /* cells that were read and not paid yet */
+    int32_t left;   /* sites still to sample */
+    int32_t lost;   /* targets that AIM_NEAR has not found */
     int32_t round;
-    bool winds; /* ways wind too much for scans, or there was no memory: not saved, for all is the same without them */
+    bool winds; /* scans do not help: ways wind too much, or memory ran out. Not saved: results are the same without */
 };
 
 enum { KIRI_CELL_FREE = KIRI_NONE };
-
-static inline SiteTarget kiriSiteTarget_None(void)
-{
-    return (SiteTarget){ 0, 0, 0, { 0.0, 0.0 }, KIRI_NONE, false, 0.0 };
-}
-
-typedef struct PlacerJob {
-    kiriPlacer* placer;
-    kiriPlacerWork* work;
-    kiriMemory* memory;
-    const kiriGrid* grid;
-    const kiriMeshData* mesh;
-    kiriQuota* quota;
-} PlacerJob;
-
-static inline bool kiriGrid_IsMostlyCovered(const kiriGrid* grid, int32_t cell)
-{
-    return kiriGrid_Area(grid, cell) > 0.5 * grid->side * grid->side;
-}
-
-enum { KIRI_VISITS_AN_ITEM = 4 };
-
-/* Visits the cells of a list, from the cursor on. */
-static inline kiriProgress kiriPlacerJob_Visit(PlacerJob* job, const int32_t* cells, int32_t count,
-                                               void visit(PlacerJob* job, int32_t cell))
-{
-    int32_t from = job->work->cursor, end = count;
-    int64_t items = (end - from + KIRI_VISITS_AN_ITEM - 1) / KIRI_VISITS_AN_ITEM;
-    if (items > job->quota->left) {
-        items = job->quota->left;
-        end = from + KIRI_VISITS_AN_ITEM * (int32_t)items;
-    }
-    kiriQuota_Take(job->quota, items);
-    for (int32_t i = from; i < end; ++i) {
-        visit(job, cells[i]);
-    }
-    job->work->cursor = end < count ? end : 0;
-    return end < count ? KIRI_MORE : KIRI_DONE;
-}
-
-static inline kiriProgress kiriPlacerJob_VisitPart(PlacerJob* job, void visit(PlacerJob* job, int32_t cell))
-{
-    return kiriPlacerJob_Visit(job, job->placer->cells.data, job->placer->cells.count, visit);
-}
-
-static inline kiriProgress kiriPlacerJob_VisitFresh(PlacerJob* job, void visit(PlacerJob* job, int32_t cell))
-{
-    return kiriPlacerJob_Visit(job, job->work->fresh.settled.data, job->work->fresh.settled.count, visit);
-}
-
-static inline int32_t kiriPlacerWork_OldDistance(const kiriPlacerWork* work, int32_t cell)
-{
-    return work->hasOld ? work->old->distance.data[cell] : KIRI_FAR;
-}
-
-/* Of each cell; null where there are no old sites. */
-static inline const int32_t* kiriPlacerWork_OldDistances(const kiriPlacerWork* work)
-{
-    return work->hasOld ? work->old->distance.data : NULL;
-}
-
-static inline bool kiriPlacerWork_IsNearerThanOld(const kiriPlacerWork* work, int32_t cell)
-{
-    return work->fresh.distance.data[cell] < kiriPlacerWork_OldDistance(work, cell);
-}
-
-static inline kiriProgress kiriPlacerJob_GoOnTo(PlacerJob* job, kiriProgress progress, PlacerStage next)
-{
-    if (progress == KIRI_DONE) {
-        job->work->stage = next;
-    }
-    return progress;
-}
 
 KIRI_C_END
 

@@ -53,8 +53,8 @@ bool kiriOwnership_NoteChanges(kiriOwnership* ownership, kiriMemory* memory, con
    A triangle is convex, so its material in a square lies in one cell; and cells only ever fall apart, so the parts that
    the triangle has there later were in that cell. */
 
-/* Returns the owner before the update. A part that rounding brought into a square where its triangle was not goes to the
-   lowest owner there. */
+/* Returns the owner before the update. A part that rounding brought into a square where its triangle was not goes to
+   the lowest owner there. */
 static int32_t OwnerBefore(const kiriOwnership* ownership, const kiriMeshData* mesh, int32_t square, int32_t triangle)
 {
     const kiriSquareOwners* owners = &ownership->squares.data[square];

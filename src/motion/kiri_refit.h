@@ -1,7 +1,7 @@
-/* Owners of material, and how frames move after a commit that gives them other regions. The motion before is that of
-   frames with their old regions; after it, the material of a new region moves on as it did: the frame gets the projection
-   of that motion, in the norm of mass. So linear and angular momentum are kept, and so is the rigid motion of a sheet. A
-   frame whose region only lost material, or did not change, needs no fit. */
+/* Owners of material, and how frames move after a commit that gives them other regions. The material of a new region
+   moves on as it did with the old regions: its frame gets the projection of that motion, in the norm of mass. So linear
+   and angular momentum are kept, and so is the rigid motion of a sheet. A frame whose region only lost material, or did
+   not change, needs no fit. */
 #ifndef KIRI_REFIT_H
 #define KIRI_REFIT_H
 
@@ -15,8 +15,8 @@ typedef struct kiriTriangleOwner {
     int32_t triangle, owner;
 } kiriTriangleOwner;
 
-/* Owners of the material of a square. Cells have no lasting name, because an update from scratch makes all of them again;
-   so a square that is divided into several cells stores their owners by triangle. */
+/* Owners of the material of a square. Cells have no lasting name, because an update from scratch makes all of them
+   again; so a square that is divided into several cells stores their owners by triangle. */
 typedef struct kiriSquareOwners {
     int32_t owner;  /* of the whole square, where `parts` is empty; KIRI_NONE: it had no owner yet */
     kiriSpan parts; /* of triangleOwners */
@@ -74,8 +74,8 @@ typedef struct kiriRefit {
     KIRI_ARRAY(kiriFitBody) bodies; /* scratch: one a piece */
 } kiriRefit;
 
-/* Mark the squares dirty in which owners may change: mesh->squares.dirty, and the squares of regions->changes. Call them
-   before these lists are cleared. False when out of memory. */
+/* Mark the squares dirty in which owners may change: mesh->squares.dirty, and the squares of regions->changes. Call
+   them before these lists are cleared. False when out of memory. */
 bool kiriOwnership_NoteDirty(kiriOwnership* ownership, kiriMemory* memory, const kiriMeshData* mesh);
 bool kiriOwnership_NoteChanges(kiriOwnership* ownership, kiriMemory* memory, const kiriGrid* grid,
                                const kiriMeshData* mesh, const kiriRegions* regions);
