@@ -192,22 +192,23 @@ static inline bool Follow_Links(Follow* f)
 
 static inline kiriProgress Follow_Samples(Follow* f)
 {
+    kiriSampleSource vertices = { f->memory, &f->shape, &f->grid, f->mesh, &f->vertexSkin, NULL, NULL };
+    kiriSampleSource points = { f->memory, &f->shape, &f->grid, f->mesh, &f->pointSkin, &f->places, &f->points };
     kiriProgress progress = kiriRefresh_NoteDirty(&f->refresh, f->memory, f->mesh) ? KIRI_MORE : KIRI_FAILED;
     while (progress == KIRI_MORE) {
         kiriQuota quota = Follow_Quota(f);
-        progress = kiriRefresh_Start(&f->refresh, f->memory, &f->shape, &f->grid, f->mesh, f->oldVertices, &quota);
+        progress = kiriRefresh_Start(&f->refresh, &vertices, f->oldVertices, &quota);
     }
     progress = progress == KIRI_DONE ? KIRI_MORE : progress;
     while (progress == KIRI_MORE) {
         kiriQuota quota = Follow_Quota(f);
-        progress = kiriRefresh_Vertices(&f->refresh, &f->vertexSkin, f->memory, &f->shape, &f->grid, f->mesh, &quota);
+        progress = kiriRefresh_Stage(&f->refresh, &vertices, &quota);
         assert_true(quota.used > 0 || f->slice == 0 || progress == KIRI_DONE);
     }
     progress = progress == KIRI_DONE ? KIRI_MORE : progress;
     while (progress == KIRI_MORE) {
         kiriQuota quota = Follow_Quota(f);
-        progress = kiriRefresh_Points(&f->refresh, &f->pointSkin, &f->places, &f->points, f->memory, &f->shape,
-                                      &f->grid, f->mesh, &quota);
+        progress = kiriRefresh_Stage(&f->refresh, &points, &quota);
         assert_true(quota.used > 0 || f->slice == 0 || progress == KIRI_DONE);
     }
     return progress;
@@ -215,11 +216,8 @@ static inline kiriProgress Follow_Samples(Follow* f)
 
 static inline void Follow_Commit(Follow* f)
 {
-    kiriQuota unlimited = { INT64_MAX, 0, 0, false };
     kiriSkin_Commit(&f->vertexSkin);
     kiriSkin_Commit(&f->pointSkin);
-    assert_int_equal(kiriSkin_Settle(&f->vertexSkin, &unlimited), KIRI_DONE);
-    assert_int_equal(kiriSkin_Settle(&f->pointSkin, &unlimited), KIRI_DONE);
     kiriLinks_Commit(&f->links);
     kiriShape_ClearChanges(&f->shape);
     f->oldVertices = f->mesh->vertices.count;

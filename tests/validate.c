@@ -424,12 +424,6 @@ static bool Check_Skin(Check* check, const kiriSheetData* sheet, const kiriSkin*
             return false;
         }
     }
-    for (int32_t k = 0; k < skin->settling.count; ++k) {
-        kiriReweighed before = skin->settling.data[k];
-        if (before.span.count > 0 && !Rooms_Take(check, &rooms, before.span, before.sample)) {
-            return false;
-        }
-    }
     return Rooms_End(check, &rooms);
 }
 

@@ -301,7 +301,3 @@ bool kiriSpan_Resize(kiriSpan* span, kiriSpans* spans, kiriMemory* memory, void*
     return true;
 }
 
-bool kiriSpan_IsAlike(kiriSpan a, kiriSpan b)
-{
-    return a.count > 0 && b.count > 0 && SizeClassOf(a.count) == SizeClassOf(b.count);
-}

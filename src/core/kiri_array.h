@@ -126,9 +126,6 @@ typedef struct kiriSpans {
 bool kiriSpan_Resize(kiriSpan* span, kiriSpans* spans, kiriMemory* memory, void* array, size_t itemBytes,
                      int32_t count);
 
-/* Have both room for the same number of items? */
-bool kiriSpan_IsAlike(kiriSpan a, kiriSpan b);
-
 /* Union-find over indices: which items hang together. The caller has the array `parent`, with an entry for each item;
    the root of a set is its lowest item, whatever the order of joining. */
 

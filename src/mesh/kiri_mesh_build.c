@@ -213,15 +213,7 @@ static kiriResult AddTriangles(kiriMeshData* mesh, const kiriMeshInput* input, c
                      input->weldDistance > 0.0 ? ", when vertices nearer than weldDistance are one" : "");
             return KIRI_ERROR_MESH;
         }
-        int32_t added =
-            kiriMesh_AddTriangle(mesh, welded->number[v[0]], welded->number[v[1]], welded->number[v[2]], t, KIRI_NONE);
-        for (int i = 0; i < 3; ++i) {
-            kiriVertex* vertex = &mesh->vertices.data[welded->number[v[i]]];
-            if (vertex->edge == KIRI_NONE) {
-                vertex->edge = 3 * added + i;
-                vertex->source = t;
-            }
-        }
+        kiriMesh_AddTriangle(mesh, welded->number[v[0]], welded->number[v[1]], welded->number[v[2]], t, KIRI_NONE);
     }
     return KIRI_OK;
 }
@@ -468,7 +460,7 @@ static bool FindOverlap(OverlapTree* tree, int32_t count)
     return NodesOverlap(tree, &tree->nodes[0], &tree->nodes[0]);
 }
 
-/* Makes an item of points. Boxes that touch do not overlap, so those of edges need a margin. */
+/* Makes an item of points. Boxes that touch do not overlap, so boxes of edges need a margin. */
 static OverlapItem MakeOverlapItem(const kiriLatticePoint* points, int count, int32_t margin, int32_t index)
 {
     OverlapItem item = { { { INT32_MAX, INT32_MAX }, { INT32_MIN, INT32_MIN } }, index };
@@ -536,48 +528,36 @@ static kiriResult CheckOverlaps(const kiriMeshData* mesh, kiriMemory* scratch, k
 
 /* ---- The whole mesh ---------------------------------------------------------------------------------------------- */
 
-/* Flag in the marks of a triangle, shifted by the corner: the fan of the corner has its vertex. */
-enum { FAN_DONE = 16 };
-
-static void ClaimCorner(kiriMeshData* mesh, int32_t c, int32_t vertex)
+/* Gives each fan a vertex of its own: the first fan at a point keeps the vertex. `edge` of a vertex is the lowest corner of
+   its fan. */
+static bool ClaimFans(kiriMeshData* mesh, kiriMemory* scratch)
 {
-    kiriTriangle* triangle = &mesh->triangles.data[c / 3];
-    triangle->vertex[c % 3] = vertex;
-    triangle->marks |= FAN_DONE << (c % 3);
-}
-
-/* Gives each fan a vertex of its own. Stamps mark the vertices that a fan has. */
-static bool ClaimFans(kiriMeshData* mesh)
-{
-    for (int32_t h = 0; h < 3 * mesh->triangles.count; ++h) {
-        int32_t vertex = kiriMesh_Tail(mesh, h), c = h;
-        if ((kiriMesh_TriangleOf(mesh, h)->marks & FAN_DONE << h % 3) != 0) {
-            continue;
+    int32_t halves = 3 * mesh->triangles.count, *fan = kiriMemory_Alloc(scratch, halves * (int64_t)sizeof(int32_t));
+    if (fan == NULL) {
+        return false;
+    }
+    kiriUnion_Init(fan, halves);
+    for (int32_t h = 0; h < halves; ++h) {
+        int32_t before = kiriMesh_Clockwise(mesh, h);
+        if (before != KIRI_NONE) {
+            kiriUnion_Join(fan, h, before);
         }
-        if (mesh->vertices.data[vertex].stamp != 0) {
-            kiriVertex copy = mesh->vertices.data[vertex];
-            copy.source = kiriMesh_TriangleOf(mesh, h)->source;
-            vertex = mesh->vertices.count;
-            if (!kiriArray_Push(mesh->memory, &mesh->vertices, copy)) {
-                return false;
+    }
+    for (int32_t h = 0; h < halves; ++h) {
+        kiriTriangle* triangle = &mesh->triangles.data[h / 3];
+        int32_t root = kiriUnion_Root(fan, h), vertex = kiriMesh_Tail(mesh, root);
+        if (root == h) {
+            kiriVertex own = { kiriMesh_At(mesh, vertex), h, KIRI_NONE, triangle->source, 0 };
+            if (mesh->vertices.data[vertex].edge == KIRI_NONE) {
+                mesh->vertices.data[vertex] = own;
+            } else {
+                vertex = mesh->vertices.count;
+                if (!kiriArray_Push(mesh->memory, &mesh->vertices, own)) {
+                    return false;
+                }
             }
         }
-        mesh->vertices.data[vertex].stamp = 1;
-        mesh->vertices.data[vertex].edge = h;
-        do {
-            ClaimCorner(mesh, c, vertex);
-            c = kiriMesh_Clockwise(mesh, c);
-        } while (c != KIRI_NONE && c != h);
-        for (c = c == h ? KIRI_NONE : kiriMesh_CounterClockwise(mesh, h); c != KIRI_NONE;) {
-            ClaimCorner(mesh, c, vertex);
-            c = kiriMesh_CounterClockwise(mesh, c);
-        }
-    }
-    for (int32_t t = 0; t < mesh->triangles.count; ++t) {
-        mesh->triangles.data[t].marks &= KIRI_TRIANGLE_OPEN;
-    }
-    for (int32_t v = 0; v < mesh->vertices.count; ++v) {
-        mesh->vertices.data[v].stamp = 0;
+        triangle->vertex[h % 3] = vertex;
     }
     return true;
 }
@@ -597,10 +577,11 @@ kiriResult kiriMesh_Init(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshI
     result = result == KIRI_OK ? CheckOverlaps(mesh, &scratch, fault) : result;
     kiriMemory_FreeAll(&scratch);
     if (result == KIRI_OK &&
-        (!ClaimFans(mesh) || !kiriSquares_Init(&mesh->squares, memory, extent, input->resolution) ||
+        (!ClaimFans(mesh, &scratch) || !kiriSquares_Init(&mesh->squares, memory, extent, input->resolution) ||
          !kiriMesh_FillSquares(mesh, &mesh->squares, memory))) {
         result = KIRI_ERROR_MEMORY;
     }
+    kiriMemory_FreeAll(&scratch);
     if (result != KIRI_OK) {
         return result;
     }

@@ -315,24 +315,31 @@ static kiriProgress JoinPieces(kiriSheetData* sheet, kiriQuota* samples)
     return kiriPieces_Stage(sheet) ? KIRI_DONE : KIRI_FAILED;
 }
 
+static kiriSampleSource VertexSource(kiriSheetData* sheet)
+{
+    return (kiriSampleSource){ sheet->memory, &sheet->shape, &sheet->grid, &sheet->mesh, &sheet->vertexSkin, NULL, NULL };
+}
+
 static kiriProgress FindSamples(kiriSheetData* sheet, kiriQuota* samples)
 {
     kiriSampleWork* work = &sheet->update->samples;
-    return kiriRefresh_Start(&work->refresh, sheet->memory, &sheet->shape, &sheet->grid, &sheet->mesh,
-                             work->oldVertices, samples);
+    kiriSampleSource source = VertexSource(sheet);
+    return kiriRefresh_Start(&work->refresh, &source, work->oldVertices, samples);
 }
 
 static kiriProgress WeighVertices(kiriSheetData* sheet, kiriQuota* samples)
 {
-    return kiriRefresh_Vertices(&sheet->update->samples.refresh, &sheet->vertexSkin, sheet->memory, &sheet->shape,
-                                &sheet->grid, &sheet->mesh, samples);
+    kiriSampleSource source = VertexSource(sheet);
+    return kiriRefresh_Stage(&sheet->update->samples.refresh, &source, samples);
 }
 
 static kiriProgress WeighPoints(kiriSheetData* sheet, kiriQuota* samples)
 {
-    kiriProgress progress =
-        kiriRefresh_Points(&sheet->update->samples.refresh, &sheet->pointSkin, &sheet->pointPlaces, &sheet->points,
-                           sheet->memory, &sheet->shape, &sheet->grid, &sheet->mesh, samples);
+    kiriSampleSource source = VertexSource(sheet);
+    source.skin = &sheet->pointSkin;
+    source.places = &sheet->pointPlaces;
+    source.points = &sheet->points;
+    kiriProgress progress = kiriRefresh_Stage(&sheet->update->samples.refresh, &source, samples);
     return progress != KIRI_DONE || (MoveCollisionPoints(sheet) && MarkPiecesWithPoints(sheet)) ? progress
                                                                                                 : KIRI_FAILED;
 }
@@ -347,16 +354,9 @@ kiriProgress kiriStage_RunSteps(kiriSheetData* sheet, kiriQuota* quota, kiriStag
     return progress;
 }
 
-kiriProgress kiriStage_Settle(kiriSheetData* sheet, kiriQuota* samples)
-{
-    kiriProgress progress = kiriSkin_Settle(&sheet->vertexSkin, samples);
-    return progress == KIRI_DONE ? kiriSkin_Settle(&sheet->pointSkin, samples) : progress;
-}
-
 kiriProgress kiriStage_Samples(kiriSheetData* sheet, kiriQuota* samples)
 {
-    static kiriStageStep* const steps[] = { kiriStage_Settle, JoinPieces,  FindSamples,
-                                            WeighVertices,    WeighPoints, PlaceCollisionPoints };
+    static kiriStageStep* const steps[] = { JoinPieces, FindSamples, WeighVertices, WeighPoints, PlaceCollisionPoints };
     return kiriStage_RunSteps(sheet, samples, steps, (int32_t)(sizeof(steps) / sizeof(steps[0])));
 }
 

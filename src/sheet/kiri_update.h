@@ -112,9 +112,6 @@ kiriProgress kiriStage_Shape(kiriSheetData* sheet, kiriQuota* cells);
 kiriProgress kiriStage_Samples(kiriSheetData* sheet, kiriQuota* samples);
 kiriProgress kiriStage_Constants(kiriSheetData* sheet, kiriQuota* samples);
 
-/* After a commit, in later ticks and before samples are weighed again: see kiriSkin_Settle. */
-kiriProgress kiriStage_Settle(kiriSheetData* sheet, kiriQuota* samples);
-
 /* A stage in steps: goes on with sheet->update->step, which starts with 0. */
 typedef kiriProgress kiriStageStep(kiriSheetData* sheet, kiriQuota* quota);
 kiriProgress kiriStage_RunSteps(kiriSheetData* sheet, kiriQuota* quota, kiriStageStep* const* steps, int32_t count);

@@ -9,17 +9,17 @@ static bool ResizeSampleWeights(kiriSkin* skin, kiriMemory* memory, kiriSpan* sp
     return kiriSpan_Resize(span, &skin->room, memory, &skin->weights, sizeof(*skin->weights.data), count);
 }
 
-/* Gives room back, which needs no memory. */
+/* Gives the room of a span back. Needs no memory. */
 static void DropSpan(kiriSkin* skin, kiriSpan* span)
 {
     ResizeSampleWeights(skin, NULL, span, 0);
 }
 
-/* Weights are multiples of 1 / WEIGHT_UNITS. Less than half a one is none. */
+/* Weights are multiples of 1 / WEIGHT_UNITS. Less than half a unit is dropped. */
 #define WEIGHT_UNITS 16777216.0
 #define LEAST_SHARE (0.5 / WEIGHT_UNITS)
 
-/* Rounds weights to units. What is then missing from 1 goes to the largest. Returns how many are left. */
+/* Rounds weights to units. The largest gets the rest of the sum. Returns the number of weights above 0. */
 static int32_t RoundWeights(kiriSampleWeight* weights, int32_t count)
 {
     int32_t kept = 0, largest = 0, missing = (int32_t)WEIGHT_UNITS;
@@ -36,14 +36,14 @@ static int32_t RoundWeights(kiriSampleWeight* weights, int32_t count)
     return kept;
 }
 
-/* Stages what the stencil has weighed. Makes room for the commit, too. Of bytes that were made up cells may have no
-   weight that counts: then one frame carries the sample. */
+/* Stages the weights in the stencil, and makes room for the commit. Cells of an untrusted save may have no weight that
+   counts: then one frame carries the sample. */
 static bool StageWeights(kiriSkin* skin, kiriMemory* memory, const kiriLabels* labels, const kiriStencil* stencil,
                          int32_t sample)
 {
     kiriReweighed staged = { sample, { 0, 0 } };
     int32_t count = 0;
-    KIRI_ASSERT(skin->settling.count == 0);
+    KIRI_ASSERT(sample >= 0);
     for (int32_t i = 0; i < stencil->frames.count; ++i) {
         count += stencil->values.data[i] >= LEAST_SHARE;
     }
@@ -81,56 +81,19 @@ bool kiriSkin_Stage(kiriSkin* skin, kiriMemory* memory, const kiriShape* shape, 
     return ok;
 }
 
-/* Only spans change hands here, for all of it is in one tick. */
 void kiriSkin_Commit(kiriSkin* skin)
 {
-    KIRI_ASSERT(skin->settling.count == 0);
     for (int32_t k = 0; k < skin->staged.count; ++k) {
         kiriReweighed* staged = &skin->staged.data[k];
-        kiriSpan span = staged->span, before = { 0, 0 };
-        if (staged->sample < skin->spans.count) {
-            before = skin->spans.data[staged->sample];
-        } else {
-            skin->spans.count += 1; /* there is room */
+        if (staged->sample == skin->spans.count) {
+            KIRI_ASSERT(skin->spans.count < skin->spans.capacity);
+            skin->spans.data[skin->spans.count++] = (kiriSpan){ 0, 0 };
         }
-        skin->spans.data[staged->sample] = span;
-        staged->span = before;
+        KIRI_ASSERT(staged->sample < skin->spans.count);
+        DropSpan(skin, &skin->spans.data[staged->sample]);
+        skin->spans.data[staged->sample] = staged->span;
     }
-    kiriArrayHeader staged = kiriArray_GetHeader(&skin->staged);
-    kiriArray_SetHeader(&skin->staged, kiriArray_GetHeader(&skin->settling));
-    kiriArray_SetHeader(&skin->settling, staged);
-}
-
-static void SettleOne(kiriSkin* skin, kiriSpan* span, kiriSpan before)
-{
-    if (kiriSpan_IsAlike(*span, before)) {
-        kiriSpan staged = *span;
-        memcpy(skin->weights.data + before.first, skin->weights.data + staged.first,
-               sizeof(kiriSampleWeight) * (size_t)staged.count);
-        span->first = before.first;
-        DropSpan(skin, &staged);
-    } else {
-        DropSpan(skin, &before);
-    }
-}
-
-enum { SETTLED_AN_ITEM = 20 };
-
-kiriProgress kiriSkin_Settle(kiriSkin* skin, kiriQuota* quota)
-{
-    while (skin->settling.count > 0 && kiriQuota_Take(quota, 1)) {
-        for (int32_t k = 0; k < SETTLED_AN_ITEM && skin->settling.count > 0; ++k) {
-            kiriReweighed settling = skin->settling.data[--skin->settling.count];
-            SettleOne(skin, &skin->spans.data[settling.sample], settling.span);
-        }
-    }
-    return skin->settling.count == 0 ? KIRI_DONE : KIRI_MORE;
-}
-
-static void SettleAll(kiriSkin* skin)
-{
-    kiriQuota unlimited = { INT64_MAX, 0, 0, false };
-    kiriSkin_Settle(skin, &unlimited);
+    skin->staged.count = 0;
 }
 
 void kiriSkin_Drop(kiriSkin* skin)
@@ -146,7 +109,6 @@ bool kiriSkin_Sort(kiriSkin* skin, kiriMemory* memory)
     KIRI_ASSERT(skin->staged.count == 0);
     kiriSkin sorted;
     memset(&sorted, 0, sizeof(sorted));
-    SettleAll(skin);
     if (!kiriArray_Reserve(memory, &sorted.weights, skin->weights.count + (int64_t)skin->weights.count / 8)) {
         return false;
     }
@@ -163,7 +125,7 @@ bool kiriSkin_Sort(kiriSkin* skin, kiriMemory* memory)
     return true;
 }
 
-/* Adds to the weights of the span, which has room; they stay sorted by label. */
+/* Adds to the weights of a span, which has room. They stay sorted by label. */
 static void Blend(kiriSkin* skin, kiriSpan* span, int32_t label, double value)
 {
     kiriSampleWeight* weights = skin->weights.data + span->first;
@@ -221,35 +183,26 @@ void kiriSkin_Truncate(kiriSkin* skin, int32_t sampleCount)
     }
 }
 
-/* The last weights of a sample are those of the highest labels: the others stay as they are. */
-static void RelabelSamples(kiriSkin* skin, const kiriKeep* labels)
-{
-    const int32_t *to = labels->to.data, least = labels->first;
-    for (int32_t i = 0; i < skin->spans.count && kiriKeep_Moves(labels); ++i) {
-        kiriSampleWeight* weights = skin->weights.data + skin->spans.data[i].first;
-        for (int32_t k = skin->spans.data[i].count; k-- > 0 && weights[k].label >= least;) {
-            int32_t now = to[weights[k].label];
-            weights[k].label = now != KIRI_NONE ? now : 0; /* never gone, but for bytes that were made up */
-        }
-    }
-}
-
 void kiriSkin_Keep(kiriSkin* skin, const kiriKeep* samples, const kiriKeep* labels)
 {
     KIRI_ASSERT(skin->staged.count == 0);
-    SettleAll(skin);
     for (int32_t i = samples->first; i < skin->spans.count; ++i) {
         if (!kiriKeep_Has(samples, i)) {
             DropSpan(skin, &skin->spans.data[i]);
         }
     }
     kiriKeep_Compact(samples, &skin->spans, 1, sizeof(kiriSpan));
-    if (labels != NULL) {
-        RelabelSamples(skin, labels);
+    for (int32_t i = 0; labels != NULL && i < skin->spans.count && kiriKeep_Moves(labels); ++i) {
+        kiriSampleWeight* weights = skin->weights.data + skin->spans.data[i].first;
+        /* Labels ascend, and those below `first` stay. */
+        for (int32_t k = skin->spans.data[i].count; k-- > 0 && weights[k].label >= labels->first;) {
+            int32_t now = labels->to.data[weights[k].label];
+            weights[k].label = now != KIRI_NONE ? now : 0; /* KIRI_NONE only after untrusted loads */
+        }
     }
 }
 
-/* ---- Where samples are ------------------------------------------------------------------------------------------ */
+/* ---- Samples of squares ----------------------------------------------------------------------------------------- */
 
 static int32_t SquareCount(const kiriMeshData* mesh)
 {
@@ -296,17 +249,16 @@ void kiriPlaces_Keep(kiriPlaces* places, const kiriKeep* samples)
 
 /* ---- Refreshing ------------------------------------------------------------------------------------------------- */
 
-/* There is room for every square. */
 static void AddSquare(kiriRefresh* refresh, int32_t square)
 {
-    KIRI_ASSERT(square >= 0 && square < refresh->marks.count);
+    KIRI_ASSERT(square >= 0 && square < refresh->marks.count && refresh->squares.count < refresh->squares.capacity);
     if (!refresh->marks.data[square]) {
         refresh->marks.data[square] = 1;
         refresh->squares.data[refresh->squares.count++] = square;
     }
 }
 
-/* The square and those beside it: a stencil reaches so far. */
+/* Adds a square and the squares beside it, as far as a stencil reaches. */
 static void AddSquaresAround(kiriRefresh* refresh, const kiriMeshData* mesh, int32_t square)
 {
     int32_t columns = mesh->squares.columns, column = square % columns, row = square / columns;
@@ -329,35 +281,6 @@ bool kiriRefresh_NoteDirty(kiriRefresh* refresh, kiriMemory* memory, const kiriM
     return true;
 }
 
-static bool StartMarks(kiriRefresh* refresh, kiriMemory* memory, const kiriMeshData* mesh)
-{
-    int32_t old = refresh->marks.count;
-    refresh->squares.count = refresh->square = 0;
-    refresh->sample = refresh->stencil.cell = KIRI_NONE;
-    if (!kiriArray_ReserveJust(memory, &refresh->squares, SquareCount(mesh)) ||
-        !kiriArray_ResizeJust(memory, &refresh->marks, SquareCount(mesh))) {
-        return false;
-    }
-    for (int32_t s = old; s < refresh->marks.count; ++s) {
-        refresh->marks.data[s] = 0;
-    }
-    return true;
-}
-
-/* The k-th thing that has changed: a cell's weights, the mesh in a square, or a vertex that is new. */
-static void AddChange(kiriRefresh* refresh, const kiriShape* shape, const kiriGrid* grid, const kiriMeshData* mesh,
-                      int32_t firstVertex, int32_t k)
-{
-    int32_t cells = shape->changes.count, squares = cells + refresh->noted.count;
-    if (k < cells) {
-        AddSquaresAround(refresh, mesh, grid->cells.data[shape->changes.data[k]].square);
-    } else if (k < squares) {
-        AddSquaresAround(refresh, mesh, refresh->noted.data[k - cells]);
-    } else {
-        AddSquare(refresh, kiriSquares_At(&mesh->squares, mesh->vertices.data[firstVertex + k - squares].at));
-    }
-}
-
 void kiriRefresh_Drop(kiriRefresh* refresh)
 {
     for (int32_t k = 0; refresh->change > 0 && k < refresh->squares.count; ++k) {
@@ -366,114 +289,100 @@ void kiriRefresh_Drop(kiriRefresh* refresh)
     refresh->noted.count = refresh->change = 0;
 }
 
-enum { CHANGES_AN_ITEM = 16 };
-
-kiriProgress kiriRefresh_Start(kiriRefresh* refresh, kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
-                               const kiriMeshData* mesh, int32_t firstVertex, kiriQuota* quota)
+kiriProgress kiriRefresh_Start(kiriRefresh* refresh, const kiriSampleSource* source, int32_t firstVertex,
+                               kiriQuota* quota)
 {
-    int32_t count = shape->changes.count + refresh->noted.count + mesh->vertices.count - firstVertex;
+    enum { CHANGES_AN_ITEM = 16 };
+    const kiriMeshData* mesh = source->mesh;
+    int32_t cells = source->shape->changes.count, squares = cells + refresh->noted.count;
+    int32_t count = squares + mesh->vertices.count - firstVertex, old = refresh->marks.count;
     refresh->oldCount = firstVertex;
-    if (refresh->change == 0 && !StartMarks(refresh, memory, mesh)) {
-        return KIRI_FAILED;
+    if (refresh->change == 0) {
+        refresh->squares.count = refresh->square = 0;
+        refresh->sample = refresh->stencil.cell = KIRI_NONE;
+        if (!kiriArray_ReserveJust(source->memory, &refresh->squares, SquareCount(mesh)) ||
+            !kiriArray_ResizeJust(source->memory, &refresh->marks, SquareCount(mesh))) {
+            return KIRI_FAILED;
+        }
+        for (int32_t s = old; s < refresh->marks.count; ++s) {
+            refresh->marks.data[s] = 0;
+        }
     }
     for (; refresh->change < count; ++refresh->change) {
-        if (refresh->change % CHANGES_AN_ITEM == 0 && !kiriQuota_Take(quota, 1)) {
+        int32_t k = refresh->change;
+        if (k % CHANGES_AN_ITEM == 0 && !kiriQuota_Take(quota, 1)) {
             return KIRI_MORE;
         }
-        AddChange(refresh, shape, grid, mesh, firstVertex, refresh->change);
+        if (k < cells) {
+            AddSquaresAround(refresh, mesh, source->grid->cells.data[source->shape->changes.data[k]].square);
+        } else if (k < squares) {
+            AddSquaresAround(refresh, mesh, refresh->noted.data[k - cells]);
+        } else {
+            AddSquare(refresh, kiriSquares_At(&mesh->squares, kiriMesh_At(mesh, firstVertex + k - squares)));
+        }
     }
     kiriRefresh_Drop(refresh);
     return KIRI_DONE;
 }
 
-/* What a refresh works on. */
-typedef struct Samples {
-    kiriSkin* skin;
-    kiriMemory* memory;
-    const kiriShape* shape;
-    const kiriGrid* grid;
-    const kiriMeshData* mesh;
-    const kiriPlaces* places; /* null: vertices */
-    const kiriSamples* points;
-} Samples;
-
-static int32_t FirstOf(const Samples* samples, int32_t square)
+/* Stages one sample. Many samples have the cell of the sample before. */
+static bool RefreshOne(kiriRefresh* refresh, const kiriSampleSource* source, int32_t square, int32_t sample)
 {
-    if (samples->places != NULL) {
-        return samples->places->head.count > 0 ? samples->places->head.data[square] : KIRI_NONE;
-    }
-    return samples->mesh->squares.vertexHead[square];
-}
-
-static int32_t NextOf(const Samples* samples, int32_t sample)
-{
-    return samples->places == NULL ? samples->mesh->vertices.data[sample].next : samples->places->next.data[sample];
-}
-
-static int32_t CellOfSample(const Samples* samples, int32_t square, int32_t sample)
-{
-    KIRI_ASSERT(square >= 0 && square < samples->grid->squareCell.count);
-    int32_t first = samples->grid->squareCell.data[square];
-    if (samples->grid->cells.data[first].next == KIRI_NONE) {
-        return first;
-    }
-    return samples->places == NULL
-               ? kiriGrid_CellOfVertex(samples->grid, samples->mesh, sample)
-               : kiriGrid_CellAround(samples->grid, samples->mesh, samples->points->data[sample].at);
-}
-
-/* Cells around an old sample have changed, and often its weights have not: then what was staged last is taken back. */
-static void UnstageSame(kiriSkin* skin, int32_t oldCount)
-{
-    kiriReweighed* last = &skin->staged.data[skin->staged.count - 1];
-    kiriSpan is = last->span, was = last->sample < oldCount ? skin->spans.data[last->sample] : (kiriSpan){ 0, 0 };
-    if (was.count == is.count && memcmp(skin->weights.data + was.first, skin->weights.data + is.first,
-                                        sizeof(kiriSampleWeight) * (size_t)is.count) == 0) {
-        DropSpan(skin, &last->span);
-        skin->staged.count -= 1;
-    }
-}
-
-/* A sample has often the cell of the one before. What is staged of a point says that it may have another cell, too. */
-static bool RefreshOne(kiriRefresh* refresh, const Samples* samples, int32_t square, int32_t sample)
-{
+    const kiriGrid* grid = source->grid;
+    const kiriMeshData* mesh = source->mesh;
     kiriStencil* stencil = &refresh->stencil;
-    int32_t cell = CellOfSample(samples, square, sample);
-    kiriLatticePoint at =
-        samples->places == NULL ? samples->mesh->vertices.data[sample].at : samples->points->data[sample].at;
-    if (stencil->cell != cell &&
-        !kiriStencil_Gather(stencil, samples->memory, samples->shape, samples->grid, samples->mesh, cell)) {
+    kiriSkin* skin = source->skin;
+    bool isVertex = source->places == NULL;
+    kiriLatticePoint at = isVertex ? kiriMesh_At(mesh, sample) : source->points->data[sample].at;
+    KIRI_ASSERT(square >= 0 && square < grid->squareCell.count);
+    int32_t cell = grid->squareCell.data[square];
+    if (grid->cells.data[cell].next != KIRI_NONE) {
+        cell = isVertex ? kiriGrid_CellOfVertex(grid, mesh, sample) : kiriGrid_CellAround(grid, mesh, at);
+    }
+    if (stencil->cell != cell && !kiriStencil_Gather(stencil, source->memory, source->shape, grid, mesh, cell)) {
         return false;
     }
-    bool leans = stencil->split && samples->places == NULL;
-    kiriVec2 lean = leans ? kiriMesh_Lean(samples->mesh, sample) : kiriVec2_Make(0.0, 0.0);
-    kiriStencil_Weigh(stencil, kiriMesh_Local(samples->mesh, at), lean);
-    if (!StageWeights(samples->skin, samples->memory, &samples->shape->labels, stencil, sample)) {
+    kiriVec2 lean = stencil->split && isVertex ? kiriMesh_Lean(mesh, sample) : kiriVec2_Make(0.0, 0.0);
+    kiriStencil_Weigh(stencil, kiriMesh_Local(mesh, at), lean);
+    if (!StageWeights(skin, source->memory, &source->shape->labels, stencil, sample)) {
         return false;
     }
-    if (samples->places == NULL) {
-        UnstageSame(samples->skin, refresh->oldCount);
+    /* Weights of an old vertex have often not changed: then it is not staged. A point that is staged may have another
+       cell, too. */
+    kiriSpan* is = &skin->staged.data[skin->staged.count - 1].span;
+    kiriSpan was = isVertex && sample < refresh->oldCount ? skin->spans.data[sample] : (kiriSpan){ 0, 0 };
+    if (was.count == is->count && memcmp(skin->weights.data + was.first, skin->weights.data + is->first,
+                                         sizeof(kiriSampleWeight) * (size_t)is->count) == 0) {
+        DropSpan(skin, is);
+        skin->staged.count -= 1;
     }
     return true;
 }
 
-/* An item is a sample, or some squares in which samples may be. */
-static kiriProgress Refresh(kiriRefresh* refresh, const Samples* samples, kiriQuota* quota)
+kiriProgress kiriRefresh_Stage(kiriRefresh* refresh, const kiriSampleSource* source, kiriQuota* quota)
 {
     enum { SQUARES_AN_ITEM = 16 };
+    const kiriMeshData* mesh = source->mesh;
+    const kiriPlaces* places = source->places;
+    if (places != NULL && places->next.count == 0) {
+        return KIRI_DONE;
+    }
     for (; refresh->square < refresh->squares.count; ++refresh->square) {
         bool isNext = refresh->sample == KIRI_NONE && refresh->square % SQUARES_AN_ITEM == 0;
         if (!kiriQuota_Take(quota, isNext)) {
             return KIRI_MORE;
         }
-        int32_t square = refresh->squares.data[refresh->square];
-        int32_t sample = refresh->sample == KIRI_NONE ? FirstOf(samples, square) : refresh->sample;
-        for (; sample != KIRI_NONE; sample = NextOf(samples, sample)) {
+        int32_t square = refresh->squares.data[refresh->square], sample = refresh->sample;
+        if (sample == KIRI_NONE) {
+            sample = places == NULL ? mesh->squares.vertexHead[square] : places->head.data[square];
+        }
+        for (; sample != KIRI_NONE;
+             sample = places == NULL ? mesh->vertices.data[sample].next : places->next.data[sample]) {
             refresh->sample = sample;
             if (!kiriQuota_Take(quota, 1)) {
                 return KIRI_MORE;
             }
-            if (!RefreshOne(refresh, samples, square, sample)) {
+            if (!RefreshOne(refresh, source, square, sample)) {
                 return KIRI_FAILED;
             }
         }
@@ -481,22 +390,6 @@ static kiriProgress Refresh(kiriRefresh* refresh, const Samples* samples, kiriQu
     }
     refresh->square = 0;
     return KIRI_DONE;
-}
-
-kiriProgress kiriRefresh_Vertices(kiriRefresh* refresh, kiriSkin* skin, kiriMemory* memory, const kiriShape* shape,
-                                  const kiriGrid* grid, const kiriMeshData* mesh, kiriQuota* quota)
-{
-    Samples samples = { skin, memory, shape, grid, mesh, NULL, NULL };
-    return Refresh(refresh, &samples, quota);
-}
-
-kiriProgress kiriRefresh_Points(kiriRefresh* refresh, kiriSkin* skin, const kiriPlaces* places,
-                                const kiriSamples* points, kiriMemory* memory, const kiriShape* shape,
-                                const kiriGrid* grid, const kiriMeshData* mesh, kiriQuota* quota)
-{
-    Samples samples = { skin, memory, shape, grid, mesh, places, points };
-    /* Before the first point there are no lists. */
-    return places->next.count > 0 ? Refresh(refresh, &samples, quota) : KIRI_DONE;
 }
 
 /* ---- Motion ----------------------------------------------------------------------------------------------------- */
@@ -514,23 +407,6 @@ kiriVec3 kiriSkin_Position(const kiriSkin* skin, const kiriLabels* labels, int32
     return x;
 }
 
-static void AddColumns(kiriMat3* sum, double w, const kiriMat3* A)
-{
-    sum->u = kiriVec3_AddScaled(sum->u, w, A->u);
-    sum->v = kiriVec3_AddScaled(sum->v, w, A->v);
-    sum->d = kiriVec3_AddScaled(sum->d, w, A->d);
-}
-
-static void AddMotion(kiriMotion* sum, const kiriFrameData* frame, kiriVec2 local, double w)
-{
-    kiriMat3 rate = kiriFrame_Rate(frame);
-    sum->x = kiriVec3_AddScaled(sum->x, w, kiriFrame_Carry(frame, local));
-    sum->velocity = kiriVec3_AddScaled(sum->velocity, w, kiriFrame_VelocityAt(frame, local));
-    sum->spin = kiriVec3_AddScaled(sum->spin, w, frame->spin);
-    AddColumns(&sum->A, w, &frame->A);
-    AddColumns(&sum->rate, w, &rate);
-}
-
 kiriMotion kiriSkin_Motion(const kiriSkin* vertexSkin, const kiriLabels* labels, const kiriFrameData* frames,
                            const kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at)
 {
@@ -545,7 +421,14 @@ kiriMotion kiriSkin_Motion(const kiriSkin* vertexSkin, const kiriLabels* labels,
         kiriSpan span = vertexSkin->spans.data[mesh->triangles.data[triangle].vertex[k]];
         for (int32_t i = span.first; i < span.first + span.count; ++i) {
             kiriSampleWeight weight = vertexSkin->weights.data[i];
-            AddMotion(&motion, &frames[kiriLabels_Item(labels, weight.label)], local, share * weight.value);
+            const kiriFrameData* frame = &frames[kiriLabels_Item(labels, weight.label)];
+            kiriMat3 rate = kiriFrame_Rate(frame);
+            double w = share * weight.value;
+            motion.x = kiriVec3_AddScaled(motion.x, w, kiriFrame_Carry(frame, local));
+            motion.velocity = kiriVec3_AddScaled(motion.velocity, w, kiriFrame_VelocityAt(frame, local));
+            motion.spin = kiriVec3_AddScaled(motion.spin, w, frame->spin);
+            motion.A = kiriMat3_AddScaled(&motion.A, w, &frame->A);
+            motion.rate = kiriMat3_AddScaled(&motion.rate, w, &rate);
         }
     }
     return motion;

@@ -7,14 +7,14 @@
 
 KIRI_C_BEGIN
 
-/* A sample that shall have other weights. */
+/* New weights of a sample. */
 typedef struct kiriReweighed {
     int32_t sample;
     kiriSpan span;
 } kiriReweighed;
 
-/* A weight of a sample: a multiple of 2^-24, so that those of a sample add up to 1 exactly. Never 0. Its frame has the
-   label that it has in the shape, too (kiriShape.labels). */
+/* A weight of a sample: a multiple of 2^-24, not 0. The sum over a sample is exactly 1. Labels are those of the shape
+   (kiriShape.labels). */
 typedef struct kiriSampleWeight {
     int32_t label;
     float value;
@@ -23,82 +23,84 @@ typedef struct kiriSampleWeight {
 /* The weights of a row of samples. */
 typedef struct kiriSkin {
     KIRI_ARRAY(kiriSpan) spans;           /* one a sample */
-    KIRI_ARRAY(kiriSampleWeight) weights; /* by spans; in a span by label */
+    KIRI_ARRAY(kiriSampleWeight) weights; /* in spans, by label */
     kiriSpans room;
-    KIRI_ARRAY(kiriReweighed) staged; /* weights that take effect with the commit */
-    KIRI_ARRAY(kiriReweighed)
-    settling; /* samples whose weights are where they were staged, and the room they had before */
+    KIRI_ARRAY(kiriReweighed) staged;     /* weights that take effect with the commit */
 } kiriSkin;
 
-/* A material point that the host collides with the world. */
+/* A collision point: a material point that the host collides with the world. */
 typedef struct kiriSample {
-    kiriLatticePoint at; /* in the material */
-    int32_t cell;        /* around it */
-    int32_t frame;       /* in whose region it is */
+    kiriLatticePoint at;
+    int32_t cell;  /* that holds it */
+    int32_t frame; /* whose region holds it */
 } kiriSample;
 
 typedef KIRI_ARRAY(kiriSample) kiriSamples;
 
-/* What blended frames do at a point: linear-blend skinning and its velocity. A is not a rotation. */
+/* Motion of the material at a point: linear-blend skinning and its velocity. A is not a rotation. */
 typedef struct kiriMotion {
     kiriVec3 x, velocity, spin;
-    kiriMat3 A, rate; /* rate: of A, all of it */
+    kiriMat3 A, rate; /* rate: derivative of A */
 } kiriMotion;
 
-/* Stages the weights of a sample at a local point of a cell. A sample is staged at most once before a commit; those
-   from `spans.count` on are new and must be staged in their order. Nothing is settling. False for memory. */
+/* Stages the weights of a sample at a local point of a cell. A sample is staged at most once before a commit. New samples,
+   from `spans.count` on, are staged in ascending order. Returns false on out of memory. */
 bool kiriSkin_Stage(kiriSkin* skin, kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
                     const kiriMeshData* mesh, int32_t sample, int32_t cell, kiriVec2 at);
 
-/* The weights staged become those of the samples, and settle later; or they are dropped. Neither fails. */
+/* Commit gives the staged weights to the samples; Drop drops them. Both cannot fail. */
 void kiriSkin_Commit(kiriSkin* skin);
 void kiriSkin_Drop(kiriSkin* skin);
 
-/* After a commit: weights go to the room of the old ones where they fit, so that samples that lie beside each other
-   keep theirs together, and other room is given back. An item of the quota is 20 samples. Never fails. */
-kiriProgress kiriSkin_Settle(kiriSkin* skin, kiriQuota* quota);
-
-/* Puts the weights in the order of samples, in which they are read, with some room for more. Nothing is staged; what
-   settles has settled. False for memory: they stay as they are. */
+/* Sorts the weights by samples, for speed, with some room for more. Nothing may be staged. Returns false on out of memory:
+   then nothing changes. */
 bool kiriSkin_Sort(kiriSkin* skin, kiriMemory* memory);
 
-/* Which samples lie in which square, for samples that never move: a list a square. */
+/* Lists of the samples in each square, for samples that never move. */
 typedef struct kiriPlaces {
-    KIRI_ARRAY(int32_t) head; /* of each square, or KIRI_NONE */
+    KIRI_ARRAY(int32_t) head; /* of each square, or KIRI_NONE; empty if there are no samples */
     KIRI_ARRAY(int32_t) next; /* of each sample */
 } kiriPlaces;
-/* After it Add does not fail until there are so many samples. For none there are no lists. */
+
+/* Makes room for samples, so that Add cannot fail. */
 bool kiriPlaces_Reserve(kiriPlaces* places, kiriMemory* memory, const kiriMeshData* mesh, int64_t sampleCount);
 bool kiriPlaces_Add(kiriPlaces* places, kiriMemory* memory, const kiriMeshData* mesh, kiriLatticePoint at);
 
-/* Stages, of all samples that follow the shape functions, those whose weights may have changed: each in the square of a
-   cell of shape->changes, in a square that was noted, or beside one of these. An item of the quota is a sample
-   staged. */
+/* Stages the samples whose weights may have changed: those in or beside the square of a cell in shape->changes, or in or
+   beside a square that was noted. */
 typedef struct kiriRefresh {
     KIRI_ARRAY(int32_t) noted;   /* squares in which the mesh changed, until Start */
     KIRI_ARRAY(int32_t) squares; /* with such samples */
     KIRI_ARRAY(uint8_t) marks;   /* of each square; all 0 but during Start */
-    int32_t change;              /* that Start looks at next */
+    int32_t change;              /* next in Start */
     int32_t oldCount;            /* samples that are not new */
-    int32_t square, sample;      /* where the work goes on */
-    kiriStencil stencil;         /* of the cell at hand */
+    int32_t square, sample;      /* next in Stage */
+    kiriStencil stencil;         /* of the current cell */
 } kiriRefresh;
 
-/* Notes the dirty squares of the mesh, which are cleared before Start is called: cells there may have the same weights,
-   but material elsewhere, and vertices there may have come to a lip. False for memory. */
+/* Samples, and the data from which their weights come. */
+typedef struct kiriSampleSource {
+    kiriMemory* memory;
+    const kiriShape* shape;
+    const kiriGrid* grid;
+    const kiriMeshData* mesh;
+    kiriSkin* skin;
+    const kiriPlaces* places; /* null: the samples are the vertices */
+    const kiriSamples* points;
+} kiriSampleSource;
+
+/* Notes the dirty squares of the mesh, which are cleared before Start: there cells may have the same weights but other
+   material, and vertices may have come to a lip. Returns false on out of memory. */
 bool kiriRefresh_NoteDirty(kiriRefresh* refresh, kiriMemory* memory, const kiriMeshData* mesh);
 
-/* Vertices from `firstVertex` on are new, and are staged all; older ones where they come out other than before. Here an
-   item of the quota is 24 changes. */
-kiriProgress kiriRefresh_Start(kiriRefresh* refresh, kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
-                               const kiriMeshData* mesh, int32_t firstVertex, kiriQuota* quota);
-kiriProgress kiriRefresh_Vertices(kiriRefresh* refresh, kiriSkin* skin, kiriMemory* memory, const kiriShape* shape,
-                                  const kiriGrid* grid, const kiriMeshData* mesh, kiriQuota* quota);
-kiriProgress kiriRefresh_Points(kiriRefresh* refresh, kiriSkin* skin, const kiriPlaces* places,
-                                const kiriSamples* points, kiriMemory* memory, const kiriShape* shape,
-                                const kiriGrid* grid, const kiriMeshData* mesh, kiriQuota* quota);
+/* Finds the squares. Vertices from `firstVertex` on are new. An item of the quota is 16 changes. */
+kiriProgress kiriRefresh_Start(kiriRefresh* refresh, const kiriSampleSource* source, int32_t firstVertex,
+                               kiriQuota* quota);
 
-/* Forgets what is noted, and a Start that waits for more quota. */
+/* Stages new vertices, old vertices whose weights change, and points. An item of the quota is a sample, or 16 squares. */
+kiriProgress kiriRefresh_Stage(kiriRefresh* refresh, const kiriSampleSource* source, kiriQuota* quota);
+
+/* Drops the noted squares, and a Start that waits for quota. */
 void kiriRefresh_Drop(kiriRefresh* refresh);
 
 /* Vertices born since kiriMesh_Begin take a blend of their parents' weights, so that they lie on the surface as it was.
@@ -106,15 +108,16 @@ void kiriRefresh_Drop(kiriRefresh* refresh);
 bool kiriSkin_Inherit(kiriSkin* skin, kiriMemory* memory, const kiriMeshData* mesh);
 void kiriSkin_Truncate(kiriSkin* skin, int32_t sampleCount);
 
-/* Samples and frames are taken away; no sample that is kept has a weight of a frame that is not. `labels`: what labels
-   become; null: they stay. Nothing is staged. Never fails. */
+/* Removes the samples that are not kept, and renumbers labels (null: they stay). Samples that are kept have no weight of a
+   label that is removed. Nothing may be staged. Cannot fail. */
 void kiriSkin_Keep(kiriSkin* skin, const kiriKeep* samples, const kiriKeep* labels);
 void kiriPlaces_Keep(kiriPlaces* places, const kiriKeep* samples);
 
+/* Returns the position of a sample, from its local rest point. */
 kiriVec3 kiriSkin_Position(const kiriSkin* skin, const kiriLabels* labels, int32_t sample, const kiriFrameData* frames,
                            kiriVec2 local);
 
-/* The motion at a lattice point of a triangle, from the weights of its corners. */
+/* Returns the motion at a lattice point of a triangle, from the weights of its corners. */
 kiriMotion kiriSkin_Motion(const kiriSkin* vertexSkin, const kiriLabels* labels, const kiriFrameData* frames,
                            const kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at);
 

@@ -121,7 +121,7 @@ static void ForgetStencil(kiriArchive* archive, void* object)
 
 static const kiriMember SkinMembers[] = {
     KIRI_ITEMS(4, kiriSkin, spans),  KIRI_ITEMS(4, kiriSkin, weights),  KIRI_RUN(4, kiriSkin, room, room),
-    KIRI_ITEMS(4, kiriSkin, staged), KIRI_ITEMS(4, kiriSkin, settling),
+    KIRI_ITEMS(4, kiriSkin, staged),
 };
 const kiriTable kiriSkinTable = KIRI_TABLE(kiriSkin, SkinMembers);
 

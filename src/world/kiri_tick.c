@@ -121,21 +121,6 @@ static bool FindPairs(kiriWorld* world, double dt)
     return kiriPairs_Find(world, dt);
 }
 
-/* With what the budget has left; items of work on cuts alone are counted. Sheets at work do so when they come to their
-   samples: until then arrays may grow. */
-static void SettleWeights(kiriWorld* world, int64_t samples)
-{
-    kiriQuota quota = { samples, 0, 0, false };
-    for (int32_t k = 0; k < world->active.count && quota.left > 0; ++k) {
-        kiriSheetData* sheet = kiriWorld_Active(world, k);
-        bool isSettling = sheet->vertexSkin.settling.count + sheet->pointSkin.settling.count > 0;
-        if (isSettling && sheet->update->stage == KIRI_NONE) {
-            EnterStage(world, KIRI_STAGE_SKIN);
-            kiriStage_Settle(sheet, &quota);
-        }
-    }
-}
-
 /* False for memory. */
 static bool UpdateAll(kiriWorld* world, kiriQuotas* quotas)
 {
@@ -145,7 +130,6 @@ static bool UpdateAll(kiriWorld* world, kiriQuotas* quotas)
         kiriSheetData* sheet = world->sheets.data[world->atWork.data[k]];
         ok = !kiriPipeline_CanRun(sheet, quotas) || kiriPipeline_Run(sheet, quotas, &watch) != KIRI_FAILED;
     }
-    SettleWeights(world, quotas->of[KIRI_QUOTA_SAMPLES].left);
     return ok;
 }
 
