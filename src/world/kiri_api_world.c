@@ -442,7 +442,7 @@ kiriResult kiriWorld_Restore(kiriWorld* world, const void* bytes, int64_t size)
 {
     KIRI_PREPARES(world);
     KIRI_CHECK(bytes != NULL && size >= 0, "bytes is null, or size below 0");
-    if (world->recorder.sink.write != NULL) {
+    if (world->recorder.write != NULL) {
         return KIRI_FAIL(KIRI_ERROR_STATE, "the world is recorded: snapshots are of one process, recordings are not");
     }
     kiriResult result = kiriSnapshot_Read(world, bytes, size);

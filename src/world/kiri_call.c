@@ -669,7 +669,7 @@ bool kiriCall_Begin(kiriCall* call)
         kiriCall_End(world, call, call->function, call->result, fault.line);
         return false;
     }
-    if (world->recorder.sink.write != NULL) {
+    if (world->recorder.write != NULL) {
         kiriRecord_Begin(call);
         call->isRecorded = true;
     }

@@ -7,39 +7,174 @@
 
 static const uint8_t magic[KIRI_RECORD_MAGIC_BYTES] = { 'K', 'i', 'r', 'i', 'R', 'e', 'c', '\n' };
 
-/* ---- Coding ------------------------------------------------------------------------------------------------------ */
+/* ---- Numbers ----------------------------------------------------------------------------------------------------- */
 
-/* A coder either writes or reads, see kiri_archive.h. Values that are written have been checked, but for those of
-   KIRI_ARGUMENT_SAVE; values that are read have not. */
+/* Why a coder stopped. From then on it reads zeros. */
+typedef enum ReadFault {
+    READ_FINE,
+    READ_SHORT, /* the bytes end too early */
+    READ_DAMAGED,
+    READ_OTHER_VERSION,
+    READ_NO_MEMORY
+} ReadFault;
 
-static void CodeStruct(kiriCoder* coder, const kiriStruct* of, char* at);
+/* A coder either writes or reads, so one description of data serves for both. Values that are written have been checked;
+   values that are read have not. Integers take 7 bits a byte, the lowest first; the top bit says that more follow. */
+typedef struct Coder {
+    kiriRecorder* recorder; /* null: it reads, */
+    const uint8_t *at, *end;
+    kiriMemory* memory; /* and allocates what it reads */
+    ReadFault fault;
+} Coder;
 
-static void CodeFloats(kiriCoder* coder, float* values, int64_t count)
+static bool IsReading(const Coder* coder)
 {
-    for (int64_t i = 0; i < count; ++i) {
-        kiriCoder_Float(coder, &values[i]);
+    return coder->recorder == NULL;
+}
+
+/* Keeps the first fault. */
+static void StopReading(Coder* coder, ReadFault fault)
+{
+    coder->fault = coder->fault == READ_FINE ? fault : coder->fault;
+    coder->at = coder->end;
+}
+
+static void FlushRecorder(kiriRecorder* recorder)
+{
+    if (recorder->byteCount > 0) {
+        recorder->write(recorder->user, recorder->bytes, recorder->byteCount);
+        recorder->byteCount = 0;
     }
 }
 
-static void CodeValue(kiriCoder* coder, const kiriValue* value, void* at)
+static void CodeByte(Coder* coder, uint8_t* value)
+{
+    kiriRecorder* recorder = coder->recorder;
+    if (recorder != NULL) {
+        if (recorder->byteCount == KIRI_RECORDER_BYTES) {
+            FlushRecorder(recorder);
+        }
+        recorder->bytes[recorder->byteCount++] = *value;
+    } else if (coder->at == coder->end) {
+        StopReading(coder, READ_SHORT);
+        *value = 0;
+    } else {
+        *value = *coder->at++;
+    }
+}
+
+static void CodeUnsigned(Coder* coder, uint64_t* value)
+{
+    uint64_t rest = *value, sum = 0;
+    uint8_t byte = 0x80;
+    for (int shift = 0; byte >= 0x80 && shift < 64; shift += 7) {
+        byte = (uint8_t)((rest & 0x7f) | (rest > 0x7f ? 0x80 : 0));
+        CodeByte(coder, &byte);
+        sum |= (uint64_t)(byte & 0x7f) << shift;
+        rest >>= 7;
+    }
+    if (IsReading(coder)) {
+        *value = sum;
+    }
+}
+
+/* 0, -1, 1, -2 and so on are 0, 1, 2, 3. */
+static void CodeInt(Coder* coder, int32_t* value)
+{
+    uint64_t folded = (uint32_t)*value << 1 ^ (*value < 0 ? UINT32_MAX : 0);
+    CodeUnsigned(coder, &folded);
+    if (IsReading(coder)) {
+        *value = (int32_t)((uint32_t)folded >> 1 ^ ((folded & 1) != 0 ? UINT32_MAX : 0));
+    }
+}
+
+/* The slot comes first, so that ids of few things are short: see kiri_pool.h. */
+static void CodeId(Coder* coder, uint32_t* value)
+{
+    uint64_t turned = (uint32_t)(*value << 10 | *value >> 22);
+    CodeUnsigned(coder, &turned);
+    if (IsReading(coder)) {
+        *value = (uint32_t)turned >> 10 | (uint32_t)turned << 22;
+    }
+}
+
+static void CodeBits(Coder* coder, uint64_t* bits, int count)
+{
+    uint64_t sum = 0;
+    for (int shift = 0; shift < count; shift += 8) {
+        uint8_t byte = (uint8_t)(*bits >> shift);
+        CodeByte(coder, &byte);
+        sum |= (uint64_t)byte << shift;
+    }
+    *bits = sum;
+}
+
+static void CodeFloats(Coder* coder, float* values, int64_t count)
+{
+    for (int64_t i = 0; i < count; ++i) {
+        uint32_t word;
+        memcpy(&word, &values[i], sizeof(word));
+        uint64_t bits = word;
+        CodeBits(coder, &bits, 32);
+        word = (uint32_t)bits;
+        if (IsReading(coder)) {
+            memcpy(&values[i], &word, sizeof(word));
+        }
+    }
+}
+
+/* Codes differences: neighbours in a mesh are near each other. */
+static void CodeIndices(Coder* coder, int32_t* values, int64_t count)
+{
+    uint32_t last = 0;
+    for (int64_t i = 0; i < count; ++i) {
+        int32_t step = (int32_t)((uint32_t)values[i] - last);
+        CodeInt(coder, &step);
+        last += (uint32_t)step;
+        if (IsReading(coder)) {
+            values[i] = (int32_t)last;
+        }
+    }
+}
+
+/* Allocates zeroed items of which each takes at least `least` bytes of the recording. Null if there are not as many. */
+static void* AllocateRead(Coder* coder, int64_t count, int64_t itemBytes, int64_t least)
+{
+    KIRI_ASSERT(IsReading(coder) && count > 0);
+    if (count * least > coder->end - coder->at) {
+        StopReading(coder, READ_SHORT);
+        return NULL;
+    }
+    void* items = kiriMemory_AllocZeroed(coder->memory, count * itemBytes);
+    if (items == NULL) {
+        StopReading(coder, READ_NO_MEMORY);
+    }
+    return items;
+}
+
+/* ---- Arguments --------------------------------------------------------------------------------------------------- */
+
+static void CodeStruct(Coder* coder, const kiriStruct* of, char* at);
+
+static void CodeValue(Coder* coder, const kiriValue* value, void* at)
 {
     switch (value->form) {
     case KIRI_FORM_INTS: /* unsigned ones too: all bits set is -1, one byte */
         for (int32_t i = 0; i < value->count; ++i) {
-            kiriCoder_Int(coder, (int32_t*)at + i);
+            CodeInt(coder, (int32_t*)at + i);
         }
         break;
     case KIRI_FORM_FLOATS:
         CodeFloats(coder, at, value->count);
         break;
     case KIRI_FORM_BYTE:
-        kiriCoder_Byte(coder, at);
+        CodeByte(coder, at);
         break;
     case KIRI_FORM_DATA:
-        kiriCoder_Unsigned(coder, at);
+        CodeUnsigned(coder, at);
         break;
     case KIRI_FORM_ID:
-        kiriCoder_Id(coder, at);
+        CodeId(coder, at);
         break;
     case KIRI_FORM_STRUCT:
         CodeStruct(coder, value->of, at);
@@ -50,17 +185,17 @@ static void CodeValue(kiriCoder* coder, const kiriValue* value, void* at)
 }
 
 /* Codes whether something is there. */
-static bool CodePresence(kiriCoder* coder, bool isThere)
+static bool CodePresence(Coder* coder, bool isThere)
 {
-    uint8_t byte = isThere;
-    kiriCoder_Byte(coder, &byte);
-    if (byte > 1) {
-        kiriCoder_Stop(coder, KIRI_CODER_DAMAGED);
+    uint64_t number = isThere;
+    CodeUnsigned(coder, &number);
+    if (number > 1) {
+        StopReading(coder, READ_DAMAGED);
     }
-    return byte == 1;
+    return number == 1;
 }
 
-static void CodeArrayOf(kiriCoder* coder, const kiriValue* member, char* def)
+static void CodeArrayOf(Coder* coder, const kiriValue* member, char* def)
 {
     void* array;
     int32_t count;
@@ -71,20 +206,20 @@ static void CodeArrayOf(kiriCoder* coder, const kiriValue* member, char* def)
         return;
     }
     int64_t numbers = (int64_t)member->count * count;
-    if (kiriCoder_Reads(coder)) {
-        array = count > 0 ? kiriCoder_Alloc(coder, numbers, 4, isFloats ? 4 : 1) : NULL;
+    if (IsReading(coder)) {
+        array = count > 0 ? AllocateRead(coder, numbers, 4, isFloats ? 4 : 1) : NULL;
         memcpy(def + member->offset, &array, sizeof(array));
     }
     if (array != NULL && isFloats) {
         CodeFloats(coder, array, numbers);
     } else if (array != NULL) {
-        kiriCoder_Indices(coder, array, numbers);
+        CodeIndices(coder, array, numbers);
     }
 }
 
-static void CodeStruct(kiriCoder* coder, const kiriStruct* of, char* at)
+static void CodeStruct(Coder* coder, const kiriStruct* of, char* at)
 {
-    if (kiriCoder_Reads(coder) && of->cookie != 0) {
+    if (IsReading(coder) && of->cookie != 0) {
         memcpy(at, &of->cookie, sizeof(of->cookie));
     }
     for (int32_t i = 0; i < of->count; ++i) {
@@ -111,50 +246,48 @@ static int32_t BytesOf(const kiriValue* value)
 }
 
 /* Codes the count, which is the next argument, and then the items. */
-static void CodeArray(kiriCoder* coder, const kiriValue* value, const void** at)
+static void CodeArray(Coder* coder, const kiriValue* value, const void** at)
 {
-    int32_t count = kiriCoder_Reads(coder) ? 0 : *(const int32_t*)at[1];
-    kiriCoder_Int(coder, &count);
-    bool isInRange = value->low > value->high || (count >= value->low && count <= value->high);
-    if (kiriCoder_Reads(coder)) {
-        int32_t* own = kiriMemory_AllocZeroed(coder->memory, sizeof(count));
-        at[0] = isInRange && count > 0 ? kiriCoder_Alloc(coder, count, BytesOf(value->item), 1) : NULL;
-        at[1] = own;
-        if (own == NULL || !isInRange) {
-            kiriCoder_Stop(coder, own == NULL ? KIRI_CODER_MEMORY : KIRI_CODER_DAMAGED);
-            return;
-        }
-        *own = count;
+    if (IsReading(coder)) {
+        at[1] = AllocateRead(coder, 1, sizeof(int32_t), 0);
     }
-    for (int32_t i = 0; at[0] != NULL && i < count; ++i) {
+    if (at[1] == NULL) {
+        return;
+    }
+    int32_t* count = (int32_t*)at[1];
+    CodeInt(coder, count);
+    if (IsReading(coder)) {
+        bool isInRange = value->low > value->high || (*count >= value->low && *count <= value->high);
+        at[0] = isInRange && *count > 0 ? AllocateRead(coder, *count, BytesOf(value->item), 1) : NULL;
+        if (!isInRange) {
+            StopReading(coder, READ_DAMAGED);
+        }
+    }
+    for (int32_t i = 0; at[0] != NULL && i < *count; ++i) {
         CodeValue(coder, value->item, (char*)at[0] + (int64_t)i * BytesOf(value->item));
     }
 }
 
 /* Codes the arguments of a call. If the coder reads they lie in its memory. */
-static void CodeArguments(kiriCoder* coder, const kiriCallRow* row, const void* at[])
+static void CodeArguments(Coder* coder, const kiriCallRow* row, const void* at[])
 {
-    for (int i = 0; i < KIRI_CALL_ARGUMENTS && coder->fault == KIRI_CODER_FINE; ++i) {
+    for (int i = 0; i < KIRI_CALL_ARGUMENTS && row->kinds[i] != KIRI_ARGUMENT_NONE && coder->fault == READ_FINE; ++i) {
         const kiriValue* value = &kiriArguments[row->kinds[i]];
-        if (row->kinds[i] == KIRI_ARGUMENT_NONE || value->form == KIRI_FORM_COUNT) {
-            continue;
-        }
+        bool isThere = value->form != KIRI_FORM_COUNT; /* it comes with its array */
         if (value->form == KIRI_FORM_ARRAY) {
             CodeArray(coder, value, &at[i]);
             continue;
         }
-        if (value->isOptional && value->form == KIRI_FORM_FLOATS && !CodePresence(coder, at[i] != NULL)) {
-            continue;
+        if (value->isOptional && value->form == KIRI_FORM_FLOATS) {
+            isThere = CodePresence(coder, at[i] != NULL);
         }
-        if (kiriCoder_Reads(coder)) {
+        if (isThere && IsReading(coder)) {
             int64_t items = value->form == KIRI_FORM_NEWS ? *(const int32_t*)at[i - 1] : 1;
-            at[i] = kiriMemory_AllocZeroed(coder->memory, BytesOf(value) * kiriMax(items, 1));
-            if (at[i] == NULL) {
-                kiriCoder_Stop(coder, KIRI_CODER_MEMORY);
-                return;
-            }
+            at[i] = AllocateRead(coder, kiriMax(items, 1), BytesOf(value), 0);
         }
-        CodeValue(coder, value, (void*)at[i]);
+        if (isThere && at[i] != NULL) {
+            CodeValue(coder, value, (void*)at[i]);
+        }
     }
 }
 
@@ -180,48 +313,43 @@ typedef struct Outcome {
     uint64_t hash;
 } Outcome;
 
-static void CodeOutcome(kiriCoder* coder, int32_t number, Outcome* outcome)
+static void CodeOutcome(Coder* coder, int32_t number, Outcome* outcome)
 {
-    kiriCoder_Int(coder, &outcome->result);
+    CodeInt(coder, &outcome->result);
     for (int32_t i = 0; outcome->result >= 0 && i < outcome->madeCount; ++i) {
-        kiriCoder_Id(coder, &outcome->made[i]);
+        CodeId(coder, &outcome->made[i]);
     }
     if (number == KIRI_CALL_World_Tick || number == KIRI_CALL_DestroyWorld) {
         outcome->hasHash = CodePresence(coder, outcome->hasHash);
     }
     if (outcome->hasHash) {
-        kiriCoder_Hash(coder, &outcome->hash);
+        CodeBits(coder, &outcome->hash, 64);
     }
 }
 
 /* ---- Recording --------------------------------------------------------------------------------------------------- */
 
-static kiriCoder WriterOf(kiriWorld* world)
+static Coder WriterOf(kiriWorld* world)
 {
-    kiriCoder coder = { &world->recorder.sink, NULL, NULL, NULL, KIRI_CODER_FINE };
+    Coder coder = { &world->recorder, NULL, NULL, NULL, READ_FINE };
     return coder;
 }
 
 void kiriRecord_Begin(const kiriCall* call)
 {
-    kiriCoder coder = WriterOf(call->world);
-    const kiriCallRow* row = &kiriCallRows[call->number];
-    const void* at[KIRI_CALL_ARGUMENTS] = { NULL };
+    Coder coder = WriterOf(call->world);
     uint64_t number = (uint64_t)call->number;
     KIRI_ASSERT(!call->world->recorder.isOpen);
     call->world->recorder.isOpen = true;
-    for (int i = 0; i < KIRI_CALL_ARGUMENTS && row->kinds[i] != KIRI_ARGUMENT_NONE; ++i) {
-        at[i] = call->arguments[i];
-    }
-    kiriCoder_Unsigned(&coder, &number);
-    CodeArguments(&coder, row, at);
-    kiriSink_Flush(coder.sink);
+    CodeUnsigned(&coder, &number);
+    CodeArguments(&coder, &kiriCallRows[call->number], (const void**)call->arguments);
+    FlushRecorder(coder.recorder);
 }
 
 void kiriRecord_End(const kiriCall* call, kiriResult result)
 {
     kiriRecorder* recorder = &call->world->recorder;
-    kiriCoder coder = WriterOf(call->world);
+    Coder coder = WriterOf(call->world);
     Outcome outcome = { .result = result };
     outcome.made = FindNew(&kiriCallRows[call->number], call->arguments, &outcome.madeCount);
     KIRI_ASSERT(recorder->isOpen);
@@ -234,7 +362,7 @@ void kiriRecord_End(const kiriCall* call, kiriResult result)
     }
     outcome.hash = outcome.hasHash ? kiriStateHash_Of(call->world) : 0;
     CodeOutcome(&coder, call->number, &outcome);
-    kiriSink_Flush(coder.sink);
+    FlushRecorder(coder.recorder);
 }
 
 static void RecordWhole(kiriWorld* world, int32_t number, const void* const arguments[])
@@ -245,20 +373,20 @@ static void RecordWhole(kiriWorld* world, int32_t number, const void* const argu
 }
 
 /* Codes what a recording begins with: magic, format and version of the library. */
-static void CodeStart(kiriCoder* coder)
+static void CodeStart(Coder* coder)
 {
     uint64_t format = KIRI_RECORD_VERSION, library = KIRI_VERSION;
     for (int i = 0; i < KIRI_RECORD_MAGIC_BYTES; ++i) {
         uint8_t byte = magic[i];
-        kiriCoder_Byte(coder, &byte);
+        CodeByte(coder, &byte);
         if (byte != magic[i]) {
-            kiriCoder_Stop(coder, KIRI_CODER_DAMAGED);
+            StopReading(coder, READ_DAMAGED);
         }
     }
-    kiriCoder_Unsigned(coder, &format);
-    kiriCoder_Unsigned(coder, &library);
+    CodeUnsigned(coder, &format);
+    CodeUnsigned(coder, &library);
     if (format != KIRI_RECORD_VERSION || library / 100 != KIRI_VERSION / 100) {
-        kiriCoder_Stop(coder, KIRI_CODER_NEWER);
+        StopReading(coder, READ_OTHER_VERSION);
     }
 }
 
@@ -266,10 +394,10 @@ void kiriRecord_Start(kiriWorld* world, const kiriWorldDef* def)
 {
     kiriRecorder* recorder = &world->recorder;
     if (def->record != NULL) {
-        recorder->sink.write = def->record;
-        recorder->sink.user = def->user;
+        recorder->write = def->record;
+        recorder->user = def->user;
         recorder->hashTicks = def->recordHashTicks;
-        kiriCoder coder = WriterOf(world);
+        Coder coder = WriterOf(world);
         const void* const arguments[] = { def->gravity, &def->budget };
         CodeStart(&coder);
         RecordWhole(world, KIRI_CALL_CreateWorld, arguments);
@@ -278,7 +406,7 @@ void kiriRecord_Start(kiriWorld* world, const kiriWorldDef* def)
 
 void kiriRecord_Stop(kiriWorld* world)
 {
-    if (world->recorder.sink.write != NULL) {
+    if (world->recorder.write != NULL) {
         RecordWhole(world, KIRI_CALL_DestroyWorld, NULL);
     }
 }
@@ -295,41 +423,33 @@ typedef struct Recorded {
     bool hasOutcome; /* else the recording ends within the call */
 } Recorded;
 
-static void ReadOutcome(kiriCoder* coder, Recorded* recorded)
-{
-    Outcome* outcome = &recorded->outcome;
-    recorded->hasOutcome = coder->fault == KIRI_CODER_FINE && coder->at != coder->end;
-    if (!recorded->hasOutcome) {
-        return;
-    }
-    FindNew(recorded->row, recorded->arguments, &outcome->madeCount);
-    if (outcome->madeCount > 0) {
-        outcome->made = kiriMemory_AllocZeroed(coder->memory, (int64_t)sizeof(uint32_t) * outcome->madeCount);
-        if (outcome->made == NULL) {
-            kiriCoder_Stop(coder, KIRI_CODER_MEMORY);
-            return;
-        }
-    }
-    CodeOutcome(coder, (int32_t)recorded->number, outcome);
-}
-
-static void ReadCall(kiriCoder* coder, Recorded* recorded, bool isFirst)
+static void ReadCall(Coder* coder, Recorded* recorded, bool isFirst)
 {
     memset(recorded, 0, sizeof(*recorded));
-    kiriCoder_Unsigned(coder, &recorded->number);
+    CodeUnsigned(coder, &recorded->number);
     if (recorded->number >= KIRI_CALL_COUNT) {
-        kiriCoder_Stop(coder, KIRI_CODER_DAMAGED);
+        StopReading(coder, READ_DAMAGED);
         return;
     }
     recorded->row = &kiriCallRows[recorded->number];
     CodeArguments(coder, recorded->row, recorded->arguments);
     recorded->argumentsEnd = coder->at;
-    ReadOutcome(coder, recorded);
+    recorded->hasOutcome = coder->at != coder->end;
+    Outcome* outcome = &recorded->outcome;
+    if (recorded->hasOutcome) {
+        FindNew(recorded->row, recorded->arguments, &outcome->madeCount);
+    }
+    if (outcome->madeCount > 0) {
+        outcome->made = AllocateRead(coder, outcome->madeCount, sizeof(uint32_t), 0);
+    }
+    if (recorded->hasOutcome && coder->fault == READ_FINE) {
+        CodeOutcome(coder, (int32_t)recorded->number, outcome);
+    }
     /* A world is made first, and goes last. */
     bool isLast = coder->at == coder->end;
     if ((recorded->number == KIRI_CALL_CreateWorld) != isFirst ||
         (recorded->number == KIRI_CALL_DestroyWorld && !isLast)) {
-        kiriCoder_Stop(coder, KIRI_CODER_DAMAGED);
+        StopReading(coder, READ_DAMAGED);
     }
 }
 
@@ -352,15 +472,15 @@ static const char* FindDifference(const kiriWorld* world, const Recorded* record
     return isSame ? NULL : "leads to another state than recorded";
 }
 
-static kiriResult FailToRead(kiriCoderFault at, const kiriReplay* replay, kiriFault* fault)
+static kiriResult FailToRead(ReadFault at, const kiriReplay* replay, kiriFault* fault)
 {
-    if (at == KIRI_CODER_MEMORY) {
+    if (at == READ_NO_MEMORY) {
         KIRI_SAY(fault, "out of memory; the call may be tried again");
         return KIRI_ERROR_MEMORY;
     }
     KIRI_SAY(fault, "after call %lld, from byte %lld on: %s", (long long)replay->calls, (long long)replay->offset,
-             at == KIRI_CODER_SHORT   ? "the recording ends too early"
-             : at == KIRI_CODER_NEWER ? "the recording is of another version"
+             at == READ_SHORT   ? "the recording ends too early"
+             : at == READ_OTHER_VERSION ? "the recording is of another version"
                                       : "the bytes are damaged, or no recording");
     return KIRI_ERROR_DATA;
 }
@@ -380,12 +500,12 @@ static bool Pass(kiriReplay* replay, const Recorded* recorded, kiriResult result
 }
 
 /* Makes the next call, unless it was refused memory when it was recorded. */
-static kiriResult MakeNext(kiriWorld* world, kiriCoder* coder, kiriReplay* replay, kiriFault* fault)
+static kiriResult MakeNext(kiriWorld* world, Coder* coder, kiriReplay* replay, kiriFault* fault)
 {
     Recorded recorded;
     const uint8_t* start = coder->at;
     ReadCall(coder, &recorded, replay->calls == 0);
-    if (coder->fault != KIRI_CODER_FINE) {
+    if (coder->fault != READ_FINE) {
         return FailToRead(coder->fault, replay, fault);
     }
     bool wasRefused = recorded.hasOutcome && recorded.outcome.result == KIRI_ERROR_MEMORY;
@@ -393,7 +513,7 @@ static kiriResult MakeNext(kiriWorld* world, kiriCoder* coder, kiriReplay* repla
     kiriResult result = wasRefused ? KIRI_ERROR_MEMORY : recorded.row->make(world, recorded.arguments);
     world->isBusy = true;
     if (!wasRefused && result == KIRI_ERROR_MEMORY) {
-        return FailToRead(KIRI_CODER_MEMORY, replay, fault);
+        return FailToRead(READ_NO_MEMORY, replay, fault);
     }
     bool isStop = Pass(replay, &recorded, result, coder->at - start);
     const char* how = !recorded.hasOutcome ? "is the last one: the recording ends within it"
@@ -407,14 +527,14 @@ static kiriResult MakeNext(kiriWorld* world, kiriCoder* coder, kiriReplay* repla
     return isStop ? KIRI_PENDING : KIRI_OK;
 }
 
-static kiriResult MakeUpToStop(kiriWorld* world, kiriCoder* coder, kiriReplay* replay, kiriFault* fault)
+static kiriResult MakeUpToStop(kiriWorld* world, Coder* coder, kiriReplay* replay, kiriFault* fault)
 {
     kiriMemory scratch = kiriMemory_Like(&world->memory);
     const uint8_t* start = coder->at;
     coder->memory = &scratch;
     if (replay->offset == 0) {
         CodeStart(coder);
-        if (coder->fault != KIRI_CODER_FINE) {
+        if (coder->fault != READ_FINE) {
             return FailToRead(coder->fault, replay, fault);
         }
         replay->offset = coder->at - start;
@@ -439,7 +559,7 @@ kiriResult kiriWorld_Replay(kiriWorld* world, const void* recording, int64_t siz
         return KIRI_FAIL(KIRI_ERROR_STATE, "the world is not new");
     }
     const uint8_t* bytes = recording;
-    kiriCoder coder = { NULL, bytes + replay->offset, bytes + size, NULL, KIRI_CODER_FINE };
+    Coder coder = { NULL, bytes + replay->offset, bytes + size, NULL, READ_FINE };
     kiriFault fault = { "" };
     replay->note = NULL;
     replay->noteCount = 0;

@@ -104,11 +104,16 @@ typedef struct kiriPairs {
 
 /* What a world keeps for its recording, see kiri_call.h. */
 
+enum { KIRI_RECORDER_BYTES = 512 };
+
 typedef struct kiriRecorder {
-    kiriSink sink;     /* without `write`: nothing is recorded */
-    int32_t hashTicks; /* the state hash comes after so many ticks */
+    kiriRecordFn* write; /* null: nothing is recorded */
+    void* user;
+    int32_t byteCount; /* bytes that `write` has not got yet */
+    uint8_t bytes[KIRI_RECORDER_BYTES];
+    int32_t hashTicks; /* ticks between state hashes; 0: none */
     int64_t ticks;
-    bool isOpen; /* a call has begun, and its result is not known yet */
+    bool isOpen; /* a call has begun and not ended */
 } kiriRecorder;
 
 /* The world: its sheets, and their ids and events. */
