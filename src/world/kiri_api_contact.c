@@ -20,14 +20,15 @@ void kiriDefaultObstacleDef(kiriObstacleDef* def)
     def->groups = UINT32_MAX;
 }
 
-/* ---- Making ------------------------------------------------------------------------------------------------------ */
+/* ---- Obstacles --------------------------------------------------------------------------------------------------- */
 
 static void FillOutline(kiriObstacleShape* shape, const kiriObstacleDef* def)
 {
     double x = 0.5 * def->size[0], y = 0.5 * def->size[1];
     const kiriVec2 box[4] = { { -x, -y }, { x, -y }, { x, y }, { -x, y } };
     for (int32_t i = 0; i < shape->count; ++i) {
-        shape->outline[i] = def->type == KIRI_OBSTACLE_BOX ? box[i] : kiriVec2_Make(def->outline[2 * i], def->outline[2 * i + 1]);
+        bool isBox = def->type == KIRI_OBSTACLE_BOX;
+        shape->outline[i] = isBox ? box[i] : kiriVec2_Make(def->outline[2 * i], def->outline[2 * i + 1]);
     }
     for (int32_t i = 0; i < shape->count; ++i) {
         kiriVec2 along = kiriVec2_Sub(shape->outline[(i + 1) % shape->count], shape->outline[i]);
@@ -63,7 +64,7 @@ static void SetMass(kiriObstacleData* obstacle, float mass, const float inertia[
     kiriMat3 inverse;
     obstacle->mass = mass;
     obstacle->center = kiriVec3_Load(center);
-    if (kiriObstacle_InvertInertia(inertia, &inverse)) { /* from axes of the world to those of the obstacle */
+    if (kiriObstacle_InvertInertia(inertia, &inverse)) { /* in axes of the world; stored in those of the obstacle */
         const kiriMat3 turned = { kiriObstacle_ToLocal(obstacle, inverse.u), kiriObstacle_ToLocal(obstacle, inverse.v),
                                   kiriObstacle_ToLocal(obstacle, inverse.d) };
         obstacle->inverseInertia = kiriMat3_MulMat(turned, obstacle->rotation);
@@ -90,7 +91,7 @@ kiriResult kiriCreateObstacle(kiriWorld* world, const kiriObstacleDef* def, kiri
 {
     kiriObstacleDef withoutOutline;
     if (def != NULL && def->cookie == KIRI_COOKIE(kiriObstacleDef) && def->type != KIRI_OBSTACLE_PRISM) {
-        withoutOutline = *def; /* no other shape has one: the pointer may be anything */
+        withoutOutline = *def; /* other shapes may come with any pointer as outline */
         withoutOutline.outline = NULL;
         withoutOutline.outlineCount = 0;
         def = &withoutOutline;
@@ -188,7 +189,7 @@ kiriResult kiriSheet_GetReach(const kiriWorld* world, kiriSheet sheet, float dt,
     return KIRI_OK;
 }
 
-/* Finds the triangle with the rest point of a contact that names no collision point. Fails if there is no such point. */
+/* Finds the triangle at the rest point of a contact without a collision point. Fails if the contact has no place. */
 static bool PlaceContact(const kiriSheetData* sheet, kiriGivenContact* given)
 {
     kiriLatticePoint at, corners[3];

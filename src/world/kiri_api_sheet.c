@@ -36,7 +36,7 @@ void kiriDefaultSheetDef(kiriSheetDef* def)
     def->paper.integrationOrder = 1;
 }
 
-/* Adds a sheet. `function` is the one that the host has called. */
+/* Adds a sheet. `function` is the public function, for the error line. */
 static kiriResult AddSheet(kiriWorld* world, const char* function, const kiriSheetDef* def, kiriSheet* sheet)
 {
     const void* const arguments[] = { def, sheet };
@@ -119,7 +119,7 @@ kiriResult kiriCreateRectangle(kiriWorld* world, float width, float height, int3
         return KIRI_FAIL(result, NULL);
     }
     world->isBusy = false;
-    return result; /* AddSheet has said what failed */
+    return result; /* AddSheet has logged a failure */
 }
 
 kiriResult kiriBeginCut(kiriWorld* world, kiriSheet sheet, const float restPoint[2], kiriCut* cut)
@@ -202,7 +202,7 @@ kiriResult kiriSheet_Slice(kiriWorld* world, kiriSheet sheet, const float blade[
     KIRI_RETURN(result);
 }
 
-/* How the three functions begin that read a piece: finds the sheet, and brings lists of pieces up to date. */
+/* Begins a function that reads a piece: finds the sheet, and updates lists of pieces. */
 #define PREPARES_PIECE(piece, out, isListed)                                                                           \
     KIRI_PREPARES(world);                                                                                              \
     KIRI_CHECK_OUT(out);                                                                                               \
@@ -428,30 +428,6 @@ static bool FitsShift(const kiriWorld* world, kiriVec3 origin)
     return fits;
 }
 
-/* Renews the arrays that the host may hold, of all sheets or of none. */
-static bool RenewAll(kiriWorld* world)
-{
-    int32_t done = 0;
-    while (done < world->sheets.count && kiriCarry_Renew(world->sheets.data[done], &world->retired)) {
-        ++done;
-    }
-    const kiriVec3 none = { 0.0, 0.0, 0.0 };
-    for (int32_t i = 0; i < done && done < world->sheets.count; ++i) {
-        kiriCarry_Shift(world->sheets.data[i], none);
-    }
-    return done == world->sheets.count;
-}
-
-static void ShiftObstacles(kiriWorld* world, kiriVec3 origin)
-{
-    for (int32_t i = 0; i < world->obstacles.count; ++i) {
-        kiriObstacleData* obstacle = world->obstacles.data[i];
-        obstacle->position = kiriVec3_Sub(obstacle->position, origin);
-        obstacle->lower = kiriVec3_Sub(obstacle->lower, origin);
-        obstacle->upper = kiriVec3_Sub(obstacle->upper, origin);
-    }
-}
-
 static void ShiftBlade(kiriBladeData* blade, kiriVec3 origin)
 {
     for (int end = 0; end < 2 && blade->isPlaced; ++end) {
@@ -470,11 +446,23 @@ kiriResult kiriWorld_ShiftOrigin(kiriWorld* world, const float origin[3])
         KIRI_RETURN(KIRI_OK);
     }
     KIRI_CHECK(FitsShift(world, to), "floats cannot hold what comes of it");
-    KIRI_REQUIRE(RenewAll(world), KIRI_ERROR_MEMORY, NULL);
-    for (int32_t i = 0; i < world->sheets.count; ++i) {
-        kiriCarry_Shift(world->sheets.data[i], to);
+    /* Arrays that the host may hold are replaced, for all sheets or for none. */
+    int32_t done = 0;
+    while (done < world->sheets.count && kiriCarry_Renew(world->sheets.data[done], &world->retired)) {
+        ++done;
     }
-    ShiftObstacles(world, to);
+    bool areAll = done == world->sheets.count;
+    const kiriVec3 none = { 0.0, 0.0, 0.0 };
+    for (int32_t i = 0; i < done; ++i) {
+        kiriCarry_Shift(world->sheets.data[i], areAll ? to : none);
+    }
+    KIRI_REQUIRE(areAll, KIRI_ERROR_MEMORY, NULL);
+    for (int32_t i = 0; i < world->obstacles.count; ++i) {
+        kiriObstacleData* obstacle = world->obstacles.data[i];
+        obstacle->position = kiriVec3_Sub(obstacle->position, to);
+        obstacle->lower = kiriVec3_Sub(obstacle->lower, to);
+        obstacle->upper = kiriVec3_Sub(obstacle->upper, to);
+    }
     for (int32_t i = 0; i < world->blades.count; ++i) {
         ShiftBlade(world->blades.data[i], to);
     }

@@ -34,7 +34,7 @@ kiriResult kiriSheet_GetDirty(const kiriWorld* world, kiriSheet sheet, uint32_t 
     return KIRI_OK;
 }
 
-/* The arrays are gone with the next tick. */
+/* The next tick frees the arrays. */
 kiriResult kiriSheet_GetSolid(kiriWorld* world, kiriSheet sheet, float thickness, kiriSolid* solid)
 {
     KIRI_PREPARES(world);
@@ -81,7 +81,7 @@ kiriResult kiriSheet_CopyPrevious(const kiriWorld* world, kiriSheet sheet, int32
     return KIRI_OK;
 }
 
-/* How the functions begin that copy something of some triangles. */
+/* Begins a function that copies data of triangles. */
 #define READS_TRIANGLES(out)                                                                                           \
     KIRI_READS(world);                                                                                                 \
     KIRI_CHECK(count == 0 || (out) != NULL, #out " is null");                                                          \
@@ -189,7 +189,7 @@ kiriResult kiriSheet_Raycast(const kiriWorld* world, kiriSheet sheet, const floa
     return KIRI_OK;
 }
 
-/* At the same distance the sheet that was made first. */
+/* Among sheets at the same distance the first one counts. */
 kiriResult kiriWorld_Raycast(const kiriWorld* world, const float origin[3], const float direction[3], float maxDistance,
                              kiriSheet* sheet, kiriHit* hit)
 {
@@ -257,8 +257,8 @@ kiriResult kiriSheet_GetWeights(const kiriWorld* world, kiriSheet sheet, const f
     kiriPointWeights point = { NULL, 0, 0 };
     kiriMemory scratch = kiriMemory_Like(&world->memory);
     kiriCall_BeginCallbacks(world);
-    bool ok =
-        kiriShape_At(&found->shape, &scratch, &found->grid, &found->mesh, cell, kiriMesh_Local(&found->mesh, at), &point);
+    bool ok = kiriShape_At(&found->shape, &scratch, &found->grid, &found->mesh, cell,
+                           kiriMesh_Local(&found->mesh, at), &point);
     for (int32_t i = 0; ok && i < point.count && i < capacity; ++i) {
         frames[i] = found->frames.data[point.data[i].frame].id;
         weights[i] = (float)point.data[i].value;

@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* What is measured has its source; the rest (damping, and what is called assumed) is chosen for its look.
+/* Measured values have their source here. Damping and values called assumed are chosen for their look.
 
    Paper: printing paper, 110 um, 2.92 GPa (Scientific Reports 4, 6275 (2014), table 2); 80 g/m^2; Poisson's ratio
    assumed. Cotton: bending stiffness 1.4e-5 N m, as of light denim in the KES test (Journal of Textiles 2016, 4614168,
@@ -121,7 +121,7 @@ void kiriDefaultWorldDef(kiriWorldDef* def)
     }
 }
 
-/* There is no world yet to keep a line. `why` null: the line has the text of the result. */
+/* Logs a refusal; there is no world yet that could store its line. `why` null: the line has the text of the result. */
 static kiriResult RefuseWorld(const kiriWorldDef* def, kiriResult result, const char* why)
 {
     if (def->log != NULL) {
@@ -160,7 +160,7 @@ kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world)
                            "the library is compiled with fused multiply-add or reordered sums; add -ffp-contract=off");
     }
     kiriMemory memory = kiriMemory_Make(def->alloc, def->free, def->user);
-    kiriWorld* made = memory.alloc(memory.user, sizeof(*made)); /* owns itself: no block of its memory */
+    kiriWorld* made = memory.alloc(memory.user, sizeof(*made)); /* not in the list of its own memory */
     if (made == NULL) {
         return RefuseWorld(def, KIRI_ERROR_MEMORY, NULL);
     }
@@ -207,7 +207,7 @@ void kiriDestroyWorld(kiriWorld* world)
 kiriResult kiriWorld_Tick(kiriWorld* world, float dt, int32_t substeps)
 {
     KIRI_CHANGES(World_Tick, &dt, &substeps);
-    world->begun += 1; /* refused ticks count: the host copies meshes before each call */
+    world->begun += 1; /* counts refused ticks: the host copies meshes before each call */
     KIRI_CHECK(dt >= 1e-6f && dt <= 10.0f, "dt is not within 1e-6 and 10 s");
     KIRI_CHECK(substeps >= 1 && substeps <= 64, "substeps is not within 1 and 64");
     kiriResult result = kiriWorld_Advance(world, dt, substeps);
@@ -240,7 +240,7 @@ kiriResult kiriWorld_SetBudget(kiriWorld* world, const kiriBudget* budget)
     KIRI_RETURN(KIRI_OK);
 }
 
-/* The recording has it; the world itself does not care. */
+/* Only the recording stores the note. */
 kiriResult kiriWorld_Note(kiriWorld* world, const void* bytes, int32_t count)
 {
     KIRI_CHANGES(World_Note, bytes, &count);
@@ -284,7 +284,7 @@ kiriResult kiriWorld_GetProfile(const kiriWorld* world, kiriProfile* profile)
     return KIRI_OK;
 }
 
-/* So many times the items. */
+/* Scales a count of items; a count of 0 keeps the previous limit. */
 static int32_t ScaleItems(int32_t items, double times, int32_t least, int32_t was)
 {
     double scaled = items * times;
@@ -300,14 +300,14 @@ static double SecondsOf(const kiriProfile* profile, int first, int last)
     return seconds;
 }
 
-/* What all work on cuts took, in times of what these stages of it took. */
+/* Returns the time of all work on cuts divided by the time of some of its stages. */
 static double TimesAlone(const kiriProfile* profile, int first, int last)
 {
     double seconds = SecondsOf(profile, first, last);
     return seconds > 0.0 ? SecondsOf(profile, KIRI_STAGE_CUT, KIRI_STAGE_CONSTANTS) / seconds : 1.0;
 }
 
-/* The three kinds of work on cuts share a tick: each may take the time of all three. */
+/* The three kinds of work on cuts share one allowance, so each limit gets the time of all three. */
 static void FitCuts(const kiriProfile* profile, double times, kiriBudget* budget)
 {
     double triangles = times * TimesAlone(profile, KIRI_STAGE_CUT, KIRI_STAGE_CUT),
@@ -367,7 +367,7 @@ kiriResult kiriPin_GetUserData(const kiriWorld* world, kiriPin pin, uint64_t* da
     return KIRI_OK;
 }
 
-/* All frames of the piece have it, and hand it to new ones. */
+/* All frames of the piece store the data, and pass it on to new frames. */
 kiriResult kiriFrame_SetPieceUserData(kiriWorld* world, kiriFrame frame, uint64_t data)
 {
     KIRI_CHANGES(Frame_SetPieceUserData, &frame, &data);

@@ -121,7 +121,7 @@ static const char* FaultOfObstacleDef(const void* value)
 
 /* ---- Structs ----------------------------------------------------------------------------------------------------- */
 
-/* Every member is listed: the cookie and functions of the host alone are not. OF is the struct. */
+/* Tables of members. All are listed but the cookie and functions of the host. OF is the type of the struct. */
 #define MEMBER(member) .name = #member, .offset = (int32_t)offsetof(OF, member)
 #define NUMBERS_IN(member) MEMBER(member), .count = (int32_t)sizeof(((OF*)NULL)->member) / 4
 #define INTS_IN(member, ...)                                                                                           \
@@ -188,7 +188,7 @@ static const kiriStruct windStruct = STRUCT_OF(kiriWind, 0, NULL, windMembers);
 #define OF kiriContact
 static const kiriValue contactMembers[] = {
     INTS_IN(point, WITHIN(-1, INT32_MAX)),
-    FLOATS_IN(restPoint, ANY_NUMBER), /* read where there is no point */
+    FLOATS_IN(restPoint, ANY_NUMBER), /* used if point is -1; kiriSheet_SetContacts checks it */
     FLOATS_IN(normal, ANY_FINITE, .fault = FaultOfNormal),
     FLOATS_IN(offset, ANY_FINITE),
     FLOATS_IN(velocity, ANY_FINITE),
@@ -225,7 +225,7 @@ static const kiriValue materialMembers[] = {
 #undef OF
 static const kiriStruct materialStruct = STRUCT_OF(kiriMaterial, 0, NULL, materialMembers);
 
-/* What the settings and the def have. */
+/* Members of both kiriSheetSettings and kiriSheetDef. */
 #define SETTINGS_MEMBERS                                                                                               \
     STRUCT_IN(material, materialStruct), INTS_IN(maxFrames, WITHIN(1, INT32_MAX)), FLOATS_IN(crumbArea, FROM_0),       \
         FLOATS_IN(friction, FROM_0), FLOATS_IN(contactThickness, FROM_0), INTS_IN(groups, ANY_NUMBER),                 \
@@ -283,7 +283,7 @@ static const kiriStruct sheetDefStruct =
 #define OF kiriObstacleDef
 static const kiriValue obstacleDefMembers[] = {
     INTS_IN(type, WITHIN(KIRI_OBSTACLE_PLANE, KIRI_OBSTACLE_PRISM)),
-    FLOATS_IN(size, ANY_NUMBER), /* which of them are read depends on the type */
+    FLOATS_IN(size, ANY_NUMBER), /* FaultOfObstacleDef checks those that the type uses */
     FLOATS_IN(radius, ANY_NUMBER),
     FLOATS_IN(height, ANY_NUMBER),
     INTS_IN(outlineCount, WITHIN(0, 64)),
@@ -308,9 +308,9 @@ static const kiriStruct obstacleDefStruct =
 
 /* ---- Arguments --------------------------------------------------------------------------------------------------- */
 
-#define ID_OF(kind, ...)                                                                                               \
+#define ID_OF(kind, optional)                                                                                          \
     {                                                                                                                  \
-        .form = KIRI_FORM_ID, .name = #kind, .refers = (int32_t)offsetof(kiriWorld, kind##Ids), __VA_ARGS__            \
+        .form = KIRI_FORM_ID, .name = #kind, .refers = (int32_t)offsetof(kiriWorld, kind##Ids), .isOptional = optional \
     }
 #define FLOATS_OF(count_, ...)                                                                                         \
     {                                                                                                                  \
@@ -328,13 +328,13 @@ static const kiriStruct obstacleDefStruct =
 static const kiriValue byteItem = { .form = KIRI_FORM_BYTE }, contactItem = STRUCT_ARGUMENT(contactStruct, .count = 1);
 
 const kiriValue kiriArguments[KIRI_ARGUMENT_KINDS] = {
-    [KIRI_ARGUMENT_SHEET] = ID_OF(sheet, .isOptional = false),
-    [KIRI_ARGUMENT_ANY_SHEET] = ID_OF(sheet, .isOptional = true),
-    [KIRI_ARGUMENT_FRAME] = ID_OF(frame, .isOptional = false),
-    [KIRI_ARGUMENT_PIN] = ID_OF(pin, .isOptional = false),
-    [KIRI_ARGUMENT_OBSTACLE] = ID_OF(obstacle, .isOptional = false),
-    [KIRI_ARGUMENT_CUT] = ID_OF(cut, .isOptional = false),
-    [KIRI_ARGUMENT_BLADE] = ID_OF(blade, .isOptional = false),
+    [KIRI_ARGUMENT_SHEET] = ID_OF(sheet, false),
+    [KIRI_ARGUMENT_ANY_SHEET] = ID_OF(sheet, true),
+    [KIRI_ARGUMENT_FRAME] = ID_OF(frame, false),
+    [KIRI_ARGUMENT_PIN] = ID_OF(pin, false),
+    [KIRI_ARGUMENT_OBSTACLE] = ID_OF(obstacle, false),
+    [KIRI_ARGUMENT_CUT] = ID_OF(cut, false),
+    [KIRI_ARGUMENT_BLADE] = ID_OF(blade, false),
     [KIRI_ARGUMENT_INT] = { .form = KIRI_FORM_INTS, .count = 1, ANY_NUMBER },
     [KIRI_ARGUMENT_COUNT] = { .form = KIRI_FORM_COUNT },
     [KIRI_ARGUMENT_FLOAT] = FLOATS_OF(1, ANY_NUMBER),
@@ -369,7 +369,7 @@ const kiriValue kiriArguments[KIRI_ARGUMENT_KINDS] = {
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
 
-/* How `Make` passes an argument on. */
+/* How MAKE passes an argument to the function. */
 #define GIVEN(Type, i) (*(const Type*)at[i])
 #define PASS_SHEET(i) GIVEN(uint32_t, i)
 #define PASS_ANY_SHEET PASS_SHEET
@@ -422,7 +422,7 @@ const kiriValue kiriArguments[KIRI_ARGUMENT_KINDS] = {
 #define MAKE4(Name, A, B, C, D) MAKE(Name, , PASS_##A(0), PASS_##B(1), PASS_##C(2), PASS_##D(3))
 KIRI_CALLS(MAKE0, MAKE1, MAKE2, MAKE3, MAKE4)
 
-/* A replay has its world already: it gets what the def of the recorded one said. */
+/* Sets gravity and budget of the world of a replay, which exists already. */
 static kiriResult MakeCreateWorld(kiriWorld* world, const void* const* at)
 {
     float gravity[3];
@@ -455,7 +455,7 @@ const kiriCallRow kiriCallRows[KIRI_CALL_COUNT] = {
 
 enum { NUMBER_BYTES = 48 };
 
-/* Writes a number with up to four decimals. Where snprintf of the web build is, %g is missing. */
+/* Writes a number with up to four decimals. snprintf of the web build has no %g. */
 static const char* WriteNumber(char text[NUMBER_BYTES], double number)
 {
     double size = fabs(number);
@@ -628,15 +628,6 @@ static kiriResult CheckArgument(const kiriCall* call, int i, kiriFault* fault)
     return result;
 }
 
-/* Sets what the call is to write to 0, for calls that fail. */
-static void ClearNew(const kiriValue* value, const void* const at[])
-{
-    int32_t count = value->form == KIRI_FORM_NEW ? 1 : value->form == KIRI_FORM_NEWS ? *(const int32_t*)at[-1] : 0;
-    if (count > 0 && at[0] != NULL) {
-        memset((void*)at[0], 0, (size_t)count * sizeof(uint32_t));
-    }
-}
-
 bool kiriCall_Begin(kiriCall* call)
 {
     kiriWorld* world = call->world;
@@ -651,8 +642,13 @@ bool kiriCall_Begin(kiriCall* call)
         return true;
     }
     const uint8_t* kinds = kiriCallRows[call->number].kinds;
-    for (int i = 0; i < KIRI_CALL_ARGUMENTS && kinds[i] != KIRI_ARGUMENT_NONE; ++i) {
-        ClearNew(&kiriArguments[kinds[i]], &call->arguments[i]);
+    for (int i = 0; i < KIRI_CALL_ARGUMENTS && kinds[i] != KIRI_ARGUMENT_NONE; ++i) { /* failed calls return ids of 0 */
+        kiriForm form = kiriArguments[kinds[i]].form;
+        const void* const* at = &call->arguments[i];
+        int32_t count = form == KIRI_FORM_NEW ? 1 : form == KIRI_FORM_NEWS ? *(const int32_t*)at[-1] : 0;
+        if (count > 0 && at[0] != NULL) {
+            memset((void*)at[0], 0, (size_t)count * sizeof(uint32_t));
+        }
     }
     for (int i = 0; i < KIRI_CALL_ARGUMENTS && kinds[i] != KIRI_ARGUMENT_NONE && call->result == KIRI_OK; ++i) {
         call->result = CheckArgument(call, i, &fault);

@@ -1,6 +1,6 @@
 /* How public functions begin and end. A table lists each function that changes the world, with the kinds of its
-   arguments: by it kiriCall_Begin checks and records them, and kiriWorld_Replay reads them and calls the function. Functions
-   that only read check their few arguments in line, which costs less than a walk over the table. */
+   arguments. By this table kiriCall_Begin checks and records them, and kiriWorld_Replay reads them and calls the
+   function. Functions that only read check their few arguments in line, which costs less than a walk over the table. */
 #ifndef KIRI_CALL_H
 #define KIRI_CALL_H
 
@@ -10,7 +10,7 @@ KIRI_C_BEGIN
 
 /* ---- The table ---- */
 
-/* X2(Name, A, B): kiriName(world, a, b). The place of a row is the number of the call in recordings. */
+/* X2(Name, A, B): kiriName(world, a, b) with arguments of kinds A and B. Recordings store the index of the row. */
 #define KIRI_CALLS(X0, X1, X2, X3, X4)                                                                                 \
     X2(World_Tick, FLOAT, INT)                                                                                         \
     X1(World_SetGravity, VECTOR)                                                                                       \
@@ -74,7 +74,7 @@ enum kiriCallNumber {
 
 enum { KIRI_CALL_ARGUMENTS = 4 }; /* maximum, without the world */
 
-/* The kinds of arguments. Those by value, and then pointers. */
+/* Kinds of arguments: first those by value, then pointers. */
 typedef enum kiriArgument {
     KIRI_ARGUMENT_NONE,
     KIRI_ARGUMENT_SHEET,
@@ -112,7 +112,7 @@ typedef enum kiriArgument {
     KIRI_ARGUMENT_POINTS,
     KIRI_ARGUMENT_FRAMES,
     KIRI_ARGUMENT_CONTACTS,
-    KIRI_ARGUMENT_NEW_ID, /* results; one a call at most */
+    KIRI_ARGUMENT_NEW_ID, /* results, at most one a call */
     KIRI_ARGUMENT_NEW_COUNT,
     KIRI_ARGUMENT_NEW_IDS, /* as many as the COUNT just before it */
     KIRI_ARGUMENT_KINDS
@@ -150,16 +150,16 @@ struct kiriStruct;
 
 /* What an argument may be, or a member of a struct. */
 typedef struct kiriValue {
-    const char* name; /* of the member; of ids: what they name */
+    const char* name; /* name of the member; for ids the noun in the error line */
     kiriForm form;
-    int32_t count;    /* numbers; of arrays in structs: numbers an item */
+    int32_t count;    /* numbers; for arrays in structs: numbers an item */
     int32_t offset;   /* in the struct */
-    int32_t refers;   /* of an id: offset of its pool in kiriWorld; of an array in a struct: offset of its count */
-    double low, high; /* range of numbers, inclusive; low > high: unchecked. Of an array: range of its count */
+    int32_t refers;   /* ids: offset of the pool in kiriWorld; arrays in structs: offset of the count */
+    double low, high; /* inclusive range of the numbers, or of the count of an array; low > high: unchecked */
     bool isOptional;  /* may be null, or the id 0 */
     const struct kiriStruct* of;
     const struct kiriValue* item;
-    const char* (*fault)(const void* value); /* tells what else is wrong, as "is not orthonormal", or null; or null */
+    const char* (*fault)(const void* value); /* returns null, or a fault as in "is not orthonormal"; null: no check */
 } kiriValue;
 
 typedef struct kiriStruct {
@@ -173,11 +173,11 @@ typedef struct kiriStruct {
 extern const kiriValue kiriArguments[KIRI_ARGUMENT_KINDS];
 extern const kiriStruct kiriSettingsStruct, kiriWorldDefStruct;
 
-/* The defs are stamped with their size, so that a def of another version, or a forgotten default, is found out. */
+/* Defs contain the size of their struct, which detects defs of another version and defs that nobody filled. */
 #define KIRI_COOKIE(Type) (0x4b000000u | (uint32_t)sizeof(Type))
 
-/* Checks the members of a struct, and not its cookie. The fault names the first bad one, as in "name.friction is -1, ...".
-   `world` finds ids; it may be null for a struct without ids. */
+/* Checks the members of a struct, but not its cookie. The fault names the first bad one, as in "name.friction is -1".
+   `world` is used for ids alone, and may be null for a struct without ids. */
 kiriResult kiriStruct_Check(const kiriStruct* of, const char* name, const kiriWorld* world, const void* at,
                             kiriFault* fault);
 
@@ -186,19 +186,19 @@ kiriResult kiriStruct_Check(const kiriStruct* of, const char* name, const kiriWo
 /* A call of a function that takes the world without const. */
 typedef struct kiriCall {
     kiriWorld* world;
-    int32_t number;       /* or KIRI_NONE: not in the table */
+    int32_t number;       /* KIRI_NONE: the function is not in the table */
     const char* function; /* for the error line */
     const char* names;    /* of the arguments, as in "&sheet, velocity" */
     const void* const* arguments;
     bool isRecorded;
-    int32_t index;        /* of the frame or pin that an id names, in its sheet */
-    void* owner;          /* what an id names, or the sheet with the frame or pin */
-    kiriSheetData* sheet; /* the same, if it is a sheet */
-    kiriResult result;    /* if Begin fails */
+    int32_t index;        /* index in `sheet` of the frame or pin that the first argument names */
+    void* owner;          /* object that the first argument names; for a frame or pin: its sheet */
+    kiriSheetData* sheet; /* `owner`, if it is a sheet */
+    kiriResult result;    /* set if Begin fails */
 } kiriCall;
 
-/* Refuses calls from callbacks; checks the arguments, finds what ids name, sets new ids to 0, and records the call. If it
-   fails the call is over. */
+/* Refuses calls from callbacks, checks the arguments, resolves ids, sets new ids to 0, and records the call. If it
+   fails it has also ended the call. */
 bool kiriCall_Begin(kiriCall* call);
 
 /* Ends the call, or for null a function that only reads: `result`, with a line in the log if it is an error. `why` null
@@ -216,16 +216,15 @@ kiriResult kiriCall_Refuse(const kiriWorld* world, const char* function);
         return call->result;                                                                                           \
     }
 
-/* How a function begins that changes the world: with its name in the table and its arguments, those that go by value by
-   their address. */
+/* Begins a function that changes the world. Arguments by value are passed by their address. */
 #define KIRI_CHANGES(Name, ...)                                                                                        \
     const void* const callArguments[] = { __VA_ARGS__ };                                                               \
     KIRI_BEGIN(KIRI_CALL_##Name, __func__, #__VA_ARGS__, callArguments)
 
-/* How a function begins that takes the world without const, but changes nothing on which a tick depends. */
+/* Begins a function that takes the world without const, but changes nothing on which a tick depends. */
 #define KIRI_PREPARES(world) KIRI_BEGIN(KIRI_NONE, __func__, "", NULL)
 
-/* How a function begins that only reads. Several threads may read, so its error line goes to the log alone. */
+/* Begins a function that only reads. Several threads may read, so its error line goes to the log alone. */
 #define KIRI_READS(world)                                                                                              \
     kiriCall* const call = NULL;                                                                                       \
     if ((world) == NULL) {                                                                                             \
@@ -235,7 +234,7 @@ kiriResult kiriCall_Refuse(const kiriWorld* world, const char* function);
         return kiriCall_Refuse(world, __func__);                                                                       \
     }
 
-/* How all of them end; functions that only read may return KIRI_OK directly. */
+/* Every function ends through these, but functions that only read may return KIRI_OK directly. */
 #define KIRI_FAIL(result, why) kiriCall_End(world, call, __func__, result, why)
 #define KIRI_RETURN(result) return KIRI_FAIL(result, NULL)
 
@@ -259,19 +258,19 @@ kiriResult kiriCall_Refuse(const kiriWorld* world, const char* function);
     KIRI_REQUIRE(slot != NULL, KIRI_ERROR_ID, "there is no " #kind " with this id");                                   \
     kiriSheetData* found = slot->owner
 
-/* The usual beginning of a function that only reads: of an id, and one pointer where it writes. */
+/* Begins a function that only reads, with an id and a pointer to its result. */
 #define KIRI_READS_OF(kind, out)                                                                                       \
     KIRI_READS(world);                                                                                                 \
     KIRI_CHECK_OUT(out);                                                                                               \
     KIRI_FIND(kind)
 
-/* Does a callback run of a function that only reads the world? */
+/* Tests whether a callback of a function that only reads is running. */
 static inline bool kiriCall_IsRead(const kiriWorld* world)
 {
     return kiriWord_Read(&world->readers) != 0 || kiriWord_Read(&world->logs) != 0;
 }
 
-/* A function that only reads puts these two around its calls of the host's functions, except the log. */
+/* Functions that only read put these two around calls of the host's functions, except the log. */
 static inline void kiriCall_BeginCallbacks(const kiriWorld* world)
 {
     kiriWord_Add(&world->readers, 1);
@@ -286,8 +285,8 @@ bool kiriCall_AreFinite(const float* values, int64_t count);
 /* Tests whether a planar sheet stays in its plane if its normal is turned to d. */
 bool kiriCall_KeepsPlane(const kiriSheetData* sheet, kiriVec3 d);
 
-/* Snaps the ends of a line of the rest plane, and finds the frames along it (kiriOwner_FindShares). On failure *why says
-   what is wrong, or is null. */
+/* Snaps the ends of a line in the rest plane, and finds the frames along it (kiriOwner_FindShares). On failure *why is
+   the reason, or null. */
 kiriResult kiriCall_FindLine(kiriSheetData* sheet, const float from[2], const float to[2], kiriLatticePoint ends[2],
                              const char** why);
 
@@ -295,13 +294,13 @@ kiriResult kiriCall_FindLine(kiriSheetData* sheet, const float from[2], const fl
 
 enum { KIRI_RECORD_VERSION = 2, KIRI_RECORD_MAGIC_BYTES = 8 };
 
-/* The calls of the recording, one after the other: number, arguments, result and what the call wrote. Begin hands the
-   arguments to the host before the call does anything: so they are there even if it never returns. */
+/* A recording is a list of calls: number, arguments, result, new ids. Begin passes the arguments to the host before the
+   call does anything, so the host has them even if the call never returns. */
 void kiriRecord_Start(kiriWorld* world, const kiriWorldDef* def);
 void kiriRecord_Begin(const kiriCall* call);
 void kiriRecord_End(const kiriCall* call, kiriResult result);
 
-/* Before a world goes. */
+/* Records the end of the world. */
 void kiriRecord_Stop(kiriWorld* world);
 
 KIRI_C_END

@@ -4,7 +4,7 @@
 #include "../sheet/kiri_touch.h"
 #include "kiri_blade.h"
 
-#include <string.h>
+#include <math.h>
 
 /* ---- Batches ----------------------------------------------------------------------------------------------------- */
 
@@ -63,7 +63,7 @@ static void DrawLine(Drawing* drawing, kiriVec3 from, kiriVec3 to, uint32_t colo
 
 /* ---- Mesh -------------------------------------------------------------------------------------------------------- */
 
-/* Colours that neighbours in a list tell apart; a piece that sleeps is half white. */
+/* Neighbours in the list of pieces have different colours. Sleeping pieces are paler. */
 static uint32_t ColorOfPiece(const kiriSheetData* sheet, int32_t piece)
 {
     static const uint8_t colors[8][3] = { { 230, 159, 0 }, { 86, 180, 233 }, { 0, 158, 115 },   { 240, 228, 66 },
@@ -108,7 +108,7 @@ static void DrawMesh(Drawing* drawing, const kiriSheetData* sheet)
 
 enum { BOXES_A_PASS = 64 };
 
-/* Corner i of eight: bits say which are upper. */
+/* Returns corner i of eight: bits 0, 1 and 2 select the upper x, y and z. */
 static kiriVec3 CornerOfBox(const kiriBox* box, int i)
 {
     return kiriVec3_Make((i & 1) != 0 ? box->upper.x : box->lower.x, (i & 2) != 0 ? box->upper.y : box->lower.y,
@@ -126,7 +126,7 @@ static void DrawBox(Drawing* drawing, const kiriBox* box, uint32_t color)
     }
 }
 
-/* A box for each of some pieces by one pass over the vertices: lists of pieces would take memory. */
+/* Draws boxes of BOXES_A_PASS pieces in one pass over the vertices. Lists of pieces would need memory. */
 static void DrawBoxesFrom(Drawing* drawing, const kiriSheetData* sheet, int32_t first)
 {
     kiriBox boxes[BOXES_A_PASS];
@@ -234,91 +234,56 @@ static void DrawContacts(Drawing* drawing, const kiriSheetData* sheet, const kir
 
 enum { CIRCLE_SIDES = 32 };
 
-typedef struct ObstacleDrawing {
-    Drawing* drawing;
-    const kiriObstacleData* obstacle;
-} ObstacleDrawing;
-
-static void DrawLocal(const ObstacleDrawing* of, kiriVec3 from, kiriVec3 to)
+/* Draws a line in the axes of the obstacle. */
+static void DrawLocal(Drawing* drawing, const kiriObstacleData* obstacle, kiriVec3 from, kiriVec3 to)
 {
-    DrawLine(of->drawing, kiriObstacle_PointToWorld(of->obstacle, from),
-                     kiriObstacle_PointToWorld(of->obstacle, to), Color(90, 70, 50));
+    DrawLine(drawing, kiriObstacle_PointToWorld(obstacle, from), kiriObstacle_PointToWorld(obstacle, to),
+             Color(90, 70, 50));
 }
 
-/* Some sides of a circle of vectors u and v, its radius long, around a middle. */
-static void DrawArc(const ObstacleDrawing* of, kiriVec3 middle, kiriVec3 u, kiriVec3 v, int32_t sides)
+/* Returns a corner of the outline, or of the polygon that stands for a circle. */
+static kiriVec2 CornerOf(const kiriObstacleShape* shape, double radius, int32_t i, int32_t sides)
 {
-    for (int32_t i = 0; i < sides; ++i) {
-        kiriVec2 a = kiriCircle_At(i, CIRCLE_SIDES), b = kiriCircle_At(i + 1, CIRCLE_SIDES);
-        DrawLocal(of, kiriVec3_AddScaled(kiriVec3_AddScaled(middle, a.x, u), a.y, v),
-                  kiriVec3_AddScaled(kiriVec3_AddScaled(middle, b.x, u), b.y, v));
-    }
+    KIRI_ASSERT(sides > 0 && (shape->count == 0 || shape->count == sides));
+    return shape->count > 0 ? shape->outline[i % sides] : kiriVec2_Scale(radius, kiriCircle_At(i, sides));
 }
 
-/* Circles around the two ends of the axis, and four lines between them. */
-static void DrawTube(const ObstacleDrawing* of, double radius, double half)
+/* Draws two meridians of each round end. */
+static void DrawRoundEnds(Drawing* drawing, const kiriObstacleData* obstacle, double half)
 {
-    const kiriVec3 u = { radius, 0.0, 0.0 }, v = { 0.0, radius, 0.0 };
-    for (int side = -1; side <= 1; side += 2) {
-        DrawArc(of, kiriVec3_Make(0.0, 0.0, side * half), u, v, CIRCLE_SIDES);
-    }
-    for (int32_t i = 0; i < 4; ++i) {
-        kiriVec2 at = kiriCircle_At(i, 4);
-        DrawLocal(of, kiriVec3_Make(radius * at.x, radius * at.y, -half),
-                  kiriVec3_Make(radius * at.x, radius * at.y, half));
-    }
-}
-
-static void DrawRoundEnds(const ObstacleDrawing* of, double radius, double half)
-{
-    for (int side = -1; side <= 1; side += 2) {
-        kiriVec3 middle = { 0.0, 0.0, side * half }, up = { 0.0, 0.0, side * radius };
-        DrawArc(of, middle, kiriVec3_Make(radius, 0.0, 0.0), up, CIRCLE_SIDES / 2);
-        DrawArc(of, middle, kiriVec3_Make(0.0, radius, 0.0), up, CIRCLE_SIDES / 2);
-    }
-}
-
-static void DrawPrism(const ObstacleDrawing* of, double half)
-{
-    const kiriObstacleShape* shape = &of->obstacle->shape;
-    for (int32_t i = 0; i < shape->count; ++i) {
-        kiriVec2 a = shape->outline[i], b = shape->outline[(i + 1) % shape->count];
-        DrawLocal(of, kiriVec3_Make(a.x, a.y, -half), kiriVec3_Make(a.x, a.y, half));
+    double radius = obstacle->shape.radius;
+    for (int32_t i = 0; i < CIRCLE_SIDES / 2; ++i) {
+        kiriVec2 a = kiriVec2_Scale(radius, kiriCircle_At(i, CIRCLE_SIDES));
+        kiriVec2 b = kiriVec2_Scale(radius, kiriCircle_At(i + 1, CIRCLE_SIDES));
         for (int side = -1; side <= 1; side += 2) {
-            DrawLocal(of, kiriVec3_Make(a.x, a.y, side * half), kiriVec3_Make(b.x, b.y, side * half));
+            double from = side * (half + a.y), to = side * (half + b.y);
+            DrawLocal(drawing, obstacle, kiriVec3_Make(a.x, 0.0, from), kiriVec3_Make(b.x, 0.0, to));
+            DrawLocal(drawing, obstacle, kiriVec3_Make(0.0, a.x, from), kiriVec3_Make(0.0, b.x, to));
         }
     }
 }
 
-/* A square, and its normal. */
-static void DrawPlane(const ObstacleDrawing* of, double size)
+/* Draws the outline at both ends of the axis and lines along the axis; a plane as a square with its normal. */
+static void DrawObstacle(Drawing* drawing, const kiriObstacleData* obstacle)
 {
-    for (int32_t i = 0; i < 4; ++i) {
-        kiriVec2 a = kiriCircle_At(i, 4), b = kiriCircle_At(i + 1, 4);
-        double half = 10.0 * size; /* corners lie half a side along both axes */
-        DrawLocal(of, kiriVec3_Make(half * (a.x - a.y), half * (a.x + a.y), 0.0),
-                  kiriVec3_Make(half * (b.x - b.y), half * (b.x + b.y), 0.0));
+    const kiriObstacleShape* shape = &obstacle->shape;
+    bool isPlane = shape->type == KIRI_OBSTACLE_PLANE;
+    double endless = 10.0 * drawing->size, half = shape->half < KIRI_ENDLESS ? shape->half : endless;
+    double radius = isPlane ? sqrt(2.0) * endless : shape->radius;
+    int32_t sides = shape->count > 0 ? shape->count : isPlane ? 4 : CIRCLE_SIDES;
+    for (int32_t i = 0; i < sides; ++i) {
+        kiriVec2 a = CornerOf(shape, radius, i, sides), b = CornerOf(shape, radius, i + 1, sides);
+        for (int side = half > 0.0 ? -1 : 1; side <= 1; side += 2) {
+            DrawLocal(drawing, obstacle, kiriVec3_Make(a.x, a.y, side * half), kiriVec3_Make(b.x, b.y, side * half));
+        }
+        if (half > 0.0 && (shape->count > 0 || i % (CIRCLE_SIDES / 4) == 0)) {
+            DrawLocal(drawing, obstacle, kiriVec3_Make(a.x, a.y, -half), kiriVec3_Make(a.x, a.y, half));
+        }
     }
-    DrawLocal(of, kiriVec3_Make(0.0, 0.0, 0.0), kiriVec3_Make(0.0, 0.0, size));
-}
-
-static void DrawObstacle(const ObstacleDrawing* of)
-{
-    const kiriObstacleShape* shape = &of->obstacle->shape;
-    double size = of->drawing->size, radius = shape->radius;
-    double half = shape->half < KIRI_ENDLESS ? shape->half : 10.0 * size;
-    const kiriVec3 middle = { 0.0, 0.0, 0.0 }, u = { radius, 0.0, 0.0 }, v = { 0.0, radius, 0.0 };
-    if (shape->type == KIRI_OBSTACLE_PLANE) {
-        DrawPlane(of, size);
-    } else if (shape->type == KIRI_OBSTACLE_PRISM) {
-        DrawPrism(of, half);
-    } else if (shape->type == KIRI_OBSTACLE_SPHERE) {
-        DrawArc(of, middle, u, v, CIRCLE_SIDES);
-    } else {
-        DrawTube(of, radius, half);
-    }
-    if (shape->type == KIRI_OBSTACLE_SPHERE || shape->type == KIRI_OBSTACLE_CAPSULE) {
-        DrawRoundEnds(of, radius, half);
+    if (isPlane) {
+        DrawLocal(drawing, obstacle, kiriVec3_Make(0.0, 0.0, 0.0), kiriVec3_Make(0.0, 0.0, drawing->size));
+    } else if (shape->type == KIRI_OBSTACLE_SPHERE || shape->type == KIRI_OBSTACLE_CAPSULE) {
+        DrawRoundEnds(drawing, obstacle, half);
     }
 }
 
@@ -379,8 +344,7 @@ void kiriDraw_World(const kiriWorld* world, const kiriDebugDraw* draw, const kir
         }
     }
     for (int32_t i = 0; only == NULL && (draw->flags & KIRI_DRAW_OBSTACLES) != 0 && i < world->obstacles.count; ++i) {
-        const ObstacleDrawing of = { &drawing, world->obstacles.data[i] };
-        DrawObstacle(&of);
+        DrawObstacle(&drawing, world->obstacles.data[i]);
     }
     for (int32_t i = 0; only == NULL && (draw->flags & KIRI_DRAW_BLADES) != 0 && i < world->blades.count; ++i) {
         DrawBlade(&drawing, world->blades.data[i]);

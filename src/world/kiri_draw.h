@@ -6,7 +6,7 @@
 
 KIRI_C_BEGIN
 
-/* Draws what the flags ask for: of one sheet, or for null of all sheets, obstacles and blades. Allocates nothing. */
+/* Draws one sheet, or if it is null all sheets, obstacles and blades, as the flags of `draw` say. Allocates nothing. */
 void kiriDraw_World(const kiriWorld* world, const kiriDebugDraw* draw, const kiriSheetData* only);
 
 KIRI_C_END

@@ -1,4 +1,4 @@
-/* Recordings: the calls that change a world, and what they returned, as bytes; and replays, which make the calls again. */
+/* Recordings of calls as bytes, and replays of recordings. */
 #include "kiri_call.h"
 #include "kiri_state.h"
 
@@ -18,12 +18,13 @@ typedef enum ReadFault {
     READ_NO_MEMORY
 } ReadFault;
 
-/* A coder either writes or reads, so one description of data serves for both. Values that are written have been checked;
-   values that are read have not. Integers take 7 bits a byte, the lowest first; the top bit says that more follow. */
+/* A coder either writes or reads, so one description of data serves both ways. Values that are written have been
+   checked; values that are read have not. Integers take 7 bits a byte, the lowest first; the top bit marks that more
+   bytes follow. */
 typedef struct Coder {
-    kiriRecorder* recorder; /* null: it reads, */
-    const uint8_t *at, *end;
-    kiriMemory* memory; /* and allocates what it reads */
+    kiriRecorder* recorder;  /* null: the coder reads */
+    const uint8_t *at, *end; /* bytes to read */
+    kiriMemory* memory;      /* owner of arrays and arguments that are read */
     ReadFault fault;
 } Coder;
 
@@ -159,7 +160,7 @@ static void CodeStruct(Coder* coder, const kiriStruct* of, char* at);
 static void CodeValue(Coder* coder, const kiriValue* value, void* at)
 {
     switch (value->form) {
-    case KIRI_FORM_INTS: /* unsigned ones too: all bits set is -1, one byte */
+    case KIRI_FORM_INTS: /* unsigned ones too: UINT32_MAX is -1, which takes one byte */
         for (int32_t i = 0; i < value->count; ++i) {
             CodeInt(coder, (int32_t*)at + i);
         }
@@ -179,7 +180,7 @@ static void CodeValue(Coder* coder, const kiriValue* value, void* at)
     case KIRI_FORM_STRUCT:
         CodeStruct(coder, value->of, at);
         break;
-    default: /* counts are coded with their arrays, results with the result */
+    default: /* counts are coded with their arrays, new ids with the outcome */
         break;
     }
 }
@@ -372,7 +373,7 @@ static void RecordWhole(kiriWorld* world, int32_t number, const void* const argu
     kiriRecord_End(&call, KIRI_OK);
 }
 
-/* Codes what a recording begins with: magic, format and version of the library. */
+/* Codes the head of a recording: magic, format and version of the library. */
 static void CodeStart(Coder* coder)
 {
     uint64_t format = KIRI_RECORD_VERSION, library = KIRI_VERSION;
@@ -420,7 +421,7 @@ typedef struct Recorded {
     const void* arguments[KIRI_CALL_ARGUMENTS];
     const uint8_t* argumentsEnd;
     Outcome outcome;
-    bool hasOutcome; /* else the recording ends within the call */
+    bool hasOutcome; /* false: the recording ends within the call */
 } Recorded;
 
 static void ReadCall(Coder* coder, Recorded* recorded, bool isFirst)
@@ -445,7 +446,7 @@ static void ReadCall(Coder* coder, Recorded* recorded, bool isFirst)
     if (recorded->hasOutcome && coder->fault == READ_FINE) {
         CodeOutcome(coder, (int32_t)recorded->number, outcome);
     }
-    /* A world is made first, and goes last. */
+    /* The first call makes the world, and the last one destroys it. */
     bool isLast = coder->at == coder->end;
     if ((recorded->number == KIRI_CALL_CreateWorld) != isFirst ||
         (recorded->number == KIRI_CALL_DestroyWorld && !isLast)) {
@@ -485,7 +486,7 @@ static kiriResult FailToRead(ReadFault at, const kiriReplay* replay, kiriFault* 
     return KIRI_ERROR_DATA;
 }
 
-/* Counts a call that was made. Returns whether the replay stops there. */
+/* Counts a call that was made. Returns true if the replay stops there. */
 static bool Pass(kiriReplay* replay, const Recorded* recorded, kiriResult result, int64_t bytes)
 {
     bool isTick = recorded->number == KIRI_CALL_World_Tick && (result >= 0 || result == KIRI_DIVERGED);
