@@ -61,7 +61,8 @@ static void AddEntries(SparseSystem* system, const kiriMatrix* matrix, int32_t s
 /* The last system that the solver had. */
 static SparseSystem ReadSystem(kiriSolver* solver)
 {
-    int32_t size = solver->size, frames = solver->frameCount, pairs = kiriMatrix_PairCount(solver->matrix);
+    const kiriMatrix* matrix = solver->bodies.bodies.data[0].matrix;
+    int32_t size = solver->size, frames = kiriMatrix_FrameCount(matrix), pairs = kiriMatrix_PairCount(matrix);
     size_t most = (size_t)(frames + pairs) * (size_t)(size * size);
     SparseSystem system = { size * frames,
                             0,
@@ -70,13 +71,13 @@ static SparseSystem ReadSystem(kiriSolver* solver)
                             malloc(sizeof(double) * most),
                             solver->force.data };
     kiriPair* pair = malloc(sizeof(kiriPair) * (size_t)pairs);
-    kiriMatrix_GetPairs(solver->matrix, pair);
+    kiriMatrix_GetPairs(matrix, pair);
     for (int32_t f = 0; f < frames; ++f) {
-        AddEntries(&system, solver->matrix, size, f, f);
+        AddEntries(&system, matrix, size, f, f);
     }
     for (int32_t k = 0; k < pairs; ++k) {
         bool isSwapped = pair[k].a < pair[k].b;
-        AddEntries(&system, solver->matrix, size, isSwapped ? pair[k].b : pair[k].a, isSwapped ? pair[k].a : pair[k].b);
+        AddEntries(&system, matrix, size, isSwapped ? pair[k].b : pair[k].a, isSwapped ? pair[k].a : pair[k].b);
     }
     free(pair);
     return system;
@@ -94,17 +95,18 @@ static void TakeLeast(SolverTimes* least, const SolverTimes* times, int run)
 
 static bool TimeOurs(kiriSolver* solver, double* solution, SolverTimes* times)
 {
-    int32_t pairs = kiriMatrix_PairCount(solver->matrix);
+    kiriMatrix* own = solver->bodies.bodies.data[0].matrix;
+    int32_t pairs = kiriMatrix_PairCount(own);
     kiriMemory memory = kiriMemory_Make(NULL, NULL, NULL);
     kiriMatrix* matrix = kiriMatrix_Create(&memory, solver->size);
     kiriPair* pair = malloc(sizeof(kiriPair) * (size_t)pairs);
     double start = Bench_Clock(NULL);
-    kiriMatrix_GetPairs(solver->matrix, pair);
-    bool fine = kiriMatrix_Shape(matrix, solver->frameCount, pair, pairs);
+    kiriMatrix_GetPairs(own, pair);
+    bool fine = kiriMatrix_Shape(matrix, kiriMatrix_FrameCount(own), pair, pairs);
     double analysed = Bench_Clock(NULL);
-    fine = fine && kiriMatrix_Factor(solver->matrix);
+    fine = fine && kiriMatrix_Factor(own);
     double factored = Bench_Clock(NULL);
-    kiriMatrix_Solve(solver->matrix, solver->force.data, solution);
+    kiriMatrix_Solve(own, solver->force.data, solution);
     *times = (SolverTimes){ analysed - start, factored - analysed, Bench_Clock(NULL) - factored, 0 };
     kiriMemory_FreeAll(&memory);
     free(pair);
@@ -115,13 +117,13 @@ static bool TimeOurs(kiriSolver* solver, double* solution, SolverTimes* times)
 static void PrintSolver(Table* table, const kiriSolver* solver, const char* name, const SolverTimes* times,
                         const SolverTimes* ours, double error)
 {
-    Table_Number(table, solver->frameCount);
+    Table_Number(table, kiriMatrix_FrameCount(solver->bodies.bodies.data[0].matrix));
     Table_Number(table, solver->size);
     Table_Text(table, name);
     Table_Number(table, 1e3 * times->analyse);
     Table_Number(table, 1e3 * times->factor);
     Table_Number(table, 1e3 * times->solve);
-    Table_Number(table, 1e6 * (times->factor + times->solve) / solver->frameCount);
+    Table_Number(table, 1e6 * (times->factor + times->solve) / kiriMatrix_FrameCount(solver->bodies.bodies.data[0].matrix));
     Table_Number(table, (times->factor + times->solve) / (ours->factor + ours->solve));
     Table_Number(table, times->rounds > 0 ? times->rounds : (double)NAN);
     Table_Number(table, log10(error));
@@ -129,7 +131,7 @@ static void PrintSolver(Table* table, const kiriSolver* solver, const char* name
 
 static bool BenchSolvers(Table* table, kiriSolver* solver)
 {
-    int32_t frames = solver->frameCount;
+    int32_t frames = kiriMatrix_FrameCount(solver->bodies.bodies.data[0].matrix);
     SparseSystem system = ReadSystem(solver);
     double* reference = malloc(sizeof(double) * (size_t)system.unknowns);
     double* solution = malloc(sizeof(double) * (size_t)system.unknowns);

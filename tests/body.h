@@ -8,6 +8,7 @@
 #include "scene.h"
 #include "motion/kiri_solver.h"
 #include "pieces.h"
+#include "solver_step.h"
 
 enum { BODY_FRAMES = 64 };
 
@@ -191,7 +192,7 @@ static inline void Body_Hold(Body* body, int32_t f)
 static inline void Body_Steps(Body* body, int count, double dt, int iterations)
 {
     for (int k = 0; k < count; ++k) {
-        int32_t done = kiriSolver_Step(body->solver, &body->system, dt, iterations, INT32_MAX);
+        int32_t done = Solver_Step(body->solver, &body->system, dt, iterations, INT32_MAX);
         assert_true(done >= iterations && done <= iterations + 6);
     }
 }

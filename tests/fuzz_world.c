@@ -195,9 +195,12 @@ static bool IsOneSystem(const kiriWorld* world, int32_t items)
 {
     bool any = false;
     for (int32_t i = 0; i < world->sheets.count; ++i) {
-        const kiriSheetData* sheet = world->sheets.data[i];
-        any = any || (kiriSolver_Awake(sheet->solver)->isListed &&
-                      items == kiriSolver_SystemItems(sheet->solver, sheet->touches.rows.count));
+        const kiriSolver* solver = world->sheets.data[i]->solver;
+        for (int32_t n = 0; n < solver->moved.bodies.count; ++n) {
+            int32_t body = solver->moved.bodies.data[n];
+            int64_t work = kiriSolver_WorkOf(solver, body, solver->bodies.bodies.data[body].contactCount);
+            any = any || items == kiriSolver_ItemsOf(work);
+        }
     }
     return any;
 }

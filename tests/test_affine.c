@@ -499,7 +499,7 @@ static void Wave(Body* b, int model)
     row.offset = -0.03;
     row.friction = 0.4;
     row.pushSpeed = 1.0;
-    assert_true(kiriSolver_ReserveContacts(b->solver, 4));
+    assert_true(kiriSolver_ReserveRows(b->solver, 0, 0, 4));
     b->pins[b->system.pinCount++] = pin;
     b->contacts[b->system.contactCount++] = row;
     for (int n = 0; n < 60; ++n) {
@@ -546,7 +546,7 @@ static void TestNotFinite(void** state)
     Body_Steps(&body, 5, 0.01, 2);
     body.frames[7].force.y = NAN;
     twin = body;
-    assert_int_equal(kiriSolver_Step(body.solver, &body.system, 0.01, 2, INT32_MAX), -1);
+    assert_int_equal(Solver_Step(body.solver, &body.system, 0.01, 2, INT32_MAX), -1);
     AssertSameState(&body, &twin);
     body.frames[7].force.y = 0.0;
     Body_Steps(&body, 5, 0.01, 2);

@@ -326,7 +326,6 @@ static void TestNoMemory(void** state)
     kiriMemory memory = kiriMemory_Make(CountAlloc, FreeCounted, NULL);
     uint32_t seed = 31;
     for (int s = 0; s < 3; ++s) {
-        int32_t some[MOST_FRAMES / 2];
         kiriMatrix* matrix = kiriMatrix_Create(&memory, sizes[s]);
         MakeElements(&seed, sizes[s], MOST_FRAMES, 16);
         requests = 0;
@@ -336,10 +335,6 @@ static void TestNoMemory(void** state)
         Assemble(matrix, &seed, sizes[s], MOST_FRAMES, 16);
         assert_true(kiriMatrix_Factor(matrix));
         kiriMatrix_Solve(matrix, right, solution);
-        for (int32_t n = 0; n < MOST_FRAMES / 2; ++n) {
-            some[n] = 2 * n;
-        }
-        kiriMatrix_Choose(matrix, some, MOST_FRAMES / 2);
         kiriMatrix_Clear(matrix);
         assert_int_equal(requests, 0);
     }

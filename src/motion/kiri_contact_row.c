@@ -1,29 +1,108 @@
-/* Where contacts start in a step: whom they act on, where their planes are, and the first guess of what they do. */
 #include "kiri_solver.h"
+
+#define STIFFNESS 1e4       /* of a contact: so many times the mass of its frames over h'^2, */
+#define GRIP 30.0           /* and so many times for the slide of what sticks */
+#define SINKING 1e-4        /* m: and so much that it sinks in no deeper by what it is known to push with */
+#define MOST_SPRING 1e9     /* but no more times the mass over h'^2 than that */
+#define SLIDE_HALVINGS 8    /* of the step, where friction ends it */
+#define SLOPE 0.1           /* of what the step promises: less is no crossing */
+#define EARLY 2             /* systems */
+#define PUSH_TOLERANCE 0.02 /* of the largest push of the piece: forces that are off by less need no other iteration */
+#define SINK_TOLERANCE 1e-5 /* m: nor do points that came below a plane by less */
+
+/* ---- Points ------------------------------------------------------------------------------------------------------ */
+
+/* Where frames have a point by these weights. */
+static kiriVec3 PointOf(const kiriSystem* system, const kiriWeight* weights, int32_t count, kiriVec2 at,
+                        const kiriPose* poses)
+{
+    kiriVec3 x = { 0.0, 0.0, 0.0 };
+    for (int32_t m = 0; m < count; ++m) {
+        x = kiriVec3_AddScaled(x, weights[m].value, kiriSystem_Point(system, weights[m].frame, at, poses));
+    }
+    return x;
+}
+
+kiriVec3 kiriContact_Point(const kiriSystem* system, const kiriContactStep* step, const kiriPose* poses)
+{
+    return PointOf(system, step->members, step->memberCount, step->row->at, poses);
+}
+
+static double DepthAt(const kiriContactStep* step, kiriVec3 point)
+{
+    return step->plane - kiriVec3_Dot(step->row->normal, point);
+}
+
+double kiriContact_Depth(const kiriSystem* system, const kiriContactStep* step, const kiriPose* poses)
+{
+    return DepthAt(step, kiriContact_Point(system, step, poses));
+}
+
+static kiriVec3 SlideAt(const kiriContactStep* step, kiriVec3 point)
+{
+    kiriVec3 way = kiriVec3_Sub(point, step->start);
+    return kiriVec3_AlongPlane(kiriVec3_Sub(way, step->carried), step->row->normal);
+}
+
+/* N/m: what resists the point of a contact by its inertia alone. */
+static double InertiaOf(const kiriSolver* solver, const kiriContactStep* step)
+{
+    return step->mass / (solver->stepping.part * solver->stepping.part);
+}
+
+/* ---- Obstacles that yield ---------------------------------------------------------------------------------------- */
+
+static kiriYieldRow* YieldOf(const kiriSystem* system, const kiriContactRow* row)
+{
+    KIRI_ASSERT(row->yield == KIRI_NONE || (row->yield >= 0 && row->yield < system->yieldCount));
+    return row->yield != KIRI_NONE ? &system->yields[row->yield] : NULL;
+}
+
+/* m/s: of the material of the obstacle at a point, with what sheets gave it in this tick. */
+static kiriVec3 PlaneVelocity(const kiriSystem* system, const kiriContactRow* row, kiriVec3 point)
+{
+    const kiriYieldRow* yield = YieldOf(system, row);
+    kiriVec3 recoil = { 0.0, 0.0, 0.0 };
+    if (yield != NULL && row->felt >= 0.0) {
+        recoil = kiriVec3_Scale(row->felt, yield->impulse.force);
+    } else if (yield != NULL) {
+        kiriVec3 spin = kiriMat3_Mul(yield->inverseInertia, yield->impulse.moment);
+        kiriVec3 round = kiriVec3_Cross(spin, kiriVec3_Sub(point, yield->center));
+        recoil = kiriVec3_AddScaled(round, yield->inverseMass, yield->impulse.force);
+    }
+    return kiriVec3_Add(row->velocity, recoil);
+}
+
+/* 1/kg: of the obstacle at a point, along a direction. */
+static double InverseMass(const kiriSystem* system, const kiriContactRow* row, kiriVec3 point, kiriVec3 along)
+{
+    const kiriYieldRow* yield = YieldOf(system, row);
+    if (yield == NULL || row->felt >= 0.0) {
+        return yield == NULL ? 0.0 : row->felt;
+    }
+    kiriVec3 arm = kiriVec3_Cross(kiriVec3_Sub(point, yield->center), along);
+    return yield->inverseMass + kiriVec3_Dot(arm, kiriMat3_Mul(yield->inverseInertia, arm));
+}
+
+/* ---- Begin of a step --------------------------------------------------------------------------------------------- */
 
 #define LEAST_FREE 0.5 /* of the weights of a contact: those of frames that the host does not hold */
 #define FAR_BELOW 1e9  /* m: of planes that nothing can touch */
 
-bool kiriSolver_ReserveContacts(kiriSolver* solver, int32_t count)
-{
-    return kiriArray_Reserve(solver->memory, &solver->contacts, count);
-}
-
 /* The row acts on its largest frames that all have a block of the matrix in common: so that what it couples is solved
    for exactly. */
-static void ChooseMembers(const kiriSolver* solver, const kiriContactRow* row, kiriContactStep* step)
+static void ChooseMembers(const kiriSolver* solver, const kiriWeight* weights, kiriContactStep* step)
 {
     double sum = 0.0;
-    step->memberCount = 0;
-    for (int32_t n = 0; n < row->weightCount && step->memberCount < KIRI_CONTACT_MEMBERS; ++n) {
+    for (int32_t n = 0; n < step->row->weightCount && step->memberCount < KIRI_CONTACT_MEMBERS; ++n) {
         bool isCoupled = true;
         for (int32_t m = 0; isCoupled && m < step->memberCount; ++m) {
-            kiriPair pair = { step->members[m].frame, row->weights[n].frame };
+            kiriPair pair = { step->members[m].frame, weights[n].frame };
             isCoupled = kiriMatrix_Covers(solver->matrix, pair);
         }
         if (isCoupled) {
-            step->members[step->memberCount++] = row->weights[n];
-            sum += row->weights[n].value;
+            step->members[step->memberCount++] = weights[n];
+            sum += weights[n].value;
         }
     }
     for (int32_t m = 0; m < step->memberCount; ++m) {
@@ -31,17 +110,30 @@ static void ChooseMembers(const kiriSolver* solver, const kiriContactRow* row, k
     }
 }
 
-/* Where the plane is at the end of the step, and how far the obstacle goes. A point that starts below the plane ends no
-   higher than `pushSpeed` lets it. */
-static void PlacePlane(const kiriSolver* solver, const kiriSystem* system, int32_t k)
+/* Finds the mass of the members, and whether the host holds too much of them: such a point goes where held frames go.
+   Other frames, which hardly carry it, would have to move many times as far as it is deep, and a contact has the force
+   for that. */
+static void WeighMembers(const kiriSystem* system, kiriContactStep* step)
 {
-    const kiriContactRow* row = &system->contacts[k];
-    kiriContactStep* step = &solver->contacts.data[k];
+    double free = 0.0;
+    for (int32_t m = 0; m < step->memberCount; ++m) {
+        const kiriFrameData* frame = &system->frames[step->members[m].frame];
+        free += frame->held ? 0.0 : step->members[m].value;
+        step->mass += step->members[m].value * frame->mass;
+    }
+    step->isHeld = free < LEAST_FREE;
+}
+
+/* Places the plane as at the end of the step, and finds how far the obstacle goes. A point that starts below the plane
+   ends no higher than `pushSpeed` lets it. */
+static void PlacePlane(const kiriSolver* solver, const kiriSystem* system, const kiriWeight* weights,
+                       kiriContactStep* step)
+{
+    const kiriContactRow* row = step->row;
     const kiriPose* poses = solver->start.data;
-    step->start = kiriContact_Point(solver, system, k, poses);
-    kiriVec3 off =
-        kiriVec3_Sub(step->start, kiriSystem_PointOfMany(system, row->weights, row->weightCount, row->at, poses));
-    step->carried = kiriVec3_Scale(solver->dt, kiriContact_PlaneVelocity(system, k, step->start));
+    step->start = kiriContact_Point(system, step, poses);
+    kiriVec3 off = kiriVec3_Sub(step->start, PointOf(system, weights, row->weightCount, row->at, poses));
+    step->carried = kiriVec3_Scale(solver->dt, PlaneVelocity(system, row, step->start));
     double now = row->offset + kiriVec3_Dot(row->normal, kiriVec3_Add(row->way, off));
     double depth = now - kiriVec3_Dot(row->normal, step->start), pushed = row->pushSpeed * solver->dt;
     step->lowered = depth > pushed ? depth - pushed : 0.0;
@@ -49,86 +141,67 @@ static void PlacePlane(const kiriSolver* solver, const kiriSystem* system, int32
     step->plane = now + kiriVec3_Dot(row->normal, step->carried) - step->lowered - (step->isHeld ? FAR_BELOW : 0.0);
 }
 
-/* A point that goes with frames that the host holds goes where these go. Other frames, which hardly carry it, would
-   have to move many times as far as it is deep, and a contact has the force for that. */
-static bool IsHeld(const kiriSystem* system, const kiriContactStep* step)
-{
-    double free = 0.0;
-    for (int32_t m = 0; m < step->memberCount; ++m) {
-        free += system->frames[step->members[m].frame].held ? 0.0 : step->members[m].value;
-    }
-    return free < LEAST_FREE;
-}
-
-static double MassOf(const kiriSystem* system, const kiriContactStep* step)
-{
-    double mass = 0.0;
-    for (int32_t m = 0; m < step->memberCount; ++m) {
-        mass += step->members[m].value * system->frames[step->members[m].frame].mass;
-    }
-    return mass;
-}
-
 /* J: what an obstacle can give by moving along the normal: its kinetic energy; or no end of it, where it does not
-   yield. Another piece has no more than its cushion says. */
-static double MeansOf(const kiriSystem* system, int32_t k, const kiriContactStep* step, double dt)
+   yield. Another body has no more than its cushion says. */
+static double MeansOf(const kiriSystem* system, const kiriContactStep* step, double dt)
 {
-    double speed = kiriVec3_Dot(system->contacts[k].normal, step->carried) / dt;
-    double inverse = kiriContact_InverseMass(system, k, step->start, system->contacts[k].normal);
-    inverse += system->contacts[k].cushion;
+    double speed = kiriVec3_Dot(step->row->normal, step->carried) / dt;
+    double inverse = InverseMass(system, step->row, step->start, step->row->normal) + step->row->cushion;
     return !(fabs(speed) > 0.0) ? 0.0 : inverse > 0.0 ? 0.5 * speed * speed / inverse : DBL_MAX;
 }
 
-/* J: the energy that a piece has to spend in a step in which contacts touch it: its own, and what gravity, forces and
+/* J: the energy that a body has to spend in a step in which contacts touch it: its own, and what gravity, forces and
    obstacles may add. */
 static void FindMeans(kiriSolver* solver, const kiriSystem* system)
 {
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        kiriPieceStep* piece = kiriContact_PieceOf(solver, system, k);
+    kiriContactSum* touch = &solver->touch;
+    double obstacleSpeed = 0.0, gravity = kiriVec3_Length(kiriSystem_Gravity(system));
+    for (int32_t k = 0; k < solver->contacts.count; ++k) {
         const kiriContactStep* step = &solver->contacts.data[k];
-        if (step->isHeld) {
-            continue;
+        if (!step->isHeld) {
+            double fast = (kiriVec3_Length(step->carried) + fabs(step->lift)) / solver->dt;
+            double given = MeansOf(system, step, solver->dt);
+            obstacleSpeed = kiriMax(fast, obstacleSpeed);
+            touch->means = kiriMax(given, touch->means);
+            touch->isNear = true;
         }
-        double fast = (kiriVec3_Length(step->carried) + fabs(step->lift)) / solver->dt;
-        double given = MeansOf(system, k, step, solver->dt);
-        piece->obstacleSpeed = kiriMax(fast, piece->obstacleSpeed);
-        piece->means = kiriMax(given, piece->means);
-        piece->isNear = true;
     }
-    double gravity = kiriVec3_Length(kiriSystem_Gravity(system));
-    KIRI_EACH(f, solver->awake.frames) {
+    for (int32_t f = 0; touch->isNear && f < system->frameCount; ++f) {
         const kiriFrameData* frame = &solver->before.data[f];
-        kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
-        if (piece->isNear) {
-            double pull = gravity + kiriVec3_Length(frame->force) / frame->mass;
-            double own = kiriVec3_Length(frame->velocity), speed = own + solver->dt * pull + piece->obstacleSpeed;
-            piece->means +=
-                kiriFrame_KineticEnergy(frame, &system->material) + 0.5 * frame->mass * (speed * speed - own * own);
-        }
+        double pull = gravity + kiriVec3_Length(frame->force) / frame->mass;
+        double own = kiriVec3_Length(frame->velocity), speed = own + solver->dt * pull + obstacleSpeed;
+        touch->means +=
+            kiriFrame_KineticEnergy(frame, &system->material) + 0.5 * frame->mass * (speed * speed - own * own);
     }
 }
 
 void kiriSolver_BeginContacts(kiriSolver* solver, const kiriSystem* system)
 {
-    KIRI_ASSERT(solver->contacts.capacity >= system->contactCount);
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        kiriContactStep* step = &solver->contacts.data[k];
+    solver->contacts.count = 0;
+    for (int32_t k = solver->body->contact; k != KIRI_NONE; k = solver->nextContact.data[k]) {
+        KIRI_ASSERT(solver->contacts.count < solver->contacts.capacity && k < system->contactCount);
+        kiriContactStep* step = &solver->contacts.data[solver->contacts.count++];
+        kiriWeight weights[KIRI_CONTACT_WEIGHTS];
         memset(step, 0, sizeof(*step));
-        ChooseMembers(solver, &system->contacts[k], step);
-        step->isHeld = IsHeld(system, step);
-        step->mass = MassOf(system, step);
-        PlacePlane(solver, system, k);
+        step->row = &system->contacts[k];
+        KIRI_ASSERT(step->row->weightCount > 0 && step->row->weightCount <= KIRI_CONTACT_WEIGHTS);
+        for (int32_t n = 0; n < step->row->weightCount; ++n) {
+            weights[n].frame = solver->bodies.place.data[step->row->weights[n].frame];
+            weights[n].value = step->row->weights[n].value;
+        }
+        ChooseMembers(solver, weights, step);
+        WeighMembers(system, step);
+        PlacePlane(solver, system, weights, step);
     }
     FindMeans(solver, system);
 }
 
 /* The first guess: what free motion runs into pushes with what stops it, and what pushed in the last step goes on,
    unless free motion leaves it. It sticks where friction can stop its slide. */
-static void GuessState(const kiriSolver* solver, const kiriSystem* system, int32_t k)
+static void GuessState(const kiriSolver* solver, const kiriSystem* system, kiriContactStep* step)
 {
-    const kiriContactRow* row = &system->contacts[k];
-    kiriContactStep* step = &solver->contacts.data[k];
-    double inertia = kiriContact_Inertia(solver, system, k), was = kiriVec3_Dot(row->normal, row->force);
+    const kiriContactRow* row = step->row;
+    double inertia = InertiaOf(solver, step), was = kiriVec3_Dot(row->normal, row->force);
     kiriVec3 predicted = { 0.0, 0.0, 0.0 }, free = predicted;
     for (int32_t m = 0; m < step->memberCount; ++m) {
         const kiriPrediction* prediction = &solver->predictions.data[step->members[m].frame];
@@ -153,17 +226,144 @@ static void GuessState(const kiriSolver* solver, const kiriSystem* system, int32
     step->known = kiriMax(pressing, stop);
 }
 
-/* Of the pieces that are new. */
 void kiriSolver_GuessContacts(kiriSolver* solver, const kiriSystem* system)
 {
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        if (kiriContact_PieceOf(solver, system, k)->isNew) {
-            GuessState(solver, system, k);
+    for (int32_t k = 0; k < solver->contacts.count; ++k) {
+        GuessState(solver, system, &solver->contacts.data[k]);
+    }
+}
+
+/* ---- One linear system ------------------------------------------------------------------------------------------- */
+
+static void CountPressed(const kiriSolver* solver, const kiriSystem* system)
+{
+    for (int32_t k = 0; k < system->yieldCount; ++k) {
+        system->yields[k].pressed = 0;
+    }
+    for (int32_t k = 0; k < solver->contacts.count; ++k) {
+        const kiriContactStep* step = &solver->contacts.data[k];
+        if (step->isActive && step->row->yield != KIRI_NONE) {
+            YieldOf(system, step->row)->pressed += 1;
         }
     }
 }
 
-/* What contacts put into the linear system. */
+/* The spring of the contact is so stiff that nobody sees it, in series with the inertia of the obstacle. Contacts that
+   press on one obstacle each have the same share of its mass: then none of them can give it more than is there, and
+   together they give all (mass splitting; Tonge, Benevolenski, Voroshilov 2012). */
+static void SetSprings(const kiriSolver* solver, const kiriSystem* system, kiriContactStep* step, kiriVec3 point)
+{
+    const kiriContactRow* row = step->row;
+    const kiriYieldRow* yield = YieldOf(system, row);
+    double inertia = InertiaOf(solver, step), part = solver->stepping.part;
+    double asked = step->known / SINKING, most = MOST_SPRING * inertia;
+    double spring = kiriMax(asked, STIFFNESS * inertia);
+    spring = kiriMin(spring, most);
+    double share = yield != NULL && yield->pressed > 1 ? yield->pressed : 1.0;
+    double soft = part * part * share;
+    kiriVec3 along = kiriVec3_Length(step->direction) > 0.5 ? step->direction : row->normal;
+    step->give = soft * (row->cushion + InverseMass(system, row, point, row->normal));
+    step->stiffness = 1.0 / (1.0 / spring + step->give);
+    step->grip = 1.0 / (1.0 / (GRIP * inertia) + soft * InverseMass(system, row, point, along));
+}
+
+void kiriSolver_LinearizeContacts(kiriSolver* solver, const kiriSystem* system)
+{
+    CountPressed(solver, system);
+    for (int32_t k = 0; k < solver->contacts.count; ++k) {
+        kiriContactStep* step = &solver->contacts.data[k];
+        kiriVec3 point = kiriContact_Point(system, step, solver->poses.data);
+        SetSprings(solver, system, step, point);
+        step->depth = DepthAt(step, point);
+        step->slide = SlideAt(step, point);
+        step->sinks = 0.0;
+        step->slides = kiriVec3_Make(0.0, 0.0, 0.0);
+    }
+}
+
+/* N: what friction would be if it stuck. */
+static kiriVec3 Trial(const kiriContactStep* step, kiriVec3 slide)
+{
+    return kiriVec3_AddScaled(step->held, -step->grip, slide);
+}
+
+/* N/m: what turns the direction of a slide. */
+static double TurnSpring(const kiriContactStep* step)
+{
+    double trial = kiriVec3_Length(Trial(step, step->slide));
+    return trial > step->limit ? step->grip * step->limit / trial : step->grip;
+}
+
+static kiriVec3 Beside(kiriVec3 a, kiriVec3 direction)
+{
+    return kiriVec3_AddScaled(a, -kiriVec3_Dot(a, direction), direction);
+}
+
+/* J: of the linear model, at a depth and a slide. */
+static double EnergyAt(const kiriContactStep* step, double depth, kiriVec3 slide)
+{
+    double energy = 0.5 * step->stiffness * depth * depth;
+    if (step->sticks) {
+        return energy - kiriVec3_Dot(step->held, slide) + 0.5 * step->grip * kiriVec3_Dot(slide, slide);
+    }
+    kiriVec3 beside = Beside(slide, step->direction);
+    return energy + step->limit * kiriVec3_Dot(step->direction, slide) +
+           0.5 * TurnSpring(step) * kiriVec3_Dot(beside, beside);
+}
+
+double kiriContact_Energy(const kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step,
+                          const kiriPose* poses)
+{
+    if (!step->isActive) {
+        return 0.0;
+    }
+    if (solver->isAlong) {
+        double part = solver->search.scale;
+        return EnergyAt(step, step->depth + part * step->sinks, kiriVec3_AddScaled(step->slide, part, step->slides));
+    }
+    kiriVec3 point = kiriContact_Point(system, step, poses);
+    return EnergyAt(step, DepthAt(step, point), SlideAt(step, point));
+}
+
+/* The friction of the linear model, on the sheet. */
+static kiriVec3 DragOf(const kiriContactStep* step, double part)
+{
+    kiriVec3 slide = kiriVec3_AddScaled(step->slide, part, step->slides);
+    return step->sticks ? kiriVec3_AddScaled(step->held, -step->grip, slide)
+                        : kiriVec3_AddScaled(kiriVec3_Scale(-step->limit, step->direction),
+                                             -TurnSpring(step), Beside(slide, step->direction));
+}
+
+/* How the point moves by the solution, to first order. */
+static kiriVec3 MoveOf(const kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step)
+{
+    kiriVec3 sum = { 0.0, 0.0, 0.0 };
+    for (int32_t m = 0; m < step->memberCount; ++m) {
+        kiriWeight member = step->members[m];
+        kiriVec2 local = kiriVec2_Sub(step->row->at, system->frames[member.frame].center);
+        kiriFrameRow by = kiriSolver_Expand(solver, 1.0, &solver->move.data[solver->size * member.frame]);
+        kiriVec3 turn = kiriVec3_AddScaled(kiriVec3_Scale(local.x, by.by[1]), local.y, by.by[2]);
+        if (!kiriMechanics_IsAffine(&system->mechanics)) {
+            turn = kiriVec3_Cross(by.by[1], kiriPose_Along(&solver->poses.data[member.frame], local));
+        }
+        sum = kiriVec3_AddScaled(sum, member.value, kiriVec3_Add(by.by[0], turn));
+    }
+    return sum;
+}
+
+void kiriSolver_MoveContacts(kiriSolver* solver, const kiriSystem* system)
+{
+    for (int32_t k = 0; k < solver->contacts.count; ++k) {
+        kiriContactStep* step = &solver->contacts.data[k];
+        if (step->isActive) {
+            kiriVec3 move = MoveOf(solver, system, step);
+            step->sinks = -kiriVec3_Dot(step->row->normal, move);
+            step->slides = kiriVec3_AlongPlane(move, step->row->normal);
+        }
+    }
+}
+
+/* ---- Assembly ---------------------------------------------------------------------------------------------------- */
 
 /* The derivatives of a move of the point along an axis by the unknowns of a member, at whose `arm` it is. */
 static void DerivePoint(const kiriSolver* solver, const kiriSystem* system, kiriWeight member, kiriVec2 local,
@@ -200,24 +400,24 @@ typedef struct PointSprings {
 
 static PointSprings SpringsOf(const kiriContactStep* step, kiriVec3 normal)
 {
-    kiriVec3 drag = kiriContactStep_Drag(step, 0.0);
+    kiriVec3 drag = DragOf(step, 0.0);
     PointSprings at = { { normal }, { step->stiffness, 0.0, 0.0 }, { step->stiffness * step->depth, 0.0, 0.0 } };
     FindAxes(step, normal, &at.axis[1]);
     at.spring[1] = step->sticks ? step->grip : 0.0;
-    at.spring[2] = step->sticks ? step->grip : kiriContactStep_TurnSpring(step);
+    at.spring[2] = step->sticks ? step->grip : TurnSpring(step);
     at.pull[1] = kiriVec3_Dot(drag, at.axis[1]);
     at.pull[2] = kiriVec3_Dot(drag, at.axis[2]);
     return at;
 }
 
-static void AssembleRows(kiriSolver* solver, const kiriSystem* system, int32_t k, const PointSprings* at)
+static void AssembleRows(kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step,
+                         const PointSprings* at)
 {
-    const kiriContactStep* step = &solver->contacts.data[k];
     double J[CONTACT_ROWS * KIRI_CONTACT_MEMBERS * KIRI_MOST_UNKNOWNS];
     int32_t frames[KIRI_CONTACT_MEMBERS];
     for (int32_t m = 0; m < step->memberCount; ++m) {
         kiriWeight member = step->members[m];
-        kiriVec2 local = kiriVec2_Sub(system->contacts[k].at, system->frames[member.frame].center);
+        kiriVec2 local = kiriVec2_Sub(step->row->at, system->frames[member.frame].center);
         kiriVec3 arm = kiriPose_Along(&solver->poses.data[member.frame], local);
         frames[m] = member.frame;
         for (int e = 0; e < CONTACT_ROWS; ++e) {
@@ -281,9 +481,9 @@ static void AddCarried(kiriSolver* solver, const Carrier* carrier, kiriVec3 pull
     }
 }
 
-static void AssembleRigid(kiriSolver* solver, const kiriSystem* system, int32_t k, const PointSprings* at)
+static void AssembleRigid(kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step,
+                          const PointSprings* at)
 {
-    const kiriContactStep* step = &solver->contacts.data[k];
     Carrier carriers[KIRI_CONTACT_MEMBERS];
     kiriVec3 springs[3], pull = { 0.0, 0.0, 0.0 };
     int32_t count = 0;
@@ -295,8 +495,7 @@ static void AssembleRigid(kiriSolver* solver, const kiriSystem* system, int32_t 
         Carrier* carrier = &carriers[count];
         carrier->frame = step->members[m].frame;
         carrier->weight = step->members[m].value;
-        carrier->arm =
-            kiriSystem_Arm(system, carrier->frame, system->contacts[k].at, &solver->poses.data[carrier->frame]);
+        carrier->arm = kiriSystem_Arm(system, carrier->frame, step->row->at, &solver->poses.data[carrier->frame]);
         for (int c = 0; c < 3; ++c) {
             carrier->moment[c] = kiriVec3_Cross(carrier->arm, springs[c]);
         }
@@ -312,617 +511,12 @@ static void AssembleRigid(kiriSolver* solver, const kiriSystem* system, int32_t 
     }
 }
 
-void kiriContact_Assemble(kiriSolver* solver, const kiriSystem* system, int32_t k)
+void kiriContact_Assemble(kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step)
 {
-    const kiriContactStep* step = &solver->contacts.data[k];
     if (step->isActive) {
-        PointSprings at = SpringsOf(step, system->contacts[k].normal);
+        PointSprings at = SpringsOf(step, step->row->normal);
         bool isRigid = !kiriMechanics_IsAffine(&system->mechanics) && !system->mechanics.planar;
-        (isRigid ? AssembleRigid : AssembleRows)(solver, system, k, &at);
-    }
-}
-
-/* What holds where the systems of a step do not settle which contacts push: nothing goes through an obstacle. */
-
-#define MOST_DEPTH 5e-3      /* m: less is left to the next step, which pushes it out: what rests needs that */
-#define TOLERABLE_DEPTH 1e-3 /* m: what is left where something is held */
-#define MOST_TURN 0.3        /* of a frame, roughly its angle, while it is held */
-#define LEAST_WEIGHT 0.05    /* of a frame that is held */
-#define SWEEPS 12            /* over all contacts */
-
-/* ---- Which are too deep ------------------------------------------------------------------------------------------ */
-
-/* m: how far the obstacle is pushed down. */
-static double Yielded(const kiriContactStep* step)
-{
-    double held = step->push - kiriMax(step->solved, 0.0);
-    double more = held > 0.0 ? held * (step->shared - step->give) : 0.0;
-    return step->push > 0.0 ? step->push * step->give + more : 0.0;
-}
-
-/* Marks the pieces that are too deep in something, and keeps where the systems left them. */
-static bool FindDeep(kiriSolver* solver, const kiriSystem* system)
-{
-    bool any = false;
-    KIRI_EACH(i, solver->awake.pieces) {
-        solver->pieces.data[i].isHeldUp = solver->pieces.data[i].isSearching = false;
-    }
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        kiriContactStep* step = &solver->contacts.data[k];
-        step->solved = step->push;
-        double depth = kiriContact_Depth(solver, system, k, solver->poses.data) - Yielded(step);
-        if (depth > MOST_DEPTH) {
-            kiriContact_PieceOf(solver, system, k)->isSearching = any = true;
-        }
-    }
-    if (any) {
-        KIRI_EACH(f, solver->awake.frames) {
-            solver->trial.data[f] = solver->poses.data[f];
-        }
-    }
-    return any;
-}
-
-/* Contacts that pressed in the last system shared the mass of an obstacle. Many more may be held: all that may be share
-   it now, else each would push the obstacle out as if it were the only one, and a light body would be shot off. */
-static void ShareMass(kiriSolver* solver, const kiriSystem* system)
-{
-    for (int32_t k = 0; k < system->yieldCount; ++k) {
-        system->yields[k].held = 0;
-    }
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        int32_t yield = system->contacts[k].yield;
-        if (yield != KIRI_NONE && kiriContact_PieceOf(solver, system, k)->isSearching) {
-            system->yields[yield].held += 1;
-        }
-    }
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        const kiriYieldRow* yield =
-            system->contacts[k].yield != KIRI_NONE ? &system->yields[system->contacts[k].yield] : NULL;
-        kiriContactStep* step = &solver->contacts.data[k];
-        int32_t pressed = yield != NULL && yield->pressed > 1 ? yield->pressed : 1;
-        step->shared = yield != NULL && yield->held > pressed ? step->give * yield->held / pressed : step->give;
-    }
-}
-
-/* ---- Frame by frame ---------------------------------------------------------------------------------------------- */
-
-/* Touches are found for frames as they are turned at the start: else other points of the material are below planes. */
-static void TurnBack(kiriSolver* solver, const kiriSystem* system)
-{
-    KIRI_EACH(f, solver->awake.frames) {
-        const kiriMat3 *start = &solver->start.data[f].A, *end = &solver->poses.data[f].A;
-        kiriVec3 u = kiriVec3_Sub(end->u, start->u), v = kiriVec3_Sub(end->v, start->v);
-        double turn = kiriVec3_Dot(u, u) + kiriVec3_Dot(v, v);
-        if (kiriSolver_PieceOf(solver, f)->isSearching && !system->frames[f].held && turn > MOST_TURN * MOST_TURN) {
-            solver->poses.data[f].A = *start;
-        }
-    }
-}
-
-static kiriVec3 Along(const kiriSystem* system, int32_t k)
-{
-    kiriVec3 normal = system->contacts[k].normal;
-    return system->mechanics.planar ? kiriMechanics_InPlane(&system->mechanics, normal) : normal;
-}
-
-/* Pushes a frame so far that it carries the point no further than to the plane. It only moves, and does not turn: so
-   depths change as they should, however far it has turned. That each frame does so, and not their blend alone, keeps
-   frames from passing each other on their way to the plane, and with them what is between the points. */
-static bool HoldMember(kiriSolver* solver, const kiriSystem* system, int32_t k, int32_t f)
-{
-    kiriContactStep* step = &solver->contacts.data[k];
-    kiriVec3 normal = system->contacts[k].normal, along = Along(system, k);
-    kiriVec2 at = system->contacts[k].at;
-    kiriVec3 way = kiriVec3_Sub(kiriSystem_Point(system, f, at, solver->poses.data),
-                                kiriSystem_Point(system, f, at, solver->start.data));
-    double depth = step->plane - kiriVec3_Dot(normal, kiriVec3_Add(step->start, way)) - Yielded(step);
-    double part = kiriSolver_PieceOf(solver, f)->stepping.part, share = kiriVec3_Dot(along, along);
-    if (system->frames[f].held || !(depth > TOLERABLE_DEPTH) || !(share > 0.0)) {
-        return false;
-    }
-    double inertia = system->frames[f].mass / (part * part), push = depth / (share / inertia + step->shared);
-    step->push += push;
-    solver->poses.data[f].x = kiriVec3_AddScaled(solver->poses.data[f].x, push / inertia, along);
-    return true;
-}
-
-static bool HoldFrames(kiriSolver* solver, const kiriSystem* system, int32_t k)
-{
-    const kiriContactStep* step = &solver->contacts.data[k];
-    bool any = false;
-    for (int32_t m = 0; m < step->memberCount; ++m) {
-        any |= step->members[m].value > LEAST_WEIGHT && HoldMember(solver, system, k, step->members[m].frame);
-    }
-    return any;
-}
-
-/* ---- As a whole -------------------------------------------------------------------------------------------------- */
-
-/* Moves all frames of the piece alike, which stores no energy in it. */
-static bool HoldPiece(kiriSolver* solver, const kiriSystem* system, int32_t k)
-{
-    kiriContactStep* step = &solver->contacts.data[k];
-    const kiriPieceStep* piece = kiriContact_PieceOf(solver, system, k);
-    kiriVec3 along = Along(system, k);
-    double depth = kiriContact_Depth(solver, system, k, solver->poses.data) - Yielded(step);
-    double inertia = piece->mass / (piece->stepping.part * piece->stepping.part), share = kiriVec3_Dot(along, along);
-    if (!(piece->mass > 0.0) || !(depth > TOLERABLE_DEPTH) || !(share > 0.0)) {
-        return false;
-    }
-    double push = depth / (share / inertia + step->shared);
-    step->push += push;
-    KIRI_EACH(f, solver->awake.frames) {
-        if (kiriSolver_PieceOf(solver, f) == piece && !system->frames[f].held) {
-            solver->poses.data[f].x = kiriVec3_AddScaled(solver->poses.data[f].x, push / inertia, along);
-        }
-    }
-    return true;
-}
-
-static void SumMasses(kiriSolver* solver, const kiriSystem* system)
-{
-    kiriSolver_ClearMeans(solver);
-    KIRI_EACH(f, solver->awake.frames) {
-        kiriSolver_PieceOf(solver, f)->mass += system->frames[f].held ? 0.0 : system->frames[f].mass;
-    }
-}
-
-/* ---- Both -------------------------------------------------------------------------------------------------------- */
-
-static void SweepHolds(kiriSolver* solver, const kiriSystem* system, bool isWhole)
-{
-    bool isLeft = true;
-    for (int sweep = 0; isLeft && sweep < SWEEPS; ++sweep) {
-        isLeft = false;
-        for (int32_t k = 0; k < system->contactCount; ++k) {
-            if (kiriContact_PieceOf(solver, system, k)->isSearching) {
-                isLeft |= isWhole ? HoldPiece(solver, system, k) : HoldFrames(solver, system, k);
-            }
-        }
-    }
-}
-
-/* Pieces that would store more than they have are put back where the systems left them. Returns whether there are
-   any. */
-static bool TakeHeld(kiriSolver* solver, const kiriSystem* system)
-{
-    bool isLeft = false;
-    kiriObjective_Evaluate(solver, system, solver->poses.data);
-    KIRI_EACH(i, solver->awake.pieces) {
-        kiriPieceStep* piece = &solver->pieces.data[i];
-        double most = piece->start.potential + piece->means;
-        most = kiriMax(most, piece->now.potential);
-        if (piece->isSearching && piece->sum.potential <= most) {
-            piece->now = piece->sum;
-            piece->isHeldUp = true;
-            piece->isSearching = false;
-        }
-        isLeft |= piece->isSearching;
-    }
-    KIRI_EACH(f, solver->awake.frames) {
-        if (kiriSolver_PieceOf(solver, f)->isSearching) {
-            solver->poses.data[f] = solver->trial.data[f];
-        }
-    }
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        kiriContactStep* step = &solver->contacts.data[k];
-        step->push = kiriContact_PieceOf(solver, system, k)->isSearching ? step->solved : step->push;
-    }
-    return isLeft;
-}
-
-void kiriSolver_HoldContacts(kiriSolver* solver, const kiriSystem* system)
-{
-    if (!FindDeep(solver, system)) {
-        return;
-    }
-    ShareMass(solver, system);
-    TurnBack(solver, system);
-    SweepHolds(solver, system, false);
-    if (TakeHeld(solver, system)) {
-        SumMasses(solver, system);
-        SweepHolds(solver, system, true);
-        TakeHeld(solver, system);
-    }
-    kiriSolver_FindGains(solver, system);
-}
-
-#define ONE_SIDED 0.5  /* of the pushes of a piece: less as their sum, and they push against each other */
-#define MOST_MORE 30.0 /* times what contacts of a pinned piece say of themselves */
-
-/* Pieces on which nothing acts but pins, contacts, gravity and forces. */
-static void ChoosePinned(kiriSolver* solver, const kiriSystem* system)
-{
-    for (int32_t k = 0; k < system->pinCount; ++k) {
-        kiriSolver_PieceOf(solver, system->pins[k].frame)->isPinned = !kiriSystem_HasWind(system);
-    }
-    for (int32_t k = 0; k < system->clampCount; ++k) {
-        kiriSolver_PieceOf(solver, system->clamps[k].frame)->isPinned = false;
-    }
-    KIRI_EACH(f, solver->awake.frames) {
-        kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
-        piece->isPinned = piece->isPinned && !system->frames[f].held;
-    }
-    KIRI_EACH(i, solver->awake.pieces) {
-        kiriPieceStep* piece = &solver->pieces.data[i];
-        piece->asked = piece->given = kiriVec3_Make(0.0, 0.0, 0.0);
-        piece->pressed = piece->held = 0.0;
-    }
-}
-
-/* `asked` of each piece: what its momentum and its pins say that contacts did, N s; `given`: what contacts say. */
-static void SumPinned(kiriSolver* solver, const kiriSystem* system)
-{
-    KIRI_EACH(f, solver->awake.frames) {
-        const kiriFrameData *before = &solver->before.data[f], *after = &solver->after.data[f];
-        kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
-        kiriVec3 gravity = kiriVec3_Scale(before->mass, kiriSystem_Gravity(system));
-        kiriVec3 change = kiriVec3_Scale(before->mass, kiriVec3_Sub(after->velocity, before->velocity));
-        change = kiriVec3_AddScaled(change, -solver->dt, kiriVec3_Add(gravity, before->force));
-        piece->asked = kiriVec3_Add(piece->asked, change);
-    }
-    for (int32_t k = 0; k < system->pinCount; ++k) {
-        const kiriPinRow* pin = &system->pins[k];
-        kiriPieceStep* piece = kiriSolver_PieceOf(solver, pin->frame);
-        kiriVec3 off = kiriVec3_Sub(kiriSystem_Point(system, pin->frame, pin->at, solver->poses.data), pin->target);
-        piece->asked = kiriVec3_AddScaled(piece->asked, piece->stepping.part * pin->stiffness, off);
-        piece->held += pin->stiffness;
-    }
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        kiriPieceStep* piece = kiriSolver_PieceOf(solver, system->contacts[k].weights[0].frame);
-        kiriVec3 impulse = kiriVec3_Scale(piece->stepping.part, kiriContact_Force(solver, system, k));
-        piece->given = kiriVec3_Add(piece->given, impulse);
-        piece->pressed += kiriVec3_Length(impulse);
-    }
-}
-
-/* A pinned sheet that something heavy runs into stands stretched, after as many systems as there are, by more than the
-   linear model of its contacts knows. What changed its momentum less what its pins bear is what contacts did. Contacts
-   that press from two sides say nothing of their sum. */
-static void FindMore(kiriSolver* solver)
-{
-    KIRI_EACH(i, solver->awake.pieces) {
-        kiriPieceStep* piece = &solver->pieces.data[i];
-        double fit = kiriVec3_Dot(piece->asked, piece->given), size = kiriVec3_Dot(piece->given, piece->given);
-        bool isClear = size > ONE_SIDED * ONE_SIDED * piece->pressed * piece->pressed;
-        piece->more = 1.0;
-        if (piece->isPinned && isClear && fit > 0.0) {
-            double more = kiriMin(fit / size, MOST_MORE);
-            piece->keepForces *= kiriMin(more, 1.0);
-            piece->given = kiriVec3_Scale(kiriMin(more, 1.0), piece->given);
-            piece->more = kiriMax(1.0, more);
-        }
-    }
-}
-
-/* ---- What obstacles may have of it ------------------------------------------------------------------------------- */
-
-/* Did a contact on what may yield do more than it says? */
-static bool IsShort(const kiriSolver* solver, const kiriSystem* system, int32_t k)
-{
-    return system->contacts[k].yield != KIRI_NONE &&
-           kiriSolver_PieceOf(solver, system->contacts[k].weights[0].frame)->more > 1.0;
-}
-
-/* The push on the obstacle times the speed of the obstacle along it, and of the sheet, N s m/s. */
-static void FindPower(const kiriSolver* solver, const kiriSystem* system, int32_t k, double* ofObstacle,
-                      double* ofSheet)
-{
-    const kiriContactStep* step = &solver->contacts.data[k];
-    kiriVec3 point = kiriContact_Point(solver, system, k, solver->poses.data), way = { 0.0, 0.0, 0.0 };
-    double part = kiriSolver_PieceOf(solver, system->contacts[k].weights[0].frame)->stepping.part;
-    kiriVec3 push = kiriVec3_Scale(-part, kiriContact_Force(solver, system, k));
-    for (int32_t m = 0; m < step->memberCount; ++m) {
-        const kiriFrameData* frame = &solver->after.data[step->members[m].frame];
-        kiriVec3 velocity = kiriFrame_VelocityAt(frame, system->contacts[k].at);
-        way = kiriVec3_AddScaled(way, step->members[m].value, velocity);
-    }
-    *ofObstacle = kiriVec3_Dot(push, kiriContact_PlaneVelocity(system, k, point));
-    *ofSheet = kiriVec3_Dot(push, way);
-}
-
-/* Gives obstacles what contacts say, and sums what that makes of their speeds. */
-static void GivePushes(const kiriSolver* solver, const kiriSystem* system)
-{
-    double ofObstacle, ofSheet;
-    for (int32_t k = 0; k < system->yieldCount; ++k) {
-        system->yields[k].before = system->yields[k].after = system->yields[k].most = 0.0;
-    }
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        if (IsShort(solver, system, k)) {
-            FindPower(solver, system, k, &ofObstacle, &ofSheet);
-            system->yields[system->contacts[k].yield].before += ofObstacle;
-            system->yields[system->contacts[k].yield].most += kiriMax(ofSheet, 0.0);
-        }
-    }
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        kiriContact_Give(solver, system, k, 1.0);
-    }
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        if (IsShort(solver, system, k)) {
-            FindPower(solver, system, k, &ofObstacle, &ofSheet);
-            system->yields[system->contacts[k].yield].after += ofObstacle;
-        }
-    }
-}
-
-/* More than what contacts say may stop an obstacle, or let it go as fast as the sheet does there, but not faster: the
-   momentum that a cloth has can be thousands of times that of a light body on it. */
-static void LimitMore(const kiriSolver* solver, const kiriSystem* system)
-{
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        kiriPieceStep* piece = kiriSolver_PieceOf(solver, system->contacts[k].weights[0].frame);
-        if (IsShort(solver, system, k)) {
-            const kiriYieldRow* yield = &system->yields[system->contacts[k].yield];
-            double each = yield->after - yield->before, room = yield->most - yield->before;
-            double most = room > each ? room / each : 1.0;
-            piece->more = each > 0.0 && piece->more > most ? most : piece->more;
-        }
-    }
-}
-
-static void GiveMore(kiriSolver* solver, const kiriSystem* system)
-{
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        const kiriPieceStep* piece = kiriSolver_PieceOf(solver, system->contacts[k].weights[0].frame);
-        if (IsShort(solver, system, k)) {
-            kiriContact_Give(solver, system, k, piece->more - 1.0);
-        }
-    }
-    KIRI_EACH(i, solver->awake.pieces) {
-        kiriPieceStep* piece = &solver->pieces.data[i];
-        piece->keepForces *= piece->more;
-        piece->given = kiriVec3_Scale(piece->more, piece->given);
-    }
-}
-
-/* ---- What pins have of it ---------------------------------------------------------------------------------------- */
-
-/* Pins are stiff: where a frame turns in the last system, its pins stretch by other lengths than the system had. What
-   changed the momentum of the piece and was not the contacts was the pins. Each gets of the rest by its stiffness, as
-   if the piece stood a little aside. */
-static void BalancePins(const kiriSolver* solver, const kiriSystem* system)
-{
-    for (int32_t k = 0; system->reactions.pins != NULL && k < system->pinCount; ++k) {
-        const kiriPieceStep* piece = kiriSolver_PieceOf(solver, system->pins[k].frame);
-        if (piece->isPinned && piece->isNear && piece->stepping.isEuler) {
-            kiriVec3 left = kiriVec3_Sub(piece->asked, piece->given);
-            kiriVec3* impulse = &system->reactions.pins[k].impulse.force;
-            *impulse = kiriVec3_AddScaled(*impulse, system->pins[k].stiffness / piece->held, left);
-        }
-    }
-}
-
-void kiriSolver_BalancePinned(kiriSolver* solver, const kiriSystem* system)
-{
-    ChoosePinned(solver, system);
-    SumPinned(solver, system);
-    FindMore(solver);
-    GivePushes(solver, system);
-    LimitMore(solver, system);
-    GiveMore(solver, system);
-    BalancePins(solver, system);
-}
-
-#define STIFFNESS 1e4       /* of a contact: so many times the mass of its frames over h'^2, */
-#define GRIP 30.0           /* and so many times for the slide of what sticks */
-#define SINKING 1e-4        /* m: and so much that it sinks in no deeper by what it is known to push with */
-#define MOST_SPRING 1e9     /* but no more times the mass over h'^2 than that */
-#define SLIDE_HALVINGS 8    /* of the step, where friction ends it */
-#define SLOPE 0.1           /* of what the step promises: less is no crossing */
-#define EARLY 2             /* systems */
-#define PUSH_TOLERANCE 0.02 /* of the largest push of the piece: forces that are off by less need no other iteration */
-#define SINK_TOLERANCE 1e-5 /* m: nor do points that came below a plane by less */
-
-/* ---- Points ------------------------------------------------------------------------------------------------------ */
-
-kiriVec3 kiriSystem_PointOfMany(const kiriSystem* system, const kiriWeight* weights, int32_t count, kiriVec2 at,
-                                const kiriPose* poses)
-{
-    kiriVec3 x = { 0.0, 0.0, 0.0 };
-    for (int32_t m = 0; m < count; ++m) {
-        x = kiriVec3_AddScaled(x, weights[m].value, kiriSystem_Point(system, weights[m].frame, at, poses));
-    }
-    return x;
-}
-
-kiriVec3 kiriContact_Point(const kiriSolver* solver, const kiriSystem* system, int32_t k, const kiriPose* poses)
-{
-    const kiriContactStep* step = &solver->contacts.data[k];
-    return kiriSystem_PointOfMany(system, step->members, step->memberCount, system->contacts[k].at, poses);
-}
-
-static double DepthAt(const kiriContactStep* step, const kiriContactRow* row, kiriVec3 point)
-{
-    return step->plane - kiriVec3_Dot(row->normal, point);
-}
-
-double kiriContact_Depth(const kiriSolver* solver, const kiriSystem* system, int32_t k, const kiriPose* poses)
-{
-    return DepthAt(&solver->contacts.data[k], &system->contacts[k], kiriContact_Point(solver, system, k, poses));
-}
-
-static kiriVec3 SlideAt(const kiriContactStep* step, const kiriContactRow* row, kiriVec3 point)
-{
-    kiriVec3 way = kiriVec3_Sub(point, step->start);
-    return kiriVec3_AlongPlane(kiriVec3_Sub(way, step->carried), row->normal);
-}
-
-double kiriContact_Inertia(const kiriSolver* solver, const kiriSystem* system, int32_t k)
-{
-    double part = kiriContact_PieceOf(solver, system, k)->stepping.part;
-    return solver->contacts.data[k].mass / (part * part);
-}
-
-/* ---- Obstacles that yield ---------------------------------------------------------------------------------------- */
-
-static const kiriYieldRow* YieldOf(const kiriSystem* system, int32_t k)
-{
-    return system->contacts[k].yield != KIRI_NONE ? &system->yields[system->contacts[k].yield] : NULL;
-}
-
-/* The velocity that an obstacle has at a point by what sheets gave it in this tick. */
-static kiriVec3 Recoil(const kiriSystem* system, int32_t k, kiriVec3 point)
-{
-    const kiriYieldRow* yield = YieldOf(system, k);
-    if (yield == NULL) {
-        return kiriVec3_Make(0.0, 0.0, 0.0);
-    }
-    if (system->contacts[k].felt >= 0.0) {
-        return kiriVec3_Scale(system->contacts[k].felt, yield->impulse.force);
-    }
-    kiriVec3 spin = kiriMat3_Mul(yield->inverseInertia, yield->impulse.moment);
-    kiriVec3 round = kiriVec3_Cross(spin, kiriVec3_Sub(point, yield->center));
-    return kiriVec3_AddScaled(round, yield->inverseMass, yield->impulse.force);
-}
-
-kiriVec3 kiriContact_PlaneVelocity(const kiriSystem* system, int32_t k, kiriVec3 point)
-{
-    return kiriVec3_Add(system->contacts[k].velocity, Recoil(system, k, point));
-}
-
-double kiriContact_InverseMass(const kiriSystem* system, int32_t k, kiriVec3 point, kiriVec3 along)
-{
-    const kiriYieldRow* yield = YieldOf(system, k);
-    if (yield == NULL || system->contacts[k].felt >= 0.0) {
-        return yield == NULL ? 0.0 : system->contacts[k].felt;
-    }
-    kiriVec3 arm = kiriVec3_Cross(kiriVec3_Sub(point, yield->center), along);
-    return yield->inverseMass + kiriVec3_Dot(arm, kiriMat3_Mul(yield->inverseInertia, arm));
-}
-
-/* ---- One linear system ------------------------------------------------------------------------------------------- */
-
-static void CountPressed(const kiriSolver* solver, const kiriSystem* system)
-{
-    for (int32_t k = 0; k < system->yieldCount; ++k) {
-        system->yields[k].pressed = 0;
-    }
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        if (solver->contacts.data[k].isActive && system->contacts[k].yield != KIRI_NONE) {
-            system->yields[system->contacts[k].yield].pressed += 1;
-        }
-    }
-}
-
-/* The spring of the contact is so stiff that nobody sees it, in series with the inertia of the obstacle. Contacts that
-   press on one obstacle each have the same share of its mass: then none of them can give it more than is there, and
-   together they give all (mass splitting; Tonge, Benevolenski, Voroshilov 2012). */
-static void SetSprings(const kiriSolver* solver, const kiriSystem* system, int32_t k, kiriVec3 point)
-{
-    kiriContactStep* step = &solver->contacts.data[k];
-    const kiriContactRow* row = &system->contacts[k];
-    const kiriYieldRow* yield = YieldOf(system, k);
-    double inertia = kiriContact_Inertia(solver, system, k),
-           part = kiriContact_PieceOf(solver, system, k)->stepping.part;
-    double asked = step->known / SINKING, most = MOST_SPRING * inertia;
-    double spring = kiriMax(asked, STIFFNESS * inertia);
-    spring = kiriMin(spring, most);
-    double share = yield != NULL && yield->pressed > 1 ? yield->pressed : 1.0;
-    double soft = part * part * share;
-    kiriVec3 along = kiriVec3_Length(step->direction) > 0.5 ? step->direction : row->normal;
-    step->give = soft * (row->cushion + kiriContact_InverseMass(system, k, point, row->normal));
-    step->stiffness = 1.0 / (1.0 / spring + step->give);
-    step->grip = 1.0 / (1.0 / (GRIP * inertia) + soft * kiriContact_InverseMass(system, k, point, along));
-}
-
-void kiriSolver_LinearizeContacts(kiriSolver* solver, const kiriSystem* system)
-{
-    CountPressed(solver, system);
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        kiriContactStep* step = &solver->contacts.data[k];
-        if (kiriContact_PieceOf(solver, system, k)->isSearching) {
-            kiriVec3 point = kiriContact_Point(solver, system, k, solver->poses.data);
-            SetSprings(solver, system, k, point);
-            step->depth = DepthAt(step, &system->contacts[k], point);
-            step->slide = SlideAt(step, &system->contacts[k], point);
-            step->sinks = 0.0;
-            step->slides = kiriVec3_Make(0.0, 0.0, 0.0);
-        }
-    }
-}
-
-/* N: what friction would be if it stuck. */
-static kiriVec3 Trial(const kiriContactStep* step, kiriVec3 slide)
-{
-    return kiriVec3_AddScaled(step->held, -step->grip, slide);
-}
-
-/* N/m: what turns the direction of a slide. */
-double kiriContactStep_TurnSpring(const kiriContactStep* step)
-{
-    double trial = kiriVec3_Length(Trial(step, step->slide));
-    return trial > step->limit ? step->grip * step->limit / trial : step->grip;
-}
-
-static kiriVec3 Beside(kiriVec3 a, kiriVec3 direction)
-{
-    return kiriVec3_AddScaled(a, -kiriVec3_Dot(a, direction), direction);
-}
-
-/* J: of the linear model, at a depth and a slide. */
-static double EnergyAt(const kiriContactStep* step, double depth, kiriVec3 slide)
-{
-    double energy = 0.5 * step->stiffness * depth * depth;
-    if (step->sticks) {
-        return energy - kiriVec3_Dot(step->held, slide) + 0.5 * step->grip * kiriVec3_Dot(slide, slide);
-    }
-    kiriVec3 beside = Beside(slide, step->direction);
-    return energy + step->limit * kiriVec3_Dot(step->direction, slide) +
-           0.5 * kiriContactStep_TurnSpring(step) * kiriVec3_Dot(beside, beside);
-}
-
-double kiriContact_Energy(const kiriSolver* solver, const kiriSystem* system, int32_t k, const kiriPose* poses)
-{
-    const kiriContactStep* step = &solver->contacts.data[k];
-    if (!step->isActive) {
-        return 0.0;
-    }
-    if (solver->isAlong) {
-        double part = kiriContact_PieceOf(solver, system, k)->scale;
-        return EnergyAt(step, step->depth + part * step->sinks, kiriVec3_AddScaled(step->slide, part, step->slides));
-    }
-    kiriVec3 point = kiriContact_Point(solver, system, k, poses);
-    return EnergyAt(step, DepthAt(step, &system->contacts[k], point), SlideAt(step, &system->contacts[k], point));
-}
-
-/* The friction of the linear model, on the sheet. */
-kiriVec3 kiriContactStep_Drag(const kiriContactStep* step, double part)
-{
-    kiriVec3 slide = kiriVec3_AddScaled(step->slide, part, step->slides);
-    return step->sticks ? kiriVec3_AddScaled(step->held, -step->grip, slide)
-                        : kiriVec3_AddScaled(kiriVec3_Scale(-step->limit, step->direction),
-                                             -kiriContactStep_TurnSpring(step), Beside(slide, step->direction));
-}
-
-/* How the point moves by the solution, to first order. */
-static kiriVec3 MoveOf(const kiriSolver* solver, const kiriSystem* system, int32_t k)
-{
-    const kiriContactStep* step = &solver->contacts.data[k];
-    kiriVec3 sum = { 0.0, 0.0, 0.0 };
-    for (int32_t m = 0; m < step->memberCount; ++m) {
-        kiriWeight member = step->members[m];
-        kiriVec2 local = kiriVec2_Sub(system->contacts[k].at, system->frames[member.frame].center);
-        kiriFrameRow by = kiriSolver_Expand(solver, 1.0, &solver->move.data[solver->size * member.frame]);
-        kiriVec3 turn = kiriVec3_AddScaled(kiriVec3_Scale(local.x, by.by[1]), local.y, by.by[2]);
-        if (!kiriMechanics_IsAffine(&system->mechanics)) {
-            turn = kiriVec3_Cross(by.by[1], kiriPose_Along(&solver->poses.data[member.frame], local));
-        }
-        sum = kiriVec3_AddScaled(sum, member.value, kiriVec3_Add(by.by[0], turn));
-    }
-    return sum;
-}
-
-void kiriSolver_MoveContacts(kiriSolver* solver, const kiriSystem* system)
-{
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        kiriContactStep* step = &solver->contacts.data[k];
-        if (kiriContact_PieceOf(solver, system, k)->isSearching && step->isActive) {
-            kiriVec3 move = MoveOf(solver, system, k);
-            step->sinks = -kiriVec3_Dot(system->contacts[k].normal, move);
-            step->slides = kiriVec3_AlongPlane(move, system->contacts[k].normal);
-        }
+        (isRigid ? AssembleRigid : AssembleRows)(solver, system, step, &at);
     }
 }
 
@@ -935,46 +529,34 @@ static double FrictionSlope(const kiriContactStep* step, double part)
     kiriVec3 trial = Trial(step, kiriVec3_AddScaled(step->slide, part, step->slides));
     double size = kiriVec3_Length(trial);
     kiriVec3 drag = size > step->limit ? kiriVec3_Scale(step->limit / size, trial) : trial;
-    return kiriVec3_Dot(kiriVec3_Sub(kiriContactStep_Drag(step, part), drag), step->slides);
+    return kiriVec3_Dot(kiriVec3_Sub(DragOf(step, part), drag), step->slides);
 }
 
-static void SumForceSlopes(const kiriSolver* solver, const kiriSystem* system)
+/* J: of the objective, by the part of the step that is taken. */
+static double SlopeAt(const kiriSolver* solver, double part)
 {
-    KIRI_EACH(i, solver->awake.pieces) {
-        kiriPieceStep* piece = &solver->pieces.data[i];
-        piece->slope = -2.0 * piece->promise * (1.0 - piece->scale);
-    }
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        kiriPieceStep* piece = kiriContact_PieceOf(solver, system, k);
+    double slope = -2.0 * solver->search.promise * (1.0 - part);
+    for (int32_t k = 0; k < solver->contacts.count; ++k) {
         const kiriContactStep* step = &solver->contacts.data[k];
-        if (piece->isSearching && step->isActive && piece->solved >= EARLY) {
-            piece->slope += FrictionSlope(step, piece->scale);
+        if (step->isActive) {
+            slope += FrictionSlope(step, part);
         }
     }
+    return slope;
 }
 
-void kiriSolver_LimitByFriction(kiriSolver* solver, const kiriSystem* system)
+void kiriSolver_LimitByFriction(kiriSolver* solver)
 {
-    bool any = false;
-    SumForceSlopes(solver, system);
-    KIRI_EACH(i, solver->awake.pieces) {
-        kiriPieceStep* piece = &solver->pieces.data[i];
-        piece->isCrossing = piece->isSearching && piece->solved >= EARLY && piece->slope > SLOPE * piece->promise;
-        piece->low = 0.0;
-        piece->high = piece->scale;
-        any |= piece->isCrossing;
+    kiriSearch* search = &solver->search;
+    if (search->solved < EARLY || !(SlopeAt(solver, search->scale) > SLOPE * search->promise)) {
+        return;
     }
-    for (int halving = 0; any && halving < SLIDE_HALVINGS; ++halving) {
-        KIRI_EACH(i, solver->awake.pieces) {
-            kiriPieceStep* piece = &solver->pieces.data[i];
-            piece->scale = piece->isCrossing ? 0.5 * (piece->low + piece->high) : piece->scale;
-        }
-        SumForceSlopes(solver, system);
-        KIRI_EACH(i, solver->awake.pieces) {
-            kiriPieceStep* piece = &solver->pieces.data[i];
-            piece->low = piece->slope > 0.0 ? piece->low : piece->scale;
-            piece->high = piece->slope > 0.0 ? piece->scale : piece->high;
-        }
+    double low = 0.0, high = search->scale;
+    for (int halving = 0; halving < SLIDE_HALVINGS; ++halving) {
+        search->scale = 0.5 * (low + high);
+        double slope = SlopeAt(solver, search->scale);
+        low = slope > 0.0 ? low : search->scale;
+        high = slope > 0.0 ? search->scale : high;
     }
 }
 
@@ -985,7 +567,7 @@ void kiriSolver_LimitByFriction(kiriSolver* solver, const kiriSystem* system)
 static void TakeForces(kiriContactStep* step, double part)
 {
     double push = step->isActive ? step->stiffness * (step->depth + step->sinks) : 0.0;
-    kiriVec3 drag = step->isActive ? kiriContactStep_Drag(step, 1.0) : kiriVec3_Make(0.0, 0.0, 0.0);
+    kiriVec3 drag = step->isActive ? DragOf(step, 1.0) : kiriVec3_Make(0.0, 0.0, 0.0);
     step->push = (1.0 - part) * step->push + part * push;
     step->drag = kiriVec3_AddScaled(kiriVec3_Scale(1.0 - part, step->drag), part, drag);
 }
@@ -1019,13 +601,12 @@ static bool ReviewFriction(kiriContactStep* step, double limit, kiriVec3 slide, 
     return kiriVec3_Length(kiriVec3_Sub(next, drag)) > tolerance;
 }
 
-/* Chooses what the contact does in the next system, and returns whether that is other than in the last one. */
-static bool Review(const kiriSolver* solver, const kiriSystem* system, int32_t k, double tolerance)
+/* Chooses what the contact does in the next system. Returns true if that is other than in the last one. */
+static bool Review(const kiriSolver* solver, const kiriSystem* system, kiriContactStep* step, double tolerance)
 {
-    kiriContactStep* step = &solver->contacts.data[k];
-    const kiriContactRow* row = &system->contacts[k];
-    kiriVec3 point = kiriContact_Point(solver, system, k, solver->poses.data), slide = SlideAt(step, row, point);
-    double inertia = kiriContact_Inertia(solver, system, k), depth = DepthAt(step, row, point);
+    const kiriContactRow* row = step->row;
+    kiriVec3 point = kiriContact_Point(system, step, solver->poses.data), slide = SlideAt(step, point);
+    double inertia = InertiaOf(solver, step), depth = DepthAt(step, point);
     if (!step->isActive) {
         if (depth > 0.0) {
             Activate(step, row->friction, inertia, depth, slide);
@@ -1038,134 +619,408 @@ static bool Review(const kiriSolver* solver, const kiriSystem* system, int32_t k
         step->isActive = false;
         return step->push < -tolerance;
     }
-    return ReviewFriction(step, row->friction * kiriMax(step->push, 0.0), slide,
-                          kiriContact_PieceOf(solver, system, k)->solved <= EARLY, tolerance);
+    return ReviewFriction(step, row->friction * kiriMax(step->push, 0.0), slide, solver->search.solved <= EARLY,
+                          tolerance);
 }
 
 void kiriSolver_ReviewContacts(kiriSolver* solver, const kiriSystem* system)
 {
-    KIRI_EACH(i, solver->awake.pieces) {
-        solver->pieces.data[i].mostPush = 0.0;
-        solver->pieces.data[i].isUnsettled = false;
-        solver->pieces.data[i].solved += solver->pieces.data[i].isIterated;
+    double mostPush = 0.0; /* N */
+    for (int32_t k = 0; k < solver->contacts.count; ++k) {
+        kiriContactStep* step = &solver->contacts.data[k];
+        TakeForces(step, solver->search.scale);
+        mostPush = kiriMax(step->push, mostPush);
     }
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        kiriPieceStep* piece = kiriContact_PieceOf(solver, system, k);
-        if (piece->isIterated) {
+    solver->touch.isUnsettled = false;
+    for (int32_t k = 0; k < solver->contacts.count; ++k) {
+        solver->touch.isUnsettled |= Review(solver, system, &solver->contacts.data[k], PUSH_TOLERANCE * mostPush);
+    }
+}
+
+/* ---- Holding ----------------------------------------------------------------------------------------------------- */
+
+/* What holds where the systems of a step do not settle which contacts push: nothing goes through an obstacle. */
+
+#define MOST_DEPTH 5e-3      /* m: less is left to the next step, which pushes it out: what rests needs that */
+#define TOLERABLE_DEPTH 1e-3 /* m: what is left where something is held */
+#define MOST_TURN 0.3        /* of a frame, roughly its angle, while it is held */
+#define LEAST_WEIGHT 0.05    /* of a frame that is held */
+#define SWEEPS 12            /* over all contacts */
+
+/* m: how far the obstacle is pushed down. */
+static double Yielded(const kiriContactStep* step)
+{
+    double held = step->push - kiriMax(step->solved, 0.0);
+    double more = held > 0.0 ? held * (step->shared - step->give) : 0.0;
+    return step->push > 0.0 ? step->push * step->give + more : 0.0;
+}
+
+/* Returns true if the body is too deep in something. Keeps what the systems left of pushes. */
+static bool IsDeep(kiriSolver* solver, const kiriSystem* system)
+{
+    bool isDeep = false;
+    for (int32_t k = 0; k < solver->contacts.count; ++k) {
+        kiriContactStep* step = &solver->contacts.data[k];
+        step->solved = step->push;
+        isDeep |= kiriContact_Depth(system, step, solver->poses.data) - Yielded(step) > MOST_DEPTH;
+    }
+    return isDeep;
+}
+
+/* Contacts that pressed in the last system shared the mass of an obstacle. Many more may be held: all that may be share
+   it now, else each would push the obstacle out as if it were the only one, and a light body would be shot off. */
+static void ShareMass(kiriSolver* solver, const kiriSystem* system)
+{
+    for (int32_t k = 0; k < system->yieldCount; ++k) {
+        system->yields[k].held = 0;
+    }
+    for (int32_t k = 0; k < solver->contacts.count; ++k) {
+        kiriYieldRow* yield = YieldOf(system, solver->contacts.data[k].row);
+        if (yield != NULL) {
+            yield->held += 1;
+        }
+    }
+    for (int32_t k = 0; k < solver->contacts.count; ++k) {
+        kiriContactStep* step = &solver->contacts.data[k];
+        const kiriYieldRow* yield = YieldOf(system, step->row);
+        int32_t pressed = yield != NULL && yield->pressed > 1 ? yield->pressed : 1;
+        step->shared = yield != NULL && yield->held > pressed ? step->give * yield->held / pressed : step->give;
+    }
+}
+
+/* Touches are found for frames as they are turned at the start: else other points of the material are below planes. */
+static void TurnBack(kiriSolver* solver, const kiriSystem* system)
+{
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        const kiriMat3 *start = &solver->start.data[f].A, *end = &solver->poses.data[f].A;
+        kiriVec3 u = kiriVec3_Sub(end->u, start->u), v = kiriVec3_Sub(end->v, start->v);
+        double turn = kiriVec3_Dot(u, u) + kiriVec3_Dot(v, v);
+        if (!system->frames[f].held && turn > MOST_TURN * MOST_TURN) {
+            solver->poses.data[f].A = *start;
+        }
+    }
+}
+
+static kiriVec3 AlongNormalOf(const kiriSystem* system, const kiriContactStep* step)
+{
+    kiriVec3 normal = step->row->normal;
+    return system->mechanics.planar ? kiriMechanics_InPlane(&system->mechanics, normal) : normal;
+}
+
+/* Pushes a frame so far that it carries the point no further than to the plane. It only moves, and does not turn: so
+   depths change as they should, however far it has turned. That each frame does so, and not their blend alone, keeps
+   frames from passing each other on their way to the plane, and with them what is between the points. */
+static bool HoldMember(kiriSolver* solver, const kiriSystem* system, kiriContactStep* step, int32_t f)
+{
+    kiriVec3 along = AlongNormalOf(system, step);
+    kiriVec3 way = kiriVec3_Sub(kiriSystem_Point(system, f, step->row->at, solver->poses.data),
+                                kiriSystem_Point(system, f, step->row->at, solver->start.data));
+    double depth = DepthAt(step, kiriVec3_Add(step->start, way)) - Yielded(step);
+    double part = solver->stepping.part, share = kiriVec3_Dot(along, along);
+    if (system->frames[f].held || !(depth > TOLERABLE_DEPTH) || !(share > 0.0)) {
+        return false;
+    }
+    double inertia = system->frames[f].mass / (part * part), push = depth / (share / inertia + step->shared);
+    step->push += push;
+    solver->poses.data[f].x = kiriVec3_AddScaled(solver->poses.data[f].x, push / inertia, along);
+    return true;
+}
+
+static bool HoldFrames(kiriSolver* solver, const kiriSystem* system, kiriContactStep* step)
+{
+    bool any = false;
+    for (int32_t m = 0; m < step->memberCount; ++m) {
+        any |= step->members[m].value > LEAST_WEIGHT && HoldMember(solver, system, step, step->members[m].frame);
+    }
+    return any;
+}
+
+/* Moves all frames of the body alike, which stores no energy in it. `mass` is that of frames that the host does not
+   hold. */
+static bool HoldWhole(kiriSolver* solver, const kiriSystem* system, kiriContactStep* step, double mass)
+{
+    kiriVec3 along = AlongNormalOf(system, step);
+    double depth = kiriContact_Depth(system, step, solver->poses.data) - Yielded(step);
+    double inertia = mass / (solver->stepping.part * solver->stepping.part), share = kiriVec3_Dot(along, along);
+    if (!(mass > 0.0) || !(depth > TOLERABLE_DEPTH) || !(share > 0.0)) {
+        return false;
+    }
+    double push = depth / (share / inertia + step->shared);
+    step->push += push;
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        if (!system->frames[f].held) {
+            solver->poses.data[f].x = kiriVec3_AddScaled(solver->poses.data[f].x, push / inertia, along);
+        }
+    }
+    return true;
+}
+
+/* Sweeps over all contacts until none is too deep: frame by frame, or the body as a whole. */
+static void SweepHolds(kiriSolver* solver, const kiriSystem* system, bool isWhole)
+{
+    bool isLeft = true;
+    double mass = 0.0;
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        mass += system->frames[f].held ? 0.0 : system->frames[f].mass;
+    }
+    for (int sweep = 0; isLeft && sweep < SWEEPS; ++sweep) {
+        isLeft = false;
+        for (int32_t k = 0; k < solver->contacts.count; ++k) {
             kiriContactStep* step = &solver->contacts.data[k];
-            TakeForces(step, piece->scale);
-            piece->mostPush = kiriMax(step->push, piece->mostPush);
+            isLeft |= isWhole ? HoldWhole(solver, system, step, mass) : HoldFrames(solver, system, step);
         }
     }
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        kiriPieceStep* piece = kiriContact_PieceOf(solver, system, k);
-        if (piece->isIterated) {
-            piece->isUnsettled |= Review(solver, system, k, PUSH_TOLERANCE * piece->mostPush);
-        }
+}
+
+/* A body that would store more than it has is put back where the systems left it, in `trial`. Returns whether it stays
+   held. */
+static bool TakeHeld(kiriSolver* solver, const kiriSystem* system)
+{
+    kiriStepEnergy energy = kiriObjective_Evaluate(solver, system, solver->poses.data);
+    double most = solver->search.start.potential + solver->touch.means;
+    most = kiriMax(most, solver->search.now.potential);
+    if (energy.potential <= most) {
+        solver->search.now = energy;
+        solver->touch.isHeldUp = true;
+        return true;
     }
+    memcpy(solver->poses.data, solver->trial.data, sizeof(kiriPose) * (size_t)system->frameCount);
+    for (int32_t k = 0; k < solver->contacts.count; ++k) {
+        solver->contacts.data[k].push = solver->contacts.data[k].solved;
+    }
+    return false;
+}
+
+void kiriSolver_HoldContacts(kiriSolver* solver, const kiriSystem* system)
+{
+    if (!IsDeep(solver, system)) {
+        return;
+    }
+    memcpy(solver->trial.data, solver->poses.data, sizeof(kiriPose) * (size_t)system->frameCount);
+    ShareMass(solver, system);
+    TurnBack(solver, system);
+    SweepHolds(solver, system, false);
+    if (!TakeHeld(solver, system)) {
+        SweepHolds(solver, system, true);
+        TakeHeld(solver, system);
+    }
+    kiriSolver_FindGains(solver, system);
 }
 
 /* ---- What came of it --------------------------------------------------------------------------------------------- */
 
 /* What the contact can do of what the systems asked of it: it does not pull, nor hold by more than friction. */
-static kiriVec3 WithinCone(const kiriContactStep* step, const kiriContactRow* row)
+static kiriVec3 WithinCone(const kiriContactStep* step)
 {
     if (!(step->push > 0.0)) {
         return kiriVec3_Make(0.0, 0.0, 0.0);
     }
-    double most = row->friction * step->push, drag = kiriVec3_Length(step->drag);
+    double most = step->row->friction * step->push, drag = kiriVec3_Length(step->drag);
     kiriVec3 held = drag > most ? kiriVec3_Scale(most / drag, step->drag) : step->drag;
-    return kiriVec3_AddScaled(held, step->push, row->normal);
+    return kiriVec3_AddScaled(held, step->push, step->row->normal);
 }
 
-kiriVec3 kiriContact_Force(const kiriSolver* solver, const kiriSystem* system, int32_t k)
+kiriVec3 kiriContact_Force(const kiriSolver* solver, const kiriContactStep* step)
 {
-    kiriVec3 force = WithinCone(&solver->contacts.data[k], &system->contacts[k]);
-    return kiriVec3_Scale(kiriContact_PieceOf(solver, system, k)->keepForces, force);
+    return kiriVec3_Scale(solver->touch.keepForces, WithinCone(step));
 }
 
-/* Where contacts alone act, the sum of their forces is what took the piece from where free motion ends, on whatever
-   path the iteration came there. */
-static void SumWays(kiriSolver* solver, const kiriSystem* system)
-{
-    KIRI_EACH(i, solver->awake.pieces) {
-        kiriPieceStep* piece = &solver->pieces.data[i];
-        piece->asked = piece->isHeldUp && piece->isPushed ? kiriVec3_Make(0.0, 0.0, 0.0) : piece->asked;
-    }
-    KIRI_EACH(f, solver->awake.frames) {
-        kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
-        double part = piece->stepping.part;
-        if (piece->isHeldUp && piece->isPushed) {
-            kiriVec3 way = kiriVec3_Sub(solver->poses.data[f].x, solver->predictions.data[f].pose.x);
-            piece->asked = kiriVec3_AddScaled(piece->asked, system->frames[f].mass / (part * part), way);
-        }
-    }
-}
-
-/* Pulls that are left out would make the others throw the piece up: where it ended, the sum of all is what moved it. So
-   all are as much less as makes their sum fit that. */
+/* Pulls that are left out would make the others throw the body up: where it ended, the sum of all is what moved it. So
+   all are as much less as makes their sum fit that. Where contacts alone act, the sum of their forces is what took the
+   body from where free motion ends, on whatever path the iteration came there. */
 void kiriSolver_BalanceContacts(kiriSolver* solver, const kiriSystem* system)
 {
-    KIRI_EACH(i, solver->awake.pieces) {
-        solver->pieces.data[i].asked = solver->pieces.data[i].given = kiriVec3_Make(0.0, 0.0, 0.0);
-    }
-    for (int32_t k = 0; k < system->contactCount; ++k) {
+    bool isMovedByThem = solver->touch.isHeldUp && solver->support == KIRI_SUPPORT_CONTACTS;
+    kiriVec3 asked = { 0.0, 0.0, 0.0 }, given = asked;
+    double part = solver->stepping.part;
+    for (int32_t k = 0; k < solver->contacts.count; ++k) {
         const kiriContactStep* step = &solver->contacts.data[k];
-        kiriPieceStep* piece = kiriContact_PieceOf(solver, system, k);
-        piece->asked = kiriVec3_Add(piece->asked, step->drag);
-        piece->asked = kiriVec3_AddScaled(piece->asked, step->push, system->contacts[k].normal);
-        piece->given = kiriVec3_Add(piece->given, WithinCone(step, &system->contacts[k]));
+        if (!isMovedByThem) {
+            asked = kiriVec3_Add(asked, step->drag);
+            asked = kiriVec3_AddScaled(asked, step->push, step->row->normal);
+        }
+        given = kiriVec3_Add(given, WithinCone(step));
     }
-    SumWays(solver, system);
-    KIRI_EACH(i, solver->awake.pieces) {
-        kiriPieceStep* piece = &solver->pieces.data[i];
-        double fit = kiriVec3_Dot(piece->asked, piece->given), size = kiriVec3_Dot(piece->given, piece->given);
-        piece->keepForces = fit >= size ? 1.0 : fit > 0.0 ? fit / size : 0.0;
+    for (int32_t f = 0; isMovedByThem && f < system->frameCount; ++f) {
+        kiriVec3 way = kiriVec3_Sub(solver->poses.data[f].x, solver->predictions.data[f].pose.x);
+        asked = kiriVec3_AddScaled(asked, system->frames[f].mass / (part * part), way);
     }
+    double fit = kiriVec3_Dot(asked, given), size = kiriVec3_Dot(given, given);
+    solver->touch.keepForces = fit >= size ? 1.0 : fit > 0.0 ? fit / size : 0.0;
 }
 
-double kiriContact_Work(const kiriSolver* solver, const kiriSystem* system, int32_t k)
+double kiriContact_Work(const kiriSolver* solver, const kiriContactStep* step)
 {
-    const kiriContactStep* step = &solver->contacts.data[k];
-    kiriVec3 force = kiriContact_Force(solver, system, k), normal = system->contacts[k].normal;
-    if (kiriContact_PieceOf(solver, system, k)->isHeldUp) {
+    kiriVec3 force = kiriContact_Force(solver, step), normal = step->row->normal;
+    if (solver->touch.isHeldUp) {
         return kiriVec3_Dot(force, step->carried); /* it is moved out of obstacles, which throws nothing */
     }
     return kiriVec3_Dot(force, normal) * step->lift + kiriVec3_Dot(force, kiriVec3_AlongPlane(step->carried, normal));
 }
 
-void kiriContact_Give(const kiriSolver* solver, const kiriSystem* system, int32_t k, double times)
+/* Gives what yields as many times what the contact did in the step. */
+static void Give(const kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step, double times)
 {
-    const kiriContactRow* row = &system->contacts[k];
-    if (row->yield != KIRI_NONE) {
-        kiriYieldRow* yield = &system->yields[row->yield];
-        kiriVec3 impulse =
-            kiriVec3_Scale(kiriContact_PieceOf(solver, system, k)->stepping.part, kiriContact_Force(solver, system, k));
-        kiriVec3 arm = kiriVec3_Sub(kiriContact_Point(solver, system, k, solver->poses.data), yield->center);
+    kiriYieldRow* yield = YieldOf(system, step->row);
+    if (yield != NULL) {
+        kiriVec3 impulse = kiriVec3_Scale(solver->stepping.part, kiriContact_Force(solver, step));
+        kiriVec3 arm = kiriVec3_Sub(kiriContact_Point(system, step, solver->poses.data), yield->center);
         kiriWrench given = { impulse, kiriVec3_Cross(arm, impulse) };
         kiriWrench_Add(&yield->impulse, -times, &given);
+    }
+}
+
+/* ---- Pinned bodies ----------------------------------------------------------------------------------------------- */
+
+#define ONE_SIDED 0.5  /* of the pushes of a body: less as their sum, and they push against each other */
+#define MOST_MORE 30.0 /* times what contacts of a pinned body say of themselves */
+
+/* A body with pins. Sums are N s. */
+typedef struct Pinned {
+    bool isPinned;         /* nothing acts but pins, contacts, gravity and forces */
+    kiriVec3 asked, given; /* what its momentum and its pins say that contacts did; what contacts say */
+    double pressed;        /* sum of what contacts gave, without their directions */
+    double held;           /* N/m: by its pins, all together */
+    double more;           /* what contacts did, times what they say of themselves; 1 where nothing is known */
+} Pinned;
+
+static Pinned SumPinned(const kiriSolver* solver, const kiriSystem* system)
+{
+    double part = solver->stepping.part;
+    Pinned sum = { .isPinned = !kiriSystem_HasWind(system) && system->clampCount == 0 && !solver->isHeld, .more = 1.0 };
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        const kiriFrameData *before = &solver->before.data[f], *after = &solver->after.data[f];
+        kiriVec3 gravity = kiriVec3_Scale(before->mass, kiriSystem_Gravity(system));
+        kiriVec3 change = kiriVec3_Scale(before->mass, kiriVec3_Sub(after->velocity, before->velocity));
+        change = kiriVec3_AddScaled(change, -solver->dt, kiriVec3_Add(gravity, before->force));
+        sum.asked = kiriVec3_Add(sum.asked, change);
+    }
+    for (int32_t k = 0; k < system->pinCount; ++k) {
+        const kiriPinRow* pin = &system->pins[k];
+        kiriVec3 off = kiriVec3_Sub(kiriSystem_Point(system, pin->frame, pin->at, solver->poses.data), pin->target);
+        sum.asked = kiriVec3_AddScaled(sum.asked, part * pin->stiffness, off);
+        sum.held += pin->stiffness;
+    }
+    for (int32_t k = 0; k < solver->contacts.count; ++k) {
+        kiriVec3 impulse = kiriVec3_Scale(part, kiriContact_Force(solver, &solver->contacts.data[k]));
+        sum.given = kiriVec3_Add(sum.given, impulse);
+        sum.pressed += kiriVec3_Length(impulse);
+    }
+    return sum;
+}
+
+/* A pinned sheet that something heavy runs into stands stretched, after its few systems, by more than the linear model
+   of its contacts knows. What changed its momentum less what its pins bear is what contacts did. Contacts that press
+   from two sides say nothing of their sum. */
+static void FindMore(kiriSolver* solver, Pinned* sum)
+{
+    double fit = kiriVec3_Dot(sum->asked, sum->given), size = kiriVec3_Dot(sum->given, sum->given);
+    bool isClear = size > ONE_SIDED * ONE_SIDED * sum->pressed * sum->pressed;
+    if (sum->isPinned && isClear && fit > 0.0) {
+        double more = kiriMin(fit / size, MOST_MORE);
+        solver->touch.keepForces *= kiriMin(more, 1.0);
+        sum->given = kiriVec3_Scale(kiriMin(more, 1.0), sum->given);
+        sum->more = kiriMax(1.0, more);
+    }
+}
+
+/* The push on the obstacle times the speed of the obstacle along it, and of the sheet, N s m/s. */
+static void FindPower(const kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step,
+                      double* ofObstacle, double* ofSheet)
+{
+    kiriVec3 point = kiriContact_Point(system, step, solver->poses.data), way = { 0.0, 0.0, 0.0 };
+    kiriVec3 push = kiriVec3_Scale(-solver->stepping.part, kiriContact_Force(solver, step));
+    for (int32_t m = 0; m < step->memberCount; ++m) {
+        kiriVec3 velocity = kiriFrame_VelocityAt(&solver->after.data[step->members[m].frame], step->row->at);
+        way = kiriVec3_AddScaled(way, step->members[m].value, velocity);
+    }
+    *ofObstacle = kiriVec3_Dot(push, PlaneVelocity(system, step->row, point));
+    *ofSheet = kiriVec3_Dot(push, way);
+}
+
+/* Gives obstacles what contacts say. Where they did more, sums the power of the pushes before and after that. */
+static void GivePushes(const kiriSolver* solver, const kiriSystem* system, bool isMore)
+{
+    double ofObstacle, ofSheet;
+    for (int32_t k = 0; k < system->yieldCount; ++k) {
+        system->yields[k].before = system->yields[k].after = system->yields[k].most = 0.0;
+    }
+    for (int32_t k = 0; isMore && k < solver->contacts.count; ++k) {
+        const kiriContactStep* step = &solver->contacts.data[k];
+        kiriYieldRow* yield = YieldOf(system, step->row);
+        if (yield != NULL) {
+            FindPower(solver, system, step, &ofObstacle, &ofSheet);
+            yield->before += ofObstacle;
+            yield->most += kiriMax(ofSheet, 0.0);
+        }
+    }
+    for (int32_t k = 0; k < solver->contacts.count; ++k) {
+        Give(solver, system, &solver->contacts.data[k], 1.0);
+    }
+    for (int32_t k = 0; isMore && k < solver->contacts.count; ++k) {
+        const kiriContactStep* step = &solver->contacts.data[k];
+        kiriYieldRow* yield = YieldOf(system, step->row);
+        if (yield != NULL) {
+            FindPower(solver, system, step, &ofObstacle, &ofSheet);
+            yield->after += ofObstacle;
+        }
+    }
+}
+
+/* More than what contacts say may stop an obstacle, or let it go as fast as the sheet does there, but not faster: the
+   momentum that a cloth has can be thousands of times that of a light body on it. */
+static double LimitMore(const kiriSolver* solver, const kiriSystem* system, double more)
+{
+    for (int32_t k = 0; more > 1.0 && k < solver->contacts.count; ++k) {
+        const kiriYieldRow* yield = YieldOf(system, solver->contacts.data[k].row);
+        if (yield != NULL) {
+            double each = yield->after - yield->before, room = yield->most - yield->before;
+            double most = room > each ? room / each : 1.0;
+            more = each > 0.0 && more > most ? most : more;
+        }
+    }
+    return more;
+}
+
+/* Gives what yields what contacts did in the step. For a pinned body that is what its momentum and its pins say, as far
+   as obstacles may have it; its pins have the rest. Pins are stiff: where a frame turns in the last system, its pins
+   stretch by other lengths than the system had. Each gets of the rest by its stiffness, as if the body stood a little
+   aside. */
+static void BalancePinned(kiriSolver* solver, const kiriSystem* system)
+{
+    Pinned sum = SumPinned(solver, system);
+    FindMore(solver, &sum);
+    GivePushes(solver, system, sum.more > 1.0);
+    sum.more = LimitMore(solver, system, sum.more);
+    for (int32_t k = 0; sum.more > 1.0 && k < solver->contacts.count; ++k) {
+        Give(solver, system, &solver->contacts.data[k], sum.more - 1.0);
+    }
+    solver->touch.keepForces *= sum.more;
+    sum.given = kiriVec3_Scale(sum.more, sum.given);
+    bool isBalanced = sum.isPinned && solver->touch.isNear && solver->stepping.isEuler;
+    for (int32_t k = 0; isBalanced && system->reactions.pins != NULL && k < system->pinCount; ++k) {
+        kiriVec3 left = kiriVec3_Sub(sum.asked, sum.given);
+        kiriVec3* impulse = &system->reactions.pins[solver->pinRow.data[k]].impulse.force;
+        *impulse = kiriVec3_AddScaled(*impulse, system->pins[k].stiffness / sum.held, left);
     }
 }
 
 /* Impulses of the step, then where it leaves the planes. */
 void kiriSolver_EndContacts(kiriSolver* solver, const kiriSystem* system)
 {
-    if (system->contactCount > 0 && system->pinCount > 0) {
-        kiriSolver_BalancePinned(solver, system);
+    if (solver->contacts.count > 0 && system->pinCount > 0) {
+        BalancePinned(solver, system);
     } else {
-        for (int32_t k = 0; k < system->contactCount; ++k) {
-            kiriContact_Give(solver, system, k, 1.0);
+        for (int32_t k = 0; k < solver->contacts.count; ++k) {
+            Give(solver, system, &solver->contacts.data[k], 1.0);
         }
     }
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        kiriContactRow* row = &system->contacts[k];
-        row->force = kiriContact_Force(solver, system, k);
-        double part = kiriContact_PieceOf(solver, system, k)->stepping.part;
-        row->impulse = kiriVec3_AddScaled(row->impulse, part, row->force);
-    }
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        kiriContactRow* row = &system->contacts[k];
-        kiriVec3 point = kiriContact_Point(solver, system, k, solver->poses.data);
-        row->way = kiriVec3_AddScaled(row->way, solver->dt, kiriContact_PlaneVelocity(system, k, point));
+    for (int32_t k = 0; k < solver->contacts.count; ++k) {
+        const kiriContactStep* step = &solver->contacts.data[k];
+        kiriContactRow* row = step->row;
+        row->force = kiriContact_Force(solver, step);
+        row->impulse = kiriVec3_AddScaled(row->impulse, solver->stepping.part, row->force);
+        kiriVec3 point = kiriContact_Point(system, step, solver->poses.data);
+        row->way = kiriVec3_AddScaled(row->way, solver->dt, PlaneVelocity(system, row, point));
     }
 }

@@ -4,99 +4,68 @@
 
 /* ---- The frames after the step ---- */
 
-void kiriSolver_ClearMeans(kiriSolver* solver)
-{
-    KIRI_EACH(i, solver->awake.pieces) {
-        solver->pieces.data[i].mean = kiriVec3_Make(0.0, 0.0, 0.0);
-        solver->pieces.data[i].mass = 0.0;
-    }
-}
-
-/* No inner force moves the centre of mass of a free piece: it is where the prediction ends, however far the iteration
+/* No inner force moves the centre of mass of a free body: it is where the prediction ends, however far the iteration
    came. */
-void kiriSolver_CenterFreePieces(kiriSolver* solver, const kiriSystem* system)
+void kiriSolver_CenterBody(kiriSolver* solver, const kiriSystem* system)
 {
-    kiriSolver_ClearMeans(solver);
-    KIRI_EACH(f, solver->awake.frames) {
-        kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
-        kiriVec3 off = kiriVec3_Sub(solver->predictions.data[f].pose.x, solver->poses.data[f].x);
-        piece->mean = kiriVec3_AddScaled(piece->mean, system->frames[f].mass, off);
-        piece->mass += system->frames[f].mass;
+    kiriVec3 mean = { 0.0, 0.0, 0.0 };
+    double mass = 0.0, part = solver->stepping.part;
+    if (solver->support != KIRI_SUPPORT_NONE) {
+        return;
     }
-    KIRI_EACH(f, solver->awake.frames) {
-        const kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
-        kiriVec3* x = &solver->poses.data[f].x;
-        double squared =
-            kiriVec3_Dot(piece->mean, piece->mean) / (piece->mass * piece->stepping.part * piece->stepping.part);
-        if (piece->isFree && 0.5 * squared > piece->noise) {
-            *x = kiriVec3_AddScaled(*x, 1.0 / piece->mass, piece->mean);
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        kiriVec3 off = kiriVec3_Sub(solver->predictions.data[f].pose.x, solver->poses.data[f].x);
+        mean = kiriVec3_AddScaled(mean, system->frames[f].mass, off);
+        mass += system->frames[f].mass;
+    }
+    if (0.5 * (kiriVec3_Dot(mean, mean) / (mass * part * part)) > solver->search.noise) {
+        for (int32_t f = 0; f < system->frameCount; ++f) {
+            kiriVec3* x = &solver->poses.data[f].x;
+            *x = kiriVec3_AddScaled(*x, 1.0 / mass, mean);
         }
     }
 }
 
 static void WriteStepEnd(kiriSolver* solver, const kiriSystem* system)
 {
-    KIRI_EACH(f, solver->awake.frames) {
+    for (int32_t f = 0; f < system->frameCount; ++f) {
         const kiriPrediction* prediction = &solver->predictions.data[f];
-        const kiriStepping* stepping = &kiriSolver_PieceOf(solver, f)->stepping;
         const kiriFrameData* before = &solver->before.data[f];
         kiriFrameData* frame = &solver->after.data[f];
         *frame = *before;
         frame->x = solver->poses.data[f].x;
         frame->A = solver->poses.data[f].A;
         if (frame->held) {
-            kiriStepEnd_Held(prediction, stepping, frame);
+            kiriStepEnd_Held(prediction, &solver->stepping, frame);
         } else if (kiriMechanics_IsAffine(&system->mechanics)) {
-            kiriStepEnd_Affine(prediction, stepping, before, frame);
+            kiriStepEnd_Affine(prediction, &solver->stepping, before, frame);
         } else {
-            kiriStepEnd_Rigid(prediction, stepping, before, frame);
+            kiriStepEnd_Rigid(prediction, &solver->stepping, before, frame);
         }
-    }
-}
-
-/* What contacts gave to each piece, about the origin. */
-static void SumContacts(kiriSolver* solver, const kiriSystem* system)
-{
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        int32_t i = solver->framePiece.data[system->contacts[k].weights[0].frame];
-        kiriVec3 point = kiriContact_Point(solver, system, k, solver->poses.data);
-        kiriVec3 impulse = kiriVec3_Scale(solver->pieces.data[i].stepping.part, kiriContact_Force(solver, system, k));
-        if (system->mechanics.planar) {
-            impulse = kiriMechanics_InPlane(&system->mechanics, impulse);
-        }
-        kiriWrench given = { impulse, kiriVec3_Cross(point, impulse) };
-        kiriWrench_Add(&solver->momenta.data[i].pushed, 1.0, &given);
     }
 }
 
 static void RestoreMomentum(kiriSolver* solver, const kiriSystem* system)
 {
     const kiriVec3* normal = system->mechanics.planar ? &system->mechanics.axes.d : NULL;
-    KIRI_EACH(i, solver->awake.pieces) {
-        kiriPieceMomentum start = { .isFree = solver->pieces.data[i].isFree,
-                                    .isPushed = solver->pieces.data[i].isPushed };
-        solver->momenta.data[i] = start;
+    kiriPieceMomentum momentum = { .isFree = solver->support == KIRI_SUPPORT_NONE,
+                                   .isPushed = solver->support == KIRI_SUPPORT_CONTACTS };
+    for (int32_t k = 0; k < solver->contacts.count; ++k) {
+        const kiriContactStep* step = &solver->contacts.data[k];
+        kiriVec3 point = kiriContact_Point(system, step, solver->poses.data);
+        kiriVec3 impulse = kiriVec3_Scale(solver->stepping.part, kiriContact_Force(solver, step));
+        if (system->mechanics.planar) {
+            impulse = kiriMechanics_InPlane(&system->mechanics, impulse);
+        }
+        kiriWrench given = { impulse, kiriVec3_Cross(point, impulse) };
+        kiriWrench_Add(&momentum.pushed, 1.0, &given);
     }
-    SumContacts(solver, system);
-    kiriMomentum_Restore(solver->before.data, solver->after.data, &solver->awake, solver->framePiece.data,
-                         solver->momenta.data, &system->material, kiriSystem_Gravity(system), solver->dt, normal);
+    kiriMomentum_Restore(solver->before.data, solver->after.data, system->frameCount, &momentum, &system->material,
+                         kiriSystem_Gravity(system), solver->dt, normal);
+    solver->momentum = momentum;
 }
 
 /* ---- Gains ---- */
-
-static double MeanKinetic(const kiriPieceMomentum* momentum)
-{
-    return 0.5 * momentum->mass * kiriVec3_Dot(momentum->velocityAfter, momentum->velocityAfter);
-}
-
-/* Of a frame after the step, beside what its piece's mean velocity has. */
-static double OwnKinetic(const kiriSolver* solver, const kiriSystem* system, int32_t f)
-{
-    kiriFrameData frame = solver->after.data[f];
-    const kiriPieceMomentum* momentum = &solver->momenta.data[solver->framePiece.data[f]];
-    frame.velocity = kiriVec3_Sub(frame.velocity, momentum->velocityAfter);
-    return kiriFrame_KineticEnergy(&frame, &system->material);
-}
 
 /* J: of a torque over the step. The way that a frame goes is h v+ + p+; so is its turn. */
 static double WorkOfTorque(const kiriSystem* system, kiriVec3 torque, const kiriFrameData* end, double h)
@@ -108,27 +77,25 @@ static double WorkOfTorque(const kiriSystem* system, kiriVec3 torque, const kiri
     return kiriVec3_Dot(torque, kiriVec3_AddScaled(lag, h, end->spin));
 }
 
-/* The velocity of the centre of mass of a piece stays that is free, or on which contacts alone act. */
-double kiriPieceStep_MostTaken(const kiriPieceStep* piece)
+/* The velocity of the centre of mass stays where nothing but contacts acts. */
+double kiriSolver_MostTaken(const kiriSolver* solver)
 {
-    return piece->kinetic + (piece->isFree || piece->isPushed ? 0.0 : piece->moving);
+    return solver->energy.kinetic + (solver->support == KIRI_SUPPORT_HELD ? solver->energy.moving : 0.0);
 }
 
-/* By how much kinetic and potential energy grow in the step beyond the work of gravity and of the host's forces; what
-   rounding explains is no gain. A held frame counts as moved before the step. */
+/* Finds by how much kinetic and potential energy grow in the step beyond the work of gravity and of the host's forces;
+   what rounding explains is no gain. A held frame counts as moved before the step. */
 static void SumGains(kiriSolver* solver, const kiriSystem* system)
 {
-    kiriVec3 gravity = kiriSystem_Gravity(system);
-    KIRI_EACH(i, solver->awake.pieces) {
-        kiriPieceStep* piece = &solver->pieces.data[i];
-        const kiriPieceMomentum* momentum = &solver->momenta.data[i];
-        piece->kinetic = 0.0;
-        piece->turning = 0.5 * kiriVec3_Dot(momentum->spin, momentum->angular);
-        piece->moving = MeanKinetic(momentum);
-        piece->gain = -KIRI_ROUNDING * (piece->start.potential + piece->now.potential) - piece->noise +
-                      piece->now.potential - piece->start.potential;
-    }
-    KIRI_EACH(f, solver->awake.frames) {
+    kiriVec3 gravity = kiriSystem_Gravity(system), mean = solver->momentum.velocityAfter;
+    const kiriSearch* search = &solver->search;
+    kiriEnergyStep* energy = &solver->energy;
+    energy->kinetic = 0.0;
+    energy->turning = 0.5 * kiriVec3_Dot(solver->momentum.spin, solver->momentum.angular);
+    energy->moving = 0.5 * solver->momentum.mass * kiriVec3_Dot(mean, mean);
+    energy->gain = -KIRI_ROUNDING * (search->start.potential + search->now.potential) - search->noise +
+                   search->now.potential - search->start.potential;
+    for (int32_t f = 0; f < system->frameCount; ++f) {
         const kiriFrameData *start = &solver->before.data[f], *end = &solver->after.data[f];
         if (!start->held) {
             kiriVec3 way = kiriVec3_Sub(end->x, start->x);
@@ -137,19 +104,20 @@ static void SumGains(kiriSolver* solver, const kiriSystem* system)
             double work = start->mass * kiriVec3_Dot(gravity, way) + kiriVec3_Dot(start->force, way) +
                           WorkOfTorque(system, start->torque, end, solver->dt) +
                           (kiriSystem_HasWind(system) ? kiriWind_Work(solver, system, f) : 0.0);
-            kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
-            piece->kinetic += OwnKinetic(solver, system, f);
-            piece->gain += after - before - work - KIRI_ROUNDING * (before + after + fabs(work));
+            kiriFrameData beside = *end;
+            beside.velocity = kiriVec3_Sub(end->velocity, mean);
+            energy->kinetic += kiriFrame_KineticEnergy(&beside, &system->material);
+            energy->gain += after - before - work - KIRI_ROUNDING * (before + after + fabs(work));
         }
     }
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        kiriSolver_PieceOf(solver, system->contacts[k].weights[0].frame)->gain -= kiriContact_Work(solver, system, k);
+    for (int32_t k = 0; k < solver->contacts.count; ++k) {
+        energy->gain -= kiriContact_Work(solver, &solver->contacts.data[k]);
     }
 }
 
 void kiriSolver_FindGains(kiriSolver* solver, const kiriSystem* system)
 {
-    kiriSolver_CenterFreePieces(solver, system);
+    kiriSolver_CenterBody(solver, system);
     kiriSolver_BalanceContacts(solver, system);
     WriteStepEnd(solver, system);
     RestoreMomentum(solver, system);
@@ -166,148 +134,133 @@ static double TakeEnergy(double kinetic, double* energy)
     return taken < kinetic ? kiriRoot(1.0 - taken / kinetic) : 0.0;
 }
 
-static void ScaleVelocities(const kiriPieceStep* piece, const kiriPieceMomentum* momentum, kiriFrameData* frame)
-{
-    kiriVec3 mean = momentum->velocityAfter, arm = kiriVec3_Sub(frame->x, momentum->centerAfter);
-    kiriVec3 round = kiriVec3_Cross(momentum->spin, arm);
-    kiriVec3 rest = kiriVec3_Sub(kiriVec3_Sub(frame->velocity, mean), round);
-    kiriVec3 spin = kiriVec3_Sub(frame->spin, momentum->spin);
-    frame->velocity = kiriVec3_AddScaled(kiriVec3_Scale(piece->keepMean, mean), piece->keepTurning, round);
-    frame->velocity = kiriVec3_AddScaled(frame->velocity, piece->keepRest, rest);
-    frame->spin = kiriVec3_Scale(piece->keepTurning, momentum->spin);
-    frame->spin = kiriVec3_AddScaled(frame->spin, piece->keepRest, spin);
-    frame->rate = kiriMat3_Scale(piece->keepRest, &frame->rate);
-}
-
 #define TRIALS 8
-#define TOLERABLE 0.05 /* of what a piece has to spend, see kiri_contact_row.c: rounding and rest have less */
+#define TOLERABLE 0.05 /* of what a body has to spend, see kiri_contact_row.c: rounding and rest have less */
 
-/* What neither the velocities beside those of a rigid body nor its turning have. */
-static double Excess(const kiriPieceStep* piece)
+/* J: the gain that neither the velocities beside those of a rigid body nor its turning have. */
+static double Excess(const kiriSolver* solver)
 {
-    return piece->gain - piece->kinetic;
+    return solver->energy.gain - solver->energy.kinetic;
 }
 
-static bool IsThrown(const kiriPieceStep* piece)
+static bool IsThrown(const kiriSolver* solver)
 {
-    return piece->isPushed && Excess(piece) > (piece->isHeldUp ? 0.0 : TOLERABLE * piece->means);
+    return solver->support == KIRI_SUPPORT_CONTACTS &&
+           Excess(solver) > (solver->touch.isHeldUp ? 0.0 : TOLERABLE * solver->touch.means);
 }
 
-static void TryPushes(kiriSolver* solver, const kiriSystem* system, int trial)
-{
-    KIRI_EACH(i, solver->awake.pieces) {
-        kiriPieceStep* piece = &solver->pieces.data[i];
-        double part = trial < TRIALS ? (double)(TRIALS - 1 - trial) / TRIALS : piece->low;
-        piece->keepForces = piece->isThrown ? part * piece->high : piece->keepForces;
-    }
-    WriteStepEnd(solver, system);
-    RestoreMomentum(solver, system);
-    SumGains(solver, system);
-    KIRI_EACH(i, solver->awake.pieces) {
-        kiriPieceStep* piece = &solver->pieces.data[i];
-        if (Excess(piece) < piece->slope && piece->slope > 0.0) {
-            piece->slope = Excess(piece);
-            piece->low = (double)(TRIALS - 1 - trial) / TRIALS;
-        }
-    }
-}
-
-/* Contacts in a step that is far from solved may push too hard: the mean velocity of a piece that nothing else holds is
+/* Contacts in a step that is far from solved may push too hard: the mean velocity of a body that nothing else holds is
    theirs. Then they push less, all by the same part: the most that leaves no gain but what can be taken out of other
    velocities, or else where the gain is least. */
 static void LimitPushes(kiriSolver* solver, const kiriSystem* system)
 {
-    bool any = false;
-    KIRI_EACH(i, solver->awake.pieces) {
-        kiriPieceStep* piece = &solver->pieces.data[i];
-        piece->isThrown = IsThrown(piece);
-        piece->low = 1.0;
-        piece->high = piece->keepForces;
-        piece->slope = Excess(piece);
-        any |= piece->isThrown;
-    }
-    for (int trial = 0; any && trial <= TRIALS; ++trial) {
-        TryPushes(solver, system, trial);
-    }
-}
-
-/* First out of what velocities have beside those of a rigid body, which leaves momenta as they are; then out of the
-   turning as one body; the rest out of the mean, unless the piece is free. */
-void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system)
-{
-    LimitPushes(solver, system);
-    KIRI_EACH(i, solver->awake.pieces) {
-        kiriPieceStep* piece = &solver->pieces.data[i];
-        double energy = kiriMax(piece->gain, 0.0), rest = piece->kinetic - piece->turning;
-        piece->keepRest = TakeEnergy(kiriMax(rest, 0.0), &energy);
-        piece->keepTurning = TakeEnergy(piece->turning, &energy);
-        bool isOwn = piece->isFree || (piece->isPushed && !IsThrown(piece));
-        piece->keepMean = isOwn ? 1.0 : TakeEnergy(piece->moving, &energy);
-    }
-    KIRI_EACH(f, solver->awake.frames) {
-        int32_t i = solver->framePiece.data[f];
-        if (solver->pieces.data[i].gain > 0.0 && !solver->after.data[f].held) {
-            ScaleVelocities(&solver->pieces.data[i], &solver->momenta.data[i], &solver->after.data[f]);
+    double least = Excess(solver), best = 1.0, all = solver->touch.keepForces;
+    bool isThrown = IsThrown(solver);
+    for (int trial = 0; isThrown && trial <= TRIALS; ++trial) {
+        double part = (double)(TRIALS - 1 - trial) / TRIALS;
+        solver->touch.keepForces = (trial < TRIALS ? part : best) * all;
+        WriteStepEnd(solver, system);
+        RestoreMomentum(solver, system);
+        SumGains(solver, system);
+        if (Excess(solver) < least && least > 0.0) {
+            least = Excess(solver);
+            best = part;
         }
     }
 }
 
-/* ---- Other pieces ------------------------------------------------------------------------------------------------ */
+/* First out of velocities beside those of a rigid body, which leaves momenta as they are; then out of the turning as one
+   body; the rest out of the mean, unless the body is free. */
+void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system)
+{
+    LimitPushes(solver, system);
+    const kiriEnergyStep* has = &solver->energy;
+    const kiriPieceMomentum* momentum = &solver->momentum;
+    double energy = kiriMax(has->gain, 0.0), beside = has->kinetic - has->turning;
+    double keepRest = TakeEnergy(kiriMax(beside, 0.0), &energy), keepTurning = TakeEnergy(has->turning, &energy);
+    bool isOwn = solver->support == KIRI_SUPPORT_NONE || (solver->support == KIRI_SUPPORT_CONTACTS && !IsThrown(solver));
+    double keepMean = isOwn ? 1.0 : TakeEnergy(has->moving, &energy);
+    for (int32_t f = 0; has->gain > 0.0 && f < system->frameCount; ++f) {
+        kiriFrameData* frame = &solver->after.data[f];
+        if (!frame->held) {
+            kiriVec3 mean = momentum->velocityAfter, arm = kiriVec3_Sub(frame->x, momentum->centerAfter);
+            kiriVec3 round = kiriVec3_Cross(momentum->spin, arm);
+            kiriVec3 rest = kiriVec3_Sub(kiriVec3_Sub(frame->velocity, mean), round);
+            kiriVec3 spin = kiriVec3_Sub(frame->spin, momentum->spin);
+            frame->velocity = kiriVec3_AddScaled(kiriVec3_Scale(keepMean, mean), keepTurning, round);
+            frame->velocity = kiriVec3_AddScaled(frame->velocity, keepRest, rest);
+            frame->spin = kiriVec3_Scale(keepTurning, momentum->spin);
+            frame->spin = kiriVec3_AddScaled(frame->spin, keepRest, spin);
+            frame->rate = kiriMat3_Scale(keepRest, &frame->rate);
+        }
+    }
+}
 
-/* A row with a cushion is a plane of another piece. */
-static bool IsOfPiece(const kiriContactRow* row)
+/* ---- Other bodies ------------------------------------------------------------------------------------------------ */
+
+/* A row with a cushion is a plane of another body. */
+static bool IsOfBody(const kiriContactRow* row)
 {
     return row->cushion > 0.0;
 }
 
-static void FindShared(kiriSolver* solver, const kiriSystem* system)
+static bool IsShared(const kiriSolver* solver, const kiriSystem* system)
 {
-    KIRI_EACH(i, solver->awake.pieces) {
-        kiriPieceStep* piece = &solver->pieces.data[i];
-        piece->isShared = false;
-        piece->stored = piece->now.potential - piece->start.potential;
-    }
-    KIRI_EACH(f, solver->awake.frames) {
+    bool isShared = false;
+    for (int32_t f = 0; !isShared && f < system->frameCount; ++f) {
         const kiriWrench* load = &system->frames[f].load;
-        kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
-        piece->isShared |= kiriVec3_Dot(load->force, load->force) + kiriVec3_Dot(load->moment, load->moment) > 0.0;
+        isShared = kiriVec3_Dot(load->force, load->force) + kiriVec3_Dot(load->moment, load->moment) > 0.0;
     }
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        kiriContact_PieceOf(solver, system, k)->isShared |= IsOfPiece(&system->contacts[k]);
+    for (int32_t k = 0; !isShared && k < solver->contacts.count; ++k) {
+        isShared = IsOfBody(solver->contacts.data[k].row);
+    }
+    return isShared;
+}
+
+/* Adds the growth of energy and the work of loads to the frames of the sheet. The first of them gets what links, pins
+   and clamps stored. */
+static void AddLoads(kiriSolver* solver, const kiriSystem* system)
+{
+    kiriVec3 gravity = kiriSystem_Gravity(system);
+    double stored = solver->search.now.potential - solver->search.start.potential;
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        const kiriFrameData *start = &solver->before.data[f], *end = &solver->after.data[f];
+        kiriFrameData* frame = &solver->sheetFrames[solver->sheetFrame[f]];
+        if (!start->held) {
+            kiriVec3 way = kiriVec3_Sub(end->x, start->x), torque = kiriVec3_Sub(start->torque, start->load.moment);
+            kiriVec3 force = kiriVec3_AddScaled(kiriVec3_Sub(start->force, start->load.force), start->mass, gravity);
+            double work = kiriVec3_Dot(force, way) + WorkOfTorque(system, torque, end, solver->dt) +
+                          (kiriSystem_HasWind(system) ? kiriWind_Work(solver, system, f) : 0.0);
+            frame->gained += kiriFrame_KineticEnergy(end, &system->material) -
+                             kiriFrame_KineticEnergy(start, &system->material) - work + stored;
+            frame->passed +=
+                kiriVec3_Dot(start->load.force, way) + WorkOfTorque(system, start->load.moment, end, solver->dt);
+            stored = 0.0;
+            frame->received = kiriVec3_AddScaled(frame->received, solver->dt, start->load.force);
+        }
     }
 }
 
 void kiriSolver_AddGained(kiriSolver* solver, const kiriSystem* system)
 {
-    kiriVec3 gravity = kiriSystem_Gravity(system);
-    FindShared(solver, system);
-    KIRI_EACH(f, solver->awake.frames) {
-        const kiriFrameData *start = &solver->before.data[f], *end = &solver->after.data[f];
-        kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
-        if (piece->isShared && !start->held) {
-            kiriVec3 way = kiriVec3_Sub(end->x, start->x), torque = kiriVec3_Sub(start->torque, start->load.moment);
-            kiriVec3 force = kiriVec3_AddScaled(kiriVec3_Sub(start->force, start->load.force), start->mass, gravity);
-            double work = kiriVec3_Dot(force, way) + WorkOfTorque(system, torque, end, solver->dt) +
-                          (kiriSystem_HasWind(system) ? kiriWind_Work(solver, system, f) : 0.0);
-            system->frames[f].gained += kiriFrame_KineticEnergy(end, &system->material) -
-                                        kiriFrame_KineticEnergy(start, &system->material) - work + piece->stored;
-            system->frames[f].passed +=
-                kiriVec3_Dot(start->load.force, way) + WorkOfTorque(system, start->load.moment, end, solver->dt);
-            piece->stored = 0.0; /* the first frame of the piece has it */
-            system->frames[f].received = kiriVec3_AddScaled(system->frames[f].received, solver->dt, start->load.force);
-        }
+    if (!IsShared(solver, system)) {
+        return;
     }
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        kiriFrameData* frame = &system->frames[system->contacts[k].weights[0].frame];
-        if (IsOfPiece(&system->contacts[k])) {
-            double part = kiriContact_PieceOf(solver, system, k)->stepping.part;
-            frame->passed += kiriContact_Work(solver, system, k);
-            frame->received = kiriVec3_AddScaled(frame->received, part, kiriContact_Force(solver, system, k));
-        } else if (kiriContact_PieceOf(solver, system, k)->isShared) {
-            frame->gained -= kiriVec3_Dot(kiriContact_Force(solver, system, k), solver->contacts.data[k].carried);
+    AddLoads(solver, system);
+    for (int32_t k = 0; k < solver->contacts.count; ++k) {
+        const kiriContactStep* step = &solver->contacts.data[k];
+        kiriFrameData* frame = &solver->sheetFrames[step->row->weights[0].frame];
+        if (IsOfBody(step->row)) {
+            frame->passed += kiriContact_Work(solver, step);
+            frame->received =
+                kiriVec3_AddScaled(frame->received, solver->stepping.part, kiriContact_Force(solver, step));
+        } else {
+            frame->gained -= kiriVec3_Dot(kiriContact_Force(solver, step), step->carried);
         }
     }
 }
+
+/* ---- Estimate of the error --------------------------------------------------------------------------------------- */
 
 /* A symmetric tensor of the rest plane. */
 typedef struct Tensor {

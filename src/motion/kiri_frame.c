@@ -3,25 +3,6 @@
 #include <string.h>
 #include <float.h>
 
-void kiriAwake_Start(kiriAwake* awake, int32_t pieceCount)
-{
-    KIRI_ASSERT(pieceCount <= awake->isAwake.capacity);
-    if (pieceCount > 0) {
-        memset(awake->isAwake.data, 1, (size_t)pieceCount);
-    }
-    awake->isAwake.count = pieceCount;
-    awake->isListed = false;
-    awake->wakes += 1;
-}
-
-void kiriAwake_Set(kiriAwake* awake, int32_t piece, bool isAwake)
-{
-    KIRI_ASSERT(piece >= 0 && piece < awake->isAwake.count);
-    awake->isListed = awake->isListed && awake->isAwake.data[piece] == isAwake;
-    awake->wakes += isAwake && !awake->isAwake.data[piece];
-    awake->isAwake.data[piece] = isAwake;
-}
-
 #define MOST_GROWTH 2.0 /* of a step over the one before: BDF2 is stable up to 1 + sqrt 2 */
 
 kiriStepping kiriStepping_Euler(double h)
@@ -54,11 +35,9 @@ kiriMat3 kiriStepping_InnerTurn(const kiriStepping* stepping, const kiriHistory*
     return kiriMat3_AddScaled(&carried, stepping->l, &history->turnPull);
 }
 
-static void GatherCenters(const kiriFrameData* before, const kiriFrameData* after, const kiriAwake* awake,
-                          const int32_t* piece, kiriPieceMomentum* pieces)
+static void FindCenters(const kiriFrameData* before, const kiriFrameData* after, int32_t count, kiriPieceMomentum* p)
 {
-    KIRI_EACH(f, awake->frames) {
-        kiriPieceMomentum* p = &pieces[piece[f]];
+    for (int32_t f = 0; f < count; ++f) {
         double m = before[f].held ? 0.0 : before[f].mass;
         p->mass += m;
         p->centerBefore = kiriVec3_AddScaled(p->centerBefore, m, before[f].x);
@@ -66,14 +45,11 @@ static void GatherCenters(const kiriFrameData* before, const kiriFrameData* afte
         p->centerAfter = kiriVec3_AddScaled(p->centerAfter, m, after[f].x);
         p->velocityAfter = kiriVec3_AddScaled(p->velocityAfter, m, after[f].velocity);
     }
-    KIRI_EACH(i, awake->pieces) {
-        kiriPieceMomentum* p = &pieces[i];
-        double share = 1.0 / kiriMax(p->mass, DBL_MIN);
-        p->centerBefore = kiriVec3_Scale(share, p->centerBefore);
-        p->velocityBefore = kiriVec3_Scale(share, p->velocityBefore);
-        p->centerAfter = kiriVec3_Scale(share, p->centerAfter);
-        p->velocityAfter = kiriVec3_Scale(share, p->velocityAfter);
-    }
+    double share = 1.0 / kiriMax(p->mass, DBL_MIN);
+    p->centerBefore = kiriVec3_Scale(share, p->centerBefore);
+    p->velocityBefore = kiriVec3_Scale(share, p->velocityBefore);
+    p->centerAfter = kiriVec3_Scale(share, p->centerAfter);
+    p->velocityAfter = kiriVec3_Scale(share, p->velocityAfter);
 }
 
 /* What a frame adds, about a centre that moves. The true rate of A counts, by which affine frames also stretch. */
@@ -102,56 +78,45 @@ static void AddFrameTurning(kiriPieceMomentum* p, const kiriFrameData* before, c
     p->inertia = kiriMat3_AddScaled(&p->inertia, 1.0, &point);
 }
 
-/* The steps keep the linear momentum exactly but for what is left of the iteration, and for pushes that were cut to
-   what contacts can do. */
-static void MoveTogether(kiriPieceMomentum* p)
+/* Finds the velocities that make up for what is missing. The steps keep the linear momentum exactly but for what is left
+   of the iteration, and for pushes that were cut to what contacts can do. */
+static void FindMissing(kiriPieceMomentum* p, const kiriVec3* normal)
 {
-    kiriVec3 velocity = kiriVec3_Scale(1.0 / p->mass, p->dueLinear);
-    p->move = kiriVec3_Sub(velocity, p->velocityAfter);
-    p->velocityAfter = velocity;
-}
-
-static void FindTurns(kiriPieceMomentum* pieces, const kiriAwake* awake, const kiriVec3* normal)
-{
-    KIRI_EACH(i, awake->pieces) {
-        kiriPieceMomentum* p = &pieces[i];
-        if (p->mass > 0.0) {
-            bool isOwn = p->isFree || p->isPushed;
-            kiriVec3 arm = kiriVec3_Scale(-1.0, p->centerAfter);
-            p->due = kiriVec3_Add(p->due, kiriVec3_Add(p->pushed.moment, kiriVec3_Cross(arm, p->pushed.force)));
-            if (p->isPushed) {
-                p->dueLinear = kiriVec3_Add(p->dueLinear, p->pushed.force);
-                MoveTogether(p);
-            }
-            kiriVec3 missing = kiriVec3_Sub(p->due, p->angular);
-            if (normal != NULL) {
-                missing = kiriVec3_Scale(kiriVec3_Dot(missing, *normal), *normal);
-            }
-            p->angular = isOwn ? kiriVec3_Add(p->angular, missing) : p->angular;
-            p->turn = isOwn ? kiriMat3_Solve(&p->inertia, missing) : p->turn;
-            p->spin = kiriMat3_Solve(&p->inertia, p->angular);
-        }
+    kiriVec3 arm = kiriVec3_Scale(-1.0, p->centerAfter);
+    p->due = kiriVec3_Add(p->due, kiriVec3_Add(p->pushed.moment, kiriVec3_Cross(arm, p->pushed.force)));
+    if (p->isPushed) {
+        p->dueLinear = kiriVec3_Add(p->dueLinear, p->pushed.force);
+        kiriVec3 velocity = kiriVec3_Scale(1.0 / p->mass, p->dueLinear);
+        p->move = kiriVec3_Sub(velocity, p->velocityAfter);
+        p->velocityAfter = velocity;
     }
+    kiriVec3 missing = kiriVec3_Sub(p->due, p->angular);
+    if (normal != NULL) {
+        missing = kiriVec3_Scale(kiriVec3_Dot(missing, *normal), *normal);
+    }
+    if (p->isFree || p->isPushed) {
+        p->angular = kiriVec3_Add(p->angular, missing);
+        p->turn = kiriMat3_Solve(&p->inertia, missing);
+    }
+    p->spin = kiriMat3_Solve(&p->inertia, p->angular);
 }
 
-void kiriMomentum_Restore(const kiriFrameData* before, kiriFrameData* after, const kiriAwake* awake,
-                          const int32_t* piece, kiriPieceMomentum* pieces, const kiriMaterial* material,
-                          kiriVec3 gravity, double dt, const kiriVec3* normal)
+void kiriMomentum_Restore(const kiriFrameData* before, kiriFrameData* after, int32_t count, kiriPieceMomentum* p,
+                          const kiriMaterial* material, kiriVec3 gravity, double dt, const kiriVec3* normal)
 {
-    GatherCenters(before, after, awake, piece, pieces);
-    KIRI_EACH(f, awake->frames) {
+    FindCenters(before, after, count, p);
+    for (int32_t f = 0; f < count; ++f) {
         if (!before[f].held) {
-            AddFrameTurning(&pieces[piece[f]], &before[f], &after[f], material, gravity, dt);
+            AddFrameTurning(p, &before[f], &after[f], material, gravity, dt);
         }
     }
-    FindTurns(pieces, awake, normal);
-    KIRI_EACH(f, awake->frames) {
-        const kiriPieceMomentum* p = &pieces[piece[f]];
-        if (p->isFree || p->isPushed) {
-            kiriVec3 arm = kiriVec3_Sub(after[f].x, p->centerAfter);
-            after[f].velocity = kiriVec3_Add(after[f].velocity, kiriVec3_Add(p->move, kiriVec3_Cross(p->turn, arm)));
-            after[f].spin = kiriVec3_Add(after[f].spin, p->turn);
-        }
+    if (p->mass > 0.0) {
+        FindMissing(p, normal);
+    }
+    for (int32_t f = 0; (p->isFree || p->isPushed) && f < count; ++f) {
+        kiriVec3 arm = kiriVec3_Sub(after[f].x, p->centerAfter);
+        after[f].velocity = kiriVec3_Add(after[f].velocity, kiriVec3_Add(p->move, kiriVec3_Cross(p->turn, arm)));
+        after[f].spin = kiriVec3_Add(after[f].spin, p->turn);
     }
 }
 

@@ -32,26 +32,6 @@ static inline void kiriWrench_Add(kiriWrench* sum, double scale, const kiriWrenc
     sum->moment = kiriVec3_AddScaled(sum->moment, scale, wrench->moment);
 }
 
-/* What of a system is awake: steps move its pieces and nothing else. A piece that sleeps, or that is gone, is in none
-   of the lists, and costs nothing. */
-
-typedef struct kiriAwake {
-    KIRI_ARRAY(uint8_t) isAwake;          /* of each piece */
-    bool isListed;                        /* are the lists of these? */
-    kiriIndices pieces, frames, elements; /* ascending */
-    int64_t lists, wakes;                 /* how often lists were made, and pieces woken */
-} kiriAwake;
-
-/* The loop over a list: `index` is each of its items. */
-#define KIRI_EACH(index, list)                                                                                         \
-    for (int32_t index##At = 0, index = 0; index##At < (list).count && (index = (list).data[index##At], true);         \
-         ++index##At)
-
-/* Other pieces: all of them are awake, and nothing is listed. There is room. */
-void kiriAwake_Start(kiriAwake* awake, int32_t pieceCount);
-
-void kiriAwake_Set(kiriAwake* awake, int32_t piece, bool isAwake);
-
 /* Control frames: their state (section 5 of the paper). */
 
 /* What the last step of a frame leaves for the next one, see kiri_frame.h: how inner forces (of links, pins and
@@ -268,34 +248,32 @@ kiriVec3 kiriPrediction_TurnGradient(const kiriPrediction* prediction, const kir
 kiriVec3 kiriMat3_Solve(const kiriMat3* m, kiriVec3 a);
 kiriMat3 kiriMat3_PointInertia(double m, kiriVec3 r);
 
-/* The angular momentum of pieces that nothing holds. The steps keep the linear one exactly, but not the angular: a
+/* The angular momentum of a body that nothing holds. The steps keep the linear one exactly, but not the angular: a
    frame that goes round is predicted along the tangent, and is pulled back by forces that act where the step ends, not
    where it starts. */
 
-/* Of one piece, over the frames that the host does not hold, about its centre of mass; sums while they are gathered. */
+/* Over the frames that the host does not hold, about their centre of mass. */
 typedef struct kiriPieceMomentum {
     bool isFree;       /* from pins, contacts and the host: its momentum is its own */
-    bool isPushed;     /* but for contacts, */
-    kiriWrench pushed; /* N s: what these gave to it in the step, about the origin */
+    bool isPushed;     /* free but for contacts, */
+    kiriWrench pushed; /* N s: the impulse of these in the step, about the origin */
     double mass;
     kiriVec3 centerBefore, velocityBefore, centerAfter, velocityAfter;
     kiriVec3 due;       /* the angular momentum that it should have after the step, */
     kiriVec3 angular;   /* that it has, */
     kiriMat3 inertia;   /* and its inertia then */
-    kiriVec3 dueLinear; /* and the linear one */
-    kiriVec3 move;      /* the velocity that makes up for the difference of that, */
-    kiriVec3 turn;      /* and the angular velocity that makes up for the difference */
+    kiriVec3 dueLinear; /* the linear momentum that it should have */
+    kiriVec3 move;      /* the velocity that makes up for the difference of linear momenta, */
+    kiriVec3 turn;      /* and the angular velocity for that of angular momenta */
     kiriVec3 spin;      /* of the rigid body that has its momenta */
 } kiriPieceMomentum;
 
-/* Turns free pieces as rigid bodies until they have the angular momentum that they should have; pieces on which
-   contacts alone act get the whole momentum that these gave; of what is awake. Frames are those before
-   and after the step; piece[f] is the piece of frame f; isFree, isPushed and pushed are set in `pieces`, the
-   rest is zero, and written. In a planar
-   sheet `normal` is that of its plane; else null. */
-void kiriMomentum_Restore(const kiriFrameData* before, kiriFrameData* after, const kiriAwake* awake,
-                          const int32_t* piece, kiriPieceMomentum* pieces, const kiriMaterial* material,
-                          kiriVec3 gravity, double dt, const kiriVec3* normal);
+/* Turns a free body as a rigid one until it has the angular momentum that it should have; a body on which contacts
+   alone act gets the whole momentum that these gave. Frames are those before and after the step. isFree, isPushed and
+   pushed are set in `momentum`, the rest is zero, and written. `normal` is that of the plane of a planar sheet, else
+   null. */
+void kiriMomentum_Restore(const kiriFrameData* before, kiriFrameData* after, int32_t count, kiriPieceMomentum* momentum,
+                          const kiriMaterial* material, kiriVec3 gravity, double dt, const kiriVec3* normal);
 
 KIRI_C_END
 

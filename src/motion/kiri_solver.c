@@ -1,4 +1,5 @@
 #include "kiri_solver.h"
+#include "../core/kiri_archive.h"
 
 #include <string.h>
 
@@ -51,70 +52,197 @@ kiriFrameRow kiriSolver_Expand(const kiriSolver* solver, double scale, const dou
     return vectors;
 }
 
-/* ---- Creation ---------------------------------------------------------------------------------------------------- */
-
 kiriSolver* kiriSolver_Create(kiriMemory* memory, const kiriMechanics* mechanics)
 {
     kiriSolver* solver = kiriMemory_AllocZeroed(memory, sizeof(kiriSolver));
-    if (solver == NULL) {
-        return NULL;
+    if (solver != NULL) {
+        solver->memory = memory;
+        solver->mechanics = *mechanics;
+        ChooseUnknowns(solver, mechanics);
     }
-    solver->memory = memory;
-    solver->mechanics = *mechanics;
-    ChooseUnknowns(solver, mechanics);
-    solver->matrix = kiriMatrix_Create(memory, solver->size);
-    solver->nextMatrix = kiriMatrix_Create(memory, solver->size);
-    return solver->matrix != NULL && solver->nextMatrix != NULL ? solver : NULL;
+    return solver;
 }
 
-/* ---- Staging ---------------------------------------------------------------------------------------------------- */
+/* ---- Bodies ------------------------------------------------------------------------------------------------------ */
 
-enum { SOLVER_ROOMS = 24 };
+/* The system of a body. Its frames are not set. */
+static kiriSystem SystemOf(const kiriSolverBodies* bodies, const kiriSolverBody* body, const kiriSystem* sheet,
+                           kiriAreaElements* elements)
+{
+    kiriSystem system = *sheet;
+    memset(elements, 0, sizeof(*elements));
+    elements->elements.data = bodies->areaElements.elements.data + body->elements.first;
+    elements->elements.count = body->elements.count;
+    elements->shares.data = bodies->areaElements.shares.data;
+    elements->shares.count = bodies->areaElements.shares.count;
+    system.areaElements = elements;
+    system.frames = NULL;
+    system.frameCount = body->frames.count;
+    system.links = bodies->ownLinks.data + body->links.first;
+    system.linkCount = body->links.count;
+    system.corners = bodies->corners.data + body->corners.first;
+    system.cornerCount = body->corners.count;
+    system.linkParts = NULL;
+    system.strainOffsets = NULL;
+    return system;
+}
 
-/* Only scratch, so that nothing is lost by growing. Returns how many. */
-static int32_t ListSolverRooms(kiriSolver* s, const kiriSystem* next, kiriRoom rooms[SOLVER_ROOMS])
+/* Fails on out of memory. */
+static bool ReserveBodies(kiriSolver* s, const kiriSystem* next)
 {
     kiriMemory* memory = s->memory;
-    int64_t frames = next->frameCount, elements = kiriElement_Count(next), most = kiriElement_MostMembers(next);
-    bool hasTraces = kiriElement_CornerCount(next) > 0 && !kiriMechanics_IsAffine(&next->mechanics);
-    int64_t traced = hasTraces ? kiriElement_LinkCount(next) : 0, strains = KIRI_MOST_STRAINS * elements;
-    int64_t unknowns = s->size * frames, rows = KIRI_MOST_STRAINS * most;
-    const kiriRoom all[] = { KIRI_ROOM(memory, &s->nextFramePiece, frames),
-                             KIRI_ROOM(memory, &s->awake.isAwake, frames),
-                             KIRI_ROOM(memory, &s->awake.pieces, frames),
-                             KIRI_ROOM(memory, &s->awake.frames, frames),
-                             KIRI_ROOM(memory, &s->awake.elements, elements),
-                             KIRI_ROOM(memory, &s->pieces, frames),
-                             KIRI_ROOM(memory, &s->momenta, frames),
-                             KIRI_ROOM(memory, &s->before, frames),
-                             KIRI_ROOM(memory, &s->after, frames),
-                             KIRI_ROOM(memory, &s->predictions, frames),
-                             KIRI_ROOM(memory, &s->start, frames),
-                             KIRI_ROOM(memory, &s->poses, frames),
-                             KIRI_ROOM(memory, &s->trial, frames),
-                             KIRI_ROOM(memory, &s->stiffness, strains),
-                             KIRI_ROOM(memory, &s->loss, strains),
-                             KIRI_ROOM(memory, &s->startStrain, strains),
-                             KIRI_ROOM(memory, &s->nowStrain, strains),
-                             KIRI_ROOM(memory, &s->tracedRows, traced * KIRI_TRACED * 2 * s->size),
-                             KIRI_ROOM(memory, &s->stopping, elements),
-                             KIRI_ROOM(memory, &s->force, unknowns),
-                             KIRI_ROOM(memory, &s->move, unknowns),
-                             KIRI_ROOM(memory, &s->members, most),
-                             KIRI_ROOM(memory, &s->rows, rows),
-                             KIRI_ROOM(memory, &s->J, rows * s->size) };
-    memcpy(rooms, all, sizeof(all));
-    return (int32_t)(sizeof(all) / sizeof(all[0]));
+    kiriSolverBodies* bodies = &s->next;
+    int64_t frames = next->frameCount, links = next->linkCount;
+    int64_t areas = next->areaElements != NULL ? next->areaElements->elements.count : 0;
+    int64_t shares = next->areaElements != NULL ? next->areaElements->shares.count : 0;
+    return kiriArray_Resize(memory, &bodies->bodyOf, frames) && kiriArray_Resize(memory, &bodies->place, frames) && kiriArray_Resize(memory, &bodies->frames, frames) &&
+           kiriArray_Resize(memory, &bodies->links, links) && kiriArray_Resize(memory, &bodies->ownLinks, links) &&
+           kiriArray_Resize(memory, &bodies->corners, next->cornerCount) &&
+           kiriArray_Resize(memory, &bodies->areaElements.elements, areas) &&
+           kiriArray_Resize(memory, &bodies->areaElements.shares, shares) &&
+           kiriArray_Resize(memory, &s->linkPlace, links) &&
+           kiriArray_Resize(memory, &s->order, kiriMax((int64_t)next->cornerCount, areas)) &&
+           kiriArray_Reserve(memory, &s->moved.bodies, frames) &&
+           kiriArray_Reserve(memory, &s->moved.frames, frames) && kiriArray_Reserve(memory, &s->moved.links, links);
 }
 
-kiriProgress kiriSolver_Reserve(kiriSolver* solver, const kiriSystem* next, kiriQuota* quota, int64_t bytesAnItem)
+/* Reserves room for steps of a body. Fails on out of memory. */
+static bool ReserveSteps(kiriSolver* s, const kiriSystem* body)
 {
-    kiriRoom rooms[SOLVER_ROOMS];
-    int32_t count = ListSolverRooms(solver, next, rooms);
-    return kiriRooms_MakeReady(rooms, count, quota, bytesAnItem);
+    kiriMemory* memory = s->memory;
+    int64_t frames = body->frameCount, elements = kiriElement_Count(body), links = body->linkCount;
+    bool hasTraces = kiriElement_CornerCount(body) > 0 && !kiriMechanics_IsAffine(&body->mechanics);
+    int64_t traced = hasTraces ? KIRI_TRACED * 2 * s->size * links : 0, most = kiriElement_MostMembers(body);
+    int64_t strains = KIRI_MOST_STRAINS * elements, rows = KIRI_MOST_STRAINS * most;
+    return kiriArray_Reserve(memory, &s->linkParts, links) && kiriArray_Reserve(memory, &s->strainOffsets, links) &&
+           kiriArray_Reserve(memory, &s->before, frames) && kiriArray_Reserve(memory, &s->after, frames) &&
+           kiriArray_Reserve(memory, &s->predictions, frames) && kiriArray_Reserve(memory, &s->start, frames) &&
+           kiriArray_Reserve(memory, &s->poses, frames) && kiriArray_Reserve(memory, &s->trial, frames) &&
+           kiriArray_Reserve(memory, &s->stiffness, strains) && kiriArray_Reserve(memory, &s->loss, strains) &&
+           kiriArray_Reserve(memory, &s->startStrain, strains) && kiriArray_Reserve(memory, &s->nowStrain, strains) &&
+           kiriArray_Reserve(memory, &s->tracedRows, traced) && kiriArray_Reserve(memory, &s->stopping, elements) &&
+           kiriArray_Reserve(memory, &s->force, s->size * frames) &&
+           kiriArray_Reserve(memory, &s->move, s->size * frames) && kiriArray_Reserve(memory, &s->members, most) &&
+           kiriArray_Reserve(memory, &s->rows, rows) && kiriArray_Reserve(memory, &s->J, rows * s->size);
 }
 
-/* Is the pair one of a corner that a link of it has already? */
+/* A frame of an item of the sheet. */
+typedef int32_t FrameOfItem(const kiriSystem* system, int32_t k);
+
+static int32_t FrameItself(const kiriSystem* system, int32_t k)
+{
+    KIRI_ASSERT(k < system->frameCount);
+    (void)system;
+    return k;
+}
+
+static int32_t FrameOfLink(const kiriSystem* system, int32_t k)
+{
+    return system->links[k].i;
+}
+
+static int32_t FrameOfCorner(const kiriSystem* system, int32_t k)
+{
+    return system->links[system->corners[k].link[0]].i;
+}
+
+static int32_t FrameOfArea(const kiriSystem* system, int32_t k)
+{
+    return system->areaElements->shares.data[system->areaElements->elements.data[k].first].frame;
+}
+
+/* Sorts items by body, and sets the spans at this offset of kiriSolverBody. Items of a body keep their order. */
+static void ShareOut(kiriSolverBodies* bodies, size_t span, const kiriSystem* system, int32_t count, FrameOfItem* frameOf,
+                     int32_t* order)
+{
+    const int32_t* bodyOf = bodies->bodyOf.data;
+    for (int32_t k = 0; k < count; ++k) {
+        ((kiriSpan*)((char*)&bodies->bodies.data[bodyOf[frameOf(system, k)]] + span))->count += 1;
+    }
+    for (int32_t b = 0, first = 0; b < bodies->bodies.count; ++b) {
+        kiriSpan* of = (kiriSpan*)((char*)&bodies->bodies.data[b] + span);
+        of->first = first;
+        first += of->count;
+        of->count = 0;
+    }
+    for (int32_t k = 0; k < count; ++k) {
+        kiriSpan* of = (kiriSpan*)((char*)&bodies->bodies.data[bodyOf[frameOf(system, k)]] + span);
+        order[of->first + of->count++] = k;
+    }
+}
+
+static void TakeLinks(kiriSolver* solver, const kiriSystem* system)
+{
+    kiriSolverBodies* bodies = &solver->next;
+    ShareOut(bodies, offsetof(kiriSolverBody, links), system, kiriElement_LinkCount(system), FrameOfLink,
+             bodies->links.data);
+    for (int32_t n = 0; n < kiriElement_LinkCount(system); ++n) {
+        int32_t k = bodies->links.data[n], body = bodies->bodyOf.data[system->links[k].i];
+        KIRI_ASSERT(bodies->bodyOf.data[system->links[k].j] == body);
+        kiriLink* link = &bodies->ownLinks.data[n];
+        *link = system->links[k];
+        link->i = bodies->place.data[link->i];
+        link->j = bodies->place.data[link->j];
+        solver->linkPlace.data[k] = n - bodies->bodies.data[body].links.first;
+    }
+}
+
+static void TakeCorners(kiriSolver* solver, const kiriSystem* system)
+{
+    kiriSolverBodies* bodies = &solver->next;
+    int32_t count = kiriElement_CornerCount(system);
+    ShareOut(bodies, offsetof(kiriSolverBody, corners), system, count, FrameOfCorner, solver->order.data);
+    for (int32_t n = 0; n < count; ++n) {
+        kiriCorner* corner = &bodies->corners.data[n];
+        *corner = system->corners[solver->order.data[n]];
+        for (int32_t k = 0; k < corner->count; ++k) {
+            corner->link[k] = solver->linkPlace.data[corner->link[k]];
+        }
+    }
+}
+
+static void TakeAreas(kiriSolver* solver, const kiriSystem* system)
+{
+    kiriSolverBodies* bodies = &solver->next;
+    int32_t count = bodies->areaElements.elements.count;
+    if (count == 0) {
+        return;
+    }
+    ShareOut(bodies, offsetof(kiriSolverBody, elements), system, count, FrameOfArea, solver->order.data);
+    for (int32_t n = 0; n < count; ++n) {
+        bodies->areaElements.elements.data[n] = system->areaElements->elements.data[solver->order.data[n]];
+    }
+    for (int32_t n = 0; n < bodies->areaElements.shares.count; ++n) {
+        kiriFrameShare* share = &bodies->areaElements.shares.data[n];
+        *share = system->areaElements->shares.data[n];
+        share->frame = bodies->place.data[share->frame];
+    }
+}
+
+static void ShareOutAll(kiriSolver* solver, const kiriSystem* system, const int32_t* framePiece)
+{
+    kiriSolverBodies* bodies = &solver->next;
+    memset(bodies->bodies.data, 0, sizeof(kiriSolverBody) * (size_t)bodies->bodies.count);
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        KIRI_ASSERT(framePiece[f] >= 0 && framePiece[f] < bodies->bodies.count);
+        bodies->bodyOf.data[f] = framePiece[f];
+    }
+    ShareOut(bodies, offsetof(kiriSolverBody, frames), system, system->frameCount, FrameItself, bodies->frames.data);
+    for (int32_t b = 0; b < bodies->bodies.count; ++b) {
+        const kiriSpan* frames = &bodies->bodies.data[b].frames;
+        KIRI_ASSERT(frames->count > 0);
+        for (int32_t n = 0; n < frames->count; ++n) {
+            bodies->place.data[bodies->frames.data[frames->first + n]] = n;
+        }
+    }
+    TakeLinks(solver, system);
+    TakeCorners(solver, system);
+    TakeAreas(solver, system);
+}
+
+/* ---- Patterns ---------------------------------------------------------------------------------------------------- */
+
+/* Returns true if the pair is one of a corner that a link of it has already. */
 static bool IsPairOfLink(const kiriSystem* system, int32_t k, kiriPair pair)
 {
     const kiriCorner* corner = kiriElement_Corner(system, k);
@@ -126,30 +254,16 @@ static bool IsPairOfLink(const kiriSystem* system, int32_t k, kiriPair pair)
     return found;
 }
 
-/* Has the pattern the pairs of an element already? A corner of three regions has only the pairs of its links. */
-static bool IsInForce(const kiriSystem* system, int32_t k)
-{
-    const kiriCorner* corner = kiriElement_Corner(system, k);
-    return k < kiriElement_LinkCount(system) ? system->linkWas[k] != KIRI_NONE : corner != NULL && corner->count == 3;
-}
-
-/* Of frames that share an element: of all, or of those alone that are not in force. */
-static bool CollectPairs(kiriSolver* solver, const kiriSystem* next, const int32_t* framePiece, bool all)
+/* Collects the pairs of frames that share an element. Fails on out of memory. */
+static bool CollectPairs(kiriSolver* solver, const kiriSystem* body)
 {
     solver->pairs.count = 0;
-    for (int32_t k = 0; k < kiriElement_Count(next); ++k) {
-        if (!all && IsInForce(next, k)) {
-            continue;
-        }
-        int32_t* members = solver->members.data;
-        int32_t count = kiriElement_Members(next, k, members);
+    for (int32_t k = 0; k < kiriElement_Count(body); ++k) {
+        int32_t *members = solver->members.data, count = kiriElement_Members(body, k, members);
         for (int32_t b = 1; b < count; ++b) {
-            if (framePiece[members[b]] != framePiece[members[0]]) {
-                return false; /* of bytes that were made up */
-            }
             for (int32_t a = 0; a < b; ++a) {
                 kiriPair pair = { members[a], members[b] };
-                if (!IsPairOfLink(next, k, pair) && !kiriArray_Push(solver->memory, &solver->pairs, pair)) {
+                if (!IsPairOfLink(body, k, pair) && !kiriArray_Push(solver->memory, &solver->pairs, pair)) {
                     return false;
                 }
             }
@@ -158,119 +272,80 @@ static bool CollectPairs(kiriSolver* solver, const kiriSystem* next, const int32
     return true;
 }
 
-/* Has the current pattern a block for every pair? */
-static bool IsCovered(const kiriSolver* solver, int32_t frameCount)
+/* The body in force with the same frames; null: none. */
+static const kiriSolverBody* FindSame(const kiriSolver* solver, const kiriSolverBody* next)
 {
-    bool covered = kiriMatrix_FrameCount(solver->matrix) == frameCount;
-    for (int32_t k = 0; covered && k < solver->pairs.count; ++k) {
-        covered = kiriMatrix_Covers(solver->matrix, solver->pairs.data[k]);
+    const kiriSolverBodies *now = &solver->bodies, *then = &solver->next;
+    const int32_t* frames = &then->frames.data[next->frames.first];
+    if (frames[0] >= now->bodyOf.count) {
+        return NULL;
     }
-    return covered;
+    const kiriSolverBody* body = &now->bodies.data[now->bodyOf.data[frames[0]]];
+    bool isSame = body->frames.count == next->frames.count &&
+                  memcmp(&now->frames.data[body->frames.first], frames, sizeof(int32_t) * (size_t)body->frames.count) == 0;
+    return isSame ? body : NULL;
 }
 
-/* Regions that came apart may meet again when a cut moves sites: a new pattern keeps the pairs of the old one, unless
-   they are too many. */
-static bool KeepPairs(kiriSolver* solver, int32_t frameCount)
+/* Gives a body its matrix. Regions that came apart may meet again when a cut moves sites: a new pattern keeps the pairs
+   of the old one, unless they are too many. Fails on out of memory. */
+static bool StageMatrix(kiriSolver* solver, kiriSolverBody* next, const kiriSystem* body)
 {
-    int32_t own = solver->pairs.count, old = kiriMatrix_PairCount(solver->matrix);
-    if (kiriMatrix_FrameCount(solver->matrix) != frameCount || old > 2 * own) {
-        return true;
-    }
-    if (!kiriArray_Resize(solver->memory, &solver->pairs, (int64_t)own + old)) {
+    const kiriSolverBody* same = FindSame(solver, next);
+    bool isCovered = same != NULL;
+    if (!CollectPairs(solver, body)) {
         return false;
     }
-    if (old > 0) {
-        kiriMatrix_GetPairs(solver->matrix, &solver->pairs.data[own]);
+    for (int32_t k = 0; isCovered && k < solver->pairs.count; ++k) {
+        isCovered = kiriMatrix_Covers(same->matrix, solver->pairs.data[k]);
     }
-    return true;
+    if (isCovered) {
+        next->matrix = same->matrix;
+        return true;
+    }
+    int32_t own = solver->pairs.count, old = same != NULL ? kiriMatrix_PairCount(same->matrix) : 0;
+    if (old > 0 && old <= 2 * own) {
+        if (!kiriArray_Resize(solver->memory, &solver->pairs, (int64_t)own + old)) {
+            return false;
+        }
+        kiriMatrix_GetPairs(same->matrix, &solver->pairs.data[own]);
+    }
+    next->matrix = kiriMatrix_Create(solver->memory, solver->size);
+    next->ownsMatrix = true;
+    return next->matrix != NULL &&
+           kiriMatrix_Shape(next->matrix, body->frameCount, solver->pairs.data, solver->pairs.count);
 }
 
-/* Gives the system a pattern. That in force covers what is in force: so most cuts ask for a few elements alone, and the
-   others are looked at where it will not do. */
-static bool StageMatrix(kiriSolver* solver, const kiriSystem* next, const int32_t* framePiece)
+static void DropStaged(kiriSolver* solver)
 {
-    bool isKnown = next->linkWas != NULL && kiriMatrix_FrameCount(solver->matrix) == next->frameCount;
-    if (!CollectPairs(solver, next, framePiece, !isKnown)) {
-        return false;
+    for (int32_t b = 0; b < solver->next.bodies.count; ++b) {
+        if (solver->next.bodies.data[b].ownsMatrix) {
+            kiriMatrix_Destroy(solver->next.bodies.data[b].matrix);
+        }
     }
-    solver->isNextMatrix = !IsCovered(solver, next->frameCount);
-    if (!solver->isNextMatrix) {
-        return true;
-    }
-    return (!isKnown || CollectPairs(solver, next, framePiece, true)) && KeepPairs(solver, next->frameCount) &&
-           kiriMatrix_Shape(solver->nextMatrix, next->frameCount, solver->pairs.data, solver->pairs.count);
+    solver->next.bodies.count = 0;
+    solver->isStaged = false;
 }
 
 bool kiriSolver_Stage(kiriSolver* solver, const kiriSystem* next, const int32_t* framePiece, int32_t pieceCount)
 {
-    int32_t frameCount = next->frameCount;
-    KIRI_ASSERT(frameCount >= 0 && next->linkCount >= 0 && pieceCount >= 0 && pieceCount <= frameCount);
+    KIRI_ASSERT(next->frameCount >= 0 && next->linkCount >= 0 && pieceCount >= 0 && pieceCount <= next->frameCount);
     KIRI_ASSERT(next->mechanics.model == solver->mechanics.model);
-    solver->isStaged = false;
-    solver->nextElementCount = kiriElement_Count(next);
-    kiriQuota unlimited = { INT64_MAX, 0, 0, false };
-    if (kiriSolver_Reserve(solver, next, &unlimited, 1) != KIRI_DONE || !StageMatrix(solver, next, framePiece)) {
+    DropStaged(solver);
+    if (!ReserveBodies(solver, next) || !kiriArray_Resize(solver->memory, &solver->next.bodies, pieceCount)) {
         return false;
     }
-    for (int32_t f = 0; f < frameCount; ++f) {
-        KIRI_ASSERT(framePiece[f] >= 0 && framePiece[f] < pieceCount);
-        solver->nextFramePiece.data[f] = framePiece[f];
-    }
-    solver->nextFrameCount = frameCount;
-    solver->nextPieceCount = pieceCount;
+    ShareOutAll(solver, next, framePiece);
     solver->isStaged = true;
-    return true;
-}
-
-/* What steps write into. */
-static bool HasRoomForSteps(const kiriSolver* solver, const kiriSystem* system)
-{
-    int64_t frames = system->frameCount, elements = kiriElement_Count(system), most = kiriElement_MostMembers(system);
-    bool hasTraces = kiriElement_CornerCount(system) > 0 && !kiriMechanics_IsAffine(&system->mechanics);
-    int64_t traced = hasTraces ? kiriElement_LinkCount(system) : 0, strains = KIRI_MOST_STRAINS * elements;
-    const kiriAwake* awake = &solver->awake;
-    return awake->isAwake.capacity >= solver->pieceCount && awake->pieces.capacity >= frames &&
-           awake->frames.capacity >= frames && awake->elements.capacity >= elements &&
-           solver->pieces.capacity >= frames && solver->momenta.capacity >= frames &&
-           solver->before.capacity >= frames && solver->after.capacity >= frames &&
-           solver->predictions.capacity >= frames && solver->start.capacity >= frames &&
-           solver->poses.capacity >= frames && solver->trial.capacity >= frames &&
-           solver->stiffness.capacity >= strains && solver->loss.capacity >= strains &&
-           solver->startStrain.capacity >= strains && solver->nowStrain.capacity >= strains &&
-           solver->tracedRows.capacity >= traced * KIRI_TRACED * 2 * solver->size &&
-           solver->stopping.capacity >= elements && solver->force.capacity >= solver->size * frames &&
-           solver->move.capacity >= solver->size * frames && solver->members.capacity >= most &&
-           solver->rows.capacity >= KIRI_MOST_STRAINS * most &&
-           solver->J.capacity >= KIRI_MOST_STRAINS * most * solver->size;
-}
-
-/* As CollectPairs, but nothing is kept: of bytes that were made up there may be more pairs than memory has room for. */
-static bool AreFramesCovered(const kiriSolver* solver, const kiriSystem* system, int32_t k)
-{
-    int32_t *members = solver->members.data, count = kiriElement_Members(system, k, members);
-    bool areCovered = true;
-    for (int32_t b = 1; areCovered && b < count; ++b) {
-        for (int32_t a = 0; areCovered && a < b; ++a) {
-            kiriPair pair = { members[a], members[b] };
-            areCovered = IsPairOfLink(system, k, pair) || kiriMatrix_Covers(solver->matrix, pair);
-        }
+    for (int32_t b = 0; solver->isStaged && b < pieceCount; ++b) {
+        kiriSolverBody* body = &solver->next.bodies.data[b];
+        kiriAreaElements elements;
+        kiriSystem system = SystemOf(&solver->next, body, next, &elements);
+        solver->isStaged = ReserveSteps(solver, &system) && StageMatrix(solver, body, &system);
     }
-    return areCovered;
-}
-
-bool kiriSolver_Fits(const kiriSolver* solver, const kiriSystem* system, const int32_t* framePiece, int32_t pieceCount)
-{
-    bool fits = solver->frameCount == system->frameCount && solver->pieceCount == pieceCount &&
-                solver->elementCount == kiriElement_Count(system) &&
-                kiriMatrix_FrameCount(solver->matrix) == solver->frameCount;
-    for (int32_t f = 0; fits && f < system->frameCount; ++f) {
-        fits = solver->framePiece.data[f] == framePiece[f];
+    if (!solver->isStaged) {
+        DropStaged(solver);
     }
-    fits = fits && HasRoomForSteps(solver, system);
-    for (int32_t k = 0; fits && k < solver->elementCount; ++k) {
-        fits = AreFramesCovered(solver, system, k);
-    }
-    return fits;
+    return solver->isStaged;
 }
 
 void kiriSolver_Commit(kiriSolver* solver)
@@ -278,76 +353,227 @@ void kiriSolver_Commit(kiriSolver* solver)
     if (!solver->isStaged) {
         return;
     }
-    kiriIndices framePiece = solver->framePiece;
-    solver->framePiece = solver->nextFramePiece;
-    solver->nextFramePiece = framePiece;
-    solver->frameCount = solver->nextFrameCount;
-    solver->elementCount = solver->nextElementCount;
-    solver->pieceCount = solver->nextPieceCount;
-    if (solver->isNextMatrix) {
-        kiriMatrix* matrix = solver->matrix;
-        solver->matrix = solver->nextMatrix;
-        solver->nextMatrix = matrix;
+    solver->allWork = 0;
+    for (int32_t b = 0; b < solver->next.bodies.count; ++b) {
+        kiriSolverBody *next = &solver->next.bodies.data[b], *now;
+        const kiriSolverBody* same = next->ownsMatrix ? NULL : FindSame(solver, next);
+        if (same != NULL) {
+            now = &solver->bodies.bodies.data[same - solver->bodies.bodies.data];
+            now->matrix = NULL;
+        }
     }
+    for (int32_t b = 0; b < solver->bodies.bodies.count; ++b) {
+        kiriMatrix_Destroy(solver->bodies.bodies.data[b].matrix);
+    }
+    kiriSolverBodies now = solver->bodies;
+    solver->bodies = solver->next;
+    solver->next = now;
+    solver->next.bodies.count = 0;
     solver->isStaged = false;
-    kiriAwake_Start(&solver->awake, solver->pieceCount);
-    KIRI_ASSERT(kiriMatrix_FrameCount(solver->matrix) == solver->frameCount);
+    for (int32_t b = 0; b < solver->bodies.bodies.count; ++b) {
+        solver->bodies.bodies.data[b].ownsMatrix = false;
+        solver->bodies.bodies.data[b].isMoved = true;
+        solver->allWork += kiriSolver_WorkOf(solver, b, 0);
+    }
+    solver->moved.isListed = false;
 }
 
-/* ---- What is awake ---- */
-
-void kiriSolver_SetAwake(kiriSolver* solver, int32_t piece, bool isAwake)
+bool kiriSolver_MakeBodies(kiriSolver* solver, const int32_t* framePiece, int32_t frameCount, int32_t pieceCount)
 {
-    kiriAwake_Set(&solver->awake, piece, isAwake);
-}
-
-static void WriteLists(kiriSolver* solver, const kiriSystem* system)
-{
-    kiriAwake* awake = &solver->awake;
-    const uint8_t* isAwake = awake->isAwake.data;
-    const int32_t* framePiece = solver->framePiece.data;
-    awake->pieces.count = awake->frames.count = awake->elements.count = 0;
-    for (int32_t p = 0; p < solver->pieceCount; ++p) {
-        awake->pieces.data[awake->pieces.count] = p;
-        awake->pieces.count += isAwake[p];
-    }
-    for (int32_t f = 0; f < solver->frameCount; ++f) {
-        awake->frames.data[awake->frames.count] = f;
-        awake->frames.count += isAwake[framePiece[f]];
-    }
-    for (int32_t k = 0; k < solver->elementCount; ++k) {
-        awake->elements.data[awake->elements.count] = k;
-        awake->elements.count += isAwake[framePiece[kiriElement_FirstMember(system, k)]];
-    }
-}
-
-bool kiriSolver_ListAwake(kiriSolver* solver, const kiriSystem* system)
-{
-    if (solver->awake.isListed) {
+    kiriSystem system;
+    memset(&system, 0, sizeof(system));
+    system.mechanics = solver->mechanics;
+    system.frameCount = frameCount;
+    if (!ReserveBodies(solver, &system) || !kiriArray_Resize(solver->memory, &solver->next.bodies, pieceCount)) {
         return false;
     }
-    WriteLists(solver, system);
-    kiriMatrix_Choose(solver->matrix, solver->awake.frames.data, solver->awake.frames.count);
-    solver->awake.isListed = true;
-    solver->awake.lists += 1;
+    ShareOutAll(solver, &system, framePiece);
+    for (int32_t b = 0; b < pieceCount; ++b) {
+        solver->next.bodies.data[b].matrix = kiriMatrix_Create(solver->memory, solver->size);
+        if (solver->next.bodies.data[b].matrix == NULL) {
+            return false;
+        }
+    }
+    kiriSolverBodies none = solver->bodies;
+    solver->bodies = solver->next;
+    solver->next = none;
     return true;
 }
 
-const kiriAwake* kiriSolver_Awake(const kiriSolver* solver)
+bool kiriSolver_ReserveRows(kiriSolver* solver, int64_t pins, int64_t clamps, int64_t contacts)
 {
-    return &solver->awake;
+    kiriMemory* memory = solver->memory;
+    return kiriArray_Reserve(memory, &solver->pins, pins) && kiriArray_Reserve(memory, &solver->pinRow, pins) &&
+           kiriArray_Reserve(memory, &solver->nextPin, pins) && kiriArray_Reserve(memory, &solver->clamps, clamps) &&
+           kiriArray_Reserve(memory, &solver->clampRow, clamps) &&
+           kiriArray_Reserve(memory, &solver->nextClamp, clamps) &&
+           kiriArray_Reserve(memory, &solver->contacts, contacts) &&
+           kiriArray_Reserve(memory, &solver->nextContact, contacts);
 }
 
+/* ---- What is moved ----------------------------------------------------------------------------------------------- */
+
+void kiriSolver_SetMoved(kiriSolver* solver, int32_t body, bool isMoved)
+{
+    KIRI_ASSERT(body >= 0 && body < solver->bodies.bodies.count);
+    solver->moved.isListed = solver->moved.isListed && solver->bodies.bodies.data[body].isMoved == isMoved;
+    solver->bodies.bodies.data[body].isMoved = isMoved;
+}
+
+bool kiriSolver_ListMoved(kiriSolver* solver)
+{
+    const kiriSolverBodies* bodies = &solver->bodies;
+    kiriMoved* moved = &solver->moved;
+    if (moved->isListed) {
+        return false;
+    }
+    moved->bodies.count = moved->frames.count = moved->links.count = 0;
+    for (int32_t b = 0; b < bodies->bodies.count; ++b) {
+        const kiriSolverBody* body = &bodies->bodies.data[b];
+        if (body->isMoved) {
+            moved->bodies.data[moved->bodies.count++] = b;
+            for (int32_t n = 0; n < body->frames.count; ++n) {
+                moved->frames.data[moved->frames.count++] = bodies->frames.data[body->frames.first + n];
+            }
+            for (int32_t n = 0; n < body->links.count; ++n) {
+                moved->links.data[moved->links.count++] = bodies->links.data[body->links.first + n];
+            }
+        }
+    }
+    moved->isListed = true;
+    moved->version += 1;
+    return true;
+}
+
+const kiriMoved* kiriSolver_Moved(const kiriSolver* solver)
+{
+    return &solver->moved;
+}
+
+kiriIndexSpan kiriSolver_FramesOf(const kiriSolver* solver, int32_t body)
+{
+    KIRI_ASSERT(body >= 0 && body < solver->bodies.bodies.count);
+    kiriSpan frames = solver->bodies.bodies.data[body].frames;
+    return (kiriIndexSpan){ &solver->bodies.frames.data[frames.first], frames.count };
+}
+
+/* The hash of a sheet of one piece is that of its pattern. */
 uint64_t kiriSolver_Hash(const kiriSolver* solver)
 {
-    return kiriMatrix_Hash(solver->matrix);
+    uint64_t hash = kiriMatrix_Hash(solver->bodies.bodies.data[0].matrix);
+    for (int32_t b = 1; b < solver->bodies.bodies.count; ++b) {
+        kiriHash_Word(&hash, kiriMatrix_Hash(solver->bodies.bodies.data[b].matrix));
+    }
+    return hash;
 }
 
-/* ---- End of a step ---- */
+/* ---- Budget ------------------------------------------------------------------------------------------------------ */
 
-static bool IsReadable(const kiriSolver* solver)
+/* The links of a frame take as long as 80 products of blocks or as 4 contacts. */
+int64_t kiriSolver_WorkOf(const kiriSolver* solver, int32_t body, int32_t contactCount)
 {
-    KIRI_EACH(f, solver->awake.frames) {
+    KIRI_ASSERT(body >= 0 && body < solver->bodies.bodies.count && contactCount >= 0);
+    const kiriSolverBody* of = &solver->bodies.bodies.data[body];
+    int64_t frames = of->frames.count;
+    return 4 * frames * (solver->size > 6 ? 3 : 1) + contactCount + kiriMatrix_ProductCount(of->matrix) / 20;
+}
+
+int64_t kiriSolver_MostItems(const kiriSolver* solver, int32_t contactCount)
+{
+    return kiriSolver_ItemsOf(solver->allWork + contactCount);
+}
+
+int32_t kiriSolver_TakeSolved(kiriSolver* solver)
+{
+    int32_t solved = solver->solved;
+    solver->solved = 0;
+    return solved;
+}
+
+/* ---- Rows -------------------------------------------------------------------------------------------------------- */
+
+static kiriSolverBody* BodyOf(kiriSolver* solver, int32_t frame)
+{
+    KIRI_ASSERT(frame >= 0 && frame < solver->bodies.bodyOf.count);
+    kiriSolverBody* body = &solver->bodies.bodies.data[solver->bodies.bodyOf.data[frame]];
+    KIRI_ASSERT(body->isMoved);
+    return body;
+}
+
+/* Links are made from the last row on, so that each list ascends. */
+void kiriSolver_ShareRows(kiriSolver* solver, const kiriSystem* system)
+{
+    KIRI_ASSERT(solver->moved.isListed);
+    KIRI_ASSERT(system->pinCount <= solver->nextPin.capacity && system->clampCount <= solver->nextClamp.capacity &&
+                system->contactCount <= solver->nextContact.capacity);
+    for (int32_t n = 0; n < solver->moved.bodies.count; ++n) {
+        kiriSolverBody* body = &solver->bodies.bodies.data[solver->moved.bodies.data[n]];
+        body->pin = body->clamp = body->contact = KIRI_NONE;
+        body->contactCount = 0;
+    }
+    for (int32_t k = system->pinCount - 1; k >= 0; --k) {
+        kiriSolverBody* body = BodyOf(solver, system->pins[k].frame);
+        solver->nextPin.data[k] = body->pin;
+        body->pin = k;
+    }
+    for (int32_t k = system->clampCount - 1; k >= 0; --k) {
+        kiriSolverBody* body = BodyOf(solver, system->clamps[k].frame);
+        solver->nextClamp.data[k] = body->clamp;
+        body->clamp = k;
+    }
+    for (int32_t k = system->contactCount - 1; k >= 0; --k) {
+        kiriSolverBody* body = BodyOf(solver, system->contacts[k].weights[0].frame);
+        solver->nextContact.data[k] = body->contact;
+        body->contact = k;
+        body->contactCount += 1;
+    }
+}
+
+static void TakePins(kiriSolver* solver, const kiriSystem* sheet, kiriSystem* system)
+{
+    solver->pins.count = solver->pinRow.count = 0;
+    for (int32_t k = solver->body->pin; k != KIRI_NONE; k = solver->nextPin.data[k]) {
+        kiriPinRow* pin = &solver->pins.data[solver->pins.count++];
+        *pin = sheet->pins[k];
+        pin->frame = solver->bodies.place.data[pin->frame];
+        solver->pinRow.data[solver->pinRow.count++] = k;
+    }
+    system->pins = solver->pins.data;
+    system->pinCount = solver->pins.count;
+}
+
+static void TakeClamps(kiriSolver* solver, const kiriSystem* sheet, kiriSystem* system)
+{
+    solver->clamps.count = solver->clampRow.count = 0;
+    for (int32_t k = solver->body->clamp; k != KIRI_NONE; k = solver->nextClamp.data[k]) {
+        kiriClampRow* clamp = &solver->clamps.data[solver->clamps.count++];
+        *clamp = sheet->clamps[k];
+        clamp->frame = solver->bodies.place.data[clamp->frame];
+        solver->clampRow.data[solver->clampRow.count++] = k;
+    }
+    system->clamps = solver->clamps.data;
+    system->clampCount = solver->clamps.count;
+}
+
+/* What changes from tick to tick of links. */
+static void TakeLinkState(kiriSolver* solver, const kiriSystem* sheet, kiriSystem* system)
+{
+    const int32_t* links = solver->bodies.links.data + solver->body->links.first;
+    for (int32_t k = 0; sheet->linkParts != NULL && k < system->linkCount; ++k) {
+        solver->linkParts.data[k] = sheet->linkParts[links[k]];
+    }
+    for (int32_t k = 0; sheet->strainOffsets != NULL && k < system->linkCount; ++k) {
+        solver->strainOffsets.data[k] = sheet->strainOffsets[links[k]];
+    }
+    system->linkParts = sheet->linkParts != NULL ? solver->linkParts.data : NULL;
+    system->strainOffsets = sheet->strainOffsets != NULL ? solver->strainOffsets.data : NULL;
+}
+
+/* ---- A step ------------------------------------------------------------------------------------------------------ */
+
+static bool IsReadable(const kiriSolver* solver, int32_t frameCount)
+{
+    for (int32_t f = 0; f < frameCount; ++f) {
         if (!kiriFrame_FitsFloats(&solver->after.data[f])) {
             return false;
         }
@@ -357,8 +583,8 @@ static bool IsReadable(const kiriSolver* solver)
 
 static void WriteFrames(const kiriSolver* solver, const kiriSystem* system)
 {
-    KIRI_EACH(f, solver->awake.frames) {
-        kiriFrameData* frame = &system->frames[f];
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        kiriFrameData* frame = &solver->sheetFrames[solver->sheetFrame[f]];
         const kiriFrameData* end = &solver->after.data[f];
         frame->x = end->x;
         frame->A = frame->held                                  ? frame->heldRotation
@@ -371,66 +597,59 @@ static void WriteFrames(const kiriSolver* solver, const kiriSystem* system)
     }
 }
 
-/* What a contact or a moving hold gave in this step says nothing of the next one. */
+/* A contact or a moving hold says nothing of the next step. */
 static void ForgetHistories(kiriSolver* solver, const kiriSystem* system)
 {
     bool isEuler = system->mechanics.timeStepping == KIRI_TIME_STEPPING_EULER;
-    kiriSolver_FindTouched(solver, system, solver->poses.data);
-    KIRI_EACH(f, solver->awake.frames) {
-        if (isEuler || kiriSolver_PieceOf(solver, f)->isTouched) {
+    if (isEuler || solver->isTouched || kiriSolver_AreTouching(solver, system, solver->poses.data)) {
+        for (int32_t f = 0; f < system->frameCount; ++f) {
             memset(&solver->after.data[f].history, 0, sizeof(kiriHistory));
         }
     }
 }
 
-/* An item is the time of 16 frames, about 30 us: the links of a frame take as long as 80 products of blocks or as 4
-   contacts. */
-static int64_t ItemsOfSystem(const kiriSolver* solver, int64_t frames, int64_t products, int32_t contactCount)
+kiriSystem kiriSolver_Open(kiriSolver* solver, const kiriSystem* sheet, int32_t body)
 {
-    return 1 + (4 * frames * (solver->size > 6 ? 3 : 1) + contactCount + products / 20) / 64;
+    KIRI_ASSERT(body >= 0 && body < solver->bodies.bodies.count && solver->bodies.bodies.data[body].isMoved);
+    KIRI_ASSERT(sheet->frameCount == solver->bodies.bodyOf.count);
+    solver->body = &solver->bodies.bodies.data[body];
+    solver->matrix = solver->body->matrix;
+    solver->sheetFrames = sheet->frames;
+    solver->sheetFrame = &solver->bodies.frames.data[solver->body->frames.first];
+    kiriSystem system = SystemOf(&solver->bodies, solver->body, sheet, &solver->areaElements);
+    system.frames = solver->before.data;
+    TakePins(solver, sheet, &system);
+    TakeClamps(solver, sheet, &system);
+    TakeLinkState(solver, sheet, &system);
+    return system;
 }
 
-int64_t kiriSolver_SystemItems(const kiriSolver* solver, int32_t contactCount)
+int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* sheet, int32_t body, double dt, int32_t iterations,
+                        int32_t most)
 {
-    KIRI_ASSERT(solver->awake.isListed);
-    return ItemsOfSystem(solver, solver->awake.frames.count, kiriMatrix_ProductCount(solver->matrix, true),
-                         contactCount);
-}
-
-int64_t kiriSolver_MostItems(const kiriSolver* solver, int32_t contactCount)
-{
-    return ItemsOfSystem(solver, solver->frameCount, kiriMatrix_ProductCount(solver->matrix, false), contactCount);
-}
-
-int32_t kiriSolver_TakeSolved(kiriSolver* solver)
-{
-    int32_t solved = solver->solved;
-    solver->solved = 0;
-    return solved;
-}
-
-int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* system, double dt, int32_t iterations, int32_t most)
-{
-    KIRI_ASSERT(most >= 1);
-    kiriSolver_Begin(solver, system, dt);
-    int32_t done = kiriSolver_Minimise(solver, system, kiriMin(iterations, most), most);
+    KIRI_ASSERT(most >= 1 && iterations >= 1 && dt > 0.0);
+    kiriSystem system = kiriSolver_Open(solver, sheet, body);
+    kiriSolver_Begin(solver, &system, dt);
+    int32_t done = kiriSolver_Minimise(solver, &system, kiriMin(iterations, most), most);
     if (done >= 0) {
-        kiriSolver_LimitEnergy(solver, system);
-        ForgetHistories(solver, system);
+        kiriSolver_LimitEnergy(solver, &system);
+        ForgetHistories(solver, &system);
     }
-    if (done < 0 || !IsReadable(solver)) {
-        solver->awake.isListed = false; /* the matrix may have what is no number where it skips columns */
+    if (done < 0 || !IsReadable(solver, system.frameCount)) {
         return -1;
     }
-    kiriSolver_AddReactions(solver, system);
-    kiriSolver_AddGained(solver, system);
-    kiriSolver_EndContacts(solver, system);
-    WriteFrames(solver, system);
-    for (int32_t k = 0; k < system->clampCount; ++k) {
-        system->clamps[k].start = system->clamps[k].pose;
+    kiriSolver_AddReactions(solver, &system);
+    kiriSolver_AddGained(solver, &system);
+    kiriSolver_EndContacts(solver, &system);
+    WriteFrames(solver, &system);
+    for (int32_t k = 0; k < system.clampCount; ++k) {
+        kiriClampRow* row = &sheet->clamps[solver->clampRow.data[k]];
+        row->start = row->pose;
     }
     return done;
 }
+
+/* ---- Elements ---------------------------------------------------------------------------------------------------- */
 
 static const kiriAreaElement* AreaElementOf(const kiriSystem* system, int32_t k)
 {
@@ -471,15 +690,6 @@ int32_t kiriElement_Members(const kiriSystem* system, int32_t k, int32_t* member
         KIRI_ASSERT(m == 0 || members[m - 1] < members[m]);
     }
     return element->count;
-}
-
-int32_t kiriElement_FirstMember(const kiriSystem* system, int32_t k)
-{
-    const kiriLink* link = kiriElement_Link(system, k);
-    if (kiriElement_Corner(system, k) != NULL) {
-        link = &system->links[kiriElement_Corner(system, k)->link[0]];
-    }
-    return link != NULL ? link->i : system->areaElements->shares.data[AreaElementOf(system, k)->first].frame;
 }
 
 int32_t kiriElement_MostMembers(const kiriSystem* system)

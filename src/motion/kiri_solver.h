@@ -86,7 +86,6 @@ typedef struct kiriSystem {
     const double* linkParts;   /* what counts of each link, 0 to 1; null: all */
     const kiriCorner* corners; /* of these links */
     int32_t cornerCount;
-    const int32_t* linkWas; /* for each link: index in the system before, or KIRI_NONE; null: not known */
     const kiriStrainOffset* strainOffsets; /* one a link between rigid frames, or null */
     const kiriAreaElements* areaElements;  /* of affine frames; may be null where there are none */
     const kiriPinRow* pins;
@@ -103,61 +102,80 @@ typedef struct kiriSystem {
     const kiriAir* air; /* null: none */
 } kiriSystem;
 
-/* A solver for no frames yet. Null for memory. */
+/* What of a sheet ticks move: bodies, and their frames and links, by body. A body that sleeps, waits or is gone is in none, and costs nothing. */
+typedef struct kiriMoved {
+    kiriIndices bodies, frames, links;
+    bool isListed;   /* since bodies changed */
+    int64_t version; /* of the lists */
+} kiriMoved;
+
+typedef struct kiriIndexSpan {
+    const int32_t* data;
+    int32_t count;
+} kiriIndexSpan;
+
+/* Creates a solver without frames. Returns null on out of memory. */
 kiriSolver* kiriSolver_Create(kiriMemory* memory, const kiriMechanics* mechanics);
 
-/* Room for this system, before it is staged: of a large one the system takes a while to give it. See
-   kiriRooms_MakeReady. */
-kiriProgress kiriSolver_Reserve(kiriSolver* solver, const kiriSystem* next, kiriQuota* quota, int64_t bytesAnItem);
-
-/* Prepares for this system, of which only frameCount, links, corners, area elements and Poisson's ratio are read, and
-   which elements are in force: these are not looked at where they need not be; replaces what was staged before. Steps
-   go on with the current ones. framePiece[f] is the piece of frame f: no element joins frames of two pieces. The matrix
-   gets a new pattern only where the current one does not cover the pairs of frames that elements couple, or where
-   frameCount differs: links that vanish leave zero blocks, also in a new pattern, until these are more than twice as
-   many as the others.
-   Otherwise nothing is allocated but room that grows. False for memory: nothing is staged then. */
+/* Stages the bodies of a system: one a piece. Reads frameCount, links, corners, area elements and Poisson's
+   ratio. framePiece[f] is the piece of frame f. All frames of an element are in one piece.
+   Steps go on with the bodies in force. A body with the frames of one in force keeps its matrix if the pattern covers
+   all pairs of frames that elements couple. Else the new pattern keeps the old pairs, unless these are more than twice
+   as many. Replaces what was staged before. Fails on out of memory: then nothing is staged. */
 bool kiriSolver_Stage(kiriSolver* solver, const kiriSystem* next, const int32_t* framePiece, int32_t pieceCount);
 
-/* Of a solver that was read: is it the one of this system, with room for its steps? */
-bool kiriSolver_Fits(const kiriSolver* solver, const kiriSystem* system, const int32_t* framePiece, int32_t pieceCount);
-
-/* What is staged, if anything, becomes current. */
+/* Puts the staged bodies in force, all of them moved. No-op if nothing is staged. Cannot fail. */
 void kiriSolver_Commit(kiriSolver* solver);
 
-/* Of the current configuration: steps move what is awake and nothing else. All pieces are awake after a commit. Rows of
-   pins, clamps and contacts must be of pieces that are awake. */
-void kiriSolver_SetAwake(kiriSolver* solver, int32_t piece, bool isAwake);
+/* Makes bodies without elements, and with empty matrices: for a load. Fails on out of memory. */
+bool kiriSolver_MakeBodies(kiriSolver* solver, const int32_t* framePiece, int32_t frameCount, int32_t pieceCount);
 
-/* Makes the lists of what is awake, where they are others than before, and returns whether they are. The system is of
-   the current configuration. A step does so itself. */
-bool kiriSolver_ListAwake(kiriSolver* solver, const kiriSystem* system);
+/* Reserves room for the rows of steps. Fails on out of memory. */
+bool kiriSolver_ReserveRows(kiriSolver* solver, int64_t pins, int64_t clamps, int64_t contacts);
 
-/* These lists, as they were made last. */
-const kiriAwake* kiriSolver_Awake(const kiriSolver* solver);
+/* Sets whether ticks move a body. */
+void kiriSolver_SetMoved(kiriSolver* solver, int32_t body, bool isMoved);
 
-/* Of the pattern, which depends on what was staged before: the last bits of steps depend on it. */
+/* Updates the lists of what is moved. Returns true if they changed. */
+bool kiriSolver_ListMoved(kiriSolver* solver);
+
+const kiriMoved* kiriSolver_Moved(const kiriSolver* solver);
+
+/* Returns the frames of a body: indices of the sheet, ascending. */
+kiriIndexSpan kiriSolver_FramesOf(const kiriSolver* solver, int32_t body);
+
+/* Hashes the patterns. They depend on what was staged before, and the last bits of steps depend on them. */
 uint64_t kiriSolver_Hash(const kiriSolver* solver);
-
-/* Room for so many contacts: steps have no more. False for memory. */
-bool kiriSolver_ReserveContacts(kiriSolver* solver, int32_t count);
 
 enum { KIRI_EXTRA_SYSTEMS = 6 }; /* of a step, beside its iterations */
 
-/* What a linear system of what is listed awake counts in a budget, see kiriBudget in kiri.h; and of all, asleep or
-   not. */
-int64_t kiriSolver_SystemItems(const kiriSolver* solver, int32_t contactCount);
+/* Returns the work of a linear system of a body, in contacts. Systems of several bodies that are solved side by side
+   count in a budget by the sum of their work, see kiriBudget in kiri.h. */
+int64_t kiriSolver_WorkOf(const kiriSolver* solver, int32_t body, int32_t contactCount);
+
+/* An item is the time of 16 frames, about 30 us. */
+static inline int64_t kiriSolver_ItemsOf(int64_t work)
+{
+    return 1 + work / 64;
+}
+
+/* Returns the items of a system of all bodies. */
 int64_t kiriSolver_MostItems(const kiriSolver* solver, int32_t contactCount);
 
-/* The linear systems that steps solved since this was last called. */
+/* Returns the linear systems that steps solved since the last call. */
 int32_t kiriSolver_TakeSolved(kiriSolver* solver);
 
-/* Moves the frames by dt. Links, corners and area elements are those that were committed; normals of contacts are unit,
-   heldRotation is a rotation. Returns the number of linear systems solved: `iterations`, and up to
-   KIRI_EXTRA_SYSTEMS more where the motion asks for them, but at most `most` (1 or more). Or -1 when it cannot be
-   continued (not finite); the frames are then as before the call. Allocates nothing. Forces on frames are used, not
-   cleared; reactions are added to. */
-int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* system, double dt, int32_t iterations, int32_t most);
+/* Assigns rows of pins, clamps and contacts to their bodies. All are of bodies that are moved. Steps need that whenever
+   rows were written. */
+void kiriSolver_ShareRows(kiriSolver* solver, const kiriSystem* system);
+
+/* Moves the frames of a body by dt. Links, corners and area elements are those in force; normals of contacts are unit,
+   heldRotation is a rotation. Returns the number of linear systems solved: `iterations`, and up to KIRI_EXTRA_SYSTEMS
+   more where the motion asks for them, but at most `most` (1 or more). Returns -1 if the motion cannot be continued (not
+   finite): then the frames are as before the call. Allocates nothing. Reads forces on frames and does not clear them;
+   adds to reactions. */
+int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* system, int32_t body, double dt, int32_t iterations,
+                        int32_t most);
 
 /* Elastic energy of all elements, J. */
 double kiriSolver_ElasticEnergy(const kiriSystem* system);
@@ -219,9 +237,8 @@ static inline bool kiriElement_IsRigidCorner(const kiriSystem* system, int32_t k
     return !kiriMechanics_IsAffine(&system->mechanics) && kiriElement_Corner(system, k) != NULL;
 }
 
-/* Writes the frames of an element, and returns how many there are; all of them are of the piece of the first. */
+/* Writes the frames of an element and returns their count. All are in one piece. */
 int32_t kiriElement_Members(const kiriSystem* system, int32_t k, int32_t* members);
-int32_t kiriElement_FirstMember(const kiriSystem* system, int32_t k);
 
 /* The largest number of frames that an element has, 2 or more. */
 int32_t kiriElement_MostMembers(const kiriSystem* system);
@@ -242,30 +259,30 @@ kiriTrace kiriElement_Trace(const kiriSystem* system, int32_t k, const double* s
 /* The strains without their offsets: those that pull. */
 void kiriElement_TakeOffsets(const kiriSystem* system, int32_t k, const double* strain, double* pulling);
 
-/* What the files of the solver share: kiri_solver.c (unknowns, pattern, a step), kiri_step.c, kiri_step.c,
-   kiri_step.c, kiri_contact_row.c, kiri_contact_row.c, kiri_contact_row.c, kiri_contact_row.c,
-   kiri_energy.c and kiri_step.c. No other file of the library includes it.
-
-   The step is a minimisation over the poses of the frames at its end. The objective is
+/* A step of a body (kiri_solver.c, kiri_step.c, kiri_contact_row.c, kiri_energy.c). It is a minimisation over the poses
+   of the frames at its end. The objective is
 
        1/2 sum over mass points of m |x - x*|^2 / h'^2,  x* and h' by the scheme (kiri_frame.h)
-     + energies of elements (kiri_solver.h), pins, clamps and contacts
+     + energies of elements, pins, clamps and contacts
      + flex damping: 1/2 k (flexDamping / dt) (strain - strain at the start of the step)^2 for each strain.
 
    All are squares, so a Gauss-Newton step solves with J^T k J + mass: positive definite by itself, with a pattern that
-   only the elements decide. The order of summation is fixed. */
+   only the elements decide. The order of summation is fixed.
+
+   The system of a body numbers its frames, links, corners, pins and clamps by themselves. Its frames are
+   solver->before. Contacts stay rows of the sheet (kiriContactStep.row). */
 
 #define KIRI_ROUNDING 1e-12                /* of an objective, relative */
 #define KIRI_LAST_BITS (8.0 * DBL_EPSILON) /* of a length: what a few operations round off */
 #define KIRI_SHORT_STEP 0.3                /* a Gauss-Newton step of which no more than this is taken was cut short */
 
-/* One of a frame's unknowns: the part along an axis of one of its vectors, see kiriFrameRow. */
+/* An unknown of a frame: the part of one of its vectors along an axis, see kiriFrameRow. */
 typedef struct kiriUnknown {
     int vector, number; /* of the axis */
     kiriVec3 axis;
 } kiriUnknown;
 
-/* The objective, and what of it is energy that the sheet has: the rest is lost, or the inertia's. */
+/* The objective, and the part of it that is energy of the sheet: the rest is lost, or inertia. */
 typedef struct kiriStepEnergy {
     double objective, potential;
 } kiriStepEnergy;
@@ -274,103 +291,131 @@ enum { KIRI_CONTACT_MEMBERS = 8 };
 
 #define KIRI_SLIDE_FLOOR 1e-9 /* m: a shorter way is no slide */
 
-/* A contact in one step. While a linear system is solved, and along the step that it leads to, it is a spring on the
-   depth, whether that is above zero or not, and either a spring on the slide or a force of a given size. After each
-   system contacts are chosen anew (kiriSolver_ReviewContacts): those that would pull let go, those that came below
-   their plane push; those that held with more than friction can slip, and those whose slide turned round stick. */
+/* A contact in one step. In a linear system, and along the step that it leads to, it is a spring on the depth, above
+   zero or not, and either a spring on the slide or a force of a given size. After each system contacts are chosen anew
+   (kiriSolver_ReviewContacts): those that would pull let go, those below their plane push; those that held with more
+   than friction can slip, and those whose slide turned round stick. */
 typedef struct kiriContactStep {
+    kiriContactRow* row;
     kiriWeight members[KIRI_CONTACT_MEMBERS]; /* the frames that it acts on */
     int32_t memberCount;
-    bool isHeld;      /* are they held, half of them by weight? */
+    bool isHeld;      /* the host holds half of them or more, by weight */
     double mass;      /* kg: of the frames, by their weights */
     kiriVec3 start;   /* m: its point at the start of the step */
     kiriVec3 carried; /* m: how far the obstacle goes in the step */
-    double plane;     /* m: offset at the end of the step, as far up as the point may be pushed: */
-    double lowered;   /* so much below the obstacle's surface */
+    double plane;     /* m: offset at the end of the step, no farther up than the point may be pushed: */
+    double lowered;   /* that much below the obstacle's surface */
     double lift;      /* m: how far the plane lifts the point at most */
-    kiriVec3 held;    /* N: friction of the last step: so what sticks does not creep */
+    kiriVec3 held;    /* N: friction of the last step, so that what sticks does not creep */
     bool isActive, sticks;
     double limit;           /* N: of friction where it slips */
     kiriVec3 direction;     /* of the slide: unit or zero */
-    double known;           /* N: the largest push that is known of */
+    double known;           /* N: the largest push that any system had */
     double stiffness, grip; /* N/m: of the springs on depth and slide */
     double give;            /* m/N: how far the obstacle yields in the step, and its cushion */
     double shared;          /* m/N: the same for what holds the point up after the last system */
-    double depth, sinks;    /* m: where the system was assembled, and how it changes by the whole solution */
+    double depth, sinks;    /* m: where the system was assembled, and its change by the whole solution */
     kiriVec3 slide, slides; /* m: the same */
-    double solved;          /* N: the push that the last system left, before the piece was held up */
+    double solved;          /* N: the push that the last system left, before the body was held up */
     double push;            /* N: by the systems solved so far, */
     kiriVec3 drag;          /* N: and friction */
 } kiriContactStep;
 
-/* The step of one piece. No element joins two, so each has a line search and an energy limit of its own. */
-typedef struct kiriPieceStep {
-    kiriStepEnergy sum;        /* what was evaluated last */
+/* What acts on a body beside gravity and forces. */
+typedef enum kiriSupport {
+    KIRI_SUPPORT_NONE,     /* nothing: its momentum is its own */
+    KIRI_SUPPORT_CONTACTS, /* contacts alone */
+    KIRI_SUPPORT_HELD      /* pins, clamps, holds or wind */
+} kiriSupport;
+
+/* Newton's iteration. */
+typedef struct kiriSearch {
     kiriStepEnergy start, now; /* where the step starts, and where the iteration is */
     double noise;              /* J: what rounding leaves unknown of the objective */
-    kiriStepping stepping;     /* the scheme of this step */
-    double kinetic;            /* J: after the step, beside that of the mean velocity; */
-    double turning;            /* of it, that of turning as one body; */
-    double moving;             /* J: and that of the mean velocity */
-    double gain;               /* J: what the energy grows by in the step beyond work */
     double scale;              /* the part of the Gauss-Newton step that is tried, */
     double enough;             /* the objective that it has to reach, */
     double promise;            /* J: and by how much all of it would lower the objective, were that quadratic */
-    /* What the energy limit leaves of velocities: of the mean, of turning as one body, of the rest. */
-    double keepMean, keepTurning, keepRest;
-    bool isShared; /* do other pieces press on it, or it on them? */
-    double stored; /* J: in links, pins and clamps by the step */
-    kiriVec3 mean; /* by mass, over its frames: of offsets, or of what is carried on from the last step */
-    double mass;
-    int32_t wanted;          /* systems that are solved for it at least */
-    bool isFree;             /* do only gravity and forces act on it? */
-    bool isPushed;           /* is it free but for contacts? */
-    bool isUnsettled;        /* do contacts want another system? */
-    bool isNear;             /* has it contacts? */
-    bool isPinned;           /* is it free but for pins and contacts? */
-    double pressed;          /* N s: sum of what contacts gave, without their directions */
-    double obstacleSpeed;    /* m/s: the fastest that an obstacle moves at a contact */
-    double means;            /* J: of a piece with contacts: more than it had, and so much, it cannot store */
-    bool isHeldUp;           /* were frames moved up to planes after the last system? */
-    bool isThrown;           /* did contacts push it too hard? */
-    double mostPush;         /* N: the largest */
-    kiriVec3 asked, given;   /* N: the sum of what contacts should do, and of what they can; */
-    double keepForces;       /* and what is left of each force */
-    double more;             /* what contacts did, times what they say of themselves; 1 where nobody knows better */
-    double held;             /* N/m: by its pins, all together */
-    int32_t solved;          /* systems, since it began */
-    bool isCrossing;         /* does friction end the step before all of it is taken? */
-    double slope, low, high; /* J: of the objective by the part that is taken; parts between which it is zero */
-    bool isTouched;          /* by a contact in this step, or carried about by a hold */
-    bool isNew;              /* does it start (anew, by backward Euler)? */
-    int suspect;             /* after so many Gauss-Newton steps it had gained too much energy, one after another */
-    bool isFirst;            /* is its next Gauss-Newton step the first? */
-    bool isIterated;         /* does the iteration go on? */
-    bool isSearching;        /* is a step sought that lowers the objective? */
-} kiriPieceStep;
+    int32_t wanted;            /* systems that are solved at least */
+    int32_t solved;            /* systems since the body began */
+    int32_t suspects;          /* Gauss-Newton steps in a row that gained too much energy */
+    bool isFirst;              /* the next Gauss-Newton step is the first */
+} kiriSearch;
+
+/* The contacts of a body together. */
+typedef struct kiriContactSum {
+    bool isNear;       /* it has contacts that can push */
+    bool isUnsettled;  /* they want another system */
+    bool isHeldUp;     /* frames were moved up to planes after the last system */
+    double means;      /* J: the body cannot store more than it had and this */
+    double keepForces; /* the part that is left of each force */
+} kiriContactSum;
+
+/* J: energies after the step. */
+typedef struct kiriEnergyStep {
+    double kinetic; /* beside that of the mean velocity; */
+    double turning; /* of it, that of turning as one body; */
+    double moving;  /* and that of the mean velocity */
+    double gain;    /* growth of energy in the step beyond work */
+} kiriEnergyStep;
+
+/* A connected piece of a sheet as a system of its own. Spans are into kiriSolverBodies. */
+typedef struct kiriSolverBody {
+    kiriSpan frames, links, corners, elements;
+    kiriMatrix* matrix;
+    bool ownsMatrix; /* while staged: no body in force has it */
+    bool isMoved;
+    int32_t pin, clamp, contact; /* the first of its rows in the tick, or KIRI_NONE */
+    int32_t contactCount;
+} kiriSolverBody;
+
+/* All bodies of a sheet, numbered as its pieces. What belongs to one lies together, in the order of the sheet. */
+typedef struct kiriSolverBodies {
+    KIRI_ARRAY(kiriSolverBody) bodies;
+    kiriIndices bodyOf, place;        /* of each frame of the sheet: its body, and its number there */
+    kiriIndices frames, links;        /* of the sheet */
+    KIRI_ARRAY(kiriLink) ownLinks;    /* with frames of the body */
+    KIRI_ARRAY(kiriCorner) corners;   /* with links of the body */
+    kiriAreaElements areaElements;    /* with frames of the body; shares in the order of the sheet */
+} kiriSolverBodies;
 
 struct kiriSolver {
     kiriMemory* memory;
     kiriMechanics mechanics;
-    double dt, damping; /* h of this step; flexDamping / dt */
-    bool isAlong;       /* are poses those along the step that was solved for? */
-    bool isHeld;        /* does the host move a frame? */
-    int32_t solved;     /* linear systems since TakeSolved */
-    int32_t size;       /* unknowns a frame */
+    int32_t size; /* unknowns a frame */
     kiriUnknown unknowns[KIRI_MOST_UNKNOWNS];
-    kiriMatrix *matrix, *nextMatrix;        /* the current one, and one with room for the next pattern */
-    kiriIndices framePiece, nextFramePiece; /* of each frame */
-    int32_t pieceCount, nextPieceCount;
-    int32_t frameCount, nextFrameCount;
-    int32_t elementCount, nextElementCount;
-    kiriAwake awake;
-    bool isStaged, isNextMatrix; /* is there a next configuration, and has it a pattern of its own? */
-    KIRI_ARRAY(kiriPair) pairs;  /* scratch: of the next configuration */
-    /* Room for the larger of the two configurations. */
-    KIRI_ARRAY(kiriPieceStep) pieces;
-    KIRI_ARRAY(kiriPieceMomentum) momenta; /* of pieces */
+    int32_t solved; /* linear systems since TakeSolved */
+    int64_t allWork; /* of a system of each body, without contacts */
+    kiriSolverBodies bodies, next; /* in force, and staged */
+    bool isStaged;
+    kiriMoved moved;
+    KIRI_ARRAY(kiriPair) pairs;                  /* scratch: of a staged body */
+    kiriIndices linkPlace, order;                /* scratch: of each staged link, its number in its body */
+    kiriIndices nextPin, nextClamp, nextContact; /* of each row, the next one of its body; or KIRI_NONE */
+
+    /* The body that steps. Arrays have room for the largest body, in force or staged. */
+    const kiriSolverBody* body;
+    kiriMatrix* matrix;
+    kiriFrameData* sheetFrames;
+    const int32_t* sheetFrame; /* of each frame of the body */
+    double dt, damping;        /* h of this step; flexDamping / dt */
+    int32_t elementCount;
+    bool isAlong;   /* poses are those along the step that was solved for */
+    bool isHeld;    /* the host moves a frame */
+    bool isTouched; /* by a contact in this step, or carried about by a hold */
+    kiriSupport support;
+    kiriStepping stepping;
+    kiriSearch search;
+    kiriContactSum touch;
+    kiriEnergyStep energy;
+    kiriPieceMomentum momentum;
+    kiriAreaElements areaElements; /* part of those of all bodies */
+    KIRI_ARRAY(kiriPinRow) pins;
+    KIRI_ARRAY(kiriClampRow) clamps;
+    kiriIndices pinRow, clampRow; /* of each: the row of the sheet */
     KIRI_ARRAY(kiriContactStep) contacts;
-    /* The step; flattened where the sheet is planar, and with velocities that the air has slowed. */
+    KIRI_ARRAY(double) linkParts;
+    KIRI_ARRAY(kiriStrainOffset) strainOffsets;
+    /* Flattened where the sheet is planar, and with velocities that the air has slowed. */
     KIRI_ARRAY(kiriFrameData) before, after;
     KIRI_ARRAY(kiriPrediction) predictions;   /* one a frame, as are the poses */
     KIRI_ARRAY(kiriPose) start, poses, trial; /* at the start of the step, now, and where a step would lead */
@@ -380,45 +425,34 @@ struct kiriSolver {
        ends of each. */
     KIRI_ARRAY(double) nowStrain, tracedRows;
     KIRI_ARRAY(double) force, move; /* the right side: minus the gradient; and the solution */
-    KIRI_ARRAY(uint8_t) stopping;   /* would a step have brought this element to its stop? */
+    KIRI_ARRAY(uint8_t) stopping;   /* of each element: a step would have brought it to its stop */
     /* Scratch for one element. */
     kiriIndices members;
     KIRI_ARRAY(kiriFrameRow) rows;
     KIRI_ARRAY(double) J;
 };
 
-static inline kiriPieceStep* kiriSolver_PieceOf(const kiriSolver* solver, int32_t frame)
-{
-    KIRI_ASSERT(frame >= 0 && frame < solver->frameCount);
-    return &solver->pieces.data[solver->framePiece.data[frame]];
-}
-
-static inline kiriPieceStep* kiriSolver_PieceOfElement(const kiriSolver* solver, const kiriSystem* system, int32_t k)
-{
-    return kiriSolver_PieceOf(solver, kiriElement_FirstMember(system, k));
-}
-
 /* ---- Unknowns (kiri_solver.c) ---- */
 
-/* The derivative by the unknowns from that by the vectors of a frame; and the vectors that unknowns stand for, times
-   `scale`. */
+/* Derives by the unknowns from the derivative by the vectors of a frame; and expands unknowns, times `scale`, to the
+   vectors that they stand for. */
 void kiriSolver_Reduce(const kiriSolver* solver, const kiriFrameRow* row, double* values);
 kiriFrameRow kiriSolver_Expand(const kiriSolver* solver, double scale, const double* values);
 
-/* In a planar sheet: what is left of a vector in its plane. */
+/* In a planar sheet: the part of a vector in its plane. */
 kiriVec3 kiriMechanics_InPlane(const kiriMechanics* mechanics, kiriVec3 a);
 kiriVec3 kiriSystem_Gravity(const kiriSystem* system);
 
 /* ---- Begin of a step (kiri_step.c) ---- */
 
-/* Chooses the scheme of each piece, predicts, and clears the rest. */
+/* Opens a body for a step: returns its system. Begin reads its frames. */
+kiriSystem kiriSolver_Open(kiriSolver* solver, const kiriSystem* sheet, int32_t body);
+
+/* Reads the frames from those of the sheet, chooses the scheme, predicts, and clears the rest. */
 void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt);
 
-/* The pieces that are new take this step by backward Euler; their poses are where that starts. */
-void kiriSolver_BecomeEuler(kiriSolver* solver, const kiriSystem* system);
-
-/* Marks the pieces of which contacts touch a point at these poses. */
-void kiriSolver_FindTouched(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses);
+/* Returns true if contacts touch a point at these poses. */
+bool kiriSolver_AreTouching(const kiriSolver* solver, const kiriSystem* system, const kiriPose* poses);
 
 /* ---- Objective ---- */
 
@@ -434,23 +468,8 @@ static inline kiriVec3 kiriSystem_Point(const kiriSystem* system, int32_t frame,
     return kiriVec3_Add(poses[frame].x, kiriSystem_Arm(system, frame, at, &poses[frame]));
 }
 
-/* The strains of element k at the poses. `strains` has KIRI_MOST_STRAINS an element; those of a corner's links are
-   there already. */
-void kiriObjective_Measure(const kiriSystem* system, int32_t k, const kiriPose* poses, double* strains);
-
-/* Adds the energy of element k, whose strains these are; `pulling` without their offsets. */
-void kiriObjective_AddElement(const kiriSolver* solver, const kiriSystem* system, int32_t k, const double* strain,
-                              const double* pulling, kiriStepEnergy* sum);
-
-/* Starts the sums of the pieces that search with what the inertia has; adds what pins, clamps and contacts have. */
-void kiriObjective_AddInertia(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses);
-void kiriObjective_AddHost(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses);
-
-/* The sums of the pieces that search, at these poses. */
-void kiriObjective_Evaluate(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses);
-
-/* What rounding leaves unknown of the objective of each piece. */
-void kiriObjective_FindNoise(kiriSolver* solver, const kiriSystem* system);
+/* Returns the objective at these poses. */
+kiriStepEnergy kiriObjective_Evaluate(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses);
 
 /* ---- Assembly ---- */
 
@@ -458,124 +477,85 @@ void kiriObjective_FindNoise(kiriSolver* solver, const kiriSystem* system);
 void kiriSolver_AddSquares(kiriSolver* solver, const int32_t* frames, int32_t frameCount, const double* J,
                            const double* springs, const double* pulls, int rows);
 
-/* The linear system of a Gauss-Newton step from the poses, and the sums there, as kiriObjective_Evaluate has them. */
-void kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system);
-
-/* A spring on a point of a frame, stretched by `length` along the unit vector `axis`. */
-void kiriSolver_AddSpring(kiriSolver* solver, const kiriSystem* system, int32_t f, kiriVec2 at, kiriVec3 axis,
-                          double length, double stiffness);
+/* Assembles the linear system of a Gauss-Newton step from the poses, and returns the objective there. */
+kiriStepEnergy kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system);
 
 /* ---- Wind (kiri_step.c) ---- */
 
 bool kiriSystem_HasWind(const kiriSystem* system);
 
-/* Where there is: its part of the objective of the pieces that search, and of their linear system. */
-void kiriWind_AddEnergy(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses);
-void kiriWind_Assemble(kiriSolver* solver, const kiriSystem* system);
-
-/* Its work on a frame in the step, J, when solver->after is known; and with what it acts at the poses, about x. */
+/* J: its work on a frame in the step, when solver->after is known. */
 double kiriWind_Work(const kiriSolver* solver, const kiriSystem* system, int32_t f);
-kiriWrench kiriWind_OnFrame(const kiriSolver* solver, const kiriSystem* system, int32_t f);
 
 /* ---- Newton iteration ---- */
 
 /* Returns the number of linear systems solved, or -1 where one has no solution. */
 int32_t kiriSolver_Minimise(kiriSolver* solver, const kiriSystem* system, int32_t iterations, int32_t most);
 
-/* ---- Limit of energy ---- */
+/* ---- Limit of energy (kiri_energy.c) ---- */
 
-/* `mean` and `mass` of all pieces. */
-void kiriSolver_ClearMeans(kiriSolver* solver);
+/* Moves a free body to where the prediction has its centre of mass. */
+void kiriSolver_CenterBody(kiriSolver* solver, const kiriSystem* system);
 
-/* Moves free pieces to where the prediction has their centre of mass. */
-void kiriSolver_CenterFreePieces(kiriSolver* solver, const kiriSystem* system);
-
-/* The frames after the step, if it ended at the poses, and what energy each piece gained. Free pieces are
-   centered, and get the angular momentum that is due. */
+/* Finds the frames after the step, if it ended at the poses, and the energy that the body gained. A free body is
+   centered, and gets the angular momentum that is due. */
 void kiriSolver_FindGains(kiriSolver* solver, const kiriSystem* system);
 
-/* The most that the energy limit can take out of the velocities of a piece, J. */
-double kiriPieceStep_MostTaken(const kiriPieceStep* piece);
+/* J: the most that the energy limit can take out of the velocities. */
+double kiriSolver_MostTaken(const kiriSolver* solver);
 
-/* Takes what pieces gained out of their velocities. */
+/* Takes what the body gained out of its velocities. */
 void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system);
 
-/* Then, of a piece on which others press, or which they feel: adds to frames of it by how much its energy grew in the
-   step beyond the work of gravity, of the host's forces and of obstacles that move (`gained`), and the work and the
-   impulse of the other pieces (`passed`, `received`). */
+/* Then, if other bodies press on it, or it on them: adds to frames of the sheet by how much energy grew in the step
+   beyond the work of gravity, of the host's forces and of obstacles that move (`gained`), and the work and the impulse
+   of other bodies (`passed`, `received`). */
 void kiriSolver_AddGained(kiriSolver* solver, const kiriSystem* system);
 
 /* ---- Contacts (kiri_contact_row.c) ---- */
-
-static inline kiriPieceStep* kiriContact_PieceOf(const kiriSolver* solver, const kiriSystem* system, int32_t k)
-{
-    return kiriSolver_PieceOf(solver, system->contacts[k].weights[0].frame);
-}
 
 static inline kiriVec3 kiriVec3_AlongPlane(kiriVec3 a, kiriVec3 normal)
 {
     return kiriVec3_AddScaled(a, -kiriVec3_Dot(a, normal), normal);
 }
 
-/* Where frames have a point by these weights. */
-kiriVec3 kiriSystem_PointOfMany(const kiriSystem* system, const kiriWeight* weights, int32_t count, kiriVec2 at,
-                                const kiriPose* poses);
-
-/* 1/kg: of the obstacle at a point, along a direction. N/m: of what resists the point of a contact by its inertia
-   alone. */
-double kiriContact_InverseMass(const kiriSystem* system, int32_t k, kiriVec3 point, kiriVec3 along);
-double kiriContact_Inertia(const kiriSolver* solver, const kiriSystem* system, int32_t k);
-
-/* Places planes and points for a step; then, once a piece has its scheme and its prediction, guesses what its contacts
-   do (kiri_contact_row.c). */
+/* Makes the contacts of the body: places planes and points for a step. Once the body has its scheme and its prediction,
+   GuessContacts guesses what they do. */
 void kiriSolver_BeginContacts(kiriSolver* solver, const kiriSystem* system);
 void kiriSolver_GuessContacts(kiriSolver* solver, const kiriSystem* system);
 
 /* Where the members have the point. */
-kiriVec3 kiriContact_Point(const kiriSolver* solver, const kiriSystem* system, int32_t k, const kiriPose* poses);
-double kiriContact_Depth(const kiriSolver* solver, const kiriSystem* system, int32_t k, const kiriPose* poses);
+kiriVec3 kiriContact_Point(const kiriSystem* system, const kiriContactStep* step, const kiriPose* poses);
+double kiriContact_Depth(const kiriSystem* system, const kiriContactStep* step, const kiriPose* poses);
 
 /* Before a system is assembled: springs, depths and slides there. After it is solved: how they change. */
 void kiriSolver_LinearizeContacts(kiriSolver* solver, const kiriSystem* system);
-void kiriContact_Assemble(kiriSolver* solver, const kiriSystem* system, int32_t k); /* kiri_contact_row.c */
+void kiriContact_Assemble(kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step);
 void kiriSolver_MoveContacts(kiriSolver* solver, const kiriSystem* system);
 
-/* N: friction by the linear model after a part of the step, on the sheet. N/m: what turns the direction of a slide. */
-kiriVec3 kiriContactStep_Drag(const kiriContactStep* step, double part);
-double kiriContactStep_TurnSpring(const kiriContactStep* step);
+/* Shortens the step to where friction, which slips instead of sticking or the other way, ends it: where the derivative
+   of the objective along it is zero. */
+void kiriSolver_LimitByFriction(kiriSolver* solver);
 
-/* Shortens the step of a piece to where friction, which slips instead of sticking or the other way, ends it: where the
-   derivative of the objective along it is zero. */
-void kiriSolver_LimitByFriction(kiriSolver* solver, const kiriSystem* system);
+/* Returns what the contact adds to the objective, by its linear model after a part of the step. */
+double kiriContact_Energy(const kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step,
+                          const kiriPose* poses);
 
-/* What the contact adds to the objective, by its linear model after a part of the step. */
-double kiriContact_Energy(const kiriSolver* solver, const kiriSystem* system, int32_t k, const kiriPose* poses);
-
-/* After a step: its forces, and what contacts do in the next system. */
+/* After a step: finds its forces, and chooses what contacts do in the next system. */
 void kiriSolver_ReviewContacts(kiriSolver* solver, const kiriSystem* system);
 
-/* After the last system (kiri_contact_row.c): moves what still is well below planes back up, frame by frame or, where
-   that would store more energy than the piece has, as a whole, and counts what that takes as pushes. */
+/* After the last system: moves what still is well below planes back up, frame by frame or, where that would store more
+   energy than the body has, as a whole, and counts what that takes as pushes. */
 void kiriSolver_HoldContacts(kiriSolver* solver, const kiriSystem* system);
 
-/* Before the forces are asked for: fits them to where pieces ended. */
+/* Before the forces are asked for: fits them to where the body ended. */
 void kiriSolver_BalanceContacts(kiriSolver* solver, const kiriSystem* system);
 
-/* The force on the sheet, N, within the cone of friction; and how much work the obstacle may have done with it, J. */
-kiriVec3 kiriContact_Force(const kiriSolver* solver, const kiriSystem* system, int32_t k);
-double kiriContact_Work(const kiriSolver* solver, const kiriSystem* system, int32_t k);
+/* N: the force on the sheet, within the cone of friction; and J: how much work the obstacle may have done with it. */
+kiriVec3 kiriContact_Force(const kiriSolver* solver, const kiriContactStep* step);
+double kiriContact_Work(const kiriSolver* solver, const kiriContactStep* step);
 
-/* m/s: of the material of the obstacle at a point, with what sheets gave it in this tick. */
-kiriVec3 kiriContact_PlaneVelocity(const kiriSystem* system, int32_t k, kiriVec3 point);
-
-/* Gives what yields so many times what the contact did in the step. */
-void kiriContact_Give(const kiriSolver* solver, const kiriSystem* system, int32_t k, double times);
-
-/* Gives what yields what contacts did in the step. Of a pinned piece that is what its momentum and its pins say, as far
-   as obstacles may have it; its pins have the rest (kiri_contact_row.c). */
-void kiriSolver_BalancePinned(kiriSolver* solver, const kiriSystem* system);
-
-/* Writes what the step did to rows, contacts' and those of what yields. */
+/* Writes what the step did to rows of contacts and of what yields. */
 void kiriSolver_EndContacts(kiriSolver* solver, const kiriSystem* system);
 
 /* ---- Reactions (kiri_step.c) ---- */

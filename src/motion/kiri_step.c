@@ -91,101 +91,73 @@ static kiriPrediction PredictFrame(const kiriSystem* system, const kiriFrameData
                : kiriPrediction_Free(frame, &system->material, gravity, stepping);
 }
 
-/* No inner force moves the centre of mass of a free piece: it falls on its parabola also where the piece takes a step
-   of backward Euler between those of second order. */
-static bool IsShifted(const kiriSystem* system, const kiriPieceStep* piece)
+/* No inner force moves the centre of mass of a free body: it falls on its parabola also where the body takes a step of
+   backward Euler between those of second order. */
+static void ShiftFreeBody(kiriSolver* solver, const kiriSystem* system)
 {
-    return piece->isNew && piece->isFree && piece->stepping.isEuler &&
-           system->mechanics.timeStepping != KIRI_TIME_STEPPING_EULER;
-}
-
-static void ShiftFreePieces(kiriSolver* solver, const kiriSystem* system)
-{
-    kiriSolver_ClearMeans(solver);
-    KIRI_EACH(f, solver->awake.frames) {
-        kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
-        double mass = system->frames[f].mass;
+    kiriVec3 mean = { 0.0, 0.0, 0.0 };
+    double mass = 0.0;
+    if (solver->support != KIRI_SUPPORT_NONE || !solver->stepping.isEuler ||
+        system->mechanics.timeStepping == KIRI_TIME_STEPPING_EULER) {
+        return;
+    }
+    for (int32_t f = 0; f < system->frameCount; ++f) {
         kiriVec3 change = kiriVec3_Sub(solver->predictions.data[f].velocity, solver->before.data[f].velocity);
-        piece->mean = kiriVec3_AddScaled(piece->mean, mass, change);
-        piece->mass += mass;
+        mean = kiriVec3_AddScaled(mean, system->frames[f].mass, change);
+        mass += system->frames[f].mass;
     }
-    KIRI_EACH(f, solver->awake.frames) {
-        const kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
+    for (int32_t f = 0; f < system->frameCount; ++f) {
         kiriPrediction* prediction = &solver->predictions.data[f];
-        if (IsShifted(system, piece)) {
-            prediction->shift = kiriVec3_Scale(-0.5 * piece->stepping.h / piece->mass, piece->mean);
-            prediction->pose.x = kiriVec3_Add(prediction->pose.x, prediction->shift);
-        }
+        prediction->shift = kiriVec3_Scale(-0.5 * solver->stepping.h / mass, mean);
+        prediction->pose.x = kiriVec3_Add(prediction->pose.x, prediction->shift);
     }
 }
 
-/* Of the pieces that begin. */
 static void Predict(kiriSolver* solver, const kiriSystem* system)
 {
-    KIRI_EACH(f, solver->awake.frames) {
-        const kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
-        if (piece->isNew) {
-            solver->predictions.data[f] = PredictFrame(system, &solver->before.data[f], &piece->stepping);
-            solver->poses.data[f] = solver->predictions.data[f].guess;
-        }
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        solver->predictions.data[f] = PredictFrame(system, &solver->before.data[f], &solver->stepping);
+        solver->poses.data[f] = solver->predictions.data[f].guess;
     }
-    ShiftFreePieces(solver, system);
+    ShiftFreeBody(solver, system);
 }
 
 /* ---- Schemes ----
 
-   A piece takes a step of second order where all of its frames have the history of one step. History is taken by the
-   piece and never by the frame: else action and reaction would differ. */
+   A body takes a step of second order where all of its frames have the history of one step. The body takes history as
+   a whole, not frame by frame: else action and reaction would differ. */
 
-/* Did the last step of this frame say nothing of the next one? It was held, or is; or it turns so far in a step that
-   directions have no past. */
+/* Returns true if the last step of this frame says nothing of the next one: it was held, or is; or it turns so far in a
+   step that directions have no past. */
 static bool IsBroken(const kiriFrameData* frame, double dt)
 {
     return !(frame->history.dt > 0.0) || frame->history.isHeld != frame->held ||
            !(dt * kiriVec3_Length(frame->spin) <= LONGEST_TURN);
 }
 
-static void ChooseSteppings(kiriSolver* solver, const kiriSystem* system)
+static kiriStepping ChooseStepping(const kiriSolver* solver, const kiriSystem* system)
 {
-    bool isEuler = system->mechanics.timeStepping == KIRI_TIME_STEPPING_EULER;
-    KIRI_EACH(f, solver->awake.frames) {
-        const kiriFrameData* frame = &system->frames[f];
-        kiriStepping* chosen = &kiriSolver_PieceOf(solver, f)->stepping;
-        kiriStepping own = isEuler || IsBroken(frame, solver->dt) ? kiriStepping_Euler(solver->dt)
-                                                                  : kiriStepping_After(&frame->history, solver->dt);
-        bool isFirst = chosen->h == 0.0, isSame = chosen->part == own.part && chosen->ahead == own.ahead;
-        *chosen = isFirst ? own : isSame ? *chosen : kiriStepping_Euler(solver->dt);
-    }
-}
-
-void kiriSolver_FindTouched(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses)
-{
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        kiriPieceStep* piece = kiriSolver_PieceOf(solver, system->contacts[k].weights[0].frame);
-        piece->isTouched = piece->isTouched || kiriContact_Depth(solver, system, k, poses) > 0.0;
-    }
-}
-
-/* What pushed in the last step goes on as a rule. */
-static void FindPushed(kiriSolver* solver, const kiriSystem* system)
-{
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        const kiriContactRow* row = &system->contacts[k];
-        kiriSolver_PieceOf(solver, row->weights[0].frame)->isTouched |= kiriVec3_Dot(row->force, row->normal) > 0.0;
-    }
-}
-
-void kiriSolver_BecomeEuler(kiriSolver* solver, const kiriSystem* system)
-{
-    KIRI_EACH(i, solver->awake.pieces) {
-        kiriPieceStep* piece = &solver->pieces.data[i];
-        if (piece->isNew) {
-            piece->stepping = kiriStepping_Euler(solver->dt);
-            piece->scale = 1.0;
+    kiriStepping chosen = kiriStepping_Euler(solver->dt);
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        const kiriFrameData* frame = &solver->sheetFrames[solver->sheetFrame[f]];
+        if (system->mechanics.timeStepping == KIRI_TIME_STEPPING_EULER || IsBroken(frame, solver->dt)) {
+            return kiriStepping_Euler(solver->dt);
         }
+        kiriStepping own = kiriStepping_After(&frame->history, solver->dt);
+        if (f > 0 && (chosen.part != own.part || chosen.ahead != own.ahead)) {
+            return kiriStepping_Euler(solver->dt);
+        }
+        chosen = f > 0 ? chosen : own;
     }
+    return chosen;
+}
+
+/* Predicts a step of backward Euler. */
+static void BecomeEuler(kiriSolver* solver, const kiriSystem* system)
+{
+    solver->stepping = kiriStepping_Euler(solver->dt);
+    solver->search.scale = 1.0;
     Predict(solver, system);
-    kiriSolver_CenterFreePieces(solver, system);
 }
 
 static bool IsSamePose(const kiriPose* a, const kiriPose* b)
@@ -194,165 +166,160 @@ static bool IsSamePose(const kiriPose* a, const kiriPose* b)
            kiriVec3_Equal(a->A.d, b->A.d);
 }
 
-/* The host moves a held frame, or a clamp, to its place at once. */
-static void FindCarried(kiriSolver* solver, const kiriSystem* system)
+/* Returns true if the host moves a held frame, or a clamp: it goes to its place at once. */
+static bool IsCarried(const kiriSolver* solver, const kiriSystem* system)
 {
-    KIRI_EACH(f, solver->awake.frames) {
-        const kiriPose *from = &solver->start.data[f], *to = &solver->predictions.data[f].pose;
-        if (system->frames[f].held && !IsSamePose(from, to)) {
-            kiriSolver_PieceOf(solver, f)->isTouched = true;
+    for (int32_t f = 0; solver->isHeld && f < system->frameCount; ++f) {
+        if (system->frames[f].held && !IsSamePose(&solver->start.data[f], &solver->predictions.data[f].pose)) {
+            return true;
         }
     }
     for (int32_t k = 0; k < system->clampCount; ++k) {
-        const kiriClampRow* row = &system->clamps[k];
-        if (!IsSamePose(&row->start, &row->pose)) {
-            kiriSolver_PieceOf(solver, row->frame)->isTouched = true;
+        if (!IsSamePose(&system->clamps[k].start, &system->clamps[k].pose)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool kiriSolver_AreTouching(const kiriSolver* solver, const kiriSystem* system, const kiriPose* poses)
+{
+    for (int32_t k = 0; k < solver->contacts.count; ++k) {
+        if (kiriContact_Depth(system, &solver->contacts.data[k], poses) > 0.0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Returns true if a contact pushed in the last step: as a rule it goes on. */
+static bool IsPushed(const kiriSolver* solver)
+{
+    for (int32_t k = 0; k < solver->contacts.count; ++k) {
+        const kiriContactRow* row = solver->contacts.data[k].row;
+        if (kiriVec3_Dot(row->force, row->normal) > 0.0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* ---- Wind -------------------------------------------------------------------------------------------------------- */
+
+/* Wind as part of the objective. The force on a small area is D (u - v), with u the velocity of the air, v that of the
+   material, and D = density / 2 |u - v| area (drag n n^T + lift (1 - n n^T)) as it is at the start of the step. At the
+   end of the step v is linear in the point's place x there (kiri_frame.h): v = v* + (x - x*) / h'. So the force is
+   that of a spring of stiffness D / h' whose target is x* + h' (u - v*): implicit, and it never turns u - v round. */
+
+/* Four points of a region, each with a quarter of its area, have its area, its centroid and its second moments. */
+enum { SAMPLES = 4 };
+
+typedef struct WindSpring {
+    kiriVec2 at;
+    kiriVec3 normal, target;
+    double across, along; /* N/m: along the normal, and in the plane */
+} WindSpring;
+
+/* The columns of the root (Cholesky's) of the second moments of a unit area, both ways. */
+static kiriVec2 SamplePoint(const kiriFrameData* frame, int k)
+{
+    double uu = frame->inertia[0] / frame->mass, uv = frame->inertia[1] / frame->mass;
+    double vv = frame->inertia[2] / frame->mass, first = kiriRoot(uu);
+    double side = first > 0.0 ? uv / first : 0.0, rest = kiriRoot(vv - side * side);
+    kiriVec2 root = k < 2 ? kiriVec2_Make(first, side) : kiriVec2_Make(0.0, rest);
+    return kiriVec2_Add(frame->center, kiriVec2_Scale(k % 2 == 0 ? sqrt(2.0) : -sqrt(2.0), root));
+}
+
+static kiriVec3 PredictedVelocity(const kiriSystem* system, const kiriPrediction* prediction, kiriVec2 from)
+{
+    if (kiriMechanics_IsAffine(&system->mechanics)) {
+        kiriVec3 turning = kiriVec3_AddScaled(kiriVec3_Scale(from.x, prediction->rate.u), from.y, prediction->rate.v);
+        return kiriVec3_Add(prediction->velocity, turning);
+    }
+    kiriVec3 arm = kiriPose_Along(&prediction->pose, from);
+    return kiriVec3_Add(prediction->velocity, kiriVec3_Cross(prediction->spin, arm));
+}
+
+static WindSpring SpringAt(const kiriSolver* solver, const kiriSystem* system, int32_t f, int k)
+{
+    const kiriFrameData* frame = &solver->before.data[f];
+    const kiriPrediction* prediction = &solver->predictions.data[f];
+    double part = solver->stepping.part;
+    WindSpring spring;
+    spring.at = SamplePoint(frame, k);
+    kiriVec3 wide = kiriVec3_Cross(frame->A.u, frame->A.v); /* an affine frame stretches its area */
+    kiriVec3 past = kiriVec3_Sub(system->air->velocity, kiriFrame_VelocityAt(frame, spring.at));
+    double c = 0.5 * system->air->density * kiriVec3_Length(past) * kiriVec3_Length(wide) * frame->area / SAMPLES;
+    kiriVec3 velocity = PredictedVelocity(system, prediction, kiriVec2_Sub(spring.at, frame->center));
+    kiriVec3 ahead = kiriVec3_Sub(system->air->velocity, velocity);
+    spring.normal = kiriVec3_Normalize(wide);
+    kiriVec3 predicted = kiriVec3_Add(prediction->pose.x, kiriSystem_Arm(system, f, spring.at, &prediction->pose));
+    spring.target = kiriVec3_AddScaled(predicted, part, ahead);
+    spring.across = c * system->air->drag / part;
+    spring.along = c * system->air->lift / part;
+    return spring;
+}
+
+static kiriVec3 ForceOf(const WindSpring* spring, kiriVec3 point)
+{
+    kiriVec3 off = kiriVec3_Sub(spring->target, point);
+    double across = kiriVec3_Dot(off, spring->normal);
+    return kiriVec3_AddScaled(kiriVec3_Scale(spring->along, off), (spring->across - spring->along) * across,
+                              spring->normal);
+}
+
+bool kiriSystem_HasWind(const kiriSystem* system)
+{
+    return system->air != NULL && system->air->density > 0.0 && (system->air->drag > 0.0 || system->air->lift > 0.0);
+}
+
+static void AddWindEnergy(const kiriSolver* solver, const kiriSystem* system, const kiriPose* poses,
+                          kiriStepEnergy* sum)
+{
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        for (int k = 0; !system->frames[f].held && k < SAMPLES; ++k) {
+            WindSpring spring = SpringAt(solver, system, f, k);
+            kiriVec3 off = kiriVec3_Sub(kiriSystem_Point(system, f, spring.at, poses), spring.target);
+            double across = kiriVec3_Dot(off, spring.normal);
+            sum->objective +=
+                0.5 * spring.along * kiriVec3_Dot(off, off) + 0.5 * (spring.across - spring.along) * across * across;
         }
     }
 }
 
-/* A contact, or a held frame that is carried about, pushes within a step, and then no more. */
-static void StepTouchedByEuler(kiriSolver* solver, const kiriSystem* system)
+/* The scheme takes a part of it by the force at the start of the step: the larger of the two counts, for this only
+   guards against energy from nowhere. */
+double kiriWind_Work(const kiriSolver* solver, const kiriSystem* system, int32_t f)
 {
-    FindCarried(solver, system);
-    FindPushed(solver, system);
-    kiriSolver_FindTouched(solver, system, solver->start.data);
-    kiriSolver_FindTouched(solver, system, solver->poses.data);
-    KIRI_EACH(i, solver->awake.pieces) {
-        kiriPieceStep* piece = &solver->pieces.data[i];
-        piece->isNew = piece->isTouched && !piece->stepping.isEuler;
+    const kiriFrameData *start = &solver->before.data[f], *end = &solver->after.data[f];
+    double part = solver->stepping.part, first = 0.0, last = 0.0;
+    for (int k = 0; k < SAMPLES; ++k) {
+        WindSpring spring = SpringAt(solver, system, f, k);
+        kiriVec3 from = kiriFrame_Carry(start, spring.at), to = kiriFrame_Carry(end, spring.at);
+        kiriVec3 way = kiriVec3_Sub(to, from);
+        kiriVec3 past = kiriVec3_Sub(system->air->velocity, kiriFrame_VelocityAt(start, spring.at));
+        WindSpring before = spring;
+        before.target = kiriVec3_AddScaled(from, part, past);
+        first += kiriVec3_Dot(way, ForceOf(&before, from));
+        last += kiriVec3_Dot(way, ForceOf(&spring, to));
     }
-    kiriSolver_BecomeEuler(solver, system);
+    return kiriMax(first, last);
 }
 
-/* ---- Begin ---- */
-
-/* A corner is damped as the link that is damped least. */
-static double DampingShare(const kiriSolver* solver, const kiriSystem* system, int32_t k)
+static kiriWrench WindOnFrame(const kiriSolver* solver, const kiriSystem* system, int32_t f)
 {
-    const kiriCorner* corner = kiriElement_IsRigidCorner(system, k) ? kiriElement_Corner(system, k) : NULL;
-    double least = 1.0;
-    if (kiriElement_IsRigidLink(system, k)) {
-        least = kiriStrain_Damping(&solver->startStrain.data[KIRI_MOST_STRAINS * k]);
+    kiriWrench sum = { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } };
+    for (int k = 0; k < SAMPLES; ++k) {
+        WindSpring spring = SpringAt(solver, system, f, k);
+        kiriVec3 point = kiriSystem_Point(system, f, spring.at, solver->poses.data);
+        kiriVec3 force = ForceOf(&spring, point);
+        kiriWrench wrench = { force, kiriVec3_Cross(kiriVec3_Sub(point, solver->poses.data[f].x), force) };
+        kiriWrench_Add(&sum, 1.0, &wrench);
     }
-    for (int32_t n = 0; corner != NULL && n < corner->count; ++n) {
-        double share = kiriStrain_Damping(&solver->startStrain.data[KIRI_MOST_STRAINS * corner->link[n]]);
-        least = kiriMin(share, least);
-    }
-    return least;
+    return sum;
 }
 
-static void BeginElement(kiriSolver* solver, const kiriSystem* system, int32_t k)
-{
-    double* stiffness = &solver->stiffness.data[KIRI_MOST_STRAINS * k];
-    kiriElement_Stiffness(system, k, stiffness);
-    kiriObjective_Measure(system, k, solver->start.data, solver->startStrain.data);
-    solver->stopping.data[k] = 0;
-    double damping = solver->damping * DampingShare(solver, system, k);
-    for (int e = 0; e < kiriElement_StrainCount(system, k); ++e) {
-        solver->loss.data[KIRI_MOST_STRAINS * k + e] = damping * stiffness[e];
-    }
-}
-
-static void BeginClamp(const kiriSolver* solver, const kiriSystem* system, kiriClampRow* row)
-{
-    KIRI_ASSERT(row->isAffine == kiriMechanics_IsAffine(&system->mechanics));
-    kiriClamp_Begin(row, system->mechanics.planar, &system->material, solver->damping, &system->frames[row->frame],
-                    &solver->start.data[row->frame]);
-}
-
-/* Finds which pieces are free, and clears the rest. */
-static void BeginPieces(kiriSolver* solver, const kiriSystem* system)
-{
-    KIRI_EACH(i, solver->awake.pieces) {
-        memset(&solver->pieces.data[i], 0, sizeof(kiriPieceStep));
-        solver->pieces.data[i].isFree = !kiriSystem_HasWind(system);
-        solver->pieces.data[i].scale = 1.0;
-    }
-    KIRI_EACH(f, solver->awake.frames) {
-        kiriSolver_PieceOf(solver, f)->isFree &= !system->frames[f].held;
-    }
-    for (int32_t k = 0; k < system->pinCount; ++k) {
-        kiriSolver_PieceOf(solver, system->pins[k].frame)->isFree = false;
-    }
-    for (int32_t k = 0; k < system->clampCount; ++k) {
-        kiriSolver_PieceOf(solver, system->clamps[k].frame)->isFree = false;
-    }
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        kiriPieceStep* piece = kiriSolver_PieceOf(solver, system->contacts[k].weights[0].frame);
-        piece->isPushed |= piece->isFree;
-        piece->isFree = false;
-    }
-}
-
-static kiriVec3* CarriedOn(const kiriStepping* stepping, kiriHistory* history)
-{
-    return stepping->l > 0.0 ? &history->pull : &history->gain;
-}
-
-/* Inner forces do not move a free piece as a whole. A commit that changed masses may have left a mean. */
-static void CenterHistories(kiriSolver* solver)
-{
-    kiriSolver_ClearMeans(solver);
-    KIRI_EACH(f, solver->awake.frames) {
-        kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
-        kiriFrameData* frame = &solver->before.data[f];
-        const kiriVec3* carried = CarriedOn(&piece->stepping, &frame->history);
-        piece->mean = kiriVec3_AddScaled(piece->mean, frame->mass, *carried);
-        piece->mass += frame->mass;
-    }
-    KIRI_EACH(f, solver->awake.frames) {
-        const kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
-        kiriVec3* carried = CarriedOn(&piece->stepping, &solver->before.data[f].history);
-        if (piece->isFree && !piece->stepping.isEuler) {
-            *carried = kiriVec3_AddScaled(*carried, -1.0 / piece->mass, piece->mean);
-        }
-    }
-}
-
-static void SetNew(kiriSolver* solver)
-{
-    KIRI_EACH(i, solver->awake.pieces) {
-        solver->pieces.data[i].isNew = true;
-    }
-}
-
-void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
-{
-    KIRI_ASSERT(dt > 0.0 && system->frameCount == solver->frameCount);
-    KIRI_ASSERT(kiriElement_Count(system) == solver->elementCount);
-    kiriSolver_ListAwake(solver, system);
-    solver->dt = dt;
-    solver->damping = (double)system->material.flexDamping / dt;
-    solver->isAlong = solver->isHeld = false;
-    BeginPieces(solver, system);
-    KIRI_EACH(f, solver->awake.frames) {
-        solver->isHeld |= system->frames[f].held != 0;
-        solver->start.data[f] = kiriPose_Of(&system->frames[f]);
-        solver->before.data[f] = FlattenFrame(&system->mechanics, &system->frames[f]);
-        FadeVelocities(system, dt, &solver->before.data[f]);
-    }
-    kiriSolver_BeginContacts(solver, system);
-    SetNew(solver);
-    ChooseSteppings(solver, system);
-    CenterHistories(solver);
-    Predict(solver, system);
-    StepTouchedByEuler(solver, system);
-    KIRI_EACH(k, solver->awake.elements) {
-        BeginElement(solver, system, k);
-    }
-    for (int32_t k = 0; k < system->clampCount; ++k) {
-        BeginClamp(solver, system, &system->clamps[k]);
-    }
-    KIRI_EACH(f, solver->awake.frames) {
-        if (system->frames[f].held) {
-            solver->start.data[f] = solver->predictions.data[f].pose;
-        }
-    }
-    SetNew(solver);
-    kiriObjective_FindNoise(solver, system);
-    kiriSolver_CenterFreePieces(solver, system);
-}
+/* ---- Objective ---------------------------------------------------------------------------------------------------- */
 
 static void AddEnergy(kiriStepEnergy* sum, double stored, double lost)
 {
@@ -380,34 +347,25 @@ static void AddClampEnergy(const kiriSystem* system, kiriClampRow* row, const ki
     row->stopping |= kiriClamp_IsStopped(row, strain);
 }
 
-void kiriObjective_AddHost(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses)
+static void AddHost(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses, kiriStepEnergy* sum)
 {
     for (int32_t k = 0; k < system->clampCount; ++k) {
-        kiriPieceStep* piece = kiriSolver_PieceOf(solver, system->clamps[k].frame);
-        if (piece->isSearching) {
-            AddClampEnergy(system, &system->clamps[k], poses, &piece->sum);
-        }
+        AddClampEnergy(system, &system->clamps[k], poses, sum);
     }
     for (int32_t k = 0; k < system->pinCount; ++k) {
-        kiriPieceStep* piece = kiriSolver_PieceOf(solver, system->pins[k].frame);
-        if (piece->isSearching) {
-            AddPinEnergy(system, &system->pins[k], poses, &piece->sum);
-        }
+        AddPinEnergy(system, &system->pins[k], poses, sum);
     }
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        kiriPieceStep* piece = kiriSolver_PieceOf(solver, system->contacts[k].weights[0].frame);
-        if (piece->isSearching) {
-            AddEnergy(&piece->sum, 0.0, kiriContact_Energy(solver, system, k, poses));
-        }
+    for (int32_t k = 0; k < solver->contacts.count; ++k) {
+        AddEnergy(sum, 0.0, kiriContact_Energy(solver, system, &solver->contacts.data[k], poses));
     }
     if (kiriSystem_HasWind(system)) {
-        kiriWind_AddEnergy(solver, system, poses);
+        AddWindEnergy(solver, system, poses, sum);
     }
 }
 
 /* ---- Elements and inertia ---- */
 
-void kiriObjective_Measure(const kiriSystem* system, int32_t k, const kiriPose* poses, double* strains)
+static void MeasureElement(const kiriSystem* system, int32_t k, const kiriPose* poses, double* strains)
 {
     if (kiriElement_IsRigidCorner(system, k)) {
         kiriTrace trace = kiriElement_Trace(system, k, strains);
@@ -417,8 +375,8 @@ void kiriObjective_Measure(const kiriSystem* system, int32_t k, const kiriPose* 
     }
 }
 
-void kiriObjective_AddElement(const kiriSolver* solver, const kiriSystem* system, int32_t k, const double* strain,
-                              const double* pulling, kiriStepEnergy* sum)
+static void AddElementEnergy(const kiriSolver* solver, const kiriSystem* system, int32_t k, const double* strain,
+                             const double* pulling, kiriStepEnergy* sum)
 {
     const double* stiffness = &solver->stiffness.data[KIRI_MOST_STRAINS * k];
     const double* loss = &solver->loss.data[KIRI_MOST_STRAINS * k];
@@ -430,49 +388,38 @@ void kiriObjective_AddElement(const kiriSolver* solver, const kiriSystem* system
     }
 }
 
-void kiriObjective_AddInertia(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses)
+static kiriStepEnergy InertiaEnergy(const kiriSolver* solver, const kiriSystem* system, const kiriPose* poses)
 {
-    KIRI_EACH(i, solver->awake.pieces) {
-        memset(&solver->pieces.data[i].sum, 0, sizeof(kiriStepEnergy));
+    kiriStepEnergy sum = { 0.0, 0.0 };
+    double part = solver->stepping.part;
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        const kiriPrediction* prediction = &solver->predictions.data[f];
+        kiriVec3 off = kiriVec3_Sub(poses[f].x, prediction->pose.x);
+        double moved =
+            system->frames[f].mass * kiriVec3_Dot(off, off) + kiriPrediction_TurnSquared(prediction, &poses[f].A);
+        AddEnergy(&sum, 0.0, 0.5 * moved / (part * part));
     }
-    KIRI_EACH(f, solver->awake.frames) {
-        kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
-        if (piece->isSearching) {
-            const kiriPrediction* prediction = &solver->predictions.data[f];
-            kiriVec3 off = kiriVec3_Sub(poses[f].x, prediction->pose.x);
-            double moved =
-                system->frames[f].mass * kiriVec3_Dot(off, off) + kiriPrediction_TurnSquared(prediction, &poses[f].A);
-            AddEnergy(&piece->sum, 0.0, 0.5 * moved / (piece->stepping.part * piece->stepping.part));
-        }
-    }
+    return sum;
 }
 
-/* Is the element a link of rigid frames that may leave their plane? */
-static bool HasStop(const kiriSystem* system, int32_t k)
+kiriStepEnergy kiriObjective_Evaluate(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses)
 {
-    return kiriElement_IsRigidLink(system, k) && !system->mechanics.planar;
-}
-
-void kiriObjective_Evaluate(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses)
-{
-    kiriObjective_AddInertia(solver, system, poses);
+    kiriStepEnergy sum = InertiaEnergy(solver, system, poses);
     /* Held frames start from where the host puts them: other strains than those at the start of the step. */
-    bool isKnown = poses == solver->start.data && !solver->isHeld;
-    KIRI_EACH(k, solver->awake.elements) {
-        kiriPieceStep* piece = kiriSolver_PieceOfElement(solver, system, k);
+    bool isKnown = poses == solver->start.data && !solver->isHeld, hasStops = !system->mechanics.planar;
+    for (int32_t k = 0; k < solver->elementCount; ++k) {
         double pulling[KIRI_MOST_STRAINS];
-        if (!piece->isSearching) {
-            continue;
-        }
         if (!isKnown) {
-            kiriObjective_Measure(system, k, poses, solver->nowStrain.data);
+            MeasureElement(system, k, poses, solver->nowStrain.data);
         }
         const double* strain = &(isKnown ? solver->startStrain.data : solver->nowStrain.data)[KIRI_MOST_STRAINS * k];
         kiriElement_TakeOffsets(system, k, strain, pulling);
-        kiriObjective_AddElement(solver, system, k, strain, pulling, &piece->sum);
-        solver->stopping.data[k] |= !isKnown && HasStop(system, k) && strain[KIRI_NORMAL_STOP] != 0.0;
+        AddElementEnergy(solver, system, k, strain, pulling, &sum);
+        solver->stopping.data[k] |=
+            !isKnown && hasStops && kiriElement_IsRigidLink(system, k) && strain[KIRI_NORMAL_STOP] != 0.0;
     }
-    kiriObjective_AddHost(solver, system, poses);
+    AddHost(solver, system, poses, &sum);
+    return sum;
 }
 
 /* ---- Noise ---- */
@@ -518,43 +465,144 @@ static double AffineNoise(const kiriSolver* solver, const kiriSystem* system, in
 
 /* The energy of every spring and of the inertia when lengths are off by their last bits: a sheet at rest has no more
    than that. */
-void kiriObjective_FindNoise(kiriSolver* solver, const kiriSystem* system)
+static void FindNoise(kiriSolver* solver, const kiriSystem* system)
 {
     const double share = KIRI_LAST_BITS * KIRI_LAST_BITS * (1.0 + solver->damping);
-    KIRI_EACH(f, solver->awake.frames) {
+    double part = solver->stepping.part, sum = 0.0;
+    for (int32_t f = 0; f < system->frameCount; ++f) {
         kiriVec3 x = solver->start.data[f].x;
-        kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
-        double part = piece->stepping.part;
-        piece->noise += share * system->frames[f].mass * kiriVec3_Dot(x, x) / (part * part);
+        sum += share * system->frames[f].mass * kiriVec3_Dot(x, x) / (part * part);
     }
-    KIRI_EACH(k, solver->awake.elements) {
+    for (int32_t k = 0; k < solver->elementCount; ++k) {
         const double* stiffness = &solver->stiffness.data[KIRI_MOST_STRAINS * k];
         const kiriCorner* corner = kiriElement_Corner(system, k);
         double noise = kiriElement_IsRigidCorner(system, k) ? CornerNoise(solver, system, corner, stiffness)
                        : kiriElement_IsRigidLink(system, k)
                            ? RigidLinkNoise(solver, kiriElement_Link(system, k), stiffness)
                            : AffineNoise(solver, system, k, stiffness);
-        kiriSolver_PieceOfElement(solver, system, k)->noise += share * noise;
+        sum += share * noise;
     }
     for (int32_t k = 0; k < system->clampCount; ++k) {
         const kiriClampRow* row = &system->clamps[k];
-        kiriSolver_PieceOf(solver, row->frame)->noise += share * kiriClamp_Noise(row, &solver->start.data[row->frame]);
+        sum += share * kiriClamp_Noise(row, &solver->start.data[row->frame]);
     }
-    for (int32_t k = 0; k < system->contactCount; ++k) {
+    for (int32_t k = 0; k < solver->contacts.count; ++k) {
         kiriVec3 x = solver->contacts.data[k].start;
-        kiriSolver_PieceOf(solver, system->contacts[k].weights[0].frame)->noise +=
-            share * solver->contacts.data[k].stiffness * kiriVec3_Dot(x, x);
+        sum += share * solver->contacts.data[k].stiffness * kiriVec3_Dot(x, x);
     }
+    solver->search.noise = sum;
+}
+
+/* ---- Begin ---- */
+
+/* A corner is damped as the link that is damped least. */
+static double DampingShare(const kiriSolver* solver, const kiriSystem* system, int32_t k)
+{
+    const kiriCorner* corner = kiriElement_IsRigidCorner(system, k) ? kiriElement_Corner(system, k) : NULL;
+    double least = 1.0;
+    if (kiriElement_IsRigidLink(system, k)) {
+        least = kiriStrain_Damping(&solver->startStrain.data[KIRI_MOST_STRAINS * k]);
+    }
+    for (int32_t n = 0; corner != NULL && n < corner->count; ++n) {
+        double share = kiriStrain_Damping(&solver->startStrain.data[KIRI_MOST_STRAINS * corner->link[n]]);
+        least = kiriMin(share, least);
+    }
+    return least;
+}
+
+static void BeginElement(kiriSolver* solver, const kiriSystem* system, int32_t k)
+{
+    double* stiffness = &solver->stiffness.data[KIRI_MOST_STRAINS * k];
+    kiriElement_Stiffness(system, k, stiffness);
+    MeasureElement(system, k, solver->start.data, solver->startStrain.data);
+    solver->stopping.data[k] = 0;
+    double damping = solver->damping * DampingShare(solver, system, k);
+    for (int e = 0; e < kiriElement_StrainCount(system, k); ++e) {
+        solver->loss.data[KIRI_MOST_STRAINS * k + e] = damping * stiffness[e];
+    }
+}
+
+static kiriSupport FindSupport(const kiriSolver* solver, const kiriSystem* system)
+{
+    bool isHeld = kiriSystem_HasWind(system) || solver->isHeld || system->pinCount > 0 || system->clampCount > 0;
+    return isHeld                       ? KIRI_SUPPORT_HELD
+           : solver->contacts.count > 0 ? KIRI_SUPPORT_CONTACTS
+                                        : KIRI_SUPPORT_NONE;
+}
+
+static kiriVec3* CarriedOn(const kiriStepping* stepping, kiriHistory* history)
+{
+    return stepping->l > 0.0 ? &history->pull : &history->gain;
+}
+
+/* Inner forces do not move a free body as a whole. A commit that changed masses may have left a mean. */
+static void CenterHistories(kiriSolver* solver, int32_t frameCount)
+{
+    kiriVec3 mean = { 0.0, 0.0, 0.0 };
+    double mass = 0.0;
+    if (solver->support != KIRI_SUPPORT_NONE || solver->stepping.isEuler) {
+        return;
+    }
+    for (int32_t f = 0; f < frameCount; ++f) {
+        kiriFrameData* frame = &solver->before.data[f];
+        mean = kiriVec3_AddScaled(mean, frame->mass, *CarriedOn(&solver->stepping, &frame->history));
+        mass += frame->mass;
+    }
+    for (int32_t f = 0; f < frameCount; ++f) {
+        kiriVec3* carried = CarriedOn(&solver->stepping, &solver->before.data[f].history);
+        *carried = kiriVec3_AddScaled(*carried, -1.0 / mass, mean);
+    }
+}
+
+void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
+{
+    memset(&solver->search, 0, sizeof(solver->search));
+    memset(&solver->touch, 0, sizeof(solver->touch));
+    solver->dt = dt;
+    solver->damping = (double)system->material.flexDamping / dt;
+    solver->elementCount = kiriElement_Count(system);
+    solver->isAlong = solver->isHeld = false;
+    solver->search.scale = 1.0;
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        const kiriFrameData* frame = &solver->sheetFrames[solver->sheetFrame[f]];
+        solver->isHeld |= frame->held != 0;
+        solver->start.data[f] = kiriPose_Of(frame);
+        solver->before.data[f] = FlattenFrame(&system->mechanics, frame);
+        FadeVelocities(system, dt, &solver->before.data[f]);
+    }
+    kiriSolver_BeginContacts(solver, system);
+    solver->support = FindSupport(solver, system);
+    solver->stepping = ChooseStepping(solver, system);
+    CenterHistories(solver, system->frameCount);
+    Predict(solver, system);
+    /* A contact, or a held frame that is carried about, pushes within a step, and then no more. */
+    solver->isTouched = IsCarried(solver, system) || IsPushed(solver) ||
+                        kiriSolver_AreTouching(solver, system, solver->start.data) ||
+                        kiriSolver_AreTouching(solver, system, solver->poses.data);
+    if (solver->isTouched && !solver->stepping.isEuler) {
+        BecomeEuler(solver, system);
+    }
+    kiriSolver_CenterBody(solver, system);
+    for (int32_t k = 0; k < solver->elementCount; ++k) {
+        BeginElement(solver, system, k);
+    }
+    for (int32_t k = 0; k < system->clampCount; ++k) {
+        KIRI_ASSERT(system->clamps[k].isAffine == kiriMechanics_IsAffine(&system->mechanics));
+        kiriClamp_Begin(&system->clamps[k], system->mechanics.planar, &system->material, solver->damping,
+                        &system->frames[system->clamps[k].frame], &solver->start.data[system->clamps[k].frame]);
+    }
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        if (system->frames[f].held) {
+            solver->start.data[f] = solver->predictions.data[f].pose;
+        }
+    }
+    FindNoise(solver, system);
+    kiriSolver_CenterBody(solver, system);
 }
 
 /* ---- Matrix and forces ------------------------------------------------------------------------------------------- */
 
-/* A frame that is held, or whose piece has done its step, has the identity and no force: it stays where it is. */
-static bool IsStill(const kiriSolver* solver, const kiriSystem* system, int32_t f)
-{
-    return system->frames[f].held || !kiriSolver_PieceOf(solver, f)->isSearching;
-}
-
+/* A held frame has the identity and no force: it stays where it is. */
 static void AddIdentity(kiriSolver* solver, int32_t f)
 {
     double block[KIRI_MOST_UNKNOWNS * KIRI_MOST_UNKNOWNS] = { 0.0 };
@@ -591,7 +639,7 @@ static void AddFrameInertia(kiriSolver* solver, const kiriSystem* system, int32_
                                    { 0.0, m->uv, m->vv, 0.0 },
                                    { 0.0, 0.0, 0.0, m->dd } };
     kiriMat3 inertia = kiriPrediction_Inertia(&solver->predictions.data[f], &solver->poses.data[f].A);
-    double part = kiriSolver_PieceOf(solver, f)->stepping.part;
+    double part = solver->stepping.part;
     double perTime = 1.0 / (part * part), block[KIRI_MOST_UNKNOWNS * KIRI_MOST_UNKNOWNS];
     for (int32_t r = 0; r < solver->size; ++r) {
         const kiriUnknown* a = &solver->unknowns[r];
@@ -715,7 +763,7 @@ static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k, 
     double springs[KIRI_MOST_STRAINS], pulls[KIRI_MOST_STRAINS];
     DeriveStrains(solver, system, k, count, strain);
     kiriElement_TakeOffsets(system, k, strain, pulling);
-    kiriObjective_AddElement(solver, system, k, strain, pulling, energy);
+    AddElementEnergy(solver, system, k, strain, pulling, energy);
     int rows = ActiveRows(system, k, strain);
     for (int e = 0; e < rows; ++e) {
         springs[e] = stiffness[e] + loss[e];
@@ -723,15 +771,14 @@ static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k, 
     }
     /* A stop that does not act yet has no derivative, and the line search halves every step that runs into it. So after
        a step that was cut short, the stops that it ran into resist as springs of no length. */
-    bool wasShort = kiriSolver_PieceOfElement(solver, system, k)->scale < KIRI_SHORT_STEP;
-    if (wasShort && solver->stopping.data[k] && rows == KIRI_NORMAL_STOP) {
+    if (solver->search.scale < KIRI_SHORT_STEP && solver->stopping.data[k] && rows == KIRI_NORMAL_STOP) {
         springs[KIRI_NORMAL_GAP] += stiffness[KIRI_NORMAL_STOP];
     }
     kiriSolver_AddSquares(solver, solver->members.data, count, solver->J.data, springs, pulls, rows);
 }
 
-void kiriSolver_AddSpring(kiriSolver* solver, const kiriSystem* system, int32_t f, kiriVec2 at, kiriVec3 axis,
-                          double length, double stiffness)
+static void AddSpring(kiriSolver* solver, const kiriSystem* system, int32_t f, kiriVec2 at, kiriVec3 axis,
+                      double length, double stiffness)
 {
     kiriVec2 local = kiriVec2_Sub(at, system->frames[f].center);
     double J[KIRI_MOST_UNKNOWNS], pull = -stiffness * length;
@@ -746,9 +793,9 @@ void kiriSolver_AddSpring(kiriSolver* solver, const kiriSystem* system, int32_t 
 static void AddPin(kiriSolver* solver, const kiriSystem* system, const kiriPinRow* pin)
 {
     kiriVec3 off = kiriVec3_Sub(kiriSystem_Point(system, pin->frame, pin->at, solver->poses.data), pin->target);
-    kiriSolver_AddSpring(solver, system, pin->frame, pin->at, kiriVec3_Make(1.0, 0.0, 0.0), off.x, pin->stiffness);
-    kiriSolver_AddSpring(solver, system, pin->frame, pin->at, kiriVec3_Make(0.0, 1.0, 0.0), off.y, pin->stiffness);
-    kiriSolver_AddSpring(solver, system, pin->frame, pin->at, kiriVec3_Make(0.0, 0.0, 1.0), off.z, pin->stiffness);
+    AddSpring(solver, system, pin->frame, pin->at, kiriVec3_Make(1.0, 0.0, 0.0), off.x, pin->stiffness);
+    AddSpring(solver, system, pin->frame, pin->at, kiriVec3_Make(0.0, 1.0, 0.0), off.y, pin->stiffness);
+    AddSpring(solver, system, pin->frame, pin->at, kiriVec3_Make(0.0, 0.0, 1.0), off.z, pin->stiffness);
 }
 
 /* As AddElement, of one frame. */
@@ -764,184 +811,67 @@ static void AddClamp(kiriSolver* solver, const kiriSystem* system, const kiriCla
         pulls[e] = -row->stiffness[e] * pulling[e] - row->loss[e] * (strain[e] - row->startStrain[e]);
         kiriSolver_Reduce(solver, &rows[e], &J[solver->size * e]);
     }
-    bool wasShort = kiriSolver_PieceOf(solver, row->frame)->scale < KIRI_SHORT_STEP;
-    if (wasShort && row->stopping && !row->isAffine && !kiriClamp_IsStopped(row, strain)) {
+    if (solver->search.scale < KIRI_SHORT_STEP && row->stopping && !row->isAffine && !kiriClamp_IsStopped(row, strain)) {
         springs[KIRI_NORMAL_GAP] += row->stiffness[KIRI_NORMAL_STOP];
     }
     kiriSolver_AddSquares(solver, &row->frame, 1, J, springs, pulls, row->strainCount);
 }
 
-void kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system)
+static void AddWind(kiriSolver* solver, const kiriSystem* system)
 {
-    kiriMatrix_Clear(solver->matrix);
-    kiriSolver_LinearizeContacts(solver, system);
-    KIRI_EACH(f, solver->awake.frames) {
-        memset(&solver->force.data[solver->size * f], 0, sizeof(double) * (size_t)solver->size);
-        if (IsStill(solver, system, f)) {
-            AddIdentity(solver, f);
-        } else {
-            AddFrameInertia(solver, system, f);
-        }
-    }
-    kiriObjective_AddInertia(solver, system, solver->poses.data);
-    KIRI_EACH(k, solver->awake.elements) {
-        kiriPieceStep* piece = kiriSolver_PieceOfElement(solver, system, k);
-        if (piece->isSearching) {
-            AddElement(solver, system, k, &piece->sum);
-        }
-    }
-    for (int32_t k = 0; k < system->pinCount; ++k) {
-        if (!IsStill(solver, system, system->pins[k].frame)) {
-            AddPin(solver, system, &system->pins[k]);
-        }
-    }
-    for (int32_t k = 0; k < system->clampCount; ++k) {
-        if (!IsStill(solver, system, system->clamps[k].frame)) {
-            AddClamp(solver, system, &system->clamps[k]);
-        }
-    }
-    for (int32_t k = 0; k < system->contactCount; ++k) {
-        if (kiriSolver_PieceOf(solver, system->contacts[k].weights[0].frame)->isSearching) {
-            kiriContact_Assemble(solver, system, k);
-        }
-    }
-    if (kiriSystem_HasWind(system)) {
-        kiriWind_Assemble(solver, system);
-    }
-    solver->isAlong = true; /* contacts know where they are: nothing has moved since LinearizeContacts */
-    kiriObjective_AddHost(solver, system, solver->poses.data);
-    solver->isAlong = false;
-}
-
-/* Wind as part of the objective. The force on a small area is D (u - v), with u the velocity of the air, v that of the
-   material, and D = density / 2 |u - v| area (drag n n^T + lift (1 - n n^T)) as it is at the start of the step. At the
-   end of the step v is linear in the point's place x there (kiri_frame.h): v = v* + (x - x*) / h'. So the force is
-   that of a spring of stiffness D / h' whose target is x* + h' (u - v*): implicit, and it never turns u - v round. */
-
-/* Four points of a region, each with a quarter of its area, have its area, its centroid and its second moments. */
-enum { SAMPLES = 4 };
-
-typedef struct WindSpring {
-    kiriVec2 at;
-    kiriVec3 normal, target;
-    double across, along; /* N/m: along the normal, and in the plane */
-} WindSpring;
-
-/* The columns of the root (Cholesky's) of the second moments of a unit area, both ways. */
-static kiriVec2 SamplePoint(const kiriFrameData* frame, int k)
-{
-    double uu = frame->inertia[0] / frame->mass, uv = frame->inertia[1] / frame->mass;
-    double vv = frame->inertia[2] / frame->mass, first = kiriRoot(uu);
-    double side = first > 0.0 ? uv / first : 0.0, rest = kiriRoot(vv - side * side);
-    kiriVec2 root = k < 2 ? kiriVec2_Make(first, side) : kiriVec2_Make(0.0, rest);
-    return kiriVec2_Add(frame->center, kiriVec2_Scale(k % 2 == 0 ? sqrt(2.0) : -sqrt(2.0), root));
-}
-
-static kiriVec3 PredictedVelocity(const kiriSystem* system, const kiriPrediction* prediction, kiriVec2 from)
-{
-    if (kiriMechanics_IsAffine(&system->mechanics)) {
-        kiriVec3 turning = kiriVec3_AddScaled(kiriVec3_Scale(from.x, prediction->rate.u), from.y, prediction->rate.v);
-        return kiriVec3_Add(prediction->velocity, turning);
-    }
-    kiriVec3 arm = kiriPose_Along(&prediction->pose, from);
-    return kiriVec3_Add(prediction->velocity, kiriVec3_Cross(prediction->spin, arm));
-}
-
-static WindSpring SpringAt(const kiriSolver* solver, const kiriSystem* system, int32_t f, int k)
-{
-    const kiriFrameData* frame = &solver->before.data[f];
-    const kiriPrediction* prediction = &solver->predictions.data[f];
-    double part = kiriSolver_PieceOf(solver, f)->stepping.part;
-    WindSpring spring;
-    spring.at = SamplePoint(frame, k);
-    kiriVec3 wide = kiriVec3_Cross(frame->A.u, frame->A.v); /* an affine frame stretches its area */
-    kiriVec3 past = kiriVec3_Sub(system->air->velocity, kiriFrame_VelocityAt(frame, spring.at));
-    double c = 0.5 * system->air->density * kiriVec3_Length(past) * kiriVec3_Length(wide) * frame->area / SAMPLES;
-    kiriVec3 velocity = PredictedVelocity(system, prediction, kiriVec2_Sub(spring.at, frame->center));
-    kiriVec3 ahead = kiriVec3_Sub(system->air->velocity, velocity);
-    spring.normal = kiriVec3_Normalize(wide);
-    kiriVec3 predicted = kiriVec3_Add(prediction->pose.x, kiriSystem_Arm(system, f, spring.at, &prediction->pose));
-    spring.target = kiriVec3_AddScaled(predicted, part, ahead);
-    spring.across = c * system->air->drag / part;
-    spring.along = c * system->air->lift / part;
-    return spring;
-}
-
-static kiriVec3 ForceOf(const WindSpring* spring, kiriVec3 point)
-{
-    kiriVec3 off = kiriVec3_Sub(spring->target, point);
-    double across = kiriVec3_Dot(off, spring->normal);
-    return kiriVec3_AddScaled(kiriVec3_Scale(spring->along, off), (spring->across - spring->along) * across,
-                              spring->normal);
-}
-
-bool kiriSystem_HasWind(const kiriSystem* system)
-{
-    return system->air != NULL && system->air->density > 0.0 && (system->air->drag > 0.0 || system->air->lift > 0.0);
-}
-
-void kiriWind_AddEnergy(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses)
-{
-    KIRI_EACH(f, solver->awake.frames) {
-        kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
-        for (int k = 0; piece->isSearching && !system->frames[f].held && k < SAMPLES; ++k) {
-            WindSpring spring = SpringAt(solver, system, f, k);
-            kiriVec3 off = kiriVec3_Sub(kiriSystem_Point(system, f, spring.at, poses), spring.target);
-            double across = kiriVec3_Dot(off, spring.normal);
-            piece->sum.objective +=
-                0.5 * spring.along * kiriVec3_Dot(off, off) + 0.5 * (spring.across - spring.along) * across * across;
-        }
-    }
-}
-
-void kiriWind_Assemble(kiriSolver* solver, const kiriSystem* system)
-{
-    KIRI_EACH(f, solver->awake.frames) {
-        bool isStill = system->frames[f].held || !kiriSolver_PieceOf(solver, f)->isSearching;
-        for (int k = 0; !isStill && k < SAMPLES; ++k) {
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        for (int k = 0; !system->frames[f].held && k < SAMPLES; ++k) {
             WindSpring spring = SpringAt(solver, system, f, k);
             kiriVec3 n = spring.normal, x = kiriSystem_Point(system, f, spring.at, solver->poses.data);
             kiriVec3 off = kiriVec3_Sub(x, spring.target);
             kiriVec3 axis = fabs(n.x) < 0.7 ? kiriVec3_Make(1.0, 0.0, 0.0) : kiriVec3_Make(0.0, 1.0, 0.0);
             kiriVec3 side = kiriVec3_Normalize(kiriVec3_Cross(n, axis)), ahead = kiriVec3_Cross(side, n);
-            kiriSolver_AddSpring(solver, system, f, spring.at, n, kiriVec3_Dot(off, n), spring.across);
+            AddSpring(solver, system, f, spring.at, n, kiriVec3_Dot(off, n), spring.across);
             if (spring.along > 0.0) {
-                kiriSolver_AddSpring(solver, system, f, spring.at, side, kiriVec3_Dot(off, side), spring.along);
-                kiriSolver_AddSpring(solver, system, f, spring.at, ahead, kiriVec3_Dot(off, ahead), spring.along);
+                AddSpring(solver, system, f, spring.at, side, kiriVec3_Dot(off, side), spring.along);
+                AddSpring(solver, system, f, spring.at, ahead, kiriVec3_Dot(off, ahead), spring.along);
             }
         }
     }
 }
 
-/* The scheme takes a part of it by the force at the start of the step: the larger of the two counts, for this only
-   guards against energy from nowhere. */
-double kiriWind_Work(const kiriSolver* solver, const kiriSystem* system, int32_t f)
-{
-    const kiriFrameData *start = &solver->before.data[f], *end = &solver->after.data[f];
-    double part = kiriSolver_PieceOf(solver, f)->stepping.part, first = 0.0, last = 0.0;
-    for (int k = 0; k < SAMPLES; ++k) {
-        WindSpring spring = SpringAt(solver, system, f, k);
-        kiriVec3 from = kiriFrame_Carry(start, spring.at), to = kiriFrame_Carry(end, spring.at);
-        kiriVec3 way = kiriVec3_Sub(to, from);
-        kiriVec3 past = kiriVec3_Sub(system->air->velocity, kiriFrame_VelocityAt(start, spring.at));
-        WindSpring before = spring;
-        before.target = kiriVec3_AddScaled(from, part, past);
-        first += kiriVec3_Dot(way, ForceOf(&before, from));
-        last += kiriVec3_Dot(way, ForceOf(&spring, to));
-    }
-    return kiriMax(first, last);
-}
+/* ---- The linear system ---- */
 
-kiriWrench kiriWind_OnFrame(const kiriSolver* solver, const kiriSystem* system, int32_t f)
+kiriStepEnergy kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system)
 {
-    kiriWrench sum = { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } };
-    for (int k = 0; k < SAMPLES; ++k) {
-        WindSpring spring = SpringAt(solver, system, f, k);
-        kiriVec3 point = kiriSystem_Point(system, f, spring.at, solver->poses.data);
-        kiriVec3 force = ForceOf(&spring, point);
-        kiriWrench wrench = { force, kiriVec3_Cross(kiriVec3_Sub(point, solver->poses.data[f].x), force) };
-        kiriWrench_Add(&sum, 1.0, &wrench);
+    kiriMatrix_Clear(solver->matrix);
+    kiriSolver_LinearizeContacts(solver, system);
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        memset(&solver->force.data[solver->size * f], 0, sizeof(double) * (size_t)solver->size);
+        if (system->frames[f].held) {
+            AddIdentity(solver, f);
+        } else {
+            AddFrameInertia(solver, system, f);
+        }
     }
+    kiriStepEnergy sum = InertiaEnergy(solver, system, solver->poses.data);
+    for (int32_t k = 0; k < solver->elementCount; ++k) {
+        AddElement(solver, system, k, &sum);
+    }
+    for (int32_t k = 0; k < system->pinCount; ++k) {
+        if (!system->frames[system->pins[k].frame].held) {
+            AddPin(solver, system, &system->pins[k]);
+        }
+    }
+    for (int32_t k = 0; k < system->clampCount; ++k) {
+        if (!system->frames[system->clamps[k].frame].held) {
+            AddClamp(solver, system, &system->clamps[k]);
+        }
+    }
+    for (int32_t k = 0; k < solver->contacts.count; ++k) {
+        kiriContact_Assemble(solver, system, &solver->contacts.data[k]);
+    }
+    if (kiriSystem_HasWind(system)) {
+        AddWind(solver, system);
+    }
+    solver->isAlong = true; /* contacts know where they are: nothing has moved since LinearizeContacts */
+    AddHost(solver, system, solver->poses.data, &sum);
+    solver->isAlong = false;
     return sum;
 }
 
@@ -961,39 +891,41 @@ kiriWrench kiriWind_OnFrame(const kiriSolver* solver, const kiriSystem* system, 
 /* The line search begins with the whole of the Gauss-Newton step, or as much of it as turns no frame too far. */
 static void StartSearch(kiriSolver* solver, const kiriSystem* system)
 {
-    KIRI_EACH(i, solver->awake.pieces) {
-        kiriPieceStep* piece = &solver->pieces.data[i];
-        piece->now = piece->isSearching ? piece->sum : piece->now;
-        piece->enough = piece->now.objective * (1.0 + KIRI_ROUNDING) + piece->noise;
-        piece->scale = LONGEST_ITERATION_TURN;
-        piece->promise = 0.0;
-    }
-    KIRI_EACH(f, solver->awake.frames) {
-        kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
+    kiriSearch* search = &solver->search;
+    double longest = LONGEST_ITERATION_TURN;
+    search->enough = search->now.objective * (1.0 + KIRI_ROUNDING) + search->noise;
+    search->promise = 0.0;
+    for (int32_t f = 0; f < system->frameCount; ++f) {
         for (int32_t n = solver->size * f; n < solver->size * (f + 1); ++n) {
-            piece->promise += 0.5 * solver->force.data[n] * solver->move.data[n];
+            search->promise += 0.5 * solver->force.data[n] * solver->move.data[n];
         }
         if (!kiriMechanics_IsAffine(&system->mechanics)) {
             kiriFrameRow change = kiriSolver_Expand(solver, 1.0, &solver->move.data[solver->size * f]);
             double turn = kiriVec3_Length(change.by[1]);
-            piece->scale = kiriMax(turn, piece->scale);
+            longest = kiriMax(turn, longest);
         }
     }
-    KIRI_EACH(i, solver->awake.pieces) {
-        solver->pieces.data[i].scale = LONGEST_ITERATION_TURN / solver->pieces.data[i].scale;
-    }
-    kiriSolver_LimitByFriction(solver, system);
+    search->scale = LONGEST_ITERATION_TURN / longest;
+    kiriSolver_LimitByFriction(solver);
 }
 
-static void TryStep(kiriSolver* solver, const kiriSystem* system)
+/* Contact that a step runs into has far more energy than the body, and a line search by that alone would let links
+   stretch by as much. The first systems may do so, as they turn frames; later ones only store what the body has. */
+static bool IsAffordable(const kiriSolver* solver, const kiriStepEnergy* energy)
 {
-    KIRI_EACH(f, solver->awake.frames) {
-        const kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
+    const kiriSearch* search = &solver->search;
+    double most = search->start.potential + solver->touch.means;
+    most = kiriMax(most, search->now.potential);
+    return !solver->touch.isNear || search->solved < FREE_SYSTEMS || energy->potential <= most;
+}
+
+/* Takes a part of the Gauss-Newton step, if it is good enough. */
+static bool TakeStep(kiriSolver* solver, const kiriSystem* system)
+{
+    for (int32_t f = 0; f < system->frameCount; ++f) {
         const kiriPose* pose = &solver->poses.data[f];
-        if (!piece->isSearching) {
-            continue;
-        }
-        kiriFrameRow change = kiriSolver_Expand(solver, piece->scale, &solver->move.data[solver->size * f]);
+        kiriFrameRow change =
+            kiriSolver_Expand(solver, solver->search.scale, &solver->move.data[solver->size * f]);
         kiriMat3 columns = { change.by[1], change.by[2], change.by[3] };
         solver->trial.data[f].x = kiriVec3_Add(pose->x, change.by[0]);
         solver->trial.data[f].A = kiriMechanics_IsAffine(&system->mechanics)
@@ -1001,199 +933,120 @@ static void TryStep(kiriSolver* solver, const kiriSystem* system)
                                       : kiriMat3_MulMat(kiriMat3_Cayley(change.by[1]), pose->A);
     }
     solver->isAlong = true;
-    kiriObjective_Evaluate(solver, system, solver->trial.data);
+    kiriStepEnergy energy = kiriObjective_Evaluate(solver, system, solver->trial.data);
     solver->isAlong = false;
-}
-
-/* Contact that a step runs into has far more energy than the piece, and a line search by that alone would let links
-   stretch by as much. The first systems may do so, as they turn frames; later ones only store what the piece has. */
-static bool IsAffordable(const kiriPieceStep* piece)
-{
-    double most = piece->start.potential + piece->means;
-    most = kiriMax(most, piece->now.potential);
-    return !piece->isNear || piece->solved < FREE_SYSTEMS || piece->sum.potential <= most;
-}
-
-static bool IsGood(const kiriPieceStep* piece)
-{
-    return piece->isSearching && piece->sum.objective <= piece->enough && IsAffordable(piece);
-}
-
-/* Pieces whose step is good enough take it. Returns whether there are others. */
-static bool TakeTrial(kiriSolver* solver)
-{
-    bool isLeft = false;
-    KIRI_EACH(f, solver->awake.frames) {
-        const kiriPieceStep* piece = kiriSolver_PieceOf(solver, f);
-        if (IsGood(piece)) {
-            solver->poses.data[f] = solver->trial.data[f];
-        }
+    if (!(energy.objective <= solver->search.enough && IsAffordable(solver, &energy))) {
+        return false;
     }
-    KIRI_EACH(i, solver->awake.pieces) {
-        kiriPieceStep* piece = &solver->pieces.data[i];
-        if (IsGood(piece)) {
-            piece->now = piece->sum;
-            piece->isSearching = false;
-        }
-        isLeft |= piece->isSearching;
-    }
-    return isLeft;
+    memcpy(solver->poses.data, solver->trial.data, sizeof(kiriPose) * (size_t)system->frameCount);
+    solver->search.now = energy;
+    return true;
 }
 
-/* Pieces in their first step that still search may end where the objective is that of the free prediction, or some
-   times as large as where they start. */
+/* The first step may end where the objective is that of the free prediction, or some times as large as where it
+   starts. */
 static void AllowPrediction(kiriSolver* solver, const kiriSystem* system)
 {
-    KIRI_EACH(f, solver->awake.frames) {
+    for (int32_t f = 0; f < system->frameCount; ++f) {
         solver->trial.data[f] = solver->predictions.data[f].pose;
     }
-    kiriObjective_Evaluate(solver, system, solver->trial.data);
-    KIRI_EACH(i, solver->awake.pieces) {
-        kiriPieceStep* piece = &solver->pieces.data[i];
-        double rise = MOST_RISE * piece->now.objective, predicted = piece->sum.objective;
-        double allowed = kiriMax(predicted, rise) * (1.0 + KIRI_ROUNDING) + piece->noise;
-        bool isAllowed = piece->isSearching && piece->isFirst;
-        piece->enough = isAllowed && allowed > piece->enough ? allowed : piece->enough;
-    }
+    double rise = MOST_RISE * solver->search.now.objective;
+    double predicted = kiriObjective_Evaluate(solver, system, solver->trial.data).objective;
+    double allowed = kiriMax(predicted, rise) * (1.0 + KIRI_ROUNDING) + solver->search.noise;
+    solver->search.enough = kiriMax(allowed, solver->search.enough);
 }
 
-/* One Gauss-Newton step, halved until the objective falls; the first one may also raise it to that of the free
-   prediction. False when the matrix has no factor. */
+/* Takes one Gauss-Newton step, halved until the objective falls; the first one may also raise it to that of the free
+   prediction. Returns false if the matrix has no factor. */
 static bool IterateOnce(kiriSolver* solver, const kiriSystem* system)
 {
-    bool isFirst = false;
-    KIRI_EACH(i, solver->awake.pieces) {
-        solver->pieces.data[i].isSearching = solver->pieces.data[i].isIterated;
-        isFirst |= solver->pieces.data[i].isIterated && solver->pieces.data[i].isFirst;
-    }
-    kiriSolver_Assemble(solver, system);
+    solver->search.now = kiriSolver_Assemble(solver, system);
     if (!kiriMatrix_Factor(solver->matrix)) {
         return false;
     }
     kiriMatrix_Solve(solver->matrix, solver->force.data, solver->move.data);
     kiriSolver_MoveContacts(solver, system);
     StartSearch(solver, system);
-    TryStep(solver, system);
-    bool isLeft = TakeTrial(solver);
-    if (isLeft && isFirst) {
+    bool isTaken = TakeStep(solver, system);
+    if (!isTaken && solver->search.isFirst) {
         AllowPrediction(solver, system);
-        TryStep(solver, system);
-        isLeft = TakeTrial(solver);
+        isTaken = TakeStep(solver, system);
     }
-    for (int halving = 0; isLeft && halving < HALVINGS; ++halving) {
-        KIRI_EACH(i, solver->awake.pieces) {
-            solver->pieces.data[i].scale *= 0.5;
-        }
-        TryStep(solver, system);
-        isLeft = TakeTrial(solver);
+    for (int halving = 0; !isTaken && halving < HALVINGS; ++halving) {
+        solver->search.scale *= 0.5;
+        isTaken = TakeStep(solver, system);
     }
+    solver->search.isFirst = false;
+    solver->search.solved += 1;
+    solver->solved += 1;
     kiriSolver_ReviewContacts(solver, system);
-    KIRI_EACH(i, solver->awake.pieces) {
-        solver->pieces.data[i].isFirst &= !solver->pieces.data[i].isIterated;
-    }
     return true;
 }
 
 /* ---- The iteration as a whole ---- */
 
 /* A step of second order gains a little energy as often as not, which the limit of energy takes out. Where it is more
-   than that the iteration goes on, and if that does not help, the piece takes the step anew by backward Euler. Nothing
-   else may decide that: where a piece rests, rounding would. */
-static bool IsSuspect(const kiriPieceStep* piece)
+   than that the iteration goes on, and if that does not help, the body takes the step anew by backward Euler. Nothing
+   else may decide that: where a body rests, rounding would. */
+static bool IsSuspect(const kiriSolver* solver)
 {
-    double brakeable = kiriPieceStep_MostTaken(piece);
-    double all = piece->kinetic + piece->moving + piece->start.potential + piece->now.potential;
-    return !piece->stepping.isEuler && !(piece->gain <= TOLERABLE_GAIN * brakeable + NEGLIGIBLE_GAIN * all);
+    const kiriEnergyStep* energy = &solver->energy;
+    double brakeable = kiriSolver_MostTaken(solver);
+    double all = energy->kinetic + energy->moving + solver->search.start.potential + solver->search.now.potential;
+    return !solver->stepping.isEuler && !(energy->gain <= TOLERABLE_GAIN * brakeable + NEGLIGIBLE_GAIN * all);
 }
 
-/* Pieces go on that gained energy, or whose steps were cut short. Returns whether there are any. */
-static bool ChooseUnfinished(kiriSolver* solver, int32_t done)
+/* Returns true if the body gained energy, or its step was cut short: the iteration goes on. */
+static bool IsUnfinished(const kiriSolver* solver, int32_t done)
 {
-    bool any = false;
-    KIRI_EACH(i, solver->awake.pieces) {
-        kiriPieceStep* piece = &solver->pieces.data[i];
-        bool isShort = piece->scale < KIRI_SHORT_STEP && piece->promise > WORTHWHILE * piece->now.objective;
-        bool hasGained = piece->stepping.isEuler && !(piece->gain <= 0.0);
-        bool isSuspect = piece->isIterated && IsSuspect(piece);
-        piece->isNew = isSuspect && piece->suspect > 1;
-        piece->suspect = isSuspect ? piece->suspect + 1 : 0;
-        piece->isIterated =
-            piece->isIterated && (done < piece->wanted || hasGained || isSuspect || isShort || piece->isUnsettled);
-        any |= piece->isIterated;
-    }
-    return any;
+    const kiriSearch* search = &solver->search;
+    bool isShort = search->scale < KIRI_SHORT_STEP && search->promise > WORTHWHILE * search->now.objective;
+    bool hasGained = solver->stepping.isEuler && !(solver->energy.gain <= 0.0);
+    return done < search->wanted || hasGained || search->suspects > 0 || isShort || solver->touch.isUnsettled;
 }
 
-/* The pieces that are new, at these poses. */
+/* Starts the iteration at the poses before the step. */
 static void EvaluateStart(kiriSolver* solver, const kiriSystem* system)
 {
-    KIRI_EACH(i, solver->awake.pieces) {
-        solver->pieces.data[i].isSearching = solver->pieces.data[i].isNew;
-    }
     kiriSolver_GuessContacts(solver, system);
-    kiriObjective_Evaluate(solver, system, solver->start.data);
-    KIRI_EACH(i, solver->awake.pieces) {
-        kiriPieceStep* piece = &solver->pieces.data[i];
-        piece->start = piece->isNew ? piece->sum : piece->start;
-        piece->isFirst |= piece->isNew;
-        piece->solved = piece->isNew ? 0 : piece->solved;
-        piece->isIterated |= piece->isNew;
-        piece->isNew = false;
-    }
+    solver->search.start = kiriObjective_Evaluate(solver, system, solver->start.data);
+    solver->search.isFirst = true;
+    solver->search.solved = 0;
 }
 
-/* Pieces whose step was no good begin it again. */
-static void TakeAnew(kiriSolver* solver, const kiriSystem* system, int32_t wanted)
+/* Takes the step anew by backward Euler. */
+static void TakeAnew(kiriSolver* solver, const kiriSystem* system)
 {
-    bool any = false;
-    KIRI_EACH(i, solver->awake.pieces) {
-        kiriPieceStep* piece = &solver->pieces.data[i];
-        piece->wanted = piece->isNew ? wanted : piece->wanted;
-        any |= piece->isNew;
-    }
-    if (any) {
-        kiriSolver_BecomeEuler(solver, system);
-        EvaluateStart(solver, system);
-    }
+    BecomeEuler(solver, system);
+    kiriSolver_CenterBody(solver, system);
+    EvaluateStart(solver, system);
 }
 
-/* Of the pieces that are left, those go on from which the energy limit would take too much of their motion: by backward
-   Euler, and from where they stood before the step. Returns whether there are any. */
-static bool RestartPieces(kiriSolver* solver, const kiriSystem* system)
+/* A body from which the energy limit would take too much of its motion goes on by backward Euler, and from where it
+   stood before the step. Returns false if it need not. */
+static bool Restart(kiriSolver* solver, const kiriSystem* system)
 {
-    bool any = false;
-    KIRI_EACH(i, solver->awake.pieces) {
-        kiriPieceStep* piece = &solver->pieces.data[i];
-        bool isOver = !(piece->now.objective <= piece->start.objective * (1.0 + KIRI_ROUNDING) + piece->noise);
-        double most = (isOver ? MOST_TAKEN : 1.0) * kiriPieceStep_MostTaken(piece);
-        piece->isIterated = piece->isNew = piece->isIterated && !(piece->gain <= most);
-        any |= piece->isIterated;
+    kiriSearch* search = &solver->search;
+    bool isOver = !(search->now.objective <= search->start.objective * (1.0 + KIRI_ROUNDING) + search->noise);
+    if (solver->energy.gain <= (isOver ? MOST_TAKEN : 1.0) * kiriSolver_MostTaken(solver)) {
+        return false;
     }
-    if (any) {
-        kiriSolver_BecomeEuler(solver, system);
-        EvaluateStart(solver, system);
-    }
-    KIRI_EACH(i, solver->awake.pieces) {
-        kiriPieceStep* piece = &solver->pieces.data[i];
-        piece->now = piece->isIterated ? piece->start : piece->now;
-        piece->solved = piece->isIterated ? FREE_SYSTEMS : piece->solved;
-        piece->isFirst = false;
-    }
-    KIRI_EACH(f, solver->awake.frames) {
-        if (kiriSolver_PieceOf(solver, f)->isIterated) {
-            solver->poses.data[f] = solver->start.data[f];
-        }
-    }
-    return any;
+    TakeAnew(solver, system);
+    search->now = search->start;
+    search->solved = FREE_SYSTEMS;
+    search->isFirst = false;
+    memcpy(solver->poses.data, solver->start.data, sizeof(kiriPose) * (size_t)system->frameCount);
+    kiriSolver_FindGains(solver, system);
+    return true;
 }
 
 /* The iteration starts from free motion, without forces or with those of the last step: a strip that swings is then
    nearly at the minimum, and one at rest is there. The first Gauss-Newton step may raise the objective: it has to turn
    stiff frames, which stretches links until the next step relaxes them, and a line search would not let it turn them.
 
-   Pieces that have gained energy, or took only a part of their last step, are iterated on. What a piece has gained even
-   then is taken out of its velocities. Where that would all but stop it, it starts anew from its pose before the step,
-   and its objective only falls from there. Then, with v the velocities before and w those after the step,
+   A body that has gained energy, or took only a part of its last step, is iterated on. What it has gained even then is
+   taken out of its velocities. Where that would all but stop it, it starts anew from its pose before the step, and its
+   objective only falls from there. Then, with v the velocities before and w those after the step,
 
    potential after + 1/2 m (w - v)^2  <=  potential before + 1/2 m v^2 + work,
 
@@ -1203,30 +1056,35 @@ int32_t kiriSolver_Minimise(kiriSolver* solver, const kiriSystem* system, int32_
 {
     int32_t done = 0, last = iterations + SECOND_CHANCES;
     bool isLeft = true, isFresh = false;
-    EvaluateStart(solver, system); /* all pieces are new */
+    EvaluateStart(solver, system);
     while (isLeft && done < most && done < last) {
         if (!IterateOnce(solver, system)) {
             return -1;
         }
         ++done;
-        solver->solved += 1;
+        bool isBad = false;
         if (done >= iterations) {
             kiriSolver_FindGains(solver, system);
-            isLeft = ChooseUnfinished(solver, done);
+            bool isSuspect = IsSuspect(solver);
+            isBad = isSuspect && solver->search.suspects > 1;
+            solver->search.suspects = isSuspect ? solver->search.suspects + 1 : 0;
+            isLeft = IsUnfinished(solver, done);
         }
         if (isLeft && !isFresh && (done == last || done == most)) {
-            isLeft = RestartPieces(solver, system);
-            kiriSolver_FindGains(solver, system);
+            isLeft = Restart(solver, system);
             isFresh = true;
             last += FRESH_STARTS;
-        } else if (isLeft && done < most && done < last) {
-            TakeAnew(solver, system, done + iterations);
+        } else if (isBad && done < most && done < last) {
+            solver->search.wanted = done + iterations;
+            TakeAnew(solver, system);
         }
     }
     KIRI_ASSERT(done <= iterations + KIRI_EXTRA_SYSTEMS);
     kiriSolver_HoldContacts(solver, system);
     return done;
 }
+
+/* ---- Reactions --------------------------------------------------------------------------------------------------- */
 
 /* What a strain that pulls with -`pull` does to a frame, by its derivative. */
 static void AddPull(const kiriSolver* solver, const kiriFrameRow* row, double pull, const kiriMat3* A, kiriWrench* sum)
@@ -1254,13 +1112,13 @@ static kiriWrench AboutPoint(const kiriWrench* wrench, kiriVec3 x, kiriVec3 poin
     return moved;
 }
 
-/* Whatever acts on the frame beside its own forces and the host's hold: the hold takes it up. */
+/* Takes a wrench about x of a frame from its hold: the hold bears all but the frame's own forces. */
 static void TakeFromHold(const kiriSolver* solver, const kiriSystem* system, int32_t frame, kiriWrench wrench)
 {
     if (system->reactions.frames != NULL && system->frames[frame].held) {
         kiriVec3 held = solver->before.data[frame].heldPosition;
         wrench = AboutPoint(&wrench, solver->poses.data[frame].x, held);
-        kiriWrench_Add(&system->reactions.frames[frame].now, -1.0, &wrench);
+        kiriWrench_Add(&system->reactions.frames[solver->sheetFrame[frame]].now, -1.0, &wrench);
     }
 }
 
@@ -1271,13 +1129,13 @@ static void AddPinPulls(const kiriSolver* solver, const kiriSystem* system)
         kiriVec3 point = kiriSystem_Point(system, pin->frame, pin->at, solver->poses.data);
         kiriVec3 force = kiriVec3_Scale(-pin->stiffness, kiriVec3_Sub(point, pin->target));
         if (system->reactions.pins != NULL) {
-            system->reactions.pins[k].now.force = force;
+            system->reactions.pins[solver->pinRow.data[k]].now.force = force;
         }
         TakeFromHold(solver, system, pin->frame, ForceAt(solver, pin->frame, point, force));
     }
 }
 
-static void AddClamps(const kiriSolver* solver, const kiriSystem* system)
+static void AddClampPulls(const kiriSolver* solver, const kiriSystem* system)
 {
     for (int32_t k = 0; k < system->clampCount; ++k) {
         const kiriClampRow* row = &system->clamps[k];
@@ -1292,50 +1150,36 @@ static void AddClamps(const kiriSolver* solver, const kiriSystem* system)
             AddPull(solver, &rows[e], pull, &pose->A, &wrench);
         }
         if (system->reactions.clamps != NULL) {
-            system->reactions.clamps[k].now = AboutPoint(&wrench, pose->x, row->pose.x);
+            system->reactions.clamps[solver->clampRow.data[k]].now = AboutPoint(&wrench, pose->x, row->pose.x);
         }
         TakeFromHold(solver, system, row->frame, wrench);
     }
 }
 
-static void AddContacts(const kiriSolver* solver, const kiriSystem* system)
+static void TakeContactsFromHolds(const kiriSolver* solver, const kiriSystem* system)
 {
-    for (int32_t k = 0; k < system->contactCount; ++k) {
+    for (int32_t k = 0; k < solver->contacts.count; ++k) {
         const kiriContactStep* step = &solver->contacts.data[k];
-        kiriVec3 force = kiriContact_Force(solver, system, k);
+        kiriVec3 force = kiriContact_Force(solver, step);
         for (int32_t m = 0; m < step->memberCount; ++m) {
             int32_t frame = step->members[m].frame;
-            kiriVec3 point = kiriSystem_Point(system, frame, system->contacts[k].at, solver->poses.data);
+            kiriVec3 point = kiriSystem_Point(system, frame, step->row->at, solver->poses.data);
             kiriVec3 part = kiriVec3_Scale(step->members[m].value, force);
             TakeFromHold(solver, system, frame, ForceAt(solver, frame, point, part));
         }
     }
 }
 
-static void AddWind(const kiriSolver* solver, const kiriSystem* system)
-{
-    KIRI_EACH(f, solver->awake.frames) {
-        if (kiriSystem_HasWind(system) && system->frames[f].held) {
-            TakeFromHold(solver, system, f, kiriWind_OnFrame(solver, system, f));
-        }
-    }
-}
-
-static bool HasHeldMember(const kiriSolver* solver, const kiriSystem* system, int32_t count)
-{
-    bool any = false;
-    for (int32_t m = 0; m < count; ++m) {
-        any |= system->frames[solver->members.data[m]].held != 0;
-    }
-    return any;
-}
-
-/* What element k does to the frames that are held. */
-static void AddHeldElement(const kiriSolver* solver, const kiriSystem* system, int32_t k)
+/* Takes from the holds of frames what an element does to them. */
+static void TakeElementFromHolds(const kiriSolver* solver, const kiriSystem* system, int32_t k)
 {
     int32_t count = kiriElement_Members(system, k, solver->members.data);
     double strain[KIRI_MOST_STRAINS], pulling[KIRI_MOST_STRAINS];
-    if (!HasHeldMember(solver, system, count)) {
+    bool isAnyHeld = false;
+    for (int32_t m = 0; m < count; ++m) {
+        isAnyHeld |= system->frames[solver->members.data[m]].held != 0;
+    }
+    if (!isAnyHeld) {
         return;
     }
     kiriElement_Measure(system, k, solver->poses.data, strain, solver->rows.data);
@@ -1364,7 +1208,7 @@ static void AddMomentum(const kiriSolver* solver, const kiriSystem* system, int3
     kiriWrench wrench = { kiriVec3_AddScaled(gained, -solver->dt, kiriVec3_Add(gravity, before->force)),
                           kiriVec3_AddScaled(turned, -solver->dt, before->torque) };
     wrench = AboutPoint(&wrench, solver->poses.data[f].x, before->heldPosition);
-    kiriWrench_Add(&system->reactions.frames[f].impulse, 1.0, &wrench);
+    kiriWrench_Add(&system->reactions.frames[solver->sheetFrame[f]].impulse, 1.0, &wrench);
 }
 
 /* What was found at the end of the step gives an impulse as inner forces do by the step's scheme (kiri_frame.h):
@@ -1385,14 +1229,14 @@ static void EndReactions(const kiriSolver* solver, const kiriSystem* system)
 {
     const kiriReactions* reactions = &system->reactions;
     for (int32_t k = 0; reactions->pins != NULL && k < system->pinCount; ++k) {
-        EndReaction(&kiriSolver_PieceOf(solver, system->pins[k].frame)->stepping, &reactions->pins[k]);
+        EndReaction(&solver->stepping, &reactions->pins[solver->pinRow.data[k]]);
     }
     for (int32_t k = 0; reactions->clamps != NULL && k < system->clampCount; ++k) {
-        EndReaction(&kiriSolver_PieceOf(solver, system->clamps[k].frame)->stepping, &reactions->clamps[k]);
+        EndReaction(&solver->stepping, &reactions->clamps[solver->clampRow.data[k]]);
     }
-    KIRI_EACH(f, solver->awake.frames) {
-        if (reactions->frames != NULL && system->frames[f].held) {
-            EndReaction(&kiriSolver_PieceOf(solver, f)->stepping, &reactions->frames[f]);
+    for (int32_t f = 0; reactions->frames != NULL && f < system->frameCount; ++f) {
+        if (system->frames[f].held) {
+            EndReaction(&solver->stepping, &reactions->frames[solver->sheetFrame[f]]);
             AddMomentum(solver, system, f);
         }
     }
@@ -1401,12 +1245,16 @@ static void EndReactions(const kiriSolver* solver, const kiriSystem* system)
 void kiriSolver_AddReactions(kiriSolver* solver, const kiriSystem* system)
 {
     AddPinPulls(solver, system);
-    AddClamps(solver, system);
+    AddClampPulls(solver, system);
     if (solver->isHeld && system->reactions.frames != NULL) {
-        AddContacts(solver, system);
-        AddWind(solver, system);
-        KIRI_EACH(k, solver->awake.elements) {
-            AddHeldElement(solver, system, k);
+        TakeContactsFromHolds(solver, system);
+        for (int32_t f = 0; kiriSystem_HasWind(system) && f < system->frameCount; ++f) {
+            if (system->frames[f].held) {
+                TakeFromHold(solver, system, f, WindOnFrame(solver, system, f));
+            }
+        }
+        for (int32_t k = 0; k < solver->elementCount; ++k) {
+            TakeElementFromHolds(solver, system, k);
         }
     }
     EndReactions(solver, system);

@@ -669,12 +669,13 @@ void kiriStrainOffsets_Take(kiriStrainOffsets* strainOffsets, const kiriLink* ol
     strainOffsets->strainOffsets.count = linkCount;
 }
 
-void kiriStrainOffsets_Advance(kiriStrainOffsets* strainOffsets, const kiriIndices* elements, double dt, double time)
+void kiriStrainOffsets_Advance(kiriStrainOffsets* strainOffsets, const kiriIndices* links, double dt, double time)
 {
     double keep = time / (time + dt);
-    KIRI_EACH(k, *elements) {
-        for (int e = 0; k < strainOffsets->strainOffsets.count && e < KIRI_STRAINS; ++e) {
-            double* strain = &strainOffsets->strainOffsets.data[k].strain[e];
+    for (int32_t n = 0; strainOffsets->strainOffsets.count > 0 && n < links->count; ++n) {
+        KIRI_ASSERT(links->data[n] < strainOffsets->strainOffsets.count);
+        for (int e = 0; e < KIRI_STRAINS; ++e) {
+            double* strain = &strainOffsets->strainOffsets.data[links->data[n]].strain[e];
             *strain = fabs(*strain) > 1e-12 ? keep * *strain : 0.0;
         }
     }

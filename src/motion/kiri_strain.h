@@ -165,8 +165,8 @@ void kiriStrainOffsets_Take(kiriStrainOffsets* strainOffsets, const kiriLink* ol
                             const kiriLink* links, int32_t linkCount, const int32_t* was, const kiriFrameData* frames,
                             const kiriMaterial* material);
 
-/* Offsets of those links that are among these elements fade to 1 / e within `time` (s). */
-void kiriStrainOffsets_Advance(kiriStrainOffsets* strainOffsets, const kiriIndices* elements, double dt, double time);
+/* Fades the offsets of these links to 1 / e within `time` (s). */
+void kiriStrainOffsets_Advance(kiriStrainOffsets* strainOffsets, const kiriIndices* links, double dt, double time);
 
 /* How the free edges of a strip stiffen as it bends. Bent to the curvature k, a strip curls across to -nu k and has the
    bending stiffness D (1 - nu^2) W. But the curl moves the edges away from the axis of bending, which stretches them.

@@ -41,8 +41,9 @@ static kiriSystem MakeSystem(kiriSheetData* sheet, kiriVec3 gravity)
 
 static void ClearForces(kiriSheetData* sheet)
 {
-    KIRI_EACH(i, kiriSolver_Awake(sheet->solver)->frames) {
-        kiriFrame_DropForces(&sheet->frames.data[i]);
+    const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->frames;
+    for (int32_t n = 0; n < moved->count; ++n) {
+        kiriFrame_DropForces(&sheet->frames.data[moved->data[n]]);
     }
 }
 
@@ -109,7 +110,7 @@ void kiriMotion_SumRest(kiriSheetData* sheet)
     sheet->rest.isIdle = sheet->rest.isIdle && !any;
 }
 
-/* What is seen elsewhere than where it is moves on, and does not sleep. */
+/* A piece that is seen elsewhere than where it is moves on, and does not sleep. */
 static void MarkFading(kiriSheetData* sheet)
 {
     const kiriFades *fades = &sheet->seen.fades, *pointFades = &sheet->seen.pointFades;
@@ -129,74 +130,155 @@ static void MarkFading(kiriSheetData* sheet)
 /* Before a tick, not after one, so that what is seen is where it came to rest. */
 static void FallAsleep(kiriSheetData* sheet)
 {
-    bool any = false;
     MarkFading(sheet);
     sheet->seen.areFadesAsleep = false;
     for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
         kiriRest* rest = &sheet->layout.pieces.data[p].rest;
         bool isStill = rest->asleep || sheet->layout.pieces.data[p].isGone;
         sheet->seen.areFadesAsleep |= isStill && rest->isFading;
-        bool falls = !rest->asleep && rest->calm >= KIRI_CALM_SECONDS && !rest->isFading;
-        rest->asleep = rest->asleep || falls;
-        any = any || falls;
-    }
-    for (int32_t i = 0; any && i < sheet->frames.count; ++i) {
-        if (kiriSheet_PieceOf(sheet, i)->rest.asleep) {
-            kiriFrame_PutToRest(&sheet->frames.data[i]);
+        if (!rest->asleep && rest->calm >= KIRI_CALM_SECONDS && !rest->isFading) {
+            kiriIndexSpan frames = kiriSolver_FramesOf(sheet->solver, p);
+            rest->asleep = true;
+            for (int32_t n = 0; n < frames.count; ++n) {
+                kiriFrame_PutToRest(&sheet->frames.data[frames.data[n]]);
+            }
         }
     }
 }
 
-/* For a piece that sleeps nobody finds touches but the host: who moves other things wakes it. */
-static void ChooseAwake(kiriSheetData* sheet, const kiriSystem* system, const kiriQuota* systems)
+/* ---- Turns ---- */
+
+static int64_t WorkOf(const kiriSheetData* sheet, int32_t body)
+{
+    return kiriSolver_WorkOf(sheet->solver, body, sheet->solver->bodies.bodies.data[body].contactCount);
+}
+
+/* Items of one linear system of all that is moved. */
+static int64_t ItemsOfMoved(const kiriSheetData* sheet)
+{
+    const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->bodies;
+    int64_t work = 0;
+    for (int32_t n = 0; n < moved->count; ++n) {
+        work += WorkOf(sheet, moved->data[n]);
+    }
+    return kiriSolver_ItemsOf(work);
+}
+
+/* Rows are not written yet. */
+static void CountContacts(kiriSheetData* sheet)
+{
+    kiriSolverBody* bodies = sheet->solver->bodies.bodies.data;
+    const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->bodies;
+    for (int32_t n = 0; n < moved->count; ++n) {
+        bodies[moved->data[n]].contactCount = 0;
+    }
+    for (int32_t i = 0; i < sheet->touches.found.count; ++i) {
+        bodies[kiriTouch_Piece(sheet, &sheet->touches.found.data[i])].contactCount += 1;
+    }
+}
+
+/* Its forces are not used, and what fades goes on to do so. */
+static void Defer(kiriSheetData* sheet, int32_t body)
+{
+    kiriRest* rest = &sheet->layout.pieces.data[body].rest;
+    kiriIndexSpan frames = kiriSolver_FramesOf(sheet->solver, body);
+    for (int32_t n = 0; n < frames.count; ++n) {
+        kiriFrame_DropForces(&sheet->frames.data[frames.data[n]]);
+    }
+    rest->waits = true;
+    sheet->turns.waiting += 1;
+    sheet->seen.areFadesAsleep |= rest->isFading;
+}
+
+/* Chooses the bodies that wait: all but as many, from the first in turn on and one at least, as one system of each is
+   left for. Returns a frame of the first that waits, or 0. */
+static int32_t DeferBodies(kiriSheetData* sheet, const kiriQuota* systems)
+{
+    const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->bodies;
+    int32_t count = moved->count, first = 0, next = 0;
+    int64_t taken = 0;
+    CountContacts(sheet);
+    if (count < 2 || systems->left <= 0 || ItemsOfMoved(sheet) <= systems->left) {
+        return 0;
+    }
+    int32_t turn = sheet->turns.next < sheet->frames.count ? sheet->layout.framePiece.data[sheet->turns.next] : 0;
+    KIRI_SEARCH(first, 0, count, moved->data[middle] < turn);
+    for (int32_t n = 0; n < count; ++n) {
+        int32_t body = moved->data[(first + n) % count];
+        int64_t work = WorkOf(sheet, body);
+        if (sheet->turns.waiting > 0 || (taken > 0 && kiriSolver_ItemsOf(taken + work) > systems->left)) {
+            next = sheet->turns.waiting > 0 ? next : sheet->layout.pieces.data[body].frame;
+            Defer(sheet, body);
+        } else {
+            taken += work;
+        }
+    }
+    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+        kiriSolver_SetMoved(sheet->solver, p, kiriPiece_IsMoved(&sheet->layout.pieces.data[p]));
+    }
+    kiriSolver_ListMoved(sheet->solver);
+    return next;
+}
+
+void kiriMotion_EndTurns(kiriSheetData* sheet)
+{
+    for (int32_t p = 0; sheet->turns.waiting > 0 && p < sheet->layout.pieces.count; ++p) {
+        sheet->layout.pieces.data[p].rest.waits = false;
+    }
+    sheet->turns.waiting = 0;
+}
+
+/* Chooses what the tick moves. For a piece that sleeps only the host finds touches: who moves other things wakes it.
+   Returns a frame of the first piece that waits, or 0. */
+static int32_t ChooseMoved(kiriSheetData* sheet, const kiriQuota* systems)
 {
     int32_t at = 0, piece;
+    KIRI_ASSERT(sheet->turns.waiting == 0);
     while (kiriTouches_NextNew(sheet, &at, &piece)) {
         kiriMotion_WakePiece(sheet, piece);
     }
     if (sheet->rest.asleep) {
-        return;
+        return 0;
     }
     FallAsleep(sheet);
     for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
-        kiriSolver_SetAwake(sheet->solver, p, kiriPiece_IsAwake(&sheet->layout.pieces.data[p]));
+        kiriSolver_SetMoved(sheet->solver, p, kiriPiece_IsAwake(&sheet->layout.pieces.data[p]));
     }
-    bool areOther = kiriSolver_ListAwake(sheet->solver, system);
-    if (kiriPieceTurns_Begin(sheet, system, systems) || areOther) {
+    bool areOther = kiriSolver_ListMoved(sheet->solver);
+    int32_t next = DeferBodies(sheet, systems);
+    if (areOther || sheet->turns.waiting > 0) {
         kiriTouches_Sort(sheet);
         kiriMotion_SumRest(sheet);
     }
+    return next;
 }
 
 /* The fastest frame counts, by the root mean square over its material. */
 static void CountCalm(kiriSheetData* sheet, double dt)
 {
-    const kiriAwake* awake = kiriSolver_Awake(sheet->solver);
+    const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->bodies;
     double limit = 0.5 * sheet->settings.sleepSpeed * sheet->settings.sleepSpeed;
-    KIRI_EACH(p, awake->pieces) {
-        sheet->layout.pieces.data[p].rest.isCalm = true;
-    }
-    KIRI_EACH(i, awake->frames) {
-        const kiriFrameData* frame = &sheet->frames.data[i];
-        bool isSlow = kiriFrame_KineticEnergy(frame, &sheet->settings.material) < limit * frame->mass;
-        kiriRest* rest = &kiriSheet_PieceOf(sheet, i)->rest;
-        rest->isCalm = rest->isCalm && isSlow;
-    }
-    KIRI_EACH(p, awake->pieces) {
-        kiriRest* rest = &sheet->layout.pieces.data[p].rest;
-        rest->calm = rest->isCalm ? rest->calm + dt : 0.0;
+    for (int32_t k = 0; k < moved->count; ++k) {
+        kiriRest* rest = &sheet->layout.pieces.data[moved->data[k]].rest;
+        kiriIndexSpan frames = kiriSolver_FramesOf(sheet->solver, moved->data[k]);
+        bool isCalm = true;
+        for (int32_t n = 0; isCalm && n < frames.count; ++n) {
+            const kiriFrameData* frame = &sheet->frames.data[frames.data[n]];
+            isCalm = kiriFrame_KineticEnergy(frame, &sheet->settings.material) < limit * frame->mass;
+        }
+        rest->calm = isCalm ? rest->calm + dt : 0.0;
     }
 }
 
 /* Where the motion could not be continued. */
 static void Stop(kiriSheetData* sheet)
 {
-    const kiriAwake* awake = kiriSolver_Awake(sheet->solver);
-    KIRI_EACH(i, awake->frames) {
-        kiriFrame_PutToRest(&sheet->frames.data[i]);
+    const kiriMoved* moved = kiriSolver_Moved(sheet->solver);
+    for (int32_t n = 0; n < moved->frames.count; ++n) {
+        kiriFrame_PutToRest(&sheet->frames.data[moved->frames.data[n]]);
     }
-    KIRI_EACH(p, awake->pieces) {
-        kiriMotion_WakePiece(sheet, p);
+    for (int32_t n = 0; n < moved->bodies.count; ++n) {
+        kiriMotion_WakePiece(sheet, moved->bodies.data[n]);
     }
     kiriPins_ClearReactions(sheet);
     kiriTouches_Clear(sheet);
@@ -211,21 +293,44 @@ static int64_t SystemsLeft(const kiriQuota* quota, int64_t items)
     return fit > 0 || kiriQuota_IsBegun(quota) ? fit : 1;
 }
 
+enum { MOST_ROUNDS = 64 + KIRI_EXTRA_SYSTEMS }; /* linear systems of a body in a step */
+
+/* Moves each body by one step. The systems that bodies solve first, second and so on are solved side by side, as far as
+   the quota knows. */
+static bool StepBodies(kiriSheetData* sheet, const kiriSystem* system, double dt, int64_t most, kiriQuota* systems)
+{
+    const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->bodies;
+    int64_t work[MOST_ROUNDS] = { 0 };
+    kiriSolver_ShareRows(sheet->solver, system);
+    for (int32_t n = 0; n < moved->count; ++n) {
+        int32_t solved = kiriSolver_Step(sheet->solver, system, moved->data[n], dt, sheet->settings.iterations,
+                                         (int32_t)kiriMin(most, INT32_MAX));
+        if (solved < 0) {
+            return false;
+        }
+        KIRI_ASSERT(solved <= MOST_ROUNDS);
+        for (int32_t k = 0; k < solved; ++k) {
+            work[k] += WorkOf(sheet, moved->data[n]);
+        }
+    }
+    for (int32_t k = 0; k < MOST_ROUNDS && work[k] > 0; ++k) {
+        kiriQuota_Take(systems, kiriSolver_ItemsOf(work[k]));
+    }
+    return true;
+}
+
 /* Fewer and longer substeps where the quota asks for it, and one system at least for each. */
 static kiriProgress TakeSubsteps(kiriSheetData* sheet, const kiriSystem* system, double dt, int32_t substeps,
                                  kiriQuota* systems)
 {
-    int64_t items = kiriSolver_SystemItems(sheet->solver, system->contactCount), left = SystemsLeft(systems, items);
+    kiriSolver_ShareRows(sheet->solver, system);
+    int64_t items = ItemsOfMoved(sheet), left = SystemsLeft(systems, items);
     substeps = left < substeps ? (int32_t)left : substeps;
     for (int32_t i = 0; i < substeps; ++i) {
         kiriFollow_Step(sheet, i, substeps, dt / substeps);
-        int64_t most = SystemsLeft(systems, items) - (substeps - 1 - i);
-        int32_t solved = kiriSolver_Step(sheet->solver, system, dt / substeps, sheet->settings.iterations,
-                                         most < INT32_MAX ? (int32_t)most : INT32_MAX);
-        if (solved < 0) {
+        if (!StepBodies(sheet, system, dt / substeps, SystemsLeft(systems, items) - (substeps - 1 - i), systems)) {
             return KIRI_FAILED;
         }
-        kiriQuota_Take(systems, solved * items);
     }
     return substeps > 0 ? KIRI_DONE : KIRI_MORE;
 }
@@ -239,7 +344,7 @@ static bool IsRead(const kiriSheetData* sheet)
 /* The quota has nothing left for the sheet. */
 static bool MustWait(const kiriSheetData* sheet, const kiriQuota* systems)
 {
-    return !IsRead(sheet) && SystemsLeft(systems, kiriSolver_SystemItems(sheet->solver, 0)) == 0;
+    return !IsRead(sheet) && SystemsLeft(systems, ItemsOfMoved(sheet)) == 0;
 }
 
 /* Pins and touches have rows by now: the system is made again. */
@@ -260,24 +365,23 @@ static kiriProgress MoveFrames(kiriSheetData* sheet, kiriVec3 gravity, double dt
     } else if (progress == KIRI_DONE) {
         kiriPins_TakeReactions(sheet, dt);
         kiriTouches_End(sheet);
-        kiriStrainOffsets_Advance(&sheet->strainOffsets, &kiriSolver_Awake(sheet->solver)->elements, dt,
+        kiriStrainOffsets_Advance(&sheet->strainOffsets, &kiriSolver_Moved(sheet->solver)->links, dt,
                                   sheet->seen.fades.time);
         kiriPins_FadeOffsets(sheet, dt, sheet->seen.fades.time);
         CountCalm(sheet, dt);
-        kiriPieceTurns_Take(sheet);
     }
     return progress;
 }
 
 kiriProgress kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps, kiriQuota* systems)
 {
-    kiriSystem system = MakeSystem(sheet, gravity);
-    ChooseAwake(sheet, &system, systems);
+    int32_t next = ChooseMoved(sheet, systems);
     if (sheet->rest.asleep) {
         kiriTouches_Tell(sheet, dt);
         return KIRI_DONE;
     }
     kiriProgress progress = MoveFrames(sheet, gravity, dt, substeps, systems);
+    sheet->turns.next = progress == KIRI_DONE ? next : sheet->turns.next;
     kiriTouches_Tell(sheet, dt);
     ClearForces(sheet);
     return progress;
@@ -285,7 +389,7 @@ kiriProgress kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt,
 
 bool kiriMotion_Wait(kiriSheetData* sheet, double dt)
 {
-    if (sheet->rest.asleep || IsRead(sheet) || !kiriSolver_Awake(sheet->solver)->isListed) {
+    if (sheet->rest.asleep || IsRead(sheet) || !kiriSolver_Moved(sheet->solver)->isListed) {
         return false;
     }
     kiriTouches_Tell(sheet, dt);

@@ -21,7 +21,7 @@ void kiriMotion_WakeStirred(kiriSheetData* sheet);
 void kiriMotion_LetRest(kiriSheetData* sheet);
 
 /* Moves the frames by dt in equal substeps, but for those of pieces that sleep, fall asleep or wait
-   (kiri_piece.h). Items of the quota are what linear systems count (kiriSolver_SystemItems). KIRI_MORE: there was
+   (kiriPieceTurns). Items of the quota are what linear systems count (kiriSolver_SystemItems). KIRI_MORE: there was
    none left, and the frames are where they were. KIRI_FAILED: the motion could not be continued, the frames rest where
    they were. Forces and contacts are used up. */
 kiriProgress kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps, kiriQuota* systems);
@@ -30,6 +30,9 @@ kiriProgress kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt,
    look at first, as which pieces fall asleep, waits until it gets its turn. False where somebody reads what it would
    do. */
 bool kiriMotion_Wait(kiriSheetData* sheet, double dt);
+
+/* The tick is over: no piece waits. */
+void kiriMotion_EndTurns(kiriSheetData* sheet);
 
 /* More of the quota it does not take in a tick. */
 int64_t kiriMotion_MostItems(const kiriSheetData* sheet, int32_t substeps);

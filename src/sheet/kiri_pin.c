@@ -390,7 +390,8 @@ void kiriPin_TakePose(const kiriSheetData* sheet, kiriPinData* pin)
 /* So many rows, and what they react with. */
 static bool ReserveRows(kiriSheetData* sheet, int64_t pins, int64_t shares, int64_t frames, int64_t links)
 {
-    return kiriArray_Reserve(sheet->memory, &sheet->pinRows, pins + 2 * shares) &&
+    return kiriSolver_ReserveRows(sheet->solver, pins + 2 * shares, shares, 0) &&
+           kiriArray_Reserve(sheet->memory, &sheet->pinRows, pins + 2 * shares) &&
            kiriArray_Reserve(sheet->memory, &sheet->clampRows, shares) &&
            kiriArray_Reserve(sheet->memory, &sheet->pinReactions, pins + 2 * shares) &&
            kiriArray_Reserve(sheet->memory, &sheet->clampReactions, shares) &&
@@ -683,7 +684,9 @@ void kiriPins_BeginReactions(kiriSheetData* sheet)
         }
     }
     sheet->frameReactions.count = sheet->frames.count;
-    KIRI_EACH(i, kiriSolver_Awake(sheet->solver)->frames) {
+    const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->frames;
+    for (int32_t n = 0; n < moved->count; ++n) {
+        int32_t i = moved->data[n];
         sheet->frameReactions.data[i] = BeginReaction(&sheet->frames.data[i].reaction);
     }
     KIRI_ASSERT(sheet->pinReactions.count == sheet->pinRows.count &&
@@ -859,7 +862,9 @@ void kiriPins_SumShares(kiriSheetData* sheet)
 void kiriPins_TakeReactions(kiriSheetData* sheet, double dt)
 {
     TakePinReactions(sheet, 1.0 / dt);
-    KIRI_EACH(i, kiriSolver_Awake(sheet->solver)->frames) {
+    const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->frames;
+    for (int32_t n = 0; n < moved->count; ++n) {
+        int32_t i = moved->data[n];
         kiriFrameData* frame = &sheet->frames.data[i];
         frame->reaction = sheet->frameReactions.data[i];
         memset(&frame->bore, 0, sizeof(frame->bore));
@@ -1015,7 +1020,9 @@ static void DropOffs(kiriSheetData* sheet)
     for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
         sheet->layout.pinShares.data[k].off = none;
     }
-    KIRI_EACH(f, kiriSolver_Awake(sheet->solver)->frames) {
+    const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->frames;
+    for (int32_t n = 0; n < moved->count; ++n) {
+        int32_t f = moved->data[n];
         sheet->frames.data[f].heldOff = none;
         sheet->frames.data[f].isOffKnown = false;
     }
@@ -1039,7 +1046,9 @@ void kiriFollow_Begin(kiriSheetData* sheet, double dt)
             SettleClamp(sheet, k, dt);
         }
     }
-    KIRI_EACH(f, kiriSolver_Awake(sheet->solver)->frames) {
+    const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->frames;
+    for (int32_t n = 0; n < moved->count; ++n) {
+        int32_t f = moved->data[n];
         SettleFrame(sheet, f, dt);
     }
 }
@@ -1108,7 +1117,9 @@ void kiriFollow_Step(kiriSheetData* sheet, int32_t i, int32_t n, double h)
     if (Yield(sheet, (i + 1) * h, h) || IsAnyPinMoved(sheet)) {
         kiriPins_WriteRows(sheet, (double)i / n, i + 1 == n ? 1.0 : (i + 1.0) / n);
     }
-    KIRI_EACH(f, kiriSolver_Awake(sheet->solver)->frames) {
+    const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->frames;
+    for (int32_t k = 0; k < moved->count; ++k) {
+        int32_t f = moved->data[k];
         if (sheet->frames.data[f].held) {
             MoveHeld(&sheet->frames.data[f], n - i);
         }

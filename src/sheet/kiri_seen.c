@@ -310,14 +310,14 @@ bool kiriView_ReserveFades(kiriSheetData* sheet, int32_t pointCount, double fade
 
 /* ---- What sleeps ---- */
 
-/* Null where anything may be elsewhere than it was seen last. */
-static const kiriAwake* AwakeOf(kiriSheetData* sheet)
+/* Returns what the tick moved; null where anything else may be elsewhere than it was seen last. */
+static const kiriMoved* MovedOf(kiriSheetData* sheet)
 {
-    const kiriAwake* awake = kiriSolver_Awake(sheet->solver);
+    const kiriMoved* moved = kiriSolver_Moved(sheet->solver);
     bool hasLinks = sheet->settings.mechanics.model != KIRI_MODEL_POINTS;
     bool isOther = !sheet->seen.surface.isSteady || sheet->seen.areFadesAsleep ||
                    (sheet->rest.asleep && sheet->seen.fades.fading.count + sheet->seen.pointFades.fading.count > 0);
-    return awake->isListed && !isOther && (hasLinks || sheet->settings.skinning == KIRI_SKINNING_LINEAR) ? awake : NULL;
+    return moved->isListed && !isOther && (hasLinks || sheet->settings.skinning == KIRI_SKINNING_LINEAR) ? moved : NULL;
 }
 
 /* Pieces that wait are where their jump took them, but nothing that follows from it is made yet. */
@@ -451,12 +451,13 @@ void kiriView_WriteTopology(kiriSheetData* sheet)
 
 void kiriView_TakeFrames(kiriSheetData* sheet)
 {
-    const kiriAwake* awake = AwakeOf(sheet);
+    const kiriMoved* moved = MovedOf(sheet);
     kiriSurface_TakeFrames(&sheet->seen.surface, &sheet->shape.labels, sheet->frames.data, sheet->frames.count,
-                           sheet->links.links.data, sheet->links.links.count, awake);
-    if (sheet->seen.surface.isPartly && (awake->lists != sheet->seen.lists || sheet->seen.blocks.hasUnknown)) {
+                           sheet->links.links.data, sheet->links.links.count, moved != NULL ? &moved->frames : NULL,
+                           moved != NULL ? &moved->links : NULL);
+    if (sheet->seen.surface.isPartly && (moved->version != sheet->seen.lists || sheet->seen.blocks.hasUnknown)) {
         kiriBlocks_FindMovers(sheet);
-        sheet->seen.lists = awake->lists;
+        sheet->seen.lists = moved->version;
     }
     if (HasMovedWaiting(sheet)) {
         memset(sheet->seen.blocks.stale.data, 1, (size_t)sheet->seen.blocks.stale.count);

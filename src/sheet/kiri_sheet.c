@@ -98,7 +98,6 @@ static kiriSystem NextSystem(const kiriSheetData* sheet, int32_t frameCount)
     next.corners = sheet->links.nextCorners.data;
     next.cornerCount = sheet->links.nextCorners.count;
     next.areaElements = &u->next.areaElements;
-    next.linkWas = sheet->links.was.count > 0 ? sheet->links.was.data : NULL;
     return next;
 }
 
@@ -114,10 +113,8 @@ static kiriProgress ReserveFrames(kiriSheetData* sheet, kiriQuota* samples)
 {
     enum { READY_BYTES = 1024 }; /* for an item */
     int32_t count = sheet->update->placing.sites.count;
-    kiriSystem next = NextSystem(sheet, count);
     const kiriRoom frames = KIRI_ROOM(sheet->memory, &sheet->frames, count);
-    kiriProgress progress = kiriRooms_MakeReady(&frames, 1, samples, READY_BYTES);
-    return progress == KIRI_DONE ? kiriSolver_Reserve(sheet->solver, &next, samples, READY_BYTES) : progress;
+    return kiriRooms_MakeReady(&frames, 1, samples, READY_BYTES);
 }
 
 /* ---- Steps ---- */
@@ -311,14 +308,12 @@ static bool AreSameSettings(const kiriSheetSettings* a, const kiriSheetSettings*
            a->normals == b->normals;
 }
 
-/* The solver counts corners only where Poisson's ratio is above 0. What it had staged for an update is staged again
-   before the commit: PrepareCommit and the commit are of one tick. */
-static bool StageSolver(kiriSheetData* sheet, const kiriSheetSettings* given)
+bool kiriSheet_RestageSolver(kiriSheetData* sheet, const kiriMaterial* material)
 {
     kiriSystem system;
     memset(&system, 0, sizeof(system));
     system.mechanics = sheet->settings.mechanics;
-    system.material = given->material;
+    system.material = *material;
     system.frameCount = sheet->frames.count;
     system.links = sheet->links.links.data;
     system.linkCount = sheet->links.links.count;
@@ -363,7 +358,7 @@ bool kiriSettings_Change(kiriSheetData* sheet, const kiriSheetSettings* given)
     bool looksOther = sheet->seen.isElsewhere || given->skinning != before.skinning;
     bool isOther = !IsSameMaterial(&given->material, &before.material);
     if ((looksOther && !kiriView_ReserveFades(sheet, sheet->points.count, given->fadeTime)) ||
-        (isOther && !StageSolver(sheet, given))) {
+        (isOther && !kiriSheet_RestageSolver(sheet, &given->material))) {
         return false;
     }
     kiriSettings_Take(&sheet->settings, given, sheet->mesh.step * sheet->mesh.squares.side);

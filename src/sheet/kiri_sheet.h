@@ -70,9 +70,8 @@ typedef struct kiriRest {
     double calm;    /* s for which it has been slower than sleepSpeed */
     bool asleep;    /* it was not moved by the last tick, and rests */
     bool isStirred; /* in the tick at hand something that moves comes near, or a cut changes it: it shall wake */
-    bool waits;     /* in the tick at hand the budget has no systems left for it, see kiri_piece.h */
+    bool waits;     /* in the tick at hand the budget has no systems left for it, see kiriPieceTurns */
     bool isFading;  /* scratch: some of it is seen elsewhere; */
-    bool isCalm;    /* scratch: it was slower than sleepSpeed in this tick */
 } kiriRest;
 
 typedef struct kiriPiece {
@@ -83,7 +82,6 @@ typedef struct kiriPiece {
     bool isGone;    /* the host has destroyed it: it is not seen, and goes when the work at hand is done */
     bool isTouched; /* its frames, links or samples are not those of its origin */
     int32_t island; /* scratch: of pieces that touch, see kiri_pair.c */
-    int32_t work;   /* scratch: its part of a linear system, see kiri_piece.c */
     kiriRest rest;
 } kiriPiece;
 
@@ -254,7 +252,9 @@ typedef struct kiriSheetRest {
     bool isIdle; /* they sleep, and no tick has anything to do for it until one wakes, or it gets a cut or contacts */
 } kiriSheetRest;
 
-/* See kiri_piece.h. */
+/* Where the budget has too few systems left for all pieces that are awake, some of them wait in a tick: such a piece
+   stays where it is, with its velocity. Contacts are remembered for it as for a piece that sleeps. In the next tick the
+   first that waited comes first. */
 typedef struct kiriPieceTurns {
     int32_t next;    /* a frame of the piece that is moved first */
     int32_t waiting; /* pieces that wait in the tick at hand */
@@ -357,7 +357,7 @@ typedef struct kiriSeen {
     bool isElsewhere;                  /* vertices are new, or a cut took effect, since positions were written: */
     int32_t vertexCount;               /* vertices that are not new */
     kiriBlocks blocks;                 /* of vertices; the movers are those */
-    int64_t lists;                     /* of this state of kiriAwake */
+    int64_t lists;                     /* of this version of kiriMoved */
     bool areFadesAsleep;               /* some fade of a piece that sleeps, or is gone */
 } kiriSeen;
 
@@ -508,6 +508,11 @@ void kiriSettings_Apply(kiriSheetData* sheet);
 
 /* Takes over others in a sheet that lives, with all that follows. False for memory: then nothing has changed. */
 bool kiriSettings_Change(kiriSheetData* sheet, const kiriSheetSettings* given);
+
+/* Stages the solver for what is in force: after a load, or for another material, which may bring in corners. What was
+   staged for an update is staged again before its commit, for that is of one tick with its staging. Fails on out of
+   memory. */
+bool kiriSheet_RestageSolver(kiriSheetData* sheet, const kiriMaterial* material);
 
 /* A sheet from its def. */
 

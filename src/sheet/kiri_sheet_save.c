@@ -24,13 +24,13 @@ static const kiriTable SettingsTable = KIRI_TABLE(kiriSettings, SettingsMembers)
 
 static const kiriMember RestMembers[] = {
     KIRI_RUN(8, kiriRest, calm, calm),
-    KIRI_BOOLS(kiriRest, asleep, isCalm),
+    KIRI_BOOLS(kiriRest, asleep, isFading),
 };
 static const kiriTable RestTable = KIRI_TABLE(kiriRest, RestMembers);
 
 static const kiriMember PieceMembers[] = {
     KIRI_RUN(8, kiriPiece, area, area),        KIRI_RUN(4, kiriPiece, frame, origin),
-    KIRI_BOOLS(kiriPiece, cameOff, isTouched), KIRI_RUN(4, kiriPiece, island, work),
+    KIRI_BOOLS(kiriPiece, cameOff, isTouched), KIRI_RUN(4, kiriPiece, island, island),
     KIRI_PART(kiriPiece, rest, RestTable),
 };
 static const kiriTable PieceTable = KIRI_TABLE(kiriPiece, PieceMembers);
@@ -555,5 +555,9 @@ bool kiriSheet_EndReading(kiriSheetData* sheet, bool isWhole)
     sheet->seen.bounds->levelCount = 0;
     bool ok = !hasBounds || kiriBounds_Update(sheet->seen.bounds, sheet->memory, surface);
     sheet->seen.bounds->patience = patience;
+    ok = ok && kiriSheet_RestageSolver(sheet, &sheet->settings.material) &&
+         kiriSolver_ReserveRows(sheet->solver, sheet->pins.count + 2 * (int64_t)sheet->layout.pinShares.count,
+                                sheet->layout.pinShares.count, 0);
+    kiriSolver_Commit(sheet->solver);
     return ok && RemakeProbes(sheet);
 }

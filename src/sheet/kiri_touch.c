@@ -424,12 +424,12 @@ static kiriMeeting MakeMeeting(kiriObstacleSearch* search, kiriSheetData* sheet,
 /* Of the movers, unless something else has been woken since, or shall wake. */
 static int64_t VersionOf(const kiriSheetData* sheet)
 {
-    const kiriAwake* awake = kiriSolver_Awake(sheet->solver);
-    bool isSame = awake->isListed && awake->lists == sheet->seen.lists;
+    const kiriMoved* moved = kiriSolver_Moved(sheet->solver);
+    bool isSame = moved->isListed && moved->version == sheet->seen.lists;
     for (int32_t p = 0; isSame && p < sheet->layout.pieces.count; ++p) {
-        isSame = awake->isAwake.data[p] || !kiriPiece_MayMove(&sheet->layout.pieces.data[p]);
+        isSame = sheet->solver->bodies.bodies.data[p].isMoved || !kiriPiece_MayMove(&sheet->layout.pieces.data[p]);
     }
-    return isSame ? awake->lists : 0;
+    return isSame ? moved->version : 0;
 }
 
 /* Of the triangles found, those of pieces that move, or shall wake. */
@@ -995,7 +995,7 @@ bool kiriTouches_Room(kiriSheetData* sheet, int64_t count)
     return kiriArray_Reserve(sheet->memory, &touches->found, count) &&
            kiriArray_Reserve(sheet->memory, &touches->yields, count) &&
            kiriArray_Reserve(sheet->memory, &touches->rows, count) && RoomToRemember(sheet, count) &&
-           kiriSolver_ReserveContacts(sheet->solver, (int32_t)count);
+           kiriSolver_ReserveRows(sheet->solver, 0, 0, count);
 }
 
 bool kiriTouches_Reserve(kiriSheetData* sheet)

@@ -88,16 +88,12 @@ struct kiriMatrix {
     kiriMemory* memory;
     int32_t size, count;
     bool usesAvx;
-    int64_t products, chosenProducts; /* of blocks, in a factorisation of all panels and of the chosen panels */
+    int64_t products;                 /* of blocks, in a factorisation */
     KIRI_ARRAY(kiriPair) pairs;       /* of the pattern: a < b, ascending */
     KIRI_ARRAY(int32_t) order;        /* position of each frame */
     Pattern pattern, factor;          /* of the matrix; of the factor, column by column */
     KIRI_ARRAY(Panel) panels;         /* and one more, where all of them end */
     KIRI_ARRAY(int32_t) panelOf;      /* of each column */
-    kiriIndices chosen;               /* panels with a chosen frame */
-    kiriIndices frames;               /* chosen frames */
-    kiriIndices idle;                 /* columns of chosen panels without a chosen frame: they get the identity */
-    KIRI_ARRAY(uint8_t) isChosen;     /* of each panel */
     KIRI_ARRAY(Update) updates;
     KIRI_ARRAY(double) values, factors, right;
     KIRI_ARRAY(double) scaled, part;          /* scratch: rows of a panel times D; the right side of a panel */
@@ -127,9 +123,7 @@ bool ReserveFrames(kiriMatrix* matrix)
     int64_t count = matrix->count;
     return kiriArray_Resize(memory, &matrix->order, count) && kiriArray_Resize(memory, &matrix->child, count) &&
            kiriArray_Resize(memory, &matrix->sibling, count) && kiriArray_Resize(memory, &matrix->mark, count) &&
-           kiriArray_Resize(memory, &matrix->panelOf, count) && kiriArray_Resize(memory, &matrix->frames, count) &&
-           kiriArray_Resize(memory, &matrix->chosen, count) && kiriArray_Resize(memory, &matrix->idle, count) &&
-           kiriArray_Resize(memory, &matrix->isChosen, count) &&
+           kiriArray_Resize(memory, &matrix->panelOf, count) &&
            kiriArray_Resize(memory, &matrix->pattern.start, count + 1) &&
            kiriArray_Resize(memory, &matrix->factor.start, count + 1) &&
            kiriArray_Resize(memory, &matrix->right, count * matrix->size);
@@ -341,11 +335,14 @@ bool ShapePairs(kiriMatrix* matrix, int64_t most)
         !PlacePanels(matrix) || !ListUpdates(matrix)) {
         return false;
     }
-    for (int32_t f = 0; f < matrix->count; ++f) {
-        matrix->frames.data[f] = f;
+    matrix->products = 0;
+    for (int32_t p = 0; p + 1 < matrix->panels.count; ++p) {
+        const Panel* panel = &matrix->panels.data[p];
+        for (int32_t n = 0; n < panel->width; ++n) {
+            int64_t below = panel->below + n;
+            matrix->products += below * (below + 1) / 2;
+        }
     }
-    kiriMatrix_Choose(matrix, matrix->frames.data, matrix->count);
-    matrix->products = matrix->chosenProducts;
     return true;
 }
 
@@ -363,6 +360,21 @@ extern "C" kiriMatrix* kiriMatrix_Create(kiriMemory* memory, int32_t size)
     matrix->size = size;
     matrix->usesAvx = kiriProduct_HasAvx();
     return matrix;
+}
+
+extern "C" void kiriMatrix_Destroy(kiriMatrix* matrix)
+{
+    if (matrix != nullptr) {
+        void* arrays[] = { &matrix->pairs,       &matrix->order,     &matrix->pattern.start, &matrix->pattern.row,
+                           &matrix->factor.start, &matrix->factor.row, &matrix->panels,      &matrix->panelOf,
+                           &matrix->updates,     &matrix->values,    &matrix->factors,       &matrix->right,
+                           &matrix->scaled,      &matrix->part,      &matrix->blocks,        &matrix->child,
+                           &matrix->sibling,     &matrix->mark };
+        for (void* array : arrays) {
+            kiriArray_Release(matrix->memory, array);
+        }
+        kiriMemory_Free(matrix->memory, matrix);
+    }
 }
 
 extern "C" bool kiriMatrix_Shape(kiriMatrix* matrix, int32_t frameCount, const kiriPair* pairs, int64_t pairCount)
@@ -404,7 +416,7 @@ extern "C" void kiriMatrix_Archive(kiriArchive* archive, kiriMatrix* matrix)
 {
     bool reads = kiriArchive_Reads(archive);
     int64_t most = archive->room / ((int64_t)sizeof(double) * matrix->size * matrix->size), total = 0;
-    int32_t count = kiriArchive_Count(archive, matrix->count, 0, reads ? archive->room / 64 : INT32_MAX);
+    int32_t count = kiriArchive_Count(archive, matrix->count, 0, reads ? archive->room / 256 : INT32_MAX);
     if (count == 0 || kiriArchive_HasFailed(archive)) {
         return;
     }
@@ -446,44 +458,9 @@ extern "C" void kiriMatrix_Archive(kiriArchive* archive, kiriMatrix* matrix)
     }
 }
 
-/* ---- Choice ---- */
-
-extern "C" void kiriMatrix_Choose(kiriMatrix* matrix, const int32_t* frames, int32_t count)
+extern "C" int64_t kiriMatrix_ProductCount(const kiriMatrix* matrix)
 {
-    KIRI_ASSERT(count >= 0 && count <= matrix->count);
-    int32_t panelCount = matrix->panels.count - 1;
-    std::fill(matrix->isChosen.data, matrix->isChosen.data + panelCount, (uint8_t)0);
-    std::fill(matrix->mark.data, matrix->mark.data + matrix->count, (int32_t)KIRI_NONE);
-    for (int32_t n = 0; n < count; ++n) {
-        KIRI_ASSERT(n == 0 || frames[n] > frames[n - 1]);
-        int32_t c = matrix->order.data[frames[n]];
-        matrix->frames.data[n] = frames[n];
-        matrix->mark.data[c] = c;
-        matrix->isChosen.data[matrix->panelOf.data[c]] = 1;
-    }
-    matrix->frames.count = count;
-    std::fill(matrix->right.data, matrix->right.data + matrix->right.count, 0.0);
-    matrix->chosen.count = matrix->idle.count = 0;
-    matrix->chosenProducts = 0;
-    for (int32_t p = 0; p < panelCount; ++p) {
-        const Panel* panel = &matrix->panels.data[p];
-        if (!matrix->isChosen.data[p]) {
-            continue;
-        }
-        matrix->chosen.data[matrix->chosen.count++] = p;
-        for (int32_t n = 0; n < panel->width; ++n) {
-            int64_t below = panel->below + n;
-            matrix->chosenProducts += below * (below + 1) / 2;
-            if (matrix->mark.data[panel->column + n] == KIRI_NONE) {
-                matrix->idle.data[matrix->idle.count++] = panel->column + n;
-            }
-        }
-    }
-}
-
-extern "C" int64_t kiriMatrix_ProductCount(const kiriMatrix* matrix, bool chosen)
-{
-    return (chosen ? matrix->chosenProducts : matrix->products) * matrix->size * matrix->size * matrix->size / 216;
+    return matrix->products * matrix->size * matrix->size * matrix->size / 216;
 }
 
 extern "C" void kiriMatrix_RefuseAvx(kiriMatrix* matrix)
@@ -607,19 +584,7 @@ extern "C" bool kiriMatrix_Covers(const kiriMatrix* matrix, kiriPair pair)
 
 extern "C" void kiriMatrix_Clear(kiriMatrix* matrix)
 {
-    int32_t size = matrix->size;
-    for (int32_t k = 0; k < matrix->chosen.count; ++k) {
-        const Panel* panel = &matrix->panels.data[matrix->chosen.data[k]];
-        const int32_t* start = &matrix->pattern.start.data[panel->column];
-        int64_t numbers = (int64_t)size * size * (start[panel->width] - start[0]);
-        memset(BlockOf(matrix, start[0]), 0, (size_t)numbers * sizeof(double));
-    }
-    for (int32_t k = 0; k < matrix->idle.count; ++k) {
-        double* block = DiagonalBlockOf(matrix, matrix->idle.data[k]);
-        for (int32_t n = 0; n < size; ++n) {
-            block[(size + 1) * n] = 1.0;
-        }
-    }
+    std::fill(matrix->values.data, matrix->values.data + matrix->values.count, 0.0);
 }
 
 extern "C" void kiriMatrix_AddOwn(kiriMatrix* matrix, int32_t frame, const double* block)
@@ -856,14 +821,11 @@ template <int Size> bool FactorPanel(kiriMatrix* matrix, const Panel* panel)
 
 template <int Size> bool FactorPanels(kiriMatrix* matrix)
 {
-    for (int32_t k = 0; k < matrix->chosen.count; ++k) {
-        const Panel* panel = &matrix->panels.data[matrix->chosen.data[k]];
+    for (int32_t p = 0; p + 1 < matrix->panels.count; ++p) {
+        const Panel* panel = &matrix->panels.data[p];
         StartPanel(matrix, panel);
         for (int32_t n = panel->update; n < panel[1].update; ++n) {
-            const Update* update = &matrix->updates.data[n];
-            if (matrix->isChosen.data[update->panel]) { /* other panels have zeros there */
-                UpdatePanel(matrix, panel, update);
-            }
+            UpdatePanel(matrix, panel, &matrix->updates.data[n]);
         }
         if (!FactorPanel<Size>(matrix, panel)) {
             return false;
@@ -883,8 +845,8 @@ extern "C" bool kiriMatrix_Factor(kiriMatrix* matrix)
     if (WithSize(matrix, factor)) {
         return true;
     }
-    for (int32_t f = 0; f < matrix->frames.count; ++f) {
-        double* block = DiagonalBlockOf(matrix, matrix->order.data[matrix->frames.data[f]]);
+    for (int32_t c = 0; c < matrix->count; ++c) {
+        double* block = DiagonalBlockOf(matrix, c);
         for (int32_t n = 0; n < matrix->size; ++n) {
             block[(matrix->size + 1) * n] *= 1.0 + LAST_BITS;
         }
@@ -964,8 +926,8 @@ void SolvePanelUp(const double* panel, int32_t height, int32_t width, double* x)
 template <int Size> void SolvePanels(kiriMatrix* matrix)
 {
     double *all = matrix->right.data, *part = matrix->part.data;
-    for (int32_t k = 0; k < matrix->chosen.count; ++k) {
-        const Panel* panel = &matrix->panels.data[matrix->chosen.data[k]];
+    for (int32_t p = 0; p + 1 < matrix->panels.count; ++p) {
+        const Panel* panel = &matrix->panels.data[p];
         const int32_t width = Size * panel->width, *rows = matrix->factor.row.data + panel->row;
         CopyNumbers(part, all + Size * panel->column, width);
         memset(part + width, 0, sizeof(double) * (size_t)(Size * panel->below));
@@ -975,8 +937,8 @@ template <int Size> void SolvePanels(kiriMatrix* matrix)
             Target<Size>(all + Size * rows[n]) += Source<Size>(part + width + Size * n);
         }
     }
-    for (int32_t k = matrix->chosen.count - 1; k >= 0; --k) {
-        const Panel* panel = &matrix->panels.data[matrix->chosen.data[k]];
+    for (int32_t p = matrix->panels.count - 2; p >= 0; --p) {
+        const Panel* panel = &matrix->panels.data[p];
         const int32_t width = Size * panel->width, *rows = matrix->factor.row.data + panel->row;
         CopyNumbers(part, all + Size * panel->column, width);
         for (int32_t n = 0; n < panel->below; ++n) {
@@ -992,13 +954,11 @@ template <int Size> void SolvePanels(kiriMatrix* matrix)
 extern "C" void kiriMatrix_Solve(kiriMatrix* matrix, const double* right, double* solution)
 {
     int32_t size = matrix->size;
-    for (int32_t n = 0; n < matrix->frames.count; ++n) {
-        int32_t f = matrix->frames.data[n];
+    for (int32_t f = 0; f < matrix->count; ++f) {
         CopyNumbers(matrix->right.data + size * matrix->order.data[f], right + size * f, size);
     }
     WithSize(matrix, [=](auto constant) { SolvePanels<constant.value>(matrix); });
-    for (int32_t n = 0; n < matrix->frames.count; ++n) {
-        int32_t f = matrix->frames.data[n];
+    for (int32_t f = 0; f < matrix->count; ++f) {
         CopyNumbers(solution + size * f, matrix->right.data + size * matrix->order.data[f], size);
     }
 }

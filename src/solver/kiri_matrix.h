@@ -19,6 +19,9 @@ typedef struct kiriPair {
 /* Creates a matrix without frames. `size` is the unknowns a frame: 3, 6 or 12. Returns null on out of memory. */
 kiriMatrix* kiriMatrix_Create(kiriMemory* memory, int32_t size);
 
+/* Frees the matrix. Null is a no-op. */
+void kiriMatrix_Destroy(kiriMatrix* matrix);
+
 /* Sets the pattern, orders the frames and computes the symbolic factorisation. Pairs may repeat, in any order. The
    result depends on the set of pairs alone. Eigen takes scratch from malloc for the order, and frees it before this
    call returns. Returns false on out of memory: then only another Shape may follow. */
@@ -30,8 +33,8 @@ int32_t kiriMatrix_FrameCount(const kiriMatrix* matrix);
 int32_t kiriMatrix_PairCount(const kiriMatrix* matrix);
 void kiriMatrix_GetPairs(const kiriMatrix* matrix, kiriPair* pairs);
 
-/* Counts the products of blocks of size 6 in a factorisation of the chosen frames, or of all frames. */
-int64_t kiriMatrix_ProductCount(const kiriMatrix* matrix, bool chosen);
+/* Counts the products of blocks of size 6 in a factorisation. */
+int64_t kiriMatrix_ProductCount(const kiriMatrix* matrix);
 
 /* Returns true if the pattern contains the pair. */
 bool kiriMatrix_Covers(const kiriMatrix* matrix, kiriPair pair);
@@ -47,10 +50,6 @@ void kiriMatrix_Archive(struct kiriArchive* archive, kiriMatrix* matrix);
 
 /* Disables the AVX kernel of this matrix, for tests: the bits are the same. */
 void kiriMatrix_RefuseAvx(kiriMatrix* matrix);
-
-/* Restricts Clear, Factor and Solve to these frames, which ascend: blocks that they share with other frames stay zero,
-   and no block is added to other frames. Shape chooses all frames. */
-void kiriMatrix_Choose(kiriMatrix* matrix, const int32_t* frames, int32_t count);
 
 void kiriMatrix_Clear(kiriMatrix* matrix);
 

@@ -532,7 +532,8 @@ static kiriVec3 FindMiddle(const kiriFrameData* frames, int32_t frameCount, doub
 }
 
 void kiriSurface_TakeFrames(kiriSurface* surface, const kiriLabels* labels, const kiriFrameData* frames,
-                            int32_t frameCount, const kiriLink* links, int32_t linkCount, const kiriAwake* awake)
+                            int32_t frameCount, const kiriLink* links, int32_t linkCount, const kiriIndices* moved,
+                            const kiriIndices* movedLinks)
 {
     bool isBent = surface->skinning == KIRI_SKINNING_SMOOTH && linkCount > 0;
     kiriVec3 was = surface->middle, middle = FindMiddle(frames, frameCount, surface->longer);
@@ -540,13 +541,13 @@ void kiriSurface_TakeFrames(kiriSurface* surface, const kiriLabels* labels, cons
     if (!kiriVec3_Equal(was, middle)) {
         kiriPatches_Forget(&surface->patches);
     }
-    surface->isPartly = awake != NULL && surface->isSteady && surface->patches.isBent == isBent &&
+    surface->isPartly = moved != NULL && surface->isSteady && surface->patches.isBent == isBent &&
                         surface->patches.count == kiriLabels_Count(labels, frameCount);
-    const kiriIndices* some = surface->isPartly ? &awake->frames : NULL;
+    const kiriIndices* some = surface->isPartly ? moved : NULL;
     kiriCarriers_Write(surface->carriers.data, frames, frameCount, some);
     if (isBent) {
         kiriCarriers_Bend(surface->carriers.data, surface->bends.data, frames, frameCount, links, linkCount, some,
-                          surface->isPartly ? &awake->elements : NULL);
+                          surface->isPartly ? movedLinks : NULL);
     }
     bool isOther =
         kiriPatches_Write(&surface->patches, labels, surface->carriers.data, frameCount, middle, isBent, some);

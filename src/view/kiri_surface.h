@@ -166,10 +166,11 @@ bool kiriSurface_RenewIndices(kiriSurface* surface, kiriMemory* memory, kiriMemo
 void kiriSurface_HideTriangle(kiriSurface* surface, int32_t triangle);
 
 /* Takes over where the frames are, which have these labels in weights. The links tell a smooth surface how to bend; a
-   linear one does not ask. Where nothing is other than when arrays were written, they stay so. `awake`: only its frames
-   may be elsewhere than when they were taken over last, and its elements begin with links; or null. */
+   linear one does not ask. Where nothing is other than when arrays were written, they stay so. `moved`: only these frames
+   may be elsewhere than when they were taken over last, and `movedLinks` are their links; or null. */
 void kiriSurface_TakeFrames(kiriSurface* surface, const kiriLabels* labels, const kiriFrameData* frames,
-                            int32_t frameCount, const kiriLink* links, int32_t linkCount, const kiriAwake* awake);
+                            int32_t frameCount, const kiriLink* links, int32_t linkCount, const kiriIndices* moved,
+                            const kiriIndices* movedLinks);
 
 /* Writes the positions of the vertices from `begin` to `end`, without fades. Ranges may be written in parallel. */
 void kiriSurface_BlendRange(kiriSurface* surface, const kiriSkin* skin, int32_t begin, int32_t end);

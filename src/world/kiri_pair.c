@@ -138,17 +138,18 @@ static bool LiesOnPlane(const kiriSheetData* sheet, const kiriContactRow* row)
 
 static void FindSupport(kiriSheetData* sheet)
 {
-    const kiriAwake* awake = kiriSolver_Awake(sheet->solver);
-    KIRI_EACH(f, awake->frames) {
-        memset(&sheet->frames.data[f].support, 0, sizeof(kiriVec3));
+    const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->frames;
+    for (int32_t n = 0; n < moved->count; ++n) {
+        sheet->frames.data[moved->data[n]].support = kiriVec3_Make(0.0, 0.0, 0.0);
     }
     for (int32_t k = 0; k < sheet->touches.rows.count; ++k) {
         const kiriContactRow* row = &sheet->touches.rows.data[k];
         kiriVec3* support = &sheet->frames.data[row->weights[0].frame].support;
         *support = LiesOnPlane(sheet, row) ? kiriVec3_Add(*support, row->normal) : *support;
     }
-    KIRI_EACH(f, awake->frames) {
-        sheet->frames.data[f].support = kiriVec3_Normalize(sheet->frames.data[f].support);
+    for (int32_t n = 0; n < moved->count; ++n) {
+        kiriVec3* support = &sheet->frames.data[moved->data[n]].support;
+        *support = kiriVec3_Normalize(*support);
     }
 }
 
@@ -157,8 +158,9 @@ static void FindSupport(kiriSheetData* sheet)
 static void SettleFrames(kiriSheetData* sheet, double dt)
 {
     double slow = SLOW * sheet->settings.sleepSpeed, keep = SETTLED / (SETTLED + dt);
-    KIRI_EACH(f, kiriSolver_Awake(sheet->solver)->frames) {
-        kiriFrameData* frame = &sheet->frames.data[f];
+    const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->frames;
+    for (int32_t n = 0; n < moved->count; ++n) {
+        kiriFrameData* frame = &sheet->frames.data[moved->data[n]];
         double energy = kiriFrame_KineticEnergy(frame, &sheet->settings.material);
         bool isCarried = kiriVec3_Dot(frame->support, frame->support) > 0.0;
         if (isCarried && !frame->held && energy < 0.5 * frame->mass * slow * slow) {

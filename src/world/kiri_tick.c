@@ -392,7 +392,7 @@ static void SkinAll(kiriWorld* world, double dt)
     EnterStage(world, KIRI_STAGE_SKIN);
     kiriSkinStep_Run(world, dt);
     for (int32_t k = 0; k < world->active.count; ++k) {
-        kiriPieceTurns_End(kiriWorld_Active(world, k));
+        kiriMotion_EndTurns(kiriWorld_Active(world, k));
         CountJumps(&world->profile, kiriWorld_Active(world, k));
     }
 }
