@@ -8,6 +8,7 @@
 #include "mesh/kiri_cut.h"
 #include "field/kiri_link.h"
 #include "view/kiri_sample.h"
+#include "reaches.h"
 
 typedef struct Follow {
     kiriMemory* memory;
@@ -398,20 +399,20 @@ static inline int32_t Follow_Twin(const Follow* a, const Follow* b, int32_t c)
 
 static inline void Follow_CompareReaches(const Follow* a, const Follow* b)
 {
-    const kiriReach none = { KIRI_NONE, KIRI_FAR, KIRI_FAR, KIRI_NONE };
+    const Reach none = { KIRI_NONE, KIRI_FAR, KIRI_FAR, KIRI_NONE };
     const kiriReaches *ours = &a->shape.reaches, *theirs = &b->shape.reaches;
-    kiriReach* reaches = malloc(sizeof(kiriReach) * (size_t)b->grid.cells.count);
+    Reach* reaches = malloc(sizeof(Reach) * (size_t)b->grid.cells.count);
     for (int32_t i = 0; i < a->sites.count; ++i) {
         int32_t left = 0;
         for (int32_t c = 0; c < b->grid.cells.count; ++c) {
             reaches[c] = none;
         }
-        for (kiriReach x = kiriReaches_First(theirs, i); x.cell != KIRI_NONE; x = kiriReaches_After(theirs, x)) {
+        for (Reach x = Reaches_First(theirs, i); x.cell != KIRI_NONE; x = Reaches_After(theirs, x)) {
             reaches[x.cell] = x;
             left++;
         }
-        for (kiriReach x = kiriReaches_First(ours, i); x.cell != KIRI_NONE; x = kiriReaches_After(ours, x)) {
-            kiriReach* y = &reaches[Follow_Twin(a, b, x.cell)];
+        for (Reach x = Reaches_First(ours, i); x.cell != KIRI_NONE; x = Reaches_After(ours, x)) {
+            Reach* y = &reaches[Follow_Twin(a, b, x.cell)];
             assert_int_equal(x.fromSite, y->fromSite);
             assert_int_equal(x.fromBorder, y->fromBorder);
             *y = none; /* each once */

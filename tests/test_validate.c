@@ -4,6 +4,7 @@
 #include "sheet/kiri_piece.h"
 #include "sheet/kiri_update.h"
 #include "world/kiri_world.h"
+#include "reaches.h"
 
 #include <math.h>
 
@@ -402,9 +403,9 @@ static const char* CorruptRegions(kiriWorld* world, kiriSheetData* s, int way)
 /* How far a cell in the region of frame 0 is from its site. */
 static int32_t* OwnReach(kiriSheetData* s)
 {
-    kiriReach reach = kiriReaches_First(&s->shape.reaches, 0);
+    Reach reach = Reaches_First(&s->shape.reaches, 0);
     while (s->regions.field.owner.data[reach.cell] != 0 || reach.fromSite == 0) {
-        reach = kiriReaches_After(&s->shape.reaches, reach);
+        reach = Reaches_After(&s->shape.reaches, reach);
     }
     return &s->shape.reaches.blocks.data[reach.block].fromSite[reach.cell % KIRI_BLOCK_CELLS];
 }

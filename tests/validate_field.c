@@ -1,4 +1,5 @@
 #include "validate_check.h"
+#include "reaches.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -559,7 +560,7 @@ static bool Check_CellWeights(Check* check, const kiriSheetData* sheet)
 }
 
 /* Which weight the distances to site and border give (section 4.1, algorithm 2). */
-static double RawWeight(const kiriSheetData* sheet, int32_t frame, kiriReach reach)
+static double RawWeight(const kiriSheetData* sheet, int32_t frame, Reach reach)
 {
     double d = reach.fromSite, e = reach.fromBorder;
     if (sheet->regions.field.owner.data[reach.cell] == frame) {
@@ -578,8 +579,8 @@ static bool Check_Reaches(Check* check, const kiriSheetData* sheet)
     REQUIRE_COUNT(reaches->ofLabel, kiriLabels_Count(&shape->labels, sheet->frames.count));
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
         int32_t label = kiriLabels_Of(&shape->labels, i);
-        kiriReach reach = kiriReaches_First(reaches, label);
-        for (; reach.cell != KIRI_NONE; reach = kiriReaches_After(reaches, reach)) {
+        Reach reach = Reaches_First(reaches, label);
+        for (; reach.cell != KIRI_NONE; reach = Reaches_After(reaches, reach)) {
             REQUIRE(IsIndex(reach.cell, sheet->grid.cells.count) && kiriGrid_IsCell(&sheet->grid, reach.cell),
                     "frame %d reaches cell %d", i, reach.cell);
             REQUIRE(seen[reach.cell] != i, "frame %d reaches cell %d twice", i, reach.cell);

@@ -16,7 +16,7 @@ const kiriTable kiriSiteTable = KIRI_TABLE(kiriSite, SiteMembers);
 static const kiriMember FieldMembers[] = {
     KIRI_ITEMS(4, kiriField, distance), KIRI_ITEMS(4, kiriField, owner),        KIRI_ITEMS(4, kiriField, settled),
     KIRI_ITEMS(4, kiriField, log),      KIRI_ITEMS(4, kiriField, heap),         KIRI_ITEMS(4, kiriField, dirty),
-    KIRI_ITEMS(1, kiriField, marks),    KIRI_RUN(4, kiriField, cursor, cursor),
+    KIRI_ITEMS(1, kiriField, marks),    KIRI_RUN(4, kiriField, cursor, stage),
 };
 static const kiriTable FieldTable = KIRI_TABLE(kiriField, FieldMembers);
 
