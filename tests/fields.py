@@ -1,5 +1,6 @@
 """Holds the tables of fields by which state is saved (src/core/kiri_archive.h) against the structs that they describe:
-python3 tests/fields.py. Each field is in the tables of its struct once, and as what it is."""
+python3 tests/fields.py. Each field is in the table of its struct once, and as what it is; with KIRI_DERIVED numbers may be
+missing. Structs in no table own nothing."""
 
 import pathlib
 import re
@@ -8,6 +9,12 @@ import sys
 repository = pathlib.Path(__file__).resolve().parents[1]
 NUMBERS = {"int32_t": 4, "uint32_t": 4, "int": 4, "int64_t": 8, "uint64_t": 8, "double": 8, "float": 4, "uint8_t": 1,
            "int8_t": 1, "int16_t": 2, "uint16_t": 2, "char": 1, "bool": "bool"}
+# What an entry may be of, and the width of its numbers.
+VALUES = {"RUN": None, "REALS": 8, "FLOATS": 4, "COUNTS": 8, "INDEX": 4, "INDEX_OR_NONE": 4, "WITHIN": 4, "BOOLS": "bool"}
+ARRAYS = {"ITEMS": None, "REAL_ITEMS": 8, "FLOAT_ITEMS": 4, "INDICES": 4, "PARTS": None, "ROOM_OF": None, "SPACE_OF": None,
+          "SHOWN_OF": None, "ARRAYS": None, "ROOMS": None}
+SKIPPED = {"DROPPED", "KEPT"}  # may be anything
+ARGUMENTS_BEFORE = {"RUN": 1, "ITEMS": 1, "INDEX": 1, "INDEX_OR_NONE": 1, "WITHIN": 2, "INDICES": 1}
 
 
 def read():
@@ -52,44 +59,62 @@ def width_of(structs, names, kind):
     return widths.pop() if len(widths) == 1 else None
 
 
-def entries_of(texts):
-    """(struct, macro, width or record, first field, last field) of each line of a table."""
+def owns(structs, kind):
+    """Has the type arrays or pointers?"""
+    return any(how != "value" or owns(structs, type) for _, type, how in structs.get(kind, []))
+
+
+def tables_of(texts):
+    """(struct, has KIRI_DERIVED, entries) of each table; an entry is (macro, arguments)."""
     for text in texts:
-        for table in re.findall(r"kiriMember \w+\[\] = \{(.*?)\n\};", text, flags=re.S):
-            for macro, arguments in re.findall(r"KIRI_(\w+)\((.*?)\)", table, flags=re.S):
-                parts = [part.strip() for part in arguments.split(",")]
-                if macro in ("RUN", "ITEMS"):
-                    width, parts = int(parts[0]), parts[1:]
-                else:
-                    width = "bool" if macro == "BOOLS" else None
-                last = parts[2] if macro in ("RUN", "BOOLS") else parts[1]
-                yield parts[0], macro, width, parts[1], last
+        for body, struct in re.findall(r"kiriMember \w+\[\] = \{((?:(?!\};).)*)\};\s*(?:static )?const kiriTable \w+ = "
+                                       r"KIRI_TABLE\((\w+)", text, flags=re.S):
+            entries = re.findall(r"KIRI_(\w+)\((.*?)\)", body, flags=re.S)
+            yield struct, "KIRI_DERIVED" in body, [(macro, [part.strip() for part in arguments.split(",")])
+                                                   for macro, arguments in entries]
+
+
+def check_table(struct, is_derived, entries, structs, names, blocks):
+    fields, seen, custom = structs[struct], set(), set()
+    order = [name for name, _, _ in fields]
+    for macro, arguments in entries:
+        if macro == "CUSTOM":
+            custom.add(arguments[1])
+            continue
+        before = ARGUMENTS_BEFORE.get(macro, 0)
+        width = int(arguments[0]) if macro in ("RUN", "ITEMS") else VALUES.get(macro, ARRAYS.get(macro))
+        first, last = arguments[before + 1], arguments[-1]
+        covered = arguments[1:] if macro in ("ARRAYS", "ROOMS") else [first]
+        if macro in VALUES or macro in SKIPPED:
+            covered = order[order.index(first):order.index(last) + 1] if first in order and last in order else [first]
+        if macro in ("PART", "PARTS", "OWNED"):
+            covered = [arguments[1]]
+        for name in covered:
+            if name not in order:
+                yield f"{struct} has no field {name}"
+                continue
+            _, kind, how = fields[order.index(name)]
+            if name in seen and macro not in SKIPPED:
+                yield f"{struct}.{name} is in its table twice"
+            seen.add(name)
+            expected = "array" if macro in ARRAYS else "pointer" if macro == "OWNED" else "value"
+            is_fine = macro in SKIPPED or (how == expected and (not width or width_of(structs, names, kind) == width))
+            if not is_fine or (macro in ("ARRAYS", "ITEMS") and owns(structs, kind)):
+                yield f"{struct}.{name} is no {macro}" + (f" of width {width}" if width else "")
+    for name, kind, how in fields:
+        is_number = how == "value" and not owns(structs, kind)
+        if name not in seen | custom | blocks and not (is_derived and is_number):
+            yield f"{struct}.{name} is in no table"
 
 
 def main():
-    texts, faults, seen = read(), [], {}
+    texts, faults, count = read(), [], 0
     structs, names = types_of(texts)
-    dropped = {}  # in one table, and maybe not in another
-    for struct, macro, width, first, last in entries_of(texts):
-        fields = structs[struct]
-        order = [name for name, _, _ in fields]
-        if first not in order or last not in order:
-            faults.append(f"{struct} has no field {first}, or {last}")
-            continue
-        for name, kind, how in fields[order.index(first):order.index(last) + 1]:
-            if macro == "DROPPED":
-                dropped.setdefault(struct, set()).add(name)
-                continue
-            if name in seen.setdefault(struct, set()):
-                faults.append(f"{struct}.{name} is in its table twice")
-            seen[struct].add(name)
-            expected = {"RUN": "value", "BOOLS": "value", "PART": "value", "ITEMS": "array", "PARTS": "array",
-                        "ROOM_OF": "array", "SPACE_OF": "array", "SHOWN_OF": "array", "OWNED": "pointer"}.get(macro, how)
-            if how != expected or (width and width_of(structs, names, kind) != width):
-                faults.append(f"{struct}.{name} is no {macro}" + (f" of width {width}" if width else ""))
-    for struct, names_seen in seen.items():
-        faults += [f"{struct}.{name} is in no table" for name, _, _ in structs[struct] if name not in names_seen | dropped.get(struct, set())]
-    print("\n".join(faults) or f"fields: {len(seen)} structs are saved as they are declared")
+    blocks = {name for text in texts for name in re.findall(r"kiriArchive_Block\(archive, \(void\*\*\)&\w+->(\w+)", text)}
+    for struct, is_derived, entries in tables_of(texts):
+        faults += check_table(struct, is_derived, entries, structs, names, blocks)
+        count += 1
+    print("\n".join(faults) or f"fields: {count} structs are saved as they are declared")
     return bool(faults)
 
 

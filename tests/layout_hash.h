@@ -4,10 +4,145 @@
 #define KIRI_TEST_LAYOUT_HASH_H
 
 #include "core/kiri_archive.h"
-#include "world/kiri_state.h"
+#include "world/kiri_world.h"
+
+static inline void HashVec2(uint64_t* hash, kiriVec2 a)
+{
+    kiriHash_Double(hash, a.x);
+    kiriHash_Double(hash, a.y);
+}
+
+static inline void HashVec3(uint64_t* hash, kiriVec3 a)
+{
+    kiriHash_Double(hash, a.x);
+    kiriHash_Double(hash, a.y);
+    kiriHash_Double(hash, a.z);
+}
+
+static inline void HashPoint(uint64_t* hash, kiriLatticePoint p)
+{
+    kiriHash_Pair(hash, p.x, p.y);
+}
+
+static inline void HashMesh(uint64_t* hash, const kiriMeshData* mesh)
+{
+    HashVec2(hash, mesh->origin);
+    kiriHash_Double(hash, mesh->step);
+    for (int32_t t = 0; t < mesh->triangles.count; ++t) {
+        const kiriTriangle* triangle = &mesh->triangles.data[t];
+        for (int k = 0; k < 3; ++k) {
+            kiriHash_Pair(hash, triangle->vertex[k], triangle->twin[k]);
+        }
+        kiriHash_Int32(hash, triangle->marks & KIRI_TRIANGLE_OPEN);
+    }
+    for (int32_t v = 0; v < mesh->vertices.count; ++v) {
+        HashPoint(hash, mesh->vertices.data[v].at);
+    }
+}
+
+static inline void HashSkin(uint64_t* hash, const kiriSheetData* sheet, const kiriSkin* skin)
+{
+    for (int32_t i = 0; i < skin->spans.count; ++i) {
+        kiriSpan span = skin->spans.data[i];
+        kiriHash_Int32(hash, span.count);
+        for (int32_t k = span.first; k < span.first + span.count; ++k) {
+            kiriHash_Int32(hash, kiriSheet_FrameOf(sheet, skin->weights.data[k].label));
+            kiriHash_Double(hash, skin->weights.data[k].value);
+        }
+    }
+}
+
+static inline void HashLink(uint64_t* hash, const kiriLink* link)
+{
+    kiriHash_Int32(hash, link->i);
+    kiriHash_Int32(hash, link->j);
+    HashVec3(hash, kiriVec3_Make(link->width, link->length, link->moment));
+    kiriHash_Double(hash, link->outer);
+    HashVec2(hash, link->span);
+    HashVec2(hash, link->normal);
+    HashVec2(hash, link->tangent);
+    HashVec2(hash, link->centroid);
+    HashVec2(hash, link->crossing);
+    HashVec2(hash, link->sum);
+    HashVec2(hash, link->spread[0]);
+    HashVec2(hash, link->spread[1]);
+}
+
+static inline void HashCorner(uint64_t* hash, const kiriCorner* corner)
+{
+    kiriHash_Int32(hash, corner->count);
+    for (int32_t k = 0; k < corner->count; ++k) {
+        kiriHash_Int32(hash, corner->link[k]);
+        HashVec2(hash, corner->weight[k]);
+    }
+    kiriHash_Double(hash, corner->area);
+}
+
+static inline void HashAreaElements(uint64_t* hash, const kiriAreaElements* elements)
+{
+    for (int32_t i = 0; i < elements->elements.count; ++i) {
+        kiriHash_Double(hash, elements->elements.data[i].area);
+        kiriHash_Int32(hash, elements->elements.data[i].count);
+    }
+    for (int32_t i = 0; i < elements->shares.count; ++i) {
+        const kiriFrameShare* share = &elements->shares.data[i];
+        kiriHash_Int32(hash, share->frame);
+        kiriHash_Double(hash, share->weight);
+        HashVec2(hash, share->slope);
+        HashVec2(hash, share->move);
+        HashVec2(hash, share->u);
+        HashVec2(hash, share->v);
+    }
+}
+
+static inline void HashPinShare(uint64_t* hash, const kiriPinShare* pinned)
+{
+    const kiriLineShare* share = &pinned->share;
+    kiriHash_Int32(hash, pinned->pin);
+    kiriHash_Int32(hash, share->frame);
+    HashVec3(hash, kiriVec3_Make(share->length, share->first, share->second));
+    for (int end = 0; end < 2; ++end) {
+        kiriHash_Double(hash, share->ends[end]);
+        kiriHash_Int32(hash, share->open[end]);
+    }
+}
+
+/* What is in force in a sheet but for its motion: mesh, links, weights of samples, pieces. */
+static inline void HashInForce(uint64_t* hash, const kiriSheetData* sheet)
+{
+    HashMesh(hash, &sheet->mesh);
+    const kiriLayout* layout = &sheet->layout;
+    for (int32_t i = 0; i < sheet->links.links.count; ++i) {
+        HashLink(hash, &sheet->links.links.data[i]);
+    }
+    for (int32_t i = 0; i < sheet->links.corners.count; ++i) {
+        HashCorner(hash, &sheet->links.corners.data[i]);
+    }
+    HashAreaElements(hash, &layout->areaElements);
+    for (int32_t i = 0; i < sheet->points.count; ++i) {
+        HashPoint(hash, sheet->points.data[i].at);
+        kiriHash_Int32(hash, sheet->points.data[i].frame);
+    }
+    HashSkin(hash, sheet, &sheet->vertexSkin);
+    HashSkin(hash, sheet, &sheet->pointSkin);
+    for (int32_t i = 0; i < layout->framePiece.count; ++i) {
+        kiriHash_Int32(hash, layout->framePiece.data[i]);
+    }
+    for (int32_t i = 0; i < layout->pinFrame.count; ++i) {
+        kiriHash_Int32(hash, layout->pinFrame.data[i]);
+    }
+    for (int32_t k = 0; k < layout->severed.count; ++k) {
+        kiriHash_Int32(hash, layout->severed.data[k].pin);
+        kiriHash_Int32(hash, layout->severed.data[k].link);
+        kiriHash_Double(hash, layout->severed.data[k].part);
+    }
+    for (int32_t k = 0; k < layout->pinShares.count; ++k) {
+        HashPinShare(hash, &layout->pinShares.data[k]);
+    }
+}
 
 /* Adds bytes by FNV-1a. */
-static void HashBytes(uint64_t* hash, const void* data, size_t bytes)
+static inline void HashBytes(uint64_t* hash, const void* data, size_t bytes)
 {
     for (size_t i = 0; i < bytes; ++i) {
         kiriHash_Word(hash, ((const unsigned char*)data)[i]);
@@ -78,7 +213,7 @@ static inline void HashCell(uint64_t* hash, const kiriSheetData* sheet, int32_t 
 static inline uint64_t HashLayout(const kiriSheetData* sheet)
 {
     uint64_t hash = KIRI_HASH_START;
-    kiriStateHash_AddLayout(&hash, sheet);
+    HashInForce(&hash, sheet);
     for (int32_t s = 0; s < sheet->grid.squareCell.count; ++s) {
         for (int32_t c = sheet->grid.squareCell.data[s]; c != KIRI_NONE; c = sheet->grid.cells.data[c].next) {
             HashCell(&hash, sheet, c);

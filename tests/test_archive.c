@@ -44,7 +44,7 @@ typedef struct Thing {
 static const kiriMember PointMembers[] = { KIRI_RUN(8, Point, x, y) };
 static const kiriTable PointTable = KIRI_TABLE(Point, PointMembers);
 static const kiriMember MarkMembers[] = { KIRI_RUN(4, Mark, number, number), KIRI_RUN(1, Mark, kind, kind),
-                                          KIRI_BOOLS(Mark, isSet, isSet), KIRI_DROPPED(Mark, dropped) };
+                                          KIRI_BOOLS(Mark, isSet, isSet), KIRI_DROPPED(Mark, dropped, dropped) };
 static const kiriTable MarkTable = KIRI_TABLE(Mark, MarkMembers);
 static const kiriMember BagMembers[] = { KIRI_ITEMS(2, Bag, words) };
 static const kiriTable BagTable = KIRI_TABLE(Bag, BagMembers);
@@ -52,7 +52,8 @@ static const kiriTable BagTable = KIRI_TABLE(Bag, BagMembers);
 static void ArchiveRow(kiriArchive* archive, void* object)
 {
     Thing* thing = object;
-    thing->rowCount = kiriArchive_Row(archive, thing->row, 4, thing->rowCount, MOST_ROW);
+    thing->rowCount = kiriArchive_Count(archive, thing->rowCount, 0, MOST_ROW);
+    kiriArchive_Numbers(archive, thing->row, 4, thing->rowCount);
     kiriArchive_Block(archive, (void**)&thing->block, 4, BLOCK);
 }
 
@@ -60,7 +61,7 @@ static const kiriMember ThingMembers[] = {
     KIRI_RUN(4, Thing, first, second),   KIRI_RUN(8, Thing, wide, wide), KIRI_BOOLS(Thing, flags, flags),
     KIRI_PART(Thing, marks, MarkTable),  KIRI_ITEMS(4, Thing, items),    KIRI_PARTS(Thing, points, PointTable),
     KIRI_PARTS(Thing, parts, MarkTable), KIRI_ROOM_OF(Thing, room),      KIRI_SPACE_OF(Thing, space),
-    KIRI_OWNED(Thing, owned, BagTable),  KIRI_DROPPED(Thing, dropped),   KIRI_CUSTOM(Thing, rowCount, ArchiveRow),
+    KIRI_OWNED(Thing, owned, BagTable),  KIRI_DROPPED(Thing, dropped, dropped),   KIRI_CUSTOM(Thing, rowCount, ArchiveRow),
     KIRI_PARTS(Thing, bags, BagTable),
 };
 static const kiriTable ThingTable = KIRI_TABLE(Thing, ThingMembers);

@@ -87,63 +87,6 @@ static double ClippedArea(const kiriLatticePoint c[3], kiriLatticePoint low, dou
     return area;
 }
 
-static bool FindOverlaps(const kiriSquares* squares, const kiriLatticePoint c[3], kiriOverlaps* overlaps)
-{
-    kiriSquarePlace in[3];
-    for (int i = 0; i < 3; ++i) {
-        int32_t square = kiriSquares_At(squares, c[i]);
-        in[i] = (kiriSquarePlace){ square % squares->columns, square / squares->columns };
-    }
-    return kiriSquares_FindOverlaps(squares, c, in, overlaps);
-}
-
-/* All at once, the same as one by one. Returns true where there are four in the box. */
-static bool CheckOverlapsInBox(const kiriSquares* squares, const kiriLatticePoint c[3])
-{
-    kiriOverlaps o;
-    assert_true(FindOverlaps(squares, c, &o));
-    int count = 0;
-    for (int32_t s = 0; s < squares->columns * squares->rows; ++s) {
-        int32_t row = s / squares->columns - o.row, column = s % squares->columns - o.column,
-                bit = row * o.columns + column;
-        bool isIn = row >= 0 && column >= 0 && column < o.columns && bit < KIRI_FEW_SQUARES && (o.bits >> bit & 1);
-        assert_int_equal(isIn, kiriSquares_Overlap(squares, s, c));
-        count += isIn;
-    }
-    uint64_t bits = o.bits;
-    for (; bits != 0; bits &= bits - 1) {
-        --count;
-    }
-    assert_int_equal(count, 0);
-    return o.columns == 2 && o.bits < 16 && o.bits > 3;
-}
-
-/* A few squares wide, which is what most are: with points on both sides of what the corners of squares decide. */
-static void SquaresOfSmallTriangles(void** state)
-{
-    (void)state;
-    uint32_t seed = 3;
-    kiriLatticePoint extent = { 600, 340 };
-    kiriSquares squares;
-    int32_t ofFour = 0;
-    assert_true(kiriSquares_Init(&squares, Heap(), extent, 60));
-    for (int round = 0; round < 20000; ++round) {
-        int32_t x = (int32_t)(2 * (Random(&seed) % 250)), y = (int32_t)(2 * (Random(&seed) % 130));
-        int32_t size = round % 2 == 0 ? 6 : 20;
-        kiriLatticePoint c[3];
-        for (int i = 0; i < 3; ++i) {
-            c[i].x = x + 2 * (int32_t)(Random(&seed) % (uint32_t)size);
-            c[i].y = y + 2 * (int32_t)(Random(&seed) % (uint32_t)size);
-        }
-        ofFour += kiriOrient(c[0], c[1], c[2]) > 0 && CheckOverlapsInBox(&squares, c);
-    }
-    assert_true(ofFour > 500);
-    kiriLatticePoint large[3] = { { 0, 0 }, { 200, 0 }, { 0, 200 } };
-    kiriOverlaps none;
-    assert_false(FindOverlaps(&squares, large, &none));
-    kiriMemory_FreeAll(Heap());
-}
-
 static void SquaresListWhatTheyOverlap(void** state)
 {
     (void)state;
@@ -167,7 +110,6 @@ static void SquaresListWhatTheyOverlap(void** state)
             continue;
         }
         kiriSquares_ClearDirty(&squares);
-        CheckOverlapsInBox(&squares, c);
         assert_true(kiriSquares_Reshape(&squares, Heap(), 5, was, c));
         for (int32_t s = 0; s < 28; ++s) {
             /* Small numbers: an overlap has at least the area of a triangle between lines through their points. */
@@ -994,7 +936,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(SquaresListWhatTheyOverlap),
-        cmocka_unit_test(SquaresOfSmallTriangles),
         cmocka_unit_test(SquaresThatEdgesRunThrough),
         cmocka_unit_test(SquaresAroundPoints),
         cmocka_unit_test(SquaresWithoutMemory),

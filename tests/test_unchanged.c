@@ -20,7 +20,7 @@ static bool leavesRoomOut;
 #include "field/kiri_shape.h"
 #include "sheet/kiri_sheet_save.h"
 #include "sheet/kiri_update.h"
-#include "view/kiri_view_check.h"
+#include "world/kiri_state.h"
 #include "world/kiri_world.h"
 
 /* ---- Memory ---- */
@@ -67,9 +67,9 @@ static void PoorFree(void* user, void* pointer)
 
 enum { MOST_FRAMES = 512 };
 
-typedef enum Part { WORLD, LIVE, MESH, SKIN, SURFACE, PARTS } Part;
+typedef enum Part { WORLD, SAVED, SKIN, PARTS } Part;
 
-static const char* const partNames[PARTS] = { "the world", "the motion", "the mesh", "weights", "the surface" };
+static const char* const partNames[PARTS] = { "the world", "what saves have", "weights" };
 
 typedef struct Bytes {
     uint8_t* data;
@@ -128,7 +128,7 @@ static void Hide(kiriSheetData* sheet, Hidden* hidden)
     sheet->seen.surface.hasNormals = false;
     sheet->seen.fades.jump = sheet->seen.fades.move = 0.0;
     sheet->seen.bounds->asked = sheet->seen.bounds->patience = sheet->seen.bounds->levelCount = 0;
-    sheet->touches.found.count = 0;
+    sheet->touches.found.count = sheet->regions.dirty.count = 0;
     sheet->touches.isShort = false;
     memset(&sheet->probes, 0, sizeof(kiriProbes));
     assert_in_range(sheet->frames.count, 1, MOST_FRAMES);
@@ -148,29 +148,12 @@ static void Show(kiriSheetData* sheet, const Hidden* hidden)
     *sheet = hidden->sheet;
 }
 
-static void WriteLive(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* memory)
+static void WriteSaved(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* memory)
 {
     static Hidden hidden;
     Hide(sheet, &hidden);
-    kiriSheet_ArchiveLive(archive, sheet, memory);
+    kiriSheet_Archive(archive, sheet, memory);
     Show(sheet, &hidden);
-}
-
-/* Of the journal only whether it is closed. */
-static void WriteMesh(kiriArchive* archive, const kiriMeshData* mesh)
-{
-    uint32_t numbers[] = { mesh->revision, mesh->isOpen, mesh->squares.isOpen, (uint32_t)mesh->savedTriangles.count };
-    kiriArchive_Numbers(archive, numbers, 4, 4);
-    for (int32_t t = 0; t < mesh->triangles.count; ++t) {
-        kiriTriangle triangle = mesh->triangles.data[t];
-        triangle.marks &= ~KIRI_TRIANGLE_SAVED;
-        kiriArchive_Numbers(archive, &triangle, 4, sizeof(triangle) / 4);
-    }
-    for (int32_t v = 0; v < mesh->vertices.count; ++v) {
-        kiriVertex vertex = mesh->vertices.data[v];
-        vertex.stamp = 0;
-        kiriArchive_Numbers(archive, &vertex, 4, sizeof(vertex) / 4);
-    }
 }
 
 /* Wherever they lie. */
@@ -186,15 +169,11 @@ static void WriteWeights(kiriArchive* archive, const kiriSkin* skin)
 
 static void WriteSheet(kiriArchive* archive, kiriWorld* world, kiriSheetData* sheet, Part part)
 {
-    if (part == LIVE) {
-        WriteLive(archive, sheet, &world->memory);
-    } else if (part == MESH) {
-        WriteMesh(archive, &sheet->mesh);
-    } else if (part == SKIN) {
+    if (part == SAVED) {
+        WriteSaved(archive, sheet, &world->memory);
+    } else {
         WriteWeights(archive, &sheet->vertexSkin);
         WriteWeights(archive, &sheet->pointSkin);
-    } else {
-        kiriArchive_Object(archive, &kiriStillSurfaceTable, &sheet->seen.surface);
     }
 }
 
@@ -218,7 +197,7 @@ static void Write(State* state, kiriWorld* world)
 {
     leavesRoomOut = true;
     WriteWorld(&state->parts[WORLD], world);
-    for (Part part = LIVE; part < PARTS; ++part) {
+    for (Part part = SAVED; part < PARTS; ++part) {
         WriteSheets(&state->parts[part], world, part);
     }
     leavesRoomOut = false;

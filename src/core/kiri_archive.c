@@ -2,28 +2,29 @@
 
 #include <string.h>
 
-/* An array is written as its count, its capacity, and its items: as they are, or as four bytes that repeat. */
-enum { ITEMS_AS_THEY_ARE, ITEMS_REPEAT, REPEATED_BYTES = 4 };
-
-enum { MEMORY_A_BYTE = 64, MEMORY_FREE = 1 << 20 }; /* that arrays may take for each byte that is read, and beside */
+enum { MEMORY_A_BYTE = 64, MEMORY_FREE = 4 << 20 }; /* arrays may take so much for each byte read, and beside */
 
 kiriArchive kiriArchive_Measure(void)
 {
-    kiriArchive archive = { KIRI_ARCHIVE_MEASURE, NULL, 0, INT64_MAX, 0, NULL, false, false, false };
-    return archive;
+    return (kiriArchive){ .mode = KIRI_ARCHIVE_MEASURE, .size = INT64_MAX };
 }
 
 kiriArchive kiriArchive_Write(void* bytes, int64_t size)
 {
-    kiriArchive archive = { KIRI_ARCHIVE_WRITE, bytes, 0, size, 0, NULL, false, false, false };
-    return archive;
+    return (kiriArchive){ .mode = KIRI_ARCHIVE_WRITE, .bytes = bytes, .size = size };
 }
 
 kiriArchive kiriArchive_Read(const void* bytes, int64_t size, kiriMemory* memory)
 {
     int64_t room = size < INT64_MAX / (2 * MEMORY_A_BYTE) ? MEMORY_FREE + MEMORY_A_BYTE * size : INT64_MAX;
-    kiriArchive archive = { KIRI_ARCHIVE_READ, (uint8_t*)(uintptr_t)bytes, 0, size, room, memory, false, false, false };
-    return archive;
+    return (kiriArchive){
+        .mode = KIRI_ARCHIVE_READ, .bytes = (uint8_t*)(uintptr_t)bytes, .size = size, .room = room, .memory = memory
+    };
+}
+
+kiriArchive kiriArchive_Hash(void)
+{
+    return (kiriArchive){ .mode = KIRI_ARCHIVE_HASH, .hash = KIRI_HASH_START };
 }
 
 void kiriArchive_Expect(kiriArchive* archive, bool isFine)
@@ -31,9 +32,9 @@ void kiriArchive_Expect(kiriArchive* archive, bool isFine)
     archive->isBad |= kiriArchive_Reads(archive) && !isFine && !archive->isShort;
 }
 
-/* ---- Bytes ------------------------------------------------------------------------------------------------------- */
+/* ---- Numbers ----------------------------------------------------------------------------------------------------- */
 
-/* Where the next bytes are; null where there are not so many, or none are kept. */
+/* The next bytes; null if they are only measured, or there are fewer. */
 static uint8_t* TakeBytes(kiriArchive* archive, int64_t count)
 {
     if (count > archive->size - archive->at || kiriArchive_HasFailed(archive)) {
@@ -66,10 +67,30 @@ static void CopyNumbers(uint8_t* to, const uint8_t* from, int32_t width, int64_t
     }
 }
 
-/* ---- Numbers ----------------------------------------------------------------------------------------------------- */
+/* By value: the same on machines of either byte order. */
+static void HashNumbers(uint64_t* hash, const uint8_t* numbers, int32_t width, int64_t count)
+{
+    for (int64_t n = 0; n < count; ++n) {
+        int64_t wide = numbers[n];
+        int32_t narrow;
+        if (width == 8) {
+            memcpy(&wide, numbers + 8 * n, 8);
+        } else if (width == 4) {
+            memcpy(&narrow, numbers + 4 * n, 4);
+            wide = narrow;
+        }
+        kiriHash_Int64(hash, wide);
+    }
+}
 
 void kiriArchive_Numbers(kiriArchive* archive, void* numbers, int32_t width, int64_t count)
 {
+    KIRI_ASSERT(count >= 0 && (width == 1 || width == 2 || width == 4 || width == 8));
+    if (archive->mode == KIRI_ARCHIVE_HASH) {
+        KIRI_ASSERT(width != 2);
+        HashNumbers(&archive->hash, numbers, width, count);
+        return;
+    }
     uint8_t* bytes = count == 0 ? NULL : TakeBytes(archive, count * width);
     if (bytes != NULL && kiriArchive_Reads(archive)) {
         CopyNumbers(numbers, bytes, width, count);
@@ -80,31 +101,90 @@ void kiriArchive_Numbers(kiriArchive* archive, void* numbers, int32_t width, int
     }
 }
 
-/* A byte that is neither 0 nor 1 is no bool, and nobody may read it: of what was never written, or of bytes that are
-   none. */
-static void MoveBools(kiriArchive* archive, void* bools, int32_t count)
-{
-    uint8_t* bytes = bools;
-    if (archive->isWhole) {
-        kiriArchive_Numbers(archive, bools, 1, count);
-        return;
-    }
-    for (int32_t k = 0; k < count; ++k) {
-        uint8_t byte = kiriArchive_Reads(archive) ? 0 : bytes[k] != 0;
-        kiriArchive_Numbers(archive, &byte, 1, 1);
-        if (kiriArchive_Reads(archive)) {
-            kiriArchive_Expect(archive, byte <= 1);
-            bytes[k] = byte == 1;
-        }
-    }
-}
-
 int32_t kiriArchive_Count(kiriArchive* archive, int64_t count, int64_t least, int64_t most)
 {
     int32_t number = (int32_t)count;
     kiriArchive_Int32(archive, &number);
     kiriArchive_Expect(archive, number >= least && number <= most);
     return number < least || number > most ? (int32_t)least : number;
+}
+
+/* ---- Checks ------------------------------------------------------------------------------------------------------ */
+
+/* Not all bits of the exponent. */
+static bool AreFinite(const uint8_t* numbers, int32_t width, int64_t bytes)
+{
+    bool areFinite = true;
+    for (int64_t k = 0; k < bytes; k += width) {
+        uint64_t wide;
+        uint32_t narrow;
+        if (width == 8) {
+            memcpy(&wide, numbers + k, 8);
+            areFinite &= (~wide & UINT64_C(0x7ff0000000000000)) != 0;
+        } else {
+            memcpy(&narrow, numbers + k, 4);
+            areFinite &= (~narrow & 0x7f800000u) != 0;
+        }
+    }
+    return areFinite;
+}
+
+/* Sums of a few of them do not overflow. */
+static bool AreCounts(const int64_t* numbers, int64_t count)
+{
+    bool areFine = true;
+    for (int64_t k = 0; k < count; ++k) {
+        areFine &= numbers[k] >= 0 && numbers[k] < INT64_C(1) << 56;
+    }
+    return areFine;
+}
+
+static bool AreBetween(const int32_t* numbers, int64_t count, int64_t low, int64_t high)
+{
+    bool areBetween = true;
+    for (int64_t k = 0; k < count; ++k) {
+        areBetween &= numbers[k] >= low && numbers[k] <= high;
+    }
+    return areBetween;
+}
+
+static bool AreFine(const kiriArchive* archive, const kiriMember* field, const void* numbers, int64_t bytes)
+{
+    switch (field->item) {
+    case KIRI_MEMBER_REALS:
+    case KIRI_MEMBER_FLOATS:
+        return AreFinite(numbers, field->width, bytes);
+    case KIRI_MEMBER_COUNTS:
+        return AreCounts(numbers, bytes / 8);
+    case KIRI_MEMBER_INTS:
+        return AreBetween(numbers, bytes / 4, field->low,
+                          field->high + (field->of == KIRI_OF_NOTHING ? 0 : archive->count[field->of]));
+    default:
+        return true;
+    }
+}
+
+static void MoveNumbers(kiriArchive* archive, const kiriMember* field, void* numbers, int64_t bytes)
+{
+    if (!archive->isUnmoved) {
+        kiriArchive_Numbers(archive, numbers, field->width, bytes / field->width);
+    }
+    if (kiriArchive_Reads(archive) && !archive->isWhole && !kiriArchive_HasFailed(archive)) {
+        archive->isBad = !AreFine(archive, field, numbers, bytes);
+    }
+}
+
+/* Other bytes than 0 and 1 are no bools: uninitialised memory is written as one of these, untrusted bytes are refused. */
+static void MoveBools(kiriArchive* archive, uint8_t* bools, int32_t count)
+{
+    for (int32_t k = 0; k < count; ++k) {
+        uint8_t byte = kiriArchive_Reads(archive) ? 0 : bools[k] != 0;
+        kiriArchive_Numbers(archive, &byte, 1, 1);
+        if (kiriArchive_Reads(archive)) {
+            kiriArchive_Expect(archive, byte <= 1);
+            bools[k] = byte == 1;
+        }
+    }
 }
 
 /* ---- Arrays ------------------------------------------------------------------------------------------------------ */
@@ -118,222 +198,227 @@ static void* MakeBlock(kiriArchive* archive, int64_t bytes)
     return block;
 }
 
-/* The header of an array, which is made where bytes are read; `hasItems`: else it is empty then. */
-static kiriArrayHeader MoveHeader(kiriArchive* archive, void* array, int32_t itemBytes, bool hasItems)
+void kiriArchive_Block(kiriArchive* archive, void** block, int32_t width, int64_t count)
+{
+    if (kiriArchive_Reads(archive)) {
+        *block = kiriArchive_HasFailed(archive) ? NULL : MakeBlock(archive, count * width);
+    }
+    if (*block != NULL) {
+        kiriArchive_Numbers(archive, *block, width, count);
+    }
+}
+
+/* In a snapshot the struct around the array has its count and capacity. */
+static void MoveArray(kiriArchive* archive, const kiriMember* field, void* array)
 {
     kiriArrayHeader header = kiriArray_GetHeader(array);
-    kiriArchive_Int32(archive, &header.capacity);
-    if (hasItems) {
-        kiriArchive_Int32(archive, &header.count);
+    bool hasItems = field->kind == KIRI_MEMBER_ARRAY || (field->kind == KIRI_MEMBER_SHOWN && archive->isWhole);
+    if (archive->mode == KIRI_ARCHIVE_HASH && !hasItems) {
+        return;
+    }
+    if (!archive->isWhole) {
+        header.count = field->kind == KIRI_MEMBER_ROOM ? 0 : header.count;
+        if (archive->mode != KIRI_ARCHIVE_HASH) {
+            kiriArchive_Int32(archive, &header.capacity);
+        }
+        if (field->kind != KIRI_MEMBER_ROOM) {
+            kiriArchive_Int32(archive, &header.count);
+        }
     }
     if (kiriArchive_Reads(archive)) {
-        header.count = hasItems ? header.count : 0;
+        header.count = field->kind == KIRI_MEMBER_ROOM ? 0 : header.count;
         kiriArchive_Expect(archive, header.count >= 0 && header.count <= header.capacity);
-        header.data = header.capacity < 0 ? NULL : MakeBlock(archive, header.capacity * (int64_t)itemBytes);
+        header.data = header.capacity < 0 ? NULL : MakeBlock(archive, header.capacity * (int64_t)field->size);
         header.capacity = header.data == NULL ? 0 : header.capacity;
         header.count = header.data == NULL ? 0 : header.count;
         kiriArray_SetHeader(array, header);
+        if (header.count > 0 && (!hasItems || (field->table != NULL && !archive->isWhole))) {
+            memset(header.data, 0, (size_t)header.count * (size_t)field->size);
+        }
     }
-    return header;
-}
-
-static bool Repeats(const uint8_t* bytes, int64_t count)
-{
-    return count > 2 * REPEATED_BYTES && memcmp(bytes, bytes + REPEATED_BYTES, (size_t)(count - REPEATED_BYTES)) == 0;
-}
-
-/* Lists of marks are mostly the same number over and over. */
-static void MoveItems(kiriArchive* archive, uint8_t* data, int32_t width, int64_t bytes)
-{
-    if (archive->isWhole) {
-        kiriArchive_Numbers(archive, data, 1, bytes);
-        return;
-    }
-    uint8_t tag = !kiriArchive_Reads(archive) && Repeats(data, bytes) ? ITEMS_REPEAT : ITEMS_AS_THEY_ARE;
-    kiriArchive_Numbers(archive, &tag, 1, 1);
-    if (tag != ITEMS_REPEAT) {
-        kiriArchive_Expect(archive, tag == ITEMS_AS_THEY_ARE);
-        kiriArchive_Numbers(archive, data, width, bytes / width);
-        return;
-    }
-    kiriArchive_Expect(archive, bytes > 2 * REPEATED_BYTES);
-    if (kiriArchive_HasFailed(archive)) {
-        return;
-    }
-    int32_t narrow = width < REPEATED_BYTES ? width : REPEATED_BYTES;
-    kiriArchive_Numbers(archive, data, narrow, REPEATED_BYTES / narrow);
-    for (int64_t n = REPEATED_BYTES; n < bytes && kiriArchive_Reads(archive); n *= 2) {
-        memcpy(data + n, data, (size_t)(bytes - n < n ? bytes - n : n)); /* what is there, as often as it fits */
-    }
-}
-
-static void MoveArrayOfNumbers(kiriArchive* archive, const kiriMember* member, void* array)
-{
-    kiriArrayHeader header = MoveHeader(archive, array, member->size, true);
-    if (header.count > 0) {
-        MoveItems(archive, header.data, member->width, header.count * (int64_t)member->size);
-    }
-}
-
-int32_t kiriArchive_Row(kiriArchive* archive, void* numbers, int32_t width, int32_t count, int32_t room)
-{
-    count = kiriArchive_Count(archive, count, 0, kiriArchive_Reads(archive) ? room : INT32_MAX);
-    kiriArchive_Numbers(archive, numbers, width, count);
-    return count;
-}
-
-static void MoveArrayOfParts(kiriArchive* archive, const kiriMember* member, void* array)
-{
-    kiriArrayHeader header = MoveHeader(archive, array, member->size, true);
-    if (header.count > 0) {
-        memset(header.data, 0, kiriArchive_Reads(archive) ? (size_t)header.count * (size_t)member->size : 0);
-        kiriArchive_Objects(archive, member->table, header.data, header.count);
-    }
-}
-
-static void MoveSpace(kiriArchive* archive, const kiriMember* member, void* array)
-{
-    kiriArrayHeader header = MoveHeader(archive, array, member->size, true);
-    if (archive->isWhole && member->kind == KIRI_MEMBER_SHOWN) {
-        kiriArchive_Numbers(archive, header.data, 1, header.count * (int64_t)member->size);
-    } else if (header.count > 0 && kiriArchive_Reads(archive)) {
-        memset(header.data, 0, (size_t)header.count * (size_t)member->size);
-    }
-}
-
-void kiriArchive_Block(kiriArchive* archive, void** block, int32_t width, int64_t count)
-{
-    if (kiriArchive_HasFailed(archive)) {
-        return; /* the count may be any */
-    }
-    if (kiriArchive_Reads(archive)) {
-        *block = MakeBlock(archive, count * width);
-    }
-    if (*block != NULL) {
-        MoveItems(archive, *block, width, count * width);
+    if (hasItems && field->table != NULL) {
+        kiriArchive_Objects(archive, field->table, header.data, header.count);
+    } else if (hasItems && header.count > 0) {
+        MoveNumbers(archive, field, header.data, header.count * (int64_t)field->size);
     }
 }
 
 /* ---- Objects ----------------------------------------------------------------------------------------------------- */
 
-static void MoveOwned(kiriArchive* archive, const kiriMember* member, void* pointer)
+static void MoveOwned(kiriArchive* archive, const kiriMember* field, void* pointer)
 {
     void* object;
     memcpy(&object, pointer, sizeof(object));
     int32_t isThere = kiriArchive_Count(archive, object != NULL, 0, 1);
-    if (isThere && kiriArchive_Reads(archive)) {
-        object = MakeBlock(archive, member->table->size);
+    if (kiriArchive_Reads(archive)) {
+        object = isThere ? MakeBlock(archive, field->table->size) : NULL;
         if (object != NULL) {
-            memset(object, 0, (size_t)member->table->size);
+            memset(object, 0, (size_t)field->table->size);
         }
         memcpy(pointer, &object, sizeof(object));
     }
-    if (isThere && object != NULL) {
-        kiriArchive_Object(archive, member->table, object);
+    if (object != NULL) {
+        kiriArchive_Object(archive, field->table, object);
     }
 }
 
-static void MoveField(kiriArchive* archive, const kiriMember* member, uint8_t* object)
+static void MoveFields(kiriArchive* archive, const kiriTable* table, uint8_t* object);
+
+static void MoveField(kiriArchive* archive, const kiriMember* field, uint8_t* object)
 {
-    void* at = object + member->offset;
-    switch (member->kind) {
-    case KIRI_MEMBER_RUN:
-        kiriArchive_Numbers(archive, at, member->width, member->size / member->width);
+    uint8_t* at = object + field->offset;
+    switch (field->kind) {
+    case KIRI_MEMBER_NUMBERS:
+    case KIRI_MEMBER_REALS:
+    case KIRI_MEMBER_FLOATS:
+    case KIRI_MEMBER_COUNTS:
+    case KIRI_MEMBER_INTS:
+        if (!archive->isWhole) {
+            MoveNumbers(archive, field, at, field->size);
+        }
         break;
     case KIRI_MEMBER_BOOLS:
-        MoveBools(archive, at, member->size);
+        if (!archive->isWhole) {
+            MoveBools(archive, at, field->size);
+        }
         break;
     case KIRI_MEMBER_PART:
-        kiriArchive_Objects(archive, member->table, at, member->size / member->table->size);
+        for (int32_t n = 0; n < field->size; n += field->table->size) {
+            MoveFields(archive, field->table, at + n);
+        }
         break;
-    case KIRI_MEMBER_ITEMS:
-        MoveArrayOfNumbers(archive, member, at);
-        break;
-    case KIRI_MEMBER_PARTS:
-        MoveArrayOfParts(archive, member, at);
-        break;
+    case KIRI_MEMBER_ARRAY:
     case KIRI_MEMBER_ROOM:
-        MoveHeader(archive, at, member->size, false);
-        break;
     case KIRI_MEMBER_SPACE:
     case KIRI_MEMBER_SHOWN:
-        MoveSpace(archive, member, at);
+        MoveArray(archive, field, at);
         break;
     case KIRI_MEMBER_OWNED:
-        MoveOwned(archive, member, at);
+        MoveOwned(archive, field, at);
         break;
     case KIRI_MEMBER_CUSTOM:
-        member->custom(archive, object);
+        field->custom(archive, object);
+        break;
+    case KIRI_MEMBER_DROPPED:
+        if (archive->isWhole && kiriArchive_Reads(archive)) {
+            memset(at, 0, (size_t)field->size);
+        }
         break;
     default:
         break;
     }
 }
 
-void kiriArchive_Object(kiriArchive* archive, const kiriTable* table, void* object)
+static void MoveFields(kiriArchive* archive, const kiriTable* table, uint8_t* object)
 {
+    kiriMemory* memory = archive->memory;
     for (int32_t k = 0; k < table->count; ++k) {
-        MoveField(archive, &table->fields[k], object);
+        const kiriMember* field = &table->fields[k];
+        if ((field->kind == KIRI_MEMBER_DERIVED && !archive->isWhole) ||
+            (field->kind == KIRI_MEMBER_UNHASHED && archive->mode == KIRI_ARCHIVE_HASH)) {
+            break;
+        }
+        archive->memory = field->kind == KIRI_MEMBER_HANDED ? archive->shown : archive->memory;
+        MoveField(archive, field, object);
     }
+    archive->memory = memory;
 }
 
-/* True if an object in memory is its bytes: always for numbers without padding, in a snapshot for all that owns
-   nothing. */
-static bool IsTight(const kiriTable* table, bool isWhole)
+/* Saves the KEPT fields of an object, or puts them back; returns their bytes. */
+static int32_t MoveKept(const kiriTable* table, uint8_t* object, uint8_t* kept, bool isBack)
 {
-    int32_t size = 0;
-    bool isTight = true;
+    int32_t bytes = 0;
     for (int32_t k = 0; k < table->count; ++k) {
-        const kiriMember* member = &table->fields[k];
-        bool isNumbers = member->kind == KIRI_MEMBER_RUN || (member->kind == KIRI_MEMBER_BOOLS && isWhole) ||
-                         (member->kind == KIRI_MEMBER_PART && IsTight(member->table, isWhole));
-        isTight = isTight && isNumbers;
-        size += member->size;
-    }
-    return isTight && (isWhole || size == table->size);
-}
-
-/* How many bytes an object is that has no arrays; KIRI_NONE where that is not the same of all. */
-static int64_t BytesOfObject(const kiriTable* table)
-{
-    int64_t bytes = 0;
-    for (int32_t k = 0; k < table->count && bytes != KIRI_NONE; ++k) {
-        const kiriMember* member = &table->fields[k];
-        int64_t part = member->kind == KIRI_MEMBER_PART ? BytesOfObject(member->table) : 1;
-        bool isPart = member->kind == KIRI_MEMBER_PART && part != KIRI_NONE;
-        bool isFixed = isPart || member->kind == KIRI_MEMBER_RUN || member->kind == KIRI_MEMBER_BOOLS;
-        int64_t more = isPart ? part * (member->size / member->table->size) : member->size;
-        bytes = isFixed ? bytes + more : member->kind == KIRI_MEMBER_DROPPED ? bytes : KIRI_NONE;
+        const kiriMember* field = &table->fields[k];
+        uint8_t* at = object + field->offset;
+        if (field->kind == KIRI_MEMBER_KEPT) {
+            memcpy(isBack ? at : kept + bytes, isBack ? kept + bytes : at, (size_t)field->size);
+            bytes += field->size;
+        } else if (field->kind == KIRI_MEMBER_PART && field->size == field->table->size) {
+            bytes += MoveKept(field->table, at, kept + bytes, isBack);
+        }
     }
     return bytes;
 }
 
+/* True if nothing but numbers is in it: then a snapshot needs no more than its bytes. */
+static bool IsFlat(const kiriTable* table)
+{
+    bool isFlat = true;
+    for (int32_t k = 0; isFlat && k < table->count; ++k) {
+        const kiriMember* field = &table->fields[k];
+        isFlat = field->kind <= KIRI_MEMBER_BOOLS || field->kind == KIRI_MEMBER_UNHASHED ||
+                 (field->kind == KIRI_MEMBER_PART && IsFlat(field->table));
+    }
+    return isFlat;
+}
+
+/* True if an object in memory is its bytes in a save: fields are numbers, in order, without padding. */
+static bool IsTight(const kiriTable* table)
+{
+    int32_t size = 0;
+    for (int32_t k = 0; k < table->count; ++k) {
+        const kiriMember* field = &table->fields[k];
+        bool isNumbers = field->kind < KIRI_MEMBER_BOOLS || (field->kind == KIRI_MEMBER_PART && IsTight(field->table));
+        if (field->kind == KIRI_MEMBER_UNHASHED) {
+            continue;
+        }
+        if (!isNumbers || field->offset != size) {
+            return false;
+        }
+        size += field->size;
+    }
+    return size == table->size;
+}
+
+/* A snapshot of objects begins with all their bytes. */
+static void MoveWhole(kiriArchive* archive, const kiriTable* table, uint8_t* objects, int64_t count)
+{
+    enum { MOST_KEPT = 1024 };
+    uint8_t kept[MOST_KEPT];
+    bool isKept = count == 1 && kiriArchive_Reads(archive) && MoveKept(table, objects, kept, false) > 0;
+    kiriArchive_Numbers(archive, objects, 1, count * table->size);
+    if (isKept) {
+        MoveKept(table, objects, kept, true);
+    }
+    for (int64_t n = 0; n < count && !IsFlat(table) && !kiriArchive_HasFailed(archive); ++n) {
+        MoveFields(archive, table, objects + n * table->size);
+    }
+}
+
 void kiriArchive_Objects(kiriArchive* archive, const kiriTable* table, void* objects, int64_t count)
 {
-    if (count > 1 && IsLittleEndian() && IsTight(table, archive->isWhole)) {
+    KIRI_ASSERT(count >= 0);
+    if (archive->isWhole) {
+        MoveWhole(archive, table, objects, count);
+        return;
+    }
+    bool isRow = count > 1 && archive->mode != KIRI_ARCHIVE_HASH && IsLittleEndian() && IsTight(table);
+    if (isRow) {
         kiriArchive_Numbers(archive, objects, 1, count * table->size);
-        return;
+        archive->isUnmoved = true;
     }
-    int64_t each = archive->mode == KIRI_ARCHIVE_MEASURE && !archive->isWhole ? BytesOfObject(table) : KIRI_NONE;
-    if (each != KIRI_NONE) {
-        TakeBytes(archive, each * count);
-        return;
+    for (int64_t n = 0; n < count && (!isRow || kiriArchive_Reads(archive)) && !kiriArchive_HasFailed(archive); ++n) {
+        MoveFields(archive, table, (uint8_t*)objects + n * table->size);
     }
-    for (int64_t n = 0; n < count && !kiriArchive_HasFailed(archive); ++n) {
-        kiriArchive_Object(archive, table, (uint8_t*)objects + n * table->size);
-    }
+    archive->isUnmoved = false;
+}
+
+void kiriArchive_Object(kiriArchive* archive, const kiriTable* table, void* object)
+{
+    kiriArchive_Objects(archive, table, object, 1);
 }
 
 void kiriArchive_HashLayout(const kiriTable* table, uint64_t* hash)
 {
     kiriHash_Int32(hash, table->size);
     for (int32_t k = 0; k < table->count; ++k) {
-        const kiriMember* member = &table->fields[k];
-        kiriHash_Int32(hash, member->kind);
-        kiriHash_Int32(hash, member->offset);
-        kiriHash_Int32(hash, member->size);
-        if (member->table != NULL) {
-            kiriArchive_HashLayout(member->table, hash);
+        const kiriMember* field = &table->fields[k];
+        kiriHash_Int32(hash, field->kind);
+        kiriHash_Int32(hash, field->offset);
+        kiriHash_Int32(hash, field->size);
+        if (field->table != NULL) {
+            kiriArchive_HashLayout(field->table, hash);
         }
     }
 }

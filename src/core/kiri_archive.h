@@ -44,33 +44,63 @@ static inline void kiriHash_Double(uint64_t* hash, double value)
     kiriHash_Int64(hash, bits);
 }
 
-/* State as bytes, and back. Tables of fields say what of a struct is kept; size, bytes and reading follow from the same
-   tables. Numbers are little-endian by value, without padding and pointers, so bytes are the same on every machine. */
+/* State as bytes, and back: one table of fields a struct. Saves, loads, the checks of loaded bytes, snapshots and the
+   state hash follow from the same tables.
+
+   - A save has the fields before KIRI_DERIVED, as little-endian numbers without padding and pointers. A load checks each
+     number against its entry: the bytes are untrusted.
+   - A snapshot has structs as they lie in memory, and the blocks of their arrays. It is for the same process, and is
+     not checked.
+   - The state hash has the fields before KIRI_UNHASHED. */
 
 typedef struct kiriArchive kiriArchive;
 
-/* Does one thing in both directions: `object` is written where bytes are read, and else only read. */
+/* Writes or reads part of an object; it changes the object only when it reads. */
 typedef void kiriArchiveFn(kiriArchive* archive, void* object);
 
+/* What an index is of. A sheet stores its counts before all else. */
+enum kiriOf {
+    KIRI_OF_NOTHING = -1,
+    KIRI_OF_TRIANGLES,
+    KIRI_OF_HALF_EDGES,
+    KIRI_OF_VERTICES,
+    KIRI_OF_FRAMES,
+    KIRI_OF_PIECES,
+    KIRI_OF_PINS,
+    KIRI_OF_POINTS,
+    KIRI_OF_COUNT
+};
+
 enum kiriMemberKind {
-    KIRI_MEMBER_RUN,    /* numbers of one width, in fields that follow each other */
-    KIRI_MEMBER_BOOLS,  /* the same of bools */
-    KIRI_MEMBER_PART,   /* a struct, or an array of C of them */
-    KIRI_MEMBER_ITEMS,  /* a KIRI_ARRAY of numbers of one width, or of structs of them */
-    KIRI_MEMBER_PARTS,  /* a KIRI_ARRAY of structs */
-    KIRI_MEMBER_ROOM,   /* a KIRI_ARRAY: its room alone; it is empty when it is read */
-    KIRI_MEMBER_SPACE,  /* a KIRI_ARRAY: its room and its count; whoever reads it writes the items anew */
-    KIRI_MEMBER_SHOWN,  /* the same; but in a snapshot the items, too */
+    KIRI_MEMBER_NUMBERS, /* numbers of one width */
+    KIRI_MEMBER_REALS,   /* finite doubles */
+    KIRI_MEMBER_FLOATS,  /* finite floats */
+    KIRI_MEMBER_COUNTS,  /* int64_t in [0, 2^56) */
+    KIRI_MEMBER_INTS,    /* int32_t in [low, high + count(of)] */
+    KIRI_MEMBER_BOOLS,
+    KIRI_MEMBER_PART,   /* a struct, or a C array of structs */
+    KIRI_MEMBER_ARRAY,  /* a KIRI_ARRAY of structs; without a table, of numbers */
+    KIRI_MEMBER_ROOM,   /* a KIRI_ARRAY: capacity; empty when it is read */
+    KIRI_MEMBER_SPACE,  /* a KIRI_ARRAY: capacity and count; zeroed when it is read */
+    KIRI_MEMBER_SHOWN,  /* a KIRI_ARRAY: in a snapshot as ARRAY, in a save as SPACE */
     KIRI_MEMBER_OWNED,  /* a pointer to a struct in a block of its own, or null */
-    KIRI_MEMBER_CUSTOM, /* what a function says, of the whole object */
-    KIRI_MEMBER_DROPPED /* nothing: it is zero when it is read */
+    KIRI_MEMBER_CUSTOM, /* a function of the whole object */
+    KIRI_MEMBER_DROPPED, /* zero when it is read */
+    KIRI_MEMBER_KEPT,    /* stays when a snapshot is read */
+
+    /* Marks, of the entries after them. */
+    KIRI_MEMBER_UNHASHED,
+    KIRI_MEMBER_DERIVED, /* only in snapshots. Numbers need no entry there */
+    KIRI_MEMBER_HANDED   /* arrays are blocks of archive->shown */
 };
 
 typedef struct kiriMember {
-    int32_t kind, width; /* width: bytes a number */
-    int32_t offset;
-    int32_t size;                  /* bytes of the run, of the part, or of an item */
-    const struct kiriTable* table; /* of the part, or of an item */
+    int32_t kind;
+    int32_t item;         /* ARRAY of numbers: their kind */
+    int32_t width;        /* bytes a number */
+    int32_t offset, size; /* size: bytes of the field, or of an item of an array */
+    int32_t of, low, high;
+    const struct kiriTable* table; /* of parts or items */
     kiriArchiveFn* custom;
 } kiriMember;
 
@@ -81,79 +111,105 @@ typedef struct kiriTable {
 } kiriTable;
 
 #define KIRI_FIELD_SIZE(Type, field) (int32_t)sizeof(((Type*)NULL)->field)
-#define KIRI_ITEM_SIZE(Type, field) (int32_t)sizeof(*((Type*)NULL)->field.data)
-#define KIRI_FIELD_END(Type, field) ((int32_t)offsetof(Type, field) + KIRI_FIELD_SIZE(Type, field))
+#define KIRI_MEMBER_ENTRY(kind, item, width, size, Type, field, of, low, high, table, custom)                           \
+    {                                                                                                                  \
+        kind, item, width, (int32_t)offsetof(Type, field), (int32_t)(size), of, low, high, table, custom               \
+    }
+#define KIRI_MEMBER_RUN(kind, width, Type, first, last, of, low, high)                                                  \
+    KIRI_MEMBER_ENTRY(kind, kind, width, offsetof(Type, last) + sizeof(((Type*)NULL)->last) - offsetof(Type, first),    \
+                     Type, first, of, low, high, NULL, NULL)
+#define KIRI_MEMBER_LIST(kind, item, width, Type, field, of, low, high, table)                                          \
+    KIRI_MEMBER_ENTRY(kind, item, width, sizeof(*((Type*)NULL)->field.data), Type, field, of, low, high, table, NULL)
 
-/* `tests/fields.py` (make fields) holds the tables against the structs: each field is in its table, once and as what it
-   is. */
+/* Entries of tables; `make fields` compares them with the structs. Numbers in fields from `first` to `last`: */
 #define KIRI_RUN(width, Type, first, last)                                                                             \
-    {                                                                                                                  \
-        KIRI_MEMBER_RUN, width, (int32_t)offsetof(Type, first),                                                        \
-            KIRI_FIELD_END(Type, last) - (int32_t)offsetof(Type, first), NULL, NULL                                    \
-    }
-#define KIRI_BOOLS(Type, first, last)                                                                                  \
-    {                                                                                                                  \
-        KIRI_MEMBER_BOOLS, 1, (int32_t)offsetof(Type, first),                                                          \
-            KIRI_FIELD_END(Type, last) - (int32_t)offsetof(Type, first), NULL, NULL                                    \
-    }
+    KIRI_MEMBER_RUN(KIRI_MEMBER_NUMBERS, width, Type, first, last, KIRI_OF_NOTHING, 0, 0)
+#define KIRI_REALS(Type, first, last) KIRI_MEMBER_RUN(KIRI_MEMBER_REALS, 8, Type, first, last, KIRI_OF_NOTHING, 0, 0)
+#define KIRI_FLOATS(Type, first, last) KIRI_MEMBER_RUN(KIRI_MEMBER_FLOATS, 4, Type, first, last, KIRI_OF_NOTHING, 0, 0)
+#define KIRI_COUNTS(Type, first, last) KIRI_MEMBER_RUN(KIRI_MEMBER_COUNTS, 8, Type, first, last, KIRI_OF_NOTHING, 0, 0)
+#define KIRI_BOOLS(Type, first, last) KIRI_MEMBER_RUN(KIRI_MEMBER_BOOLS, 1, Type, first, last, KIRI_OF_NOTHING, 0, 0)
+#define KIRI_INDEX(of, Type, first, last) KIRI_MEMBER_RUN(KIRI_MEMBER_INTS, 4, Type, first, last, of, 0, -1)
+#define KIRI_INDEX_OR_NONE(of, Type, first, last)                                                                      \
+    KIRI_MEMBER_RUN(KIRI_MEMBER_INTS, 4, Type, first, last, of, KIRI_NONE, -1)
+#define KIRI_WITHIN(low, high, Type, first, last)                                                                      \
+    KIRI_MEMBER_RUN(KIRI_MEMBER_INTS, 4, Type, first, last, KIRI_OF_NOTHING, low, high)
+
+/* Structs, and arrays: */
 #define KIRI_PART(Type, field, table)                                                                                  \
-    {                                                                                                                  \
-        KIRI_MEMBER_PART, 0, (int32_t)offsetof(Type, field), KIRI_FIELD_SIZE(Type, field), &table, NULL                \
-    }
+    KIRI_MEMBER_ENTRY(KIRI_MEMBER_PART, 0, 0, KIRI_FIELD_SIZE(Type, field), Type, field, 0, 0, 0, &table, NULL)
+#define KIRI_PARTS(Type, field, table) KIRI_MEMBER_LIST(KIRI_MEMBER_ARRAY, 0, 0, Type, field, 0, 0, 0, &table)
 #define KIRI_ITEMS(width, Type, field)                                                                                 \
-    {                                                                                                                  \
-        KIRI_MEMBER_ITEMS, width, (int32_t)offsetof(Type, field), KIRI_ITEM_SIZE(Type, field), NULL, NULL              \
-    }
-#define KIRI_PARTS(Type, field, table)                                                                                 \
-    {                                                                                                                  \
-        KIRI_MEMBER_PARTS, 0, (int32_t)offsetof(Type, field), KIRI_ITEM_SIZE(Type, field), &table, NULL                \
-    }
-#define KIRI_ROOM_OF(Type, field)                                                                                      \
-    {                                                                                                                  \
-        KIRI_MEMBER_ROOM, 0, (int32_t)offsetof(Type, field), KIRI_ITEM_SIZE(Type, field), NULL, NULL                   \
-    }
-#define KIRI_SPACE_OF(Type, field)                                                                                     \
-    {                                                                                                                  \
-        KIRI_MEMBER_SPACE, 0, (int32_t)offsetof(Type, field), KIRI_ITEM_SIZE(Type, field), NULL, NULL                  \
-    }
-#define KIRI_SHOWN_OF(Type, field)                                                                                     \
-    {                                                                                                                  \
-        KIRI_MEMBER_SHOWN, 0, (int32_t)offsetof(Type, field), KIRI_ITEM_SIZE(Type, field), NULL, NULL                  \
-    }
+    KIRI_MEMBER_LIST(KIRI_MEMBER_ARRAY, KIRI_MEMBER_NUMBERS, width, Type, field, 0, 0, 0, NULL)
+#define KIRI_REAL_ITEMS(Type, field) KIRI_MEMBER_LIST(KIRI_MEMBER_ARRAY, KIRI_MEMBER_REALS, 8, Type, field, 0, 0, 0, NULL)
+#define KIRI_FLOAT_ITEMS(Type, field)                                                                                  \
+    KIRI_MEMBER_LIST(KIRI_MEMBER_ARRAY, KIRI_MEMBER_FLOATS, 4, Type, field, 0, 0, 0, NULL)
+#define KIRI_INDICES(of, Type, field) KIRI_MEMBER_LIST(KIRI_MEMBER_ARRAY, KIRI_MEMBER_INTS, 4, Type, field, of, 0, -1, NULL)
+#define KIRI_ROOM_OF(Type, field) KIRI_MEMBER_LIST(KIRI_MEMBER_ROOM, 0, 1, Type, field, 0, 0, 0, NULL)
+#define KIRI_SPACE_OF(Type, field) KIRI_MEMBER_LIST(KIRI_MEMBER_SPACE, 0, 1, Type, field, 0, 0, 0, NULL)
+#define KIRI_SHOWN_OF(Type, field) KIRI_MEMBER_LIST(KIRI_MEMBER_SHOWN, 0, 1, Type, field, 0, 0, 0, NULL)
 #define KIRI_OWNED(Type, field, table)                                                                                 \
-    {                                                                                                                  \
-        KIRI_MEMBER_OWNED, 0, (int32_t)offsetof(Type, field), 0, &table, NULL                                          \
-    }
+    KIRI_MEMBER_ENTRY(KIRI_MEMBER_OWNED, 0, 0, sizeof(void*), Type, field, 0, 0, 0, &table, NULL)
 #define KIRI_CUSTOM(Type, field, function)                                                                             \
-    {                                                                                                                  \
-        KIRI_MEMBER_CUSTOM, 0, (int32_t)offsetof(Type, field), 0, NULL, function                                       \
-    }
-#define KIRI_DROPPED(Type, field)                                                                                      \
-    {                                                                                                                  \
-        KIRI_MEMBER_DROPPED, 0, (int32_t)offsetof(Type, field), 0, NULL, NULL                                          \
-    }
+    KIRI_MEMBER_ENTRY(KIRI_MEMBER_CUSTOM, 0, 0, 0, Type, field, 0, 0, 0, NULL, function)
+#define KIRI_DROPPED(Type, first, last) KIRI_MEMBER_RUN(KIRI_MEMBER_DROPPED, 1, Type, first, last, 0, 0, 0)
+#define KIRI_KEPT(Type, first, last) KIRI_MEMBER_RUN(KIRI_MEMBER_KEPT, 1, Type, first, last, 0, 0, 0)
+
+/* Several arrays of which only snapshots have the items; several whose room is kept. */
+#define KIRI_ARRAY_OF(Type, field) KIRI_MEMBER_LIST(KIRI_MEMBER_ARRAY, KIRI_MEMBER_NUMBERS, 1, Type, field, 0, 0, 0, NULL)
+#define KIRI_ARRAYS(Type, ...) KIRI_EACH_FIELD(KIRI_ARRAY_OF, Type, __VA_ARGS__)
+#define KIRI_ROOMS(Type, ...) KIRI_EACH_FIELD(KIRI_ROOM_OF, Type, __VA_ARGS__)
+
+#define KIRI_MARK(kind) { kind, 0, 0, 0, 0, 0, 0, 0, NULL, NULL }
+#define KIRI_UNHASHED KIRI_MARK(KIRI_MEMBER_UNHASHED)
+#define KIRI_DERIVED KIRI_MARK(KIRI_MEMBER_DERIVED)
+#define KIRI_HANDED KIRI_MARK(KIRI_MEMBER_HANDED)
+
+/* Applies a macro to up to eight fields. KIRI_ONCE_MORE is for the preprocessor of MSVC, which passes __VA_ARGS__ on as
+   one argument. */
+#define KIRI_ONCE_MORE(x) x
+#define KIRI_EACH_1(M, Type, a) M(Type, a)
+#define KIRI_EACH_2(M, Type, a, ...) M(Type, a), KIRI_ONCE_MORE(KIRI_EACH_1(M, Type, __VA_ARGS__))
+#define KIRI_EACH_3(M, Type, a, ...) M(Type, a), KIRI_ONCE_MORE(KIRI_EACH_2(M, Type, __VA_ARGS__))
+#define KIRI_EACH_4(M, Type, a, ...) M(Type, a), KIRI_ONCE_MORE(KIRI_EACH_3(M, Type, __VA_ARGS__))
+#define KIRI_EACH_5(M, Type, a, ...) M(Type, a), KIRI_ONCE_MORE(KIRI_EACH_4(M, Type, __VA_ARGS__))
+#define KIRI_EACH_6(M, Type, a, ...) M(Type, a), KIRI_ONCE_MORE(KIRI_EACH_5(M, Type, __VA_ARGS__))
+#define KIRI_EACH_7(M, Type, a, ...) M(Type, a), KIRI_ONCE_MORE(KIRI_EACH_6(M, Type, __VA_ARGS__))
+#define KIRI_EACH_8(M, Type, a, ...) M(Type, a), KIRI_ONCE_MORE(KIRI_EACH_7(M, Type, __VA_ARGS__))
+#define KIRI_EACH_PICK(a, b, c, d, e, f, g, h, Each, ...) Each
+#define KIRI_EACH_FIELD(M, Type, ...)                                                                                  \
+    KIRI_ONCE_MORE(KIRI_EACH_PICK(__VA_ARGS__, KIRI_EACH_8, KIRI_EACH_7, KIRI_EACH_6, KIRI_EACH_5, KIRI_EACH_4,        \
+                                  KIRI_EACH_3, KIRI_EACH_2, KIRI_EACH_1, )(M, Type, __VA_ARGS__))
+
 #define KIRI_TABLE(Type, fields)                                                                                       \
     {                                                                                                                  \
         fields, (int32_t)(sizeof(fields) / sizeof(fields[0])), (int32_t)sizeof(Type)                                   \
     }
 
-typedef enum kiriArchiveMode { KIRI_ARCHIVE_MEASURE, KIRI_ARCHIVE_WRITE, KIRI_ARCHIVE_READ } kiriArchiveMode;
+typedef enum kiriArchiveMode {
+    KIRI_ARCHIVE_MEASURE,
+    KIRI_ARCHIVE_WRITE,
+    KIRI_ARCHIVE_READ,
+    KIRI_ARCHIVE_HASH
+} kiriArchiveMode;
 
 struct kiriArchive {
     kiriArchiveMode mode;
-    uint8_t* bytes;     /* null where they are measured */
-    int64_t at, size;   /* so many are done, of so many */
+    bool isWhole;       /* a snapshot */
+    bool isBad;         /* READ: no writer made these bytes; reads give zero from then on. WRITE: `size` is too small */
+    bool isShort;       /* READ: out of memory */
+    bool isUnmoved;     /* READ: numbers are there, and only checked */
+    uint8_t* bytes;     /* null if they are only measured or hashed */
+    int64_t at, size;   /* bytes done, of so many */
     int64_t room;       /* READ: bytes of memory that arrays may still take */
-    kiriMemory* memory; /* READ: of what is made */
-    bool isBad;   /* READ: these bytes are none that were written; what is read then is zero. WRITE: more than `size` */
-    bool isShort; /* no memory */
-    bool
-        isWhole; /* a snapshot: derived data too, and structs as they lie in memory. Else a save: what cannot be made again */
+    kiriMemory *memory, *shown; /* READ: owners of new blocks */
+    uint64_t hash;
+    int64_t count[KIRI_OF_COUNT];
 };
 
 kiriArchive kiriArchive_Measure(void);
 kiriArchive kiriArchive_Write(void* bytes, int64_t size);
 kiriArchive kiriArchive_Read(const void* bytes, int64_t size, kiriMemory* memory);
+kiriArchive kiriArchive_Hash(void);
 
 static inline bool kiriArchive_Reads(const kiriArchive* archive)
 {
@@ -165,10 +221,10 @@ static inline bool kiriArchive_HasFailed(const kiriArchive* archive)
     return archive->isBad || archive->isShort;
 }
 
-/* Bytes that were read are nonsense, unless `isFine`. */
+/* READ: the bytes are bad unless `isFine`. */
 void kiriArchive_Expect(kiriArchive* archive, bool isFine);
 
-/* Numbers that lie one after the other. */
+/* Numbers in a row. */
 void kiriArchive_Numbers(kiriArchive* archive, void* numbers, int32_t width, int64_t count);
 
 static inline void kiriArchive_Int32(kiriArchive* archive, int32_t* number)
@@ -176,23 +232,18 @@ static inline void kiriArchive_Int32(kiriArchive* archive, int32_t* number)
     kiriArchive_Numbers(archive, number, 4, 1);
 }
 
-/* So many numbers that are in no KIRI_ARRAY, with their count: where bytes are read that is at most `room`, and
-   returned. */
-int32_t kiriArchive_Row(kiriArchive* archive, void* numbers, int32_t width, int32_t count, int32_t room);
-
-/* A whole number that is none of an object; where bytes are read, what they have. It is within these. */
+/* An integer that is no field. READ: returns the stored one, which is in [least, most]. */
 int32_t kiriArchive_Count(kiriArchive* archive, int64_t count, int64_t least, int64_t most);
 
-/* An object, or so many in a row. Where bytes are read it is zero before; what it has then is in blocks of
-   archive->memory. */
+/* One object, or a row. READ: it is zero before, and gets blocks of archive->memory. */
 void kiriArchive_Object(kiriArchive* archive, const kiriTable* table, void* object);
 void kiriArchive_Objects(kiriArchive* archive, const kiriTable* table, void* objects, int64_t count);
 
-/* Hashes sizes and places of all fields. */
-void kiriArchive_HashLayout(const kiriTable* table, uint64_t* hash);
-
-/* A block of so many numbers, of *block. */
+/* A block of numbers that is no KIRI_ARRAY. READ: charges it to the room; null if it fails. */
 void kiriArchive_Block(kiriArchive* archive, void** block, int32_t width, int64_t count);
+
+/* Hashes sizes and offsets of all fields. */
+void kiriArchive_HashLayout(const kiriTable* table, uint64_t* hash);
 
 KIRI_C_END
 

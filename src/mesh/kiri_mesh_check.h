@@ -1,25 +1,18 @@
-/* Is a mesh that was read one that can be cut? */
+/* A mesh as bytes, and the checks of a mesh that was loaded. */
 #ifndef KIRI_MESH_CHECK_H
 #define KIRI_MESH_CHECK_H
 
-#include "../core/kiri_check.h"
-#include "kiri_mesh.h"
 #include "../core/kiri_archive.h"
+#include "kiri_mesh.h"
 
 KIRI_C_BEGIN
 
-/* Counts what there is of the mesh, for rules about all else. */
-void kiriMesh_Count(const kiriMeshData* mesh, kiriCheck* check);
-
-/* All of it: what it points to, and that it is one conforming triangulation, listed in the squares where it lies. */
-bool kiriMesh_Check(const kiriMeshData* mesh, kiriCheck* check);
-
-/* The mesh as bytes: see core/kiri_archive.h. */
-
+/* A save has triangles, vertices and sources. Squares, and what lies in them, follow from these. */
 extern const kiriTable kiriMeshTable;
 
-/* What follows from the rest, where bytes were read. */
-void kiriMesh_EndReading(kiriMeshData* mesh, kiriMemory* memory);
+/* Ends the load of a save, whose numbers are in range: checks that the mesh is one conforming triangulation, and fills
+   its squares. Charges them to the room of the archive. */
+void kiriMesh_Derive(kiriMeshData* mesh, kiriArchive* archive);
 
 KIRI_C_END
 

@@ -13,8 +13,7 @@ static int64_t CeilDivide(int64_t a, int64_t b)
     return (a + b - 1) / b;
 }
 
-/* Makes empty squares. Their number and side are set. */
-static bool AllocateSquares(kiriSquares* squares, kiriMemory* memory)
+bool kiriSquares_Allocate(kiriSquares* squares, kiriMemory* memory)
 {
     squares->perStep = 1.0 / squares->side;
     squares->freeNode = KIRI_NONE;
@@ -40,7 +39,7 @@ bool kiriSquares_Init(kiriSquares* squares, kiriMemory* memory, kiriLatticePoint
     squares->side = (int32_t)(2 * CeilDivide(longer + 2, 2 * (int64_t)resolution));
     squares->columns = (int32_t)CeilDivide((int64_t)extent.x + 2, squares->side);
     squares->rows = (int32_t)CeilDivide((int64_t)extent.y + 2, squares->side);
-    return AllocateSquares(squares, memory);
+    return kiriSquares_Allocate(squares, memory);
 }
 
 /* Returns the column or row of an even coordinate, not negative, from the lower border of the whole sheet on. The quotient
@@ -71,7 +70,7 @@ bool kiriSquares_InitPart(kiriSquares* squares, kiriMemory* memory, const kiriSq
     squares->firstRow = like->firstRow;
     TakeLines(like, lower.x, upper.x, &squares->firstColumn, &squares->columns);
     TakeLines(like, lower.y, upper.y, &squares->firstRow, &squares->rows);
-    return AllocateSquares(squares, memory);
+    return kiriSquares_Allocate(squares, memory);
 }
 
 static void AddToBox(SquareBox* box, int32_t column, int32_t row)
@@ -116,27 +115,6 @@ static bool Overlaps(const kiriSquares* squares, SquareBox box, int32_t column, 
 bool kiriSquares_Overlap(const kiriSquares* squares, int32_t square, const kiriLatticePoint corners[3])
 {
     return Overlaps(squares, BoxOf(squares, corners), square % squares->columns, square / squares->columns, corners);
-}
-
-bool kiriSquares_FindOverlaps(const kiriSquares* squares, const kiriLatticePoint corners[3],
-                              const kiriSquarePlace in[3], kiriOverlaps* overlaps)
-{
-    SquareBox box = { INT32_MAX, -1, INT32_MAX, -1 };
-    for (int i = 0; i < 3; ++i) {
-        AddToBox(&box, in[i].column, in[i].row);
-    }
-    int32_t columns = box.lastColumn - box.firstColumn + 1, rows = box.lastRow - box.firstRow + 1, k = 0;
-    *overlaps = (kiriOverlaps){ 0, 0, 0, 0, 0 };
-    if ((int64_t)columns * rows > KIRI_FEW_SQUARES) {
-        return false;
-    }
-    *overlaps = (kiriOverlaps){ box.firstRow, box.firstColumn, columns, 0, 0 };
-    for (int32_t row = box.firstRow; row <= box.lastRow; ++row) {
-        for (int32_t column = box.firstColumn; column <= box.lastColumn; ++column, ++k) {
-            overlaps->bits |= (uint64_t)Overlaps(squares, box, column, row, corners) << k;
-        }
-    }
-    return true;
 }
 
 int64_t kiriSquares_CountOverlaps(const kiriSquares* squares, const kiriLatticePoint corners[3])

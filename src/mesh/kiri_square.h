@@ -47,6 +47,9 @@ typedef struct kiriSquares {
     int32_t oldDirtyCount; /* KIRI_NONE: ClearDirty has been called since */
 } kiriSquares;
 
+/* Allocates empty squares, whose numbers and side are set. False for memory. */
+bool kiriSquares_Allocate(kiriSquares* squares, kiriMemory* memory);
+
 /* `resolution` squares along the longer of the two extents (lattice steps, from 0). */
 bool kiriSquares_Init(kiriSquares* squares, kiriMemory* memory, kiriLatticePoint extent, int32_t resolution);
 
@@ -106,24 +109,6 @@ static inline kiriLatticePoint kiriSquares_Corner(const kiriSquares* squares, in
 
 /* Returns true if the interiors overlap. Exact. */
 bool kiriSquares_Overlap(const kiriSquares* squares, int32_t square, const kiriLatticePoint corners[3]);
-
-/* Squares that a triangle overlaps: bit k is for square k of its box, row by row. */
-typedef struct kiriOverlaps {
-    int32_t row, column; /* of the first square in the box */
-    int32_t columns;     /* of the box; 0: it has too many squares for bits */
-    int32_t left;        /* the caller's count */
-    uint64_t bits;
-} kiriOverlaps;
-
-enum { KIRI_FEW_SQUARES = 64 };
-
-typedef struct kiriSquarePlace {
-    int32_t column, row;
-} kiriSquarePlace;
-
-/* `in`: the squares of the corners. Returns false, and writes zeros, if the box has more than KIRI_FEW_SQUARES. */
-bool kiriSquares_FindOverlaps(const kiriSquares* squares, const kiriLatticePoint corners[3],
-                              const kiriSquarePlace in[3], kiriOverlaps* overlaps);
 
 /* Returns the number of squares that a triangle overlaps. */
 int64_t kiriSquares_CountOverlaps(const kiriSquares* squares, const kiriLatticePoint corners[3]);

@@ -1,84 +1,112 @@
 #include "kiri_motion_check.h"
-#include "kiri_solver.h"
 #include "../field/kiri_field_save.h"
+#include "kiri_solver.h"
 
 #include <math.h>
 
-/* ---- Rules ------------------------------------------------------------------------------------------------------- */
+/* ---- Tables ------------------------------------------------------------------------------------------------------ */
 
-static const kiriMust HistoryMust[] = {
+static const kiriMember MechanicsMembers[] = {
+    KIRI_WITHIN(KIRI_MODEL_LINKS, KIRI_MODEL_POINTS, kiriMechanics, model, model),
+    KIRI_BOOLS(kiriMechanics, planar, planar),
+    KIRI_REALS(kiriMechanics, axes, axes),
+    KIRI_WITHIN(KIRI_TIME_STEPPING_SECOND_ORDER, KIRI_TIME_STEPPING_EULER, kiriMechanics, timeStepping, timeStepping),
+};
+const kiriTable kiriMechanicsTable = KIRI_TABLE(kiriMechanics, MechanicsMembers);
+
+static const kiriMember HistoryMembers[] = {
     KIRI_REALS(kiriHistory, dt, dt),
     KIRI_WITHIN(0, 1, kiriHistory, isHalf, isHeld),
     KIRI_REALS(kiriHistory, gain, turnPull),
 };
+static const kiriTable HistoryTable = KIRI_TABLE(kiriHistory, HistoryMembers);
 
-static const kiriMust FrameMust[] = {
-    KIRI_REALS(kiriFrameData, site.at, site.at),
+static const kiriMember FrameDataMembers[] = {
+    KIRI_PART(kiriFrameData, site, kiriSiteTable),
+    KIRI_RUN(4, kiriFrameData, anchor, anchor),
     KIRI_REALS(kiriFrameData, center, support),
-    KIRI_PART_MUST(kiriFrameData, history, kiriHistory, HistoryMust),
+    KIRI_PART(kiriFrameData, history, HistoryTable),
     KIRI_WITHIN(0, 1, kiriFrameData, held, held),
+    KIRI_RUN(8, kiriFrameData, heldPosition, heldOff),
+    KIRI_BOOLS(kiriFrameData, isOffKnown, isOffKnown),
     KIRI_REALS(kiriFrameData, reaction, bore),
+    KIRI_UNHASHED,
+    KIRI_RUN(4, kiriFrameData, id, id),
+    KIRI_RUN(8, kiriFrameData, pieceData, pieceData),
+    KIRI_DROPPED(kiriFrameData, gained, received),
 };
+const kiriTable kiriFrameTable = KIRI_TABLE(kiriFrameData, FrameDataMembers);
 
-static const kiriMust FrameShareMust[] = {
-    KIRI_INDEX(KIRI_OF_FRAMES, kiriFrameShare, frame, frame),
-};
-
-static const kiriMust AreaElementMust[] = {
+static const kiriMember AreaElementMembers[] = {
     KIRI_REALS(kiriAreaElement, area, lean),
+    KIRI_RUN(4, kiriAreaElement, first, count),
     KIRI_WITHIN(0, KIRI_AREA_STRAINS, kiriAreaElement, firstRow, lastRow),
 };
+static const kiriTable AreaElementTable = KIRI_TABLE(kiriAreaElement, AreaElementMembers);
 
-static const kiriMust AreaElementsMust[] = {
-    KIRI_ITEMS_MUST(kiriAreaElements, elements, AreaElementMust),
-    KIRI_ITEMS_MUST(kiriAreaElements, shares, FrameShareMust),
+static const kiriMember FrameShareMembers[] = {
+    KIRI_INDEX(KIRI_OF_FRAMES, kiriFrameShare, frame, frame),
+    KIRI_RUN(8, kiriFrameShare, move, slope),
 };
+static const kiriTable FrameShareTable = KIRI_TABLE(kiriFrameShare, FrameShareMembers);
 
-static const kiriMust MechanicsMust[] = {
-    KIRI_WITHIN(KIRI_MODEL_LINKS, KIRI_MODEL_POINTS, kiriMechanics, model, model),
-    KIRI_REALS(kiriMechanics, axes, axes),
-    KIRI_WITHIN(KIRI_TIME_STEPPING_SECOND_ORDER, KIRI_TIME_STEPPING_EULER, kiriMechanics, timeStepping, timeStepping),
+static const kiriMember AreaElementsMembers[] = {
+    KIRI_PARTS(kiriAreaElements, elements, AreaElementTable),
+    KIRI_PARTS(kiriAreaElements, shares, FrameShareTable),
 };
+const kiriTable kiriAreaElementsTable = KIRI_TABLE(kiriAreaElements, AreaElementsMembers);
 
-/* ---- Frames ------------------------------------------------------------------------------------------------------ */
+static const kiriMember StrainOffsetMembers[] = { KIRI_REALS(kiriStrainOffset, strain, strain) };
+static const kiriTable StrainOffsetTable = KIRI_TABLE(kiriStrainOffset, StrainOffsetMembers);
 
-bool kiriMechanics_Check(const kiriMechanics* mechanics, kiriCheck* check)
+static const kiriMember StrainOffsetsMembers[] = {
+    KIRI_PARTS(kiriStrainOffsets, strainOffsets, StrainOffsetTable),
+    KIRI_ROOMS(kiriStrainOffsets, older, from, frames, mayMove),
+};
+const kiriTable kiriStrainOffsetsTable = KIRI_TABLE(kiriStrainOffsets, StrainOffsetsMembers);
+
+static const kiriMember OwnershipMembers[] = {
+    KIRI_DERIVED,
+    KIRI_ARRAYS(kiriOwnership, squares, triangleOwners, dirty, isDirty, staged, transfers, first),
+};
+static const kiriTable OwnershipTable = KIRI_TABLE(kiriOwnership, OwnershipMembers);
+
+static const kiriMember RefitMembers[] = {
+    KIRI_DERIVED,
+    KIRI_PART(kiriRefit, ownership, OwnershipTable),
+    KIRI_ROOMS(kiriRefit, fits, bodies),
+};
+const kiriTable kiriRefitTable = KIRI_TABLE(kiriRefit, RefitMembers);
+
+/* ---- Checks ------------------------------------------------------------------------------------------------------ */
+
+bool kiriFrame_IsSound(const kiriFrameData* frame, const kiriMeshData* mesh)
 {
-    return kiriCheck_Object(check, MechanicsMust, mechanics);
-}
-
-/* But for rounding. */
-static bool IsSiteIn(const kiriFrameData* frame, const kiriMeshData* mesh, int32_t square)
-{
-    double half = 0.5 * mesh->squares.side, most = 1.02 * half * mesh->step;
+    bool isOnLattice = frame->anchor.x >= 0 && frame->anchor.y >= 0 && ((frame->anchor.x | frame->anchor.y) & 1) == 0;
+    int32_t square = isOnLattice ? kiriSquares_At(&mesh->squares, frame->anchor) : KIRI_NONE;
+    if (square == KIRI_NONE || mesh->squares.head[square] == KIRI_NONE || !(frame->mass > 0.0 && frame->area > 0.0)) {
+        return false;
+    }
+    double half = 0.5 * mesh->squares.side, most = 1.02 * half * mesh->step; /* the site is rounded */
     kiriLatticePoint corner = kiriSquares_Corner(&mesh->squares, square);
-    kiriVec2 middle = kiriVec2_Make(mesh->step * (corner.x + half), mesh->step * (corner.y + half));
-    return fabs(frame->site.at.x - middle.x) <= most && fabs(frame->site.at.y - middle.y) <= most;
+    return kiriFrame_FitsFloats(frame) && fabs(frame->site.at.x - mesh->step * (corner.x + half)) <= most &&
+           fabs(frame->site.at.y - mesh->step * (corner.y + half)) <= most;
 }
 
-/* The anchor is where there is material, and the site is in its square. */
-bool kiriFrame_Check(const kiriFrameData* frame, kiriCheck* check, const kiriMeshData* mesh)
-{
-    int32_t square =
-        frame->anchor.x < 0 || frame->anchor.y < 0 ? KIRI_NONE : kiriSquares_At(&mesh->squares, frame->anchor);
-    return kiriCheck_Object(check, FrameMust, frame) &&
-           kiriCheck_That(check, square != KIRI_NONE && mesh->squares.head[square] != KIRI_NONE &&
-                                     ((frame->anchor.x | frame->anchor.y) & 1) == 0 && frame->mass > 0.0 &&
-                                     frame->area > 0.0 && kiriFrame_FitsFloats(frame) && IsSiteIn(frame, mesh, square));
-}
-
-bool kiriAreaElements_Check(const kiriAreaElements* elements, kiriCheck* check)
+bool kiriAreaElements_AreSound(const kiriAreaElements* elements)
 {
     int64_t next = 0;
-    bool areFine = kiriCheck_Object(check, AreaElementsMust, elements);
+    bool areFine = true;
     for (int32_t k = 0; areFine && k < elements->elements.count; ++k) {
         const kiriAreaElement* element = &elements->elements.data[k];
         areFine = element->first == next && element->count > 0 && element->firstRow < element->lastRow;
         next += element->count;
         areFine = areFine && next <= elements->shares.count;
     }
-    return kiriCheck_That(check, areFine && next == elements->shares.count);
+    return areFine && next == elements->shares.count;
 }
+
+/* ---- The solver -------------------------------------------------------------------------------------------------- */
 
 /* Reads the bodies that frames are of, and makes them without elements. Bodies are numbered by their lowest frame. */
 static void ReadBodies(kiriArchive* archive, kiriSolver* solver, int32_t frameCount, int32_t bodyCount)
@@ -135,88 +163,3 @@ void kiriSolver_Archive(kiriArchive* archive, kiriSolver** made, const kiriMecha
         kiriArchive_Expect(archive, kiriMatrix_FrameCount(body->matrix) == body->frames.count);
     }
 }
-
-static const kiriMember HistoryMembers[] = {
-    KIRI_RUN(8, kiriHistory, dt, dt),
-    KIRI_RUN(4, kiriHistory, isHalf, isHeld),
-    KIRI_RUN(8, kiriHistory, gain, turnPull),
-};
-static const kiriTable HistoryTable = KIRI_TABLE(kiriHistory, HistoryMembers);
-
-static const kiriMember FrameDataMembers[] = {
-    KIRI_RUN(4, kiriFrameData, id, id),
-    KIRI_RUN(8, kiriFrameData, pieceData, pieceData),
-    KIRI_PART(kiriFrameData, site, kiriSiteTable),
-    KIRI_RUN(4, kiriFrameData, anchor, anchor),
-    KIRI_RUN(8, kiriFrameData, center, support),
-    KIRI_DROPPED(kiriFrameData, gained),
-    KIRI_DROPPED(kiriFrameData, passed),
-    KIRI_DROPPED(kiriFrameData, received),
-    KIRI_PART(kiriFrameData, history, HistoryTable),
-    KIRI_RUN(4, kiriFrameData, held, held),
-    KIRI_RUN(8, kiriFrameData, heldPosition, heldOff),
-    KIRI_BOOLS(kiriFrameData, isOffKnown, isOffKnown),
-    KIRI_RUN(8, kiriFrameData, reaction, bore),
-};
-const kiriTable kiriFrameTable = KIRI_TABLE(kiriFrameData, FrameDataMembers);
-
-static const kiriMember AreaElementMembers[] = {
-    KIRI_RUN(8, kiriAreaElement, area, lean),
-    KIRI_RUN(4, kiriAreaElement, first, lastRow),
-};
-static const kiriTable AreaElementTable = KIRI_TABLE(kiriAreaElement, AreaElementMembers);
-
-static const kiriMember FrameShareMembers[] = {
-    KIRI_RUN(4, kiriFrameShare, frame, frame),
-    KIRI_RUN(8, kiriFrameShare, move, slope),
-};
-static const kiriTable FrameShareTable = KIRI_TABLE(kiriFrameShare, FrameShareMembers);
-
-static const kiriMember AreaElementsMembers[] = {
-    KIRI_PARTS(kiriAreaElements, elements, AreaElementTable),
-    KIRI_PARTS(kiriAreaElements, shares, FrameShareTable),
-};
-const kiriTable kiriAreaElementsTable = KIRI_TABLE(kiriAreaElements, AreaElementsMembers);
-
-static const kiriMember StrainOffsetsMembers[] = {
-    KIRI_ITEMS(8, kiriStrainOffsets, strainOffsets), KIRI_ROOM_OF(kiriStrainOffsets, older),
-    KIRI_ROOM_OF(kiriStrainOffsets, from),           KIRI_ROOM_OF(kiriStrainOffsets, frames),
-    KIRI_ROOM_OF(kiriStrainOffsets, mayMove),
-};
-const kiriTable kiriStrainOffsetsTable = KIRI_TABLE(kiriStrainOffsets, StrainOffsetsMembers);
-
-static const kiriMember TransferMembers[] = {
-    KIRI_RUN(4, kiriTransfer, from, next),
-    KIRI_RUN(8, kiriTransfer, material, material),
-};
-static const kiriTable TransferTable = KIRI_TABLE(kiriTransfer, TransferMembers);
-
-static const kiriMember OwnershipMembers[] = {
-    KIRI_ITEMS(4, kiriOwnership, squares),
-    KIRI_ITEMS(4, kiriOwnership, triangleOwners),
-    KIRI_RUN(4, kiriOwnership, spans, triangleCount),
-    KIRI_ITEMS(4, kiriOwnership, dirty),
-    KIRI_ITEMS(1, kiriOwnership, isDirty),
-    KIRI_RUN(4, kiriOwnership, next, next),
-    KIRI_RUN(8, kiriOwnership, due, due),
-    KIRI_ITEMS(4, kiriOwnership, staged),
-    KIRI_PARTS(kiriOwnership, transfers, TransferTable),
-    KIRI_ITEMS(4, kiriOwnership, first),
-};
-static const kiriTable OwnershipTable = KIRI_TABLE(kiriOwnership, OwnershipMembers);
-
-static const kiriMember RefitMembers[] = {
-    KIRI_PART(kiriRefit, ownership, OwnershipTable),
-    KIRI_ROOM_OF(kiriRefit, fits),
-    KIRI_RUN(4, kiriRefit, most, most),
-    KIRI_ROOM_OF(kiriRefit, bodies),
-};
-const kiriTable kiriRefitTable = KIRI_TABLE(kiriRefit, RefitMembers);
-
-static const kiriMember MechanicsMembers[] = {
-    KIRI_RUN(4, kiriMechanics, model, model),
-    KIRI_BOOLS(kiriMechanics, planar, planar),
-    KIRI_RUN(8, kiriMechanics, axes, axes),
-    KIRI_RUN(4, kiriMechanics, timeStepping, timeStepping),
-};
-const kiriTable kiriMechanicsTable = KIRI_TABLE(kiriMechanics, MechanicsMembers);

@@ -1,27 +1,22 @@
-/* Are frames and area elements that were read such that they can be moved? */
+/* What moves, as bytes: see core/kiri_archive.h. */
 #ifndef KIRI_MOTION_CHECK_H
 #define KIRI_MOTION_CHECK_H
 
-#include "../core/kiri_check.h"
+#include "../core/kiri_archive.h"
 #include "kiri_refit.h"
 #include "kiri_solver.h"
-#include "../core/kiri_archive.h"
 
 KIRI_C_BEGIN
 
-bool kiriFrame_Check(const kiriFrameData* frame, kiriCheck* check, const kiriMeshData* mesh);
-bool kiriAreaElements_Check(const kiriAreaElements* elements, kiriCheck* check);
+extern const kiriTable kiriFrameTable, kiriAreaElementsTable, kiriStrainOffsetsTable, kiriMechanicsTable, kiriRefitTable;
 
-bool kiriMechanics_Check(const kiriMechanics* mechanics, kiriCheck* check);
+/* Returns true if the anchor of a loaded frame is in material, and its site in the anchor's square. */
+bool kiriFrame_IsSound(const kiriFrameData* frame, const kiriMeshData* mesh);
 
-/* What moves, as bytes: see core/kiri_archive.h. */
+/* Returns true if the shares of loaded elements follow each other. */
+bool kiriAreaElements_AreSound(const kiriAreaElements* elements);
 
-extern const kiriTable kiriFrameTable, kiriAreaElementsTable, kiriStrainOffsetsTable, kiriMechanicsTable;
-
-/* What only snapshots have. */
-extern const kiriTable kiriRefitTable;
-
-/* The solver, which is made where bytes are read: the pattern of its matrix is made anew from the pairs of frames. */
+/* Creates the solver when it reads. Only the patterns of its bodies are stored: kiriSheet_EndReading stages the rest. */
 void kiriSolver_Archive(kiriArchive* archive, kiriSolver** solver, const kiriMechanics* mechanics);
 
 KIRI_C_END

@@ -2,7 +2,6 @@
 #include "kiri_touch.h"
 #include "../core/kiri_array.h"
 #include "kiri_sheet_save.h"
-#include "kiri_sheet_check.h"
 
 #include <string.h>
 
@@ -960,29 +959,43 @@ bool kiriMeeting_TouchCorners(const kiriMeeting* meeting)
 }
 
 static const kiriMember ObstacleShapeMembers[] = {
-    KIRI_RUN(4, kiriObstacleShape, type, type), KIRI_RUN(8, kiriObstacleShape, radius, rounding),
-    KIRI_DROPPED(kiriObstacleShape, outline),   KIRI_DROPPED(kiriObstacleShape, normals),
-    KIRI_DROPPED(kiriObstacleShape, count),     KIRI_RUN(8, kiriObstacleShape, flat, flat),
+    KIRI_WITHIN(KIRI_OBSTACLE_PLANE, KIRI_OBSTACLE_PRISM, kiriObstacleShape, type, type),
+    KIRI_REALS(kiriObstacleShape, radius, rounding),
+    KIRI_REALS(kiriObstacleShape, flat, flat),
+    KIRI_KEPT(kiriObstacleShape, outline, count),
 };
 static const kiriTable ObstacleShapeTable = KIRI_TABLE(kiriObstacleShape, ObstacleShapeMembers);
 
 static const kiriMember ObstacleDataMembers[] = {
-    KIRI_RUN(4, kiriObstacleData, id, id),
     KIRI_PART(kiriObstacleData, shape, ObstacleShapeTable),
-    KIRI_RUN(8, kiriObstacleData, position, center),
+    KIRI_REALS(kiriObstacleData, position, center),
     KIRI_RUN(4, kiriObstacleData, body, body),
-    KIRI_RUN(8, kiriObstacleData, pushSpeed, pushSpeed),
+    KIRI_REALS(kiriObstacleData, pushSpeed, pushSpeed),
     KIRI_RUN(4, kiriObstacleData, groups, groups),
-    KIRI_RUN(8, kiriObstacleData, impulse, impulse),
-    KIRI_RUN(4, kiriObstacleData, contacts, contacts),
-    KIRI_RUN(8, kiriObstacleData, drift, upper),
+    KIRI_REALS(kiriObstacleData, drift, drift),
+    KIRI_UNHASHED,
+    KIRI_RUN(4, kiriObstacleData, id, id),
+    KIRI_REALS(kiriObstacleData, impulse, impulse),
+    KIRI_WITHIN(0, INT32_MAX, kiriObstacleData, contacts, contacts),
+    KIRI_REALS(kiriObstacleData, lower, upper),
 };
 static const kiriTable ObstacleDataTable = KIRI_TABLE(kiriObstacleData, ObstacleDataMembers);
 
-enum { MOST_OUTLINE = 64 };
+static bool IsObstacle(const kiriObstacleData* obstacle)
+{
+    const kiriObstacleShape* shape = &obstacle->shape;
+    bool isPrism = shape->type == KIRI_OBSTACLE_PRISM;
+    bool isFine = shape->type != KIRI_OBSTACLE_BOX && (isPrism ? shape->count >= 3 : shape->count == 0) &&
+                  obstacle->mass >= 0.0;
+    for (int32_t k = 0; k < 2 * shape->count; ++k) {
+        isFine = isFine && fabs(shape->outline[k].x) <= 2e6 && fabs(shape->outline[k].y) <= 2e6;
+    }
+    return isFine;
+}
 
 void kiriObstacle_Archive(kiriArchive* archive, kiriObstacleData** made, kiriMemory* memory)
 {
+    enum { MOST_OUTLINE = 64 };
     bool reads = kiriArchive_Reads(archive);
     int32_t corners = kiriArchive_Count(archive, reads ? 0 : (*made)->shape.count, 0, MOST_OUTLINE);
     if (reads) {
@@ -992,28 +1005,6 @@ void kiriObstacle_Archive(kiriArchive* archive, kiriObstacleData** made, kiriMem
     if (*made != NULL) {
         kiriArchive_Object(archive, &ObstacleDataTable, *made);
         kiriArchive_Numbers(archive, (*made)->shape.outline, 8, 4 * (int64_t)corners);
+        kiriArchive_Expect(archive, archive->isWhole || IsObstacle(*made));
     }
-}
-
-static const kiriMust ObstacleMust[] = {
-    KIRI_WITHIN(KIRI_OBSTACLE_PLANE, KIRI_OBSTACLE_PRISM, kiriObstacleData, shape.type, shape.type),
-    KIRI_REALS(kiriObstacleData, shape.radius, shape.rounding),
-    KIRI_REALS(kiriObstacleData, shape.flat, shape.flat),
-    KIRI_REALS(kiriObstacleData, position, center),
-    KIRI_REALS(kiriObstacleData, pushSpeed, pushSpeed),
-    KIRI_REALS(kiriObstacleData, impulse, impulse),
-    KIRI_WITHIN(0, INT32_MAX, kiriObstacleData, contacts, contacts),
-    KIRI_REALS(kiriObstacleData, drift, upper),
-};
-
-bool kiriObstacle_Check(const kiriObstacleData* obstacle, kiriCheck* check)
-{
-    const kiriObstacleShape* shape = &obstacle->shape;
-    bool isPrism = shape->type == KIRI_OBSTACLE_PRISM, isFine = true;
-    for (int32_t k = 0; k < 2 * shape->count; ++k) {
-        isFine = isFine && fabs(shape->outline[k].x) <= 2e6 && fabs(shape->outline[k].y) <= 2e6;
-    }
-    return kiriCheck_Object(check, ObstacleMust, obstacle) &&
-           kiriCheck_That(check, isFine && (isPrism ? shape->count >= 3 : shape->count == 0) && obstacle->mass >= 0.0 &&
-                                     shape->type != KIRI_OBSTACLE_BOX);
 }

@@ -4,102 +4,152 @@
 #include "../mesh/kiri_mesh_check.h"
 #include "../motion/kiri_motion_check.h"
 #include "../view/kiri_view_check.h"
+#include "kiri_detach.h"
+#include "kiri_seen.h"
 #include "kiri_touch.h"
 #include "kiri_update.h"
-#include "kiri_seen.h"
 
 #include <string.h>
 
-/* ---- Tables ------------------------------------------------------------------------------------------------------ */
+/* ---- Settings and layout ----------------------------------------------------------------------------------------- */
 
 static const kiriMember SettingsMembers[] = {
-    KIRI_RUN(4, kiriSettings, material, material),     KIRI_PART(kiriSettings, mechanics, kiriMechanicsTable),
-    KIRI_RUN(4, kiriSettings, given, given),           KIRI_RUN(8, kiriSettings, snap, frameLength),
-    KIRI_RUN(4, kiriSettings, maxFrames, skinning),    KIRI_RUN(8, kiriSettings, fadeTime, contactThickness),
-    KIRI_RUN(4, kiriSettings, groups, groups),         KIRI_BOOLS(kiriSettings, touchesSheets, touchesSheets),
-    KIRI_RUN(8, kiriSettings, air, integrationPoints), KIRI_RUN(4, kiriSettings, integrationOrder, integrationOrder),
-    KIRI_BOOLS(kiriSettings, fromScratch, eased),
+    KIRI_RUN(4, kiriSettings, material, material),
+    KIRI_PART(kiriSettings, mechanics, kiriMechanicsTable),
+    KIRI_REALS(kiriSettings, snap, frameLength),
+    KIRI_WITHIN(1, INT32_MAX, kiriSettings, maxFrames, maxFrames),
+    KIRI_WITHIN(1, 64, kiriSettings, iterations, iterations),
+    KIRI_WITHIN(KIRI_SKINNING_LINEAR, KIRI_SKINNING_SMOOTH, kiriSettings, skinning, skinning),
+    KIRI_REALS(kiriSettings, fadeTime, contactThickness),
+    KIRI_RUN(4, kiriSettings, groups, groups),
+    KIRI_BOOLS(kiriSettings, touchesSheets, touchesSheets),
+    KIRI_REALS(kiriSettings, air, air),
+    KIRI_REALS(kiriSettings, collisionPoints, integrationPoints),
+    KIRI_WITHIN(1, 2, kiriSettings, integrationOrder, integrationOrder),
+    KIRI_BOOLS(kiriSettings, popping, eased),
+    KIRI_UNHASHED,
+    KIRI_RUN(4, kiriSettings, given, given),
+    KIRI_RUN(8, kiriSettings, userData, userData),
+    KIRI_BOOLS(kiriSettings, fromScratch, fromScratch),
 };
 static const kiriTable SettingsTable = KIRI_TABLE(kiriSettings, SettingsMembers);
 
 static const kiriMember RestMembers[] = {
-    KIRI_RUN(8, kiriRest, calm, calm),
-    KIRI_BOOLS(kiriRest, asleep, isFading),
+    KIRI_REALS(kiriRest, calm, calm),
+    KIRI_BOOLS(kiriRest, asleep, asleep),
+    KIRI_UNHASHED,
+    KIRI_BOOLS(kiriRest, isStirred, isFading),
 };
 static const kiriTable RestTable = KIRI_TABLE(kiriRest, RestMembers);
 
 static const kiriMember PieceMembers[] = {
-    KIRI_RUN(8, kiriPiece, area, area),        KIRI_RUN(4, kiriPiece, frame, origin),
-    KIRI_BOOLS(kiriPiece, cameOff, isTouched), KIRI_RUN(4, kiriPiece, island, island),
+    KIRI_BOOLS(kiriPiece, isGone, isGone),
     KIRI_PART(kiriPiece, rest, RestTable),
+    KIRI_UNHASHED,
+    KIRI_REALS(kiriPiece, area, area),
+    KIRI_INDEX(KIRI_OF_FRAMES, kiriPiece, frame, frame),
+    KIRI_RUN(4, kiriPiece, origin, origin),
+    KIRI_BOOLS(kiriPiece, cameOff, cameOff),
+    KIRI_BOOLS(kiriPiece, isTouched, isTouched),
+    KIRI_RUN(4, kiriPiece, island, island),
 };
 static const kiriTable PieceTable = KIRI_TABLE(kiriPiece, PieceMembers);
 
 static const kiriMember SeveredLinkMembers[] = {
-    KIRI_RUN(4, kiriSeveredLink, pin, link),
-    KIRI_RUN(8, kiriSeveredLink, part, part),
+    KIRI_INDEX(KIRI_OF_PINS, kiriSeveredLink, pin, pin),
+    KIRI_WITHIN(0, INT32_MAX, kiriSeveredLink, link, link),
+    KIRI_REALS(kiriSeveredLink, part, part),
 };
 static const kiriTable SeveredLinkTable = KIRI_TABLE(kiriSeveredLink, SeveredLinkMembers);
 
 static const kiriMember LineShareMembers[] = {
-    KIRI_RUN(4, kiriLineShare, frame, frame),
-    KIRI_RUN(8, kiriLineShare, length, ends),
+    KIRI_INDEX(KIRI_OF_FRAMES, kiriLineShare, frame, frame),
+    KIRI_REALS(kiriLineShare, length, ends),
     KIRI_RUN(4, kiriLineShare, open, open),
 };
 static const kiriTable LineShareTable = KIRI_TABLE(kiriLineShare, LineShareMembers);
 
 static const kiriMember PinShareMembers[] = {
-    KIRI_RUN(4, kiriPinShare, pin, pin),
+    KIRI_INDEX(KIRI_OF_PINS, kiriPinShare, pin, pin),
     KIRI_PART(kiriPinShare, share, LineShareTable),
-    KIRI_RUN(8, kiriPinShare, offset, bore),
+    KIRI_REALS(kiriPinShare, offset, bore),
 };
 static const kiriTable PinShareTable = KIRI_TABLE(kiriPinShare, PinShareMembers);
 
 static const kiriMember LayoutMembers[] = {
     KIRI_PARTS(kiriLayout, pieces, PieceTable),
-    KIRI_ITEMS(4, kiriLayout, framePiece),
-    KIRI_ITEMS(4, kiriLayout, pinFrame),
+    KIRI_INDICES(KIRI_OF_PIECES, kiriLayout, framePiece),
+    KIRI_INDICES(KIRI_OF_FRAMES, kiriLayout, pinFrame),
     KIRI_PARTS(kiriLayout, severed, SeveredLinkTable),
     KIRI_PARTS(kiriLayout, pinShares, PinShareTable),
     KIRI_PART(kiriLayout, areaElements, kiriAreaElementsTable),
 };
 static const kiriTable LayoutTable = KIRI_TABLE(kiriLayout, LayoutMembers);
 
+/* ---- Pins and contacts ------------------------------------------------------------------------------------------- */
+
 static const kiriMember PinAnchorMembers[] = {
+    KIRI_REALS(kiriPinAnchor, local, local),
+    KIRI_UNHASHED,
     KIRI_RUN(4, kiriPinAnchor, obstacle, obstacle),
-    KIRI_RUN(8, kiriPinAnchor, local, softness),
+    KIRI_REALS(kiriPinAnchor, give, softness),
 };
 static const kiriTable PinAnchorTable = KIRI_TABLE(kiriPinAnchor, PinAnchorMembers);
 
 static const kiriMember PinDataMembers[] = {
+    KIRI_WITHIN(KIRI_PIN_POINT, KIRI_PIN_CLAMP, kiriPinData, type, type),
+    KIRI_RUN(4, kiriPinData, at, to),
+    KIRI_REALS(kiriPinData, target, breakForce),
+    KIRI_PART(kiriPinData, anchor, PinAnchorTable),
+    KIRI_REALS(kiriPinData, off, off),
+    KIRI_REALS(kiriPinData, stiffness, bore),
+    KIRI_UNHASHED,
     KIRI_RUN(4, kiriPinData, id, id),
     KIRI_RUN(8, kiriPinData, userData, userData),
-    KIRI_RUN(4, kiriPinData, type, to),
-    KIRI_RUN(8, kiriPinData, target, breakForce),
-    KIRI_PART(kiriPinData, anchor, PinAnchorTable),
-    KIRI_RUN(8, kiriPinData, off, off),
     KIRI_RUN(4, kiriPinData, offFrame, offFrame),
-    KIRI_RUN(8, kiriPinData, stiffness, bore),
 };
 static const kiriTable PinDataTable = KIRI_TABLE(kiriPinData, PinDataMembers);
 
+static const kiriMember ContactMembers[] = {
+    KIRI_RUN(4, kiriContact, point, point),
+    KIRI_FLOATS(kiriContact, normal, pushSpeed),
+    KIRI_RUN(4, kiriContact, obstacle, obstacle),
+    KIRI_UNHASHED,
+    KIRI_FLOATS(kiriContact, restPoint, restPoint),
+};
+static const kiriTable ContactTable = KIRI_TABLE(kiriContact, ContactMembers);
+
 static const kiriMember GivenContactMembers[] = {
-    KIRI_RUN(4, kiriGivenContact, contact, vertex),
-    KIRI_RUN(8, kiriGivenContact, share, share),
+    KIRI_PART(kiriGivenContact, contact, ContactTable),
+    KIRI_REALS(kiriGivenContact, share, share),
+    KIRI_UNHASHED,
+    KIRI_RUN(4, kiriGivenContact, vertex, vertex),
 };
 static const kiriTable GivenContactTable = KIRI_TABLE(kiriGivenContact, GivenContactMembers);
 
 static const kiriMember TouchMembers[] = {
-    KIRI_RUN(8, kiriTouch, key, key),         KIRI_RUN(4, kiriTouch, point, vertex),
-    KIRI_RUN(8, kiriTouch, share, pushSpeed), KIRI_RUN(4, kiriTouch, yield, yield),
-    KIRI_RUN(8, kiriTouch, felt, cushion),    KIRI_RUN(4, kiriTouch, row, row),
-    KIRI_RUN(8, kiriTouch, force, force),
+    KIRI_RUN(8, kiriTouch, key, key),
+    KIRI_REALS(kiriTouch, normal, pushSpeed),
+    KIRI_UNHASHED,
+    KIRI_RUN(4, kiriTouch, point, vertex),
+    KIRI_REALS(kiriTouch, share, seen),
+    KIRI_RUN(4, kiriTouch, yield, yield),
+    KIRI_REALS(kiriTouch, felt, cushion),
+    KIRI_RUN(4, kiriTouch, row, row),
+    KIRI_REALS(kiriTouch, force, force),
 };
 static const kiriTable TouchTable = KIRI_TABLE(kiriTouch, TouchMembers);
 
+static const kiriMember TouchForceMembers[] = {
+    KIRI_RUN(8, kiriTouchForce, key, key),
+    KIRI_REALS(kiriTouchForce, force, force),
+};
+static const kiriTable TouchForceTable = KIRI_TABLE(kiriTouchForce, TouchForceMembers);
+
 static const kiriMember TouchMemoryMembers[] = {
     KIRI_PARTS(kiriTouchMemory, touches, TouchTable),
-    KIRI_ITEMS(8, kiriTouchMemory, forces),
+    KIRI_PARTS(kiriTouchMemory, forces, TouchForceTable),
+    KIRI_UNHASHED,
     KIRI_RUN(4, kiriTouchMemory, given, given),
 };
 static const kiriTable TouchMemoryTable = KIRI_TABLE(kiriTouchMemory, TouchMemoryMembers);
@@ -112,25 +162,27 @@ static const kiriTable ContactForceTable = KIRI_TABLE(kiriContactForce, ContactF
 
 /* Summed anew. */
 static const kiriMember RestLoadsMembers[] = {
+    KIRI_UNHASHED,
     KIRI_ROOM_OF(kiriRestLoads, on),
-    KIRI_DROPPED(kiriRestLoads, dt),
-    KIRI_DROPPED(kiriRestLoads, areSummed),
+    KIRI_DROPPED(kiriRestLoads, dt, areSummed),
 };
 static const kiriTable RestLoadsTable = KIRI_TABLE(kiriRestLoads, RestLoadsMembers);
 
 static const kiriMember TouchesMembers[] = {
-    KIRI_SPACE_OF(kiriTouches, found),
-    KIRI_ROOM_OF(kiriTouches, yields),
-    KIRI_ROOM_OF(kiriTouches, rows),
     KIRI_PART(kiriTouches, last, TouchMemoryTable),
     KIRI_PART(kiriTouches, slept, TouchMemoryTable),
+    KIRI_UNHASHED,
+    KIRI_SPACE_OF(kiriTouches, found),
+    KIRI_ROOMS(kiriTouches, yields, rows, order),
     KIRI_PART(kiriTouches, rests, RestLoadsTable),
-    KIRI_ROOM_OF(kiriTouches, order),
     KIRI_BOOLS(kiriTouches, isShort, isShort),
-    KIRI_DROPPED(kiriTouches, told),
-    KIRI_DROPPED(kiriTouches, nextTold),
+    KIRI_HANDED,
+    KIRI_PARTS(kiriTouches, told, ContactForceTable),
+    KIRI_ROOM_OF(kiriTouches, nextTold),
 };
 static const kiriTable TouchesTable = KIRI_TABLE(kiriTouches, TouchesMembers);
+
+/* ---- What is seen ------------------------------------------------------------------------------------------------ */
 
 static const kiriMember BlocksMembers[] = {
     KIRI_ITEMS(1, kiriBlocks, touched), KIRI_ITEMS(1, kiriBlocks, stale),
@@ -140,267 +192,203 @@ static const kiriMember BlocksMembers[] = {
 static const kiriTable BlocksTable = KIRI_TABLE(kiriBlocks, BlocksMembers);
 
 static const kiriMember SeenMembers[] = {
-    KIRI_DROPPED(kiriSeen, surface),
-    KIRI_DROPPED(kiriSeen, bounds),
     KIRI_PART(kiriSeen, fades, kiriFadesTable),
     KIRI_PART(kiriSeen, pointFades, kiriFadesTable),
+    KIRI_UNHASHED,
+    KIRI_PART(kiriSeen, surface, kiriSurfaceTable),
+    KIRI_KEPT(kiriSeen, bounds, bounds),
     KIRI_SHOWN_OF(kiriSeen, exactPoints),
     KIRI_RUN(4, kiriSeen, pointCount, pointCount),
-    KIRI_DROPPED(kiriSeen, pointPositions),
     KIRI_ROOM_OF(kiriSeen, pointsBefore),
     KIRI_BOOLS(kiriSeen, isElsewhere, isElsewhere),
-    KIRI_RUN(4, kiriSeen, vertexCount, vertexCount),
+    KIRI_WITHIN(0, INT32_MAX, kiriSeen, vertexCount, vertexCount),
     KIRI_PART(kiriSeen, blocks, BlocksTable),
     KIRI_RUN(8, kiriSeen, lists, lists),
     KIRI_BOOLS(kiriSeen, areFadesAsleep, areFadesAsleep),
+    KIRI_HANDED,
+    KIRI_SHOWN_OF(kiriSeen, pointPositions),
 };
 static const kiriTable SeenTable = KIRI_TABLE(kiriSeen, SeenMembers);
 
-static const kiriMember CutWorkMembers[] = {
-    KIRI_RUN(8, kiriCutWork, stamp, stamp),
-    KIRI_RUN(4, kiriCutWork, count, taken),
-    KIRI_BOOLS(kiriCutWork, meshChanged, settlesSites),
+/* Probes are chosen anew, but keep the velocities that they had. */
+static const kiriMember ProbesMembers[] = {
+    KIRI_BOOLS(kiriProbes, isFresh, isFresh),
+    KIRI_RUN(4, kiriProbes, block, block),
+    KIRI_ITEMS(8, kiriProbes, velocities),
+    KIRI_ITEMS(8, kiriProbes, speeds),
+    KIRI_DROPPED(kiriProbes, areGrouped, areGrouped),
+    KIRI_DROPPED(kiriProbes, sheet, list),
+    KIRI_DROPPED(kiriProbes, boxes, touch),
 };
-static const kiriTable CutWorkTable = KIRI_TABLE(kiriCutWork, CutWorkMembers);
+static const kiriTable ProbesTable = KIRI_TABLE(kiriProbes, ProbesMembers);
 
-static const kiriMember UpdateStartMembers[] = {
-    KIRI_RUN(4, kiriUpdateStart, stage, stage),
-    KIRI_PART(kiriUpdateStart, cut, CutWorkTable),
-    KIRI_RUN(8, kiriUpdateStart, spent, spent),
-};
-static const kiriTable UpdateStartTable = KIRI_TABLE(kiriUpdateStart, UpdateStartMembers);
-
-static const kiriMember SlitSearchMembers[] = {
-    KIRI_RUN(4, kiriSlitSearch, seen, seen),
-    KIRI_RUN(8, kiriSlitSearch, owed, owed),
-};
-static const kiriTable SlitSearchTable = KIRI_TABLE(kiriSlitSearch, SlitSearchMembers);
+/* ---- Work on a cut ----------------------------------------------------------------------------------------------- */
 
 static const kiriMember PlacingWorkMembers[] = {
-    KIRI_PARTS(kiriPlacingWork, sites, kiriSiteTable),
-    KIRI_ITEMS(4, kiriPlacingWork, moves),
-    KIRI_RUN(4, kiriPlacingWork, movesSeen, pieces),
+    KIRI_DERIVED,
+    KIRI_ARRAYS(kiriPlacingWork, sites, moves, marks, allowed, flags, own),
     KIRI_PART(kiriPlacingWork, placer, kiriPlacerTable),
-    KIRI_BOOLS(kiriPlacingWork, isTaking, isPlacing),
-    KIRI_PART(kiriPlacingWork, search, SlitSearchTable),
-    KIRI_BOOLS(kiriPlacingWork, isAgain, isFirst),
-    KIRI_RUN(8, kiriPlacingWork, whole, whole),
-    KIRI_RUN(4, kiriPlacingWork, at, at),
-    KIRI_ITEMS(1, kiriPlacingWork, marks),
-    KIRI_ITEMS(1, kiriPlacingWork, allowed),
-    KIRI_ITEMS(1, kiriPlacingWork, flags),
-    KIRI_ITEMS(4, kiriPlacingWork, own),
 };
 static const kiriTable PlacingWorkTable = KIRI_TABLE(kiriPlacingWork, PlacingWorkMembers);
 
 static const kiriMember SampleWorkMembers[] = {
-    KIRI_RUN(4, kiriSampleWork, oldVertices, oldVertices),
+    KIRI_DERIVED,
     KIRI_PART(kiriSampleWork, refresh, kiriRefreshTable),
-    KIRI_ITEMS(4, kiriSampleWork, newPoints),
-    KIRI_ITEMS(4, kiriSampleWork, movedPoints),
+    KIRI_ARRAYS(kiriSampleWork, newPoints, movedPoints),
 };
 static const kiriTable SampleWorkTable = KIRI_TABLE(kiriSampleWork, SampleWorkMembers);
 
-static const kiriMember SavedUpdateMembers[] = {
-    KIRI_BOOLS(kiriUpdate, isUnsettled, isUnsettled),
-};
-static const kiriTable SavedUpdateTable = KIRI_TABLE(kiriUpdate, SavedUpdateMembers);
-
 static const kiriMember UpdateMembers[] = {
-    KIRI_RUN(4, kiriUpdate, stage, step),
-    KIRI_RUN(8, kiriUpdate, spent, spent),
-    KIRI_BOOLS(kiriUpdate, needsRebuild, isScratch),
-    KIRI_PART(kiriUpdate, start, UpdateStartTable),
-    KIRI_BOOLS(kiriUpdate, isBegun, isBegun),
-    KIRI_PART(kiriUpdate, cut, CutWorkTable),
+    KIRI_BOOLS(kiriUpdate, isUnsettled, isUnsettled),
+    KIRI_DERIVED,
     KIRI_PART(kiriUpdate, placing, PlacingWorkTable),
-    KIRI_ITEMS(8, kiriUpdate, material),
     KIRI_PART(kiriUpdate, samples, SampleWorkTable),
     KIRI_PART(kiriUpdate, refit, kiriRefitTable),
-    KIRI_RUN(8, kiriUpdate, due, due),
-    KIRI_ITEMS(4, kiriUpdate, newFrames),
-    KIRI_DROPPED(kiriUpdate, integration),
     KIRI_PART(kiriUpdate, next, LayoutTable),
-    KIRI_ITEMS(4, kiriUpdate, parent),
-    KIRI_RUN(4, kiriUpdate, counts, counts),
+    KIRI_ARRAYS(kiriUpdate, material, newFrames, parent),
+    KIRI_DROPPED(kiriUpdate, integration, integration),
 };
 static const kiriTable UpdateTable = KIRI_TABLE(kiriUpdate, UpdateMembers);
 
 static const kiriMember BladeTipMembers[] = {
-    KIRI_RUN(4, kiriBladeTip, at, lip),
-    KIRI_RUN(8, kiriBladeTip, owed, owed),
+    KIRI_RUN(4, kiriBladeTip, at, at),
+    KIRI_INDEX_OR_NONE(KIRI_OF_VERTICES, kiriBladeTip, vertex, vertex),
+    KIRI_WITHIN(KIRI_BLADE_RESTS, KIRI_BLADE_RESTS, kiriBladeTip, phase, phase),
+    KIRI_COUNTS(kiriBladeTip, owed, owed),
+    KIRI_UNHASHED,
+    KIRI_RUN(4, kiriBladeTip, from, lip),
 };
 static const kiriTable BladeTipTable = KIRI_TABLE(kiriBladeTip, BladeTipMembers);
 
 static const kiriMember TipMembers[] = {
-    KIRI_RUN(8, kiriTip, last, last),
+    KIRI_REALS(kiriTip, last, last),
     KIRI_PART(kiriTip, blade, BladeTipTable),
 };
 static const kiriTable TipTable = KIRI_TABLE(kiriTip, TipMembers);
 
 static const kiriMember CutDataMembers[] = {
-    KIRI_RUN(4, kiriCutData, id, id),
-    KIRI_DROPPED(kiriCutData, sheet),
-    KIRI_RUN(4, kiriCutData, index, index),
     KIRI_PART(kiriCutData, tip, TipTable),
-    KIRI_PART(kiriCutData, committed, TipTable),
-    KIRI_RUN(4, kiriCutData, waiting, waiting),
     KIRI_BOOLS(kiriCutData, ended, ended),
+    KIRI_UNHASHED,
+    KIRI_RUN(4, kiriCutData, id, id),
+    KIRI_PART(kiriCutData, committed, TipTable),
+    KIRI_DROPPED(kiriCutData, sheet, index),
+    KIRI_DROPPED(kiriCutData, waiting, waiting),
 };
 static const kiriTable CutDataTable = KIRI_TABLE(kiriCutData, CutDataMembers);
 
 static const kiriMember QueuedPointMembers[] = {
-    KIRI_DROPPED(kiriQueuedPoint, cut),
-    KIRI_RUN(8, kiriQueuedPoint, to, stamp),
+    KIRI_REALS(kiriQueuedPoint, to, to),
     KIRI_BOOLS(kiriQueuedPoint, jump, ends),
+    KIRI_UNHASHED,
+    KIRI_COUNTS(kiriQueuedPoint, stamp, stamp),
+    KIRI_DROPPED(kiriQueuedPoint, cut, cut),
 };
 static const kiriTable QueuedPointTable = KIRI_TABLE(kiriQueuedPoint, QueuedPointMembers);
 
-/* Arrays that the host may hold, which are of another owner. */
-static const kiriMember ToldMembers[] = {
-    KIRI_PARTS(kiriTouches, told, ContactForceTable),
-    KIRI_ROOM_OF(kiriTouches, nextTold),
-};
-static const kiriTable ToldTable = KIRI_TABLE(kiriTouches, ToldMembers);
+/* ---- The sheet --------------------------------------------------------------------------------------------------- */
 
-static const kiriMember ShownPointsMembers[] = {
-    KIRI_SHOWN_OF(kiriSeen, pointPositions),
+static const kiriMember SampleMembers[] = {
+    KIRI_RUN(4, kiriSample, at, at),
+    KIRI_DERIVED,
 };
-static const kiriTable ShownPointsTable = KIRI_TABLE(kiriSeen, ShownPointsMembers);
+static const kiriTable SampleTable = KIRI_TABLE(kiriSample, SampleMembers);
 
-/* Probes are chosen anew; those of a sheet that sleeps keep the velocities that they had. */
-static const kiriMember ProbesMembers[] = {
-    KIRI_BOOLS(kiriProbes, isFresh, isFresh), KIRI_RUN(4, kiriProbes, block, block),
-    KIRI_DROPPED(kiriProbes, sheet),          KIRI_DROPPED(kiriProbes, areGrouped),
-    KIRI_DROPPED(kiriProbes, firstBody),      KIRI_DROPPED(kiriProbes, vertexPiece),
-    KIRI_DROPPED(kiriProbes, isBorder),       KIRI_DROPPED(kiriProbes, leans),
-    KIRI_DROPPED(kiriProbes, isChosen),       KIRI_DROPPED(kiriProbes, list),
-    KIRI_DROPPED(kiriProbes, boxes),          KIRI_DROPPED(kiriProbes, touch),
+static const kiriMember SheetRestMembers[] = {
+    KIRI_BOOLS(kiriSheetRest, asleep, asleep),
+    KIRI_UNHASHED,
+    KIRI_BOOLS(kiriSheetRest, isStirred, isIdle),
 };
-static const kiriTable ProbesTable = KIRI_TABLE(kiriProbes, ProbesMembers);
+static const kiriTable SheetRestTable = KIRI_TABLE(kiriSheetRest, SheetRestMembers);
 
-static const kiriMember ProbeSpeedsMembers[] = {
-    KIRI_ITEMS(8, kiriProbes, velocities),
-    KIRI_ITEMS(8, kiriProbes, speeds),
+static const kiriMember TurnsMembers[] = {
+    KIRI_WITHIN(0, INT32_MAX, kiriPieceTurns, next, next),
+    KIRI_WITHIN(0, 0, kiriPieceTurns, waiting, waiting),
 };
-static const kiriTable ProbeSpeedsTable = KIRI_TABLE(kiriProbes, ProbeSpeedsMembers);
+static const kiriTable TurnsTable = KIRI_TABLE(kiriPieceTurns, TurnsMembers);
 
-/* Of the world's memory. Pointers are put in by hand. */
-static const kiriMember QueueMembers[] = {
-    KIRI_SPACE_OF(kiriSheetData, queue),
-    KIRI_SPACE_OF(kiriSheetData, cuts),
-};
-static const kiriTable QueueTable = KIRI_TABLE(kiriSheetData, QueueMembers);
+/* Indices are checked by these while all else is read. */
+static void MoveCounts(kiriArchive* archive, void* object)
+{
+    const kiriSheetData* sheet = object;
+    int64_t* count = archive->count;
+    count[KIRI_OF_TRIANGLES] = kiriArchive_Count(archive, sheet->mesh.triangles.count, 1, KIRI_MOST_TRIANGLES);
+    count[KIRI_OF_HALF_EDGES] = 3 * count[KIRI_OF_TRIANGLES];
+    count[KIRI_OF_VERTICES] = kiriArchive_Count(archive, sheet->mesh.vertices.count, 1, INT32_MAX);
+    count[KIRI_OF_FRAMES] = kiriArchive_Count(archive, sheet->frames.count, 1, INT32_MAX);
+    count[KIRI_OF_PIECES] = kiriArchive_Count(archive, sheet->layout.pieces.count, 1, INT32_MAX);
+    count[KIRI_OF_PINS] = kiriArchive_Count(archive, sheet->pins.count, 0, INT32_MAX);
+    count[KIRI_OF_POINTS] = kiriArchive_Count(archive, sheet->points.count, 0, INT32_MAX);
+}
 
-/* What changes with the work on cuts alone. */
-static const kiriMember StillSheetMembers[] = {
-    KIRI_PART(kiriSheetData, mesh, kiriMeshTable),
-    KIRI_DROPPED(kiriSheetData, grid),
-    KIRI_PART(kiriSheetData, regions, kiriSavedRegionsTable),
-    KIRI_PART(kiriSheetData, shape, kiriSavedShapeTable),
-    KIRI_OWNED(kiriSheetData, update, SavedUpdateTable),
-    KIRI_DROPPED(kiriSheetData, links),
-    KIRI_ITEMS(4, kiriSheetData, points),
-    KIRI_DROPPED(kiriSheetData, vertexSkin),
-    KIRI_DROPPED(kiriSheetData, pointSkin),
-    KIRI_DROPPED(kiriSheetData, pointPlaces),
-};
-static const kiriTable StillSheetTable = KIRI_TABLE(kiriSheetData, StillSheetMembers);
-
-/* And in any tick. */
-static const kiriMember LiveSheetMembers[] = {
-    KIRI_RUN(4, kiriSheetData, id, id),
-    KIRI_DROPPED(kiriSheetData, memory),
-    KIRI_DROPPED(kiriSheetData, own),
-    KIRI_DROPPED(kiriSheetData, shown),
+static const kiriMember SheetMembers[] = {
+    KIRI_CUSTOM(kiriSheetData, id, MoveCounts),
     KIRI_PART(kiriSheetData, settings, SettingsTable),
+    KIRI_PART(kiriSheetData, mesh, kiriMeshTable),
+    KIRI_PART(kiriSheetData, shape, kiriShapeTable),
+    KIRI_OWNED(kiriSheetData, update, UpdateTable),
     KIRI_PARTS(kiriSheetData, frames, kiriFrameTable),
     KIRI_PART(kiriSheetData, layout, LayoutTable),
     KIRI_PART(kiriSheetData, strainOffsets, kiriStrainOffsetsTable),
-    KIRI_DROPPED(kiriSheetData, solver),
-    KIRI_DROPPED(kiriSheetData, queue),
-    KIRI_DROPPED(kiriSheetData, cuts),
+    KIRI_PARTS(kiriSheetData, points, SampleTable),
     KIRI_PARTS(kiriSheetData, pins, PinDataTable),
     KIRI_PARTS(kiriSheetData, contacts, GivenContactTable),
     KIRI_ITEMS(4, kiriSheetData, leaving),
-    KIRI_RUN(8, kiriSheetData, leavingPaid, leavingPaid),
-    KIRI_ITEMS(8, kiriSheetData, linkParts),
-    KIRI_ROOM_OF(kiriSheetData, pinRows),
-    KIRI_ROOM_OF(kiriSheetData, clampRows),
-    KIRI_ROOM_OF(kiriSheetData, pinReactions),
-    KIRI_ROOM_OF(kiriSheetData, clampReactions),
-    KIRI_ROOM_OF(kiriSheetData, frameReactions),
-    KIRI_DROPPED(kiriSheetData, line),
-    KIRI_DROPPED(kiriSheetData, lineShares),
+    KIRI_COUNTS(kiriSheetData, leavingPaid, leavingPaid),
+    KIRI_REAL_ITEMS(kiriSheetData, linkParts),
     KIRI_PART(kiriSheetData, touches, TouchesTable),
-    KIRI_BOOLS(kiriSheetData, rest, rest),
-    KIRI_RUN(4, kiriSheetData, turns, turns),
-    KIRI_DROPPED(kiriSheetData, seen),
-    KIRI_DROPPED(kiriSheetData, lists),
-    KIRI_DROPPED(kiriSheetData, probes),
-    KIRI_DROPPED(kiriSheetData, past),
-    KIRI_DROPPED(kiriSheetData, pastRoom),
+    KIRI_PART(kiriSheetData, rest, SheetRestTable),
+    KIRI_PART(kiriSheetData, turns, TurnsTable),
+    KIRI_PART(kiriSheetData, seen, SeenTable),
+    KIRI_UNHASHED,
+    KIRI_RUN(4, kiriSheetData, id, id),
+    KIRI_PART(kiriSheetData, regions, kiriRegionsTable),
+    KIRI_PART(kiriSheetData, probes, ProbesTable),
+    KIRI_ROOMS(kiriSheetData, pinRows, clampRows, pinReactions, clampReactions, frameReactions),
+    KIRI_KEPT(kiriSheetData, memory, shown),
+    KIRI_DROPPED(kiriSheetData, solver, cuts),
+    KIRI_DROPPED(kiriSheetData, line, lineShares),
+    KIRI_DROPPED(kiriSheetData, lists, lists),
+    KIRI_DROPPED(kiriSheetData, past, pastRoom),
+    KIRI_DERIVED,
+    KIRI_PART(kiriSheetData, grid, kiriGridTable),
+    KIRI_PART(kiriSheetData, links, kiriLinksTable),
+    KIRI_PART(kiriSheetData, vertexSkin, kiriSkinTable),
+    KIRI_PART(kiriSheetData, pointSkin, kiriSkinTable),
+    KIRI_PART(kiriSheetData, pointPlaces, kiriPlacesTable),
 };
-static const kiriTable LiveSheetTable = KIRI_TABLE(kiriSheetData, LiveSheetMembers);
+static const kiriTable SheetTable = KIRI_TABLE(kiriSheetData, SheetMembers);
 
-/* ---- Both directions --------------------------------------------------------------------------------------------- */
-
-/* What saves derive from the mesh and the frames, and the work on a cut. */
-static void ArchiveDerived(kiriArchive* archive, kiriSheetData* sheet)
+/* Cuts, and the points that wait for them, are blocks of the world. */
+static void MoveCuts(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* memory)
 {
-    kiriArchive_Object(archive, &kiriGridTable, &sheet->grid);
-    kiriArchive_Object(archive, &kiriRegionsTable, &sheet->regions);
-    kiriArchive_Object(archive, &kiriShapeTable, &sheet->shape);
-    kiriArchive_Object(archive, &kiriLinksTable, &sheet->links);
-    kiriArchive_Object(archive, &UpdateTable, sheet->update);
-    kiriArchive_Object(archive, &kiriSkinTable, &sheet->vertexSkin);
-    kiriArchive_Object(archive, &kiriSkinTable, &sheet->pointSkin);
-    kiriArchive_Object(archive, &kiriPlacesTable, &sheet->pointPlaces);
-    archive->memory = &sheet->shown;
-    kiriArchive_Object(archive, &kiriRestSurfaceTable, &sheet->seen.surface);
-    archive->memory = &sheet->own;
-    if (kiriArchive_Reads(archive) && !kiriArchive_HasFailed(archive)) {
-        kiriPlacer_EndReading(&sheet->update->placing.placer, &sheet->regions.field);
+    int32_t cuts = kiriArchive_Count(archive, sheet->cuts.count, 0, INT32_MAX);
+    for (int32_t i = 0; i < cuts && !kiriArchive_HasFailed(archive); ++i) {
+        if (kiriArchive_Reads(archive)) {
+            kiriCutData* cut = kiriMemory_AllocZeroed(memory, sizeof(kiriCutData));
+            archive->isShort |= cut == NULL || !kiriArray_Push(memory, &sheet->cuts, cut);
+        }
+        if (!archive->isShort) {
+            kiriArchive_Object(archive, &CutDataTable, sheet->cuts.data[i]);
+        }
+        if (kiriArchive_Reads(archive) && !archive->isShort) {
+            sheet->cuts.data[i]->sheet = sheet;
+            sheet->cuts.data[i]->index = i;
+        }
     }
-}
-
-static void ArchiveStill(kiriArchive* archive, kiriSheetData* sheet)
-{
-    bool reads = kiriArchive_Reads(archive);
-    archive->memory = &sheet->own;
-    kiriArchive_Object(archive, &StillSheetTable, sheet);
-    archive->memory = &sheet->shown;
-    kiriArchive_Object(archive, &kiriStillSurfaceTable, &sheet->seen.surface);
-    archive->memory = &sheet->own;
-    kiriArchive_Expect(archive, sheet->update != NULL);
-    if (reads && !kiriArchive_HasFailed(archive)) {
-        kiriMesh_EndReading(&sheet->mesh, &sheet->own);
-    }
-}
-
-static void MoveQueue(kiriArchive* archive, kiriSheetData* sheet)
-{
-    for (int32_t i = 0; i < sheet->queue.count && !kiriArchive_HasFailed(archive); ++i) {
+    int32_t points = kiriArchive_Count(archive, sheet->queue.count, 0, INT32_MAX);
+    for (int32_t i = 0; i < points && !kiriArchive_HasFailed(archive); ++i) {
+        kiriQueuedPoint none = { 0 };
+        if (kiriArchive_Reads(archive) && !kiriArray_Push(memory, &sheet->queue, none)) {
+            archive->isShort = true;
+            return;
+        }
         kiriQueuedPoint* point = &sheet->queue.data[i];
         int32_t cut = kiriArchive_Count(archive, point->cut != NULL ? point->cut->index : 0, 0, sheet->cuts.count - 1);
         kiriArchive_Object(archive, &QueuedPointTable, point);
-        if (kiriArchive_Reads(archive) && cut < sheet->cuts.count) {
+        if (kiriArchive_Reads(archive) && !kiriArchive_HasFailed(archive)) {
             point->cut = sheet->cuts.data[cut];
-        }
-    }
-}
-
-static void MoveCuts(kiriArchive* archive, kiriSheetData* sheet)
-{
-    for (int32_t i = 0; i < sheet->cuts.count && !kiriArchive_HasFailed(archive); ++i) {
-        if (kiriArchive_Reads(archive)) {
-            sheet->cuts.data[i] = kiriMemory_AllocZeroed(archive->memory, sizeof(kiriCutData));
-            archive->isShort |= sheet->cuts.data[i] == NULL;
-        }
-        if (sheet->cuts.data[i] != NULL) {
-            kiriArchive_Object(archive, &CutDataTable, sheet->cuts.data[i]);
-            kiriArchive_Expect(archive, sheet->cuts.data[i]->index == i);
-            sheet->cuts.data[i]->sheet = sheet;
+            point->cut->waiting += 1;
         }
     }
 }
@@ -415,94 +403,287 @@ static bool AreWeightsSeen(const kiriSheetData* sheet)
            surface->vertexCount == sheet->seen.vertexCount && surface->vertexCount == sheet->mesh.vertices.count;
 }
 
-static void MoveVertices(kiriArchive* archive, kiriSheetData* sheet)
-{
-    kiriSurface* surface = &sheet->seen.surface;
-    bool areSeen = AreWeightsSeen(sheet);
-    kiriArchive_Expect(archive, kiriSurface_HasRoom(surface));
-    kiriArchive_Expect(archive, kiriArchive_Count(archive, areSeen, 0, 1) == areSeen);
-    if (!areSeen && !kiriArchive_HasFailed(archive)) {
-        kiriArchive_Numbers(archive, kiriSurface_Places(surface), 4, 3 * (int64_t)surface->vertexCount);
-        kiriArchive_Numbers(archive, surface->normals.data, 4, surface->normals.count);
-    }
-}
-
-static void MovePoints(kiriArchive* archive, kiriSheetData* sheet)
-{
-    kiriArchive_Numbers(archive, sheet->seen.exactPoints.data, 8, 3 * (int64_t)sheet->seen.exactPoints.count);
-    kiriArchive_Numbers(archive, sheet->seen.pointPositions.data, 4, sheet->seen.pointPositions.count);
-}
-
+/* What a save has of vertices and points that are seen, and of the boxes around them. */
 static void MoveSeen(kiriArchive* archive, kiriSheetData* sheet)
 {
-    archive->memory = &sheet->own;
-    kiriArchive_Object(archive, &SeenTable, &sheet->seen);
-    archive->memory = &sheet->shown;
-    kiriArchive_Object(archive, &ShownPointsTable, &sheet->seen);
-    kiriArchive_Object(archive, &ToldTable, &sheet->touches);
-    kiriArchive_Object(archive, &kiriLiveSurfaceTable, &sheet->seen.surface);
-    archive->memory = &sheet->own;
-    if (!archive->isWhole && !kiriArchive_HasFailed(archive)) {
-        MoveVertices(archive, sheet);
-        MovePoints(archive, sheet);
-    }
-}
-
-static void MoveBounds(kiriArchive* archive, kiriBounds* bounds)
-{
+    kiriSurface* surface = &sheet->seen.surface;
+    kiriBounds* bounds = sheet->seen.bounds;
     int32_t isThere = kiriArchive_Count(archive, bounds->levelCount > 0, 0, 1);
     kiriArchive_Int32(archive, &bounds->asked);
     kiriArchive_Int32(archive, &bounds->patience);
     kiriArchive_Expect(archive, bounds->patience >= 0 && bounds->patience <= KIRI_BOUNDS_PATIENCE);
-    bounds->levelCount = isThere && kiriArchive_Reads(archive) ? 1 : bounds->levelCount;
+    bounds->levelCount = kiriArchive_Reads(archive) ? isThere : bounds->levelCount;
+    kiriArchive_Expect(archive, kiriSurface_HasRoom(surface));
+    if (archive->isWhole || kiriArchive_HasFailed(archive)) {
+        return;
+    }
+    if (!AreWeightsSeen(sheet)) {
+        kiriArchive_Numbers(archive, kiriSurface_Places(surface), 4, 3 * (int64_t)surface->vertexCount);
+        kiriArchive_Numbers(archive, surface->normals.data, 4, surface->normals.count);
+    }
+    kiriArchive_Numbers(archive, sheet->seen.exactPoints.data, 8, 3 * (int64_t)sheet->seen.exactPoints.count);
+    kiriArchive_Numbers(archive, sheet->seen.pointPositions.data, 4, sheet->seen.pointPositions.count);
 }
 
-static void MoveProbes(kiriArchive* archive, kiriSheetData* sheet)
+/* Arrays are as long as the counts that came before them. */
+static bool AreCounted(const kiriArchive* archive, const kiriSheetData* sheet)
 {
-    kiriArchive_Object(archive, &ProbesTable, &sheet->probes);
-    if (sheet->probes.isFresh && sheet->rest.asleep) {
-        kiriArchive_Object(archive, &ProbeSpeedsTable, &sheet->probes);
-    }
-}
-
-void kiriSheet_ArchiveLive(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* memory)
-{
-    archive->memory = &sheet->own;
-    kiriArchive_Object(archive, &LiveSheetTable, sheet);
-    kiriSolver_Archive(archive, &sheet->solver, &sheet->settings.mechanics);
-    if (!kiriArchive_HasFailed(archive)) {
-        MoveSeen(archive, sheet);
-        MoveBounds(archive, sheet->seen.bounds);
-        MoveProbes(archive, sheet);
-    }
-    if (archive->isWhole && !kiriArchive_HasFailed(archive)) {
-        ArchiveDerived(archive, sheet);
-    }
-    archive->memory = memory;
-    kiriArchive_Object(archive, &QueueTable, sheet);
-    MoveCuts(archive, sheet);
-    MoveQueue(archive, sheet);
+    const int64_t* count = archive->count;
+    return sheet->mesh.triangles.count == count[KIRI_OF_TRIANGLES] &&
+           sheet->mesh.vertices.count == count[KIRI_OF_VERTICES] && sheet->frames.count == count[KIRI_OF_FRAMES] &&
+           sheet->layout.pieces.count == count[KIRI_OF_PIECES] && sheet->pins.count == count[KIRI_OF_PINS] &&
+           sheet->points.count == count[KIRI_OF_POINTS] && sheet->layout.framePiece.count == sheet->frames.count &&
+           sheet->layout.pinFrame.count == sheet->pins.count && sheet->update != NULL;
 }
 
 void kiriSheet_Archive(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* memory)
 {
-    ArchiveStill(archive, sheet);
-    if (!kiriArchive_HasFailed(archive)) {
-        kiriSheet_ArchiveLive(archive, sheet, memory);
+    bool isHash = archive->mode == KIRI_ARCHIVE_HASH;
+    archive->memory = &sheet->own;
+    archive->shown = &sheet->shown;
+    kiriArchive_Object(archive, &SheetTable, sheet);
+    kiriArchive_Expect(archive, AreCounted(archive, sheet));
+    if (isHash) {
+        uint64_t pattern = kiriSolver_Hash(sheet->solver);
+        kiriArchive_Numbers(archive, &pattern, 8, 1);
+    } else {
+        kiriSolver_Archive(archive, &sheet->solver, &sheet->settings.mechanics);
     }
+    if (!kiriArchive_HasFailed(archive) && !isHash) {
+        MoveSeen(archive, sheet);
+    }
+    if (!kiriArchive_HasFailed(archive)) {
+        MoveCuts(archive, sheet, memory);
+    }
+    if (kiriArchive_Reads(archive) && !kiriArchive_HasFailed(archive)) {
+        kiriPlacerWork* work = sheet->update->placing.placer.work;
+        sheet->mesh.memory = &sheet->own;
+        if (work != NULL && work->hasOld && work->old == NULL) {
+            work->old = &sheet->regions.field;
+        }
+    }
+    archive->memory = memory;
 }
 
 void kiriSheet_HashLayout(uint64_t* hash)
 {
-    const kiriTable* tables[] = {
-        &StillSheetTable, &LiveSheetTable,   &kiriStillSurfaceTable, &kiriLiveSurfaceTable, &SeenTable,
-        &ToldTable,       &kiriGridTable,    &kiriRegionsTable,      &kiriShapeTable,       &kiriLinksTable,
-        &UpdateTable,     &kiriSkinTable,    &kiriPlacesTable,       &kiriRestSurfaceTable, &ProbesTable,
-        &CutDataTable,    &QueuedPointTable,
-    };
-    for (size_t k = 0; k < sizeof(tables) / sizeof(tables[0]); ++k) {
-        kiriArchive_HashLayout(tables[k], hash);
+    kiriArchive_HashLayout(&SheetTable, hash);
+    kiriArchive_HashLayout(&CutDataTable, hash);
+    kiriArchive_HashLayout(&QueuedPointTable, hash);
+}
+
+/* ---- Checks ------------------------------------------------------------------------------------------------------ */
+
+/* In what may be cut of the rest plane. */
+static bool IsOnLattice(kiriLatticePoint at)
+{
+    enum { MOST = KIRI_LATTICE + KIRI_LATTICE / 2 + 2 };
+    return at.x >= -MOST && at.x <= MOST && at.y >= -MOST && at.y <= MOST;
+}
+
+static bool IsTip(const kiriSheetData* sheet, const kiriBladeTip* blade)
+{
+    bool isFine = IsOnLattice(blade->at) && IsOnLattice(blade->from) && IsOnLattice(blade->to) &&
+                  IsOnLattice(blade->goal) && IsOnLattice(blade->lip) && blade->owed == 0;
+    if (isFine && blade->vertex != KIRI_NONE) {
+        kiriLatticePoint at = sheet->mesh.vertices.data[blade->vertex].at;
+        isFine = at.x == blade->at.x && at.y == blade->at.y;
     }
+    return isFine;
+}
+
+static bool AreCuts(const kiriSheetData* sheet)
+{
+    bool areFine = true;
+    for (int32_t c = 0; areFine && c < sheet->cuts.count; ++c) {
+        const kiriCutData* cut = sheet->cuts.data[c];
+        areFine = IsTip(sheet, &cut->tip.blade) && IsTip(sheet, &cut->committed.blade);
+    }
+    for (int32_t k = 0; areFine && k < sheet->queue.count; ++k) {
+        areFine = !sheet->queue.data[k].ends || sheet->queue.data[k].cut->ended;
+    }
+    return areFine;
+}
+
+static bool AreSettings(const kiriSettings* settings)
+{
+    enum { MOST_POINTS = 1 << 20 };
+    return settings->snap >= 0.0 && settings->contactThickness > 0.0 && settings->frameLength >= 0.0 &&
+           settings->collisionPoints >= 0.0 && settings->collisionPoints <= MOST_POINTS &&
+           settings->integrationPoints >= 0.0 && settings->integrationPoints <= MOST_POINTS;
+}
+
+static bool AreFrames(const kiriSheetData* sheet)
+{
+    bool areFine = sheet->regions.dirty.count == sheet->frames.count &&
+                   kiriLabels_AreSound(&sheet->shape.labels, sheet->frames.count);
+    for (int32_t f = 0; areFine && f < sheet->frames.count; ++f) {
+        areFine = kiriFrame_IsSound(&sheet->frames.data[f], &sheet->mesh);
+    }
+    return areFine;
+}
+
+/* Pieces are numbered by their lowest frame. None waits between two ticks, and one at least is left. */
+static bool ArePieces(const kiriLayout* layout)
+{
+    bool areFine = true, isLeft = false;
+    int32_t pieces = 0;
+    for (int32_t f = 0; areFine && f < layout->framePiece.count; ++f) {
+        int32_t piece = layout->framePiece.data[f];
+        areFine = piece <= pieces && (piece < pieces || layout->pieces.data[piece].frame == f);
+        pieces += piece == pieces;
+    }
+    for (int32_t p = 0; p < layout->pieces.count; ++p) {
+        areFine = areFine && !layout->pieces.data[p].rest.waits;
+        isLeft = isLeft || !layout->pieces.data[p].isGone;
+    }
+    return areFine && isLeft && pieces == layout->pieces.count;
+}
+
+/* Frames of an area element are of one piece. */
+static bool AreAreaElements(const kiriLayout* layout)
+{
+    const kiriAreaElements* areas = &layout->areaElements;
+    bool areFine = kiriAreaElements_AreSound(areas);
+    for (int32_t k = 0; areFine && k < areas->elements.count; ++k) {
+        const kiriFrameShare* shares = &areas->shares.data[areas->elements.data[k].first];
+        for (int32_t n = 1; areFine && n < areas->elements.data[k].count; ++n) {
+            areFine = shares[n - 1].frame < shares[n].frame &&
+                      layout->framePiece.data[shares[n].frame] == layout->framePiece.data[shares[0].frame];
+        }
+    }
+    return areFine;
+}
+
+static bool ArePins(const kiriSheetData* sheet)
+{
+    const kiriPinShares* shares = &sheet->layout.pinShares;
+    bool areFine = true;
+    for (int32_t i = 0; areFine && i < sheet->pins.count; ++i) {
+        const kiriPinData* pin = &sheet->pins.data[i];
+        bool isPoint = pin->type == KIRI_PIN_POINT;
+        areFine = IsOnLattice(pin->at) && IsOnLattice(pin->to) &&
+                  isPoint == (pin->at.x == pin->to.x && pin->at.y == pin->to.y) && isPoint == (pin->stiffness > 0.0);
+    }
+    for (int32_t k = 0; areFine && k < shares->count; ++k) {
+        const kiriPinShare* share = &shares->data[k];
+        areFine = sheet->pins.data[share->pin].type != KIRI_PIN_POINT &&
+                  (k == 0 || shares->data[k - 1].pin <= share->pin) && share->share.length > 0.0 &&
+                  share->share.load > 0.0;
+    }
+    return areFine;
+}
+
+static bool ArePoints(const kiriSheetData* sheet)
+{
+    const kiriSeen* seen = &sheet->seen;
+    bool areFine = seen->pointCount >= 0 && seen->pointCount <= sheet->points.count &&
+                   seen->exactPoints.count == sheet->points.count &&
+                   seen->pointPositions.count == 3 * (int64_t)sheet->points.count;
+    for (int32_t i = 0; areFine && i < sheet->points.count; ++i) {
+        kiriLatticePoint at = sheet->points.data[i].at;
+        int32_t square =
+            IsOnLattice(at) && at.x >= 0 && at.y >= 0 ? kiriSquares_At(&sheet->mesh.squares, at) : KIRI_NONE;
+        areFine = square != KIRI_NONE && sheet->mesh.squares.head[square] != KIRI_NONE;
+    }
+    return areFine;
+}
+
+/* A place is a collision point, or a blend of vertices: missing ones come last. */
+static bool IsPlace(const kiriSheetData* sheet, int32_t point, const int32_t vertex[3])
+{
+    bool isFine = point >= KIRI_NONE && point < sheet->points.count && (point != KIRI_NONE || vertex[0] != KIRI_NONE);
+    for (int k = 0; isFine && k < 3 && point == KIRI_NONE; ++k) {
+        isFine = vertex[k] == KIRI_NONE ||
+                 (vertex[k] >= 0 && vertex[k] < sheet->mesh.vertices.count && (k == 0 || vertex[k - 1] != KIRI_NONE));
+    }
+    return isFine;
+}
+
+static bool IsTouchMemory(const kiriSheetData* sheet, const kiriTouchMemory* memory)
+{
+    bool isFine = memory->given >= 0 && memory->given <= memory->touches.count;
+    for (int32_t k = 0; isFine && k < memory->touches.count; ++k) {
+        isFine = IsPlace(sheet, memory->touches.data[k].point, memory->touches.data[k].vertex);
+    }
+    return isFine;
+}
+
+static bool AreContacts(const kiriSheetData* sheet)
+{
+    const kiriTouches* touches = &sheet->touches;
+    bool areFine = touches->nextTold.capacity >= sheet->contacts.count &&
+                   touches->found.capacity >= sheet->contacts.count && IsTouchMemory(sheet, &touches->last) &&
+                   IsTouchMemory(sheet, &touches->slept);
+    for (int32_t k = 0; areFine && k < sheet->contacts.count; ++k) {
+        const kiriGivenContact* given = &sheet->contacts.data[k];
+        bool isPoint = given->contact.point != KIRI_NONE;
+        areFine = IsPlace(sheet, given->contact.point, given->vertex) && (isPoint || given->vertex[2] != KIRI_NONE);
+    }
+    return areFine;
+}
+
+/* There may be more blocks than the vertices need. */
+static bool AreBlocks(const kiriBlocks* blocks, const kiriSheetData* sheet)
+{
+    int32_t count = blocks->movers.count;
+    bool areFine = count > sheet->mesh.vertices.count / KIRI_BLOCK && blocks->touched.count == count &&
+                   blocks->stale.count == count && blocks->frames.count == count &&
+                   blocks->moved.count >= sheet->frames.count;
+    for (int32_t k = 0; areFine && k < count; ++k) {
+        int32_t mover = blocks->movers.data[k];
+        areFine = mover == KIRI_UNKNOWN || mover == KIRI_NONE ||
+                  kiriLabels_Has(&sheet->shape.labels, mover, sheet->frames.count);
+    }
+    return areFine;
+}
+
+static bool AreFadesSet(const kiriFades* fades, const kiriSettings* settings)
+{
+    return fades->time == settings->fadeTime && fades->least == settings->leastFade;
+}
+
+static bool IsSeen(const kiriSheetData* sheet)
+{
+    const kiriSeen* seen = &sheet->seen;
+    return kiriSurface_IsSound(&seen->surface, &sheet->shape.labels, &sheet->mesh, sheet->frames.count) &&
+           kiriFades_AreSound(&seen->fades, sheet->mesh.vertices.count) &&
+           kiriFades_AreSound(&seen->pointFades, sheet->points.count) &&
+           AreFadesSet(&seen->fades, &sheet->settings) && AreFadesSet(&seen->pointFades, &sheet->settings) &&
+           AreBlocks(&seen->blocks, sheet);
+}
+
+/* Arrays with an item a link are as long, and rows of pins, of clamps and of their reactions have room. */
+static bool HaveArraysRoom(const kiriSheetData* sheet)
+{
+    int32_t links = sheet->links.links.count, offsets = sheet->strainOffsets.strainOffsets.count;
+    int64_t shares = sheet->layout.pinShares.count, pins = sheet->pins.count + 2 * shares;
+    bool isFine = (offsets == 0 || (offsets == links && kiriSheet_KeepsStrains(sheet))) &&
+                  sheet->linkParts.count == (sheet->layout.severed.count > 0 ? links : 0) &&
+                  sheet->pinRows.capacity >= pins && sheet->clampRows.capacity >= shares &&
+                  sheet->pinReactions.capacity >= pins && sheet->clampReactions.capacity >= shares &&
+                  sheet->frameReactions.capacity >= sheet->frames.count;
+    for (int32_t k = 0; isFine && k < sheet->layout.severed.count; ++k) {
+        isFine = sheet->layout.severed.data[k].link < links;
+    }
+    return isFine;
+}
+
+/* ---- Derived data ------------------------------------------------------------------------------------------------ */
+
+void kiriSheet_Derive(kiriSheetData* sheet, kiriArchive* archive)
+{
+    kiriMesh_Derive(&sheet->mesh, archive);
+    kiriArchive_Expect(archive, kiriArchive_HasFailed(archive) ||
+                                    (AreSettings(&sheet->settings) && AreFrames(sheet) && ArePieces(&sheet->layout) &&
+                                     AreAreaElements(&sheet->layout) && ArePins(sheet) && ArePoints(sheet) &&
+                                     AreCuts(sheet) && IsSeen(sheet) && AreContacts(sheet)));
+    if (kiriArchive_HasFailed(archive)) {
+        return;
+    }
+    bool isBad = false, isMade = kiriRemake_Field(sheet, &isBad);
+    kiriArchive_Expect(archive, !isBad && (!isMade || HaveArraysRoom(sheet)));
+    archive->isShort |= !isMade && !archive->isBad;
 }
 
 /* What array `from` has goes to `to`, which has as many items or was empty. */

@@ -1,4 +1,4 @@
-/* Sheets and obstacles as bytes: see core/kiri_archive.h. */
+/* Sheets and obstacles as bytes, and the checks of sheets that were loaded: see core/kiri_archive.h. */
 #ifndef KIRI_SHEET_SAVE_H
 #define KIRI_SHEET_SAVE_H
 
@@ -8,19 +8,20 @@
 
 KIRI_C_BEGIN
 
-/* Moves a sheet with its cuts. Where bytes are read the sheet is new; its cuts become blocks of `memory`. */
+/* Moves a sheet with its cuts. READ: the sheet is new; its cuts become blocks of `memory`. */
 void kiriSheet_Archive(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* memory);
 
-/* The part of it that any tick changes; the other part comes before. */
-void kiriSheet_ArchiveLive(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* memory);
+/* Ends the load of a save, when ids are claimed: checks the sheet, and derives what is not saved. The host's settings
+   are checked by the world. */
+void kiriSheet_Derive(kiriSheetData* sheet, kiriArchive* archive);
 
-/* Hashes sizes and places of all fields of a sheet. */
-void kiriSheet_HashLayout(uint64_t* hash);
-
-/* Derives vertices, boxes and probes of a sheet that was read without a failure. False for memory. */
+/* Derives vertices, boxes and probes of a sheet that was read. False for memory. */
 bool kiriSheet_EndReading(kiriSheetData* sheet, bool isWhole);
 
-/* One obstacle, which is made where bytes are read. */
+/* Hashes sizes and offsets of all fields of a sheet. */
+void kiriSheet_HashLayout(uint64_t* hash);
+
+/* One obstacle, which is created when it is read. */
 void kiriObstacle_Archive(kiriArchive* archive, kiriObstacleData** obstacle, kiriMemory* memory);
 
 KIRI_C_END

@@ -1,24 +1,23 @@
-/* Are fades and the surface that were read such that they can be shown? */
+/* Weights of samples and the surface as bytes: see core/kiri_archive.h. */
 #ifndef KIRI_VIEW_CHECK_H
 #define KIRI_VIEW_CHECK_H
 
-#include "../core/kiri_check.h"
-#include "kiri_surface.h"
 #include "../core/kiri_archive.h"
+#include "kiri_surface.h"
 
 KIRI_C_BEGIN
 
-bool kiriFades_Check(const kiriFades* fades, kiriCheck* check, int32_t samples);
+extern const kiriTable kiriSkinTable, kiriPlacesTable, kiriRefreshTable, kiriFadesTable, kiriSurfaceTable;
 
-/* Has a surface that is being read room for its vertices? Then these can be read. */
+/* Returns true if loaded fades are of samples, each once. */
+bool kiriFades_AreSound(const kiriFades* fades, int32_t samples);
+
+/* Returns true if a loaded surface has room for its vertices: then these can be read. */
 bool kiriSurface_HasRoom(const kiriSurface* surface);
-bool kiriSurface_Check(const kiriSurface* surface, const kiriLabels* labels, const kiriMeshData* mesh,
-                       kiriCheck* check);
 
-/* Weights of samples and the surface as bytes: see core/kiri_archive.h. */
-
-extern const kiriTable kiriSkinTable, kiriPlacesTable, kiriRefreshTable, kiriFadesTable;
-extern const kiriTable kiriStillSurfaceTable, kiriLiveSurfaceTable, kiriRestSurfaceTable;
+/* Returns true if a loaded surface shows the mesh, or none of it, and its arrays are as long as they have to be. */
+bool kiriSurface_IsSound(const kiriSurface* surface, const kiriLabels* labels, const kiriMeshData* mesh,
+                         int32_t frames);
 
 KIRI_C_END
 

@@ -25,9 +25,6 @@ kiriResult kiriSnapshot_Read(kiriWorld* world, const void* bytes, int64_t size);
    never counts. */
 uint64_t kiriStateHash_Of(const kiriWorld* world);
 
-/* Its part for what is in force in a sheet but for its motion: mesh, links, weights of samples, pieces. */
-void kiriStateHash_AddLayout(uint64_t* hash, const kiriSheetData* sheet);
-
 KIRI_C_END
 
 #endif
