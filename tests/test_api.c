@@ -1249,6 +1249,51 @@ static void HugeSheets(void** state)
     }
 }
 
+/* A line names the function, the argument, the member or index, the value, and what it should be. */
+static void LinesNameArguments(void** state)
+{
+    (void)state;
+    Fixture f;
+    Setup(&f);
+    Host* host = &f.host;
+    kiriWorld* w = host->world;
+    const float bad[4] = { 0.0f, 0.0f, 0.0f, NAN };
+    const kiriBudget budget = { 0, -7, 0, 0 };
+    kiriSheetDef def = Host_SmallDef();
+    kiriObstacleDef sphere;
+    uint32_t id;
+    kiriDefaultObstacleDef(&sphere);
+    sphere.type = KIRI_OBSTACLE_SPHERE;
+#define SAYS(call, text)                                                                                               \
+    do {                                                                                                               \
+        assert_true((call) < 0);                                                                                       \
+        assert_string_equal(host->line, text);                                                                         \
+    } while (0)
+    SAYS(kiriWorld_SetGravity(w, &bad[1]), "kiriWorld_SetGravity: gravity[2] is NaN, not finite (KIRI_ERROR_ARGUMENT)");
+    SAYS(kiriWorld_SetGravity(w, NULL), "kiriWorld_SetGravity: gravity is null (KIRI_ERROR_ARGUMENT)");
+    SAYS(kiriWorld_SetBudget(w, &budget),
+         "kiriWorld_SetBudget: budget.cells is -7, not within 0 and 2147483647 (KIRI_ERROR_ARGUMENT)");
+    SAYS(kiriSheet_Wake(w, 77), "kiriSheet_Wake: sheet is 77: there is no sheet with this id (KIRI_ERROR_ID)");
+    SAYS(kiriCut_Extend(w, f.cut, bad, 2), "kiriCut_Extend: restPoints[3] is NaN, not finite (KIRI_ERROR_ARGUMENT)");
+    SAYS(kiriCut_Extend(w, f.cut, bad, 0),
+         "kiriCut_Extend: restPoints: count is 0, not within 1 and 16777216 (KIRI_ERROR_ARGUMENT)");
+    SAYS(kiriPin_SetBreakForce(w, f.pin, -0.125f),
+         "kiriPin_SetBreakForce: breakForce is -0.125, not 0 or more (KIRI_ERROR_ARGUMENT)");
+    SAYS(kiriCreateObstacle(w, &sphere, &id),
+         "kiriCreateObstacle: def has a radius that is not above 0 and up to 1e6 (KIRI_ERROR_ARGUMENT)");
+    sphere.position[1] = -2e38f;
+    SAYS(kiriCreateObstacle(w, &sphere, &id), "kiriCreateObstacle: def.position[1] is -2e38, not within -4.2535e37 and "
+                                              "4.2535e37 (KIRI_ERROR_ARGUMENT)");
+    def.material.density = -INFINITY;
+    SAYS(kiriCreateRectangle(w, 1.0f, 1.0f, 1, 1, &def, &id),
+         "kiriCreateRectangle: def.material.density is -infinity, not above 0 (KIRI_ERROR_ARGUMENT)");
+    def.material.density = 1.0f;
+    def.accuracy = 2.5e-5f;
+    SAYS(kiriCreateRectangle(w, 1.0f, 1.0f, 1, 1, &def, &id),
+         "kiriCreateRectangle: def.accuracy is 2.5e-5, not within 1e-4 and 1 (KIRI_ERROR_ARGUMENT)");
+    Host_Stop(host);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -1262,6 +1307,7 @@ int main(void)
         cmocka_unit_test(SheetDefFloats),
         cmocka_unit_test(SheetDefInts),
         cmocka_unit_test(ZeroedDefs),
+        cmocka_unit_test(LinesNameArguments),
         cmocka_unit_test(Meshes),
         cmocka_unit_test(FillRectangle),
         cmocka_unit_test(CreateRectangle),

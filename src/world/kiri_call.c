@@ -67,16 +67,22 @@ static const char* FaultOfSheetDef(const void* value)
     return def->frameCount == 0 && def->framePoints != NULL ? "has framePoints, and no frameCount" : NULL;
 }
 
+static kiriVec2 OutlineCorner(const kiriObstacleDef* def, int32_t i)
+{
+    i %= def->outlineCount;
+    return kiriVec2_Make(def->outline[2 * i], def->outline[2 * i + 1]);
+}
+
 /* Tests that every corner lies to the left of every edge, but for rounding of floats, and that no edge is a point. */
 static bool IsConvex(const kiriObstacleDef* def)
 {
     for (int32_t i = 0; i < def->outlineCount; ++i) {
-        const float *a = &def->outline[2 * i], *b = &def->outline[2 * ((i + 1) % def->outlineCount)];
-        double x = (double)b[0] - a[0], y = (double)b[1] - a[1], length = sqrt(x * x + y * y), farthest = 0.0;
+        kiriVec2 a = OutlineCorner(def, i), along = kiriVec2_Sub(OutlineCorner(def, i + 1), a);
+        double length = kiriVec2_Length(along), farthest = 0.0;
         for (int32_t k = 0; k < def->outlineCount; ++k) {
-            double wayX = (double)def->outline[2 * k] - a[0], wayY = (double)def->outline[2 * k + 1] - a[1];
-            double left = x * wayY - y * wayX;
-            if (left < -1e-5 * length * sqrt(wayX * wayX + wayY * wayY)) {
+            kiriVec2 way = kiriVec2_Sub(OutlineCorner(def, k), a);
+            double left = kiriVec2_Cross(along, way);
+            if (left < -1e-5 * length * kiriVec2_Length(way)) {
                 return false;
             }
             farthest = kiriMax(left, farthest);
