@@ -251,8 +251,9 @@ void kiriPlaces_Keep(kiriPlaces* places, const kiriKeep* samples)
 
 static void AddSquare(kiriRefresh* refresh, int32_t square)
 {
-    KIRI_ASSERT(square >= 0 && square < refresh->marks.count && refresh->squares.count < refresh->squares.capacity);
+    KIRI_ASSERT(square >= 0 && square < refresh->marks.count);
     if (!refresh->marks.data[square]) {
+        KIRI_ASSERT(refresh->squares.count < refresh->squares.capacity);
         refresh->marks.data[square] = 1;
         refresh->squares.data[refresh->squares.count++] = square;
     }
