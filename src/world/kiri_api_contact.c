@@ -32,6 +32,7 @@ static void FillOutline(kiriObstacleShape* shape, const kiriObstacleDef* def)
     }
     for (int32_t i = 0; i < shape->count; ++i) {
         kiriVec2 along = kiriVec2_Sub(shape->outline[(i + 1) % shape->count], shape->outline[i]);
+        KIRI_ASSERT(kiriVec2_Length(along) > 0.0);
         shape->normals[i] = kiriVec2_Scale(1.0 / kiriVec2_Length(along), kiriVec2_Make(along.y, -along.x));
     }
 }
@@ -102,6 +103,7 @@ kiriResult kiriCreateObstacle(kiriWorld* world, const kiriObstacleDef* def, kiri
     kiriObstacleData* made =
         kiriObstacle_Alloc(&world->memory, def->type == KIRI_OBSTACLE_BOX ? 4 : def->outlineCount);
     KIRI_REQUIRE(made != NULL, KIRI_ERROR_MEMORY, NULL);
+    KIRI_ASSERT(made->shape.count == 0 || made->shape.outline != NULL);
     Fill(made, def);
     kiriObstacles_Add(world, made);
     *obstacle = made->id;
@@ -207,6 +209,7 @@ static bool PlaceContact(const kiriSheetData* sheet, kiriGivenContact* given)
     }
     kiriMesh_Corners(&sheet->mesh, triangle, corners);
     double area = (double)kiriOrient(corners[0], corners[1], corners[2]);
+    KIRI_ASSERT(area > 0.0);
     for (int k = 0; k < 3; ++k) {
         given->vertex[k] = sheet->mesh.triangles.data[triangle].vertex[k];
         given->share[k] = (double)kiriOrient(corners[(k + 1) % 3], corners[(k + 2) % 3], at) / area;
@@ -229,6 +232,7 @@ kiriResult kiriSheet_SetContacts(kiriWorld* world, kiriSheet sheet, const kiriCo
                                 kiriArray_Reserve(&data->shown, &data->touches.nextTold, room) &&
                                 kiriTouches_Room(data, room)),
                  KIRI_ERROR_MEMORY, NULL);
+    KIRI_ASSERT(data->contacts.capacity >= count);
     for (int32_t i = 0; i < count; ++i) {
         kiriGivenContact given = { .contact = contacts[i] };
         PlaceContact(data, &given);
@@ -274,6 +278,7 @@ static kiriResult AddNewPin(kiriWorld* world, kiriSheetData* data, const kiriPin
         result = KIRI_ERROR_MEMORY;
     }
     if (result == KIRI_OK) {
+        KIRI_ASSERT(data->pins.count > 0 && data->pins.data[data->pins.count - 1].type == made->type);
         *pin = kiriPool_Add(&world->pinIds, &world->memory, data, data->pins.count - 1);
         data->pins.data[data->pins.count - 1].id = *pin;
         kiriPins_ForgetHistory(data, data->pins.count - 1);
@@ -323,6 +328,7 @@ kiriResult kiriCall_FindLine(kiriSheetData* sheet, const float from[2], const fl
 static kiriResult HoldLine(kiriCall* call, int32_t type, const float from[2], const float to[2], kiriPin* pin)
 {
     const char* why;
+    KIRI_ASSERT(type == KIRI_PIN_CLAMP || type == KIRI_PIN_HINGE);
     kiriPinData made = MakePin(type);
     kiriLatticePoint ends[2];
     kiriResult result = kiriCall_FindLine(call->sheet, from, to, ends, &why);
@@ -357,6 +363,7 @@ kiriResult kiriPin_SetTarget(kiriWorld* world, kiriPin pin, const float target[3
 {
     KIRI_CHANGES(Pin_SetTarget, &pin, target);
     kiriSheetData* sheet = call->sheet;
+    KIRI_ASSERT(call->index < sheet->pins.count && sheet->pins.data[call->index].id == pin);
     kiriPinData* data = &sheet->pins.data[call->index];
     if (!kiriVec3_Shows(data->target, target)) {
         data->target = kiriVec3_Load(target);
@@ -371,6 +378,7 @@ kiriResult kiriPin_SetPose(kiriWorld* world, kiriPin pin, const float target[3],
 {
     KIRI_CHANGES(Pin_SetPose, &pin, target, rotation);
     kiriSheetData* sheet = call->sheet;
+    KIRI_ASSERT(call->index < sheet->pins.count && sheet->pins.data[call->index].id == pin);
     kiriPinData* data = &sheet->pins.data[call->index];
     KIRI_CHECK(data->type != KIRI_PIN_POINT, "the pin holds a point, which has no rotation");
     kiriMat3 m = kiriMat3_Rotation(kiriMat3_Load(rotation));
@@ -405,6 +413,7 @@ static void StoreRest(const kiriSheetData* sheet, kiriLatticePoint at, float res
 kiriResult kiriPin_GetState(const kiriWorld* world, kiriPin pin, kiriPinState* state)
 {
     KIRI_READS_OF(pin, state);
+    KIRI_ASSERT(slot->index < found->pins.count && found->pins.data[slot->index].id == pin);
     const kiriPinData* data = &found->pins.data[slot->index];
     state->type = data->type;
     state->sheet = found->id;

@@ -186,6 +186,7 @@ static kiriResult QueueSlice(kiriWorld* world, kiriSheetData* sheet, const kiriV
         kiriWorld_QueuePoint(world, made, ways.data[i], isStart);
         k += isStart;
     }
+    KIRI_ASSERT(made->id != 0);
     kiriWorld_EndCut(world, made);
     *cut = made->id;
     return KIRI_OK;
@@ -227,6 +228,8 @@ kiriResult kiriSheet_GetPieceMesh(kiriWorld* world, kiriSheet sheet, int32_t pie
     if (found->layout.pieces.data[piece].isGone) {
         vertices.count = triangles.count = points.count = 0;
     }
+    KIRI_ASSERT(vertices.first + vertices.count <= lists->vertices.items.count &&
+                triangles.first + triangles.count <= lists->triangles.items.count);
     mesh->vertices = lists->vertices.items.data + vertices.first;
     mesh->triangles = lists->triangles.items.data + triangles.first;
     mesh->indices = lists->corners.data + 3 * (int64_t)triangles.first;
@@ -315,6 +318,7 @@ kiriResult kiriSheet_GetFrames(const kiriWorld* world, kiriSheet sheet, kiriFram
 kiriResult kiriFrame_GetState(const kiriWorld* world, kiriFrame frame, kiriFrameState* state)
 {
     KIRI_READS_OF(frame, state);
+    KIRI_ASSERT(slot->index < found->frames.count && found->frames.data[slot->index].id == frame);
     const kiriFrameData* data = &found->frames.data[slot->index];
     kiriVec2 rest = kiriVec2_Add(found->mesh.origin, data->site.at);
     kiriVec3 x = kiriFrame_Carry(data, data->site.at);
@@ -334,6 +338,7 @@ kiriResult kiriFrame_Hold(kiriWorld* world, kiriFrame frame, const float positio
 {
     KIRI_CHANGES(Frame_Hold, &frame, position, rotation);
     KIRI_CHECK((position == NULL) == (rotation == NULL), "only one of position and rotation is null");
+    KIRI_ASSERT(call->index < call->sheet->frames.count);
     kiriFrameData* data = &call->sheet->frames.data[call->index];
     if (position == NULL) {
         if (data->held) {
@@ -402,6 +407,7 @@ kiriResult kiriFrame_SetPieceVelocity(kiriWorld* world, kiriFrame frame, const f
                                       const float angularVelocity[3])
 {
     KIRI_CHANGES(Frame_SetPieceVelocity, &frame, velocity, angularVelocity);
+    KIRI_ASSERT(call->index < call->sheet->layout.framePiece.count);
     int32_t piece = call->sheet->layout.framePiece.data[call->index];
     KIRI_CHECK(kiriCarry_SetVelocity(call->sheet, piece, kiriVec3_Load(velocity), kiriVec3_Load(angularVelocity)),
                "floats cannot hold what comes of it");
@@ -451,6 +457,7 @@ kiriResult kiriWorld_ShiftOrigin(kiriWorld* world, const float origin[3])
     while (done < world->sheets.count && kiriCarry_Renew(world->sheets.data[done], &world->retired)) {
         ++done;
     }
+    KIRI_ASSERT(done <= world->sheets.count);
     bool areAll = done == world->sheets.count;
     const kiriVec3 none = { 0.0, 0.0, 0.0 };
     for (int32_t i = 0; i < done; ++i) {

@@ -232,6 +232,7 @@ kiriResult kiriSheet_GetPoint(const kiriWorld* world, kiriSheet sheet, const flo
     kiriPointPlace place;
     KIRI_CHECK(kiriSheet_ToLattice(found, restPoint, &at) && kiriPoint_Find(found, at, &place),
                "restPoint lies outside the material");
+    KIRI_ASSERT(place.triangle >= 0 && place.triangle < found->mesh.triangles.count);
     int32_t frame = kiriOwner_At(found, at);
     KIRI_CHECK(frame != KIRI_NONE, "restPoint lies in a piece that is destroyed");
     kiriVec3_Store(state->position, kiriPoint_Position(found, &place));
@@ -260,6 +261,7 @@ kiriResult kiriSheet_GetWeights(const kiriWorld* world, kiriSheet sheet, const f
     bool ok = kiriShape_At(&found->shape, &scratch, &found->grid, &found->mesh, cell,
                            kiriMesh_Local(&found->mesh, at), &point);
     for (int32_t i = 0; ok && i < point.count && i < capacity; ++i) {
+        KIRI_ASSERT(point.data[i].frame >= 0 && point.data[i].frame < found->frames.count);
         frames[i] = found->frames.data[point.data[i].frame].id;
         weights[i] = (float)point.data[i].value;
         if (gradients != NULL) {

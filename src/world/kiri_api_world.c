@@ -199,6 +199,7 @@ void kiriDestroyWorld(kiriWorld* world)
     while (world->sheets.count > 0) {
         kiriWorld_RemoveSheet(world, world->sheets.data[world->sheets.count - 1]);
     }
+    KIRI_ASSERT(world->sheets.count == 0);
     kiriMemory_FreeAll(&world->retired);
     kiriMemory_FreeAll(&world->memory);
     world->memory.free(world->memory.user, world);
@@ -372,6 +373,7 @@ kiriResult kiriFrame_SetPieceUserData(kiriWorld* world, kiriFrame frame, uint64_
 {
     KIRI_CHANGES(Frame_SetPieceUserData, &frame, &data);
     kiriSheetData* sheet = call->sheet;
+    KIRI_ASSERT(call->index < sheet->frames.count);
     int32_t piece = sheet->layout.framePiece.data[call->index];
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
         if (sheet->layout.framePiece.data[i] == piece) {
@@ -461,6 +463,7 @@ static void WakeFor(kiriSheetData* sheet, int32_t frame, const float force[3], c
 kiriResult kiriFrame_ApplyForce(kiriWorld* world, kiriFrame frame, const float force[3], const float torque[3])
 {
     KIRI_CHANGES(Frame_ApplyForce, &frame, force, torque);
+    KIRI_ASSERT(call->index < call->sheet->frames.count);
     kiriFrameData* data = &call->sheet->frames.data[call->index];
     data->force = kiriVec3_Add(data->force, kiriVec3_Load(force));
     data->torque = kiriVec3_Add(data->torque, kiriVec3_Load(torque));

@@ -69,6 +69,7 @@ static const char* FaultOfSheetDef(const void* value)
 
 static kiriVec2 OutlineCorner(const kiriObstacleDef* def, int32_t i)
 {
+    KIRI_ASSERT(def->outline != NULL && def->outlineCount >= 3);
     i %= def->outlineCount;
     return kiriVec2_Make(def->outline[2 * i], def->outline[2 * i + 1]);
 }
@@ -494,6 +495,7 @@ static const char* WriteNumber(char text[NUMBER_BYTES], double number)
 static void Prepend(kiriFault* fault, const char* text, size_t length)
 {
     size_t last = sizeof(fault->line) - 1;
+    KIRI_ASSERT(strlen(fault->line) <= last);
     length = kiriMin(length, last);
     memmove(fault->line + length, fault->line, last - length);
     memcpy(fault->line, text, length);
@@ -508,6 +510,7 @@ static kiriResult CheckNumbers(const kiriValue* value, const void* at, int64_t c
     bool areFloats = value->form == KIRI_FORM_FLOATS || value->form == KIRI_FORM_FLOATS_AT;
     double number = 0.0;
     int64_t i = 0;
+    KIRI_ASSERT(at != NULL || count == 0);
     for (bool isFine = value->low <= value->high; isFine && i < count; i += isFine) {
         number = areFloats ? (double)((const float*)at)[i] : (double)((const int32_t*)at)[i];
         isFine = number >= value->low && number <= value->high;
@@ -532,6 +535,7 @@ static kiriResult CheckNumbers(const kiriValue* value, const void* at, int64_t c
 
 static const kiriSlot* FindSlot(const kiriValue* value, const kiriWorld* world, const void* id)
 {
+    KIRI_ASSERT(value->form == KIRI_FORM_ID && world != NULL);
     return kiriPool_Find((const kiriPool*)(const void*)((const char*)world + value->refers), *(const uint32_t*)id);
 }
 
@@ -596,6 +600,7 @@ static kiriResult CheckArray(const kiriValue* value, const kiriWorld* world, con
 {
     const kiriValue* item = value->item;
     int32_t count = *(const int32_t*)at[1];
+    KIRI_ASSERT(value->form == KIRI_FORM_ARRAY && item != NULL);
     kiriResult result = CheckNumbers(value, &count, 1, fault);
     if (result != KIRI_OK) {
         Prepend(fault, ": count", strlen(": count"));
@@ -618,6 +623,7 @@ static kiriResult CheckArgument(const kiriCall* call, int i, kiriFault* fault)
     const kiriValue* value = &kiriArguments[kiriCallRows[call->number].kinds[i]];
     const void* const* at = &call->arguments[i];
     kiriResult result = KIRI_OK;
+    KIRI_ASSERT(i < KIRI_CALL_ARGUMENTS && kiriCallRows[call->number].kinds[i] < KIRI_ARGUMENT_KINDS);
     if (value->form == KIRI_FORM_ARRAY) {
         result = CheckArray(value, call->world, at, fault);
     } else if (value->form != KIRI_FORM_NEWS || *(const int32_t*)at[-1] > 0) {
@@ -647,6 +653,7 @@ bool kiriCall_Begin(kiriCall* call)
     if (call->number == KIRI_NONE) {
         return true;
     }
+    KIRI_ASSERT(call->number >= 0 && call->number < KIRI_CALL_COUNT && !world->recorder.isOpen);
     const uint8_t* kinds = kiriCallRows[call->number].kinds;
     for (int i = 0; i < KIRI_CALL_ARGUMENTS && kinds[i] != KIRI_ARGUMENT_NONE; ++i) { /* failed calls return ids of 0 */
         kiriForm form = kiriArguments[kinds[i]].form;
@@ -666,6 +673,7 @@ bool kiriCall_Begin(kiriCall* call)
         call->owner = slot != NULL ? slot->owner : NULL;
         call->index = slot != NULL ? slot->index : KIRI_NONE;
         call->sheet = isSheet ? call->owner : NULL;
+        KIRI_ASSERT(call->owner != NULL || kinds[0] == KIRI_ARGUMENT_ANY_SHEET);
     }
     if (call->result != KIRI_OK) {
         kiriCall_End(world, call, call->function, call->result, fault.line);
@@ -694,6 +702,8 @@ kiriResult kiriCall_End(const kiriWorld* world, kiriCall* call, const char* func
                         const char* why)
 {
     char line[sizeof(world->errorLine)];
+    KIRI_ASSERT(result >= KIRI_ERROR_REPLAY && result <= KIRI_PENDING);
+    KIRI_ASSERT(call == NULL || (call->world == world && call->world->isBusy));
     if (result < 0) {
         Log(world, call != NULL ? call->world->errorLine : line, result, call != NULL ? call->function : function, why);
     }
@@ -701,7 +711,6 @@ kiriResult kiriCall_End(const kiriWorld* world, kiriCall* call, const char* func
         kiriRecord_End(call, result);
     }
     if (call != NULL) {
-        KIRI_ASSERT(call->world->isBusy);
         call->world->isBusy = false;
     }
     return result;

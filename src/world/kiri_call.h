@@ -256,6 +256,7 @@ kiriResult kiriCall_Refuse(const kiriWorld* world, const char* function);
 #define KIRI_FIND(kind)                                                                                                \
     const kiriSlot* slot = kiriPool_Find(&world->kind##Ids, kind);                                                     \
     KIRI_REQUIRE(slot != NULL, KIRI_ERROR_ID, "there is no " #kind " with this id");                                   \
+    KIRI_ASSERT(slot->owner != NULL && slot->index >= 0);                                                              \
     kiriSheetData* found = slot->owner
 
 /* Begins a function that only reads, with an id and a pointer to its result. */

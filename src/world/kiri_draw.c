@@ -68,6 +68,7 @@ static uint32_t ColorOfPiece(const kiriSheetData* sheet, int32_t piece)
 {
     static const uint8_t colors[8][3] = { { 230, 159, 0 }, { 86, 180, 233 }, { 0, 158, 115 },   { 240, 228, 66 },
                                           { 0, 114, 178 }, { 213, 94, 0 },   { 204, 121, 167 }, { 150, 150, 150 } };
+    KIRI_ASSERT(piece >= 0 && piece < sheet->layout.pieces.count);
     const uint8_t* c = colors[piece % 8];
     uint32_t pale = sheet->layout.pieces.data[piece].rest.asleep ? 1 : 0;
     return Color((c[0] + 255 * pale) >> pale, (c[1] + 255 * pale) >> pale, (c[2] + 255 * pale) >> pale);
@@ -78,6 +79,7 @@ static void DrawEdges(Drawing* drawing, const kiriSheetData* sheet, int32_t tria
 {
     for (int32_t k = 0; k < 3; ++k) {
         int32_t h = 3 * triangle + k;
+        KIRI_ASSERT(h >= 0 && h < 3 * sheet->mesh.triangles.count);
         bool isBorder = kiriMesh_IsBorder(&sheet->mesh, h);
         uint32_t flag = isBorder ? KIRI_DRAW_BORDERS : KIRI_DRAW_EDGES;
         if ((drawing->flags & flag) != 0 && (isBorder || h < kiriMesh_Twin(&sheet->mesh, h))) {
@@ -129,6 +131,7 @@ static void DrawBox(Drawing* drawing, const kiriBox* box, uint32_t color)
 /* Draws boxes of BOXES_A_PASS pieces in one pass over the vertices. Lists of pieces would need memory. */
 static void DrawBoxesFrom(Drawing* drawing, const kiriSheetData* sheet, int32_t first)
 {
+    KIRI_ASSERT(first >= 0 && first % BOXES_A_PASS == 0);
     kiriBox boxes[BOXES_A_PASS];
     bool isSeen[BOXES_A_PASS] = { false };
     for (int32_t v = 0; v < sheet->mesh.vertices.count; ++v) {
@@ -174,6 +177,7 @@ static void DrawLinks(Drawing* drawing, const kiriSheetData* sheet)
     const uint32_t color = Color(30, 30, 35);
     for (int32_t k = 0; k < sheet->links.links.count; ++k) {
         const kiriLink* link = &sheet->links.links.data[k];
+        KIRI_ASSERT(link->i >= 0 && link->i < sheet->frames.count && link->j >= 0 && link->j < sheet->frames.count);
         const kiriFrameData *a = &sheet->frames.data[link->i], *b = &sheet->frames.data[link->j];
         if (kiriSheet_IsGone(sheet, link->i)) {
             continue;
@@ -206,6 +210,7 @@ static kiriVec3 PlaceOfTouch(const kiriSheetData* sheet, const kiriTouch* touch)
 {
     kiriVec3 at = { 0.0, 0.0, 0.0 };
     if (touch->point != KIRI_NONE) {
+        KIRI_ASSERT(touch->point >= 0 && touch->point < sheet->points.count);
         return sheet->seen.exactPoints.data[touch->point];
     }
     for (int k = 0; k < 3; ++k) {
@@ -328,6 +333,7 @@ static void DrawBlade(Drawing* drawing, const kiriBladeData* blade)
 
 void kiriDraw_World(const kiriWorld* world, const kiriDebugDraw* draw, const kiriSheetData* only)
 {
+    KIRI_ASSERT(draw->size > 0.0f && (draw->flags & ~(uint32_t)KIRI_DRAW_ALL) == 0);
     Drawing drawing;
     drawing.world = world;
     drawing.user = draw->user;

@@ -36,6 +36,7 @@ static bool IsReading(const Coder* coder)
 /* Keeps the first fault. */
 static void StopReading(Coder* coder, ReadFault fault)
 {
+    KIRI_ASSERT(IsReading(coder) && fault != READ_FINE);
     coder->fault = coder->fault == READ_FINE ? fault : coder->fault;
     coder->at = coder->end;
 }
@@ -55,11 +56,13 @@ static void CodeByte(Coder* coder, uint8_t* value)
         if (recorder->byteCount == KIRI_RECORDER_BYTES) {
             FlushRecorder(recorder);
         }
+        KIRI_ASSERT(recorder->byteCount >= 0 && recorder->byteCount < KIRI_RECORDER_BYTES);
         recorder->bytes[recorder->byteCount++] = *value;
     } else if (coder->at == coder->end) {
         StopReading(coder, READ_SHORT);
         *value = 0;
     } else {
+        KIRI_ASSERT(coder->at < coder->end);
         *value = *coder->at++;
     }
 }
@@ -101,6 +104,7 @@ static void CodeId(Coder* coder, uint32_t* value)
 
 static void CodeBits(Coder* coder, uint64_t* bits, int count)
 {
+    KIRI_ASSERT(count % 8 == 0 && count <= 64);
     uint64_t sum = 0;
     for (int shift = 0; shift < count; shift += 8) {
         uint8_t byte = (uint8_t)(*bits >> shift);
@@ -207,6 +211,7 @@ static void CodeArrayOf(Coder* coder, const kiriValue* member, char* def)
         return;
     }
     int64_t numbers = (int64_t)member->count * count;
+    KIRI_ASSERT(IsReading(coder) || numbers > 0);
     if (IsReading(coder)) {
         array = count > 0 ? AllocateRead(coder, numbers, 4, isFloats ? 4 : 1) : NULL;
         memcpy(def + member->offset, &array, sizeof(array));
@@ -223,6 +228,7 @@ static void CodeStruct(Coder* coder, const kiriStruct* of, char* at)
     if (IsReading(coder) && of->cookie != 0) {
         memcpy(at, &of->cookie, sizeof(of->cookie));
     }
+    KIRI_ASSERT(at != NULL);
     for (int32_t i = 0; i < of->count; ++i) {
         if (of->members[i].form >= KIRI_FORM_FLOATS_AT) {
             CodeArrayOf(coder, &of->members[i], at);
@@ -316,6 +322,7 @@ typedef struct Outcome {
 
 static void CodeOutcome(Coder* coder, int32_t number, Outcome* outcome)
 {
+    KIRI_ASSERT(outcome->madeCount <= 0 || outcome->made != NULL);
     CodeInt(coder, &outcome->result);
     for (int32_t i = 0; outcome->result >= 0 && i < outcome->madeCount; ++i) {
         CodeId(coder, &outcome->made[i]);
@@ -339,6 +346,7 @@ static Coder WriterOf(kiriWorld* world)
 void kiriRecord_Begin(const kiriCall* call)
 {
     Coder coder = WriterOf(call->world);
+    KIRI_ASSERT(call->number >= 0 && call->number < KIRI_CALL_COUNT);
     uint64_t number = (uint64_t)call->number;
     KIRI_ASSERT(!call->world->recorder.isOpen);
     call->world->recorder.isOpen = true;
@@ -496,6 +504,7 @@ static bool Pass(kiriReplay* replay, const Recorded* recorded, kiriResult result
     ++replay->calls;
     replay->ticks += isTick;
     replay->noteCount = isNote ? *(const int32_t*)recorded->arguments[1] : 0;
+    KIRI_ASSERT(bytes > 0 && replay->noteCount >= 0);
     replay->note = isNote ? recorded->argumentsEnd - replay->noteCount : NULL;
     return isTick || isNote;
 }
@@ -509,6 +518,7 @@ static kiriResult MakeNext(kiriWorld* world, Coder* coder, kiriReplay* replay, k
     if (coder->fault != READ_FINE) {
         return FailToRead(coder->fault, replay, fault);
     }
+    KIRI_ASSERT(world->isBusy && recorded.row->make != NULL);
     bool wasRefused = recorded.hasOutcome && recorded.outcome.result == KIRI_ERROR_MEMORY;
     world->isBusy = false;
     kiriResult result = wasRefused ? KIRI_ERROR_MEMORY : recorded.row->make(world, recorded.arguments);
