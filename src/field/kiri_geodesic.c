@@ -128,8 +128,8 @@ static void LogValue(kiriField* field, int32_t cell)
 }
 
 /* Gives a cell a value and settles it. A flood does so once: the first to reach a cell is the nearest, and only its
-   owner may still become a lower one as long as the sweep is at this distance. Every step is longer than nothing, so the
-   cell passes it on later. In a repair a cell may have a value already, even this one. */
+   owner may still become a lower one as long as the sweep is at this distance. Every step is longer than nothing, so
+   the cell passes it on later. In a repair a cell may have a value already, even this one. */
 static inline void SettleCell(kiriField* field, kiriSeed to, bool repairs)
 {
     bool isNew = field->distance.data[to.cell] == KIRI_FAR;

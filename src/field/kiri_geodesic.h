@@ -46,8 +46,8 @@ typedef struct kiriField {
     kiriIndices settled;          /* of floods: cells reached, by growing distance if not scanned; none once dirty */
     KIRI_ARRAY(kiriSeed) log;     /* of repairs: previous values of cells, each once; some may be the same again */
 
-    /* Work in progress. Cells are settled when no dirty one is left, so one of the two lists has room for all cells, and
-       the other need not: they change places. */
+    /* Work in progress. Cells are settled when no dirty one is left, so one of the two lists has room for all cells,
+       and the other need not: they change places. */
     KIRI_ARRAY(kiriSeed) heap;
     kiriIndices dirty;                 /* cells to be checked */
     KIRI_ARRAY(uint8_t) marks;         /* one a cell; between repairs only of dirty cells */
@@ -95,8 +95,8 @@ void kiriField_Forget(kiriField* field, int32_t cell);
 /* Repairs the field. All cells about which something has changed must be dirty: where the limit has grown, all from
    which a step leads beyond the old one; where it has shrunk, all beyond the new one that are not forgotten. An item of
    the quota is a cell whose distance is cleared, half of one that is settled, one that may be a seed of the sweep, or
-   four that keep their distance. KIRI_MORE: call again with the same rule before anything changes. The reader of the log
-   empties it (its count). KIRI_FAILED: only kiriField_Clear helps. */
+   four that keep their distance. KIRI_MORE: call again with the same rule before anything changes. The reader of the
+   log empties it (its count). KIRI_FAILED: only kiriField_Clear helps. */
 kiriProgress kiriField_Repair(kiriField* field, kiriMemory* memory, const kiriRule* rule, kiriQuota* quota);
 
 /* Distances of cells from the sites of frames, and from the borders of their regions: of each frame only for the cells

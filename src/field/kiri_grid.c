@@ -333,15 +333,16 @@ static bool JoinTriangles(kiriGrid* grid, const kiriMeshData* mesh, int32_t squa
 
 /* ---- Material ---------------------------------------------------------------------------------------------------- */
 
-/* Room for the clipped triangle even where rounding spoils its convexity: 3, 4, 6, 9, 13 corners when counted closely. */
+/* Room for the clipped triangle even where rounding spoils its convexity: 3, 4, 6, 9, 13 corners when counted
+   closely. */
 enum { MOST_CORNERS = 13 };
 typedef struct ClippedPolygon {
     kiriVec2 at[MOST_CORNERS];
     int32_t count;
 } ClippedPolygon;
 
-/* Cuts off the part outside one side of the square (Sutherland and Hodgman 1974). An edge is followed from its inner end
-   whichever way the triangle runs, so neighbours at this edge get the very same point. */
+/* Cuts off the part outside one side of the square (Sutherland and Hodgman 1974). An edge is followed from its inner
+   end whichever way the triangle runs, so neighbours at this edge get the very same point. */
 static void ClipAtSide(ClippedPolygon* polygon, int axis, bool upper, double side)
 {
     double depth[MOST_CORNERS], least = side;

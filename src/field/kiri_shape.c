@@ -42,8 +42,8 @@ static void AppendCell(ShapeJob* job, kiriIndices* list, int32_t cell)
 
 /* Returns how far distances to the site of its region have to go for the sake of a cell x: to itself, and where a step
    leads over the border to y, to the last cell that gets weight from there. Let the nearest way from such a cell c to
-   the border come in by y. Then d <= D(x) + |xy| + |yc|, and the weight is above zero only where d > 2 e = D(x) + |xy| -
-   D(y) + 2 |yc|: where |yc| < D(y), and so d < D(x) + |xy| + D(y). */
+   the border come in by y. Then d <= D(x) + |xy| + |yc|, and the weight is above zero only where d > 2 e = D(x) + |xy|
+   - D(y) + 2 |yc|: where |yc| < D(y), and so d < D(x) + |xy| + D(y). */
 static int32_t FarthestFor(const ShapeJob* job, int32_t x)
 {
     const kiriField* field = &job->regions->field;
@@ -358,8 +358,8 @@ static void LoadAround(const void* context, int32_t cell)
     }
 }
 
-/* Marks the seeds that may differ where a cell has another owner or distance: its own seed, and the seeds of cells beside
-   it across the border of the region. */
+/* Marks the seeds that may differ where a cell has another owner or distance: its own seed, and the seeds of cells
+   beside it across the border of the region. */
 static void MarkBorderSeedsDirty(ShapeJob* job, int32_t cell)
 {
     KIRI_ASSERT((job->work->marks.data[cell] & MARK_REGION) != 0);
@@ -421,7 +421,8 @@ static void LoadTouched(ShapeJob* job, int32_t cell)
     }
 }
 
-/* Follows another limit: cells beyond it lose their distance, or distances have to go on from those near the old one. */
+/* Follows another limit: cells beyond it lose their distance, or distances have to go on from those near the old
+   one. */
 static void LoadBeyond(ShapeJob* job, int32_t limit)
 {
     kiriShapeWork* work = job->work;
@@ -565,7 +566,10 @@ static void UnloadBlock(ShapeJob* job, kiriLoadedBlock loaded)
     for (int32_t k = 0; k < KIRI_BLOCK_CELLS; ++k) {
         any = any || fromSite[k] != KIRI_FAR;
     }
-    int32_t index = any && loaded.block == KIRI_NONE ? kiriReaches_Add(reaches, job->label, loaded.cells) : loaded.block;
+    int32_t index = loaded.block;
+    if (any && index == KIRI_NONE) {
+        index = kiriReaches_Add(reaches, job->label, loaded.cells);
+    }
     kiriReachBlock* block = index != KIRI_NONE ? &reaches->blocks.data[index] : NULL;
     for (int32_t k = 0; k < KIRI_BLOCK_CELLS; ++k) {
         uint8_t* mark = &work->marks.data[first + k];

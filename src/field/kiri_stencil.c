@@ -1,5 +1,7 @@
 #include "kiri_stencil.h"
 
+#include <string.h>
+
 /* Quadratic B-spline, zero from 1.5 on. */
 static double QuadraticSpline(double t)
 {
@@ -21,49 +23,37 @@ static kiriVec2 OffsetOf(const kiriStencil* stencil, kiriVec2 at)
     return kiriVec2_Scale(1.0 / stencil->side, kiriVec2_Sub(at, stencil->middle));
 }
 
-/* Beside a cell in which a cut ends, a square has cells on both sides of the cut. How far a place is on the side of one
-   of two: 1 from an eighth of a square on, 0 as far on the other side. */
-static double SideFrom(kiriVec2 from, kiriVec2 mine, kiriVec2 other)
-{
-    kiriVec2 way = kiriVec2_Sub(mine, other), middle = kiriVec2_Scale(0.5, kiriVec2_Add(mine, other));
-    double length = kiriVec2_Length(way);
-    double side = length > 0.0 ? 0.5 + 4.0 * kiriVec2_Dot(kiriVec2_Sub(from, middle), way) / length : 0.5;
-    return side > 1.0 ? 1.0 : kiriMax(side, 0.0);
-}
-
-/* Cells of one square share its kernel, by the side that each is on. They follow each other in the steps. */
-static void ShareSquare(kiriStencil* stencil, int32_t first, int32_t count, kiriVec2 from)
-{
-    KIRI_ASSERT(first >= 0 && first < stencil->shares.count);
-    double sum = 0.0, kernel = stencil->shares.data[first];
-    for (int32_t a = first; a < first + count; ++a) {
-        double side = 1.0;
-        for (int32_t b = first; b < first + count; ++b) {
-            side *= a == b ? 1.0 : SideFrom(from, stencil->centers.data[a], stencil->centers.data[b]);
-        }
-        stencil->shares.data[a] = side;
-        sum += side;
-    }
-    for (int32_t a = first; a < first + count; ++a) {
-        stencil->shares.data[a] = kernel * (sum > 0.0 ? stencil->shares.data[a] / sum : 1.0 / count);
-    }
-}
-
+/* Shares the kernel of a square with several cells, which follow each other in the steps: beside a cell in which a cut
+   ends there are cells on both sides of the cut. Each gets it by the side that the point is on: all from an eighth of a
+   square on, nothing as far on the other side. */
 static void ShareSquares(kiriStencil* stencil, kiriVec2 from)
 {
     const kiriStep* steps = stencil->steps.data;
-    for (int32_t first = 1; first < stencil->steps.count;) {
-        int32_t end = first + 1;
+    const kiriVec2* centers = stencil->centers.data;
+    double* shares = stencil->shares.data;
+    for (int32_t first = 1, end = 2; first < stencil->steps.count; first = end++) {
+        double sum = 0.0, kernel = shares[first];
         while (end < stencil->steps.count && steps[first].u == steps[end].u && steps[first].v == steps[end].v) {
             ++end;
         }
-        if (end - first > 1) {
-            ShareSquare(stencil, first, end - first, from);
+        for (int32_t a = first; a < end && end - first > 1; ++a) {
+            shares[a] = 1.0;
+            for (int32_t b = first; b < end; ++b) {
+                kiriVec2 way = kiriVec2_Sub(centers[a], centers[b]);
+                kiriVec2 middle = kiriVec2_Scale(0.5, kiriVec2_Add(centers[a], centers[b]));
+                double length = kiriVec2_Length(way), side = 0.5;
+                side += length > 0.0 ? 4.0 * kiriVec2_Dot(kiriVec2_Sub(from, middle), way) / length : 0.0;
+                shares[a] *= a == b ? 1.0 : kiriClamp(side, 0.0, 1.0);
+            }
+            sum += shares[a];
         }
-        first = end;
+        for (int32_t a = first; a < end && end - first > 1; ++a) {
+            shares[a] = kernel * (sum > 0.0 ? shares[a] / sum : 1.0 / (end - first));
+        }
     }
 }
 
+/* Sets the shares to the kernel, and returns the place of the point, in squares from the middle of the cell. */
 static kiriVec2 SetKernel(kiriStencil* stencil, kiriVec2 at, kiriVec2 lean)
 {
     kiriVec2 off = OffsetOf(stencil, at);
@@ -97,7 +87,7 @@ static void InvertMoments(PointFit* fit)
     fit->yy *= scale;
 }
 
-/* Leaves the kernel in the stencil's shares. */
+/* Fits around a point. The shares are the kernel after it. */
 static PointFit FitAround(kiriStencil* stencil, kiriVec2 at, kiriVec2 lean)
 {
     PointFit fit = { SetKernel(stencil, at, lean), 0.0, { 0.0, 0.0 }, 0.0, 0.0, 0.0 };
@@ -118,15 +108,15 @@ static PointFit FitAround(kiriStencil* stencil, kiriVec2 at, kiriVec2 lean)
     return fit;
 }
 
-/* The slope of a function on the cells is the sum of its values times these. */
+/* Returns the factor of a cell's value in the slope. */
 static kiriVec2 FitSlope(const PointFit* fit, kiriStep to, double kernel)
 {
     kiriVec2 p = kiriVec2_Make(to.u - fit->mean.x, to.v - fit->mean.y);
     return kiriVec2_Make(kernel * (fit->xx * p.x + fit->xy * p.y), kernel * (fit->xy * p.x + fit->yy * p.y));
 }
 
-/* What the cells count at the point. Where no cell is missing, the splines are the fit: they reproduce linear
-   functions. */
+/* Sets the share of each cell in the values at the point. Where no cell is missing, the splines are the fit: they
+   reproduce linear functions. */
 static void SetShares(kiriStencil* stencil, kiriVec2 at, kiriVec2 lean)
 {
     if (stencil->full) {
@@ -147,6 +137,7 @@ static void MakeSumOne(double* values, int32_t count)
     for (int32_t i = 0; i < count; ++i) {
         sum += values[i];
     }
+    KIRI_ASSERT(count == 0 || sum > 0.0);
     for (int32_t i = 0; i < count; ++i) {
         values[i] /= sum;
     }
@@ -158,6 +149,7 @@ static void WeighLinear(kiriStencil* stencil, kiriVec2 at, kiriVec2 lean)
     KIRI_ASSERT(stencil->cell != KIRI_NONE);
     int32_t count = stencil->frames.count;
     double* values = stencil->values.data;
+    KIRI_ASSERT(stencil->values.count == count && stencil->weights.count == count * stencil->steps.count);
     SetShares(stencil, at, lean);
     for (int32_t i = 0; i < count; ++i) {
         values[i] = 0.0;
@@ -175,8 +167,8 @@ static void WeighLinear(kiriStencil* stencil, kiriVec2 at, kiriVec2 lean)
     MakeSumOne(values, count);
 }
 
-/* A linear weight has kinks at its site and where it becomes zero, and linear blending then makes a kink as large as
-   the angle between two frames. Both go where the slope is zero there. Of two frames the sum stays 1. */
+/* Linear weights have kinks at the site and where they become zero, and blending makes kinks of them as large as the
+   angle between two frames. Eased weights have slope zero there. The sum of two frames stays 1. */
 static double Ease(double w)
 {
     return w * w * (3.0 - 2.0 * w);
@@ -194,69 +186,38 @@ void kiriStencil_Weigh(kiriStencil* stencil, kiriVec2 at, kiriVec2 lean)
     }
 }
 
-/* By square, then by the order of cells. */
-static int CompareSteps(const kiriGrid* grid, kiriStep a, kiriStep b)
-{
-    int32_t x = 3 * a.v + a.u, y = 3 * b.v + b.u;
-    return x != y ? (x < y ? -1 : 1) : a.cell == b.cell ? 0 : kiriGrid_IsBefore(grid, a.cell, b.cell) ? -1 : 1;
-}
-
-/* Puts a step in its place after the first, unless it is there. There is room. */
+/* Puts a step in its place after the first, by square, then by the order of cells, unless it is there. There is
+   room. */
 static void InsertStep(kiriStencil* stencil, const kiriGrid* grid, kiriStep step)
 {
-    int32_t k = stencil->steps.count;
+    KIRI_ASSERT(stencil->steps.count < stencil->steps.capacity);
     kiriStep* steps = stencil->steps.data;
-    while (k > 1 && CompareSteps(grid, steps[k - 1], step) > 0) {
-        --k;
+    int32_t k = stencil->steps.count, square = 3 * step.v + step.u;
+    for (; k > 1; --k) {
+        int32_t before = 3 * steps[k - 1].v + steps[k - 1].u;
+        if (steps[k - 1].cell == step.cell) {
+            return;
+        }
+        if (before < square || (before == square && kiriGrid_IsBefore(grid, steps[k - 1].cell, step.cell))) {
+            break;
+        }
     }
-    if (k > 1 && steps[k - 1].cell == step.cell) {
-        return;
-    }
-    for (int32_t m = stencil->steps.count++; m > k; --m) {
-        steps[m] = steps[m - 1];
-    }
+    memmove(&steps[k + 1], &steps[k], sizeof(*steps) * (size_t)(stencil->steps.count++ - k));
     steps[k] = step;
 }
 
-/* Two straight steps around a corner. */
-static bool InsertBeyond(kiriStencil* stencil, kiriMemory* memory, const kiriGrid* grid, kiriStep to)
+/* Gathers the cell itself, and the cells that one straight step leads to, or two around a corner. Most cells have eight
+   others around them, and no square there is divided: then the steps of the grid are these. A diagonal step of the grid
+   needs both ways around it: beside a cut there is often one, and a fit without these cells would jump from cell to
+   cell. */
+static bool GatherSteps(kiriStencil* stencil, kiriMemory* memory, const kiriGrid* grid, int32_t cell)
 {
-    kiriSteps steps;
-    kiriGrid_GetStepsTo(grid, to.cell, 1, &steps);
-    if (!kiriArray_Reserve(memory, &stencil->steps, (int64_t)stencil->steps.count + steps.end[0])) {
-        return false;
-    }
-    for (int32_t k = 0; k < steps.end[0]; ++k) {
-        kiriStep on = steps.data[k];
-        if ((to.u != 0) != (on.u != 0)) {
-            on.u = (int8_t)(on.u + to.u);
-            on.v = (int8_t)(on.v + to.v);
-            InsertStep(stencil, grid, on);
-        }
-    }
-    return true;
-}
-
-/* Most cells have eight others around them, and no square there is divided: then steps of the grid tell all. */
-static bool IsPlain(const kiriGrid* grid, int32_t cell)
-{
-    KIRI_ASSERT(cell >= 0 && cell < grid->cells.count);
-    kiriSteps steps;
+    kiriSteps steps, more;
     kiriGrid_GetStepsTo(grid, cell, 2, &steps);
     bool plain = steps.end[1] == 8 && grid->whole.data[grid->cells.data[cell].square];
     for (int32_t k = 0; plain && k < steps.end[1]; ++k) {
         plain = grid->whole.data[grid->cells.data[steps.data[k].cell].square];
     }
-    return plain;
-}
-
-/* The cell itself, and what one straight step leads to, or two around a corner. A diagonal step of the grid asks for
-   both ways around it: beside a cut there is often one, and a fit without these cells is another from cell to cell. */
-static bool GatherSteps(kiriStencil* stencil, kiriMemory* memory, const kiriGrid* grid, int32_t cell)
-{
-    kiriSteps steps;
-    kiriGrid_GetStepsTo(grid, cell, 2, &steps);
-    bool plain = IsPlain(grid, cell);
     int32_t end = steps.end[plain ? 1 : 0];
     stencil->steps.count = 0;
     if (!kiriArray_Reserve(memory, &stencil->steps, (int64_t)end + 1)) {
@@ -266,15 +227,25 @@ static bool GatherSteps(kiriStencil* stencil, kiriMemory* memory, const kiriGrid
     for (int32_t k = 0; k < end; ++k) {
         InsertStep(stencil, grid, steps.data[k]);
     }
-    for (int32_t k = 0; !plain && k < steps.end[0]; ++k) {
-        if (!InsertBeyond(stencil, memory, grid, steps.data[k])) {
+    for (int32_t k = 0; !plain && k < end; ++k) {
+        const kiriStep to = steps.data[k];
+        kiriGrid_GetStepsTo(grid, to.cell, 1, &more);
+        if (!kiriArray_Reserve(memory, &stencil->steps, (int64_t)stencil->steps.count + more.end[0])) {
             return false;
+        }
+        for (int32_t m = 0; m < more.end[0]; ++m) {
+            kiriStep on = more.data[m];
+            if ((to.u != 0) != (on.u != 0)) {
+                on.u = (int8_t)(on.u + to.u);
+                on.v = (int8_t)(on.v + to.v);
+                InsertStep(stencil, grid, on);
+            }
         }
     }
     return true;
 }
 
-/* Which squares around have a cell, and where the material of cells is that share one. */
+/* Finds out which squares around have a cell, or several: of those the centres of the material are needed. */
 static bool GatherMiddles(kiriStencil* stencil, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh)
 {
     int32_t count = stencil->steps.count, seen = 0;
@@ -296,7 +267,7 @@ static bool GatherMiddles(kiriStencil* stencil, kiriMemory* memory, const kiriGr
     return true;
 }
 
-/* The frames with weight in any of the cells, sorted; `columns` tells where they are. */
+/* Gathers the frames with weight in any of the cells, sorted; `columns` says where each frame is. */
 static bool GatherFrames(kiriStencil* stencil, kiriMemory* memory, const kiriShape* shape)
 {
     int32_t old = stencil->columns.count;
@@ -315,6 +286,7 @@ static bool GatherFrames(kiriStencil* stencil, kiriMemory* memory, const kiriSha
         for (int32_t w = span.first; w < span.first + span.count; ++w) {
             int32_t frame = kiriLabels_Item(&shape->labels, shape->weights.data[w].label);
             int32_t at = stencil->frames.count;
+            KIRI_ASSERT(frame >= 0 && frame < stencil->columns.count);
             if (stencil->columns.data[frame] == 0) {
                 stencil->columns.data[frame] = 1;
                 for (; at > 0 && stencil->frames.data[at - 1] > frame; --at) {
@@ -368,7 +340,7 @@ bool kiriStencil_Gather(kiriStencil* stencil, kiriMemory* memory, const kiriShap
     return ok;
 }
 
-/* Of the linear weights. */
+/* Adds the gradients of the linear weights. */
 static void SetGradients(kiriStencil* stencil, kiriVec2 at, kiriPointWeights* out)
 {
     PointFit fit = FitAround(stencil, at, kiriVec2_Make(0.0, 0.0));
@@ -382,7 +354,7 @@ static void SetGradients(kiriStencil* stencil, kiriVec2 at, kiriPointWeights* ou
     }
 }
 
-/* From linear weights w to v = ease(w) / s, s being the sum: grad v = (ease'(w) grad w - v grad s) / s. */
+/* Goes from linear weights w to v = ease(w) / s, s being the sum: grad v = (ease'(w) grad w - v grad s) / s. */
 static void EaseGradients(kiriPointWeights* out)
 {
     double sum = 0.0;
@@ -403,7 +375,7 @@ static void EaseGradients(kiriPointWeights* out)
     }
 }
 
-/* The gradients sum to 0: what rounding leaves of them is taken from that of the largest weight. */
+/* Makes the gradients sum to 0: subtracts the rest, which is rounding, from the gradient of the largest weight. */
 static void BalanceGradients(kiriPointWeights* out)
 {
     kiriVec2 rest = { 0.0, 0.0 };

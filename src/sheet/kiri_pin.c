@@ -56,7 +56,7 @@ static double SquareApart(kiriVec3 a, kiriVec3 b)
     return kiriVec3_Dot(d, d);
 }
 
-/* How far apart two poses are, of something so large. */
+/* Squared distance of two poses of a body of some size. */
 static double PosesApart(kiriVec3 a, const kiriMat3* A, kiriVec3 b, const kiriMat3* B, double size)
 {
     double turned = SquareApart(A->u, B->u) + SquareApart(A->v, B->v);
@@ -88,14 +88,6 @@ void kiriCarry_Pin(kiriSheetData* sheet, int32_t index, const kiriMat3* R, kiriV
     kiriPinData* pin = &sheet->pins.data[index];
     kiriVec2 way = kiriVec2_Sub(kiriMesh_Local(&sheet->mesh, pin->to), kiriMesh_Local(&sheet->mesh, pin->at));
     CarryHeld(R, t, 0.5 * kiriVec2_Length(way), &pin->lastTarget, &pin->lastRotation, &pin->target, &pin->rotation);
-}
-
-static void CarryHold(kiriFrameData* frame, const kiriMat3* R, kiriVec3 t)
-{
-    CarryHeld(R, t, kiriRoot(frame->area), &frame->heldPosition, &frame->heldRotation, &frame->goalPosition,
-              &frame->goalRotation);
-    TurnReaction(R, &frame->reaction);
-    TurnWrench(R, &frame->bore);
 }
 
 static void TurnPins(kiriSheetData* sheet, const kiriMat3* R)
@@ -141,7 +133,7 @@ static void TurnFades(kiriFades* fades, const kiriMat3* R)
     }
 }
 
-/* Another block for an array of which all is written anew. */
+/* Allocates a new block for an array whose items need not be kept. */
 static float* Renewed(kiriMemory* memory, int32_t capacity)
 {
     return kiriMemory_Alloc(memory, (int64_t)sizeof(float) * (capacity > 0 ? capacity : 1));
@@ -183,7 +175,10 @@ bool kiriCarry_Sheet(kiriSheetData* sheet, const kiriMat3* R, kiriVec3 t, kiriMe
         kiriFrameData* frame = &sheet->frames.data[i];
         CarryFrame(frame, R, t, sheet->settings.mechanics.model == KIRI_MODEL_LINKS);
         if (frame->held) {
-            CarryHold(frame, R, t);
+            CarryHeld(R, t, kiriRoot(frame->area), &frame->heldPosition, &frame->heldRotation, &frame->goalPosition,
+                      &frame->goalRotation);
+            TurnReaction(R, &frame->reaction);
+            TurnWrench(R, &frame->bore);
         }
     }
     TurnPins(sheet, R);
@@ -268,19 +263,7 @@ static void GiveVelocity(kiriFrameData* frame, kiriVec3 center, kiriVec3 velocit
     memset(&frame->history, 0, sizeof(frame->history));
 }
 
-static bool FitsVelocity(const kiriSheetData* sheet, int32_t piece, kiriVec3 center, kiriVec3 velocity, kiriVec3 spin)
-{
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
-        kiriFrameData given = sheet->frames.data[i];
-        GiveVelocity(&given, center, velocity, spin);
-        if (IsOf(sheet, i, piece) && !kiriFrame_FitsFloats(&given)) {
-            return false;
-        }
-    }
-    return true;
-}
-
-/* In a planar sheet, what is across the plane is dropped. */
+/* A planar sheet takes the part in its plane. */
 bool kiriCarry_SetVelocity(kiriSheetData* sheet, int32_t piece, kiriVec3 velocity, kiriVec3 spin)
 {
     const kiriMechanics* mechanics = &sheet->settings.mechanics;
@@ -289,8 +272,12 @@ bool kiriCarry_SetVelocity(kiriSheetData* sheet, int32_t piece, kiriVec3 velocit
         velocity = kiriVec3_AddScaled(velocity, -kiriVec3_Dot(velocity, d), d);
         spin = kiriVec3_Scale(kiriVec3_Dot(spin, d), d);
     }
-    if (!FitsVelocity(sheet, piece, center, velocity, spin)) {
-        return false;
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        kiriFrameData given = sheet->frames.data[i];
+        GiveVelocity(&given, center, velocity, spin);
+        if (IsOf(sheet, i, piece) && !kiriFrame_FitsFloats(&given)) {
+            return false;
+        }
     }
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
         if (IsOf(sheet, i, piece)) {
@@ -323,46 +310,36 @@ static kiriVec2 PointAlong(const RestLine* line, double t)
     return kiriVec2_Add(line->from, kiriVec2_Scale(t * line->length, line->along));
 }
 
-/* Of a share, about its centroid, m^3. */
-static double MomentOf(const RestLine* line, const kiriLineShare* share)
-{
-    double about = share->second - share->first * share->first / share->length;
-    return line->length * line->length * line->length * kiriMax(about, 0.0);
-}
-
-/* How much of the width is at free ends: see kiriLink. `foot` is where the way from the site meets the line. */
-static double OuterOf(const RestLine* line, const kiriLineShare* share, double foot)
-{
-    double before = share->open[0] ? foot - share->ends[0] : 0.0, behind = share->open[1] ? share->ends[1] - foot : 0.0;
-    double outer = kiriMax(before, 0.0) + kiriMax(behind, 0.0);
-    return line->length * kiriMin(outer, share->length);
-}
-
-/* What a share has of a line, for the site of its frame. */
+/* Returns the shape of a share of a line, for the site of its frame. Its moment is about its centroid. Its outer width
+   is at free ends (see kiriLink), beyond the foot of the site on the line. */
 static kiriClampShape ShapeOf(const kiriSheetData* sheet, const RestLine* line, const kiriLineShare* share,
                               kiriVec2 site)
 {
-    double foot = kiriVec2_Dot(kiriVec2_Sub(site, line->from), line->along);
+    KIRI_ASSERT(share->length > 0.0);
+    double foot = kiriVec2_Dot(kiriVec2_Sub(site, line->from), line->along) / line->length;
+    double about = share->second - share->first * share->first / share->length;
+    double before = share->open[0] ? foot - share->ends[0] : 0.0, behind = share->open[1] ? share->ends[1] - foot : 0.0;
+    double outer = kiriMax(before, 0.0) + kiriMax(behind, 0.0);
     kiriClampShape shape = { line->from,
                              line->along,
                              PointAlong(line, share->first / share->length),
                              line->length * share->length,
-                             MomentOf(line, share),
-                             OuterOf(line, share, foot / line->length),
+                             line->length * line->length * line->length * kiriMax(about, 0.0),
+                             line->length * kiriMin(outer, share->length),
                              &sheet->settings.material,
                              0.1 * sheet->grid.side,
                              kiriMechanics_IsAffine(&sheet->settings.mechanics) };
     return shape;
 }
 
-/* Where the host has a point of the line. */
+/* Returns where the host holds a point of the line. */
 static kiriVec3 HeldPoint(const RestLine* line, kiriVec3 target, const kiriMat3* rotation, kiriVec2 point)
 {
     kiriVec2 off = kiriVec2_Sub(point, PointAlong(line, 0.5));
     return kiriVec3_AddScaled(kiriVec3_AddScaled(target, off.x, rotation->u), off.y, rotation->v);
 }
 
-/* The mean of the frames' motion, by length. */
+/* Takes the mean of the frames' motion, by length. */
 void kiriPin_TakePose(const kiriSheetData* sheet, kiriPinData* pin)
 {
     RestLine line = RestLineOf(sheet, pin);
@@ -387,7 +364,7 @@ void kiriPin_TakePose(const kiriSheetData* sheet, kiriPinData* pin)
 
 /* ---- Pins come and go -------------------------------------------------------------------------------------------- */
 
-/* So many rows, and what they react with. */
+/* Makes room for rows and reactions. */
 static bool ReserveRows(kiriSheetData* sheet, int64_t pins, int64_t shares, int64_t frames, int64_t links)
 {
     return kiriSolver_ReserveRows(sheet->solver, pins + 2 * shares, shares, 0) &&
@@ -473,7 +450,7 @@ void kiriPins_ForgetHistory(kiriSheetData* sheet, int32_t index)
     }
 }
 
-/* Those of the last pin, which are last, take the place of those of the one that goes. */
+/* Removes the shares of a pin. The shares of the last pin, which are last, take their place. */
 static void RemoveShares(kiriPinShares* shares, int32_t index, int32_t last)
 {
     int32_t kept = 0, moved;
@@ -557,7 +534,7 @@ static kiriVec3 PartWay(kiriVec3 a, kiriVec3 b, double part)
     return part >= 1.0 ? b : kiriVec3_AddScaled(a, part, kiriVec3_Sub(b, a));
 }
 
-/* Where the pin is after a part of the tick, 0 to 1. */
+/* Returns where the pin is after a part of the tick, 0 to 1. */
 static kiriVec3 TargetAfter(const kiriPinData* pin, double part)
 {
     return PartWay(pin->lastTarget, pin->target, part);
@@ -572,16 +549,6 @@ static kiriMat3 RotationAfter(const kiriPinData* pin, double part)
     }
     kiriMat3 mean = { PartWay(a->u, b->u, part), PartWay(a->v, b->v, part), PartWay(a->d, b->d, part) };
     return kiriMat3_RotationFrom(*a, mean);
-}
-
-/* An obstacle that yields is another spring in series. */
-static void WritePoint(kiriSheetData* sheet, int32_t pin, double to)
-{
-    const kiriPinData* data = &sheet->pins.data[pin];
-    kiriVec3 target = kiriVec3_Add(kiriVec3_Add(TargetAfter(data, to), data->off), data->anchor.way);
-    double stiffness = data->stiffness / (1.0 + data->stiffness * data->anchor.softness);
-    kiriPinRow row = { sheet->layout.pinFrame.data[pin], kiriMesh_Local(&sheet->mesh, data->at), target, stiffness };
-    sheet->pinRows.data[sheet->pinRows.count++] = row;
 }
 
 /* A hinge holds a line by springs all along it, as stiff as the material up to the site. Two springs, where two equal
@@ -606,19 +573,19 @@ static void WriteHinge(kiriSheetData* sheet, const kiriPinShare* pinned, double 
     }
 }
 
-kiriVec2 kiriPin_Centroid(const kiriSheetData* sheet, const kiriPinShare* pinned)
+static kiriVec2 CentroidOf(const kiriSheetData* sheet, const kiriPinShare* pinned)
 {
     RestLine line = RestLineOf(sheet, &sheet->pins.data[pinned->pin]);
     return PointAlong(&line, pinned->share.first / pinned->share.length);
 }
 
-kiriVec3 kiriPin_PlaceOf(const kiriSheetData* sheet, const kiriPinData* pin, kiriVec2 point)
+static kiriVec3 HeldPlaceOf(const kiriSheetData* sheet, const kiriPinData* pin, kiriVec2 point)
 {
     RestLine line = RestLineOf(sheet, pin);
     return HeldPoint(&line, pin->target, &pin->rotation, point);
 }
 
-/* In a planar sheet, what is across the plane is dropped. */
+/* Projects a point into the plane of a planar sheet. */
 static kiriVec3 IntoPlane(const kiriSheetData* sheet, const kiriFrameData* frame, kiriVec3 x)
 {
     const kiriMechanics* mechanics = &sheet->settings.mechanics;
@@ -626,7 +593,7 @@ static kiriVec3 IntoPlane(const kiriSheetData* sheet, const kiriFrameData* frame
     return mechanics->planar ? kiriVec3_AddScaled(x, -kiriVec3_Dot(off, mechanics->axes.d), mechanics->axes.d) : x;
 }
 
-/* What a clamp holds of a frame in a step from one part of the tick to another. */
+/* Makes the row of a clamp and a frame, in a step from one part of the tick to another. */
 static kiriClampRow ClampRowOf(const kiriSheetData* sheet, const kiriPinShare* pinned, const kiriFrameData* frame,
                                double from, double to)
 {
@@ -647,8 +614,9 @@ static kiriClampRow ClampRowOf(const kiriSheetData* sheet, const kiriPinShare* p
     return row;
 }
 
-/* Rows are those of pieces that are awake: what sleeps keeps what it was held with. */
-bool kiriPins_IsAwakePoint(const kiriSheetData* sheet, int32_t index)
+/* True for a pin of a point whose piece is awake. Such pins have the first rows, in their order. Pieces that sleep
+   have no rows, and keep their reactions. */
+static bool IsAwakePoint(const kiriSheetData* sheet, int32_t index)
 {
     return sheet->pins.data[index].type == KIRI_PIN_POINT && kiriSheet_Moves(sheet, sheet->layout.pinFrame.data[index]);
 }
@@ -661,13 +629,13 @@ static kiriReaction BeginReaction(const kiriReaction* last)
     return reaction;
 }
 
-/* In the order of rows. */
+/* Reactions are in the order of rows. */
 void kiriPins_BeginReactions(kiriSheetData* sheet)
 {
     KIRI_ASSERT(sheet->frameReactions.capacity >= sheet->frames.count);
     sheet->pinReactions.count = sheet->clampReactions.count = 0;
     for (int32_t i = 0; i < sheet->pins.count; ++i) {
-        if (kiriPins_IsAwakePoint(sheet, i)) {
+        if (IsAwakePoint(sheet, i)) {
             sheet->pinReactions.data[sheet->pinReactions.count++] = BeginReaction(&sheet->pins.data[i].reaction);
         }
     }
@@ -698,8 +666,15 @@ void kiriPins_WriteRows(kiriSheetData* sheet, double from, double to)
     const kiriPinShares* shares = &sheet->layout.pinShares;
     sheet->pinRows.count = sheet->clampRows.count = 0;
     for (int32_t i = 0; i < sheet->pins.count; ++i) {
-        if (kiriPins_IsAwakePoint(sheet, i)) {
-            WritePoint(sheet, i, to);
+        if (IsAwakePoint(sheet, i)) {
+            /* An obstacle that yields is another spring in series. */
+            const kiriPinData* pin = &sheet->pins.data[i];
+            kiriVec3 target = kiriVec3_Add(kiriVec3_Add(TargetAfter(pin, to), pin->off), pin->anchor.way);
+            double stiffness = pin->stiffness / (1.0 + pin->stiffness * pin->anchor.softness);
+            KIRI_ASSERT(sheet->pinRows.count < sheet->pinRows.capacity);
+            sheet->pinRows.data[sheet->pinRows.count++] = (kiriPinRow){
+                sheet->layout.pinFrame.data[i], kiriMesh_Local(&sheet->mesh, pin->at), target, stiffness
+            };
         }
     }
     for (int32_t k = 0; k < shares->count; ++k) {
@@ -804,7 +779,7 @@ double kiriPins_ElasticEnergy(const kiriSheetData* sheet)
 
 /* ---- Reactions --------------------------------------------------------------------------------------------------- */
 
-/* Adds what a row bore about `at`, to be about the pin's target. */
+/* Adds the reaction of a row at `at`, about the pin's target. */
 static void AddBorne(const kiriPinData* pin, const kiriReaction* reaction, kiriVec3 at, double perTime, kiriWrench* sum)
 {
     kiriVec3 arm = kiriVec3_Sub(at, pin->target);
@@ -818,7 +793,7 @@ static void TakePinReactions(kiriSheetData* sheet, double perTime)
     int32_t row = 0, clamp = 0;
     for (int32_t i = 0; i < sheet->pins.count; ++i) {
         kiriPinData* pin = &sheet->pins.data[i];
-        if (kiriPins_IsAwakePoint(sheet, i)) {
+        if (IsAwakePoint(sheet, i)) {
             memset(&pin->bore, 0, sizeof(pin->bore));
             pin->reaction = sheet->pinReactions.data[row++];
             AddBorne(pin, &pin->reaction, pin->target, perTime, &pin->bore);
@@ -882,13 +857,13 @@ void kiriPins_ClearReactions(kiriSheetData* sheet)
     kiriPins_TakeReactions(sheet, 1.0);
 }
 
-#define SETTLING 0.05  /* s: within which targets go over to what is seen */
-#define CLAMP_RATE 0.2 /* of that of pins: a clamp bends the sheet, and with it the surface that it asks */
+#define SETTLING 0.05  /* s: time in which targets move to the surface as it is seen */
+#define CLAMP_RATE 0.2 /* times the rate of pins: a clamp bends the surface that it measures */
 #define LEAST 1e-5     /* of the longer side: less is not seen, and stays */
 
-/* ---- What is seen is what is held ---- */
+/* ---- Held points lie on the surface as it is seen ---- */
 
-/* The share of a frame in what is seen at a point. */
+/* Returns the share of a frame in the position of a point. */
 static double ShareAt(const kiriSheetData* sheet, const kiriPointPlace* place, int32_t frame)
 {
     double sum = 0.0;
@@ -902,7 +877,8 @@ static double ShareAt(const kiriSheetData* sheet, const kiriPointPlace* place, i
     return sum;
 }
 
-/* False where nothing of the frame is seen: outside, or at the other lip of a cut. */
+/* Finds where a point of a frame is seen. False where the frame has no share there: outside, or at the other lip of a
+   cut. */
 static bool FindSeen(const kiriSheetData* sheet, int32_t frame, kiriLatticePoint at, kiriVec3* seen)
 {
     kiriPointPlace place;
@@ -913,16 +889,7 @@ static bool FindSeen(const kiriSheetData* sheet, int32_t frame, kiriLatticePoint
     return true;
 }
 
-/* A line may run along an edge of the sheet: a little towards the site there is material for certain. */
-static bool FindSeenBeside(const kiriSheetData* sheet, int32_t frame, kiriVec2 at, kiriVec3* seen)
-{
-    kiriVec2 way = kiriVec2_Sub(sheet->frames.data[frame].site.at, at);
-    double length = kiriVec2_Length(way), aside = sheet->grid.side / 1024.0;
-    kiriVec2 beside = kiriVec2_Add(at, kiriVec2_Scale(length > aside ? aside / length : 1.0, way));
-    return FindSeen(sheet, frame, kiriMesh_Snap(&sheet->mesh, beside), seen);
-}
-
-/* Takes a part of the way to what was measured; all of it where nothing was known. */
+/* Moves an offset a part of the way to a measured one, or all of it where none is known. */
 static void Settle(const kiriSheetData* sheet, kiriVec3* off, kiriVec3 measured, bool isKnown, double dt)
 {
     kiriVec3 change = kiriVec3_Sub(measured, *off);
@@ -946,25 +913,14 @@ static void SettlePoint(kiriSheetData* sheet, int32_t index, double dt)
     }
 }
 
-/* Do they hold the same piece for the same clamp? */
+/* True if both shares hold the same piece for the same clamp. */
 static bool IsSameHold(const kiriSheetData* sheet, const kiriPinShare* a, const kiriPinShare* b)
 {
     const int32_t* pieces = sheet->layout.framePiece.data;
     return a->pin == b->pin && pieces[a->share.frame] == pieces[b->share.frame];
 }
 
-static bool IsFirstOfHold(const kiriSheetData* sheet, int32_t k)
-{
-    const kiriPinShare* shares = sheet->layout.pinShares.data;
-    for (int32_t i = k - 1; i >= 0 && shares[i].pin == shares[k].pin; --i) {
-        if (IsSameHold(sheet, &shares[i], &shares[k])) {
-            return false;
-        }
-    }
-    return true;
-}
-
-/* Where the pose has to be moved for the piece to be seen on the line: the mean along it. */
+/* Finds the offset of the pose with which the piece is seen on the line: the mean along it. */
 static bool FindHoldOff(const kiriSheetData* sheet, int32_t first, kiriVec3* off)
 {
     const kiriPinShares* shares = &sheet->layout.pinShares;
@@ -972,9 +928,16 @@ static bool FindHoldOff(const kiriSheetData* sheet, int32_t first, kiriVec3* off
     double length = 0.0;
     for (int32_t k = first; k < shares->count && shares->data[k].pin == shares->data[first].pin; ++k) {
         const kiriPinShare* pinned = &shares->data[k];
-        kiriVec2 at = kiriPin_Centroid(sheet, pinned);
-        if (IsSameHold(sheet, &shares->data[first], pinned) && FindSeenBeside(sheet, pinned->share.frame, at, &seen)) {
-            kiriVec3 missing = kiriVec3_Sub(kiriPin_PlaceOf(sheet, &sheet->pins.data[pinned->pin], at), seen);
+        if (!IsSameHold(sheet, &shares->data[first], pinned)) {
+            continue;
+        }
+        /* A line may run along an edge of the sheet: a little towards the site there is material for certain. */
+        kiriVec2 at = CentroidOf(sheet, pinned);
+        kiriVec2 way = kiriVec2_Sub(sheet->frames.data[pinned->share.frame].site.at, at);
+        double apart = kiriVec2_Length(way), aside = sheet->grid.side / 1024.0;
+        kiriVec2 beside = kiriVec2_Add(at, kiriVec2_Scale(apart > aside ? aside / apart : 1.0, way));
+        if (FindSeen(sheet, pinned->share.frame, kiriMesh_Snap(&sheet->mesh, beside), &seen)) {
+            kiriVec3 missing = kiriVec3_Sub(HeldPlaceOf(sheet, &sheet->pins.data[pinned->pin], at), seen);
             sum = kiriVec3_AddScaled(sum, pinned->share.length, kiriVec3_Add(pinned->off, missing));
             length += pinned->share.length;
         }
@@ -983,8 +946,8 @@ static bool FindHoldOff(const kiriSheetData* sheet, int32_t first, kiriVec3* off
     return length > 0.0;
 }
 
-/* All that it holds of a piece is moved as one. Were each share moved by what is missing there, the line would bend: a
-   sheet that is curled along its clamp is far too stiff, and turns its surface there, which asks for more. */
+/* Moves all shares of a piece together. If each moved by its own offset, the line would bend: a sheet that is curled
+   along its clamp is far too stiff, and turns its surface there, which needs larger offsets. */
 static void SettleClamp(kiriSheetData* sheet, int32_t first, double dt)
 {
     kiriPinShares* shares = &sheet->layout.pinShares;
@@ -996,17 +959,6 @@ static void SettleClamp(kiriSheetData* sheet, int32_t first, double dt)
         if (IsSameHold(sheet, &shares->data[first], &shares->data[k])) {
             Settle(sheet, &shares->data[k].off, off, true, CLAMP_RATE * dt);
         }
-    }
-}
-
-static void SettleFrame(kiriSheetData* sheet, int32_t f, double dt)
-{
-    kiriFrameData* frame = &sheet->frames.data[f];
-    kiriVec3 seen;
-    if (frame->held && FindSeen(sheet, f, kiriMesh_Snap(&sheet->mesh, frame->site.at), &seen)) {
-        kiriVec3 own = kiriFrame_Carry(frame, frame->site.at);
-        Settle(sheet, &frame->heldOff, kiriVec3_Sub(own, seen), frame->isOffKnown, dt);
-        frame->isOffKnown = true;
     }
 }
 
@@ -1035,21 +987,30 @@ void kiriFollow_Begin(kiriSheetData* sheet, double dt)
         return;
     }
     for (int32_t i = 0; i < sheet->pins.count; ++i) {
-        if (kiriPins_IsAwakePoint(sheet, i)) {
+        if (IsAwakePoint(sheet, i)) {
             SettlePoint(sheet, i, dt);
         }
     }
     for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
         const kiriPinShare* pinned = &sheet->layout.pinShares.data[k];
-        bool isClamp = sheet->pins.data[pinned->pin].type == KIRI_PIN_CLAMP;
-        if (isClamp && kiriSheet_Moves(sheet, pinned->share.frame) && IsFirstOfHold(sheet, k)) {
+        bool isFirst =
+            sheet->pins.data[pinned->pin].type == KIRI_PIN_CLAMP && kiriSheet_Moves(sheet, pinned->share.frame);
+        for (int32_t i = k - 1; isFirst && i >= 0 && pinned[i - k].pin == pinned->pin; --i) {
+            isFirst = !IsSameHold(sheet, &pinned[i - k], pinned);
+        }
+        if (isFirst) {
             SettleClamp(sheet, k, dt);
         }
     }
     const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->frames;
     for (int32_t n = 0; n < moved->count; ++n) {
-        int32_t f = moved->data[n];
-        SettleFrame(sheet, f, dt);
+        kiriFrameData* frame = &sheet->frames.data[moved->data[n]];
+        kiriVec3 seen;
+        if (frame->held && FindSeen(sheet, moved->data[n], kiriMesh_Snap(&sheet->mesh, frame->site.at), &seen)) {
+            kiriVec3 own = kiriFrame_Carry(frame, frame->site.at);
+            Settle(sheet, &frame->heldOff, kiriVec3_Sub(own, seen), frame->isOffKnown, dt);
+            frame->isOffKnown = true;
+        }
     }
 }
 
@@ -1079,28 +1040,21 @@ static void MoveHeld(kiriFrameData* frame, int32_t left)
     }
 }
 
-static bool IsAnyPinMoved(const kiriSheetData* sheet)
-{
-    bool any = false;
-    for (int32_t i = 0; i < sheet->pins.count; ++i) {
-        const kiriPinData* pin = &sheet->pins.data[i];
-        any |= !kiriVec3_Equal(pin->target, pin->lastTarget) || !IsSameMat(&pin->rotation, &pin->lastRotation);
-    }
-    return any;
-}
-
-/* By the end of the step, `after` s after the start of the tick. Pins that hold points of what is awake have the first
-   rows, in their order. */
-static bool Yield(kiriSheetData* sheet, double after, double h)
+/* Moves the targets of pins on obstacles that yield, to the end of the step, `after` s after the start of the tick.
+   True if any pin moves. */
+static bool MoveTargets(kiriSheetData* sheet, double after, double h)
 {
     bool any = false;
     int32_t row = 0;
     for (int32_t i = 0; i < sheet->pins.count; ++i) {
-        kiriPinAnchor* anchor = &sheet->pins.data[i].anchor;
-        if (!kiriPins_IsAwakePoint(sheet, i)) {
+        kiriPinData* pin = &sheet->pins.data[i];
+        kiriPinAnchor* anchor = &pin->anchor;
+        any = any || !kiriVec3_Equal(pin->target, pin->lastTarget) || !IsSameMat(&pin->rotation, &pin->lastRotation);
+        if (!IsAwakePoint(sheet, i)) {
             continue;
         }
         if (anchor->most > 0.0) {
+            KIRI_ASSERT(row < sheet->pinReactions.count);
             kiriVec3 given = kiriVec3_Scale(-1.0, sheet->pinReactions.data[row].impulse.force);
             anchor->way = kiriVec3_Scale(after, kiriMat3_Mul(anchor->give, given));
             anchor->softness = after * h * anchor->most;
@@ -1111,10 +1065,11 @@ static bool Yield(kiriSheetData* sheet, double after, double h)
     return any;
 }
 
-/* Rows of pins that rest are the same in all steps, and are there. */
+/* Rows of pins that rest are the same in all steps. */
 void kiriFollow_Step(kiriSheetData* sheet, int32_t i, int32_t n, double h)
 {
-    if (Yield(sheet, (i + 1) * h, h) || IsAnyPinMoved(sheet)) {
+    KIRI_ASSERT(i >= 0 && i < n);
+    if (MoveTargets(sheet, (i + 1) * h, h)) {
         kiriPins_WriteRows(sheet, (double)i / n, i + 1 == n ? 1.0 : (i + 1.0) / n);
     }
     const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->frames;
@@ -1214,8 +1169,8 @@ static bool FitsImpulse(kiriSheetData* sheet, const kiriPointPlace* place, kiriV
     return true;
 }
 
-/* What is seen lies off where the weights have the point, where it fades or its patches are bent: each share of the
-   impulse acts as if that much beside its frame's own point, so that the sum acts where the point is seen. */
+/* Fades and bent patches move a point off the position that its weights give. Each share of the impulse acts beside
+   its frame's own point by this offset, so that the sum acts where the point is seen. */
 bool kiriLoad_Impulse(kiriSheetData* sheet, const kiriPointPlace* place, kiriVec3 impulse)
 {
     kiriVec3 off = kiriVec3_Sub(kiriPoint_Position(sheet, place), kiriPoint_Blend(sheet, place).x);

@@ -1,4 +1,4 @@
-/* A sheet, or a piece of it, that the host puts elsewhere or gives another velocity, all at once. */
+/* Pins, clamps, hinges, held frames and loads in the steps of a tick; sheets that the host moves all at once. */
 #ifndef KIRI_PIN_H
 #define KIRI_PIN_H
 
@@ -34,7 +34,7 @@ bool kiriCarry_SetVelocity(kiriSheetData* sheet, int32_t piece, kiriVec3 velocit
    False for memory. */
 bool kiriPins_Add(kiriSheetData* sheet, const kiriPinData* pin, int32_t frame);
 
-/* What the pin holds goes on with a step of backward Euler: it was made, or will be moved or removed. */
+/* Continues the frames of a pin with a step of backward Euler: the pin is new, or will be moved or removed. */
 void kiriPins_ForgetHistory(kiriSheetData* sheet, int32_t index);
 
 /* The last pin takes its index. */
@@ -53,48 +53,39 @@ void kiriPins_KeepReactions(kiriSheetData* sheet, const kiriPinShares* old);
    when frames were as before it and shares were `old`; on a frame that they did not hold they begin without any. */
 void kiriPins_KeepStrains(kiriSheetData* sheet, const kiriPinShares* old);
 
-/* The offsets that this leaves fade to 1/e within `time` (s). */
+/* Fades the offsets of clamps to 1/e within `time` (s). */
 void kiriPins_FadeOffsets(kiriSheetData* sheet, double dt, double time);
 
-/* The middle (local m) of what a share has of its line; and where the pin has such a point. */
-kiriVec2 kiriPin_Centroid(const kiriSheetData* sheet, const kiriPinShare* pinned);
-kiriVec3 kiriPin_PlaceOf(const kiriSheetData* sheet, const kiriPinData* pin, kiriVec2 point);
-
-/* The pose of a line where its material is now. */
+/* Sets the pose of a line to where its material is now. */
 void kiriPin_TakePose(const kiriSheetData* sheet, kiriPinData* pin);
 
 /* Elastic energy between clamps and the sites of the frames that they hold, J. */
 double kiriPins_ElasticEnergy(const kiriSheetData* sheet);
 
-/* Is it a pin of a point whose piece is awake? Such pins have the first of the rows, in their order. */
-bool kiriPins_IsAwakePoint(const kiriSheetData* sheet, int32_t index);
-
-/* Writes what the solver reads of what is awake. Pins that the host moves go on evenly within a tick: rows are those of
-   a step from one part of it, 0 to 1, to another. Reactions begin with a tick; after it they are what pins and held
-   frames had to bear. */
+/* Write the rows and reactions of pieces that are awake. Pins that the host moves go on evenly within a tick: rows belong
+   to a step from one part of the tick, 0 to 1, to another. Reactions start at zero, but for their history. */
 void kiriPins_WriteRows(kiriSheetData* sheet, double from, double to);
 void kiriPins_BeginReactions(kiriSheetData* sheet);
 void kiriPins_TakeReactions(kiriSheetData* sheet, double dt);
 
-/* What a line bore is the sum of what its shares did. */
+/* Adds the reactions of the shares of each line. */
 void kiriPins_SumShares(kiriSheetData* sheet);
 
-/* Where the motion could not be continued: pins and holds had nothing to bear. */
+/* Clears the reactions of a tick in which the motion could not be continued. */
 void kiriPins_ClearReactions(kiriSheetData* sheet);
 
 /* Where pins and held frames hold the sheet in the steps of a tick.
 
-   What the host moves goes on evenly: each step takes its part of the way.
+   Goals of the host are reached evenly: each step takes its part of the way.
 
-   What is seen is what is held: a smooth surface (KIRI_SKINNING_SMOOTH) lies off where a frame by itself has a point. A
-   pin holds that point of its frame, so its target is moved by as much as the frame's own point is off what was seen
-   last; so is a held frame. A clamp's own point is its line: its pose is moved by what is seen off the line, more and
-   more until the mean along the line is zero. All that it holds of a piece is moved as one: a line that bends would
-   curl the sheet. That takes some ticks; when it changes no more the sheet may sleep. Hinges turn freely, so the
-   surface does not bend at them, and is seen on the line anyway.
+   The held point is the one that is seen. A smooth surface (KIRI_SKINNING_SMOOTH) lies off the point that a frame
+   alone gives. So the target of a pin, or of a held frame, is moved by the offset of the frame's point from the
+   surface of the last tick. A clamp moves its pose by the mean offset of the surface from its line, all shares of a
+   piece together: a line that bends would curl the sheet. That takes some ticks; when it changes no more the sheet may
+   sleep. Hinges turn freely, so the surface does not bend at them, and lies on the line anyway.
 
-   An obstacle with mass yields to a pin. Its host will give it the impulses of the whole tick at once, before it moves
-   it: so it does here. With W the velocity that an impulse gives the target, and J what the pin has given so far in the
+   An obstacle with mass yields to a pin. Its host gives it the impulses of the whole tick at once, before it moves it:
+   so it does here. With W the velocity that an impulse gives the target, and J what the pin has given so far in the
    tick, the target is t W J away at the time t of the tick, and the force F of a step of h moves it by t h W F. */
 
 /* At the start of a tick of dt. */

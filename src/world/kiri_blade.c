@@ -244,8 +244,8 @@ static bool Slide(BladeWork* work, Track* track, kiriVec2 slit)
     return stroke != KIRI_NONE && AddStart(work, stroke, slit);
 }
 
-/* Leads a track of an edge that stays: it slides in slits that are near instead of cutting beside them. Where the outline
-   is nearer it cuts to it. */
+/* Leads a track of an edge that stays: it slides in slits that are near instead of cutting beside them. Where the
+   outline is nearer it cuts to it. */
 static bool LeadHeld(BladeWork* work, Track* track, kiriVec2 rest)
 {
     enum { MOST = 64 };
@@ -279,9 +279,9 @@ static bool LeadHeld(BladeWork* work, Track* track, kiriVec2 rest)
 
 /* ---- Ways ---- */
 
-/* Follows a slit along a way that keeps to it. There is nothing to cut then, and the track goes on from the slit itself,
-   not from beside it. The feet of points a snap apart must lead along lips: one that jumps to another slit would leave
-   a bridge between the slits. A way to the outline is cut, so that it parts. */
+/* Follows a slit along a way that keeps to it. There is nothing to cut then, and the track goes on from the slit
+   itself, not from beside it. The feet of points a snap apart must lead along lips: one that jumps to another slit
+   would leave a bridge between the slits. A way to the outline is cut, so that it parts. */
 static bool IsInSlit(const BladeWork* work, kiriVec2 from, kiriVec2 to, kiriVec2* end)
 {
     enum { MOST_PLACES = 4096 };
@@ -356,8 +356,8 @@ static kiriVec3 EdgeAt(const kiriVec3* edge, double share)
 
 /* ---- Places in the material ---- */
 
-/* Finds where a place in the material is seen. A lip has a place on each side; the one nearest to `by` is taken, because
-   a piece that came off may have fallen far. False where the sheet has no material. */
+/* Finds where a place in the material is seen. A lip has a place on each side; the one nearest to `by` is taken,
+   because a piece that came off may have fallen far. False where the sheet has no material. */
 static bool Seen(const kiriSheetData* sheet, kiriVec2 rest, kiriVec3 by, kiriVec3* at)
 {
     const kiriSquares* squares = &sheet->mesh.squares;
@@ -514,7 +514,8 @@ static bool Flatten(const BladeWork* work, const kiriVec3* other, kiriVec3 x, co
 /* ---- Layers that the blade was in ---- */
 
 /* Finds the nearest track of the last step, up to a distance in the rest plane, or returns null. With `except`: one of
-   this sheet that is not handled yet, but this one; without: one that was lost, in whatever sheet its material is now. */
+   this sheet that is not handled yet, but this one; without: one that was lost, in whatever sheet its material is
+   now. */
 static Track* NearestTrack(const BladeWork* work, const Track* except, kiriVec2 rest, double distance)
 {
     Track* nearest = NULL;
@@ -532,8 +533,8 @@ static Track* NearestTrack(const BladeWork* work, const Track* except, kiriVec2 
     return nearest;
 }
 
-/* Leads a track along a line. It ends at the edge as it is now, beyond a border, where the blade ended, or, over a fold, at
-   another layer that the blade was in. */
+/* Leads a track along a line. It ends at the edge as it is now, beyond a border, where the blade ended, or, over a
+   fold, at another layer that the blade was in. */
 static bool FollowLine(BladeWork* work, Track* track, const kiriSectionLine* line, bool fromLast)
 {
     const kiriSectionPoint* end = EndOfWay(work, line, !fromLast);
@@ -1004,8 +1005,8 @@ static kiriVec3 Towards(kiriVec3 a, kiriVec3 b, double share)
     return share < 1.0 ? kiriVec3_AddScaled(a, share, kiriVec3_Sub(b, a)) : b;
 }
 
-/* Moves the edge in steps: in each, the edge sweeps a plane. The first step starts where the edge was when the sheet was
-   elsewhere. The sheet stays in the others. */
+/* Moves the edge in steps: in each, the edge sweeps a plane. The first step starts where the edge was when the sheet
+   was elsewhere. The sheet stays in the others. */
 static bool TakeSteps(BladeWork* work, const kiriWorld* world, const kiriBladeData* blade, const kiriVec3 to[2])
 {
     enum { MOST_STEPS = 8 };
