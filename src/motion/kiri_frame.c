@@ -161,21 +161,14 @@ static kiriMat3 Weighted(const kiriMassMoments* m, const kiriMat3* A)
     return r;
 }
 
-static kiriMat3 RigidInertia(const kiriMassMoments* m, const kiriMat3* A)
+/* trace(M) - A M A^T, with M the moments. */
+static kiriMat3 InertiaOf(const kiriMassMoments* m, double trace, const kiriMat3* A)
 {
-    /* trace(M) - A M A^T, M the moments */
-    double trace = m->uu + m->vv + m->dd;
     kiriMat3 w = Weighted(m, A), r;
     r.u = kiriVec3_Sub(kiriVec3_Make(trace, 0.0, 0.0), kiriMat3_Mul(w, kiriVec3_Make(A->u.x, A->v.x, A->d.x)));
     r.v = kiriVec3_Sub(kiriVec3_Make(0.0, trace, 0.0), kiriMat3_Mul(w, kiriVec3_Make(A->u.y, A->v.y, A->d.y)));
     r.d = kiriVec3_Sub(kiriVec3_Make(0.0, 0.0, trace), kiriMat3_Mul(w, kiriVec3_Make(A->u.z, A->v.z, A->d.z)));
     return r;
-}
-
-static kiriMat3 MatrixDifference(const kiriMat3* A, const kiriMat3* B)
-{
-    kiriMat3 off = { kiriVec3_Sub(A->u, B->u), kiriVec3_Sub(A->v, B->v), kiriVec3_Sub(A->d, B->d) };
-    return off;
 }
 
 static double SumDot(const kiriMat3* A, const kiriMat3* B)
@@ -197,13 +190,14 @@ static kiriMat3 CrossColumns(kiriVec3 w, const kiriMat3* A)
 
 kiriMat3 kiriPrediction_Gradient(const kiriPrediction* prediction, const kiriMat3* A)
 {
-    kiriMat3 off = MatrixDifference(A, &prediction->target);
+    kiriMat3 off = kiriMat3_AddScaled(A, -1.0, &prediction->target);
     return Weighted(&prediction->moments, &off);
 }
 
 kiriMat3 kiriPrediction_Inertia(const kiriPrediction* prediction, const kiriMat3* A)
 {
-    return RigidInertia(&prediction->moments, A);
+    const kiriMassMoments* m = &prediction->moments;
+    return InertiaOf(m, m->uu + m->vv + m->dd, A);
 }
 
 kiriVec3 kiriFrame_AngularMomentum(const kiriFrameData* frame, const kiriMaterial* material)
@@ -222,7 +216,7 @@ double kiriFrame_KineticEnergy(const kiriFrameData* frame, const kiriMaterial* m
 
 double kiriPrediction_TurnSquared(const kiriPrediction* prediction, const kiriMat3* A)
 {
-    kiriMat3 off = MatrixDifference(A, &prediction->target);
+    kiriMat3 off = kiriMat3_AddScaled(A, -1.0, &prediction->target);
     kiriMat3 w = Weighted(&prediction->moments, &off);
     return SumDot(&w, &off);
 }
@@ -233,13 +227,17 @@ kiriVec3 kiriPrediction_TurnGradient(const kiriPrediction* prediction, const kir
     return SumCross(&w, A);
 }
 
+static kiriVec3 Shortened(kiriVec3 turn)
+{
+    double length = kiriVec3_Length(turn);
+    return length > LONGEST_PART_TURN ? kiriVec3_Scale(LONGEST_PART_TURN / length, turn) : turn;
+}
+
 /* The Cayley vector that turns by |w|, to the sixth order. */
 static kiriVec3 CayleyVector(kiriVec3 w)
 {
     double ww = kiriVec3_Dot(w, w);
-    kiriVec3 r = kiriVec3_Scale(1.0 + ww * (1.0 / 12.0 + ww / 120.0), w);
-    double length = kiriVec3_Length(r);
-    return length > LONGEST_PART_TURN ? kiriVec3_Scale(LONGEST_PART_TURN / length, r) : r;
+    return Shortened(kiriVec3_Scale(1.0 + ww * (1.0 / 12.0 + ww / 120.0), w));
 }
 
 /* Free rotation over h with the angular momentum L: the implicit midpoint rule for L in the body's axes. Its map is a
@@ -271,35 +269,12 @@ static kiriMat3 TurnParts(const kiriMat3* A, const kiriMat3* bodyInertia, kiriVe
     return turned;
 }
 
-static kiriVec3 Shortened(kiriVec3 turn)
-{
-    double length = kiriVec3_Length(turn);
-    return length > LONGEST_PART_TURN ? kiriVec3_Scale(LONGEST_PART_TURN / length, turn) : turn;
-}
-
-/* Turns of more than two radians a step are followed only roughly; then a slender region might gain energy, which is
-   therefore capped. */
-static void SetAngular(kiriPrediction* prediction, const kiriMat3* inertiaBefore, const kiriMat3* inertia, kiriVec3 L)
-{
-    double before = kiriVec3_Dot(L, kiriMat3_Solve(inertiaBefore, L));
-    double after = kiriVec3_Dot(L, kiriMat3_Solve(inertia, L));
-    prediction->angular = after > before ? kiriVec3_Scale(kiriRoot(before / after), L) : L;
-    prediction->spin = kiriMat3_Solve(inertia, prediction->angular);
-}
-
 /* In the objective 1/2 m |A p - A* p|^2 / h'^2 a shift by h' I^-1 impulse x A* adds -(impulse / h') . turn to first
    order. `turned` is where the free turn ends. */
 static kiriMat3 ShiftBy(kiriVec3 impulse, const kiriMat3* inertia, const kiriMat3* turned, double part)
 {
     kiriMat3 turning = CrossColumns(kiriMat3_Solve(inertia, impulse), turned);
     return kiriMat3_Scale(part, &turning);
-}
-
-/* Where the iteration starts: without forces, or by those of the last step. */
-static kiriVec3 GuessPlace(const kiriFrameData* frame, const kiriStepping* s)
-{
-    kiriVec3 x = kiriVec3_AddScaled(frame->x, s->h, frame->velocity);
-    return kiriVec3_AddScaled(x, -s->ahead, frame->history.lag);
 }
 
 static void PredictPlace(const kiriFrameData* frame, kiriVec3 gravity, const kiriStepping* s,
@@ -311,7 +286,9 @@ static void PredictPlace(const kiriFrameData* frame, kiriVec3 gravity, const kir
     kiriVec3 x = kiriVec3_AddScaled(frame->x, s->h - s->part, frame->velocity);
     x = kiriVec3_AddScaled(x, s->part, prediction->velocity);
     prediction->pose.x = kiriVec3_AddScaled(x, s->d, frame->history.lag);
-    prediction->guess.x = GuessPlace(frame, s);
+    /* The iteration starts without forces, or with those of the last step. */
+    kiriVec3 guess = kiriVec3_AddScaled(frame->x, s->h, frame->velocity);
+    prediction->guess.x = kiriVec3_AddScaled(guess, -s->ahead, frame->history.lag);
 }
 
 /* The frame turns freely by the momentum that it has; then by what the last step went otherwise. What the scheme takes
@@ -325,7 +302,11 @@ static void PredictTurn(const kiriFrameData* frame, const kiriStepping* s, kiriP
     prediction->pose.A = kiriMat3_MulMat(kiriMat3_Cayley(Shortened(kiriVec3_Scale(s->d, lag))), turned);
     prediction->guess.A = kiriMat3_MulMat(kiriMat3_Cayley(Shortened(kiriVec3_Scale(-s->ahead, lag))), turned);
     kiriMat3 inertiaAfter = kiriPrediction_Inertia(prediction, &prediction->pose.A);
-    SetAngular(prediction, &inertia, &inertiaAfter, L);
+    /* Turns of more than two radians a step are followed only roughly; then a slender region might gain energy, which is
+       therefore capped. */
+    double before = kiriVec3_Dot(L, kiriMat3_Solve(&inertia, L)), after = kiriVec3_Dot(L, kiriMat3_Solve(&inertiaAfter, L));
+    prediction->angular = after > before ? kiriVec3_Scale(kiriRoot(before / after), L) : L;
+    prediction->spin = kiriMat3_Solve(&inertiaAfter, prediction->angular);
     kiriVec3 impulse = kiriVec3_AddScaled(kiriStepping_InnerTurn(s, &frame->history).u, s->h, frame->torque);
     kiriMat3 shift = ShiftBy(impulse, &inertiaAfter, &prediction->pose.A, s->part);
     prediction->target = kiriMat3_AddScaled(&prediction->pose.A, 1.0, &shift);
@@ -354,13 +335,9 @@ kiriPrediction kiriPrediction_Free(const kiriFrameData* frame, const kiriMateria
 /* The inertia of an A that is no rotation. It has an inverse even where A has collapsed. */
 static kiriMat3 AffineInertia(const kiriMassMoments* m, const kiriMat3* A)
 {
-    kiriMat3 w = Weighted(m, A), r;
+    kiriMat3 w = Weighted(m, A);
     double trace = SumDot(&w, A);
-    trace += 1e-12 * (trace + m->uu + m->vv + m->dd);
-    r.u = kiriVec3_Sub(kiriVec3_Make(trace, 0.0, 0.0), kiriMat3_Mul(w, kiriVec3_Make(A->u.x, A->v.x, A->d.x)));
-    r.v = kiriVec3_Sub(kiriVec3_Make(0.0, trace, 0.0), kiriMat3_Mul(w, kiriVec3_Make(A->u.y, A->v.y, A->d.y)));
-    r.d = kiriVec3_Sub(kiriVec3_Make(0.0, 0.0, trace), kiriMat3_Mul(w, kiriVec3_Make(A->u.z, A->v.z, A->d.z)));
-    return r;
+    return InertiaOf(m, trace + 1e-12 * (trace + m->uu + m->vv + m->dd), A);
 }
 
 kiriMat3 kiriFrame_Inertia(const kiriFrameData* frame, const kiriMaterial* material)
@@ -384,11 +361,7 @@ kiriMat3 kiriMat3_Beside(const kiriMat3* A, const kiriMat3* rate, kiriVec3 spin)
 
 kiriMat3 kiriMat3_Advance(const kiriMat3* A, const kiriMat3* change)
 {
-    kiriVec3 w = kiriMat3_Spin(A, change);
-    double length = kiriVec3_Length(w);
-    if (length > LONGEST_PART_TURN) {
-        w = kiriVec3_Scale(LONGEST_PART_TURN / length, w);
-    }
+    kiriVec3 w = Shortened(kiriMat3_Spin(A, change));
     kiriMat3 rest = kiriMat3_Beside(A, change, w), grown = kiriMat3_AddScaled(A, 1.0, &rest);
     return kiriMat3_MulMat(kiriMat3_Cayley(w), grown);
 }
@@ -429,17 +402,6 @@ kiriPrediction kiriPrediction_Affine(const kiriFrameData* frame, const kiriMater
 
 /* ---- Held frames ---- */
 
-/* The vector of the turn from one rotation to another: the inverse of Cayley, its length made an angle to the fourth
-   order. */
-static kiriVec3 AngleBetween(const kiriMat3* a, const kiriMat3* b)
-{
-    kiriVec3 sine =
-        kiriVec3_Add(kiriVec3_Add(kiriVec3_Cross(a->u, b->u), kiriVec3_Cross(a->v, b->v)), kiriVec3_Cross(a->d, b->d));
-    double trace = kiriVec3_Dot(a->u, b->u) + kiriVec3_Dot(a->v, b->v) + kiriVec3_Dot(a->d, b->d);
-    kiriVec3 w = kiriVec3_Scale(2.0 / kiriMax(1.0 + trace, 1e-3), sine);
-    return kiriVec3_Scale(1.0 / (1.0 + kiriVec3_Dot(w, w) / 12.0), w);
-}
-
 kiriPrediction kiriPrediction_Held(const kiriFrameData* frame, const kiriMaterial* material, double dt)
 {
     kiriPrediction prediction = Standing(frame, material);
@@ -447,7 +409,11 @@ kiriPrediction kiriPrediction_Held(const kiriFrameData* frame, const kiriMateria
     kiriVec3 arm = kiriPose_Along(&prediction.pose, kiriVec2_Sub(frame->site.at, frame->center));
     prediction.pose.x = kiriVec3_Sub(frame->heldPosition, arm);
     prediction.velocity = kiriVec3_Scale(1.0 / dt, kiriVec3_Sub(prediction.pose.x, frame->x));
-    prediction.spin = kiriVec3_Scale(1.0 / dt, AngleBetween(&frame->A, &prediction.pose.A));
+    /* The turn from one rotation to the other: the inverse of Cayley, its length made an angle to the fourth order. */
+    kiriVec3 sine = SumCross(&frame->A, &prediction.pose.A);
+    kiriVec3 w = kiriVec3_Scale(2.0 / kiriMax(1.0 + SumDot(&frame->A, &prediction.pose.A), 1e-3), sine);
+    w = kiriVec3_Scale(1.0 / (1.0 + kiriVec3_Dot(w, w) / 12.0), w);
+    prediction.spin = kiriVec3_Scale(1.0 / dt, w);
     prediction.target = prediction.pose.A;
     prediction.guess = prediction.pose;
     return prediction;

@@ -1,4 +1,3 @@
-#include "kiri_step.h"
 #include "kiri_solver.h"
 
 #include <string.h>
@@ -34,16 +33,6 @@ static void FlattenTurn(const kiriMechanics* mechanics, kiriMat3* turn)
     }
 }
 
-static void FlattenHistory(const kiriMechanics* mechanics, kiriHistory* history)
-{
-    history->gain = kiriMechanics_InPlane(mechanics, history->gain);
-    history->lag = kiriMechanics_InPlane(mechanics, history->lag);
-    history->pull = kiriMechanics_InPlane(mechanics, history->pull);
-    FlattenTurn(mechanics, &history->turnGain);
-    FlattenTurn(mechanics, &history->turnLag);
-    FlattenTurn(mechanics, &history->turnPull);
-}
-
 /* In a planar sheet, a frame with only what moves it in the plane. */
 static kiriFrameData FlattenFrame(const kiriMechanics* mechanics, const kiriFrameData* from)
 {
@@ -56,21 +45,15 @@ static kiriFrameData FlattenFrame(const kiriMechanics* mechanics, const kiriFram
         frame.force = kiriMechanics_InPlane(mechanics, frame.force);
         frame.torque = AlongNormal(mechanics, frame.torque);
         frame.heldPosition = kiriVec3_Sub(frame.heldPosition, AlongNormal(mechanics, off));
-        FlattenHistory(mechanics, &frame.history);
+        kiriHistory* history = &frame.history;
+        history->gain = kiriMechanics_InPlane(mechanics, history->gain);
+        history->lag = kiriMechanics_InPlane(mechanics, history->lag);
+        history->pull = kiriMechanics_InPlane(mechanics, history->pull);
+        FlattenTurn(mechanics, &history->turnGain);
+        FlattenTurn(mechanics, &history->turnLag);
+        FlattenTurn(mechanics, &history->turnPull);
     }
     return frame;
-}
-
-/* The air acts first, so that it only takes energy, whatever gravity does to the velocity. Of second order, exp(-z) is
-   1 / (1 + z + z^2 / 2) to the third power of z. */
-static void FadeVelocities(const kiriSystem* system, double dt, kiriFrameData* frame)
-{
-    double z = dt * (double)system->material.airDamping;
-    bool isEuler = system->mechanics.timeStepping == KIRI_TIME_STEPPING_EULER;
-    double fade = 1.0 / (1.0 + z + (isEuler ? 0.0 : 0.5 * z * z));
-    frame->velocity = kiriVec3_Scale(fade, frame->velocity);
-    frame->spin = kiriVec3_Scale(fade, frame->spin);
-    frame->rate = kiriMat3_Scale(fade, &frame->rate);
 }
 
 kiriVec3 kiriSystem_Gravity(const kiriSystem* system)
@@ -79,17 +62,6 @@ kiriVec3 kiriSystem_Gravity(const kiriSystem* system)
 }
 
 /* ---- Predictions ---- */
-
-static kiriPrediction PredictFrame(const kiriSystem* system, const kiriFrameData* frame, const kiriStepping* stepping)
-{
-    if (frame->held) {
-        return kiriPrediction_Held(frame, &system->material, stepping->h);
-    }
-    kiriVec3 gravity = kiriSystem_Gravity(system);
-    return kiriMechanics_IsAffine(&system->mechanics)
-               ? kiriPrediction_Affine(frame, &system->material, gravity, stepping)
-               : kiriPrediction_Free(frame, &system->material, gravity, stepping);
-}
 
 /* No inner force moves the centre of mass of a free body: it falls on its parabola also where the body takes a step of
    backward Euler between those of second order. */
@@ -115,8 +87,14 @@ static void ShiftFreeBody(kiriSolver* solver, const kiriSystem* system)
 
 static void Predict(kiriSolver* solver, const kiriSystem* system)
 {
+    kiriVec3 gravity = kiriSystem_Gravity(system);
+    bool isAffine = kiriMechanics_IsAffine(&system->mechanics);
     for (int32_t f = 0; f < system->frameCount; ++f) {
-        solver->predictions.data[f] = PredictFrame(system, &solver->before.data[f], &solver->stepping);
+        const kiriFrameData* frame = &solver->before.data[f];
+        const kiriMaterial* material = &system->material;
+        solver->predictions.data[f] = frame->held ? kiriPrediction_Held(frame, material, solver->stepping.h)
+                                      : isAffine  ? kiriPrediction_Affine(frame, material, gravity, &solver->stepping)
+                                                  : kiriPrediction_Free(frame, material, gravity, &solver->stepping);
         solver->poses.data[f] = solver->predictions.data[f].guess;
     }
     ShiftFreeBody(solver, system);
@@ -220,37 +198,27 @@ typedef struct WindSpring {
     double across, along; /* N/m: along the normal, and in the plane */
 } WindSpring;
 
-/* The columns of the root (Cholesky's) of the second moments of a unit area, both ways. */
-static kiriVec2 SamplePoint(const kiriFrameData* frame, int k)
-{
-    double uu = frame->inertia[0] / frame->mass, uv = frame->inertia[1] / frame->mass;
-    double vv = frame->inertia[2] / frame->mass, first = kiriRoot(uu);
-    double side = first > 0.0 ? uv / first : 0.0, rest = kiriRoot(vv - side * side);
-    kiriVec2 root = k < 2 ? kiriVec2_Make(first, side) : kiriVec2_Make(0.0, rest);
-    return kiriVec2_Add(frame->center, kiriVec2_Scale(k % 2 == 0 ? sqrt(2.0) : -sqrt(2.0), root));
-}
-
-static kiriVec3 PredictedVelocity(const kiriSystem* system, const kiriPrediction* prediction, kiriVec2 from)
-{
-    if (kiriMechanics_IsAffine(&system->mechanics)) {
-        kiriVec3 turning = kiriVec3_AddScaled(kiriVec3_Scale(from.x, prediction->rate.u), from.y, prediction->rate.v);
-        return kiriVec3_Add(prediction->velocity, turning);
-    }
-    kiriVec3 arm = kiriPose_Along(&prediction->pose, from);
-    return kiriVec3_Add(prediction->velocity, kiriVec3_Cross(prediction->spin, arm));
-}
-
 static WindSpring SpringAt(const kiriSolver* solver, const kiriSystem* system, int32_t f, int k)
 {
     const kiriFrameData* frame = &solver->before.data[f];
     const kiriPrediction* prediction = &solver->predictions.data[f];
     double part = solver->stepping.part;
     WindSpring spring;
-    spring.at = SamplePoint(frame, k);
+    /* The columns of the root (Cholesky's) of the second moments of a unit area, both ways. */
+    double uu = frame->inertia[0] / frame->mass, uv = frame->inertia[1] / frame->mass;
+    double vv = frame->inertia[2] / frame->mass, first = kiriRoot(uu);
+    double cross = first > 0.0 ? uv / first : 0.0, rest = kiriRoot(vv - cross * cross);
+    kiriVec2 root = k < 2 ? kiriVec2_Make(first, cross) : kiriVec2_Make(0.0, rest);
+    spring.at = kiriVec2_Add(frame->center, kiriVec2_Scale(k % 2 == 0 ? sqrt(2.0) : -sqrt(2.0), root));
     kiriVec3 wide = kiriVec3_Cross(frame->A.u, frame->A.v); /* an affine frame stretches its area */
     kiriVec3 past = kiriVec3_Sub(system->air->velocity, kiriFrame_VelocityAt(frame, spring.at));
     double c = 0.5 * system->air->density * kiriVec3_Length(past) * kiriVec3_Length(wide) * frame->area / SAMPLES;
-    kiriVec3 velocity = PredictedVelocity(system, prediction, kiriVec2_Sub(spring.at, frame->center));
+    kiriVec2 from = kiriVec2_Sub(spring.at, frame->center);
+    kiriVec3 turning = kiriVec3_AddScaled(kiriVec3_Scale(from.x, prediction->rate.u), from.y, prediction->rate.v);
+    if (!kiriMechanics_IsAffine(&system->mechanics)) {
+        turning = kiriVec3_Cross(prediction->spin, kiriPose_Along(&prediction->pose, from));
+    }
+    kiriVec3 velocity = kiriVec3_Add(prediction->velocity, turning);
     kiriVec3 ahead = kiriVec3_Sub(system->air->velocity, velocity);
     spring.normal = kiriVec3_Normalize(wide);
     kiriVec3 predicted = kiriVec3_Add(prediction->pose.x, kiriSystem_Arm(system, f, spring.at, &prediction->pose));
@@ -327,33 +295,32 @@ static void AddEnergy(kiriStepEnergy* sum, double stored, double lost)
     sum->objective += stored + lost;
 }
 
-/* ---- Pins, clamps and contacts ---- */
-
-static void AddPinEnergy(const kiriSystem* system, const kiriPinRow* pin, const kiriPose* poses, kiriStepEnergy* sum)
+/* Adds the energies of the springs and dampers of strains; `pulling` are the strains without their offsets. */
+static void AddStrains(int count, const double* stiffness, const double* loss, const double* start,
+                       const double* strain, const double* pulling, kiriStepEnergy* sum)
 {
-    kiriVec3 off = kiriVec3_Sub(kiriSystem_Point(system, pin->frame, pin->at, poses), pin->target);
-    AddEnergy(sum, 0.5 * pin->stiffness * kiriVec3_Dot(off, off), 0.0);
-}
-
-static void AddClampEnergy(const kiriSystem* system, kiriClampRow* row, const kiriPose* poses, kiriStepEnergy* sum)
-{
-    double strain[KIRI_CLAMP_STRAINS], pulling[KIRI_CLAMP_STRAINS];
-    kiriClamp_Measure(row, &system->frames[row->frame], &row->pose, &poses[row->frame], strain, NULL);
-    kiriClamp_TakeOffsets(row, strain, pulling);
-    for (int e = 0; e < row->strainCount; ++e) {
-        double change = strain[e] - row->startStrain[e];
-        AddEnergy(sum, 0.5 * row->stiffness[e] * pulling[e] * pulling[e], 0.5 * row->loss[e] * change * change);
+    for (int e = 0; e < count; ++e) {
+        double change = strain[e] - start[e];
+        AddEnergy(sum, 0.5 * stiffness[e] * pulling[e] * pulling[e], 0.5 * loss[e] * change * change);
     }
-    row->stopping |= kiriClamp_IsStopped(row, strain);
 }
+
+/* ---- Pins, clamps and contacts ---- */
 
 static void AddHost(kiriSolver* solver, const kiriSystem* system, const kiriPose* poses, kiriStepEnergy* sum)
 {
     for (int32_t k = 0; k < system->clampCount; ++k) {
-        AddClampEnergy(system, &system->clamps[k], poses, sum);
+        kiriClampRow* row = &system->clamps[k];
+        double strain[KIRI_CLAMP_STRAINS], pulling[KIRI_CLAMP_STRAINS];
+        kiriClamp_Measure(row, &system->frames[row->frame], &row->pose, &poses[row->frame], strain, NULL);
+        kiriClamp_TakeOffsets(row, strain, pulling);
+        AddStrains(row->strainCount, row->stiffness, row->loss, row->startStrain, strain, pulling, sum);
+        row->stopping |= kiriClamp_IsStopped(row, strain);
     }
     for (int32_t k = 0; k < system->pinCount; ++k) {
-        AddPinEnergy(system, &system->pins[k], poses, sum);
+        const kiriPinRow* pin = &system->pins[k];
+        kiriVec3 off = kiriVec3_Sub(kiriSystem_Point(system, pin->frame, pin->at, poses), pin->target);
+        AddEnergy(sum, 0.5 * pin->stiffness * kiriVec3_Dot(off, off), 0.0);
     }
     for (int32_t k = 0; k < solver->contacts.count; ++k) {
         AddEnergy(sum, 0.0, kiriContact_Energy(solver, system, &solver->contacts.data[k], poses));
@@ -378,14 +345,9 @@ static void MeasureElement(const kiriSystem* system, int32_t k, const kiriPose* 
 static void AddElementEnergy(const kiriSolver* solver, const kiriSystem* system, int32_t k, const double* strain,
                              const double* pulling, kiriStepEnergy* sum)
 {
-    const double* stiffness = &solver->stiffness.data[KIRI_MOST_STRAINS * k];
-    const double* loss = &solver->loss.data[KIRI_MOST_STRAINS * k];
-    const double* start = &solver->startStrain.data[KIRI_MOST_STRAINS * k];
-    int count = kiriElement_StrainCount(system, k);
-    for (int e = 0; e < count; ++e) {
-        double change = strain[e] - start[e];
-        AddEnergy(sum, 0.5 * stiffness[e] * pulling[e] * pulling[e], 0.5 * loss[e] * change * change);
-    }
+    int32_t first = KIRI_MOST_STRAINS * k;
+    AddStrains(kiriElement_StrainCount(system, k), &solver->stiffness.data[first], &solver->loss.data[first],
+               &solver->startStrain.data[first], strain, pulling, sum);
 }
 
 static kiriStepEnergy InertiaEnergy(const kiriSolver* solver, const kiriSystem* system, const kiriPose* poses)
@@ -423,13 +385,6 @@ kiriStepEnergy kiriObjective_Evaluate(kiriSolver* solver, const kiriSystem* syst
 }
 
 /* ---- Noise ---- */
-
-static double RigidLinkNoise(const kiriSolver* solver, const kiriLink* link, const double* stiffness)
-{
-    double reach = kiriVec3_Length(solver->start.data[link->i].x) + link->length;
-    return reach * reach * (stiffness[KIRI_STRETCH] + stiffness[KIRI_SHEAR] + stiffness[KIRI_NORMAL_GAP]) +
-           stiffness[KIRI_PLANE_BENDING] + stiffness[KIRI_BENDING] + stiffness[KIRI_TWIST];
-}
 
 /* Of the sums of strains that traces are. */
 static double CornerNoise(const kiriSolver* solver, const kiriSystem* system, const kiriCorner* corner,
@@ -475,11 +430,16 @@ static void FindNoise(kiriSolver* solver, const kiriSystem* system)
     }
     for (int32_t k = 0; k < solver->elementCount; ++k) {
         const double* stiffness = &solver->stiffness.data[KIRI_MOST_STRAINS * k];
-        const kiriCorner* corner = kiriElement_Corner(system, k);
-        double noise = kiriElement_IsRigidCorner(system, k) ? CornerNoise(solver, system, corner, stiffness)
-                       : kiriElement_IsRigidLink(system, k)
-                           ? RigidLinkNoise(solver, kiriElement_Link(system, k), stiffness)
-                           : AffineNoise(solver, system, k, stiffness);
+        double noise = kiriElement_IsRigidCorner(system, k)
+                           ? CornerNoise(solver, system, kiriElement_Corner(system, k), stiffness)
+                       : !kiriElement_IsRigidLink(system, k) ? AffineNoise(solver, system, k, stiffness)
+                                                             : 0.0;
+        if (kiriElement_IsRigidLink(system, k)) {
+            const kiriLink* link = kiriElement_Link(system, k);
+            double reach = kiriVec3_Length(solver->start.data[link->i].x) + link->length;
+            noise = reach * reach * (stiffness[KIRI_STRETCH] + stiffness[KIRI_SHEAR] + stiffness[KIRI_NORMAL_GAP]) +
+                    stiffness[KIRI_PLANE_BENDING] + stiffness[KIRI_BENDING] + stiffness[KIRI_TWIST];
+        }
         sum += share * noise;
     }
     for (int32_t k = 0; k < system->clampCount; ++k) {
@@ -508,18 +468,6 @@ static double DampingShare(const kiriSolver* solver, const kiriSystem* system, i
         least = kiriMin(share, least);
     }
     return least;
-}
-
-static void BeginElement(kiriSolver* solver, const kiriSystem* system, int32_t k)
-{
-    double* stiffness = &solver->stiffness.data[KIRI_MOST_STRAINS * k];
-    kiriElement_Stiffness(system, k, stiffness);
-    MeasureElement(system, k, solver->start.data, solver->startStrain.data);
-    solver->stopping.data[k] = 0;
-    double damping = solver->damping * DampingShare(solver, system, k);
-    for (int e = 0; e < kiriElement_StrainCount(system, k); ++e) {
-        solver->loss.data[KIRI_MOST_STRAINS * k + e] = damping * stiffness[e];
-    }
 }
 
 static kiriSupport FindSupport(const kiriSolver* solver, const kiriSystem* system)
@@ -563,12 +511,20 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
     solver->elementCount = kiriElement_Count(system);
     solver->isAlong = solver->isHeld = false;
     solver->search.scale = 1.0;
+    /* The air acts first, so that it only takes energy, whatever gravity does to the velocity. Of second order, exp(-z)
+       is 1 / (1 + z + z^2 / 2) to the third power of z. */
+    double z = dt * (double)system->material.airDamping;
+    bool isEuler = system->mechanics.timeStepping == KIRI_TIME_STEPPING_EULER;
+    double fade = 1.0 / (1.0 + z + (isEuler ? 0.0 : 0.5 * z * z));
     for (int32_t f = 0; f < system->frameCount; ++f) {
         const kiriFrameData* frame = &solver->sheetFrames[solver->sheetFrame[f]];
+        kiriFrameData* before = &solver->before.data[f];
         solver->isHeld |= frame->held != 0;
         solver->start.data[f] = kiriPose_Of(frame);
-        solver->before.data[f] = FlattenFrame(&system->mechanics, frame);
-        FadeVelocities(system, dt, &solver->before.data[f]);
+        *before = FlattenFrame(&system->mechanics, frame);
+        before->velocity = kiriVec3_Scale(fade, before->velocity);
+        before->spin = kiriVec3_Scale(fade, before->spin);
+        before->rate = kiriMat3_Scale(fade, &before->rate);
     }
     kiriSolver_BeginContacts(solver, system);
     solver->support = FindSupport(solver, system);
@@ -584,7 +540,14 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
     }
     kiriSolver_CenterBody(solver, system);
     for (int32_t k = 0; k < solver->elementCount; ++k) {
-        BeginElement(solver, system, k);
+        double* stiffness = &solver->stiffness.data[KIRI_MOST_STRAINS * k];
+        kiriElement_Stiffness(system, k, stiffness);
+        MeasureElement(system, k, solver->start.data, solver->startStrain.data);
+        solver->stopping.data[k] = 0;
+        double damping = solver->damping * DampingShare(solver, system, k);
+        for (int e = 0; e < kiriElement_StrainCount(system, k); ++e) {
+            solver->loss.data[KIRI_MOST_STRAINS * k + e] = damping * stiffness[e];
+        }
     }
     for (int32_t k = 0; k < system->clampCount; ++k) {
         KIRI_ASSERT(system->clamps[k].isAffine == kiriMechanics_IsAffine(&system->mechanics));
@@ -601,16 +564,6 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
 }
 
 /* ---- Matrix and forces ------------------------------------------------------------------------------------------- */
-
-/* A held frame has the identity and no force: it stays where it is. */
-static void AddIdentity(kiriSolver* solver, int32_t f)
-{
-    double block[KIRI_MOST_UNKNOWNS * KIRI_MOST_UNKNOWNS] = { 0.0 };
-    for (int32_t n = 0; n < solver->size; ++n) {
-        block[(solver->size + 1) * n] = 1.0;
-    }
-    kiriMatrix_AddOwn(solver->matrix, f, block);
-}
 
 /* Times h'^2. */
 static kiriFrameRow InertiaForce(const kiriSolver* solver, const kiriSystem* system, int32_t f)
@@ -677,26 +630,10 @@ void kiriSolver_AddSquares(kiriSolver* solver, const int32_t* frames, int32_t fr
     kiriMatrix_AddSquares(solver->matrix, frames, frameCount, J, springs, rows);
 }
 
-/* Strains that change: the stop of a link comes last, and has no derivative where it does not act. */
-static int ActiveRows(const kiriSystem* system, int32_t k, const double* strain)
-{
-    int rows = kiriElement_StrainCount(system, k);
-    bool hasStop = kiriElement_Link(system, k) != NULL && !system->mechanics.planar;
-    return hasStop && strain[rows - 1] == 0.0 ? rows - 1 : rows;
-}
-
 /* The rows that corners are made of. */
 static double* TracedRows(const kiriSolver* solver, int32_t link, int traced)
 {
     return &solver->tracedRows.data[2 * (size_t)solver->size * (KIRI_TRACED * (size_t)link + (size_t)traced)];
-}
-
-static void KeepTracedRows(kiriSolver* solver, const kiriSystem* system, int32_t k)
-{
-    size_t row = 2 * (size_t)solver->size;
-    for (int s = 0; s < (system->mechanics.planar ? KIRI_TRACED_BENDING : KIRI_TRACED); ++s) {
-        memcpy(TracedRows(solver, k, s), &solver->J.data[row * (size_t)kiriTrace_Source(s)], sizeof(double) * row);
-    }
 }
 
 /* The same as DeriveStrains, from what is kept of the corner's links. */
@@ -748,8 +685,9 @@ static void DeriveStrains(kiriSolver* solver, const kiriSystem* system, int32_t 
             memset(&J[solver->size * (count * e + m)], 0, bytes);
         }
     }
-    if (kiriElement_CornerCount(system) > 0 && kiriElement_IsRigidLink(system, k)) {
-        KeepTracedRows(solver, system, k);
+    bool isTraced = kiriElement_CornerCount(system) > 0 && kiriElement_IsRigidLink(system, k);
+    for (int s = 0; isTraced && s < (system->mechanics.planar ? KIRI_TRACED_BENDING : KIRI_TRACED); ++s) {
+        memcpy(TracedRows(solver, k, s), &J[2 * solver->size * kiriTrace_Source(s)], 2 * bytes);
     }
 }
 
@@ -764,7 +702,10 @@ static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k, 
     DeriveStrains(solver, system, k, count, strain);
     kiriElement_TakeOffsets(system, k, strain, pulling);
     AddElementEnergy(solver, system, k, strain, pulling, energy);
-    int rows = ActiveRows(system, k, strain);
+    /* The stop of a link comes last, and has no derivative where it does not act. */
+    int rows = kiriElement_StrainCount(system, k);
+    bool hasStop = kiriElement_Link(system, k) != NULL && !system->mechanics.planar;
+    rows -= hasStop && strain[rows - 1] == 0.0;
     for (int e = 0; e < rows; ++e) {
         springs[e] = stiffness[e] + loss[e];
         pulls[e] = -stiffness[e] * pulling[e] - loss[e] * (strain[e] - start[e]);
@@ -788,14 +729,6 @@ static void AddSpring(kiriSolver* solver, const kiriSystem* system, int32_t f, k
     }
     kiriSolver_Reduce(solver, &row, J);
     kiriSolver_AddSquares(solver, &f, 1, J, &stiffness, &pull, 1);
-}
-
-static void AddPin(kiriSolver* solver, const kiriSystem* system, const kiriPinRow* pin)
-{
-    kiriVec3 off = kiriVec3_Sub(kiriSystem_Point(system, pin->frame, pin->at, solver->poses.data), pin->target);
-    AddSpring(solver, system, pin->frame, pin->at, kiriVec3_Make(1.0, 0.0, 0.0), off.x, pin->stiffness);
-    AddSpring(solver, system, pin->frame, pin->at, kiriVec3_Make(0.0, 1.0, 0.0), off.y, pin->stiffness);
-    AddSpring(solver, system, pin->frame, pin->at, kiriVec3_Make(0.0, 0.0, 1.0), off.z, pin->stiffness);
 }
 
 /* As AddElement, of one frame. */
@@ -843,19 +776,26 @@ kiriStepEnergy kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system)
     kiriSolver_LinearizeContacts(solver, system);
     for (int32_t f = 0; f < system->frameCount; ++f) {
         memset(&solver->force.data[solver->size * f], 0, sizeof(double) * (size_t)solver->size);
-        if (system->frames[f].held) {
-            AddIdentity(solver, f);
-        } else {
+        if (!system->frames[f].held) {
             AddFrameInertia(solver, system, f);
+            continue;
         }
+        double identity[KIRI_MOST_UNKNOWNS * KIRI_MOST_UNKNOWNS] = { 0.0 }; /* it stays where it is */
+        for (int32_t n = 0; n < solver->size; ++n) {
+            identity[(solver->size + 1) * n] = 1.0;
+        }
+        kiriMatrix_AddOwn(solver->matrix, f, identity);
     }
     kiriStepEnergy sum = InertiaEnergy(solver, system, solver->poses.data);
     for (int32_t k = 0; k < solver->elementCount; ++k) {
         AddElement(solver, system, k, &sum);
     }
     for (int32_t k = 0; k < system->pinCount; ++k) {
-        if (!system->frames[system->pins[k].frame].held) {
-            AddPin(solver, system, &system->pins[k]);
+        const kiriPinRow* pin = &system->pins[k];
+        kiriVec3 off = kiriVec3_Sub(kiriSystem_Point(system, pin->frame, pin->at, solver->poses.data), pin->target);
+        const kiriVec3 axes[3] = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } };
+        for (int a = 0; a < 3 && !system->frames[pin->frame].held; ++a) {
+            AddSpring(solver, system, pin->frame, pin->at, axes[a], kiriVec3_Dot(off, axes[a]), pin->stiffness);
         }
     }
     for (int32_t k = 0; k < system->clampCount; ++k) {
@@ -1258,72 +1198,4 @@ void kiriSolver_AddReactions(kiriSolver* solver, const kiriSystem* system)
         }
     }
     EndReactions(solver, system);
-}
-
-static void EndMove(const kiriPrediction* prediction, const kiriStepping* s, const kiriFrameData* before,
-                    kiriFrameData* after)
-{
-    kiriVec3 off = kiriVec3_Sub(after->x, prediction->pose.x), D = kiriVec3_Scale(1.0 / s->part, off);
-    kiriHistory* history = &after->history;
-    after->velocity = kiriVec3_Add(prediction->velocity, D);
-    kiriVec3 change = kiriVec3_Sub(after->velocity, before->velocity);
-    history->dt = s->h;
-    history->isHalf = s->isHalf;
-    history->isHeld = 0;
-    history->gain = kiriVec3_Add(kiriStepping_Inner(s, &before->history), D);
-    history->lag = kiriVec3_AddScaled(kiriVec3_Scale(s->d, before->history.lag), s->part - s->h, change);
-    history->lag = kiriVec3_Add(history->lag, prediction->shift);
-    history->pull = kiriVec3_Scale(1.0 / s->part, D);
-}
-
-/* G by which the momentum grows is that about where the free turn ended: it has the impulse of the host's torque. Inner
-   forces gave the rest. */
-void kiriStepEnd_Rigid(const kiriPrediction* prediction, const kiriStepping* s, const kiriFrameData* before,
-                       kiriFrameData* after)
-{
-    EndMove(prediction, s, before, after);
-    kiriMat3 inertia = kiriPrediction_Inertia(prediction, &after->A);
-    kiriMat3 was = kiriPrediction_Inertia(prediction, &before->A);
-    kiriVec3 whole = kiriPrediction_TurnGradient(prediction, &after->A, &prediction->pose.A);
-    kiriVec3 inner = kiriPrediction_TurnGradient(prediction, &after->A, &prediction->target);
-    kiriVec3 L = kiriVec3_AddScaled(prediction->angular, 1.0 / s->part, whole);
-    kiriVec3 change = kiriVec3_Sub(L, kiriMat3_Mul(was, before->spin));
-    kiriVec3 lag = kiriVec3_Scale(s->d, before->history.turnLag.u);
-    kiriHistory* history = &after->history;
-    history->turnGain = history->turnLag = history->turnPull = (kiriMat3){ 0 };
-    after->spin = kiriMat3_Solve(&inertia, L);
-    inner = kiriVec3_Scale(1.0 / s->part, inner);
-    history->turnGain.u = kiriVec3_Add(kiriStepping_InnerTurn(s, &before->history).u, inner);
-    history->turnLag.u = kiriVec3_AddScaled(lag, s->part - s->h, kiriMat3_Solve(&inertia, change));
-    history->turnPull.u = kiriVec3_Scale(1.0 / s->part, inner);
-}
-
-/* The rate of A differs from that of the prediction as A does, over h'. */
-void kiriStepEnd_Affine(const kiriPrediction* prediction, const kiriStepping* s, const kiriFrameData* before,
-                        kiriFrameData* after)
-{
-    EndMove(prediction, s, before, after);
-    kiriHistory* history = &after->history;
-    kiriMat3 off = kiriMat3_AddScaled(&after->A, -1.0, &prediction->pose.A);
-    kiriMat3 inner = kiriMat3_AddScaled(&after->A, -1.0, &prediction->target);
-    kiriMat3 rate = kiriMat3_AddScaled(&prediction->rate, 1.0 / s->part, &off);
-    kiriMat3 change = kiriMat3_AddScaled(&rate, -1.0, &prediction->carried);
-    kiriMat3 lag = kiriMat3_Scale(s->d, &before->history.turnLag);
-    kiriMat3 gain = kiriStepping_InnerTurn(s, &before->history);
-    after->spin = kiriMat3_Spin(&after->A, &rate);
-    after->rate = kiriMat3_Beside(&after->A, &rate, after->spin);
-    history->turnGain = kiriMat3_AddScaled(&gain, 1.0 / s->part, &inner);
-    history->turnLag = kiriMat3_AddScaled(&lag, s->part - s->h, &change);
-    history->turnPull = kiriMat3_Scale(1.0 / (s->part * s->part), &inner);
-}
-
-void kiriStepEnd_Held(const kiriPrediction* prediction, const kiriStepping* s, kiriFrameData* after)
-{
-    after->velocity = prediction->velocity;
-    after->spin = prediction->spin;
-    after->rate = prediction->rate;
-    memset(&after->history, 0, sizeof(after->history));
-    after->history.dt = s->h;
-    after->history.isHalf = s->isHalf;
-    after->history.isHeld = 1;
 }
