@@ -1,5 +1,7 @@
 #include "kiri_element.h"
 
+#include <string.h>
+
 /* F_u, F_v, D_u, D_v, D: or what a strain changes by with each. */
 typedef struct SurfaceState {
     kiriVec3 u, v, du, dv, d;
@@ -75,14 +77,6 @@ static kiriVec3 AlongColumns(const SurfaceState* slope, kiriVec2 a)
     return kiriVec3_AddScaled(kiriVec3_Scale(a.x, slope->u), a.y, slope->v);
 }
 
-static kiriFrameRow FrameRowOf(const SurfaceState* slope, const kiriFrameShare* share)
-{
-    kiriVec3 bend = kiriVec3_AddScaled(kiriVec3_Scale(share->slope.x, slope->du), share->slope.y, slope->dv);
-    kiriFrameRow row = { { AlongColumns(slope, share->move), AlongColumns(slope, share->u),
-                           AlongColumns(slope, share->v), kiriVec3_AddScaled(bend, share->weight, slope->d) } };
-    return row;
-}
-
 void kiriAreaElement_Measure(const kiriAreaElement* element, const kiriFrameShare* shares, const kiriFrameData* frames,
                              const kiriPose* poses, double* strain, kiriFrameRow* rows)
 {
@@ -96,7 +90,14 @@ void kiriAreaElement_Measure(const kiriAreaElement* element, const kiriFrameShar
         SlopesOf(&shape, element->lean, slope);
         for (int e = element->firstRow; e < element->lastRow; ++e) {
             for (int32_t k = 0; k < element->count; ++k) {
-                *rows++ = FrameRowOf(&slope[e], &shares[element->first + k]);
+                const kiriFrameShare* share = &shares[element->first + k];
+                kiriVec3 bend = kiriVec3_Scale(share->slope.x, slope[e].du);
+                bend = kiriVec3_AddScaled(bend, share->slope.y, slope[e].dv);
+                rows->by[0] = AlongColumns(&slope[e], share->move);
+                rows->by[1] = AlongColumns(&slope[e], share->u);
+                rows->by[2] = AlongColumns(&slope[e], share->v);
+                rows->by[3] = kiriVec3_AddScaled(bend, share->weight, slope[e].d);
+                ++rows;
             }
         }
     }
@@ -203,27 +204,6 @@ static bool AddIntegrationPoint(PointBuilder* b, const kiriSite* point, const ki
 
 /* ---- Points of a piece ------------------------------------------------------------------------------------------ */
 
-static kiriMoments MaterialOfPiece(const PointBuilder* b)
-{
-    kiriMoments sum = NoMaterial;
-    for (int32_t k = 0; k < b->work->placer.cells.count; ++k) {
-        kiriMoments material = kiriGrid_Material(b->grid, b->mesh, b->work->placer.cells.data[k]);
-        kiriMoments_Add(&sum, &material);
-    }
-    return sum;
-}
-
-static bool PlaceIntegrationPoints(PointBuilder* b, double area)
-{
-    kiriPlacer* placer = &b->work->placer;
-    kiriQuota endless = { INT64_MAX, 0, 0, false };
-    double share = area * b->perArea + 0.5;
-    int32_t count = share < 2.0 ? 1 : share < placer->cells.count ? (int32_t)share : placer->cells.count;
-    placer->sites.count = 0;
-    return kiriPlacer_Start(placer, b->memory, b->grid, b->mesh, NULL, count) &&
-           kiriPlacer_Run(placer, b->memory, b->grid, b->mesh, &endless) == KIRI_DONE;
-}
-
 static bool FloodFromPoints(PointBuilder* b)
 {
     kiriIntegrationWork* work = b->work;
@@ -268,12 +248,19 @@ static bool AddPiecePoints(PointBuilder* b, int32_t cell)
     if (!kiriPlacer_TakePiece(&work->placer, b->memory, b->grid, cell)) {
         return false;
     }
+    kiriMoments material = NoMaterial;
     for (int32_t k = 0; k < work->placer.cells.count; ++k) {
+        kiriMoments more = kiriGrid_Material(b->grid, b->mesh, work->placer.cells.data[k]);
+        kiriMoments_Add(&material, &more);
         work->seen.data[work->placer.cells.data[k]] = 1;
     }
-    kiriMoments material = MaterialOfPiece(b);
     const kiriSites* points = &work->placer.sites;
-    bool ok = PlaceIntegrationPoints(b, material.area);
+    kiriQuota endless = { INT64_MAX, 0, 0, false };
+    double share = material.area * b->perArea + 0.5;
+    int32_t cells = work->placer.cells.count, count = share < 2.0 ? 1 : share < cells ? (int32_t)share : cells;
+    work->placer.sites.count = 0;
+    bool ok = kiriPlacer_Start(&work->placer, b->memory, b->grid, b->mesh, NULL, count) &&
+              kiriPlacer_Run(&work->placer, b->memory, b->grid, b->mesh, &endless) == KIRI_DONE;
     if (ok && points->count == 1) { /* without a flood: confetti comes in thousands */
         return AddIntegrationPoint(b, &points->data[0], &material);
     }
@@ -286,38 +273,24 @@ static bool AddPiecePoints(PointBuilder* b, int32_t cell)
 
 /* ---- All ------------------------------------------------------------------------------------------------------ */
 
-static bool ClearSeen(PointBuilder* b)
-{
-    if (!kiriArray_Resize(b->memory, &b->work->seen, b->grid->cells.count)) {
-        return false;
-    }
-    for (int32_t c = 0; c < b->grid->cells.count; ++c) {
-        b->work->seen.data[c] = 0;
-    }
-    return true;
-}
-
-/* In the order of cells, as are the pieces below. */
-static double TotalArea(const kiriGrid* grid)
-{
-    double total = 0.0;
-    for (int32_t s = 0; s < grid->squareCell.count; ++s) {
-        for (int32_t c = grid->squareCell.data[s]; c != KIRI_NONE; c = grid->cells.data[c].next) {
-            total += kiriGrid_Area(grid, c);
-        }
-    }
-    return total;
-}
-
 bool kiriIntegration_Build(kiriAreaElements* elements, kiriIntegrationWork* work, kiriMemory* memory,
                            const kiriGrid* grid, const kiriMeshData* mesh, const kiriShape* shape,
                            const kiriMoments* material, double count, int32_t order, bool planar)
 {
     PointBuilder b = { memory, grid, mesh, shape, material, work, elements, 0.0, order, KIRI_AREA_STRAINS };
-    b.perArea = count / TotalArea(grid);
+    double total = 0.0; /* summed in the order of cells, as are the pieces below */
+    for (int32_t s = 0; s < grid->squareCell.count; ++s) {
+        for (int32_t c = grid->squareCell.data[s]; c != KIRI_NONE; c = grid->cells.data[c].next) {
+            total += kiriGrid_Area(grid, c);
+        }
+    }
+    b.perArea = count / total;
     b.lastRow = planar ? KIRI_AREA_SHEAR + 1 : KIRI_AREA_STRAINS;
     elements->elements.count = elements->shares.count = 0;
-    bool ok = ClearSeen(&b);
+    bool ok = kiriArray_Resize(memory, &work->seen, grid->cells.count);
+    if (ok) {
+        memset(work->seen.data, 0, (size_t)grid->cells.count);
+    }
     for (int32_t s = 0; ok && s < grid->squareCell.count; ++s) {
         for (int32_t c = grid->squareCell.data[s]; ok && c != KIRI_NONE; c = grid->cells.data[c].next) {
             ok = work->seen.data[c] || AddPiecePoints(&b, c);

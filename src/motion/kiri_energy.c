@@ -435,14 +435,6 @@ typedef struct Rigidity {
     double bending, strain, turn; /* N m; N/m; N/m: of the energies of curvature, strain, and turn times moment */
 } Rigidity;
 
-static Rigidity RigidityOf(const kiriMaterial* material)
-{
-    double h = (double)material->thickness, nu = (double)material->poissonsRatio;
-    double membrane = (double)material->youngsModulus * h, plate = membrane / (1.0 - nu * nu);
-    Rigidity rigidity = { plate * h * h / 12.0, plate, membrane };
-    return rigidity;
-}
-
 static double EnergyOf(const kiriLink* link, const LinkStrains* strains, Rigidity rigidity)
 {
     double w = link->width / link->length;
@@ -478,7 +470,9 @@ static double MissingIn(const kiriLink* link, const Fit* a, const Fit* b, Rigidi
 static double RatioOf(const Fit* fits, const kiriFrameData* frames, const kiriLink* links, int32_t linkCount,
                       const kiriMaterial* material)
 {
-    Rigidity rigidity = RigidityOf(material);
+    double h = (double)material->thickness, nu = (double)material->poissonsRatio;
+    double membrane = (double)material->youngsModulus * h, plate = membrane / (1.0 - nu * nu);
+    Rigidity rigidity = { plate * h * h / 12.0, plate, membrane };
     double missing = 0.0, held = 0.0;
     for (int32_t k = 0; k < linkCount; ++k) {
         LinkStrains strains = StrainsOfLink(&links[k], material, frames);

@@ -147,11 +147,6 @@ int32_t kiriMoves_SheetAt(const kiriWorld* world, int32_t turn, int32_t k)
     return active->data[(low + k) % active->count];
 }
 
-static int32_t SheetAt(const kiriWorld* world, int32_t k)
-{
-    return kiriMoves_SheetAt(world, world->turn, k);
-}
-
 /* From the first one on: as many as have enough systems whatever they take, and one at least; all where there are
    none. */
 static int32_t EndOfWave(const MoveTask* task, int32_t first)
@@ -160,7 +155,7 @@ static int32_t EndOfWave(const MoveTask* task, int32_t first)
     int32_t end = kiriQuota_IsSpent(&task->systems) ? world->active.count : first;
     int64_t most = 0;
     while (end < world->active.count) {
-        most += kiriMotion_MostItems(world->sheets.data[SheetAt(world, end)], task->substeps);
+        most += kiriMotion_MostItems(world->sheets.data[kiriMoves_SheetAt(world, world->turn, end)], task->substeps);
         if (most > task->systems.left && end > first) {
             break;
         }
@@ -175,10 +170,10 @@ static void ListGroups(kiriWorld* world, int32_t first, int32_t end)
     kiriMoves* moves = &world->moves;
     moves->heads.count = 0;
     for (int32_t k = first; k < end; ++k) {
-        moves->of.data[kiriUnion_Root(moves->parent.data, SheetAt(world, k))].tail = KIRI_NONE;
+        moves->of.data[kiriUnion_Root(moves->parent.data, kiriMoves_SheetAt(world, world->turn, k))].tail = KIRI_NONE;
     }
     for (int32_t k = first; k < end; ++k) {
-        int32_t i = SheetAt(world, k);
+        int32_t i = kiriMoves_SheetAt(world, world->turn, k);
         int32_t* tail = &moves->of.data[kiriUnion_Root(moves->parent.data, i)].tail;
         if (*tail == KIRI_NONE) {
             moves->heads.data[moves->heads.count++] = i;
@@ -199,9 +194,9 @@ void kiriMoves_Run(kiriWorld* world, double dt, int32_t substeps, kiriQuota* sys
         ListGroups(world, first, end);
         kiriTasks_Run(&world->tasks, MoveGroups, world->moves.heads.count, 1, &task);
         for (int32_t k = first; k < end; ++k) {
-            GiveImpulses(&task, SheetAt(world, k), false);
-            kiriQuota_Take(systems, world->moves.of.data[SheetAt(world, k)].systems);
-            world->profile.systemsSolved += kiriSolver_TakeSolved(world->sheets.data[SheetAt(world, k)]->solver);
+            GiveImpulses(&task, kiriMoves_SheetAt(world, world->turn, k), false);
+            kiriQuota_Take(systems, world->moves.of.data[kiriMoves_SheetAt(world, world->turn, k)].systems);
+            world->profile.systemsSolved += kiriSolver_TakeSolved(world->sheets.data[kiriMoves_SheetAt(world, world->turn, k)]->solver);
         }
     }
 }
@@ -229,22 +224,6 @@ void kiriPinStep_Carry(const kiriWorld* world, kiriSheetData* sheet, const kiriM
     }
 }
 
-/* Obstacles of one body share its mass; so do their pins. */
-static bool AreOneBody(const kiriObstacleData* a, const kiriObstacleData* b)
-{
-    return a == b || (a->body != 0 && a->body == b->body);
-}
-
-static int32_t CountPinsOn(const kiriWorld* world, const kiriSheetData* sheet, const kiriObstacleData* obstacle)
-{
-    int32_t count = 0;
-    for (int32_t i = 0; i < sheet->pins.count; ++i) {
-        const kiriObstacleData* other = kiriPinStep_Obstacle(world, &sheet->pins.data[i]);
-        count += other != NULL && AreOneBody(obstacle, other);
-    }
-    return count;
-}
-
 /* What an impulse along an axis gives the point. */
 static kiriVec3 GiveAlong(const kiriYieldRow* body, kiriVec3 arm, kiriVec3 axis)
 {
@@ -252,9 +231,15 @@ static kiriVec3 GiveAlong(const kiriYieldRow* body, kiriVec3 arm, kiriVec3 axis)
     return kiriVec3_AddScaled(kiriVec3_Cross(spin, arm), body->inverseMass, axis);
 }
 
-/* Each of several pins on a body has its share of the mass. */
-static void Soften(kiriPinAnchor* anchor, const kiriObstacleData* obstacle, kiriVec3 target, int32_t pins)
+/* Obstacles of one body share its mass; so do their pins: each of several has its share. */
+static void Soften(const kiriWorld* world, const kiriSheetData* sheet, const kiriObstacleData* obstacle,
+                   kiriVec3 target, kiriPinAnchor* anchor)
 {
+    int32_t pins = 0;
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        const kiriObstacleData* other = kiriPinStep_Obstacle(world, &sheet->pins.data[i]);
+        pins += other != NULL && (other == obstacle || (other->body != 0 && other->body == obstacle->body));
+    }
     kiriYieldRow body = kiriObstacle_YieldRow(obstacle);
     kiriVec3 arm = kiriVec3_Sub(target, body.center);
     anchor->give.u = kiriVec3_Scale(pins, GiveAlong(&body, arm, kiriVec3_Make(1.0, 0.0, 0.0)));
@@ -262,14 +247,6 @@ static void Soften(kiriPinAnchor* anchor, const kiriObstacleData* obstacle, kiri
     anchor->give.d = kiriVec3_Scale(pins, GiveAlong(&body, arm, kiriVec3_Make(0.0, 0.0, 1.0)));
     double turning = anchor->give.u.x + anchor->give.v.y + anchor->give.d.z - 3.0 * pins * body.inverseMass;
     anchor->most = pins * body.inverseMass + kiriMax(turning, 0.0);
-}
-
-static void Clear(kiriPinAnchor* anchor)
-{
-    const kiriVec3 none = { 0.0, 0.0, 0.0 };
-    memset(&anchor->give, 0, sizeof(anchor->give));
-    anchor->most = anchor->softness = 0.0;
-    anchor->way = none;
 }
 
 /* A piece that sleeps does not mind what moves less than it would itself before it woke. */
@@ -299,13 +276,16 @@ static void BeginPin(const kiriWorld* world, kiriSheetData* sheet, int32_t index
         kiriPins_ForgetHistory(sheet, index);
         kiriMotion_WakePin(sheet, index);
     }
-    Soften(&pin->anchor, obstacle, from, CountPinsOn(world, sheet, obstacle));
+    Soften(world, sheet, obstacle, from, &pin->anchor);
 }
 
 void kiriPinStep_Begin(const kiriWorld* world, kiriSheetData* sheet, double dt)
 {
     for (int32_t i = 0; i < sheet->pins.count; ++i) {
-        Clear(&sheet->pins.data[i].anchor);
+        kiriPinAnchor* anchor = &sheet->pins.data[i].anchor;
+        memset(&anchor->give, 0, sizeof(anchor->give));
+        anchor->most = anchor->softness = 0.0;
+        anchor->way = kiriVec3_Make(0.0, 0.0, 0.0);
         BeginPin(world, sheet, i, dt);
     }
 }
@@ -352,13 +332,6 @@ static double LeastDrift(const kiriWorld* world)
     return least;
 }
 
-static bool IsTouching(const kiriObstacleData* obstacle, const kiriSheetData* sheet)
-{
-    kiriBox box = kiriSheet_Box(sheet);
-    return (obstacle->groups & sheet->settings.groups) != 0 &&
-           kiriObstacle_IsNear(obstacle, box.lower, box.upper, sheet->settings.contactThickness);
-}
-
 /* What of the sheet is within reach of an obstacle that is bound. False for memory. */
 static bool FindNear(kiriObstacleSearch* search, kiriSheetData* sheet, const kiriObstacleData* obstacle, double reach)
 {
@@ -384,8 +357,11 @@ static void WakeAround(kiriWorld* world, kiriObstacleData* obstacle)
 {
     kiriObstacle_Bound(obstacle, 0.0);
     for (int32_t i = 0; i < world->sheets.count; ++i) {
-        if (IsTouching(obstacle, world->sheets.data[i])) {
-            WakeNear(world, world->sheets.data[i], obstacle);
+        kiriSheetData* sheet = world->sheets.data[i];
+        kiriBox box = kiriSheet_Box(sheet);
+        if ((obstacle->groups & sheet->settings.groups) != 0 &&
+            kiriObstacle_IsNear(obstacle, box.lower, box.upper, sheet->settings.contactThickness)) {
+            WakeNear(world, sheet, obstacle);
         }
     }
 }
@@ -443,18 +419,6 @@ int64_t kiriObstacles_NumberOf(const kiriObstacleData* obstacle)
     return (int64_t)(obstacle->body != 0 ? (uint64_t)obstacle->body << 32 : (uint64_t)obstacle->id << 32 | 1u);
 }
 
-/* The row of its body, once for each sheet. */
-static int32_t YieldOfObstacle(kiriSheetData* sheet, const kiriObstacleData* obstacle)
-{
-    int32_t index = kiriTouches_FindYield(sheet, kiriObstacles_NumberOf(obstacle));
-    if (index == KIRI_NONE) {
-        kiriYieldRow row = kiriObstacle_YieldRow(obstacle);
-        row.number = kiriObstacles_NumberOf(obstacle);
-        index = kiriTouches_AddYield(sheet, &row);
-    }
-    return index;
-}
-
 static bool ComesFirst(const void* context, int32_t a, int32_t b)
 {
     const kiriWorld* world = context;
@@ -482,15 +446,6 @@ typedef struct Around {
     kiriBox box;
     double speed, reach;
 } Around;
-
-static Around MakeAround(const kiriWorld* world, const kiriSheetData* sheet, double dt)
-{
-    Around around;
-    around.box = kiriSheet_Box(sheet);
-    around.speed = sheet->rest.asleep ? 0.0 : kiriSheet_SpeedLimit(sheet, &around.box);
-    around.reach = kiriReach_Of(around.speed, world->gravity, dt) + sheet->settings.contactThickness;
-    return around;
-}
 
 /* The next obstacle in their order that the sheet may touch, from *at on; null where there is none. */
 static kiriObstacleData* NextNear(const kiriWorld* world, const kiriSheetData* sheet, const Around* around, int32_t* at)
@@ -565,21 +520,17 @@ static bool TouchAll(const kiriWorld* world, kiriObstacleSearch* search, kiriShe
     int32_t at = 0;
     bool ok = true;
     for (kiriObstacleData* obstacle; ok && (obstacle = NextNear(world, sheet, around, &at)) != NULL;) {
-        int32_t yield = YieldOfObstacle(sheet, obstacle);
+        int32_t yield = kiriTouches_FindYield(sheet, kiriObstacles_NumberOf(obstacle));
+        if (yield == KIRI_NONE) { /* one row for each body */
+            kiriYieldRow row = kiriObstacle_YieldRow(obstacle);
+            row.number = kiriObstacles_NumberOf(obstacle);
+            yield = kiriTouches_AddYield(sheet, &row);
+        }
         ok = yield != KIRI_NONE && kiriBounds_Update(sheet->seen.bounds, sheet->memory, &sheet->seen.surface) &&
              kiriObstacleSearch_Reserve(search, sheet) &&
              kiriObstacleSearch_Run(search, sheet, obstacle, around->speed, yield);
     }
     return ok;
-}
-
-static bool IsAnyMoving(const kiriWorld* world, double dt, double least)
-{
-    bool any = false;
-    for (int32_t i = 0; i < world->obstacles.count; ++i) {
-        any |= IsMoving(world->obstacles.data[i], dt, least);
-    }
-    return any;
 }
 
 /* Pieces that sleep may wake when a cut takes effect: these are stirred already. */
@@ -592,7 +543,10 @@ static bool FindTouchesOf(const TouchSearch* looking, kiriObstacleSearch* search
     if (sleeps && !kiriBounds_Update(sheet->seen.bounds, sheet->memory, &sheet->seen.surface)) {
         return false;
     }
-    Around around = MakeAround(looking->world, sheet, looking->dt);
+    Around around = { kiriSheet_Box(sheet), 0.0, 0.0 };
+    around.speed = sheet->rest.asleep ? 0.0 : kiriSheet_SpeedLimit(sheet, &around.box);
+    around.reach =
+        kiriReach_Of(around.speed, looking->world->gravity, looking->dt) + sheet->settings.contactThickness;
     if (HasSleepers(sheet) && !StirSleepers(looking, search, sheet, &around)) {
         return false;
     }
@@ -661,7 +615,10 @@ bool kiriObstacles_FindTouches(kiriWorld* world, double dt)
         return true;
     }
     double least = LeastDrift(world);
-    TouchSearch looking = { world, dt, least, IsAnyMoving(world, dt, least) };
+    TouchSearch looking = { world, dt, least, false };
+    for (int32_t i = 0; i < world->obstacles.count; ++i) {
+        looking.isAnyMoving |= IsMoving(world->obstacles.data[i], dt, least);
+    }
     bool areTasks = kiriTasks_AreGiven(&world->tasks);
     bool ok = SortObstacles(world, dt) && (!areTasks || LookInTasks(&looking));
     ReadySearch(world, &world->obstacleSearch, dt);
@@ -684,25 +641,17 @@ void kiriObstacles_Begin(kiriWorld* world)
     }
 }
 
-/* What other sheets gave the body in this tick. */
-static void LoadYield(const kiriWorld* world, kiriYieldRow* row)
-{
-    for (int32_t i = 0; i < world->obstacles.count; ++i) {
-        const kiriObstacleData* obstacle = world->obstacles.data[i];
-        if (kiriObstacles_NumberOf(obstacle) == row->number) {
-            kiriVec3 arm = kiriVec3_Sub(kiriObstacle_CenterOfMass(obstacle), row->center);
-            kiriWrench_Add(&row->impulse, 1.0, &obstacle->impulse);
-            row->impulse.moment = kiriVec3_Add(row->impulse.moment, kiriVec3_Cross(arm, obstacle->impulse.force));
-        }
-    }
-}
-
 void kiriObstacles_LoadYields(const kiriWorld* world, kiriSheetData* sheet)
 {
     for (int32_t k = 0; k < sheet->touches.yields.count; ++k) {
         kiriYieldRow* row = &sheet->touches.yields.data[k];
-        if (row->number > 0 && row->inverseMass > 0.0) {
-            LoadYield(world, row);
+        for (int32_t i = 0; row->number > 0 && row->inverseMass > 0.0 && i < world->obstacles.count; ++i) {
+            const kiriObstacleData* obstacle = world->obstacles.data[i];
+            if (kiriObstacles_NumberOf(obstacle) == row->number) {
+                kiriVec3 arm = kiriVec3_Sub(kiriObstacle_CenterOfMass(obstacle), row->center);
+                kiriWrench_Add(&row->impulse, 1.0, &obstacle->impulse);
+                row->impulse.moment = kiriVec3_Add(row->impulse.moment, kiriVec3_Cross(arm, obstacle->impulse.force));
+            }
         }
     }
 }
@@ -782,37 +731,26 @@ static void SumRests(const kiriWorld* world, kiriSheetData* sheet, double dt)
     }
 }
 
-static void GiveRests(const kiriWorld* world, const kiriRestLoads* rests, bool areMovable)
+void kiriObstacles_TakeImpulses(const kiriWorld* world, kiriSheetData* sheet, double dt, bool areMovable)
 {
-    for (int32_t k = 0; k < rests->on.count; ++k) {
-        const kiriRestLoad* load = &rests->on.data[k];
+    const kiriTouches* touches = &sheet->touches;
+    SumRests(world, sheet, dt);
+    for (int32_t k = 0; k < touches->rests.on.count; ++k) {
+        const kiriRestLoad* load = &touches->rests.on.data[k];
         kiriObstacleData* obstacle = OwnerOfSlot(world, load->slot);
         if (kiriObstacle_IsMovable(obstacle) == areMovable) {
             kiriWrench_Add(&obstacle->impulse, 1.0, &load->impulse);
             obstacle->contacts += load->contacts;
         }
     }
-}
-
-static void GiveRow(const kiriWorld* world, const kiriContactRow* row, kiriVec3 at, bool areMovable)
-{
-    kiriObstacleData* obstacle = kiriObstacles_OwnerOf(world, row->key);
-    if (obstacle != NULL && kiriObstacle_IsMovable(obstacle) == areMovable &&
-        kiriVec3_Dot(row->impulse, row->normal) > 0.0) {
-        kiriObstacle_TakeImpulse(obstacle, kiriVec3_Scale(-1.0, row->impulse), at);
-        obstacle->contacts += 1;
-    }
-}
-
-void kiriObstacles_TakeImpulses(const kiriWorld* world, kiriSheetData* sheet, double dt, bool areMovable)
-{
-    const kiriTouches* touches = &sheet->touches;
-    SumRests(world, sheet, dt);
-    GiveRests(world, &touches->rests, areMovable);
     for (int32_t i = 0; i < touches->found.count; ++i) {
         const kiriTouch* touch = &touches->found.data[i];
-        if (touch->row != KIRI_NONE) {
-            GiveRow(world, &touches->rows.data[touch->row], touch->seen, areMovable);
+        const kiriContactRow* row = touch->row != KIRI_NONE ? &touches->rows.data[touch->row] : NULL;
+        kiriObstacleData* obstacle = row != NULL ? kiriObstacles_OwnerOf(world, row->key) : NULL;
+        if (obstacle != NULL && kiriObstacle_IsMovable(obstacle) == areMovable &&
+            kiriVec3_Dot(row->impulse, row->normal) > 0.0) {
+            kiriObstacle_TakeImpulse(obstacle, kiriVec3_Scale(-1.0, row->impulse), touch->seen);
+            obstacle->contacts += 1;
         }
     }
 }
