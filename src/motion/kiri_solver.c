@@ -665,8 +665,7 @@ int kiriElement_StrainCount(const kiriSystem* system, int32_t k)
     if (kiriElement_Link(system, k) == NULL) {
         return AreaElementOf(system, k)->lastRow - AreaElementOf(system, k)->firstRow;
     }
-    return kiriMechanics_IsAffine(&system->mechanics) ? (planar ? KIRI_AFFINE_BENDING : KIRI_AFFINE_STRAINS)
-                                                      : (planar ? KIRI_PLANE_BENDING + 1 : KIRI_STRAINS);
+    return kiriStrain_Count(kiriMechanics_IsAffine(&system->mechanics), planar);
 }
 
 int32_t kiriElement_Members(const kiriSystem* system, int32_t k, int32_t* members)
@@ -703,24 +702,13 @@ int32_t kiriElement_MostMembers(const kiriSystem* system)
     return most;
 }
 
-/* What counts of an element: of a corner as much as of the link that counts least. */
-static double CountedPart(const kiriSystem* system, int32_t k)
-{
-    const kiriCorner* corner = kiriElement_Corner(system, k);
-    double part = kiriElement_Link(system, k) != NULL ? system->linkParts[k] : 1.0;
-    for (int32_t n = 0; corner != NULL && n < corner->count; ++n) {
-        double other = system->linkParts[corner->link[n]];
-        part = kiriMin(other, part);
-    }
-    return part;
-}
-
 void kiriElement_Stiffness(const kiriSystem* system, int32_t k, double* stiffness)
 {
     const kiriLink* link = kiriElement_Link(system, k);
-    if (kiriElement_Corner(system, k) != NULL) {
+    const kiriCorner* corner = kiriElement_Corner(system, k);
+    if (corner != NULL) {
         double all[KIRI_TRACES];
-        kiriTrace_Stiffness(kiriElement_Corner(system, k), &system->material, all);
+        kiriTrace_Stiffness(corner, &system->material, all);
         bool isAffine = kiriMechanics_IsAffine(&system->mechanics);
         stiffness[0] = all[isAffine ? KIRI_TRACE_CURVATURE : KIRI_TRACE_STRETCH];
         stiffness[1] = all[KIRI_TRACE_CURVATURE]; /* counts where it has two strains */
@@ -731,7 +719,11 @@ void kiriElement_Stiffness(const kiriSystem* system, int32_t k, double* stiffnes
     } else {
         kiriStrain_Stiffness(link, &system->material, stiffness);
     }
-    double part = system->linkParts != NULL ? CountedPart(system, k) : 1.0;
+    /* A corner counts as much as the link that counts least. */
+    double part = system->linkParts != NULL && link != NULL ? system->linkParts[k] : 1.0;
+    for (int32_t n = 0; system->linkParts != NULL && corner != NULL && n < corner->count; ++n) {
+        part = kiriMin(system->linkParts[corner->link[n]], part);
+    }
     for (int e = 0; part < 1.0 && e < kiriElement_StrainCount(system, k); ++e) {
         stiffness[e] *= part;
     }
@@ -774,12 +766,6 @@ static void MeasureRigidRows(const kiriSystem* system, const kiriLink* link, con
     }
 }
 
-static void AddFrameRow(kiriFrameRow* row, double a, kiriVec3 move, kiriVec3 turn)
-{
-    row->by[0] = kiriVec3_AddScaled(row->by[0], a, move);
-    row->by[1] = kiriVec3_AddScaled(row->by[1], a, turn);
-}
-
 static void MeasureCorner(const kiriSystem* system, const kiriCorner* corner, const kiriPose* poses, double* strain,
                           kiriFrameRow* rows)
 {
@@ -802,8 +788,9 @@ static void MeasureCorner(const kiriSystem* system, const kiriCorner* corner, co
         for (int s = 0; s < 2 * traces; ++s) {
             const kiriStrainRow* row = &found[k][kiriTrace_Source(s)];
             for (int end = 0; end < 2; ++end) {
-                AddFrameRow(&rows[count * (s / 2) + ends[k][end]], trace.by[k][s], row->end[end].move,
-                            row->end[end].turn);
+                kiriVec3* by = rows[count * (s / 2) + ends[k][end]].by;
+                by[0] = kiriVec3_AddScaled(by[0], trace.by[k][s], row->end[end].move);
+                by[1] = kiriVec3_AddScaled(by[1], trace.by[k][s], row->end[end].turn);
             }
         }
     }
@@ -858,38 +845,25 @@ kiriTrace kiriElement_Trace(const kiriSystem* system, int32_t k, const double* s
     return kiriTrace_Measure(corner, system->links, all, system->mechanics.planar);
 }
 
-/* Offsets stay what they are in folds, where they fade as all do. */
-static void TakeCornerOffsets(const kiriSystem* system, int32_t k, const double* strain, double* pulling)
-{
-    const kiriCorner* corner = kiriElement_Corner(system, k);
-    const double* all[4] = { NULL, NULL, NULL, NULL };
-    for (int32_t n = 0; n < corner->count; ++n) {
-        all[n] = system->strainOffsets[corner->link[n]].strain;
-    }
-    kiriTrace offset = kiriTrace_Measure(corner, system->links, all, system->mechanics.planar);
-    for (int e = 0; e < kiriElement_StrainCount(system, k); ++e) {
-        pulling[e] = strain[e] - offset.strain[e];
-    }
-}
-
+/* Offsets of a corner are the traces of its links' offsets: they do not change in folds. */
 void kiriElement_TakeOffsets(const kiriSystem* system, int32_t k, const double* strain, double* pulling)
 {
     int count = kiriElement_StrainCount(system, k);
+    if (system->strainOffsets != NULL && kiriElement_IsRigidLink(system, k)) {
+        kiriStrain_TakeOffsets(strain, system->strainOffsets[k].strain, count, false, pulling);
+        return;
+    }
+    memcpy(pulling, strain, sizeof(double) * (size_t)count);
     if (system->strainOffsets != NULL && kiriElement_IsRigidCorner(system, k)) {
-        TakeCornerOffsets(system, k, strain, pulling);
-        return;
-    }
-    if (system->strainOffsets == NULL || !kiriElement_IsRigidLink(system, k)) {
-        memcpy(pulling, strain, sizeof(double) * (size_t)count);
-        return;
-    }
-    const double* offset = system->strainOffsets[k].strain;
-    for (int e = 0; e < count; ++e) {
-        pulling[e] = strain[e] - offset[e];
-    }
-    if (count > KIRI_NORMAL_STOP) { /* the stop only pushes */
-        double over = fabs(strain[KIRI_NORMAL_STOP]) - fabs(offset[KIRI_NORMAL_STOP]);
-        pulling[KIRI_NORMAL_STOP] = over <= 0.0 ? 0.0 : strain[KIRI_NORMAL_STOP] > 0.0 ? over : -over;
+        const kiriCorner* corner = kiriElement_Corner(system, k);
+        const double* all[4] = { NULL, NULL, NULL, NULL };
+        for (int32_t n = 0; n < corner->count; ++n) {
+            all[n] = system->strainOffsets[corner->link[n]].strain;
+        }
+        kiriTrace offset = kiriTrace_Measure(corner, system->links, all, system->mechanics.planar);
+        for (int e = 0; e < count; ++e) {
+            pulling[e] = strain[e] - offset.strain[e];
+        }
     }
 }
 

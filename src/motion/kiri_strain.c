@@ -213,15 +213,6 @@ static void AddOpening(const MeanAxes* axes, double a, kiriStrainRow* row)
     }
 }
 
-static void FadeStrain(const MeanAxes* axes, AxisFade fade, double* strain, kiriStrainRow* row)
-{
-    if (row != NULL) {
-        ScaleRow(row, fade.keep);
-        AddOpening(axes, fade.slope * *strain, row);
-    }
-    *strain *= fade.keep;
-}
-
 /* What the length of the gap has above `most`; only its part along the mean normal where that is known. */
 static void MeasureStop(double most, const MeanAxes* axes, const EndVectors* m, double* strain, kiriStrainRow* row)
 {
@@ -242,17 +233,6 @@ static void MeasureStop(double most, const MeanAxes* axes, const EndVectors* m, 
         AddRow(row, per * lost * lost, &whole);
         AddOpening(axes, -per * lost * aside * fade.slope, row);
     }
-}
-
-static void MeasureNormal(const kiriLink* link, const MeanAxes* axes, const EndVectors* m, double* strain,
-                          kiriStrainRow* rows)
-{
-    strain[KIRI_NORMAL_GAP] = kiriVec3_Dot(m->gap, axes->d);
-    if (rows != NULL) {
-        WriteGap(axes, axes->d, m, &rows[KIRI_NORMAL_GAP]);
-    }
-    MeasureStop(KIRI_NORMAL_STOP_SHARE * link->length, axes, m, &strain[KIRI_NORMAL_STOP],
-                rows != NULL ? &rows[KIRI_NORMAL_STOP] : NULL);
 }
 
 /* The difference of the directors is the chord of the angle between them, 2 sin(a / 2), and with e = 1 - cos(a / 2) its
@@ -315,19 +295,12 @@ static void FadeStrains(const MeanAxes* axes, double* strain, kiriStrainRow* row
     const int fading[] = { KIRI_STRETCH, KIRI_SHEAR, KIRI_PLANE_BENDING, KIRI_NORMAL_GAP };
     AxisFade fade = FadeOf(axes);
     for (int k = 0; fade.keep < 1.0 && k < (int)(sizeof(fading) / sizeof(fading[0])); ++k) {
-        FadeStrain(axes, fade, &strain[fading[k]], rows != NULL ? &rows[fading[k]] : NULL);
-    }
-}
-
-/* The bending of a strip that curls: see kiri_strain.h. */
-static void TakeCurl(const kiriCurl* curl, double* strain, kiriStrainRow* row)
-{
-    if (curl->gain > 0.0) {
-        double slope, squared = *strain * *strain, factor = kiriCurl_Factor(curl, squared, &slope);
-        if (row != NULL) {
-            ScaleRow(row, factor + 2.0 * slope * squared);
+        int s = fading[k];
+        if (rows != NULL) {
+            ScaleRow(&rows[s], fade.keep);
+            AddOpening(axes, fade.slope * strain[s], &rows[s]);
         }
-        *strain *= factor;
+        strain[s] *= fade.keep;
     }
 }
 
@@ -396,7 +369,14 @@ static void TakeWidths(const kiriLink* link, const kiriMaterial* material, doubl
         if (kiriLink_LoneWidth(link) > 0.0) {
             TakeRibbon(link, nu, &curl, strain, rows);
         }
-        TakeCurl(&curl, &strain[KIRI_BENDING], rows != NULL ? &rows[KIRI_BENDING] : NULL);
+        if (curl.gain > 0.0) {
+            double slope, squared = strain[KIRI_BENDING] * strain[KIRI_BENDING];
+            double factor = kiriCurl_Factor(&curl, squared, &slope);
+            if (rows != NULL) {
+                ScaleRow(&rows[KIRI_BENDING], factor + 2.0 * slope * squared);
+            }
+            strain[KIRI_BENDING] *= factor;
+        }
     }
 }
 
@@ -410,12 +390,15 @@ void kiriStrain_Measure(const kiriLink* link, const kiriMaterial* material, cons
     EndVectors tangents =
         DirectionVectors(kiriPose_Along(poses[0], link->tangent), kiriPose_Along(poses[1], link->tangent));
     MeasureStretch(LeverOf(link, frames), &axes, &b, &strain[KIRI_STRETCH], rows != NULL ? &rows[KIRI_STRETCH] : NULL);
-    MeasureNormal(link, &axes, &m, strain, rows);
+    MeasureStop(KIRI_NORMAL_STOP_SHARE * link->length, &axes, &m, &strain[KIRI_NORMAL_STOP],
+                rows != NULL ? &rows[KIRI_NORMAL_STOP] : NULL);
+    strain[KIRI_NORMAL_GAP] = kiriVec3_Dot(m.gap, axes.d);
     strain[KIRI_SHEAR] = kiriVec3_Dot(b.gap, axes.tau);
     strain[KIRI_PLANE_BENDING] = kiriVec3_Dot(tangents.gap, axes.n);
     strain[KIRI_BENDING] = kiriVec3_Dot(directors.gap, axes.n);
     strain[KIRI_TWIST] = kiriVec3_Dot(directors.gap, axes.tau);
     if (rows != NULL) {
+        WriteGap(&axes, axes.d, &m, &rows[KIRI_NORMAL_GAP]);
         WriteGap(&axes, axes.tau, &b, &rows[KIRI_SHEAR]);
         WriteTurns(&axes, axes.n, &tangents, &rows[KIRI_PLANE_BENDING]);
         WriteTurns(&axes, axes.n, &directors, &rows[KIRI_BENDING]);
@@ -432,6 +415,17 @@ double kiriStrain_Damping(const double strain[KIRI_STRAINS])
     double fold = strain[KIRI_BENDING] * strain[KIRI_BENDING] + strain[KIRI_TWIST] * strain[KIRI_TWIST];
     double share = (HALF_TURN * HALF_TURN - fold) / (HALF_TURN * HALF_TURN - OPEN_FOLD * OPEN_FOLD);
     return share < 0.0 ? 0.0 : kiriMin(share, 1.0);
+}
+
+void kiriStrain_TakeOffsets(const double* strain, const double* offset, int count, bool isAffine, double* pulling)
+{
+    for (int e = 0; e < count; ++e) {
+        pulling[e] = strain[e] - offset[e];
+    }
+    if (!isAffine && count > KIRI_NORMAL_STOP) { /* the stop only pushes */
+        double over = fabs(strain[KIRI_NORMAL_STOP]) - fabs(offset[KIRI_NORMAL_STOP]);
+        pulling[KIRI_NORMAL_STOP] = over <= 0.0 ? 0.0 : strain[KIRI_NORMAL_STOP] > 0.0 ? over : -over;
+    }
 }
 
 double kiriStrain_NormalGapWidth(const kiriLink* link, double poissonsRatio)
@@ -455,23 +449,6 @@ void kiriStrain_Stiffness(const kiriLink* link, const kiriMaterial* material, do
     stiffness[KIRI_NORMAL_STOP] = membrane * link->width;
 }
 
-static void TraceStretch(kiriTrace* trace, int k, double alongNormal, double alongTangent, const double* strain)
-{
-    trace->by[k][KIRI_TRACED_STRETCH] = alongNormal;
-    trace->by[k][KIRI_TRACED_SHEAR] = alongTangent;
-    trace->strain[KIRI_TRACE_STRETCH] += alongNormal * strain[KIRI_STRETCH] + alongTangent * strain[KIRI_SHEAR];
-}
-
-static void TraceCurvature(kiriTrace* trace, int k, double alongNormal, double alongTangent, const double* strain)
-{
-    double bending = strain[KIRI_BENDING], twist = strain[KIRI_TWIST], slope;
-    double open = kiriStrain_Openness(bending, twist, &slope);
-    double sum = alongNormal * bending + alongTangent * twist;
-    trace->by[k][KIRI_TRACED_BENDING] = open * alongNormal + 2.0 * slope * sum * bending;
-    trace->by[k][KIRI_TRACED_TWIST] = open * alongTangent + 2.0 * slope * sum * twist;
-    trace->strain[KIRI_TRACE_CURVATURE] += open * sum;
-}
-
 kiriTrace kiriTrace_Measure(const kiriCorner* corner, const kiriLink* links, const double* const strains[4],
                             bool planar)
 {
@@ -481,9 +458,17 @@ kiriTrace kiriTrace_Measure(const kiriCorner* corner, const kiriLink* links, con
         const kiriLink* link = &links[corner->link[k]];
         double alongNormal = kiriVec2_Dot(corner->weight[k], link->normal);
         double alongTangent = kiriVec2_Dot(corner->weight[k], link->tangent);
-        TraceStretch(&trace, k, alongNormal, alongTangent, strains[k]);
+        trace.by[k][KIRI_TRACED_STRETCH] = alongNormal;
+        trace.by[k][KIRI_TRACED_SHEAR] = alongTangent;
+        trace.strain[KIRI_TRACE_STRETCH] +=
+            alongNormal * strains[k][KIRI_STRETCH] + alongTangent * strains[k][KIRI_SHEAR];
         if (!planar) {
-            TraceCurvature(&trace, k, alongNormal, alongTangent, strains[k]);
+            double bending = strains[k][KIRI_BENDING], twist = strains[k][KIRI_TWIST], slope;
+            double open = kiriStrain_Openness(bending, twist, &slope);
+            double sum = alongNormal * bending + alongTangent * twist;
+            trace.by[k][KIRI_TRACED_BENDING] = open * alongNormal + 2.0 * slope * sum * bending;
+            trace.by[k][KIRI_TRACED_TWIST] = open * alongTangent + 2.0 * slope * sum * twist;
+            trace.strain[KIRI_TRACE_CURVATURE] += open * sum;
         }
     }
     return trace;
@@ -917,17 +902,6 @@ static kiriFrameShare* FrameShareOf(kiriAreaElements* elements, kiriMemory* memo
     return &elements->shares.data[k];
 }
 
-/* What the frame at one end of a border brings to the integral of gap (x) n, times `scale`. */
-static void AddEnd(kiriFrameShare* share, const kiriLink* link, kiriVec2 center, double scale)
-{
-    kiriVec2 normal = kiriVec2_Scale(scale, link->sum), arm = kiriVec2_Sub(link->centroid, center);
-    share->move = kiriVec2_Add(share->move, normal);
-    share->u =
-        kiriVec2_Add(share->u, kiriVec2_Add(kiriVec2_Scale(arm.x, normal), kiriVec2_Scale(scale, link->spread[0])));
-    share->v =
-        kiriVec2_Add(share->v, kiriVec2_Add(kiriVec2_Scale(arm.y, normal), kiriVec2_Scale(scale, link->spread[1])));
-}
-
 /* What the elements of regions are made from: the links of region i are links[start[i]] to links[start[i + 1]]. */
 typedef struct RegionLinks {
     kiriMemory* memory;
@@ -945,41 +919,34 @@ static bool AddBorder(kiriAreaElements* elements, const RegionLinks* regions, ki
         if (share == NULL) {
             return false;
         }
-        double half = 0.5 / element->area;
-        AddEnd(share, link, kiriMoments_Center(&regions->material[frame]), end == 0 ? -half : half);
+        double scale = (end == 0 ? -0.5 : 0.5) / element->area;
+        kiriVec2 normal = kiriVec2_Scale(scale, link->sum);
+        kiriVec2 arm = kiriVec2_Sub(link->centroid, kiriMoments_Center(&regions->material[frame]));
+        kiriVec2 u = kiriVec2_Add(kiriVec2_Scale(arm.x, normal), kiriVec2_Scale(scale, link->spread[0]));
+        kiriVec2 v = kiriVec2_Add(kiriVec2_Scale(arm.y, normal), kiriVec2_Scale(scale, link->spread[1]));
+        share->move = kiriVec2_Add(share->move, normal);
+        share->u = kiriVec2_Add(share->u, u);
+        share->v = kiriVec2_Add(share->v, v);
     }
     return true;
 }
 
-/* An element with the frame's own A. */
-static bool BeginAreaElement(kiriAreaElements* elements, kiriMemory* memory, kiriAreaElement* element, int32_t frame)
+/* Adds an element with the frame's own A, and with its borders if it is a membrane. */
+static bool AddRegion(kiriAreaElements* elements, const RegionLinks* regions, int32_t frame, kiriAreaElement element,
+                      bool hasBorders)
 {
-    kiriFrameShare* share = FrameShareOf(elements, memory, element, frame);
-    if (share != NULL) {
-        share->u.x = share->v.y = share->weight = 1.0;
+    element.area = regions->material[frame].area;
+    element.first = elements->shares.count;
+    kiriFrameShare* share = FrameShareOf(elements, regions->memory, &element, frame);
+    if (share == NULL) {
+        return false;
     }
-    return share != NULL;
-}
-
-static bool AddMembrane(kiriAreaElements* elements, const RegionLinks* regions, int32_t frame)
-{
-    double area = regions->material[frame].area;
-    kiriAreaElement element = {
-        area, LEAN_PENALTY, elements->shares.count, 0, KIRI_AREA_DILATION, KIRI_AREA_SHEAR + 1
-    };
-    bool ok = BeginAreaElement(elements, regions->memory, &element, frame);
-    for (int32_t k = regions->start.data[frame]; ok && k < regions->start.data[frame + 1]; ++k) {
+    share->u.x = share->v.y = share->weight = 1.0;
+    bool ok = true;
+    for (int32_t k = regions->start.data[frame]; ok && hasBorders && k < regions->start.data[frame + 1]; ++k) {
         ok = AddBorder(elements, regions, &element, regions->links.data[k]);
     }
     return ok && kiriArray_Push(regions->memory, &elements->elements, element);
-}
-
-static bool AddDirector(kiriAreaElements* elements, const RegionLinks* regions, int32_t frame)
-{
-    double area = regions->material[frame].area;
-    kiriAreaElement element = { area, 0.0, elements->shares.count, 0, KIRI_AREA_LEAN_U, KIRI_AREA_STRAINS };
-    return BeginAreaElement(elements, regions->memory, &element, frame) &&
-           kiriArray_Push(regions->memory, &elements->elements, element);
 }
 
 static bool CollectLinksByRegion(RegionLinks* regions, const kiriLink* links, int32_t linkCount, int32_t frameCount)
@@ -1013,7 +980,10 @@ bool kiriAffine_Build(kiriAreaElements* elements, kiriMemory* memory, const kiri
     elements->elements.count = elements->shares.count = 0;
     bool ok = CollectLinksByRegion(&regions, links, linkCount, frameCount);
     for (int32_t i = 0; ok && i < frameCount; ++i) {
-        ok = AddMembrane(elements, &regions, i) && (planar || AddDirector(elements, &regions, i));
+        const kiriAreaElement membrane = { 0.0, LEAN_PENALTY, 0, 0, KIRI_AREA_DILATION, KIRI_AREA_SHEAR + 1 };
+        const kiriAreaElement director = { 0.0, 0.0, 0, 0, KIRI_AREA_LEAN_U, KIRI_AREA_STRAINS };
+        ok = AddRegion(elements, &regions, i, membrane, true) &&
+             (planar || AddRegion(elements, &regions, i, director, false));
     }
     kiriArray_Release(memory, &regions.start);
     kiriArray_Release(memory, &regions.links);
@@ -1043,20 +1013,13 @@ void kiriClamp_Shape(kiriClampRow* row, const kiriClampShape* shape, kiriVec2 si
     link->crossing = kiriVec2_Add(row->foot, half);
 }
 
-/* The line as a frame: what the strains of a link read of one that is held. */
-static kiriFrameData LineFrame(const kiriClampRow* row)
-{
-    kiriFrameData frame;
-    memset(&frame, 0, sizeof(frame));
-    frame.site.at = frame.center = row->foot;
-    frame.held = 1;
-    return frame;
-}
-
 void kiriClamp_Measure(const kiriClampRow* row, const kiriFrameData* frame, const kiriPose* line, const kiriPose* pose,
                        double* strain, kiriFrameRow* rows)
 {
-    const kiriFrameData held = LineFrame(row);
+    kiriFrameData held; /* the line: strains of a link read no more of a held frame */
+    memset(&held, 0, sizeof(held));
+    held.site.at = held.center = row->foot;
+    held.held = 1;
     const kiriFrameData* const frames[2] = { &held, frame };
     const kiriPose* const poses[2] = { line, pose };
     if (row->isAffine) {
@@ -1074,13 +1037,6 @@ void kiriClamp_Measure(const kiriClampRow* row, const kiriFrameData* frame, cons
             rows[e].by[1] = both[e].end[1].turn;
         }
     }
-}
-
-/* How many strains can be other than zero, see kiriElement_StrainCount. */
-static int StrainCount(bool isAffine, bool isPlanar)
-{
-    return isAffine ? (isPlanar ? (int)KIRI_AFFINE_BENDING : (int)KIRI_AFFINE_STRAINS)
-                    : (isPlanar ? (int)KIRI_PLANE_BENDING + 1 : (int)KIRI_STRAINS);
 }
 
 /* Along the line the material neither stretches nor curls, and beside it hardly: so it is as stiff as where both
@@ -1114,7 +1070,7 @@ static void SetAffineStiffness(kiriClampRow* row, const kiriMaterial* material)
 void kiriClamp_Begin(kiriClampRow* row, bool isPlanar, const kiriMaterial* material, double damping,
                      const kiriFrameData* frame, const kiriPose* start)
 {
-    row->strainCount = StrainCount(row->isAffine, isPlanar);
+    row->strainCount = kiriStrain_Count(row->isAffine, isPlanar);
     row->stopping = false;
     row->isAffine ? SetAffineStiffness(row, material) : SetRigidStiffness(row, material);
     kiriClamp_Measure(row, frame, &row->start, start, row->startStrain, NULL);
@@ -1126,13 +1082,7 @@ void kiriClamp_Begin(kiriClampRow* row, bool isPlanar, const kiriMaterial* mater
 
 void kiriClamp_TakeOffsets(const kiriClampRow* row, const double* strain, double* pulling)
 {
-    for (int e = 0; e < row->strainCount; ++e) {
-        pulling[e] = strain[e] - row->offset[e];
-    }
-    if (!row->isAffine && row->strainCount > KIRI_NORMAL_STOP) { /* the stop only pushes */
-        double over = fabs(strain[KIRI_NORMAL_STOP]) - fabs(row->offset[KIRI_NORMAL_STOP]);
-        pulling[KIRI_NORMAL_STOP] = over <= 0.0 ? 0.0 : strain[KIRI_NORMAL_STOP] > 0.0 ? over : -over;
-    }
+    kiriStrain_TakeOffsets(strain, row->offset, row->strainCount, row->isAffine, pulling);
 }
 
 bool kiriClamp_IsStopped(const kiriClampRow* row, const double* strain)

@@ -86,6 +86,9 @@ double kiriStrain_Openness(double bending, double twist, double* slope);
    for there bending and twist change their signs while the sheet hardly moves. */
 double kiriStrain_Damping(const double strain[KIRI_STRAINS]);
 
+/* Takes offsets off the strains of a link: the rest pulls. */
+void kiriStrain_TakeOffsets(const double* strain, const double* offset, int count, bool isAffine, double* pulling);
+
 /* The width of a strip that is clamped at both ends and as stiff against a normal gap. */
 double kiriStrain_NormalGapWidth(const kiriLink* link, double poissonsRatio);
 
@@ -240,6 +243,13 @@ enum {
     KIRI_AFFINE_NORMAL_STOP,
     KIRI_AFFINE_STRAINS
 };
+
+/* Returns how many strains of a link can be other than zero: they come first. */
+static inline int kiriStrain_Count(bool isAffine, bool isPlanar)
+{
+    return isAffine ? (isPlanar ? (int)KIRI_AFFINE_BENDING : (int)KIRI_AFFINE_STRAINS)
+                    : (isPlanar ? (int)KIRI_PLANE_BENDING + 1 : (int)KIRI_STRAINS);
+}
 
 /* As kiriStrain_Measure; two rows, of i and j, a strain. */
 void kiriAffine_Measure(const kiriLink* link, const kiriMaterial* material, const kiriFrameData* const frames[2],
