@@ -195,7 +195,7 @@ static kiriVec3 OwnTurn(const Seen* seen, int32_t vertex, kiriVec2 way)
     kiriVec3 turn = { 0.0, 0.0, 0.0 };
     for (int32_t k = span.first; k < span.first + span.count; k++) {
         kiriSampleWeight weight = seen->sheet->vertexSkin.weights.data[k];
-        int32_t f = kiriSheet_FrameOf(seen->sheet, weight.label);
+        int32_t f = weight.frame;
         const kiriFrameData* frame = &seen->sheet->frames.data[f];
         Bend bend = seen->bend[f];
         turn = kiriVec3_AddScaled(turn, -weight.value * (bend.uu * way.x + bend.uv * way.y), frame->A.u);
@@ -333,7 +333,7 @@ static void LookBothWays(Table* table, const Scene* scene, const char* moment)
     for (int32_t skinning = KIRI_SKINNING_LINEAR; skinning <= KIRI_SKINNING_SMOOTH; skinning++) {
         Seen seen = { 0 };
         sheet->seen.surface.skinning = skinning;
-        kiriSurface_TakeFrames(&sheet->seen.surface, &sheet->shape.labels, sheet->frames.data, sheet->frames.count,
+        kiriSurface_TakeFrames(&sheet->seen.surface, sheet->frames.data, sheet->frames.count,
                                sheet->links.links.data, sheet->links.links.count, NULL);
         sheet->seen.surface.isWritten = false;
         kiriSurface_BlendRange(&sheet->seen.surface, &sheet->vertexSkin, 0, sheet->seen.surface.vertexCount);

@@ -435,7 +435,7 @@ static inline void Follow_CompareWeights(const Follow* a, const Follow* b)
         assert_int_equal(x.count, y.count);
         for (int32_t k = 0; k < x.count; ++k) {
             kiriCellWeight v = a->shape.weights.data[x.first + k], w = b->shape.weights.data[y.first + k];
-            assert_int_equal(v.label, w.label);
+            assert_int_equal(v.frame, w.frame);
             assert_true(v.low == w.low && v.high == w.high);
         }
     }
@@ -465,7 +465,7 @@ static inline void Follow_CompareSkins(const kiriSkin* a, const kiriSkin* b)
         assert_int_equal(x.count, y.count);
         for (int32_t k = 0; k < x.count; ++k) {
             kiriSampleWeight v = a->weights.data[x.first + k], w = b->weights.data[y.first + k];
-            assert_int_equal(v.label, w.label);
+            assert_int_equal(v.frame, w.frame);
             assert_true(v.value == w.value);
         }
     }

@@ -40,13 +40,13 @@ static inline void HashMesh(uint64_t* hash, const kiriMeshData* mesh)
     }
 }
 
-static inline void HashSkin(uint64_t* hash, const kiriSheetData* sheet, const kiriSkin* skin)
+static inline void HashSkin(uint64_t* hash, const kiriSkin* skin)
 {
     for (int32_t i = 0; i < skin->spans.count; ++i) {
         kiriSpan span = skin->spans.data[i];
         kiriHash_Int32(hash, span.count);
         for (int32_t k = span.first; k < span.first + span.count; ++k) {
-            kiriHash_Int32(hash, kiriSheet_FrameOf(sheet, skin->weights.data[k].label));
+            kiriHash_Int32(hash, skin->weights.data[k].frame);
             kiriHash_Double(hash, skin->weights.data[k].value);
         }
     }
@@ -123,8 +123,8 @@ static inline void HashInForce(uint64_t* hash, const kiriSheetData* sheet)
         HashPoint(hash, sheet->points.data[i].at);
         kiriHash_Int32(hash, sheet->points.data[i].frame);
     }
-    HashSkin(hash, sheet, &sheet->vertexSkin);
-    HashSkin(hash, sheet, &sheet->pointSkin);
+    HashSkin(hash, &sheet->vertexSkin);
+    HashSkin(hash, &sheet->pointSkin);
     for (int32_t i = 0; i < layout->framePiece.count; ++i) {
         kiriHash_Int32(hash, layout->framePiece.data[i]);
     }
@@ -191,7 +191,7 @@ static inline void HashCellWeights(uint64_t* hash, const kiriShape* shape, int32
 {
     kiriSpan span = shape->spans.data[cell];
     for (int32_t k = span.first; k < span.first + span.count; ++k) {
-        kiriHash_Int32(hash, kiriLabels_Item(&shape->labels, shape->weights.data[k].label));
+        kiriHash_Int32(hash, shape->weights.data[k].frame);
         kiriHash_Double(hash, kiriCellWeight_Raw(&shape->weights.data[k]) / kiriShape_Sum(shape, span));
     }
 }

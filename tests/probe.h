@@ -111,7 +111,7 @@ static inline double Probe_SeenJump(const kiriSheetData* sheet, kiriVec3* seen)
     double jump = 0.0;
     for (int32_t v = 0; v < mesh->vertices.count; ++v) {
         kiriVec2 local = kiriMesh_Local(mesh, mesh->vertices.data[v].at);
-        kiriVec3 x = kiriSkin_Position(&sheet->vertexSkin, &sheet->shape.labels, v, sheet->frames.data, local);
+        kiriVec3 x = kiriSkin_Position(&sheet->vertexSkin, v, sheet->frames.data, local);
         kiriVec3 offset = Probe_OffsetOf(&sheet->seen.fades, v), was = { 0.0, 0.0, 0.0 };
         const kiriBirth* birth = &mesh->births.data[v - mesh->oldVertexCount];
         for (int k = 0; k < 3 && v >= mesh->oldVertexCount && birth->parent[k] != KIRI_NONE; ++k) {

@@ -24,9 +24,9 @@ static inline Reach Reach_From(const kiriReaches* reaches, int32_t block, int32_
 }
 
 /* In no order. */
-static inline Reach Reaches_First(const kiriReaches* reaches, int32_t label)
+static inline Reach Reaches_First(const kiriReaches* reaches, int32_t frame)
 {
-    return Reach_From(reaches, reaches->ofLabel.data[label], 0);
+    return Reach_From(reaches, reaches->ofFrame.data[frame], 0);
 }
 
 static inline Reach Reaches_After(const kiriReaches* reaches, Reach reach)

@@ -50,7 +50,6 @@ static kiriVec3 RandomVector(uint32_t* seed, double size)
 
 static void FillPatches(Patchwork* work, bool isBent, double size, uint32_t* seed)
 {
-    const kiriLabels none = { 0 };
     kiriCarrier carriers[FRAMES];
     for (int32_t i = 0; i < FRAMES; ++i) {
         kiriCarrier* c = &carriers[i];
@@ -69,7 +68,7 @@ static void FillPatches(Patchwork* work, bool isBent, double size, uint32_t* see
         c->vv = RandomBetween(seed, -20.0, 20.0);
     }
     assert_true(Plain_ReservePatches(&work->patches, &work->memory, FRAMES));
-    Plain_WritePatches(&work->patches, &none, carriers, FRAMES, RandomVector(seed, size), isBent, NULL);
+    Plain_WritePatches(&work->patches, carriers, FRAMES, RandomVector(seed, size), isBent, NULL);
 }
 
 static void FillVertices(Patchwork* work, uint32_t* seed)

@@ -432,7 +432,7 @@ static bool IsIn(const kiriSheetData* was, int32_t frame, int32_t piece, bool is
 
 static int32_t FrameOfVertex(const kiriSheetData* was, int32_t vertex)
 {
-    return kiriSheet_FrameOf(was, was->vertexSkin.weights.data[was->vertexSkin.spans.data[vertex].first].label);
+    return was->vertexSkin.weights.data[was->vertexSkin.spans.data[vertex].first].frame;
 }
 
 static Maps Map(const kiriSheetData* was, const kiriSheetData* part, int32_t piece, bool isRest)
@@ -491,7 +491,7 @@ static void CheckSkin(const kiriSkin* was, const kiriSkin* is, const int32_t* sa
         assert_int_equal(a.count, b.count);
         for (int32_t k = 0; k < a.count; ++k) {
             kiriSampleWeight x = was->weights.data[a.first + k], y = is->weights.data[b.first + k];
-            assert_int_equal(maps->frameTo[x.label], y.label);
+            assert_int_equal(maps->frameTo[x.frame], y.frame);
             assert_memory_equal(&x.value, &y.value, sizeof(x.value));
         }
     }
@@ -552,7 +552,7 @@ static void CheckCells(const kiriSheetData* was, const kiriSheetData* is, const 
             for (int32_t k = 0; k < x.count; ++k) {
                 const kiriCellWeight *p = &was->shape.weights.data[x.first + k],
                                      *q = &is->shape.weights.data[y.first + k];
-                assert_int_equal(maps->frameTo[p->label], q->label);
+                assert_int_equal(maps->frameTo[p->frame], q->frame);
                 assert_true(p->low == q->low && p->high == q->high);
             }
         }

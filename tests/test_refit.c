@@ -368,7 +368,7 @@ static void CheckSeen(Probe* probe)
     for (int32_t i = 0; i < seen->pointCount; ++i) {
         kiriVec2 local = kiriMesh_Local(mesh, sheet->points.data[i].at);
         kiriVec3 x =
-            kiriVec3_Add(kiriSkin_Position(&sheet->pointSkin, &sheet->shape.labels, i, sheet->frames.data, local),
+            kiriVec3_Add(kiriSkin_Position(&sheet->pointSkin, i, sheet->frames.data, local),
                          Probe_OffsetOf(&sheet->seen.pointFades, i));
         kiriVec3 was = kiriVec3_Load(&sheet->seen.pointPositions.data[3 * i]); /* since the last tick */
         seen->pointJump = fmax(seen->pointJump, kiriVec3_Length(kiriVec3_Sub(x, was)));

@@ -10,7 +10,7 @@ static void AssertStagedDiffer(const kiriSkin* skin, int32_t oldCount, int32_t c
         bool isSame = was.count == staged.span.count;
         for (int32_t i = 0; isSame && i < was.count; ++i) {
             kiriSampleWeight a = skin->weights.data[was.first + i], b = skin->weights.data[staged.span.first + i];
-            isSame = a.label == b.label && a.value == b.value;
+            isSame = a.frame == b.frame && a.value == b.value;
         }
         assert_false(isSame);
         fresh += staged.sample >= oldCount;
@@ -87,7 +87,7 @@ static void WeightsAreThoseOfTheShape(void** state)
         for (int32_t i = 0; i < out.count; ++i) {
             if (out.data[i].value >= 0x1p-25) {
                 kiriSampleWeight weight = f.vertexSkin.weights.data[f.vertexSkin.spans.data[v].first + k++];
-                assert_int_equal(weight.label, out.data[i].frame);
+                assert_int_equal(weight.frame, out.data[i].frame);
                 AssertNear(weight.value, out.data[i].value, 0x1p-25 * out.count);
                 sum += weight.value;
             }
@@ -105,7 +105,7 @@ static double WeightOf(const kiriSkin* skin, int32_t sample, int32_t frame)
 {
     kiriSpan span = skin->spans.data[sample];
     for (int32_t k = span.first; k < span.first + span.count; ++k) {
-        if (skin->weights.data[k].label == frame) {
+        if (skin->weights.data[k].frame == frame) {
             return skin->weights.data[k].value;
         }
     }
@@ -133,7 +133,7 @@ static void NewbornVerticesInherit(void** state)
             const kiriBirth* birth = &f.mesh->births.data[v - f.mesh->oldVertexCount];
             kiriSpan span = f.vertexSkin.spans.data[v];
             for (int32_t k = span.first + 1; k < span.first + span.count; ++k) {
-                assert_true(f.vertexSkin.weights.data[k].label > f.vertexSkin.weights.data[k - 1].label);
+                assert_true(f.vertexSkin.weights.data[k].frame > f.vertexSkin.weights.data[k - 1].frame);
             }
             for (int32_t i = 0; i < f.sites.count; ++i) {
                 double sum = 0.0;
@@ -179,7 +179,7 @@ static void StagedWeightsWait(void** state)
             AssertNear(WeightOf(skin, 2, i), before[i], 0.0);
         }
         for (int32_t k = first.span.first; k < first.span.first + first.span.count; ++k) {
-            staged[skin->weights.data[k].label] = skin->weights.data[k].value;
+            staged[skin->weights.data[k].frame] = skin->weights.data[k].value;
         }
         if (round == 0) {
             kiriSkin_Drop(skin);

@@ -48,7 +48,7 @@ static double ValueAt(const Weights* w, int32_t cell, int32_t k)
 static double WeightOf(const Weights* w, int32_t cell, int32_t frame)
 {
     for (int32_t k = 0; k < w->shape.spans.data[cell].count; ++k) {
-        if (WeightsAt(w, cell)[k].label == frame) {
+        if (WeightsAt(w, cell)[k].frame == frame) {
             return ValueAt(w, cell, k);
         }
     }
@@ -102,10 +102,10 @@ static void CheckCells(const Scene* scene, const Weights* w, const kiriSite* sit
         int32_t n = w->shape.spans.data[c].count;
         double sum = 0.0;
         for (int32_t k = 0; k < n; ++k) {
-            assert_true(k == 0 || weights[k].label > weights[k - 1].label);
+            assert_true(k == 0 || weights[k].frame > weights[k - 1].frame);
             assert_true(ValueAt(w, c, k) > 0.0);
             sum += ValueAt(w, c, k);
-            rigid[weights[k].label] += ValueAt(w, c, k) > w->shape.rigidWeight ? kiriGrid_Area(&scene->grid, c) : 0.0;
+            rigid[weights[k].frame] += ValueAt(w, c, k) > w->shape.rigidWeight ? kiriGrid_Area(&scene->grid, c) : 0.0;
         }
         assert_int_equal(n > 0, w->regions.field.owner.data[c] != KIRI_NONE);
         if (n > 0) {
@@ -120,7 +120,7 @@ static void CheckCells(const Scene* scene, const Weights* w, const kiriSite* sit
     for (int32_t i = 0; i < count; ++i) {
         const kiriCellWeight* weights = WeightsAt(w, sites[i].cell);
         assert_int_equal(w->shape.spans.data[sites[i].cell].count, 1);
-        assert_int_equal(weights->label, i);
+        assert_int_equal(weights->frame, i);
         assert_true(ValueAt(w, sites[i].cell, 0) == 1.0);
     }
     free(rigid);

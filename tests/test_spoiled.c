@@ -151,13 +151,6 @@ static void TestLayout(void** state)
 
 /* ---- Frames ---- */
 
-static void LabelIsOfAnotherFrame(kiriSheetData* sheet)
-{
-    kiriLabels* labels = &sheet->shape.labels;
-    assert_true(kiriArray_Push(sheet->memory, &labels->itemOf, 1) &&
-                kiriArray_Push(sheet->memory, &labels->labelOf, 0));
-}
-
 static void WeightIsNotFinite(kiriSheetData* sheet)
 {
     sheet->shape.rigidWeight = HUGE_VAL;
@@ -172,7 +165,6 @@ static void TestFrames(void** state)
 {
     (void)state;
     static const Spoiler spoilers[] = {
-        { "LabelIsOfAnotherFrame", LabelIsOfAnotherFrame },
         { "WeightIsNotFinite", WeightIsNotFinite },
         { "SiteIsFarFromItsAnchor", SiteIsFarFromItsAnchor },
     };

@@ -12,7 +12,6 @@ typedef struct Cloth {
     kiriMemory memory, room; /* room: of the surface */
     kiriMeshData mesh;
     kiriSkin skin;
-    kiriLabels labels;
     kiriSurface surface;
     KIRI_ARRAY(kiriFrameData) frames;
     KIRI_ARRAY(kiriLink) links;
@@ -114,8 +113,7 @@ static void AddWeights(Cloth* cloth, kiriVec2 at)
 static void Write(Cloth* cloth)
 {
     cloth->surface.wantsNormals = true;
-    assert_true(
-        kiriSurface_Resize(&cloth->surface, &cloth->room, &cloth->mesh, cloth->frames.count, cloth->frames.count));
+    assert_true(kiriSurface_Resize(&cloth->surface, &cloth->room, &cloth->mesh, cloth->frames.count));
     kiriSurface_WriteTopology(&cloth->surface, &cloth->mesh);
     kiriMesh_Commit(&cloth->mesh);
     for (int32_t v = cloth->skin.spans.count; v < cloth->mesh.vertices.count; ++v) {
@@ -125,7 +123,7 @@ static void Write(Cloth* cloth)
 
 static void Pose(Cloth* cloth)
 {
-    kiriSurface_TakeFrames(&cloth->surface, &cloth->labels, cloth->frames.data, cloth->frames.count, cloth->links.data,
+    kiriSurface_TakeFrames(&cloth->surface, cloth->frames.data, cloth->frames.count, cloth->links.data,
                            cloth->links.count, NULL);
     cloth->surface.isWritten = false;
     kiriSurface_BlendRange(&cloth->surface, &cloth->skin, 0, cloth->surface.vertexCount);
@@ -191,7 +189,7 @@ static void CheckPositions(const Cloth* cloth, double away)
         kiriVec3 sum = { 0.0, 0.0, 0.0 };
         for (int32_t i = 0; i < cloth->skin.spans.data[v].count; ++i) {
             kiriSampleWeight w = cloth->skin.weights.data[cloth->skin.spans.data[v].first + i];
-            kiriVec3 carried = kiriFrame_Carry(&cloth->frames.data[w.label], RestOf(cloth, v));
+            kiriVec3 carried = kiriFrame_Carry(&cloth->frames.data[w.frame], RestOf(cloth, v));
             sum = kiriVec3_AddScaled(sum, w.value, carried);
         }
         AssertClose(kiriSurface_At(&cloth->surface, v), sum, 2e-6);
@@ -384,7 +382,7 @@ static void RoomMayBeRefused(void** state)
     kiriMesh_Begin(&cloth.mesh);
     Cut(&cloth, 300, &seed);
     int32_t refused = 0;
-    for (purse.budget = 0; !kiriSurface_Resize(&cloth.surface, &cloth.room, &cloth.mesh, 40, 40);
+    for (purse.budget = 0; !kiriSurface_Resize(&cloth.surface, &cloth.room, &cloth.mesh, 40);
          purse.budget = ++refused) {
         kiriRange vertices = { 0, cloth.surface.vertexCount }, triangles = { 0, cloth.surface.triangleCount };
         assert_int_equal(vertices.count, cloth.mesh.oldVertexCount);

@@ -418,7 +418,7 @@ static bool AddBlockTwice(kiriSheetData* s)
     bool ok =
         kiriArray_Reserve(s->memory, &reaches->blocks, room) && kiriArray_Reserve(s->memory, &reaches->heads, room);
     if (ok) {
-        const kiriReachBlock was = reaches->blocks.data[reaches->ofLabel.data[0]];
+        const kiriReachBlock was = reaches->blocks.data[reaches->ofFrame.data[0]];
         kiriReachBlock* twin = &reaches->blocks.data[kiriReaches_Add(reaches, 0, was.cells)];
         memcpy(twin->fromSite, was.fromSite, sizeof(was.fromSite));
         memcpy(twin->fromBorder, was.fromBorder, sizeof(was.fromBorder));
@@ -437,13 +437,13 @@ static const char* CorruptShape(kiriWorld* world, kiriSheetData* s, int way)
     kiriCellWeight* weight = &shape->weights.data[shape->spans.data[c].first];
     switch (way) {
     case 0:
-        *weight = kiriCellWeight_Make(weight->label, 2.0);
+        *weight = kiriCellWeight_Make(weight->frame, 2.0);
         return "shape functions: cell";
     case 1:
-        *weight = kiriCellWeight_Make(weight->label, -kiriCellWeight_Raw(weight));
+        *weight = kiriCellWeight_Make(weight->frame, -kiriCellWeight_Raw(weight));
         return "shape functions: cell";
     case 2:
-        weight[1].label = weight[0].label;
+        weight[1].frame = weight[0].frame;
         return "after";
     case 3:
         shape->spans.data[c] = shape->spans.data[c == 0 ? 1 : 0];
@@ -452,7 +452,7 @@ static const char* CorruptShape(kiriWorld* world, kiriSheetData* s, int way)
         shape->spans.data[c].first = shape->weights.count - 1;
         return "shape functions: ";
     case 5:
-        *weight = kiriCellWeight_Make(weight->label, 0.999 * kiriCellWeight_Raw(weight));
+        *weight = kiriCellWeight_Make(weight->frame, 0.999 * kiriCellWeight_Raw(weight));
         return "its weight is";
     case 6:
         shape->rigid.data[0] += 1;
@@ -563,7 +563,7 @@ static const char* CorruptLayout(kiriWorld* world, kiriSheetData* s, int way)
         }
         for (int32_t k = 0; k < s->vertexSkin.spans.data[inner].count; ++k) {
             assert_int_equal(s->layout.framePiece.data[k], 0);
-            s->vertexSkin.weights.data[s->vertexSkin.spans.data[inner].first + k].label = k;
+            s->vertexSkin.weights.data[s->vertexSkin.spans.data[inner].first + k].frame = k;
         }
         return "of another piece";
     case 13:
@@ -637,10 +637,10 @@ static const char* CorruptSamples(kiriWorld* world, kiriSheetData* s, int way)
         weight->value += 1e-6;
         return "weights of vertices: the weights";
     case 1:
-        weight[1].label = weight[0].label;
+        weight[1].frame = weight[0].frame;
         return "after";
     case 2:
-        weight[skin->spans.data[v].count - 1].label = s->frames.count - 1;
+        weight[skin->spans.data[v].count - 1].frame = s->frames.count - 1;
         return "is of pieces";
     case 3:
         skin->spans.data[v].first = 0x7ffffff0;

@@ -393,12 +393,12 @@ static bool Check_SampleWeights(Check* check, const kiriSheetData* sheet, const 
     REQUIRE(span.count > 0, "sample %d has no weights", sample);
     for (int32_t k = span.first; k < span.first + span.count; ++k) {
         kiriSampleWeight weight = skin->weights.data[k];
-        REQUIRE(weight.label > last && kiriLabels_Has(&sheet->shape.labels, weight.label, sheet->frames.count),
-                "sample %d: weight of label %d after %d", sample, weight.label, last);
-        REQUIRE(weight.value > 0.0f, "sample %d: weight %g of label %d", sample, weight.value, weight.label);
-        int32_t other = sheet->layout.framePiece.data[kiriSheet_FrameOf(sheet, weight.label)];
+        REQUIRE(weight.frame > last && weight.frame < sheet->frames.count,
+                "sample %d: weight of frame %d after %d", sample, weight.frame, last);
+        REQUIRE(weight.value > 0.0f, "sample %d: weight %g of frame %d", sample, weight.value, weight.frame);
+        int32_t other = sheet->layout.framePiece.data[weight.frame];
         REQUIRE(piece == KIRI_NONE || other == piece, "sample %d is of pieces %d and %d", sample, piece, other);
-        last = weight.label;
+        last = weight.frame;
         piece = other;
         sum += weight.value;
     }

@@ -549,11 +549,11 @@ static bool Check_CellWeights(Check* check, const kiriSheetData* sheet)
         REQUIRE((span.count > 0) == kiriGrid_IsCell(&sheet->grid, c), "cell %d has %d weights", c, span.count);
         for (int32_t k = span.first; k < span.first + span.count; ++k) {
             const kiriCellWeight* weight = &shape->weights.data[k];
-            REQUIRE(weight->label > last && kiriLabels_Has(&shape->labels, weight->label, sheet->frames.count),
-                    "cell %d: weight of label %d after %d", c, weight->label, last);
+            REQUIRE(weight->frame > last && weight->frame < sheet->frames.count,
+                    "cell %d: weight of frame %d after %d", c, weight->frame, last);
             double raw = kiriCellWeight_Raw(weight);
-            REQUIRE(raw > 0.0 && raw <= 1.0, "cell %d: weight %g of label %d", c, raw, weight->label);
-            last = weight->label;
+            REQUIRE(raw > 0.0 && raw <= 1.0, "cell %d: weight %g of frame %d", c, raw, weight->frame);
+            last = weight->frame;
         }
     }
     return Rooms_End(check, &rooms);
@@ -576,10 +576,9 @@ static bool Check_Reaches(Check* check, const kiriSheetData* sheet)
     int32_t* seen = Check_Ints(check, sheet->grid.cells.count, KIRI_NONE);
     int64_t found = 0, all = 0;
     const kiriReaches* reaches = &shape->reaches;
-    REQUIRE_COUNT(reaches->ofLabel, kiriLabels_Count(&shape->labels, sheet->frames.count));
+    REQUIRE_COUNT(reaches->ofFrame, sheet->frames.count);
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
-        int32_t label = kiriLabels_Of(&shape->labels, i);
-        Reach reach = Reaches_First(reaches, label);
+        Reach reach = Reaches_First(reaches, i);
         for (; reach.cell != KIRI_NONE; reach = Reaches_After(reaches, reach)) {
             REQUIRE(IsIndex(reach.cell, sheet->grid.cells.count) && kiriGrid_IsCell(&sheet->grid, reach.cell),
                     "frame %d reaches cell %d", i, reach.cell);
@@ -588,7 +587,7 @@ static bool Check_Reaches(Check* check, const kiriSheetData* sheet)
             double raw = RawWeight(sheet, i, reach);
             kiriSpan span = shape->spans.data[reach.cell];
             int32_t k = span.first;
-            while (k < span.first + span.count && shape->weights.data[k].label != label) {
+            while (k < span.first + span.count && shape->weights.data[k].frame != i) {
                 ++k;
             }
             double is = k < span.first + span.count ? kiriCellWeight_Raw(&shape->weights.data[k]) : 0.0;
@@ -616,7 +615,7 @@ static bool Check_Rigid(Check* check, const kiriSheetData* sheet)
         int64_t share = (int64_t)(kiriGrid_Area(&sheet->grid, c) / square * 1099511627776.0 + 0.5);
         double sum = kiriShape_Sum(shape, span);
         for (int32_t k = span.first; k < span.first + span.count; ++k) {
-            sums[kiriSheet_FrameOf(sheet, shape->weights.data[k].label)] +=
+            sums[shape->weights.data[k].frame] +=
                 kiriCellWeight_Raw(&shape->weights.data[k]) / sum > shape->rigidWeight ? share : 0;
         }
     }

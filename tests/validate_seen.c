@@ -41,7 +41,7 @@ bool Check_Seen(Check* check, const kiriSheetData* sheet)
     kiriSurface anew = *surface;
     int64_t count = surface->vertexCount;
     check->part = "seen";
-    if (!surface->isSteady || surface->patches.count != kiriLabels_Count(&sheet->shape.labels, sheet->frames.count) ||
+    if (!surface->isSteady || surface->patches.count != sheet->frames.count ||
         sheet->seen.isElsewhere) {
         return true; /* something has changed since it was written */
     }

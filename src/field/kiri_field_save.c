@@ -68,15 +68,9 @@ static const kiriMember ShapeWorkMembers[] = {
 };
 static const kiriTable ShapeWorkTable = KIRI_TABLE(kiriShapeWork, ShapeWorkMembers);
 
-static const kiriMember LabelsMembers[] = {
-    KIRI_ITEMS(4, kiriLabels, itemOf),
-    KIRI_ITEMS(4, kiriLabels, labelOf),
-};
-static const kiriTable LabelsTable = KIRI_TABLE(kiriLabels, LabelsMembers);
-
 static const kiriMember ReachesMembers[] = {
     KIRI_DERIVED,
-    KIRI_ARRAYS(kiriReaches, blocks, heads, ofCells, ofLabel),
+    KIRI_ARRAYS(kiriReaches, blocks, heads, ofCells, ofFrame),
 };
 static const kiriTable ReachesTable = KIRI_TABLE(kiriReaches, ReachesMembers);
 
@@ -84,7 +78,6 @@ static const kiriMember ShapeMembers[] = {
     KIRI_REALS(kiriShape, rigidWeight, rigidWeight),
     KIRI_UNHASHED,
     KIRI_BOOLS(kiriShape, eased, eased),
-    KIRI_PART(kiriShape, labels, LabelsTable),
     KIRI_DERIVED,
     KIRI_ARRAYS(kiriShape, spans, weights, rigid, changes),
     KIRI_PART(kiriShape, reaches, ReachesTable),

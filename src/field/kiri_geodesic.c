@@ -596,34 +596,34 @@ kiriProgress kiriField_Scan(kiriField* field, kiriMemory* memory, const kiriGrid
 
 /* ---- Distances of frames, in blocks ------------------------------------------------------------------------------ */
 
-bool kiriReaches_Resize(kiriReaches* reaches, kiriMemory* memory, int32_t cellCount, int32_t labelCount)
+bool kiriReaches_Resize(kiriReaches* reaches, kiriMemory* memory, int32_t cellCount, int32_t frameCount)
 {
-    int32_t cells = reaches->ofCells.count, labels = reaches->ofLabel.count;
+    int32_t cells = reaches->ofCells.count, frames = reaches->ofFrame.count;
     int32_t needed = kiriReach_BlockOf(cellCount + KIRI_BLOCK_CELLS - 1);
     if (!kiriArray_Resize(memory, &reaches->ofCells, kiriMax(needed, cells)) ||
-        !kiriArray_Resize(memory, &reaches->ofLabel, kiriMax(labelCount, labels))) {
+        !kiriArray_Resize(memory, &reaches->ofFrame, kiriMax(frameCount, frames))) {
         return false;
     }
     for (; cells < reaches->ofCells.count; ++cells) {
         reaches->ofCells.data[cells] = KIRI_NONE;
     }
-    for (; labels < reaches->ofLabel.count; ++labels) {
-        reaches->ofLabel.data[labels] = KIRI_NONE;
+    for (; frames < reaches->ofFrame.count; ++frames) {
+        reaches->ofFrame.data[frames] = KIRI_NONE;
     }
     return true;
 }
 
 void kiriReaches_Clear(kiriReaches* reaches)
 {
-    reaches->blocks.count = reaches->heads.count = reaches->ofCells.count = reaches->ofLabel.count =
+    reaches->blocks.count = reaches->heads.count = reaches->ofCells.count = reaches->ofFrame.count =
         reaches->freeBlocks = 0;
 }
 
-int32_t kiriReaches_Find(const kiriReaches* reaches, int32_t label, int32_t cells)
+int32_t kiriReaches_Find(const kiriReaches* reaches, int32_t frame, int32_t cells)
 {
     KIRI_ASSERT(cells >= 0 && cells < reaches->ofCells.count);
     int32_t block = reaches->ofCells.data[cells];
-    while (block != KIRI_NONE && reaches->heads.data[block].label != label) {
+    while (block != KIRI_NONE && reaches->heads.data[block].frame != frame) {
         block = reaches->heads.data[block].nextOfCells;
     }
     return block;
@@ -634,10 +634,10 @@ int64_t kiriReaches_RoomFor(const kiriReaches* reaches, int32_t more)
     return (int64_t)reaches->blocks.count + more - reaches->freeBlocks;
 }
 
-int32_t kiriReaches_Add(kiriReaches* reaches, int32_t label, int32_t cells)
+int32_t kiriReaches_Add(kiriReaches* reaches, int32_t frame, int32_t cells)
 {
-    KIRI_ASSERT(label >= 0 && label < reaches->ofLabel.count && kiriReaches_Find(reaches, label, cells) == KIRI_NONE);
-    int32_t index = reaches->freeBlock, next = reaches->ofLabel.data[label];
+    KIRI_ASSERT(frame >= 0 && frame < reaches->ofFrame.count && kiriReaches_Find(reaches, frame, cells) == KIRI_NONE);
+    int32_t index = reaches->freeBlock, next = reaches->ofFrame.data[frame];
     if (reaches->freeBlocks > 0) {
         reaches->freeBlock = reaches->blocks.data[index].nextOfFrame;
         reaches->freeBlocks -= 1;
@@ -647,7 +647,7 @@ int32_t kiriReaches_Add(kiriReaches* reaches, int32_t label, int32_t cells)
         reaches->heads.count += 1;
     }
     kiriReachBlock* block = &reaches->blocks.data[index];
-    reaches->heads.data[index] = (kiriReachHead){ label, reaches->ofCells.data[cells] };
+    reaches->heads.data[index] = (kiriReachHead){ frame, reaches->ofCells.data[cells] };
     block->cells = cells;
     block->nextOfFrame = next;
     block->previousOfFrame = KIRI_NONE;
@@ -657,7 +657,7 @@ int32_t kiriReaches_Add(kiriReaches* reaches, int32_t label, int32_t cells)
     if (next != KIRI_NONE) {
         reaches->blocks.data[next].previousOfFrame = index;
     }
-    reaches->ofCells.data[cells] = reaches->ofLabel.data[label] = index;
+    reaches->ofCells.data[cells] = reaches->ofFrame.data[frame] = index;
     return index;
 }
 
@@ -677,30 +677,30 @@ void kiriReaches_Remove(kiriReaches* reaches, int32_t index)
     if (block->previousOfFrame != KIRI_NONE) {
         blocks[block->previousOfFrame].nextOfFrame = block->nextOfFrame;
     } else {
-        reaches->ofLabel.data[head->label] = block->nextOfFrame;
+        reaches->ofFrame.data[head->frame] = block->nextOfFrame;
     }
-    head->label = KIRI_NONE;
+    head->frame = KIRI_NONE;
     block->nextOfFrame = reaches->freeBlock;
     reaches->freeBlock = index;
     reaches->freeBlocks += 1;
 }
 
-void kiriReaches_Forget(kiriReaches* reaches, int32_t label)
+void kiriReaches_Forget(kiriReaches* reaches, int32_t frame)
 {
-    KIRI_ASSERT(label >= 0 && label < reaches->ofLabel.count);
-    while (reaches->ofLabel.data[label] != KIRI_NONE) {
-        kiriReaches_Remove(reaches, reaches->ofLabel.data[label]);
+    KIRI_ASSERT(frame >= 0 && frame < reaches->ofFrame.count);
+    while (reaches->ofFrame.data[frame] != KIRI_NONE) {
+        kiriReaches_Remove(reaches, reaches->ofFrame.data[frame]);
     }
 }
 
-void kiriReaches_Relabel(kiriReaches* reaches, const kiriKeep* labels)
+void kiriReaches_Keep(kiriReaches* reaches, const kiriKeep* frames)
 {
-    for (int32_t label = labels->first; label < reaches->ofLabel.count; ++label) {
-        int32_t to = kiriKeep_To(labels, label);
-        KIRI_ASSERT(to != KIRI_NONE || reaches->ofLabel.data[label] == KIRI_NONE);
-        for (int32_t b = reaches->ofLabel.data[label]; b != KIRI_NONE; b = reaches->blocks.data[b].nextOfFrame) {
-            reaches->heads.data[b].label = to;
+    for (int32_t frame = frames->first; frame < reaches->ofFrame.count; ++frame) {
+        int32_t to = kiriKeep_To(frames, frame);
+        KIRI_ASSERT(to != KIRI_NONE || reaches->ofFrame.data[frame] == KIRI_NONE);
+        for (int32_t b = reaches->ofFrame.data[frame]; b != KIRI_NONE; b = reaches->blocks.data[b].nextOfFrame) {
+            reaches->heads.data[b].frame = to;
         }
     }
-    kiriKeep_Compact(labels, &reaches->ofLabel, 1, sizeof(int32_t));
+    kiriKeep_Compact(frames, &reaches->ofFrame, 1, sizeof(int32_t));
 }

@@ -108,7 +108,7 @@ enum { KIRI_BLOCK_CELLS = 16 };
 /* The frame of a block. Stored apart from the distances: so a search along the list of some cells reads few cache
    lines. */
 typedef struct kiriReachHead {
-    int32_t label;       /* of the frame; KIRI_NONE: the index is not in use */
+    int32_t frame;       /* KIRI_NONE: the index is not in use */
     int32_t nextOfCells; /* the block of another frame for these cells, or KIRI_NONE */
 } kiriReachHead;
 
@@ -124,31 +124,31 @@ typedef struct kiriReaches {
     KIRI_ARRAY(kiriReachBlock) blocks; /* by index, with gaps */
     KIRI_ARRAY(kiriReachHead) heads;   /* one for each block */
     KIRI_ARRAY(int32_t) ofCells;       /* of each block of cells: the head of its list, or KIRI_NONE */
-    KIRI_ARRAY(int32_t) ofLabel;       /* of each label of a frame: the head of its list, or KIRI_NONE */
+    KIRI_ARRAY(int32_t) ofFrame;       /* of each frame: the head of its list, or KIRI_NONE */
     int32_t freeBlocks, freeBlock;     /* how many blocks are not in use, and the head of their list */
 } kiriReaches;
 
-/* Makes room for cells and labels. False for memory. */
-bool kiriReaches_Resize(kiriReaches* reaches, kiriMemory* memory, int32_t cellCount, int32_t labelCount);
+/* Makes room for cells and frames. False for memory. */
+bool kiriReaches_Resize(kiriReaches* reaches, kiriMemory* memory, int32_t cellCount, int32_t frameCount);
 
 /* Makes it empty; keeps the memory. */
 void kiriReaches_Clear(kiriReaches* reaches);
 
 /* Finds a block, or returns KIRI_NONE. */
-int32_t kiriReaches_Find(const kiriReaches* reaches, int32_t label, int32_t cells);
+int32_t kiriReaches_Find(const kiriReaches* reaches, int32_t frame, int32_t cells);
 
 /* Returns the capacity that `blocks` and `heads` need for more blocks. */
 int64_t kiriReaches_RoomFor(const kiriReaches* reaches, int32_t more);
 
 /* Adds a block, which reaches nothing. The caller has reserved room. */
-int32_t kiriReaches_Add(kiriReaches* reaches, int32_t label, int32_t cells);
+int32_t kiriReaches_Add(kiriReaches* reaches, int32_t frame, int32_t cells);
 void kiriReaches_Remove(kiriReaches* reaches, int32_t block);
 
 /* Removes all blocks of a frame. */
-void kiriReaches_Forget(kiriReaches* reaches, int32_t label);
+void kiriReaches_Forget(kiriReaches* reaches, int32_t frame);
 
-/* Gives labels their new number. Removed labels must have no blocks. */
-void kiriReaches_Relabel(kiriReaches* reaches, const kiriKeep* labels);
+/* Renumbers the frames. Removed frames must have no blocks. */
+void kiriReaches_Keep(kiriReaches* reaches, const kiriKeep* frames);
 
 static inline int32_t kiriReach_BlockOf(int32_t cell)
 {

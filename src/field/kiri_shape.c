@@ -29,7 +29,7 @@ typedef struct ShapeJob {
     int32_t siteCount;
     kiriQuota* quota;
     bool outOfMemory; /* the update fails */
-    int32_t frame, label;
+    int32_t frame;
 } ShapeJob;
 
 static void AppendCell(ShapeJob* job, kiriIndices* list, int32_t cell)
@@ -62,17 +62,17 @@ static int32_t FarthestFor(const ShapeJob* job, int32_t x)
     return (int32_t)kiriMin(farthest, KIRI_FAR - 1);
 }
 
-/* Counts a cell for the limit of a frame, and no longer for another one. A label of KIRI_NONE: for none. */
+/* Counts a cell for the limit of a frame, and no longer for another one. A frame of KIRI_NONE: for none. */
 static void CountFor(ShapeJob* job, int32_t cell, kiriCountedCell is)
 {
     KIRI_ASSERT(cell >= 0 && cell < job->work->counted.count && is.sides >= 0);
     kiriShapeWork* work = job->work;
     kiriCountedCell* was = &work->counted.data[cell];
-    if (is.label == was->label && is.sides == was->sides) {
+    if (is.frame == was->frame && is.sides == was->sides) {
         return;
     }
-    if (is.label != KIRI_NONE) {
-        kiriSpan* span = &work->frames.data[kiriLabels_Item(&job->shape->labels, is.label)].sides;
+    if (is.frame != KIRI_NONE) {
+        kiriSpan* span = &work->frames.data[is.frame].sides;
         int32_t k = span->count;
         if (is.sides >= k && !kiriSpan_Resize(span, &work->sideRoom, job->memory, &work->sideCounts,
                                               sizeof(*work->sideCounts.data), is.sides + 1)) {
@@ -84,8 +84,8 @@ static void CountFor(ShapeJob* job, int32_t cell, kiriCountedCell is)
         }
         work->sideCounts.data[span->first + is.sides] += 1;
     }
-    if (was->label != KIRI_NONE) {
-        kiriSpan span = work->frames.data[kiriLabels_Item(&job->shape->labels, was->label)].sides;
+    if (was->frame != KIRI_NONE) {
+        kiriSpan span = work->frames.data[was->frame].sides;
         KIRI_ASSERT(was->sides < span.count && work->sideCounts.data[span.first + was->sides] > 0);
         work->sideCounts.data[span.first + was->sides] -= 1;
     }
@@ -97,7 +97,7 @@ static void CountCell(ShapeJob* job, int32_t cell)
     kiriCountedCell is = { KIRI_NONE, 0 };
     int32_t frame = job->regions->field.owner.data[cell];
     if (frame != KIRI_NONE) {
-        is.label = kiriLabels_Of(&job->shape->labels, frame);
+        is.frame = frame;
         is.sides = FarthestFor(job, cell) / KIRI_UNIT;
     }
     CountFor(job, cell, is);
@@ -198,7 +198,7 @@ static void TouchCell(ShapeJob* job, int32_t cell)
     for (int32_t b = reaches->ofCells.data[kiriReach_BlockOf(cell)]; b != KIRI_NONE;
          b = reaches->heads.data[b].nextOfCells) {
         if (reaches->blocks.data[b].fromSite[cell % KIRI_BLOCK_CELLS] != KIRI_FAR) {
-            int32_t frame = kiriLabels_Item(&job->shape->labels, reaches->heads.data[b].label);
+            int32_t frame = reaches->heads.data[b].frame;
             kiriTouchedCell touched = { cell, work->frames.data[frame].firstTouch };
             MarkFrameDirty(job, frame);
             work->frames.data[frame].firstTouch = work->touches.count;
@@ -238,7 +238,7 @@ static void AddRigid(ShapeJob* job, int32_t cell, int64_t share)
     for (int32_t k = span.first; k < span.first + span.count; ++k) {
         const kiriCellWeight* weight = &shape->weights.data[k];
         if (kiriCellWeight_Raw(weight) / sum > shape->rigidWeight) {
-            shape->rigid.data[kiriLabels_Item(&shape->labels, weight->label)] += share;
+            shape->rigid.data[weight->frame] += share;
         }
     }
 }
@@ -331,7 +331,7 @@ static void LoadBlock(const ShapeJob* job, int32_t cells)
     if (work->isLoaded.data[cells]) {
         return;
     }
-    int32_t block = kiriReaches_Find(reaches, job->label, cells), first = cells * KIRI_BLOCK_CELLS;
+    int32_t block = kiriReaches_Find(reaches, job->frame, cells), first = cells * KIRI_BLOCK_CELLS;
     KIRI_ASSERT(work->loaded.count < work->loaded.capacity);
     work->isLoaded.data[cells] = 1;
     work->debt += COST_OF_LOAD;
@@ -428,7 +428,7 @@ static void LoadBeyond(ShapeJob* job, int32_t limit)
     kiriShapeWork* work = job->work;
     const kiriReaches* reaches = &job->shape->reaches;
     int32_t old = work->frames.data[job->frame].limit, rim = limit > old ? old - KIRI_UNIT_KNIGHT : limit;
-    for (int32_t b = reaches->ofLabel.data[job->label]; b != KIRI_NONE; b = reaches->blocks.data[b].nextOfFrame) {
+    for (int32_t b = reaches->ofFrame.data[job->frame]; b != KIRI_NONE; b = reaches->blocks.data[b].nextOfFrame) {
         const kiriReachBlock* block = &reaches->blocks.data[b];
         for (int32_t k = 0; k < KIRI_BLOCK_CELLS; ++k) {
             int32_t cell = block->cells * KIRI_BLOCK_CELLS + k;
@@ -496,7 +496,7 @@ static bool StartFromSite(ShapeJob* job)
     for (int32_t k = 0; k < work->seeds.count; ++k) {
         LoadBlock(job, kiriReach_BlockOf(work->seeds.data[k].cell));
     }
-    for (int32_t b = reaches->ofLabel.data[job->label]; b != KIRI_NONE; b = reaches->blocks.data[b].nextOfFrame) {
+    for (int32_t b = reaches->ofFrame.data[job->frame]; b != KIRI_NONE; b = reaches->blocks.data[b].nextOfFrame) {
         LoadBlock(job, reaches->blocks.data[b].cells);
     }
     return kiriField_Start(&work->fromSite, job->memory, work->seeds.data, work->seeds.count);
@@ -568,7 +568,7 @@ static void UnloadBlock(ShapeJob* job, kiriLoadedBlock loaded)
     }
     int32_t index = loaded.block;
     if (any && index == KIRI_NONE) {
-        index = kiriReaches_Add(reaches, job->label, loaded.cells);
+        index = kiriReaches_Add(reaches, job->frame, loaded.cells);
     }
     kiriReachBlock* block = index != KIRI_NONE ? &reaches->blocks.data[index] : NULL;
     for (int32_t k = 0; k < KIRI_BLOCK_CELLS; ++k) {
@@ -622,7 +622,6 @@ static bool MeasureFrame(ShapeJob* job, int32_t item)
     int32_t part = item % MEASURE_PARTS;
     bool starts = !work->isMeasuring, ok = true, isDone = true;
     job->frame = work->dirtyFrames.data[item / MEASURE_PARTS];
-    job->label = kiriLabels_Of(&job->shape->labels, job->frame);
     if (part == MEASURE_SITE) {
         ok = !starts || StartFromSite(job);
         isDone = !ok || MeasureField(job, &work->fromSite, work->frames.data[job->frame].limit, NULL, SiteSeed);
@@ -639,26 +638,25 @@ static bool MeasureFrame(ShapeJob* job, int32_t item)
 
 /* ---- The weights of a cell --------------------------------------------------------------------------------------- */
 
-/* Lists the weights that the distances give a cell, in work->weights, by label. False for memory. */
+/* Lists the weights that the distances give a cell, in work->weights, by frame. False for memory. */
 static bool ListWeights(ShapeJob* job, int32_t cell)
 {
     kiriShapeWork* work = job->work;
     const kiriReaches* reaches = &job->shape->reaches;
     int32_t k = cell % KIRI_BLOCK_CELLS, owner = job->regions->field.owner.data[cell];
-    int32_t own = owner != KIRI_NONE ? kiriLabels_Of(&job->shape->labels, owner) : KIRI_NONE;
     work->weights.count = 0;
     for (int32_t b = reaches->ofCells.data[kiriReach_BlockOf(cell)]; b != KIRI_NONE;
          b = reaches->heads.data[b].nextOfCells) {
         const kiriReachBlock* block = &reaches->blocks.data[b];
-        int32_t label = reaches->heads.data[b].label, at = work->weights.count;
+        int32_t frame = reaches->heads.data[b].frame, at = work->weights.count;
         double raw =
-            block->fromSite[k] != KIRI_FAR ? RawWeight(label == own, block->fromSite[k], block->fromBorder[k]) : 0.0;
+            block->fromSite[k] != KIRI_FAR ? RawWeight(frame == owner, block->fromSite[k], block->fromBorder[k]) : 0.0;
         if (raw > 0.0) {
-            const kiriCellWeight weight = kiriCellWeight_Make(label, raw);
+            const kiriCellWeight weight = kiriCellWeight_Make(frame, raw);
             if (!kiriArray_Push(job->memory, &work->weights, weight)) {
                 return false;
             }
-            for (; at > 0 && work->weights.data[at - 1].label > label; --at) {
+            for (; at > 0 && work->weights.data[at - 1].frame > frame; --at) {
                 work->weights.data[at] = work->weights.data[at - 1];
             }
             work->weights.data[at] = weight;
@@ -723,7 +721,7 @@ static bool ReserveShape(ShapeJob* job)
     int32_t cells = job->grid->cells.count, blocks = kiriReach_BlockOf(cells + KIRI_BLOCK_CELLS - 1);
     int32_t whole = blocks * KIRI_BLOCK_CELLS, c = shape->spans.count;
     int32_t marks = work->marks.count, loaded = work->isLoaded.count;
-    if (!kiriReaches_Resize(&shape->reaches, memory, whole, kiriLabels_Count(&shape->labels, job->siteCount)) ||
+    if (!kiriReaches_Resize(&shape->reaches, memory, whole, job->siteCount) ||
         !kiriField_Resize(&work->fromSite, memory, whole) || !kiriField_Resize(&work->fromBorder, memory, whole) ||
         !kiriArray_Resize(memory, &work->marks, whole) || !kiriArray_Reserve(memory, &work->loaded, blocks) ||
         !kiriArray_Resize(memory, &work->isLoaded, blocks) || !kiriArray_Resize(memory, &shape->spans, cells) ||
@@ -806,7 +804,7 @@ kiriProgress kiriShape_Update(kiriShape* shape, kiriMemory* memory, const kiriGr
     }
     kiriShapeWork* work = shape->work;
     KIRI_ASSERT(!regions->running && regions->material.count == siteCount);
-    ShapeJob job = { shape, work, memory, grid, mesh, regions, sites, siteCount, quota, false, KIRI_NONE, KIRI_NONE };
+    ShapeJob job = { shape, work, memory, grid, mesh, regions, sites, siteCount, quota, false, KIRI_NONE };
     if (work == NULL || (!work->running && !StartShapeUpdate(&job, moves, moveCount))) {
         return KIRI_FAILED;
     }
@@ -842,8 +840,8 @@ void kiriShape_HashProgress(const kiriShape* shape, uint64_t* hash)
     }
 }
 
-void kiriShape_Keep(kiriShape* shape, kiriMemory* memory, const kiriKeep* frames, const kiriKeep* labels,
-                    const int32_t* gone, int32_t goneCount)
+void kiriShape_Keep(kiriShape* shape, kiriMemory* memory, const kiriKeep* frames, const int32_t* gone,
+                    int32_t goneCount)
 {
     kiriShapeWork* work = shape->work;
     KIRI_ASSERT(!work->running && shape->changes.count == 0);
@@ -854,21 +852,20 @@ void kiriShape_Keep(kiriShape* shape, kiriMemory* memory, const kiriKeep* frames
     }
     for (int32_t f = frames->first; f < frames->to.count; ++f) {
         if (!kiriKeep_Has(frames, f)) {
-            kiriReaches_Forget(&shape->reaches, kiriLabels_Of(&shape->labels, f));
+            kiriReaches_Forget(&shape->reaches, f);
             kiriSpan_Resize(&work->frames.data[f].sides, &work->sideRoom, memory, &work->sideCounts,
                             sizeof(*work->sideCounts.data), 0);
         }
     }
-    kiriReaches_Relabel(&shape->reaches, labels);
-    for (int32_t c = 0; kiriKeep_Moves(labels) && c < shape->spans.count; ++c) {
+    kiriReaches_Keep(&shape->reaches, frames);
+    for (int32_t c = 0; kiriKeep_Moves(frames) && c < shape->spans.count; ++c) {
         kiriSpan span = shape->spans.data[c];
         for (int32_t k = span.first; k < span.first + span.count; ++k) {
-            shape->weights.data[k].label = kiriKeep_To(labels, shape->weights.data[k].label);
-            KIRI_ASSERT(shape->weights.data[k].label != KIRI_NONE);
+            shape->weights.data[k].frame = kiriKeep_To(frames, shape->weights.data[k].frame);
+            KIRI_ASSERT(shape->weights.data[k].frame != KIRI_NONE);
         }
-        work->counted.data[c].label = kiriKeep_To(labels, work->counted.data[c].label);
+        work->counted.data[c].frame = kiriKeep_To(frames, work->counted.data[c].frame);
     }
-    kiriLabels_Forget(&shape->labels);
     kiriKeep_Compact(frames, &shape->rigid, 1, sizeof(int64_t));
     kiriKeep_Compact(frames, &work->frames, 1, sizeof(kiriShapeFrame));
 }

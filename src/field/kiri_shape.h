@@ -17,15 +17,15 @@ typedef struct kiriWeight {
 
 /* A weight at a cell, before the weights there are divided by their sum. A double in two parts, to avoid padding. */
 typedef struct kiriCellWeight {
-    int32_t label;      /* of the frame */
+    int32_t frame;
     uint32_t low, high; /* see kiriCellWeight_Raw */
 } kiriCellWeight;
 
-static inline kiriCellWeight kiriCellWeight_Make(int32_t label, double raw)
+static inline kiriCellWeight kiriCellWeight_Make(int32_t frame, double raw)
 {
     uint64_t bits;
     memcpy(&bits, &raw, sizeof(bits));
-    return (kiriCellWeight){ label, (uint32_t)bits, (uint32_t)(bits >> 32) };
+    return (kiriCellWeight){ frame, (uint32_t)bits, (uint32_t)(bits >> 32) };
 }
 
 static inline double kiriCellWeight_Raw(const kiriCellWeight* weight)
@@ -39,9 +39,8 @@ static inline double kiriCellWeight_Raw(const kiriCellWeight* weight)
 typedef struct kiriShapeWork kiriShapeWork; /* the update in progress, see below */
 
 typedef struct kiriShape {
-    kiriLabels labels; /* of frames, in weights of cells and of samples: removing a frame changes no other's weights */
     KIRI_ARRAY(kiriSpan) spans;         /* of each cell: its weights */
-    KIRI_ARRAY(kiriCellWeight) weights; /* by spans; in a span by label; above zero */
+    KIRI_ARRAY(kiriCellWeight) weights; /* by spans; in a span by frame; above zero */
     kiriSpans room;
     kiriReaches reaches; /* of each frame: distances of the cells that its weight may reach */
 
@@ -80,10 +79,9 @@ kiriProgress kiriShape_Update(kiriShape* shape, kiriMemory* memory, const kiriGr
                               const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota);
 
 /* Removes the listed cells, which must be all that the frames reach that are not kept, and gives the other frames their
-   new index, and labels what `labels` says (kiriLabels_Map). Not during an update, nor before its changes are cleared.
-   Never fails. */
-void kiriShape_Keep(kiriShape* shape, kiriMemory* memory, const kiriKeep* frames, const kiriKeep* labels,
-                    const int32_t* gone, int32_t goneCount);
+   new index. Not during an update, nor before its changes are cleared. Cannot fail. */
+void kiriShape_Keep(kiriShape* shape, kiriMemory* memory, const kiriKeep* frames, const int32_t* gone,
+                    int32_t goneCount);
 void kiriShape_ClearChanges(kiriShape* shape);
 
 /* Adds the debt of the update in progress to the state hash. */
@@ -104,9 +102,9 @@ typedef struct kiriShapeFrame {
     bool dirty;         /* its distances or weights may have changed */
 } kiriShapeFrame;
 
-/* The label of a cell's region, and how many whole sides distances to the site there have to go for its sake. */
+/* The frame of a cell's region, and how many whole sides distances to the site there have to go for its sake. */
 typedef struct kiriCountedCell {
-    int32_t label, sides;
+    int32_t frame, sides;
 } kiriCountedCell;
 
 /* A changed cell that a frame reaches. */

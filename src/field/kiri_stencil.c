@@ -284,7 +284,7 @@ static bool GatherFrames(kiriStencil* stencil, kiriMemory* memory, const kiriSha
             return false;
         }
         for (int32_t w = span.first; w < span.first + span.count; ++w) {
-            int32_t frame = kiriLabels_Item(&shape->labels, shape->weights.data[w].label);
+            int32_t frame = shape->weights.data[w].frame;
             int32_t at = stencil->frames.count;
             KIRI_ASSERT(frame >= 0 && frame < stencil->columns.count);
             if (stencil->columns.data[frame] == 0) {
@@ -317,7 +317,7 @@ static bool GatherWeights(kiriStencil* stencil, kiriMemory* memory, const kiriSh
             weights[i] = 0.0;
         }
         for (int32_t w = span.first; w < span.first + span.count; ++w) {
-            int32_t frame = kiriLabels_Item(&shape->labels, shape->weights.data[w].label);
+            int32_t frame = shape->weights.data[w].frame;
             weights[stencil->columns.data[frame] - 1] = kiriCellWeight_Raw(&shape->weights.data[w]) / sum;
         }
     }

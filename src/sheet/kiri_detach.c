@@ -570,17 +570,6 @@ static bool ListForces(kiriDetach* detach)
     return true;
 }
 
-static bool StageLabels(kiriDetach* detach)
-{
-    const kiriLabels* labels = &detach->sheet->shape.labels;
-    int32_t count = kiriLabels_Count(labels, detach->sheet->frames.count);
-    bool ok = kiriKeep_Init(&detach->labels, &detach->memory, count);
-    if (ok) {
-        kiriLabels_Map(labels, &detach->rest.frames, &detach->labels);
-    }
-    return ok;
-}
-
 bool kiriDetach_Stage(kiriDetach* detach)
 {
     kiriSheetData* sheet = detach->sheet;
@@ -589,7 +578,7 @@ bool kiriDetach_Stage(kiriDetach* detach)
     KIRI_ASSERT(kiriUpdate_IsFieldCurrent(sheet->update));
     KIRI_ASSERT(rest->frames.to.count == sheet->frames.count && rest->frames.count > 0);
     elements->elements.count = elements->shares.count = 0;
-    return ListCells(detach) && StageLabels(detach) && ListForces(detach) && StagePieces(detach) &&
+    return ListCells(detach) && ListForces(detach) && StagePieces(detach) &&
            StagePins(detach) &&
            kiriAreaElements_Keep(elements, sheet->memory, &sheet->layout.areaElements, &rest->frames) &&
            kiriLinks_Keep(&sheet->links, sheet->memory, &rest->links, &rest->frames) &&
@@ -607,7 +596,7 @@ static void KeepFields(kiriDetach* detach)
     kiriMesh_Keep(&sheet->mesh, &rest->triangles, &rest->vertices, squares, squareCount);
     kiriGrid_Keep(&sheet->grid, sheet->memory, &rest->triangles, &rest->vertices, cells, cellCount);
     kiriRegions_Keep(&sheet->regions, &rest->frames, cells, cellCount);
-    kiriShape_Keep(&sheet->shape, sheet->memory, &rest->frames, &detach->labels, cells, cellCount);
+    kiriShape_Keep(&sheet->shape, sheet->memory, &rest->frames, cells, cellCount);
     kiriOwnership_Keep(&sheet->update->refit.ownership, &sheet->grid, &sheet->mesh, &sheet->regions, &rest->triangles,
                        &rest->frames, squares, squareCount);
 }
@@ -621,8 +610,8 @@ static void KeepSamples(kiriDetach* detach)
         sheet->points.data[i].frame = kiriKeep_To(&rest->frames, sheet->points.data[i].frame);
     }
     kiriPlaces_Keep(&sheet->pointPlaces, &rest->points);
-    kiriSkin_Keep(&sheet->pointSkin, &rest->points, &detach->labels);
-    kiriSkin_Keep(&sheet->vertexSkin, &rest->vertices, &detach->labels);
+    kiriSkin_Keep(&sheet->pointSkin, &rest->points, &rest->frames);
+    kiriSkin_Keep(&sheet->vertexSkin, &rest->vertices, &rest->frames);
     kiriFades_Keep(&sheet->seen.fades, &rest->vertices);
     kiriFades_Keep(&sheet->seen.pointFades, &rest->points);
     sheet->update->samples.oldVertices = sheet->mesh.vertices.count;

@@ -37,7 +37,6 @@ typedef struct kiriDetach {
     KIRI_ARRAY(int32_t) vertexPiece;      /* of each vertex */
     kiriPieceItems of[KIRI_LISTED_COUNT]; /* items of the pieces that leave */
     double area;                          /* m^2 of all pieces */
-    kiriKeep labels;                      /* new labels of frames */
     kiriIndices cells, squares;           /* cells that leave, and their squares, each once */
     KIRI_ARRAY(kiriVec3) forces;          /* N, of each contact of the last tick, then of pieces that sleep */
     kiriShown shown;

@@ -158,7 +158,7 @@ static void TouchBySamples(kiriSheetData* sheet, const kiriSkin* skin, int32_t o
     for (int32_t k = 0; k < skin->staged.count; ++k) {
         const kiriReweighed* staged = &skin->staged.data[k];
         const kiriSampleWeight* weights = &skin->weights.data[staged->span.first];
-        kiriPiece* piece = NextOfFrame(sheet, kiriSheet_FrameOf(sheet, weights->label));
+        kiriPiece* piece = NextOfFrame(sheet, weights->frame);
         bool isNew = staged->sample >= oldCount;
         const kiriSpan* was = isNew ? NULL : &skin->spans.data[staged->sample];
         piece->isTouched = piece->isTouched || isNew || was->count != staged->span.count ||
@@ -238,7 +238,7 @@ static int32_t HeaviestAt(const kiriSheetData* sheet, int32_t triangle)
             }
         }
     }
-    return heaviest.label != KIRI_NONE ? kiriSheet_FrameOf(sheet, heaviest.label) : KIRI_NONE;
+    return heaviest.frame != KIRI_NONE ? heaviest.frame : KIRI_NONE;
 }
 
 static int32_t FrameAt(const kiriSheetData* sheet, int32_t triangle, kiriLatticePoint at)

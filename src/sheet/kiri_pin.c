@@ -871,7 +871,7 @@ static double ShareAt(const kiriSheetData* sheet, const kiriPointPlace* place, i
         kiriSpan span = sheet->vertexSkin.spans.data[sheet->mesh.triangles.data[place->triangle].vertex[k]];
         for (int32_t i = span.first; i < span.first + span.count; ++i) {
             const kiriSampleWeight* weight = &sheet->vertexSkin.weights.data[i];
-            sum += kiriSheet_FrameOf(sheet, weight->label) == frame ? place->shares[k] * weight->value : 0.0;
+            sum += weight->frame == frame ? place->shares[k] * weight->value : 0.0;
         }
     }
     return sum;
@@ -1141,7 +1141,7 @@ static void PushFrames(kiriSheetData* sheet, const kiriPointPlace* place, kiriVe
         kiriSpan span = sheet->vertexSkin.spans.data[corners[k]];
         for (int32_t i = span.first; i < span.first + span.count; ++i) {
             kiriSampleWeight weight = sheet->vertexSkin.weights.data[i];
-            int32_t f = kiriSheet_FrameOf(sheet, weight.label);
+            int32_t f = weight.frame;
             if (only == KIRI_NONE || only == f) {
                 kiriFrameData* frame = only == KIRI_NONE ? &frames[f] : frames;
                 kiriVec3 arm = kiriVec3_Add(kiriVec3_Sub(kiriFrame_Carry(frame, local), frame->x), off);
@@ -1158,7 +1158,7 @@ static bool FitsImpulse(kiriSheetData* sheet, const kiriPointPlace* place, kiriV
     for (int k = 0; k < 3; ++k) {
         kiriSpan span = sheet->vertexSkin.spans.data[corners[k]];
         for (int32_t i = span.first; i < span.first + span.count; ++i) {
-            int32_t f = kiriSheet_FrameOf(sheet, sheet->vertexSkin.weights.data[i].label);
+            int32_t f = sheet->vertexSkin.weights.data[i].frame;
             kiriFrameData pushed = sheet->frames.data[f];
             PushFrames(sheet, place, off, impulse, f, &pushed);
             if (!kiriFrame_FitsFloats(&pushed)) {

@@ -101,7 +101,7 @@ kiriMotion kiriPoint_Blend(const kiriSheetData* sheet, const kiriPointPlace* pla
         kiriSpan span = sheet->vertexSkin.spans.data[corner];
         for (int32_t i = span.first; i < span.first + span.count; ++i) {
             kiriSampleWeight weight = sheet->vertexSkin.weights.data[i];
-            const kiriFrameData* frame = &sheet->frames.data[kiriSheet_FrameOf(sheet, weight.label)];
+            const kiriFrameData* frame = &sheet->frames.data[weight.frame];
             double share = place->shares[k] * weight.value;
             motion.x = kiriVec3_AddScaled(motion.x, share, kiriFrame_Carry(frame, local));
             motion.velocity = kiriVec3_AddScaled(motion.velocity, share, kiriFrame_VelocityAt(frame, local));
@@ -166,12 +166,12 @@ static void AddBit(kiriFrameMask* mask, int bit)
     mask->bits[bit / 64] |= UINT64_C(1) << bit % 64;
 }
 
-/* Of the two bits of a label one tells it from those near its own, and the other from those far from it. Labels share
+/* Of the two bits of a frame one tells it from those near its own, and the other from those far from it. Frames share
    bits: a block may seem to have one that it has not. */
-static void AddToMask(kiriFrameMask* mask, int32_t label)
+static void AddToMask(kiriFrameMask* mask, int32_t frame)
 {
-    AddBit(mask, label % MASK_HALF);
-    AddBit(mask, MASK_HALF + label / MASK_HALF % MASK_HALF);
+    AddBit(mask, frame % MASK_HALF);
+    AddBit(mask, MASK_HALF + frame / MASK_HALF % MASK_HALF);
 }
 
 kiriFrameMask kiriBlocks_MaskOfOther(const kiriPatches* patches)
@@ -215,7 +215,7 @@ static void WriteMask(kiriSheetData* sheet, int32_t block)
     for (int32_t v = block * KIRI_BLOCK; v < EndOfBlock(sheet, block); ++v) {
         const kiriSampleWeight* weight = skin->weights.data + skin->spans.data[v].first;
         for (const kiriSampleWeight* end = weight + skin->spans.data[v].count; weight < end; ++weight) {
-            AddToMask(&mask, weight->label);
+            AddToMask(&mask, weight->frame);
         }
     }
     sheet->seen.blocks.frames.data[block] = mask;
@@ -243,10 +243,9 @@ static int32_t FindMover(const kiriSheetData* sheet, int32_t block)
 {
     const uint8_t* moves = sheet->seen.blocks.moved.data;
     for (int32_t v = block * KIRI_BLOCK; v < EndOfBlock(sheet, block); ++v) {
-        kiriSpan span = sheet->vertexSkin.spans.data[v];
-        int32_t label = span.count > 0 ? sheet->vertexSkin.weights.data[span.first].label : KIRI_NONE;
-        if (label != KIRI_NONE && moves[kiriSheet_FrameOf(sheet, label)]) {
-            return label;
+        int32_t frame = sheet->vertexSkin.weights.data[sheet->vertexSkin.spans.data[v].first].frame;
+        if (moves[frame]) {
+            return frame;
         }
     }
     return KIRI_NONE;
@@ -263,12 +262,11 @@ static MovingFrames TakeMoving(kiriSheetData* sheet)
     uint8_t* moved = sheet->seen.blocks.moved.data;
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
         uint8_t moves = kiriSheet_Moves(sheet, i);
-        int32_t label = kiriLabels_Of(&sheet->shape.labels, i);
         if (moves) {
-            AddToMask(&moving.all, label);
+            AddToMask(&moving.all, i);
         }
         if (moves && !moved[i]) {
-            AddToMask(&moving.woken, label);
+            AddToMask(&moving.woken, i);
         }
         moved[i] = moves;
     }
@@ -281,7 +279,7 @@ static bool IsMoverKnown(const kiriSheetData* sheet, int32_t block, const Moving
     const kiriBlocks* blocks = &sheet->seen.blocks;
     int32_t mover = blocks->movers.data[block];
     return mover == KIRI_NONE ? !kiriBlocks_MayMeet(blocks, block, &moving->woken)
-                              : mover != KIRI_UNKNOWN && blocks->moved.data[kiriSheet_FrameOf(sheet, mover)];
+                              : mover != KIRI_UNKNOWN && blocks->moved.data[mover];
 }
 
 void kiriBlocks_FindMovers(kiriSheetData* sheet)
@@ -363,8 +361,7 @@ static void ForBlocks(kiriSheetData* sheet, int32_t begin, int32_t end, bool orS
 
 bool kiriView_Resize(kiriSheetData* sheet, int32_t frameCount, int32_t pointCount)
 {
-    return kiriSurface_Resize(&sheet->seen.surface, &sheet->shown, &sheet->mesh, frameCount,
-                              kiriLabels_Count(&sheet->shape.labels, frameCount)) &&
+    return kiriSurface_Resize(&sheet->seen.surface, &sheet->shown, &sheet->mesh, frameCount) &&
            kiriArray_Resize(&sheet->shown, &sheet->seen.pointPositions, 3 * (int64_t)pointCount) &&
            kiriArray_Resize(sheet->memory, &sheet->seen.exactPoints, pointCount) &&
            kiriBlocks_Resize(&sheet->seen.blocks, sheet->memory, sheet->mesh.vertices.count, frameCount) &&
@@ -452,8 +449,8 @@ void kiriView_WriteTopology(kiriSheetData* sheet)
 void kiriView_TakeFrames(kiriSheetData* sheet)
 {
     const kiriMoved* moved = MovedOf(sheet);
-    kiriSurface_TakeFrames(&sheet->seen.surface, &sheet->shape.labels, sheet->frames.data, sheet->frames.count,
-                           sheet->links.links.data, sheet->links.links.count, moved != NULL ? &moved->frames : NULL,
+    kiriSurface_TakeFrames(&sheet->seen.surface, sheet->frames.data, sheet->frames.count, sheet->links.links.data,
+                           sheet->links.links.count, moved != NULL ? &moved->frames : NULL,
                            moved != NULL ? &moved->links : NULL);
     if (sheet->seen.surface.isPartly && (moved->version != sheet->seen.lists || sheet->seen.blocks.hasUnknown)) {
         kiriBlocks_FindMovers(sheet);
@@ -474,7 +471,7 @@ static void BlendPoints(kiriSheetData* sheet, bool isPartly)
         }
         kiriVec2 local = kiriMesh_Local(&sheet->mesh, sheet->points.data[i].at);
         sheet->seen.exactPoints.data[i] =
-            kiriSkin_Position(&sheet->pointSkin, &sheet->shape.labels, i, sheet->frames.data, local);
+            kiriSkin_Position(&sheet->pointSkin, i, sheet->frames.data, local);
     }
 }
 
@@ -585,7 +582,7 @@ static void ForgetRounded(kiriSheetData* sheet)
     kiriPatches* patches = &sheet->seen.surface.patches;
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
         const kiriPiece* piece = kiriSheet_PieceOf(sheet, i);
-        uint8_t* isOther = &patches->isOther.data[kiriLabels_Of(&sheet->shape.labels, i)];
+        uint8_t* isOther = &patches->isOther.data[i];
         bool moves = kiriPiece_IsAwake(piece) && piece->rest.calm < KIRI_CALM_SECONDS;
         *isOther = *isOther == KIRI_PATCH_ROUNDED && moves ? KIRI_PATCH_SAME : *isOther;
     }

@@ -330,7 +330,7 @@ typedef struct kiriGivenContact {
     double share[3];
 } kiriGivenContact;
 
-/* Two bits for each frame, by its label, see kiri_seen.c. */
+/* Two bits for each frame, see kiri_seen.c. */
 typedef struct kiriFrameMask {
     uint64_t bits[4];
 } kiriFrameMask;
@@ -339,7 +339,7 @@ typedef struct kiriFrameMask {
 typedef struct kiriBlocks {
     KIRI_ARRAY(uint8_t) touched;      /* some have other weights, or fade */
     KIRI_ARRAY(uint8_t) stale;        /* triangles around them are others, so are their normals */
-    KIRI_ARRAY(int32_t) movers;       /* label of a frame that is awake; KIRI_NONE: all of it sleeps; or KIRI_UNKNOWN */
+    KIRI_ARRAY(int32_t) movers;       /* a frame that is awake; KIRI_NONE: all of it sleeps; or KIRI_UNKNOWN */
     KIRI_ARRAY(kiriFrameMask) frames; /* that carry it, where its mover is known; or all */
     KIRI_ARRAY(uint8_t) moved;        /* of each frame: was it awake when movers were found last? */
     bool hasUnknown;                  /* some mover, or some frames */
@@ -424,12 +424,6 @@ static inline kiriVec2 kiriSheet_ToLocal(const kiriSheetData* sheet, const float
     return kiriVec2_Make(rest[0] - sheet->mesh.origin.x, rest[1] - sheet->mesh.origin.y);
 }
 
-/* The frame with a label in weights. */
-static inline int32_t kiriSheet_FrameOf(const kiriSheetData* sheet, int32_t label)
-{
-    return kiriLabels_Item(&sheet->shape.labels, label);
-}
-
 /* The piece of a frame. */
 static inline kiriPiece* kiriSheet_PieceOf(const kiriSheetData* sheet, int32_t frame)
 {
@@ -442,7 +436,7 @@ static inline int32_t kiriPiece_OfVertex(const kiriSheetData* sheet, int32_t ver
     kiriSpan span = sheet->vertexSkin.spans.data[vertex];
     KIRI_ASSERT(span.count > 0);
     return sheet->layout.framePiece
-        .data[kiriSheet_FrameOf(sheet, sheet->vertexSkin.weights.data[span.first].label)];
+        .data[sheet->vertexSkin.weights.data[span.first].frame];
 }
 
 /* Has the host destroyed the piece of a frame? It stays, unseen, until the work at hand is done. */

@@ -399,7 +399,7 @@ static bool AreWeightsSeen(const kiriSheetData* sheet)
 {
     const kiriSurface* surface = &sheet->seen.surface;
     return !sheet->seen.isElsewhere && surface->isSteady &&
-           surface->patches.count == kiriLabels_Count(&sheet->shape.labels, sheet->frames.count) &&
+           surface->patches.count == sheet->frames.count &&
            surface->vertexCount == sheet->seen.vertexCount && surface->vertexCount == sheet->mesh.vertices.count;
 }
 
@@ -515,8 +515,7 @@ static bool AreSettings(const kiriSettings* settings)
 
 static bool AreFrames(const kiriSheetData* sheet)
 {
-    bool areFine = sheet->regions.dirty.count == sheet->frames.count &&
-                   kiriLabels_AreSound(&sheet->shape.labels, sheet->frames.count);
+    bool areFine = sheet->regions.dirty.count == sheet->frames.count;
     for (int32_t f = 0; areFine && f < sheet->frames.count; ++f) {
         areFine = kiriFrame_IsSound(&sheet->frames.data[f], &sheet->mesh);
     }
@@ -632,8 +631,8 @@ static bool AreBlocks(const kiriBlocks* blocks, const kiriSheetData* sheet)
                    blocks->moved.count >= sheet->frames.count;
     for (int32_t k = 0; areFine && k < count; ++k) {
         int32_t mover = blocks->movers.data[k];
-        areFine = mover == KIRI_UNKNOWN || mover == KIRI_NONE ||
-                  kiriLabels_Has(&sheet->shape.labels, mover, sheet->frames.count);
+        areFine =
+            mover == KIRI_UNKNOWN || mover == KIRI_NONE || (mover >= 0 && mover < sheet->frames.count);
     }
     return areFine;
 }
@@ -646,7 +645,7 @@ static bool AreFadesSet(const kiriFades* fades, const kiriSettings* settings)
 static bool IsSeen(const kiriSheetData* sheet)
 {
     const kiriSeen* seen = &sheet->seen;
-    return kiriSurface_IsSound(&seen->surface, &sheet->shape.labels, &sheet->mesh, sheet->frames.count) &&
+    return kiriSurface_IsSound(&seen->surface, &sheet->mesh, sheet->frames.count) &&
            kiriFades_AreSound(&seen->fades, sheet->mesh.vertices.count) &&
            kiriFades_AreSound(&seen->pointFades, sheet->points.count) &&
            AreFadesSet(&seen->fades, &sheet->settings) && AreFadesSet(&seen->pointFades, &sheet->settings) &&

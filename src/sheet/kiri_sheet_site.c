@@ -523,7 +523,7 @@ static bool MarkRigidCells(kiriSheetData* sheet)
         for (int32_t k = span.first; k < span.first + span.count; ++k) {
             const kiriCellWeight* weight = &sheet->shape.weights.data[k];
             u->placing.allowed.data[cell] |= kiriCellWeight_Raw(weight) / sum > sheet->shape.rigidWeight &&
-                                             FrameRigidity(sheet, kiriSheet_FrameOf(sheet, weight->label)) > 1.0;
+                                             FrameRigidity(sheet, weight->frame) > 1.0;
         }
     }
     return true;

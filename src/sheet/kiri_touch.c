@@ -80,20 +80,20 @@ kiriVec3 kiriMeeting_VertexVelocity(const kiriSheetData* sheet, int32_t vertex)
     for (int32_t k = span.first; k < span.first + span.count; ++k) {
         kiriSampleWeight weight = sheet->vertexSkin.weights.data[k];
         velocity = kiriVec3_AddScaled(velocity, weight.value,
-                                      kiriFrame_VelocityAt(&sheet->frames.data[kiriSheet_FrameOf(sheet, weight.label)],
+                                      kiriFrame_VelocityAt(&sheet->frames.data[weight.frame],
                                                            sheet->seen.surface.rest.data[vertex]));
     }
     return velocity;
 }
 
-static int32_t LeadingFrame(const kiriSheetData* sheet, const kiriSkin* skin, int32_t sample)
+static int32_t LeadingFrame(const kiriSkin* skin, int32_t sample)
 {
     kiriSpan span = skin->spans.data[sample];
     kiriSampleWeight most = skin->weights.data[span.first];
     for (int32_t k = span.first + 1; k < span.first + span.count; ++k) {
         most = skin->weights.data[k].value > most.value ? skin->weights.data[k] : most;
     }
-    return kiriSheet_FrameOf(sheet, most.label);
+    return most.frame;
 }
 
 /* ---- Touches ----------------------------------------------------------------------------------------------------- */
@@ -254,7 +254,7 @@ static void LookAtVertex(const kiriMeeting* meeting, int32_t vertex)
         double height = nearest.distance - Preference(meeting, vertex, nearest.distance);
         kiriNearVertex near = { vertex,
                                 PatchOf(meeting, vertex),
-                                LeadingFrame(meeting->sheet, &meeting->sheet->vertexSkin, vertex),
+                                LeadingFrame(&meeting->sheet->vertexSkin, vertex),
                                 KIRI_NONE,
                                 height,
                                 nearest.normal };
@@ -650,7 +650,7 @@ kiriVec3 kiriProbe_Velocity(const kiriSheetData* sheet, int32_t vertex)
         kiriSampleWeight weight = sheet->vertexSkin.weights.data[i];
         velocity = kiriVec3_AddScaled(
             velocity, weight.value,
-            kiriFrame_VelocityAt(&sheet->frames.data[kiriSheet_FrameOf(sheet, weight.label)], local));
+            kiriFrame_VelocityAt(&sheet->frames.data[weight.frame], local));
     }
     return velocity;
 }
@@ -828,7 +828,7 @@ static kiriPiece* PieceOfTouch(const kiriSheetData* sheet, const kiriTouch* touc
         return kiriSheet_PieceOf(sheet, sheet->points.data[touch->point].frame);
     }
     int32_t first = sheet->vertexSkin.spans.data[touch->vertex[0]].first;
-    return kiriSheet_PieceOf(sheet, kiriSheet_FrameOf(sheet, sheet->vertexSkin.weights.data[first].label));
+    return kiriSheet_PieceOf(sheet, sheet->vertexSkin.weights.data[first].frame);
 }
 
 static bool IsTouchFinite(const kiriTouch* touch)
@@ -1013,13 +1013,12 @@ typedef struct TouchBlend {
     kiriVec2 at;
 } TouchBlend;
 
-static void AddWeights(TouchBlend* blend, const kiriSheetData* sheet, const kiriSkin* skin, int32_t sample,
-                       double share)
+static void AddWeights(TouchBlend* blend, const kiriSkin* skin, int32_t sample, double share)
 {
     kiriSpan span = skin->spans.data[sample];
     for (int32_t k = span.first; k < span.first + span.count; ++k) {
         kiriSampleWeight weight = skin->weights.data[k];
-        int32_t n = 0, frame = kiriSheet_FrameOf(sheet, weight.label);
+        int32_t n = 0, frame = weight.frame;
         while (n < blend->count && blend->weights[n].frame != frame) {
             ++n;
         }
@@ -1039,14 +1038,14 @@ static TouchBlend BlendOf(const kiriSheetData* sheet, const kiriTouch* touch)
     blend.count = 0;
     if (touch->point != KIRI_NONE) {
         blend.at = kiriMesh_Local(&sheet->mesh, sheet->points.data[touch->point].at);
-        AddWeights(&blend, sheet, &sheet->pointSkin, touch->point, 1.0);
+        AddWeights(&blend, &sheet->pointSkin, touch->point, 1.0);
         return blend;
     }
     blend.at = kiriVec2_Make(0.0, 0.0);
     for (int n = 0; n < 3 && touch->vertex[n] != KIRI_NONE; ++n) {
         kiriVec2 corner = kiriMesh_Local(&sheet->mesh, sheet->mesh.vertices.data[touch->vertex[n]].at);
         blend.at = kiriVec2_Add(blend.at, kiriVec2_Scale(touch->share[n], corner));
-        AddWeights(&blend, sheet, &sheet->vertexSkin, touch->vertex[n], touch->share[n]);
+        AddWeights(&blend, &sheet->vertexSkin, touch->vertex[n], touch->share[n]);
     }
     return blend;
 }

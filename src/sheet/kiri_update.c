@@ -541,8 +541,8 @@ void kiriPipeline_Abort(kiriSheetData* sheet)
 static uint64_t PieceDataAt(const kiriSheetData* sheet, int32_t triangle)
 {
     kiriSpan span = sheet->vertexSkin.spans.data[sheet->mesh.triangles.data[triangle].vertex[0]];
-    int32_t label = span.count > 0 ? sheet->vertexSkin.weights.data[span.first].label : KIRI_NONE;
-    return label != KIRI_NONE ? sheet->frames.data[kiriSheet_FrameOf(sheet, label)].pieceData : 0;
+    int32_t frame = span.count > 0 ? sheet->vertexSkin.weights.data[span.first].frame : KIRI_NONE;
+    return frame != KIRI_NONE ? sheet->frames.data[frame].pieceData : 0;
 }
 
 /* One that appears, without its motion. */
@@ -559,7 +559,7 @@ static kiriFrameData MakeFrame(const kiriSheetData* sheet, const kiriNewFrame* f
 /* From the surface: position, velocity, and the rotation nearest to its slope; for an affine frame the slope itself. */
 static void TakeMotion(const kiriSheetData* sheet, kiriFrameData* frame, int32_t triangle)
 {
-    kiriMotion motion = kiriSkin_Motion(&sheet->vertexSkin, &sheet->shape.labels, sheet->frames.data, &sheet->mesh,
+    kiriMotion motion = kiriSkin_Motion(&sheet->vertexSkin, sheet->frames.data, &sheet->mesh,
                                         triangle, frame->anchor);
     frame->x = motion.x;
     frame->velocity = motion.velocity;

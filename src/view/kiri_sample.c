@@ -26,7 +26,7 @@ static int32_t RoundWeights(kiriSampleWeight* weights, int32_t count)
     for (int32_t i = 0; i < count; ++i) {
         int32_t units = (int32_t)(WEIGHT_UNITS * weights[i].value + 0.5);
         if (units > 0) {
-            weights[kept] = (kiriSampleWeight){ weights[i].label, (float)(units / WEIGHT_UNITS) };
+            weights[kept] = (kiriSampleWeight){ weights[i].frame, (float)(units / WEIGHT_UNITS) };
             largest = weights[kept].value > weights[largest].value ? kept : largest;
             missing -= units;
             ++kept;
@@ -38,7 +38,7 @@ static int32_t RoundWeights(kiriSampleWeight* weights, int32_t count)
 
 /* Stages the weights in the stencil, and makes room for the commit. Cells of an untrusted save may have no weight that
    counts: then one frame carries the sample. */
-static bool StageWeights(kiriSkin* skin, kiriMemory* memory, const kiriLabels* labels, const kiriStencil* stencil,
+static bool StageWeights(kiriSkin* skin, kiriMemory* memory, const kiriStencil* stencil,
                          int32_t sample)
 {
     kiriReweighed staged = { sample, { 0, 0 } };
@@ -55,8 +55,7 @@ static bool StageWeights(kiriSkin* skin, kiriMemory* memory, const kiriLabels* l
     kiriSampleWeight* weight = skin->weights.data + staged.span.first;
     for (int32_t i = 0; i < stencil->frames.count; ++i) {
         if (stencil->values.data[i] >= LEAST_SHARE) {
-            int32_t label = kiriLabels_Of(labels, stencil->frames.data[i]);
-            *weight++ = (kiriSampleWeight){ label, (float)stencil->values.data[i] };
+            *weight++ = (kiriSampleWeight){ stencil->frames.data[i], (float)stencil->values.data[i] };
         }
     }
     if (count == 0) {
@@ -75,7 +74,7 @@ bool kiriSkin_Stage(kiriSkin* skin, kiriMemory* memory, const kiriShape* shape, 
     bool ok = kiriStencil_Gather(&stencil, &scratch, shape, grid, mesh, cell);
     if (ok) {
         kiriStencil_Weigh(&stencil, at, kiriVec2_Make(0.0, 0.0));
-        ok = StageWeights(skin, memory, &shape->labels, &stencil, sample);
+        ok = StageWeights(skin, memory, &stencil, sample);
     }
     kiriMemory_FreeAll(&scratch);
     return ok;
@@ -125,17 +124,17 @@ bool kiriSkin_Sort(kiriSkin* skin, kiriMemory* memory)
     return true;
 }
 
-/* Adds to the weights of a span, which has room. They stay sorted by label. */
-static void Blend(kiriSkin* skin, kiriSpan* span, int32_t label, double value)
+/* Adds to the weights of a span, which has room. They stay sorted by frame. */
+static void Blend(kiriSkin* skin, kiriSpan* span, int32_t frame, double value)
 {
     kiriSampleWeight* weights = skin->weights.data + span->first;
     int32_t k = 0;
-    while (k < span->count && weights[k].label < label) {
+    while (k < span->count && weights[k].frame < frame) {
         ++k;
     }
-    if (k == span->count || weights[k].label != label) {
+    if (k == span->count || weights[k].frame != frame) {
         memmove(weights + k + 1, weights + k, (size_t)(span->count - k) * sizeof(*weights));
-        weights[k] = (kiriSampleWeight){ label, 0.0f };
+        weights[k] = (kiriSampleWeight){ frame, 0.0f };
         ++span->count;
     }
     weights[k].value += (float)value;
@@ -157,7 +156,7 @@ static bool InheritOne(kiriSkin* skin, kiriMemory* memory, const kiriBirth* birt
         kiriSpan parent = skin->spans.data[birth->parent[k]];
         for (int32_t i = parent.first; i < parent.first + parent.count; ++i) {
             kiriSampleWeight weight = skin->weights.data[i];
-            Blend(skin, &sum, weight.label, birth->share[k] * weight.value);
+            Blend(skin, &sum, weight.frame, birth->share[k] * weight.value);
         }
     }
     sum.count = RoundWeights(skin->weights.data + sum.first, sum.count);
@@ -183,21 +182,21 @@ void kiriSkin_Truncate(kiriSkin* skin, int32_t sampleCount)
     }
 }
 
-void kiriSkin_Keep(kiriSkin* skin, const kiriKeep* samples, const kiriKeep* labels)
+void kiriSkin_Keep(kiriSkin* skin, const kiriKeep* samples, const kiriKeep* frames)
 {
-    KIRI_ASSERT(skin->staged.count == 0);
+    KIRI_ASSERT(skin->staged.count == 0 && samples->to.count == skin->spans.count);
     for (int32_t i = samples->first; i < skin->spans.count; ++i) {
         if (!kiriKeep_Has(samples, i)) {
             DropSpan(skin, &skin->spans.data[i]);
         }
     }
     kiriKeep_Compact(samples, &skin->spans, 1, sizeof(kiriSpan));
-    for (int32_t i = 0; labels != NULL && i < skin->spans.count && kiriKeep_Moves(labels); ++i) {
+    for (int32_t i = 0; kiriKeep_Moves(frames) && i < skin->spans.count; ++i) {
         kiriSampleWeight* weights = skin->weights.data + skin->spans.data[i].first;
-        /* Labels ascend, and those below `first` stay. */
-        for (int32_t k = skin->spans.data[i].count; k-- > 0 && weights[k].label >= labels->first;) {
-            int32_t now = labels->to.data[weights[k].label];
-            weights[k].label = now != KIRI_NONE ? now : 0; /* KIRI_NONE only after untrusted loads */
+        /* Frames ascend, and those below `first` stay. */
+        for (int32_t k = skin->spans.data[i].count; k-- > 0 && weights[k].frame >= frames->first;) {
+            KIRI_ASSERT(kiriKeep_Has(frames, weights[k].frame));
+            weights[k].frame = frames->to.data[weights[k].frame];
         }
     }
 }
@@ -345,7 +344,7 @@ static bool RefreshOne(kiriRefresh* refresh, const kiriSampleSource* source, int
     }
     kiriVec2 lean = stencil->split && isVertex ? kiriMesh_Lean(mesh, sample) : kiriVec2_Make(0.0, 0.0);
     kiriStencil_Weigh(stencil, kiriMesh_Local(mesh, at), lean);
-    if (!StageWeights(skin, source->memory, &source->shape->labels, stencil, sample)) {
+    if (!StageWeights(skin, source->memory, stencil, sample)) {
         return false;
     }
     /* Weights of an old vertex have often not changed: then it is not staged. A point that is staged may have another
@@ -395,7 +394,7 @@ kiriProgress kiriRefresh_Stage(kiriRefresh* refresh, const kiriSampleSource* sou
 
 /* ---- Motion ----------------------------------------------------------------------------------------------------- */
 
-kiriVec3 kiriSkin_Position(const kiriSkin* skin, const kiriLabels* labels, int32_t sample, const kiriFrameData* frames,
+kiriVec3 kiriSkin_Position(const kiriSkin* skin, int32_t sample, const kiriFrameData* frames,
                            kiriVec2 local)
 {
     KIRI_ASSERT(sample >= 0 && sample < skin->spans.count);
@@ -403,12 +402,12 @@ kiriVec3 kiriSkin_Position(const kiriSkin* skin, const kiriLabels* labels, int32
     kiriSpan span = skin->spans.data[sample];
     for (int32_t i = span.first; i < span.first + span.count; ++i) {
         kiriSampleWeight weight = skin->weights.data[i];
-        x = kiriVec3_AddScaled(x, weight.value, kiriFrame_Carry(&frames[kiriLabels_Item(labels, weight.label)], local));
+        x = kiriVec3_AddScaled(x, weight.value, kiriFrame_Carry(&frames[weight.frame], local));
     }
     return x;
 }
 
-kiriMotion kiriSkin_Motion(const kiriSkin* vertexSkin, const kiriLabels* labels, const kiriFrameData* frames,
+kiriMotion kiriSkin_Motion(const kiriSkin* vertexSkin, const kiriFrameData* frames,
                            const kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at)
 {
     kiriMotion motion;
@@ -422,7 +421,7 @@ kiriMotion kiriSkin_Motion(const kiriSkin* vertexSkin, const kiriLabels* labels,
         kiriSpan span = vertexSkin->spans.data[mesh->triangles.data[triangle].vertex[k]];
         for (int32_t i = span.first; i < span.first + span.count; ++i) {
             kiriSampleWeight weight = vertexSkin->weights.data[i];
-            const kiriFrameData* frame = &frames[kiriLabels_Item(labels, weight.label)];
+            const kiriFrameData* frame = &frames[weight.frame];
             kiriMat3 rate = kiriFrame_Rate(frame);
             double w = share * weight.value;
             motion.x = kiriVec3_AddScaled(motion.x, w, kiriFrame_Carry(frame, local));

@@ -13,17 +13,16 @@ typedef struct kiriReweighed {
     kiriSpan span;
 } kiriReweighed;
 
-/* A weight of a sample: a multiple of 2^-24, not 0. The sum over a sample is exactly 1. Labels are those of the shape
-   (kiriShape.labels). */
+/* A weight of a sample: a multiple of 2^-24, not 0. The sum over a sample is exactly 1. */
 typedef struct kiriSampleWeight {
-    int32_t label;
+    int32_t frame;
     float value;
 } kiriSampleWeight;
 
 /* The weights of a row of samples. */
 typedef struct kiriSkin {
     KIRI_ARRAY(kiriSpan) spans;           /* one a sample */
-    KIRI_ARRAY(kiriSampleWeight) weights; /* in spans, by label */
+    KIRI_ARRAY(kiriSampleWeight) weights; /* in spans, by frame */
     kiriSpans room;
     KIRI_ARRAY(kiriReweighed) staged;     /* weights that take effect with the commit */
 } kiriSkin;
@@ -108,17 +107,17 @@ void kiriRefresh_Drop(kiriRefresh* refresh);
 bool kiriSkin_Inherit(kiriSkin* skin, kiriMemory* memory, const kiriMeshData* mesh);
 void kiriSkin_Truncate(kiriSkin* skin, int32_t sampleCount);
 
-/* Removes the samples that are not kept, and renumbers labels (null: they stay). Samples that are kept have no weight of a
-   label that is removed. Nothing may be staged. Cannot fail. */
-void kiriSkin_Keep(kiriSkin* skin, const kiriKeep* samples, const kiriKeep* labels);
+/* Removes samples and frames. Samples that are kept have no weight of a frame that is removed. Nothing may be staged.
+   Cannot fail. */
+void kiriSkin_Keep(kiriSkin* skin, const kiriKeep* samples, const kiriKeep* frames);
 void kiriPlaces_Keep(kiriPlaces* places, const kiriKeep* samples);
 
 /* Returns the position of a sample, from its local rest point. */
-kiriVec3 kiriSkin_Position(const kiriSkin* skin, const kiriLabels* labels, int32_t sample, const kiriFrameData* frames,
+kiriVec3 kiriSkin_Position(const kiriSkin* skin, int32_t sample, const kiriFrameData* frames,
                            kiriVec2 local);
 
 /* Returns the motion at a lattice point of a triangle, from the weights of its corners. */
-kiriMotion kiriSkin_Motion(const kiriSkin* vertexSkin, const kiriLabels* labels, const kiriFrameData* frames,
+kiriMotion kiriSkin_Motion(const kiriSkin* vertexSkin, const kiriFrameData* frames,
                            const kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at);
 
 KIRI_C_END

@@ -159,30 +159,27 @@ static uint8_t ChangeOfRow(const float* was, const float* row, size_t each)
     return change;
 }
 
-bool kiriPatches_Write(kiriPatches* patches, const kiriLabels* labels, const kiriCarrier* carriers, int32_t count,
-                       kiriVec3 from, bool isBent, const kiriIndices* some)
+bool kiriPatches_Write(kiriPatches* patches, const kiriCarrier* carriers, int32_t count, kiriVec3 from, bool isBent,
+                       const kiriIndices* some)
 {
     size_t each = isBent ? KIRI_BENT_FLOATS : KIRI_FLAT_FLOATS;
-    int32_t rows = kiriLabels_Count(labels, count), known = patches->isBent == isBent ? patches->count : 0;
-    KIRI_ASSERT(some == NULL || known == rows);
-    patches->areOther = patches->count != rows;
-    patches->count = patches->isOther.count = rows;
+    int32_t known = patches->isBent == isBent ? patches->count : 0;
+    KIRI_ASSERT(some == NULL || known == count);
+    patches->areOther = patches->count != count;
+    patches->count = patches->isOther.count = count;
     patches->isBent = isBent;
-    patches->floats.count = (int32_t)each * rows;
-    KIRI_ASSERT(patches->floats.count <= patches->floats.capacity && rows <= patches->isOther.capacity);
-    for (int32_t at = 0; at < rows; ++at) {
-        patches->isOther.data[at] = KIRI_PATCH_SAME;
-        if (known != rows && at < labels->itemOf.count && labels->itemOf.data[at] == KIRI_NONE) {
-            memset(patches->floats.data + each * (size_t)at, 0, sizeof(float) * each);
-        }
+    patches->floats.count = (int32_t)each * count;
+    KIRI_ASSERT(patches->floats.count <= patches->floats.capacity && count <= patches->isOther.capacity);
+    for (int32_t i = 0; i < count; ++i) {
+        patches->isOther.data[i] = KIRI_PATCH_SAME;
     }
     for (int32_t n = 0; n < ItemCount(some, count); ++n) {
-        int32_t i = ItemAt(some, n), at = kiriLabels_Of(labels, i);
-        float row[KIRI_BENT_FLOATS], *was = patches->floats.data + each * (size_t)at;
-        KIRI_ASSERT(at >= 0 && at < rows);
+        int32_t i = ItemAt(some, n);
+        float row[KIRI_BENT_FLOATS], *was = patches->floats.data + each * (size_t)i;
+        KIRI_ASSERT(i >= 0 && i < count);
         WriteRow(row, &carriers[i], from, isBent);
-        patches->isOther.data[at] = at >= known ? KIRI_PATCH_OTHER : ChangeOfRow(was, row, each);
-        patches->areOther |= patches->isOther.data[at] != KIRI_PATCH_SAME;
+        patches->isOther.data[i] = i >= known ? KIRI_PATCH_OTHER : ChangeOfRow(was, row, each);
+        patches->areOther |= patches->isOther.data[i] != KIRI_PATCH_SAME;
         memcpy(was, row, sizeof(float) * each);
     }
     return patches->areOther;
@@ -195,7 +192,7 @@ bool kiriPatches_MayMove(const kiriPatches* patches, const kiriSkin* skin, int32
         const kiriSampleWeight* weight = skin->weights.data + skin->spans.data[s].first;
         const kiriSampleWeight* last = weight + skin->spans.data[s].count;
         for (; weight < last; ++weight) {
-            mayMove |= patches->isOther.data[weight->label];
+            mayMove |= patches->isOther.data[weight->frame];
         }
     }
     return mayMove;
@@ -207,7 +204,7 @@ static kiriLanes BlendFlat(const float* rows, const kiriSampleWeight* weight, co
 {
     kiriLanes px = kiriLanes_Splat((float)p.x), py = kiriLanes_Splat((float)p.y), sum = kiriLanes_Splat(0.0f);
     for (; weight < end; ++weight) {
-        const float* row = rows + (ptrdiff_t)KIRI_FLAT_FLOATS * weight->label;
+        const float* row = rows + (ptrdiff_t)KIRI_FLAT_FLOATS * weight->frame;
         kiriLanes at = kiriLanes_Add(kiriLanes_Load(row), kiriLanes_Mul(px, kiriLanes_Load(row + 4)));
         at = kiriLanes_Add(at, kiriLanes_Mul(py, kiriLanes_Load(row + 8)));
         sum = kiriLanes_Add(sum, kiriLanes_Mul(kiriLanes_Splat(weight->value), at));
@@ -229,8 +226,8 @@ static kiriLanes BlendFlat(const float* rows, const kiriSampleWeight* weight, co
    and at any curvature at most twice as far from the center as q. */
 static kiriLanes AddBent(kiriLanes sum, const float* rows, kiriSampleWeight first, kiriSampleWeight second, kiriLanes p)
 {
-    const float* a = rows + (ptrdiff_t)KIRI_BENT_FLOATS * first.label;
-    const float* b = rows + (ptrdiff_t)KIRI_BENT_FLOATS * second.label;
+    const float* a = rows + (ptrdiff_t)KIRI_BENT_FLOATS * first.frame;
+    const float* b = rows + (ptrdiff_t)KIRI_BENT_FLOATS * second.frame;
     kiriLanes q = kiriLanes_Sub(p, kiriLanes_LoadTwice(a, b)), at;
     kiriLanes g = kiriLanes_Add(kiriLanes_Mul(q, kiriLanes_LoadTwice(a + 2, b + 2)),
                                 kiriLanes_Mul(kiriLanes_Pick(q, 1, 0, 3, 2), kiriLanes_LoadTwice(a + 4, b + 4)));
@@ -254,7 +251,7 @@ static kiriLanes BlendBent(const float* rows, const kiriSampleWeight* weight, co
         sum = AddBent(sum, rows, weight[0], weight[1], at);
     }
     if (weight < end) {
-        sum = AddBent(sum, rows, *weight, (kiriSampleWeight){ weight->label, 0.0f }, at);
+        sum = AddBent(sum, rows, *weight, (kiriSampleWeight){ weight->frame, 0.0f }, at);
     }
     return sum;
 }

@@ -33,7 +33,7 @@ void kiriCarriers_Bend(kiriCarrier* carriers, kiriBend* bends, const kiriFrameDa
 
 /* Linear-blend skinning in floats (section 4.1 of the paper). */
 
-/* Carriers as rows of floats, for skinning: a row for each label of weights. */
+/* Carriers as rows of floats, for skinning: one a frame. */
 enum { KIRI_FLAT_FLOATS = 12, KIRI_BENT_FLOATS = 24 };
 
 /* Change of a row when it was last written. ROUNDED: the change is too small to be visible. */
@@ -49,10 +49,10 @@ typedef struct kiriPatches {
 
 bool kiriPatches_Reserve(kiriPatches* patches, kiriMemory* memory, int32_t count);
 
-/* Writes the rows of `count` frames, at their labels. Positions are relative to `from`, near the sheet, so that floats are
-   exact enough. Only `some` frames, unless that is null, may have changed. Returns true if a row changed. */
-bool kiriPatches_Write(kiriPatches* patches, const kiriLabels* labels, const kiriCarrier* carriers, int32_t count,
-                       kiriVec3 from, bool isBent, const kiriIndices* some);
+/* Writes the rows of `count` frames. Positions are relative to `from`, near the sheet, so that floats are exact enough.
+   Only `some` frames, unless that is null, may have changed. Returns true if a row changed. */
+bool kiriPatches_Write(kiriPatches* patches, const kiriCarrier* carriers, int32_t count, kiriVec3 from, bool isBent,
+                       const kiriIndices* some);
 
 /* Makes all rows count as changed when they are written next. */
 void kiriPatches_Forget(kiriPatches* patches);

@@ -180,8 +180,7 @@ static bool ResizePlaces(kiriSurface* surface, kiriMemory* memory, int64_t count
     return ok;
 }
 
-bool kiriSurface_Resize(kiriSurface* surface, kiriMemory* memory, const kiriMeshData* mesh, int32_t frameCount,
-                        int32_t labelCount)
+bool kiriSurface_Resize(kiriSurface* surface, kiriMemory* memory, const kiriMeshData* mesh, int32_t frameCount)
 {
     int64_t vertices = mesh->vertices.count, triangles = mesh->triangles.count;
     return kiriArray_Reserve(memory, &surface->positions, 3 * vertices + 1) &&
@@ -196,7 +195,7 @@ bool kiriSurface_Resize(kiriSurface* surface, kiriMemory* memory, const kiriMesh
            kiriArray_Resize(memory, &surface->turns, triangles / 2 + triangles % 2) &&
            kiriArray_Resize(memory, &surface->carriers, frameCount) &&
            kiriArray_Resize(memory, &surface->bends, frameCount) &&
-           kiriPatches_Reserve(&surface->patches, memory, labelCount);
+           kiriPatches_Reserve(&surface->patches, memory, frameCount);
 }
 
 void kiriSurface_Truncate(kiriSurface* surface, int32_t frameCount)
@@ -531,8 +530,8 @@ static kiriVec3 FindMiddle(const kiriFrameData* frames, int32_t frameCount, doub
     return kiriVec3_Make(RoundToFloats(sum.x, unit), RoundToFloats(sum.y, unit), RoundToFloats(sum.z, unit));
 }
 
-void kiriSurface_TakeFrames(kiriSurface* surface, const kiriLabels* labels, const kiriFrameData* frames,
-                            int32_t frameCount, const kiriLink* links, int32_t linkCount, const kiriIndices* moved,
+void kiriSurface_TakeFrames(kiriSurface* surface, const kiriFrameData* frames, int32_t frameCount,
+                            const kiriLink* links, int32_t linkCount, const kiriIndices* moved,
                             const kiriIndices* movedLinks)
 {
     bool isBent = surface->skinning == KIRI_SKINNING_SMOOTH && linkCount > 0;
@@ -542,15 +541,14 @@ void kiriSurface_TakeFrames(kiriSurface* surface, const kiriLabels* labels, cons
         kiriPatches_Forget(&surface->patches);
     }
     surface->isPartly = moved != NULL && surface->isSteady && surface->patches.isBent == isBent &&
-                        surface->patches.count == kiriLabels_Count(labels, frameCount);
+                        surface->patches.count == frameCount;
     const kiriIndices* some = surface->isPartly ? moved : NULL;
     kiriCarriers_Write(surface->carriers.data, frames, frameCount, some);
     if (isBent) {
         kiriCarriers_Bend(surface->carriers.data, surface->bends.data, frames, frameCount, links, linkCount, some,
                           surface->isPartly ? movedLinks : NULL);
     }
-    bool isOther =
-        kiriPatches_Write(&surface->patches, labels, surface->carriers.data, frameCount, middle, isBent, some);
+    bool isOther = kiriPatches_Write(&surface->patches, surface->carriers.data, frameCount, middle, isBent, some);
     surface->isWritten = surface->isWritten && !isOther;
 }
 

@@ -126,9 +126,8 @@ static inline void kiriSurface_Place(kiriSurface* surface, int32_t vertex, kiriV
     kiriVec3_Store(kiriSurface_Places(surface) + 3 * (ptrdiff_t)vertex, kiriVec3_Sub(at, surface->middle));
 }
 
-/* Room for the mesh as it is and for so many frames, with so many labels; after it the others never fail. */
-bool kiriSurface_Resize(kiriSurface* surface, kiriMemory* memory, const kiriMeshData* mesh, int32_t frameCount,
-                        int32_t labelCount);
+/* Room for the mesh as it is and for so many frames; after it the others never fail. */
+bool kiriSurface_Resize(kiriSurface* surface, kiriMemory* memory, const kiriMeshData* mesh, int32_t frameCount);
 
 /* The mesh is again as it is seen, and so many frames move it: what was for more is no more than room. Never fails. */
 void kiriSurface_Truncate(kiriSurface* surface, int32_t frameCount);
@@ -165,11 +164,11 @@ bool kiriSurface_RenewIndices(kiriSurface* surface, kiriMemory* memory, kiriMemo
 /* Hides a triangle: sets its corners to the first. */
 void kiriSurface_HideTriangle(kiriSurface* surface, int32_t triangle);
 
-/* Takes over where the frames are, which have these labels in weights. The links tell a smooth surface how to bend; a
-   linear one does not ask. Where nothing is other than when arrays were written, they stay so. `moved`: only these frames
-   may be elsewhere than when they were taken over last, and `movedLinks` are their links; or null. */
-void kiriSurface_TakeFrames(kiriSurface* surface, const kiriLabels* labels, const kiriFrameData* frames,
-                            int32_t frameCount, const kiriLink* links, int32_t linkCount, const kiriIndices* moved,
+/* Takes over where the frames are. The links tell a smooth surface how to bend; a linear one does not ask. Where nothing
+   is other than when arrays were written, they stay so. `moved`: only these frames may be elsewhere than when they were
+   taken over last, and `movedLinks` are their links; or null. */
+void kiriSurface_TakeFrames(kiriSurface* surface, const kiriFrameData* frames, int32_t frameCount,
+                            const kiriLink* links, int32_t linkCount, const kiriIndices* moved,
                             const kiriIndices* movedLinks);
 
 /* Writes the positions of the vertices from `begin` to `end`, without fades. Ranges may be written in parallel. */

@@ -104,17 +104,17 @@ bool kiriSurface_HasRoom(const kiriSurface* surface)
 }
 
 /* Arrays are as long as the mesh is large, and there is a patch for each frame that is seen. */
-static bool HaveArraysLength(const kiriSurface* surface, const kiriMeshData* mesh, int64_t frames, int64_t labels)
+static bool HaveArraysLength(const kiriSurface* surface, const kiriMeshData* mesh, int64_t frames)
 {
     int64_t vertices = mesh->vertices.count, triangles = mesh->triangles.count;
     int64_t floats = surface->patches.isBent ? KIRI_BENT_FLOATS : KIRI_FLAT_FLOATS;
     return surface->vertexCount == vertices && surface->triangleCount == triangles && kiriSurface_HasRoom(surface) &&
            surface->sourceWeights.count == 3 * vertices && surface->sourceTriangles.count == vertices &&
            surface->indices.count == 3 * triangles && surface->carriers.count >= frames &&
-           surface->bends.count >= frames && surface->patches.count <= labels &&
-           surface->patches.floats.capacity >= KIRI_BENT_FLOATS * labels &&
+           surface->bends.count >= frames && surface->patches.count <= frames &&
+           surface->patches.floats.capacity >= KIRI_BENT_FLOATS * frames &&
            surface->patches.floats.capacity >= floats * surface->patches.count &&
-           surface->patches.isOther.capacity >= labels;
+           surface->patches.isOther.capacity >= frames;
 }
 
 /* Hosts copy these ranges. */
@@ -147,9 +147,8 @@ static bool AreCorners(const kiriSurface* surface, const kiriMeshData* mesh)
     return areFine;
 }
 
-bool kiriSurface_IsSound(const kiriSurface* surface, const kiriLabels* labels, const kiriMeshData* mesh, int32_t frames)
+bool kiriSurface_IsSound(const kiriSurface* surface, const kiriMeshData* mesh, int32_t frames)
 {
-    return HaveArraysLength(surface, mesh, frames, kiriLabels_Count(labels, frames)) &&
-           surface->origin.x == mesh->origin.x && surface->origin.y == mesh->origin.y &&
+    return HaveArraysLength(surface, mesh, frames) && surface->origin.x == mesh->origin.x && surface->origin.y == mesh->origin.y &&
            surface->longer == KIRI_LATTICE * mesh->step && AreCorners(surface, mesh) && AreChanges(surface);
 }

@@ -16,8 +16,7 @@ bool kiriFades_AreSound(const kiriFades* fades, int32_t samples);
 bool kiriSurface_HasRoom(const kiriSurface* surface);
 
 /* Returns true if a loaded surface shows the mesh, or none of it, and its arrays are as long as they have to be. */
-bool kiriSurface_IsSound(const kiriSurface* surface, const kiriLabels* labels, const kiriMeshData* mesh,
-                         int32_t frames);
+bool kiriSurface_IsSound(const kiriSurface* surface, const kiriMeshData* mesh, int32_t frames);
 
 KIRI_C_END
 

@@ -399,7 +399,7 @@ static kiriVec3 VelocityOf(const kiriSheetData* sheet, int32_t vertex)
         kiriSampleWeight w = sheet->vertexSkin.weights.data[span.first + i];
         kiriVec2 rest = sheet->seen.surface.rest.data[vertex];
         sum = kiriVec3_AddScaled(sum, w.value,
-                                 kiriFrame_VelocityAt(&sheet->frames.data[kiriSheet_FrameOf(sheet, w.label)], rest));
+                                 kiriFrame_VelocityAt(&sheet->frames.data[w.frame], rest));
     }
     return sum;
 }

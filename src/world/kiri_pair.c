@@ -52,7 +52,7 @@ static void LoadVertex(kiriSheetData* sheet, int32_t vertex, kiriVec3 impulse)
     kiriVec2 local = sheet->seen.surface.rest.data[vertex];
     for (int32_t i = span.first; i < span.first + span.count; ++i) {
         kiriSampleWeight weight = sheet->vertexSkin.weights.data[i];
-        int32_t f = kiriSheet_FrameOf(sheet, weight.label);
+        int32_t f = weight.frame;
         kiriFrameData* frame = &sheet->frames.data[f];
         if (!kiriPiece_IsAwake(kiriSheet_PieceOf(sheet, f))) {
             continue; /* it is not moved, and would get all of it when it wakes */
@@ -209,12 +209,12 @@ static const kiriFrameData* LargestFrame(const kiriPlace3* place)
             kiriSampleWeight weight = place->sheet->vertexSkin.weights.data[i];
             if (weight.value * place->share[k] > most) {
                 most = weight.value * place->share[k];
-                best = weight.label;
+                best = weight.frame;
             }
         }
     }
     KIRI_ASSERT(best != KIRI_NONE);
-    return &place->sheet->frames.data[kiriSheet_FrameOf(place->sheet, best)];
+    return &place->sheet->frames.data[best];
 }
 
 /* The plane moves with the material of the lower one, but not as all of that moves. What lies on something goes no
