@@ -334,7 +334,7 @@ static void LookBothWays(Table* table, const Scene* scene, const char* moment)
         Seen seen = { 0 };
         sheet->seen.surface.skinning = skinning;
         kiriSurface_TakeFrames(&sheet->seen.surface, sheet->frames.data, sheet->frames.count,
-                               sheet->links.links.data, sheet->links.links.count, NULL);
+                               sheet->links.links.data, sheet->links.links.count, NULL, NULL);
         sheet->seen.surface.isWritten = false;
         kiriSurface_BlendRange(&sheet->seen.surface, &sheet->vertexSkin, 0, sheet->seen.surface.vertexCount);
         kiriSurface_AddFades(&sheet->seen.surface, &sheet->seen.fades);

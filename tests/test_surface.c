@@ -124,7 +124,7 @@ static void Write(Cloth* cloth)
 static void Pose(Cloth* cloth)
 {
     kiriSurface_TakeFrames(&cloth->surface, cloth->frames.data, cloth->frames.count, cloth->links.data,
-                           cloth->links.count, NULL);
+                           cloth->links.count, NULL, NULL);
     cloth->surface.isWritten = false;
     kiriSurface_BlendRange(&cloth->surface, &cloth->skin, 0, cloth->surface.vertexCount);
     kiriSurface_SumNormals(&cloth->surface);
