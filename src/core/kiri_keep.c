@@ -8,6 +8,16 @@ bool kiriKeep_Init(kiriKeep* keep, kiriMemory* memory, int32_t items)
     return kiriArray_Reserve(memory, &keep->to, items);
 }
 
+void kiriKeep_Clear(kiriKeep* keep, int32_t items)
+{
+    KIRI_ASSERT(items >= 0 && items <= keep->to.capacity);
+    for (int32_t i = 0; i < items; ++i) {
+        keep->to.data[i] = KIRI_NONE;
+    }
+    keep->to.count = items;
+    keep->count = keep->first = 0;
+}
+
 void kiriKeep_Take(kiriKeep* keep, const int32_t* items, int32_t count)
 {
     KIRI_ASSERT(keep->count == 0 && keep->first == 0);

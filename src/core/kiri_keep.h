@@ -27,11 +27,8 @@ static inline void kiriKeep_Add(kiriKeep* keep, bool isKept)
     keep->to.data[keep->to.count++] = isKept ? keep->count++ : KIRI_NONE;
 }
 
-/* A map of no items again, with its room. */
-static inline void kiriKeep_Restart(kiriKeep* keep)
-{
-    keep->to.count = keep->count = keep->first = 0;
-}
+/* A map of so many items, of which none is kept. There is room. */
+void kiriKeep_Clear(kiriKeep* keep, int32_t items);
 
 /* The new index of an item; KIRI_NONE where it is not kept, and for KIRI_NONE. */
 static inline int32_t kiriKeep_To(const kiriKeep* keep, int32_t item)

@@ -87,136 +87,140 @@ double kiriDetach_Samples(const kiriSheetData* sheet, double share, bool makesPa
     return 1.0 + passSamples * vertices + (makesParts ? parts : 0.0);
 }
 
-typedef int32_t PieceOfItem(const kiriDetach* detach, int32_t item);
+/* Returns the piece of an item if it leaves, else KIRI_NONE. */
+typedef int32_t PartOfItem(const kiriDetach* detach, int32_t item);
 
-static int32_t PieceOfVertex(const kiriDetach* detach, int32_t vertex)
+static int32_t PartOfPiece(const kiriDetach* detach, int32_t piece)
 {
-    return detach->vertexPiece.data[vertex];
+    KIRI_ASSERT(piece >= 0 && piece < detach->rest.pieces.count);
+    return detach->rest.pieces.data[piece] ? KIRI_NONE : piece;
 }
 
-static int32_t PieceOfTriangle(const kiriDetach* detach, int32_t triangle)
+static int32_t FindPartOfVertex(const kiriDetach* detach, int32_t vertex)
 {
-    return detach->vertexPiece.data[detach->sheet->mesh.triangles.data[triangle].vertex[0]];
+    return PartOfPiece(detach, kiriPiece_OfVertex(detach->sheet, vertex));
 }
 
-static int32_t PieceOfFrame(const kiriDetach* detach, int32_t frame)
+static int32_t PartOfVertex(const kiriDetach* detach, int32_t vertex)
 {
-    return detach->sheet->layout.framePiece.data[frame];
+    KIRI_ASSERT(vertex >= 0 && vertex < detach->vertexPart.count);
+    return detach->vertexPart.data[vertex];
 }
 
-static int32_t PieceOfPoint(const kiriDetach* detach, int32_t point)
+static int32_t PartOfTriangle(const kiriDetach* detach, int32_t triangle)
 {
-    return PieceOfFrame(detach, detach->sheet->points.data[point].frame);
+    return PartOfVertex(detach, detach->sheet->mesh.triangles.data[triangle].vertex[0]);
 }
 
-static int32_t PieceOfLink(const kiriDetach* detach, int32_t link)
+static int32_t PartOfFrame(const kiriDetach* detach, int32_t frame)
 {
-    return PieceOfFrame(detach, detach->sheet->links.links.data[link].i);
+    return PartOfPiece(detach, detach->sheet->layout.framePiece.data[frame]);
 }
 
-static int32_t PieceOfFade(const kiriDetach* detach, int32_t k)
+static int32_t PartOfPoint(const kiriDetach* detach, int32_t point)
 {
-    return PieceOfVertex(detach, detach->sheet->seen.fades.fading.data[k].sample);
+    return PartOfFrame(detach, detach->sheet->points.data[point].frame);
 }
 
-static int32_t PieceOfPointFade(const kiriDetach* detach, int32_t k)
+static int32_t PartOfLink(const kiriDetach* detach, int32_t link)
 {
-    return PieceOfPoint(detach, detach->sheet->seen.pointFades.fading.data[k].sample);
+    return PartOfFrame(detach, detach->sheet->links.links.data[link].i);
 }
 
-static int32_t PieceOfLast(const kiriDetach* detach, int32_t k)
+static int32_t PartOfFade(const kiriDetach* detach, int32_t k)
 {
-    return kiriTouch_Piece(detach->sheet, &detach->sheet->touches.last.touches.data[k]);
+    return PartOfVertex(detach, detach->sheet->seen.fades.fading.data[k].sample);
 }
 
-static int32_t PieceOfSlept(const kiriDetach* detach, int32_t k)
+static int32_t PartOfPointFade(const kiriDetach* detach, int32_t k)
 {
-    return kiriTouch_Piece(detach->sheet, &detach->sheet->touches.slept.touches.data[k]);
+    return PartOfPoint(detach, detach->sheet->seen.pointFades.fading.data[k].sample);
 }
 
-static bool FindVertexPieces(kiriDetach* detach)
+static int32_t PartOfLast(const kiriDetach* detach, int32_t k)
 {
-    int32_t count = detach->sheet->mesh.vertices.count;
-    if (!kiriArray_Resize(&detach->memory, &detach->vertexPiece, count)) {
-        return false;
-    }
-    for (int32_t v = 0; v < count; ++v) {
-        detach->vertexPiece.data[v] = kiriPiece_OfVertex(detach->sheet, v);
-    }
-    return true;
+    return PartOfPiece(detach, kiriTouch_Piece(detach->sheet, &detach->sheet->touches.last.touches.data[k]));
 }
 
-static bool MapItems(kiriDetach* detach, kiriKeep* map, int32_t count, PieceOfItem* pieceOf)
+static int32_t PartOfSlept(const kiriDetach* detach, int32_t k)
 {
-    if (!kiriKeep_Init(map, &detach->memory, count)) {
+    return PartOfPiece(detach, kiriTouch_Piece(detach->sheet, &detach->sheet->touches.slept.touches.data[k]));
+}
+
+/* Writes the part of each item into `parts`. */
+static bool FindParts(kiriDetach* detach, kiriIndices* parts, int32_t count, PartOfItem* partOf)
+{
+    if (!kiriArray_Resize(&detach->memory, parts, count)) {
         return false;
     }
     for (int32_t i = 0; i < count; ++i) {
-        kiriKeep_Add(map, detach->rest.pieces.data[pieceOf(detach, i)] != 0);
+        parts->data[i] = partOf(detach, i);
     }
     return true;
 }
 
-/* Lists the items of pieces that leave. With a map also makes room for it: it keeps nothing yet. */
-static bool ListItems(kiriDetach* detach, int32_t kind, kiriKeep* map, int32_t count, PieceOfItem* pieceOf)
+static bool MapRest(kiriDetach* detach, kiriKeep* map, const kiriIndices* parts)
 {
-    kiriMemory* memory = &detach->memory;
-    int32_t* pieces = kiriMemory_Alloc(memory, (int64_t)sizeof(int32_t) * count);
-    bool ok = pieces != NULL && (map == NULL || kiriKeep_Init(map, memory, count));
-    for (int32_t i = 0; ok && i < count; ++i) {
-        int32_t piece = pieceOf(detach, i);
-        pieces[i] = detach->rest.pieces.data[piece] ? KIRI_NONE : piece;
-        if (map != NULL) {
-            kiriKeep_Add(map, false);
+    if (!kiriKeep_Init(map, &detach->memory, parts->count)) {
+        return false;
+    }
+    for (int32_t i = 0; i < parts->count; ++i) {
+        kiriKeep_Add(map, parts->data[i] == KIRI_NONE);
+    }
+    return true;
+}
+
+/* Lists items by part, and makes the map of the part: it keeps nothing yet. */
+static bool ListParts(kiriDetach* detach, int32_t kind, kiriKeep* map, const kiriIndices* parts)
+{
+    if (map != NULL) {
+        if (!kiriKeep_Init(map, &detach->memory, parts->count)) {
+            return false;
         }
+        kiriKeep_Clear(map, parts->count);
     }
-    ok = ok && kiriPieceItems_List(&detach->of[kind], memory, detach->rest.pieces.count, pieces, count);
-    kiriMemory_Free(memory, pieces);
-    return ok;
-}
-
-static bool MapPins(kiriDetach* detach)
-{
-    int32_t count = detach->sheet->pins.count;
-    if (!kiriKeep_Init(&detach->rest.pins, &detach->memory, count)) {
-        return false;
-    }
-    for (int32_t i = 0; i < count; ++i) {
-        kiriKeep_Add(&detach->rest.pins, kiriSubset_FrameOfPin(&detach->rest, i) != KIRI_NONE);
-    }
-    return true;
-}
-
-static bool ListParts(kiriDetach* detach)
-{
-    const kiriSheetData* sheet = detach->sheet;
-    const kiriTouches* touches = &sheet->touches;
-    kiriSubset* part = &detach->part;
-    return InitSubset(part, sheet, &detach->memory) &&
-           ListItems(detach, KIRI_LISTED_VERTICES, &part->vertices, sheet->mesh.vertices.count, PieceOfVertex) &&
-           ListItems(detach, KIRI_LISTED_TRIANGLES, &part->triangles, sheet->mesh.triangles.count, PieceOfTriangle) &&
-           ListItems(detach, KIRI_LISTED_FRAMES, &part->frames, sheet->frames.count, PieceOfFrame) &&
-           ListItems(detach, KIRI_LISTED_POINTS, &part->points, sheet->points.count, PieceOfPoint) &&
-           ListItems(detach, KIRI_LISTED_LINKS, NULL, sheet->links.links.count, PieceOfLink) &&
-           ListItems(detach, KIRI_LISTED_FADES, NULL, sheet->seen.fades.fading.count, PieceOfFade) &&
-           ListItems(detach, KIRI_LISTED_POINT_FADES, NULL, sheet->seen.pointFades.fading.count, PieceOfPointFade) &&
-           ListItems(detach, KIRI_LISTED_LAST, NULL, touches->last.touches.count, PieceOfLast) &&
-           ListItems(detach, KIRI_LISTED_SLEPT, NULL, touches->slept.touches.count, PieceOfSlept);
+    return kiriPieceItems_List(&detach->of[kind], &detach->memory, detach->rest.pieces.count, parts->data,
+                               parts->count);
 }
 
 bool kiriDetach_Map(kiriDetach* detach, bool makesParts)
 {
     const kiriSheetData* sheet = detach->sheet;
-    kiriSubset* rest = &detach->rest;
+    kiriSubset *rest = &detach->rest, *part = &detach->part;
+    const struct {
+        kiriKeep *rest, *part;
+        int32_t count;
+        PartOfItem* partOf;
+    } kinds[KIRI_LISTED_COUNT] = {
+        [KIRI_LISTED_VERTICES] = { &rest->vertices, &part->vertices, sheet->mesh.vertices.count, PartOfVertex },
+        [KIRI_LISTED_TRIANGLES] = { &rest->triangles, &part->triangles, sheet->mesh.triangles.count, PartOfTriangle },
+        [KIRI_LISTED_FRAMES] = { &rest->frames, &part->frames, sheet->frames.count, PartOfFrame },
+        [KIRI_LISTED_POINTS] = { &rest->points, &part->points, sheet->points.count, PartOfPoint },
+        [KIRI_LISTED_LINKS] = { &rest->links, NULL, sheet->links.links.count, PartOfLink },
+        [KIRI_LISTED_FADES] = { NULL, NULL, sheet->seen.fades.fading.count, PartOfFade },
+        [KIRI_LISTED_POINT_FADES] = { NULL, NULL, sheet->seen.pointFades.fading.count, PartOfPointFade },
+        [KIRI_LISTED_LAST] = { NULL, NULL, sheet->touches.last.touches.count, PartOfLast },
+        [KIRI_LISTED_SLEPT] = { NULL, NULL, sheet->touches.slept.touches.count, PartOfSlept },
+    };
     KIRI_ASSERT(kiriUpdate_IsFieldCurrent(sheet->update));
     KIRI_ASSERT(rest->pieces.count == sheet->layout.pieces.count);
     detach->area = AreaOfAll(sheet);
-    return FindVertexPieces(detach) && MapItems(detach, &rest->vertices, sheet->mesh.vertices.count, PieceOfVertex) &&
-           MapItems(detach, &rest->triangles, sheet->mesh.triangles.count, PieceOfTriangle) &&
-           MapItems(detach, &rest->frames, sheet->frames.count, PieceOfFrame) &&
-           MapItems(detach, &rest->points, sheet->points.count, PieceOfPoint) &&
-           MapItems(detach, &rest->links, sheet->links.links.count, PieceOfLink) && MapPins(detach) &&
-           (!makesParts || ListParts(detach));
+    bool ok = FindParts(detach, &detach->vertexPart, sheet->mesh.vertices.count, FindPartOfVertex) &&
+              (!makesParts || InitSubset(part, sheet, &detach->memory)) &&
+              kiriKeep_Init(&rest->pins, &detach->memory, sheet->pins.count);
+    for (int32_t k = 0; ok && k < KIRI_LISTED_COUNT; ++k) {
+        kiriIndices parts = { NULL, 0, 0 };
+        if (kinds[k].rest != NULL || makesParts) {
+            ok = FindParts(detach, &parts, kinds[k].count, kinds[k].partOf) &&
+                 (kinds[k].rest == NULL || MapRest(detach, kinds[k].rest, &parts)) &&
+                 (!makesParts || ListParts(detach, k, kinds[k].part, &parts));
+        }
+        kiriArray_Release(&detach->memory, &parts);
+    }
+    for (int32_t i = 0; ok && i < sheet->pins.count; ++i) {
+        kiriKeep_Add(&rest->pins, kiriSubset_FrameOfPin(rest, i) != KIRI_NONE);
+    }
+    return ok;
 }
 
 /* ---- What follows pieces ----------------------------------------------------------------------------------------- */
