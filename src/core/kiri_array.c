@@ -164,6 +164,17 @@ static void SortByDigit(const int32_t* items, int32_t* to, int32_t count, int sh
 
 void kiriSort_Numbers(int32_t* items, int32_t* room, int32_t count)
 {
+    enum { FEW = 64 };
+    if (count <= FEW) {
+        for (int32_t i = 1, j; i < count; ++i) {
+            int32_t item = items[i];
+            for (j = i; j > 0 && items[j - 1] > item; --j) {
+                items[j] = items[j - 1];
+            }
+            items[j] = item;
+        }
+        return;
+    }
     int32_t all = 0, *from = items, *to = room;
     for (int32_t i = 0; i < count; ++i) {
         KIRI_ASSERT(items[i] >= 0);

@@ -22,6 +22,7 @@ void kiriKeep_Take(kiriKeep* keep, const int32_t* items, int32_t count)
 {
     KIRI_ASSERT(keep->count == 0 && keep->first == 0);
     for (int32_t k = 0; k < count; ++k) {
+        KIRI_ASSERT(items[k] < keep->to.count && (k == 0 || items[k] > items[k - 1]));
         keep->to.data[items[k]] = k;
     }
     keep->count = count;
@@ -36,26 +37,20 @@ void kiriKeep_Drop(kiriKeep* keep, const int32_t* items, int32_t count)
     keep->count = 0;
 }
 
-/* The end of the run of items, from `from` on, that are kept all, or none of them. */
-static int32_t EndOfRun(const kiriKeep* keep, int32_t from)
-{
-    const int32_t* to = keep->to.data;
-    int32_t end = from + 1;
-    while (end < keep->to.count && (to[end] == KIRI_NONE) == (to[from] == KIRI_NONE)) {
-        ++end;
-    }
-    return end;
-}
-
-/* Run by run. `to` may be `from`, for nothing moves up. */
+/* Moves items from `first` on, run by run of items that are all kept or all removed. `to` may be `from`: no item moves
+   up. */
 static void MoveRuns(const kiriKeep* keep, unsigned char* to, const unsigned char* from, int32_t first,
                      size_t itemBytes)
 {
+    const int32_t* map = keep->to.data;
     for (int32_t i = first, end; i < keep->to.count; i = end) {
-        end = EndOfRun(keep, i);
-        if (keep->to.data[i] != KIRI_NONE) {
-            memmove(to + (size_t)keep->to.data[i] * itemBytes, from + (size_t)i * itemBytes,
-                    (size_t)(end - i) * itemBytes);
+        end = i + 1;
+        while (end < keep->to.count && (map[end] == KIRI_NONE) == (map[i] == KIRI_NONE)) {
+            ++end;
+        }
+        if (map[i] != KIRI_NONE) {
+            KIRI_ASSERT(map[i] <= i && map[end - 1] == map[i] + end - 1 - i);
+            memmove(to + (size_t)map[i] * itemBytes, from + (size_t)i * itemBytes, (size_t)(end - i) * itemBytes);
         }
     }
 }
@@ -84,12 +79,12 @@ static int32_t* LinkOf(int32_t* next, size_t strideBytes, int32_t item)
     return (int32_t*)((char*)next + (size_t)item * strideBytes);
 }
 
-/* What a link becomes that leads to `item`. Older items have their new links already: one that is not kept tells what
-   comes behind it. */
+/* Returns the new link for a link to `item`. Older items have their new links already, so the link of a removed item
+   leads to the next kept one. */
 static int32_t NewLink(const kiriKeep* keep, int32_t* next, size_t strideBytes, int32_t item)
 {
-    bool isPassed = item != KIRI_NONE && !kiriKeep_Has(keep, item);
-    return isPassed ? *LinkOf(next, strideBytes, item) : kiriKeep_To(keep, item);
+    bool isRemoved = item != KIRI_NONE && !kiriKeep_Has(keep, item);
+    return isRemoved ? *LinkOf(next, strideBytes, item) : kiriKeep_To(keep, item);
 }
 
 void kiriKeep_Relink(const kiriKeep* keep, int32_t* heads, int32_t headCount, int32_t* next, size_t strideBytes)

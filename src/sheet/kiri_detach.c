@@ -223,7 +223,7 @@ bool kiriDetach_Map(kiriDetach* detach, bool makesParts)
     return ok;
 }
 
-/* ---- What follows pieces ----------------------------------------------------------------------------------------- */
+/* ---- Contacts ---------------------------------------------------------------------------------------------------- */
 
 /* Renumbers a contact of the host. False if its point is not in the subset. */
 static bool FollowContact(const kiriSubset* subset, kiriGivenContact* given)
@@ -256,9 +256,10 @@ static bool FollowTouch(const kiriSubset* subset, kiriTouch* touch)
 
 /* ---- A part ------------------------------------------------------------------------------------------------------ */
 
-/* The items of the part of this kind, in ascending order. */
+/* Returns the items of a part, in ascending order. */
 static kiriIndices ItemsOf(const kiriDetach* detach, int32_t kind, int32_t piece)
 {
+    KIRI_ASSERT(kind >= 0 && kind < KIRI_LISTED_COUNT && piece < detach->of[kind].spans.count);
     kiriSpan span = detach->of[kind].spans.data[piece];
     return (kiriIndices){ detach->of[kind].items.data + span.first, span.count, span.count };
 }
@@ -274,13 +275,14 @@ static void CopySettings(const kiriDetach* detach, int32_t piece, kiriSheetData*
     kiriSettings_Apply(to);
 }
 
-/* The cell of the part with the material of a cell of the sheet. */
+/* Returns the cell of the part with the material of a cell of the sheet. */
 static int32_t CellInPart(const kiriDetach* detach, const kiriSheetData* to, int32_t cell)
 {
     const kiriSheetData* from = detach->sheet;
     const kiriCell* was = &from->grid.cells.data[cell];
     int32_t square = kiriSquares_InPart(&to->mesh.squares, &from->mesh.squares, was->square);
     int32_t found = to->grid.squareCell.data[square];
+    KIRI_ASSERT(found != KIRI_NONE);
     while (to->grid.cells.data[found].triangle != kiriKeep_To(&detach->part.triangles, was->triangle)) {
         found = to->grid.cells.data[found].next;
     }
@@ -363,7 +365,7 @@ static bool CopyContacts(const kiriDetach* detach, int32_t piece, kiriSheetData*
     return true;
 }
 
-/* Copies the frames to the last bit, whatever a commit does to new ones. */
+/* Copies the frames with all bits. A commit changes new frames: so it is called before and after. */
 static void CopyFrames(const kiriSheetData* from, const kiriIndices* frames, kiriSheetData* to)
 {
     KIRI_ASSERT(to->update->placing.sites.count == frames->count && to->frames.capacity >= frames->count);
@@ -595,6 +597,7 @@ static void KeepFields(kiriDetach* detach)
 {
     kiriSheetData* sheet = detach->sheet;
     const kiriSubset* rest = &detach->rest;
+    KIRI_ASSERT(rest->vertices.count > 0 && rest->triangles.count > 0);
     const int32_t *cells = detach->cells.data, *squares = detach->squares.data;
     int32_t cellCount = detach->cells.count, squareCount = detach->squares.count;
     kiriMesh_Keep(&sheet->mesh, &rest->triangles, &rest->vertices, squares, squareCount);
@@ -624,6 +627,7 @@ static void KeepSamples(kiriDetach* detach)
 static void KeepTouches(kiriDetach* detach, kiriTouchMemory* memory, const kiriVec3* forces)
 {
     int32_t count = memory->touches.count;
+    KIRI_ASSERT(forces + count <= detach->forces.data + detach->forces.count);
     memory->touches.count = memory->forces.count = memory->given = 0;
     for (int32_t i = 0; i < count; ++i) {
         kiriTouch touch = memory->touches.data[i];
@@ -650,7 +654,7 @@ static void KeepContacts(kiriDetach* detach)
     sheet->touches.rests.areSummed = false;
 }
 
-/* Puts the staged layout in force, like kiriStage_Commit. */
+/* Commits the staged layout, like kiriStage_Commit. */
 static void CommitLayout(kiriDetach* detach)
 {
     kiriSheetData* sheet = detach->sheet;
@@ -710,6 +714,7 @@ static void KeepSeen(kiriDetach* detach, kiriMemory* retired)
 void kiriDetach_Commit(kiriDetach* detach, kiriMemory* retired)
 {
     kiriSettings* settings = &detach->sheet->settings;
+    KIRI_ASSERT(detach->sheet->update->next.framePiece.count == detach->rest.frames.count); /* staged */
     double share = kiriSubset_Share(&detach->rest); /* by the old layout */
     settings->collisionPoints *= share;
     settings->integrationPoints *= share;

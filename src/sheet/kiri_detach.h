@@ -1,5 +1,5 @@
-/* Pieces leave a sheet: they become sheets of their own, or are removed. No field of the rest is computed anew, since
-   nothing couples two pieces: the rest stays the same to the last bit, except for its indices. */
+/* Detaches pieces of a sheet as new sheets, or removes them. Nothing couples two pieces, so the rest of the sheet keeps
+   all its bits, with other indices. */
 #ifndef KIRI_DETACH_H
 #define KIRI_DETACH_H
 

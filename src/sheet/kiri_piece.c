@@ -5,9 +5,9 @@
 
 #include <string.h>
 
-/* ---- Coming off ---- */
+/* ---- Pieces of the next layout ----------------------------------------------------------------------------------- */
 
-/* Regions that links join are one piece, and others are not. */
+/* Joins frames that links connect. */
 static bool JoinFrames(kiriSheetData* sheet)
 {
     kiriUpdate* u = sheet->update;
@@ -16,13 +16,13 @@ static bool JoinFrames(kiriSheetData* sheet)
     }
     kiriUnion_Init(u->parent.data, u->placing.sites.count);
     for (int32_t k = 0; k < sheet->links.next.count; ++k) {
+        KIRI_ASSERT(sheet->links.next.data[k].j < u->parent.count);
         kiriUnion_Join(u->parent.data, sheet->links.next.data[k].i, sheet->links.next.data[k].j);
     }
     return true;
 }
 
-/* The old piece that the material of a frame was in: of a new one, that of a frame which moves it on the old
-   surface. */
+/* Returns the current piece of a frame's material. A new frame has the piece of the vertices at its site. */
 static int32_t OriginOf(const kiriSheetData* sheet, int32_t frame)
 {
     if (frame < sheet->frames.count) {
@@ -31,15 +31,17 @@ static int32_t OriginOf(const kiriSheetData* sheet, int32_t frame)
     if (sheet->frames.count == 0) {
         return KIRI_NONE;
     }
-    int32_t triangle = sheet->grid.cells.data[sheet->update->placing.sites.data[frame].cell].triangle;
-    return kiriPiece_OfVertex(sheet, sheet->mesh.triangles.data[triangle].vertex[0]);
+    int32_t cell = sheet->update->placing.sites.data[frame].cell;
+    KIRI_ASSERT(kiriGrid_IsCell(&sheet->grid, cell));
+    return kiriPiece_OfTriangle(sheet, sheet->grid.cells.data[cell].triangle);
 }
 
-/* Of the parts of one old piece the largest goes on, and the others came off. */
+/* The largest part of a piece goes on as that piece. The other parts came off. */
 static void MarkCameOff(kiriSheetData* sheet)
 {
     kiriLayout* next = &sheet->update->next;
-    int32_t* largest = sheet->update->parent.data; /* of each origin; there are no more of them than frames */
+    int32_t* largest = sheet->update->parent.data; /* of each origin: there are no more origins than frames */
+    KIRI_ASSERT(sheet->layout.pieces.count <= sheet->update->parent.count);
     for (int32_t o = 0; o < sheet->layout.pieces.count; ++o) {
         largest[o] = KIRI_NONE;
     }
@@ -60,12 +62,14 @@ bool kiriPieces_Stage(kiriSheetData* sheet)
 {
     kiriUpdate* u = sheet->update;
     kiriLayout* next = &u->next;
+    KIRI_ASSERT(u->material.count == u->placing.sites.count);
     next->pieces.count = 0;
     if (!JoinFrames(sheet) || !kiriArray_Resize(sheet->memory, &next->framePiece, u->placing.sites.count)) {
         return false;
     }
     for (int32_t i = 0; i < u->placing.sites.count; ++i) {
         int32_t root = kiriUnion_Root(u->parent.data, i);
+        KIRI_ASSERT(root <= i);
         if (root == i) {
             kiriPiece piece = { .frame = i, .origin = OriginOf(sheet, i) };
             next->framePiece.data[i] = next->pieces.count;
@@ -97,15 +101,16 @@ void kiriPieces_KeepGone(kiriSheetData* sheet, const kiriLayout* old)
     }
 }
 
-/* ---- Which a cut touches ---- */
+/* ---- Pieces that a cut touches ----------------------------------------------------------------------------------- */
 
 static kiriPiece* NextOfFrame(const kiriSheetData* sheet, int32_t frame)
 {
     const kiriLayout* next = &sheet->update->next;
+    KIRI_ASSERT(frame >= 0 && frame < next->framePiece.count);
     return &next->pieces.data[next->framePiece.data[frame]];
 }
 
-/* Is its region the same, and its site? Regions are dirty beside a cut, too. */
+/* Returns true if site and region of a frame are unchanged. Regions beside a cut are dirty even if nothing changed. */
 static bool IsSameFrame(const kiriSheetData* sheet, int32_t i)
 {
     const kiriUpdate* u = sheet->update;
@@ -120,22 +125,12 @@ static bool IsSameFrame(const kiriSheetData* sheet, int32_t i)
            frame->inertia[2] == density * about.vv;
 }
 
-static void TouchByFrames(kiriSheetData* sheet)
-{
-    for (int32_t i = 0; i < sheet->update->placing.sites.count; ++i) {
-        bool isNew = i >= sheet->frames.count;
-        if (isNew || (sheet->regions.dirty.data[i] && !IsSameFrame(sheet, i))) {
-            NextOfFrame(sheet, i)->isTouched = true;
-        }
-    }
-}
-
 static bool IsEarlierLink(const kiriLink* a, const kiriLink* b)
 {
     return a->i != b->i ? a->i < b->i : a->j < b->j;
 }
 
-/* Links come in one order. */
+/* Links are sorted. */
 static void TouchByLinks(kiriSheetData* sheet)
 {
     int32_t o = 0, n = 0, oldCount = sheet->links.links.count, nextCount = sheet->links.next.count;
@@ -152,7 +147,7 @@ static void TouchByLinks(kiriSheetData* sheet)
     }
 }
 
-/* Samples beside a cut are weighed anew, too, and most come out as they were. */
+/* Samples beside a cut are weighed again, too; most weights stay the same. */
 static void TouchBySamples(kiriSheetData* sheet, const kiriSkin* skin, int32_t oldCount)
 {
     for (int32_t k = 0; k < skin->staged.count; ++k) {
@@ -166,7 +161,7 @@ static void TouchBySamples(kiriSheetData* sheet, const kiriSkin* skin, int32_t o
     }
 }
 
-/* A piece is touched where a part of it is; and so are all of its parts. */
+/* If a part of a piece is touched, all parts of the piece are. */
 static void TouchByOrigin(kiriSheetData* sheet)
 {
     kiriLayout* next = &sheet->update->next;
@@ -183,31 +178,30 @@ static void TouchByOrigin(kiriSheetData* sheet)
     }
 }
 
-static bool AreAllTouched(const kiriLayout* layout)
-{
-    bool are = true;
-    for (int32_t p = 0; are && p < layout->pieces.count; ++p) {
-        are = layout->pieces.data[p].isTouched;
-    }
-    return are;
-}
-
 void kiriPieces_FindTouched(kiriSheetData* sheet)
 {
     kiriLayout* next = &sheet->update->next;
+    KIRI_ASSERT(next->framePiece.count == sheet->update->placing.sites.count);
     for (int32_t p = 0; p < next->pieces.count; ++p) {
         next->pieces.data[p].isTouched = next->pieces.data[p].cameOff;
     }
-    TouchByFrames(sheet);
+    for (int32_t i = 0; i < sheet->update->placing.sites.count; ++i) {
+        bool isNew = i >= sheet->frames.count;
+        if (isNew || (sheet->regions.dirty.data[i] && !IsSameFrame(sheet, i))) {
+            NextOfFrame(sheet, i)->isTouched = true;
+        }
+    }
     TouchByLinks(sheet);
-    if (!AreAllTouched(next)) { /* there may be many samples */
+    bool areAllTouched = true;
+    for (int32_t p = 0; p < next->pieces.count; ++p) {
+        areAllTouched = areAllTouched && next->pieces.data[p].isTouched;
+    }
+    if (!areAllTouched) { /* there may be many samples */
         TouchBySamples(sheet, &sheet->vertexSkin, sheet->update->samples.oldVertices);
         TouchBySamples(sheet, &sheet->pointSkin, sheet->points.count);
     }
     TouchByOrigin(sheet);
 }
-
-/* ---- Rest ---- */
 
 void kiriPieces_KeepRest(kiriSheetData* sheet, const kiriLayout* old)
 {
@@ -225,7 +219,7 @@ int32_t kiriPiece_OfTriangle(const kiriSheetData* sheet, int32_t triangle)
     return kiriPiece_OfVertex(sheet, sheet->mesh.triangles.data[triangle].vertex[0]);
 }
 
-/* While an update is at hand regions may be half done: then the frame that weighs most at the corners. */
+/* Returns the frame with the largest weight at the corners. During an update regions may be incomplete. */
 static int32_t HeaviestAt(const kiriSheetData* sheet, int32_t triangle)
 {
     const kiriSkin* skin = &sheet->vertexSkin;
@@ -241,19 +235,15 @@ static int32_t HeaviestAt(const kiriSheetData* sheet, int32_t triangle)
     return heaviest.frame != KIRI_NONE ? heaviest.frame : KIRI_NONE;
 }
 
-static int32_t FrameAt(const kiriSheetData* sheet, int32_t triangle, kiriLatticePoint at)
-{
-    if (!kiriUpdate_IsFieldCurrent(sheet->update)) {
-        return HeaviestAt(sheet, triangle);
-    }
-    int32_t cell = kiriGrid_CellOf(&sheet->grid, &sheet->mesh, triangle, at);
-    return cell == KIRI_NONE ? HeaviestAt(sheet, triangle) : sheet->regions.field.owner.data[cell];
-}
-
 int32_t kiriOwner_At(const kiriSheetData* sheet, kiriLatticePoint at)
 {
     int32_t triangle = kiriMesh_Locate(&sheet->mesh, at);
-    int32_t frame = triangle != KIRI_NONE ? FrameAt(sheet, triangle, at) : KIRI_NONE;
+    if (triangle == KIRI_NONE) {
+        return KIRI_NONE;
+    }
+    bool isCurrent = kiriUpdate_IsFieldCurrent(sheet->update);
+    int32_t cell = isCurrent ? kiriGrid_CellOf(&sheet->grid, &sheet->mesh, triangle, at) : KIRI_NONE;
+    int32_t frame = cell != KIRI_NONE ? sheet->regions.field.owner.data[cell] : HeaviestAt(sheet, triangle);
     return frame != KIRI_NONE && !kiriSheet_IsGone(sheet, frame) ? frame : KIRI_NONE;
 }
 
@@ -424,7 +414,7 @@ bool kiriPieces_ListFrames(kiriSheetData* sheet)
     return true;
 }
 
-/* `pieces` has room for an entry a vertex, and for one a triangle. */
+/* `pieces` is scratch: one entry a vertex, then one a triangle. */
 static bool ListMesh(kiriSheetData* sheet, int32_t* pieces)
 {
     kiriPieceLists* lists = &sheet->lists;
@@ -481,9 +471,9 @@ void kiriPieceLists_Retire(kiriPieceLists* lists, kiriMemory* retired)
     memset(lists, 0, sizeof(*lists));
 }
 
-/* ---- State ---- */
+/* ---- State ------------------------------------------------------------------------------------------------------- */
 
-/* The least box around the vertices as they are seen. */
+/* Writes the box of the visible positions. */
 static void Bound(const kiriSheetData* sheet, kiriSpan span, float lower[3], float upper[3])
 {
     const int32_t* vertices = sheet->lists.vertices.items.data + span.first;
@@ -508,6 +498,7 @@ static void Bound(const kiriSheetData* sheet, kiriSpan span, float lower[3], flo
 kiriPieceState kiriPiece_State(const kiriSheetData* sheet, int32_t piece)
 {
     const kiriPieceLists* lists = &sheet->lists;
+    KIRI_ASSERT(lists->hasFrames && lists->hasMesh);
     kiriSpan frames = kiriPieceItems_Of(&lists->frames, piece), vertices = kiriPieceItems_Of(&lists->vertices, piece);
     if (sheet->layout.pieces.data[piece].isGone) {
         return (kiriPieceState){ 0 };

@@ -7,36 +7,34 @@
 
 KIRI_C_BEGIN
 
-/* Stages the pieces that come in force with the next commit, from the links that are staged. False for memory. */
+/* Stages the pieces of the next commit, from the staged links. False for memory. */
 bool kiriPieces_Stage(kiriSheetData* sheet);
 
-/* The piece of a triangle. */
 int32_t kiriPiece_OfTriangle(const kiriSheetData* sheet, int32_t triangle);
 
-/* Is any piece gone? */
+/* Returns true if a piece is gone, see kiriPiece.isGone. */
 bool kiriPieces_AnyGone(const kiriSheetData* sheet);
 
-/* The pieces of the layout that has just come in force are gone where those were that they came of. */
+/* After a commit: marks the pieces as gone whose origins in the old layout are. */
 void kiriPieces_KeepGone(kiriSheetData* sheet, const kiriLayout* old);
 
-/* When an update is ready: finds which of the next pieces it touches, isTouched; the pieces that they come of are
-   stirred. Work that is beside the cut, but comes out as before, touches nothing. */
+/* Finds the pieces that a finished update changes: sets isTouched of the next pieces, and isStirred of their origins.
+   Work beside the cut that changed nothing does not count. */
 void kiriPieces_FindTouched(kiriSheetData* sheet);
 
-/* The pieces of the layout that has just come in force rest as those that they came of, where they are not touched. */
+/* After a commit: copies the state of sleep from the old layout to pieces that are not touched. */
 void kiriPieces_KeepRest(kiriSheetData* sheet, const kiriLayout* old);
 
-/* Which frame a point of the material belongs to, and which frames a line of it: for pins and loads. */
-
-/* The index of the frame that holds a point of the material; KIRI_NONE outside, and in what is gone. */
+/* Returns the frame that owns a point of the material, for pins and loads. KIRI_NONE outside, and on a piece that is
+   gone. */
 int32_t kiriOwner_At(const kiriSheetData* sheet, kiriLatticePoint at);
 
-/* The same of the triangle of a node of mesh.squares, in the node's square; KIRI_NONE for no node, too. */
+/* The same for the triangle of a node of mesh.squares, in the square of the node. KIRI_NONE for no node, too. isStaged:
+   with the regions of the next commit. */
 int32_t kiriOwner_OfNode(const kiriSheetData* sheet, int32_t node, bool isStaged);
 
-/* Finds what of a line belongs to each frame into sheet->lineShares, in the order in which the line meets them; nothing
-   where it meets no material. The ends differ. isStaged: with the regions that come in force with the next commit.
-   False for memory. */
+/* Finds the part of a line that each frame owns, in the order of the line, into sheet->lineShares. Nothing if the line
+   meets no material. The ends must differ. isStaged: with the regions of the next commit. False for memory. */
 bool kiriOwner_FindShares(kiriSheetData* sheet, kiriLatticePoint from, kiriLatticePoint to, bool isStaged);
 
 /* The items of each piece, in lists that are made when the host asks for them. */
@@ -61,9 +59,8 @@ kiriSpan kiriPieceItems_Of(const kiriPieceItems* list, int32_t piece);
 /* Removes all lists. Arrays, which the host may hold, get the owner `retired`. */
 void kiriPieceLists_Retire(kiriPieceLists* lists, kiriMemory* retired);
 
-/* What the host asks about a piece; frames and vertices are listed. */
+/* Returns the state of a piece for the host. Frames and mesh must be listed. */
 kiriPieceState kiriPiece_State(const kiriSheetData* sheet, int32_t piece);
-
 
 KIRI_C_END
 

@@ -35,7 +35,7 @@ typedef struct Parting {
     KIRI_ARRAY(Part) parts;
 } Parting;
 
-/* Makes room for so many sheets that lose pieces. False for memory. Call EndParting in any case. */
+/* Makes room for `sheets` sources. False for memory. Call EndParting in any case. */
 static bool StartParting(Parting* parting, kiriWorld* world, int32_t sheets)
 {
     memset(parting, 0, sizeof(*parting));
@@ -56,7 +56,7 @@ static void EndParting(Parting* parting)
 
 /* ---- Which pieces ------------------------------------------------------------------------------------------------ */
 
-/* Adds a sheet from which nothing leaves yet but what is gone. Null for memory. */
+/* Adds a sheet. All its pieces stay for now, except those that are gone. Null for memory. */
 static PartSource* AddSource(Parting* parting, kiriSheetData* sheet)
 {
     KIRI_ASSERT(parting->sourceCount < parting->sourceRoom);
@@ -107,7 +107,7 @@ static bool MarkPieces(Parting* parting, const kiriFrame* frames, int32_t count)
     return true;
 }
 
-/* Does the piece wait to become a sheet? */
+/* Returns true if the piece waits to become a sheet. */
 static bool IsLeaving(const kiriWorld* world, const kiriSheetData* sheet, int32_t piece)
 {
     for (int32_t k = 0; k < sheet->leaving.count; ++k) {
@@ -119,7 +119,7 @@ static bool IsLeaving(const kiriWorld* world, const kiriSheetData* sheet, int32_
     return false;
 }
 
-/* Is something left of each sheet? */
+/* Returns true if each sheet keeps a piece. */
 static bool LeavesSome(const Parting* parting)
 {
     bool all = true;
@@ -145,8 +145,8 @@ static kiriResult ResultOf(const Parting* parting)
 
 /* ---- Costs ------------------------------------------------------------------------------------------------------- */
 
-/* A call does at once what the samples of one tick pay for, sheet by sheet; the rest waits. A sheet with work on a cut,
-   or with pieces that wait already, waits in any case. */
+/* Lets sheets wait whose pieces cost more than the samples that are left of one tick. A sheet in which a cut is worked
+   on, or other pieces wait, waits in any case. */
 static void ChooseWhatWaits(Parting* parting, bool makesSheets)
 {
     kiriWorld* world = parting->world;
@@ -217,6 +217,7 @@ static void CommitSources(Parting* parting)
         PartSource* source = &parting->sources[k];
         kiriSheetData* sheet = source->detach.sheet;
         if (!source->waits) {
+            KIRI_ASSERT(kiriUpdate_IsFieldCurrent(sheet->update));
             kiriDetach_Commit(&source->detach, &parting->world->retired);
             sheet->past = source->past;
             kiriMemory_Adopt(&parting->world->retired, (void*)source->past.others);
@@ -283,6 +284,7 @@ static void NamePins(kiriWorld* world, const Part* part)
 static void AddSheetOfPart(kiriWorld* world, const Part* part)
 {
     kiriSheetData* sheet = part->sheet;
+    KIRI_ASSERT(world->sheets.count < world->sheets.capacity && sheet->layout.pieces.count == 1);
     world->sheets.data[world->sheets.count++] = sheet;
     sheet->id = kiriPool_Add(&world->sheetIds, &world->memory, sheet, 0);
     kiriMemory_Adopt(&world->retired, (void*)sheet->past.others);
@@ -294,6 +296,7 @@ static void AddSheetOfPart(kiriWorld* world, const Part* part)
 static void AddLeaving(kiriWorld* world, const Part* part)
 {
     kiriSheetData* sheet = part->from->detach.sheet;
+    KIRI_ASSERT(part->from->waits && sheet->leaving.count < sheet->leaving.capacity);
     if (!IsLeaving(world, sheet, part->piece)) {
         sheet->leaving.data[sheet->leaving.count++] = part->frame;
         sheet->rest.isIdle = false;
@@ -434,6 +437,7 @@ kiriResult kiriParts_Leave(kiriWorld* world, kiriSheetData* sheet)
     for (int32_t k = count; k < sheet->leaving.count; ++k) {
         sheet->leaving.data[k - count] = sheet->leaving.data[k];
     }
+    KIRI_ASSERT(count <= sheet->leaving.count);
     sheet->leaving.count -= count;
     sheet->leavingPaid = 0;
     return KIRI_OK;
@@ -467,7 +471,7 @@ static void RemovePins(kiriWorld* world, const kiriDetach* detach)
     }
 }
 
-/* Hides the pieces until they can be removed: nobody sees or touches them. */
+/* Hides the pieces until they can be removed. */
 static void HidePieces(kiriWorld* world, const kiriDetach* detach)
 {
     kiriSheetData* sheet = detach->sheet;

@@ -1,5 +1,5 @@
-/* Pieces that become sheets of their own, or are removed: at once if no work on a cut is at hand in their sheet, else
-   when it is done. Until then removed pieces stay in the mesh, and nobody sees or touches them. */
+/* Detaches pieces as new sheets, or removes them. While a cut is worked on in their sheet, pieces wait for its end:
+   until then removed pieces stay in the mesh, but are invisible and touch nothing. */
 #ifndef KIRI_PART_H
 #define KIRI_PART_H
 
@@ -16,7 +16,7 @@ kiriResult kiriParts_Destroy(kiriWorld* world, const kiriFrame* frames, int32_t 
 /* Removes all pieces below an area (m^2) except the largest. The same results. */
 kiriResult kiriParts_DropCrumbs(kiriWorld* world, kiriSheetData* sheet, double area, int32_t* count);
 
-/* True if pieces wait and no work on a cut is at hand in the sheet. No such work begins before they have left. */
+/* Returns true if pieces wait and no cut is worked on in the sheet. No such work begins before they have left. */
 bool kiriParts_AreDue(const kiriSheetData* sheet);
 
 /* Pays for the pieces that are due, with the samples that are left at the end of a tick. */
