@@ -523,43 +523,6 @@ static void SortsNumbers(void** state)
     }
 }
 
-/* A few moves at a time it comes to the same. */
-static void SortsInParts(void** state)
-{
-    (void)state;
-    const int32_t counts[] = { 0, 1, 2, 3, 7, 64, 65, 1000, 5000 };
-    uint32_t seed = 29;
-    for (size_t c = 0; c < sizeof(counts) / sizeof(counts[0]); ++c) {
-        size_t bytes = sizeof(int32_t) * (size_t)(counts[c] + 1);
-        int32_t count = counts[c], *items = malloc(bytes), *sorted = malloc(bytes), *room = malloc(bytes);
-        Keys keys = { malloc(bytes), 0 };
-        for (int pattern = 0; pattern < 8; ++pattern) {
-            for (int32_t i = 0; i < count; ++i) {
-                keys.key[i] = KeyOf(pattern, i, count, &seed);
-                items[i] = sorted[i] = i;
-            }
-            kiriSort(sorted, count, HasHigherKey, &keys);
-            kiriSorting sorting = { 0, 0, 0, 0, 0 };
-            int32_t most = 1 + (int32_t)(Random(&seed) % 40), parts = 0;
-            keys.calls = 0;
-            for (int64_t before = 0;; before = keys.calls, ++parts) {
-                bool done = kiriSorting_GoOn(&sorting, items, room, count, HasHigherKey, &keys, most);
-                assert_true(keys.calls - before <= most + 1);
-                if (done) {
-                    break;
-                }
-            }
-            assert_true(count < 1000 || pattern != 0 || parts > 10);
-            assert_true((double)keys.calls <= 200.0 + 2.0 * count * log2(count + 1.0));
-            assert_memory_equal(items, sorted, sizeof(int32_t) * (size_t)count);
-        }
-        free(items);
-        free(sorted);
-        free(room);
-        free(keys.key);
-    }
-}
-
 /* ---- Rotations ---- */
 
 static kiriVec3 RandomVec3(uint32_t* seed, double size)
@@ -778,7 +741,6 @@ int main(void)
         cmocka_unit_test(HashesTellNumbersApart),
         cmocka_unit_test(SortsAnything),
         cmocka_unit_test(SortsNumbers),
-        cmocka_unit_test(SortsInParts),
         cmocka_unit_test(CayleyRotates),
         cmocka_unit_test(RotationIsPolarFactor),
         cmocka_unit_test(RotationOfSingular),

@@ -190,45 +190,6 @@ void kiriSort_Numbers(int32_t* items, int32_t* room, int32_t count)
     }
 }
 
-/* Merges the two runs at hand, the left one from `room`; false where it did not come to the end of `most` moves. */
-static bool MergeRuns(kiriSorting* s, int32_t* items, int32_t* room, int32_t count, kiriBeforeFn* before,
-                      const void* context, int32_t* most)
-{
-    int32_t middle = s->block + s->width, end = count - middle > s->width ? middle + s->width : count;
-    if (s->to < s->block) {
-        if (before(context, items[middle - 1], items[middle])) {
-            return true;
-        }
-        memcpy(room, items + s->block, sizeof(*items) * (size_t)s->width);
-        s->to = s->block;
-        s->left = 0;
-        s->right = middle;
-    }
-    for (; s->left < s->width; --*most) {
-        if (*most <= 0) {
-            return false;
-        }
-        bool takesRight = s->right < end && before(context, items[s->right], room[s->left]);
-        items[s->to++] = takesRight ? items[s->right++] : room[s->left++];
-    }
-    return true;
-}
-
-bool kiriSorting_GoOn(kiriSorting* s, int32_t* items, int32_t* room, int32_t count, kiriBeforeFn* before,
-                      const void* context, int32_t most)
-{
-    before = before != NULL ? before : IsLess;
-    s->to = s->width > 0 ? s->to : KIRI_NONE;
-    for (s->width = s->width > 0 ? s->width : 1; s->width < count; s->width *= 2, s->block = 0) {
-        for (; s->block < count - s->width; s->block += 2 * s->width, s->to = KIRI_NONE, --most) {
-            if (most <= 0 || !MergeRuns(s, items, room, count, before, context, &most)) {
-                return false;
-            }
-        }
-    }
-    return true;
-}
-
 /* The size class of a span with so many items: its room is 1 << class. */
 static int SizeClassOf(int32_t count)
 {
