@@ -85,6 +85,7 @@ static void CarryHeld(const kiriMat3* R, kiriVec3 t, double size, kiriVec3* at, 
 
 void kiriCarry_Pin(kiriSheetData* sheet, int32_t index, const kiriMat3* R, kiriVec3 t)
 {
+    KIRI_ASSERT(index >= 0 && index < sheet->pins.count);
     kiriPinData* pin = &sheet->pins.data[index];
     kiriVec2 way = kiriVec2_Sub(kiriMesh_Local(&sheet->mesh, pin->to), kiriMesh_Local(&sheet->mesh, pin->at));
     CarryHeld(R, t, 0.5 * kiriVec2_Length(way), &pin->lastTarget, &pin->lastRotation, &pin->target, &pin->rotation);
@@ -389,6 +390,7 @@ static int32_t AppendShares(const kiriSheetData* sheet, int32_t pin, kiriPinShar
         if (longest == NULL || share.share.length > longest->length) {
             longest = &sheet->lineShares.data[k];
         }
+        KIRI_ASSERT(shares->count < shares->capacity && share.share.length > 0.0);
         shares->data[shares->count++] = share;
     }
     return longest != NULL ? longest->frame : none;
@@ -402,6 +404,7 @@ void kiriPins_WriteLinkParts(kiriSheetData* sheet)
         sheet->linkParts.data[k] = 1.0;
     }
     for (int32_t k = 0; k < severed->count; ++k) {
+        KIRI_ASSERT(severed->data[k].link >= 0 && severed->data[k].link < sheet->linkParts.count);
         double* part = &sheet->linkParts.data[severed->data[k].link];
         *part = *part > severed->data[k].part ? *part - severed->data[k].part : 0.0;
     }
@@ -686,6 +689,7 @@ void kiriPins_WriteRows(kiriSheetData* sheet, double from, double to)
             WriteHinge(sheet, pinned, to);
         } else {
             const kiriFrameData* frame = &sheet->frames.data[pinned->share.frame];
+            KIRI_ASSERT(sheet->clampRows.count < sheet->clampRows.capacity);
             sheet->clampRows.data[sheet->clampRows.count++] = ClampRowOf(sheet, pinned, frame, from, to);
         }
     }
@@ -794,6 +798,7 @@ static void TakePinReactions(kiriSheetData* sheet, double perTime)
     for (int32_t i = 0; i < sheet->pins.count; ++i) {
         kiriPinData* pin = &sheet->pins.data[i];
         if (IsAwakePoint(sheet, i)) {
+            KIRI_ASSERT(row < sheet->pinReactions.count);
             memset(&pin->bore, 0, sizeof(pin->bore));
             pin->reaction = sheet->pinReactions.data[row++];
             AddBorne(pin, &pin->reaction, pin->target, perTime, &pin->bore);
@@ -807,12 +812,14 @@ static void TakePinReactions(kiriSheetData* sheet, double perTime)
         }
         memset(&pinned->bore, 0, sizeof(pinned->bore));
         if (pin->type == KIRI_PIN_CLAMP) {
+            KIRI_ASSERT(clamp < sheet->clampRows.count && clamp < sheet->clampReactions.count);
             kiriVec3 at = sheet->clampRows.data[clamp].pose.x;
             pinned->reactions[0] = sheet->clampReactions.data[clamp++];
             AddBorne(pin, &pinned->reactions[0], at, perTime, &pinned->bore);
             continue;
         }
         for (int spring = 0; spring < 2; ++spring) {
+            KIRI_ASSERT(row < sheet->pinRows.count && row < sheet->pinReactions.count);
             kiriVec3 at = sheet->pinRows.data[row].target;
             pinned->reactions[spring] = sheet->pinReactions.data[row++];
             AddBorne(pin, &pinned->reactions[spring], at, perTime, &pinned->bore);
@@ -1024,6 +1031,7 @@ static bool IsSameMat(const kiriMat3* a, const kiriMat3* b)
 /* Its part of the way that is left: the last step ends at the goal. */
 static void MoveHeld(kiriFrameData* frame, int32_t left)
 {
+    KIRI_ASSERT(frame->held && left >= 1);
     kiriVec3 goal = kiriVec3_Add(frame->goalPosition, frame->heldOff);
     if (left == 1) {
         frame->heldPosition = goal;
