@@ -184,8 +184,7 @@ sweep: packages-bench
 	$(BUILD)/tests/sweep_saves $(ARGS)
 
 scarce: packages-bench
-	@$(MAKE) --no-print-directory $(BUILD)/tests/test_scarce $(BUILD)/tests/test_unchanged
-	$(BUILD)/tests/test_unchanged 3
+	@$(MAKE) --no-print-directory $(BUILD)/tests/test_scarce
 	$(BUILD)/tests/test_scarce all
 
 long: packages-bench
@@ -538,7 +537,7 @@ $(BUILD)/tests/test_games: TEST_LIBRARIES = $(BUILD)/libkiri.a -lbox2d -lOSMesa 
 # Threads read a world, or work on its ticks.
 $(BUILD)/tests/test_readers $(BUILD)/tests/test_tasks $(BUILD)/tests/bench_tasks: override LDFLAGS += -pthread
 
-$(addprefix $(BUILD)/tests/,test_saves test_unchanged test_waiting): \
+$(addprefix $(BUILD)/tests/,test_saves test_waiting): \
     $(patsubst %,$(BUILD)/tests/%.c.o,storm_types storm_acts storm_cuts storm_seen)
 
 $(BUILD)/tests/test_saves: $(patsubst %,$(BUILD)/tests/%.c.o,fuzz fuzz_saved)

@@ -3,6 +3,7 @@
 #ifndef KIRI_TEST_CHECK_MESH_H
 #define KIRI_TEST_CHECK_MESH_H
 
+#include "mesh_copy.h"
 #include "mesh/kiri_mesh.h"
 #include "mesh_pieces.h"
 #include "support.h"
@@ -194,102 +195,6 @@ static inline void MeterFree(void* user, void* pointer)
 {
     --((Meter*)user)->live;
     free(pointer);
-}
-
-/* A copy to compare with. */
-typedef struct Copy {
-    kiriTriangle* triangles;
-    kiriVertex* vertices;
-    int32_t triangleCount, vertexCount;
-    uint32_t revision;
-} Copy;
-
-static inline Copy Copy_Make(const kiriMeshData* mesh)
-{
-    size_t triangleBytes = (size_t)mesh->triangles.count * sizeof(kiriTriangle);
-    size_t vertexBytes = (size_t)mesh->vertices.count * sizeof(kiriVertex);
-    Copy copy = { malloc(triangleBytes), malloc(vertexBytes), mesh->triangles.count, mesh->vertices.count,
-                  mesh->revision };
-    memcpy(copy.triangles, mesh->triangles.data, triangleBytes);
-    memcpy(copy.vertices, mesh->vertices.data, vertexBytes);
-    return copy;
-}
-
-static inline bool Copy_Equals(const Copy* copy, const kiriMeshData* mesh)
-{
-    return copy->triangleCount == mesh->triangles.count && copy->vertexCount == mesh->vertices.count &&
-           copy->revision == mesh->revision &&
-           memcmp(copy->triangles, mesh->triangles.data, (size_t)copy->triangleCount * sizeof(kiriTriangle)) == 0 &&
-           memcmp(copy->vertices, mesh->vertices.data, (size_t)copy->vertexCount * sizeof(kiriVertex)) == 0;
-}
-
-static inline void Copy_Free(Copy* copy)
-{
-    free(copy->triangles);
-    free(copy->vertices);
-}
-
-/* The mesh and its squares, slot for slot. */
-typedef struct Whole {
-    Copy mesh;
-    kiriSquares squares;  /* its arrays are copies, */
-    kiriMeshData sources; /* and those of sources */
-} Whole;
-
-static inline void* CopyOf(const void* data, size_t bytes)
-{
-    void* copy = malloc(bytes + 1);
-    return bytes > 0 ? memcpy(copy, data, bytes) : copy;
-}
-
-static inline Whole Whole_Make(const kiriMeshData* mesh)
-{
-    Whole whole = { Copy_Make(mesh), mesh->squares, *mesh };
-    kiriSquares* s = &whole.squares;
-    size_t count = (size_t)s->columns * (size_t)s->rows;
-    s->head = CopyOf(s->head, count * sizeof(int32_t));
-    s->vertexHead = CopyOf(s->vertexHead, count * sizeof(int32_t));
-    s->isDirty = CopyOf(s->isDirty, count);
-    s->nodes.data = CopyOf(s->nodes.data, (size_t)s->nodes.count * sizeof(kiriSquareNode));
-    s->dirty.data = CopyOf(s->dirty.data, (size_t)s->dirty.count * sizeof(int32_t));
-    kiriMeshData* m = &whole.sources;
-    m->sourceBlocks.data = CopyOf(m->sourceBlocks.data, (size_t)m->sourceBlocks.count * sizeof(int32_t));
-    m->sourceCorners.data = CopyOf(m->sourceCorners.data, (size_t)m->sourceCorners.count * sizeof(kiriLatticePoint));
-    return whole;
-}
-
-static inline bool SourcesEqual(const kiriMeshData* a, const kiriMeshData* b)
-{
-    return a->originals == b->originals && a->sourceBlocks.count == b->sourceBlocks.count &&
-           a->sourceCorners.count == b->sourceCorners.count &&
-           memcmp(a->sourceBlocks.data, b->sourceBlocks.data, (size_t)a->sourceBlocks.count * sizeof(int32_t)) == 0 &&
-           (a->sourceCorners.count == 0 || memcmp(a->sourceCorners.data, b->sourceCorners.data,
-                                                  (size_t)a->sourceCorners.count * sizeof(kiriLatticePoint)) == 0);
-}
-
-static inline bool Whole_Equals(const Whole* whole, const kiriMeshData* mesh)
-{
-    const kiriSquares *a = &whole->squares, *b = &mesh->squares;
-    size_t count = (size_t)a->columns * (size_t)a->rows;
-    return Copy_Equals(&whole->mesh, mesh) && SourcesEqual(&whole->sources, mesh) &&
-           memcmp(a->head, b->head, count * sizeof(int32_t)) == 0 &&
-           memcmp(a->vertexHead, b->vertexHead, count * sizeof(int32_t)) == 0 &&
-           memcmp(a->isDirty, b->isDirty, count) == 0 && a->freeNode == b->freeNode &&
-           a->nodes.count == b->nodes.count && a->dirty.count == b->dirty.count &&
-           memcmp(a->nodes.data, b->nodes.data, (size_t)a->nodes.count * sizeof(kiriSquareNode)) == 0 &&
-           memcmp(a->dirty.data, b->dirty.data, (size_t)a->dirty.count * sizeof(int32_t)) == 0;
-}
-
-static inline void Whole_Free(Whole* whole)
-{
-    Copy_Free(&whole->mesh);
-    free(whole->squares.head);
-    free(whole->squares.vertexHead);
-    free(whole->squares.isDirty);
-    free(whole->squares.nodes.data);
-    free(whole->squares.dirty.data);
-    free(whole->sources.sourceBlocks.data);
-    free(whole->sources.sourceCorners.data);
 }
 
 /* All but the pieces. Where corners of a part lie in the middle of another part's side, edges that come to lie on each

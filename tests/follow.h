@@ -377,7 +377,9 @@ static inline void Wander_Cut(Wander* w, Follow* f, double length, uint32_t* see
 {
     kiriMesh_Begin(f->mesh);
     Wander_Move(w, f, length, seed);
-    assert_true(kiriSkin_Inherit(&f->vertexSkin, f->memory, f->mesh));
+    assert_true(kiriSkin_ReserveBirths(&f->vertexSkin, f->memory, f->mesh->vertices.count - f->mesh->oldVertexCount,
+                                       f->sites.count));
+    kiriSkin_Inherit(&f->vertexSkin, f->memory, f->mesh);
     kiriMesh_Commit(f->mesh);
 }
 

@@ -266,7 +266,8 @@ static kiriResult CallOnce(Fuzz* fuzz, int32_t k, const FuzzCall* call, FuzzAct*
     uint64_t hash = Host_Hash(host), look = looks ? Look_World(host->world) : 0;
     memset(&act->said, 0, sizeof(act->said));
     kiriResult result = call->call(host->world, act);
-    if ((result < 0 && result != KIRI_DIVERGED && (call->flags & FUZZ_SEVERAL) == 0) ||
+    bool mayMove = result == KIRI_ERROR_MEMORY && (call->flags & FUZZ_TICKS) != 0;
+    if ((result < 0 && result != KIRI_DIVERGED && !mayMove && (call->flags & FUZZ_SEVERAL) == 0) ||
         (call->flags & FUZZ_READS) != 0) {
         FUZZ_CHECK(Host_Hash(host) == hash || MayHashMove(fuzz, k, result), "%s gives %s, and changes the world",
                    call->name, kiriGetResultName(result));
@@ -281,11 +282,11 @@ static kiriResult CallOnce(Fuzz* fuzz, int32_t k, const FuzzCall* call, FuzzAct*
     return result;
 }
 
-/* With memory refused at the n-th request, and again without. */
+/* With memory refused at the n-th request, and again without; but ticks, which go on after a refusal. */
 static kiriResult CallPoorly(Fuzz* fuzz, int32_t k, const FuzzCall* call, FuzzAct* act, int32_t n)
 {
     Host* host = &fuzz->hosts[k];
-    if (n > 0 && (call->flags & FUZZ_SEVERAL) == 0) {
+    if (n > 0 && (call->flags & (FUZZ_SEVERAL | FUZZ_TICKS)) == 0) {
         host->failAt = host->calls + n - 1;
         kiriResult result = CallOnce(fuzz, k, call, act);
         host->failAt = -1;

@@ -20,6 +20,7 @@ typedef struct Host {
     int64_t failAt;  /* the call that gets null; negative: none */
     bool failOnce;   /* or all calls from there on */
     int64_t most;    /* bytes that a block may have; 0: no limit */
+    int64_t failEvery; /* each so many calls one gets null; 0: none */
     int64_t refused; /* calls that got null */
     uint8_t
         poison;    /* other bits than usual, for what is not written: two hosts that differ in it tell who reads that */
@@ -39,8 +40,9 @@ static inline void* Host_Alloc(void* user, int64_t bytes)
 {
     Host* host = user;
     int64_t call = host->calls++;
-    bool isTooLarge = host->most > 0 && bytes > host->most;
-    if (isTooLarge || (host->failAt >= 0 && (host->failOnce ? call == host->failAt : call >= host->failAt))) {
+    bool isTooLarge = host->most > 0 && bytes > host->most,
+         isTurn = host->failEvery > 0 && call % host->failEvery == host->failEvery - 1;
+    if (isTooLarge || isTurn || (host->failAt >= 0 && (host->failOnce ? call == host->failAt : call >= host->failAt))) {
         ++host->refused;
         return NULL;
     }

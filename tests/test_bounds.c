@@ -18,7 +18,9 @@ typedef struct Cloth {
 /* Where the vertices are is up to the test, so the surface follows no frames. */
 static void Show(Cloth* cloth)
 {
-    assert_true(kiriSurface_Resize(&cloth->surface, &cloth->room, &cloth->scene.mesh, 0, 0));
+    int32_t vertices = cloth->scene.mesh.vertices.count, triangles = cloth->scene.mesh.triangles.count;
+    assert_true(kiriSurface_Reserve(&cloth->surface, &cloth->room, vertices, triangles, 0));
+    kiriSurface_Resize(&cloth->surface, vertices, triangles, 0);
     kiriSurface_WriteTopology(&cloth->surface, &cloth->scene.mesh);
     kiriMesh_Commit(&cloth->scene.mesh);
 }

@@ -267,7 +267,7 @@ static void ClosesLoops(void** state)
     InitSheet(&mesh);
     Cut(&mesh, xy, 4, 1e-4 * LatticeSize);
     assert_int_equal(CheckMesh(&mesh), 1);
-    kiriMesh_Rollback(&mesh);
+    InitSheet(&mesh);
     Cut(&mesh, xy, 5, 1e-4 * LatticeSize);
     ASSERT_NEAR(AreaAt(&mesh, 2.0, 2.0), 2.56, 1e-6);
     assert_int_equal(VerticesAt(&mesh, 1.2, 1.2), 2);
@@ -286,7 +286,7 @@ static void LeavesAndComesBack(void** state)
     assert_int_equal(blade.vertex, KIRI_NONE);
     ASSERT_NEAR(AreaAt(&mesh, 0.1, 0.1), 0.25, 1e-7);
     assert_int_equal(CheckMesh(&mesh), 2);
-    kiriMesh_Rollback(&mesh);
+    InitSheet(&mesh);
     Cut(&mesh, twice, 6, 1e-4 * LatticeSize);
     ASSERT_NEAR(AreaAt(&mesh, 0.1, 0.1), 0.375, 1e-7);
     ASSERT_NEAR(AreaAt(&mesh, 0.1, 3.9), 1.05, 1e-7);
@@ -316,7 +316,7 @@ static void StartsOnTheOutline(void** state)
     CutLine(&mesh, 0.0, 1.5, 1.5, 0.0);
     ASSERT_NEAR(AreaAt(&mesh, 0.1, 0.1), 1.125, 1e-7);
     assert_int_equal(CheckMesh(&mesh), 2);
-    kiriMesh_Rollback(&mesh);
+    InitSheet(&mesh);
     /* out of a vertex of the outline, and into another */
     CutLine(&mesh, 0.0, 3.0, 3.0, 4.0);
     ASSERT_NEAR(AreaAt(&mesh, 0.1, 3.9), 1.5, 1e-7);
@@ -371,16 +371,22 @@ static void CutsOverGaps(void** state)
     ASSERT_NEAR(AreaAt(&mesh, 0.5, 1.9), 0.6, 1e-7);
     ASSERT_NEAR(AreaAt(&mesh, 2.5, 1.9), 0.6, 1e-7);
     assert_int_equal(CheckMesh(&mesh), 3);
-    kiriMesh_Rollback(&mesh);
+    InitShape(&mesh, 3, 2,
+              "#.#"
+              "###");
     /* over the gap from one tip inside to another */
     CutLine(&mesh, 0.5, 1.4, 2.5, 1.4);
     assert_int_equal(CheckMesh(&mesh), 1);
-    kiriMesh_Rollback(&mesh);
+    InitShape(&mesh, 3, 2,
+              "#.#"
+              "###");
     /* along the bottom of the gap: two slits */
     CutLine(&mesh, 0.0, 1.0, 3.0, 1.0);
     assert_int_equal(CheckMesh(&mesh), 3);
     assert_int_equal(OpenEdges(&mesh), 2);
-    kiriMesh_Rollback(&mesh);
+    InitShape(&mesh, 3, 2,
+              "#.#"
+              "###");
     CutLine(&mesh, 3.0, 1.0, 0.0, 1.0);
     assert_int_equal(CheckMesh(&mesh), 3);
     assert_int_equal(OpenEdges(&mesh), 2);
@@ -399,7 +405,10 @@ static void CutsToHoles(void** state)
     assert_int_equal(CheckMesh(&mesh), 1);
     CutLine(&mesh, 1.5, 1.4, 4.0, 1.25);
     assert_int_equal(CheckMesh(&mesh), 2);
-    kiriMesh_Rollback(&mesh);
+    InitShape(&mesh, 3, 3,
+              "###"
+              "#.#"
+              "###");
     CutLine(&mesh, -1.0, -1.0, 4.0, 4.0);
     assert_int_equal(CheckMesh(&mesh), 2);
     ASSERT_NEAR(AreaAt(&mesh, 2.0, 0.5), 4.0, 1e-7);
@@ -418,12 +427,16 @@ static void CutsThroughPinches(void** state)
     CutLine(&mesh, -1.0, -1.0, 3.0, 3.0);
     assert_int_equal(CheckMesh(&mesh), 4);
     assert_int_equal(VerticesAt(&mesh, 1.0, 1.0), 4);
-    kiriMesh_Rollback(&mesh);
+    InitShape(&mesh, 2, 2,
+              ".#"
+              "#.");
     CutLine(&mesh, 0.0, -1.0, 2.0, 3.0);
     ASSERT_NEAR(AreaAt(&mesh, 0.1, 0.5), 0.75, 1e-7);
     ASSERT_NEAR(AreaAt(&mesh, 1.9, 1.5), 0.75, 1e-7);
     assert_int_equal(CheckMesh(&mesh), 4);
-    kiriMesh_Rollback(&mesh);
+    InitShape(&mesh, 2, 2,
+              ".#"
+              "#.");
     /* from the pinch, which the blade holds by one vertex, into either square */
     for (int side = 0; side < 2; ++side) {
         const double xy[] = { 1.0, 1.0, side == 0 ? 0.4 : 1.6, side == 0 ? -1.0 : 3.0 };
@@ -799,112 +812,51 @@ static void CutsAtRandomOnARing(void** state)
     }
 }
 
-/* Rolls a scramble of cuts back, and says whether it got to its end; `squares` and all are as they were. */
-static bool CutAndRollBack(kiriMeshData* mesh, Meter* meter, int32_t untilFailure, uint32_t seed, int count)
-{
-    Pool pool = { { { 0, 0 } }, 0 };
-    bool done = true;
-    kiriMesh_Begin(mesh);
-    Whole whole = Whole_Make(mesh);
-    meter->untilFailure = untilFailure;
-    for (int i = 0; i < count && done; ++i) {
-        Polyline line = RandomPolyline(&seed, &pool, 0.4);
-        done = CutPolyline(mesh, &line, 1e-4 * LatticeSize);
-    }
-    assert_true(done || meter->untilFailure == 0);
-    meter->untilFailure = 0;
-    kiriMesh_Rollback(mesh);
-    assert_true(Whole_Equals(&whole, mesh));
-    meter->untilFailure = -1;
-    Whole_Free(&whole);
-    return done;
-}
-
-/* Refused at every allocation, on a new sheet. */
-static void RollsBackWithoutMemory(void** state)
+/* Cuts while one request after another is refused. A blade goes on where it was, and the mesh comes out as if nothing
+   had been refused. */
+static void GoesOnAfterRefusals(void** state)
 {
     (void)state;
     Rectangle r = Rectangle_Make(8, 8, 1.0f, 1.0f);
-    bool done = false;
-    for (int32_t n = 0; !done; ++n) {
-        Meter meter = { -1, 0 };
-        kiriMemory memory = kiriMemory_Make(MeterAlloc, MeterFree, &meter);
-        kiriMeshData mesh;
-        kiriFault why;
-        assert_int_equal(
-            kiriMesh_Init(&mesh, &memory,
-                          &(kiriMeshInput){ r.positions, r.vertexCount, r.indices, r.triangleCount, 8, 0.0 }, &why),
-            0);
-        if (n % 2 == 0) {
-            kiriSquares_ClearDirty(&mesh.squares);
-        }
-        done = CutAndRollBack(&mesh, &meter, n, 4, 6);
-        CheckMesh(&mesh);
-        kiriMemory_FreeAll(mesh.memory);
-        assert_int_equal(meter.live, 0);
-        assert_true(!done || n > 8);
-    }
-    Rectangle_Free(&r);
-}
-
-/* One sheet that is cut again and again: taken back, refused somewhere, or committed, with its dirty squares read or
-   not. */
-static void RollsBackAtRandom(void** state)
-{
-    (void)state;
-    Rectangle r = Rectangle_Make(8, 8, 1.0f, 1.0f);
+    const kiriMeshInput input = { r.positions, r.vertexCount, r.indices, r.triangleCount, 20, 0.0 };
+    int32_t refused = 0;
     for (uint32_t round = 1; round <= 10; ++round) {
         Meter meter = { -1, 0 };
         kiriMemory memory = kiriMemory_Make(MeterAlloc, MeterFree, &meter);
-        kiriMeshData mesh;
+        kiriMeshData rich, poor;
         kiriFault why;
         uint32_t seed = 9 * round;
         Pool pool = { { { 0, 0 } }, 0 };
-        assert_int_equal(
-            kiriMesh_Init(&mesh, &memory,
-                          &(kiriMeshInput){ r.positions, r.vertexCount, r.indices, r.triangleCount, 20, 0.0 }, &why),
-            0);
+        assert_int_equal(kiriMesh_Init(&rich, Heap(), &input, &why), KIRI_OK);
+        assert_int_equal(kiriMesh_Init(&poor, &memory, &input, &why), KIRI_OK);
+        kiriMesh_Begin(&rich);
+        kiriMesh_Begin(&poor);
         for (int i = 0; i < 20; ++i) {
-            if (Random(&seed) % 3 == 0) {
-                kiriSquares_ClearDirty(&mesh.squares);
-            }
-            CutAndRollBack(&mesh, &meter, (int32_t)(Random(&seed) % 3) - 1, Random(&seed), 1 + i % 3);
-            kiriMesh_Begin(&mesh);
             Polyline line = RandomPolyline(&seed, &pool, 0.3);
-            assert_true(CutPolyline(&mesh, &line, 1e-4 * LatticeSize));
-            kiriMesh_Commit(&mesh);
+            assert_true(CutPolyline(&rich, &line, 1e-4 * LatticeSize));
+            kiriBladeTip blade = kiriCut_PlaceAt(line.points[0]);
+            for (int k = 1; k < line.count; ++k) {
+                for (int32_t n = 0;; ++n, ++refused) {
+                    meter.untilFailure = n % 5;
+                    kiriProgress progress = Move(&poor, &blade, line.points[k], 1e-4 * LatticeSize);
+                    meter.untilFailure = -1;
+                    if (progress == KIRI_DONE) {
+                        break;
+                    }
+                    assert_int_equal(progress, KIRI_FAILED);
+                }
+            }
         }
-        CheckMesh(&mesh);
-        kiriMemory_FreeAll(mesh.memory);
+        Whole whole = Whole_Make(&rich);
+        assert_true(Whole_Equals(&whole, &poor));
+        CheckMesh(&poor);
+        Whole_Free(&whole);
+        kiriMemory_FreeAll(rich.memory);
+        kiriMemory_FreeAll(&memory);
+        assert_int_equal(meter.live, 0);
     }
+    assert_true(refused > 100);
     Rectangle_Free(&r);
-}
-
-/* A cut after a rollback gives the same mesh as without it. */
-static void RepeatsAfterRollback(void** state)
-{
-    (void)state;
-    kiriMeshData once, twice;
-    Pool pool = { { { 0, 0 } }, 0 };
-    uint32_t seed = 31;
-    InitRectangle(&once, 16, 16, 1.0f, 1.0f, 32);
-    InitRectangle(&twice, 16, 16, 1.0f, 1.0f, 32);
-    for (int i = 0; i < 30; ++i) {
-        Polyline other = RandomPolyline(&seed, &pool, 0.3), line = RandomPolyline(&seed, &pool, 0.3);
-        kiriSquares_ClearDirty(&once.squares);
-        kiriMesh_Begin(&once);
-        assert_true(CutPolyline(&once, &line, 1e-4 * LatticeSize));
-        kiriSquares_ClearDirty(&twice.squares);
-        kiriMesh_Begin(&twice);
-        assert_true(CutPolyline(&twice, &other, 1e-4 * LatticeSize));
-        kiriMesh_Rollback(&twice);
-        assert_true(CutPolyline(&twice, &line, 1e-4 * LatticeSize));
-    }
-    Whole whole = Whole_Make(&once);
-    assert_true(Whole_Equals(&whole, &twice));
-    Whole_Free(&whole);
-    kiriMemory_FreeAll(once.memory);
-    kiriMemory_FreeAll(twice.memory);
 }
 
 /* ---- Interrupted moves ------------------------------------------------------------------------------------------- */
@@ -1113,11 +1065,6 @@ static void DirtiesWhatChanges(void** state)
             assert_true(CutPolyline(&mesh, &line, 1e-4 * LatticeSize));
             assert_int_equal(CheckDirty(&mesh, prints), 0);
             changed += mesh.squares.dirty.count;
-            if (i % 3 == 0) { /* who has read them learns of a rollback */
-                kiriSquares_ClearDirty(&mesh.squares);
-                kiriMesh_Rollback(&mesh);
-                CheckDirty(&mesh, prints);
-            }
         }
         CheckMesh(&mesh);
         kiriMemory_FreeAll(mesh.memory);
@@ -1154,9 +1101,7 @@ int main(void)
         cmocka_unit_test(CutsAtRandomOnOneSheet),
         cmocka_unit_test(CutsAtRandomFarAndWide),
         cmocka_unit_test(CutsAtRandomOnARing),
-        cmocka_unit_test(RollsBackWithoutMemory),
-        cmocka_unit_test(RollsBackAtRandom),
-        cmocka_unit_test(RepeatsAfterRollback),
+        cmocka_unit_test(GoesOnAfterRefusals),
         cmocka_unit_test(InterruptedMovesGoOn),
         cmocka_unit_test(SmallQuotasWait),
         cmocka_unit_test(StepsCountWhatTheyLookAt),

@@ -1,5 +1,6 @@
 /* The non-manifold grid: against shapes whose cells are known, and against slow independent ways to find them. */
 #include "cells.h"
+#include "mesh_copy.h"
 #include "field/kiri_grid.h"
 #include "mesh/kiri_cut.h"
 #include "mesh_pieces.h"
@@ -1316,6 +1317,7 @@ static void CheckCutsTakenBack(Tour* tour, int32_t mostQuota)
         CheckFreeIndices(&sheet.grid);
         kiriGrid was = CopyGrid(&sheet.grid);
         int32_t cellCount = sheet.grid.cellCount;
+        Whole whole = Whole_Make(&sheet.mesh);
         kiriMesh_Begin(&sheet.mesh);
         for (uint32_t cut = 0; cut < 2; ++cut) {
             CutAcross(&sheet, &tour->seed);
@@ -1327,7 +1329,8 @@ static void CheckCutsTakenBack(Tour* tour, int32_t mostQuota)
                 was = CopyGrid(&sheet.grid);
             }
         }
-        kiriMesh_Rollback(&sheet.mesh);
+        Whole_Restore(&whole, &sheet.mesh);
+        Whole_Free(&whole);
         UpdateInParts(&sheet, &tour->seed, mostQuota);
         CheckAgainstScratch(&sheet);
         CheckChanges(&was, &sheet.grid, &sheet.mesh, round >= 2);

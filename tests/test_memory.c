@@ -193,7 +193,7 @@ static void CheckIndices(const Host* host, kiriSheet sheet, kiriCounts counts)
     }
 }
 
-/* A budget spreads the update over ticks, and one of them gets no memory: what earlier ones committed stays. */
+/* A budget spreads the update over ticks, and one of them gets no memory: what earlier ones did stays. */
 static void TestRefusedInALaterTick(void** state)
 {
     (void)state;
@@ -212,12 +212,11 @@ static void TestRefusedInALaterTick(void** state)
         kiriCounts counts = Host_Counts(&host, sheet);
         host.failAt = host.calls;
         while (result == KIRI_PENDING) {
-            counts = Host_Counts(&host, sheet);
             result = kiriWorld_Tick(host.world, 1.0f / 60.0f, 1);
         }
         assert_int_equal(result, KIRI_ERROR_MEMORY);
         kiriCounts after = Host_Counts(&host, sheet);
-        assert_true(after.triangles == counts.triangles && after.vertices == counts.vertices);
+        assert_true(after.triangles >= counts.triangles && after.vertices >= counts.vertices);
         CheckIndices(&host, sheet, after);
         host.failAt = -1;
         OK(kiriWorld_SetBudget(host.world, &none));
@@ -227,56 +226,30 @@ static void TestRefusedInALaterTick(void** state)
     }
 }
 
-enum { POINTS = 256, MOST_WEIGHTS = 64 };
-
-typedef struct Weights {
-    kiriFrame frames[POINTS][MOST_WEIGHTS];
-    float weights[POINTS][MOST_WEIGHTS];
-    int32_t count[POINTS];
-} Weights;
-
-/* False where the tick was refused in a later stage than the cut's: then the host must wait for the next tick. */
-static bool TakeWeights(const Host* host, kiriSheet sheet, Weights* w)
-{
-    kiriResult result = KIRI_OK;
-    memset(w, 0, sizeof(*w));
-    for (int i = 0; i < POINTS && result == KIRI_OK; ++i) {
-        const float at[2] = { ((float)(i % 16) + 0.43f) / 16.0f, ((float)(i / 16) + 0.57f) / 16.0f };
-        result =
-            kiriSheet_GetWeights(host->world, sheet, at, w->frames[i], w->weights[i], NULL, MOST_WEIGHTS, &w->count[i]);
-    }
-    return result == KIRI_OK;
-}
-
-/* The tick of the cut gets no memory from some call on: the sheet, and what is read off it, is as before. */
+/* The tick of the cut gets no memory from some call on. It says so; the cut goes on in the next, and comes out as if
+   nothing had been refused. */
 static void TestRefusedInTheTickOfACut(void** state)
 {
     (void)state;
-    static Weights before, after;
     uint64_t layout = LayoutWithoutFailure(8);
-    int32_t refused = 0, compared = 0;
+    int32_t refused = 0;
     for (kiriResult result = KIRI_ERROR_MEMORY; result != KIRI_OK; ++refused) {
         Host host;
         Host_Start(&host);
         kiriSheet sheet = AddForCut(&host, 8);
-        uint64_t hash = Host_Hash(&host);
-        assert_true(TakeWeights(&host, sheet, &before));
         host.failAt = host.calls + refused;
         result = kiriWorld_Tick(host.world, 1.0f / 60.0f, 1);
         host.failAt = -1;
         if (result != KIRI_OK) {
             assert_int_equal(result, KIRI_ERROR_MEMORY);
-            assert_true(Host_Hash(&host) == hash);
-            if (TakeWeights(&host, sheet, &after)) {
-                assert_memory_equal(&before, &after, sizeof(before));
-                ++compared;
-            }
+            CheckIndices(&host, sheet, Host_Counts(&host, sheet));
+            Host_Validate(&host);
             OK(kiriWorld_Tick(host.world, 1.0f / 60.0f, 1));
         }
         assert_true(LayoutOf(&host) == layout);
         Host_Stop(&host);
     }
-    assert_true(compared > 3 && refused > 20);
+    assert_true(refused > 20);
 }
 
 /* What is stored twice, or for none, shows in sum. Of a sheet whose grid is as fine as its mesh, for then cells take

@@ -110,7 +110,8 @@ static void SquaresListWhatTheyOverlap(void** state)
             continue;
         }
         kiriSquares_ClearDirty(&squares);
-        assert_true(kiriSquares_Reshape(&squares, Heap(), 5, was, c));
+        assert_true(kiriArray_Reserve(Heap(), &squares.nodes, squares.nodes.count + kiriSquares_MostNodes(&squares, c)));
+        kiriSquares_Reshape(&squares, 5, was, c);
         for (int32_t s = 0; s < 28; ++s) {
             /* Small numbers: an overlap has at least the area of a triangle between lines through their points. */
             bool overlaps = ClippedArea(c, kiriSquares_Corner(&squares, s), 10.0) > 1e-9;
@@ -180,36 +181,27 @@ static void SquaresAroundPoints(void** state)
     kiriMemory_FreeAll(Heap());
 }
 
-/* Changes that run out of memory are taken back without memory, as far as they came. */
+/* An insertion that is refused memory changes nothing. */
 static void SquaresWithoutMemory(void** state)
 {
     (void)state;
     kiriLatticePoint extent = { 60, 34 }, big[3] = { { 0, 0 }, { 60, 0 }, { 0, 34 } },
-                     small[3] = { { 0, 0 }, { 4, 0 }, { 0, 4 } }, far[3] = { { 20, 0 }, { 60, 0 }, { 20, 34 } };
+                     small[3] = { { 0, 0 }, { 4, 0 }, { 0, 4 } };
     Meter meter = { -1, 0 };
     kiriMemory memory = kiriMemory_Make(MeterAlloc, MeterFree, &meter);
     kiriSquares squares;
     assert_true(kiriSquares_Init(&squares, &memory, extent, 7));
     assert_true(kiriSquares_Insert(&squares, &memory, 0, small));
     kiriSquares_ClearDirty(&squares);
-    bool done = false;
-    int32_t failures = 0;
-    for (; !done; ++failures) {
-        kiriSquares_Begin(&squares);
-        meter.untilFailure = failures;
-        done = kiriSquares_Reshape(&squares, &memory, 0, small, far) && kiriSquares_Insert(&squares, &memory, 1, big) &&
-               kiriSquares_Insert(&squares, &memory, 2, small);
-        meter.untilFailure = 0;
-        kiriSquares_Rollback(&squares);
-        for (int32_t s = 0; s < 28; ++s) {
-            assert_int_equal(squares.head[s] != KIRI_NONE, s == 0);
-        }
-        assert_true(squares.nodes.count == 1 && squares.nodes.data[0].triangle == 0 && squares.freeNode == KIRI_NONE);
-        assert_int_equal(squares.dirty.count, 0);
-        meter.untilFailure = -1;
-        kiriSquares_Commit(&squares);
+    meter.untilFailure = 0;
+    assert_false(kiriSquares_Insert(&squares, &memory, 1, big));
+    for (int32_t s = 0; s < 28; ++s) {
+        assert_int_equal(squares.head[s] != KIRI_NONE, s == 0);
     }
-    assert_true(failures > 2);
+    assert_true(squares.nodes.count == 1 && squares.dirty.count == 0);
+    meter.untilFailure = -1;
+    assert_true(kiriSquares_Insert(&squares, &memory, 1, big));
+    assert_true(squares.dirty.count > 10);
     kiriMemory_FreeAll(&memory);
     assert_int_equal(meter.live, 0);
 }
@@ -747,7 +739,6 @@ static void Locates(void** state)
     InitRectangle(&mesh, 5, 3, 5.0f, 3.0f, 7);
     kiriMesh_Begin(&mesh);
     assert_true(Scramble(&mesh, 3, 20));
-    kiriMesh_Rollback(&mesh);
     for (int i = 0; i < 2000; ++i) {
         /* also on vertices and edges, on the outline and outside */
         double grain = i % 2 == 0 ? 0.25 : 1e-6;
@@ -767,24 +758,12 @@ static void Locates(void** state)
     kiriMemory_FreeAll(mesh.memory);
 }
 
-static void ScramblesAndRollsBack(void** state)
+static void Scrambles(void** state)
 {
     (void)state;
     kiriMeshData mesh;
     InitRectangle(&mesh, 4, 4, 1.0f, 1.0f, 8);
     for (uint32_t round = 1; round <= 30; ++round) {
-        if (round % 3 == 0) {
-            kiriSquares_ClearDirty(&mesh.squares);
-        }
-        kiriMesh_Begin(&mesh);
-        Whole whole = Whole_Make(&mesh);
-        assert_true(Scramble(&mesh, 77 * round, 60));
-        CheckMesh(&mesh);
-        assert_false(Whole_Equals(&whole, &mesh));
-        kiriMesh_Rollback(&mesh);
-        assert_true(Whole_Equals(&whole, &mesh));
-        CheckMesh(&mesh);
-        Whole_Free(&whole);
         kiriMesh_Begin(&mesh);
         assert_true(Scramble(&mesh, 99 * round, 20));
         CheckMesh(&mesh);
@@ -814,7 +793,7 @@ static void CheckSources(const kiriMeshData* mesh, const kiriLatticePoint* corne
     assert_false(kiriMesh_SourceCorners(mesh, count, c));
 }
 
-/* Whatever is split, and taken back; and only where something is split are they stored. */
+/* Whatever is split; and only where something is split are they stored. */
 static void KnowsSources(void** state)
 {
     (void)state;
@@ -828,39 +807,10 @@ static void KnowsSources(void** state)
         kiriMesh_Begin(&mesh);
         assert_true(Scramble(&mesh, 33 * round, 20));
         CheckSources(&mesh, corners, count);
-        if (round % 2 == 0) {
-            kiriMesh_Rollback(&mesh);
-            CheckSources(&mesh, corners, count);
-        }
         kiriMesh_Commit(&mesh);
         assert_true(round > 1 || (mesh.sourceCorners.count > 0 && mesh.sourceCorners.count < 3 * count));
     }
     free(corners);
-    kiriMemory_FreeAll(mesh.memory);
-}
-
-/* A rollback after a commit changes nothing, however often, and so does one of an empty journal. */
-static void CommitsAreForGood(void** state)
-{
-    (void)state;
-    kiriMeshData mesh;
-    InitRectangle(&mesh, 4, 4, 1.0f, 1.0f, 8);
-    for (uint32_t round = 1; round <= 10; ++round) {
-        kiriMesh_Begin(&mesh);
-        assert_true(Scramble(&mesh, 55 * round, 20));
-        kiriMesh_Commit(&mesh);
-        Whole whole = Whole_Make(&mesh);
-        kiriMesh_Rollback(&mesh);
-        assert_true(Whole_Equals(&whole, &mesh));
-        kiriMesh_Commit(&mesh);
-        kiriMesh_Rollback(&mesh);
-        assert_true(Whole_Equals(&whole, &mesh));
-        kiriMesh_Begin(&mesh);
-        kiriMesh_Rollback(&mesh);
-        assert_true(Whole_Equals(&whole, &mesh));
-        CheckMesh(&mesh);
-        Whole_Free(&whole);
-    }
     kiriMemory_FreeAll(mesh.memory);
 }
 
@@ -877,13 +827,13 @@ static void JournalTellsWhatChanged(void** state)
     for (uint32_t round = 1; round <= 40; ++round) {
         kiriMesh_Begin(&mesh);
         assert_true(Scramble(&mesh, 33 * round, 1 + (int)round));
-        for (int32_t i = 0; i < mesh.savedTriangles.count; ++i) {
-            int32_t t = mesh.savedTriangles.data[i].index;
+        for (int32_t i = 0; i < mesh.changedTriangles.count; ++i) {
+            int32_t t = mesh.changedTriangles.data[i];
             triangles[t] = mesh.triangles.data[t];
-            triangles[t].marks &= ~KIRI_TRIANGLE_SAVED;
+            triangles[t].marks &= ~KIRI_TRIANGLE_CHANGED;
         }
-        for (int32_t i = 0; i < mesh.savedVertices.count; ++i) {
-            int32_t v = mesh.savedVertices.data[i].index;
+        for (int32_t i = 0; i < mesh.changedVertices.count; ++i) {
+            int32_t v = mesh.changedVertices.data[i];
             vertices[v] = mesh.vertices.data[v];
         }
         memcpy(triangles + mesh.oldTriangleCount, mesh.triangles.data + mesh.oldTriangleCount,
@@ -898,37 +848,43 @@ static void JournalTellsWhatChanged(void** state)
     kiriMemory_FreeAll(mesh.memory);
 }
 
-static void RollsBackWithoutMemory(void** state)
+/* Each allocation is refused once: a change that is refused has changed nothing, and is made in the next try. */
+static void ChangesAreWholeOrNot(void** state)
 {
     (void)state;
     Rectangle r = Rectangle_Make(4, 4, 1.0f, 1.0f);
-    bool done = false;
-    for (int32_t n = 0; !done; ++n) {
-        Meter meter = { -1, 0 };
-        kiriMemory memory = kiriMemory_Make(MeterAlloc, MeterFree, &meter);
-        kiriMeshData mesh;
-        kiriFault why;
-        assert_int_equal(
-            kiriMesh_Init(&mesh, &memory,
-                          &(kiriMeshInput){ r.positions, r.vertexCount, r.indices, r.triangleCount, 8, 0.0 }, &why),
-            0);
-        if (n % 2 == 0) {
-            kiriSquares_ClearDirty(&mesh.squares);
+    const kiriMeshInput input = { r.positions, r.vertexCount, r.indices, r.triangleCount, 8, 0.0 };
+    Meter meter = { -1, 0 };
+    kiriMemory memory = kiriMemory_Make(MeterAlloc, MeterFree, &meter);
+    kiriMeshData rich, poor;
+    kiriFault why;
+    int32_t refused = 0;
+    assert_int_equal(kiriMesh_Init(&rich, Heap(), &input, &why), KIRI_OK);
+    assert_int_equal(kiriMesh_Init(&poor, &memory, &input, &why), KIRI_OK);
+    kiriMesh_Begin(&rich);
+    kiriMesh_Begin(&poor);
+    for (uint32_t step = 1; step <= 150; ++step) {
+        assert_true(Scramble(&rich, 5 * step, 1));
+        for (int32_t n = 0;; ++n, ++refused) {
+            Whole whole = Whole_Make(&poor);
+            meter.untilFailure = n % 3;
+            bool done = Scramble(&poor, 5 * step, 1);
+            meter.untilFailure = -1;
+            assert_true(done || Whole_Equals(&whole, &poor));
+            Whole_Free(&whole);
+            if (done) {
+                break;
+            }
         }
-        kiriMesh_Begin(&mesh);
-        Whole whole = Whole_Make(&mesh);
-        meter.untilFailure = n;
-        done = Scramble(&mesh, 5, 150);
-        assert_true(done || meter.untilFailure == 0);
-        meter.untilFailure = 0;
-        kiriMesh_Rollback(&mesh);
-        assert_true(Whole_Equals(&whole, &mesh));
-        CheckMesh(&mesh);
-        Whole_Free(&whole);
-        kiriMemory_FreeAll(mesh.memory);
-        assert_int_equal(meter.live, 0);
-        assert_true(!done || n > 8);
     }
+    Whole whole = Whole_Make(&rich);
+    assert_true(Whole_Equals(&whole, &poor));
+    CheckMesh(&poor);
+    assert_true(refused > 8);
+    Whole_Free(&whole);
+    kiriMemory_FreeAll(rich.memory);
+    kiriMemory_FreeAll(&memory);
+    assert_int_equal(meter.live, 0);
     Rectangle_Free(&r);
 }
 
@@ -960,11 +916,10 @@ int main(void)
         cmocka_unit_test(LeansIntoTheMaterial),
         cmocka_unit_test(Locates),
         cmocka_unit_test(Snaps),
-        cmocka_unit_test(ScramblesAndRollsBack),
+        cmocka_unit_test(Scrambles),
         cmocka_unit_test(KnowsSources),
-        cmocka_unit_test(CommitsAreForGood),
         cmocka_unit_test(JournalTellsWhatChanged),
-        cmocka_unit_test(RollsBackWithoutMemory),
+        cmocka_unit_test(ChangesAreWholeOrNot),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -341,7 +341,6 @@ static void TestFarFramesKeepTheirState(void** state)
     }
     assert_true(same > count / 2 && same < count);
     kiriPipeline_Finish(sheet);
-    sheet->update->isBegun = false;
     kiriView_TakeJump(sheet);
     Host_Destroy(&probe.host); /* the new frames have no ids: no world made them */
 }

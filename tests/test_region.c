@@ -1,5 +1,6 @@
 /* Regions: against distances by relaxing all steps, and regions that follow cuts against ones from scratch. */
 #include "cells.h"
+#include "mesh_copy.h"
 #include "field/kiri_region.h"
 #include "mesh/kiri_cut.h"
 #include "support.h"
@@ -627,13 +628,15 @@ static void FollowsCutsTakenBack(void** state)
         Update(&sheet);
         ClearChanges(&sheet);
         for (int step = 0; step < 12; ++step) {
+            Whole whole = Whole_Make(&sheet.mesh);
             kiriMesh_Begin(&sheet.mesh);
             for (int cuts = 0; cuts < 3; ++cuts) {
                 MoveBlade(&sheet, &seed, 0.7);
             }
             for (int back = 0; back < 2; ++back) {
                 if (back) {
-                    kiriMesh_Rollback(&sheet.mesh);
+                    Whole_Restore(&whole, &sheet.mesh);
+                    Whole_Free(&whole);
                 }
                 UpdateGrid(&sheet);
                 for (int32_t k = 0; k < sheet.grid.changes.gone.count; ++k, ++gone) {

@@ -1,6 +1,7 @@
 #define _POSIX_C_SOURCE 200809L
 
 #include "follow.h"
+#include "mesh_copy.h"
 
 #include "field/kiri_shape.h"
 
@@ -678,13 +679,15 @@ static void CutsTakenBackEqualThoseFromScratch(void** state)
         for (int step = 0; step < 8; ++step) {
             Wander wander;
             memset(&wander, 0, sizeof(wander));
+            Whole whole = Whole_Make(&scene.mesh);
             kiriMesh_Begin(&scene.mesh);
             for (int32_t cuts = 4 + (int32_t)(Random(&seed) % 8); cuts > 0; --cuts) {
                 Wander_Move(&wander, &f, 1.5 * f.grid.side, &seed);
             }
             for (int back = 0; back < 2; ++back) {
                 if (back) {
-                    kiriMesh_Rollback(&scene.mesh);
+                    Whole_Restore(&whole, &scene.mesh);
+                    Whole_Free(&whole);
                 }
                 Follow_Grid(&f);
                 for (int32_t k = 0; k < f.grid.changes.gone.count; ++k, ++gone) {

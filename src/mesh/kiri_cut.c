@@ -733,10 +733,15 @@ kiriProgress kiriCut_Move(kiriMeshData* mesh, kiriBladeTip* blade, kiriLatticePo
     }
     while (!walk.failed && kiriQuota_Pay(quota, &tip.owed) && tip.phase != KIRI_BLADE_RESTS &&
            quota->left >= KIRI_MOST_SPLITS) {
-        TakeStep(&walk, to);
-        tip.owed = kiriMax(walk.splits, 1) + (walk.effort + mesh->squares.effort) / ITEM_EFFORT;
-        walk.splits = 0;
-        walk.effort = mesh->squares.effort = 0;
+        *blade = tip;
+        /* A step makes two vertices at most, and opens an edge. */
+        walk.failed = !kiriMesh_Reserve(mesh, 3);
+        if (!walk.failed) {
+            TakeStep(&walk, to);
+            tip.owed = kiriMax(walk.splits, 1) + (walk.effort + mesh->squares.effort) / ITEM_EFFORT;
+            walk.splits = 0;
+            walk.effort = mesh->squares.effort = 0;
+        }
     }
     if (walk.failed) {
         return KIRI_FAILED;

@@ -72,7 +72,7 @@ enum { KIRI_MOST_SPLITS = 4 };
    without; and more where it looks at many squares, at many triangles in one, or around a vertex with many. What
    is more than there is left the next call takes first. KIRI_MORE: less than KIRI_MOST_SPLITS is left, and the blade is
    on its way; a call with the same `to` goes on, and in the end the mesh is what one call had made of it, bit for bit.
-   KIRI_FAILED: roll the mesh back; the blade is then where it was before the call. */
+   KIRI_FAILED: out of memory. The blade has taken the steps that are done; a call with the same `to` goes on. */
 kiriProgress kiriCut_Move(kiriMeshData* mesh, kiriBladeTip* blade, kiriLatticePoint to, double snap, kiriQuota* quota);
 
 /* A blade at a lattice point, for kiriCut_Move. */

@@ -136,103 +136,51 @@ kiriLatticePoint kiriMesh_Snap(const kiriMeshData* mesh, kiriVec2 local)
 
 /* ---- The journal ------------------------------------------------------------------------------------------------- */
 
-static bool SaveTriangle(kiriMeshData* mesh, int32_t triangle)
+static void NoteTriangle(kiriMeshData* mesh, int32_t triangle)
 {
     KIRI_ASSERT(mesh->isOpen && triangle >= 0 && triangle < mesh->triangles.count);
     kiriTriangle* t = &mesh->triangles.data[triangle];
-    if (triangle >= mesh->oldTriangleCount || (t->marks & KIRI_TRIANGLE_SAVED) != 0) {
-        return true;
+    if (triangle < mesh->oldTriangleCount && (t->marks & KIRI_TRIANGLE_CHANGED) == 0) {
+        KIRI_ASSERT(mesh->changedTriangles.count < mesh->changedTriangles.capacity);
+        mesh->changedTriangles.data[mesh->changedTriangles.count++] = triangle;
+        t->marks |= KIRI_TRIANGLE_CHANGED;
     }
-    kiriSavedTriangle saved = { triangle, *t };
-    if (!kiriArray_Push(mesh->memory, &mesh->savedTriangles, saved)) {
-        return false;
-    }
-    t->marks |= KIRI_TRIANGLE_SAVED;
-    return true;
 }
 
-static bool SaveVertex(kiriMeshData* mesh, int32_t vertex)
+static void NoteVertex(kiriMeshData* mesh, int32_t vertex)
 {
     KIRI_ASSERT(mesh->isOpen && vertex >= 0 && vertex < mesh->vertices.count);
     kiriVertex* v = &mesh->vertices.data[vertex];
-    if (vertex >= mesh->oldVertexCount || v->stamp == mesh->stamp) {
-        return true;
+    if (vertex < mesh->oldVertexCount && v->stamp != mesh->stamp) {
+        KIRI_ASSERT(mesh->changedVertices.count < mesh->changedVertices.capacity);
+        mesh->changedVertices.data[mesh->changedVertices.count++] = vertex;
+        v->stamp = mesh->stamp;
     }
-    kiriSavedVertex saved = { vertex, *v };
-    if (!kiriArray_Push(mesh->memory, &mesh->savedVertices, saved)) {
-        return false;
-    }
-    v->stamp = mesh->stamp;
-    return true;
 }
 
 static void EmptyJournal(kiriMeshData* mesh)
 {
-    for (int32_t i = 0; i < mesh->savedTriangles.count; ++i) {
-        mesh->triangles.data[mesh->savedTriangles.data[i].index].marks &= ~KIRI_TRIANGLE_SAVED;
+    for (int32_t i = 0; i < mesh->changedTriangles.count; ++i) {
+        mesh->triangles.data[mesh->changedTriangles.data[i]].marks &= ~KIRI_TRIANGLE_CHANGED;
     }
-    mesh->savedTriangles.count = 0;
-    mesh->savedVertices.count = 0;
+    mesh->changedTriangles.count = mesh->changedVertices.count = 0;
 }
 
 void kiriMesh_Begin(kiriMeshData* mesh)
 {
     EmptyJournal(mesh);
-    kiriSquares_Begin(&mesh->squares);
     mesh->isOpen = true;
     mesh->hasMet = false;
     ++mesh->stamp;
     mesh->oldTriangleCount = mesh->triangles.count;
     mesh->oldVertexCount = mesh->vertices.count;
-    mesh->oldSourceCorners = mesh->sourceCorners.count;
-    mesh->oldRevision = mesh->revision;
     mesh->births.count = 0;
 }
 
 void kiriMesh_Commit(kiriMeshData* mesh)
 {
     EmptyJournal(mesh);
-    kiriSquares_Commit(&mesh->squares);
     mesh->isOpen = false;
-}
-
-static bool InsertSquares(kiriMeshData* mesh, int32_t triangle)
-{
-    kiriLatticePoint corners[3];
-    kiriMesh_Corners(mesh, triangle, corners);
-    return kiriSquares_Insert(&mesh->squares, mesh->memory, triangle, corners);
-}
-
-/* The triangle is not as it was when its corners were these. */
-static bool ReshapeInSquares(kiriMeshData* mesh, int32_t triangle, const kiriLatticePoint was[3])
-{
-    kiriLatticePoint is[3];
-    kiriMesh_Corners(mesh, triangle, is);
-    return kiriSquares_Reshape(&mesh->squares, mesh->memory, triangle, was, is);
-}
-
-void kiriMesh_Rollback(kiriMeshData* mesh)
-{
-    if (!mesh->isOpen) {
-        return;
-    }
-    kiriSquares_Rollback(&mesh->squares);
-    kiriMesh_RollbackSources(mesh);
-    for (int32_t i = 0; i < mesh->savedVertices.count; ++i) {
-        mesh->vertices.data[mesh->savedVertices.data[i].index] = mesh->savedVertices.data[i].was;
-    }
-    for (int32_t i = 0; i < mesh->savedTriangles.count; ++i) {
-        mesh->triangles.data[mesh->savedTriangles.data[i].index] = mesh->savedTriangles.data[i].was;
-    }
-    for (int32_t v = mesh->vertices.count - 1; v >= mesh->oldVertexCount; --v) {
-        const kiriVertex* vertex = &mesh->vertices.data[v];
-        mesh->squares.vertexHead[kiriSquares_At(&mesh->squares, vertex->at)] = vertex->next;
-    }
-    mesh->triangles.count = mesh->oldTriangleCount;
-    mesh->vertices.count = mesh->oldVertexCount;
-    mesh->revision = mesh->oldRevision;
-    mesh->births.count = 0;
-    EmptyJournal(mesh);
 }
 
 /* ---- Changing the mesh ------------------------------------------------------------------------------------------- */
@@ -249,25 +197,46 @@ static void MoveHalfEdge(kiriMeshData* mesh, int32_t h, int32_t g)
     }
 }
 
-/* Saves a triangle that is to be split. */
-static bool SaveWhole(kiriMeshData* mesh, int32_t triangle)
+/* Notes a triangle that is to be split. */
+static void NoteSplit(kiriMeshData* mesh, int32_t triangle)
 {
-    return SaveTriangle(mesh, triangle) && kiriMesh_KeepSource(mesh, triangle);
+    NoteTriangle(mesh, triangle);
+    kiriMesh_KeepSource(mesh, triangle);
 }
 
-/* Saves what moving half-edge h to another triangle changes. */
-static bool SaveHalfEdge(kiriMeshData* mesh, int32_t h)
+/* Notes what moving half-edge h to another triangle changes. */
+static void NoteHalfEdge(kiriMeshData* mesh, int32_t h)
 {
     int32_t twin = kiriMesh_Twin(mesh, h);
-    return SaveVertex(mesh, kiriMesh_Tail(mesh, h)) && (twin == KIRI_NONE || SaveTriangle(mesh, twin / 3));
+    NoteVertex(mesh, kiriMesh_Tail(mesh, h));
+    if (twin != KIRI_NONE) {
+        NoteTriangle(mesh, twin / 3);
+    }
 }
 
-static bool ReserveSplit(kiriMeshData* mesh)
+bool kiriMesh_Reserve(kiriMeshData* mesh, int32_t changes)
 {
-    int64_t vertices = (int64_t)mesh->vertices.count + 2, triangles = (int64_t)mesh->triangles.count + 2;
-    return triangles <= KIRI_MOST_TRIANGLES && kiriArray_Reserve(mesh->memory, &mesh->vertices, vertices) &&
+    int64_t more = 2 * (int64_t)changes, triangles = mesh->triangles.count + more;
+    int64_t corners = mesh->sources.count > 0 ? 0 : mesh->sourceCorners.count + 3 * KIRI_SOURCES_A_BLOCK * more;
+    KIRI_ASSERT(mesh->isOpen && changes > 0);
+    /* An opening may change all triangles around a vertex. */
+    return triangles <= KIRI_MOST_TRIANGLES &&
+           kiriArray_Reserve(mesh->memory, &mesh->vertices, mesh->vertices.count + more) &&
            kiriArray_Reserve(mesh->memory, &mesh->triangles, triangles) &&
-           kiriArray_Reserve(mesh->memory, &mesh->births, (int64_t)mesh->births.count + 2);
+           kiriArray_Reserve(mesh->memory, &mesh->births, mesh->births.count + more) &&
+           kiriArray_Reserve(mesh->memory, &mesh->changedTriangles, mesh->oldTriangleCount) &&
+           kiriArray_Reserve(mesh->memory, &mesh->changedVertices, mesh->changedVertices.count + more) &&
+           kiriArray_Reserve(mesh->memory, &mesh->sourceCorners, corners);
+}
+
+/* Reserves room for one change that leaves these triangles where it makes or reshapes some. */
+static bool ReserveChange(kiriMeshData* mesh, const kiriLatticePoint (*corners)[3], int32_t count)
+{
+    int64_t nodes = mesh->squares.nodes.count;
+    for (int32_t k = 0; k < count; ++k) {
+        nodes += kiriSquares_MostNodes(&mesh->squares, corners[k]);
+    }
+    return kiriMesh_Reserve(mesh, 1) && kiriArray_Reserve(mesh->memory, &mesh->squares.nodes, nodes);
 }
 
 /* Room for it is reserved. */
@@ -310,34 +279,66 @@ static int32_t SplitSide(kiriMeshData* mesh, int32_t h, int32_t p)
     return added;
 }
 
-/* One side of a split edge: the triangle that it was, and the one that was added. */
-static bool SideToSquares(kiriMeshData* mesh, int32_t h, const kiriLatticePoint was[3], int32_t added)
+static void InsertInSquares(kiriMeshData* mesh, int32_t triangle)
 {
-    return ReshapeInSquares(mesh, h / 3, was) && InsertSquares(mesh, added / 3);
+    kiriLatticePoint corners[3];
+    kiriMesh_Corners(mesh, triangle, corners);
+    bool ok = kiriSquares_Insert(&mesh->squares, mesh->memory, triangle, corners);
+    KIRI_ASSERT(ok);
+    (void)ok;
+}
+
+/* The triangle had other corners before. */
+static void ReshapeInSquares(kiriMeshData* mesh, int32_t triangle, const kiriLatticePoint was[3])
+{
+    kiriLatticePoint is[3];
+    kiriMesh_Corners(mesh, triangle, is);
+    kiriSquares_Reshape(&mesh->squares, triangle, was, is);
+}
+
+/* Reserves room to split the edges of these half-edges, of which the second may be KIRI_NONE, at a point. */
+static bool ReserveSplit(kiriMeshData* mesh, int32_t h, int32_t g, kiriLatticePoint at)
+{
+    kiriLatticePoint made[4][3];
+    int32_t count = g == KIRI_NONE ? 2 : 4;
+    for (int32_t k = 0; k < count; ++k) {
+        int32_t edge = k < 2 ? h : g;
+        kiriMesh_Corners(mesh, edge / 3, made[k]);
+        made[k][(edge + k) % 3] = at; /* h % 3 and the next corner */
+    }
+    return ReserveChange(mesh, (const kiriLatticePoint(*)[3])made, count);
 }
 
 int32_t kiriMesh_SplitEdge(kiriMeshData* mesh, int32_t h, kiriLatticePoint at)
 {
     KIRI_ASSERT(kiriMesh_CanSplitEdge(mesh, h, at));
     int32_t g = kiriMesh_Twin(mesh, h);
-    if (!ReserveSplit(mesh) || !SaveWhole(mesh, h / 3) || !SaveHalfEdge(mesh, kiriEdge_Next(h)) ||
-        (g != KIRI_NONE && (!SaveWhole(mesh, g / 3) || !SaveHalfEdge(mesh, kiriEdge_Next(g))))) {
+    if (!ReserveSplit(mesh, h, g, at)) {
         return KIRI_NONE;
+    }
+    NoteSplit(mesh, h / 3);
+    NoteHalfEdge(mesh, kiriEdge_Next(h));
+    if (g != KIRI_NONE) {
+        NoteSplit(mesh, g / 3);
+        NoteHalfEdge(mesh, kiriEdge_Next(g));
     }
     kiriLatticePoint was[3], wasBeyond[3];
     kiriMesh_Corners(mesh, h / 3, was);
     ++mesh->revision;
-    int32_t p = AddOnEdge(mesh, h, at);
-    int32_t added = SplitSide(mesh, h, p);
-    if (g == KIRI_NONE) {
-        return SideToSquares(mesh, h, was, added) ? p : KIRI_NONE;
+    int32_t p = AddOnEdge(mesh, h, at), added = SplitSide(mesh, h, p), addedBeyond = KIRI_NONE;
+    if (g != KIRI_NONE) {
+        kiriMesh_Corners(mesh, g / 3, wasBeyond);
+        addedBeyond = SplitSide(mesh, g, kiriMesh_IsOpen(mesh, g) ? AddOnEdge(mesh, g, at) : p);
+        kiriMesh_Link(mesh, h, addedBeyond);
+        kiriMesh_Link(mesh, added, g);
     }
-    kiriMesh_Corners(mesh, g / 3, wasBeyond);
-    int32_t q = kiriMesh_IsOpen(mesh, g) ? AddOnEdge(mesh, g, at) : p;
-    int32_t addedBeyond = SplitSide(mesh, g, q);
-    kiriMesh_Link(mesh, h, addedBeyond);
-    kiriMesh_Link(mesh, added, g);
-    return SideToSquares(mesh, h, was, added) && SideToSquares(mesh, g, wasBeyond, addedBeyond) ? p : KIRI_NONE;
+    ReshapeInSquares(mesh, h / 3, was);
+    InsertInSquares(mesh, added / 3);
+    if (g != KIRI_NONE) {
+        ReshapeInSquares(mesh, g / 3, wasBeyond);
+        InsertInSquares(mesh, addedBeyond / 3);
+    }
+    return p;
 }
 
 static kiriBirth BirthInside(const kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at)
@@ -357,11 +358,18 @@ int32_t kiriMesh_SplitTriangle(kiriMeshData* mesh, int32_t triangle, kiriLattice
 {
     KIRI_ASSERT(kiriMesh_CanSplitTriangle(mesh, triangle, at));
     int32_t h = 3 * triangle;
-    if (!ReserveSplit(mesh) || !SaveWhole(mesh, triangle) || !SaveHalfEdge(mesh, h + 1) || !SaveHalfEdge(mesh, h + 2)) {
+    kiriLatticePoint corners[3], made[3][3];
+    kiriMesh_Corners(mesh, triangle, corners);
+    for (int k = 0; k < 3; ++k) {
+        memcpy(made[k], corners, sizeof(corners));
+        made[k][k] = at;
+    }
+    if (!ReserveChange(mesh, (const kiriLatticePoint(*)[3])made, 3)) {
         return KIRI_NONE;
     }
-    kiriLatticePoint corners[3];
-    kiriMesh_Corners(mesh, triangle, corners);
+    NoteSplit(mesh, triangle);
+    NoteHalfEdge(mesh, h + 1);
+    NoteHalfEdge(mesh, h + 2);
     ++mesh->revision;
     kiriTriangle was = mesh->triangles.data[triangle];
     kiriBirth birth = BirthInside(mesh, triangle, at);
@@ -375,22 +383,30 @@ int32_t kiriMesh_SplitTriangle(kiriMeshData* mesh, int32_t triangle, kiriLattice
     kiriMesh_Link(mesh, h + 1, k + 2);
     kiriMesh_Link(mesh, k + 1, l + 2);
     kiriMesh_Link(mesh, l + 1, h + 2);
-    return ReshapeInSquares(mesh, triangle, corners) && InsertSquares(mesh, k / 3) && InsertSquares(mesh, l / 3)
-               ? p
-               : KIRI_NONE;
+    ReshapeInSquares(mesh, triangle, corners);
+    InsertInSquares(mesh, k / 3);
+    InsertInSquares(mesh, l / 3);
+    return p;
 }
 
 bool kiriMesh_FlipEdge(kiriMeshData* mesh, int32_t h)
 {
     KIRI_ASSERT(kiriMesh_CanFlipEdge(mesh, h));
     int32_t g = kiriMesh_Twin(mesh, h), nextH = kiriEdge_Next(h), nextG = kiriEdge_Next(g);
-    if (!SaveWhole(mesh, h / 3) || !SaveWhole(mesh, g / 3) || !SaveHalfEdge(mesh, nextH) ||
-        !SaveHalfEdge(mesh, nextG)) {
-        return false;
-    }
-    kiriLatticePoint was[3], wasBeyond[3];
+    kiriLatticePoint was[3], wasBeyond[3], made[2][3];
     kiriMesh_Corners(mesh, h / 3, was);
     kiriMesh_Corners(mesh, g / 3, wasBeyond);
+    memcpy(made[0], was, sizeof(was));
+    memcpy(made[1], wasBeyond, sizeof(wasBeyond));
+    made[0][nextH % 3] = wasBeyond[(g + 2) % 3];
+    made[1][nextG % 3] = was[(h + 2) % 3];
+    if (!ReserveChange(mesh, (const kiriLatticePoint(*)[3])made, 2)) {
+        return false;
+    }
+    NoteSplit(mesh, h / 3);
+    NoteSplit(mesh, g / 3);
+    NoteHalfEdge(mesh, nextH);
+    NoteHalfEdge(mesh, nextG);
     ++mesh->revision;
     int32_t c = kiriMesh_Tail(mesh, kiriEdge_Previous(h)), d = kiriMesh_Tail(mesh, kiriEdge_Previous(g));
     MoveHalfEdge(mesh, nextG, h);
@@ -398,25 +414,23 @@ bool kiriMesh_FlipEdge(kiriMeshData* mesh, int32_t h)
     mesh->triangles.data[h / 3].vertex[nextH % 3] = d;
     mesh->triangles.data[g / 3].vertex[nextG % 3] = c;
     kiriMesh_Link(mesh, nextH, nextG);
-    return ReshapeInSquares(mesh, h / 3, was) && ReshapeInSquares(mesh, g / 3, wasBeyond);
+    ReshapeInSquares(mesh, h / 3, was);
+    ReshapeInSquares(mesh, g / 3, wasBeyond);
+    return true;
 }
 
 /* Half-edge h has just been opened: where that divides the fan at its tail, the part on its left gets a new vertex. */
-static bool TearFan(kiriMeshData* mesh, int32_t h)
+static void TearFan(kiriMeshData* mesh, int32_t h)
 {
     int32_t old = kiriMesh_Tail(mesh, h), twin = kiriMesh_Twin(mesh, h), last = h;
     for (int32_t c = h; c != KIRI_NONE; c = kiriMesh_CounterClockwise(mesh, c)) {
         last = c;
-        if (!SaveTriangle(mesh, c / 3)) {
-            return false;
-        }
+        NoteTriangle(mesh, c / 3);
     }
     if (kiriEdge_Previous(last) == twin) {
-        return true; /* all around: the end of a cut */
+        return; /* all around: the end of a cut */
     }
-    if (!SaveVertex(mesh, old) || !ReserveSplit(mesh)) {
-        return false;
-    }
+    NoteVertex(mesh, old);
     kiriBirth birth = { { old, KIRI_NONE, KIRI_NONE }, { 1.0, 0.0, 0.0 } };
     int32_t torn = AddVertex(mesh, mesh->vertices.data[old].at, mesh->triangles.data[h / 3].source, &birth);
     for (int32_t c = h; c != KIRI_NONE; c = kiriMesh_CounterClockwise(mesh, c)) {
@@ -425,7 +439,6 @@ static bool TearFan(kiriMeshData* mesh, int32_t h)
     mesh->vertices.data[torn].edge = h;
     mesh->vertices.data[old].edge = kiriEdge_Next(twin);
     kiriMesh_SetSource(mesh, old, mesh->triangles.data[twin / 3].source);
-    return true;
 }
 
 bool kiriMesh_Open(kiriMeshData* mesh, int32_t h)
@@ -434,18 +447,21 @@ bool kiriMesh_Open(kiriMeshData* mesh, int32_t h)
     if (twin == KIRI_NONE || kiriMesh_IsOpen(mesh, h)) {
         return true;
     }
-    if (!SaveTriangle(mesh, h / 3) || !SaveTriangle(mesh, twin / 3)) {
+    if (!kiriMesh_Reserve(mesh, 1)) {
         return false;
     }
+    NoteTriangle(mesh, h / 3);
+    NoteTriangle(mesh, twin / 3);
     int32_t before = mesh->vertices.count;
     ++mesh->revision;
     kiriMesh_SetOpen(mesh, h, true);
     kiriMesh_SetOpen(mesh, twin, true);
     kiriSquares_MarkEdgeDirty(&mesh->squares, mesh->vertices.data[kiriMesh_Tail(mesh, h)].at,
                               mesh->vertices.data[kiriMesh_Tail(mesh, kiriEdge_Next(h))].at);
-    bool ok = TearFan(mesh, h) && TearFan(mesh, twin);
+    TearFan(mesh, h);
+    TearFan(mesh, twin);
     mesh->hasMet |= mesh->vertices.count == before + 2; /* both ends are torn */
-    return ok;
+    return true;
 }
 
 static bool CanSplitSide(const kiriMeshData* mesh, int32_t h, kiriLatticePoint at)
@@ -605,7 +621,7 @@ bool kiriMesh_MakePart(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshDat
 void kiriMesh_Keep(kiriMeshData* mesh, const kiriKeep* triangles, const kiriKeep* vertices, const int32_t* squares,
                    int32_t squareCount)
 {
-    KIRI_ASSERT(!mesh->isOpen && mesh->savedTriangles.count == 0);
+    KIRI_ASSERT(!mesh->isOpen && mesh->changedTriangles.count == 0);
     int32_t originals = 0;
     for (int32_t t = 0; t < mesh->triangles.count; ++t) {
         if (kiriKeep_Has(triangles, t)) {

@@ -27,8 +27,8 @@ typedef struct kiriTriangle {
 } kiriTriangle;
 
 enum {
-    KIRI_TRIANGLE_OPEN = 7, /* its open edges */
-    KIRI_TRIANGLE_SAVED = 8 /* in the journal that is open */
+    KIRI_TRIANGLE_OPEN = 7,   /* its open edges */
+    KIRI_TRIANGLE_CHANGED = 8 /* in changedTriangles */
 };
 
 typedef struct kiriVertex {
@@ -36,7 +36,7 @@ typedef struct kiriVertex {
     int32_t edge;   /* a half-edge that leaves it, in its own fan */
     int32_t next;   /* an older vertex in the same square, or KIRI_NONE; squares.vertexHead is the latest one */
     int32_t source; /* triangle of the caller, see kiriMesh_GetShare */
-    uint32_t stamp;
+    uint32_t stamp; /* kiriMeshData.stamp: in changedVertices */
 } kiriVertex;
 
 /* How a vertex came to be, for what vertices carry (weights, say): a blend of up to three older ones. */
@@ -44,16 +44,6 @@ typedef struct kiriBirth {
     int32_t parent[3]; /* KIRI_NONE where there are fewer */
     double share[3];
 } kiriBirth;
-
-typedef struct kiriSavedTriangle {
-    int32_t index;
-    kiriTriangle was;
-} kiriSavedTriangle;
-
-typedef struct kiriSavedVertex {
-    int32_t index;
-    kiriVertex was;
-} kiriSavedVertex;
 
 typedef struct kiriMeshData {
     kiriMemory* memory;
@@ -73,16 +63,14 @@ typedef struct kiriMeshData {
     KIRI_ARRAY(kiriLatticePoint) sourceCorners;
     kiriIndices sources;
 
-    /* The journal: what changed since kiriMesh_Begin. Until Commit these are all that can have changed: the triangles
-       of savedTriangles and those from oldTriangleCount on; the vertices of savedVertices (their source, never
-       their point) and those from oldVertexCount on. So a view of the mesh needs to write no others. */
-    bool isOpen; /* between Begin and Commit: only then can the mesh change, or be rolled back */
+    /* The journal: what changed since kiriMesh_Begin. A view of the mesh needs to write nothing else. Vertices change
+       their source and edge, never their point. */
+    bool isOpen; /* between Begin and Commit: only then can the mesh change */
     bool hasMet; /* since Begin a cut has met the border or a lip: only there does material part */
     uint32_t stamp;
-    int32_t oldTriangleCount, oldVertexCount, oldSourceCorners;
-    uint32_t oldRevision;
-    KIRI_ARRAY(kiriSavedTriangle) savedTriangles;
-    KIRI_ARRAY(kiriSavedVertex) savedVertices;
+    int32_t oldTriangleCount, oldVertexCount; /* those from there on are new */
+    kiriIndices changedTriangles;             /* of the older ones, each once */
+    kiriIndices changedVertices;
     KIRI_ARRAY(kiriBirth) births; /* of vertex oldVertexCount and on */
 } kiriMeshData;
 
@@ -254,12 +242,8 @@ bool kiriMesh_SourceCorners(const kiriMeshData* mesh, int32_t source, kiriLattic
 /* Are those of a triangle's source known, and so are they when any other triangle has been split? */
 bool kiriMesh_HasSource(const kiriMeshData* mesh, int32_t triangle);
 
-/* Before a triangle is split: from then on its source has corners in a block. The journal has saved the triangle, if it
-   saves it at all. False for memory. */
-bool kiriMesh_KeepSource(kiriMeshData* mesh, int32_t triangle);
-
-/* Takes back the blocks of the journal, while the triangles are as they have become. */
-void kiriMesh_RollbackSources(kiriMeshData* mesh);
+/* Before a triangle is split: from then on its source has corners in a block. There is room for that. */
+void kiriMesh_KeepSource(kiriMeshData* mesh, int32_t triangle);
 
 void kiriMesh_SetSource(kiriMeshData* mesh, int32_t vertex, int32_t source);
 
@@ -269,16 +253,17 @@ void kiriMesh_ListVertex(kiriMeshData* mesh, int32_t vertex);
 /* Inserts all triangles into squares. False for memory. */
 bool kiriMesh_FillSquares(const kiriMeshData* mesh, kiriSquares* squares, kiriMemory* memory);
 
-/* Changing a mesh: splitting triangles, opening edges, and a journal by which all of it can be taken back. */
+/* Changing a mesh: splitting triangles, opening edges. */
 
-/* Begin opens the journal, Commit closes it; the mesh may change in between only. Rollback leaves the mesh and its
-   squares as they were at Begin (see kiriSquares_Rollback), and the journal open; where it is closed it changes
-   nothing. Begin also empties the births. */
+/* Begin opens the journal and empties the births, Commit closes it. The mesh may change in between only. */
 void kiriMesh_Begin(kiriMeshData* mesh);
 void kiriMesh_Commit(kiriMeshData* mesh);
-void kiriMesh_Rollback(kiriMeshData* mesh);
 
-/* These fail only on out of memory; the caller then rolls back. */
+/* Reserves room for so many changes; each of the functions below is one. Nodes of squares are reserved by the change
+   itself: only it knows the new triangles. */
+bool kiriMesh_Reserve(kiriMeshData* mesh, int32_t changes);
+
+/* These fail only on out of memory, and then nothing has changed. */
 
 /* A new vertex at `at` (even coordinates) on half-edge h and its twin. The four (at the outline: two) new triangles
    must be counter-clockwise: see kiriMesh_CanSplitEdge. Returns the vertex on h's side, or KIRI_NONE. */

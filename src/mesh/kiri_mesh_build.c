@@ -647,33 +647,22 @@ bool kiriMesh_HasSource(const kiriMeshData* mesh, int32_t triangle)
            (FindStored(mesh, source) != KIRI_NONE || FindOriginal(mesh, source) == triangle);
 }
 
-bool kiriMesh_KeepSource(kiriMeshData* mesh, int32_t triangle)
+void kiriMesh_KeepSource(kiriMeshData* mesh, int32_t triangle)
 {
     enum { BLOCK_CORNERS = 3 * KIRI_SOURCES_A_BLOCK };
     int32_t k = mesh->triangles.data[triangle].source / KIRI_SOURCES_A_BLOCK, count = mesh->sourceCorners.count;
     if (mesh->sources.count > 0 || mesh->sourceBlocks.data[k] != KIRI_NONE) {
-        return true;
+        return;
     }
     KIRI_ASSERT(k >= 0 && k < mesh->sourceBlocks.count && count % BLOCK_CORNERS == 0);
-    if (!kiriArray_Resize(mesh->memory, &mesh->sourceCorners, (int64_t)count + BLOCK_CORNERS)) {
-        return false;
-    }
+    KIRI_ASSERT(count + BLOCK_CORNERS <= mesh->sourceCorners.capacity);
     kiriLatticePoint* corners = &mesh->sourceCorners.data[count];
     memset(corners, 0, BLOCK_CORNERS * sizeof(*corners));
     for (int32_t i = 0; i < KIRI_SOURCES_A_BLOCK; ++i) {
         (void)kiriMesh_SourceCorners(mesh, KIRI_SOURCES_A_BLOCK * k + i, corners + 3 * (ptrdiff_t)i);
     }
+    mesh->sourceCorners.count += BLOCK_CORNERS;
     mesh->sourceBlocks.data[k] = count / BLOCK_CORNERS;
-    return true;
-}
-
-void kiriMesh_RollbackSources(kiriMeshData* mesh)
-{
-    for (int32_t i = 0; i < mesh->savedTriangles.count && mesh->sources.count == 0; ++i) {
-        int32_t* block = &mesh->sourceBlocks.data[mesh->savedTriangles.data[i].was.source / KIRI_SOURCES_A_BLOCK];
-        *block = 3 * KIRI_SOURCES_A_BLOCK * (int64_t)*block < mesh->oldSourceCorners ? *block : KIRI_NONE;
-    }
-    mesh->sourceCorners.count = mesh->oldSourceCorners;
 }
 
 void kiriMesh_SetSource(kiriMeshData* mesh, int32_t vertex, int32_t source)

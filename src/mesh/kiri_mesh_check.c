@@ -41,7 +41,7 @@ static const kiriMember SquaresMembers[] = {
     KIRI_RUN(4, kiriSquares, columns, side),
     KIRI_DERIVED,
     KIRI_CUSTOM(kiriSquares, head, MoveSquares),
-    KIRI_ARRAYS(kiriSquares, nodes, dirty, undo),
+    KIRI_ARRAYS(kiriSquares, nodes, dirty),
 };
 static const kiriTable SquaresTable = KIRI_TABLE(kiriSquares, SquaresMembers);
 
@@ -57,7 +57,7 @@ static const kiriMember MeshMembers[] = {
     KIRI_ITEMS(4, kiriMeshData, sources),
     KIRI_DROPPED(kiriMeshData, memory, memory),
     KIRI_DERIVED,
-    KIRI_ARRAYS(kiriMeshData, savedTriangles, savedVertices, births),
+    KIRI_ARRAYS(kiriMeshData, changedTriangles, changedVertices, births),
 };
 const kiriTable kiriMeshTable = KIRI_TABLE(kiriMeshData, MeshMembers);
 

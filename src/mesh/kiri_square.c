@@ -185,7 +185,6 @@ static void MarkSquareDirty(kiriSquares* squares, int32_t square)
 
 void kiriSquares_ClearDirty(kiriSquares* squares)
 {
-    squares->oldDirtyCount = KIRI_NONE;
     for (int32_t i = 0; i < squares->dirty.count; ++i) {
         squares->isDirty[squares->dirty.data[i]] = 0;
     }
@@ -213,136 +212,57 @@ void kiriSquares_MarkEdgeDirty(kiriSquares* squares, kiriLatticePoint a, kiriLat
     }
 }
 
-/* ---- What Rollback restores -------------------------------------------------------------------------------------- */
-
-void kiriSquares_Begin(kiriSquares* squares)
-{
-    squares->isOpen = true;
-    squares->undo.count = 0;
-    squares->oldNodeCount = squares->nodes.count;
-    squares->oldFreeNode = squares->freeNode;
-    squares->oldDirtyCount = squares->dirty.count;
-}
-
-void kiriSquares_Commit(kiriSquares* squares)
-{
-    squares->isOpen = false;
-    squares->undo.count = 0;
-}
-
-static bool ReserveUndo(kiriSquares* squares, kiriMemory* memory)
-{
-    return !squares->isOpen || kiriArray_Reserve(memory, &squares->undo, (int64_t)squares->undo.count + 2);
-}
-
-/* Room for it is reserved. */
-static void PushUndo(kiriSquares* squares, int32_t index, kiriSquareNode was)
-{
-    KIRI_ASSERT(squares->undo.count < squares->undo.capacity);
-    kiriSquareUndo undo = { index, was };
-    squares->undo.data[squares->undo.count++] = undo;
-}
-
-static void SetHead(kiriSquares* squares, int32_t square, int32_t slot)
-{
-    if (squares->isOpen) {
-        kiriSquareNode was = { KIRI_NONE, squares->head[square] };
-        PushUndo(squares, ~square, was);
-    }
-    squares->head[square] = slot;
-}
-
-/* Slots that are newer than Begin go altogether. */
-static void SetNode(kiriSquares* squares, int32_t slot, int32_t triangle, int32_t next)
-{
-    kiriSquareNode node = { triangle, next };
-    if (squares->isOpen && slot < squares->oldNodeCount) {
-        PushUndo(squares, slot, squares->nodes.data[slot]);
-    }
-    squares->nodes.data[slot] = node;
-}
-
-static void RestoreDirty(kiriSquares* squares)
-{
-    if (squares->oldDirtyCount == KIRI_NONE) {
-        for (int32_t square = 0; square < squares->columns * squares->rows; ++square) {
-            MarkSquareDirty(squares, square);
-        }
-        squares->oldDirtyCount = squares->dirty.count;
-    }
-    while (squares->dirty.count > squares->oldDirtyCount) {
-        squares->isDirty[squares->dirty.data[--squares->dirty.count]] = 0;
-    }
-}
-
-void kiriSquares_Rollback(kiriSquares* squares)
-{
-    KIRI_ASSERT(squares->isOpen && squares->nodes.count >= squares->oldNodeCount);
-    while (squares->undo.count > 0) {
-        kiriSquareUndo undo = squares->undo.data[--squares->undo.count];
-        if (undo.index < 0) {
-            squares->head[~undo.index] = undo.was.next;
-        } else {
-            squares->nodes.data[undo.index] = undo.was;
-        }
-    }
-    squares->nodes.count = squares->oldNodeCount;
-    squares->freeNode = squares->oldFreeNode;
-    RestoreDirty(squares);
-}
-
 /* ---- Triangles --------------------------------------------------------------------------------------------------- */
 
-static bool AddNode(kiriSquares* squares, kiriMemory* memory, int32_t square, int32_t triangle)
+int64_t kiriSquares_MostNodes(const kiriSquares* squares, const kiriLatticePoint corners[3])
+{
+    enum { FEW = 16 };
+    SquareBox box = BoxOf(squares, corners);
+    int64_t inBox = (box.lastColumn - box.firstColumn + 1) * (int64_t)(box.lastRow - box.firstRow + 1);
+    return inBox <= FEW ? inBox : kiriSquares_CountOverlaps(squares, corners);
+}
+
+/* Adds a node, for which there is room. */
+static void AddNode(kiriSquares* squares, int32_t square, int32_t triangle)
 {
     int32_t slot = squares->freeNode;
-    if (!ReserveUndo(squares, memory)) {
-        return false;
-    }
     if (slot != KIRI_NONE) {
         squares->freeNode = squares->nodes.data[slot].next;
     } else {
-        slot = squares->nodes.count;
-        if (!kiriArray_Resize(memory, &squares->nodes, (int64_t)slot + 1)) {
-            return false;
-        }
+        KIRI_ASSERT(squares->nodes.count < squares->nodes.capacity);
+        slot = squares->nodes.count++;
     }
     squares->effort += KIRI_SQUARE_EFFORT;
-    SetNode(squares, slot, triangle, squares->head[square]);
-    SetHead(squares, square, slot);
-    return true;
+    squares->nodes.data[slot] = (kiriSquareNode){ triangle, squares->head[square] };
+    squares->head[square] = slot;
 }
 
-static bool RemoveNode(kiriSquares* squares, kiriMemory* memory, int32_t square, int32_t triangle)
+static void RemoveNode(kiriSquares* squares, int32_t square, int32_t triangle)
 {
-    int32_t before = KIRI_NONE, slot = squares->head[square];
-    if (!ReserveUndo(squares, memory)) {
-        return false;
-    }
-    while (squares->nodes.data[slot].triangle != triangle) {
+    int32_t* link = &squares->head[square];
+    while (squares->nodes.data[*link].triangle != triangle) {
         squares->effort += KIRI_NODE_EFFORT;
-        before = slot;
-        slot = squares->nodes.data[slot].next;
-        KIRI_ASSERT(slot >= 0 && slot < squares->nodes.count);
+        link = &squares->nodes.data[*link].next;
+        KIRI_ASSERT(*link >= 0 && *link < squares->nodes.count);
     }
-    int32_t next = squares->nodes.data[slot].next;
+    int32_t slot = *link;
     squares->effort += KIRI_SQUARE_EFFORT;
-    if (before == KIRI_NONE) {
-        SetHead(squares, square, next);
-    } else {
-        SetNode(squares, before, squares->nodes.data[before].triangle, next);
-    }
-    SetNode(squares, slot, KIRI_NONE, squares->freeNode);
+    *link = squares->nodes.data[slot].next;
+    squares->nodes.data[slot] = (kiriSquareNode){ KIRI_NONE, squares->freeNode };
     squares->freeNode = slot;
-    return true;
 }
 
 bool kiriSquares_Insert(kiriSquares* squares, kiriMemory* memory, int32_t triangle, const kiriLatticePoint corners[3])
 {
-    return kiriSquares_Reshape(squares, memory, triangle, NULL, corners);
+    int64_t nodes = squares->nodes.count + kiriSquares_MostNodes(squares, corners);
+    if (!kiriArray_Reserve(memory, &squares->nodes, nodes)) {
+        return false;
+    }
+    kiriSquares_Reshape(squares, triangle, NULL, corners);
+    return true;
 }
 
-bool kiriSquares_Reshape(kiriSquares* squares, kiriMemory* memory, int32_t triangle, const kiriLatticePoint was[3],
+void kiriSquares_Reshape(kiriSquares* squares, int32_t triangle, const kiriLatticePoint was[3],
                          const kiriLatticePoint is[3])
 {
     SquareBox after = BoxOf(squares, is), before = was != NULL ? BoxOf(squares, was) : after, box = before;
@@ -355,21 +275,19 @@ bool kiriSquares_Reshape(kiriSquares* squares, kiriMemory* memory, int32_t trian
             int32_t square = row * squares->columns + column;
             bool wasIn = was != NULL && Overlaps(squares, before, column, row, was);
             bool isIn = Overlaps(squares, after, column, row, is);
-            if (wasIn != isIn && !(isIn ? AddNode : RemoveNode)(squares, memory, square, triangle)) {
-                return false;
+            if (wasIn != isIn) {
+                (isIn ? AddNode : RemoveNode)(squares, square, triangle);
             }
             if (wasIn || isIn) {
                 MarkSquareDirty(squares, square);
             }
         }
     }
-    return true;
 }
 
 void kiriSquares_Keep(kiriSquares* squares, const kiriKeep* triangles, const int32_t* of, int32_t count)
 {
     kiriSquareNode* nodes = squares->nodes.data;
-    KIRI_ASSERT(!squares->isOpen);
     for (int32_t k = 0; k < count; ++k) {
         int32_t* link = &squares->head[of[k]];
         while (*link != KIRI_NONE) {

@@ -15,12 +15,6 @@ typedef struct kiriSquareNode {
     int32_t next; /* in the same square, or KIRI_NONE */
 } kiriSquareNode;
 
-/* The value of a node or a head before a change. */
-typedef struct kiriSquareUndo {
-    int32_t index; /* the node's slot; or ~square: its head was `was.next` */
-    kiriSquareNode was;
-} kiriSquareUndo;
-
 /* Squares that a part of a sheet has around its own: steps of the grid lead this far. */
 enum { KIRI_SQUARES_BESIDE = 2 };
 
@@ -39,12 +33,6 @@ typedef struct kiriSquares {
     KIRI_ARRAY(int32_t) dirty; /* squares that changed since ClearDirty, each once; has room for all */
     uint8_t* isDirty;          /* of each square: 1 if it is in `dirty` */
     int64_t effort;            /* cost of changes so far, about ns */
-
-    /* For Rollback: the changes since Begin in their order, and values at Begin. */
-    bool isOpen;
-    KIRI_ARRAY(kiriSquareUndo) undo;
-    int32_t oldNodeCount, oldFreeNode;
-    int32_t oldDirtyCount; /* KIRI_NONE: ClearDirty has been called since */
 } kiriSquares;
 
 /* Allocates empty squares, whose numbers and side are set. False for memory. */
@@ -58,22 +46,19 @@ bool kiriSquares_Init(kiriSquares* squares, kiriMemory* memory, kiriLatticePoint
 bool kiriSquares_InitPart(kiriSquares* squares, kiriMemory* memory, const kiriSquares* like, kiriLatticePoint lower,
                           kiriLatticePoint upper);
 
+/* Returns the number of nodes that a triangle needs at most. */
+int64_t kiriSquares_MostNodes(const kiriSquares* squares, const kiriLatticePoint corners[3]);
+
 /* Lists a triangle in the squares that it overlaps; Reshape takes it out of the others. Corners are counter-clockwise.
    Squares that the triangle overlaps or overlapped become dirty. A triangle that stays in a square keeps its place in the
-   list. Both fail only on out of memory: the caller then rolls back or gives up the squares. */
+   list. Insert fails on out of memory, and changes nothing then. Reshape cannot fail: the caller has reserved nodes for
+   the new shape. */
 bool kiriSquares_Insert(kiriSquares* squares, kiriMemory* memory, int32_t triangle, const kiriLatticePoint corners[3]);
-bool kiriSquares_Reshape(kiriSquares* squares, kiriMemory* memory, int32_t triangle, const kiriLatticePoint was[3],
+void kiriSquares_Reshape(kiriSquares* squares, int32_t triangle, const kiriLatticePoint was[3],
                          const kiriLatticePoint is[3]);
 
-/* Rollback restores the state at Begin, slot for slot, but not the vertices: other units (the grid) have arrays by node.
-   Squares that became dirty since are clean again. If ClearDirty was called since, all become dirty: its caller has read
-   changes that are undone. Needs no memory. Changes are noted again after it, until Commit. */
-void kiriSquares_Begin(kiriSquares* squares);
-void kiriSquares_Commit(kiriSquares* squares);
-void kiriSquares_Rollback(kiriSquares* squares);
-
 /* Removes the triangles that are not kept, all of which are in these squares, and renumbers the others. No square becomes
-   dirty. Must not be called between Begin and Commit. */
+   dirty. */
 void kiriSquares_Keep(kiriSquares* squares, const kiriKeep* triangles, const int32_t* of, int32_t count);
 
 /* Makes the squares dirty if the edge between two vertices runs through their open interior. */

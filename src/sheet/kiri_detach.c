@@ -680,7 +680,6 @@ static void KeepBlades(const kiriDetach* detach)
     for (int32_t i = 0; i < detach->sheet->cuts.count; ++i) {
         kiriCutData* cut = detach->sheet->cuts.data[i];
         cut->tip.blade.vertex = kiriKeep_To(vertices, cut->tip.blade.vertex);
-        cut->committed.blade.vertex = kiriKeep_To(vertices, cut->committed.blade.vertex);
     }
 }
 
@@ -693,7 +692,7 @@ static void KeepSeen(kiriDetach* detach, kiriMemory* retired)
     kiriSurface_Keep(&seen->surface, &detach->shown, &rest->triangles, &rest->vertices, &sheet->mesh,
                      rest->frames.count, retired);
     kiriBounds_Forget(seen->bounds);
-    kiriBlocks_Truncate(&seen->blocks, rest->vertices.count, rest->frames.count);
+    kiriBlocks_Resize(&seen->blocks, rest->vertices.count, rest->frames.count);
     seen->vertexCount = rest->vertices.count;
     kiriKeep_Compact(&rest->points, &seen->exactPoints, 1, sizeof(kiriVec3));
     if (seen->pointPositions.count > 0) {

@@ -110,21 +110,20 @@ kiriMotion kiriPoint_Blend(const kiriSheetData* sheet, const kiriPointPlace* pla
     return motion;
 }
 
-static void SetCounts(kiriBlocks* blocks, int32_t count, int32_t frameCount)
+bool kiriBlocks_Reserve(kiriBlocks* blocks, kiriMemory* memory, int32_t vertexCount, int32_t frameCount)
 {
-    blocks->touched.count = blocks->stale.count = blocks->frames.count = blocks->movers.count = count;
-    blocks->moved.count = frameCount;
+    int32_t count = vertexCount / KIRI_BLOCK + 1;
+    return kiriArray_Reserve(memory, &blocks->touched, count) && kiriArray_Reserve(memory, &blocks->stale, count) &&
+           kiriArray_Reserve(memory, &blocks->frames, count) && kiriArray_Reserve(memory, &blocks->movers, count) &&
+           kiriArray_Reserve(memory, &blocks->moved, frameCount);
 }
 
-bool kiriBlocks_Resize(kiriBlocks* blocks, kiriMemory* memory, int32_t vertexCount, int32_t frameCount)
+void kiriBlocks_Resize(kiriBlocks* blocks, int32_t vertexCount, int32_t frameCount)
 {
     int32_t old = blocks->movers.count, count = vertexCount / KIRI_BLOCK + 1, oldFrames = blocks->moved.count;
-    if (!kiriArray_Reserve(memory, &blocks->touched, count) || !kiriArray_Reserve(memory, &blocks->stale, count) ||
-        !kiriArray_Reserve(memory, &blocks->frames, count) || !kiriArray_Reserve(memory, &blocks->movers, count) ||
-        !kiriArray_Reserve(memory, &blocks->moved, frameCount)) {
-        return false;
-    }
-    SetCounts(blocks, count, frameCount);
+    KIRI_ASSERT(count <= blocks->movers.capacity && frameCount <= blocks->moved.capacity);
+    blocks->touched.count = blocks->stale.count = blocks->frames.count = blocks->movers.count = count;
+    blocks->moved.count = frameCount;
     for (int32_t block = old; block < count; ++block) {
         blocks->touched.data[block] = blocks->stale.data[block] = 0;
         kiriBlocks_ForgetOne(blocks, block);
@@ -132,13 +131,6 @@ bool kiriBlocks_Resize(kiriBlocks* blocks, kiriMemory* memory, int32_t vertexCou
     for (int32_t i = oldFrames; i < frameCount; ++i) {
         blocks->moved.data[i] = 0;
     }
-    return true;
-}
-
-void kiriBlocks_Truncate(kiriBlocks* blocks, int32_t vertexCount, int32_t frameCount)
-{
-    KIRI_ASSERT(vertexCount / KIRI_BLOCK + 1 <= blocks->movers.count && frameCount <= blocks->moved.count);
-    SetCounts(blocks, vertexCount / KIRI_BLOCK + 1, frameCount);
 }
 
 void kiriBlocks_ForgetOne(kiriBlocks* blocks, int32_t block)
@@ -298,11 +290,11 @@ void kiriBlocks_FindMovers(kiriSheetData* sheet)
     WriteSomeMasks(sheet);
 }
 
-bool kiriView_ReserveFades(kiriSheetData* sheet, int32_t pointCount, double fadeTime)
+bool kiriView_ReserveFades(kiriSheetData* sheet, int32_t vertexCount, int32_t pointCount, double fadeTime)
 {
     bool fade = fadeTime > 0.0;
     return kiriArray_Reserve(sheet->memory, &sheet->seen.pointsBefore, pointCount) &&
-           kiriFades_Reserve(&sheet->seen.fades, sheet->memory, fade ? sheet->mesh.vertices.count : 0) &&
+           kiriFades_Reserve(&sheet->seen.fades, sheet->memory, fade ? vertexCount : 0) &&
            kiriFades_Reserve(&sheet->seen.pointFades, sheet->memory, fade ? pointCount : 0);
 }
 
@@ -359,21 +351,26 @@ static void ForBlocks(kiriSheetData* sheet, int32_t begin, int32_t end, bool orS
     }
 }
 
-bool kiriView_Resize(kiriSheetData* sheet, int32_t frameCount, int32_t pointCount)
+bool kiriView_Reserve(kiriSheetData* sheet, kiriViewCounts counts)
 {
-    return kiriSurface_Resize(&sheet->seen.surface, &sheet->shown, &sheet->mesh, frameCount) &&
-           kiriArray_Resize(&sheet->shown, &sheet->seen.pointPositions, 3 * (int64_t)pointCount) &&
-           kiriArray_Resize(sheet->memory, &sheet->seen.exactPoints, pointCount) &&
-           kiriBlocks_Resize(&sheet->seen.blocks, sheet->memory, sheet->mesh.vertices.count, frameCount) &&
-           (!sheet->update->isBegun || kiriView_ReserveFades(sheet, pointCount, sheet->seen.fades.time));
+    kiriSeen* seen = &sheet->seen;
+    bool isSeen = seen->surface.vertexCount > 0; /* else nothing can fade */
+    return kiriSurface_Reserve(&seen->surface, &sheet->shown, counts.vertices, counts.triangles, counts.frames) &&
+           kiriArray_Reserve(&sheet->shown, &seen->pointPositions, 3 * (int64_t)counts.points) &&
+           kiriArray_Reserve(sheet->memory, &seen->exactPoints, counts.points) &&
+           kiriBlocks_Reserve(&seen->blocks, sheet->memory, counts.vertices, counts.frames) &&
+           (!isSeen || kiriView_ReserveFades(sheet, counts.vertices, counts.points, seen->fades.time));
 }
 
-void kiriView_Truncate(kiriSheetData* sheet)
+void kiriView_Resize(kiriSheetData* sheet, int32_t frameCount)
 {
-    kiriSurface_Truncate(&sheet->seen.surface, sheet->frames.count);
-    kiriBlocks_Truncate(&sheet->seen.blocks, sheet->seen.surface.vertexCount, sheet->frames.count);
-    sheet->seen.pointPositions.count = 3 * sheet->points.count;
-    sheet->seen.exactPoints.count = sheet->points.count;
+    kiriSeen* seen = &sheet->seen;
+    kiriSurface_Resize(&seen->surface, sheet->mesh.vertices.count, sheet->mesh.triangles.count, frameCount);
+    kiriBlocks_Resize(&seen->blocks, sheet->mesh.vertices.count, frameCount);
+    KIRI_ASSERT(3 * (int64_t)sheet->points.count <= seen->pointPositions.capacity);
+    KIRI_ASSERT(sheet->points.count <= seen->exactPoints.capacity);
+    seen->pointPositions.count = 3 * sheet->points.count;
+    seen->exactPoints.count = sheet->points.count;
 }
 
 /* A newborn vertex lies on the triangle that was seen. */
@@ -394,16 +391,15 @@ static void StaleCorners(kiriSheetData* sheet, const int32_t* corners)
     }
 }
 
-/* The corners that triangles had, and that they have. */
+/* The corners of triangles that changed, and the vertices that lost a triangle. */
 static void StaleChanges(kiriSheetData* sheet)
 {
     const kiriMeshData* mesh = &sheet->mesh;
-    for (int32_t k = 0; k < mesh->savedTriangles.count; ++k) {
-        const kiriSavedTriangle* saved = &mesh->savedTriangles.data[k];
-        if (saved->index < mesh->oldTriangleCount) {
-            StaleCorners(sheet, saved->was.vertex);
-            StaleCorners(sheet, mesh->triangles.data[saved->index].vertex);
-        }
+    for (int32_t k = 0; k < mesh->changedTriangles.count; ++k) {
+        StaleCorners(sheet, mesh->triangles.data[mesh->changedTriangles.data[k]].vertex);
+    }
+    for (int32_t k = 0; k < mesh->changedVertices.count; ++k) {
+        kiriBlocks_Stale(&sheet->seen.blocks, mesh->changedVertices.data[k]);
     }
     for (int32_t t = mesh->oldTriangleCount; t < mesh->triangles.count; ++t) {
         StaleCorners(sheet, mesh->triangles.data[t].vertex);
@@ -435,6 +431,7 @@ void kiriView_HideGone(kiriSheetData* sheet)
 
 void kiriView_WriteTopology(kiriSheetData* sheet)
 {
+    kiriView_Resize(sheet, sheet->frames.count);
     for (int32_t v = sheet->mesh.oldVertexCount; v < sheet->mesh.oldVertexCount + sheet->mesh.births.count; ++v) {
         PlaceNewborn(sheet, v);
     }
@@ -444,6 +441,17 @@ void kiriView_WriteTopology(kiriSheetData* sheet)
         HideTriangles(sheet); /* a cut goes on in what is gone */
     }
     sheet->seen.isElsewhere = true;
+}
+
+void kiriView_ShowNewborn(kiriSheetData* sheet)
+{
+    kiriSurface* surface = &sheet->seen.surface;
+    if (surface->vertexCount > sheet->seen.vertexCount && surface->hasNormals) {
+        surface->hasNormals = surface->hasSlopes = false;
+        if (surface->wantsNormals) {
+            kiriSurface_NeedNormals(surface);
+        }
+    }
 }
 
 void kiriView_TakeFrames(kiriSheetData* sheet)
@@ -673,7 +681,7 @@ bool kiriView_IsSettled(const kiriSheetData* sheet)
 
 void kiriView_Trim(kiriSheetData* sheet)
 {
-    if (!sheet->update->isBegun) {
+    if (sheet->update->stage == KIRI_NONE && sheet->cuts.count == 0) {
         TrimFades(sheet);
     }
 }

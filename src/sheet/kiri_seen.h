@@ -29,11 +29,11 @@ kiriMotion kiriPoint_Blend(const kiriSheetData* sheet, const kiriPointPlace* pla
 
 enum { KIRI_BLOCK = 64, KIRI_UNKNOWN = -2 };
 
-/* Room for so many vertices and frames. Nothing is known of new blocks. False for memory. */
-bool kiriBlocks_Resize(kiriBlocks* blocks, kiriMemory* memory, int32_t vertexCount, int32_t frameCount);
+/* Reserves room for so many vertices and frames. */
+bool kiriBlocks_Reserve(kiriBlocks* blocks, kiriMemory* memory, int32_t vertexCount, int32_t frameCount);
 
-/* There are no more vertices and frames than these, again. Never fails. */
-void kiriBlocks_Truncate(kiriBlocks* blocks, int32_t vertexCount, int32_t frameCount);
+/* Sets the counts, for which there is room. Nothing is known of new blocks. */
+void kiriBlocks_Resize(kiriBlocks* blocks, int32_t vertexCount, int32_t frameCount);
 
 /* Vertices or frames have other indices: nothing is known. */
 void kiriBlocks_Forget(kiriBlocks* blocks);
@@ -70,20 +70,27 @@ static inline bool kiriBlocks_Moves(const kiriBlocks* blocks, int32_t block)
 
 /* What the host sees of a sheet: the skinned mesh and the collision points. */
 
-/* Room for the mesh as it is, for so many frames and collision points; after it writing never fails. */
-bool kiriView_Resize(kiriSheetData* sheet, int32_t frameCount, int32_t pointCount);
+typedef struct kiriViewCounts {
+    int32_t vertices, triangles, frames, points;
+} kiriViewCounts;
 
-/* What was for vertices and points that do not come is no more than room. After kiriMesh_Rollback; never fails. */
-void kiriView_Truncate(kiriSheetData* sheet);
+/* Reserves room, so that Resize, and writing, cannot fail. */
+bool kiriView_Reserve(kiriSheetData* sheet, kiriViewCounts counts);
+
+/* Makes all arrays as long as the mesh, the points, and so many frames need. */
+void kiriView_Resize(kiriSheetData* sheet, int32_t frameCount);
 
 /* Room for what fades in so much time when a cut takes effect, or what is seen changes otherwise. */
-bool kiriView_ReserveFades(kiriSheetData* sheet, int32_t pointCount, double fadeTime);
+bool kiriView_ReserveFades(kiriSheetData* sheet, int32_t vertexCount, int32_t pointCount, double fadeTime);
 
 /* The vertices whose weights are staged; before these take effect. */
 void kiriView_TouchStaged(kiriSheetData* sheet);
 
 /* What has changed in the mesh; before kiriMesh_Commit. */
 void kiriView_WriteTopology(kiriSheetData* sheet);
+
+/* New vertices of a tick in which nothing moves: they get normals, which writing positions would give them. */
+void kiriView_ShowNewborn(kiriSheetData* sheet);
 
 /* Pieces that are gone are seen no more; the indices that the host may hold are another array by now. */
 void kiriView_HideGone(kiriSheetData* sheet);

@@ -10,15 +10,18 @@
 #include <string.h>
 #include <math.h>
 
-bool kiriPast_Grow(kiriPast* past, int64_t tick, kiriIndices* room, kiriMemory* memory, const kiriMeshData* mesh,
-                   int32_t first)
+bool kiriPast_Reserve(const kiriPast* past, kiriIndices* room, kiriMemory* memory, int32_t first, int32_t vertices)
+{
+    return kiriArray_Reserve(memory, room, vertices - kiriMin(past->same, first));
+}
+
+void kiriPast_Grow(kiriPast* past, int64_t tick, kiriIndices* room, const kiriMeshData* mesh, int32_t first)
 {
     const kiriPast was = kiriPast_At(past, tick); /* pieces may have left at the start of the tick */
     KIRI_ASSERT(first >= mesh->oldVertexCount && (was.count == 0 || was.others != room->data));
     int32_t same = kiriMin(was.same, first), count = mesh->vertices.count - same;
-    if (!kiriArray_Resize(memory, room, count)) {
-        return false;
-    }
+    KIRI_ASSERT(count <= room->capacity);
+    room->count = count;
     *past = (kiriPast){ tick, was.sheet, same, room->data, count };
     for (int32_t v = same; v < first; ++v) {
         room->data[v - same] = kiriPast_IndexOf(&was, v);
@@ -29,7 +32,6 @@ bool kiriPast_Grow(kiriPast* past, int64_t tick, kiriIndices* room, kiriMemory* 
         KIRI_ASSERT(birth->parent[0] < v);
         room->data[v - same] = isTorn ? kiriPast_IndexOf(past, birth->parent[0]) : KIRI_NONE;
     }
-    return true;
 }
 
 bool kiriPast_Keep(kiriPast* to, const kiriPast* past, kiriMemory* memory, const kiriKeep* vertices)
@@ -79,10 +81,12 @@ static bool BuildAreaElements(kiriSheetData* sheet)
 static bool ReservePoints(kiriSheetData* sheet)
 {
     const kiriUpdate* u = sheet->update;
-    int64_t need = (int64_t)sheet->points.count + u->samples.newPoints.count;
+    int32_t need = sheet->points.count + u->samples.newPoints.count;
+    const kiriViewCounts counts = { sheet->mesh.vertices.count, sheet->mesh.triangles.count, u->placing.sites.count,
+                                    need };
     return kiriArray_Reserve(sheet->memory, &sheet->points, need) &&
            kiriPlaces_Reserve(&sheet->pointPlaces, sheet->memory, &sheet->mesh, need) &&
-           kiriView_Resize(sheet, sheet->update->placing.sites.count, (int32_t)need);
+           kiriView_Reserve(sheet, counts);
 }
 
 static kiriSystem NextSystem(const kiriSheetData* sheet, int32_t frameCount)
@@ -192,6 +196,7 @@ kiriProgress kiriStage_Owners(kiriSheetData* sheet, kiriQuota* samples)
 kiriProgress kiriStage_Constants(kiriSheetData* sheet, kiriQuota* samples)
 {
     static kiriStageStep* const steps[] = { StageOwnersOfMaterial, PlaceNewFrames, PrepareCommit };
+    KIRI_ASSERT(steps[KIRI_PREPARE_COMMIT] == PrepareCommit);
     return kiriStage_RunSteps(sheet, samples, steps, (int32_t)(sizeof(steps) / sizeof(steps[0])));
 }
 
@@ -357,7 +362,7 @@ bool kiriSettings_Change(kiriSheetData* sheet, const kiriSheetSettings* given)
     }
     bool looksOther = sheet->seen.isElsewhere || given->skinning != before.skinning;
     bool isOther = !IsSameMaterial(&given->material, &before.material);
-    if ((looksOther && !kiriView_ReserveFades(sheet, sheet->points.count, given->fadeTime)) ||
+    if ((looksOther && !kiriView_ReserveFades(sheet, sheet->mesh.vertices.count, sheet->points.count, given->fadeTime)) ||
         (isOther && !kiriSheet_RestageSolver(sheet, &given->material))) {
         return false;
     }

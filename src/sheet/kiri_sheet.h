@@ -43,12 +43,12 @@ static inline int32_t kiriPast_IndexOf(const kiriPast* past, int32_t vertex)
     return vertex - past->same < past->count ? past->others[vertex - past->same] : KIRI_NONE;
 }
 
-/* These make the past of a mesh that changes. False for memory. */
+/* These make the past of a mesh that changes. */
 
 /* A tick adds vertices, from `first` on. One that is torn off another gets the index of that one. `room` holds the
-   indices until the next tick; its memory is used again. */
-bool kiriPast_Grow(kiriPast* past, int64_t tick, kiriIndices* room, kiriMemory* memory, const kiriMeshData* mesh,
-                   int32_t first);
+   indices until the next tick; its memory is used again. Reserve makes room for so many vertices in all. */
+bool kiriPast_Reserve(const kiriPast* past, kiriIndices* room, kiriMemory* memory, int32_t first, int32_t vertices);
+void kiriPast_Grow(kiriPast* past, int64_t tick, kiriIndices* room, const kiriMeshData* mesh, int32_t first);
 
 /* Some vertices are kept, of a mesh whose past is up to date. The indices are a block of `memory`. */
 bool kiriPast_Keep(kiriPast* to, const kiriPast* past, kiriMemory* memory, const kiriKeep* vertices);
@@ -206,7 +206,7 @@ typedef struct kiriCutData {
     kiriCut id;
     struct kiriSheetData* sheet;
     int32_t index; /* in its list of cuts */
-    kiriTip tip, committed;
+    kiriTip tip;
     int32_t waiting; /* points in the queue */
     bool ended;      /* by the host; finished when none waits */
 } kiriCutData;

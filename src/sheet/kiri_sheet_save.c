@@ -271,7 +271,6 @@ static const kiriMember CutDataMembers[] = {
     KIRI_BOOLS(kiriCutData, ended, ended),
     KIRI_UNHASHED,
     KIRI_RUN(4, kiriCutData, id, id),
-    KIRI_PART(kiriCutData, committed, TipTable),
     KIRI_DROPPED(kiriCutData, sheet, index),
     KIRI_DROPPED(kiriCutData, waiting, waiting),
 };
@@ -497,7 +496,7 @@ static bool AreCuts(const kiriSheetData* sheet)
     bool areFine = true;
     for (int32_t c = 0; areFine && c < sheet->cuts.count; ++c) {
         const kiriCutData* cut = sheet->cuts.data[c];
-        areFine = IsTip(sheet, &cut->tip.blade) && IsTip(sheet, &cut->committed.blade);
+        areFine = IsTip(sheet, &cut->tip.blade);
     }
     for (int32_t k = 0; areFine && k < sheet->queue.count; ++k) {
         areFine = !sheet->queue.data[k].ends || sheet->queue.data[k].cut->ended;

@@ -8,6 +8,42 @@
 
 /* ---- Cut: appendix A --------------------------------------------------------------------------------------------- */
 
+/* Reserves room for a step of the blade: what there is for each vertex and each triangle. So a step that is made is
+   made in the mesh, the weights, and what is seen. */
+static bool ReserveStep(kiriSheetData* sheet)
+{
+    enum { MADE = 6 }; /* vertices and triangles at most */
+    const kiriSurface* surface = &sheet->seen.surface;
+    const kiriViewCounts counts = { sheet->mesh.vertices.count + MADE, sheet->mesh.triangles.count + MADE,
+                                    sheet->frames.count, sheet->points.count };
+    return kiriSkin_ReserveBirths(&sheet->vertexSkin, sheet->memory, MADE, counts.frames) &&
+           kiriView_Reserve(sheet, counts) &&
+           kiriPast_Reserve(&sheet->past, &sheet->pastRoom, sheet->memory, surface->vertexCount, counts.vertices);
+}
+
+/* Moves the blade step by step, so that each finds its room. */
+static kiriProgress MoveBlade(kiriSheetData* sheet, kiriBladeTip* blade, kiriLatticePoint to, kiriQuota* triangles)
+{
+    for (;;) {
+        if (!ReserveStep(sheet)) {
+            return KIRI_FAILED;
+        }
+        int64_t most = blade->owed + KIRI_MOST_SPLITS;
+        bool isLast = triangles->left <= most;
+        kiriQuota step = { isLast ? triangles->left : most, 0, 0, false };
+        kiriProgress progress = kiriCut_Move(&sheet->mesh, blade, to, sheet->settings.snap, &step);
+        triangles->left -= step.used;
+        triangles->used += step.used;
+        kiriSkin_Inherit(&sheet->vertexSkin, sheet->memory, &sheet->mesh);
+        if (progress == KIRI_DONE) {
+            (void)kiriQuota_Pay(triangles, &blade->owed);
+        }
+        if (progress != KIRI_MORE || isLast) {
+            return progress;
+        }
+    }
+}
+
 /* Moves the blade of a cut to the next point of its polyline. */
 static kiriProgress TakeQueuedPoint(kiriSheetData* sheet, const kiriQueuedPoint* point, kiriQuota* triangles)
 {
@@ -23,7 +59,7 @@ static kiriProgress TakeQueuedPoint(kiriSheetData* sheet, const kiriQueuedPoint*
     if (tip->blade.vertex == KIRI_NONE && (start.x != tip->blade.at.x || start.y != tip->blade.at.y)) {
         tip->blade = kiriCut_Place(mesh, from); /* it comes from far outside */
     }
-    kiriProgress progress = kiriCut_Move(mesh, &tip->blade, kiriMesh_Snap(mesh, to), sheet->settings.snap, triangles);
+    kiriProgress progress = MoveBlade(sheet, &tip->blade, kiriMesh_Snap(mesh, to), triangles);
     if (progress == KIRI_DONE) {
         tip->last = point->to;
     }
@@ -54,24 +90,19 @@ kiriProgress kiriStage_SplitMesh(kiriSheetData* sheet, kiriQuota* triangles)
             EndWithTick(sheet, point);
         }
     }
-    u->cut.meshChanged = u->cut.meshChanged || sheet->mesh.savedTriangles.count > 0 ||
+    u->cut.meshChanged = u->cut.meshChanged || sheet->mesh.changedTriangles.count > 0 ||
                          (progress == KIRI_DONE && u->cut.settlesSites && u->isUnsettled && kiriSites_MayBeFew(sheet));
-    bool hasRoom = progress != KIRI_FAILED && kiriSkin_Inherit(&sheet->vertexSkin, sheet->memory, &sheet->mesh) &&
-                   kiriView_Resize(sheet, sheet->frames.count, sheet->points.count);
-    return hasRoom ? progress : KIRI_FAILED;
+    return progress;
 }
 
 void kiriStage_CommitMesh(kiriSheetData* sheet)
 {
-    if (sheet->mesh.savedTriangles.count > 0) {
+    if (sheet->mesh.changedTriangles.count > 0) {
         kiriPieceLists_Forget(&sheet->lists);
         sheet->probes.isFresh = false;
         kiriView_WriteTopology(sheet);
     }
     kiriMesh_Commit(&sheet->mesh);
-    for (int32_t i = 0; i < sheet->cuts.count; ++i) {
-        sheet->cuts.data[i]->committed = sheet->cuts.data[i]->tip;
-    }
 }
 
 /* ---- Grid, regions, shape functions: sections 4.1, 4.2 and 5 ----------------------------------------------------- */
@@ -465,8 +496,6 @@ bool kiriPipeline_Make(kiriSheetData* sheet, int32_t end)
 void kiriPipeline_Start(kiriSheetData* sheet)
 {
     kiriUpdate* u = sheet->update;
-    u->start = (kiriUpdateStart){ u->stage, u->cut, u->spent };
-    u->isBegun = false;
     if (u->stage == KIRI_NONE && sheet->queue.count > 0) {
         u->cut = (kiriCutWork){ sheet->queue.data[0].stamp, sheet->queue.count, 0, false, false };
         u->stage = KIRI_STAGE_CUT;
@@ -485,9 +514,16 @@ bool kiriPipeline_CanRun(const kiriSheetData* sheet, const kiriQuotas* quotas)
 
 kiriProgress kiriPipeline_Run(kiriSheetData* sheet, kiriQuotas* quotas, const kiriWatch* watch)
 {
-    KIRI_ASSERT(sheet->update->stage != KIRI_NONE && !sheet->update->isBegun);
-    sheet->update->isBegun = true;
-    return RunUpTo(sheet, KIRI_READY, quotas, watch);
+    kiriUpdate* u = sheet->update;
+    KIRI_ASSERT(u->stage != KIRI_NONE);
+    kiriProgress progress = RunUpTo(sheet, KIRI_READY, quotas, watch);
+    if (progress == KIRI_FAILED && u->stage > KIRI_STAGE_CUT) {
+        kiriStage_Drop(sheet);
+        u->needsRebuild = true;
+        u->stage = KIRI_STAGE_GRID;
+        u->step = 0;
+    }
+    return progress;
 }
 
 void kiriPipeline_Finish(kiriSheetData* sheet)
@@ -506,35 +542,13 @@ void kiriPipeline_Finish(kiriSheetData* sheet)
     u->stage = KIRI_NONE;
 }
 
-/* The mesh, and the blades in it, as the tick found them. */
-static void RollBackMesh(kiriSheetData* sheet)
-{
-    kiriMesh_Rollback(&sheet->mesh);
-    kiriMesh_Commit(&sheet->mesh); /* nothing: between two ticks the journal is closed */
-    kiriSkin_Truncate(&sheet->vertexSkin, sheet->mesh.vertices.count);
-    kiriView_Truncate(sheet);
-    for (int32_t i = 0; i < sheet->cuts.count; ++i) {
-        sheet->cuts.data[i]->tip = sheet->cuts.data[i]->committed;
-    }
-}
-
-void kiriPipeline_Abort(kiriSheetData* sheet)
+void kiriPipeline_Wait(kiriSheetData* sheet)
 {
     kiriUpdate* u = sheet->update;
-    if (u->isBegun) {
-        RollBackMesh(sheet);
-        if (u->stage > KIRI_STAGE_CUT && u->cut.meshChanged) {
-            kiriStage_Drop(sheet);
-            u->needsRebuild = true;
-        }
-        u->step = 0;
-        u->isBegun = false;
-        u->spent = u->start.stage == KIRI_STAGE_CUT ? u->start.spent : 0;
-        u->stage = u->start.stage > KIRI_STAGE_CUT ? KIRI_STAGE_GRID : u->start.stage;
-    } else {
-        u->stage = u->start.stage; /* it may have been started in this tick */
+    if (u->stage == KIRI_READY && u->cut.meshChanged) {
+        u->stage = KIRI_STAGE_CONSTANTS;
+        u->step = KIRI_PREPARE_COMMIT;
     }
-    u->cut = u->start.cut;
 }
 
 /* Before the commit all frames that carry a vertex are of one piece. A sheet that is being made has none yet. */
@@ -717,6 +731,7 @@ void kiriStage_Commit(kiriSheetData* sheet)
     }
     kiriShape_ClearChanges(&sheet->shape);
     u->isScratch = false;
+    kiriView_Resize(sheet, sheet->frames.count);
     sheet->seen.isElsewhere = true;
     u->samples.oldVertices = sheet->mesh.vertices.count;
 }

@@ -60,13 +60,6 @@ typedef struct kiriCommitCounts {
     int32_t cells, weights, vertices, points, links;
 } kiriCommitCounts;
 
-/* What a tick that fails goes back to. */
-typedef struct kiriUpdateStart {
-    int32_t stage;
-    kiriCutWork cut;
-    int64_t spent;
-} kiriUpdateStart;
-
 typedef struct kiriUpdate {
     int32_t stage;     /* KIRI_STAGE_..., the next to run; KIRI_READY: they are done; KIRI_NONE: nothing is at hand */
     int32_t step;      /* within the stage, see there */
@@ -74,9 +67,6 @@ typedef struct kiriUpdate {
     bool needsRebuild; /* grid, regions and shape are of no use: to be made from scratch */
     bool isScratch;    /* as they are now */
     bool isUnsettled;  /* the mesh has changed since an update settled sites */
-
-    kiriUpdateStart start;
-    bool isBegun; /* in this tick */
 
     kiriCutWork cut;
     kiriPlacingWork placing;
@@ -94,6 +84,9 @@ typedef struct kiriUpdate {
 } kiriUpdate;
 
 enum { KIRI_READY = KIRI_STAGE_CONTACT };
+
+/* The last step of KIRI_STAGE_CONSTANTS. */
+enum { KIRI_PREPARE_COMMIT = 2 };
 
 /* Do grid, regions and shape belong to the mesh as it is? */
 static inline bool kiriUpdate_IsFieldCurrent(const kiriUpdate* update)
@@ -169,14 +162,15 @@ void kiriPipeline_Start(kiriSheetData* sheet);
 /* Has the stage at hand a quota with something left? */
 bool kiriPipeline_CanRun(const kiriSheetData* sheet, const kiriQuotas* quotas);
 
-/* Carries the work at hand on as far as the quotas go. KIRI_DONE: it is ready to commit. KIRI_FAILED: abort it. */
+/* Carries the work at hand on as far as the quotas go. KIRI_DONE: it is ready to commit. KIRI_FAILED: out of memory; it goes on in
+   the next tick. */
 kiriProgress kiriPipeline_Run(kiriSheetData* sheet, kiriQuotas* quotas, const kiriWatch* watch);
 
 /* After a commit, or when the points changed nothing: they leave the queue. */
 void kiriPipeline_Finish(kiriSheetData* sheet);
 
-/* Takes back what this tick has done, as far as anyone can see. Grid, regions and shape are made from scratch then. */
-void kiriPipeline_Abort(kiriSheetData* sheet);
+/* In a tick that cannot commit: the commit is prepared again in the next, for the host may change pins in between. */
+void kiriPipeline_Wait(kiriSheetData* sheet);
 
 KIRI_C_END
 

@@ -140,17 +140,16 @@ static void Blend(kiriSkin* skin, kiriSpan* span, int32_t frame, double value)
     weights[k].value += (float)value;
 }
 
-static bool InheritOne(kiriSkin* skin, kiriMemory* memory, const kiriBirth* birth)
+static void InheritOne(kiriSkin* skin, kiriMemory* memory, const kiriBirth* birth)
 {
     kiriSpan span = { 0, 0 };
     int32_t most = 0;
     for (int k = 0; k < 3 && birth->parent[k] != KIRI_NONE; ++k) {
         most += skin->spans.data[birth->parent[k]].count;
     }
-    if (!kiriArray_Reserve(memory, &skin->spans, (int64_t)skin->spans.count + 1) ||
-        !ResizeSampleWeights(skin, memory, &span, most)) {
-        return false;
-    }
+    bool ok = ResizeSampleWeights(skin, memory, &span, most);
+    KIRI_ASSERT(ok && skin->spans.count < skin->spans.capacity);
+    (void)ok;
     kiriSpan sum = { span.first, 0 };
     for (int k = 0; k < 3 && birth->parent[k] != KIRI_NONE; ++k) {
         kiriSpan parent = skin->spans.data[birth->parent[k]];
@@ -162,23 +161,20 @@ static bool InheritOne(kiriSkin* skin, kiriMemory* memory, const kiriBirth* birt
     sum.count = RoundWeights(skin->weights.data + sum.first, sum.count);
     ResizeSampleWeights(skin, memory, &span, sum.count);
     skin->spans.data[skin->spans.count++] = span;
-    return true;
 }
 
-bool kiriSkin_Inherit(kiriSkin* skin, kiriMemory* memory, const kiriMeshData* mesh)
+bool kiriSkin_ReserveBirths(kiriSkin* skin, kiriMemory* memory, int32_t births, int32_t frames)
+{
+    /* Three parents, and spans have room for a power of two. */
+    int64_t weights = skin->weights.count + 8 * (int64_t)frames * births;
+    return kiriArray_Reserve(memory, &skin->spans, (int64_t)skin->spans.count + births) &&
+           kiriArray_Reserve(memory, &skin->weights, weights);
+}
+
+void kiriSkin_Inherit(kiriSkin* skin, kiriMemory* memory, const kiriMeshData* mesh)
 {
     for (int32_t v = skin->spans.count; v < mesh->vertices.count; ++v) {
-        if (!InheritOne(skin, memory, &mesh->births.data[v - mesh->oldVertexCount])) {
-            return false;
-        }
-    }
-    return true;
-}
-
-void kiriSkin_Truncate(kiriSkin* skin, int32_t sampleCount)
-{
-    while (skin->spans.count > sampleCount) {
-        DropSpan(skin, &skin->spans.data[--skin->spans.count]);
+        InheritOne(skin, memory, &mesh->births.data[v - mesh->oldVertexCount]);
     }
 }
 

@@ -103,9 +103,9 @@ kiriProgress kiriRefresh_Stage(kiriRefresh* refresh, const kiriSampleSource* sou
 void kiriRefresh_Drop(kiriRefresh* refresh);
 
 /* Vertices born since kiriMesh_Begin take a blend of their parents' weights, so that they lie on the surface as it was.
-   Truncate takes that back. */
-bool kiriSkin_Inherit(kiriSkin* skin, kiriMemory* memory, const kiriMeshData* mesh);
-void kiriSkin_Truncate(kiriSkin* skin, int32_t sampleCount);
+   Reserve makes room for so many of them; No sample has more weights than there are frames. */
+bool kiriSkin_ReserveBirths(kiriSkin* skin, kiriMemory* memory, int32_t births, int32_t frames);
+void kiriSkin_Inherit(kiriSkin* skin, kiriMemory* memory, const kiriMeshData* mesh);
 
 /* Removes samples and frames. Samples that are kept have no weight of a frame that is removed. Nothing may be staged.
    Cannot fail. */

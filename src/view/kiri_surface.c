@@ -167,40 +167,34 @@ bool kiriSolid_Build(kiriSolid* solid, kiriMemory* memory, const kiriSurface* su
 
 /* ---- Room -------------------------------------------------------------------------------------------------------- */
 
-/* Places are written as soon as there is room: the tick in which a sheet comes far from the origin of the world shall
-   not be the first to touch all of it. */
-static bool ResizePlaces(kiriSurface* surface, kiriMemory* memory, int64_t count)
+bool kiriSurface_Reserve(kiriSurface* surface, kiriMemory* memory, int64_t vertices, int64_t triangles,
+                         int32_t frameCount)
 {
-    int32_t old = surface->places.count;
-    bool ok =
-        kiriArray_Reserve(memory, &surface->places, count + 1) && kiriArray_Resize(memory, &surface->places, count);
-    if (ok && count > old) {
-        memset(surface->places.data + old, 0, sizeof(float) * (size_t)(count - old));
-    }
-    return ok;
-}
-
-bool kiriSurface_Resize(kiriSurface* surface, kiriMemory* memory, const kiriMeshData* mesh, int32_t frameCount)
-{
-    int64_t vertices = mesh->vertices.count, triangles = mesh->triangles.count;
     return kiriArray_Reserve(memory, &surface->positions, 3 * vertices + 1) &&
-           kiriArray_Resize(memory, &surface->positions, 3 * vertices) && ResizePlaces(surface, memory, 3 * vertices) &&
-           kiriArray_Resize(memory, &surface->normals, 3 * vertices) &&
-           kiriArray_Resize(memory, &surface->restPositions, 2 * vertices) &&
-           kiriArray_Resize(memory, &surface->sourceWeights, 3 * vertices) &&
-           kiriArray_Resize(memory, &surface->sourceTriangles, vertices) &&
-           kiriArray_Resize(memory, &surface->indices, 3 * triangles) &&
-           kiriArray_Resize(memory, &surface->rest, vertices) &&
-           kiriArray_Resize(memory, &surface->slopes, 4 * vertices) &&
-           kiriArray_Resize(memory, &surface->turns, triangles / 2 + triangles % 2) &&
-           kiriArray_Resize(memory, &surface->carriers, frameCount) &&
-           kiriArray_Resize(memory, &surface->bends, frameCount) &&
+           kiriArray_Reserve(memory, &surface->places, 3 * vertices + 1) &&
+           kiriArray_Reserve(memory, &surface->normals, 3 * vertices) &&
+           kiriArray_Reserve(memory, &surface->restPositions, 2 * vertices) &&
+           kiriArray_Reserve(memory, &surface->sourceWeights, 3 * vertices) &&
+           kiriArray_Reserve(memory, &surface->sourceTriangles, vertices) &&
+           kiriArray_Reserve(memory, &surface->indices, 3 * triangles) &&
+           kiriArray_Reserve(memory, &surface->rest, vertices) &&
+           kiriArray_Reserve(memory, &surface->slopes, 4 * vertices) &&
+           kiriArray_Reserve(memory, &surface->turns, triangles / 2 + triangles % 2) &&
+           kiriArray_Reserve(memory, &surface->carriers, frameCount) &&
+           kiriArray_Reserve(memory, &surface->bends, frameCount) &&
            kiriPatches_Reserve(&surface->patches, memory, frameCount);
 }
 
-void kiriSurface_Truncate(kiriSurface* surface, int32_t frameCount)
+void kiriSurface_Resize(kiriSurface* surface, int32_t vertices, int32_t triangles, int32_t frameCount)
 {
-    int32_t vertices = surface->vertexCount, triangles = surface->triangleCount;
+    KIRI_ASSERT(3 * (int64_t)vertices < surface->positions.capacity && 4 * (int64_t)vertices <= surface->slopes.capacity);
+    KIRI_ASSERT(3 * (int64_t)triangles <= surface->indices.capacity && frameCount <= surface->carriers.capacity);
+    /* Places are written as soon as they are there: the tick in which a sheet comes far from the origin of the world
+       shall not be the first to touch all of them. */
+    if (3 * vertices > surface->places.count) {
+        memset(surface->places.data + surface->places.count, 0,
+               sizeof(float) * (size_t)(3 * vertices - surface->places.count));
+    }
     surface->positions.count = surface->places.count = surface->normals.count = 3 * vertices;
     surface->restPositions.count = 2 * vertices;
     surface->sourceWeights.count = 3 * vertices;
@@ -247,11 +241,11 @@ static void Extend(kiriRange* range, int32_t index)
 /* Vertices never move in the rest plane, but a tear may give one to another triangle of the caller. */
 static void WriteOldVertices(kiriSurface* surface, const kiriMeshData* mesh, kiriChange* change)
 {
-    for (int32_t i = 0; i < mesh->savedVertices.count; ++i) {
-        const kiriSavedVertex* saved = &mesh->savedVertices.data[i];
-        if (saved->index < change->oldVertexCount && mesh->vertices.data[saved->index].source != saved->was.source) {
-            WriteSource(surface, mesh, saved->index);
-            Extend(&change->vertices, saved->index);
+    for (int32_t i = 0; i < mesh->changedVertices.count; ++i) {
+        int32_t v = mesh->changedVertices.data[i];
+        if (v < change->oldVertexCount && mesh->vertices.data[v].source != surface->sourceTriangles.data[v]) {
+            WriteSource(surface, mesh, v);
+            Extend(&change->vertices, v);
         }
     }
 }
@@ -265,19 +259,19 @@ static void WriteTriangle(kiriSurface* surface, const kiriMeshData* mesh, int32_
 /* The journal has more triangles than change: those with another neighbour. */
 static void WriteOldTriangles(kiriSurface* surface, const kiriMeshData* mesh, kiriChange* change)
 {
-    for (int32_t i = 0; i < mesh->savedTriangles.count; ++i) {
-        const kiriSavedTriangle* saved = &mesh->savedTriangles.data[i];
-        const int32_t* vertex = mesh->triangles.data[saved->index].vertex;
-        if (saved->index < change->oldTriangleCount &&
-            memcmp(vertex, saved->was.vertex, sizeof(saved->was.vertex)) != 0) {
-            WriteTriangle(surface, mesh, saved->index);
-            Extend(&change->triangles, saved->index);
+    for (int32_t i = 0; i < mesh->changedTriangles.count; ++i) {
+        int32_t t = mesh->changedTriangles.data[i];
+        const int32_t* vertex = mesh->triangles.data[t].vertex;
+        if (t < change->oldTriangleCount &&
+            memcmp(vertex, &surface->indices.data[3 * (size_t)t], 3 * sizeof(int32_t)) != 0) {
+            WriteTriangle(surface, mesh, t);
+            Extend(&change->triangles, t);
         }
     }
     /* When all of them are written: two that share an edge may both change. */
-    for (int32_t i = 0; i < mesh->savedTriangles.count; ++i) {
-        if (mesh->savedTriangles.data[i].index < change->oldTriangleCount) {
-            WriteTurn(surface, mesh->savedTriangles.data[i].index / 2);
+    for (int32_t i = 0; i < mesh->changedTriangles.count; ++i) {
+        if (mesh->changedTriangles.data[i] < change->oldTriangleCount) {
+            WriteTurn(surface, mesh->changedTriangles.data[i] / 2);
         }
     }
 }

@@ -126,11 +126,12 @@ static inline void kiriSurface_Place(kiriSurface* surface, int32_t vertex, kiriV
     kiriVec3_Store(kiriSurface_Places(surface) + 3 * (ptrdiff_t)vertex, kiriVec3_Sub(at, surface->middle));
 }
 
-/* Room for the mesh as it is and for so many frames; after it the others never fail. */
-bool kiriSurface_Resize(kiriSurface* surface, kiriMemory* memory, const kiriMeshData* mesh, int32_t frameCount);
+/* Reserves room for so many vertices, triangles and frames. */
+bool kiriSurface_Reserve(kiriSurface* surface, kiriMemory* memory, int64_t vertices, int64_t triangles,
+                         int32_t frameCount);
 
-/* The mesh is again as it is seen, and so many frames move it: what was for more is no more than room. Never fails. */
-void kiriSurface_Truncate(kiriSurface* surface, int32_t frameCount);
+/* Sets the counts of all arrays, for which there is room. Before WriteTopology, and when frames change. */
+void kiriSurface_Resize(kiriSurface* surface, int32_t vertices, int32_t triangles, int32_t frameCount);
 
 /* Takes over what kiriMesh_Begin's journal says has changed; call it before kiriMesh_Commit. The first time
    all of the mesh. */

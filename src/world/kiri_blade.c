@@ -972,7 +972,7 @@ static bool ListPending(BladeWork* work, const kiriWorld* world, const kiriBlade
         }
         ends.count = 0;
         for (int32_t k = 0; ok && k < sheet->cuts.count; ++k) {
-            ok = kiriArray_Push(&work->memory, &ends, sheet->cuts.data[k]->committed.last);
+            ok = kiriArray_Push(&work->memory, &ends, sheet->cuts.data[k]->tip.last);
         }
         for (int32_t k = 0; ok && k < sheet->queue.count; ++k) {
             const kiriQueuedPoint* point = &sheet->queue.data[k];

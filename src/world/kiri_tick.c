@@ -66,17 +66,17 @@ static void ListActive(kiriWorld* world)
 
 /* ---- Pieces that leave ---- */
 
-/* Takes out the pieces that waited for a cut or for samples. Comes before anything else: a tick that is refused memory
-   here has not begun. */
+/* Takes out the pieces that waited for a cut or for samples. The first refusal is returned; those pieces wait. */
 static kiriResult PartAll(kiriWorld* world)
 {
     kiriResult result = KIRI_OK;
-    for (int32_t k = 0, count = world->active.count; result == KIRI_OK && k < count; ++k) {
+    for (int32_t k = 0, count = world->active.count; k < count; ++k) {
         kiriSheetData* sheet = kiriWorld_Active(world, k);
         if (kiriParts_AreDue(sheet)) {
             EnterStage(world, KIRI_STAGE_CONSTANTS);
         }
-        result = kiriParts_Leave(world, sheet);
+        kiriResult left = kiriParts_Leave(world, sheet);
+        result = result == KIRI_OK ? left : result;
     }
     ListActive(world); /* with the new sheets */
     return result;
@@ -102,7 +102,6 @@ static void StartAll(kiriWorld* world, bool finishes)
     world->atWork.count = 0;
     for (int32_t k = 0; k < world->active.count; ++k) {
         kiriSheetData* sheet = kiriWorld_Active(world, k);
-        sheet->update->isBegun = false;
         if (kiriParts_AreDue(sheet) && !(finishes && sheet->update->stage != KIRI_NONE)) {
             continue;
         }
@@ -121,26 +120,18 @@ static bool FindPairs(kiriWorld* world, double dt)
     return kiriPairs_Find(world, dt);
 }
 
-/* False for memory. */
-static bool UpdateAll(kiriWorld* world, kiriQuotas* quotas)
+/* KIRI_ERROR_MEMORY: the work of some sheets goes on in the next tick, as where the budget is spent. */
+static kiriResult UpdateAll(kiriWorld* world, kiriQuotas* quotas)
 {
     const kiriWatch watch = { EnterStage, world };
-    bool ok = true;
-    for (int32_t k = 0; ok && k < world->atWork.count; ++k) {
-        kiriSheetData* sheet = world->sheets.data[world->atWork.data[k]];
-        ok = !kiriPipeline_CanRun(sheet, quotas) || kiriPipeline_Run(sheet, quotas, &watch) != KIRI_FAILED;
-    }
-    return ok;
-}
-
-static void AbortAll(kiriWorld* world)
-{
+    kiriResult result = KIRI_OK;
     for (int32_t k = 0; k < world->atWork.count; ++k) {
-        kiriPipeline_Abort(world->sheets.data[world->atWork.data[k]]);
+        kiriSheetData* sheet = world->sheets.data[world->atWork.data[k]];
+        if (kiriPipeline_CanRun(sheet, quotas) && kiriPipeline_Run(sheet, quotas, &watch) == KIRI_FAILED) {
+            result = KIRI_ERROR_MEMORY;
+        }
     }
-    for (int32_t i = 0; i < world->sheets.count; ++i) {
-        kiriMotion_LetRest(world->sheets.data[i]);
-    }
+    return result;
 }
 
 /* ---- Contact ---- */
@@ -153,8 +144,7 @@ static void StirTouched(kiriSheetData* sheet)
     }
 }
 
-/* Before anything is committed, so that a tick that is refused leaves all as it was: touches are found where the sheets
-   are seen. A piece that sleeps asks nobody but the host. False for memory. */
+/* Before anything is committed: touches are found where the sheets are seen. A piece that sleeps asks nobody but the host. False for memory. */
 static bool FindTouches(kiriWorld* world, double dt)
 {
     bool ok = true;
@@ -181,14 +171,6 @@ static bool FindTouches(kiriWorld* world, double dt)
 
 /* ---- Commits ---- */
 
-/* Where new vertices were. False for memory. A tick that is refused leaves it so: none of them is there then. */
-static bool GrowPast(const kiriWorld* world, kiriSheetData* sheet)
-{
-    int32_t known = sheet->seen.surface.vertexCount;
-    return sheet->mesh.vertices.count <= known ||
-           kiriPast_Grow(&sheet->past, world->begun, &sheet->pastRoom, sheet->memory, &sheet->mesh, known);
-}
-
 /* Room for the ids and events of the tick. Of each sheet that wakes in it a pin may break, too. */
 static kiriResult ReserveRoom(kiriWorld* world)
 {
@@ -200,8 +182,7 @@ static kiriResult ReserveRoom(kiriWorld* world)
             frames += sheet->update->placing.sites.count - sheet->frames.count;
             events += sheet->update->next.pieces.count;
         }
-        if (!kiriBounds_Reserve(sheet->seen.bounds, sheet->memory, sheet->mesh.triangles.count) ||
-            !GrowPast(world, sheet)) {
+        if (!kiriBounds_Reserve(sheet->seen.bounds, sheet->memory, sheet->mesh.triangles.count)) {
             return KIRI_ERROR_MEMORY;
         }
     }
@@ -272,6 +253,21 @@ static void FinishUpdate(kiriWorld* world, kiriSheetData* sheet)
     kiriPipeline_Finish(sheet);
 }
 
+/* What this tick has done to meshes becomes final. */
+static void CommitMeshes(kiriWorld* world)
+{
+    for (int32_t k = 0; k < world->atWork.count; ++k) {
+        kiriSheetData* sheet = world->sheets.data[world->atWork.data[k]];
+        int32_t known = sheet->seen.surface.vertexCount;
+        if (sheet->mesh.vertices.count > known) {
+            kiriPast_Grow(&sheet->past, world->begun, &sheet->pastRoom, &sheet->mesh, known);
+        }
+        if (sheet->mesh.isOpen) {
+            kiriStage_CommitMesh(sheet);
+        }
+    }
+}
+
 static void TakeJumps(int32_t start, int32_t end, void* context)
 {
     const kiriWorld* world = context;
@@ -283,11 +279,9 @@ static void TakeJumps(int32_t start, int32_t end, void* context)
 static void CommitAll(kiriWorld* world)
 {
     EnterStage(world, KIRI_STAGE_CONSTANTS); /* its items have paid for it */
+    CommitMeshes(world);
     for (int32_t k = 0; k < world->active.count; ++k) {
         kiriSheetData* sheet = kiriWorld_Active(world, k);
-        if (sheet->update->isBegun) {
-            kiriStage_CommitMesh(sheet);
-        }
         if (IsReady(sheet)) {
             FinishUpdate(world, sheet);
         }
@@ -446,59 +440,76 @@ static void ForgetEvents(kiriWorld* world)
     world->newEvents = 0;
 }
 
+/* Nothing moves in this tick. What it has done to cuts stays, and goes on in the next one. */
+static void EndUnmoved(kiriWorld* world)
+{
+    CommitMeshes(world);
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        kiriView_ShowNewborn(world->sheets.data[i]);
+        kiriPipeline_Wait(world->sheets.data[i]);
+        kiriMotion_LetRest(world->sheets.data[i]);
+    }
+    world->stage = KIRI_NONE;
+}
+
+/* What is complete takes effect, and everything moves. Cannot fail on out of memory. */
+static kiriResult MoveAll(kiriWorld* world, double dt, int32_t substeps, kiriQuotas* quotas, int64_t aside)
+{
+    kiriQuota* samples = &quotas->of[KIRI_QUOTA_SAMPLES];
+    kiriPairs_Commit(world);
+    CommitAll(world);
+    kiriObstacles_Begin(world);
+    WakeStirred(world);
+    int32_t withRoom = world->active.count;
+    ListActive(world);                            /* some sheets have become idle */
+    KIRI_ASSERT(world->active.count <= withRoom); /* sheets that woke were stirred before room was made */
+    (void)withRoom;
+    kiriResult result = SolveAll(world, dt, substeps, &quotas->of[KIRI_QUOTA_ITERATIONS]);
+    kiriObstacles_End(world, dt);
+    for (int32_t k = 0; k < world->active.count; ++k) {
+        BreakPins(world, kiriWorld_Active(world, k));
+    }
+    SkinAll(world, dt);
+    samples->left += aside;
+    bool isParted = PayForParting(world, samples);
+    CountSpent(&world->profile, quotas);
+    world->profile.sheetPairs = kiriPairs_CountAwake(world);
+    EnterStage(world, KIRI_NONE);
+    kiriWorld_AdvanceBlades(world, dt);
+    world->ticks += 1;
+    return result == KIRI_OK && !isParted ? KIRI_PENDING : result;
+}
+
 /* Algorithm 1 of the paper: the work on cuts (see kiri_update.c for its stages), its commit, the motion of frames,
-   and what is seen. */
+   and what is seen. Refused memory is a spent budget: a cut, or a piece that leaves, goes on in the next tick. Only
+   where there is no room for the motion itself does nothing move. */
 kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
 {
     kiriQuotas quotas = kiriQuotas_Of(&world->budget);
-    kiriQuota* samples = &quotas.of[KIRI_QUOTA_SAMPLES];
     kiriProfile last = world->profile;
     int64_t samplesDue = world->samplesDue; /* calls since the last tick were on account */
-    (void)kiriQuota_Pay(samples, &samplesDue);
+    (void)kiriQuota_Pay(&quotas.of[KIRI_QUOTA_SAMPLES], &samplesDue);
     kiriQuotas_Share(&quotas, KIRI_QUOTA_SAMPLES);
     kiriMemory_FreeAll(&world->retired);
     memset(&world->profile, 0, sizeof(world->profile));
     world->atWork.count = 0;
     ListActive(world);
-    kiriResult result = PartAll(world);
-    kiriQuota aside = { 0, 0, 0, false };
-    if (result == KIRI_OK) {
-        StartAll(world, false);
-        aside = SetAside(world, &quotas);
-        bool hasRoom = FindPairs(world, dt) && UpdateAll(world, &quotas) && FindTouches(world, dt) &&
-                       kiriMoves_Prepare(world) && kiriSkinStep_Prepare(world);
-        result = hasRoom ? ReserveRoom(world) : KIRI_ERROR_MEMORY;
-    }
-    if (result == KIRI_OK) {
-        ForgetEvents(world);
-        world->samplesDue = samplesDue;
-        kiriPairs_Commit(world);
-        CommitAll(world);
-        kiriObstacles_Begin(world);
-        WakeStirred(world);
-        int32_t withRoom = world->active.count;
-        ListActive(world);                            /* some sheets have become idle */
-        KIRI_ASSERT(world->active.count <= withRoom); /* sheets that woke were stirred before room was made */
-        result = SolveAll(world, dt, substeps, &quotas.of[KIRI_QUOTA_ITERATIONS]);
-        kiriObstacles_End(world, dt);
-        for (int32_t k = 0; k < world->active.count; ++k) {
-            BreakPins(world, kiriWorld_Active(world, k));
-        }
-        SkinAll(world, dt);
-        samples->left += aside.left;
-        bool isParted = PayForParting(world, samples);
-        result = result == KIRI_OK && !isParted ? KIRI_PENDING : result;
-        CountSpent(&world->profile, &quotas);
-        world->profile.sheetPairs = kiriPairs_CountAwake(world);
-        EnterStage(world, KIRI_NONE);
-        kiriWorld_AdvanceBlades(world, dt);
-        world->ticks += 1;
-    } else {
-        AbortAll(world);
+    kiriResult parted = PartAll(world);
+    StartAll(world, false);
+    kiriQuota aside = SetAside(world, &quotas);
+    bool hasRoom = FindPairs(world, dt);
+    kiriResult updated = hasRoom ? UpdateAll(world, &quotas) : KIRI_ERROR_MEMORY;
+    hasRoom = hasRoom && FindTouches(world, dt) && kiriMoves_Prepare(world) && kiriSkinStep_Prepare(world);
+    kiriResult result = hasRoom ? ReserveRoom(world) : KIRI_ERROR_MEMORY;
+    if (result != KIRI_OK) {
+        EndUnmoved(world);
         world->profile = last;
-        world->stage = KIRI_NONE;
+        return result;
     }
-    return result;
+    ForgetEvents(world);
+    world->samplesDue = samplesDue;
+    result = MoveAll(world, dt, substeps, &quotas, aside.left);
+    return updated != KIRI_OK ? updated : parted != KIRI_OK ? parted : result;
 }
 
 /* A tick without motion. The next tick reports its events, too. */
@@ -509,25 +520,25 @@ kiriResult kiriWorld_FinishUpdates(kiriWorld* world)
     int32_t events = world->events.count;
     ListActive(world);
     StartAll(world, true);
-    kiriResult result = UpdateAll(world, &unlimited) && kiriMoves_Prepare(world) && kiriSkinStep_Prepare(world)
-                            ? ReserveRoom(world)
-                            : KIRI_ERROR_MEMORY;
-    if (result == KIRI_OK) {
-        for (int32_t k = 0; k < world->active.count; ++k) {
-            StirTouched(kiriWorld_Active(world, k));
-        }
-        CommitAll(world);
-        WakeStirred(world);
-        for (int32_t k = 0; k < world->active.count; ++k) {
-            world->moves.of.data[world->active.data[k]].progress = KIRI_DONE;
-        }
-        SkinAll(world, 0.0);
-        EnterStage(world, KIRI_NONE);
-        world->newEvents += world->events.count - events;
-    } else {
-        AbortAll(world);
-        world->stage = KIRI_NONE;
+    kiriResult updated = UpdateAll(world, &unlimited);
+    bool hasRoom = kiriMoves_Prepare(world) && kiriSkinStep_Prepare(world);
+    kiriResult result = hasRoom ? ReserveRoom(world) : KIRI_ERROR_MEMORY;
+    if (result != KIRI_OK) {
+        EndUnmoved(world);
+        world->profile = profile;
+        return result;
     }
+    for (int32_t k = 0; k < world->active.count; ++k) {
+        StirTouched(kiriWorld_Active(world, k));
+    }
+    CommitAll(world);
+    WakeStirred(world);
+    for (int32_t k = 0; k < world->active.count; ++k) {
+        world->moves.of.data[world->active.data[k]].progress = KIRI_DONE;
+    }
+    SkinAll(world, 0.0);
+    EnterStage(world, KIRI_NONE);
+    world->newEvents += world->events.count - events;
     world->profile = profile;
-    return result;
+    return updated;
 }

@@ -117,7 +117,7 @@ void kiriWorld_EnlistCut(kiriWorld* world, kiriSheetData* sheet, kiriCutData* cu
 {
     KIRI_ASSERT(sheet->cuts.count < sheet->cuts.capacity);
     cut->sheet = sheet;
-    cut->tip.blade.vertex = cut->committed.blade.vertex = KIRI_NONE;
+    cut->tip.blade.vertex = KIRI_NONE;
     cut->id = kiriPool_Add(&world->cutIds, &world->memory, cut, 0);
     cut->index = sheet->cuts.count;
     sheet->cuts.data[sheet->cuts.count++] = cut;
