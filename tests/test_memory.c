@@ -252,6 +252,35 @@ static void TestRefusedInTheTickOfACut(void** state)
     assert_true(refused > 20);
 }
 
+/* A cut that a budget spreads over ticks, while each 10th request for memory is refused: it is done within three times
+   the ticks, no tick stands still, and nothing is lost. */
+static void TestScarceMemoryIsASpentBudget(void** state)
+{
+    (void)state;
+    enum { EVERY = 10 };
+    const kiriBudget budget = { 64, 700, 700, 0 };
+    int32_t ticks[2] = { 0, 0 };
+    for (int isScarce = 0; isScarce < 2; ++isScarce) {
+        Host host;
+        Host_Start(&host);
+        kiriSheet sheet = AddForCut(&host, 16);
+        OK(kiriWorld_SetBudget(host.world, &budget));
+        host.failEvery = isScarce ? EVERY : 0;
+        for (kiriResult result = KIRI_PENDING; result != KIRI_OK; ++ticks[isScarce]) {
+            assert_in_range(ticks[isScarce], 0, 2000);
+            result = kiriWorld_Tick(host.world, 1.0f / 60.0f, 1);
+            assert_true(result >= 0 || result == KIRI_ERROR_MEMORY);
+            Host_Validate(&host);
+        }
+        host.failEvery = 0;
+        CheckIndices(&host, sheet, Host_Counts(&host, sheet));
+        assert_true(LayoutOf(&host) == LayoutWithoutFailure(16));
+        Host_Stop(&host);
+    }
+    print_message("%d ticks with all the memory, %d where each %dth request is refused\n", ticks[0], ticks[1], EVERY);
+    assert_in_range(ticks[1], ticks[0], 3 * ticks[0]);
+}
+
 /* What is stored twice, or for none, shows in sum. Of a sheet whose grid is as fine as its mesh, for then cells take
    the most; and of one with fewer. */
 static void TestBytesOfVertices(void** state)
@@ -280,6 +309,7 @@ int main(void)
         cmocka_unit_test(TestBytesOfVertices),        cmocka_unit_test(TestPlainTicks),
         cmocka_unit_test(TestCuttingTicks),           cmocka_unit_test(TestRefusedInALaterTick),
         cmocka_unit_test(TestRefusedInTheTickOfACut),
+        cmocka_unit_test(TestScarceMemoryIsASpentBudget),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

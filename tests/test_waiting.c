@@ -185,7 +185,7 @@ static void Describe(const Host* host, Told* told)
     }
 }
 
-/* A tick whose requests for memory are refused from one on, or that one alone. Where any was, it says so. */
+/* A tick whose requests for memory are refused from one on, or that one alone. A spare block may take its place. */
 static kiriResult TickRefused(Host* host, int64_t from, bool once)
 {
     int64_t ticks = host->world->ticks, before = host->refused;
@@ -194,8 +194,8 @@ static kiriResult TickRefused(Host* host, int64_t from, bool once)
     host->failOnce = once;
     kiriResult result = Host_Tick(host, 1.0f / 60.0f, 1);
     host->failAt = -1;
-    if (host->refused > before) {
-        assert_int_equal(result, KIRI_ERROR_MEMORY);
+    if (result == KIRI_ERROR_MEMORY) {
+        assert_true(host->refused > before);
         assert_int_equal(host->lines, lines + 1);
         assert_true(strlen(kiriWorld_GetLastError(host->world)) > 0);
         assert_in_range(host->world->ticks, ticks, ticks + 1);
@@ -244,7 +244,7 @@ static void TestRefusedTicks(void** state)
         Told told = RunRefused(run, true, &refused);
         assert_true(told.area > 0.0);
     }
-    assert_true(refused > 30);
+    assert_true(refused > 10);
 }
 
 /* One piece waits, and from some tick on nothing is given, for 60 ticks: each that asked in vain says so. Then it

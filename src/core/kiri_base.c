@@ -39,7 +39,7 @@ static void* RefuseAlloc(void* user, int64_t bytes)
 
 kiriMemory kiriMemory_Make(kiriAllocFn* alloc, kiriFreeFn* free, void* user)
 {
-    kiriMemory memory = { DefaultAlloc, DefaultFree, NULL, NULL };
+    kiriMemory memory = { DefaultAlloc, DefaultFree, NULL, NULL, NULL, 0, 0, false, false };
     if (alloc != NULL) {
         memory.alloc = alloc;
         memory.free = free;
@@ -82,15 +82,54 @@ static void UnlinkBlock(kiriBlock* block)
     }
 }
 
-void* kiriMemory_Alloc(kiriMemory* memory, int64_t bytes)
+static void* AllocOfHost(kiriMemory* memory, int64_t bytes)
 {
-    KIRI_ASSERT(bytes >= 0);
     kiriBlock* block = memory->alloc(memory->user, bytes + HEADER_BYTES);
     if (block == NULL) {
         return NULL;
     }
     LinkBlock(memory, block);
     return (char*)block + HEADER_BYTES;
+}
+
+void* kiriMemory_Alloc(kiriMemory* memory, int64_t bytes)
+{
+    KIRI_ASSERT(bytes >= 0);
+    void* pointer = AllocOfHost(memory, bytes);
+    memory->largest = kiriMax(memory->largest, bytes);
+    if (pointer == NULL) {
+        memory->wasRefused = true;
+        if (memory->isSparing && memory->spare != NULL && bytes <= memory->spareBytes) {
+            pointer = memory->spare;
+            memory->spare = NULL;
+        }
+    }
+    return pointer;
+}
+
+void kiriMemory_BeginSparing(kiriMemory* memory)
+{
+    KIRI_ASSERT(!memory->isSparing);
+    if (memory->spare != NULL && memory->spareBytes < memory->largest) {
+        kiriMemory_DropSpare(memory);
+    }
+    if (memory->spare == NULL) {
+        memory->spareBytes = 2 * memory->largest;
+        memory->spare = AllocOfHost(memory, memory->spareBytes);
+    }
+    memory->isSparing = true;
+    memory->wasRefused = false;
+}
+
+void kiriMemory_EndSparing(kiriMemory* memory)
+{
+    memory->isSparing = false;
+}
+
+void kiriMemory_DropSpare(kiriMemory* memory)
+{
+    kiriMemory_Free(memory, memory->spare);
+    memory->spare = NULL;
 }
 
 void* kiriMemory_AllocZeroed(kiriMemory* memory, int64_t bytes)
@@ -114,6 +153,7 @@ void kiriMemory_FreeAll(kiriMemory* memory)
         memory->blocks = block->next;
         memory->free(memory->user, block);
     }
+    memory->spare = NULL;
 }
 
 void kiriMemory_Adopt(kiriMemory* memory, void* pointer)
@@ -131,6 +171,7 @@ void kiriMemory_AdoptAll(kiriMemory* memory, kiriMemory* from)
         UnlinkBlock(block);
         LinkBlock(memory, block);
     }
+    from->spare = NULL;
 }
 
 #define RANGES_A_WORKER 8 /* so that they end at about the same time, though some items take longer than others */

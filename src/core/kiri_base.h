@@ -84,6 +84,14 @@ typedef struct kiriMemory {
     kiriFreeFn* free;
     void* user;
     kiriBlock* blocks;
+
+    /* For work that cannot stop amid an item: a block set aside, which the next refused request gets. So the item is
+       finished, and the work pauses after it. */
+    void* spare;
+    int64_t spareBytes;
+    int64_t largest; /* bytes of the largest block so far */
+    bool isSparing;  /* such work runs; */
+    bool wasRefused; /* and since it was started a request was refused */
 } kiriMemory;
 
 /* malloc and free where the hooks are null. */
@@ -100,6 +108,18 @@ void* kiriMemory_Alloc(kiriMemory* memory, int64_t bytes);
 
 /* The same, zeroed. */
 void* kiriMemory_AllocZeroed(kiriMemory* memory, int64_t bytes);
+
+/* Around work that pauses after a refusal. Begin sets a block aside, as large as the largest array may grow to, if the
+   host grants it. It stays for later work until it is dropped. */
+void kiriMemory_BeginSparing(kiriMemory* memory);
+void kiriMemory_EndSparing(kiriMemory* memory);
+void kiriMemory_DropSpare(kiriMemory* memory);
+
+/* Must the work pause before its next item? */
+static inline bool kiriMemory_MustPause(const kiriMemory* memory)
+{
+    return memory->isSparing && memory->wasRefused;
+}
 
 /* Null is allowed. The block may be of any owner with these hooks. */
 void kiriMemory_Free(kiriMemory* memory, void* pointer);

@@ -1237,7 +1237,7 @@ kiriProgress kiriGrid_Update(kiriGrid* grid, const kiriMeshData* mesh, kiriQuota
                                               work->hasRemoved };
         KIRI_ASSERT(work->item <= counts[work->stage]);
         for (; work->item < counts[work->stage]; ++work->item) {
-            if (!PayForGrid(work, quota)) {
+            if (kiriMemory_MustPause(mesh->memory) || !PayForGrid(work, quota)) {
                 return KIRI_MORE;
             }
             gridStages[work->stage](grid, mesh, work->item);

@@ -1520,7 +1520,7 @@ static kiriProgress RunLinks(const LinkUpdate* u, kiriQuota* quota)
 {
     kiriLinkWork* work = u->work;
     bool ok = true;
-    while (ok && kiriQuota_Pay(quota, &work->due)) {
+    while (ok && !kiriMemory_MustPause(u->memory) && kiriQuota_Pay(quota, &work->due)) {
         int32_t at = work->at++, face = at - u->siteCount - 1, seen = work->edges.edges.count;
         if (at < u->siteCount) {
             ok = !u->regions->dirty.data[at] || ListFaces(u, at);

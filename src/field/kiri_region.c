@@ -386,7 +386,7 @@ static kiriProgress DivideCells(const RegionUpdate* u, kiriQuota* quota)
         r->followed = 0;
     }
     while (progress == KIRI_DONE && r->followed < r->field.log.count) {
-        if (!kiriQuota_Take(quota, ITEMS_OF_CHANGE)) {
+        if (kiriMemory_MustPause(u->memory) || !kiriQuota_Take(quota, ITEMS_OF_CHANGE)) {
             return KIRI_MORE;
         }
         progress = FollowChange(u, r->field.log.data[r->followed++]) ? KIRI_DONE : KIRI_FAILED;

@@ -819,7 +819,8 @@ kiriProgress kiriShape_Update(kiriShape* shape, kiriMemory* memory, const kiriGr
                                                work->dirty.count };
         KIRI_ASSERT(work->item <= counts[work->stage]);
         for (; work->item < counts[work->stage]; ++work->item) {
-            bool isDone = kiriQuota_Pay(quota, &work->debt) && shapeStages[work->stage](&job, work->item);
+            bool isDone = !kiriMemory_MustPause(memory) && kiriQuota_Pay(quota, &work->debt) &&
+                          shapeStages[work->stage](&job, work->item);
             if (job.outOfMemory || !isDone) {
                 return job.outOfMemory ? KIRI_FAILED : KIRI_MORE;
             }

@@ -170,16 +170,17 @@ kiriProgress kiriRefit_Stage(kiriRefit* refit, kiriMemory* memory, const kiriGri
         return KIRI_FAILED;
     }
     KIRI_ASSERT(ownership->first.count == frameCount);
-    while (kiriQuota_Pay(quota, &ownership->due) && ownership->next < ownership->dirty.count) {
+    while (!kiriMemory_MustPause(memory) && kiriQuota_Pay(quota, &ownership->due) && ownership->next < ownership->dirty.count) {
         int32_t square = ownership->dirty.data[ownership->next++], cell = grid->squareCell.data[square];
         bool isDivided = cell != KIRI_NONE && grid->cells.data[cell].next != KIRI_NONE;
         if (!StageSquare(ownership, memory, grid, mesh, regions->field.owner.data, square)) {
+            ownership->next = 0;
             return KIRI_FAILED;
         }
         ownership->due = isDivided ? 1 + kiriSquares_CountNodes(&mesh->squares, square) / NODES_AN_ITEM
                                    : ownership->next % WHOLE_AN_ITEM == 0;
     }
-    if (ownership->due > 0) {
+    if (ownership->due > 0 || ownership->next < ownership->dirty.count) {
         return KIRI_MORE;
     }
     refit->most = 0;

@@ -385,9 +385,13 @@ kiriProgress kiriStage_RunSteps(kiriSheetData* sheet, kiriQuota* quota, kiriStag
     return progress;
 }
 
+/* A step of the next stage. */
+enum { WEIGH_VERTICES = 2 };
+
 kiriProgress kiriStage_Samples(kiriSheetData* sheet, kiriQuota* samples)
 {
     static kiriStageStep* const steps[] = { JoinPieces, FindSamples, WeighVertices, WeighPoints, PlaceCollisionPoints };
+    KIRI_ASSERT(steps[WEIGH_VERTICES] == WeighVertices);
     return kiriStage_RunSteps(sheet, samples, steps, (int32_t)(sizeof(steps) / sizeof(steps[0])));
 }
 
@@ -447,6 +451,7 @@ static kiriProgress RunUpTo(kiriSheetData* sheet, int32_t end, kiriQuotas* quota
         int64_t done = quota->used + quota->beyond;
         if (watch != NULL) {
             watch->enter(watch->context, u->stage);
+            kiriMemory_BeginSparing(sheet->memory);
         }
         progress = quota->left > 0 ? pipeline[u->stage].run(sheet, quota) : KIRI_MORE;
         u->spent += quota->used + quota->beyond - done;
@@ -457,7 +462,9 @@ static kiriProgress RunUpTo(kiriSheetData* sheet, int32_t end, kiriQuotas* quota
             bool isOver = u->stage == KIRI_STAGE_CUT && !u->cut.meshChanged;
             u->stage = isOver ? KIRI_READY : u->stage + 1;
             u->step = 0;
+            progress = kiriMemory_MustPause(sheet->memory) ? KIRI_MORE : KIRI_DONE;
         }
+        kiriMemory_EndSparing(sheet->memory);
     }
     return progress;
 }
@@ -512,18 +519,37 @@ bool kiriPipeline_CanRun(const kiriSheetData* sheet, const kiriQuotas* quotas)
     return stage == KIRI_READY || quotas->of[pipeline[stage].quota].left > 0;
 }
 
-kiriProgress kiriPipeline_Run(kiriSheetData* sheet, kiriQuotas* quotas, const kiriWatch* watch)
+/* After an item that could not be finished, and has left something half done: goes back to where the work can begin
+   again. That is seldom so, for the item has got the spare block. */
+static void StartAgain(kiriSheetData* sheet)
 {
     kiriUpdate* u = sheet->update;
-    KIRI_ASSERT(u->stage != KIRI_NONE);
-    kiriProgress progress = RunUpTo(sheet, KIRI_READY, quotas, watch);
-    if (progress == KIRI_FAILED && u->stage > KIRI_STAGE_CUT) {
+    if (u->stage == KIRI_STAGE_SHAPE && u->step == MAKE_LINKS) {
+        kiriLinks_Drop(&sheet->links);
+    } else if (u->stage == KIRI_STAGE_SAMPLES && u->step >= WEIGH_VERTICES) {
+        kiriSkin_Drop(&sheet->vertexSkin);
+        kiriSkin_Drop(&sheet->pointSkin);
+        kiriRefresh_Restart(&u->samples.refresh);
+        u->samples.newPoints.count = u->samples.movedPoints.count = 0;
+        u->placing.isTaking = u->placing.isPlacing = false;
+        u->step = WEIGH_VERTICES;
+    } else if (u->stage >= KIRI_STAGE_GRID && u->stage <= KIRI_STAGE_SHAPE) {
         kiriStage_Drop(sheet);
         u->needsRebuild = true;
         u->stage = KIRI_STAGE_GRID;
         u->step = 0;
     }
-    return progress;
+}
+
+kiriProgress kiriPipeline_Run(kiriSheetData* sheet, kiriQuotas* quotas, const kiriWatch* watch)
+{
+    KIRI_ASSERT(sheet->update->stage != KIRI_NONE);
+    sheet->memory->wasRefused = false;
+    kiriProgress progress = RunUpTo(sheet, KIRI_READY, quotas, watch);
+    if (progress == KIRI_FAILED) {
+        StartAgain(sheet);
+    }
+    return sheet->memory->wasRefused ? KIRI_FAILED : progress;
 }
 
 void kiriPipeline_Finish(kiriSheetData* sheet)

@@ -375,7 +375,7 @@ kiriProgress kiriRefresh_Stage(kiriRefresh* refresh, const kiriSampleSource* sou
         for (; sample != KIRI_NONE;
              sample = places == NULL ? mesh->vertices.data[sample].next : places->next.data[sample]) {
             refresh->sample = sample;
-            if (!kiriQuota_Take(quota, 1)) {
+            if (kiriMemory_MustPause(source->memory) || !kiriQuota_Take(quota, 1)) {
                 return KIRI_MORE;
             }
             if (!RefreshOne(refresh, source, square, sample)) {

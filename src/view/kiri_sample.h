@@ -102,6 +102,13 @@ kiriProgress kiriRefresh_Stage(kiriRefresh* refresh, const kiriSampleSource* sou
 /* Drops the noted squares, and a Start that waits for quota. */
 void kiriRefresh_Drop(kiriRefresh* refresh);
 
+/* Samples that were found are staged again, from the first on; the caller drops what is staged. */
+static inline void kiriRefresh_Restart(kiriRefresh* refresh)
+{
+    refresh->square = 0;
+    refresh->sample = refresh->stencil.cell = KIRI_NONE;
+}
+
 /* Vertices born since kiriMesh_Begin take a blend of their parents' weights, so that they lie on the surface as it was.
    Reserve makes room for so many of them; No sample has more weights than there are frames. */
 bool kiriSkin_ReserveBirths(kiriSkin* skin, kiriMemory* memory, int32_t births, int32_t frames);

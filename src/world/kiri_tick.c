@@ -240,6 +240,9 @@ static void FinishCuts(kiriWorld* world, kiriSheetData* sheet)
         }
     }
     sheet->cuts.count = kept;
+    if (kept == 0 && sheet->update->stage == KIRI_NONE) {
+        kiriMemory_DropSpare(sheet->memory);
+    }
 }
 
 static void FinishUpdate(kiriWorld* world, kiriSheetData* sheet)
