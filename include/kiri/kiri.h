@@ -159,11 +159,11 @@ KIRI_API void kiriDestroyWorld(kiriWorld* world);
 
 /* Advances by one fixed step of dt seconds (1e-6 to 10), in `substeps` equal parts (1 to 64): takes the pending cut
    points, then moves every sheet. KIRI_PENDING: the budget is spent, and events name the cuts that still have work; a
-   sheet or some of its pieces may have stood still for want of iterations. KIRI_ERROR_MEMORY: nothing moved; cuts and
-   pieces are still pending, call again. Until the refused work is done again, kiriSheet_GetWeights gives
-   KIRI_ERROR_STATE, and with a budget a cut may take effect some ticks later. KIRI_ERROR_LIMIT: the same, until frames
-   are destroyed. KIRI_DIVERGED: sheets that events name were stopped, others moved; KIRI_EVENT_DEFERRED tells of
-   pending work. */
+   sheet or some of its pieces may have stood still for want of iterations. KIRI_ERROR_MEMORY: the work on a cut, or a
+   piece that leaves, was refused memory and goes on in the next tick, as if the budget were spent; the sheets moved.
+   Only without memory for contacts or ids did nothing move: the line says which. KIRI_ERROR_LIMIT: no ids are left for
+   new frames; nothing moves until frames are destroyed. KIRI_DIVERGED: sheets that events name were stopped, others
+   moved; KIRI_EVENT_DEFERRED tells of pending work. */
 KIRI_API kiriResult kiriWorld_Tick(kiriWorld* world, float dt, int32_t substeps);
 
 /* Returns one line: the reason why the last function that changes the world failed; "" if it did not. A function that
@@ -219,8 +219,8 @@ typedef struct kiriReplay {
    result, other ids or another state than recorded; the line names it, and the next call goes on behind it.
    KIRI_ERROR_DATA: the bytes are not a recording, damaged, cut short, or of another version; the line says where. The
    calls before that place were made, and the last call of a recording that ends inside one, as after a crash.
-   KIRI_ERROR_STATE: the world is not new. KIRI_ERROR_MEMORY: call again. Calls that were refused memory when recorded
-   are skipped. After such a tick the next hashes may differ where a budget limits cells or samples. */
+   KIRI_ERROR_STATE: the world is not new. KIRI_ERROR_MEMORY: replay again in a new world. Calls that were refused memory
+   when recorded are skipped, and hashes after such a tick may differ. */
 KIRI_API kiriResult kiriWorld_Replay(kiriWorld* world, const void* recording, int64_t size, kiriReplay* replay);
 
 /* ---- Save and load ---------------------------------------------------------------------------------------------- */
@@ -888,7 +888,7 @@ KIRI_API kiriResult kiriFrame_GetReaction(const kiriWorld* world, kiriFrame fram
 
 /* Forces, torques, line loads and pressures act throughout the next tick, in all its substeps, and then end. They add
    up. They act on the frames that hold the material at the time of the call, at its current place: a load does not
-   follow the sheet within the tick. A refused tick (KIRI_ERROR_MEMORY, KIRI_ERROR_LIMIT) keeps them. */
+   follow the sheet within the tick. A tick in which nothing moves keeps them. */
 
 /* Applies a force (N, world) at the frame's centre of mass and a torque (N m). */
 KIRI_API kiriResult kiriFrame_ApplyForce(kiriWorld* world, kiriFrame frame, const float force[3],

@@ -211,11 +211,14 @@ kiriResult kiriWorld_Tick(kiriWorld* world, float dt, int32_t substeps)
     world->begun += 1; /* counts refused ticks: the host copies meshes before each call */
     KIRI_CHECK(dt >= 1e-6f && dt <= 10.0f, "dt is not within 1e-6 and 10 s");
     KIRI_CHECK(substeps >= 1 && substeps <= 64, "substeps is not within 1 and 64");
+    int64_t ticks = world->ticks;
     kiriResult result = kiriWorld_Advance(world, dt, substeps);
-    return KIRI_FAIL(result, result == KIRI_ERROR_MEMORY  ? "out of memory; nothing moved, and cuts still wait"
-                             : result == KIRI_ERROR_LIMIT ? "there are no ids left for new frames; nothing moved, and "
-                                                            "cuts still wait"
-                                                          : NULL);
+    const char* why = result == KIRI_ERROR_MEMORY && world->ticks > ticks
+                          ? "out of memory; everything moved, and cuts or pieces go on in the next tick"
+                      : result == KIRI_ERROR_MEMORY ? "out of memory; nothing moved, and cuts still wait"
+                      : result == KIRI_ERROR_LIMIT  ? "there are no ids left for new frames; cuts still wait"
+                                                    : NULL;
+    return KIRI_FAIL(result, why);
 }
 
 const char* kiriWorld_GetLastError(const kiriWorld* world)

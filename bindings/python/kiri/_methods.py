@@ -79,10 +79,11 @@ class World:
         """Advances by one fixed step of dt seconds (1e-6 to 10), in `substeps` equal parts (1 to 64): takes the
         pending cut points, then moves every sheet. KIRI_PENDING: the budget is spent, and events name the cuts that
         still have work; a sheet or some of its pieces may have stood still for want of iterations.
-        KIRI_ERROR_MEMORY: nothing moved; cuts and pieces are still pending, call again. Until the refused work is
-        done again, kiriSheet_GetWeights gives KIRI_ERROR_STATE, and with a budget a cut may take effect some ticks
-        later. KIRI_ERROR_LIMIT: the same, until frames are destroyed. KIRI_DIVERGED: sheets that events name were
-        stopped, others moved; KIRI_EVENT_DEFERRED tells of pending work.
+        KIRI_ERROR_MEMORY: the work on a cut, or a piece that leaves, was refused memory and goes on in the next
+        tick, as if the budget were spent; the sheets moved. Only without memory for contacts or ids did nothing
+        move: the line says which. KIRI_ERROR_LIMIT: no ids are left for new frames; nothing moves until frames are
+        destroyed. KIRI_DIVERGED: sheets that events name were stopped, others moved; KIRI_EVENT_DEFERRED tells of
+        pending work.
         """
         return self.call('kiriWorld_Tick', dt, substeps)
 

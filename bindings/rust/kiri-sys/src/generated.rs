@@ -1030,11 +1030,12 @@ unsafe extern "C" {
     /// Advances by one fixed step of dt seconds (1e-6 to 10), in \`substeps\` equal parts (1 to
     /// 64): takes the pending cut points, then moves every sheet. KIRI_PENDING: the budget is
     /// spent, and events name the cuts that still have work; a sheet or some of its pieces may have
-    /// stood still for want of iterations. KIRI_ERROR_MEMORY: nothing moved; cuts and pieces are
-    /// still pending, call again. Until the refused work is done again, kiriSheet_GetWeights gives
-    /// KIRI_ERROR_STATE, and with a budget a cut may take effect some ticks later.
-    /// KIRI_ERROR_LIMIT: the same, until frames are destroyed. KIRI_DIVERGED: sheets that events
-    /// name were stopped, others moved; KIRI_EVENT_DEFERRED tells of pending work.
+    /// stood still for want of iterations. KIRI_ERROR_MEMORY: the work on a cut, or a piece that
+    /// leaves, was refused memory and goes on in the next tick, as if the budget were spent; the
+    /// sheets moved. Only without memory for contacts or ids did nothing move: the line says which.
+    /// KIRI_ERROR_LIMIT: no ids are left for new frames; nothing moves until frames are destroyed.
+    /// KIRI_DIVERGED: sheets that events name were stopped, others moved; KIRI_EVENT_DEFERRED tells
+    /// of pending work.
     pub fn kiriWorld_Tick(world: *mut kiriWorld, dt: f32, substeps: i32) -> kiriResult;
     /// Returns one line: the reason why the last function that changes the world failed; "" if it
     /// did not. A function that only reads does not change the line, and logs its own. Valid until
@@ -1070,8 +1071,8 @@ unsafe extern "C" {
     /// KIRI_ERROR_DATA: the bytes are not a recording, damaged, cut short, or of another version;
     /// the line says where. The calls before that place were made, and the last call of a recording
     /// that ends inside one, as after a crash. KIRI_ERROR_STATE: the world is not new.
-    /// KIRI_ERROR_MEMORY: call again. Calls that were refused memory when recorded are skipped.
-    /// After such a tick the next hashes may differ where a budget limits cells or samples.
+    /// KIRI_ERROR_MEMORY: replay again in a new world. Calls that were refused memory when recorded
+    /// are skipped, and hashes after such a tick may differ.
     pub fn kiriWorld_Replay(world: *mut kiriWorld, recording: *const c_void, size: i64, replay: *mut kiriReplay) -> kiriResult;
     /// Writes the world, which only is read. \*size: bytes of the save. \`bytes\` null: they are
     /// counted only, and capacity is not read; else it has room for \`capacity\`.

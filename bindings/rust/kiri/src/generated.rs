@@ -2057,12 +2057,12 @@ impl World {
     /// Advances by one fixed step of dt seconds (1e-6 to 10), in substeps equal parts (1 to 64):
     /// takes the pending cut points, then moves every sheet. [`ResultCode::Pending`]: the budget is
     /// spent, and events name the cuts that still have work; a sheet or some of its pieces may have
-    /// stood still for want of iterations. [`ResultCode::ErrorMemory`]: nothing moved; cuts and
-    /// pieces are still pending, call again. Until the refused work is done again,
-    /// [`Sheet::weights`] gives [`ResultCode::ErrorState`], and with a budget a cut may take effect
-    /// some ticks later. [`ResultCode::ErrorLimit`]: the same, until frames are destroyed.
-    /// [`ResultCode::Diverged`]: sheets that events name were stopped, others moved;
-    /// [`EventType::Deferred`] tells of pending work.
+    /// stood still for want of iterations. [`ResultCode::ErrorMemory`]: the work on a cut, or a
+    /// piece that leaves, was refused memory and goes on in the next tick, as if the budget were
+    /// spent; the sheets moved. Only without memory for contacts or ids did nothing move: the line
+    /// says which. [`ResultCode::ErrorLimit`]: no ids are left for new frames; nothing moves until
+    /// frames are destroyed. [`ResultCode::Diverged`]: sheets that events name were stopped, others
+    /// moved; [`EventType::Deferred`] tells of pending work.
     pub fn tick(&mut self, dt: f32, substeps: i32) -> Result<Status> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         let result = check(unsafe { sys::kiriWorld_Tick(self.raw_mut(), dt, substeps) }, self)?;
