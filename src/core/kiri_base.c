@@ -92,9 +92,20 @@ static void* AllocOfHost(kiriMemory* memory, int64_t bytes)
     return (char*)block + HEADER_BYTES;
 }
 
+static void RefillSpare(kiriMemory* memory)
+{
+    if (memory->spare == NULL) {
+        memory->spareBytes = 2 * memory->largest;
+        memory->spare = AllocOfHost(memory, memory->spareBytes);
+    }
+}
+
 void* kiriMemory_Alloc(kiriMemory* memory, int64_t bytes)
 {
     KIRI_ASSERT(bytes >= 0);
+    if (memory->isSparing) {
+        RefillSpare(memory); /* an item may be refused more than once */
+    }
     void* pointer = AllocOfHost(memory, bytes);
     memory->largest = kiriMax(memory->largest, bytes);
     if (pointer == NULL) {
@@ -113,10 +124,7 @@ void kiriMemory_BeginSparing(kiriMemory* memory)
     if (memory->spare != NULL && memory->spareBytes < memory->largest) {
         kiriMemory_DropSpare(memory);
     }
-    if (memory->spare == NULL) {
-        memory->spareBytes = 2 * memory->largest;
-        memory->spare = AllocOfHost(memory, memory->spareBytes);
-    }
+    RefillSpare(memory);
     memory->isSparing = true;
     memory->wasRefused = false;
 }
