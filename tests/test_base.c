@@ -54,89 +54,6 @@ static void ArraysFail(void** state)
     assert_int_equal(purse.out, 0);
 }
 
-/* What is there stays, and all of the room beyond it is written. */
-static void ArraysGrowReady(void** state)
-{
-    (void)state;
-    Purse purse = { -1, 0 };
-    kiriMemory memory = kiriMemory_Make(PurseAlloc, PurseFree, &purse);
-    kiriIndices array = { NULL, 0, 0 };
-    for (int32_t i = 0; i < 100; ++i) {
-        assert_true(array.count < array.capacity || kiriArray_GrowReady(&memory, &array, array.count + 1, sizeof(*array.data)));
-        array.data[array.count++] = i + 1;
-        for (int32_t k = 0; k < array.capacity; ++k) {
-            assert_int_equal(array.data[k], k < array.count ? k + 1 : 0);
-        }
-    }
-    purse.budget = 0;
-    kiriIndices was = array;
-    assert_false(kiriArray_GrowReady(&memory, &array, array.capacity + 1, sizeof(*array.data)));
-    assert_true(array.data == was.data && array.count == was.count && array.capacity == was.capacity);
-    kiriArray_Release(&memory, &array);
-    assert_int_equal(purse.out, 0);
-}
-
-/* No array before its items are there, or a whole quota; a refusal keeps what there is. */
-static void RoomsAreMadeReady(void** state)
-{
-    (void)state;
-    enum { BYTES = 40, LIMIT = 100 }; /* ten entries an item: the first takes 30 items, the last all */
-    Purse purse = { -1, 0 };
-    kiriMemory memory = kiriMemory_Make(PurseAlloc, PurseFree, &purse);
-    kiriIndices arrays[3] = { { NULL, 0, 0 }, { NULL, 0, 0 }, { NULL, 0, 0 } };
-    const kiriRoom rooms[3] = { KIRI_ROOM(&memory, &arrays[0], 300), KIRI_ROOM(&memory, &arrays[1], 900),
-                                KIRI_ROOM(&memory, &arrays[2], 5000) };
-    int32_t ticks = 0;
-    for (kiriProgress progress = KIRI_MORE; progress == KIRI_MORE; ++ticks) {
-        kiriQuota quota = { LIMIT, 0, 0, false };
-        progress = kiriRooms_MakeReady(rooms, 3, &quota, BYTES);
-        assert_true(progress != KIRI_FAILED && quota.used <= LIMIT);
-        for (int32_t i = 0; i < 3; ++i) {
-            assert_int_equal(arrays[i].capacity >= rooms[i].need, i <= ticks);
-        }
-    }
-    assert_int_equal(ticks, 3);
-    kiriQuota none = { 0, LIMIT, 0, false }, all = { LIMIT, 0, 0, false };
-    assert_int_equal(kiriRooms_MakeReady(rooms, 3, &none, BYTES), KIRI_DONE); /* nothing is missing */
-    const kiriRoom more = KIRI_ROOM(&memory, &arrays[1], arrays[1].capacity + 1);
-    kiriIndices was = arrays[1];
-    purse.budget = 0;
-    assert_int_equal(kiriRooms_MakeReady(&more, 1, &none, BYTES), KIRI_MORE);
-    assert_int_equal(kiriRooms_MakeReady(&more, 1, &all, BYTES), KIRI_FAILED);
-    assert_true(arrays[1].data == was.data && arrays[1].capacity == was.capacity);
-    for (int32_t i = 0; i < 3; ++i) {
-        kiriArray_Release(&memory, &arrays[i]);
-    }
-    assert_int_equal(purse.out, 0);
-}
-
-/* Zeros, so many bytes for an item, after what is there; without memory nothing. */
-static void ArraysAreFilledInSteps(void** state)
-{
-    (void)state;
-    enum { COUNT = 100, BYTES = 40 };
-    Purse purse = { -1, 0 };
-    kiriMemory memory = kiriMemory_Make(PurseAlloc, PurseFree, &purse);
-    kiriIndices array = { 0 };
-    const kiriRoom room = KIRI_ROOM(&memory, &array, COUNT);
-    kiriQuota three = { 3, 0, 0, false }, all = { INT64_MAX, 0, 0, false };
-    purse.budget = 0;
-    assert_int_equal(kiriArray_Fill(&room, &all, BYTES), KIRI_FAILED);
-    assert_true(array.count == 0 && all.used == 0);
-    purse.budget = -1;
-    assert_true(kiriArray_Push(&memory, &array, 5));
-    assert_int_equal(kiriArray_Fill(&room, &three, BYTES), KIRI_MORE);
-    assert_true(array.count == 31 && three.used == 3);
-    assert_int_equal(kiriArray_Fill(&room, &all, BYTES), KIRI_DONE);
-    assert_true(array.count == COUNT && all.used == 7 && array.data[0] == 5);
-    for (int32_t i = 1; i < COUNT; ++i) {
-        assert_int_equal(array.data[i], 0);
-    }
-    assert_int_equal(kiriArray_Fill(&room, &all, BYTES), KIRI_DONE);
-    assert_int_equal(all.used, 7);
-    kiriMemory_FreeAll(&memory);
-}
-
 static void MemoryByDefault(void** state)
 {
     (void)state;
@@ -726,9 +643,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ArraysGrow),
         cmocka_unit_test(ArraysFail),
-        cmocka_unit_test(ArraysGrowReady),
-        cmocka_unit_test(RoomsAreMadeReady),
-        cmocka_unit_test(ArraysAreFilledInSteps),
         cmocka_unit_test(MemoryByDefault),
         cmocka_unit_test(PoolsFindWhatIsThere),
         cmocka_unit_test(PoolsNeverRepeat),

@@ -62,55 +62,6 @@ void kiriArray_Shorten(kiriMemory* memory, void* array, size_t itemBytes)
     }
 }
 
-bool kiriArray_GrowReady(kiriMemory* memory, void* array, int64_t need, size_t itemBytes)
-{
-    if (!kiriArray_Grow(memory, array, need, itemBytes)) {
-        return false;
-    }
-    kiriArrayHeader header = kiriArray_GetHeader(array);
-    if (header.capacity > header.count) {
-        memset((char*)header.data + (size_t)header.count * itemBytes, 0,
-               (size_t)(header.capacity - header.count) * itemBytes);
-    }
-    return true;
-}
-
-kiriProgress kiriArray_Fill(const kiriRoom* room, kiriQuota* quota, int64_t bytesAnItem)
-{
-    if (!kiriArray_Grow(room->memory, room->array, room->need, room->itemBytes)) {
-        return KIRI_FAILED;
-    }
-    kiriArrayHeader header = kiriArray_GetHeader(room->array);
-    int64_t most = bytesAnItem / (int64_t)room->itemBytes;
-    while (header.count < room->need) {
-        int64_t items = kiriMin(room->need - header.count, most);
-        if (!kiriQuota_Take(quota, 1)) {
-            return KIRI_MORE;
-        }
-        memset((char*)header.data + (size_t)header.count * room->itemBytes, 0, (size_t)items * room->itemBytes);
-        header.count += (int32_t)items;
-        kiriArray_SetHeader(room->array, header);
-    }
-    return KIRI_DONE;
-}
-
-kiriProgress kiriRooms_MakeReady(const kiriRoom* rooms, int32_t count, kiriQuota* quota, int64_t bytesAnItem)
-{
-    for (int32_t i = 0; i < count; ++i) {
-        const kiriRoom* room = &rooms[i];
-        if (room->need <= kiriArray_GetHeader(room->array).capacity) {
-            continue;
-        }
-        if (!kiriQuota_TakeAtMostAll(quota, room->need * (int64_t)room->itemBytes / bytesAnItem)) {
-            return KIRI_MORE;
-        }
-        if (!kiriArray_GrowReady(room->memory, room->array, room->need, room->itemBytes)) {
-            return KIRI_FAILED;
-        }
-    }
-    return KIRI_DONE;
-}
-
 void kiriArray_Release(kiriMemory* memory, void* array)
 {
     kiriArrayHeader header = kiriArray_GetHeader(array);

@@ -14,8 +14,8 @@ KIRI_C_BEGIN
         int32_t capacity;                                                                                              \
     }
 
-/* What every KIRI_ARRAY looks like. Functions for any of them copy it out and back with memcpy, for the type of `data`
-   differs. */
+/* Common layout of every KIRI_ARRAY. Functions for any of them copy it out and back with memcpy, because the type of
+   `data` differs. */
 typedef struct kiriArrayHeader {
     void* data;
     int32_t count;
@@ -30,39 +30,14 @@ typedef KIRI_ARRAY(int32_t) kiriIndices;
 /* Makes room for `need` items in all. `array` points to a KIRI_ARRAY whose items have itemBytes. */
 bool kiriArray_Grow(kiriMemory* memory, void* array, int64_t need, size_t itemBytes);
 
-/* The same without room for more: for arrays that are made once, or as long as another. */
+/* Grows without room for more: for arrays that are made once, or as long as another. */
 bool kiriArray_GrowTo(kiriMemory* memory, void* array, int64_t need, size_t itemBytes);
 
-/* Gives back room beyond an eighth more than what is there. Without memory for a shorter block all of it stays. */
+/* Gives back room beyond the count and an eighth of it. Keeps all room if there is no memory for a shorter block. */
 void kiriArray_Shorten(kiriMemory* memory, void* array, size_t itemBytes);
-
-/* The same as Grow, and writes to all of the new room: so the system gives its pages now, and not when the room is
-   used. */
-bool kiriArray_GrowReady(kiriMemory* memory, void* array, int64_t need, size_t itemBytes);
 
 /* Frees the items and leaves the array empty. */
 void kiriArray_Release(kiriMemory* memory, void* array);
-
-/* Room that an array is going to need. */
-typedef struct kiriRoom {
-    kiriMemory* memory;
-    void* array;
-    size_t itemBytes;
-    int64_t need;
-} kiriRoom;
-
-#define KIRI_ROOM(memory, array, need)                                                                                 \
-    {                                                                                                                  \
-        (memory), (array), sizeof(*(array)->data), (need)                                                              \
-    }
-
-/* Makes room, and as many items as the room says, all zero, as far as the quota goes, of which each bytesAnItem take
-   one: so the system gives the pages little by little. */
-kiriProgress kiriArray_Fill(const kiriRoom* room, kiriQuota* quota, int64_t bytesAnItem);
-
-/* The room, of memory that the system has given already; what is new is zeroed. Array by array: each takes its items of
-   the quota before, or all of a whole one. Nothing is lost where somebody makes room in between. */
-kiriProgress kiriRooms_MakeReady(const kiriRoom* rooms, int32_t count, kiriQuota* quota, int64_t bytesAnItem);
 
 #define kiriArray_Reserve(memory, array, need)                                                                         \
     ((int64_t)(need) <= (array)->capacity || kiriArray_Grow((memory), (array), (need), sizeof(*(array)->data)))
@@ -84,14 +59,14 @@ kiriProgress kiriRooms_MakeReady(const kiriRoom* rooms, int32_t count, kiriQuota
 
 /* Sorting of indices. */
 
-/* Does item a come before item b? A strict order: of two different items one comes before the other, so that the result
-   does not depend on the order before. */
+/* Returns true if item a comes before item b. A strict order: of two different items one comes first, so the result does
+   not depend on the order before. */
 typedef bool kiriBeforeFn(const void* context, int32_t a, int32_t b);
 
-/* In place, without memory. `before` null: by the items themselves. */
+/* Sorts in place, without memory. `before` null: by the items themselves. */
 void kiriSort(int32_t* items, int32_t count, kiriBeforeFn* before, const void* context);
 
-/* Items of 0 and above, the lowest first, in a time that grows as their number. `room` has room for as many. */
+/* Sorts items of 0 and above, ascending, in linear time. `room` has room for as many. */
 void kiriSort_Numbers(int32_t* items, int32_t* room, int32_t count);
 
 /* Rows of items that grow and shrink, all in one array: the weights of each sample, say. A span has room for the least
@@ -103,7 +78,7 @@ typedef struct kiriSpan {
 
 enum { KIRI_SPAN_SIZES = 31 };
 
-/* Where the free room is: heads of lists that run through the free items themselves. */
+/* Free room: heads of lists that run through the free items themselves. */
 typedef struct kiriSpans {
     int32_t freeHead[KIRI_SPAN_SIZES]; /* plus 1, so that zeroed spans are empty */
 } kiriSpans;
@@ -115,7 +90,7 @@ typedef struct kiriSpans {
 bool kiriSpan_Resize(kiriSpan* span, kiriSpans* spans, kiriMemory* memory, void* array, size_t itemBytes,
                      int32_t count);
 
-/* Union-find over indices: which items hang together. The caller has the array `parent`, with an entry for each item;
+/* Union-find over indices. The caller has the array `parent`, with an entry for each item;
    the root of a set is its lowest item, whatever the order of joining. */
 
 /* Each item a set of its own. */

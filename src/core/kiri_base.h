@@ -133,14 +133,14 @@ void kiriMemory_AdoptAll(kiriMemory* memory, kiriMemory* from);
 
 /* ---- Budget ---- */
 
-/* How far a piece of work has come that a budget may interrupt. */
+/* Progress of work that a budget may interrupt. */
 typedef enum kiriProgress {
     KIRI_DONE,
-    KIRI_MORE,   /* the quota is spent: call again with a new one */
-    KIRI_FAILED, /* no memory */
+    KIRI_MORE,   /* the quota is spent, or memory was refused: call again */
+    KIRI_FAILED, /* out of memory; work that cannot go on says where it begins again */
 } kiriProgress;
 
-/* Word that somebody leaves who only reads: several threads may write the same at the same time. */
+/* Relaxed atomic store. Concurrent readers may all store the same value. */
 static inline void kiriWord_Leave(const int32_t* word, int32_t value)
 {
     int32_t* at = (int32_t*)word;
@@ -153,7 +153,7 @@ static inline void kiriWord_Leave(const int32_t* word, int32_t value)
 #endif
 }
 
-/* Adds to a counter that several threads may change at the same time, who else only read. */
+/* Relaxed atomic addition to a counter that several readers share. */
 static inline void kiriWord_Add(const int32_t* word, int32_t value)
 {
     int32_t* at = (int32_t*)word;
@@ -179,19 +179,18 @@ static inline int32_t kiriWord_Read(const int32_t* word)
 typedef struct kiriQuota {
     int64_t left; /* never below zero */
     int64_t used;
-    int64_t
-        beyond; /* what was done and is not counted, see kiriQuota_TakeAtMostAll: with it one knows how much was done */
+    int64_t beyond; /* items done beyond the limit: a step larger than the whole quota is charged as the quota */
     bool isShared; /* a part of it went to another kind of items */
 } kiriQuota;
 
-/* Has something of it been given? */
+/* Returns true if items were taken, here or for another kind of work. */
 static inline bool kiriQuota_IsBegun(const kiriQuota* quota)
 {
     return quota->used > 0 || quota->isShared;
 }
 
-/* Takes items from the quota; false, and takes none, where fewer are left. What is larger than the whole quota gets it
-   all when nothing of it has been given yet: so everything is done in the end. */
+/* Takes items from the quota. Returns false, and takes none, if fewer are left. A step larger than the whole quota gets
+   all of a fresh one, so everything is done in the end. */
 static inline bool kiriQuota_Take(kiriQuota* quota, int64_t items)
 {
     KIRI_ASSERT(items >= 0 && quota->left >= 0);
@@ -203,7 +202,7 @@ static inline bool kiriQuota_Take(kiriQuota* quota, int64_t items)
     return true;
 }
 
-/* The same, where what is larger than the whole quota counts as all of it. */
+/* Takes items; a step larger than the whole quota is charged as the quota. */
 static inline bool kiriQuota_TakeAtMostAll(kiriQuota* quota, int64_t items)
 {
     int64_t counted = kiriMin(items, quota->left);
@@ -220,8 +219,8 @@ static inline bool kiriQuota_IsSpent(const kiriQuota* quota)
     return quota->left == 0 && kiriQuota_IsBegun(quota);
 }
 
-/* Takes what is owed for work, or what is left of it; false where some is still owed. So how far the work has come
-   depends on what it was given in all, not on the parts. Unlike kiriQuota_Take it never exceeds a limit. */
+/* Pays a debt, as far as the quota goes. Returns false if some is still owed. How far the work has come depends on the sum
+   of the quotas, not on their parts. Never exceeds a limit, unlike kiriQuota_Take. */
 static inline bool kiriQuota_Pay(kiriQuota* quota, int64_t* owed)
 {
     int64_t items = kiriMin(*owed, quota->left);

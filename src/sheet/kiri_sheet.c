@@ -112,15 +112,6 @@ bool kiriStage_Solver(kiriSheetData* sheet, int32_t frameCount)
     return kiriSolver_Stage(sheet->solver, &next, layout->framePiece.data, layout->pieces.count);
 }
 
-/* In the ticks that pay for the commit, and not in its own. */
-static kiriProgress ReserveFrames(kiriSheetData* sheet, kiriQuota* samples)
-{
-    enum { READY_BYTES = 1024 }; /* for an item */
-    int32_t count = sheet->update->placing.sites.count;
-    const kiriRoom frames = KIRI_ROOM(sheet->memory, &sheet->frames, count);
-    return kiriRooms_MakeReady(&frames, 1, samples, READY_BYTES);
-}
-
 /* ---- Steps ---- */
 
 static kiriProgress StageOwnersOfMaterial(kiriSheetData* sheet, kiriQuota* samples)
@@ -148,9 +139,8 @@ static kiriProgress PlaceNewFrames(kiriSheetData* sheet, kiriQuota* samples)
 {
     kiriUpdate* u = sheet->update;
     int32_t count = u->placing.sites.count - sheet->frames.count;
-    kiriProgress progress = ReserveFrames(sheet, samples);
-    if (progress != KIRI_DONE || !kiriArray_Reserve(sheet->memory, &u->newFrames, count)) {
-        return progress != KIRI_DONE ? progress : KIRI_FAILED;
+    if (!kiriArray_Reserve(sheet->memory, &u->newFrames, count)) {
+        return KIRI_FAILED;
     }
     while (kiriQuota_Pay(samples, &u->due)) {
         if (u->newFrames.count == count) {
