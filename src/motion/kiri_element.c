@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-/* F_u, F_v, D_u, D_v, D: or what a strain changes by with each. */
+/* F_u, F_v, D_u, D_v, D; or the derivatives of a strain by them. */
 typedef struct SurfaceState {
     kiriVec3 u, v, du, dv, d;
 } SurfaceState;
@@ -19,6 +19,7 @@ static SurfaceState SurfaceStateOf(const kiriAreaElement* element, const kiriFra
     SurfaceState s = { zero, zero, zero, zero, zero };
     for (int32_t k = 0; k < element->count; ++k) {
         const kiriFrameShare* share = &shares[element->first + k];
+        KIRI_ASSERT(share->frame >= 0);
         kiriPose pose = poses != NULL ? poses[share->frame] : kiriPose_Of(&frames[share->frame]);
         AddVector(&s.u, share->move.x, pose.x);
         AddVector(&s.u, share->u.x, pose.A.u);
@@ -80,6 +81,7 @@ static kiriVec3 AlongColumns(const SurfaceState* slope, kiriVec2 a)
 void kiriAreaElement_Measure(const kiriAreaElement* element, const kiriFrameShare* shares, const kiriFrameData* frames,
                              const kiriPose* poses, double* strain, kiriFrameRow* rows)
 {
+    KIRI_ASSERT(element->firstRow >= 0 && element->firstRow < element->lastRow && element->lastRow <= KIRI_AREA_STRAINS);
     SurfaceState shape = SurfaceStateOf(element, shares, frames, poses), slope[KIRI_AREA_STRAINS];
     double all[KIRI_AREA_STRAINS];
     StrainsOf(&shape, element->lean, all);

@@ -134,6 +134,7 @@ static void RestoreMomentum(kiriSolver* solver, const kiriSystem* system)
     }
     kiriMomentum_Restore(solver->before.data, solver->after.data, system->frameCount, &momentum, &system->material,
                          kiriSystem_Gravity(system), solver->dt, normal);
+    KIRI_ASSERT(!(momentum.mass < 0.0));
     solver->momentum = momentum;
 }
 
@@ -198,7 +199,8 @@ void kiriSolver_FindGains(kiriSolver* solver, const kiriSystem* system)
 
 /* ---- Limit ---- */
 
-/* The factor that takes an energy out of velocities that have `kinetic`; what they do not have is left in `energy`. */
+/* Returns the factor for velocities of the energy `kinetic` that takes `energy` out of them. Leaves the rest in
+   `energy`. */
 static double TakeEnergy(double kinetic, double* energy)
 {
     double taken = kiriMin(kinetic, *energy);
@@ -207,9 +209,9 @@ static double TakeEnergy(double kinetic, double* energy)
 }
 
 #define TRIALS 8
-#define TOLERABLE 0.05 /* of what a body has to spend, see kiri_contact_row.c: rounding and rest have less */
+#define TOLERABLE 0.05 /* of kiriContactSum.means: rounding and rest gain less */
 
-/* J: the gain that neither the velocities beside those of a rigid body nor its turning have. */
+/* J: the gain that exceeds the kinetic energy without the mean velocity. */
 static double Excess(const kiriSolver* solver)
 {
     return solver->energy.gain - solver->energy.kinetic;
@@ -321,6 +323,7 @@ void kiriSolver_AddGained(kiriSolver* solver, const kiriSystem* system)
     AddLoads(solver, system);
     for (int32_t k = 0; k < solver->contacts.count; ++k) {
         const kiriContactStep* step = &solver->contacts.data[k];
+        KIRI_ASSERT(step->memberCount > 0 && step->memberCount <= KIRI_CONTACT_MEMBERS);
         kiriFrameData* frame = &solver->sheetFrames[step->row->weights[0].frame];
         if (IsOfBody(step->row)) {
             frame->passed += kiriContact_Work(solver, step);

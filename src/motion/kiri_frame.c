@@ -52,7 +52,8 @@ static void FindCenters(const kiriFrameData* before, const kiriFrameData* after,
     p->velocityAfter = kiriVec3_Scale(share, p->velocityAfter);
 }
 
-/* What a frame adds, about a centre that moves. The true rate of A counts, by which affine frames also stretch. */
+/* Returns the angular momentum of a frame about a moving centre. Counts the true rate of A, by which affine frames also
+   stretch. */
 static kiriVec3 AngularAbout(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 center,
                              kiriVec3 velocity)
 {
@@ -332,7 +333,7 @@ kiriPrediction kiriPrediction_Free(const kiriFrameData* frame, const kiriMateria
 
 /* ---- Affine frames ---- */
 
-/* The inertia of an A that is no rotation. It has an inverse even where A has collapsed. */
+/* Returns the inertia of an A that is not a rotation. It has an inverse even if A has collapsed. */
 static kiriMat3 AffineInertia(const kiriMassMoments* m, const kiriMat3* A)
 {
     kiriMat3 w = Weighted(m, A);

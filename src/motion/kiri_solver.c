@@ -272,7 +272,7 @@ static bool CollectPairs(kiriSolver* solver, const kiriSystem* body)
     return true;
 }
 
-/* The body in force with the same frames; null: none. */
+/* Returns the body in force with the same frames, or null. */
 static const kiriSolverBody* FindSame(const kiriSolver* solver, const kiriSolverBody* next)
 {
     const kiriSolverBodies *now = &solver->bodies, *then = &solver->next;
@@ -411,7 +411,7 @@ bool kiriSolver_ReserveRows(kiriSolver* solver, int64_t pins, int64_t clamps, in
            kiriArray_Reserve(memory, &solver->nextContact, contacts);
 }
 
-/* ---- What is moved ----------------------------------------------------------------------------------------------- */
+/* ---- Moved bodies ----------------------------------------------------------------------------------------------- */
 
 void kiriSolver_SetMoved(kiriSolver* solver, int32_t body, bool isMoved)
 {
@@ -457,7 +457,7 @@ kiriIndexSpan kiriSolver_FramesOf(const kiriSolver* solver, int32_t body)
     return (kiriIndexSpan){ &solver->bodies.frames.data[frames.first], frames.count };
 }
 
-/* The hash of a sheet of one piece is that of its pattern. */
+/* A sheet of one piece hashes as its pattern. */
 uint64_t kiriSolver_Hash(const kiriSolver* solver)
 {
     uint64_t hash = kiriMatrix_Hash(solver->bodies.bodies.data[0].matrix);

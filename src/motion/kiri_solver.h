@@ -21,7 +21,7 @@ typedef struct kiriYieldRow {
     kiriMat3 inverseInertia; /* 1/(kg m^2), world, about the centre; zero: it does not turn */
     kiriVec3 center;         /* m: its centre of mass at the start of the tick */
     kiriWrench impulse;      /* N s, N m s about the centre: what sheets gave it in this tick; a step adds to it */
-    int32_t pressed;         /* scratch: contacts that press on it in the step at hand, and share its mass; */
+    int32_t pressed;         /* scratch: contacts that press on it in the current step, and share its mass; */
     int32_t held;            /* those that may be held up when its systems are solved */
     /* Scratch, see kiri_contact_row.c: pushes times the speed along them, N s m/s, of it before and after it gets
        them, and the most that they may leave it. */
@@ -90,13 +90,13 @@ typedef struct kiriSystem {
     const kiriAreaElements* areaElements;  /* of affine frames; may be null where there are none */
     const kiriPinRow* pins;
     int32_t pinCount;
-    kiriClampRow* clamps; /* a step writes what is of that step, and `start` at its end */
+    kiriClampRow* clamps; /* a step writes `start` at its end */
     int32_t clampCount;
-    kiriContactRow* contacts; /* a step writes what they did; so it does with what yields */
+    kiriContactRow* contacts; /* a step writes their forces and impulses, and those of yields */
     int32_t contactCount;
     kiriYieldRow* yields;
     int32_t yieldCount;
-    kiriReactions reactions; /* what a step adds to; null where nobody asks */
+    kiriReactions reactions; /* a step adds to them; null: not wanted */
     kiriMaterial material;
     kiriVec3 gravity;
     const kiriAir* air; /* null: none */
@@ -136,7 +136,7 @@ bool kiriSolver_ReserveRows(kiriSolver* solver, int64_t pins, int64_t clamps, in
 /* Sets whether ticks move a body. */
 void kiriSolver_SetMoved(kiriSolver* solver, int32_t body, bool isMoved);
 
-/* Updates the lists of what is moved. Returns true if they changed. */
+/* Updates the lists of moved bodies. Returns true if they changed. */
 bool kiriSolver_ListMoved(kiriSolver* solver);
 
 const kiriMoved* kiriSolver_Moved(const kiriSolver* solver);
@@ -180,11 +180,11 @@ int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* system, int32_t bo
 /* Elastic energy of all elements, J. */
 double kiriSolver_ElasticEnergy(const kiriSystem* system);
 
-/* Elements: what joins frames elastically. First the links, unless the model is that of integration points, then the
+/* Elements join frames elastically. First the links, except in the model of integration points, then the
    corners of these links, unless Poisson's ratio is zero, then the area elements. Element k of a system has strains,
    each with a stiffness; its energy is the sum of 1/2 stiffness strain^2. */
 
-/* An element has at most so many strains. */
+/* The most strains of an element. */
 enum { KIRI_MOST_STRAINS = kiriMax((int)KIRI_STRAINS, (int)KIRI_AFFINE_STRAINS) };
 
 static inline bool kiriMechanics_IsAffine(const kiriMechanics* mechanics)
@@ -211,27 +211,27 @@ static inline int32_t kiriElement_Count(const kiriSystem* system)
            (system->areaElements != NULL ? system->areaElements->elements.count : 0);
 }
 
-/* Null where the element is no link. */
+/* Returns null if the element is no link. */
 static inline const kiriLink* kiriElement_Link(const kiriSystem* system, int32_t k)
 {
     KIRI_ASSERT(k >= 0 && k < kiriElement_Count(system));
     return k < kiriElement_LinkCount(system) ? &system->links[k] : NULL;
 }
 
-/* Null where the element is no corner. */
+/* Returns null if the element is no corner. */
 static inline const kiriCorner* kiriElement_Corner(const kiriSystem* system, int32_t k)
 {
     int32_t corner = k - kiriElement_LinkCount(system);
     return corner >= 0 && corner < kiriElement_CornerCount(system) ? &system->corners[corner] : NULL;
 }
 
-/* Is it a link between rigid frames? */
+/* Returns true for a link between rigid frames. */
 static inline bool kiriElement_IsRigidLink(const kiriSystem* system, int32_t k)
 {
     return !kiriMechanics_IsAffine(&system->mechanics) && kiriElement_Link(system, k) != NULL;
 }
 
-/* Is it a corner between rigid frames? */
+/* Returns true for a corner between rigid frames. */
 static inline bool kiriElement_IsRigidCorner(const kiriSystem* system, int32_t k)
 {
     return !kiriMechanics_IsAffine(&system->mechanics) && kiriElement_Corner(system, k) != NULL;
@@ -273,7 +273,7 @@ void kiriElement_TakeOffsets(const kiriSystem* system, int32_t k, const double* 
    solver->before. Contacts stay rows of the sheet (kiriContactStep.row). */
 
 #define KIRI_ROUNDING 1e-12                /* of an objective, relative */
-#define KIRI_LAST_BITS (8.0 * DBL_EPSILON) /* of a length: what a few operations round off */
+#define KIRI_LAST_BITS (8.0 * DBL_EPSILON) /* of a length: rounding of a few operations */
 #define KIRI_SHORT_STEP 0.3                /* a Gauss-Newton step of which no more than this is taken was cut short */
 
 /* An unknown of a frame: the part of one of its vectors along an axis, see kiriFrameRow. */
@@ -289,7 +289,7 @@ typedef struct kiriStepEnergy {
 
 enum { KIRI_CONTACT_MEMBERS = 8 };
 
-#define KIRI_SLIDE_FLOOR 1e-9 /* m: a shorter way is no slide */
+#define KIRI_SLIDE_FLOOR 1e-9 /* m: shorter ways are no slides */
 
 /* A contact in one step. In a linear system, and along the step that it leads to, it is a spring on the depth, above
    zero or not, and either a spring on the slide or a force of a given size. After each system contacts are chosen anew
@@ -352,9 +352,9 @@ typedef struct kiriContactSum {
 
 /* J: energies after the step. */
 typedef struct kiriEnergyStep {
-    double kinetic; /* beside that of the mean velocity; */
-    double turning; /* of it, that of turning as one body; */
-    double moving;  /* and that of the mean velocity */
+    double kinetic; /* without the mean velocity; */
+    double turning; /* part of it: turning as one body; */
+    double moving;  /* of the mean velocity */
     double gain;    /* growth of energy in the step beyond work */
 } kiriEnergyStep;
 
@@ -385,7 +385,7 @@ struct kiriSolver {
     kiriUnknown unknowns[KIRI_MOST_UNKNOWNS];
     int32_t solved; /* linear systems since TakeSolved */
     int64_t allWork; /* of a system of each body, without contacts */
-    kiriSolverBodies bodies, next; /* in force, and staged */
+    kiriSolverBodies bodies, next; /* in force; staged */
     bool isStaged;
     kiriMoved moved;
     KIRI_ARRAY(kiriPair) pairs;                  /* scratch: of a staged body */
@@ -408,7 +408,7 @@ struct kiriSolver {
     kiriContactSum touch;
     kiriEnergyStep energy;
     kiriPieceMomentum momentum;
-    kiriAreaElements areaElements; /* part of those of all bodies */
+    kiriAreaElements areaElements; /* of the body */
     KIRI_ARRAY(kiriPinRow) pins;
     KIRI_ARRAY(kiriClampRow) clamps;
     kiriIndices pinRow, clampRow; /* of each: the row of the sheet */

@@ -78,6 +78,7 @@ static void ShiftFreeBody(kiriSolver* solver, const kiriSystem* system)
         mean = kiriVec3_AddScaled(mean, system->frames[f].mass, change);
         mass += system->frames[f].mass;
     }
+    KIRI_ASSERT(mass > 0.0);
     for (int32_t f = 0; f < system->frameCount; ++f) {
         kiriPrediction* prediction = &solver->predictions.data[f];
         prediction->shift = kiriVec3_Scale(-0.5 * solver->stepping.h / mass, mean);
@@ -133,6 +134,7 @@ static kiriStepping ChooseStepping(const kiriSolver* solver, const kiriSystem* s
 /* Predicts a step of backward Euler. */
 static void BecomeEuler(kiriSolver* solver, const kiriSystem* system)
 {
+    KIRI_ASSERT(solver->dt > 0.0);
     solver->stepping = kiriStepping_Euler(solver->dt);
     solver->search.scale = 1.0;
     Predict(solver, system);
@@ -346,6 +348,7 @@ static void AddElementEnergy(const kiriSolver* solver, const kiriSystem* system,
                              const double* pulling, kiriStepEnergy* sum)
 {
     int32_t first = KIRI_MOST_STRAINS * k;
+    KIRI_ASSERT(k >= 0 && k < solver->elementCount);
     AddStrains(kiriElement_StrainCount(system, k), &solver->stiffness.data[first], &solver->loss.data[first],
                &solver->startStrain.data[first], strain, pulling, sum);
 }
@@ -504,6 +507,8 @@ static void CenterHistories(kiriSolver* solver, int32_t frameCount)
 
 void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
 {
+    KIRI_ASSERT(dt > 0.0 && system->frames == solver->before.data && system->frameCount <= solver->before.capacity);
+    KIRI_ASSERT(kiriElement_Count(system) <= solver->stopping.capacity);
     memset(&solver->search, 0, sizeof(solver->search));
     memset(&solver->touch, 0, sizeof(solver->touch));
     solver->dt = dt;
@@ -636,7 +641,7 @@ static double* TracedRows(const kiriSolver* solver, int32_t link, int traced)
     return &solver->tracedRows.data[2 * (size_t)solver->size * (KIRI_TRACED * (size_t)link + (size_t)traced)];
 }
 
-/* The same as DeriveStrains, from what is kept of the corner's links. */
+/* Derives the strains of a corner from the rows of its links. */
 static void DeriveTraces(kiriSolver* solver, const kiriSystem* system, int32_t k, int32_t count, double* strain)
 {
     const kiriCorner* corner = kiriElement_Corner(system, k);
@@ -772,6 +777,7 @@ static void AddWind(kiriSolver* solver, const kiriSystem* system)
 
 kiriStepEnergy kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system)
 {
+    KIRI_ASSERT(kiriMatrix_FrameCount(solver->matrix) == system->frameCount);
     kiriMatrix_Clear(solver->matrix);
     kiriSolver_LinearizeContacts(solver, system);
     for (int32_t f = 0; f < system->frameCount; ++f) {
@@ -822,7 +828,7 @@ kiriStepEnergy kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system)
 #define FREE_SYSTEMS 2             /* of a piece that contacts touch: after them it stores no more than it has */
 #define WORTHWHILE 1e-6            /* of the objective, where a longer step would lower it by more */
 #define MOST_RISE 100.0            /* of the objective in the first step of a piece */
-#define MOST_TAKEN 0.5             /* of the kinetic energy, where a piece need not start anew */
+#define MOST_TAKEN 0.5             /* of the kinetic energy, if the body need not start anew */
 #define TOLERABLE_GAIN 1e-2        /* in a step of second order: of the energy that the limit could take, */
 #define NEGLIGIBLE_GAIN 1e-9       /* and of all */
 
@@ -846,6 +852,7 @@ static void StartSearch(kiriSolver* solver, const kiriSystem* system)
         }
     }
     search->scale = LONGEST_ITERATION_TURN / longest;
+    KIRI_ASSERT(!(search->scale > 1.0));
     kiriSolver_LimitByFriction(solver);
 }
 
@@ -994,6 +1001,7 @@ static bool Restart(kiriSolver* solver, const kiriSystem* system)
    not convex. So velocities stay bounded however long the step. */
 int32_t kiriSolver_Minimise(kiriSolver* solver, const kiriSystem* system, int32_t iterations, int32_t most)
 {
+    KIRI_ASSERT(iterations >= 1 && iterations <= most);
     int32_t done = 0, last = iterations + SECOND_CHANCES;
     bool isLeft = true, isFresh = false;
     EvaluateStart(solver, system);
@@ -1026,7 +1034,7 @@ int32_t kiriSolver_Minimise(kiriSolver* solver, const kiriSystem* system, int32_
 
 /* ---- Reactions --------------------------------------------------------------------------------------------------- */
 
-/* What a strain that pulls with -`pull` does to a frame, by its derivative. */
+/* Adds the wrench of a strain that pulls with -`pull` on a frame; `row` is the derivative of the strain. */
 static void AddPull(const kiriSolver* solver, const kiriFrameRow* row, double pull, const kiriMat3* A, kiriWrench* sum)
 {
     kiriVec3 torque = row->by[1];
@@ -1151,8 +1159,8 @@ static void AddMomentum(const kiriSolver* solver, const kiriSystem* system, int3
     kiriWrench_Add(&system->reactions.frames[solver->sheetFrame[f]].impulse, 1.0, &wrench);
 }
 
-/* What was found at the end of the step gives an impulse as inner forces do by the step's scheme (kiri_frame.h):
-   so impulses add up to the momentum that frames have got. */
+/* Turns the force at the end of the step into an impulse by the step's scheme (kiri_frame.h), as inner forces are: so
+   impulses add up to the momentum of the frames. */
 static void EndReaction(const kiriStepping* stepping, kiriReaction* reaction)
 {
     kiriWrench gain = { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } }, none = gain;

@@ -31,7 +31,7 @@
 #define HALF_TURN 3.14159265358979
 /* Folds up to this angle have all of their damping, and axes that can be relied on. */
 #define OPEN_FOLD 2.5
-/* Of the square of an angle, below that of half a turn. */
+/* Least difference of the squares of half a turn and of an angle. */
 #define LEAST_ROOM 1e-6
 
 /* The mean axes of two frames. When the frames turn by w_0 and w_1, the axes turn by the sum over k of
@@ -43,7 +43,7 @@ typedef struct MeanAxes {
     kiriVec3 openBy[2];
 } MeanAxes;
 
-/* How the mean axes turn, from what they were made of. */
+/* Derives the turns of the mean axes. */
 static void FindAxisTurns(MeanAxes* axes, const kiriVec3 normals[2], const kiriPose* const poses[2], double lean,
                           double lengthN, double lengthD)
 {
@@ -79,7 +79,7 @@ static void TakeMeanAxes(MeanAxes* axes, const kiriLink* link, const kiriPose* c
     const kiriVec3 normals[2] = { kiriPose_Along(poses[0], link->normal), kiriPose_Along(poses[1], link->normal) };
     kiriVec3 d = kiriVec3_Add(poses[0]->A.d, poses[1]->A.d), n = kiriVec3_Add(normals[0], normals[1]);
     double lengthD = kiriVec3_Length(d);
-    /* Folded flat, it is that of one of the two folds that may have led there. */
+    /* Folded flat: the director of one of the two folds that lead there. */
     axes->d = lengthD > LEAST_AXIS ? kiriVec3_Scale(1.0 / lengthD, d) : kiriVec3_Scale(-1.0, normals[0]);
     axes->open = 0.5 * lengthD;
     double lean = kiriVec3_Dot(n, axes->d);
@@ -156,7 +156,7 @@ static void AddRow(kiriStrainRow* row, double a, const kiriStrainRow* other)
     }
 }
 
-/* What a frame turns about: its centre of mass, or its site when the host holds it there. */
+/* A frame turns about its centre of mass, or about its site if the host holds it. */
 static kiriVec2 PivotOf(const kiriFrameData* frame)
 {
     return frame->held ? frame->site.at : frame->center;
@@ -383,6 +383,7 @@ static void TakeWidths(const kiriLink* link, const kiriMaterial* material, doubl
 void kiriStrain_Measure(const kiriLink* link, const kiriMaterial* material, const kiriFrameData* const frames[2],
                         const kiriPose* const poses[2], double strain[KIRI_STRAINS], kiriStrainRow* rows)
 {
+    KIRI_ASSERT(link->length > 0.0 && link->width > 0.0);
     MeanAxes axes;
     TakeMeanAxes(&axes, link, poses, rows != NULL);
     EndVectors b = PointVectors(frames, poses, link->centroid), m = PointVectors(frames, poses, link->crossing);
@@ -419,6 +420,7 @@ double kiriStrain_Damping(const double strain[KIRI_STRAINS])
 
 void kiriStrain_TakeOffsets(const double* strain, const double* offset, int count, bool isAffine, double* pulling)
 {
+    KIRI_ASSERT(count > 0 && count <= (isAffine ? (int)KIRI_AFFINE_STRAINS : (int)KIRI_STRAINS));
     for (int e = 0; e < count; ++e) {
         pulling[e] = strain[e] - offset[e];
     }
@@ -579,7 +581,7 @@ static bool IsLinkBefore(const kiriLink* a, const kiriLink* b)
     return a->i != b->i ? a->i < b->i : a->j < b->j;
 }
 
-/* Of a link with an older one, or none. */
+/* Returns the offset of a link; `old` is the link that it goes on from, or null. */
 static kiriStrainOffset StrainOffsetOf(const kiriStrainOffsets* strainOffsets, const kiriLink* link,
                                        const kiriLink* old, const kiriStrainOffset* older, const kiriFrameData* frames,
                                        const kiriMaterial* material)
@@ -597,7 +599,7 @@ static kiriStrainOffset StrainOffsetOf(const kiriStrainOffsets* strainOffsets, c
     return offset;
 }
 
-/* Which old link each goes on from. One that is what the next old one was is not looked at. */
+/* Finds the old link that each link goes on from. */
 static void FindOlder(kiriStrainOffsets* strainOffsets, const kiriLink* old, int32_t oldCount, const kiriLink* links,
                       int32_t linkCount, const int32_t* was)
 {

@@ -127,7 +127,7 @@ static void MarkFading(kiriSheetData* sheet)
     }
 }
 
-/* Before a tick, not after one, so that what is seen is where it came to rest. */
+/* Puts calm pieces to sleep. Runs before a tick, not after one, so that the surface shows where they came to rest. */
 static void FallAsleep(kiriSheetData* sheet)
 {
     MarkFading(sheet);
@@ -180,6 +180,7 @@ static void CountContacts(kiriSheetData* sheet)
 /* Its forces are not used, and what fades goes on to do so. */
 static void Defer(kiriSheetData* sheet, int32_t body)
 {
+    KIRI_ASSERT(body >= 0 && body < sheet->layout.pieces.count && !sheet->layout.pieces.data[body].rest.waits);
     kiriRest* rest = &sheet->layout.pieces.data[body].rest;
     kiriIndexSpan frames = kiriSolver_FramesOf(sheet->solver, body);
     for (int32_t n = 0; n < frames.count; ++n) {
@@ -240,6 +241,7 @@ static int32_t ChooseMoved(kiriSheetData* sheet, const kiriQuota* systems)
     if (sheet->rest.asleep) {
         return 0;
     }
+    KIRI_ASSERT(sheet->solver->bodies.bodies.count == sheet->layout.pieces.count);
     FallAsleep(sheet);
     for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
         kiriSolver_SetMoved(sheet->solver, p, kiriPiece_IsAwake(&sheet->layout.pieces.data[p]));
@@ -335,7 +337,7 @@ static kiriProgress TakeSubsteps(kiriSheetData* sheet, const kiriSystem* system,
     return substeps > 0 ? KIRI_DONE : KIRI_MORE;
 }
 
-/* Does anybody read what the sheet would do? */
+/* Returns true if pins or contacts read the motion. */
 static bool IsRead(const kiriSheetData* sheet)
 {
     return sheet->touches.found.count > 0 || sheet->pins.count > 0;

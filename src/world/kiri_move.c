@@ -315,13 +315,13 @@ void kiriObstacles_Add(kiriWorld* world, kiriObstacleData* obstacle)
     world->obstacles.data[world->obstacles.count++] = obstacle;
     obstacle->id = kiriPool_Add(&world->obstacleIds, &world->memory, obstacle, 0);
     for (int32_t i = 0; i < world->sheets.count; ++i) {
-        world->sheets.data[i]->touches.rests.areSummed = false; /* its slot may have been that of another */
+        world->sheets.data[i]->touches.rests.areSummed = false; /* another obstacle may have had its slot */
     }
 }
 
 /* ---- What rests near them ---------------------------------------------------------------------------------------- */
 
-/* m: an obstacle that goes no farther wakes nobody. */
+/* m: the least way of an obstacle that wakes a sheet. */
 static double LeastDrift(const kiriWorld* world)
 {
     double least = KIRI_ENDLESS;
@@ -441,7 +441,7 @@ static bool SortObstacles(kiriWorld* world, double dt)
     return true;
 }
 
-/* What a sheet may touch. */
+/* Where a sheet may touch obstacles. */
 typedef struct Around {
     kiriBox box;
     double speed, reach;
@@ -717,7 +717,7 @@ static bool AreRestsSummed(const kiriWorld* world, const kiriRestLoads* rests, d
     return are;
 }
 
-/* Of each sheet by itself, so that the sums can be kept. */
+/* Sums for each sheet by itself, so that the sums can be kept. */
 static void SumRests(const kiriWorld* world, kiriSheetData* sheet, double dt)
 {
     kiriRestLoads* rests = &sheet->touches.rests;
