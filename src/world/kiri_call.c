@@ -533,7 +533,7 @@ static kiriResult CheckNumbers(const kiriValue* value, const void* at, int64_t c
     return KIRI_ERROR_ARGUMENT;
 }
 
-static const kiriSlot* FindSlot(const kiriValue* value, const kiriWorld* world, const void* id)
+static const kiriSlot* FindById(const kiriValue* value, const kiriWorld* world, const void* id)
 {
     KIRI_ASSERT(value->form == KIRI_FORM_ID && world != NULL);
     return kiriPool_Find((const kiriPool*)(const void*)((const char*)world + value->refers), *(const uint32_t*)id);
@@ -554,7 +554,7 @@ static kiriResult CheckValue(const kiriValue* value, const kiriWorld* world, con
     } else if (value->form == KIRI_FORM_STRUCT) {
         result = kiriStruct_Check(value->of, "", world, at, fault);
     } else if (value->form == KIRI_FORM_ID && !(value->isOptional && *(const uint32_t*)at == 0) &&
-               FindSlot(value, world, at) == NULL) {
+               FindById(value, world, at) == NULL) {
         KIRI_SAY(fault, " is %lld: there is no %s with this id", (long long)*(const uint32_t*)at, value->name);
         result = KIRI_ERROR_ID;
     }
@@ -667,7 +667,7 @@ bool kiriCall_Begin(kiriCall* call)
         call->result = CheckArgument(call, i, &fault);
     }
     if (call->result == KIRI_OK && kiriArguments[kinds[0]].form == KIRI_FORM_ID) {
-        const kiriSlot* slot = FindSlot(&kiriArguments[kinds[0]], world, call->arguments[0]);
+        const kiriSlot* slot = FindById(&kiriArguments[kinds[0]], world, call->arguments[0]);
         bool isSheet =
             kinds[0] == KIRI_ARGUMENT_SHEET || kinds[0] == KIRI_ARGUMENT_FRAME || kinds[0] == KIRI_ARGUMENT_PIN;
         call->owner = slot != NULL ? slot->owner : NULL;
