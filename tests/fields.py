@@ -12,7 +12,7 @@ NUMBERS = {"int32_t": 4, "uint32_t": 4, "int": 4, "int64_t": 8, "uint64_t": 8, "
 # What an entry may be of, and the width of its numbers.
 VALUES = {"RUN": None, "REALS": 8, "FLOATS": 4, "COUNTS": 8, "INDEX": 4, "INDEX_OR_NONE": 4, "WITHIN": 4, "BOOLS": "bool"}
 ARRAYS = {"ITEMS": None, "REAL_ITEMS": 8, "FLOAT_ITEMS": 4, "INDICES": 4, "PARTS": None, "ROOM_OF": None, "SPACE_OF": None,
-          "SHOWN_OF": None, "ARRAYS": None, "ROOMS": None}
+          "ARRAYS": None, "ROOMS": None}
 SKIPPED = {"DROPPED", "KEPT"}  # may be anything
 ARGUMENTS_BEFORE = {"RUN": 1, "ITEMS": 1, "INDEX": 1, "INDEX_OR_NONE": 1, "WITHIN": 2, "INDICES": 1}
 

@@ -2,6 +2,7 @@
 #include "core/kiri_archive.h"
 #include "support.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -361,6 +362,65 @@ static void TestLimits(void** state)
     assert_true(archive.isBad);
 }
 
+/* ---- A new field --------------------------------------------------------------------------------------------------- */
+
+/* A struct and its table from one list: a new field is one line. */
+#define COLUMNS(X)                                                                                                     \
+    X(double, weight, KIRI_REALS(Column, weight, weight))                                                              \
+    X(int32_t, frame, KIRI_INDEX(KIRI_OF_FRAMES, Column, frame, frame))                                                \
+    X(int32_t, added, KIRI_WITHIN(3, 5, Column, added, added))
+#define DECLARE_COLUMN(type, name, entry) type name;
+#define LIST_COLUMN(type, name, entry) entry,
+
+typedef struct Column {
+    COLUMNS(DECLARE_COLUMN)
+} Column;
+
+static const kiriMember ColumnMembers[] = { COLUMNS(LIST_COLUMN) };
+static const kiriTable ColumnTable = KIRI_TABLE(Column, ColumnMembers);
+
+static bool CanLoad(Column column)
+{
+    uint8_t bytes[32];
+    Column read = { 0 };
+    kiriArchive archive = kiriArchive_Write(bytes, sizeof(bytes));
+    kiriArchive_Object(&archive, &ColumnTable, &column);
+    archive = kiriArchive_Read(bytes, archive.at, NULL);
+    archive.count[KIRI_OF_FRAMES] = 7;
+    kiriArchive_Object(&archive, &ColumnTable, &read);
+    assert_true(archive.isBad || (read.weight == column.weight && read.frame == column.frame && read.added == column.added));
+    return !archive.isBad;
+}
+
+static uint64_t HashOf(Column column)
+{
+    kiriArchive archive = kiriArchive_Hash();
+    kiriArchive_Object(&archive, &ColumnTable, &column);
+    return archive.hash;
+}
+
+/* It is saved, checked, hashed and restored. */
+static void TestNewField(void** state)
+{
+    (void)state;
+    const Column fine = { 0.5, 6, 4 }, other = { 0.5, 6, 5 };
+    const Column bad[] = { { HUGE_VAL, 6, 4 }, { 0.5, 7, 4 }, { 0.5, -1, 4 }, { 0.5, 6, 2 }, { 0.5, 6, 6 } };
+    assert_true(CanLoad(fine) && CanLoad(other));
+    for (size_t k = 0; k < sizeof(bad) / sizeof(bad[0]); ++k) {
+        assert_false(CanLoad(bad[k]));
+    }
+    assert_true(HashOf(fine) == HashOf(fine) && HashOf(fine) != HashOf(other));
+    Column read = { 0 };
+    uint8_t bytes[sizeof(Column)];
+    kiriArchive archive = kiriArchive_Write(bytes, sizeof(bytes));
+    archive.isWhole = true;
+    kiriArchive_Object(&archive, &ColumnTable, (void*)(uintptr_t)&other);
+    archive = kiriArchive_Read(bytes, sizeof(bytes), NULL);
+    archive.isWhole = true;
+    kiriArchive_Object(&archive, &ColumnTable, &read);
+    assert_true(!archive.isBad && read.added == 5);
+}
+
 /* ---- Memory ------------------------------------------------------------------------------------------------------ */
 
 /* Without it nothing is read; that is no fault of the bytes. */
@@ -395,7 +455,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestWhole),           cmocka_unit_test(TestOrderOfBytes), cmocka_unit_test(TestNoRoom),
-        cmocka_unit_test(TestDamaged),      cmocka_unit_test(TestLimits),
+        cmocka_unit_test(TestDamaged), cmocka_unit_test(TestNewField),      cmocka_unit_test(TestLimits),
         cmocka_unit_test(TestMemoryIsRefused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

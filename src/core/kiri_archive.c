@@ -34,7 +34,7 @@ void kiriArchive_Expect(kiriArchive* archive, bool isFine)
 
 /* ---- Numbers ----------------------------------------------------------------------------------------------------- */
 
-/* The next bytes; null if they are only measured, or there are fewer. */
+/* Returns the next bytes; null if they are only measured, or there are fewer. */
 static uint8_t* TakeBytes(kiriArchive* archive, int64_t count)
 {
     if (count > archive->size - archive->at || kiriArchive_HasFailed(archive)) {
@@ -43,6 +43,7 @@ static uint8_t* TakeBytes(kiriArchive* archive, int64_t count)
     }
     uint8_t* bytes = archive->bytes == NULL ? NULL : archive->bytes + archive->at;
     archive->at += count;
+    KIRI_ASSERT(count >= 0 && archive->at >= 0);
     return bytes;
 }
 
@@ -67,7 +68,7 @@ static void CopyNumbers(uint8_t* to, const uint8_t* from, int32_t width, int64_t
     }
 }
 
-/* By value: the same on machines of either byte order. */
+/* Hashes values, so the hash is the same on machines of either byte order. */
 static void HashNumbers(uint64_t* hash, const uint8_t* numbers, int32_t width, int64_t count)
 {
     for (int64_t n = 0; n < count; ++n) {
@@ -111,7 +112,7 @@ int32_t kiriArchive_Count(kiriArchive* archive, int64_t count, int64_t least, in
 
 /* ---- Checks ------------------------------------------------------------------------------------------------------ */
 
-/* Not all bits of the exponent. */
+/* Returns false if all bits of an exponent are set: infinity, or NaN. */
 static bool AreFinite(const uint8_t* numbers, int32_t width, int64_t bytes)
 {
     bool areFinite = true;
@@ -129,7 +130,7 @@ static bool AreFinite(const uint8_t* numbers, int32_t width, int64_t bytes)
     return areFinite;
 }
 
-/* Sums of a few of them do not overflow. */
+/* Returns true if sums of a few numbers cannot overflow. */
 static bool AreCounts(const int64_t* numbers, int64_t count)
 {
     bool areFine = true;
@@ -166,6 +167,7 @@ static bool AreFine(const kiriArchive* archive, const kiriMember* field, const v
 
 static void MoveNumbers(kiriArchive* archive, const kiriMember* field, void* numbers, int64_t bytes)
 {
+    KIRI_ASSERT(field->width > 0 && bytes % field->width == 0);
     if (!archive->isUnmoved) {
         kiriArchive_Numbers(archive, numbers, field->width, bytes / field->width);
     }
@@ -174,7 +176,7 @@ static void MoveNumbers(kiriArchive* archive, const kiriMember* field, void* num
     }
 }
 
-/* Other bytes than 0 and 1 are no bools: uninitialised memory is written as one of these, untrusted bytes are refused. */
+/* Writes any byte but 0 as 1, for memory may be uninitialised. Refuses other bytes than 0 and 1 of a save. */
 static void MoveBools(kiriArchive* archive, uint8_t* bools, int32_t count)
 {
     for (int32_t k = 0; k < count; ++k) {
@@ -212,7 +214,7 @@ void kiriArchive_Block(kiriArchive* archive, void** block, int32_t width, int64_
 static void MoveArray(kiriArchive* archive, const kiriMember* field, void* array)
 {
     kiriArrayHeader header = kiriArray_GetHeader(array);
-    bool hasItems = field->kind == KIRI_MEMBER_ARRAY || (field->kind == KIRI_MEMBER_SHOWN && archive->isWhole);
+    bool hasItems = field->kind == KIRI_MEMBER_ARRAY;
     if (archive->mode == KIRI_ARCHIVE_HASH && !hasItems) {
         return;
     }
@@ -283,6 +285,7 @@ static void MoveField(kiriArchive* archive, const kiriMember* field, uint8_t* ob
         }
         break;
     case KIRI_MEMBER_PART:
+        KIRI_ASSERT(field->size % field->table->size == 0);
         for (int32_t n = 0; n < field->size; n += field->table->size) {
             MoveFields(archive, field->table, at + n);
         }
@@ -290,7 +293,6 @@ static void MoveField(kiriArchive* archive, const kiriMember* field, uint8_t* ob
     case KIRI_MEMBER_ARRAY:
     case KIRI_MEMBER_ROOM:
     case KIRI_MEMBER_SPACE:
-    case KIRI_MEMBER_SHOWN:
         MoveArray(archive, field, at);
         break;
     case KIRI_MEMBER_OWNED:
@@ -324,7 +326,9 @@ static void MoveFields(kiriArchive* archive, const kiriTable* table, uint8_t* ob
     archive->memory = memory;
 }
 
-/* Saves the KEPT fields of an object, or puts them back; returns their bytes. */
+enum { MOST_KEPT = 1024 };
+
+/* Copies the KEPT fields of an object, or puts them back. Returns their bytes. */
 static int32_t MoveKept(const kiriTable* table, uint8_t* object, uint8_t* kept, bool isBack)
 {
     int32_t bytes = 0;
@@ -332,6 +336,7 @@ static int32_t MoveKept(const kiriTable* table, uint8_t* object, uint8_t* kept, 
         const kiriMember* field = &table->fields[k];
         uint8_t* at = object + field->offset;
         if (field->kind == KIRI_MEMBER_KEPT) {
+            KIRI_ASSERT(bytes + field->size <= MOST_KEPT);
             memcpy(isBack ? at : kept + bytes, isBack ? kept + bytes : at, (size_t)field->size);
             bytes += field->size;
         } else if (field->kind == KIRI_MEMBER_PART && field->size == field->table->size) {
@@ -374,7 +379,6 @@ static bool IsTight(const kiriTable* table)
 /* A snapshot of objects begins with all their bytes. */
 static void MoveWhole(kiriArchive* archive, const kiriTable* table, uint8_t* objects, int64_t count)
 {
-    enum { MOST_KEPT = 1024 };
     uint8_t kept[MOST_KEPT];
     bool isKept = count == 1 && kiriArchive_Reads(archive) && MoveKept(table, objects, kept, false) > 0;
     kiriArchive_Numbers(archive, objects, 1, count * table->size);

@@ -58,7 +58,7 @@ typedef struct kiriArchive kiriArchive;
 /* Writes or reads part of an object; it changes the object only when it reads. */
 typedef void kiriArchiveFn(kiriArchive* archive, void* object);
 
-/* What an index is of. A sheet stores its counts before all else. */
+/* Kinds of indexed items. A sheet stores their counts first. */
 enum kiriOf {
     KIRI_OF_NOTHING = -1,
     KIRI_OF_TRIANGLES,
@@ -82,8 +82,7 @@ enum kiriMemberKind {
     KIRI_MEMBER_ARRAY,  /* a KIRI_ARRAY of structs; without a table, of numbers */
     KIRI_MEMBER_ROOM,   /* a KIRI_ARRAY: capacity; empty when it is read */
     KIRI_MEMBER_SPACE,  /* a KIRI_ARRAY: capacity and count; zeroed when it is read */
-    KIRI_MEMBER_SHOWN,  /* a KIRI_ARRAY: in a snapshot as ARRAY, in a save as SPACE */
-    KIRI_MEMBER_OWNED,  /* a pointer to a struct in a block of its own, or null */
+    KIRI_MEMBER_OWNED,  /* a pointer to a struct in its own block, or null */
     KIRI_MEMBER_CUSTOM, /* a function of the whole object */
     KIRI_MEMBER_DROPPED, /* zero when it is read */
     KIRI_MEMBER_KEPT,    /* stays when a snapshot is read */
@@ -140,13 +139,14 @@ typedef struct kiriTable {
 #define KIRI_PARTS(Type, field, table) KIRI_MEMBER_LIST(KIRI_MEMBER_ARRAY, 0, 0, Type, field, 0, 0, 0, &table)
 #define KIRI_ITEMS(width, Type, field)                                                                                 \
     KIRI_MEMBER_LIST(KIRI_MEMBER_ARRAY, KIRI_MEMBER_NUMBERS, width, Type, field, 0, 0, 0, NULL)
-#define KIRI_REAL_ITEMS(Type, field) KIRI_MEMBER_LIST(KIRI_MEMBER_ARRAY, KIRI_MEMBER_REALS, 8, Type, field, 0, 0, 0, NULL)
+#define KIRI_REAL_ITEMS(Type, field)                                                                                   \
+    KIRI_MEMBER_LIST(KIRI_MEMBER_ARRAY, KIRI_MEMBER_REALS, 8, Type, field, 0, 0, 0, NULL)
 #define KIRI_FLOAT_ITEMS(Type, field)                                                                                  \
     KIRI_MEMBER_LIST(KIRI_MEMBER_ARRAY, KIRI_MEMBER_FLOATS, 4, Type, field, 0, 0, 0, NULL)
-#define KIRI_INDICES(of, Type, field) KIRI_MEMBER_LIST(KIRI_MEMBER_ARRAY, KIRI_MEMBER_INTS, 4, Type, field, of, 0, -1, NULL)
+#define KIRI_INDICES(of, Type, field)                                                                                  \
+    KIRI_MEMBER_LIST(KIRI_MEMBER_ARRAY, KIRI_MEMBER_INTS, 4, Type, field, of, 0, -1, NULL)
 #define KIRI_ROOM_OF(Type, field) KIRI_MEMBER_LIST(KIRI_MEMBER_ROOM, 0, 1, Type, field, 0, 0, 0, NULL)
 #define KIRI_SPACE_OF(Type, field) KIRI_MEMBER_LIST(KIRI_MEMBER_SPACE, 0, 1, Type, field, 0, 0, 0, NULL)
-#define KIRI_SHOWN_OF(Type, field) KIRI_MEMBER_LIST(KIRI_MEMBER_SHOWN, 0, 1, Type, field, 0, 0, 0, NULL)
 #define KIRI_OWNED(Type, field, table)                                                                                 \
     KIRI_MEMBER_ENTRY(KIRI_MEMBER_OWNED, 0, 0, sizeof(void*), Type, field, 0, 0, 0, &table, NULL)
 #define KIRI_CUSTOM(Type, field, function)                                                                             \
@@ -155,11 +155,15 @@ typedef struct kiriTable {
 #define KIRI_KEPT(Type, first, last) KIRI_MEMBER_RUN(KIRI_MEMBER_KEPT, 1, Type, first, last, 0, 0, 0)
 
 /* Several arrays of which only snapshots have the items; several whose room is kept. */
-#define KIRI_ARRAY_OF(Type, field) KIRI_MEMBER_LIST(KIRI_MEMBER_ARRAY, KIRI_MEMBER_NUMBERS, 1, Type, field, 0, 0, 0, NULL)
+#define KIRI_ARRAY_OF(Type, field)                                                                                     \
+    KIRI_MEMBER_LIST(KIRI_MEMBER_ARRAY, KIRI_MEMBER_NUMBERS, 1, Type, field, 0, 0, 0, NULL)
 #define KIRI_ARRAYS(Type, ...) KIRI_EACH_FIELD(KIRI_ARRAY_OF, Type, __VA_ARGS__)
 #define KIRI_ROOMS(Type, ...) KIRI_EACH_FIELD(KIRI_ROOM_OF, Type, __VA_ARGS__)
 
-#define KIRI_MARK(kind) { kind, 0, 0, 0, 0, 0, 0, 0, NULL, NULL }
+#define KIRI_MARK(kind)                                                                                                \
+    {                                                                                                                  \
+        kind, 0, 0, 0, 0, 0, 0, 0, NULL, NULL                                                                          \
+    }
 #define KIRI_UNHASHED KIRI_MARK(KIRI_MEMBER_UNHASHED)
 #define KIRI_DERIVED KIRI_MARK(KIRI_MEMBER_DERIVED)
 #define KIRI_HANDED KIRI_MARK(KIRI_MEMBER_HANDED)
@@ -199,7 +203,7 @@ struct kiriArchive {
     bool isShort;       /* READ: out of memory */
     bool isUnmoved;     /* READ: numbers are there, and only checked */
     uint8_t* bytes;     /* null if they are only measured or hashed */
-    int64_t at, size;   /* bytes done, of so many */
+    int64_t at, size;   /* bytes done, and in all */
     int64_t room;       /* READ: bytes of memory that arrays may still take */
     kiriMemory *memory, *shown; /* READ: owners of new blocks */
     uint64_t hash;
@@ -232,7 +236,7 @@ static inline void kiriArchive_Int32(kiriArchive* archive, int32_t* number)
     kiriArchive_Numbers(archive, number, 4, 1);
 }
 
-/* An integer that is no field. READ: returns the stored one, which is in [least, most]. */
+/* Moves an integer that is no field. READ: returns the stored one, in [least, most]. */
 int32_t kiriArchive_Count(kiriArchive* archive, int64_t count, int64_t least, int64_t most);
 
 /* One object, or a row. READ: it is zero before, and gets blocks of archive->memory. */

@@ -31,21 +31,20 @@ typedef struct kiriPool {
 
 void kiriPool_Init(kiriPool* pool, uint32_t kind);
 
-/* Are there so many ids left? */
+/* Returns true if `count` ids are left. */
 bool kiriPool_HasRoom(const kiriPool* pool, int64_t count);
 
-/* After it, `count` calls of Add cannot fail. False where there are not so many ids left, or no memory. */
+/* Makes `count` calls of Add safe from failure. Returns false if fewer ids are left, or on out of memory. */
 bool kiriPool_Reserve(kiriPool* pool, kiriMemory* memory, int32_t count);
 
-/* 0 where there is no id left, or no memory. */
+/* Returns an id; 0 if none is left, or on out of memory. */
 uint32_t kiriPool_Add(kiriPool* pool, kiriMemory* memory, void* owner, int32_t index);
 
-/* Null for an id that names nothing here. */
+/* Returns null for a stale or foreign id. */
 kiriSlot* kiriPool_Find(const kiriPool* pool, uint32_t id);
 void kiriPool_Remove(kiriPool* pool, uint32_t id);
 
-/* Of a pool that was read, whose slots have no owners: this one has the id, and nobody else. False where that cannot
-   be. */
+/* Sets the owner of an id in a pool that was loaded without owners. Returns false if the id is not free. */
 bool kiriPool_Claim(kiriPool* pool, uint32_t id, void* owner, int32_t index);
 
 KIRI_C_END

@@ -63,13 +63,13 @@ const kiriTable kiriMeshTable = KIRI_TABLE(kiriMeshData, MeshMembers);
 
 /* ---- Numbers ----------------------------------------------------------------------------------------------------- */
 
-/* The far end of the last line is within what a lattice point may be. */
+/* Returns true if the last line is in the range of lattice points. */
 static bool AreLines(const kiriSquares* squares, int32_t first, int32_t count)
 {
     return first >= 0 && count > 0 && ((int64_t)first + count) * squares->side <= (int64_t)KIRI_LATTICE * 2;
 }
 
-/* Blocks of corners, or those that a part lists. */
+/* Checks blocks of corners, or the corners that a part lists. */
 static bool AreSourceCorners(const kiriMeshData* mesh)
 {
     int32_t count = mesh->sourceCorners.count / (3 * KIRI_SOURCES_A_BLOCK);
@@ -98,7 +98,7 @@ static bool AreOriginals(const kiriMeshData* mesh)
     return areFine;
 }
 
-/* Of each triangle, and so of each vertex. */
+/* Returns true if the source of each triangle is known. Each vertex has the source of a triangle. */
 static bool AreSourcesThere(const kiriMeshData* mesh)
 {
     bool areFine = true;
@@ -142,10 +142,10 @@ static bool AreTriangles(const kiriMeshData* mesh)
 typedef struct Fan {
     const kiriMeshData* mesh;
     int32_t vertex, source, count;
-    bool isFine, hasSource; /* hasSource: that of the vertex is that of a triangle */
+    bool isFine, hasSource; /* hasSource: a triangle has the source of the vertex */
 } Fan;
 
-/* Of a triangle: where half-edge 3 `triangle` + `at` begins. */
+/* The corner of a triangle at which half-edge 3 `triangle` + `at` begins. */
 typedef struct Corner {
     uint32_t triangle, at;
 } Corner;
@@ -214,8 +214,8 @@ static void TakeFan(Fan* fan, int32_t start)
     }
 }
 
-/* Each corner is in the fan of its vertex. The source of a vertex is that of a triangle around it: so a part has its
-   corners. */
+/* Checks that each corner is in the fan of its vertex, and that the source of a vertex is the source of a triangle
+   around it. */
 static bool AreFans(const kiriMeshData* mesh)
 {
     int32_t corners = 3 * mesh->triangles.count;

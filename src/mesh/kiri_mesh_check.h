@@ -7,7 +7,7 @@
 
 KIRI_C_BEGIN
 
-/* A save has triangles, vertices and sources. Squares, and what lies in them, follow from these. */
+/* A save has triangles, vertices and sources. Squares and their lists are derived. */
 extern const kiriTable kiriMeshTable;
 
 /* Ends the load of a save, whose numbers are in range: checks that the mesh is one conforming triangulation, and fills

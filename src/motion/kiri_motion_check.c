@@ -131,8 +131,7 @@ static void ReadBodies(kiriArchive* archive, kiriSolver* solver, int32_t frameCo
 
 enum { BYTES_A_BODY = 1024 }; /* of memory, with its matrix */
 
-/* Bodies are made of the sheet when all of it is read (kiriSheet_RestageSolver). Of a solver only the patterns are
-   saved, and how often its lists were made. */
+/* Stores the patterns of bodies and the version of the lists. kiriSheet_RestageSolver derives the rest. */
 void kiriSolver_Archive(kiriArchive* archive, kiriSolver** made, const kiriMechanics* mechanics)
 {
     bool reads = kiriArchive_Reads(archive);

@@ -817,8 +817,7 @@ bool kiriRemake_Field(kiriSheetData* sheet, bool* isBad)
     kiriArrayHeader dirty = kiriArray_GetHeader(&sheet->regions.dirty);
     memset(&sheet->regions.dirty, 0, sizeof(sheet->regions.dirty));
     *isBad = false;
-    bool ok = RunStages(sheet, isBad) && Commit(sheet) &&
-              kiriSurface_RemakeRest(&sheet->seen.surface, &sheet->shown, &sheet->mesh);
+    bool ok = RunStages(sheet, isBad) && Commit(sheet);
     if (ok) {
         memcpy(sheet->regions.dirty.data, dirty.data, (size_t)sheet->frames.count);
     }

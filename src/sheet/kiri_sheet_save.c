@@ -160,7 +160,7 @@ static const kiriMember ContactForceMembers[] = {
 };
 static const kiriTable ContactForceTable = KIRI_TABLE(kiriContactForce, ContactForceMembers);
 
-/* Summed anew. */
+/* The sums are made again. */
 static const kiriMember RestLoadsMembers[] = {
     KIRI_UNHASHED,
     KIRI_ROOM_OF(kiriRestLoads, on),
@@ -197,7 +197,6 @@ static const kiriMember SeenMembers[] = {
     KIRI_UNHASHED,
     KIRI_PART(kiriSeen, surface, kiriSurfaceTable),
     KIRI_KEPT(kiriSeen, bounds, bounds),
-    KIRI_SHOWN_OF(kiriSeen, exactPoints),
     KIRI_RUN(4, kiriSeen, pointCount, pointCount),
     KIRI_ROOM_OF(kiriSeen, pointsBefore),
     KIRI_BOOLS(kiriSeen, isElsewhere, isElsewhere),
@@ -205,12 +204,14 @@ static const kiriMember SeenMembers[] = {
     KIRI_PART(kiriSeen, blocks, BlocksTable),
     KIRI_RUN(8, kiriSeen, lists, lists),
     KIRI_BOOLS(kiriSeen, areFadesAsleep, areFadesAsleep),
+    KIRI_DERIVED,
+    KIRI_ARRAYS(kiriSeen, exactPoints),
     KIRI_HANDED,
-    KIRI_SHOWN_OF(kiriSeen, pointPositions),
+    KIRI_ARRAYS(kiriSeen, pointPositions),
 };
 static const kiriTable SeenTable = KIRI_TABLE(kiriSeen, SeenMembers);
 
-/* Probes are chosen anew, but keep the velocities that they had. */
+/* Probes are chosen again, and keep their velocities. */
 static const kiriMember ProbesMembers[] = {
     KIRI_BOOLS(kiriProbes, isFresh, isFresh),
     KIRI_RUN(4, kiriProbes, block, block),
@@ -306,7 +307,7 @@ static const kiriMember TurnsMembers[] = {
 };
 static const kiriTable TurnsTable = KIRI_TABLE(kiriPieceTurns, TurnsMembers);
 
-/* Indices are checked by these while all else is read. */
+/* Counts come first: a load checks indices against them as it reads. */
 static void MoveCounts(kiriArchive* archive, void* object)
 {
     const kiriSheetData* sheet = object;
@@ -367,6 +368,7 @@ static void MoveCuts(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* mem
             kiriCutData* cut = kiriMemory_AllocZeroed(memory, sizeof(kiriCutData));
             archive->isShort |= cut == NULL || !kiriArray_Push(memory, &sheet->cuts, cut);
         }
+        KIRI_ASSERT(archive->isShort || (i < sheet->cuts.count && sheet->cuts.data[i] != NULL));
         if (!archive->isShort) {
             kiriArchive_Object(archive, &CutDataTable, sheet->cuts.data[i]);
         }
@@ -386,14 +388,15 @@ static void MoveCuts(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* mem
         int32_t cut = kiriArchive_Count(archive, point->cut != NULL ? point->cut->index : 0, 0, sheet->cuts.count - 1);
         kiriArchive_Object(archive, &QueuedPointTable, point);
         if (kiriArchive_Reads(archive) && !kiriArchive_HasFailed(archive)) {
+            KIRI_ASSERT(cut >= 0 && cut < sheet->cuts.count);
             point->cut = sheet->cuts.data[cut];
             point->cut->waiting += 1;
         }
     }
 }
 
-/* Vertices and normals are what patches, fades and triangles make of them, but when weights, or what is seen, have
-   changed since they were written. */
+/* Returns true if vertices and normals follow from patches, fades and triangles: weights have not changed since they
+   were written. */
 static bool AreWeightsSeen(const kiriSheetData* sheet)
 {
     const kiriSurface* surface = &sheet->seen.surface;
@@ -402,7 +405,29 @@ static bool AreWeightsSeen(const kiriSheetData* sheet)
            surface->vertexCount == sheet->seen.vertexCount && surface->vertexCount == sheet->mesh.vertices.count;
 }
 
-/* What a save has of vertices and points that are seen, and of the boxes around them. */
+/* Makes room for the vertices of a save, which come next. */
+static void ReserveSeen(kiriArchive* archive, kiriSheetData* sheet)
+{
+    kiriSurface* surface = &sheet->seen.surface;
+    int32_t frames = sheet->frames.count, points = sheet->points.count;
+    KIRI_ASSERT(kiriArchive_Reads(archive) && !archive->isWhole && !kiriArchive_HasFailed(archive));
+    surface->vertexCount = sheet->mesh.vertices.count;
+    surface->triangleCount = sheet->mesh.triangles.count;
+    kiriArchive_Expect(archive, surface->carriers.count >= frames && surface->patches.count <= frames &&
+                                    sheet->seen.pointCount >= 0 && sheet->seen.pointCount <= points &&
+                                    kiriSurface_AreChangesSound(surface));
+    if (!archive->isBad) {
+        archive->isShort |= !kiriSurface_Reserve(surface, archive->shown, sheet->mesh.vertices.count,
+                                                 sheet->mesh.triangles.count, frames) ||
+                            !kiriArray_Resize(archive->memory, &sheet->seen.exactPoints, points) ||
+                            !kiriArray_Resize(archive->shown, &sheet->seen.pointPositions, 3 * (int64_t)points);
+    }
+    if (!kiriArchive_HasFailed(archive)) {
+        kiriSurface_Resize(surface, surface->vertexCount, surface->triangleCount, frames);
+    }
+}
+
+/* Moves the vertices and points that the host sees, and whether there are boxes around them. */
 static void MoveSeen(kiriArchive* archive, kiriSheetData* sheet)
 {
     kiriSurface* surface = &sheet->seen.surface;
@@ -412,7 +437,9 @@ static void MoveSeen(kiriArchive* archive, kiriSheetData* sheet)
     kiriArchive_Int32(archive, &bounds->patience);
     kiriArchive_Expect(archive, bounds->patience >= 0 && bounds->patience <= KIRI_BOUNDS_PATIENCE);
     bounds->levelCount = kiriArchive_Reads(archive) ? isThere : bounds->levelCount;
-    kiriArchive_Expect(archive, kiriSurface_HasRoom(surface));
+    if (kiriArchive_Reads(archive) && !archive->isWhole && !kiriArchive_HasFailed(archive)) {
+        ReserveSeen(archive, sheet);
+    }
     if (archive->isWhole || kiriArchive_HasFailed(archive)) {
         return;
     }
@@ -438,6 +465,7 @@ static bool AreCounted(const kiriArchive* archive, const kiriSheetData* sheet)
 void kiriSheet_Archive(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* memory)
 {
     bool isHash = archive->mode == KIRI_ARCHIVE_HASH;
+    KIRI_ASSERT(memory != &sheet->own && sheet->memory == &sheet->own);
     archive->memory = &sheet->own;
     archive->shown = &sheet->shown;
     kiriArchive_Object(archive, &SheetTable, sheet);
@@ -473,7 +501,7 @@ void kiriSheet_HashLayout(uint64_t* hash)
 
 /* ---- Checks ------------------------------------------------------------------------------------------------------ */
 
-/* In what may be cut of the rest plane. */
+/* Returns true if blades can reach the point. */
 static bool IsOnLattice(kiriLatticePoint at)
 {
     enum { MOST = KIRI_LATTICE + KIRI_LATTICE / 2 + 2 };
@@ -496,6 +524,7 @@ static bool AreCuts(const kiriSheetData* sheet)
     bool areFine = true;
     for (int32_t c = 0; areFine && c < sheet->cuts.count; ++c) {
         const kiriCutData* cut = sheet->cuts.data[c];
+        KIRI_ASSERT(cut->sheet == sheet && cut->index == c);
         areFine = IsTip(sheet, &cut->tip.blade);
     }
     for (int32_t k = 0; areFine && k < sheet->queue.count; ++k) {
@@ -574,10 +603,7 @@ static bool ArePins(const kiriSheetData* sheet)
 
 static bool ArePoints(const kiriSheetData* sheet)
 {
-    const kiriSeen* seen = &sheet->seen;
-    bool areFine = seen->pointCount >= 0 && seen->pointCount <= sheet->points.count &&
-                   seen->exactPoints.count == sheet->points.count &&
-                   seen->pointPositions.count == 3 * (int64_t)sheet->points.count;
+    bool areFine = true;
     for (int32_t i = 0; areFine && i < sheet->points.count; ++i) {
         kiriLatticePoint at = sheet->points.data[i].at;
         int32_t square =
@@ -630,8 +656,7 @@ static bool AreBlocks(const kiriBlocks* blocks, const kiriSheetData* sheet)
                    blocks->moved.count >= sheet->frames.count;
     for (int32_t k = 0; areFine && k < count; ++k) {
         int32_t mover = blocks->movers.data[k];
-        areFine =
-            mover == KIRI_UNKNOWN || mover == KIRI_NONE || (mover >= 0 && mover < sheet->frames.count);
+        areFine = mover == KIRI_UNKNOWN || mover == KIRI_NONE || (mover >= 0 && mover < sheet->frames.count);
     }
     return areFine;
 }
@@ -644,8 +669,7 @@ static bool AreFadesSet(const kiriFades* fades, const kiriSettings* settings)
 static bool IsSeen(const kiriSheetData* sheet)
 {
     const kiriSeen* seen = &sheet->seen;
-    return kiriSurface_IsSound(&seen->surface, &sheet->mesh, sheet->frames.count) &&
-           kiriFades_AreSound(&seen->fades, sheet->mesh.vertices.count) &&
+    return kiriFades_AreSound(&seen->fades, sheet->mesh.vertices.count) &&
            kiriFades_AreSound(&seen->pointFades, sheet->points.count) &&
            AreFadesSet(&seen->fades, &sheet->settings) && AreFadesSet(&seen->pointFades, &sheet->settings) &&
            AreBlocks(&seen->blocks, sheet);
@@ -671,6 +695,7 @@ static bool HaveArraysRoom(const kiriSheetData* sheet)
 
 void kiriSheet_Derive(kiriSheetData* sheet, kiriArchive* archive)
 {
+    KIRI_ASSERT(kiriArchive_Reads(archive) && !archive->isWhole && sheet->mesh.memory == &sheet->own);
     kiriMesh_Derive(&sheet->mesh, archive);
     kiriArchive_Expect(archive, kiriArchive_HasFailed(archive) ||
                                     (AreSettings(&sheet->settings) && AreFrames(sheet) && ArePieces(&sheet->layout) &&
@@ -682,9 +707,19 @@ void kiriSheet_Derive(kiriSheetData* sheet, kiriArchive* archive)
     bool isBad = false, isMade = kiriRemake_Field(sheet, &isBad);
     kiriArchive_Expect(archive, !isBad && (!isMade || HaveArraysRoom(sheet)));
     archive->isShort |= !isMade && !archive->isBad;
+    if (kiriArchive_HasFailed(archive)) {
+        return;
+    }
+    KIRI_ASSERT(sheet->update->stage == KIRI_NONE && sheet->vertexSkin.spans.count == sheet->mesh.vertices.count);
+    kiriSurface_Derive(&sheet->seen.surface, &sheet->mesh);
+    for (int32_t t = 0; t < sheet->mesh.triangles.count; ++t) {
+        if (sheet->layout.pieces.data[kiriPiece_OfTriangle(sheet, t)].isGone) {
+            kiriSurface_HideTriangle(&sheet->seen.surface, t);
+        }
+    }
 }
 
-/* What array `from` has goes to `to`, which has as many items or was empty. */
+/* Copies the items of one array to another with the same count. */
 static void TakeSpeeds(void* to, const void* from, size_t itemBytes)
 {
     kiriArrayHeader old = kiriArray_GetHeader(from), fresh = kiriArray_GetHeader(to);
@@ -712,7 +747,7 @@ static bool RemakeProbes(kiriSheetData* sheet)
     return ok;
 }
 
-/* Boxes, normals and probes are made anew where they were there. */
+/* Makes boxes, normals and probes again if they were there. */
 bool kiriSheet_EndReading(kiriSheetData* sheet, bool isWhole)
 {
     kiriSurface* surface = &sheet->seen.surface;

@@ -11,8 +11,8 @@ KIRI_C_BEGIN
 /* Moves a sheet with its cuts. READ: the sheet is new; its cuts become blocks of `memory`. */
 void kiriSheet_Archive(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* memory);
 
-/* Ends the load of a save, when ids are claimed: checks the sheet, and derives what is not saved. The host's settings
-   are checked by the world. */
+/* Ends the load of a save after ids are claimed: checks the sheet and derives the other fields. The world checks the
+   host's settings. */
 void kiriSheet_Derive(kiriSheetData* sheet, kiriArchive* archive);
 
 /* Derives vertices, boxes and probes of a sheet that was read. False for memory. */

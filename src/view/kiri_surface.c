@@ -313,22 +313,22 @@ void kiriSurface_WriteTopology(kiriSurface* surface, const kiriMeshData* mesh)
     }
 }
 
-bool kiriSurface_RemakeRest(kiriSurface* surface, kiriMemory* memory, const kiriMeshData* mesh)
+void kiriSurface_Derive(kiriSurface* surface, const kiriMeshData* mesh)
 {
-    int32_t vertices = surface->vertexCount, triangles = surface->triangleCount;
-    KIRI_ASSERT(vertices == mesh->vertices.count && triangles == mesh->triangles.count);
-    if (!kiriArray_Resize(memory, &surface->restPositions, 2 * (int64_t)vertices) ||
-        !kiriArray_Resize(memory, &surface->rest, vertices) ||
-        !kiriArray_Resize(memory, &surface->turns, triangles / 2 + triangles % 2)) {
-        return false;
-    }
-    for (int32_t v = 0; v < vertices; ++v) {
+    KIRI_ASSERT(surface->vertexCount == mesh->vertices.count && surface->triangleCount == mesh->triangles.count);
+    KIRI_ASSERT(surface->rest.count == surface->vertexCount && surface->indices.count == 3 * surface->triangleCount);
+    surface->origin = mesh->origin;
+    surface->longer = KIRI_LATTICE * mesh->step;
+    for (int32_t v = 0; v < surface->vertexCount; ++v) {
         WriteNewVertex(surface, mesh, v);
+        WriteSource(surface, mesh, v);
+    }
+    for (int32_t t = 0; t < surface->triangleCount; ++t) {
+        WriteTriangle(surface, mesh, t);
     }
     for (int32_t pair = 0; pair < surface->turns.count; ++pair) {
         WriteTurn(surface, pair);
     }
-    return true;
 }
 
 /* Extends a range by the part of another one below `end`. Items from there on are new. */

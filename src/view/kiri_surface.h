@@ -137,8 +137,8 @@ void kiriSurface_Resize(kiriSurface* surface, int32_t vertices, int32_t triangle
    all of the mesh. */
 void kiriSurface_WriteTopology(kiriSurface* surface, const kiriMeshData* mesh);
 
-/* Derives rest positions and turns, after a load. Returns false on out of memory. */
-bool kiriSurface_RemakeRest(kiriSurface* surface, kiriMemory* memory, const kiriMeshData* mesh);
+/* Derives what depends on the mesh alone, after a load and kiriSurface_Resize. */
+void kiriSurface_Derive(kiriSurface* surface, const kiriMeshData* mesh);
 
 /* Arrays that replace those of a surface. The host may still hold the old ones. */
 typedef struct kiriShown {

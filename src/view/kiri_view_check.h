@@ -12,11 +12,8 @@ extern const kiriTable kiriSkinTable, kiriPlacesTable, kiriRefreshTable, kiriFad
 /* Returns true if loaded fades are of samples, each once. */
 bool kiriFades_AreSound(const kiriFades* fades, int32_t samples);
 
-/* Returns true if a loaded surface has room for its vertices: then these can be read. */
-bool kiriSurface_HasRoom(const kiriSurface* surface);
-
-/* Returns true if a loaded surface shows the mesh, or none of it, and its arrays are as long as they have to be. */
-bool kiriSurface_IsSound(const kiriSurface* surface, const kiriMeshData* mesh, int32_t frames);
+/* Returns true if the changes of a loaded surface are within it. */
+bool kiriSurface_AreChangesSound(const kiriSurface* surface);
 
 KIRI_C_END
 

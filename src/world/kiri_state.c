@@ -98,7 +98,7 @@ static void HashTurn(kiriArchive* archive, void* object)
     }
 }
 
-/* Hooks stay those of the world that reads. */
+/* The world that reads keeps its hooks. */
 static const kiriMember WorldMembers[] = {
     KIRI_REALS(kiriWorld, gravity, gravity),
     KIRI_WITHIN(0, INT32_MAX, kiriWorld, budget, budget),
@@ -189,7 +189,7 @@ static bool ClaimIdsOfSheet(kiriWorld* world, kiriSheetData* sheet)
     return ok;
 }
 
-/* Each thing takes the slot that its id names. */
+/* Gives each object the slot that its id names. */
 static bool ClaimIds(kiriWorld* world)
 {
     bool ok = true;
@@ -229,7 +229,7 @@ static bool IsWorld(const kiriWorld* world)
            world->newEvents <= world->events.count;
 }
 
-/* The cut of a layer is one of its sheet. */
+/* Returns true if the cut of each layer belongs to the sheet of the layer. */
 static bool AreLayers(const kiriWorld* world, const kiriBladeData* blade)
 {
     bool areFine = true;
@@ -241,7 +241,7 @@ static bool AreLayers(const kiriWorld* world, const kiriBladeData* blade)
     return areFine;
 }
 
-/* What the host gave is what it may give, and pieces that leave are of this sheet. */
+/* Returns true if settings are legal, and leaving pieces are pieces of this sheet. */
 static bool IsSheet(const kiriWorld* world, const kiriSheetData* sheet)
 {
     const kiriSettings* settings = &sheet->settings;
@@ -262,7 +262,7 @@ static bool IsSheet(const kiriWorld* world, const kiriSheetData* sheet)
 
 static const char saveMagic[8] = { 'K', 'i', 'r', 'i', 'S', 'a', 'v', 'e' };
 
-/* What comes before the world; the sum of all bytes comes after it. */
+/* Precedes the world. The sum of all bytes follows it. */
 typedef struct SaveHead {
     char magic[8];
     int32_t version, library;
@@ -407,7 +407,7 @@ static kiriResult ReadWorld(kiriWorld* made, const uint8_t* bytes, int64_t size,
     return archive.isBad ? KIRI_ERROR_DATA : archive.isShort ? KIRI_ERROR_MEMORY : KIRI_OK;
 }
 
-/* What the host may hold of the old state lives until the next tick. */
+/* Arrays of the old state that the host may hold live until the next tick. */
 static void TakeWorld(kiriWorld* world, kiriWorld* made)
 {
     DropSheets(world, &world->retired);
@@ -511,6 +511,7 @@ kiriResult kiriSnapshot_Read(kiriWorld* world, const void* bytes, int64_t size)
 static void HashWork(uint64_t* hash, const kiriWorld* world, const kiriSheetData* sheet)
 {
     const kiriUpdate* u = sheet->update;
+    KIRI_ASSERT(!sheet->mesh.isOpen);
     bool isLimited = world->budget.cells > 0 || world->budget.samples > 0;
     kiriHash_Int32(hash, isLimited && sheet->settings.fromScratch);
     kiriHash_Int32(hash, (isLimited || u->stage != KIRI_NONE) && (u->needsRebuild || u->isScratch));
