@@ -89,7 +89,7 @@ const kiriTable kiriShapeTable = KIRI_TABLE(kiriShape, ShapeMembers);
 
 static const kiriMember SightEdgesMembers[] = {
     KIRI_DERIVED,
-    KIRI_ARRAYS(kiriSightEdges, edges, squares, spans, listed),
+    KIRI_ARRAYS(kiriSightEdges, edges, squares, listed),
 };
 static const kiriTable SightEdgesTable = KIRI_TABLE(kiriSightEdges, SightEdgesMembers);
 

@@ -42,11 +42,6 @@ static bool IsStale(const LinkUpdate* u, int32_t region)
     return (u->work->stale.data[region] & REGION_STALE) != 0;
 }
 
-static bool IsPairBefore(const kiriLink* a, const kiriLink* b)
-{
-    return a->i != b->i ? a->i < b->i : a->j < b->j;
-}
-
 static bool IsOfPair(const kiriLink* link, int32_t i, int32_t j)
 {
     return link->i == i && link->j == j;
@@ -56,6 +51,7 @@ static bool IsOfPair(const kiriLink* link, int32_t i, int32_t j)
 static int32_t FirstOfPair(const kiriLink* links, int32_t count, int32_t i, int32_t j)
 {
     int32_t low;
+    KIRI_ASSERT(i >= 0 && i < j);
     KIRI_SEARCH(low, 0, count, links[middle].i < i || (links[middle].i == i && links[middle].j < j));
     return low;
 }
@@ -70,21 +66,28 @@ static bool IsSliver(const kiriGrid* grid, int32_t cell)
     return kiriGrid_Area(grid, cell) < kiriSliver * grid->side * grid->side;
 }
 
-/* Orders faces by square, axis, and the lowest triangles of the two cells, so not by index. No two faces share all. */
-static bool IsFaceBefore(const void* context, int32_t a, int32_t b)
+/* The key of a face does not depend on indices: square, axis, and the lowest triangles of the two cells. No two faces
+   share it. */
+static void SetFaceKey(const kiriGrid* grid, int32_t face, int32_t key[4])
 {
-    const kiriGrid* grid = context;
-    const kiriCell* cells = grid->cells.data;
-    const kiriFace *f = &grid->faces.data[a], *g = &grid->faces.data[b];
-    const kiriCell *fHigh = &cells[f->cell[1]], *gHigh = &cells[g->cell[1]];
-    if (fHigh->square != gHigh->square) {
-        return fHigh->square < gHigh->square;
+    const kiriFace* f = &grid->faces.data[face];
+    const kiriCell *low = &grid->cells.data[f->cell[0]], *high = &grid->cells.data[f->cell[1]];
+    key[0] = high->square;
+    key[1] = kiriFace_Axis(f);
+    key[2] = low->triangle;
+    key[3] = high->triangle;
+}
+
+static bool IsFaceBefore(const void* grid, int32_t a, int32_t b)
+{
+    int32_t x[4], y[4];
+    SetFaceKey(grid, a, x);
+    SetFaceKey(grid, b, y);
+    int k = 0;
+    while (k < 3 && x[k] == y[k]) {
+        ++k;
     }
-    if (kiriFace_Axis(f) != kiriFace_Axis(g)) {
-        return kiriFace_Axis(f) < kiriFace_Axis(g);
-    }
-    int32_t fLow = cells[f->cell[0]].triangle, gLow = cells[g->cell[0]].triangle;
-    return fLow != gLow ? fLow < gLow : fHigh->triangle < gHigh->triangle;
+    return x[k] < y[k];
 }
 
 /* Returns a border face without its stretch. */
@@ -130,6 +133,7 @@ static bool GatherStretch(const LinkUpdate* u, int32_t face, uint8_t next)
 {
     kiriLinkWork* work = u->work;
     kiriIndices* found = &work->order;
+    KIRI_ASSERT(face >= 0 && face < work->marks.count);
     uint8_t mark = work->marks.data[face];
     KIRI_ASSERT(mark != next);
     found->count = 0;
@@ -377,6 +381,7 @@ static int32_t CellBefore(const LinkUpdate* u, int32_t cell)
     const kiriField* field = &u->regions->field;
     int32_t region = field->owner.data[cell], distance = field->distance.data[cell];
     kiriSteps steps;
+    KIRI_ASSERT(region != KIRI_NONE && distance != KIRI_FAR);
     if (kiriSite_SeedAt(&u->sites[region], region, u->grid, u->mesh, cell).distance == distance) {
         return KIRI_NONE;
     }
@@ -458,7 +463,8 @@ static double AlongLine(const BorderLine* line, kiriVec2 p)
 /* Two points as near as this, in sides of a square, are one; a border as short is none. */
 static const double kiriBorderLeast = 1e-6;
 
-static void StartEndSearch(EndSearch* s, const LinkUpdate* u, const kiriLinkEnd* grid, const int32_t cells[2], int around)
+static void StartEndSearch(EndSearch* s, const LinkUpdate* u, const kiriLinkEnd* grid, const int32_t cells[2],
+                           int around)
 {
     s->u = u;
     s->grid = grid;
@@ -494,7 +500,7 @@ static bool IsSiteSeen(EndSearch* s, int32_t k)
 }
 
 /* Returns where ahead the first other region is as near, of those that are seen. */
-static double FindLimit(EndSearch* s)
+static double FindFirstLimit(EndSearch* s)
 {
     for (;;) {
         double limit = kiriFarAhead;
@@ -523,7 +529,7 @@ static bool IsEndSeen(const EndSearch* s, const kiriLinkEnd* end)
 static bool FindSeenEnd(EndSearch* s, kiriVec2 from, kiriLinkEnd* end)
 {
     double start = s->ahead * AlongLine(&s->line, from), extent = s->u->mesh->step * KIRI_LATTICE;
-    double limit = FindLimit(s), goal = kiriMin(limit, start + 2.0 * extent);
+    double limit = FindFirstLimit(s), goal = kiriMin(limit, start + 2.0 * extent);
     SetEnd(end, KIRI_END_CORNER, PointOn(&s->line, s->ahead * limit));
     for (int32_t k = 0; k < s->near.count && end->region[KIRI_CORNER_REGIONS - 1] == KIRI_NONE; ++k) {
         if (k < 2 || (LimitBy(s, k) <= limit + s->least && IsSiteSeen(s, k))) {
@@ -672,6 +678,7 @@ static bool WalkToEnd(const EndSearch* s, int32_t* on, kiriVec2 at, kiriLinkEnd*
     const kiriMeshData* mesh = s->u->mesh;
     int32_t edge = *on;
     kiriVec2 slope;
+    KIRI_ASSERT(s->reach[0].state == REACH_KNOWN && s->reach[1].state == REACH_KNOWN);
     double far = Farther(&s->reach[0], &s->reach[1], at, &slope), left = 3.0 * s->u->grid->side;
     bool ahead = far * kiriVec2_Dot(slope, kiriVec2_Sub(EdgeEnd(mesh, edge, true), EdgeEnd(mesh, edge, false))) < 0.0;
     for (int steps = 0; steps < 32 && left > 0.0; ++steps) {
@@ -762,8 +769,7 @@ static bool FindTurnedOpenEnd(EndSearch* s, kiriLinkEnd* end)
 
 /* ---- Exact ends -------------------------------------------------------------------------------------------------- */
 
-/* Finds how far the sites are that take part in the end: of the link's regions, and of others that the grid has there.
-   */
+/* Finds the distances to the sites that take part in the end: both of the link, and others that the grid has there. */
 static bool FindReaches(EndSearch* s)
 {
     for (int32_t k = 0; k < s->near.count; ++k) {
@@ -1095,7 +1101,7 @@ static bool FindBetweenLimits(EndSearch* s, kiriVec2* at)
     double limit[2], inside = 0.25 * s->u->grid->side;
     for (int k = 0; k < 2; ++k) {
         s->ahead = k == 0 ? -1.0 : 1.0;
-        limit[k] = FindLimit(s);
+        limit[k] = FindFirstLimit(s);
     }
     if (limit[0] == kiriFarAhead && limit[1] == kiriFarAhead) {
         return false;
@@ -1122,6 +1128,7 @@ static bool MakeShortLink(const LinkUpdate* u, const kiriLinkEnd* near, const in
     made->face = KIRI_NONE;
     link->i = s.near.region[0];
     link->j = s.near.region[1];
+    KIRI_ASSERT(link->i < link->j);
     if (!FindBetweenLimits(&s, &at) || kiriVec2_Distance(at, near->look) > most ||
         !kiriSight_IsClear(&s.sight, near->look, at) || !IsSiteSeen(&s, 0) || !IsSiteSeen(&s, 1)) {
         return false;
@@ -1199,9 +1206,10 @@ static bool IsMadeBefore(const void* context, int32_t a, int32_t b)
     const LinkUpdate* u = context;
     const kiriNewLink *x = &u->work->made.data[a], *y = &u->work->made.data[b];
     if (!IsOfPair(&x->link, y->link.i, y->link.j)) {
-        return IsPairBefore(&x->link, &y->link);
+        return kiriLink_IsBefore(&x->link, &y->link);
     }
     KIRI_ASSERT(x->face != KIRI_NONE && y->face != KIRI_NONE);
+    KIRI_ASSERT(x->face != y->face);
     return IsFaceBefore(u->grid, x->face, y->face);
 }
 
@@ -1213,7 +1221,8 @@ static void AddNext(const LinkUpdate* u, const kiriLink* link, const kiriLinkEnd
     u->work->nextEnds.data[u->work->nextEnds.count++] = *ends;
 }
 
-/* Sorts the links that were made by their keys and merges them with the kept ones. No pair of regions has both. */
+/* Sorts the links that were made by their keys, and merges them with the kept ones; no pair of regions has both. Counts
+   the made ones that differ from the old link with the same key. */
 static bool MergeLinks(const LinkUpdate* u)
 {
     kiriLinks* links = u->links;
@@ -1229,10 +1238,10 @@ static bool MergeLinks(const LinkUpdate* u)
         work->order.data[k] = k;
     }
     kiriSort(work->order.data, work->order.count, IsMadeBefore, u);
-    links->next.count = work->nextEnds.count = links->was.count = 0;
+    links->next.count = work->nextEnds.count = links->was.count = links->changed = 0;
     for (int32_t k = 0; k <= work->order.count; ++k) {
         const kiriNewLink* made = k < work->order.count ? &work->made.data[work->order.data[k]] : NULL;
-        for (; old < links->links.count && (made == NULL || IsPairBefore(&links->links.data[old], &made->link));
+        for (; old < links->links.count && (made == NULL || kiriLink_IsBefore(&links->links.data[old], &made->link));
              ++old) {
             if (work->to.data[old] != KIRI_NONE) {
                 work->to.data[old] = links->next.count;
@@ -1240,27 +1249,13 @@ static bool MergeLinks(const LinkUpdate* u)
             }
         }
         if (made != NULL) {
+            bool hasOld = old < links->links.count && IsOfPair(&links->links.data[old], made->link.i, made->link.j);
+            links->changed += !hasOld || memcmp(&links->links.data[old], &made->link, sizeof(made->link)) != 0;
+            old += hasOld;
             AddNext(u, &made->link, &made->ends, KIRI_NONE);
         }
     }
     return true;
-}
-
-/* Counts the links that differ in any bit from the old link with the same key. */
-static int32_t CountChanged(const kiriLinks* links)
-{
-    int32_t changed = 0, old = 0, oldCount = links->links.count;
-    for (int32_t k = 0; k < links->next.count; ++k) {
-        const kiriLink* link = &links->next.data[k];
-        bool isOld = links->was.data[k] == old && old < oldCount;
-        while (!isOld && old < oldCount && IsPairBefore(&links->links.data[old], link)) {
-            ++old;
-        }
-        bool hasOld = old < oldCount && (isOld || IsOfPair(&links->links.data[old], link->i, link->j));
-        changed += !isOld && !(hasOld && memcmp(&links->links.data[old], link, sizeof(*link)) == 0);
-        old += hasOld;
-    }
-    return changed;
 }
 
 /* ---- Corners ----------------------------------------------------------------------------------------------------- */
@@ -1508,10 +1503,7 @@ static bool FinishLinks(const LinkUpdate* u)
     int32_t made = u->work->made.count;
     bool ok = MergeLinks(u) && MakeShortLinks(u);
     ok = ok && (u->work->made.count == made || MergeLinks(u)) && MakeCorners(u);
-    if (ok) {
-        u->links->changed = CountChanged(u->links);
-        u->work->due += 2 * (int64_t)u->links->next.count;
-    }
+    u->work->due += 2 * (int64_t)u->links->next.count;
     return ok;
 }
 

@@ -26,6 +26,12 @@ typedef struct kiriLink {
     kiriVec2 sum, spread[2];
 } kiriLink;
 
+/* Orders links by their regions. */
+static inline bool kiriLink_IsBefore(const kiriLink* a, const kiriLink* b)
+{
+    return a->i != b->i ? a->i < b->i : a->j < b->j;
+}
+
 /* Where three or four regions meet. It couples curvatures, and stretches, of different directions: the sum over its
    links of weight . (strains along normal and tangent) is the trace of the curvature, or of the strain. */
 typedef struct kiriCorner {
@@ -102,8 +108,8 @@ typedef struct kiriLinks {
     KIRI_ARRAY(kiriLink) links;
     KIRI_ARRAY(kiriLink) next; /* result of kiriLinks_Update; Commit swaps */
     int32_t changed;           /* links of `next` that differ from the old ones */
-    /* For each next link, and after the commit for each link: index of the equal old link, or KIRI_NONE where the link
-       was made. Empty: unknown. */
+    /* Index of the equal old link for each next link, after the commit for each link; KIRI_NONE where the link was
+       made. Empty: unknown. */
     kiriIndices was;
     /* Sorted by their links. Where four regions meet, all four pairs of neighbours are linked. */
     KIRI_ARRAY(kiriCorner) corners;

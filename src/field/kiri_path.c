@@ -40,9 +40,9 @@ bool kiriSightEdges_Start(kiriSightEdges* edges, const kiriMeshData* mesh)
         edges->listed.data[s] = KIRI_NONE;
     }
     for (int32_t k = 0; k < edges->squares.count; ++k) {
-        edges->listed.data[edges->squares.data[k]] = KIRI_NONE;
+        edges->listed.data[edges->squares.data[k].square] = KIRI_NONE;
     }
-    edges->squares.count = edges->spans.count = edges->edges.count = 0;
+    edges->squares.count = edges->edges.count = 0;
     edges->failed = false;
     return true;
 }
@@ -67,21 +67,20 @@ static bool CollectEdges(const kiriSight* sight, int32_t square)
 {
     const kiriMeshData* mesh = sight->mesh;
     kiriSightEdges* edges = sight->edges;
-    kiriSpan span = { edges->edges.count, 0 };
-    bool ok = kiriArray_Reserve(mesh->memory, &edges->spans, (int64_t)edges->spans.count + 1) &&
-              kiriArray_Push(mesh->memory, &edges->squares, square);
+    kiriSquareEdges entry = { square, { edges->edges.count, 0 } };
+    bool ok = true;
     for (int32_t n = mesh->squares.head[square]; n != KIRI_NONE; n = mesh->squares.nodes.data[n].next) {
         int32_t first = 3 * mesh->squares.nodes.data[n].triangle;
         for (int32_t h = first; ok && h < first + 3; ++h) {
             ok = !IsMaterialEdge(mesh, h) || AddSightEdge(sight, square, h, sight->grid->nodeCell.data[n]);
         }
     }
-    if (ok) {
-        span.count = edges->edges.count - span.first;
-        edges->listed.data[square] = edges->spans.count;
-        edges->spans.data[edges->spans.count++] = span;
+    entry.edges.count = edges->edges.count - entry.edges.first;
+    if (!ok || !kiriArray_Push(mesh->memory, &edges->squares, entry)) {
+        return false;
     }
-    return ok;
+    edges->listed.data[square] = edges->squares.count - 1;
+    return true;
 }
 
 /* Returns the edges of the material in a square, in no order. Valid until the next call. */
@@ -96,7 +95,8 @@ static const kiriSightEdge* EdgesOfSquare(const kiriSight* sight, int32_t square
         *count = 0;
         return NULL;
     }
-    kiriSpan span = edges->spans.data[edges->listed.data[square]];
+    KIRI_ASSERT(edges->listed.data[square] < edges->squares.count);
+    kiriSpan span = edges->squares.data[edges->listed.data[square]].edges;
     KIRI_ASSERT(span.first >= 0 && span.first + span.count <= edges->edges.count);
     *count = span.count;
     return edges->edges.data + span.first;
@@ -230,13 +230,13 @@ void kiriTurns_Start(kiriTurns* turns, kiriVec2 from, kiriVec2 to, double most)
 /* Orders turns by place: the triangles of a square come in no order. */
 static bool IsTurnBefore(const kiriTurn* a, const kiriTurn* b)
 {
-    const kiriLatticePoint p[3] = { a->at, a->before, a->after }, q[3] = { b->at, b->before, b->after };
-    for (int k = 0; k < 3; ++k) {
-        if (p[k].x != q[k].x || p[k].y != q[k].y) {
-            return p[k].x != q[k].x ? p[k].x < q[k].x : p[k].y < q[k].y;
-        }
+    const double p[6] = { a->at.x, a->at.y, a->before.x, a->before.y, a->after.x, a->after.y };
+    const double q[6] = { b->at.x, b->at.y, b->before.x, b->before.y, b->after.x, b->after.y };
+    int k = 0;
+    while (k < 6 && p[k] == q[k]) {
+        ++k;
     }
-    return false;
+    return k < 6 && p[k] < q[k];
 }
 
 /* Adds a corner, in order, once. */
@@ -260,7 +260,6 @@ static void AddTurn(kiriTurns* turns, const kiriTurn* turn)
 
 static void ScanSquare(kiriTurns* turns, const kiriSight* sight, int32_t square)
 {
-    const kiriMeshData* mesh = sight->mesh;
     int32_t count;
     for (int32_t k = 0; k < turns->scannedCount; ++k) {
         if (turns->scanned[k] == square) {
@@ -278,8 +277,7 @@ static void ScanSquare(kiriTurns* turns, const kiriSight* sight, int32_t square)
         if (e->isTurn &&
             kiriVec2_Distance(e->head, turns->from) + kiriVec2_Distance(e->head, turns->to) <= turns->most &&
             MayLookIn(sight, e->cell)) {
-            kiriTurn turn = { kiriSight_HeadOf(mesh, e->edge), mesh->vertices.data[kiriMesh_Tail(mesh, e->edge)].at,
-                              kiriSight_HeadOf(mesh, kiriSight_EdgeAfter(mesh, e->edge)) };
+            kiriTurn turn = { e->head, e->tail, e->after };
             AddTurn(turns, &turn);
         }
     }
@@ -388,15 +386,16 @@ bool kiriWay_Find(const kiriTurns* turns, const kiriSight* sight, kiriWay* way)
     s.sight = sight;
     s.count = turns->count + 2;
     WayNode* goal = &s.node[s.count - 1];
+    KIRI_ASSERT(s.count <= KIRI_MOST_TURNS + 2);
     for (int32_t k = 0; k < s.count; ++k) {
         WayNode* node = &s.node[k];
         *node =
             (WayNode){ .at = k == 0 ? turns->from : turns->to, .length = k == 0 ? 0.0 : kiriNoWay, .whole = kiriNoWay };
         if (k > 0 && node != goal) {
             const kiriTurn* turn = &turns->turn[k - 1];
-            node->at = kiriMesh_Local(sight->mesh, turn->at);
-            node->before = kiriVec2_Sub(kiriMesh_Local(sight->mesh, turn->before), node->at);
-            node->after = kiriVec2_Sub(kiriMesh_Local(sight->mesh, turn->after), node->at);
+            node->at = turn->at;
+            node->before = kiriVec2_Sub(turn->before, turn->at);
+            node->after = kiriVec2_Sub(turn->after, turn->at);
         }
         node->rest = kiriVec2_Distance(turns->to, node->at);
     }

@@ -14,13 +14,17 @@ typedef struct kiriSightEdge {
     bool isTurn; /* the material has a corner of more than half a turn at the head, in this square */
 } kiriSightEdge;
 
+typedef struct kiriSquareEdges {
+    int32_t square;
+    kiriSpan edges;
+} kiriSquareEdges;
+
 /* Cache: the edges of squares, valid while mesh and grid do not change. A zeroed one is empty. */
 typedef struct kiriSightEdges {
     KIRI_ARRAY(kiriSightEdge) edges;
-    KIRI_ARRAY(int32_t) squares; /* the squares in the cache, */
-    KIRI_ARRAY(kiriSpan) spans;  /* and the edges of each */
-    KIRI_ARRAY(int32_t) listed;  /* for each square: index in `squares`, or KIRI_NONE */
-    bool failed;                 /* out of memory: everything seen since then is void */
+    KIRI_ARRAY(kiriSquareEdges) squares; /* in the cache */
+    kiriIndices listed;                  /* for each square of the mesh: index in `squares`, or KIRI_NONE */
+    bool failed;                         /* out of memory: everything seen since then is void */
 } kiriSightEdges;
 
 /* Empties the cache for the squares of a mesh. False when out of memory. */
@@ -69,7 +73,7 @@ enum { KIRI_MOST_TURNS = 62, KIRI_MOST_SCANNED = 256, KIRI_WAY_TURNS = 24 };
 /* A corner of the material of more than half a turn: where a shortest way may turn. The edges before and after it keep
    the material to their left; at the end of a slit they are its two sides. */
 typedef struct kiriTurn {
-    kiriLatticePoint at, before, after;
+    kiriVec2 at, before, after; /* local m */
 } kiriTurn;
 
 /* The corners in some squares, for ways between two points that are no longer than `most`. */

@@ -82,7 +82,7 @@ static double SquaredDistance(kiriVec2 a, kiriVec2 b)
     return kiriVec2_Dot(d, d);
 }
 
-/* Adds two sites, `reach` to each side of a slit end; false where there is no room between other sites. */
+/* Adds two sites, `reach` to each side of a slit end; false where other sites or the outline are too near. */
 static bool TryPair(kiriSites* sites, const kiriGrid* grid, const kiriMeshData* mesh, const kiriSlitEnd* end,
                     double reach)
 {
@@ -124,7 +124,7 @@ bool kiriSlits_AddPairs(kiriSites* sites, kiriMemory* memory, const kiriGrid* gr
 
 /* ---- The part ---------------------------------------------------------------------------------------------------- */
 
-static kiriPlacerWork* WorkOf(kiriPlacer* placer, kiriMemory* memory)
+static kiriPlacerWork* PlacerWorkOf(kiriPlacer* placer, kiriMemory* memory)
 {
     if (placer->work == NULL) {
         placer->work = kiriMemory_AllocZeroed(memory, sizeof(kiriPlacerWork));
@@ -153,7 +153,7 @@ static void ClearTakenMarks(kiriPlacer* placer)
 
 bool kiriPlacer_StartPiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, int32_t cell)
 {
-    kiriPlacerWork* work = WorkOf(placer, memory);
+    kiriPlacerWork* work = PlacerWorkOf(placer, memory);
     if (work == NULL || !kiriArray_Reserve(memory, &work->marks, grid->cells.count)) {
         return false;
     }
@@ -481,7 +481,7 @@ static void SumCell(PlacerJob* job, int32_t cell)
     }
 }
 
-static void FindCenters(PlacerJob* job)
+static void FindTargetCenters(PlacerJob* job)
 {
     int32_t count = job->placer->sites.count - job->placer->oldCount;
     for (int32_t k = 0; k < kiriMax(count, 1); ++k) {
@@ -626,7 +626,7 @@ static kiriProgress RunStage(PlacerJob* job)
     case SUM_PART:
         progress = VisitCells(job, work->stage == SUM ? settled : part, SumCell);
         if (progress == KIRI_DONE) {
-            FindCenters(job);
+            FindTargetCenters(job);
             work->lost = 0;
         }
         return Next(job, progress, work->stage == SUM ? AIM_NEAR : AIM_PART);
@@ -701,7 +701,7 @@ static bool MakePlacerRoom(kiriPlacer* placer, kiriMemory* memory, const kiriGri
 bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                       const uint8_t* allowed, int32_t count)
 {
-    kiriPlacerWork* work = WorkOf(placer, memory);
+    kiriPlacerWork* work = PlacerWorkOf(placer, memory);
     const kiriField* known = placer->known;
     KIRI_ASSERT(count >= 0);
     count = kiriMin(count, placer->cells.count);

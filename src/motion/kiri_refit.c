@@ -57,6 +57,7 @@ bool kiriOwnership_NoteChanges(kiriOwnership* ownership, kiriMemory* memory, con
    the lowest owner there. */
 static int32_t OwnerBefore(const kiriOwnership* ownership, const kiriMeshData* mesh, int32_t square, int32_t triangle)
 {
+    KIRI_ASSERT(square >= 0 && square < ownership->squares.count && triangle >= 0);
     const kiriSquareOwners* owners = &ownership->squares.data[square];
     int32_t lowest = INT32_MAX;
     if (owners->parts.count == 0) {
@@ -137,7 +138,7 @@ static void FreeParts(kiriOwnership* ownership, kiriSpan* parts)
     kiriSpan_Resize(parts, &ownership->spans, NULL, &ownership->triangleOwners, sizeof(kiriTriangleOwner), 0);
 }
 
-static void DropStaged(kiriOwnership* ownership)
+static void DropStagedOwners(kiriOwnership* ownership)
 {
     for (int32_t k = 0; k < ownership->staged.count; ++k) {
         FreeParts(ownership, &ownership->staged.data[k].owners.parts);
@@ -149,7 +150,7 @@ static void DropStaged(kiriOwnership* ownership)
 static bool StartStaging(kiriOwnership* ownership, kiriMemory* memory, const kiriMeshData* mesh, int32_t frameCount,
                          bool isScratch)
 {
-    DropStaged(ownership);
+    DropStagedOwners(ownership);
     bool ok = ReserveOwners(ownership, memory, mesh) && kiriArray_Resize(memory, &ownership->first, frameCount);
     for (int32_t f = 0; ok && f < frameCount; ++f) {
         ownership->first.data[f] = KIRI_NONE;
@@ -202,7 +203,7 @@ static void ClearDirtySquares(kiriOwnership* ownership)
 
 void kiriRefit_Drop(kiriRefit* refit)
 {
-    DropStaged(&refit->ownership);
+    DropStagedOwners(&refit->ownership);
     ClearDirtySquares(&refit->ownership);
     refit->fits.count = 0;
 }
@@ -311,6 +312,7 @@ static void VisitPart(MotionFit* fit, int32_t from, const kiriTally* tally,
 static void VisitParts(MotionFit* fit, int32_t frame, const kiriTally* region,
                        void visit(MotionFit* fit, const kiriFrameData* part))
 {
+    KIRI_ASSERT(frame >= 0 && frame < fit->ownership->first.count);
     const kiriTransfer* transfers = fit->ownership->transfers.data;
     kiriTally kept = *region;
     for (int32_t k = fit->ownership->first.data[frame]; k != KIRI_NONE; k = transfers[k].next) {
@@ -460,48 +462,33 @@ static double RootOfShare(double part, double whole)
     return part > 0.0 && whole > part ? sqrt(part / whole) : part > 0.0 ? 1.0 : 0.0;
 }
 
-/* Sums the momenta of the pieces that gained energy. */
+/* Sums the momenta of the pieces. */
 static void GatherBodies(kiriFitBody* bodies, int32_t pieceCount, const kiriFrameData* frames, int32_t frameCount,
                          const int32_t* framePiece, const kiriMaterial* material)
 {
     for (int32_t f = 0; f < frameCount; ++f) {
         kiriFitBody* body = &bodies[framePiece[f]];
-        if (body->gained > 0.0) {
-            body->mass += frames[f].mass;
-            body->energy += kiriFrame_KineticEnergy(&frames[f], material);
-            body->x = kiriVec3_AddScaled(body->x, frames[f].mass, frames[f].x);
-            body->velocity = kiriVec3_AddScaled(body->velocity, frames[f].mass, frames[f].velocity);
-        }
+        body->mass += frames[f].mass;
+        body->energy += kiriFrame_KineticEnergy(&frames[f], material);
+        body->x = kiriVec3_AddScaled(body->x, frames[f].mass, frames[f].x);
+        body->velocity = kiriVec3_AddScaled(body->velocity, frames[f].mass, frames[f].velocity);
     }
     for (int32_t p = 0; p < pieceCount; ++p) {
-        if (bodies[p].gained > 0.0) {
-            bodies[p].x = kiriVec3_Scale(1.0 / bodies[p].mass, bodies[p].x);
-            bodies[p].velocity = kiriVec3_Scale(1.0 / bodies[p].mass, bodies[p].velocity);
-        }
+        KIRI_ASSERT(bodies[p].mass > 0.0);
+        bodies[p].x = kiriVec3_Scale(1.0 / bodies[p].mass, bodies[p].x);
+        bodies[p].velocity = kiriVec3_Scale(1.0 / bodies[p].mass, bodies[p].velocity);
     }
     for (int32_t f = 0; f < frameCount; ++f) {
         kiriFitBody* body = &bodies[framePiece[f]];
-        if (body->gained > 0.0) {
-            kiriVec3 arm = kiriVec3_Sub(frames[f].x, body->x);
-            kiriVec3 velocity = kiriVec3_Sub(frames[f].velocity, body->velocity);
-            kiriMat3 own = kiriFrame_Inertia(&frames[f], material);
-            kiriMat3 point = kiriMat3_PointInertia(frames[f].mass, arm);
-            body->inertia = kiriMat3_AddScaled(&body->inertia, 1.0, &own);
-            body->inertia = kiriMat3_AddScaled(&body->inertia, 1.0, &point);
-            body->angular = kiriVec3_Add(body->angular, kiriFrame_AngularMomentum(&frames[f], material));
-            body->angular = kiriVec3_AddScaled(body->angular, frames[f].mass, kiriVec3_Cross(arm, velocity));
-        }
+        kiriVec3 arm = kiriVec3_Sub(frames[f].x, body->x);
+        kiriVec3 velocity = kiriVec3_Sub(frames[f].velocity, body->velocity);
+        kiriMat3 own = kiriFrame_Inertia(&frames[f], material);
+        kiriMat3 point = kiriMat3_PointInertia(frames[f].mass, arm);
+        body->inertia = kiriMat3_AddScaled(&body->inertia, 1.0, &own);
+        body->inertia = kiriMat3_AddScaled(&body->inertia, 1.0, &point);
+        body->angular = kiriVec3_Add(body->angular, kiriFrame_AngularMomentum(&frames[f], material));
+        body->angular = kiriVec3_AddScaled(body->angular, frames[f].mass, kiriVec3_Cross(arm, velocity));
     }
-}
-
-/* Finds the factors of a body's motion that take the gained energy out of it. */
-static void FindFactors(kiriFitBody* body)
-{
-    body->spin = kiriMat3_Solve(&body->inertia, body->angular);
-    double moving = 0.5 * body->mass * kiriVec3_Dot(body->velocity, body->velocity);
-    double turning = 0.5 * kiriVec3_Dot(body->spin, body->angular), due = body->energy - body->gained;
-    body->beside = RootOfShare(due - moving - turning, body->energy - moving - turning);
-    body->turning = body->beside > 0.0 ? 1.0 : RootOfShare(due - moving, turning);
 }
 
 void kiriRefit_LimitEnergy(kiriRefit* refit, kiriFrameData* frames, int32_t frameCount, const int32_t* framePiece,
@@ -509,7 +496,7 @@ void kiriRefit_LimitEnergy(kiriRefit* refit, kiriFrameData* frames, int32_t fram
 {
     kiriFitBody* bodies = refit->bodies.data;
     double gained = 0.0, rounding = 0.0;
-    KIRI_ASSERT(pieceCount <= refit->bodies.capacity);
+    KIRI_ASSERT(pieceCount <= refit->bodies.capacity && pieceCount <= frameCount);
     for (int32_t k = 0; k < refit->fits.count; ++k) {
         gained += refit->fits.data[k].gained;
         rounding += 1e-13 * kiriFrame_KineticEnergy(&refit->fits.data[k].state, material);
@@ -523,9 +510,12 @@ void kiriRefit_LimitEnergy(kiriRefit* refit, kiriFrameData* frames, int32_t fram
     }
     GatherBodies(bodies, pieceCount, frames, frameCount, framePiece, material);
     for (int32_t p = 0; p < pieceCount; ++p) {
-        if (bodies[p].gained > 0.0) {
-            FindFactors(&bodies[p]);
-        }
+        kiriFitBody* body = &bodies[p];
+        body->spin = kiriMat3_Solve(&body->inertia, body->angular);
+        double moving = 0.5 * body->mass * kiriVec3_Dot(body->velocity, body->velocity);
+        double turning = 0.5 * kiriVec3_Dot(body->spin, body->angular), due = body->energy - body->gained;
+        body->beside = RootOfShare(due - moving - turning, body->energy - moving - turning);
+        body->turning = body->beside > 0.0 ? 1.0 : RootOfShare(due - moving, turning);
     }
     for (int32_t f = 0; f < frameCount; ++f) {
         const kiriFitBody* body = &bodies[framePiece[f]];

@@ -59,7 +59,7 @@ typedef struct kiriFit {
 
 /* A piece as one rigid body with the same momenta. */
 typedef struct kiriFitBody {
-    double gained;          /* kinetic energy that the fits of its frames gained, J; the rest only where above 0 */
+    double gained;          /* kinetic energy that the fits of its frames gained, J */
     double energy, mass;    /* kinetic, J; kg */
     double turning, beside; /* factors for its turning as one body, and for all motion beside that */
     kiriVec3 x, velocity, angular, spin;
