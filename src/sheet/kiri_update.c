@@ -480,24 +480,19 @@ static bool StartSkin(kiriSheetData* sheet)
     return true;
 }
 
-kiriProgress kiriPipeline_MakeSome(kiriSheetData* sheet, int32_t end, kiriQuotas* quotas)
+bool kiriPipeline_Make(kiriSheetData* sheet, int32_t end)
 {
+    kiriQuotas unlimited = kiriQuotas_Unlimited();
     if (sheet->update == NULL) {
         sheet->update = kiriMemory_AllocZeroed(sheet->memory, sizeof(kiriUpdate));
         if (sheet->update == NULL || !StartSkin(sheet)) {
-            return KIRI_FAILED;
+            return false;
         }
         sheet->update->stage = KIRI_STAGE_GRID;
         sheet->update->isScratch = true;
         sheet->update->cut.settlesSites = true;
     }
-    return RunUpTo(sheet, end, quotas, NULL);
-}
-
-bool kiriPipeline_Make(kiriSheetData* sheet, int32_t end)
-{
-    kiriQuotas unlimited = kiriQuotas_Unlimited();
-    return kiriPipeline_MakeSome(sheet, end, &unlimited) == KIRI_DONE;
+    return RunUpTo(sheet, end, &unlimited, NULL) == KIRI_DONE;
 }
 
 void kiriPipeline_Start(kiriSheetData* sheet)

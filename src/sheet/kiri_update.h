@@ -153,9 +153,6 @@ typedef struct kiriWatch {
    limit. Again for the next ones. False for memory. */
 bool kiriPipeline_Make(kiriSheetData* sheet, int32_t end);
 
-/* The same as far as the quotas go. KIRI_MORE: again with new ones. */
-kiriProgress kiriPipeline_MakeSome(kiriSheetData* sheet, int32_t end, kiriQuotas* quotas);
-
 /* At the start of a tick: begins an update with all pending points, unless one is under way. */
 void kiriPipeline_Start(kiriSheetData* sheet);
 
