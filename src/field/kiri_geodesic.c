@@ -302,7 +302,7 @@ void kiriField_MarkDirty(kiriField* field, int32_t cell)
 
 void kiriField_Forget(kiriField* field, int32_t cell)
 {
-    KIRI_ASSERT(cell >= 0 && cell < field->distance.count);
+    KIRI_ASSERT(cell >= 0 && cell < field->distance.capacity); /* the field may have had more cells */
     field->distance.data[cell] = KIRI_FAR;
     field->owner.data[cell] = KIRI_NONE;
 }
