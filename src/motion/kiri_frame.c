@@ -35,7 +35,7 @@ kiriMat3 kiriStepping_InnerTurn(const kiriStepping* stepping, const kiriHistory*
     return kiriMat3_AddScaled(&carried, stepping->l, &history->turnPull);
 }
 
-static void FindCenters(const kiriFrameData* before, const kiriFrameData* after, int32_t count, kiriPieceMomentum* p)
+static void FindMassCenters(const kiriFrameData* before, const kiriFrameData* after, int32_t count, kiriPieceMomentum* p)
 {
     for (int32_t f = 0; f < count; ++f) {
         double m = before[f].held ? 0.0 : before[f].mass;
@@ -105,7 +105,7 @@ static void FindMissing(kiriPieceMomentum* p, const kiriVec3* normal)
 void kiriMomentum_Restore(const kiriFrameData* before, kiriFrameData* after, int32_t count, kiriPieceMomentum* p,
                           const kiriMaterial* material, kiriVec3 gravity, double dt, const kiriVec3* normal)
 {
-    FindCenters(before, after, count, p);
+    FindMassCenters(before, after, count, p);
     for (int32_t f = 0; f < count; ++f) {
         if (!before[f].held) {
             AddFrameTurning(p, &before[f], &after[f], material, gravity, dt);
@@ -163,7 +163,7 @@ static kiriMat3 Weighted(const kiriMassMoments* m, const kiriMat3* A)
 }
 
 /* trace(M) - A M A^T, with M the moments. */
-static kiriMat3 InertiaOf(const kiriMassMoments* m, double trace, const kiriMat3* A)
+static kiriMat3 InertiaAbout(const kiriMassMoments* m, double trace, const kiriMat3* A)
 {
     kiriMat3 w = Weighted(m, A), r;
     r.u = kiriVec3_Sub(kiriVec3_Make(trace, 0.0, 0.0), kiriMat3_Mul(w, kiriVec3_Make(A->u.x, A->v.x, A->d.x)));
@@ -198,7 +198,7 @@ kiriMat3 kiriPrediction_Gradient(const kiriPrediction* prediction, const kiriMat
 kiriMat3 kiriPrediction_Inertia(const kiriPrediction* prediction, const kiriMat3* A)
 {
     const kiriMassMoments* m = &prediction->moments;
-    return InertiaOf(m, m->uu + m->vv + m->dd, A);
+    return InertiaAbout(m, m->uu + m->vv + m->dd, A);
 }
 
 kiriVec3 kiriFrame_AngularMomentum(const kiriFrameData* frame, const kiriMaterial* material)
@@ -338,7 +338,7 @@ static kiriMat3 AffineInertia(const kiriMassMoments* m, const kiriMat3* A)
 {
     kiriMat3 w = Weighted(m, A);
     double trace = SumDot(&w, A);
-    return InertiaOf(m, trace + 1e-12 * (trace + m->uu + m->vv + m->dd), A);
+    return InertiaAbout(m, trace + 1e-12 * (trace + m->uu + m->vv + m->dd), A);
 }
 
 kiriMat3 kiriFrame_Inertia(const kiriFrameData* frame, const kiriMaterial* material)

@@ -315,7 +315,7 @@ static bool StageMatrix(kiriSolver* solver, kiriSolverBody* next, const kiriSyst
            kiriMatrix_Shape(next->matrix, body->frameCount, solver->pairs.data, solver->pairs.count);
 }
 
-static void DropStaged(kiriSolver* solver)
+static void DropStagedBodies(kiriSolver* solver)
 {
     for (int32_t b = 0; b < solver->next.bodies.count; ++b) {
         if (solver->next.bodies.data[b].ownsMatrix) {
@@ -330,7 +330,7 @@ bool kiriSolver_Stage(kiriSolver* solver, const kiriSystem* next, const int32_t*
 {
     KIRI_ASSERT(next->frameCount >= 0 && next->linkCount >= 0 && pieceCount >= 0 && pieceCount <= next->frameCount);
     KIRI_ASSERT(next->mechanics.model == solver->mechanics.model);
-    DropStaged(solver);
+    DropStagedBodies(solver);
     if (!ReserveBodies(solver, next) || !kiriArray_Resize(solver->memory, &solver->next.bodies, pieceCount)) {
         return false;
     }
@@ -343,7 +343,7 @@ bool kiriSolver_Stage(kiriSolver* solver, const kiriSystem* next, const int32_t*
         solver->isStaged = ReserveSteps(solver, &system) && StageMatrix(solver, body, &system);
     }
     if (!solver->isStaged) {
-        DropStaged(solver);
+        DropStagedBodies(solver);
     }
     return solver->isStaged;
 }

@@ -473,7 +473,7 @@ static double DampingShare(const kiriSolver* solver, const kiriSystem* system, i
     return least;
 }
 
-static kiriSupport FindSupport(const kiriSolver* solver, const kiriSystem* system)
+static kiriSupport SupportOf(const kiriSolver* solver, const kiriSystem* system)
 {
     bool isHeld = kiriSystem_HasWind(system) || solver->isHeld || system->pinCount > 0 || system->clampCount > 0;
     return isHeld                       ? KIRI_SUPPORT_HELD
@@ -532,7 +532,7 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
         before->rate = kiriMat3_Scale(fade, &before->rate);
     }
     kiriSolver_BeginContacts(solver, system);
-    solver->support = FindSupport(solver, system);
+    solver->support = SupportOf(solver, system);
     solver->stepping = ChooseStepping(solver, system);
     CenterHistories(solver, system->frameCount);
     Predict(solver, system);
@@ -867,7 +867,7 @@ static bool IsAffordable(const kiriSolver* solver, const kiriStepEnergy* energy)
 }
 
 /* Takes a part of the Gauss-Newton step, if it is good enough. */
-static bool TakeStep(kiriSolver* solver, const kiriSystem* system)
+static bool TryNewtonStep(kiriSolver* solver, const kiriSystem* system)
 {
     for (int32_t f = 0; f < system->frameCount; ++f) {
         const kiriPose* pose = &solver->poses.data[f];
@@ -914,14 +914,14 @@ static bool IterateOnce(kiriSolver* solver, const kiriSystem* system)
     kiriMatrix_Solve(solver->matrix, solver->force.data, solver->move.data);
     kiriSolver_MoveContacts(solver, system);
     StartSearch(solver, system);
-    bool isTaken = TakeStep(solver, system);
+    bool isTaken = TryNewtonStep(solver, system);
     if (!isTaken && solver->search.isFirst) {
         AllowPrediction(solver, system);
-        isTaken = TakeStep(solver, system);
+        isTaken = TryNewtonStep(solver, system);
     }
     for (int halving = 0; !isTaken && halving < HALVINGS; ++halving) {
         solver->search.scale *= 0.5;
-        isTaken = TakeStep(solver, system);
+        isTaken = TryNewtonStep(solver, system);
     }
     solver->search.isFirst = false;
     solver->search.solved += 1;

@@ -934,7 +934,7 @@ static bool AddBorder(kiriAreaElements* elements, const RegionLinks* regions, ki
 }
 
 /* Adds an element with the frame's own A, and with its borders if it is a membrane. */
-static bool AddRegion(kiriAreaElements* elements, const RegionLinks* regions, int32_t frame, kiriAreaElement element,
+static bool AddRegionElement(kiriAreaElements* elements, const RegionLinks* regions, int32_t frame, kiriAreaElement element,
                       bool hasBorders)
 {
     element.area = regions->material[frame].area;
@@ -984,8 +984,8 @@ bool kiriAffine_Build(kiriAreaElements* elements, kiriMemory* memory, const kiri
     for (int32_t i = 0; ok && i < frameCount; ++i) {
         const kiriAreaElement membrane = { 0.0, LEAN_PENALTY, 0, 0, KIRI_AREA_DILATION, KIRI_AREA_SHEAR + 1 };
         const kiriAreaElement director = { 0.0, 0.0, 0, 0, KIRI_AREA_LEAN_U, KIRI_AREA_STRAINS };
-        ok = AddRegion(elements, &regions, i, membrane, true) &&
-             (planar || AddRegion(elements, &regions, i, director, false));
+        ok = AddRegionElement(elements, &regions, i, membrane, true) &&
+             (planar || AddRegionElement(elements, &regions, i, director, false));
     }
     kiriArray_Release(memory, &regions.start);
     kiriArray_Release(memory, &regions.links);

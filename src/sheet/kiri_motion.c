@@ -148,7 +148,7 @@ static void FallAsleep(kiriSheetData* sheet)
 
 /* ---- Turns ---- */
 
-static int64_t WorkOf(const kiriSheetData* sheet, int32_t body)
+static int64_t WorkOfBody(const kiriSheetData* sheet, int32_t body)
 {
     return kiriSolver_WorkOf(sheet->solver, body, sheet->solver->bodies.bodies.data[body].contactCount);
 }
@@ -159,7 +159,7 @@ static int64_t ItemsOfMoved(const kiriSheetData* sheet)
     const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->bodies;
     int64_t work = 0;
     for (int32_t n = 0; n < moved->count; ++n) {
-        work += WorkOf(sheet, moved->data[n]);
+        work += WorkOfBody(sheet, moved->data[n]);
     }
     return kiriSolver_ItemsOf(work);
 }
@@ -206,7 +206,7 @@ static int32_t DeferBodies(kiriSheetData* sheet, const kiriQuota* systems)
     KIRI_SEARCH(first, 0, count, moved->data[middle] < turn);
     for (int32_t n = 0; n < count; ++n) {
         int32_t body = moved->data[(first + n) % count];
-        int64_t work = WorkOf(sheet, body);
+        int64_t work = WorkOfBody(sheet, body);
         if (sheet->turns.waiting > 0 || (taken > 0 && kiriSolver_ItemsOf(taken + work) > systems->left)) {
             next = sheet->turns.waiting > 0 ? next : sheet->layout.pieces.data[body].frame;
             Defer(sheet, body);
@@ -312,7 +312,7 @@ static bool StepBodies(kiriSheetData* sheet, const kiriSystem* system, double dt
         }
         KIRI_ASSERT(solved <= MOST_ROUNDS);
         for (int32_t k = 0; k < solved; ++k) {
-            work[k] += WorkOf(sheet, moved->data[n]);
+            work[k] += WorkOfBody(sheet, moved->data[n]);
         }
     }
     for (int32_t k = 0; k < MOST_ROUNDS && work[k] > 0; ++k) {
