@@ -13,8 +13,8 @@
 /* ---- Points ------------------------------------------------------------------------------------------------------ */
 
 /* Where frames have a point by these weights. */
-static kiriVec3 PointOf(const kiriSystem* system, const kiriWeight* weights, int32_t count, kiriVec2 at,
-                        const kiriPose* poses)
+static kiriVec3 BlendedPoint(const kiriSystem* system, const kiriWeight* weights, int32_t count, kiriVec2 at,
+                             const kiriPose* poses)
 {
     kiriVec3 x = { 0.0, 0.0, 0.0 };
     for (int32_t m = 0; m < count; ++m) {
@@ -25,7 +25,7 @@ static kiriVec3 PointOf(const kiriSystem* system, const kiriWeight* weights, int
 
 kiriVec3 kiriContact_Point(const kiriSystem* system, const kiriContactStep* step, const kiriPose* poses)
 {
-    return PointOf(system, step->members, step->memberCount, step->row->at, poses);
+    return BlendedPoint(system, step->members, step->memberCount, step->row->at, poses);
 }
 
 static double DepthAt(const kiriContactStep* step, kiriVec3 point)
@@ -59,7 +59,7 @@ static kiriYieldRow* YieldOf(const kiriSystem* system, const kiriContactRow* row
 }
 
 /* m/s: of the material of the obstacle at a point, with what sheets gave it in this tick. */
-static kiriVec3 PlaneVelocity(const kiriSystem* system, const kiriContactRow* row, kiriVec3 point)
+static kiriVec3 SurfaceVelocity(const kiriSystem* system, const kiriContactRow* row, kiriVec3 point)
 {
     const kiriYieldRow* yield = YieldOf(system, row);
     kiriVec3 recoil = { 0.0, 0.0, 0.0 };
@@ -132,8 +132,8 @@ static void PlacePlane(const kiriSolver* solver, const kiriSystem* system, const
     const kiriContactRow* row = step->row;
     const kiriPose* poses = solver->start.data;
     step->start = kiriContact_Point(system, step, poses);
-    kiriVec3 off = kiriVec3_Sub(step->start, PointOf(system, weights, row->weightCount, row->at, poses));
-    step->carried = kiriVec3_Scale(solver->dt, PlaneVelocity(system, row, step->start));
+    kiriVec3 off = kiriVec3_Sub(step->start, BlendedPoint(system, weights, row->weightCount, row->at, poses));
+    step->carried = kiriVec3_Scale(solver->dt, SurfaceVelocity(system, row, step->start));
     double now = row->offset + kiriVec3_Dot(row->normal, kiriVec3_Add(row->way, off));
     double depth = now - kiriVec3_Dot(row->normal, step->start), pushed = row->pushSpeed * solver->dt;
     step->lowered = depth > pushed ? depth - pushed : 0.0;
@@ -934,7 +934,7 @@ static void FindPower(const kiriSolver* solver, const kiriSystem* system, const 
         kiriVec3 velocity = kiriFrame_VelocityAt(&solver->after.data[step->members[m].frame], step->row->at);
         way = kiriVec3_AddScaled(way, step->members[m].value, velocity);
     }
-    *ofObstacle = kiriVec3_Dot(push, PlaneVelocity(system, step->row, point));
+    *ofObstacle = kiriVec3_Dot(push, SurfaceVelocity(system, step->row, point));
     *ofSheet = kiriVec3_Dot(push, way);
 }
 
@@ -1021,6 +1021,6 @@ void kiriSolver_EndContacts(kiriSolver* solver, const kiriSystem* system)
         row->force = kiriContact_Force(solver, step);
         row->impulse = kiriVec3_AddScaled(row->impulse, solver->stepping.part, row->force);
         kiriVec3 point = kiriContact_Point(system, step, solver->poses.data);
-        row->way = kiriVec3_AddScaled(row->way, solver->dt, PlaneVelocity(system, row, point));
+        row->way = kiriVec3_AddScaled(row->way, solver->dt, SurfaceVelocity(system, row, point));
     }
 }
