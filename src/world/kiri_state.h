@@ -21,8 +21,7 @@ kiriResult kiriSnapshot_Read(kiriWorld* world, const void* bytes, int64_t size);
 
 /* The state hash. */
 
-/* A hash of everything that the coming ticks depend on, derived data included. Field by field, so that padding
-   never counts. */
+/* Hashes the state that the coming ticks depend on, field by field. Derived data follows from it. */
 uint64_t kiriStateHash_Of(const kiriWorld* world);
 
 KIRI_C_END
