@@ -45,6 +45,9 @@ int main(int argc, char** argv)
     if (Contact_IsAsked("obstacles")) {
         Contact_MeasureObstacles();
     }
+    if (Contact_IsAsked("rest")) {
+        Contact_MeasureRest();
+    }
     if (Contact_IsAsked("sheets")) {
         Contact_MeasureSheets();
     }

@@ -193,7 +193,7 @@ static void Run(int layout, int way, uint32_t seed, int ticks)
     assert_true(t.pieces > 1);
     assert_true(rise < 2.0 && moved < 1e-3);
     assert_true(t.fastest < falls + 0.2);
-    assert_true(t.nears <= 8 * t.pieces && t.contacts <= 150 * t.pieces);
+    assert_true(t.nears <= 8 * t.pieces && t.contacts <= 400 * t.pieces);
     Host_Stop(&t.host);
 }
 

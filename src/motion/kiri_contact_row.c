@@ -44,6 +44,11 @@ static kiriVec3 SlideAt(const kiriContactStep* step, kiriVec3 point)
     return kiriVec3_AlongPlane(kiriVec3_Sub(way, step->carried), step->row->normal);
 }
 
+static bool IsSoft(const kiriContactRow* row)
+{
+    return row->reach > 0.0;
+}
+
 /* N/m: what resists the point of a contact by its inertia alone. */
 static double InertiaOf(const kiriSolver* solver, const kiriContactStep* step)
 {
@@ -135,7 +140,7 @@ static void PlacePlane(const kiriSolver* solver, const kiriSystem* system, const
     kiriVec3 off = kiriVec3_Sub(step->start, BlendedPoint(system, weights, row->weightCount, row->at, poses));
     step->carried = kiriVec3_Scale(solver->dt, SurfaceVelocity(system, row, step->start));
     double now = row->offset + kiriVec3_Dot(row->normal, kiriVec3_Add(row->way, off));
-    double depth = now - kiriVec3_Dot(row->normal, step->start), pushed = row->pushSpeed * solver->dt;
+    double depth = now - kiriVec3_Dot(row->normal, step->start), pushed = row->reach + row->pushSpeed * solver->dt;
     step->lowered = depth > pushed ? depth - pushed : 0.0;
     step->lift = kiriVec3_Dot(row->normal, step->carried) + (depth > 0.0 ? depth - step->lowered : 0.0);
     step->plane = now + kiriVec3_Dot(row->normal, step->carried) - step->lowered - (step->isHeld ? FAR_BELOW : 0.0);
@@ -196,6 +201,120 @@ void kiriSolver_BeginContacts(kiriSolver* solver, const kiriSystem* system)
     FindMeans(solver, system);
 }
 
+/* N: what friction would be if it stuck. */
+static kiriVec3 Trial(const kiriContactStep* step, kiriVec3 slide)
+{
+    return kiriVec3_AddScaled(step->held, -step->grip, slide);
+}
+
+static kiriVec3 Beside(kiriVec3 a, kiriVec3 direction)
+{
+    return kiriVec3_AddScaled(a, -kiriVec3_Dot(a, direction), direction);
+}
+
+/* ---- Soft contacts ------------------------------------------------------------------------------------------------
+
+   A contact with a fixed obstacle is a smooth energy of the objective. It is never switched on or off, so a sheet at rest
+   does not tremble. With depth p, softness d and stiffness k the push is k p^2 / 2 d up to p = d, and k (p - d / 2)
+   beyond. Friction is T = held - grip slide, where `held` is the friction of the last step; a longer T is cut to the
+   limit (Huber). */
+
+#define SOFT_STIFFNESS 1e3 /* times the mass of the sample over h'^2, at least */
+#define SOFT_SHARE 0.2     /* of the reach: d */
+#define SOFT_GROWTH 30.0   /* of the stiffness in a step, where a system leaves a point deeper than its reach */
+#define PULLING 0.05      /* of the largest push: a system in which a contact pulls by more is no answer */
+
+/* N, N/m and J: the push at a depth, its derivative and its integral. */
+static double PushAt(const kiriContactStep* step, double p)
+{
+    double k = step->stiffness, d = step->soft;
+    return p <= 0.0 ? 0.0 : p < d ? 0.5 * k * p * p / d : k * (p - 0.5 * d);
+}
+
+static double SpringAt(const kiriContactStep* step, double p)
+{
+    return p <= 0.0 ? 0.0 : p < step->soft ? step->stiffness * p / step->soft : step->stiffness;
+}
+
+static double PushEnergy(const kiriContactStep* step, double p)
+{
+    double k = step->stiffness, d = step->soft;
+    return p <= 0.0 ? 0.0 : p < d ? k * p * p * p / (6.0 * d) : k * (0.5 * p * (p - d) + d * d / 6.0);
+}
+
+/* m: the depth of a push. */
+static double DepthOfPush(const kiriContactStep* step, double push)
+{
+    double k = step->stiffness, d = step->soft;
+    return push < 0.5 * k * d ? kiriRoot(2.0 * push * d / k) : push / k + 0.5 * d;
+}
+
+/* Sets the stiffness: half of the reach stops free motion. Expects the push of the last step, or what stops free motion. */
+static void GuessSoft(const kiriSolver* solver, kiriContactStep* step, double stopDepth)
+{
+    const kiriContactRow* row = step->row;
+    double part = solver->stepping.part, inertia = row->mass / (part * part);
+    step->soft = SOFT_SHARE * row->reach;
+    step->stiffness = kiriMax(2.0 * inertia * stopDepth / row->reach, SOFT_STIFFNESS * inertia);
+    step->mostStiffness = SOFT_GROWTH * step->stiffness;
+    step->grip = GRIP * inertia;
+    step->was = kiriVec3_Dot(row->normal, row->force);
+    step->known = step->was > 0.0 ? step->was : kiriMax(inertia * stopDepth, 0.0);
+    step->limit = row->friction * step->known;
+}
+
+/* N: the push that limits friction. A single system spreads pushes unevenly, so it is the push of the last step; for a new
+   contact, of the last system. */
+static double LimitingPush(const kiriContactStep* step)
+{
+    return !(step->push > 0.0) ? 0.0 : step->was > 0.0 ? step->was : step->push;
+}
+
+/* Sets springs and forces for a system: the first one is tangent to the push that is expected, later ones to the push at
+   the poses. A slide that turned round sticks. */
+static void LinearizeSoft(kiriContactStep* step, bool isFirst)
+{
+    if (step->depth > step->row->reach) {
+        double wanted = kiriMin(2.0 * step->push / step->row->reach, step->mostStiffness);
+        step->stiffness = kiriMax(wanted, step->stiffness);
+    }
+    bool isGuess = isFirst && step->known > 0.0;
+    double at = isGuess ? DepthOfPush(step, step->known) : step->depth;
+    step->spring = SpringAt(step, at);
+    step->pull = PushAt(step, at) + step->spring * (step->depth - at);
+    step->limit = step->row->friction * (isGuess ? step->known : LimitingPush(step));
+    kiriVec3 trial = Trial(step, step->slide);
+    double size = kiriVec3_Length(trial);
+    bool hasTurned = !isFirst && !step->sticks && kiriVec3_Dot(trial, step->direction) > 0.0;
+    step->sticks = size <= step->limit || (hasTurned && step->limit > 0.0);
+    step->direction = kiriVec3_Scale(size > 0.0 ? -1.0 / size : 0.0, trial);
+    step->tie = !(step->limit > 0.0) ? 0.0 : step->sticks ? step->grip : step->grip * step->limit / size;
+    step->drags = step->sticks ? trial : kiriVec3_Scale(-step->limit, step->direction);
+    step->isActive = step->spring > 0.0 || step->tie > 0.0;
+}
+
+static double SoftEnergy(const kiriContactStep* step, kiriVec3 point)
+{
+    double energy = PushEnergy(step, DepthAt(step, point)), limit = step->limit;
+    if (limit > 0.0) {
+        double pull = kiriVec3_Length(Trial(step, SlideAt(step, point)));
+        energy += (pull <= limit ? 0.5 * pull * pull : limit * (pull - 0.5 * limit)) / step->grip;
+    }
+    return energy;
+}
+
+/* Takes the forces of the linear model, after `part` of the solution was taken. */
+static void TakeSoft(kiriContactStep* step, kiriVec3 point, double part)
+{
+    double whole = 1.0 / part, sinks = whole * (DepthAt(step, point) - step->depth);
+    kiriVec3 slides = kiriVec3_Scale(whole, kiriVec3_Sub(SlideAt(step, point), step->slide));
+    double push = step->pull + step->spring * sinks;
+    slides = step->sticks ? slides : Beside(slides, step->direction);
+    kiriVec3 drag = kiriVec3_AddScaled(step->drags, -step->tie, slides);
+    step->push = (1.0 - part) * step->push + part * push;
+    step->drag = kiriVec3_AddScaled(kiriVec3_Scale(1.0 - part, step->drag), part, drag);
+}
+
 /* The first guess: what free motion runs into pushes with what stops it, and what pushed in the last step goes on,
    unless free motion leaves it. It sticks where friction can stop its slide. */
 static void GuessState(const kiriSolver* solver, const kiriSystem* system, kiriContactStep* step)
@@ -215,9 +334,13 @@ static void GuessState(const kiriSolver* solver, const kiriSystem* system, kiriC
     kiriVec3 slide = kiriVec3_Sub(kiriVec3_Sub(predicted, step->start), step->carried);
     slide = kiriVec3_AlongPlane(slide, row->normal);
     step->held = kiriVec3_AlongPlane(row->force, row->normal);
-    step->isActive = was > 0.0 ? was + stop > 0.0 : gap < 0.0;
     step->push = 0.0;
     step->drag = kiriVec3_Make(0.0, 0.0, 0.0);
+    if (IsSoft(row)) {
+        GuessSoft(solver, step, step->plane - kiriVec3_Dot(row->normal, predicted));
+        return;
+    }
+    step->isActive = was > 0.0 ? was + stop > 0.0 : gap < 0.0;
     double pressing = was > 0.0 ? was : kiriMax(stop, 0.0);
     step->limit = step->isActive ? row->friction * pressing : 0.0;
     double length = kiriVec3_Length(slide);
@@ -273,18 +396,16 @@ void kiriSolver_LinearizeContacts(kiriSolver* solver, const kiriSystem* system)
     for (int32_t k = 0; k < solver->contacts.count; ++k) {
         kiriContactStep* step = &solver->contacts.data[k];
         kiriVec3 point = kiriContact_Point(system, step, solver->poses.data);
-        SetSprings(solver, system, step, point);
         step->depth = DepthAt(step, point);
         step->slide = SlideAt(step, point);
+        if (IsSoft(step->row)) {
+            LinearizeSoft(step, solver->search.isFirst);
+            continue;
+        }
+        SetSprings(solver, system, step, point);
         step->sinks = 0.0;
         step->slides = kiriVec3_Make(0.0, 0.0, 0.0);
     }
-}
-
-/* N: what friction would be if it stuck. */
-static kiriVec3 Trial(const kiriContactStep* step, kiriVec3 slide)
-{
-    return kiriVec3_AddScaled(step->held, -step->grip, slide);
 }
 
 /* N/m: what turns the direction of a slide. */
@@ -292,11 +413,6 @@ static double TurnSpring(const kiriContactStep* step)
 {
     double trial = kiriVec3_Length(Trial(step, step->slide));
     return trial > step->limit ? step->grip * step->limit / trial : step->grip;
-}
-
-static kiriVec3 Beside(kiriVec3 a, kiriVec3 direction)
-{
-    return kiriVec3_AddScaled(a, -kiriVec3_Dot(a, direction), direction);
 }
 
 /* J: of the linear model, at a depth and a slide. */
@@ -314,6 +430,9 @@ static double EnergyAt(const kiriContactStep* step, double depth, kiriVec3 slide
 double kiriContact_Energy(const kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step,
                           const kiriPose* poses)
 {
+    if (IsSoft(step->row)) {
+        return SoftEnergy(step, kiriContact_Point(system, step, poses));
+    }
     if (!step->isActive) {
         return 0.0;
     }
@@ -355,7 +474,7 @@ void kiriSolver_MoveContacts(kiriSolver* solver, const kiriSystem* system)
 {
     for (int32_t k = 0; k < solver->contacts.count; ++k) {
         kiriContactStep* step = &solver->contacts.data[k];
-        if (step->isActive) {
+        if (step->isActive && !IsSoft(step->row)) {
             kiriVec3 move = MoveOf(solver, system, step);
             step->sinks = -kiriVec3_Dot(step->row->normal, move);
             step->slides = kiriVec3_AlongPlane(move, step->row->normal);
@@ -400,11 +519,13 @@ typedef struct PointSprings {
 
 static PointSprings SpringsOf(const kiriContactStep* step, kiriVec3 normal)
 {
-    kiriVec3 drag = DragOf(step, 0.0);
-    PointSprings at = { { normal }, { step->stiffness, 0.0, 0.0 }, { step->stiffness * step->depth, 0.0, 0.0 } };
+    bool isSoft = IsSoft(step->row);
+    kiriVec3 drag = isSoft ? step->drags : DragOf(step, 0.0);
+    PointSprings at = { { normal }, { isSoft ? step->spring : step->stiffness, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } };
     FindAxes(step, normal, &at.axis[1]);
-    at.spring[1] = step->sticks ? step->grip : 0.0;
-    at.spring[2] = step->sticks ? step->grip : TurnSpring(step);
+    at.spring[2] = isSoft ? step->tie : step->sticks ? step->grip : TurnSpring(step);
+    at.spring[1] = step->sticks ? at.spring[2] : 0.0;
+    at.pull[0] = isSoft ? step->pull : step->stiffness * step->depth;
     at.pull[1] = kiriVec3_Dot(drag, at.axis[1]);
     at.pull[2] = kiriVec3_Dot(drag, at.axis[2]);
     return at;
@@ -538,7 +659,7 @@ static double SlopeAt(const kiriSolver* solver, double part)
     double slope = -2.0 * solver->search.promise * (1.0 - part);
     for (int32_t k = 0; k < solver->contacts.count; ++k) {
         const kiriContactStep* step = &solver->contacts.data[k];
-        if (step->isActive) {
+        if (step->isActive && !IsSoft(step->row)) {
             slope += FrictionSlope(step, part);
         }
     }
@@ -602,11 +723,14 @@ static bool ReviewFriction(kiriContactStep* step, double limit, kiriVec3 slide, 
 }
 
 /* Chooses what the contact does in the next system. Returns true if that is other than in the last one. */
-static bool Review(const kiriSolver* solver, const kiriSystem* system, kiriContactStep* step, double tolerance)
+static bool Review(const kiriSolver* solver, const kiriSystem* system, kiriContactStep* step, double mostPush)
 {
     const kiriContactRow* row = step->row;
+    if (IsSoft(row)) {
+        return step->push < -PULLING * mostPush;
+    }
     kiriVec3 point = kiriContact_Point(system, step, solver->poses.data), slide = SlideAt(step, point);
-    double inertia = InertiaOf(solver, step), depth = DepthAt(step, point);
+    double inertia = InertiaOf(solver, step), tolerance = PUSH_TOLERANCE * mostPush, depth = DepthAt(step, point);
     if (!step->isActive) {
         if (depth > 0.0) {
             Activate(step, row->friction, inertia, depth, slide);
@@ -628,12 +752,16 @@ void kiriSolver_ReviewContacts(kiriSolver* solver, const kiriSystem* system)
     double mostPush = 0.0; /* N */
     for (int32_t k = 0; k < solver->contacts.count; ++k) {
         kiriContactStep* step = &solver->contacts.data[k];
-        TakeForces(step, solver->search.scale);
+        if (!IsSoft(step->row)) {
+            TakeForces(step, solver->search.scale);
+        } else if (solver->search.scale > 0.0) {
+            TakeSoft(step, kiriContact_Point(system, step, solver->poses.data), solver->search.scale);
+        }
         mostPush = kiriMax(step->push, mostPush);
     }
     solver->touch.isUnsettled = false;
     for (int32_t k = 0; k < solver->contacts.count; ++k) {
-        solver->touch.isUnsettled |= Review(solver, system, &solver->contacts.data[k], PUSH_TOLERANCE * mostPush);
+        solver->touch.isUnsettled |= Review(solver, system, &solver->contacts.data[k], mostPush);
     }
 }
 
@@ -662,7 +790,7 @@ static bool IsDeep(kiriSolver* solver, const kiriSystem* system)
     for (int32_t k = 0; k < solver->contacts.count; ++k) {
         kiriContactStep* step = &solver->contacts.data[k];
         step->solved = step->push;
-        isDeep |= kiriContact_Depth(system, step, solver->poses.data) - Yielded(step) > MOST_DEPTH;
+        isDeep |= !IsSoft(step->row) && kiriContact_Depth(system, step, solver->poses.data) - Yielded(step) > MOST_DEPTH;
     }
     return isDeep;
 }
@@ -820,9 +948,15 @@ static kiriVec3 WithinCone(const kiriContactStep* step)
     return kiriVec3_AddScaled(held, step->push, step->row->normal);
 }
 
+/* N: what the contact did. A soft one may still pull a little; the others push by as much more. */
+static kiriVec3 ForceOf(const kiriContactStep* step)
+{
+    return IsSoft(step->row) ? kiriVec3_AddScaled(step->drag, step->push, step->row->normal) : WithinCone(step);
+}
+
 kiriVec3 kiriContact_Force(const kiriSolver* solver, const kiriContactStep* step)
 {
-    return kiriVec3_Scale(solver->touch.keepForces, WithinCone(step));
+    return kiriVec3_Scale(solver->touch.keepForces, ForceOf(step));
 }
 
 /* Pulls that are left out would make the others throw the body up: where it ended, the sum of all is what moved it. So
@@ -839,7 +973,7 @@ void kiriSolver_BalanceContacts(kiriSolver* solver, const kiriSystem* system)
             asked = kiriVec3_Add(asked, step->drag);
             asked = kiriVec3_AddScaled(asked, step->push, step->row->normal);
         }
-        given = kiriVec3_Add(given, WithinCone(step));
+        given = kiriVec3_Add(given, ForceOf(step));
     }
     for (int32_t f = 0; isMovedByThem && f < system->frameCount; ++f) {
         kiriVec3 way = kiriVec3_Sub(solver->poses.data[f].x, solver->predictions.data[f].pose.x);
@@ -1018,8 +1152,8 @@ void kiriSolver_EndContacts(kiriSolver* solver, const kiriSystem* system)
     for (int32_t k = 0; k < solver->contacts.count; ++k) {
         const kiriContactStep* step = &solver->contacts.data[k];
         kiriContactRow* row = step->row;
-        row->force = kiriContact_Force(solver, step);
-        row->impulse = kiriVec3_AddScaled(row->impulse, solver->stepping.part, row->force);
+        row->impulse = kiriVec3_AddScaled(row->impulse, solver->stepping.part, kiriContact_Force(solver, step));
+        row->force = kiriVec3_Scale(solver->touch.keepForces, WithinCone(step));
         kiriVec3 point = kiriContact_Point(system, step, solver->poses.data);
         row->way = kiriVec3_AddScaled(row->way, solver->dt, SurfaceVelocity(system, row, point));
     }

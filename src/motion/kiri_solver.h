@@ -45,6 +45,8 @@ typedef struct kiriContactRow {
                           then the plane is moved by as much */
     kiriVec3 velocity; /* m/s: of the plane's material at the point */
     double friction;   /* both sides together */
+    double mass;  /* kg: of the material that the point stands for; 0: the contact is not soft */
+    double reach; /* m: how deep a soft contact may go; 0 for others */
     double pushSpeed;  /* m/s: how fast it is pushed out at most, where it starts below the plane */
     kiriVec3 way;      /* m: of the plane's material since the start of the tick; a step adds to it */
     kiriVec3 force;    /* N, on the sheet: remembered from the last tick, or zero; then as the last step left it */
@@ -316,6 +318,12 @@ typedef struct kiriContactStep {
     double shared;          /* m/N: the same for what holds the point up after the last system */
     double depth, sinks;    /* m: where the system was assembled, and its change by the whole solution */
     kiriVec3 slide, slides; /* m: the same */
+    /* Soft contacts only. */
+    double soft, mostStiffness; /* m: the softness; N/m */
+    double was;                 /* N: the push of the last step */
+    double spring, tie;         /* N/m: on depth and slide, in this system */
+    double pull;                /* N: the push where the system was assembled, */
+    kiriVec3 drags;             /* and friction */
     double solved;          /* N: the push that the last system left, before the body was held up */
     double push;            /* N: by the systems solved so far, */
     kiriVec3 drag;          /* N: and friction */

@@ -212,11 +212,17 @@ static bool IsSamePlace(const kiriNearVertex* a, const kiriNearVertex* b)
     return a->frame == b->frame && kiriVec3_Dot(a->normal, b->normal) > SAME_FACE;
 }
 
-/* Of those in the same place the deepest stays; of equals the one that came first. */
-static void Choose(kiriObstacleSearch* search, kiriNearVertex near)
+/* True if the obstacle of the row can move. Fixed obstacles have rows too, which sum their impulses. */
+static bool Yields(const kiriSheetData* sheet, int32_t yield)
+{
+    return yield != KIRI_NONE && sheet->touches.yields.data[yield].inverseMass > 0.0;
+}
+
+/* Adds a vertex. Thinned: of the vertices in one place the deepest stays, of equals the first. */
+static void Choose(kiriObstacleSearch* search, kiriNearVertex near, bool isThinned)
 {
     int32_t* link = &search->heads.data[near.patch];
-    while (*link != KIRI_NONE) {
+    while (isThinned && *link != KIRI_NONE) {
         kiriNearVertex* chosen = &search->chosen.data[*link];
         if (IsSamePlace(chosen, &near)) {
             if (near.height < chosen->height) {
@@ -258,7 +264,8 @@ static void LookAtVertex(const kiriMeeting* meeting, int32_t vertex)
                                 KIRI_NONE,
                                 height,
                                 nearest.normal };
-        Choose(meeting->search, near);
+        bool isThinned = shape->type == KIRI_OBSTACLE_PLANE || Yields(meeting->sheet, meeting->yield);
+        Choose(meeting->search, near, isThinned);
     }
 }
 
@@ -410,7 +417,7 @@ static kiriMeeting MakeMeeting(kiriObstacleSearch* search, kiriSheetData* sheet,
                             yield };
     kiriBox box = kiriBounds_All(sheet->seen.bounds);
     double square = sheet->mesh.step * sheet->mesh.squares.side;
-    meeting.squares = PatchSide(sheet, square);
+    meeting.squares = Yields(sheet, yield) ? PatchSide(sheet, square) : 1;
     meeting.columns = (sheet->mesh.squares.columns + meeting.squares - 1) / meeting.squares;
     meeting.square = square;
     meeting.reach =
@@ -1083,7 +1090,7 @@ static void WriteWeights(const kiriSheetData* sheet, TouchBlend* blend, kiriCont
     }
 }
 
-static void WriteContactRow(const kiriSheetData* sheet, const kiriTouch* touch, kiriContactRow* row)
+static void WriteContactRow(const kiriSheetData* sheet, const kiriTouch* touch, double sampleMass, kiriContactRow* row)
 {
     TouchBlend blend = BlendOf(sheet, touch);
     memset(row, 0, sizeof(*row));
@@ -1093,6 +1100,10 @@ static void WriteContactRow(const kiriSheetData* sheet, const kiriTouch* touch, 
     row->velocity = touch->velocity;
     row->friction = touch->friction;
     row->pushSpeed = touch->pushSpeed;
+    if (kiriTouch_IsOfKind(touch, KIRI_TOUCH_OBSTACLE) && !Yields(sheet, touch->yield)) {
+        row->mass = sampleMass;
+        row->reach = 0.5 * sheet->settings.contactThickness;
+    }
     row->yield = touch->yield;
     row->felt = touch->felt;
     row->cushion = touch->cushion;
@@ -1106,15 +1117,28 @@ static void WriteContactRow(const kiriSheetData* sheet, const kiriTouch* touch, 
     row->offset = touch->offset + kiriVec3_Dot(row->normal, kiriVec3_Sub(at, touch->seen));
 }
 
+/* kg: the material that one soft contact stands for, a vertex or a square of the grid, whichever has more. */
+static double SampleMass(const kiriSheetData* sheet)
+{
+    const kiriMaterial* material = &sheet->settings.material;
+    double square = sheet->mesh.step * sheet->mesh.squares.side, mass = 0.0;
+    for (int32_t f = 0; f < sheet->frames.count; ++f) {
+        mass += sheet->frames.data[f].mass;
+    }
+    double least = (double)material->density * material->thickness * square * square;
+    return kiriMax(mass / sheet->mesh.vertices.count, least);
+}
+
 void kiriTouches_WriteRows(kiriSheetData* sheet)
 {
     kiriTouches* touches = &sheet->touches;
     KIRI_ASSERT(touches->rows.capacity >= touches->found.count);
     touches->rows.count = 0;
+    double mass = touches->found.count > 0 ? SampleMass(sheet) : 0.0;
     for (int32_t i = 0; i < touches->found.count; ++i) {
         kiriTouch* touch = &touches->found.data[i];
         kiriContactRow* row = &touches->rows.data[touches->rows.count];
-        WriteContactRow(sheet, touch, row);
+        WriteContactRow(sheet, touch, mass, row);
         bool isAwake = kiriSheet_Moves(sheet, row->weights[0].frame);
         touch->row = isAwake ? touches->rows.count : KIRI_NONE;
         touches->rows.count += isAwake;
