@@ -308,7 +308,7 @@ struct kiriGridWork {
 };
 
 /* Returns the material of the cell, or the stretch of the face, for writing; null for memory. Adds one, which is not
-   initialised, where the cell or face has none of its own yet. Earlier pointers become invalid. */
+   initialised, where the cell or face is whole so far. Earlier pointers become invalid. */
 kiriMoments* kiriGrid_OwnMaterial(kiriGrid* grid, kiriMemory* memory, int32_t cell);
 kiriStretch* kiriGrid_OwnStretch(kiriGrid* grid, kiriMemory* memory, int32_t face);
 

@@ -44,8 +44,8 @@ typedef struct kiriShape {
     kiriSpans room;
     kiriReaches reaches; /* of each frame: distances of the cells that its weight may reach */
 
-    /* Of each frame: the area of cells in which its weight exceeds rigidWeight, in units of 2^-40 of a square. Sums of
-       whole numbers do not depend on the order of adding. */
+    /* Of each frame: the area of its rigid cells, where its weight exceeds rigidWeight. The unit is 2^-40 of a square:
+       sums of whole numbers do not depend on their order. */
     KIRI_ARRAY(int64_t) rigid;
     double rigidWeight; /* set before the first update */
     bool eased; /* weights of points have no kinks at sites, see kiri_stencil.c; weights of cells are linear */
@@ -70,10 +70,9 @@ static inline double kiriShape_Sum(const kiriShape* shape, kiriSpan span)
    kiriRegions_Update: distances to such a site are made from scratch. Every cell with an owner gets weights. KIRI_MORE:
    call again before grid, regions or sites change. KIRI_FAILED: only kiriShape_Reset helps.
 
-   Items of the quota: one for each changed cell, and two for each frame that reaches it; those of kiriField_Repair;
-   eight for a block of distances that is loaded, two for one that goes back, and one for two cells with other
-   distances; then one for such a cell, and one for three weights of it. Work that exceeds the quota is taken from the
-   next ones. */
+   Items of the quota: one a changed cell, and two for each frame that reaches it; the items of kiriField_Repair; eight
+   a block of distances that is loaded, two a block that goes back, and half a cell with other distances; then one for
+   such a cell, and a third of each of its weights. Work that exceeds the quota is taken from the next ones. */
 kiriProgress kiriShape_Update(kiriShape* shape, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                               const kiriRegions* regions, const kiriSite* sites, int32_t siteCount,
                               const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota);
