@@ -22,43 +22,16 @@ KIRI_C_BEGIN
 
 typedef __m128 kiriLanes;
 
-static inline kiriLanes kiriLanes_Four(float i, float j, float k, float l)
-{
-    return _mm_setr_ps(i, j, k, l);
-}
-static inline kiriLanes kiriLanes_Load(const float* four)
-{
-    return _mm_loadu_ps(four);
-}
-static inline void kiriLanes_Store(float* four, kiriLanes a)
-{
-    _mm_storeu_ps(four, a);
-}
-static inline kiriLanes kiriLanes_Splat(float a)
-{
-    return _mm_set1_ps(a);
-}
-static inline kiriLanes kiriLanes_Add(kiriLanes a, kiriLanes b)
-{
-    return _mm_add_ps(a, b);
-}
-static inline kiriLanes kiriLanes_Sub(kiriLanes a, kiriLanes b)
-{
-    return _mm_sub_ps(a, b);
-}
-static inline kiriLanes kiriLanes_Mul(kiriLanes a, kiriLanes b)
-{
-    return _mm_mul_ps(a, b);
-}
-static inline kiriLanes kiriLanes_Div(kiriLanes a, kiriLanes b)
-{
-    return _mm_div_ps(a, b);
-}
-static inline kiriLanes kiriLanes_Sqrt(kiriLanes a)
-{
-    return _mm_sqrt_ps(a);
-}
-/* Two floats, then two others. */
+#define kiriLanes_Four _mm_setr_ps
+#define kiriLanes_Load _mm_loadu_ps
+#define kiriLanes_Store _mm_storeu_ps
+#define kiriLanes_Splat _mm_set1_ps
+#define kiriLanes_Add _mm_add_ps
+#define kiriLanes_Sub _mm_sub_ps
+#define kiriLanes_Mul _mm_mul_ps
+#define kiriLanes_Div _mm_div_ps
+#define kiriLanes_Sqrt _mm_sqrt_ps
+/* Loads two floats, then two others. */
 static inline kiriLanes kiriLanes_LoadTwice(const float* two, const float* others)
 {
     return _mm_loadh_pi(_mm_castsi128_ps(_mm_loadl_epi64((const __m128i*)two)), (const __m64*)others);
@@ -68,7 +41,7 @@ static inline void kiriLanes_StoreThree(float* three, kiriLanes a)
     _mm_storel_pi((__m64*)three, a);
     _mm_store_ss(three + 2, _mm_movehl_ps(a, a));
 }
-/* The lanes of a that are named. */
+/* Four lanes of a. */
 #define kiriLanes_Pick(a, i, j, k, l) _mm_shuffle_ps((a), (a), _MM_SHUFFLE(l, k, j, i))
 /* Two lanes of a, then two of b. */
 #define kiriLanes_Join(a, i, j, b, k, l) _mm_shuffle_ps((a), (b), _MM_SHUFFLE(l, k, j, i))
@@ -77,38 +50,14 @@ static inline void kiriLanes_StoreThree(float* three, kiriLanes a)
 
 typedef float32x4_t kiriLanes;
 
-static inline kiriLanes kiriLanes_Load(const float* four)
-{
-    return vld1q_f32(four);
-}
-static inline void kiriLanes_Store(float* four, kiriLanes a)
-{
-    vst1q_f32(four, a);
-}
-static inline kiriLanes kiriLanes_Splat(float a)
-{
-    return vdupq_n_f32(a);
-}
-static inline kiriLanes kiriLanes_Add(kiriLanes a, kiriLanes b)
-{
-    return vaddq_f32(a, b);
-}
-static inline kiriLanes kiriLanes_Sub(kiriLanes a, kiriLanes b)
-{
-    return vsubq_f32(a, b);
-}
-static inline kiriLanes kiriLanes_Mul(kiriLanes a, kiriLanes b)
-{
-    return vmulq_f32(a, b);
-}
-static inline kiriLanes kiriLanes_Div(kiriLanes a, kiriLanes b)
-{
-    return vdivq_f32(a, b);
-}
-static inline kiriLanes kiriLanes_Sqrt(kiriLanes a)
-{
-    return vsqrtq_f32(a);
-}
+#define kiriLanes_Load vld1q_f32
+#define kiriLanes_Store vst1q_f32
+#define kiriLanes_Splat vdupq_n_f32
+#define kiriLanes_Add vaddq_f32
+#define kiriLanes_Sub vsubq_f32
+#define kiriLanes_Mul vmulq_f32
+#define kiriLanes_Div vdivq_f32
+#define kiriLanes_Sqrt vsqrtq_f32
 static inline kiriLanes kiriLanes_LoadTwice(const float* two, const float* others)
 {
     return vcombine_f32(vld1_f32(two), vld1_f32(others));
@@ -123,8 +72,7 @@ static inline kiriLanes kiriLanes_Four(float i, float j, float k, float l)
     const float four[4] = { i, j, k, l };
     return vld1q_f32(four);
 }
-#define kiriLanes_Pick(a, i, j, k, l)                                                                                  \
-    kiriLanes_Four(vgetq_lane_f32(a, i), vgetq_lane_f32(a, j), vgetq_lane_f32(a, k), vgetq_lane_f32(a, l))
+#define kiriLanes_Pick(a, i, j, k, l) kiriLanes_Join(a, i, j, a, k, l)
 #define kiriLanes_Join(a, i, j, b, k, l)                                                                               \
     kiriLanes_Four(vgetq_lane_f32(a, i), vgetq_lane_f32(a, j), vgetq_lane_f32(b, k), vgetq_lane_f32(b, l))
 
@@ -153,22 +101,15 @@ static inline kiriLanes kiriLanes_Splat(float a)
 {
     return kiriLanes_Four(a, a, a, a);
 }
-static inline kiriLanes kiriLanes_Add(kiriLanes a, kiriLanes b)
-{
-    return kiriLanes_Four(a.at[0] + b.at[0], a.at[1] + b.at[1], a.at[2] + b.at[2], a.at[3] + b.at[3]);
-}
-static inline kiriLanes kiriLanes_Sub(kiriLanes a, kiriLanes b)
-{
-    return kiriLanes_Four(a.at[0] - b.at[0], a.at[1] - b.at[1], a.at[2] - b.at[2], a.at[3] - b.at[3]);
-}
-static inline kiriLanes kiriLanes_Mul(kiriLanes a, kiriLanes b)
-{
-    return kiriLanes_Four(a.at[0] * b.at[0], a.at[1] * b.at[1], a.at[2] * b.at[2], a.at[3] * b.at[3]);
-}
-static inline kiriLanes kiriLanes_Div(kiriLanes a, kiriLanes b)
-{
-    return kiriLanes_Four(a.at[0] / b.at[0], a.at[1] / b.at[1], a.at[2] / b.at[2], a.at[3] / b.at[3]);
-}
+#define KIRI_LANES_OPERATION(name, sign)                                                                               \
+    static inline kiriLanes name(kiriLanes a, kiriLanes b)                                                             \
+    {                                                                                                                  \
+        return kiriLanes_Four(a.at[0] sign b.at[0], a.at[1] sign b.at[1], a.at[2] sign b.at[2], a.at[3] sign b.at[3]); \
+    }
+KIRI_LANES_OPERATION(kiriLanes_Add, +)
+KIRI_LANES_OPERATION(kiriLanes_Sub, -)
+KIRI_LANES_OPERATION(kiriLanes_Mul, *)
+KIRI_LANES_OPERATION(kiriLanes_Div, /)
 static inline kiriLanes kiriLanes_Sqrt(kiriLanes a)
 {
     return kiriLanes_Four(sqrtf(a.at[0]), sqrtf(a.at[1]), sqrtf(a.at[2]), sqrtf(a.at[3]));
@@ -183,12 +124,12 @@ static inline void kiriLanes_StoreThree(float* three, kiriLanes a)
         three[k] = a.at[k];
     }
 }
-#define kiriLanes_Pick(a, i, j, k, l) kiriLanes_Four((a).at[i], (a).at[j], (a).at[k], (a).at[l])
+#define kiriLanes_Pick(a, i, j, k, l) kiriLanes_Join(a, i, j, a, k, l)
 #define kiriLanes_Join(a, i, j, b, k, l) kiriLanes_Four((a).at[i], (a).at[j], (b).at[k], (b).at[l])
 
 #endif
 
-/* x, y and z of a cross product. */
+/* Returns x, y and z of a cross product. */
 static inline kiriLanes kiriLanes_Cross(kiriLanes a, kiriLanes b)
 {
     kiriLanes c =

@@ -177,7 +177,7 @@ static inline kiriVec3 kiriVec3_Cross(kiriVec3 a, kiriVec3 b)
     return kiriVec3_Make(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 
-/* The zero vector stays what it is. */
+/* Returns the unit vector, or zero for the zero vector. */
 static inline kiriVec3 kiriVec3_Normalize(kiriVec3 a)
 {
     double length = kiriVec3_Length(a);
@@ -253,8 +253,8 @@ bool kiriExact_AreFloats(void);
    none is taken for zero because it is small? */
 bool kiriExact_IsModePlain(void);
 
-/* Exact sums: the same whatever the order of adding, and what was added can be taken away again. So the mass of a
-   region needs no walk over its cells when one of them changes. */
+/* Exact sums: they do not depend on the order of adding, and parts can be subtracted again. So the mass of a region needs
+   no walk over its cells when one of them changes. */
 
 /* A share of a scale: high * 2^-60 + low * 2^-122, with 0 <= low < 2^62. So each number has one form only, and a
    sliver of 1e-14 of a square of a grid of 4096 squares keeps the digits of its double. */
