@@ -7,13 +7,6 @@
 /* Distance beside the line at which the material is searched, in sides of a square. */
 #define BESIDE (1.0 / 1024.0)
 
-/* A line beside the traced one. Its ends are odd, so no vertex is on one of them, and it runs along no edge that is
-   parallel to an axis. */
-typedef struct SideLine {
-    const kiriMeshData* mesh;
-    kiriLatticePoint ends[2];
-} SideLine;
-
 /* Cuts [*from, *to] to where a linear function with these values at the ends of the line is above zero. Where it is zero
    throughout `keep` decides. Neighbors that share a side have the same function but for its sign, so the parts that they
    keep have no gap and no overlap. */
@@ -32,11 +25,14 @@ static void ClipBy(double first, double last, bool keep, double* from, double* t
     }
 }
 
-static bool CoverSquare(const SideLine* beside, kiriMemory* memory, int32_t square, kiriLine* line)
+/* Adds the parts of the line from p[0] to p[1] in the triangles of a square. */
+static bool CoverSquare(const kiriMeshData* mesh, const kiriLatticePoint p[2], kiriMemory* memory, int32_t square,
+                        kiriLine* line)
 {
-    const kiriSquares* squares = &beside->mesh->squares;
-    const kiriLatticePoint low = kiriSquares_Corner(squares, square), *p = beside->ends;
+    const kiriSquares* squares = &mesh->squares;
+    const kiriLatticePoint low = kiriSquares_Corner(squares, square);
     const double side = squares->side;
+    KIRI_ASSERT((p[0].x & 1) != 0 && (p[0].y & 1) != 0 && (p[1].x & 1) != 0 && (p[1].y & 1) != 0);
     kiriLineCover whole = { 0.0, 1.0, KIRI_NONE };
     ClipBy((double)p[0].x - low.x, (double)p[1].x - low.x, true, &whole.from, &whole.to);
     ClipBy(low.x + side - p[0].x, low.x + side - p[1].x, false, &whole.from, &whole.to);
@@ -46,7 +42,7 @@ static bool CoverSquare(const SideLine* beside, kiriMemory* memory, int32_t squa
          node = squares->nodes.data[node].next) {
         kiriLineCover cover = { whole.from, whole.to, node };
         kiriLatticePoint c[3];
-        kiriMesh_Corners(beside->mesh, squares->nodes.data[node].triangle, c);
+        kiriMesh_Corners(mesh, squares->nodes.data[node].triangle, c);
         for (int i = 0; i < 3; ++i) {
             kiriLatticePoint a = c[i], b = c[(i + 1) % 3];
             bool isUp = a.y < b.y || (a.y == b.y && a.x < b.x);
@@ -65,23 +61,24 @@ static bool IsCoverBefore(const void* context, int32_t a, int32_t b)
     return x->from != y->from ? x->from < y->from : x->to != y->to ? x->to < y->to : a < b;
 }
 
-/* Adds the covers of the line beside the traced one, to its left (way 1) or right (-1), and sorts them. */
+/* Adds the covers of the line beside the traced one, to its left (way 1) or right (-1), and sorts them. The ends of that
+   line are odd, so no vertex is on them, and it runs along no edge that is parallel to an axis. */
 static bool CoverLine(const kiriMeshData* mesh, kiriMemory* memory, const kiriLatticePoint ends[2], double way,
                       kiriLine* line, kiriIndices* order)
 {
     kiriVec2 along = { (double)ends[1].x - ends[0].x, (double)ends[1].y - ends[0].y };
     double beside = way * BESIDE * mesh->squares.side / kiriVec2_Length(along);
     int32_t first = line->covers.count;
-    SideLine side = { mesh, { ends[0], ends[1] } };
+    kiriLatticePoint p[2];
     for (int k = 0; k < 2; ++k) {
-        side.ends[k] = kiriMesh_Round(kiriVec2_Make(ends[k].x - beside * along.y, ends[k].y + beside * along.x));
-        side.ends[k].x += 1;
-        side.ends[k].y += 1;
+        p[k] = kiriMesh_Round(kiriVec2_Make(ends[k].x - beside * along.y, ends[k].y + beside * along.x));
+        p[k].x += 1;
+        p[k].y += 1;
     }
-    kiriStrips strips = kiriStrips_Begin(&mesh->squares, side.ends[0], side.ends[1], 0.0);
+    kiriStrips strips = kiriStrips_Begin(&mesh->squares, p[0], p[1], 0.0);
     while (kiriStrips_Next(&strips)) {
         for (int32_t i = 0; i < strips.count; ++i) {
-            if (!CoverSquare(&side, memory, strips.square + i * strips.stride, line)) {
+            if (!CoverSquare(mesh, p, memory, strips.square + i * strips.stride, line)) {
                 return false;
             }
         }
@@ -108,6 +105,7 @@ static int32_t CoverAt(const kiriLine* line, const kiriIndices* order, int32_t* 
     }
     const kiriLineCover* cover = &line->covers.data[order->data[*next]];
     double change = cover->from <= t ? cover->to : cover->from;
+    KIRI_ASSERT(change > t);
     *end = kiriMin(change, *end);
     return cover->from <= t ? cover->node : KIRI_NONE;
 }
@@ -188,6 +186,7 @@ static bool IsOnLine(const BladeWalk* walk, kiriLatticePoint p)
 
 static int32_t SplitEdge(BladeWalk* walk, int32_t h, kiriLatticePoint at)
 {
+    KIRI_ASSERT(kiriMesh_CanSplitEdge(walk->mesh, h, at));
     walk->splits += kiriMesh_Twin(walk->mesh, h) == KIRI_NONE ? 2 : 4;
     int32_t vertex = kiriMesh_SplitEdge(walk->mesh, h, at);
     walk->failed = walk->failed || vertex == KIRI_NONE;
@@ -209,6 +208,7 @@ static bool WedgeHolds(const BladeWalk* walk, int32_t h)
 static int32_t FindWedge(BladeWalk* walk)
 {
     const kiriMeshData* mesh = walk->mesh;
+    KIRI_ASSERT(kiriLattice_IsSame(VertexPoint(walk, walk->tip->vertex), walk->tip->at));
     int32_t first = kiriMesh_FirstAround(mesh, walk->tip->vertex), found = KIRI_NONE;
     for (int32_t h = first; h != KIRI_NONE; h = kiriMesh_NextAround(mesh, h, first)) {
         walk->effort += LOOK_EFFORT;
@@ -234,6 +234,7 @@ static int32_t FindWedge(BladeWalk* walk)
 static bool OpenBetween(BladeWalk* walk, int32_t vertex, kiriLatticePoint other)
 {
     const kiriMeshData* mesh = walk->mesh;
+    KIRI_ASSERT(!kiriLattice_IsSame(VertexPoint(walk, vertex), other));
     int32_t first = kiriMesh_FirstAround(mesh, vertex);
     for (int32_t h = first; h != KIRI_NONE; h = kiriMesh_NextAround(mesh, h, first)) {
         int32_t previous = kiriEdge_Previous(h);
@@ -265,11 +266,6 @@ static bool IsThin(kiriLatticePoint a, kiriLatticePoint b, kiriLatticePoint c)
     return kiriOrient(a, b, c) <= THIN * around / 2;
 }
 
-static bool IsVertexAt(BladeWalk* walk, kiriLatticePoint at)
-{
-    return kiriMesh_VertexAt(walk->mesh, at, &walk->effort) != KIRI_NONE;
-}
-
 /* Returns true if a triangle has a corner at this point, and one of these edges: to the next or from the previous
    corner. */
 static bool IsCornerTaken(BladeWalk* walk, kiriLatticePoint at, kiriLatticePoint next, kiriLatticePoint previous)
@@ -290,41 +286,43 @@ static bool IsCornerTaken(BladeWalk* walk, kiriLatticePoint at, kiriLatticePoint
     return false;
 }
 
-static bool CanSplitEdge(BladeWalk* walk, int32_t h, kiriLatticePoint at)
+/* Returns true if no triangle has an edge that these new triangles get, each with a corner at this point and the side
+   opposite of it. */
+static bool AreEdgesFree(BladeWalk* walk, kiriLatticePoint at, const kiriLatticePoint (*sides)[2], int count,
+                         bool isOutline)
 {
-    const int32_t sides[2] = { h, kiriMesh_Twin(walk->mesh, h) };
-    int count = sides[1] == KIRI_NONE ? 1 : 2;
-    bool isThin = count == 1, isTaken = false;
-    kiriLatticePoint ends[2][2], apex[2];
-    if (!kiriMesh_CanSplitEdge(walk->mesh, h, at)) {
-        return false;
-    }
+    bool mustLook = isOutline, isTaken = false;
     for (int k = 0; k < count; ++k) {
-        ends[k][0] = kiriMesh_TailAt(walk->mesh, sides[k]);
-        ends[k][1] = kiriMesh_HeadAt(walk->mesh, sides[k]);
-        apex[k] = kiriMesh_TailAt(walk->mesh, kiriEdge_Previous(sides[k]));
-        isThin = isThin || IsThin(ends[k][0], at, apex[k]) || IsThin(at, ends[k][1], apex[k]);
+        mustLook = mustLook || IsThin(at, sides[k][0], sides[k][1]);
     }
-    bool mustLook = isThin && IsVertexAt(walk, at);
+    mustLook = mustLook && kiriMesh_VertexAt(walk->mesh, at, &walk->effort) != KIRI_NONE;
     for (int k = 0; mustLook && k < count; ++k) {
-        isTaken = isTaken || IsCornerTaken(walk, at, apex[k], ends[k][0]) || IsCornerTaken(walk, at, ends[k][1], apex[k]);
+        isTaken = isTaken || IsCornerTaken(walk, at, sides[k][0], sides[k][1]);
     }
     return !isTaken;
+}
+
+static bool CanSplitEdge(BladeWalk* walk, int32_t h, kiriLatticePoint at)
+{
+    const kiriMeshData* mesh = walk->mesh;
+    kiriLatticePoint sides[4][2];
+    int count = 0;
+    for (int32_t g = h; count < 4 && g != KIRI_NONE; g = kiriMesh_Twin(mesh, h), count += 2) {
+        kiriLatticePoint apex = kiriMesh_TailAt(mesh, kiriEdge_Previous(g));
+        sides[count][0] = sides[count + 1][1] = apex;
+        sides[count][1] = kiriMesh_TailAt(mesh, g);
+        sides[count + 1][0] = kiriMesh_HeadAt(mesh, g);
+    }
+    return kiriMesh_CanSplitEdge(mesh, h, at) &&
+           AreEdgesFree(walk, at, (const kiriLatticePoint(*)[2])sides, count, count == 2);
 }
 
 static bool CanSplitTriangle(BladeWalk* walk, int32_t triangle, kiriLatticePoint at)
 {
     kiriLatticePoint c[3];
-    bool isThin = false, isTaken = false;
     kiriMesh_Corners(walk->mesh, triangle, c);
-    for (int i = 0; i < 3; ++i) {
-        isThin = isThin || IsThin(c[i], c[(i + 1) % 3], at);
-    }
-    bool mustLook = isThin && IsVertexAt(walk, at);
-    for (int i = 0; i < 3 && mustLook; ++i) {
-        isTaken = isTaken || IsCornerTaken(walk, at, c[i], c[(i + 1) % 3]);
-    }
-    return !isTaken && kiriMesh_CanSplitTriangle(walk->mesh, triangle, at);
+    const kiriLatticePoint sides[3][2] = { { c[0], c[1] }, { c[1], c[2] }, { c[2], c[0] } };
+    return AreEdgesFree(walk, at, sides, 3, false) && kiriMesh_CanSplitTriangle(walk->mesh, triangle, at);
 }
 
 /* Flips an edge that cannot be split, so that the vertex opposite of it sees farther. The segment from there to the goal
@@ -352,6 +350,7 @@ static bool FindSplit(BladeWalk* walk, int32_t h, kiriLatticePoint* at)
 {
     static const double along[] = { 0.0, 0.125, -0.125, 0.25, -0.25, 0.5, -0.5, 1.0, -1.0 };
     kiriLatticePoint a = kiriMesh_TailAt(walk->mesh, h), b = kiriMesh_HeadAt(walk->mesh, h), p = *at;
+    KIRI_ASSERT(!kiriLattice_IsSame(a, b));
     double length = sqrt((double)kiriDistanceSquared(a, b)), x = ((double)b.x - a.x) / length,
            y = ((double)b.y - a.y) / length;
     bool canSplit = CanSplitEdge(walk, h, p), isOutline = kiriMesh_Twin(walk->mesh, h) == KIRI_NONE;
@@ -384,6 +383,7 @@ static int32_t VertexIn(BladeWalk* walk, int32_t triangle, kiriLatticePoint at)
     kiriLatticePoint c[3], foot = at;
     int nearest = 0;
     int32_t h = KIRI_NONE;
+    KIRI_ASSERT(triangle >= 0 && triangle < walk->mesh->triangles.count);
     kiriMesh_Corners(walk->mesh, triangle, c);
     for (int i = 1; i < 3; ++i) {
         nearest = kiriDistanceSquared(c[i], at) < kiriDistanceSquared(c[nearest], at) ? i : nearest;
@@ -428,8 +428,7 @@ static int32_t VertexOn(BladeWalk* walk, int32_t h)
     if (canTake && isNear) {
         return near;
     }
-    /* Where an edge of the outline passes through a vertex of another part, the split is no step, but the next step goes on
-       from there. */
+    /* An edge of the outline may pass through a vertex of another part, at `at`: then the next step goes on from there. */
     if (FindSplit(walk, h, &crossing) && (IsNearerGoal(walk, crossing) || kiriLattice_IsSame(at, crossing))) {
         return SplitEdge(walk, h, crossing);
     }
@@ -508,6 +507,7 @@ static bool CanFollow(const BladeWalk* walk, int32_t vertex)
 /* Returns the next vertex in the triangle left of h, whose wedge holds the way to the goal. KIRI_NONE: the blade stops. */
 static int32_t NextVertex(BladeWalk* walk, int32_t h)
 {
+    KIRI_ASSERT(kiriLattice_IsSame(kiriMesh_TailAt(walk->mesh, h), walk->tip->at));
     int32_t opposite = kiriEdge_Next(h), a = kiriMesh_Tail(walk->mesh, opposite), b = kiriMesh_Head(walk->mesh, opposite);
     bool takesA = CanFollow(walk, a), takesB = CanFollow(walk, b);
     if (takesA || takesB) {
@@ -554,72 +554,55 @@ static int32_t LocatePoint(BladeWalk* walk, kiriLatticePoint at)
     return kiriMesh_Locate(walk->mesh, at);
 }
 
-/* Makes the first point of a stroke: on a near lip, where the line meets it or nearest to it; else a new vertex. */
-static void Start(BladeWalk* walk, kiriLatticePoint to)
+/* Returns a vertex for a point in the sheet, or KIRI_NONE. */
+static int32_t VertexFor(BladeWalk* walk, kiriLatticePoint at)
 {
-    kiriBladeTip* tip = walk->tip;
-    int32_t triangle = LocatePoint(walk, tip->at);
-    if (triangle != KIRI_NONE) {
-        kiriCorridor back = CorridorOf(walk, to, tip->at);
-        kiriLipsNear near = kiriLip_FindNear(&back, KIRI_NONE);
-        walk->effort += back.effort;
-        MoveTo(walk, near.other.edge != KIRI_NONE ? VertexOnEdge(walk, near.other.edge, near.other.at)
-                                                  : VertexIn(walk, triangle, tip->at));
-    }
-    tip->phase = KIRI_BLADE_AIMS;
+    int32_t triangle = LocatePoint(walk, at), vertex = triangle == KIRI_NONE ? KIRI_NONE : VertexIn(walk, triangle, at);
+    return walk->failed ? KIRI_NONE : vertex;
 }
 
-/* Finds the end of the move: on a near lip, or at a new vertex. If lips lead there along the line, the blade jumps and
-   cuts nothing. */
+/* Returns a vertex for an end of the line from `from` to `at`, or KIRI_NONE outside of the sheet: on a near lip, where the
+   line meets it or nearest to it; else in the triangle. If lips lead there along the line, the blade jumps and cuts
+   nothing. */
+static int32_t FindEnd(BladeWalk* walk, kiriLatticePoint from, kiriLatticePoint at)
+{
+    kiriBladeTip* tip = walk->tip;
+    int32_t triangle = LocatePoint(walk, at);
+    if (triangle == KIRI_NONE) {
+        return KIRI_NONE;
+    }
+    kiriCorridor corridor = CorridorOf(walk, from, at);
+    kiriLipsNear near = kiriLip_FindNear(&corridor, tip->vertex);
+    walk->effort += corridor.effort;
+    if (near.other.edge != KIRI_NONE) {
+        return VertexOnEdge(walk, near.other.edge, near.other.at);
+    }
+    if (near.own.edge != KIRI_NONE && !kiriLattice_IsSame(near.own.at, tip->at)) {
+        MoveTo(walk, VertexOnEdge(walk, near.own.edge, near.own.at));
+        return tip->vertex;
+    }
+    bool isHere = tip->vertex != KIRI_NONE && IsWithinDistance(tip->at, at, walk->on);
+    return isHere ? tip->vertex : VertexIn(walk, triangle, at);
+}
+
+/* Makes a vertex where the blade is. */
+static void Start(BladeWalk* walk, kiriLatticePoint to)
+{
+    int32_t vertex = FindEnd(walk, to, walk->tip->at);
+    if (vertex != KIRI_NONE) {
+        MoveTo(walk, vertex);
+    }
+    walk->tip->phase = KIRI_BLADE_AIMS;
+}
+
+/* Finds the end of the move. */
 static void Aim(BladeWalk* walk, kiriLatticePoint to)
 {
     kiriBladeTip* tip = walk->tip;
-    int32_t triangle = LocatePoint(walk, to), vertex = KIRI_NONE;
     tip->from = tip->lip = tip->at;
-    tip->to = to;
-    tip->phase = KIRI_BLADE_LOOKS;
-    if (triangle != KIRI_NONE) {
-        kiriCorridor corridor = CorridorOf(walk, tip->at, to);
-        kiriLipsNear near = kiriLip_FindNear(&corridor, tip->vertex);
-        walk->effort += corridor.effort;
-        if (near.other.edge != KIRI_NONE) {
-            vertex = VertexOnEdge(walk, near.other.edge, near.other.at);
-        } else if (near.own.edge != KIRI_NONE && !kiriLattice_IsSame(near.own.at, tip->at)) {
-            MoveTo(walk, VertexOnEdge(walk, near.own.edge, near.own.at));
-            vertex = tip->vertex;
-        } else if (tip->vertex != KIRI_NONE && IsWithinDistance(tip->at, to, walk->on)) {
-            vertex = tip->vertex;
-        } else {
-            vertex = VertexIn(walk, triangle, to);
-        }
-        tip->to = walk->failed ? to : VertexPoint(walk, vertex);
-    }
-    if (kiriLattice_IsSame(tip->at, tip->to)) {
-        tip->phase = KIRI_BLADE_RESTS;
-    }
-}
-
-/* Returns the point of the line to which a blade that has left it along a lip goes back, or the end of the line. */
-static kiriLatticePoint PointOfReturn(const BladeWalk* walk, const kiriCorridor* corridor)
-{
-    const kiriBladeTip* tip = walk->tip;
-    double side = fabs(kiriCorridor_Side(corridor, tip->at)), square = corridor->length * corridor->length;
-    double progress = (double)kiriCorridor_Progress(corridor, tip->at) + KIRI_SHALLOW * side * corridor->length;
-    return tip->vertex == KIRI_NONE || side <= corridor->on || progress >= square
-               ? tip->to
-               : kiriLattice_Between(tip->from, tip->to, progress / square);
-}
-
-/* Makes a vertex at this point the next goal, unless it is not ahead. */
-static bool TakeGoal(BladeWalk* walk, const kiriCorridor* corridor, kiriLatticePoint at)
-{
-    int32_t triangle = LocatePoint(walk, at), vertex = triangle == KIRI_NONE ? KIRI_NONE : VertexIn(walk, triangle, at);
-    if (vertex == KIRI_NONE || walk->failed ||
-        kiriCorridor_Progress(corridor, VertexPoint(walk, vertex)) <= kiriCorridor_Progress(corridor, walk->tip->at)) {
-        return false;
-    }
-    walk->tip->goal = walk->tip->lip = VertexPoint(walk, vertex);
-    return true;
+    int32_t vertex = FindEnd(walk, tip->at, to);
+    tip->to = vertex == KIRI_NONE || walk->failed ? to : VertexPoint(walk, vertex);
+    tip->phase = kiriLattice_IsSame(tip->at, tip->to) ? KIRI_BLADE_RESTS : KIRI_BLADE_LOOKS;
 }
 
 /* Finds the next goal: a lip on the line, the place beside a lip that is to be joined, the point where the blade comes
@@ -628,22 +611,27 @@ static void Look(BladeWalk* walk)
 {
     kiriBladeTip* tip = walk->tip;
     kiriCorridor corridor = CorridorOf(walk, tip->from, tip->to);
+    KIRI_ASSERT(!kiriLattice_IsSame(tip->from, tip->to));
     kiriLipStop stop;
     bool isFound = kiriLip_FindStop(&corridor, tip->lip, &stop);
-    kiriLatticePoint back = PointOfReturn(walk, &corridor);
-    int64_t limit = kiriCorridor_Progress(&corridor, isFound ? stop.at : tip->to);
+    int64_t progress = kiriCorridor_Progress(&corridor, tip->at);
+    /* A blade that has left the line along a lip goes back at a small angle. */
+    double side = fabs(kiriCorridor_Side(&corridor, tip->at)), square = corridor.length * corridor.length;
+    double share = ((double)progress + KIRI_SHALLOW * side * corridor.length) / square;
+    bool isOff = tip->vertex != KIRI_NONE && side > corridor.on && share < 1.0;
+    kiriLatticePoint back = isOff ? kiriLattice_Between(tip->from, tip->to, share) : tip->to;
     tip->goal = tip->lip = tip->to;
-    if (kiriCorridor_Progress(&corridor, back) < limit && TakeGoal(walk, &corridor, back)) {
-        isFound = false;
+    if (kiriCorridor_Progress(&corridor, back) < kiriCorridor_Progress(&corridor, isFound ? stop.at : tip->to)) {
+        int32_t vertex = VertexFor(walk, back);
+        if (vertex != KIRI_NONE && kiriCorridor_Progress(&corridor, VertexPoint(walk, vertex)) > progress) {
+            tip->goal = tip->lip = VertexPoint(walk, vertex);
+            isFound = false;
+        }
     }
     if (isFound) {
-        int32_t triangle = kiriLattice_IsSame(stop.foot, stop.at) ? KIRI_NONE : LocatePoint(walk, stop.foot);
+        int32_t foot = kiriLattice_IsSame(stop.foot, stop.at) ? KIRI_NONE : VertexFor(walk, stop.foot);
         tip->lip = stop.at;
-        tip->goal = triangle == KIRI_NONE ? stop.at : stop.foot;
-        if (triangle != KIRI_NONE) {
-            int32_t foot = VertexIn(walk, triangle, stop.foot);
-            tip->goal = walk->failed ? stop.foot : VertexPoint(walk, foot);
-        }
+        tip->goal = foot == KIRI_NONE ? stop.at : VertexPoint(walk, foot);
     }
     walk->effort += corridor.effort;
     tip->phase = KIRI_BLADE_WALKS;
@@ -773,6 +761,7 @@ static bool ClipAxis(double* fromU, double* fromV, double* toU, double* toV, dou
 
 bool kiriCut_Clip(const kiriMeshData* mesh, kiriVec2* from, kiriVec2* to)
 {
+    KIRI_ASSERT(mesh->step > 0.0);
     double low = LowestCoordinate * mesh->step, high = HighestCoordinate * mesh->step;
     return ClipAxis(&from->x, &from->y, &to->x, &to->y, low, false) &&
            ClipAxis(&from->x, &from->y, &to->x, &to->y, high, true) &&

@@ -1,4 +1,5 @@
-/* The material along a straight line of the rest plane. */
+/* Cutting (appendix A of the paper, algorithm 4): a blade walks from vertex to vertex, splits triangles and edges, and opens
+   the edges behind it. Also finds the material along a straight line. */
 #ifndef KIRI_CUT_H
 #define KIRI_CUT_H
 
@@ -6,35 +7,30 @@
 
 KIRI_C_BEGIN
 
-/* A stretch of the line with the same triangles beside it: from `from` to `to`, of 0 to 1 along the line. */
+/* A stretch of a line with the same triangles beside it. */
 typedef struct kiriLinePart {
-    double from, to;
-    int32_t
-        node[2]; /* of mesh->squares.nodes: the triangle to the left and to the right, in its square; KIRI_NONE where
-                        there is no material */
+    double from, to; /* 0 to 1 along the line */
+    int32_t node[2]; /* in mesh->squares.nodes: triangle to the left and to the right, in its square; or KIRI_NONE */
 } kiriLinePart;
 
-/* What one triangle covers of the line beside it, in one square. Private. */
+/* The part of a line that one triangle covers in one square. Private. */
 typedef struct kiriLineCover {
     double from, to;
     int32_t node;
 } kiriLineCover;
 
-/* What a trace finds, with the room that it needed: a later one may need no more. */
+/* The result of a trace. Its arrays can be used again. */
 typedef struct kiriLine {
     KIRI_ARRAY(kiriLinePart) parts;
-    KIRI_ARRAY(kiriLineCover) covers; /* private, as is their order along the line: of those to the left, then right */
-    kiriIndices order[2];
+    KIRI_ARRAY(kiriLineCover) covers; /* private */
+    kiriIndices order[2];             /* of covers to the left and to the right, along the line. Private */
 } kiriLine;
 
-/* The parts of the line that have material on one side at least, in order, without overlap. Material counts that lies
-   a 1024th of a square beside the line: so a line along the outline finds what is inside although points are rounded
-   to the lattice, and one along a cut finds both lips. The ends differ. False for memory. */
+/* Finds the parts of a line with material on at least one side, in order, without overlap. It looks a 1024th of a square
+   beside the line: so a line along the outline finds the inside although points are rounded, and a line along a cut finds
+   both lips. The ends differ. Returns false on out of memory. */
 bool kiriLine_Trace(kiriLine* line, kiriMemory* memory, const kiriMeshData* mesh, kiriLatticePoint from,
                     kiriLatticePoint to);
-
-/* Cutting (appendix A of the paper, algorithm 4): a blade walks from vertex to vertex, splits what it meets, and opens
-   the edges behind it. */
 
 /* The next step of a move. */
 enum kiriBladePhase {
@@ -46,20 +42,20 @@ enum kiriBladePhase {
     KIRI_BLADE_JOINS   /* cuts from the line to a lip beside it, and comes back */
 };
 
-/* Where the blade is. */
+/* The state of a blade. */
 typedef struct kiriBladeTip {
     kiriLatticePoint at;
-    int32_t vertex;            /* a vertex at that point, or KIRI_NONE: not in the sheet, or not yet moved */
+    int32_t vertex;            /* a vertex at that point; KIRI_NONE: outside of the sheet, or not yet moved */
     int32_t phase;             /* kiriBladePhase */
-    kiriLatticePoint from, to; /* the line of the move at work */
-    kiriLatticePoint goal;     /* the next place on its way; KIRI_BLADE_JOINS: the lip */
+    kiriLatticePoint from, to; /* line of the current move */
+    kiriLatticePoint goal;     /* next place on its way; KIRI_BLADE_JOINS: the lip */
     kiriLatticePoint lip;      /* KIRI_BLADE_WALKS: the lip to join at the goal, or the goal itself. KIRI_BLADE_JOINS:
                                   the place on the line to go back to. KIRI_BLADE_LOOKS: the last lip on the way */
-    int64_t owed;              /* items that finished work still costs */
+    int64_t owed;              /* items of finished work that are not yet paid */
 } kiriBladeTip;
 
-/* A step of the blade, from vertex to vertex, splits an edge or a triangle at most: so many triangles are made or
-   reshaped. Less in a quota takes the blade nowhere. */
+/* Most triangles that a step of the blade makes or reshapes: it splits one edge or triangle. With less quota the blade
+   does not move. */
 enum { KIRI_MOST_SPLITS = 4 };
 
 /* Moves the blade to `to` in a straight line and cuts on the way; it may leave the sheet and come back. `snap` is the
@@ -75,19 +71,19 @@ enum { KIRI_MOST_SPLITS = 4 };
    KIRI_FAILED: out of memory. The blade has taken the steps that are done; a call with the same `to` goes on. */
 kiriProgress kiriCut_Move(kiriMeshData* mesh, kiriBladeTip* blade, kiriLatticePoint to, double snap, kiriQuota* quota);
 
-/* A blade at a lattice point, for kiriCut_Move. */
+/* Returns a blade at a lattice point, for kiriCut_Move. */
 static inline kiriBladeTip kiriCut_PlaceAt(kiriLatticePoint at)
 {
     kiriBladeTip blade = { at, KIRI_NONE, KIRI_BLADE_RESTS, at, at, at, at, 0 };
     return blade;
 }
 
-/* The blade at a rest point (local), for kiriCut_Move. Positions far outside are pulled in to the edge of
-   the lattice's range; pass segments through kiriCut_Clip first where that matters. */
+/* Returns a blade at a rest point (local), for kiriCut_Move. Positions are clamped to the range of the lattice; clip
+   segments by kiriCut_Clip first if that matters. */
 kiriBladeTip kiriCut_Place(const kiriMeshData* mesh, kiriVec2 local);
 
-/* Cuts the segment down to the range of the lattice (the sheet's box and half its size around it), in place. False when
-   nothing is left. Coordinates are local, finite, and of any size. */
+/* Clips the segment to the range of the lattice (the box of the sheet and half its size around it), in place. Returns false
+   if nothing is left. Coordinates are local, finite, and of any size. */
 bool kiriCut_Clip(const kiriMeshData* mesh, kiriVec2* from, kiriVec2* to);
 
 KIRI_C_END

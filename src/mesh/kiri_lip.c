@@ -49,7 +49,9 @@ kiriLatticePoint kiriLattice_Nearest(kiriLatticePoint a, kiriLatticePoint b, kir
 
 int32_t kiriMesh_FirstAround(const kiriMeshData* mesh, int32_t vertex)
 {
+    KIRI_ASSERT(vertex >= 0 && vertex < mesh->vertices.count);
     int32_t start = mesh->vertices.data[vertex].edge, h = start;
+    KIRI_ASSERT(kiriMesh_Tail(mesh, start) == vertex);
     for (int32_t twin = kiriMesh_Twin(mesh, h); twin != KIRI_NONE; twin = kiriMesh_Twin(mesh, h)) {
         h = kiriEdge_Next(twin);
         if (h == start) {
@@ -260,6 +262,7 @@ bool kiriLip_Follow(kiriCorridor* corridor, int32_t vertex, kiriLatticePoint lim
 {
     int64_t most = kiriCorridor_Progress(corridor, limit);
     kiriLatticePoint start = PointOf(corridor, vertex);
+    KIRI_ASSERT(corridor->length > 0.0);
     const double first = (double)kiriCorridor_Progress(corridor, start), width = corridor->reach * corridor->length;
     FarthestLip farthest = { { KIRI_NONE, start }, first };
     if (FindCrossing(corridor, vertex, start, place)) {
@@ -352,6 +355,7 @@ static bool NextInBox(kiriCorridor* corridor, LipsInBox* box)
                 return false;
             }
         }
+        KIRI_ASSERT(box->node < mesh->squares.nodes.count);
         box->next = 3 * mesh->squares.nodes.data[box->node].triangle;
         box->end = box->next + 3;
         box->node = mesh->squares.nodes.data[box->node].next;
@@ -386,6 +390,7 @@ static void MeetOnLine(kiriCorridor* corridor, kiriLipPoint* place)
 
 kiriLipsNear kiriLip_FindNear(kiriCorridor* corridor, int32_t vertex)
 {
+    KIRI_ASSERT(vertex == KIRI_NONE || kiriLattice_IsSame(PointOf(corridor, vertex), corridor->from));
     kiriLatticePoint to = corridor->to;
     NearestLip own = { { KIRI_NONE, to }, corridor->reach }, other = own;
     bool hasLine = corridor->length > 0.0;
@@ -432,6 +437,7 @@ static bool IsLoose(kiriCorridor* corridor, int32_t vertex)
                 !IsBetweenEnds(corridor, (double)kiriCorridor_Progress(corridor, there))) {
                 return false;
             }
+            KIRI_ASSERT(count < MANY);
             vertices[count++] = around.end;
         }
     }
@@ -461,6 +467,7 @@ static void TakeStop(kiriCorridor* corridor, int32_t vertex, int64_t after, bool
 
 bool kiriLip_FindStop(kiriCorridor* corridor, kiriLatticePoint after, kiriLipStop* stop)
 {
+    KIRI_ASSERT(corridor->length > 0.0);
     const kiriMeshData* mesh = corridor->mesh;
     bool isFound = false;
     int64_t progress = kiriCorridor_Progress(corridor, after);

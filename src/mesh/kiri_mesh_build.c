@@ -63,6 +63,7 @@ static int32_t FindNearestKept(const WeldGrid* grid, kiriLatticePoint at)
 bool kiriWeld_Find(const kiriLatticePoint* at, int32_t count, double distance, int32_t* to, kiriMemory* memory)
 {
     const double widest = 1 << 30;
+    KIRI_ASSERT(distance > 0.0);
     int64_t size = 16, side = distance < 2.0 ? 2 : distance < widest ? (int64_t)distance + 1 : (int64_t)widest;
     while (size < 2 * (int64_t)count) {
         size *= 2;
@@ -79,6 +80,7 @@ bool kiriWeld_Find(const kiriLatticePoint* at, int32_t count, double distance, i
             continue;
         }
         to[v] = FindNearestKept(&grid, at[v]);
+        KIRI_ASSERT(to[v] < v);
         if (to[v] == KIRI_NONE) {
             int64_t slot = FindSlot(&grid, at[v].x / side, at[v].y / side);
             grid.previous[v] = grid.slots[slot];
@@ -196,6 +198,7 @@ static kiriResult AddVertices(kiriMeshData* mesh, const kiriMeshInput* input, co
             mesh->vertices.data[welded->number[i]] = (kiriVertex){ welded->at[i], KIRI_NONE, 0, 0, 0 };
         }
     }
+    KIRI_ASSERT(vertices >= 3 && vertices <= input->vertexCount);
     mesh->originals = triangles;
     return KIRI_OK;
 }
@@ -207,6 +210,7 @@ static kiriResult AddTriangles(kiriMeshData* mesh, const kiriMeshInput* input, c
         if (!GetWeldedCorners(input, welded, t, v)) {
             continue;
         }
+        KIRI_ASSERT(welded->number[v[0]] >= 0 && welded->number[v[1]] >= 0 && welded->number[v[2]] >= 0);
         int64_t area = kiriOrient(welded->at[v[0]], welded->at[v[1]], welded->at[v[2]]);
         if (area <= 0) {
             KIRI_SAY(fault, "triangle %lld %s%s", (long long)t, area < 0 ? "is clockwise" : "has no area",
@@ -419,6 +423,7 @@ static void MakeNode(OverlapTree* tree, int32_t first, int32_t end, int32_t inde
             tree->items[upper] = item;
         }
     }
+    KIRI_ASSERT(split > first && split < end);
     int32_t child = tree->nodes[index].child = tree->nodeCount;
     tree->nodeCount += 2;
     MakeNode(tree, first, split, child);
@@ -475,6 +480,7 @@ static OverlapItem MakeOverlapItem(const kiriLatticePoint* points, int count, in
 static int32_t ListLoop(const kiriMeshData* mesh, int32_t first, OverlapItem* items)
 {
     int32_t count = 0, h = first;
+    KIRI_ASSERT(kiriMesh_Twin(mesh, first) == KIRI_NONE);
     do {
         const kiriLatticePoint ends[2] = { kiriMesh_TailAt(mesh, h), kiriMesh_HeadAt(mesh, h) };
         items[count++] = MakeOverlapItem(ends, 2, 1, h);
@@ -528,8 +534,8 @@ static kiriResult CheckOverlaps(const kiriMeshData* mesh, kiriMemory* scratch, k
 
 /* ---- The whole mesh ---------------------------------------------------------------------------------------------- */
 
-/* Gives each fan a vertex of its own: the first fan at a point keeps the vertex. `edge` of a vertex is the lowest corner of
-   its fan. */
+/* Gives each fan its own vertex. The first fan of a vertex keeps it, others get copies. The edge of a vertex is the lowest
+   corner of its fan. */
 static bool ClaimFans(kiriMeshData* mesh, kiriMemory* scratch)
 {
     int32_t halves = 3 * mesh->triangles.count, *fan = kiriMemory_Alloc(scratch, halves * (int64_t)sizeof(int32_t));

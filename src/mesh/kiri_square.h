@@ -1,6 +1,6 @@
-/* The squares of the regular grid. For each it lists the triangles whose interior overlaps its interior (exactly), and its
-   vertices: so a point finds its triangle, a blade the edges near it, and a cell its material. Squares that changed are
-   marked dirty, so that a cut costs no more than the squares that it passes through. */
+/* The squares of the regular grid. A square lists its vertices, and the triangles whose interior overlaps its own (exactly).
+   These lists find the triangle at a point, the edges near a blade, and the material of a cell. Squares that changed are
+   dirty, so that the cost of a cut depends on the squares along it. */
 #ifndef KIRI_SQUARE_H
 #define KIRI_SQUARE_H
 
