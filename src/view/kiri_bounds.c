@@ -451,12 +451,6 @@ typedef struct NearSearch {
     void* context;
 } NearSearch;
 
-static double SquareToBox(const kiriBox* box, kiriVec3 at)
-{
-    kiriVec3 nearest = Most(Least(at, box->upper), box->lower), off = kiriVec3_Sub(at, nearest);
-    return kiriVec3_Dot(off, off);
-}
-
 /* Returns the square of the distance of an item of a node, or -1 if it has no triangle of the group. */
 static double SquareToItem(const NearSearch* search, int32_t level, int32_t item)
 {
@@ -474,7 +468,8 @@ static double SquareToItem(const NearSearch* search, int32_t level, int32_t item
         }
         box = kiriBox_OfTriangle(search->surface, triangle);
     }
-    return SquareToBox(&box, search->from);
+    kiriVec3 off = kiriVec3_Sub(search->from, Most(Least(search->from, box.upper), box.lower));
+    return kiriVec3_Dot(off, off);
 }
 
 /* Takes the items of a node, the nearest first. */

@@ -1,9 +1,9 @@
 /* A tree of boxes over the triangles of a surface, to find those near a point, a ray or a plane.
 
    The tree follows the rest plane: triangles that are near each other there share a leaf, and neighboring leaves a node.
-   So it is made once and holds however the sheet moves; then only the boxes are fitted, in one pass. New triangles get
-   leaves at the end; the tree is made anew when their number has doubled. Results do not depend on the tree: they are in
-   the order of triangles. So bounds are not part of the state.
+   So motion changes only the boxes, which are fitted in one pass. New triangles get leaves at the end. The tree is rebuilt
+   when the number of triangles has doubled. Results come in the order of triangles and do not depend on the tree, so bounds
+   are not part of the state.
 
    Code that may change the world calls kiriBounds_Update. Readers cannot make a tree: they call kiriBounds_Ask, and search
    all triangles this once. From the end of the next tick on there are boxes, until no reader asked for
@@ -30,7 +30,7 @@ typedef struct kiriBounds {
     KIRI_ARRAY(uint32_t) codes;         /* scratch of sorting */
     KIRI_ARRAY(int32_t) other;          /* the same */
     int32_t firsts[KIRI_BOUNDS_LEVELS]; /* of each level: its first node */
-    int32_t levelCount;                 /* 0: there is no tree */
+    int32_t levelCount;                 /* 0: no tree */
     int32_t sorted;                     /* number of triangles when the tree was made */
     int64_t pose;                       /* surface->pose that the boxes fit */
     KIRI_ARRAY(uint8_t) moves;          /* of each node: 1 if a vertex of it is awake. Empty: not known */
@@ -98,8 +98,8 @@ typedef struct kiriGroup {
     int32_t group; /* 0 or more */
 } kiriGroup;
 
-/* Notes which groups are in each box, for kiriBounds_Nearest. If too many leaves have several groups, makes the tree anew,
-   group by group. Call it after kiriBounds_Update, and again when groups have changed. Returns false on out of memory. */
+/* Notes which groups are in each box, for kiriBounds_Nearest. If too many leaves have several groups, sorts the tree by
+   group. Call it after kiriBounds_Update, and again when groups have changed. Returns false on out of memory. */
 bool kiriBounds_Group(kiriBounds* bounds, kiriMemory* memory, const kiriSurface* surface, const int32_t* ofVertex,
                       int32_t groupCount);
 
@@ -137,8 +137,8 @@ typedef struct kiriCrossing {
 
 typedef KIRI_ARRAY(kiriCrossing) kiriCrossings;
 
-/* Appends all crossings of the edge with the surface, which its bounds must fit. Of crossings nearer than `apart` in the
-   rest plane (an edge of the mesh has two) it keeps one. Returns false on out of memory. */
+/* Appends all crossings of the edge with the surface, which its bounds must fit. Crossings nearer than `apart` in the rest
+   plane count as one: at an edge of the mesh there are two. Returns false on out of memory. */
 bool kiriSurface_Cross(const kiriSurface* surface, const kiriBounds* bounds, kiriVec3 from, kiriVec3 to, double apart,
                        kiriMemory* memory, kiriCrossings* crossings);
 

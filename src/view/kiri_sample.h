@@ -57,7 +57,7 @@ bool kiriSkin_Sort(kiriSkin* skin, kiriMemory* memory);
 
 /* Lists of the samples in each square, for samples that never move. */
 typedef struct kiriPlaces {
-    KIRI_ARRAY(int32_t) head; /* of each square, or KIRI_NONE; empty if there are no samples */
+    KIRI_ARRAY(int32_t) head; /* of each square, or KIRI_NONE; empty without samples */
     KIRI_ARRAY(int32_t) next; /* of each sample */
 } kiriPlaces;
 

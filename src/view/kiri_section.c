@@ -14,8 +14,8 @@ static void SetSide(kiriWindow* window, int side, kiriVec3 a, kiriVec3 b, kiriVe
     window->level[side] = isTurned ? -level : level;
 }
 
-/* Sets the side along which an end of the edge moves. If the corners are no convex quadrilateral (a ray from an eye that
-   hardly moves, say), that line would cut off a part of the edge: then the side is where the end is farthest out. */
+/* Sets the side along which an end of the edge moves. If the corners are not a convex quadrilateral (such as a ray from an
+   eye that hardly moves), that line would cut off a part of the edge: then the side is where the end is farthest out. */
 static void SetEndSide(kiriWindow* window, int side, const kiriVec3 corner[4], kiriVec3 inside)
 {
     const kiriVec3 a = corner[side], b = corner[(side + 1) % 4];
@@ -109,6 +109,7 @@ static void CrossEdge(const Pieces* p, Piece* piece, int k, int32_t a, int32_t b
     const kiriVec2* rest = p->surface->rest.data;
     kiriSectionPoint from = { rest[low], kiriSurface_At(p->surface, low) },
                      to = { rest[high], kiriSurface_At(p->surface, high) };
+    KIRI_ASSERT(low >= 0 && low < high && high < p->surface->vertexCount);
     double above = HeightOf(p, low), t = above / (above - HeightOf(p, high));
     kiriVec2 way = kiriVec2_Sub(rest[high], rest[low]), in = kiriVec2_Sub(rest[other], rest[low]);
     kiriVec2 out = kiriVec2_Make(way.y, -way.x);
@@ -124,6 +125,7 @@ static bool CrossTriangle(const Pieces* p, int32_t triangle, Piece* piece)
 {
     const int32_t* v = &p->surface->indices.data[3 * (size_t)triangle];
     bool above[3];
+    KIRI_ASSERT(triangle >= 0 && triangle < p->surface->triangleCount);
     for (int i = 0; i < 3; ++i) {
         above[i] = HeightOf(p, v[i]) >= 0.0;
     }
@@ -161,8 +163,8 @@ static bool IsEdgeBefore(const void* context, int32_t a, int32_t b)
     return pieces[a].edge[0] != pieces[b].edge[0] ? pieces[a].edge[0] < pieces[b].edge[0] : a < b;
 }
 
-/* Collects the pieces, and links each to the piece that starts at the edge where it ends. There is none across an open
-   edge of the mesh: its two sides have different vertices. */
+/* Collects the pieces, and links each to the piece that starts at the edge where it ends. The sides of an open edge have
+   different vertices, so no link goes across it. */
 static bool CollectPieces(Pieces* p, kiriMemory* memory)
 {
     for (int32_t i = 0; i < p->triangles.count; ++i) {
@@ -214,6 +216,7 @@ bool kiriSection_Add(kiriSection* section, kiriMemory* memory, const kiriSurface
                      const kiriWindow* window)
 {
     Pieces p = { surface, window, { NULL, 0, 0 }, { NULL, 0, 0 }, { NULL, 0, 0 } };
+    KIRI_ASSERT(kiriBounds_IsFresh(bounds, surface));
     bool ok = kiriBounds_Find(bounds, surface, MeetsWindow, window, memory, &p.triangles) && CollectPieces(&p, memory);
     /* Lines that begin somewhere, then loops. */
     for (int pass = 0; pass < 2; ++pass) {
@@ -374,6 +377,7 @@ static bool AddBeyond(const kiriSection* section, const kiriSectionLine* line, i
 bool kiriSection_Path(const kiriSection* section, const kiriSectionLine* line, bool fromLast, double reach,
                       double tolerance, kiriMemory* memory, kiriRestPoints* path)
 {
+    KIRI_ASSERT(line->count >= 2 && line->first + line->count <= section->points.count);
     bool ok = AddBeyond(section, line, fromLast ? 1 : 0, reach, memory, path);
     for (int32_t i = 0; ok && i < line->count; i += JumpFrom(section, line, fromLast, i, tolerance)) {
         ok = kiriArray_Push(memory, path, RestAt(section, line, fromLast, i));

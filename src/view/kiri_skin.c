@@ -393,22 +393,17 @@ bool kiriNormals_SumOne(float* slopes, int32_t vertex, const float* positions, c
 
 /* ---- Normals ----------------------------------------------------------------------------------------------------- */
 
-/* Returns four squared lengths. First x, y and z of each are brought together. */
-static kiriLanes SquaresOf(const float* slopes)
-{
-    kiriLanes a = kiriLanes_Load(slopes), b = kiriLanes_Load(slopes + 4);
-    kiriLanes c = kiriLanes_Load(slopes + 8), d = kiriLanes_Load(slopes + 12);
-    kiriLanes abxy = kiriLanes_Join(a, 0, 1, b, 0, 1), cdxy = kiriLanes_Join(c, 0, 1, d, 0, 1);
-    kiriLanes x = kiriLanes_Join(abxy, 0, 2, cdxy, 0, 2), y = kiriLanes_Join(abxy, 1, 3, cdxy, 1, 3);
-    kiriLanes z = kiriLanes_Join(kiriLanes_Join(a, 2, 2, b, 2, 2), 0, 2, kiriLanes_Join(c, 2, 2, d, 2, 2), 0, 2);
-    kiriLanes xy = kiriLanes_Add(kiriLanes_Mul(x, x), kiriLanes_Mul(y, y));
-    return kiriLanes_Add(xy, kiriLanes_Mul(z, z));
-}
-
 static void WriteFourNormals(float* normals, const float* slopes)
 {
     float square[4], scale[4];
-    kiriLanes squares = SquaresOf(slopes);
+    kiriLanes a = kiriLanes_Load(slopes), b = kiriLanes_Load(slopes + 4);
+    kiriLanes c = kiriLanes_Load(slopes + 8), d = kiriLanes_Load(slopes + 12);
+    /* Lanes of x, y and z give four squared lengths at once. */
+    kiriLanes abxy = kiriLanes_Join(a, 0, 1, b, 0, 1), cdxy = kiriLanes_Join(c, 0, 1, d, 0, 1);
+    kiriLanes x = kiriLanes_Join(abxy, 0, 2, cdxy, 0, 2), y = kiriLanes_Join(abxy, 1, 3, cdxy, 1, 3);
+    kiriLanes z = kiriLanes_Join(kiriLanes_Join(a, 2, 2, b, 2, 2), 0, 2, kiriLanes_Join(c, 2, 2, d, 2, 2), 0, 2);
+    kiriLanes squares = kiriLanes_Add(kiriLanes_Mul(x, x), kiriLanes_Mul(y, y));
+    squares = kiriLanes_Add(squares, kiriLanes_Mul(z, z));
     kiriLanes_Store(square, squares);
     kiriLanes_Store(scale, kiriLanes_Div(kiriLanes_Splat(1.0f), kiriLanes_Sqrt(squares)));
     for (int k = 0; k < 4; ++k) {

@@ -14,13 +14,8 @@ bool kiriFades_Reserve(kiriFades* fades, kiriMemory* memory, int32_t sampleCount
 void kiriFades_Trim(kiriFades* fades, kiriMemory* memory)
 {
     if (fades->fading.count == 0 && fades->fading.capacity > 0) {
-        kiriFades_Release(fades, memory);
+        kiriArray_Release(memory, &fades->fading);
     }
-}
-
-void kiriFades_Release(kiriFades* fades, kiriMemory* memory)
-{
-    kiriArray_Release(memory, &fades->fading);
 }
 
 void kiriFades_Keep(kiriFades* fades, const kiriKeep* samples)
@@ -109,7 +104,7 @@ static void AddSolidTriangle(SolidArrays* to, int32_t a, int32_t b, int32_t c)
     memcpy(&to->indices[3 * (int64_t)to->triangleCount++], corners, sizeof(corners));
 }
 
-/* Adds the rim along an edge. It has four vertices of its own, so that it is flat and its edges are sharp. */
+/* Adds the rim along an edge. It shares no vertices, so that it is flat and its edges are sharp. */
 static void AddRim(SolidArrays* to, const kiriSurface* surface, int32_t a, int32_t b, double half)
 {
     kiriVec3 along = kiriVec3_Sub(kiriSurface_At(surface, b), kiriSurface_At(surface, a));
@@ -276,14 +271,6 @@ static void WriteOldTriangles(kiriSurface* surface, const kiriMeshData* mesh, ki
     }
 }
 
-/* Adds a change that is complete to the ring. */
-static void RememberChange(kiriSurface* surface, const kiriChange* change)
-{
-    surface->lastChange = (surface->lastChange + 1) % KIRI_CHANGES;
-    surface->changes[surface->lastChange] = *change;
-    surface->changeCount += surface->changeCount < KIRI_CHANGES ? 1 : 0;
-}
-
 void kiriSurface_WriteTopology(kiriSurface* surface, const kiriMeshData* mesh)
 {
     kiriChange change = {
@@ -309,7 +296,9 @@ void kiriSurface_WriteTopology(kiriSurface* surface, const kiriMeshData* mesh)
         WriteTurn(surface, pair);
     }
     if (change.oldVertexCount > 0 && change.from != change.to) {
-        RememberChange(surface, &change);
+        surface->lastChange = (surface->lastChange + 1) % KIRI_CHANGES;
+        surface->changes[surface->lastChange] = change;
+        surface->changeCount += surface->changeCount < KIRI_CHANGES ? 1 : 0;
     }
 }
 

@@ -30,7 +30,6 @@ bool kiriFades_Reserve(kiriFades* fades, kiriMemory* memory, int32_t sampleCount
 
 /* Frees the memory if nothing fades. */
 void kiriFades_Trim(kiriFades* fades, kiriMemory* memory);
-void kiriFades_Release(kiriFades* fades, kiriMemory* memory);
 
 /* Removes the samples that are not kept. */
 void kiriFades_Keep(kiriFades* fades, const kiriKeep* samples);
@@ -140,7 +139,7 @@ void kiriSurface_WriteTopology(kiriSurface* surface, const kiriMeshData* mesh);
 /* Derives what depends on the mesh alone, after a load and kiriSurface_Resize. */
 void kiriSurface_Derive(kiriSurface* surface, const kiriMeshData* mesh);
 
-/* Arrays that replace those of a surface. The host may still hold the old ones. */
+/* New arrays for a surface. The host may still hold the old ones. */
 typedef struct kiriShown {
     KIRI_ARRAY(float) positions, normals, restPositions, sourceWeights;
     KIRI_ARRAY(int32_t) indices, sourceTriangles;
