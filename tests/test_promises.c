@@ -476,10 +476,11 @@ static void TestIdsRunOut(void** state)
         for (int again = 0; again < 2; ++again) {
             assert_int_equal(Ask(&office, way), KIRI_ERROR_LIMIT);
             assert_non_null(strstr(kiriWorld_GetLastError(host->world), "KIRI_ERROR_LIMIT"));
-            assert_true(Host_Hash(host) == hash);
+            /* A tick keeps the work that it has done on cuts. */
+            assert_true(way == TICK || Host_Hash(host) == hash);
         }
         *pool = before;
-        assert_true(Look_World(host->world) == look);
+        assert_true(way == TICK || Look_World(host->world) == look);
         OK(Ask(&office, way));
         OK(kiriWorld_Tick(host->world, 0.01f, 1));
         Rectangle_Free(&mesh);

@@ -211,7 +211,7 @@ void kiriArchive_Block(kiriArchive* archive, void** block, int32_t width, int64_
 }
 
 /* In a snapshot the struct around the array has its count and capacity. */
-static void MoveArray(kiriArchive* archive, const kiriMember* field, void* array)
+static void MoveBlock(kiriArchive* archive, const kiriMember* field, void* array)
 {
     kiriArrayHeader header = kiriArray_GetHeader(array);
     bool hasItems = field->kind == KIRI_MEMBER_ARRAY;
@@ -293,7 +293,7 @@ static void MoveField(kiriArchive* archive, const kiriMember* field, uint8_t* ob
     case KIRI_MEMBER_ARRAY:
     case KIRI_MEMBER_ROOM:
     case KIRI_MEMBER_SPACE:
-        MoveArray(archive, field, at);
+        MoveBlock(archive, field, at);
         break;
     case KIRI_MEMBER_OWNED:
         MoveOwned(archive, field, at);

@@ -231,7 +231,7 @@ static bool FindRing(const LinkUpdate* u, const kiriFace* face, bool upper, int3
 }
 
 /* Finds how the border ends at one end of a face; false where it goes on. */
-static bool FindEnd(const LinkUpdate* u, const kiriBorderFace* face, bool upper, bool isPart, kiriLinkEnd* end)
+static bool FindBorderEnd(const LinkUpdate* u, const kiriBorderFace* face, bool upper, bool isPart, kiriLinkEnd* end)
 {
     int32_t ring[4], between = 0;
     kiriVec2 middle = face->stretch.middle;
@@ -282,7 +282,7 @@ static kiriLinkEnds FindEnds(const LinkUpdate* u, const kiriLink* link, bool isP
     for (int32_t k = 0; k < 2 * u->work->stretch.count; ++k) {
         kiriLinkEnd end;
         const kiriBorderFace* face = &u->work->stretch.data[k / 2];
-        if ((takesAll || !face->isSliver) && FindEnd(u, face, k % 2 != 0, isPart, &end)) {
+        if ((takesAll || !face->isSliver) && FindBorderEnd(u, face, k % 2 != 0, isPart, &end)) {
             double along = kiriVec2_Dot(kiriVec2_Sub(end.at, link->centroid), link->tangent);
             if (!any || along < low) {
                 ends.end[0] = end;

@@ -231,7 +231,7 @@ static double PushAt(const kiriContactStep* step, double p)
     return p <= 0.0 ? 0.0 : p < d ? 0.5 * k * p * p / d : k * (p - 0.5 * d);
 }
 
-static double SpringAt(const kiriContactStep* step, double p)
+static double SoftSpringAt(const kiriContactStep* step, double p)
 {
     return p <= 0.0 ? 0.0 : p < step->soft ? step->stiffness * p / step->soft : step->stiffness;
 }
@@ -280,7 +280,7 @@ static void LinearizeSoft(kiriContactStep* step, bool isFirst)
     }
     bool isGuess = isFirst && step->known > 0.0;
     double at = isGuess ? DepthOfPush(step, step->known) : step->depth;
-    step->spring = SpringAt(step, at);
+    step->spring = SoftSpringAt(step, at);
     step->pull = PushAt(step, at) + step->spring * (step->depth - at);
     step->limit = step->row->friction * (isGuess ? step->known : LimitingPush(step));
     kiriVec3 trial = Trial(step, step->slide);
@@ -790,7 +790,7 @@ static bool IsDeep(kiriSolver* solver, const kiriSystem* system)
     for (int32_t k = 0; k < solver->contacts.count; ++k) {
         kiriContactStep* step = &solver->contacts.data[k];
         step->solved = step->push;
-        isDeep |= !IsSoft(step->row) && kiriContact_Depth(system, step, solver->poses.data) - Yielded(step) > MOST_DEPTH;
+        isDeep |= kiriContact_Depth(system, step, solver->poses.data) - Yielded(step) > MOST_DEPTH + step->row->reach;
     }
     return isDeep;
 }
@@ -949,14 +949,14 @@ static kiriVec3 WithinCone(const kiriContactStep* step)
 }
 
 /* N: what the contact did. A soft one may still pull a little; the others push by as much more. */
-static kiriVec3 ForceOf(const kiriContactStep* step)
+static kiriVec3 GivenForce(const kiriContactStep* step)
 {
     return IsSoft(step->row) ? kiriVec3_AddScaled(step->drag, step->push, step->row->normal) : WithinCone(step);
 }
 
 kiriVec3 kiriContact_Force(const kiriSolver* solver, const kiriContactStep* step)
 {
-    return kiriVec3_Scale(solver->touch.keepForces, ForceOf(step));
+    return kiriVec3_Scale(solver->touch.keepForces, GivenForce(step));
 }
 
 /* Pulls that are left out would make the others throw the body up: where it ended, the sum of all is what moved it. So
@@ -973,7 +973,7 @@ void kiriSolver_BalanceContacts(kiriSolver* solver, const kiriSystem* system)
             asked = kiriVec3_Add(asked, step->drag);
             asked = kiriVec3_AddScaled(asked, step->push, step->row->normal);
         }
-        given = kiriVec3_Add(given, ForceOf(step));
+        given = kiriVec3_Add(given, GivenForce(step));
     }
     for (int32_t f = 0; isMovedByThem && f < system->frameCount; ++f) {
         kiriVec3 way = kiriVec3_Sub(solver->poses.data[f].x, solver->predictions.data[f].pose.x);

@@ -54,7 +54,7 @@ static bool IsHidden(const kiriSurface* surface, int32_t triangle)
 /* ---- The tree ---------------------------------------------------------------------------------------------------- */
 
 /* Returns the end of the children of a node, or of the places in `order` of a leaf; *first is the first. */
-static int32_t ItemsOf(const kiriBounds* bounds, int32_t level, int32_t node, int32_t* first)
+static int32_t LeafItems(const kiriBounds* bounds, int32_t level, int32_t node, int32_t* first)
 {
     int32_t fan = level == 0 ? LEAF_SIZE : NODE_SIZE, start = level == 0 ? 0 : bounds->firsts[level - 1];
     int32_t end = level == 0 ? bounds->order.count : bounds->firsts[level];
@@ -162,7 +162,7 @@ static void FitBoxes(kiriBounds* bounds, const kiriSurface* surface, const uint8
             if (moves != NULL && !moves[node]) {
                 continue;
             }
-            int32_t first, end = ItemsOf(bounds, level, node, &first);
+            int32_t first, end = LeafItems(bounds, level, node, &first);
             kiriBox box = EmptyBox;
             for (int32_t i = first; level > 0 && i < end; ++i) {
                 box.lower = Least(nodes[i].lower, box.lower);
@@ -207,7 +207,7 @@ static void MarkMoving(kiriBounds* bounds, const kiriSurface* surface, const kir
     KIRI_ASSERT(bounds->moves.capacity >= bounds->nodes.count);
     for (int32_t level = 0; level < bounds->levelCount; ++level) {
         for (int32_t node = bounds->firsts[level]; node < EndOfLevel(bounds, level); ++node) {
-            int32_t first, end = ItemsOf(bounds, level, node, &first);
+            int32_t first, end = LeafItems(bounds, level, node, &first);
             moves[node] = 0;
             for (int32_t i = first; !moves[node] && i < end; ++i) {
                 int32_t vertex = level > 0 ? 0 : surface->indices.data[3 * (size_t)bounds->order.data[i]];
@@ -313,7 +313,7 @@ static bool WalkNode(const BoxWalk* walk, int32_t level, int32_t node)
     if ((walk->moves != NULL && !walk->moves[node]) || !walk->meets(walk->space, &walk->bounds->nodes.data[node])) {
         return true;
     }
-    int32_t first, end = ItemsOf(walk->bounds, level, node, &first);
+    int32_t first, end = LeafItems(walk->bounds, level, node, &first);
     if (level == 0) {
         return walk->visit(walk->context, &walk->bounds->order.data[first], end - first);
     }
@@ -338,7 +338,7 @@ typedef struct TriangleSearch {
     kiriIndices* found;
 } TriangleSearch;
 
-static bool AddTriangles(void* context, const int32_t* triangles, int32_t count)
+static bool PushTriangles(void* context, const int32_t* triangles, int32_t count)
 {
     const TriangleSearch* search = context;
     bool ok = true;
@@ -363,7 +363,7 @@ bool kiriBounds_Find(const kiriBounds* bounds, const kiriSurface* surface, kiriM
     KIRI_ASSERT(kiriBounds_IsFresh(bounds, surface));
     TriangleSearch search = { surface, meets, context, memory, found };
     int32_t before = found->count;
-    bool ok = WalkTree(&(BoxWalk){ bounds, NULL, meets, context, AddTriangles, &search });
+    bool ok = WalkTree(&(BoxWalk){ bounds, NULL, meets, context, PushTriangles, &search });
     if (ok && found->count > before) {
         kiriSort(found->data + before, found->count - before, NULL, NULL);
     }
@@ -376,7 +376,7 @@ bool kiriBounds_FindLeaves(const kiriBounds* bounds, const kiriSurface* surface,
     KIRI_ASSERT(kiriBounds_IsFresh(bounds, surface));
     TriangleSearch search = { surface, NULL, NULL, memory, found };
     const uint8_t* moves = bounds->moves.count > 0 && bounds->version == version ? bounds->moves.data : NULL;
-    return WalkTree(&(BoxWalk){ bounds, moves, meets, context, AddTriangles, &search });
+    return WalkTree(&(BoxWalk){ bounds, moves, meets, context, PushTriangles, &search });
 }
 
 static bool MeetsBox(const void* context, const kiriBox* box)
@@ -404,7 +404,7 @@ static int32_t WriteGroups(kiriBounds* bounds, const kiriSurface* surface, const
     int32_t mixed = 0;
     for (int32_t level = 0; level < bounds->levelCount; ++level) {
         for (int32_t node = bounds->firsts[level]; node < EndOfLevel(bounds, level); ++node) {
-            int32_t first, end = ItemsOf(bounds, level, node, &first);
+            int32_t first, end = LeafItems(bounds, level, node, &first);
             uint64_t groups = 0;
             for (int32_t i = first; i < end; ++i) {
                 int32_t group = level > 0 ? KIRI_NONE : GroupOf(surface, ofVertex, bounds->order.data[i]);
@@ -477,7 +477,7 @@ static void SearchNode(NearSearch* search, int32_t level, int32_t node)
 {
     const double rounding = 1.0 + 1e-9; /* a box may round to be farther than its triangles */
     double squares[LEAF_SIZE];
-    int32_t first, end = ItemsOf(search->bounds, level, node, &first);
+    int32_t first, end = LeafItems(search->bounds, level, node, &first);
     for (int32_t i = first; i < end; ++i) {
         squares[i - first] = SquareToItem(search, level, i);
     }

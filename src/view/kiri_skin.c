@@ -9,7 +9,7 @@ static int32_t ItemCount(const kiriIndices* list, int32_t count)
     return list != NULL ? list->count : count;
 }
 
-static int32_t ItemAt(const kiriIndices* list, int32_t n)
+static int32_t SampleAt(const kiriIndices* list, int32_t n)
 {
     return list != NULL ? list->data[n] : n;
 }
@@ -17,7 +17,7 @@ static int32_t ItemAt(const kiriIndices* list, int32_t n)
 void kiriCarriers_Write(kiriCarrier* carriers, const kiriFrameData* frames, int32_t count, const kiriIndices* some)
 {
     for (int32_t n = 0; n < ItemCount(some, count); ++n) {
-        int32_t i = ItemAt(some, n);
+        int32_t i = SampleAt(some, n);
         kiriVec3 u = frames[i].A.u, v = frames[i].A.v, d = kiriVec3_Normalize(kiriVec3_Cross(u, v));
         KIRI_ASSERT(i >= 0 && i < count);
         carriers[i] = (kiriCarrier){ u, v, d, frames[i].x, frames[i].center, 0.0, 0.0, 0.0, 6.0 };
@@ -92,10 +92,10 @@ void kiriCarriers_Bend(kiriCarrier* carriers, kiriBend* bends, const kiriFrameDa
                        const kiriLink* links, int32_t linkCount, const kiriIndices* some, const kiriIndices* someLinks)
 {
     for (int32_t n = 0; n < ItemCount(some, count); ++n) {
-        bends[ItemAt(some, n)] = (kiriBend){ 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+        bends[SampleAt(some, n)] = (kiriBend){ 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
     }
-    for (int32_t n = 0; n < ItemCount(someLinks, linkCount) && ItemAt(someLinks, n) < linkCount; ++n) {
-        const kiriLink* link = &links[ItemAt(someLinks, n)];
+    for (int32_t n = 0; n < ItemCount(someLinks, linkCount) && SampleAt(someLinks, n) < linkCount; ++n) {
+        const kiriLink* link = &links[SampleAt(someLinks, n)];
         KIRI_ASSERT(link->i >= 0 && link->i < count && link->j >= 0 && link->j < count);
         kiriCarrier *i = &carriers[link->i], *j = &carriers[link->j];
         kiriVec2 start = kiriVec2_Sub(frames[link->i].site.at, frames[link->i].center);
@@ -105,7 +105,7 @@ void kiriCarriers_Bend(kiriCarrier* carriers, kiriBend* bends, const kiriFrameDa
         AddDirectorTurn(&bends[link->j], j, i->d, kiriVec2_Scale(-1.0, way), link->width);
     }
     for (int32_t n = 0; n < ItemCount(some, count); ++n) {
-        int32_t i = ItemAt(some, n);
+        int32_t i = SampleAt(some, n);
         BendCarrier(&carriers[i], &bends[i], &frames[i]);
     }
 }
@@ -125,7 +125,7 @@ void kiriPatches_Forget(kiriPatches* patches)
 
 /* Writes a row. Flat: the point where the patch has the local origin; u; v. Bent: center, curvature in two parts, twice six;
    x; u; v; six d. Each vector has a fourth float, 0. */
-static void WriteRow(float* row, const kiriCarrier* carrier, kiriVec3 from, bool isBent)
+static void WritePatchRow(float* row, const kiriCarrier* carrier, kiriVec3 from, bool isBent)
 {
     kiriVec3 vectors[4] = { kiriVec3_Sub(carrier->x, from), carrier->u, carrier->v, kiriVec3_Scale(6.0, carrier->d) };
     if (isBent) {
@@ -174,10 +174,10 @@ bool kiriPatches_Write(kiriPatches* patches, const kiriCarrier* carriers, int32_
         patches->isOther.data[i] = KIRI_PATCH_SAME;
     }
     for (int32_t n = 0; n < ItemCount(some, count); ++n) {
-        int32_t i = ItemAt(some, n);
+        int32_t i = SampleAt(some, n);
         float row[KIRI_BENT_FLOATS], *was = patches->floats.data + each * (size_t)i;
         KIRI_ASSERT(i >= 0 && i < count);
-        WriteRow(row, &carriers[i], from, isBent);
+        WritePatchRow(row, &carriers[i], from, isBent);
         patches->isOther.data[i] = i >= known ? KIRI_PATCH_OTHER : ChangeOfRow(was, row, each);
         patches->areOther |= patches->isOther.data[i] != KIRI_PATCH_SAME;
         memcpy(was, row, sizeof(float) * each);
