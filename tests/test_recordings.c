@@ -44,6 +44,8 @@ static bool WriteAnew(const char* path)
 {
     Tape tape, again;
     Read(&tape, path);
+    tape.bytes[9] = (uint8_t)(KIRI_VERSION % 128 + 128); /* the version, whatever it was: see CodeStart in kiri_record.c */
+    tape.bytes[10] = (uint8_t)(KIRI_VERSION / 128);
     kiriWorldDef def = Tape_Def(&again);
     def.recordHashTicks = 60;
     OK(kiriCreateWorld(&def, &again.host.world));

@@ -11,7 +11,7 @@ import (
 )
 
 // Version of the header.
-const Version = "0.13.0"
+const Version = "0.14.0"
 
 type ResultCode int32
 
