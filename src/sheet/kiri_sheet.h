@@ -1,5 +1,5 @@
-/* The indices that the vertices of a sheet had when the last tick began, in its mesh or the mesh of another sheet: for
-   hosts that draw between two ticks. No tick depends on it. It costs nothing where no vertex gets another index. */
+/* Vertex indices at the start of the last tick, in this sheet or in the sheet that a part came from. Hosts that
+   interpolate between ticks read them; the simulation does not. Free while no vertex changes its index. */
 #ifndef KIRI_SHEET_H
 #define KIRI_SHEET_H
 
@@ -15,14 +15,14 @@
 KIRI_C_BEGIN
 
 typedef struct kiriPast {
-    int64_t tick;    /* the number of that tick: else it is out of date, and no vertex has got another index since */
-    kiriSheet sheet; /* that had the vertices; 0: this one */
-    int32_t same;    /* vertices before this one have the index that they had */
-    const int32_t* others; /* of the vertices from there on */
-    int32_t count;         /* of these; vertices beyond were not there */
+    int64_t tick;    /* the tick that changed an index last; in a later tick all indices are unchanged */
+    kiriSheet sheet; /* the sheet that had the vertices; 0: this one */
+    int32_t same;    /* vertices below this index kept their index */
+    const int32_t* others; /* previous indices of the vertices from `same` on */
+    int32_t count;         /* length of `others`; vertices beyond are new */
 } kiriPast;
 
-/* No vertex was there. */
+/* Returns the past of a mesh whose vertices are all new. */
 static inline kiriPast kiriPast_None(int64_t tick)
 {
     return (kiriPast){ tick, 0, 0, NULL, 0 };
@@ -34,7 +34,7 @@ static inline kiriPast kiriPast_At(const kiriPast* past, int64_t tick)
     return past->tick == tick ? *past : (kiriPast){ tick, 0, INT32_MAX, NULL, 0 };
 }
 
-/* The index that a vertex had, or KIRI_NONE. */
+/* Returns the previous index of a vertex; KIRI_NONE if it is new. */
 static inline int32_t kiriPast_IndexOf(const kiriPast* past, int32_t vertex)
 {
     if (vertex < past->same) {
@@ -43,71 +43,71 @@ static inline int32_t kiriPast_IndexOf(const kiriPast* past, int32_t vertex)
     return vertex - past->same < past->count ? past->others[vertex - past->same] : KIRI_NONE;
 }
 
-/* These make the past of a mesh that changes. */
+/* Updates of the past when the mesh changes. */
 
-/* A tick adds vertices, from `first` on. One that is torn off another gets the index of that one. `room` holds the
-   indices until the next tick; its memory is used again. Reserve makes room for so many vertices in all. */
+/* Appends the vertices that a tick adds, from `first` on. A vertex split off another gets the index of the other.
+   `room` stores the indices until the next tick and is reused. Reserve: `vertices` is the count in the whole mesh. */
 bool kiriPast_Reserve(const kiriPast* past, kiriIndices* room, kiriMemory* memory, int32_t first, int32_t vertices);
 void kiriPast_Grow(kiriPast* past, int64_t tick, kiriIndices* room, const kiriMeshData* mesh, int32_t first);
 
-/* Some vertices are kept, of a mesh whose past is up to date. The indices are a block of `memory`. */
+/* Makes the past of a mesh that keeps some of its vertices. `past` is current. The indices are a block of `memory`. */
 bool kiriPast_Keep(kiriPast* to, const kiriPast* past, kiriMemory* memory, const kiriKeep* vertices);
 
-/* These vertices become a part of the sheet. */
+/* Makes the past of a sheet that is split off with these vertices. */
 bool kiriPast_Part(kiriPast* to, const kiriPast* past, kiriMemory* memory, kiriSheet sheet, const int32_t* vertices,
                    int32_t count);
 
-/* The data of a sheet. Grid, regions and shape functions follow the mesh in place, for as many ticks as their budget
-   asks. What moves the sheet is in force: frames, links, weights as they were when the work was last complete. New ones
-   are staged beside them in kiriUpdate, and one commit puts them in force. */
+/* The data of a sheet. Grid, regions and shape functions follow the mesh in place, over as many ticks as the budget
+   requires. The solver uses the committed frames, links and weights. An update stages new ones in kiriUpdate, and one
+   commit replaces the old ones. */
 
-/* s: a piece that is slower than sleepSpeed for so long falls asleep, and what goes no farther meanwhile does not wake
-   it. */
+/* s: a piece that stays below sleepSpeed this long falls asleep. An object that moves less than sleepSpeed times this
+   does not wake it. */
 #define KIRI_CALM_SECONDS 0.5
 
-/* A piece that hardly moves falls asleep. */
+/* Sleep state of a piece. */
 typedef struct kiriRest {
-    double calm;    /* s for which it has been slower than sleepSpeed */
-    bool asleep;    /* it was not moved by the last tick, and rests */
-    bool isStirred; /* in the tick at hand something that moves comes near, or a cut changes it: it shall wake */
-    bool waits;     /* in the tick at hand the budget has no systems left for it, see kiriPieceTurns */
-    bool isFading;  /* scratch: some of it is seen elsewhere; */
+    double calm;    /* s since its speed fell below sleepSpeed */
+    bool asleep;    /* at rest; the last tick did not move it */
+    bool isStirred; /* wake in this tick: a moving object is near, or a cut changed the piece */
+    bool waits;     /* deferred in this tick: the budget has no linear systems left, see kiriPieceTurns */
+    bool isFading;  /* scratch: a vertex or collision point of it fades */
 } kiriRest;
 
 typedef struct kiriPiece {
     double area;    /* m^2 */
-    int32_t frame;  /* its lowest */
-    int32_t origin; /* the piece of the layout before that it was a part of; KIRI_NONE in the first layout */
-    bool cameOff;   /* it is not the largest part of its origin: that goes on, the others came off */
-    bool isGone;    /* the host has destroyed it: it is not seen, and goes when the work at hand is done */
-    bool isTouched; /* its frames, links or samples are not those of its origin */
-    int32_t island; /* scratch: of pieces that touch, see kiri_pair.c */
+    int32_t frame;  /* lowest frame index */
+    int32_t origin; /* index of this piece in the previous layout, before it was split; KIRI_NONE in the first layout */
+    bool cameOff;   /* not the largest part of its origin */
+    bool isGone;    /* destroyed by the host: hidden, and removed when the current update ends */
+    bool isTouched; /* its frames, links or samples differ from the ones of its origin */
+    int32_t island; /* scratch: index of its island of touching pieces, see kiri_pair.c */
     kiriRest rest;
 } kiriPiece;
 
-/* What of a line belongs to one frame. Places on the line and lengths go from 0 to 1. */
+/* The share of a line that belongs to one frame. Positions t on the line and lengths are in [0, 1]. */
 typedef struct kiriLineShare {
     int32_t frame;
-    double length, first, second; /* integrals of 1, t, t^2 over what has material of the frame on one side at least */
-    double alone;                 /* of 1 where no frame that it is linked with has the other side */
-    double load, firstLoad;       /* of 1 and t, where what has another frame on its other side counts half */
-    double ends[2];               /* its lowest and its highest t */
-    int32_t open[2];              /* is no frame that it is linked with beyond them? */
+    double length, first, second; /* integrals of 1, t, t^2 where at least one side is material of the frame */
+    double alone;                 /* length where the other side has no linked frame */
+    double load, firstLoad;       /* integrals of 1 and t; half weight where the other side has another frame */
+    double ends[2];               /* lowest and highest t */
+    int32_t open[2];              /* for each end: true if no linked frame lies beyond it */
 } kiriLineShare;
 
-/* What a pin along a line holds of one frame. */
+/* The share of a pin along a line that holds one frame. */
 typedef struct kiriPinShare {
-    int32_t pin; /* its index */
+    int32_t pin; /* index */
     kiriLineShare share;
-    double offset[KIRI_CLAMP_STRAINS]; /* of a clamp's strains, see kiri_strain.h */
-    kiriReaction reactions[2];         /* of a clamp one, of a hinge those of its two springs */
-    kiriVec3 off;                      /* m, of a clamp: see kiri_pin.h */
-    kiriWrench bore;                   /* its part of the pin's */
+    double offset[KIRI_CLAMP_STRAINS]; /* clamp: strain offsets, see kiri_strain.h */
+    kiriReaction reactions[2];         /* clamp: the first one; hinge: one for each of its two springs */
+    kiriVec3 off;                      /* m; clamp: surface offset, see kiri_pin.h */
+    kiriWrench bore;                   /* its part of the wrench of the pin */
 } kiriPinShare;
 
 typedef KIRI_ARRAY(kiriPinShare) kiriPinShares;
 
-/* A part, 0 to 1, of a link that a clamp is in place of. */
+/* A link that a clamp replaces, by a part in [0, 1]. */
 typedef struct kiriSeveredLink {
     int32_t pin, link; /* indices */
     double part;
@@ -115,14 +115,15 @@ typedef struct kiriSeveredLink {
 
 typedef KIRI_ARRAY(kiriSeveredLink) kiriSevered;
 
-/* What moves the sheet, and what of it is staged for the next commit. Pieces are numbered by their lowest frame. */
+/* Pieces, pins and area elements that the solver uses; another one is staged for the next commit. Pieces are sorted by
+   their lowest frame. */
 typedef struct kiriLayout {
     KIRI_ARRAY(kiriPiece) pieces;
-    KIRI_ARRAY(int32_t) framePiece; /* of each frame */
-    KIRI_ARRAY(int32_t) pinFrame;   /* the frame that each pin holds; of a line, the one it holds most of */
-    kiriSevered severed;            /* by clamps, in the order of pins */
-    kiriPinShares pinShares;        /* of pins along lines, in the order of pins, then along the line */
-    kiriAreaElements areaElements;  /* of affine frames */
+    KIRI_ARRAY(int32_t) framePiece; /* piece of each frame */
+    KIRI_ARRAY(int32_t) pinFrame;   /* frame of each pin; for a line, the frame with the largest share */
+    kiriSevered severed;            /* links that clamps replace, in the order of pins */
+    kiriPinShares pinShares;        /* shares of pins along lines, in the order of pins, then along the line */
+    kiriAreaElements areaElements;  /* for affine frames */
 } kiriLayout;
 
 /* The items of each piece, by index. */
@@ -131,17 +132,17 @@ typedef struct kiriPieceItems {
     KIRI_ARRAY(int32_t) items;
 } kiriPieceItems;
 
-/* Made when the host asks for them. */
+/* Lists by piece, built when the host requests them. */
 typedef struct kiriPieceLists {
-    bool hasFrames, hasMesh;                            /* current: neither mesh nor pieces have changed since */
-    kiriPieceItems frames, points, vertices, triangles; /* frames and points are listed together, so is the mesh */
-    KIRI_ARRAY(kiriFrame) ids;                          /* of the frames */
-    KIRI_ARRAY(int32_t) corners;                        /* of the triangles */
+    bool hasFrames, hasMesh;                            /* current: mesh and pieces have not changed since */
+    kiriPieceItems frames, points, vertices, triangles; /* hasFrames: frames, points; hasMesh: vertices, triangles */
+    KIRI_ARRAY(kiriFrame) ids;                          /* ids of `frames` */
+    KIRI_ARRAY(int32_t) corners;                        /* vertex indices of `triangles` */
 } kiriPieceLists;
 
-/* Some vertices by piece: first those of piece 0, and so on. */
+/* A list of vertices, sorted by piece. */
 typedef struct kiriPieceRow {
-    KIRI_ARRAY(int32_t) first; /* of each piece: its first item; where the next one begins it ends */
+    KIRI_ARRAY(int32_t) first; /* first item of each piece, then the end of the last */
     KIRI_ARRAY(int32_t) items;
 } kiriPieceRow;
 
@@ -151,214 +152,213 @@ static inline kiriSpan kiriPieceRow_Of(const kiriPieceRow* row, int32_t piece)
     return (kiriSpan){ first, row->first.data[piece + 1] - first };
 }
 
-/* An obstacle that a pin goes with. What the pin gives it moves it within the tick: so far only the host will know. */
+/* The obstacle that a pin is attached to. The obstacle yields to the pin within the tick; the host moves it later. */
 typedef struct kiriPinAnchor {
-    kiriObstacle obstacle; /* or 0 */
-    kiriVec3 local;        /* the target, in the axes of the obstacle */
-    kiriMat3 give;         /* 1/kg: velocity of the target by an impulse there; zero: it does not yield */
-    double most;           /* 1/kg: no direction gives more */
-    kiriVec3 way;          /* m: that it has yielded since the start of the tick, */
-    double softness;       /* m/N: and by how much a force moves it in the step at hand */
+    kiriObstacle obstacle; /* 0: none */
+    kiriVec3 local;        /* m: target in the axes of the obstacle */
+    kiriMat3 give;         /* 1/kg: velocity of the target per impulse there; zero: fixed */
+    double most;           /* 1/kg: upper bound of `give` in any direction */
+    kiriVec3 way;          /* m: displacement by the pin since the start of the tick */
+    double softness;       /* m/N: compliance of the target in the current step */
 } kiriPinAnchor;
 
-/* The vertices by which the sheet feels others, see kiri_touch.h. */
+/* Probes: the vertices that may touch other sheets, see kiri_touch.h. */
 typedef struct kiriProbes {
-    bool isFresh;                    /* neither mesh nor pieces have changed since */
-    bool areGrouped;                 /* do the bounds know the pieces, unless they were made anew? */
-    int32_t block;                   /* squares of the grid, across and along, that share probes */
-    int32_t sheet, firstBody;        /* indices of the sheet, and of its pieces among the bodies of kiri_pair.c */
-    KIRI_ARRAY(int32_t) vertexPiece; /* of each vertex: its piece, */
-    KIRI_ARRAY(uint8_t) isBorder;    /* is it on the outline or a lip? */
-    KIRI_ARRAY(kiriVec2) leans;      /* and if so, eight times kiriMesh_Lean, else zero */
-    KIRI_ARRAY(uint8_t) isChosen;    /* is it a probe? */
-    kiriPieceRow list;               /* the probes, by piece */
-    KIRI_ARRAY(kiriVec3) velocities; /* of probes, in the order of the list */
-    KIRI_ARRAY(kiriBox) boxes;       /* of pieces, as they are seen */
-    KIRI_ARRAY(int32_t) touch;       /* of each vertex: what it touches in the tick at hand, for kiri_pair.c */
-    KIRI_ARRAY(double) speeds;       /* m/s, of each piece: of its fastest probe */
+    bool isFresh;                    /* mesh and pieces have not changed since */
+    bool areGrouped;                 /* the bounds are grouped by piece, unless they were rebuilt since */
+    int32_t block;                   /* side of a block in grid squares; a block has one probe inside a piece */
+    int32_t sheet, firstBody;        /* kiri_pair.c: index of the sheet, and of the body of its piece 0 */
+    KIRI_ARRAY(int32_t) vertexPiece; /* per vertex: piece */
+    KIRI_ARRAY(uint8_t) isBorder;    /* per vertex: true on the outline or on a lip */
+    KIRI_ARRAY(kiriVec2) leans;      /* per vertex: 8 kiriMesh_Lean on the border, else zero */
+    KIRI_ARRAY(uint8_t) isChosen;    /* per vertex: true if it is a probe */
+    kiriPieceRow list;               /* probes, by piece */
+    KIRI_ARRAY(kiriVec3) velocities; /* m/s, in the order of `list` */
+    KIRI_ARRAY(kiriBox) boxes;       /* per piece, around its visible surface */
+    KIRI_ARRAY(int32_t) touch;       /* per vertex: index of its touch in this tick, see kiri_pair.c */
+    KIRI_ARRAY(double) speeds;       /* m/s, per piece: speed of the fastest probe */
 } kiriProbes;
 
 typedef struct kiriPinData {
     kiriPin id;
-    uint64_t userData;       /* the host's own */
+    uint64_t userData;       /* stored for the host */
     int32_t type;            /* KIRI_PIN_... */
-    kiriLatticePoint at, to; /* in the material: a point, twice; or the ends of a line */
-    kiriVec3 target;         /* of the point, or of the middle of the line */
-    kiriMat3 rotation;       /* of a line */
-    kiriVec3 lastTarget;     /* in the last tick */
+    kiriLatticePoint at, to; /* ends of the line in the material; equal for a point */
+    kiriVec3 target;         /* m: of the point, or of the middle of the line */
+    kiriMat3 rotation;       /* line: target rotation */
+    kiriVec3 lastTarget;     /* m: in the last tick */
     kiriMat3 lastRotation;
-    double breakForce;     /* N; 0: never */
-    kiriPinAnchor anchor;  /* of a point */
-    kiriVec3 off;          /* m, of a point: see kiri_pin.h; */
-    kiriFrame offFrame;    /* of the frame that held it then */
-    double stiffness;      /* of a point */
-    kiriReaction reaction; /* of a point */
-    kiriWrench bore;       /* about the target: mean of the last tick that moved the sheet */
+    double breakForce;     /* N; 0: never breaks */
+    kiriPinAnchor anchor;  /* point */
+    kiriVec3 off;          /* m; point: surface offset, see kiri_pin.h */
+    kiriFrame offFrame;    /* the frame that `off` was measured for */
+    double stiffness;      /* point */
+    kiriReaction reaction; /* point */
+    kiriWrench bore;       /* about the target: mean over the last tick that moved the sheet */
 } kiriPinData;
 
-/* How far a cut has come. */
+/* Position of a cut. */
 typedef struct kiriTip {
-    kiriVec2 last; /* local: the last point taken */
+    kiriVec2 last; /* m, local: the last point taken from the queue */
     kiriBladeTip blade;
 } kiriTip;
 
 typedef struct kiriCutData {
     kiriCut id;
     struct kiriSheetData* sheet;
-    int32_t index; /* in its list of cuts */
+    int32_t index; /* in sheet->cuts */
     kiriTip tip;
-    int32_t waiting; /* points in the queue */
-    bool ended;      /* by the host; finished when none waits */
+    int32_t waiting; /* its points in the queue */
+    bool ended;      /* the host ended the cut; it finishes when no point is left in the queue */
 } kiriCutData;
 
-/* A point that waits. */
+/* A pending point of a cut. */
 typedef struct kiriQueuedPoint {
     kiriCutData* cut;
     kiriVec2 to;   /* local */
-    int64_t stamp; /* the tick that it was given before */
-    bool jump;     /* put the blade there without cutting */
-    bool ends;     /* the cut, with this point */
+    int64_t stamp; /* number of the first tick after the host gave the point */
+    bool jump;     /* move the blade there without cutting */
+    bool ends;     /* the last point of the cut */
 } kiriQueuedPoint;
 
-/* What the def says of a sheet, for as long as it lives. */
+/* Settings of a sheet, from its def. */
 typedef struct kiriSettings {
     kiriMaterial material;
     kiriMechanics mechanics;
-    kiriSheetSettings given; /* what the host may change, as it gave it */
+    kiriSheetSettings given; /* the settings that the host may change, before checks and defaults */
     double snap;             /* lattice steps */
     double rigidWeight, rigidArea, crumbArea;
-    double frameLength; /* m: the size above which a region is split; 0: none is */
+    double frameLength; /* m: a larger region is split; 0: never */
     int32_t maxFrames, iterations, skinning;
-    double fadeTime, leastFade; /* s; m: shorter offsets are not seen */
+    double fadeTime, leastFade; /* s; m: shorter offsets are too small to see */
     double sleepSpeed;          /* m/s; 0: never sleeps */
-    double friction;            /* of the sheet alone */
-    double contactThickness;    /* m, above 0: between sheets; from obstacles half of it */
+    double friction;            /* coefficient of the sheet alone */
+    double contactThickness;    /* m, above 0: distance between sheets; half of it to obstacles */
     uint32_t groups;
     bool touchesSheets;
     kiriAir air;
-    uint64_t userData;        /* the host's own */
-    double collisionPoints;   /* so many over the sheet; of a part of a sheet its share of them */
-    double integrationPoints; /* the same */
+    uint64_t userData;        /* stored for the host */
+    double collisionPoints;   /* count over the whole sheet; a detached part gets its share by area */
+    double integrationPoints; /* likewise */
     int32_t integrationOrder;
-    bool fromScratch; /* every cut makes grid, regions and shape anew */
-    bool popping;     /* frames are not fitted at a commit */
-    bool eased;       /* weights of points have no kinks at sites */
+    bool fromScratch; /* every cut rebuilds grid, regions and shape */
+    bool popping;     /* do not fit frames at a commit */
+    bool eased;       /* smooth the weights of points at sites */
 } kiriSettings;
 
-/* How all the pieces of a sheet rest. */
+/* Sleep state of a sheet, summed over its pieces. */
 typedef struct kiriSheetRest {
-    bool asleep;    /* none of them moves */
-    bool isStirred; /* one of them shall wake */
-    bool isIdle; /* they sleep, and no tick has anything to do for it until one wakes, or it gets a cut or contacts */
+    bool asleep;    /* all pieces sleep */
+    bool isStirred; /* a piece wakes in this tick */
+    bool isIdle;    /* asleep, and ticks skip the sheet until a piece wakes, or a cut or contact arrives */
 } kiriSheetRest;
 
-/* Where the budget has too few systems left for all pieces that are awake, some of them wait in a tick: such a piece
-   stays where it is, with its velocity. Contacts are remembered for it as for a piece that sleeps. In the next tick the
-   first that waited comes first. */
+/* Turns of the awake pieces. If the budget has too few linear systems for all, the tick defers some pieces: they keep
+   position and velocity, and their contacts are stored like the contacts of sleeping pieces. The next tick starts with
+   the first deferred piece. */
 typedef struct kiriPieceTurns {
-    int32_t next;    /* a frame of the piece that is moved first */
-    int32_t waiting; /* pieces that wait in the tick at hand */
+    int32_t next;    /* a frame of the piece to move first */
+    int32_t waiting; /* count of deferred pieces in this tick */
 } kiriPieceTurns;
 
-/* Who finds touches: the highest four bits of their keys. */
+/* Source of a touch: the highest four bits of its key. */
 enum kiriTouchKind { KIRI_TOUCH_HOST = 1, KIRI_TOUCH_OBSTACLE = 2, KIRI_TOUCH_PAIR = 3 };
 
-/* Where a point of the material may touch something in the tick at hand, found before cuts take effect. */
+/* A possible contact of a material point in this tick, found before cuts take effect. */
 typedef struct kiriTouch {
-    uint64_t key;  /* kind in the highest four bits; in the sheet no other touch has it, and the same one has it in the
-                          next tick */
-    int32_t point; /* a collision point; KIRI_NONE: a blend of vertices of the mesh */
-    int32_t vertex[3]; /* KIRI_NONE where there are fewer: those come last */
+    uint64_t key;  /* kind in the highest four bits; unique in the sheet, and the same in the next tick */
+    int32_t point; /* a collision point; KIRI_NONE: a blend of mesh vertices */
+    int32_t vertex[3]; /* unused entries come last and are KIRI_NONE */
     double share[3];   /* sum 1 */
-    kiriVec3 seen;     /* where the point is seen: kiriTouches_Add writes it */
-    kiriVec3 normal;   /* the rest as in a contact row, but that the plane is where it is seen */
+    kiriVec3 seen;     /* m: visible position of the point; kiriTouches_Add writes it */
+    kiriVec3 normal;   /* this and the fields below as in a contact row, but the plane is at the visible position */
     double offset;
     kiriVec3 velocity;
     double friction, pushSpeed;
     int32_t yield;
     double felt, cushion;
-    int32_t row;    /* its contact row; KIRI_NONE where its piece sleeps */
-    kiriVec3 force; /* N, on the sheet: of one that is remembered of a piece that sleeps */
+    int32_t row;    /* its contact row; KIRI_NONE if its piece sleeps */
+    kiriVec3 force; /* N, on the sheet: stored for a touch of a sleeping piece */
 } kiriTouch;
 
-/* With what a contact pushed when the sheet was moved last. */
+/* Force of a contact in the last tick that moved the sheet. */
 typedef struct kiriTouchForce {
     uint64_t key;
     kiriVec3 force; /* N, on the sheet */
 } kiriTouchForce;
 
-/* Touches, and what of them pushed, by key. */
+/* Touches, and the nonzero forces sorted by key. */
 typedef struct kiriTouchMemory {
     KIRI_ARRAY(kiriTouch) touches;
     KIRI_ARRAY(kiriTouchForce) forces;
-    int32_t given; /* of the touches: contacts of the host */
+    int32_t given; /* count of touches from the host's contacts */
 } kiriTouchMemory;
 
-/* What pieces that sleep press with on an obstacle in a tick. */
+/* Load of sleeping pieces on an obstacle in a tick. */
 typedef struct kiriRestLoad {
     int32_t slot;       /* of the obstacle */
-    int32_t contacts;   /* that press */
-    kiriVec3 center;    /* of mass of the obstacle, then */
-    kiriWrench impulse; /* N s, N m s about it, on the obstacle */
+    int32_t contacts;   /* count of contacts with a force */
+    kiriVec3 center;    /* m: center of mass of the obstacle when summed */
+    kiriWrench impulse; /* N s, N m s about `center`, on the obstacle */
 } kiriRestLoad;
 
-/* The sums are kept: they change only where a piece falls asleep or wakes, or the obstacle moves. */
+/* Cache of these loads. Stale when a piece falls asleep or wakes, or the obstacle moves. */
 typedef struct kiriRestLoads {
     KIRI_ARRAY(kiriRestLoad) on;
-    double dt;      /* s: of the tick that they were summed for */
-    bool areSummed; /* they are those of what sleeps now */
+    double dt;      /* s: time step that they were summed for */
+    bool areSummed; /* the cache is valid */
 } kiriRestLoads;
 
 /* See kiri_touch.h. */
 typedef struct kiriTouches {
-    KIRI_ARRAY(kiriTouch) found; /* in the tick at hand, */
+    KIRI_ARRAY(kiriTouch) found; /* in this tick */
     KIRI_ARRAY(kiriYieldRow) yields;
-    KIRI_ARRAY(kiriContactRow) rows;       /* and the rows of those whose pieces are awake */
-    kiriTouchMemory last;                  /* of the last tick that moved the sheet */
-    kiriTouchMemory slept;                 /* of pieces that sleep: of the last tick that moved them */
-    kiriRestLoads rests;                   /* what these press with on obstacles */
+    KIRI_ARRAY(kiriContactRow) rows;       /* rows of the touches of awake pieces */
+    kiriTouchMemory last;                  /* awake pieces: from the last tick that moved the sheet */
+    kiriTouchMemory slept;                 /* sleeping pieces: from the last tick that moved them */
+    kiriRestLoads rests;                   /* loads of sleeping pieces on obstacles */
     kiriIndices order;                     /* scratch */
-    bool isShort;                          /* there was no room to find those of obstacles */
-    KIRI_ARRAY(kiriContactForce) told;     /* what the host reads, of the contacts that it gave; */
-    KIRI_ARRAY(kiriContactForce) nextTold; /* room for those of the next tick */
+    bool isShort;                          /* out of memory for the touches of obstacles */
+    KIRI_ARRAY(kiriContactForce) told;     /* results of the host's contacts, which the host reads */
+    KIRI_ARRAY(kiriContactForce) nextTold; /* capacity for the results of the next tick */
 } kiriTouches;
 
-/* A contact that the host gave. */
+/* A contact from the host. */
 typedef struct kiriGivenContact {
     kiriContact contact;
-    int32_t vertex[3]; /* of the triangle with its rest point, where it names no collision point */
+    int32_t vertex[3]; /* triangle of the rest point, if the contact names no collision point */
     double share[3];
 } kiriGivenContact;
 
-/* Two bits for each frame, see kiri_seen.c. */
+/* A set of frames with false positives: each frame sets two bits, see kiri_seen.c. */
 typedef struct kiriFrameMask {
     uint64_t bits[4];
 } kiriFrameMask;
 
-/* Of each block of vertices, see kiri_seen.h. */
+/* Caches for each block of vertices, see kiri_seen.h. */
 typedef struct kiriBlocks {
-    KIRI_ARRAY(uint8_t) touched;      /* some have other weights, or fade */
-    KIRI_ARRAY(uint8_t) stale;        /* triangles around them are others, so are their normals */
-    KIRI_ARRAY(int32_t) movers;       /* a frame that is awake; KIRI_NONE: all of it sleeps; or KIRI_UNKNOWN */
-    KIRI_ARRAY(kiriFrameMask) frames; /* that carry it, where its mover is known; or all */
-    KIRI_ARRAY(uint8_t) moved;        /* of each frame: was it awake when movers were found last? */
-    bool hasUnknown;                  /* some mover, or some frames */
+    KIRI_ARRAY(uint8_t) touched;      /* the weights of a vertex changed, or a vertex fades */
+    KIRI_ARRAY(uint8_t) stale;        /* triangles changed, so normals are stale */
+    KIRI_ARRAY(int32_t) movers;       /* an awake frame of the block; KIRI_NONE: it sleeps; or KIRI_UNKNOWN */
+    KIRI_ARRAY(kiriFrameMask) frames; /* frames that carry the block; all bits set: unknown */
+    KIRI_ARRAY(uint8_t) moved;        /* per frame: true if it was awake at the last kiriBlocks_FindMovers */
+    bool hasUnknown;                  /* a mover or a mask is unknown */
 } kiriBlocks;
 
-/* What the host sees, see kiri_seen.h. */
+/* The visible state of a sheet, see kiri_seen.h. */
 typedef struct kiriSeen {
     kiriSurface surface;
-    kiriBounds* bounds;               /* of the surface; readers may leave word in it */
+    kiriBounds* bounds;               /* of the surface; readers set atomic flags in it */
     kiriFades fades, pointFades;      /* of vertices, and of collision points */
-    KIRI_ARRAY(kiriVec3) exactPoints; /* where the collision points are seen, */
-    int32_t pointCount;               /* so many */
+    KIRI_ARRAY(kiriVec3) exactPoints; /* m: visible collision points, in double precision */
+    int32_t pointCount;               /* length of exactPoints and pointPositions */
     KIRI_ARRAY(float) pointPositions;
-    KIRI_ARRAY(kiriVec3) pointsBefore; /* room for that while a cut takes effect */
-    bool isElsewhere;                  /* vertices are new, or a cut took effect, since positions were written: */
-    int32_t vertexCount;               /* vertices that are not new */
-    kiriBlocks blocks;                 /* of vertices; the movers are those */
-    int64_t lists;                     /* of this version of kiriMoved */
-    bool areFadesAsleep;               /* some fade of a piece that sleeps, or is gone */
+    KIRI_ARRAY(kiriVec3) pointsBefore; /* scratch: exactPoints before a cut takes effect */
+    bool isElsewhere;                  /* positions are stale: a commit or new vertices since they were written */
+    int32_t vertexCount;               /* vertices whose positions were written */
+    kiriBlocks blocks;                 /* blocks of vertices */
+    int64_t lists;                     /* version of kiriMoved that blocks.movers belong to */
+    bool areFadesAsleep;               /* a sleeping or destroyed piece fades */
 } kiriSeen;
 
 struct kiriUpdate;
@@ -366,42 +366,42 @@ struct kiriUpdate;
 typedef struct kiriSheetData {
     kiriSheet id;
     kiriMemory* memory; /* `own` */
-    kiriMemory own;     /* frees all of the sheet at once */
-    kiriMemory shown;   /* of arrays that the host may hold until the next tick */
+    kiriMemory own;     /* owner of all blocks of the sheet, which are freed together */
+    kiriMemory shown;   /* owner of arrays that the host may hold until the next tick */
     kiriSettings settings;
 
-    /* The mesh, and what follows it as far as the work on the latest cut has come. */
+    /* The mesh, and the field that the current update adapts to it. */
     kiriMeshData mesh;
     kiriGrid grid;
     kiriRegions regions;
     kiriShape shape;
-    struct kiriUpdate* update; /* that work, see kiri_update.h */
+    struct kiriUpdate* update; /* see kiri_update.h */
 
-    /* In force: what moves the sheet. */
+    /* Committed: the state that the solver uses. */
     KIRI_ARRAY(kiriFrameData) frames;
     kiriLayout layout;
     kiriLinks links;
-    kiriStrainOffsets strainOffsets; /* of links between rigid frames */
+    kiriStrainOffsets strainOffsets; /* for links between rigid frames */
     kiriSamples points;              /* collision points */
     kiriSkin vertexSkin, pointSkin;
     kiriPlaces pointPlaces;
     kiriSolver* solver;
 
-    /* What the host asked for. */
+    /* Pending requests of the host. */
     KIRI_ARRAY(kiriQueuedPoint) queue;
     KIRI_ARRAY(kiriCutData*) cuts;
     KIRI_ARRAY(kiriPinData) pins;
-    KIRI_ARRAY(kiriGivenContact) contacts; /* of the next tick */
-    KIRI_ARRAY(kiriFrame) leaving;         /* their pieces become sheets when the work at hand is done */
-    int64_t leavingPaid;                   /* samples, for taking them out, and what the host has destroyed */
+    KIRI_ARRAY(kiriGivenContact) contacts; /* for the next tick */
+    KIRI_ARRAY(kiriFrame) leaving;         /* pieces of these frames become sheets when the current update ends */
+    int64_t leavingPaid;                   /* samples already charged for detaching and destroying pieces */
 
-    /* Room reserved by whoever makes it needed, so that a tick without a cut allocates nothing. */
-    KIRI_ARRAY(kiriPinRow) pinRows;     /* points, then two for each share of a hinge */
+    /* Buffers that are reserved in advance, so that a tick without a cut allocates nothing. */
+    KIRI_ARRAY(kiriPinRow) pinRows;     /* one for each point, then two for each share of a hinge */
     KIRI_ARRAY(kiriClampRow) clampRows; /* one for each share of a clamp */
-    KIRI_ARRAY(double) linkParts;       /* what clamps leave of each link; empty where they leave all */
+    KIRI_ARRAY(double) linkParts;       /* part of each link that clamps do not replace; empty: all of every link */
     KIRI_ARRAY(kiriReaction) pinReactions, clampReactions, frameReactions; /* of rows, and of frames */
-    kiriLine line;                                                         /* what was asked last, */
-    KIRI_ARRAY(kiriLineShare) lineShares;                                  /* and what of it belongs to each frame */
+    kiriLine line;                                                         /* last line query */
+    KIRI_ARRAY(kiriLineShare) lineShares;                                  /* its result: a share for each frame */
 
     kiriTouches touches;
     kiriSheetRest rest;
@@ -410,13 +410,14 @@ typedef struct kiriSheetData {
     kiriPieceLists lists;
     kiriProbes probes;
     kiriPast past;
-    kiriIndices pastRoom; /* for it, in ticks that add vertices */
+    kiriIndices pastRoom; /* storage of past.others in ticks that add vertices */
 } kiriSheetData;
 
-/* An empty sheet, zeroed; null for memory. Itself, its queue and its list of cuts are blocks of `memory`. */
+/* Returns an empty, zeroed sheet; null on out of memory. The sheet, its queue and its list of cuts are blocks of
+   `memory`. */
 kiriSheetData* kiriSheet_New(kiriMemory* memory);
 
-/* Frees the sheet and all that is in it. Null is allowed. */
+/* Frees the sheet and its contents. Null is allowed. */
 void kiriSheet_Delete(kiriSheetData* sheet, kiriMemory* memory);
 
 static inline kiriVec2 kiriSheet_ToLocal(const kiriSheetData* sheet, const float rest[2])
@@ -424,13 +425,13 @@ static inline kiriVec2 kiriSheet_ToLocal(const kiriSheetData* sheet, const float
     return kiriVec2_Make(rest[0] - sheet->mesh.origin.x, rest[1] - sheet->mesh.origin.y);
 }
 
-/* The piece of a frame. */
+/* Returns the piece of a frame. */
 static inline kiriPiece* kiriSheet_PieceOf(const kiriSheetData* sheet, int32_t frame)
 {
     return &sheet->layout.pieces.data[sheet->layout.framePiece.data[frame]];
 }
 
-/* The piece that a vertex belongs to: all its frames are of one. */
+/* Returns the piece of a vertex. All frames that carry the vertex are in one piece. */
 static inline int32_t kiriPiece_OfVertex(const kiriSheetData* sheet, int32_t vertex)
 {
     kiriSpan span = sheet->vertexSkin.spans.data[vertex];
@@ -439,31 +440,31 @@ static inline int32_t kiriPiece_OfVertex(const kiriSheetData* sheet, int32_t ver
         .data[sheet->vertexSkin.weights.data[span.first].frame];
 }
 
-/* Has the host destroyed the piece of a frame? It stays, unseen, until the work at hand is done. */
+/* Returns true if the host destroyed the piece of the frame. It stays hidden until the current update ends. */
 static inline bool kiriSheet_IsGone(const kiriSheetData* sheet, int32_t frame)
 {
     return kiriSheet_PieceOf(sheet, frame)->isGone;
 }
 
-/* Do ticks move it? */
+/* Returns true if ticks move the piece. */
 static inline bool kiriPiece_IsAwake(const kiriPiece* piece)
 {
     return !piece->rest.asleep && !piece->isGone;
 }
 
-/* Or shall it wake in the tick at hand? */
+/* Returns true if ticks move the piece, or it wakes in this tick. */
 static inline bool kiriPiece_MayMove(const kiriPiece* piece)
 {
     return kiriPiece_IsAwake(piece) || (piece->rest.isStirred && !piece->isGone);
 }
 
-/* True if the current tick processes the sheet. Only such sheets may get touches: the tick makes room for these. */
+/* Returns true if the current tick processes the sheet. The tick reserves touches for such sheets only. */
 static inline bool kiriSheet_IsActive(const kiriSheetData* sheet)
 {
     return !sheet->rest.isIdle || sheet->rest.isStirred;
 }
 
-/* From when a tick moves frames until it is over: is the piece moved in it? At other times: would it be? */
+/* Returns true if the current tick moves the piece; between ticks, if the next one would. */
 static inline bool kiriPiece_IsMoved(const kiriPiece* piece)
 {
     return kiriPiece_IsAwake(piece) && !piece->rest.waits;
@@ -474,47 +475,46 @@ static inline bool kiriSheet_Moves(const kiriSheetData* sheet, int32_t frame)
     return kiriPiece_IsMoved(kiriSheet_PieceOf(sheet, frame));
 }
 
-/* Do links go on with their strains when a cut changes them? */
+/* Returns true if links keep their strains when a cut changes them. */
 static inline bool kiriSheet_KeepsStrains(const kiriSheetData* sheet)
 {
     return sheet->settings.mechanics.model == KIRI_MODEL_LINKS && sheet->settings.fadeTime > 0.0;
 }
 
-/* m: of the longer side. */
+/* Returns the length of the longer side, m. */
 static inline double kiriSheet_Extent(const kiriSheetData* sheet)
 {
     return KIRI_LATTICE * sheet->mesh.step;
 }
 
-/* The lattice point of a rest position; false where it is too far out to have one. */
+/* Computes the lattice point of a rest position. Returns false if the position is outside the lattice. */
 bool kiriSheet_ToLattice(const kiriSheetData* sheet, const float rest[2], kiriLatticePoint* at);
 
-/* Settings of a sheet that its host may change while it lives. */
+/* Settings that the host may change after creation. */
 
-/* What the def says of them. */
+/* Returns the settings of a def. */
 kiriSheetSettings kiriSettings_Of(const kiriSheetDef* def);
 
-/* Takes them over, checked; `square` is the side of a grid square, m. What only the def says is there already. */
+/* Copies checked settings. `square` is the side of a grid square, m. Settings of the def alone are already set. */
 void kiriSettings_Take(kiriSettings* settings, const kiriSheetSettings* given, double square);
 
-/* Hands the settings to the parts of a new sheet that keep their own. */
+/* Copies the settings to the parts of a new sheet that store a copy. */
 void kiriSettings_Apply(kiriSheetData* sheet);
 
-/* Takes over others in a sheet that lives, with all that follows. False for memory: then nothing has changed. */
+/* Changes the settings of an existing sheet and updates dependent state. Changes nothing on out of memory: false. */
 bool kiriSettings_Change(kiriSheetData* sheet, const kiriSheetSettings* given);
 
-/* Stages the solver for what is in force: after a load, or for another material, which may bring in corners. What was
-   staged for an update is staged again before its commit, for that is of one tick with its staging. Fails on out of
-   memory. */
+/* Stages the solver for the committed state: after a load, or for a new material, which may add corners. An update
+   stages the solver in the tick of its commit, so this cannot destroy its staging. Fails on out of memory. */
 bool kiriSheet_RestageSolver(kiriSheetData* sheet, const kiriMaterial* material);
 
-/* A sheet from its def. */
+/* Creation of a sheet from its def. */
 
-/* Builds a new sheet from a def that has been checked. On failure the fault says why, or ""
-   where the result says it all, and the sheet is to be deleted. Ids of sheet and frames are given by the world. */
+/* Builds a new sheet from a checked def. On failure the fault gives the reason, or "" if the result is enough, and the
+   caller deletes the sheet. The world assigns the ids of sheet and frames. */
 kiriResult kiriBuild_FromDef(kiriSheetData* sheet, const kiriSheetDef* def, kiriFault* fault);
 
-/* Puts the first layout of a sheet in force, when all stages are done. False for memory. */
+/* Commits the first layout of a sheet, after all stages. Fails on out of memory. */
 bool kiriBuild_Commit(kiriSheetData* sheet);
 
 KIRI_C_END

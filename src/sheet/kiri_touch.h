@@ -1,8 +1,8 @@
-/* Where a sheet touches an obstacle, or may within the tick: on the surface as it is seen, at the start of the tick.
+/* Contacts of a sheet with an obstacle in a tick, found on the visible surface at the start of the tick.
 
-   Vertices touch the obstacle's nearest face, or the one that they would enter by. They are thinned: of those in a
-   patch of the material, a few squares of the grid, over one face, the deepest stands for all. Between vertices the
-   edges of the obstacle touch triangles, at points along them a square apart. */
+   A vertex touches the nearest face of the obstacle, or the face by which it would enter. Vertices are thinned: in each
+   patch of the material (a few grid squares), the deepest vertex over a face represents the others. Between vertices,
+   edges of the obstacle touch triangles at points one grid square apart. */
 #ifndef KIRI_TOUCH_H
 #define KIRI_TOUCH_H
 
@@ -14,190 +14,189 @@
 
 KIRI_C_BEGIN
 
-/* A vertex that stands for its patch. */
+/* A vertex that represents its patch. */
 typedef struct kiriNearVertex {
-    int32_t vertex, patch, frame; /* frame: the one that carries most of it */
-    int32_t next;                 /* in the same patch, or KIRI_NONE */
-    double height;                /* above the obstacle, m */
+    int32_t vertex, patch, frame; /* frame: the one with the largest weight */
+    int32_t next;                 /* next entry of the patch, or KIRI_NONE */
+    double height;                /* m, above the obstacle */
     kiriVec3 normal;              /* local to the obstacle */
 } kiriNearVertex;
 
-/* Room to search, for one sheet and obstacle after another. Nothing in it lasts. */
+/* Scratch of a search, reused for each sheet and obstacle. */
 typedef struct kiriObstacleSearch {
     kiriMemory* memory;
     double dt;
     kiriVec3 gravity;
     kiriIndices triangles;      /* near the obstacle, in no order */
-    kiriIndices vertices;       /* of these, in order */
-    kiriIndices crossed;        /* near a point of an edge */
-    KIRI_ARRAY(uint32_t) marks; /* of each vertex: the search that has seen it last */
-    uint32_t mark;              /* of this search */
-    kiriIndices heads;          /* of each patch: the first vertex that stands for it, or KIRI_NONE */
+    kiriIndices vertices;       /* vertices of these triangles, ascending */
+    kiriIndices crossed;        /* triangles near a point of an edge */
+    KIRI_ARRAY(uint32_t) marks; /* per vertex: `mark` of the last search that visited it */
+    uint32_t mark;              /* number of this search */
+    kiriIndices heads;          /* per patch: first entry of `chosen`, or KIRI_NONE */
     KIRI_ARRAY(kiriNearVertex) chosen;
 } kiriObstacleSearch;
 
-/* The key that the touch of an obstacle gets when vertices and triangles are taken away; false where its own is. */
+/* Updates the key of an obstacle touch after vertices and triangles were removed. Returns false if its item was. */
 bool kiriObstacle_FollowKey(uint64_t* key, const kiriKeep* vertices, const kiriKeep* triangles);
 
-/* The slot of the obstacle whose touch has the key. */
+/* Returns the slot of the obstacle in the key. */
 int32_t kiriObstacle_SlotOfKey(uint64_t key);
 
-/* The least box around the surface as it is seen. */
+/* Returns the bounding box of the visible surface. */
 kiriBox kiriSheet_Box(const kiriSheetData* sheet);
 
-/* m/s: no point of the sheet moves faster. `box` is around the sheet. */
+/* Returns an upper bound of the speed of any point, m/s. `box` contains the sheet. */
 double kiriSheet_SpeedLimit(const kiriSheetData* sheet, const kiriBox* box);
 
-/* m: how far a point may come in a tick with this speed, by velocity and gravity, twice. */
+/* Returns twice the distance that a point of this speed can move in a tick under gravity, m. */
 double kiriReach_Of(double speed, kiriVec3 gravity, double dt);
 
-/* Makes room for this sheet, so that no search in it needs memory. */
+/* Reserves for this sheet, so that no search in it allocates. */
 bool kiriObstacleSearch_Reserve(kiriObstacleSearch* search, const kiriSheetData* sheet);
 
-/* Finds the triangles whose box is within reach of that of the obstacle; bounds must be fresh. False for memory. */
+/* Finds triangles whose box is within `reach` of the obstacle's box. Bounds must be fresh. Fails on out of memory. */
 bool kiriObstacleSearch_Near(kiriObstacleSearch* search, const kiriSheetData* sheet, const kiriObstacleData* obstacle,
                              double reach);
 
-/* Adds touches of the pieces that move, or shall wake, of the sheet, whose bounds must be fresh; `yield` is the row of
-   the obstacle's body. False for memory. */
+/* Adds touches of the pieces that move, or wake in this tick. Bounds must be fresh. `yield` is the row of the
+   obstacle's body. Fails on out of memory. */
 bool kiriObstacleSearch_Run(kiriObstacleSearch* search, kiriSheetData* sheet, const kiriObstacleData* obstacle,
                             double speed, int32_t yield);
 
-/* Touches: where points of a sheet may meet something in a tick. Whoever knows what is around the sheet adds them
-   before cuts take effect, from where the sheet is seen; the solver gets a contact row for each, with the weights that
-   are in force then. What contacts pushed with is remembered by key until the next tick. */
+/* Touches: possible contacts of points of a sheet in a tick. The searches add them before cuts take effect, from the
+   visible positions. After the commit the solver gets a contact row for each, with the committed weights. Contact
+   forces are stored by key until the next tick. */
 
-/* Forgets the touches that were found for another tick, and adds the contacts that the host gave. This and the next
-   three are false, or KIRI_NONE, for memory; then the tick is refused. */
+/* Drops the touches of the previous tick and adds the host's contacts. On out of memory this and the next three return
+   false, or KIRI_NONE, and the tick is refused. */
 bool kiriTouches_Begin(kiriSheetData* sheet);
 
-/* `seen` is written; vertices are below the number of those that are seen. A touch that pushes within the tick wants
-   its plane no farther than the point can go: others cost a row each. */
+/* Adds a touch and writes its `seen`. Its vertices must be visible, not new. Add only touches whose plane the point can
+   reach within the tick: each costs a row. */
 bool kiriTouches_Add(kiriSheetData* sheet, const kiriTouch* touch);
 
-/* What several touches press on, and its index. */
+/* Adds a row for the body that several touches press on. Returns its index. */
 int32_t kiriTouches_AddYield(kiriSheetData* sheet, const kiriYieldRow* yield);
 
-/* The index of the yield row with that number, or KIRI_NONE. */
+/* Returns the index of the yield row with this number, or KIRI_NONE. */
 int32_t kiriTouches_FindYield(const kiriSheetData* sheet, int64_t number);
 
-/* Room for so many touches, in all that comes of them. */
+/* Reserves all arrays for `count` touches. */
 bool kiriTouches_Room(kiriSheetData* sheet, int64_t count);
 
-/* When all are found: room for what comes of them. */
+/* Reserves all arrays for the touches found. Call when the searches are done. */
 bool kiriTouches_Reserve(kiriSheetData* sheet);
 
-/* After the commit: a row for each touch of a piece that is awake, in their order. */
+/* Writes a row for each touch of an awake piece, in order. Call after the commit. */
 void kiriTouches_WriteRows(kiriSheetData* sheet);
 
-/* The next calm piece of which the host's contacts are others than those by which it was moved last; false where there
-   is none. *at is 0 at first. A piece may come more than once. */
+/* Finds the next calm piece whose host contacts differ from the ones in its last motion. Returns false at the end.
+   *at starts at 0. A piece may come more than once. */
 bool kiriTouches_NextNew(kiriSheetData* sheet, int32_t* at, int32_t* piece);
 
-/* The piece that has it. */
+/* Returns the piece of a touch. */
 int32_t kiriTouch_Piece(const kiriSheetData* sheet, const kiriTouch* touch);
 
-/* When other pieces are moved: what is remembered of them is there where it belongs. */
+/* Moves stored touches between `last` and `slept`. Call when the set of moved pieces changed. */
 void kiriTouches_Sort(kiriSheetData* sheet);
 
-/* After the sheet was moved: remembers what pushed. */
+/* Stores the contact forces. Call after the sheet was moved. */
 void kiriTouches_End(kiriSheetData* sheet);
 
-/* What the host is told of its contacts; the contacts are gone then. `dt` s: of the tick. A piece that sleeps pushes
-   with what it fell asleep with. */
+/* Writes the results of the host's contacts and removes the contacts. `dt` is the time step, s. A sleeping piece
+   reports the force with which it fell asleep. */
 void kiriTouches_Tell(kiriSheetData* sheet, double dt);
 
-/* The motion could not be continued: nothing that is awake pushed. */
+/* Clears the forces of awake pieces, after the solver failed. */
 void kiriTouches_Clear(kiriSheetData* sheet);
 
-/* What the contact of that key pushed with when its piece was moved last, N; zero where there was none. */
+/* Returns the force of the contact with this key in the last motion of its piece, N; zero if there is none. */
 kiriVec3 kiriTouches_ForceOf(const kiriSheetData* sheet, uint64_t key);
 
-/* The same touch in a part of the sheet, whose collision points and vertices have these indices; false where it is of
-   another part, or its finder alone knows it. */
+/* Maps a touch to a detached part with these points and vertices. Returns false if it belongs to another part, or only
+   the search that found it can map it. */
 bool kiriTouch_Follow(kiriTouch* touch, const kiriKeep* points, const kiriKeep* vertices);
 
-/* What the files of kiri_touch.h share. */
+/* Shared by kiri_touch.c and kiri_obstacle.c. */
 
-/* Of the distance that is kept: a point so near above it is a touch already, though it may not come down in this tick.
-   So one that rests does not lose its force whenever it lifts a little. */
+/* Fraction of the contact distance. A point this little above it is a touch, even if it cannot reach it in this tick.
+   So a resting point that lifts a little keeps its force. */
 #define KIRI_NEARBY 0.5
 
-/* Marks keys of round sides: their item is a triangle, not a point of an edge. */
+/* Key bit of round sides: the item is a triangle, not a point of an edge. */
 #define KIRI_ROUND_ITEM (UINT32_C(1) << 31)
 
-/* A sheet near an obstacle. */
+/* Input of the searches for one sheet and one obstacle. */
 typedef struct kiriMeeting {
     kiriObstacleSearch* search;
     kiriSheetData* sheet;
     const kiriObstacleData* obstacle;
-    kiriVec3 across;          /* local to the obstacle: normal of the plane of a planar sheet, else zero */
-    double gap;               /* m: distance that is kept */
-    double reach;             /* m: how far it may be between them and still touch in the tick */
-    double square;            /* m: of the grid */
-    int32_t squares, columns; /* of the grid along its side; patches in a row */
-    double friction;          /* of both */
-    int32_t yield;
+    kiriVec3 across;          /* plane normal of a planar sheet, local to the obstacle; else zero */
+    double gap;               /* m: contact distance */
+    double reach;             /* m: largest distance at which they may touch in the tick */
+    double square;            /* m: side of a grid square */
+    int32_t squares, columns; /* grid squares along the side of a patch; patches in a row */
+    double friction;          /* coefficient of the pair */
+    int32_t yield;            /* yield row of the obstacle's body, or KIRI_NONE */
 } kiriMeeting;
 
-/* m/s: of a vertex, as frames blend it. */
+/* Returns the velocity of a vertex, blended from the frames, m/s. */
 kiriVec3 kiriMeeting_VertexVelocity(const kiriSheetData* sheet, int32_t vertex);
 
-/* m: what a point of the material may move relative to the obstacle, twice as far as velocities and gravity tell. */
+/* Returns twice the displacement of a material point relative to the obstacle in the tick, under gravity, m. */
 kiriVec3 kiriMeeting_Way(const kiriMeeting* meeting, kiriVec3 point, kiriVec3 velocity);
 
-/* A plane through a point of the obstacle, with all that a touch says but whom it touches. False where the plane of a
-   planar sheet lies along it. */
+/* Makes the touch with the plane through a point of the obstacle; its vertices and key are not set. Returns false if
+   the plane is parallel to the plane of a planar sheet. */
 bool kiriMeeting_MakePlane(const kiriMeeting* meeting, kiriVec3 normal, kiriVec3 at, double gap, kiriTouch* touch);
 
-/* Between vertices: of up to three, by their shares. */
+/* Sets the point of a touch to a blend of up to three vertices. */
 void kiriMeeting_SetPlace(kiriTouch* touch, const int32_t* vertices, const double* shares, int32_t count);
 
-/* Kind, whether it is between vertices, slot of the obstacle, and an item: a vertex, or a point of an edge. */
+/* Returns the key: kind, isBetween (vertices), slot of the obstacle, and item (a vertex, or a point of an edge). */
 uint64_t kiriMeeting_Key(const kiriMeeting* meeting, bool isBetween, uint32_t item);
 
-/* Is the side from a to b part of the border? All triangles with it are among those near. */
+/* Returns true if the edge from a to b is on the border. `near` contains all triangles of the edge. */
 bool kiriMeeting_IsBorder(const kiriSurface* surface, const kiriIndices* near, int32_t a, int32_t b);
 
-/* Adds the touches of each kind. False for memory. */
+/* Add the touches of each kind. Fail on out of memory. */
 bool kiriMeeting_TouchVertices(const kiriMeeting* meeting);
-bool kiriMeeting_TouchEdges(const kiriMeeting* meeting);   /* of the obstacle, against triangles, */
-bool kiriMeeting_TouchCorners(const kiriMeeting* meeting); /* and where they go through the plane of a planar sheet */
-bool kiriMeeting_TouchRounds(const kiriMeeting* meeting);  /* round sides between vertices that are far apart */
+bool kiriMeeting_TouchEdges(const kiriMeeting* meeting);   /* edges of the obstacle against triangles */
+bool kiriMeeting_TouchCorners(const kiriMeeting* meeting); /* edges of the obstacle against a planar sheet's border */
+bool kiriMeeting_TouchRounds(const kiriMeeting* meeting);  /* round sides against the inside of coarse triangles */
 
-/* Probes: the vertices by which a sheet feels others. A dozen a frame or more inside of a piece, at most one a grid
-   square, and along its border twice as close, the sharpest corners first: between them the surface hardly bends. */
+/* Probes: the vertices that may touch other sheets. Inside a piece there are a dozen a frame or more, at most one a
+   grid square; on its border they are twice as dense, sharpest corners first. Between probes the surface hardly
+   bends. */
 
-/* Chooses the probes anew where mesh or pieces have changed, and puts the boxes of pieces and the velocities of probes
-   where the surface is seen now, unless the sheet sleeps and they are there. The mesh is the one that is seen. False
-   for memory. */
+/* Chooses the probes again if mesh or pieces changed. Then updates boxes of pieces and velocities of probes from the
+   visible surface; skips this if the sheet sleeps and they are current. The mesh must be the visible one. Fails on out
+   of memory. */
 bool kiriProbes_Update(kiriSheetData* sheet);
 
-/* Of a sheet that was read from bytes: chooses them as they were chosen, which is by `block`. */
+/* Chooses the probes of a loaded sheet, with the stored `block`. */
 bool kiriProbes_Remake(kiriSheetData* sheet);
 
-/* m/s: of a vertex. */
+/* Returns the velocity of a vertex, m/s. */
 kiriVec3 kiriProbe_Velocity(const kiriSheetData* sheet, int32_t vertex);
 
-/* What touches pushed with, by key: of those of the last tick, and of those of pieces that sleep. */
+/* Stored contact forces, by key. */
 
 static inline bool kiriTouch_IsOfKind(const kiriTouch* touch, int32_t kind)
 {
     return touch->key >> 60 == (uint64_t)kind;
 }
 
-/* Remembers a touch with its force. There is room. Forces are found by key after kiriTouchMemory_SortForces. */
+/* Stores a touch and its force. Capacity is reserved. Find works after kiriTouchMemory_SortForces. */
 void kiriTouchMemory_Add(kiriTouchMemory* memory, const kiriTouch* touch, kiriVec3 force);
 
-/* Sorts the forces of the touches from `first` on, but for those that are zero, into those that are there. `order` has
-   room for as many. */
+/* Merges the nonzero forces of the touches from `first` on into the sorted forces. `order` has capacity for them. */
 void kiriTouchMemory_SortForces(kiriTouchMemory* memory, int32_t first, kiriIndices* order);
 
-/* The force of that key; false, and *force as it was, where there is none. */
+/* Finds the force of a key. Returns false, and leaves *force unchanged, if there is none. */
 bool kiriTouchMemory_Find(const kiriTouchMemory* memory, uint64_t key, kiriVec3* force);
 
-/* Takes the first force of that key that was not taken; zero where there is none. It stays in its place, as zero, until
-   all are dropped that were taken. */
+/* Takes the first remaining force of a key; returns zero if there is none. Its entry stays, zeroed, until DropTaken. */
 kiriVec3 kiriTouchMemory_Take(kiriTouchMemory* memory, uint64_t key);
 void kiriTouchMemory_DropTaken(kiriTouchMemory* memory);
 

@@ -1,7 +1,6 @@
-/* The work that cuts set off in a sheet, as far as it has come. It takes all points that wait when it begins, whatever
-   ticks they were given before. Mesh, grid, regions and weights do not depend on where one update ends and the next
-   begins. Sites of frames would: so sites are added only where the points decide it, see settlesSites. Each stage owns
-   its part; kiri_update.h runs them. */
+/* Progress of an update: the work that follows a cut, spread over ticks. An update takes all points that are pending
+   when it starts. Mesh, grid, regions and weights do not depend on how points are grouped into updates. Sites of frames
+   would, so sites are added only at moments that the points decide, see settlesSites. */
 #ifndef KIRI_UPDATE_H
 #define KIRI_UPDATE_H
 
@@ -10,76 +9,76 @@
 
 KIRI_C_BEGIN
 
-/* The cut stage: the points at the head of the queue. */
+/* State of the cut stage: it processes the points at the head of the queue. */
 typedef struct kiriCutWork {
-    int64_t stamp; /* the tick that the first of them was given before */
+    int64_t stamp; /* stamp of the first of these points */
     int32_t count, taken;
-    bool meshChanged; /* or sites may be too few: the other stages have work */
+    bool meshChanged; /* the mesh changed, or there may be too few sites: the other stages have work */
 
-    /* A blade has met the border or a lip, or a cut has ended. The update takes no points of later ticks then, and adds
-       frames where they are too few. Others add none. So the sites do not depend on the budget. */
+    /* A blade reached the border or a lip, or a cut ended. Then the update takes no points of later ticks and adds
+       frames if there are too few. No other update adds frames, so the sites do not depend on the budget. */
     bool settlesSites;
 } kiriCutWork;
 
-/* Sites of frames, and whatever else is placed piece by piece; kiri_sheet_site.c. */
+/* State of the placer: sites of frames, and points, are placed piece by piece. See kiri_sheet_site.c. */
 typedef struct kiriPlacingWork {
-    kiriSites sites; /* of the frames that are there, then of new ones */
+    kiriSites sites; /* of existing frames, then of new ones */
     KIRI_ARRAY(kiriSiteMove) moves;
-    int32_t movesSeen; /* by the regions */
-    int32_t spread;    /* frames to spread over the sheet, at its start, */
-    int32_t pieces;    /* and pieces that have none yet */
+    int32_t movesSeen; /* count of moves that the regions have processed */
+    int32_t spread;    /* frames to spread over a new sheet */
+    int32_t pieces;    /* count of pieces that have no frame yet */
     kiriPlacer placer;
-    bool isTaking;               /* a piece into the placer, */
-    bool isPlacing;              /* in it */
-    kiriSlitSearch search;       /* for its slit ends */
-    bool isAgain;                /* all sites of the piece in the placer are placed again */
-    bool isFirst;                /* round of re-sampling in this update */
-    double whole;                /* m^2 of the sheet; while things are spread over it */
-    int32_t at;                  /* orphan, frame or piece that is being seen to */
-    KIRI_ARRAY(uint8_t) marks;   /* of cells, frames or pieces */
-    KIRI_ARRAY(uint8_t) allowed; /* of cells */
-    KIRI_ARRAY(uint8_t) flags;   /* of squares or cells */
-    KIRI_ARRAY(int32_t) own;     /* frames of the piece in the placer */
+    bool isTaking;               /* the placer is collecting a piece */
+    bool isPlacing;              /* the placer is placing sites */
+    kiriSlitSearch search;       /* slit ends of the piece */
+    bool isAgain;                /* all sites of the piece are placed again */
+    bool isFirst;                /* first round of re-sampling in this update */
+    double whole;                /* m^2: area of the sheet, while items are spread over it */
+    int32_t at;                  /* current orphan, frame or piece */
+    KIRI_ARRAY(uint8_t) marks;   /* per cell, frame or piece */
+    KIRI_ARRAY(uint8_t) allowed; /* per cell */
+    KIRI_ARRAY(uint8_t) flags;   /* per square or cell */
+    KIRI_ARRAY(int32_t) own;     /* frames of the current piece */
 } kiriPlacingWork;
 
 typedef struct kiriSampleWork {
-    int32_t oldVertices; /* at the last commit: those from there on have the weights that they were born with */
+    int32_t oldVertices; /* vertex count at the last commit; newer vertices have interpolated weights */
     kiriRefresh refresh;
     KIRI_ARRAY(kiriSample) newPoints;
-    KIRI_ARRAY(kiriSample) movedPoints; /* `frame` is the index of a point, `cell` where it is now */
+    KIRI_ARRAY(kiriSample) movedPoints; /* `frame` is the index of a point, `cell` its new cell */
 } kiriSampleWork;
 
-/* A frame that appears with the commit. */
+/* A frame that the commit adds. */
 typedef struct kiriNewFrame {
     kiriLatticePoint anchor;
-    int32_t triangle; /* that it takes its motion from */
+    int32_t triangle; /* source of its motion */
 } kiriNewFrame;
 
-/* What a commit has changed, for the profile. */
+/* Items that a commit changed, for the profile. */
 typedef struct kiriCommitCounts {
     int32_t cells, weights, vertices, points, links;
 } kiriCommitCounts;
 
 typedef struct kiriUpdate {
-    int32_t stage;     /* KIRI_STAGE_..., the next to run; KIRI_READY: they are done; KIRI_NONE: nothing is at hand */
-    int32_t step;      /* within the stage, see there */
-    int64_t spent;     /* items of the budget: with stage and step it says how far the work has come */
-    bool needsRebuild; /* grid, regions and shape are of no use: to be made from scratch */
-    bool isScratch;    /* as they are now */
+    int32_t stage;     /* KIRI_STAGE_..., the next to run; KIRI_READY: all are done; KIRI_NONE: no update */
+    int32_t step;      /* within the stage */
+    int64_t spent;     /* budget items; stage, step and spent together measure the progress */
+    bool needsRebuild; /* grid, regions and shape are invalid: the next update rebuilds them */
+    bool isScratch;    /* this update rebuilds grid, regions and shape */
     bool isUnsettled;  /* the mesh has changed since an update settled sites */
 
     kiriCutWork cut;
     kiriPlacingWork placing;
-    KIRI_ARRAY(kiriMoments) material; /* of each frame's region */
+    KIRI_ARRAY(kiriMoments) material; /* moments of each frame's region */
     kiriSampleWork samples;
     kiriRefit refit;
-    int64_t due;                        /* items of the step at hand that are not paid yet */
+    int64_t due;                        /* items of the current step that are not paid yet */
     KIRI_ARRAY(kiriNewFrame) newFrames; /* in the order of their sites */
     kiriIntegrationWork integration;
 
     /* Staged for the commit, beside links and weights. */
     kiriLayout next;
-    KIRI_ARRAY(int32_t) parent; /* of frames: union-find */
+    KIRI_ARRAY(int32_t) parent; /* union-find of frames */
     kiriCommitCounts counts;
 } kiriUpdate;
 
@@ -88,15 +87,15 @@ enum { KIRI_READY = KIRI_STAGE_CONTACT };
 /* The last step of KIRI_STAGE_CONSTANTS. */
 enum { KIRI_PREPARE_COMMIT = 2 };
 
-/* Do grid, regions and shape belong to the mesh as it is? */
+/* Returns true if grid, regions and shape match the current mesh. */
 static inline bool kiriUpdate_IsFieldCurrent(const kiriUpdate* update)
 {
     bool isUntouched = update->stage == KIRI_NONE || (update->stage == KIRI_STAGE_CUT && !update->cut.meshChanged);
     return isUntouched && !update->needsRebuild;
 }
 
-/* The stages of the work on a cut, in their order, and what its commit does. Each stage goes on where the quota of the
-   last tick ended, and costs what the cut touched. KIRI_FAILED is for memory. kiri_update.h runs them. */
+/* The stages of an update, in order, then its commit. Each stage continues where the quota of the last tick ended. The
+   cost is proportional to the items that the cut touched. KIRI_FAILED: out of memory. */
 
 kiriProgress kiriStage_SplitMesh(kiriSheetData* sheet, kiriQuota* triangles);
 kiriProgress kiriStage_Grid(kiriSheetData* sheet, kiriQuota* cells);
@@ -105,68 +104,68 @@ kiriProgress kiriStage_Shape(kiriSheetData* sheet, kiriQuota* cells);
 kiriProgress kiriStage_Samples(kiriSheetData* sheet, kiriQuota* samples);
 kiriProgress kiriStage_Constants(kiriSheetData* sheet, kiriQuota* samples);
 
-/* A stage in steps: goes on with sheet->update->step, which starts with 0. */
+/* Runs a stage in steps, from sheet->update->step on, which starts at 0. */
 typedef kiriProgress kiriStageStep(kiriSheetData* sheet, kiriQuota* quota);
 kiriProgress kiriStage_RunSteps(kiriSheetData* sheet, kiriQuota* quota, kiriStageStep* const* steps, int32_t count);
 
-/* Of a sheet that is made: the first step of the constants, which depends on the mesh alone. */
+/* Runs the first step of KIRI_STAGE_CONSTANTS for a new sheet. It depends on the mesh alone. */
 kiriProgress kiriStage_Owners(kiriSheetData* sheet, kiriQuota* samples);
 
-/* Stages the solver for so many frames, with the links and the layout that are staged. False for memory. */
+/* Stages the solver for `frameCount` frames, with the staged links and layout. Fails on out of memory. */
 bool kiriStage_Solver(kiriSheetData* sheet, int32_t frameCount);
 
-/* What this tick did to the mesh becomes final. Never fails. */
+/* Commits the mesh changes of this tick. Cannot fail. */
 void kiriStage_CommitMesh(kiriSheetData* sheet);
 
-/* After the last stage: what is staged comes in force. New frames take their motion from the surface as it was (section
-   5 of the paper). Never fails. */
+/* Commits the staged state after the last stage. New frames take their motion from the previous surface (section 5 of
+   the paper). Cannot fail. */
 void kiriStage_Commit(kiriSheetData* sheet);
 
-/* Forgets what is staged. */
+/* Drops the staged state. */
 void kiriStage_Drop(kiriSheetData* sheet);
 
-/* The one table of stages: a tick, a new sheet and the part of a sheet all run it. */
+/* The pipeline of stages: ticks, new sheets and detached parts run it. */
 
 enum { KIRI_QUOTA_TRIANGLES, KIRI_QUOTA_CELLS, KIRI_QUOTA_SAMPLES, KIRI_QUOTA_ITERATIONS, KIRI_QUOTA_COUNT };
 
-/* What is left of the budget in this tick. */
+/* Remaining budget of this tick. */
 typedef struct kiriQuotas {
     kiriQuota of[KIRI_QUOTA_COUNT];
-    int64_t limits[KIRI_QUOTA_COUNT]; /* what a tick has; INT64_MAX: no limit */
+    int64_t limits[KIRI_QUOTA_COUNT]; /* items a tick; INT64_MAX: no limit */
 } kiriQuotas;
 
-/* 0: no limit. */
+/* Returns the quotas of a budget, in which 0 means no limit. */
 kiriQuotas kiriQuotas_Of(const kiriBudget* budget);
 kiriQuotas kiriQuotas_Unlimited(void);
 
-/* What has been spent of one kind of work on cuts leaves as much less of the other two: so a tick takes as long as the
-   costliest of the three does alone. */
+/* Shares one allowance among the three quotas for cuts: using 30 % of one leaves 70 % of the others. So a tick takes no
+   longer than the costliest of the three alone. */
 void kiriQuotas_Share(kiriQuotas* quotas, int spent);
 
-/* Is told which stage begins, for the profile. */
+/* Callback at the start of each stage, for the profile. */
 typedef struct kiriWatch {
     void (*enter)(void* context, int32_t stage);
     void* context;
 } kiriWatch;
 
-/* For a sheet that has its mesh, and nothing else: runs the stages from the grid up to the stage `end`, without a
-   limit. Again for the next ones. False for memory. */
+/* Runs the stages of a new sheet that has only its mesh, from the grid up to the stage `end`, without a limit. Call it
+   again for later stages. Fails on out of memory. */
 bool kiriPipeline_Make(kiriSheetData* sheet, int32_t end);
 
-/* At the start of a tick: begins an update with all pending points, unless one is under way. */
+/* Starts an update with all pending points, unless one is running. Call at the start of a tick. */
 void kiriPipeline_Start(kiriSheetData* sheet);
 
-/* Has the stage at hand a quota with something left? */
+/* Returns true if the quota of the current stage has items left. */
 bool kiriPipeline_CanRun(const kiriSheetData* sheet, const kiriQuotas* quotas);
 
-/* Carries the work at hand on as far as the quotas go. KIRI_DONE: it is ready to commit. KIRI_FAILED: out of memory; it goes on in
-   the next tick. */
+/* Continues the update as far as the quotas allow. KIRI_DONE: ready to commit. KIRI_FAILED: out of memory; the next
+   tick continues. */
 kiriProgress kiriPipeline_Run(kiriSheetData* sheet, kiriQuotas* quotas, const kiriWatch* watch);
 
-/* After a commit, or when the points changed nothing: they leave the queue. */
+/* Ends the update and removes its points from the queue. Call after a commit, or if the points changed nothing. */
 void kiriPipeline_Finish(kiriSheetData* sheet);
 
-/* In a tick that cannot commit: the commit is prepared again in the next, for the host may change pins in between. */
+/* Defers the commit to the next tick, which prepares it again: the host may change pins in between. */
 void kiriPipeline_Wait(kiriSheetData* sheet);
 
 KIRI_C_END
