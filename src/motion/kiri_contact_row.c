@@ -1,18 +1,18 @@
 #include "kiri_solver.h"
 
-#define STIFFNESS 1e4       /* of a contact: so many times the mass of its frames over h'^2, */
-#define GRIP 30.0           /* and so many times for the slide of what sticks */
-#define SINKING 1e-4        /* m: and so much that it sinks in no deeper by what it is known to push with */
-#define MOST_SPRING 1e9     /* but no more times the mass over h'^2 than that */
-#define SLIDE_HALVINGS 8    /* of the step, where friction ends it */
-#define SLOPE 0.1           /* of what the step promises: less is no crossing */
+#define STIFFNESS 1e4       /* spring of a contact, as a multiple of its frames' mass / h'^2 */
+#define GRIP 30.0           /* spring on the slide of a sticking contact, in the same unit */
+#define SINKING 1e-4        /* m: limit of the depth under the known push; makes the spring stiffer if necessary */
+#define MOST_SPRING 1e9     /* upper limit of the spring, in the same unit */
+#define SLIDE_HALVINGS 8    /* bisections for the point of the step where friction ends it */
+#define SLOPE 0.1           /* of the slope that the step promises; smaller slopes do not end the step */
 #define EARLY 2             /* systems */
-#define PUSH_TOLERANCE 0.02 /* of the largest push of the piece: forces that are off by less need no other iteration */
-#define SINK_TOLERANCE 1e-5 /* m: nor do points that came below a plane by less */
+#define PUSH_TOLERANCE 0.02 /* of the body's largest push; smaller errors of forces need no other iteration */
+#define SINK_TOLERANCE 1e-5 /* m: smaller depths of new contacts need no other iteration */
 
 /* ---- Points ------------------------------------------------------------------------------------------------------ */
 
-/* Where frames have a point by these weights. */
+/* Returns the position of a point that is blended from frames by these weights. */
 static kiriVec3 BlendedPoint(const kiriSystem* system, const kiriWeight* weights, int32_t count, kiriVec2 at,
                              const kiriPose* poses)
 {
@@ -91,11 +91,11 @@ static double InverseMass(const kiriSystem* system, const kiriContactRow* row, k
 
 /* ---- Begin of a step --------------------------------------------------------------------------------------------- */
 
-#define LEAST_FREE 0.5 /* of the weights of a contact: those of frames that the host does not hold */
-#define FAR_BELOW 1e9  /* m: of planes that nothing can touch */
+#define LEAST_FREE 0.5 /* of a contact's weights: minimum for frames that the host does not hold */
+#define FAR_BELOW 1e9  /* m: offset of planes that nothing can touch */
 
-/* The row acts on its largest frames that all have a block of the matrix in common: so that what it couples is solved
-   for exactly. */
+/* Chooses the frames that the row acts on: the largest weights whose frames all have blocks of the matrix in common. So
+   their coupling is solved exactly. */
 static void ChooseMembers(const kiriSolver* solver, const kiriWeight* weights, kiriContactStep* step)
 {
     double sum = 0.0;
@@ -214,17 +214,17 @@ static kiriVec3 Beside(kiriVec3 a, kiriVec3 direction)
 
 /* ---- Soft contacts ------------------------------------------------------------------------------------------------
 
-   A contact with a fixed obstacle is a smooth energy of the objective. It is never switched on or off, so a sheet at rest
-   does not tremble. With depth p, softness d and stiffness k the push is k p^2 / 2 d up to p = d, and k (p - d / 2)
-   beyond. Friction is T = held - grip slide, where `held` is the friction of the last step; a longer T is cut to the
-   limit (Huber). */
+   A contact with a fixed obstacle is a smooth energy of the objective. It is never switched on or off, so a sheet at
+   rest does not tremble. At depth p, with softness d and stiffness k, the push is k p^2 / (2 d) up to p = d, and k (p - d /
+   2) beyond. Friction is T = held - grip slide, where `held` is the friction of the last step. T is clamped to the
+   friction limit (Huber). */
 
-#define SOFT_STIFFNESS 1e3 /* times the mass of the sample over h'^2, at least */
+#define SOFT_STIFFNESS 1e3 /* minimum, as a multiple of the mass of the sample / h'^2 */
 #define SOFT_SHARE 0.2     /* of the reach: d */
-#define SOFT_GROWTH 30.0   /* of the stiffness in a step, where a system leaves a point deeper than its reach */
-#define PULLING 0.05      /* of the largest push: a system in which a contact pulls by more is no answer */
+#define SOFT_GROWTH 30.0   /* limit of the growth of the stiffness in a step, if a point is deeper than its reach */
+#define PULLING 0.05      /* of the largest push: a system in which a contact pulls by more is rejected */
 
-/* N, N/m and J: the push at a depth, its derivative and its integral. */
+/* Return the push at a depth (N), its derivative (N/m) and its integral (J). */
 static double PushAt(const kiriContactStep* step, double p)
 {
     double k = step->stiffness, d = step->soft;
@@ -371,9 +371,9 @@ static void CountPressed(const kiriSolver* solver, const kiriSystem* system)
     }
 }
 
-/* The spring of the contact is so stiff that nobody sees it, in series with the inertia of the obstacle. Contacts that
-   press on one obstacle each have the same share of its mass: then none of them can give it more than is there, and
-   together they give all (mass splitting; Tonge, Benevolenski, Voroshilov 2012). */
+/* Sets the springs. The contact's spring is stiff enough to be invisible, in series with the inertia of the obstacle.
+   Contacts that press on one obstacle each get an equal share of its mass: then no contact gives it more than its
+   momentum, and together they give all of it (mass splitting; Tonge, Benevolenski, Voroshilov 2012). */
 static void SetSprings(const kiriSolver* solver, const kiriSystem* system, kiriContactStep* step, kiriVec3 point)
 {
     const kiriContactRow* row = step->row;
@@ -643,8 +643,8 @@ void kiriContact_Assemble(kiriSolver* solver, const kiriSystem* system, const ki
 
 /* ---- How far to go ----------------------------------------------------------------------------------------------- */
 
-/* J: how the energy of friction differs, along the step after a part of it, from that of the linear model: the
-   derivative. */
+/* Returns the slope, along the step, of the difference between the friction energy and its linear model, J. `part`:
+   part of the step taken. */
 static double FrictionSlope(const kiriContactStep* step, double part)
 {
     kiriVec3 trial = Trial(step, kiriVec3_AddScaled(step->slide, part, step->slides));
@@ -653,7 +653,7 @@ static double FrictionSlope(const kiriContactStep* step, double part)
     return kiriVec3_Dot(kiriVec3_Sub(DragOf(step, part), drag), step->slides);
 }
 
-/* J: of the objective, by the part of the step that is taken. */
+/* Returns the slope of the objective by the part of the step taken, J. */
 static double SlopeAt(const kiriSolver* solver, double part)
 {
     double slope = -2.0 * solver->search.promise * (1.0 - part);
@@ -683,8 +683,8 @@ void kiriSolver_LimitByFriction(kiriSolver* solver)
 
 /* ---- Which contacts push, and how -------------------------------------------------------------------------------- */
 
-/* The forces after a step of which `part` was taken: those of the linear model, for their sum is what frames get,
-   however far turned frames leave their tangents. */
+/* Sets the forces after taking `part` of a step. They are the forces of the linear model, because frames receive their
+   sum, however far turned frames leave their tangents. */
 static void TakeForces(kiriContactStep* step, double part)
 {
     double push = step->isActive ? step->stiffness * (step->depth + step->sinks) : 0.0;
@@ -722,7 +722,7 @@ static bool ReviewFriction(kiriContactStep* step, double limit, kiriVec3 slide, 
     return kiriVec3_Length(kiriVec3_Sub(next, drag)) > tolerance;
 }
 
-/* Chooses what the contact does in the next system. Returns true if that is other than in the last one. */
+/* Chooses the state of the contact in the next system. Returns true if the contact needs another system. */
 static bool Review(const kiriSolver* solver, const kiriSystem* system, kiriContactStep* step, double mostPush)
 {
     const kiriContactRow* row = step->row;
@@ -767,15 +767,16 @@ void kiriSolver_ReviewContacts(kiriSolver* solver, const kiriSystem* system)
 
 /* ---- Holding ----------------------------------------------------------------------------------------------------- */
 
-/* What holds where the systems of a step do not settle which contacts push: nothing goes through an obstacle. */
+/* Moves points out of obstacles after the last system, if the systems of a step have not settled which contacts push.
+   Nothing passes through an obstacle. */
 
-#define MOST_DEPTH 5e-3      /* m: less is left to the next step, which pushes it out: what rests needs that */
-#define TOLERABLE_DEPTH 1e-3 /* m: what is left where something is held */
-#define MOST_TURN 0.3        /* of a frame, roughly its angle, while it is held */
-#define LEAST_WEIGHT 0.05    /* of a frame that is held */
+#define MOST_DEPTH 5e-3      /* m: smaller depths are left for the next step, as resting sheets need them */
+#define TOLERABLE_DEPTH 1e-3 /* m: depth that holding leaves */
+#define MOST_TURN 0.3        /* limit for a frame while held, about its angle in radians */
+#define LEAST_WEIGHT 0.05    /* minimum weight of a frame that is held */
 #define SWEEPS 12            /* over all contacts */
 
-/* m: how far the obstacle is pushed down. */
+/* Returns how far the obstacle is pushed down, m. */
 static double Yielded(const kiriContactStep* step)
 {
     double held = step->push - kiriMax(step->solved, 0.0);
@@ -783,7 +784,7 @@ static double Yielded(const kiriContactStep* step)
     return step->push > 0.0 ? step->push * step->give + more : 0.0;
 }
 
-/* Returns true if the body is too deep in something. Keeps what the systems left of pushes. */
+/* Returns true if a point of the body is too deep. Stores the pushes of the systems in `solved`. */
 static bool IsDeep(kiriSolver* solver, const kiriSystem* system)
 {
     bool isDeep = false;
@@ -835,9 +836,9 @@ static kiriVec3 AlongNormalOf(const kiriSystem* system, const kiriContactStep* s
     return system->mechanics.planar ? kiriMechanics_InPlane(&system->mechanics, normal) : normal;
 }
 
-/* Pushes a frame so far that it carries the point no further than to the plane. It only moves, and does not turn: so
-   depths change as they should, however far it has turned. That each frame does so, and not their blend alone, keeps
-   frames from passing each other on their way to the plane, and with them what is between the points. */
+/* Pushes a frame until the point, as it carries it, is on the plane. The frame moves without turning, so depths change
+   as expected, however far it has turned. Each frame is pushed by itself, not only their blend. This keeps frames, and
+   the material between the points, from passing each other on their way to the plane. */
 static bool HoldMember(kiriSolver* solver, const kiriSystem* system, kiriContactStep* step, int32_t f)
 {
     kiriVec3 along = AlongNormalOf(system, step);
@@ -863,7 +864,7 @@ static bool HoldFrames(kiriSolver* solver, const kiriSystem* system, kiriContact
     return any;
 }
 
-/* Moves all frames of the body alike, which stores no energy in it. `mass` is that of frames that the host does not
+/* Moves all frames of the body equally, which stores no energy. `mass`: mass of the frames that the host does not
    hold. */
 static bool HoldWhole(kiriSolver* solver, const kiriSystem* system, kiriContactStep* step, double mass)
 {
@@ -935,9 +936,9 @@ void kiriSolver_HoldContacts(kiriSolver* solver, const kiriSystem* system)
     kiriSolver_FindGains(solver, system);
 }
 
-/* ---- What came of it --------------------------------------------------------------------------------------------- */
+/* ---- Results ----------------------------------------------------------------------------------------------------- */
 
-/* What the contact can do of what the systems asked of it: it does not pull, nor hold by more than friction. */
+/* Returns the force of the systems, clamped to the friction cone: no pull, and no friction beyond the limit. */
 static kiriVec3 WithinCone(const kiriContactStep* step)
 {
     if (!(step->push > 0.0)) {
@@ -948,7 +949,7 @@ static kiriVec3 WithinCone(const kiriContactStep* step)
     return kiriVec3_AddScaled(held, step->push, step->row->normal);
 }
 
-/* N: what the contact did. A soft one may still pull a little; the others push by as much more. */
+/* Returns the force of the contact, N. A soft contact may still pull slightly; the others then push by as much more. */
 static kiriVec3 GivenForce(const kiriContactStep* step)
 {
     return IsSoft(step->row) ? kiriVec3_AddScaled(step->drag, step->push, step->row->normal) : WithinCone(step);
@@ -959,9 +960,10 @@ kiriVec3 kiriContact_Force(const kiriSolver* solver, const kiriContactStep* step
     return kiriVec3_Scale(solver->touch.keepForces, GivenForce(step));
 }
 
-/* Pulls that are left out would make the others throw the body up: where it ended, the sum of all is what moved it. So
-   all are as much less as makes their sum fit that. Where contacts alone act, the sum of their forces is what took the
-   body from where free motion ends, on whatever path the iteration came there. */
+/* Scales all forces by one factor. Dropping pulls would make the other contacts throw the body up, because the sum of
+   all forces produced its final poses. The factor fits the remaining sum to that sum. If contacts alone act on a body
+   that was held up, their sum is the force that moves it from the end of free motion to its final poses, whatever the
+   path of the iteration. */
 void kiriSolver_BalanceContacts(kiriSolver* solver, const kiriSystem* system)
 {
     bool isMovedByThem = solver->touch.isHeldUp && solver->support == KIRI_SUPPORT_CONTACTS;
@@ -992,7 +994,7 @@ double kiriContact_Work(const kiriSolver* solver, const kiriContactStep* step)
     return kiriVec3_Dot(force, normal) * step->lift + kiriVec3_Dot(force, kiriVec3_AlongPlane(step->carried, normal));
 }
 
-/* Gives what yields as many times what the contact did in the step. */
+/* Gives the yield row `times` the impulse of the contact in the step. */
 static void Give(const kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step, double times)
 {
     kiriYieldRow* yield = YieldOf(system, step->row);
@@ -1006,16 +1008,16 @@ static void Give(const kiriSolver* solver, const kiriSystem* system, const kiriC
 
 /* ---- Pinned bodies ----------------------------------------------------------------------------------------------- */
 
-#define ONE_SIDED 0.5  /* of the pushes of a body: less as their sum, and they push against each other */
-#define MOST_MORE 30.0 /* times what contacts of a pinned body say of themselves */
+#define ONE_SIDED 0.5  /* of the sum of push magnitudes: if the vector sum is smaller, contacts oppose each other */
+#define MOST_MORE 30.0 /* upper limit of Pinned.more */
 
 /* A body with pins. Sums are N s. */
 typedef struct Pinned {
-    bool isPinned;         /* nothing acts but pins, contacts, gravity and forces */
-    kiriVec3 asked, given; /* what its momentum and its pins say that contacts did; what contacts say */
-    double pressed;        /* sum of what contacts gave, without their directions */
-    double held;           /* N/m: by its pins, all together */
-    double more;           /* what contacts did, times what they say of themselves; 1 where nothing is known */
+    bool isPinned;         /* only pins, contacts, gravity and forces act */
+    kiriVec3 asked, given; /* impulse of contacts: from momentum and pins; from the contacts themselves */
+    double pressed;        /* sum of the magnitudes of contact impulses */
+    double held;           /* N/m: stiffness of all its pins */
+    double more;           /* ratio of the true impulse of contacts to `given`; 1 if unknown */
 } Pinned;
 
 static Pinned SumPinned(const kiriSolver* solver, const kiriSystem* system)
@@ -1043,9 +1045,9 @@ static Pinned SumPinned(const kiriSolver* solver, const kiriSystem* system)
     return sum;
 }
 
-/* A pinned sheet that something heavy runs into stands stretched, after its few systems, by more than the linear model
-   of its contacts knows. What changed its momentum less what its pins bear is what contacts did. Contacts that press
-   from two sides say nothing of their sum. */
+/* Sets `more`. After few systems, a pinned sheet hit by something heavy is stretched more than in the linear model of
+   its contacts. The true impulse of contacts is the change of momentum minus the impulse of the pins. It is unknown if
+   contacts press from two sides. */
 static void FindMore(kiriSolver* solver, Pinned* sum)
 {
     double fit = kiriVec3_Dot(sum->asked, sum->given), size = kiriVec3_Dot(sum->given, sum->given);
@@ -1058,7 +1060,7 @@ static void FindMore(kiriSolver* solver, Pinned* sum)
     }
 }
 
-/* The push on the obstacle times the speed of the obstacle along it, and of the sheet, N s m/s. */
+/* Computes the push on the obstacle times the obstacle's, and times the sheet's, speed along it, N s m/s. */
 static void FindPower(const kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step,
                       double* ofObstacle, double* ofSheet)
 {
@@ -1072,7 +1074,7 @@ static void FindPower(const kiriSolver* solver, const kiriSystem* system, const 
     *ofSheet = kiriVec3_Dot(push, way);
 }
 
-/* Gives obstacles what contacts say. Where they did more, sums the power of the pushes before and after that. */
+/* Gives obstacles the impulses of contacts. If isMore, sums the power of the pushes before and after that. */
 static void GivePushes(const kiriSolver* solver, const kiriSystem* system, bool isMore)
 {
     double ofObstacle, ofSheet;
@@ -1101,8 +1103,8 @@ static void GivePushes(const kiriSolver* solver, const kiriSystem* system, bool 
     }
 }
 
-/* More than what contacts say may stop an obstacle, or let it go as fast as the sheet does there, but not faster: the
-   momentum that a cloth has can be thousands of times that of a light body on it. */
+/* Limits the ratio `more`: the additional impulse may stop an obstacle, or accelerate it to the speed of the sheet, but
+   no further. The momentum of a cloth can be thousands of times the momentum of a light body on it. */
 static double LimitMore(const kiriSolver* solver, const kiriSystem* system, double more)
 {
     for (int32_t k = 0; more > 1.0 && k < solver->contacts.count; ++k) {
@@ -1116,10 +1118,10 @@ static double LimitMore(const kiriSolver* solver, const kiriSystem* system, doub
     return more;
 }
 
-/* Gives what yields what contacts did in the step. For a pinned body that is what its momentum and its pins say, as far
-   as obstacles may have it; its pins have the rest. Pins are stiff: where a frame turns in the last system, its pins
-   stretch by other lengths than the system had. Each gets of the rest by its stiffness, as if the body stood a little
-   aside. */
+/* Gives yield rows the impulses of contacts in the step. For a pinned body these follow from its momentum and its pins,
+   as far as obstacles can receive them. The pins get the rest, in proportion to their stiffness, as if the body were
+   shifted slightly: pins are stiff, and if a frame turns in the last system, their lengths differ from those in the
+   system. */
 static void BalancePinned(kiriSolver* solver, const kiriSystem* system)
 {
     Pinned sum = SumPinned(solver, system);
@@ -1139,7 +1141,7 @@ static void BalancePinned(kiriSolver* solver, const kiriSystem* system)
     }
 }
 
-/* Impulses of the step, then where it leaves the planes. */
+/* Writes the impulses of the step first, then the displacements of the planes. */
 void kiriSolver_EndContacts(kiriSolver* solver, const kiriSystem* system)
 {
     if (solver->contacts.count > 0 && system->pinCount > 0) {

@@ -68,7 +68,7 @@ static void EndRigid(const kiriPrediction* prediction, const kiriStepping* s, co
     history->turnPull.u = kiriVec3_Scale(1.0 / s->part, inner);
 }
 
-/* The rate of A differs from that of the prediction as A does, over h'. */
+/* Ends the step of an affine frame. The rate of A differs from the predicted rate by (A - A*) / h'. */
 static void EndAffine(const kiriPrediction* prediction, const kiriStepping* s, const kiriFrameData* before,
                       kiriFrameData* after)
 {
@@ -150,14 +150,14 @@ static double WorkOfTorque(const kiriSystem* system, kiriVec3 torque, const kiri
     return kiriVec3_Dot(torque, kiriVec3_AddScaled(lag, h, end->spin));
 }
 
-/* The velocity of the centre of mass stays where nothing but contacts acts. */
+/* If contacts alone act, the velocity of the centre of mass is kept. */
 double kiriSolver_MostTaken(const kiriSolver* solver)
 {
     return solver->energy.kinetic + (solver->support == KIRI_SUPPORT_HELD ? solver->energy.moving : 0.0);
 }
 
-/* Finds by how much kinetic and potential energy grow in the step beyond the work of gravity and of the host's forces;
-   what rounding explains is no gain. A held frame counts as moved before the step. */
+/* Finds the increase of kinetic and potential energy in the step beyond the work of gravity and of the host's forces.
+   Increases within the rounding error do not count. Held frames count as if they had moved before the step. */
 static void SumGains(kiriSolver* solver, const kiriSystem* system)
 {
     kiriVec3 gravity = kiriSystem_Gravity(system), mean = solver->momentum.velocityAfter;
@@ -223,9 +223,9 @@ static bool IsThrown(const kiriSolver* solver)
            Excess(solver) > (solver->touch.isHeldUp ? 0.0 : TOLERABLE * solver->touch.means);
 }
 
-/* Contacts in a step that is far from solved may push too hard: the mean velocity of a body that nothing else holds is
-   theirs. Then they push less, all by the same part: the most that leaves no gain but what can be taken out of other
-   velocities, or else where the gain is least. */
+/* Limits the pushes of contacts. In a step that is far from solved they may be too large, and they determine the mean
+   velocity of a body on which nothing else acts. All pushes are scaled by one factor: the largest for which the other
+   velocities can supply the whole gain, or else the factor with the smallest gain. */
 static void LimitPushes(kiriSolver* solver, const kiriSystem* system)
 {
     double least = Excess(solver), best = 1.0, all = solver->touch.keepForces;
@@ -243,8 +243,8 @@ static void LimitPushes(kiriSolver* solver, const kiriSystem* system)
     }
 }
 
-/* First out of velocities beside those of a rigid body, which leaves momenta as they are; then out of the turning as one
-   body; the rest out of the mean, unless the body is free. */
+/* Takes energy first from velocities that differ from a rigid body's, which keeps the momenta; then from the rotation
+   as one body; and last from the mean velocity, unless the body is free. */
 void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system)
 {
     LimitPushes(solver, system);
@@ -400,8 +400,9 @@ static void AddToFit(Fit* fit, const kiriLink* link, const LinkStrains* strains)
     fit->at = kiriVec2_Add(fit->at, kiriVec2_Scale(weight, link->crossing));
 }
 
-/* The symmetric T that minimises the sum of w |T s - value|^2. Where all spans have one direction, what they do not say
-   is 0: hence the small addition to the matrix. Its equations are T M + M T = B + B^T but for the halves: with rows
+/* Returns the symmetric T that minimises the sum of w |T s - value|^2. If all spans have one direction, the
+   undetermined part of T is 0, due to a small addition to the matrix. The equations are T M + M T = B + B^T, divided by
+   two:
 
        [ uu  uv  0       ]          [ B_uu        ]
        [ uv  uu + vv  uv ] (T)  =   [ B_uv + B_vu ]

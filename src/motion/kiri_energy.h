@@ -1,4 +1,4 @@
-/* How far a sheet's shape is from that of a sheet with many more frames, estimated from the shape alone. */
+/* Estimates the error of a sheet's shape against a sheet with many more frames, from the shape alone. */
 #ifndef KIRI_ENERGY_H
 #define KIRI_ENERGY_H
 
@@ -6,13 +6,12 @@
 
 KIRI_C_BEGIN
 
-/* An estimate of the relative error of the deformation under steady loads. The strains of links are those of a field
-   that has one value on each link, and jumps between them. A smoother field is recovered from them (Zienkiewicz and
-   Zhu 1987): each region has the curvatures and strains that fit its links best, and between two regions they change
-   evenly. The energy of what the two fields differ by, over that of both, tells the relative error of the energy, and
-   under steady loads that of the work that these did, so of the way the sheet went. It falls with the square of the
-   spacing, as the error does. 0 for a sheet that is flat, 1 where no two links
-   meet, else at most 0.5. False for memory. */
+/* Estimates the relative error of the deformation under steady loads. The strains of links are a field with one value
+   on each link and jumps between links. A smoother field is recovered from them (Zienkiewicz and Zhu 1987): each region
+   has the curvatures and strains that fit its links best, and between two regions they vary linearly. The energy of the
+   difference of the two fields, divided by the energy of both, is the relative error of the energy. Under steady loads
+   it is also the relative error of their work, and so of the displacement. It falls with the square of the spacing, as
+   the error does. *relative: 0 for a flat sheet, 1 if no two links meet, else at most 0.5. Fails on out of memory. */
 bool kiriEstimate_Error(kiriMemory* memory, const kiriFrameData* frames, int32_t frameCount, const kiriLink* links,
                         int32_t linkCount, const kiriMaterial* material, double* relative);
 

@@ -79,8 +79,8 @@ static void AddFrameTurning(kiriPieceMomentum* p, const kiriFrameData* before, c
     p->inertia = kiriMat3_AddScaled(&p->inertia, 1.0, &point);
 }
 
-/* Finds the velocities that make up for what is missing. The steps keep the linear momentum exactly but for what is left
-   of the iteration, and for pushes that were cut to what contacts can do. */
+/* Finds the velocities that correct the momenta. Steps conserve the linear momentum exactly, except for the residual of
+   the iteration and for pushes that were clamped to the limits of contacts. */
 static void FindMissing(kiriPieceMomentum* p, const kiriVec3* normal)
 {
     kiriVec3 arm = kiriVec3_Scale(-1.0, p->centerAfter);
@@ -287,13 +287,13 @@ static void PredictPlace(const kiriFrameData* frame, kiriVec3 gravity, const kir
     kiriVec3 x = kiriVec3_AddScaled(frame->x, s->h - s->part, frame->velocity);
     x = kiriVec3_AddScaled(x, s->part, prediction->velocity);
     prediction->pose.x = kiriVec3_AddScaled(x, s->d, frame->history.lag);
-    /* The iteration starts without forces, or with those of the last step. */
+    /* The iteration starts without inner forces, or with the inner forces of the last step. */
     kiriVec3 guess = kiriVec3_AddScaled(frame->x, s->h, frame->velocity);
     prediction->guess.x = kiriVec3_AddScaled(guess, -s->ahead, frame->history.lag);
 }
 
-/* The frame turns freely by the momentum that it has; then by what the last step went otherwise. What the scheme takes
-   from the history shifts the target, as the host's torque does: both may be large, and balance each other. */
+/* Predicts the rotation: a free turn by the current angular momentum, then by the lag of the last step. The terms of
+   the history shift the target, like the host's torque: both may be large and cancel each other. */
 static void PredictTurn(const kiriFrameData* frame, const kiriStepping* s, kiriPrediction* prediction)
 {
     kiriMat3 body = kiriPrediction_Inertia(prediction, &IdentityAxes);
@@ -303,8 +303,8 @@ static void PredictTurn(const kiriFrameData* frame, const kiriStepping* s, kiriP
     prediction->pose.A = kiriMat3_MulMat(kiriMat3_Cayley(Shortened(kiriVec3_Scale(s->d, lag))), turned);
     prediction->guess.A = kiriMat3_MulMat(kiriMat3_Cayley(Shortened(kiriVec3_Scale(-s->ahead, lag))), turned);
     kiriMat3 inertiaAfter = kiriPrediction_Inertia(prediction, &prediction->pose.A);
-    /* Turns of more than two radians a step are followed only roughly; then a slender region might gain energy, which is
-       therefore capped. */
+    /* Turns of more than two radians a step are approximate; there a slender region might gain energy, so the energy is
+       capped. */
     double before = kiriVec3_Dot(L, kiriMat3_Solve(&inertia, L)), after = kiriVec3_Dot(L, kiriMat3_Solve(&inertiaAfter, L));
     prediction->angular = after > before ? kiriVec3_Scale(kiriRoot(before / after), L) : L;
     prediction->spin = kiriMat3_Solve(&inertiaAfter, prediction->angular);
@@ -367,8 +367,8 @@ kiriMat3 kiriMat3_Advance(const kiriMat3* A, const kiriMat3* change)
     return kiriMat3_MulMat(kiriMat3_Cayley(w), grown);
 }
 
-/* A turns, by the angular momentum it has, as a rigid one would; what its rate has beside the spin turns with it, and
-   stretches it on. What the scheme takes from the history is added to the columns. */
+/* Predicts the columns of A. They turn by the angular momentum like a rigid body. The rate without the spin turns with
+   them and stretches them further. The terms of the history are added to the columns. */
 static void PredictColumns(const kiriFrameData* frame, const kiriStepping* s, kiriPrediction* prediction)
 {
     kiriMat3 inertia = AffineInertia(&prediction->moments, &frame->A);

@@ -1,4 +1,4 @@
-/* Reactions: what holds the sheet has to bear. */
+/* Reactions: forces and moments of pins, clamps and held frames on the sheet. Control frames. Time stepping. */
 #ifndef KIRI_FRAME_H
 #define KIRI_FRAME_H
 
@@ -8,20 +8,20 @@
 
 KIRI_C_BEGIN
 
-/* A force, N, with its moment about a point, N m; or an impulse, N s, with its own, N m s. */
+/* A force, N, with its moment about a point, N m; or an impulse, N s, with its moment, N m s. */
 typedef struct kiriWrench {
     kiriVec3 force, moment;
 } kiriWrench;
 
-/* With what a pin, a clamp or a held frame acts on the sheet, about where it holds it. */
+/* Action of a pin, a clamp or a held frame on the sheet, about the point where it holds the sheet. */
 typedef struct kiriReaction {
     kiriWrench impulse; /* since the start of the tick */
-    kiriWrench gain;    /* impulse of the last step, */
-    kiriWrench pull;    /* and force at its end: the history of kiri_frame.h, for forces one by one */
-    kiriWrench now;     /* force at the end of the step at hand */
+    kiriWrench gain;    /* impulse of the last step */
+    kiriWrench pull;    /* force at the end of the last step; history of this reaction, as in kiriHistory */
+    kiriWrench now;     /* force at the end of the current step */
 } kiriReaction;
 
-/* One for each pin row, clamp row and frame of a system; each may be null. Those of free frames stay zero. */
+/* One reaction for each pin row, clamp row and frame of a system; each array may be null. Free frames have zeros. */
 typedef struct kiriReactions {
     kiriReaction *pins, *clamps, *frames;
 } kiriReactions;
@@ -32,55 +32,56 @@ static inline void kiriWrench_Add(kiriWrench* sum, double scale, const kiriWrenc
     sum->moment = kiriVec3_AddScaled(sum->moment, scale, wrench->moment);
 }
 
-/* Control frames: their state (section 5 of the paper). */
+/* State of control frames (section 5 of the paper). */
 
-/* What the last step of a frame leaves for the next one, see kiri_frame.h: how inner forces (of links, pins and
-   contacts) moved it. Turns are in world axes: of a rigid frame in u alone, of an affine one by the columns of A. */
+/* Motion of a frame by inner forces (links, pins, contacts) in its last step, input for the scheme of the next step.
+   Turns are in world axes: for a rigid frame only the column u is used, for an affine frame each column of A has its
+   own. */
 typedef struct kiriHistory {
-    double dt;         /* s: of that step; 0: there is no history, all is zero */
+    double dt;         /* s: length of the last step; 0: no history, all other fields are zero */
     int32_t isHalf;    /* the next step may be the second of a pair */
-    int32_t isHeld;    /* the host moved the frame in it */
-    kiriVec3 gain;     /* q, m/s: the velocity that they gave */
-    kiriVec3 lag;      /* p, m: x after the step, less x before it, less dt times the velocity after it */
-    kiriVec3 pull;     /* a, m/s^2: the acceleration that they gave at its end */
-    kiriMat3 turnGain; /* angular momentum, or rate of the columns, */
-    kiriMat3 turnLag;  /* rotation vector, or columns, */
-    kiriMat3 turnPull; /* torque, or acceleration of the columns */
+    int32_t isHeld;    /* the host moved the frame in the last step */
+    kiriVec3 gain;     /* q, m/s: velocity gained from inner forces */
+    kiriVec3 lag;      /* p, m: x after the step - x before it - dt velocity after it */
+    kiriVec3 pull;     /* a, m/s^2: acceleration by inner forces at the end of the step */
+    kiriMat3 turnGain; /* Q: angular momentum; affine: rate of the columns */
+    kiriMat3 turnLag;  /* P: rotation vector; affine: columns */
+    kiriMat3 turnPull; /* T: torque; affine: acceleration of the columns */
 } kiriHistory;
 
-/* A frame carries the rest point p to x + A (p - center). The center is the centroid of its region, so x is its
-   centre of mass. */
+/* A control frame. It maps the rest point p to x + A (p - center). The center is the centroid of the region, so x is
+   the centre of mass. */
 typedef struct kiriFrameData {
     kiriFrame id;
-    uint64_t pieceData; /* the host's own, the same in all frames of a piece */
+    uint64_t pieceData; /* set by the host, equal in all frames of a piece */
     kiriSite site;
-    kiriLatticePoint anchor; /* a point of the material in the site's cell: finds the cell again after a cut */
+    kiriLatticePoint anchor; /* a material point in the site's cell, used to find the cell after a cut */
     kiriVec2 center;         /* local m */
     double area;             /* m^2 */
-    int64_t rigidAtStart;    /* kiriShape.rigid in the new sheet, where the host gave the count; else 0 */
+    int64_t rigidAtStart;    /* kiriShape.rigid in the new sheet if the host gave the count; else 0 */
     double mass;             /* kg */
     double inertia[3];       /* integrals of density uu, uv, vv about the center, kg m^2 */
     kiriVec3 x;              /* m */
-    kiriMat3 A;              /* rotation, but for affine frames */
+    kiriMat3 A;              /* a rotation; affine frames: any matrix */
     kiriVec3 velocity;       /* of x */
     kiriVec3 spin;           /* angular velocity, world */
-    kiriMat3 rate;           /* how A changes beside spin x A, 1/s: not at all, but for affine frames */
+    kiriMat3 rate;           /* derivative of A without spin x A, 1/s; zero for rigid frames */
     kiriVec3 force, torque;  /* from the host, for one tick */
-    kiriWrench load;         /* N s, N m s about x: what other pieces pressed with in the last tick, for the next one;
+    kiriWrench load;         /* N s, N m s about x: impulse of other pieces in the last tick, applied in the next one;
                                 N, N m while a tick moves frames */
-    kiriVec3 support;        /* where what it lies on pushed it in the last tick: unit, or zero */
+    kiriVec3 support;        /* direction of the push by supporting objects in the last tick: unit, or zero */
     double gained, passed;   /* scratch, J: see kiriSolver_AddGained; a step adds to them */
-    kiriVec3 received;       /* the same, N s */
+    kiriVec3 received;       /* scratch, N s: see kiriSolver_AddGained */
     kiriHistory history;
-    int32_t held;          /* the host moves it: */
-    kiriVec3 heldPosition; /* of the site at the end of the step, */
-    kiriMat3 heldRotation;
-    kiriVec3 goalPosition; /* and where the host has it at the end of the tick */
-    kiriMat3 goalRotation;
+    int32_t held;          /* the host moves the frame */
+    kiriVec3 heldPosition; /* position of the site at the end of the step */
+    kiriMat3 heldRotation; /* rotation at the end of the step */
+    kiriVec3 goalPosition; /* the host's position for the end of the tick */
+    kiriMat3 goalRotation; /* the host's rotation for the end of the tick */
     kiriVec3 heldOff; /* m: see sheet/kiri_pin.h; */
     bool isOffKnown;
-    kiriReaction reaction; /* of the hold on the sheet, about the held site */
-    kiriWrench bore;       /* its mean in the last tick that moved the sheet; zero where it was free */
+    kiriReaction reaction; /* action of the hold on the sheet, about the held site */
+    kiriWrench bore;       /* mean of the reaction in the last tick that moved the sheet; zero if the frame was free */
 } kiriFrameData;
 
 static inline kiriVec3 kiriFrame_Carry(const kiriFrameData* frame, kiriVec2 p)
@@ -89,7 +90,7 @@ static inline kiriVec3 kiriFrame_Carry(const kiriFrameData* frame, kiriVec2 p)
                               frame->A.v);
 }
 
-/* How A changes, 1/s. */
+/* Returns the derivative of A, 1/s. */
 static inline kiriMat3 kiriFrame_Rate(const kiriFrameData* frame)
 {
     kiriMat3 r = { kiriVec3_Add(kiriVec3_Cross(frame->spin, frame->A.u), frame->rate.u),
@@ -98,7 +99,7 @@ static inline kiriMat3 kiriFrame_Rate(const kiriFrameData* frame)
     return r;
 }
 
-/* The velocity of the rest point p. */
+/* Returns the velocity of the rest point p. */
 static inline kiriVec3 kiriFrame_VelocityAt(const kiriFrameData* frame, kiriVec2 p)
 {
     kiriVec3 arm = kiriVec3_Sub(kiriFrame_Carry(frame, p), frame->x);
@@ -107,26 +108,26 @@ static inline kiriVec3 kiriFrame_VelocityAt(const kiriFrameData* frame, kiriVec2
     return kiriVec3_AddScaled(velocity, p.y - frame->center.y, frame->rate.v);
 }
 
-/* Can the host read it as floats? An eighth of these leaves room for the sums and blends that they are made of. NaN
-   does not fit. */
+/* Returns true if the host can read the frame as floats. The limit is an eighth of the largest float, which leaves room
+   for sums and blends of frames. NaN does not fit. */
 bool kiriFrame_FitsFloats(const kiriFrameData* frame);
 
-/* Stays where it is. */
+/* Clears the velocities and the history. */
 void kiriFrame_PutToRest(kiriFrameData* frame);
 
-/* What the host gave for a tick is used up. */
+/* Clears the forces that the host set for one tick. */
 void kiriFrame_DropForces(kiriFrameData* frame);
 
-/* Gives the frame the mass and centre of its region; the motion of the material does not change. */
+/* Sets the mass and the center to the values of the region. The motion of the material does not change. */
 void kiriFrame_Recenter(kiriFrameData* frame, const kiriMoments* material, double densityPerArea);
 
 /* Schemes of time stepping. Each step solves for the poses of the frames at its end,
 
        minimise  1/2 m |x - x*|^2 / h'^2 + V(x),
 
-   and the schemes differ in four numbers only. With v, x before the step, h its length, e = gravity + force / m, and
-   the history that the last step left (kiriHistory: q the velocity that inner forces gave in it, p = x+ - x - h v+, and
-   a the inner acceleration at its end):
+   and the schemes differ in four numbers only. v and x are values before the step, h is its length, and
+   e = gravity + force / m. The last step left the history (kiriHistory): q, the velocity gained from inner forces,
+   p = x+ - x - h v+, and a, the inner acceleration at its end:
 
        v* = v + h e + c q + l a                   D  = (x - x*) / h'
        x* = x + h v + d p + h' (v* - v)           v+ = v* + D
@@ -136,12 +137,13 @@ void kiriFrame_Recenter(kiriFrameData* frame, const kiriMoments* material, doubl
        trapezoid        h' = h / 2                c = 0                  l = h / 2   d = 0
        BDF2             h' = h (1 + r)/(1 + 2 r)  c = r^2 / (1 + 2 r)    l = 0       d = c      r = h / last h
 
-   Second order in time: trapezoid and BDF2 by turns, so a pair is a step of TR-BDF2 (Bank et al. 1985; Hosea and
-   Shampine 1996) whose halves are of one length. Backward Euler starts it, and takes its place where the past says
-   nothing of the step: see ChooseSteppings in kiri_step.c. Its next step may be the second of a pair.
+   Second order in time: trapezoid and BDF2 alternate, so a pair is a step of TR-BDF2 (Bank et al. 1985; Hosea and
+   Shampine 1996) whose halves have equal lengths. The first step is backward Euler, and so is every step for which the
+   history does not predict the motion: see ChooseSteppings in kiri_step.c. The next step may be the second of a pair.
 
-   Turns, with Q, P and T for q, p and a. Affine frames: the same, by the columns of A, beside their free turn. Rigid
-   frames: Q is angular momentum, T torque, P a rotation vector, in world axes; I is the inertia at the end, w the spin.
+   For turns, Q, P and T stand for q, p and a. Affine frames use the same formulas for the columns of A, in addition to
+   their free turn. For rigid frames, Q is angular momentum, T torque, P a rotation vector, in world axes; I is the
+   inertia at the end, w the spin.
 
        A* = Cayley(d P) (free turn of A over h with L)       A' = A* + h' I^-1 (c Q + l T + h torque) x A*
        minimise  1/2 m |A r - A' r|^2 / h'^2 + V             G, G' = sum of m (A* r, A' r) x (A r) / h'
@@ -149,24 +151,23 @@ void kiriFrame_Recenter(kiriFrameData* frame, const kiriMoments* material, doubl
 
 typedef struct kiriStepping {
     double h;       /* s: the step */
-    double part;    /* h': that of it over which inner forces act on the end */
-    double c, l, d; /* shares of q, a (s) and p */
-    double ahead;   /* r^2: of p, for where the iteration starts */
+    double part;    /* h', s: the part of the step over which inner forces act on its end */
+    double c, l, d; /* factors of q, a (s) and p */
+    double ahead;   /* r^2: factor of p where the iteration starts */
     bool isEuler;
-    bool isHalf; /* the next may be the second of a pair */
+    bool isHalf; /* the next step may be the second of a pair */
 } kiriStepping;
 
 kiriStepping kiriStepping_Euler(double h);
 
-/* The step that comes after this history, of frames that have one. */
+/* Returns the scheme of the next step. The history must not be empty. */
 kiriStepping kiriStepping_After(const kiriHistory* history, double h);
 
-/* c q + l a, and the same of the turn. */
+/* Return c q + l a, and c Q + l T. */
 kiriVec3 kiriStepping_Inner(const kiriStepping* stepping, const kiriHistory* history);
 kiriMat3 kiriStepping_InnerTurn(const kiriStepping* stepping, const kiriHistory* history);
 
-/* A frame by itself: its mass, and the free prediction: how it moves over a step when no element, pin or contact acts
-   on it. */
+/* A single frame: its mass, and its free prediction, the motion over a step without elements, pins and contacts. */
 
 typedef struct kiriPose {
     kiriVec3 x;
@@ -182,11 +183,11 @@ typedef struct kiriPrediction {
     kiriMassMoments moments;
     kiriPose pose; /* at the end of the step: x*, A* */
     kiriVec3 velocity, spin;
-    kiriVec3 angular; /* momentum of a rigid frame about x */
-    kiriMat3 rate;    /* of A, all of it; of affine frames only */
-    kiriMat3 carried; /* the rate without what the scheme takes from the history */
-    kiriVec3 shift;   /* of pose.x for the sake of the centre of mass of a free piece */
-    kiriMat3 target;  /* pose.A, shifted by the host's torque: no rotation */
+    kiriVec3 angular; /* angular momentum of a rigid frame about x */
+    kiriMat3 rate;    /* derivative of A including the spin; affine frames only */
+    kiriMat3 carried; /* rate without the terms of the history */
+    kiriVec3 shift;   /* m: correction of pose.x that keeps the centre of mass of a free piece exact */
+    kiriMat3 target;  /* pose.A, shifted by the host's torque; not a rotation */
     kiriPose guess;   /* where the iteration starts */
 } kiriPrediction;
 
@@ -196,82 +197,83 @@ static inline kiriPose kiriPose_Of(const kiriFrameData* frame)
     return pose;
 }
 
-/* A vector of the rest plane in space. */
+/* Returns the world vector of a vector in the rest plane. */
 static inline kiriVec3 kiriPose_Along(const kiriPose* pose, kiriVec2 a)
 {
     return kiriVec3_AddScaled(kiriVec3_Scale(a.x, pose->A.u), a.y, pose->A.v);
 }
 
-/* The prediction of a free frame under gravity, its own force, and what the scheme takes from its history. The
-   iteration starts without forces, or with those of the last step. The host's torque shifts the target alone, by
-   h' h I^-1 torque x A: in the objective that is a torque, whatever its size. Were it part of the free turn, the target
-   would go round where h^2 torque / I exceeds a turn. */
+/* Predicts a free frame under gravity, its own force, and the terms of its history. The iteration starts without inner
+   forces, or with the inner forces of the last step. The host's torque shifts only the target, by h' h I^-1 torque x A:
+   in the objective this is a torque, however large. As part of the free turn, it would rotate the target by more than a
+   turn if h^2 torque / I exceeds 2 pi. */
 kiriPrediction kiriPrediction_Free(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity,
                                    const kiriStepping* stepping);
 
-/* The same of an affine frame, which turns by its spin and goes on stretching. */
+/* Predicts an affine frame, which turns by its spin and continues to stretch. */
 kiriPrediction kiriPrediction_Affine(const kiriFrameData* frame, const kiriMaterial* material, kiriVec3 gravity,
                                      const kiriStepping* stepping);
 
-/* A after a change of `change`: the part of it that turns A does so as a rotation, and leaves lengths as they are. */
+/* Returns A + change, except that the turning part of the change is applied as a rotation, which keeps lengths. */
 kiriMat3 kiriMat3_Advance(const kiriMat3* A, const kiriMat3* change);
 
-/* The spin that comes nearest to the rate at which A changes, and what is left of the rate without it. */
+/* Spin returns the angular velocity that fits the rate of A best; Beside returns the rate minus spin x A. */
 kiriVec3 kiriMat3_Spin(const kiriMat3* A, const kiriMat3* rate);
 kiriMat3 kiriMat3_Beside(const kiriMat3* A, const kiriMat3* rate, kiriVec3 spin);
 
-/* The prediction of a frame that the host moves: its motion is known. */
+/* Predicts a frame that the host moves: its motion is known. */
 kiriPrediction kiriPrediction_Held(const kiriFrameData* frame, const kiriMaterial* material, double dt);
 
-/* Second moments of mass. The thickness keeps those of a sliver above zero. */
+/* Returns the second moments of mass. The thickness keeps the moments of slivers above zero. */
 kiriMassMoments kiriFrame_MassMoments(const kiriFrameData* frame, const kiriMaterial* material);
 
-/* Kinetic energy, J, and angular momentum about the centre of mass, rigid or not; and by how much the latter grows with
-   the spin, symmetric, in space. */
+/* Return the kinetic energy, J; the angular momentum about the centre of mass; and its derivative by the spin,
+   symmetric, in world axes. For rigid and affine frames. */
 double kiriFrame_KineticEnergy(const kiriFrameData* frame, const kiriMaterial* material);
 kiriVec3 kiriFrame_AngularMomentum(const kiriFrameData* frame, const kiriMaterial* material);
 kiriMat3 kiriFrame_Inertia(const kiriFrameData* frame, const kiriMaterial* material);
 
-/* The inertia tensor of a rigid frame, symmetric, in space. */
+/* Returns the inertia tensor of a rigid frame, symmetric, in world axes. */
 kiriMat3 kiriPrediction_Inertia(const kiriPrediction* prediction, const kiriMat3* A);
 
-/* Sum over the region's mass points p of m |A p - A* p|^2, with A* the target. */
+/* Returns the sum over the region's mass points p of m |A p - A* p|^2, with A* the target. */
 double kiriPrediction_TurnSquared(const kiriPrediction* prediction, const kiriMat3* A);
 
-/* Half its gradient by the columns of A. */
+/* Returns half the gradient of TurnSquared by the columns of A. */
 kiriMat3 kiriPrediction_Gradient(const kiriPrediction* prediction, const kiriMat3* A);
 
-/* Half its gradient by turning A: a turning impulse, times h'. With pose.A for A* the torque is part of it. */
+/* Returns half the gradient of TurnSquared by a turn of A: an angular impulse times h'. `target` replaces A*; with
+   pose.A the result includes the host's torque. */
 kiriVec3 kiriPrediction_TurnGradient(const kiriPrediction* prediction, const kiriMat3* A, const kiriMat3* target);
 
-/* m^-1 a, for an m that has an inverse; and m (r^2 - r r^T), the inertia of a mass at r. */
+/* Return m^-1 a for an invertible m; and m (r^2 - r r^T), the inertia of a point mass at r. */
 kiriVec3 kiriMat3_Solve(const kiriMat3* m, kiriVec3 a);
 kiriMat3 kiriMat3_PointInertia(double m, kiriVec3 r);
 
-/* The angular momentum of a body that nothing holds. The steps keep the linear one exactly, but not the angular: a
-   frame that goes round is predicted along the tangent, and is pulled back by forces that act where the step ends, not
-   where it starts. */
+/* Angular momentum of a free body. Steps conserve the linear momentum exactly, but not the angular momentum: a rotating
+   frame is predicted along its tangent, and the forces that pull it back act at the end of the step, not at its
+   start. */
 
-/* Over the frames that the host does not hold, about their centre of mass. */
+/* Sums over the frames that the host does not hold, about their centre of mass. */
 typedef struct kiriPieceMomentum {
-    bool isFree;       /* from pins, contacts and the host: its momentum is its own */
-    bool isPushed;     /* free but for contacts, */
-    kiriWrench pushed; /* N s: the impulse of these in the step, about the origin */
+    bool isFree;       /* no pins, clamps, holds or contacts act: momentum is conserved */
+    bool isPushed;     /* free except for contacts */
+    kiriWrench pushed; /* N s: impulse of the contacts in the step, about the origin */
     double mass;
     kiriVec3 centerBefore, velocityBefore, centerAfter, velocityAfter;
-    kiriVec3 due;       /* the angular momentum that it should have after the step, */
-    kiriVec3 angular;   /* that it has, */
-    kiriMat3 inertia;   /* and its inertia then */
-    kiriVec3 dueLinear; /* the linear momentum that it should have */
-    kiriVec3 move;      /* the velocity that makes up for the difference of linear momenta, */
-    kiriVec3 turn;      /* and the angular velocity for that of angular momenta */
-    kiriVec3 spin;      /* of the rigid body that has its momenta */
+    kiriVec3 due;       /* angular momentum to reach after the step */
+    kiriVec3 angular;   /* actual angular momentum after the step */
+    kiriMat3 inertia;   /* inertia after the step */
+    kiriVec3 dueLinear; /* linear momentum to reach after the step */
+    kiriVec3 move;      /* m/s: correction of the velocity, for the linear momentum */
+    kiriVec3 turn;      /* rad/s: correction of the spin, for the angular momentum */
+    kiriVec3 spin;      /* rad/s: spin of the rigid body with the same momenta */
 } kiriPieceMomentum;
 
-/* Turns a free body as a rigid one until it has the angular momentum that it should have; a body on which contacts
-   alone act gets the whole momentum that these gave. Frames are those before and after the step. isFree, isPushed and
-   pushed are set in `momentum`, the rest is zero, and written. `normal` is that of the plane of a planar sheet, else
-   null. */
+/* Turns a free body like a rigid one until it has the angular momentum `due`. A body with contacts alone gets the whole
+   momentum of their impulse. before[] and after[] are the frames before and after the step. The caller sets isFree,
+   isPushed and pushed in `momentum` and clears the rest, which the function writes. `normal`: normal of the plane of a
+   planar sheet, else null. */
 void kiriMomentum_Restore(const kiriFrameData* before, kiriFrameData* after, int32_t count, kiriPieceMomentum* momentum,
                           const kiriMaterial* material, kiriVec3 gravity, double dt, const kiriVec3* normal);
 

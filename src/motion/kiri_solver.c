@@ -272,7 +272,7 @@ static bool CollectPairs(kiriSolver* solver, const kiriSystem* body)
     return true;
 }
 
-/* Returns the body in force with the same frames, or null. */
+/* Returns the committed body with the same frames, or null. */
 static const kiriSolverBody* FindSame(const kiriSolver* solver, const kiriSolverBody* next)
 {
     const kiriSolverBodies *now = &solver->bodies, *then = &solver->next;

@@ -1,5 +1,5 @@
-/* Contacts: points of a sheet that stay above planes, with friction. Whoever finds them (sheet/) writes rows; the
-   solver finds forces. */
+/* Contacts: points of a sheet that stay above planes, with friction. The module sheet/ finds contacts and writes their
+   rows; the solver computes their forces. */
 #ifndef KIRI_SOLVER_H
 #define KIRI_SOLVER_H
 
@@ -14,42 +14,43 @@
 
 KIRI_C_BEGIN
 
-/* The other side of contacts where it can yield: a body of a host, an obstacle, or another piece. */
+/* The other side of contacts, if it can move: a body of the host, an obstacle, or another piece. */
 typedef struct kiriYieldRow {
-    int64_t number;          /* whose it is, as its finder likes */
+    int64_t number;          /* id chosen by the code that writes the row */
     double inverseMass;      /* 1/kg; 0: it does not move */
     kiriMat3 inverseInertia; /* 1/(kg m^2), world, about the centre; zero: it does not turn */
     kiriVec3 center;         /* m: its centre of mass at the start of the tick */
-    kiriWrench impulse;      /* N s, N m s about the centre: what sheets gave it in this tick; a step adds to it */
-    int32_t pressed;         /* scratch: contacts that press on it in the current step, and share its mass; */
-    int32_t held;            /* those that may be held up when its systems are solved */
-    /* Scratch, see kiri_contact_row.c: pushes times the speed along them, N s m/s, of it before and after it gets
-       them, and the most that they may leave it. */
+    kiriWrench impulse;      /* N s, N m s about the centre: given by sheets in this tick; a step adds to it */
+    int32_t pressed;         /* scratch: contacts that press on it in the current step, and share its mass */
+    int32_t held;            /* scratch: contacts that may be held up after the systems of the current step */
+    /* Scratch, N s m/s, see kiri_contact_row.c: sums of push times speed along it, before and after the pushes act, and
+       the upper limit of `after`. */
     double before, after, most;
 } kiriYieldRow;
 
-enum { KIRI_CONTACT_WEIGHTS = 16 }; /* of a row: the largest, made to sum to 1 */
+enum { KIRI_CONTACT_WEIGHTS = 16 }; /* a row keeps its largest weights, scaled to the sum 1 */
 
-/* A point of the material, carried by frames with these weights, that stays above a plane. Planes are as at the start
-   of the tick, and move with `velocity` and with what their yield row gets. */
+/* A material point, blended from frames by weights, that stays above a plane. The plane is given at the start of the
+   tick. It moves with `velocity` and with the impulse of its yield row. */
 typedef struct kiriContactRow {
-    uint64_t key; /* the same contact has it in the next tick, and no other: so it is remembered */
+    uint64_t key; /* identifies the contact from tick to tick; unique */
     kiriWeight weights[KIRI_CONTACT_WEIGHTS]; /* largest first; all frames are of one piece */
     int32_t weightCount;                      /* 1 or more */
     int32_t yield;                            /* index of a yield row; KIRI_NONE: the plane does not yield */
-    double felt;    /* 1/kg: of the yield row as felt there in any direction; below 0: as its mass and inertia say */
-    double cushion; /* 1/kg: the contact is soft as if the obstacle had so much more inverse mass, but gets no recoil */
+    double felt;    /* 1/kg: inverse mass of the yield row at the point, in any direction; below 0: from its mass and
+                       inertia */
+    double cushion; /* 1/kg: softens the contact like additional inverse mass of the obstacle, but without recoil */
     kiriVec2 at;    /* local rest, m */
     kiriVec3 normal;   /* unit, to the side of the sheet */
-    double offset;     /* m: dot(normal, x) of the plane, for x as the frames blend it: the seen point may be off that,
-                          then the plane is moved by as much */
+    double offset;     /* m: dot(normal, x) of the plane, for x as blended from the frames. If the visible point differs
+                          from x, the plane is shifted by the difference */
     kiriVec3 velocity; /* m/s: of the plane's material at the point */
-    double friction;   /* both sides together */
-    double mass;  /* kg: of the material that the point stands for; 0: the contact is not soft */
-    double reach; /* m: how deep a soft contact may go; 0 for others */
-    double pushSpeed;  /* m/s: how fast it is pushed out at most, where it starts below the plane */
-    kiriVec3 way;      /* m: of the plane's material since the start of the tick; a step adds to it */
-    kiriVec3 force;    /* N, on the sheet: remembered from the last tick, or zero; then as the last step left it */
+    double friction;   /* coefficient of both sides together */
+    double mass;  /* kg: of the material that the point represents; 0: the contact is not soft */
+    double reach; /* m: largest depth of a soft contact; 0 for others */
+    double pushSpeed;  /* m/s: limit of the speed at which a point below the plane is pushed out */
+    kiriVec3 way;      /* m: displacement of the plane's material since the start of the tick; a step adds to it */
+    kiriVec3 force;    /* N, on the sheet: in: from the last tick, or zero; out: from the last step */
     kiriVec3 impulse;  /* N s, on the sheet, since the start of the tick; a step adds to it */
 } kiriContactRow;
 
@@ -57,7 +58,7 @@ typedef struct kiriContactRow {
 
 typedef struct kiriSolver kiriSolver;
 
-/* A material point of a frame held at a place by a spring. */
+/* A material point of a frame, attached to a target by a spring. */
 typedef struct kiriPinRow {
     int32_t frame;
     kiriVec2 at; /* local rest, m */
@@ -65,15 +66,15 @@ typedef struct kiriPinRow {
     double stiffness; /* N/m */
 } kiriPinRow;
 
-/* How frames move, and what joins them. */
+/* Model of motion. */
 typedef struct kiriMechanics {
     int32_t model;        /* KIRI_MODEL_... */
     bool planar;          /* frames stay in the plane of axes.u and axes.v */
-    kiriMat3 axes;        /* orthonormal; only used then */
+    kiriMat3 axes;        /* orthonormal; used only if planar */
     int32_t timeStepping; /* KIRI_TIME_STEPPING_... */
 } kiriMechanics;
 
-/* Air that moves past the sheet: see kiriWind in kiri.h. */
+/* Air flow past the sheet: see kiriWind in kiri.h. */
 typedef struct kiriAir {
     kiriVec3 velocity;          /* m/s */
     double density, drag, lift; /* kg/m^3; coefficients */
@@ -85,30 +86,31 @@ typedef struct kiriSystem {
     int32_t frameCount;
     const kiriLink* links;
     int32_t linkCount;
-    const double* linkParts;   /* what counts of each link, 0 to 1; null: all */
-    const kiriCorner* corners; /* of these links */
+    const double* linkParts;   /* factor of each link's stiffness, 0 to 1; null: 1 */
+    const kiriCorner* corners; /* corners of `links` */
     int32_t cornerCount;
     const kiriStrainOffset* strainOffsets; /* one a link between rigid frames, or null */
-    const kiriAreaElements* areaElements;  /* of affine frames; may be null where there are none */
+    const kiriAreaElements* areaElements;  /* of affine frames; null: none */
     const kiriPinRow* pins;
     int32_t pinCount;
     kiriClampRow* clamps; /* a step writes `start` at its end */
     int32_t clampCount;
-    kiriContactRow* contacts; /* a step writes their forces and impulses, and those of yields */
+    kiriContactRow* contacts; /* a step writes their forces and impulses, and the impulses of yield rows */
     int32_t contactCount;
     kiriYieldRow* yields;
     int32_t yieldCount;
-    kiriReactions reactions; /* a step adds to them; null: not wanted */
+    kiriReactions reactions; /* a step adds to them; null: not computed */
     kiriMaterial material;
     kiriVec3 gravity;
     const kiriAir* air; /* null: none */
 } kiriSystem;
 
-/* What of a sheet ticks move: bodies, and their frames and links, by body. A body that sleeps, waits or is gone is in none, and costs nothing. */
+/* The bodies of a sheet that ticks move, and their frames and links, by body. Bodies that sleep, that are pending or
+   that were removed are not listed and cost nothing. */
 typedef struct kiriMoved {
     kiriIndices bodies, frames, links;
-    bool isListed;   /* since bodies changed */
-    int64_t version; /* of the lists */
+    bool isListed;   /* false if bodies have changed since the lists were made */
+    int64_t version; /* changes with the lists */
 } kiriMoved;
 
 typedef struct kiriIndexSpan {
@@ -119,17 +121,18 @@ typedef struct kiriIndexSpan {
 /* Creates a solver without frames. Returns null on out of memory. */
 kiriSolver* kiriSolver_Create(kiriMemory* memory, const kiriMechanics* mechanics);
 
-/* Stages the bodies of a system: one a piece. Reads frameCount, links, corners, area elements and Poisson's
-   ratio. framePiece[f] is the piece of frame f. All frames of an element are in one piece.
-   Steps go on with the bodies in force. A body with the frames of one in force keeps its matrix if the pattern covers
-   all pairs of frames that elements couple. Else the new pattern keeps the old pairs, unless these are more than twice
-   as many. Replaces what was staged before. Fails on out of memory: then nothing is staged. */
+/* Stages the bodies of a system, one a piece. Reads frameCount, links, corners, area elements and Poisson's ratio.
+   framePiece[f] is the piece of frame f. All frames of an element are in one piece.
+   Steps continue to use the committed bodies. A staged body keeps the matrix of a committed body with the same frames
+   if its pattern covers all pairs of frames that elements couple. Otherwise the new pattern also contains the old
+   pairs, unless there are more than twice as many. Replaces bodies staged earlier. Fails on out of memory: then nothing
+   is staged. */
 bool kiriSolver_Stage(kiriSolver* solver, const kiriSystem* next, const int32_t* framePiece, int32_t pieceCount);
 
-/* Puts the staged bodies in force, all of them moved. No-op if nothing is staged. Cannot fail. */
+/* Replaces the bodies with the staged ones, all of them moved. No-op if nothing is staged. Cannot fail. */
 void kiriSolver_Commit(kiriSolver* solver);
 
-/* Makes bodies without elements, and with empty matrices: for a load. Fails on out of memory. */
+/* Makes bodies without elements, and with empty matrices, for a load. Fails on out of memory. */
 bool kiriSolver_MakeBodies(kiriSolver* solver, const int32_t* framePiece, int32_t frameCount, int32_t pieceCount);
 
 /* Reserves room for the rows of steps. Fails on out of memory. */
@@ -146,16 +149,16 @@ const kiriMoved* kiriSolver_Moved(const kiriSolver* solver);
 /* Returns the frames of a body: indices of the sheet, ascending. */
 kiriIndexSpan kiriSolver_FramesOf(const kiriSolver* solver, int32_t body);
 
-/* Hashes the patterns. They depend on what was staged before, and the last bits of steps depend on them. */
+/* Hashes the patterns. They depend on earlier stagings and determine the last bits of steps. */
 uint64_t kiriSolver_Hash(const kiriSolver* solver);
 
-enum { KIRI_EXTRA_SYSTEMS = 6 }; /* of a step, beside its iterations */
+enum { KIRI_EXTRA_SYSTEMS = 6 }; /* limit of systems in a step beyond its iterations */
 
-/* Returns the work of a linear system of a body, in contacts. Systems of several bodies that are solved side by side
-   count in a budget by the sum of their work, see kiriBudget in kiri.h. */
+/* Returns the work of a linear system of a body. Systems of several bodies that are solved in parallel count in a
+   budget by the sum of their work, see kiriBudget in kiri.h. */
 int64_t kiriSolver_WorkOf(const kiriSolver* solver, int32_t body, int32_t contactCount);
 
-/* An item is the time of 16 frames, about 30 us. */
+/* Converts work to items of a budget. An item takes the time of 16 frames, about 30 us. */
 static inline int64_t kiriSolver_ItemsOf(int64_t work)
 {
     return 1 + work / 64;
@@ -164,29 +167,29 @@ static inline int64_t kiriSolver_ItemsOf(int64_t work)
 /* Returns the items of a system of all bodies. */
 int64_t kiriSolver_MostItems(const kiriSolver* solver, int32_t contactCount);
 
-/* Returns the linear systems that steps solved since the last call. */
+/* Returns the number of linear systems solved since the last call. */
 int32_t kiriSolver_TakeSolved(kiriSolver* solver);
 
-/* Assigns rows of pins, clamps and contacts to their bodies. All are of bodies that are moved. Steps need that whenever
-   rows were written. */
+/* Assigns rows of pins, clamps and contacts to their bodies, all of which must be moved. Call it after rows were
+   written and before a step. */
 void kiriSolver_ShareRows(kiriSolver* solver, const kiriSystem* system);
 
-/* Moves the frames of a body by dt. Links, corners and area elements are those in force; normals of contacts are unit,
-   heldRotation is a rotation. Returns the number of linear systems solved: `iterations`, and up to KIRI_EXTRA_SYSTEMS
-   more where the motion asks for them, but at most `most` (1 or more). Returns -1 if the motion cannot be continued (not
-   finite): then the frames are as before the call. Allocates nothing. Reads forces on frames and does not clear them;
-   adds to reactions. */
+/* Moves the frames of a body by dt. Links, corners and area elements must be the committed ones; normals of contacts
+   must be unit vectors, heldRotation a rotation. Returns the number of linear systems solved: `iterations`, and up to
+   KIRI_EXTRA_SYSTEMS more if the motion needs them, but at most `most` (1 or more). Returns -1 if the motion is not
+   finite: then the frames are unchanged. Allocates nothing. Reads forces on frames and does not clear them; adds to
+   reactions. */
 int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* system, int32_t body, double dt, int32_t iterations,
                         int32_t most);
 
-/* Elastic energy of all elements, J. */
+/* Returns the elastic energy of all elements, J. */
 double kiriSolver_ElasticEnergy(const kiriSystem* system);
 
-/* Elements join frames elastically. First the links, except in the model of integration points, then the
-   corners of these links, unless Poisson's ratio is zero, then the area elements. Element k of a system has strains,
-   each with a stiffness; its energy is the sum of 1/2 stiffness strain^2. */
+/* Elements join frames elastically. Their order is: links, except in the model of integration points; corners of these
+   links, unless Poisson's ratio is zero; area elements. Each element has several strains, each with a stiffness; its
+   energy is the sum of 1/2 stiffness strain^2. */
 
-/* The most strains of an element. */
+/* Upper limit of the number of strains of an element. */
 enum { KIRI_MOST_STRAINS = kiriMax((int)KIRI_STRAINS, (int)KIRI_AFFINE_STRAINS) };
 
 static inline bool kiriMechanics_IsAffine(const kiriMechanics* mechanics)
@@ -202,7 +205,7 @@ static inline int32_t kiriElement_LinkCount(const kiriSystem* system)
 static inline int32_t kiriElement_CornerCount(const kiriSystem* system)
 {
     bool isLinked = kiriElement_LinkCount(system) > 0 && system->material.poissonsRatio > 0.0f;
-    /* Area elements have the membrane of affine frames. */
+    /* Area elements represent the membrane of affine frames. */
     bool isFlat = kiriMechanics_IsAffine(&system->mechanics) && system->mechanics.planar;
     return isLinked && !isFlat ? system->cornerCount : 0;
 }
@@ -213,14 +216,14 @@ static inline int32_t kiriElement_Count(const kiriSystem* system)
            (system->areaElements != NULL ? system->areaElements->elements.count : 0);
 }
 
-/* Returns null if the element is no link. */
+/* Returns the link, or null if the element is a corner or an area element. */
 static inline const kiriLink* kiriElement_Link(const kiriSystem* system, int32_t k)
 {
     KIRI_ASSERT(k >= 0 && k < kiriElement_Count(system));
     return k < kiriElement_LinkCount(system) ? &system->links[k] : NULL;
 }
 
-/* Returns null if the element is no corner. */
+/* Returns the corner, or null if the element is a link or an area element. */
 static inline const kiriCorner* kiriElement_Corner(const kiriSystem* system, int32_t k)
 {
     int32_t corner = k - kiriElement_LinkCount(system);
@@ -239,177 +242,179 @@ static inline bool kiriElement_IsRigidCorner(const kiriSystem* system, int32_t k
     return !kiriMechanics_IsAffine(&system->mechanics) && kiriElement_Corner(system, k) != NULL;
 }
 
-/* Writes the frames of an element and returns their count. All are in one piece. */
+/* Writes the frames of an element, all in one piece, and returns their number. */
 int32_t kiriElement_Members(const kiriSystem* system, int32_t k, int32_t* members);
 
 /* The largest number of frames that an element has, 2 or more. */
 int32_t kiriElement_MostMembers(const kiriSystem* system);
 
-/* The strains that can be other than zero come first: how many they are. */
+/* Returns the number of strains that can be nonzero. They come first. */
 int kiriElement_StrainCount(const kiriSystem* system, int32_t k);
 
 void kiriElement_Stiffness(const kiriSystem* system, int32_t k, double* stiffness);
 
-/* The strains and, unless `rows` is null, their derivatives: one row a strain and member. Poses are those of all
-   frames; null: as the frames are. */
+/* Measures the strains and, unless `rows` is null, their derivatives: one row for each strain and member. poses[] has
+   all frames; null: the current poses of the frames. */
 void kiriElement_Measure(const kiriSystem* system, int32_t k, const kiriPose* poses, double* strain,
                          kiriFrameRow* rows);
 
-/* The trace of a corner between rigid frames from strains that are known already, KIRI_MOST_STRAINS of each element. */
+/* Returns the trace of a corner between rigid frames. strains[]: KIRI_MOST_STRAINS of each element, already measured.
+   */
 kiriTrace kiriElement_Trace(const kiriSystem* system, int32_t k, const double* strains);
 
-/* The strains without their offsets: those that pull. */
+/* Subtracts the offsets from the strains. The result is the part that causes forces. */
 void kiriElement_TakeOffsets(const kiriSystem* system, int32_t k, const double* strain, double* pulling);
 
-/* A step of a body (kiri_solver.c, kiri_step.c, kiri_contact_row.c, kiri_energy.c). It is a minimisation over the poses
-   of the frames at its end. The objective is
+/* A step of a body (kiri_solver.c, kiri_step.c, kiri_contact_row.c, kiri_energy.c) minimises an objective over the
+   poses of the frames at its end:
 
        1/2 sum over mass points of m |x - x*|^2 / h'^2,  x* and h' by the scheme (kiri_frame.h)
      + energies of elements, pins, clamps and contacts
      + flex damping: 1/2 k (flexDamping / dt) (strain - strain at the start of the step)^2 for each strain.
 
-   All are squares, so a Gauss-Newton step solves with J^T k J + mass: positive definite by itself, with a pattern that
-   only the elements decide. The order of summation is fixed.
+   All terms are squares, so the matrix of a Gauss-Newton step is J^T k J + mass: always positive definite, with a
+   pattern that depends only on the elements. The order of summation is fixed.
 
-   The system of a body numbers its frames, links, corners, pins and clamps by themselves. Its frames are
-   solver->before. Contacts stay rows of the sheet (kiriContactStep.row). */
+   The system of a body has its own indices of frames, links, corners, pins and clamps. Its frames are solver->before.
+   Contacts refer to rows of the sheet (kiriContactStep.row). */
 
-#define KIRI_ROUNDING 1e-12                /* of an objective, relative */
-#define KIRI_LAST_BITS (8.0 * DBL_EPSILON) /* of a length: rounding of a few operations */
-#define KIRI_SHORT_STEP 0.3                /* a Gauss-Newton step of which no more than this is taken was cut short */
+#define KIRI_ROUNDING 1e-12                /* rounding error of an objective, relative */
+#define KIRI_LAST_BITS (8.0 * DBL_EPSILON) /* rounding error of a length after a few operations, relative */
+#define KIRI_SHORT_STEP 0.3                /* a Gauss-Newton step scaled by less than this was cut short */
 
-/* An unknown of a frame: the part of one of its vectors along an axis, see kiriFrameRow. */
+/* An unknown of a frame: the component of one of its vectors (see kiriFrameRow) along an axis. */
 typedef struct kiriUnknown {
-    int vector, number; /* of the axis */
+    int vector, number; /* indices of the vector and of the axis */
     kiriVec3 axis;
 } kiriUnknown;
 
-/* The objective, and the part of it that is energy of the sheet: the rest is lost, or inertia. */
+/* The objective, and the elastic and contact energy in it. The rest is damping and inertia. */
 typedef struct kiriStepEnergy {
     double objective, potential;
 } kiriStepEnergy;
 
 enum { KIRI_CONTACT_MEMBERS = 8 };
 
-#define KIRI_SLIDE_FLOOR 1e-9 /* m: shorter ways are no slides */
+#define KIRI_SLIDE_FLOOR 1e-9 /* m: shorter slides count as zero */
 
-/* A contact in one step. In a linear system, and along the step that it leads to, it is a spring on the depth, above
-   zero or not, and either a spring on the slide or a force of a given size. After each system contacts are chosen anew
-   (kiriSolver_ReviewContacts): those that would pull let go, those below their plane push; those that held with more
-   than friction can slip, and those whose slide turned round stick. */
+/* A contact in one step. In a linear system, and along the resulting Gauss-Newton step, it is a spring on the depth, of
+   either sign, and either a spring on the slide or a constant friction force. After each system,
+   kiriSolver_ReviewContacts updates the state of each contact: contacts that would pull let go, contacts below their
+   plane push; sticking contacts that exceed the friction limit slip, slipping contacts whose slide reversed stick. */
 typedef struct kiriContactStep {
     kiriContactRow* row;
-    kiriWeight members[KIRI_CONTACT_MEMBERS]; /* the frames that it acts on */
+    kiriWeight members[KIRI_CONTACT_MEMBERS]; /* frames that it acts on */
     int32_t memberCount;
-    bool isHeld;      /* the host holds half of them or more, by weight */
-    double mass;      /* kg: of the frames, by their weights */
-    kiriVec3 start;   /* m: its point at the start of the step */
-    kiriVec3 carried; /* m: how far the obstacle goes in the step */
-    double plane;     /* m: offset at the end of the step, no farther up than the point may be pushed: */
-    double lowered;   /* that much below the obstacle's surface */
-    double lift;      /* m: how far the plane lifts the point at most */
-    kiriVec3 held;    /* N: friction of the last step, so that what sticks does not creep */
+    bool isHeld;      /* the host holds half of the frames or more, by weight */
+    double mass;      /* kg: of the frames, by weight */
+    kiriVec3 start;   /* m: position of the point at the start of the step */
+    kiriVec3 carried; /* m: displacement of the obstacle in the step */
+    double plane;     /* m: offset at the end of the step, limited by pushSpeed */
+    double lowered;   /* m: distance of that plane below the obstacle's surface */
+    double lift;      /* m: upper limit of the distance by which the plane lifts the point */
+    kiriVec3 held;    /* N: friction of the last step, which keeps sticking points from creeping */
     bool isActive, sticks;
-    double limit;           /* N: of friction where it slips */
+    double limit;           /* N: friction limit while slipping */
     kiriVec3 direction;     /* of the slide: unit or zero */
-    double known;           /* N: the largest push that any system had */
-    double stiffness, grip; /* N/m: of the springs on depth and slide */
-    double give;            /* m/N: how far the obstacle yields in the step, and its cushion */
-    double shared;          /* m/N: the same for what holds the point up after the last system */
-    double depth, sinks;    /* m: where the system was assembled, and its change by the whole solution */
-    kiriVec3 slide, slides; /* m: the same */
+    double known;           /* N: largest push in any system so far */
+    double stiffness, grip; /* N/m: springs on depth and slide */
+    double give;            /* m/N: compliance of the obstacle in the step, and of its cushion */
+    double shared;          /* m/N: the same while the point is held up after the last system */
+    double depth, sinks;    /* m: depth at assembly, and its change by the whole solution */
+    kiriVec3 slide, slides; /* m: slide at assembly, and its change by the whole solution */
     /* Soft contacts only. */
     double soft, mostStiffness; /* m: the softness; N/m */
-    double was;                 /* N: the push of the last step */
-    double spring, tie;         /* N/m: on depth and slide, in this system */
-    double pull;                /* N: the push where the system was assembled, */
-    kiriVec3 drags;             /* and friction */
-    double solved;          /* N: the push that the last system left, before the body was held up */
-    double push;            /* N: by the systems solved so far, */
-    kiriVec3 drag;          /* N: and friction */
+    double was;                 /* N: push in the last step */
+    double spring, tie;         /* N/m: springs on depth and slide in this system */
+    double pull;                /* N: push at assembly */
+    kiriVec3 drags;             /* N: friction at assembly */
+    double solved;          /* N: push after the last system, before the body was held up */
+    double push;            /* N: push after the systems solved so far */
+    kiriVec3 drag;          /* N: friction after the systems solved so far */
 } kiriContactStep;
 
-/* What acts on a body beside gravity and forces. */
+/* Objects that act on a body, apart from gravity and the host's forces. */
 typedef enum kiriSupport {
-    KIRI_SUPPORT_NONE,     /* nothing: its momentum is its own */
+    KIRI_SUPPORT_NONE,     /* nothing: momentum is conserved */
     KIRI_SUPPORT_CONTACTS, /* contacts alone */
     KIRI_SUPPORT_HELD      /* pins, clamps, holds or wind */
 } kiriSupport;
 
 /* Newton's iteration. */
 typedef struct kiriSearch {
-    kiriStepEnergy start, now; /* where the step starts, and where the iteration is */
-    double noise;              /* J: what rounding leaves unknown of the objective */
-    double scale;              /* the part of the Gauss-Newton step that is tried, */
-    double enough;             /* the objective that it has to reach, */
-    double promise;            /* J: and by how much all of it would lower the objective, were that quadratic */
-    int32_t wanted;            /* systems that are solved at least */
-    int32_t solved;            /* systems since the body began */
-    int32_t suspects;          /* Gauss-Newton steps in a row that gained too much energy */
+    kiriStepEnergy start, now; /* at the start of the step, and at the current iterate */
+    double noise;              /* J: rounding error of the objective */
+    double scale;              /* part of the Gauss-Newton step to try, 0 to 1 */
+    double enough;             /* J: the try succeeds if the objective is not larger */
+    double promise;            /* J: decrease of the objective by the whole Gauss-Newton step, if it were quadratic */
+    int32_t wanted;            /* minimum number of systems */
+    int32_t solved;            /* systems solved since the iteration started */
+    int32_t suspects;          /* consecutive Gauss-Newton steps that gained too much energy */
     bool isFirst;              /* the next Gauss-Newton step is the first */
 } kiriSearch;
 
 /* The contacts of a body together. */
 typedef struct kiriContactSum {
-    bool isNear;       /* it has contacts that can push */
-    bool isUnsettled;  /* they want another system */
+    bool isNear;       /* some contacts can push */
+    bool isUnsettled;  /* some contacts need another system */
     bool isHeldUp;     /* frames were moved up to planes after the last system */
-    double means;      /* J: the body cannot store more than it had and this */
-    double keepForces; /* the part that is left of each force */
+    double means;      /* J: allowance of the stored energy beyond its value at the start */
+    double keepForces; /* factor of every contact force, 0 to 1 */
 } kiriContactSum;
 
-/* J: energies after the step. */
+/* Energies after the step, J. */
 typedef struct kiriEnergyStep {
-    double kinetic; /* without the mean velocity; */
-    double turning; /* part of it: turning as one body; */
-    double moving;  /* of the mean velocity */
-    double gain;    /* growth of energy in the step beyond work */
+    double kinetic; /* kinetic energy without the mean velocity */
+    double turning; /* part of `kinetic`: rotation as one body */
+    double moving;  /* kinetic energy of the mean velocity */
+    double gain;    /* increase of energy in the step beyond work */
 } kiriEnergyStep;
 
-/* A connected piece of a sheet as a system of its own. Spans are into kiriSolverBodies. */
+/* A connected piece of a sheet, solved as one system. Spans index arrays of kiriSolverBodies. */
 typedef struct kiriSolverBody {
     kiriSpan frames, links, corners, elements;
     kiriMatrix* matrix;
-    bool ownsMatrix; /* while staged: no body in force has it */
+    bool ownsMatrix; /* while staged: the matrix is new, not taken from a committed body */
     bool isMoved;
-    int32_t pin, clamp, contact; /* the first of its rows in the tick, or KIRI_NONE */
+    int32_t pin, clamp, contact; /* first row of each kind in the tick, or KIRI_NONE */
     int32_t contactCount;
 } kiriSolverBody;
 
-/* All bodies of a sheet, numbered as its pieces. What belongs to one lies together, in the order of the sheet. */
+/* All bodies of a sheet, with the indices of their pieces. The items of a body are contiguous, in the order of the
+   sheet. */
 typedef struct kiriSolverBodies {
     KIRI_ARRAY(kiriSolverBody) bodies;
-    kiriIndices bodyOf, place;        /* of each frame of the sheet: its body, and its number there */
-    kiriIndices frames, links;        /* of the sheet */
-    KIRI_ARRAY(kiriLink) ownLinks;    /* with frames of the body */
-    KIRI_ARRAY(kiriCorner) corners;   /* with links of the body */
-    kiriAreaElements areaElements;    /* with frames of the body; shares in the order of the sheet */
+    kiriIndices bodyOf, place;        /* per frame of the sheet: its body, and its index in the body */
+    kiriIndices frames, links;        /* indices of the sheet */
+    KIRI_ARRAY(kiriLink) ownLinks;    /* refer to frames of the body */
+    KIRI_ARRAY(kiriCorner) corners;   /* refer to links of the body */
+    kiriAreaElements areaElements;    /* refer to frames of the body; shares in the order of the sheet */
 } kiriSolverBodies;
 
 struct kiriSolver {
     kiriMemory* memory;
     kiriMechanics mechanics;
-    int32_t size; /* unknowns a frame */
+    int32_t size; /* unknowns per frame */
     kiriUnknown unknowns[KIRI_MOST_UNKNOWNS];
     int32_t solved; /* linear systems since TakeSolved */
-    int64_t allWork; /* of a system of each body, without contacts */
-    kiriSolverBodies bodies, next; /* in force; staged */
+    int64_t allWork; /* work of one system of each body, without contacts */
+    kiriSolverBodies bodies, next; /* committed; staged */
     bool isStaged;
     kiriMoved moved;
     KIRI_ARRAY(kiriPair) pairs;                  /* scratch: of a staged body */
-    kiriIndices linkPlace, order;                /* scratch: of each staged link, its number in its body */
-    kiriIndices nextPin, nextClamp, nextContact; /* of each row, the next one of its body; or KIRI_NONE */
+    kiriIndices linkPlace, order;                /* scratch: per staged link, its index in its body */
+    kiriIndices nextPin, nextClamp, nextContact; /* per row: next row of the same body, or KIRI_NONE */
 
-    /* The body that steps. Arrays have room for the largest body, in force or staged. */
+    /* State of the body that steps. Arrays have room for the largest body, committed or staged. */
     const kiriSolverBody* body;
     kiriMatrix* matrix;
     kiriFrameData* sheetFrames;
-    const int32_t* sheetFrame; /* of each frame of the body */
-    double dt, damping;        /* h of this step; flexDamping / dt */
+    const int32_t* sheetFrame; /* per frame of the body: its index in the sheet */
+    double dt, damping;        /* s, h of this step; flexDamping / dt */
     int32_t elementCount;
-    bool isAlong;   /* poses are those along the step that was solved for */
-    bool isHeld;    /* the host moves a frame */
-    bool isTouched; /* by a contact in this step, or carried about by a hold */
+    bool isAlong;   /* poses lie on the Gauss-Newton step of the last system */
+    bool isHeld;    /* the host holds a frame */
+    bool isTouched; /* a contact acts in this step, or a hold carries the body */
     kiriSupport support;
     kiriStepping stepping;
     kiriSearch search;
@@ -419,21 +424,21 @@ struct kiriSolver {
     kiriAreaElements areaElements; /* of the body */
     KIRI_ARRAY(kiriPinRow) pins;
     KIRI_ARRAY(kiriClampRow) clamps;
-    kiriIndices pinRow, clampRow; /* of each: the row of the sheet */
+    kiriIndices pinRow, clampRow; /* per pin and clamp: its row in the sheet */
     KIRI_ARRAY(kiriContactStep) contacts;
     KIRI_ARRAY(double) linkParts;
     KIRI_ARRAY(kiriStrainOffset) strainOffsets;
-    /* Flattened where the sheet is planar, and with velocities that the air has slowed. */
+    /* Flattened if the sheet is planar. Velocities include the air damping. */
     KIRI_ARRAY(kiriFrameData) before, after;
-    KIRI_ARRAY(kiriPrediction) predictions;   /* one a frame, as are the poses */
-    KIRI_ARRAY(kiriPose) start, poses, trial; /* at the start of the step, now, and where a step would lead */
+    KIRI_ARRAY(kiriPrediction) predictions;   /* one a frame */
+    KIRI_ARRAY(kiriPose) start, poses, trial; /* one a frame: at the start of the step, current, and tried */
     /* KIRI_MOST_STRAINS an element: stiffness, damping, and strains at the start of the step. */
     KIRI_ARRAY(double) stiffness, loss, startStrain;
-    /* As measured last: corners take strains of their links from there, and their derivatives by the unknowns, both
-       ends of each. */
+    /* Results of the last measurement: strains, which corners read for their links, and derivatives of these strains by
+       the unknowns of both ends of a link. */
     KIRI_ARRAY(double) nowStrain, tracedRows;
-    KIRI_ARRAY(double) force, move; /* the right side: minus the gradient; and the solution */
-    KIRI_ARRAY(uint8_t) stopping;   /* of each element: a step would have brought it to its stop */
+    KIRI_ARRAY(double) force, move; /* right-hand side (minus the gradient), and solution */
+    KIRI_ARRAY(uint8_t) stopping;   /* per element: 1 if a tried step would have reached its normal stop */
     /* Scratch for one element. */
     kiriIndices members;
     KIRI_ARRAY(kiriFrameRow) rows;
@@ -442,21 +447,21 @@ struct kiriSolver {
 
 /* ---- Unknowns (kiri_solver.c) ---- */
 
-/* Derives by the unknowns from the derivative by the vectors of a frame; and expands unknowns, times `scale`, to the
-   vectors that they stand for. */
+/* Reduce converts a derivative by the vectors of a frame to one by the unknowns. Expand converts unknowns, times
+   `scale`, to vectors. */
 void kiriSolver_Reduce(const kiriSolver* solver, const kiriFrameRow* row, double* values);
 kiriFrameRow kiriSolver_Expand(const kiriSolver* solver, double scale, const double* values);
 
-/* In a planar sheet: the part of a vector in its plane. */
+/* Returns the part of a vector in the plane of a planar sheet. */
 kiriVec3 kiriMechanics_InPlane(const kiriMechanics* mechanics, kiriVec3 a);
 kiriVec3 kiriSystem_Gravity(const kiriSystem* system);
 
 /* ---- Begin of a step (kiri_step.c) ---- */
 
-/* Opens a body for a step: returns its system. Begin reads its frames. */
+/* Opens a body for a step and returns its system. kiriSolver_Begin fills in the frames. */
 kiriSystem kiriSolver_Open(kiriSolver* solver, const kiriSystem* sheet, int32_t body);
 
-/* Reads the frames from those of the sheet, chooses the scheme, predicts, and clears the rest. */
+/* Copies the frames from the sheet, chooses the scheme, predicts, and clears the other state. */
 void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt);
 
 /* Returns true if contacts touch a point at these poses. */
@@ -464,7 +469,7 @@ bool kiriSolver_AreTouching(const kiriSolver* solver, const kiriSystem* system, 
 
 /* ---- Objective ---- */
 
-/* A material point as seen from its frame's x, and in space. */
+/* Return a material point: relative to its frame's x, and in world space. */
 static inline kiriVec3 kiriSystem_Arm(const kiriSystem* system, int32_t frame, kiriVec2 at, const kiriPose* pose)
 {
     return kiriPose_Along(pose, kiriVec2_Sub(at, system->frames[frame].center));
@@ -481,7 +486,7 @@ kiriStepEnergy kiriObjective_Evaluate(kiriSolver* solver, const kiriSystem* syst
 
 /* ---- Assembly ---- */
 
-/* Adds the squares of `rows` strains: J has their derivatives by the unknowns of the frames, each frame's together. */
+/* Adds the squares of `rows` strains. J: their derivatives by the unknowns, grouped by frame. */
 void kiriSolver_AddSquares(kiriSolver* solver, const int32_t* frames, int32_t frameCount, const double* J,
                            const double* springs, const double* pulls, int rows);
 
@@ -492,32 +497,32 @@ kiriStepEnergy kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system)
 
 bool kiriSystem_HasWind(const kiriSystem* system);
 
-/* J: its work on a frame in the step, when solver->after is known. */
+/* Returns the work of the wind on a frame in the step, J. Requires solver->after. */
 double kiriWind_Work(const kiriSolver* solver, const kiriSystem* system, int32_t f);
 
 /* ---- Newton iteration ---- */
 
-/* Returns the number of linear systems solved, or -1 where one has no solution. */
+/* Iterates to the minimum. Returns the number of linear systems solved, or -1 if one has no solution. */
 int32_t kiriSolver_Minimise(kiriSolver* solver, const kiriSystem* system, int32_t iterations, int32_t most);
 
 /* ---- Limit of energy (kiri_energy.c) ---- */
 
-/* Moves a free body to where the prediction has its centre of mass. */
+/* Moves a free body so that its centre of mass is at the predicted place. */
 void kiriSolver_CenterBody(kiriSolver* solver, const kiriSystem* system);
 
-/* Finds the frames after the step, if it ended at the poses, and the energy that the body gained. A free body is
-   centered, and gets the angular momentum that is due. */
+/* Computes the frames after the step from the current poses, and the energy that the body gained. Centers a free body
+   and gives it the angular momentum that is due. */
 void kiriSolver_FindGains(kiriSolver* solver, const kiriSystem* system);
 
-/* J: the most that the energy limit can take out of the velocities. */
+/* Returns the largest energy that the limit can take out of the velocities, J. */
 double kiriSolver_MostTaken(const kiriSolver* solver);
 
-/* Takes what the body gained out of its velocities. */
+/* Takes the energy gain of the body out of its velocities. */
 void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system);
 
-/* Then, if other bodies press on it, or it on them: adds to frames of the sheet by how much energy grew in the step
-   beyond the work of gravity, of the host's forces and of obstacles that move (`gained`), and the work and the impulse
-   of other bodies (`passed`, `received`). */
+/* Adds to frames of the sheet, if bodies press on each other: the increase of energy in the step beyond the work of
+   gravity, of the host's forces and of moving obstacles (`gained`), and the work and the impulse of other bodies
+   (`passed`, `received`). Call it after kiriSolver_LimitEnergy. */
 void kiriSolver_AddGained(kiriSolver* solver, const kiriSystem* system);
 
 /* ---- Contacts (kiri_contact_row.c) ---- */
@@ -527,48 +532,49 @@ static inline kiriVec3 kiriVec3_AlongPlane(kiriVec3 a, kiriVec3 normal)
     return kiriVec3_AddScaled(a, -kiriVec3_Dot(a, normal), normal);
 }
 
-/* Makes the contacts of the body: places planes and points for a step. Once the body has its scheme and its prediction,
-   GuessContacts guesses what they do. */
+/* BeginContacts makes the contacts of the body: planes and points for a step. GuessContacts guesses their initial
+   state, after the scheme and the prediction are set. */
 void kiriSolver_BeginContacts(kiriSolver* solver, const kiriSystem* system);
 void kiriSolver_GuessContacts(kiriSolver* solver, const kiriSystem* system);
 
-/* Where the members have the point. */
+/* Return the position of the point, blended from the members, and its depth below the plane. */
 kiriVec3 kiriContact_Point(const kiriSystem* system, const kiriContactStep* step, const kiriPose* poses);
 double kiriContact_Depth(const kiriSystem* system, const kiriContactStep* step, const kiriPose* poses);
 
-/* Before a system is assembled: springs, depths and slides there. After it is solved: how they change. */
+/* Linearize sets springs, depths and slides before a system is assembled. MoveContacts sets their changes after the
+   system is solved. */
 void kiriSolver_LinearizeContacts(kiriSolver* solver, const kiriSystem* system);
 void kiriContact_Assemble(kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step);
 void kiriSolver_MoveContacts(kiriSolver* solver, const kiriSystem* system);
 
-/* Shortens the step to where friction, which slips instead of sticking or the other way, ends it: where the derivative
-   of the objective along it is zero. */
+/* Shortens the step to the zero of the objective's derivative along it, if friction changes between slipping and
+   sticking on the way. */
 void kiriSolver_LimitByFriction(kiriSolver* solver);
 
-/* Returns what the contact adds to the objective, by its linear model after a part of the step. */
+/* Returns the contribution of the contact to the objective, by its linear model along the step. */
 double kiriContact_Energy(const kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step,
                           const kiriPose* poses);
 
-/* After a step: finds its forces, and chooses what contacts do in the next system. */
+/* Finds the contact forces after a Gauss-Newton step and chooses the state of contacts for the next system. */
 void kiriSolver_ReviewContacts(kiriSolver* solver, const kiriSystem* system);
 
-/* After the last system: moves what still is well below planes back up, frame by frame or, where that would store more
-   energy than the body has, as a whole, and counts what that takes as pushes. */
+/* Moves points that are still deep below planes back up after the last system. Moves frame by frame or, if that would
+   store more energy than allowed, the body as a whole. Counts the moves as pushes. */
 void kiriSolver_HoldContacts(kiriSolver* solver, const kiriSystem* system);
 
-/* Before the forces are asked for: fits them to where the body ended. */
+/* Fits the forces to the final poses of the body. Call it before kiriContact_Force. */
 void kiriSolver_BalanceContacts(kiriSolver* solver, const kiriSystem* system);
 
-/* N: the force on the sheet, within the cone of friction; and J: how much work the obstacle may have done with it. */
+/* Return the force on the sheet, within the friction cone, N; and the upper limit of the obstacle's work by it, J. */
 kiriVec3 kiriContact_Force(const kiriSolver* solver, const kiriContactStep* step);
 double kiriContact_Work(const kiriSolver* solver, const kiriContactStep* step);
 
-/* Writes what the step did to rows of contacts and of what yields. */
+/* Writes forces and impulses of the step to the contact rows, and impulses to the yield rows. */
 void kiriSolver_EndContacts(kiriSolver* solver, const kiriSystem* system);
 
 /* ---- Reactions (kiri_step.c) ---- */
 
-/* Adds what pins, clamps and holds did in the step: by the gradient of the objective at its end. */
+/* Adds the reactions of pins, clamps and holds in the step, from the gradient of the objective at its end. */
 void kiriSolver_AddReactions(kiriSolver* solver, const kiriSystem* system);
 
 KIRI_C_END

@@ -63,8 +63,8 @@ kiriVec3 kiriSystem_Gravity(const kiriSystem* system)
 
 /* ---- Predictions ---- */
 
-/* No inner force moves the centre of mass of a free body: it falls on its parabola also where the body takes a step of
-   backward Euler between those of second order. */
+/* Corrects the prediction of a free body. No inner force moves its centre of mass: it follows its parabola even if the
+   body takes a single step of backward Euler between steps of second order. */
 static void ShiftFreeBody(kiriSolver* solver, const kiriSystem* system)
 {
     kiriVec3 mean = { 0.0, 0.0, 0.0 };
@@ -186,10 +186,11 @@ static bool IsPushed(const kiriSolver* solver)
 
 /* ---- Wind -------------------------------------------------------------------------------------------------------- */
 
-/* Wind as part of the objective. The force on a small area is D (u - v), with u the velocity of the air, v that of the
-   material, and D = density / 2 |u - v| area (drag n n^T + lift (1 - n n^T)) as it is at the start of the step. At the
-   end of the step v is linear in the point's place x there (kiri_frame.h): v = v* + (x - x*) / h'. So the force is
-   that of a spring of stiffness D / h' whose target is x* + h' (u - v*): implicit, and it never turns u - v round. */
+/* Wind as part of the objective. The force on a small area is D (u - v): u is the velocity of the air, v the velocity
+   of the material, and D = density / 2 |u - v| area (drag n n^T + lift (1 - n n^T)), constant from the start of the
+   step. At the end of the step v is linear in the point's position x (kiri_frame.h): v = v* + (x - x*) / h'. So the
+   force acts like a spring of stiffness D / h' with the target x* + h' (u - v*). It is implicit
+   and never reverses u - v. */
 
 /* Four points of a region, each with a quarter of its area, have its area, its centroid and its second moments. */
 enum { SAMPLES = 4 };
@@ -516,8 +517,8 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
     solver->elementCount = kiriElement_Count(system);
     solver->isAlong = solver->isHeld = false;
     solver->search.scale = 1.0;
-    /* The air acts first, so that it only takes energy, whatever gravity does to the velocity. Of second order, exp(-z)
-       is 1 / (1 + z + z^2 / 2) to the third power of z. */
+    /* Air damping is applied first, so it only takes energy, whatever gravity does to the velocity. The second-order
+       form equals exp(-z) up to the third power of z. */
     double z = dt * (double)system->material.airDamping;
     bool isEuler = system->mechanics.timeStepping == KIRI_TIME_STEPPING_EULER;
     double fade = 1.0 / (1.0 + z + (isEuler ? 0.0 : 0.5 * z * z));
@@ -821,20 +822,20 @@ kiriStepEnergy kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system)
     return sum;
 }
 
-#define LONGEST_ITERATION_TURN 1.0 /* of a frame in one Gauss-Newton step: a Cayley vector */
+#define LONGEST_ITERATION_TURN 1.0 /* limit of a frame's turn in one Gauss-Newton step: a Cayley vector */
 #define HALVINGS 12                /* of a step that does not lower the objective */
-#define SECOND_CHANCES 4           /* more iterations where energy is gained or the last step was cut short, */
-#define FRESH_STARTS 2             /* and iterations from the start of the step should they fail */
-#define FREE_SYSTEMS 2             /* of a piece that contacts touch: after them it stores no more than it has */
-#define WORTHWHILE 1e-6            /* of the objective, where a longer step would lower it by more */
-#define MOST_RISE 100.0            /* of the objective in the first step of a piece */
-#define MOST_TAKEN 0.5             /* of the kinetic energy, if the body need not start anew */
-#define TOLERABLE_GAIN 1e-2        /* in a step of second order: of the energy that the limit could take, */
-#define NEGLIGIBLE_GAIN 1e-9       /* and of all */
+#define SECOND_CHANCES 4           /* extra iterations if energy is gained or the last step was cut short */
+#define FRESH_STARTS 2             /* further iterations, from the start of the step, if these fail */
+#define FREE_SYSTEMS 2             /* systems of a body near contacts before its stored energy is limited */
+#define WORTHWHILE 1e-6            /* of the objective: smaller promises of a step that was cut short do not count */
+#define MOST_RISE 100.0            /* limit of the objective after the first step, relative to its start */
+#define MOST_TAKEN 0.5             /* of the kinetic energy: a body with a raised objective that loses more restarts */
+#define TOLERABLE_GAIN 1e-2        /* in a step of second order: of the energy that the limit can take, */
+#define NEGLIGIBLE_GAIN 1e-9       /* plus this part of the whole energy */
 
 /* ---- One Gauss-Newton step ---- */
 
-/* The line search begins with the whole of the Gauss-Newton step, or as much of it as turns no frame too far. */
+/* Starts the line search with the whole Gauss-Newton step, or the part of it that turns no frame too far. */
 static void StartSearch(kiriSolver* solver, const kiriSystem* system)
 {
     kiriSearch* search = &solver->search;
@@ -856,8 +857,9 @@ static void StartSearch(kiriSolver* solver, const kiriSystem* system)
     kiriSolver_LimitByFriction(solver);
 }
 
-/* Contact that a step runs into has far more energy than the body, and a line search by that alone would let links
-   stretch by as much. The first systems may do so, as they turn frames; later ones only store what the body has. */
+/* Returns true if the body may store this energy. A contact reached during the step has far more energy than the body.
+   A line search by the objective alone would let links stretch by the same energy. The first systems are exempt,
+   because they turn frames; later systems may store only the energy that the body has. */
 static bool IsAffordable(const kiriSolver* solver, const kiriStepEnergy* energy)
 {
     const kiriSearch* search = &solver->search;
@@ -866,7 +868,7 @@ static bool IsAffordable(const kiriSolver* solver, const kiriStepEnergy* energy)
     return !solver->touch.isNear || search->solved < FREE_SYSTEMS || energy->potential <= most;
 }
 
-/* Takes a part of the Gauss-Newton step, if it is good enough. */
+/* Takes a part of the Gauss-Newton step. Fails if the objective or the stored energy is too large. */
 static bool TryNewtonStep(kiriSolver* solver, const kiriSystem* system)
 {
     for (int32_t f = 0; f < system->frameCount; ++f) {
@@ -890,8 +892,8 @@ static bool TryNewtonStep(kiriSolver* solver, const kiriSystem* system)
     return true;
 }
 
-/* The first step may end where the objective is that of the free prediction, or some times as large as where it
-   starts. */
+/* Raises the limit for the first step to the objective of the free prediction, or MOST_RISE times the objective at its
+   start. */
 static void AllowPrediction(kiriSolver* solver, const kiriSystem* system)
 {
     for (int32_t f = 0; f < system->frameCount; ++f) {
@@ -903,8 +905,8 @@ static void AllowPrediction(kiriSolver* solver, const kiriSystem* system)
     solver->search.enough = kiriMax(allowed, solver->search.enough);
 }
 
-/* Takes one Gauss-Newton step, halved until the objective falls; the first one may also raise it to that of the free
-   prediction. Returns false if the matrix has no factor. */
+/* Takes one Gauss-Newton step, halved until the objective falls. The first step may instead raise the objective, see
+   AllowPrediction. Returns false if the matrix has no factor. */
 static bool IterateOnce(kiriSolver* solver, const kiriSystem* system)
 {
     solver->search.now = kiriSolver_Assemble(solver, system);
@@ -932,9 +934,9 @@ static bool IterateOnce(kiriSolver* solver, const kiriSystem* system)
 
 /* ---- The iteration as a whole ---- */
 
-/* A step of second order gains a little energy as often as not, which the limit of energy takes out. Where it is more
-   than that the iteration goes on, and if that does not help, the body takes the step anew by backward Euler. Nothing
-   else may decide that: where a body rests, rounding would. */
+/* Returns true if the body gained too much energy in a step of second order. Such a step often gains a little, which
+   the energy limit takes out. If the gain is larger, the iteration continues, and if that fails, the body repeats the
+   step by backward Euler. This must be the only criterion: for a body at rest, any other would depend on rounding. */
 static bool IsSuspect(const kiriSolver* solver)
 {
     const kiriEnergyStep* energy = &solver->energy;
@@ -943,7 +945,7 @@ static bool IsSuspect(const kiriSolver* solver)
     return !solver->stepping.isEuler && !(energy->gain <= TOLERABLE_GAIN * brakeable + NEGLIGIBLE_GAIN * all);
 }
 
-/* Returns true if the body gained energy, or its step was cut short: the iteration goes on. */
+/* Returns true if the body gained energy or its step was cut short, so the iteration continues. */
 static bool IsUnfinished(const kiriSolver* solver, int32_t done)
 {
     const kiriSearch* search = &solver->search;
@@ -952,7 +954,7 @@ static bool IsUnfinished(const kiriSolver* solver, int32_t done)
     return done < search->wanted || hasGained || search->suspects > 0 || isShort || solver->touch.isUnsettled;
 }
 
-/* Starts the iteration at the poses before the step. */
+/* Restarts the iteration at the poses before the step. */
 static void EvaluateStart(kiriSolver* solver, const kiriSystem* system)
 {
     kiriSolver_GuessContacts(solver, system);
@@ -961,7 +963,7 @@ static void EvaluateStart(kiriSolver* solver, const kiriSystem* system)
     solver->search.solved = 0;
 }
 
-/* Takes the step anew by backward Euler. */
+/* Repeats the step by backward Euler. */
 static void TakeAnew(kiriSolver* solver, const kiriSystem* system)
 {
     BecomeEuler(solver, system);
@@ -969,8 +971,8 @@ static void TakeAnew(kiriSolver* solver, const kiriSystem* system)
     EvaluateStart(solver, system);
 }
 
-/* A body from which the energy limit would take too much of its motion goes on by backward Euler, and from where it
-   stood before the step. Returns false if it need not. */
+/* Restarts a body from its poses before the step, by backward Euler, if the energy limit would take too much of its
+   motion. Returns false otherwise. */
 static bool Restart(kiriSolver* solver, const kiriSystem* system)
 {
     kiriSearch* search = &solver->search;
@@ -987,18 +989,19 @@ static bool Restart(kiriSolver* solver, const kiriSystem* system)
     return true;
 }
 
-/* The iteration starts from free motion, without forces or with those of the last step: a strip that swings is then
-   nearly at the minimum, and one at rest is there. The first Gauss-Newton step may raise the objective: it has to turn
-   stiff frames, which stretches links until the next step relaxes them, and a line search would not let it turn them.
+/* Minimises the objective. The iteration starts from free motion, without inner forces or with the forces of the last
+   step: a swinging strip is then nearly at the minimum, and a strip at rest is there. The first Gauss-Newton step may
+   raise the objective. It must turn stiff frames, which stretches links until the next step relaxes them; a line search
+   would prevent the turn.
 
-   A body that has gained energy, or took only a part of its last step, is iterated on. What it has gained even then is
-   taken out of its velocities. Where that would all but stop it, it starts anew from its pose before the step, and its
-   objective only falls from there. Then, with v the velocities before and w those after the step,
+   The iteration continues for a body that gained energy or took only a part of its last step. The remaining gain is
+   taken out of its velocities. If that would nearly stop the body, it restarts from its poses before the step, from
+   where its objective only falls. Then, with v the velocities before and w the velocities after the step,
 
-   potential after + 1/2 m (w - v)^2  <=  potential before + 1/2 m v^2 + work,
+       potential after + 1/2 m (w - v)^2  <=  potential before + 1/2 m v^2 + work,
 
-   which bounds w by 2 v. At the minimum it holds with w^2 in place of (w - v)^2, but for parts of the energy that are
-   not convex. So velocities stay bounded however long the step. */
+   which limits w to 2 v. At the minimum it holds with w^2 in place of (w - v)^2, except for parts of the energy
+   that are not convex. So velocities stay bounded, however long the step. */
 int32_t kiriSolver_Minimise(kiriSolver* solver, const kiriSystem* system, int32_t iterations, int32_t most)
 {
     KIRI_ASSERT(iterations >= 1 && iterations <= most);

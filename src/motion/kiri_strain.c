@@ -2,30 +2,30 @@
 
 #include <string.h>
 
-/* An offset g of the ends of a strip that is clamped there makes it longer by 3/5 g^2 / l, where a straight line has
-   1/2. */
+/* Factor of the squared offset in the length. Offsetting the ends of a clamped strip by g lengthens it by 3/5 g^2 / l,
+   a straight line by 1/2 g^2 / l. */
 #define ARC_SHARE 1.2
-/* Square of the angle at which the arc between two sites is taken for a half. */
+/* Square of the angle at which the arc between two sites counts half. */
 #define ARC_FOLD 2.5
-/* Timoshenko's 5/6: where no other links share a shear, it is not even over the width. */
+/* Timoshenko's 5/6: a shear that no other links share is not uniform over the width. */
 #define SHEAR_BEAM (5.0 / 6.0)
 
-/* Bent in its plane, a sheet stretches on one side of a corner and gives way on the other: of that the trace sees
-   nothing where four square regions meet, and most where three do. What it lacks is 3 nu / (1 + nu) of the energy of
-   the regions themselves in the first case, less than 1 in the second. */
+/* Missing energy of plane bending. Bent in its plane, a sheet stretches on one side of a corner and contracts on the
+   other. The trace sees nothing of it where four square regions meet, and most of it where three meet. The missing part
+   is 3 nu / (1 + nu) of the regions' own energy in the first case, less than 1 in the second. */
 #define PLANE_INNER 1.5
 
-/* A normal gap costs so many times what it does in a strip that is clamped at both ends: between regions that have
-   neighbours on both sides, and along an edge. Inside, 1.6 is the mean over directions for a plate under even shear,
-   and 3 is nearer to plates with edges and slits, static and in motion. Twist leaves a plate at its edges, where shear
-   that runs along them takes it up: the last row of regions carries it by its normal gaps. Less than 6 makes strips
-   soft in torsion; ten times these values lock. */
+/* Factors of the stiffness of a normal gap against a strip clamped at both ends: between regions with neighbours on
+   both sides, and along an edge. Inside, 1.6 is the mean over directions for a plate under uniform shear, and 3 is
+   closer to plates with edges and slits, static and in motion. A twisted plate carries its twist at the edges by shear
+   along them: the last row of regions carries it by its normal gaps. Below 6, strips are soft in torsion; ten times
+   these values lock. */
 #define GAP_INNER 3.0
 #define GAP_OUTER 12.0
 
-/* Square of the cosine of half the fold below which the strains that need the mean axes fade. */
+/* Strains that need the mean axes fade below this square of the cosine of half the fold. */
 #define FADING 0.1
-/* A sum of axes that is shorter has no direction. */
+/* A shorter sum of axes has no direction. */
 #define LEAST_AXIS 1e-6
 
 #define HALF_TURN 3.14159265358979
@@ -61,8 +61,8 @@ static kiriVec3 WithoutPart(kiriVec3 a, kiriVec3 d)
     return kiriVec3_AddScaled(a, -kiriVec3_Dot(a, d), d);
 }
 
-/* Where the normals have no mean those of the first frame serve, or its director where these lie along d; and all turns
-   with that frame. */
+/* Uses the axes of the first frame if the mean normal is undefined: its normal or, if that is along d, its director.
+   All axes then turn with that frame. */
 static void TakeFirstAxes(MeanAxes* axes, const kiriLink* link, const kiriPose* first)
 {
     kiriVec3 n = WithoutPart(kiriPose_Along(first, link->normal), axes->d);
@@ -188,9 +188,9 @@ static void MeasureStretch(double lever, const MeanAxes* axes, const EndVectors*
     }
 }
 
-/* How much of a strain along the mean axes counts, and how that changes with `open`. Where the directors are nearly
-   opposite, a small turn swings the mean axes round: gaps of no energy along one would have all that of stretch along
-   the next, and no motion would find a way past. */
+/* Weight of strains along the mean axes, and its derivative by `open`. If the directors are nearly opposite, a small
+   turn swings the mean axes round: a gap with no energy along one axis would get the energy of stretch along the next,
+   and block the motion. */
 typedef struct AxisFade {
     double keep, slope;
 } AxisFade;
@@ -213,7 +213,7 @@ static void AddOpening(const MeanAxes* axes, double a, kiriStrainRow* row)
     }
 }
 
-/* What the length of the gap has above `most`; only its part along the mean normal where that is known. */
+/* Measures the excess of the gap over `most`: of its part along the mean normal and, as the axes fade, of all of it. */
 static void MeasureStop(double most, const MeanAxes* axes, const EndVectors* m, double* strain, kiriStrainRow* row)
 {
     AxisFade fade = FadeOf(axes);
@@ -252,12 +252,13 @@ static void TakeAngle(const MeanAxes* axes, double* strain, kiriStrainRow* rows)
     }
 }
 
-/* How long an arc may be so that tension does not turn the frames. With pivots c apart, e from their middle to b, psi
-   the angle from their line to the mean of the frames and delta the angle between these, tension times
+/* Returns the longest arc for which tension does not turn the frames. The pivots are c apart, e is the distance from
+   their middle to b, psi the angle from their line to the mean of the frames, delta the angle between the frames. The
+   work of turning them is the tension times
 
        0.1 c psi^2 - 1.2 e psi delta + (c / 8 + 0.6 e^2 / c - s / 12) delta^2
 
-   is the work of turning them: positive for s < 1.5 c - 36 e^2 / c. */
+   It is positive for s < 1.5 c - 36 e^2 / c. */
 static double LongestArc(const kiriLink* link, const kiriFrameData* const frames[2])
 {
     double before = kiriVec2_Dot(kiriVec2_Sub(link->centroid, PivotOf(frames[0])), link->normal);
@@ -267,8 +268,8 @@ static double LongestArc(const kiriLink* link, const kiriFrameData* const frames
     return kiriMax(most, 0.0);
 }
 
-/* Takes off what the arc between the two sites adds to the gap. Folds of more than two radians are no arcs: there the
-   term fades, or a crumpled sheet would find rest in them. */
+/* Subtracts the contribution of the arc between the two sites from the gap. Folds of more than two radians are not
+   arcs: the term fades, because it would give a crumpled sheet false rest states. */
 static void TakeArc(const kiriLink* link, const kiriFrameData* const frames[2], double* strain, kiriStrainRow* rows)
 {
     double length = kiriVec2_Length(link->span), most = LongestArc(link, frames);
@@ -313,9 +314,9 @@ double kiriStrain_Openness(double bending, double twist, double* slope)
     return share * (2.0 - share);
 }
 
-/* Twist is stiffer than bending at open ends. In a fold bending becomes as stiff as twist, `most` being the ratio of
-   their stiffnesses: at half a turn there is no telling one from the other. Were twist to become as weak as bending,
-   its energy would fall before half a turn, and folds would stay there. */
+/* Makes bending as stiff as twist in a fold, because the two are indistinguishable at half a turn. At open ends twist
+   is stiffer; `most` is the ratio of the stiffnesses. If instead twist became as soft as bending, its energy would fall
+   before half a turn, and folds would stay there. */
 static void TakeFold(double most, double twist, double* bending, kiriStrainRow* rows)
 {
     double slope, open = kiriStrain_Openness(*bending, twist, &slope);
@@ -329,10 +330,11 @@ static void TakeFold(double most, double twist, double* bending, kiriStrainRow* 
     }
 }
 
-/* Twisted by t, a strip one region wide shortens by W^2 t^2 / (24 l), for its edges are helices; what these stretch
-   beyond the mean is that of the curl, with t^2 - nu b^2 for -nu b^2: see kiri_strain.h. That counts as a larger twist,
-   but as none beyond half a turn: with z for what it adds to t^2 and R = pi^2 - t^2 - b^2 it adds z R / sqrt(z^2 +
-   R^2), which is z where the angle is small, and never lets the energy fall as it grows. */
+/* Adds the stretch of the edges of a twisted strip. Twisted by t, a strip one region wide shortens by W^2 t^2 / (24 l),
+   because its edges are helices. Their stretch beyond the mean has the energy of the curl, with t^2 - nu b^2 in place
+   of -nu b^2 (kiri_strain.h). It is added to t^2, but fades at half a turn: if z is the addition to t^2 and
+   R = pi^2 - t^2 - b^2, it adds z R / sqrt(z^2 + R^2). That is z for small angles, and the energy never falls as the
+   angle grows. */
 static void TakeRibbon(const kiriLink* link, double poissonsRatio, const kiriCurl* curl, double* strain,
                        kiriStrainRow* rows)
 {
@@ -722,7 +724,7 @@ typedef struct MeanDirector {
     double by[2];
 } MeanDirector;
 
-/* Where the sheet is folded flat on itself there is no mean: the first frame's director serves. */
+/* Returns the mean director. If the sheet is folded flat on itself, uses the director of the first frame. */
 static MeanDirector FindMeanDirector(const kiriPose* const poses[2])
 {
     kiriVec3 sum = kiriVec3_Add(poses[0]->A.d, poses[1]->A.d);
@@ -904,7 +906,7 @@ static kiriFrameShare* FrameShareOf(kiriAreaElements* elements, kiriMemory* memo
     return &elements->shares.data[k];
 }
 
-/* What the elements of regions are made from: the links of region i are links[start[i]] to links[start[i + 1]]. */
+/* Input of the elements of regions: the links of region i are links[start[i]] to links[start[i + 1] - 1]. */
 typedef struct RegionLinks {
     kiriMemory* memory;
     const kiriMoments* material; /* of each region */
