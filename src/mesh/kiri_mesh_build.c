@@ -198,7 +198,7 @@ static kiriResult AddVertices(kiriMeshData* mesh, const kiriMeshInput* input, co
             mesh->vertices.data[welded->number[i]] = (kiriVertex){ welded->at[i], KIRI_NONE, 0, 0, 0 };
         }
     }
-    KIRI_ASSERT(vertices >= 3 && vertices <= input->vertexCount);
+    KIRI_ASSERT(vertices >= 1 && vertices <= input->vertexCount); /* a triangle may name one vertex twice */
     mesh->originals = triangles;
     return KIRI_OK;
 }
