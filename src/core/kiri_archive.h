@@ -30,13 +30,13 @@ static inline void kiriHash_Int32(uint64_t* hash, int32_t value)
     kiriHash_Int64(hash, value);
 }
 
-/* Two at the price of one. */
+/* Adds two numbers at the cost of one. */
 static inline void kiriHash_Pair(uint64_t* hash, int32_t first, int32_t second)
 {
     kiriHash_Int64(hash, (int64_t)((uint64_t)(uint32_t)first << 32 | (uint32_t)second));
 }
 
-/* Its bits: 0.0 and -0.0 differ. */
+/* Adds the bits of a double: 0.0 and -0.0 differ. */
 static inline void kiriHash_Double(uint64_t* hash, double value)
 {
     int64_t bits;
@@ -236,14 +236,14 @@ static inline void kiriArchive_Int32(kiriArchive* archive, int32_t* number)
     kiriArchive_Numbers(archive, number, 4, 1);
 }
 
-/* Moves an integer that is no field. READ: returns the stored one, in [least, most]. */
+/* Transfers an integer that is not a field. READ: returns the stored value, checked to be in [least, most]. */
 int32_t kiriArchive_Count(kiriArchive* archive, int64_t count, int64_t least, int64_t most);
 
 /* One object, or a row. READ: it is zero before, and gets blocks of archive->memory. */
 void kiriArchive_Object(kiriArchive* archive, const kiriTable* table, void* object);
 void kiriArchive_Objects(kiriArchive* archive, const kiriTable* table, void* objects, int64_t count);
 
-/* A block of numbers that is no KIRI_ARRAY. READ: charges it to the room; null if it fails. */
+/* Transfers a block of numbers that is not a KIRI_ARRAY. READ: charges it to the room; null on failure. */
 void kiriArchive_Block(kiriArchive* archive, void** block, int32_t width, int64_t count);
 
 /* Hashes sizes and offsets of all fields. */

@@ -24,7 +24,7 @@ static int64_t NextCapacity(int64_t capacity, int64_t need)
     return kiriMin(INT32_MAX, next);
 }
 
-/* Another block, of so many items, for what is there. */
+/* Moves the items to a new block of `capacity` items. */
 static bool MoveArray(kiriMemory* memory, void* array, int64_t capacity, size_t itemBytes)
 {
     kiriArrayHeader header = kiriArray_GetHeader(array);
@@ -76,7 +76,7 @@ static bool IsLess(const void* context, int32_t a, int32_t b)
     return a < b;
 }
 
-/* Shell 1959, with Knuth's gaps: little code, and what is nearly in order costs next to nothing. */
+/* Shell sort (1959) with Knuth's gaps: little code, and fast on nearly sorted input. */
 void kiriSort(int32_t* items, int32_t count, kiriBeforeFn* before, const void* context)
 {
     KIRI_ASSERT(count >= 0);
@@ -98,7 +98,7 @@ void kiriSort(int32_t* items, int32_t count, kiriBeforeFn* before, const void* c
 
 enum { DIGIT_BITS = 11, DIGITS = 1 << DIGIT_BITS };
 
-/* In the order of one digit, and of those below it as they were. */
+/* Sorts by one digit. Stable. */
 static void SortByDigit(const int32_t* items, int32_t* to, int32_t count, int shift)
 {
     int32_t first[DIGITS + 1] = { 0 };
@@ -141,7 +141,7 @@ void kiriSort_Numbers(int32_t* items, int32_t* room, int32_t count)
     }
 }
 
-/* The size class of a span with so many items: its room is 1 << class. */
+/* Returns the size class of a span of `count` items. Its capacity is 1 << class. */
 static int SizeClassOf(int32_t count)
 {
     int size = 0;
@@ -158,7 +158,7 @@ static unsigned char* ItemAt(const void* array, size_t itemBytes, int32_t index)
     return (unsigned char*)header.data + (size_t)index * itemBytes;
 }
 
-/* Room of a size class; KIRI_NONE for memory. */
+/* Returns the first item of free room of a size class; KIRI_NONE on out of memory. */
 static int32_t TakeRoom(kiriSpans* spans, kiriMemory* memory, void* array, size_t itemBytes, int size)
 {
     int32_t first = spans->freeHead[size] - 1;
@@ -183,8 +183,8 @@ static void GiveRoom(kiriSpans* spans, void* array, size_t itemBytes, int32_t fi
     spans->freeHead[size] = first + 1;
 }
 
-/* Moves into free room of the new size, so that its own stays whole: halves are never joined again. Where there is no
-   free room it keeps the start of its own and gives back the halves that it no longer needs. */
+/* Moves the span into free room of the new size, so that its room stays whole: halves are never joined again. Without
+   free room the span keeps the start of its room and frees the upper halves. */
 static void ShrinkSpan(kiriSpan* span, kiriSpans* spans, void* array, size_t itemBytes, int32_t count)
 {
     int from = SizeClassOf(span->count), to = SizeClassOf(count);

@@ -1,4 +1,4 @@
-/* Growable arrays. KIRI_ARRAY(T) declares one; a zeroed one is empty. Growing keeps what is there, or fails and changes
+/* Growable arrays. KIRI_ARRAY(T) declares one; a zeroed array is empty. Growing keeps the items, or fails and changes
    nothing. */
 #ifndef KIRI_ARRAY_H
 #define KIRI_ARRAY_H
@@ -33,7 +33,7 @@ bool kiriArray_Grow(kiriMemory* memory, void* array, int64_t need, size_t itemBy
 /* Grows without room for more: for arrays that are made once, or as long as another. */
 bool kiriArray_GrowTo(kiriMemory* memory, void* array, int64_t need, size_t itemBytes);
 
-/* Gives back room beyond the count and an eighth of it. Keeps all room if there is no memory for a shorter block. */
+/* Reduces the capacity to 9/8 of the count. Keeps the capacity on out of memory. */
 void kiriArray_Shorten(kiriMemory* memory, void* array, size_t itemBytes);
 
 /* Frees the items and leaves the array empty. */
@@ -45,7 +45,7 @@ void kiriArray_Release(kiriMemory* memory, void* array);
 #define kiriArray_ReserveJust(memory, array, need)                                                                     \
     ((int64_t)(need) <= (array)->capacity || kiriArray_GrowTo((memory), (array), (need), sizeof(*(array)->data)))
 
-/* Room for `size` items, and the count set to it; new items are not initialised. */
+/* Reserves and sets the count; new items are not initialised. */
 #define kiriArray_Resize(memory, array, size)                                                                          \
     (kiriArray_Reserve(memory, array, size) ? ((array)->count = (int32_t)(size), true) : false)
 
@@ -59,8 +59,7 @@ void kiriArray_Release(kiriMemory* memory, void* array);
 
 /* Sorting of indices. */
 
-/* Returns true if item a comes before item b. A strict order: of two different items one comes first, so the result does
-   not depend on the order before. */
+/* Returns true if item a comes before item b. A strict total order: the result does not depend on the input order. */
 typedef bool kiriBeforeFn(const void* context, int32_t a, int32_t b);
 
 /* Sorts in place, without memory. `before` null: by the items themselves. */
@@ -69,8 +68,8 @@ void kiriSort(int32_t* items, int32_t count, kiriBeforeFn* before, const void* c
 /* Sorts items of 0 and above, ascending, in linear time. `room` has room for as many. */
 void kiriSort_Numbers(int32_t* items, int32_t* room, int32_t count);
 
-/* Rows of items that grow and shrink, all in one array: the weights of each sample, say. A span has room for the least
-   power of two that holds its items; room that is given back is used again. */
+/* Spans: many small lists in one array, such as the weights of each sample. The capacity of a span is the smallest
+   power of two that holds its items; freed room is reused. */
 
 typedef struct kiriSpan {
     int32_t first, count;
@@ -83,17 +82,16 @@ typedef struct kiriSpans {
     int32_t freeHead[KIRI_SPAN_SIZES]; /* plus 1, so that zeroed spans are empty */
 } kiriSpans;
 
-/* Gives the span room for `count` items and sets its count; the first items stay what they are, new ones are not
-   initialised. It may move the items, also where it shrinks. `array` points to the KIRI_ARRAY that holds the items of
-   all spans; an item has itemBytes, at least 4. False for memory, and then nothing has changed. To shrink, or to count
-   0, never fails. */
+/* Sets the count of a span and reserves for it. Keeps the first items; new ones are not initialised. May move the
+   items, even when it shrinks. `array` is the KIRI_ARRAY with the items of all spans; itemBytes is at least 4. Changes nothing
+   on out of memory: false. Shrinking cannot fail. */
 bool kiriSpan_Resize(kiriSpan* span, kiriSpans* spans, kiriMemory* memory, void* array, size_t itemBytes,
                      int32_t count);
 
-/* Union-find over indices. The caller has the array `parent`, with an entry for each item;
-   the root of a set is its lowest item, whatever the order of joining. */
+/* Union-find over indices. The caller owns the array `parent`, with an entry for each item. The root of a set is its
+   lowest item, in any order of joins. */
 
-/* Each item a set of its own. */
+/* Makes each item a separate set. */
 static inline void kiriUnion_Init(int32_t* parent, int32_t count)
 {
     for (int32_t i = 0; i < count; ++i) {
@@ -101,7 +99,7 @@ static inline void kiriUnion_Init(int32_t* parent, int32_t count)
     }
 }
 
-/* Halves the path on its way. */
+/* Returns the root of an item. Halves the path. */
 static inline int32_t kiriUnion_Root(int32_t* parent, int32_t i)
 {
     KIRI_ASSERT(i >= 0);

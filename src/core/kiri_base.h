@@ -1,5 +1,4 @@
-/* Memory through the host's hooks, assertions, and what a budget counts. Every other file allocates through this
-   one. */
+/* Memory through the host's hooks, assertions, and quotas of budgets. All allocations go through this file. */
 #ifndef KIRI_BASE_H
 #define KIRI_BASE_H
 
@@ -55,8 +54,7 @@ enum { KIRI_NONE = -1 };
 /* ---- Assertions ---- */
 
 /* Checked where KIRI_ASSERTS is defined, as `make config=debug` and `config=sanitize` do; elsewhere they cost nothing.
-   A host that defines KIRI_ASSERT_HANDLER as the name of a function of its own gets the call; else the program
-   stops. */
+   A host may define KIRI_ASSERT_HANDLER as the name of its handler; the default stops the program. */
 #if !defined(KIRI_ASSERTS)
 #define KIRI_ASSERT(condition) ((void)sizeof((condition) ? 1 : 0))
 #else
@@ -71,64 +69,64 @@ void kiriAssertFailed(const char* condition, const char* file, int line);
 
 /* ---- Memory ---- */
 
-/* Comes before each block. */
+/* Header of each block. */
 typedef struct kiriBlock {
     struct kiriBlock* next;
-    struct kiriBlock** link; /* what points to this block */
+    struct kiriBlock** link; /* the pointer to this block: `next` of the previous block, or the head */
 } kiriBlock;
 
-/* The host's hooks, and the list of all blocks that this owner has from them: they are freed together, so nothing made
-   of blocks needs a release of its own. The owner must not move while it has blocks. */
+/* The host's hooks, and the list of all blocks of this owner. They are freed together, so structs made of blocks need
+   no release function. The owner must not move while it has blocks. */
 typedef struct kiriMemory {
     kiriAllocFn* alloc;
     kiriFreeFn* free;
     void* user;
     kiriBlock* blocks;
 
-    /* For work that cannot stop amid an item: a block set aside, which the next refused request gets. So the item is
-       finished, and the work pauses after it. */
+    /* For work that cannot stop within an item: a reserve block, which the next refused request gets. So the work
+       finishes the item and pauses after it. */
     void* spare;
     int64_t spareBytes;
     int64_t largest; /* bytes of the largest block so far */
-    bool isSparing;  /* such work runs; */
-    bool wasRefused; /* and since it was started a request was refused */
+    bool isSparing;  /* such work is running */
+    bool wasRefused; /* the host refused a request since it started */
 } kiriMemory;
 
-/* malloc and free where the hooks are null. */
+/* Makes an owner without blocks. Null hooks: malloc and free. */
 kiriMemory kiriMemory_Make(kiriAllocFn* alloc, kiriFreeFn* free, void* user);
 
-/* Another owner with the same hooks, without blocks. */
+/* Makes an owner with the same hooks, without blocks. */
 kiriMemory kiriMemory_Like(const kiriMemory* memory);
 
-/* An owner that has no memory at all: for tasks, which do without or fail. */
+/* Makes an owner whose requests all fail: for tasks, which must not allocate. */
 kiriMemory kiriMemory_None(void);
 
-/* Null when there is no memory. Not zeroed. */
+/* Allocates a block, not zeroed. Returns null on out of memory. */
 void* kiriMemory_Alloc(kiriMemory* memory, int64_t bytes);
 
-/* The same, zeroed. */
+/* Allocates a zeroed block. Returns null on out of memory. */
 void* kiriMemory_AllocZeroed(kiriMemory* memory, int64_t bytes);
 
-/* Around work that pauses after a refusal. Begin sets a block aside, as large as the largest array may grow to, if the
-   host grants it. It stays for later work until it is dropped. */
+/* Enclose work that pauses after a refusal. Begin allocates the reserve block, as large as the largest array may grow
+   to, if the host grants it. The block stays for later work until DropSpare. */
 void kiriMemory_BeginSparing(kiriMemory* memory);
 void kiriMemory_EndSparing(kiriMemory* memory);
 void kiriMemory_DropSpare(kiriMemory* memory);
 
-/* Must the work pause before its next item? */
+/* Returns true if the work must pause before its next item. */
 static inline bool kiriMemory_MustPause(const kiriMemory* memory)
 {
     return memory->isSparing && memory->wasRefused;
 }
 
-/* Null is allowed. The block may be of any owner with these hooks. */
+/* Frees a block of any owner with these hooks. Null is allowed. */
 void kiriMemory_Free(kiriMemory* memory, void* pointer);
 void kiriMemory_FreeAll(kiriMemory* memory);
 
-/* The block gets this owner, which has the same hooks. Null is allowed. Never fails. */
+/* Moves a block to this owner, which has the same hooks. Null is allowed. Cannot fail. */
 void kiriMemory_Adopt(kiriMemory* memory, void* pointer);
 
-/* The same of all blocks of another owner. */
+/* Moves all blocks of another owner to this one. */
 void kiriMemory_AdoptAll(kiriMemory* memory, kiriMemory* from);
 
 /* ---- Budget ---- */
@@ -137,7 +135,7 @@ void kiriMemory_AdoptAll(kiriMemory* memory, kiriMemory* from);
 typedef enum kiriProgress {
     KIRI_DONE,
     KIRI_MORE,   /* the quota is spent, or memory was refused: call again */
-    KIRI_FAILED, /* out of memory; work that cannot go on says where it begins again */
+    KIRI_FAILED, /* out of memory; the work documents where it resumes */
 } kiriProgress;
 
 /* Relaxed atomic store. Concurrent readers may all store the same value. */
@@ -180,7 +178,7 @@ typedef struct kiriQuota {
     int64_t left; /* never below zero */
     int64_t used;
     int64_t beyond; /* items done beyond the limit: a step larger than the whole quota is charged as the quota */
-    bool isShared; /* a part of it went to another kind of items */
+    bool isShared; /* another kind of items used a part of it */
 } kiriQuota;
 
 /* Returns true if items were taken, here or for another kind of work. */
@@ -213,14 +211,14 @@ static inline bool kiriQuota_TakeAtMostAll(kiriQuota* quota, int64_t items)
     return kiriQuota_Take(quota, counted);
 }
 
-/* Nothing is left even for what is larger than the whole quota. */
+/* Returns true if not even a step larger than the whole quota can be taken. */
 static inline bool kiriQuota_IsSpent(const kiriQuota* quota)
 {
     return quota->left == 0 && kiriQuota_IsBegun(quota);
 }
 
-/* Pays a debt, as far as the quota goes. Returns false if some is still owed. How far the work has come depends on the sum
-   of the quotas, not on their parts. Never exceeds a limit, unlike kiriQuota_Take. */
+/* Pays a debt, as far as the quota goes. Returns false if some is still owed. Progress depends only on the sum of the
+   quotas, not on how it is split over ticks. Never exceeds a limit, unlike kiriQuota_Take. */
 static inline bool kiriQuota_Pay(kiriQuota* quota, int64_t* owed)
 {
     int64_t items = kiriMin(*owed, quota->left);
@@ -232,12 +230,12 @@ static inline bool kiriQuota_Pay(kiriQuota* quota, int64_t* owed)
 
 KIRI_C_END
 
-/* Why something is refused: one line, which names the item by its number. */
+/* Reason of a refusal: one line that names the item by its number. */
 
 KIRI_C_BEGIN
 
 typedef struct kiriFault {
-    char line[160]; /* "": the result says it all */
+    char line[160]; /* "": the result code is enough */
 } kiriFault;
 
 /* Writes the line. Numbers are long long: snprintf of the web build reads %s and %lld only. */
@@ -245,11 +243,11 @@ typedef struct kiriFault {
 
 KIRI_C_END
 
-/* Work that the host may spread over its threads. */
+/* Tasks: work that the host may run on its threads. */
 
 KIRI_C_BEGIN
 
-/* The host's hooks; null: all runs in the caller. */
+/* The host's hooks. Null: tasks run in the caller. */
 typedef struct kiriTasks {
     kiriStartTaskFn* start;
     kiriFinishTaskFn* finish;
@@ -262,8 +260,8 @@ static inline bool kiriTasks_AreGiven(const kiriTasks* tasks)
     return tasks->start != NULL && tasks->workers > 1;
 }
 
-/* Does the items 0 to `count`, in ranges of `least` and more, and returns when all are done. Ranges run side by side,
-   in any order: none may read what another writes, nor allocate, free, log or read the clock. */
+/* Runs a task over items [0, count), in ranges of at least `least`, and returns when all are done. Ranges run in
+   parallel, in any order. A range must not read the output of another, allocate, free, log or read the clock. */
 void kiriTasks_Run(const kiriTasks* tasks, kiriTaskFn* task, int32_t count, int32_t least, void* context);
 
 KIRI_C_END

@@ -1,6 +1,6 @@
-/* The same bits on every machine: each operation on floats and doubles is rounded by itself, in its own type. Every
-   file includes this one first, so that a host may compile the sources with options of its own. What cannot be had by a
-   pragma does not compile, or creates no world (kiri_vec.h). */
+/* Same bits on every machine: each operation on floats and doubles is rounded separately, in its own type. Every file
+   includes this one first, so a host may choose its compiler options. An option that no pragma can correct stops the
+   compilation, or the creation of a world (kiri_vec.h). */
 #ifndef KIRI_FLOAT_H
 #define KIRI_FLOAT_H
 
@@ -22,7 +22,7 @@
 
 #include <float.h>
 
-/* 16: numbers of 16 bits have a type of their own, and all others too. */
+/* 16: also each _Float16 operation is rounded to its type. */
 #if FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16
 #error                                                                                                                 \
     "Kiri needs floats and doubles without excess precision: -msse2 -mfpmath=sse on x86, -fexcess-precision=fast on s390x."

@@ -1,4 +1,4 @@
-/* The motion of a sheet: its frames, moved by the solver under gravity, pins, contacts and forces. */
+/* Motion of a sheet: the solver moves its frames under gravity, pins, contacts and forces. */
 #ifndef KIRI_MOTION_H
 #define KIRI_MOTION_H
 
@@ -6,40 +6,38 @@
 
 KIRI_C_BEGIN
 
-/* What makes pieces move that rest calls one of these: they are awake, for half a second at least. All pieces, one,
-   that of a frame, those that a pin holds. */
+/* Wake all pieces, one piece, the piece of a frame, or the pieces that a pin holds. They stay awake for half a second
+   at least. */
 void kiriMotion_Wake(kiriSheetData* sheet);
 void kiriMotion_WakePiece(kiriSheetData* sheet, int32_t piece);
 void kiriMotion_WakeFrame(kiriSheetData* sheet, int32_t frame);
 void kiriMotion_WakePin(kiriSheetData* sheet, int32_t pin);
 
-/* Of the sheet, from its pieces. */
+/* Computes the sleep state of the sheet from its pieces. */
 void kiriMotion_SumRest(kiriSheetData* sheet);
 
-/* Pieces that are stirred wake, or sleep on; none is stirred any more. */
+/* Wake the stirred pieces, or let them sleep. Both clear isStirred. */
 void kiriMotion_WakeStirred(kiriSheetData* sheet);
 void kiriMotion_LetRest(kiriSheetData* sheet);
 
-/* Moves the frames by dt in equal substeps, but for those of pieces that sleep, fall asleep or wait
-   (kiriPieceTurns). Items of the quota are what linear systems count (kiriSolver_SystemItems). KIRI_MORE: there was
-   none left, and the frames are where they were. KIRI_FAILED: the motion could not be continued, the frames rest where
-   they were. Forces and contacts are used up. */
+/* Moves the frames by dt in equal substeps, except in pieces that sleep, fall asleep or are deferred (kiriPieceTurns).
+   The quota counts items of linear systems (kiriSolver_SystemItems). KIRI_MORE: no items left, frames unchanged.
+   KIRI_FAILED: the solver failed; frames keep their positions and stop. Consumes forces and contacts. */
 kiriProgress kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps, kiriQuota* systems);
 
-/* Instead of it, where no system is left for anybody and the sheet is seen as it is: it stands still, and what it would
-   look at first, as which pieces fall asleep, waits until it gets its turn. False where somebody reads what it would
-   do. */
+/* Replaces kiriMotion_Solve if no linear system is left and the visible state is current. The sheet stands still; sleep
+   and other updates are deferred to its turn. Returns false if their results are read in this tick. */
 bool kiriMotion_Wait(kiriSheetData* sheet, double dt);
 
-/* The tick is over: no piece waits. */
+/* Clears the deferred pieces at the end of a tick. */
 void kiriMotion_EndTurns(kiriSheetData* sheet);
 
-/* More of the quota it does not take in a tick. */
+/* Returns an upper bound of the items that a tick takes. */
 int64_t kiriMotion_MostItems(const kiriSheetData* sheet, int32_t substeps);
 
 kiriTotals kiriMotion_Totals(const kiriSheetData* sheet);
 
-/* The same of some frames (null: of the first ones), without the elastic energy. */
+/* Returns the totals of some frames (null: the first `count`), without the elastic energy. */
 kiriTotals kiriMotion_Sum(const kiriSheetData* sheet, const int32_t* frames, int32_t count);
 
 KIRI_C_END

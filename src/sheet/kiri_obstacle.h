@@ -1,5 +1,5 @@
-/* The shapes of obstacles, all convex, in axes of their own: how far a point is, where a moving point enters, and the
-   edges and corners that stick out. */
+/* Convex shapes of obstacles, in local axes: distance of a point, entry of a moving point, and convex edges and
+   corners. */
 #ifndef KIRI_OBSTACLE_H
 #define KIRI_OBSTACLE_H
 
@@ -9,31 +9,31 @@
 
 KIRI_C_BEGIN
 
-/* Far above all coordinates: a plane, or a prism without end, reaches so far. */
+/* Extent of planes and infinite prisms, m: far above all coordinates. */
 #define KIRI_ENDLESS 1e30
 
 typedef struct kiriObstacleShape {
     int32_t type;      /* KIRI_OBSTACLE_...; a box is kept as a prism of four corners */
-    double radius;     /* m: of a sphere, capsule or cylinder */
-    double half;       /* m: half of the height, KIRI_ENDLESS where a prism has no end */
-    double rounding;   /* m */
-    kiriVec2* outline; /* of a prism: corners, counter-clockwise, no two in one place, none on the way between two */
-    kiriVec2* normals; /* out of the edge from each corner to the next */
-    int32_t count;
-    double flat; /* m: no point of it is farther from the third axis; KIRI_ENDLESS of a plane */
+    double radius;     /* m: sphere, capsule or cylinder */
+    double half;       /* m: half height; KIRI_ENDLESS for an infinite prism */
+    double rounding;   /* m: radius added around the shape */
+    kiriVec2* outline; /* prism: corners, counter-clockwise, without duplicate or collinear ones */
+    kiriVec2* normals; /* outward normal of the edge from each corner to the next */
+    int32_t count;     /* of corners */
+    double flat; /* m: largest distance of a point from the third axis; KIRI_ENDLESS for a plane */
 } kiriObstacleShape;
 
-/* Where a point is: below 0 inside. The normal points out of the obstacle where it is nearest. */
+/* Signed distance of a point (m, below 0 inside), and the outward normal at the nearest point of the surface. */
 typedef struct kiriNearest {
     double distance;
     kiriVec3 normal;
 } kiriNearest;
 
-/* `across` is zero; or, for a sheet that stays in a plane, the unit normal of that plane: then a point inside goes the
-   shortest way out within the plane. */
+/* Finds the nearest point of the surface. `across` is zero; or the unit normal of the plane of a planar sheet: then a
+   point inside leaves by the shortest way within the plane. */
 kiriNearest kiriObstacleShape_Nearest(const kiriObstacleShape* shape, kiriVec3 point, kiriVec3 across);
 
-/* Is the point, as far as a cylinder around the shape tells, nearer than `reach`? */
+/* Returns true if the point is within `reach` (m) of a cylinder around the shape. */
 static inline bool kiriObstacleShape_MayReach(const kiriObstacleShape* shape, kiriVec3 point, double reach)
 {
     double across = shape->flat + reach, along = shape->half + shape->rounding + reach;
@@ -44,70 +44,70 @@ static inline bool kiriObstacleShape_MayReach(const kiriObstacleShape* shape, ki
     return fabs(point.z) < along && point.x * point.x + point.y * point.y < across * across;
 }
 
-/* Where a point that moves straight comes as near as `gap`: the share of its way, 0 where it is so near from the start,
-   1 where it does not come so near; and the obstacle there. The point starts at least `gap` off, or share is 0. */
+/* Finds where a point on a straight move comes within `gap` (m) of the shape. Returns the fraction of the move: 0 if it
+   starts within `gap`, 1 if it never comes that near. *nearest is the surface there. */
 double kiriObstacleShape_Enter(const kiriObstacleShape* shape, kiriVec3 from, kiriVec3 move, double gap,
                                kiriVec3 across, kiriNearest* nearest);
 
-/* How far the shape reaches along a direction (unit) from its origin. */
+/* Returns the extent of the shape from its origin along a unit direction, m (support function). */
 double kiriObstacleShape_Reach(const kiriObstacleShape* shape, kiriVec3 direction);
 
-/* An edge that sticks out, straight or, as the rims of a cylinder, round. Sheets touch it at points along it. */
+/* A convex edge: straight, or the round rim of a cylinder. Sheets touch it at points along it. */
 typedef struct kiriObstacleEdge {
-    kiriVec3 from, to; /* of a straight one; of a rim `from` is its middle */
-    kiriVec3 faces[2]; /* normals of the faces beside it; of a rim one, and its radius tells the other */
-    double radius;     /* of a rim; 0: straight */
-    double thinnest;   /* m: how deep material may be below it and still be meant */
+    kiriVec3 from, to; /* ends of a straight edge; for a rim `from` is the center */
+    kiriVec3 faces[2]; /* normals of the adjacent faces; for a rim only the first, the other is radial */
+    double radius;     /* m: of a rim; 0: straight */
+    double thinnest;   /* m: largest depth at which material below the edge still counts as a touch */
 } kiriObstacleEdge;
 
-/* There are this many; edges of a nearly even surface are left out (see kiriObstacleShape_EdgeAt). */
+/* Returns the count of edges, including the nearly flat ones that kiriObstacleShape_EdgeAt skips. */
 int32_t kiriObstacleShape_EdgeCount(const kiriObstacleShape* shape);
 
-/* False for an edge that is left out: faces beside it turn by less than 20 degrees. */
+/* Returns false for a nearly flat edge: the angle between its faces is less than 20 degrees. */
 bool kiriObstacleShape_EdgeAt(const kiriObstacleShape* shape, int32_t index, kiriObstacleEdge* edge);
 
-/* A corner of a prism that ends: three faces meet there. False for one that is nearly even along the outline: the edges
-   beside it tell enough. */
+/* A corner of a finite prism, where three faces meet. kiriObstacleShape_CornerAt returns false for a corner that is
+   nearly flat along the outline: its edges are enough. */
 typedef struct kiriObstacleCorner {
     kiriVec3 at, faces[3];
-    double thinnest; /* as of an edge */
+    double thinnest; /* see kiriObstacleEdge */
 } kiriObstacleCorner;
 
 int32_t kiriObstacleShape_CornerCount(const kiriObstacleShape* shape);
 bool kiriObstacleShape_CornerAt(const kiriObstacleShape* shape, int32_t index, kiriObstacleCorner* corner);
 
-/* Point i of `count` (4 times a power of 2) on a circle of radius 1. */
+/* Returns point i of `count` (4 times a power of 2) on the unit circle. */
 kiriVec2 kiriCircle_At(int32_t i, int32_t count);
 
-/* Obstacles: shapes that stand or move in the world, and what sheets give them. */
+/* Obstacles: shapes in the world, their motion, and the impulses of sheets on them. */
 
 typedef struct kiriObstacleData {
     kiriObstacle id;
     kiriObstacleShape shape;
     kiriVec3 position;
     kiriMat3 rotation;
-    kiriVec3 velocity, spin; /* m/s of its position, rad/s */
-    kiriVec3 surface;        /* m/s: of its surface beside that */
+    kiriVec3 velocity, spin; /* m/s, at `position`; rad/s */
+    kiriVec3 surface;        /* m/s: added velocity of the surface, as of a conveyor belt */
     double friction;
-    double mass;             /* kg; 0: nothing moves it */
-    kiriMat3 inverseInertia; /* 1/(kg m^2), in its own axes */
-    kiriVec3 center;         /* m, in its own axes: of mass, from its position */
-    uint32_t body;           /* obstacles with the same number, but 0, share what sheets give them */
+    double mass;             /* kg; 0: immovable */
+    kiriMat3 inverseInertia; /* 1/(kg m^2), local */
+    kiriVec3 center;         /* m, local: center of mass relative to `position` */
+    uint32_t body;           /* obstacles with the same nonzero number are one rigid body */
     double pushSpeed;        /* m/s */
     uint32_t groups;
 
     kiriWrench
-        impulse;      /* N s, N m s about its centre of mass then: from sheets and pins in this tick, or the last one */
-    int32_t contacts; /* of the same tick */
+        impulse;      /* N s, N m s about the center of mass: from sheets and pins in this tick, or the last one */
+    int32_t contacts; /* count in the same tick */
 
-    /* For sheets that sleep. */
-    double drift; /* m: how far it went, by its farthest point, since those near it woke last; KIRI_ENDLESS: new */
+    /* For sleeping sheets. */
+    double drift; /* m: motion of its farthest point since it last woke sheets nearby; KIRI_ENDLESS: new */
 
-    /* Around it, m, with the way that it goes in the tick: as kiriObstacle_Bound found it. */
+    /* Bounding box, m, including its motion in the tick. Written by kiriObstacle_Bound. */
     kiriVec3 lower, upper;
 } kiriObstacleData;
 
-/* Zeroed, with its outline of so many corners behind it, in one block. Null for memory. */
+/* Allocates a zeroed obstacle and its outline of `corners` corners in one block. Returns null on out of memory. */
 kiriObstacleData* kiriObstacle_Alloc(kiriMemory* memory, int32_t corners);
 
 static inline bool kiriObstacle_IsMovable(const kiriObstacleData* obstacle)
@@ -136,7 +136,7 @@ static inline kiriVec3 kiriObstacle_PointToWorld(const kiriObstacleData* obstacl
     return kiriVec3_Add(obstacle->position, kiriMat3_Mul(obstacle->rotation, local));
 }
 
-/* m/s: of its material at a point, without what its surface does beside. */
+/* Returns the rigid velocity at a point, m/s, without `surface`. */
 static inline kiriVec3 kiriObstacle_VelocityAt(const kiriObstacleData* obstacle, kiriVec3 point)
 {
     return kiriVec3_Add(obstacle->velocity, kiriVec3_Cross(obstacle->spin, kiriVec3_Sub(point, obstacle->position)));
@@ -147,26 +147,26 @@ static inline kiriVec3 kiriObstacle_CenterOfMass(const kiriObstacleData* obstacl
     return kiriObstacle_PointToWorld(obstacle, obstacle->center);
 }
 
-/* m/s: no point of it goes faster by its turning; of a plane, and of what has no end, as far as 1 km out. */
+/* Returns an upper bound of the speed by rotation, m/s. For infinite shapes it covers 1 km from the position. */
 double kiriObstacle_TurnSpeed(const kiriObstacleData* obstacle);
 
 /* Writes lower and upper for a tick of dt. */
 void kiriObstacle_Bound(kiriObstacleData* obstacle, double dt);
 
-/* Does the box come nearer than `reach` to it, as far as boxes tell, and planes? */
+/* Returns true if the box is within `reach` (m) of the bounding box, or of the plane. */
 bool kiriObstacle_IsNear(const kiriObstacleData* obstacle, kiriVec3 lower, kiriVec3 upper, double reach);
 
-/* The body that it is a part of, as contacts see it; nothing has been given to it yet. */
+/* Returns the yield row of its body for contacts, without impulses. */
 kiriYieldRow kiriObstacle_YieldRow(const kiriObstacleData* obstacle);
 
-/* Takes an impulse (N s) that a sheet or a pin gives it at a point. */
+/* Adds an impulse (N s) of a sheet or a pin at a point. */
 void kiriObstacle_TakeImpulse(kiriObstacleData* obstacle, kiriVec3 impulse, kiriVec3 at);
 
-/* It goes on with its velocities. */
+/* Moves the obstacle by its velocities over dt (s). */
 void kiriObstacle_Advance(kiriObstacleData* obstacle, double dt);
 
-/* The inverse of inertia xx yy zz xy xz yz; an axis with a zero on the diagonal does not turn. False where that is no
-   inertia: the products on such an axis are not zero, or what is left is not positive definite. */
+/* Inverts inertia xx yy zz xy xz yz. An axis with a zero diagonal is locked. Returns false for an invalid inertia:
+   nonzero products on a locked axis, or not positive definite on the others. */
 bool kiriObstacle_InvertInertia(const float inertia[6], kiriMat3* inverse);
 
 KIRI_C_END

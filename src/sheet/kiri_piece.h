@@ -39,7 +39,8 @@ bool kiriOwner_FindShares(kiriSheetData* sheet, kiriLatticePoint from, kiriLatti
 
 /* The items of each piece, in lists that are made when the host asks for them. */
 
-/* Lists the items of each piece in ascending order. pieces[i] is the piece of item i, or KIRI_NONE. False for memory. */
+/* Lists the items of each piece in ascending order. pieces[i] is the piece of item i, or KIRI_NONE. Fails on out of
+   memory. */
 bool kiriPieceItems_List(kiriPieceItems* list, kiriMemory* memory, int32_t pieceCount, const int32_t* pieces,
                          int32_t count);
 
@@ -48,7 +49,7 @@ bool kiriPieceItems_List(kiriPieceItems* list, kiriMemory* memory, int32_t piece
 bool kiriPieces_ListFrames(kiriSheetData* sheet);
 bool kiriPieces_ListMesh(kiriSheetData* sheet);
 
-/* The mesh or the pieces have changed. */
+/* Marks the lists as stale. Call when the mesh or the pieces changed. */
 static inline void kiriPieceLists_Forget(kiriPieceLists* lists)
 {
     lists->hasFrames = lists->hasMesh = false;

@@ -1,4 +1,4 @@
-/* A point of the material, as it is seen. */
+/* Queries of a material point on the visible surface, and the visible state of a sheet. */
 #ifndef KIRI_SEEN_H
 #define KIRI_SEEN_H
 
@@ -11,44 +11,45 @@ KIRI_C_BEGIN
 typedef struct kiriPointPlace {
     kiriLatticePoint at;
     int32_t triangle;
-    double shares[3]; /* of its corners */
+    double shares[3]; /* barycentric coordinates */
 } kiriPointPlace;
 
-/* False outside the material. */
+/* Finds the triangle of a point. Returns false outside the material. */
 bool kiriPoint_Find(const kiriSheetData* sheet, kiriLatticePoint at, kiriPointPlace* place);
 
-/* Where it was seen last, and the unit normal there. */
+/* Return the last visible position, and the unit normal there. */
 kiriVec3 kiriPoint_Position(const kiriSheetData* sheet, const kiriPointPlace* place);
 kiriVec3 kiriPoint_Normal(const kiriSheetData* sheet, const kiriPointPlace* place);
 
-/* Place and velocity by linear blending of the frames as they are now, without what fades: x and velocity are set. */
+/* Returns x and velocity by linear blending of the current frames, without fades. The other fields are not set. */
 kiriMotion kiriPoint_Blend(const kiriSheetData* sheet, const kiriPointPlace* place);
 
-/* Blocks of 64 vertices: which of them a tick may have to write anew, so that what sleeps, and what a cut leaves as it
-   is, costs nothing. */
+/* Blocks of 64 vertices: track which vertices a tick must write. Sleeping pieces, and vertices that a cut did not
+   change, cost nothing. */
 
 enum { KIRI_BLOCK = 64, KIRI_UNKNOWN = -2 };
 
-/* Reserves room for so many vertices and frames. */
+/* Reserves for these counts of vertices and frames. */
 bool kiriBlocks_Reserve(kiriBlocks* blocks, kiriMemory* memory, int32_t vertexCount, int32_t frameCount);
 
-/* Sets the counts, for which there is room. Nothing is known of new blocks. */
+/* Sets the counts, which are reserved. Marks new blocks as unknown. */
 void kiriBlocks_Resize(kiriBlocks* blocks, int32_t vertexCount, int32_t frameCount);
 
-/* Vertices or frames have other indices: nothing is known. */
+/* Marks all blocks as unknown. Call when vertices or frames were renumbered. */
 void kiriBlocks_Forget(kiriBlocks* blocks);
 
-/* Of these vertices some have other weights, or are new: who moves them is found anew. */
+/* Marks a block as unknown, so that its mover and frames are found again. Call when weights changed or vertices are
+   new. */
 void kiriBlocks_ForgetOne(kiriBlocks* blocks, int32_t block);
 
-/* When other pieces are awake, or blocks are not known: a block has its mover until that falls asleep, and one that has
-   none gets one where a frame of it woke. */
+/* Updates the movers. Call when the set of awake pieces changed, or blocks are unknown. A block keeps its mover until
+   that frame falls asleep; a block without a mover gets one when a frame of it wakes. */
 void kiriBlocks_FindMovers(kiriSheetData* sheet);
 
-/* Bits of the patches that are other than before. */
+/* Returns the mask of the patches that changed. */
 kiriFrameMask kiriBlocks_MaskOfOther(const kiriPatches* patches);
 
-/* May a patch of these carry a vertex of the block? */
+/* Returns true if a frame of the mask may carry a vertex of the block. */
 static inline bool kiriBlocks_MayMeet(const kiriBlocks* blocks, int32_t block, const kiriFrameMask* mask)
 {
     const uint64_t *a = blocks->frames.data[block].bits, *b = mask->bits;
@@ -68,52 +69,52 @@ static inline bool kiriBlocks_Moves(const kiriBlocks* blocks, int32_t block)
     return blocks->movers.data[block] != KIRI_NONE;
 }
 
-/* What the host sees of a sheet: the skinned mesh and the collision points. */
+/* The visible state of a sheet: the skinned mesh and the collision points. */
 
 typedef struct kiriViewCounts {
     int32_t vertices, triangles, frames, points;
 } kiriViewCounts;
 
-/* Reserves room, so that Resize, and writing, cannot fail. */
+/* Reserves all arrays, so that Resize and writing cannot fail. */
 bool kiriView_Reserve(kiriSheetData* sheet, kiriViewCounts counts);
 
-/* Makes all arrays as long as the mesh, the points, and so many frames need. */
+/* Resizes all arrays for the mesh, the points and `frameCount` frames. */
 void kiriView_Resize(kiriSheetData* sheet, int32_t frameCount);
 
-/* Room for what fades in so much time when a cut takes effect, or what is seen changes otherwise. */
+/* Reserves the fades of a commit, or of changed settings. `fadeTime` in s; 0 needs no room. */
 bool kiriView_ReserveFades(kiriSheetData* sheet, int32_t vertexCount, int32_t pointCount, double fadeTime);
 
-/* The vertices whose weights are staged; before these take effect. */
+/* Marks the blocks of vertices with staged weights. Call before the commit of the weights. */
 void kiriView_TouchStaged(kiriSheetData* sheet);
 
-/* What has changed in the mesh; before kiriMesh_Commit. */
+/* Writes the changed triangles and new vertices. Call before kiriMesh_Commit. */
 void kiriView_WriteTopology(kiriSheetData* sheet);
 
-/* New vertices of a tick in which nothing moves: they get normals, which writing positions would give them. */
+/* Writes the normals of new vertices in a tick that does not write positions. */
 void kiriView_ShowNewborn(kiriSheetData* sheet);
 
-/* Pieces that are gone are seen no more; the indices that the host may hold are another array by now. */
+/* Hides destroyed pieces. The index array that the host may hold was replaced before. */
 void kiriView_HideGone(kiriSheetData* sheet);
 
-/* After all commits of a tick, and before the sheet moves: what is seen stays where it is, and fades from there to
-   where it belongs. Then time goes on. */
+/* TakeJump turns the change by the commits of a tick into fading offsets, so that nothing visibly jumps. Call it after
+   all commits and before the sheet moves. Fade then decays the offsets over dt (s). */
 void kiriView_TakeJump(kiriSheetData* sheet);
 void kiriView_Fade(kiriSheetData* sheet, double dt);
 
-/* Would writing positions change nothing, as long as frames stay where they are? */
+/* Returns true if writing positions would change nothing while the frames do not move. */
 bool kiriView_IsSettled(const kiriSheetData* sheet);
 
-/* Frees what fades have no use for. */
+/* Frees the memory of fades that ended. */
 void kiriView_Trim(kiriSheetData* sheet);
 
-/* When positions are written: the boxes around them, where somebody asks. */
+/* Updates the bounds after positions were written, if they are in use. */
 void kiriView_KeepBounds(kiriSheetData* sheet);
 
-/* Positions and normals from the frames (section 4.1 of the paper). */
+/* Writes positions and normals from the frames (section 4.1 of the paper). */
 void kiriView_WritePositions(kiriSheetData* sheet);
 
-/* The same in steps, one after the other: what runs over the vertices from `begin` to `end` writes nothing else, so
-   that ranges, which begin at multiples of 4, may be written at the same time. */
+/* The steps of kiriView_WritePositions, in order. A range step writes only the vertices from `begin` to `end`, so
+   ranges that begin at multiples of 4 may run in parallel. */
 void kiriView_TakeFrames(kiriSheetData* sheet);
 void kiriView_BlendRange(kiriSheetData* sheet, int32_t begin, int32_t end);
 void kiriView_Sum(kiriSheetData* sheet);

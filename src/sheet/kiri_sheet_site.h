@@ -1,5 +1,5 @@
-/* Links across a line that is clamped. What is on its two sides has nothing to do with each other there: the sites on
-   both sides are linked with the line instead. */
+/* Links across a clamped line. The clamp replaces them: it couples the sites on either side with the line instead of
+   with each other. */
 #ifndef KIRI_SHEET_SITE_H
 #define KIRI_SHEET_SITE_H
 
@@ -7,46 +7,45 @@
 
 KIRI_C_BEGIN
 
-/* For a line whose shares are in sheet->lineShares. Adds to the shares: a frame whose region the line meets has its
-   site on one side, so what the line has in the region goes, on the other side, to the frames that it is linked with
-   across the line. And adds to `severed` the links in place of which the clamp of index `pin` then is. isStaged: with
-   links and sites of the next commit. False for memory. */
+/* Extends the shares of the line in sheet->lineShares to both sides. A region that the line meets has its site on one
+   side; its share of the line also goes, on the other side, to the frames linked with it across the line. Adds to
+   `severed` the links that the clamp of index `pin` replaces. isStaged: uses links and sites of the next commit. Fails
+   on out of memory. */
 bool kiriSever_Across(kiriSheetData* sheet, kiriLatticePoint from, kiriLatticePoint to, int32_t pin, bool isStaged,
                       kiriSevered* severed);
 
-/* Where the frames of a sheet have their sites: found again after a cut, added to pieces that have none, and where
-   frames are too few (section 5 of the paper). Steps of an update; what they change is in sheet->update: sites and
-   moves. */
+/* Sites of frames in an update: located again after a cut, added to pieces without a frame, and added where frames are
+   too few (section 5 of the paper). The steps change sites and moves in sheet->update. */
 
-/* The cells of the sites that were there, in the grid as it is; a move for each that is in another cell. False for
-   memory. */
+/* Finds the cells of the existing sites in the current grid, and adds a move for each site that changed its cell. Fails
+   on out of memory. */
 bool kiriSites_Relocate(kiriSheetData* sheet);
 
-/* Sites for the pieces of orphans, at least one each; marks are cleared before, one a cell. */
+/* Places at least one site in each piece of orphans. Needs cleared marks, one a cell. */
 kiriProgress kiriSites_PlaceInOrphans(kiriSheetData* sheet, kiriQuota* cells);
 
-/* One more site for each piece with a frame that weighs too much or has too large a region; marks are cleared before,
-   one a frame. There are moves after it where it added any. */
+/* Adds sites to each piece in which a frame exceeds rigidWeight or has too large a region. Adds moves for them. Needs
+   cleared marks, one a frame. */
 kiriProgress kiriSites_Resample(kiriSheetData* sheet, kiriQuota* cells);
 
-/* May a frame want another beside it? Also true where nothing is known of frames. */
+/* Returns true if a piece may need more frames, or if this is unknown. */
 bool kiriSites_MayBeFew(const kiriSheetData* sheet);
 
-/* Makes sheet->update.marks `count` zeros, and starts at the first. False for memory. */
+/* Sets placing.marks to `count` zeros, and placing.at to 0. Fails on out of memory. */
 bool kiriSites_ClearMarks(kiriSheetData* sheet, int32_t count);
 
-/* How many frames so many cells carry: links are measured on the grid, and it takes more than a square from site to
-   site to tell how long and how wide they are. */
+/* Returns the largest count of frames for this count of cells. The grid measures length and width of links, which needs
+   more than a square between sites. */
 int32_t kiriSites_MostIn(int32_t cells);
 
-/* Is a site of the list less than a square away, over a step at most? `holder` has the site in each cell, or
-   KIRI_NONE. */
+/* Returns true if another site is less than a square away, within one step of the grid. `holder` is the site in each
+   cell, or KIRI_NONE. */
 bool kiriSites_IsCrowded(const kiriGrid* grid, const kiriSites* sites, const kiriSite* site, const int32_t* holder);
 
-/* Carries on what the placer has started; isPlacing says whether it goes on in the next tick. */
+/* Continues the placer. isPlacing stays true if it must continue in the next tick. */
 kiriProgress kiriSites_RunPlacer(kiriSheetData* sheet, kiriQuota* quota);
 
-/* How many of `count` things spread over the sheet fall to the piece in the placer: one at least. */
+/* Returns the share of the current piece, by area, in `count` items over the sheet; at least 1. */
 int32_t kiriSites_ShareOf(const kiriSheetData* sheet, double count);
 
 KIRI_C_END
