@@ -120,7 +120,7 @@ static void ReadBodies(kiriArchive* archive, kiriSolver* solver, int32_t frameCo
     kiriArchive_Numbers(archive, bodyOf.data, 4, frameCount);
     for (int32_t f = 0; f < frameCount && !kiriArchive_HasFailed(archive); ++f) {
         kiriArchive_Expect(archive, bodyOf.data[f] >= 0 && bodyOf.data[f] <= bodies);
-        bodies = kiriMax(bodies, bodyOf.data[f] + 1);
+        bodies += bodyOf.data[f] == bodies;
     }
     kiriArchive_Expect(archive, bodies == bodyCount);
     if (!kiriArchive_HasFailed(archive)) {
