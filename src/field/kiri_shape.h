@@ -44,8 +44,8 @@ typedef struct kiriShape {
     kiriSpans room;
     kiriReaches reaches; /* of each frame: distances of the cells that its weight may reach */
 
-    /* Of each frame: the area of its rigid cells, where its weight exceeds rigidWeight. The unit is 2^-40 of a square:
-       sums of whole numbers do not depend on their order. */
+    /* Per frame: the area of its rigid cells, where its weight exceeds rigidWeight. The unit is 2^-40 of a square:
+       integer sums do not depend on their order. */
     KIRI_ARRAY(int64_t) rigid;
     double rigidWeight; /* set before the first update */
     bool eased; /* weights of points have no kinks at sites, see kiri_stencil.c; weights of cells are linear */

@@ -1,5 +1,5 @@
-/* Cutting (appendix A of the paper, algorithm 4): a blade walks from vertex to vertex, splits triangles and edges, and opens
-   the edges behind it. Also finds the material along a straight line. */
+/* Cutting (appendix A of the paper, algorithm 4): a blade walks from vertex to vertex, splits triangles and edges, and
+   opens the edges behind it. Also finds the material along a straight line. */
 #ifndef KIRI_CUT_H
 #define KIRI_CUT_H
 
@@ -26,9 +26,9 @@ typedef struct kiriLine {
     kiriIndices order[2];             /* of covers to the left and to the right, along the line. Private */
 } kiriLine;
 
-/* Finds the parts of a line with material on at least one side, in order, without overlap. It looks a 1024th of a square
-   beside the line: so a line along the outline finds the inside although points are rounded, and a line along a cut finds
-   both lips. The ends differ. Returns false on out of memory. */
+/* Finds the parts of a line with material on at least one side, in order, without overlap. It looks a 1024th of a
+   square beside the line: so a line along the outline finds the inside although points are rounded, and a line along a
+   cut finds both lips. The ends differ. Returns false on out of memory. */
 bool kiriLine_Trace(kiriLine* line, kiriMemory* memory, const kiriMeshData* mesh, kiriLatticePoint from,
                     kiriLatticePoint to);
 
@@ -54,21 +54,21 @@ typedef struct kiriBladeTip {
     int64_t owed;              /* items of finished work that are not yet paid */
 } kiriBladeTip;
 
-/* Most triangles that a step of the blade makes or reshapes: it splits one edge or triangle. With less quota the blade
-   does not move. */
+/* Upper limit of the triangles that one step of the blade makes or reshapes: it splits one edge or triangle. With less
+   quota the blade does not move. */
 enum { KIRI_MOST_SPLITS = 4 };
 
 /* Moves the blade to `to` in a straight line and cuts on the way; it may leave the sheet and come back. `snap` is the
-   snap distance in lattice steps. The cut keeps within half of it of the line, and takes corners and edges of the mesh
-   a quarter of it away. Lips and the outline attract it from farther, by 3/2: an end of the move meets the lip there,
-   and so do the ends of lips that the line passes. So ends of lines that are a snap apart always meet, and those two
-   snaps apart never do. Where a lip runs beside the line within the snap distance, the blade goes along the lip and cuts
+   snap distance in lattice steps. The cut stays within half a snap of the line, and uses corners and edges of the mesh
+   within a quarter. Lips and the outline attract it within 3/2: an end of the move meets the lip there, and so do the
+   ends of lips that the line passes. So ends of lines at a distance of one snap always meet, and ends at a distance of
+   two snaps never do. If a lip runs beside the line within the snap distance, the blade follows the lip and cuts
    nothing; where it leaves the lip, it cuts back to the line at a small angle.
-   A step takes an item of the quota for each triangle that it makes or reshapes, and one where it finds its way
-   without; and more where it looks at many squares, at many triangles in one, or around a vertex with many. What
-   is more than there is left the next call takes first. KIRI_MORE: less than KIRI_MOST_SPLITS is left, and the blade is
-   on its way; a call with the same `to` goes on, and in the end the mesh is what one call had made of it, bit for bit.
-   KIRI_FAILED: out of memory. The blade has taken the steps that are done; a call with the same `to` goes on. */
+   A step costs an item of the quota for each triangle that it makes or reshapes, and one if it only finds its way. It
+   costs more if it tests many squares, many triangles in a square, or a vertex with many triangles. The next call pays
+   the costs beyond the quota first. KIRI_MORE: the quota is below KIRI_MOST_SPLITS, and the move is incomplete; call
+   again with the same `to`. The final mesh is the same as after a single call, bit for bit. KIRI_FAILED: out of memory.
+   Completed steps are kept; call again with the same `to`. */
 kiriProgress kiriCut_Move(kiriMeshData* mesh, kiriBladeTip* blade, kiriLatticePoint to, double snap, kiriQuota* quota);
 
 /* Returns a blade at a lattice point, for kiriCut_Move. */
@@ -82,8 +82,8 @@ static inline kiriBladeTip kiriCut_PlaceAt(kiriLatticePoint at)
    segments by kiriCut_Clip first if that matters. */
 kiriBladeTip kiriCut_Place(const kiriMeshData* mesh, kiriVec2 local);
 
-/* Clips the segment to the range of the lattice (the box of the sheet and half its size around it), in place. Returns false
-   if nothing is left. Coordinates are local, finite, and of any size. */
+/* Clips the segment to the range of the lattice (the box of the sheet and half its size around it), in place. Returns
+   false if nothing is left. Coordinates are local, finite, and of any size. */
 bool kiriCut_Clip(const kiriMeshData* mesh, kiriVec2* from, kiriVec2* to);
 
 KIRI_C_END

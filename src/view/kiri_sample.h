@@ -42,8 +42,8 @@ typedef struct kiriMotion {
     kiriMat3 A, rate; /* rate: derivative of A */
 } kiriMotion;
 
-/* Stages the weights of a sample at a local point of a cell. A sample is staged at most once before a commit. New samples,
-   from `spans.count` on, are staged in ascending order. Returns false on out of memory. */
+/* Stages the weights of a sample at a local point of a cell. A sample is staged at most once before a commit. New
+   samples, from `spans.count` on, are staged in ascending order. Returns false on out of memory. */
 bool kiriSkin_Stage(kiriSkin* skin, kiriMemory* memory, const kiriShape* shape, const kiriGrid* grid,
                     const kiriMeshData* mesh, int32_t sample, int32_t cell, kiriVec2 at);
 
@@ -51,8 +51,8 @@ bool kiriSkin_Stage(kiriSkin* skin, kiriMemory* memory, const kiriShape* shape, 
 void kiriSkin_Commit(kiriSkin* skin);
 void kiriSkin_Drop(kiriSkin* skin);
 
-/* Sorts the weights by samples, for speed, with some room for more. Nothing may be staged. Returns false on out of memory:
-   then nothing changes. */
+/* Sorts the weights by samples, for speed, with some room for more. Nothing may be staged. Returns false on out of
+   memory: then nothing changes. */
 bool kiriSkin_Sort(kiriSkin* skin, kiriMemory* memory);
 
 /* Lists of the samples in each square, for samples that never move. */
@@ -65,8 +65,8 @@ typedef struct kiriPlaces {
 bool kiriPlaces_Reserve(kiriPlaces* places, kiriMemory* memory, const kiriMeshData* mesh, int64_t sampleCount);
 bool kiriPlaces_Add(kiriPlaces* places, kiriMemory* memory, const kiriMeshData* mesh, kiriLatticePoint at);
 
-/* Stages the samples whose weights may have changed: those in or beside the square of a cell in shape->changes, or in or
-   beside a square that was noted. */
+/* Stages the samples whose weights may have changed: those in or beside the square of a cell in shape->changes, or in
+   or beside a square that was noted. */
 typedef struct kiriRefresh {
     KIRI_ARRAY(int32_t) noted;   /* squares in which the mesh changed, until Start */
     KIRI_ARRAY(int32_t) squares; /* with such samples */
@@ -96,21 +96,22 @@ bool kiriRefresh_NoteDirty(kiriRefresh* refresh, kiriMemory* memory, const kiriM
 kiriProgress kiriRefresh_Start(kiriRefresh* refresh, const kiriSampleSource* source, int32_t firstVertex,
                                kiriQuota* quota);
 
-/* Stages new vertices, old vertices whose weights change, and points. An item of the quota is a sample, or 16 squares. */
+/* Stages new vertices, old vertices whose weights change, and points. An item of the quota is a sample, or 16 squares.
+   */
 kiriProgress kiriRefresh_Stage(kiriRefresh* refresh, const kiriSampleSource* source, kiriQuota* quota);
 
 /* Drops the noted squares, and a Start that waits for quota. */
 void kiriRefresh_Drop(kiriRefresh* refresh);
 
-/* Samples that were found are staged again, from the first on; the caller drops what is staged. */
+/* Restarts staging at the first sample found. The caller drops the staged samples. */
 static inline void kiriRefresh_Restart(kiriRefresh* refresh)
 {
     refresh->square = 0;
     refresh->sample = refresh->stencil.cell = KIRI_NONE;
 }
 
-/* Vertices born since kiriMesh_Begin take a blend of their parents' weights, so that they lie on the surface as it was.
-   Reserve makes room for so many of them; No sample has more weights than there are frames. */
+/* Give vertices born since kiriMesh_Begin a blend of their parents' weights, so that they lie on the old surface.
+   Reserve makes room for `births` of them; no sample has more weights than there are frames. */
 bool kiriSkin_ReserveBirths(kiriSkin* skin, kiriMemory* memory, int32_t births, int32_t frames);
 void kiriSkin_Inherit(kiriSkin* skin, kiriMemory* memory, const kiriMeshData* mesh);
 

@@ -1,5 +1,5 @@
-/* The surface in world space: the arrays that the host reads. Fades hide the jump when a cut takes effect: samples start at
-   their previous positions and go over to the new ones within a few ticks. */
+/* The surface in world space: the arrays that the host reads. Fades hide the jump when a cut takes effect: samples
+   start at their previous positions and go over to the new ones within a few ticks. */
 #ifndef KIRI_SURFACE_H
 #define KIRI_SURFACE_H
 
@@ -34,8 +34,8 @@ void kiriFades_Trim(kiriFades* fades, kiriMemory* memory);
 /* Removes the samples that are not kept. */
 void kiriFades_Keep(kiriFades* fades, const kiriKeep* samples);
 
-/* When a cut takes effect: Start, then Take, in ascending order, for each sample that fades or may have jumped. `offset` is
-   from the new position of its weights to the position that was last written. */
+/* When a cut takes effect: Start, then Take, in ascending order, for each sample that fades or may have jumped.
+   `offset` is from the new position of its weights to the position that was last written. */
 void kiriFades_Start(kiriFades* fades);
 void kiriFades_TakeJump(kiriFades* fades, int32_t sample, kiriVec3 offset);
 
@@ -125,7 +125,7 @@ static inline void kiriSurface_Place(kiriSurface* surface, int32_t vertex, kiriV
     kiriVec3_Store(kiriSurface_Places(surface) + 3 * (ptrdiff_t)vertex, kiriVec3_Sub(at, surface->middle));
 }
 
-/* Reserves room for so many vertices, triangles and frames. */
+/* Reserves room for these numbers of vertices, triangles and frames. */
 bool kiriSurface_Reserve(kiriSurface* surface, kiriMemory* memory, int64_t vertices, int64_t triangles,
                          int32_t frameCount);
 
@@ -145,7 +145,8 @@ typedef struct kiriShown {
     KIRI_ARRAY(int32_t) indices, sourceTriangles;
 } kiriShown;
 
-/* Makes room for the items that are kept, in the memory of the surface. Returns false on out of memory: then Release. */
+/* Makes room for the items that are kept, in the memory of the surface. Returns false on out of memory: then Release.
+   */
 bool kiriShown_Reserve(kiriShown* shown, kiriMemory* memory, const kiriKeep* triangles, const kiriKeep* vertices);
 void kiriShown_Release(kiriShown* shown, kiriMemory* memory);
 
@@ -164,9 +165,9 @@ bool kiriSurface_RenewIndices(kiriSurface* surface, kiriMemory* memory, kiriMemo
 /* Hides a triangle: sets its corners to the first. */
 void kiriSurface_HideTriangle(kiriSurface* surface, int32_t triangle);
 
-/* Takes over where the frames are. The links tell a smooth surface how to bend; a linear one does not ask. Where nothing
-   is other than when arrays were written, they stay so. `moved`: only these frames may be elsewhere than when they were
-   taken over last, and `movedLinks` are their links; or null. */
+/* Takes over where the frames are. The links tell a smooth surface how to bend; a linear one does not ask. Where
+   nothing is other than when arrays were written, they stay so. `moved`: only these frames may be elsewhere than when
+   they were taken over last, and `movedLinks` are their links; or null. */
 void kiriSurface_TakeFrames(kiriSurface* surface, const kiriFrameData* frames, int32_t frameCount,
                             const kiriLink* links, int32_t linkCount, const kiriIndices* moved,
                             const kiriIndices* movedLinks);
@@ -200,8 +201,8 @@ void kiriSurface_CopyVertices(const kiriSurface* surface, int32_t first, int32_t
 /* Returns false if there are too many vertices for 16 bits. 65535 restarts primitives, so it is not a vertex. */
 bool kiriSurface_CopyIndices16(const kiriSurface* surface, int32_t firstTriangle, int32_t count, uint16_t* indices);
 
-/* Builds the surface with a thickness, to draw: its two sides, and a rim along all borders, also lips of cuts. The arrays
-   are in one block of `memory`. Returns false on out of memory. */
+/* Builds the surface with a thickness, to draw: its two sides, and a rim along all borders, also lips of cuts. The
+   arrays are in one block of `memory`. Returns false on out of memory. */
 bool kiriSolid_Build(kiriSolid* solid, kiriMemory* memory, const kiriSurface* surface, const kiriMeshData* mesh,
                      double thickness);
 

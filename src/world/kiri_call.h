@@ -1,6 +1,6 @@
 /* How public functions begin and end. A table lists each function that changes the world, with the kinds of its
-   arguments. By this table kiriCall_Begin checks and records them, and kiriWorld_Replay reads them and calls the
-   function. Functions that only read check their few arguments in line, which costs less than a walk over the table. */
+   arguments. kiriCall_Begin checks and records the arguments by this table; kiriWorld_Replay reads them and calls the
+   function. Functions that only read check their few arguments inline, which is cheaper than a walk over the table. */
 #ifndef KIRI_CALL_H
 #define KIRI_CALL_H
 
@@ -173,7 +173,7 @@ typedef struct kiriStruct {
 extern const kiriValue kiriArguments[KIRI_ARGUMENT_KINDS];
 extern const kiriStruct kiriSettingsStruct, kiriWorldDefStruct;
 
-/* Defs contain the size of their struct, which detects defs of another version and defs that nobody filled. */
+/* Cookie of a def: the size of its struct. It detects defs of another version and uninitialised defs. */
 #define KIRI_COOKIE(Type) (0x4b000000u | (uint32_t)sizeof(Type))
 
 /* Checks the members of a struct, but not its cookie. The fault names the first bad one, as in "name.friction is -1".

@@ -1,4 +1,4 @@
-/* Sheets are moved, side by side where they may. */
+/* Motion of sheets in a tick, in parallel where possible; pins on obstacles; obstacles; skinning. */
 #ifndef KIRI_MOVE_H
 #define KIRI_MOVE_H
 
@@ -6,78 +6,81 @@
 
 KIRI_C_BEGIN
 
-/* When touches are found: room, and which sheets move the same body. False for memory. */
+/* Reserves room, and finds the sheets that move the same body. Call it after touches are found. Fails on out of memory.
+   */
 bool kiriMoves_Prepare(kiriWorld* world);
 
-/* The k-th sheet that is moved, an index, where `turn` is the first whose turn it is. */
+/* Returns the index of the k-th sheet to move. The order starts at `turn`. */
 int32_t kiriMoves_SheetAt(const kiriWorld* world, int32_t turn, int32_t k);
 
-/* Moves the active sheets, first the one that came too late in the last tick. In `of` is what became of each. */
+/* Moves the active sheets, starting with the sheet for which the last tick had no systems left. Writes `moves.of`. */
 void kiriMoves_Run(kiriWorld* world, double dt, int32_t substeps, kiriQuota* systems);
 
-/* Pins that go with obstacles. */
+/* ---- Pins on obstacles ---- */
 
-/* The obstacle that a pin goes with, or null. */
+/* Returns the obstacle that a pin is attached to, or null. */
 kiriObstacleData* kiriPinStep_Obstacle(const kiriWorld* world, const kiriPinData* pin);
 
-/* The target as it is now is where the obstacle has it from now on. */
+/* Attaches the pin's current target to the obstacle. */
 void kiriPinStep_Fasten(const kiriWorld* world, kiriPinData* pin);
 
-/* The sheet has gone to R x + t: so do the targets of its pins, but those on obstacles. */
+/* Moves the targets of the sheet's pins to R x + t, except pins on obstacles. */
 void kiriPinStep_Carry(const kiriWorld* world, kiriSheetData* sheet, const kiriMat3* R, kiriVec3 t);
 
-/* Before a sheet is moved: targets go from where obstacles are to where they will be at the end of the tick. Wakes the
-   sheet where one has moved. */
+/* Sets the motion of targets from the obstacles' current poses to their poses at the end of the tick. Wakes the sheet
+   if a target moved. Call it before a sheet is moved. */
 void kiriPinStep_Begin(const kiriWorld* world, kiriSheetData* sheet, double dt);
 
-/* After it, or while it sleeps: obstacles that may be moved, or the others, take what pins gave them. */
+/* Gives the impulses of pins to their obstacles: to movable ones, or to the others. Call it after a sheet is moved, or
+   while it sleeps. */
 void kiriPinStep_End(const kiriWorld* world, const kiriSheetData* sheet, double dt, bool areMovable);
 
-/* The obstacles of a world, and what they do in a tick. */
+/* ---- Obstacles ---- */
 
-/* Room and an id for one more. KIRI_ERROR_MEMORY or KIRI_ERROR_LIMIT. */
+/* Reserves room and an id for one more obstacle. Returns KIRI_OK, KIRI_ERROR_MEMORY or KIRI_ERROR_LIMIT. */
 kiriResult kiriObstacles_Reserve(kiriWorld* world);
 
-/* Takes over one that was made of a block of the world, and gives it its id. */
+/* Adds an obstacle, made in a block of the world's memory, and gives it its id. */
 void kiriObstacles_Add(kiriWorld* world, kiriObstacleData* obstacle);
 
-/* Sheets that rest near it wake. */
+/* Remove or move an obstacle. Sheets that rest near it wake. */
 void kiriObstacles_Remove(kiriWorld* world, kiriObstacleData* obstacle);
 void kiriObstacles_Put(kiriWorld* world, kiriObstacleData* obstacle, kiriVec3 position, kiriMat3 rotation);
 
-/* Of its body: above zero, that of an obstacle on its own below 2^32 and odd. */
+/* Returns the number of the obstacle's body, above zero. An obstacle without a body has a unique number. */
 int64_t kiriObstacles_NumberOf(const kiriObstacleData* obstacle);
 
-/* The obstacle of a touch; null for what is no touch of an obstacle. */
+/* Returns the obstacle of a touch, or null if the touch has no obstacle. */
 kiriObstacleData* kiriObstacles_OwnerOf(const kiriWorld* world, uint64_t key);
 
 /* ---- In a tick ---- */
 
-/* Before anything is committed: what sheets may touch, and which of those that sleep shall wake. False for memory: then
-   nothing has changed. */
+/* Finds the possible touches of sheets, and the sleeping pieces to wake. Call it before anything is committed. Fails on
+   out of memory: then nothing has changed. */
 bool kiriObstacles_FindTouches(kiriWorld* world, double dt);
 
-/* Room for what pieces of the sheet that sleep press with. False for memory. */
+/* Reserves room for the loads of the sheet's sleeping pieces on obstacles. Fails on out of memory. */
 bool kiriObstacles_ReserveRests(const kiriWorld* world, kiriSheetData* sheet);
 
-/* The tick is not refused: nothing has been given yet. */
+/* Clears the impulses of obstacles. Call it when the tick cannot be refused any more. */
 void kiriObstacles_Begin(kiriWorld* world);
 
-/* Before a sheet is moved: its yield rows get what other sheets gave the same bodies. */
+/* Adds to the sheet's yield rows the impulses of other sheets on the same bodies. Call it before a sheet is moved. */
 void kiriObstacles_LoadYields(const kiriWorld* world, kiriSheetData* sheet);
 
-/* After it, or while it sleeps: obstacles that it may move, or the others, take what it gave them. */
+/* Gives the impulses of a sheet to obstacles: to movable ones, or to the others. Call it after a sheet is moved, or
+   while it sleeps. */
 void kiriObstacles_TakeImpulses(const kiriWorld* world, kiriSheetData* sheet, double dt, bool areMovable);
 
-/* They go on with their velocities. */
+/* Moves the obstacles by their velocities. */
 void kiriObstacles_End(kiriWorld* world, double dt);
 
-/* Sheets are skinned, side by side; large ones by ranges of their vertices. */
+/* ---- Skinning, in parallel; large sheets by ranges of vertices ---- */
 
-/* Room for the ranges. False for memory. */
+/* Reserves room for the ranges. Fails on out of memory. */
 bool kiriSkinStep_Prepare(kiriWorld* world);
 
-/* Of the sheets that the tick at hand looks at. */
+/* Skins the active sheets. */
 void kiriSkinStep_Run(kiriWorld* world, double dt);
 
 KIRI_C_END

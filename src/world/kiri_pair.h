@@ -1,9 +1,11 @@
-/* Pairs: pieces, of one sheet or of two, that are near each other, and which of them lies on which side of the other.
+/* Pairs: pieces, of one sheet or of two, that are near each other, and the side of the lower piece on which the upper
+   piece lies.
 
-   A pair keeps its side for as long as the two are near: the upper piece stays on that side of the lower one, whose
-   triangles have a side by their order in the rest plane. A side for each point would never come to rest where pieces
-   have crossed: some points push one way, others the other way. The upper one is that against gravity, so that what
-   lies on a floor is not pushed into it: planes carry it, and what it presses with becomes a load on the lower one. */
+   A pair keeps its side as long as the two are near: the upper piece stays on that side of the lower one. Triangles
+   have sides by the order of their corners in the rest plane. If each point had a separate side, pieces that have
+   crossed would never come to rest: some points push one way, others the other way. Gravity decides which piece is the
+   upper one, so a piece that lies on a floor is not pushed into it. Planes carry the upper piece, and its pushes become
+   loads on the lower one. */
 #ifndef KIRI_PAIR_H
 #define KIRI_PAIR_H
 
@@ -11,59 +13,56 @@
 
 KIRI_C_BEGIN
 
-/* Finds the pairs of the coming tick, and what touches, by the surfaces as they are seen. Only sheets that have
-   touchesSheets take part, and no planar ones: these lie in one plane. Nothing that is in force changes. False for
-   memory. */
+/* Finds the pairs and touches of the coming tick, by the visible surfaces. Only sheets with touchesSheets take part,
+   but not planar sheets, which all lie in one plane. Changes nothing committed. Fails on out of memory. */
 bool kiriPairs_Find(kiriWorld* world, double dt);
 
-/* Stirs pieces that sleep and touch something awake, or lay on a gone piece. Returns whether any are stirred. */
+/* Stirs pieces that sleep and touch something awake, or lay on a removed piece. Returns true if any are stirred. */
 bool kiriPairs_Stir(const kiriWorld* world);
 
-/* Puts the new pairs in force. */
+/* Replaces the pairs by the new ones. */
 void kiriPairs_Commit(kiriWorld* world);
 
-/* Adds planes of lower pieces to the sheets of upper pieces. Skips sheets that are not active: these do not move. Call
-   it between kiriTouches_Begin and kiriTouches_Reserve. False for memory. */
+/* Adds planes of lower pieces to the sheets of upper pieces. Skips sheets that are not active, because they do not
+   move. Call it between kiriTouches_Begin and kiriTouches_Reserve. Fails on out of memory. */
 bool kiriPairs_AddTouches(kiriWorld* world, double dt);
 
-/* What the upper ones pressed with in the last tick acts on the lower ones in this one; and what they press with now is
-   kept for the next. Before and after all sheets are moved. */
+/* ApplyLoads applies the pushes of upper pieces in the last tick to the lower pieces; call it before sheets are moved.
+   TakeLoads stores the pushes of this tick for the next one; call it after all sheets are moved. */
 void kiriPairs_ApplyLoads(kiriWorld* world, double dt);
 void kiriPairs_TakeLoads(kiriWorld* world, double dt);
 
-/* After the sheets are moved: pieces that touch get no more energy from each other than they give each other. Before
-   kiriPairs_TakeLoads. */
+/* Limits the energy of pieces that touch: they gain no more from each other than they pass on. Call it after the sheets
+   are moved and before kiriPairs_TakeLoads. */
 void kiriPairs_LimitEnergy(kiriWorld* world);
 
-/* After these: pieces that touch are as calm as the least calm of them, so that they fall asleep together. */
+/* Gives touching pieces the calm of the least calm of them, so that they fall asleep together. Call it last. */
 void kiriPairs_JoinCalm(kiriWorld* world);
 
-/* Pairs that are in force and do not sleep. */
+/* Returns the number of pairs that are awake. */
 int32_t kiriPairs_CountAwake(const kiriWorld* world);
 
-/* Shared by the files of pairs: kiri_pair.c (which pieces are near each other), kiri_pair.c (where they touch),
-   kiri_pair.c (loads) and kiri_pair.c (energy and calm of pieces that touch). No other file of the library
-   includes it. */
+/* ---- Used only in kiri_pair.c ---- */
 
 static inline bool kiriPair_TakesPart(const kiriSheetData* sheet)
 {
     return sheet->settings.touchesSheets && !sheet->settings.mechanics.planar;
 }
 
-/* The piece of a body, where it is there still; else null. */
+/* Returns the piece of a body, or null if it no longer exists. */
 kiriPiece* kiriPair_PieceOf(const kiriWorld* world, kiriFrame id);
 
-/* m: so far apart two bodies stay. */
+/* Returns the distance that two bodies keep, m. */
 double kiriPair_Distance(const kiriBody* a, const kiriBody* b);
 
-/* m/s: of the place that is near a probe. */
+/* Returns the velocity of the place near a probe, m/s. */
 kiriVec3 kiriNear_PlaceVelocity(const kiriPairs* pairs, const kiriNear* near);
 
-/* From what is near: where the pairs that come in force next touch. False for memory. */
+/* Finds the places where the pairs of the coming tick touch, from the near places. Fails on out of memory. */
 bool kiriPairs_FindTouches(kiriWorld* world, double dt);
 
-/* Makes room for the islands of the current tick. Call it when all sheets that may be active are listed. False for
-   memory. */
+/* Reserves room for the islands of the current tick. Call it after all sheets that may be active are listed. Fails on
+   out of memory. */
 bool kiriPairs_ReserveIslands(kiriWorld* world);
 
 KIRI_C_END
