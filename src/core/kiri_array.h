@@ -83,8 +83,8 @@ typedef struct kiriSpans {
 } kiriSpans;
 
 /* Sets the count of a span and reserves for it. Keeps the first items; new ones are not initialised. May move the
-   items, even when it shrinks. `array` is the KIRI_ARRAY with the items of all spans; itemBytes is at least 4. Changes nothing
-   on out of memory: false. Shrinking cannot fail. */
+   items, even when it shrinks. `array` is the KIRI_ARRAY with the items of all spans; itemBytes is at least 4. Changes
+   nothing on out of memory: false. Shrinking cannot fail. */
 bool kiriSpan_Resize(kiriSpan* span, kiriSpans* spans, kiriMemory* memory, void* array, size_t itemBytes,
                      int32_t count);
 

@@ -217,7 +217,7 @@ static inline bool kiriQuota_IsSpent(const kiriQuota* quota)
     return quota->left == 0 && kiriQuota_IsBegun(quota);
 }
 
-/* Pays a debt, as far as the quota goes. Returns false if some is still owed. Progress depends only on the sum of the
+/* Pays a debt as far as the quota goes. Returns false if some is still owed. Progress depends only on the sum of the
    quotas, not on how it is split over ticks. Never exceeds a limit, unlike kiriQuota_Take. */
 static inline bool kiriQuota_Pay(kiriQuota* quota, int64_t* owed)
 {

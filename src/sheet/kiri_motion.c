@@ -110,7 +110,7 @@ void kiriMotion_SumRest(kiriSheetData* sheet)
     sheet->rest.isIdle = sheet->rest.isIdle && !any;
 }
 
-/* A piece that is seen elsewhere than where it is moves on, and does not sleep. */
+/* Marks the pieces with fades: their visible surface still moves, so they must not fall asleep. */
 static void MarkFading(kiriSheetData* sheet)
 {
     const kiriFades *fades = &sheet->seen.fades, *pointFades = &sheet->seen.pointFades;
@@ -127,7 +127,7 @@ static void MarkFading(kiriSheetData* sheet)
     }
 }
 
-/* Puts calm pieces to sleep. Runs before a tick, not after one, so that the surface shows where they came to rest. */
+/* Puts calm pieces to sleep. Runs before a tick, not after it, so that the surface shows their rest position. */
 static void FallAsleep(kiriSheetData* sheet)
 {
     MarkFading(sheet);
@@ -153,7 +153,7 @@ static int64_t WorkOfBody(const kiriSheetData* sheet, int32_t body)
     return kiriSolver_WorkOf(sheet->solver, body, sheet->solver->bodies.bodies.data[body].contactCount);
 }
 
-/* Items of one linear system of all that is moved. */
+/* Returns the items of one linear system of each moved body. */
 static int64_t ItemsOfMoved(const kiriSheetData* sheet)
 {
     const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->bodies;
@@ -164,7 +164,7 @@ static int64_t ItemsOfMoved(const kiriSheetData* sheet)
     return kiriSolver_ItemsOf(work);
 }
 
-/* Rows are not written yet. */
+/* Counts the contacts of each moved body from the touches; contact rows are not written yet. */
 static void CountContacts(kiriSheetData* sheet)
 {
     kiriSolverBody* bodies = sheet->solver->bodies.bodies.data;
@@ -177,7 +177,7 @@ static void CountContacts(kiriSheetData* sheet)
     }
 }
 
-/* Its forces are not used, and what fades goes on to do so. */
+/* Defers a body to a later tick: drops its forces; its fades continue. */
 static void Defer(kiriSheetData* sheet, int32_t body)
 {
     KIRI_ASSERT(body >= 0 && body < sheet->layout.pieces.count && !sheet->layout.pieces.data[body].rest.waits);
@@ -191,8 +191,8 @@ static void Defer(kiriSheetData* sheet, int32_t body)
     sheet->seen.areFadesAsleep |= rest->isFading;
 }
 
-/* Chooses the bodies that wait: all but as many, from the first in turn on and one at least, as one system of each is
-   left for. Returns a frame of the first that waits, or 0. */
+/* Defers the bodies that the quota has no linear system for. Bodies are taken in turn, at least one. Returns a frame of
+   the first deferred body, or 0. */
 static int32_t DeferBodies(kiriSheetData* sheet, const kiriQuota* systems)
 {
     const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->bodies;
@@ -229,8 +229,8 @@ void kiriMotion_EndTurns(kiriSheetData* sheet)
     sheet->turns.waiting = 0;
 }
 
-/* Chooses what the tick moves. For a piece that sleeps only the host finds touches: who moves other things wakes it.
-   Returns a frame of the first piece that waits, or 0. */
+/* Chooses the pieces that the tick moves. Host contacts of a sleeping piece are compared here; obstacles and other
+   sheets wake it when they move. Returns a frame of the first deferred piece, or 0. */
 static int32_t ChooseMoved(kiriSheetData* sheet, const kiriQuota* systems)
 {
     int32_t at = 0, piece;
@@ -255,7 +255,7 @@ static int32_t ChooseMoved(kiriSheetData* sheet, const kiriQuota* systems)
     return next;
 }
 
-/* The fastest frame counts, by the root mean square over its material. */
+/* Updates the calm time of moved pieces, from the fastest frame (root mean square over its material). */
 static void CountCalm(kiriSheetData* sheet, double dt)
 {
     const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->bodies;
@@ -272,7 +272,7 @@ static void CountCalm(kiriSheetData* sheet, double dt)
     }
 }
 
-/* Where the motion could not be continued. */
+/* Puts moved frames to rest after the solver failed. */
 static void Stop(kiriSheetData* sheet)
 {
     const kiriMoved* moved = kiriSolver_Moved(sheet->solver);
@@ -288,7 +288,7 @@ static void Stop(kiriSheetData* sheet)
 
 /* ---- Tick ---- */
 
-/* How many linear systems the quota has left; one where it is less, but nothing of it is used yet. */
+/* Returns the count of linear systems that the quota has left; at least one if nothing of it is used yet. */
 static int64_t SystemsLeft(const kiriQuota* quota, int64_t items)
 {
     int64_t fit = quota->left / items;
@@ -297,8 +297,7 @@ static int64_t SystemsLeft(const kiriQuota* quota, int64_t items)
 
 enum { MOST_ROUNDS = 64 + KIRI_EXTRA_SYSTEMS }; /* linear systems of a body in a step */
 
-/* Moves each body by one step. The systems that bodies solve first, second and so on are solved side by side, as far as
-   the quota knows. */
+/* Moves each body by one step. Charges the quota for each round: the n-th systems of all bodies together. */
 static bool StepBodies(kiriSheetData* sheet, const kiriSystem* system, double dt, int64_t most, kiriQuota* systems)
 {
     const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->bodies;
@@ -321,7 +320,7 @@ static bool StepBodies(kiriSheetData* sheet, const kiriSystem* system, double dt
     return true;
 }
 
-/* Fewer and longer substeps where the quota asks for it, and one system at least for each. */
+/* Runs the substeps; fewer and longer ones if the quota requires it, with at least one system each. */
 static kiriProgress TakeSubsteps(kiriSheetData* sheet, const kiriSystem* system, double dt, int32_t substeps,
                                  kiriQuota* systems)
 {
@@ -343,13 +342,13 @@ static bool IsRead(const kiriSheetData* sheet)
     return sheet->touches.found.count > 0 || sheet->pins.count > 0;
 }
 
-/* The quota has nothing left for the sheet. */
+/* Returns true if the quota is spent and the motion is not read in this tick. */
 static bool MustWait(const kiriSheetData* sheet, const kiriQuota* systems)
 {
     return !IsRead(sheet) && SystemsLeft(systems, ItemsOfMoved(sheet)) == 0;
 }
 
-/* Pins and touches have rows by now: the system is made again. */
+/* Writes the rows of pins, then runs the substeps with a system that includes pins and touches. */
 static kiriProgress MoveFrames(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps, kiriQuota* systems)
 {
     if (MustWait(sheet, systems)) {

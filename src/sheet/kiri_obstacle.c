@@ -17,9 +17,9 @@ kiriObstacleData* kiriObstacle_Alloc(kiriMemory* memory, int32_t corners)
     return obstacle;
 }
 
-/* ---- Where it is ------------------------------------------------------------------------------------------------- */
+/* ---- Bounds and motion ------------------------------------------------------------------------------------------- */
 
-/* m: for how far out the turning of a plane, or of what has no end, counts. */
+/* Lever up to which the rotation of an infinite shape counts, m. */
 #define LONG_LEVER 1e3
 
 double kiriObstacle_TurnSpeed(const kiriObstacleData* obstacle)
@@ -32,7 +32,7 @@ double kiriObstacle_TurnSpeed(const kiriObstacleData* obstacle)
     return fabs(spin.z) * flat + aslant * (flat + (isLong ? LONG_LEVER : shape->half));
 }
 
-/* How far it reaches to both sides of its position along an axis of the world, with the way that it goes. */
+/* Computes the bounds along a world axis, including the motion in the tick. */
 static void BoundAlong(const kiriObstacleData* obstacle, kiriVec3 axis, double dt, double* lower, double* upper)
 {
     const kiriObstacleShape* shape = &obstacle->shape;
@@ -51,7 +51,7 @@ void kiriObstacle_Bound(kiriObstacleData* obstacle, double dt)
     BoundAlong(obstacle, z, dt, &obstacle->lower.z, &obstacle->upper.z);
 }
 
-/* The least height of a box above a plane. */
+/* Returns the signed distance of the lowest corner of a box from a plane. */
 static double HeightAbovePlane(const kiriObstacleData* plane, kiriVec3 lower, kiriVec3 upper)
 {
     kiriVec3 n = plane->rotation.d;
@@ -70,7 +70,8 @@ bool kiriObstacle_IsNear(const kiriObstacleData* obstacle, kiriVec3 lower, kiriV
            upper.y + reach > obstacle->lower.y && upper.z + reach > obstacle->lower.z;
 }
 
-/* The turn of a rotation vector to the fourth order in its angle: the Cayley map alone turns by 2 atan(angle / 2). */
+/* Returns the rotation of a rotation vector, with an angle of fourth order: the Cayley map alone turns by
+   2 atan(angle / 2). */
 static kiriMat3 Turn(kiriVec3 w)
 {
     double half = 0.25 * kiriVec3_Dot(w, w); /* square of half the angle */
@@ -78,7 +79,7 @@ static kiriMat3 Turn(kiriVec3 w)
     return kiriMat3_Cayley(kiriVec3_Scale(stretch, w));
 }
 
-/* What is farther out than this stays where it is. */
+/* An obstacle farther from the origin does not move, m. */
 #define FARTHEST 1e30
 
 void kiriObstacle_Advance(kiriObstacleData* obstacle, double dt)
@@ -95,9 +96,9 @@ void kiriObstacle_Advance(kiriObstacleData* obstacle, double dt)
     obstacle->drift += dt * (speed + kiriObstacle_TurnSpeed(obstacle));
 }
 
-/* ---- What sheets give it ----------------------------------------------------------------------------------------- */
+/* ---- Impulses ---------------------------------------------------------------------------------------------------- */
 
-/* From its own axes to those of the world. */
+/* Transforms a tensor from local axes to world axes. */
 static kiriMat3 TurnTensor(const kiriMat3* rotation, const kiriMat3* tensor)
 {
     const kiriMat3* r = rotation;
@@ -171,7 +172,7 @@ static double AboveEdge(const kiriObstacleShape* shape, int32_t edge, kiriVec2 p
     return kiriVec2_Dot(shape->normals[edge], kiriVec2_Sub(p, shape->outline[edge]));
 }
 
-/* The way from the nearest point of an edge. */
+/* Returns the vector from the nearest point of an edge to p. */
 static kiriVec2 FromEdge(const kiriObstacleShape* shape, int32_t edge, kiriVec2 p)
 {
     int32_t next = edge + 1 < shape->count ? edge + 1 : 0;
@@ -199,7 +200,7 @@ static Nearest2 NearestOutside(const kiriObstacleShape* shape, kiriVec2 p, Neare
     return nearest;
 }
 
-/* A convex polygon is what lies below all of its edges: inside, the highest one is the nearest. */
+/* Finds the nearest point of a convex polygon. A point inside is below all edges, and the highest edge is nearest. */
 static Nearest2 NearestOnPolygon(const kiriObstacleShape* shape, kiriVec2 p)
 {
     Nearest2 highest = { -KIRI_ENDLESS, { 1.0, 0.0 } };
@@ -220,14 +221,14 @@ static kiriVec3 Raise(kiriVec2 normal)
     return kiriVec3_Make(normal.x, normal.y, 0.0);
 }
 
-/* How far it is out over a face, where only steps in a plane count. */
+/* Returns the distance out through a face at this depth, along the plane with normal `across`. */
 static double WayOut(double depth, kiriVec3 normal, kiriVec3 across)
 {
     double lean = kiriVec3_Dot(normal, across), along = 1.0 - lean * lean;
     return along > 1e-6 ? depth / sqrt(along) : KIRI_ENDLESS;
 }
 
-/* Of the faces that a point is below, the one that it is soonest out of. */
+/* Takes a face if it is the shortest way out so far. */
 static void TryFace(kiriNearest* best, double* way, double distance, kiriVec3 normal, kiriVec3 across)
 {
     double out = WayOut(-distance, normal, across);
@@ -253,7 +254,7 @@ static kiriNearest NearestInside(const kiriObstacleShape* shape, kiriVec3 p, Nea
     return best;
 }
 
-/* What an outline sweeps along the third axis, from -half to half. */
+/* Finds the nearest point of an outline extruded along the third axis, from -half to half. */
 static kiriNearest NearestOnColumn(const kiriObstacleShape* shape, kiriVec3 p, kiriVec3 across)
 {
     kiriVec2 flat = kiriVec2_Make(p.x, p.y);
@@ -275,14 +276,14 @@ static kiriNearest NearestOnColumn(const kiriObstacleShape* shape, kiriVec3 p, k
     return nearest;
 }
 
-/* Any direction across the axis will do in the middle, but one in the sheet's plane. */
+/* Returns the normal for a point on the axis: any direction normal to it that is not normal to the sheet's plane. */
 static kiriVec3 AnySide(kiriVec3 across)
 {
     kiriVec3 x = { 1.0, 0.0, 0.0 }, y = { 0.0, 1.0, 0.0 };
     return fabs(across.x) < 0.8 ? x : y;
 }
 
-/* All points so far from a part of the third axis: a capsule, or, where that has no length, a sphere. */
+/* Finds the nearest point of a capsule along the third axis; of a sphere if half is 0. */
 static kiriNearest NearestOnCapsule(const kiriObstacleShape* shape, kiriVec3 p, kiriVec3 across)
 {
     double z = kiriClamp(p.z, -shape->half, shape->half);
@@ -307,8 +308,8 @@ kiriNearest kiriObstacleShape_Nearest(const kiriObstacleShape* shape, kiriVec3 p
     return nearest;
 }
 
-/* Steps as long as the distance never pass the surface. The last of many counts as there: that is a point that slides
-   along at a grazing angle. */
+/* Sphere tracing: a step as long as the distance never crosses the surface. The point after MOST_STEPS counts as the
+   entry: it moves at a grazing angle. */
 double kiriObstacleShape_Enter(const kiriObstacleShape* shape, kiriVec3 from, kiriVec3 move, double gap,
                                kiriVec3 across, kiriNearest* nearest)
 {
@@ -348,7 +349,7 @@ double kiriObstacleShape_Reach(const kiriObstacleShape* shape, kiriVec3 directio
 
 /* ---- Edges ---- */
 
-#define EVEN_COSINE 0.94 /* of 20 degrees */
+#define EVEN_COSINE 0.94 /* cosine of 20 degrees */
 
 int32_t kiriObstacleShape_EdgeCount(const kiriObstacleShape* shape)
 {
@@ -359,7 +360,7 @@ int32_t kiriObstacleShape_EdgeCount(const kiriObstacleShape* shape)
     return shape->type == KIRI_OBSTACLE_PRISM ? (hasEnd ? 3 : 1) * shape->count : 0;
 }
 
-/* The least half width of the outline: half the way through it from its middle on. */
+/* Returns half of the smallest width of the outline. */
 static double HalfWidth(const kiriObstacleShape* shape)
 {
     double least = shape->type == KIRI_OBSTACLE_CYLINDER ? 2.0 * shape->radius : KIRI_ENDLESS;
@@ -383,7 +384,7 @@ static bool RimAt(const kiriObstacleShape* shape, int32_t index, kiriObstacleEdg
     return true;
 }
 
-/* Edges along the axis first, then those around both ends. */
+/* Returns edge `index` of a prism: first the edges along the axis, then the edges of both ends. */
 static bool PrismEdgeAt(const kiriObstacleShape* shape, int32_t index, kiriObstacleEdge* edge)
 {
     int32_t corner = index % shape->count, next = (corner + 1) % shape->count;
@@ -428,7 +429,7 @@ bool kiriObstacleShape_CornerAt(const kiriObstacleShape* shape, int32_t index, k
     return isSharp;
 }
 
-/* Halves the quarter that holds the point again and again: no sine is needed. */
+/* Bisects the quarter that contains the point; needs no sine. */
 kiriVec2 kiriCircle_At(int32_t i, int32_t count)
 {
     static const kiriVec2 quarters[4] = { { 1.0, 0.0 }, { 0.0, 1.0 }, { -1.0, 0.0 }, { 0.0, -1.0 } };
@@ -448,7 +449,7 @@ kiriVec2 kiriCircle_At(int32_t i, int32_t count)
     return a;
 }
 
-/* The point of a segment, given by its ends. */
+/* Returns the parameter, 0 to 1, of the point of a segment nearest to p. */
 static double ShareOfSegment(kiriVec3 a, kiriVec3 b, kiriVec3 p)
 {
     kiriVec3 along = kiriVec3_Sub(b, a);
@@ -462,7 +463,7 @@ static kiriVec3 BlendOfThree(const kiriVec3 x[3], const double share[3])
     return kiriVec3_AddScaled(kiriVec3_AddScaled(kiriVec3_Scale(share[0], x[0]), share[1], x[1]), share[2], x[2]);
 }
 
-/* The shares of the point of a triangle that is nearest to p: above its inside, or the nearest of its sides. */
+/* Computes the barycentric coordinates of the point of a triangle nearest to p: its projection, or on a side. */
 static void NearestOfTriangle(const kiriVec3 x[3], kiriVec3 p, double share[3])
 {
     kiriVec3 ab = kiriVec3_Sub(x[1], x[0]), ac = kiriVec3_Sub(x[2], x[0]), to = kiriVec3_Sub(p, x[0]);
@@ -487,8 +488,8 @@ static void NearestOfTriangle(const kiriVec3 x[3], kiriVec3 p, double share[3])
     }
 }
 
-/* The point of a triangle that is nearest to the axis of a round obstacle, by turns from one to the other: both are
-   convex. */
+/* Finds the point of a triangle nearest to the axis of a round obstacle, by alternating projections. Both are convex,
+   so they converge. */
 static void NearestToAxis(double half, const kiriVec3 x[3], double share[3])
 {
     enum { TURNS = 24 };
@@ -503,7 +504,7 @@ static void NearestToAxis(double half, const kiriVec3 x[3], double share[3])
     }
 }
 
-/* A side so long bridges an arc of the obstacle that its ends do not see. */
+/* Returns true if a side of the triangle is so long that an arc of the obstacle fits between its ends. */
 static bool IsCoarse(const kiriMeeting* meeting, const kiriVec3 x[3])
 {
     double longest = 0.0;
@@ -514,7 +515,7 @@ static bool IsCoarse(const kiriMeeting* meeting, const kiriVec3 x[3])
     return longest * longest > 16.0 * meeting->gap * meeting->obstacle->shape.radius;
 }
 
-/* A vertex is seen to elsewhere; of a planar sheet only points on its border touch. */
+/* Returns true for a point that is not a vertex; in a planar sheet, only for a point on the border. */
 static bool CountsBetween(const kiriMeeting* meeting, const int32_t* v, const double share[3])
 {
     int zero = share[0] <= 0.0 ? 0 : share[1] <= 0.0 ? 1 : share[2] <= 0.0 ? 2 : KIRI_NONE;
@@ -528,7 +529,7 @@ static bool CountsBetween(const kiriMeeting* meeting, const int32_t* v, const do
                                                      v[(zero + 1) % 3], v[(zero + 2) % 3]);
 }
 
-/* Local to the obstacle. */
+/* Computes the corners of a triangle in the axes of the obstacle. */
 static void GetCorners(const kiriMeeting* meeting, int32_t triangle, kiriVec3 x[3])
 {
     const kiriSurface* surface = &meeting->sheet->seen.surface;
@@ -566,7 +567,7 @@ static bool TouchRound(const kiriMeeting* meeting, int32_t triangle, kiriTouch* 
     return true;
 }
 
-/* The triangles near that are coarse, in order. */
+/* Lists the coarse triangles nearby, ascending. */
 static bool CollectCoarse(const kiriMeeting* meeting)
 {
     kiriObstacleSearch* search = meeting->search;
@@ -600,18 +601,18 @@ bool kiriMeeting_TouchRounds(const kiriMeeting* meeting)
     return ok;
 }
 
-#define LINE_SLACK 1e-9 /* m: what lies in the side of a box is in it */
+#define LINE_SLACK 1e-9 /* m: tolerance, so that a line in the side of a box meets it */
 
 /* A point on an edge or a corner, in the world. */
 typedef struct EdgePoint {
-    kiriVec3 at, out; /* out: unit, half-way between the faces */
+    kiriVec3 at, out; /* out: unit bisector of the faces' normals */
     kiriVec3 faces[3];
     int32_t faceCount;
-    double below, above; /* m: how far material may be along `out` */
+    double below, above; /* m: search range along `out` */
     uint32_t item;
 } EdgePoint;
 
-/* Where the line of the point meets the triangle; false where it passes by. */
+/* Intersects the line of the point with a triangle. Returns false if it misses. */
 static bool MeetsTriangle(const kiriVec3 x[3], const EdgePoint* point, double* height, double share[3])
 {
     kiriVec3 ab = kiriVec3_Sub(x[1], x[0]), ac = kiriVec3_Sub(x[2], x[0]), to = kiriVec3_Sub(point->at, x[0]);
@@ -627,7 +628,7 @@ static bool MeetsTriangle(const kiriVec3 x[3], const EdgePoint* point, double* h
     return share[0] >= 0.0 && share[1] >= 0.0 && share[2] >= 0.0 && *height > -point->below && *height < point->above;
 }
 
-/* The triangle lies over the edge as a tangent plane may: towards none of its faces. */
+/* Returns true if the normal can be of a tangent plane at the edge: it opposes none of the faces. */
 static bool IsTangentTo(const EdgePoint* point, kiriVec3 normal)
 {
     for (int32_t k = 0; k < point->faceCount; ++k) {
@@ -638,7 +639,7 @@ static bool IsTangentTo(const EdgePoint* point, kiriVec3 normal)
     return true;
 }
 
-/* The normal that is seen at the point, smooth over the sides of triangles, towards the outside of the obstacle. */
+/* Returns the interpolated surface normal at a point, on the side of `out`. */
 static kiriVec3 SeenNormal(kiriSurface* surface, const int32_t* v, const double share[3], kiriVec3 out)
 {
     kiriVec3 sum = { 0.0, 0.0, 0.0 };
@@ -674,7 +675,7 @@ static bool TouchTriangle(const kiriMeeting* meeting, const EdgePoint* point, in
     return true;
 }
 
-/* Does the line of the point meet a box? By slabs. */
+/* Returns true if the line of the point meets a box (slab test). */
 static bool MeetsLine(const void* context, const kiriBox* box)
 {
     const EdgePoint* point = context;
@@ -696,7 +697,7 @@ static bool MeetsLine(const void* context, const kiriBox* box)
     return from <= to;
 }
 
-/* The triangles that the line of the point meets, in order: those beside each other have the same keys in each tick. */
+/* Lists the triangles that the line of the point meets, ascending, so that layers get the same keys in each tick. */
 static bool FindCrossed(const kiriMeeting* meeting, const EdgePoint* point)
 {
     const kiriSurface* surface = &meeting->sheet->seen.surface;
@@ -722,7 +723,7 @@ static bool FindCrossed(const kiriMeeting* meeting, const EdgePoint* point)
     return true;
 }
 
-/* Several layers may lie over a point: each has a touch, up to a number. */
+/* Adds a touch for each layer over a point, up to MOST_LAYERS. */
 static bool TouchPoint(const kiriMeeting* meeting, const EdgePoint* point)
 {
     enum { MOST_LAYERS = 4 };
@@ -739,7 +740,7 @@ static bool TouchPoint(const kiriMeeting* meeting, const EdgePoint* point)
     return ok;
 }
 
-/* Local to the obstacle. */
+/* Makes a point from local coordinates of the obstacle. */
 static EdgePoint MakePoint(const kiriMeeting* meeting, kiriVec3 at, const kiriVec3* faces, int32_t faceCount,
                            double thinnest)
 {
@@ -777,7 +778,7 @@ static bool TouchRim(const kiriMeeting* meeting, const kiriObstacleEdge* edge, i
     return ok;
 }
 
-/* The part of an edge, counted in steps, that is in the sheet's box. */
+/* Clips the steps of an edge to the sheet's box. */
 static void ClipEdge(const kiriMeeting* meeting, kiriVec3 from, kiriVec3 step, int32_t* first, int32_t* last)
 {
     kiriBox box = kiriBounds_All(meeting->sheet->seen.bounds);
@@ -799,8 +800,8 @@ static void ClipEdge(const kiriMeeting* meeting, kiriVec3 from, kiriVec3 step, i
     *last = start <= end ? (int32_t)end : -1;
 }
 
-/* As many steps along an edge as squares, each with a point in its middle: at the ends are corners. An edge without end
-   has points as far as anybody may look. */
+/* Touches a straight edge at the middles of steps about one grid square long; its ends are corners. An infinite edge
+   has MOST_POINTS steps. */
 static bool TouchStraight(const kiriMeeting* meeting, const kiriObstacleEdge* edge, int32_t index)
 {
     enum { MOST_POINTS = 1 << 18 };
@@ -827,7 +828,7 @@ static bool TouchStraight(const kiriMeeting* meeting, const kiriObstacleEdge* ed
 static bool TouchTips(const kiriMeeting* meeting)
 {
     const kiriObstacleShape* shape = &meeting->obstacle->shape;
-    const uint32_t tips = UINT32_C(1) << 28; /* beyond all points of edges */
+    const uint32_t tips = UINT32_C(1) << 28; /* first item number of corners, above all points of edges */
     bool ok = true;
     for (int32_t i = 0; ok && i < kiriObstacleShape_CornerCount(shape); ++i) {
         kiriObstacleCorner corner;
@@ -855,8 +856,8 @@ bool kiriMeeting_TouchEdges(const kiriMeeting* meeting)
 
 /* ---- Corners against the borders of planar sheets ---------------------------------------------------------------- */
 
-/* Where an edge of the obstacle goes through the sheet's plane there is a corner of what the plane cuts out of it.
-   False where it does not, or lies along it. */
+/* Intersects an edge of the obstacle with the sheet's plane: a corner of the section. Returns false if they do not
+   meet, or are nearly parallel. */
 static bool CutEdge(const kiriMeeting* meeting, const kiriObstacleEdge* edge, int32_t index, EdgePoint* point)
 {
     kiriVec3 d = meeting->sheet->settings.mechanics.axes.d, onPlane = meeting->sheet->frames.data[0].x;
@@ -877,7 +878,7 @@ static bool CutEdge(const kiriMeeting* meeting, const kiriObstacleEdge* edge, in
     return true;
 }
 
-/* Where the line of the point crosses a side, in the plane; false where it passes by. */
+/* Intersects the line of the point with a side, in the sheet's plane. Returns false if it misses. */
 static bool MeetSide(kiriVec3 a, kiriVec3 b, kiriVec3 d, const EdgePoint* point, double* height, double* share)
 {
     kiriVec3 along = kiriVec3_Sub(b, a), to = kiriVec3_Sub(point->at, a);
@@ -900,7 +901,7 @@ static bool TouchSide(const kiriMeeting* meeting, const EdgePoint* point, int32_
         !kiriMeeting_IsBorder(&sheet->seen.surface, &meeting->search->crossed, a, b)) {
         return false;
     }
-    /* The material is on the left of its border: inwards is away from the obstacle. */
+    /* The material is left of its border, so the normal points into the material, away from the obstacle. */
     kiriVec3 normal = kiriVec3_Normalize(kiriVec3_Cross(d, kiriVec3_Sub(to, from)));
     kiriVec3 velocity = kiriVec3_AddScaled(kiriVec3_Scale(1.0 - share, kiriMeeting_VertexVelocity(sheet, a)), share,
                                            kiriMeeting_VertexVelocity(sheet, b));

@@ -81,8 +81,8 @@ void kiriPins_ClearReactions(kiriSheetData* sheet);
    A pin holds the visible point. A smooth surface (KIRI_SKINNING_SMOOTH) is offset from the point of a single frame. So
    the target of a pin, or of a held frame, is shifted by the offset between the frame's point and the surface of the
    last tick. A clamp shifts its pose by the mean offset over all shares of a piece: separate offsets would bend the
-   line and curl the sheet. The offset converges in some ticks; then the sheet may sleep. A hinge needs no offset: it turns
-   freely, so the surface does not bend there and lies on the line.
+   line and curl the sheet. The offset converges in some ticks; then the sheet may sleep. A hinge needs no offset: it
+   turns freely, so the surface does not bend there and lies on the line.
 
    An obstacle with mass yields to a pin. The host applies the impulses of the whole tick at once and then moves the
    obstacle; the model here does the same. W is the velocity of the target per impulse, and J the impulse of the pin so

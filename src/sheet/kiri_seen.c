@@ -41,7 +41,8 @@ static kiriVec3 AddCorner(const kiriSheetData* sheet, kiriVec3 sum, int32_t h)
     return kiriVec3_Add(sum, kiriVec3_Cross(kiriVec3_Sub(b, a), kiriVec3_Sub(c, a)));
 }
 
-/* As kiriNormals_Write has it, to rounding, for those who may not write: from the fan of the vertex. */
+/* Returns the normal of kiriNormals_Write, up to rounding. Without stored normals it sums the fan of the vertex: a
+   query may not write. */
 static kiriVec3 VertexNormal(const kiriSheetData* sheet, int32_t vertex)
 {
     const kiriSurface* surface = &sheet->seen.surface;
@@ -63,7 +64,7 @@ static kiriVec3 VertexNormal(const kiriSheetData* sheet, int32_t vertex)
     return kiriVec3_Dot(unit, unit) > 0.0 ? unit : kiriVec3_Make(0.0, 0.0, 1.0);
 }
 
-/* The corner next to it. */
+/* Returns the corner with the largest share. */
 static int32_t HeaviestCorner(const kiriSheetData* sheet, const kiriPointPlace* place)
 {
     int best = 0;
@@ -73,7 +74,7 @@ static int32_t HeaviestCorner(const kiriSheetData* sheet, const kiriPointPlace* 
     return CornersOf(sheet, place)[best];
 }
 
-/* Where the normals of the corners cancel out, that of the triangle; where that has no area, that of one corner. */
+/* Falls back to the normal of the triangle if the corner normals cancel out, and to one corner if its area is zero. */
 kiriVec3 kiriPoint_Normal(const kiriSheetData* sheet, const kiriPointPlace* place)
 {
     const int32_t* corners = CornersOf(sheet, place);
@@ -90,7 +91,7 @@ kiriVec3 kiriPoint_Normal(const kiriSheetData* sheet, const kiriPointPlace* plac
     return kiriVec3_Dot(unit, unit) > 0.5 ? unit : VertexNormal(sheet, HeaviestCorner(sheet, place));
 }
 
-/* As the mesh has it: at the corners the frames are blended, between them the corners. */
+/* Blends the frames at the corners, then the corners, as the visible mesh does. */
 kiriMotion kiriPoint_Blend(const kiriSheetData* sheet, const kiriPointPlace* place)
 {
     kiriMotion motion;
@@ -158,8 +159,8 @@ static void AddBit(kiriFrameMask* mask, int bit)
     mask->bits[bit / 64] |= UINT64_C(1) << bit % 64;
 }
 
-/* Of the two bits of a frame one tells it from those near its own, and the other from those far from it. Frames share
-   bits: a block may seem to have one that it has not. */
+/* Sets the two bits of a frame: one distinguishes it from frames with nearby indices, the other from distant ones.
+   Frames share bits, so a test may give false positives. */
 static void AddToMask(kiriFrameMask* mask, int32_t frame)
 {
     AddBit(mask, frame % MASK_HALF);
@@ -181,7 +182,7 @@ kiriFrameMask kiriBlocks_MaskOfOther(const kiriPatches* patches)
 
 static const uint64_t ALL_BITS = UINT64_MAX;
 
-/* It may meet any other, so it is right for every block. */
+/* Sets all bits: a valid mask for every block. */
 static void FillMask(kiriFrameMask* mask)
 {
     for (int k = 0; k < MASK_WORDS; ++k) {
@@ -213,7 +214,7 @@ static void WriteMask(kiriSheetData* sheet, int32_t block)
     sheet->seen.blocks.frames.data[block] = mask;
 }
 
-/* Of some blocks in each tick: after a cut all of a large sheet may be due. */
+/* Writes up to MASKS_A_TICK unknown masks. A cut can make all masks of a large sheet unknown. */
 static void WriteSomeMasks(kiriSheetData* sheet)
 {
     enum { MASKS_A_TICK = 128 };
@@ -230,7 +231,7 @@ static void WriteSomeMasks(kiriSheetData* sheet)
 
 /* ---- Movers ---- */
 
-/* What moves is known of all frames. */
+/* Returns an awake frame of the block, or KIRI_NONE. blocks.moved is current. */
 static int32_t FindMover(const kiriSheetData* sheet, int32_t block)
 {
     const uint8_t* moves = sheet->seen.blocks.moved.data;
@@ -243,7 +244,7 @@ static int32_t FindMover(const kiriSheetData* sheet, int32_t block)
     return KIRI_NONE;
 }
 
-/* Of frames: those that move, and those of them that did not when movers were found last. */
+/* Moving frames: all, and the ones that did not move at the last kiriBlocks_FindMovers. */
 typedef struct MovingFrames {
     kiriFrameMask all, woken;
 } MovingFrames;
@@ -265,7 +266,7 @@ static MovingFrames TakeMoving(kiriSheetData* sheet)
     return moving;
 }
 
-/* Is the mover of the block what it was? */
+/* Returns true if the mover of the block is still valid. */
 static bool IsMoverKnown(const kiriSheetData* sheet, int32_t block, const MovingFrames* moving)
 {
     const kiriBlocks* blocks = &sheet->seen.blocks;
@@ -298,9 +299,9 @@ bool kiriView_ReserveFades(kiriSheetData* sheet, int32_t vertexCount, int32_t po
            kiriFades_Reserve(&sheet->seen.pointFades, sheet->memory, fade ? pointCount : 0);
 }
 
-/* ---- What sleeps ---- */
+/* ---- Sleeping blocks ---- */
 
-/* Returns what the tick moved; null where anything else may be elsewhere than it was seen last. */
+/* Returns the bodies that the tick moved; null if visible positions of other bodies may have changed too. */
 static const kiriMoved* MovedOf(kiriSheetData* sheet)
 {
     const kiriMoved* moved = kiriSolver_Moved(sheet->solver);
@@ -310,19 +311,19 @@ static const kiriMoved* MovedOf(kiriSheetData* sheet)
     return moved->isListed && !isOther && (hasLinks || sheet->settings.skinning == KIRI_SKINNING_LINEAR) ? moved : NULL;
 }
 
-/* Pieces that wait are where their jump took them, but nothing that follows from it is made yet. */
+/* Returns true if a commit moved deferred pieces whose normals and bounds are still stale. */
 static bool HasMovedWaiting(const kiriSheetData* sheet)
 {
     return sheet->seen.surface.isPartly && sheet->turns.waiting > 0 && sheet->seen.isElsewhere;
 }
 
-/* Does the block move, or, if asked, have triangles that are others? */
+/* Returns true if the block moves or, with orStale, has stale normals. */
 static inline bool IsMeant(const kiriBlocks* blocks, int32_t block, bool orStale)
 {
     return kiriBlocks_Moves(blocks, block) || (orStale && blocks->stale.data[block]);
 }
 
-/* The end of the blocks from `begin` on that are meant, or are not, like the first. */
+/* Returns the end of the run of blocks from `begin` on with the same IsMeant as the first; *are is that value. */
 static int32_t EndOfBlocks(const kiriBlocks* blocks, int32_t begin, int32_t end, bool orStale, bool* are)
 {
     int32_t block = begin / KIRI_BLOCK, last = (end - 1) / KIRI_BLOCK;
@@ -335,7 +336,7 @@ static int32_t EndOfBlocks(const kiriBlocks* blocks, int32_t begin, int32_t end,
 
 typedef void WriteVerticesFn(kiriSheetData* sheet, int32_t begin, int32_t end);
 
-/* For all vertices, or those of the blocks that are meant. */
+/* Calls `write` for all vertices; if only a part is written, for runs of blocks with IsMeant. */
 static void ForBlocks(kiriSheetData* sheet, int32_t begin, int32_t end, bool orStale, WriteVerticesFn* write)
 {
     if (!sheet->seen.surface.isPartly) {
@@ -354,7 +355,7 @@ static void ForBlocks(kiriSheetData* sheet, int32_t begin, int32_t end, bool orS
 bool kiriView_Reserve(kiriSheetData* sheet, kiriViewCounts counts)
 {
     kiriSeen* seen = &sheet->seen;
-    bool isSeen = seen->surface.vertexCount > 0; /* else nothing can fade */
+    bool isSeen = seen->surface.vertexCount > 0; /* a surface never written cannot fade */
     return kiriSurface_Reserve(&seen->surface, &sheet->shown, counts.vertices, counts.triangles, counts.frames) &&
            kiriArray_Reserve(&sheet->shown, &seen->pointPositions, 3 * (int64_t)counts.points) &&
            kiriArray_Reserve(sheet->memory, &seen->exactPoints, counts.points) &&
@@ -373,7 +374,7 @@ void kiriView_Resize(kiriSheetData* sheet, int32_t frameCount)
     seen->exactPoints.count = sheet->points.count;
 }
 
-/* A newborn vertex lies on the triangle that was seen. */
+/* Places a new vertex on the visible triangle that it was born in. */
 static void PlaceNewborn(kiriSheetData* sheet, int32_t vertex)
 {
     const kiriBirth* birth = &sheet->mesh.births.data[vertex - sheet->mesh.oldVertexCount];
@@ -391,7 +392,7 @@ static void StaleCorners(kiriSheetData* sheet, const int32_t* corners)
     }
 }
 
-/* The corners of triangles that changed, and the vertices that lost a triangle. */
+/* Marks the blocks of corners of changed triangles, and of vertices that lost a triangle, as stale. */
 static void StaleChanges(kiriSheetData* sheet)
 {
     const kiriMeshData* mesh = &sheet->mesh;
@@ -420,7 +421,7 @@ static void HideTriangles(kiriSheetData* sheet)
 void kiriView_HideGone(kiriSheetData* sheet)
 {
     kiriSurface* surface = &sheet->seen.surface;
-    kiriSurface_NeedNormals(surface); /* what is gone has them until the next tick */
+    kiriSurface_NeedNormals(surface); /* hidden vertices keep normals until the next tick */
     HideTriangles(sheet);
     surface->isWritten = surface->isSteady = false;
     sheet->mesh.revision += 1;
@@ -438,7 +439,7 @@ void kiriView_WriteTopology(kiriSheetData* sheet)
     kiriSurface_WriteTopology(&sheet->seen.surface, &sheet->mesh);
     StaleChanges(sheet);
     if (kiriPieces_AnyGone(sheet)) {
-        HideTriangles(sheet); /* a cut goes on in what is gone */
+        HideTriangles(sheet); /* a cut may have split triangles of a destroyed piece */
     }
     sheet->seen.isElsewhere = true;
 }
@@ -470,7 +471,7 @@ void kiriView_TakeFrames(kiriSheetData* sheet)
     sheet->seen.surface.isWritten &= sheet->seen.fades.fading.count == 0;
 }
 
-/* Linear whatever is seen: here contacts push (see kiri_motion.c). */
+/* Places collision points by linear blending under any skinning, because contacts use it (see kiri_motion.c). */
 static void BlendPoints(kiriSheetData* sheet, bool isPartly)
 {
     for (int32_t i = 0; i < sheet->points.count; ++i) {
@@ -506,14 +507,14 @@ static void TouchFading(kiriSheetData* sheet)
     }
 }
 
-/* Other patches, and the frames of these. */
+/* Comparison of positions before and after the commits of a tick. `other`: frames whose patches changed. */
 typedef struct JumpLook {
     kiriFrameMask other;
     kiriVec3 shift;
     bool isShifted;
-    const float* before; /* where all vertices are seen */
-    bool anySleeps;      /* some piece does, */
-    bool movesSleepers;  /* and a vertex of one that does goes elsewhere */
+    const float* before; /* visible positions of all vertices */
+    bool anySleeps;      /* a piece sleeps */
+    bool movesSleepers;  /* the position of a vertex of a sleeping piece changed */
 } JumpLook;
 
 static bool MayBeElsewhere(const kiriSheetData* sheet, const JumpLook* look, int32_t begin, int32_t end)
@@ -558,8 +559,8 @@ static bool IsAnyBeyond(const float* a, const float* b, int32_t count, float mos
     return beyond != 0;
 }
 
-/* The vertices of a block go where their weights have them. Most go no farther than rounding takes them: floats
-   tell. */
+/* Blends the vertices of a block and adds fades for the ones that jumped. Most differ only by rounding, so a first test
+   compares floats. */
 static void LookAtVertices(kiriSheetData* sheet, JumpLook* look, int32_t begin, int32_t end)
 {
     float was[3 * KIRI_BLOCK];
@@ -574,7 +575,7 @@ static void LookAtVertices(kiriSheetData* sheet, JumpLook* look, int32_t begin, 
     look->movesSleepers = look->movesSleepers || (look->anySleeps && MovesSleepers(sheet, was, is, begin, end));
 }
 
-/* Of a block with other weights, or with new vertices, frames and mover are found anew. */
+/* Compares a block. If its weights changed or it has new vertices, marks its frames and mover as unknown. */
 static void LookAtJumps(kiriSheetData* sheet, JumpLook* look, int32_t begin, int32_t end)
 {
     LookAtVertices(sheet, look, begin, end);
@@ -583,8 +584,7 @@ static void LookAtJumps(kiriSheetData* sheet, JumpLook* look, int32_t begin, int
     }
 }
 
-/* A piece that moves in this tick is written anew whatever is seen of it: what rounding does to its patches is no
-   jump. */
+/* Ignores patches that changed only by rounding if their piece moves in this tick: it is written again anyway. */
 static void ForgetRounded(kiriSheetData* sheet)
 {
     kiriPatches* patches = &sheet->seen.surface.patches;
@@ -605,8 +605,8 @@ static bool AnySleeps(const kiriSheetData* sheet)
     return any;
 }
 
-/* All other vertices are seen where they were written last, by the same weights and patches: they do not jump. After it
-   all are where weights and patches have them, but for what fades: as after writing. */
+/* Turns the jumps of vertices into fades. Vertices with unchanged weights and patches do not jump. Afterwards all
+   positions match weights and patches, without fades, as after writing. */
 static void TakeVertexJumps(kiriSheetData* sheet)
 {
     kiriSurface* surface = &sheet->seen.surface;
@@ -629,10 +629,10 @@ static void TakeVertexJumps(kiriSheetData* sheet)
             LookAtJumps(sheet, &look, begin, end);
         }
     }
-    surface->isSteady = wasSteady && !look.movesSleepers; /* else normals of what sleeps are due as well */
+    surface->isSteady = wasSteady && !look.movesSleepers; /* false: normals of sleeping pieces are stale */
 }
 
-/* Points that are new have not been seen elsewhere. */
+/* Turns the jumps of collision points into fades. New points have no previous position. */
 static void TakePointJumps(kiriSheetData* sheet)
 {
     const kiriVec3 *was = sheet->seen.pointsBefore.data, *is = sheet->seen.exactPoints.data;
@@ -656,7 +656,7 @@ void kiriView_TakeJump(kiriSheetData* sheet)
     }
 }
 
-/* Gives memory back where nothing fades. */
+/* Frees the arrays of fades if nothing fades. */
 static void TrimFades(kiriSheetData* sheet)
 {
     kiriFades_Trim(&sheet->seen.fades, sheet->memory);
@@ -705,7 +705,8 @@ void kiriView_BlendRange(kiriSheetData* sheet, int32_t begin, int32_t end)
 
 /* ---- Normals ---- */
 
-/* Are the sums of most vertices what they were? One by one they take several times as long. */
+/* Returns true if the normal sums of most vertices are current. Updating single blocks costs several times as much a
+   vertex. */
 static bool IsSumKnown(const kiriSheetData* sheet)
 {
     enum { FEW = 8 };
@@ -718,7 +719,7 @@ static bool IsSumKnown(const kiriSheetData* sheet)
     return isKnown && FEW * (int64_t)anew <= blocks;
 }
 
-/* No triangle joins a vertex that moved to one of a piece that sleeps. */
+/* Sums the normals of one block. No triangle has vertices of both a moving and a sleeping piece. */
 static bool SumNormalsOf(kiriSheetData* sheet, int32_t block)
 {
     kiriSurface* surface = &sheet->seen.surface;

@@ -60,7 +60,7 @@ bool kiriPast_Part(kiriPast* to, const kiriPast* past, kiriMemory* memory, kiriS
     return others != NULL;
 }
 
-/* What affine frames need beside links. */
+/* Builds the elements that affine frames need in addition to links. */
 static bool BuildAreaElements(kiriSheetData* sheet)
 {
     kiriUpdate* u = sheet->update;
@@ -123,7 +123,7 @@ static kiriProgress StageOwnersOfMaterial(kiriSheetData* sheet, kiriQuota* sampl
                            samples);
 }
 
-/* What PrepareCommit and kiri_update.c do within one tick, in items. */
+/* Returns the cost of PrepareCommit and of the commit, in items. */
 static int64_t ItemsOfCommit(const kiriSheetData* sheet)
 {
     enum { WEIGHTS_AN_ITEM = 64, OWNERS_AN_ITEM = 256, ELEMENTS_AN_ITEM = 8, ITEMS_OF_FIT = 2 };
@@ -134,7 +134,7 @@ static int64_t ItemsOfCommit(const kiriSheetData* sheet)
            ITEMS_OF_FIT * (int64_t)u->refit.most + sheet->links.changed + elements / ELEMENTS_AN_ITEM;
 }
 
-/* Where new frames take their motion from the surface: their anchors, and the triangles there. */
+/* Finds the anchors of new frames and the triangles that they take their motion from. */
 static kiriProgress PlaceNewFrames(kiriSheetData* sheet, kiriQuota* samples)
 {
     kiriUpdate* u = sheet->update;
@@ -157,7 +157,7 @@ static kiriProgress PlaceNewFrames(kiriSheetData* sheet, kiriQuota* samples)
     return KIRI_MORE;
 }
 
-/* When the commit is paid: all that the host may change between two ticks. */
+/* Stages the state that the host may change between ticks, once the commit is paid. */
 static kiriProgress PrepareCommit(kiriSheetData* sheet, kiriQuota* samples)
 {
     kiriUpdate* u = sheet->update;
@@ -227,7 +227,7 @@ bool kiriSheet_ToLattice(const kiriSheetData* sheet, const float rest[2], kiriLa
     return inRange;
 }
 
-/* Of a grid square: thinner sheets would need a finer search for what touches. */
+/* Smallest contact thickness, as a fraction of a grid square. Less would need a finer contact search. */
 #define LEAST_CONTACT_THICKNESS 0.05
 
 kiriSheetSettings kiriSettings_Of(const kiriSheetDef* def)
@@ -318,7 +318,8 @@ bool kiriSheet_RestageSolver(kiriSheetData* sheet, const kiriMaterial* material)
     return kiriSolver_Stage(sheet->solver, &system, sheet->layout.framePiece.data, sheet->layout.pieces.count);
 }
 
-/* Poses and velocities stay. The next commit takes masses from the regions' exact moments again. */
+/* Computes the masses for a new material; keeps poses and velocities. The next commit computes masses from the regions'
+   exact moments. */
 static void Weigh(kiriSheetData* sheet, const kiriMaterial* before)
 {
     const kiriMaterial* now = &sheet->settings.material;
@@ -335,7 +336,7 @@ static void Weigh(kiriSheetData* sheet, const kiriMaterial* before)
     kiriLinks_BeginAgain(&sheet->links);
 }
 
-/* Without fadeTime links and clamps do not go on with their strains (kiri_strain.h). */
+/* Drops the strain offsets of links and clamps: without fadeTime they keep no strains (kiri_strain.h). */
 static void DropOffsets(kiriSheetData* sheet)
 {
     sheet->strainOffsets.strainOffsets.count = 0;
@@ -384,7 +385,7 @@ static kiriMat3 AxesOf(const kiriSheetDef* def)
     return axes;
 }
 
-/* Newton's iteration from above. */
+/* Computes the cube root by Newton's iteration from above. */
 static double CubeRoot(double a)
 {
     double x = kiriMax(a, 1.0);
@@ -394,7 +395,7 @@ static double CubeRoot(double a)
     return x;
 }
 
-/* Over which the material bends under its own weight: stiffness and weight of an area balance. */
+/* Returns the length over which the material bends under its own weight: there bending stiffness and weight balance. */
 static double BendingLength(const kiriMaterial* m)
 {
     double h = m->thickness, nu = m->poissonsRatio;
@@ -402,8 +403,8 @@ static double BendingLength(const kiriMaterial* m)
     return CubeRoot(stiffness / (m->density * h * 9.81));
 }
 
-/* The error of a shape falls with the square of the spacing, by the length over which it bends: that is the bending
-   length, or the sheet where this is shorter. Measured: tests/test_estimate.c. */
+/* Returns the spacing of frames for the accuracy. The error grows with (spacing / length)^2, where length is twice the
+   bending length or the longer side, whichever is shorter. Measured: tests/test_estimate.c. */
 static double SpacingFor(const kiriSheetDef* def, double longer)
 {
     double bent = def->planar ? longer : 2.0 * BendingLength(&def->material);
@@ -446,7 +447,7 @@ static void SetAll(kiriSettings* settings, const kiriMeshData* mesh, const kiriS
     settings->mechanics.model = def->model;
     settings->mechanics.planar = def->planar != 0;
     settings->mechanics.axes = AxesOf(def);
-    settings->leastFade = 1e-6 * longer * mesh->step; /* of the longer side */
+    settings->leastFade = 1e-6 * longer * mesh->step; /* 1e-6 of the longer side */
     SetPaper(settings, &def->paper);
     kiriSheetSettings given = kiriSettings_Of(def);
     kiriSettings_Take(settings, &given, mesh->step * mesh->squares.side);
@@ -481,7 +482,7 @@ static bool TakeFramePoint(kiriSheetData* sheet, const kiriSheetDef* def, int32_
     return true;
 }
 
-/* The sites that the caller gave, when the grid is there. */
+/* Adds the sites of the def. The grid must exist. */
 static kiriResult TakeFramePoints(kiriSheetData* sheet, const kiriSheetDef* def, kiriFault* fault)
 {
     kiriPlacingWork* placing = &sheet->update->placing;
@@ -520,7 +521,7 @@ static void LayFrame(kiriSheetData* sheet, const kiriSheetDef* def, int32_t inde
     }
 }
 
-/* False for memory. */
+/* Counts the pieces of the grid. Fails on out of memory. */
 static bool CountPieces(kiriSheetData* sheet, int32_t* pieces)
 {
     const kiriGrid* grid = &sheet->grid;
@@ -566,7 +567,7 @@ static kiriResult BuildFromMesh(kiriSheetData* sheet, const kiriSheetDef* def, k
     return kiriBuild_Commit(sheet) ? KIRI_OK : KIRI_ERROR_MEMORY;
 }
 
-/* What is as long as all that has just been made, and later as what a cut changes. */
+/* Frees scratch arrays as large as the new sheet. Later updates need only the size of their changes. */
 static void DropScratch(kiriSheetData* sheet)
 {
     kiriOwnership* ownership = &sheet->update->refit.ownership;

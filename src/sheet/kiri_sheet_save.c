@@ -182,7 +182,7 @@ static const kiriMember TouchesMembers[] = {
 };
 static const kiriTable TouchesTable = KIRI_TABLE(kiriTouches, TouchesMembers);
 
-/* ---- What is seen ------------------------------------------------------------------------------------------------ */
+/* ---- Visible state ----------------------------------------------------------------------------------------------- */
 
 static const kiriMember BlocksMembers[] = {
     KIRI_ITEMS(1, kiriBlocks, touched), KIRI_ITEMS(1, kiriBlocks, stale),

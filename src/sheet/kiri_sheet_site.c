@@ -11,7 +11,7 @@ typedef struct SeverWork {
     kiriSevered* severed;
     int32_t pin;
     bool isStaged;
-    kiriVec2 from, along, left; /* the line, local m; unit */
+    kiriVec2 from, along, left; /* start of the line, m, local; unit vectors */
     double length;
     const kiriLink* links;
     int32_t linkCount;
@@ -22,8 +22,8 @@ static kiriVec2 SiteOf(const SeverWork* work, int32_t frame)
     return work->isStaged ? work->sheet->update->placing.sites.data[frame].at : work->sheet->frames.data[frame].site.at;
 }
 
-/* Does the way between the sites of a link cross the line? Then *t says where, and *width how much of the line its
-   border is worth. */
+/* Returns true if the segment between the sites of a link crosses the line. *t is the position on the line, *width the
+   width of the link projected onto the line; both relative to the length of the line. */
 static bool IsAcross(const SeverWork* work, const kiriLink* link, double* t, double* width)
 {
     kiriVec2 a = kiriVec2_Sub(SiteOf(work, link->i), work->from), b = kiriVec2_Sub(SiteOf(work, link->j), work->from);
@@ -38,14 +38,14 @@ static bool IsAcross(const SeverWork* work, const kiriLink* link, double* t, dou
     return *t > 0.0 && *t < 1.0 && *width > 0.0;
 }
 
-/* So much of a link, 0 to 1. */
+/* Adds a severed link. `part` is in [0, 1]. */
 static bool AddSevered(const SeverWork* work, int32_t link, double part)
 {
     kiriSeveredLink severed = { work->pin, link, part };
     return kiriArray_Push(work->sheet->memory, work->severed, severed);
 }
 
-/* What frame `to` gets: a stretch of the line around t. */
+/* Adds a stretch of the line around t to the share of frame `to`. */
 static bool AddAcross(const SeverWork* work, int32_t to, const kiriLineShare* own, double t, double length)
 {
     kiriLineShare* share = NULL;
@@ -74,7 +74,7 @@ static bool AddAcross(const SeverWork* work, int32_t to, const kiriLineShare* ow
     return true;
 }
 
-/* Gives what the line has within the region of a frame to those beyond it, by the widths of its links with them. */
+/* Distributes a share whose other side has no linked frame to the frames across the line, by widths of links. */
 static bool SpreadShare(const SeverWork* work, kiriLineShare own)
 {
     double sum = 0.0, t, width;
@@ -97,7 +97,7 @@ static bool SpreadShare(const SeverWork* work, kiriLineShare own)
     return true;
 }
 
-/* Where the line runs along a border, both sides have it as their own. */
+/* Severs the link of two regions whose common border the line follows: both already have it in their shares. */
 static bool SeverBorder(const SeverWork* work, const kiriLinePart* part)
 {
     int32_t left = kiriOwner_OfNode(work->sheet, part->node[0], work->isStaged);
@@ -130,7 +130,7 @@ bool kiriSever_Across(kiriSheetData* sheet, kiriLatticePoint from, kiriLatticePo
                              isStaged ? sheet->links.next.count : sheet->links.links.count };
     bool ok = true;
     if (sheet->settings.mechanics.model == KIRI_MODEL_POINTS) {
-        return true; /* it has no links */
+        return true; /* no links */
     }
     int32_t own = sheet->lineShares.count;
     for (int32_t k = 0; ok && k < sheet->line.parts.count; ++k) {
@@ -142,7 +142,7 @@ bool kiriSever_Across(kiriSheetData* sheet, kiriLatticePoint from, kiriLatticePo
     return ok;
 }
 
-/* ---- Sites that were there ---- */
+/* ---- Existing sites ---- */
 
 static bool RecordMove(kiriSheetData* sheet, int32_t frame, int32_t was)
 {
@@ -156,7 +156,7 @@ static bool AddSite(kiriSheetData* sheet, kiriSite site)
            RecordMove(sheet, sheet->update->placing.sites.count - 1, KIRI_NONE);
 }
 
-/* Flags of squares, or of cells: all are down between uses, so that a use costs what it raises. */
+/* Grows the flags for squares or cells. All flags are 0 between uses, so a use costs only the flags that it sets. */
 static bool MakeFlags(kiriSheetData* sheet)
 {
     kiriUpdate* u = sheet->update;
@@ -169,9 +169,9 @@ static bool MakeFlags(kiriSheetData* sheet)
     return true;
 }
 
-/* The cell of a site that was there. Cells only ever fall apart, so two sites that had cells of their own still can:
-   where rounding says otherwise, the later site takes a free cell of its square. Cells that are taken are flagged.
-   False where none is free, of bytes that were made up. */
+/* Finds the cell of an existing site and flags it as taken. Cells only ever split, so sites in different cells stay in
+   different cells; if rounding breaks this, the later site takes a free cell of its square. Returns false if none is
+   free, which only a corrupt save can cause. */
 static bool Relocate(kiriSheetData* sheet, int32_t frame)
 {
     kiriUpdate* u = sheet->update;
@@ -190,15 +190,15 @@ static bool Relocate(kiriSheetData* sheet, int32_t frame)
     return true;
 }
 
-/* The square of the site that was in a cell, or KIRI_NONE. */
+/* Returns the square of the site that was in a cell, or KIRI_NONE. */
 static int32_t SquareOfSite(const kiriSheetData* sheet, int32_t cell)
 {
     int32_t frame = cell < sheet->regions.siteAt.count ? sheet->regions.siteAt.data[cell] : KIRI_NONE;
     return frame == KIRI_NONE ? KIRI_NONE : kiriSquares_At(&sheet->mesh.squares, sheet->frames.data[frame].anchor);
 }
 
-/* Flags, or lets down, the squares of sites whose cells have changed: all sites there may have to be found again, for
-   only those of one square can be in each other's way. Is there any? */
+/* Sets or clears the flags of squares with sites whose cells changed. Sites conflict only within a square, so only the
+   sites of these squares are located again. Returns true if there is such a square. */
 static bool FlagSquares(kiriSheetData* sheet, uint8_t flag)
 {
     const kiriGridChanges* changes = &sheet->grid.changes;
@@ -216,7 +216,7 @@ static bool FlagSquares(kiriSheetData* sheet, uint8_t flag)
     return any;
 }
 
-/* The frames whose sites may have to be found again: all of them when regions are made from scratch. */
+/* Adds a move for each frame whose site may have to be located again: all frames if regions are rebuilt. */
 static bool CollectMoves(kiriSheetData* sheet)
 {
     kiriUpdate* u = sheet->update;
@@ -234,7 +234,7 @@ static bool CollectMoves(kiriSheetData* sheet)
     return ok;
 }
 
-/* A sheet that has no frames yet: whoever makes it may have given it sites. */
+/* Adds moves for the sites of a sheet without frames: its def may give some. */
 static bool MoveGiven(kiriSheetData* sheet)
 {
     bool ok = true;
@@ -271,7 +271,7 @@ bool kiriSites_Relocate(kiriSheetData* sheet)
     return ok;
 }
 
-/* ---- What the grid carries ---- */
+/* ---- Density of sites ---- */
 
 int32_t kiriSites_MostIn(int32_t cells)
 {
@@ -297,7 +297,7 @@ bool kiriSites_IsCrowded(const kiriGrid* grid, const kiriSites* sites, const kir
 
 /* ---- Pieces without a frame ---- */
 
-/* Of the piece in the placer. */
+/* Returns the area of the current piece. */
 static double TakenArea(const kiriSheetData* sheet)
 {
     const kiriPlacer* placer = &sheet->update->placing.placer;
@@ -321,7 +321,6 @@ kiriProgress kiriSites_RunPlacer(kiriSheetData* sheet, kiriQuota* quota)
     return progress;
 }
 
-/* How many of `count` things spread over the sheet fall to the piece in the placer. */
 int32_t kiriSites_ShareOf(const kiriSheetData* sheet, double count)
 {
     if (count == 0.0) {
@@ -331,17 +330,17 @@ int32_t kiriSites_ShareOf(const kiriSheetData* sheet, double count)
     return kiriMax(whole, 1);
 }
 
-/* Around slit ends, where strains are large, sites are closer: `closeness` times at an end, less and less up to `reach`
-   spacings away. A given number of frames is spread with some care for what is left elsewhere. Where the number is
-   open, the spacings s = max(d / c, d r / reach), r away from an end, take 2 pi (reach / d)^2 ln c frames more, where
-   there is room for all. Measured with slit strips and a tongue: tests/test_estimate.c. */
+/* Sites are denser around slit ends, where strains are large: `closeness` (c) times at an end, falling off to 1 at
+   `reach` spacings. If the count of frames is given, the density is lower, to leave enough frames elsewhere. If it is
+   open, the spacing s = max(d / c, d r / reach) at distance r from an end takes 2 pi (reach / d)^2 ln c extra frames,
+   if there is room for all. Measured with slit strips and a tongue: tests/test_estimate.c. */
 #define GIVEN_CLOSENESS 2.5
 #define GIVEN_REACH 2.0
 #define OPEN_CLOSENESS 3.0
 #define OPEN_REACH 1.5
 #define OPEN_FRAMES_AN_END 15.5
 
-/* All frames that are to be spread but one for each of the pieces that come later; one at least. */
+/* Returns the frames left to spread, less one for each later piece; at least 1. */
 static int32_t LeftToSpread(const kiriSheetData* sheet)
 {
     const kiriPlacingWork* placing = &sheet->update->placing;
@@ -349,7 +348,7 @@ static int32_t LeftToSpread(const kiriSheetData* sheet)
     return kiriMax(left, 1);
 }
 
-/* How many frames the piece in the placer starts with. */
+/* Returns the initial count of frames of the current piece. */
 static int32_t FramesFor(const kiriSheetData* sheet)
 {
     if (IsCrumbTaken(sheet)) {
@@ -370,8 +369,8 @@ static int32_t FramesFor(const kiriSheetData* sheet)
     return count < 1.0 || most < 1 ? 1 : count < most ? (int32_t)count : most;
 }
 
-/* Starts placing `count` frames, about `spacing` apart, in the piece in the placer, which has none that stay, and whose
-   slit ends are there: in pairs at slit ends, and then evenly. Half of them at most go to slit ends. */
+/* Starts placing `count` frames, about `spacing` apart, in the current piece: first in pairs at slit ends, at most half
+   of them, then evenly. The slit ends are known, and no site of the piece stays. */
 static bool StartPlacing(kiriSheetData* sheet, int32_t count, double spacing)
 {
     kiriPlacer* placer = &sheet->update->placing.placer;
@@ -387,7 +386,7 @@ static bool StartPlacing(kiriSheetData* sheet, int32_t count, double spacing)
            kiriPlacer_Start(placer, sheet->memory, &sheet->grid, &sheet->mesh, NULL, count - placer->sites.count);
 }
 
-/* Takes the piece with this cell, and its slit ends, into the placer. */
+/* Loads the piece of a cell, and its slit ends, into the placer. */
 static kiriProgress TakePiece(kiriSheetData* sheet, int32_t cell, kiriQuota* cells)
 {
     kiriPlacingWork* placing = &sheet->update->placing;
@@ -407,13 +406,13 @@ static kiriProgress TakePiece(kiriSheetData* sheet, int32_t cell, kiriQuota* cel
     return progress;
 }
 
-/* How far apart `count` frames are in the piece in the placer, away from slit ends. */
+/* Returns the spacing of `count` frames in the current piece, away from slit ends, m. */
 static double SpacingOf(const kiriSheetData* sheet, int32_t count)
 {
     return sheet->settings.frameLength > 0.0 ? sheet->settings.frameLength : sqrt(TakenArea(sheet) / count);
 }
 
-/* Starts placing frames in the piece of an orphan, and marks its cells as seen to. */
+/* Starts placing frames in the piece of an orphan, and marks its cells as done. */
 static kiriProgress StartOrphan(kiriSheetData* sheet, int32_t cell, kiriQuota* cells)
 {
     kiriUpdate* u = sheet->update;
@@ -434,7 +433,6 @@ static bool IsAtPiece(const kiriSheetData* sheet)
     return sheet->update->placing.isTaking || sheet->update->placing.isPlacing;
 }
 
-/* Frames for the pieces that have none, at least one each (section 5 of the paper). */
 kiriProgress kiriSites_PlaceInOrphans(kiriSheetData* sheet, kiriQuota* cells)
 {
     kiriUpdate* u = sheet->update;
@@ -472,8 +470,8 @@ bool kiriSites_ClearMarks(kiriSheetData* sheet, int32_t count)
 
 /* ---- Re-sampling ---- */
 
-/* Returns the area over which the frame's weight exceeds rigidWeight, divided by rigidArea. 0 where the new sheet
-   had as much. */
+/* Returns the area over which the frame's weight exceeds rigidWeight, divided by rigidArea. Returns 0 if it is not more
+   than in the new sheet. */
 static double FrameRigidity(const kiriSheetData* sheet, int32_t frame)
 {
     int64_t rigid = sheet->shape.rigid.data[frame];
@@ -491,12 +489,12 @@ static double Largeness(const kiriSheetData* sheet, int32_t frame)
     }
     kiriMoments m = kiriTally_Moments(&sheet->regions.material.data[frame], kiriSheet_Extent(sheet));
     kiriMoments about = kiriMoments_About(&m, kiriMoments_Center(&m));
-    /* A quarter more than the length that frames are placed at: their regions differ. */
+    /* 1.25 times the frame length, squared: sizes of regions vary. */
     double most = 1.5625 * sheet->settings.frameLength * sheet->settings.frameLength;
     return 6.0 * (about.uu + about.vv) / (most * m.area);
 }
 
-/* Above 1: the frame needs another beside it. */
+/* Returns the need of a frame for another one nearby: above 1 if it needs one. */
 static double NeedOf(const kiriSheetData* sheet, int32_t frame)
 {
     double rigidity = FrameRigidity(sheet, frame), largeness = Largeness(sheet, frame);
@@ -511,7 +509,7 @@ static bool MarkRigidCells(kiriSheetData* sheet)
     if (!kiriArray_Resize(sheet->memory, &u->placing.allowed, sheet->grid.cells.count)) {
         return false;
     }
-    int32_t last = KIRI_NONE; /* cells come region by region, more or less */
+    int32_t last = KIRI_NONE; /* cache: consecutive cells are mostly of one region */
     bool isLarge = false;
     for (int32_t i = 0; i < u->placing.placer.cells.count; ++i) {
         int32_t cell = u->placing.placer.cells.data[i], owner = sheet->regions.field.owner.data[cell];
@@ -529,7 +527,7 @@ static bool MarkRigidCells(kiriSheetData* sheet)
     return true;
 }
 
-/* The frames of the piece in the placer, and its sites; *old says whether one of them was there before this update. */
+/* Lists the frames and sites of the current piece. *old is true if a frame existed before this update. */
 static bool TakeSitesOfPiece(kiriSheetData* sheet, bool* old)
 {
     kiriUpdate* u = sheet->update;
@@ -553,10 +551,10 @@ static bool TakeSitesOfPiece(kiriSheetData* sheet, bool* old)
     return ok;
 }
 
-/* Returns how many more sites the piece in the placer gets. Where all sites are new they are placed again, to lie
-   evenly: in the first round, and while more than a quarter of the frames need another. Areas shrink then as the count
-   grows. The count grows by half at most. Else there is one site for every two frames in need, for a new site helps its
-   neighbours, too. A crumb gets none, and a piece gets no more than the grid carries. */
+/* Returns the count of sites to add to the current piece. If all sites are new, they are placed again (isAgain), to be
+   even: in the first round, and while more than a quarter of the frames need another. Areas shrink as the count grows;
+   it grows by half at most. Otherwise adds one site for every two frames in need, because a new site also helps its
+   neighbors. A crumb gets none. The limit is kiriSites_MostIn. */
 static int32_t SitesToAdd(kiriSheetData* sheet, bool areNew)
 {
     kiriPlacingWork* placing = &sheet->update->placing;
@@ -575,7 +573,7 @@ static int32_t SitesToAdd(kiriSheetData* sheet, bool areNew)
     return most < 1 || IsCrumbTaken(sheet) ? 0 : more < most ? (int32_t)more : most;
 }
 
-/* More sites in the piece in the placer, in rigid cells or evenly. */
+/* Starts adding sites to the current piece: evenly if all are placed again, otherwise in the marked cells. */
 static bool AddToPiece(kiriSheetData* sheet)
 {
     kiriPlacingWork* placing = &sheet->update->placing;
@@ -598,8 +596,8 @@ static kiriProgress StartResample(kiriSheetData* sheet, int32_t frame, kiriQuota
     return progress != KIRI_DONE || AddToPiece(sheet) ? progress : KIRI_FAILED;
 }
 
-/* New sites take the indices of those of the piece that were placed again, then new ones. A piece that has no cell for
-   one more stays as it is. */
+/* Stores the placed sites: they reuse the indices of sites that were placed again, then get new ones. A piece without a
+   cell for one more stays unchanged. */
 static bool GiveSites(kiriSheetData* sheet)
 {
     kiriUpdate* u = sheet->update;
@@ -619,7 +617,7 @@ static bool GiveSites(kiriSheetData* sheet)
     return ok;
 }
 
-/* Was the piece of the frame a crumb already? Then it is one. */
+/* Returns true if the committed piece of the frame is a crumb; then it still is one. */
 static bool IsOfCrumb(const kiriSheetData* sheet, int32_t frame)
 {
     return frame < sheet->frames.count &&
@@ -635,7 +633,6 @@ bool kiriSites_MayBeFew(const kiriSheetData* sheet)
     return mayBe;
 }
 
-/* More frames for each piece with a rigid one. */
 kiriProgress kiriSites_Resample(kiriSheetData* sheet, kiriQuota* cells)
 {
     kiriUpdate* u = sheet->update;

@@ -4,13 +4,13 @@
 
 #include <string.h>
 
-/* So many patches a frame, about: its six unknowns need no more points, but for what bends within its reach. */
+/* Average count of patches a frame. A frame has six unknowns, so only bent surfaces need more points. */
 #define PATCHES_A_FRAME 4.0
 
-/* Of the distance that is kept: by so much another vertex must be deeper to take the place of one that pushed. */
+/* Hysteresis, as a fraction of the contact distance: a vertex must be deeper by this to replace one with a force. */
 #define PREFERRED 0.5
 
-/* Normals that differ by less are of one face: the cosine of 25 degrees. */
+/* Cosine of 25 degrees. Normals with a smaller angle belong to one face. */
 #define SAME_FACE 0.9
 
 /* ---- The sheet as a whole ---------------------------------------------------------------------------------------- */
@@ -30,7 +30,7 @@ kiriBox kiriSheet_Box(const kiriSheetData* sheet)
     return box;
 }
 
-/* To the corner of the box that is farthest from a point. */
+/* Returns the distance from a point to the farthest corner of the box. */
 static double FarthestCorner(const kiriBox* box, kiriVec3 from)
 {
     kiriVec3 a = kiriVec3_Sub(box->lower, from), b = kiriVec3_Sub(box->upper, from);
@@ -38,7 +38,8 @@ static double FarthestCorner(const kiriBox* box, kiriVec3 from)
                                          fabs(a.z) > fabs(b.z) ? a.z : b.z));
 }
 
-/* m: to the farthest point that the frame has a weight at: six radii of gyration of its region, or the sheet's end. */
+/* Returns a bound of the distance to the farthest point that the frame carries, m: six radii of gyration of its region,
+   or the farthest corner of the sheet's box. */
 static double Lever(const kiriFrameData* frame, const kiriBox* box)
 {
     double corner = FarthestCorner(box, frame->x), square = frame->inertia[0] + frame->inertia[2];
@@ -66,7 +67,7 @@ double kiriReach_Of(double speed, kiriVec3 gravity, double dt)
     return 2.0 * dt * (speed + dt * kiriVec3_Length(gravity));
 }
 
-/* No point of the obstacle within reach of the sheet's box is faster. */
+/* Returns an upper bound of the obstacle's speed within the sheet's box. */
 static double SpeedOf(const kiriObstacleData* obstacle, const kiriBox* box)
 {
     return kiriVec3_Length(obstacle->velocity) +
@@ -98,8 +99,6 @@ static int32_t LeadingFrame(const kiriSkin* skin, int32_t sample)
 
 /* ---- Touches ----------------------------------------------------------------------------------------------------- */
 
-/* A plane through a point of the obstacle, with all that a touch says but whom it touches. False where the plane of a
-   planar sheet lies along it. */
 bool kiriMeeting_MakePlane(const kiriMeeting* meeting, kiriVec3 normal, kiriVec3 at, double gap, kiriTouch* touch)
 {
     const kiriMechanics* mechanics = &meeting->sheet->settings.mechanics;
@@ -109,7 +108,7 @@ bool kiriMeeting_MakePlane(const kiriMeeting* meeting, kiriVec3 normal, kiriVec3
     touch->velocity = kiriVec3_Add(kiriObstacle_VelocityAt(obstacle, at), slip);
     touch->offset = kiriVec3_Dot(normal, at) + gap;
     if (mechanics->planar) {
-        /* The line in which it cuts the sheet's plane. */
+        /* The plane's intersection with the sheet's plane: a line. */
         double lean = kiriVec3_Dot(normal, mechanics->axes.d), along = 1.0 - lean * lean;
         double height = kiriVec3_Dot(mechanics->axes.d, meeting->sheet->frames.data[0].x);
         if (along < 1e-2) {
@@ -127,7 +126,6 @@ bool kiriMeeting_MakePlane(const kiriMeeting* meeting, kiriVec3 normal, kiriVec3
     return true;
 }
 
-/* What a point of the material may move relative to the obstacle, twice as far as velocities and gravity tell. */
 kiriVec3 kiriMeeting_Way(const kiriMeeting* meeting, kiriVec3 point, kiriVec3 velocity)
 {
     const kiriObstacleSearch* search = meeting->search;
@@ -162,7 +160,6 @@ bool kiriMeeting_IsBorder(const kiriSurface* surface, const kiriIndices* near, i
 
 enum { KEY_SLOTS = 1 << 22 };
 
-/* Kind, whether it is of an edge, slot of the obstacle, and which vertex or point of an edge. */
 uint64_t kiriMeeting_Key(const kiriMeeting* meeting, bool isEdge, uint32_t item)
 {
     return (uint64_t)KIRI_TOUCH_OBSTACLE << 60 | (uint64_t)isEdge << 59 |
@@ -174,7 +171,7 @@ bool kiriObstacle_FollowKey(uint64_t* key, const kiriKeep* vertices, const kiriK
     bool isEdge = (*key >> 59 & 1) != 0, isRound = isEdge && (*key & KIRI_ROUND_ITEM) != 0;
     int32_t item = (int32_t)(*key & (KIRI_ROUND_ITEM - 1));
     if (isEdge && !isRound) {
-        return true; /* of a point of the obstacle */
+        return true; /* the item is a point of the obstacle */
     }
     int32_t to = kiriKeep_To(isRound ? triangles : vertices, item);
     *key = (*key & ~(uint64_t)(KIRI_ROUND_ITEM - 1)) | (uint32_t)to;
@@ -218,7 +215,7 @@ static bool Yields(const kiriSheetData* sheet, int32_t yield)
     return yield != KIRI_NONE && sheet->touches.yields.data[yield].inverseMass > 0.0;
 }
 
-/* Adds a vertex. Thinned: of the vertices in one place the deepest stays, of equals the first. */
+/* Adds a vertex. isThinned: keeps only the deepest of the vertices in one place; the first of equal ones. */
 static void Choose(kiriObstacleSearch* search, kiriNearVertex near, bool isThinned)
 {
     int32_t* link = &search->heads.data[near.patch];
@@ -237,7 +234,7 @@ static void Choose(kiriObstacleSearch* search, kiriNearVertex near, bool isThinn
     search->chosen.data[search->chosen.count++] = near;
 }
 
-/* m: one that pushed counts as that much deeper, so that others, about as deep, do not take its place in turns. */
+/* Returns the extra depth (m) of a vertex that had a force, so that vertices of similar depth do not alternate. */
 static double Preference(const kiriMeeting* meeting, int32_t vertex, double height)
 {
     if (height > 2.0 * meeting->gap) {
@@ -269,7 +266,8 @@ static void LookAtVertex(const kiriMeeting* meeting, int32_t vertex)
     }
 }
 
-/* Each vertex of the triangles near once, in their order: so what is chosen does not depend on that of triangles. */
+/* Lists each vertex of the near triangles once, ascending, so that the choice does not depend on the order of
+   triangles. */
 static void CollectVertices(const kiriMeeting* meeting)
 {
     kiriObstacleSearch* search = meeting->search;
@@ -310,7 +308,7 @@ static void ChooseVertices(const kiriMeeting* meeting)
     }
 }
 
-/* The plane where the vertex enters, or that it comes near. */
+/* Makes the touch of a vertex: the plane where it enters the obstacle, or the nearest one. Returns false if none. */
 static bool TouchVertex(const kiriMeeting* meeting, int32_t vertex, kiriTouch* touch)
 {
     const kiriObstacleData* obstacle = meeting->obstacle;
@@ -348,7 +346,7 @@ bool kiriMeeting_TouchVertices(const kiriMeeting* meeting)
 
 /* ---- Search ------------------------------------------------------------------------------------------------------ */
 
-/* Squares along the side of a patch. */
+/* Returns the side of a patch in grid squares. */
 static int32_t PatchSide(const kiriSheetData* sheet, double square)
 {
     double area = 0.0;
@@ -428,7 +426,7 @@ static kiriMeeting MakeMeeting(kiriObstacleSearch* search, kiriSheetData* sheet,
     return meeting;
 }
 
-/* Of the movers, unless something else has been woken since, or shall wake. */
+/* Returns the version of the movers; 0 if another piece woke since, or wakes in this tick. */
 static int64_t VersionOf(const kiriSheetData* sheet)
 {
     const kiriMoved* moved = kiriSolver_Moved(sheet->solver);
@@ -439,7 +437,7 @@ static int64_t VersionOf(const kiriSheetData* sheet)
     return isSame ? moved->version : 0;
 }
 
-/* Of the triangles found, those of pieces that move, or shall wake. */
+/* Drops the found triangles of pieces that neither move nor wake in this tick. */
 static void DropSleepers(kiriObstacleSearch* search, const kiriSheetData* sheet)
 {
     int32_t kept = 0;
@@ -471,21 +469,20 @@ bool kiriObstacleSearch_Run(kiriObstacleSearch* search, kiriSheetData* sheet, co
 
 enum { INSIDE = 4, PROBES_A_FRAME = 6 };
 
-/* So many squares of the grid, across and along, that have one probe inside of a piece. */
+/* A block of size x size grid squares; it has one probe inside a piece. */
 typedef struct Block {
     int32_t size, column, row;
 } Block;
 
-/* The vertex chosen so far for the material of a piece in the block at hand: of its border in a quarter of the block,
-   or of the inside. */
+/* The best vertex so far of a piece in the current block: on its border in a quarter of the block, or inside. */
 typedef struct Choice {
     int32_t piece, quarter, vertex;
-    double rank; /* the lowest is taken */
+    double rank; /* lower is better */
 } Choice;
 
 typedef KIRI_ARRAY(Choice) Choices;
 
-/* The sharper the corner the shorter the way into its material. */
+/* Returns the rank of a vertex: lower for a sharper corner of the border, 1 inside. */
 static double Rank(const kiriSheetData* sheet, int32_t vertex)
 {
     kiriVec2 lean = kiriVec2_Scale(0.125, sheet->probes.leans.data[vertex]);
@@ -517,7 +514,7 @@ static bool ConsiderVertex(const kiriSheetData* sheet, kiriMemory* scratch, Choi
     return kiriArray_Push(scratch, choices, choice);
 }
 
-/* The inside needs no probe where the border has one. */
+/* Returns true if the choice becomes a probe. The inside needs none if the border has one. */
 static bool IsNeeded(const Choices* choices, const Choice* choice)
 {
     bool hasBorder = false;
@@ -546,7 +543,7 @@ static bool ChooseInBlock(kiriSheetData* sheet, kiriMemory* scratch, Choices* ch
     return ok;
 }
 
-/* Frames bend the surface, so that more probes than a dozen for each tell nothing new. */
+/* Returns the side of a block in grid squares, for about PROBES_A_FRAME probes a frame. */
 static int32_t BlockSize(const kiriSheetData* sheet)
 {
     double squares = (double)sheet->grid.cellCount / (sheet->frames.count * (double)PROBES_A_FRAME);
@@ -557,7 +554,7 @@ static int32_t BlockSize(const kiriSheetData* sheet)
     return size;
 }
 
-/* By piece, then by index. */
+/* Lists the probes by piece, then by index. */
 static bool ListChosen(kiriSheetData* sheet)
 {
     kiriProbes* probes = &sheet->probes;
@@ -586,7 +583,7 @@ static bool ListChosen(kiriSheetData* sheet)
     return true;
 }
 
-/* An edge of the border begins the fan at the one end, and ends that at the other. */
+/* Marks the vertices of a border edge, and adds its normal to their leans. */
 static void MarkBorderEdge(kiriSheetData* sheet, int32_t from, int32_t to)
 {
     kiriProbes* probes = &sheet->probes;
@@ -718,7 +715,7 @@ bool kiriProbes_Remake(kiriSheetData* sheet)
     return true;
 }
 
-/* The first that has this key or a larger one. */
+/* Returns the index of the first force whose key is not less. */
 static int32_t FindForce(const kiriTouchMemory* memory, uint64_t key)
 {
     int32_t low;
@@ -748,7 +745,8 @@ static bool IsKeyBefore(const void* context, int32_t a, int32_t b)
     return touches[a].key < touches[b].key || (touches[a].key == touches[b].key && a < b);
 }
 
-/* From the last one on, so that those that are there move up once. Of equal keys the older force comes first. */
+/* Merges new forces into the sorted ones, from the end on, so that each moves once. Older forces come first among equal
+   keys. */
 static void MergeForces(kiriTouchMemory* memory, const int32_t* order, int32_t count)
 {
     int32_t left = memory->forces.count;
@@ -809,10 +807,10 @@ void kiriTouchMemory_DropTaken(kiriTouchMemory* memory)
     memory->forces.count = kept;
 }
 
-#define CALM_SLOPE 1e-3  /* by how much the normal of a contact may change while a sheet falls asleep */
+#define CALM_SLOPE 1e-3  /* largest change of a contact normal while a sheet falls asleep */
 #define DEFAULT_PUSH 1.0 /* m/s */
 
-/* ---- What is found ----------------------------------------------------------------------------------------------- */
+/* ---- Adding touches ---------------------------------------------------------------------------------------------- */
 
 static kiriVec3 WhereSeen(const kiriSheetData* sheet, const kiriTouch* touch)
 {
@@ -828,7 +826,7 @@ static kiriVec3 WhereSeen(const kiriSheetData* sheet, const kiriTouch* touch)
 
 #define KIRI_FAR_BELOW 1e9 /* m */
 
-/* A cut may have come between the vertices of a touch: it is of the piece of the first. */
+/* Returns the piece of the first vertex: a cut may have separated the vertices of a touch. */
 static kiriPiece* PieceOfTouch(const kiriSheetData* sheet, const kiriTouch* touch)
 {
     if (touch->point != KIRI_NONE) {
@@ -846,7 +844,7 @@ static bool IsTouchFinite(const kiriTouch* touch)
     return sum - sum == 0.0;
 }
 
-/* Places and speeds of 1e30 and more come to what doubles cannot hold. Then nothing reaches the plane. */
+/* Replaces a touch that overflowed (positions or speeds near 1e30) by one whose plane nothing reaches. */
 static void Disarm(const kiriSheetData* sheet, kiriTouch* touch)
 {
     const kiriVec3 up = { 0.0, 0.0, 1.0 }, none = { 0.0, 0.0, 0.0 };
@@ -863,7 +861,7 @@ bool kiriTouches_Add(kiriSheetData* sheet, const kiriTouch* touch)
     kiriTouch found = *touch;
     found.row = KIRI_NONE;
     if (PieceOfTouch(sheet, touch)->isGone) {
-        found.offset -= KIRI_FAR_BELOW; /* the host is told of each of its contacts */
+        found.offset -= KIRI_FAR_BELOW; /* stays in the list: each contact of the host has a result */
     }
     KIRI_ASSERT(kiriSheet_IsActive(sheet));
     KIRI_ASSERT(touch->yield == KIRI_NONE || touch->yield < sheet->touches.yields.count);
@@ -890,11 +888,11 @@ int32_t kiriTouches_FindYield(const kiriSheetData* sheet, int64_t number)
     return KIRI_NONE;
 }
 
-/* ---- What the host gave ------------------------------------------------------------------------------------------ */
+/* ---- Contacts of the host ---------------------------------------------------------------------------------------- */
 
-#define OF_PLACE (UINT64_C(1) << 59) /* in a key: of a rest point, not of a collision point */
+#define OF_PLACE (UINT64_C(1) << 59) /* key bit: the item is a rest point, not a collision point */
 
-/* By point and obstacle. */
+/* Returns the key of a contact, from its point and obstacle. */
 static uint64_t KeyOfGiven(const kiriSheetData* sheet, const kiriContact* contact)
 {
     uint64_t kind = (uint64_t)KIRI_TOUCH_HOST << 60, obstacle = (uint64_t)(uint32_t)contact->obstacle & 0x1fffffu;
@@ -908,7 +906,8 @@ static uint64_t KeyOfGiven(const kiriSheetData* sheet, const kiriContact* contac
     return kind | OF_PLACE | (obstacle << 32 ^ (place & UINT64_C(0x07ffffffffffffff)));
 }
 
-/* The contacts of one number share a yield row. Each says itself how it feels the mass. */
+/* Finds or adds the yield row that contacts with the same obstacle number share. Each contact has its own inverse
+   mass. */
 static bool FindYieldOf(kiriSheetData* sheet, const kiriContact* contact, int32_t* yield)
 {
     int64_t number = -1 - (int64_t)(uint32_t)contact->obstacle;
@@ -948,8 +947,7 @@ static bool HasLowerGivenKey(const void* context, int32_t a, int32_t b)
     return found[a].key < found[b].key || (found[a].key == found[b].key && a < b);
 }
 
-/* Contacts at one point with one obstacle get different keys, in the order in which the host gave them: up to 64 of
-   them. */
+/* Makes the keys of up to 64 contacts at one point with one obstacle different, in the order of the host. */
 static void NumberRepeated(kiriTouches* touches)
 {
     enum { MOST_REPEATED = 64 };
@@ -964,7 +962,7 @@ static void NumberRepeated(kiriTouches* touches)
         kiriTouch* touch = &found[touches->order.data[k]];
         repeated = k > 0 && touch->key == last ? repeated + 1 : 0;
         last = touch->key;
-        touch->key ^= repeated % MOST_REPEATED << 53; /* above the obstacle */
+        touch->key ^= repeated % MOST_REPEATED << 53; /* bits above the obstacle number */
     }
 }
 
@@ -987,7 +985,7 @@ static bool ReserveMemory(kiriSheetData* sheet, kiriTouchMemory* memory, int64_t
            kiriArray_Reserve(sheet->memory, &memory->forces, count);
 }
 
-/* All may fall asleep, or wake, before the next touches are found. */
+/* Reserves both memories for all touches: all may fall asleep, or wake, before the next search. */
 static bool RoomToRemember(kiriSheetData* sheet, int64_t count)
 {
     kiriTouches* touches = &sheet->touches;
@@ -1012,7 +1010,7 @@ bool kiriTouches_Reserve(kiriSheetData* sheet)
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
 
-enum { MOST_BLENDED = 96 }; /* frames of three vertices */
+enum { MOST_BLENDED = 96 }; /* largest count of frames that carry three vertices */
 
 typedef struct TouchBlend {
     kiriWeight weights[MOST_BLENDED];
@@ -1057,7 +1055,7 @@ static TouchBlend BlendOf(const kiriSheetData* sheet, const kiriTouch* touch)
     return blend;
 }
 
-/* The largest first; of equal ones the lower frame. */
+/* Swaps the largest remaining weight to index n; among equal ones the lower frame. */
 static void TakeLargest(TouchBlend* blend, int32_t n)
 {
     int32_t best = n;
@@ -1070,7 +1068,7 @@ static void TakeLargest(TouchBlend* blend, int32_t n)
     blend->weights[n] = largest;
 }
 
-/* A cut may have come between the vertices of a touch: then the piece with the largest weight has the contact. */
+/* Writes the weights of a row. If a cut separated the vertices, the piece with the largest weight gets the contact. */
 static void WriteWeights(const kiriSheetData* sheet, TouchBlend* blend, kiriContactRow* row)
 {
     double sum = 0.0;
@@ -1117,7 +1115,7 @@ static void WriteContactRow(const kiriSheetData* sheet, const kiriTouch* touch, 
     row->offset = touch->offset + kiriVec3_Dot(row->normal, kiriVec3_Sub(at, touch->seen));
 }
 
-/* kg: the material that one soft contact stands for, a vertex or a square of the grid, whichever has more. */
+/* Returns the mass that one soft contact represents, kg: of a vertex or of a grid square, whichever is larger. */
 static double SampleMass(const kiriSheetData* sheet)
 {
     const kiriMaterial* material = &sheet->settings.material;
@@ -1145,7 +1143,7 @@ void kiriTouches_WriteRows(kiriSheetData* sheet)
     }
 }
 
-/* ---- What is remembered ------------------------------------------------------------------------------------------ */
+/* ---- Stored forces ----------------------------------------------------------------------------------------------- */
 
 kiriVec3 kiriTouches_ForceOf(const kiriSheetData* sheet, uint64_t key)
 {
@@ -1206,7 +1204,8 @@ void kiriTouches_Clear(kiriSheetData* sheet)
 
 /* ---- Sleep ------------------------------------------------------------------------------------------------------- */
 
-/* Those of pieces that are not moved, or of the others, go over; and those of pieces that are gone go. */
+/* Moves the touches of moved (areMoved), or of resting, pieces to the other memory. Drops touches of destroyed
+   pieces. */
 static void MoveTouches(kiriSheetData* sheet, kiriTouchMemory* from, kiriTouchMemory* to, bool areMoved)
 {
     int32_t kept = 0, given = 0, before = to->touches.count;
@@ -1235,8 +1234,8 @@ void kiriTouches_Sort(kiriSheetData* sheet)
     MoveTouches(sheet, &sheet->touches.slept, &sheet->touches.last, true);
 }
 
-/* Touches are found anew each tick, where a sheet that hardly moves is seen: a plane that passes the point as near as
-   the sheet may have gone meanwhile is the same. */
+/* Returns true if two touches are the same up to the motion of a calm sheet. Each tick finds its touches again at the
+   visible position, so planes may differ by the distance that the sheet can drift meanwhile. */
 static bool IsSame(const kiriSheetData* sheet, const kiriTouch* a, const kiriTouch* b)
 {
     kiriVec3 tilt = kiriVec3_Sub(b->normal, a->normal), faster = kiriVec3_Sub(b->velocity, a->velocity);
@@ -1246,7 +1245,7 @@ static bool IsSame(const kiriSheetData* sheet, const kiriTouch* a, const kiriTou
            kiriVec3_Length(faster) <= sheet->settings.sleepSpeed;
 }
 
-/* Of all that are found, then of those of the last tick, then of those of pieces that sleep. */
+/* Returns touch i of the concatenated lists: found, last tick, sleeping pieces. */
 static const kiriTouch* TouchAt(const kiriTouches* touches, int32_t i)
 {
     int32_t last = i - touches->found.count, slept = last - touches->last.touches.count;
@@ -1261,7 +1260,7 @@ static bool HasLowerTouchKey(const void* context, int32_t a, int32_t b)
     return first < second || (first == second && a < b);
 }
 
-/* By key: the host's contacts of pieces that are calm, those found first. */
+/* Lists the host's contacts of calm pieces, sorted by key; among equal keys the found ones come first. */
 static void ListCalm(kiriSheetData* sheet)
 {
     kiriTouches* touches = &sheet->touches;
@@ -1279,7 +1278,7 @@ static void ListCalm(kiriSheetData* sheet)
     }
 }
 
-/* Has each of one key that was found its like among those remembered, in their order, and none is left? */
+/* Returns true if the found touches of one key match the stored ones, one by one in order. */
 static bool AreSame(const kiriSheetData* sheet, const int32_t* order, int32_t count)
 {
     const kiriTouches* touches = &sheet->touches;
@@ -1323,7 +1322,7 @@ bool kiriTouches_NextNew(kiriSheetData* sheet, int32_t* at, int32_t* piece)
     return false;
 }
 
-/* The key of a collision point has its index. */
+/* The key of a collision point contains its index. */
 bool kiriTouch_Follow(kiriTouch* touch, const kiriKeep* points, const kiriKeep* vertices)
 {
     if (!kiriTouch_IsOfKind(touch, KIRI_TOUCH_HOST)) {
@@ -1343,9 +1342,9 @@ bool kiriTouch_Follow(kiriTouch* touch, const kiriKeep* points, const kiriKeep* 
     return true;
 }
 
-/* ---- What the host is told --------------------------------------------------------------------------------------- */
+/* ---- Results for the host ---------------------------------------------------------------------------------------- */
 
-/* The host's contacts come first among the touches. */
+/* Writes the result of contact i of the host. These contacts are the first of the found touches. */
 static void TellOne(const kiriSheetData* sheet, int32_t i, double dt, kiriContactForce* told)
 {
     const kiriTouch* touch = &sheet->touches.found.data[i];
@@ -1359,7 +1358,7 @@ static void TellOne(const kiriSheetData* sheet, int32_t i, double dt, kiriContac
             kiriVec3 x = kiriFrame_Carry(&sheet->frames.data[row->weights[n].frame], row->at);
             now = kiriVec3_AddScaled(now, row->weights[n].value, x);
         }
-        /* The seen point is off the frames' blend by as much as the plane was moved. */
+        /* The visible point is offset from the frames' blend by the same distance as the plane. */
         at = kiriVec3_AddScaled(now, touch->offset - row->offset, row->normal);
         impulse = row->impulse;
         way = row->way;

@@ -8,8 +8,8 @@
 
 /* ---- Cut: appendix A --------------------------------------------------------------------------------------------- */
 
-/* Reserves room for a step of the blade: what there is for each vertex and each triangle. So a step that is made is
-   made in the mesh, the weights, and what is seen. */
+/* Reserves all arrays per vertex and per triangle for a step of the blade, so that mesh, weights and visible state stay
+   consistent. */
 static bool ReserveStep(kiriSheetData* sheet)
 {
     enum { MADE = 6 }; /* vertices and triangles at most */
@@ -21,7 +21,7 @@ static bool ReserveStep(kiriSheetData* sheet)
            kiriPast_Reserve(&sheet->past, &sheet->pastRoom, sheet->memory, surface->vertexCount, counts.vertices);
 }
 
-/* Moves the blade step by step, so that each finds its room. */
+/* Moves the blade step by step and reserves before each. */
 static kiriProgress MoveBlade(kiriSheetData* sheet, kiriBladeTip* blade, kiriLatticePoint to, kiriQuota* triangles)
 {
     for (;;) {
@@ -57,7 +57,7 @@ static kiriProgress TakeQueuedPoint(kiriSheetData* sheet, const kiriQueuedPoint*
     }
     kiriLatticePoint start = kiriMesh_Snap(mesh, from);
     if (tip->blade.vertex == KIRI_NONE && (start.x != tip->blade.at.x || start.y != tip->blade.at.y)) {
-        tip->blade = kiriCut_Place(mesh, from); /* it comes from far outside */
+        tip->blade = kiriCut_Place(mesh, from); /* the blade starts far outside */
     }
     kiriProgress progress = MoveBlade(sheet, &tip->blade, kiriMesh_Snap(mesh, to), triangles);
     if (progress == KIRI_DONE) {
@@ -66,7 +66,7 @@ static kiriProgress TakeQueuedPoint(kiriSheetData* sheet, const kiriQueuedPoint*
     return progress;
 }
 
-/* Ends the update with the tick of the last point, where that settles sites: later points are for the next one. */
+/* If the update settles sites, ends it with the tick of the last point; later points belong to the next update. */
 static void EndWithTick(kiriSheetData* sheet, const kiriQueuedPoint* last)
 {
     kiriCutWork* cut = &sheet->update->cut;
@@ -75,7 +75,7 @@ static void EndWithTick(kiriSheetData* sheet, const kiriQueuedPoint* last)
     cut->count = cut->settlesSites && isLast ? cut->taken : cut->count;
 }
 
-/* Takes queued points as far as the quota goes. Newborn vertices stay on the surface as it is. */
+/* Takes queued points as far as the quota goes. New vertices lie on the visible surface. */
 kiriProgress kiriStage_SplitMesh(kiriSheetData* sheet, kiriQuota* triangles)
 {
     kiriUpdate* u = sheet->update;
@@ -107,7 +107,7 @@ void kiriStage_CommitMesh(kiriSheetData* sheet)
 
 /* ---- Grid, regions, shape functions: sections 4.1, 4.2 and 5 ----------------------------------------------------- */
 
-/* The steps of the two stages that have more than one; each starts with its first, 0. */
+/* Steps of the two stages that have several; the first is 0. */
 enum { RELOCATE_SITES, DIVIDE_REGIONS, PLACE_IN_ORPHANS };
 enum { WEIGH_CELLS, ADD_SITES, DIVIDE_AGAIN, MAKE_LINKS };
 
@@ -218,7 +218,7 @@ static kiriProgress MakeLinks(kiriSheetData* sheet, kiriQuota* cells)
                             sites->count, cells);
 }
 
-/* Sites are added until no frame asks for one, where the update settles them. */
+/* Adds sites until no frame needs another, if the update settles them. */
 static kiriProgress SettleSites(kiriSheetData* sheet, kiriQuota* cells)
 {
     kiriUpdate* u = sheet->update;
@@ -253,7 +253,7 @@ kiriProgress kiriStage_Shape(kiriSheetData* sheet, kiriQuota* cells)
 
 /* ---- Samples: section 6 ------------------------------------------------------------------------------------------ */
 
-/* The points that were staged, in their new cells. */
+/* Lists the staged points with their new cells. */
 static bool MoveCollisionPoints(kiriSheetData* sheet)
 {
     kiriUpdate* u = sheet->update;
@@ -268,7 +268,7 @@ static bool MoveCollisionPoints(kiriSheetData* sheet)
     return true;
 }
 
-/* A piece with points only changes into one without when it falls apart. */
+/* Returns true if a piece may have no points: only a split can leave one without. */
 static bool NeedsPoints(const kiriSheetData* sheet)
 {
     return sheet->settings.collisionPoints > 0.0 && sheet->update->next.pieces.count != sheet->layout.pieces.count;
@@ -305,7 +305,7 @@ static bool AddCollisionPoints(kiriSheetData* sheet)
     for (int32_t i = 0; i < u->placing.placer.sites.count; ++i) {
         int32_t cell = u->placing.placer.sites.data[i].cell, sample = sheet->points.count + u->samples.newPoints.count;
         kiriLatticePoint at = kiriGrid_Anchor(&sheet->grid, &sheet->mesh, cell);
-        cell = kiriGrid_CellAround(&sheet->grid, &sheet->mesh, at); /* the tip of a triangle may be another's, too */
+        cell = kiriGrid_CellAround(&sheet->grid, &sheet->mesh, at); /* the anchor may lie in a neighboring cell */
         kiriSample point = { at, cell, KIRI_NONE };
         if (!kiriArray_Push(sheet->memory, &u->samples.newPoints, point) ||
             !kiriSkin_Stage(&sheet->pointSkin, sheet->memory, &sheet->shape, &sheet->grid, &sheet->mesh, sample, cell,
@@ -316,7 +316,7 @@ static bool AddCollisionPoints(kiriSheetData* sheet)
     return true;
 }
 
-/* Collision points for each piece that has none. */
+/* Places collision points in each piece that has none. */
 static kiriProgress PlaceCollisionPoints(kiriSheetData* sheet, kiriQuota* samples)
 {
     kiriUpdate* u = sheet->update;
@@ -385,7 +385,7 @@ kiriProgress kiriStage_RunSteps(kiriSheetData* sheet, kiriQuota* quota, kiriStag
     return progress;
 }
 
-/* A step of the next stage. */
+/* Step of KIRI_STAGE_SAMPLES at which StartAgain resumes. */
 enum { WEIGH_VERTICES = 2 };
 
 kiriProgress kiriStage_Samples(kiriSheetData* sheet, kiriQuota* samples)
@@ -400,8 +400,8 @@ typedef struct PipelineStage {
     kiriProgress (*run)(kiriSheetData* sheet, kiriQuota* quota);
 } PipelineStage;
 
-/* What a cut sets off, in the order of KIRI_STAGE. Any stage may spend its quota, or run out of memory; nothing is in
-   force before the commit. */
+/* The stages after a cut, in the order of KIRI_STAGE. Each may spend its quota, or run out of memory; the solver uses
+   the results only after the commit. */
 static const PipelineStage pipeline[KIRI_READY] = {
     { KIRI_QUOTA_TRIANGLES, kiriStage_SplitMesh }, /* appendix A, algorithm 4 */
     { KIRI_QUOTA_CELLS, kiriStage_Grid },          /* section 4.2, algorithm 3 */
@@ -455,7 +455,7 @@ static kiriProgress RunUpTo(kiriSheetData* sheet, int32_t end, kiriQuotas* quota
         }
         progress = quota->left > 0 ? pipeline[u->stage].run(sheet, quota) : KIRI_MORE;
         u->spent += quota->used + quota->beyond - done;
-        quota->left = progress == KIRI_MORE ? 0 : quota->left; /* too little for the next item: nobody else gets it */
+        quota->left = progress == KIRI_MORE ? 0 : quota->left; /* the rest is too small for the next item: discard */
         kiriQuotas_Share(quotas, pipeline[u->stage].quota);
         if (progress == KIRI_DONE) {
             /* A blade may move outside the sheet, or along edges that are open already. */
@@ -469,7 +469,7 @@ static kiriProgress RunUpTo(kiriSheetData* sheet, int32_t end, kiriQuotas* quota
     return progress;
 }
 
-/* Weights for all vertices, none yet. */
+/* Starts the weights of all vertices, with empty spans. */
 static bool StartSkin(kiriSheetData* sheet)
 {
     kiriSkin* skin = &sheet->vertexSkin;
@@ -514,8 +514,7 @@ bool kiriPipeline_CanRun(const kiriSheetData* sheet, const kiriQuotas* quotas)
     return stage == KIRI_READY || quotas->of[pipeline[stage].quota].left > 0;
 }
 
-/* After an item that could not be finished, and has left something half done: goes back to where the work can begin
-   again. That is seldom so, for the item has got the spare block. */
+/* Returns to the last restart point after an item failed halfway. Rare, because the item could use the spare block. */
 static void StartAgain(kiriSheetData* sheet)
 {
     kiriUpdate* u = sheet->update;
@@ -572,7 +571,8 @@ void kiriPipeline_Wait(kiriSheetData* sheet)
     }
 }
 
-/* Before the commit all frames that carry a vertex are of one piece. A sheet that is being made has none yet. */
+/* Returns the piece data at a triangle. Before the commit all frames that carry a vertex are in one piece. A new sheet
+   has no frames yet: 0. */
 static uint64_t PieceDataAt(const kiriSheetData* sheet, int32_t triangle)
 {
     kiriSpan span = sheet->vertexSkin.spans.data[sheet->mesh.triangles.data[triangle].vertex[0]];
@@ -580,7 +580,7 @@ static uint64_t PieceDataAt(const kiriSheetData* sheet, int32_t triangle)
     return frame != KIRI_NONE ? sheet->frames.data[frame].pieceData : 0;
 }
 
-/* One that appears, without its motion. */
+/* Makes a new frame, without its motion. */
 static kiriFrameData MakeFrame(const kiriSheetData* sheet, const kiriNewFrame* from)
 {
     kiriFrameData frame;
@@ -591,7 +591,8 @@ static kiriFrameData MakeFrame(const kiriSheetData* sheet, const kiriNewFrame* f
     return frame;
 }
 
-/* From the surface: position, velocity, and the rotation nearest to its slope; for an affine frame the slope itself. */
+/* Sets the motion of a frame from the surface: position, velocity, and the rotation nearest to the deformation
+   gradient; an affine frame gets the gradient itself. */
 static void TakeMotion(const kiriSheetData* sheet, kiriFrameData* frame, int32_t triangle)
 {
     kiriMotion motion = kiriSkin_Motion(&sheet->vertexSkin, sheet->frames.data, &sheet->mesh,
@@ -608,7 +609,7 @@ static void TakeMotion(const kiriSheetData* sheet, kiriFrameData* frame, int32_t
     }
 }
 
-/* What the frames with new material do, all from the motion before: see kiri_refit.h. */
+/* Fits the motion of frames with new material to the previous motion, see kiri_refit.h. */
 static void FitFrames(kiriSheetData* sheet, int32_t oldCount)
 {
     kiriUpdate* u = sheet->update;
@@ -618,10 +619,10 @@ static void FitFrames(kiriSheetData* sheet, int32_t oldCount)
     }
 }
 
-/* Of a piece that diverges and is torn so far apart that doubles do not tell how it turns. */
+/* Puts frames to rest that do not fit floats: their piece diverged, so a fit of its rotation overflowed. */
 static void PutLostToRest(kiriSheetData* sheet)
 {
-    bool isFitted = sheet->update->refit.fits.count > 0; /* else velocities are those that the host gave */
+    bool isFitted = sheet->update->refit.fits.count > 0; /* false: velocities are from the host and in range */
     for (int32_t f = 0; isFitted && f < sheet->frames.count; ++f) {
         if (!kiriFrame_FitsFloats(&sheet->frames.data[f])) {
             kiriFrame_PutToRest(&sheet->frames.data[f]);
@@ -648,7 +649,8 @@ static void TakeFits(kiriSheetData* sheet)
     kiriRefit_Commit(refit, &sheet->mesh);
 }
 
-/* Accelerations stay; torque and angular momentum of a rigid frame go with its mass. */
+/* Recenters a frame for its new material. Accelerations stay; torque and angular momentum of a rigid frame scale with
+   its mass. */
 static void RecenterFrame(const kiriSheetData* sheet, kiriFrameData* frame, const kiriMoments* material,
                           double densityPerArea)
 {
@@ -660,13 +662,13 @@ static void RecenterFrame(const kiriSheetData* sheet, kiriFrameData* frame, cons
     }
 }
 
-/* Frames that appear, and what those with new material do. What is fitted needs no motion from the surface. */
+/* Adds new frames and fits frames with new material. New frames without a fit take their motion from the surface. */
 static void AddFrames(kiriSheetData* sheet)
 {
     const kiriUpdate* u = sheet->update;
     const kiriRefit* refit = &u->refit;
     int32_t oldCount = sheet->frames.count, fit = 0;
-    int32_t firstNew = u->placing.sites.count - u->newFrames.count; /* of a sheet that is being made they are there */
+    int32_t firstNew = u->placing.sites.count - u->newFrames.count; /* in a new sheet the frames already exist */
     for (int32_t i = oldCount; i < u->placing.sites.count; ++i) {
         sheet->frames.data[i] = MakeFrame(sheet, &u->newFrames.data[i - firstNew]);
     }
