@@ -110,8 +110,7 @@ kiriVec2 kiriMesh_Lean(const kiriMeshData* mesh, int32_t vertex)
     return kiriVec2_Make(0.125 * (b.y - a.y), 0.125 * (a.x - b.x));
 }
 
-/* What lies farther out than four times the sheet's box stays as far out, and what is no number is there, too: bytes
-   that were made up may say anything. */
+/* Returns the nearest even number, clamped to four times the sheet's box. NaN maps to a bound. Input may be hostile. */
 static int32_t NearestEven(double x)
 {
     const double most = (1 << 30) - 1;
@@ -506,8 +505,8 @@ static int32_t EdgeTo(const kiriKeep* triangles, int32_t h)
     return triangle == KIRI_NONE ? KIRI_NONE : 3 * triangle + h % 3;
 }
 
-/* An open edge whose other side is not kept becomes one of the outline. Who a triangle was split from matters only
-   until the cut is in force: see kiri_refit.c. */
+/* Renumbers a kept triangle. An open edge whose other side is removed becomes part of the outline. The parent is used
+   only until the cut is committed: see kiri_refit.c. */
 static void RenumberTriangle(kiriTriangle* t, const kiriKeep* triangles, const kiriKeep* vertices)
 {
     for (int i = 0; i < 3; ++i) {
@@ -518,7 +517,7 @@ static void RenumberTriangle(kiriTriangle* t, const kiriKeep* triangles, const k
     t->parent = kiriKeep_To(triangles, t->parent);
 }
 
-/* ---- A part as a mesh of its own --------------------------------------------------------------------------------- */
+/* ---- Copying a part ---------------------------------------------------------------------------------------------- */
 
 static bool CopyItems(kiriMeshData* mesh, const kiriMeshData* from, const kiriMeshPart* triangles,
                       const kiriMeshPart* vertices)
@@ -616,7 +615,7 @@ bool kiriMesh_MakePart(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshDat
     return true;
 }
 
-/* ---- What is left ------------------------------------------------------------------------------------------------ */
+/* ---- Removal ----------------------------------------------------------------------------------------------------- */
 
 void kiriMesh_Keep(kiriMeshData* mesh, const kiriKeep* triangles, const kiriKeep* vertices, const int32_t* squares,
                    int32_t squareCount)

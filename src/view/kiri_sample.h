@@ -96,8 +96,7 @@ bool kiriRefresh_NoteDirty(kiriRefresh* refresh, kiriMemory* memory, const kiriM
 kiriProgress kiriRefresh_Start(kiriRefresh* refresh, const kiriSampleSource* source, int32_t firstVertex,
                                kiriQuota* quota);
 
-/* Stages new vertices, old vertices whose weights change, and points. An item of the quota is a sample, or 16 squares.
-   */
+/* Stages new vertices, old vertices whose weights change, and points. A quota item is a sample, or 16 squares. */
 kiriProgress kiriRefresh_Stage(kiriRefresh* refresh, const kiriSampleSource* source, kiriQuota* quota);
 
 /* Drops the noted squares, and a Start that waits for quota. */

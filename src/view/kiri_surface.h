@@ -145,8 +145,7 @@ typedef struct kiriShown {
     KIRI_ARRAY(int32_t) indices, sourceTriangles;
 } kiriShown;
 
-/* Makes room for the items that are kept, in the memory of the surface. Returns false on out of memory: then Release.
-   */
+/* Makes room for the kept items, in the memory of the surface. Returns false on out of memory: then call Release. */
 bool kiriShown_Reserve(kiriShown* shown, kiriMemory* memory, const kiriKeep* triangles, const kiriKeep* vertices);
 void kiriShown_Release(kiriShown* shown, kiriMemory* memory);
 

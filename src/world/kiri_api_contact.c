@@ -65,7 +65,7 @@ static void SetMass(kiriObstacleData* obstacle, float mass, const float inertia[
     kiriMat3 inverse;
     obstacle->mass = mass;
     obstacle->center = kiriVec3_Load(center);
-    if (kiriObstacle_InvertInertia(inertia, &inverse)) { /* in axes of the world; stored in those of the obstacle */
+    if (kiriObstacle_InvertInertia(inertia, &inverse)) { /* world axes; stored in the obstacle's axes */
         const kiriMat3 turned = { kiriObstacle_ToLocal(obstacle, inverse.u), kiriObstacle_ToLocal(obstacle, inverse.v),
                                   kiriObstacle_ToLocal(obstacle, inverse.d) };
         obstacle->inverseInertia = kiriMat3_MulMat(turned, obstacle->rotation);

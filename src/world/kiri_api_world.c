@@ -121,7 +121,7 @@ void kiriDefaultWorldDef(kiriWorldDef* def)
     }
 }
 
-/* Logs a refusal; there is no world yet that could store its line. `why` null: the line has the text of the result. */
+/* Logs a refusal, as no world exists that could store its line. `why` null: logs the text of the result. */
 static kiriResult RefuseWorld(const kiriWorldDef* def, kiriResult result, const char* why)
 {
     if (def->log != NULL) {
@@ -160,7 +160,7 @@ kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world)
                            "the library is compiled with fused multiply-add or reordered sums; add -ffp-contract=off");
     }
     kiriMemory memory = kiriMemory_Make(def->alloc, def->free, def->user);
-    kiriWorld* made = memory.alloc(memory.user, sizeof(*made)); /* not in the list of its own memory */
+    kiriWorld* made = memory.alloc(memory.user, sizeof(*made)); /* not on the world's own list of blocks */
     if (made == NULL) {
         return RefuseWorld(def, KIRI_ERROR_MEMORY, NULL);
     }

@@ -11,7 +11,7 @@
 
 /* ---- Groups ---- */
 
-/* Of several touches of one obstacle, which come after each other, one is enough. */
+/* Adds a meeting of a sheet and an obstacle. Skips consecutive touches of the same obstacle. Fails on out of memory. */
 static bool AddMeet(kiriWorld* world, int32_t sheet, const kiriObstacleData* obstacle, const kiriObstacleData** last)
 {
     bool isNew = obstacle != NULL && obstacle != *last && kiriObstacle_IsMovable(obstacle);
@@ -20,7 +20,7 @@ static bool AddMeet(kiriWorld* world, int32_t sheet, const kiriObstacleData* obs
     return !isNew || kiriArray_Push(&world->memory, &world->moves.meets, meet);
 }
 
-/* Whatever the sheet may give an impulse to, and would move by it; with what it touched last, should it sleep. */
+/* Lists the movable obstacles to which the sheet may give an impulse, including its last touches, in case it sleeps. */
 static bool ListMeets(kiriWorld* world, int32_t sheet)
 {
     const kiriSheetData* data = world->sheets.data[sheet];
@@ -91,10 +91,11 @@ typedef struct MoveTask {
     kiriWorld* world;
     double dt;
     int32_t substeps;
-    kiriQuota systems; /* each sheet may take all of them: together they will not */
+    kiriQuota systems; /* limit for each sheet; the sheets of a wave do not exceed it together */
 } MoveTask;
 
-/* What moves by it is of one group; what does not gets it when all are moved, in the order of sheets. */
+/* Gives the impulses of a sheet to obstacles: movable ones, which are in the group of the sheet, right after it moved;
+   the others after all sheets moved, in the order of sheets. */
 static void GiveImpulses(const MoveTask* task, int32_t i, bool areMovable)
 {
     kiriSheetData* sheet = task->world->sheets.data[i];
@@ -104,7 +105,8 @@ static void GiveImpulses(const MoveTask* task, int32_t i, bool areMovable)
     }
 }
 
-/* Where no system is left, and all is seen as it is: so of many sheets those that wait cost next to nothing. */
+/* Returns true if no system is left for the sheet and its visible surface does not change. Then waiting costs nearly
+   nothing, even for many sheets. */
 static bool StandsStill(const MoveTask* task, kiriSheetData* sheet)
 {
     return kiriQuota_IsSpent(&task->systems) && kiriView_IsSettled(sheet) && kiriMotion_Wait(sheet, task->dt);
@@ -138,7 +140,7 @@ static void MoveGroups(int32_t start, int32_t end, void* context)
     }
 }
 
-/* In the order in which sheets are moved. */
+/* Sheets are moved in this order. */
 int32_t kiriMoves_SheetAt(const kiriWorld* world, int32_t turn, int32_t k)
 {
     const kiriIndices* active = &world->active;
@@ -147,8 +149,8 @@ int32_t kiriMoves_SheetAt(const kiriWorld* world, int32_t turn, int32_t k)
     return active->data[(low + k) % active->count];
 }
 
-/* From the first one on: as many as have enough systems whatever they take, and one at least; all where there are
-   none. */
+/* Returns the end of a wave: sheets from `first` on, at least one, for which the systems suffice in the worst case. If
+   no systems are left, all sheets. */
 static int32_t EndOfWave(const MoveTask* task, int32_t first)
 {
     const kiriWorld* world = task->world;
@@ -164,7 +166,7 @@ static int32_t EndOfWave(const MoveTask* task, int32_t first)
     return end;
 }
 
-/* The groups of these sheets, each in their order. */
+/* Lists the groups of these sheets, each in the order of motion. */
 static void ListGroups(kiriWorld* world, int32_t first, int32_t end)
 {
     kiriMoves* moves = &world->moves;
@@ -185,7 +187,7 @@ static void ListGroups(kiriWorld* world, int32_t first, int32_t end)
     }
 }
 
-/* Sheets that systems are enough for move side by side; the others one after the other, each with what is left. */
+/* Moves sheets in waves. The sheets of a wave move in parallel; each wave gets the systems that the last one left. */
 void kiriMoves_Run(kiriWorld* world, double dt, int32_t substeps, kiriQuota* systems)
 {
     for (int32_t first = 0, end; first < world->active.count; first = end) {
@@ -426,7 +428,7 @@ static bool ComesFirst(const void* context, int32_t a, int32_t b)
     return x < y || (x == y && a < b);
 }
 
-/* By where they begin along x, with the way that they go, twice. False for memory. */
+/* Sorts obstacles by the lower x of their boxes, extended by twice their motion in the tick. Fails on out of memory. */
 static bool SortObstacles(kiriWorld* world, double dt)
 {
     kiriIndices* order = &world->obstacleOrder;
@@ -571,8 +573,8 @@ static void TryTouchesOf(const TouchSearch* looking, kiriObstacleSearch* search,
     touches->yields.count = touches->isShort ? yields : touches->yields.count;
 }
 
-/* Each search looks for every so many-th sheet: so those that are near each other in the list, and alike, are shared
-   out. */
+/* Finds the touches of every n-th sheet, n the number of searches. Sheets with adjacent indices are often near each
+   other and similar, so this balances the load. */
 static void LookForTouches(int32_t start, int32_t end, void* context)
 {
     const TouchSearch* looking = context;
@@ -631,7 +633,7 @@ bool kiriObstacles_FindTouches(kiriWorld* world, double dt)
     return ok;
 }
 
-/* ---- What comes of them ------------------------------------------------------------------------------------------ */
+/* ---- Impulses ---------------------------------------------------------------------------------------------------- */
 
 void kiriObstacles_Begin(kiriWorld* world)
 {
@@ -671,7 +673,7 @@ bool kiriObstacles_ReserveRests(const kiriWorld* world, kiriSheetData* sheet)
     return kiriArray_Reserve(sheet->memory, &sheet->touches.rests.on, most);
 }
 
-/* Touches of one obstacle come after each other, mostly. */
+/* Returns the load on an obstacle. Searches from the end, because touches of one obstacle are mostly consecutive. */
 static kiriRestLoad* RestLoadOn(kiriRestLoads* rests, int32_t slot, kiriVec3 center)
 {
     for (int32_t k = rests->on.count - 1; k >= 0; --k) {

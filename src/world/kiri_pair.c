@@ -9,10 +9,10 @@
 
 #include <string.h>
 
-#define FEELING 0.3    /* s */
-#define CLOSE_LOAD 0.1 /* of the thickness of contact: what is no farther above its plane lies on it */
-#define SLOW 20.0      /* times sleepSpeed: what lies on something and moves no faster than that */
-#define SETTLED 0.01   /* s: comes to rest within that time */
+#define FEELING 0.3    /* s: time constant of loads */
+#define CLOSE_LOAD 0.1 /* of contactThickness: a point no farther above its plane lies on it */
+#define SLOW 20.0      /* times sleepSpeed: limit of the speed of a supported frame that is slowed */
+#define SETTLED 0.01   /* s: time constant of slowing it */
 
 /* ---- Loads for the lower one ---- */
 
@@ -78,8 +78,8 @@ static bool HasLowerKey(const void* context, int32_t a, int32_t b)
     return touches[a].key < touches[b].key || (touches[a].key == touches[b].key && a < b);
 }
 
-/* What the lower one feels follows what is pushed within FEELING seconds. Felt at once it would still be one tick late,
-   and pieces would throw each other. */
+/* Returns the load on the lower piece, a low-pass of the push with the time constant FEELING. An unfiltered load would
+   still be a tick late, and pieces would throw each other. */
 static kiriVec3 Feel(const kiriWorld* world, const kiriPairTouch* touch, double dt)
 {
     const kiriPairs* pairs = &world->pairs;
@@ -88,7 +88,7 @@ static kiriVec3 Feel(const kiriWorld* world, const kiriPairTouch* touch, double 
     KIRI_ASSERT(touch->touch < touches->found.count);
     int32_t row = touch->touch != KIRI_NONE ? touches->found.data[touch->touch].row : KIRI_NONE;
     if (row == KIRI_NONE) {
-        return was; /* it was not moved */
+        return was; /* the upper sheet was not moved */
     }
     KIRI_ASSERT(row < touches->rows.count && touches->rows.data[row].key == touch->key);
     double part = dt / (dt + FEELING);
@@ -153,8 +153,8 @@ static void FindSupport(kiriSheetData* sheet)
     }
 }
 
-/* Frames that lie on something and hardly move come to rest: else each change of what carries how much would stir all
-   that lies above. */
+/* Brings supported frames that hardly move to rest. Otherwise every shift of load between supports would stir
+   everything above. */
 static void SettleFrames(kiriSheetData* sheet, double dt)
 {
     double slow = SLOW * sheet->settings.sleepSpeed, keep = SETTLED / (SETTLED + dt);
@@ -184,11 +184,11 @@ void kiriPairs_TakeLoads(kiriWorld* world, double dt)
     }
 }
 
-#define FIRM 0.5        /* of a unit: what is pushed along a normal as much as that is carried against it */
-#define PUSH_SPEED 0.25 /* m/s: pieces that are too near each other part no faster */
+#define FIRM 0.5        /* minimum cosine between a push and the normal for the push to count as support */
+#define PUSH_SPEED 0.25 /* m/s: limit of the speed at which pieces that are too close separate */
 enum { PASSES = 8 };
 
-#define CUSHION 100.0 /* times the mass of a frame, see below */
+#define CUSHION 100.0 /* times the mass of a frame, see SoftnessOf */
 
 static kiriVec3 SeenAt(const kiriPlace3* place)
 {
@@ -217,9 +217,10 @@ static const kiriFrameData* LargestFrame(const kiriPlace3* place)
     return &place->sheet->frames.data[best];
 }
 
-/* The plane moves with the material of the lower one, but not as all of that moves. What lies on something goes no
-   farther into it: the velocity that an implicit step leaves there is that of its way to it. And a lower one that flaps
-   does not throw the upper one, which it does not feel in time: it lifts no faster than it rises as a whole. */
+/* Returns the velocity of the plane of a touch. It follows the material of the lower piece, with two exceptions. A
+   supported lower piece does not sink: the velocity that an implicit step leaves there is only its way to the support.
+   And the plane rises no faster than the lower piece as a whole, so that a flapping piece does not throw the upper one,
+   whose load it gets too late. */
 static kiriVec3 PlaneVelocity(const kiriPairs* pairs, const kiriPairTouch* pair)
 {
     double stopped = pairs->bodies.data[pair->bodies[1]].least;
@@ -230,14 +231,14 @@ static kiriVec3 PlaneVelocity(const kiriPairs* pairs, const kiriPairTouch* pair)
     return frame->held ? pair->velocity : kiriVec3_AddScaled(pair->velocity, taken - rises, pair->normal);
 }
 
-/* Surfaces that bend touch in places that change with their last bits, were the planes as hard as those of obstacles.
-   So each frame has a cushion: all that presses on it meets so many times its mass. 1/kg. */
+/* Returns the softness of a frame's planes, 1/kg. If planes were as hard as obstacles, rounding would decide where bent
+   surfaces touch. So each frame has a cushion: everything that presses on it meets CUSHION times its mass. */
 static double SoftnessOf(const kiriPlace3* place)
 {
     return 1.0 / (CUSHION * LargestFrame(place)->mass);
 }
 
-/* The planes under a frame share its cushion. False for memory. */
+/* Finds the yield row of the cushion, which all planes under a frame share. Fails on out of memory. */
 static bool FindCushion(const kiriPlace3* place, int32_t* yield)
 {
     int64_t number = INT64_C(1) << 40 | LargestFrame(place)->id;
@@ -296,7 +297,8 @@ static void StopAtObstacles(kiriWorld* world, kiriSheetData* sheet, double dt)
     }
 }
 
-/* From below upwards: a piece that lands stops what follows it. Passes end when nothing changes, or after some. */
+/* Stops falls from below upwards: a piece that lands stops pieces above it. Passes end when nothing changes, at most
+   PASSES. */
 static void StopFalls(kiriWorld* world, double dt)
 {
     kiriPairs* pairs = &world->pairs;
@@ -340,10 +342,10 @@ bool kiriPairs_AddTouches(kiriWorld* world, double dt)
     return ok;
 }
 
-#define ALONG 0.3  /* of a unit: surfaces more across each other than that do not lie on each other */
-#define MARGIN 0.5 /* of the distance that they keep: what is nearer than that beyond it may touch */
-#define ALIKE 0.9  /* of normals: their product */
-#define CLOSE 0.1  /* the same: what is nearer touches */
+#define ALONG 0.3  /* minimum cosine between surfaces that lie on each other */
+#define MARGIN 0.5 /* of the distance that pieces keep: a gap up to this may close in the tick */
+#define ALIKE 0.9  /* minimum cosine between normals of planes that are alike */
+#define CLOSE 0.1  /* of the distance that pieces keep: a gap up to this counts as touching */
 
 static kiriPlace3 VertexPlace(kiriSheetData* sheet, int32_t vertex)
 {
@@ -418,7 +420,7 @@ static bool IsPairNeeded(const kiriPairs* pairs, const kiriTouchingPair* pair, c
            lower->mesh.step * lower->mesh.squares.side < 0.5 * upper->mesh.step * upper->mesh.squares.side;
 }
 
-/* How much nearer the two come in the tick, at most: the lower one may be stopped by what is below it. */
+/* Returns the largest approach of the two in the tick, m. The lower piece may be stopped by something below it. */
 static double Approach(const kiriWorld* world, const kiriPairTouch* touch, double dt)
 {
     double falls = -kiriVec3_Dot(touch->normal, PlaceVelocity(&touch->upper));
@@ -427,7 +429,7 @@ static double Approach(const kiriWorld* world, const kiriPairTouch* touch, doubl
     return speed > 0.0 ? dt * speed : 0.0;
 }
 
-/* Of planes of a vertex one behind the other only the first is reached. Returns whether there was one already. */
+/* Keeps the nearest of the planes of a vertex that lie behind each other. Returns true if there was one already. */
 static bool TakeNearer(kiriPairs* pairs, const kiriPairTouch* touch)
 {
     const kiriPlace3* upper = &touch->upper;
@@ -861,7 +863,7 @@ static bool ListBodiesOf(kiriWorld* world, kiriSheetData* sheet)
     return true;
 }
 
-/* What is awake: around all of it, and its fastest and thickest. */
+/* Everything that is awake: its box, and the largest speed and thickness. */
 typedef struct Waking {
     kiriBox box;
     double speed, thickness;
@@ -910,7 +912,7 @@ static bool FindWaking(kiriWorld* world, Waking* waking)
     return ok;
 }
 
-/* Are there two bodies at least? Of a single one nobody keeps up its probes. */
+/* Returns true if there are at least two bodies. The probes of a single body are not kept up to date. */
 static bool AreSeveral(const kiriWorld* world)
 {
     kiriSheetData* last = NULL;
@@ -926,7 +928,8 @@ static bool AreSeveral(const kiriWorld* world)
     return count > 1;
 }
 
-/* May anything that is awake come near the sheet in the tick? What sleeps and is farther away is no body. */
+/* Returns true if something awake may come near the sheet in the tick. Farther sheets that sleep do not become bodies.
+   */
 static bool IsNearWaking(const kiriWorld* world, const Waking* waking, const kiriSheetData* sheet, double dt)
 {
     kiriBox box = kiriSheet_Box(sheet);
@@ -984,11 +987,11 @@ static bool Holds(const kiriBox* box, kiriVec3 x)
     return kiriBox_Meet(box, &point);
 }
 
-#define STEEP 0.5           /* beside a border: what is off along the surface, by what is off across it */
-#define FLAT_TRIANGLE 0.25  /* of the distance that they keep: lower than that, and */
-#define INSIDE_TRIANGLE 0.5 /* the same: no farther inside of the border than that, lips lie beside each other */
+#define STEEP 0.5           /* minimum ratio of the offset along the surface to the offset across it, beside a border */
+#define FLAT_TRIANGLE 0.25  /* of the distance that pieces keep: maximum height of a probe beside a lip, */
+#define INSIDE_TRIANGLE 0.5 /* and maximum distance of its place from the border */
 
-/* Where on a triangle a place is: inside (KIRI_NONE), on edge 0 to 2, or at corner 0 to 2. */
+/* A place on a triangle: inside (edge and corner KIRI_NONE), on edge 0 to 2, or at corner 0 to 2. */
 typedef struct Place {
     double share[3];
     int edge, corner;
@@ -1083,8 +1086,8 @@ static double Measure(kiriNear* near, const kiriBody* bodies, int32_t triangle)
     return kiriVec3_Dot(off, off);
 }
 
-/* Lips of a fresh cut lie in one plane, and may overlap a little when they move: they are beside each other, and not
-   one on the other. */
+/* Returns true if the probe lies beside the other body, not on it. Lips of a fresh cut lie in one plane, and may
+   overlap slightly when they move. */
 static bool IsBeside(const kiriNear* near, const kiriBody* bodies, double distance, double squared)
 {
     const kiriSheetData* sheet = bodies[near->other].sheet;
@@ -1115,9 +1118,9 @@ static double LookAtTriangle(void* context, int32_t triangle)
     return looking->least;
 }
 
-/* Finds the place of the other body nearest to the probe, whose vertex and bodies are set. Fails if there is none within
-   `reach`, or if it is on the border and the probe lies beside the other body. Of places at the same distance that on the
-   lower triangle counts. `distance`: what the two keep. The bounds of the other body are current. */
+/* Finds the place of the other body nearest to the probe, whose vertex and bodies are set. Returns false if there is
+   none within `reach`, or if it is on the border and the probe lies beside the other body. At equal distances the
+   lowest triangle counts. `distance`: distance that the two keep. The bounds of the other body must be up to date. */
 static bool FindNearest(kiriNear* near, const kiriBody* bodies, double reach, double distance)
 {
     Looking looking = { near, bodies, reach * reach, false };
@@ -1128,7 +1131,7 @@ static bool FindNearest(kiriNear* near, const kiriBody* bodies, double reach, do
     return looking.found && !IsBeside(near, bodies, distance, looking.least);
 }
 
-/* What the probes of one body find on another. */
+/* Finds the near places of a body's probes on another body. Fails on out of memory. */
 static bool FindNears(kiriWorld* world, int32_t body, int32_t other, double reach)
 {
     kiriPairs* pairs = &world->pairs;
@@ -1176,7 +1179,7 @@ static double Above(const kiriPairs* pairs, const kiriNear* near, double dt)
     return near->height + dt * kiriVec3_Dot(near->normal, v);
 }
 
-/* From body b to body a, by what is near. */
+/* Returns the direction from body b to body a, by the near places. */
 static kiriVec3 DirectionFrom(const kiriPairs* pairs, kiriSpan nears, int32_t a, double dt)
 {
     kiriVec3 sum = { 0.0, 0.0, 0.0 };
@@ -1269,7 +1272,7 @@ static kiriTouchingPair Decide(const kiriWorld* world, int32_t a, int32_t b, kir
 
 /* ---- Pairs ---- */
 
-/* Boxes that fit, and know their pieces, unless either was made anew since. */
+/* Updates the bounds and, unless both are unchanged, groups their nodes by pieces. Fails on out of memory. */
 static bool UpdateBounds(kiriSheetData* sheet)
 {
     kiriBounds* bounds = sheet->seen.bounds;

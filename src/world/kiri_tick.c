@@ -144,7 +144,8 @@ static void StirTouched(kiriSheetData* sheet)
     }
 }
 
-/* Before anything is committed: touches are found where the sheets are seen. A piece that sleeps asks nobody but the host. False for memory. */
+/* Finds touches on the visible surfaces, before anything is committed. Sleeping pieces get only the host's contacts.
+   Fails on out of memory. */
 static bool FindTouches(kiriWorld* world, double dt)
 {
     bool ok = true;
@@ -171,7 +172,7 @@ static bool FindTouches(kiriWorld* world, double dt)
 
 /* ---- Commits ---- */
 
-/* Room for the ids and events of the tick. Of each sheet that wakes in it a pin may break, too. */
+/* Reserves room for the ids and events of the tick. Sheets that wake in it may also lose pins. */
 static kiriResult ReserveRoom(kiriWorld* world)
 {
     int64_t frames = 0, events = world->events.count + 2 * (int64_t)world->sheets.count + world->cutIds.slots.count +
@@ -443,7 +444,7 @@ static void ForgetEvents(kiriWorld* world)
     world->newEvents = 0;
 }
 
-/* Nothing moves in this tick. What it has done to cuts stays, and goes on in the next one. */
+/* Ends a tick in which nothing moves. Progress on cuts is kept and continues in the next tick. */
 static void EndUnmoved(kiriWorld* world)
 {
     CommitMeshes(world);
@@ -455,7 +456,7 @@ static void EndUnmoved(kiriWorld* world)
     world->stage = KIRI_NONE;
 }
 
-/* What is complete takes effect, and everything moves. Cannot fail on out of memory. */
+/* Commits completed work, and moves everything. Cannot fail on out of memory. */
 static kiriResult MoveAll(kiriWorld* world, double dt, int32_t substeps, kiriQuotas* quotas, int64_t aside)
 {
     kiriQuota* samples = &quotas->of[KIRI_QUOTA_SAMPLES];
@@ -483,9 +484,9 @@ static kiriResult MoveAll(kiriWorld* world, double dt, int32_t substeps, kiriQuo
     return result == KIRI_OK && !isParted ? KIRI_PENDING : result;
 }
 
-/* Algorithm 1 of the paper: the work on cuts (see kiri_update.c for its stages), its commit, the motion of frames,
-   and what is seen. Refused memory is a spent budget: a cut, or a piece that leaves, goes on in the next tick. Only
-   where there is no room for the motion itself does nothing move. */
+/* Algorithm 1 of the paper: work on cuts (see kiri_update.c for its stages), commit, motion of frames, and the visible
+   surface. Out of memory acts like a spent budget: a cut or a detached piece continues in the next tick. Only if memory
+   for the motion itself is missing, nothing moves. */
 kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
 {
     kiriQuotas quotas = kiriQuotas_Of(&world->budget);
