@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-enum { MEMORY_A_BYTE = 64, MEMORY_FREE = 4 << 20 }; /* arrays may take so much for each byte read, and beside */
+enum { MEMORY_A_BYTE = 64, MEMORY_FREE = 4 << 20 }; /* memory limit of arrays: for each byte read, plus a constant */
 
 kiriArchive kiriArchive_Measure(void)
 {
@@ -210,7 +210,7 @@ void kiriArchive_Block(kiriArchive* archive, void** block, int32_t width, int64_
     }
 }
 
-/* In a snapshot the struct around the array has its count and capacity. */
+/* Moves the items of an array. In a snapshot the enclosing struct contains count and capacity. */
 static void MoveBlock(kiriArchive* archive, const kiriMember* field, void* array)
 {
     kiriArrayHeader header = kiriArray_GetHeader(array);
@@ -346,7 +346,7 @@ static int32_t MoveKept(const kiriTable* table, uint8_t* object, uint8_t* kept, 
     return bytes;
 }
 
-/* True if nothing but numbers is in it: then a snapshot needs no more than its bytes. */
+/* Returns true if a struct contains only numbers: then a snapshot needs only its bytes. */
 static bool IsFlat(const kiriTable* table)
 {
     bool isFlat = true;
@@ -358,7 +358,7 @@ static bool IsFlat(const kiriTable* table)
     return isFlat;
 }
 
-/* True if an object in memory is its bytes in a save: fields are numbers, in order, without padding. */
+/* Returns true if memory and save have the same bytes: fields are numbers, in order, without padding. */
 static bool IsTight(const kiriTable* table)
 {
     int32_t size = 0;
@@ -376,7 +376,7 @@ static bool IsTight(const kiriTable* table)
     return size == table->size;
 }
 
-/* A snapshot of objects begins with all their bytes. */
+/* Moves objects in a snapshot, which begins with all their bytes. */
 static void MoveWhole(kiriArchive* archive, const kiriTable* table, uint8_t* objects, int64_t count)
 {
     uint8_t kept[MOST_KEPT];

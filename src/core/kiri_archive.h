@@ -18,7 +18,7 @@ static inline void kiriHash_Word(uint64_t* hash, uint64_t value)
     *hash = (*hash ^ value) * UINT64_C(1099511628211);
 }
 
-/* The same for numbers whose highest bits matter: they are brought down, for a product carries bits up alone. */
+/* Adds a number whose highest bits matter. The shift brings them down, because a product carries bits only upwards. */
 static inline void kiriHash_Int64(uint64_t* hash, int64_t value)
 {
     uint64_t mixed = (*hash ^ (uint64_t)value) * UINT64_C(0x9E3779B97F4A7C15);
@@ -80,16 +80,16 @@ enum kiriMemberKind {
     KIRI_MEMBER_BOOLS,
     KIRI_MEMBER_PART,   /* a struct, or a C array of structs */
     KIRI_MEMBER_ARRAY,  /* a KIRI_ARRAY of structs; without a table, of numbers */
-    KIRI_MEMBER_ROOM,   /* a KIRI_ARRAY: capacity; empty when it is read */
-    KIRI_MEMBER_SPACE,  /* a KIRI_ARRAY: capacity and count; zeroed when it is read */
+    KIRI_MEMBER_ROOM,   /* a KIRI_ARRAY: only its capacity; empty after a read */
+    KIRI_MEMBER_SPACE,  /* a KIRI_ARRAY: only capacity and count; zeroed after a read */
     KIRI_MEMBER_OWNED,  /* a pointer to a struct in its own block, or null */
     KIRI_MEMBER_CUSTOM, /* a function of the whole object */
-    KIRI_MEMBER_DROPPED, /* zero when it is read */
-    KIRI_MEMBER_KEPT,    /* stays when a snapshot is read */
+    KIRI_MEMBER_DROPPED, /* zero after a read */
+    KIRI_MEMBER_KEPT,    /* unchanged by reading a snapshot */
 
-    /* Marks, of the entries after them. */
+    /* Marks for the entries after them. */
     KIRI_MEMBER_UNHASHED,
-    KIRI_MEMBER_DERIVED, /* only in snapshots. Numbers need no entry there */
+    KIRI_MEMBER_DERIVED, /* only in snapshots; numbers need no entry */
     KIRI_MEMBER_HANDED   /* arrays are blocks of archive->shown */
 };
 
@@ -154,7 +154,7 @@ typedef struct kiriTable {
 #define KIRI_DROPPED(Type, first, last) KIRI_MEMBER_RUN(KIRI_MEMBER_DROPPED, 1, Type, first, last, 0, 0, 0)
 #define KIRI_KEPT(Type, first, last) KIRI_MEMBER_RUN(KIRI_MEMBER_KEPT, 1, Type, first, last, 0, 0, 0)
 
-/* Several arrays of which only snapshots have the items; several whose room is kept. */
+/* Several arrays with items in snapshots only; several arrays with their capacity. */
 #define KIRI_ARRAY_OF(Type, field)                                                                                     \
     KIRI_MEMBER_LIST(KIRI_MEMBER_ARRAY, KIRI_MEMBER_NUMBERS, 1, Type, field, 0, 0, 0, NULL)
 #define KIRI_ARRAYS(Type, ...) KIRI_EACH_FIELD(KIRI_ARRAY_OF, Type, __VA_ARGS__)
@@ -201,9 +201,9 @@ struct kiriArchive {
     bool isWhole;       /* a snapshot */
     bool isBad;         /* READ: no writer made these bytes; reads give zero from then on. WRITE: `size` is too small */
     bool isShort;       /* READ: out of memory */
-    bool isUnmoved;     /* READ: numbers are there, and only checked */
-    uint8_t* bytes;     /* null if they are only measured or hashed */
-    int64_t at, size;   /* bytes done, and in all */
+    bool isUnmoved;     /* READ: numbers are already in place and only checked */
+    uint8_t* bytes;     /* null: bytes are only measured or hashed */
+    int64_t at, size;   /* bytes: position, and total */
     int64_t room;       /* READ: bytes of memory that arrays may still take */
     kiriMemory *memory, *shown; /* READ: owners of new blocks */
     uint64_t hash;
@@ -228,7 +228,7 @@ static inline bool kiriArchive_HasFailed(const kiriArchive* archive)
 /* READ: the bytes are bad unless `isFine`. */
 void kiriArchive_Expect(kiriArchive* archive, bool isFine);
 
-/* Numbers in a row. */
+/* Transfers consecutive numbers of `width` bytes. */
 void kiriArchive_Numbers(kiriArchive* archive, void* numbers, int32_t width, int64_t count);
 
 static inline void kiriArchive_Int32(kiriArchive* archive, int32_t* number)
@@ -239,7 +239,7 @@ static inline void kiriArchive_Int32(kiriArchive* archive, int32_t* number)
 /* Transfers an integer that is not a field. READ: returns the stored value, checked to be in [least, most]. */
 int32_t kiriArchive_Count(kiriArchive* archive, int64_t count, int64_t least, int64_t most);
 
-/* One object, or a row. READ: it is zero before, and gets blocks of archive->memory. */
+/* Transfer one object, or several. READ: the objects must be zeroed, and get blocks of archive->memory. */
 void kiriArchive_Object(kiriArchive* archive, const kiriTable* table, void* object);
 void kiriArchive_Objects(kiriArchive* archive, const kiriTable* table, void* objects, int64_t count);
 

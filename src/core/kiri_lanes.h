@@ -1,5 +1,5 @@
-/* Four floats at a time: SSE2, NEON or plain C. Each operation is rounded by itself, so all three give the same bits.
-   With KIRI_PLAIN_LANES it is plain C everywhere; tests/test_lanes.c compares. */
+/* Four floats at a time: SSE2, NEON or plain C. Each operation is rounded separately, so all three give the same bits.
+   KIRI_PLAIN_LANES selects plain C; tests/test_lanes.c compares. */
 #ifndef KIRI_LANES_H
 #define KIRI_LANES_H
 

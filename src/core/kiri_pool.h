@@ -1,6 +1,5 @@
-/* Ids: kind in 3 bits, generation in 7, slot in 22. An id of another kind, or of something that is gone, finds nothing.
-   Generations start at 1, so no id is 0. A slot whose generations are used up is never used again, so no id comes
-   twice. */
+/* Ids: 3 bits kind, 7 bits generation, 22 bits slot. An id of another kind, or a stale id, finds nothing. Generations
+   start at 1, so no id is 0. A slot with all generations used is retired, so no id repeats. */
 #ifndef KIRI_POOL_H
 #define KIRI_POOL_H
 

@@ -73,7 +73,7 @@ static inline double kiriVec2_Dot(kiriVec2 a, kiriVec2 b)
 {
     return a.x * b.x + a.y * b.y;
 }
-/* Square root of a number that may round below zero: 0 there. */
+/* Square root of a number that may round below zero; returns 0 then. */
 static inline double kiriRoot(double a)
 {
     return a > 0.0 ? sqrt(a) : 0.0;
@@ -91,7 +91,7 @@ static inline double kiriVec2_Distance(kiriVec2 a, kiriVec2 b)
 {
     return kiriVec2_Length(kiriVec2_Sub(a, b));
 }
-/* Positive where b is to the left of a. */
+/* Positive if b is to the left of a. */
 static inline double kiriVec2_Cross(kiriVec2 a, kiriVec2 b)
 {
     return a.x * b.y - a.y * b.x;
@@ -102,7 +102,7 @@ static inline kiriVec2 kiriVec2_Left(kiriVec2 a)
     return kiriVec2_Make(-a.y, a.x);
 }
 
-/* From the segment between a and b. */
+/* Returns the distance of p from the segment between a and b. */
 double kiriVec2_DistanceToWay(kiriVec2 p, kiriVec2 a, kiriVec2 b);
 
 static inline kiriVec3 kiriVec3_Make(double x, double y, double z)
@@ -155,7 +155,7 @@ static inline double kiriVec3_Length(kiriVec3 a)
     return sqrt(kiriVec3_Dot(a, a));
 }
 
-/* True if the host reads these floats. */
+/* Returns true if the vector rounds to these floats, which the host reads. */
 static inline bool kiriVec3_Shows(kiriVec3 a, const float shown[3])
 {
     return (float)a.x == shown[0] && (float)a.y == shown[1] && (float)a.z == shown[2];
@@ -165,7 +165,7 @@ static inline bool kiriVec3_Equal(kiriVec3 a, kiriVec3 b)
     return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
-/* Places (m) and speeds (m/s, 1/s) farther out are refused, so that sums of a few of them are floats. */
+/* Returns true if positions (m) or speeds (m/s, 1/s) are small enough that sums of a few of them fit floats. */
 static inline bool kiriVec3_FitsFloats(kiriVec3 a)
 {
     const double most = 0.125 * (double)FLT_MAX;
@@ -184,14 +184,14 @@ static inline kiriVec3 kiriVec3_Normalize(kiriVec3 a)
     return length > 0.0 ? kiriVec3_Scale(1.0 / length, a) : a;
 }
 
-/* True if the host reads these floats, or if `given`, the rotation nearest to them, is the same. */
+/* Returns true if the matrix rounds to these floats, or equals `given`, the rotation nearest to them. */
 static inline bool kiriMat3_Shows(const kiriMat3* m, const kiriMat3* given, const float shown[9])
 {
     return (kiriVec3_Shows(m->u, &shown[0]) && kiriVec3_Shows(m->v, &shown[3]) && kiriVec3_Shows(m->d, &shown[6])) ||
            (kiriVec3_Equal(m->u, given->u) && kiriVec3_Equal(m->v, given->v));
 }
 
-/* Columns, one after the other. */
+/* Loads the columns in order. */
 static inline kiriMat3 kiriMat3_Load(const float columns[9])
 {
     kiriMat3 m = { kiriVec3_Load(&columns[0]), kiriVec3_Load(&columns[3]), kiriVec3_Load(&columns[6]) };
@@ -219,13 +219,13 @@ static inline kiriMat3 kiriMat3_MulMat(kiriMat3 m, kiriMat3 n)
 kiriMat3 kiriMat3_AddScaled(const kiriMat3* A, double s, const kiriMat3* B);
 kiriMat3 kiriMat3_Scale(double s, const kiriMat3* A);
 
-/* The rotation of a rotation vector by the Cayley map: exact rotation, no trigonometry. It turns by 2 atan(|w| / 2). */
+/* Returns the rotation of a rotation vector by the Cayley map, by the angle 2 atan(|w| / 2). Exact, no trigonometry. */
 kiriMat3 kiriMat3_Cayley(kiriVec3 w);
 
-/* The rotation nearest to m (its polar factor); for a singular m any rotation near it. */
+/* Returns the rotation nearest to m (its polar factor); for a singular m any rotation near it. */
 kiriMat3 kiriMat3_Rotation(kiriMat3 m);
 
-/* The same from a rotation near it: where m says little about a turn, that one stays. */
+/* Likewise, starting from a rotation near m. Where m hardly determines the rotation, keeps the start. */
 kiriMat3 kiriMat3_RotationFrom(kiriMat3 start, kiriMat3 m);
 
 /* Moments of an area of material about the origin of the rest coordinates: integrals of 1, u, v, u^2, u v, v^2. */
@@ -233,31 +233,30 @@ typedef struct kiriMoments {
     double area, u, v, uu, uv, vv;
 } kiriMoments;
 
-/* Those of a triangle, which must be counter-clockwise. */
+/* Returns the moments of a counter-clockwise triangle. */
 kiriMoments kiriMoments_Triangle(kiriVec2 a, kiriVec2 b, kiriVec2 c);
 void kiriMoments_Add(kiriMoments* sum, const kiriMoments* part);
 
-/* Its centroid; the area must be above zero. */
+/* Returns the centroid. The area must be above zero. */
 kiriVec2 kiriMoments_Center(const kiriMoments* m);
 
-/* The same area about another origin. */
+/* Returns the moments about another origin. */
 kiriMoments kiriMoments_About(const kiriMoments* m, kiriVec2 origin);
 
-/* Tells at run time what no macro tells of the arithmetic of floats, as clang's -ffp-contract=fast, which heeds no
-   pragma. See kiri_float.h. */
+/* Run-time checks of float arithmetic that no macro reports, such as clang's -ffp-contract=fast, which ignores pragmas.
+   See kiri_float.h. */
 
-/* Is each operation rounded by itself, in the order that the sources say? */
+/* Returns true if each operation is rounded separately, in source order. */
 bool kiriExact_AreFloats(void);
 
-/* Is the processor, in this thread, in the mode in which programs start: sums are rounded to the nearest number, and
-   none is taken for zero because it is small? */
+/* Returns true if this thread has the default float mode: rounding to nearest, and denormals not flushed to zero. */
 bool kiriExact_IsModePlain(void);
 
-/* Exact sums: they do not depend on the order of adding, and parts can be subtracted again. So the mass of a region needs
-   no walk over its cells when one of them changes. */
+/* Exact sums: independent of order, and parts can be subtracted again. So the mass of a region can be updated without a
+   walk over its cells when one of them changes. */
 
-/* A share of a scale: high * 2^-60 + low * 2^-122, with 0 <= low < 2^62. So each number has one form only, and a
-   sliver of 1e-14 of a square of a grid of 4096 squares keeps the digits of its double. */
+/* A fixed-point fraction of a scale: high * 2^-60 + low * 2^-122, with 0 <= low < 2^62, so the form is unique. A sliver
+   of 1e-14 of a square, in a grid of 4096 squares, keeps all digits of its double. */
 typedef struct kiriExact {
     int64_t high, low;
 } kiriExact;
@@ -267,7 +266,7 @@ typedef struct kiriTally {
     kiriExact area, u, v, uu, uv, vv;
 } kiriTally;
 
-/* The area in a tally, of however many parts, is at most 7 extent^2 at a time. `sign` is 1 or -1. */
+/* Adds (sign 1) or subtracts (-1) moments. The total area is at most 7 extent^2 at any time. */
 void kiriTally_Add(kiriTally* tally, const kiriMoments* moments, int sign, double extent);
 kiriMoments kiriTally_Moments(const kiriTally* tally, double extent);
 

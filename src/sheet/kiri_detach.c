@@ -225,7 +225,7 @@ bool kiriDetach_Map(kiriDetach* detach, bool makesParts)
 
 /* ---- Contacts ---------------------------------------------------------------------------------------------------- */
 
-/* Renumbers a contact of the host. False if its point is not in the subset. */
+/* Renumbers a contact of the host. Returns false if its point is not in the subset. */
 static bool FollowContact(const kiriSubset* subset, kiriGivenContact* given)
 {
     if (given->contact.point >= 0) {
@@ -240,7 +240,7 @@ static bool FollowContact(const kiriSubset* subset, kiriGivenContact* given)
     return isIn;
 }
 
-/* Renumbers a contact and its key. False if it is not in the subset, or if the key cannot be renumbered. */
+/* Renumbers a contact and its key. Returns false if it is not in the subset, or the key cannot be renumbered. */
 static bool FollowTouch(const kiriSubset* subset, kiriTouch* touch)
 {
     bool isIn = true;
@@ -264,7 +264,7 @@ static kiriIndices ItemsOf(const kiriDetach* detach, int32_t kind, int32_t piece
     return (kiriIndices){ detach->of[kind].items.data + span.first, span.count, span.count };
 }
 
-/* Settings that are spread over the sheet are divided by area. */
+/* Copies the settings. Counts over the whole sheet are divided by area. */
 static void CopySettings(const kiriDetach* detach, int32_t piece, kiriSheetData* to)
 {
     const kiriSheetData* from = detach->sheet;
@@ -328,7 +328,7 @@ static bool CopyPins(const kiriSubset* part, kiriSheetData* to)
     return ok;
 }
 
-/* Copies remembered contacts, with their forces. */
+/* Copies stored contacts with their forces. */
 static void CopyTouches(const kiriDetach* detach, const kiriIndices* items, const kiriTouchMemory* from,
                         kiriSheetData* to, kiriTouchMemory* memory)
 {
@@ -343,7 +343,7 @@ static void CopyTouches(const kiriDetach* detach, const kiriIndices* items, cons
     kiriTouchMemory_SortForces(memory, before, &to->touches.order);
 }
 
-/* Reserves what SetContacts reserves, so that later ticks need no memory. */
+/* Copies the contacts. Reserves the same arrays as SetContacts, so that later ticks do not allocate. */
 static bool CopyContacts(const kiriDetach* detach, int32_t piece, kiriSheetData* to)
 {
     const kiriSheetData* from = detach->sheet;
@@ -376,7 +376,7 @@ static void CopyFrames(const kiriSheetData* from, const kiriIndices* frames, kir
     }
 }
 
-/* Vertices and points go on fading. */
+/* Copies the fades of vertices or points. */
 static bool CopyFades(const kiriIndices* items, const kiriFades* from, const kiriKeep* samples, kiriFades* to,
                       kiriMemory* memory)
 {
@@ -391,7 +391,7 @@ static bool CopyFades(const kiriIndices* items, const kiriFades* from, const kir
     return true;
 }
 
-/* The links of a part are in the order of the sheet. */
+/* Copies the strain offsets of links. The links of a part have the same order as in the sheet. */
 static void CopyStrainOffsets(const kiriSheetData* from, const kiriIndices* links, kiriSheetData* to)
 {
     if (from->strainOffsets.strainOffsets.count > 0) {
@@ -402,7 +402,7 @@ static void CopyStrainOffsets(const kiriSheetData* from, const kiriIndices* link
     }
 }
 
-/* So are the shares of its pins. */
+/* Copies the history of pins. Their shares also have the same order. */
 static void CopyPinHistory(const kiriSubset* part, kiriSheetData* to)
 {
     const kiriPinShares* shares = &part->from->layout.pinShares;
@@ -426,7 +426,7 @@ static bool MakeField(const kiriDetach* detach, int32_t piece, const kiriIndices
            kiriPipeline_Make(to, KIRI_READY);
 }
 
-/* Makes all of the part. No frame is added: the next cut asks for more where they are too few. */
+/* Makes the part. Adds no frames; the next cut does, where there are too few. */
 static bool FillPart(kiriDetach* detach, int32_t piece, kiriSheetData* to)
 {
     const kiriSheetData* from = detach->sheet;
@@ -709,7 +709,7 @@ static void KeepSeen(kiriDetach* detach, kiriMemory* retired)
     sheet->probes.isFresh = false;
 }
 
-/* State that a sheet keeps from tick to tick belongs here and into FillPart. */
+/* To maintain: state that a sheet keeps between ticks must be handled here and in FillPart. */
 void kiriDetach_Commit(kiriDetach* detach, kiriMemory* retired)
 {
     kiriSettings* settings = &detach->sheet->settings;
@@ -727,8 +727,7 @@ void kiriDetach_Commit(kiriDetach* detach, kiriMemory* retired)
 
 /* ---- Fields of a load -------------------------------------------------------------------------------------------- */
 
-/* Did the stages end where sites are found again, though all that this takes memory for is there? Then two sites are in
-   one cell. */
+/* Returns true if the stages failed in kiriSites_Relocate although its arrays are reserved: two sites share a cell. */
 static bool IsCrowded(const kiriSheetData* sheet)
 {
     const kiriUpdate* u = sheet->update;
@@ -736,7 +735,7 @@ static bool IsCrowded(const kiriSheetData* sheet)
            u->placing.moves.capacity >= sheet->frames.count;
 }
 
-/* Are there as many frames as were read, in the same pieces? */
+/* Returns true if the made layout has the same frames and pieces as the saved one. */
 static bool IsLayoutThat(const kiriSheetData* sheet)
 {
     const kiriLayout *made = &sheet->update->next, *read = &sheet->layout;
@@ -745,7 +744,7 @@ static bool IsLayoutThat(const kiriSheetData* sheet)
            memcmp(made->framePiece.data, read->framePiece.data, sizeof(int32_t) * (size_t)frames) == 0;
 }
 
-/* Samples without weights, in their squares. */
+/* Starts the samples without weights, and sorts the points into squares. */
 static bool StartSamples(kiriSheetData* sheet)
 {
     kiriSkin *vertices = &sheet->vertexSkin, *points = &sheet->pointSkin;
@@ -762,8 +761,8 @@ static bool StartSamples(kiriSheetData* sheet)
     return ok;
 }
 
-/* The stages from the grid to the owners of material, from scratch, as for a sheet that is made. No frame is added but
-   where a piece has none. */
+/* Runs the stages from the grid to the owners of material, as for a new sheet. Adds no frames, except in a piece
+   without one. */
 static bool RunStages(kiriSheetData* sheet, bool* isBad)
 {
     kiriUpdate* u = sheet->update;

@@ -36,7 +36,7 @@ static int32_t OriginOf(const kiriSheetData* sheet, int32_t frame)
     return kiriPiece_OfTriangle(sheet, sheet->grid.cells.data[cell].triangle);
 }
 
-/* The largest part of a piece goes on as that piece. The other parts came off. */
+/* Sets cameOff of all parts of a piece except the largest. */
 static void MarkCameOff(kiriSheetData* sheet)
 {
     kiriLayout* next = &sheet->update->next;
@@ -278,8 +278,8 @@ static bool AreLinked(const LineWork* work, int32_t a, int32_t b)
     return false;
 }
 
-/* At a point of the line where `frame` begins: those that end there and are linked to it have a neighbour beyond their
-   end. Returns whether there are any: then it has one as well. */
+/* Closes the ends of shares that end at `at`, where `frame` begins, and are linked to it. Returns true if there are
+   any: then the start of `frame` is closed, too. */
 static bool CloseEnds(const LineWork* work, int32_t frame, double at)
 {
     bool any = false;
@@ -303,7 +303,8 @@ static kiriLineShare* FindShare(const LineWork* work, int32_t frame)
     return NULL;
 }
 
-/* `other` is the frame on the other side, which takes half of a load, or KIRI_NONE, or the same. */
+/* Adds a part of the line to the share of `frame`. `other` is the frame on the other side, which takes half of a load;
+   it may be KIRI_NONE or `frame`. */
 static bool AddPart(const LineWork* work, int32_t frame, int32_t other, const kiriLinePart* part)
 {
     double a = part->from, b = part->to, length = b - a;

@@ -56,7 +56,7 @@ static double SquareApart(kiriVec3 a, kiriVec3 b)
     return kiriVec3_Dot(d, d);
 }
 
-/* Squared distance of two poses of a body of some size. */
+/* Returns the squared distance of two poses of a body of this size (m). */
 static double PosesApart(kiriVec3 a, const kiriMat3* A, kiriVec3 b, const kiriMat3* B, double size)
 {
     double turned = SquareApart(A->u, B->u) + SquareApart(A->v, B->v);
@@ -70,8 +70,8 @@ static void CarryPose(const kiriMat3* R, kiriVec3 t, kiriVec3* x, kiriMat3* A)
     *A = kiriMat3_Rotation(*A);
 }
 
-/* Carries the pose at which something is held, and its goal for the next tick. A goal that is nearer to the new pose
-   than to the old one stays: the host has moved it already. */
+/* Transforms a held pose and its goal for the next tick. A goal nearer to the new pose than to the old one stays: the
+   host has moved it already. */
 static void CarryHeld(const kiriMat3* R, kiriVec3 t, double size, kiriVec3* at, kiriMat3* axes, kiriVec3* goal,
                       kiriMat3* goalAxes)
 {
@@ -211,7 +211,7 @@ static void ShiftContacts(kiriSheetData* sheet, kiriVec3 origin)
     ShiftTouches(touches->found.data, touches->found.count, origin);
     ShiftTouches(touches->last.touches.data, touches->last.touches.count, origin);
     ShiftTouches(touches->slept.touches.data, touches->slept.touches.count, origin);
-    touches->rests.areSummed = false; /* about centres of mass of obstacles */
+    touches->rests.areSummed = false; /* the sums are about centers of mass of obstacles, which shift */
     for (int32_t i = 0; i < sheet->contacts.count; ++i) {
         kiriContact* contact = &sheet->contacts.data[i].contact;
         contact->offset = (float)(contact->offset - kiriVec3_Dot(kiriVec3_Load(contact->normal), origin));
@@ -264,7 +264,7 @@ static void GiveVelocity(kiriFrameData* frame, kiriVec3 center, kiriVec3 velocit
     memset(&frame->history, 0, sizeof(frame->history));
 }
 
-/* A planar sheet takes the part in its plane. */
+/* In a planar sheet, only the components in its plane count. */
 bool kiriCarry_SetVelocity(kiriSheetData* sheet, int32_t piece, kiriVec3 velocity, kiriVec3 spin)
 {
     const kiriMechanics* mechanics = &sheet->settings.mechanics;
@@ -291,7 +291,7 @@ bool kiriCarry_SetVelocity(kiriSheetData* sheet, int32_t piece, kiriVec3 velocit
 
 /* ---- Geometry of lines ------------------------------------------------------------------------------------------- */
 
-/* A line of the rest plane, local m. */
+/* A line in the rest plane, m, local. */
 typedef struct RestLine {
     kiriVec2 from, along; /* unit */
     double length;
@@ -365,7 +365,7 @@ void kiriPin_TakePose(const kiriSheetData* sheet, kiriPinData* pin)
 
 /* ---- Pins come and go -------------------------------------------------------------------------------------------- */
 
-/* Makes room for rows and reactions. */
+/* Reserves rows and reactions. */
 static bool ReserveRows(kiriSheetData* sheet, int64_t pins, int64_t shares, int64_t frames, int64_t links)
 {
     return kiriSolver_ReserveRows(sheet->solver, pins + 2 * shares, shares, 0) &&
@@ -377,8 +377,8 @@ static bool ReserveRows(kiriSheetData* sheet, int64_t pins, int64_t shares, int6
            (shares == 0 || kiriArray_Reserve(sheet->memory, &sheet->linkParts, links));
 }
 
-/* Appends the shares of a line; there is room. Returns the frame that it holds most of, or `none` where there are no
-   shares. */
+/* Appends the shares of a line; capacity is reserved. Returns the frame with the longest share, or `none` if there are
+   no shares. */
 static int32_t AppendShares(const kiriSheetData* sheet, int32_t pin, kiriPinShares* shares, int32_t none)
 {
     const kiriLineShare* longest = NULL;
@@ -537,7 +537,7 @@ static kiriVec3 PartWay(kiriVec3 a, kiriVec3 b, double part)
     return part >= 1.0 ? b : kiriVec3_AddScaled(a, part, kiriVec3_Sub(b, a));
 }
 
-/* Returns where the pin is after a part of the tick, 0 to 1. */
+/* Returns the target at a fraction of the tick, 0 to 1. */
 static kiriVec3 TargetAfter(const kiriPinData* pin, double part)
 {
     return PartWay(pin->lastTarget, pin->target, part);
@@ -554,8 +554,8 @@ static kiriMat3 RotationAfter(const kiriPinData* pin, double part)
     return kiriMat3_RotationFrom(*a, mean);
 }
 
-/* A hinge holds a line by springs all along it, as stiff as the material up to the site. Two springs, where two equal
-   masses have the line's length, centroid and moment, are the same. */
+/* Writes the rows of a hinge. It holds the line by springs along it, as stiff as the material up to the site. Two
+   springs are equivalent, at the points of two equal masses with the line's length, centroid and second moment. */
 static void WriteHinge(kiriSheetData* sheet, const kiriPinShare* pinned, double to)
 {
     const kiriMaterial* material = &sheet->settings.material;
@@ -596,7 +596,7 @@ static kiriVec3 IntoPlane(const kiriSheetData* sheet, const kiriFrameData* frame
     return mechanics->planar ? kiriVec3_AddScaled(x, -kiriVec3_Dot(off, mechanics->axes.d), mechanics->axes.d) : x;
 }
 
-/* Makes the row of a clamp and a frame, in a step from one part of the tick to another. */
+/* Makes the row of a clamp and a frame, for a step between two fractions of the tick. */
 static kiriClampRow ClampRowOf(const kiriSheetData* sheet, const kiriPinShare* pinned, const kiriFrameData* frame,
                                double from, double to)
 {
@@ -617,14 +617,14 @@ static kiriClampRow ClampRowOf(const kiriSheetData* sheet, const kiriPinShare* p
     return row;
 }
 
-/* True for a pin of a point whose piece is awake. Such pins have the first rows, in their order. Pieces that sleep
-   have no rows, and keep their reactions. */
+/* Returns true for a point pin of an awake piece. These pins have the first rows, in order. Sleeping pieces have no
+   rows and keep their reactions. */
 static bool IsAwakePoint(const kiriSheetData* sheet, int32_t index)
 {
     return sheet->pins.data[index].type == KIRI_PIN_POINT && kiriSheet_Moves(sheet, sheet->layout.pinFrame.data[index]);
 }
 
-/* A reaction at the start of a tick: only its history is left. */
+/* Returns a reaction at the start of a tick: zero, with the history of the last one. */
 static kiriReaction BeginReaction(const kiriReaction* last)
 {
     const kiriWrench none = { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } };
@@ -632,7 +632,7 @@ static kiriReaction BeginReaction(const kiriReaction* last)
     return reaction;
 }
 
-/* Reactions are in the order of rows. */
+/* Starts the reactions, in the order of rows. */
 void kiriPins_BeginReactions(kiriSheetData* sheet)
 {
     KIRI_ASSERT(sheet->frameReactions.capacity >= sheet->frames.count);
@@ -670,7 +670,7 @@ void kiriPins_WriteRows(kiriSheetData* sheet, double from, double to)
     sheet->pinRows.count = sheet->clampRows.count = 0;
     for (int32_t i = 0; i < sheet->pins.count; ++i) {
         if (IsAwakePoint(sheet, i)) {
-            /* An obstacle that yields is another spring in series. */
+            /* A yielding obstacle is a second spring in series. */
             const kiriPinData* pin = &sheet->pins.data[i];
             kiriVec3 target = kiriVec3_Add(kiriVec3_Add(TargetAfter(pin, to), pin->off), pin->anchor.way);
             double stiffness = pin->stiffness / (1.0 + pin->stiffness * pin->anchor.softness);
@@ -864,11 +864,11 @@ void kiriPins_ClearReactions(kiriSheetData* sheet)
     kiriPins_TakeReactions(sheet, 1.0);
 }
 
-#define SETTLING 0.05  /* s: time in which targets move to the surface as it is seen */
+#define SETTLING 0.05  /* s: time in which targets move to the visible surface */
 #define CLAMP_RATE 0.2 /* times the rate of pins: a clamp bends the surface that it measures */
-#define LEAST 1e-5     /* of the longer side: less is not seen, and stays */
+#define LEAST 1e-5     /* fraction of the longer side: smaller changes are ignored */
 
-/* ---- Held points lie on the surface as it is seen ---- */
+/* ---- Offsets of held points from the visible surface ---- */
 
 /* Returns the share of a frame in the position of a point. */
 static double ShareAt(const kiriSheetData* sheet, const kiriPointPlace* place, int32_t frame)
@@ -884,8 +884,8 @@ static double ShareAt(const kiriSheetData* sheet, const kiriPointPlace* place, i
     return sum;
 }
 
-/* Finds where a point of a frame is seen. False where the frame has no share there: outside, or at the other lip of a
-   cut. */
+/* Finds the visible position of a point of a frame. Returns false if the frame has no share there: outside, or on the
+   other lip of a cut. */
 static bool FindSeen(const kiriSheetData* sheet, int32_t frame, kiriLatticePoint at, kiriVec3* seen)
 {
     kiriPointPlace place;
@@ -896,7 +896,7 @@ static bool FindSeen(const kiriSheetData* sheet, int32_t frame, kiriLatticePoint
     return true;
 }
 
-/* Moves an offset a part of the way to a measured one, or all of it where none is known. */
+/* Moves an offset by a fraction dt / SETTLING towards the measured one; at once if it is unknown. */
 static void Settle(const kiriSheetData* sheet, kiriVec3* off, kiriVec3 measured, bool isKnown, double dt)
 {
     kiriVec3 change = kiriVec3_Sub(measured, *off);
@@ -920,14 +920,14 @@ static void SettlePoint(kiriSheetData* sheet, int32_t index, double dt)
     }
 }
 
-/* True if both shares hold the same piece for the same clamp. */
+/* Returns true if both shares hold the same piece for the same clamp. */
 static bool IsSameHold(const kiriSheetData* sheet, const kiriPinShare* a, const kiriPinShare* b)
 {
     const int32_t* pieces = sheet->layout.framePiece.data;
     return a->pin == b->pin && pieces[a->share.frame] == pieces[b->share.frame];
 }
 
-/* Finds the offset of the pose with which the piece is seen on the line: the mean along it. */
+/* Finds the mean offset along the line between the frames of a piece and its visible surface. */
 static bool FindHoldOff(const kiriSheetData* sheet, int32_t first, kiriVec3* off)
 {
     const kiriPinShares* shares = &sheet->layout.pinShares;
@@ -938,7 +938,7 @@ static bool FindHoldOff(const kiriSheetData* sheet, int32_t first, kiriVec3* off
         if (!IsSameHold(sheet, &shares->data[first], pinned)) {
             continue;
         }
-        /* A line may run along an edge of the sheet: a little towards the site there is material for certain. */
+        /* The line may be on an edge of the sheet, so measure a little closer to the site, inside the material. */
         kiriVec2 at = CentroidOf(sheet, pinned);
         kiriVec2 way = kiriVec2_Sub(sheet->frames.data[pinned->share.frame].site.at, at);
         double apart = kiriVec2_Length(way), aside = sheet->grid.side / 1024.0;
@@ -953,8 +953,8 @@ static bool FindHoldOff(const kiriSheetData* sheet, int32_t first, kiriVec3* off
     return length > 0.0;
 }
 
-/* Moves all shares of a piece together. If each moved by its own offset, the line would bend: a sheet that is curled
-   along its clamp is far too stiff, and turns its surface there, which needs larger offsets. */
+/* Moves all shares of a piece by one offset. Separate offsets would bend the line: a sheet that is curled along its
+   clamp is far too stiff, and its surface turns there, which needs larger offsets. */
 static void SettleClamp(kiriSheetData* sheet, int32_t first, double dt)
 {
     kiriPinShares* shares = &sheet->layout.pinShares;
@@ -1028,7 +1028,7 @@ static bool IsSameMat(const kiriMat3* a, const kiriMat3* b)
     return kiriVec3_Equal(a->u, b->u) && kiriVec3_Equal(a->v, b->v) && kiriVec3_Equal(a->d, b->d);
 }
 
-/* Its part of the way that is left: the last step ends at the goal. */
+/* Moves a held frame by 1 / left of the remaining way; the last step ends at the goal. */
 static void MoveHeld(kiriFrameData* frame, int32_t left)
 {
     KIRI_ASSERT(frame->held && left >= 1);
@@ -1048,8 +1048,8 @@ static void MoveHeld(kiriFrameData* frame, int32_t left)
     }
 }
 
-/* Moves the targets of pins on obstacles that yield, to the end of the step, `after` s after the start of the tick.
-   True if any pin moves. */
+/* Moves the targets of pins on yielding obstacles to the end of the step, `after` s after the start of the tick.
+   Returns true if any pin moves. */
 static bool MoveTargets(kiriSheetData* sheet, double after, double h)
 {
     bool any = false;
@@ -1073,7 +1073,7 @@ static bool MoveTargets(kiriSheetData* sheet, double after, double h)
     return any;
 }
 
-/* Rows of pins that rest are the same in all steps. */
+/* If no pin moves, the rows stay valid for all steps. */
 void kiriFollow_Step(kiriSheetData* sheet, int32_t i, int32_t n, double h)
 {
     KIRI_ASSERT(i >= 0 && i < n);
@@ -1110,8 +1110,8 @@ void kiriLoad_AlongLine(kiriSheetData* sheet, kiriLatticePoint from, kiriLattice
     }
 }
 
-/* The resultant on a region acts at its centroid, where its frame has its centre. The length of A_u x A_v, 1 for a
-   rigid frame, is by how much an affine one stretches the area. */
+/* The resultant acts at the centroid of a region, which is the center of its frame. |A_u x A_v| is the area stretch of
+   an affine frame, and 1 for a rigid one. */
 void kiriLoad_OnSurface(kiriSheetData* sheet, double pressure)
 {
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
@@ -1123,7 +1123,7 @@ void kiriLoad_OnSurface(kiriSheetData* sheet, double pressure)
 
 /* ---- Impulses ---------------------------------------------------------------------------------------------------- */
 
-/* What acts across the plane of a planar sheet is dropped. */
+/* Applies an impulse and a moment to a frame. In a planar sheet, only the components in its plane. */
 static void Push(const kiriSheetData* sheet, kiriFrameData* frame, kiriVec3 impulse, kiriVec3 moment)
 {
     const kiriMechanics* mechanics = &sheet->settings.mechanics;
@@ -1139,7 +1139,8 @@ static void Push(const kiriSheetData* sheet, kiriFrameData* frame, kiriVec3 impu
     frame->velocity = kiriVec3_AddScaled(frame->velocity, 1.0 / frame->mass, impulse);
 }
 
-/* The parts of the impulse that this frame gets by the corners of the triangle; or, KIRI_NONE, each frame its own. */
+/* Applies the shares of an impulse to the frames of the triangle's corners. If `only` is a frame, applies its shares
+   to *frames, a copy of it. */
 static void PushFrames(kiriSheetData* sheet, const kiriPointPlace* place, kiriVec3 off, kiriVec3 impulse, int32_t only,
                        kiriFrameData* frames)
 {
@@ -1177,8 +1178,8 @@ static bool FitsImpulse(kiriSheetData* sheet, const kiriPointPlace* place, kiriV
     return true;
 }
 
-/* Fades and bent patches move a point off the position that its weights give. Each share of the impulse acts beside
-   its frame's own point by this offset, so that the sum acts where the point is seen. */
+/* Fades and bent patches offset the visible point from the blend of the frames. Each share of the impulse acts at this
+   offset from its frame's point, so the sum acts at the visible point. */
 bool kiriLoad_Impulse(kiriSheetData* sheet, const kiriPointPlace* place, kiriVec3 impulse)
 {
     kiriVec3 off = kiriVec3_Sub(kiriPoint_Position(sheet, place), kiriPoint_Blend(sheet, place).x);

@@ -160,7 +160,7 @@ static const kiriMember ContactForceMembers[] = {
 };
 static const kiriTable ContactForceTable = KIRI_TABLE(kiriContactForce, ContactForceMembers);
 
-/* The sums are made again. */
+/* Sums are a cache: a load computes them again. */
 static const kiriMember RestLoadsMembers[] = {
     KIRI_UNHASHED,
     KIRI_ROOM_OF(kiriRestLoads, on),
@@ -211,7 +211,7 @@ static const kiriMember SeenMembers[] = {
 };
 static const kiriTable SeenTable = KIRI_TABLE(kiriSeen, SeenMembers);
 
-/* Probes are chosen again, and keep their velocities. */
+/* A load chooses the probes again; their velocities are saved. */
 static const kiriMember ProbesMembers[] = {
     KIRI_BOOLS(kiriProbes, isFresh, isFresh),
     KIRI_RUN(4, kiriProbes, block, block),
@@ -359,7 +359,7 @@ static const kiriMember SheetMembers[] = {
 };
 static const kiriTable SheetTable = KIRI_TABLE(kiriSheetData, SheetMembers);
 
-/* Cuts, and the points that wait for them, are blocks of the world. */
+/* Moves the cuts and their pending points, which are blocks of the world's memory. */
 static void MoveCuts(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* memory)
 {
     int32_t cuts = kiriArchive_Count(archive, sheet->cuts.count, 0, INT32_MAX);
@@ -405,7 +405,7 @@ static bool AreWeightsSeen(const kiriSheetData* sheet)
            surface->vertexCount == sheet->seen.vertexCount && surface->vertexCount == sheet->mesh.vertices.count;
 }
 
-/* Makes room for the vertices of a save, which come next. */
+/* Reserves for the vertices of a save, which come next. */
 static void ReserveSeen(kiriArchive* archive, kiriSheetData* sheet)
 {
     kiriSurface* surface = &sheet->seen.surface;
@@ -427,7 +427,7 @@ static void ReserveSeen(kiriArchive* archive, kiriSheetData* sheet)
     }
 }
 
-/* Moves the vertices and points that the host sees, and whether there are boxes around them. */
+/* Moves the visible vertices and points, and whether bounds are in use. */
 static void MoveSeen(kiriArchive* archive, kiriSheetData* sheet)
 {
     kiriSurface* surface = &sheet->seen.surface;
@@ -451,7 +451,7 @@ static void MoveSeen(kiriArchive* archive, kiriSheetData* sheet)
     kiriArchive_Numbers(archive, sheet->seen.pointPositions.data, 4, sheet->seen.pointPositions.count);
 }
 
-/* Arrays are as long as the counts that came before them. */
+/* Returns true if the lengths of arrays match the counts that came first. */
 static bool AreCounted(const kiriArchive* archive, const kiriSheetData* sheet)
 {
     const int64_t* count = archive->count;
@@ -550,7 +550,7 @@ static bool AreFrames(const kiriSheetData* sheet)
     return areFine;
 }
 
-/* Pieces are numbered by their lowest frame. None waits between two ticks, and one at least is left. */
+/* Returns true if pieces are sorted by their lowest frame, none is deferred, and at least one is not destroyed. */
 static bool ArePieces(const kiriLayout* layout)
 {
     bool areFine = true, isLeft = false;
@@ -567,7 +567,7 @@ static bool ArePieces(const kiriLayout* layout)
     return areFine && isLeft && pieces == layout->pieces.count;
 }
 
-/* Frames of an area element are of one piece. */
+/* Returns true if area elements are valid and the frames of each are in one piece. */
 static bool AreAreaElements(const kiriLayout* layout)
 {
     const kiriAreaElements* areas = &layout->areaElements;
@@ -613,7 +613,7 @@ static bool ArePoints(const kiriSheetData* sheet)
     return areFine;
 }
 
-/* A place is a collision point, or a blend of vertices: missing ones come last. */
+/* Returns true for a valid place: a collision point, or a blend of vertices, in which unused ones come last. */
 static bool IsPlace(const kiriSheetData* sheet, int32_t point, const int32_t vertex[3])
 {
     bool isFine = point >= KIRI_NONE && point < sheet->points.count && (point != KIRI_NONE || vertex[0] != KIRI_NONE);
@@ -647,7 +647,7 @@ static bool AreContacts(const kiriSheetData* sheet)
     return areFine;
 }
 
-/* There may be more blocks than the vertices need. */
+/* Returns true if the blocks are valid. There may be more blocks than the vertices need. */
 static bool AreBlocks(const kiriBlocks* blocks, const kiriSheetData* sheet)
 {
     int32_t count = blocks->movers.count;
@@ -675,7 +675,8 @@ static bool IsSeen(const kiriSheetData* sheet)
            AreBlocks(&seen->blocks, sheet);
 }
 
-/* Arrays with an item a link are as long, and rows of pins, of clamps and of their reactions have room. */
+/* Returns true if arrays with an item a link have that length, and rows and reactions of pins and clamps fit their
+   capacity. */
 static bool HaveArraysRoom(const kiriSheetData* sheet)
 {
     int32_t links = sheet->links.links.count, offsets = sheet->strainOffsets.strainOffsets.count;
