@@ -342,16 +342,10 @@ static bool IsRead(const kiriSheetData* sheet)
     return sheet->touches.found.count > 0 || sheet->pins.count > 0;
 }
 
-/* Returns true if the quota is spent and the motion is not read in this tick. */
-static bool MustWait(const kiriSheetData* sheet, const kiriQuota* systems)
-{
-    return !IsRead(sheet) && SystemsLeft(systems, ItemsOfMoved(sheet)) == 0;
-}
-
 /* Writes the rows of pins, then runs the substeps with a system that includes pins and touches. */
 static kiriProgress MoveFrames(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps, kiriQuota* systems)
 {
-    if (MustWait(sheet, systems)) {
+    if (!IsRead(sheet) && SystemsLeft(systems, ItemsOfMoved(sheet)) == 0) {
         sheet->touches.rows.count = 0;
         return KIRI_MORE;
     }

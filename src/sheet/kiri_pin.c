@@ -576,18 +576,6 @@ static void WriteHinge(kiriSheetData* sheet, const kiriPinShare* pinned, double 
     }
 }
 
-static kiriVec2 CentroidOf(const kiriSheetData* sheet, const kiriPinShare* pinned)
-{
-    RestLine line = RestLineOf(sheet, &sheet->pins.data[pinned->pin]);
-    return PointAlong(&line, pinned->share.first / pinned->share.length);
-}
-
-static kiriVec3 HeldPlaceOf(const kiriSheetData* sheet, const kiriPinData* pin, kiriVec2 point)
-{
-    RestLine line = RestLineOf(sheet, pin);
-    return HeldPoint(&line, pin->target, &pin->rotation, point);
-}
-
 /* Projects a point into the plane of a planar sheet. */
 static kiriVec3 IntoPlane(const kiriSheetData* sheet, const kiriFrameData* frame, kiriVec3 x)
 {
@@ -931,6 +919,8 @@ static bool IsSameHold(const kiriSheetData* sheet, const kiriPinShare* a, const 
 static bool FindHoldOff(const kiriSheetData* sheet, int32_t first, kiriVec3* off)
 {
     const kiriPinShares* shares = &sheet->layout.pinShares;
+    const kiriPinData* pin = &sheet->pins.data[shares->data[first].pin];
+    RestLine line = RestLineOf(sheet, pin);
     kiriVec3 sum = { 0.0, 0.0, 0.0 }, seen;
     double length = 0.0;
     for (int32_t k = first; k < shares->count && shares->data[k].pin == shares->data[first].pin; ++k) {
@@ -939,12 +929,12 @@ static bool FindHoldOff(const kiriSheetData* sheet, int32_t first, kiriVec3* off
             continue;
         }
         /* The line may be on an edge of the sheet, so measure a little closer to the site, inside the material. */
-        kiriVec2 at = CentroidOf(sheet, pinned);
+        kiriVec2 at = PointAlong(&line, pinned->share.first / pinned->share.length);
         kiriVec2 way = kiriVec2_Sub(sheet->frames.data[pinned->share.frame].site.at, at);
         double apart = kiriVec2_Length(way), aside = sheet->grid.side / 1024.0;
         kiriVec2 beside = kiriVec2_Add(at, kiriVec2_Scale(apart > aside ? aside / apart : 1.0, way));
         if (FindSeen(sheet, pinned->share.frame, kiriMesh_Snap(&sheet->mesh, beside), &seen)) {
-            kiriVec3 missing = kiriVec3_Sub(HeldPlaceOf(sheet, &sheet->pins.data[pinned->pin], at), seen);
+            kiriVec3 missing = kiriVec3_Sub(HeldPoint(&line, pin->target, &pin->rotation, at), seen);
             sum = kiriVec3_AddScaled(sum, pinned->share.length, kiriVec3_Add(pinned->off, missing));
             length += pinned->share.length;
         }

@@ -500,13 +500,6 @@ void kiriView_TouchStaged(kiriSheetData* sheet)
     }
 }
 
-static void TouchFading(kiriSheetData* sheet)
-{
-    for (int32_t k = 0; k < sheet->seen.fades.fading.count; ++k) {
-        sheet->seen.blocks.touched.data[sheet->seen.fades.fading.data[k].sample / KIRI_BLOCK] = 1;
-    }
-}
-
 /* Comparison of positions before and after the commits of a tick. `other`: frames whose patches changed. */
 typedef struct JumpLook {
     kiriFrameMask other;
@@ -613,7 +606,9 @@ static void TakeVertexJumps(kiriSheetData* sheet)
     kiriVec3 middle = surface->middle;
     bool wasSteady = surface->isSteady;
     JumpLook look = { .before = kiriSurface_Places(surface) };
-    TouchFading(sheet);
+    for (int32_t k = 0; k < sheet->seen.fades.fading.count; ++k) {
+        sheet->seen.blocks.touched.data[sheet->seen.fades.fading.data[k].sample / KIRI_BLOCK] = 1;
+    }
     surface->isSteady = false;
     kiriView_TakeFrames(sheet);
     surface->isWritten = false;

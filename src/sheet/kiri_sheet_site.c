@@ -234,22 +234,16 @@ static bool CollectMoves(kiriSheetData* sheet)
     return ok;
 }
 
-/* Adds moves for the sites of a sheet without frames: its def may give some. */
-static bool MoveGiven(kiriSheetData* sheet)
-{
-    bool ok = true;
-    for (int32_t i = 0; ok && i < sheet->update->placing.sites.count; ++i) {
-        ok = RecordMove(sheet, i, KIRI_NONE);
-    }
-    return ok;
-}
-
 bool kiriSites_Relocate(kiriSheetData* sheet)
 {
     kiriUpdate* u = sheet->update;
     u->placing.moves.count = u->placing.movesSeen = 0;
-    if (sheet->frames.count == 0) {
-        return MoveGiven(sheet);
+    if (sheet->frames.count == 0) { /* a new sheet: its def may give sites */
+        bool ok = true;
+        for (int32_t i = 0; ok && i < u->placing.sites.count; ++i) {
+            ok = RecordMove(sheet, i, KIRI_NONE);
+        }
+        return ok;
     }
     if (!MakeFlags(sheet) || !CollectMoves(sheet)) {
         return false;

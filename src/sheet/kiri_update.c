@@ -211,13 +211,6 @@ static bool MeasureRegions(kiriSheetData* sheet)
     return true;
 }
 
-static kiriProgress MakeLinks(kiriSheetData* sheet, kiriQuota* cells)
-{
-    const kiriSites* sites = &sheet->update->placing.sites;
-    return kiriLinks_Update(&sheet->links, sheet->memory, &sheet->grid, &sheet->mesh, &sheet->regions, sites->data,
-                            sites->count, cells);
-}
-
 /* Adds sites until no frame needs another, if the update settles them. */
 static kiriProgress SettleSites(kiriSheetData* sheet, kiriQuota* cells)
 {
@@ -248,7 +241,9 @@ kiriProgress kiriStage_Shape(kiriSheetData* sheet, kiriQuota* cells)
         }
         sheet->update->step = MAKE_LINKS;
     }
-    return MakeLinks(sheet, cells);
+    const kiriSites* sites = &sheet->update->placing.sites;
+    return kiriLinks_Update(&sheet->links, sheet->memory, &sheet->grid, &sheet->mesh, &sheet->regions, sites->data,
+                            sites->count, cells);
 }
 
 /* ---- Samples: section 6 ------------------------------------------------------------------------------------------ */
