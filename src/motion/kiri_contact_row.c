@@ -49,7 +49,7 @@ static bool IsSoft(const kiriContactRow* row)
     return row->reach > 0.0;
 }
 
-/* N/m: what resists the point of a contact by its inertia alone. */
+/* Returns the resistance of a contact's point by inertia alone, N/m. */
 static double InertiaOf(const kiriSolver* solver, const kiriContactStep* step)
 {
     return step->mass / (solver->stepping.part * solver->stepping.part);
@@ -63,7 +63,7 @@ static kiriYieldRow* YieldOf(const kiriSystem* system, const kiriContactRow* row
     return row->yield != KIRI_NONE ? &system->yields[row->yield] : NULL;
 }
 
-/* m/s: of the material of the obstacle at a point, with what sheets gave it in this tick. */
+/* Returns the velocity of the obstacle's material at a point, including impulses of sheets in this tick, m/s. */
 static kiriVec3 SurfaceVelocity(const kiriSystem* system, const kiriContactRow* row, kiriVec3 point)
 {
     const kiriYieldRow* yield = YieldOf(system, row);
@@ -78,7 +78,7 @@ static kiriVec3 SurfaceVelocity(const kiriSystem* system, const kiriContactRow* 
     return kiriVec3_Add(row->velocity, recoil);
 }
 
-/* 1/kg: of the obstacle at a point, along a direction. */
+/* Returns the inverse mass of the obstacle at a point, along a direction, 1/kg. */
 static double InverseMass(const kiriSystem* system, const kiriContactRow* row, kiriVec3 point, kiriVec3 along)
 {
     const kiriYieldRow* yield = YieldOf(system, row);
@@ -146,8 +146,8 @@ static void PlacePlane(const kiriSolver* solver, const kiriSystem* system, const
     step->plane = now + kiriVec3_Dot(row->normal, step->carried) - step->lowered - (step->isHeld ? FAR_BELOW : 0.0);
 }
 
-/* J: what an obstacle can give by moving along the normal: its kinetic energy; or no end of it, where it does not
-   yield. Another body has no more than its cushion says. */
+/* Returns the energy that an obstacle can supply by moving along the normal, J: its kinetic energy, or infinity if it
+   does not yield. For another body, the cushion limits it. */
 static double MeansOf(const kiriSystem* system, const kiriContactStep* step, double dt)
 {
     double speed = kiriVec3_Dot(step->row->normal, step->carried) / dt;
@@ -155,7 +155,7 @@ static double MeansOf(const kiriSystem* system, const kiriContactStep* step, dou
     return !(fabs(speed) > 0.0) ? 0.0 : inverse > 0.0 ? 0.5 * speed * speed / inverse : DBL_MAX;
 }
 
-/* J: the energy that a body has to spend in a step in which contacts touch it: its own, and what gravity, forces and
+/* Finds the energy available to a body in a step with contacts, J: its own, and the energy that gravity, forces and
    obstacles may add. */
 static void FindMeans(kiriSolver* solver, const kiriSystem* system)
 {
@@ -201,7 +201,7 @@ void kiriSolver_BeginContacts(kiriSolver* solver, const kiriSystem* system)
     FindMeans(solver, system);
 }
 
-/* N: what friction would be if it stuck. */
+/* Returns the friction if the contact stuck, N. */
 static kiriVec3 Trial(const kiriContactStep* step, kiriVec3 slide)
 {
     return kiriVec3_AddScaled(step->held, -step->grip, slide);
@@ -215,8 +215,8 @@ static kiriVec3 Beside(kiriVec3 a, kiriVec3 direction)
 /* ---- Soft contacts ------------------------------------------------------------------------------------------------
 
    A contact with a fixed obstacle is a smooth energy of the objective. It is never switched on or off, so a sheet at
-   rest does not tremble. At depth p, with softness d and stiffness k, the push is k p^2 / (2 d) up to p = d, and k (p - d /
-   2) beyond. Friction is T = held - grip slide, where `held` is the friction of the last step. T is clamped to the
+   rest does not tremble. At depth p, with softness d and stiffness k, the push is k p^2 / (2 d) up to p = d, and k (p -
+   d / 2) beyond. Friction is T = held - grip slide, where `held` is the friction of the last step. T is clamped to the
    friction limit (Huber). */
 
 #define SOFT_STIFFNESS 1e3 /* minimum, as a multiple of the mass of the sample / h'^2 */
@@ -242,14 +242,15 @@ static double PushEnergy(const kiriContactStep* step, double p)
     return p <= 0.0 ? 0.0 : p < d ? k * p * p * p / (6.0 * d) : k * (0.5 * p * (p - d) + d * d / 6.0);
 }
 
-/* m: the depth of a push. */
+/* Returns the depth at which the push has this size, m. */
 static double DepthOfPush(const kiriContactStep* step, double push)
 {
     double k = step->stiffness, d = step->soft;
     return push < 0.5 * k * d ? kiriRoot(2.0 * push * d / k) : push / k + 0.5 * d;
 }
 
-/* Sets the stiffness: half of the reach stops free motion. Expects the push of the last step, or what stops free motion. */
+/* Sets the stiffness: half of the reach stops free motion. Expects the push of the last step, or what stops free
+   motion. */
 static void GuessSoft(const kiriSolver* solver, kiriContactStep* step, double stopDepth)
 {
     const kiriContactRow* row = step->row;
@@ -263,15 +264,15 @@ static void GuessSoft(const kiriSolver* solver, kiriContactStep* step, double st
     step->limit = row->friction * step->known;
 }
 
-/* N: the push that limits friction. A single system spreads pushes unevenly, so it is the push of the last step; for a new
-   contact, of the last system. */
+/* Returns the push that limits friction, N. A single system spreads pushes unevenly, so this is the push of the last
+   step, or, for a new contact, of the last system. */
 static double LimitingPush(const kiriContactStep* step)
 {
     return !(step->push > 0.0) ? 0.0 : step->was > 0.0 ? step->was : step->push;
 }
 
-/* Sets springs and forces for a system: the first one is tangent to the push that is expected, later ones to the push at
-   the poses. A slide that turned round sticks. */
+/* Sets springs and forces for a system: the first one is tangent to the push that is expected, later ones to the push
+   at the poses. A slide that turned round sticks. */
 static void LinearizeSoft(kiriContactStep* step, bool isFirst)
 {
     if (step->depth > step->row->reach) {
@@ -315,8 +316,9 @@ static void TakeSoft(kiriContactStep* step, kiriVec3 point, double part)
     step->drag = kiriVec3_AddScaled(kiriVec3_Scale(1.0 - part, step->drag), part, drag);
 }
 
-/* The first guess: what free motion runs into pushes with what stops it, and what pushed in the last step goes on,
-   unless free motion leaves it. It sticks where friction can stop its slide. */
+/* Guesses the initial state. A contact that free motion runs into pushes with the force that stops the motion. A
+   contact that pushed in the last step continues, unless free motion leaves it. It sticks if friction can stop its
+   slide. */
 static void GuessState(const kiriSolver* solver, const kiriSystem* system, kiriContactStep* step)
 {
     const kiriContactRow* row = step->row;
@@ -408,14 +410,14 @@ void kiriSolver_LinearizeContacts(kiriSolver* solver, const kiriSystem* system)
     }
 }
 
-/* N/m: what turns the direction of a slide. */
+/* Returns the spring against turning the direction of a slide, N/m. */
 static double TurnSpring(const kiriContactStep* step)
 {
     double trial = kiriVec3_Length(Trial(step, step->slide));
     return trial > step->limit ? step->grip * step->limit / trial : step->grip;
 }
 
-/* J: of the linear model, at a depth and a slide. */
+/* Returns the energy of the linear model at a depth and a slide, J. */
 static double EnergyAt(const kiriContactStep* step, double depth, kiriVec3 slide)
 {
     double energy = 0.5 * step->stiffness * depth * depth;
@@ -444,7 +446,7 @@ double kiriContact_Energy(const kiriSolver* solver, const kiriSystem* system, co
     return EnergyAt(step, DepthAt(step, point), SlideAt(step, point));
 }
 
-/* The friction of the linear model, on the sheet. */
+/* Returns the friction of the linear model on the sheet, N. */
 static kiriVec3 DragOf(const kiriContactStep* step, double part)
 {
     kiriVec3 slide = kiriVec3_AddScaled(step->slide, part, step->slides);
@@ -453,7 +455,7 @@ static kiriVec3 DragOf(const kiriContactStep* step, double part)
                                              -TurnSpring(step), Beside(slide, step->direction));
 }
 
-/* How the point moves by the solution, to first order. */
+/* Returns the move of the point by the solution, to first order. */
 static kiriVec3 MoveOf(const kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step)
 {
     kiriVec3 sum = { 0.0, 0.0, 0.0 };
@@ -484,7 +486,8 @@ void kiriSolver_MoveContacts(kiriSolver* solver, const kiriSystem* system)
 
 /* ---- Assembly ---------------------------------------------------------------------------------------------------- */
 
-/* The derivatives of a move of the point along an axis by the unknowns of a member, at whose `arm` it is. */
+/* Writes the derivatives of the point's move along an axis by the unknowns of a member. `arm`: the point relative to x.
+   */
 static void DerivePoint(const kiriSolver* solver, const kiriSystem* system, kiriWeight member, kiriVec2 local,
                         kiriVec3 arm, kiriVec3 axis, double* J)
 {
@@ -577,8 +580,9 @@ static void StoreScaled(double scale, kiriVec3 a, double* out)
     out[2] = scale * a.z;
 }
 
-/* The block of two members, the first one's unknowns down:  | G        (r2 x G)^T      |
-                                                             | r1 x G   r1 x (r2 x G)^T |  times both weights. */
+/* Writes the block of two members, both weights included. Rows are unknowns of the first member:
+   | G        (r2 x G)^T      |
+   | r1 x G   r1 x (r2 x G)^T | */
 static void WriteBlock(const kiriVec3 springs[3], const Carrier* down, const Carrier* across, double block[36])
 {
     double weight = down->weight * across->weight;
@@ -901,8 +905,8 @@ static void SweepHolds(kiriSolver* solver, const kiriSystem* system, bool isWhol
     }
 }
 
-/* A body that would store more than it has is put back where the systems left it, in `trial`. Returns whether it stays
-   held. */
+/* Accepts the held poses if the body stores no more energy than allowed. Otherwise restores the poses after the
+   systems, from `trial`, and returns false. */
 static bool TakeHeld(kiriSolver* solver, const kiriSystem* system)
 {
     kiriStepEnergy energy = kiriObjective_Evaluate(solver, system, solver->poses.data);

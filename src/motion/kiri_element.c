@@ -50,7 +50,7 @@ static void StrainsOf(const SurfaceState* s, double lean, double strain[KIRI_ARE
     strain[KIRI_AREA_THICKNESS] = 0.5 * (kiriVec3_Dot(s->d, s->d) - 1.0);
 }
 
-/* The derivative of each strain by the shape. */
+/* Writes the derivative of each strain by the shape. */
 static void SlopesOf(const SurfaceState* s, double lean, SurfaceState slope[KIRI_AREA_STRAINS])
 {
     kiriVec3 zero = { 0.0, 0.0, 0.0 }, minusV = kiriVec3_Scale(-1.0, s->v), minusDv = kiriVec3_Scale(-1.0, s->dv);
@@ -153,8 +153,8 @@ static const kiriMoments NoMaterial = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
 /* ---- Elements ---------------------------------------------------------------------------------------------------- */
 
-/* Linear-blend skinning, x(p) = sum of w_i(p) (x_i + A_i (p - c_i)), at a place `off` the point, with the weights
-   linear around it. */
+/* Adds an element at a place `off` the point, with linear-blend skinning, x(p) = sum of w_i(p) (x_i + A_i (p - c_i)).
+   The weights are linear around the point. */
 static bool AddAreaElement(PointBuilder* b, kiriVec2 point, kiriVec2 off, double area)
 {
     const kiriPointWeights* weights = &b->work->weights;
@@ -193,7 +193,7 @@ static bool AddFour(PointBuilder* b, kiriVec2 point, const kiriMoments* material
     return ok;
 }
 
-/* A region without area has no energy. */
+/* Adds the elements of a point. A region without area gets none. */
 static bool AddIntegrationPoint(PointBuilder* b, const kiriSite* point, const kiriMoments* material)
 {
     const kiriVec2 here = { 0.0, 0.0 };
@@ -224,7 +224,7 @@ static bool FloodFromPoints(PointBuilder* b)
            kiriField_Flood(&work->field, &rule, &endless) == KIRI_DONE;
 }
 
-/* The regions of points, as placing defines them: a point's own cell is its own. */
+/* Divides the piece into the regions of its points, as placing does: the cell of a point belongs to the point. */
 static bool DividePiece(PointBuilder* b)
 {
     kiriIntegrationWork* work = b->work;

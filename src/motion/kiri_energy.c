@@ -27,8 +27,8 @@ void kiriSolver_CenterBody(kiriSolver* solver, const kiriSystem* system)
     }
 }
 
-/* A frame at the end of a step: the velocities that follow from where its pose ended, and the history for the next step,
-   by the formulas of kiri_frame.h. `after` has the pose. */
+/* A frame at the end of a step: the velocities that follow from where its pose ended, and the history for the next
+   step, by the formulas of kiri_frame.h. `after` has the pose. */
 
 static void EndMove(const kiriPrediction* prediction, const kiriStepping* s, const kiriFrameData* before,
                     kiriFrameData* after)
@@ -46,8 +46,8 @@ static void EndMove(const kiriPrediction* prediction, const kiriStepping* s, con
     history->pull = kiriVec3_Scale(1.0 / s->part, D);
 }
 
-/* G by which the momentum grows is that about where the free turn ended: it has the impulse of the host's torque. Inner
-   forces gave the rest. */
+/* Ends the step of a rigid frame. The momentum grows by G about the end of the free turn, which includes the impulse of
+   the host's torque. The rest, G', is due to inner forces. */
 static void EndRigid(const kiriPrediction* prediction, const kiriStepping* s, const kiriFrameData* before,
                      kiriFrameData* after)
 {
@@ -140,7 +140,7 @@ static void RestoreMomentum(kiriSolver* solver, const kiriSystem* system)
 
 /* ---- Gains ---- */
 
-/* J: of a torque over the step. The way that a frame goes is h v+ + p+; so is its turn. */
+/* Returns the work of a torque over the step, J. A frame moves by h v+ + p+ in the step, and turns likewise. */
 static double WorkOfTorque(const kiriSystem* system, kiriVec3 torque, const kiriFrameData* end, double h)
 {
     kiriVec3 lag = end->history.turnLag.u;
@@ -211,7 +211,7 @@ static double TakeEnergy(double kinetic, double* energy)
 #define TRIALS 8
 #define TOLERABLE 0.05 /* of kiriContactSum.means: rounding and rest gain less */
 
-/* J: the gain that exceeds the kinetic energy without the mean velocity. */
+/* Returns the part of the gain that exceeds the kinetic energy without the mean velocity, J. */
 static double Excess(const kiriSolver* solver)
 {
     return solver->energy.gain - solver->energy.kinetic;
@@ -252,8 +252,8 @@ void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system)
     const kiriPieceMomentum* momentum = &solver->momentum;
     double energy = kiriMax(has->gain, 0.0), beside = has->kinetic - has->turning;
     double keepRest = TakeEnergy(kiriMax(beside, 0.0), &energy), keepTurning = TakeEnergy(has->turning, &energy);
-    bool isOwn = solver->support == KIRI_SUPPORT_NONE || (solver->support == KIRI_SUPPORT_CONTACTS && !IsThrown(solver));
-    double keepMean = isOwn ? 1.0 : TakeEnergy(has->moving, &energy);
+    bool isOwn = solver->support == KIRI_SUPPORT_NONE || (solver->support == KIRI_SUPPORT_CONTACTS &&
+    !IsThrown(solver)); double keepMean = isOwn ? 1.0 : TakeEnergy(has->moving, &energy);
     for (int32_t f = 0; has->gain > 0.0 && f < system->frameCount; ++f) {
         kiriFrameData* frame = &solver->after.data[f];
         if (!frame->held) {
@@ -272,7 +272,7 @@ void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system)
 
 /* ---- Other bodies ------------------------------------------------------------------------------------------------ */
 
-/* A row with a cushion is a plane of another body. */
+/* Returns true if the plane of the row belongs to another body. Only these rows have a cushion. */
 static bool IsOfBody(const kiriContactRow* row)
 {
     return row->cushion > 0.0;
@@ -342,7 +342,8 @@ typedef struct Tensor {
     double uu, uv, vv;
 } Tensor;
 
-/* The fields at a region: what its links say, least squares. Each link says of a tensor T what T s is, s its span. */
+/* The fields at a region: a least-squares fit to its links. A link with the span s gives the value of T s for a tensor
+   T. */
 typedef struct Fit {
     Tensor matrix;          /* sum of w s s^T */
     kiriVec2 bendingBy[2];  /* sum of w s (K s)^T: of its two rows */
@@ -354,7 +355,7 @@ typedef struct Fit {
     kiriVec2 turn;          /* slope of the turn in the plane, 1/m */
 } Fit;
 
-/* What one link says. */
+/* The values of one link. */
 typedef struct LinkStrains {
     kiriVec2 bending; /* K s */
     kiriVec2 strain;  /* strain times s, m */
@@ -453,8 +454,9 @@ static double SquaredChange(Tensor a, Tensor b)
     return uu * uu + 2.0 * uv * uv + vv * vv;
 }
 
-/* A field that changes by c over the length l is off its mean by c^2 / 12 in the mean of squares. Where a region has
-   links on one side only, its fields are those beside it, and the change is that over a shorter way. */
+/* Returns the missing energy. A field that changes by c over the length l differs from its mean by c^2 / 12 in the mean
+   square. If a region has links on one side only, its fields are those links' values, and the change occurs over a
+   shorter distance. */
 static double MissingIn(const kiriLink* link, const Fit* a, const Fit* b, Rigidity rigidity)
 {
     double l = link->length, apart = kiriVec2_Length(kiriVec2_Sub(b->at, a->at));
@@ -466,8 +468,8 @@ static double MissingIn(const kiriLink* link, const Fit* a, const Fit* b, Rigidi
     return longer * longer * l * energy / 12.0;
 }
 
-/* Links measure strains in the middle of the way between two sites, where they are better than a field that is constant
-   on each link: of cantilevers, squares and sheets with slits, about half of what such a field misses is the error
+/* Links measure strains halfway between two sites. There they are more accurate than a field that is constant on each
+   link: for cantilevers, squares and sheets with slits, the error is about half of the error of such a field
    (tests/test_estimate.c). */
 #define MISSED_SHARE 0.5
 

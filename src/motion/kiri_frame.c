@@ -154,7 +154,7 @@ kiriMassMoments kiriFrame_MassMoments(const kiriFrameData* frame, const kiriMate
     return m;
 }
 
-/* A times the matrix of moments. */
+/* Returns A times the matrix of moments. */
 static kiriMat3 Weighted(const kiriMassMoments* m, const kiriMat3* A)
 {
     kiriMat3 r = { kiriVec3_AddScaled(kiriVec3_Scale(m->uu, A->u), m->uv, A->v),
@@ -162,7 +162,7 @@ static kiriMat3 Weighted(const kiriMassMoments* m, const kiriMat3* A)
     return r;
 }
 
-/* trace(M) - A M A^T, with M the moments. */
+/* Returns trace(M) - A M A^T, with M the moments. */
 static kiriMat3 InertiaAbout(const kiriMassMoments* m, double trace, const kiriMat3* A)
 {
     kiriMat3 w = Weighted(m, A), r;
@@ -234,7 +234,7 @@ static kiriVec3 Shortened(kiriVec3 turn)
     return length > LONGEST_PART_TURN ? kiriVec3_Scale(LONGEST_PART_TURN / length, turn) : turn;
 }
 
-/* The Cayley vector that turns by |w|, to the sixth order. */
+/* Returns the Cayley vector of a turn by |w| about w, exact up to the sixth order. */
 static kiriVec3 CayleyVector(kiriVec3 w)
 {
     double ww = kiriVec3_Dot(w, w);
@@ -270,8 +270,8 @@ static kiriMat3 TurnParts(const kiriMat3* A, const kiriMat3* bodyInertia, kiriVe
     return turned;
 }
 
-/* In the objective 1/2 m |A p - A* p|^2 / h'^2 a shift by h' I^-1 impulse x A* adds -(impulse / h') . turn to first
-   order. `turned` is where the free turn ends. */
+/* Returns the shift of the target by an angular impulse. In the objective 1/2 m |A p - A* p|^2 / h'^2, a shift by
+   h' I^-1 impulse x A* adds -(impulse / h') . turn, to first order. `turned`: A at the end of the free turn. */
 static kiriMat3 ShiftBy(kiriVec3 impulse, const kiriMat3* inertia, const kiriMat3* turned, double part)
 {
     kiriMat3 turning = CrossColumns(kiriMat3_Solve(inertia, impulse), turned);

@@ -279,7 +279,7 @@ typedef struct MotionFit {
 
 typedef char TallyIsSixNumbers[sizeof(kiriTally) == 6 * sizeof(kiriExact) ? 1 : -1];
 
-/* Exact, so that nothing is left where nothing stayed. */
+/* Subtracts exactly, so that an empty sum is zero. */
 static void SubtractTally(kiriTally* sum, const kiriTally* part)
 {
     kiriExact a[6], b[6];
@@ -456,7 +456,7 @@ void kiriRefit_Solve(kiriRefit* refit, const kiriFrameData* frames, int32_t fram
    of the motion that the piece has beside moving and turning as one body, which leaves its momentum as it is. Only a
    piece that has no such motion turns slower. */
 
-/* sqrt(part / whole), at most 1; 0 where `part` is not above 0. */
+/* Returns sqrt(part / whole), at most 1; 0 if `part` is not positive. */
 static double RootOfShare(double part, double whole)
 {
     return part > 0.0 && whole > part ? sqrt(part / whole) : part > 0.0 ? 1.0 : 0.0;

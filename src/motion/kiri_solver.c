@@ -65,7 +65,7 @@ kiriSolver* kiriSolver_Create(kiriMemory* memory, const kiriMechanics* mechanics
 
 /* ---- Bodies ------------------------------------------------------------------------------------------------------ */
 
-/* The system of a body. Its frames are not set. */
+/* Returns the system of a body, without frames. */
 static kiriSystem SystemOf(const kiriSolverBodies* bodies, const kiriSolverBody* body, const kiriSystem* sheet,
                            kiriAreaElements* elements)
 {
@@ -126,7 +126,7 @@ static bool ReserveSteps(kiriSolver* s, const kiriSystem* body)
            kiriArray_Reserve(memory, &s->rows, rows) && kiriArray_Reserve(memory, &s->J, rows * s->size);
 }
 
-/* A frame of an item of the sheet. */
+/* Returns a frame of item k of the sheet. */
 typedef int32_t FrameOfItem(const kiriSystem* system, int32_t k);
 
 static int32_t FrameItself(const kiriSystem* system, int32_t k)
@@ -457,7 +457,7 @@ kiriIndexSpan kiriSolver_FramesOf(const kiriSolver* solver, int32_t body)
     return (kiriIndexSpan){ &solver->bodies.frames.data[frames.first], frames.count };
 }
 
-/* A sheet of one piece hashes as its pattern. */
+/* The hash of a sheet with one piece is the hash of its pattern. */
 uint64_t kiriSolver_Hash(const kiriSolver* solver)
 {
     uint64_t hash = kiriMatrix_Hash(solver->bodies.bodies.data[0].matrix);
@@ -469,7 +469,7 @@ uint64_t kiriSolver_Hash(const kiriSolver* solver)
 
 /* ---- Budget ------------------------------------------------------------------------------------------------------ */
 
-/* The links of a frame take as long as 80 products of blocks or as 4 contacts. */
+/* The links of a frame cost as much as 80 products of blocks, or as 4 contacts. */
 int64_t kiriSolver_WorkOf(const kiriSolver* solver, int32_t body, int32_t contactCount)
 {
     KIRI_ASSERT(body >= 0 && body < solver->bodies.bodies.count && contactCount >= 0);
@@ -597,7 +597,7 @@ static void WriteFrames(const kiriSolver* solver, const kiriSystem* system)
     }
 }
 
-/* A contact or a moving hold says nothing of the next step. */
+/* Clears histories after contacts or moving holds: their forces do not predict the next step. */
 static void ForgetHistories(kiriSolver* solver, const kiriSystem* system)
 {
     bool isEuler = system->mechanics.timeStepping == KIRI_TIME_STEPPING_EULER;

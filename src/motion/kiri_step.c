@@ -33,7 +33,7 @@ static void FlattenTurn(const kiriMechanics* mechanics, kiriMat3* turn)
     }
 }
 
-/* In a planar sheet, a frame with only what moves it in the plane. */
+/* Returns the frame; in a planar sheet, only with its motion in the plane. */
 static kiriFrameData FlattenFrame(const kiriMechanics* mechanics, const kiriFrameData* from)
 {
     kiriFrameData frame = *from;
@@ -258,8 +258,8 @@ static void AddWindEnergy(const kiriSolver* solver, const kiriSystem* system, co
     }
 }
 
-/* The scheme takes a part of it by the force at the start of the step: the larger of the two counts, for this only
-   guards against energy from nowhere. */
+/* Uses the larger of the work by the force at the start and at the end of the step, because it only guards against
+   false gains of energy. */
 double kiriWind_Work(const kiriSolver* solver, const kiriSystem* system, int32_t f)
 {
     const kiriFrameData *start = &solver->before.data[f], *end = &solver->after.data[f];
@@ -404,7 +404,7 @@ static double CornerNoise(const kiriSolver* solver, const kiriSystem* system, co
     return stiffness[KIRI_TRACE_STRETCH] * reach * reach + stiffness[KIRI_TRACE_CURVATURE] * weight * weight;
 }
 
-/* The columns of A have lengths near 1. */
+/* Returns the noise of an affine frame. The columns of A have lengths near 1. */
 static double AffineNoise(const kiriSolver* solver, const kiriSystem* system, int32_t k, const double* stiffness)
 {
     int32_t count = kiriElement_Members(system, k, solver->members.data);
@@ -422,8 +422,8 @@ static double AffineNoise(const kiriSolver* solver, const kiriSystem* system, in
     return sum;
 }
 
-/* The energy of every spring and of the inertia when lengths are off by their last bits: a sheet at rest has no more
-   than that. */
+/* Finds the energy of all springs and of the inertia if lengths are wrong by their last bits. A sheet at rest has no
+   more energy than that. */
 static void FindNoise(kiriSolver* solver, const kiriSystem* system)
 {
     const double share = KIRI_LAST_BITS * KIRI_LAST_BITS * (1.0 + solver->damping);
@@ -459,7 +459,7 @@ static void FindNoise(kiriSolver* solver, const kiriSystem* system)
 
 /* ---- Begin ---- */
 
-/* A corner is damped as the link that is damped least. */
+/* Returns the damping factor of an element. A corner has the factor of its least damped link. */
 static double DampingShare(const kiriSolver* solver, const kiriSystem* system, int32_t k)
 {
     const kiriCorner* corner = kiriElement_IsRigidCorner(system, k) ? kiriElement_Corner(system, k) : NULL;
@@ -636,7 +636,7 @@ void kiriSolver_AddSquares(kiriSolver* solver, const int32_t* frames, int32_t fr
     kiriMatrix_AddSquares(solver->matrix, frames, frameCount, J, springs, rows);
 }
 
-/* The rows that corners are made of. */
+/* Returns the stored derivatives of a link's strains that corners use. */
 static double* TracedRows(const kiriSolver* solver, int32_t link, int traced)
 {
     return &solver->tracedRows.data[2 * (size_t)solver->size * (KIRI_TRACED * (size_t)link + (size_t)traced)];
@@ -665,8 +665,8 @@ static void DeriveTraces(kiriSolver* solver, const kiriSystem* system, int32_t k
     }
 }
 
-/* The strains of an element at the poses, and J: their derivatives by the unknowns of its frames, zero for held
-   ones. */
+/* Measures the strains of an element at the poses, and J, their derivatives by the unknowns of its frames: zero for
+   held frames. */
 static void DeriveStrains(kiriSolver* solver, const kiriSystem* system, int32_t k, int32_t count, double* strain)
 {
     size_t bytes = sizeof(double) * (size_t)solver->size;
@@ -737,7 +737,7 @@ static void AddSpring(kiriSolver* solver, const kiriSystem* system, int32_t f, k
     kiriSolver_AddSquares(solver, &f, 1, J, &stiffness, &pull, 1);
 }
 
-/* As AddElement, of one frame. */
+/* Same as AddElement, for a clamp and its frame. */
 static void AddClamp(kiriSolver* solver, const kiriSystem* system, const kiriClampRow* row)
 {
     kiriFrameRow rows[KIRI_CLAMP_STRAINS];
@@ -1055,7 +1055,7 @@ static kiriWrench ForceAt(const kiriSolver* solver, int32_t frame, kiriVec3 poin
     return wrench;
 }
 
-/* A wrench about a frame's x, about another point. */
+/* Converts a wrench about a frame's x to a wrench about another point. */
 static kiriWrench AboutPoint(const kiriWrench* wrench, kiriVec3 x, kiriVec3 point)
 {
     kiriVec3 arm = kiriVec3_Sub(x, point);

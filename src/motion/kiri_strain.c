@@ -119,7 +119,7 @@ static EndVectors PointVectors(const kiriFrameData* const frames[2], const kiriP
     return pair;
 }
 
-/* The derivative of gap . axis: the ends turn with their frames, and the axis with both. */
+/* Writes the derivative of gap . axis. The ends turn with their frames, the axis with both frames. */
 static void WriteTurns(const MeanAxes* axes, kiriVec3 axis, const EndVectors* pair, kiriStrainRow* row)
 {
     kiriVec3 g = kiriVec3_Cross(axis, pair->gap), zero = { 0.0, 0.0, 0.0 };
@@ -156,22 +156,22 @@ static void AddRow(kiriStrainRow* row, double a, const kiriStrainRow* other)
     }
 }
 
-/* A frame turns about its centre of mass, or about its site if the host holds it. */
+/* Returns the point about which a frame turns: its centre of mass, or its site if the host holds it. */
 static kiriVec2 PivotOf(const kiriFrameData* frame)
 {
     return frame->held ? frame->site.at : frame->center;
 }
 
-/* The length of the line that carries tension: between the centres of mass, so that tension has no lever to turn a
-   frame with. Never much shorter than the way through the link, which may lead around a slit. */
+/* Returns the length of the line that carries tension. The line joins the centres of mass, so tension has no lever to
+   turn a frame. The length is never much shorter than the path through the link, which may lead around a slit. */
 static double LeverOf(const kiriLink* link, const kiriFrameData* const frames[2])
 {
     double apart = kiriVec2_Dot(kiriVec2_Sub(PivotOf(frames[1]), PivotOf(frames[0])), link->normal), l = link->length;
     return apart < 0.5 * l ? 0.5 * l : kiriMin(apart, l);
 }
 
-/* The strain is signed along n: the length alone would be at rest again where the frames have passed through each
-   other, and a sheet that was crushed would stay inside out. */
+/* Measures stretch, signed along n. With the unsigned length, frames that have passed through each other would be at
+   rest again, and a crushed sheet would stay inside out. */
 static void MeasureStretch(double lever, const MeanAxes* axes, const EndVectors* b, double* strain, kiriStrainRow* row)
 {
     double ahead = lever + kiriVec3_Dot(b->gap, axes->n), aside = kiriVec3_Dot(b->gap, axes->d);
@@ -235,9 +235,9 @@ static void MeasureStop(double most, const MeanAxes* axes, const EndVectors* m, 
     }
 }
 
-/* The difference of the directors is the chord of the angle between them, 2 sin(a / 2), and with e = 1 - cos(a / 2) its
-   arc to the third order is longer by 1 + (2 e - e^2) / 6. The last term is what that lacks of half a turn, where the
-   angle, unlike the chord, has a slope: no fold stays because it is complete. */
+/* Converts the chord between the directors, 2 sin(a / 2), to the angle a. With e = 1 - cos(a / 2) the arc is longer by
+   the factor 1 + (2 e - e^2) / 6, to third order. The last term makes the result exact at half a turn. There the angle,
+   unlike the chord, has a slope: so a complete fold is not a rest state. */
 static void TakeAngle(const MeanAxes* axes, double* strain, kiriStrainRow* rows)
 {
     const double lacking = 0.5 * HALF_TURN - 7.0 / 6.0;
@@ -359,7 +359,7 @@ static void TakeRibbon(const kiriLink* link, double poissonsRatio, const kiriCur
     }
 }
 
-/* After this bending and twist count as much as their stiffness says. */
+/* Scales bending and twist by the widths of the link, so that they fit their stiffness. */
 static void TakeWidths(const kiriLink* link, const kiriMaterial* material, double* strain, kiriStrainRow* rows)
 {
     if (link->outer > 0.0) {
@@ -619,7 +619,7 @@ static void FindOlder(kiriStrainOffsets* strainOffsets, const kiriLink* old, int
     }
 }
 
-/* A link keeps its index, as a rule. */
+/* Stores the offsets of links whose index changes. Most links keep their index. */
 static void SaveOlder(kiriStrainOffsets* strainOffsets, int32_t linkCount)
 {
     for (int32_t k = 0; k < linkCount; ++k) {
@@ -694,7 +694,7 @@ static double CurledShare(double q, double* slope)
     return share;
 }
 
-/* 1 - F is 1 - F^4 by 1 + F + F^2 + F^3. */
+/* 1 - F = (1 - F^4) / (1 + F + F^2 + F^3). */
 double kiriCurl_Held(double q, double* slope)
 {
     double byQ, share = CurledShare(q, &byQ), below = 1.0 + (CURL_FIRST + CURL_SECOND * q) * q;
@@ -765,7 +765,7 @@ static FrameDifference GapAt(const kiriFrameData* const frames[2], const kiriPos
     return TakeDifference(1.0, kiriVec2_Sub(at, frames[0]->center), kiriVec2_Sub(at, frames[1]->center), poses);
 }
 
-/* The derivative of a strain by the ends of a difference and by its mean director's turn. */
+/* Writes the derivative of a strain by the ends of a difference and by the turn of its mean director. */
 static void WriteRow(const FrameDifference* g, const MeanDirector* mean, kiriVec3 byValue, kiriVec3 byMean,
                      kiriFrameRow row[2])
 {
@@ -778,7 +778,7 @@ static void WriteRow(const FrameDifference* g, const MeanDirector* mean, kiriVec
     }
 }
 
-/* The part in the plane, one row an axis of space: P g = g - d (d . g). */
+/* Measures the part in the plane, one row for each axis of space: P g = g - d (d . g). */
 static void MeasureInPlane(const FrameDifference* g, const MeanDirector* mean, double* strain, kiriFrameRow rows[][2])
 {
     const kiriVec3 axes[3] = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } };
@@ -793,7 +793,7 @@ static void MeasureInPlane(const FrameDifference* g, const MeanDirector* mean, d
     }
 }
 
-/* The difference of the directors, of which a strip that curls has more: see kiri_strain.h. */
+/* Measures the difference of the directors, scaled up by the curl of the strip: see kiri_strain.h. */
 static void MeasureBending(const kiriCurl* curl, const kiriPose* const poses[2], double* strain, kiriFrameRow rows[][2])
 {
     const kiriVec3 axes[3] = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } }, zero = { 0.0, 0.0, 0.0 };
@@ -883,7 +883,7 @@ void kiriAffine_Stiffness(const kiriLink* link, const kiriMaterial* material, do
 
 /* ---- Regions ---------------------------------------------------------------------------------------------------- */
 
-/* The share of a frame in the element that is being made; shares are kept in the order of frames. */
+/* Returns the share of a frame in the last element, adding it if necessary. Shares are sorted by frame. */
 static kiriFrameShare* FrameShareOf(kiriAreaElements* elements, kiriMemory* memory, kiriAreaElement* element,
                                     int32_t frame)
 {
@@ -1056,7 +1056,7 @@ static void SetRigidStiffness(kiriClampRow* row, const kiriMaterial* material)
     row->stiffness[KIRI_NORMAL_GAP] = KIRI_NORMAL_GAP_BETA * bending * row->link.width / (l * l);
 }
 
-/* The same of an affine frame, whose rows of bending see twist too. */
+/* Sets the stiffness for an affine frame, whose bending strains include twist. */
 static void SetAffineStiffness(kiriClampRow* row, const kiriMaterial* material)
 {
     double h = (double)material->thickness, nu = (double)material->poissonsRatio, l = row->link.length;

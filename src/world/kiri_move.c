@@ -323,7 +323,7 @@ void kiriObstacles_Add(kiriWorld* world, kiriObstacleData* obstacle)
 
 /* ---- What rests near them ---------------------------------------------------------------------------------------- */
 
-/* m: the least way of an obstacle that wakes a sheet. */
+/* Returns the smallest displacement of an obstacle that wakes a sheet, m. */
 static double LeastDrift(const kiriWorld* world)
 {
     double least = KIRI_ENDLESS;
@@ -382,7 +382,7 @@ void kiriObstacles_Remove(kiriWorld* world, kiriObstacleData* obstacle)
     kiriMemory_Free(&world->memory, obstacle);
 }
 
-/* m: how far its farthest point goes to another pose. */
+/* Returns the largest displacement of a point of the obstacle by a change of pose, m; KIRI_ENDLESS for large turns. */
 static double WayToObstacle(const kiriObstacleData* obstacle, kiriVec3 position, kiriMat3 rotation)
 {
     kiriObstacleData turning = *obstacle;
@@ -449,7 +449,7 @@ typedef struct Around {
     double speed, reach;
 } Around;
 
-/* The next obstacle in their order that the sheet may touch, from *at on; null where there is none. */
+/* Returns the next obstacle, in their order, that the sheet may touch, or null. Starts at *at and advances it. */
 static kiriObstacleData* NextNear(const kiriWorld* world, const kiriSheetData* sheet, const Around* around, int32_t* at)
 {
     while (*at < world->obstacleOrder.count) {

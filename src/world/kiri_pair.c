@@ -45,7 +45,7 @@ static void ForgetLoads(kiriWorld* world)
     }
 }
 
-/* An impulse at a vertex goes to the frames that carry it, by their weights. */
+/* Distributes an impulse at a vertex to the frames of its weights. */
 static void LoadVertex(kiriSheetData* sheet, int32_t vertex, kiriVec3 impulse)
 {
     kiriSpan span = sheet->vertexSkin.spans.data[vertex];
@@ -382,7 +382,7 @@ static uint64_t KeyOfPair(const kiriTouchingPair* pair, const kiriNear* near)
     return kind | hash >> 4;
 }
 
-/* A probe of the upper one above a triangle of the lower one. */
+/* Makes a touch of a probe of the upper body above a triangle of the lower one. */
 static bool TouchFromAbove(const kiriPairs* pairs, const kiriTouchingPair* pair, const kiriNear* near,
                            kiriPairTouch* touch)
 {
@@ -395,7 +395,7 @@ static bool TouchFromAbove(const kiriPairs* pairs, const kiriTouchingPair* pair,
     return true;
 }
 
-/* A probe of the lower one below a triangle of the upper one. */
+/* Makes a touch of a probe of the lower body below a triangle of the upper one. */
 static bool TouchFromBelow(const kiriPairs* pairs, const kiriTouchingPair* pair, const kiriNear* near,
                            kiriPairTouch* touch)
 {
@@ -467,7 +467,7 @@ static void ForgetTouches(kiriWorld* world)
     world->pairs.touches.count = 0;
 }
 
-/* How the lower place moves in the tick: what nothing holds and nothing carries falls. */
+/* Returns the velocity of the lower place in the tick. A body that nothing holds or carries falls. */
 static kiriVec3 LowerVelocity(const kiriWorld* world, const kiriBody* lower, const kiriPlace3* place, double dt)
 {
     kiriVec3 velocity = PlaceVelocity(place);
@@ -823,7 +823,7 @@ static void SumFrames(kiriPairs* pairs, const kiriSheetData* sheet, int32_t firs
     }
 }
 
-/* How fast the fastest probe of each body is beside its mean velocity. */
+/* Measures the speed of the fastest probe of each body relative to its mean velocity. */
 static void MeasureStir(kiriPairs* pairs, const kiriSheetData* sheet, int32_t firstBody)
 {
     for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
@@ -1012,7 +1012,8 @@ static Place OnEdge(int edge, double t)
     return place;
 }
 
-/* Ericson, Real-Time Collision Detection, 5.1.5: by the Voronoi regions of corners, edges and the inside. */
+/* Returns the nearest place, by the Voronoi regions of corners, edges and the inside (Ericson, Real-Time Collision
+   Detection, 5.1.5). */
 static Place NearestOnTriangle(kiriVec3 p, kiriVec3 a, kiriVec3 b, kiriVec3 c)
 {
     kiriVec3 ab = kiriVec3_Sub(b, a), ac = kiriVec3_Sub(c, a);
@@ -1044,8 +1045,8 @@ static Place NearestOnTriangle(kiriVec3 p, kiriVec3 a, kiriVec3 b, kiriVec3 c)
     return inside;
 }
 
-/* m: how far inside of the border the place is, by the edges of its triangle and by corners at which others have border
-   edges; far, where there are none. */
+/* Returns the distance of the place from the border, m: from border edges of its triangle, and from corners at which
+   other triangles have border edges. HUGE_VAL if there are none. */
 static double WayToBorder(const kiriSheetData* sheet, const kiriNear* near)
 {
     const kiriTriangle* t = &sheet->mesh.triangles.data[near->triangle];
@@ -1066,7 +1067,7 @@ static double WayToBorder(const kiriSheetData* sheet, const kiriNear* near)
     return least;
 }
 
-/* The place on one triangle; its distance, squared. */
+/* Sets the nearest place on one triangle. Returns the square of its distance, m^2. */
 static double Measure(kiriNear* near, const kiriBody* bodies, int32_t triangle)
 {
     const kiriSheetData* sheet = bodies[near->other].sheet;
@@ -1228,7 +1229,7 @@ static uint64_t NameOf(kiriFrame a, kiriFrame b)
     return a < b ? (uint64_t)a << 32 | b : (uint64_t)b << 32 | a;
 }
 
-/* The pair of two bodies in the last tick, or null. */
+/* Returns the pair of two bodies in the last tick, or null. */
 static const kiriTouchingPair* FindOld(const kiriPairs* pairs, kiriFrame a, kiriFrame b)
 {
     uint64_t name = NameOf(a, b);

@@ -539,7 +539,7 @@ kiriResult kiriParts_Destroy(kiriWorld* world, const kiriFrame* frames, int32_t 
 
 /* ---- Crumbs ------------------------------------------------------------------------------------------------------ */
 
-/* The largest piece of the subset; with isToStay only of those that do not wait to become a sheet. */
+/* Returns the largest piece of the subset. isToStay: skips pieces that are about to become sheets. */
 static int32_t LargestOf(const kiriWorld* world, const kiriSubset* subset, bool isToStay)
 {
     const kiriPiece* pieces = subset->from->layout.pieces.data;

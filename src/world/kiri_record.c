@@ -82,7 +82,7 @@ static void CodeUnsigned(Coder* coder, uint64_t* value)
     }
 }
 
-/* 0, -1, 1, -2 and so on are 0, 1, 2, 3. */
+/* Codes an integer. 0, -1, 1, -2 and so on become 0, 1, 2, 3. */
 static void CodeInt(Coder* coder, int32_t* value)
 {
     uint64_t folded = (uint32_t)*value << 1 ^ (*value < 0 ? UINT32_MAX : 0);
@@ -92,7 +92,7 @@ static void CodeInt(Coder* coder, int32_t* value)
     }
 }
 
-/* The slot comes first, so that ids of few things are short: see kiri_pool.h. */
+/* Codes an id, slot first: so ids are short while there are few items, see kiri_pool.h. */
 static void CodeId(Coder* coder, uint32_t* value)
 {
     uint64_t turned = (uint32_t)(*value << 10 | *value >> 22);

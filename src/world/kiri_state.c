@@ -431,7 +431,7 @@ static void TakeWorld(kiriWorld* world, kiriWorld* made)
     }
 }
 
-/* From the bytes between head and sum. */
+/* Reads a world from the bytes between the header and the checksum. */
 static kiriResult BecomeWorld(kiriWorld* world, const uint8_t* bytes, int64_t size, bool isWhole)
 {
     kiriWorld made;

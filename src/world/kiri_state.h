@@ -6,8 +6,8 @@
 
 KIRI_C_BEGIN
 
-/* *size: bytes of the save. `bytes` null: no more than that. KIRI_ERROR_ARGUMENT: they do not fit. KIRI_PENDING, and
-   *size is 0: a cut is being worked on. */
+/* Writes a save. *size: set to the number of bytes. `bytes` null: only sets *size. KIRI_ERROR_ARGUMENT: the save does
+   not fit. KIRI_PENDING, with *size 0: a cut is in progress. */
 kiriResult kiriSave_Write(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size);
 
 /* Replaces the world by the saved one; hooks stay. The bytes are untrusted: fields are checked, and all derived data is

@@ -120,7 +120,7 @@ static bool FindPairs(kiriWorld* world, double dt)
     return kiriPairs_Find(world, dt);
 }
 
-/* KIRI_ERROR_MEMORY: the work of some sheets goes on in the next tick, as where the budget is spent. */
+/* Works on updates. KIRI_ERROR_MEMORY: the work of some sheets continues in the next tick, as with a spent budget. */
 static kiriResult UpdateAll(kiriWorld* world, kiriQuotas* quotas)
 {
     const kiriWatch watch = { EnterStage, world };
@@ -305,7 +305,7 @@ static void WakeStirred(kiriWorld* world)
     }
 }
 
-/* Says which sheets have work left, and where it stands. */
+/* Reports the sheets with pending work, and its progress. */
 static bool ReportDeferred(kiriWorld* world)
 {
     bool any = false;
@@ -321,8 +321,8 @@ static bool ReportDeferred(kiriWorld* world)
     return any;
 }
 
-/* What became of the sheets that were moved, in the order in which they were. In the next tick the first that stood
-   still comes first; where none did, the first of which a piece waited. */
+/* Reports the progress of moved sheets, in their order of motion. The next tick starts with the first sheet that was
+   not moved; if all were moved, with the first that has a pending piece. */
 static kiriResult ReportMoves(kiriWorld* world, kiriResult result)
 {
     bool isLate = false, isPartlyLate = false;
@@ -363,7 +363,7 @@ static bool IsOverloaded(const kiriPinData* pin)
     return pin->breakForce > 0.0 && kiriVec3_Length(pin->bore.force) > pin->breakForce;
 }
 
-/* The last pin takes the index of one that goes: so they go from the last on. */
+/* Removes broken pins from the last on, because the last pin takes the index of a removed one. */
 static void BreakPins(kiriWorld* world, kiriSheetData* sheet)
 {
     for (int32_t i = 0; i < sheet->pins.count; ++i) {
@@ -395,8 +395,8 @@ static void SkinAll(kiriWorld* world, double dt)
     }
 }
 
-/* In every other tick pieces that wait get half of all: else a world that is always cut would keep them. In the ones
-   between there is room for steps that need a whole limit. */
+/* Sets half of all samples aside for pending pieces in every other tick, so that a world that is always cut does not
+   starve them. The ticks in between have room for steps that need a whole limit. */
 static kiriQuota SetAside(const kiriWorld* world, kiriQuotas* quotas)
 {
     bool anyDue = false;
@@ -516,7 +516,7 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
     return updated != KIRI_OK ? updated : parted != KIRI_OK ? parted : result;
 }
 
-/* A tick without motion. The next tick reports its events, too. */
+/* Runs a tick without motion. The next tick reports its events, too. */
 kiriResult kiriWorld_FinishUpdates(kiriWorld* world)
 {
     kiriQuotas unlimited = kiriQuotas_Unlimited();
