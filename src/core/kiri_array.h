@@ -30,7 +30,7 @@ typedef KIRI_ARRAY(int32_t) kiriIndices;
 /* Makes room for `need` items in all. `array` points to a KIRI_ARRAY whose items have itemBytes. */
 bool kiriArray_Grow(kiriMemory* memory, void* array, int64_t need, size_t itemBytes);
 
-/* Grows without room for more: for arrays that are made once, or as long as another. */
+/* Grows to exactly `need` items: for arrays that are built once, or as long as another. */
 bool kiriArray_GrowTo(kiriMemory* memory, void* array, int64_t need, size_t itemBytes);
 
 /* Reduces the capacity to 9/8 of the count. Keeps the capacity on out of memory. */
@@ -49,7 +49,7 @@ void kiriArray_Release(kiriMemory* memory, void* array);
 #define kiriArray_Resize(memory, array, size)                                                                          \
     (kiriArray_Reserve(memory, array, size) ? ((array)->count = (int32_t)(size), true) : false)
 
-/* The same without room for more. */
+/* Reserves exactly `size` items and sets the count. */
 #define kiriArray_ResizeJust(memory, array, size)                                                                      \
     (kiriArray_ReserveJust(memory, array, size) ? ((array)->count = (int32_t)(size), true) : false)
 

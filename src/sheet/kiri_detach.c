@@ -426,7 +426,7 @@ static bool MakeField(const kiriDetach* detach, int32_t piece, const kiriIndices
            kiriPipeline_Make(to, KIRI_READY);
 }
 
-/* Makes the part. Adds no frames; the next cut does, where there are too few. */
+/* Makes the part. Adds no frames; the next cut adds them if there are too few. */
 static bool FillPart(kiriDetach* detach, int32_t piece, kiriSheetData* to)
 {
     const kiriSheetData* from = detach->sheet;

@@ -43,11 +43,12 @@ typedef struct kiriDetach {
     KIRI_ARRAY(float) points; /* positions of the collision points that stay */
 } kiriDetach;
 
-/* No piece stays until the caller sets detach->rest.pieces. False for memory. Call kiriDetach_Drop in any case. */
+/* Initialises the work. No piece stays until the caller sets detach->rest.pieces. Fails on out of memory. Call
+   kiriDetach_Drop in any case. */
 bool kiriDetach_Init(kiriDetach* detach, kiriSheetData* sheet);
 
 /* Makes the maps, in one pass over the sheet; with makesParts also the lists. The field belongs to the current mesh
-   (kiriUpdate_IsFieldCurrent). False for memory. */
+   (kiriUpdate_IsFieldCurrent). Fails on out of memory. */
 bool kiriDetach_Map(kiriDetach* detach, bool makesParts);
 
 /* Makes the sheet of a piece that leaves, at the cost of the piece. `to` is new. It has the lattice and the squares of
@@ -55,28 +56,28 @@ bool kiriDetach_Map(kiriDetach* detach, bool makesParts);
    stay behind. False for memory. */
 bool kiriDetach_MakePart(kiriDetach* detach, int32_t piece, kiriSheetData* to);
 
-/* Reserves all that kiriDetach_Commit needs. False for memory; then nothing has changed. */
+/* Reserves everything that kiriDetach_Commit needs. Changes nothing on out of memory: false. */
 bool kiriDetach_Stage(kiriDetach* detach);
 
-/* Removes the pieces from the sheet in place. Blades in their material are in no material then; other cuts go on.
+/* Removes the pieces from the sheet in place. Blades inside them end up outside all material; other cuts continue.
    Arrays that the host may hold get the owner `retired`. The caller updates ids. Cannot fail. */
 void kiriDetach_Commit(kiriDetach* detach, kiriMemory* retired);
 
 void kiriDetach_Drop(kiriDetach* detach);
 
-/* A frame of the subset that a pin holds; of a line, which may hold several, the one it holds most of. KIRI_NONE if it
-   holds none. */
+/* Returns the frame of the subset that a pin holds; for a line, the one with the longest share. KIRI_NONE if it holds
+   none. */
 int32_t kiriSubset_FrameOfPin(const kiriSubset* subset, int32_t pin);
 
-/* The share of a sheet's area that these pieces have. */
+/* Returns the fraction of the sheet's area in the subset. */
 double kiriSubset_Share(const kiriSubset* subset);
 
-/* The cost of removing this share of a sheet's area, in samples; with makesParts also of making sheets of it. */
+/* Returns the cost in samples of removing this fraction of the area; with makesParts, also of making sheets from it. */
 double kiriDetach_Samples(const kiriSheetData* sheet, double share, bool makesParts);
 
 /* Derives the data that saves leave out from the mesh and the frames: grid, regions, shape functions, links, weights of
-   samples, owners of material. Runs the stages of a sheet whose saved fields were checked. False for memory; or, with
-   *isBad, if two sites share a cell, or frames lie in other pieces than the save says. */
+   samples, owners of material. Runs the stages of a sheet whose saved fields were checked. Returns false on out of
+   memory; or, with *isBad, if two sites share a cell, or the pieces differ from the saved ones. */
 bool kiriRemake_Field(kiriSheetData* sheet, bool* isBad);
 
 KIRI_C_END

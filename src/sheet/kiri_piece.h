@@ -7,7 +7,7 @@
 
 KIRI_C_BEGIN
 
-/* Stages the pieces of the next commit, from the staged links. False for memory. */
+/* Stages the pieces of the next commit, from the staged links. Fails on out of memory. */
 bool kiriPieces_Stage(kiriSheetData* sheet);
 
 int32_t kiriPiece_OfTriangle(const kiriSheetData* sheet, int32_t triangle);
@@ -25,19 +25,19 @@ void kiriPieces_FindTouched(kiriSheetData* sheet);
 /* After a commit: copies the state of sleep from the old layout to pieces that are not touched. */
 void kiriPieces_KeepRest(kiriSheetData* sheet, const kiriLayout* old);
 
-/* Returns the frame that owns a point of the material, for pins and loads. KIRI_NONE outside, and on a piece that is
-   gone. */
+/* Returns the frame that owns a point of the material, for pins and loads. KIRI_NONE outside, and on a destroyed
+   piece. */
 int32_t kiriOwner_At(const kiriSheetData* sheet, kiriLatticePoint at);
 
-/* The same for the triangle of a node of mesh.squares, in the square of the node. KIRI_NONE for no node, too. isStaged:
-   with the regions of the next commit. */
+/* Returns the owner of the triangle of a node of mesh.squares, in the square of the node. KIRI_NONE also for no node.
+   isStaged: uses the regions of the next commit. */
 int32_t kiriOwner_OfNode(const kiriSheetData* sheet, int32_t node, bool isStaged);
 
 /* Finds the part of a line that each frame owns, in the order of the line, into sheet->lineShares. Nothing if the line
-   meets no material. The ends must differ. isStaged: with the regions of the next commit. False for memory. */
+   meets no material. The ends must differ. isStaged: uses the regions of the next commit. Fails on out of memory. */
 bool kiriOwner_FindShares(kiriSheetData* sheet, kiriLatticePoint from, kiriLatticePoint to, bool isStaged);
 
-/* The items of each piece, in lists that are made when the host asks for them. */
+/* Lists of the items of each piece, built when the host requests them. */
 
 /* Lists the items of each piece in ascending order. pieces[i] is the piece of item i, or KIRI_NONE. Fails on out of
    memory. */
@@ -45,7 +45,7 @@ bool kiriPieceItems_List(kiriPieceItems* list, kiriMemory* memory, int32_t piece
                          int32_t count);
 
 /* Bring lists up to date: frames with collision points, or vertices with triangles. This costs nothing if neither mesh
-   nor pieces have changed. False for memory. */
+   nor pieces have changed. Fail on out of memory. */
 bool kiriPieces_ListFrames(kiriSheetData* sheet);
 bool kiriPieces_ListMesh(kiriSheetData* sheet);
 

@@ -15,7 +15,7 @@ void kiriSheet_Archive(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* m
    host's settings. */
 void kiriSheet_Derive(kiriSheetData* sheet, kiriArchive* archive);
 
-/* Derives vertices, boxes and probes of a sheet that was read. False for memory. */
+/* Derives vertices, bounds and probes of a loaded sheet. Fails on out of memory. */
 bool kiriSheet_EndReading(kiriSheetData* sheet, bool isWhole);
 
 /* Hashes sizes and offsets of all fields of a sheet. */

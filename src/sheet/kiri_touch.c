@@ -209,7 +209,7 @@ static bool IsSamePlace(const kiriNearVertex* a, const kiriNearVertex* b)
     return a->frame == b->frame && kiriVec3_Dot(a->normal, b->normal) > SAME_FACE;
 }
 
-/* True if the obstacle of the row can move. Fixed obstacles have rows too, which sum their impulses. */
+/* Returns true if the obstacle of the row can move. Fixed obstacles have rows too, which sum their impulses. */
 static bool Yields(const kiriSheetData* sheet, int32_t yield)
 {
     return yield != KIRI_NONE && sheet->touches.yields.data[yield].inverseMass > 0.0;
