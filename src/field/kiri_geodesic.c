@@ -636,7 +636,7 @@ int64_t kiriReaches_RoomFor(const kiriReaches* reaches, int32_t more)
 
 int32_t kiriReaches_Add(kiriReaches* reaches, int32_t frame, int32_t cells)
 {
-    KIRI_ASSERT(frame >= 0 && frame < reaches->ofFrame.count && kiriReaches_Find(reaches, frame, cells) == KIRI_NONE);
+    KIRI_ASSERT(frame >= 0 && frame < reaches->ofFrame.count && cells >= 0 && cells < reaches->ofCells.count);
     int32_t index = reaches->freeBlock, next = reaches->ofFrame.data[frame];
     if (reaches->freeBlocks > 0) {
         reaches->freeBlock = reaches->blocks.data[index].nextOfFrame;
