@@ -92,11 +92,11 @@ void kiriField_MarkStepsDirty(kiriField* field, int32_t cell);
    led to must be dirty. Not logged. */
 void kiriField_Forget(kiriField* field, int32_t cell);
 
-/* Repairs the field. All cells about which something has changed must be dirty: where the limit has grown, all from
-   which a step leads beyond the old one; where it has shrunk, all beyond the new one that are not forgotten. An item of
-   the quota is a cell whose distance is cleared, half of one that is settled, one that may be a seed of the sweep, or
-   four that keep their distance. KIRI_MORE: call again with the same rule before anything changes. The reader of the
-   log empties it (its count). KIRI_FAILED: only kiriField_Clear helps. */
+/* Repairs the field. All affected cells must be dirty: if the limit grew, cells from which a step leads beyond the old
+   limit; if it shrank, cells beyond the new limit that are not forgotten. Items of the quota: a cell whose distance is
+   cleared, half of a settled cell, a possible seed of the sweep, or four cells that keep their distance. KIRI_MORE:
+   call again with the same rule before anything changes. The reader of the log empties it (its count). KIRI_FAILED:
+   only kiriField_Clear helps. */
 kiriProgress kiriField_Repair(kiriField* field, kiriMemory* memory, const kiriRule* rule, kiriQuota* quota);
 
 /* Distances of cells from the sites of frames, and from the borders of their regions: of each frame only for the cells

@@ -86,7 +86,8 @@ static kiriMoments MaterialOfWhole(const kiriGrid* grid, const kiriMeshData* mes
     return kiriMoments_About(&about, kiriVec2_Scale(-1.0, corner));
 }
 
-/* The stretch between two points of the lower side of a square along the axis, in lattice steps from its lower end. */
+/* Returns the stretch between two points on the lower side of a square along the axis, in lattice steps from its lower
+   end. */
 static kiriStretch StretchOfSide(const kiriMeshData* mesh, int32_t square, int32_t axis, double from, double to)
 {
     double width = mesh->step * (to - from), least = leastShare * mesh->step * mesh->squares.side;
@@ -515,8 +516,7 @@ static bool RemoveCell(kiriGrid* grid, const kiriMeshData* mesh, int32_t c)
     return true;
 }
 
-/* The old cells of the square become the new ones in their order. Where there are more new ones, cells are added, and
-   where there are fewer, removed. */
+/* Replaces the old cells of the square by the new ones, in order. Adds or removes cells if their number changes. */
 static bool ReplaceCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
 {
     KIRI_ASSERT(square >= 0 && square < grid->squareCell.count);
@@ -560,8 +560,9 @@ static bool RunsThroughSquare(const kiriMeshData* mesh, const kiriTriangle* t, i
     return false;
 }
 
-/* A square is whole where there is material and neither the outline nor an open edge runs through it. Then it is wholly
-   covered, its triangles all hang together in it, and it has one cell: no need to join or to clip. Most squares are. */
+/* Returns true if the square is whole: it has material, and neither the outline nor an open edge crosses it. Then it is
+   fully covered, its triangles are connected in it, and it has one cell without joining or clipping. Most squares are
+   whole. */
 static bool IsSquareWhole(kiriGridWork* work, const kiriMeshData* mesh, int32_t square)
 {
     int32_t n = mesh->squares.head[square];
@@ -577,7 +578,7 @@ static bool IsSquareWhole(kiriGridWork* work, const kiriMeshData* mesh, int32_t 
     return isWhole;
 }
 
-/* The one cell of a whole square holds all its triangles. */
+/* Gives all triangles of a whole square to its one cell. */
 static void FillWholeSquare(kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
 {
     int32_t c = grid->squareCell.data[square], lowest = INT32_MAX;
@@ -614,7 +615,7 @@ static void FillDividedSquare(kiriGrid* grid, const kiriMeshData* mesh, int32_t 
     work->debt += 2 * COST_OF_NODE * (int64_t)(range.end - range.first);
 }
 
-/* A square that stays whole keeps its cell, and nothing else changes. */
+/* Makes the cells of a square. A square that stays whole keeps its cell, and nothing else changes. */
 static void MakeCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
 {
     kiriGridWork* work = grid->work;
@@ -1130,8 +1131,8 @@ static void ForgetRemoved(kiriGrid* grid, const kiriMeshData* mesh, int32_t item
 
 /* ---- The update -------------------------------------------------------------------------------------------------- */
 
-/* Algorithm 3, each stage over the items of a list. All faces need all cells, diagonal steps all faces, and knights all
-   diagonal steps. */
+/* Stages of algorithm 3, each over the items of a list. Faces need all cells, diagonal steps need all faces, and
+   knight's moves need all diagonal steps. */
 typedef void GridStageFn(kiriGrid* grid, const kiriMeshData* mesh, int32_t item);
 enum { GRID_STAGES = 6 };
 static GridStageFn* const gridStages[GRID_STAGES] = {
@@ -1158,7 +1159,7 @@ static bool ReserveCells(kiriGrid* grid, const kiriMeshData* mesh)
            kiriArray_Reserve(memory, &grid->changes.steps, cells) && kiriArray_Reserve(memory, &grid->faces, 2 * cells);
 }
 
-/* Before the first update, or after a reset: no square has a cell, and all are dirty. */
+/* Starts the first update, or one after a reset: no square has a cell, and all squares are dirty. */
 static bool StartFromScratch(kiriGrid* grid, const kiriMeshData* mesh)
 {
     kiriGridWork* work = grid->work;

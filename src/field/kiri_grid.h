@@ -211,7 +211,7 @@ static inline bool kiriGrid_AreNear(const kiriGrid* grid, int32_t a, int32_t b)
 /* Returns the moments that a cell covers, about the local origin; of a removed cell its last ones. */
 kiriMoments kiriGrid_Material(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell);
 
-/* The area of it, m^2. */
+/* Returns the area of a cell, m^2. */
 static inline double kiriGrid_Area(const kiriGrid* grid, int32_t cell)
 {
     int32_t material = grid->cells.data[cell].material;
@@ -260,7 +260,7 @@ int32_t kiriGrid_CellAround(const kiriGrid* grid, const kiriMeshData* mesh, kiri
 /* Middle of a cell's square, local m. */
 kiriVec2 kiriGrid_Middle(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell);
 
-/* A lattice point of the cell's material, well inside: it finds the material again when the cell falls apart. */
+/* Returns a lattice point of the cell's material, well inside: it finds the material again after the cell is split. */
 kiriLatticePoint kiriGrid_Anchor(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell);
 
 /* The update in progress. Private to kiri_grid.c, and to snapshots. */

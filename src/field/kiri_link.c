@@ -66,8 +66,8 @@ static bool IsSliver(const kiriGrid* grid, int32_t cell)
     return kiriGrid_Area(grid, cell) < kiriSliver * grid->side * grid->side;
 }
 
-/* The key of a face does not depend on indices: square, axis, and the lowest triangles of the two cells. No two faces
-   share it. */
+/* Sets the key of a face: square, axis, and the lowest triangles of the two cells. It is unique and independent of
+   indices. */
 static void SetFaceKey(const kiriGrid* grid, int32_t face, int32_t key[4])
 {
     const kiriFace* f = &grid->faces.data[face];
@@ -257,7 +257,7 @@ static bool FindBorderEnd(const LinkUpdate* u, const kiriBorderFace* face, bool 
     return between == 1 || isPart;
 }
 
-/* Slivers do not say where a border ends, unless it has nothing else. */
+/* Returns true if the border has only slivers. Otherwise slivers do not determine its ends. */
 static bool HasOnlySlivers(const LinkUpdate* u)
 {
     for (int32_t k = 0; k < u->work->stretch.count; ++k) {
@@ -750,8 +750,8 @@ static bool FindBorderBefore(const EndSearch* s, kiriVec2* at, kiriVec2* ahead)
     return kiriVec2_Distance(*at, before) < 2.0 * side && kiriSight_IsClear(&s->sight, before, *at);
 }
 
-/* Finds where the border comes to an edge. It starts from the edge where the grid has the end, or, where the corner
-   that the grid has is none, from the edge that the border leads to. */
+/* Finds the point where the border meets an edge. Starts at the grid's edge of the end or, if the grid's corner is not
+   a corner of the border, at the edge to which the border leads. */
 static bool FindTurnedOpenEnd(EndSearch* s, kiriLinkEnd* end)
 {
     kiriVec2 from = s->grid->look, ahead = kiriVec2_Sub(s->grid->at, s->grid->look);
@@ -824,7 +824,7 @@ static bool FindExactEnd(const LinkUpdate* u, int which, kiriLinkEnd* end)
     return found.isExact;
 }
 
-/* A straight border from end to end. */
+/* Sets a straight border from end to end. */
 static void SetStraight(kiriLink* link, const kiriLinkEnds* ends)
 {
     kiriVec2 way = kiriVec2_Sub(ends->end[1].at, ends->end[0].at);
@@ -848,9 +848,9 @@ static void SetSpurious(const LinkUpdate* u, kiriLink* link, kiriLinkEnds* ends)
     SetStraight(link, ends);
 }
 
-/* Does the stretch run along slivers of cells beside a slit, or across the end of such slivers? Their middles are off
-   by half a square, so their regions mean nothing, and such a border is spurious. Across a narrow strip there is one.
-   */
+/* Returns true if the stretch runs along slivers of cells beside a slit, or across the end of such slivers. Their
+   middles are off by half a square, so their regions are arbitrary and the border is spurious. A border across a narrow
+   strip is genuine. */
 static bool IsAlongSlivers(const LinkUpdate* u)
 {
     double widest = 0.0;
@@ -1469,9 +1469,9 @@ static bool AreEndsClean(const LinkUpdate* u, const kiriLinkEnds* ends)
     return areClean;
 }
 
-/* Decides which old links are kept: where neither region is stale; and where one is stale but not dirty, and no dirty
-   region is near the ends of any link of the pair. Where both are stale a new end may be anywhere along the border. The
-   faces of other pairs without a dirty region are listed. */
+/* Decides which old links are kept: links of two regions that are not stale; and, if one region is stale but not dirty,
+   links for which no dirty region is near the ends of any link of the pair. If both are stale, a new end may be
+   anywhere along the border. Lists the faces of other pairs without a dirty region. */
 static bool KeepLinks(const LinkUpdate* u)
 {
     kiriLinkWork* work = u->work;

@@ -171,7 +171,7 @@ typedef struct SightAxis {
     double next, each;
 } SightAxis;
 
-/* `first`: the first column of the grid, or its first row. */
+/* Starts the axis. `first`: the first column of the grid, or its first row. */
 static SightAxis StartAxis(double from, double way, int32_t first, const kiriGrid* grid, const kiriMeshData* mesh)
 {
     double x = (from + mesh->step) / grid->side;

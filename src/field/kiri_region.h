@@ -17,8 +17,8 @@ typedef struct kiriSite {
 typedef KIRI_ARRAY(kiriSite) kiriSites;
 typedef KIRI_ARRAY(kiriSeed) kiriSeeds;
 
-/* Adds the seeds of distances to the site. Where it lies off the middle of its square, the cells one step away are
-   seeds as well, so that distances know where in its cell the site is. False when out of memory. */
+/* Adds the seeds of distances to the site. If the site is off the middle of its square, the cells one step away are
+   seeds as well, so that distances depend on its position in the cell. Fails on out of memory. */
 bool kiriSite_Seed(const kiriSite* site, int32_t owner, kiriMemory* memory, const kiriGrid* grid,
                    const kiriMeshData* mesh, kiriSeeds* seeds);
 

@@ -130,7 +130,8 @@ static kiriSeed SiteSeed(const void* context, int32_t cell)
     return may ? kiriSite_SeedAt(&job->sites[job->frame], KIRI_NONE, job->grid, job->mesh, cell) : none;
 }
 
-/* The border lies on the way between x and y where the distances to their sites are equal. A half is rounded up. */
+/* Returns the seed at the border: it crosses the step from x to y where the distances to their sites are equal. Rounds
+   a half up. */
 static kiriSeed BorderSeed(const void* context, int32_t x)
 {
     const ShapeJob* job = context;
@@ -151,9 +152,10 @@ static kiriSeed BorderSeed(const void* context, int32_t x)
     return seed;
 }
 
-/* Outside the region, distances to the border are measured only as far as the weight is above zero: along a way e grows
-   at least as fast as d. The flood may cross the border, for no step over it is shorter than the seed beyond. Whether a
-   way goes on depends only on e where it passes: so there is still one fixed point, and a repair finds it. */
+/* Returns true if the weight is positive. Outside the region, distances to the border are measured only as far as that:
+   along a path, e grows at least as fast as d. The flood may cross the border, as no step over it is shorter than the
+   seed beyond. Whether a path continues depends only on e along it: so the fixed point is unique, and a repair finds
+   it. */
 static bool HasWeight(const void* context, int32_t cell)
 {
     const ShapeJob* job = context;
@@ -552,9 +554,9 @@ static bool MeasureField(ShapeJob* job, kiriField* field, int32_t limit, kiriPas
 
 /* ---- Back into its blocks ---------------------------------------------------------------------------------------- */
 
-/* Puts the distances of a block of cells back and empties the fields there. Distances to the border are known one step
-   farther than ways go on: those are dropped. Cells with other distances, and those that came to the region of the
-   frame or left it, get other weights. */
+/* Stores the distances of a block of cells and clears the fields there. Distances to the border one step beyond the
+   last cell with a weight are dropped. The weights change for cells with other distances, and for cells that entered or
+   left the frame's region. */
 static void UnloadBlock(ShapeJob* job, kiriLoadedBlock loaded)
 {
     enum { COST_OF_BLOCK = 2, CHANGED_AN_ITEM = 2 };
@@ -698,7 +700,7 @@ static bool WeighCell(ShapeJob* job, int32_t item)
 
 /* ---- The update -------------------------------------------------------------------------------------------------- */
 
-/* Algorithm 2, each stage over its items. An item returns false where the quota is spent amid it. */
+/* Stages of algorithm 2, each over its items. An item returns false if the quota is spent before it is done. */
 typedef bool ShapeStageFn(ShapeJob* job, int32_t item);
 enum { SHAPE_STAGES = 8 };
 static ShapeStageFn* const shapeStages[SHAPE_STAGES] = {

@@ -66,13 +66,14 @@ static inline double kiriShape_Sum(const kiriShape* shape, kiriSpan span)
     return sum;
 }
 
-/* Updates distances and weights to the changes of grid and regions; the caller clears those after it. `moves` as in
-   kiriRegions_Update: distances to such a site are made from scratch. Every cell with an owner gets weights. KIRI_MORE:
+/* Updates distances and weights after changes of grid and regions; the caller clears those changes afterwards. `moves`
+   as in kiriRegions_Update: distances to a moved site are recomputed. Every cell with an owner gets weights. KIRI_MORE:
    call again before grid, regions or sites change. KIRI_FAILED: only kiriShape_Reset helps.
 
-   Items of the quota: one a changed cell, and two for each frame that reaches it; the items of kiriField_Repair; eight
-   a block of distances that is loaded, two a block that goes back, and half a cell with other distances; then one for
-   such a cell, and a third of each of its weights. Work that exceeds the quota is taken from the next ones. */
+   Items of the quota: one for each changed cell, and two for each frame that reaches it; the items of kiriField_Repair;
+   eight for each block of distances loaded, two for each block stored, and half for each cell with other distances;
+   then one for each such cell, and a third for each of its weights. Work beyond the quota is deducted from the next
+   ones. */
 kiriProgress kiriShape_Update(kiriShape* shape, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                               const kiriRegions* regions, const kiriSite* sites, int32_t siteCount,
                               const kiriSiteMove* moves, int32_t moveCount, kiriQuota* quota);

@@ -249,8 +249,8 @@ typedef struct PlacerJob {
     kiriQuota* quota;
 } PlacerJob;
 
-/* A full cell is taken at its middle, where the cell's weight is exactly 1; elsewhere the middle may not be material.
-   */
+/* The site of a full cell is its middle, where the cell's weight is exactly 1. In other cells the middle may not be
+   material. */
 kiriSite kiriFrames_SiteIn(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell)
 {
     KIRI_ASSERT(kiriGrid_IsCell(grid, cell));
@@ -549,9 +549,9 @@ static kiriProgress AimNearCenters(PlacerJob* job)
     return KIRI_DONE;
 }
 
-/* Moves all new sites to their targets: to the centroid itself where it lies in the square of the target cell, because
-   from middle to middle of cells a site would get stuck where its centroid is less than half a side away. Did one go
-   farther than a hundredth of a side? */
+/* Moves all new sites to their targets: to the centroid itself if it lies in the square of the target cell, because a
+   site that moves only between middles of cells would get stuck if its centroid is less than half a side away. Returns
+   true if a site moved by more than a hundredth of a side. */
 static bool MoveToTargets(PlacerJob* job)
 {
     kiriPlacer* placer = job->placer;

@@ -56,12 +56,11 @@ typedef struct kiriPlacer {
     kiriPlacerWork* work;
 } kiriPlacer;
 
-/* The cells that hang together with this one over faces, in the order of cells, into placer->cells. False for
-   memory. */
+/* Lists the cells connected to this one over faces, in the order of cells, in placer->cells. Fails on out of memory. */
 bool kiriPlacer_TakePiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, int32_t cell);
 
-/* The same as a job: start, which is false for memory, and then go on until it is done. An item of the quota is some
-   cells. It is done at once where the piece is there. After KIRI_FAILED, or where the job is given up, start again. */
+/* Do the same in steps: Start, which fails on out of memory, then continue until it is done. An item of the quota is a
+   number of cells. Done at once if the piece is already listed. After KIRI_FAILED or to give up, start again. */
 bool kiriPlacer_StartPiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, int32_t cell);
 kiriProgress kiriPlacer_GoOnWithPiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, kiriQuota* quota);
 
@@ -72,11 +71,11 @@ kiriProgress kiriPlacer_GoOnWithPiece(kiriPlacer* placer, kiriMemory* memory, co
 bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                       const uint8_t* allowed, int32_t count);
 
-/* An item of the quota is a cell settled, or four visited. After KIRI_FAILED, start again. */
+/* Continues the work. An item of the quota is a settled cell, or four visited ones. After KIRI_FAILED, start again. */
 kiriProgress kiriPlacer_Run(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                             kiriQuota* quota);
 
-/* The site that a frame takes in a cell. */
+/* Returns the site that a frame takes in a cell. */
 kiriSite kiriFrames_SiteIn(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell);
 
 /* Work of a placer. Private to kiri_site.c and to snapshots. */

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-/* Quadratic B-spline, zero from 1.5 on. */
+/* Returns the quadratic B-spline, zero from 1.5 on. */
 static double QuadraticSpline(double t)
 {
     double a = fabs(t);

@@ -41,10 +41,10 @@ bool kiriStencil_Gather(kiriStencil* stencil, kiriMemory* memory, const kiriShap
    away from it, on its own side. */
 void kiriStencil_Weigh(kiriStencil* stencil, kiriVec2 at, kiriVec2 lean);
 
-/* Replaces `out` by the weights at a local point of the cell, by frame: moving least squares of first order over the
-   cells of a stencil, then eased; never negative, sum 1 (the gradients sum to 0). False for memory. A stencil is faster
-   for many points of a cell. Writes only `out` and blocks of `memory`: threads with memory of their own may call it at
-   once. */
+/* Replaces `out` by the weights at a local point of the cell, sorted by frame: first-order moving least squares over
+   the cells of a stencil, then eased. Weights are never negative and sum to 1 (gradients to 0). Fails on out of memory.
+   For many points of a cell, a stencil is faster. Writes only `out` and blocks of `memory`, so threads with separate
+   memories may call it concurrently. */
 bool kiriShape_At(const kiriShape* shape, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                   int32_t cell, kiriVec2 at, kiriPointWeights* out);
 

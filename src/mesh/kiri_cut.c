@@ -7,9 +7,9 @@
 /* Distance beside the line at which the material is searched, in sides of a square. */
 #define BESIDE (1.0 / 1024.0)
 
-/* Cuts [*from, *to] to where a linear function with these values at the ends of the line is above zero. Where it is zero
-   throughout `keep` decides. Neighbors that share a side have the same function but for its sign, so the parts that they
-   keep have no gap and no overlap. */
+/* Clips [*from, *to] to the part where a linear function, with these values at the ends of the line, is positive. If
+   the function is zero throughout, `keep` decides. Neighbours that share a side have the same function with opposite
+   signs, so their parts have no gap and no overlap. */
 static void ClipBy(double first, double last, bool keep, double* from, double* to)
 {
     if (first == 0.0 && last == 0.0) {

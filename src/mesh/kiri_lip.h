@@ -26,8 +26,8 @@ double kiriCorridor_Side(const kiriCorridor* corridor, kiriLatticePoint p);
 /* Returns the way along the line, times the length of the line. Exact. */
 int64_t kiriCorridor_Progress(const kiriCorridor* corridor, kiriLatticePoint p);
 
-/* Half-edges that leave the point of a vertex, counter-clockwise, over open edges too: from the outline on, or all
-   around. NextAround returns KIRI_NONE after the last. */
+/* Return the half-edges that start at the point of a vertex, counter-clockwise, also across open edges: from the
+   outline on, or all around. NextAround returns KIRI_NONE after the last. */
 int32_t kiriMesh_FirstAround(const kiriMeshData* mesh, int32_t vertex);
 int32_t kiriMesh_NextAround(const kiriMeshData* mesh, int32_t h, int32_t first);
 

@@ -92,7 +92,7 @@ kiriVec2 kiriMesh_Direction(const kiriMeshData* mesh, int32_t from, int32_t to)
     return kiriVec2_Scale(1.0 / kiriVec2_Length(way), way);
 }
 
-/* An eighth of the integral of the directions between the first and the last edge of the fan. */
+/* Returns an eighth of the integral of the directions between the first and the last edge of the fan. */
 kiriVec2 kiriMesh_Lean(const kiriMeshData* mesh, int32_t vertex)
 {
     int32_t start = mesh->vertices.data[vertex].edge, first = start, last = start, h;
@@ -184,7 +184,7 @@ void kiriMesh_Commit(kiriMeshData* mesh)
 
 /* ---- Changing the mesh ------------------------------------------------------------------------------------------- */
 
-/* Half-edge h becomes half-edge g: its twin, its mark, and its tail's way to find it. */
+/* Moves half-edge h to half-edge g: its twin, its mark, and the link from its tail. */
 static void MoveHalfEdge(kiriMeshData* mesh, int32_t h, int32_t g)
 {
     kiriVertex* tail = &mesh->vertices.data[kiriMesh_Tail(mesh, g)];
@@ -254,7 +254,7 @@ static int32_t AddVertex(kiriMeshData* mesh, kiriLatticePoint at, int32_t source
     return index;
 }
 
-/* A new vertex on half-edge h, born of the two ends on its own side. */
+/* Adds a vertex on half-edge h, born of the two ends on its own side. */
 static int32_t AddOnEdge(kiriMeshData* mesh, int32_t h, kiriLatticePoint at)
 {
     int32_t a = kiriMesh_Tail(mesh, h), b = kiriMesh_Tail(mesh, kiriEdge_Next(h));
@@ -418,7 +418,8 @@ bool kiriMesh_FlipEdge(kiriMeshData* mesh, int32_t h)
     return true;
 }
 
-/* Half-edge h has just been opened: where that divides the fan at its tail, the part on its left gets a new vertex. */
+/* Tears the fan at the tail of half-edge h, which has just been opened: if the fan is divided, its left part gets a new
+   vertex. */
 static void TearFan(kiriMeshData* mesh, int32_t h)
 {
     int32_t old = kiriMesh_Tail(mesh, h), twin = kiriMesh_Twin(mesh, h), last = h;

@@ -629,7 +629,7 @@ static int64_t FindStored(const kiriMeshData* mesh, int32_t source)
     return block == KIRI_NONE ? KIRI_NONE : 3 * ((int64_t)block * KIRI_SOURCES_A_BLOCK + source % KIRI_SOURCES_A_BLOCK);
 }
 
-/* In a block the corners of triangles that were gone when it was made are one point. */
+/* Writes the corners of a source. In a block, triangles that were removed before it was made have equal corners. */
 bool kiriMesh_SourceCorners(const kiriMeshData* mesh, int32_t source, kiriLatticePoint corners[3])
 {
     int64_t at = FindStored(mesh, source);

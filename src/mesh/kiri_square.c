@@ -49,7 +49,7 @@ static int32_t LineOf(const kiriSquares* squares, int32_t coordinate)
     return (int32_t)(squares->perStep * ((double)coordinate + 1.0));
 }
 
-/* Cuts `count` columns or rows from `first` on down to those between two coordinates, and KIRI_SQUARES_BESIDE more. */
+/* Reduces `count` columns or rows from `first` on to those between two coordinates, and KIRI_SQUARES_BESIDE more. */
 static void TakeLines(const kiriSquares* like, int32_t lower, int32_t upper, int32_t* first, int32_t* count)
 {
     int32_t end = *first + *count, from = LineOf(like, lower) - KIRI_SQUARES_BESIDE,

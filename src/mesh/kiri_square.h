@@ -38,7 +38,7 @@ typedef struct kiriSquares {
 /* Allocates empty squares, whose numbers and side are set. False for memory. */
 bool kiriSquares_Allocate(kiriSquares* squares, kiriMemory* memory);
 
-/* `resolution` squares along the longer of the two extents (lattice steps, from 0). */
+/* Makes `resolution` squares along the longer of the two extents (lattice steps, from 0). */
 bool kiriSquares_Init(kiriSquares* squares, kiriMemory* memory, kiriLatticePoint extent, int32_t resolution);
 
 /* Makes the squares of `like` around the box between two points, and KIRI_SQUARES_BESIDE more on each side if there are

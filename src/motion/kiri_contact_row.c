@@ -215,9 +215,9 @@ static kiriVec3 Beside(kiriVec3 a, kiriVec3 direction)
 /* ---- Soft contacts ------------------------------------------------------------------------------------------------
 
    A contact with a fixed obstacle is a smooth energy of the objective. It is never switched on or off, so a sheet at
-   rest does not tremble. At depth p, with softness d and stiffness k, the push is k p^2 / (2 d) up to p = d, and k (p -
-   d / 2) beyond. Friction is T = held - grip slide, where `held` is the friction of the last step. T is clamped to the
-   friction limit (Huber). */
+   rest does not tremble. At depth p, with softness d and stiffness k, the push is k p^2 / (2 d) up to p = d, and
+   k (p - d / 2) beyond. Friction is T = held - grip slide, where `held` is the friction of the last step. T is clamped
+   to the friction limit (Huber). */
 
 #define SOFT_STIFFNESS 1e3 /* minimum, as a multiple of the mass of the sample / h'^2 */
 #define SOFT_SHARE 0.2     /* of the reach: d */
@@ -486,8 +486,7 @@ void kiriSolver_MoveContacts(kiriSolver* solver, const kiriSystem* system)
 
 /* ---- Assembly ---------------------------------------------------------------------------------------------------- */
 
-/* Writes the derivatives of the point's move along an axis by the unknowns of a member. `arm`: the point relative to x.
-   */
+/* Writes the derivatives of the point's move along an axis by a member's unknowns. `arm`: the point relative to x. */
 static void DerivePoint(const kiriSolver* solver, const kiriSystem* system, kiriWeight member, kiriVec2 local,
                         kiriVec3 arm, kiriVec3 axis, double* J)
 {

@@ -164,9 +164,9 @@ bool kiriSurface_RenewIndices(kiriSurface* surface, kiriMemory* memory, kiriMemo
 /* Hides a triangle: sets its corners to the first. */
 void kiriSurface_HideTriangle(kiriSurface* surface, int32_t triangle);
 
-/* Takes over where the frames are. The links tell a smooth surface how to bend; a linear one does not ask. Where
-   nothing is other than when arrays were written, they stay so. `moved`: only these frames may be elsewhere than when
-   they were taken over last, and `movedLinks` are their links; or null. */
+/* Takes over the current frames. The links determine how a smooth surface bends; a linear surface ignores them. Arrays
+   are not written again if nothing has changed. `moved`: the only frames that may have moved since the last call, and
+   `movedLinks`: their links; or null. */
 void kiriSurface_TakeFrames(kiriSurface* surface, const kiriFrameData* frames, int32_t frameCount,
                             const kiriLink* links, int32_t linkCount, const kiriIndices* moved,
                             const kiriIndices* movedLinks);
