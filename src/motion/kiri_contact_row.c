@@ -502,7 +502,7 @@ static void DerivePoint(const kiriSolver* solver, const kiriSystem* system, kiri
     }
 }
 
-/* Two axes of the plane; the first along the slide where it slips. */
+/* Finds two axes of the plane. The first is along the slide if it slips. */
 static void FindAxes(const kiriContactStep* step, kiriVec3 normal, kiriVec3 axes[2])
 {
     kiriVec3 other = fabs(normal.x) < 0.7 ? kiriVec3_Make(1.0, 0.0, 0.0) : kiriVec3_Make(0.0, 1.0, 0.0);
@@ -560,7 +560,7 @@ typedef struct Carrier {
     kiriVec3 arm, moment[3];
 } Carrier;
 
-/* Columns of the sum of springs along axes. */
+/* Returns the columns of the sum of springs along axes. */
 static void SumSprings(const PointSprings* at, kiriVec3 columns[3])
 {
     memset(columns, 0, 3 * sizeof(kiriVec3));
@@ -706,7 +706,8 @@ static void Activate(kiriContactStep* step, double friction, double inertia, dou
     step->direction = kiriVec3_Scale(length > KIRI_SLIDE_FLOOR ? 1.0 / length : 0.0, slide);
 }
 
-/* Slides that turned round stick: in the first systems, for later ones do not go so far (LimitByFriction). */
+/* Returns true if the contact will stick. In the first systems, a reversed slide sticks; later systems end before a
+   slide reverses (kiriSolver_LimitByFriction). */
 static bool WillStick(const kiriContactStep* step, double limit, kiriVec3 slide, bool isEarly)
 {
     bool turned = !step->sticks && isEarly && kiriVec3_Dot(slide, step->direction) < 0.0;
@@ -799,8 +800,9 @@ static bool IsDeep(kiriSolver* solver, const kiriSystem* system)
     return isDeep;
 }
 
-/* Contacts that pressed in the last system shared the mass of an obstacle. Many more may be held: all that may be share
-   it now, else each would push the obstacle out as if it were the only one, and a light body would be shot off. */
+/* Shares the mass of obstacles among all contacts that may be held, which may be many more than the contacts that
+   pressed in the last system. Otherwise each would push the obstacle out as if it were alone, and a light body would be
+   shot off. */
 static void ShareMass(kiriSolver* solver, const kiriSystem* system)
 {
     for (int32_t k = 0; k < system->yieldCount; ++k) {
@@ -820,7 +822,8 @@ static void ShareMass(kiriSolver* solver, const kiriSystem* system)
     }
 }
 
-/* Touches are found for frames as they are turned at the start: else other points of the material are below planes. */
+/* Restores the rotations at the start for frames that turned too far. Touches were found for these rotations; after a
+   large turn, other points of the material are below planes. */
 static void TurnBack(kiriSolver* solver, const kiriSystem* system)
 {
     for (int32_t f = 0; f < system->frameCount; ++f) {

@@ -178,8 +178,8 @@ static bool AddAreaElement(PointBuilder* b, kiriVec2 point, kiriVec2 off, double
     return kiriArray_Push(b->memory, &b->elements->elements, element);
 }
 
-/* Two pairs of places on either side of the point, that together have the region's second moments: the columns of
-   their Cholesky factor. */
+/* Adds two pairs of places on opposite sides of the point. Together they have the region's second moments: their
+   offsets are the columns of its Cholesky factor. */
 static bool AddFour(PointBuilder* b, kiriVec2 point, const kiriMoments* material)
 {
     kiriMoments about = kiriMoments_About(material, point);

@@ -5,8 +5,7 @@
 
 /* ---- The frames after the step ---- */
 
-/* No inner force moves the centre of mass of a free body: it is where the prediction ends, however far the iteration
-   came. */
+/* Moves a free body to the predicted centre of mass, which no inner force moves, however incomplete the iteration. */
 void kiriSolver_CenterBody(kiriSolver* solver, const kiriSystem* system)
 {
     kiriVec3 mean = { 0.0, 0.0, 0.0 };

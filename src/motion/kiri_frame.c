@@ -61,7 +61,7 @@ static kiriVec3 AngularAbout(const kiriFrameData* frame, const kiriMaterial* mat
     return kiriVec3_AddScaled(kiriFrame_AngularMomentum(frame, material), frame->mass, kiriVec3_Cross(r, v));
 }
 
-/* Forces act on arms as they are on the mean over the step. */
+/* Adds the torque of a frame's forces, with their mean arms over the step. */
 static void AddFrameTurning(kiriPieceMomentum* p, const kiriFrameData* before, const kiriFrameData* after,
                             const kiriMaterial* material, kiriVec3 gravity, double dt)
 {
@@ -241,8 +241,8 @@ static kiriVec3 CayleyVector(kiriVec3 w)
     return Shortened(kiriVec3_Scale(1.0 + ww * (1.0 / 12.0 + ww / 120.0), w));
 }
 
-/* Free rotation over h with the angular momentum L: the implicit midpoint rule for L in the body's axes. Its map is a
-   Cayley rotation, and it keeps L and the energy whatever the length of the Cayley vector. */
+/* Rotates freely over h with the angular momentum L, by the implicit midpoint rule for L in the body's axes. The map is
+   a Cayley rotation. It conserves L and the energy for any length of the Cayley vector. */
 static kiriMat3 TurnPart(const kiriMat3* A, const kiriMat3* bodyInertia, kiriVec3 L, double h)
 {
     kiriVec3 start = MulTransposed(A, L), end = start;

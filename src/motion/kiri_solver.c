@@ -555,7 +555,7 @@ static void TakeClamps(kiriSolver* solver, const kiriSystem* sheet, kiriSystem* 
     system->clampCount = solver->clamps.count;
 }
 
-/* What changes from tick to tick of links. */
+/* Copies the state of links that changes from tick to tick. */
 static void TakeLinkState(kiriSolver* solver, const kiriSystem* sheet, kiriSystem* system)
 {
     const int32_t* links = solver->bodies.links.data + solver->body->links.first;

@@ -390,7 +390,7 @@ kiriStepEnergy kiriObjective_Evaluate(kiriSolver* solver, const kiriSystem* syst
 
 /* ---- Noise ---- */
 
-/* Of the sums of strains that traces are. */
+/* Returns the noise of a corner: of the sums of strains in its traces. */
 static double CornerNoise(const kiriSolver* solver, const kiriSystem* system, const kiriCorner* corner,
                           const double* stiffness)
 {
@@ -487,7 +487,8 @@ static kiriVec3* CarriedOn(const kiriStepping* stepping, kiriHistory* history)
     return stepping->l > 0.0 ? &history->pull : &history->gain;
 }
 
-/* Inner forces do not move a free body as a whole. A commit that changed masses may have left a mean. */
+/* Removes the mean from the histories of a free body. Inner forces do not move it as a whole, but a commit that changed
+   masses may have left a mean. */
 static void CenterHistories(kiriSolver* solver, int32_t frameCount)
 {
     kiriVec3 mean = { 0.0, 0.0, 0.0 };
@@ -571,7 +572,7 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
 
 /* ---- Matrix and forces ------------------------------------------------------------------------------------------- */
 
-/* Times h'^2. */
+/* Returns the inertial force of a frame, times h'^2. */
 static kiriFrameRow InertiaForce(const kiriSolver* solver, const kiriSystem* system, int32_t f)
 {
     const kiriPrediction* prediction = &solver->predictions.data[f];
@@ -1148,7 +1149,7 @@ static void TakeElementFromHolds(const kiriSolver* solver, const kiriSystem* sys
     }
 }
 
-/* What changes the momentum of a held frame in the step, beside gravity and the host's forces on it. */
+/* Adds the impulse that changed a held frame's momentum in the step, without gravity and the host's forces. */
 static void AddMomentum(const kiriSolver* solver, const kiriSystem* system, int32_t f)
 {
     const kiriFrameData *before = &solver->before.data[f], *after = &solver->after.data[f];

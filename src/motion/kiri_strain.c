@@ -1043,8 +1043,8 @@ void kiriClamp_Measure(const kiriClampRow* row, const kiriFrameData* frame, cons
     }
 }
 
-/* Along the line the material neither stretches nor curls, and beside it hardly: so it is as stiff as where both
-   directions strain. */
+/* Sets the stiffness for a rigid frame. Along the line the material neither stretches nor curls, and beside it hardly:
+   so it is as stiff as if both directions were strained. */
 static void SetRigidStiffness(kiriClampRow* row, const kiriMaterial* material)
 {
     double h = (double)material->thickness, nu = (double)material->poissonsRatio, l = row->link.length;

@@ -47,7 +47,7 @@ static bool HasLowerNumber(const void* context, int32_t a, int32_t b)
     return meets[a].number < meets[b].number || (meets[a].number == meets[b].number && a < b);
 }
 
-/* Sheets that move the same body: each finds in its yield rows what those before it gave. */
+/* Joins sheets that move the same body into groups. A sheet's yield rows include the impulses of earlier sheets. */
 static bool JoinByBodies(kiriWorld* world)
 {
     kiriMoves* moves = &world->moves;
@@ -226,14 +226,14 @@ void kiriPinStep_Carry(const kiriWorld* world, kiriSheetData* sheet, const kiriM
     }
 }
 
-/* What an impulse along an axis gives the point. */
+/* Returns the move of the point by an impulse along an axis. */
 static kiriVec3 GiveAlong(const kiriYieldRow* body, kiriVec3 arm, kiriVec3 axis)
 {
     kiriVec3 spin = kiriMat3_Mul(body->inverseInertia, kiriVec3_Cross(arm, axis));
     return kiriVec3_AddScaled(kiriVec3_Cross(spin, arm), body->inverseMass, axis);
 }
 
-/* Obstacles of one body share its mass; so do their pins: each of several has its share. */
+/* Softens a pin on an obstacle. Obstacles of one body share its mass, and so do their pins. */
 static void Soften(const kiriWorld* world, const kiriSheetData* sheet, const kiriObstacleData* obstacle,
                    kiriVec3 target, kiriPinAnchor* anchor)
 {
@@ -251,7 +251,8 @@ static void Soften(const kiriWorld* world, const kiriSheetData* sheet, const kir
     anchor->most = pins * body.inverseMass + kiriMax(turning, 0.0);
 }
 
-/* A piece that sleeps does not mind what moves less than it would itself before it woke. */
+/* Returns true if the target moved too little to wake the pin's piece: the piece sleeps, and would move as far itself
+   before it woke. */
 static bool IsTargetStill(const kiriSheetData* sheet, const kiriPinData* pin, kiriVec3 from, kiriVec3 to)
 {
     double least = KIRI_CALM_SECONDS * sheet->settings.sleepSpeed;
@@ -334,7 +335,7 @@ static double LeastDrift(const kiriWorld* world)
     return least;
 }
 
-/* What of the sheet is within reach of an obstacle that is bound. False for memory. */
+/* Finds the parts of the sheet within reach of an obstacle whose bounds are set. Fails on out of memory. */
 static bool FindNear(kiriObstacleSearch* search, kiriSheetData* sheet, const kiriObstacleData* obstacle, double reach)
 {
     return kiriBounds_Update(sheet->seen.bounds, sheet->memory, &sheet->seen.surface) &&
@@ -443,7 +444,7 @@ static bool SortObstacles(kiriWorld* world, double dt)
     return true;
 }
 
-/* Where a sheet may touch obstacles. */
+/* The space in which a sheet may touch obstacles. */
 typedef struct Around {
     kiriBox box;
     double speed, reach;
@@ -465,7 +466,7 @@ static kiriObstacleData* NextNear(const kiriWorld* world, const kiriSheetData* s
     return NULL;
 }
 
-/* A tick in which all sheets look for touches. */
+/* The search for the touches of all sheets in a tick. */
 typedef struct TouchSearch {
     kiriWorld* world;
     double dt, least;
@@ -479,7 +480,7 @@ static void Stir(kiriSheetData* sheet, int32_t piece)
     sheet->rest.isStirred = sheet->rest.isStirred || rest->asleep;
 }
 
-/* False for memory. */
+/* Stirs the pieces near an obstacle. Fails on out of memory. */
 static bool StirNear(kiriObstacleSearch* search, kiriSheetData* sheet, const kiriObstacleData* obstacle, double reach)
 {
     const kiriIndices* triangles = &search->triangles;
@@ -494,7 +495,7 @@ static bool StirNear(kiriObstacleSearch* search, kiriSheetData* sheet, const kir
     return ok;
 }
 
-/* Something that moves comes near: pieces that sleep shall wake. False for memory. */
+/* Stirs sleeping pieces that a moving obstacle approaches. Fails on out of memory. */
 static bool StirSleepers(const TouchSearch* looking, kiriObstacleSearch* search, kiriSheetData* sheet,
                          const Around* around)
 {
@@ -535,7 +536,7 @@ static bool TouchAll(const kiriWorld* world, kiriObstacleSearch* search, kiriShe
     return ok;
 }
 
-/* Pieces that sleep may wake when a cut takes effect: these are stirred already. */
+/* Finds the touches of a sheet. Sleeping pieces that a cut changes in this tick are stirred already. */
 static bool FindTouchesOf(const TouchSearch* looking, kiriObstacleSearch* search, kiriSheetData* sheet)
 {
     bool sleeps = sheet->rest.asleep && !sheet->rest.isStirred && sheet->update->stage != KIRI_READY;
@@ -558,8 +559,8 @@ static bool FindTouchesOf(const TouchSearch* looking, kiriObstacleSearch* search
     return (sleeps && !sheet->rest.isStirred) || TouchAll(looking->world, search, sheet, &around);
 }
 
-/* In a task nothing may be allocated. A sheet that comes short of room is as before, and looks again when all are
-   done. */
+/* Finds the touches of a sheet in a task, which must not allocate. If room is missing, restores the sheet; it is
+   searched again after all tasks. */
 static void TryTouchesOf(const TouchSearch* looking, kiriObstacleSearch* search, kiriSheetData* sheet)
 {
     kiriTouches* touches = &sheet->touches;
@@ -593,7 +594,7 @@ static void ReadySearch(kiriWorld* world, kiriObstacleSearch* search, double dt)
     search->gravity = world->gravity;
 }
 
-/* Two a worker, so that they end at about the same time. False for memory. */
+/* Searches in tasks, two a worker, so that workers finish at about the same time. Fails on out of memory. */
 static bool LookInTasks(TouchSearch* looking)
 {
     kiriWorld* world = looking->world;
@@ -779,7 +780,7 @@ static bool StoodStill(const kiriWorld* world, int32_t k)
     return world->moves.of.data[world->active.data[k]].isStill;
 }
 
-/* Without tasks, and where a sheet is one range, sleeps or stood still, all is done at one go. */
+/* Returns true if the sheet is skinned by ranges: with tasks, and unless it is one range, sleeps or was not moved. */
 static bool IsInRanges(const kiriWorld* world, int32_t k)
 {
     const kiriSheetData* sheet = kiriWorld_Active(world, k);
@@ -796,7 +797,7 @@ bool kiriSkinStep_Prepare(kiriWorld* world)
     return kiriArray_Reserve(&world->memory, &world->skinRanges, count);
 }
 
-/* Sheets for which the budget had nothing left stood where they were written last. */
+/* Finds the sheets that the budget left unmoved: their surfaces stay as last written. */
 static void FindStill(kiriWorld* world)
 {
     for (int32_t k = 0; k < world->active.count; ++k) {

@@ -98,7 +98,7 @@ static kiriVec3 Feel(const kiriWorld* world, const kiriPairTouch* touch, double 
     return kiriVec3_AddScaled(was, part, kiriVec3_Sub(push, was));
 }
 
-/* In the order of keys. */
+/* Applies the loads of all touches, in the order of keys, and stores them. */
 static void FeelAll(kiriWorld* world, double dt)
 {
     kiriPairs* pairs = &world->pairs;
@@ -370,7 +370,7 @@ static kiriVec3 PlaceVelocity(const kiriPlace3* place)
     return velocity;
 }
 
-/* Of the pair, the probe, and whose it is: a probe meets a piece once. */
+/* Returns the key of a touch: of the pair, the probe, and its body. A probe meets a piece once. */
 static uint64_t KeyOfPair(const kiriTouchingPair* pair, const kiriNear* near)
 {
     const uint64_t kind = UINT64_C(3) << 60;
@@ -895,7 +895,7 @@ static void AddWaking(Waking* waking, const kiriSheetData* sheet)
     waking->thickness = kiriMax(thickness, waking->thickness);
 }
 
-/* False for memory. */
+/* Finds everything that is awake. Fails on out of memory. */
 static bool FindWaking(kiriWorld* world, Waking* waking)
 {
     bool ok = true;
@@ -961,8 +961,9 @@ double kiriPair_Distance(const kiriBody* a, const kiriBody* b)
     return 0.5 * (a->sheet->settings.contactThickness + b->sheet->settings.contactThickness);
 }
 
-/* As far as they may come nearer in the tick, by the velocities of their probes and by gravity, and twice the distance
-   that they keep. Pieces of one sheet that fall side by side do not come nearer, unless an obstacle stops one. */
+/* Returns the distance within which pieces are near: their largest approach in the tick, by the velocities of their
+   probes and by gravity, plus twice the distance that they keep. Pieces of one sheet that fall side by side do not
+   approach each other, unless an obstacle stops one. */
 static double ReachOfPiece(const kiriWorld* world, const kiriBody* a, const kiriBody* b, double dt)
 {
     double speed = a->speed + b->speed, falling = dt * kiriVec3_Length(world->gravity);
@@ -1168,8 +1169,8 @@ kiriVec3 kiriNear_PlaceVelocity(const kiriPairs* pairs, const kiriNear* near)
     return velocity;
 }
 
-/* How far the probe is above the place, along the normal of that; where they are at the same height, how fast it gets
-   there. */
+/* Returns the height of the probe above the place, along the place's normal. If both are at the same height, returns
+   its change in the tick. */
 static double Above(const kiriPairs* pairs, const kiriNear* near, double dt)
 {
     const kiriBody *a = &pairs->bodies.data[near->body], *b = &pairs->bodies.data[near->other];
@@ -1197,7 +1198,7 @@ static kiriVec3 NormalAt(const kiriSheetData* sheet, int32_t vertex)
     return kiriVec3_Load(&sheet->seen.surface.normals.data[3 * (size_t)vertex]);
 }
 
-/* On which side of the lower one's normals the upper one is. */
+/* Returns the side of the lower body's normals on which the upper body lies. */
 static int32_t SideOfPair(const kiriPairs* pairs, kiriSpan nears, int32_t lower, double dt)
 {
     const kiriSheetData* sheet = pairs->bodies.data[lower].sheet;
@@ -1210,8 +1211,8 @@ static int32_t SideOfPair(const kiriPairs* pairs, kiriSpan nears, int32_t lower,
     return sum >= 0.0 ? 1 : -1;
 }
 
-/* Which lies above which against gravity; side by side the one that is not held, or the lighter one, is the upper one,
-   for it gives way. */
+/* Returns true if body a lies above body b, against gravity. Side by side, the upper one is the one that is not held,
+   or the lighter one, because it gives way. */
 static bool IsUpper(const kiriWorld* world, const kiriBody* a, const kiriBody* b, kiriVec3 direction)
 {
     double up = -kiriVec3_Dot(direction, kiriVec3_Normalize(world->gravity));
@@ -1240,8 +1241,8 @@ static const kiriTouchingPair* FindOld(const kiriPairs* pairs, kiriFrame a, kiri
     return low < pairs->pairs.count && NameOf(found->upper, found->lower) == name ? found : NULL;
 }
 
-/* Has the lower one of before come to be the upper one? By how it is turned, and not by where the other one is: pieces
-   that cross do not change places. */
+/* Returns true if the previous lower body has become the upper one. That depends on its own turn, not on the position
+   of the other body: pieces that cross do not swap places. */
 static bool HasSideTurned(const kiriWorld* world, const kiriTouchingPair* old, int32_t lower, kiriSpan nears)
 {
     const kiriSheetData* sheet = world->pairs.bodies.data[lower].sheet;
@@ -1325,7 +1326,8 @@ static bool IsFarther(const void* context, int32_t a, int32_t b)
     return left < right || (left == right && a < b);
 }
 
-/* Bodies by the lower end of their box: those that begin beyond the end of another are not near it. */
+/* Searches all pairs of bodies, sorted by the lower x of their boxes. Bodies that begin beyond the end of a box are not
+   near it. */
 static bool LookAtAll(kiriWorld* world, double dt)
 {
     kiriPairs* pairs = &world->pairs;
@@ -1369,7 +1371,7 @@ static bool IsPairAsleep(const kiriWorld* world, kiriFrame id)
     return piece != NULL && piece->rest.asleep;
 }
 
-/* Pairs that sleep are not looked at, and stay. */
+/* Keeps sleeping pairs without a search. */
 static bool KeepSleeping(kiriWorld* world)
 {
     kiriPairs* pairs = &world->pairs;

@@ -25,7 +25,7 @@ typedef struct Part {
     int32_t piece;
 } Part;
 
-/* What one call, or one tick of a sheet, detaches or removes. */
+/* The pieces that one call, or one tick of a sheet, detaches or removes. */
 typedef struct Parting {
     kiriWorld* world;
     kiriMemory memory;
@@ -145,8 +145,8 @@ static kiriResult ResultOf(const Parting* parting)
 
 /* ---- Costs ------------------------------------------------------------------------------------------------------- */
 
-/* Lets sheets wait whose pieces cost more than the samples that are left of one tick. A sheet in which a cut is worked
-   on, or other pieces wait, waits in any case. */
+/* Defers sheets whose pieces cost more than the remaining samples of a tick. Sheets with a cut in progress, or with
+   other pending pieces, are always deferred. */
 static void ChooseWhatWaits(Parting* parting, bool makesSheets)
 {
     kiriWorld* world = parting->world;
@@ -162,7 +162,7 @@ static void ChooseWhatWaits(Parting* parting, bool makesSheets)
     }
 }
 
-/* Calls are paid by the coming ticks. */
+/* Charges the cost of a call to the coming ticks. */
 static void Charge(const Parting* parting)
 {
     kiriWorld* world = parting->world;
@@ -196,7 +196,7 @@ static bool StageSources(Parting* parting)
     return ok;
 }
 
-/* Ids name items that have moved to this sheet, or to another place in it. */
+/* Updates the ids of items that moved to this sheet, or to another index in it. */
 static void PointIds(kiriWorld* world, kiriSheetData* sheet)
 {
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
@@ -267,8 +267,8 @@ static kiriResult ReserveIdsOfParts(Parting* parting)
     return result == KIRI_OK ? kiriWorld_ReserveIds(parting->world, &parting->world->pinIds, pins) : result;
 }
 
-/* A line may hold several pieces. Then the rest keeps the pin's id, or else the first part, and others get a new one.
-   The ids of the rest do not point to its pins yet. */
+/* Gives pins their ids. A line may hold several pieces: then the remaining sheet keeps the pin's id, or else the first
+   part, and other parts get new ids. The ids of the remaining sheet do not point to its pins yet. */
 static void NamePins(kiriWorld* world, const Part* part)
 {
     const kiriDetach* detach = &part->from->detach;
@@ -343,7 +343,7 @@ kiriResult kiriParts_Detach(kiriWorld* world, const kiriFrame* frames, int32_t c
 
 /* ---- Pieces that wait -------------------------------------------------------------------------------------------- */
 
-/* Frames of pieces that were removed meanwhile are stale; others were detached by a call. */
+/* Drops stale frames of pieces that were removed, or detached by a call, in the meantime. */
 static void ForgetStaleLeaving(kiriWorld* world, kiriSheetData* sheet)
 {
     int32_t kept = 0;
@@ -494,7 +494,7 @@ static void ForgetPins(kiriWorld* world, const kiriDetach* detach)
     }
 }
 
-/* The host may hold the indices, in which triangles are to be hidden. */
+/* Copies the indices if the host holds them, because triangles will be hidden in them. */
 static bool RenewIndices(Parting* parting)
 {
     bool ok = true;

@@ -31,7 +31,7 @@ static bool IsReady(const kiriSheetData* sheet)
 
 /* ---- Which sheets ---- */
 
-/* Is a pin of it on an obstacle, which may move? */
+/* Returns true if a pin of the sheet is on an obstacle, which may move. */
 static bool MayBeCarried(const kiriSheetData* sheet)
 {
     bool any = false;
@@ -41,7 +41,7 @@ static bool MayBeCarried(const kiriSheetData* sheet)
     return any;
 }
 
-/* There is nothing to do for the sheet until it wakes, or gets a cut or contacts. */
+/* Returns true if the sheet needs no work until it wakes, or gets a cut or contacts. */
 static bool IsIdle(const kiriSheetData* sheet)
 {
     const kiriTouches* touches = &sheet->touches;
@@ -84,8 +84,9 @@ static kiriResult PartAll(kiriWorld* world)
 
 /* ---- Updates ---- */
 
-/* Sheets take turns. In every other tick the one whose points came first is served first, so each comes to its end. In
-   the ones between it is the one whose update has had least, so a short cut does not wait for a long one. */
+/* Orders the sheets that share the budget. In every other tick, the sheet whose points came first is first, so that
+   each finishes. In the other ticks, the sheet whose update has had the least work is first, so a short cut does not
+   wait for a long one. */
 static bool IsServedFirst(const void* context, int32_t a, int32_t b)
 {
     const kiriWorld* world = context;
@@ -96,7 +97,8 @@ static bool IsServedFirst(const void* context, int32_t a, int32_t b)
     return one->cut.stamp < other->cut.stamp || (one->cut.stamp == other->cut.stamp && a < b);
 }
 
-/* No work begins while pieces are to leave. `finishes`: but work that has begun goes on. */
+/* Starts work, except in sheets with pieces that are about to leave. `finishes`: work in progress
+   continues even there. */
 static void StartAll(kiriWorld* world, bool finishes)
 {
     world->atWork.count = 0;
@@ -113,7 +115,7 @@ static void StartAll(kiriWorld* world, bool finishes)
     kiriSort(world->atWork.data, world->atWork.count, IsServedFirst, world);
 }
 
-/* While the mesh is as it is seen. False for memory. */
+/* Finds pairs while the mesh equals the visible one. Fails on out of memory. */
 static bool FindPairs(kiriWorld* world, double dt)
 {
     EnterStage(world, KIRI_STAGE_CONTACT);
@@ -136,7 +138,7 @@ static kiriResult UpdateAll(kiriWorld* world, kiriQuotas* quotas)
 
 /* ---- Contact ---- */
 
-/* Pieces that a cut changes in this tick shall wake. */
+/* Stirs pieces that a cut changes in this tick. */
 static void StirTouched(kiriSheetData* sheet)
 {
     if (IsReady(sheet) && sheet->update->cut.meshChanged) {
@@ -257,7 +259,7 @@ static void FinishUpdate(kiriWorld* world, kiriSheetData* sheet)
     kiriPipeline_Finish(sheet);
 }
 
-/* What this tick has done to meshes becomes final. */
+/* Commits the changes of this tick to meshes. */
 static void CommitMeshes(kiriWorld* world)
 {
     for (int32_t k = 0; k < world->atWork.count; ++k) {
@@ -295,7 +297,7 @@ static void CommitAll(kiriWorld* world)
     kiriTasks_Run(&world->tasks, TakeJumps, world->active.count, 1, world);
 }
 
-/* Sheets that are stirred are active. */
+/* Wakes stirred sheets, all of which are active. */
 static void WakeStirred(kiriWorld* world)
 {
     for (int32_t k = 0; k < world->active.count; ++k) {
@@ -414,7 +416,7 @@ static kiriQuota SetAside(const kiriWorld* world, kiriQuotas* quotas)
     return aside;
 }
 
-/* False if some pieces still wait. */
+/* Pays for pending pieces. Returns false if some are still pending. */
 static bool PayForParting(kiriWorld* world, kiriQuota* samples)
 {
     bool isDone = true;
