@@ -32,7 +32,7 @@ typedef struct kiriFace {
     int32_t kind;    /* the axis (kiriFace_Axis), and twice its index in grid->stretches, from 1; 0: all of the side */
 } kiriFace;
 
-/* 0: the side is a vertical line u = const, normal +u; 1: v = const, normal +v. */
+/* Returns the axis of the normal. 0: the side is a vertical line u = const, normal +u; 1: v = const, normal +v. */
 static inline int32_t kiriFace_Axis(const kiriFace* face)
 {
     return face->kind & 1;
@@ -192,7 +192,7 @@ static inline void kiriGrid_GetSteps(const kiriGrid* grid, int32_t cell, kiriSte
     kiriGrid_GetStepsTo(grid, cell, KIRI_STEP_LENGTHS, steps);
 }
 
-/* True for the same cell, and for a straight or diagonal step. */
+/* Returns true for the same cell, and for a straight or diagonal step. */
 static inline bool kiriGrid_AreNear(const kiriGrid* grid, int32_t a, int32_t b)
 {
     kiriSteps steps;
@@ -220,7 +220,7 @@ static inline double kiriGrid_Area(const kiriGrid* grid, int32_t cell)
 
 kiriStretch kiriGrid_Stretch(const kiriGrid* grid, const kiriMeshData* mesh, int32_t face);
 
-/* A face seen from one of its cells: the cell beyond, and the next face of that one. */
+/* For a face seen from one of its cells, return the cell on the other side, and the next face of the given cell. */
 static inline int32_t kiriFace_Other(const kiriFace* face, int32_t cell)
 {
     KIRI_ASSERT(face->cell[0] == cell || face->cell[1] == cell);
@@ -257,7 +257,7 @@ int32_t kiriGrid_CellAt(const kiriGrid* grid, const kiriMeshData* mesh, kiriLatt
    may move the outline past it by a rounding of the lattice. KIRI_NONE in a square without material. */
 int32_t kiriGrid_CellAround(const kiriGrid* grid, const kiriMeshData* mesh, kiriLatticePoint at);
 
-/* Middle of a cell's square, local m. */
+/* Returns the middle of a cell's square, local m. */
 kiriVec2 kiriGrid_Middle(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell);
 
 /* Returns a lattice point of the cell's material, well inside: it finds the material again after the cell is split. */

@@ -524,8 +524,8 @@ static bool IsEndSeen(const EndSearch* s, const kiriLinkEnd* end)
     return kiriSight_IsClear(&s->sight, s->reach[0].from, at) && kiriSight_IsClear(&s->sight, s->reach[1].from, at);
 }
 
-/* Goes along the line from one of its points to where the first other region is nearer, or to an edge before that; the
-   sites must see it. Another region may be nearer from the start: where both ends of a border say so, it is none. */
+/* Follows the line from one of its points to the place where another region becomes nearer, or to an edge before that;
+   the sites must see it. If another region is nearer from the start at both ends, the border does not exist. */
 static bool FindSeenEnd(EndSearch* s, kiriVec2 from, kiriLinkEnd* end)
 {
     double start = s->ahead * AlongLine(&s->line, from), extent = s->u->mesh->step * KIRI_LATTICE;
@@ -644,7 +644,8 @@ static double FartherAt(const EndSearch* s, kiriVec2 at)
     return Farther(&s->reach[0], &s->reach[1], at, &slope);
 }
 
-/* Finds where both are as far, between two points where one and where the other is farther: by the Illinois rule. */
+/* Finds the point at equal distances from both sites, between a point nearer to one and a point nearer to the other, by
+   the Illinois rule. */
 static kiriVec2 FindBetweenOnEdge(const EndSearch* s, kiriVec2 a, double farA, kiriVec2 b, double farB)
 {
     kiriVec2 way = kiriVec2_Sub(b, a);
@@ -1260,7 +1261,7 @@ static bool MergeLinks(const LinkUpdate* u)
 
 /* ---- Corners ----------------------------------------------------------------------------------------------------- */
 
-/* An end that is as the grid has it may be off by two squares. */
+/* Returns true if the ends are the same. An end that is taken from the grid may be off by two squares. */
 static bool AreEndsOne(const kiriLinkEnd* a, const kiriLinkEnd* b, double side)
 {
     return a->kind == KIRI_END_CORNER && b->kind == KIRI_END_CORNER &&

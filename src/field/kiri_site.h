@@ -59,8 +59,8 @@ typedef struct kiriPlacer {
 /* Lists the cells connected to this one over faces, in the order of cells, in placer->cells. Fails on out of memory. */
 bool kiriPlacer_TakePiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, int32_t cell);
 
-/* Do the same in steps: Start, which fails on out of memory, then continue until it is done. An item of the quota is a
-   number of cells. Done at once if the piece is already listed. After KIRI_FAILED or to give up, start again. */
+/* Find the piece in steps: Start, which fails on out of memory, then continue until it is done. An item of the quota is
+   a number of cells. Done at once if the piece is already listed. After KIRI_FAILED or to give up, start again. */
 bool kiriPlacer_StartPiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, int32_t cell);
 kiriProgress kiriPlacer_GoOnWithPiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, kiriQuota* quota);
 

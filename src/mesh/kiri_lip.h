@@ -52,7 +52,7 @@ typedef struct kiriLipsNear {
     kiriLipPoint other; /* of another lip: where the line meets it, else its nearest point */
 } kiriLipsNear;
 
-/* `vertex` is where the blade is, or KIRI_NONE. */
+/* Finds the lips near the end of the corridor. `vertex`: the vertex at the blade, or KIRI_NONE. */
 kiriLipsNear kiriLip_FindNear(kiriCorridor* corridor, int32_t vertex);
 
 /* Slope, one over this, at which the blade leaves the line along a lip, and comes back to it. */

@@ -77,8 +77,8 @@ bool kiriBounds_Update(kiriBounds* bounds, kiriMemory* memory, const kiriSurface
 /* Asks for boxes in later ticks. Safe to call from several threads. */
 void kiriBounds_Ask(const kiriBounds* bounds);
 
-/* For the tick: Reserve makes room for boxes of this many triangles, if boxes are wanted; Keep fits them after positions
-   are written, only those that move where the others still fit. */
+/* Update boxes in a tick. Reserve makes room for boxes of this many triangles, if boxes are used; Keep fits them after
+   positions are written: only those that moved, if the others still fit. */
 bool kiriBounds_Reserve(kiriBounds* bounds, kiriMemory* memory, int32_t triangleCount);
 void kiriBounds_Keep(kiriBounds* bounds, const kiriSurface* surface, const kiriMovers* movers);
 

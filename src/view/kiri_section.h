@@ -19,9 +19,9 @@ typedef struct kiriWindow {
     kiriBox box;
 } kiriWindow;
 
-/* corner: first and second end of the previous edge, then second and first end of the current one, in a plane; two may be
-   the same point. `from` and `to` are points of the previous and the current edge, and tell which side is inside if the
-   edges cross. Returns false if the window has no area. */
+/* Makes a window. corner: first and second end of the previous edge, then second and first end of the current one, in a
+   plane; two may be the same point. `from` and `to` are points of the previous and the current edge, and determine the
+   inside if the edges cross. Returns false if the window has no area. */
 bool kiriWindow_Make(kiriWindow* window, const kiriVec3 corner[4], kiriVec3 from, kiriVec3 to);
 
 /* The end of a line: a side of the window, or one of these. */

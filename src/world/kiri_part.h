@@ -7,9 +7,9 @@
 
 KIRI_C_BEGIN
 
-/* Detach or remove the pieces of these frames, whose ids are valid, in one pass for each sheet. KIRI_PENDING: some wait.
-   ids[i] becomes the sheet of frames[i], 0 while it waits. KIRI_ERROR_STATE: nothing would be left of a sheet. On
-   failure, also for memory or ids, nothing has changed. */
+/* Detach or remove the pieces of these frames, whose ids are valid, in one pass for each sheet. KIRI_PENDING: some are
+   pending. ids[i] becomes the sheet of frames[i], or 0 while pending. KIRI_ERROR_STATE: a sheet would lose all of its
+   pieces. On failure, also for memory or ids, nothing has changed. */
 kiriResult kiriParts_Detach(kiriWorld* world, const kiriFrame* frames, int32_t count, kiriSheet* ids);
 kiriResult kiriParts_Destroy(kiriWorld* world, const kiriFrame* frames, int32_t count);
 
