@@ -835,8 +835,9 @@ static void TestTouchesGoOn(void** state)
                 OK(kiriFrame_GetState(hosts[k].world, detach ? gone : left, &states[k]));
             }
             for (int d = 0; d < 3; ++d) {
-                assert_float_equal(states[0].position[d], states[1].position[d], 1e-6);
-                assert_float_equal(states[0].velocity[d], states[1].velocity[d], 1e-4);
+                /* A part has patches of its own, so other vertices touch. */
+                assert_float_equal(states[0].position[d], states[1].position[d], 1e-4);
+                assert_float_equal(states[0].velocity[d], states[1].velocity[d], 5e-3);
             }
         }
         Host_Stop(&hosts[0]);

@@ -415,7 +415,7 @@ static kiriMeeting MakeMeeting(kiriObstacleSearch* search, kiriSheetData* sheet,
                             yield };
     kiriBox box = kiriBounds_All(sheet->seen.bounds);
     double square = sheet->mesh.step * sheet->mesh.squares.side;
-    meeting.squares = Yields(sheet, yield) ? PatchSide(sheet, square) : 1;
+    meeting.squares = PatchSide(sheet, square);
     meeting.columns = (sheet->mesh.squares.columns + meeting.squares - 1) / meeting.squares;
     meeting.square = square;
     meeting.reach =
