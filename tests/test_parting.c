@@ -799,8 +799,8 @@ static int32_t CountForces(const Host* host)
     return touches->last.forces.count + touches->slept.forces.count;
 }
 
-/* Four strips that slide down a slope: what pushes on those that are left is remembered, whatever number their vertices
-   get. In the second world one strip goes. */
+/* Four strips slide down a slope, and in the second world one goes. What pushes on the others is remembered, whatever number
+   their vertices get; a part has patches of its own, so other vertices touch. */
 static void TestTouchesGoOn(void** state)
 {
     (void)state;
@@ -835,7 +835,6 @@ static void TestTouchesGoOn(void** state)
                 OK(kiriFrame_GetState(hosts[k].world, detach ? gone : left, &states[k]));
             }
             for (int d = 0; d < 3; ++d) {
-                /* A part has patches of its own, so other vertices touch. */
                 assert_float_equal(states[0].position[d], states[1].position[d], 1e-4);
                 assert_float_equal(states[0].velocity[d], states[1].velocity[d], 5e-3);
             }
