@@ -173,7 +173,8 @@ bool kiriObstacle_FollowKey(uint64_t* key, const kiriKeep* vertices, const kiriK
     if (isEdge && !isRound) {
         return true; /* the item is a point of the obstacle */
     }
-    int32_t to = kiriKeep_To(isRound ? triangles : vertices, item);
+    const kiriKeep* keep = isRound ? triangles : vertices;
+    int32_t to = item < keep->to.count ? kiriKeep_To(keep, item) : KIRI_NONE; /* keys of a save may say anything */
     *key = (*key & ~(uint64_t)(KIRI_ROUND_ITEM - 1)) | (uint32_t)to;
     return to != KIRI_NONE;
 }
