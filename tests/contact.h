@@ -3,6 +3,8 @@
 #ifndef CONTACT_H
 #define CONTACT_H
 
+#include "kiri/kiri.h"
+
 /* One line of the table. `law` is what should come out; the line is marked where |value - law| > tolerance. */
 void Contact_Line(const char* name, const char* variant, double value, double law, double tolerance, const char* unit);
 
@@ -11,6 +13,9 @@ void Contact_Limit(const char* name, const char* variant, double value, double l
 
 /* Is this group of cases asked for? All are, where none is named. */
 int Contact_IsAsked(const char* group);
+
+/* m: how deep the deepest vertex of a sheet is in any obstacle of its world; below 0: none is. */
+double Contact_Depth(const kiriWorld* world, kiriSheet sheet);
 
 /* Files of cases. */
 void Contact_MeasureLaws(void);      /* contact_laws.c: friction, stopping, momentum, energy, conveyor, push, speed */

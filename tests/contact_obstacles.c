@@ -126,18 +126,19 @@ static Drape StartDrape(const Setting* setting, int32_t skinning)
     return drape;
 }
 
-/* m: how deep the deepest vertex is below the surface of the obstacle; below 0: none is. */
-static double Depth(const Drape* drape)
+double Contact_Depth(const kiriWorld* world, kiriSheet sheet)
 {
-    const kiriObstacleData* obstacle = drape->world->obstacles.data[0];
     kiriVec3 none = { 0.0, 0.0, 0.0 };
     double deepest = -1.0;
     kiriMesh mesh;
-    kiriSheet_GetMesh(drape->world, drape->sheet, &mesh);
-    for (int32_t v = 0; v < mesh.vertexCount; ++v) {
-        kiriVec3 local = kiriObstacle_PointToLocal(obstacle, kiriVec3_Load(&mesh.positions[3 * v]));
-        double depth = -kiriObstacleShape_Nearest(&obstacle->shape, local, none).distance;
-        deepest = depth > deepest ? depth : deepest;
+    kiriSheet_GetMesh(world, sheet, &mesh);
+    for (int32_t i = 0; i < world->obstacles.count; ++i) {
+        const kiriObstacleData* obstacle = world->obstacles.data[i];
+        for (int32_t v = 0; v < mesh.vertexCount; ++v) {
+            kiriVec3 local = kiriObstacle_PointToLocal(obstacle, kiriVec3_Load(&mesh.positions[3 * v]));
+            double depth = -kiriObstacleShape_Nearest(&obstacle->shape, local, none).distance;
+            deepest = depth > deepest ? depth : deepest;
+        }
     }
     return deepest;
 }
@@ -193,7 +194,7 @@ static Fall Watch(Drape* drape, int32_t ticks)
         int32_t awake = 1;
         kiriWorld_Tick(drape->world, tickSeconds, SUBSTEPS);
         kiriSheet_IsAwake(drape->world, drape->sheet, &awake);
-        fall.rest = Depth(drape);
+        fall.rest = Contact_Depth(drape->world, drape->sheet);
         fall.worst = fall.rest > fall.worst ? fall.rest : fall.worst;
         if (!awake) {
             fall.asleep = (double)t * tickSeconds;

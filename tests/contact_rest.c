@@ -46,8 +46,7 @@ typedef struct Setup {
 } Setup;
 
 typedef struct Rest {
-    double way, most, deep, worst, asleep, milliseconds; /* mm rms, mm, mm, mm, s, ms */
-    double contacts;
+    double way, deep, worst, asleep, milliseconds; /* mm rms, mm, mm, s, ms */
 } Rest;
 
 static kiriWorld* MakeScene(const Scene* scene, const Setup* setup, kiriSheet* sheet)
@@ -95,21 +94,6 @@ static kiriWorld* MakeScene(const Scene* scene, const Setup* setup, kiriSheet* s
     return world;
 }
 
-static double DepthIn(const kiriWorld* world, const float* positions, int32_t count)
-{
-    const kiriVec3 none = { 0.0, 0.0, 0.0 };
-    double deepest = -1.0;
-    for (int32_t i = 0; i < world->obstacles.count; ++i) {
-        const kiriObstacleData* obstacle = world->obstacles.data[i];
-        for (int32_t v = 0; v < count; ++v) {
-            kiriVec3 local = kiriObstacle_PointToLocal(obstacle, kiriVec3_Load(&positions[3 * v]));
-            double depth = -kiriObstacleShape_Nearest(&obstacle->shape, local, none).distance;
-            deepest = depth > deepest ? depth : deepest;
-        }
-    }
-    return deepest;
-}
-
 static double Now(void)
 {
     struct timespec time;
@@ -123,7 +107,7 @@ static Rest Watch(const Scene* scene, const Setup* setup, double seconds)
     static float before[3 * (MOST_CELLS + 1) * (MOST_CELLS + 1)];
     kiriSheet sheet = 0;
     kiriWorld* world = MakeScene(scene, setup, &sheet);
-    Rest rest = { 0.0, 0.0, 0.0, 0.0, seconds, 0.0, 0.0 };
+    Rest rest = { 0.0, -HUGE_VAL, -HUGE_VAL, seconds, 0.0 };
     int32_t ticks = (int32_t)(seconds / setup->dt), done = 0;
     double spent = 0.0;
     for (int32_t t = 0; t < ticks; ++t) {
@@ -134,7 +118,7 @@ static Rest Watch(const Scene* scene, const Setup* setup, double seconds)
         spent += Now() - start;
         done += 1;
         kiriSheet_GetMesh(world, sheet, &mesh);
-        rest.deep = 1e3 * DepthIn(world, mesh.positions, mesh.vertexCount);
+        rest.deep = 1e3 * Contact_Depth(world, sheet);
         rest.worst = rest.deep > rest.worst ? rest.deep : rest.worst;
         if ((t + 1) * setup->dt > seconds - 1.0f) {
             double sum = 0.0;
@@ -145,19 +129,15 @@ static Rest Watch(const Scene* scene, const Setup* setup, double seconds)
                     squared += way * way;
                 }
                 sum += squared;
-                rest.most = sqrt(squared) > rest.most ? sqrt(squared) : rest.most;
             }
             double rms = sqrt(sum / mesh.vertexCount);
             rest.way = rms > rest.way ? rms : rest.way;
         }
         memcpy(before, mesh.positions, sizeof(float) * 3 * (size_t)mesh.vertexCount);
-        kiriProfile profile;
-        kiriWorld_GetProfile(world, &profile);
-        rest.contacts = profile.contacts > rest.contacts ? profile.contacts : rest.contacts;
         kiriSheet_IsAwake(world, sheet, &awake);
         if (!awake) {
             rest.asleep = (t + 1) * (double)setup->dt;
-            rest.way = rest.most = 0.0;
+            rest.way = 0.0;
             break;
         }
     }

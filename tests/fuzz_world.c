@@ -282,7 +282,7 @@ static kiriResult CallOnce(Fuzz* fuzz, int32_t k, const FuzzCall* call, FuzzAct*
     return result;
 }
 
-/* With memory refused at the n-th request, and again without; but ticks, which go on after a refusal. */
+/* Makes a call with memory refused at the n-th request, and again without. Ticks are left out: they go on. */
 static kiriResult CallPoorly(Fuzz* fuzz, int32_t k, const FuzzCall* call, FuzzAct* act, int32_t n)
 {
     Host* host = &fuzz->hosts[k];

@@ -383,6 +383,36 @@ static kiriSheet RestOn(Host* host, kiriObstacle obstacle)
     return sheet;
 }
 
+/* A plate that starts in a floor comes out, but no faster than the floor's pushSpeed. */
+static void PushSpeedIsKept(void** state)
+{
+    (void)state;
+    static const float speeds[] = { 0.05f, 0.1f, 1.0f };
+    for (int k = 0; k < 3; ++k) {
+        Host host;
+        Host_Start(&host);
+        static const float none[3] = { 0.0f, 0.0f, 0.0f };
+        OK(kiriWorld_SetGravity(host.world, none));
+        kiriObstacleDef floor = DefOf(KIRI_OBSTACLE_PLANE);
+        floor.pushSpeed = speeds[k];
+        Add(&host, &floor);
+        kiriSheetDef def;
+        kiriDefaultSheetDef(&def);
+        def.frameCount = def.maxFrames = 1;
+        def.position[2] = -0.05f;
+        kiriSheet sheet = Host_AddRectangle(&host, &def, 0.4f, 0.4f, 8, 8);
+        double last = -0.05;
+        for (int i = 0; i < 90; ++i) {
+            OK(Host_Tick(&host, dt, 2));
+            double height = Host_Totals(&host, sheet).center[2];
+            assert_true(height >= 0.0 || height - last < 1.05 * (double)(speeds[k] * dt));
+            last = height;
+        }
+        assert_true(last > (speeds[k] < 0.1f ? 0.0 : 0.004)); /* out, half of the contact thickness above */
+        Host_Stop(&host);
+    }
+}
+
 /* Whatever takes a box from below a plate that sleeps on it wakes the plate; what happens far away does not. */
 static void SleepersWake(void** state)
 {
@@ -920,6 +950,7 @@ int main(void)
         cmocka_unit_test(StaleIdsAreRefused),
         cmocka_unit_test(WhereFloatsEndNothingMoves),
         cmocka_unit_test(PlateRestsOnAFloor),
+        cmocka_unit_test(PushSpeedIsKept),
         cmocka_unit_test(SleepersWake),
         cmocka_unit_test(SlowLiftsCarry),
         cmocka_unit_test(LiftsAndConveyorsCarry),

@@ -140,7 +140,8 @@ static void PlacePlane(const kiriSolver* solver, const kiriSystem* system, const
     kiriVec3 off = kiriVec3_Sub(step->start, BlendedPoint(system, weights, row->weightCount, row->at, poses));
     step->carried = kiriVec3_Scale(solver->dt, SurfaceVelocity(system, row, step->start));
     double now = row->offset + kiriVec3_Dot(row->normal, kiriVec3_Add(row->way, off));
-    double depth = now - kiriVec3_Dot(row->normal, step->start), pushed = row->reach + row->pushSpeed * solver->dt;
+    double depth = now - kiriVec3_Dot(row->normal, step->start), pushed = row->pushSpeed * solver->dt;
+    pushed += kiriClamp(2.0 * row->reach - depth, 0.0, row->reach); /* a soft contact rests within its reach */
     step->lowered = depth > pushed ? depth - pushed : 0.0;
     step->lift = kiriVec3_Dot(row->normal, step->carried) + (depth > 0.0 ? depth - step->lowered : 0.0);
     step->plane = now + kiriVec3_Dot(row->normal, step->carried) - step->lowered - (step->isHeld ? FAR_BELOW : 0.0);

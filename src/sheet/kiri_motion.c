@@ -302,7 +302,6 @@ static bool StepBodies(kiriSheetData* sheet, const kiriSystem* system, double dt
 {
     const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->bodies;
     int64_t work[MOST_ROUNDS] = { 0 };
-    kiriSolver_ShareRows(sheet->solver, system);
     for (int32_t n = 0; n < moved->count; ++n) {
         int32_t solved = kiriSolver_Step(sheet->solver, system, moved->data[n], dt, sheet->settings.iterations,
                                          (int32_t)kiriMin(most, INT32_MAX));

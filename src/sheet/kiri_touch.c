@@ -216,11 +216,11 @@ static bool Yields(const kiriSheetData* sheet, int32_t yield)
     return yield != KIRI_NONE && sheet->touches.yields.data[yield].inverseMass > 0.0;
 }
 
-/* Adds a vertex. isThinned: keeps only the deepest of the vertices in one place; the first of equal ones. */
-static void Choose(kiriObstacleSearch* search, kiriNearVertex near, bool isThinned)
+/* Adds a vertex. Keeps only the deepest of the vertices in one place; the first of equal ones. */
+static void Choose(kiriObstacleSearch* search, kiriNearVertex near)
 {
     int32_t* link = &search->heads.data[near.patch];
-    while (isThinned && *link != KIRI_NONE) {
+    while (*link != KIRI_NONE) {
         kiriNearVertex* chosen = &search->chosen.data[*link];
         if (IsSamePlace(chosen, &near)) {
             if (near.height < chosen->height) {
@@ -254,7 +254,9 @@ static void LookAtVertex(const kiriMeeting* meeting, int32_t vertex)
         return;
     }
     kiriNearest nearest = kiriObstacleShape_Nearest(shape, local, meeting->across);
-    if (nearest.distance < meeting->reach) {
+    if (nearest.distance < meeting->reach && !meeting->isThinned) {
+        meeting->search->chosen.data[meeting->search->chosen.count++] = (kiriNearVertex){ .vertex = vertex };
+    } else if (nearest.distance < meeting->reach) {
         double height = nearest.distance - Preference(meeting, vertex, nearest.distance);
         kiriNearVertex near = { vertex,
                                 PatchOf(meeting, vertex),
@@ -262,8 +264,7 @@ static void LookAtVertex(const kiriMeeting* meeting, int32_t vertex)
                                 KIRI_NONE,
                                 height,
                                 nearest.normal };
-        bool isThinned = shape->type == KIRI_OBSTACLE_PLANE || Yields(meeting->sheet, meeting->yield);
-        Choose(meeting->search, near, isThinned);
+        Choose(meeting->search, near);
     }
 }
 
@@ -304,7 +305,7 @@ static void ChooseVertices(const kiriMeeting* meeting)
     for (int32_t i = 0; i < search->vertices.count; ++i) {
         LookAtVertex(meeting, search->vertices.data[i]);
     }
-    for (int32_t i = 0; i < search->chosen.count; ++i) {
+    for (int32_t i = 0; meeting->isThinned && i < search->chosen.count; ++i) {
         search->heads.data[search->chosen.data[i].patch] = KIRI_NONE;
     }
 }
@@ -413,7 +414,8 @@ static kiriMeeting MakeMeeting(kiriObstacleSearch* search, kiriSheetData* sheet,
                             1,
                             1,
                             sqrt(sheet->settings.friction * obstacle->friction),
-                            yield };
+                            yield,
+                            obstacle->shape.type == KIRI_OBSTACLE_PLANE || Yields(sheet, yield) };
     kiriBox box = kiriBounds_All(sheet->seen.bounds);
     double square = sheet->mesh.step * sheet->mesh.squares.side;
     meeting.squares = PatchSide(sheet, square);

@@ -138,6 +138,7 @@ typedef struct kiriMeeting {
     int32_t squares, columns; /* grid squares along the side of a patch; patches in a row */
     double friction;          /* coefficient of the pair */
     int32_t yield;            /* yield row of the obstacle's body, or KIRI_NONE */
+    bool isThinned;           /* one vertex a patch touches; else all vertices */
 } kiriMeeting;
 
 /* Returns the velocity of a vertex, blended from the frames, m/s. */
