@@ -3,8 +3,7 @@
 #include "kiri_piece.h"
 #include "../core/kiri_array.h"
 #include "kiri_update.h"
-#include "kiri_sheet.h"
-#include "kiri_motion.h"
+#include "kiri_build.h"
 #include "kiri_pin.h"
 #include "kiri_seen.h"
 
@@ -459,7 +458,7 @@ static bool FillPart(kiriDetach* detach, int32_t piece, kiriSheetData* to)
     CopyPinHistory(part, to);
     kiriPins_SumShares(to);
     to->layout.pieces.data[0].rest = from->layout.pieces.data[piece].rest;
-    kiriMotion_SumRest(to);
+    kiriSheet_SumRest(to);
     kiriView_WritePositions(to);
     to->settings.maxFrames = from->settings.maxFrames;
     return true;
@@ -671,7 +670,7 @@ static void CommitLayout(kiriDetach* detach)
     sheet->update->next = layout;
     kiriPins_WriteLinkParts(sheet);
     kiriPins_SumShares(sheet);
-    kiriMotion_SumRest(sheet);
+    kiriSheet_SumRest(sheet);
 }
 
 static void KeepBlades(const kiriDetach* detach)

@@ -49,67 +49,6 @@ static void ClearForces(kiriSheetData* sheet)
 
 /* ---- Sleep ---- */
 
-void kiriMotion_WakePiece(kiriSheetData* sheet, int32_t piece)
-{
-    KIRI_ASSERT(piece >= 0 && piece < sheet->layout.pieces.count);
-    kiriPiece* woken = &sheet->layout.pieces.data[piece];
-    if (!woken->isGone) {
-        woken->rest.asleep = sheet->rest.asleep = sheet->rest.isIdle = false;
-        woken->rest.calm = 0.0;
-    }
-}
-
-void kiriMotion_WakeFrame(kiriSheetData* sheet, int32_t frame)
-{
-    kiriMotion_WakePiece(sheet, sheet->layout.framePiece.data[frame]);
-}
-
-void kiriMotion_WakePin(kiriSheetData* sheet, int32_t pin)
-{
-    const kiriPinShares* shares = &sheet->layout.pinShares;
-    kiriMotion_WakeFrame(sheet, sheet->layout.pinFrame.data[pin]);
-    for (int32_t k = 0; k < shares->count; ++k) {
-        if (shares->data[k].pin == pin) {
-            kiriMotion_WakeFrame(sheet, shares->data[k].share.frame);
-        }
-    }
-}
-
-void kiriMotion_Wake(kiriSheetData* sheet)
-{
-    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
-        kiriMotion_WakePiece(sheet, p);
-    }
-}
-
-void kiriMotion_WakeStirred(kiriSheetData* sheet)
-{
-    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
-        if (sheet->layout.pieces.data[p].rest.isStirred) {
-            kiriMotion_WakePiece(sheet, p);
-        }
-    }
-    kiriMotion_LetRest(sheet);
-}
-
-void kiriMotion_LetRest(kiriSheetData* sheet)
-{
-    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
-        sheet->layout.pieces.data[p].rest.isStirred = false;
-    }
-    sheet->rest.isStirred = false;
-}
-
-void kiriMotion_SumRest(kiriSheetData* sheet)
-{
-    bool any = false;
-    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
-        any = any || kiriPiece_IsAwake(&sheet->layout.pieces.data[p]);
-    }
-    sheet->rest.asleep = !any;
-    sheet->rest.isIdle = sheet->rest.isIdle && !any;
-}
-
 /* Marks the pieces with fades: their visible surface still moves, so they must not fall asleep. */
 static void MarkFading(kiriSheetData* sheet)
 {
@@ -236,7 +175,7 @@ static int32_t ChooseMoved(kiriSheetData* sheet, const kiriQuota* systems)
     int32_t at = 0, piece;
     KIRI_ASSERT(sheet->turns.waiting == 0);
     while (kiriTouches_NextNew(sheet, &at, &piece)) {
-        kiriMotion_WakePiece(sheet, piece);
+        kiriSheet_WakePiece(sheet, piece);
     }
     if (sheet->rest.asleep) {
         return 0;
@@ -250,7 +189,7 @@ static int32_t ChooseMoved(kiriSheetData* sheet, const kiriQuota* systems)
     int32_t next = DeferBodies(sheet, systems);
     if (areOther || sheet->turns.waiting > 0) {
         kiriTouches_Sort(sheet);
-        kiriMotion_SumRest(sheet);
+        kiriSheet_SumRest(sheet);
     }
     return next;
 }
@@ -280,7 +219,7 @@ static void Stop(kiriSheetData* sheet)
         kiriFrame_PutToRest(&sheet->frames.data[moved->frames.data[n]]);
     }
     for (int32_t n = 0; n < moved->bodies.count; ++n) {
-        kiriMotion_WakePiece(sheet, moved->bodies.data[n]);
+        kiriSheet_WakePiece(sheet, moved->bodies.data[n]);
     }
     kiriPins_ClearReactions(sheet);
     kiriTouches_Clear(sheet);
@@ -397,34 +336,9 @@ int64_t kiriMotion_MostItems(const kiriSheetData* sheet, int32_t substeps)
     return substeps * (sheet->settings.iterations + KIRI_EXTRA_SYSTEMS) * items;
 }
 
-kiriTotals kiriMotion_Sum(const kiriSheetData* sheet, const int32_t* indices, int32_t count)
-{
-    kiriTotals totals;
-    memset(&totals, 0, sizeof(totals));
-    kiriVec3 center = { 0.0, 0.0, 0.0 }, momentum = center, angular = center;
-    for (int32_t i = 0; i < count; ++i) {
-        const kiriFrameData* frame = &sheet->frames.data[indices != NULL ? indices[i] : i];
-        if (kiriSheet_IsGone(sheet, indices != NULL ? indices[i] : i)) {
-            continue;
-        }
-        kiriVec3 p = kiriVec3_Scale(frame->mass, frame->velocity);
-        totals.area += frame->area;
-        totals.mass += frame->mass;
-        totals.kineticEnergy += kiriFrame_KineticEnergy(frame, &sheet->settings.material);
-        center = kiriVec3_AddScaled(center, frame->mass, frame->x);
-        momentum = kiriVec3_Add(momentum, p);
-        angular = kiriVec3_Add(angular, kiriFrame_AngularMomentum(frame, &sheet->settings.material));
-        angular = kiriVec3_Add(angular, kiriVec3_Cross(frame->x, p));
-    }
-    kiriVec3_StoreDoubles(totals.center, kiriVec3_Scale(1.0 / totals.mass, center));
-    kiriVec3_StoreDoubles(totals.momentum, momentum);
-    kiriVec3_StoreDoubles(totals.angularMomentum, angular);
-    return totals;
-}
-
 kiriTotals kiriMotion_Totals(const kiriSheetData* sheet)
 {
-    kiriTotals totals = kiriMotion_Sum(sheet, NULL, sheet->frames.count);
+    kiriTotals totals = kiriSheet_SumFrames(sheet, NULL, sheet->frames.count);
     kiriSystem system = MakeSystem((kiriSheetData*)sheet, kiriVec3_Make(0.0, 0.0, 0.0));
     totals.elasticEnergy = kiriSolver_ElasticEnergy(&system) + kiriPins_ElasticEnergy(sheet);
     return totals;

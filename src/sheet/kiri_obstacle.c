@@ -1,7 +1,6 @@
 #include "kiri_obstacle.h"
 #include "kiri_touch.h"
 #include "../core/kiri_array.h"
-#include "kiri_sheet_save.h"
 
 #include <string.h>
 

@@ -6,6 +6,7 @@
 #include "../core/kiri_array.h"
 #include "../core/kiri_vec.h"
 #include "../motion/kiri_solver.h"
+#include "../core/kiri_archive.h"
 
 KIRI_C_BEGIN
 
@@ -168,6 +169,9 @@ void kiriObstacle_Advance(kiriObstacleData* obstacle, double dt);
 /* Inverts inertia xx yy zz xy xz yz. An axis with a zero diagonal is locked. Returns false for an invalid inertia:
    nonzero products on a locked axis, or not positive definite on the others. */
 bool kiriObstacle_InvertInertia(const float inertia[6], kiriMat3* inverse);
+
+/* Saves one obstacle, or creates one from a save. */
+void kiriObstacle_Archive(kiriArchive* archive, kiriObstacleData** obstacle, kiriMemory* memory);
 
 KIRI_C_END
 

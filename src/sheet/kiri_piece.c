@@ -1,7 +1,5 @@
 #include "kiri_piece.h"
 #include "../core/kiri_array.h"
-#include "kiri_motion.h"
-#include "kiri_touch.h"
 
 #include <string.h>
 
@@ -211,7 +209,7 @@ void kiriPieces_KeepRest(kiriSheetData* sheet, const kiriLayout* old)
             piece->rest = old->pieces.data[piece->origin].rest;
         }
     }
-    kiriMotion_SumRest(sheet);
+    kiriSheet_SumRest(sheet);
 }
 
 int32_t kiriPiece_OfTriangle(const kiriSheetData* sheet, int32_t triangle)
@@ -504,7 +502,7 @@ kiriPieceState kiriPiece_State(const kiriSheetData* sheet, int32_t piece)
     if (sheet->layout.pieces.data[piece].isGone) {
         return (kiriPieceState){ 0 };
     }
-    kiriTotals totals = kiriMotion_Sum(sheet, lists->frames.items.data + frames.first, frames.count);
+    kiriTotals totals = kiriSheet_SumFrames(sheet, lists->frames.items.data + frames.first, frames.count);
     kiriPieceState state;
     memset(&state, 0, sizeof(state));
     state.area = totals.area;

@@ -2,7 +2,6 @@
 #ifndef KIRI_PIECE_H
 #define KIRI_PIECE_H
 
-#include "kiri_update.h"
 #include "kiri_sheet.h"
 
 KIRI_C_BEGIN

@@ -1,5 +1,4 @@
 #include "kiri_pin.h"
-#include "kiri_motion.h"
 #include "kiri_seen.h"
 #include "kiri_sheet_site.h"
 #include "../motion/kiri_solver.h"
@@ -186,7 +185,7 @@ bool kiriCarry_Sheet(kiriSheetData* sheet, const kiriMat3* R, kiriVec3 t, kiriMe
     TurnFades(&sheet->seen.fades, R);
     TurnFades(&sheet->seen.pointFades, R);
     kiriView_WritePositions(sheet);
-    kiriMotion_Wake(sheet);
+    kiriSheet_WakeAll(sheet);
     return true;
 }
 
@@ -283,7 +282,7 @@ bool kiriCarry_SetVelocity(kiriSheetData* sheet, int32_t piece, kiriVec3 velocit
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
         if (IsOf(sheet, i, piece)) {
             GiveVelocity(&sheet->frames.data[i], center, velocity, spin);
-            kiriMotion_WakeFrame(sheet, i);
+            kiriSheet_WakeFrame(sheet, i);
         }
     }
     return true;

@@ -4,7 +4,6 @@
 
 #include "kiri_piece.h"
 #include "kiri_sheet.h"
-#include "kiri_update.h"
 
 KIRI_C_BEGIN
 

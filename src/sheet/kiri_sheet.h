@@ -1,5 +1,6 @@
-/* Vertex indices at the start of the last tick, in this sheet or in the sheet that a part came from. Hosts that
-   interpolate between ticks read them; the simulation does not. Free while no vertex changes its index. */
+/* The data of a sheet. Grid, regions and shape functions follow the mesh in place, over as many ticks as the budget
+   requires. The solver uses the committed frames, links and weights. An update stages new ones in kiriUpdate, and one
+   commit replaces the old ones. */
 #ifndef KIRI_SHEET_H
 #define KIRI_SHEET_H
 
@@ -14,6 +15,8 @@
 
 KIRI_C_BEGIN
 
+/* Vertex indices at the start of the last tick, in this sheet or in the sheet that a part came from. Hosts that
+   interpolate between ticks read them; the simulation does not. Free while no vertex changes its index. */
 typedef struct kiriPast {
     int64_t tick;    /* the tick that changed an index last; in a later tick all indices are unchanged */
     kiriSheet sheet; /* the sheet that had the vertices; 0: this one */
@@ -56,10 +59,6 @@ bool kiriPast_Keep(kiriPast* to, const kiriPast* past, kiriMemory* memory, const
 /* Makes the past of a sheet that is split off with these vertices. */
 bool kiriPast_Part(kiriPast* to, const kiriPast* past, kiriMemory* memory, kiriSheet sheet, const int32_t* vertices,
                    int32_t count);
-
-/* The data of a sheet. Grid, regions and shape functions follow the mesh in place, over as many ticks as the budget
-   requires. The solver uses the committed frames, links and weights. An update stages new ones in kiriUpdate, and one
-   commit replaces the old ones. */
 
 /* s: a piece that stays below sleepSpeed this long falls asleep. An object that moves less than sleepSpeed times this
    does not wake it. */
@@ -361,7 +360,84 @@ typedef struct kiriSeen {
     bool areFadesAsleep;               /* a sleeping or destroyed piece fades */
 } kiriSeen;
 
-struct kiriUpdate;
+/* Progress of an update: the work that follows a cut, spread over ticks. An update takes all points that are pending
+   when it starts. Mesh, grid, regions and weights do not depend on how points are grouped into updates. Sites of frames
+   would, so sites are added only at moments that the points decide, see settlesSites. */
+
+/* State of the cut stage: it processes the points at the head of the queue. */
+typedef struct kiriCutWork {
+    int64_t stamp; /* stamp of the first of these points */
+    int32_t count, taken;
+    bool meshChanged; /* the mesh changed, or there may be too few sites: the other stages have work */
+
+    /* A blade reached the border or a lip, or a cut ended. Then the update takes no points of later ticks and adds
+       frames if there are too few. No other update adds frames, so the sites do not depend on the budget. */
+    bool settlesSites;
+} kiriCutWork;
+
+/* State of the placer: sites of frames, and points, are placed piece by piece. See kiri_sheet_site.c. */
+typedef struct kiriPlacingWork {
+    kiriSites sites; /* of existing frames, then of new ones */
+    KIRI_ARRAY(kiriSiteMove) moves;
+    int32_t movesSeen; /* count of moves that the regions have processed */
+    int32_t spread;    /* frames to spread over a new sheet */
+    int32_t pieces;    /* count of pieces that have no frame yet */
+    kiriPlacer placer;
+    bool isTaking;               /* the placer is collecting a piece */
+    bool isPlacing;              /* the placer is placing sites */
+    kiriSlitSearch search;       /* slit ends of the piece */
+    bool isAgain;                /* all sites of the piece are placed again */
+    bool isFirst;                /* first round of re-sampling in this update */
+    double whole;                /* m^2: area of the sheet, while items are spread over it */
+    int32_t at;                  /* current orphan, frame or piece */
+    KIRI_ARRAY(uint8_t) marks;   /* per cell, frame or piece */
+    KIRI_ARRAY(uint8_t) allowed; /* per cell */
+    KIRI_ARRAY(uint8_t) flags;   /* per square or cell */
+    KIRI_ARRAY(int32_t) own;     /* frames of the current piece */
+} kiriPlacingWork;
+
+typedef struct kiriSampleWork {
+    int32_t oldVertices; /* vertex count at the last commit; newer vertices have interpolated weights */
+    kiriRefresh refresh;
+    KIRI_ARRAY(kiriSample) newPoints;
+    KIRI_ARRAY(kiriSample) movedPoints; /* `frame` is the index of a point, `cell` its new cell */
+} kiriSampleWork;
+
+/* A frame that the commit adds. */
+typedef struct kiriNewFrame {
+    kiriLatticePoint anchor;
+    int32_t triangle; /* source of its motion */
+} kiriNewFrame;
+
+/* Items that a commit changed, for the profile. */
+typedef struct kiriCommitCounts {
+    int32_t cells, weights, vertices, points, links;
+} kiriCommitCounts;
+
+typedef struct kiriUpdate {
+    int32_t stage;     /* KIRI_STAGE_..., the next to run; KIRI_READY: all are done; KIRI_NONE: no update */
+    int32_t step;      /* within the stage */
+    int64_t spent;     /* budget items; stage, step and spent together measure the progress */
+    bool needsRebuild; /* grid, regions and shape are invalid: the next update rebuilds them */
+    bool isScratch;    /* this update rebuilds grid, regions and shape */
+    bool isUnsettled;  /* the mesh has changed since an update settled sites */
+
+    kiriCutWork cut;
+    kiriPlacingWork placing;
+    KIRI_ARRAY(kiriMoments) material; /* moments of each frame's region */
+    kiriSampleWork samples;
+    kiriRefit refit;
+    int64_t due;                        /* items of the current step that are not paid yet */
+    KIRI_ARRAY(kiriNewFrame) newFrames; /* in the order of their sites */
+    kiriIntegrationWork integration;
+
+    /* Staged for the commit, beside links and weights. */
+    kiriLayout next;
+    KIRI_ARRAY(int32_t) parent; /* union-find of frames */
+    kiriCommitCounts counts;
+} kiriUpdate;
+
+enum { KIRI_READY = KIRI_STAGE_CONTACT };
 
 typedef struct kiriSheetData {
     kiriSheet id;
@@ -375,7 +451,7 @@ typedef struct kiriSheetData {
     kiriGrid grid;
     kiriRegions regions;
     kiriShape shape;
-    struct kiriUpdate* update; /* see kiri_update.h */
+    kiriUpdate* update;
 
     /* Committed: the state that the solver uses. */
     KIRI_ARRAY(kiriFrameData) frames;
@@ -490,32 +566,29 @@ static inline double kiriSheet_Extent(const kiriSheetData* sheet)
 /* Computes the lattice point of a rest position. Returns false if the position is outside the lattice. */
 bool kiriSheet_ToLattice(const kiriSheetData* sheet, const float rest[2], kiriLatticePoint* at);
 
-/* Settings that the host may change after creation. */
+/* Returns true if grid, regions and shape match the current mesh. */
+static inline bool kiriUpdate_IsFieldCurrent(const kiriUpdate* update)
+{
+    bool isUntouched = update->stage == KIRI_NONE || (update->stage == KIRI_STAGE_CUT && !update->cut.meshChanged);
+    return isUntouched && !update->needsRebuild;
+}
 
-/* Returns the settings of a def. */
-kiriSheetSettings kiriSettings_Of(const kiriSheetDef* def);
+/* Wake all pieces, one piece, the piece of a frame, or the pieces that a pin holds. They stay awake for half a second
+   at least. */
+void kiriSheet_WakeAll(kiriSheetData* sheet);
+void kiriSheet_WakePiece(kiriSheetData* sheet, int32_t piece);
+void kiriSheet_WakeFrame(kiriSheetData* sheet, int32_t frame);
+void kiriSheet_WakePin(kiriSheetData* sheet, int32_t pin);
 
-/* Copies checked settings. `square` is the side of a grid square, m. Settings of the def alone are already set. */
-void kiriSettings_Take(kiriSettings* settings, const kiriSheetSettings* given, double square);
+/* Computes the sleep state of the sheet from its pieces. */
+void kiriSheet_SumRest(kiriSheetData* sheet);
 
-/* Copies the settings to the parts of a new sheet that store a copy. */
-void kiriSettings_Apply(kiriSheetData* sheet);
+/* Wake the stirred pieces, or let them sleep. Both clear isStirred. */
+void kiriSheet_WakeStirred(kiriSheetData* sheet);
+void kiriSheet_LetRest(kiriSheetData* sheet);
 
-/* Changes the settings of an existing sheet and updates dependent state. Changes nothing on out of memory: false. */
-bool kiriSettings_Change(kiriSheetData* sheet, const kiriSheetSettings* given);
-
-/* Stages the solver for the committed state: after a load, or for a new material, which may add corners. An update
-   stages the solver in the tick of its commit, so this cannot destroy its staging. Fails on out of memory. */
-bool kiriSheet_RestageSolver(kiriSheetData* sheet, const kiriMaterial* material);
-
-/* Creation of a sheet from its def. */
-
-/* Builds a new sheet from a checked def. On failure the fault gives the reason, or "" if the result is enough, and the
-   caller deletes the sheet. The world assigns the ids of sheet and frames. */
-kiriResult kiriBuild_FromDef(kiriSheetData* sheet, const kiriSheetDef* def, kiriFault* fault);
-
-/* Commits the first layout of a sheet, after all stages. Fails on out of memory. */
-bool kiriBuild_Commit(kiriSheetData* sheet);
+/* Returns the totals of some frames (null: the first `count`), without the elastic energy. */
+kiriTotals kiriSheet_SumFrames(const kiriSheetData* sheet, const int32_t* frames, int32_t count);
 
 KIRI_C_END
 

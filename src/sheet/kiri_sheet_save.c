@@ -4,6 +4,7 @@
 #include "../mesh/kiri_mesh_check.h"
 #include "../motion/kiri_motion_check.h"
 #include "../view/kiri_view_check.h"
+#include "kiri_build.h"
 #include "kiri_detach.h"
 #include "kiri_seen.h"
 #include "kiri_touch.h"

@@ -1,9 +1,8 @@
-/* Sheets and obstacles as bytes, and the checks of sheets that were loaded: see core/kiri_archive.h. */
+/* Sheets as bytes, and the checks of sheets that were loaded: see core/kiri_archive.h. */
 #ifndef KIRI_SHEET_SAVE_H
 #define KIRI_SHEET_SAVE_H
 
 #include "../core/kiri_archive.h"
-#include "kiri_obstacle.h"
 #include "kiri_sheet.h"
 
 KIRI_C_BEGIN
@@ -20,9 +19,6 @@ bool kiriSheet_EndReading(kiriSheetData* sheet, bool isWhole);
 
 /* Hashes sizes and offsets of all fields of a sheet. */
 void kiriSheet_HashLayout(uint64_t* hash);
-
-/* One obstacle, which is created when it is read. */
-void kiriObstacle_Archive(kiriArchive* archive, kiriObstacleData** obstacle, kiriMemory* memory);
 
 KIRI_C_END
 

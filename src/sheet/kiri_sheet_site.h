@@ -3,7 +3,7 @@
 #ifndef KIRI_SHEET_SITE_H
 #define KIRI_SHEET_SITE_H
 
-#include "kiri_update.h"
+#include "kiri_sheet.h"
 
 KIRI_C_BEGIN
 

@@ -8,7 +8,6 @@
 
 #include "kiri_obstacle.h"
 #include "kiri_sheet.h"
-#include "kiri_update.h"
 
 #include <string.h>
 

@@ -76,7 +76,7 @@ static void EndWithTick(kiriSheetData* sheet, const kiriQueuedPoint* last)
 }
 
 /* Takes queued points as far as the quota goes. New vertices lie on the visible surface. */
-kiriProgress kiriStage_SplitMesh(kiriSheetData* sheet, kiriQuota* triangles)
+static kiriProgress StageCut(kiriSheetData* sheet, kiriQuota* triangles)
 {
     kiriUpdate* u = sheet->update;
     kiriProgress progress = KIRI_DONE;
@@ -111,7 +111,7 @@ void kiriStage_CommitMesh(kiriSheetData* sheet)
 enum { RELOCATE_SITES, DIVIDE_REGIONS, PLACE_IN_ORPHANS };
 enum { WEIGH_CELLS, ADD_SITES, DIVIDE_AGAIN, MAKE_LINKS };
 
-kiriProgress kiriStage_Grid(kiriSheetData* sheet, kiriQuota* cells)
+static kiriProgress StageGrid(kiriSheetData* sheet, kiriQuota* cells)
 {
     kiriUpdate* u = sheet->update;
     if (u->needsRebuild || (sheet->settings.fromScratch && !u->isScratch)) {
@@ -148,7 +148,7 @@ static kiriProgress DivideRegions(kiriSheetData* sheet, kiriQuota* cells)
     return progress;
 }
 
-kiriProgress kiriStage_Regions(kiriSheetData* sheet, kiriQuota* cells)
+static kiriProgress StageRegions(kiriSheetData* sheet, kiriQuota* cells)
 {
     kiriUpdate* u = sheet->update;
     if (u->step == RELOCATE_SITES) {
@@ -232,7 +232,7 @@ static kiriProgress SettleSites(kiriSheetData* sheet, kiriQuota* cells)
     }
 }
 
-kiriProgress kiriStage_Shape(kiriSheetData* sheet, kiriQuota* cells)
+static kiriProgress StageShape(kiriSheetData* sheet, kiriQuota* cells)
 {
     if (sheet->update->step != MAKE_LINKS) {
         kiriProgress progress = SettleSites(sheet, cells);
@@ -343,7 +343,8 @@ static kiriProgress JoinPieces(kiriSheetData* sheet, kiriQuota* samples)
 
 static kiriSampleSource VertexSource(kiriSheetData* sheet)
 {
-    return (kiriSampleSource){ sheet->memory, &sheet->shape, &sheet->grid, &sheet->mesh, &sheet->vertexSkin, NULL, NULL };
+    return (
+        kiriSampleSource){ sheet->memory, &sheet->shape, &sheet->grid, &sheet->mesh, &sheet->vertexSkin, NULL, NULL };
 }
 
 static kiriProgress FindSamples(kiriSheetData* sheet, kiriQuota* samples)
@@ -370,7 +371,11 @@ static kiriProgress WeighPoints(kiriSheetData* sheet, kiriQuota* samples)
                                                                                                 : KIRI_FAILED;
 }
 
-kiriProgress kiriStage_RunSteps(kiriSheetData* sheet, kiriQuota* quota, kiriStageStep* const* steps, int32_t count)
+/* Part of a stage. */
+typedef kiriProgress StageStep(kiriSheetData* sheet, kiriQuota* quota);
+
+/* Runs a stage in steps, from sheet->update->step on, which starts at 0. */
+static kiriProgress RunSteps(kiriSheetData* sheet, kiriQuota* quota, StageStep* const* steps, int32_t count)
 {
     kiriProgress progress = KIRI_DONE;
     while (progress == KIRI_DONE && sheet->update->step < count) {
@@ -383,27 +388,153 @@ kiriProgress kiriStage_RunSteps(kiriSheetData* sheet, kiriQuota* quota, kiriStag
 /* Step of KIRI_STAGE_SAMPLES at which StartAgain resumes. */
 enum { WEIGH_VERTICES = 2 };
 
-kiriProgress kiriStage_Samples(kiriSheetData* sheet, kiriQuota* samples)
+static kiriProgress StageSamples(kiriSheetData* sheet, kiriQuota* samples)
 {
-    static kiriStageStep* const steps[] = { JoinPieces, FindSamples, WeighVertices, WeighPoints, PlaceCollisionPoints };
+    static StageStep* const steps[] = { JoinPieces, FindSamples, WeighVertices, WeighPoints, PlaceCollisionPoints };
     KIRI_ASSERT(steps[WEIGH_VERTICES] == WeighVertices);
-    return kiriStage_RunSteps(sheet, samples, steps, (int32_t)(sizeof(steps) / sizeof(steps[0])));
+    return RunSteps(sheet, samples, steps, (int32_t)(sizeof(steps) / sizeof(steps[0])));
 }
+
+/* ---- Constants ---- */
+
+/* Builds the elements that affine frames need in addition to links. */
+static bool BuildAreaElements(kiriSheetData* sheet)
+{
+    kiriUpdate* u = sheet->update;
+    bool planar = sheet->settings.mechanics.planar;
+    switch (sheet->settings.mechanics.model) {
+    case KIRI_MODEL_AFFINE:
+        return kiriAffine_Build(&u->next.areaElements, sheet->memory, sheet->links.next.data, sheet->links.next.count,
+                                u->material.data, u->placing.sites.count, planar);
+    case KIRI_MODEL_POINTS:
+        return kiriIntegration_Build(&u->next.areaElements, &u->integration, sheet->memory, &sheet->grid, &sheet->mesh,
+                                     &sheet->shape, u->material.data, sheet->settings.integrationPoints,
+                                     sheet->settings.integrationOrder, planar);
+    default:
+        return true;
+    }
+}
+
+static bool ReservePoints(kiriSheetData* sheet)
+{
+    const kiriUpdate* u = sheet->update;
+    int32_t need = sheet->points.count + u->samples.newPoints.count;
+    const kiriViewCounts counts = { sheet->mesh.vertices.count, sheet->mesh.triangles.count, u->placing.sites.count,
+                                    need };
+    return kiriArray_Reserve(sheet->memory, &sheet->points, need) &&
+           kiriPlaces_Reserve(&sheet->pointPlaces, sheet->memory, &sheet->mesh, need) &&
+           kiriView_Reserve(sheet, counts);
+}
+
+bool kiriStage_Solver(kiriSheetData* sheet, int32_t frameCount)
+{
+    const kiriUpdate* u = sheet->update;
+    const kiriSystem next = { .mechanics = sheet->settings.mechanics,
+                              .material = sheet->settings.material,
+                              .frameCount = frameCount,
+                              .links = sheet->links.next.data,
+                              .linkCount = sheet->links.next.count,
+                              .corners = sheet->links.nextCorners.data,
+                              .cornerCount = sheet->links.nextCorners.count,
+                              .areaElements = &u->next.areaElements };
+    return kiriSolver_Stage(sheet->solver, &next, u->next.framePiece.data, u->next.pieces.count);
+}
+
+static kiriProgress StageOwnersOfMaterial(kiriSheetData* sheet, kiriQuota* samples)
+{
+    kiriUpdate* u = sheet->update;
+    u->newFrames.count = 0;
+    u->due = 0;
+    return kiriRefit_Stage(&u->refit, sheet->memory, &sheet->grid, &sheet->mesh, &sheet->regions, u->isScratch,
+                           samples);
+}
+
+/* Returns the cost of PrepareCommit and of the commit, in items. */
+static int64_t ItemsOfCommit(const kiriSheetData* sheet)
+{
+    enum { WEIGHTS_AN_ITEM = 64, OWNERS_AN_ITEM = 256, ELEMENTS_AN_ITEM = 8, ITEMS_OF_FIT = 2 };
+    const kiriUpdate* u = sheet->update;
+    int64_t weights = (int64_t)sheet->vertexSkin.staged.count + sheet->pointSkin.staged.count;
+    int64_t elements = (int64_t)sheet->links.next.count + sheet->links.nextCorners.count + u->placing.sites.count;
+    return 1 + weights / WEIGHTS_AN_ITEM + u->refit.ownership.staged.count / OWNERS_AN_ITEM + u->newFrames.count +
+           ITEMS_OF_FIT * (int64_t)u->refit.most + sheet->links.changed + elements / ELEMENTS_AN_ITEM;
+}
+
+/* Finds the anchors of new frames and the triangles that they take their motion from. */
+static kiriProgress PlaceNewFrames(kiriSheetData* sheet, kiriQuota* samples)
+{
+    kiriUpdate* u = sheet->update;
+    int32_t count = u->placing.sites.count - sheet->frames.count;
+    if (!kiriArray_Reserve(sheet->memory, &u->newFrames, count)) {
+        return KIRI_FAILED;
+    }
+    while (kiriQuota_Pay(samples, &u->due)) {
+        if (u->newFrames.count == count) {
+            u->due = ItemsOfCommit(sheet);
+            return KIRI_DONE;
+        }
+        int32_t cell = u->placing.sites.data[sheet->frames.count + u->newFrames.count].cell;
+        kiriNewFrame frame = { kiriGrid_Anchor(&sheet->grid, &sheet->mesh, cell), KIRI_NONE };
+        frame.triangle = kiriMesh_Locate(&sheet->mesh, frame.anchor);
+        frame.triangle = frame.triangle == KIRI_NONE ? sheet->grid.cells.data[cell].triangle : frame.triangle;
+        u->newFrames.data[u->newFrames.count++] = frame;
+        u->due = 1 + kiriSquares_CountNodes(&sheet->mesh.squares, sheet->grid.cells.data[cell].square) / 4;
+    }
+    return KIRI_MORE;
+}
+
+/* Stages the state that the host may change between ticks, once the commit is paid. */
+static kiriProgress PrepareCommit(kiriSheetData* sheet, kiriQuota* samples)
+{
+    kiriUpdate* u = sheet->update;
+    if (!kiriQuota_Pay(samples, &u->due)) {
+        return KIRI_MORE;
+    }
+    bool ok = (!kiriSheet_KeepsStrains(sheet) ||
+               kiriStrainOffsets_Reserve(&sheet->strainOffsets, sheet->memory,
+                                         kiriMax(sheet->links.next.count, sheet->links.links.count),
+                                         u->placing.sites.count)) &&
+              BuildAreaElements(sheet) && kiriPins_Stage(sheet) && ReservePoints(sheet) &&
+              kiriArray_Reserve(sheet->memory, &sheet->frames, u->placing.sites.count) &&
+              kiriStage_Solver(sheet, u->placing.sites.count);
+    return ok ? KIRI_DONE : KIRI_FAILED;
+}
+
+kiriProgress kiriStage_Owners(kiriSheetData* sheet, kiriQuota* samples)
+{
+    kiriUpdate* u = sheet->update;
+    KIRI_ASSERT(u->stage == KIRI_STAGE_CONSTANTS && u->isScratch);
+    kiriProgress progress = u->step == 0 ? StageOwnersOfMaterial(sheet, samples) : KIRI_DONE;
+    u->step = progress == KIRI_DONE ? 1 : 0;
+    return progress;
+}
+
+/* The last step of the stage: the state that the host may change between ticks. */
+enum { PREPARE_COMMIT = 2 };
+
+static kiriProgress StageConstants(kiriSheetData* sheet, kiriQuota* samples)
+{
+    static StageStep* const steps[] = { StageOwnersOfMaterial, PlaceNewFrames, PrepareCommit };
+    KIRI_ASSERT(steps[PREPARE_COMMIT] == PrepareCommit);
+    return RunSteps(sheet, samples, steps, (int32_t)(sizeof(steps) / sizeof(steps[0])));
+}
+
+/* ---- Pipeline ---- */
 
 typedef struct PipelineStage {
     int quota;
-    kiriProgress (*run)(kiriSheetData* sheet, kiriQuota* quota);
+    StageStep* run;
 } PipelineStage;
 
 /* The stages after a cut, in the order of KIRI_STAGE. Each may spend its quota, or run out of memory; the solver uses
    the results only after the commit. */
 static const PipelineStage pipeline[KIRI_READY] = {
-    { KIRI_QUOTA_TRIANGLES, kiriStage_SplitMesh }, /* appendix A, algorithm 4 */
-    { KIRI_QUOTA_CELLS, kiriStage_Grid },          /* section 4.2, algorithm 3 */
-    { KIRI_QUOTA_CELLS, kiriStage_Regions },       /* section 5: frames for pieces that have none */
-    { KIRI_QUOTA_CELLS, kiriStage_Shape },         /* section 4.1, algorithm 2; re-sampling of section 5 */
-    { KIRI_QUOTA_SAMPLES, kiriStage_Samples },     /* section 6 */
-    { KIRI_QUOTA_SAMPLES, kiriStage_Constants },   /* owners of material, new frames, the pattern of the matrix */
+    { KIRI_QUOTA_TRIANGLES, StageCut },     /* appendix A, algorithm 4 */
+    { KIRI_QUOTA_CELLS, StageGrid },        /* section 4.2, algorithm 3 */
+    { KIRI_QUOTA_CELLS, StageRegions },     /* section 5: frames for pieces that have none */
+    { KIRI_QUOTA_CELLS, StageShape },       /* section 4.1, algorithm 2; re-sampling of section 5 */
+    { KIRI_QUOTA_SAMPLES, StageSamples },   /* section 6 */
+    { KIRI_QUOTA_SAMPLES, StageConstants }, /* owners of material, new frames, the pattern of the matrix */
 };
 
 kiriQuotas kiriQuotas_Of(const kiriBudget* budget)
@@ -509,6 +640,20 @@ bool kiriPipeline_CanRun(const kiriSheetData* sheet, const kiriQuotas* quotas)
     return stage == KIRI_READY || quotas->of[pipeline[stage].quota].left > 0;
 }
 
+static void DropStaged(kiriSheetData* sheet)
+{
+    kiriUpdate* u = sheet->update;
+    kiriSkin_Drop(&sheet->vertexSkin);
+    kiriSkin_Drop(&sheet->pointSkin);
+    u->samples.newPoints.count = u->samples.movedPoints.count = 0;
+    u->placing.sites.count = sheet->frames.count;
+    u->placing.moves.count = u->placing.movesSeen = 0;
+    u->placing.isTaking = u->placing.isPlacing = false;
+    kiriLinks_Drop(&sheet->links);
+    kiriRefresh_Drop(&u->samples.refresh);
+    kiriRefit_Drop(&u->refit);
+}
+
 /* Returns to the last restart point after an item failed halfway. Rare, because the item could use the spare block. */
 static void StartAgain(kiriSheetData* sheet)
 {
@@ -523,7 +668,7 @@ static void StartAgain(kiriSheetData* sheet)
         u->placing.isTaking = u->placing.isPlacing = false;
         u->step = WEIGH_VERTICES;
     } else if (u->stage >= KIRI_STAGE_GRID && u->stage <= KIRI_STAGE_SHAPE) {
-        kiriStage_Drop(sheet);
+        DropStaged(sheet);
         u->needsRebuild = true;
         u->stage = KIRI_STAGE_GRID;
         u->step = 0;
@@ -562,7 +707,7 @@ void kiriPipeline_Wait(kiriSheetData* sheet)
     kiriUpdate* u = sheet->update;
     if (u->stage == KIRI_READY && u->cut.meshChanged) {
         u->stage = KIRI_STAGE_CONSTANTS;
-        u->step = KIRI_PREPARE_COMMIT;
+        u->step = PREPARE_COMMIT;
     }
 }
 
@@ -590,8 +735,7 @@ static kiriFrameData MakeFrame(const kiriSheetData* sheet, const kiriNewFrame* f
    gradient; an affine frame gets the gradient itself. */
 static void TakeMotion(const kiriSheetData* sheet, kiriFrameData* frame, int32_t triangle)
 {
-    kiriMotion motion = kiriSkin_Motion(&sheet->vertexSkin, sheet->frames.data, &sheet->mesh,
-                                        triangle, frame->anchor);
+    kiriMotion motion = kiriSkin_Motion(&sheet->vertexSkin, sheet->frames.data, &sheet->mesh, triangle, frame->anchor);
     frame->x = motion.x;
     frame->velocity = motion.velocity;
     if (sheet->settings.mechanics.model == KIRI_MODEL_LINKS) {
@@ -752,18 +896,4 @@ void kiriStage_Commit(kiriSheetData* sheet)
     kiriView_Resize(sheet, sheet->frames.count);
     sheet->seen.isElsewhere = true;
     u->samples.oldVertices = sheet->mesh.vertices.count;
-}
-
-void kiriStage_Drop(kiriSheetData* sheet)
-{
-    kiriUpdate* u = sheet->update;
-    kiriSkin_Drop(&sheet->vertexSkin);
-    kiriSkin_Drop(&sheet->pointSkin);
-    u->samples.newPoints.count = u->samples.movedPoints.count = 0;
-    u->placing.sites.count = sheet->frames.count;
-    u->placing.moves.count = u->placing.movesSeen = 0;
-    u->placing.isTaking = u->placing.isPlacing = false;
-    kiriLinks_Drop(&sheet->links);
-    kiriRefresh_Drop(&u->samples.refresh);
-    kiriRefit_Drop(&u->refit);
 }

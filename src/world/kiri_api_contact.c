@@ -282,7 +282,7 @@ static kiriResult AddNewPin(kiriWorld* world, kiriSheetData* data, const kiriPin
         *pin = kiriPool_Add(&world->pinIds, &world->memory, data, data->pins.count - 1);
         data->pins.data[data->pins.count - 1].id = *pin;
         kiriPins_ForgetHistory(data, data->pins.count - 1);
-        kiriMotion_WakePin(data, data->pins.count - 1);
+        kiriSheet_WakePin(data, data->pins.count - 1);
     }
     return result;
 }
@@ -369,7 +369,7 @@ kiriResult kiriPin_SetTarget(kiriWorld* world, kiriPin pin, const float target[3
         data->target = kiriVec3_Load(target);
         kiriPinStep_Fasten(world, data);
         kiriPins_ForgetHistory(sheet, call->index);
-        kiriMotion_WakePin(sheet, call->index);
+        kiriSheet_WakePin(sheet, call->index);
     }
     KIRI_RETURN(KIRI_OK);
 }
@@ -387,7 +387,7 @@ kiriResult kiriPin_SetPose(kiriWorld* world, kiriPin pin, const float target[3],
         data->target = kiriVec3_Load(target);
         data->rotation = m;
         kiriPins_ForgetHistory(sheet, call->index);
-        kiriMotion_WakePin(sheet, call->index);
+        kiriSheet_WakePin(sheet, call->index);
     }
     KIRI_RETURN(KIRI_OK);
 }
@@ -398,7 +398,7 @@ kiriResult kiriPin_SetBreakForce(kiriWorld* world, kiriPin pin, float breakForce
     kiriPinData* data = &call->sheet->pins.data[call->index];
     if (data->breakForce != (double)breakForce) {
         data->breakForce = breakForce;
-        kiriMotion_WakePin(call->sheet, call->index);
+        kiriSheet_WakePin(call->sheet, call->index);
     }
     KIRI_RETURN(KIRI_OK);
 }

@@ -342,7 +342,7 @@ kiriResult kiriFrame_Hold(kiriWorld* world, kiriFrame frame, const float positio
     kiriFrameData* data = &call->sheet->frames.data[call->index];
     if (position == NULL) {
         if (data->held) {
-            kiriMotion_WakeFrame(call->sheet, call->index);
+            kiriSheet_WakeFrame(call->sheet, call->index);
         }
         data->held = 0;
         KIRI_RETURN(KIRI_OK);
@@ -361,7 +361,7 @@ kiriResult kiriFrame_Hold(kiriWorld* world, kiriFrame frame, const float positio
         data->heldRotation = kiriMat3_Rotation(data->A);
         data->isOffKnown = false;
     }
-    kiriMotion_WakeFrame(call->sheet, call->index);
+    kiriSheet_WakeFrame(call->sheet, call->index);
     KIRI_RETURN(KIRI_OK);
 }
 

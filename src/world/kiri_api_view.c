@@ -158,7 +158,7 @@ kiriResult kiriSheet_IsAwake(const kiriWorld* world, kiriSheet sheet, int32_t* a
 kiriResult kiriSheet_Wake(kiriWorld* world, kiriSheet sheet)
 {
     KIRI_CHANGES(Sheet_Wake, &sheet);
-    kiriMotion_Wake(call->sheet);
+    kiriSheet_WakeAll(call->sheet);
     KIRI_RETURN(KIRI_OK);
 }
 

@@ -3,7 +3,7 @@
 #include "kiri_tick.h"
 #include "../core/kiri_vec.h"
 #include "../sheet/kiri_motion.h"
-#include "../sheet/kiri_sheet.h"
+#include "../sheet/kiri_build.h"
 #include "../sheet/kiri_pin.h"
 #include "../sheet/kiri_piece.h"
 
@@ -232,7 +232,7 @@ kiriResult kiriWorld_SetGravity(kiriWorld* world, const float gravity[3])
     kiriVec3 before = world->gravity;
     world->gravity = kiriVec3_Load(gravity);
     for (int32_t i = 0; i < world->sheets.count && !kiriVec3_Equal(before, world->gravity); ++i) {
-        kiriMotion_Wake(world->sheets.data[i]);
+        kiriSheet_WakeAll(world->sheets.data[i]);
     }
     KIRI_RETURN(KIRI_OK);
 }
@@ -459,7 +459,7 @@ static void WakeFor(kiriSheetData* sheet, int32_t frame, const float force[3], c
 {
     const kiriVec3 none = { 0.0, 0.0, 0.0 };
     if (!kiriVec3_Equal(kiriVec3_Load(force), none) || !kiriVec3_Equal(kiriVec3_Load(torque), none)) {
-        kiriMotion_WakeFrame(sheet, frame);
+        kiriSheet_WakeFrame(sheet, frame);
     }
 }
 
@@ -508,7 +508,7 @@ kiriResult kiriSheet_ApplyPressure(kiriWorld* world, kiriSheet sheet, float pres
     KIRI_CHANGES(Sheet_ApplyPressure, &sheet, &pressure);
     kiriLoad_OnSurface(call->sheet, pressure);
     if (pressure != 0.0f) {
-        kiriMotion_Wake(call->sheet);
+        kiriSheet_WakeAll(call->sheet);
     }
     KIRI_RETURN(KIRI_OK);
 }
@@ -524,7 +524,7 @@ kiriResult kiriSheet_ApplyImpulse(kiriWorld* world, kiriSheet sheet, const float
     KIRI_CHECK(kiriLoad_Impulse(data, &place, kiriVec3_Load(impulse)), "floats cannot hold what comes of it");
     if (impulse[0] != 0.0f || impulse[1] != 0.0f || impulse[2] != 0.0f) {
         int32_t vertex = data->mesh.triangles.data[place.triangle].vertex[0];
-        kiriMotion_WakePiece(data, kiriPiece_OfVertex(data, vertex));
+        kiriSheet_WakePiece(data, kiriPiece_OfVertex(data, vertex));
     }
     KIRI_RETURN(KIRI_OK);
 }
@@ -538,7 +538,7 @@ kiriResult kiriSheet_SetWind(kiriWorld* world, kiriSheet sheet, const kiriWind* 
     if (!kiriVec3_Equal(air.velocity, was->velocity) || air.density != was->density || air.drag != was->drag ||
         air.lift != was->lift) {
         data->settings.air = air;
-        kiriMotion_Wake(data);
+        kiriSheet_WakeAll(data);
     }
     KIRI_RETURN(KIRI_OK);
 }

@@ -277,7 +277,7 @@ static void BeginPin(const kiriWorld* world, kiriSheetData* sheet, int32_t index
         pin->lastTarget = from;
         pin->target = to;
         kiriPins_ForgetHistory(sheet, index);
-        kiriMotion_WakePin(sheet, index);
+        kiriSheet_WakePin(sheet, index);
     }
     Soften(world, sheet, obstacle, from, &pin->anchor);
 }
@@ -348,11 +348,11 @@ static void WakeNear(kiriWorld* world, kiriSheetData* sheet, const kiriObstacleD
     const kiriIndices* triangles = &search->triangles;
     search->memory = &world->memory;
     if (sheet->layout.pieces.count == 1 || !FindNear(search, sheet, obstacle, sheet->settings.contactThickness)) {
-        kiriMotion_Wake(sheet);
+        kiriSheet_WakeAll(sheet);
         return;
     }
     for (int32_t i = 0; i < triangles->count; ++i) {
-        kiriMotion_WakePiece(sheet, kiriPiece_OfTriangle(sheet, triangles->data[i]));
+        kiriSheet_WakePiece(sheet, kiriPiece_OfTriangle(sheet, triangles->data[i]));
     }
 }
 

@@ -481,7 +481,7 @@ static void HidePieces(kiriWorld* world, const kiriDetach* detach)
         sheet->layout.pieces.data[p].isGone = !detach->rest.pieces.data[p];
     }
     kiriTouches_Sort(sheet); /* nothing that is gone pushes */
-    kiriMotion_SumRest(sheet);
+    kiriSheet_SumRest(sheet);
     kiriView_HideGone(sheet);
 }
 

@@ -302,7 +302,7 @@ static void WakeStirred(kiriWorld* world)
 {
     for (int32_t k = 0; k < world->active.count; ++k) {
         if (kiriWorld_Active(world, k)->rest.isStirred) {
-            kiriMotion_WakeStirred(kiriWorld_Active(world, k));
+            kiriSheet_WakeStirred(kiriWorld_Active(world, k));
         }
     }
 }
@@ -453,7 +453,7 @@ static void EndUnmoved(kiriWorld* world)
     for (int32_t i = 0; i < world->sheets.count; ++i) {
         kiriView_ShowNewborn(world->sheets.data[i]);
         kiriPipeline_Wait(world->sheets.data[i]);
-        kiriMotion_LetRest(world->sheets.data[i]);
+        kiriSheet_LetRest(world->sheets.data[i]);
     }
     world->stage = KIRI_NONE;
 }

@@ -1,6 +1,6 @@
 #include "kiri_world.h"
 
-#include "../sheet/kiri_sheet.h"
+#include "../sheet/kiri_build.h"
 #include "../sheet/kiri_motion.h"
 #include "../sheet/kiri_pin.h"
 #include "../sheet/kiri_seen.h"
@@ -17,7 +17,7 @@ void kiriWorld_RemovePin(kiriWorld* world, kiriSheetData* sheet, int32_t index)
 {
     kiriPin pin = sheet->pins.data[index].id;
     kiriPins_ForgetHistory(sheet, index);
-    kiriMotion_WakePin(sheet, index);
+    kiriSheet_WakePin(sheet, index);
     kiriPins_Remove(sheet, index);
     if (index < sheet->pins.count) {
         kiriPool_Find(&world->pinIds, sheet->pins.data[index].id)->index = index;

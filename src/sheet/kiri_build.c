@@ -1,0 +1,392 @@
+#include "kiri_build.h"
+#include "kiri_update.h"
+#include "kiri_seen.h"
+#include "kiri_sheet_site.h"
+
+#include <string.h>
+#include <math.h>
+
+/* Smallest contact thickness, as a fraction of a grid square. Less would need a finer contact search. */
+#define LEAST_CONTACT_THICKNESS 0.05
+
+kiriSheetSettings kiriSettings_Of(const kiriSheetDef* def)
+{
+    kiriSheetSettings given;
+    memset(&given, 0, sizeof(given));
+    given.material = def->material;
+    given.maxFrames = def->maxFrames > 0 && def->maxFrames < def->frameCount ? def->frameCount : def->maxFrames;
+    given.crumbArea = def->crumbArea;
+    given.friction = def->friction;
+    given.contactThickness = def->contactThickness;
+    given.groups = def->groups;
+    given.touchesSheets = def->touchesSheets;
+    given.iterations = def->iterations;
+    given.sleepSpeed = def->sleepSpeed;
+    given.skinning = def->skinning;
+    given.timeStepping = def->timeStepping;
+    given.fadeTime = def->fadeTime;
+    given.normals = def->normals;
+    return given;
+}
+
+static double ContactThickness(const kiriSheetSettings* given, double square)
+{
+    double least = LEAST_CONTACT_THICKNESS * square, own = given->material.thickness;
+    return given->contactThickness > 0.0f ? given->contactThickness : kiriMax(own, least);
+}
+
+void kiriSettings_Take(kiriSettings* settings, const kiriSheetSettings* given, double square)
+{
+    settings->given = *given;
+    settings->given.cookie = 0;
+    settings->material = given->material;
+    settings->maxFrames = given->maxFrames;
+    settings->crumbArea = given->crumbArea;
+    settings->friction = given->friction;
+    settings->contactThickness = ContactThickness(given, square);
+    settings->groups = given->groups;
+    settings->touchesSheets = given->touchesSheets != 0;
+    settings->iterations = given->iterations;
+    settings->sleepSpeed = given->sleepSpeed;
+    settings->skinning = given->skinning;
+    settings->mechanics.timeStepping = given->timeStepping;
+    settings->fadeTime = settings->popping ? 0.0 : given->fadeTime;
+}
+
+void kiriSettings_Apply(kiriSheetData* sheet)
+{
+    const kiriSettings* settings = &sheet->settings;
+    sheet->shape.rigidWeight = settings->rigidWeight;
+    sheet->shape.eased = settings->eased;
+    sheet->seen.surface.skinning = settings->skinning;
+    sheet->seen.surface.wantsNormals = settings->given.normals != 0;
+    sheet->seen.fades.time = sheet->seen.pointFades.time = settings->fadeTime;
+    sheet->seen.fades.least = sheet->seen.pointFades.least = settings->leastFade;
+}
+
+/* ---- Change --------------------------------------------------------------------------------------------------- */
+
+static bool IsSameMaterial(const kiriMaterial* a, const kiriMaterial* b)
+{
+    return a->youngsModulus == b->youngsModulus && a->poissonsRatio == b->poissonsRatio &&
+           a->thickness == b->thickness && a->density == b->density && a->airDamping == b->airDamping &&
+           a->flexDamping == b->flexDamping;
+}
+
+static bool AreSameSettings(const kiriSheetSettings* a, const kiriSheetSettings* b)
+{
+    return IsSameMaterial(&a->material, &b->material) && a->maxFrames == b->maxFrames && a->crumbArea == b->crumbArea &&
+           a->friction == b->friction && a->contactThickness == b->contactThickness && a->groups == b->groups &&
+           a->touchesSheets == b->touchesSheets && a->iterations == b->iterations && a->sleepSpeed == b->sleepSpeed &&
+           a->skinning == b->skinning && a->timeStepping == b->timeStepping && a->fadeTime == b->fadeTime &&
+           a->normals == b->normals;
+}
+
+bool kiriSheet_RestageSolver(kiriSheetData* sheet, const kiriMaterial* material)
+{
+    kiriSystem system;
+    memset(&system, 0, sizeof(system));
+    system.mechanics = sheet->settings.mechanics;
+    system.material = *material;
+    system.frameCount = sheet->frames.count;
+    system.links = sheet->links.links.data;
+    system.linkCount = sheet->links.links.count;
+    system.corners = sheet->links.corners.data;
+    system.cornerCount = sheet->links.corners.count;
+    system.areaElements = &sheet->layout.areaElements;
+    return kiriSolver_Stage(sheet->solver, &system, sheet->layout.framePiece.data, sheet->layout.pieces.count);
+}
+
+/* Computes the masses for a new material; keeps poses and velocities. The next commit computes masses from the regions'
+   exact moments. */
+static void Weigh(kiriSheetData* sheet, const kiriMaterial* before)
+{
+    const kiriMaterial* now = &sheet->settings.material;
+    double was = (double)before->density * before->thickness, is = (double)now->density * now->thickness;
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        kiriFrameData* frame = &sheet->frames.data[i];
+        frame->mass = is * frame->area;
+        for (int k = 0; k < 3; ++k) {
+            frame->inertia[k] *= is / was;
+        }
+        memset(&frame->history, 0, sizeof(frame->history));
+        sheet->regions.dirty.data[i] = 1;
+    }
+    kiriLinks_BeginAgain(&sheet->links);
+}
+
+/* Drops the strain offsets of links and clamps: without fadeTime they keep no strains (kiri_strain.h). */
+static void DropOffsets(kiriSheetData* sheet)
+{
+    sheet->strainOffsets.strainOffsets.count = 0;
+    for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
+        memset(sheet->layout.pinShares.data[k].offset, 0, sizeof(sheet->layout.pinShares.data[k].offset));
+    }
+}
+
+bool kiriSettings_Change(kiriSheetData* sheet, const kiriSheetSettings* given)
+{
+    kiriSheetSettings before = sheet->settings.given;
+    if (AreSameSettings(&before, given)) {
+        return true;
+    }
+    bool looksOther = sheet->seen.isElsewhere || given->skinning != before.skinning;
+    bool isOther = !IsSameMaterial(&given->material, &before.material);
+    if ((looksOther &&
+         !kiriView_ReserveFades(sheet, sheet->mesh.vertices.count, sheet->points.count, given->fadeTime)) ||
+        (isOther && !kiriSheet_RestageSolver(sheet, &given->material))) {
+        return false;
+    }
+    kiriSettings_Take(&sheet->settings, given, sheet->mesh.step * sheet->mesh.squares.side);
+    kiriSettings_Apply(sheet);
+    sheet->seen.isElsewhere |= looksOther;
+    if (sheet->seen.surface.wantsNormals) {
+        kiriSurface_NeedNormals(&sheet->seen.surface);
+    }
+    if (!kiriSheet_KeepsStrains(sheet)) {
+        DropOffsets(sheet);
+    }
+    if (isOther) {
+        kiriSolver_Commit(sheet->solver);
+        Weigh(sheet, &before.material);
+    }
+    kiriSheet_WakeAll(sheet);
+    return true;
+}
+
+/* ---- Settings ---- */
+
+static kiriMat3 AxesOf(const kiriSheetDef* def)
+{
+    kiriMat3 axes;
+    axes.u = kiriVec3_Normalize(kiriVec3_Load(def->axisU));
+    axes.d = kiriVec3_Normalize(kiriVec3_Cross(axes.u, kiriVec3_Load(def->axisV)));
+    axes.v = kiriVec3_Cross(axes.d, axes.u);
+    return axes;
+}
+
+/* Computes the cube root by Newton's iteration from above. */
+static double CubeRoot(double a)
+{
+    double x = kiriMax(a, 1.0);
+    for (int i = 0; i < 200; ++i) {
+        x = (2.0 * x + a / (x * x)) / 3.0;
+    }
+    return x;
+}
+
+/* Returns the length over which the material bends under its own weight: there bending stiffness and weight balance. */
+static double BendingLength(const kiriMaterial* m)
+{
+    double h = m->thickness, nu = m->poissonsRatio;
+    double stiffness = m->youngsModulus * h * h * h / (12.0 * (1.0 - nu * nu));
+    return CubeRoot(stiffness / (m->density * h * 9.81));
+}
+
+/* Returns the spacing of frames for the accuracy. The error grows with (spacing / length)^2, where length is twice the
+   bending length or the longer side, whichever is shorter. Measured: tests/test_estimate.c. */
+static double SpacingFor(const kiriSheetDef* def, double longer)
+{
+    double bent = def->planar ? longer : 2.0 * BendingLength(&def->material);
+    return sqrt((double)def->accuracy) * kiriMin(bent, longer);
+}
+
+static void SetFrames(kiriSettings* settings, const kiriMeshData* mesh, const kiriSheetDef* def)
+{
+    double area = kiriMesh_Area(mesh);
+    double share = area / (def->frameCount > 0 ? def->frameCount : 1), points = 4.0 * def->frameCount;
+    if (def->frameCount == 0) {
+        double least = 3.0 * mesh->step * mesh->squares.side;
+        double length = def->frameLength > 0.0f ? def->frameLength : SpacingFor(def, KIRI_LATTICE * mesh->step);
+        settings->frameLength = kiriMax(length, least);
+        share = settings->frameLength * settings->frameLength;
+        points = kiriMin(4.0 * area / share, 1e6);
+    }
+    settings->integrationPoints = points;
+    settings->rigidWeight = def->rigidWeight;
+    settings->rigidArea = def->rigidArea > 0.0f ? def->rigidArea : 0.25 * share;
+}
+
+static void SetPaper(kiriSettings* settings, const kiriPaperOptions* paper)
+{
+    settings->integrationOrder = paper->integrationOrder;
+    settings->fromScratch = paper->fromScratch != 0;
+    settings->popping = paper->popping != 0;
+    settings->eased = paper->linearWeights == 0 && settings->mechanics.model != KIRI_MODEL_POINTS;
+    if (paper->integrationPoints > 0) {
+        settings->integrationPoints = paper->integrationPoints;
+    }
+}
+
+static void SetAll(kiriSettings* settings, const kiriMeshData* mesh, const kiriSheetDef* def)
+{
+    double longer = KIRI_LATTICE;
+    SetFrames(settings, mesh, def);
+    settings->snap = def->snapDistance > 0.0f ? def->snapDistance / mesh->step : 1e-4 * longer;
+    settings->collisionPoints = def->collisionPoints;
+    settings->mechanics.model = def->model;
+    settings->mechanics.planar = def->planar != 0;
+    settings->mechanics.axes = AxesOf(def);
+    settings->leastFade = 1e-6 * longer * mesh->step; /* 1e-6 of the longer side */
+    SetPaper(settings, &def->paper);
+    kiriSheetSettings given = kiriSettings_Of(def);
+    kiriSettings_Take(settings, &given, mesh->step * mesh->squares.side);
+}
+
+/* ---- Frames ---- */
+
+/* Adds one site; `holder` has the site in each cell. False, with a fault, if its cell is missing or taken. */
+static bool TakeFramePoint(kiriSheetData* sheet, const kiriSheetDef* def, int32_t index, int32_t* holder,
+                           kiriFault* fault)
+{
+    const float* point = &def->framePoints[2 * (size_t)index];
+    kiriSites* sites = &sheet->update->placing.sites;
+    kiriLatticePoint at;
+    kiriSite site = { kiriSheet_ToLocal(sheet, point), KIRI_NONE };
+    if (kiriSheet_ToLattice(sheet, point, &at)) {
+        site.cell = kiriGrid_CellAt(&sheet->grid, &sheet->mesh, at);
+    }
+    if (site.cell == KIRI_NONE) {
+        KIRI_SAY(fault, "frame point %lld lies outside the material", (long long)index);
+        return false;
+    }
+    if (holder[site.cell] != KIRI_NONE || kiriSites_IsCrowded(&sheet->grid, sites, &site, holder)) {
+        KIRI_SAY(fault,
+                 "frame point %lld is less than a grid square from an earlier one; a finer grid (gridResolution) "
+                 "tells them apart",
+                 (long long)index);
+        return false;
+    }
+    holder[site.cell] = sites->count;
+    sites->data[sites->count++] = site;
+    return true;
+}
+
+/* Adds the sites of the def. The grid must exist. */
+static kiriResult TakeFramePoints(kiriSheetData* sheet, const kiriSheetDef* def, kiriFault* fault)
+{
+    kiriPlacingWork* placing = &sheet->update->placing;
+    if (!kiriArray_Resize(sheet->memory, &placing->own, sheet->grid.cells.count) ||
+        !kiriArray_Reserve(sheet->memory, &placing->sites, def->frameCount)) {
+        return KIRI_ERROR_MEMORY;
+    }
+    for (int32_t c = 0; c < placing->own.count; ++c) {
+        placing->own.data[c] = KIRI_NONE;
+    }
+    for (int32_t i = 0; i < def->frameCount; ++i) {
+        if (!TakeFramePoint(sheet, def, i, placing->own.data, fault)) {
+            return KIRI_ERROR_ARGUMENT;
+        }
+    }
+    return KIRI_OK;
+}
+
+static void LayFrame(kiriSheetData* sheet, const kiriSheetDef* def, int32_t index)
+{
+    kiriSite site = sheet->update->placing.sites.data[index];
+    kiriFrameData* frame = &sheet->frames.data[index];
+    memset(frame, 0, sizeof(*frame));
+    frame->anchor = def->framePoints != NULL && index < def->frameCount ? kiriMesh_Snap(&sheet->mesh, site.at)
+                                                                        : sheet->update->newFrames.data[index].anchor;
+    frame->center = site.at;
+    frame->rigidAtStart = def->frameCount > 0 ? sheet->shape.rigid.data[index] : 0;
+    frame->A = sheet->settings.mechanics.axes;
+    kiriVec2 rest = kiriVec2_Add(sheet->mesh.origin, site.at);
+    frame->x =
+        kiriVec3_AddScaled(kiriVec3_AddScaled(kiriVec3_Load(def->position), rest.x, frame->A.u), rest.y, frame->A.v);
+    frame->velocity = kiriVec3_Load(def->velocity);
+    if (sheet->settings.mechanics.planar) {
+        double across = kiriVec3_Dot(frame->velocity, frame->A.d);
+        frame->velocity = kiriVec3_AddScaled(frame->velocity, -across, frame->A.d);
+    }
+}
+
+/* Counts the pieces of the grid. Fails on out of memory. */
+static bool CountPieces(kiriSheetData* sheet, int32_t* pieces)
+{
+    const kiriGrid* grid = &sheet->grid;
+    int32_t* parent = kiriMemory_Alloc(sheet->memory, grid->cells.count * (int64_t)sizeof(int32_t));
+    if (parent == NULL) {
+        return false;
+    }
+    kiriGrid_JoinCells(grid, parent);
+    *pieces = 0;
+    for (int32_t c = 0; c < grid->cells.count; ++c) {
+        *pieces += kiriGrid_IsCell(grid, c) && kiriUnion_Root(parent, c) == c;
+    }
+    kiriMemory_Free(sheet->memory, parent);
+    return true;
+}
+
+static kiriResult BuildFromMesh(kiriSheetData* sheet, const kiriSheetDef* def, kiriFault* fault)
+{
+    kiriResult result = kiriPipeline_Make(sheet, KIRI_STAGE_REGIONS) ? KIRI_OK : KIRI_ERROR_MEMORY;
+    if (result == KIRI_OK && def->framePoints != NULL) {
+        result = TakeFramePoints(sheet, def, fault);
+    } else if (result == KIRI_OK && def->frameCount > kiriSites_MostIn(sheet->grid.cellCount)) {
+        KIRI_SAY(fault, "the grid carries one frame for every two cells at most; a finer one (gridResolution) carries "
+                        "more");
+        result = KIRI_ERROR_ARGUMENT;
+    }
+    if (result != KIRI_OK) {
+        return result;
+    }
+    sheet->update->placing.whole = kiriMesh_Area(&sheet->mesh);
+    sheet->update->placing.spread = def->framePoints != NULL ? 0 : def->frameCount;
+    sheet->update->cut.settlesSites = def->frameCount == 0;
+    if (sheet->update->placing.spread > 0 && !CountPieces(sheet, &sheet->update->placing.pieces)) {
+        return KIRI_ERROR_MEMORY;
+    }
+    if (!kiriPipeline_Make(sheet, KIRI_READY)) {
+        return KIRI_ERROR_MEMORY;
+    }
+    sheet->frames.count = sheet->update->placing.sites.count;
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        LayFrame(sheet, def, i);
+    }
+    return kiriBuild_Commit(sheet) ? KIRI_OK : KIRI_ERROR_MEMORY;
+}
+
+/* Frees scratch arrays as large as the new sheet. Later updates need only the size of their changes. */
+static void DropScratch(kiriSheetData* sheet)
+{
+    kiriOwnership* ownership = &sheet->update->refit.ownership;
+    KIRI_ASSERT(sheet->vertexSkin.staged.count == 0 && ownership->staged.count == 0 && ownership->dirty.count == 0);
+    kiriGrid_DropScratch(&sheet->grid, sheet->memory);
+    kiriShape_DropScratch(&sheet->shape, sheet->memory);
+    kiriArray_Release(sheet->memory, &sheet->regions.changes);
+    kiriArray_Release(sheet->memory, &sheet->regions.orphans);
+    kiriArray_Release(sheet->memory, &sheet->vertexSkin.staged);
+    kiriArray_Release(sheet->memory, &sheet->update->samples.refresh.noted);
+    kiriArray_Release(sheet->memory, &ownership->staged);
+    kiriArray_Release(sheet->memory, &ownership->dirty);
+}
+
+bool kiriBuild_Commit(kiriSheetData* sheet)
+{
+    kiriStage_Commit(sheet);
+    if (!kiriSkin_Sort(&sheet->vertexSkin, sheet->memory)) {
+        return false;
+    }
+    kiriView_WriteTopology(sheet);
+    kiriMesh_Commit(&sheet->mesh);
+    sheet->update->stage = KIRI_NONE;
+    sheet->update->placing.spread = 0;
+    DropScratch(sheet);
+    return true;
+}
+
+kiriResult kiriBuild_FromDef(kiriSheetData* sheet, const kiriSheetDef* def, kiriFault* fault)
+{
+    const kiriMeshInput input = { def->restPositions, def->vertexCount,    def->indices,
+                                  def->triangleCount, def->gridResolution, def->weldDistance };
+    kiriResult result = kiriMesh_Init(&sheet->mesh, sheet->memory, &input, fault);
+    if (result != KIRI_OK) {
+        return result;
+    }
+    SetAll(&sheet->settings, &sheet->mesh, def);
+    kiriSettings_Apply(sheet);
+    kiriMesh_Begin(&sheet->mesh);
+    sheet->solver = kiriSolver_Create(sheet->memory, &sheet->settings.mechanics);
+    return sheet->solver != NULL ? BuildFromMesh(sheet, def, fault) : KIRI_ERROR_MEMORY;
+}

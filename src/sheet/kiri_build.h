@@ -1,0 +1,38 @@
+/* Creation of a sheet from its def, and changes of its settings. */
+#ifndef KIRI_BUILD_H
+#define KIRI_BUILD_H
+
+#include "kiri_sheet.h"
+
+KIRI_C_BEGIN
+
+/* Settings that the host may change after creation. */
+
+/* Returns the settings of a def. */
+kiriSheetSettings kiriSettings_Of(const kiriSheetDef* def);
+
+/* Copies checked settings. `square` is the side of a grid square, m. Settings of the def alone are already set. */
+void kiriSettings_Take(kiriSettings* settings, const kiriSheetSettings* given, double square);
+
+/* Copies the settings to the parts of a new sheet that store a copy. */
+void kiriSettings_Apply(kiriSheetData* sheet);
+
+/* Changes the settings of an existing sheet and updates dependent state. Changes nothing on out of memory: false. */
+bool kiriSettings_Change(kiriSheetData* sheet, const kiriSheetSettings* given);
+
+/* Stages the solver for the committed state: after a load, or for a new material, which may add corners. An update
+   stages the solver in the tick of its commit, so this cannot destroy its staging. Fails on out of memory. */
+bool kiriSheet_RestageSolver(kiriSheetData* sheet, const kiriMaterial* material);
+
+/* Creation of a sheet from its def. */
+
+/* Builds a new sheet from a checked def. On failure the fault gives the reason, or "" if the result is enough, and the
+   caller deletes the sheet. The world assigns the ids of sheet and frames. */
+kiriResult kiriBuild_FromDef(kiriSheetData* sheet, const kiriSheetDef* def, kiriFault* fault);
+
+/* Commits the first layout of a sheet, after all stages. Fails on out of memory. */
+bool kiriBuild_Commit(kiriSheetData* sheet);
+
+KIRI_C_END
+
+#endif
