@@ -6,7 +6,7 @@
 #define KIRI_GEODESIC_H
 
 #include "kiri_grid.h"
-#include "../core/kiri_keep.h"
+#include "../core/kiri_array.h"
 
 KIRI_C_BEGIN
 

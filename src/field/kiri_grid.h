@@ -6,7 +6,6 @@
 #include "../core/kiri_archive.h"
 #include "../mesh/kiri_mesh.h"
 #include "../core/kiri_array.h"
-#include "../core/kiri_keep.h"
 
 KIRI_C_BEGIN
 

@@ -4,7 +4,7 @@
 #ifndef KIRI_SQUARE_H
 #define KIRI_SQUARE_H
 
-#include "../core/kiri_keep.h"
+#include "../core/kiri_array.h"
 #include "../core/kiri_vec.h"
 
 KIRI_C_BEGIN

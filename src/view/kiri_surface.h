@@ -3,7 +3,7 @@
 #ifndef KIRI_SURFACE_H
 #define KIRI_SURFACE_H
 
-#include "../core/kiri_keep.h"
+#include "../core/kiri_array.h"
 #include "../core/kiri_vec.h"
 #include "kiri_skin.h"
 #include "../motion/kiri_frame.h"
