@@ -627,12 +627,12 @@ static void TestBlocksAfterRefusal(void** state)
 {
     (void)state;
     Host host = { .failOnce = true };
-    for (int64_t n = 0; n <= 5; ++n) {
+    for (int64_t n = 0; n <= 4; ++n) {
         kiriMemory memory = kiriMemory_Make(Host_Alloc, Host_Free, &host);
         kiriBlocks blocks;
         memset(&blocks, 0, sizeof(blocks));
         host.failAt = host.calls + n;
-        assert_true(kiriBlocks_Reserve(&blocks, &memory, 1000, 7) == (n == 5));
+        assert_true(kiriBlocks_Reserve(&blocks, &memory, 1000, 7) == (n == 4));
         CheckNewBlocks(&blocks);
         host.failAt = -1;
         assert_true(kiriBlocks_Reserve(&blocks, &memory, 1000, 7));

@@ -115,15 +115,14 @@ bool kiriBlocks_Reserve(kiriBlocks* blocks, kiriMemory* memory, int32_t vertexCo
 {
     int32_t count = vertexCount / KIRI_BLOCK + 1;
     return kiriArray_Reserve(memory, &blocks->touched, count) && kiriArray_Reserve(memory, &blocks->stale, count) &&
-           kiriArray_Reserve(memory, &blocks->frames, count) && kiriArray_Reserve(memory, &blocks->movers, count) &&
-           kiriArray_Reserve(memory, &blocks->moved, frameCount);
+           kiriArray_Reserve(memory, &blocks->movers, count) && kiriArray_Reserve(memory, &blocks->moved, frameCount);
 }
 
 void kiriBlocks_Resize(kiriBlocks* blocks, int32_t vertexCount, int32_t frameCount)
 {
     int32_t old = blocks->movers.count, count = vertexCount / KIRI_BLOCK + 1, oldFrames = blocks->moved.count;
     KIRI_ASSERT(count <= blocks->movers.capacity && frameCount <= blocks->moved.capacity);
-    blocks->touched.count = blocks->stale.count = blocks->frames.count = blocks->movers.count = count;
+    blocks->touched.count = blocks->stale.count = blocks->movers.count = count;
     blocks->moved.count = frameCount;
     for (int32_t block = old; block < count; ++block) {
         blocks->touched.data[block] = blocks->stale.data[block] = 0;
@@ -150,86 +149,13 @@ void kiriBlocks_Forget(kiriBlocks* blocks)
     }
 }
 
-/* ---- Frames of a block ---- */
-
-enum { MASK_WORDS = 4, MASK_BITS = 64 * MASK_WORDS, MASK_HALF = MASK_BITS / 2 };
-
-static void AddBit(kiriFrameMask* mask, int bit)
-{
-    mask->bits[bit / 64] |= UINT64_C(1) << bit % 64;
-}
-
-/* Sets the two bits of a frame: one distinguishes it from frames with nearby indices, the other from distant ones.
-   Frames share bits, so a test may give false positives. */
-static void AddToMask(kiriFrameMask* mask, int32_t frame)
-{
-    AddBit(mask, frame % MASK_HALF);
-    AddBit(mask, MASK_HALF + frame / MASK_HALF % MASK_HALF);
-}
-
-kiriFrameMask kiriBlocks_MaskOfOther(const kiriPatches* patches)
-{
-    kiriFrameMask mask = { { 0 } };
-    for (int32_t i = 0; patches->areOther && i < patches->count; ++i) {
-        if (patches->isOther.data[i]) {
-            AddToMask(&mask, i);
-        }
-    }
-    return mask;
-}
-
-/* ---- Masks ---- */
-
-static const uint64_t ALL_BITS = UINT64_MAX;
-
-/* Sets all bits: a valid mask for every block. */
-static void FillMask(kiriFrameMask* mask)
-{
-    for (int k = 0; k < MASK_WORDS; ++k) {
-        mask->bits[k] = ALL_BITS;
-    }
-}
-
-static bool IsFull(const kiriFrameMask* mask)
-{
-    return (mask->bits[0] & mask->bits[1] & mask->bits[2] & mask->bits[3]) == ALL_BITS;
-}
+/* ---- Movers ---- */
 
 static int32_t EndOfBlock(const kiriSheetData* sheet, int32_t block)
 {
     int32_t count = sheet->seen.surface.vertexCount;
     return kiriMin((block + 1) * KIRI_BLOCK, count);
 }
-
-static void WriteMask(kiriSheetData* sheet, int32_t block)
-{
-    const kiriSkin* skin = &sheet->vertexSkin;
-    kiriFrameMask mask = { { 0 } };
-    for (int32_t v = block * KIRI_BLOCK; v < EndOfBlock(sheet, block); ++v) {
-        const kiriSampleWeight* weight = skin->weights.data + skin->spans.data[v].first;
-        for (const kiriSampleWeight* end = weight + skin->spans.data[v].count; weight < end; ++weight) {
-            AddToMask(&mask, weight->frame);
-        }
-    }
-    sheet->seen.blocks.frames.data[block] = mask;
-}
-
-/* Writes up to MASKS_A_TICK unknown masks. A cut can make all masks of a large sheet unknown. */
-static void WriteSomeMasks(kiriSheetData* sheet)
-{
-    enum { MASKS_A_TICK = 128 };
-    kiriBlocks* blocks = &sheet->seen.blocks;
-    int32_t left = MASKS_A_TICK;
-    for (int32_t block = 0; left > 0 && block < blocks->frames.count; ++block) {
-        if (IsFull(&blocks->frames.data[block])) {
-            WriteMask(sheet, block);
-            --left;
-        }
-    }
-    blocks->hasUnknown = left == 0;
-}
-
-/* ---- Movers ---- */
 
 /* Returns an awake frame of the block, or KIRI_NONE. blocks.moved is current. */
 static int32_t FindMover(const kiriSheetData* sheet, int32_t block)
@@ -244,51 +170,23 @@ static int32_t FindMover(const kiriSheetData* sheet, int32_t block)
     return KIRI_NONE;
 }
 
-/* Moving frames: all, and the ones that did not move at the last kiriBlocks_FindMovers. */
-typedef struct MovingFrames {
-    kiriFrameMask all, woken;
-} MovingFrames;
-
-static MovingFrames TakeMoving(kiriSheetData* sheet)
-{
-    MovingFrames moving = { { { 0 } }, { { 0 } } };
-    uint8_t* moved = sheet->seen.blocks.moved.data;
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
-        uint8_t moves = kiriSheet_Moves(sheet, i);
-        if (moves) {
-            AddToMask(&moving.all, i);
-        }
-        if (moves && !moved[i]) {
-            AddToMask(&moving.woken, i);
-        }
-        moved[i] = moves;
-    }
-    return moving;
-}
-
-/* Returns true if the mover of the block is still valid. */
-static bool IsMoverKnown(const kiriSheetData* sheet, int32_t block, const MovingFrames* moving)
-{
-    const kiriBlocks* blocks = &sheet->seen.blocks;
-    int32_t mover = blocks->movers.data[block];
-    return mover == KIRI_NONE ? !kiriBlocks_MayMeet(blocks, block, &moving->woken)
-                              : mover != KIRI_UNKNOWN && blocks->moved.data[mover];
-}
-
-void kiriBlocks_FindMovers(kiriSheetData* sheet)
+/* Updates the movers after the set of awake pieces changed, or blocks became unknown. A block keeps its mover until that
+   frame falls asleep; a block without a mover gets one when a frame wakes. */
+static void FindMovers(kiriSheetData* sheet)
 {
     kiriBlocks* blocks = &sheet->seen.blocks;
-    MovingFrames moving = TakeMoving(sheet);
-    for (int32_t block = 0; block < blocks->movers.count; ++block) {
-        if (blocks->movers.data[block] == KIRI_UNKNOWN) {
-            FillMask(&blocks->frames.data[block]);
-            blocks->movers.data[block] = FindMover(sheet, block);
-        } else if (!IsMoverKnown(sheet, block, &moving)) {
-            bool may = kiriBlocks_MayMeet(blocks, block, &moving.all);
-            blocks->movers.data[block] = may ? FindMover(sheet, block) : KIRI_NONE;
-        }
+    bool anyWoke = false;
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        uint8_t moves = kiriSheet_Moves(sheet, i);
+        anyWoke = anyWoke || (moves && !blocks->moved.data[i]);
+        blocks->moved.data[i] = moves;
     }
-    WriteSomeMasks(sheet);
+    for (int32_t block = 0; block < blocks->movers.count; ++block) {
+        int32_t mover = blocks->movers.data[block];
+        bool isKnown = mover == KIRI_NONE ? !anyWoke : mover != KIRI_UNKNOWN && blocks->moved.data[mover];
+        blocks->movers.data[block] = isKnown ? mover : FindMover(sheet, block);
+    }
+    blocks->hasUnknown = false;
 }
 
 bool kiriView_ReserveFades(kiriSheetData* sheet, int32_t vertexCount, int32_t pointCount, double fadeTime)
@@ -462,7 +360,7 @@ void kiriView_TakeFrames(kiriSheetData* sheet)
                            sheet->links.links.count, moved != NULL ? &moved->frames : NULL,
                            moved != NULL ? &moved->links : NULL);
     if (sheet->seen.surface.isPartly && (moved->version != sheet->seen.lists || sheet->seen.blocks.hasUnknown)) {
-        kiriBlocks_FindMovers(sheet);
+        FindMovers(sheet);
         sheet->seen.lists = moved->version;
     }
     if (HasMovedWaiting(sheet)) {
@@ -500,9 +398,8 @@ void kiriView_TouchStaged(kiriSheetData* sheet)
     }
 }
 
-/* Comparison of positions before and after the commits of a tick. `other`: frames whose patches changed. */
+/* Comparison of positions before and after the commits of a tick. */
 typedef struct JumpLook {
-    kiriFrameMask other;
     kiriVec3 shift;
     bool isShifted;
     const float* before; /* visible positions of all vertices */
@@ -510,12 +407,11 @@ typedef struct JumpLook {
     bool movesSleepers;  /* the position of a vertex of a sleeping piece changed */
 } JumpLook;
 
-static bool MayBeElsewhere(const kiriSheetData* sheet, const JumpLook* look, int32_t begin, int32_t end)
+static bool MayBeElsewhere(const kiriSheetData* sheet, int32_t begin, int32_t end)
 {
     const kiriBlocks* blocks = &sheet->seen.blocks;
     return blocks->touched.data[begin / KIRI_BLOCK] || end > sheet->seen.vertexCount ||
-           (kiriBlocks_MayMeet(blocks, begin / KIRI_BLOCK, &look->other) &&
-            kiriPatches_MayMove(&sheet->seen.surface.patches, &sheet->vertexSkin, begin, end));
+           kiriPatches_MayMove(&sheet->seen.surface.patches, &sheet->vertexSkin, begin, end);
 }
 
 static bool IsVertexAwake(const kiriSheetData* sheet, int32_t vertex)
@@ -614,13 +510,12 @@ static void TakeVertexJumps(kiriSheetData* sheet)
     surface->isWritten = false;
     look.shift = kiriVec3_Sub(middle, surface->middle);
     ForgetRounded(sheet);
-    look.other = kiriBlocks_MaskOfOther(&surface->patches);
     look.isShifted = look.movesSleepers = look.shift.x != 0.0 || look.shift.y != 0.0 || look.shift.z != 0.0;
     look.anySleeps = AnySleeps(sheet);
     kiriFades_Start(&sheet->seen.fades);
     for (int32_t begin = 0; begin < surface->vertexCount; begin += KIRI_BLOCK) {
         int32_t end = kiriMin(begin + KIRI_BLOCK, surface->vertexCount);
-        if (MayBeElsewhere(sheet, &look, begin, end)) {
+        if (MayBeElsewhere(sheet, begin, end)) {
             LookAtJumps(sheet, &look, begin, end);
         }
     }

@@ -37,24 +37,9 @@ void kiriBlocks_Resize(kiriBlocks* blocks, int32_t vertexCount, int32_t frameCou
 /* Marks all blocks as unknown. Call when vertices or frames were renumbered. */
 void kiriBlocks_Forget(kiriBlocks* blocks);
 
-/* Marks a block as unknown, so that its mover and frames are found again. Call when weights changed or vertices are
+/* Marks a block as unknown, so that its mover is found again. Call when weights changed or vertices are
    new. */
 void kiriBlocks_ForgetOne(kiriBlocks* blocks, int32_t block);
-
-/* Updates the movers. Call when the set of awake pieces changed, or blocks are unknown. A block keeps its mover until
-   that frame falls asleep; a block without a mover gets one when a frame of it wakes. */
-void kiriBlocks_FindMovers(kiriSheetData* sheet);
-
-/* Returns the mask of the patches that changed. */
-kiriFrameMask kiriBlocks_MaskOfOther(const kiriPatches* patches);
-
-/* Returns true if a frame of the mask may carry a vertex of the block. */
-static inline bool kiriBlocks_MayMeet(const kiriBlocks* blocks, int32_t block, const kiriFrameMask* mask)
-{
-    const uint64_t *a = blocks->frames.data[block].bits, *b = mask->bits;
-    bool mayNear = ((a[0] & b[0]) | (a[1] & b[1])) != 0, mayFar = ((a[2] & b[2]) | (a[3] & b[3])) != 0;
-    return blocks->movers.data[block] == KIRI_UNKNOWN || (mayNear && mayFar);
-}
 
 static inline void kiriBlocks_Stale(kiriBlocks* blocks, int32_t vertex)
 {

@@ -329,19 +329,13 @@ typedef struct kiriGivenContact {
     double share[3];
 } kiriGivenContact;
 
-/* A set of frames with false positives: each frame sets two bits, see kiri_seen.c. */
-typedef struct kiriFrameMask {
-    uint64_t bits[4];
-} kiriFrameMask;
-
 /* Caches for each block of vertices, see kiri_seen.h. */
 typedef struct kiriBlocks {
     KIRI_ARRAY(uint8_t) touched;      /* the weights of a vertex changed, or a vertex fades */
     KIRI_ARRAY(uint8_t) stale;        /* triangles changed, so normals are stale */
     KIRI_ARRAY(int32_t) movers;       /* an awake frame of the block; KIRI_NONE: it sleeps; or KIRI_UNKNOWN */
-    KIRI_ARRAY(kiriFrameMask) frames; /* frames that carry the block; all bits set: unknown */
-    KIRI_ARRAY(uint8_t) moved;        /* per frame: true if it was awake at the last kiriBlocks_FindMovers */
-    bool hasUnknown;                  /* a mover or a mask is unknown */
+    KIRI_ARRAY(uint8_t) moved;        /* per frame: true if it was awake when movers were found last */
+    bool hasUnknown;                  /* a mover is unknown */
 } kiriBlocks;
 
 /* The visible state of a sheet, see kiri_seen.h. */

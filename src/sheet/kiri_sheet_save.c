@@ -186,9 +186,8 @@ static const kiriTable TouchesTable = KIRI_TABLE(kiriTouches, TouchesMembers);
 /* ---- Visible state ----------------------------------------------------------------------------------------------- */
 
 static const kiriMember BlocksMembers[] = {
-    KIRI_ITEMS(1, kiriBlocks, touched), KIRI_ITEMS(1, kiriBlocks, stale),
-    KIRI_ITEMS(4, kiriBlocks, movers),  KIRI_ITEMS(8, kiriBlocks, frames),
-    KIRI_ITEMS(1, kiriBlocks, moved),   KIRI_BOOLS(kiriBlocks, hasUnknown, hasUnknown),
+    KIRI_DERIVED,
+    KIRI_ARRAYS(kiriBlocks, touched, stale, movers, moved),
 };
 static const kiriTable BlocksTable = KIRI_TABLE(kiriBlocks, BlocksMembers);
 
@@ -202,10 +201,9 @@ static const kiriMember SeenMembers[] = {
     KIRI_ROOM_OF(kiriSeen, pointsBefore),
     KIRI_BOOLS(kiriSeen, isElsewhere, isElsewhere),
     KIRI_WITHIN(0, INT32_MAX, kiriSeen, vertexCount, vertexCount),
-    KIRI_PART(kiriSeen, blocks, BlocksTable),
-    KIRI_RUN(8, kiriSeen, lists, lists),
     KIRI_BOOLS(kiriSeen, areFadesAsleep, areFadesAsleep),
     KIRI_DERIVED,
+    KIRI_PART(kiriSeen, blocks, BlocksTable),
     KIRI_ARRAYS(kiriSeen, exactPoints),
     KIRI_HANDED,
     KIRI_ARRAYS(kiriSeen, pointPositions),
@@ -406,25 +404,24 @@ static bool AreWeightsSeen(const kiriSheetData* sheet)
            surface->vertexCount == sheet->seen.vertexCount && surface->vertexCount == sheet->mesh.vertices.count;
 }
 
-/* Reserves for the vertices of a save, which come next. */
+/* Reserves for the vertices of a save, which come next. A tick writes all blocks again. */
 static void ReserveSeen(kiriArchive* archive, kiriSheetData* sheet)
 {
     kiriSurface* surface = &sheet->seen.surface;
-    int32_t frames = sheet->frames.count, points = sheet->points.count;
+    kiriBlocks* blocks = &sheet->seen.blocks;
+    const kiriViewCounts counts = { sheet->mesh.vertices.count, sheet->mesh.triangles.count, sheet->frames.count,
+                                    sheet->points.count };
     KIRI_ASSERT(kiriArchive_Reads(archive) && !archive->isWhole && !kiriArchive_HasFailed(archive));
-    surface->vertexCount = sheet->mesh.vertices.count;
-    surface->triangleCount = sheet->mesh.triangles.count;
-    kiriArchive_Expect(archive, surface->carriers.count >= frames && surface->patches.count <= frames &&
-                                    sheet->seen.pointCount >= 0 && sheet->seen.pointCount <= points &&
+    archive->isShort |= !kiriView_Reserve(sheet, counts);
+    surface->vertexCount = counts.vertices;
+    surface->triangleCount = counts.triangles;
+    kiriArchive_Expect(archive, surface->carriers.count >= counts.frames && surface->patches.count <= counts.frames &&
+                                    sheet->seen.pointCount >= 0 && sheet->seen.pointCount <= counts.points &&
                                     kiriSurface_AreChangesSound(surface));
-    if (!archive->isBad) {
-        archive->isShort |= !kiriSurface_Reserve(surface, archive->shown, sheet->mesh.vertices.count,
-                                                 sheet->mesh.triangles.count, frames) ||
-                            !kiriArray_Resize(archive->memory, &sheet->seen.exactPoints, points) ||
-                            !kiriArray_Resize(archive->shown, &sheet->seen.pointPositions, 3 * (int64_t)points);
-    }
     if (!kiriArchive_HasFailed(archive)) {
-        kiriSurface_Resize(surface, surface->vertexCount, surface->triangleCount, frames);
+        kiriView_Resize(sheet, counts.frames);
+        memset(blocks->touched.data, 1, (size_t)blocks->touched.count);
+        memset(blocks->stale.data, 1, (size_t)blocks->stale.count);
     }
 }
 
@@ -648,20 +645,6 @@ static bool AreContacts(const kiriSheetData* sheet)
     return areFine;
 }
 
-/* Returns true if the blocks are valid. There may be more blocks than the vertices need. */
-static bool AreBlocks(const kiriBlocks* blocks, const kiriSheetData* sheet)
-{
-    int32_t count = blocks->movers.count;
-    bool areFine = count > sheet->mesh.vertices.count / KIRI_BLOCK && blocks->touched.count == count &&
-                   blocks->stale.count == count && blocks->frames.count == count &&
-                   blocks->moved.count >= sheet->frames.count;
-    for (int32_t k = 0; areFine && k < count; ++k) {
-        int32_t mover = blocks->movers.data[k];
-        areFine = mover == KIRI_UNKNOWN || mover == KIRI_NONE || (mover >= 0 && mover < sheet->frames.count);
-    }
-    return areFine;
-}
-
 static bool AreFadesSet(const kiriFades* fades, const kiriSettings* settings)
 {
     return fades->time == settings->fadeTime && fades->least == settings->leastFade;
@@ -672,8 +655,7 @@ static bool IsSeen(const kiriSheetData* sheet)
     const kiriSeen* seen = &sheet->seen;
     return kiriFades_AreSound(&seen->fades, sheet->mesh.vertices.count) &&
            kiriFades_AreSound(&seen->pointFades, sheet->points.count) &&
-           AreFadesSet(&seen->fades, &sheet->settings) && AreFadesSet(&seen->pointFades, &sheet->settings) &&
-           AreBlocks(&seen->blocks, sheet);
+           AreFadesSet(&seen->fades, &sheet->settings) && AreFadesSet(&seen->pointFades, &sheet->settings);
 }
 
 /* Returns true if arrays with an item a link have that length, and rows and reactions of pins and clamps fit their
