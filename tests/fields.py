@@ -67,8 +67,7 @@ def owns(structs, kind):
 def tables_of(texts):
     """(struct, has KIRI_DERIVED, entries) of each table; an entry is (macro, arguments)."""
     for text in texts:
-        for body, struct in re.findall(r"kiriMember \w+\[\] = \{((?:(?!\};).)*)\};\s*(?:static )?const kiriTable \w+ = "
-                                       r"KIRI_TABLE\((\w+)", text, flags=re.S):
+        for struct, body in re.findall(r"^KIRI_(?:SHARED_)?TABLE\(\w+, (\w+), \{(.*?)\}\);", text, flags=re.M | re.S):
             entries = re.findall(r"KIRI_(\w+)\((.*?)\)", body, flags=re.S)
             yield struct, "KIRI_DERIVED" in body, [(macro, [part.strip() for part in arguments.split(",")])
                                                    for macro, arguments in entries]

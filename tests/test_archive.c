@@ -42,13 +42,10 @@ typedef struct Thing {
     int32_t* block;
 } Thing;
 
-static const kiriMember PointMembers[] = { KIRI_RUN(8, Point, x, y) };
-static const kiriTable PointTable = KIRI_TABLE(Point, PointMembers);
-static const kiriMember MarkMembers[] = { KIRI_RUN(4, Mark, number, number), KIRI_RUN(1, Mark, kind, kind),
-                                          KIRI_BOOLS(Mark, isSet, isSet), KIRI_DROPPED(Mark, dropped, dropped) };
-static const kiriTable MarkTable = KIRI_TABLE(Mark, MarkMembers);
-static const kiriMember BagMembers[] = { KIRI_ITEMS(2, Bag, words) };
-static const kiriTable BagTable = KIRI_TABLE(Bag, BagMembers);
+KIRI_TABLE(PointTable, Point, { KIRI_RUN(8, Point, x, y) });
+KIRI_TABLE(MarkTable, Mark, { KIRI_RUN(4, Mark, number, number), KIRI_RUN(1, Mark, kind, kind),
+                                          KIRI_BOOLS(Mark, isSet, isSet), KIRI_DROPPED(Mark, dropped, dropped) });
+KIRI_TABLE(BagTable, Bag, { KIRI_ITEMS(2, Bag, words) });
 
 static void ArchiveRow(kiriArchive* archive, void* object)
 {
@@ -58,14 +55,13 @@ static void ArchiveRow(kiriArchive* archive, void* object)
     kiriArchive_Block(archive, (void**)&thing->block, 4, BLOCK);
 }
 
-static const kiriMember ThingMembers[] = {
+KIRI_TABLE(ThingTable, Thing, {
     KIRI_RUN(4, Thing, first, second),   KIRI_RUN(8, Thing, wide, wide), KIRI_BOOLS(Thing, flags, flags),
     KIRI_PART(Thing, marks, MarkTable),  KIRI_ITEMS(4, Thing, items),    KIRI_PARTS(Thing, points, PointTable),
     KIRI_PARTS(Thing, parts, MarkTable), KIRI_ROOM_OF(Thing, room),      KIRI_SPACE_OF(Thing, space),
     KIRI_OWNED(Thing, owned, BagTable),  KIRI_DROPPED(Thing, dropped, dropped),   KIRI_CUSTOM(Thing, rowCount, ArchiveRow),
     KIRI_PARTS(Thing, bags, BagTable),
-};
-static const kiriTable ThingTable = KIRI_TABLE(Thing, ThingMembers);
+});
 
 /* ---- Things at random -------------------------------------------------------------------------------------------- */
 
@@ -376,8 +372,7 @@ typedef struct Column {
     COLUMNS(DECLARE_COLUMN)
 } Column;
 
-static const kiriMember ColumnMembers[] = { COLUMNS(LIST_COLUMN) };
-static const kiriTable ColumnTable = KIRI_TABLE(Column, ColumnMembers);
+KIRI_TABLE(ColumnTable, Column, { COLUMNS(LIST_COLUMN) });
 
 static bool CanLoad(Column column)
 {

@@ -184,10 +184,14 @@ typedef struct kiriTable {
     KIRI_ONCE_MORE(KIRI_EACH_PICK(__VA_ARGS__, KIRI_EACH_8, KIRI_EACH_7, KIRI_EACH_6, KIRI_EACH_5, KIRI_EACH_4,        \
                                   KIRI_EACH_3, KIRI_EACH_2, KIRI_EACH_1, )(M, Type, __VA_ARGS__))
 
-#define KIRI_TABLE(Type, fields)                                                                                       \
-    {                                                                                                                  \
-        fields, (int32_t)(sizeof(fields) / sizeof(fields[0])), (int32_t)sizeof(Type)                                   \
-    }
+/* A table of a struct, { with its entries }. Other sources may use a shared table. */
+#define KIRI_TABLE(Name, Type, ...)                                                                                    \
+    static const kiriMember Name##Members[] = __VA_ARGS__;                                                             \
+    static const kiriTable Name = { Name##Members, (int32_t)(sizeof(Name##Members) / sizeof(kiriMember)),              \
+                                    (int32_t)sizeof(Type) }
+#define KIRI_SHARED_TABLE(Name, Type, ...)                                                                             \
+    static const kiriMember Name##Members[] = __VA_ARGS__;                                                             \
+    const kiriTable Name = { Name##Members, (int32_t)(sizeof(Name##Members) / sizeof(kiriMember)), (int32_t)sizeof(Type) }
 
 typedef enum kiriArchiveMode {
     KIRI_ARCHIVE_MEASURE,

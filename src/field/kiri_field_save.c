@@ -5,76 +5,67 @@
 #include "kiri_shape.h"
 #include "kiri_site.h"
 
-static const kiriMember SiteMembers[] = {
+KIRI_SHARED_TABLE(kiriSiteTable, kiriSite, {
     KIRI_REALS(kiriSite, at, at),
     KIRI_DERIVED,
-};
-const kiriTable kiriSiteTable = KIRI_TABLE(kiriSite, SiteMembers);
+});
 
-static const kiriMember FieldMembers[] = {
+KIRI_TABLE(FieldTable, kiriField, {
     KIRI_DERIVED,
     KIRI_ARRAYS(kiriField, distance, owner, settled, log, heap, dirty, marks),
-};
-static const kiriTable FieldTable = KIRI_TABLE(kiriField, FieldMembers);
+});
 
 /* ---- The grid ---------------------------------------------------------------------------------------------------- */
 
-static const kiriMember GridWorkMembers[] = {
+KIRI_TABLE(GridWorkTable, kiriGridWork, {
     KIRI_DERIVED,
     KIRI_ARRAYS(kiriGridWork, facesDirty, linksDirty, stepsDirty, knightsDirty, squareFlags, flagged),
     KIRI_ARRAYS(kiriGridWork, ranges, entries, parent, cellFlags, mark, newCells, oldFaces, steps),
-};
-static const kiriTable GridWorkTable = KIRI_TABLE(kiriGridWork, GridWorkMembers);
+});
 
-static const kiriMember GridChangesMembers[] = {
+KIRI_TABLE(GridChangesTable, kiriGridChanges, {
     KIRI_DERIVED,
     KIRI_ARRAYS(kiriGridChanges, made, gone, steps, material, edges),
-};
-static const kiriTable GridChangesTable = KIRI_TABLE(kiriGridChanges, GridChangesMembers);
+});
 
-static const kiriMember GridMembers[] = {
+KIRI_SHARED_TABLE(kiriGridTable, kiriGrid, {
     KIRI_DERIVED,
     KIRI_ARRAYS(kiriGrid, cells, runs, steps, faces, materials, stretches, unusedMaterials, unusedStretches),
     KIRI_ARRAYS(kiriGrid, squareCell, nodeCell, vertexCell, whole),
     KIRI_PART(kiriGrid, changes, GridChangesTable),
     KIRI_OWNED(kiriGrid, work, GridWorkTable),
-};
-const kiriTable kiriGridTable = KIRI_TABLE(kiriGrid, GridMembers);
+});
 
 /* ---- Regions and shape functions --------------------------------------------------------------------------------- */
 
-static const kiriMember BorderCellsMembers[] = {
+KIRI_TABLE(BorderCellsTable, kiriBorderCells, {
     KIRI_DERIVED,
     KIRI_ARRAYS(kiriBorderCells, first, cells),
-};
-static const kiriTable BorderCellsTable = KIRI_TABLE(kiriBorderCells, BorderCellsMembers);
+});
 
-static const kiriMember RegionsMembers[] = {
+KIRI_SHARED_TABLE(kiriRegionsTable, kiriRegions, {
     KIRI_UNHASHED,
     KIRI_ITEMS(1, kiriRegions, dirty),
     KIRI_DERIVED,
     KIRI_PART(kiriRegions, field, FieldTable),
     KIRI_PART(kiriRegions, border, BorderCellsTable),
     KIRI_ARRAYS(kiriRegions, siteAt, onBorder, material, changes, orphans, isChanged),
-};
-const kiriTable kiriRegionsTable = KIRI_TABLE(kiriRegions, RegionsMembers);
+});
 
-static const kiriMember ShapeWorkMembers[] = {
+KIRI_TABLE(ShapeWorkTable, kiriShapeWork, {
     KIRI_DERIVED,
     KIRI_PART(kiriShapeWork, fromSite, FieldTable),
     KIRI_PART(kiriShapeWork, fromBorder, FieldTable),
     KIRI_ARRAYS(kiriShapeWork, seeds, loaded, isLoaded, marks, wasOwner, rigidShares, counted),
     KIRI_ARRAYS(kiriShapeWork, sideCounts, frames, dirtyFrames, touches, dirty, weights),
-};
-static const kiriTable ShapeWorkTable = KIRI_TABLE(kiriShapeWork, ShapeWorkMembers);
+});
 
-static const kiriMember ReachesMembers[] = {
+KIRI_TABLE(ReachesTable, kiriReaches, {
     KIRI_DERIVED,
     KIRI_ARRAYS(kiriReaches, blocks, heads, ofCells, ofFrame),
-};
-static const kiriTable ReachesTable = KIRI_TABLE(kiriReaches, ReachesMembers);
+});
 
-static const kiriMember ShapeMembers[] = {
+KIRI_SHARED_TABLE(kiriShapeTable, kiriShape, {
     KIRI_REALS(kiriShape, rigidWeight, rigidWeight),
     KIRI_UNHASHED,
     KIRI_BOOLS(kiriShape, eased, eased),
@@ -82,32 +73,28 @@ static const kiriMember ShapeMembers[] = {
     KIRI_ARRAYS(kiriShape, spans, weights, rigid, changes),
     KIRI_PART(kiriShape, reaches, ReachesTable),
     KIRI_OWNED(kiriShape, work, ShapeWorkTable),
-};
-const kiriTable kiriShapeTable = KIRI_TABLE(kiriShape, ShapeMembers);
+});
 
 /* ---- Links ------------------------------------------------------------------------------------------------------- */
 
-static const kiriMember SightEdgesMembers[] = {
+KIRI_TABLE(SightEdgesTable, kiriSightEdges, {
     KIRI_DERIVED,
     KIRI_ARRAYS(kiriSightEdges, edges, squares, listed),
-};
-static const kiriTable SightEdgesTable = KIRI_TABLE(kiriSightEdges, SightEdgesMembers);
+});
 
-static const kiriMember LinkWorkMembers[] = {
+KIRI_TABLE(LinkWorkTable, kiriLinkWork, {
     KIRI_DERIVED,
     KIRI_ARRAYS(kiriLinkWork, marks, stale, faces, to, made, ends, nextEnds),
     KIRI_ROOMS(kiriLinkWork, order, stretch),
     KIRI_PART(kiriLinkWork, edges, SightEdgesTable),
-};
-static const kiriTable LinkWorkTable = KIRI_TABLE(kiriLinkWork, LinkWorkMembers);
+});
 
-static const kiriMember LinksMembers[] = {
+KIRI_SHARED_TABLE(kiriLinksTable, kiriLinks, {
     KIRI_DERIVED,
     KIRI_ARRAYS(kiriLinks, links, next, corners, nextCorners),
     KIRI_ROOM_OF(kiriLinks, was),
     KIRI_OWNED(kiriLinks, work, LinkWorkTable),
-};
-const kiriTable kiriLinksTable = KIRI_TABLE(kiriLinks, LinksMembers);
+});
 
 /* ---- Sites ------------------------------------------------------------------------------------------------------- */
 
@@ -121,7 +108,7 @@ static void MoveOldField(kiriArchive* archive, void* object)
     }
 }
 
-static const kiriMember PlacerWorkMembers[] = {
+KIRI_TABLE(PlacerWorkTable, kiriPlacerWork, {
     KIRI_DERIVED,
     KIRI_CUSTOM(kiriPlacerWork, old, MoveOldField),
     KIRI_PART(kiriPlacerWork, flooded, FieldTable),
@@ -129,13 +116,11 @@ static const kiriMember PlacerWorkMembers[] = {
     KIRI_PART(kiriPlacerWork, fresh, FieldTable),
     KIRI_ARRAYS(kiriPlacerWork, sampled, holds, marks, targets, blocks, seeds),
     KIRI_DROPPED(kiriPlacerWork, winds, winds),
-};
-static const kiriTable PlacerWorkTable = KIRI_TABLE(kiriPlacerWork, PlacerWorkMembers);
+});
 
-static const kiriMember PlacerMembers[] = {
+KIRI_SHARED_TABLE(kiriPlacerTable, kiriPlacer, {
     KIRI_DERIVED,
     KIRI_ARRAYS(kiriPlacer, sites, cells, ends),
     KIRI_DROPPED(kiriPlacer, known, known),
     KIRI_OWNED(kiriPlacer, work, PlacerWorkTable),
-};
-const kiriTable kiriPlacerTable = KIRI_TABLE(kiriPlacer, PlacerMembers);
+});

@@ -4,25 +4,22 @@
 
 /* ---- Tables ------------------------------------------------------------------------------------------------------ */
 
-static const kiriMember TriangleMembers[] = {
+KIRI_TABLE(TriangleTable, kiriTriangle, {
     KIRI_INDEX(KIRI_OF_VERTICES, kiriTriangle, vertex, vertex),
     KIRI_INDEX_OR_NONE(KIRI_OF_HALF_EDGES, kiriTriangle, twin, twin),
     KIRI_RUN(4, kiriTriangle, source, source),
     KIRI_INDEX_OR_NONE(KIRI_OF_TRIANGLES, kiriTriangle, parent, parent),
     KIRI_WITHIN(0, KIRI_TRIANGLE_OPEN, kiriTriangle, marks, marks),
-};
-static const kiriTable TriangleTable = KIRI_TABLE(kiriTriangle, TriangleMembers);
+});
 
-static const kiriMember VertexMembers[] = {
+KIRI_TABLE(VertexTable, kiriVertex, {
     KIRI_RUN(4, kiriVertex, at, at),
     KIRI_INDEX(KIRI_OF_HALF_EDGES, kiriVertex, edge, edge),
     KIRI_RUN(4, kiriVertex, source, source),
     KIRI_DERIVED,
-};
-static const kiriTable VertexTable = KIRI_TABLE(kiriVertex, VertexMembers);
+});
 
-static const kiriMember SourceCornerMembers[] = { KIRI_WITHIN(0, KIRI_LATTICE, kiriLatticePoint, x, y) };
-static const kiriTable SourceCornerTable = KIRI_TABLE(kiriLatticePoint, SourceCornerMembers);
+KIRI_TABLE(SourceCornerTable, kiriLatticePoint, { KIRI_WITHIN(0, KIRI_LATTICE, kiriLatticePoint, x, y) });
 
 static int64_t CountSquares(const kiriSquares* squares)
 {
@@ -37,15 +34,14 @@ static void MoveSquares(kiriArchive* archive, void* object)
     kiriArchive_Block(archive, (void**)&squares->isDirty, 1, CountSquares(squares));
 }
 
-static const kiriMember SquaresMembers[] = {
+KIRI_TABLE(SquaresTable, kiriSquares, {
     KIRI_RUN(4, kiriSquares, columns, side),
     KIRI_DERIVED,
     KIRI_CUSTOM(kiriSquares, head, MoveSquares),
     KIRI_ARRAYS(kiriSquares, nodes, dirty),
-};
-static const kiriTable SquaresTable = KIRI_TABLE(kiriSquares, SquaresMembers);
+});
 
-static const kiriMember MeshMembers[] = {
+KIRI_SHARED_TABLE(kiriMeshTable, kiriMeshData, {
     KIRI_REALS(kiriMeshData, origin, step),
     KIRI_PARTS(kiriMeshData, triangles, TriangleTable),
     KIRI_PARTS(kiriMeshData, vertices, VertexTable),
@@ -58,8 +54,7 @@ static const kiriMember MeshMembers[] = {
     KIRI_DROPPED(kiriMeshData, memory, memory),
     KIRI_DERIVED,
     KIRI_ARRAYS(kiriMeshData, changedTriangles, changedVertices, births),
-};
-const kiriTable kiriMeshTable = KIRI_TABLE(kiriMeshData, MeshMembers);
+});
 
 /* ---- Numbers ----------------------------------------------------------------------------------------------------- */
 

@@ -6,22 +6,20 @@
 
 /* ---- Tables ------------------------------------------------------------------------------------------------------ */
 
-static const kiriMember MechanicsMembers[] = {
+KIRI_SHARED_TABLE(kiriMechanicsTable, kiriMechanics, {
     KIRI_WITHIN(KIRI_MODEL_LINKS, KIRI_MODEL_POINTS, kiriMechanics, model, model),
     KIRI_BOOLS(kiriMechanics, planar, planar),
     KIRI_REALS(kiriMechanics, axes, axes),
     KIRI_WITHIN(KIRI_TIME_STEPPING_SECOND_ORDER, KIRI_TIME_STEPPING_EULER, kiriMechanics, timeStepping, timeStepping),
-};
-const kiriTable kiriMechanicsTable = KIRI_TABLE(kiriMechanics, MechanicsMembers);
+});
 
-static const kiriMember HistoryMembers[] = {
+KIRI_TABLE(HistoryTable, kiriHistory, {
     KIRI_REALS(kiriHistory, dt, dt),
     KIRI_WITHIN(0, 1, kiriHistory, isHalf, isHeld),
     KIRI_REALS(kiriHistory, gain, turnPull),
-};
-static const kiriTable HistoryTable = KIRI_TABLE(kiriHistory, HistoryMembers);
+});
 
-static const kiriMember FrameDataMembers[] = {
+KIRI_SHARED_TABLE(kiriFrameTable, kiriFrameData, {
     KIRI_PART(kiriFrameData, site, kiriSiteTable),
     KIRI_RUN(4, kiriFrameData, anchor, anchor),
     KIRI_REALS(kiriFrameData, center, support),
@@ -34,49 +32,41 @@ static const kiriMember FrameDataMembers[] = {
     KIRI_RUN(4, kiriFrameData, id, id),
     KIRI_RUN(8, kiriFrameData, pieceData, pieceData),
     KIRI_DROPPED(kiriFrameData, gained, received),
-};
-const kiriTable kiriFrameTable = KIRI_TABLE(kiriFrameData, FrameDataMembers);
+});
 
-static const kiriMember AreaElementMembers[] = {
+KIRI_TABLE(AreaElementTable, kiriAreaElement, {
     KIRI_REALS(kiriAreaElement, area, lean),
     KIRI_RUN(4, kiriAreaElement, first, count),
     KIRI_WITHIN(0, KIRI_AREA_STRAINS, kiriAreaElement, firstRow, lastRow),
-};
-static const kiriTable AreaElementTable = KIRI_TABLE(kiriAreaElement, AreaElementMembers);
+});
 
-static const kiriMember FrameShareMembers[] = {
+KIRI_TABLE(FrameShareTable, kiriFrameShare, {
     KIRI_INDEX(KIRI_OF_FRAMES, kiriFrameShare, frame, frame),
     KIRI_RUN(8, kiriFrameShare, move, slope),
-};
-static const kiriTable FrameShareTable = KIRI_TABLE(kiriFrameShare, FrameShareMembers);
+});
 
-static const kiriMember AreaElementsMembers[] = {
+KIRI_SHARED_TABLE(kiriAreaElementsTable, kiriAreaElements, {
     KIRI_PARTS(kiriAreaElements, elements, AreaElementTable),
     KIRI_PARTS(kiriAreaElements, shares, FrameShareTable),
-};
-const kiriTable kiriAreaElementsTable = KIRI_TABLE(kiriAreaElements, AreaElementsMembers);
+});
 
-static const kiriMember StrainOffsetMembers[] = { KIRI_REALS(kiriStrainOffset, strain, strain) };
-static const kiriTable StrainOffsetTable = KIRI_TABLE(kiriStrainOffset, StrainOffsetMembers);
+KIRI_TABLE(StrainOffsetTable, kiriStrainOffset, { KIRI_REALS(kiriStrainOffset, strain, strain) });
 
-static const kiriMember StrainOffsetsMembers[] = {
+KIRI_SHARED_TABLE(kiriStrainOffsetsTable, kiriStrainOffsets, {
     KIRI_PARTS(kiriStrainOffsets, strainOffsets, StrainOffsetTable),
     KIRI_ROOMS(kiriStrainOffsets, older, from, frames, mayMove),
-};
-const kiriTable kiriStrainOffsetsTable = KIRI_TABLE(kiriStrainOffsets, StrainOffsetsMembers);
+});
 
-static const kiriMember OwnershipMembers[] = {
+KIRI_TABLE(OwnershipTable, kiriOwnership, {
     KIRI_DERIVED,
     KIRI_ARRAYS(kiriOwnership, squares, triangleOwners, dirty, isDirty, staged, transfers, first),
-};
-static const kiriTable OwnershipTable = KIRI_TABLE(kiriOwnership, OwnershipMembers);
+});
 
-static const kiriMember RefitMembers[] = {
+KIRI_SHARED_TABLE(kiriRefitTable, kiriRefit, {
     KIRI_DERIVED,
     KIRI_PART(kiriRefit, ownership, OwnershipTable),
     KIRI_ROOMS(kiriRefit, fits, bodies),
-};
-const kiriTable kiriRefitTable = KIRI_TABLE(kiriRefit, RefitMembers);
+});
 
 /* ---- Checks ------------------------------------------------------------------------------------------------------ */
 

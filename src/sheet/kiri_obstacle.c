@@ -958,15 +958,14 @@ bool kiriMeeting_TouchCorners(const kiriMeeting* meeting)
     return ok;
 }
 
-static const kiriMember ObstacleShapeMembers[] = {
+KIRI_TABLE(ObstacleShapeTable, kiriObstacleShape, {
     KIRI_WITHIN(KIRI_OBSTACLE_PLANE, KIRI_OBSTACLE_PRISM, kiriObstacleShape, type, type),
     KIRI_REALS(kiriObstacleShape, radius, rounding),
     KIRI_REALS(kiriObstacleShape, flat, flat),
     KIRI_KEPT(kiriObstacleShape, outline, count),
-};
-static const kiriTable ObstacleShapeTable = KIRI_TABLE(kiriObstacleShape, ObstacleShapeMembers);
+});
 
-static const kiriMember ObstacleDataMembers[] = {
+KIRI_TABLE(ObstacleDataTable, kiriObstacleData, {
     KIRI_PART(kiriObstacleData, shape, ObstacleShapeTable),
     KIRI_REALS(kiriObstacleData, position, center),
     KIRI_RUN(4, kiriObstacleData, body, body),
@@ -978,8 +977,7 @@ static const kiriMember ObstacleDataMembers[] = {
     KIRI_REALS(kiriObstacleData, impulse, impulse),
     KIRI_WITHIN(0, INT32_MAX, kiriObstacleData, contacts, contacts),
     KIRI_REALS(kiriObstacleData, lower, upper),
-};
-static const kiriTable ObstacleDataTable = KIRI_TABLE(kiriObstacleData, ObstacleDataMembers);
+});
 
 static bool IsObstacle(const kiriObstacleData* obstacle)
 {

@@ -14,7 +14,7 @@
 
 /* ---- Settings and layout ----------------------------------------------------------------------------------------- */
 
-static const kiriMember SettingsMembers[] = {
+KIRI_TABLE(SettingsTable, kiriSettings, {
     KIRI_RUN(4, kiriSettings, material, material),
     KIRI_PART(kiriSettings, mechanics, kiriMechanicsTable),
     KIRI_REALS(kiriSettings, snap, frameLength),
@@ -32,18 +32,16 @@ static const kiriMember SettingsMembers[] = {
     KIRI_RUN(4, kiriSettings, given, given),
     KIRI_RUN(8, kiriSettings, userData, userData),
     KIRI_BOOLS(kiriSettings, fromScratch, fromScratch),
-};
-static const kiriTable SettingsTable = KIRI_TABLE(kiriSettings, SettingsMembers);
+});
 
-static const kiriMember RestMembers[] = {
+KIRI_TABLE(RestTable, kiriRest, {
     KIRI_REALS(kiriRest, calm, calm),
     KIRI_BOOLS(kiriRest, asleep, asleep),
     KIRI_UNHASHED,
     KIRI_BOOLS(kiriRest, isStirred, isFading),
-};
-static const kiriTable RestTable = KIRI_TABLE(kiriRest, RestMembers);
+});
 
-static const kiriMember PieceMembers[] = {
+KIRI_TABLE(PieceTable, kiriPiece, {
     KIRI_BOOLS(kiriPiece, isGone, isGone),
     KIRI_PART(kiriPiece, rest, RestTable),
     KIRI_UNHASHED,
@@ -53,51 +51,45 @@ static const kiriMember PieceMembers[] = {
     KIRI_BOOLS(kiriPiece, cameOff, cameOff),
     KIRI_BOOLS(kiriPiece, isTouched, isTouched),
     KIRI_RUN(4, kiriPiece, island, island),
-};
-static const kiriTable PieceTable = KIRI_TABLE(kiriPiece, PieceMembers);
+});
 
-static const kiriMember SeveredLinkMembers[] = {
+KIRI_TABLE(SeveredLinkTable, kiriSeveredLink, {
     KIRI_INDEX(KIRI_OF_PINS, kiriSeveredLink, pin, pin),
     KIRI_WITHIN(0, INT32_MAX, kiriSeveredLink, link, link),
     KIRI_REALS(kiriSeveredLink, part, part),
-};
-static const kiriTable SeveredLinkTable = KIRI_TABLE(kiriSeveredLink, SeveredLinkMembers);
+});
 
-static const kiriMember LineShareMembers[] = {
+KIRI_TABLE(LineShareTable, kiriLineShare, {
     KIRI_INDEX(KIRI_OF_FRAMES, kiriLineShare, frame, frame),
     KIRI_REALS(kiriLineShare, length, ends),
     KIRI_RUN(4, kiriLineShare, open, open),
-};
-static const kiriTable LineShareTable = KIRI_TABLE(kiriLineShare, LineShareMembers);
+});
 
-static const kiriMember PinShareMembers[] = {
+KIRI_TABLE(PinShareTable, kiriPinShare, {
     KIRI_INDEX(KIRI_OF_PINS, kiriPinShare, pin, pin),
     KIRI_PART(kiriPinShare, share, LineShareTable),
     KIRI_REALS(kiriPinShare, offset, bore),
-};
-static const kiriTable PinShareTable = KIRI_TABLE(kiriPinShare, PinShareMembers);
+});
 
-static const kiriMember LayoutMembers[] = {
+KIRI_TABLE(LayoutTable, kiriLayout, {
     KIRI_PARTS(kiriLayout, pieces, PieceTable),
     KIRI_INDICES(KIRI_OF_PIECES, kiriLayout, framePiece),
     KIRI_INDICES(KIRI_OF_FRAMES, kiriLayout, pinFrame),
     KIRI_PARTS(kiriLayout, severed, SeveredLinkTable),
     KIRI_PARTS(kiriLayout, pinShares, PinShareTable),
     KIRI_PART(kiriLayout, areaElements, kiriAreaElementsTable),
-};
-static const kiriTable LayoutTable = KIRI_TABLE(kiriLayout, LayoutMembers);
+});
 
 /* ---- Pins and contacts ------------------------------------------------------------------------------------------- */
 
-static const kiriMember PinAnchorMembers[] = {
+KIRI_TABLE(PinAnchorTable, kiriPinAnchor, {
     KIRI_REALS(kiriPinAnchor, local, local),
     KIRI_UNHASHED,
     KIRI_RUN(4, kiriPinAnchor, obstacle, obstacle),
     KIRI_REALS(kiriPinAnchor, give, softness),
-};
-static const kiriTable PinAnchorTable = KIRI_TABLE(kiriPinAnchor, PinAnchorMembers);
+});
 
-static const kiriMember PinDataMembers[] = {
+KIRI_TABLE(PinDataTable, kiriPinData, {
     KIRI_WITHIN(KIRI_PIN_POINT, KIRI_PIN_CLAMP, kiriPinData, type, type),
     KIRI_RUN(4, kiriPinData, at, to),
     KIRI_REALS(kiriPinData, target, breakForce),
@@ -108,27 +100,24 @@ static const kiriMember PinDataMembers[] = {
     KIRI_RUN(4, kiriPinData, id, id),
     KIRI_RUN(8, kiriPinData, userData, userData),
     KIRI_RUN(4, kiriPinData, offFrame, offFrame),
-};
-static const kiriTable PinDataTable = KIRI_TABLE(kiriPinData, PinDataMembers);
+});
 
-static const kiriMember ContactMembers[] = {
+KIRI_TABLE(ContactTable, kiriContact, {
     KIRI_RUN(4, kiriContact, point, point),
     KIRI_FLOATS(kiriContact, normal, pushSpeed),
     KIRI_RUN(4, kiriContact, obstacle, obstacle),
     KIRI_UNHASHED,
     KIRI_FLOATS(kiriContact, restPoint, restPoint),
-};
-static const kiriTable ContactTable = KIRI_TABLE(kiriContact, ContactMembers);
+});
 
-static const kiriMember GivenContactMembers[] = {
+KIRI_TABLE(GivenContactTable, kiriGivenContact, {
     KIRI_PART(kiriGivenContact, contact, ContactTable),
     KIRI_REALS(kiriGivenContact, share, share),
     KIRI_UNHASHED,
     KIRI_RUN(4, kiriGivenContact, vertex, vertex),
-};
-static const kiriTable GivenContactTable = KIRI_TABLE(kiriGivenContact, GivenContactMembers);
+});
 
-static const kiriMember TouchMembers[] = {
+KIRI_TABLE(TouchTable, kiriTouch, {
     KIRI_RUN(8, kiriTouch, key, key),
     KIRI_REALS(kiriTouch, normal, pushSpeed),
     KIRI_UNHASHED,
@@ -138,38 +127,33 @@ static const kiriMember TouchMembers[] = {
     KIRI_REALS(kiriTouch, felt, cushion),
     KIRI_RUN(4, kiriTouch, row, row),
     KIRI_REALS(kiriTouch, force, force),
-};
-static const kiriTable TouchTable = KIRI_TABLE(kiriTouch, TouchMembers);
+});
 
-static const kiriMember TouchForceMembers[] = {
+KIRI_TABLE(TouchForceTable, kiriTouchForce, {
     KIRI_RUN(8, kiriTouchForce, key, key),
     KIRI_REALS(kiriTouchForce, force, force),
-};
-static const kiriTable TouchForceTable = KIRI_TABLE(kiriTouchForce, TouchForceMembers);
+});
 
-static const kiriMember TouchMemoryMembers[] = {
+KIRI_TABLE(TouchMemoryTable, kiriTouchMemory, {
     KIRI_PARTS(kiriTouchMemory, touches, TouchTable),
     KIRI_PARTS(kiriTouchMemory, forces, TouchForceTable),
     KIRI_UNHASHED,
     KIRI_RUN(4, kiriTouchMemory, given, given),
-};
-static const kiriTable TouchMemoryTable = KIRI_TABLE(kiriTouchMemory, TouchMemoryMembers);
+});
 
-static const kiriMember ContactForceMembers[] = {
+KIRI_TABLE(ContactForceTable, kiriContactForce, {
     KIRI_RUN(8, kiriContactForce, impulse, depth),
     KIRI_RUN(4, kiriContactForce, point, obstacle),
-};
-static const kiriTable ContactForceTable = KIRI_TABLE(kiriContactForce, ContactForceMembers);
+});
 
 /* Sums are a cache: a load computes them again. */
-static const kiriMember RestLoadsMembers[] = {
+KIRI_TABLE(RestLoadsTable, kiriRestLoads, {
     KIRI_UNHASHED,
     KIRI_ROOM_OF(kiriRestLoads, on),
     KIRI_DROPPED(kiriRestLoads, dt, areSummed),
-};
-static const kiriTable RestLoadsTable = KIRI_TABLE(kiriRestLoads, RestLoadsMembers);
+});
 
-static const kiriMember TouchesMembers[] = {
+KIRI_TABLE(TouchesTable, kiriTouches, {
     KIRI_PART(kiriTouches, last, TouchMemoryTable),
     KIRI_PART(kiriTouches, slept, TouchMemoryTable),
     KIRI_UNHASHED,
@@ -180,18 +164,16 @@ static const kiriMember TouchesMembers[] = {
     KIRI_HANDED,
     KIRI_PARTS(kiriTouches, told, ContactForceTable),
     KIRI_ROOM_OF(kiriTouches, nextTold),
-};
-static const kiriTable TouchesTable = KIRI_TABLE(kiriTouches, TouchesMembers);
+});
 
 /* ---- Visible state ----------------------------------------------------------------------------------------------- */
 
-static const kiriMember BlocksMembers[] = {
+KIRI_TABLE(BlocksTable, kiriBlocks, {
     KIRI_DERIVED,
     KIRI_ARRAYS(kiriBlocks, touched, stale, movers, moved),
-};
-static const kiriTable BlocksTable = KIRI_TABLE(kiriBlocks, BlocksMembers);
+});
 
-static const kiriMember SeenMembers[] = {
+KIRI_TABLE(SeenTable, kiriSeen, {
     KIRI_PART(kiriSeen, fades, kiriFadesTable),
     KIRI_PART(kiriSeen, pointFades, kiriFadesTable),
     KIRI_UNHASHED,
@@ -207,11 +189,10 @@ static const kiriMember SeenMembers[] = {
     KIRI_ARRAYS(kiriSeen, exactPoints),
     KIRI_HANDED,
     KIRI_ARRAYS(kiriSeen, pointPositions),
-};
-static const kiriTable SeenTable = KIRI_TABLE(kiriSeen, SeenMembers);
+});
 
 /* A load chooses the probes again; their velocities are saved. */
-static const kiriMember ProbesMembers[] = {
+KIRI_TABLE(ProbesTable, kiriProbes, {
     KIRI_BOOLS(kiriProbes, isFresh, isFresh),
     KIRI_RUN(4, kiriProbes, block, block),
     KIRI_ITEMS(8, kiriProbes, velocities),
@@ -219,26 +200,23 @@ static const kiriMember ProbesMembers[] = {
     KIRI_DROPPED(kiriProbes, areGrouped, areGrouped),
     KIRI_DROPPED(kiriProbes, sheet, list),
     KIRI_DROPPED(kiriProbes, boxes, touch),
-};
-static const kiriTable ProbesTable = KIRI_TABLE(kiriProbes, ProbesMembers);
+});
 
 /* ---- Work on a cut ----------------------------------------------------------------------------------------------- */
 
-static const kiriMember PlacingWorkMembers[] = {
+KIRI_TABLE(PlacingWorkTable, kiriPlacingWork, {
     KIRI_DERIVED,
     KIRI_ARRAYS(kiriPlacingWork, sites, moves, marks, allowed, flags, own),
     KIRI_PART(kiriPlacingWork, placer, kiriPlacerTable),
-};
-static const kiriTable PlacingWorkTable = KIRI_TABLE(kiriPlacingWork, PlacingWorkMembers);
+});
 
-static const kiriMember SampleWorkMembers[] = {
+KIRI_TABLE(SampleWorkTable, kiriSampleWork, {
     KIRI_DERIVED,
     KIRI_PART(kiriSampleWork, refresh, kiriRefreshTable),
     KIRI_ARRAYS(kiriSampleWork, newPoints, movedPoints),
-};
-static const kiriTable SampleWorkTable = KIRI_TABLE(kiriSampleWork, SampleWorkMembers);
+});
 
-static const kiriMember UpdateMembers[] = {
+KIRI_TABLE(UpdateTable, kiriUpdate, {
     KIRI_BOOLS(kiriUpdate, isUnsettled, isUnsettled),
     KIRI_DERIVED,
     KIRI_PART(kiriUpdate, placing, PlacingWorkTable),
@@ -247,64 +225,56 @@ static const kiriMember UpdateMembers[] = {
     KIRI_PART(kiriUpdate, next, LayoutTable),
     KIRI_ARRAYS(kiriUpdate, material, newFrames, parent),
     KIRI_DROPPED(kiriUpdate, integration, integration),
-};
-static const kiriTable UpdateTable = KIRI_TABLE(kiriUpdate, UpdateMembers);
+});
 
-static const kiriMember BladeTipMembers[] = {
+KIRI_TABLE(BladeTipTable, kiriBladeTip, {
     KIRI_RUN(4, kiriBladeTip, at, at),
     KIRI_INDEX_OR_NONE(KIRI_OF_VERTICES, kiriBladeTip, vertex, vertex),
     KIRI_WITHIN(KIRI_BLADE_RESTS, KIRI_BLADE_RESTS, kiriBladeTip, phase, phase),
     KIRI_COUNTS(kiriBladeTip, owed, owed),
     KIRI_UNHASHED,
     KIRI_RUN(4, kiriBladeTip, from, lip),
-};
-static const kiriTable BladeTipTable = KIRI_TABLE(kiriBladeTip, BladeTipMembers);
+});
 
-static const kiriMember TipMembers[] = {
+KIRI_TABLE(TipTable, kiriTip, {
     KIRI_REALS(kiriTip, last, last),
     KIRI_PART(kiriTip, blade, BladeTipTable),
-};
-static const kiriTable TipTable = KIRI_TABLE(kiriTip, TipMembers);
+});
 
-static const kiriMember CutDataMembers[] = {
+KIRI_TABLE(CutDataTable, kiriCutData, {
     KIRI_PART(kiriCutData, tip, TipTable),
     KIRI_BOOLS(kiriCutData, ended, ended),
     KIRI_UNHASHED,
     KIRI_RUN(4, kiriCutData, id, id),
     KIRI_DROPPED(kiriCutData, sheet, index),
     KIRI_DROPPED(kiriCutData, waiting, waiting),
-};
-static const kiriTable CutDataTable = KIRI_TABLE(kiriCutData, CutDataMembers);
+});
 
-static const kiriMember QueuedPointMembers[] = {
+KIRI_TABLE(QueuedPointTable, kiriQueuedPoint, {
     KIRI_REALS(kiriQueuedPoint, to, to),
     KIRI_BOOLS(kiriQueuedPoint, jump, ends),
     KIRI_UNHASHED,
     KIRI_COUNTS(kiriQueuedPoint, stamp, stamp),
     KIRI_DROPPED(kiriQueuedPoint, cut, cut),
-};
-static const kiriTable QueuedPointTable = KIRI_TABLE(kiriQueuedPoint, QueuedPointMembers);
+});
 
 /* ---- The sheet --------------------------------------------------------------------------------------------------- */
 
-static const kiriMember SampleMembers[] = {
+KIRI_TABLE(SampleTable, kiriSample, {
     KIRI_RUN(4, kiriSample, at, at),
     KIRI_DERIVED,
-};
-static const kiriTable SampleTable = KIRI_TABLE(kiriSample, SampleMembers);
+});
 
-static const kiriMember SheetRestMembers[] = {
+KIRI_TABLE(SheetRestTable, kiriSheetRest, {
     KIRI_BOOLS(kiriSheetRest, asleep, asleep),
     KIRI_UNHASHED,
     KIRI_BOOLS(kiriSheetRest, isStirred, isIdle),
-};
-static const kiriTable SheetRestTable = KIRI_TABLE(kiriSheetRest, SheetRestMembers);
+});
 
-static const kiriMember TurnsMembers[] = {
+KIRI_TABLE(TurnsTable, kiriPieceTurns, {
     KIRI_WITHIN(0, INT32_MAX, kiriPieceTurns, next, next),
     KIRI_WITHIN(0, 0, kiriPieceTurns, waiting, waiting),
-};
-static const kiriTable TurnsTable = KIRI_TABLE(kiriPieceTurns, TurnsMembers);
+});
 
 /* Counts come first: a load checks indices against them as it reads. */
 static void MoveCounts(kiriArchive* archive, void* object)
@@ -320,7 +290,7 @@ static void MoveCounts(kiriArchive* archive, void* object)
     count[KIRI_OF_POINTS] = kiriArchive_Count(archive, sheet->points.count, 0, INT32_MAX);
 }
 
-static const kiriMember SheetMembers[] = {
+KIRI_TABLE(SheetTable, kiriSheetData, {
     KIRI_CUSTOM(kiriSheetData, id, MoveCounts),
     KIRI_PART(kiriSheetData, settings, SettingsTable),
     KIRI_PART(kiriSheetData, mesh, kiriMeshTable),
@@ -355,8 +325,7 @@ static const kiriMember SheetMembers[] = {
     KIRI_PART(kiriSheetData, vertexSkin, kiriSkinTable),
     KIRI_PART(kiriSheetData, pointSkin, kiriSkinTable),
     KIRI_PART(kiriSheetData, pointPlaces, kiriPlacesTable),
-};
-static const kiriTable SheetTable = KIRI_TABLE(kiriSheetData, SheetMembers);
+});
 
 /* Moves the cuts and their pending points, which are blocks of the world's memory. */
 static void MoveCuts(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* memory)

@@ -2,17 +2,15 @@
 
 /* ---- Tables ------------------------------------------------------------------------------------------------------ */
 
-static const kiriMember SkinMembers[] = {
+KIRI_SHARED_TABLE(kiriSkinTable, kiriSkin, {
     KIRI_DERIVED,
     KIRI_ARRAYS(kiriSkin, spans, weights, staged),
-};
-const kiriTable kiriSkinTable = KIRI_TABLE(kiriSkin, SkinMembers);
+});
 
-static const kiriMember PlacesMembers[] = {
+KIRI_SHARED_TABLE(kiriPlacesTable, kiriPlaces, {
     KIRI_DERIVED,
     KIRI_ARRAYS(kiriPlaces, head, next),
-};
-const kiriTable kiriPlacesTable = KIRI_TABLE(kiriPlaces, PlacesMembers);
+});
 
 /* The stencil is gathered again. */
 static void ForgetStencil(kiriArchive* archive, void* object)
@@ -22,38 +20,34 @@ static void ForgetStencil(kiriArchive* archive, void* object)
     }
 }
 
-static const kiriMember RefreshMembers[] = {
+KIRI_SHARED_TABLE(kiriRefreshTable, kiriRefresh, {
     KIRI_DERIVED,
     KIRI_ARRAYS(kiriRefresh, noted, squares, marks),
     KIRI_DROPPED(kiriRefresh, stencil, stencil),
     KIRI_CUSTOM(kiriRefresh, stencil, ForgetStencil),
-};
-const kiriTable kiriRefreshTable = KIRI_TABLE(kiriRefresh, RefreshMembers);
+});
 
-static const kiriMember FadingMembers[] = {
+KIRI_TABLE(FadingTable, kiriFading, {
     KIRI_WITHIN(0, INT32_MAX, kiriFading, sample, sample),
     KIRI_REALS(kiriFading, left, offset),
-};
-static const kiriTable FadingTable = KIRI_TABLE(kiriFading, FadingMembers);
+});
 
-static const kiriMember FadesMembers[] = {
+KIRI_SHARED_TABLE(kiriFadesTable, kiriFades, {
     KIRI_REALS(kiriFades, time, least),
     KIRI_PARTS(kiriFades, fading, FadingTable),
     KIRI_UNHASHED,
     KIRI_RUN(4, kiriFades, older, older),
     KIRI_REALS(kiriFades, jump, move),
-};
-const kiriTable kiriFadesTable = KIRI_TABLE(kiriFades, FadesMembers);
+});
 
-static const kiriMember PatchesMembers[] = {
+KIRI_TABLE(PatchesTable, kiriPatches, {
     KIRI_FLOAT_ITEMS(kiriPatches, floats),
     KIRI_ITEMS(1, kiriPatches, isOther),
     KIRI_WITHIN(0, INT32_MAX, kiriPatches, count, count),
     KIRI_BOOLS(kiriPatches, isBent, areOther),
-};
-static const kiriTable PatchesTable = KIRI_TABLE(kiriPatches, PatchesMembers);
+});
 
-static const kiriMember SurfaceMembers[] = {
+KIRI_SHARED_TABLE(kiriSurfaceTable, kiriSurface, {
     KIRI_UNHASHED,
     KIRI_HANDED,
     KIRI_WITHIN(KIRI_SKINNING_LINEAR, KIRI_SKINNING_SMOOTH, kiriSurface, skinning, skinning),
@@ -71,8 +65,7 @@ static const kiriMember SurfaceMembers[] = {
     KIRI_DERIVED,
     KIRI_ARRAYS(kiriSurface, positions, normals, restPositions, sourceWeights, indices, sourceTriangles),
     KIRI_ARRAYS(kiriSurface, rest, turns, slopes, places, bends),
-};
-const kiriTable kiriSurfaceTable = KIRI_TABLE(kiriSurface, SurfaceMembers);
+});
 
 /* ---- Checks ------------------------------------------------------------------------------------------------------ */
 

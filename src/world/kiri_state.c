@@ -10,82 +10,72 @@
 /* ---- Tables ------------------------------------------------------------------------------------------------------ */
 
 /* Indices and nears are of the current tick alone. */
-static const kiriMember PairMembers[] = {
+KIRI_TABLE(PairTable, kiriTouchingPair, {
     KIRI_WITHIN(-1, 1, kiriTouchingPair, side, side),
     KIRI_WITHIN(0, 1, kiriTouchingPair, touches, touches),
     KIRI_UNHASHED,
     KIRI_RUN(4, kiriTouchingPair, upper, lower),
     KIRI_DROPPED(kiriTouchingPair, bodies, nears),
-};
-static const kiriTable PairTable = KIRI_TABLE(kiriTouchingPair, PairMembers);
+});
 
-static const kiriMember FeltPushMembers[] = {
+KIRI_TABLE(FeltPushTable, kiriFeltPush, {
     KIRI_REALS(kiriFeltPush, force, force),
     KIRI_UNHASHED,
     KIRI_RUN(8, kiriFeltPush, key, key),
-};
-static const kiriTable FeltPushTable = KIRI_TABLE(kiriFeltPush, FeltPushMembers);
+});
 
-static const kiriMember PairsMembers[] = {
+KIRI_TABLE(PairsTable, kiriPairs, {
     KIRI_PARTS(kiriPairs, pairs, PairTable),
     KIRI_PARTS(kiriPairs, felt, FeltPushTable),
     KIRI_UNHASHED,
     KIRI_ROOMS(kiriPairs, next, found, bodies, order, nears, parents, islands),
     KIRI_ROOMS(kiriPairs, touches, nextFelt),
-};
-static const kiriTable PairsTable = KIRI_TABLE(kiriPairs, PairsMembers);
+});
 
-static const kiriMember LoopMembers[] = {
+KIRI_TABLE(LoopTable, kiriLoop, {
     KIRI_BOOLS(kiriLoop, isOpen, isPassed),
     KIRI_REALS(kiriLoop, start, then),
-};
-static const kiriTable LoopTable = KIRI_TABLE(kiriLoop, LoopMembers);
+});
 
-static const kiriMember LayerMembers[] = {
+KIRI_TABLE(LayerTable, kiriLayer, {
     KIRI_REALS(kiriLayer, rest, share),
     KIRI_PART(kiriLayer, loop, LoopTable),
     KIRI_UNHASHED,
     KIRI_RUN(4, kiriLayer, sheet, cut),
-};
-static const kiriTable LayerTable = KIRI_TABLE(kiriLayer, LayerMembers);
+});
 
-static const kiriMember BladeDataMembers[] = {
+KIRI_TABLE(BladeDataTable, kiriBladeData, {
     KIRI_BOOLS(kiriBladeData, isPlaced, isPlaced),
     KIRI_REALS(kiriBladeData, edge, elapsed),
     KIRI_PARTS(kiriBladeData, layers, LayerTable),
     KIRI_UNHASHED,
     KIRI_RUN(4, kiriBladeData, id, sheet),
-};
-static const kiriTable BladeDataTable = KIRI_TABLE(kiriBladeData, BladeDataMembers);
+});
 
 enum { MOST_GENERATIONS = 127 };
 
 /* Owners are found by their ids. */
-static const kiriMember SlotMembers[] = {
+KIRI_TABLE(SlotTable, kiriSlot, {
     KIRI_RUN(4, kiriSlot, index, index),
     KIRI_WITHIN(1, MOST_GENERATIONS, kiriSlot, generation, generation),
     KIRI_DROPPED(kiriSlot, owner, owner),
-};
-static const kiriTable SlotTable = KIRI_TABLE(kiriSlot, SlotMembers);
+});
 
-static const kiriMember PoolMembers[] = {
+KIRI_TABLE(PoolTable, kiriPool, {
     KIRI_RUN(4, kiriPool, kind, freeCount),
     KIRI_PARTS(kiriPool, slots, SlotTable),
-};
-static const kiriTable PoolTable = KIRI_TABLE(kiriPool, PoolMembers);
+});
 
-static const kiriMember MovesMembers[] = {
+KIRI_TABLE(MovesTable, kiriMoves, {
     KIRI_ROOMS(kiriMoves, of, meets, order, parent, heads),
-};
-static const kiriTable MovesTable = KIRI_TABLE(kiriMoves, MovesMembers);
+});
 
 /* Times are of this machine. */
-static const kiriMember ProfileMembers[] = {
+KIRI_TABLE(ProfileTable, kiriProfile, {
     KIRI_RUN(4, kiriProfile, cutSegments, sheetPairs),
     KIRI_RUN(8, kiriProfile, largestJump, largestFade),
     KIRI_DROPPED(kiriProfile, seconds, seconds),
-};
-static const kiriTable ProfileTable = KIRI_TABLE(kiriProfile, ProfileMembers);
+});
 
 /* Whose turn it is under a budget. */
 static void HashTurn(kiriArchive* archive, void* object)
@@ -99,7 +89,7 @@ static void HashTurn(kiriArchive* archive, void* object)
 }
 
 /* The world that reads keeps its hooks. */
-static const kiriMember WorldMembers[] = {
+KIRI_TABLE(WorldTable, kiriWorld, {
     KIRI_REALS(kiriWorld, gravity, gravity),
     KIRI_WITHIN(0, INT32_MAX, kiriWorld, budget, budget),
     KIRI_COUNTS(kiriWorld, samplesDue, samplesDue),
@@ -127,8 +117,7 @@ static const kiriMember WorldMembers[] = {
     KIRI_DROPPED(kiriWorld, log, user),
     KIRI_DROPPED(kiriWorld, obstacleSearch, searches),
     KIRI_DROPPED(kiriWorld, begun, logs),
-};
-static const kiriTable WorldTable = KIRI_TABLE(kiriWorld, WorldMembers);
+});
 
 /* ---- Both directions --------------------------------------------------------------------------------------------- */
 
@@ -269,12 +258,11 @@ typedef struct SaveHead {
     int64_t size; /* of all bytes */
 } SaveHead;
 
-static const kiriMember SaveHeadMembers[] = {
+KIRI_TABLE(SaveHeadTable, SaveHead, {
     KIRI_RUN(1, SaveHead, magic, magic),
     KIRI_RUN(4, SaveHead, version, library),
     KIRI_RUN(8, SaveHead, size, size),
-};
-static const kiriTable SaveHeadTable = KIRI_TABLE(SaveHead, SaveHeadMembers);
+});
 
 static uint64_t WordAt(const uint8_t* bytes, int64_t count)
 {
