@@ -104,8 +104,8 @@ GAME_PARTS := $(filter-out %/main.c.o %/shell.c.o %/window.c.o,$(GAME_OBJECTS))
 PICTURE_OBJECTS := $(patsubst %,$(BUILD)/samples/%.c.o,image edges)
 # What tests and benchmarks take from the samples: the scenes.
 SCENE_OBJECTS := $(filter $(BUILD)/samples/scene% %/outline.c.o,$(SAMPLE_OBJECTS))
-# Checks of a whole world, for all tests.
-VALIDATE_OBJECTS := $(patsubst %,$(BUILD)/tests/%.c.o,validate validate_mesh validate_field validate_seen)
+# Checks and hashes of a whole world, for all tests.
+VALIDATE_OBJECTS := $(patsubst %,$(BUILD)/tests/%.c.o,validate validate_mesh validate_field validate_seen layout_hash)
 TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/test_*.c)) $(patsubst %.cpp,$(BUILD)/%,$(wildcard tests/test_*.cpp))
 # Each tests/fuzz_X.c, its input in tests/data/fuzz/X.
 FUZZERS := calls load mesh replay spoil

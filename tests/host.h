@@ -231,6 +231,24 @@ static inline kiriCut Host_Cut(Host* host, kiriSheet sheet, const float* points,
     return cut;
 }
 
+static inline int32_t Host_SheetCount(const Host* host)
+{
+    int32_t count;
+    OK(kiriWorld_GetSheets(host->world, NULL, 0, &count));
+    return count;
+}
+
+/* The sheets by age, the oldest first. */
+static inline kiriSheet Host_SheetAt(const Host* host, int32_t index)
+{
+    kiriSheet sheets[64];
+    int32_t count;
+    assert_in_range(index, 0, 63);
+    OK(kiriWorld_GetSheets(host->world, sheets, 64, &count));
+    assert_in_range(index, 0, count - 1);
+    return sheets[index];
+}
+
 static inline kiriCounts Host_Counts(const Host* host, kiriSheet sheet)
 {
     kiriCounts counts;

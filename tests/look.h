@@ -5,8 +5,6 @@
 
 #include "host.h"
 
-#include "world/kiri_world.h"
-
 static inline uint64_t Look_Bytes(uint64_t hash, const void* data, size_t bytes)
 {
     for (size_t i = 0; i < bytes; ++i) {
@@ -92,8 +90,11 @@ static inline uint64_t Look_World(const kiriWorld* world)
     uint64_t hash = 14695981039346656037u;
     const kiriEvent* events;
     int32_t count;
-    for (int32_t i = 0; i < world->sheets.count; ++i) {
-        hash = Look_Sheet(hash, world, world->sheets.data[i]->id);
+    kiriSheet sheets[64];
+    OK(kiriWorld_GetSheets(world, sheets, 64, &count));
+    assert_in_range(count, 0, 64);
+    for (int32_t i = 0; i < count; ++i) {
+        hash = Look_Sheet(hash, world, sheets[i]);
     }
     OK(kiriWorld_GetEvents(world, &events, &count));
     return Look_Bytes(hash, events, sizeof(kiriEvent) * (size_t)count);

@@ -114,7 +114,7 @@ def with_inner_headers(texts):
         if path in seen or path not in texts:
             return False
         seen.add(path)
-        return any((repository / "src" / name.replace("../src/", "")).exists() or includes(f"tests/{name}", seen)
+        return any((repository / "src" / name.replace("../src/", "")).exists() and "../samples" not in name or includes(f"tests/{name}", seen)
                    for name in re.findall(r'^#include "([^"]+)"', texts[path], re.M))
     return [path for path in texts if re.match(r"tests/test_\w+\.c", path) and includes(path, set())]
 

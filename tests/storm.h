@@ -3,7 +3,6 @@
 #ifndef KIRI_STORM_H
 #define KIRI_STORM_H
 
-#include "core/kiri_float.h" /* the storm's own numbers are to be the same everywhere, too */
 #include "kiri/kiri.h"
 
 #include <stdbool.h>

@@ -1,5 +1,7 @@
 #include "storm.h"
 
+#include "core/kiri_float.h" /* the storm gives the same bits on every machine */
+
 /* ---- Cuts ---- */
 
 void Storm_Cut(Storm* storm)

@@ -150,7 +150,7 @@ static Outcome DrawAtRandom(uint32_t run, const kiriBudget* budget)
         }
     }
     Settle(&host, &outcome.commits);
-    outcome.layout = HashLayout(host.world->sheets.data[0]);
+    outcome.layout = Layout_HashAll(host.world);
     outcome.counts = Host_Counts(&host, sheet);
     Host_Stop(&host);
     return outcome;

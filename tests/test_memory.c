@@ -167,7 +167,7 @@ static kiriSheet AddForCut(Host* host, int32_t columns)
 
 static uint64_t LayoutOf(const Host* host)
 {
-    return HashLayout(host->world->sheets.data[0]);
+    return Layout_HashAll(host->world);
 }
 
 /* What a cut leaves when nothing fails. */

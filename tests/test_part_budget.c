@@ -1,8 +1,7 @@
 /* Pieces that part at random, under small budgets and without one: what comes of it is the same. */
-#include "host.h"
+#include "look.h"
 
 #include "layout_hash.h"
-#include "sheet/kiri_update.h"
 
 enum { ROUNDS = 6, MOST_TARGETS = 8, MOST_PIECES = 400 };
 
@@ -25,9 +24,7 @@ static uint64_t HashRest(const kiriMesh* mesh, const kiriPieceMesh* piece)
 {
     uint64_t sum = 0;
     for (int32_t i = 0; i < piece->vertexCount; ++i) {
-        uint64_t hash = KIRI_HASH_START;
-        HashBytes(&hash, &mesh->restPositions[2 * piece->vertices[i]], 2 * sizeof(float));
-        sum += hash;
+        sum += Look_Bytes(0, &mesh->restPositions[2 * piece->vertices[i]], 2 * sizeof(float));
     }
     return sum;
 }
@@ -42,8 +39,8 @@ static int ComparePortraits(const void* left, const void* right)
 static Gallery Portray(const Host* host)
 {
     Gallery gallery = { .count = 0 };
-    for (int32_t s = 0; s < host->world->sheets.count; ++s) {
-        kiriSheet sheet = host->world->sheets.data[s]->id;
+    for (int32_t s = 0; s < Host_SheetCount(host); ++s) {
+        kiriSheet sheet = Host_SheetAt(host, s);
         kiriMesh mesh = Host_Mesh(host, sheet);
         for (int32_t p = 0; p < Host_Counts(host, sheet).pieces; ++p) {
             kiriPieceState state;
@@ -69,16 +66,6 @@ static void CompareGalleries(const Gallery* a, const Gallery* b)
         assert_int_equal(a->of[i].triangles, b->of[i].triangles);
         assert_int_equal(a->of[i].points, b->of[i].points);
     }
-}
-
-/* Of all sheets, in whatever order they came. */
-static uint64_t HashLayouts(const Host* host)
-{
-    uint64_t sum = 0;
-    for (int32_t s = 0; s < host->world->sheets.count; ++s) {
-        sum += HashLayout(host->world->sheets.data[s]);
-    }
-    return sum;
 }
 
 /* ---- What is done ---- */
@@ -107,8 +94,8 @@ static int32_t Settle(Host* host, int32_t samples)
 static kiriSheet AnySheet(const Host* host, uint32_t* seed)
 {
     uint32_t draw = Random(seed), other = Random(seed);
-    int32_t count = host->world->sheets.count;
-    return host->world->sheets.data[draw % 5 == 0 ? (int32_t)(other % (uint32_t)count) : 0]->id;
+    uint32_t count = (uint32_t)Host_SheetCount(host);
+    return Host_SheetAt(host, draw % 5 == 0 ? (int32_t)(other % count) : 0);
 }
 
 /* Across all of the sheet, or a loop in it. */
@@ -292,7 +279,7 @@ static void StartDisturbed(Host* host, int disturbance, bool hasBudget)
         assert_true(result >= 0 || (disturbance == REFUSE && result == KIRI_ERROR_MEMORY));
     }
     host->failAt = -1;
-    assert_int_equal(host->world->sheets.count, 1);
+    assert_int_equal(Host_SheetCount(host), 1);
     Disturb(host, sheet, frame, other, disturbance);
 }
 
@@ -310,7 +297,7 @@ static int32_t TicksToLeave(const kiriBudget* budget, bool isOtherCut)
     Settle(&host, 0);
     OK(kiriWorld_SetBudget(host.world, budget));
     assert_int_equal(kiriFrame_DetachPiece(host.world, Host_FrameOf(&host, sheet, 0), &made), KIRI_PENDING);
-    for (kiriResult result = KIRI_PENDING; host.world->sheets.count == 2; ++ticks) {
+    for (kiriResult result = KIRI_PENDING; Host_SheetCount(&host) == 2; ++ticks) {
         float at = 0.1f + 0.01f * (float)(ticks % 80);
         assert_in_range(ticks, 0, 2000);
         if (isOtherCut) {
@@ -341,21 +328,27 @@ static void TestDisturbed(void** state)
         Host hosts[2];
         StartDisturbed(&hosts[0], disturbance, true);
         if (disturbance == SHEET_GOES) {
-            OK(kiriDestroySheet(hosts[0].world, hosts[0].world->sheets.data[0]->id));
+            OK(kiriDestroySheet(hosts[0].world, Host_SheetAt(&hosts[0], 0)));
             Host_Stop(&hosts[0]);
             continue;
         }
         Settle(&hosts[0], 60);
         StartDisturbed(&hosts[1], disturbance, false);
         Settle(&hosts[1], 0);
-        assert_int_equal(hosts[0].world->sheets.count, disturbance == IT_GOES ? 1 : 2);
-        assert_int_equal(hosts[1].world->sheets.count, hosts[0].world->sheets.count);
-        assert_true(HashLayouts(&hosts[0]) == HashLayouts(&hosts[1]));
-        for (int32_t s = 0; s < hosts[0].world->sheets.count; ++s) {
-            const kiriSheetData *a = hosts[0].world->sheets.data[s], *b = hosts[1].world->sheets.data[s];
-            assert_int_equal(a->pins.count, b->pins.count);
-            assert_int_equal(a->settings.skinning, b->settings.skinning);
-            assert_int_equal(a->settings.maxFrames, b->settings.maxFrames);
+        assert_int_equal(Host_SheetCount(&hosts[0]), disturbance == IT_GOES ? 1 : 2);
+        assert_int_equal(Host_SheetCount(&hosts[1]), Host_SheetCount(&hosts[0]));
+        assert_true(Layout_HashAll(hosts[0].world) == Layout_HashAll(hosts[1].world));
+        for (int32_t s = 0; s < Host_SheetCount(&hosts[0]); ++s) {
+            kiriSheetSettings settings[2];
+            int32_t pins[2];
+            for (int k = 0; k < 2; ++k) {
+                kiriSheet sheet = Host_SheetAt(&hosts[k], s);
+                OK(kiriSheet_GetSettings(hosts[k].world, sheet, &settings[k]));
+                OK(kiriSheet_GetPins(hosts[k].world, sheet, NULL, 0, &pins[k]));
+            }
+            assert_int_equal(pins[0], pins[1]);
+            assert_int_equal(settings[0].skinning, settings[1].skinning);
+            assert_int_equal(settings[0].maxFrames, settings[1].maxFrames);
         }
         Host_Stop(&hosts[0]);
         Host_Stop(&hosts[1]);
@@ -388,7 +381,7 @@ static void RunAtRandom(uint32_t run, int32_t squares, const kiriBudget* budget,
             assert_float_equal(galleries[k].area + gone[k], 1.0, 1e-6);
         }
         CompareGalleries(&galleries[0], &galleries[1]);
-        assert_true(HashLayouts(&hosts[0]) == HashLayouts(&hosts[1]));
+        assert_true(Layout_HashAll(hosts[0].world) == Layout_HashAll(hosts[1].world));
     }
     assert_int_equal(unlimited, 0);
     Host_Stop(&hosts[0]);

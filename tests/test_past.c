@@ -2,7 +2,6 @@
    changed. */
 #include "host.h"
 
-#include "world/kiri_world.h"
 
 #include <stdio.h>
 
@@ -63,8 +62,8 @@ static uint8_t* MarkUsed(const kiriMesh* mesh)
 static void CopyAll(Past* past)
 {
     Forget(past);
-    for (int32_t i = 0; i < past->host.world->sheets.count; ++i) {
-        kiriSheet sheet = past->host.world->sheets.data[i]->id;
+    for (int32_t i = 0; i < Host_SheetCount(&past->host); ++i) {
+        kiriSheet sheet = Host_SheetAt(&past->host, i);
         kiriMesh mesh = Host_Mesh(&past->host, sheet);
         size_t count = (size_t)mesh.vertexCount;
         assert_true(past->copyCount < MOST_SHEETS);
@@ -150,8 +149,8 @@ static void Check(Past* past)
     for (int32_t i = 0; i < past->copyCount; ++i) {
         memset(past->copies[i].isFound, 0, (size_t)past->copies[i].count);
     }
-    for (int32_t i = 0; i < past->host.world->sheets.count; ++i) {
-        CheckSheet(past, past->host.world->sheets.data[i]->id);
+    for (int32_t i = 0; i < Host_SheetCount(&past->host); ++i) {
+        CheckSheet(past, Host_SheetAt(&past->host, i));
     }
     for (int32_t i = 0; i < past->copyCount && !past->mayLose; ++i) {
         for (int32_t v = 0; v < past->copies[i].count; ++v) {
@@ -182,7 +181,7 @@ static void AddSheet(Past* past)
 
 static kiriSheet AnySheet(Past* past)
 {
-    return past->host.world->sheets.data[Random(&past->seed) % (uint32_t)past->host.world->sheets.count]->id;
+    return Host_SheetAt(&past->host, (int32_t)(Random(&past->seed) % (uint32_t)Host_SheetCount(&past->host)));
 }
 
 static void Cut(Past* past)
@@ -217,7 +216,7 @@ static void TakePiece(Past* past)
     switch (frame != 0 ? Random(&past->seed) % 4 : 4) {
     case 0:
     case 1:
-        if (past->host.world->sheets.count < MOST_SHEETS / 2) {
+        if (Host_SheetCount(&past->host) < MOST_SHEETS / 2) {
             kiriFrame_DetachPiece(past->host.world, frame, &made);
         }
         break;
@@ -256,7 +255,7 @@ static void Act(Past* past)
 {
     switch (Random(&past->seed) % 16) {
     case 0:
-        if (past->host.world->sheets.count < 6) {
+        if (Host_SheetCount(&past->host) < 6) {
             AddSheet(past);
         }
         break;
@@ -266,7 +265,7 @@ static void Act(Past* past)
     case 2:
         if (Random(&past->seed) % 8 == 0) {
             Load(past);
-        } else if (past->host.world->sheets.count > 3) {
+        } else if (Host_SheetCount(&past->host) > 3) {
             past->mayLose = true;
             OK(kiriDestroySheet(past->host.world, AnySheet(past)));
         }
@@ -344,11 +343,10 @@ static void CostsNothingWhereNothingChanges(void** state)
         OK(Host_Tick(&past.host, 1.0f / 60.0f, 1));
     }
     assert_true(past.host.calls == calls && past.host.bytes == bytes);
-    kiriSheet sheet = past.host.world->sheets.data[0]->id, from;
+    kiriSheet sheet = Host_SheetAt(&past.host, 0), from;
     int32_t vertices[2];
     OK(kiriSheet_CopyPrevious(past.host.world, sheet, 3, 2, vertices, &from));
     assert_true(vertices[0] == 3 && vertices[1] == 4 && from == sheet);
-    assert_null(past.host.world->sheets.data[0]->past.others);
     Forget(&past);
     Host_Stop(&past.host);
 }
@@ -360,7 +358,7 @@ static void Refuses(void** state)
     Host_Start(&past.host);
     AddSheet(&past);
     const kiriWorld* world = past.host.world;
-    kiriSheet sheet = world->sheets.data[0]->id, from;
+    kiriSheet sheet = Host_SheetAt(&past.host, 0), from;
     int32_t vertices[4], count = Host_Counts(&past.host, sheet).vertices;
     assert_int_equal(kiriSheet_CopyPrevious(NULL, sheet, 0, 1, vertices, &from), KIRI_ERROR_ARGUMENT);
     assert_int_equal(kiriSheet_CopyPrevious(world, sheet + 1, 0, 1, vertices, &from), KIRI_ERROR_ID);

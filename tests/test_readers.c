@@ -264,9 +264,7 @@ enum { READERS = sizeof(readers) / sizeof(readers[0]) };
 
 /* All that a reader must leave alone. */
 typedef struct Bytes {
-    kiriWorld world;
-    kiriSheetData sheet;
-    uint64_t hash, look;
+    uint64_t hash, look, snapshot;
     char lastError[256];
 } Bytes;
 
@@ -274,11 +272,13 @@ static void TakeBytes(const Scene* scene, Bytes* bytes)
 {
     const kiriWorld* world = WorldOf(scene);
     memset(bytes, 0, sizeof(*bytes));
-    memcpy(&bytes->world, world, sizeof(bytes->world));
-    memcpy(&bytes->sheet, world->sheets.data[0], sizeof(bytes->sheet));
-    bytes->sheet.seen.surface.lentAt = 0; /* word that they leave */
+    static uint8_t snapshot[1 << 22];
+    int64_t size;
     bytes->hash = Host_Hash(&scene->hall.host);
     bytes->look = Look_World(world);
+    OK(ReadRay(scene, true)); /* the snapshot has what these two leave: that the host has the arrays, and boxes */
+    OK(kiriWorld_Snapshot(world, snapshot, sizeof(snapshot), &size));
+    bytes->snapshot = Look_Bytes(0, snapshot, (size_t)size);
     strcpy(bytes->lastError, kiriWorld_GetLastError(world));
 }
 

@@ -250,9 +250,7 @@ static void StartCut(Host* host, const kiriBudget* budget)
 /* Triangles, frames, pieces and the weights of vertices: not where they are. */
 static uint64_t LayoutOf(const Host* host)
 {
-    uint64_t hash = KIRI_HASH_START;
-    HashInForce(&hash, host->world->sheets.data[0]);
-    return hash;
+    return Layout_HashInForce(host->world, Host_SheetAt(host, 0));
 }
 
 /* In whatever step a tick has left the work, and where memory is refused first: the cut does the same. */

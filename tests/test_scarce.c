@@ -222,13 +222,9 @@ static void RefuseEach(Scene* scene)
 
 static uint64_t LayoutOf(const Scene* scene)
 {
-    uint64_t hash = 0;
     OK(kiriWorld_FinishCuts(scene->world));
     CheckWorld(scene);
-    for (int32_t i = 0; i < scene->world->sheets.count; ++i) {
-        hash = 31 * hash + HashLayout(scene->world->sheets.data[i]);
-    }
-    return hash;
+    return Layout_HashAll(scene->world);
 }
 
 static uint64_t Run(const SceneType* type, bool isPoor)

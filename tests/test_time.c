@@ -1,6 +1,5 @@
 /* Time stepping through the public header: torques that arrive, and motion that lasts. */
 #include "host.h"
-#include "world/kiri_world.h"
 
 /* A strip of paper, 0.2 m by 0.05 m along u, clamped at the first of its frames. */
 typedef struct Strip {
@@ -338,63 +337,12 @@ static void TestSlitGrows(void** state)
 
 /* ---- History ----------------------------------------------------------------------------------------------------- */
 
-/* Two worlds that differ in the history of a frame alone are two. */
-static void TestHistoryIsHashed(void** state)
-{
-    const Swing swing = { 0, 2, 1, false, 1.5 };
-    Pendulum p;
-    (void)state;
-    Pendulum_Start(&p, &swing);
-    OK(Host_Tick(&p.strip.host, 1.0f / 60.0f, 2));
-    kiriHistory* history = &p.strip.host.world->sheets.data[0]->frames.data[4].history;
-    assert_true(history->dt > 0.0);
-    double* numbers[7] = { &history->dt,           &history->gain.x,      &history->lag.z,       &history->pull.x,
-                           &history->turnGain.u.y, &history->turnLag.u.y, &history->turnPull.u.y };
-    for (int k = 0; k < 7; ++k) {
-        uint64_t before = Host_Hash(&p.strip.host);
-        double was = *numbers[k];
-        *numbers[k] = was + 1.0;
-        assert_true(Host_Hash(&p.strip.host) != before);
-        *numbers[k] = was;
-        assert_true(Host_Hash(&p.strip.host) == before);
-    }
-    Host_Stop(&p.strip.host);
-}
-
-/* A pin that moves ends the history of the frame that it holds, and one that is set to where it is does not. By choice
-   there is none at all. */
-static void TestPinsEndHistory(void** state)
-{
-    const Swing swing = { 0, 2, 1, false, 1.5 }, euler = { 1, 2, 1, false, 1.5 };
-    float target[3] = { 0.0f, 0.001f, -0.001f };
-    Pendulum p;
-    (void)state;
-    Pendulum_Start(&p, &swing);
-    OK(Host_Tick(&p.strip.host, 1.0f / 60.0f, 2));
-    const kiriSheetData* sheet = p.strip.host.world->sheets.data[0];
-    OK(kiriPin_SetTarget(p.strip.host.world, p.pins[0], target));
-    assert_true(sheet->frames.data[0].history.dt > 0.0);
-    target[0] = 0.01f;
-    OK(kiriPin_SetTarget(p.strip.host.world, p.pins[0], target));
-    assert_true(sheet->frames.data[0].history.dt == 0.0 && sheet->frames.data[1].history.dt > 0.0);
-    OK(Host_Tick(&p.strip.host, 1.0f / 60.0f, 2));
-    assert_true(sheet->frames.data[0].history.dt > 0.0);
-    OK(kiriDestroyPin(p.strip.host.world, p.pins[1]));
-    assert_true(sheet->frames.data[0].history.dt == 0.0);
-    Host_Stop(&p.strip.host);
-    Pendulum_Start(&p, &euler);
-    OK(Host_Tick(&p.strip.host, 1.0f / 60.0f, 2));
-    assert_true(p.strip.host.world->sheets.data[0]->frames.data[4].history.dt == 0.0);
-    Host_Stop(&p.strip.host);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestTorqueArrives),   cmocka_unit_test(TestTorqueArrivesInOtherSheets),
         cmocka_unit_test(TestTorqueAtRest),    cmocka_unit_test(TestSwingLasts),
         cmocka_unit_test(TestOrder),           cmocka_unit_test(TestSlitGrows),
-        cmocka_unit_test(TestHistoryIsHashed), cmocka_unit_test(TestPinsEndHistory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,18 +3,11 @@
 
 #include "layout_hash.h"
 
-#include "sheet/kiri_update.h"
-
 #include <stdio.h>
-
-static const kiriSheetData* SheetOf(const Host* host, int32_t index)
-{
-    return host->world->sheets.data[index];
-}
 
 static uint64_t Layout(const Host* host, int32_t index)
 {
-    return HashLayout(SheetOf(host, index));
+    return Layout_Hash(host->world, Host_SheetAt(host, index));
 }
 
 /* ---- Blades that wander at random ---- */
@@ -218,7 +211,7 @@ static void StartPair(Host hosts[2], const kiriBudget* budget)
 
 static void CompareLayouts(const Host hosts[2])
 {
-    for (int32_t i = 0; i < hosts[0].world->sheets.count; ++i) {
+    for (int32_t i = 0; i < Host_SheetCount(&hosts[0]); ++i) {
         assert_true(Layout(&hosts[0], i) == Layout(&hosts[1], i));
     }
 }
@@ -339,7 +332,7 @@ static void TestFiftyCutsOnFiftySheets(void** state)
         int32_t ticks = Settle(&hosts[k], k == 0 ? &(kiriBudget){ 0, 0, 0, 0 } : &tight);
         assert_true(k == 0 ? ticks == 1 : ticks > SHEETS);
         for (int32_t i = 0; i < SHEETS; ++i) {
-            assert_int_equal(Host_Counts(&hosts[k], SheetOf(&hosts[k], i)->id).pieces, 2);
+            assert_int_equal(Host_Counts(&hosts[k], Host_SheetAt(&hosts[k], i)).pieces, 2);
         }
     }
     CompareLayouts(hosts);
@@ -453,11 +446,10 @@ static void TestBudgetFromTime(void** state)
 
 /* ---- Calls amid the work ---- */
 
-/* One cut, with so little budget that links take many ticks. The material becomes another before one of these; *ticks
+/* One cut, with so little budget that shape functions and links take many ticks. The material becomes another before one of these; *ticks
    is how many there are. */
 static uint64_t LayoutAfterCut(uint32_t seed, int32_t changeAt, int32_t* ticks)
 {
-    enum { LINKS = 3 }; /* a step of the stage, see kiri_update.c */
     Host host;
     Host_Start(&host);
     kiriSheetDef def = Host_SmallDef();
@@ -472,10 +464,9 @@ static uint64_t LayoutAfterCut(uint32_t seed, int32_t changeAt, int32_t* ticks)
     host.every = INT32_MAX;
     *ticks = 0;
     while (Host_Tick(&host, 1.0f / 60.0f, 1) == KIRI_PENDING) {
-        const kiriUpdate* update = SheetOf(&host, 0)->update;
-        bool areLinks = update->stage == KIRI_STAGE_SHAPE && update->step == LINKS;
-        OK(kiriWorld_SetBudget(host.world, areLinks ? &few : &some));
-        *ticks += areLinks;
+        bool isShape = Layout_Stage(host.world, sheet) == KIRI_STAGE_SHAPE;
+        OK(kiriWorld_SetBudget(host.world, isShape ? &few : &some));
+        *ticks += isShape;
         if (*ticks == changeAt) {
             kiriSheetSettings settings;
             OK(kiriSheet_GetSettings(host.world, sheet, &settings));
