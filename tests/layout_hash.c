@@ -107,7 +107,7 @@ static void HashPinShare(uint64_t* hash, const kiriPinShare* pinned)
     }
 }
 
-/* What is in force in a sheet but for its motion: mesh, links, weights of samples, pieces. */
+/* Hashes the committed state of a sheet without its motion: mesh, links, weights of samples, pieces. */
 static void HashInForce(uint64_t* hash, const kiriSheetData* sheet)
 {
     HashMesh(hash, &sheet->mesh);

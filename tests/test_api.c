@@ -1174,9 +1174,18 @@ static void HugeValues(void** state)
 }
 
 /* What a host with a copy of the mesh needs, and no less: after every tick its copy is the mesh. */
-static void Copies(void** state)
+static void CutOn(Host* host, kiriCut cut, uint32_t* seed)
 {
-    (void)state;
+    float point[2];
+    point[0] = (float)RandomBetween(seed, 0.0, 1.0);
+    point[1] = (float)RandomBetween(seed, 0.0, 1.0);
+    OK(kiriCut_Extend(host->world, cut, point, 1));
+    OK(Host_Tick(host, 0.01f, 1));
+}
+
+/* A host that asks for changes only in every Nth tick keeps a copy of the mesh. */
+static void CopyEvery(int32_t every)
+{
     Host h, *host = &h;
     Host_Start(host);
     kiriSheetDef def = Host_SmallDef();
@@ -1186,10 +1195,13 @@ static void Copies(void** state)
     static uint16_t indices[3 * MOST];
     uint32_t revision = 0, seed = 5;
     kiriCut cut;
-    float point[2] = { 0.1f, 0.5f };
-    OK(kiriBeginCut(host->world, sheet, point, &cut));
+    OK(kiriBeginCut(host->world, sheet, (float[]){ 0.1f, 0.5f }, &cut));
     for (int tick = 0; tick < 50; ++tick) {
         kiriDirty dirty;
+        if (tick % every != 0) {
+            CutOn(host, cut, &seed);
+            continue;
+        }
         OK(kiriSheet_GetDirty(host->world, sheet, revision, &dirty));
         kiriMesh mesh = Host_Mesh(host, sheet);
         assert_true(mesh.vertexCount <= MOST && mesh.triangleCount <= MOST);
@@ -1216,12 +1228,17 @@ static void Copies(void** state)
                 kiriSheet_CopyVertices(host->world, sheet, 1, mesh.vertexCount, places, 12, NULL, 0));
         REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_CopyVertices(host->world, sheet, 0, 1, places, 8, NULL, 0));
         REFUSED(KIRI_ERROR_ARGUMENT, kiriSheet_CopyIndices16(host->world, sheet, 0, mesh.triangleCount + 1, indices));
-        point[0] = (float)RandomBetween(&seed, 0.0, 1.0);
-        point[1] = (float)RandomBetween(&seed, 0.0, 1.0);
-        OK(kiriCut_Extend(host->world, cut, point, 1));
-        OK(Host_Tick(host, 0.01f, 1));
+        CutOn(host, cut, &seed);
     }
     Host_Stop(host);
+}
+
+static void Copies(void** state)
+{
+    (void)state;
+    CopyEvery(1);
+    CopyEvery(7);
+    CopyEvery(20);
 }
 
 static void HugeSheets(void** state)

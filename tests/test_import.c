@@ -2,8 +2,6 @@
    And the lines about meshes that are refused. */
 #include "look.h"
 
-#include "mesh/kiri_mesh_build.h"
-
 #include <stdio.h>
 
 enum { MOST_TRIANGLES = 4096, MOST_VERTICES = 3 * MOST_TRIANGLES };
@@ -348,44 +346,6 @@ static void WeldsShakenSoups(void** state)
     }
 }
 
-/* The rule, word by word. */
-static void WeldSlowly(const kiriLatticePoint* at, int32_t count, double distance, int32_t* to)
-{
-    for (int32_t v = 0; v < count; ++v) {
-        int32_t found = KIRI_NONE;
-        for (int32_t w = 0; w < v && to[v] != KIRI_NONE; ++w) {
-            bool isNear = to[w] == w && (double)kiriDistanceSquared(at[w], at[v]) < distance * distance;
-            bool isNearer =
-                found == KIRI_NONE || kiriDistanceSquared(at[w], at[v]) < kiriDistanceSquared(at[found], at[v]);
-            found = isNear && isNearer ? w : found;
-        }
-        to[v] = found != KIRI_NONE ? found : to[v];
-    }
-}
-
-static void WeldsAsTheRuleSays(void** state)
-{
-    (void)state;
-    enum { MOST = 400 };
-    kiriLatticePoint at[MOST];
-    int32_t fast[MOST], slow[MOST];
-    kiriMemory memory = kiriMemory_Make(NULL, NULL, NULL);
-    uint32_t seed = 43;
-    for (int i = 0; i < 1500; ++i) {
-        int32_t count = 1 + (int32_t)(Random(&seed) % MOST), wide = (int32_t)(Random(&seed) % 29);
-        double distance = RandomBetween(&seed, 0.0, 1.0) * (1 << Random(&seed) % 30) + 1e-12;
-        for (int32_t v = 0; v < count; ++v) {
-            at[v].x = (int32_t)(Random(&seed) % (2u << wide)) * 2;
-            at[v].y = (int32_t)(Random(&seed) % (2u << wide)) * 2;
-            fast[v] = slow[v] = Random(&seed) % 8 != 0 ? v : KIRI_NONE;
-        }
-        assert_true(kiriWeld_Find(at, count, distance, fast, &memory));
-        WeldSlowly(at, count, distance, slow);
-        assert_memory_equal(fast, slow, sizeof(int32_t) * (size_t)count);
-    }
-    assert_null(memory.blocks);
-}
-
 /* The world is saved, and loaded. */
 static void GoOnElsewhere(Host* host)
 {
@@ -690,7 +650,6 @@ int main(void)
         cmocka_unit_test(ClosesRings),
         cmocka_unit_test(WeldsSoupsOfAnyMesh),
         cmocka_unit_test(WeldsShakenSoups),
-        cmocka_unit_test(WeldsAsTheRuleSays),
         cmocka_unit_test(LeavesOutSlivers),
         cmocka_unit_test(LeavesOutUnusedVertices),
         cmocka_unit_test(GoesOnFromSavesAndRecordings),

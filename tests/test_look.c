@@ -11,6 +11,9 @@ static const double LENGTH = 0.7, WIDTH = 0.1;
 typedef struct Looks {
     double strain; /* of the edges along the strip, at worst */
     double crease; /* angle from edge to edge beyond the arc's own, at worst, in angles between frames */
+    double away;   /* m: the farthest that a vertex is from the cylinder */
+    double lean;   /* rad: the most that a normal leans from the normal of the cylinder */
+    float row[3 * (LENGTHWISE + 1)]; /* positions along the middle line */
 } Looks;
 
 /* Every 0.1 m a frame, and from frame to frame so many radians. */
@@ -35,9 +38,14 @@ static Looks LookAlong(const kiriMesh* mesh, double angle)
 {
     const int row = LENGTHWISE + 1, first = LENGTHWISE / FRAMES / 2, last = LENGTHWISE - first;
     double edge = LENGTH / LENGTHWISE, own = angle * FRAMES / LENGTHWISE, before = 0.0;
-    Looks looks = { 0.0, 0.0 };
+    Looks looks = { .strain = 0.0 };
+    memcpy(looks.row, mesh->positions + 3 * row, sizeof(looks.row));
+    double radius = LENGTH / FRAMES / angle;
     for (int i = first; i < last; ++i) {
-        const float* p = mesh->positions + 3 * (row + i);
+        const float *p = mesh->positions + 3 * (row + i), *normal = mesh->normals + 3 * (row + i);
+        double to = hypot(p[0], p[2] - radius), cosine = (normal[2] * (radius - p[2]) - normal[0] * p[0]) / to;
+        looks.away = fmax(looks.away, fabs(to - radius));
+        looks.lean = fmax(looks.lean, acos(fmin(cosine, 1.0)));
         double x = (double)p[3] - p[0], z = (double)p[5] - p[2], at = atan2(z, x);
         double turn = i > first ? at - before : own;
         turn -= turn > 3.0 ? 6.283185307179586 : 0.0; /* past the direction of -x */
@@ -49,7 +57,7 @@ static Looks LookAlong(const kiriMesh* mesh, double angle)
     return looks;
 }
 
-static Looks LookAtArc(double angle, int32_t linear)
+static Looks LookAtArc(double angle, int32_t linear, int32_t skinning)
 {
     Host host;
     float points[2 * FRAMES];
@@ -64,6 +72,7 @@ static Looks LookAtArc(double angle, int32_t linear)
     def.frameCount = def.maxFrames = FRAMES;
     def.framePoints = points;
     def.paper.linearWeights = linear;
+    def.skinning = skinning;
     kiriSheet sheet = Host_AddRectangle(&host, &def, (float)LENGTH, (float)WIDTH, LENGTHWISE, 2);
     HoldOnArc(&host, sheet, angle);
     OK(Host_Tick(&host, 0.01f, 1));
@@ -82,11 +91,43 @@ static void EasedWeightsLeaveNoCrease(void** state)
     static const double angles[] = { 0.1, 0.3, 0.6, 1.0 };
     for (size_t k = 0; k < sizeof(angles) / sizeof(angles[0]); ++k) {
         double t = angles[k];
-        Looks linear = LookAtArc(t, 1), eased = LookAtArc(t, 0);
+        Looks linear = LookAtArc(t, 1, KIRI_SKINNING_LINEAR), eased = LookAtArc(t, 0, KIRI_SKINNING_LINEAR);
         if (!(linear.strain > 0.3 * t * t && eased.strain < 0.2 * t * t && linear.crease > 0.15 &&
               eased.crease < 4.2 * FRAMES / LENGTHWISE)) {
             fail_msg("%.1f rad: strain %.4f %.4f, crease %.3f %.3f", t, linear.strain, eased.strain, linear.crease,
                      eased.crease);
+        }
+    }
+}
+
+/* The same frames: a smooth surface is nearly the cylinder, a linear one is not. */
+static void SmoothSurfacesAreRound(void** state)
+{
+    (void)state;
+    static const double angles[] = { 0.09, 0.26, 0.52 };
+    for (size_t k = 0; k < sizeof(angles) / sizeof(angles[0]); ++k) {
+        Looks flat = LookAtArc(angles[k], 0, KIRI_SKINNING_LINEAR), round = LookAtArc(angles[k], 0, KIRI_SKINNING_SMOOTH);
+        if (!(flat.away > 20.0 * round.away && flat.lean > 4.0 * round.lean)) {
+            fail_msg("%.2f rad: %g and %g m away, normals lean by %g and %g", angles[k], flat.away, round.away, flat.lean,
+                     round.lean);
+        }
+    }
+}
+
+/* Creases: a patch bends by at most 0.2 rad, rms over its region, which is a sag of 9 mm, whatever its neighbors do. */
+static void StrongBendsAreLimited(void** state)
+{
+    (void)state;
+    static const double angles[] = { 0.52, 1.26, 2.4 };
+    for (size_t k = 0; k < sizeof(angles) / sizeof(angles[0]); ++k) {
+        Looks flat = LookAtArc(angles[k], 0, KIRI_SKINNING_LINEAR), bent = LookAtArc(angles[k], 0, KIRI_SKINNING_SMOOTH);
+        double sag = 0.0;
+        for (int i = 0; i <= LENGTHWISE; ++i) {
+            const float *a = &flat.row[3 * i], *b = &bent.row[3 * i];
+            sag = fmax(sag, hypot(a[0] - b[0], a[2] - b[2]));
+        }
+        if (!(sag > 4e-3 && sag < 10e-3)) {
+            fail_msg("%.2f rad: patches sag by %g m", angles[k], sag);
         }
     }
 }
@@ -195,6 +236,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(EasedWeightsLeaveNoCrease),
+        cmocka_unit_test(SmoothSurfacesAreRound),
+        cmocka_unit_test(StrongBendsAreLimited),
         cmocka_unit_test(SlitsOpenFromTheirEnd),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

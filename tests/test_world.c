@@ -875,7 +875,7 @@ static float WeightOf(const Host* host, kiriSheet sheet, float u, float v, kiriF
     return 0.0f;
 }
 
-/* At a cell that holds a frame its weight is exactly 1 (test_shape.c); at points, least squares round the peak off. */
+/* At a cell that holds a frame its weight is exactly 1; at points, least squares round the peak off. */
 static void WeightsAtFrames(void** state)
 {
     (void)state;

@@ -1,5 +1,5 @@
 /* Four floats at a time: SSE2, NEON or plain C. Each operation is rounded separately, so all three give the same bits.
-   KIRI_PLAIN_LANES selects plain C; tests/test_lanes.c compares. */
+   KIRI_PLAIN_LANES selects plain C; tests/test_base.c compares. */
 #ifndef KIRI_LANES_H
 #define KIRI_LANES_H
 

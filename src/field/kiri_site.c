@@ -224,7 +224,7 @@ bool kiriPlacer_TakePiece(kiriPlacer* placer, kiriMemory* memory, const kiriGrid
 
 /* ---- Placing (section 5) -----------------------------------------------------------------------------------------
 
-   The result, whatever the order of work (tests/test_frame.c has a plain version):
+   The result, whatever the order of work:
 
    A site sends its seeds to the cells around (kiriSite_Seed), but to none that holds another site. A cell belongs to
    the site that is nearest from there by the steps of the grid, of two as near to the lower index; but the cell of a

@@ -1,0 +1,452 @@
+/* Strains of links and areas: derivatives, energies of each kind, and the forces that the solver assembles of them. */
+#include "body.h"
+
+#include <math.h>
+
+static const kiriMaterial Paper = { 2e9f, 0.3f, 1e-4f, 800.0f, 0.0f, 0.0f };
+
+/* ---- Links of frames that turn ---- */
+
+typedef struct Couple {
+    kiriFrameData frames[2];
+    kiriPose poses[2];
+    kiriLink link;
+    kiriMaterial material;
+} Couple;
+
+static void MeasureCouple(const Couple* c, double* strain, kiriStrainRow* rows)
+{
+    const kiriFrameData* const frames[2] = { &c->frames[0], &c->frames[1] };
+    const kiriPose* const poses[2] = { &c->poses[0], &c->poses[1] };
+    kiriStrain_Measure(&c->link, &c->material, frames, poses, strain, rows);
+}
+
+/* Two frames out of place, far enough for the normal stop. */
+static Couple RandomCouple(uint32_t* seed)
+{
+    Couple c;
+    memset(&c, 0, sizeof(c));
+    double angle = RandomBetween(seed, 0.0, 6.28);
+    c.link.j = 1;
+    c.link.width = 0.7;
+    c.link.length = 1.0;
+    c.link.normal = kiriVec2_Make(cos(angle), sin(angle));
+    c.link.span = kiriVec2_Make(RandomBetween(seed, -1.0, 1.0), RandomBetween(seed, -1.0, 1.0));
+    c.link.tangent = kiriVec2_Make(-sin(angle), cos(angle));
+    c.link.centroid = kiriVec2_Make(RandomBetween(seed, -0.3, 0.3), RandomBetween(seed, -0.3, 0.3));
+    c.link.crossing = kiriVec2_Make(RandomBetween(seed, -0.3, 0.3), RandomBetween(seed, -0.3, 0.3));
+    for (int k = 0; k < 2; ++k) {
+        c.frames[k].center = kiriVec2_Scale(k == 0 ? -0.5 : 0.5, c.link.normal);
+        c.poses[k].x =
+            kiriVec3_Add(kiriVec3_Make(c.frames[k].center.x, c.frames[k].center.y, 0.0), RandomVec3(seed, 0.6));
+        c.poses[k].A = kiriMat3_Cayley(RandomVec3(seed, 0.8));
+    }
+    return c;
+}
+
+static Couple Displaced(const Couple* couple, int k, kiriVec3 move, kiriVec3 turn)
+{
+    Couple c = *couple;
+    c.poses[k].x = kiriVec3_Add(c.poses[k].x, move);
+    c.poses[k].A = kiriMat3_MulMat(kiriMat3_Cayley(turn), c.poses[k].A);
+    return c;
+}
+
+static void TestStrainDerivatives(void** state)
+{
+    uint32_t seed = 7;
+    int stopped = 0;
+    const double eps = 1e-5;
+    (void)state;
+    for (int trial = 0; trial < 200; ++trial) {
+        Couple couple = RandomCouple(&seed);
+        double strain[KIRI_STRAINS], ahead[KIRI_STRAINS], behind[KIRI_STRAINS];
+        kiriStrainRow rows[KIRI_STRAINS];
+        MeasureCouple(&couple, strain, rows);
+        stopped += strain[KIRI_NORMAL_STOP] != 0.0;
+        for (int k = 0; k < 2; ++k) {
+            kiriVec3 move = RandomVec3(&seed, 1.0), turn = RandomVec3(&seed, 1.0);
+            Couple a = Displaced(&couple, k, kiriVec3_Scale(eps, move), kiriVec3_Scale(eps, turn));
+            Couple b = Displaced(&couple, k, kiriVec3_Scale(-eps, move), kiriVec3_Scale(-eps, turn));
+            MeasureCouple(&a, ahead, NULL);
+            MeasureCouple(&b, behind, NULL);
+            for (int e = 0; e < KIRI_STRAINS; ++e) {
+                double slope = kiriVec3_Dot(rows[e].end[k].move, move) + kiriVec3_Dot(rows[e].end[k].turn, turn);
+                AssertNear((ahead[e] - behind[e]) / (2.0 * eps), slope, 1e-6);
+            }
+        }
+    }
+    assert_true(stopped > 20);
+}
+
+static void TestInnerForcesBalance(void** state)
+{
+    uint32_t seed = 11;
+    (void)state;
+    for (int trial = 0; trial < 200; ++trial) {
+        Couple c = RandomCouple(&seed);
+        double strain[KIRI_STRAINS];
+        kiriStrainRow rows[KIRI_STRAINS];
+        MeasureCouple(&c, strain, rows);
+        for (int e = 0; e < KIRI_STRAINS; ++e) {
+            kiriVec3 moment = kiriVec3_Add(kiriVec3_Cross(c.poses[0].x, rows[e].end[0].move),
+                                           kiriVec3_Cross(c.poses[1].x, rows[e].end[1].move));
+            moment = kiriVec3_Add(moment, kiriVec3_Add(rows[e].end[0].turn, rows[e].end[1].turn));
+            AssertNear(kiriVec3_Length(kiriVec3_Add(rows[e].end[0].move, rows[e].end[1].move)), 0.0, 1e-13);
+            AssertNear(kiriVec3_Length(moment), 0.0, 1e-12);
+        }
+    }
+}
+
+/* Two sites on a cylinder, the frames tangent to it: the strains are the angle between them and nothing else, whatever
+   way the link runs and wherever its border lies. */
+static void TestArcIsBendingOnly(void** state)
+{
+    uint32_t seed = 13;
+    (void)state;
+    for (int trial = 0; trial < 200; ++trial) {
+        double strain[KIRI_STRAINS], way = RandomBetween(&seed, 0.0, 6.28), aslant = RandomBetween(&seed, -0.5, 0.5);
+        double angle = RandomBetween(&seed, -0.3, 0.3), turn = angle * cos(way);
+        Couple c = RandomCouple(&seed);
+        c.link.span = kiriVec2_Make(cos(way), sin(way));
+        c.link.normal = kiriVec2_Make(cos(way + aslant), sin(way + aslant));
+        c.link.tangent = kiriVec2_Make(-c.link.normal.y, c.link.normal.x);
+        c.link.crossing = kiriVec2_Make(0.0, 0.0);
+        c.link.centroid = kiriVec2_Scale(RandomBetween(&seed, -0.3, 0.3), kiriVec2_Make(-sin(way), cos(way)));
+        for (int k = 0; k < 2; ++k) {
+            double half = k == 0 ? -0.5 : 0.5, a = half * turn;
+            c.frames[k].center = kiriVec2_Scale(half, c.link.span);
+            c.poses[k].A = (kiriMat3){ { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } };
+            c.poses[k].A.u = kiriVec3_Make(cos(a), 0.0, -sin(a));
+            c.poses[k].A.d = kiriVec3_Make(sin(a), 0.0, cos(a));
+            c.poses[k].x =
+                kiriVec3_Make(angle != 0.0 ? sin(a) / angle : half * cos(way), half * sin(way), (cos(a) - 1.0) / angle);
+        }
+        MeasureCouple(&c, strain, NULL);
+        double bent = sqrt(strain[KIRI_BENDING] * strain[KIRI_BENDING] + strain[KIRI_TWIST] * strain[KIRI_TWIST]);
+        AssertNear(bent, fabs(turn), 0.001 * fabs(turn));
+        AssertNear(strain[KIRI_SHEAR], 0.0, 0.05 * turn * turn);
+        AssertNear(strain[KIRI_STRETCH], 0.0, 0.1 * turn * turn);
+        AssertNear(strain[KIRI_NORMAL_GAP], 0.0, 1e-12);
+    }
+}
+
+/* Turned against each other by up to half a turn: derivatives, and no jump on the way to the other side. */
+static void TestFoldsAreSmooth(void** state)
+{
+    uint32_t seed = 17;
+    const double eps = 1e-6, pi = 3.14159265358979;
+    (void)state;
+    for (int trial = 0; trial < 400; ++trial) {
+        Couple couple = RandomCouple(&seed);
+        double strain[KIRI_STRAINS], ahead[KIRI_STRAINS], behind[KIRI_STRAINS];
+        kiriStrainRow rows[KIRI_STRAINS];
+        double way = RandomBetween(&seed, 0.0, 2.0 * pi), angle = RandomBetween(&seed, 0.7 * pi, 0.97 * pi);
+        kiriVec3 axis = kiriPose_Along(&couple.poses[0], kiriVec2_Make(cos(way), sin(way)));
+        kiriMat3 turn = kiriMat3_Cayley(kiriVec3_Scale(2.0 * tan(0.5 * angle), axis));
+        couple.poses[1].A = kiriMat3_MulMat(turn, couple.poses[0].A);
+        MeasureCouple(&couple, strain, rows);
+        for (int k = 0; k < 2; ++k) {
+            kiriVec3 move = RandomVec3(&seed, 1.0), spin = RandomVec3(&seed, 1.0);
+            Couple a = Displaced(&couple, k, kiriVec3_Scale(eps, move), kiriVec3_Scale(eps, spin));
+            Couple b = Displaced(&couple, k, kiriVec3_Scale(-eps, move), kiriVec3_Scale(-eps, spin));
+            MeasureCouple(&a, ahead, NULL);
+            MeasureCouple(&b, behind, NULL);
+            for (int e = 0; e < KIRI_STRAINS; ++e) {
+                double slope = kiriVec3_Dot(rows[e].end[k].move, move) + kiriVec3_Dot(rows[e].end[k].turn, spin);
+                AssertNear((ahead[e] - behind[e]) / (2.0 * eps), slope, 1e-4 * (1.0 + fabs(slope)));
+            }
+        }
+    }
+}
+
+/* Stretch, shear and plane bending cost nothing next to half a turn, for any offset and lean of the frames: no wall stops
+   the way round. */
+static void TestHalfTurnHasNoWall(void** state)
+{
+    uint32_t seed = 19;
+    const double pi = 3.14159265358979;
+    (void)state;
+    for (int trial = 0; trial < 200; ++trial) {
+        Couple couple = RandomCouple(&seed);
+        double strain[KIRI_STRAINS], way = RandomBetween(&seed, 0.0, 2.0 * pi);
+        kiriVec3 axis = kiriPose_Along(&couple.poses[0], kiriVec2_Make(cos(way), sin(way)));
+        kiriVec3 lean = RandomVec3(&seed, 1e-3);
+        couple.poses[1].A = kiriMat3_MulMat(kiriMat3_Cayley(kiriVec3_Scale(1e5, axis)), couple.poses[0].A);
+        couple.poses[1].A = kiriMat3_MulMat(kiriMat3_Cayley(lean), couple.poses[1].A);
+        MeasureCouple(&couple, strain, NULL);
+        for (int e = 0; e < KIRI_STRAINS; ++e) {
+            bool isFold = e == KIRI_BENDING || e == KIRI_TWIST || e == KIRI_NORMAL_STOP;
+            assert_true(isFold || fabs(strain[e]) < 1e-4);
+        }
+        AssertNear(sqrt(strain[KIRI_BENDING] * strain[KIRI_BENDING] + strain[KIRI_TWIST] * strain[KIRI_TWIST]), pi,
+                   5e-3);
+    }
+}
+
+/* ---- Energies ---- */
+
+typedef struct Pair {
+    kiriFrameData frames[2];
+    kiriLink link;
+    kiriSystem system;
+} Pair;
+
+static double CoupleEnergy(Pair* s, kiriVec3 move, kiriVec3 turn)
+{
+    kiriFrameData rest = s->frames[1];
+    s->frames[1].x = kiriVec3_Add(rest.x, move);
+    s->frames[1].A = kiriMat3_MulMat(kiriMat3_Cayley(turn), rest.A);
+    /* turned about the middle of the border, so that the gap there stays as it is */
+    kiriVec3 arm = kiriVec3_Make(0.5 * s->link.length, 0.0, 0.0);
+    s->frames[1].x = kiriVec3_Add(s->frames[1].x, kiriVec3_Sub(kiriMat3_Mul(s->frames[1].A, arm), arm));
+    double energy = kiriSolver_ElasticEnergy(&s->system);
+    s->frames[1] = rest;
+    return energy;
+}
+
+/* Each energy of the table by itself, of a border of which `outer` is open. */
+static void CheckEnergies(double outer)
+{
+    const double e = 1e-5, L = 0.2, W = 0.1;
+    Pair pair;
+    memset(&pair, 0, sizeof(pair));
+    for (int k = 0; k < 2; ++k) {
+        kiriFrameData* frame = &pair.frames[k];
+        frame->site.at = frame->center = kiriVec2_Make((0.5 + k) * L, 0.5 * W);
+        frame->x = Vec3(frame->center.x, frame->center.y, 0.0);
+        frame->A = (kiriMat3){ { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } };
+        frame->area = L * W;
+        frame->mass = L * W * (double)Paper.density * (double)Paper.thickness;
+    }
+    pair.link = (kiriLink){ .i = 0, .j = 1, .width = W, .length = L, .moment = W * W * W / 12.0, .outer = outer };
+    pair.link.normal = kiriVec2_Make(1.0, 0.0);
+    pair.link.tangent = kiriVec2_Make(0.0, 1.0);
+    pair.link.span = kiriVec2_Make(L, 0.0);
+    pair.link.centroid = pair.link.crossing = kiriVec2_Make(L, 0.5 * W);
+    pair.system = (kiriSystem){
+        .frames = pair.frames, .frameCount = 2, .links = &pair.link, .linkCount = 1, .material = Paper
+    };
+    double E = (double)Paper.youngsModulus, h = (double)Paper.thickness, nu = (double)Paper.poissonsRatio;
+    double membrane = E * h / L, B = E * h * h * h / (12.0 * (1.0 - nu * nu)) / L, inner = W - outer;
+    kiriVec3 none = { 0.0, 0.0, 0.0 };
+    assert_true(CoupleEnergy(&pair, none, none) == 0.0);
+    double stretch = CoupleEnergy(&pair, kiriVec3_Make(e, 0.0, 0.0), none);
+    double shear = CoupleEnergy(&pair, kiriVec3_Make(0.0, e, 0.0), none);
+    double normal = CoupleEnergy(&pair, kiriVec3_Make(0.0, 0.0, e), none);
+    double plane = CoupleEnergy(&pair, none, kiriVec3_Make(0.0, 0.0, e));
+    double bend = CoupleEnergy(&pair, none, kiriVec3_Make(0.0, e, 0.0));
+    double twist = CoupleEnergy(&pair, none, kiriVec3_Make(e, 0.0, 0.0));
+    AssertNear(stretch / (0.5 * membrane * (inner / (1.0 + nu) + outer) * e * e), 1.0, 1e-6);
+    AssertNear(shear / (0.5 * membrane * (inner + 5.0 / 12.0 * outer) / (1.0 + nu) * e * e), 1.0, 1e-6);
+    double lone = outer > 0.5 * W ? 2.0 * outer - W : 0.0;
+    double gap = 3.0 * inner + (1.0 - nu * nu) * (12.0 * (outer - lone) + lone);
+    AssertNear(normal / (0.5 * 12.0 * B * gap / (L * L) * e * e), 1.0, 0.02); /* a little stretch */
+    double spread = W * W * W / 12.0 * (1.0 + 1.5 * nu / (1.0 + nu) * inner / W);
+    AssertNear(plane / (0.5 * membrane * spread * e * e), 1.0, 1e-6);
+    /* The sites stay a chord apart, and an arc would draw them nearer by L e^2 / 12. */
+    double arc = L * e * e / 12.0, drawn = 0.5 * membrane * (inner / (1.0 + nu) + outer) * arc * arc;
+    AssertNear((bend - drawn) / (0.5 * B * ((1.0 - nu) * inner + (1.0 - nu * nu) * outer) * e * e), 1.0, 1e-6);
+    AssertNear(twist / (0.5 * B * (1.0 - nu) * (inner + 2.0 * outer) * e * e), 1.0, 1e-6);
+}
+
+static void TestEnergies(void** state)
+{
+    (void)state;
+    CheckEnergies(0.0);
+    CheckEnergies(0.02);
+    CheckEnergies(0.1);
+}
+
+/* ---- Bodies ---- */
+
+static Body body;
+
+static BodyDef DefOf(int model, kiriMaterial material)
+{
+    return (BodyDef){ 0.2, 0.15, 40, model, 0, 100, 1, material };
+}
+
+static void Make(Body* b, const BodyDef* def, int nu, int nv, double jitter, uint32_t seed)
+{
+    Body_Begin(b, def);
+    Body_AddRows(b, nu, nv, jitter, seed);
+    Body_End(b, def);
+}
+
+static double EnergyWith(Body* b, int f, kiriVec3 move, kiriVec3 turn)
+{
+    kiriFrameData rest = b->frames[f];
+    b->frames[f].x = kiriVec3_Add(rest.x, move);
+    b->frames[f].A = kiriMat3_MulMat(kiriMat3_Cayley(turn), rest.A);
+    double energy = kiriSolver_ElasticEnergy(&b->system);
+    b->frames[f] = rest;
+    return energy;
+}
+
+/* The forces that the solver assembles, from rows of links that it keeps for the corners, against the energy of each
+   element by itself; with strains that are taken off. */
+static void TestForcesAreTheSlopeOfTheEnergy(void** state)
+{
+    static kiriStrainOffset offsets[2 * BODY_FRAMES];
+    const double eps = 1e-6;
+    uint32_t seed = 37;
+    (void)state;
+    BodyDef def = DefOf(KIRI_MODEL_LINKS, (kiriMaterial){ 1e6f, 0.4f, 0.01f, 1000.0f, 0.0f, 0.0f });
+    Make(&body, &def, 4, 3, 0.0, 1);
+    for (int k = 0; k < body.system.linkCount; ++k) {
+        for (int e = 0; e < KIRI_NORMAL_STOP; ++e) {
+            offsets[k].strain[e] = RandomBetween(&seed, -0.01, 0.01);
+        }
+    }
+    body.system.strainOffsets = offsets;
+    body.system.gravity = kiriVec3_Make(0.0, 0.0, 0.0);
+    for (int f = 0; f < 12; ++f) {
+        body.frames[f].x = kiriVec3_Add(body.frames[f].x, RandomVec3(&seed, 0.01));
+        body.frames[f].A = kiriMat3_Cayley(RandomVec3(&seed, 0.2));
+    }
+    kiriSolver_ListMoved(body.solver);
+    kiriSolver_ShareRows(body.solver, &body.system);
+    kiriSystem system = kiriSolver_Open(body.solver, &body.system, 0);
+    kiriSolver_Begin(body.solver, &system, 1e6); /* so that inertia does not count */
+    for (int f = 0; f < 12; ++f) {
+        body.solver->poses.data[f] = kiriPose_Of(&body.frames[f]);
+    }
+    assert_int_equal(body.system.cornerCount, 6);
+    double energy = kiriSolver_ElasticEnergy(&body.system);
+    AssertNear(kiriSolver_Assemble(body.solver, &system).potential / energy, 1.0, 1e-12);
+    AssertNear(kiriObjective_Evaluate(body.solver, &system, body.solver->poses.data).potential / energy, 1.0, 1e-12);
+    for (int n = 0; n < 72; ++n) {
+        double way[6] = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+        way[n % 6] = eps;
+        kiriVec3 move = { way[0], way[1], way[2] }, turn = { way[3], way[4], way[5] };
+        double ahead = EnergyWith(&body, n / 6, move, turn);
+        double behind = EnergyWith(&body, n / 6, kiriVec3_Scale(-1.0, move), kiriVec3_Scale(-1.0, turn));
+        double slope = (ahead - behind) / (2.0 * eps);
+        AssertNear(body.solver->force.data[n], -slope, 1e-6 * (1.0 + fabs(slope)));
+    }
+    Body_Drop(&body);
+}
+
+/* ---- Affine frames, and areas ---- */
+
+/* Out of place and shape, far enough for the normal stop. */
+static void Crumple(Body* b, double size, uint32_t* seed)
+{
+    for (int32_t f = 0; f < b->system.frameCount; ++f) {
+        kiriFrameData* frame = &b->frames[f];
+        kiriMat3 off = { RandomVec3(seed, 0.5), RandomVec3(seed, 0.5), RandomVec3(seed, 0.5) };
+        frame->x = kiriVec3_Add(frame->x, RandomVec3(seed, size));
+        frame->A.u = kiriVec3_Add(frame->A.u, off.u);
+        frame->A.v = kiriVec3_Add(frame->A.v, off.v);
+        frame->A.d = kiriVec3_Add(frame->A.d, off.d);
+    }
+}
+
+static kiriVec3* ColumnOf(kiriPose* pose, int column)
+{
+    kiriVec3* const columns[4] = { &pose->x, &pose->A.u, &pose->A.v, &pose->A.d };
+    return columns[column];
+}
+
+static double Slope(const kiriFrameRow* row, int column, kiriVec3 way)
+{
+    return kiriVec3_Dot(row->by[column], way);
+}
+
+static void CheckLink(const Body* b, const kiriLink* link, uint32_t* seed, int* stopped)
+{
+    const kiriFrameData* const frames[2] = { &b->frames[link->i], &b->frames[link->j] };
+    const double eps = 1e-6;
+    double strain[KIRI_AFFINE_STRAINS], ahead[KIRI_AFFINE_STRAINS], behind[KIRI_AFFINE_STRAINS];
+    kiriFrameRow rows[KIRI_AFFINE_STRAINS][2];
+    for (int n = 0; n < 8; ++n) {
+        kiriPose poses[2] = { kiriPose_Of(frames[0]), kiriPose_Of(frames[1]) };
+        const kiriPose* const ends[2] = { &poses[0], &poses[1] };
+        kiriVec3 way = RandomVec3(seed, 1.0), *column = ColumnOf(&poses[n / 4], n % 4), at = *column;
+        kiriAffine_Measure(link, &b->system.material, frames, ends, strain, rows);
+        *stopped += strain[KIRI_AFFINE_NORMAL_STOP] != 0.0;
+        *column = kiriVec3_AddScaled(at, eps, way);
+        kiriAffine_Measure(link, &b->system.material, frames, ends, ahead, NULL);
+        *column = kiriVec3_AddScaled(at, -eps, way);
+        kiriAffine_Measure(link, &b->system.material, frames, ends, behind, NULL);
+        for (int e = 0; e < KIRI_AFFINE_STRAINS; ++e) {
+            AssertNear((ahead[e] - behind[e]) / (2.0 * eps), Slope(&rows[e][n / 4], n % 4, way), 1e-7);
+        }
+    }
+}
+
+static void TestLinkDerivatives(void** state)
+{
+    uint32_t seed = 9;
+    int stopped = 0;
+    (void)state;
+    for (int trial = 0; trial < 10; ++trial) {
+        BodyDef def = DefOf(KIRI_MODEL_AFFINE, Paper);
+        Make(&body, &def, 5, 4, 0.25, seed);
+        Crumple(&body, 0.03, &seed);
+        for (int32_t k = 0; k < body.system.linkCount; ++k) {
+            CheckLink(&body, &body.system.links[k], &seed, &stopped);
+        }
+        Body_Drop(&body);
+    }
+    assert_true(stopped > 20);
+}
+
+static void CheckAreaElement(const Body* b, const kiriAreaElement* element, kiriPose* poses, uint32_t* seed)
+{
+    const double eps = 1e-6;
+    const kiriFrameShare* shares = b->elements.shares.data;
+    double strain[KIRI_AREA_STRAINS], ahead[KIRI_AREA_STRAINS], behind[KIRI_AREA_STRAINS];
+    kiriFrameRow rows[KIRI_AREA_STRAINS * BODY_FRAMES];
+    kiriAreaElement_Measure(element, shares, b->frames, NULL, strain, rows);
+    for (int n = 0; n < 4 * element->count; ++n) {
+        kiriVec3 way = RandomVec3(seed, 1.0);
+        kiriVec3 *column = ColumnOf(&poses[shares[element->first + n / 4].frame], n % 4), at = *column;
+        double size = n % 4 == 0 ? 0.01 * eps : eps;
+        *column = kiriVec3_AddScaled(at, size, way);
+        kiriAreaElement_Measure(element, shares, b->frames, poses, ahead, NULL);
+        *column = kiriVec3_AddScaled(at, -size, way);
+        kiriAreaElement_Measure(element, shares, b->frames, poses, behind, NULL);
+        *column = at;
+        for (int e = 0; e < element->lastRow - element->firstRow; ++e) {
+            double slope = Slope(&rows[e * element->count + n / 4], n % 4, way);
+            AssertNear((ahead[e] - behind[e]) / (2.0 * size), slope, 1e-5 * (1.0 + fabs(slope)));
+        }
+    }
+}
+
+static void TestAreaElementDerivatives(void** state)
+{
+    uint32_t seed = 5;
+    kiriPose poses[BODY_FRAMES];
+    (void)state;
+    for (int model = KIRI_MODEL_AFFINE; model <= KIRI_MODEL_POINTS; ++model) {
+        BodyDef def = DefOf(model, Paper);
+        Make(&body, &def, 5, 4, 0.25, seed);
+        Crumple(&body, 0.03, &seed);
+        for (int32_t f = 0; f < body.system.frameCount; ++f) {
+            poses[f] = kiriPose_Of(&body.frames[f]);
+        }
+        for (int32_t k = 0; k < body.elements.elements.count; ++k) {
+            CheckAreaElement(&body, &body.elements.elements.data[k], poses, &seed);
+        }
+        Body_Drop(&body);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(TestStrainDerivatives),
+        cmocka_unit_test(TestInnerForcesBalance),
+        cmocka_unit_test(TestArcIsBendingOnly),
+        cmocka_unit_test(TestFoldsAreSmooth),
+        cmocka_unit_test(TestHalfTurnHasNoWall),
+        cmocka_unit_test(TestEnergies),
+        cmocka_unit_test(TestForcesAreTheSlopeOfTheEnergy),
+        cmocka_unit_test(TestLinkDerivatives),
+        cmocka_unit_test(TestAreaElementDerivatives),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
