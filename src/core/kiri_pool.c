@@ -49,25 +49,27 @@ uint32_t kiriPool_Add(kiriPool* pool, kiriMemory* memory, void* owner, int32_t i
     return pool->kind << ID_KIND_SHIFT | s->generation << ID_SLOT_BITS | (uint32_t)slot;
 }
 
-kiriSlot* kiriPool_Find(const kiriPool* pool, uint32_t id)
+/* Returns the slot of an id of this kind and generation, or null. */
+static kiriSlot* SlotOfId(const kiriPool* pool, uint32_t id)
 {
     uint32_t slot = id & (MOST_SLOTS - 1), generation = id >> ID_SLOT_BITS & LAST_GENERATION;
-    if (id >> ID_KIND_SHIFT != pool->kind || slot >= (uint32_t)pool->slots.count) {
-        return NULL;
-    }
-    kiriSlot* s = &pool->slots.data[slot];
-    return s->owner != NULL && s->generation == generation ? s : NULL;
+    bool isKnown = id >> ID_KIND_SHIFT == pool->kind && slot < (uint32_t)pool->slots.count;
+    return isKnown && pool->slots.data[slot].generation == generation ? &pool->slots.data[slot] : NULL;
+}
+
+kiriSlot* kiriPool_Find(const kiriPool* pool, uint32_t id)
+{
+    kiriSlot* s = SlotOfId(pool, id);
+    return s != NULL && s->owner != NULL ? s : NULL;
 }
 
 bool kiriPool_Claim(kiriPool* pool, uint32_t id, void* owner, int32_t index)
 {
-    uint32_t slot = id & (MOST_SLOTS - 1), generation = id >> ID_SLOT_BITS & LAST_GENERATION;
-    if (id >> ID_KIND_SHIFT != pool->kind || slot >= (uint32_t)pool->slots.count) {
-        return false;
+    kiriSlot* s = SlotOfId(pool, id);
+    bool isFree = s != NULL && s->owner == NULL && s->index == index;
+    if (isFree) {
+        s->owner = owner;
     }
-    kiriSlot* s = &pool->slots.data[slot];
-    bool isFree = s->owner == NULL && s->generation == generation && s->index == index;
-    s->owner = isFree ? owner : s->owner;
     return isFree;
 }
 

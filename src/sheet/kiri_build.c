@@ -9,7 +9,7 @@
 /* Smallest contact thickness, as a fraction of a grid square. Less would need a finer contact search. */
 #define LEAST_CONTACT_THICKNESS 0.05
 
-kiriSheetSettings kiriSettings_Of(const kiriSheetDef* def)
+static kiriSheetSettings SettingsOf(const kiriSheetDef* def)
 {
     kiriSheetSettings given;
     memset(&given, 0, sizeof(given));
@@ -29,21 +29,17 @@ kiriSheetSettings kiriSettings_Of(const kiriSheetDef* def)
     return given;
 }
 
-static double ContactThickness(const kiriSheetSettings* given, double square)
+/* Copies checked settings. `square` is the side of a grid square, m. Settings of the def alone are already set. */
+static void TakeSettings(kiriSettings* settings, const kiriSheetSettings* given, double square)
 {
-    double least = LEAST_CONTACT_THICKNESS * square, own = given->material.thickness;
-    return given->contactThickness > 0.0f ? given->contactThickness : kiriMax(own, least);
-}
-
-void kiriSettings_Take(kiriSettings* settings, const kiriSheetSettings* given, double square)
-{
+    double thickness = given->material.thickness, least = LEAST_CONTACT_THICKNESS * square;
     settings->given = *given;
     settings->given.cookie = 0;
     settings->material = given->material;
     settings->maxFrames = given->maxFrames;
     settings->crumbArea = given->crumbArea;
     settings->friction = given->friction;
-    settings->contactThickness = ContactThickness(given, square);
+    settings->contactThickness = given->contactThickness > 0.0f ? given->contactThickness : kiriMax(thickness, least);
     settings->groups = given->groups;
     settings->touchesSheets = given->touchesSheets != 0;
     settings->iterations = given->iterations;
@@ -66,34 +62,16 @@ void kiriSettings_Apply(kiriSheetData* sheet)
 
 /* ---- Change --------------------------------------------------------------------------------------------------- */
 
-static bool IsSameMaterial(const kiriMaterial* a, const kiriMaterial* b)
-{
-    return a->youngsModulus == b->youngsModulus && a->poissonsRatio == b->poissonsRatio &&
-           a->thickness == b->thickness && a->density == b->density && a->airDamping == b->airDamping &&
-           a->flexDamping == b->flexDamping;
-}
-
-static bool AreSameSettings(const kiriSheetSettings* a, const kiriSheetSettings* b)
-{
-    return IsSameMaterial(&a->material, &b->material) && a->maxFrames == b->maxFrames && a->crumbArea == b->crumbArea &&
-           a->friction == b->friction && a->contactThickness == b->contactThickness && a->groups == b->groups &&
-           a->touchesSheets == b->touchesSheets && a->iterations == b->iterations && a->sleepSpeed == b->sleepSpeed &&
-           a->skinning == b->skinning && a->timeStepping == b->timeStepping && a->fadeTime == b->fadeTime &&
-           a->normals == b->normals;
-}
-
 bool kiriSheet_RestageSolver(kiriSheetData* sheet, const kiriMaterial* material)
 {
-    kiriSystem system;
-    memset(&system, 0, sizeof(system));
-    system.mechanics = sheet->settings.mechanics;
-    system.material = *material;
-    system.frameCount = sheet->frames.count;
-    system.links = sheet->links.links.data;
-    system.linkCount = sheet->links.links.count;
-    system.corners = sheet->links.corners.data;
-    system.cornerCount = sheet->links.corners.count;
-    system.areaElements = &sheet->layout.areaElements;
+    const kiriSystem system = { .mechanics = sheet->settings.mechanics,
+                                .material = *material,
+                                .frameCount = sheet->frames.count,
+                                .links = sheet->links.links.data,
+                                .linkCount = sheet->links.links.count,
+                                .corners = sheet->links.corners.data,
+                                .cornerCount = sheet->links.corners.count,
+                                .areaElements = &sheet->layout.areaElements };
     return kiriSolver_Stage(sheet->solver, &system, sheet->layout.framePiece.data, sheet->layout.pieces.count);
 }
 
@@ -115,36 +93,31 @@ static void Weigh(kiriSheetData* sheet, const kiriMaterial* before)
     kiriLinks_BeginAgain(&sheet->links);
 }
 
-/* Drops the strain offsets of links and clamps: without fadeTime they keep no strains (kiri_strain.h). */
-static void DropOffsets(kiriSheetData* sheet)
-{
-    sheet->strainOffsets.strainOffsets.count = 0;
-    for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
-        memset(sheet->layout.pinShares.data[k].offset, 0, sizeof(sheet->layout.pinShares.data[k].offset));
-    }
-}
-
 bool kiriSettings_Change(kiriSheetData* sheet, const kiriSheetSettings* given)
 {
-    kiriSheetSettings before = sheet->settings.given;
-    if (AreSameSettings(&before, given)) {
+    kiriSheetSettings before = sheet->settings.given, after = *given;
+    after.cookie = before.cookie;
+    if (memcmp(&before, &after, sizeof(after)) == 0) { /* fields of four bytes: no padding */
         return true;
     }
     bool looksOther = sheet->seen.isElsewhere || given->skinning != before.skinning;
-    bool isOther = !IsSameMaterial(&given->material, &before.material);
+    bool isOther = memcmp(&given->material, &before.material, sizeof(kiriMaterial)) != 0;
     if ((looksOther &&
          !kiriView_ReserveFades(sheet, sheet->mesh.vertices.count, sheet->points.count, given->fadeTime)) ||
         (isOther && !kiriSheet_RestageSolver(sheet, &given->material))) {
         return false;
     }
-    kiriSettings_Take(&sheet->settings, given, sheet->mesh.step * sheet->mesh.squares.side);
+    TakeSettings(&sheet->settings, given, sheet->mesh.step * sheet->mesh.squares.side);
     kiriSettings_Apply(sheet);
     sheet->seen.isElsewhere |= looksOther;
     if (sheet->seen.surface.wantsNormals) {
         kiriSurface_NeedNormals(&sheet->seen.surface);
     }
-    if (!kiriSheet_KeepsStrains(sheet)) {
-        DropOffsets(sheet);
+    if (!kiriSheet_KeepsStrains(sheet)) { /* without fadeTime links and clamps have no strain offsets (kiri_strain.h) */
+        sheet->strainOffsets.strainOffsets.count = 0;
+        for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
+            memset(sheet->layout.pinShares.data[k].offset, 0, sizeof(sheet->layout.pinShares.data[k].offset));
+        }
     }
     if (isOther) {
         kiriSolver_Commit(sheet->solver);
@@ -156,15 +129,6 @@ bool kiriSettings_Change(kiriSheetData* sheet, const kiriSheetSettings* given)
 
 /* ---- Settings ---- */
 
-static kiriMat3 AxesOf(const kiriSheetDef* def)
-{
-    kiriMat3 axes;
-    axes.u = kiriVec3_Normalize(kiriVec3_Load(def->axisU));
-    axes.d = kiriVec3_Normalize(kiriVec3_Cross(axes.u, kiriVec3_Load(def->axisV)));
-    axes.v = kiriVec3_Cross(axes.d, axes.u);
-    return axes;
-}
-
 /* Computes the cube root by Newton's iteration from above. */
 static double CubeRoot(double a)
 {
@@ -175,19 +139,15 @@ static double CubeRoot(double a)
     return x;
 }
 
-/* Returns the length over which the material bends under its own weight: there bending stiffness and weight balance. */
-static double BendingLength(const kiriMaterial* m)
-{
-    double h = m->thickness, nu = m->poissonsRatio;
-    double stiffness = m->youngsModulus * h * h * h / (12.0 * (1.0 - nu * nu));
-    return CubeRoot(stiffness / (m->density * h * 9.81));
-}
-
-/* Returns the spacing of frames for the accuracy. The error grows with (spacing / length)^2, where length is twice the
-   bending length or the longer side, whichever is shorter. Measured: tests/test_estimate.c. */
+/* Returns the spacing of frames for the accuracy. The error grows with (spacing / length)^2, where length is the longer
+   side, or if it is shorter twice the length at which bending stiffness and weight of the material balance. Measured:
+   tests/test_estimate.c. */
 static double SpacingFor(const kiriSheetDef* def, double longer)
 {
-    double bent = def->planar ? longer : 2.0 * BendingLength(&def->material);
+    const kiriMaterial* m = &def->material;
+    double h = m->thickness, nu = m->poissonsRatio;
+    double stiffness = m->youngsModulus * h * h * h / (12.0 * (1.0 - nu * nu));
+    double bent = def->planar ? longer : 2.0 * CubeRoot(stiffness / (m->density * h * 9.81));
     return sqrt((double)def->accuracy) * kiriMin(bent, longer);
 }
 
@@ -207,8 +167,20 @@ static void SetFrames(kiriSettings* settings, const kiriMeshData* mesh, const ki
     settings->rigidArea = def->rigidArea > 0.0f ? def->rigidArea : 0.25 * share;
 }
 
-static void SetPaper(kiriSettings* settings, const kiriPaperOptions* paper)
+static void SetAll(kiriSettings* settings, const kiriMeshData* mesh, const kiriSheetDef* def)
 {
+    const kiriPaperOptions* paper = &def->paper;
+    kiriMat3* axes = &settings->mechanics.axes;
+    double longer = KIRI_LATTICE;
+    SetFrames(settings, mesh, def);
+    settings->snap = def->snapDistance > 0.0f ? def->snapDistance / mesh->step : 1e-4 * longer;
+    settings->collisionPoints = def->collisionPoints;
+    settings->mechanics.model = def->model;
+    settings->mechanics.planar = def->planar != 0;
+    axes->u = kiriVec3_Normalize(kiriVec3_Load(def->axisU));
+    axes->d = kiriVec3_Normalize(kiriVec3_Cross(axes->u, kiriVec3_Load(def->axisV)));
+    axes->v = kiriVec3_Cross(axes->d, axes->u);
+    settings->leastFade = 1e-6 * longer * mesh->step; /* 1e-6 of the longer side */
     settings->integrationOrder = paper->integrationOrder;
     settings->fromScratch = paper->fromScratch != 0;
     settings->popping = paper->popping != 0;
@@ -216,21 +188,8 @@ static void SetPaper(kiriSettings* settings, const kiriPaperOptions* paper)
     if (paper->integrationPoints > 0) {
         settings->integrationPoints = paper->integrationPoints;
     }
-}
-
-static void SetAll(kiriSettings* settings, const kiriMeshData* mesh, const kiriSheetDef* def)
-{
-    double longer = KIRI_LATTICE;
-    SetFrames(settings, mesh, def);
-    settings->snap = def->snapDistance > 0.0f ? def->snapDistance / mesh->step : 1e-4 * longer;
-    settings->collisionPoints = def->collisionPoints;
-    settings->mechanics.model = def->model;
-    settings->mechanics.planar = def->planar != 0;
-    settings->mechanics.axes = AxesOf(def);
-    settings->leastFade = 1e-6 * longer * mesh->step; /* 1e-6 of the longer side */
-    SetPaper(settings, &def->paper);
-    kiriSheetSettings given = kiriSettings_Of(def);
-    kiriSettings_Take(settings, &given, mesh->step * mesh->squares.side);
+    kiriSheetSettings given = SettingsOf(def);
+    TakeSettings(settings, &given, mesh->step * mesh->squares.side);
 }
 
 /* ---- Frames ---- */

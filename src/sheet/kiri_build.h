@@ -8,12 +8,6 @@ KIRI_C_BEGIN
 
 /* Settings that the host may change after creation. */
 
-/* Returns the settings of a def. */
-kiriSheetSettings kiriSettings_Of(const kiriSheetDef* def);
-
-/* Copies checked settings. `square` is the side of a grid square, m. Settings of the def alone are already set. */
-void kiriSettings_Take(kiriSettings* settings, const kiriSheetSettings* given, double square);
-
 /* Copies the settings to the parts of a new sheet that store a copy. */
 void kiriSettings_Apply(kiriSheetData* sheet);
 

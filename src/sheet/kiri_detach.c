@@ -86,29 +86,10 @@ double kiriDetach_Samples(const kiriSheetData* sheet, double share, bool makesPa
     return 1.0 + passSamples * vertices + (makesParts ? parts : 0.0);
 }
 
-/* Returns the piece of an item if it leaves, else KIRI_NONE. */
-typedef int32_t PartOfItem(const kiriDetach* detach, int32_t item);
-
 static int32_t PartOfPiece(const kiriDetach* detach, int32_t piece)
 {
     KIRI_ASSERT(piece >= 0 && piece < detach->rest.pieces.count);
     return detach->rest.pieces.data[piece] ? KIRI_NONE : piece;
-}
-
-static int32_t FindPartOfVertex(const kiriDetach* detach, int32_t vertex)
-{
-    return PartOfPiece(detach, kiriPiece_OfVertex(detach->sheet, vertex));
-}
-
-static int32_t PartOfVertex(const kiriDetach* detach, int32_t vertex)
-{
-    KIRI_ASSERT(vertex >= 0 && vertex < detach->vertexPart.count);
-    return detach->vertexPart.data[vertex];
-}
-
-static int32_t PartOfTriangle(const kiriDetach* detach, int32_t triangle)
-{
-    return PartOfVertex(detach, detach->sheet->mesh.triangles.data[triangle].vertex[0]);
 }
 
 static int32_t PartOfFrame(const kiriDetach* detach, int32_t frame)
@@ -116,105 +97,80 @@ static int32_t PartOfFrame(const kiriDetach* detach, int32_t frame)
     return PartOfPiece(detach, detach->sheet->layout.framePiece.data[frame]);
 }
 
-static int32_t PartOfPoint(const kiriDetach* detach, int32_t point)
+/* Returns the piece of item i of a kind if it leaves, else KIRI_NONE. */
+static int32_t PartOf(const kiriDetach* detach, int32_t kind, int32_t i)
 {
-    return PartOfFrame(detach, detach->sheet->points.data[point].frame);
-}
-
-static int32_t PartOfLink(const kiriDetach* detach, int32_t link)
-{
-    return PartOfFrame(detach, detach->sheet->links.links.data[link].i);
-}
-
-static int32_t PartOfFade(const kiriDetach* detach, int32_t k)
-{
-    return PartOfVertex(detach, detach->sheet->seen.fades.fading.data[k].sample);
-}
-
-static int32_t PartOfPointFade(const kiriDetach* detach, int32_t k)
-{
-    return PartOfPoint(detach, detach->sheet->seen.pointFades.fading.data[k].sample);
-}
-
-static int32_t PartOfLast(const kiriDetach* detach, int32_t k)
-{
-    return PartOfPiece(detach, kiriTouch_Piece(detach->sheet, &detach->sheet->touches.last.touches.data[k]));
-}
-
-static int32_t PartOfSlept(const kiriDetach* detach, int32_t k)
-{
-    return PartOfPiece(detach, kiriTouch_Piece(detach->sheet, &detach->sheet->touches.slept.touches.data[k]));
-}
-
-/* Writes the part of each item into `parts`. */
-static bool FindParts(kiriDetach* detach, kiriIndices* parts, int32_t count, PartOfItem* partOf)
-{
-    if (!kiriArray_Resize(&detach->memory, parts, count)) {
-        return false;
+    const kiriSheetData* sheet = detach->sheet;
+    switch (kind) {
+    case KIRI_LISTED_TRIANGLES:
+        return detach->vertexPart.data[sheet->mesh.triangles.data[i].vertex[0]];
+    case KIRI_LISTED_FRAMES:
+        return PartOfFrame(detach, i);
+    case KIRI_LISTED_POINTS:
+        return PartOfFrame(detach, sheet->points.data[i].frame);
+    case KIRI_LISTED_LINKS:
+        return PartOfFrame(detach, sheet->links.links.data[i].i);
+    case KIRI_LISTED_FADES:
+        return detach->vertexPart.data[sheet->seen.fades.fading.data[i].sample];
+    case KIRI_LISTED_POINT_FADES:
+        return PartOfFrame(detach, sheet->points.data[sheet->seen.pointFades.fading.data[i].sample].frame);
+    case KIRI_LISTED_LAST:
+        return PartOfPiece(detach, kiriTouch_Piece(sheet, &sheet->touches.last.touches.data[i]));
+    case KIRI_LISTED_SLEPT:
+        return PartOfPiece(detach, kiriTouch_Piece(sheet, &sheet->touches.slept.touches.data[i]));
+    default:
+        return detach->vertexPart.data[i];
     }
-    for (int32_t i = 0; i < count; ++i) {
-        parts->data[i] = partOf(detach, i);
-    }
-    return true;
-}
-
-static bool MapRest(kiriDetach* detach, kiriKeep* map, const kiriIndices* parts)
-{
-    if (!kiriKeep_Init(map, &detach->memory, parts->count)) {
-        return false;
-    }
-    for (int32_t i = 0; i < parts->count; ++i) {
-        kiriKeep_Add(map, parts->data[i] == KIRI_NONE);
-    }
-    return true;
-}
-
-/* Lists items by part, and makes the map of the part: it keeps nothing yet. */
-static bool ListParts(kiriDetach* detach, int32_t kind, kiriKeep* map, const kiriIndices* parts)
-{
-    if (map != NULL) {
-        if (!kiriKeep_Init(map, &detach->memory, parts->count)) {
-            return false;
-        }
-        kiriKeep_Clear(map, parts->count);
-    }
-    return kiriPieceItems_List(&detach->of[kind], &detach->memory, detach->rest.pieces.count, parts->data,
-                               parts->count);
 }
 
 bool kiriDetach_Map(kiriDetach* detach, bool makesParts)
 {
     const kiriSheetData* sheet = detach->sheet;
+    kiriMemory* memory = &detach->memory;
     kiriSubset *rest = &detach->rest, *part = &detach->part;
     const struct {
         kiriKeep *rest, *part;
         int32_t count;
-        PartOfItem* partOf;
     } kinds[KIRI_LISTED_COUNT] = {
-        [KIRI_LISTED_VERTICES] = { &rest->vertices, &part->vertices, sheet->mesh.vertices.count, PartOfVertex },
-        [KIRI_LISTED_TRIANGLES] = { &rest->triangles, &part->triangles, sheet->mesh.triangles.count, PartOfTriangle },
-        [KIRI_LISTED_FRAMES] = { &rest->frames, &part->frames, sheet->frames.count, PartOfFrame },
-        [KIRI_LISTED_POINTS] = { &rest->points, &part->points, sheet->points.count, PartOfPoint },
-        [KIRI_LISTED_LINKS] = { &rest->links, NULL, sheet->links.links.count, PartOfLink },
-        [KIRI_LISTED_FADES] = { NULL, NULL, sheet->seen.fades.fading.count, PartOfFade },
-        [KIRI_LISTED_POINT_FADES] = { NULL, NULL, sheet->seen.pointFades.fading.count, PartOfPointFade },
-        [KIRI_LISTED_LAST] = { NULL, NULL, sheet->touches.last.touches.count, PartOfLast },
-        [KIRI_LISTED_SLEPT] = { NULL, NULL, sheet->touches.slept.touches.count, PartOfSlept },
+        [KIRI_LISTED_VERTICES] = { &rest->vertices, &part->vertices, sheet->mesh.vertices.count },
+        [KIRI_LISTED_TRIANGLES] = { &rest->triangles, &part->triangles, sheet->mesh.triangles.count },
+        [KIRI_LISTED_FRAMES] = { &rest->frames, &part->frames, sheet->frames.count },
+        [KIRI_LISTED_POINTS] = { &rest->points, &part->points, sheet->points.count },
+        [KIRI_LISTED_LINKS] = { &rest->links, NULL, sheet->links.links.count },
+        [KIRI_LISTED_FADES] = { NULL, NULL, sheet->seen.fades.fading.count },
+        [KIRI_LISTED_POINT_FADES] = { NULL, NULL, sheet->seen.pointFades.fading.count },
+        [KIRI_LISTED_LAST] = { NULL, NULL, sheet->touches.last.touches.count },
+        [KIRI_LISTED_SLEPT] = { NULL, NULL, sheet->touches.slept.touches.count },
     };
     KIRI_ASSERT(kiriUpdate_IsFieldCurrent(sheet->update));
     KIRI_ASSERT(rest->pieces.count == sheet->layout.pieces.count);
     detach->area = AreaOfAll(sheet);
-    bool ok = FindParts(detach, &detach->vertexPart, sheet->mesh.vertices.count, FindPartOfVertex) &&
-              (!makesParts || InitSubset(part, sheet, &detach->memory)) &&
-              kiriKeep_Init(&rest->pins, &detach->memory, sheet->pins.count);
+    bool ok = kiriArray_Resize(memory, &detach->vertexPart, sheet->mesh.vertices.count) &&
+              (!makesParts || InitSubset(part, sheet, memory)) && kiriKeep_Init(&rest->pins, memory, sheet->pins.count);
+    for (int32_t v = 0; ok && v < sheet->mesh.vertices.count; ++v) {
+        detach->vertexPart.data[v] = PartOfPiece(detach, kiriPiece_OfVertex(sheet, v));
+    }
     for (int32_t k = 0; ok && k < KIRI_LISTED_COUNT; ++k) {
-        kiriIndices parts = { NULL, 0, 0 };
-        if (kinds[k].rest != NULL || makesParts) {
-            ok = FindParts(detach, &parts, kinds[k].count, kinds[k].partOf) &&
-                 (kinds[k].rest == NULL || MapRest(detach, kinds[k].rest, &parts)) &&
-                 (!makesParts || ListParts(detach, k, kinds[k].part, &parts));
+        int32_t count = kinds[k].count;
+        kiriKeep *mapOfRest = kinds[k].rest, *mapOfPart = makesParts ? kinds[k].part : NULL;
+        if (mapOfRest == NULL && !makesParts) {
+            continue;
         }
-        kiriArray_Release(&detach->memory, &parts);
+        kiriIndices parts = { NULL, 0, 0 };
+        ok = kiriArray_Resize(memory, &parts, count) && (mapOfRest == NULL || kiriKeep_Init(mapOfRest, memory, count)) &&
+             (mapOfPart == NULL || kiriKeep_Init(mapOfPart, memory, count));
+        for (int32_t i = 0; ok && i < count; ++i) {
+            parts.data[i] = PartOf(detach, k, i);
+            if (mapOfRest != NULL) {
+                kiriKeep_Add(mapOfRest, parts.data[i] == KIRI_NONE);
+            }
+        }
+        if (ok && mapOfPart != NULL) {
+            kiriKeep_Clear(mapOfPart, count); /* it keeps nothing yet */
+        }
+        ok = ok &&
+             (!makesParts || kiriPieceItems_List(&detach->of[k], memory, detach->rest.pieces.count, parts.data, count));
+        kiriArray_Release(memory, &parts);
     }
     for (int32_t i = 0; ok && i < sheet->pins.count; ++i) {
         kiriKeep_Add(&rest->pins, kiriSubset_FrameOfPin(rest, i) != KIRI_NONE);
@@ -224,6 +180,17 @@ bool kiriDetach_Map(kiriDetach* detach, bool makesParts)
 
 /* ---- Contacts ---------------------------------------------------------------------------------------------------- */
 
+/* Renumbers the vertices of a contact. Returns false if one is not in the subset. */
+static bool FollowVertices(const kiriSubset* subset, int32_t vertex[3])
+{
+    bool isIn = true;
+    for (int n = 0; n < 3 && vertex[n] != KIRI_NONE; ++n) {
+        vertex[n] = kiriKeep_To(&subset->vertices, vertex[n]);
+        isIn = isIn && vertex[n] != KIRI_NONE;
+    }
+    return isIn;
+}
+
 /* Renumbers a contact of the host. Returns false if its point is not in the subset. */
 static bool FollowContact(const kiriSubset* subset, kiriGivenContact* given)
 {
@@ -231,26 +198,16 @@ static bool FollowContact(const kiriSubset* subset, kiriGivenContact* given)
         given->contact.point = kiriKeep_To(&subset->points, given->contact.point);
         return given->contact.point != KIRI_NONE;
     }
-    bool isIn = true;
-    for (int n = 0; n < 3 && given->vertex[n] != KIRI_NONE; ++n) {
-        given->vertex[n] = kiriKeep_To(&subset->vertices, given->vertex[n]);
-        isIn = isIn && given->vertex[n] != KIRI_NONE;
-    }
-    return isIn;
+    return FollowVertices(subset, given->vertex);
 }
 
 /* Renumbers a contact and its key. Returns false if it is not in the subset, or the key cannot be renumbered. */
 static bool FollowTouch(const kiriSubset* subset, kiriTouch* touch)
 {
-    bool isIn = true;
-    if (touch->key >> 60 != KIRI_TOUCH_OBSTACLE) {
-        return kiriTouch_Follow(touch, &subset->points, &subset->vertices);
-    }
-    for (int n = 0; n < 3 && touch->vertex[n] != KIRI_NONE; ++n) {
-        touch->vertex[n] = kiriKeep_To(&subset->vertices, touch->vertex[n]);
-        isIn = isIn && touch->vertex[n] != KIRI_NONE;
-    }
-    return isIn && kiriObstacle_FollowKey(&touch->key, &subset->vertices, &subset->triangles);
+    return touch->key >> 60 != KIRI_TOUCH_OBSTACLE
+               ? kiriTouch_Follow(touch, &subset->points, &subset->vertices)
+               : FollowVertices(subset, touch->vertex) &&
+                     kiriObstacle_FollowKey(&touch->key, &subset->vertices, &subset->triangles);
 }
 
 /* ---- A part ------------------------------------------------------------------------------------------------------ */
@@ -261,17 +218,6 @@ static kiriIndices ItemsOf(const kiriDetach* detach, int32_t kind, int32_t piece
     KIRI_ASSERT(kind >= 0 && kind < KIRI_LISTED_COUNT && piece < detach->of[kind].spans.count);
     kiriSpan span = detach->of[kind].spans.data[piece];
     return (kiriIndices){ detach->of[kind].items.data + span.first, span.count, span.count };
-}
-
-/* Copies the settings. Counts over the whole sheet are divided by area. */
-static void CopySettings(const kiriDetach* detach, int32_t piece, kiriSheetData* to)
-{
-    const kiriSheetData* from = detach->sheet;
-    double share = from->layout.pieces.data[piece].area / detach->area;
-    to->settings = from->settings;
-    to->settings.collisionPoints = share * from->settings.collisionPoints;
-    to->settings.integrationPoints = share * from->settings.integrationPoints;
-    kiriSettings_Apply(to);
 }
 
 /* Returns the cell of the part with the material of a cell of the sheet. */
@@ -312,17 +258,6 @@ static bool CopyPoints(const kiriDetach* detach, int32_t piece, kiriSheetData* t
         ok = kiriArray_Push(to->memory, &to->points, point) &&
              kiriArray_Push(to->memory, &to->pointSkin.spans, none) &&
              kiriPlaces_Add(&to->pointPlaces, to->memory, &to->mesh, point.at);
-    }
-    return ok;
-}
-
-static bool CopyPins(const kiriSubset* part, kiriSheetData* to)
-{
-    const kiriSheetData* from = part->from;
-    bool ok = true;
-    for (int32_t i = 0; ok && i < from->pins.count; ++i) {
-        int32_t frame = kiriSubset_FrameOfPin(part, i);
-        ok = frame == KIRI_NONE || kiriPins_Add(to, &from->pins.data[i], kiriKeep_To(&part->frames, frame));
     }
     return ok;
 }
@@ -390,17 +325,6 @@ static bool CopyFades(const kiriIndices* items, const kiriFades* from, const kir
     return true;
 }
 
-/* Copies the strain offsets of links. The links of a part have the same order as in the sheet. */
-static void CopyStrainOffsets(const kiriSheetData* from, const kiriIndices* links, kiriSheetData* to)
-{
-    if (from->strainOffsets.strainOffsets.count > 0) {
-        KIRI_ASSERT(to->strainOffsets.strainOffsets.count == links->count);
-        for (int32_t k = 0; k < links->count; ++k) {
-            to->strainOffsets.strainOffsets.data[k] = from->strainOffsets.strainOffsets.data[links->data[k]];
-        }
-    }
-}
-
 /* Copies the history of pins. Their shares also have the same order. */
 static void CopyPinHistory(const kiriSubset* part, kiriSheetData* to)
 {
@@ -417,14 +341,6 @@ static void CopyPinHistory(const kiriSubset* part, kiriSheetData* to)
     }
 }
 
-/* Makes the field from scratch, with the sites of the frames. */
-static bool MakeField(const kiriDetach* detach, int32_t piece, const kiriIndices* frames, kiriSheetData* to)
-{
-    return kiriPipeline_Make(to, KIRI_STAGE_REGIONS) && CopySites(detach, frames, to) &&
-           CopyPoints(detach, piece, to) && CopyPins(&detach->part, to) && CopyContacts(detach, piece, to) &&
-           kiriPipeline_Make(to, KIRI_READY);
-}
-
 /* Makes the part. Adds no frames; the next cut adds them if there are too few. */
 static bool FillPart(kiriDetach* detach, int32_t piece, kiriSheetData* to)
 {
@@ -436,12 +352,21 @@ static bool FillPart(kiriDetach* detach, int32_t piece, kiriSheetData* to)
     const kiriIndices pointFades = ItemsOf(detach, KIRI_LISTED_POINT_FADES, piece);
     const kiriMeshPart vertices = { ItemsOf(detach, KIRI_LISTED_VERTICES, piece), &part->vertices };
     const kiriMeshPart triangles = { ItemsOf(detach, KIRI_LISTED_TRIANGLES, piece), &part->triangles };
-    CopySettings(detach, piece, to);
+    double share = from->layout.pieces.data[piece].area / detach->area;
+    to->settings = from->settings;
+    to->settings.collisionPoints *= share; /* counts over the whole sheet are divided by area */
+    to->settings.integrationPoints *= share;
     to->settings.maxFrames = 0;
+    kiriSettings_Apply(to);
     to->seen.bounds->patience = from->seen.bounds->patience;
     to->solver = kiriSolver_Create(to->memory, &to->settings.mechanics);
-    if (to->solver == NULL || !kiriMesh_MakePart(&to->mesh, to->memory, &from->mesh, &triangles, &vertices) ||
-        !MakeField(detach, piece, &frames, to) ||
+    bool ok = to->solver != NULL && kiriMesh_MakePart(&to->mesh, to->memory, &from->mesh, &triangles, &vertices) &&
+              kiriPipeline_Make(to, KIRI_STAGE_REGIONS) && CopySites(detach, &frames, to) && CopyPoints(detach, piece, to);
+    for (int32_t i = 0; ok && i < from->pins.count; ++i) {
+        int32_t frame = kiriSubset_FrameOfPin(part, i);
+        ok = frame == KIRI_NONE || kiriPins_Add(to, &from->pins.data[i], kiriKeep_To(&part->frames, frame));
+    }
+    if (!ok || !CopyContacts(detach, piece, to) || !kiriPipeline_Make(to, KIRI_READY) ||
         !CopyFades(&fades, &from->seen.fades, &part->vertices, &to->seen.fades, to->memory) ||
         !CopyFades(&pointFades, &from->seen.pointFades, &part->points, &to->seen.pointFades, to->memory)) {
         return false;
@@ -454,7 +379,10 @@ static bool FillPart(kiriDetach* detach, int32_t piece, kiriSheetData* to)
     for (int32_t k = 0; k < frames.count; ++k) { /* a changed material leaves regions dirty, see kiri_sheet.c */
         to->regions.dirty.data[k] = from->regions.dirty.data[frames.data[k]];
     }
-    CopyStrainOffsets(from, &links, to);
+    for (int32_t k = 0; from->strainOffsets.strainOffsets.count > 0 && k < links.count; ++k) {
+        KIRI_ASSERT(to->strainOffsets.strainOffsets.count == links.count); /* links have the same order as in the sheet */
+        to->strainOffsets.strainOffsets.data[k] = from->strainOffsets.strainOffsets.data[links.data[k]];
+    }
     CopyPinHistory(part, to);
     kiriPins_SumShares(to);
     to->layout.pieces.data[0].rest = from->layout.pieces.data[piece].rest;
@@ -673,15 +601,6 @@ static void CommitLayout(kiriDetach* detach)
     kiriSheet_SumRest(sheet);
 }
 
-static void KeepBlades(const kiriDetach* detach)
-{
-    const kiriKeep* vertices = &detach->rest.vertices;
-    for (int32_t i = 0; i < detach->sheet->cuts.count; ++i) {
-        kiriCutData* cut = detach->sheet->cuts.data[i];
-        cut->tip.blade.vertex = kiriKeep_To(vertices, cut->tip.blade.vertex);
-    }
-}
-
 static void KeepSeen(kiriDetach* detach, kiriMemory* retired)
 {
     kiriSheetData* sheet = detach->sheet;
@@ -720,7 +639,10 @@ void kiriDetach_Commit(kiriDetach* detach, kiriMemory* retired)
     KeepSamples(detach);
     KeepContacts(detach);
     CommitLayout(detach);
-    KeepBlades(detach);
+    for (int32_t i = 0; i < detach->sheet->cuts.count; ++i) {
+        int32_t* vertex = &detach->sheet->cuts.data[i]->tip.blade.vertex;
+        *vertex = kiriKeep_To(&detach->rest.vertices, *vertex);
+    }
     KeepSeen(detach, retired);
 }
 
@@ -743,32 +665,24 @@ static bool IsLayoutThat(const kiriSheetData* sheet)
            memcmp(made->framePiece.data, read->framePiece.data, sizeof(int32_t) * (size_t)frames) == 0;
 }
 
-/* Starts the samples without weights, and sorts the points into squares. */
-static bool StartSamples(kiriSheetData* sheet)
-{
-    kiriSkin *vertices = &sheet->vertexSkin, *points = &sheet->pointSkin;
-    bool ok = kiriArray_ResizeJust(sheet->memory, &vertices->spans, sheet->mesh.vertices.count) &&
-              kiriArray_ResizeJust(sheet->memory, &points->spans, sheet->points.count) &&
-              kiriPlaces_Reserve(&sheet->pointPlaces, sheet->memory, &sheet->mesh, sheet->points.count);
-    for (int32_t i = 0; ok && i < vertices->spans.count; ++i) {
-        vertices->spans.data[i] = (kiriSpan){ 0, 0 };
-    }
-    for (int32_t i = 0; ok && i < points->spans.count; ++i) {
-        points->spans.data[i] = (kiriSpan){ 0, 0 };
-        kiriPlaces_Add(&sheet->pointPlaces, sheet->memory, &sheet->mesh, sheet->points.data[i].at); /* has room */
-    }
-    return ok;
-}
-
 /* Runs the stages from the grid to the owners of material, as for a new sheet. Adds no frames, except in a piece
    without one. */
 static bool RunStages(kiriSheetData* sheet, bool* isBad)
 {
     kiriUpdate* u = sheet->update;
     kiriQuotas unlimited = kiriQuotas_Unlimited();
+    kiriSkin *vertices = &sheet->vertexSkin, *points = &sheet->pointSkin;
     int32_t maxFrames = sheet->settings.maxFrames;
-    if (!StartSamples(sheet) || !kiriArray_Resize(sheet->memory, &u->placing.sites, sheet->frames.count)) {
+    if (!kiriArray_ResizeJust(sheet->memory, &vertices->spans, sheet->mesh.vertices.count) ||
+        !kiriArray_ResizeJust(sheet->memory, &points->spans, sheet->points.count) ||
+        !kiriPlaces_Reserve(&sheet->pointPlaces, sheet->memory, &sheet->mesh, sheet->points.count) ||
+        !kiriArray_Resize(sheet->memory, &u->placing.sites, sheet->frames.count)) {
         return false;
+    }
+    memset(vertices->spans.data, 0, sizeof(kiriSpan) * (size_t)vertices->spans.count);
+    for (int32_t i = 0; i < points->spans.count; ++i) {
+        points->spans.data[i] = (kiriSpan){ 0, 0 };
+        kiriPlaces_Add(&sheet->pointPlaces, sheet->memory, &sheet->mesh, sheet->points.data[i].at); /* has room */
     }
     for (int32_t f = 0; f < sheet->frames.count; ++f) {
         u->placing.sites.data[f] = (kiriSite){ sheet->frames.data[f].site.at, 0 };

@@ -66,16 +66,8 @@ static kiriProgress TakeQueuedPoint(kiriSheetData* sheet, const kiriQueuedPoint*
     return progress;
 }
 
-/* If the update settles sites, ends it with the tick of the last point; later points belong to the next update. */
-static void EndWithTick(kiriSheetData* sheet, const kiriQueuedPoint* last)
-{
-    kiriCutWork* cut = &sheet->update->cut;
-    bool isLast = cut->taken == sheet->queue.count || last[1].stamp != last->stamp;
-    cut->settlesSites = cut->settlesSites || last->ends;
-    cut->count = cut->settlesSites && isLast ? cut->taken : cut->count;
-}
-
-/* Takes queued points as far as the quota goes. New vertices lie on the visible surface. */
+/* Takes queued points as far as the quota goes. New vertices lie on the visible surface. An update that settles sites
+   ends with the tick of the last point; later points belong to the next update. */
 static kiriProgress StageCut(kiriSheetData* sheet, kiriQuota* triangles)
 {
     kiriUpdate* u = sheet->update;
@@ -87,7 +79,9 @@ static kiriProgress StageCut(kiriSheetData* sheet, kiriQuota* triangles)
         u->cut.settlesSites = u->cut.settlesSites || sheet->mesh.hasMet;
         if (progress == KIRI_DONE) {
             u->cut.taken += 1;
-            EndWithTick(sheet, point);
+            u->cut.settlesSites = u->cut.settlesSites || point->ends;
+            bool isLast = u->cut.taken == sheet->queue.count || point[1].stamp != point->stamp; /* of its tick */
+            u->cut.count = u->cut.settlesSites && isLast ? u->cut.taken : u->cut.count;
         }
     }
     u->cut.meshChanged = u->cut.meshChanged || sheet->mesh.changedTriangles.count > 0 ||
@@ -595,25 +589,16 @@ static kiriProgress RunUpTo(kiriSheetData* sheet, int32_t end, kiriQuotas* quota
     return progress;
 }
 
-/* Starts the weights of all vertices, with empty spans. */
-static bool StartSkin(kiriSheetData* sheet)
-{
-    kiriSkin* skin = &sheet->vertexSkin;
-    if (!kiriArray_Resize(sheet->memory, &skin->spans, sheet->mesh.vertices.count)) {
-        return false;
-    }
-    memset(skin->spans.data, 0, sizeof(kiriSpan) * (size_t)skin->spans.count);
-    return true;
-}
-
 bool kiriPipeline_Make(kiriSheetData* sheet, int32_t end)
 {
     kiriQuotas unlimited = kiriQuotas_Unlimited();
     if (sheet->update == NULL) {
         sheet->update = kiriMemory_AllocZeroed(sheet->memory, sizeof(kiriUpdate));
-        if (sheet->update == NULL || !StartSkin(sheet)) {
+        kiriSkin* skin = &sheet->vertexSkin;
+        if (sheet->update == NULL || !kiriArray_Resize(sheet->memory, &skin->spans, sheet->mesh.vertices.count)) {
             return false;
         }
+        memset(skin->spans.data, 0, sizeof(kiriSpan) * (size_t)skin->spans.count);
         sheet->update->stage = KIRI_STAGE_GRID;
         sheet->update->isScratch = true;
         sheet->update->cut.settlesSites = true;
@@ -711,26 +696,6 @@ void kiriPipeline_Wait(kiriSheetData* sheet)
     }
 }
 
-/* Returns the piece data at a triangle. Before the commit all frames that carry a vertex are in one piece. A new sheet
-   has no frames yet: 0. */
-static uint64_t PieceDataAt(const kiriSheetData* sheet, int32_t triangle)
-{
-    kiriSpan span = sheet->vertexSkin.spans.data[sheet->mesh.triangles.data[triangle].vertex[0]];
-    int32_t frame = span.count > 0 ? sheet->vertexSkin.weights.data[span.first].frame : KIRI_NONE;
-    return frame != KIRI_NONE ? sheet->frames.data[frame].pieceData : 0;
-}
-
-/* Makes a new frame, without its motion. */
-static kiriFrameData MakeFrame(const kiriSheetData* sheet, const kiriNewFrame* from)
-{
-    kiriFrameData frame;
-    memset(&frame, 0, sizeof(frame));
-    frame.anchor = from->anchor;
-    frame.center = kiriMesh_Local(&sheet->mesh, frame.anchor);
-    frame.pieceData = PieceDataAt(sheet, from->triangle);
-    return frame;
-}
-
 /* Sets the motion of a frame from the surface: position, velocity, and the rotation nearest to the deformation
    gradient; an affine frame gets the gradient itself. */
 static void TakeMotion(const kiriSheetData* sheet, kiriFrameData* frame, int32_t triangle)
@@ -745,27 +710,6 @@ static void TakeMotion(const kiriSheetData* sheet, kiriFrameData* frame, int32_t
         frame->A = motion.A;
         frame->spin = kiriMat3_Spin(&motion.A, &motion.rate);
         frame->rate = kiriMat3_Beside(&motion.A, &motion.rate, frame->spin);
-    }
-}
-
-/* Fits the motion of frames with new material to the previous motion, see kiri_refit.h. */
-static void FitFrames(kiriSheetData* sheet, int32_t oldCount)
-{
-    kiriUpdate* u = sheet->update;
-    if (!sheet->settings.popping) {
-        kiriRefit_Solve(&u->refit, sheet->frames.data, oldCount, &sheet->mesh, &sheet->regions, u->material.data,
-                        &sheet->settings.material, sheet->settings.mechanics.model == KIRI_MODEL_LINKS);
-    }
-}
-
-/* Puts frames to rest that do not fit floats: their piece diverged, so a fit of its rotation overflowed. */
-static void PutLostToRest(kiriSheetData* sheet)
-{
-    bool isFitted = sheet->update->refit.fits.count > 0; /* false: velocities are from the host and in range */
-    for (int32_t f = 0; isFitted && f < sheet->frames.count; ++f) {
-        if (!kiriFrame_FitsFloats(&sheet->frames.data[f])) {
-            kiriFrame_PutToRest(&sheet->frames.data[f]);
-        }
     }
 }
 
@@ -784,34 +728,39 @@ static void TakeFits(kiriSheetData* sheet)
     const kiriLayout* next = &sheet->update->next;
     kiriRefit_LimitEnergy(refit, sheet->frames.data, sheet->frames.count, next->framePiece.data, next->pieces.count,
                           &sheet->settings.material);
-    PutLostToRest(sheet);
-    kiriRefit_Commit(refit, &sheet->mesh);
-}
-
-/* Recenters a frame for its new material. Accelerations stay; torque and angular momentum of a rigid frame scale with
-   its mass. */
-static void RecenterFrame(const kiriSheetData* sheet, kiriFrameData* frame, const kiriMoments* material,
-                          double densityPerArea)
-{
-    double before = frame->mass;
-    kiriFrame_Recenter(frame, material, densityPerArea);
-    if (before > 0.0 && sheet->settings.mechanics.model == KIRI_MODEL_LINKS) {
-        frame->history.turnGain = kiriMat3_Scale(frame->mass / before, &frame->history.turnGain);
-        frame->history.turnPull = kiriMat3_Scale(frame->mass / before, &frame->history.turnPull);
+    /* Frames that do not fit floats: their piece diverged, so a fit of its rotation overflowed. Without fits velocities are
+       from the host and in range. */
+    for (int32_t f = 0; refit->fits.count > 0 && f < sheet->frames.count; ++f) {
+        if (!kiriFrame_FitsFloats(&sheet->frames.data[f])) {
+            kiriFrame_PutToRest(&sheet->frames.data[f]);
+        }
     }
+    kiriRefit_Commit(refit, &sheet->mesh);
 }
 
 /* Adds new frames and fits frames with new material. New frames without a fit take their motion from the surface. */
 static void AddFrames(kiriSheetData* sheet)
 {
-    const kiriUpdate* u = sheet->update;
-    const kiriRefit* refit = &u->refit;
+    kiriUpdate* u = sheet->update;
+    kiriRefit* refit = &u->refit;
     int32_t oldCount = sheet->frames.count, fit = 0;
     int32_t firstNew = u->placing.sites.count - u->newFrames.count; /* in a new sheet the frames already exist */
     for (int32_t i = oldCount; i < u->placing.sites.count; ++i) {
-        sheet->frames.data[i] = MakeFrame(sheet, &u->newFrames.data[i - firstNew]);
+        const kiriNewFrame* from = &u->newFrames.data[i - firstNew];
+        kiriFrameData* frame = &sheet->frames.data[i];
+        memset(frame, 0, sizeof(*frame));
+        frame->anchor = from->anchor;
+        frame->center = kiriMesh_Local(&sheet->mesh, frame->anchor);
+        /* All frames that carry a vertex are in one piece; their data is that of the piece. A new sheet has no frames. */
+        kiriSpan span = sheet->vertexSkin.spans.data[sheet->mesh.triangles.data[from->triangle].vertex[0]];
+        if (span.count > 0) {
+            frame->pieceData = sheet->frames.data[sheet->vertexSkin.weights.data[span.first].frame].pieceData;
+        }
     }
-    FitFrames(sheet, oldCount);
+    if (!sheet->settings.popping) {
+        kiriRefit_Solve(refit, sheet->frames.data, oldCount, &sheet->mesh, &sheet->regions, u->material.data,
+                        &sheet->settings.material, sheet->settings.mechanics.model == KIRI_MODEL_LINKS);
+    }
     for (int32_t i = oldCount; i < u->placing.sites.count; ++i) {
         while (fit < refit->fits.count && refit->fits.data[fit].frame < i) {
             ++fit;
@@ -829,9 +778,16 @@ static void CommitFrames(kiriSheetData* sheet)
     double densityPerArea = (double)sheet->settings.material.density * sheet->settings.material.thickness;
     AddFrames(sheet);
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
-        sheet->frames.data[i].site = u->placing.sites.data[i];
+        kiriFrameData* frame = &sheet->frames.data[i];
+        frame->site = u->placing.sites.data[i];
         if (sheet->regions.dirty.data[i]) {
-            RecenterFrame(sheet, &sheet->frames.data[i], &u->material.data[i], densityPerArea);
+            double before = frame->mass;
+            kiriFrame_Recenter(frame, &u->material.data[i], densityPerArea);
+            /* Accelerations stay; torque and angular momentum of a rigid frame scale with its mass. */
+            if (before > 0.0 && sheet->settings.mechanics.model == KIRI_MODEL_LINKS) {
+                frame->history.turnGain = kiriMat3_Scale(frame->mass / before, &frame->history.turnGain);
+                frame->history.turnPull = kiriMat3_Scale(frame->mass / before, &frame->history.turnPull);
+            }
             sheet->regions.dirty.data[i] = 0;
         }
     }

@@ -228,24 +228,21 @@ static void CommitSources(Parting* parting)
 
 /* ---- Sheets of their own ----------------------------------------------------------------------------------------- */
 
-static bool MakePart(Parting* parting, Part* part)
-{
-    kiriDetach* detach = &part->from->detach;
-    const kiriSheetData* from = detach->sheet;
-    const kiriPast past = kiriPast_At(&from->past, parting->world->begun);
-    const kiriPieceItems* vertices = &detach->of[KIRI_LISTED_VERTICES];
-    kiriSpan span = kiriPieceItems_Of(vertices, part->piece);
-    part->sheet = kiriSheet_New(&parting->world->memory);
-    return part->sheet != NULL && kiriDetach_MakePart(detach, part->piece, part->sheet) &&
-           kiriPast_Part(&part->sheet->past, &past, &parting->memory, from->id, &vertices->items.data[span.first],
-                         span.count);
-}
-
 static bool MakeParts(Parting* parting)
 {
     bool ok = true;
     for (int32_t k = 0; ok && k < parting->parts.count; ++k) {
-        ok = parting->parts.data[k].from->waits || MakePart(parting, &parting->parts.data[k]);
+        Part* part = &parting->parts.data[k];
+        kiriDetach* detach = &part->from->detach;
+        if (!part->from->waits) {
+            const kiriPast past = kiriPast_At(&detach->sheet->past, parting->world->begun);
+            const kiriPieceItems* vertices = &detach->of[KIRI_LISTED_VERTICES];
+            kiriSpan span = kiriPieceItems_Of(vertices, part->piece);
+            part->sheet = kiriSheet_New(&parting->world->memory);
+            ok = part->sheet != NULL && kiriDetach_MakePart(detach, part->piece, part->sheet) &&
+                 kiriPast_Part(&part->sheet->past, &past, &parting->memory, detach->sheet->id,
+                               &vertices->items.data[span.first], span.count);
+        }
     }
     return ok;
 }
@@ -267,40 +264,23 @@ static kiriResult ReserveIdsOfParts(Parting* parting)
     return result == KIRI_OK ? kiriWorld_ReserveIds(parting->world, &parting->world->pinIds, pins) : result;
 }
 
-/* Gives pins their ids. A line may hold several pieces: then the remaining sheet keeps the pin's id, or else the first
-   part, and other parts get new ids. The ids of the remaining sheet do not point to its pins yet. */
-static void NamePins(kiriWorld* world, const Part* part)
-{
-    const kiriDetach* detach = &part->from->detach;
-    for (int32_t i = 0; i < part->sheet->pins.count; ++i) {
-        kiriPinData* pin = &part->sheet->pins.data[i];
-        const kiriSlot* slot = kiriPool_Find(&world->pinIds, pin->id);
-        if (slot->owner != detach->sheet || kiriKeep_Has(&detach->rest.pins, slot->index)) {
-            pin->id = kiriPool_Add(&world->pinIds, &world->memory, part->sheet, i);
-        }
-    }
-}
-
+/* Gives sheet and pins of a part their ids. A line may hold several pieces: then the remaining sheet keeps the pin's id,
+   or else the first part, and other parts get new ids. The ids of the remaining sheet do not point to its pins yet. */
 static void AddSheetOfPart(kiriWorld* world, const Part* part)
 {
+    const kiriDetach* detach = &part->from->detach;
     kiriSheetData* sheet = part->sheet;
     KIRI_ASSERT(world->sheets.count < world->sheets.capacity && sheet->layout.pieces.count == 1);
     world->sheets.data[world->sheets.count++] = sheet;
     sheet->id = kiriPool_Add(&world->sheetIds, &world->memory, sheet, 0);
     kiriMemory_Adopt(&world->retired, (void*)sheet->past.others);
-    NamePins(world, part);
-    PointIds(world, sheet);
-}
-
-/* Lists a piece that waits, unless it is listed already. */
-static void AddLeaving(kiriWorld* world, const Part* part)
-{
-    kiriSheetData* sheet = part->from->detach.sheet;
-    KIRI_ASSERT(part->from->waits && sheet->leaving.count < sheet->leaving.capacity);
-    if (!IsLeaving(world, sheet, part->piece)) {
-        sheet->leaving.data[sheet->leaving.count++] = part->frame;
-        sheet->rest.isIdle = false;
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        const kiriSlot* slot = kiriPool_Find(&world->pinIds, sheet->pins.data[i].id);
+        if (slot->owner != detach->sheet || kiriKeep_Has(&detach->rest.pins, slot->index)) {
+            sheet->pins.data[i].id = kiriPool_Add(&world->pinIds, &world->memory, sheet, i);
+        }
     }
+    PointIds(world, sheet);
 }
 
 static kiriResult Detach(Parting* parting)
@@ -310,12 +290,15 @@ static kiriResult Detach(Parting* parting)
     kiriResult result = ok ? ReserveIdsOfParts(parting) : KIRI_ERROR_MEMORY;
     for (int32_t k = 0; k < parting->parts.count; ++k) {
         const Part* part = &parting->parts.data[k];
+        kiriSheetData* from = part->from->detach.sheet;
         if (result != KIRI_OK) {
             kiriSheet_Delete(part->sheet, &parting->world->memory);
         } else if (part->sheet != NULL) {
             AddSheetOfPart(parting->world, part);
-        } else {
-            AddLeaving(parting->world, part);
+        } else if (!IsLeaving(parting->world, from, part->piece)) {
+            KIRI_ASSERT(part->from->waits && from->leaving.count < from->leaving.capacity);
+            from->leaving.data[from->leaving.count++] = part->frame;
+            from->rest.isIdle = false;
         }
     }
     if (result != KIRI_OK) {
@@ -485,15 +468,6 @@ static void HidePieces(kiriWorld* world, const kiriDetach* detach)
     kiriView_HideGone(sheet);
 }
 
-static void ForgetPins(kiriWorld* world, const kiriDetach* detach)
-{
-    for (int32_t i = 0; i < detach->sheet->pins.count; ++i) {
-        if (!kiriKeep_Has(&detach->rest.pins, i)) {
-            kiriPool_Remove(&world->pinIds, detach->sheet->pins.data[i].id);
-        }
-    }
-}
-
 /* Copies the indices if the host holds them, because triangles will be hidden in them. */
 static bool RenewIndices(Parting* parting)
 {
@@ -518,7 +492,11 @@ static kiriResult Destroy(Parting* parting)
             HidePieces(parting->world, detach);
         } else {
             ForgetFrames(parting->world, detach);
-            ForgetPins(parting->world, detach);
+            for (int32_t i = 0; i < detach->sheet->pins.count; ++i) {
+                if (!kiriKeep_Has(&detach->rest.pins, i)) {
+                    kiriPool_Remove(&parting->world->pinIds, detach->sheet->pins.data[i].id);
+                }
+            }
         }
     }
     CommitSources(parting);

@@ -264,31 +264,23 @@ KIRI_TABLE(SaveHeadTable, SaveHead, {
     KIRI_RUN(8, SaveHead, size, size),
 });
 
-static uint64_t WordAt(const uint8_t* bytes, int64_t count)
+static uint64_t WordAt(const uint8_t* b, int64_t count)
 {
     uint64_t word = 0;
-    for (int64_t k = 0; k < 8 && k < count; ++k) {
-        word |= (uint64_t)bytes[k] << (8 * k);
+    if (count >= 8) { /* compilers read these bytes at once */
+        return b[0] | (uint64_t)b[1] << 8 | (uint64_t)b[2] << 16 | (uint64_t)b[3] << 24 | (uint64_t)b[4] << 32 |
+               (uint64_t)b[5] << 40 | (uint64_t)b[6] << 48 | (uint64_t)b[7] << 56;
+    }
+    for (int64_t k = 0; k < count; ++k) {
+        word |= (uint64_t)b[k] << (8 * k);
     }
     return word;
 }
 
-/* The same of eight bytes: compilers read them at once. */
-static uint64_t WholeWordAt(const uint8_t* b)
-{
-    return b[0] | (uint64_t)b[1] << 8 | (uint64_t)b[2] << 16 | (uint64_t)b[3] << 24 | (uint64_t)b[4] << 32 |
-           (uint64_t)b[5] << 40 | (uint64_t)b[6] << 48 | (uint64_t)b[7] << 56;
-}
-
-/* Eight bytes at a time. */
 static uint64_t SumBytes(const uint8_t* bytes, int64_t count)
 {
     uint64_t sum = KIRI_HASH_START;
-    int64_t n = 0;
-    for (; n + 8 <= count; n += 8) {
-        kiriHash_Int64(&sum, (int64_t)WholeWordAt(bytes + n));
-    }
-    if (n < count) {
+    for (int64_t n = 0; n < count; n += 8) {
         kiriHash_Int64(&sum, (int64_t)WordAt(bytes + n, count - n));
     }
     return sum;
@@ -318,20 +310,13 @@ static const char* FaultOfBytes(const uint8_t* bytes, int64_t size)
     return isSame ? NULL : "the bytes are not those that were saved";
 }
 
-static bool IsWorkAtHand(const kiriWorld* world)
-{
-    bool isAtHand = false;
-    for (int32_t i = 0; i < world->sheets.count; ++i) {
-        isAtHand = isAtHand || world->sheets.data[i]->update->stage != KIRI_NONE;
-    }
-    return isAtHand;
-}
-
 kiriResult kiriSave_Write(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size)
 {
-    if (IsWorkAtHand(world)) {
-        *size = 0;
-        return KIRI_PENDING;
+    *size = 0;
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        if (world->sheets.data[i]->update->stage != KIRI_NONE) {
+            return KIRI_PENDING;
+        }
     }
     kiriArchive archive = kiriArchive_Measure();
     ArchiveWorld(&archive, Unlocked(world));

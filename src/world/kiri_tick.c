@@ -31,24 +31,18 @@ static bool IsReady(const kiriSheetData* sheet)
 
 /* ---- Which sheets ---- */
 
-/* Returns true if a pin of the sheet is on an obstacle, which may move. */
-static bool MayBeCarried(const kiriSheetData* sheet)
-{
-    bool any = false;
-    for (int32_t i = 0; i < sheet->pins.count; ++i) {
-        any |= sheet->pins.data[i].anchor.obstacle != 0;
-    }
-    return any;
-}
-
 /* Returns true if the sheet needs no work until it wakes, or gets a cut or contacts. */
 static bool IsIdle(const kiriSheetData* sheet)
 {
     const kiriTouches* touches = &sheet->touches;
     const kiriFades* fades = &sheet->seen.fades;
+    bool isCarried = false; /* a pin is on an obstacle, which may move */
+    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+        isCarried |= sheet->pins.data[i].anchor.obstacle != 0;
+    }
     return sheet->rest.asleep && sheet->cuts.count == 0 && sheet->queue.count == 0 && sheet->contacts.count == 0 &&
            touches->last.touches.count == 0 && touches->slept.touches.count == 0 && touches->found.count == 0 &&
-           touches->told.count == 0 && !MayBeCarried(sheet) && sheet->leaving.count == 0 &&
+           touches->told.count == 0 && !isCarried && sheet->leaving.count == 0 &&
            !kiriPieces_AnyGone(sheet) && !sheet->seen.isElsewhere && fades->jump == 0.0 && fades->move == 0.0;
 }
 
@@ -113,13 +107,6 @@ static void StartAll(kiriWorld* world, bool finishes)
         }
     }
     kiriSort(world->atWork.data, world->atWork.count, IsServedFirst, world);
-}
-
-/* Finds pairs while the mesh equals the visible one. Fails on out of memory. */
-static bool FindPairs(kiriWorld* world, double dt)
-{
-    EnterStage(world, KIRI_STAGE_CONTACT);
-    return kiriPairs_Find(world, dt);
 }
 
 /* Works on updates. KIRI_ERROR_MEMORY: the work of some sheets continues in the next tick, as with a spent budget. */
@@ -194,22 +181,18 @@ static kiriResult ReserveRoom(kiriWorld* world)
                : KIRI_ERROR_MEMORY;
 }
 
-static void CountWork(kiriProfile* profile, const kiriSheetData* sheet)
+static void CommitUpdate(kiriWorld* world, kiriSheetData* sheet)
 {
     const kiriCommitCounts* counts = &sheet->update->counts;
+    kiriProfile* profile = &world->profile;
+    int32_t oldFrames = sheet->frames.count;
+    kiriStage_Commit(sheet);
     profile->cellsChanged += counts->cells;
     profile->weightsChanged += counts->weights;
     profile->verticesChanged += counts->vertices;
     profile->pointsChanged += counts->points;
     profile->linksChanged += counts->links;
     profile->commits += 1;
-}
-
-static void CommitUpdate(kiriWorld* world, kiriSheetData* sheet)
-{
-    int32_t oldFrames = sheet->frames.count;
-    kiriStage_Commit(sheet);
-    CountWork(&world->profile, sheet);
     for (int32_t i = oldFrames; i < sheet->frames.count; ++i) {
         bool isGone = kiriSheet_IsGone(sheet, i);
         sheet->frames.data[i].id = isGone ? 0 : kiriPool_Add(&world->frameIds, &world->memory, sheet, i);
@@ -248,17 +231,6 @@ static void FinishCuts(kiriWorld* world, kiriSheetData* sheet)
     }
 }
 
-static void FinishUpdate(kiriWorld* world, kiriSheetData* sheet)
-{
-    for (int32_t i = 0; i < sheet->update->cut.count; ++i) {
-        world->profile.cutSegments += !sheet->queue.data[i].jump;
-    }
-    if (sheet->update->cut.meshChanged) {
-        CommitUpdate(world, sheet);
-    }
-    kiriPipeline_Finish(sheet);
-}
-
 /* Commits the changes of this tick to meshes. */
 static void CommitMeshes(kiriWorld* world)
 {
@@ -289,7 +261,13 @@ static void CommitAll(kiriWorld* world)
     for (int32_t k = 0; k < world->active.count; ++k) {
         kiriSheetData* sheet = kiriWorld_Active(world, k);
         if (IsReady(sheet)) {
-            FinishUpdate(world, sheet);
+            for (int32_t i = 0; i < sheet->update->cut.count; ++i) {
+                world->profile.cutSegments += !sheet->queue.data[i].jump;
+            }
+            if (sheet->update->cut.meshChanged) {
+                CommitUpdate(world, sheet);
+            }
+            kiriPipeline_Finish(sheet);
         }
         FinishCuts(world, sheet);
     }
@@ -380,20 +358,15 @@ static void BreakPins(kiriWorld* world, kiriSheetData* sheet)
     }
 }
 
-static void CountJumps(kiriProfile* profile, const kiriSheetData* sheet)
-{
-    const kiriFades* fades = &sheet->seen.fades;
-    profile->largestJump = kiriMax(fades->jump, profile->largestJump);
-    profile->largestFade = kiriMax(fades->move, profile->largestFade);
-}
-
 static void SkinAll(kiriWorld* world, double dt)
 {
     EnterStage(world, KIRI_STAGE_SKIN);
     kiriSkinStep_Run(world, dt);
     for (int32_t k = 0; k < world->active.count; ++k) {
         kiriMotion_EndTurns(kiriWorld_Active(world, k));
-        CountJumps(&world->profile, kiriWorld_Active(world, k));
+        const kiriFades* fades = &kiriWorld_Active(world, k)->seen.fades;
+        world->profile.largestJump = kiriMax(fades->jump, world->profile.largestJump);
+        world->profile.largestFade = kiriMax(fades->move, world->profile.largestFade);
     }
 }
 
@@ -414,36 +387,6 @@ static kiriQuota SetAside(const kiriWorld* world, kiriQuotas* quotas)
         quota->isShared = true;
     }
     return aside;
-}
-
-/* Pays for pending pieces. Returns false if some are still pending. */
-static bool PayForParting(kiriWorld* world, kiriQuota* samples)
-{
-    bool isDone = true;
-    for (int32_t k = 0; k < world->active.count; ++k) {
-        kiriParts_Pay(world, kiriWorld_Active(world, k), samples);
-        isDone = isDone && !kiriParts_AreDue(kiriWorld_Active(world, k));
-    }
-    return isDone;
-}
-
-static void CountSpent(kiriProfile* profile, const kiriQuotas* quotas)
-{
-    profile->trianglesSplit = (int32_t)quotas->of[KIRI_QUOTA_TRIANGLES].used;
-    profile->cellsSettled = (int32_t)quotas->of[KIRI_QUOTA_CELLS].used;
-    profile->samplesRefreshed = (int32_t)quotas->of[KIRI_QUOTA_SAMPLES].used;
-    profile->solverIterations = (int32_t)quotas->of[KIRI_QUOTA_ITERATIONS].used;
-}
-
-/* Drops the events of the last tick. Keeps those that refused ticks have added since. */
-static void ForgetEvents(kiriWorld* world)
-{
-    int32_t first = world->events.count - world->newEvents;
-    for (int32_t i = 0; i < world->newEvents; ++i) {
-        world->events.data[i] = world->events.data[first + i];
-    }
-    world->events.count = world->newEvents;
-    world->newEvents = 0;
 }
 
 /* Ends a tick in which nothing moves. Progress on cuts is kept and continues in the next tick. */
@@ -477,13 +420,19 @@ static kiriResult MoveAll(kiriWorld* world, double dt, int32_t substeps, kiriQuo
     }
     SkinAll(world, dt);
     samples->left += aside;
-    bool isParted = PayForParting(world, samples);
-    CountSpent(&world->profile, quotas);
+    for (int32_t k = 0; k < world->active.count; ++k) { /* pieces that wait to be detached */
+        kiriParts_Pay(world, kiriWorld_Active(world, k), samples);
+        result = result == KIRI_OK && kiriParts_AreDue(kiriWorld_Active(world, k)) ? KIRI_PENDING : result;
+    }
+    world->profile.trianglesSplit = (int32_t)quotas->of[KIRI_QUOTA_TRIANGLES].used;
+    world->profile.cellsSettled = (int32_t)quotas->of[KIRI_QUOTA_CELLS].used;
+    world->profile.samplesRefreshed = (int32_t)samples->used;
+    world->profile.solverIterations = (int32_t)quotas->of[KIRI_QUOTA_ITERATIONS].used;
     world->profile.sheetPairs = kiriPairs_CountAwake(world);
     EnterStage(world, KIRI_NONE);
     kiriWorld_AdvanceBlades(world, dt);
     world->ticks += 1;
-    return result == KIRI_OK && !isParted ? KIRI_PENDING : result;
+    return result;
 }
 
 /* Algorithm 1 of the paper: work on cuts (see kiri_update.c for its stages), commit, motion of frames, and the visible
@@ -503,7 +452,8 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
     kiriResult parted = PartAll(world);
     StartAll(world, false);
     kiriQuota aside = SetAside(world, &quotas);
-    bool hasRoom = FindPairs(world, dt);
+    EnterStage(world, KIRI_STAGE_CONTACT);
+    bool hasRoom = kiriPairs_Find(world, dt); /* while the mesh equals the visible one */
     kiriResult updated = hasRoom ? UpdateAll(world, &quotas) : KIRI_ERROR_MEMORY;
     hasRoom = hasRoom && FindTouches(world, dt) && kiriMoves_Prepare(world) && kiriSkinStep_Prepare(world);
     kiriResult result = hasRoom ? ReserveRoom(world) : KIRI_ERROR_MEMORY;
@@ -512,7 +462,13 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
         world->profile = last;
         return result;
     }
-    ForgetEvents(world);
+    /* Drops the events of the last tick. Keeps those that refused ticks have added since. */
+    if (world->newEvents > 0) {
+        memmove(world->events.data, world->events.data + world->events.count - world->newEvents,
+                sizeof(kiriEvent) * (size_t)world->newEvents);
+    }
+    world->events.count = world->newEvents;
+    world->newEvents = 0;
     world->samplesDue = samplesDue;
     result = MoveAll(world, dt, substeps, &quotas, aside.left);
     return updated != KIRI_OK ? updated : parted != KIRI_OK ? parted : result;

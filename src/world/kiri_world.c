@@ -35,23 +35,15 @@ kiriResult kiriWorld_ReserveSheets(kiriWorld* world, int32_t count)
                : KIRI_ERROR_MEMORY;
 }
 
-static bool FramesFitFloats(const kiriSheetData* sheet)
-{
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
-        if (!kiriFrame_FitsFloats(&sheet->frames.data[i])) {
-            return false;
-        }
-    }
-    return true;
-}
-
 kiriResult kiriWorld_AddSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* id, kiriFault* fault)
 {
     kiriSheetData* sheet = kiriSheet_New(&world->memory);
     kiriResult result = sheet != NULL ? kiriBuild_FromDef(sheet, def, fault) : KIRI_ERROR_MEMORY;
-    if (result == KIRI_OK && !FramesFitFloats(sheet)) {
-        KIRI_SAY(fault, "floats cannot hold where it is, or how it moves");
-        result = KIRI_ERROR_ARGUMENT;
+    for (int32_t i = 0; result == KIRI_OK && i < sheet->frames.count; ++i) {
+        if (!kiriFrame_FitsFloats(&sheet->frames.data[i])) {
+            KIRI_SAY(fault, "floats cannot hold where it is, or how it moves");
+            result = KIRI_ERROR_ARGUMENT;
+        }
     }
     if (result == KIRI_OK) {
         result = kiriWorld_ReserveSheets(world, 1);
