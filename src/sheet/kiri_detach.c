@@ -314,7 +314,7 @@ static void CopyFrames(const kiriSheetData* from, const kiriIndices* frames, kir
 static bool CopyFades(const kiriIndices* items, const kiriFades* from, const kiriKeep* samples, kiriFades* to,
                       kiriMemory* memory)
 {
-    if (items->count > 0 && !kiriFades_Reserve(to, memory, samples->count)) {
+    if (items->count > 0 && !kiriArray_Reserve(memory, &to->fading, samples->count)) {
         return false;
     }
     for (int32_t k = 0; k < items->count; ++k) {

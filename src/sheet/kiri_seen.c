@@ -64,23 +64,15 @@ static kiriVec3 VertexNormal(const kiriSheetData* sheet, int32_t vertex)
     return kiriVec3_Dot(unit, unit) > 0.0 ? unit : kiriVec3_Make(0.0, 0.0, 1.0);
 }
 
-/* Returns the corner with the largest share. */
-static int32_t HeaviestCorner(const kiriSheetData* sheet, const kiriPointPlace* place)
-{
-    int best = 0;
-    for (int k = 1; k < 3; ++k) {
-        best = place->shares[k] > place->shares[best] ? k : best;
-    }
-    return CornersOf(sheet, place)[best];
-}
-
 /* Falls back to the normal of the triangle if the corner normals cancel out, and to one corner if its area is zero. */
 kiriVec3 kiriPoint_Normal(const kiriSheetData* sheet, const kiriPointPlace* place)
 {
     const int32_t* corners = CornersOf(sheet, place);
     kiriVec3 sum = { 0.0, 0.0, 0.0 };
+    int heaviest = 0;
     for (int k = 0; k < 3; ++k) {
         sum = kiriVec3_AddScaled(sum, place->shares[k], VertexNormal(sheet, corners[k]));
+        heaviest = place->shares[k] > place->shares[heaviest] ? k : heaviest;
     }
     if (kiriVec3_Length(sum) < 1e-3) {
         const kiriSurface* surface = &sheet->seen.surface;
@@ -88,7 +80,7 @@ kiriVec3 kiriPoint_Normal(const kiriSheetData* sheet, const kiriPointPlace* plac
         sum = kiriVec3_Cross(kiriVec3_Sub(b, a), kiriVec3_Sub(kiriSurface_At(surface, corners[2]), a));
     }
     kiriVec3 unit = kiriVec3_Normalize(sum);
-    return kiriVec3_Dot(unit, unit) > 0.5 ? unit : VertexNormal(sheet, HeaviestCorner(sheet, place));
+    return kiriVec3_Dot(unit, unit) > 0.5 ? unit : VertexNormal(sheet, corners[heaviest]);
 }
 
 /* Blends the frames at the corners, then the corners, as the visible mesh does. */
@@ -193,8 +185,8 @@ bool kiriView_ReserveFades(kiriSheetData* sheet, int32_t vertexCount, int32_t po
 {
     bool fade = fadeTime > 0.0;
     return kiriArray_Reserve(sheet->memory, &sheet->seen.pointsBefore, pointCount) &&
-           kiriFades_Reserve(&sheet->seen.fades, sheet->memory, fade ? vertexCount : 0) &&
-           kiriFades_Reserve(&sheet->seen.pointFades, sheet->memory, fade ? pointCount : 0);
+           kiriArray_Reserve(sheet->memory, &sheet->seen.fades.fading, fade ? vertexCount : 0) &&
+           kiriArray_Reserve(sheet->memory, &sheet->seen.pointFades.fading, fade ? pointCount : 0);
 }
 
 /* ---- Sleeping blocks ---- */
@@ -218,7 +210,7 @@ static bool HasMovedWaiting(const kiriSheetData* sheet)
 /* Returns true if the block moves or, with orStale, has stale normals. */
 static inline bool IsMeant(const kiriBlocks* blocks, int32_t block, bool orStale)
 {
-    return kiriBlocks_Moves(blocks, block) || (orStale && blocks->stale.data[block]);
+    return blocks->movers.data[block] != KIRI_NONE || (orStale && blocks->stale.data[block]);
 }
 
 /* Returns the end of the run of blocks from `begin` on with the same IsMeant as the first; *are is that value. */
@@ -272,17 +264,6 @@ void kiriView_Resize(kiriSheetData* sheet, int32_t frameCount)
     seen->exactPoints.count = sheet->points.count;
 }
 
-/* Places a new vertex on the visible triangle that it was born in. */
-static void PlaceNewborn(kiriSheetData* sheet, int32_t vertex)
-{
-    const kiriBirth* birth = &sheet->mesh.births.data[vertex - sheet->mesh.oldVertexCount];
-    kiriVec3 at = { 0.0, 0.0, 0.0 };
-    for (int k = 0; k < 3 && birth->parent[k] != KIRI_NONE; ++k) {
-        at = kiriVec3_AddScaled(at, birth->share[k], kiriSurface_At(&sheet->seen.surface, birth->parent[k]));
-    }
-    kiriSurface_Place(&sheet->seen.surface, vertex, at);
-}
-
 static void StaleCorners(kiriSheetData* sheet, const int32_t* corners)
 {
     for (int k = 0; k < 3; ++k) {
@@ -332,7 +313,12 @@ void kiriView_WriteTopology(kiriSheetData* sheet)
 {
     kiriView_Resize(sheet, sheet->frames.count);
     for (int32_t v = sheet->mesh.oldVertexCount; v < sheet->mesh.oldVertexCount + sheet->mesh.births.count; ++v) {
-        PlaceNewborn(sheet, v);
+        const kiriBirth* birth = &sheet->mesh.births.data[v - sheet->mesh.oldVertexCount];
+        kiriVec3 at = { 0.0, 0.0, 0.0 }; /* on the visible triangle that the vertex was born in */
+        for (int k = 0; k < 3 && birth->parent[k] != KIRI_NONE; ++k) {
+            at = kiriVec3_AddScaled(at, birth->share[k], kiriSurface_At(&sheet->seen.surface, birth->parent[k]));
+        }
+        kiriSurface_Place(&sheet->seen.surface, v, at);
     }
     kiriSurface_WriteTopology(&sheet->seen.surface, &sheet->mesh);
     StaleChanges(sheet);
@@ -407,25 +393,9 @@ typedef struct JumpLook {
     bool movesSleepers;  /* the position of a vertex of a sleeping piece changed */
 } JumpLook;
 
-static bool MayBeElsewhere(const kiriSheetData* sheet, int32_t begin, int32_t end)
-{
-    const kiriBlocks* blocks = &sheet->seen.blocks;
-    return blocks->touched.data[begin / KIRI_BLOCK] || end > sheet->seen.vertexCount ||
-           kiriPatches_MayMove(&sheet->seen.surface.patches, &sheet->vertexSkin, begin, end);
-}
-
 static bool IsVertexAwake(const kiriSheetData* sheet, int32_t vertex)
 {
     return kiriPiece_IsMoved(&sheet->layout.pieces.data[kiriPiece_OfVertex(sheet, vertex)]);
-}
-
-static void TakeOffsets(kiriSheetData* sheet, const JumpLook* look, const float* was, const float* is, int32_t begin,
-                        int32_t end)
-{
-    for (int32_t v = begin; v < end; ++v, was += 3, is += 3) {
-        kiriVec3 offset = kiriVec3_Sub(kiriVec3_Load(was), kiriVec3_Load(is));
-        kiriFades_Take(&sheet->seen.fades, v, kiriVec3_Add(offset, look->shift));
-    }
 }
 
 static bool MovesSleepers(const kiriSheetData* sheet, const float* was, const float* is, int32_t begin, int32_t end)
@@ -459,39 +429,12 @@ static void LookAtVertices(kiriSheetData* sheet, JumpLook* look, int32_t begin, 
     const float* is = kiriSurface_Places(&sheet->seen.surface) + 3 * (ptrdiff_t)begin;
     if (look->isShifted || kiriFades_HasBelow(fades, end) ||
         IsAnyBeyond(was, is, 3 * (end - begin), (float)(0.5 * fades->least))) {
-        TakeOffsets(sheet, look, was, is, begin, end);
+        for (int32_t v = begin, k = 0; v < end; ++v, k += 3) {
+            kiriVec3 offset = kiriVec3_Sub(kiriVec3_Load(&was[k]), kiriVec3_Load(&is[k]));
+            kiriFades_Take(fades, v, kiriVec3_Add(offset, look->shift));
+        }
     }
     look->movesSleepers = look->movesSleepers || (look->anySleeps && MovesSleepers(sheet, was, is, begin, end));
-}
-
-/* Compares a block. If its weights changed or it has new vertices, marks its frames and mover as unknown. */
-static void LookAtJumps(kiriSheetData* sheet, JumpLook* look, int32_t begin, int32_t end)
-{
-    LookAtVertices(sheet, look, begin, end);
-    if (sheet->seen.blocks.touched.data[begin / KIRI_BLOCK] || end > sheet->seen.vertexCount) {
-        kiriBlocks_ForgetOne(&sheet->seen.blocks, begin / KIRI_BLOCK);
-    }
-}
-
-/* Ignores patches that changed only by rounding if their piece moves in this tick: it is written again anyway. */
-static void ForgetRounded(kiriSheetData* sheet)
-{
-    kiriPatches* patches = &sheet->seen.surface.patches;
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
-        const kiriPiece* piece = kiriSheet_PieceOf(sheet, i);
-        uint8_t* isOther = &patches->isOther.data[i];
-        bool moves = kiriPiece_IsAwake(piece) && piece->rest.calm < KIRI_CALM_SECONDS;
-        *isOther = *isOther == KIRI_PATCH_ROUNDED && moves ? KIRI_PATCH_SAME : *isOther;
-    }
-}
-
-static bool AnySleeps(const kiriSheetData* sheet)
-{
-    bool any = false;
-    for (int32_t p = 0; !any && p < sheet->layout.pieces.count; ++p) {
-        any = !kiriPiece_IsMoved(&sheet->layout.pieces.data[p]);
-    }
-    return any;
 }
 
 /* Turns the jumps of vertices into fades. Vertices with unchanged weights and patches do not jump. Afterwards all
@@ -509,14 +452,26 @@ static void TakeVertexJumps(kiriSheetData* sheet)
     kiriView_TakeFrames(sheet);
     surface->isWritten = false;
     look.shift = kiriVec3_Sub(middle, surface->middle);
-    ForgetRounded(sheet);
+    /* Patches that changed only by rounding do not count if their piece moves in this tick: it is written again anyway. */
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        const kiriPiece* piece = kiriSheet_PieceOf(sheet, i);
+        uint8_t* isOther = &surface->patches.isOther.data[i];
+        bool moves = kiriPiece_IsAwake(piece) && piece->rest.calm < KIRI_CALM_SECONDS;
+        *isOther = *isOther == KIRI_PATCH_ROUNDED && moves ? KIRI_PATCH_SAME : *isOther;
+    }
     look.isShifted = look.movesSleepers = look.shift.x != 0.0 || look.shift.y != 0.0 || look.shift.z != 0.0;
-    look.anySleeps = AnySleeps(sheet);
+    for (int32_t p = 0; !look.anySleeps && p < sheet->layout.pieces.count; ++p) {
+        look.anySleeps = !kiriPiece_IsMoved(&sheet->layout.pieces.data[p]);
+    }
     kiriFades_Start(&sheet->seen.fades);
     for (int32_t begin = 0; begin < surface->vertexCount; begin += KIRI_BLOCK) {
         int32_t end = kiriMin(begin + KIRI_BLOCK, surface->vertexCount);
-        if (MayBeElsewhere(sheet, begin, end)) {
-            LookAtJumps(sheet, &look, begin, end);
+        bool isOther = sheet->seen.blocks.touched.data[begin / KIRI_BLOCK] || end > sheet->seen.vertexCount;
+        if (isOther || kiriPatches_MayMove(&surface->patches, &sheet->vertexSkin, begin, end)) {
+            LookAtVertices(sheet, &look, begin, end);
+        }
+        if (isOther) {
+            kiriBlocks_ForgetOne(&sheet->seen.blocks, begin / KIRI_BLOCK);
         }
     }
     surface->isSteady = wasSteady && !look.movesSleepers; /* false: normals of sleeping pieces are stale */
@@ -546,16 +501,6 @@ void kiriView_TakeJump(kiriSheetData* sheet)
     }
 }
 
-/* Frees the arrays of fades if nothing fades. */
-static void TrimFades(kiriSheetData* sheet)
-{
-    kiriFades_Trim(&sheet->seen.fades, sheet->memory);
-    kiriFades_Trim(&sheet->seen.pointFades, sheet->memory);
-    if (sheet->seen.pointFades.fading.count == 0 && sheet->seen.pointsBefore.capacity > 0) {
-        kiriArray_Release(sheet->memory, &sheet->seen.pointsBefore);
-    }
-}
-
 void kiriView_Fade(kiriSheetData* sheet, double dt)
 {
     kiriFades_Advance(&sheet->seen.fades, dt);
@@ -572,7 +517,11 @@ bool kiriView_IsSettled(const kiriSheetData* sheet)
 void kiriView_Trim(kiriSheetData* sheet)
 {
     if (sheet->update->stage == KIRI_NONE && sheet->cuts.count == 0) {
-        TrimFades(sheet);
+        kiriFades_Trim(&sheet->seen.fades, sheet->memory);
+        kiriFades_Trim(&sheet->seen.pointFades, sheet->memory);
+        if (sheet->seen.pointFades.fading.count == 0 && sheet->seen.pointsBefore.capacity > 0) {
+            kiriArray_Release(sheet->memory, &sheet->seen.pointsBefore);
+        }
     }
 }
 
@@ -609,25 +558,18 @@ static bool IsSumKnown(const kiriSheetData* sheet)
     return isKnown && FEW * (int64_t)anew <= blocks;
 }
 
-/* Sums the normals of one block. No triangle has vertices of both a moving and a sleeping piece. */
-static bool SumNormalsOf(kiriSheetData* sheet, int32_t block)
-{
-    kiriSurface* surface = &sheet->seen.surface;
-    int32_t end =
-        surface->vertexCount - block * KIRI_BLOCK < KIRI_BLOCK ? surface->vertexCount : (block + 1) * KIRI_BLOCK;
-    bool ok = true;
-    for (int32_t v = block * KIRI_BLOCK; ok && v < end; ++v) {
-        bool isAnew = sheet->seen.blocks.stale.data[block] || IsVertexAwake(sheet, v);
-        ok = !isAnew || kiriSurface_SumNormal(surface, &sheet->mesh, v);
-    }
-    return ok;
-}
-
+/* Sums the normals of blocks that move or are stale. No triangle has vertices of both a moving and a sleeping piece. */
 static bool SumSomeNormals(kiriSheetData* sheet)
 {
+    const kiriBlocks* blocks = &sheet->seen.blocks;
     bool ok = true;
-    for (int32_t block = 0; ok && block * KIRI_BLOCK < sheet->seen.surface.vertexCount; ++block) {
-        ok = !IsMeant(&sheet->seen.blocks, block, true) || SumNormalsOf(sheet, block);
+    for (int32_t v = 0; ok && v < sheet->seen.surface.vertexCount; ++v) {
+        int32_t block = v / KIRI_BLOCK;
+        if (!IsMeant(blocks, block, true)) {
+            v = (block + 1) * KIRI_BLOCK - 1;
+        } else if (blocks->stale.data[block] || IsVertexAwake(sheet, v)) {
+            ok = kiriSurface_SumNormal(&sheet->seen.surface, &sheet->mesh, v);
+        }
     }
     return ok;
 }

@@ -48,11 +48,6 @@ static inline void kiriBlocks_Stale(kiriBlocks* blocks, int32_t vertex)
     }
 }
 
-static inline bool kiriBlocks_Moves(const kiriBlocks* blocks, int32_t block)
-{
-    return blocks->movers.data[block] != KIRI_NONE;
-}
-
 /* The visible state of a sheet: the skinned mesh and the collision points. */
 
 typedef struct kiriViewCounts {

@@ -664,7 +664,7 @@ void kiriSheet_Derive(kiriSheetData* sheet, kiriArchive* archive)
         return;
     }
     KIRI_ASSERT(sheet->update->stage == KIRI_NONE && sheet->vertexSkin.spans.count == sheet->mesh.vertices.count);
-    kiriSurface_Derive(&sheet->seen.surface, &sheet->mesh);
+    kiriSurface_Derive(&sheet->seen.surface, &sheet->mesh, 0, 0);
     for (int32_t t = 0; t < sheet->mesh.triangles.count; ++t) {
         if (sheet->layout.pieces.data[kiriPiece_OfTriangle(sheet, t)].isGone) {
             kiriSurface_HideTriangle(&sheet->seen.surface, t);

@@ -6,11 +6,6 @@
 
 /* ---- Fades ------------------------------------------------------------------------------------------------------- */
 
-bool kiriFades_Reserve(kiriFades* fades, kiriMemory* memory, int32_t sampleCount)
-{
-    return kiriArray_Reserve(memory, &fades->fading, sampleCount);
-}
-
 void kiriFades_Trim(kiriFades* fades, kiriMemory* memory)
 {
     if (fades->fading.count == 0 && fades->fading.capacity > 0) {
@@ -202,15 +197,6 @@ void kiriSurface_Resize(kiriSurface* surface, int32_t vertices, int32_t triangle
 
 /* ---- Topology ---------------------------------------------------------------------------------------------------- */
 
-static void WriteNewVertex(kiriSurface* surface, const kiriMeshData* mesh, int32_t v)
-{
-    KIRI_ASSERT(v >= 0 && v < mesh->vertices.count);
-    kiriVec2 local = kiriMesh_Local(mesh, mesh->vertices.data[v].at), rest = kiriVec2_Add(mesh->origin, local);
-    surface->rest.data[v] = local;
-    surface->restPositions.data[2 * (size_t)v] = (float)rest.x;
-    surface->restPositions.data[2 * (size_t)v + 1] = (float)rest.y;
-}
-
 static void WriteSource(kiriSurface* surface, const kiriMeshData* mesh, int32_t v)
 {
     KIRI_ASSERT(v >= 0 && v < surface->sourceTriangles.count);
@@ -231,18 +217,6 @@ static void Extend(kiriRange* range, int32_t index)
     int32_t end = range->count == 0 || index >= range->first + range->count ? index + 1 : range->first + range->count;
     range->first = low;
     range->count = end - low;
-}
-
-/* Vertices never move in the rest plane, but a tear may give one to another triangle of the caller. */
-static void WriteOldVertices(kiriSurface* surface, const kiriMeshData* mesh, kiriChange* change)
-{
-    for (int32_t i = 0; i < mesh->changedVertices.count; ++i) {
-        int32_t v = mesh->changedVertices.data[i];
-        if (v < change->oldVertexCount && mesh->vertices.data[v].source != surface->sourceTriangles.data[v]) {
-            WriteSource(surface, mesh, v);
-            Extend(&change->vertices, v);
-        }
-    }
 }
 
 static void WriteTriangle(kiriSurface* surface, const kiriMeshData* mesh, int32_t t)
@@ -271,52 +245,51 @@ static void WriteOldTriangles(kiriSurface* surface, const kiriMeshData* mesh, ki
     }
 }
 
-void kiriSurface_WriteTopology(kiriSurface* surface, const kiriMeshData* mesh)
-{
-    kiriChange change = {
-        surface->revision, mesh->revision, surface->vertexCount, surface->triangleCount, { 0, 0 }, { 0, 0 }
-    };
-    surface->origin = mesh->origin;
-    surface->longer = KIRI_LATTICE * mesh->step;
-    surface->pose += 1;
-    surface->isWritten = surface->isSteady = false;
-    surface->revision = mesh->revision;
-    surface->vertexCount = mesh->vertices.count;
-    surface->triangleCount = mesh->triangles.count;
-    for (int32_t v = change.oldVertexCount; v < surface->vertexCount; ++v) {
-        WriteNewVertex(surface, mesh, v);
-        WriteSource(surface, mesh, v);
-    }
-    for (int32_t t = change.oldTriangleCount; t < surface->triangleCount; ++t) {
-        WriteTriangle(surface, mesh, t);
-    }
-    WriteOldVertices(surface, mesh, &change);
-    WriteOldTriangles(surface, mesh, &change);
-    for (int32_t pair = change.oldTriangleCount / 2; 2 * pair < surface->triangleCount; ++pair) {
-        WriteTurn(surface, pair);
-    }
-    if (change.oldVertexCount > 0 && change.from != change.to) {
-        surface->lastChange = (surface->lastChange + 1) % KIRI_CHANGES;
-        surface->changes[surface->lastChange] = change;
-        surface->changeCount += surface->changeCount < KIRI_CHANGES ? 1 : 0;
-    }
-}
-
-void kiriSurface_Derive(kiriSurface* surface, const kiriMeshData* mesh)
+void kiriSurface_Derive(kiriSurface* surface, const kiriMeshData* mesh, int32_t firstVertex, int32_t firstTriangle)
 {
     KIRI_ASSERT(surface->vertexCount == mesh->vertices.count && surface->triangleCount == mesh->triangles.count);
     KIRI_ASSERT(surface->rest.count == surface->vertexCount && surface->indices.count == 3 * surface->triangleCount);
     surface->origin = mesh->origin;
     surface->longer = KIRI_LATTICE * mesh->step;
-    for (int32_t v = 0; v < surface->vertexCount; ++v) {
-        WriteNewVertex(surface, mesh, v);
+    for (int32_t v = firstVertex; v < surface->vertexCount; ++v) {
+        kiriVec2 local = kiriMesh_Local(mesh, mesh->vertices.data[v].at), rest = kiriVec2_Add(mesh->origin, local);
+        surface->rest.data[v] = local;
+        surface->restPositions.data[2 * (size_t)v] = (float)rest.x;
+        surface->restPositions.data[2 * (size_t)v + 1] = (float)rest.y;
         WriteSource(surface, mesh, v);
     }
-    for (int32_t t = 0; t < surface->triangleCount; ++t) {
+    for (int32_t t = firstTriangle; t < surface->triangleCount; ++t) {
         WriteTriangle(surface, mesh, t);
     }
-    for (int32_t pair = 0; pair < surface->turns.count; ++pair) {
+    for (int32_t pair = firstTriangle / 2; pair < surface->turns.count; ++pair) {
         WriteTurn(surface, pair);
+    }
+}
+
+void kiriSurface_WriteTopology(kiriSurface* surface, const kiriMeshData* mesh)
+{
+    kiriChange change = {
+        surface->revision, mesh->revision, surface->vertexCount, surface->triangleCount, { 0, 0 }, { 0, 0 }
+    };
+    surface->pose += 1;
+    surface->isWritten = surface->isSteady = false;
+    surface->revision = mesh->revision;
+    surface->vertexCount = mesh->vertices.count;
+    surface->triangleCount = mesh->triangles.count;
+    kiriSurface_Derive(surface, mesh, change.oldVertexCount, change.oldTriangleCount);
+    /* Vertices never move in the rest plane, but a tear may give one to another triangle of the caller. */
+    for (int32_t i = 0; i < mesh->changedVertices.count; ++i) {
+        int32_t v = mesh->changedVertices.data[i];
+        if (v < change.oldVertexCount && mesh->vertices.data[v].source != surface->sourceTriangles.data[v]) {
+            WriteSource(surface, mesh, v);
+            Extend(&change.vertices, v);
+        }
+    }
+    WriteOldTriangles(surface, mesh, &change);
+    if (change.oldVertexCount > 0 && change.from != change.to) {
+        surface->lastChange = (surface->lastChange + 1) % KIRI_CHANGES;
+        surface->changes[surface->lastChange] = change;
+        surface->changeCount += surface->changeCount < KIRI_CHANGES ? 1 : 0;
     }
 }
 
@@ -446,13 +419,8 @@ void kiriSurface_Keep(kiriSurface* surface, kiriShown* shown, const kiriKeep* tr
     surface->pose += 1;
     surface->isWritten = surface->isSteady = false;
     kiriPatches_Forget(&surface->patches);
-    for (int32_t t = 0; t < surface->triangleCount; ++t) {
-        WriteTriangle(surface, mesh, t);
-    }
     surface->turns.count = surface->triangleCount / 2 + surface->triangleCount % 2;
-    for (int32_t pair = 0; 2 * pair < surface->triangleCount; ++pair) {
-        WriteTurn(surface, pair);
-    }
+    kiriSurface_Derive(surface, mesh, surface->vertexCount, 0);
 }
 
 /* ---- Copies ------------------------------------------------------------------------------------------------------ */

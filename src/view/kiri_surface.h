@@ -16,7 +16,7 @@ typedef struct kiriFading {
     kiriVec3 offset;
 } kiriFading;
 
-/* Samples that are not at the positions of their weights. */
+/* Samples that are not at the positions of their weights. Reserve `fading` for all samples, so that these functions cannot fail. */
 typedef struct kiriFades {
     double time;                   /* s that a jump takes; 0: samples jump at once */
     double least;                  /* m: shorter offsets are dropped */
@@ -24,9 +24,6 @@ typedef struct kiriFades {
     int32_t older;                 /* while jumps are taken: the next old fade, at the end of the room */
     double jump, move;             /* m, in this tick: the longest jump, and the longest way of a fade */
 } kiriFades;
-
-/* Makes room for fades of this many samples, so that the other functions cannot fail. */
-bool kiriFades_Reserve(kiriFades* fades, kiriMemory* memory, int32_t sampleCount);
 
 /* Frees the memory if nothing fades. */
 void kiriFades_Trim(kiriFades* fades, kiriMemory* memory);
@@ -136,8 +133,8 @@ void kiriSurface_Resize(kiriSurface* surface, int32_t vertices, int32_t triangle
    all of the mesh. */
 void kiriSurface_WriteTopology(kiriSurface* surface, const kiriMeshData* mesh);
 
-/* Derives what depends on the mesh alone, after a load and kiriSurface_Resize. */
-void kiriSurface_Derive(kiriSurface* surface, const kiriMeshData* mesh);
+/* Derives what depends on the mesh alone, of the vertices and triangles from the first ones on, after Resize. */
+void kiriSurface_Derive(kiriSurface* surface, const kiriMeshData* mesh, int32_t firstVertex, int32_t firstTriangle);
 
 /* New arrays for a surface. The host may still hold the old ones. */
 typedef struct kiriShown {
