@@ -83,7 +83,9 @@ def check_table(struct, is_derived, entries, structs, names, blocks):
         before = ARGUMENTS_BEFORE.get(macro, 0)
         width = int(arguments[0]) if macro in ("RUN", "ITEMS") else VALUES.get(macro, ARRAYS.get(macro))
         first, last = arguments[before + 1], arguments[-1]
-        covered = arguments[1:] if macro in ("ARRAYS", "ROOMS") else [first]
+        covered = [first]
+        if macro in ("ARRAYS", "ROOMS"):  # the items of an array of arrays are listed one by one
+            covered = list(dict.fromkeys(re.sub(r"\[\d+\]$", "", name) for name in arguments[1:]))
         if macro in VALUES or macro in SKIPPED:
             covered = order[order.index(first):order.index(last) + 1] if first in order and last in order else [first]
         if macro in ("PART", "PARTS", "OWNED"):

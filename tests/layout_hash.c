@@ -157,10 +157,9 @@ static void HashPlace(uint64_t* hash, const kiriGrid* grid, int32_t cell)
 
 static void HashSteps(uint64_t* hash, const kiriGrid* grid, int32_t cell)
 {
-    kiriSteps steps;
-    kiriGrid_GetSteps(grid, cell, &steps);
-    for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        kiriStep step = steps.data[s];
+    kiriSteps steps = kiriGrid_GetSteps(grid, cell);
+    for (int32_t s = 0; s < steps.end[2]; ++s) {
+        kiriStep step = kiriSteps_At(&steps, s);
         HashPlace(hash, grid, step.cell);
         kiriHash_Int32(hash, step.length);
     }

@@ -332,7 +332,7 @@ static const char* CorruptFaces(kiriWorld* world, kiriSheetData* s, int way)
         grid->steps.count += 1;
         return "is in no span";
     case 14:
-        run->first = ~(grid->cells.data[c].square + 1); /* as if it were amid whole squares, elsewhere */
+        run->first = KIRI_NONE; /* as if it were amid whole squares */
         return "has steps";
     default:
         return NULL;

@@ -267,11 +267,10 @@ static bool Check_FacesAreComplete(Check* check, const kiriSheetData* sheet)
 
 static bool HasWayBack(const kiriGrid* grid, int32_t from, int length, kiriStep step)
 {
-    kiriSteps steps;
     bool found = false;
-    kiriGrid_GetSteps(grid, step.cell, &steps);
+    kiriSteps steps = kiriGrid_GetSteps(grid, step.cell);
     for (int32_t k = length == 0 ? 0 : steps.end[length - 1]; !found && k < steps.end[length]; ++k) {
-        kiriStep back = steps.data[k];
+        kiriStep back = kiriSteps_At(&steps, k);
         found = back.cell == from && back.length == step.length && back.u == -step.u && back.v == -step.v;
     }
     return found;
@@ -285,11 +284,11 @@ static bool IsRun(const kiriSheetData* sheet, int32_t c)
     int32_t square = grid->cells.data[c].square, columns = sheet->mesh.squares.columns;
     int32_t column = square % columns, row = square / columns;
     if (kiriStepRun_IsOpen(run)) {
-        return run->first == ~square && column >= 2 && column < columns - 2 && row >= 2 &&
+        return c == square && column >= 2 && column < columns - 2 && row >= 2 &&
                row < sheet->mesh.squares.rows - 2;
     }
-    return run->first <= run->end[0] && run->end[0] <= run->end[1] && run->end[1] <= run->end[2] &&
-           run->end[2] <= grid->steps.count;
+    return !kiriGrid_IsOpen(grid, c) && run->first <= run->end[0] && run->end[0] <= run->end[1] &&
+           run->end[1] <= run->end[2] && run->end[2] <= grid->steps.count;
 }
 
 /* Before any is followed. */
@@ -308,12 +307,11 @@ static bool Check_StepsOfCell(Check* check, const kiriSheetData* sheet, int32_t 
     static const int16_t lengths[KIRI_STEP_LENGTHS] = { KIRI_UNIT, KIRI_UNIT_DIAGONAL, KIRI_UNIT_KNIGHT };
     static const int squared[KIRI_STEP_LENGTHS] = { 1, 2, 5 };
     const kiriGrid* grid = &sheet->grid;
-    kiriSteps steps;
-    kiriGrid_GetSteps(grid, c, &steps);
+    kiriSteps steps = kiriGrid_GetSteps(grid, c);
     int32_t faces = 0, straight = steps.end[0];
     for (int length = 0; length < KIRI_STEP_LENGTHS; ++length) {
         for (int32_t k = length == 0 ? 0 : steps.end[length - 1]; k < steps.end[length]; ++k) {
-            kiriStep step = steps.data[k];
+            kiriStep step = kiriSteps_At(&steps, k);
             REQUIRE(IsIndex(step.cell, grid->cells.count) && kiriGrid_IsCell(grid, step.cell),
                     "a step leads from cell %d to %d", c, step.cell);
             REQUIRE(step.length == lengths[length] && step.u * step.u + step.v * step.v == squared[length],
@@ -379,14 +377,13 @@ static kiriSeed NearestWay(const kiriSheetData* sheet, int32_t c)
 {
     const kiriGrid* grid = &sheet->grid;
     const int32_t* siteAt = sheet->regions.siteAt.data;
-    kiriSteps steps;
     kiriSeed best = { c, KIRI_FAR, INT32_MAX };
-    kiriGrid_GetSteps(grid, c, &steps);
+    kiriSteps steps = kiriGrid_GetSteps(grid, c);
     if (siteAt[c] != KIRI_NONE) {
         best = kiriSite_SeedAt(&sheet->frames.data[siteAt[c]].site, siteAt[c], grid, &sheet->mesh, c);
     }
-    for (int32_t k = 0; k < steps.end[KIRI_STEP_LENGTHS - 1]; ++k) {
-        kiriStep step = steps.data[k];
+    for (int32_t k = 0; k < steps.end[2]; ++k) {
+        kiriStep step = kiriSteps_At(&steps, k);
         kiriSeed way = { c, sheet->regions.field.distance.data[step.cell] + step.length,
                          sheet->regions.field.owner.data[step.cell] };
         best = IsNearerSeed(way, best) ? way : best;
@@ -422,10 +419,9 @@ static bool Check_Distances(Check* check, const kiriSheetData* sheet)
                 "cell %d is at %d from %d, but there is a way of %d from %d", c, field->distance.data[c],
                 field->owner.data[c], way.distance, way.owner);
         bool onBorder = false;
-        kiriSteps steps;
-        kiriGrid_GetSteps(grid, c, &steps);
-        for (int32_t k = 0; k < steps.end[KIRI_STEP_LENGTHS - 1]; ++k) {
-            onBorder = onBorder || field->owner.data[steps.data[k].cell] != field->owner.data[c];
+        kiriSteps steps = kiriGrid_GetSteps(grid, c);
+        for (int32_t k = 0; k < steps.end[2]; ++k) {
+            onBorder = onBorder || field->owner.data[kiriSteps_At(&steps, k).cell] != field->owner.data[c];
         }
         REQUIRE(onBorder == (sheet->regions.onBorder.data[c] != 0), "cell %d and the border", c);
     }

@@ -1,12 +1,10 @@
 #include "kiri_geodesic.h"
 
-static const int32_t stepLengths[KIRI_STEP_LENGTHS] = { KIRI_UNIT, KIRI_UNIT_DIAGONAL, KIRI_UNIT_KNIGHT };
-
 /* Marks of cells while a field is repaired. */
 enum {
     FIELD_DIRTY = 1,   /* in `dirty`, not checked yet */
     FIELD_LOGGED = 2,  /* in `log` */
-    FIELD_SETTLED = 4, /* in `settled` */
+    FIELD_LISTED = 4,  /* in the list of its bucket, or settled */
     FIELD_PASSES = 8,  /* whether ways pass through it may have changed; set by the caller */
 };
 
@@ -15,47 +13,45 @@ enum { REPAIR_NONE, REPAIR_CLEARS, REPAIR_SEEDS, REPAIR_SETTLES };
 
 /* ---- Room of a field --------------------------------------------------------------------------------------------- */
 
-bool kiriField_Resize(kiriField* field, kiriMemory* memory, int32_t cellCount)
+bool kiriField_Resize(kiriField* field, kiriMemory* memory, int32_t cellCount, bool repairs)
 {
-    kiriIndices* longer = field->settled.capacity < field->dirty.capacity ? &field->dirty : &field->settled;
+    int32_t marked = repairs ? cellCount : 0;
     if (!kiriArray_Reserve(memory, &field->distance, cellCount) ||
-        !kiriArray_Reserve(memory, &field->owner, cellCount) || !kiriArray_Reserve(memory, longer, cellCount) ||
-        !kiriArray_Reserve(memory, &field->marks, cellCount)) {
+        !kiriArray_Reserve(memory, &field->owner, cellCount) || !kiriArray_Reserve(memory, &field->dirty, marked) ||
+        !kiriArray_Reserve(memory, &field->marks, marked)) {
         return false;
     }
     for (int32_t c = field->distance.count; c < cellCount; ++c) {
         field->distance.data[c] = KIRI_FAR;
         field->owner.data[c] = KIRI_NONE;
+    }
+    for (int32_t c = field->marks.count; c < marked; ++c) {
         field->marks.data[c] = 0;
     }
-    field->distance.count = field->owner.count = field->marks.count = cellCount;
+    field->distance.count = field->owner.count = cellCount;
+    field->marks.count = marked;
     return true;
-}
-
-/* Makes a list the long one, before cells are put into it, and when the other one is empty. */
-static void MakeLong(kiriField* field, kiriIndices* list)
-{
-    if (list->capacity < field->distance.count) {
-        kiriIndices settled = field->settled;
-        KIRI_ASSERT(field->settled.count == 0 && field->dirty.count == 0);
-        field->settled = field->dirty;
-        field->dirty = settled;
-    }
 }
 
 void kiriField_Reset(kiriField* field)
 {
     KIRI_ASSERT(field->stage == REPAIR_NONE);
-    for (int32_t i = 0; i < field->settled.count; ++i) {
-        kiriField_Forget(field, field->settled.data[i]);
+    for (int k = -1; k < KIRI_RING; ++k) {
+        kiriIndices* list = k < 0 ? &field->settled : &field->ring[k];
+        for (int32_t i = 0; i < list->count; ++i) {
+            kiriField_Forget(field, list->data[i]);
+        }
+        list->count = 0;
     }
-    field->settled.count = 0;
 }
 
 void kiriField_Clear(kiriField* field)
 {
     field->distance.count = field->owner.count = field->marks.count = 0;
     field->settled.count = field->log.count = field->heap.count = field->dirty.count = 0;
+    for (int k = 0; k < KIRI_RING; ++k) {
+        field->ring[k].count = 0;
+    }
     field->stage = REPAIR_NONE;
 }
 
@@ -96,18 +92,24 @@ static kiriSeed PopSeed(kiriField* field)
     return top;
 }
 
-/* ---- The sweep: Dijkstra without a queue ------------------------------------------------------------------------- */
+/* ---- The sweep: Dijkstra in buckets ------------------------------------------------------------------------------ */
 
-/* There are only three lengths of steps, and cells settle by growing distance. So the cells that steps of one length
-   reach are sorted already: a cursor for each length over the settled cells finds the next. */
+/* A bucket has the cells of KIRI_UNIT distances. No step is shorter, so no cell of a bucket makes another one nearer,
+   and their order is free. Steps lead three buckets on at most: a ring of lists. A list may name cells that came into
+   an earlier bucket since then, and are settled. */
+
+static inline int32_t BucketOf(int32_t distance)
+{
+    KIRI_ASSERT(distance >= 0);
+    return (int32_t)((uint32_t)distance / KIRI_UNIT);
+}
 
 static void StartSweep(kiriField* field)
 {
     for (int32_t i = field->heap.count / 2; i-- > 0;) {
         SinkSeed(field, i);
     }
-    MakeLong(field, &field->settled);
-    field->cursor[0] = field->cursor[1] = field->cursor[2] = 0;
+    field->bucket = -1;
 }
 
 static inline kiriSeed ValueOf(const kiriField* field, int32_t cell)
@@ -116,41 +118,34 @@ static inline kiriSeed ValueOf(const kiriField* field, int32_t cell)
     return (kiriSeed){ cell, field->distance.data[cell], field->owner.data[cell] };
 }
 
-/* Logs the value of a cell before it changes. The caller has reserved room. */
-static void LogValue(kiriField* field, int32_t cell)
+/* Logs the value of a cell before it changes. False for memory. */
+static bool LogValue(kiriField* field, kiriMemory* memory, int32_t cell)
 {
     KIRI_ASSERT(cell >= 0 && cell < field->marks.count);
-    if ((field->marks.data[cell] & FIELD_LOGGED) == 0) {
-        KIRI_ASSERT(field->log.count < field->log.capacity);
-        field->marks.data[cell] |= FIELD_LOGGED;
-        field->log.data[field->log.count++] = ValueOf(field, cell);
-    }
+    bool isLogged = (field->marks.data[cell] & FIELD_LOGGED) != 0;
+    field->marks.data[cell] |= FIELD_LOGGED;
+    return isLogged || kiriArray_Push(memory, &field->log, ValueOf(field, cell));
 }
 
-/* Gives a cell a value and settles it. A flood does so once: the first to reach a cell is the nearest, and only its
-   owner may still become a lower one as long as the sweep is at this distance. Every step is longer than nothing, so
-   the cell passes it on later. In a repair a cell may have a value already, even this one. */
-static inline void SettleCell(kiriField* field, kiriSeed to, bool repairs)
+/* Gives a cell a value, and lists it for its bucket, unless it is listed there. In a repair it may have a value that no
+   list has, even this one. False for memory. */
+static inline bool GiveValue(kiriField* field, kiriMemory* memory, kiriSeed to, bool repairs)
 {
-    bool isNew = field->distance.data[to.cell] == KIRI_FAR;
+    int32_t bucket = BucketOf(to.distance);
+    bool isListed = BucketOf(field->distance.data[to.cell]) == bucket;
     if (repairs) {
-        if (IsNearerSeed(to, ValueOf(field, to.cell))) {
-            LogValue(field, to.cell);
+        if (IsNearerSeed(to, ValueOf(field, to.cell)) && !LogValue(field, memory, to.cell)) {
+            return false;
         }
-        isNew = (field->marks.data[to.cell] & FIELD_SETTLED) == 0;
-        field->marks.data[to.cell] |= FIELD_SETTLED;
+        isListed = isListed && (field->marks.data[to.cell] & FIELD_LISTED) != 0;
+        field->marks.data[to.cell] |= FIELD_LISTED;
+    }
+    if (!isListed && !kiriArray_Push(memory, &field->ring[bucket % KIRI_RING], to.cell)) {
+        return false;
     }
     field->distance.data[to.cell] = to.distance;
     field->owner.data[to.cell] = to.owner;
-    if (isNew) {
-        KIRI_ASSERT(field->settled.count < field->settled.capacity);
-        field->settled.data[field->settled.count++] = to.cell;
-    }
-}
-
-static int32_t FarthestOf(const kiriRule* rule)
-{
-    return kiriMin(rule->limit, KIRI_FAR - 1);
+    return true;
 }
 
 static inline bool Passes(const kiriRule* rule, int32_t cell)
@@ -165,99 +160,106 @@ static void LookAround(const kiriRule* rule, int32_t cell)
     }
 }
 
-/* The distance of the next cells that steps of one length reach; FAR_BEYOND where they reach no more so far. */
-static const int64_t FAR_BEYOND = INT64_MAX;
-
-static inline int64_t NextDistance(const kiriField* field, int length)
+/* Goes on to the next bucket that has cells or seeds. KIRI_DONE: there is none. */
+static kiriProgress OpenBucket(kiriField* field, kiriMemory* memory, const kiriRule* rule, bool repairs)
 {
-    int32_t cursor = field->cursor[length];
-    return cursor < field->settled.count
-               ? (int64_t)field->distance.data[field->settled.data[cursor]] + stepLengths[length]
-               : FAR_BEYOND;
-}
-
-enum { FROM_SEED = KIRI_STEP_LENGTHS, FROM_NOWHERE };
-
-/* Finds where the sweep goes on: with which length of steps, and at which distance, no farther than `limit`. */
-static inline int NearestSource(const kiriField* field, const int64_t* next, int32_t limit, int32_t* distance)
-{
-    int source = FROM_NOWHERE;
-    int64_t least = limit;
-    for (int k = 0; k < KIRI_STEP_LENGTHS; ++k) {
-        source = next[k] <= least ? k : source;
-        least = next[k] <= least ? next[k] : least;
+    int32_t ahead = 1, seeds = INT32_MAX;
+    if (field->heap.count > 0 && field->heap.data[0].distance <= rule->limit) {
+        seeds = BucketOf(field->heap.data[0].distance);
     }
-    if (field->heap.count > 0 && field->heap.data[0].distance <= least) {
-        least = field->heap.data[0].distance;
-        source = FROM_SEED;
+    while (ahead < KIRI_RING && field->ring[(field->bucket + ahead) % KIRI_RING].count == 0) {
+        ++ahead;
     }
-    *distance = (int32_t)least;
-    return source;
-}
-
-/* Takes the steps of one length from a cell. False where `most` cells are settled before all are taken: they are all
-   taken again later, which changes nothing. */
-static inline bool TakeStepsFrom(kiriField* field, const kiriRule* rule, int32_t from, int length, int32_t distance,
-                                 int64_t most, bool repairs)
-{
-    static const int32_t openEnds[] = { 0, 4, 8, KIRI_OPEN_STEPS };
-    const int32_t passed = field->distance.data[from], owner = field->owner.data[from];
-    KIRI_ASSERT(from >= 0 && from < rule->grid->runs.count && passed != KIRI_FAR);
-    if ((rule->below[0] != NULL && passed >= rule->below[0][from]) ||
-        (rule->below[1] != NULL && passed >= rule->below[1][from]) || !Passes(rule, from)) {
-        return true;
+    int32_t next = ahead == KIRI_RING ? seeds : kiriMin(field->bucket + ahead, seeds);
+    if (next == INT32_MAX) {
+        return KIRI_DONE;
     }
-    if (length == 0) { /* the shortest come first */
-        LookAround(rule, from);
-    }
-    const kiriStepRun* run = &rule->grid->runs.data[from];
-    const int32_t *has = field->distance.data, *owners = field->owner.data, *to = rule->grid->openTo;
-    const int32_t* around = kiriStepRun_IsOpen(run) ? kiriGrid_AroundOpen(rule->grid, run) : NULL;
-    const kiriStep* steps = rule->grid->steps.data;
-    int32_t end = around != NULL ? openEnds[length + 1] : run->end[length];
-    int32_t s = around != NULL ? openEnds[length] : length == 0 ? run->first : run->end[length - 1];
-    for (; s < end && field->settled.count < most; ++s) {
-        int32_t cell = around != NULL ? around[to[s]] : steps[s].cell;
-        if (distance < has[cell] || (distance == has[cell] && owner < owners[cell])) {
-            SettleCell(field, (kiriSeed){ cell, distance, owner }, repairs);
+    field->bucket = next;
+    while (field->heap.count > 0 && field->heap.data[0].distance <= rule->limit &&
+           BucketOf(field->heap.data[0].distance) == field->bucket) {
+        /* A cell that has the very value of the seed is dirty itself: it passes its value on. */
+        kiriSeed seed = PopSeed(field), value = ValueOf(field, seed.cell);
+        if ((repairs ? !IsNearerSeed(value, seed) : IsNearerSeed(seed, value)) &&
+            !GiveValue(field, memory, seed, repairs)) {
+            return KIRI_FAILED;
         }
     }
-    return s >= end;
+    return KIRI_MORE;
+}
+
+/* Takes a step to a cell. False for memory. */
+static inline bool TakeStep(kiriField* field, kiriMemory* memory, kiriSeed to, bool repairs)
+{
+    return !IsNearerSeed(to, ValueOf(field, to.cell)) || GiveValue(field, memory, to, repairs);
+}
+
+/* Takes the steps from a cell, as far as `room`. False for memory. */
+static inline bool TakeSteps(kiriField* field, kiriMemory* memory, const kiriGrid* grid, kiriSeed from, int32_t room,
+                             bool repairs)
+{
+    bool ok = true;
+    if (kiriGrid_IsOpen(grid, from.cell) && room >= KIRI_UNIT_KNIGHT) {
+        const kiriStep* steps = grid->openSteps;
+        const int32_t* has = field->distance.data + from.cell;
+        const int32_t passed = from.distance - (from.owner != KIRI_NONE); /* a lower owner wins where both are as far */
+        uint32_t hits = 0;
+        for (int k = 0; k < 4; ++k) {
+            hits |= (uint32_t)(passed + KIRI_UNIT < has[steps[k].cell]) << k;
+            hits |= (uint32_t)(passed + KIRI_UNIT_DIAGONAL < has[steps[k + 4].cell]) << (k + 4);
+            hits |= (uint32_t)(passed + KIRI_UNIT_KNIGHT < has[steps[k + 8].cell]) << (k + 8);
+            hits |= (uint32_t)(passed + KIRI_UNIT_KNIGHT < has[steps[k + 12].cell]) << (k + 12);
+        }
+        for (int k = 0; hits >> k != 0; ++k) {
+            if ((hits >> k & 1) != 0) {
+                kiriSeed to = { from.cell + steps[k].cell, from.distance + steps[k].length, from.owner };
+                ok = TakeStep(field, memory, to, repairs) && ok;
+            }
+        }
+        return ok;
+    }
+    kiriSteps steps = kiriGrid_GetSteps(grid, from.cell);
+    for (int32_t s = 0; ok && s < steps.end[2]; ++s) {
+        kiriStep step = kiriSteps_At(&steps, s);
+        kiriSeed to = { step.cell, from.distance + step.length, from.owner };
+        ok = step.length > room || TakeStep(field, memory, to, repairs);
+    }
+    return ok;
 }
 
 /* Settles cells until none is left, or the quota is spent on them. In a repair a cell may have values on all sides, and
    its previous value is logged: it counts twice. */
-static kiriProgress Sweep(kiriField* field, const kiriRule* rule, kiriQuota* quota, bool repairs)
+static inline kiriProgress Sweep(kiriField* field, kiriMemory* memory, const kiriRule* rule, kiriQuota* quota,
+                                 bool repairs)
 {
-    int32_t before = field->settled.count, farthest = FarthestOf(rule), distance, items = repairs ? 2 : 1;
+    int32_t before = field->settled.count, items = repairs ? 2 : 1;
     int64_t fit = quota->left / items, most = INT64_MAX;
+    kiriProgress progress = KIRI_MORE;
     if (quota->left < INT32_MAX) {
         most = before + (fit > 0 || kiriQuota_IsBegun(quota) ? fit : 1);
     }
-    int64_t next[KIRI_STEP_LENGTHS] = { NextDistance(field, 0), NextDistance(field, 1), NextDistance(field, 2) };
-    int source = NearestSource(field, next, farthest, &distance);
-    while (source != FROM_NOWHERE && field->settled.count < most) {
-        if (source == FROM_SEED) {
-            /* A cell that has the very value of the seed is dirty itself: it passes its value on. */
-            kiriSeed seed = PopSeed(field), value = ValueOf(field, seed.cell);
-            if (repairs ? !IsNearerSeed(value, seed) : IsNearerSeed(seed, value)) {
-                SettleCell(field, seed, repairs);
-            }
-        } else {
-            int32_t *cursor = &field->cursor[source], from = field->settled.data[*cursor];
-            int32_t passed = field->distance.data[from]; /* by all cells at this distance */
-            while (from != KIRI_NONE && field->distance.data[from] == passed &&
-                   TakeStepsFrom(field, rule, from, source, distance, most, repairs)) {
-                from = ++*cursor < field->settled.count ? field->settled.data[*cursor] : KIRI_NONE;
-            }
+    while (progress == KIRI_MORE && field->settled.count < most) {
+        kiriIndices* list = &field->ring[field->bucket & (KIRI_RING - 1)];
+        if (list->count == 0) {
+            progress = OpenBucket(field, memory, rule, repairs);
+            continue;
         }
-        for (int k = 0; k < KIRI_STEP_LENGTHS; ++k) {
-            next[k] = k == source || next[k] == FAR_BEYOND ? NextDistance(field, k) : next[k];
+        if (!kiriArray_Reserve(memory, &field->settled, (int64_t)field->settled.count + 1)) {
+            return KIRI_FAILED;
         }
-        source = NearestSource(field, next, farthest, &distance);
+        kiriSeed value = ValueOf(field, list->data[--list->count]);
+        if (BucketOf(value.distance) != field->bucket) {
+            continue;
+        }
+        field->settled.data[field->settled.count++] = value.cell;
+        if ((rule->below[0] == NULL || value.distance < rule->below[0][value.cell]) &&
+            (rule->below[1] == NULL || value.distance < rule->below[1][value.cell]) && Passes(rule, value.cell)) {
+            LookAround(rule, value.cell);
+            bool ok = TakeSteps(field, memory, rule->grid, value, rule->limit - value.distance, repairs);
+            progress = ok ? KIRI_MORE : KIRI_FAILED;
+        }
     }
     kiriQuota_TakeAtMostAll(quota, (int64_t)items * (field->settled.count - before));
-    return source == FROM_NOWHERE ? KIRI_DONE : KIRI_MORE;
+    return progress;
 }
 
 bool kiriField_Start(kiriField* field, kiriMemory* memory, const kiriSeed* seeds, int32_t seedCount)
@@ -274,10 +276,10 @@ bool kiriField_Start(kiriField* field, kiriMemory* memory, const kiriSeed* seeds
     return true;
 }
 
-kiriProgress kiriField_Flood(kiriField* field, const kiriRule* rule, kiriQuota* quota)
+kiriProgress kiriField_Flood(kiriField* field, kiriMemory* memory, const kiriRule* rule, kiriQuota* quota)
 {
-    KIRI_ASSERT(field->stage == REPAIR_NONE);
-    return Sweep(field, rule, quota, false);
+    KIRI_ASSERT(field->stage == REPAIR_NONE && rule->limit < KIRI_FAR);
+    return Sweep(field, memory, rule, quota, false);
 }
 
 /* ---- Repairs (Ramalingam and Reps 1996) -------------------------------------------------------------------------- */
@@ -287,7 +289,6 @@ void kiriField_MarkStepsDirty(kiriField* field, int32_t cell)
     KIRI_ASSERT(cell >= 0 && cell < field->marks.count);
     if ((field->marks.data[cell] & FIELD_DIRTY) == 0) {
         field->settled.count = 0; /* of a flood */
-        MakeLong(field, &field->dirty);
         KIRI_ASSERT(field->dirty.count < field->dirty.capacity);
         field->marks.data[cell] |= FIELD_DIRTY;
         field->dirty.data[field->dirty.count++] = cell;
@@ -312,14 +313,13 @@ void kiriField_Forget(kiriField* field, int32_t cell)
 static bool IsSupported(const kiriField* field, const kiriRule* rule, int32_t cell)
 {
     const kiriSeed value = ValueOf(field, cell);
-    kiriSteps steps;
-    if (value.distance > FarthestOf(rule)) {
+    if (value.distance > rule->limit) {
         return false;
     }
-    kiriGrid_GetSteps(rule->grid, cell, &steps);
-    for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        int32_t next = steps.data[s].cell;
-        if (field->distance.data[next] == value.distance - steps.data[s].length &&
+    kiriSteps steps = kiriGrid_GetSteps(rule->grid, cell);
+    for (int32_t s = 0; s < steps.end[2]; ++s) {
+        int32_t next = kiriSteps_At(&steps, s).cell;
+        if (field->distance.data[next] == value.distance - kiriSteps_At(&steps, s).length &&
             field->owner.data[next] == value.owner && Passes(rule, next)) {
             return true;
         }
@@ -332,11 +332,10 @@ static bool IsSupported(const kiriField* field, const kiriRule* rule, int32_t ce
 static bool AddDependents(kiriField* field, kiriMemory* memory, const kiriRule* rule, int32_t cell)
 {
     const kiriSeed value = ValueOf(field, cell);
-    kiriSteps steps;
-    kiriGrid_GetSteps(rule->grid, cell, &steps);
-    for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        int32_t next = steps.data[s].cell;
-        if (field->distance.data[next] == value.distance + steps.data[s].length &&
+    kiriSteps steps = kiriGrid_GetSteps(rule->grid, cell);
+    for (int32_t s = 0; s < steps.end[2]; ++s) {
+        int32_t next = kiriSteps_At(&steps, s).cell;
+        if (field->distance.data[next] == value.distance + kiriSteps_At(&steps, s).length &&
             field->owner.data[next] == value.owner && (field->marks.data[next] & FIELD_DIRTY) == 0) {
             if (!kiriArray_Push(memory, &field->dirty, next)) {
                 return false;
@@ -361,12 +360,11 @@ static kiriProgress ClearAffected(kiriField* field, kiriMemory* memory, const ki
             if (!kiriQuota_Take(quota, !supported || field->checked % 4 == 0)) {
                 return KIRI_MORE;
             }
-            if (!kiriArray_Reserve(memory, &field->log, (int64_t)field->log.count + 1) ||
-                ((!supported || blocked) && !AddDependents(field, memory, rule, cell))) {
+            if (((!supported || blocked) && !AddDependents(field, memory, rule, cell)) ||
+                (!supported && !LogValue(field, memory, cell))) {
                 return KIRI_FAILED;
             }
             if (!supported) {
-                LogValue(field, cell);
                 kiriField_Forget(field, cell);
             }
         }
@@ -379,13 +377,11 @@ static kiriProgress ClearAffected(kiriField* field, kiriMemory* memory, const ki
 static kiriSeed NearestFor(const kiriField* field, const kiriRule* rule, int32_t cell)
 {
     kiriSeed best = rule->seed(rule->context, cell), value = ValueOf(field, cell);
-    int32_t farthest = FarthestOf(rule);
-    kiriSteps steps;
-    best = best.distance <= farthest && IsNearerSeed(best, value) ? best : value;
-    kiriGrid_GetSteps(rule->grid, cell, &steps);
-    for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        int32_t next = steps.data[s].cell, length = steps.data[s].length;
-        if (field->distance.data[next] <= kiriMin(best.distance, farthest) - length) {
+    best = best.distance <= rule->limit && IsNearerSeed(best, value) ? best : value;
+    kiriSteps steps = kiriGrid_GetSteps(rule->grid, cell);
+    for (int32_t s = 0; s < steps.end[2]; ++s) {
+        int32_t next = kiriSteps_At(&steps, s).cell, length = kiriSteps_At(&steps, s).length;
+        if (field->distance.data[next] <= kiriMin(best.distance, rule->limit) - length) {
             kiriSeed over = { cell, field->distance.data[next] + length, field->owner.data[next] };
             best = IsNearerSeed(over, best) && Passes(rule, next) ? over : best;
         }
@@ -418,30 +414,9 @@ static kiriProgress SeedSweep(kiriField* field, const kiriRule* rule, kiriQuota*
     return KIRI_DONE;
 }
 
-/* Sweeps some cells at a time: so there is room in the log for those that are settled, and for those that get a lower
-   owner. */
-static kiriProgress SweepAgain(kiriField* field, kiriMemory* memory, const kiriRule* rule, kiriQuota* quota)
-{
-    enum { AT_ONCE = 1024 };
-    kiriProgress progress = KIRI_MORE;
-    int64_t used;
-    do {
-        int64_t give = kiriMin(quota->left, AT_ONCE);
-        used = quota->used;
-        kiriQuota part = { give, 0, 0, kiriQuota_IsBegun(quota) };
-        if (!kiriArray_Reserve(memory, &field->log, (int64_t)field->log.count + field->settled.count + give)) {
-            return KIRI_FAILED;
-        }
-        progress = Sweep(field, rule, &part, true);
-        kiriQuota_Take(quota, part.used);
-        quota->beyond += part.beyond;
-    } while (progress == KIRI_MORE && quota->left > 0 && quota->used > used);
-    return progress;
-}
-
 kiriProgress kiriField_Repair(kiriField* field, kiriMemory* memory, const kiriRule* rule, kiriQuota* quota)
 {
-    KIRI_ASSERT(rule->seed != NULL && rule->below[0] == NULL && rule->below[1] == NULL);
+    KIRI_ASSERT(rule->limit < KIRI_FAR && rule->seed != NULL && rule->below[0] == NULL && rule->below[1] == NULL);
     kiriProgress progress = KIRI_DONE;
     if (field->stage == REPAIR_NONE) {
         for (int32_t i = 0; i < field->log.count; ++i) {
@@ -471,7 +446,7 @@ kiriProgress kiriField_Repair(kiriField* field, kiriMemory* memory, const kiriRu
         StartSweep(field);
         field->stage = REPAIR_SETTLES;
     }
-    progress = SweepAgain(field, memory, rule, quota);
+    progress = Sweep(field, memory, rule, quota, true);
     if (progress == KIRI_DONE) {
         for (int32_t i = 0; i < field->log.count; ++i) {
             field->marks.data[field->log.data[i].cell] = 0;
@@ -513,24 +488,15 @@ typedef struct Scan {
 } Scan;
 
 /* Pulls from the cells before an open cell, or behind. */
-static inline ScanKey PullOpen(const Scan* scan, const kiriStepRun* run, bool forth, ScanKey key)
+static inline ScanKey PullOpen(const Scan* scan, int32_t cell, bool forth, ScanKey key)
 {
-    /* As kiriOpenSteps has them. The cell just scanned comes last: others need not wait for it. */
+    /* As grid->openSteps has them. The cell just scanned comes last: others need not wait for it. */
     static const uint8_t steps[2][KIRI_OPEN_STEPS / 2] = { { 15, 14, 13, 12, 7, 6, 3, 2 },
                                                            { 8, 9, 10, 11, 4, 5, 0, 1 } };
-    const int32_t *around = kiriGrid_AroundOpen(scan->grid, run), *to = scan->grid->openTo;
+    const kiriStep* to = scan->grid->openSteps;
     for (int k = 0; k < KIRI_OPEN_STEPS / 2; ++k) {
         int32_t length = k < 4 ? KIRI_UNIT_KNIGHT : k < 6 ? KIRI_UNIT_DIAGONAL : KIRI_UNIT;
-        key = Nearer(key, scan->keys[around[to[steps[forth][k]]]], length);
-    }
-    return key;
-}
-
-static ScanKey PullStored(const Scan* scan, const kiriStepRun* run, ScanKey key)
-{
-    const kiriStep* steps = scan->grid->steps.data;
-    for (int32_t s = run->first; s < run->end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        key = Nearer(key, scan->keys[steps[s].cell], steps[s].length);
+        key = Nearer(key, scan->keys[cell + to[steps[forth][k]].cell], length);
     }
     return key;
 }
@@ -541,9 +507,13 @@ static inline bool ScanOnce(const Scan* scan, bool forth)
     ScanKey changes = 0;
     for (int32_t k = 0; k < scan->count; ++k) {
         int32_t cell = scan->cells[forth ? k : scan->count - 1 - k];
-        const kiriStepRun* run = &scan->grid->runs.data[cell];
-        ScanKey was = scan->keys[cell];
-        ScanKey key = kiriStepRun_IsOpen(run) ? PullOpen(scan, run, forth, was) : PullStored(scan, run, was);
+        bool isOpen = kiriGrid_IsOpen(scan->grid, cell);
+        ScanKey was = scan->keys[cell], key = isOpen ? PullOpen(scan, cell, forth, was) : was;
+        kiriSteps steps = kiriGrid_GetSteps(scan->grid, cell);
+        for (int32_t s = 0; !isOpen && s < steps.end[2]; ++s) {
+            kiriStep step = kiriSteps_At(&steps, s);
+            key = Nearer(key, scan->keys[step.cell], step.length);
+        }
         scan->keys[cell] = key;
         changes |= key ^ was;
     }
@@ -569,7 +539,8 @@ kiriProgress kiriField_Scan(kiriField* field, kiriMemory* memory, const kiriGrid
 {
     KIRI_ASSERT(field->settled.count == 0 && field->stage == REPAIR_NONE);
     Scan scan = { grid, cells, count, kiriMemory_Alloc(memory, field->distance.count * (int64_t)sizeof(ScanKey)) };
-    if (scan.keys == NULL) {
+    if (scan.keys == NULL || !kiriArray_Reserve(memory, &field->settled, count)) {
+        kiriMemory_Free(memory, scan.keys);
         return KIRI_FAILED;
     }
     for (int32_t c = 0; c < field->distance.count; ++c) {
@@ -583,12 +554,13 @@ kiriProgress kiriField_Scan(kiriField* field, kiriMemory* memory, const kiriGrid
     for (int32_t k = 0; isDone && k < count; ++k) {
         int32_t cell = cells[k], distance = (int32_t)(scan.keys[cell] >> 32);
         if (distance != KIRI_FAR) {
-            SettleCell(field, (kiriSeed){ cell, distance, (int32_t)(uint32_t)scan.keys[cell] }, false);
+            field->distance.data[cell] = distance;
+            field->owner.data[cell] = (int32_t)(uint32_t)scan.keys[cell];
+            field->settled.data[field->settled.count++] = cell;
         }
     }
     if (isDone) {
         field->heap.count = 0;
-        field->cursor[0] = field->cursor[1] = field->cursor[2] = field->settled.count;
     }
     kiriMemory_Free(memory, scan.keys);
     return isDone ? KIRI_DONE : KIRI_MORE;

@@ -18,6 +18,8 @@ typedef struct kiriSeed {
 
 enum { KIRI_FAR = INT32_MAX };
 
+enum { KIRI_RING = 4 }; /* buckets of distances at a time, see kiri_geodesic.c */
+
 /* Returns true if ways go on from a cell. Floods ask when its distance is final, repairs also before that: so a cell
    that lets ways pass at some distance must do so at every shorter one. */
 typedef bool kiriPassFn(const void* context, int32_t cell);
@@ -32,7 +34,7 @@ typedef void kiriLookFn(const void* context, int32_t cell);
 /* What makes a field. */
 typedef struct kiriRule {
     const kiriGrid* grid;
-    int32_t limit;    /* the farthest distance */
+    int32_t limit;    /* the farthest distance, less than KIRI_FAR */
     kiriPassFn* pass; /* or null */
     kiriSeedFn* seed; /* of repairs only */
     const void* context;
@@ -43,21 +45,22 @@ typedef struct kiriRule {
 typedef struct kiriField {
     KIRI_ARRAY(int32_t) distance; /* one a cell; KIRI_FAR where the field does not reach */
     KIRI_ARRAY(int32_t) owner;    /* of the nearest seed; KIRI_NONE where FAR */
-    kiriIndices settled;          /* of floods: cells reached, by growing distance if not scanned; none once dirty */
+    kiriIndices settled;          /* of floods: cells reached; none once dirty */
     KIRI_ARRAY(kiriSeed) log;     /* of repairs: previous values of cells, each once; some may be the same again */
 
-    /* Work in progress. Cells are settled when no dirty one is left, so one of the two lists has room for all cells,
-       and the other need not: they change places. */
+    /* Work in progress. */
     KIRI_ARRAY(kiriSeed) heap;
-    kiriIndices dirty;                 /* cells to be checked */
-    KIRI_ARRAY(uint8_t) marks;         /* one a cell; between repairs only of dirty cells */
-    int32_t cursor[KIRI_STEP_LENGTHS]; /* of a sweep, for each length of steps: the next settled cell */
-    int32_t checked, fromCaller;       /* dirty cells: the next one to check, and how many the caller marked */
-    int32_t stage;                     /* of a repair; 0: none is in progress */
+    kiriIndices ring[KIRI_RING];         /* of a sweep: cells to be settled, by the bucket of their distance */
+    int32_t bucket;              /* of the cells that are settled now */
+    kiriIndices dirty;           /* cells to be checked */
+    KIRI_ARRAY(uint8_t) marks;   /* one a cell; between repairs only of dirty cells */
+    int32_t checked, fromCaller; /* dirty cells: the next one to check, and how many the caller marked */
+    int32_t stage;               /* of a repair; 0: none is in progress */
 } kiriField;
 
-/* Makes room for cells; new ones are FAR. A zeroed field is empty. False for memory: the field stays as it is. */
-bool kiriField_Resize(kiriField* field, kiriMemory* memory, int32_t cellCount);
+/* Makes room for cells; new ones are FAR. `repairs`: there will be some. A zeroed field is empty. False for memory: the
+   field stays as it is. */
+bool kiriField_Resize(kiriField* field, kiriMemory* memory, int32_t cellCount, bool repairs);
 
 /* Makes it a field of no cells, whatever its state; keeps the memory. */
 void kiriField_Clear(kiriField* field);
@@ -67,8 +70,8 @@ void kiriField_Clear(kiriField* field);
 /* Starts a flood from the seeds. The field must be FAR everywhere. */
 bool kiriField_Start(kiriField* field, kiriMemory* memory, const kiriSeed* seeds, int32_t seedCount);
 
-/* Continues a flood. An item of the quota is a cell settled. Allocates nothing: never KIRI_FAILED. */
-kiriProgress kiriField_Flood(kiriField* field, const kiriRule* rule, kiriQuota* quota);
+/* Continues a flood. An item of the quota is a cell settled. KIRI_FAILED: only kiriField_Clear helps. */
+kiriProgress kiriField_Flood(kiriField* field, kiriMemory* memory, const kiriRule* rule, kiriQuota* quota);
 
 /* Makes the whole flood that Start has prepared, without a limit, and with ways from all cells; as many items as cells
    are settled. `cells` has all that the seeds reach, in the order of cells; they are settled in this order. KIRI_MORE,

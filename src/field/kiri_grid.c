@@ -251,6 +251,9 @@ static bool ResizeSteps(kiriGrid* grid, kiriMemory* memory, int32_t c, int32_t c
     int32_t room = count == 0 ? 0 : kiriMax(count, KIRI_OPEN_STEPS);
     bool ok = kiriSpan_Resize(&span, &grid->stepRoom, memory, &grid->steps, sizeof(kiriStep), room);
     KIRI_ASSERT(ok || count > 0);
+    if (ok && kiriGrid_IsOpen(grid, c)) {
+        grid->whole.data[c] = KIRI_SQUARE_WHOLE;
+    }
     run->first = span.first;
     run->end[0] = run->end[1] = run->end[2] = span.first + (ok ? count : had);
     return ok;
@@ -438,15 +441,16 @@ static bool FindNewCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t squar
 
 /* ---- Cells ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the index of a new cell, or KIRI_NONE for memory. */
+/* Returns the index of a new cell, or KIRI_NONE for memory. From scratch the first cell of a square has its index. */
 static int32_t AddCell(kiriGrid* grid, kiriMemory* memory, int32_t square)
 {
     const kiriCell cell = { square, KIRI_NONE, KIRI_NONE, KIRI_NONE, KIRI_NONE };
     const kiriStepRun run = { 0, { 0, 0, 0 } };
     kiriGridWork* work = grid->work;
-    int32_t c = grid->freeCell;
+    bool isOwn = work->fromScratch && grid->cells.data[square].square == KIRI_NONE;
+    int32_t c = isOwn ? square : grid->freeCell;
     if (c != KIRI_NONE) {
-        grid->freeCell = grid->cells.data[c].next;
+        grid->freeCell = isOwn ? grid->freeCell : grid->cells.data[c].next;
         grid->cells.data[c] = cell;
     } else if (kiriArray_Push(memory, &grid->cells, cell) && kiriArray_Push(memory, &grid->runs, run) &&
                kiriArray_Push(memory, &work->cellFlags, 0) && kiriArray_Push(memory, &work->mark, 0)) {
@@ -622,7 +626,7 @@ static void MakeCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
     int32_t square = work->fromScratch ? item : mesh->squares.dirty.data[item];
     KIRI_ASSERT(square >= 0 && square < grid->whole.count);
     bool wasWhole = grid->whole.data[square], isWhole = IsSquareWhole(work, mesh, square);
-    grid->whole.data[square] = isWhole;
+    grid->whole.data[square] = isWhole && wasWhole ? grid->whole.data[square] : isWhole;
     work->newCells.count = 0;
     if (isWhole && wasWhole) {
         FillWholeSquare(grid, mesh, square);
@@ -811,7 +815,7 @@ static void MakeFaces(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
 
 /* ---- Steps ------------------------------------------------------------------------------------------------------- */
 
-const kiriStep kiriOpenSteps[KIRI_OPEN_STEPS] = {
+static const kiriStep openSteps[KIRI_OPEN_STEPS] = {
     { 0, KIRI_UNIT, 0, -1 },          { 0, KIRI_UNIT, -1, 0 },           { 0, KIRI_UNIT, 1, 0 },
     { 0, KIRI_UNIT, 0, 1 },           { 0, KIRI_UNIT_DIAGONAL, -1, -1 }, { 0, KIRI_UNIT_DIAGONAL, 1, -1 },
     { 0, KIRI_UNIT_DIAGONAL, -1, 1 }, { 0, KIRI_UNIT_DIAGONAL, 1, 1 },   { 0, KIRI_UNIT_KNIGHT, -1, -2 },
@@ -819,9 +823,6 @@ const kiriStep kiriOpenSteps[KIRI_OPEN_STEPS] = {
     { 0, KIRI_UNIT_KNIGHT, -2, 1 },   { 0, KIRI_UNIT_KNIGHT, 2, 1 },     { 0, KIRI_UNIT_KNIGHT, -1, 2 },
     { 0, KIRI_UNIT_KNIGHT, 1, 2 },
 };
-
-/* SetSteps compares bytes. */
-typedef char StepHasNoPadding[sizeof(kiriStep) == 8 ? 1 : -1];
 
 /* Steps touch the squares up to two rows away, in the outer rows one on each side of the column, else two. */
 enum { STEP_ROWS = 2 };
@@ -831,7 +832,7 @@ static int32_t StepColumns(int32_t v)
     return v == -STEP_ROWS || v == STEP_ROWS ? 1 : STEP_ROWS;
 }
 
-/* True if the square is whole, and all those around that a step may touch. */
+/* True if the square is whole, and all those around that a step may touch, and their cells have their indices. */
 static bool IsWholeAround(const kiriGrid* grid, const kiriSquares* squares, int32_t square)
 {
     int32_t column = square % squares->columns, row = square / squares->columns;
@@ -840,9 +841,9 @@ static bool IsWholeAround(const kiriGrid* grid, const kiriSquares* squares, int3
         return false;
     }
     for (int32_t v = -STEP_ROWS; v <= STEP_ROWS; ++v) {
-        const uint8_t* whole = &grid->whole.data[square + v * squares->columns];
-        for (int32_t u = -StepColumns(v); u <= StepColumns(v); ++u) {
-            if (!whole[u]) {
+        int32_t middle = square + v * squares->columns;
+        for (int32_t s = middle - StepColumns(v); s <= middle + StepColumns(v); ++s) {
+            if (!grid->whole.data[s] || grid->squareCell.data[s] != s) {
                 return false;
             }
         }
@@ -878,29 +879,27 @@ static void AddStep(kiriGrid* grid, kiriMemory* memory, kiriStep step)
 
 static void AddSteps(kiriGrid* grid, kiriMemory* memory, const kiriSteps* steps, int32_t from, int32_t end)
 {
-    KIRI_ASSERT(0 <= from && from <= end && end <= steps->end[KIRI_STEP_LENGTHS - 1]);
+    KIRI_ASSERT(0 <= from && from <= end && end <= steps->end[2]);
     for (int32_t s = from; s < end; ++s) {
-        AddStep(grid, memory, steps->data[s]);
+        AddStep(grid, memory, kiriSteps_At(steps, s));
     }
 }
 
 static bool AreStepsSame(const kiriSteps* a, const kiriSteps* b)
 {
-    return a->end[0] == b->end[0] && a->end[1] == b->end[1] && a->end[2] == b->end[2] &&
-           (a->end[2] == 0 || memcmp(a->data, b->data, sizeof(kiriStep) * (size_t)a->end[2]) == 0);
+    bool same = a->end[0] == b->end[0] && a->end[1] == b->end[1] && a->end[2] == b->end[2];
+    for (int32_t s = 0; same && s < a->end[2]; ++s) {
+        same = kiriSteps_At(a, s).cell == kiriSteps_At(b, s).cell;
+    }
+    return same;
 }
 
 /* Replaces the steps of a cell by those in `work`: straight ones to `straight`, diagonal ones to `near`. */
 static void SetSteps(kiriGrid* grid, kiriMemory* memory, int32_t c, int32_t straight, int32_t near)
 {
-    kiriSteps has, is;
     int32_t count = grid->work->steps.count;
+    kiriSteps has = kiriGrid_GetSteps(grid, c), is = { grid->work->steps.data, 0, { straight, near, count } };
     KIRI_ASSERT(kiriGrid_IsCell(grid, c) && 0 <= straight && straight <= near && near <= count);
-    is.data = grid->work->steps.data;
-    is.end[0] = straight;
-    is.end[1] = near;
-    is.end[2] = count;
-    kiriGrid_GetSteps(grid, c, &has);
     if (AreStepsSame(&has, &is)) {
         return;
     }
@@ -921,21 +920,13 @@ static void SetSteps(kiriGrid* grid, kiriMemory* memory, int32_t c, int32_t stra
 static void OpenSteps(kiriGrid* grid, kiriMemory* memory, int32_t c)
 {
     KIRI_ASSERT(kiriGrid_IsCell(grid, c) && grid->whole.data[grid->cells.data[c].square]);
-    kiriStepRun *run = &grid->runs.data[c], stored = *run;
-    kiriSteps had, has;
-    if (kiriStepRun_IsOpen(run)) {
-        return;
-    }
-    kiriGrid_GetSteps(grid, c, &had);
-    run->first = ~grid->cells.data[c].square;
-    kiriGrid_GetSteps(grid, c, &has);
-    bool same = AreStepsSame(&had, &has);
-    *run = stored;
-    ResizeSteps(grid, memory, c, 0);
-    run->first = ~grid->cells.data[c].square;
-    if (!same) {
+    kiriSteps had = kiriGrid_GetSteps(grid, c), has = kiriGrid_OpenSteps(grid, c);
+    if (!AreStepsSame(&had, &has)) {
         RecordCell(grid, memory, c, CELL_STEPS, &grid->changes.steps);
     }
+    ResizeSteps(grid, memory, c, 0);
+    grid->runs.data[c].first = KIRI_NONE;
+    grid->whole.data[c] = KIRI_SQUARE_OPEN;
 }
 
 /* Compares two steps from the same cell: the way tells the order of squares. */
@@ -1023,10 +1014,15 @@ static void MakeNearSteps(kiriGrid* grid, const kiriMeshData* mesh, int32_t item
 {
     kiriGridWork* work = grid->work;
     int32_t c = work->fromScratch ? item : work->stepsDirty.data[item];
-    KIRI_ASSERT(kiriGrid_IsCell(grid, c));
+    KIRI_ASSERT(work->fromScratch || kiriGrid_IsCell(grid, c));
+    if (!kiriGrid_IsCell(grid, c)) {
+        return; /* a square without material */
+    }
     work->debt += COST_OF_STEPS;
     if (IsWholeAround(grid, &mesh->squares, grid->cells.data[c].square)) {
-        OpenSteps(grid, mesh->memory, c);
+        if (!kiriStepRun_IsOpen(&grid->runs.data[c])) {
+            OpenSteps(grid, mesh->memory, c);
+        }
         return;
     }
     work->steps.count = 0;
@@ -1037,8 +1033,7 @@ static void MakeNearSteps(kiriGrid* grid, const kiriMeshData* mesh, int32_t item
     AddDiagonalSteps(grid, mesh->memory, c);
     int32_t near = work->steps.count;
     SortSteps(grid, 0);
-    kiriSteps has;
-    kiriGrid_GetSteps(grid, c, &has);
+    kiriSteps has = kiriGrid_GetSteps(grid, c);
     AddSteps(grid, mesh->memory, &has, has.end[1], has.end[2]);
     SetSteps(grid, mesh->memory, c, straight, near);
     AppendIndex(grid, mesh->memory, &work->knightsDirty, c);
@@ -1049,16 +1044,16 @@ static void AddKnightSteps(kiriGrid* grid, kiriMemory* memory, const kiriSteps* 
 {
     int32_t *mark = grid->work->mark.data, first = NewMark(grid->work);
     for (int32_t i = 0; i < steps->end[1]; ++i) {
-        kiriSteps on;
+        kiriStep to = kiriSteps_At(steps, i);
         bool isStraight = i < steps->end[0];
-        kiriGrid_GetStepsTo(grid, steps->data[i].cell, 2, &on);
+        kiriSteps on = kiriGrid_GetSteps(grid, to.cell);
         for (int32_t j = isStraight ? on.end[0] : 0; j < on.end[isStraight]; ++j) {
-            int32_t cell = on.data[j].cell;
-            if (!isStraight && mark[cell] == first) {
-                mark[cell] = first + 1;
-                AddStep(grid, memory, JoinedStep(steps->data[i], on.data[j], KIRI_UNIT_KNIGHT));
-            } else if (isStraight && (steps->data[i].u == on.data[j].u || steps->data[i].v == on.data[j].v)) {
-                mark[cell] = first;
+            kiriStep next = kiriSteps_At(&on, j);
+            if (!isStraight && mark[next.cell] == first) {
+                mark[next.cell] = first + 1;
+                AddStep(grid, memory, JoinedStep(to, next, KIRI_UNIT_KNIGHT));
+            } else if (isStraight && (to.u == next.u || to.v == next.v)) {
+                mark[next.cell] = first;
             }
         }
         grid->work->debt += isStraight ? on.end[1] - on.end[0] : 0;
@@ -1069,8 +1064,7 @@ static void MakeKnightSteps(kiriGrid* grid, const kiriMeshData* mesh, int32_t it
 {
     KIRI_ASSERT(item >= 0 && item < grid->work->knightsDirty.count);
     int32_t c = grid->work->knightsDirty.data[item];
-    kiriSteps has;
-    kiriGrid_GetSteps(grid, c, &has);
+    kiriSteps has = kiriGrid_GetSteps(grid, c);
     grid->work->debt += COST_OF_STEPS;
     grid->work->steps.count = 0;
     AddSteps(grid, mesh->memory, &has, 0, has.end[1]);
@@ -1144,19 +1138,29 @@ static GridStageFn* const gridStages[GRID_STAGES] = {
     ForgetRemoved,   /* in the lists of changes */
 };
 
-/* Reserves a cell a square; growing adds an eighth for what cuts make. */
-static bool ReserveCells(kiriGrid* grid, const kiriMeshData* mesh)
+/* Makes a cell a square, not in use yet. Cells of squares without material are free for other squares. Reserving adds
+   an eighth for what cuts make. */
+static bool MakeUnusedCells(kiriGrid* grid, const kiriMeshData* mesh)
 {
     kiriGridWork* work = grid->work;
     kiriMemory* memory = mesh->memory;
-    int64_t cells = 64;
-    for (int32_t s = 0; s < grid->squareCell.count; ++s) {
-        cells += mesh->squares.head[s] != KIRI_NONE;
+    int32_t squares = grid->squareCell.count;
+    int64_t cells = squares + 64, made = 64;
+    if (!kiriArray_Reserve(memory, &grid->cells, cells) || !kiriArray_Reserve(memory, &grid->runs, cells) ||
+        !kiriArray_Reserve(memory, &work->cellFlags, cells) || !kiriArray_Reserve(memory, &work->mark, cells)) {
+        return false;
     }
-    return kiriArray_Reserve(memory, &grid->cells, cells) && kiriArray_Reserve(memory, &grid->runs, cells) &&
-           kiriArray_Reserve(memory, &work->cellFlags, cells) && kiriArray_Reserve(memory, &work->mark, cells) &&
-           kiriArray_Reserve(memory, &grid->changes.made, cells) &&
-           kiriArray_Reserve(memory, &grid->changes.steps, cells) && kiriArray_Reserve(memory, &grid->faces, 2 * cells);
+    grid->cells.count = grid->runs.count = work->cellFlags.count = work->mark.count = squares;
+    memset(grid->runs.data, 0, sizeof(kiriStepRun) * (size_t)squares);
+    memset(work->mark.data, 0, sizeof(int32_t) * (size_t)squares);
+    for (int32_t s = squares - 1; s >= 0; --s) {
+        bool isFree = mesh->squares.head[s] == KIRI_NONE;
+        grid->cells.data[s] = (kiriCell){ KIRI_NONE, grid->freeCell, KIRI_NONE, KIRI_NONE, KIRI_NONE };
+        grid->freeCell = isFree ? s : grid->freeCell;
+        made += !isFree;
+    }
+    return kiriArray_Reserve(memory, &grid->changes.made, made) &&
+           kiriArray_Reserve(memory, &grid->changes.steps, made) && kiriArray_Reserve(memory, &grid->faces, 2 * made);
 }
 
 /* Starts the first update, or one after a reset: no square has a cell, and all squares are dirty. */
@@ -1176,11 +1180,12 @@ static bool StartFromScratch(kiriGrid* grid, const kiriMeshData* mesh)
         grid->squareCell.data[s] = KIRI_NONE;
     }
     for (int k = 0; k < KIRI_OPEN_STEPS; ++k) {
-        grid->openTo[k] = kiriOpenSteps[k].v * mesh->squares.columns + kiriOpenSteps[k].u;
+        grid->openSteps[k] = openSteps[k];
+        grid->openSteps[k].cell = openSteps[k].v * mesh->squares.columns + openSteps[k].u;
     }
     grid->side = mesh->step * mesh->squares.side;
     grid->freeCell = grid->freeFace = KIRI_NONE;
-    return ReserveCells(grid, mesh);
+    return MakeUnusedCells(grid, mesh);
 }
 
 static bool StartGridUpdate(kiriGrid* grid, const kiriMeshData* mesh)
@@ -1422,11 +1427,10 @@ void kiriGrid_JoinCells(const kiriGrid* grid, int32_t* parent)
     KIRI_ASSERT(grid->runs.count == grid->cells.count);
     kiriUnion_Init(parent, grid->cells.count);
     for (int32_t c = 0; c < grid->cells.count; ++c) {
-        kiriSteps steps;
         if (kiriGrid_IsCell(grid, c)) {
-            kiriGrid_GetStepsTo(grid, c, 1, &steps);
+            kiriSteps steps = kiriGrid_GetSteps(grid, c);
             for (int32_t s = 0; s < steps.end[0]; ++s) {
-                kiriUnion_Join(parent, c, steps.data[s].cell);
+                kiriUnion_Join(parent, c, kiriSteps_At(&steps, s).cell);
             }
         }
     }

@@ -60,8 +60,8 @@ typedef struct kiriStep {
 enum { KIRI_STEP_LENGTHS = 3, KIRI_OPEN_STEPS = 16 };
 
 /* Where the steps of a cell are: straight ones from first to end[0], diagonal ones to end[1], knights to end[2]. A cell
-   amid whole squares is open: it has all sixteen steps, each to the first cell of its square. They follow from its
-   square, and are not stored: `first` is ~square, and `end` means nothing. */
+   amid whole squares is open: it has all sixteen steps, and they are not stored. `first` is KIRI_NONE, and `end` means
+   nothing. The open cell and the cells around have the indices of their squares. */
 typedef struct kiriStepRun {
     int32_t first, end[KIRI_STEP_LENGTHS];
 } kiriStepRun;
@@ -71,14 +71,10 @@ static inline bool kiriStepRun_IsOpen(const kiriStepRun* run)
     return run->first < 0;
 }
 
-/* The steps of an open cell, in their order; `cell` means nothing. */
-extern const kiriStep kiriOpenSteps[KIRI_OPEN_STEPS];
-
 /* The steps of a cell, stored or not: straight ones from 0 to end[0], diagonal ones to end[1], knights to end[2]. */
 typedef struct kiriSteps {
-    const kiriStep* data;
-    int32_t end[KIRI_STEP_LENGTHS];
-    kiriStep room[KIRI_OPEN_STEPS]; /* of an open cell */
+    const kiriStep* data; /* without `base` in their cells: see kiriSteps_At */
+    int32_t base, end[KIRI_STEP_LENGTHS];
 } kiriSteps;
 
 /* A cell whose material changed, and the previous material. */
@@ -98,6 +94,11 @@ typedef struct kiriGridChanges {
     kiriIndices edges; /* cells in whose square edges of the material may have changed; with new cells */
 } kiriGridChanges;
 
+enum {
+    KIRI_SQUARE_WHOLE = 1, /* wholly covered, and no outline or open edge runs through it */
+    KIRI_SQUARE_OPEN = 2,  /* and its cell is open, with the index of the square */
+};
+
 typedef struct kiriGridWork kiriGridWork; /* the update in progress, see below */
 
 /* Cells keep their index as long as they live. Orders depend neither on indices nor on the order of cuts: cells are
@@ -108,7 +109,7 @@ typedef struct kiriGrid {
     KIRI_ARRAY(kiriStepRun) runs; /* of each cell */
     KIRI_ARRAY(kiriStep) steps;   /* by runs, with gaps; in a run by length, then square, then lowest triangle */
     kiriSpans stepRoom;
-    int32_t openTo[KIRI_OPEN_STEPS]; /* squares from an open cell to where each step leads */
+    kiriStep openSteps[KIRI_OPEN_STEPS]; /* of an open cell; their cells are added to its index */
     KIRI_ARRAY(kiriFace) faces;      /* by index, with gaps */
 
     /* Only for cells and faces that do not cover a whole square or side; by index, with gaps. */
@@ -119,7 +120,7 @@ typedef struct kiriGrid {
     KIRI_ARRAY(int32_t) squareCell; /* a square's first cell, or KIRI_NONE */
     KIRI_ARRAY(int32_t) nodeCell;   /* the cell of each node of mesh->squares.nodes; unused ones mean nothing */
     KIRI_ARRAY(int32_t) vertexCell; /* the cell of each vertex in a square with several; others mean nothing */
-    KIRI_ARRAY(uint8_t) whole;      /* of each square: wholly covered, and no outline or open edge runs through it */
+    KIRI_ARRAY(uint8_t) whole;      /* of each square: 0, or KIRI_SQUARE_WHOLE, or KIRI_SQUARE_OPEN */
     int32_t cellCount;              /* cells in use */
     int32_t freeCell, freeFace;     /* heads of lists, or KIRI_NONE */
     kiriGridChanges changes;
@@ -156,51 +157,48 @@ static inline bool kiriGrid_IsCell(const kiriGrid* grid, int32_t cell)
     return grid->cells.data[cell].square != KIRI_NONE;
 }
 
-/* The first cells of squares, seen from the square of an open cell: its steps lead to [openTo[k]]. */
-static inline const int32_t* kiriGrid_AroundOpen(const kiriGrid* grid, const kiriStepRun* run)
+/* Returns true for most open cells. Its answers take less memory to read than runs. */
+static inline bool kiriGrid_IsOpen(const kiriGrid* grid, int32_t cell)
 {
-    KIRI_ASSERT(kiriStepRun_IsOpen(run) && ~run->first < grid->squareCell.count);
-    return &grid->squareCell.data[~run->first];
+    KIRI_ASSERT(cell >= 0 && cell < grid->runs.count);
+    return cell < grid->whole.count && grid->whole.data[cell] == KIRI_SQUARE_OPEN;
 }
 
-/* Lists the steps of a cell, of the first lengths (1 to 3) only. Valid until the grid changes or `steps` moves. */
-static inline void kiriGrid_GetStepsTo(const kiriGrid* grid, int32_t cell, int lengths, kiriSteps* steps)
+static inline kiriSteps kiriGrid_OpenSteps(const kiriGrid* grid, int32_t cell)
 {
-    KIRI_ASSERT(cell >= 0 && cell < grid->runs.count && lengths >= 1 && lengths <= KIRI_STEP_LENGTHS);
+    return (kiriSteps){ grid->openSteps, cell, { 4, 8, KIRI_OPEN_STEPS } };
+}
+
+/* Returns the steps of a cell. Valid until the grid changes or `steps` moves. */
+static inline kiriSteps kiriGrid_GetSteps(const kiriGrid* grid, int32_t cell)
+{
+    KIRI_ASSERT(cell >= 0 && cell < grid->runs.count);
     const kiriStepRun* run = &grid->runs.data[cell];
-    if (!kiriStepRun_IsOpen(run)) {
-        steps->data = grid->steps.data + run->first;
-        for (int k = 0; k < KIRI_STEP_LENGTHS; ++k) {
-            steps->end[k] = run->end[k] - run->first;
-        }
-        return;
+    if (kiriStepRun_IsOpen(run)) {
+        KIRI_ASSERT(grid->squareCell.data[cell] == cell);
+        return kiriGrid_OpenSteps(grid, cell);
     }
-    const int32_t* around = kiriGrid_AroundOpen(grid, run);
-    for (int k = 0; k < (lengths == 3 ? KIRI_OPEN_STEPS : 4 * lengths); ++k) {
-        steps->room[k] = kiriOpenSteps[k];
-        steps->room[k].cell = around[grid->openTo[k]];
-    }
-    steps->data = steps->room;
-    steps->end[0] = 4;
-    steps->end[1] = 8;
-    steps->end[2] = KIRI_OPEN_STEPS;
+    int32_t at = run->first;
+    return (kiriSteps){ &grid->steps.data[at], 0, { run->end[0] - at, run->end[1] - at, run->end[2] - at } };
 }
 
-static inline void kiriGrid_GetSteps(const kiriGrid* grid, int32_t cell, kiriSteps* steps)
+static inline kiriStep kiriSteps_At(const kiriSteps* steps, int32_t index)
 {
-    kiriGrid_GetStepsTo(grid, cell, KIRI_STEP_LENGTHS, steps);
+    KIRI_ASSERT(index >= 0 && index < steps->end[2]);
+    kiriStep step = steps->data[index];
+    step.cell += steps->base;
+    return step;
 }
 
 /* Returns true for the same cell, and for a straight or diagonal step. */
 static inline bool kiriGrid_AreNear(const kiriGrid* grid, int32_t a, int32_t b)
 {
-    kiriSteps steps;
     if (a == b) {
         return true;
     }
-    kiriGrid_GetStepsTo(grid, a, 2, &steps);
+    kiriSteps steps = kiriGrid_GetSteps(grid, a);
     for (int32_t s = 0; s < steps.end[1]; ++s) {
-        if (steps.data[s].cell == b) {
+        if (kiriSteps_At(&steps, s).cell == b) {
             return true;
         }
     }

@@ -141,11 +141,10 @@ static bool GatherStretch(const LinkUpdate* u, int32_t face, uint8_t next)
     bool ok = kiriArray_Push(u->memory, found, face);
     for (int32_t k = 0; ok && k < found->count; ++k) {
         kiriBorderFace from = BorderFaceOf(u, found->data[k]);
-        kiriSteps steps;
-        kiriGrid_GetStepsTo(u->grid, from.cell[0], 2, &steps);
+        kiriSteps steps = kiriGrid_GetSteps(u->grid, from.cell[0]);
         ok = GatherFacesAt(u, &from, from.cell[0], mark, next);
         for (int32_t s = 0; ok && s < steps.end[1]; ++s) {
-            ok = GatherFacesAt(u, &from, steps.data[s].cell, mark, next);
+            ok = GatherFacesAt(u, &from, kiriSteps_At(&steps, s).cell, mark, next);
         }
     }
     if (!ok || !kiriArray_Resize(u->memory, &work->stretch, found->count)) {
@@ -190,10 +189,9 @@ static void AddEndRegion(kiriLinkEnd* end, int32_t region)
 
 static bool HasStraightStep(const kiriGrid* grid, int32_t from, int32_t to)
 {
-    kiriSteps steps;
-    kiriGrid_GetStepsTo(grid, from, 1, &steps);
+    kiriSteps steps = kiriGrid_GetSteps(grid, from);
     for (int32_t s = 0; s < steps.end[0]; ++s) {
-        if (steps.data[s].cell == to) {
+        if (kiriSteps_At(&steps, s).cell == to) {
             return true;
         }
     }
@@ -207,22 +205,20 @@ static bool FindRing(const LinkUpdate* u, const kiriFace* face, bool upper, int3
 {
     const kiriGrid* grid = u->grid;
     int axis = 1 - kiriFace_Axis(face), way = upper ? 1 : -1;
-    kiriSteps a, b;
     if (IsSliver(grid, face->cell[0]) || IsSliver(grid, face->cell[1])) {
         return false;
     }
-    kiriGrid_GetStepsTo(grid, face->cell[0], 1, &a);
-    kiriGrid_GetStepsTo(grid, face->cell[1], 1, &b);
+    kiriSteps a = kiriGrid_GetSteps(grid, face->cell[0]), b = kiriGrid_GetSteps(grid, face->cell[1]);
     for (int32_t s = 0; s < a.end[0]; ++s) {
         for (int32_t t = 0; t < b.end[0]; ++t) {
-            const kiriStep *to = &a.data[s], *beside = &b.data[t];
-            if ((axis == 0 ? to->u : to->v) == way && (axis == 0 ? beside->u : beside->v) == way &&
-                HasStraightStep(grid, to->cell, beside->cell) && !IsSliver(grid, to->cell) &&
-                !IsSliver(grid, beside->cell)) {
+            kiriStep to = kiriSteps_At(&a, s), beside = kiriSteps_At(&b, t);
+            if ((axis == 0 ? to.u : to.v) == way && (axis == 0 ? beside.u : beside.v) == way &&
+                HasStraightStep(grid, to.cell, beside.cell) && !IsSliver(grid, to.cell) &&
+                !IsSliver(grid, beside.cell)) {
                 ring[0] = face->cell[0];
                 ring[1] = face->cell[1];
-                ring[2] = beside->cell;
-                ring[3] = to->cell;
+                ring[2] = beside.cell;
+                ring[3] = to.cell;
                 return true;
             }
         }
@@ -362,10 +358,9 @@ static void AddRegionsAt(const LinkUpdate* u, NearRegions* near, const int32_t c
     AddRegion(u, near, cells[0]);
     AddRegion(u, near, cells[1]);
     for (int k = 0; k < around; ++k) {
-        kiriSteps steps;
-        kiriGrid_GetSteps(u->grid, cells[k], &steps);
-        for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
-            AddRegion(u, near, steps.data[s].cell);
+        kiriSteps steps = kiriGrid_GetSteps(u->grid, cells[k]);
+        for (int32_t s = 0; s < steps.end[2]; ++s) {
+            AddRegion(u, near, kiriSteps_At(&steps, s).cell);
         }
     }
 }
@@ -380,14 +375,13 @@ static int32_t CellBefore(const LinkUpdate* u, int32_t cell)
 {
     const kiriField* field = &u->regions->field;
     int32_t region = field->owner.data[cell], distance = field->distance.data[cell];
-    kiriSteps steps;
     KIRI_ASSERT(region != KIRI_NONE && distance != KIRI_FAR);
     if (kiriSite_SeedAt(&u->sites[region], region, u->grid, u->mesh, cell).distance == distance) {
         return KIRI_NONE;
     }
-    kiriGrid_GetSteps(u->grid, cell, &steps);
-    for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        kiriStep step = steps.data[s];
+    kiriSteps steps = kiriGrid_GetSteps(u->grid, cell);
+    for (int32_t s = 0; s < steps.end[2]; ++s) {
+        kiriStep step = kiriSteps_At(&steps, s);
         if (field->owner.data[step.cell] == region && field->distance.data[step.cell] + step.length == distance) {
             return step.cell;
         }
@@ -899,10 +893,9 @@ typedef struct SitesWay {
 static void TryLongSteps(const LinkUpdate* u, int32_t cell, int32_t to, SitesWay* way)
 {
     const kiriField* field = &u->regions->field;
-    kiriSteps steps;
-    kiriGrid_GetSteps(u->grid, cell, &steps);
-    for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        kiriStep step = steps.data[s];
+    kiriSteps steps = kiriGrid_GetSteps(u->grid, cell);
+    for (int32_t s = 0; s < steps.end[2]; ++s) {
+        kiriStep step = kiriSteps_At(&steps, s);
         if (field->owner.data[step.cell] == to) {
             int32_t length = field->distance.data[cell] + step.length + field->distance.data[step.cell];
             if (length < way->length) {
@@ -1166,11 +1159,10 @@ static bool IsLinked(const LinkUpdate* u, int32_t i, int32_t j, int32_t first)
 /* Makes short links from a cell at the end of a link to higher regions one step away. */
 static bool MakeShortLinksAt(const LinkUpdate* u, const kiriLinkEnd* end, int32_t cell, int32_t first)
 {
-    kiriSteps steps;
     int32_t last = KIRI_NONE;
-    kiriGrid_GetSteps(u->grid, cell, &steps);
-    for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        int32_t cells[2] = { cell, steps.data[s].cell }, i = u->owner[cell], j = u->owner[cells[1]];
+    kiriSteps steps = kiriGrid_GetSteps(u->grid, cell);
+    for (int32_t s = 0; s < steps.end[2]; ++s) {
+        int32_t cells[2] = { cell, kiriSteps_At(&steps, s).cell }, i = u->owner[cell], j = u->owner[cells[1]];
         kiriNewLink made;
         if (j > i && j != last) {
             last = j;
@@ -1433,10 +1425,9 @@ static bool ListFaces(const LinkUpdate* u, int32_t region)
     bool isDirty = regions->dirty.data[region];
     int32_t cell = regions->border.first.data[region];
     for (; cell != KIRI_NONE; cell = regions->border.cells.data[cell].next) {
-        kiriSteps steps;
-        kiriGrid_GetSteps(u->grid, cell, &steps);
-        for (int32_t s = 0; isDirty && s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
-            u->work->stale.data[u->owner[steps.data[s].cell]] |= REGION_STALE;
+        kiriSteps steps = kiriGrid_GetSteps(u->grid, cell);
+        for (int32_t s = 0; isDirty && s < steps.end[2]; ++s) {
+            u->work->stale.data[u->owner[kiriSteps_At(&steps, s).cell]] |= REGION_STALE;
         }
         for (int32_t f = u->grid->cells.data[cell].firstFace; f != KIRI_NONE;) {
             const kiriFace* face = &u->grid->faces.data[f];

@@ -28,12 +28,11 @@ static kiriSeed SeedNear(const kiriSite* site, int32_t owner, const kiriGrid* gr
 bool kiriSite_Seed(const kiriSite* site, int32_t owner, kiriMemory* memory, const kiriGrid* grid,
                    const kiriMeshData* mesh, kiriSeeds* seeds)
 {
-    kiriSteps steps;
-    kiriGrid_GetSteps(grid, site->cell, &steps);
-    int32_t end = IsAtMiddle(site, grid, mesh) ? 0 : steps.end[KIRI_STEP_LENGTHS - 1];
+    kiriSteps steps = kiriGrid_GetSteps(grid, site->cell);
+    int32_t end = IsAtMiddle(site, grid, mesh) ? 0 : steps.end[2];
     bool ok = true;
     for (int32_t s = -1; ok && s < end; ++s) {
-        kiriSeed seed = SeedNear(site, owner, grid, mesh, s < 0 ? site->cell : steps.data[s].cell);
+        kiriSeed seed = SeedNear(site, owner, grid, mesh, s < 0 ? site->cell : kiriSteps_At(&steps, s).cell);
         ok = kiriArray_Push(memory, seeds, seed);
     }
     return ok;
@@ -51,10 +50,9 @@ kiriSeed kiriSite_SeedAt(const kiriSite* site, int32_t owner, const kiriGrid* gr
         apart <= 4 || (apart >= columns && apart <= columns + 4) || (apart >= 2 * columns && apart <= 2 * columns + 4);
     bool near = cell == site->cell;
     if (isClose && !near) {
-        kiriSteps steps;
-        kiriGrid_GetSteps(grid, cell, &steps);
-        for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1] && !near; ++s) {
-            near = steps.data[s].cell == site->cell;
+        kiriSteps steps = kiriGrid_GetSteps(grid, cell);
+        for (int32_t s = 0; s < steps.end[2] && !near; ++s) {
+            near = kiriSteps_At(&steps, s).cell == site->cell;
         }
     }
     return near ? SeedNear(site, owner, grid, mesh, cell) : (kiriSeed){ cell, KIRI_FAR, KIRI_NONE };
@@ -83,10 +81,9 @@ static kiriSeed NearestSiteSeed(const void* context, int32_t cell)
     if (siteAt[cell] != KIRI_NONE) {
         return SeedNear(&u->sites[siteAt[cell]], siteAt[cell], u->grid, u->mesh, cell);
     }
-    kiriSteps steps;
-    kiriGrid_GetSteps(u->grid, cell, &steps);
-    for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        int32_t owner = siteAt[steps.data[s].cell];
+    kiriSteps steps = kiriGrid_GetSteps(u->grid, cell);
+    for (int32_t s = 0; s < steps.end[2]; ++s) {
+        int32_t owner = siteAt[kiriSteps_At(&steps, s).cell];
         if (owner != KIRI_NONE) {
             kiriSeed seed = SeedNear(&u->sites[owner], owner, u->grid, u->mesh, cell);
             bool nearer = seed.distance < best.distance || (seed.distance == best.distance && owner < best.owner);
@@ -118,7 +115,8 @@ static bool MakeRegionRoom(const RegionUpdate* u)
     kiriRegions* r = u->regions;
     int32_t cell = r->siteAt.count, frame = r->material.count, cellCount = u->grid->cells.count;
     const kiriTally none = { .area = { 0, 0 } };
-    if (!kiriField_Resize(&r->field, u->memory, cellCount) || !kiriArray_Resize(u->memory, &r->siteAt, cellCount) ||
+    if (!kiriField_Resize(&r->field, u->memory, cellCount, true) ||
+        !kiriArray_Resize(u->memory, &r->siteAt, cellCount) ||
         !kiriArray_Resize(u->memory, &r->onBorder, cellCount) ||
         !kiriBorderCells_Resize(&r->border, u->memory, cellCount, u->siteCount) ||
         !kiriArray_Resize(u->memory, &r->isChanged, cellCount) ||
@@ -149,12 +147,11 @@ static void SetBorder(kiriRegions* regions, int32_t cell, bool isBorder)
 
 static void MarkDirtyAround(const RegionUpdate* u, int32_t cell)
 {
-    kiriSteps steps;
     if (cell != KIRI_NONE && kiriGrid_IsCell(u->grid, cell)) {
-        kiriGrid_GetSteps(u->grid, cell, &steps);
+        kiriSteps steps = kiriGrid_GetSteps(u->grid, cell);
         kiriField_MarkStepsDirty(&u->regions->field, cell);
-        for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
-            kiriField_MarkStepsDirty(&u->regions->field, steps.data[s].cell);
+        for (int32_t s = 0; s < steps.end[2]; ++s) {
+            kiriField_MarkStepsDirty(&u->regions->field, kiriSteps_At(&steps, s).cell);
         }
     }
 }
@@ -235,12 +232,11 @@ static bool StartRegionFlood(const RegionUpdate* u)
 
 static void FindBorder(const RegionUpdate* u, int32_t cell)
 {
-    kiriSteps steps;
-    kiriGrid_GetSteps(u->grid, cell, &steps);
+    kiriSteps steps = kiriGrid_GetSteps(u->grid, cell);
     const int32_t* owner = u->regions->field.owner.data;
     bool border = false;
-    for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        border |= owner[steps.data[s].cell] != owner[cell];
+    for (int32_t s = 0; s < steps.end[2]; ++s) {
+        border |= owner[kiriSteps_At(&steps, s).cell] != owner[cell];
     }
     SetBorder(u->regions, cell, border);
 }
@@ -248,12 +244,11 @@ static void FindBorder(const RegionUpdate* u, int32_t cell)
 /* Finds the borders around a cell that has another owner. */
 static void FindBordersAround(const RegionUpdate* u, int32_t cell)
 {
-    kiriSteps steps;
-    kiriGrid_GetSteps(u->grid, cell, &steps);
+    kiriSteps steps = kiriGrid_GetSteps(u->grid, cell);
     const int32_t* owner = u->regions->field.owner.data;
     FindBorder(u, cell);
-    for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        int32_t next = steps.data[s].cell;
+    for (int32_t s = 0; s < steps.end[2]; ++s) {
+        int32_t next = kiriSteps_At(&steps, s).cell;
         if (owner[next] != owner[cell]) {
             SetBorder(u->regions, next, true);
         } else if (u->regions->onBorder.data[next]) {
@@ -375,10 +370,10 @@ static kiriProgress DivideCells(const RegionUpdate* u, kiriQuota* quota)
 {
     enum { ITEMS_OF_CHANGE = 2 };
     kiriRegions* r = u->regions;
-    kiriRule rule = { u->grid, KIRI_FAR, NULL, NearestSiteSeed, u, NULL, { NULL, NULL } };
+    kiriRule rule = { u->grid, KIRI_FAR - 1, NULL, NearestSiteSeed, u, NULL, { NULL, NULL } };
     kiriProgress progress = KIRI_DONE;
     if (r->flooding) {
-        return kiriField_Flood(&r->field, &rule, quota);
+        return kiriField_Flood(&r->field, u->memory, &rule, quota);
     }
     if (!r->following) {
         progress = kiriField_Repair(&r->field, u->memory, &rule, quota);

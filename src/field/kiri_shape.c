@@ -51,10 +51,9 @@ static int32_t FarthestFor(const ShapeJob* job, int32_t x)
     int64_t farthest = distance[x];
     KIRI_ASSERT(owner[x] != KIRI_NONE && distance[x] < KIRI_FAR);
     if (job->regions->onBorder.data[x]) {
-        kiriSteps steps;
-        kiriGrid_GetSteps(job->grid, x, &steps);
-        for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
-            kiriStep step = steps.data[s];
+        kiriSteps steps = kiriGrid_GetSteps(job->grid, x);
+        for (int32_t s = 0; s < steps.end[2]; ++s) {
+            kiriStep step = kiriSteps_At(&steps, s);
             int64_t over = (int64_t)distance[x] + step.length + distance[step.cell];
             farthest = owner[step.cell] != owner[x] ? kiriMax(over, farthest) : farthest;
         }
@@ -138,10 +137,9 @@ static kiriSeed BorderSeed(const void* context, int32_t x)
     const int32_t* distance = job->regions->field.distance.data;
     kiriSeed seed = { x, KIRI_FAR, KIRI_NONE };
     if (job->regions->onBorder.data[x] && job->work->fromSite.distance.data[x] != KIRI_FAR) {
-        kiriSteps steps;
-        kiriGrid_GetSteps(job->grid, x, &steps);
-        for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
-            kiriStep step = steps.data[s];
+        kiriSteps steps = kiriGrid_GetSteps(job->grid, x);
+        for (int32_t s = 0; s < steps.end[2]; ++s) {
+            kiriStep step = kiriSteps_At(&steps, s);
             if (IsInRegion(job, step.cell) != IsInRegion(job, x)) {
                 int32_t half = (distance[step.cell] + step.length - distance[x] + 1) / 2;
                 seed.distance = kiriMin(half, seed.distance);
@@ -156,11 +154,16 @@ static kiriSeed BorderSeed(const void* context, int32_t x)
    along a path, e grows at least as fast as d. The flood may cross the border, as no step over it is shorter than the
    seed beyond. Whether a path continues depends only on e along it: so the fixed point is unique, and a repair finds
    it. */
+static bool HasWeightAt(const ShapeJob* job, int32_t cell, int64_t d)
+{
+    int64_t e = job->work->fromBorder.distance.data[cell];
+    return d != KIRI_FAR && (d > 2 * e || IsInRegion(job, cell));
+}
+
 static bool HasWeight(const void* context, int32_t cell)
 {
     const ShapeJob* job = context;
-    int64_t d = job->work->fromSite.distance.data[cell], e = job->work->fromBorder.distance.data[cell];
-    return d != KIRI_FAR && (d > 2 * e || IsInRegion(job, cell));
+    return HasWeightAt(job, cell, job->work->fromSite.distance.data[cell]);
 }
 
 /* Algorithm 2, with d the distance to the site and e the distance to the border of its region: linear along a
@@ -293,11 +296,10 @@ static bool MarkRegion(ShapeJob* job, int32_t item)
 /* Counts how far distances have to go for the sake of a cell that has changed, and of the cells beside it. */
 static void CountAround(ShapeJob* job, int32_t cell)
 {
-    kiriSteps steps;
-    kiriGrid_GetSteps(job->grid, cell, &steps);
+    kiriSteps steps = kiriGrid_GetSteps(job->grid, cell);
     CountCell(job, cell);
-    for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        int32_t beside = steps.data[s].cell;
+    for (int32_t s = 0; s < steps.end[2]; ++s) {
+        int32_t beside = kiriSteps_At(&steps, s).cell;
         if ((job->work->marks.data[beside] & (MARK_STEPS | MARK_REGION)) == 0) {
             CountCell(job, beside);
         }
@@ -351,10 +353,9 @@ static void LoadAround(const void* context, int32_t cell)
     const ShapeJob* job = context;
     uint8_t* mark = &job->work->marks.data[cell];
     if ((*mark & MARK_SEEN) == 0) {
-        kiriSteps steps;
-        kiriGrid_GetSteps(job->grid, cell, &steps);
-        for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
-            LoadBlock(job, kiriReach_BlockOf(steps.data[s].cell));
+        kiriSteps steps = kiriGrid_GetSteps(job->grid, cell);
+        for (int32_t s = 0; s < steps.end[2]; ++s) {
+            LoadBlock(job, kiriReach_BlockOf(kiriSteps_At(&steps, s).cell));
         }
         *mark |= MARK_SEEN;
     }
@@ -367,16 +368,15 @@ static void MarkBorderSeedsDirty(ShapeJob* job, int32_t cell)
     KIRI_ASSERT((job->work->marks.data[cell] & MARK_REGION) != 0);
     kiriField* field = &job->work->fromBorder;
     bool inside = IsInRegion(job, cell), turned = inside != (job->work->wasOwner.data[cell] == job->frame);
-    kiriSteps steps;
     LoadAround(job, cell);
     if (turned) {
         kiriField_MarkDirty(field, cell);
     } else if (!job->regions->onBorder.data[cell]) {
         return;
     }
-    kiriGrid_GetSteps(job->grid, cell, &steps);
-    for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        int32_t beside = steps.data[s].cell;
+    kiriSteps steps = kiriGrid_GetSteps(job->grid, cell);
+    for (int32_t s = 0; s < steps.end[2]; ++s) {
+        int32_t beside = kiriSteps_At(&steps, s).cell;
         if (turned || IsInRegion(job, beside) != inside) {
             kiriField_MarkStepsDirty(field, cell);
             kiriField_MarkStepsDirty(field, beside);
@@ -389,13 +389,12 @@ static void MarkBorderSeedsDirty(ShapeJob* job, int32_t cell)
 static void MarkStepsAround(ShapeJob* job, int32_t cell)
 {
     kiriShapeWork* work = job->work;
-    kiriSteps steps;
     kiriField_MarkStepsDirty(&work->fromSite, cell);
     kiriField_MarkStepsDirty(&work->fromBorder, cell);
     LoadAround(job, cell);
-    kiriGrid_GetSteps(job->grid, cell, &steps);
-    for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
-        int32_t beside = steps.data[s].cell;
+    kiriSteps steps = kiriGrid_GetSteps(job->grid, cell);
+    for (int32_t s = 0; s < steps.end[2]; ++s) {
+        int32_t beside = kiriSteps_At(&steps, s).cell;
         if (work->fromSite.distance.data[beside] == KIRI_FAR && (work->marks.data[beside] & MARK_STEPS) != 0) {
             kiriField_MarkStepsDirty(&work->fromSite, beside);
         }
@@ -465,11 +464,10 @@ static void LoadChanges(ShapeJob* job, int32_t limit)
         LoadBeyond(job, limit);
     }
     if ((work->marks.data[cell] & MARK_STEPS) != 0) {
-        kiriSteps steps;
         LoadAround(job, cell);
-        kiriGrid_GetSteps(job->grid, cell, &steps);
-        for (int32_t s = 0; s < steps.end[KIRI_STEP_LENGTHS - 1]; ++s) {
-            kiriField_MarkStepsDirty(&work->fromSite, steps.data[s].cell);
+        kiriSteps steps = kiriGrid_GetSteps(job->grid, cell);
+        for (int32_t s = 0; s < steps.end[2]; ++s) {
+            kiriField_MarkStepsDirty(&work->fromSite, kiriSteps_At(&steps, s).cell);
         }
     }
 }
@@ -505,7 +503,7 @@ static bool StartFromSite(ShapeJob* job)
 }
 
 /* Starts the distances to the border. Where the distance to the site has changed, ways to the border may pass that did
-   not, or no longer. */
+   not, or no longer, and seeds may come or go. */
 static bool StartFromBorder(ShapeJob* job)
 {
     enum { MARKED_AN_ITEM = 4, SEEDED_AN_ITEM = 16 };
@@ -513,10 +511,11 @@ static bool StartFromBorder(ShapeJob* job)
     for (; work->fromSite.log.count > 0; --work->fromSite.log.count) {
         int32_t last = work->fromSite.log.count - 1;
         kiriSeed was = work->fromSite.log.data[last];
-        bool isOther = work->fromSite.distance.data[was.cell] != was.distance;
-        bool mayTurn = isOther && (work->marks.data[was.cell] & MARK_REGION) != 0;
+        int32_t is = work->fromSite.distance.data[was.cell];
+        bool mayTurn = is != was.distance && (work->marks.data[was.cell] & MARK_REGION) != 0;
         work->debt += mayTurn || last % MARKED_AN_ITEM == 0;
-        if (isOther) {
+        if ((is == KIRI_FAR) != (was.distance == KIRI_FAR) ||
+            HasWeightAt(job, was.cell, is) != HasWeightAt(job, was.cell, was.distance)) {
             kiriField_MarkDirty(&work->fromBorder, was.cell);
         }
         if (mayTurn) {
@@ -543,7 +542,7 @@ static bool MeasureField(ShapeJob* job, kiriField* field, int32_t limit, kiriPas
     bool moved = job->work->frames.data[job->frame].moved;
     const kiriRule rule = { job->grid, limit, pass, seed, job, moved ? NULL : LoadAround, { NULL, NULL } };
     int32_t k = field->settled.count;
-    kiriProgress progress = moved ? kiriField_Flood(field, &rule, job->quota)
+    kiriProgress progress = moved ? kiriField_Flood(field, job->memory, &rule, job->quota)
                                   : kiriField_Repair(field, job->memory, &rule, job->quota);
     for (; moved && k < field->settled.count; ++k) {
         LoadBlock(job, kiriReach_BlockOf(field->settled.data[k]));
@@ -724,7 +723,8 @@ static bool ReserveShape(ShapeJob* job)
     int32_t whole = blocks * KIRI_BLOCK_CELLS, c = shape->spans.count;
     int32_t marks = work->marks.count, loaded = work->isLoaded.count;
     if (!kiriReaches_Resize(&shape->reaches, memory, whole, job->siteCount) ||
-        !kiriField_Resize(&work->fromSite, memory, whole) || !kiriField_Resize(&work->fromBorder, memory, whole) ||
+        !kiriField_Resize(&work->fromSite, memory, whole, true) ||
+        !kiriField_Resize(&work->fromBorder, memory, whole, true) ||
         !kiriArray_Resize(memory, &work->marks, whole) || !kiriArray_Reserve(memory, &work->loaded, blocks) ||
         !kiriArray_Resize(memory, &work->isLoaded, blocks) || !kiriArray_Resize(memory, &shape->spans, cells) ||
         !kiriArray_Resize(memory, &work->wasOwner, cells) || !kiriArray_Resize(memory, &work->counted, cells) ||

@@ -199,13 +199,12 @@ kiriProgress kiriPlacer_GoOnWithPiece(kiriPlacer* placer, kiriMemory* memory, co
         return KIRI_DONE;
     }
     for (int32_t* k = &placer->work->cursor; *k < placer->cells.count; ++*k) {
-        kiriSteps steps;
-        kiriGrid_GetStepsTo(grid, placer->cells.data[*k], 1, &steps);
+        kiriSteps steps = kiriGrid_GetSteps(grid, placer->cells.data[*k]);
         if (*k % CELLS_AN_ITEM == 0 && !kiriQuota_Take(quota, 1)) {
             return KIRI_MORE;
         }
         for (int32_t s = 0; s < steps.end[0]; ++s) {
-            if (!TakeCell(placer, memory, steps.data[s].cell)) {
+            if (!TakeCell(placer, memory, kiriSteps_At(&steps, s).cell)) {
                 return KIRI_FAILED;
             }
         }
@@ -299,7 +298,7 @@ static bool StartFlood(PlacerJob* job, kiriField* field, int32_t first, int32_t 
 static kiriProgress Flood(PlacerJob* job, kiriField* field, const int32_t* below, const int32_t* andBelow)
 {
     kiriRule rule = { job->grid, KIRI_FAR - 1, NULL, NULL, NULL, NULL, { below, andBelow } };
-    return kiriField_Flood(field, &rule, job->quota);
+    return kiriField_Flood(field, job->memory, &rule, job->quota);
 }
 
 /* Visits cells of a list, from the cursor on. */
@@ -678,7 +677,7 @@ static bool StartEnds(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* gr
             return false;
         }
     }
-    if (!kiriField_Resize(&work->ends, memory, grid->cells.count)) {
+    if (!kiriField_Resize(&work->ends, memory, grid->cells.count, false)) {
         return false;
     }
     kiriField_Reset(&work->ends);
@@ -690,8 +689,8 @@ static bool MakePlacerRoom(kiriPlacer* placer, kiriMemory* memory, const kiriGri
 {
     kiriPlacerWork* work = placer->work;
     int32_t cells = grid->cells.count;
-    return (work->old != &work->flooded || kiriField_Resize(&work->flooded, memory, cells)) &&
-           kiriField_Resize(&work->fresh, memory, cells) && kiriArray_Resize(memory, &work->sampled, cells) &&
+    return (work->old != &work->flooded || kiriField_Resize(&work->flooded, memory, cells, false)) &&
+           kiriField_Resize(&work->fresh, memory, cells, false) && kiriArray_Resize(memory, &work->sampled, cells) &&
            kiriArray_Resize(memory, &work->holds, cells) &&
            kiriArray_Resize(memory, &work->blocks, placer->cells.count / SAMPLE_CELLS + 1) &&
            kiriArray_Resize(memory, &work->targets, kiriMax(count, 1)) &&

@@ -212,11 +212,10 @@ static void InsertStep(kiriStencil* stencil, const kiriGrid* grid, kiriStep step
    cell. */
 static bool GatherSteps(kiriStencil* stencil, kiriMemory* memory, const kiriGrid* grid, int32_t cell)
 {
-    kiriSteps steps, more;
-    kiriGrid_GetStepsTo(grid, cell, 2, &steps);
+    kiriSteps steps = kiriGrid_GetSteps(grid, cell);
     bool plain = steps.end[1] == 8 && grid->whole.data[grid->cells.data[cell].square];
     for (int32_t k = 0; plain && k < steps.end[1]; ++k) {
-        plain = grid->whole.data[grid->cells.data[steps.data[k].cell].square];
+        plain = grid->whole.data[grid->cells.data[kiriSteps_At(&steps, k).cell].square];
     }
     int32_t end = steps.end[plain ? 1 : 0];
     stencil->steps.count = 0;
@@ -225,16 +224,16 @@ static bool GatherSteps(kiriStencil* stencil, kiriMemory* memory, const kiriGrid
     }
     stencil->steps.data[stencil->steps.count++] = (kiriStep){ cell, 0, 0, 0 };
     for (int32_t k = 0; k < end; ++k) {
-        InsertStep(stencil, grid, steps.data[k]);
+        InsertStep(stencil, grid, kiriSteps_At(&steps, k));
     }
     for (int32_t k = 0; !plain && k < end; ++k) {
-        const kiriStep to = steps.data[k];
-        kiriGrid_GetStepsTo(grid, to.cell, 1, &more);
+        const kiriStep to = kiriSteps_At(&steps, k);
+        kiriSteps more = kiriGrid_GetSteps(grid, to.cell);
         if (!kiriArray_Reserve(memory, &stencil->steps, (int64_t)stencil->steps.count + more.end[0])) {
             return false;
         }
         for (int32_t m = 0; m < more.end[0]; ++m) {
-            kiriStep on = more.data[m];
+            kiriStep on = kiriSteps_At(&more, m);
             if ((to.u != 0) != (on.u != 0)) {
                 on.u = (int8_t)(on.u + to.u);
                 on.v = (int8_t)(on.v + to.v);

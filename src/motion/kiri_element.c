@@ -219,9 +219,9 @@ static bool FloodFromPoints(PointBuilder* b)
             return false;
         }
     }
-    return kiriField_Resize(&work->field, b->memory, b->grid->cells.count) &&
+    return kiriField_Resize(&work->field, b->memory, b->grid->cells.count, false) &&
            kiriField_Start(&work->field, b->memory, work->seeds.data, work->seeds.count) &&
-           kiriField_Flood(&work->field, &rule, &endless) == KIRI_DONE;
+           kiriField_Flood(&work->field, b->memory, &rule, &endless) == KIRI_DONE;
 }
 
 /* Divides the piece into the regions of its points, as placing does: the cell of a point belongs to the point. */

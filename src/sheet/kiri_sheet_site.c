@@ -275,10 +275,9 @@ int32_t kiriSites_MostIn(int32_t cells)
 bool kiriSites_IsCrowded(const kiriGrid* grid, const kiriSites* sites, const kiriSite* site, const int32_t* holder)
 {
     double least = 0.999 * grid->side; /* points of the caller are floats */
-    kiriSteps steps;
-    kiriGrid_GetStepsTo(grid, site->cell, 2, &steps);
+    kiriSteps steps = kiriGrid_GetSteps(grid, site->cell);
     for (int32_t s = 0; s < steps.end[1]; ++s) {
-        int32_t other = holder[steps.data[s].cell];
+        int32_t other = holder[kiriSteps_At(&steps, s).cell];
         if (other != KIRI_NONE) {
             kiriVec2 off = kiriVec2_Sub(sites->data[other].at, site->at);
             if (kiriVec2_Dot(off, off) < least * least) {
