@@ -19,8 +19,7 @@ const (
 	Ok ResultCode = 0
 	// success; work is left for later ticks
 	Pending ResultCode = 1
-	// null pointer, NaN, infinite, or outside the documented range; or a position, velocity or turn of a sheet or
-	// obstacle would exceed 4e37 m, m/s or 1/s
+	// null, NaN, infinite, outside the documented range, or beyond 4e37 m, m/s or 1/s
 	ErrorArgument ResultCode = -1
 	// the def was not filled by its kiriDefault function: call that first
 	ErrorDef ResultCode = -2
@@ -207,8 +206,8 @@ type Model int32
 const (
 	// Rigid frames joined by links: paper, foil, stiff cloth. 6 unknowns a frame, coupled with its neighbours.
 	ModelLinks Model = 0
-	// Affine frames joined by links: cloth and rubber that stretch visibly inside a region. 12 unknowns a frame, coupled
-	// with neighbours of neighbours: a tick takes five to seven times as long. From 1e8 Pa on use 8 `iterations`.
+	// Affine frames joined by links: cloth and rubber that stretch visibly inside a region. 12 unknowns a frame: a tick
+	// takes five to seven times as long. From 1e8 Pa on use 8 `iterations`.
 	ModelAffine Model = 1
 	// Affine frames, strains at integration points: the scheme of the paper, for comparison. 12 unknowns a frame. The
 	// thinner the sheet, the less it bends; the manual has figures (accuracy).
@@ -223,9 +222,8 @@ var namesModel = map[Model]string{
 
 func (value Model) String() string { return namesModel[value] }
 
-// The surface between the frames. Rays, blades, obstacles, other sheets and contacts of rest points meet this
-// surface; pins, clamps and holds hold it. Where nothing touches or holds the sheet, skinning does not change its
-// motion. Collision points stay on the linear surface.
+// The surface between the frames, which rays, blades, contacts, pins and clamps meet. Where nothing touches or holds
+// the sheet, skinning does not change its motion. Collision points stay on the linear surface.
 type Skinning int32
 
 const (
@@ -246,9 +244,8 @@ func (value Skinning) String() string { return namesSkinning[value] }
 type TimeStepping int32
 
 const (
-	// TR-BDF2: alternates trapezoid and BDF2, of second order. Keeps the energy of motion; the manual has figures
-	// (accuracy). Backward Euler replaces it in steps in which a contact touches a piece, a pin or hold is made, moved
-	// or removed, or a frame is new or turns by more than a radian.
+	// TR-BDF2, of second order: keeps the energy of motion. Backward Euler replaces it in steps with a contact, a new or
+	// moved pin or hold, a new frame or a fast turn; the manual has figures (accuracy).
 	TimeSteppingSecondOrder TimeStepping = 0
 	// Backward Euler, of first order: takes energy out of a swing, more in longer steps.
 	TimeSteppingEuler TimeStepping = 1
@@ -280,9 +277,7 @@ func (value PinType) String() string { return namesPinType[value] }
 
 // A body that sheets touch: a floor, a ball, a crate of another engine. It moves on with its velocities; forces do
 // not move it. A host with an engine sets pose and velocities before each tick, and applies the impulse of
-// kiriObstacle_GetState to the engine's body after it. Contacts follow its motion within the tick, and push no harder
-// than its mass resists. The visible surface of sheets stays half their contactThickness away. A sleeping sheet wakes
-// where an obstacle near it comes, goes, or has moved by half a second of its sleepSpeed. Lengths are up to 1e6 m.
+// kiriObstacle_GetState to the engine's body after it (manual, contact). Lengths are up to 1e6 m.
 type ObstacleType int32
 
 const (
@@ -376,10 +371,9 @@ type ObstacleID uint32
 type BladeID uint32
 
 // Limits the work of one tick, over all sheets. 0: no limit. Triangles, cells and samples share one allowance: using
-// 30 % of one leaves 70 % of the others. A single step that exceeds the whole limit is not split. It runs alone in
-// its tick. Other work goes on in the next tick. Until a cut takes effect its lips move together. The tick of the
-// effect depends on the budget. The mesh, grid, regions, weights and sites of frames after all work is done do not,
-// bit for bit; motion differs. Sheets take turns. The manual has examples and the order of turns (budget).
+// 30 % of one leaves 70 % of the others. Other work goes on in the next tick. The tick in which a cut takes effect
+// depends on the budget; the mesh, grid, regions, weights and sites of frames after all work is done do not, bit for
+// bit. The manual has examples, single steps that exceed a limit, and the order of turns (budget).
 type Budget struct {
 	// split by blades; 0, or KIRI_LEAST_TRIANGLES and more
 	Triangles int32
@@ -387,10 +381,8 @@ type Budget struct {
 	Cells int32
 	// vertices and collision points with new weights, and the cost of the commit, paid before it
 	Samples int32
-	// linear systems, 30 to 60 us each. A large system counts as several, see the manual (budget). A sheet with fewer
-	// systems than substeps takes longer substeps. Pieces that do not fit take turns: the others stay where they are in
-	// this tick, with their velocity, and come first in the next. A piece whose system exceeds the whole limit is moved
-	// alone
+	// linear systems, 30 to 60 us each; a large one counts as several. A sheet with too few takes longer substeps, and
+	// pieces take turns, see the manual (budget)
 	Iterations int32
 }
 
@@ -474,10 +466,8 @@ type Material struct {
 	FlexDamping float32
 }
 
-// Work against accuracy. The presets were measured on a swinging strip and a swinging square of paper. Error is the
-// rms distance of vertices from a much finer run, over their rms way. FAST: at most 2 %. BALANCED: 0.8 %. ACCURATE:
-// 0.4 %. Narrow arms that a cut leaves need more frames (`accuracy` of kiriSheetDef). The manual has details
-// (accuracy).
+// Work against accuracy. Errors of a swinging strip and square, rms over their way: FAST at most 2 %, BALANCED 0.8 %,
+// ACCURATE 0.4 %. Narrow arms that a cut leaves need more frames. The manual has details (accuracy).
 type Quality struct {
 	// control frames in a row along a strip; a square needs 3 x 3, 5 x 5, 9 x 9
 	FramesAlong int32
@@ -489,18 +479,16 @@ type Quality struct {
 	Substeps int32
 }
 
-// Options of the paper, for comparison; part of the sheet def.
+// Options of the paper, for comparison; part of the sheet def. Default 0, but for integrationOrder.
 type PaperOptions struct {
-	// 1: every cut rebuilds grid, regions and shape functions from scratch, to the same bits. Default 0.
+	// 1: every cut rebuilds grid, regions and shape functions from scratch, to the same bits
 	FromScratch int32
-	// 1: only new frames take their motion from the surface: it jumps at cuts, and momentum is not kept. Default 0.
+	// 1: only new frames take their motion from the surface: it jumps, momentum is not kept
 	Popping int32
-	// 1: the weights of frames are linear between frames, so the surface has a kink at each frame. Always so with
-	// KIRI_MODEL_POINTS. Default 0: the slope of weights is zero at the frames.
+	// 1: weights are linear between frames: a kink at each; always so with KIRI_MODEL_POINTS
 	LinearWeights int32
-	// KIRI_MODEL_POINTS only. Points are spread evenly over the sheet, at least one in every piece; default 0: four for
-	// each of frameCount. Work is proportional to them. Order 1 (default) has a constant strain in the material around a
-	// point, order 2 a linear strain, at four times the work a point. 0 to 1048576
+	// KIRI_MODEL_POINTS only: points spread evenly over the sheet, one in every piece at least; 0: four for each of
+	// frameCount. Strain around a point is constant (order 1, default) or linear (2: four times the work). 0 to 1048576
 	IntegrationPoints int32
 	// 1 or 2
 	IntegrationOrder int32
@@ -509,36 +497,34 @@ type PaperOptions struct {
 // A sheet: its rest shape, start, material, and computation.
 type SheetDef struct {
 	cookie uint32
-	// The rest shape: triangles in the rest plane, counter-clockwise, at most two at an edge. Holes and several parts
-	// are allowed. kiriCreateSheet copies them and leaves out vertices without a triangle. Two edges in the same place
-	// with different vertices are the lips of an existing cut; weldDistance closes them. 2 floats (u, v) a vertex
+	// The rest shape: triangles in the rest plane, counter-clockwise, at most two at an edge; holes and several parts
+	// are allowed. Two edges in the same place with different vertices are the lips of a cut (manual, meshes). 2 floats
+	// (u, v) a vertex
 	RestPositions [][2]float32
 	// 3 a triangle
 	Indices [][3]int32
-	// Start: x = position + u axisU + v axisV (m, world). The axes are orthonormal.
+	// Start: x = position + u axisU + v axisV (m, world), with orthonormal axes; and velocity, m/s.
 	Position [3]float32
+	// Start: x = position + u axisU + v axisV (m, world), with orthonormal axes; and velocity, m/s.
 	AxisU [3]float32
+	// Start: x = position + u axisU + v axisV (m, world), with orthonormal axes; and velocity, m/s.
 	AxisV [3]float32
-	// m/s
+	// Start: x = position + u axisU + v axisV (m, world), with orthonormal axes; and velocity, m/s.
 	Velocity [3]float32
 	Material Material
 	// grid squares along the longer side, 1 to 4096; default 32
 	GridResolution int32
-	// m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not. A cut keeps within half
-	// of it of its line, or goes along a lip this near; 0: 1e-4 of the longer side
+	// m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not. 0: 1e-4 of the longer
+	// side. The manual has more (cutting)
 	SnapDistance float32
 	// Merges vertices nearer than this (m, rest plane; 0 or more): for seams of texture coordinates, and triangles
-	// without shared vertices (STL). Each vertex becomes the nearest kept vertex before it within this distance, or is
-	// kept. No vertex moves farther, and a chain of near vertices stays several points. A triangle with two corners at
-	// one vertex is left out. kiriSheet_CopySources leads to the vertices of the def. Default 0: no merging.
+	// without shared vertices (STL). Default 0: no merging. The manual has the rule (meshes).
 	WeldDistance float32
 	// Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at least; null: frameCount
-	// frames are spread evenly, some in pairs at both sides of slit ends. The grid carries at most one frame for every
-	// two squares of material: a def with more gives KIRI_ERROR_ARGUMENT, and re-sampling stops there. A new sheet has
-	// at most frameCount frames, or one for each piece where there are more pieces. frameCount 0: regions are split,
-	// after cuts too, until 2.45 times the radius of gyration is at most 1.25 frameLength. frameLength 0: derived from
-	// `accuracy`, the relative error of the shape under the sheet's own weight, and at least three grid squares.
-	// kiriSheet_EstimateError checks the result. 0, or 1 and more; default 5
+	// frames are spread evenly, at most one for every two squares of material. frameCount 0: regions are split, after
+	// cuts too, to frameLength; frameLength 0: it follows from `accuracy`, the relative error of the shape under the
+	// sheet's own weight. The manual has the rules (accuracy), kiriSheet_EstimateError checks the result. 0, or 1 and
+	// more; default 5
 	FrameCount int32
 	// m; used where frameCount is 0; default 0
 	FrameLength float32
@@ -548,34 +534,29 @@ type SheetDef struct {
 	// re-sampling stops here; default 256
 	MaxFrames int32
 	// Re-sampling (section 5 of the paper): a frame whose weight exceeds rigidWeight over an area larger than rigidArea
-	// (m^2) gets new frames beside it. A new sheet is re-sampled only with frameCount 0. Later it happens when a cut
-	// ends or meets the border or another cut, where the area is also larger than in the new sheet. A rigid sheet has
-	// frameCount 1 and maxFrames 1. rigidArea 0: a quarter of the area of a frame at the start. default 0.95
+	// (m^2) gets new frames beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter of the area of a frame
+	// at the start. A rigid sheet has frameCount 1 and maxFrames 1. The manual says when (accuracy). default 0.95
 	RigidWeight float32
 	// default 0
 	RigidArea float32
-	// A piece with less area (m^2) is a crumb: it gets one frame if it has none, and no more. Default 0.
+	// m^2: a smaller piece is a crumb: it gets one frame if it has none, and no more. Default 0
 	CrumbArea float32
 	// of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5
 	Friction float32
-	// m, 0 or more: distance between sheets and pieces, and twice the distance to obstacles. 0: the material's
-	// thickness, at least a 20th of a grid square. Default 0
+	// m: distance between sheets and pieces, and twice the distance to obstacles. 0 (default): the material's thickness,
+	// at least a 20th of a grid square
 	ContactThickness float32
 	// obstacles and sheets touch if they share a set bit. Default: all
 	Groups uint32
-	// 1: its pieces touch each other, and other sheets that have it set; not where one of two sheets is planar. Planes
-	// keep the upper piece, against gravity, on its side of the lower one; side by side, the piece that is free, or the
-	// lighter one. So piles keep their order. Folds of one piece do not touch each other. Pieces that touch wake and
-	// fall asleep together. The manual lists the limits of the method (contact). Default 0.
+	// 1: its pieces touch each other, and other sheets that have it set; not where one of two sheets is planar. Folds of
+	// one piece do not touch each other. The manual has rules and limits (contact). Default 0.
 	TouchesSheets int32
 	// spread evenly over the sheet, at least one in every piece; default 0: none
 	CollisionPoints int32
 	// Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
 	Iterations int32
-	// A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a second.
-	// It does not move, and costs almost nothing. A cut that changes it wakes it when the cut takes effect; so do a new
-	// pin, pose, hold or load, contacts that differ, and moving things that come near. Gravity, wind, settings and
-	// kiriSheet_Wake wake all pieces of the sheet. Default 0.001; 0: no piece sleeps.
+	// A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a second,
+	// and costs almost nothing until something new wakes it (manual, budget). Default 0.001; 0: no piece sleeps.
 	SleepSpeed float32
 	// KIRI_MODEL_..., default KIRI_MODEL_LINKS
 	Model Model
@@ -586,12 +567,9 @@ type SheetDef struct {
 	Planar int32
 	// KIRI_TIME_STEPPING_..., default KIRI_TIME_STEPPING_SECOND_ORDER
 	TimeStepping TimeStepping
-	// A cut that takes effect changes weights, and the surface would jump between frames. The difference fades within
-	// this time (s), and so does that in the strain of links whose borders moved. Default 0.2; 0: at once.
+	// s: jumps of the surface and of strains fade within this when a cut takes effect. Default 0.2
 	FadeTime float32
-	// 1: every tick computes normals of the mesh. 0: kiriMesh has no normals, and kiriSheet_CopyVertices copies none;
-	// this saves half of the time of linear skinning. The sheet moves the same, bit for bit: contact and
-	// kiriSheet_GetSolid compute their own normals. kiriSheet_GetPoint is the same to rounding. Default 1.
+	// 1: every tick computes normals (default). 0: kiriMesh has none, which saves time
 	Normals int32
 	// default: all off
 	Paper PaperOptions
@@ -603,26 +581,22 @@ type SheetSettings struct {
 	Material Material
 	// re-sampling stops here; default 256
 	MaxFrames int32
-	// A piece with less area (m^2) is a crumb: it gets one frame if it has none, and no more. Default 0.
+	// m^2: a smaller piece is a crumb: it gets one frame if it has none, and no more. Default 0
 	CrumbArea float32
 	// of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5
 	Friction float32
-	// m, 0 or more: distance between sheets and pieces, and twice the distance to obstacles. 0: the material's
-	// thickness, at least a 20th of a grid square. Default 0
+	// m: distance between sheets and pieces, and twice the distance to obstacles. 0 (default): the material's thickness,
+	// at least a 20th of a grid square
 	ContactThickness float32
 	// obstacles and sheets touch if they share a set bit. Default: all
 	Groups uint32
-	// 1: its pieces touch each other, and other sheets that have it set; not where one of two sheets is planar. Planes
-	// keep the upper piece, against gravity, on its side of the lower one; side by side, the piece that is free, or the
-	// lighter one. So piles keep their order. Folds of one piece do not touch each other. Pieces that touch wake and
-	// fall asleep together. The manual lists the limits of the method (contact). Default 0.
+	// 1: its pieces touch each other, and other sheets that have it set; not where one of two sheets is planar. Folds of
+	// one piece do not touch each other. The manual has rules and limits (contact). Default 0.
 	TouchesSheets int32
 	// Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
 	Iterations int32
-	// A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a second.
-	// It does not move, and costs almost nothing. A cut that changes it wakes it when the cut takes effect; so do a new
-	// pin, pose, hold or load, contacts that differ, and moving things that come near. Gravity, wind, settings and
-	// kiriSheet_Wake wake all pieces of the sheet. Default 0.001; 0: no piece sleeps.
+	// A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a second,
+	// and costs almost nothing until something new wakes it (manual, budget). Default 0.001; 0: no piece sleeps.
 	SleepSpeed float32
 	// KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR
 	Skinning Skinning
@@ -630,16 +604,13 @@ type SheetSettings struct {
 	TimeStepping TimeStepping
 	// stays 0 with paper.popping
 	FadeTime float32
-	// 1: every tick computes normals of the mesh. 0: kiriMesh has no normals, and kiriSheet_CopyVertices copies none;
-	// this saves half of the time of linear skinning. The sheet moves the same, bit for bit: contact and
-	// kiriSheet_GetSolid compute their own normals. kiriSheet_GetPoint is the same to rounding. Default 1.
+	// 1: every tick computes normals (default). 0: kiriMesh has none, which saves time
 	Normals int32
 }
 
 // The triangles to draw, as after the last tick. revision grows when indices or vertices are added or changed. Rest
-// positions are floats, with a spacing of 6e-8 of the distance from the origin of the rest plane: triangles of about
-// that size may look flat or inverted. The library computes with the positions of the def to 2^-29 of the sheet;
-// sourceTriangles and sourceWeights have that precision.
+// positions are floats, so small triangles far from the origin of the rest plane may look flat in them;
+// sourceTriangles and sourceWeights have the precision of the library, 2^-29 of the sheet.
 type Mesh struct {
 	// 3 a vertex, m, world
 	Positions View[[3]float32]
@@ -680,8 +651,7 @@ type Dirty struct {
 }
 
 // The surface with a thickness, to draw: a closed mesh, with a rim along borders, holes and lips. First the vertices
-// of kiriMesh on the side of the normal, then the same on the other side, then four for each border edge, so rims are
-// flat.
+// of kiriMesh on the side of the normal, then the same on the other side, then four for each border edge.
 type Solid struct {
 	// 3 a vertex, m, world
 	Positions View[[3]float32]
@@ -710,8 +680,7 @@ type Counts struct {
 	CollisionPoints int32
 }
 
-// Area (m^2), mass (kg), kinetic energy and elastic energy (J), linear and angular momentum about the world's origin
-// (kg m/s, kg m^2/s), centre of mass (m).
+// m^2, kg, J, J; centre of mass, m; linear and angular momentum about the world's origin, kg m/s and kg m^2/s.
 type Totals struct {
 	Area float64
 	Mass float64
@@ -748,9 +717,9 @@ type PointState struct {
 	Frame FrameID
 }
 
-// A connected part of a sheet. Any of its frames names it. Indices from 0 to kiriCounts.pieces, in the order of first
-// frames, visit all pieces: they change when a piece comes off or goes, and kiriFrame_GetPiece returns the current
-// one. A cut with pending work has not separated anything yet. Momentum is about the world's origin.
+// A connected part of a sheet. Any of its frames names it. Indices from 0 to kiriCounts.pieces visit all pieces; they
+// change when a piece comes off or goes, and kiriFrame_GetPiece returns the current one. A cut with pending work has
+// not separated anything yet. Momentum is about the world's origin.
 type PieceState struct {
 	// m^2, kg
 	Area float64
@@ -801,7 +770,7 @@ type FrameState struct {
 	RestPoint [2]float32
 	// m, world: of the rest point
 	Position [3]float32
-	// columns: direction of u, direction of v, normal; of an affine frame the columns of A, which stretch with the sheet
+	// columns: direction of u, of v, normal; an affine frame: columns of A, which stretch
 	Rotation [9]float32
 	// m/s
 	Velocity [3]float32
@@ -816,9 +785,8 @@ type FrameState struct {
 }
 
 // Air that moves past the sheet. v is the velocity of the air less the velocity of the material, n the normal: each
-// square metre gets density / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)). Zero velocity with drag and lift above
-// zero: still air, which resists. All zero: none. It acts at four points of the region of each frame, and follows the
-// motion within the tick, so strong wind is stable. A sheet can sleep in constant wind.
+// square metre gets density / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)). All zero: none. A sheet can sleep in
+// constant wind, and still air (zero velocity) resists.
 type Wind struct {
 	// m/s
 	Velocity [3]float32
@@ -841,9 +809,8 @@ type PinDef struct {
 	Stiffness float32
 	// N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never
 	BreakForce float32
-	// or 0. The target moves with this obstacle from its place at creation or at the last kiriPin_SetTarget. The
-	// obstacle feels the pin (kiriObstacle_GetState); an obstacle with mass yields within the tick. If it is destroyed
-	// the target stays
+	// or 0. The target moves with this obstacle, which feels the pin (kiriObstacle_GetState) and yields by its mass. If
+	// it is destroyed the target stays
 	Obstacle ObstacleID
 }
 
@@ -868,8 +835,7 @@ type PinState struct {
 
 // A contact of a point of the material: the plane dot(normal, x) = offset keeps the point on its upper side, and
 // Coulomb friction acts along the plane. The host computes the plane for each tick from the visible surface of the
-// sheet. A contact may lie ahead of the point; if the point does not reach it in the tick, it costs little and does
-// nothing.
+// sheet. A contact that the point does not reach in the tick costs little and does nothing.
 type Contact struct {
 	// index of the collision point; -1: restPoint names the point
 	Point int32
@@ -953,9 +919,9 @@ type ObstacleState struct {
 	Rotation [9]float32
 	Velocity [3]float32
 	AngularVelocity [3]float32
-	// N s, N m s about its centre of mass: from sheets and pins in the last tick
+	// N s, N m s about its centre of mass: of sheets and pins in the last tick
 	Impulse [3]float64
-	// N s, N m s about its centre of mass: from sheets and pins in the last tick
+	// N s, N m s about its centre of mass: of sheets and pins in the last tick
 	AngularImpulse [3]float64
 	// that pushed in the last tick
 	Contacts int32
@@ -1167,29 +1133,26 @@ func (def *ObstacleDef) fromC(c *C.kiriObstacleDef) {
 	def.Groups = uint32(c.groups)
 }
 
-// Returns the version of the library, as KIRI_VERSION.
+// Return the version of the library, as KIRI_VERSION; the name of a result, as "KIRI_OK"; a line with its meaning.
 func GetVersion() int32 {
 	return int32(C.kiriGetVersion())
 }
 
-// Returns the name of a result, such as "KIRI_OK"; "unknown" for another number.
+// Return the version of the library, as KIRI_VERSION; the name of a result, as "KIRI_OK"; a line with its meaning.
 func GetResultName(result ResultCode) string {
 	return C.GoString(C.kiriGetResultName(C.kiriResult(result)))
 }
 
-// Returns one line: the meaning of a result, and its cure. Use it after calls that have no world to keep a line, such
-// as kiriCreateWorld with a def of zeros (KIRI_ERROR_DEF).
+// Return the version of the library, as KIRI_VERSION; the name of a result, as "KIRI_OK"; a line with its meaning.
 func GetResultText(result ResultCode) string {
 	return C.GoString(C.kiriGetResultText(C.kiriResult(result)))
 }
 
 // Advances by one fixed step of dt seconds (1e-6 to 10), in `substeps` equal parts (1 to 64): takes the pending cut
-// points, then moves every sheet. KIRI_PENDING: the budget is spent, and events name the cuts that still have work; a
-// sheet or some of its pieces may have stood still for want of iterations. KIRI_ERROR_MEMORY: the work on a cut, or a
-// piece that leaves, was refused memory and goes on in the next tick, as if the budget were spent; the sheets moved.
-// Only without memory for contacts or ids did nothing move: the line says which. KIRI_ERROR_LIMIT: no ids are left
-// for new frames; nothing moves until frames are destroyed. KIRI_DIVERGED: sheets that events name were stopped,
-// others moved; KIRI_EVENT_DEFERRED tells of pending work.
+// points, then moves every sheet. KIRI_PENDING: the budget is spent; events name the cuts that still have work.
+// KIRI_ERROR_MEMORY: work on a cut, or a piece that leaves, goes on in the next tick; the sheets moved, but where
+// memory for contacts or ids is missing. KIRI_ERROR_LIMIT: no ids are left for new frames; nothing moves until frames
+// are destroyed. KIRI_DIVERGED: sheets that events name were stopped, others moved.
 func (w *World) Tick(dt float32, substeps int32) (bool, error) {
 	if err := w.check(); err != nil {
 		return false, err
@@ -1203,33 +1166,12 @@ func (w *World) Tick(dt float32, substeps int32) (bool, error) {
 	return result == C.KIRI_PENDING, nil
 }
 
-var poolWorldSetGravity pool[struct {
-	gravity [3]float32
-}]
-
-// Sets gravity (m/s^2). All pieces wake.
-func (w *World) SetGravity(gravity [3]float32) (bool, error) {
-	if err := w.check(); err != nil {
-		return false, err
-	}
-	block := poolWorldSetGravity.take()
-	block.gravity = gravity
-	result := C.kiriWorld_SetGravity(w.c, (*C.float)(unsafe.Pointer(&block.gravity)))
-	poolWorldSetGravity.give(block)
-	runtime.KeepAlive(w)
-	if err := failure(w, "kiriWorld_SetGravity", result, true); err != nil {
-		return false, err
-	}
-	return result == C.KIRI_PENDING, nil
-}
-
 var poolWorldShiftOrigin pool[struct {
 	origin [3]float32
 }]
 
-// Moves the origin of the world to a point (m): subtracts it from the positions of sheets, targets of pins and holds,
-// obstacles, blades, and pending contacts. The motion goes on as before, to rounding. Nothing wakes; (0, 0, 0)
-// changes nothing. Use it in large worlds, where floats lose precision. The host shifts its own data. Returned arrays
+// Moves the origin of the world to a point (m): subtracts it from all positions, as large worlds need because of
+// floats. The motion goes on as before, to rounding; nothing wakes. The host shifts its own data. Returned arrays
 // keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a position would not fit a float.
 func (w *World) ShiftOrigin(origin [3]float32) (bool, error) {
 	if err := w.check(); err != nil {
@@ -1246,7 +1188,27 @@ func (w *World) ShiftOrigin(origin [3]float32) (bool, error) {
 	return result == C.KIRI_PENDING, nil
 }
 
-// Sets the budget from the next tick on.
+var poolWorldSetGravity pool[struct {
+	gravity [3]float32
+}]
+
+// Set gravity (m/s^2; all pieces wake), and the budget, from the next tick on.
+func (w *World) SetGravity(gravity [3]float32) (bool, error) {
+	if err := w.check(); err != nil {
+		return false, err
+	}
+	block := poolWorldSetGravity.take()
+	block.gravity = gravity
+	result := C.kiriWorld_SetGravity(w.c, (*C.float)(unsafe.Pointer(&block.gravity)))
+	poolWorldSetGravity.give(block)
+	runtime.KeepAlive(w)
+	if err := failure(w, "kiriWorld_SetGravity", result, true); err != nil {
+		return false, err
+	}
+	return result == C.KIRI_PENDING, nil
+}
+
+// Set gravity (m/s^2; all pieces wake), and the budget, from the next tick on.
 func (w *World) SetBudget(budget *Budget) (bool, error) {
 	if err := w.check(); err != nil {
 		return false, err
@@ -1264,8 +1226,7 @@ var poolWorldGetStateHash pool[struct {
 }]
 
 // Hashes all state that the coming ticks depend on, pending work included. Two worlds with the same calls have the
-// same hash, and two worlds with the same hash go on alike. After a refused allocation some items are made again: the
-// hash differs while work is pending, or while the budget limits cells or samples.
+// same hash, and two worlds with the same hash go on alike. After refused memory it may differ while work is pending.
 func (w *World) StateHash() (uint64, error) {
 	var made0 uint64
 	if err := w.check(); err != nil {
@@ -1322,9 +1283,9 @@ func (w *World) Note(bytes []byte) (bool, error) {
 	return result == C.KIRI_PENDING, nil
 }
 
-// Finishes the work on cuts at once, whatever the budget is, and without moving anything. Cuts that wait for a budget
-// take effect. The next tick reports the events. KIRI_ERROR_MEMORY, KIRI_ERROR_LIMIT: as in kiriWorld_Tick. Arrays
-// that the world handed out end as with a tick.
+// Finishes the work on cuts at once, whatever the budget is, without moving anything. The next tick reports the
+// events. Arrays that the world handed out end as with a tick. KIRI_ERROR_MEMORY, KIRI_ERROR_LIMIT: as in
+// kiriWorld_Tick.
 func (w *World) FinishCuts() (bool, error) {
 	if err := w.check(); err != nil {
 		return false, err
@@ -1337,11 +1298,10 @@ func (w *World) FinishCuts() (bool, error) {
 	return result == C.KIRI_PENDING, nil
 }
 
-// Replaces the world by a saved one. It may have any hooks; its own allocation, log, clock and tasks stay. The bytes
-// may come from anybody: a malicious save may give a strange world but cannot crash the program, and takes memory in
-// proportion to its size. Takes about as long as to create the sheets. The profile has no times until the next tick.
-// Arrays that the old world handed out live until then. KIRI_ERROR_DATA: the bytes are not a save, damaged, or of
-// another version. KIRI_ERROR_MEMORY. Then nothing has changed. `size` is below 2^31. A recording has the bytes.
+// Replaces the world by a saved one; its own hooks stay. The bytes may come from anybody: a malicious save may give a
+// strange world but cannot crash the program, and takes memory in proportion to its size, which is below 2^31. Arrays
+// that the old world handed out live until the next tick. On failure nothing has changed: KIRI_ERROR_DATA: the bytes
+// are not a save, damaged, or of another version. KIRI_ERROR_MEMORY.
 func (w *World) Load(bytes []byte) (bool, error) {
 	if err := w.check(); err != nil {
 		return false, err
@@ -1354,10 +1314,8 @@ func (w *World) Load(bytes []byte) (bool, error) {
 	return result == C.KIRI_PENDING, nil
 }
 
-// Replaces the world by the world of the snapshot; ids name the same things. The bytes are trusted: hand over only
-// the output of kiriWorld_Snapshot. KIRI_ERROR_DATA: the bytes are not a snapshot of this build of the library.
-// KIRI_ERROR_STATE: the world is recorded. KIRI_ERROR_MEMORY. Then nothing has changed. Hooks and arrays as with
-// kiriWorld_Load.
+// Replaces the world by the world of the snapshot, as kiriWorld_Load does. The bytes are trusted. On failure nothing
+// has changed: KIRI_ERROR_DATA: no snapshot of this build. KIRI_ERROR_STATE: it is recorded. KIRI_ERROR_MEMORY.
 func (w *World) Restore(bytes []byte) (bool, error) {
 	if err := w.check(); err != nil {
 		return false, err
@@ -1466,8 +1424,8 @@ var poolWorldCreateSheet pool[struct {
 	sheet C.kiriSheet
 }]
 
-// Adds a sheet. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles do not form a sheet. The line says why, and
-// names the triangle, or the two triangles at an edge, by index in the def.
+// Add a sheet, and destroy one with its cuts, frames and pins. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles
+// do not form a sheet; the line says why, and names the triangle, or the two at an edge, by index in the def.
 func (w *World) CreateSheet(def *SheetDef) (Sheet, error) {
 	var made0 Sheet
 	if err := w.check(); err != nil {
@@ -1485,7 +1443,8 @@ func (w *World) CreateSheet(def *SheetDef) (Sheet, error) {
 	return Sheet{w, SheetID(answer.sheet)}, nil
 }
 
-// Destroys the sheet with its cuts, frames and pins; their ids are stale.
+// Add a sheet, and destroy one with its cuts, frames and pins. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles
+// do not form a sheet; the line says why, and names the triangle, or the two at an edge, by index in the def.
 func (self Sheet) Destroy() (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -1547,7 +1506,7 @@ func (self Sheet) Settings() (SheetSettings, error) {
 
 // Sets all settings, or none; checks them as kiriCreateSheet does. KIRI_ERROR_DEF: they do not come from
 // kiriSheet_GetSettings. The sheet wakes if one differs. Positions and velocities are kept, so a new mass changes the
-// momentum. The stiffness of pins and the lengths that placed the frames are kept, too.
+// momentum; the stiffness of pins and the lengths that placed the frames are kept, too.
 func (self Sheet) SetSettings(settings *SheetSettings) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -1687,8 +1646,7 @@ var poolSheetEstimateError pool[struct {
 
 // Estimates the error of the current shape of a sheet that rests or moves slowly: rms distance from a sheet of very
 // many frames under the same loads, over its rms way from the flat shape; 0 to 1, and 1 with too few frames to tell.
-// It compares strains of neighbouring links (KIRI_MODEL_LINKS only; else KIRI_ERROR_STATE), in one pass that
-// allocates memory. The manual says how good it is (accuracy).
+// KIRI_MODEL_LINKS only; else KIRI_ERROR_STATE. It allocates memory. The manual says how good it is (accuracy).
 func (self Sheet) EstimateError() (float64, error) {
 	var made0 float64
 	if err := self.World.check(); err != nil {
@@ -1744,10 +1702,8 @@ var poolSheetTransform pool[struct {
 
 // Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and the sheet wakes. The
 // columns of `rotation` are the images of the world's axes; a planar sheet turns about its normal only. Targets of
-// pins, hinges, clamps and holds move along, so nothing pulls the sheet back. A target that the host set nearer to
-// the pin's new place than to its old one stays: the host may set targets before or after. Pins on an obstacle stay
-// on it: move the obstacle by the same motion (kiriObstacle_SetPose), before or after. Pending loads and contacts
-// stay.
+// pins, hinges, clamps and holds move along; pins on an obstacle stay on it. The manual has the order of calls that
+// set targets or move obstacles (sheets). Pending loads and contacts stay.
 func (self Sheet) Transform(rotation [9]float32, translation [3]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -1812,9 +1768,9 @@ func (self Frame) SetPieceVelocity(velocity [3]float32, angularVelocity [3]float
 	return result == C.KIRI_PENDING, nil
 }
 
-// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not. kiriFrame_DetachPiece
-// copies the sheet's number to the new sheet. A piece has a number, too, named by any of its frames: the parts of a
-// piece that is cut inherit it, and so does a sheet that is made of it.
+// Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and a
+// piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
+// both.
 func (self Sheet) SetUserData(data uint64) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -1831,9 +1787,9 @@ var poolSheetGetUserData pool[struct {
 	data C.uint64_t
 }]
 
-// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not. kiriFrame_DetachPiece
-// copies the sheet's number to the new sheet. A piece has a number, too, named by any of its frames: the parts of a
-// piece that is cut inherit it, and so does a sheet that is made of it.
+// Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and a
+// piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
+// both.
 func (self Sheet) UserData() (uint64, error) {
 	var made0 uint64
 	if err := self.World.check(); err != nil {
@@ -1849,9 +1805,9 @@ func (self Sheet) UserData() (uint64, error) {
 	return uint64(answer.data), nil
 }
 
-// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not. kiriFrame_DetachPiece
-// copies the sheet's number to the new sheet. A piece has a number, too, named by any of its frames: the parts of a
-// piece that is cut inherit it, and so does a sheet that is made of it.
+// Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and a
+// piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
+// both.
 func (self Pin) SetUserData(data uint64) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -1868,9 +1824,9 @@ var poolPinGetUserData pool[struct {
 	data C.uint64_t
 }]
 
-// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not. kiriFrame_DetachPiece
-// copies the sheet's number to the new sheet. A piece has a number, too, named by any of its frames: the parts of a
-// piece that is cut inherit it, and so does a sheet that is made of it.
+// Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and a
+// piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
+// both.
 func (self Pin) UserData() (uint64, error) {
 	var made0 uint64
 	if err := self.World.check(); err != nil {
@@ -1886,9 +1842,9 @@ func (self Pin) UserData() (uint64, error) {
 	return uint64(answer.data), nil
 }
 
-// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not. kiriFrame_DetachPiece
-// copies the sheet's number to the new sheet. A piece has a number, too, named by any of its frames: the parts of a
-// piece that is cut inherit it, and so does a sheet that is made of it.
+// Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and a
+// piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
+// both.
 func (self Frame) SetPieceUserData(data uint64) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -1905,9 +1861,9 @@ var poolFrameGetPieceUserData pool[struct {
 	data C.uint64_t
 }]
 
-// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not. kiriFrame_DetachPiece
-// copies the sheet's number to the new sheet. A piece has a number, too, named by any of its frames: the parts of a
-// piece that is cut inherit it, and so does a sheet that is made of it.
+// Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and a
+// piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
+// both.
 func (self Frame) PieceUserData() (uint64, error) {
 	var made0 uint64
 	if err := self.World.check(); err != nil {
@@ -1929,9 +1885,8 @@ var poolSheetRaycast pool[struct {
 	hit Hit
 }]
 
-// Finds where a ray first meets the sheet, up to maxDistance. KIRI_OK with hit->triangle = -1: it does not. The first
-// ray visits every triangle. From the next tick on boxes over the triangles follow the sheet, until 120 ticks pass
-// without a ray: a ray takes some microseconds, and a tick of a large sheet a quarter more.
+// Find where a ray first meets the sheet, or any (*sheet is 0 if none), up to maxDistance; hit->triangle is -1 if it
+// does not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray.
 func (self Sheet) Raycast(origin [3]float32, direction [3]float32, maxDistance float32) (Hit, error) {
 	var made0 Hit
 	if err := self.World.check(); err != nil {
@@ -1956,7 +1911,8 @@ var poolWorldRaycast pool[struct {
 	hit Hit
 }]
 
-// Finds the first sheet that a ray meets; *sheet is 0 where there is none.
+// Find where a ray first meets the sheet, or any (*sheet is 0 if none), up to maxDistance; hit->triangle is -1 if it
+// does not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray.
 func (w *World) Raycast(origin [3]float32, direction [3]float32, maxDistance float32) (Sheet, Hit, error) {
 	var made0 Sheet
 	var made1 Hit
@@ -2001,8 +1957,7 @@ var poolSheetGetPiece pool[struct {
 	state PieceState
 }]
 
-// Get a piece. The first of these calls after a cut sorts the sheet by pieces, and may fail with KIRI_ERROR_MEMORY.
-// KIRI_ERROR_ARGUMENT: no piece has the index.
+// Get a piece. The first call after a cut sorts the sheet by pieces. KIRI_ERROR_ARGUMENT: no piece has the index.
 func (self Sheet) Piece(piece int32) (PieceState, error) {
 	var made0 PieceState
 	if err := self.World.check(); err != nil {
@@ -2022,8 +1977,7 @@ var poolSheetGetPieceMesh pool[struct {
 	mesh C.kiriPieceMesh
 }]
 
-// Get a piece. The first of these calls after a cut sorts the sheet by pieces, and may fail with KIRI_ERROR_MEMORY.
-// KIRI_ERROR_ARGUMENT: no piece has the index.
+// Get a piece. The first call after a cut sorts the sheet by pieces. KIRI_ERROR_ARGUMENT: no piece has the index.
 func (self Sheet) PieceMesh(piece int32) (PieceMesh, error) {
 	var made0 PieceMesh
 	if err := self.World.check(); err != nil {
@@ -2044,7 +1998,7 @@ var poolSheetGetPieceFrames pool[struct {
 	count C.int32_t
 }]
 
-// Gets the frames of a piece: *frames points to *count ids.
+// Get the frames of a piece (*frames points to *count ids), and the current index of the piece with a frame.
 func (self Sheet) PieceFrames(piece int32) (View[FrameID], error) {
 	var made0 View[FrameID]
 	if err := self.World.check(); err != nil {
@@ -2064,7 +2018,7 @@ var poolFrameGetPiece pool[struct {
 	piece C.int32_t
 }]
 
-// Gets the current index of the piece with this frame.
+// Get the frames of a piece (*frames points to *count ids), and the current index of the piece with a frame.
 func (self Frame) Piece() (int32, error) {
 	var made0 int32
 	if err := self.World.check(); err != nil {
@@ -2084,13 +2038,11 @@ var poolFrameDetachPiece pool[struct {
 	detached C.kiriSheet
 }]
 
-// Makes a sheet of the piece with this frame. Frames, pins, collision points, pending loads and contacts move along,
-// with their ids and states, and the motion goes on. Both sheets have all settings. Cuts stay with the old sheet. A
-// clamp or hinge that holds both gets a copy with a new id in the new sheet. Revisions grow; kiriSheet_GetDirty has
-// the changes. KIRI_PENDING: work on a cut is pending, or the piece takes more samples than the budget leaves;
-// *detached is 0. Then samples of the coming ticks pay for it, and further cuts of the sheet wait. When all is paid
-// the piece of this frame becomes a sheet, and KIRI_EVENT_PIECE_DETACHED names it. KIRI_ERROR_STATE: nothing would be
-// left of the sheet. The manual has indices and costs (cutting).
+// Makes a sheet of the piece with this frame. All that belongs to the piece moves along, with ids and states, and the
+// motion goes on; cuts stay with the old sheet. A clamp or hinge that holds both gets a copy with a new id in the new
+// sheet. KIRI_PENDING: work on a cut is pending, or the piece takes more samples than the budget leaves; *detached is
+// 0. Further cuts of the sheet then wait, and KIRI_EVENT_PIECE_DETACHED names the sheet in a later tick.
+// KIRI_ERROR_STATE: nothing would be left of the sheet. The manual has indices and costs (cutting).
 func (self Frame) DetachPiece() (Sheet, error) {
 	var made0 Sheet
 	if err := self.World.check(); err != nil {
@@ -2106,9 +2058,9 @@ func (self Frame) DetachPiece() (Sheet, error) {
 	return Sheet{self.World, SheetID(answer.detached)}, nil
 }
 
-// Removes the piece with this frame: ids of its frames and pins are stale. Takes effect at once, and the coming ticks
-// have fewer samples. KIRI_PENDING: work on a cut is pending. Until it is done the triangles stay in kiriMesh with
-// three equal corners, the vertices stay, and kiriCounts counts the piece, with a kiriPieceState of all zeros.
+// Removes the piece with this frame at once: ids of its frames and pins are stale, and the coming ticks have fewer
+// samples. KIRI_PENDING: work on a cut is pending. Until it is done the triangles stay in kiriMesh with three equal
+// corners, and kiriCounts counts the piece, with a kiriPieceState of all zeros.
 func (self Frame) DestroyPiece() (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -2199,7 +2151,8 @@ func (self Sheet) BeginCut(restPoint [2]float32) (Cut, error) {
 	return Cut{self.World, CutID(answer.cut)}, nil
 }
 
-// Adds points. restPoints: 2 floats a point; count is 1 to 2^24.
+// Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the tick in which its last
+// point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the frames that it needs.
 func (self Cut) Extend(restPoints [][2]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -2212,8 +2165,8 @@ func (self Cut) Extend(restPoints [][2]float32) (bool, error) {
 	return result == C.KIRI_PENDING, nil
 }
 
-// Ends the cut. Its id is stale after the tick in which its last point takes effect (KIRI_EVENT_CUT_FINISHED). The
-// sheet then adds the frames that it needs.
+// Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the tick in which its last
+// point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the frames that it needs.
 func (self Cut) End() (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -2232,8 +2185,7 @@ var poolSheetSlice pool[struct {
 }]
 
 // Cuts where the quadrilateral swept by an edge in world space, from blade[0]-blade[1] to blade[3]-blade[2], meets
-// the current sheet; past borders, so that it separates the parts that it crosses. The cut is already ended. Slices
-// of a moving sheet do not join from tick to tick: use a blade for that.
+// the current sheet; past borders, so that it separates the parts that it crosses. The cut is already ended.
 func (self Sheet) Slice(blade [12]float32) (Cut, error) {
 	var made0 Cut
 	if err := self.World.check(); err != nil {
@@ -2254,8 +2206,7 @@ var poolWorldBeginBlade pool[struct {
 	blade C.kiriBlade
 }]
 
-// sheet 0: it cuts all sheets, also those that are made later and pieces that get a sheet of their own. A blade for
-// one sheet whose sheet is gone cuts nothing.
+// Begins a blade for one sheet; 0: for all sheets, also those that are made later.
 func (w *World) BeginBlade(sheet Sheet) (Blade, error) {
 	var made0 Blade
 	if err := w.check(); err != nil {
@@ -2276,9 +2227,8 @@ var poolBladeMoveEdge pool[struct {
 	to [3]float32
 }]
 
-// The blade is now the straight edge between two points (m, world). From where it was it got there straight, each end
-// along a line. The first call only says where it begins. Where an end of the edge lies inside of what it sweeps of
-// the sheet, it cuts only what it sweeps. An edge without length cuts nothing.
+// Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera casts;
+// each end goes straight. The first call only says where it begins. An end inside cuts along its own way.
 func (self Blade) MoveEdge(from [3]float32, to [3]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -2300,7 +2250,8 @@ var poolBladeMoveRay pool[struct {
 	direction [3]float32
 }]
 
-// The same for a ray that a camera casts: an edge `length` m long.
+// Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera casts;
+// each end goes straight. The first call only says where it begins. An end inside cuts along its own way.
 func (self Blade) MoveRay(origin [3]float32, direction [3]float32, length float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -2377,10 +2328,9 @@ func (self Frame) State() (FrameState, error) {
 	return answer.state, nil
 }
 
-// Holds the frame: its rest point on the visible surface moves evenly to `position` (m, world) with `rotation` (a
-// rotation matrix, columns as above) in the next tick, and stays there until the next call. A held affine frame is
-// not stretched. On a planar sheet the rotation is about its normal. Null, null: frees it. Contacts do not push
-// material of which held frames carry more than half: it moves through obstacles.
+// Holds the frame: its rest point on the visible surface moves evenly to `position` (m, world) with `rotation`
+// (columns as above; on a planar sheet about its normal) in the next tick, and stays there. Null, null: frees it.
+// Material of which held frames carry more than half moves through obstacles.
 func (self Frame) Hold(position *[3]float32, rotation *[9]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -2399,8 +2349,7 @@ var poolFrameGetReaction pool[struct {
 }]
 
 // Gets the force (N, world) and torque (N m, about the frame's rest point) that the hold applied to the sheet: means
-// over the last tick, impulses divided by its dt. They include the frame's own weight and change of momentum. Zero
-// for a free frame. A sleeping piece keeps the values with which it fell asleep.
+// over the last tick that moved the piece, with the frame's own weight and change of momentum. Zero for a free one.
 func (self Frame) Reaction() ([3]float64, [3]float64, error) {
 	var made0 [3]float64
 	var made1 [3]float64
@@ -2422,7 +2371,7 @@ var poolFrameApplyForce pool[struct {
 	torque [3]float32
 }]
 
-// Applies a force (N, world) at the frame's centre of mass and a torque (N m).
+// Apply a force (N, world) at the frame's centre of mass, or at a point of the material, and a torque (N m).
 func (self Frame) ApplyForce(force [3]float32, torque [3]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -2445,7 +2394,7 @@ var poolSheetApplyForce pool[struct {
 	torque [3]float32
 }]
 
-// Applies a force (N, world) at a point of the material and a torque (N m).
+// Apply a force (N, world) at the frame's centre of mass, or at a point of the material, and a torque (N m).
 func (self Sheet) ApplyForce(restPoint [2]float32, force [3]float32, torque [3]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -2506,9 +2455,8 @@ var poolSheetApplyImpulse pool[struct {
 	impulse [3]float32
 }]
 
-// Applies an impulse (N s, world) at a point of the material on the visible surface. Velocities change at once, by
-// the mass of the frames that carry the point; a held frame's share is lost. KIRI_ERROR_ARGUMENT: it is outside the
-// sheet.
+// Applies an impulse (N s, world) at a point of the material on the visible surface, at once, by the mass of the
+// frames that carry the point; a held frame's share is lost. KIRI_ERROR_ARGUMENT: the point is outside the sheet.
 func (self Sheet) ApplyImpulse(restPoint [2]float32, impulse [3]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -2554,7 +2502,8 @@ var poolSheetCreatePin pool[struct {
 	pin C.kiriPin
 }]
 
-// Pins a point of the sheet. On failure *pin is 0. KIRI_ERROR_ARGUMENT: it is outside the sheet.
+// Pin a point of the sheet, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: the point is
+// outside the sheet.
 func (self Sheet) CreatePin(def *PinDef) (Pin, error) {
 	var made0 Pin
 	if err := self.World.check(); err != nil {
@@ -2570,6 +2519,20 @@ func (self Sheet) CreatePin(def *PinDef) (Pin, error) {
 	return Pin{self.World, PinID(answer.pin)}, nil
 }
 
+// Pin a point of the sheet, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: the point is
+// outside the sheet.
+func (self Pin) Destroy() (bool, error) {
+	if err := self.World.check(); err != nil {
+		return false, err
+	}
+	result := C.kiriDestroyPin(self.World.c, C.kiriPin(self.ID))
+	runtime.KeepAlive(self.World)
+	if err := failure(self.World, "kiriDestroyPin", result, true); err != nil {
+		return false, err
+	}
+	return result == C.KIRI_PENDING, nil
+}
+
 var poolSheetClampLine pool[struct {
 	from [2]float32
 	to [2]float32
@@ -2578,11 +2541,8 @@ var poolSheetClampLine pool[struct {
 
 // Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds the place and direction
 // of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The line is
-// straight, with its rest length: bent material is pulled straight, and separate pieces are pulled together, at any
-// speed. Both hold the material on the line, edges included, with its stiffness from the line to the frames around
-// it. A clamp through the sheet separates the bending of its two sides. A line along a cut holds both lips; a line
-// beside it, by a 512th of a grid square or more, holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no
-// material.
+// straight, with its rest length: bent material and separate pieces are pulled to it, at any speed. A line along a
+// cut holds both lips; a line beside it holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no material.
 func (self Sheet) ClampLine(from [2]float32, to [2]float32) (Pin, error) {
 	var made0 Pin
 	if err := self.World.check(); err != nil {
@@ -2608,11 +2568,8 @@ var poolSheetHingeLine pool[struct {
 
 // Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds the place and direction
 // of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The line is
-// straight, with its rest length: bent material is pulled straight, and separate pieces are pulled together, at any
-// speed. Both hold the material on the line, edges included, with its stiffness from the line to the frames around
-// it. A clamp through the sheet separates the bending of its two sides. A line along a cut holds both lips; a line
-// beside it, by a 512th of a grid square or more, holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no
-// material.
+// straight, with its rest length: bent material and separate pieces are pulled to it, at any speed. A line along a
+// cut holds both lips; a line beside it holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no material.
 func (self Sheet) HingeLine(from [2]float32, to [2]float32) (Pin, error) {
 	var made0 Pin
 	if err := self.World.check(); err != nil {
@@ -2635,9 +2592,8 @@ var poolPinSetTarget pool[struct {
 }]
 
 // Sets the target of the pin's point, or of the middle of its line (m, world), for the end of the next tick and until
-// the next call. The pin moves there evenly within the tick. The current target of kiriPin_GetState changes nothing.
-// With KIRI_SKINNING_SMOOTH pins and clamps hold the visible surface; a clamp holds its mean along the line for each
-// piece, so single points are slightly off the line.
+// the next call. The pin moves there evenly within the tick. With KIRI_SKINNING_SMOOTH pins and clamps hold the
+// visible surface; a clamp holds its mean along the line for each piece.
 func (self Pin) SetTarget(target [3]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -2715,9 +2671,7 @@ var poolPinGetReaction pool[struct {
 }]
 
 // Gets the force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over the last
-// tick, impulses divided by its dt. The reactions of all pins and held frames are the weight of a sheet at rest, and
-// change its momentum in motion (as far as `iterations` solve the tick). Zero before the first tick. A sleeping piece
-// keeps the values with which it fell asleep.
+// tick that moved the piece. All reactions are the weight of a sheet at rest, and change its momentum in motion.
 func (self Pin) Reaction() ([3]float64, [3]float64, error) {
 	var made0 [3]float64
 	var made1 [3]float64
@@ -2761,19 +2715,6 @@ func (self Sheet) Pins() ([]Pin, error) {
 	return things[Pin](self.World, pins[:answer.count]), nil
 }
 
-// Destroys the pin; its id is stale.
-func (self Pin) Destroy() (bool, error) {
-	if err := self.World.check(); err != nil {
-		return false, err
-	}
-	result := C.kiriDestroyPin(self.World.c, C.kiriPin(self.ID))
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriDestroyPin", result, true); err != nil {
-		return false, err
-	}
-	return result == C.KIRI_PENDING, nil
-}
-
 // Sets the contacts of the next tick; they replace those set before, and end with the tick. A contact with the point,
 // or rest point, and obstacle of an earlier one starts with the earlier impulse.
 func (self Sheet) SetContacts(contacts []Contact) (bool, error) {
@@ -2793,9 +2734,7 @@ var poolSheetGetContactForces pool[struct {
 	count C.int32_t
 }]
 
-// Gets one result for each contact that was set before the last tick, in that order. The sum of these impulses and of
-// the impulses of gravity, loads and obstacles is the change of momentum of a free piece. A sleeping piece goes on to
-// press with the values with which it fell asleep.
+// Gets one result for each contact that was set before the last tick, in that order. A sleeping piece presses on.
 func (self Sheet) ContactForces() (View[ContactForce], error) {
 	var made0 View[ContactForce]
 	if err := self.World.check(); err != nil {
@@ -2829,7 +2768,7 @@ var poolWorldCreateObstacle pool[struct {
 	obstacle C.kiriObstacle
 }]
 
-// Adds an obstacle. On failure *obstacle is 0.
+// Add and destroy an obstacle. On failure *obstacle is 0. Pieces that rested on a destroyed one wake.
 func (w *World) CreateObstacle(def *ObstacleDef) (Obstacle, error) {
 	var made0 Obstacle
 	if err := w.check(); err != nil {
@@ -2847,7 +2786,7 @@ func (w *World) CreateObstacle(def *ObstacleDef) (Obstacle, error) {
 	return Obstacle{w, ObstacleID(answer.obstacle)}, nil
 }
 
-// Destroys an obstacle; its id is stale. Pieces that rested on it wake.
+// Add and destroy an obstacle. On failure *obstacle is 0. Pieces that rested on a destroyed one wake.
 func (self Obstacle) Destroy() (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -2887,7 +2826,7 @@ var poolObstacleSetVelocity pool[struct {
 	angularVelocity [3]float32
 }]
 
-// Set the velocity (m/s, rad/s) for the next and all later ticks.
+// Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg), inertia and centre of mass.
 func (self Obstacle) SetVelocity(velocity [3]float32, angularVelocity [3]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -2908,7 +2847,7 @@ var poolObstacleSetSurfaceVelocity pool[struct {
 	velocity [3]float32
 }]
 
-// Set the velocity (m/s, rad/s) for the next and all later ticks.
+// Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg), inertia and centre of mass.
 func (self Obstacle) SetSurfaceVelocity(velocity [3]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -2929,7 +2868,7 @@ var poolObstacleSetMass pool[struct {
 	centerOfMass [3]float32
 }]
 
-// Sets mass (kg), inertia and centre of mass, as in the def.
+// Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg), inertia and centre of mass.
 func (self Obstacle) SetMass(mass float32, inertia [6]float32, centerOfMass [3]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err
@@ -2972,8 +2911,7 @@ var poolSheetGetReach pool[struct {
 }]
 
 // Gets a box (m, world) around all that the sheet can touch in a tick of dt (s, as in kiriWorld_Tick): a host needs
-// no obstacles or contacts outside. Its margin is twice the way of the fastest point by velocity and gravity, plus
-// the contact thickness. For moving obstacles add their own way.
+// no obstacles or contacts outside. For moving obstacles add their own way.
 func (self Sheet) Reach(dt float32) ([3]float32, [3]float32, error) {
 	var made0 [3]float32
 	var made1 [3]float32
@@ -3000,8 +2938,8 @@ var functions = map[string]string{
 	"kiriDestroyWorld": "World.Destroy",
 	"kiriWorld_Tick": "World.Tick",
 	"kiriWorld_GetLastError": "World.LastError",
-	"kiriWorld_SetGravity": "World.SetGravity",
 	"kiriWorld_ShiftOrigin": "World.ShiftOrigin",
+	"kiriWorld_SetGravity": "World.SetGravity",
 	"kiriWorld_SetBudget": "World.SetBudget",
 	"kiriWorld_GetStateHash": "World.StateHash",
 	"kiriWorld_GetSheets": "World.Sheets",
@@ -3081,6 +3019,7 @@ var functions = map[string]string{
 	"kiriSheet_SetWind": "Sheet.SetWind",
 	"kiriDefaultPinDef": ".DefaultPinDef",
 	"kiriCreatePin": "Sheet.CreatePin",
+	"kiriDestroyPin": "Pin.Destroy",
 	"kiriSheet_ClampLine": "Sheet.ClampLine",
 	"kiriSheet_HingeLine": "Sheet.HingeLine",
 	"kiriPin_SetTarget": "Pin.SetTarget",
@@ -3089,7 +3028,6 @@ var functions = map[string]string{
 	"kiriPin_GetState": "Pin.State",
 	"kiriPin_GetReaction": "Pin.Reaction",
 	"kiriSheet_GetPins": "Sheet.Pins",
-	"kiriDestroyPin": "Pin.Destroy",
 	"kiriSheet_SetContacts": "Sheet.SetContacts",
 	"kiriSheet_GetContactForces": "Sheet.ContactForces",
 	"kiriDefaultObstacleDef": ".DefaultObstacleDef",

@@ -479,20 +479,6 @@ static const Parameter WORLD_GET_LAST_ERROR_PARAMETERS[] = {
     { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
 };
 
-static const Argument WORLD_SET_GRAVITY_ARGUMENTS[] = {
-    { "gravity", KIND_VECTOR3, CLASS_NONE },
-};
-
-static int64_t Call_kiriWorld_SetGravity(void* const* a)
-{
-    return kiriWorld_SetGravity(a[0], a[1]);
-}
-
-static const Parameter WORLD_SET_GRAVITY_PARAMETERS[] = {
-    { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
-    { "gravity", FORM_IN_NUMBERS, TYPE_FLOAT, KIND_VECTOR3, 3, 0, 0, 0, CLASS_NONE, NULL, NULL },
-};
-
 static const Argument WORLD_SHIFT_ORIGIN_ARGUMENTS[] = {
     { "origin", KIND_VECTOR3, CLASS_NONE },
 };
@@ -505,6 +491,20 @@ static int64_t Call_kiriWorld_ShiftOrigin(void* const* a)
 static const Parameter WORLD_SHIFT_ORIGIN_PARAMETERS[] = {
     { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
     { "origin", FORM_IN_NUMBERS, TYPE_FLOAT, KIND_VECTOR3, 3, 0, 0, 0, CLASS_NONE, NULL, NULL },
+};
+
+static const Argument WORLD_SET_GRAVITY_ARGUMENTS[] = {
+    { "gravity", KIND_VECTOR3, CLASS_NONE },
+};
+
+static int64_t Call_kiriWorld_SetGravity(void* const* a)
+{
+    return kiriWorld_SetGravity(a[0], a[1]);
+}
+
+static const Parameter WORLD_SET_GRAVITY_PARAMETERS[] = {
+    { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "gravity", FORM_IN_NUMBERS, TYPE_FLOAT, KIND_VECTOR3, 3, 0, 0, 0, CLASS_NONE, NULL, NULL },
 };
 
 static const Argument WORLD_SET_BUDGET_ARGUMENTS[] = {
@@ -1678,6 +1678,16 @@ static const Parameter SHEET_CREATE_PIN_PARAMETERS[] = {
     { "pin", FORM_OUT, TYPE_ID, KIND_OBJECT, 1, 0, 0, 0, CLASS_PIN, NULL, NULL },
 };
 
+static int64_t Call_kiriDestroyPin(void* const* a)
+{
+    return kiriDestroyPin(a[0], *(kiriPin*)a[1]);
+}
+
+static const Parameter PIN_DESTROY_PARAMETERS[] = {
+    { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "pin", FORM_SELF, TYPE_ID, KIND_OBJECT, 1, 0, 0, 0, CLASS_PIN, NULL, NULL },
+};
+
 static const Argument SHEET_CLAMP_LINE_ARGUMENTS[] = {
     { "from", KIND_VECTOR2, CLASS_NONE },
     { "to", KIND_VECTOR2, CLASS_NONE },
@@ -1795,16 +1805,6 @@ static const Parameter SHEET_GET_PINS_PARAMETERS[] = {
     { "pins", FORM_OUT_LIST, TYPE_ID, KIND_ARRAY, 1, 0, 1, 0, CLASS_PIN, NULL, NULL },
     { "capacity", FORM_CAPACITY, TYPE_INT32, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
     { "count", FORM_OUT_COUNT, TYPE_INT32, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
-};
-
-static int64_t Call_kiriDestroyPin(void* const* a)
-{
-    return kiriDestroyPin(a[0], *(kiriPin*)a[1]);
-}
-
-static const Parameter PIN_DESTROY_PARAMETERS[] = {
-    { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
-    { "pin", FORM_SELF, TYPE_ID, KIND_OBJECT, 1, 0, 0, 0, CLASS_PIN, NULL, NULL },
 };
 
 static const Argument SHEET_SET_CONTACTS_ARGUMENTS[] = {
@@ -1993,8 +1993,8 @@ const Method METHODS[] = {
     { CLASS_WORLD, "destroy", "kiriDestroyWorld", RETURNS_NOTHING, KIND_NIL, CLASS_NONE, 0, 0, NULL, 0, NULL, NULL, DestroyWorld },
     { CLASS_WORLD, "tick", "kiriWorld_Tick", RETURNS_RESULT, KIND_INT, CLASS_NONE, 2, 2, WORLD_TICK_ARGUMENTS, 3, WORLD_TICK_PARAMETERS, Call_kiriWorld_Tick, NULL },
     { CLASS_WORLD, "get_last_error", "kiriWorld_GetLastError", RETURNS_TEXT, KIND_STRING, CLASS_NONE, 0, 0, NULL, 1, WORLD_GET_LAST_ERROR_PARAMETERS, Call_kiriWorld_GetLastError, NULL },
-    { CLASS_WORLD, "set_gravity", "kiriWorld_SetGravity", RETURNS_RESULT, KIND_INT, CLASS_NONE, 1, 1, WORLD_SET_GRAVITY_ARGUMENTS, 2, WORLD_SET_GRAVITY_PARAMETERS, Call_kiriWorld_SetGravity, NULL },
     { CLASS_WORLD, "shift_origin", "kiriWorld_ShiftOrigin", RETURNS_RESULT, KIND_INT, CLASS_NONE, 1, 1, WORLD_SHIFT_ORIGIN_ARGUMENTS, 2, WORLD_SHIFT_ORIGIN_PARAMETERS, Call_kiriWorld_ShiftOrigin, NULL },
+    { CLASS_WORLD, "set_gravity", "kiriWorld_SetGravity", RETURNS_RESULT, KIND_INT, CLASS_NONE, 1, 1, WORLD_SET_GRAVITY_ARGUMENTS, 2, WORLD_SET_GRAVITY_PARAMETERS, Call_kiriWorld_SetGravity, NULL },
     { CLASS_WORLD, "set_budget", "kiriWorld_SetBudget", RETURNS_RESULT, KIND_INT, CLASS_NONE, 1, 1, WORLD_SET_BUDGET_ARGUMENTS, 2, WORLD_SET_BUDGET_PARAMETERS, Call_kiriWorld_SetBudget, NULL },
     { CLASS_WORLD, "get_state_hash", "kiriWorld_GetStateHash", RETURNS_RESULT, KIND_INT, CLASS_NONE, 0, 0, NULL, 2, WORLD_GET_STATE_HASH_PARAMETERS, Call_kiriWorld_GetStateHash, NULL },
     { CLASS_WORLD, "get_sheets", "kiriWorld_GetSheets", RETURNS_RESULT, KIND_ARRAY, CLASS_NONE, 0, 0, NULL, 4, WORLD_GET_SHEETS_PARAMETERS, Call_kiriWorld_GetSheets, NULL },
@@ -2074,6 +2074,7 @@ const Method METHODS[] = {
     { CLASS_SHEET, "set_wind", "kiriSheet_SetWind", RETURNS_RESULT, KIND_INT, CLASS_NONE, 1, 1, SHEET_SET_WIND_ARGUMENTS, 3, SHEET_SET_WIND_PARAMETERS, Call_kiriSheet_SetWind, NULL },
     { CLASS_KIRI, "default_pin_def", "kiriDefaultPinDef", RETURNS_NOTHING, KIND_DICTIONARY, CLASS_NONE, 0, 0, NULL, 1, KIRI_DEFAULT_PIN_DEF_PARAMETERS, Call_kiriDefaultPinDef, NULL },
     { CLASS_SHEET, "create_pin", "kiriCreatePin", RETURNS_RESULT, KIND_OBJECT, CLASS_PIN, 1, 1, SHEET_CREATE_PIN_ARGUMENTS, 4, SHEET_CREATE_PIN_PARAMETERS, Call_kiriCreatePin, NULL },
+    { CLASS_PIN, "destroy", "kiriDestroyPin", RETURNS_RESULT, KIND_INT, CLASS_NONE, 0, 0, NULL, 2, PIN_DESTROY_PARAMETERS, Call_kiriDestroyPin, NULL },
     { CLASS_SHEET, "clamp_line", "kiriSheet_ClampLine", RETURNS_RESULT, KIND_OBJECT, CLASS_PIN, 2, 2, SHEET_CLAMP_LINE_ARGUMENTS, 5, SHEET_CLAMP_LINE_PARAMETERS, Call_kiriSheet_ClampLine, NULL },
     { CLASS_SHEET, "hinge_line", "kiriSheet_HingeLine", RETURNS_RESULT, KIND_OBJECT, CLASS_PIN, 2, 2, SHEET_HINGE_LINE_ARGUMENTS, 5, SHEET_HINGE_LINE_PARAMETERS, Call_kiriSheet_HingeLine, NULL },
     { CLASS_PIN, "set_target", "kiriPin_SetTarget", RETURNS_RESULT, KIND_INT, CLASS_NONE, 1, 1, PIN_SET_TARGET_ARGUMENTS, 3, PIN_SET_TARGET_PARAMETERS, Call_kiriPin_SetTarget, NULL },
@@ -2082,7 +2083,6 @@ const Method METHODS[] = {
     { CLASS_PIN, "get_state", "kiriPin_GetState", RETURNS_RESULT, KIND_DICTIONARY, CLASS_NONE, 0, 0, NULL, 3, PIN_GET_STATE_PARAMETERS, Call_kiriPin_GetState, NULL },
     { CLASS_PIN, "get_reaction", "kiriPin_GetReaction", RETURNS_RESULT, KIND_DICTIONARY, CLASS_NONE, 0, 0, NULL, 4, PIN_GET_REACTION_PARAMETERS, Call_kiriPin_GetReaction, NULL },
     { CLASS_SHEET, "get_pins", "kiriSheet_GetPins", RETURNS_RESULT, KIND_ARRAY, CLASS_NONE, 0, 0, NULL, 5, SHEET_GET_PINS_PARAMETERS, Call_kiriSheet_GetPins, NULL },
-    { CLASS_PIN, "destroy", "kiriDestroyPin", RETURNS_RESULT, KIND_INT, CLASS_NONE, 0, 0, NULL, 2, PIN_DESTROY_PARAMETERS, Call_kiriDestroyPin, NULL },
     { CLASS_SHEET, "set_contacts", "kiriSheet_SetContacts", RETURNS_RESULT, KIND_INT, CLASS_NONE, 1, 1, SHEET_SET_CONTACTS_ARGUMENTS, 4, SHEET_SET_CONTACTS_PARAMETERS, Call_kiriSheet_SetContacts, NULL },
     { CLASS_SHEET, "get_contact_forces", "kiriSheet_GetContactForces", RETURNS_RESULT, KIND_ARRAY, CLASS_NONE, 0, 0, NULL, 4, SHEET_GET_CONTACT_FORCES_PARAMETERS, Call_kiriSheet_GetContactForces, NULL },
     { CLASS_KIRI, "default_obstacle_def", "kiriDefaultObstacleDef", RETURNS_NOTHING, KIND_DICTIONARY, CLASS_NONE, 0, 0, NULL, 1, KIRI_DEFAULT_OBSTACLE_DEF_PARAMETERS, Call_kiriDefaultObstacleDef, NULL },

@@ -36,8 +36,7 @@ export enum ResultCode {
     Ok = 0,
     /** success; work is left for later ticks */
     Pending = 1,
-    /** null pointer, NaN, infinite, or outside the documented range; or a position, velocity or turn of a sheet or
-     *  obstacle would exceed 4e37 m, m/s or 1/s */
+    /** null, NaN, infinite, outside the documented range, or beyond 4e37 m, m/s or 1/s */
     ErrorArgument = -1,
     /** the def was not filled by its kiriDefault function: call that first */
     ErrorDef = -2,
@@ -130,18 +129,16 @@ export enum QualityPreset {
 export enum Model {
     /** Rigid frames joined by links: paper, foil, stiff cloth. 6 unknowns a frame, coupled with its neighbours. */
     Links = 0,
-    /** Affine frames joined by links: cloth and rubber that stretch visibly inside a region. 12 unknowns a frame,
-     *  coupled with neighbours of neighbours: a tick takes five to seven times as long. From 1e8 Pa on use 8
-     *  `iterations`. */
+    /** Affine frames joined by links: cloth and rubber that stretch visibly inside a region. 12 unknowns a frame: a
+     *  tick takes five to seven times as long. From 1e8 Pa on use 8 `iterations`. */
     Affine = 1,
     /** Affine frames, strains at integration points: the scheme of the paper, for comparison. 12 unknowns a frame. The
      *  thinner the sheet, the less it bends; the manual has figures (accuracy). */
     Points = 2,
 }
 
-/** The surface between the frames. Rays, blades, obstacles, other sheets and contacts of rest points meet this surface;
- *  pins, clamps and holds hold it. Where nothing touches or holds the sheet, skinning does not change its motion.
- *  Collision points stay on the linear surface. */
+/** The surface between the frames, which rays, blades, contacts, pins and clamps meet. Where nothing touches or holds
+ *  the sheet, skinning does not change its motion. Collision points stay on the linear surface. */
 export enum Skinning {
     /** each frame carries a flat patch; the weights blend them (equation 1 of the paper) */
     Linear = 0,
@@ -151,9 +148,8 @@ export enum Skinning {
 
 /** Integration in time. Both solve one linear system an iteration. */
 export enum TimeStepping {
-    /** TR-BDF2: alternates trapezoid and BDF2, of second order. Keeps the energy of motion; the manual has figures
-     *  (accuracy). Backward Euler replaces it in steps in which a contact touches a piece, a pin or hold is made, moved
-     *  or removed, or a frame is new or turns by more than a radian. */
+    /** TR-BDF2, of second order: keeps the energy of motion. Backward Euler replaces it in steps with a contact, a new
+     *  or moved pin or hold, a new frame or a fast turn; the manual has figures (accuracy). */
     SecondOrder = 0,
     /** Backward Euler, of first order: takes energy out of a swing, more in longer steps. */
     Euler = 1,
@@ -168,9 +164,7 @@ export enum PinType {
 
 /** A body that sheets touch: a floor, a ball, a crate of another engine. It moves on with its velocities; forces do not
  *  move it. A host with an engine sets pose and velocities before each tick, and applies the impulse of
- *  Obstacle.getState to the engine's body after it. Contacts follow its motion within the tick, and push no harder than
- *  its mass resists. The visible surface of sheets stays half their contactThickness away. A sleeping sheet wakes where
- *  an obstacle near it comes, goes, or has moved by half a second of its sleepSpeed. Lengths are up to 1e6 m. */
+ *  Obstacle.getState to the engine's body after it (manual, contact). Lengths are up to 1e6 m. */
 export enum ObstacleType {
     /** all below the plane through its position; the third column of its rotation points out */
     Plane = 0,
@@ -214,10 +208,9 @@ export enum DrawFlag {
 }
 
 /** Limits the work of one tick, over all sheets. 0: no limit. Triangles, cells and samples share one allowance: using
- *  30 % of one leaves 70 % of the others. A single step that exceeds the whole limit is not split. It runs alone in its
- *  tick. Other work goes on in the next tick. Until a cut takes effect its lips move together. The tick of the effect
- *  depends on the budget. The mesh, grid, regions, weights and sites of frames after all work is done do not, bit for
- *  bit; motion differs. Sheets take turns. The manual has examples and the order of turns (budget). */
+ *  30 % of one leaves 70 % of the others. Other work goes on in the next tick. The tick in which a cut takes effect
+ *  depends on the budget; the mesh, grid, regions, weights and sites of frames after all work is done do not, bit for
+ *  bit. The manual has examples, single steps that exceed a limit, and the order of turns (budget). */
 export class Budget {
     /** split by blades; 0, or KIRI_LEAST_TRIANGLES and more */
     triangles: number;
@@ -225,10 +218,8 @@ export class Budget {
     cells: number;
     /** vertices and collision points with new weights, and the cost of the commit, paid before it */
     samples: number;
-    /** linear systems, 30 to 60 us each. A large system counts as several, see the manual (budget). A sheet with fewer
-     *  systems than substeps takes longer substeps. Pieces that do not fit take turns: the others stay where they are
-     *  in this tick, with their velocity, and come first in the next. A piece whose system exceeds the whole limit is
-     *  moved alone */
+    /** linear systems, 30 to 60 us each; a large one counts as several. A sheet with too few takes longer substeps, and
+     *  pieces take turns, see the manual (budget) */
     iterations: number;
 }
 /** What a host gives as Budget: what is left out is 0. */
@@ -239,10 +230,8 @@ export interface BudgetGiven {
     cells?: number;
     /** vertices and collision points with new weights, and the cost of the commit, paid before it */
     samples?: number;
-    /** linear systems, 30 to 60 us each. A large system counts as several, see the manual (budget). A sheet with fewer
-     *  systems than substeps takes longer substeps. Pieces that do not fit take turns: the others stay where they are
-     *  in this tick, with their velocity, and come first in the next. A piece whose system exceeds the whole limit is
-     *  moved alone */
+    /** linear systems, 30 to 60 us each; a large one counts as several. A sheet with too few takes longer substeps, and
+     *  pieces take turns, see the manual (budget) */
     iterations?: number;
 }
 
@@ -423,10 +412,8 @@ export interface MaterialGiven {
     flexDamping?: number;
 }
 
-/** Work against accuracy. The presets were measured on a swinging strip and a swinging square of paper. Error is the
- *  rms distance of vertices from a much finer run, over their rms way. FAST: at most 2 %. BALANCED: 0.8 %. ACCURATE:
- *  0.4 %. Narrow arms that a cut leaves need more frames (`accuracy` of kiriSheetDef). The manual has details
- *  (accuracy). */
+/** Work against accuracy. Errors of a swinging strip and square, rms over their way: FAST at most 2 %, BALANCED 0.8 %,
+ *  ACCURATE 0.4 %. Narrow arms that a cut leaves need more frames. The manual has details (accuracy). */
 export class Quality {
     /** control frames in a row along a strip; a square needs 3 x 3, 5 x 5, 9 x 9 */
     framesAlong: number;
@@ -438,34 +425,32 @@ export class Quality {
     substeps: number;
 }
 
-/** Options of the paper, for comparison; part of the sheet def. */
+/** Options of the paper, for comparison; part of the sheet def. Default 0, but for integrationOrder. */
 export class PaperOptions {
-    /** 1: every cut rebuilds grid, regions and shape functions from scratch, to the same bits. Default 0. */
+    /** 1: every cut rebuilds grid, regions and shape functions from scratch, to the same bits */
     fromScratch: boolean;
-    /** 1: only new frames take their motion from the surface: it jumps at cuts, and momentum is not kept. Default 0. */
+    /** 1: only new frames take their motion from the surface: it jumps, momentum is not kept */
     popping: boolean;
-    /** 1: the weights of frames are linear between frames, so the surface has a kink at each frame. Always so with
-     *  KIRI_MODEL_POINTS. Default 0: the slope of weights is zero at the frames. */
+    /** 1: weights are linear between frames: a kink at each; always so with KIRI_MODEL_POINTS */
     linearWeights: boolean;
-    /** KIRI_MODEL_POINTS only. Points are spread evenly over the sheet, at least one in every piece; default 0: four
-     *  for each of frameCount. Work is proportional to them. Order 1 (default) has a constant strain in the material
-     *  around a point, order 2 a linear strain, at four times the work a point. 0 to 1048576 */
+    /** KIRI_MODEL_POINTS only: points spread evenly over the sheet, one in every piece at least; 0: four for each of
+     *  frameCount. Strain around a point is constant (order 1, default) or linear (2: four times the work). 0 to
+     *  1048576 */
     integrationPoints: number;
     /** 1 or 2 */
     integrationOrder: number;
 }
 /** What a host gives as PaperOptions: what is left out is 0. */
 export interface PaperOptionsGiven {
-    /** 1: every cut rebuilds grid, regions and shape functions from scratch, to the same bits. Default 0. */
+    /** 1: every cut rebuilds grid, regions and shape functions from scratch, to the same bits */
     fromScratch?: boolean | number;
-    /** 1: only new frames take their motion from the surface: it jumps at cuts, and momentum is not kept. Default 0. */
+    /** 1: only new frames take their motion from the surface: it jumps, momentum is not kept */
     popping?: boolean | number;
-    /** 1: the weights of frames are linear between frames, so the surface has a kink at each frame. Always so with
-     *  KIRI_MODEL_POINTS. Default 0: the slope of weights is zero at the frames. */
+    /** 1: weights are linear between frames: a kink at each; always so with KIRI_MODEL_POINTS */
     linearWeights?: boolean | number;
-    /** KIRI_MODEL_POINTS only. Points are spread evenly over the sheet, at least one in every piece; default 0: four
-     *  for each of frameCount. Work is proportional to them. Order 1 (default) has a constant strain in the material
-     *  around a point, order 2 a linear strain, at four times the work a point. 0 to 1048576 */
+    /** KIRI_MODEL_POINTS only: points spread evenly over the sheet, one in every piece at least; 0: four for each of
+     *  frameCount. Strain around a point is constant (order 1, default) or linear (2: four times the work). 0 to
+     *  1048576 */
     integrationPoints?: number;
     /** 1 or 2 */
     integrationOrder?: number;
@@ -474,38 +459,36 @@ export interface PaperOptionsGiven {
 /** A sheet: its rest shape, start, material, and computation. */
 export class SheetDef {
     cookie: number;
-    /** The rest shape: triangles in the rest plane, counter-clockwise, at most two at an edge. Holes and several parts
-     *  are allowed. kiriCreateSheet copies them and leaves out vertices without a triangle. Two edges in the same place
-     *  with different vertices are the lips of an existing cut; weldDistance closes them. 2 floats (u, v) a vertex */
+    /** The rest shape: triangles in the rest plane, counter-clockwise, at most two at an edge; holes and several parts
+     *  are allowed. Two edges in the same place with different vertices are the lips of a cut (manual, meshes). 2
+     *  floats (u, v) a vertex */
     restPositions: Float32Array;
     vertexCount: number;
     /** 3 a triangle */
     indices: Int32Array;
     triangleCount: number;
-    /** Start: x = position + u axisU + v axisV (m, world). The axes are orthonormal. */
+    /** Start: x = position + u axisU + v axisV (m, world), with orthonormal axes; and velocity, m/s. */
     position: number[];
+    /** Start: x = position + u axisU + v axisV (m, world), with orthonormal axes; and velocity, m/s. */
     axisU: number[];
+    /** Start: x = position + u axisU + v axisV (m, world), with orthonormal axes; and velocity, m/s. */
     axisV: number[];
-    /** m/s */
+    /** Start: x = position + u axisU + v axisV (m, world), with orthonormal axes; and velocity, m/s. */
     velocity: number[];
     material: Material;
     /** grid squares along the longer side, 1 to 4096; default 32 */
     gridResolution: number;
-    /** m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not. A cut keeps within half
-     *  of it of its line, or goes along a lip this near; 0: 1e-4 of the longer side */
+    /** m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not. 0: 1e-4 of the longer
+     *  side. The manual has more (cutting) */
     snapDistance: number;
     /** Merges vertices nearer than this (m, rest plane; 0 or more): for seams of texture coordinates, and triangles
-     *  without shared vertices (STL). Each vertex becomes the nearest kept vertex before it within this distance, or is
-     *  kept. No vertex moves farther, and a chain of near vertices stays several points. A triangle with two corners at
-     *  one vertex is left out. Sheet.copySources leads to the vertices of the def. Default 0: no merging. */
+     *  without shared vertices (STL). Default 0: no merging. The manual has the rule (meshes). */
     weldDistance: number;
     /** Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at least; null: frameCount
-     *  frames are spread evenly, some in pairs at both sides of slit ends. The grid carries at most one frame for every
-     *  two squares of material: a def with more gives KIRI_ERROR_ARGUMENT, and re-sampling stops there. A new sheet has
-     *  at most frameCount frames, or one for each piece where there are more pieces. frameCount 0: regions are split,
-     *  after cuts too, until 2.45 times the radius of gyration is at most 1.25 frameLength. frameLength 0: derived from
-     *  `accuracy`, the relative error of the shape under the sheet's own weight, and at least three grid squares.
-     *  Sheet.estimateError checks the result. 0, or 1 and more; default 5 */
+     *  frames are spread evenly, at most one for every two squares of material. frameCount 0: regions are split, after
+     *  cuts too, to frameLength; frameLength 0: it follows from `accuracy`, the relative error of the shape under the
+     *  sheet's own weight. The manual has the rules (accuracy), Sheet.estimateError checks the result. 0, or 1 and
+     *  more; default 5 */
     frameCount: number;
     /** m; used where frameCount is 0; default 0 */
     frameLength: number;
@@ -515,34 +498,30 @@ export class SheetDef {
     /** re-sampling stops here; default 256 */
     maxFrames: number;
     /** Re-sampling (section 5 of the paper): a frame whose weight exceeds rigidWeight over an area larger than
-     *  rigidArea (m^2) gets new frames beside it. A new sheet is re-sampled only with frameCount 0. Later it happens
-     *  when a cut ends or meets the border or another cut, where the area is also larger than in the new sheet. A rigid
-     *  sheet has frameCount 1 and maxFrames 1. rigidArea 0: a quarter of the area of a frame at the start. default 0.95 */
+     *  rigidArea (m^2) gets new frames beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter of the
+     *  area of a frame at the start. A rigid sheet has frameCount 1 and maxFrames 1. The manual says when (accuracy).
+     *  default 0.95 */
     rigidWeight: number;
     /** default 0 */
     rigidArea: number;
-    /** A piece with less area (m^2) is a crumb: it gets one frame if it has none, and no more. Default 0. */
+    /** m^2: a smaller piece is a crumb: it gets one frame if it has none, and no more. Default 0 */
     crumbArea: number;
     /** of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5 */
     friction: number;
-    /** m, 0 or more: distance between sheets and pieces, and twice the distance to obstacles. 0: the material's
-     *  thickness, at least a 20th of a grid square. Default 0 */
+    /** m: distance between sheets and pieces, and twice the distance to obstacles. 0 (default): the material's
+     *  thickness, at least a 20th of a grid square */
     contactThickness: number;
     /** obstacles and sheets touch if they share a set bit. Default: all */
     groups: number;
-    /** 1: its pieces touch each other, and other sheets that have it set; not where one of two sheets is planar. Planes
-     *  keep the upper piece, against gravity, on its side of the lower one; side by side, the piece that is free, or
-     *  the lighter one. So piles keep their order. Folds of one piece do not touch each other. Pieces that touch wake
-     *  and fall asleep together. The manual lists the limits of the method (contact). Default 0. */
+    /** 1: its pieces touch each other, and other sheets that have it set; not where one of two sheets is planar. Folds
+     *  of one piece do not touch each other. The manual has rules and limits (contact). Default 0. */
     touchesSheets: boolean;
     /** spread evenly over the sheet, at least one in every piece; default 0: none */
     collisionPoints: number;
     /** Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual */
     iterations: number;
-    /** A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a second.
-     *  It does not move, and costs almost nothing. A cut that changes it wakes it when the cut takes effect; so do a
-     *  new pin, pose, hold or load, contacts that differ, and moving things that come near. Gravity, wind, settings and
-     *  Sheet.wake wake all pieces of the sheet. Default 0.001; 0: no piece sleeps. */
+    /** A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a second,
+     *  and costs almost nothing until something new wakes it (manual, budget). Default 0.001; 0: no piece sleeps. */
     sleepSpeed: number;
     /** KIRI_MODEL_..., default KIRI_MODEL_LINKS */
     model: Model;
@@ -553,12 +532,9 @@ export class SheetDef {
     planar: boolean;
     /** KIRI_TIME_STEPPING_..., default KIRI_TIME_STEPPING_SECOND_ORDER */
     timeStepping: TimeStepping;
-    /** A cut that takes effect changes weights, and the surface would jump between frames. The difference fades within
-     *  this time (s), and so does that in the strain of links whose borders moved. Default 0.2; 0: at once. */
+    /** s: jumps of the surface and of strains fade within this when a cut takes effect. Default 0.2 */
     fadeTime: number;
-    /** 1: every tick computes normals of the mesh. 0: kiriMesh has no normals, and Sheet.copyVertices copies none; this
-     *  saves half of the time of linear skinning. The sheet moves the same, bit for bit: contact and Sheet.getSolid
-     *  compute their own normals. Sheet.getPoint is the same to rounding. Default 1. */
+    /** 1: every tick computes normals (default). 0: kiriMesh has none, which saves time */
     normals: boolean;
     /** default: all off */
     paper: PaperOptions;
@@ -566,36 +542,34 @@ export class SheetDef {
 /** What a host gives as SheetDef: what is left out is as the default has it. */
 export interface SheetDefGiven {
     cookie?: number;
-    /** The rest shape: triangles in the rest plane, counter-clockwise, at most two at an edge. Holes and several parts
-     *  are allowed. kiriCreateSheet copies them and leaves out vertices without a triangle. Two edges in the same place
-     *  with different vertices are the lips of an existing cut; weldDistance closes them. 2 floats (u, v) a vertex */
+    /** The rest shape: triangles in the rest plane, counter-clockwise, at most two at an edge; holes and several parts
+     *  are allowed. Two edges in the same place with different vertices are the lips of a cut (manual, meshes). 2
+     *  floats (u, v) a vertex */
     restPositions?: ArrayLike<number> | null;
     /** 3 a triangle */
     indices?: ArrayLike<number> | null;
-    /** Start: x = position + u axisU + v axisV (m, world). The axes are orthonormal. */
+    /** Start: x = position + u axisU + v axisV (m, world), with orthonormal axes; and velocity, m/s. */
     position?: ArrayLike<number>;
+    /** Start: x = position + u axisU + v axisV (m, world), with orthonormal axes; and velocity, m/s. */
     axisU?: ArrayLike<number>;
+    /** Start: x = position + u axisU + v axisV (m, world), with orthonormal axes; and velocity, m/s. */
     axisV?: ArrayLike<number>;
-    /** m/s */
+    /** Start: x = position + u axisU + v axisV (m, world), with orthonormal axes; and velocity, m/s. */
     velocity?: ArrayLike<number>;
     material?: MaterialGiven;
     /** grid squares along the longer side, 1 to 4096; default 32 */
     gridResolution?: number;
-    /** m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not. A cut keeps within half
-     *  of it of its line, or goes along a lip this near; 0: 1e-4 of the longer side */
+    /** m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not. 0: 1e-4 of the longer
+     *  side. The manual has more (cutting) */
     snapDistance?: number;
     /** Merges vertices nearer than this (m, rest plane; 0 or more): for seams of texture coordinates, and triangles
-     *  without shared vertices (STL). Each vertex becomes the nearest kept vertex before it within this distance, or is
-     *  kept. No vertex moves farther, and a chain of near vertices stays several points. A triangle with two corners at
-     *  one vertex is left out. Sheet.copySources leads to the vertices of the def. Default 0: no merging. */
+     *  without shared vertices (STL). Default 0: no merging. The manual has the rule (meshes). */
     weldDistance?: number;
     /** Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at least; null: frameCount
-     *  frames are spread evenly, some in pairs at both sides of slit ends. The grid carries at most one frame for every
-     *  two squares of material: a def with more gives KIRI_ERROR_ARGUMENT, and re-sampling stops there. A new sheet has
-     *  at most frameCount frames, or one for each piece where there are more pieces. frameCount 0: regions are split,
-     *  after cuts too, until 2.45 times the radius of gyration is at most 1.25 frameLength. frameLength 0: derived from
-     *  `accuracy`, the relative error of the shape under the sheet's own weight, and at least three grid squares.
-     *  Sheet.estimateError checks the result. 0, or 1 and more; default 5 */
+     *  frames are spread evenly, at most one for every two squares of material. frameCount 0: regions are split, after
+     *  cuts too, to frameLength; frameLength 0: it follows from `accuracy`, the relative error of the shape under the
+     *  sheet's own weight. The manual has the rules (accuracy), Sheet.estimateError checks the result. 0, or 1 and
+     *  more; default 5 */
     frameCount?: number;
     /** m; used where frameCount is 0; default 0 */
     frameLength?: number;
@@ -605,34 +579,30 @@ export interface SheetDefGiven {
     /** re-sampling stops here; default 256 */
     maxFrames?: number;
     /** Re-sampling (section 5 of the paper): a frame whose weight exceeds rigidWeight over an area larger than
-     *  rigidArea (m^2) gets new frames beside it. A new sheet is re-sampled only with frameCount 0. Later it happens
-     *  when a cut ends or meets the border or another cut, where the area is also larger than in the new sheet. A rigid
-     *  sheet has frameCount 1 and maxFrames 1. rigidArea 0: a quarter of the area of a frame at the start. default 0.95 */
+     *  rigidArea (m^2) gets new frames beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter of the
+     *  area of a frame at the start. A rigid sheet has frameCount 1 and maxFrames 1. The manual says when (accuracy).
+     *  default 0.95 */
     rigidWeight?: number;
     /** default 0 */
     rigidArea?: number;
-    /** A piece with less area (m^2) is a crumb: it gets one frame if it has none, and no more. Default 0. */
+    /** m^2: a smaller piece is a crumb: it gets one frame if it has none, and no more. Default 0 */
     crumbArea?: number;
     /** of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5 */
     friction?: number;
-    /** m, 0 or more: distance between sheets and pieces, and twice the distance to obstacles. 0: the material's
-     *  thickness, at least a 20th of a grid square. Default 0 */
+    /** m: distance between sheets and pieces, and twice the distance to obstacles. 0 (default): the material's
+     *  thickness, at least a 20th of a grid square */
     contactThickness?: number;
     /** obstacles and sheets touch if they share a set bit. Default: all */
     groups?: number;
-    /** 1: its pieces touch each other, and other sheets that have it set; not where one of two sheets is planar. Planes
-     *  keep the upper piece, against gravity, on its side of the lower one; side by side, the piece that is free, or
-     *  the lighter one. So piles keep their order. Folds of one piece do not touch each other. Pieces that touch wake
-     *  and fall asleep together. The manual lists the limits of the method (contact). Default 0. */
+    /** 1: its pieces touch each other, and other sheets that have it set; not where one of two sheets is planar. Folds
+     *  of one piece do not touch each other. The manual has rules and limits (contact). Default 0. */
     touchesSheets?: boolean | number;
     /** spread evenly over the sheet, at least one in every piece; default 0: none */
     collisionPoints?: number;
     /** Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual */
     iterations?: number;
-    /** A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a second.
-     *  It does not move, and costs almost nothing. A cut that changes it wakes it when the cut takes effect; so do a
-     *  new pin, pose, hold or load, contacts that differ, and moving things that come near. Gravity, wind, settings and
-     *  Sheet.wake wake all pieces of the sheet. Default 0.001; 0: no piece sleeps. */
+    /** A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a second,
+     *  and costs almost nothing until something new wakes it (manual, budget). Default 0.001; 0: no piece sleeps. */
     sleepSpeed?: number;
     /** KIRI_MODEL_..., default KIRI_MODEL_LINKS */
     model?: Model;
@@ -643,12 +613,9 @@ export interface SheetDefGiven {
     planar?: boolean | number;
     /** KIRI_TIME_STEPPING_..., default KIRI_TIME_STEPPING_SECOND_ORDER */
     timeStepping?: TimeStepping;
-    /** A cut that takes effect changes weights, and the surface would jump between frames. The difference fades within
-     *  this time (s), and so does that in the strain of links whose borders moved. Default 0.2; 0: at once. */
+    /** s: jumps of the surface and of strains fade within this when a cut takes effect. Default 0.2 */
     fadeTime?: number;
-    /** 1: every tick computes normals of the mesh. 0: kiriMesh has no normals, and Sheet.copyVertices copies none; this
-     *  saves half of the time of linear skinning. The sheet moves the same, bit for bit: contact and Sheet.getSolid
-     *  compute their own normals. Sheet.getPoint is the same to rounding. Default 1. */
+    /** 1: every tick computes normals (default). 0: kiriMesh has none, which saves time */
     normals?: boolean | number;
     /** default: all off */
     paper?: PaperOptionsGiven;
@@ -662,26 +629,22 @@ export class SheetSettings {
     material: Material;
     /** re-sampling stops here; default 256 */
     maxFrames: number;
-    /** A piece with less area (m^2) is a crumb: it gets one frame if it has none, and no more. Default 0. */
+    /** m^2: a smaller piece is a crumb: it gets one frame if it has none, and no more. Default 0 */
     crumbArea: number;
     /** of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5 */
     friction: number;
-    /** m, 0 or more: distance between sheets and pieces, and twice the distance to obstacles. 0: the material's
-     *  thickness, at least a 20th of a grid square. Default 0 */
+    /** m: distance between sheets and pieces, and twice the distance to obstacles. 0 (default): the material's
+     *  thickness, at least a 20th of a grid square */
     contactThickness: number;
     /** obstacles and sheets touch if they share a set bit. Default: all */
     groups: number;
-    /** 1: its pieces touch each other, and other sheets that have it set; not where one of two sheets is planar. Planes
-     *  keep the upper piece, against gravity, on its side of the lower one; side by side, the piece that is free, or
-     *  the lighter one. So piles keep their order. Folds of one piece do not touch each other. Pieces that touch wake
-     *  and fall asleep together. The manual lists the limits of the method (contact). Default 0. */
+    /** 1: its pieces touch each other, and other sheets that have it set; not where one of two sheets is planar. Folds
+     *  of one piece do not touch each other. The manual has rules and limits (contact). Default 0. */
     touchesSheets: boolean;
     /** Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual */
     iterations: number;
-    /** A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a second.
-     *  It does not move, and costs almost nothing. A cut that changes it wakes it when the cut takes effect; so do a
-     *  new pin, pose, hold or load, contacts that differ, and moving things that come near. Gravity, wind, settings and
-     *  Sheet.wake wake all pieces of the sheet. Default 0.001; 0: no piece sleeps. */
+    /** A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a second,
+     *  and costs almost nothing until something new wakes it (manual, budget). Default 0.001; 0: no piece sleeps. */
     sleepSpeed: number;
     /** KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR */
     skinning: Skinning;
@@ -689,9 +652,7 @@ export class SheetSettings {
     timeStepping: TimeStepping;
     /** stays 0 with paper.popping */
     fadeTime: number;
-    /** 1: every tick computes normals of the mesh. 0: kiriMesh has no normals, and Sheet.copyVertices copies none; this
-     *  saves half of the time of linear skinning. The sheet moves the same, bit for bit: contact and Sheet.getSolid
-     *  compute their own normals. Sheet.getPoint is the same to rounding. Default 1. */
+    /** 1: every tick computes normals (default). 0: kiriMesh has none, which saves time */
     normals: boolean;
 }
 /** What a host gives as SheetSettings: what is left out is 0. */
@@ -700,26 +661,22 @@ export interface SheetSettingsGiven {
     material?: MaterialGiven;
     /** re-sampling stops here; default 256 */
     maxFrames?: number;
-    /** A piece with less area (m^2) is a crumb: it gets one frame if it has none, and no more. Default 0. */
+    /** m^2: a smaller piece is a crumb: it gets one frame if it has none, and no more. Default 0 */
     crumbArea?: number;
     /** of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5 */
     friction?: number;
-    /** m, 0 or more: distance between sheets and pieces, and twice the distance to obstacles. 0: the material's
-     *  thickness, at least a 20th of a grid square. Default 0 */
+    /** m: distance between sheets and pieces, and twice the distance to obstacles. 0 (default): the material's
+     *  thickness, at least a 20th of a grid square */
     contactThickness?: number;
     /** obstacles and sheets touch if they share a set bit. Default: all */
     groups?: number;
-    /** 1: its pieces touch each other, and other sheets that have it set; not where one of two sheets is planar. Planes
-     *  keep the upper piece, against gravity, on its side of the lower one; side by side, the piece that is free, or
-     *  the lighter one. So piles keep their order. Folds of one piece do not touch each other. Pieces that touch wake
-     *  and fall asleep together. The manual lists the limits of the method (contact). Default 0. */
+    /** 1: its pieces touch each other, and other sheets that have it set; not where one of two sheets is planar. Folds
+     *  of one piece do not touch each other. The manual has rules and limits (contact). Default 0. */
     touchesSheets?: boolean | number;
     /** Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual */
     iterations?: number;
-    /** A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a second.
-     *  It does not move, and costs almost nothing. A cut that changes it wakes it when the cut takes effect; so do a
-     *  new pin, pose, hold or load, contacts that differ, and moving things that come near. Gravity, wind, settings and
-     *  Sheet.wake wake all pieces of the sheet. Default 0.001; 0: no piece sleeps. */
+    /** A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a second,
+     *  and costs almost nothing until something new wakes it (manual, budget). Default 0.001; 0: no piece sleeps. */
     sleepSpeed?: number;
     /** KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR */
     skinning?: Skinning;
@@ -727,17 +684,14 @@ export interface SheetSettingsGiven {
     timeStepping?: TimeStepping;
     /** stays 0 with paper.popping */
     fadeTime?: number;
-    /** 1: every tick computes normals of the mesh. 0: kiriMesh has no normals, and Sheet.copyVertices copies none; this
-     *  saves half of the time of linear skinning. The sheet moves the same, bit for bit: contact and Sheet.getSolid
-     *  compute their own normals. Sheet.getPoint is the same to rounding. Default 1. */
+    /** 1: every tick computes normals (default). 0: kiriMesh has none, which saves time */
     normals?: boolean | number;
 }
 
 /** The triangles to draw, as after the last tick. revision grows when indices or vertices are added or changed. Rest
- *  positions are floats, with a spacing of 6e-8 of the distance from the origin of the rest plane: triangles of about
- *  that size may look flat or inverted. The library computes with the positions of the def to 2^-29 of the sheet;
- *  sourceTriangles and sourceWeights have that precision. Arrays are those of the library: after the next tick they
- *  throw. */
+ *  positions are floats, so small triangles far from the origin of the rest plane may look flat in them;
+ *  sourceTriangles and sourceWeights have the precision of the library, 2^-29 of the sheet. Arrays are those of the
+ *  library: after the next tick they throw. */
 export class Mesh {
     /** 3 a vertex, m, world */
     readonly positions: Float32Array;
@@ -778,8 +732,8 @@ export class Dirty {
 }
 
 /** The surface with a thickness, to draw: a closed mesh, with a rim along borders, holes and lips. First the vertices
- *  of kiriMesh on the side of the normal, then the same on the other side, then four for each border edge, so rims are
- *  flat. Arrays are those of the library: after the next tick they throw. */
+ *  of kiriMesh on the side of the normal, then the same on the other side, then four for each border edge. Arrays are
+ *  those of the library: after the next tick they throw. */
 export class Solid {
     /** 3 a vertex, m, world */
     readonly positions: Float32Array;
@@ -808,8 +762,7 @@ export class Counts {
     collisionPoints: number;
 }
 
-/** Area (m^2), mass (kg), kinetic energy and elastic energy (J), linear and angular momentum about the world's origin
- *  (kg m/s, kg m^2/s), centre of mass (m). */
+/** m^2, kg, J, J; centre of mass, m; linear and angular momentum about the world's origin, kg m/s and kg m^2/s. */
 export class Totals {
     area: number;
     mass: number;
@@ -846,9 +799,9 @@ export class PointState {
     frame: Frame | null;
 }
 
-/** A connected part of a sheet. Any of its frames names it. Indices from 0 to kiriCounts.pieces, in the order of first
- *  frames, visit all pieces: they change when a piece comes off or goes, and Frame.getPiece returns the current one. A
- *  cut with pending work has not separated anything yet. Momentum is about the world's origin. */
+/** A connected part of a sheet. Any of its frames names it. Indices from 0 to kiriCounts.pieces visit all pieces; they
+ *  change when a piece comes off or goes, and Frame.getPiece returns the current one. A cut with pending work has not
+ *  separated anything yet. Momentum is about the world's origin. */
 export class PieceState {
     /** m^2, kg */
     area: number;
@@ -900,8 +853,7 @@ export class FrameState {
     restPoint: number[];
     /** m, world: of the rest point */
     position: number[];
-    /** columns: direction of u, direction of v, normal; of an affine frame the columns of A, which stretch with the
-     *  sheet */
+    /** columns: direction of u, of v, normal; an affine frame: columns of A, which stretch */
     rotation: number[];
     /** m/s */
     velocity: number[];
@@ -938,9 +890,8 @@ export class PinDef {
     stiffness: number;
     /** N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never */
     breakForce: number;
-    /** or 0. The target moves with this obstacle from its place at creation or at the last Pin.setTarget. The obstacle
-     *  feels the pin (Obstacle.getState); an obstacle with mass yields within the tick. If it is destroyed the target
-     *  stays */
+    /** or 0. The target moves with this obstacle, which feels the pin (Obstacle.getState) and yields by its mass. If it
+     *  is destroyed the target stays */
     obstacle: Obstacle | null;
 }
 /** What a host gives as PinDef: what is left out is as the default has it. */
@@ -954,9 +905,8 @@ export interface PinDefGiven {
     stiffness?: number;
     /** N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never */
     breakForce?: number;
-    /** or 0. The target moves with this obstacle from its place at creation or at the last Pin.setTarget. The obstacle
-     *  feels the pin (Obstacle.getState); an obstacle with mass yields within the tick. If it is destroyed the target
-     *  stays */
+    /** or 0. The target moves with this obstacle, which feels the pin (Obstacle.getState) and yields by its mass. If it
+     *  is destroyed the target stays */
     obstacle?: Obstacle | null;
 }
 
@@ -1110,9 +1060,9 @@ export class ObstacleState {
     rotation: number[];
     velocity: number[];
     angularVelocity: number[];
-    /** N s, N m s about its centre of mass: from sheets and pins in the last tick */
+    /** N s, N m s about its centre of mass: of sheets and pins in the last tick */
     impulse: number[];
-    /** N s, N m s about its centre of mass: from sheets and pins in the last tick */
+    /** N s, N m s about its centre of mass: of sheets and pins in the last tick */
     angularImpulse: number[];
     /** that pushed in the last tick */
     contacts: number;
@@ -1148,20 +1098,18 @@ export interface DebugDrawGiven {
 
 export function defaultDebugDraw(into?: DebugDraw): DebugDraw;
 
-/** Returns the version of the library, as KIRI_VERSION. */
+/** Return the version of the library, as KIRI_VERSION; the name of a result, as "KIRI_OK"; a line with its meaning. */
 export function getVersion(): number;
 
-/** Returns the name of a result, such as "KIRI_OK"; "unknown" for another number. */
+/** Return the version of the library, as KIRI_VERSION; the name of a result, as "KIRI_OK"; a line with its meaning. */
 export function getResultName(result: ResultCode): string;
 
-/** Returns one line: the meaning of a result, and its cure. Use it after calls that have no world to keep a line, such
- *  as kiriCreateWorld with a def of zeros (KIRI_ERROR_DEF). */
+/** Return the version of the library, as KIRI_VERSION; the name of a result, as "KIRI_OK"; a line with its meaning. */
 export function getResultText(result: ResultCode): string;
 
 /** Converts microseconds a tick into a budget, at the pace of the profile, which may be the sum of several. Cuts and
- *  linear systems share the time as in the profile. Each of triangles, cells and samples gets the time of all three,
- *  see kiriBudget. Sets only the limits for which the profile recorded work. The simulation never reads a clock: the
- *  host chooses, and a replay must set the same budgets. */
+ *  linear systems share the time as in the profile. Sets only the limits for which the profile recorded work. The host
+ *  chooses by its clock, so a replay must set the same budgets. */
 export function fitBudget(profile: ProfileGiven, microseconds: number, budget: Budget): ResultCode;
 
 /** Returns the name of a stage; "" for another number. */
@@ -1185,81 +1133,71 @@ export class World {
     /** Frees the world and all that is in it; once is enough. */
     destroy(): void;
     /** Advances by one fixed step of dt seconds (1e-6 to 10), in `substeps` equal parts (1 to 64): takes the pending
-     *  cut points, then moves every sheet. KIRI_PENDING: the budget is spent, and events name the cuts that still have
-     *  work; a sheet or some of its pieces may have stood still for want of iterations. KIRI_ERROR_MEMORY: the work on
-     *  a cut, or a piece that leaves, was refused memory and goes on in the next tick, as if the budget were spent; the
-     *  sheets moved. Only without memory for contacts or ids did nothing move: the line says which. KIRI_ERROR_LIMIT:
-     *  no ids are left for new frames; nothing moves until frames are destroyed. KIRI_DIVERGED: sheets that events name
-     *  were stopped, others moved; KIRI_EVENT_DEFERRED tells of pending work. */
+     *  cut points, then moves every sheet. KIRI_PENDING: the budget is spent; events name the cuts that still have
+     *  work. KIRI_ERROR_MEMORY: work on a cut, or a piece that leaves, goes on in the next tick; the sheets moved, but
+     *  where memory for contacts or ids is missing. KIRI_ERROR_LIMIT: no ids are left for new frames; nothing moves
+     *  until frames are destroyed. KIRI_DIVERGED: sheets that events name were stopped, others moved. */
     tick(dt: number, substeps: number): ResultCode;
     /** Returns one line: the reason why the last function that changes the world failed; "" if it did not. A function
      *  that only reads does not change the line, and logs its own. Valid until the next function that changes the
      *  world. */
     getLastError(): string;
-    /** Sets gravity (m/s^2). All pieces wake. */
-    setGravity(gravity: ArrayLike<number>): ResultCode;
-    /** Moves the origin of the world to a point (m): subtracts it from the positions of sheets, targets of pins and
-     *  holds, obstacles, blades, and pending contacts. The motion goes on as before, to rounding. Nothing wakes; (0, 0,
-     *  0) changes nothing. Use it in large worlds, where floats lose precision. The host shifts its own data. Returned
-     *  arrays keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a position would not fit a float. */
+    /** Moves the origin of the world to a point (m): subtracts it from all positions, as large worlds need because of
+     *  floats. The motion goes on as before, to rounding; nothing wakes. The host shifts its own data. Returned arrays
+     *  keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a position would not fit a float. */
     shiftOrigin(origin: ArrayLike<number>): ResultCode;
-    /** Sets the budget from the next tick on. */
+    /** Set gravity (m/s^2; all pieces wake), and the budget, from the next tick on. */
+    setGravity(gravity: ArrayLike<number>): ResultCode;
+    /** Set gravity (m/s^2; all pieces wake), and the budget, from the next tick on. */
     setBudget(budget: BudgetGiven): ResultCode;
     /** Hashes all state that the coming ticks depend on, pending work included. Two worlds with the same calls have the
-     *  same hash, and two worlds with the same hash go on alike. After a refused allocation some items are made again:
-     *  the hash differs while work is pending, or while the budget limits cells or samples. */
+     *  same hash, and two worlds with the same hash go on alike. After refused memory it may differ while work is
+     *  pending. */
     getStateHash(): bigint;
     /** Writes up to `capacity` ids of the world's sheets, in the order of their making; *count is how many there are. */
     getSheets(): Sheet[];
     /** Writes bytes of the host (1 to KIRI_MOST_NOTE_BYTES) to the recording, such as keys that a player pressed. A
      *  replay stops there. The world does not change; without a recording nothing happens. */
     note(bytes: Uint8Array): ResultCode;
-    /** Makes the calls of a recording up to the next tick or note, included. The world must be new. Gravity and budget
-     *  become those in the recording; memory, log and tasks stay the host's. Ids are as recorded (World.getSheets).
-     *  KIRI_PENDING: more calls follow, call again. KIRI_OK: the recording ended. KIRI_ERROR_REPLAY: a call gave
-     *  another result, other ids or another state than recorded; the line names it, and the next call goes on behind
-     *  it. KIRI_ERROR_DATA: the bytes are not a recording, damaged, cut short, or of another version; the line says
-     *  where. The calls before that place were made, and the last call of a recording that ends inside one, as after a
-     *  crash. KIRI_ERROR_STATE: the world is not new. KIRI_ERROR_MEMORY: replay again in a new world. Calls that were
-     *  refused memory when recorded are skipped, and hashes after such a tick may differ. */
+    /** Makes the calls of a recording up to the next tick or note, included. The world must be new; hooks stay the
+     *  host's. KIRI_PENDING: more calls follow, call again. KIRI_OK: the recording ended. KIRI_ERROR_REPLAY: a call
+     *  gave another result, other ids or another state than recorded; the line names it, and the next call goes on
+     *  behind it. KIRI_ERROR_DATA: the bytes are not a recording, damaged, cut short, or of another version; the line
+     *  says where. KIRI_ERROR_STATE: the world is not new. KIRI_ERROR_MEMORY: replay again in a new world. */
     replay(recording: Uint8Array, replay: Replay): ResultCode;
-    /** Writes the world, which only is read. *size: bytes of the save. `bytes` null: they are counted only, and
-     *  capacity is not read; else it has room for `capacity`. KIRI_ERROR_ARGUMENT: that is less than *size; nothing is
-     *  written. KIRI_PENDING: a cut is being worked on; *size is 0, and nothing is written. Save after a later tick, or
-     *  after World.finishCuts. */
+    /** Writes the world to memory with room for `capacity` bytes; null: counts them only. *size: bytes of the save.
+     *  KIRI_ERROR_ARGUMENT: `capacity` is less than *size; nothing is written. KIRI_PENDING: a cut is being worked on;
+     *  *size is 0, and nothing is written. Save after a later tick, or after World.finishCuts. */
     save(): Uint8Array;
-    /** Finishes the work on cuts at once, whatever the budget is, and without moving anything. Cuts that wait for a
-     *  budget take effect. The next tick reports the events. KIRI_ERROR_MEMORY, KIRI_ERROR_LIMIT: as in World.tick.
-     *  Arrays that the world handed out end as with a tick. */
+    /** Finishes the work on cuts at once, whatever the budget is, without moving anything. The next tick reports the
+     *  events. Arrays that the world handed out end as with a tick. KIRI_ERROR_MEMORY, KIRI_ERROR_LIMIT: as in
+     *  World.tick. */
     finishCuts(): ResultCode;
-    /** Replaces the world by a saved one. It may have any hooks; its own allocation, log, clock and tasks stay. The
-     *  bytes may come from anybody: a malicious save may give a strange world but cannot crash the program, and takes
-     *  memory in proportion to its size. Takes about as long as to create the sheets. The profile has no times until
-     *  the next tick. Arrays that the old world handed out live until then. KIRI_ERROR_DATA: the bytes are not a save,
-     *  damaged, or of another version. KIRI_ERROR_MEMORY. Then nothing has changed. `size` is below 2^31. A recording
-     *  has the bytes. */
+    /** Replaces the world by a saved one; its own hooks stay. The bytes may come from anybody: a malicious save may
+     *  give a strange world but cannot crash the program, and takes memory in proportion to its size, which is below
+     *  2^31. Arrays that the old world handed out live until the next tick. On failure nothing has changed:
+     *  KIRI_ERROR_DATA: the bytes are not a save, damaged, or of another version. KIRI_ERROR_MEMORY. */
     load(bytes: Uint8Array): ResultCode;
-    /** For rollback: copies all of the world, also work on cuts and pieces that wait, into memory of the host. Much
-     *  faster than a save, and exact to the bit. The bytes are good for this process only: never store or send them.
-     *  Arguments as of World.save. */
+    /** For rollback: copies all of the world, also work in progress, into memory of the host; much faster than a save,
+     *  and exact to the bit. For this process only: never store or send the bytes. Arguments as of World.save. */
     snapshot(): Uint8Array;
-    /** Replaces the world by the world of the snapshot; ids name the same things. The bytes are trusted: hand over only
-     *  the output of World.snapshot. KIRI_ERROR_DATA: the bytes are not a snapshot of this build of the library.
-     *  KIRI_ERROR_STATE: the world is recorded. KIRI_ERROR_MEMORY. Then nothing has changed. Hooks and arrays as with
-     *  World.load. */
+    /** Replaces the world by the world of the snapshot, as World.load does. The bytes are trusted. On failure nothing
+     *  has changed: KIRI_ERROR_DATA: no snapshot of this build. KIRI_ERROR_STATE: it is recorded. KIRI_ERROR_MEMORY. */
     restore(bytes: Uint8Array): ResultCode;
     /** Gets the events: *events points to *count of them. */
     getEvents(): Rows<Event>;
     /** Gets the profile of the last tick that was not refused. */
     getProfile(into?: Profile): Profile;
-    /** Adds a sheet. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles do not form a sheet. The line says why, and
-     *  names the triangle, or the two triangles at an edge, by index in the def. */
+    /** Add a sheet, and destroy one with its cuts, frames and pins. On failure *sheet is 0. KIRI_ERROR_MESH: the
+     *  triangles do not form a sheet; the line says why, and names the triangle, or the two at an edge, by index in the
+     *  def. */
     createSheet(def: SheetDefGiven): Sheet;
     /** Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles;
      *  columns and rows are 1 to 4096. def: its mesh is not read; null: the defaults. A recording stores it as
      *  kiriCreateSheet. */
     createRectangle(width: number, height: number, columns: number, rows: number, def?: SheetDefGiven | null): Sheet;
-    /** Finds the first sheet that a ray meets; *sheet is 0 where there is none. */
+    /** Find where a ray first meets the sheet, or any (*sheet is 0 if none), up to maxDistance; hit->triangle is -1 if
+     *  it does not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray. */
     raycast(origin: ArrayLike<number>, direction: ArrayLike<number>, maxDistance: number, into?: Hit): { sheet: Sheet | null, hit: Hit };
     /** Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet; frames of one piece
      *  count once. All are done or pending, or none if one is refused. KIRI_PENDING: some are pending, all in a sheet
@@ -1269,10 +1207,9 @@ export class World {
      *  count once. All are done or pending, or none if one is refused. KIRI_PENDING: some are pending, all in a sheet
      *  together. detached[i] is the sheet made of the piece of frames[i], 0 where it is pending. */
     destroyPieces(frames: Frame[]): ResultCode;
-    /** sheet 0: it cuts all sheets, also those that are made later and pieces that get a sheet of their own. A blade
-     *  for one sheet whose sheet is gone cuts nothing. */
+    /** Begins a blade for one sheet; 0: for all sheets, also those that are made later. */
     beginBlade(sheet?: Sheet | null): Blade;
-    /** Adds an obstacle. On failure *obstacle is 0. */
+    /** Add and destroy an obstacle. On failure *obstacle is 0. Pieces that rested on a destroyed one wake. */
     createObstacle(def: ObstacleDefGiven): Obstacle;
     /** Draws the world as after the last tick, by functions of the host. Only reads the world, and takes no memory. */
     debugDraw(draw: DebugDrawGiven): ResultCode;
@@ -1282,13 +1219,15 @@ export class Sheet {
     readonly world: World;
     /** Two that are the same have the same id. */
     readonly id: number;
-    /** Destroys the sheet with its cuts, frames and pins; their ids are stale. */
+    /** Add a sheet, and destroy one with its cuts, frames and pins. On failure *sheet is 0. KIRI_ERROR_MESH: the
+     *  triangles do not form a sheet; the line says why, and names the triangle, or the two at an edge, by index in the
+     *  def. */
     destroy(): ResultCode;
     /** Gets the current settings, stamped for Sheet.setSettings. */
     getSettings(into?: SheetSettings): SheetSettings;
     /** Sets all settings, or none; checks them as kiriCreateSheet does. KIRI_ERROR_DEF: they do not come from
      *  Sheet.getSettings. The sheet wakes if one differs. Positions and velocities are kept, so a new mass changes the
-     *  momentum. The stiffness of pins and the lengths that placed the frames are kept, too. */
+     *  momentum; the stiffness of pins and the lengths that placed the frames are kept, too. */
     setSettings(settings: SheetSettingsGiven): ResultCode;
     /** Gets the arrays, without a copy. */
     getMesh(into?: Mesh): Mesh;
@@ -1298,22 +1237,21 @@ export class Sheet {
      *  these. KIRI_ERROR_STATE: the sheet makes no normals. */
     copyVertices(first: number, count: number, positions?: Float32Array | null, positionStride?: number, normals?: Float32Array | null, normalStride?: number): ResultCode;
     /** Copies the index that each vertex had when the last call of World.tick began, for hosts that draw between two
-     *  ticks. *from: the sheet that had the vertices then; another sheet if this one was a piece of it. A vertex that a
-     *  cut separated from another gets the index of the other. -1: the vertex did not exist, as in a sheet that was
-     *  created or loaded since. The manual has the code (drawing). */
+     *  ticks; -1: it did not exist. *from: the sheet that had the vertices then. A vertex that a cut separated from
+     *  another gets the index of the other. The manual has the code (drawing). */
     copyPrevious(first: number, count: number): { vertices: Int32Array, from: Sheet };
     /** Copies indices of some triangles as 16-bit numbers, 3 each. KIRI_ERROR_STATE: there are more than 65535
      *  vertices. */
     copyIndices16(firstTriangle: number, count: number): Uint16Array;
     /** Map triangles to the def, to draw with the host's data for its own vertices. Sources: the triangle of the def
-     *  that contains each; -1 for a triangle that was removed (its corners are equal). Weights: 9 floats each, the
-     *  barycentric coordinates of its three corners in that triangle. They are correct on both sides of a seam that
-     *  weldDistance closed; sourceTriangles name a triangle on one side. The manual has the code (meshes). */
+     *  that contains each; -1 for a triangle that was removed. Weights: 9 floats each, the barycentric coordinates of
+     *  its three corners in that triangle, also beside a seam that weldDistance closed. The manual has the code
+     *  (meshes). */
     copySources(firstTriangle: number, count: number): Int32Array;
     /** Map triangles to the def, to draw with the host's data for its own vertices. Sources: the triangle of the def
-     *  that contains each; -1 for a triangle that was removed (its corners are equal). Weights: 9 floats each, the
-     *  barycentric coordinates of its three corners in that triangle. They are correct on both sides of a seam that
-     *  weldDistance closed; sourceTriangles name a triangle on one side. The manual has the code (meshes). */
+     *  that contains each; -1 for a triangle that was removed. Weights: 9 floats each, the barycentric coordinates of
+     *  its three corners in that triangle, also beside a seam that weldDistance closed. The manual has the code
+     *  (meshes). */
     copySourceWeights(firstTriangle: number, count: number): Float32Array;
     /** Makes the solid surface. thickness: m, 0: the material's thickness. */
     getSolid(thickness: number, into?: Solid): Solid;
@@ -1325,8 +1263,8 @@ export class Sheet {
     getTotals(into?: Totals): Totals;
     /** Estimates the error of the current shape of a sheet that rests or moves slowly: rms distance from a sheet of
      *  very many frames under the same loads, over its rms way from the flat shape; 0 to 1, and 1 with too few frames
-     *  to tell. It compares strains of neighbouring links (KIRI_MODEL_LINKS only; else KIRI_ERROR_STATE), in one pass
-     *  that allocates memory. The manual says how good it is (accuracy). */
+     *  to tell. KIRI_MODEL_LINKS only; else KIRI_ERROR_STATE. It allocates memory. The manual says how good it is
+     *  (accuracy). */
     estimateError(): number;
     /** Read and end sleep: *awake is 0 where all pieces sleep (kiriPieceState tells which); Sheet.wake wakes all. */
     isAwake(): boolean;
@@ -1334,40 +1272,35 @@ export class Sheet {
     wake(): ResultCode;
     /** Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and the sheet wakes.
      *  The columns of `rotation` are the images of the world's axes; a planar sheet turns about its normal only.
-     *  Targets of pins, hinges, clamps and holds move along, so nothing pulls the sheet back. A target that the host
-     *  set nearer to the pin's new place than to its old one stays: the host may set targets before or after. Pins on
-     *  an obstacle stay on it: move the obstacle by the same motion (Obstacle.setPose), before or after. Pending loads
-     *  and contacts stay. */
+     *  Targets of pins, hinges, clamps and holds move along; pins on an obstacle stay on it. The manual has the order
+     *  of calls that set targets or move obstacles (sheets). Pending loads and contacts stay. */
     transform(rotation: ArrayLike<number>, translation: ArrayLike<number>): ResultCode;
     /** Set rigid motion of a sheet, or of the piece with a frame, until forces change it: `velocity` (m/s) of its
      *  centre of mass, and `angularVelocity` (rad/s) about it. Planar sheets drop motion across their plane; held
      *  frames stay held. */
     setVelocity(velocity: ArrayLike<number>, angularVelocity: ArrayLike<number>): ResultCode;
-    /** Store a number of the host, 0 at first. No tick depends on it, and the state hash does not. Frame.detachPiece
-     *  copies the sheet's number to the new sheet. A piece has a number, too, named by any of its frames: the parts of
-     *  a piece that is cut inherit it, and so does a sheet that is made of it. */
+    /** Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and a
+     *  piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
+     *  both. */
     setUserData(data: number | bigint): ResultCode;
-    /** Store a number of the host, 0 at first. No tick depends on it, and the state hash does not. Frame.detachPiece
-     *  copies the sheet's number to the new sheet. A piece has a number, too, named by any of its frames: the parts of
-     *  a piece that is cut inherit it, and so does a sheet that is made of it. */
+    /** Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and a
+     *  piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
+     *  both. */
     getUserData(): bigint;
-    /** Finds where a ray first meets the sheet, up to maxDistance. KIRI_OK with hit->triangle = -1: it does not. The
-     *  first ray visits every triangle. From the next tick on boxes over the triangles follow the sheet, until 120
-     *  ticks pass without a ray: a ray takes some microseconds, and a tick of a large sheet a quarter more. */
+    /** Find where a ray first meets the sheet, or any (*sheet is 0 if none), up to maxDistance; hit->triangle is -1 if
+     *  it does not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray. */
     raycast(origin: ArrayLike<number>, direction: ArrayLike<number>, maxDistance: number, into?: Hit): Hit;
     /** Gets the state of a point. KIRI_ERROR_ARGUMENT: it is outside the sheet. On a cut: on a lip that has the point. */
     getPoint(restPoint: ArrayLike<number>, into?: PointState): PointState;
     /** Gets the shape functions at a rest point: up to `capacity` frames with their weights, whose sum is 1, and,
      *  unless null, gradients (2 floats a frame, 1/m). *count is how many there are, also above capacity.
-     *  KIRI_ERROR_ARGUMENT: it is outside the sheet. KIRI_ERROR_STATE: work on a cut is pending. */
+     *  KIRI_ERROR_ARGUMENT: the point is outside the sheet. KIRI_ERROR_STATE: work on a cut is pending. */
     getWeights(restPoint: ArrayLike<number>): { frames: Frame[], weights: Float32Array, gradients: Float32Array };
-    /** Get a piece. The first of these calls after a cut sorts the sheet by pieces, and may fail with
-     *  KIRI_ERROR_MEMORY. KIRI_ERROR_ARGUMENT: no piece has the index. */
+    /** Get a piece. The first call after a cut sorts the sheet by pieces. KIRI_ERROR_ARGUMENT: no piece has the index. */
     getPiece(piece: number, into?: PieceState): PieceState;
-    /** Get a piece. The first of these calls after a cut sorts the sheet by pieces, and may fail with
-     *  KIRI_ERROR_MEMORY. KIRI_ERROR_ARGUMENT: no piece has the index. */
+    /** Get a piece. The first call after a cut sorts the sheet by pieces. KIRI_ERROR_ARGUMENT: no piece has the index. */
     getPieceMesh(piece: number, into?: PieceMesh): PieceMesh;
-    /** Gets the frames of a piece: *frames points to *count ids. */
+    /** Get the frames of a piece (*frames points to *count ids), and the current index of the piece with a frame. */
     getPieceFrames(piece: number): Frame[];
     /** Destroys all pieces below an area (m^2) except the largest piece, at the cost of one. *count is their number. If
      *  the largest piece is pending to become a sheet, the largest of the others stays, too. */
@@ -1376,54 +1309,46 @@ export class Sheet {
      *  tick or, by the budget, a later one. The end of a cut inside the sheet stays closed until the next point. */
     beginCut(restPoint: ArrayLike<number>): Cut;
     /** Cuts where the quadrilateral swept by an edge in world space, from blade[0]-blade[1] to blade[3]-blade[2], meets
-     *  the current sheet; past borders, so that it separates the parts that it crosses. The cut is already ended.
-     *  Slices of a moving sheet do not join from tick to tick: use a blade for that. */
+     *  the current sheet; past borders, so that it separates the parts that it crosses. The cut is already ended. */
     slice(blade: ArrayLike<number>): Cut;
     /** Writes up to `capacity` ids of the sheet's frames; *count is how many there are. */
     getFrames(): Frame[];
-    /** Applies a force (N, world) at a point of the material and a torque (N m). */
+    /** Apply a force (N, world) at the frame's centre of mass, or at a point of the material, and a torque (N m). */
     applyForce(restPoint: ArrayLike<number>, force: ArrayLike<number>, torque: ArrayLike<number>): ResultCode;
     /** Applies a force (N/m, world) along a straight line of the rest plane where it lies in the material, edges
      *  included. Along a cut each lip gets half. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no material. */
     applyLineLoad(from: ArrayLike<number>, to: ArrayLike<number>, forcePerLength: ArrayLike<number>): ResultCode;
     /** Applies a pressure (Pa) to the whole sheet along its normal; below 0: against it. */
     applyPressure(pressure: number): ResultCode;
-    /** Applies an impulse (N s, world) at a point of the material on the visible surface. Velocities change at once, by
-     *  the mass of the frames that carry the point; a held frame's share is lost. KIRI_ERROR_ARGUMENT: it is outside
-     *  the sheet. */
+    /** Applies an impulse (N s, world) at a point of the material on the visible surface, at once, by the mass of the
+     *  frames that carry the point; a held frame's share is lost. KIRI_ERROR_ARGUMENT: the point is outside the sheet. */
     applyImpulse(restPoint: ArrayLike<number>, impulse: ArrayLike<number>): ResultCode;
     /** Copies the wind; it blows until the next call. */
     setWind(wind: WindGiven): ResultCode;
-    /** Pins a point of the sheet. On failure *pin is 0. KIRI_ERROR_ARGUMENT: it is outside the sheet. */
+    /** Pin a point of the sheet, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: the point is
+     *  outside the sheet. */
     createPin(def: PinDefGiven): Pin;
     /** Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds the place and
      *  direction of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The
-     *  line is straight, with its rest length: bent material is pulled straight, and separate pieces are pulled
-     *  together, at any speed. Both hold the material on the line, edges included, with its stiffness from the line to
-     *  the frames around it. A clamp through the sheet separates the bending of its two sides. A line along a cut holds
-     *  both lips; a line beside it, by a 512th of a grid square or more, holds one. The ends differ.
-     *  KIRI_ERROR_ARGUMENT: the line meets no material. */
+     *  line is straight, with its rest length: bent material and separate pieces are pulled to it, at any speed. A line
+     *  along a cut holds both lips; a line beside it holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no
+     *  material. */
     clampLine(from: ArrayLike<number>, to: ArrayLike<number>): Pin;
     /** Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds the place and
      *  direction of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The
-     *  line is straight, with its rest length: bent material is pulled straight, and separate pieces are pulled
-     *  together, at any speed. Both hold the material on the line, edges included, with its stiffness from the line to
-     *  the frames around it. A clamp through the sheet separates the bending of its two sides. A line along a cut holds
-     *  both lips; a line beside it, by a 512th of a grid square or more, holds one. The ends differ.
-     *  KIRI_ERROR_ARGUMENT: the line meets no material. */
+     *  line is straight, with its rest length: bent material and separate pieces are pulled to it, at any speed. A line
+     *  along a cut holds both lips; a line beside it holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no
+     *  material. */
     hingeLine(from: ArrayLike<number>, to: ArrayLike<number>): Pin;
     /** Writes up to `capacity` ids of the sheet's pins, of all types; *count is how many there are. */
     getPins(): Pin[];
     /** Sets the contacts of the next tick; they replace those set before, and end with the tick. A contact with the
      *  point, or rest point, and obstacle of an earlier one starts with the earlier impulse. */
     setContacts(contacts: ContactGiven[]): ResultCode;
-    /** Gets one result for each contact that was set before the last tick, in that order. The sum of these impulses and
-     *  of the impulses of gravity, loads and obstacles is the change of momentum of a free piece. A sleeping piece goes
-     *  on to press with the values with which it fell asleep. */
+    /** Gets one result for each contact that was set before the last tick, in that order. A sleeping piece presses on. */
     getContactForces(): Rows<ContactForce>;
     /** Gets a box (m, world) around all that the sheet can touch in a tick of dt (s, as in World.tick): a host needs no
-     *  obstacles or contacts outside. Its margin is twice the way of the fastest point by velocity and gravity, plus
-     *  the contact thickness. For moving obstacles add their own way. */
+     *  obstacles or contacts outside. For moving obstacles add their own way. */
     getReach(dt: number): { lower: Float32Array, upper: Float32Array };
 }
 
@@ -1431,10 +1356,11 @@ export class Cut {
     readonly world: World;
     /** Two that are the same have the same id. */
     readonly id: number;
-    /** Adds points. restPoints: 2 floats a point; count is 1 to 2^24. */
+    /** Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the tick in which its
+     *  last point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the frames that it needs. */
     extend(restPoints: ArrayLike<number>): ResultCode;
-    /** Ends the cut. Its id is stale after the tick in which its last point takes effect (KIRI_EVENT_CUT_FINISHED). The
-     *  sheet then adds the frames that it needs. */
+    /** Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the tick in which its
+     *  last point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the frames that it needs. */
     end(): ResultCode;
 }
 
@@ -1446,41 +1372,37 @@ export class Frame {
      *  centre of mass, and `angularVelocity` (rad/s) about it. Planar sheets drop motion across their plane; held
      *  frames stay held. */
     setPieceVelocity(velocity: ArrayLike<number>, angularVelocity: ArrayLike<number>): ResultCode;
-    /** Store a number of the host, 0 at first. No tick depends on it, and the state hash does not. Frame.detachPiece
-     *  copies the sheet's number to the new sheet. A piece has a number, too, named by any of its frames: the parts of
-     *  a piece that is cut inherit it, and so does a sheet that is made of it. */
+    /** Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and a
+     *  piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
+     *  both. */
     setPieceUserData(data: number | bigint): ResultCode;
-    /** Store a number of the host, 0 at first. No tick depends on it, and the state hash does not. Frame.detachPiece
-     *  copies the sheet's number to the new sheet. A piece has a number, too, named by any of its frames: the parts of
-     *  a piece that is cut inherit it, and so does a sheet that is made of it. */
+    /** Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and a
+     *  piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
+     *  both. */
     getPieceUserData(): bigint;
-    /** Gets the current index of the piece with this frame. */
+    /** Get the frames of a piece (*frames points to *count ids), and the current index of the piece with a frame. */
     getPiece(): number;
-    /** Makes a sheet of the piece with this frame. Frames, pins, collision points, pending loads and contacts move
-     *  along, with their ids and states, and the motion goes on. Both sheets have all settings. Cuts stay with the old
-     *  sheet. A clamp or hinge that holds both gets a copy with a new id in the new sheet. Revisions grow;
-     *  Sheet.getDirty has the changes. KIRI_PENDING: work on a cut is pending, or the piece takes more samples than the
-     *  budget leaves; *detached is 0. Then samples of the coming ticks pay for it, and further cuts of the sheet wait.
-     *  When all is paid the piece of this frame becomes a sheet, and KIRI_EVENT_PIECE_DETACHED names it.
-     *  KIRI_ERROR_STATE: nothing would be left of the sheet. The manual has indices and costs (cutting). */
+    /** Makes a sheet of the piece with this frame. All that belongs to the piece moves along, with ids and states, and
+     *  the motion goes on; cuts stay with the old sheet. A clamp or hinge that holds both gets a copy with a new id in
+     *  the new sheet. KIRI_PENDING: work on a cut is pending, or the piece takes more samples than the budget leaves;
+     *  *detached is 0. Further cuts of the sheet then wait, and KIRI_EVENT_PIECE_DETACHED names the sheet in a later
+     *  tick. KIRI_ERROR_STATE: nothing would be left of the sheet. The manual has indices and costs (cutting). */
     detachPiece(): Sheet | null;
-    /** Removes the piece with this frame: ids of its frames and pins are stale. Takes effect at once, and the coming
-     *  ticks have fewer samples. KIRI_PENDING: work on a cut is pending. Until it is done the triangles stay in
-     *  kiriMesh with three equal corners, the vertices stay, and kiriCounts counts the piece, with a kiriPieceState of
-     *  all zeros. */
+    /** Removes the piece with this frame at once: ids of its frames and pins are stale, and the coming ticks have fewer
+     *  samples. KIRI_PENDING: work on a cut is pending. Until it is done the triangles stay in kiriMesh with three
+     *  equal corners, and kiriCounts counts the piece, with a kiriPieceState of all zeros. */
     destroyPiece(): ResultCode;
     /** Gets the current state. */
     getState(into?: FrameState): FrameState;
-    /** Holds the frame: its rest point on the visible surface moves evenly to `position` (m, world) with `rotation` (a
-     *  rotation matrix, columns as above) in the next tick, and stays there until the next call. A held affine frame is
-     *  not stretched. On a planar sheet the rotation is about its normal. Null, null: frees it. Contacts do not push
-     *  material of which held frames carry more than half: it moves through obstacles. */
+    /** Holds the frame: its rest point on the visible surface moves evenly to `position` (m, world) with `rotation`
+     *  (columns as above; on a planar sheet about its normal) in the next tick, and stays there. Null, null: frees it.
+     *  Material of which held frames carry more than half moves through obstacles. */
     hold(position?: ArrayLike<number> | null, rotation?: ArrayLike<number> | null): ResultCode;
     /** Gets the force (N, world) and torque (N m, about the frame's rest point) that the hold applied to the sheet:
-     *  means over the last tick, impulses divided by its dt. They include the frame's own weight and change of
-     *  momentum. Zero for a free frame. A sleeping piece keeps the values with which it fell asleep. */
+     *  means over the last tick that moved the piece, with the frame's own weight and change of momentum. Zero for a
+     *  free one. */
     getReaction(): { force: Float64Array, torque: Float64Array };
-    /** Applies a force (N, world) at the frame's centre of mass and a torque (N m). */
+    /** Apply a force (N, world) at the frame's centre of mass, or at a point of the material, and a torque (N m). */
     applyForce(force: ArrayLike<number>, torque: ArrayLike<number>): ResultCode;
 }
 
@@ -1488,18 +1410,20 @@ export class Pin {
     readonly world: World;
     /** Two that are the same have the same id. */
     readonly id: number;
-    /** Store a number of the host, 0 at first. No tick depends on it, and the state hash does not. Frame.detachPiece
-     *  copies the sheet's number to the new sheet. A piece has a number, too, named by any of its frames: the parts of
-     *  a piece that is cut inherit it, and so does a sheet that is made of it. */
+    /** Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and a
+     *  piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
+     *  both. */
     setUserData(data: number | bigint): ResultCode;
-    /** Store a number of the host, 0 at first. No tick depends on it, and the state hash does not. Frame.detachPiece
-     *  copies the sheet's number to the new sheet. A piece has a number, too, named by any of its frames: the parts of
-     *  a piece that is cut inherit it, and so does a sheet that is made of it. */
+    /** Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and a
+     *  piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
+     *  both. */
     getUserData(): bigint;
+    /** Pin a point of the sheet, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: the point is
+     *  outside the sheet. */
+    destroy(): ResultCode;
     /** Sets the target of the pin's point, or of the middle of its line (m, world), for the end of the next tick and
-     *  until the next call. The pin moves there evenly within the tick. The current target of Pin.getState changes
-     *  nothing. With KIRI_SKINNING_SMOOTH pins and clamps hold the visible surface; a clamp holds its mean along the
-     *  line for each piece, so single points are slightly off the line. */
+     *  until the next call. The pin moves there evenly within the tick. With KIRI_SKINNING_SMOOTH pins and clamps hold
+     *  the visible surface; a clamp holds its mean along the line for each piece. */
     setTarget(target: ArrayLike<number>): ResultCode;
     /** Sets the target and the rotation of the line's material: columns are the directions of u and v and the normal.
      *  On a planar sheet it is about the sheet's normal. KIRI_ERROR_ARGUMENT: the pin holds a point. */
@@ -1509,27 +1433,27 @@ export class Pin {
     /** Gets the current state. */
     getState(into?: PinState): PinState;
     /** Gets the force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over the
-     *  last tick, impulses divided by its dt. The reactions of all pins and held frames are the weight of a sheet at
-     *  rest, and change its momentum in motion (as far as `iterations` solve the tick). Zero before the first tick. A
-     *  sleeping piece keeps the values with which it fell asleep. */
+     *  last tick that moved the piece. All reactions are the weight of a sheet at rest, and change its momentum in
+     *  motion. */
     getReaction(): { force: Float64Array, torque: Float64Array };
-    /** Destroys the pin; its id is stale. */
-    destroy(): ResultCode;
 }
 
 export class Obstacle {
     readonly world: World;
     /** Two that are the same have the same id. */
     readonly id: number;
-    /** Destroys an obstacle; its id is stale. Pieces that rested on it wake. */
+    /** Add and destroy an obstacle. On failure *obstacle is 0. Pieces that rested on a destroyed one wake. */
     destroy(): ResultCode;
     /** Teleports the obstacle (m, world). Sheets react to its velocity (Obstacle.setVelocity), not to the jump. */
     setPose(position: ArrayLike<number>, rotation: ArrayLike<number>): ResultCode;
-    /** Set the velocity (m/s, rad/s) for the next and all later ticks. */
+    /** Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg), inertia and centre of
+     *  mass. */
     setVelocity(velocity: ArrayLike<number>, angularVelocity: ArrayLike<number>): ResultCode;
-    /** Set the velocity (m/s, rad/s) for the next and all later ticks. */
+    /** Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg), inertia and centre of
+     *  mass. */
     setSurfaceVelocity(velocity: ArrayLike<number>): ResultCode;
-    /** Sets mass (kg), inertia and centre of mass, as in the def. */
+    /** Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg), inertia and centre of
+     *  mass. */
     setMass(mass: number, inertia: ArrayLike<number>, centerOfMass: ArrayLike<number>): ResultCode;
     /** Gets the current state. */
     getState(into?: ObstacleState): ObstacleState;
@@ -1539,11 +1463,11 @@ export class Blade {
     readonly world: World;
     /** Two that are the same have the same id. */
     readonly id: number;
-    /** The blade is now the straight edge between two points (m, world). From where it was it got there straight, each
-     *  end along a line. The first call only says where it begins. Where an end of the edge lies inside of what it
-     *  sweeps of the sheet, it cuts only what it sweeps. An edge without length cuts nothing. */
+    /** Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera
+     *  casts; each end goes straight. The first call only says where it begins. An end inside cuts along its own way. */
     moveEdge(from: ArrayLike<number>, to: ArrayLike<number>): ResultCode;
-    /** The same for a ray that a camera casts: an edge `length` m long. */
+    /** Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera
+     *  casts; each end goes straight. The first call only says where it begins. An end inside cuts along its own way. */
     moveRay(origin: ArrayLike<number>, direction: ArrayLike<number>, length: number): ResultCode;
     /** It is gone, its id stale; what it has cut stays, and where it was in a layer the cut ends. */
     end(): ResultCode;

@@ -1394,20 +1394,20 @@ export class World extends WorldBase {
         return string(wasm.kiriWorld_GetLastError($world));
     }
 
-    setGravity(gravity) {
-        const $world = pointer(this);
-        const $result = wasm.kiriWorld_SetGravity($world, put("Float32Array", scratch, gravity, 3, "gravity"));
-        if ($result < 0) {
-            fail(this, $result, "kiriWorld_SetGravity");
-        }
-        return $result;
-    }
-
     shiftOrigin(origin) {
         const $world = pointer(this);
         const $result = wasm.kiriWorld_ShiftOrigin($world, put("Float32Array", scratch, origin, 3, "origin"));
         if ($result < 0) {
             fail(this, $result, "kiriWorld_ShiftOrigin");
+        }
+        return $result;
+    }
+
+    setGravity(gravity) {
+        const $world = pointer(this);
+        const $result = wasm.kiriWorld_SetGravity($world, put("Float32Array", scratch, gravity, 3, "gravity"));
+        if ($result < 0) {
+            fail(this, $result, "kiriWorld_SetGravity");
         }
         return $result;
     }
@@ -2300,6 +2300,15 @@ export class Pin extends Thing {
         return U64[(scratch) >> 3];
     }
 
+    destroy() {
+        const $world = pointer(this.world);
+        const $result = wasm.kiriDestroyPin($world, this.id);
+        if ($result < 0) {
+            fail(this.world, $result, "kiriDestroyPin");
+        }
+        return $result;
+    }
+
     setTarget(target) {
         const $world = pointer(this.world);
         const $result = wasm.kiriPin_SetTarget($world, this.id, put("Float32Array", scratch, target, 3, "target"));
@@ -2343,15 +2352,6 @@ export class Pin extends Thing {
             fail(this.world, $result, "kiriPin_GetReaction");
         }
         return { force: copy("Float64Array", scratch, 3), torque: copy("Float64Array", scratch + 24, 3) };
-    }
-
-    destroy() {
-        const $world = pointer(this.world);
-        const $result = wasm.kiriDestroyPin($world, this.id);
-        if ($result < 0) {
-            fail(this.world, $result, "kiriDestroyPin");
-        }
-        return $result;
     }
 }
 

@@ -109,8 +109,8 @@ kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world);
 void kiriDestroyWorld(kiriWorld* world);
 kiriResult kiriWorld_Tick(kiriWorld* world, float dt, int32_t substeps);
 const char* kiriWorld_GetLastError(const kiriWorld* world);
-kiriResult kiriWorld_SetGravity(kiriWorld* world, const float gravity[3]);
 kiriResult kiriWorld_ShiftOrigin(kiriWorld* world, const float origin[3]);
+kiriResult kiriWorld_SetGravity(kiriWorld* world, const float gravity[3]);
 kiriResult kiriWorld_SetBudget(kiriWorld* world, const kiriBudget* budget);
 kiriResult kiriWorld_GetStateHash(const kiriWorld* world, uint64_t* hash);
 kiriResult kiriWorld_GetSheets(const kiriWorld* world, kiriSheet* sheets, int32_t capacity, int32_t* count);
@@ -190,6 +190,7 @@ kiriResult kiriSheet_ApplyImpulse(kiriWorld* world, kiriSheet sheet, const float
 kiriResult kiriSheet_SetWind(kiriWorld* world, kiriSheet sheet, const kiriWind* wind);
 void kiriDefaultPinDef(kiriPinDef* def);
 kiriResult kiriCreatePin(kiriWorld* world, kiriSheet sheet, const kiriPinDef* def, kiriPin* pin);
+kiriResult kiriDestroyPin(kiriWorld* world, kiriPin pin);
 kiriResult kiriSheet_ClampLine(kiriWorld* world, kiriSheet sheet, const float from[2], const float to[2], kiriPin* clamp);
 kiriResult kiriSheet_HingeLine(kiriWorld* world, kiriSheet sheet, const float from[2], const float to[2], kiriPin* hinge);
 kiriResult kiriPin_SetTarget(kiriWorld* world, kiriPin pin, const float target[3]);
@@ -198,7 +199,6 @@ kiriResult kiriPin_SetBreakForce(kiriWorld* world, kiriPin pin, float breakForce
 kiriResult kiriPin_GetState(const kiriWorld* world, kiriPin pin, kiriPinState* state);
 kiriResult kiriPin_GetReaction(const kiriWorld* world, kiriPin pin, double force[3], double torque[3]);
 kiriResult kiriSheet_GetPins(const kiriWorld* world, kiriSheet sheet, kiriPin* pins, int32_t capacity, int32_t* count);
-kiriResult kiriDestroyPin(kiriWorld* world, kiriPin pin);
 kiriResult kiriSheet_SetContacts(kiriWorld* world, kiriSheet sheet, const kiriContact* contacts, int32_t count);
 kiriResult kiriSheet_GetContactForces(const kiriWorld* world, kiriSheet sheet, const kiriContactForce** forces, int32_t* count);
 void kiriDefaultObstacleDef(kiriObstacleDef* def);
@@ -674,18 +674,17 @@ local C, ffi, now, new, out, room, fail, passed = core.C, core.ffi, core.now, co
 local vector, id_of, ids_of, rows_of, struct_of, handle, list_of, make_room = core.vector, core.id_of, core.ids_of,
     core.rows_of, core.struct_of, core.handle, core.list_of, core.make_room
 
---- Returns the version of the library, as KIRI_VERSION.
+--- Return the version of the library, as KIRI_VERSION; the name of a result, as "KIRI_OK"; a line with its meaning.
 function kiri.getVersion()
     return C.kiriGetVersion()
 end
 
---- Returns the name of a result, such as "KIRI_OK"; "unknown" for another number.
+--- Return the version of the library, as KIRI_VERSION; the name of a result, as "KIRI_OK"; a line with its meaning.
 function kiri.getResultName(result)
     return ffi.string(C.kiriGetResultName(result))
 end
 
---- Returns one line: the meaning of a result, and its cure. Use it after calls that have no world to keep a line,
---- such as kiriCreateWorld with a def of zeros (KIRI_ERROR_DEF).
+--- Return the version of the library, as KIRI_VERSION; the name of a result, as "KIRI_OK"; a line with its meaning.
 function kiri.getResultText(result)
     return ffi.string(C.kiriGetResultText(result))
 end
@@ -698,12 +697,10 @@ function kiri.defaultWorldDef(def)
 end
 
 --- Advances by one fixed step of dt seconds (1e-6 to 10), in `substeps` equal parts (1 to 64): takes the pending cut
---- points, then moves every sheet. KIRI_PENDING: the budget is spent, and events name the cuts that still have work;
---- a sheet or some of its pieces may have stood still for want of iterations. KIRI_ERROR_MEMORY: the work on a cut,
---- or a piece that leaves, was refused memory and goes on in the next tick, as if the budget were spent; the sheets
---- moved. Only without memory for contacts or ids did nothing move: the line says which. KIRI_ERROR_LIMIT: no ids are
---- left for new frames; nothing moves until frames are destroyed. KIRI_DIVERGED: sheets that events name were
---- stopped, others moved; KIRI_EVENT_DEFERRED tells of pending work.
+--- points, then moves every sheet. KIRI_PENDING: the budget is spent; events name the cuts that still have work.
+--- KIRI_ERROR_MEMORY: work on a cut, or a piece that leaves, goes on in the next tick; the sheets moved, but where
+--- memory for contacts or ids is missing. KIRI_ERROR_LIMIT: no ids are left for new frames; nothing moves until
+--- frames are destroyed. KIRI_DIVERGED: sheets that events name were stopped, others moved.
 function World:tick(dt, substeps)
     local world = self
     local result = C.kiriWorld_Tick(world.c, dt, substeps)
@@ -719,18 +716,9 @@ function World:getLastError()
     return ffi.string(C.kiriWorld_GetLastError(world.c))
 end
 
---- Sets gravity (m/s^2). All pieces wake.
-function World:setGravity(gravity)
-    local world = self
-    local result = C.kiriWorld_SetGravity(world.c, vector(1, gravity, 3))
-    if result < 0 then fail(world, "kiriWorld_SetGravity", result, true) end
-    return result == 1
-end
-
---- Moves the origin of the world to a point (m): subtracts it from the positions of sheets, targets of pins and
---- holds, obstacles, blades, and pending contacts. The motion goes on as before, to rounding. Nothing wakes; (0, 0,
---- 0) changes nothing. Use it in large worlds, where floats lose precision. The host shifts its own data. Returned
---- arrays keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a position would not fit a float.
+--- Moves the origin of the world to a point (m): subtracts it from all positions, as large worlds need because of
+--- floats. The motion goes on as before, to rounding; nothing wakes. The host shifts its own data. Returned arrays
+--- keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a position would not fit a float.
 function World:shiftOrigin(origin)
     local world = self
     local result = C.kiriWorld_ShiftOrigin(world.c, vector(1, origin, 3))
@@ -738,7 +726,15 @@ function World:shiftOrigin(origin)
     return result == 1
 end
 
---- Sets the budget from the next tick on.
+--- Set gravity (m/s^2; all pieces wake), and the budget, from the next tick on.
+function World:setGravity(gravity)
+    local world = self
+    local result = C.kiriWorld_SetGravity(world.c, vector(1, gravity, 3))
+    if result < 0 then fail(world, "kiriWorld_SetGravity", result, true) end
+    return result == 1
+end
+
+--- Set gravity (m/s^2; all pieces wake), and the budget, from the next tick on.
 function World:setBudget(budget)
     local world = self
     local result = C.kiriWorld_SetBudget(world.c, struct_of(world, budget, "kiriBudget"))
@@ -747,8 +743,8 @@ function World:setBudget(budget)
 end
 
 --- Hashes all state that the coming ticks depend on, pending work included. Two worlds with the same calls have the
---- same hash, and two worlds with the same hash go on alike. After a refused allocation some items are made again:
---- the hash differs while work is pending, or while the budget limits cells or samples.
+--- same hash, and two worlds with the same hash go on alike. After refused memory it may differ while work is
+--- pending.
 function World:getStateHash()
     local world = self
     local result = C.kiriWorld_GetStateHash(world.c, out.uint64_t)
@@ -776,14 +772,11 @@ function World:note(bytes, count)
     return result == 1
 end
 
---- Makes the calls of a recording up to the next tick or note, included. The world must be new. Gravity and budget
---- become those in the recording; memory, log and tasks stay the host's. Ids are as recorded (kiriWorld_GetSheets).
---- KIRI_PENDING: more calls follow, call again. KIRI_OK: the recording ended. KIRI_ERROR_REPLAY: a call gave another
---- result, other ids or another state than recorded; the line names it, and the next call goes on behind it.
+--- Makes the calls of a recording up to the next tick or note, included. The world must be new; hooks stay the
+--- host's. KIRI_PENDING: more calls follow, call again. KIRI_OK: the recording ended. KIRI_ERROR_REPLAY: a call gave
+--- another result, other ids or another state than recorded; the line names it, and the next call goes on behind it.
 --- KIRI_ERROR_DATA: the bytes are not a recording, damaged, cut short, or of another version; the line says where.
---- The calls before that place were made, and the last call of a recording that ends inside one, as after a crash.
---- KIRI_ERROR_STATE: the world is not new. KIRI_ERROR_MEMORY: replay again in a new world. Calls that were refused
---- memory when recorded are skipped, and hashes after such a tick may differ.
+--- KIRI_ERROR_STATE: the world is not new. KIRI_ERROR_MEMORY: replay again in a new world.
 function World:replay(recording, replay, size)
     local world = self
     size = size or #recording
@@ -793,10 +786,9 @@ function World:replay(recording, replay, size)
     return result == 1
 end
 
---- Writes the world, which only is read. *size: bytes of the save. `bytes` null: they are counted only, and capacity
---- is not read; else it has room for `capacity`. KIRI_ERROR_ARGUMENT: that is less than *size; nothing is written.
---- KIRI_PENDING: a cut is being worked on; *size is 0, and nothing is written. Save after a later tick, or after
---- kiriWorld_FinishCuts.
+--- Writes the world to memory with room for `capacity` bytes; null: counts them only. *size: bytes of the save.
+--- KIRI_ERROR_ARGUMENT: `capacity` is less than *size; nothing is written. KIRI_PENDING: a cut is being worked on;
+--- *size is 0, and nothing is written. Save after a later tick, or after kiriWorld_FinishCuts.
 function World:save(bytes, capacity)
     local world = self
     local result = C.kiriWorld_Save(world.c, bytes, capacity or 0, out.int64_t)
@@ -807,9 +799,9 @@ function World:save(bytes, capacity)
     return ffi.string(bytes, size)
 end
 
---- Finishes the work on cuts at once, whatever the budget is, and without moving anything. Cuts that wait for a
---- budget take effect. The next tick reports the events. KIRI_ERROR_MEMORY, KIRI_ERROR_LIMIT: as in kiriWorld_Tick.
---- Arrays that the world handed out end as with a tick.
+--- Finishes the work on cuts at once, whatever the budget is, without moving anything. The next tick reports the
+--- events. Arrays that the world handed out end as with a tick. KIRI_ERROR_MEMORY, KIRI_ERROR_LIMIT: as in
+--- kiriWorld_Tick.
 function World:finishCuts()
     local world = self
     local result = C.kiriWorld_FinishCuts(world.c)
@@ -817,11 +809,10 @@ function World:finishCuts()
     return result == 1
 end
 
---- Replaces the world by a saved one. It may have any hooks; its own allocation, log, clock and tasks stay. The bytes
---- may come from anybody: a malicious save may give a strange world but cannot crash the program, and takes memory in
---- proportion to its size. Takes about as long as to create the sheets. The profile has no times until the next tick.
---- Arrays that the old world handed out live until then. KIRI_ERROR_DATA: the bytes are not a save, damaged, or of
---- another version. KIRI_ERROR_MEMORY. Then nothing has changed. `size` is below 2^31. A recording has the bytes.
+--- Replaces the world by a saved one; its own hooks stay. The bytes may come from anybody: a malicious save may give
+--- a strange world but cannot crash the program, and takes memory in proportion to its size, which is below 2^31.
+--- Arrays that the old world handed out live until the next tick. On failure nothing has changed: KIRI_ERROR_DATA:
+--- the bytes are not a save, damaged, or of another version. KIRI_ERROR_MEMORY.
 function World:load(bytes, size)
     local world = self
     size = size or #bytes
@@ -830,9 +821,8 @@ function World:load(bytes, size)
     return result == 1
 end
 
---- For rollback: copies all of the world, also work on cuts and pieces that wait, into memory of the host. Much
---- faster than a save, and exact to the bit. The bytes are good for this process only: never store or send them.
---- Arguments as of kiriWorld_Save.
+--- For rollback: copies all of the world, also work in progress, into memory of the host; much faster than a save,
+--- and exact to the bit. For this process only: never store or send the bytes. Arguments as of kiriWorld_Save.
 function World:snapshot(bytes, capacity)
     local world = self
     local result = C.kiriWorld_Snapshot(world.c, bytes, capacity or 0, out.int64_t)
@@ -843,10 +833,8 @@ function World:snapshot(bytes, capacity)
     return ffi.string(bytes, size)
 end
 
---- Replaces the world by the world of the snapshot; ids name the same things. The bytes are trusted: hand over only
---- the output of kiriWorld_Snapshot. KIRI_ERROR_DATA: the bytes are not a snapshot of this build of the library.
---- KIRI_ERROR_STATE: the world is recorded. KIRI_ERROR_MEMORY. Then nothing has changed. Hooks and arrays as with
---- kiriWorld_Load.
+--- Replaces the world by the world of the snapshot, as kiriWorld_Load does. The bytes are trusted. On failure nothing
+--- has changed: KIRI_ERROR_DATA: no snapshot of this build. KIRI_ERROR_STATE: it is recorded. KIRI_ERROR_MEMORY.
 function World:restore(bytes, size)
     local world = self
     size = size or #bytes
@@ -873,9 +861,8 @@ function World:getProfile(profile)
 end
 
 --- Converts microseconds a tick into a budget, at the pace of the profile, which may be the sum of several. Cuts and
---- linear systems share the time as in the profile. Each of triangles, cells and samples gets the time of all three,
---- see kiriBudget. Sets only the limits for which the profile recorded work. The simulation never reads a clock: the
---- host chooses, and a replay must set the same budgets.
+--- linear systems share the time as in the profile. Sets only the limits for which the profile recorded work. The
+--- host chooses by its clock, so a replay must set the same budgets.
 function kiri.fitBudget(profile, microseconds, budget)
     local result = C.kiriFitBudget(struct_of(nil, profile, "kiriProfile"), microseconds, budget)
     if result < 0 then fail(nil, "kiriFitBudget", result, false) end
@@ -910,8 +897,9 @@ function kiri.defaultSheetDef(def)
     return def
 end
 
---- Adds a sheet. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles do not form a sheet. The line says why, and
---- names the triangle, or the two triangles at an edge, by index in the def.
+--- Add a sheet, and destroy one with its cuts, frames and pins. On failure *sheet is 0. KIRI_ERROR_MESH: the
+--- triangles do not form a sheet; the line says why, and names the triangle, or the two at an edge, by index in the
+--- def.
 function World:createSheet(def)
     local world = self
     local result = C.kiriCreateSheet(world.c, struct_of(world, def, "kiriSheetDef"), out.Sheet)
@@ -919,7 +907,9 @@ function World:createSheet(def)
     return handle(world, out.Sheet[0], "Sheet")
 end
 
---- Destroys the sheet with its cuts, frames and pins; their ids are stale.
+--- Add a sheet, and destroy one with its cuts, frames and pins. On failure *sheet is 0. KIRI_ERROR_MESH: the
+--- triangles do not form a sheet; the line says why, and names the triangle, or the two at an edge, by index in the
+--- def.
 function Sheet:destroy()
     local world = self.world
     local result = C.kiriDestroySheet(world.c, self.id)
@@ -948,7 +938,7 @@ end
 
 --- Sets all settings, or none; checks them as kiriCreateSheet does. KIRI_ERROR_DEF: they do not come from
 --- kiriSheet_GetSettings. The sheet wakes if one differs. Positions and velocities are kept, so a new mass changes
---- the momentum. The stiffness of pins and the lengths that placed the frames are kept, too.
+--- the momentum; the stiffness of pins and the lengths that placed the frames are kept, too.
 function Sheet:setSettings(settings)
     local world = self.world
     local result = C.kiriSheet_SetSettings(world.c, self.id, struct_of(world, settings, "kiriSheetSettings"))
@@ -995,9 +985,8 @@ function Sheet:copyVertices(first, count, positions, positionStride, normals, no
 end
 
 --- Copies the index that each vertex had when the last call of kiriWorld_Tick began, for hosts that draw between two
---- ticks. *from: the sheet that had the vertices then; another sheet if this one was a piece of it. A vertex that a
---- cut separated from another gets the index of the other. -1: the vertex did not exist, as in a sheet that was
---- created or loaded since. The manual has the code (drawing).
+--- ticks; -1: it did not exist. *from: the sheet that had the vertices then. A vertex that a cut separated from
+--- another gets the index of the other. The manual has the code (drawing).
 function Sheet:copyPrevious(first, count, vertices)
     local world = self.world
     vertices = vertices or ffi.new("int32_t[?]", count)
@@ -1016,9 +1005,8 @@ function Sheet:copyIndices16(firstTriangle, count, indices)
 end
 
 --- Map triangles to the def, to draw with the host's data for its own vertices. Sources: the triangle of the def that
---- contains each; -1 for a triangle that was removed (its corners are equal). Weights: 9 floats each, the barycentric
---- coordinates of its three corners in that triangle. They are correct on both sides of a seam that weldDistance
---- closed; sourceTriangles name a triangle on one side. The manual has the code (meshes).
+--- contains each; -1 for a triangle that was removed. Weights: 9 floats each, the barycentric coordinates of its
+--- three corners in that triangle, also beside a seam that weldDistance closed. The manual has the code (meshes).
 function Sheet:copySources(firstTriangle, count, sources)
     local world = self.world
     sources = sources or ffi.new("int32_t[?]", count)
@@ -1028,9 +1016,8 @@ function Sheet:copySources(firstTriangle, count, sources)
 end
 
 --- Map triangles to the def, to draw with the host's data for its own vertices. Sources: the triangle of the def that
---- contains each; -1 for a triangle that was removed (its corners are equal). Weights: 9 floats each, the barycentric
---- coordinates of its three corners in that triangle. They are correct on both sides of a seam that weldDistance
---- closed; sourceTriangles name a triangle on one side. The manual has the code (meshes).
+--- contains each; -1 for a triangle that was removed. Weights: 9 floats each, the barycentric coordinates of its
+--- three corners in that triangle, also beside a seam that weldDistance closed. The manual has the code (meshes).
 function Sheet:copySourceWeights(firstTriangle, count, weights)
     local world = self.world
     weights = weights or ffi.new("float[?]", 9 * count)
@@ -1077,8 +1064,7 @@ end
 
 --- Estimates the error of the current shape of a sheet that rests or moves slowly: rms distance from a sheet of very
 --- many frames under the same loads, over its rms way from the flat shape; 0 to 1, and 1 with too few frames to tell.
---- It compares strains of neighbouring links (KIRI_MODEL_LINKS only; else KIRI_ERROR_STATE), in one pass that
---- allocates memory. The manual says how good it is (accuracy).
+--- KIRI_MODEL_LINKS only; else KIRI_ERROR_STATE. It allocates memory. The manual says how good it is (accuracy).
 function Sheet:estimateError()
     local world = self.world
     local result = C.kiriSheet_EstimateError(world.c, self.id, out.double)
@@ -1106,10 +1092,8 @@ end
 
 --- Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and the sheet wakes. The
 --- columns of `rotation` are the images of the world's axes; a planar sheet turns about its normal only. Targets of
---- pins, hinges, clamps and holds move along, so nothing pulls the sheet back. A target that the host set nearer to
---- the pin's new place than to its old one stays: the host may set targets before or after. Pins on an obstacle stay
---- on it: move the obstacle by the same motion (kiriObstacle_SetPose), before or after. Pending loads and contacts
---- stay.
+--- pins, hinges, clamps and holds move along; pins on an obstacle stay on it. The manual has the order of calls that
+--- set targets or move obstacles (sheets). Pending loads and contacts stay.
 function Sheet:transform(rotation, translation)
     local world = self.world
     local result = C.kiriSheet_Transform(world.c, self.id, vector(1, rotation, 9), vector(2, translation, 3))
@@ -1137,9 +1121,9 @@ function Frame:setPieceVelocity(velocity, angularVelocity)
     return result == 1
 end
 
---- Store a number of the host, 0 at first. No tick depends on it, and the state hash does not. kiriFrame_DetachPiece
---- copies the sheet's number to the new sheet. A piece has a number, too, named by any of its frames: the parts of a
---- piece that is cut inherit it, and so does a sheet that is made of it.
+--- Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and a
+--- piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
+--- both.
 function Sheet:setUserData(data)
     local world = self.world
     local result = C.kiriSheet_SetUserData(world.c, self.id, data)
@@ -1147,9 +1131,9 @@ function Sheet:setUserData(data)
     return result == 1
 end
 
---- Store a number of the host, 0 at first. No tick depends on it, and the state hash does not. kiriFrame_DetachPiece
---- copies the sheet's number to the new sheet. A piece has a number, too, named by any of its frames: the parts of a
---- piece that is cut inherit it, and so does a sheet that is made of it.
+--- Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and a
+--- piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
+--- both.
 function Sheet:getUserData()
     local world = self.world
     local result = C.kiriSheet_GetUserData(world.c, self.id, out.uint64_t)
@@ -1158,9 +1142,9 @@ function Sheet:getUserData()
     return data
 end
 
---- Store a number of the host, 0 at first. No tick depends on it, and the state hash does not. kiriFrame_DetachPiece
---- copies the sheet's number to the new sheet. A piece has a number, too, named by any of its frames: the parts of a
---- piece that is cut inherit it, and so does a sheet that is made of it.
+--- Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and a
+--- piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
+--- both.
 function Pin:setUserData(data)
     local world = self.world
     local result = C.kiriPin_SetUserData(world.c, self.id, data)
@@ -1168,9 +1152,9 @@ function Pin:setUserData(data)
     return result == 1
 end
 
---- Store a number of the host, 0 at first. No tick depends on it, and the state hash does not. kiriFrame_DetachPiece
---- copies the sheet's number to the new sheet. A piece has a number, too, named by any of its frames: the parts of a
---- piece that is cut inherit it, and so does a sheet that is made of it.
+--- Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and a
+--- piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
+--- both.
 function Pin:getUserData()
     local world = self.world
     local result = C.kiriPin_GetUserData(world.c, self.id, out.uint64_t)
@@ -1179,9 +1163,9 @@ function Pin:getUserData()
     return data
 end
 
---- Store a number of the host, 0 at first. No tick depends on it, and the state hash does not. kiriFrame_DetachPiece
---- copies the sheet's number to the new sheet. A piece has a number, too, named by any of its frames: the parts of a
---- piece that is cut inherit it, and so does a sheet that is made of it.
+--- Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and a
+--- piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
+--- both.
 function Frame:setPieceUserData(data)
     local world = self.world
     local result = C.kiriFrame_SetPieceUserData(world.c, self.id, data)
@@ -1189,9 +1173,9 @@ function Frame:setPieceUserData(data)
     return result == 1
 end
 
---- Store a number of the host, 0 at first. No tick depends on it, and the state hash does not. kiriFrame_DetachPiece
---- copies the sheet's number to the new sheet. A piece has a number, too, named by any of its frames: the parts of a
---- piece that is cut inherit it, and so does a sheet that is made of it.
+--- Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and a
+--- piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
+--- both.
 function Frame:getPieceUserData()
     local world = self.world
     local result = C.kiriFrame_GetPieceUserData(world.c, self.id, out.uint64_t)
@@ -1200,9 +1184,8 @@ function Frame:getPieceUserData()
     return data
 end
 
---- Finds where a ray first meets the sheet, up to maxDistance. KIRI_OK with hit->triangle = -1: it does not. The
---- first ray visits every triangle. From the next tick on boxes over the triangles follow the sheet, until 120 ticks
---- pass without a ray: a ray takes some microseconds, and a tick of a large sheet a quarter more.
+--- Find where a ray first meets the sheet, or any (*sheet is 0 if none), up to maxDistance; hit->triangle is -1 if it
+--- does not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray.
 function Sheet:raycast(origin, direction, maxDistance, hit)
     local world = self.world
     hit = hit or new.kiriHit()
@@ -1211,7 +1194,8 @@ function Sheet:raycast(origin, direction, maxDistance, hit)
     return hit
 end
 
---- Finds the first sheet that a ray meets; *sheet is 0 where there is none.
+--- Find where a ray first meets the sheet, or any (*sheet is 0 if none), up to maxDistance; hit->triangle is -1 if it
+--- does not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray.
 function World:raycast(origin, direction, maxDistance, hit)
     local world = self
     hit = hit or new.kiriHit()
@@ -1232,7 +1216,7 @@ end
 
 --- Gets the shape functions at a rest point: up to `capacity` frames with their weights, whose sum is 1, and, unless
 --- null, gradients (2 floats a frame, 1/m). *count is how many there are, also above capacity. KIRI_ERROR_ARGUMENT:
---- it is outside the sheet. KIRI_ERROR_STATE: work on a cut is pending.
+--- the point is outside the sheet. KIRI_ERROR_STATE: work on a cut is pending.
 function Sheet:getWeights(restPoint)
     local world = self.world
     local result = C.kiriSheet_GetWeights(world.c, self.id, vector(1, restPoint, 2), room.kiriFrame, room.float, room.float2, room.size, out.int32_t)
@@ -1241,8 +1225,7 @@ function Sheet:getWeights(restPoint)
     return list_of(world, room.kiriFrame, out.int32_t[0], "Frame"), list_of(world, room.float, out.int32_t[0], nil), list_of(world, room.float2, out.int32_t[0] * 2, nil)
 end
 
---- Get a piece. The first of these calls after a cut sorts the sheet by pieces, and may fail with KIRI_ERROR_MEMORY.
---- KIRI_ERROR_ARGUMENT: no piece has the index.
+--- Get a piece. The first call after a cut sorts the sheet by pieces. KIRI_ERROR_ARGUMENT: no piece has the index.
 function Sheet:getPiece(piece, state)
     local world = self.world
     state = state or new.kiriPieceState()
@@ -1251,8 +1234,7 @@ function Sheet:getPiece(piece, state)
     return state
 end
 
---- Get a piece. The first of these calls after a cut sorts the sheet by pieces, and may fail with KIRI_ERROR_MEMORY.
---- KIRI_ERROR_ARGUMENT: no piece has the index.
+--- Get a piece. The first call after a cut sorts the sheet by pieces. KIRI_ERROR_ARGUMENT: no piece has the index.
 function Sheet:getPieceMesh(piece, mesh)
     local world = self.world
     mesh = mesh or new.kiriPieceMeshView()
@@ -1262,7 +1244,7 @@ function Sheet:getPieceMesh(piece, mesh)
     return mesh
 end
 
---- Gets the frames of a piece: *frames points to *count ids.
+--- Get the frames of a piece (*frames points to *count ids), and the current index of the piece with a frame.
 function Sheet:getPieceFrames(piece)
     local world = self.world
     local result = C.kiriSheet_GetPieceFrames(world.c, self.id, piece, out.kiriFrameRows, out.int32_t)
@@ -1270,7 +1252,7 @@ function Sheet:getPieceFrames(piece)
     return new.kiriFrameArray(out.kiriFrameRows[0], out.int32_t[0], 1, world.cell, now[world.cell])
 end
 
---- Gets the current index of the piece with this frame.
+--- Get the frames of a piece (*frames points to *count ids), and the current index of the piece with a frame.
 function Frame:getPiece()
     local world = self.world
     local result = C.kiriFrame_GetPiece(world.c, self.id, out.int32_t)
@@ -1279,13 +1261,11 @@ function Frame:getPiece()
     return piece
 end
 
---- Makes a sheet of the piece with this frame. Frames, pins, collision points, pending loads and contacts move along,
---- with their ids and states, and the motion goes on. Both sheets have all settings. Cuts stay with the old sheet. A
---- clamp or hinge that holds both gets a copy with a new id in the new sheet. Revisions grow; kiriSheet_GetDirty has
---- the changes. KIRI_PENDING: work on a cut is pending, or the piece takes more samples than the budget leaves;
---- *detached is 0. Then samples of the coming ticks pay for it, and further cuts of the sheet wait. When all is paid
---- the piece of this frame becomes a sheet, and KIRI_EVENT_PIECE_DETACHED names it. KIRI_ERROR_STATE: nothing would
---- be left of the sheet. The manual has indices and costs (cutting).
+--- Makes a sheet of the piece with this frame. All that belongs to the piece moves along, with ids and states, and
+--- the motion goes on; cuts stay with the old sheet. A clamp or hinge that holds both gets a copy with a new id in
+--- the new sheet. KIRI_PENDING: work on a cut is pending, or the piece takes more samples than the budget leaves;
+--- *detached is 0. Further cuts of the sheet then wait, and KIRI_EVENT_PIECE_DETACHED names the sheet in a later
+--- tick. KIRI_ERROR_STATE: nothing would be left of the sheet. The manual has indices and costs (cutting).
 function Frame:detachPiece()
     local world = self.world
     local result = C.kiriFrame_DetachPiece(world.c, self.id, out.Sheet)
@@ -1293,9 +1273,9 @@ function Frame:detachPiece()
     return handle(world, out.Sheet[0], "Sheet")
 end
 
---- Removes the piece with this frame: ids of its frames and pins are stale. Takes effect at once, and the coming
---- ticks have fewer samples. KIRI_PENDING: work on a cut is pending. Until it is done the triangles stay in kiriMesh
---- with three equal corners, the vertices stay, and kiriCounts counts the piece, with a kiriPieceState of all zeros.
+--- Removes the piece with this frame at once: ids of its frames and pins are stale, and the coming ticks have fewer
+--- samples. KIRI_PENDING: work on a cut is pending. Until it is done the triangles stay in kiriMesh with three equal
+--- corners, and kiriCounts counts the piece, with a kiriPieceState of all zeros.
 function Frame:destroyPiece()
     local world = self.world
     local result = C.kiriFrame_DestroyPiece(world.c, self.id)
@@ -1345,7 +1325,8 @@ function Sheet:beginCut(restPoint)
     return handle(world, out.Cut[0], "Cut")
 end
 
---- Adds points. restPoints: 2 floats a point; count is 1 to 2^24.
+--- Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the tick in which its last
+--- point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the frames that it needs.
 function Cut:extend(restPoints, count)
     local world = self.world
     restPoints, count = rows_of(restPoints, count, "float", 2)
@@ -1354,8 +1335,8 @@ function Cut:extend(restPoints, count)
     return result == 1
 end
 
---- Ends the cut. Its id is stale after the tick in which its last point takes effect (KIRI_EVENT_CUT_FINISHED). The
---- sheet then adds the frames that it needs.
+--- Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the tick in which its last
+--- point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the frames that it needs.
 function Cut:finish()
     local world = self.world
     local result = C.kiriCut_End(world.c, self.id)
@@ -1364,8 +1345,7 @@ function Cut:finish()
 end
 
 --- Cuts where the quadrilateral swept by an edge in world space, from blade[0]-blade[1] to blade[3]-blade[2], meets
---- the current sheet; past borders, so that it separates the parts that it crosses. The cut is already ended. Slices
---- of a moving sheet do not join from tick to tick: use a blade for that.
+--- the current sheet; past borders, so that it separates the parts that it crosses. The cut is already ended.
 function Sheet:slice(blade)
     local world = self.world
     local result = C.kiriSheet_Slice(world.c, self.id, vector(1, blade, 12), out.Cut)
@@ -1373,8 +1353,7 @@ function Sheet:slice(blade)
     return handle(world, out.Cut[0], "Cut")
 end
 
---- sheet 0: it cuts all sheets, also those that are made later and pieces that get a sheet of their own. A blade for
---- one sheet whose sheet is gone cuts nothing.
+--- Begins a blade for one sheet; 0: for all sheets, also those that are made later.
 function World:beginBlade(sheet)
     local world = self
     local result = C.kiriBeginBlade(world.c, id_of(world, sheet, "Sheet"), out.Blade)
@@ -1382,9 +1361,8 @@ function World:beginBlade(sheet)
     return handle(world, out.Blade[0], "Blade")
 end
 
---- The blade is now the straight edge between two points (m, world). From where it was it got there straight, each
---- end along a line. The first call only says where it begins. Where an end of the edge lies inside of what it sweeps
---- of the sheet, it cuts only what it sweeps. An edge without length cuts nothing.
+--- Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera casts;
+--- each end goes straight. The first call only says where it begins. An end inside cuts along its own way.
 function Blade:moveEdge(from, to)
     local world = self.world
     local result = C.kiriBlade_MoveEdge(world.c, self.id, vector(1, from, 3), vector(2, to, 3))
@@ -1392,7 +1370,8 @@ function Blade:moveEdge(from, to)
     return result == 1
 end
 
---- The same for a ray that a camera casts: an edge `length` m long.
+--- Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera casts;
+--- each end goes straight. The first call only says where it begins. An end inside cuts along its own way.
 function Blade:moveRay(origin, direction, length)
     local world = self.world
     local result = C.kiriBlade_MoveRay(world.c, self.id, vector(1, origin, 3), vector(2, direction, 3), length)
@@ -1426,10 +1405,9 @@ function Frame:getState(state)
     return state
 end
 
---- Holds the frame: its rest point on the visible surface moves evenly to `position` (m, world) with `rotation` (a
---- rotation matrix, columns as above) in the next tick, and stays there until the next call. A held affine frame is
---- not stretched. On a planar sheet the rotation is about its normal. Null, null: frees it. Contacts do not push
---- material of which held frames carry more than half: it moves through obstacles.
+--- Holds the frame: its rest point on the visible surface moves evenly to `position` (m, world) with `rotation`
+--- (columns as above; on a planar sheet about its normal) in the next tick, and stays there. Null, null: frees it.
+--- Material of which held frames carry more than half moves through obstacles.
 function Frame:hold(position, rotation)
     local world = self.world
     local result = C.kiriFrame_Hold(world.c, self.id, position and vector(1, position, 3), rotation and vector(2, rotation, 9))
@@ -1438,8 +1416,7 @@ function Frame:hold(position, rotation)
 end
 
 --- Gets the force (N, world) and torque (N m, about the frame's rest point) that the hold applied to the sheet: means
---- over the last tick, impulses divided by its dt. They include the frame's own weight and change of momentum. Zero
---- for a free frame. A sleeping piece keeps the values with which it fell asleep.
+--- over the last tick that moved the piece, with the frame's own weight and change of momentum. Zero for a free one.
 function Frame:getReaction(force, torque)
     local world = self.world
     force = force or ffi.new("double[?]", 3)
@@ -1449,7 +1426,7 @@ function Frame:getReaction(force, torque)
     return force, torque
 end
 
---- Applies a force (N, world) at the frame's centre of mass and a torque (N m).
+--- Apply a force (N, world) at the frame's centre of mass, or at a point of the material, and a torque (N m).
 function Frame:applyForce(force, torque)
     local world = self.world
     local result = C.kiriFrame_ApplyForce(world.c, self.id, vector(1, force, 3), vector(2, torque, 3))
@@ -1457,7 +1434,7 @@ function Frame:applyForce(force, torque)
     return result == 1
 end
 
---- Applies a force (N, world) at a point of the material and a torque (N m).
+--- Apply a force (N, world) at the frame's centre of mass, or at a point of the material, and a torque (N m).
 function Sheet:applyForce(restPoint, force, torque)
     local world = self.world
     local result = C.kiriSheet_ApplyForce(world.c, self.id, vector(1, restPoint, 2), vector(2, force, 3), vector(3, torque, 3))
@@ -1482,9 +1459,8 @@ function Sheet:applyPressure(pressure)
     return result == 1
 end
 
---- Applies an impulse (N s, world) at a point of the material on the visible surface. Velocities change at once, by
---- the mass of the frames that carry the point; a held frame's share is lost. KIRI_ERROR_ARGUMENT: it is outside the
---- sheet.
+--- Applies an impulse (N s, world) at a point of the material on the visible surface, at once, by the mass of the
+--- frames that carry the point; a held frame's share is lost. KIRI_ERROR_ARGUMENT: the point is outside the sheet.
 function Sheet:applyImpulse(restPoint, impulse)
     local world = self.world
     local result = C.kiriSheet_ApplyImpulse(world.c, self.id, vector(1, restPoint, 2), vector(2, impulse, 3))
@@ -1507,7 +1483,8 @@ function kiri.defaultPinDef(def)
     return def
 end
 
---- Pins a point of the sheet. On failure *pin is 0. KIRI_ERROR_ARGUMENT: it is outside the sheet.
+--- Pin a point of the sheet, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: the point is
+--- outside the sheet.
 function Sheet:createPin(def)
     local world = self.world
     local result = C.kiriCreatePin(world.c, self.id, struct_of(world, def, "kiriPinDef"), out.Pin)
@@ -1515,13 +1492,20 @@ function Sheet:createPin(def)
     return handle(world, out.Pin[0], "Pin")
 end
 
+--- Pin a point of the sheet, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: the point is
+--- outside the sheet.
+function Pin:destroy()
+    local world = self.world
+    local result = C.kiriDestroyPin(world.c, self.id)
+    if result < 0 then fail(world, "kiriDestroyPin", result, true) end
+    return result == 1
+end
+
 --- Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds the place and
 --- direction of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The line
---- is straight, with its rest length: bent material is pulled straight, and separate pieces are pulled together, at
---- any speed. Both hold the material on the line, edges included, with its stiffness from the line to the frames
---- around it. A clamp through the sheet separates the bending of its two sides. A line along a cut holds both lips; a
---- line beside it, by a 512th of a grid square or more, holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line
---- meets no material.
+--- is straight, with its rest length: bent material and separate pieces are pulled to it, at any speed. A line along
+--- a cut holds both lips; a line beside it holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no
+--- material.
 function Sheet:clampLine(from, to)
     local world = self.world
     local result = C.kiriSheet_ClampLine(world.c, self.id, vector(1, from, 2), vector(2, to, 2), out.Pin)
@@ -1531,11 +1515,9 @@ end
 
 --- Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds the place and
 --- direction of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The line
---- is straight, with its rest length: bent material is pulled straight, and separate pieces are pulled together, at
---- any speed. Both hold the material on the line, edges included, with its stiffness from the line to the frames
---- around it. A clamp through the sheet separates the bending of its two sides. A line along a cut holds both lips; a
---- line beside it, by a 512th of a grid square or more, holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line
---- meets no material.
+--- is straight, with its rest length: bent material and separate pieces are pulled to it, at any speed. A line along
+--- a cut holds both lips; a line beside it holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no
+--- material.
 function Sheet:hingeLine(from, to)
     local world = self.world
     local result = C.kiriSheet_HingeLine(world.c, self.id, vector(1, from, 2), vector(2, to, 2), out.Pin)
@@ -1544,9 +1526,8 @@ function Sheet:hingeLine(from, to)
 end
 
 --- Sets the target of the pin's point, or of the middle of its line (m, world), for the end of the next tick and
---- until the next call. The pin moves there evenly within the tick. The current target of kiriPin_GetState changes
---- nothing. With KIRI_SKINNING_SMOOTH pins and clamps hold the visible surface; a clamp holds its mean along the line
---- for each piece, so single points are slightly off the line.
+--- until the next call. The pin moves there evenly within the tick. With KIRI_SKINNING_SMOOTH pins and clamps hold
+--- the visible surface; a clamp holds its mean along the line for each piece.
 function Pin:setTarget(target)
     local world = self.world
     local result = C.kiriPin_SetTarget(world.c, self.id, vector(1, target, 3))
@@ -1582,9 +1563,8 @@ function Pin:getState(state)
 end
 
 --- Gets the force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over the
---- last tick, impulses divided by its dt. The reactions of all pins and held frames are the weight of a sheet at
---- rest, and change its momentum in motion (as far as `iterations` solve the tick). Zero before the first tick. A
---- sleeping piece keeps the values with which it fell asleep.
+--- last tick that moved the piece. All reactions are the weight of a sheet at rest, and change its momentum in
+--- motion.
 function Pin:getReaction(force, torque)
     local world = self.world
     force = force or ffi.new("double[?]", 3)
@@ -1603,14 +1583,6 @@ function Sheet:getPins()
     return list_of(world, room.kiriPin, out.int32_t[0], "Pin")
 end
 
---- Destroys the pin; its id is stale.
-function Pin:destroy()
-    local world = self.world
-    local result = C.kiriDestroyPin(world.c, self.id)
-    if result < 0 then fail(world, "kiriDestroyPin", result, true) end
-    return result == 1
-end
-
 --- Sets the contacts of the next tick; they replace those set before, and end with the tick. A contact with the
 --- point, or rest point, and obstacle of an earlier one starts with the earlier impulse.
 function Sheet:setContacts(contacts, count)
@@ -1621,9 +1593,7 @@ function Sheet:setContacts(contacts, count)
     return result == 1
 end
 
---- Gets one result for each contact that was set before the last tick, in that order. The sum of these impulses and
---- of the impulses of gravity, loads and obstacles is the change of momentum of a free piece. A sleeping piece goes
---- on to press with the values with which it fell asleep.
+--- Gets one result for each contact that was set before the last tick, in that order. A sleeping piece presses on.
 function Sheet:getContactForces()
     local world = self.world
     local result = C.kiriSheet_GetContactForces(world.c, self.id, out.kiriContactForceRows, out.int32_t)
@@ -1638,7 +1608,7 @@ function kiri.defaultObstacleDef(def)
     return def
 end
 
---- Adds an obstacle. On failure *obstacle is 0.
+--- Add and destroy an obstacle. On failure *obstacle is 0. Pieces that rested on a destroyed one wake.
 function World:createObstacle(def)
     local world = self
     local result = C.kiriCreateObstacle(world.c, struct_of(world, def, "kiriObstacleDef"), out.Obstacle)
@@ -1646,7 +1616,7 @@ function World:createObstacle(def)
     return handle(world, out.Obstacle[0], "Obstacle")
 end
 
---- Destroys an obstacle; its id is stale. Pieces that rested on it wake.
+--- Add and destroy an obstacle. On failure *obstacle is 0. Pieces that rested on a destroyed one wake.
 function Obstacle:destroy()
     local world = self.world
     local result = C.kiriDestroyObstacle(world.c, self.id)
@@ -1662,7 +1632,7 @@ function Obstacle:setPose(position, rotation)
     return result == 1
 end
 
---- Set the velocity (m/s, rad/s) for the next and all later ticks.
+--- Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg), inertia and centre of mass.
 function Obstacle:setVelocity(velocity, angularVelocity)
     local world = self.world
     local result = C.kiriObstacle_SetVelocity(world.c, self.id, vector(1, velocity, 3), vector(2, angularVelocity, 3))
@@ -1670,7 +1640,7 @@ function Obstacle:setVelocity(velocity, angularVelocity)
     return result == 1
 end
 
---- Set the velocity (m/s, rad/s) for the next and all later ticks.
+--- Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg), inertia and centre of mass.
 function Obstacle:setSurfaceVelocity(velocity)
     local world = self.world
     local result = C.kiriObstacle_SetSurfaceVelocity(world.c, self.id, vector(1, velocity, 3))
@@ -1678,7 +1648,7 @@ function Obstacle:setSurfaceVelocity(velocity)
     return result == 1
 end
 
---- Sets mass (kg), inertia and centre of mass, as in the def.
+--- Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg), inertia and centre of mass.
 function Obstacle:setMass(mass, inertia, centerOfMass)
     local world = self.world
     local result = C.kiriObstacle_SetMass(world.c, self.id, mass, vector(1, inertia, 6), vector(2, centerOfMass, 3))
@@ -1696,8 +1666,7 @@ function Obstacle:getState(state)
 end
 
 --- Gets a box (m, world) around all that the sheet can touch in a tick of dt (s, as in kiriWorld_Tick): a host needs
---- no obstacles or contacts outside. Its margin is twice the way of the fastest point by velocity and gravity, plus
---- the contact thickness. For moving obstacles add their own way.
+--- no obstacles or contacts outside. For moving obstacles add their own way.
 function Sheet:getReach(dt, lower, upper)
     local world = self.world
     lower = lower or ffi.new("float[?]", 3)

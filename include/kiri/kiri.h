@@ -1,17 +1,12 @@
-/* Kiri: cuts thin sheets while they move, inside a game's fixed tick.
+/* Kiri: cuts thin sheets while they move, inside a game's fixed tick. The method is of "Interactive Detailed Cutting of
+   Thin Sheets" (Manteaux and others, Motion in Games 2015). samples/manual has the manual. Conventions:
 
-   The method is of "Interactive Detailed Cutting of Thin Sheets" (Manteaux and others, Motion in Games 2015). A fine
-   mesh follows every cut. A few control frames carry the mesh. samples/manual has the manual.
-
-   Conventions in this header:
    - Units are SI: metres, kilograms, seconds, newtons, pascals, radians.
-   - World coordinates are right-handed. No axis is up: gravity points down. A host with y up sets gravity (0, -9.81, 0)
-     in the world def and, for a hanging sheet, axisU (1, 0, 0) and axisV (0, 1, 0) in the sheet def. A left-handed host
-     negates one axis of all input and output, and swaps two corners of each triangle when it draws.
+   - World coordinates are right-handed, and no axis is up: gravity points down. The manual has hosts with y up and
+     left-handed hosts (drawing).
    - The rest plane holds the flat, undeformed sheet. A rest position is (u, v) in metres.
    - A rotation is 9 floats, column after column.
-   - A function that can fail returns a kiriResult. A negative result is a failure: the world is as before the call.
-     kiriWorld_GetLastError() returns one line with the reason.
+   - A negative kiriResult is a failure: the world is as before the call, and kiriWorld_GetLastError() says why.
    - Sheets, cuts, frames, pins, obstacles and blades are 32-bit ids. 0 is never a valid id. A stale id, or the id of
      another kind, gives KIRI_ERROR_ID.
    - The library owns the arrays that it returns. They stay unchanged until the next kiriWorld_Tick or kiriDestroyWorld,
@@ -58,8 +53,7 @@ typedef int32_t kiriResult;
 enum kiriResultCode {
     KIRI_OK = 0,
     KIRI_PENDING = 1,         /* success; work is left for later ticks */
-    KIRI_ERROR_ARGUMENT = -1, /* null pointer, NaN, infinite, or outside the documented range; or a position, velocity
-                                 or turn of a sheet or obstacle would exceed 4e37 m, m/s or 1/s */
+    KIRI_ERROR_ARGUMENT = -1, /* null, NaN, infinite, outside the documented range, or beyond 4e37 m, m/s or 1/s */
     KIRI_ERROR_DEF = -2,      /* the def was not filled by its kiriDefault function: call that first */
     KIRI_ERROR_ID = -3,       /* unknown or stale id, or the id of another kind */
     KIRI_ERROR_MESH = -4,     /* the triangles do not form a sheet: degenerate, inverted, duplicate, overlapping */
@@ -72,26 +66,17 @@ enum kiriResultCode {
     KIRI_ERROR_REPLAY = -11   /* a repeated call gave another result than its recording has */
 };
 
-/* Returns the version of the library, as KIRI_VERSION. */
+/* Return the version of the library, as KIRI_VERSION; the name of a result, as "KIRI_OK"; a line with its meaning. */
 KIRI_API int32_t kiriGetVersion(void);
-
-/* Returns the name of a result, such as "KIRI_OK"; "unknown" for another number. */
 KIRI_API const char* kiriGetResultName(kiriResult result);
-
-/* Returns one line: the meaning of a result, and its cure. Use it after calls that have no world to keep a line, such
-   as kiriCreateWorld with a def of zeros (KIRI_ERROR_DEF). */
 KIRI_API const char* kiriGetResultText(kiriResult result);
 
 /* ---- World ------------------------------------------------------------------------------------------------------ */
 
-/* Functions of the host. They may call other worlds, and functions that take no world. They may call their own world:
-   - inside a function that takes a world without const: kiriWorld_GetLastError alone;
-   - inside a function that takes a const kiriWorld: functions that take a const kiriWorld.
-
-   Other calls, kiriDestroyWorld too, give KIRI_ERROR_STATE and do nothing but log a line (manual, budget). A reading
-   thread may call `log`, and in kiriSheet_GetWeights and kiriSheet_EstimateError `alloc` and `free`. All memory of a
-   world comes from `alloc`, except memory in which Eigen orders the unknowns: when a cut couples frames that were not
-   coupled before, and when a save is loaded. */
+/* Functions of the host. They may call other worlds, and functions that take no world. While a function that takes a
+   world without const runs, they may call kiriWorld_GetLastError alone of the same world; while one runs that takes a
+   const kiriWorld, functions that do so, too. Other calls give KIRI_ERROR_STATE. The manual has threads and memory
+   (budget). */
 typedef void* kiriAllocFn(void* user, int64_t bytes); /* at least 16-byte aligned, or null */
 typedef void kiriFreeFn(void* user, void* pointer);
 typedef void kiriLogFn(void* user, const char* line);
@@ -99,29 +84,22 @@ typedef double kiriClockFn(void* user); /* seconds; read for the profile only, n
 typedef void kiriRecordFn(void* user, const void* bytes, int32_t count); /* the next bytes of the recording */
 
 /* For hosts that lend their threads to a tick. `start` calls the task, from any threads, for ranges of at least
-   minRange items (the last range may be shorter). The ranges cover the items 0 to itemCount, each once. It returns a
-   handle, and `finish` returns when all these calls have returned. `start` may make all calls itself and return null:
-   then `finish` is not called. Writes of the task must be visible after `finish`, as after a lock. A tick runs one task
-   at a time; the library does not call the host inside one. The division into ranges does not change one bit of the
-   result. */
+   minRange items that cover the items 0 to itemCount, each once. It returns a handle; `finish` returns when all these
+   calls have returned. `start` may make all calls itself and return null (manual, budget). */
 typedef void kiriTaskFn(int32_t start, int32_t end, void* taskContext); /* the items from start up to, without, end */
 typedef void* kiriStartTaskFn(void* user, kiriTaskFn* task, int32_t itemCount, int32_t minRange, void* taskContext);
 typedef void kiriFinishTaskFn(void* user, void* handle);
 
 /* Limits the work of one tick, over all sheets. 0: no limit. Triangles, cells and samples share one allowance: using 30
-   % of one leaves 70 % of the others. A single step that exceeds the whole limit is not split. It runs alone in its
-   tick. Other work goes on in the next tick. Until a cut takes effect its lips move together. The tick of the effect
-   depends on the budget. The mesh, grid, regions, weights and sites of frames after all work is done do not, bit for
-   bit; motion differs. Sheets take turns. The manual has examples and the order of turns (budget). */
+   % of one leaves 70 % of the others. Other work goes on in the next tick. The tick in which a cut takes effect depends
+   on the budget; the mesh, grid, regions, weights and sites of frames after all work is done do not, bit for bit. The
+   manual has examples, single steps that exceed a limit, and the order of turns (budget). */
 typedef struct kiriBudget {
     int32_t triangles; /* split by blades; 0, or KIRI_LEAST_TRIANGLES and more */
     int32_t cells;     /* visited, or with a new distance: grid, regions, shape functions. A link counts as a cell */
     int32_t samples;   /* vertices and collision points with new weights, and the cost of the commit, paid before it */
-    int32_t
-        iterations; /* linear systems, 30 to 60 us each. A large system counts as several, see the manual (budget). A
-                       sheet with fewer systems than substeps takes longer substeps. Pieces that do not fit take turns:
-                       the others stay where they are in this tick, with their velocity, and come first in the next. A
-                       piece whose system exceeds the whole limit is moved alone */
+    int32_t iterations; /* linear systems, 30 to 60 us each; a large one counts as several. A sheet with too few takes
+                           longer substeps, and pieces take turns, see the manual (budget) */
 } kiriBudget;
 
 enum kiriBudgetLimit { KIRI_LEAST_TRIANGLES = 16 };
@@ -137,9 +115,7 @@ typedef struct kiriWorldDef {
     kiriClockFn* clock;         /* null: the profile has counts, and no times */
     kiriStartTaskFn* startTask; /* null: a tick runs in the calling thread alone. Set both or none. */
     kiriFinishTaskFn* finishTask;
-    int32_t
-        workerCount; /* threads that may work on a task, the caller of the tick included, 0 to 1024. It sets the size of
-                        ranges. 0 and 1: no task is started. Default 0 */
+    int32_t workerCount; /* threads for a task, the caller of the tick included, 0 to 1024. 0 (default), 1: no tasks */
     void* user;      /* passed to the functions above */
     kiriRecordFn* record;    /* receives the recording of the world, see kiriWorld_Replay; null: no recording */
     int32_t recordHashTicks; /* ticks between state hashes in the recording; one is at its end. 0: none. Default 60 */
@@ -149,42 +125,35 @@ typedef struct kiriWorldDef {
 KIRI_API void kiriDefaultWorldDef(kiriWorldDef* def);
 
 /* Creates an empty world. On failure *world is null, and the log of the def gets the line; a def that was not filled
-   has no log, see kiriGetResultText. KIRI_ERROR_BUILD: the compiler contracted or reordered float operations
-   (-ffp-contract=fast of clang), or this thread flushes small floats to zero (FTZ, DAZ) or does not round to nearest.
-   The threads of later calls and of tasks are not checked: in such a mode they give other bits. */
+   has no log, see kiriGetResultText. KIRI_ERROR_BUILD: the compiler contracted or reordered float operations, or this
+   thread flushes small floats to zero or does not round to nearest (manual, budget). */
 KIRI_API kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world);
 
 /* Frees the world and all its content. Null is allowed. */
 KIRI_API void kiriDestroyWorld(kiriWorld* world);
 
 /* Advances by one fixed step of dt seconds (1e-6 to 10), in `substeps` equal parts (1 to 64): takes the pending cut
-   points, then moves every sheet. KIRI_PENDING: the budget is spent, and events name the cuts that still have work; a
-   sheet or some of its pieces may have stood still for want of iterations. KIRI_ERROR_MEMORY: the work on a cut, or a
-   piece that leaves, was refused memory and goes on in the next tick, as if the budget were spent; the sheets moved.
-   Only without memory for contacts or ids did nothing move: the line says which. KIRI_ERROR_LIMIT: no ids are left for
-   new frames; nothing moves until frames are destroyed. KIRI_DIVERGED: sheets that events name were stopped, others
-   moved; KIRI_EVENT_DEFERRED tells of pending work. */
+   points, then moves every sheet. KIRI_PENDING: the budget is spent; events name the cuts that still have work.
+   KIRI_ERROR_MEMORY: work on a cut, or a piece that leaves, goes on in the next tick; the sheets moved, but where
+   memory for contacts or ids is missing. KIRI_ERROR_LIMIT: no ids are left for new frames; nothing moves until frames
+   are destroyed. KIRI_DIVERGED: sheets that events name were stopped, others moved. */
 KIRI_API kiriResult kiriWorld_Tick(kiriWorld* world, float dt, int32_t substeps);
 
 /* Returns one line: the reason why the last function that changes the world failed; "" if it did not. A function that
    only reads does not change the line, and logs its own. Valid until the next function that changes the world. */
 KIRI_API const char* kiriWorld_GetLastError(const kiriWorld* world);
 
-/* Sets gravity (m/s^2). All pieces wake. */
-KIRI_API kiriResult kiriWorld_SetGravity(kiriWorld* world, const float gravity[3]);
-
-/* Moves the origin of the world to a point (m): subtracts it from the positions of sheets, targets of pins and holds,
-   obstacles, blades, and pending contacts. The motion goes on as before, to rounding. Nothing wakes; (0, 0, 0) changes
-   nothing. Use it in large worlds, where floats lose precision. The host shifts its own data. Returned arrays keep the
-   old positions until the next tick. KIRI_ERROR_ARGUMENT: a position would not fit a float. */
+/* Moves the origin of the world to a point (m): subtracts it from all positions, as large worlds need because of
+   floats. The motion goes on as before, to rounding; nothing wakes. The host shifts its own data. Returned arrays keep
+   the old positions until the next tick. KIRI_ERROR_ARGUMENT: a position would not fit a float. */
 KIRI_API kiriResult kiriWorld_ShiftOrigin(kiriWorld* world, const float origin[3]);
 
-/* Sets the budget from the next tick on. */
+/* Set gravity (m/s^2; all pieces wake), and the budget, from the next tick on. */
+KIRI_API kiriResult kiriWorld_SetGravity(kiriWorld* world, const float gravity[3]);
 KIRI_API kiriResult kiriWorld_SetBudget(kiriWorld* world, const kiriBudget* budget);
 
 /* Hashes all state that the coming ticks depend on, pending work included. Two worlds with the same calls have the same
-   hash, and two worlds with the same hash go on alike. After a refused allocation some items are made again: the hash
-   differs while work is pending, or while the budget limits cells or samples. */
+   hash, and two worlds with the same hash go on alike. After refused memory it may differ while work is pending. */
 KIRI_API kiriResult kiriWorld_GetStateHash(const kiriWorld* world, uint64_t* hash);
 
 /* Writes up to `capacity` ids of the world's sheets, in the order of their making; *count is how many there are. */
@@ -192,11 +161,9 @@ KIRI_API kiriResult kiriWorld_GetSheets(const kiriWorld* world, kiriSheet* sheet
 
 /* ---- Recording -------------------------------------------------------------------------------------------------- */
 
-/* A recording stores each call that changes a world, with arguments, result and new ids: failed calls too, but not calls
-   that were refused for a bad argument. The same bytes give the same run, bit for bit, on any machine, with the same
-   version of the library. The recording is all bytes that `record` of the world def received, in order. `record`
-   receives the arguments of a call before the call does anything, so the recording of a crash includes the call that
-   crashed. kiriDestroyWorld writes the end. Recording takes no memory and little time. The manual has sizes (budget). */
+/* A recording stores each call that changes a world, with arguments, result and new ids; also the call that crashed.
+   The same bytes give the same run, bit for bit, on any machine, with the same version of the library. The recording is
+   all bytes that `record` of the world def received, in order. The manual has sizes (budget). */
 
 enum kiriNoteLimit { KIRI_MOST_NOTE_BYTES = 1 << 20 };
 
@@ -213,50 +180,40 @@ typedef struct kiriReplay {
     int32_t noteCount;
 } kiriReplay;
 
-/* Makes the calls of a recording up to the next tick or note, included. The world must be new. Gravity and budget
-   become those in the recording; memory, log and tasks stay the host's. Ids are as recorded (kiriWorld_GetSheets).
+/* Makes the calls of a recording up to the next tick or note, included. The world must be new; hooks stay the host's.
    KIRI_PENDING: more calls follow, call again. KIRI_OK: the recording ended. KIRI_ERROR_REPLAY: a call gave another
    result, other ids or another state than recorded; the line names it, and the next call goes on behind it.
-   KIRI_ERROR_DATA: the bytes are not a recording, damaged, cut short, or of another version; the line says where. The
-   calls before that place were made, and the last call of a recording that ends inside one, as after a crash.
-   KIRI_ERROR_STATE: the world is not new. KIRI_ERROR_MEMORY: replay again in a new world. Calls that were refused memory
-   when recorded are skipped, and hashes after such a tick may differ. */
+   KIRI_ERROR_DATA: the bytes are not a recording, damaged, cut short, or of another version; the line says where.
+   KIRI_ERROR_STATE: the world is not new. KIRI_ERROR_MEMORY: replay again in a new world. */
 KIRI_API kiriResult kiriWorld_Replay(kiriWorld* world, const void* recording, int64_t size, kiriReplay* replay);
 
 /* ---- Save and load ---------------------------------------------------------------------------------------------- */
 
-/* A save has what cannot be made again: mesh, frames, cuts that wait, pins, obstacles, blades, ids, events. A world that
-   is loaded goes on as the saved one, bit for bit, and ids name the same things: on another machine, and in another
-   build of the same version of the library. Only a budget tells them apart: a later cut may take effect in another
-   tick. */
+/* A save has what cannot be made again: mesh, frames, cuts that wait, pins, obstacles, blades, ids, events. A loaded
+   world goes on as the saved one, bit for bit, and ids name the same things: on any machine, with the same version of
+   the library. Only a budget tells them apart: a later cut may take effect in another tick. */
 
-/* Writes the world, which only is read. *size: bytes of the save. `bytes` null: they are counted only, and capacity is
-   not read; else it has room for `capacity`. KIRI_ERROR_ARGUMENT: that is less than *size; nothing is written.
-   KIRI_PENDING: a cut is being worked on; *size is 0, and nothing is written. Save after a later tick, or after
-   kiriWorld_FinishCuts. */
+/* Writes the world to memory with room for `capacity` bytes; null: counts them only. *size: bytes of the save.
+   KIRI_ERROR_ARGUMENT: `capacity` is less than *size; nothing is written. KIRI_PENDING: a cut is being worked on; *size
+   is 0, and nothing is written. Save after a later tick, or after kiriWorld_FinishCuts. */
 KIRI_API kiriResult kiriWorld_Save(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size);
 
-/* Finishes the work on cuts at once, whatever the budget is, and without moving anything. Cuts that wait for a budget
-   take effect. The next tick reports the events. KIRI_ERROR_MEMORY, KIRI_ERROR_LIMIT: as in kiriWorld_Tick.
-   Arrays that the world handed out end as with a tick. */
+/* Finishes the work on cuts at once, whatever the budget is, without moving anything. The next tick reports the events.
+   Arrays that the world handed out end as with a tick. KIRI_ERROR_MEMORY, KIRI_ERROR_LIMIT: as in kiriWorld_Tick. */
 KIRI_API kiriResult kiriWorld_FinishCuts(kiriWorld* world);
 
-/* Replaces the world by a saved one. It may have any hooks; its own allocation, log, clock and tasks stay. The bytes may
-   come from anybody: a malicious save may give a strange world but cannot crash the program, and takes memory in
-   proportion to its size. Takes about as long as to create the sheets. The profile has no times until the next tick.
-   Arrays that the old world handed out live until then. KIRI_ERROR_DATA: the bytes are not a save, damaged, or of another
-   version. KIRI_ERROR_MEMORY. Then nothing has changed. `size` is below 2^31. A recording has the bytes. */
+/* Replaces the world by a saved one; its own hooks stay. The bytes may come from anybody: a malicious save may give a
+   strange world but cannot crash the program, and takes memory in proportion to its size, which is below 2^31. Arrays
+   that the old world handed out live until the next tick. On failure nothing has changed: KIRI_ERROR_DATA: the bytes
+   are not a save, damaged, or of another version. KIRI_ERROR_MEMORY. */
 KIRI_API kiriResult kiriWorld_Load(kiriWorld* world, const void* bytes, int64_t size);
 
-/* For rollback: copies all of the world, also work on cuts and pieces that wait, into memory of the host. Much faster
-   than a save, and exact to the bit. The bytes are good for this process only: never store or send them. Arguments as of
-   kiriWorld_Save. */
+/* For rollback: copies all of the world, also work in progress, into memory of the host; much faster than a save, and
+   exact to the bit. For this process only: never store or send the bytes. Arguments as of kiriWorld_Save. */
 KIRI_API kiriResult kiriWorld_Snapshot(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size);
 
-/* Replaces the world by the world of the snapshot; ids name the same things. The bytes are trusted: hand over only the
-   output of kiriWorld_Snapshot. KIRI_ERROR_DATA: the bytes are not a snapshot of this build of the library.
-   KIRI_ERROR_STATE: the world is recorded. KIRI_ERROR_MEMORY. Then nothing has changed. Hooks and arrays as with
-   kiriWorld_Load. */
+/* Replaces the world by the world of the snapshot, as kiriWorld_Load does. The bytes are trusted. On failure nothing
+   has changed: KIRI_ERROR_DATA: no snapshot of this build. KIRI_ERROR_STATE: it is recorded. KIRI_ERROR_MEMORY. */
 KIRI_API kiriResult kiriWorld_Restore(kiriWorld* world, const void* bytes, int64_t size);
 
 /* ---- Events ----------------------------------------------------------------------------------------------------- */
@@ -306,20 +263,15 @@ enum kiriStage {
 typedef struct kiriProfile {
     double seconds[KIRI_STAGE_COUNT]; /* of the last tick; zero without a clock */
     int32_t cutSegments;              /* blade segments that took effect */
-
     /* Items in the units of kiriBudget. An item that takes more work counts more than once. */
     int32_t trianglesSplit, cellsSettled, samplesRefreshed, solverIterations;
-
     /* Changes by commits: cells that are new or have other material, cells with other weights, vertices and collision
        points with other weights, links that differ. kiriSheet_GetCounts has the totals. */
     int32_t cellsChanged, weightsChanged, verticesChanged, pointsChanged, linksChanged;
     int32_t commits; /* sheets in which a cut took effect */
-
     int32_t systemsSolved; /* linear systems, large and small */
-
     int32_t contacts;   /* planes given to the solver: by the host, by obstacles, and between sheets */
     int32_t sheetPairs; /* pairs of sheets or pieces that are near each other and not both asleep */
-
     /* The longest jump of a vertex when a cut took effect, as without fadeTime, and the longest way by a fade; m. */
     double largestJump, largestFade;
 } kiriProfile;
@@ -328,9 +280,8 @@ typedef struct kiriProfile {
 KIRI_API kiriResult kiriWorld_GetProfile(const kiriWorld* world, kiriProfile* profile);
 
 /* Converts microseconds a tick into a budget, at the pace of the profile, which may be the sum of several. Cuts and
-   linear systems share the time as in the profile. Each of triangles, cells and samples gets the time of all three, see
-   kiriBudget. Sets only the limits for which the profile recorded work. The simulation never reads a clock: the host
-   chooses, and a replay must set the same budgets. */
+   linear systems share the time as in the profile. Sets only the limits for which the profile recorded work. The host
+   chooses by its clock, so a replay must set the same budgets. */
 KIRI_API kiriResult kiriFitBudget(const kiriProfile* profile, float microseconds, kiriBudget* budget);
 
 /* Returns the name of a stage; "" for another number. */
@@ -360,9 +311,8 @@ enum kiriMaterialPreset {
 /* Gets the numbers of a preset, KIRI_MATERIAL_... */
 KIRI_API kiriResult kiriGetMaterial(int32_t preset, kiriMaterial* material);
 
-/* Work against accuracy. The presets were measured on a swinging strip and a swinging square of paper. Error is the rms
-   distance of vertices from a much finer run, over their rms way. FAST: at most 2 %. BALANCED: 0.8 %. ACCURATE: 0.4 %.
-   Narrow arms that a cut leaves need more frames (`accuracy` of kiriSheetDef). The manual has details (accuracy). */
+/* Work against accuracy. Errors of a swinging strip and square, rms over their way: FAST at most 2 %, BALANCED 0.8 %,
+   ACCURATE 0.4 %. Narrow arms that a cut leaves need more frames. The manual has details (accuracy). */
 typedef struct kiriQuality {
     int32_t framesAlong;    /* control frames in a row along a strip; a square needs 3 x 3, 5 x 5, 9 x 9 */
     int32_t gridResolution; /* for the sheet def */
@@ -379,20 +329,16 @@ KIRI_API kiriResult kiriGetQuality(int32_t preset, kiriQuality* quality);
 enum kiriModel {
     /* Rigid frames joined by links: paper, foil, stiff cloth. 6 unknowns a frame, coupled with its neighbours. */
     KIRI_MODEL_LINKS = 0,
-
-    /* Affine frames joined by links: cloth and rubber that stretch visibly inside a region. 12 unknowns a frame,
-       coupled with neighbours of neighbours: a tick takes five to seven times as long. From 1e8 Pa on use 8
-       `iterations`. */
+    /* Affine frames joined by links: cloth and rubber that stretch visibly inside a region. 12 unknowns a frame: a tick
+       takes five to seven times as long. From 1e8 Pa on use 8 `iterations`. */
     KIRI_MODEL_AFFINE = 1,
-
     /* Affine frames, strains at integration points: the scheme of the paper, for comparison. 12 unknowns a frame. The
        thinner the sheet, the less it bends; the manual has figures (accuracy). */
     KIRI_MODEL_POINTS = 2
 };
 
-/* The surface between the frames. Rays, blades, obstacles, other sheets and contacts of rest points meet this surface;
-   pins, clamps and holds hold it. Where nothing touches or holds the sheet, skinning does not change its motion.
-   Collision points stay on the linear surface. */
+/* The surface between the frames, which rays, blades, contacts, pins and clamps meet. Where nothing touches or holds
+   the sheet, skinning does not change its motion. Collision points stay on the linear surface. */
 enum kiriSkinning {
     KIRI_SKINNING_LINEAR = 0, /* each frame carries a flat patch; the weights blend them (equation 1 of the paper) */
     KIRI_SKINNING_SMOOTH = 1  /* each carries a patch that bends towards its neighbours: no bumps at the frames */
@@ -400,30 +346,20 @@ enum kiriSkinning {
 
 /* Integration in time. Both solve one linear system an iteration. */
 enum kiriTimeStepping {
-    /* TR-BDF2: alternates trapezoid and BDF2, of second order. Keeps the energy of motion; the manual has figures
-       (accuracy). Backward Euler replaces it in steps in which a contact touches a piece, a pin or hold is made, moved
-       or removed, or a frame is new or turns by more than a radian. */
+    /* TR-BDF2, of second order: keeps the energy of motion. Backward Euler replaces it in steps with a contact, a new
+       or moved pin or hold, a new frame or a fast turn; the manual has figures (accuracy). */
     KIRI_TIME_STEPPING_SECOND_ORDER = 0,
-
     /* Backward Euler, of first order: takes energy out of a swing, more in longer steps. */
     KIRI_TIME_STEPPING_EULER = 1
 };
 
-/* Options of the paper, for comparison; part of the sheet def. */
+/* Options of the paper, for comparison; part of the sheet def. Default 0, but for integrationOrder. */
 typedef struct kiriPaperOptions {
-    /* 1: every cut rebuilds grid, regions and shape functions from scratch, to the same bits. Default 0. */
-    int32_t fromScratch;
-
-    /* 1: only new frames take their motion from the surface: it jumps at cuts, and momentum is not kept. Default 0. */
-    int32_t popping;
-
-    /* 1: the weights of frames are linear between frames, so the surface has a kink at each frame. Always so with
-       KIRI_MODEL_POINTS. Default 0: the slope of weights is zero at the frames. */
-    int32_t linearWeights;
-
-    /* KIRI_MODEL_POINTS only. Points are spread evenly over the sheet, at least one in every piece; default 0: four for
-       each of frameCount. Work is proportional to them. Order 1 (default) has a constant strain in the material around
-       a point, order 2 a linear strain, at four times the work a point. */
+    int32_t fromScratch;   /* 1: every cut rebuilds grid, regions and shape functions from scratch, to the same bits */
+    int32_t popping;       /* 1: only new frames take their motion from the surface: it jumps, momentum is not kept */
+    int32_t linearWeights; /* 1: weights are linear between frames: a kink at each; always so with KIRI_MODEL_POINTS */
+    /* KIRI_MODEL_POINTS only: points spread evenly over the sheet, one in every piece at least; 0: four for each of
+       frameCount. Strain around a point is constant (order 1, default) or linear (2: four times the work). */
     int32_t integrationPoints; /* 0 to 1048576 */
     int32_t integrationOrder;  /* 1 or 2 */
 } kiriPaperOptions;
@@ -431,107 +367,65 @@ typedef struct kiriPaperOptions {
 /* A sheet: its rest shape, start, material, and computation. */
 typedef struct kiriSheetDef {
     uint32_t cookie;
-
-    /* The rest shape: triangles in the rest plane, counter-clockwise, at most two at an edge. Holes and several parts
-       are allowed. kiriCreateSheet copies them and leaves out vertices without a triangle. Two edges in the same place
-       with different vertices are the lips of an existing cut; weldDistance closes them. */
+    /* The rest shape: triangles in the rest plane, counter-clockwise, at most two at an edge; holes and several parts
+       are allowed. Two edges in the same place with different vertices are the lips of a cut (manual, meshes). */
     const float* restPositions; /* 2 floats (u, v) a vertex */
     int32_t vertexCount;
     const int32_t* indices; /* 3 a triangle */
     int32_t triangleCount;
-
-    /* Start: x = position + u axisU + v axisV (m, world). The axes are orthonormal. */
-    float position[3];
-    float axisU[3];
-    float axisV[3];
-    float velocity[3]; /* m/s */
-
+    /* Start: x = position + u axisU + v axisV (m, world), with orthonormal axes; and velocity, m/s. */
+    float position[3], axisU[3], axisV[3], velocity[3];
     kiriMaterial material;
-
     int32_t gridResolution; /* grid squares along the longer side, 1 to 4096; default 32 */
-    float
-        snapDistance; /* m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not. A cut
-                         keeps within half of it of its line, or goes along a lip this near; 0: 1e-4 of the longer
-                         side */
-
+    float snapDistance; /* m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not.
+                           0: 1e-4 of the longer side. The manual has more (cutting) */
     /* Merges vertices nearer than this (m, rest plane; 0 or more): for seams of texture coordinates, and triangles
-       without shared vertices (STL). Each vertex becomes the nearest kept vertex before it within this distance, or is
-       kept. No vertex moves farther, and a chain of near vertices stays several points. A triangle with two corners at
-       one vertex is left out. kiriSheet_CopySources leads to the vertices of the def. Default 0: no merging. */
+       without shared vertices (STL). Default 0: no merging. The manual has the rule (meshes). */
     float weldDistance;
-
     /* Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at least; null: frameCount
-       frames are spread evenly, some in pairs at both sides of slit ends. The grid carries at most one frame for every
-       two squares of material: a def with more gives KIRI_ERROR_ARGUMENT, and re-sampling stops there. A new sheet has
-       at most frameCount frames, or one for each piece where there are more pieces. frameCount 0: regions are split,
-       after cuts too, until 2.45 times the radius of gyration is at most 1.25 frameLength. frameLength 0: derived from
-       `accuracy`, the relative error of the shape under the sheet's own weight, and at least three grid squares.
-       kiriSheet_EstimateError checks the result. */
+       frames are spread evenly, at most one for every two squares of material. frameCount 0: regions are split, after
+       cuts too, to frameLength; frameLength 0: it follows from `accuracy`, the relative error of the shape under the
+       sheet's own weight. The manual has the rules (accuracy), kiriSheet_EstimateError checks the result. */
     int32_t frameCount; /* 0, or 1 and more; default 5 */
     float frameLength;  /* m; used where frameCount is 0; default 0 */
     float accuracy;     /* 1e-4 to 1; used where frameCount and frameLength are 0; default 0.02 */
     const float* framePoints;
     int32_t maxFrames; /* re-sampling stops here; default 256 */
-
     /* Re-sampling (section 5 of the paper): a frame whose weight exceeds rigidWeight over an area larger than rigidArea
-       (m^2) gets new frames beside it. A new sheet is re-sampled only with frameCount 0. Later it happens when a cut
-       ends or meets the border or another cut, where the area is also larger than in the new sheet. A rigid sheet has
-       frameCount 1 and maxFrames 1. rigidArea 0: a quarter of the area of a frame at the start. */
+       (m^2) gets new frames beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter of the area of a
+       frame at the start. A rigid sheet has frameCount 1 and maxFrames 1. The manual says when (accuracy). */
     float rigidWeight; /* default 0.95 */
     float rigidArea;   /* default 0 */
-
-    /* A piece with less area (m^2) is a crumb: it gets one frame if it has none, and no more. Default 0. */
-    float crumbArea;
-
+    float crumbArea; /* m^2: a smaller piece is a crumb: it gets one frame if it has none, and no more. Default 0 */
     float friction; /* of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5 */
-    float contactThickness; /* m, 0 or more: distance between sheets and pieces, and twice the distance to obstacles. 0:
-                               the material's thickness, at least a 20th of a grid square. Default 0 */
+    float contactThickness; /* m: distance between sheets and pieces, and twice the distance to obstacles. 0 (default):
+                               the material's thickness, at least a 20th of a grid square */
     uint32_t groups;        /* obstacles and sheets touch if they share a set bit. Default: all */
-
-    /* 1: its pieces touch each other, and other sheets that have it set; not where one of two sheets is planar. Planes
-       keep the upper piece, against gravity, on its side of the lower one; side by side, the piece that is free, or the
-       lighter one. So piles keep their order. Folds of one piece do not touch each other. Pieces that touch wake and
-       fall asleep together. The manual lists the limits of the method (contact). Default 0. */
+    /* 1: its pieces touch each other, and other sheets that have it set; not where one of two sheets is planar. Folds
+       of one piece do not touch each other. The manual has rules and limits (contact). Default 0. */
     int32_t touchesSheets;
-
     int32_t collisionPoints; /* spread evenly over the sheet, at least one in every piece; default 0: none */
     int32_t iterations; /* Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual */
-
-    /* A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a second.
-       It does not move, and costs almost nothing. A cut that changes it wakes it when the cut takes effect; so do a new
-       pin, pose, hold or load, contacts that differ, and moving things that come near. Gravity, wind, settings and
-       kiriSheet_Wake wake all pieces of the sheet. Default 0.001; 0: no piece sleeps. */
+    /* A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a second,
+       and costs almost nothing until something new wakes it (manual, budget). Default 0.001; 0: no piece sleeps. */
     float sleepSpeed;
-
     int32_t model;    /* KIRI_MODEL_..., default KIRI_MODEL_LINKS */
     int32_t skinning; /* KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR */
-
     /* 1: the sheet stays in the plane where it starts, without bending. Parts of velocities, forces and held positions
        across the plane are dropped. A rigid frame has 3 unknowns, an affine one 6. Default 0. */
     int32_t planar;
-
     int32_t timeStepping; /* KIRI_TIME_STEPPING_..., default KIRI_TIME_STEPPING_SECOND_ORDER */
-
-    /* A cut that takes effect changes weights, and the surface would jump between frames. The difference fades within
-       this time (s), and so does that in the strain of links whose borders moved. Default 0.2; 0: at once. */
-    float fadeTime;
-
-    /* 1: every tick computes normals of the mesh. 0: kiriMesh has no normals, and kiriSheet_CopyVertices copies none;
-       this saves half of the time of linear skinning. The sheet moves the same, bit for bit: contact and
-       kiriSheet_GetSolid compute their own normals. kiriSheet_GetPoint is the same to rounding. Default 1. */
-    int32_t normals;
-
+    float fadeTime; /* s: jumps of the surface and of strains fade within this when a cut takes effect. Default 0.2 */
+    int32_t normals; /* 1: every tick computes normals (default). 0: kiriMesh has none, which saves time */
     kiriPaperOptions paper; /* default: all off */
 } kiriSheetDef;
 
 /* Fills the def with its defaults, and stamps it. It has no mesh yet. */
 KIRI_API void kiriDefaultSheetDef(kiriSheetDef* def);
 
-/* Adds a sheet. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles do not form a sheet. The line says why, and
-   names the triangle, or the two triangles at an edge, by index in the def. */
+/* Add a sheet, and destroy one with its cuts, frames and pins. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles
+   do not form a sheet; the line says why, and names the triangle, or the two at an edge, by index in the def. */
 KIRI_API kiriResult kiriCreateSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* sheet);
-
-/* Destroys the sheet with its cuts, frames and pins; their ids are stale. */
 KIRI_API kiriResult kiriDestroySheet(kiriWorld* world, kiriSheet sheet);
 
 /* Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles; columns
@@ -544,11 +438,9 @@ typedef struct kiriSheetSettings {
     uint32_t cookie;
     kiriMaterial material;
     int32_t maxFrames;
-    float crumbArea;
-    float friction, contactThickness;
+    float crumbArea, friction, contactThickness;
     uint32_t groups;
-    int32_t touchesSheets;
-    int32_t iterations;
+    int32_t touchesSheets, iterations;
     float sleepSpeed;
     int32_t skinning, timeStepping;
     float fadeTime; /* stays 0 with paper.popping */
@@ -560,7 +452,7 @@ KIRI_API kiriResult kiriSheet_GetSettings(const kiriWorld* world, kiriSheet shee
 
 /* Sets all settings, or none; checks them as kiriCreateSheet does. KIRI_ERROR_DEF: they do not come from
    kiriSheet_GetSettings. The sheet wakes if one differs. Positions and velocities are kept, so a new mass changes the
-   momentum. The stiffness of pins and the lengths that placed the frames are kept, too. */
+   momentum; the stiffness of pins and the lengths that placed the frames are kept, too. */
 KIRI_API kiriResult kiriSheet_SetSettings(kiriWorld* world, kiriSheet sheet, const kiriSheetSettings* settings);
 
 /* Fills in a rectangle from (0, 0) to (width, height) for a sheet def: writes 2 * (columns + 1) * (rows + 1) floats and
@@ -569,9 +461,8 @@ KIRI_API kiriResult kiriFillRectangle(float width, float height, int32_t columns
                                       int32_t* indices);
 
 /* The triangles to draw, as after the last tick. revision grows when indices or vertices are added or changed. Rest
-   positions are floats, with a spacing of 6e-8 of the distance from the origin of the rest plane: triangles of about
-   that size may look flat or inverted. The library computes with the positions of the def to 2^-29 of the sheet;
-   sourceTriangles and sourceWeights have that precision. */
+   positions are floats, so small triangles far from the origin of the rest plane may look flat in them; sourceTriangles
+   and sourceWeights have the precision of the library, 2^-29 of the sheet. */
 typedef struct kiriMesh {
     const float* positions;         /* 3 a vertex, m, world */
     const float* normals;           /* 3 a vertex, unit; null where the sheet makes none */
@@ -579,8 +470,7 @@ typedef struct kiriMesh {
     const int32_t* indices;         /* 3 a triangle */
     const int32_t* sourceTriangles; /* 1 a vertex: the triangle of the def that contains it, */
     const float* sourceWeights;     /* 3 a vertex: and its barycentric coordinates there */
-    int32_t vertexCount;
-    int32_t triangleCount;
+    int32_t vertexCount, triangleCount;
     uint32_t revision;
 } kiriMesh;
 
@@ -611,9 +501,8 @@ KIRI_API kiriResult kiriSheet_CopyVertices(const kiriWorld* world, kiriSheet she
                                            int32_t normalStride);
 
 /* Copies the index that each vertex had when the last call of kiriWorld_Tick began, for hosts that draw between two
-   ticks. *from: the sheet that had the vertices then; another sheet if this one was a piece of it. A vertex that a cut
-   separated from another gets the index of the other. -1: the vertex did not exist, as in a sheet that was created or
-   loaded since. The manual has the code (drawing). */
+   ticks; -1: it did not exist. *from: the sheet that had the vertices then. A vertex that a cut separated from another
+   gets the index of the other. The manual has the code (drawing). */
 KIRI_API kiriResult kiriSheet_CopyPrevious(const kiriWorld* world, kiriSheet sheet, int32_t first, int32_t count,
                                            int32_t* vertices, kiriSheet* from);
 
@@ -622,25 +511,22 @@ KIRI_API kiriResult kiriSheet_CopyIndices16(const kiriWorld* world, kiriSheet sh
                                             int32_t count, uint16_t* indices);
 
 /* Map triangles to the def, to draw with the host's data for its own vertices. Sources: the triangle of the def that
-   contains each; -1 for a triangle that was removed (its corners are equal). Weights: 9 floats each, the barycentric
-   coordinates of its three corners in that triangle. They are correct on both sides of a seam that weldDistance closed;
-   sourceTriangles name a triangle on one side. The manual has the code (meshes). */
+   contains each; -1 for a triangle that was removed. Weights: 9 floats each, the barycentric coordinates of its three
+   corners in that triangle, also beside a seam that weldDistance closed. The manual has the code (meshes). */
 KIRI_API kiriResult kiriSheet_CopySources(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle, int32_t count,
                                           int32_t* sources);
 KIRI_API kiriResult kiriSheet_CopySourceWeights(const kiriWorld* world, kiriSheet sheet, int32_t firstTriangle,
                                                 int32_t count, float* weights);
 
 /* The surface with a thickness, to draw: a closed mesh, with a rim along borders, holes and lips. First the vertices of
-   kiriMesh on the side of the normal, then the same on the other side, then four for each border edge, so rims are
-   flat. */
+   kiriMesh on the side of the normal, then the same on the other side, then four for each border edge. */
 typedef struct kiriSolid {
     const float* positions;     /* 3 a vertex, m, world */
     const float* normals;       /* 3 a vertex, unit, outwards */
     const float* restPositions; /* 2 a vertex, m */
     const int32_t* indices;     /* 3 a triangle, counter-clockwise from outside */
     const int32_t* sources;     /* 1 a vertex: its vertex in kiriMesh */
-    int32_t vertexCount;
-    int32_t triangleCount;
+    int32_t vertexCount, triangleCount;
     int32_t rimTriangle; /* rims begin at this triangle */
 } kiriSolid;
 
@@ -659,8 +545,7 @@ typedef struct kiriCounts {
 /* Gets the counts, at no cost. */
 KIRI_API kiriResult kiriSheet_GetCounts(const kiriWorld* world, kiriSheet sheet, kiriCounts* counts);
 
-/* Area (m^2), mass (kg), kinetic energy and elastic energy (J), linear and angular momentum about the world's origin
-   (kg m/s, kg m^2/s), centre of mass (m). */
+/* m^2, kg, J, J; centre of mass, m; linear and angular momentum about the world's origin, kg m/s and kg m^2/s. */
 typedef struct kiriTotals {
     double area, mass, kineticEnergy, elasticEnergy;
     double center[3], momentum[3], angularMomentum[3];
@@ -670,9 +555,8 @@ typedef struct kiriTotals {
 KIRI_API kiriResult kiriSheet_GetTotals(const kiriWorld* world, kiriSheet sheet, kiriTotals* totals);
 
 /* Estimates the error of the current shape of a sheet that rests or moves slowly: rms distance from a sheet of very
-   many frames under the same loads, over its rms way from the flat shape; 0 to 1, and 1 with too few frames to tell. It
-   compares strains of neighbouring links (KIRI_MODEL_LINKS only; else KIRI_ERROR_STATE), in one pass that allocates
-   memory. The manual says how good it is (accuracy). */
+   many frames under the same loads, over its rms way from the flat shape; 0 to 1, and 1 with too few frames to tell.
+   KIRI_MODEL_LINKS only; else KIRI_ERROR_STATE. It allocates memory. The manual says how good it is (accuracy). */
 KIRI_API kiriResult kiriSheet_EstimateError(const kiriWorld* world, kiriSheet sheet, double* relative);
 
 /* Read and end sleep: *awake is 0 where all pieces sleep (kiriPieceState tells which); kiriSheet_Wake wakes all. */
@@ -681,9 +565,8 @@ KIRI_API kiriResult kiriSheet_Wake(kiriWorld* world, kiriSheet sheet);
 
 /* Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and the sheet wakes. The
    columns of `rotation` are the images of the world's axes; a planar sheet turns about its normal only. Targets of
-   pins, hinges, clamps and holds move along, so nothing pulls the sheet back. A target that the host set nearer to the
-   pin's new place than to its old one stays: the host may set targets before or after. Pins on an obstacle stay on it:
-   move the obstacle by the same motion (kiriObstacle_SetPose), before or after. Pending loads and contacts stay. */
+   pins, hinges, clamps and holds move along; pins on an obstacle stay on it. The manual has the order of calls that set
+   targets or move obstacles (sheets). Pending loads and contacts stay. */
 KIRI_API kiriResult kiriSheet_Transform(kiriWorld* world, kiriSheet sheet, const float rotation[9],
                                         const float translation[3]);
 
@@ -694,9 +577,8 @@ KIRI_API kiriResult kiriSheet_SetVelocity(kiriWorld* world, kiriSheet sheet, con
 KIRI_API kiriResult kiriFrame_SetPieceVelocity(kiriWorld* world, kiriFrame frame, const float velocity[3],
                                                const float angularVelocity[3]);
 
-/* Store a number of the host, 0 at first. No tick depends on it, and the state hash does not. kiriFrame_DetachPiece
-   copies the sheet's number to the new sheet. A piece has a number, too, named by any of its frames: the parts of a
-   piece that is cut inherit it, and so does a sheet that is made of it. */
+/* Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and a piece,
+   named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has both. */
 KIRI_API kiriResult kiriSheet_SetUserData(kiriWorld* world, kiriSheet sheet, uint64_t data);
 KIRI_API kiriResult kiriSheet_GetUserData(const kiriWorld* world, kiriSheet sheet, uint64_t* data);
 KIRI_API kiriResult kiriPin_SetUserData(kiriWorld* world, kiriPin pin, uint64_t data);
@@ -713,13 +595,10 @@ typedef struct kiriHit {
     int32_t triangle;   /* -1: none */
 } kiriHit;
 
-/* Finds where a ray first meets the sheet, up to maxDistance. KIRI_OK with hit->triangle = -1: it does not. The first
-   ray visits every triangle. From the next tick on boxes over the triangles follow the sheet, until 120 ticks pass
-   without a ray: a ray takes some microseconds, and a tick of a large sheet a quarter more. */
+/* Find where a ray first meets the sheet, or any (*sheet is 0 if none), up to maxDistance; hit->triangle is -1 if it
+   does not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray. */
 KIRI_API kiriResult kiriSheet_Raycast(const kiriWorld* world, kiriSheet sheet, const float origin[3],
                                       const float direction[3], float maxDistance, kiriHit* hit);
-
-/* Finds the first sheet that a ray meets; *sheet is 0 where there is none. */
 KIRI_API kiriResult kiriWorld_Raycast(const kiriWorld* world, const float origin[3], const float direction[3],
                                       float maxDistance, kiriSheet* sheet, kiriHit* hit);
 
@@ -734,18 +613,18 @@ typedef struct kiriPointState {
 KIRI_API kiriResult kiriSheet_GetPoint(const kiriWorld* world, kiriSheet sheet, const float restPoint[2],
                                        kiriPointState* state);
 
-/* Gets the shape functions at a rest point: up to `capacity` frames with their weights, whose sum is 1, and, unless null,
-   gradients (2 floats a frame, 1/m). *count is how many there are, also above capacity. KIRI_ERROR_ARGUMENT: it is
-   outside the sheet. KIRI_ERROR_STATE: work on a cut is pending. */
+/* Gets the shape functions at a rest point: up to `capacity` frames with their weights, whose sum is 1, and, unless
+   null, gradients (2 floats a frame, 1/m). *count is how many there are, also above capacity. KIRI_ERROR_ARGUMENT: the
+   point is outside the sheet. KIRI_ERROR_STATE: work on a cut is pending. */
 KIRI_API kiriResult kiriSheet_GetWeights(const kiriWorld* world, kiriSheet sheet, const float restPoint[2],
                                          kiriFrame* frames, float* weights, float* gradients, int32_t capacity,
                                          int32_t* count);
 
 /* ---- Piece ------------------------------------------------------------------------------------------------------ */
 
-/* A connected part of a sheet. Any of its frames names it. Indices from 0 to kiriCounts.pieces, in the order of first
-   frames, visit all pieces: they change when a piece comes off or goes, and kiriFrame_GetPiece returns the current one.
-   A cut with pending work has not separated anything yet. Momentum is about the world's origin. */
+/* A connected part of a sheet. Any of its frames names it. Indices from 0 to kiriCounts.pieces visit all pieces; they
+   change when a piece comes off or goes, and kiriFrame_GetPiece returns the current one. A cut with pending work has
+   not separated anything yet. Momentum is about the world's origin. */
 typedef struct kiriPieceState {
     double area, mass;                                    /* m^2, kg */
     double center[3], momentum[3], angularMomentum[3];    /* of mass, m; kg m/s; kg m^2/s */
@@ -764,30 +643,25 @@ typedef struct kiriPieceMesh {
     int32_t vertexCount, triangleCount, collisionPointCount;
 } kiriPieceMesh;
 
-/* Get a piece. The first of these calls after a cut sorts the sheet by pieces, and may fail with KIRI_ERROR_MEMORY.
-   KIRI_ERROR_ARGUMENT: no piece has the index. */
+/* Get a piece. The first call after a cut sorts the sheet by pieces. KIRI_ERROR_ARGUMENT: no piece has the index. */
 KIRI_API kiriResult kiriSheet_GetPiece(kiriWorld* world, kiriSheet sheet, int32_t piece, kiriPieceState* state);
 KIRI_API kiriResult kiriSheet_GetPieceMesh(kiriWorld* world, kiriSheet sheet, int32_t piece, kiriPieceMesh* mesh);
 
-/* Gets the frames of a piece: *frames points to *count ids. */
+/* Get the frames of a piece (*frames points to *count ids), and the current index of the piece with a frame. */
 KIRI_API kiriResult kiriSheet_GetPieceFrames(kiriWorld* world, kiriSheet sheet, int32_t piece, const kiriFrame** frames,
                                              int32_t* count);
-
-/* Gets the current index of the piece with this frame. */
 KIRI_API kiriResult kiriFrame_GetPiece(const kiriWorld* world, kiriFrame frame, int32_t* piece);
 
-/* Makes a sheet of the piece with this frame. Frames, pins, collision points, pending loads and contacts move along,
-   with their ids and states, and the motion goes on. Both sheets have all settings. Cuts stay with the old sheet. A
-   clamp or hinge that holds both gets a copy with a new id in the new sheet. Revisions grow; kiriSheet_GetDirty has the
-   changes. KIRI_PENDING: work on a cut is pending, or the piece takes more samples than the budget leaves; *detached is
-   0. Then samples of the coming ticks pay for it, and further cuts of the sheet wait. When all is paid the piece of
-   this frame becomes a sheet, and KIRI_EVENT_PIECE_DETACHED names it. KIRI_ERROR_STATE: nothing would be left of the
-   sheet. The manual has indices and costs (cutting). */
+/* Makes a sheet of the piece with this frame. All that belongs to the piece moves along, with ids and states, and the
+   motion goes on; cuts stay with the old sheet. A clamp or hinge that holds both gets a copy with a new id in the new
+   sheet. KIRI_PENDING: work on a cut is pending, or the piece takes more samples than the budget leaves; *detached is
+   0. Further cuts of the sheet then wait, and KIRI_EVENT_PIECE_DETACHED names the sheet in a later tick.
+   KIRI_ERROR_STATE: nothing would be left of the sheet. The manual has indices and costs (cutting). */
 KIRI_API kiriResult kiriFrame_DetachPiece(kiriWorld* world, kiriFrame frame, kiriSheet* detached);
 
-/* Removes the piece with this frame: ids of its frames and pins are stale. Takes effect at once, and the coming ticks
-   have fewer samples. KIRI_PENDING: work on a cut is pending. Until it is done the triangles stay in kiriMesh with
-   three equal corners, the vertices stay, and kiriCounts counts the piece, with a kiriPieceState of all zeros. */
+/* Removes the piece with this frame at once: ids of its frames and pins are stale, and the coming ticks have fewer
+   samples. KIRI_PENDING: work on a cut is pending. Until it is done the triangles stay in kiriMesh with three equal
+   corners, and kiriCounts counts the piece, with a kiriPieceState of all zeros. */
 KIRI_API kiriResult kiriFrame_DestroyPiece(kiriWorld* world, kiriFrame frame);
 
 /* Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet; frames of one piece count
@@ -807,44 +681,28 @@ KIRI_API kiriResult kiriSheet_DropCrumbs(kiriWorld* world, kiriSheet sheet, floa
    or, by the budget, a later one. The end of a cut inside the sheet stays closed until the next point. */
 KIRI_API kiriResult kiriBeginCut(kiriWorld* world, kiriSheet sheet, const float restPoint[2], kiriCut* cut);
 
-/* Adds points. restPoints: 2 floats a point; count is 1 to 2^24. */
+/* Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the tick in which its last
+   point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the frames that it needs. */
 KIRI_API kiriResult kiriCut_Extend(kiriWorld* world, kiriCut cut, const float* restPoints, int32_t count);
-
-/* Ends the cut. Its id is stale after the tick in which its last point takes effect (KIRI_EVENT_CUT_FINISHED). The
-   sheet then adds the frames that it needs. */
 KIRI_API kiriResult kiriCut_End(kiriWorld* world, kiriCut cut);
 
 /* Cuts where the quadrilateral swept by an edge in world space, from blade[0]-blade[1] to blade[3]-blade[2], meets the
-   current sheet; past borders, so that it separates the parts that it crosses. The cut is already ended. Slices of a
-   moving sheet do not join from tick to tick: use a blade for that. */
+   current sheet; past borders, so that it separates the parts that it crosses. The cut is already ended. */
 KIRI_API kiriResult kiriSheet_Slice(kiriWorld* world, kiriSheet sheet, const float blade[12], kiriCut* cut);
 
 /* ---- Blade ------------------------------------------------------------------------------------------------------ */
 
 /* A blade in world space that goes on from tick to tick: a knife, a mouse, a finger. It remembers, in the material of
-   each layer that it is in, where it was, and cuts on from there: along the way of its edge relative to that material,
-   whatever the sheet did in between. Where it passes a border of the material, the outline or a lip, the cut goes on
-   past it, so that it parts. A cut that began amid the material, and comes by its beginning by 1.5 % of its length or
-   nearer, is closed there when it has gone on by a tenth of its length or ends: so a disc comes out of a circle drawn
-   by hand. A way out and straight back does not close. A blade that is held still cuts nothing within 64 snap distances of
-   its slit. A way that stays within 1.5 snap distances of a slit cuts nothing. In cloth that sways, a slow blade may
-   leave a bridge.
-   Move a blade at least once a tick while it is in a sheet; more often is fine. The next tick makes these cuts;
-   with a budget, a later tick may. Pending cuts count as slits. Where a blade cuts a moving sheet follows from the
-   calls and the budget, for the sheet moves differently once it has parted. Saves and state hashes hold all of it. A
-   blade has a cut for each layer. The cut begins and ends as the blade comes in and goes out;
-   KIRI_EVENT_CUT_FINISHED reports it. */
+   each layer that it is in, where it was, and cuts on from there, whatever the sheet did in between. Move it at least
+   once a tick while it is in a sheet. The next tick makes these cuts; with a budget, a later tick may. A blade has a
+   cut for each layer, which KIRI_EVENT_CUT_FINISHED reports. The manual has borders and loops (cutting). */
 
-/* sheet 0: it cuts all sheets, also those that are made later and pieces that get a sheet of their own. A blade for one
-   sheet whose sheet is gone cuts nothing. */
+/* Begins a blade for one sheet; 0: for all sheets, also those that are made later. */
 KIRI_API kiriResult kiriBeginBlade(kiriWorld* world, kiriSheet sheet, kiriBlade* blade);
 
-/* The blade is now the straight edge between two points (m, world). From where it was it got there straight, each end
-   along a line. The first call only says where it begins. Where an end of the edge lies inside of what it sweeps of the
-   sheet, it cuts only what it sweeps. An edge without length cuts nothing. */
+/* Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera casts;
+   each end goes straight. The first call only says where it begins. An end inside cuts along its own way. */
 KIRI_API kiriResult kiriBlade_MoveEdge(kiriWorld* world, kiriBlade blade, const float from[3], const float to[3]);
-
-/* The same for a ray that a camera casts: an edge `length` m long. */
 KIRI_API kiriResult kiriBlade_MoveRay(kiriWorld* world, kiriBlade blade, const float origin[3],
                                       const float direction[3], float length);
 
@@ -857,8 +715,7 @@ KIRI_API kiriResult kiriBlade_End(kiriWorld* world, kiriBlade blade);
 typedef struct kiriFrameState {
     float restPoint[2];       /* m */
     float position[3];        /* m, world: of the rest point */
-    float rotation[9];        /* columns: direction of u, direction of v, normal; of an affine frame the columns of A,
-                                 which stretch with the sheet */
+    float rotation[9];        /* columns: direction of u, of v, normal; an affine frame: columns of A, which stretch */
     float velocity[3];        /* m/s */
     float angularVelocity[3]; /* rad/s */
     float area;               /* m^2 of its region */
@@ -873,28 +730,23 @@ KIRI_API kiriResult kiriSheet_GetFrames(const kiriWorld* world, kiriSheet sheet,
 /* Gets the current state. */
 KIRI_API kiriResult kiriFrame_GetState(const kiriWorld* world, kiriFrame frame, kiriFrameState* state);
 
-/* Holds the frame: its rest point on the visible surface moves evenly to `position` (m, world) with `rotation` (a
-   rotation matrix, columns as above) in the next tick, and stays there until the next call. A held affine frame is not
-   stretched. On a planar sheet the rotation is about its normal. Null, null: frees it. Contacts do not push material of
-   which held frames carry more than half: it moves through obstacles. */
+/* Holds the frame: its rest point on the visible surface moves evenly to `position` (m, world) with `rotation` (columns
+   as above; on a planar sheet about its normal) in the next tick, and stays there. Null, null: frees it. Material of
+   which held frames carry more than half moves through obstacles. */
 KIRI_API kiriResult kiriFrame_Hold(kiriWorld* world, kiriFrame frame, const float position[3], const float rotation[9]);
 
 /* Gets the force (N, world) and torque (N m, about the frame's rest point) that the hold applied to the sheet: means
-   over the last tick, impulses divided by its dt. They include the frame's own weight and change of momentum. Zero for
-   a free frame. A sleeping piece keeps the values with which it fell asleep. */
+   over the last tick that moved the piece, with the frame's own weight and change of momentum. Zero for a free one. */
 KIRI_API kiriResult kiriFrame_GetReaction(const kiriWorld* world, kiriFrame frame, double force[3], double torque[3]);
 
 /* ---- Load ------------------------------------------------------------------------------------------------------- */
 
-/* Forces, torques, line loads and pressures act throughout the next tick, in all its substeps, and then end. They add
-   up. They act on the frames that hold the material at the time of the call, at its current place: a load does not
-   follow the sheet within the tick. A tick in which nothing moves keeps them. */
+/* Forces, torques, line loads and pressures add up, act throughout the next tick that moves, and then end. They act on
+   the frames that hold the material at the time of the call: a load does not follow the sheet within the tick. */
 
-/* Applies a force (N, world) at the frame's centre of mass and a torque (N m). */
+/* Apply a force (N, world) at the frame's centre of mass, or at a point of the material, and a torque (N m). */
 KIRI_API kiriResult kiriFrame_ApplyForce(kiriWorld* world, kiriFrame frame, const float force[3],
                                          const float torque[3]);
-
-/* Applies a force (N, world) at a point of the material and a torque (N m). */
 KIRI_API kiriResult kiriSheet_ApplyForce(kiriWorld* world, kiriSheet sheet, const float restPoint[2],
                                          const float force[3], const float torque[3]);
 
@@ -906,16 +758,14 @@ KIRI_API kiriResult kiriSheet_ApplyLineLoad(kiriWorld* world, kiriSheet sheet, c
 /* Applies a pressure (Pa) to the whole sheet along its normal; below 0: against it. */
 KIRI_API kiriResult kiriSheet_ApplyPressure(kiriWorld* world, kiriSheet sheet, float pressure);
 
-/* Applies an impulse (N s, world) at a point of the material on the visible surface. Velocities change at once, by the
-   mass of the frames that carry the point; a held frame's share is lost. KIRI_ERROR_ARGUMENT: it is outside the sheet.
-   */
+/* Applies an impulse (N s, world) at a point of the material on the visible surface, at once, by the mass of the frames
+   that carry the point; a held frame's share is lost. KIRI_ERROR_ARGUMENT: the point is outside the sheet. */
 KIRI_API kiriResult kiriSheet_ApplyImpulse(kiriWorld* world, kiriSheet sheet, const float restPoint[2],
                                            const float impulse[3]);
 
 /* Air that moves past the sheet. v is the velocity of the air less the velocity of the material, n the normal: each
-   square metre gets density / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)). Zero velocity with drag and lift above
-   zero: still air, which resists. All zero: none. It acts at four points of the region of each frame, and follows the
-   motion within the tick, so strong wind is stable. A sheet can sleep in constant wind. */
+   square metre gets density / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)). All zero: none. A sheet can sleep in
+   constant wind, and still air (zero velocity) resists. */
 typedef struct kiriWind {
     float velocity[3]; /* m/s */
     float density;     /* kg/m^3, 0 or more; air: 1.2 */
@@ -934,32 +784,30 @@ typedef struct kiriPinDef {
     float target[3];       /* m, world */
     float stiffness;       /* N/m; 0: ten times Young's modulus times thickness */
     float breakForce;      /* N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never */
-    kiriObstacle obstacle; /* or 0. The target moves with this obstacle from its place at creation or at the last
-                              kiriPin_SetTarget. The obstacle feels the pin (kiriObstacle_GetState); an obstacle with
-                              mass yields within the tick. If it is destroyed the target stays */
+    kiriObstacle obstacle; /* or 0. The target moves with this obstacle, which feels the pin (kiriObstacle_GetState) and
+                              yields by its mass. If it is destroyed the target stays */
 } kiriPinDef;
 
 /* Fills the def with its defaults, and stamps it. */
 KIRI_API void kiriDefaultPinDef(kiriPinDef* def);
 
-/* Pins a point of the sheet. On failure *pin is 0. KIRI_ERROR_ARGUMENT: it is outside the sheet. */
+/* Pin a point of the sheet, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: the point is
+   outside the sheet. */
 KIRI_API kiriResult kiriCreatePin(kiriWorld* world, kiriSheet sheet, const kiriPinDef* def, kiriPin* pin);
+KIRI_API kiriResult kiriDestroyPin(kiriWorld* world, kiriPin pin);
 
 /* Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds the place and direction
    of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The line is straight,
-   with its rest length: bent material is pulled straight, and separate pieces are pulled together, at any speed. Both
-   hold the material on the line, edges included, with its stiffness from the line to the frames around it. A clamp
-   through the sheet separates the bending of its two sides. A line along a cut holds both lips; a line beside it, by a
-   512th of a grid square or more, holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no material. */
+   with its rest length: bent material and separate pieces are pulled to it, at any speed. A line along a cut holds both
+   lips; a line beside it holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no material. */
 KIRI_API kiriResult kiriSheet_ClampLine(kiriWorld* world, kiriSheet sheet, const float from[2], const float to[2],
                                         kiriPin* clamp);
 KIRI_API kiriResult kiriSheet_HingeLine(kiriWorld* world, kiriSheet sheet, const float from[2], const float to[2],
                                         kiriPin* hinge);
 
 /* Sets the target of the pin's point, or of the middle of its line (m, world), for the end of the next tick and until
-   the next call. The pin moves there evenly within the tick. The current target of kiriPin_GetState changes nothing.
-   With KIRI_SKINNING_SMOOTH pins and clamps hold the visible surface; a clamp holds its mean along the line for each
-   piece, so single points are slightly off the line. */
+   the next call. The pin moves there evenly within the tick. With KIRI_SKINNING_SMOOTH pins and clamps hold the visible
+   surface; a clamp holds its mean along the line for each piece. */
 KIRI_API kiriResult kiriPin_SetTarget(kiriWorld* world, kiriPin pin, const float target[3]);
 
 /* Sets the target and the rotation of the line's material: columns are the directions of u and v and the normal. On a
@@ -987,22 +835,16 @@ typedef struct kiriPinState {
 KIRI_API kiriResult kiriPin_GetState(const kiriWorld* world, kiriPin pin, kiriPinState* state);
 
 /* Gets the force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over the last
-   tick, impulses divided by its dt. The reactions of all pins and held frames are the weight of a sheet at rest, and
-   change its momentum in motion (as far as `iterations` solve the tick). Zero before the first tick. A sleeping piece
-   keeps the values with which it fell asleep. */
+   tick that moved the piece. All reactions are the weight of a sheet at rest, and change its momentum in motion. */
 KIRI_API kiriResult kiriPin_GetReaction(const kiriWorld* world, kiriPin pin, double force[3], double torque[3]);
 
 /* Writes up to `capacity` ids of the sheet's pins, of all types; *count is how many there are. */
 KIRI_API kiriResult kiriSheet_GetPins(const kiriWorld* world, kiriSheet sheet, kiriPin* pins, int32_t capacity,
                                       int32_t* count);
 
-/* Destroys the pin; its id is stale. */
-KIRI_API kiriResult kiriDestroyPin(kiriWorld* world, kiriPin pin);
-
 /* A contact of a point of the material: the plane dot(normal, x) = offset keeps the point on its upper side, and
    Coulomb friction acts along the plane. The host computes the plane for each tick from the visible surface of the
-   sheet. A contact may lie ahead of the point; if the point does not reach it in the tick, it costs little and does
-   nothing. */
+   sheet. A contact that the point does not reach in the tick costs little and does nothing. */
 typedef struct kiriContact {
     int32_t point;      /* index of the collision point; -1: restPoint names the point */
     float restPoint[2]; /* m, in the material; read only where point is -1 */
@@ -1028,9 +870,7 @@ typedef struct kiriContactForce {
     int32_t point, obstacle; /* as in the contact */
 } kiriContactForce;
 
-/* Gets one result for each contact that was set before the last tick, in that order. The sum of these impulses and of
-   the impulses of gravity, loads and obstacles is the change of momentum of a free piece. A sleeping piece goes on to
-   press with the values with which it fell asleep. */
+/* Gets one result for each contact that was set before the last tick, in that order. A sleeping piece presses on. */
 KIRI_API kiriResult kiriSheet_GetContactForces(const kiriWorld* world, kiriSheet sheet, const kiriContactForce** forces,
                                                int32_t* count);
 
@@ -1038,9 +878,7 @@ KIRI_API kiriResult kiriSheet_GetContactForces(const kiriWorld* world, kiriSheet
 
 /* A body that sheets touch: a floor, a ball, a crate of another engine. It moves on with its velocities; forces do not
    move it. A host with an engine sets pose and velocities before each tick, and applies the impulse of
-   kiriObstacle_GetState to the engine's body after it. Contacts follow its motion within the tick, and push no harder
-   than its mass resists. The visible surface of sheets stays half their contactThickness away. A sleeping sheet wakes
-   where an obstacle near it comes, goes, or has moved by half a second of its sleepSpeed. Lengths are up to 1e6 m. */
+   kiriObstacle_GetState to the engine's body after it (manual, contact). Lengths are up to 1e6 m. */
 enum kiriObstacleType {
     KIRI_OBSTACLE_PLANE,    /* all below the plane through its position; the third column of its rotation points out */
     KIRI_OBSTACLE_SPHERE,   /* radius */
@@ -1078,30 +916,25 @@ typedef struct kiriObstacleDef {
 /* Fills the def with its defaults, and stamps it. */
 KIRI_API void kiriDefaultObstacleDef(kiriObstacleDef* def);
 
-/* Adds an obstacle. On failure *obstacle is 0. */
+/* Add and destroy an obstacle. On failure *obstacle is 0. Pieces that rested on a destroyed one wake. */
 KIRI_API kiriResult kiriCreateObstacle(kiriWorld* world, const kiriObstacleDef* def, kiriObstacle* obstacle);
-
-/* Destroys an obstacle; its id is stale. Pieces that rested on it wake. */
 KIRI_API kiriResult kiriDestroyObstacle(kiriWorld* world, kiriObstacle obstacle);
 
 /* Teleports the obstacle (m, world). Sheets react to its velocity (kiriObstacle_SetVelocity), not to the jump. */
 KIRI_API kiriResult kiriObstacle_SetPose(kiriWorld* world, kiriObstacle obstacle, const float position[3],
                                          const float rotation[9]);
 
-/* Set the velocity (m/s, rad/s) for the next and all later ticks. */
+/* Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg), inertia and centre of mass. */
 KIRI_API kiriResult kiriObstacle_SetVelocity(kiriWorld* world, kiriObstacle obstacle, const float velocity[3],
                                              const float angularVelocity[3]);
 KIRI_API kiriResult kiriObstacle_SetSurfaceVelocity(kiriWorld* world, kiriObstacle obstacle, const float velocity[3]);
-
-/* Sets mass (kg), inertia and centre of mass, as in the def. */
 KIRI_API kiriResult kiriObstacle_SetMass(kiriWorld* world, kiriObstacle obstacle, float mass, const float inertia[6],
                                          const float centerOfMass[3]);
 
 /* Pose, motion, and reaction of an obstacle. */
 typedef struct kiriObstacleState {
     float position[3], rotation[9], velocity[3], angularVelocity[3];
-    double impulse[3],
-        angularImpulse[3]; /* N s, N m s about its centre of mass: from sheets and pins in the last tick */
+    double impulse[3], angularImpulse[3]; /* N s, N m s about its centre of mass: of sheets and pins in the last tick */
     int32_t contacts;      /* that pushed in the last tick */
 } kiriObstacleState;
 
@@ -1109,8 +942,7 @@ typedef struct kiriObstacleState {
 KIRI_API kiriResult kiriObstacle_GetState(const kiriWorld* world, kiriObstacle obstacle, kiriObstacleState* state);
 
 /* Gets a box (m, world) around all that the sheet can touch in a tick of dt (s, as in kiriWorld_Tick): a host needs no
-   obstacles or contacts outside. Its margin is twice the way of the fastest point by velocity and gravity, plus the
-   contact thickness. For moving obstacles add their own way. */
+   obstacles or contacts outside. For moving obstacles add their own way. */
 KIRI_API kiriResult kiriSheet_GetReach(const kiriWorld* world, kiriSheet sheet, float dt, float lower[3],
                                        float upper[3]);
 

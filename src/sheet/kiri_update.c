@@ -751,7 +751,7 @@ static void AddFrames(kiriSheetData* sheet)
         memset(frame, 0, sizeof(*frame));
         frame->anchor = from->anchor;
         frame->center = kiriMesh_Local(&sheet->mesh, frame->anchor);
-        /* All frames that carry a vertex are in one piece; their data is that of the piece. A new sheet has no frames. */
+        /* All frames that carry a vertex are in one piece, and store its data. A new sheet has no frames. */
         kiriSpan span = sheet->vertexSkin.spans.data[sheet->mesh.triangles.data[from->triangle].vertex[0]];
         if (span.count > 0) {
             frame->pieceData = sheet->frames.data[sheet->vertexSkin.weights.data[span.first].frame].pieceData;

@@ -359,9 +359,8 @@ namespace Kiri
     }
 
     /// <summary>The triangles to draw, as after the last tick. revision grows when indices or vertices are added or changed.
-    /// Rest positions are floats, with a spacing of 6e-8 of the distance from the origin of the rest plane: triangles
-    /// of about that size may look flat or inverted. The library computes with the positions of the def to 2^-29 of the
-    /// sheet; sourceTriangles and sourceWeights have that precision.</summary>
+    /// Rest positions are floats, so small triangles far from the origin of the rest plane may look flat in them;
+    /// sourceTriangles and sourceWeights have the precision of the library, 2^-29 of the sheet.</summary>
     public unsafe struct MeshView
     {
         readonly World world;
@@ -402,8 +401,7 @@ namespace Kiri
     }
 
     /// <summary>The surface with a thickness, to draw: a closed mesh, with a rim along borders, holes and lips. First the
-    /// vertices of kiriMesh on the side of the normal, then the same on the other side, then four for each border edge,
-    /// so rims are flat.</summary>
+    /// vertices of kiriMesh on the side of the normal, then the same on the other side, then four for each border edge.</summary>
     public unsafe struct SolidView
     {
         readonly World world;
@@ -486,13 +484,11 @@ namespace Kiri
         public Sheet Get(SheetId id) { return new Sheet(this, id); }
 
         /// <summary>Advances by one fixed step of dt seconds (1e-6 to 10), in `substeps` equal parts (1 to 64): takes the
-        /// pending cut points, then moves every sheet. KIRI_PENDING: the budget is spent, and events name the cuts that
-        /// still have work; a sheet or some of its pieces may have stood still for want of iterations.
-        /// KIRI_ERROR_MEMORY: the work on a cut, or a piece that leaves, was refused memory and goes on in the next
-        /// tick, as if the budget were spent; the sheets moved. Only without memory for contacts or ids did nothing
-        /// move: the line says which. KIRI_ERROR_LIMIT: no ids are left for new frames; nothing moves until frames are
-        /// destroyed. KIRI_DIVERGED: sheets that events name were stopped, others moved; KIRI_EVENT_DEFERRED tells of
-        /// pending work.</summary>
+        /// pending cut points, then moves every sheet. KIRI_PENDING: the budget is spent; events name the cuts that
+        /// still have work. KIRI_ERROR_MEMORY: work on a cut, or a piece that leaves, goes on in the next tick; the
+        /// sheets moved, but where memory for contacts or ids is missing. KIRI_ERROR_LIMIT: no ids are left for new
+        /// frames; nothing moves until frames are destroyed. KIRI_DIVERGED: sheets that events name were stopped,
+        /// others moved.</summary>
         public Status Tick(float dt, int substeps)
         {
             int result;
@@ -501,31 +497,29 @@ namespace Kiri
             return result == 0 ? Status.Done : Status.Pending;
         }
 
-        /// <summary>Sets gravity (m/s^2). All pieces wake.</summary>
-        public void SetGravity(Float3 gravity)
-        {
-            Check(Native.kiriWorld_SetGravity(Handle, (float*)&gravity));
-        }
-
-        /// <summary>Moves the origin of the world to a point (m): subtracts it from the positions of sheets, targets of pins and
-        /// holds, obstacles, blades, and pending contacts. The motion goes on as before, to rounding. Nothing wakes;
-        /// (0, 0, 0) changes nothing. Use it in large worlds, where floats lose precision. The host shifts its own
-        /// data. Returned arrays keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a position would not
-        /// fit a float.</summary>
+        /// <summary>Moves the origin of the world to a point (m): subtracts it from all positions, as large worlds need because
+        /// of floats. The motion goes on as before, to rounding; nothing wakes. The host shifts its own data. Returned
+        /// arrays keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a position would not fit a float.</summary>
         public void ShiftOrigin(Float3 origin)
         {
             Check(Native.kiriWorld_ShiftOrigin(Handle, (float*)&origin));
         }
 
-        /// <summary>Sets the budget from the next tick on.</summary>
+        /// <summary>Set gravity (m/s^2; all pieces wake), and the budget, from the next tick on.</summary>
+        public void SetGravity(Float3 gravity)
+        {
+            Check(Native.kiriWorld_SetGravity(Handle, (float*)&gravity));
+        }
+
+        /// <summary>Set gravity (m/s^2; all pieces wake), and the budget, from the next tick on.</summary>
         public void SetBudget(Budget budget)
         {
             Check(Native.kiriWorld_SetBudget(Handle, &budget));
         }
 
         /// <summary>Hashes all state that the coming ticks depend on, pending work included. Two worlds with the same calls have
-        /// the same hash, and two worlds with the same hash go on alike. After a refused allocation some items are made
-        /// again: the hash differs while work is pending, or while the budget limits cells or samples.</summary>
+        /// the same hash, and two worlds with the same hash go on alike. After refused memory it may differ while work
+        /// is pending.</summary>
         public ulong GetStateHash()
         {
             ulong hashValue = 0;
@@ -562,10 +556,9 @@ namespace Kiri
             }
         }
 
-        /// <summary>Writes the world, which only is read. *size: bytes of the save. `bytes` null: they are counted only, and
-        /// capacity is not read; else it has room for `capacity`. KIRI_ERROR_ARGUMENT: that is less than *size; nothing
-        /// is written. KIRI_PENDING: a cut is being worked on; *size is 0, and nothing is written. Save after a later
-        /// tick, or after kiriWorld_FinishCuts.</summary>
+        /// <summary>Writes the world to memory with room for `capacity` bytes; null: counts them only. *size: bytes of the save.
+        /// KIRI_ERROR_ARGUMENT: `capacity` is less than *size; nothing is written. KIRI_PENDING: a cut is being worked
+        /// on; *size is 0, and nothing is written. Save after a later tick, or after kiriWorld_FinishCuts.</summary>
         public long Save(byte[] bytes)
         {
             long size = 0;
@@ -583,20 +576,18 @@ namespace Kiri
             return bytes;
         }
 
-        /// <summary>Finishes the work on cuts at once, whatever the budget is, and without moving anything. Cuts that wait for a
-        /// budget take effect. The next tick reports the events. KIRI_ERROR_MEMORY, KIRI_ERROR_LIMIT: as in
-        /// kiriWorld_Tick. Arrays that the world handed out end as with a tick.</summary>
+        /// <summary>Finishes the work on cuts at once, whatever the budget is, without moving anything. The next tick reports
+        /// the events. Arrays that the world handed out end as with a tick. KIRI_ERROR_MEMORY, KIRI_ERROR_LIMIT: as in
+        /// kiriWorld_Tick.</summary>
         public void FinishCuts()
         {
             Check(Native.kiriWorld_FinishCuts(Handle));
         }
 
-        /// <summary>Replaces the world by a saved one. It may have any hooks; its own allocation, log, clock and tasks stay. The
-        /// bytes may come from anybody: a malicious save may give a strange world but cannot crash the program, and
-        /// takes memory in proportion to its size. Takes about as long as to create the sheets. The profile has no
-        /// times until the next tick. Arrays that the old world handed out live until then. KIRI_ERROR_DATA: the bytes
-        /// are not a save, damaged, or of another version. KIRI_ERROR_MEMORY. Then nothing has changed. `size` is below
-        /// 2^31. A recording has the bytes.</summary>
+        /// <summary>Replaces the world by a saved one; its own hooks stay. The bytes may come from anybody: a malicious save may
+        /// give a strange world but cannot crash the program, and takes memory in proportion to its size, which is
+        /// below 2^31. Arrays that the old world handed out live until the next tick. On failure nothing has changed:
+        /// KIRI_ERROR_DATA: the bytes are not a save, damaged, or of another version. KIRI_ERROR_MEMORY.</summary>
         public void Load(byte[] bytes)
         {
             fixed (byte* bytesRows = bytes)
@@ -605,9 +596,9 @@ namespace Kiri
             }
         }
 
-        /// <summary>For rollback: copies all of the world, also work on cuts and pieces that wait, into memory of the host. Much
-        /// faster than a save, and exact to the bit. The bytes are good for this process only: never store or send
-        /// them. Arguments as of kiriWorld_Save.</summary>
+        /// <summary>For rollback: copies all of the world, also work in progress, into memory of the host; much faster than a
+        /// save, and exact to the bit. For this process only: never store or send the bytes. Arguments as of
+        /// kiriWorld_Save.</summary>
         public long Snapshot(byte[] bytes)
         {
             long size = 0;
@@ -625,10 +616,9 @@ namespace Kiri
             return bytes;
         }
 
-        /// <summary>Replaces the world by the world of the snapshot; ids name the same things. The bytes are trusted: hand over
-        /// only the output of kiriWorld_Snapshot. KIRI_ERROR_DATA: the bytes are not a snapshot of this build of the
-        /// library. KIRI_ERROR_STATE: the world is recorded. KIRI_ERROR_MEMORY. Then nothing has changed. Hooks and
-        /// arrays as with kiriWorld_Load.</summary>
+        /// <summary>Replaces the world by the world of the snapshot, as kiriWorld_Load does. The bytes are trusted. On failure
+        /// nothing has changed: KIRI_ERROR_DATA: no snapshot of this build. KIRI_ERROR_STATE: it is recorded.
+        /// KIRI_ERROR_MEMORY.</summary>
         public void Restore(byte[] bytes)
         {
             fixed (byte* bytesRows = bytes)
@@ -654,8 +644,9 @@ namespace Kiri
             return profileValue;
         }
 
-        /// <summary>Adds a sheet. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles do not form a sheet. The line says why,
-        /// and names the triangle, or the two triangles at an edge, by index in the def.</summary>
+        /// <summary>Add a sheet, and destroy one with its cuts, frames and pins. On failure *sheet is 0. KIRI_ERROR_MESH: the
+        /// triangles do not form a sheet; the line says why, and names the triangle, or the two at an edge, by index in
+        /// the def.</summary>
         public Sheet CreateSheet(float[] restPositions, int[] indices, SheetDef @def, float[] framePoints = null)
         {
             @def.vertexCount = restPositions.Length / 2;
@@ -685,7 +676,9 @@ namespace Kiri
             return new Sheet(this, sheetValue);
         }
 
-        /// <summary>Finds the first sheet that a ray meets; *sheet is 0 where there is none.</summary>
+        /// <summary>Find where a ray first meets the sheet, or any (*sheet is 0 if none), up to maxDistance; hit-&gt;triangle is
+        /// -1 if it does not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a
+        /// ray.</summary>
         public bool Raycast(Float3 origin, Float3 direction, float maxDistance, out Sheet sheet, out Hit hit)
         {
             var sheetValue = new SheetId();
@@ -728,8 +721,7 @@ namespace Kiri
             return result == 0 ? Status.Done : Status.Pending;
         }
 
-        /// <summary>sheet 0: it cuts all sheets, also those that are made later and pieces that get a sheet of their own. A
-        /// blade for one sheet whose sheet is gone cuts nothing.</summary>
+        /// <summary>Begins a blade for one sheet; 0: for all sheets, also those that are made later.</summary>
         public Blade BeginBlade(SheetId sheet)
         {
             var bladeValue = new BladeId();
@@ -737,7 +729,7 @@ namespace Kiri
             return new Blade(this, bladeValue);
         }
 
-        /// <summary>Adds an obstacle. On failure *obstacle is 0.</summary>
+        /// <summary>Add and destroy an obstacle. On failure *obstacle is 0. Pieces that rested on a destroyed one wake.</summary>
         public Obstacle CreateObstacle(ObstacleDef @def, float[] outline = null)
         {
             if (outline != null) @def.outlineCount = outline.Length / 2;
@@ -755,23 +747,23 @@ namespace Kiri
     public static unsafe partial class Library
     {
 
-        /// <summary>Returns the name of a result, such as "KIRI_OK"; "unknown" for another number.</summary>
+        /// <summary>Return the version of the library, as KIRI_VERSION; the name of a result, as "KIRI_OK"; a line with its
+        /// meaning.</summary>
         public static string GetResultName(ResultCode result)
         {
             return World.Text(Native.kiriGetResultName((int)result));
         }
 
-        /// <summary>Returns one line: the meaning of a result, and its cure. Use it after calls that have no world to keep a
-        /// line, such as kiriCreateWorld with a def of zeros (KIRI_ERROR_DEF).</summary>
+        /// <summary>Return the version of the library, as KIRI_VERSION; the name of a result, as "KIRI_OK"; a line with its
+        /// meaning.</summary>
         public static string GetResultText(ResultCode result)
         {
             return World.Text(Native.kiriGetResultText((int)result));
         }
 
         /// <summary>Converts microseconds a tick into a budget, at the pace of the profile, which may be the sum of several.
-        /// Cuts and linear systems share the time as in the profile. Each of triangles, cells and samples gets the time
-        /// of all three, see kiriBudget. Sets only the limits for which the profile recorded work. The simulation never
-        /// reads a clock: the host chooses, and a replay must set the same budgets.</summary>
+        /// Cuts and linear systems share the time as in the profile. Sets only the limits for which the profile
+        /// recorded work. The host chooses by its clock, so a replay must set the same budgets.</summary>
         public static void FitBudget(Profile profile, float microseconds, ref Budget budget)
         {
             fixed (Budget* budgetValue = &budget)
@@ -828,7 +820,9 @@ namespace Kiri
         public override int GetHashCode() { return Id.GetHashCode(); }
         public static implicit operator SheetId(Sheet handle) { return handle.Id; }
 
-        /// <summary>Destroys the sheet with its cuts, frames and pins; their ids are stale.</summary>
+        /// <summary>Add a sheet, and destroy one with its cuts, frames and pins. On failure *sheet is 0. KIRI_ERROR_MESH: the
+        /// triangles do not form a sheet; the line says why, and names the triangle, or the two at an edge, by index in
+        /// the def.</summary>
         public void Destroy()
         {
             World.Check(Native.kiriDestroySheet(World.Handle, Id));
@@ -844,7 +838,7 @@ namespace Kiri
 
         /// <summary>Sets all settings, or none; checks them as kiriCreateSheet does. KIRI_ERROR_DEF: they do not come from
         /// kiriSheet_GetSettings. The sheet wakes if one differs. Positions and velocities are kept, so a new mass
-        /// changes the momentum. The stiffness of pins and the lengths that placed the frames are kept, too.</summary>
+        /// changes the momentum; the stiffness of pins and the lengths that placed the frames are kept, too.</summary>
         public void SetSettings(SheetSettings settings)
         {
             World.Check(Native.kiriSheet_SetSettings(World.Handle, Id, &settings));
@@ -867,9 +861,8 @@ namespace Kiri
         }
 
         /// <summary>Copies the index that each vertex had when the last call of kiriWorld_Tick began, for hosts that draw
-        /// between two ticks. *from: the sheet that had the vertices then; another sheet if this one was a piece of it.
-        /// A vertex that a cut separated from another gets the index of the other. -1: the vertex did not exist, as in
-        /// a sheet that was created or loaded since. The manual has the code (drawing).</summary>
+        /// between two ticks; -1: it did not exist. *from: the sheet that had the vertices then. A vertex that a cut
+        /// separated from another gets the index of the other. The manual has the code (drawing).</summary>
         public Sheet CopyPrevious(int first, int[] vertices, int count = -1)
         {
             if (count < 0) count = vertices.Length;
@@ -895,9 +888,9 @@ namespace Kiri
         }
 
         /// <summary>Map triangles to the def, to draw with the host's data for its own vertices. Sources: the triangle of the
-        /// def that contains each; -1 for a triangle that was removed (its corners are equal). Weights: 9 floats each,
-        /// the barycentric coordinates of its three corners in that triangle. They are correct on both sides of a seam
-        /// that weldDistance closed; sourceTriangles name a triangle on one side. The manual has the code (meshes).</summary>
+        /// def that contains each; -1 for a triangle that was removed. Weights: 9 floats each, the barycentric
+        /// coordinates of its three corners in that triangle, also beside a seam that weldDistance closed. The manual
+        /// has the code (meshes).</summary>
         public void CopySources(int firstTriangle, int[] sources, int count = -1)
         {
             if (count < 0) count = sources.Length;
@@ -909,9 +902,9 @@ namespace Kiri
         }
 
         /// <summary>Map triangles to the def, to draw with the host's data for its own vertices. Sources: the triangle of the
-        /// def that contains each; -1 for a triangle that was removed (its corners are equal). Weights: 9 floats each,
-        /// the barycentric coordinates of its three corners in that triangle. They are correct on both sides of a seam
-        /// that weldDistance closed; sourceTriangles name a triangle on one side. The manual has the code (meshes).</summary>
+        /// def that contains each; -1 for a triangle that was removed. Weights: 9 floats each, the barycentric
+        /// coordinates of its three corners in that triangle, also beside a seam that weldDistance closed. The manual
+        /// has the code (meshes).</summary>
         public void CopySourceWeights(int firstTriangle, float[] weights, int count = -1)
         {
             if (count < 0) count = weights.Length / 9;
@@ -957,8 +950,8 @@ namespace Kiri
 
         /// <summary>Estimates the error of the current shape of a sheet that rests or moves slowly: rms distance from a sheet of
         /// very many frames under the same loads, over its rms way from the flat shape; 0 to 1, and 1 with too few
-        /// frames to tell. It compares strains of neighbouring links (KIRI_MODEL_LINKS only; else KIRI_ERROR_STATE), in
-        /// one pass that allocates memory. The manual says how good it is (accuracy).</summary>
+        /// frames to tell. KIRI_MODEL_LINKS only; else KIRI_ERROR_STATE. It allocates memory. The manual says how good
+        /// it is (accuracy).</summary>
         public double EstimateError()
         {
             double relativeValue = 0;
@@ -984,10 +977,8 @@ namespace Kiri
 
         /// <summary>Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and the sheet
         /// wakes. The columns of `rotation` are the images of the world's axes; a planar sheet turns about its normal
-        /// only. Targets of pins, hinges, clamps and holds move along, so nothing pulls the sheet back. A target that
-        /// the host set nearer to the pin's new place than to its old one stays: the host may set targets before or
-        /// after. Pins on an obstacle stay on it: move the obstacle by the same motion (kiriObstacle_SetPose), before
-        /// or after. Pending loads and contacts stay.</summary>
+        /// only. Targets of pins, hinges, clamps and holds move along; pins on an obstacle stay on it. The manual has
+        /// the order of calls that set targets or move obstacles (sheets). Pending loads and contacts stay.</summary>
         public void Transform(Float9 rotation, Float3 translation)
         {
             World.Check(Native.kiriSheet_Transform(World.Handle, Id, (float*)&rotation, (float*)&translation));
@@ -1001,17 +992,17 @@ namespace Kiri
             World.Check(Native.kiriSheet_SetVelocity(World.Handle, Id, (float*)&velocity, (float*)&angularVelocity));
         }
 
-        /// <summary>Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
-        /// kiriFrame_DetachPiece copies the sheet's number to the new sheet. A piece has a number, too, named by any of
-        /// its frames: the parts of a piece that is cut inherit it, and so does a sheet that is made of it.</summary>
+        /// <summary>Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and
+        /// a piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it
+        /// has both.</summary>
         public void SetUserData(ulong data)
         {
             World.Check(Native.kiriSheet_SetUserData(World.Handle, Id, data));
         }
 
-        /// <summary>Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
-        /// kiriFrame_DetachPiece copies the sheet's number to the new sheet. A piece has a number, too, named by any of
-        /// its frames: the parts of a piece that is cut inherit it, and so does a sheet that is made of it.</summary>
+        /// <summary>Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and
+        /// a piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it
+        /// has both.</summary>
         public ulong GetUserData()
         {
             ulong dataValue = 0;
@@ -1019,9 +1010,9 @@ namespace Kiri
             return dataValue;
         }
 
-        /// <summary>Finds where a ray first meets the sheet, up to maxDistance. KIRI_OK with hit-&gt;triangle = -1: it does not.
-        /// The first ray visits every triangle. From the next tick on boxes over the triangles follow the sheet, until
-        /// 120 ticks pass without a ray: a ray takes some microseconds, and a tick of a large sheet a quarter more.</summary>
+        /// <summary>Find where a ray first meets the sheet, or any (*sheet is 0 if none), up to maxDistance; hit-&gt;triangle is
+        /// -1 if it does not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a
+        /// ray.</summary>
         public bool Raycast(Float3 origin, Float3 direction, float maxDistance, out Hit hit)
         {
             var hitValue = new Hit();
@@ -1041,7 +1032,7 @@ namespace Kiri
 
         /// <summary>Gets the shape functions at a rest point: up to `capacity` frames with their weights, whose sum is 1, and,
         /// unless null, gradients (2 floats a frame, 1/m). *count is how many there are, also above capacity.
-        /// KIRI_ERROR_ARGUMENT: it is outside the sheet. KIRI_ERROR_STATE: work on a cut is pending.</summary>
+        /// KIRI_ERROR_ARGUMENT: the point is outside the sheet. KIRI_ERROR_STATE: work on a cut is pending.</summary>
         public int GetWeights(Float2 restPoint, FrameId[] frames, float[] weights, float[] gradients)
         {
             World.CheckRoom(weights, 1 * frames.Length);
@@ -1056,8 +1047,8 @@ namespace Kiri
             return count;
         }
 
-        /// <summary>Get a piece. The first of these calls after a cut sorts the sheet by pieces, and may fail with
-        /// KIRI_ERROR_MEMORY. KIRI_ERROR_ARGUMENT: no piece has the index.</summary>
+        /// <summary>Get a piece. The first call after a cut sorts the sheet by pieces. KIRI_ERROR_ARGUMENT: no piece has the
+        /// index.</summary>
         public PieceState GetPiece(int piece)
         {
             var stateValue = new PieceState();
@@ -1065,8 +1056,8 @@ namespace Kiri
             return stateValue;
         }
 
-        /// <summary>Get a piece. The first of these calls after a cut sorts the sheet by pieces, and may fail with
-        /// KIRI_ERROR_MEMORY. KIRI_ERROR_ARGUMENT: no piece has the index.</summary>
+        /// <summary>Get a piece. The first call after a cut sorts the sheet by pieces. KIRI_ERROR_ARGUMENT: no piece has the
+        /// index.</summary>
         public PieceMeshView GetPieceMesh(int piece)
         {
             var meshValue = new NativePieceMesh();
@@ -1074,7 +1065,7 @@ namespace Kiri
             return new PieceMeshView(World, meshValue);
         }
 
-        /// <summary>Gets the frames of a piece: *frames points to *count ids.</summary>
+        /// <summary>Get the frames of a piece (*frames points to *count ids), and the current index of the piece with a frame.</summary>
         public FrameIdView GetPieceFrames(int piece)
         {
             FrameId* framesValue = null;
@@ -1104,7 +1095,7 @@ namespace Kiri
 
         /// <summary>Cuts where the quadrilateral swept by an edge in world space, from blade[0]-blade[1] to blade[3]-blade[2],
         /// meets the current sheet; past borders, so that it separates the parts that it crosses. The cut is already
-        /// ended. Slices of a moving sheet do not join from tick to tick: use a blade for that.</summary>
+        /// ended.</summary>
         public Cut Slice(Float12 blade)
         {
             var cutValue = new CutId();
@@ -1130,7 +1121,7 @@ namespace Kiri
             return frames;
         }
 
-        /// <summary>Applies a force (N, world) at a point of the material and a torque (N m).</summary>
+        /// <summary>Apply a force (N, world) at the frame's centre of mass, or at a point of the material, and a torque (N m).</summary>
         public void ApplyForce(Float2 restPoint, Float3 force, Float3 torque)
         {
             World.Check(Native.kiriSheet_ApplyForce(World.Handle, Id, (float*)&restPoint, (float*)&force, (float*)&torque));
@@ -1149,9 +1140,9 @@ namespace Kiri
             World.Check(Native.kiriSheet_ApplyPressure(World.Handle, Id, pressure));
         }
 
-        /// <summary>Applies an impulse (N s, world) at a point of the material on the visible surface. Velocities change at
-        /// once, by the mass of the frames that carry the point; a held frame's share is lost. KIRI_ERROR_ARGUMENT: it
-        /// is outside the sheet.</summary>
+        /// <summary>Applies an impulse (N s, world) at a point of the material on the visible surface, at once, by the mass of
+        /// the frames that carry the point; a held frame's share is lost. KIRI_ERROR_ARGUMENT: the point is outside the
+        /// sheet.</summary>
         public void ApplyImpulse(Float2 restPoint, Float3 impulse)
         {
             World.Check(Native.kiriSheet_ApplyImpulse(World.Handle, Id, (float*)&restPoint, (float*)&impulse));
@@ -1163,7 +1154,8 @@ namespace Kiri
             World.Check(Native.kiriSheet_SetWind(World.Handle, Id, &wind));
         }
 
-        /// <summary>Pins a point of the sheet. On failure *pin is 0. KIRI_ERROR_ARGUMENT: it is outside the sheet.</summary>
+        /// <summary>Pin a point of the sheet, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: the
+        /// point is outside the sheet.</summary>
         public Pin CreatePin(PinDef @def)
         {
             var pinValue = new PinId();
@@ -1173,11 +1165,9 @@ namespace Kiri
 
         /// <summary>Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds the place and
         /// direction of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The
-        /// line is straight, with its rest length: bent material is pulled straight, and separate pieces are pulled
-        /// together, at any speed. Both hold the material on the line, edges included, with its stiffness from the line
-        /// to the frames around it. A clamp through the sheet separates the bending of its two sides. A line along a
-        /// cut holds both lips; a line beside it, by a 512th of a grid square or more, holds one. The ends differ.
-        /// KIRI_ERROR_ARGUMENT: the line meets no material.</summary>
+        /// line is straight, with its rest length: bent material and separate pieces are pulled to it, at any speed. A
+        /// line along a cut holds both lips; a line beside it holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line
+        /// meets no material.</summary>
         public Pin ClampLine(Float2 from, Float2 to)
         {
             var clampValue = new PinId();
@@ -1187,11 +1177,9 @@ namespace Kiri
 
         /// <summary>Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds the place and
         /// direction of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The
-        /// line is straight, with its rest length: bent material is pulled straight, and separate pieces are pulled
-        /// together, at any speed. Both hold the material on the line, edges included, with its stiffness from the line
-        /// to the frames around it. A clamp through the sheet separates the bending of its two sides. A line along a
-        /// cut holds both lips; a line beside it, by a 512th of a grid square or more, holds one. The ends differ.
-        /// KIRI_ERROR_ARGUMENT: the line meets no material.</summary>
+        /// line is straight, with its rest length: bent material and separate pieces are pulled to it, at any speed. A
+        /// line along a cut holds both lips; a line beside it holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line
+        /// meets no material.</summary>
         public Pin HingeLine(Float2 from, Float2 to)
         {
             var hingeValue = new PinId();
@@ -1229,9 +1217,8 @@ namespace Kiri
             }
         }
 
-        /// <summary>Gets one result for each contact that was set before the last tick, in that order. The sum of these impulses
-        /// and of the impulses of gravity, loads and obstacles is the change of momentum of a free piece. A sleeping
-        /// piece goes on to press with the values with which it fell asleep.</summary>
+        /// <summary>Gets one result for each contact that was set before the last tick, in that order. A sleeping piece presses
+        /// on.</summary>
         public ContactForceView GetContactForces()
         {
             ContactForce* forcesValue = null;
@@ -1241,8 +1228,7 @@ namespace Kiri
         }
 
         /// <summary>Gets a box (m, world) around all that the sheet can touch in a tick of dt (s, as in kiriWorld_Tick): a host
-        /// needs no obstacles or contacts outside. Its margin is twice the way of the fastest point by velocity and
-        /// gravity, plus the contact thickness. For moving obstacles add their own way.</summary>
+        /// needs no obstacles or contacts outside. For moving obstacles add their own way.</summary>
         public void GetReach(float dt, out Float3 lower, out Float3 upper)
         {
             var lowerValue = new Float3();
@@ -1273,17 +1259,17 @@ namespace Kiri
             World.Check(Native.kiriFrame_SetPieceVelocity(World.Handle, Id, (float*)&velocity, (float*)&angularVelocity));
         }
 
-        /// <summary>Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
-        /// kiriFrame_DetachPiece copies the sheet's number to the new sheet. A piece has a number, too, named by any of
-        /// its frames: the parts of a piece that is cut inherit it, and so does a sheet that is made of it.</summary>
+        /// <summary>Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and
+        /// a piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it
+        /// has both.</summary>
         public void SetPieceUserData(ulong data)
         {
             World.Check(Native.kiriFrame_SetPieceUserData(World.Handle, Id, data));
         }
 
-        /// <summary>Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
-        /// kiriFrame_DetachPiece copies the sheet's number to the new sheet. A piece has a number, too, named by any of
-        /// its frames: the parts of a piece that is cut inherit it, and so does a sheet that is made of it.</summary>
+        /// <summary>Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and
+        /// a piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it
+        /// has both.</summary>
         public ulong GetPieceUserData()
         {
             ulong dataValue = 0;
@@ -1291,7 +1277,7 @@ namespace Kiri
             return dataValue;
         }
 
-        /// <summary>Gets the current index of the piece with this frame.</summary>
+        /// <summary>Get the frames of a piece (*frames points to *count ids), and the current index of the piece with a frame.</summary>
         public int GetPiece()
         {
             int pieceValue = 0;
@@ -1299,13 +1285,12 @@ namespace Kiri
             return pieceValue;
         }
 
-        /// <summary>Makes a sheet of the piece with this frame. Frames, pins, collision points, pending loads and contacts move
-        /// along, with their ids and states, and the motion goes on. Both sheets have all settings. Cuts stay with the
-        /// old sheet. A clamp or hinge that holds both gets a copy with a new id in the new sheet. Revisions grow;
-        /// kiriSheet_GetDirty has the changes. KIRI_PENDING: work on a cut is pending, or the piece takes more samples
-        /// than the budget leaves; *detached is 0. Then samples of the coming ticks pay for it, and further cuts of the
-        /// sheet wait. When all is paid the piece of this frame becomes a sheet, and KIRI_EVENT_PIECE_DETACHED names
-        /// it. KIRI_ERROR_STATE: nothing would be left of the sheet. The manual has indices and costs (cutting).</summary>
+        /// <summary>Makes a sheet of the piece with this frame. All that belongs to the piece moves along, with ids and states,
+        /// and the motion goes on; cuts stay with the old sheet. A clamp or hinge that holds both gets a copy with a
+        /// new id in the new sheet. KIRI_PENDING: work on a cut is pending, or the piece takes more samples than the
+        /// budget leaves; *detached is 0. Further cuts of the sheet then wait, and KIRI_EVENT_PIECE_DETACHED names the
+        /// sheet in a later tick. KIRI_ERROR_STATE: nothing would be left of the sheet. The manual has indices and
+        /// costs (cutting).</summary>
         public Sheet DetachPiece()
         {
             var detachedValue = new SheetId();
@@ -1313,10 +1298,9 @@ namespace Kiri
             return new Sheet(World, detachedValue);
         }
 
-        /// <summary>Removes the piece with this frame: ids of its frames and pins are stale. Takes effect at once, and the
-        /// coming ticks have fewer samples. KIRI_PENDING: work on a cut is pending. Until it is done the triangles stay
-        /// in kiriMesh with three equal corners, the vertices stay, and kiriCounts counts the piece, with a
-        /// kiriPieceState of all zeros.</summary>
+        /// <summary>Removes the piece with this frame at once: ids of its frames and pins are stale, and the coming ticks have
+        /// fewer samples. KIRI_PENDING: work on a cut is pending. Until it is done the triangles stay in kiriMesh with
+        /// three equal corners, and kiriCounts counts the piece, with a kiriPieceState of all zeros.</summary>
         public Status DestroyPiece()
         {
             int result;
@@ -1333,9 +1317,8 @@ namespace Kiri
         }
 
         /// <summary>Holds the frame: its rest point on the visible surface moves evenly to `position` (m, world) with `rotation`
-        /// (a rotation matrix, columns as above) in the next tick, and stays there until the next call. A held affine
-        /// frame is not stretched. On a planar sheet the rotation is about its normal. Null, null: frees it. Contacts
-        /// do not push material of which held frames carry more than half: it moves through obstacles.</summary>
+        /// (columns as above; on a planar sheet about its normal) in the next tick, and stays there. Null, null: frees
+        /// it. Material of which held frames carry more than half moves through obstacles.</summary>
         public void Hold(Float3? position = null, Float9? rotation = null)
         {
             Float3 positionValue = position.GetValueOrDefault();
@@ -1344,8 +1327,8 @@ namespace Kiri
         }
 
         /// <summary>Gets the force (N, world) and torque (N m, about the frame's rest point) that the hold applied to the sheet:
-        /// means over the last tick, impulses divided by its dt. They include the frame's own weight and change of
-        /// momentum. Zero for a free frame. A sleeping piece keeps the values with which it fell asleep.</summary>
+        /// means over the last tick that moved the piece, with the frame's own weight and change of momentum. Zero for
+        /// a free one.</summary>
         public void GetReaction(out Double3 force, out Double3 torque)
         {
             var forceValue = new Double3();
@@ -1355,7 +1338,7 @@ namespace Kiri
             torque = torqueValue;
         }
 
-        /// <summary>Applies a force (N, world) at the frame's centre of mass and a torque (N m).</summary>
+        /// <summary>Apply a force (N, world) at the frame's centre of mass, or at a point of the material, and a torque (N m).</summary>
         public void ApplyForce(Float3 force, Float3 torque)
         {
             World.Check(Native.kiriFrame_ApplyForce(World.Handle, Id, (float*)&force, (float*)&torque));
@@ -1374,17 +1357,17 @@ namespace Kiri
         public override int GetHashCode() { return Id.GetHashCode(); }
         public static implicit operator PinId(Pin handle) { return handle.Id; }
 
-        /// <summary>Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
-        /// kiriFrame_DetachPiece copies the sheet's number to the new sheet. A piece has a number, too, named by any of
-        /// its frames: the parts of a piece that is cut inherit it, and so does a sheet that is made of it.</summary>
+        /// <summary>Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and
+        /// a piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it
+        /// has both.</summary>
         public void SetUserData(ulong data)
         {
             World.Check(Native.kiriPin_SetUserData(World.Handle, Id, data));
         }
 
-        /// <summary>Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
-        /// kiriFrame_DetachPiece copies the sheet's number to the new sheet. A piece has a number, too, named by any of
-        /// its frames: the parts of a piece that is cut inherit it, and so does a sheet that is made of it.</summary>
+        /// <summary>Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and
+        /// a piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it
+        /// has both.</summary>
         public ulong GetUserData()
         {
             ulong dataValue = 0;
@@ -1392,10 +1375,16 @@ namespace Kiri
             return dataValue;
         }
 
+        /// <summary>Pin a point of the sheet, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: the
+        /// point is outside the sheet.</summary>
+        public void Destroy()
+        {
+            World.Check(Native.kiriDestroyPin(World.Handle, Id));
+        }
+
         /// <summary>Sets the target of the pin's point, or of the middle of its line (m, world), for the end of the next tick
-        /// and until the next call. The pin moves there evenly within the tick. The current target of kiriPin_GetState
-        /// changes nothing. With KIRI_SKINNING_SMOOTH pins and clamps hold the visible surface; a clamp holds its mean
-        /// along the line for each piece, so single points are slightly off the line.</summary>
+        /// and until the next call. The pin moves there evenly within the tick. With KIRI_SKINNING_SMOOTH pins and
+        /// clamps hold the visible surface; a clamp holds its mean along the line for each piece.</summary>
         public void SetTarget(Float3 target)
         {
             World.Check(Native.kiriPin_SetTarget(World.Handle, Id, (float*)&target));
@@ -1423,9 +1412,8 @@ namespace Kiri
         }
 
         /// <summary>Gets the force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over
-        /// the last tick, impulses divided by its dt. The reactions of all pins and held frames are the weight of a
-        /// sheet at rest, and change its momentum in motion (as far as `iterations` solve the tick). Zero before the
-        /// first tick. A sleeping piece keeps the values with which it fell asleep.</summary>
+        /// the last tick that moved the piece. All reactions are the weight of a sheet at rest, and change its momentum
+        /// in motion.</summary>
         public void GetReaction(out Double3 force, out Double3 torque)
         {
             var forceValue = new Double3();
@@ -1433,12 +1421,6 @@ namespace Kiri
             World.CheckRead(Native.kiriPin_GetReaction(World.Handle, Id, (double*)&forceValue, (double*)&torqueValue));
             force = forceValue;
             torque = torqueValue;
-        }
-
-        /// <summary>Destroys the pin; its id is stale.</summary>
-        public void Destroy()
-        {
-            World.Check(Native.kiriDestroyPin(World.Handle, Id));
         }
     }
 
@@ -1454,7 +1436,8 @@ namespace Kiri
         public override int GetHashCode() { return Id.GetHashCode(); }
         public static implicit operator CutId(Cut handle) { return handle.Id; }
 
-        /// <summary>Adds points. restPoints: 2 floats a point; count is 1 to 2^24.</summary>
+        /// <summary>Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the tick in which its
+        /// last point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the frames that it needs.</summary>
         public void Extend(float[] restPoints, int count = -1)
         {
             if (count < 0) count = restPoints.Length / 2;
@@ -1465,8 +1448,8 @@ namespace Kiri
             }
         }
 
-        /// <summary>Ends the cut. Its id is stale after the tick in which its last point takes effect (KIRI_EVENT_CUT_FINISHED).
-        /// The sheet then adds the frames that it needs.</summary>
+        /// <summary>Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the tick in which its
+        /// last point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the frames that it needs.</summary>
         public void End()
         {
             World.Check(Native.kiriCut_End(World.Handle, Id));
@@ -1485,15 +1468,17 @@ namespace Kiri
         public override int GetHashCode() { return Id.GetHashCode(); }
         public static implicit operator BladeId(Blade handle) { return handle.Id; }
 
-        /// <summary>The blade is now the straight edge between two points (m, world). From where it was it got there straight,
-        /// each end along a line. The first call only says where it begins. Where an end of the edge lies inside of
-        /// what it sweeps of the sheet, it cuts only what it sweeps. An edge without length cuts nothing.</summary>
+        /// <summary>Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera
+        /// casts; each end goes straight. The first call only says where it begins. An end inside cuts along its own
+        /// way.</summary>
         public void MoveEdge(Float3 from, Float3 to)
         {
             World.Check(Native.kiriBlade_MoveEdge(World.Handle, Id, (float*)&from, (float*)&to));
         }
 
-        /// <summary>The same for a ray that a camera casts: an edge `length` m long.</summary>
+        /// <summary>Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera
+        /// casts; each end goes straight. The first call only says where it begins. An end inside cuts along its own
+        /// way.</summary>
         public void MoveRay(Float3 origin, Float3 direction, float length)
         {
             World.Check(Native.kiriBlade_MoveRay(World.Handle, Id, (float*)&origin, (float*)&direction, length));
@@ -1518,7 +1503,7 @@ namespace Kiri
         public override int GetHashCode() { return Id.GetHashCode(); }
         public static implicit operator ObstacleId(Obstacle handle) { return handle.Id; }
 
-        /// <summary>Destroys an obstacle; its id is stale. Pieces that rested on it wake.</summary>
+        /// <summary>Add and destroy an obstacle. On failure *obstacle is 0. Pieces that rested on a destroyed one wake.</summary>
         public void Destroy()
         {
             World.Check(Native.kiriDestroyObstacle(World.Handle, Id));
@@ -1530,19 +1515,22 @@ namespace Kiri
             World.Check(Native.kiriObstacle_SetPose(World.Handle, Id, (float*)&position, (float*)&rotation));
         }
 
-        /// <summary>Set the velocity (m/s, rad/s) for the next and all later ticks.</summary>
+        /// <summary>Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg), inertia and centre of
+        /// mass.</summary>
         public void SetVelocity(Float3 velocity, Float3 angularVelocity)
         {
             World.Check(Native.kiriObstacle_SetVelocity(World.Handle, Id, (float*)&velocity, (float*)&angularVelocity));
         }
 
-        /// <summary>Set the velocity (m/s, rad/s) for the next and all later ticks.</summary>
+        /// <summary>Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg), inertia and centre of
+        /// mass.</summary>
         public void SetSurfaceVelocity(Float3 velocity)
         {
             World.Check(Native.kiriObstacle_SetSurfaceVelocity(World.Handle, Id, (float*)&velocity));
         }
 
-        /// <summary>Sets mass (kg), inertia and centre of mass, as in the def.</summary>
+        /// <summary>Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg), inertia and centre of
+        /// mass.</summary>
         public void SetMass(float mass, Float6 inertia, Float3 centerOfMass)
         {
             World.Check(Native.kiriObstacle_SetMass(World.Handle, Id, mass, (float*)&inertia, (float*)&centerOfMass));

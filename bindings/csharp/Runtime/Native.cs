@@ -326,8 +326,7 @@ namespace Kiri
         Ok = 0,
         /// <summary>success; work is left for later ticks</summary>
         Pending = 1,
-        /// <summary>null pointer, NaN, infinite, or outside the documented range; or a position, velocity or turn of a sheet or
-        /// obstacle would exceed 4e37 m, m/s or 1/s</summary>
+        /// <summary>null, NaN, infinite, outside the documented range, or beyond 4e37 m, m/s or 1/s</summary>
         ErrorArgument = -1,
         /// <summary>the def was not filled by its kiriDefault function: call that first</summary>
         ErrorDef = -2,
@@ -421,18 +420,16 @@ namespace Kiri
     {
         /// <summary>Rigid frames joined by links: paper, foil, stiff cloth. 6 unknowns a frame, coupled with its neighbours.</summary>
         Links = 0,
-        /// <summary>Affine frames joined by links: cloth and rubber that stretch visibly inside a region. 12 unknowns a frame,
-        /// coupled with neighbours of neighbours: a tick takes five to seven times as long. From 1e8 Pa on use 8
-        /// `iterations`.</summary>
+        /// <summary>Affine frames joined by links: cloth and rubber that stretch visibly inside a region. 12 unknowns a frame: a
+        /// tick takes five to seven times as long. From 1e8 Pa on use 8 `iterations`.</summary>
         Affine = 1,
         /// <summary>Affine frames, strains at integration points: the scheme of the paper, for comparison. 12 unknowns a frame.
         /// The thinner the sheet, the less it bends; the manual has figures (accuracy).</summary>
         Points = 2,
     }
 
-    /// <summary>The surface between the frames. Rays, blades, obstacles, other sheets and contacts of rest points meet this
-    /// surface; pins, clamps and holds hold it. Where nothing touches or holds the sheet, skinning does not change its
-    /// motion. Collision points stay on the linear surface.</summary>
+    /// <summary>The surface between the frames, which rays, blades, contacts, pins and clamps meet. Where nothing touches or
+    /// holds the sheet, skinning does not change its motion. Collision points stay on the linear surface.</summary>
     public enum Skinning
     {
         /// <summary>each frame carries a flat patch; the weights blend them (equation 1 of the paper)</summary>
@@ -444,9 +441,8 @@ namespace Kiri
     /// <summary>Integration in time. Both solve one linear system an iteration.</summary>
     public enum TimeStepping
     {
-        /// <summary>TR-BDF2: alternates trapezoid and BDF2, of second order. Keeps the energy of motion; the manual has figures
-        /// (accuracy). Backward Euler replaces it in steps in which a contact touches a piece, a pin or hold is made,
-        /// moved or removed, or a frame is new or turns by more than a radian.</summary>
+        /// <summary>TR-BDF2, of second order: keeps the energy of motion. Backward Euler replaces it in steps with a contact, a
+        /// new or moved pin or hold, a new frame or a fast turn; the manual has figures (accuracy).</summary>
         SecondOrder = 0,
         /// <summary>Backward Euler, of first order: takes energy out of a swing, more in longer steps.</summary>
         Euler = 1,
@@ -462,10 +458,7 @@ namespace Kiri
 
     /// <summary>A body that sheets touch: a floor, a ball, a crate of another engine. It moves on with its velocities; forces do
     /// not move it. A host with an engine sets pose and velocities before each tick, and applies the impulse of
-    /// kiriObstacle_GetState to the engine's body after it. Contacts follow its motion within the tick, and push no
-    /// harder than its mass resists. The visible surface of sheets stays half their contactThickness away. A sleeping
-    /// sheet wakes where an obstacle near it comes, goes, or has moved by half a second of its sleepSpeed. Lengths are
-    /// up to 1e6 m.</summary>
+    /// kiriObstacle_GetState to the engine's body after it (manual, contact). Lengths are up to 1e6 m.</summary>
     public enum ObstacleType
     {
         /// <summary>all below the plane through its position; the third column of its rotation points out</summary>
@@ -512,11 +505,9 @@ namespace Kiri
     }
 
     /// <summary>Limits the work of one tick, over all sheets. 0: no limit. Triangles, cells and samples share one allowance:
-    /// using 30 % of one leaves 70 % of the others. A single step that exceeds the whole limit is not split. It runs
-    /// alone in its tick. Other work goes on in the next tick. Until a cut takes effect its lips move together. The
-    /// tick of the effect depends on the budget. The mesh, grid, regions, weights and sites of frames after all work is
-    /// done do not, bit for bit; motion differs. Sheets take turns. The manual has examples and the order of turns
-    /// (budget).</summary>
+    /// using 30 % of one leaves 70 % of the others. Other work goes on in the next tick. The tick in which a cut takes
+    /// effect depends on the budget; the mesh, grid, regions, weights and sites of frames after all work is done do
+    /// not, bit for bit. The manual has examples, single steps that exceed a limit, and the order of turns (budget).</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Budget
     {
@@ -526,10 +517,8 @@ namespace Kiri
         public int Cells;
         /// <summary>vertices and collision points with new weights, and the cost of the commit, paid before it</summary>
         public int Samples;
-        /// <summary>linear systems, 30 to 60 us each. A large system counts as several, see the manual (budget). A sheet with
-        /// fewer systems than substeps takes longer substeps. Pieces that do not fit take turns: the others stay where
-        /// they are in this tick, with their velocity, and come first in the next. A piece whose system exceeds the
-        /// whole limit is moved alone</summary>
+        /// <summary>linear systems, 30 to 60 us each; a large one counts as several. A sheet with too few takes longer substeps,
+        /// and pieces take turns, see the manual (budget)</summary>
         public int Iterations;
     }
 
@@ -552,8 +541,7 @@ namespace Kiri
         /// <summary>null: a tick runs in the calling thread alone. Set both or none.</summary>
         public IntPtr StartTask;
         public IntPtr FinishTask;
-        /// <summary>threads that may work on a task, the caller of the tick included, 0 to 1024. It sets the size of ranges. 0
-        /// and 1: no task is started. Default 0</summary>
+        /// <summary>threads for a task, the caller of the tick included, 0 to 1024. 0 (default), 1: no tasks</summary>
         public int WorkerCount;
         /// <summary>passed to the functions above</summary>
         public void* User;
@@ -675,10 +663,8 @@ namespace Kiri
         public float FlexDamping;
     }
 
-    /// <summary>Work against accuracy. The presets were measured on a swinging strip and a swinging square of paper. Error is
-    /// the rms distance of vertices from a much finer run, over their rms way. FAST: at most 2 %. BALANCED: 0.8 %.
-    /// ACCURATE: 0.4 %. Narrow arms that a cut leaves need more frames (`accuracy` of kiriSheetDef). The manual has
-    /// details (accuracy).</summary>
+    /// <summary>Work against accuracy. Errors of a swinging strip and square, rms over their way: FAST at most 2 %, BALANCED 0.8
+    /// %, ACCURATE 0.4 %. Narrow arms that a cut leaves need more frames. The manual has details (accuracy).</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Quality
     {
@@ -692,21 +678,19 @@ namespace Kiri
         public int Substeps;
     }
 
-    /// <summary>Options of the paper, for comparison; part of the sheet def.</summary>
+    /// <summary>Options of the paper, for comparison; part of the sheet def. Default 0, but for integrationOrder.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct PaperOptions
     {
-        /// <summary>1: every cut rebuilds grid, regions and shape functions from scratch, to the same bits. Default 0.</summary>
+        /// <summary>1: every cut rebuilds grid, regions and shape functions from scratch, to the same bits</summary>
         public Flag FromScratch;
-        /// <summary>1: only new frames take their motion from the surface: it jumps at cuts, and momentum is not kept. Default
-        /// 0.</summary>
+        /// <summary>1: only new frames take their motion from the surface: it jumps, momentum is not kept</summary>
         public Flag Popping;
-        /// <summary>1: the weights of frames are linear between frames, so the surface has a kink at each frame. Always so with
-        /// KIRI_MODEL_POINTS. Default 0: the slope of weights is zero at the frames.</summary>
+        /// <summary>1: weights are linear between frames: a kink at each; always so with KIRI_MODEL_POINTS</summary>
         public Flag LinearWeights;
-        /// <summary>KIRI_MODEL_POINTS only. Points are spread evenly over the sheet, at least one in every piece; default 0:
-        /// four for each of frameCount. Work is proportional to them. Order 1 (default) has a constant strain in the
-        /// material around a point, order 2 a linear strain, at four times the work a point. 0 to 1048576</summary>
+        /// <summary>KIRI_MODEL_POINTS only: points spread evenly over the sheet, one in every piece at least; 0: four for each
+        /// of frameCount. Strain around a point is constant (order 1, default) or linear (2: four times the work). 0 to
+        /// 1048576</summary>
         public int IntegrationPoints;
         /// <summary>1 or 2</summary>
         public int IntegrationOrder;
@@ -717,41 +701,36 @@ namespace Kiri
     public unsafe struct SheetDef
     {
         internal uint cookie;
-        /// <summary>The rest shape: triangles in the rest plane, counter-clockwise, at most two at an edge. Holes and several
-        /// parts are allowed. kiriCreateSheet copies them and leaves out vertices without a triangle. Two edges in the
-        /// same place with different vertices are the lips of an existing cut; weldDistance closes them. 2 floats (u,
-        /// v) a vertex</summary>
+        /// <summary>The rest shape: triangles in the rest plane, counter-clockwise, at most two at an edge; holes and several
+        /// parts are allowed. Two edges in the same place with different vertices are the lips of a cut (manual,
+        /// meshes). 2 floats (u, v) a vertex</summary>
         internal float* restPositions;
         internal int vertexCount;
         /// <summary>3 a triangle</summary>
         internal int* indices;
         internal int triangleCount;
-        /// <summary>Start: x = position + u axisU + v axisV (m, world). The axes are orthonormal.</summary>
+        /// <summary>Start: x = position + u axisU + v axisV (m, world), with orthonormal axes; and velocity, m/s.</summary>
         public Float3 Position;
+        /// <summary>Start: x = position + u axisU + v axisV (m, world), with orthonormal axes; and velocity, m/s.</summary>
         public Float3 AxisU;
+        /// <summary>Start: x = position + u axisU + v axisV (m, world), with orthonormal axes; and velocity, m/s.</summary>
         public Float3 AxisV;
-        /// <summary>m/s</summary>
+        /// <summary>Start: x = position + u axisU + v axisV (m, world), with orthonormal axes; and velocity, m/s.</summary>
         public Float3 Velocity;
         public Material Material;
         /// <summary>grid squares along the longer side, 1 to 4096; default 32</summary>
         public int GridResolution;
-        /// <summary>m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not. A cut keeps within
-        /// half of it of its line, or goes along a lip this near; 0: 1e-4 of the longer side</summary>
+        /// <summary>m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not. 0: 1e-4 of the
+        /// longer side. The manual has more (cutting)</summary>
         public float SnapDistance;
         /// <summary>Merges vertices nearer than this (m, rest plane; 0 or more): for seams of texture coordinates, and triangles
-        /// without shared vertices (STL). Each vertex becomes the nearest kept vertex before it within this distance,
-        /// or is kept. No vertex moves farther, and a chain of near vertices stays several points. A triangle with two
-        /// corners at one vertex is left out. kiriSheet_CopySources leads to the vertices of the def. Default 0: no
-        /// merging.</summary>
+        /// without shared vertices (STL). Default 0: no merging. The manual has the rule (meshes).</summary>
         public float WeldDistance;
         /// <summary>Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at least; null:
-        /// frameCount frames are spread evenly, some in pairs at both sides of slit ends. The grid carries at most one
-        /// frame for every two squares of material: a def with more gives KIRI_ERROR_ARGUMENT, and re-sampling stops
-        /// there. A new sheet has at most frameCount frames, or one for each piece where there are more pieces.
-        /// frameCount 0: regions are split, after cuts too, until 2.45 times the radius of gyration is at most 1.25
-        /// frameLength. frameLength 0: derived from `accuracy`, the relative error of the shape under the sheet's own
-        /// weight, and at least three grid squares. kiriSheet_EstimateError checks the result. 0, or 1 and more;
-        /// default 5</summary>
+        /// frameCount frames are spread evenly, at most one for every two squares of material. frameCount 0: regions
+        /// are split, after cuts too, to frameLength; frameLength 0: it follows from `accuracy`, the relative error of
+        /// the shape under the sheet's own weight. The manual has the rules (accuracy), kiriSheet_EstimateError checks
+        /// the result. 0, or 1 and more; default 5</summary>
         public int FrameCount;
         /// <summary>m; used where frameCount is 0; default 0</summary>
         public float FrameLength;
@@ -761,35 +740,31 @@ namespace Kiri
         /// <summary>re-sampling stops here; default 256</summary>
         public int MaxFrames;
         /// <summary>Re-sampling (section 5 of the paper): a frame whose weight exceeds rigidWeight over an area larger than
-        /// rigidArea (m^2) gets new frames beside it. A new sheet is re-sampled only with frameCount 0. Later it
-        /// happens when a cut ends or meets the border or another cut, where the area is also larger than in the new
-        /// sheet. A rigid sheet has frameCount 1 and maxFrames 1. rigidArea 0: a quarter of the area of a frame at the
-        /// start. default 0.95</summary>
+        /// rigidArea (m^2) gets new frames beside it; a new sheet only with frameCount 0. rigidArea 0: a quarter of the
+        /// area of a frame at the start. A rigid sheet has frameCount 1 and maxFrames 1. The manual says when
+        /// (accuracy). default 0.95</summary>
         public float RigidWeight;
         /// <summary>default 0</summary>
         public float RigidArea;
-        /// <summary>A piece with less area (m^2) is a crumb: it gets one frame if it has none, and no more. Default 0.</summary>
+        /// <summary>m^2: a smaller piece is a crumb: it gets one frame if it has none, and no more. Default 0</summary>
         public float CrumbArea;
         /// <summary>of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5</summary>
         public float Friction;
-        /// <summary>m, 0 or more: distance between sheets and pieces, and twice the distance to obstacles. 0: the material's
-        /// thickness, at least a 20th of a grid square. Default 0</summary>
+        /// <summary>m: distance between sheets and pieces, and twice the distance to obstacles. 0 (default): the material's
+        /// thickness, at least a 20th of a grid square</summary>
         public float ContactThickness;
         /// <summary>obstacles and sheets touch if they share a set bit. Default: all</summary>
         public uint Groups;
         /// <summary>1: its pieces touch each other, and other sheets that have it set; not where one of two sheets is planar.
-        /// Planes keep the upper piece, against gravity, on its side of the lower one; side by side, the piece that is
-        /// free, or the lighter one. So piles keep their order. Folds of one piece do not touch each other. Pieces that
-        /// touch wake and fall asleep together. The manual lists the limits of the method (contact). Default 0.</summary>
+        /// Folds of one piece do not touch each other. The manual has rules and limits (contact). Default 0.</summary>
         public Flag TouchesSheets;
         /// <summary>spread evenly over the sheet, at least one in every piece; default 0: none</summary>
         public int CollisionPoints;
         /// <summary>Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual</summary>
         public int Iterations;
         /// <summary>A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a
-        /// second. It does not move, and costs almost nothing. A cut that changes it wakes it when the cut takes
-        /// effect; so do a new pin, pose, hold or load, contacts that differ, and moving things that come near.
-        /// Gravity, wind, settings and kiriSheet_Wake wake all pieces of the sheet. Default 0.001; 0: no piece sleeps.</summary>
+        /// second, and costs almost nothing until something new wakes it (manual, budget). Default 0.001; 0: no piece
+        /// sleeps.</summary>
         public float SleepSpeed;
         /// <summary>KIRI_MODEL_..., default KIRI_MODEL_LINKS</summary>
         public Model Model;
@@ -800,12 +775,9 @@ namespace Kiri
         public Flag Planar;
         /// <summary>KIRI_TIME_STEPPING_..., default KIRI_TIME_STEPPING_SECOND_ORDER</summary>
         public TimeStepping TimeStepping;
-        /// <summary>A cut that takes effect changes weights, and the surface would jump between frames. The difference fades
-        /// within this time (s), and so does that in the strain of links whose borders moved. Default 0.2; 0: at once.</summary>
+        /// <summary>s: jumps of the surface and of strains fade within this when a cut takes effect. Default 0.2</summary>
         public float FadeTime;
-        /// <summary>1: every tick computes normals of the mesh. 0: kiriMesh has no normals, and kiriSheet_CopyVertices copies
-        /// none; this saves half of the time of linear skinning. The sheet moves the same, bit for bit: contact and
-        /// kiriSheet_GetSolid compute their own normals. kiriSheet_GetPoint is the same to rounding. Default 1.</summary>
+        /// <summary>1: every tick computes normals (default). 0: kiriMesh has none, which saves time</summary>
         public Flag Normals;
         /// <summary>default: all off</summary>
         public PaperOptions Paper;
@@ -830,26 +802,23 @@ namespace Kiri
         public Material Material;
         /// <summary>re-sampling stops here; default 256</summary>
         public int MaxFrames;
-        /// <summary>A piece with less area (m^2) is a crumb: it gets one frame if it has none, and no more. Default 0.</summary>
+        /// <summary>m^2: a smaller piece is a crumb: it gets one frame if it has none, and no more. Default 0</summary>
         public float CrumbArea;
         /// <summary>of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5</summary>
         public float Friction;
-        /// <summary>m, 0 or more: distance between sheets and pieces, and twice the distance to obstacles. 0: the material's
-        /// thickness, at least a 20th of a grid square. Default 0</summary>
+        /// <summary>m: distance between sheets and pieces, and twice the distance to obstacles. 0 (default): the material's
+        /// thickness, at least a 20th of a grid square</summary>
         public float ContactThickness;
         /// <summary>obstacles and sheets touch if they share a set bit. Default: all</summary>
         public uint Groups;
         /// <summary>1: its pieces touch each other, and other sheets that have it set; not where one of two sheets is planar.
-        /// Planes keep the upper piece, against gravity, on its side of the lower one; side by side, the piece that is
-        /// free, or the lighter one. So piles keep their order. Folds of one piece do not touch each other. Pieces that
-        /// touch wake and fall asleep together. The manual lists the limits of the method (contact). Default 0.</summary>
+        /// Folds of one piece do not touch each other. The manual has rules and limits (contact). Default 0.</summary>
         public Flag TouchesSheets;
         /// <summary>Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual</summary>
         public int Iterations;
         /// <summary>A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a
-        /// second. It does not move, and costs almost nothing. A cut that changes it wakes it when the cut takes
-        /// effect; so do a new pin, pose, hold or load, contacts that differ, and moving things that come near.
-        /// Gravity, wind, settings and kiriSheet_Wake wake all pieces of the sheet. Default 0.001; 0: no piece sleeps.</summary>
+        /// second, and costs almost nothing until something new wakes it (manual, budget). Default 0.001; 0: no piece
+        /// sleeps.</summary>
         public float SleepSpeed;
         /// <summary>KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR</summary>
         public Skinning Skinning;
@@ -857,16 +826,13 @@ namespace Kiri
         public TimeStepping TimeStepping;
         /// <summary>stays 0 with paper.popping</summary>
         public float FadeTime;
-        /// <summary>1: every tick computes normals of the mesh. 0: kiriMesh has no normals, and kiriSheet_CopyVertices copies
-        /// none; this saves half of the time of linear skinning. The sheet moves the same, bit for bit: contact and
-        /// kiriSheet_GetSolid compute their own normals. kiriSheet_GetPoint is the same to rounding. Default 1.</summary>
+        /// <summary>1: every tick computes normals (default). 0: kiriMesh has none, which saves time</summary>
         public Flag Normals;
     }
 
     /// <summary>The triangles to draw, as after the last tick. revision grows when indices or vertices are added or changed.
-    /// Rest positions are floats, with a spacing of 6e-8 of the distance from the origin of the rest plane: triangles
-    /// of about that size may look flat or inverted. The library computes with the positions of the def to 2^-29 of the
-    /// sheet; sourceTriangles and sourceWeights have that precision.</summary>
+    /// Rest positions are floats, so small triangles far from the origin of the rest plane may look flat in them;
+    /// sourceTriangles and sourceWeights have the precision of the library, 2^-29 of the sheet.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct NativeMesh
     {
@@ -913,8 +879,7 @@ namespace Kiri
     }
 
     /// <summary>The surface with a thickness, to draw: a closed mesh, with a rim along borders, holes and lips. First the
-    /// vertices of kiriMesh on the side of the normal, then the same on the other side, then four for each border edge,
-    /// so rims are flat.</summary>
+    /// vertices of kiriMesh on the side of the normal, then the same on the other side, then four for each border edge.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct NativeSolid
     {
@@ -947,8 +912,7 @@ namespace Kiri
         public int CollisionPoints;
     }
 
-    /// <summary>Area (m^2), mass (kg), kinetic energy and elastic energy (J), linear and angular momentum about the world's
-    /// origin (kg m/s, kg m^2/s), centre of mass (m).</summary>
+    /// <summary>m^2, kg, J, J; centre of mass, m; linear and angular momentum about the world's origin, kg m/s and kg m^2/s.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Totals
     {
@@ -991,9 +955,9 @@ namespace Kiri
         public FrameId Frame;
     }
 
-    /// <summary>A connected part of a sheet. Any of its frames names it. Indices from 0 to kiriCounts.pieces, in the order of
-    /// first frames, visit all pieces: they change when a piece comes off or goes, and kiriFrame_GetPiece returns the
-    /// current one. A cut with pending work has not separated anything yet. Momentum is about the world's origin.</summary>
+    /// <summary>A connected part of a sheet. Any of its frames names it. Indices from 0 to kiriCounts.pieces visit all pieces;
+    /// they change when a piece comes off or goes, and kiriFrame_GetPiece returns the current one. A cut with pending
+    /// work has not separated anything yet. Momentum is about the world's origin.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct PieceState
     {
@@ -1051,8 +1015,7 @@ namespace Kiri
         public Float2 RestPoint;
         /// <summary>m, world: of the rest point</summary>
         public Float3 Position;
-        /// <summary>columns: direction of u, direction of v, normal; of an affine frame the columns of A, which stretch with the
-        /// sheet</summary>
+        /// <summary>columns: direction of u, of v, normal; an affine frame: columns of A, which stretch</summary>
         public Float9 Rotation;
         /// <summary>m/s</summary>
         public Float3 Velocity;
@@ -1067,9 +1030,8 @@ namespace Kiri
     }
 
     /// <summary>Air that moves past the sheet. v is the velocity of the air less the velocity of the material, n the normal:
-    /// each square metre gets density / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)). Zero velocity with drag and
-    /// lift above zero: still air, which resists. All zero: none. It acts at four points of the region of each frame,
-    /// and follows the motion within the tick, so strong wind is stable. A sheet can sleep in constant wind.</summary>
+    /// each square metre gets density / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)). All zero: none. A sheet can
+    /// sleep in constant wind, and still air (zero velocity) resists.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Wind
     {
@@ -1096,9 +1058,8 @@ namespace Kiri
         public float Stiffness;
         /// <summary>N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never</summary>
         public float BreakForce;
-        /// <summary>or 0. The target moves with this obstacle from its place at creation or at the last kiriPin_SetTarget. The
-        /// obstacle feels the pin (kiriObstacle_GetState); an obstacle with mass yields within the tick. If it is
-        /// destroyed the target stays</summary>
+        /// <summary>or 0. The target moves with this obstacle, which feels the pin (kiriObstacle_GetState) and yields by its
+        /// mass. If it is destroyed the target stays</summary>
         public ObstacleId Obstacle;
 
         /// <summary>With the defaults of the library.</summary>
@@ -1136,8 +1097,7 @@ namespace Kiri
 
     /// <summary>A contact of a point of the material: the plane dot(normal, x) = offset keeps the point on its upper side, and
     /// Coulomb friction acts along the plane. The host computes the plane for each tick from the visible surface of the
-    /// sheet. A contact may lie ahead of the point; if the point does not reach it in the tick, it costs little and
-    /// does nothing.</summary>
+    /// sheet. A contact that the point does not reach in the tick costs little and does nothing.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Contact
     {
@@ -1242,9 +1202,9 @@ namespace Kiri
         public Float9 Rotation;
         public Float3 Velocity;
         public Float3 AngularVelocity;
-        /// <summary>N s, N m s about its centre of mass: from sheets and pins in the last tick</summary>
+        /// <summary>N s, N m s about its centre of mass: of sheets and pins in the last tick</summary>
         public Double3 Impulse;
-        /// <summary>N s, N m s about its centre of mass: from sheets and pins in the last tick</summary>
+        /// <summary>N s, N m s about its centre of mass: of sheets and pins in the last tick</summary>
         public Double3 AngularImpulse;
         /// <summary>that pushed in the last tick</summary>
         public int Contacts;
@@ -1331,10 +1291,10 @@ namespace Kiri
         public static extern byte* kiriWorld_GetLastError(IntPtr world);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
-        public static extern int kiriWorld_SetGravity(IntPtr world, float* gravity);
+        public static extern int kiriWorld_ShiftOrigin(IntPtr world, float* origin);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
-        public static extern int kiriWorld_ShiftOrigin(IntPtr world, float* origin);
+        public static extern int kiriWorld_SetGravity(IntPtr world, float* gravity);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int kiriWorld_SetBudget(IntPtr world, Budget* budget);
@@ -1574,6 +1534,9 @@ namespace Kiri
         public static extern int kiriCreatePin(IntPtr world, SheetId sheet, PinDef* @def, PinId* pin);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int kiriDestroyPin(IntPtr world, PinId pin);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int kiriSheet_ClampLine(IntPtr world, SheetId sheet, float* from, float* to, PinId* clamp);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
@@ -1596,9 +1559,6 @@ namespace Kiri
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int kiriSheet_GetPins(IntPtr world, SheetId sheet, PinId* pins, int capacity, int* count);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
-        public static extern int kiriDestroyPin(IntPtr world, PinId pin);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int kiriSheet_SetContacts(IntPtr world, SheetId sheet, Contact* contacts, int count);

@@ -30,8 +30,8 @@ IDS = {'kiriEvent': {'sheet': 'Sheet', 'cut': 'Cut', 'frame': 'Frame', 'pin': 'P
  'kiriDebugDraw': {'sheet': 'Sheet'}}
 
 CHANGES = {'kiriWorld_Tick': True,
- 'kiriWorld_SetGravity': True,
  'kiriWorld_ShiftOrigin': True,
+ 'kiriWorld_SetGravity': True,
  'kiriWorld_SetBudget': True,
  'kiriWorld_GetStateHash': False,
  'kiriWorld_GetSheets': False,
@@ -104,6 +104,7 @@ CHANGES = {'kiriWorld_Tick': True,
  'kiriSheet_ApplyImpulse': True,
  'kiriSheet_SetWind': True,
  'kiriCreatePin': True,
+ 'kiriDestroyPin': True,
  'kiriSheet_ClampLine': True,
  'kiriSheet_HingeLine': True,
  'kiriPin_SetTarget': True,
@@ -112,7 +113,6 @@ CHANGES = {'kiriWorld_Tick': True,
  'kiriPin_GetState': False,
  'kiriPin_GetReaction': False,
  'kiriSheet_GetPins': False,
- 'kiriDestroyPin': True,
  'kiriSheet_SetContacts': True,
  'kiriSheet_GetContactForces': False,
  'kiriCreateObstacle': True,
@@ -133,8 +133,8 @@ METHODS = {'kiriGetVersion': (None, 'version'),
  'kiriDestroyWorld': ('World', 'close'),
  'kiriWorld_Tick': ('World', 'tick'),
  'kiriWorld_GetLastError': ('World', 'last_error'),
- 'kiriWorld_SetGravity': ('World', 'set_gravity'),
  'kiriWorld_ShiftOrigin': ('World', 'shift_origin'),
+ 'kiriWorld_SetGravity': ('World', 'set_gravity'),
  'kiriWorld_SetBudget': ('World', 'set_budget'),
  'kiriWorld_GetStateHash': ('World', 'state_hash'),
  'kiriWorld_GetSheets': ('World', 'sheets'),
@@ -214,6 +214,7 @@ METHODS = {'kiriGetVersion': (None, 'version'),
  'kiriSheet_SetWind': ('Sheet', 'set_wind'),
  'kiriDefaultPinDef': (None, 'default_pin_def'),
  'kiriCreatePin': ('Sheet', 'create_pin'),
+ 'kiriDestroyPin': ('Pin', 'destroy'),
  'kiriSheet_ClampLine': ('Sheet', 'clamp_line'),
  'kiriSheet_HingeLine': ('Sheet', 'hinge_line'),
  'kiriPin_SetTarget': ('Pin', 'set_target'),
@@ -222,7 +223,6 @@ METHODS = {'kiriGetVersion': (None, 'version'),
  'kiriPin_GetState': ('Pin', 'state'),
  'kiriPin_GetReaction': ('Pin', 'reaction'),
  'kiriSheet_GetPins': ('Sheet', 'pins'),
- 'kiriDestroyPin': ('Pin', 'destroy'),
  'kiriSheet_SetContacts': ('Sheet', 'set_contacts'),
  'kiriSheet_GetContactForces': ('Sheet', 'contact_forces'),
  'kiriDefaultObstacleDef': (None, 'default_obstacle_def'),
@@ -406,8 +406,8 @@ kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world);
 void kiriDestroyWorld(kiriWorld* world);
 kiriResult kiriWorld_Tick(kiriWorld* world, float dt, int32_t substeps);
 const char* kiriWorld_GetLastError(const kiriWorld* world);
-kiriResult kiriWorld_SetGravity(kiriWorld* world, const float gravity[3]);
 kiriResult kiriWorld_ShiftOrigin(kiriWorld* world, const float origin[3]);
+kiriResult kiriWorld_SetGravity(kiriWorld* world, const float gravity[3]);
 kiriResult kiriWorld_SetBudget(kiriWorld* world, const kiriBudget* budget);
 kiriResult kiriWorld_GetStateHash(const kiriWorld* world, uint64_t* hash);
 kiriResult kiriWorld_GetSheets(const kiriWorld* world, kiriSheet* sheets, int32_t capacity, int32_t* count);
@@ -487,6 +487,7 @@ kiriResult kiriSheet_ApplyImpulse(kiriWorld* world, kiriSheet sheet, const float
 kiriResult kiriSheet_SetWind(kiriWorld* world, kiriSheet sheet, const kiriWind* wind);
 void kiriDefaultPinDef(kiriPinDef* def);
 kiriResult kiriCreatePin(kiriWorld* world, kiriSheet sheet, const kiriPinDef* def, kiriPin* pin);
+kiriResult kiriDestroyPin(kiriWorld* world, kiriPin pin);
 kiriResult kiriSheet_ClampLine(kiriWorld* world, kiriSheet sheet, const float from[2], const float to[2], kiriPin* clamp);
 kiriResult kiriSheet_HingeLine(kiriWorld* world, kiriSheet sheet, const float from[2], const float to[2], kiriPin* hinge);
 kiriResult kiriPin_SetTarget(kiriWorld* world, kiriPin pin, const float target[3]);
@@ -495,7 +496,6 @@ kiriResult kiriPin_SetBreakForce(kiriWorld* world, kiriPin pin, float breakForce
 kiriResult kiriPin_GetState(const kiriWorld* world, kiriPin pin, kiriPinState* state);
 kiriResult kiriPin_GetReaction(const kiriWorld* world, kiriPin pin, double force[3], double torque[3]);
 kiriResult kiriSheet_GetPins(const kiriWorld* world, kiriSheet sheet, kiriPin* pins, int32_t capacity, int32_t* count);
-kiriResult kiriDestroyPin(kiriWorld* world, kiriPin pin);
 kiriResult kiriSheet_SetContacts(kiriWorld* world, kiriSheet sheet, const kiriContact* contacts, int32_t count);
 kiriResult kiriSheet_GetContactForces(const kiriWorld* world, kiriSheet sheet, const kiriContactForce** forces, int32_t* count);
 void kiriDefaultObstacleDef(kiriObstacleDef* def);

@@ -4,18 +4,22 @@ from . import _core as core
 
 
 def version():
-    """Returns the version of the library, as KIRI_VERSION."""
+    """Return the version of the library, as KIRI_VERSION; the name of a result, as 'KIRI_OK'; a line with its
+    meaning.
+    """
     return core.load().kiriGetVersion()
 
 
 def result_name(result):
-    """Returns the name of a result, such as 'KIRI_OK'; 'unknown' for another number."""
+    """Return the version of the library, as KIRI_VERSION; the name of a result, as 'KIRI_OK'; a line with its
+    meaning.
+    """
     return core.ffi.string(core.load().kiriGetResultName(result)).decode()
 
 
 def result_text(result):
-    """Returns one line: the meaning of a result, and its cure. Use it after calls that have no world to keep a
-    line, such as kiriCreateWorld with a def of zeros (KIRI_ERROR_DEF).
+    """Return the version of the library, as KIRI_VERSION; the name of a result, as 'KIRI_OK'; a line with its
+    meaning.
     """
     return core.ffi.string(core.load().kiriGetResultText(result)).decode()
 
@@ -77,39 +81,35 @@ def default_debug_draw():
 class World:
     def tick(self, dt, substeps=1):
         """Advances by one fixed step of dt seconds (1e-6 to 10), in `substeps` equal parts (1 to 64): takes the
-        pending cut points, then moves every sheet. KIRI_PENDING: the budget is spent, and events name the cuts that
-        still have work; a sheet or some of its pieces may have stood still for want of iterations.
-        KIRI_ERROR_MEMORY: the work on a cut, or a piece that leaves, was refused memory and goes on in the next
-        tick, as if the budget were spent; the sheets moved. Only without memory for contacts or ids did nothing
-        move: the line says which. KIRI_ERROR_LIMIT: no ids are left for new frames; nothing moves until frames are
-        destroyed. KIRI_DIVERGED: sheets that events name were stopped, others moved; KIRI_EVENT_DEFERRED tells of
-        pending work.
+        pending cut points, then moves every sheet. KIRI_PENDING: the budget is spent; events name the cuts that
+        still have work. KIRI_ERROR_MEMORY: work on a cut, or a piece that leaves, goes on in the next tick; the
+        sheets moved, but where memory for contacts or ids is missing. KIRI_ERROR_LIMIT: no ids are left for new
+        frames; nothing moves until frames are destroyed. KIRI_DIVERGED: sheets that events name were stopped,
+        others moved.
         """
         return self.call('kiriWorld_Tick', dt, substeps)
 
-    def set_gravity(self, gravity):
-        """Sets gravity (m/s^2). All pieces wake."""
-        return self.call('kiriWorld_SetGravity', core.vector(gravity, 3))
-
     def shift_origin(self, origin):
-        """Moves the origin of the world to a point (m): subtracts it from the positions of sheets, targets of pins and
-        holds, obstacles, blades, and pending contacts. The motion goes on as before, to rounding. Nothing wakes;
-        (0, 0, 0) changes nothing. Use it in large worlds, where floats lose precision. The host shifts its own
-        data. Returned arrays keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a position would not
-        fit a float.
+        """Moves the origin of the world to a point (m): subtracts it from all positions, as large worlds need because
+        of floats. The motion goes on as before, to rounding; nothing wakes. The host shifts its own data. Returned
+        arrays keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a position would not fit a float.
         """
         return self.call('kiriWorld_ShiftOrigin', core.vector(origin, 3))
 
+    def set_gravity(self, gravity):
+        """Set gravity (m/s^2; all pieces wake), and the budget, from the next tick on."""
+        return self.call('kiriWorld_SetGravity', core.vector(gravity, 3))
+
     def set_budget(self, **fields):
-        """Sets the budget from the next tick on."""
+        """Set gravity (m/s^2; all pieces wake), and the budget, from the next tick on."""
         kept = []  # until C has read it
         structure = core.structure(self, 'kiriBudget', fields, kept)
         return self.call('kiriWorld_SetBudget', structure)
 
     def state_hash(self):
         """Hashes all state that the coming ticks depend on, pending work included. Two worlds with the same calls have
-        the same hash, and two worlds with the same hash go on alike. After a refused allocation some items are made
-        again: the hash differs while work is pending, or while the budget limits cells or samples.
+        the same hash, and two worlds with the same hash go on alike. After refused memory it may differ while work
+        is pending.
         """
         return self.get('kiriWorld_GetStateHash', 'uint64_t')
 
@@ -121,9 +121,9 @@ class World:
         return [self.thing('Sheet', thing) for thing in things]
 
     def finish_cuts(self):
-        """Finishes the work on cuts at once, whatever the budget is, and without moving anything. Cuts that wait for a
-        budget take effect. The next tick reports the events. KIRI_ERROR_MEMORY, KIRI_ERROR_LIMIT: as in
-        kiriWorld_Tick. Arrays that the world handed out end as with a tick.
+        """Finishes the work on cuts at once, whatever the budget is, without moving anything. The next tick reports
+        the events. Arrays that the world handed out end as with a tick. KIRI_ERROR_MEMORY, KIRI_ERROR_LIMIT: as in
+        kiriWorld_Tick.
         """
         return self.call('kiriWorld_FinishCuts')
 
@@ -155,15 +155,16 @@ class World:
         return self.call('kiriWorld_DestroyPieces', core.ffi.new('kiriFrame[]', ids), len(ids))
 
     def begin_blade(self, sheet=None):
-        """sheet 0: it cuts all sheets, also those that are made later and pieces that get a sheet of their own. A
-        blade for one sheet whose sheet is gone cuts nothing.
-        """
+        """Begins a blade for one sheet; 0: for all sheets, also those that are made later."""
         return self.thing('Blade', self.get('kiriBeginBlade', 'kiriBlade', self.id_of(sheet, 'Sheet') if sheet else 0))
 
 
 class Sheet:
     def destroy(self):
-        """Destroys the sheet with its cuts, frames and pins; their ids are stale."""
+        """Add a sheet, and destroy one with its cuts, frames and pins. On failure *sheet is 0. KIRI_ERROR_MESH: the
+        triangles do not form a sheet; the line says why, and names the triangle, or the two at an edge, by index in
+        the def.
+        """
         return self.world.call('kiriDestroySheet', self.id)
 
     def settings(self):
@@ -207,8 +208,8 @@ class Sheet:
     def estimate_error(self):
         """Estimates the error of the current shape of a sheet that rests or moves slowly: rms distance from a sheet of
         very many frames under the same loads, over its rms way from the flat shape; 0 to 1, and 1 with too few
-        frames to tell. It compares strains of neighbouring links (KIRI_MODEL_LINKS only; else KIRI_ERROR_STATE), in
-        one pass that allocates memory. The manual says how good it is (accuracy).
+        frames to tell. KIRI_MODEL_LINKS only; else KIRI_ERROR_STATE. It allocates memory. The manual says how good
+        it is (accuracy).
         """
         return self.world.get('kiriSheet_EstimateError', 'double', self.id)
 
@@ -227,10 +228,8 @@ class Sheet:
     def transform(self, rotation, translation):
         """Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and the sheet
         wakes. The columns of `rotation` are the images of the world's axes; a planar sheet turns about its normal
-        only. Targets of pins, hinges, clamps and holds move along, so nothing pulls the sheet back. A target that
-        the host set nearer to the pin's new place than to its old one stays: the host may set targets before or
-        after. Pins on an obstacle stay on it: move the obstacle by the same motion (kiriObstacle_SetPose), before
-        or after. Pending loads and contacts stay.
+        only. Targets of pins, hinges, clamps and holds move along; pins on an obstacle stay on it. The manual has
+        the order of calls that set targets or move obstacles (sheets). Pending loads and contacts stay.
         """
         return self.world.call('kiriSheet_Transform', self.id, core.vector(rotation, 9), core.vector(translation, 3))
 
@@ -242,16 +241,16 @@ class Sheet:
         return self.world.call('kiriSheet_SetVelocity', self.id, core.vector(velocity, 3), core.vector(angular_velocity, 3))
 
     def set_user_data(self, data):
-        """Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
-        kiriFrame_DetachPiece copies the sheet's number to the new sheet. A piece has a number, too, named by any of
-        its frames: the parts of a piece that is cut inherit it, and so does a sheet that is made of it.
+        """Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and
+        a piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it
+        has both.
         """
         return self.world.call('kiriSheet_SetUserData', self.id, data)
 
     def user_data(self):
-        """Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
-        kiriFrame_DetachPiece copies the sheet's number to the new sheet. A piece has a number, too, named by any of
-        its frames: the parts of a piece that is cut inherit it, and so does a sheet that is made of it.
+        """Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and
+        a piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it
+        has both.
         """
         return self.world.get('kiriSheet_GetUserData', 'uint64_t', self.id)
 
@@ -262,14 +261,14 @@ class Sheet:
         return core.record(self.world.get('kiriSheet_GetPoint', 'kiriPointState', self.id, core.vector(rest_point, 2)), self.world)
 
     def piece(self, piece):
-        """Get a piece. The first of these calls after a cut sorts the sheet by pieces, and may fail with
-        KIRI_ERROR_MEMORY. KIRI_ERROR_ARGUMENT: no piece has the index.
+        """Get a piece. The first call after a cut sorts the sheet by pieces. KIRI_ERROR_ARGUMENT: no piece has the
+        index.
         """
         return core.record(self.world.get('kiriSheet_GetPiece', 'kiriPieceState', self.id, piece), self.world)
 
     def piece_mesh(self, piece, *names):
-        """Get a piece. The first of these calls after a cut sorts the sheet by pieces, and may fail with
-        KIRI_ERROR_MEMORY. KIRI_ERROR_ARGUMENT: no piece has the index.
+        """Get a piece. The first call after a cut sorts the sheet by pieces. KIRI_ERROR_ARGUMENT: no piece has the
+        index.
         """
         return self.world.get_copies(names, 'kiriSheet_GetPieceMesh', 'kiriPieceMesh', self.id, piece)
 
@@ -278,7 +277,7 @@ class Sheet:
         return core.Loan(self.world, 'kiriSheet_GetPieceMesh', 'kiriPieceMesh', self.id, piece)
 
     def piece_frames(self, piece):
-        """Gets the frames of a piece: *frames points to *count ids."""
+        """Get the frames of a piece (*frames points to *count ids), and the current index of the piece with a frame."""
         return self.world.get_array(
             lambda array, count: [self.world.thing('Frame', array[i]) for i in range(count)],
             'kiriSheet_GetPieceFrames', 'kiriFrame', self.id, piece)
@@ -299,7 +298,7 @@ class Sheet:
     def slice(self, blade):
         """Cuts where the quadrilateral swept by an edge in world space, from blade[0]-blade[1] to blade[3]-blade[2],
         meets the current sheet; past borders, so that it separates the parts that it crosses. The cut is already
-        ended. Slices of a moving sheet do not join from tick to tick: use a blade for that.
+        ended.
         """
         return self.world.thing('Cut', self.world.get('kiriSheet_Slice', 'kiriCut', self.id, core.vector(blade, 12)))
 
@@ -309,7 +308,7 @@ class Sheet:
         return [self.world.thing('Frame', thing) for thing in things]
 
     def apply_force(self, rest_point, force, torque=(0.0, 0.0, 0.0)):
-        """Applies a force (N, world) at a point of the material and a torque (N m)."""
+        """Apply a force (N, world) at the frame's centre of mass, or at a point of the material, and a torque (N m)."""
         return self.world.call('kiriSheet_ApplyForce', self.id, core.vector(rest_point, 2), core.vector(force, 3), core.vector(torque, 3))
 
     def apply_line_load(self, start, end, force_per_length):
@@ -323,9 +322,9 @@ class Sheet:
         return self.world.call('kiriSheet_ApplyPressure', self.id, pressure)
 
     def apply_impulse(self, rest_point, impulse):
-        """Applies an impulse (N s, world) at a point of the material on the visible surface. Velocities change at
-        once, by the mass of the frames that carry the point; a held frame's share is lost. KIRI_ERROR_ARGUMENT: it
-        is outside the sheet.
+        """Applies an impulse (N s, world) at a point of the material on the visible surface, at once, by the mass of
+        the frames that carry the point; a held frame's share is lost. KIRI_ERROR_ARGUMENT: the point is outside the
+        sheet.
         """
         return self.world.call('kiriSheet_ApplyImpulse', self.id, core.vector(rest_point, 2), core.vector(impulse, 3))
 
@@ -338,22 +337,18 @@ class Sheet:
     def clamp_line(self, start, end):
         """Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds the place and
         direction of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The
-        line is straight, with its rest length: bent material is pulled straight, and separate pieces are pulled
-        together, at any speed. Both hold the material on the line, edges included, with its stiffness from the line
-        to the frames around it. A clamp through the sheet separates the bending of its two sides. A line along a
-        cut holds both lips; a line beside it, by a 512th of a grid square or more, holds one. The ends differ.
-        KIRI_ERROR_ARGUMENT: the line meets no material.
+        line is straight, with its rest length: bent material and separate pieces are pulled to it, at any speed. A
+        line along a cut holds both lips; a line beside it holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line
+        meets no material.
         """
         return self.world.thing('Pin', self.world.get('kiriSheet_ClampLine', 'kiriPin', self.id, core.vector(start, 2), core.vector(end, 2)))
 
     def hinge_line(self, start, end):
         """Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds the place and
         direction of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The
-        line is straight, with its rest length: bent material is pulled straight, and separate pieces are pulled
-        together, at any speed. Both hold the material on the line, edges included, with its stiffness from the line
-        to the frames around it. A clamp through the sheet separates the bending of its two sides. A line along a
-        cut holds both lips; a line beside it, by a 512th of a grid square or more, holds one. The ends differ.
-        KIRI_ERROR_ARGUMENT: the line meets no material.
+        line is straight, with its rest length: bent material and separate pieces are pulled to it, at any speed. A
+        line along a cut holds both lips; a line beside it holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line
+        meets no material.
         """
         return self.world.thing('Pin', self.world.get('kiriSheet_HingeLine', 'kiriPin', self.id, core.vector(start, 2), core.vector(end, 2)))
 
@@ -363,9 +358,8 @@ class Sheet:
         return [self.world.thing('Pin', thing) for thing in things]
 
     def contact_forces(self):
-        """Gets one result for each contact that was set before the last tick, in that order. The sum of these impulses
-        and of the impulses of gravity, loads and obstacles is the change of momentum of a free piece. A sleeping
-        piece goes on to press with the values with which it fell asleep.
+        """Gets one result for each contact that was set before the last tick, in that order. A sleeping piece presses
+        on.
         """
         return self.world.get_array(
             lambda array, count: [core.record(array[i], self.world) for i in range(count)],
@@ -373,8 +367,7 @@ class Sheet:
 
     def reach(self, dt):
         """Gets a box (m, world) around all that the sheet can touch in a tick of dt (s, as in kiriWorld_Tick): a host
-        needs no obstacles or contacts outside. Its margin is twice the way of the fastest point by velocity and
-        gravity, plus the contact thickness. For moving obstacles add their own way.
+        needs no obstacles or contacts outside. For moving obstacles add their own way.
         """
         lower = core.ffi.new('float[3]')
         upper = core.ffi.new('float[3]')
@@ -384,12 +377,14 @@ class Sheet:
 
 class Cut:
     def extend(self, rest_points):
-        """Adds points. restPoints: 2 floats a point; count is 1 to 2^24."""
+        """Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the tick in which its
+        last point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the frames that it needs.
+        """
         return self.world.call('kiriCut_Extend', self.id, *core.rows('float', rest_points, 2))
 
     def end(self):
-        """Ends the cut. Its id is stale after the tick in which its last point takes effect (KIRI_EVENT_CUT_FINISHED).
-        The sheet then adds the frames that it needs.
+        """Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the tick in which its
+        last point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the frames that it needs.
         """
         return self.world.call('kiriCut_End', self.id)
 
@@ -403,39 +398,37 @@ class Frame:
         return self.world.call('kiriFrame_SetPieceVelocity', self.id, core.vector(velocity, 3), core.vector(angular_velocity, 3))
 
     def set_piece_user_data(self, data):
-        """Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
-        kiriFrame_DetachPiece copies the sheet's number to the new sheet. A piece has a number, too, named by any of
-        its frames: the parts of a piece that is cut inherit it, and so does a sheet that is made of it.
+        """Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and
+        a piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it
+        has both.
         """
         return self.world.call('kiriFrame_SetPieceUserData', self.id, data)
 
     def piece_user_data(self):
-        """Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
-        kiriFrame_DetachPiece copies the sheet's number to the new sheet. A piece has a number, too, named by any of
-        its frames: the parts of a piece that is cut inherit it, and so does a sheet that is made of it.
+        """Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and
+        a piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it
+        has both.
         """
         return self.world.get('kiriFrame_GetPieceUserData', 'uint64_t', self.id)
 
     def piece(self):
-        """Gets the current index of the piece with this frame."""
+        """Get the frames of a piece (*frames points to *count ids), and the current index of the piece with a frame."""
         return self.world.get('kiriFrame_GetPiece', 'int32_t', self.id)
 
     def detach_piece(self):
-        """Makes a sheet of the piece with this frame. Frames, pins, collision points, pending loads and contacts move
-        along, with their ids and states, and the motion goes on. Both sheets have all settings. Cuts stay with the
-        old sheet. A clamp or hinge that holds both gets a copy with a new id in the new sheet. Revisions grow;
-        kiriSheet_GetDirty has the changes. KIRI_PENDING: work on a cut is pending, or the piece takes more samples
-        than the budget leaves; *detached is 0. Then samples of the coming ticks pay for it, and further cuts of the
-        sheet wait. When all is paid the piece of this frame becomes a sheet, and KIRI_EVENT_PIECE_DETACHED names
-        it. KIRI_ERROR_STATE: nothing would be left of the sheet. The manual has indices and costs (cutting).
+        """Makes a sheet of the piece with this frame. All that belongs to the piece moves along, with ids and states,
+        and the motion goes on; cuts stay with the old sheet. A clamp or hinge that holds both gets a copy with a
+        new id in the new sheet. KIRI_PENDING: work on a cut is pending, or the piece takes more samples than the
+        budget leaves; *detached is 0. Further cuts of the sheet then wait, and KIRI_EVENT_PIECE_DETACHED names the
+        sheet in a later tick. KIRI_ERROR_STATE: nothing would be left of the sheet. The manual has indices and
+        costs (cutting).
         """
         return self.world.thing('Sheet', self.world.get('kiriFrame_DetachPiece', 'kiriSheet', self.id))
 
     def destroy_piece(self):
-        """Removes the piece with this frame: ids of its frames and pins are stale. Takes effect at once, and the
-        coming ticks have fewer samples. KIRI_PENDING: work on a cut is pending. Until it is done the triangles stay
-        in kiriMesh with three equal corners, the vertices stay, and kiriCounts counts the piece, with a
-        kiriPieceState of all zeros.
+        """Removes the piece with this frame at once: ids of its frames and pins are stale, and the coming ticks have
+        fewer samples. KIRI_PENDING: work on a cut is pending. Until it is done the triangles stay in kiriMesh with
+        three equal corners, and kiriCounts counts the piece, with a kiriPieceState of all zeros.
         """
         return self.world.call('kiriFrame_DestroyPiece', self.id)
 
@@ -445,8 +438,8 @@ class Frame:
 
     def reaction(self):
         """Gets the force (N, world) and torque (N m, about the frame's rest point) that the hold applied to the sheet:
-        means over the last tick, impulses divided by its dt. They include the frame's own weight and change of
-        momentum. Zero for a free frame. A sleeping piece keeps the values with which it fell asleep.
+        means over the last tick that moved the piece, with the frame's own weight and change of momentum. Zero for
+        a free one.
         """
         force = core.ffi.new('double[3]')
         torque = core.ffi.new('double[3]')
@@ -454,30 +447,35 @@ class Frame:
         return tuple(force), tuple(torque)
 
     def apply_force(self, force, torque=(0.0, 0.0, 0.0)):
-        """Applies a force (N, world) at the frame's centre of mass and a torque (N m)."""
+        """Apply a force (N, world) at the frame's centre of mass, or at a point of the material, and a torque (N m)."""
         return self.world.call('kiriFrame_ApplyForce', self.id, core.vector(force, 3), core.vector(torque, 3))
 
 
 class Pin:
     def set_user_data(self, data):
-        """Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
-        kiriFrame_DetachPiece copies the sheet's number to the new sheet. A piece has a number, too, named by any of
-        its frames: the parts of a piece that is cut inherit it, and so does a sheet that is made of it.
+        """Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and
+        a piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it
+        has both.
         """
         return self.world.call('kiriPin_SetUserData', self.id, data)
 
     def user_data(self):
-        """Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
-        kiriFrame_DetachPiece copies the sheet's number to the new sheet. A piece has a number, too, named by any of
-        its frames: the parts of a piece that is cut inherit it, and so does a sheet that is made of it.
+        """Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and
+        a piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it
+        has both.
         """
         return self.world.get('kiriPin_GetUserData', 'uint64_t', self.id)
 
+    def destroy(self):
+        """Pin a point of the sheet, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: the
+        point is outside the sheet.
+        """
+        return self.world.call('kiriDestroyPin', self.id)
+
     def set_target(self, target):
         """Sets the target of the pin's point, or of the middle of its line (m, world), for the end of the next tick
-        and until the next call. The pin moves there evenly within the tick. The current target of kiriPin_GetState
-        changes nothing. With KIRI_SKINNING_SMOOTH pins and clamps hold the visible surface; a clamp holds its mean
-        along the line for each piece, so single points are slightly off the line.
+        and until the next call. The pin moves there evenly within the tick. With KIRI_SKINNING_SMOOTH pins and
+        clamps hold the visible surface; a clamp holds its mean along the line for each piece.
         """
         return self.world.call('kiriPin_SetTarget', self.id, core.vector(target, 3))
 
@@ -497,23 +495,18 @@ class Pin:
 
     def reaction(self):
         """Gets the force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over
-        the last tick, impulses divided by its dt. The reactions of all pins and held frames are the weight of a
-        sheet at rest, and change its momentum in motion (as far as `iterations` solve the tick). Zero before the
-        first tick. A sleeping piece keeps the values with which it fell asleep.
+        the last tick that moved the piece. All reactions are the weight of a sheet at rest, and change its momentum
+        in motion.
         """
         force = core.ffi.new('double[3]')
         torque = core.ffi.new('double[3]')
         self.world.call('kiriPin_GetReaction', self.id, force, torque)
         return tuple(force), tuple(torque)
 
-    def destroy(self):
-        """Destroys the pin; its id is stale."""
-        return self.world.call('kiriDestroyPin', self.id)
-
 
 class Obstacle:
     def destroy(self):
-        """Destroys an obstacle; its id is stale. Pieces that rested on it wake."""
+        """Add and destroy an obstacle. On failure *obstacle is 0. Pieces that rested on a destroyed one wake."""
         return self.world.call('kiriDestroyObstacle', self.id)
 
     def set_pose(self, position, rotation=(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)):
@@ -521,15 +514,21 @@ class Obstacle:
         return self.world.call('kiriObstacle_SetPose', self.id, core.vector(position, 3), core.vector(rotation, 9))
 
     def set_velocity(self, velocity, angular_velocity=(0.0, 0.0, 0.0)):
-        """Set the velocity (m/s, rad/s) for the next and all later ticks."""
+        """Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg), inertia and centre of
+        mass.
+        """
         return self.world.call('kiriObstacle_SetVelocity', self.id, core.vector(velocity, 3), core.vector(angular_velocity, 3))
 
     def set_surface_velocity(self, velocity):
-        """Set the velocity (m/s, rad/s) for the next and all later ticks."""
+        """Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg), inertia and centre of
+        mass.
+        """
         return self.world.call('kiriObstacle_SetSurfaceVelocity', self.id, core.vector(velocity, 3))
 
     def set_mass(self, mass, inertia=(0.0, 0.0, 0.0, 0.0, 0.0, 0.0), center_of_mass=(0.0, 0.0, 0.0)):
-        """Sets mass (kg), inertia and centre of mass, as in the def."""
+        """Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg), inertia and centre of
+        mass.
+        """
         return self.world.call('kiriObstacle_SetMass', self.id, mass, core.vector(inertia, 6), core.vector(center_of_mass, 3))
 
     def state(self):
@@ -539,14 +538,17 @@ class Obstacle:
 
 class Blade:
     def move_edge(self, start, end):
-        """The blade is now the straight edge between two points (m, world). From where it was it got there straight,
-        each end along a line. The first call only says where it begins. Where an end of the edge lies inside of
-        what it sweeps of the sheet, it cuts only what it sweeps. An edge without length cuts nothing.
+        """Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera
+        casts; each end goes straight. The first call only says where it begins. An end inside cuts along its own
+        way.
         """
         return self.world.call('kiriBlade_MoveEdge', self.id, core.vector(start, 3), core.vector(end, 3))
 
     def move_ray(self, origin, direction, length):
-        """The same for a ray that a camera casts: an edge `length` m long."""
+        """Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera
+        casts; each end goes straight. The first call only says where it begins. An end inside cuts along its own
+        way.
+        """
         return self.world.call('kiriBlade_MoveRay', self.id, core.vector(origin, 3), core.vector(direction, 3), length)
 
     def end(self):

@@ -22,8 +22,7 @@ pub const KIRI_VERSION: i32 = 1400;
 pub const KIRI_OK: i32 = 0;
 /// success; work is left for later ticks
 pub const KIRI_PENDING: i32 = 1;
-/// null pointer, NaN, infinite, or outside the documented range; or a position, velocity or turn of
-/// a sheet or obstacle would exceed 4e37 m, m/s or 1/s
+/// null, NaN, infinite, outside the documented range, or beyond 4e37 m, m/s or 1/s
 pub const KIRI_ERROR_ARGUMENT: i32 = -1;
 /// the def was not filled by its kiriDefault function: call that first
 pub const KIRI_ERROR_DEF: i32 = -2;
@@ -104,8 +103,7 @@ pub const KIRI_QUALITY_COUNT: i32 = 3;
 /// neighbours.
 pub const KIRI_MODEL_LINKS: i32 = 0;
 /// Affine frames joined by links: cloth and rubber that stretch visibly inside a region. 12
-/// unknowns a frame, coupled with neighbours of neighbours: a tick takes five to seven times as
-/// long. From 1e8 Pa on use 8 \`iterations\`.
+/// unknowns a frame: a tick takes five to seven times as long. From 1e8 Pa on use 8 \`iterations\`.
 pub const KIRI_MODEL_AFFINE: i32 = 1;
 /// Affine frames, strains at integration points: the scheme of the paper, for comparison. 12
 /// unknowns a frame. The thinner the sheet, the less it bends; the manual has figures (accuracy).
@@ -116,9 +114,9 @@ pub const KIRI_SKINNING_LINEAR: i32 = 0;
 /// each carries a patch that bends towards its neighbours: no bumps at the frames
 pub const KIRI_SKINNING_SMOOTH: i32 = 1;
 
-/// TR-BDF2: alternates trapezoid and BDF2, of second order. Keeps the energy of motion; the manual
-/// has figures (accuracy). Backward Euler replaces it in steps in which a contact touches a piece,
-/// a pin or hold is made, moved or removed, or a frame is new or turns by more than a radian.
+/// TR-BDF2, of second order: keeps the energy of motion. Backward Euler replaces it in steps with a
+/// contact, a new or moved pin or hold, a new frame or a fast turn; the manual has figures
+/// (accuracy).
 pub const KIRI_TIME_STEPPING_SECOND_ORDER: i32 = 0;
 /// Backward Euler, of first order: takes energy out of a swing, more in longer steps.
 pub const KIRI_TIME_STEPPING_EULER: i32 = 1;
@@ -165,92 +163,55 @@ pub const KIRI_DRAW_OBSTACLES: i32 = 512;
 pub const KIRI_DRAW_POINTS: i32 = 1024;
 pub const KIRI_DRAW_ALL: i32 = 2047;
 
-/// Functions of the host. They may call other worlds, and functions that take no world. They may
-/// call their own world:
-/// - inside a function that takes a world without const: kiriWorld_GetLastError alone;
-/// - inside a function that takes a const kiriWorld: functions that take a const kiriWorld.
-///
-/// Other calls, kiriDestroyWorld too, give KIRI_ERROR_STATE and do nothing but log a line (manual,
-/// budget). A reading thread may call \`log\`, and in kiriSheet_GetWeights and
-/// kiriSheet_EstimateError \`alloc\` and \`free\`. All memory of a world comes from \`alloc\`,
-/// except memory in which Eigen orders the unknowns: when a cut couples frames that were not
-/// coupled before, and when a save is loaded. at least 16-byte aligned, or null
+/// Functions of the host. They may call other worlds, and functions that take no world. While a
+/// function that takes a world without const runs, they may call kiriWorld_GetLastError alone of
+/// the same world; while one runs that takes a const kiriWorld, functions that do so, too. Other
+/// calls give KIRI_ERROR_STATE. The manual has threads and memory (budget). at least 16-byte
+/// aligned, or null
 pub type kiriAllocFn = Option<unsafe extern "C" fn(user: *mut c_void, bytes: i64) -> *mut c_void>;
 
-/// Functions of the host. They may call other worlds, and functions that take no world. They may
-/// call their own world:
-/// - inside a function that takes a world without const: kiriWorld_GetLastError alone;
-/// - inside a function that takes a const kiriWorld: functions that take a const kiriWorld.
-///
-/// Other calls, kiriDestroyWorld too, give KIRI_ERROR_STATE and do nothing but log a line (manual,
-/// budget). A reading thread may call \`log\`, and in kiriSheet_GetWeights and
-/// kiriSheet_EstimateError \`alloc\` and \`free\`. All memory of a world comes from \`alloc\`,
-/// except memory in which Eigen orders the unknowns: when a cut couples frames that were not
-/// coupled before, and when a save is loaded.
+/// Functions of the host. They may call other worlds, and functions that take no world. While a
+/// function that takes a world without const runs, they may call kiriWorld_GetLastError alone of
+/// the same world; while one runs that takes a const kiriWorld, functions that do so, too. Other
+/// calls give KIRI_ERROR_STATE. The manual has threads and memory (budget).
 pub type kiriFreeFn = Option<unsafe extern "C" fn(user: *mut c_void, pointer: *mut c_void)>;
 
-/// Functions of the host. They may call other worlds, and functions that take no world. They may
-/// call their own world:
-/// - inside a function that takes a world without const: kiriWorld_GetLastError alone;
-/// - inside a function that takes a const kiriWorld: functions that take a const kiriWorld.
-///
-/// Other calls, kiriDestroyWorld too, give KIRI_ERROR_STATE and do nothing but log a line (manual,
-/// budget). A reading thread may call \`log\`, and in kiriSheet_GetWeights and
-/// kiriSheet_EstimateError \`alloc\` and \`free\`. All memory of a world comes from \`alloc\`,
-/// except memory in which Eigen orders the unknowns: when a cut couples frames that were not
-/// coupled before, and when a save is loaded.
+/// Functions of the host. They may call other worlds, and functions that take no world. While a
+/// function that takes a world without const runs, they may call kiriWorld_GetLastError alone of
+/// the same world; while one runs that takes a const kiriWorld, functions that do so, too. Other
+/// calls give KIRI_ERROR_STATE. The manual has threads and memory (budget).
 pub type kiriLogFn = Option<unsafe extern "C" fn(user: *mut c_void, line: *const c_char)>;
 
-/// Functions of the host. They may call other worlds, and functions that take no world. They may
-/// call their own world:
-/// - inside a function that takes a world without const: kiriWorld_GetLastError alone;
-/// - inside a function that takes a const kiriWorld: functions that take a const kiriWorld.
-///
-/// Other calls, kiriDestroyWorld too, give KIRI_ERROR_STATE and do nothing but log a line (manual,
-/// budget). A reading thread may call \`log\`, and in kiriSheet_GetWeights and
-/// kiriSheet_EstimateError \`alloc\` and \`free\`. All memory of a world comes from \`alloc\`,
-/// except memory in which Eigen orders the unknowns: when a cut couples frames that were not
-/// coupled before, and when a save is loaded. seconds; read for the profile only, never by the
-/// simulation
+/// Functions of the host. They may call other worlds, and functions that take no world. While a
+/// function that takes a world without const runs, they may call kiriWorld_GetLastError alone of
+/// the same world; while one runs that takes a const kiriWorld, functions that do so, too. Other
+/// calls give KIRI_ERROR_STATE. The manual has threads and memory (budget). seconds; read for the
+/// profile only, never by the simulation
 pub type kiriClockFn = Option<unsafe extern "C" fn(user: *mut c_void) -> f64>;
 
-/// Functions of the host. They may call other worlds, and functions that take no world. They may
-/// call their own world:
-/// - inside a function that takes a world without const: kiriWorld_GetLastError alone;
-/// - inside a function that takes a const kiriWorld: functions that take a const kiriWorld.
-///
-/// Other calls, kiriDestroyWorld too, give KIRI_ERROR_STATE and do nothing but log a line (manual,
-/// budget). A reading thread may call \`log\`, and in kiriSheet_GetWeights and
-/// kiriSheet_EstimateError \`alloc\` and \`free\`. All memory of a world comes from \`alloc\`,
-/// except memory in which Eigen orders the unknowns: when a cut couples frames that were not
-/// coupled before, and when a save is loaded. the next bytes of the recording
+/// Functions of the host. They may call other worlds, and functions that take no world. While a
+/// function that takes a world without const runs, they may call kiriWorld_GetLastError alone of
+/// the same world; while one runs that takes a const kiriWorld, functions that do so, too. Other
+/// calls give KIRI_ERROR_STATE. The manual has threads and memory (budget). the next bytes of the
+/// recording
 pub type kiriRecordFn = Option<unsafe extern "C" fn(user: *mut c_void, bytes: *const c_void, count: i32)>;
 
 /// For hosts that lend their threads to a tick. \`start\` calls the task, from any threads, for
-/// ranges of at least minRange items (the last range may be shorter). The ranges cover the items 0
-/// to itemCount, each once. It returns a handle, and \`finish\` returns when all these calls have
-/// returned. \`start\` may make all calls itself and return null: then \`finish\` is not called.
-/// Writes of the task must be visible after \`finish\`, as after a lock. A tick runs one task at a
-/// time; the library does not call the host inside one. The division into ranges does not change
-/// one bit of the result. the items from start up to, without, end
+/// ranges of at least minRange items that cover the items 0 to itemCount, each once. It returns a
+/// handle; \`finish\` returns when all these calls have returned. \`start\` may make all calls
+/// itself and return null (manual, budget). the items from start up to, without, end
 pub type kiriTaskFn = Option<unsafe extern "C" fn(start: i32, end: i32, taskContext: *mut c_void)>;
 
 /// For hosts that lend their threads to a tick. \`start\` calls the task, from any threads, for
-/// ranges of at least minRange items (the last range may be shorter). The ranges cover the items 0
-/// to itemCount, each once. It returns a handle, and \`finish\` returns when all these calls have
-/// returned. \`start\` may make all calls itself and return null: then \`finish\` is not called.
-/// Writes of the task must be visible after \`finish\`, as after a lock. A tick runs one task at a
-/// time; the library does not call the host inside one. The division into ranges does not change
-/// one bit of the result.
+/// ranges of at least minRange items that cover the items 0 to itemCount, each once. It returns a
+/// handle; \`finish\` returns when all these calls have returned. \`start\` may make all calls
+/// itself and return null (manual, budget).
 pub type kiriStartTaskFn = Option<unsafe extern "C" fn(user: *mut c_void, task: kiriTaskFn, itemCount: i32, minRange: i32, taskContext: *mut c_void) -> *mut c_void>;
 
 /// For hosts that lend their threads to a tick. \`start\` calls the task, from any threads, for
-/// ranges of at least minRange items (the last range may be shorter). The ranges cover the items 0
-/// to itemCount, each once. It returns a handle, and \`finish\` returns when all these calls have
-/// returned. \`start\` may make all calls itself and return null: then \`finish\` is not called.
-/// Writes of the task must be visible after \`finish\`, as after a lock. A tick runs one task at a
-/// time; the library does not call the host inside one. The division into ranges does not change
-/// one bit of the result.
+/// ranges of at least minRange items that cover the items 0 to itemCount, each once. It returns a
+/// handle; \`finish\` returns when all these calls have returned. \`start\` may make all calls
+/// itself and return null (manual, budget).
 pub type kiriFinishTaskFn = Option<unsafe extern "C" fn(user: *mut c_void, handle: *mut c_void)>;
 
 /// Receives up to 240 vertices, valid during the call: one for a point, two for a line, three for a
@@ -258,11 +219,10 @@ pub type kiriFinishTaskFn = Option<unsafe extern "C" fn(user: *mut c_void, handl
 pub type kiriDrawFn = Option<unsafe extern "C" fn(user: *mut c_void, vertices: *const kiriDrawVertex, count: i32)>;
 
 /// Limits the work of one tick, over all sheets. 0: no limit. Triangles, cells and samples share
-/// one allowance: using 30 % of one leaves 70 % of the others. A single step that exceeds the whole
-/// limit is not split. It runs alone in its tick. Other work goes on in the next tick. Until a cut
-/// takes effect its lips move together. The tick of the effect depends on the budget. The mesh,
-/// grid, regions, weights and sites of frames after all work is done do not, bit for bit; motion
-/// differs. Sheets take turns. The manual has examples and the order of turns (budget).
+/// one allowance: using 30 % of one leaves 70 % of the others. Other work goes on in the next tick.
+/// The tick in which a cut takes effect depends on the budget; the mesh, grid, regions, weights and
+/// sites of frames after all work is done do not, bit for bit. The manual has examples, single
+/// steps that exceed a limit, and the order of turns (budget).
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriBudget {
@@ -272,10 +232,8 @@ pub struct kiriBudget {
     pub cells: i32,
     /// vertices and collision points with new weights, and the cost of the commit, paid before it
     pub samples: i32,
-    /// linear systems, 30 to 60 us each. A large system counts as several, see the manual (budget).
-    /// A sheet with fewer systems than substeps takes longer substeps. Pieces that do not fit take
-    /// turns: the others stay where they are in this tick, with their velocity, and come first in
-    /// the next. A piece whose system exceeds the whole limit is moved alone
+    /// linear systems, 30 to 60 us each; a large one counts as several. A sheet with too few takes
+    /// longer substeps, and pieces take turns, see the manual (budget)
     pub iterations: i32,
 }
 
@@ -298,8 +256,7 @@ pub struct kiriWorldDef {
     /// null: a tick runs in the calling thread alone. Set both or none.
     pub startTask: kiriStartTaskFn,
     pub finishTask: kiriFinishTaskFn,
-    /// threads that may work on a task, the caller of the tick included, 0 to 1024. It sets the
-    /// size of ranges. 0 and 1: no task is started. Default 0
+    /// threads for a task, the caller of the tick included, 0 to 1024. 0 (default), 1: no tasks
     pub workerCount: i32,
     /// passed to the functions above
     pub user: *mut c_void,
@@ -418,10 +375,9 @@ pub struct kiriMaterial {
     pub flexDamping: f32,
 }
 
-/// Work against accuracy. The presets were measured on a swinging strip and a swinging square of
-/// paper. Error is the rms distance of vertices from a much finer run, over their rms way. FAST: at
-/// most 2 %. BALANCED: 0.8 %. ACCURATE: 0.4 %. Narrow arms that a cut leaves need more frames
-/// (\`accuracy\` of kiriSheetDef). The manual has details (accuracy).
+/// Work against accuracy. Errors of a swinging strip and square, rms over their way: FAST at most 2
+/// %, BALANCED 0.8 %, ACCURATE 0.4 %. Narrow arms that a cut leaves need more frames. The manual
+/// has details (accuracy).
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriQuality {
@@ -435,23 +391,20 @@ pub struct kiriQuality {
     pub substeps: i32,
 }
 
-/// Options of the paper, for comparison; part of the sheet def.
+/// Options of the paper, for comparison; part of the sheet def. Default 0, but for
+/// integrationOrder.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriPaperOptions {
-    /// 1: every cut rebuilds grid, regions and shape functions from scratch, to the same bits.
-    /// Default 0.
+    /// 1: every cut rebuilds grid, regions and shape functions from scratch, to the same bits
     pub fromScratch: i32,
-    /// 1: only new frames take their motion from the surface: it jumps at cuts, and momentum is not
-    /// kept. Default 0.
+    /// 1: only new frames take their motion from the surface: it jumps, momentum is not kept
     pub popping: i32,
-    /// 1: the weights of frames are linear between frames, so the surface has a kink at each frame.
-    /// Always so with KIRI_MODEL_POINTS. Default 0: the slope of weights is zero at the frames.
+    /// 1: weights are linear between frames: a kink at each; always so with KIRI_MODEL_POINTS
     pub linearWeights: i32,
-    /// KIRI_MODEL_POINTS only. Points are spread evenly over the sheet, at least one in every
-    /// piece; default 0: four for each of frameCount. Work is proportional to them. Order 1
-    /// (default) has a constant strain in the material around a point, order 2 a linear strain, at
-    /// four times the work a point. 0 to 1048576
+    /// KIRI_MODEL_POINTS only: points spread evenly over the sheet, one in every piece at least; 0:
+    /// four for each of frameCount. Strain around a point is constant (order 1, default) or linear
+    /// (2: four times the work). 0 to 1048576
     pub integrationPoints: i32,
     /// 1 or 2
     pub integrationOrder: i32,
@@ -462,42 +415,41 @@ pub struct kiriPaperOptions {
 #[derive(Clone, Copy, Debug)]
 pub struct kiriSheetDef {
     pub cookie: u32,
-    /// The rest shape: triangles in the rest plane, counter-clockwise, at most two at an edge.
-    /// Holes and several parts are allowed. kiriCreateSheet copies them and leaves out vertices
-    /// without a triangle. Two edges in the same place with different vertices are the lips of an
-    /// existing cut; weldDistance closes them. 2 floats (u, v) a vertex
+    /// The rest shape: triangles in the rest plane, counter-clockwise, at most two at an edge;
+    /// holes and several parts are allowed. Two edges in the same place with different vertices are
+    /// the lips of a cut (manual, meshes). 2 floats (u, v) a vertex
     pub restPositions: *const f32,
     pub vertexCount: i32,
     /// 3 a triangle
     pub indices: *const i32,
     pub triangleCount: i32,
-    /// Start: x = position + u axisU + v axisV (m, world). The axes are orthonormal.
+    /// Start: x = position + u axisU + v axisV (m, world), with orthonormal axes; and velocity,
+    /// m/s.
     pub position: [f32; 3],
+    /// Start: x = position + u axisU + v axisV (m, world), with orthonormal axes; and velocity,
+    /// m/s.
     pub axisU: [f32; 3],
+    /// Start: x = position + u axisU + v axisV (m, world), with orthonormal axes; and velocity,
+    /// m/s.
     pub axisV: [f32; 3],
-    /// m/s
+    /// Start: x = position + u axisU + v axisV (m, world), with orthonormal axes; and velocity,
+    /// m/s.
     pub velocity: [f32; 3],
     pub material: kiriMaterial,
     /// grid squares along the longer side, 1 to 4096; default 32
     pub gridResolution: i32,
-    /// m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not. A
-    /// cut keeps within half of it of its line, or goes along a lip this near; 0: 1e-4 of the
-    /// longer side
+    /// m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not. 0:
+    /// 1e-4 of the longer side. The manual has more (cutting)
     pub snapDistance: f32,
     /// Merges vertices nearer than this (m, rest plane; 0 or more): for seams of texture
-    /// coordinates, and triangles without shared vertices (STL). Each vertex becomes the nearest
-    /// kept vertex before it within this distance, or is kept. No vertex moves farther, and a chain
-    /// of near vertices stays several points. A triangle with two corners at one vertex is left
-    /// out. kiriSheet_CopySources leads to the vertices of the def. Default 0: no merging.
+    /// coordinates, and triangles without shared vertices (STL). Default 0: no merging. The manual
+    /// has the rule (meshes).
     pub weldDistance: f32,
     /// Control frames. framePoints: 2 floats a frame, in the material, a grid square apart at
-    /// least; null: frameCount frames are spread evenly, some in pairs at both sides of slit ends.
-    /// The grid carries at most one frame for every two squares of material: a def with more gives
-    /// KIRI_ERROR_ARGUMENT, and re-sampling stops there. A new sheet has at most frameCount frames,
-    /// or one for each piece where there are more pieces. frameCount 0: regions are split, after
-    /// cuts too, until 2.45 times the radius of gyration is at most 1.25 frameLength. frameLength
-    /// 0: derived from \`accuracy\`, the relative error of the shape under the sheet's own weight,
-    /// and at least three grid squares. kiriSheet_EstimateError checks the result. 0, or 1 and
+    /// least; null: frameCount frames are spread evenly, at most one for every two squares of
+    /// material. frameCount 0: regions are split, after cuts too, to frameLength; frameLength 0: it
+    /// follows from \`accuracy\`, the relative error of the shape under the sheet's own weight. The
+    /// manual has the rules (accuracy), kiriSheet_EstimateError checks the result. 0, or 1 and
     /// more; default 5
     pub frameCount: i32,
     /// m; used where frameCount is 0; default 0
@@ -508,38 +460,32 @@ pub struct kiriSheetDef {
     /// re-sampling stops here; default 256
     pub maxFrames: i32,
     /// Re-sampling (section 5 of the paper): a frame whose weight exceeds rigidWeight over an area
-    /// larger than rigidArea (m^2) gets new frames beside it. A new sheet is re-sampled only with
-    /// frameCount 0. Later it happens when a cut ends or meets the border or another cut, where the
-    /// area is also larger than in the new sheet. A rigid sheet has frameCount 1 and maxFrames 1.
-    /// rigidArea 0: a quarter of the area of a frame at the start. default 0.95
+    /// larger than rigidArea (m^2) gets new frames beside it; a new sheet only with frameCount 0.
+    /// rigidArea 0: a quarter of the area of a frame at the start. A rigid sheet has frameCount 1
+    /// and maxFrames 1. The manual says when (accuracy). default 0.95
     pub rigidWeight: f32,
     /// default 0
     pub rigidArea: f32,
-    /// A piece with less area (m^2) is a crumb: it gets one frame if it has none, and no more.
-    /// Default 0.
+    /// m^2: a smaller piece is a crumb: it gets one frame if it has none, and no more. Default 0
     pub crumbArea: f32,
     /// of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5
     pub friction: f32,
-    /// m, 0 or more: distance between sheets and pieces, and twice the distance to obstacles. 0:
-    /// the material's thickness, at least a 20th of a grid square. Default 0
+    /// m: distance between sheets and pieces, and twice the distance to obstacles. 0 (default): the
+    /// material's thickness, at least a 20th of a grid square
     pub contactThickness: f32,
     /// obstacles and sheets touch if they share a set bit. Default: all
     pub groups: u32,
     /// 1: its pieces touch each other, and other sheets that have it set; not where one of two
-    /// sheets is planar. Planes keep the upper piece, against gravity, on its side of the lower
-    /// one; side by side, the piece that is free, or the lighter one. So piles keep their order.
-    /// Folds of one piece do not touch each other. Pieces that touch wake and fall asleep together.
-    /// The manual lists the limits of the method (contact). Default 0.
+    /// sheets is planar. Folds of one piece do not touch each other. The manual has rules and
+    /// limits (contact). Default 0.
     pub touchesSheets: i32,
     /// spread evenly over the sheet, at least one in every piece; default 0: none
     pub collisionPoints: i32,
     /// Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
     pub iterations: i32,
     /// A piece falls asleep when all its frames move slower than this (m/s, rms over their
-    /// material) for half a second. It does not move, and costs almost nothing. A cut that changes
-    /// it wakes it when the cut takes effect; so do a new pin, pose, hold or load, contacts that
-    /// differ, and moving things that come near. Gravity, wind, settings and kiriSheet_Wake wake
-    /// all pieces of the sheet. Default 0.001; 0: no piece sleeps.
+    /// material) for half a second, and costs almost nothing until something new wakes it (manual,
+    /// budget). Default 0.001; 0: no piece sleeps.
     pub sleepSpeed: f32,
     /// KIRI_MODEL_..., default KIRI_MODEL_LINKS
     pub model: i32,
@@ -551,14 +497,9 @@ pub struct kiriSheetDef {
     pub planar: i32,
     /// KIRI_TIME_STEPPING_..., default KIRI_TIME_STEPPING_SECOND_ORDER
     pub timeStepping: i32,
-    /// A cut that takes effect changes weights, and the surface would jump between frames. The
-    /// difference fades within this time (s), and so does that in the strain of links whose borders
-    /// moved. Default 0.2; 0: at once.
+    /// s: jumps of the surface and of strains fade within this when a cut takes effect. Default 0.2
     pub fadeTime: f32,
-    /// 1: every tick computes normals of the mesh. 0: kiriMesh has no normals, and
-    /// kiriSheet_CopyVertices copies none; this saves half of the time of linear skinning. The
-    /// sheet moves the same, bit for bit: contact and kiriSheet_GetSolid compute their own normals.
-    /// kiriSheet_GetPoint is the same to rounding. Default 1.
+    /// 1: every tick computes normals (default). 0: kiriMesh has none, which saves time
     pub normals: i32,
     /// default: all off
     pub paper: kiriPaperOptions,
@@ -572,29 +513,24 @@ pub struct kiriSheetSettings {
     pub material: kiriMaterial,
     /// re-sampling stops here; default 256
     pub maxFrames: i32,
-    /// A piece with less area (m^2) is a crumb: it gets one frame if it has none, and no more.
-    /// Default 0.
+    /// m^2: a smaller piece is a crumb: it gets one frame if it has none, and no more. Default 0
     pub crumbArea: f32,
     /// of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5
     pub friction: f32,
-    /// m, 0 or more: distance between sheets and pieces, and twice the distance to obstacles. 0:
-    /// the material's thickness, at least a 20th of a grid square. Default 0
+    /// m: distance between sheets and pieces, and twice the distance to obstacles. 0 (default): the
+    /// material's thickness, at least a 20th of a grid square
     pub contactThickness: f32,
     /// obstacles and sheets touch if they share a set bit. Default: all
     pub groups: u32,
     /// 1: its pieces touch each other, and other sheets that have it set; not where one of two
-    /// sheets is planar. Planes keep the upper piece, against gravity, on its side of the lower
-    /// one; side by side, the piece that is free, or the lighter one. So piles keep their order.
-    /// Folds of one piece do not touch each other. Pieces that touch wake and fall asleep together.
-    /// The manual lists the limits of the method (contact). Default 0.
+    /// sheets is planar. Folds of one piece do not touch each other. The manual has rules and
+    /// limits (contact). Default 0.
     pub touchesSheets: i32,
     /// Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
     pub iterations: i32,
     /// A piece falls asleep when all its frames move slower than this (m/s, rms over their
-    /// material) for half a second. It does not move, and costs almost nothing. A cut that changes
-    /// it wakes it when the cut takes effect; so do a new pin, pose, hold or load, contacts that
-    /// differ, and moving things that come near. Gravity, wind, settings and kiriSheet_Wake wake
-    /// all pieces of the sheet. Default 0.001; 0: no piece sleeps.
+    /// material) for half a second, and costs almost nothing until something new wakes it (manual,
+    /// budget). Default 0.001; 0: no piece sleeps.
     pub sleepSpeed: f32,
     /// KIRI_SKINNING_..., default KIRI_SKINNING_LINEAR
     pub skinning: i32,
@@ -602,18 +538,14 @@ pub struct kiriSheetSettings {
     pub timeStepping: i32,
     /// stays 0 with paper.popping
     pub fadeTime: f32,
-    /// 1: every tick computes normals of the mesh. 0: kiriMesh has no normals, and
-    /// kiriSheet_CopyVertices copies none; this saves half of the time of linear skinning. The
-    /// sheet moves the same, bit for bit: contact and kiriSheet_GetSolid compute their own normals.
-    /// kiriSheet_GetPoint is the same to rounding. Default 1.
+    /// 1: every tick computes normals (default). 0: kiriMesh has none, which saves time
     pub normals: i32,
 }
 
 /// The triangles to draw, as after the last tick. revision grows when indices or vertices are added
-/// or changed. Rest positions are floats, with a spacing of 6e-8 of the distance from the origin of
-/// the rest plane: triangles of about that size may look flat or inverted. The library computes
-/// with the positions of the def to 2^-29 of the sheet; sourceTriangles and sourceWeights have that
-/// precision.
+/// or changed. Rest positions are floats, so small triangles far from the origin of the rest plane
+/// may look flat in them; sourceTriangles and sourceWeights have the precision of the library,
+/// 2^-29 of the sheet.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriMesh {
@@ -662,7 +594,7 @@ pub struct kiriDirty {
 
 /// The surface with a thickness, to draw: a closed mesh, with a rim along borders, holes and lips.
 /// First the vertices of kiriMesh on the side of the normal, then the same on the other side, then
-/// four for each border edge, so rims are flat.
+/// four for each border edge.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriSolid {
@@ -695,8 +627,8 @@ pub struct kiriCounts {
     pub collisionPoints: i32,
 }
 
-/// Area (m^2), mass (kg), kinetic energy and elastic energy (J), linear and angular momentum about
-/// the world's origin (kg m/s, kg m^2/s), centre of mass (m).
+/// m^2, kg, J, J; centre of mass, m; linear and angular momentum about the world's origin, kg m/s
+/// and kg m^2/s.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriTotals {
@@ -739,10 +671,10 @@ pub struct kiriPointState {
     pub frame: kiriFrame,
 }
 
-/// A connected part of a sheet. Any of its frames names it. Indices from 0 to kiriCounts.pieces, in
-/// the order of first frames, visit all pieces: they change when a piece comes off or goes, and
-/// kiriFrame_GetPiece returns the current one. A cut with pending work has not separated anything
-/// yet. Momentum is about the world's origin.
+/// A connected part of a sheet. Any of its frames names it. Indices from 0 to kiriCounts.pieces
+/// visit all pieces; they change when a piece comes off or goes, and kiriFrame_GetPiece returns the
+/// current one. A cut with pending work has not separated anything yet. Momentum is about the
+/// world's origin.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriPieceState {
@@ -800,8 +732,7 @@ pub struct kiriFrameState {
     pub restPoint: [f32; 2],
     /// m, world: of the rest point
     pub position: [f32; 3],
-    /// columns: direction of u, direction of v, normal; of an affine frame the columns of A, which
-    /// stretch with the sheet
+    /// columns: direction of u, of v, normal; an affine frame: columns of A, which stretch
     pub rotation: [f32; 9],
     /// m/s
     pub velocity: [f32; 3],
@@ -817,9 +748,7 @@ pub struct kiriFrameState {
 
 /// Air that moves past the sheet. v is the velocity of the air less the velocity of the material, n
 /// the normal: each square metre gets density / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)).
-/// Zero velocity with drag and lift above zero: still air, which resists. All zero: none. It acts
-/// at four points of the region of each frame, and follows the motion within the tick, so strong
-/// wind is stable. A sheet can sleep in constant wind.
+/// All zero: none. A sheet can sleep in constant wind, and still air (zero velocity) resists.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriWind {
@@ -846,9 +775,8 @@ pub struct kiriPinDef {
     pub stiffness: f32,
     /// N: it breaks in a tick with a larger force (KIRI_EVENT_PIN_BROKE); 0: never
     pub breakForce: f32,
-    /// or 0. The target moves with this obstacle from its place at creation or at the last
-    /// kiriPin_SetTarget. The obstacle feels the pin (kiriObstacle_GetState); an obstacle with mass
-    /// yields within the tick. If it is destroyed the target stays
+    /// or 0. The target moves with this obstacle, which feels the pin (kiriObstacle_GetState) and
+    /// yields by its mass. If it is destroyed the target stays
     pub obstacle: kiriObstacle,
 }
 
@@ -875,8 +803,8 @@ pub struct kiriPinState {
 
 /// A contact of a point of the material: the plane dot(normal, x) = offset keeps the point on its
 /// upper side, and Coulomb friction acts along the plane. The host computes the plane for each tick
-/// from the visible surface of the sheet. A contact may lie ahead of the point; if the point does
-/// not reach it in the tick, it costs little and does nothing.
+/// from the visible surface of the sheet. A contact that the point does not reach in the tick costs
+/// little and does nothing.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriContact {
@@ -970,9 +898,9 @@ pub struct kiriObstacleState {
     pub rotation: [f32; 9],
     pub velocity: [f32; 3],
     pub angularVelocity: [f32; 3],
-    /// N s, N m s about its centre of mass: from sheets and pins in the last tick
+    /// N s, N m s about its centre of mass: of sheets and pins in the last tick
     pub impulse: [f64; 3],
-    /// N s, N m s about its centre of mass: from sheets and pins in the last tick
+    /// N s, N m s about its centre of mass: of sheets and pins in the last tick
     pub angularImpulse: [f64; 3],
     /// that pushed in the last tick
     pub contacts: i32,
@@ -1010,51 +938,47 @@ pub struct kiriDebugDraw {
 }
 
 unsafe extern "C" {
-    /// Returns the version of the library, as KIRI_VERSION.
+    /// Return the version of the library, as KIRI_VERSION; the name of a result, as "KIRI_OK"; a
+    /// line with its meaning.
     pub fn kiriGetVersion() -> i32;
-    /// Returns the name of a result, such as "KIRI_OK"; "unknown" for another number.
+    /// Return the version of the library, as KIRI_VERSION; the name of a result, as "KIRI_OK"; a
+    /// line with its meaning.
     pub fn kiriGetResultName(result: kiriResult) -> *const c_char;
-    /// Returns one line: the meaning of a result, and its cure. Use it after calls that have no
-    /// world to keep a line, such as kiriCreateWorld with a def of zeros (KIRI_ERROR_DEF).
+    /// Return the version of the library, as KIRI_VERSION; the name of a result, as "KIRI_OK"; a
+    /// line with its meaning.
     pub fn kiriGetResultText(result: kiriResult) -> *const c_char;
     /// Fills the def with its defaults, and stamps it.
     pub fn kiriDefaultWorldDef(def: *mut kiriWorldDef);
     /// Creates an empty world. On failure \*world is null, and the log of the def gets the line; a
     /// def that was not filled has no log, see kiriGetResultText. KIRI_ERROR_BUILD: the compiler
-    /// contracted or reordered float operations (-ffp-contract=fast of clang), or this thread
-    /// flushes small floats to zero (FTZ, DAZ) or does not round to nearest. The threads of later
-    /// calls and of tasks are not checked: in such a mode they give other bits.
+    /// contracted or reordered float operations, or this thread flushes small floats to zero or
+    /// does not round to nearest (manual, budget).
     pub fn kiriCreateWorld(def: *const kiriWorldDef, world: *mut *mut kiriWorld) -> kiriResult;
     /// Frees the world and all its content. Null is allowed.
     pub fn kiriDestroyWorld(world: *mut kiriWorld);
     /// Advances by one fixed step of dt seconds (1e-6 to 10), in \`substeps\` equal parts (1 to
     /// 64): takes the pending cut points, then moves every sheet. KIRI_PENDING: the budget is
-    /// spent, and events name the cuts that still have work; a sheet or some of its pieces may have
-    /// stood still for want of iterations. KIRI_ERROR_MEMORY: the work on a cut, or a piece that
-    /// leaves, was refused memory and goes on in the next tick, as if the budget were spent; the
-    /// sheets moved. Only without memory for contacts or ids did nothing move: the line says which.
-    /// KIRI_ERROR_LIMIT: no ids are left for new frames; nothing moves until frames are destroyed.
-    /// KIRI_DIVERGED: sheets that events name were stopped, others moved; KIRI_EVENT_DEFERRED tells
-    /// of pending work.
+    /// spent; events name the cuts that still have work. KIRI_ERROR_MEMORY: work on a cut, or a
+    /// piece that leaves, goes on in the next tick; the sheets moved, but where memory for contacts
+    /// or ids is missing. KIRI_ERROR_LIMIT: no ids are left for new frames; nothing moves until
+    /// frames are destroyed. KIRI_DIVERGED: sheets that events name were stopped, others moved.
     pub fn kiriWorld_Tick(world: *mut kiriWorld, dt: f32, substeps: i32) -> kiriResult;
     /// Returns one line: the reason why the last function that changes the world failed; "" if it
     /// did not. A function that only reads does not change the line, and logs its own. Valid until
     /// the next function that changes the world.
     pub fn kiriWorld_GetLastError(world: *const kiriWorld) -> *const c_char;
-    /// Sets gravity (m/s^2). All pieces wake.
-    pub fn kiriWorld_SetGravity(world: *mut kiriWorld, gravity: *const f32) -> kiriResult;
-    /// Moves the origin of the world to a point (m): subtracts it from the positions of sheets,
-    /// targets of pins and holds, obstacles, blades, and pending contacts. The motion goes on as
-    /// before, to rounding. Nothing wakes; (0, 0, 0) changes nothing. Use it in large worlds, where
-    /// floats lose precision. The host shifts its own data. Returned arrays keep the old positions
-    /// until the next tick. KIRI_ERROR_ARGUMENT: a position would not fit a float.
+    /// Moves the origin of the world to a point (m): subtracts it from all positions, as large
+    /// worlds need because of floats. The motion goes on as before, to rounding; nothing wakes. The
+    /// host shifts its own data. Returned arrays keep the old positions until the next tick.
+    /// KIRI_ERROR_ARGUMENT: a position would not fit a float.
     pub fn kiriWorld_ShiftOrigin(world: *mut kiriWorld, origin: *const f32) -> kiriResult;
-    /// Sets the budget from the next tick on.
+    /// Set gravity (m/s^2; all pieces wake), and the budget, from the next tick on.
+    pub fn kiriWorld_SetGravity(world: *mut kiriWorld, gravity: *const f32) -> kiriResult;
+    /// Set gravity (m/s^2; all pieces wake), and the budget, from the next tick on.
     pub fn kiriWorld_SetBudget(world: *mut kiriWorld, budget: *const kiriBudget) -> kiriResult;
     /// Hashes all state that the coming ticks depend on, pending work included. Two worlds with the
-    /// same calls have the same hash, and two worlds with the same hash go on alike. After a
-    /// refused allocation some items are made again: the hash differs while work is pending, or
-    /// while the budget limits cells or samples.
+    /// same calls have the same hash, and two worlds with the same hash go on alike. After refused
+    /// memory it may differ while work is pending.
     pub fn kiriWorld_GetStateHash(world: *const kiriWorld, hash: *mut u64) -> kiriResult;
     /// Writes up to \`capacity\` ids of the world's sheets, in the order of their making; \*count
     /// is how many there are.
@@ -1063,53 +987,44 @@ unsafe extern "C" {
     /// player pressed. A replay stops there. The world does not change; without a recording nothing
     /// happens.
     pub fn kiriWorld_Note(world: *mut kiriWorld, bytes: *const c_void, count: i32) -> kiriResult;
-    /// Makes the calls of a recording up to the next tick or note, included. The world must be new.
-    /// Gravity and budget become those in the recording; memory, log and tasks stay the host's. Ids
-    /// are as recorded (kiriWorld_GetSheets). KIRI_PENDING: more calls follow, call again. KIRI_OK:
-    /// the recording ended. KIRI_ERROR_REPLAY: a call gave another result, other ids or another
-    /// state than recorded; the line names it, and the next call goes on behind it.
-    /// KIRI_ERROR_DATA: the bytes are not a recording, damaged, cut short, or of another version;
-    /// the line says where. The calls before that place were made, and the last call of a recording
-    /// that ends inside one, as after a crash. KIRI_ERROR_STATE: the world is not new.
-    /// KIRI_ERROR_MEMORY: replay again in a new world. Calls that were refused memory when recorded
-    /// are skipped, and hashes after such a tick may differ.
+    /// Makes the calls of a recording up to the next tick or note, included. The world must be new;
+    /// hooks stay the host's. KIRI_PENDING: more calls follow, call again. KIRI_OK: the recording
+    /// ended. KIRI_ERROR_REPLAY: a call gave another result, other ids or another state than
+    /// recorded; the line names it, and the next call goes on behind it. KIRI_ERROR_DATA: the bytes
+    /// are not a recording, damaged, cut short, or of another version; the line says where.
+    /// KIRI_ERROR_STATE: the world is not new. KIRI_ERROR_MEMORY: replay again in a new world.
     pub fn kiriWorld_Replay(world: *mut kiriWorld, recording: *const c_void, size: i64, replay: *mut kiriReplay) -> kiriResult;
-    /// Writes the world, which only is read. \*size: bytes of the save. \`bytes\` null: they are
-    /// counted only, and capacity is not read; else it has room for \`capacity\`.
-    /// KIRI_ERROR_ARGUMENT: that is less than \*size; nothing is written. KIRI_PENDING: a cut is
-    /// being worked on; \*size is 0, and nothing is written. Save after a later tick, or after
-    /// kiriWorld_FinishCuts.
+    /// Writes the world to memory with room for \`capacity\` bytes; null: counts them only. \*size:
+    /// bytes of the save. KIRI_ERROR_ARGUMENT: \`capacity\` is less than \*size; nothing is
+    /// written. KIRI_PENDING: a cut is being worked on; \*size is 0, and nothing is written. Save
+    /// after a later tick, or after kiriWorld_FinishCuts.
     pub fn kiriWorld_Save(world: *const kiriWorld, bytes: *mut c_void, capacity: i64, size: *mut i64) -> kiriResult;
-    /// Finishes the work on cuts at once, whatever the budget is, and without moving anything. Cuts
-    /// that wait for a budget take effect. The next tick reports the events. KIRI_ERROR_MEMORY,
-    /// KIRI_ERROR_LIMIT: as in kiriWorld_Tick. Arrays that the world handed out end as with a tick.
+    /// Finishes the work on cuts at once, whatever the budget is, without moving anything. The next
+    /// tick reports the events. Arrays that the world handed out end as with a tick.
+    /// KIRI_ERROR_MEMORY, KIRI_ERROR_LIMIT: as in kiriWorld_Tick.
     pub fn kiriWorld_FinishCuts(world: *mut kiriWorld) -> kiriResult;
-    /// Replaces the world by a saved one. It may have any hooks; its own allocation, log, clock and
-    /// tasks stay. The bytes may come from anybody: a malicious save may give a strange world but
-    /// cannot crash the program, and takes memory in proportion to its size. Takes about as long as
-    /// to create the sheets. The profile has no times until the next tick. Arrays that the old
-    /// world handed out live until then. KIRI_ERROR_DATA: the bytes are not a save, damaged, or of
-    /// another version. KIRI_ERROR_MEMORY. Then nothing has changed. \`size\` is below 2^31. A
-    /// recording has the bytes.
+    /// Replaces the world by a saved one; its own hooks stay. The bytes may come from anybody: a
+    /// malicious save may give a strange world but cannot crash the program, and takes memory in
+    /// proportion to its size, which is below 2^31. Arrays that the old world handed out live until
+    /// the next tick. On failure nothing has changed: KIRI_ERROR_DATA: the bytes are not a save,
+    /// damaged, or of another version. KIRI_ERROR_MEMORY.
     pub fn kiriWorld_Load(world: *mut kiriWorld, bytes: *const c_void, size: i64) -> kiriResult;
-    /// For rollback: copies all of the world, also work on cuts and pieces that wait, into memory
-    /// of the host. Much faster than a save, and exact to the bit. The bytes are good for this
-    /// process only: never store or send them. Arguments as of kiriWorld_Save.
+    /// For rollback: copies all of the world, also work in progress, into memory of the host; much
+    /// faster than a save, and exact to the bit. For this process only: never store or send the
+    /// bytes. Arguments as of kiriWorld_Save.
     pub fn kiriWorld_Snapshot(world: *const kiriWorld, bytes: *mut c_void, capacity: i64, size: *mut i64) -> kiriResult;
-    /// Replaces the world by the world of the snapshot; ids name the same things. The bytes are
-    /// trusted: hand over only the output of kiriWorld_Snapshot. KIRI_ERROR_DATA: the bytes are not
-    /// a snapshot of this build of the library. KIRI_ERROR_STATE: the world is recorded.
-    /// KIRI_ERROR_MEMORY. Then nothing has changed. Hooks and arrays as with kiriWorld_Load.
+    /// Replaces the world by the world of the snapshot, as kiriWorld_Load does. The bytes are
+    /// trusted. On failure nothing has changed: KIRI_ERROR_DATA: no snapshot of this build.
+    /// KIRI_ERROR_STATE: it is recorded. KIRI_ERROR_MEMORY.
     pub fn kiriWorld_Restore(world: *mut kiriWorld, bytes: *const c_void, size: i64) -> kiriResult;
     /// Gets the events: \*events points to \*count of them.
     pub fn kiriWorld_GetEvents(world: *const kiriWorld, events: *mut *const kiriEvent, count: *mut i32) -> kiriResult;
     /// Gets the profile of the last tick that was not refused.
     pub fn kiriWorld_GetProfile(world: *const kiriWorld, profile: *mut kiriProfile) -> kiriResult;
     /// Converts microseconds a tick into a budget, at the pace of the profile, which may be the sum
-    /// of several. Cuts and linear systems share the time as in the profile. Each of triangles,
-    /// cells and samples gets the time of all three, see kiriBudget. Sets only the limits for which
-    /// the profile recorded work. The simulation never reads a clock: the host chooses, and a
-    /// replay must set the same budgets.
+    /// of several. Cuts and linear systems share the time as in the profile. Sets only the limits
+    /// for which the profile recorded work. The host chooses by its clock, so a replay must set the
+    /// same budgets.
     pub fn kiriFitBudget(profile: *const kiriProfile, microseconds: f32, budget: *mut kiriBudget) -> kiriResult;
     /// Returns the name of a stage; "" for another number.
     pub fn kiriGetStageName(stage: i32) -> *const c_char;
@@ -1119,11 +1034,13 @@ unsafe extern "C" {
     pub fn kiriGetQuality(preset: i32, quality: *mut kiriQuality) -> kiriResult;
     /// Fills the def with its defaults, and stamps it. It has no mesh yet.
     pub fn kiriDefaultSheetDef(def: *mut kiriSheetDef);
-    /// Adds a sheet. On failure \*sheet is 0. KIRI_ERROR_MESH: the triangles do not form a sheet.
-    /// The line says why, and names the triangle, or the two triangles at an edge, by index in the
-    /// def.
+    /// Add a sheet, and destroy one with its cuts, frames and pins. On failure \*sheet is 0.
+    /// KIRI_ERROR_MESH: the triangles do not form a sheet; the line says why, and names the
+    /// triangle, or the two at an edge, by index in the def.
     pub fn kiriCreateSheet(world: *mut kiriWorld, def: *const kiriSheetDef, sheet: *mut kiriSheet) -> kiriResult;
-    /// Destroys the sheet with its cuts, frames and pins; their ids are stale.
+    /// Add a sheet, and destroy one with its cuts, frames and pins. On failure \*sheet is 0.
+    /// KIRI_ERROR_MESH: the triangles do not form a sheet; the line says why, and names the
+    /// triangle, or the two at an edge, by index in the def.
     pub fn kiriDestroySheet(world: *mut kiriWorld, sheet: kiriSheet) -> kiriResult;
     /// Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 \* columns
     /// \* rows triangles; columns and rows are 1 to 4096. def: its mesh is not read; null: the
@@ -1133,7 +1050,7 @@ unsafe extern "C" {
     pub fn kiriSheet_GetSettings(world: *const kiriWorld, sheet: kiriSheet, settings: *mut kiriSheetSettings) -> kiriResult;
     /// Sets all settings, or none; checks them as kiriCreateSheet does. KIRI_ERROR_DEF: they do not
     /// come from kiriSheet_GetSettings. The sheet wakes if one differs. Positions and velocities
-    /// are kept, so a new mass changes the momentum. The stiffness of pins and the lengths that
+    /// are kept, so a new mass changes the momentum; the stiffness of pins and the lengths that
     /// placed the frames are kept, too.
     pub fn kiriSheet_SetSettings(world: *mut kiriWorld, sheet: kiriSheet, settings: *const kiriSheetSettings) -> kiriResult;
     /// Fills in a rectangle from (0, 0) to (width, height) for a sheet def: writes 2 \* (columns +
@@ -1147,25 +1064,22 @@ unsafe extern "C" {
     /// Null: does not copy these. KIRI_ERROR_STATE: the sheet makes no normals.
     pub fn kiriSheet_CopyVertices(world: *const kiriWorld, sheet: kiriSheet, first: i32, count: i32, positions: *mut c_void, positionStride: i32, normals: *mut c_void, normalStride: i32) -> kiriResult;
     /// Copies the index that each vertex had when the last call of kiriWorld_Tick began, for hosts
-    /// that draw between two ticks. \*from: the sheet that had the vertices then; another sheet if
-    /// this one was a piece of it. A vertex that a cut separated from another gets the index of the
-    /// other. -1: the vertex did not exist, as in a sheet that was created or loaded since. The
-    /// manual has the code (drawing).
+    /// that draw between two ticks; -1: it did not exist. \*from: the sheet that had the vertices
+    /// then. A vertex that a cut separated from another gets the index of the other. The manual has
+    /// the code (drawing).
     pub fn kiriSheet_CopyPrevious(world: *const kiriWorld, sheet: kiriSheet, first: i32, count: i32, vertices: *mut i32, from: *mut kiriSheet) -> kiriResult;
     /// Copies indices of some triangles as 16-bit numbers, 3 each. KIRI_ERROR_STATE: there are more
     /// than 65535 vertices.
     pub fn kiriSheet_CopyIndices16(world: *const kiriWorld, sheet: kiriSheet, firstTriangle: i32, count: i32, indices: *mut u16) -> kiriResult;
     /// Map triangles to the def, to draw with the host's data for its own vertices. Sources: the
-    /// triangle of the def that contains each; -1 for a triangle that was removed (its corners are
-    /// equal). Weights: 9 floats each, the barycentric coordinates of its three corners in that
-    /// triangle. They are correct on both sides of a seam that weldDistance closed; sourceTriangles
-    /// name a triangle on one side. The manual has the code (meshes).
+    /// triangle of the def that contains each; -1 for a triangle that was removed. Weights: 9
+    /// floats each, the barycentric coordinates of its three corners in that triangle, also beside
+    /// a seam that weldDistance closed. The manual has the code (meshes).
     pub fn kiriSheet_CopySources(world: *const kiriWorld, sheet: kiriSheet, firstTriangle: i32, count: i32, sources: *mut i32) -> kiriResult;
     /// Map triangles to the def, to draw with the host's data for its own vertices. Sources: the
-    /// triangle of the def that contains each; -1 for a triangle that was removed (its corners are
-    /// equal). Weights: 9 floats each, the barycentric coordinates of its three corners in that
-    /// triangle. They are correct on both sides of a seam that weldDistance closed; sourceTriangles
-    /// name a triangle on one side. The manual has the code (meshes).
+    /// triangle of the def that contains each; -1 for a triangle that was removed. Weights: 9
+    /// floats each, the barycentric coordinates of its three corners in that triangle, also beside
+    /// a seam that weldDistance closed. The manual has the code (meshes).
     pub fn kiriSheet_CopySourceWeights(world: *const kiriWorld, sheet: kiriSheet, firstTriangle: i32, count: i32, weights: *mut f32) -> kiriResult;
     /// Makes the solid surface. thickness: m, 0: the material's thickness.
     pub fn kiriSheet_GetSolid(world: *mut kiriWorld, sheet: kiriSheet, thickness: f32, solid: *mut kiriSolid) -> kiriResult;
@@ -1177,9 +1091,8 @@ unsafe extern "C" {
     pub fn kiriSheet_GetTotals(world: *const kiriWorld, sheet: kiriSheet, totals: *mut kiriTotals) -> kiriResult;
     /// Estimates the error of the current shape of a sheet that rests or moves slowly: rms distance
     /// from a sheet of very many frames under the same loads, over its rms way from the flat shape;
-    /// 0 to 1, and 1 with too few frames to tell. It compares strains of neighbouring links
-    /// (KIRI_MODEL_LINKS only; else KIRI_ERROR_STATE), in one pass that allocates memory. The
-    /// manual says how good it is (accuracy).
+    /// 0 to 1, and 1 with too few frames to tell. KIRI_MODEL_LINKS only; else KIRI_ERROR_STATE. It
+    /// allocates memory. The manual says how good it is (accuracy).
     pub fn kiriSheet_EstimateError(world: *const kiriWorld, sheet: kiriSheet, relative: *mut f64) -> kiriResult;
     /// Read and end sleep: \*awake is 0 where all pieces sleep (kiriPieceState tells which);
     /// kiriSheet_Wake wakes all.
@@ -1189,11 +1102,9 @@ unsafe extern "C" {
     pub fn kiriSheet_Wake(world: *mut kiriWorld, sheet: kiriSheet) -> kiriResult;
     /// Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and
     /// the sheet wakes. The columns of \`rotation\` are the images of the world's axes; a planar
-    /// sheet turns about its normal only. Targets of pins, hinges, clamps and holds move along, so
-    /// nothing pulls the sheet back. A target that the host set nearer to the pin's new place than
-    /// to its old one stays: the host may set targets before or after. Pins on an obstacle stay on
-    /// it: move the obstacle by the same motion (kiriObstacle_SetPose), before or after. Pending
-    /// loads and contacts stay.
+    /// sheet turns about its normal only. Targets of pins, hinges, clamps and holds move along;
+    /// pins on an obstacle stay on it. The manual has the order of calls that set targets or move
+    /// obstacles (sheets). Pending loads and contacts stay.
     pub fn kiriSheet_Transform(world: *mut kiriWorld, sheet: kiriSheet, rotation: *const f32, translation: *const f32) -> kiriResult;
     /// Set rigid motion of a sheet, or of the piece with a frame, until forces change it:
     /// \`velocity\` (m/s) of its centre of mass, and \`angularVelocity\` (rad/s) about it. Planar
@@ -1203,75 +1114,70 @@ unsafe extern "C" {
     /// \`velocity\` (m/s) of its centre of mass, and \`angularVelocity\` (rad/s) about it. Planar
     /// sheets drop motion across their plane; held frames stay held.
     pub fn kiriFrame_SetPieceVelocity(world: *mut kiriWorld, frame: kiriFrame, velocity: *const f32, angularVelocity: *const f32) -> kiriResult;
-    /// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
-    /// kiriFrame_DetachPiece copies the sheet's number to the new sheet. A piece has a number, too,
-    /// named by any of its frames: the parts of a piece that is cut inherit it, and so does a sheet
-    /// that is made of it.
+    /// Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has
+    /// one, a pin, and a piece, named by any of its frames: parts of a piece that is cut inherit
+    /// it, and a sheet that is made of it has both.
     pub fn kiriSheet_SetUserData(world: *mut kiriWorld, sheet: kiriSheet, data: u64) -> kiriResult;
-    /// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
-    /// kiriFrame_DetachPiece copies the sheet's number to the new sheet. A piece has a number, too,
-    /// named by any of its frames: the parts of a piece that is cut inherit it, and so does a sheet
-    /// that is made of it.
+    /// Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has
+    /// one, a pin, and a piece, named by any of its frames: parts of a piece that is cut inherit
+    /// it, and a sheet that is made of it has both.
     pub fn kiriSheet_GetUserData(world: *const kiriWorld, sheet: kiriSheet, data: *mut u64) -> kiriResult;
-    /// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
-    /// kiriFrame_DetachPiece copies the sheet's number to the new sheet. A piece has a number, too,
-    /// named by any of its frames: the parts of a piece that is cut inherit it, and so does a sheet
-    /// that is made of it.
+    /// Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has
+    /// one, a pin, and a piece, named by any of its frames: parts of a piece that is cut inherit
+    /// it, and a sheet that is made of it has both.
     pub fn kiriPin_SetUserData(world: *mut kiriWorld, pin: kiriPin, data: u64) -> kiriResult;
-    /// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
-    /// kiriFrame_DetachPiece copies the sheet's number to the new sheet. A piece has a number, too,
-    /// named by any of its frames: the parts of a piece that is cut inherit it, and so does a sheet
-    /// that is made of it.
+    /// Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has
+    /// one, a pin, and a piece, named by any of its frames: parts of a piece that is cut inherit
+    /// it, and a sheet that is made of it has both.
     pub fn kiriPin_GetUserData(world: *const kiriWorld, pin: kiriPin, data: *mut u64) -> kiriResult;
-    /// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
-    /// kiriFrame_DetachPiece copies the sheet's number to the new sheet. A piece has a number, too,
-    /// named by any of its frames: the parts of a piece that is cut inherit it, and so does a sheet
-    /// that is made of it.
+    /// Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has
+    /// one, a pin, and a piece, named by any of its frames: parts of a piece that is cut inherit
+    /// it, and a sheet that is made of it has both.
     pub fn kiriFrame_SetPieceUserData(world: *mut kiriWorld, frame: kiriFrame, data: u64) -> kiriResult;
-    /// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
-    /// kiriFrame_DetachPiece copies the sheet's number to the new sheet. A piece has a number, too,
-    /// named by any of its frames: the parts of a piece that is cut inherit it, and so does a sheet
-    /// that is made of it.
+    /// Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has
+    /// one, a pin, and a piece, named by any of its frames: parts of a piece that is cut inherit
+    /// it, and a sheet that is made of it has both.
     pub fn kiriFrame_GetPieceUserData(world: *const kiriWorld, frame: kiriFrame, data: *mut u64) -> kiriResult;
-    /// Finds where a ray first meets the sheet, up to maxDistance. KIRI_OK with hit-\>triangle =
-    /// -1: it does not. The first ray visits every triangle. From the next tick on boxes over the
-    /// triangles follow the sheet, until 120 ticks pass without a ray: a ray takes some
-    /// microseconds, and a tick of a large sheet a quarter more.
+    /// Find where a ray first meets the sheet, or any (\*sheet is 0 if none), up to maxDistance;
+    /// hit-\>triangle is -1 if it does not. Boxes over triangles that make rays fast follow the
+    /// sheet until 120 ticks pass without a ray.
     pub fn kiriSheet_Raycast(world: *const kiriWorld, sheet: kiriSheet, origin: *const f32, direction: *const f32, maxDistance: f32, hit: *mut kiriHit) -> kiriResult;
-    /// Finds the first sheet that a ray meets; \*sheet is 0 where there is none.
+    /// Find where a ray first meets the sheet, or any (\*sheet is 0 if none), up to maxDistance;
+    /// hit-\>triangle is -1 if it does not. Boxes over triangles that make rays fast follow the
+    /// sheet until 120 ticks pass without a ray.
     pub fn kiriWorld_Raycast(world: *const kiriWorld, origin: *const f32, direction: *const f32, maxDistance: f32, sheet: *mut kiriSheet, hit: *mut kiriHit) -> kiriResult;
     /// Gets the state of a point. KIRI_ERROR_ARGUMENT: it is outside the sheet. On a cut: on a lip
     /// that has the point.
     pub fn kiriSheet_GetPoint(world: *const kiriWorld, sheet: kiriSheet, restPoint: *const f32, state: *mut kiriPointState) -> kiriResult;
     /// Gets the shape functions at a rest point: up to \`capacity\` frames with their weights,
     /// whose sum is 1, and, unless null, gradients (2 floats a frame, 1/m). \*count is how many
-    /// there are, also above capacity. KIRI_ERROR_ARGUMENT: it is outside the sheet.
+    /// there are, also above capacity. KIRI_ERROR_ARGUMENT: the point is outside the sheet.
     /// KIRI_ERROR_STATE: work on a cut is pending.
     pub fn kiriSheet_GetWeights(world: *const kiriWorld, sheet: kiriSheet, restPoint: *const f32, frames: *mut kiriFrame, weights: *mut f32, gradients: *mut f32, capacity: i32, count: *mut i32) -> kiriResult;
-    /// Get a piece. The first of these calls after a cut sorts the sheet by pieces, and may fail
-    /// with KIRI_ERROR_MEMORY. KIRI_ERROR_ARGUMENT: no piece has the index.
+    /// Get a piece. The first call after a cut sorts the sheet by pieces. KIRI_ERROR_ARGUMENT: no
+    /// piece has the index.
     pub fn kiriSheet_GetPiece(world: *mut kiriWorld, sheet: kiriSheet, piece: i32, state: *mut kiriPieceState) -> kiriResult;
-    /// Get a piece. The first of these calls after a cut sorts the sheet by pieces, and may fail
-    /// with KIRI_ERROR_MEMORY. KIRI_ERROR_ARGUMENT: no piece has the index.
+    /// Get a piece. The first call after a cut sorts the sheet by pieces. KIRI_ERROR_ARGUMENT: no
+    /// piece has the index.
     pub fn kiriSheet_GetPieceMesh(world: *mut kiriWorld, sheet: kiriSheet, piece: i32, mesh: *mut kiriPieceMesh) -> kiriResult;
-    /// Gets the frames of a piece: \*frames points to \*count ids.
+    /// Get the frames of a piece (\*frames points to \*count ids), and the current index of the
+    /// piece with a frame.
     pub fn kiriSheet_GetPieceFrames(world: *mut kiriWorld, sheet: kiriSheet, piece: i32, frames: *mut *const kiriFrame, count: *mut i32) -> kiriResult;
-    /// Gets the current index of the piece with this frame.
+    /// Get the frames of a piece (\*frames points to \*count ids), and the current index of the
+    /// piece with a frame.
     pub fn kiriFrame_GetPiece(world: *const kiriWorld, frame: kiriFrame, piece: *mut i32) -> kiriResult;
-    /// Makes a sheet of the piece with this frame. Frames, pins, collision points, pending loads
-    /// and contacts move along, with their ids and states, and the motion goes on. Both sheets have
-    /// all settings. Cuts stay with the old sheet. A clamp or hinge that holds both gets a copy
-    /// with a new id in the new sheet. Revisions grow; kiriSheet_GetDirty has the changes.
-    /// KIRI_PENDING: work on a cut is pending, or the piece takes more samples than the budget
-    /// leaves; \*detached is 0. Then samples of the coming ticks pay for it, and further cuts of
-    /// the sheet wait. When all is paid the piece of this frame becomes a sheet, and
-    /// KIRI_EVENT_PIECE_DETACHED names it. KIRI_ERROR_STATE: nothing would be left of the sheet.
-    /// The manual has indices and costs (cutting).
+    /// Makes a sheet of the piece with this frame. All that belongs to the piece moves along, with
+    /// ids and states, and the motion goes on; cuts stay with the old sheet. A clamp or hinge that
+    /// holds both gets a copy with a new id in the new sheet. KIRI_PENDING: work on a cut is
+    /// pending, or the piece takes more samples than the budget leaves; \*detached is 0. Further
+    /// cuts of the sheet then wait, and KIRI_EVENT_PIECE_DETACHED names the sheet in a later tick.
+    /// KIRI_ERROR_STATE: nothing would be left of the sheet. The manual has indices and costs
+    /// (cutting).
     pub fn kiriFrame_DetachPiece(world: *mut kiriWorld, frame: kiriFrame, detached: *mut kiriSheet) -> kiriResult;
-    /// Removes the piece with this frame: ids of its frames and pins are stale. Takes effect at
-    /// once, and the coming ticks have fewer samples. KIRI_PENDING: work on a cut is pending. Until
-    /// it is done the triangles stay in kiriMesh with three equal corners, the vertices stay, and
-    /// kiriCounts counts the piece, with a kiriPieceState of all zeros.
+    /// Removes the piece with this frame at once: ids of its frames and pins are stale, and the
+    /// coming ticks have fewer samples. KIRI_PENDING: work on a cut is pending. Until it is done
+    /// the triangles stay in kiriMesh with three equal corners, and kiriCounts counts the piece,
+    /// with a kiriPieceState of all zeros.
     pub fn kiriFrame_DestroyPiece(world: *mut kiriWorld, frame: kiriFrame) -> kiriResult;
     /// Detach or remove the pieces of \`count\` frames, of any sheets, in one pass for each sheet;
     /// frames of one piece count once. All are done or pending, or none if one is refused.
@@ -1291,25 +1197,27 @@ unsafe extern "C" {
     /// effect with the next tick or, by the budget, a later one. The end of a cut inside the sheet
     /// stays closed until the next point.
     pub fn kiriBeginCut(world: *mut kiriWorld, sheet: kiriSheet, restPoint: *const f32, cut: *mut kiriCut) -> kiriResult;
-    /// Adds points. restPoints: 2 floats a point; count is 1 to 2^24.
+    /// Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the
+    /// tick in which its last point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the
+    /// frames that it needs.
     pub fn kiriCut_Extend(world: *mut kiriWorld, cut: kiriCut, restPoints: *const f32, count: i32) -> kiriResult;
-    /// Ends the cut. Its id is stale after the tick in which its last point takes effect
-    /// (KIRI_EVENT_CUT_FINISHED). The sheet then adds the frames that it needs.
+    /// Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the
+    /// tick in which its last point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the
+    /// frames that it needs.
     pub fn kiriCut_End(world: *mut kiriWorld, cut: kiriCut) -> kiriResult;
     /// Cuts where the quadrilateral swept by an edge in world space, from blade\[0\]-blade\[1\] to
     /// blade\[3\]-blade\[2\], meets the current sheet; past borders, so that it separates the parts
-    /// that it crosses. The cut is already ended. Slices of a moving sheet do not join from tick to
-    /// tick: use a blade for that.
+    /// that it crosses. The cut is already ended.
     pub fn kiriSheet_Slice(world: *mut kiriWorld, sheet: kiriSheet, blade: *const f32, cut: *mut kiriCut) -> kiriResult;
-    /// sheet 0: it cuts all sheets, also those that are made later and pieces that get a sheet of
-    /// their own. A blade for one sheet whose sheet is gone cuts nothing.
+    /// Begins a blade for one sheet; 0: for all sheets, also those that are made later.
     pub fn kiriBeginBlade(world: *mut kiriWorld, sheet: kiriSheet, blade: *mut kiriBlade) -> kiriResult;
-    /// The blade is now the straight edge between two points (m, world). From where it was it got
-    /// there straight, each end along a line. The first call only says where it begins. Where an
-    /// end of the edge lies inside of what it sweeps of the sheet, it cuts only what it sweeps. An
-    /// edge without length cuts nothing.
+    /// Move the blade to the straight edge between two points (m, world), or \`length\` m along a
+    /// ray that a camera casts; each end goes straight. The first call only says where it begins.
+    /// An end inside cuts along its own way.
     pub fn kiriBlade_MoveEdge(world: *mut kiriWorld, blade: kiriBlade, from: *const f32, to: *const f32) -> kiriResult;
-    /// The same for a ray that a camera casts: an edge \`length\` m long.
+    /// Move the blade to the straight edge between two points (m, world), or \`length\` m along a
+    /// ray that a camera casts; each end goes straight. The first call only says where it begins.
+    /// An end inside cuts along its own way.
     pub fn kiriBlade_MoveRay(world: *mut kiriWorld, blade: kiriBlade, origin: *const f32, direction: *const f32, length: f32) -> kiriResult;
     /// It is gone, its id stale; what it has cut stays, and where it was in a layer the cut ends.
     pub fn kiriBlade_End(world: *mut kiriWorld, blade: kiriBlade) -> kiriResult;
@@ -1318,19 +1226,19 @@ unsafe extern "C" {
     /// Gets the current state.
     pub fn kiriFrame_GetState(world: *const kiriWorld, frame: kiriFrame, state: *mut kiriFrameState) -> kiriResult;
     /// Holds the frame: its rest point on the visible surface moves evenly to \`position\` (m,
-    /// world) with \`rotation\` (a rotation matrix, columns as above) in the next tick, and stays
-    /// there until the next call. A held affine frame is not stretched. On a planar sheet the
-    /// rotation is about its normal. Null, null: frees it. Contacts do not push material of which
-    /// held frames carry more than half: it moves through obstacles.
+    /// world) with \`rotation\` (columns as above; on a planar sheet about its normal) in the next
+    /// tick, and stays there. Null, null: frees it. Material of which held frames carry more than
+    /// half moves through obstacles.
     pub fn kiriFrame_Hold(world: *mut kiriWorld, frame: kiriFrame, position: *const f32, rotation: *const f32) -> kiriResult;
     /// Gets the force (N, world) and torque (N m, about the frame's rest point) that the hold
-    /// applied to the sheet: means over the last tick, impulses divided by its dt. They include the
-    /// frame's own weight and change of momentum. Zero for a free frame. A sleeping piece keeps the
-    /// values with which it fell asleep.
+    /// applied to the sheet: means over the last tick that moved the piece, with the frame's own
+    /// weight and change of momentum. Zero for a free one.
     pub fn kiriFrame_GetReaction(world: *const kiriWorld, frame: kiriFrame, force: *mut f64, torque: *mut f64) -> kiriResult;
-    /// Applies a force (N, world) at the frame's centre of mass and a torque (N m).
+    /// Apply a force (N, world) at the frame's centre of mass, or at a point of the material, and a
+    /// torque (N m).
     pub fn kiriFrame_ApplyForce(world: *mut kiriWorld, frame: kiriFrame, force: *const f32, torque: *const f32) -> kiriResult;
-    /// Applies a force (N, world) at a point of the material and a torque (N m).
+    /// Apply a force (N, world) at the frame's centre of mass, or at a point of the material, and a
+    /// torque (N m).
     pub fn kiriSheet_ApplyForce(world: *mut kiriWorld, sheet: kiriSheet, restPoint: *const f32, force: *const f32, torque: *const f32) -> kiriResult;
     /// Applies a force (N/m, world) along a straight line of the rest plane where it lies in the
     /// material, edges included. Along a cut each lip gets half. The ends differ.
@@ -1338,40 +1246,36 @@ unsafe extern "C" {
     pub fn kiriSheet_ApplyLineLoad(world: *mut kiriWorld, sheet: kiriSheet, from: *const f32, to: *const f32, forcePerLength: *const f32) -> kiriResult;
     /// Applies a pressure (Pa) to the whole sheet along its normal; below 0: against it.
     pub fn kiriSheet_ApplyPressure(world: *mut kiriWorld, sheet: kiriSheet, pressure: f32) -> kiriResult;
-    /// Applies an impulse (N s, world) at a point of the material on the visible surface.
-    /// Velocities change at once, by the mass of the frames that carry the point; a held frame's
-    /// share is lost. KIRI_ERROR_ARGUMENT: it is outside the sheet.
+    /// Applies an impulse (N s, world) at a point of the material on the visible surface, at once,
+    /// by the mass of the frames that carry the point; a held frame's share is lost.
+    /// KIRI_ERROR_ARGUMENT: the point is outside the sheet.
     pub fn kiriSheet_ApplyImpulse(world: *mut kiriWorld, sheet: kiriSheet, restPoint: *const f32, impulse: *const f32) -> kiriResult;
     /// Copies the wind; it blows until the next call.
     pub fn kiriSheet_SetWind(world: *mut kiriWorld, sheet: kiriSheet, wind: *const kiriWind) -> kiriResult;
     /// Fills the def with its defaults, and stamps it.
     pub fn kiriDefaultPinDef(def: *mut kiriPinDef);
-    /// Pins a point of the sheet. On failure \*pin is 0. KIRI_ERROR_ARGUMENT: it is outside the
-    /// sheet.
+    /// Pin a point of the sheet, and destroy a pin of any type. On failure \*pin is 0.
+    /// KIRI_ERROR_ARGUMENT: the point is outside the sheet.
     pub fn kiriCreatePin(world: *mut kiriWorld, sheet: kiriSheet, def: *const kiriPinDef, pin: *mut kiriPin) -> kiriResult;
+    /// Pin a point of the sheet, and destroy a pin of any type. On failure \*pin is 0.
+    /// KIRI_ERROR_ARGUMENT: the point is outside the sheet.
+    pub fn kiriDestroyPin(world: *mut kiriWorld, pin: kiriPin) -> kiriResult;
     /// Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds
     /// the place and direction of its material, as a vice does; a hinge only the place, so the
-    /// sheet can turn about the line. The line is straight, with its rest length: bent material is
-    /// pulled straight, and separate pieces are pulled together, at any speed. Both hold the
-    /// material on the line, edges included, with its stiffness from the line to the frames around
-    /// it. A clamp through the sheet separates the bending of its two sides. A line along a cut
-    /// holds both lips; a line beside it, by a 512th of a grid square or more, holds one. The ends
-    /// differ. KIRI_ERROR_ARGUMENT: the line meets no material.
+    /// sheet can turn about the line. The line is straight, with its rest length: bent material and
+    /// separate pieces are pulled to it, at any speed. A line along a cut holds both lips; a line
+    /// beside it holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no material.
     pub fn kiriSheet_ClampLine(world: *mut kiriWorld, sheet: kiriSheet, from: *const f32, to: *const f32, clamp: *mut kiriPin) -> kiriResult;
     /// Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds
     /// the place and direction of its material, as a vice does; a hinge only the place, so the
-    /// sheet can turn about the line. The line is straight, with its rest length: bent material is
-    /// pulled straight, and separate pieces are pulled together, at any speed. Both hold the
-    /// material on the line, edges included, with its stiffness from the line to the frames around
-    /// it. A clamp through the sheet separates the bending of its two sides. A line along a cut
-    /// holds both lips; a line beside it, by a 512th of a grid square or more, holds one. The ends
-    /// differ. KIRI_ERROR_ARGUMENT: the line meets no material.
+    /// sheet can turn about the line. The line is straight, with its rest length: bent material and
+    /// separate pieces are pulled to it, at any speed. A line along a cut holds both lips; a line
+    /// beside it holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no material.
     pub fn kiriSheet_HingeLine(world: *mut kiriWorld, sheet: kiriSheet, from: *const f32, to: *const f32, hinge: *mut kiriPin) -> kiriResult;
     /// Sets the target of the pin's point, or of the middle of its line (m, world), for the end of
-    /// the next tick and until the next call. The pin moves there evenly within the tick. The
-    /// current target of kiriPin_GetState changes nothing. With KIRI_SKINNING_SMOOTH pins and
-    /// clamps hold the visible surface; a clamp holds its mean along the line for each piece, so
-    /// single points are slightly off the line.
+    /// the next tick and until the next call. The pin moves there evenly within the tick. With
+    /// KIRI_SKINNING_SMOOTH pins and clamps hold the visible surface; a clamp holds its mean along
+    /// the line for each piece.
     pub fn kiriPin_SetTarget(world: *mut kiriWorld, pin: kiriPin, target: *const f32) -> kiriResult;
     /// Sets the target and the rotation of the line's material: columns are the directions of u and
     /// v and the normal. On a planar sheet it is about the sheet's normal. KIRI_ERROR_ARGUMENT: the
@@ -1382,46 +1286,44 @@ unsafe extern "C" {
     /// Gets the current state.
     pub fn kiriPin_GetState(world: *const kiriWorld, pin: kiriPin, state: *mut kiriPinState) -> kiriResult;
     /// Gets the force (N, world) and torque (N m, about the target) that the pin applied to the
-    /// sheet: means over the last tick, impulses divided by its dt. The reactions of all pins and
-    /// held frames are the weight of a sheet at rest, and change its momentum in motion (as far as
-    /// \`iterations\` solve the tick). Zero before the first tick. A sleeping piece keeps the
-    /// values with which it fell asleep.
+    /// sheet: means over the last tick that moved the piece. All reactions are the weight of a
+    /// sheet at rest, and change its momentum in motion.
     pub fn kiriPin_GetReaction(world: *const kiriWorld, pin: kiriPin, force: *mut f64, torque: *mut f64) -> kiriResult;
     /// Writes up to \`capacity\` ids of the sheet's pins, of all types; \*count is how many there
     /// are.
     pub fn kiriSheet_GetPins(world: *const kiriWorld, sheet: kiriSheet, pins: *mut kiriPin, capacity: i32, count: *mut i32) -> kiriResult;
-    /// Destroys the pin; its id is stale.
-    pub fn kiriDestroyPin(world: *mut kiriWorld, pin: kiriPin) -> kiriResult;
     /// Sets the contacts of the next tick; they replace those set before, and end with the tick. A
     /// contact with the point, or rest point, and obstacle of an earlier one starts with the
     /// earlier impulse.
     pub fn kiriSheet_SetContacts(world: *mut kiriWorld, sheet: kiriSheet, contacts: *const kiriContact, count: i32) -> kiriResult;
-    /// Gets one result for each contact that was set before the last tick, in that order. The sum
-    /// of these impulses and of the impulses of gravity, loads and obstacles is the change of
-    /// momentum of a free piece. A sleeping piece goes on to press with the values with which it
-    /// fell asleep.
+    /// Gets one result for each contact that was set before the last tick, in that order. A
+    /// sleeping piece presses on.
     pub fn kiriSheet_GetContactForces(world: *const kiriWorld, sheet: kiriSheet, forces: *mut *const kiriContactForce, count: *mut i32) -> kiriResult;
     /// Fills the def with its defaults, and stamps it.
     pub fn kiriDefaultObstacleDef(def: *mut kiriObstacleDef);
-    /// Adds an obstacle. On failure \*obstacle is 0.
+    /// Add and destroy an obstacle. On failure \*obstacle is 0. Pieces that rested on a destroyed
+    /// one wake.
     pub fn kiriCreateObstacle(world: *mut kiriWorld, def: *const kiriObstacleDef, obstacle: *mut kiriObstacle) -> kiriResult;
-    /// Destroys an obstacle; its id is stale. Pieces that rested on it wake.
+    /// Add and destroy an obstacle. On failure \*obstacle is 0. Pieces that rested on a destroyed
+    /// one wake.
     pub fn kiriDestroyObstacle(world: *mut kiriWorld, obstacle: kiriObstacle) -> kiriResult;
     /// Teleports the obstacle (m, world). Sheets react to its velocity (kiriObstacle_SetVelocity),
     /// not to the jump.
     pub fn kiriObstacle_SetPose(world: *mut kiriWorld, obstacle: kiriObstacle, position: *const f32, rotation: *const f32) -> kiriResult;
-    /// Set the velocity (m/s, rad/s) for the next and all later ticks.
+    /// Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg),
+    /// inertia and centre of mass.
     pub fn kiriObstacle_SetVelocity(world: *mut kiriWorld, obstacle: kiriObstacle, velocity: *const f32, angularVelocity: *const f32) -> kiriResult;
-    /// Set the velocity (m/s, rad/s) for the next and all later ticks.
+    /// Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg),
+    /// inertia and centre of mass.
     pub fn kiriObstacle_SetSurfaceVelocity(world: *mut kiriWorld, obstacle: kiriObstacle, velocity: *const f32) -> kiriResult;
-    /// Sets mass (kg), inertia and centre of mass, as in the def.
+    /// Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg),
+    /// inertia and centre of mass.
     pub fn kiriObstacle_SetMass(world: *mut kiriWorld, obstacle: kiriObstacle, mass: f32, inertia: *const f32, centerOfMass: *const f32) -> kiriResult;
     /// Gets the current state.
     pub fn kiriObstacle_GetState(world: *const kiriWorld, obstacle: kiriObstacle, state: *mut kiriObstacleState) -> kiriResult;
     /// Gets a box (m, world) around all that the sheet can touch in a tick of dt (s, as in
-    /// kiriWorld_Tick): a host needs no obstacles or contacts outside. Its margin is twice the way
-    /// of the fastest point by velocity and gravity, plus the contact thickness. For moving
-    /// obstacles add their own way.
+    /// kiriWorld_Tick): a host needs no obstacles or contacts outside. For moving obstacles add
+    /// their own way.
     pub fn kiriSheet_GetReach(world: *const kiriWorld, sheet: kiriSheet, dt: f32, lower: *mut f32, upper: *mut f32) -> kiriResult;
     /// Fills it with its defaults, and stamps it.
     pub fn kiriDefaultDebugDraw(draw: *mut kiriDebugDraw);

@@ -144,8 +144,7 @@ pub enum ResultCode {
     Ok = 0,
     /// success; work is left for later ticks
     Pending = 1,
-    /// null pointer, NaN, infinite, or outside the documented range; or a position, velocity or
-    /// turn of a sheet or obstacle would exceed 4e37 m, m/s or 1/s
+    /// null, NaN, infinite, outside the documented range, or beyond 4e37 m, m/s or 1/s
     ErrorArgument = -1,
     /// the def was not filled by its kiriDefault function: call that first
     ErrorDef = -2,
@@ -368,8 +367,7 @@ pub enum Model {
     /// neighbours.
     Links = 0,
     /// Affine frames joined by links: cloth and rubber that stretch visibly inside a region. 12
-    /// unknowns a frame, coupled with neighbours of neighbours: a tick takes five to seven times as
-    /// long. From 1e8 Pa on use 8 iterations.
+    /// unknowns a frame: a tick takes five to seven times as long. From 1e8 Pa on use 8 iterations.
     Affine = 1,
     /// Affine frames, strains at integration points: the scheme of the paper, for comparison. 12
     /// unknowns a frame. The thinner the sheet, the less it bends; the manual has figures
@@ -396,9 +394,9 @@ impl Model {
     }
 }
 
-/// The surface between the frames. Rays, blades, obstacles, other sheets and contacts of rest
-/// points meet this surface; pins, clamps and holds hold it. Where nothing touches or holds the
-/// sheet, skinning does not change its motion. Collision points stay on the linear surface.
+/// The surface between the frames, which rays, blades, contacts, pins and clamps meet. Where
+/// nothing touches or holds the sheet, skinning does not change its motion. Collision points stay
+/// on the linear surface.
 #[non_exhaustive]
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -432,10 +430,9 @@ impl Skinning {
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum TimeStepping {
-    /// TR-BDF2: alternates trapezoid and BDF2, of second order. Keeps the energy of motion; the
-    /// manual has figures (accuracy). Backward Euler replaces it in steps in which a contact
-    /// touches a piece, a pin or hold is made, moved or removed, or a frame is new or turns by more
-    /// than a radian.
+    /// TR-BDF2, of second order: keeps the energy of motion. Backward Euler replaces it in steps
+    /// with a contact, a new or moved pin or hold, a new frame or a fast turn; the manual has
+    /// figures (accuracy).
     SecondOrder = 0,
     /// Backward Euler, of first order: takes energy out of a swing, more in longer steps.
     Euler = 1,
@@ -490,11 +487,8 @@ impl PinType {
 
 /// A body that sheets touch: a floor, a ball, a crate of another engine. It moves on with its
 /// velocities; forces do not move it. A host with an engine sets pose and velocities before each
-/// tick, and applies the impulse of [`Obstacle::state`] to the engine's body after it. Contacts
-/// follow its motion within the tick, and push no harder than its mass resists. The visible surface
-/// of sheets stays half their `contact_thickness` away. A sleeping sheet wakes where an obstacle
-/// near it comes, goes, or has moved by half a second of its `sleep_speed`. Lengths are up to 1e6
-/// m.
+/// tick, and applies the impulse of [`Obstacle::state`] to the engine's body after it (manual,
+/// contact). Lengths are up to 1e6 m.
 #[non_exhaustive]
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -562,11 +556,10 @@ pub const DRAW_POINTS: u32 = 1024;
 pub const DRAW_ALL: u32 = 2047;
 
 /// Limits the work of one tick, over all sheets. 0: no limit. Triangles, cells and samples share
-/// one allowance: using 30 % of one leaves 70 % of the others. A single step that exceeds the whole
-/// limit is not split. It runs alone in its tick. Other work goes on in the next tick. Until a cut
-/// takes effect its lips move together. The tick of the effect depends on the budget. The mesh,
-/// grid, regions, weights and sites of frames after all work is done do not, bit for bit; motion
-/// differs. Sheets take turns. The manual has examples and the order of turns (budget).
+/// one allowance: using 30 % of one leaves 70 % of the others. Other work goes on in the next tick.
+/// The tick in which a cut takes effect depends on the budget; the mesh, grid, regions, weights and
+/// sites of frames after all work is done do not, bit for bit. The manual has examples, single
+/// steps that exceed a limit, and the order of turns (budget).
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Budget {
@@ -576,10 +569,8 @@ pub struct Budget {
     pub cells: i32,
     /// vertices and collision points with new weights, and the cost of the commit, paid before it
     pub samples: i32,
-    /// linear systems, 30 to 60 us each. A large system counts as several, see the manual (budget).
-    /// A sheet with fewer systems than substeps takes longer substeps. Pieces that do not fit take
-    /// turns: the others stay where they are in this tick, with their velocity, and come first in
-    /// the next. A piece whose system exceeds the whole limit is moved alone
+    /// linear systems, 30 to 60 us each; a large one counts as several. A sheet with too few takes
+    /// longer substeps, and pieces take turns, see the manual (budget)
     pub iterations: i32,
 }
 
@@ -737,10 +728,9 @@ impl Material {
     }
 }
 
-/// Work against accuracy. The presets were measured on a swinging strip and a swinging square of
-/// paper. Error is the rms distance of vertices from a much finer run, over their rms way. FAST: at
-/// most 2 %. BALANCED: 0.8 %. ACCURATE: 0.4 %. Narrow arms that a cut leaves need more frames
-/// (accuracy of [`SheetDef`]). The manual has details (accuracy).
+/// Work against accuracy. Errors of a swinging strip and square, rms over their way: FAST at most 2
+/// %, BALANCED 0.8 %, ACCURATE 0.4 %. Narrow arms that a cut leaves need more frames. The manual
+/// has details (accuracy).
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Quality {
@@ -777,22 +767,19 @@ impl Quality {
     }
 }
 
-/// Options of the paper, for comparison; part of the sheet def.
+/// Options of the paper, for comparison; part of the sheet def. Default 0, but for
+/// `integration_order`.
 #[derive(Clone, Copy, Debug)]
 pub struct PaperOptions {
-    /// 1: every cut rebuilds grid, regions and shape functions from scratch, to the same bits.
-    /// Default 0.
+    /// 1: every cut rebuilds grid, regions and shape functions from scratch, to the same bits
     pub from_scratch: bool,
-    /// 1: only new frames take their motion from the surface: it jumps at cuts, and momentum is not
-    /// kept. Default 0.
+    /// 1: only new frames take their motion from the surface: it jumps, momentum is not kept
     pub popping: bool,
-    /// 1: the weights of frames are linear between frames, so the surface has a kink at each frame.
-    /// Always so with [`Model::Points`]. Default 0: the slope of weights is zero at the frames.
+    /// 1: weights are linear between frames: a kink at each; always so with [`Model::Points`]
     pub linear_weights: bool,
-    /// [`Model::Points`] only. Points are spread evenly over the sheet, at least one in every
-    /// piece; default 0: four for each of `frame_count`. Work is proportional to them. Order 1
-    /// (default) has a constant strain in the material around a point, order 2 a linear strain, at
-    /// four times the work a point. 0 to 1048576
+    /// [`Model::Points`] only: points spread evenly over the sheet, one in every piece at least; 0:
+    /// four for each of `frame_count`. Strain around a point is constant (order 1, default) or
+    /// linear (2: four times the work). 0 to 1048576
     pub integration_points: i32,
     /// 1 or 2
     pub integration_order: i32,
@@ -824,41 +811,40 @@ impl PaperOptions {
 /// A sheet: its rest shape, start, material, and computation.
 #[derive(Clone, Copy, Debug)]
 pub struct SheetDef<'a> {
-    /// The rest shape: triangles in the rest plane, counter-clockwise, at most two at an edge.
-    /// Holes and several parts are allowed. [`World::create_sheet`] copies them and leaves out
-    /// vertices without a triangle. Two edges in the same place with different vertices are the
-    /// lips of an existing cut; `weld_distance` closes them. 2 floats (u, v) a vertex
+    /// The rest shape: triangles in the rest plane, counter-clockwise, at most two at an edge;
+    /// holes and several parts are allowed. Two edges in the same place with different vertices are
+    /// the lips of a cut (manual, meshes). 2 floats (u, v) a vertex
     pub rest_positions: &'a [[f32; 2]],
     /// 3 a triangle
     pub indices: &'a [[i32; 3]],
-    /// Start: x = position + u `axis_u` + v `axis_v` (m, world). The axes are orthonormal.
+    /// Start: x = position + u `axis_u` + v `axis_v` (m, world), with orthonormal axes; and
+    /// velocity, m/s.
     pub position: [f32; 3],
+    /// Start: x = position + u `axis_u` + v `axis_v` (m, world), with orthonormal axes; and
+    /// velocity, m/s.
     pub axis_u: [f32; 3],
+    /// Start: x = position + u `axis_u` + v `axis_v` (m, world), with orthonormal axes; and
+    /// velocity, m/s.
     pub axis_v: [f32; 3],
-    /// m/s
+    /// Start: x = position + u `axis_u` + v `axis_v` (m, world), with orthonormal axes; and
+    /// velocity, m/s.
     pub velocity: [f32; 3],
     pub material: Material,
     /// grid squares along the longer side, 1 to 4096; default 32
     pub grid_resolution: i32,
-    /// m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not. A
-    /// cut keeps within half of it of its line, or goes along a lip this near; 0: 1e-4 of the
-    /// longer side
+    /// m: ends of cuts this near to a lip or the border meet it, ends twice as far away do not. 0:
+    /// 1e-4 of the longer side. The manual has more (cutting)
     pub snap_distance: f32,
     /// Merges vertices nearer than this (m, rest plane; 0 or more): for seams of texture
-    /// coordinates, and triangles without shared vertices (STL). Each vertex becomes the nearest
-    /// kept vertex before it within this distance, or is kept. No vertex moves farther, and a chain
-    /// of near vertices stays several points. A triangle with two corners at one vertex is left
-    /// out. [`Sheet::copy_sources`] leads to the vertices of the def. Default 0: no merging.
+    /// coordinates, and triangles without shared vertices (STL). Default 0: no merging. The manual
+    /// has the rule (meshes).
     pub weld_distance: f32,
     /// Control frames. `frame_points`: 2 floats a frame, in the material, a grid square apart at
-    /// least; null: `frame_count` frames are spread evenly, some in pairs at both sides of slit
-    /// ends. The grid carries at most one frame for every two squares of material: a def with more
-    /// gives [`ResultCode::ErrorArgument`], and re-sampling stops there. A new sheet has at most
-    /// `frame_count` frames, or one for each piece where there are more pieces. `frame_count` 0:
-    /// regions are split, after cuts too, until 2.45 times the radius of gyration is at most 1.25
-    /// `frame_length`. `frame_length` 0: derived from accuracy, the relative error of the shape
-    /// under the sheet's own weight, and at least three grid squares. [`Sheet::estimate_error`]
-    /// checks the result. 0, or 1 and more; default 5
+    /// least; null: `frame_count` frames are spread evenly, at most one for every two squares of
+    /// material. `frame_count` 0: regions are split, after cuts too, to `frame_length`;
+    /// `frame_length` 0: it follows from accuracy, the relative error of the shape under the
+    /// sheet's own weight. The manual has the rules (accuracy), [`Sheet::estimate_error`] checks
+    /// the result. 0, or 1 and more; default 5
     pub frame_count: i32,
     /// m; used where `frame_count` is 0; default 0
     pub frame_length: f32,
@@ -868,39 +854,32 @@ pub struct SheetDef<'a> {
     /// re-sampling stops here; default 256
     pub max_frames: i32,
     /// Re-sampling (section 5 of the paper): a frame whose weight exceeds `rigid_weight` over an
-    /// area larger than `rigid_area` (m^2) gets new frames beside it. A new sheet is re-sampled
-    /// only with `frame_count` 0. Later it happens when a cut ends or meets the border or another
-    /// cut, where the area is also larger than in the new sheet. A rigid sheet has `frame_count` 1
-    /// and `max_frames` 1. `rigid_area` 0: a quarter of the area of a frame at the start. default
-    /// 0.95
+    /// area larger than `rigid_area` (m^2) gets new frames beside it; a new sheet only with
+    /// `frame_count` 0. `rigid_area` 0: a quarter of the area of a frame at the start. A rigid
+    /// sheet has `frame_count` 1 and `max_frames` 1. The manual says when (accuracy). default 0.95
     pub rigid_weight: f32,
     /// default 0
     pub rigid_area: f32,
-    /// A piece with less area (m^2) is a crumb: it gets one frame if it has none, and no more.
-    /// Default 0.
+    /// m^2: a smaller piece is a crumb: it gets one frame if it has none, and no more. Default 0
     pub crumb_area: f32,
     /// of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5
     pub friction: f32,
-    /// m, 0 or more: distance between sheets and pieces, and twice the distance to obstacles. 0:
-    /// the material's thickness, at least a 20th of a grid square. Default 0
+    /// m: distance between sheets and pieces, and twice the distance to obstacles. 0 (default): the
+    /// material's thickness, at least a 20th of a grid square
     pub contact_thickness: f32,
     /// obstacles and sheets touch if they share a set bit. Default: all
     pub groups: u32,
     /// 1: its pieces touch each other, and other sheets that have it set; not where one of two
-    /// sheets is planar. Planes keep the upper piece, against gravity, on its side of the lower
-    /// one; side by side, the piece that is free, or the lighter one. So piles keep their order.
-    /// Folds of one piece do not touch each other. Pieces that touch wake and fall asleep together.
-    /// The manual lists the limits of the method (contact). Default 0.
+    /// sheets is planar. Folds of one piece do not touch each other. The manual has rules and
+    /// limits (contact). Default 0.
     pub touches_sheets: bool,
     /// spread evenly over the sheet, at least one in every piece; default 0: none
     pub collision_points: i32,
     /// Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
     pub iterations: i32,
     /// A piece falls asleep when all its frames move slower than this (m/s, rms over their
-    /// material) for half a second. It does not move, and costs almost nothing. A cut that changes
-    /// it wakes it when the cut takes effect; so do a new pin, pose, hold or load, contacts that
-    /// differ, and moving things that come near. Gravity, wind, settings and [`Sheet::wake`] wake
-    /// all pieces of the sheet. Default 0.001; 0: no piece sleeps.
+    /// material) for half a second, and costs almost nothing until something new wakes it (manual,
+    /// budget). Default 0.001; 0: no piece sleeps.
     pub sleep_speed: f32,
     /// KIRI_MODEL_..., default [`Model::Links`]
     pub model: Model,
@@ -912,14 +891,9 @@ pub struct SheetDef<'a> {
     pub planar: bool,
     /// KIRI_TIME_STEPPING_..., default [`TimeStepping::SecondOrder`]
     pub time_stepping: TimeStepping,
-    /// A cut that takes effect changes weights, and the surface would jump between frames. The
-    /// difference fades within this time (s), and so does that in the strain of links whose borders
-    /// moved. Default 0.2; 0: at once.
+    /// s: jumps of the surface and of strains fade within this when a cut takes effect. Default 0.2
     pub fade_time: f32,
-    /// 1: every tick computes normals of the mesh. 0: [`Mesh`] has no normals, and
-    /// [`Sheet::copy_vertices`] copies none; this saves half of the time of linear skinning. The
-    /// sheet moves the same, bit for bit: contact and [`Sheet::solid`] compute their own normals.
-    /// [`Sheet::point`] is the same to rounding. Default 1.
+    /// 1: every tick computes normals (default). 0: [`Mesh`] has none, which saves time
     pub normals: bool,
     /// default: all off
     pub paper: PaperOptions,
@@ -1029,29 +1003,24 @@ pub struct SheetSettings {
     pub material: Material,
     /// re-sampling stops here; default 256
     pub max_frames: i32,
-    /// A piece with less area (m^2) is a crumb: it gets one frame if it has none, and no more.
-    /// Default 0.
+    /// m^2: a smaller piece is a crumb: it gets one frame if it has none, and no more. Default 0
     pub crumb_area: f32,
     /// of the sheet, 0 or more. The friction between two sides is their geometric mean. Default 0.5
     pub friction: f32,
-    /// m, 0 or more: distance between sheets and pieces, and twice the distance to obstacles. 0:
-    /// the material's thickness, at least a 20th of a grid square. Default 0
+    /// m: distance between sheets and pieces, and twice the distance to obstacles. 0 (default): the
+    /// material's thickness, at least a 20th of a grid square
     pub contact_thickness: f32,
     /// obstacles and sheets touch if they share a set bit. Default: all
     pub groups: u32,
     /// 1: its pieces touch each other, and other sheets that have it set; not where one of two
-    /// sheets is planar. Planes keep the upper piece, against gravity, on its side of the lower
-    /// one; side by side, the piece that is free, or the lighter one. So piles keep their order.
-    /// Folds of one piece do not touch each other. Pieces that touch wake and fall asleep together.
-    /// The manual lists the limits of the method (contact). Default 0.
+    /// sheets is planar. Folds of one piece do not touch each other. The manual has rules and
+    /// limits (contact). Default 0.
     pub touches_sheets: bool,
     /// Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
     pub iterations: i32,
     /// A piece falls asleep when all its frames move slower than this (m/s, rms over their
-    /// material) for half a second. It does not move, and costs almost nothing. A cut that changes
-    /// it wakes it when the cut takes effect; so do a new pin, pose, hold or load, contacts that
-    /// differ, and moving things that come near. Gravity, wind, settings and [`Sheet::wake`] wake
-    /// all pieces of the sheet. Default 0.001; 0: no piece sleeps.
+    /// material) for half a second, and costs almost nothing until something new wakes it (manual,
+    /// budget). Default 0.001; 0: no piece sleeps.
     pub sleep_speed: f32,
     /// KIRI_SKINNING_..., default [`Skinning::Linear`]
     pub skinning: Skinning,
@@ -1059,10 +1028,7 @@ pub struct SheetSettings {
     pub time_stepping: TimeStepping,
     /// stays 0 with paper.popping
     pub fade_time: f32,
-    /// 1: every tick computes normals of the mesh. 0: [`Mesh`] has no normals, and
-    /// [`Sheet::copy_vertices`] copies none; this saves half of the time of linear skinning. The
-    /// sheet moves the same, bit for bit: contact and [`Sheet::solid`] compute their own normals.
-    /// [`Sheet::point`] is the same to rounding. Default 1.
+    /// 1: every tick computes normals (default). 0: [`Mesh`] has none, which saves time
     pub normals: bool,
 }
 
@@ -1108,10 +1074,9 @@ impl SheetSettings {
 }
 
 /// The triangles to draw, as after the last tick. revision grows when indices or vertices are added
-/// or changed. Rest positions are floats, with a spacing of 6e-8 of the distance from the origin of
-/// the rest plane: triangles of about that size may look flat or inverted. The library computes
-/// with the positions of the def to 2^-29 of the sheet; `source_triangles` and `source_weights`
-/// have that precision.
+/// or changed. Rest positions are floats, so small triangles far from the origin of the rest plane
+/// may look flat in them; `source_triangles` and `source_weights` have the precision of the
+/// library, 2^-29 of the sheet.
 #[derive(Clone, Copy, Debug)]
 pub struct Mesh<'a> {
     /// 3 a vertex, m, world
@@ -1221,7 +1186,7 @@ impl Dirty {
 
 /// The surface with a thickness, to draw: a closed mesh, with a rim along borders, holes and lips.
 /// First the vertices of [`Mesh`] on the side of the normal, then the same on the other side, then
-/// four for each border edge, so rims are flat.
+/// four for each border edge.
 #[derive(Clone, Copy, Debug)]
 pub struct Solid<'a> {
     /// 3 a vertex, m, world
@@ -1295,8 +1260,8 @@ impl Counts {
     }
 }
 
-/// Area (m^2), mass (kg), kinetic energy and elastic energy (J), linear and angular momentum about
-/// the world's origin (kg m/s, kg m^2/s), centre of mass (m).
+/// m^2, kg, J, J; centre of mass, m; linear and angular momentum about the world's origin, kg m/s
+/// and kg m^2/s.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Totals {
@@ -1400,10 +1365,10 @@ impl PointState {
     }
 }
 
-/// A connected part of a sheet. Any of its frames names it. Indices from 0 to [`Counts`].pieces, in
-/// the order of first frames, visit all pieces: they change when a piece comes off or goes, and
-/// [`Frame::piece`] returns the current one. A cut with pending work has not separated anything
-/// yet. Momentum is about the world's origin.
+/// A connected part of a sheet. Any of its frames names it. Indices from 0 to [`Counts`].pieces
+/// visit all pieces; they change when a piece comes off or goes, and [`Frame::piece`] returns the
+/// current one. A cut with pending work has not separated anything yet. Momentum is about the
+/// world's origin.
 #[derive(Clone, Copy, Debug)]
 pub struct PieceState {
     /// m^2, kg
@@ -1494,8 +1459,7 @@ pub struct FrameState {
     pub rest_point: [f32; 2],
     /// m, world: of the rest point
     pub position: [f32; 3],
-    /// columns: direction of u, direction of v, normal; of an affine frame the columns of A, which
-    /// stretch with the sheet
+    /// columns: direction of u, of v, normal; an affine frame: columns of A, which stretch
     pub rotation: [f32; 9],
     /// m/s
     pub velocity: [f32; 3],
@@ -1527,9 +1491,7 @@ impl FrameState {
 
 /// Air that moves past the sheet. v is the velocity of the air less the velocity of the material, n
 /// the normal: each square metre gets density / 2 times |v| (drag (v.n) n + lift (v - (v.n) n)).
-/// Zero velocity with drag and lift above zero: still air, which resists. All zero: none. It acts
-/// at four points of the region of each frame, and follows the motion within the tick, so strong
-/// wind is stable. A sheet can sleep in constant wind.
+/// All zero: none. A sheet can sleep in constant wind, and still air (zero velocity) resists.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Wind {
@@ -1577,9 +1539,8 @@ pub struct PinDef {
     pub stiffness: f32,
     /// N: it breaks in a tick with a larger force ([`EventType::PinBroke`]); 0: never
     pub break_force: f32,
-    /// or 0. The target moves with this obstacle from its place at creation or at the last
-    /// [`Pin::set_target`]. The obstacle feels the pin ([`Obstacle::state`]); an obstacle with mass
-    /// yields within the tick. If it is destroyed the target stays
+    /// or 0. The target moves with this obstacle, which feels the pin ([`Obstacle::state`]) and
+    /// yields by its mass. If it is destroyed the target stays
     pub obstacle: Option<Obstacle>,
 }
 
@@ -1659,8 +1620,8 @@ impl PinState {
 
 /// A contact of a point of the material: the plane dot(normal, x) = offset keeps the point on its
 /// upper side, and Coulomb friction acts along the plane. The host computes the plane for each tick
-/// from the visible surface of the sheet. A contact may lie ahead of the point; if the point does
-/// not reach it in the tick, it costs little and does nothing.
+/// from the visible surface of the sheet. A contact that the point does not reach in the tick costs
+/// little and does nothing.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Contact {
@@ -1867,9 +1828,9 @@ pub struct ObstacleState {
     pub rotation: [f32; 9],
     pub velocity: [f32; 3],
     pub angular_velocity: [f32; 3],
-    /// N s, N m s about its centre of mass: from sheets and pins in the last tick
+    /// N s, N m s about its centre of mass: of sheets and pins in the last tick
     pub impulse: [f64; 3],
-    /// N s, N m s about its centre of mass: from sheets and pins in the last tick
+    /// N s, N m s about its centre of mass: of sheets and pins in the last tick
     pub angular_impulse: [f64; 3],
     /// that pushed in the last tick
     pub contacts: i32,
@@ -1990,15 +1951,16 @@ impl Event {
     }
 }
 
-/// Returns the name of a result, such as "[`ResultCode::Ok`]"; "unknown" for another number.
+/// Return the version of the library, as KIRI_VERSION; the name of a result, as
+/// "[`ResultCode::Ok`]"; a line with its meaning.
 #[must_use]
 pub fn result_name(result: ResultCode) -> &'static str {
     // SAFETY: texts of the library stay.
     unsafe { text(sys::kiriGetResultName(result as i32)) }
 }
 
-/// Returns one line: the meaning of a result, and its cure. Use it after calls that have no world
-/// to keep a line, such as [`World::new`] with a def of zeros ([`ResultCode::ErrorDef`]).
+/// Return the version of the library, as KIRI_VERSION; the name of a result, as
+/// "[`ResultCode::Ok`]"; a line with its meaning.
 #[must_use]
 pub fn result_text(result: ResultCode) -> &'static str {
     // SAFETY: texts of the library stay.
@@ -2006,10 +1968,9 @@ pub fn result_text(result: ResultCode) -> &'static str {
 }
 
 /// Converts microseconds a tick into a budget, at the pace of the profile, which may be the sum of
-/// several. Cuts and linear systems share the time as in the profile. Each of triangles, cells and
-/// samples gets the time of all three, see [`Budget`]. Sets only the limits for which the profile
-/// recorded work. The simulation never reads a clock: the host chooses, and a replay must set the
-/// same budgets.
+/// several. Cuts and linear systems share the time as in the profile. Sets only the limits for
+/// which the profile recorded work. The host chooses by its clock, so a replay must set the same
+/// budgets.
 pub fn fit_budget(profile: &Profile, microseconds: f32, budget: &mut Budget) -> Result<()> {
     // SAFETY: pointers are to what is named, and lengths are theirs.
     fail(unsafe { sys::kiriFitBudget(&profile.raw(), microseconds, std::ptr::from_mut(budget).cast()) })?;
@@ -2056,38 +2017,35 @@ pub fn fill_rectangle(width: f32, height: f32, columns: i32, rows: i32) -> Resul
 impl World {
     /// Advances by one fixed step of dt seconds (1e-6 to 10), in substeps equal parts (1 to 64):
     /// takes the pending cut points, then moves every sheet. [`ResultCode::Pending`]: the budget is
-    /// spent, and events name the cuts that still have work; a sheet or some of its pieces may have
-    /// stood still for want of iterations. [`ResultCode::ErrorMemory`]: the work on a cut, or a
-    /// piece that leaves, was refused memory and goes on in the next tick, as if the budget were
-    /// spent; the sheets moved. Only without memory for contacts or ids did nothing move: the line
-    /// says which. [`ResultCode::ErrorLimit`]: no ids are left for new frames; nothing moves until
-    /// frames are destroyed. [`ResultCode::Diverged`]: sheets that events name were stopped, others
-    /// moved; [`EventType::Deferred`] tells of pending work.
+    /// spent; events name the cuts that still have work. [`ResultCode::ErrorMemory`]: work on a
+    /// cut, or a piece that leaves, goes on in the next tick; the sheets moved, but where memory
+    /// for contacts or ids is missing. [`ResultCode::ErrorLimit`]: no ids are left for new frames;
+    /// nothing moves until frames are destroyed. [`ResultCode::Diverged`]: sheets that events name
+    /// were stopped, others moved.
     pub fn tick(&mut self, dt: f32, substeps: i32) -> Result<Status> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         let result = check(unsafe { sys::kiriWorld_Tick(self.raw_mut(), dt, substeps) }, self)?;
         Ok(Status::of(result))
     }
 
-    /// Sets gravity (m/s^2). All pieces wake.
-    pub fn set_gravity(&mut self, gravity: [f32; 3]) -> Result<()> {
-        // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriWorld_SetGravity(self.raw_mut(), gravity.as_ptr()) }, self)?;
-        Ok(())
-    }
-
-    /// Moves the origin of the world to a point (m): subtracts it from the positions of sheets,
-    /// targets of pins and holds, obstacles, blades, and pending contacts. The motion goes on as
-    /// before, to rounding. Nothing wakes; (0, 0, 0) changes nothing. Use it in large worlds, where
-    /// floats lose precision. The host shifts its own data. Returned arrays keep the old positions
-    /// until the next tick. [`ResultCode::ErrorArgument`]: a position would not fit a float.
+    /// Moves the origin of the world to a point (m): subtracts it from all positions, as large
+    /// worlds need because of floats. The motion goes on as before, to rounding; nothing wakes. The
+    /// host shifts its own data. Returned arrays keep the old positions until the next tick.
+    /// [`ResultCode::ErrorArgument`]: a position would not fit a float.
     pub fn shift_origin(&mut self, origin: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriWorld_ShiftOrigin(self.raw_mut(), origin.as_ptr()) }, self)?;
         Ok(())
     }
 
-    /// Sets the budget from the next tick on.
+    /// Set gravity (m/s^2; all pieces wake), and the budget, from the next tick on.
+    pub fn set_gravity(&mut self, gravity: [f32; 3]) -> Result<()> {
+        // SAFETY: pointers are to what is named, and lengths are theirs.
+        check(unsafe { sys::kiriWorld_SetGravity(self.raw_mut(), gravity.as_ptr()) }, self)?;
+        Ok(())
+    }
+
+    /// Set gravity (m/s^2; all pieces wake), and the budget, from the next tick on.
     pub fn set_budget(&mut self, budget: &Budget) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriWorld_SetBudget(self.raw_mut(), &budget.raw()) }, self)?;
@@ -2095,9 +2053,8 @@ impl World {
     }
 
     /// Hashes all state that the coming ticks depend on, pending work included. Two worlds with the
-    /// same calls have the same hash, and two worlds with the same hash go on alike. After a
-    /// refused allocation some items are made again: the hash differs while work is pending, or
-    /// while the budget limits cells or samples.
+    /// same calls have the same hash, and two worlds with the same hash go on alike. After refused
+    /// memory it may differ while work is pending.
     pub fn state_hash(&self) -> Result<u64> {
         let mut hash: u64 = Default::default();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2134,11 +2091,10 @@ impl World {
         Ok(())
     }
 
-    /// Writes the world, which only is read. \*size: bytes of the save. bytes null: they are
-    /// counted only, and capacity is not read; else it has room for capacity.
-    /// [`ResultCode::ErrorArgument`]: that is less than \*size; nothing is written.
-    /// [`ResultCode::Pending`]: a cut is being worked on; \*size is 0, and nothing is written. Save
-    /// after a later tick, or after [`World::finish_cuts`].
+    /// Writes the world to memory with room for capacity bytes; null: counts them only. \*size:
+    /// bytes of the save. [`ResultCode::ErrorArgument`]: capacity is less than \*size; nothing is
+    /// written. [`ResultCode::Pending`]: a cut is being worked on; \*size is 0, and nothing is
+    /// written. Save after a later tick, or after [`World::finish_cuts`].
     pub fn save(&self) -> Result<Vec<u8>> {
         let mut bytes = Vec::<u8>::new();
         let mut size = 0;
@@ -2157,32 +2113,29 @@ impl World {
         Ok(bytes)
     }
 
-    /// Finishes the work on cuts at once, whatever the budget is, and without moving anything. Cuts
-    /// that wait for a budget take effect. The next tick reports the events.
-    /// [`ResultCode::ErrorMemory`], [`ResultCode::ErrorLimit`]: as in [`World::tick`]. Arrays that
-    /// the world handed out end as with a tick.
+    /// Finishes the work on cuts at once, whatever the budget is, without moving anything. The next
+    /// tick reports the events. Arrays that the world handed out end as with a tick.
+    /// [`ResultCode::ErrorMemory`], [`ResultCode::ErrorLimit`]: as in [`World::tick`].
     pub fn finish_cuts(&mut self) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriWorld_FinishCuts(self.raw_mut()) }, self)?;
         Ok(())
     }
 
-    /// Replaces the world by a saved one. It may have any hooks; its own allocation, log, clock and
-    /// tasks stay. The bytes may come from anybody: a malicious save may give a strange world but
-    /// cannot crash the program, and takes memory in proportion to its size. Takes about as long as
-    /// to create the sheets. The profile has no times until the next tick. Arrays that the old
-    /// world handed out live until then. [`ResultCode::ErrorData`]: the bytes are not a save,
-    /// damaged, or of another version. [`ResultCode::ErrorMemory`]. Then nothing has changed. size
-    /// is below 2^31. A recording has the bytes.
+    /// Replaces the world by a saved one; its own hooks stay. The bytes may come from anybody: a
+    /// malicious save may give a strange world but cannot crash the program, and takes memory in
+    /// proportion to its size, which is below 2^31. Arrays that the old world handed out live until
+    /// the next tick. On failure nothing has changed: [`ResultCode::ErrorData`]: the bytes are not
+    /// a save, damaged, or of another version. [`ResultCode::ErrorMemory`].
     pub fn load(&mut self, bytes: &[u8]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriWorld_Load(self.raw_mut(), bytes.as_ptr().cast(), bytes.len() as i64) }, self)?;
         Ok(())
     }
 
-    /// For rollback: copies all of the world, also work on cuts and pieces that wait, into memory
-    /// of the host. Much faster than a save, and exact to the bit. The bytes are good for this
-    /// process only: never store or send them. Arguments as of [`World::save`].
+    /// For rollback: copies all of the world, also work in progress, into memory of the host; much
+    /// faster than a save, and exact to the bit. For this process only: never store or send the
+    /// bytes. Arguments as of [`World::save`].
     pub fn snapshot(&self) -> Result<Vec<u8>> {
         let mut bytes = Vec::<u8>::new();
         let mut size = 0;
@@ -2201,11 +2154,9 @@ impl World {
         Ok(bytes)
     }
 
-    /// Replaces the world by the world of the snapshot; ids name the same things. The bytes are
-    /// trusted: hand over only the output of [`World::snapshot`]. [`ResultCode::ErrorData`]: the
-    /// bytes are not a snapshot of this build of the library. [`ResultCode::ErrorState`]: the world
-    /// is recorded. [`ResultCode::ErrorMemory`]. Then nothing has changed. Hooks and arrays as with
-    /// [`World::load`].
+    /// Replaces the world by the world of the snapshot, as [`World::load`] does. The bytes are
+    /// trusted. On failure nothing has changed: [`ResultCode::ErrorData`]: no snapshot of this
+    /// build. [`ResultCode::ErrorState`]: it is recorded. [`ResultCode::ErrorMemory`].
     pub fn restore(&mut self, bytes: &[u8]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriWorld_Restore(self.raw_mut(), bytes.as_ptr().cast(), bytes.len() as i64) }, self)?;
@@ -2222,9 +2173,9 @@ impl World {
         Ok(Profile::from_raw(&profile))
     }
 
-    /// Adds a sheet. On failure \*sheet is 0. [`ResultCode::ErrorMesh`]: the triangles do not form
-    /// a sheet. The line says why, and names the triangle, or the two triangles at an edge, by
-    /// index in the def.
+    /// Add a sheet, and destroy one with its cuts, frames and pins. On failure \*sheet is 0.
+    /// [`ResultCode::ErrorMesh`]: the triangles do not form a sheet; the line says why, and names
+    /// the triangle, or the two at an edge, by index in the def.
     pub fn create_sheet(&mut self, def: &SheetDef<'_>) -> Result<Sheet> {
         let mut sheet = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2243,7 +2194,9 @@ impl World {
         Ok(Sheet::known(sheet))
     }
 
-    /// Finds the first sheet that a ray meets; \*sheet is 0 where there is none.
+    /// Find where a ray first meets the sheet, or any (\*sheet is 0 if none), up to `max_distance`;
+    /// hit-\>triangle is -1 if it does not. Boxes over triangles that make rays fast follow the
+    /// sheet until 120 ticks pass without a ray.
     pub fn raycast(&self, origin: [f32; 3], direction: [f32; 3], max_distance: f32) -> Result<Option<(Sheet, Hit)>> {
         let mut sheet = 0;
         let mut hit = MaybeUninit::<sys::kiriHit>::uninit();
@@ -2275,8 +2228,7 @@ impl World {
         Ok(Status::of(result))
     }
 
-    /// sheet 0: it cuts all sheets, also those that are made later and pieces that get a sheet of
-    /// their own. A blade for one sheet whose sheet is gone cuts nothing.
+    /// Begins a blade for one sheet; 0: for all sheets, also those that are made later.
     pub fn begin_blade(&mut self, sheet: Option<Sheet>) -> Result<Blade> {
         let mut blade = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2284,7 +2236,8 @@ impl World {
         Ok(Blade::known(blade))
     }
 
-    /// Adds an obstacle. On failure \*obstacle is 0.
+    /// Add and destroy an obstacle. On failure \*obstacle is 0. Pieces that rested on a destroyed
+    /// one wake.
     pub fn create_obstacle(&mut self, def: &ObstacleDef<'_>) -> Result<Obstacle> {
         let mut obstacle = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2294,7 +2247,9 @@ impl World {
 }
 
 impl Sheet {
-    /// Destroys the sheet with its cuts, frames and pins; their ids are stale.
+    /// Add a sheet, and destroy one with its cuts, frames and pins. On failure \*sheet is 0.
+    /// [`ResultCode::ErrorMesh`]: the triangles do not form a sheet; the line says why, and names
+    /// the triangle, or the two at an edge, by index in the def.
     pub fn destroy(self, world: &mut World) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriDestroySheet(world.raw_mut(), self.raw()) }, world)?;
@@ -2313,7 +2268,7 @@ impl Sheet {
 
     /// Sets all settings, or none; checks them as [`World::create_sheet`] does.
     /// [`ResultCode::ErrorDef`]: they do not come from [`Sheet::settings`]. The sheet wakes if one
-    /// differs. Positions and velocities are kept, so a new mass changes the momentum. The
+    /// differs. Positions and velocities are kept, so a new mass changes the momentum; the
     /// stiffness of pins and the lengths that placed the frames are kept, too.
     pub fn set_settings(self, world: &mut World, settings: &SheetSettings) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2342,10 +2297,9 @@ impl Sheet {
     }
 
     /// Copies the index that each vertex had when the last call of [`World::tick`] began, for hosts
-    /// that draw between two ticks. \*from: the sheet that had the vertices then; another sheet if
-    /// this one was a piece of it. A vertex that a cut separated from another gets the index of the
-    /// other. -1: the vertex did not exist, as in a sheet that was created or loaded since. The
-    /// manual has the code (drawing).
+    /// that draw between two ticks; -1: it did not exist. \*from: the sheet that had the vertices
+    /// then. A vertex that a cut separated from another gets the index of the other. The manual has
+    /// the code (drawing).
     pub fn copy_previous(self, world: &World, first: i32, vertices: &mut [i32]) -> Result<Sheet> {
         let mut from = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2362,10 +2316,9 @@ impl Sheet {
     }
 
     /// Map triangles to the def, to draw with the host's data for its own vertices. Sources: the
-    /// triangle of the def that contains each; -1 for a triangle that was removed (its corners are
-    /// equal). Weights: 9 floats each, the barycentric coordinates of its three corners in that
-    /// triangle. They are correct on both sides of a seam that `weld_distance` closed;
-    /// `source_triangles` name a triangle on one side. The manual has the code (meshes).
+    /// triangle of the def that contains each; -1 for a triangle that was removed. Weights: 9
+    /// floats each, the barycentric coordinates of its three corners in that triangle, also beside
+    /// a seam that `weld_distance` closed. The manual has the code (meshes).
     pub fn copy_sources(self, world: &World, first_triangle: i32, sources: &mut [i32]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check_read(unsafe { sys::kiriSheet_CopySources(world.raw(), self.raw(), first_triangle, sources.len() as i32, sources.as_mut_ptr().cast()) })?;
@@ -2373,10 +2326,9 @@ impl Sheet {
     }
 
     /// Map triangles to the def, to draw with the host's data for its own vertices. Sources: the
-    /// triangle of the def that contains each; -1 for a triangle that was removed (its corners are
-    /// equal). Weights: 9 floats each, the barycentric coordinates of its three corners in that
-    /// triangle. They are correct on both sides of a seam that `weld_distance` closed;
-    /// `source_triangles` name a triangle on one side. The manual has the code (meshes).
+    /// triangle of the def that contains each; -1 for a triangle that was removed. Weights: 9
+    /// floats each, the barycentric coordinates of its three corners in that triangle, also beside
+    /// a seam that `weld_distance` closed. The manual has the code (meshes).
     pub fn copy_source_weights(self, world: &World, first_triangle: i32, weights: &mut [[f32; 9]]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check_read(unsafe { sys::kiriSheet_CopySourceWeights(world.raw(), self.raw(), first_triangle, weights.len() as i32, weights.as_mut_ptr().cast()) })?;
@@ -2424,9 +2376,8 @@ impl Sheet {
 
     /// Estimates the error of the current shape of a sheet that rests or moves slowly: rms distance
     /// from a sheet of very many frames under the same loads, over its rms way from the flat shape;
-    /// 0 to 1, and 1 with too few frames to tell. It compares strains of neighbouring links
-    /// ([`Model::Links`] only; else [`ResultCode::ErrorState`]), in one pass that allocates memory.
-    /// The manual says how good it is (accuracy).
+    /// 0 to 1, and 1 with too few frames to tell. [`Model::Links`] only; else
+    /// [`ResultCode::ErrorState`]. It allocates memory. The manual says how good it is (accuracy).
     pub fn estimate_error(self, world: &World) -> Result<f64> {
         let mut relative: f64 = Default::default();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2453,11 +2404,9 @@ impl Sheet {
 
     /// Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and
     /// the sheet wakes. The columns of rotation are the images of the world's axes; a planar sheet
-    /// turns about its normal only. Targets of pins, hinges, clamps and holds move along, so
-    /// nothing pulls the sheet back. A target that the host set nearer to the pin's new place than
-    /// to its old one stays: the host may set targets before or after. Pins on an obstacle stay on
-    /// it: move the obstacle by the same motion ([`Obstacle::set_pose`]), before or after. Pending
-    /// loads and contacts stay.
+    /// turns about its normal only. Targets of pins, hinges, clamps and holds move along; pins on
+    /// an obstacle stay on it. The manual has the order of calls that set targets or move obstacles
+    /// (sheets). Pending loads and contacts stay.
     pub fn transform(self, world: &mut World, rotation: [f32; 9], translation: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriSheet_Transform(world.raw_mut(), self.raw(), rotation.as_ptr(), translation.as_ptr()) }, world)?;
@@ -2473,20 +2422,18 @@ impl Sheet {
         Ok(())
     }
 
-    /// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
-    /// [`Frame::detach_piece`] copies the sheet's number to the new sheet. A piece has a number,
-    /// too, named by any of its frames: the parts of a piece that is cut inherit it, and so does a
-    /// sheet that is made of it.
+    /// Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has
+    /// one, a pin, and a piece, named by any of its frames: parts of a piece that is cut inherit
+    /// it, and a sheet that is made of it has both.
     pub fn set_user_data(self, world: &mut World, data: u64) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriSheet_SetUserData(world.raw_mut(), self.raw(), data) }, world)?;
         Ok(())
     }
 
-    /// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
-    /// [`Frame::detach_piece`] copies the sheet's number to the new sheet. A piece has a number,
-    /// too, named by any of its frames: the parts of a piece that is cut inherit it, and so does a
-    /// sheet that is made of it.
+    /// Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has
+    /// one, a pin, and a piece, named by any of its frames: parts of a piece that is cut inherit
+    /// it, and a sheet that is made of it has both.
     pub fn user_data(self, world: &World) -> Result<u64> {
         let mut data: u64 = Default::default();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2494,10 +2441,9 @@ impl Sheet {
         Ok(data)
     }
 
-    /// Finds where a ray first meets the sheet, up to `max_distance`. [`ResultCode::Ok`] with
-    /// hit-\>triangle = -1: it does not. The first ray visits every triangle. From the next tick on
-    /// boxes over the triangles follow the sheet, until 120 ticks pass without a ray: a ray takes
-    /// some microseconds, and a tick of a large sheet a quarter more.
+    /// Find where a ray first meets the sheet, or any (\*sheet is 0 if none), up to `max_distance`;
+    /// hit-\>triangle is -1 if it does not. Boxes over triangles that make rays fast follow the
+    /// sheet until 120 ticks pass without a ray.
     pub fn raycast(self, world: &World, origin: [f32; 3], direction: [f32; 3], max_distance: f32) -> Result<Option<Hit>> {
         let mut hit = MaybeUninit::<sys::kiriHit>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2520,7 +2466,7 @@ impl Sheet {
 
     /// Gets the shape functions at a rest point: up to capacity frames with their weights, whose
     /// sum is 1, and, unless null, gradients (2 floats a frame, 1/m). \*count is how many there
-    /// are, also above capacity. [`ResultCode::ErrorArgument`]: it is outside the sheet.
+    /// are, also above capacity. [`ResultCode::ErrorArgument`]: the point is outside the sheet.
     /// [`ResultCode::ErrorState`]: work on a cut is pending.
     pub fn weights(self, world: &World, rest_point: [f32; 2]) -> Result<(Vec<Frame>, Vec<f32>, Vec<[f32; 2]>)> {
         let mut frames = Vec::<Frame>::new();
@@ -2546,8 +2492,8 @@ impl Sheet {
         Ok((frames, weights, gradients))
     }
 
-    /// Get a piece. The first of these calls after a cut sorts the sheet by pieces, and may fail
-    /// with [`ResultCode::ErrorMemory`]. [`ResultCode::ErrorArgument`]: no piece has the index.
+    /// Get a piece. The first call after a cut sorts the sheet by pieces.
+    /// [`ResultCode::ErrorArgument`]: no piece has the index.
     pub fn piece(self, world: &mut World, piece: i32) -> Result<PieceState> {
         let mut state = MaybeUninit::<sys::kiriPieceState>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2557,8 +2503,8 @@ impl Sheet {
         Ok(PieceState::from_raw(&state))
     }
 
-    /// Get a piece. The first of these calls after a cut sorts the sheet by pieces, and may fail
-    /// with [`ResultCode::ErrorMemory`]. [`ResultCode::ErrorArgument`]: no piece has the index.
+    /// Get a piece. The first call after a cut sorts the sheet by pieces.
+    /// [`ResultCode::ErrorArgument`]: no piece has the index.
     pub fn piece_mesh(self, world: &mut World, piece: i32) -> Result<PieceMesh<'_>> {
         let mut mesh = MaybeUninit::<sys::kiriPieceMesh>::uninit();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2568,7 +2514,8 @@ impl Sheet {
         Ok(PieceMesh::from_raw(&mesh))
     }
 
-    /// Gets the frames of a piece: \*frames points to \*count ids.
+    /// Get the frames of a piece (\*frames points to \*count ids), and the current index of the
+    /// piece with a frame.
     pub fn piece_frames(self, world: &mut World, piece: i32) -> Result<&[Frame]> {
         let mut frames = std::ptr::null();
         let mut count = 0;
@@ -2599,8 +2546,7 @@ impl Sheet {
 
     /// Cuts where the quadrilateral swept by an edge in world space, from blade\[0\]-blade\[1\] to
     /// blade\[3\]-blade\[2\], meets the current sheet; past borders, so that it separates the parts
-    /// that it crosses. The cut is already ended. Slices of a moving sheet do not join from tick to
-    /// tick: use a blade for that.
+    /// that it crosses. The cut is already ended.
     pub fn slice(self, world: &mut World, blade: [f32; 12]) -> Result<Cut> {
         let mut cut = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2627,7 +2573,8 @@ impl Sheet {
         Ok(frames)
     }
 
-    /// Applies a force (N, world) at a point of the material and a torque (N m).
+    /// Apply a force (N, world) at the frame's centre of mass, or at a point of the material, and a
+    /// torque (N m).
     pub fn apply_force(self, world: &mut World, rest_point: [f32; 2], force: [f32; 3], torque: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriSheet_ApplyForce(world.raw_mut(), self.raw(), rest_point.as_ptr(), force.as_ptr(), torque.as_ptr()) }, world)?;
@@ -2650,9 +2597,9 @@ impl Sheet {
         Ok(())
     }
 
-    /// Applies an impulse (N s, world) at a point of the material on the visible surface.
-    /// Velocities change at once, by the mass of the frames that carry the point; a held frame's
-    /// share is lost. [`ResultCode::ErrorArgument`]: it is outside the sheet.
+    /// Applies an impulse (N s, world) at a point of the material on the visible surface, at once,
+    /// by the mass of the frames that carry the point; a held frame's share is lost.
+    /// [`ResultCode::ErrorArgument`]: the point is outside the sheet.
     pub fn apply_impulse(self, world: &mut World, rest_point: [f32; 2], impulse: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriSheet_ApplyImpulse(world.raw_mut(), self.raw(), rest_point.as_ptr(), impulse.as_ptr()) }, world)?;
@@ -2666,8 +2613,8 @@ impl Sheet {
         Ok(())
     }
 
-    /// Pins a point of the sheet. On failure \*pin is 0. [`ResultCode::ErrorArgument`]: it is
-    /// outside the sheet.
+    /// Pin a point of the sheet, and destroy a pin of any type. On failure \*pin is 0.
+    /// [`ResultCode::ErrorArgument`]: the point is outside the sheet.
     pub fn create_pin(self, world: &mut World, def: &PinDef) -> Result<Pin> {
         let mut pin = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2677,12 +2624,10 @@ impl Sheet {
 
     /// Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds
     /// the place and direction of its material, as a vice does; a hinge only the place, so the
-    /// sheet can turn about the line. The line is straight, with its rest length: bent material is
-    /// pulled straight, and separate pieces are pulled together, at any speed. Both hold the
-    /// material on the line, edges included, with its stiffness from the line to the frames around
-    /// it. A clamp through the sheet separates the bending of its two sides. A line along a cut
-    /// holds both lips; a line beside it, by a 512th of a grid square or more, holds one. The ends
-    /// differ. [`ResultCode::ErrorArgument`]: the line meets no material.
+    /// sheet can turn about the line. The line is straight, with its rest length: bent material and
+    /// separate pieces are pulled to it, at any speed. A line along a cut holds both lips; a line
+    /// beside it holds one. The ends differ. [`ResultCode::ErrorArgument`]: the line meets no
+    /// material.
     pub fn clamp_line(self, world: &mut World, from: [f32; 2], to: [f32; 2]) -> Result<Pin> {
         let mut clamp = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2692,12 +2637,10 @@ impl Sheet {
 
     /// Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds
     /// the place and direction of its material, as a vice does; a hinge only the place, so the
-    /// sheet can turn about the line. The line is straight, with its rest length: bent material is
-    /// pulled straight, and separate pieces are pulled together, at any speed. Both hold the
-    /// material on the line, edges included, with its stiffness from the line to the frames around
-    /// it. A clamp through the sheet separates the bending of its two sides. A line along a cut
-    /// holds both lips; a line beside it, by a 512th of a grid square or more, holds one. The ends
-    /// differ. [`ResultCode::ErrorArgument`]: the line meets no material.
+    /// sheet can turn about the line. The line is straight, with its rest length: bent material and
+    /// separate pieces are pulled to it, at any speed. A line along a cut holds both lips; a line
+    /// beside it holds one. The ends differ. [`ResultCode::ErrorArgument`]: the line meets no
+    /// material.
     pub fn hinge_line(self, world: &mut World, from: [f32; 2], to: [f32; 2]) -> Result<Pin> {
         let mut hinge = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2733,10 +2676,8 @@ impl Sheet {
         Ok(())
     }
 
-    /// Gets one result for each contact that was set before the last tick, in that order. The sum
-    /// of these impulses and of the impulses of gravity, loads and obstacles is the change of
-    /// momentum of a free piece. A sleeping piece goes on to press with the values with which it
-    /// fell asleep.
+    /// Gets one result for each contact that was set before the last tick, in that order. A
+    /// sleeping piece presses on.
     pub fn contact_forces(self, world: &World) -> Result<&[ContactForce]> {
         let mut forces = std::ptr::null();
         let mut count = 0;
@@ -2746,9 +2687,8 @@ impl Sheet {
     }
 
     /// Gets a box (m, world) around all that the sheet can touch in a tick of dt (s, as in
-    /// [`World::tick`]): a host needs no obstacles or contacts outside. Its margin is twice the way
-    /// of the fastest point by velocity and gravity, plus the contact thickness. For moving
-    /// obstacles add their own way.
+    /// [`World::tick`]): a host needs no obstacles or contacts outside. For moving obstacles add
+    /// their own way.
     pub fn reach(self, world: &World, dt: f32) -> Result<([f32; 3], [f32; 3])> {
         let mut lower: [f32; 3] = Default::default();
         let mut upper: [f32; 3] = Default::default();
@@ -2768,20 +2708,18 @@ impl Frame {
         Ok(())
     }
 
-    /// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
-    /// [`Frame::detach_piece`] copies the sheet's number to the new sheet. A piece has a number,
-    /// too, named by any of its frames: the parts of a piece that is cut inherit it, and so does a
-    /// sheet that is made of it.
+    /// Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has
+    /// one, a pin, and a piece, named by any of its frames: parts of a piece that is cut inherit
+    /// it, and a sheet that is made of it has both.
     pub fn set_piece_user_data(self, world: &mut World, data: u64) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriFrame_SetPieceUserData(world.raw_mut(), self.raw(), data) }, world)?;
         Ok(())
     }
 
-    /// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
-    /// [`Frame::detach_piece`] copies the sheet's number to the new sheet. A piece has a number,
-    /// too, named by any of its frames: the parts of a piece that is cut inherit it, and so does a
-    /// sheet that is made of it.
+    /// Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has
+    /// one, a pin, and a piece, named by any of its frames: parts of a piece that is cut inherit
+    /// it, and a sheet that is made of it has both.
     pub fn piece_user_data(self, world: &World) -> Result<u64> {
         let mut data: u64 = Default::default();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2789,7 +2727,8 @@ impl Frame {
         Ok(data)
     }
 
-    /// Gets the current index of the piece with this frame.
+    /// Get the frames of a piece (\*frames points to \*count ids), and the current index of the
+    /// piece with a frame.
     pub fn piece(self, world: &World) -> Result<i32> {
         let mut piece: i32 = Default::default();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2797,15 +2736,13 @@ impl Frame {
         Ok(piece)
     }
 
-    /// Makes a sheet of the piece with this frame. Frames, pins, collision points, pending loads
-    /// and contacts move along, with their ids and states, and the motion goes on. Both sheets have
-    /// all settings. Cuts stay with the old sheet. A clamp or hinge that holds both gets a copy
-    /// with a new id in the new sheet. Revisions grow; [`Sheet::dirty`] has the changes.
-    /// [`ResultCode::Pending`]: work on a cut is pending, or the piece takes more samples than the
-    /// budget leaves; \*detached is 0. Then samples of the coming ticks pay for it, and further
-    /// cuts of the sheet wait. When all is paid the piece of this frame becomes a sheet, and
-    /// [`EventType::PieceDetached`] names it. [`ResultCode::ErrorState`]: nothing would be left of
-    /// the sheet. The manual has indices and costs (cutting).
+    /// Makes a sheet of the piece with this frame. All that belongs to the piece moves along, with
+    /// ids and states, and the motion goes on; cuts stay with the old sheet. A clamp or hinge that
+    /// holds both gets a copy with a new id in the new sheet. [`ResultCode::Pending`]: work on a
+    /// cut is pending, or the piece takes more samples than the budget leaves; \*detached is 0.
+    /// Further cuts of the sheet then wait, and [`EventType::PieceDetached`] names the sheet in a
+    /// later tick. [`ResultCode::ErrorState`]: nothing would be left of the sheet. The manual has
+    /// indices and costs (cutting).
     pub fn detach_piece(self, world: &mut World) -> Result<Option<Sheet>> {
         let mut detached = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2813,10 +2750,10 @@ impl Frame {
         Ok(Sheet::from_raw(detached))
     }
 
-    /// Removes the piece with this frame: ids of its frames and pins are stale. Takes effect at
-    /// once, and the coming ticks have fewer samples. [`ResultCode::Pending`]: work on a cut is
-    /// pending. Until it is done the triangles stay in [`Mesh`] with three equal corners, the
-    /// vertices stay, and [`Counts`] counts the piece, with a [`PieceState`] of all zeros.
+    /// Removes the piece with this frame at once: ids of its frames and pins are stale, and the
+    /// coming ticks have fewer samples. [`ResultCode::Pending`]: work on a cut is pending. Until it
+    /// is done the triangles stay in [`Mesh`] with three equal corners, and [`Counts`] counts the
+    /// piece, with a [`PieceState`] of all zeros.
     pub fn destroy_piece(self, world: &mut World) -> Result<Status> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         let result = check(unsafe { sys::kiriFrame_DestroyPiece(world.raw_mut(), self.raw()) }, world)?;
@@ -2834,10 +2771,9 @@ impl Frame {
     }
 
     /// Holds the frame: its rest point on the visible surface moves evenly to position (m, world)
-    /// with rotation (a rotation matrix, columns as above) in the next tick, and stays there until
-    /// the next call. A held affine frame is not stretched. On a planar sheet the rotation is about
-    /// its normal. Null, null: frees it. Contacts do not push material of which held frames carry
-    /// more than half: it moves through obstacles.
+    /// with rotation (columns as above; on a planar sheet about its normal) in the next tick, and
+    /// stays there. Null, null: frees it. Material of which held frames carry more than half moves
+    /// through obstacles.
     pub fn hold(self, world: &mut World, position: Option<[f32; 3]>, rotation: Option<[f32; 9]>) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriFrame_Hold(world.raw_mut(), self.raw(), position.as_ref().map_or(std::ptr::null(), |rows| rows.as_ptr()), rotation.as_ref().map_or(std::ptr::null(), |rows| rows.as_ptr())) }, world)?;
@@ -2845,9 +2781,8 @@ impl Frame {
     }
 
     /// Gets the force (N, world) and torque (N m, about the frame's rest point) that the hold
-    /// applied to the sheet: means over the last tick, impulses divided by its dt. They include the
-    /// frame's own weight and change of momentum. Zero for a free frame. A sleeping piece keeps the
-    /// values with which it fell asleep.
+    /// applied to the sheet: means over the last tick that moved the piece, with the frame's own
+    /// weight and change of momentum. Zero for a free one.
     pub fn reaction(self, world: &World) -> Result<([f64; 3], [f64; 3])> {
         let mut force: [f64; 3] = Default::default();
         let mut torque: [f64; 3] = Default::default();
@@ -2856,7 +2791,8 @@ impl Frame {
         Ok((force, torque))
     }
 
-    /// Applies a force (N, world) at the frame's centre of mass and a torque (N m).
+    /// Apply a force (N, world) at the frame's centre of mass, or at a point of the material, and a
+    /// torque (N m).
     pub fn apply_force(self, world: &mut World, force: [f32; 3], torque: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriFrame_ApplyForce(world.raw_mut(), self.raw(), force.as_ptr(), torque.as_ptr()) }, world)?;
@@ -2865,20 +2801,18 @@ impl Frame {
 }
 
 impl Pin {
-    /// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
-    /// [`Frame::detach_piece`] copies the sheet's number to the new sheet. A piece has a number,
-    /// too, named by any of its frames: the parts of a piece that is cut inherit it, and so does a
-    /// sheet that is made of it.
+    /// Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has
+    /// one, a pin, and a piece, named by any of its frames: parts of a piece that is cut inherit
+    /// it, and a sheet that is made of it has both.
     pub fn set_user_data(self, world: &mut World, data: u64) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriPin_SetUserData(world.raw_mut(), self.raw(), data) }, world)?;
         Ok(())
     }
 
-    /// Store a number of the host, 0 at first. No tick depends on it, and the state hash does not.
-    /// [`Frame::detach_piece`] copies the sheet's number to the new sheet. A piece has a number,
-    /// too, named by any of its frames: the parts of a piece that is cut inherit it, and so does a
-    /// sheet that is made of it.
+    /// Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has
+    /// one, a pin, and a piece, named by any of its frames: parts of a piece that is cut inherit
+    /// it, and a sheet that is made of it has both.
     pub fn user_data(self, world: &World) -> Result<u64> {
         let mut data: u64 = Default::default();
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2886,11 +2820,18 @@ impl Pin {
         Ok(data)
     }
 
+    /// Pin a point of the sheet, and destroy a pin of any type. On failure \*pin is 0.
+    /// [`ResultCode::ErrorArgument`]: the point is outside the sheet.
+    pub fn destroy(self, world: &mut World) -> Result<()> {
+        // SAFETY: pointers are to what is named, and lengths are theirs.
+        check(unsafe { sys::kiriDestroyPin(world.raw_mut(), self.raw()) }, world)?;
+        Ok(())
+    }
+
     /// Sets the target of the pin's point, or of the middle of its line (m, world), for the end of
-    /// the next tick and until the next call. The pin moves there evenly within the tick. The
-    /// current target of [`Pin::state`] changes nothing. With [`Skinning::Smooth`] pins and clamps
-    /// hold the visible surface; a clamp holds its mean along the line for each piece, so single
-    /// points are slightly off the line.
+    /// the next tick and until the next call. The pin moves there evenly within the tick. With
+    /// [`Skinning::Smooth`] pins and clamps hold the visible surface; a clamp holds its mean along
+    /// the line for each piece.
     pub fn set_target(self, world: &mut World, target: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriPin_SetTarget(world.raw_mut(), self.raw(), target.as_ptr()) }, world)?;
@@ -2924,10 +2865,8 @@ impl Pin {
     }
 
     /// Gets the force (N, world) and torque (N m, about the target) that the pin applied to the
-    /// sheet: means over the last tick, impulses divided by its dt. The reactions of all pins and
-    /// held frames are the weight of a sheet at rest, and change its momentum in motion (as far as
-    /// iterations solve the tick). Zero before the first tick. A sleeping piece keeps the values
-    /// with which it fell asleep.
+    /// sheet: means over the last tick that moved the piece. All reactions are the weight of a
+    /// sheet at rest, and change its momentum in motion.
     pub fn reaction(self, world: &World) -> Result<([f64; 3], [f64; 3])> {
         let mut force: [f64; 3] = Default::default();
         let mut torque: [f64; 3] = Default::default();
@@ -2935,25 +2874,21 @@ impl Pin {
         check_read(unsafe { sys::kiriPin_GetReaction(world.raw(), self.raw(), force.as_mut_ptr(), torque.as_mut_ptr()) })?;
         Ok((force, torque))
     }
-
-    /// Destroys the pin; its id is stale.
-    pub fn destroy(self, world: &mut World) -> Result<()> {
-        // SAFETY: pointers are to what is named, and lengths are theirs.
-        check(unsafe { sys::kiriDestroyPin(world.raw_mut(), self.raw()) }, world)?;
-        Ok(())
-    }
 }
 
 impl Cut {
-    /// Adds points. `rest_points`: 2 floats a point; count is 1 to 2^24.
+    /// Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the
+    /// tick in which its last point takes effect ([`EventType::CutFinished`]). The sheet then adds
+    /// the frames that it needs.
     pub fn extend(self, world: &mut World, rest_points: &[[f32; 2]]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriCut_Extend(world.raw_mut(), self.raw(), rest_points.as_ptr().cast(), rest_points.len() as i32) }, world)?;
         Ok(())
     }
 
-    /// Ends the cut. Its id is stale after the tick in which its last point takes effect
-    /// ([`EventType::CutFinished`]). The sheet then adds the frames that it needs.
+    /// Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the
+    /// tick in which its last point takes effect ([`EventType::CutFinished`]). The sheet then adds
+    /// the frames that it needs.
     pub fn end(self, world: &mut World) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriCut_End(world.raw_mut(), self.raw()) }, world)?;
@@ -2962,17 +2897,18 @@ impl Cut {
 }
 
 impl Blade {
-    /// The blade is now the straight edge between two points (m, world). From where it was it got
-    /// there straight, each end along a line. The first call only says where it begins. Where an
-    /// end of the edge lies inside of what it sweeps of the sheet, it cuts only what it sweeps. An
-    /// edge without length cuts nothing.
+    /// Move the blade to the straight edge between two points (m, world), or length m along a ray
+    /// that a camera casts; each end goes straight. The first call only says where it begins. An
+    /// end inside cuts along its own way.
     pub fn move_edge(self, world: &mut World, from: [f32; 3], to: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriBlade_MoveEdge(world.raw_mut(), self.raw(), from.as_ptr(), to.as_ptr()) }, world)?;
         Ok(())
     }
 
-    /// The same for a ray that a camera casts: an edge length m long.
+    /// Move the blade to the straight edge between two points (m, world), or length m along a ray
+    /// that a camera casts; each end goes straight. The first call only says where it begins. An
+    /// end inside cuts along its own way.
     pub fn move_ray(self, world: &mut World, origin: [f32; 3], direction: [f32; 3], length: f32) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriBlade_MoveRay(world.raw_mut(), self.raw(), origin.as_ptr(), direction.as_ptr(), length) }, world)?;
@@ -2988,7 +2924,8 @@ impl Blade {
 }
 
 impl Obstacle {
-    /// Destroys an obstacle; its id is stale. Pieces that rested on it wake.
+    /// Add and destroy an obstacle. On failure \*obstacle is 0. Pieces that rested on a destroyed
+    /// one wake.
     pub fn destroy(self, world: &mut World) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriDestroyObstacle(world.raw_mut(), self.raw()) }, world)?;
@@ -3003,21 +2940,24 @@ impl Obstacle {
         Ok(())
     }
 
-    /// Set the velocity (m/s, rad/s) for the next and all later ticks.
+    /// Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg),
+    /// inertia and centre of mass.
     pub fn set_velocity(self, world: &mut World, velocity: [f32; 3], angular_velocity: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriObstacle_SetVelocity(world.raw_mut(), self.raw(), velocity.as_ptr(), angular_velocity.as_ptr()) }, world)?;
         Ok(())
     }
 
-    /// Set the velocity (m/s, rad/s) for the next and all later ticks.
+    /// Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg),
+    /// inertia and centre of mass.
     pub fn set_surface_velocity(self, world: &mut World, velocity: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriObstacle_SetSurfaceVelocity(world.raw_mut(), self.raw(), velocity.as_ptr()) }, world)?;
         Ok(())
     }
 
-    /// Sets mass (kg), inertia and centre of mass, as in the def.
+    /// Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg),
+    /// inertia and centre of mass.
     pub fn set_mass(self, world: &mut World, mass: f32, inertia: [f32; 6], center_of_mass: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriObstacle_SetMass(world.raw_mut(), self.raw(), mass, inertia.as_ptr(), center_of_mass.as_ptr()) }, world)?;
