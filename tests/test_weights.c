@@ -191,7 +191,31 @@ static void Blend(const Host* host, const Weights* w, const float rest[2], doubl
     }
 }
 
-/* Vertices and collision points are blends of the frames by the weights of their rest points. At a lip vertices have the
+/* Normals of vertices are the sums of the normals of their triangles, each as long as its triangle is large. */
+static void CheckNormals(const kiriMesh* mesh)
+{
+    double* sums = calloc(3 * (size_t)mesh->vertexCount, sizeof(double));
+    for (int32_t t = 0; t < mesh->triangleCount; ++t) {
+        const int32_t* corner = &mesh->indices[3 * t];
+        const float *a = &mesh->positions[3 * corner[0]], *b = &mesh->positions[3 * corner[1]],
+                    *c = &mesh->positions[3 * corner[2]];
+        for (int k = 0; k < 9; ++k) {
+            int x = (k % 3 + 1) % 3, y = (k % 3 + 2) % 3;
+            sums[3 * corner[k / 3] + k % 3] +=
+                ((double)b[x] - a[x]) * ((double)c[y] - a[y]) - ((double)b[y] - a[y]) * ((double)c[x] - a[x]);
+        }
+    }
+    for (int32_t v = 0; v < mesh->vertexCount; ++v) {
+        const double* n = &sums[3 * v];
+        double size = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        for (int k = 0; k < 3 && size > 1e-6; ++k) { /* slivers are rounded */
+            assert_float_equal(mesh->normals[3 * v + k], n[k] / size, 1e-3);
+        }
+    }
+    free(sums);
+}
+
+/* Vertices are blends of the frames by the weights of their rest points. At a lip vertices have the
    weights of their own side, so those are left out. */
 static void SurfaceIsTheBlend(void** state)
 {
@@ -216,6 +240,7 @@ static void SurfaceIsTheBlend(void** state)
             }
             OK(Host_Tick(&host, 0.01f, 2));
             kiriMesh mesh = Host_Mesh(&host, sheet);
+            CheckNormals(&mesh);
             for (int32_t v = 0; v < mesh.vertexCount; ++v, ++all) {
                 const float* rest = &mesh.restPositions[2 * v];
                 bool isInside = fabsf(rest[0] - 0.5f) < 0.499f && fabsf(rest[1] - 0.5f) < 0.499f;
