@@ -173,44 +173,6 @@ static kiriFrame FrameNear(Host* host, kiriSheet sheet, float u, float v)
     return frame;
 }
 
-/* A part has the squares around it, wherever these begin. Blades come into it from all sides, a line finds it, and a
-   part of the part has fewer still. In the second world all fields are made anew. */
-static void TestSquaresOfAPart(void** state)
-{
-    (void)state;
-    static const float blades[3][4] = { { 0.2f, 0.87f, 1.2f, 0.83f },
-                                        { 0.88f, 1.3f, 0.91f, -0.2f },
-                                        { 1.3f, 1.1f, 0.5f, 0.61f } };
-    Host hosts[2];
-    kiriSheet part[2], of[2];
-    for (int k = 0; k < 2; ++k) {
-        kiriSheetDef def = DefOf(24);
-        def.paper.fromScratch = k;
-        Host_Start(&hosts[k]);
-        kiriSheet sheet = Chop(&hosts[k], &def, 3, 2);
-        kiriPinDef pin;
-        kiriPin id;
-        OK(kiriFrame_DetachPiece(hosts[k].world, FrameNear(&hosts[k], sheet, 0.85f, 0.8f), &part[k]));
-        for (int i = 0; i < 3; ++i) {
-            Host_Cut(&hosts[k], part[k], blades[i], 2);
-            OK(Host_Tick(&hosts[k], 1.0f / 60.0f, 1));
-        }
-        assert_int_equal(Host_Counts(&hosts[k], part[k]).pieces, 7);
-        kiriDefaultPinDef(&pin);
-        pin.restPoint[0] = 0.97f;
-        pin.restPoint[1] = 0.98f;
-        OK(kiriCreatePin(hosts[k].world, part[k], &pin, &id));
-        OK(kiriSheet_ClampLine(hosts[k].world, part[k], (float[]){ 0.7f, 0.56f }, (float[]){ 0.96f, 0.56f }, &id));
-        OK(kiriFrame_DetachPiece(hosts[k].world, FrameNear(&hosts[k], part[k], 0.97f, 0.98f), &of[k]));
-        OK(Host_Tick(&hosts[k], 1.0f / 60.0f, 1));
-    }
-    for (int32_t s = 0; s < 3; ++s) {
-        assert_int_equal(LayoutAt(&hosts[0], s), LayoutAt(&hosts[1], s));
-    }
-    Host_Stop(&hosts[0]);
-    Host_Stop(&hosts[1]);
-}
-
 /* Another material gives frames other masses, which the next commit counts exactly: in a part that leaves before it,
    too. */
 static void TestPartsCountOtherMassesExactly(void** state)
@@ -426,40 +388,6 @@ static void TestGoneTouchesNothing(void** state)
     assert_true(Host_Totals(&host, fallen[0]).center[2] < -0.5);
     assert_true(Host_Totals(&host, fallen[1]).center[2] > -0.01);
     Host_Stop(&host);
-}
-
-/* Whatever allocation fails, all is as before. */
-static void TestLeavingWithoutMemory(void** state)
-{
-    (void)state;
-    for (int destroy = 0; destroy < 2; ++destroy) {
-        Host host;
-        kiriSheetDef def = DefOf(24);
-        Host_Start(&host);
-        kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 70, 70), detached;
-        Host_Cut(&host, sheet, (float[]){ 0.7f, -0.1f, 0.7f, 0.3f, 1.1f, 0.3f }, 3);
-        OK(Host_Tick(&host, 1.0f / 60.0f, 1));
-        kiriFrame gone = FrameNear(&host, sheet, 0.85f, 0.15f);
-        uint64_t before = Host_Hash(&host);
-        int32_t failures = 0;
-        kiriResult result;
-        do {
-            host.failAt = host.calls + failures;
-            host.failOnce = true;
-            result =
-                destroy ? kiriFrame_DestroyPiece(host.world, gone) : kiriFrame_DetachPiece(host.world, gone, &detached);
-            host.failAt = -1;
-            if (result != KIRI_OK) {
-                assert_int_equal(result, KIRI_ERROR_MEMORY);
-                assert_int_equal(Host_Hash(&host), before);
-                Host_Validate(&host);
-                failures += destroy ? 1 : 1 + failures / 16;
-            }
-        } while (result != KIRI_OK);
-        assert_true(failures > 10);
-        OK(Host_Tick(&host, 1.0f / 60.0f, 1));
-        Host_Stop(&host);
-    }
 }
 
 /* ---- On account ---- */
@@ -833,76 +761,7 @@ static void TestTouchesGoOn(void** state)
     }
 }
 
-/* Samples pay for it, before it is done, and what is cut meanwhile waits. Of what the sheet becomes nothing else
-   changes. */
-static void TestWaitingIsPaid(void** state)
-{
-    (void)state;
-    static const float across[4] = { -0.1f, 0.93f, 1.1f, 0.96f };
-    uint64_t layouts[2];
-    for (int k = 0; k < 2; ++k) {
-        const kiriBudget budget = { 0, 50, 20, 0 }, small = { 0, 0, k == 0 ? 7 : 0, 0 };
-        kiriResult result = KIRI_PENDING;
-        int32_t ticks = 0;
-        kiriSheet detached;
-        Host host;
-        Wait wait = StartWait(&host, &budget);
-        assert_int_equal(kiriFrame_DetachPiece(host.world, wait.frames[1], &detached), KIRI_PENDING);
-        while (Layout_Stage(host.world, wait.sheet) < KIRI_STAGE_CONSTANTS && result == KIRI_PENDING) {
-            result = Host_Tick(&host, 1.0f / 60.0f, 1);
-        }
-        Host_Cut(&host, wait.sheet, across, 2);
-        OK(kiriWorld_SetBudget(host.world, &small));
-        for (; Host_SheetCount(&host) == 1; ++ticks) {
-            kiriProfile profile;
-            uint64_t before = Host_Hash(&host);
-            result = Host_Tick(&host, 1.0f / 60.0f, 1);
-            OK(kiriWorld_GetProfile(host.world, &profile));
-            assert_true(before != Host_Hash(&host));
-            assert_true(k == 1 || profile.samplesRefreshed <= 7);
-        }
-        assert_true(k == 0 ? ticks > 5 : ticks == 2); /* paid at the end of one, gone at the start of the next */
-        assert_int_equal(result, KIRI_OK);
-        while (Host_Tick(&host, 1.0f / 60.0f, 1) == KIRI_PENDING) {
-        }
-        layouts[k] = LayoutAt(&host, 0) ^ 3 * LayoutAt(&host, 1);
-        Host_Stop(&host);
-    }
-    assert_true(layouts[0] == layouts[1]);
-}
-
 /* ---- Without memory ---- */
-
-/* Whatever allocation fails of a call while a cut waits, all is as before. */
-static void TestWaitingCallsWithoutMemory(void** state)
-{
-    (void)state;
-    static const kiriBudget budget = { 0, 30, 20, 0 };
-    for (int destroy = 0; destroy < 2; ++destroy) {
-        Host host;
-        Wait wait = StartWait(&host, &budget);
-        uint64_t before = Host_Hash(&host);
-        int32_t failures = 0;
-        kiriSheet detached;
-        kiriResult result;
-        do {
-            host.failAt = host.calls + failures;
-            host.failOnce = true;
-            result = destroy ? kiriFrame_DestroyPiece(host.world, wait.frames[0])
-                             : kiriFrame_DetachPiece(host.world, wait.frames[0], &detached);
-            host.failAt = -1;
-            if (result != KIRI_PENDING) {
-                assert_int_equal(result, KIRI_ERROR_MEMORY);
-                assert_int_equal(Host_Hash(&host), before);
-                Host_Validate(&host);
-                ++failures;
-            }
-        } while (result != KIRI_PENDING);
-        assert_true(failures > 1);
-        assert_true(Host_Tick(&host, 1.0f / 60.0f, 1) >= 0);
-        Host_Stop(&host);
-    }
-}
 
 /* Asks for both, and returns how many ticks it takes until they are done. In the last one memory is refused from an
    allocation on, unless that is below 0. */
@@ -1013,12 +872,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestManyAreAsOneByOne),
         cmocka_unit_test(TestOfSeveralSheets),
-        cmocka_unit_test(TestSquaresOfAPart),
         cmocka_unit_test(TestPartsCountOtherMassesExactly),
         cmocka_unit_test(TestLeftIsAsFromScratch),
         cmocka_unit_test(TestGoneIsNotSeen),
         cmocka_unit_test(TestGoneTouchesNothing),
-        cmocka_unit_test(TestLeavingWithoutMemory),
         cmocka_unit_test(TestCallsKeepToTheBudget),
         cmocka_unit_test(TestDestroyingIsOnAccount),
         cmocka_unit_test(TestUnderBudgets),
@@ -1026,9 +883,7 @@ int main(void)
         cmocka_unit_test(TestGoneIsGone),
         cmocka_unit_test(TestAskedTwice),
         cmocka_unit_test(TestCrumbsWhileTheLargestLeaves),
-        cmocka_unit_test(TestWaitingCallsWithoutMemory),
         cmocka_unit_test(TestWaitingIsPatient),
-        cmocka_unit_test(TestWaitingIsPaid),
         cmocka_unit_test(TestTouchesGoOn),
         cmocka_unit_test(TestFewCells),
     };
