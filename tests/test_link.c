@@ -79,56 +79,6 @@ static void CornersOfShiftedRows(void** state)
     Scene_Release(&scene);
 }
 
-static void SlitMakesTheLongWay(void** state)
-{
-    (void)state;
-    Scene scene;
-    Links links;
-    Scene_Init(&scene, 1.0, 1.0, 10, 10, 21);
-    Scene_Slit(&scene, 0.5, 0.0, 0.5, 0.8);
-    Scene_BuildGrid(&scene);
-    kiriSite sites[2] = { Scene_Site(&scene, 0.25, 0.25), Scene_Site(&scene, 0.75, 0.25) };
-    Build(&scene, &links, sites, 2);
-    assert_int_equal(links.made.links.count, 1);
-    const kiriLink* link = &links.made.links.data[0];
-    double across = 0.5 * (sites[1].at.x - sites[0].at.x), up = 0.8 - sites[0].at.y;
-    double way = 2.0 * sqrt(across * across + up * up);
-    AssertNear(link->length, way, 1e-6);
-    AssertNear(link->crossing.x, 0.5, 1e-6);
-    AssertNear(link->crossing.y, 0.8, 1e-6);
-    AssertNear(link->width, 0.2, 2e-6);
-    AssertNear(link->outer, link->width, 0.0);
-    Scene_Release(&scene);
-}
-
-static void HoleMakesTwoStretches(void** state)
-{
-    (void)state;
-    Scene scene;
-    Links links;
-    Scene_Init(&scene, 1.0, 0.5, 10, 5, 41);
-    Scene_Slit(&scene, 0.4, 0.2, 0.6, 0.2);
-    Scene_Slit(&scene, 0.6, 0.2, 0.6, 0.4);
-    Scene_Slit(&scene, 0.6, 0.4, 0.4, 0.4);
-    Scene_Slit(&scene, 0.4, 0.4, 0.4, 0.2);
-    Scene_BuildGrid(&scene);
-    kiriSite sites[2] = { Scene_Site(&scene, 0.25, 0.25), Scene_Site(&scene, 0.75, 0.25) };
-    Build(&scene, &links, sites, 2);
-    assert_int_equal(links.made.links.count, 2);
-    for (int k = 0; k < 2; ++k) {
-        const kiriLink* link = &links.made.links.data[k];
-        assert_int_equal(link->i, 0);
-        assert_int_equal(link->j, 1);
-        AssertNear(link->width, k == 0 ? 0.2 : 0.1, 1e-6);
-        AssertNear(link->moment, link->width * link->width * link->width / 12.0, 1e-9);
-        AssertNear(link->centroid.y, k == 0 ? 0.1 : 0.45, 1e-6);
-    }
-    /* Over the hole it is a longer way than under it, and one that passes by a corner of the hole. */
-    assert_true(links.made.links.data[1].length > links.made.links.data[0].length);
-    AssertNear(links.made.links.data[1].crossing.y, 0.41, 0.02);
-    Scene_Release(&scene);
-}
-
 /* Frame 0 sits at the bottom of a corridor, and frame 1 before its mouth, hardly farther from it: the border turns back
    around the mouth and runs along the corridor on both sides. */
 static void BentBorderIsSplit(void** state)
@@ -159,23 +109,6 @@ static void BentBorderIsSplit(void** state)
     }
     AssertNear(total, expected, 1e-12);
     assert_true(kiriVec2_Length(vector) < 0.5 * total);
-    Scene_Release(&scene);
-}
-
-/* Width, centroid and second moment of a link between partly covered squares, where the faces are no whole sides. */
-static void PartialFacesCount(void** state)
-{
-    (void)state;
-    Scene scene;
-    Links links;
-    Scene_Init(&scene, 1.0, 0.13, 7, 1, 10);
-    Scene_BuildGrid(&scene);
-    kiriSite sites[2] = { Scene_Site(&scene, 0.25, 0.05), Scene_Site(&scene, 0.75, 0.05) };
-    Build(&scene, &links, sites, 2);
-    assert_int_equal(links.made.links.count, 1);
-    AssertNear(links.made.links.data[0].width, 0.13, 1e-7);
-    AssertNear(links.made.links.data[0].centroid.y, 0.065, 1e-7);
-    AssertNear(links.made.links.data[0].moment, 0.13 * 0.13 * 0.13 / 12.0, 1e-9);
     Scene_Release(&scene);
 }
 
@@ -229,25 +162,6 @@ static void RandomSheetsAddUp(void** state)
     }
     assert_true(found > 1000);
     assert_true(corners > 200);
-}
-
-/* A slit that ends at the border parts the border, though the squares before it are whole. */
-static void SlitAcrossTheBorderPartsIt(void** state)
-{
-    (void)state;
-    Scene scene;
-    Links links;
-    Scene_Init(&scene, 1.0, 0.5, 10, 2, 41);
-    Scene_Slit(&scene, 0.5, 0.25, 0.7, 0.25);
-    Scene_BuildGrid(&scene);
-    kiriSite sites[2] = { Scene_Site(&scene, 10.5 / 41, 0.25), Scene_Site(&scene, 30.5 / 41, 0.25) };
-    Build(&scene, &links, sites, 2);
-    assert_int_equal(links.made.links.count, 2);
-    for (int k = 0; k < 2; ++k) {
-        AssertNear(links.made.links.data[k].width, 0.25, 1e-6);
-        AssertNear(links.made.links.data[k].centroid.y, k == 0 ? 0.125 : 0.375, 1e-6);
-    }
-    Scene_Release(&scene);
 }
 
 /* ---- Against the Euclidean Voronoi diagram ----------------------------------------------------------------------- */
@@ -726,12 +640,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(CornersOfShiftedRows),
-        cmocka_unit_test(SlitMakesTheLongWay),
-        cmocka_unit_test(HoleMakesTwoStretches),
         cmocka_unit_test(BentBorderIsSplit),
-        cmocka_unit_test(PartialFacesCount),
         cmocka_unit_test(RandomSheetsAddUp),
-        cmocka_unit_test(SlitAcrossTheBorderPartsIt),
         cmocka_unit_test(BordersAreThoseOfVoronoi),
         cmocka_unit_test(RowOnACoarseGrid),
         cmocka_unit_test(LinksAreContinuous),

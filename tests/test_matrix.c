@@ -1,5 +1,4 @@
 /* The block matrix against a dense one, summed and solved here. */
-#include "core/kiri_archive.h"
 #include "matrix_hash.h"
 #include "solver/kiri_matrix.h"
 #include "support.h"
@@ -341,180 +340,15 @@ static void TestNoMemory(void** state)
     kiriMemory_FreeAll(&memory);
 }
 
-/* ---- Bytes ------------------------------------------------------------------------------------------------------- */
-
-enum { BYTES_FRAMES = 20, MOST_BYTES = 4096 };
-
-static int64_t WriteMatrix(kiriMatrix* matrix, uint8_t bytes[MOST_BYTES])
-{
-    kiriArchive measure = kiriArchive_Measure(), archive = kiriArchive_Write(bytes, MOST_BYTES);
-    kiriMatrix_Archive(&measure, matrix);
-    kiriMatrix_Archive(&archive, matrix);
-    assert_false(archive.isBad);
-    assert_int_equal(archive.at, measure.at);
-    return archive.at;
-}
-
-static void FactorAndSolve(kiriMatrix* matrix, uint32_t seed, double* to)
-{
-    Assemble(matrix, &seed, 6, BYTES_FRAMES, 12);
-    for (int32_t n = 0; n < 6 * BYTES_FRAMES; ++n) {
-        right[n] = RandomBetween(&seed, -1.0, 1.0);
-    }
-    assert_true(kiriMatrix_Factor(matrix));
-    kiriMatrix_Solve(matrix, right, to);
-}
-
-/* Bytes have the pairs alone. The order follows from them, so a matrix that is read solves to the same bits. */
-static void TestBytes(void** state)
-{
-    (void)state;
-    static double other[MOST];
-    kiriMemory memory = kiriMemory_Make(NULL, NULL, NULL);
-    uint8_t bytes[MOST_BYTES];
-    for (uint32_t seed = 1; seed < 20; ++seed) {
-        kiriMatrix *matrix = kiriMatrix_Create(&memory, 6), *read = kiriMatrix_Create(&memory, 6);
-        uint32_t random = seed;
-        MakeElements(&random, 6, BYTES_FRAMES, 12);
-        assert_true(kiriMatrix_Shape(matrix, BYTES_FRAMES, pairs, pairCount));
-        int64_t size = WriteMatrix(matrix, bytes);
-        kiriArchive archive = kiriArchive_Read(bytes, size, &memory);
-        kiriMatrix_Archive(&archive, read);
-        assert_false(kiriArchive_HasFailed(&archive));
-        assert_int_equal(archive.at, size);
-        assert_true(kiriMatrix_Hash(read) == kiriMatrix_Hash(matrix));
-        FactorAndSolve(matrix, seed, solution);
-        FactorAndSolve(read, seed, other);
-        assert_memory_equal(other, solution, sizeof(double) * 6 * BYTES_FRAMES);
-        kiriMemory_FreeAll(&memory);
-    }
-}
-
-/* A matrix that bytes made, whatever they were: all blocks of its pattern take numbers, and it solves. */
-static void UseMatrix(kiriMatrix* matrix)
-{
-    int32_t frames = kiriMatrix_FrameCount(matrix), count = kiriMatrix_PairCount(matrix);
-    double one[36] = { 0.0 }, J[12] = { 0.0 }, k = 0.01;
-    assert_true(frames > 0 && frames <= MOST_FRAMES && count < MOST_FRAMES * MOST_FRAMES);
-    for (int n = 0; n < 6; ++n) {
-        one[7 * n] = 1.0;
-        J[n] = J[6 + n] = 1.0;
-    }
-    kiriMatrix_GetPairs(matrix, pairs);
-    kiriMatrix_Clear(matrix);
-    for (int32_t f = 0; f < frames; ++f) {
-        kiriMatrix_AddOwn(matrix, f, one);
-    }
-    for (int32_t p = 0; p < count; ++p) {
-        int32_t both[2] = { pairs[p].a, pairs[p].b };
-        assert_true(kiriMatrix_Covers(matrix, pairs[p]));
-        assert_int_not_equal(both[0], both[1]);
-        kiriMatrix_AddSquares(matrix, both, 2, J, &k, 1);
-    }
-    memset(right, 0, sizeof(right));
-    right[0] = 1.0;
-    assert_true(kiriMatrix_Factor(matrix));
-    kiriMatrix_Solve(matrix, right, solution);
-    assert_true(solution[0] > 0.5 && solution[0] < 1.0);
-}
-
-/* With any number changed, or cut short, bytes are refused, or are those of another matrix. */
-static void TestDamagedBytes(void** state)
-{
-    (void)state;
-    kiriMemory memory = kiriMemory_Make(NULL, NULL, NULL);
-    uint8_t bytes[MOST_BYTES], damaged[MOST_BYTES];
-    uint32_t seed = 3;
-    MakeElements(&seed, 6, BYTES_FRAMES, 12);
-    kiriMatrix* matrix = kiriMatrix_Create(&memory, 6);
-    assert_true(kiriMatrix_Shape(matrix, BYTES_FRAMES, pairs, pairCount));
-    int64_t size = WriteMatrix(matrix, bytes);
-    assert_int_equal(size, 4 + 4 * BYTES_FRAMES + 4 * kiriMatrix_PairCount(matrix));
-    int32_t refused = 0, used = 0;
-    kiriMemory_FreeAll(&memory);
-    for (int64_t trial = 0; trial < 6 * size; ++trial) {
-        static const uint8_t flips[6] = { 1, 2, 4, 8, 64, 128 };
-        int64_t at = trial / 6;
-        memcpy(damaged, bytes, (size_t)size);
-        damaged[at] ^= flips[trial % 6];
-        kiriMatrix* read = kiriMatrix_Create(&memory, 6);
-        kiriArchive archive = kiriArchive_Read(damaged, size, &memory);
-        kiriMatrix_Archive(&archive, read);
-        assert_false(archive.isShort);
-        if (archive.isBad) {
-            ++refused;
-        } else {
-            ++used;
-            UseMatrix(read);
-        }
-        kiriMemory_FreeAll(&memory);
-    }
-    assert_true(refused > 0 && used > 0);
-    for (int64_t few = 0; few < size; ++few) {
-        kiriMatrix* read = kiriMatrix_Create(&memory, 6);
-        kiriArchive archive = kiriArchive_Read(bytes, few, &memory);
-        kiriMatrix_Archive(&archive, read);
-        assert_true(archive.isBad && !archive.isShort);
-        kiriMemory_FreeAll(&memory);
-    }
-}
-
-/* Refuses all requests after so many. */
-static void* AllocOrRefuse(void* user, int64_t bytes)
-{
-    int32_t* left = user;
-    return *left == 0 ? NULL : (--*left, malloc((size_t)bytes));
-}
-
-static void FreeAnyway(void* user, void* pointer)
-{
-    (void)user;
-    free(pointer);
-}
-
-/* Without memory a matrix is refused, of pairs and of bytes; the next call makes it. */
-static void TestMemoryIsRefused(void** state)
-{
-    (void)state;
-    int32_t left = INT32_MAX, refusals[2] = { 0, 0 };
-    kiriMemory memory = kiriMemory_Make(AllocOrRefuse, FreeAnyway, &left);
-    uint8_t bytes[MOST_BYTES];
-    uint32_t seed = 11;
-    MakeElements(&seed, 6, BYTES_FRAMES, 12);
-    kiriMatrix* first = kiriMatrix_Create(&memory, 6);
-    assert_true(kiriMatrix_Shape(first, BYTES_FRAMES, pairs, pairCount));
-    int64_t size = WriteMatrix(first, bytes);
-    uint64_t hash = kiriMatrix_Hash(first);
-    for (int way = 0; way < 2; ++way) {
-        bool isDone = false;
-        for (int32_t n = 0; !isDone; ++n) {
-            left = n;
-            kiriArchive archive = kiriArchive_Read(bytes, size, &memory);
-            kiriMatrix* matrix = kiriMatrix_Create(&memory, 6);
-            isDone = matrix != NULL && way == 0 && kiriMatrix_Shape(matrix, BYTES_FRAMES, pairs, pairCount);
-            if (matrix != NULL && way == 1) {
-                kiriMatrix_Archive(&archive, matrix);
-                assert_false(archive.isBad);
-                isDone = !archive.isShort;
-            }
-            refusals[way] += !isDone;
-            left = INT32_MAX;
-            if (matrix != NULL) {
-                assert_true(isDone || kiriMatrix_Shape(matrix, BYTES_FRAMES, pairs, pairCount));
-                assert_true(kiriMatrix_Hash(matrix) == hash);
-            }
-        }
-    }
-    assert_true(refusals[0] > 10 && refusals[1] > 10);
-    kiriMemory_FreeAll(&memory);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestSolves),       cmocka_unit_test(TestWidePanels),      cmocka_unit_test(TestVectors),
-        cmocka_unit_test(TestCovers),       cmocka_unit_test(TestNotPositive),     cmocka_unit_test(TestBytes),
-        cmocka_unit_test(TestDamagedBytes), cmocka_unit_test(TestMemoryIsRefused), cmocka_unit_test(TestHashes),
+        cmocka_unit_test(TestSolves),
+        cmocka_unit_test(TestWidePanels),
+        cmocka_unit_test(TestVectors),
+        cmocka_unit_test(TestCovers),
+        cmocka_unit_test(TestNotPositive),
+        cmocka_unit_test(TestHashes),
         cmocka_unit_test(TestNoMemory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -107,43 +107,6 @@ typedef struct Purse {
     int32_t left;
 } Purse;
 
-static void* PurseAlloc(void* user, int64_t bytes)
-{
-    Purse* purse = user;
-    return purse->left-- > 0 ? malloc((size_t)bytes) : NULL;
-}
-
-static void PurseFree(void* user, void* pointer)
-{
-    (void)user;
-    free(pointer);
-}
-
-/* Refused at any of its allocations, the list of dirty squares has all of them after the next attempt. */
-static void TestDirtyWithoutMemory(void** state)
-{
-    (void)state;
-    for (int32_t affordable = 0; affordable < 4; ++affordable) {
-        Purse purse = { affordable };
-        kiriMemory memory = kiriMemory_Make(PurseAlloc, PurseFree, &purse);
-        kiriOwnership ownership;
-        kiriMeshData mesh;
-        int32_t dirty[] = { 2, 0 };
-        memset(&ownership, 0, sizeof(ownership));
-        memset(&mesh, 0, sizeof(mesh));
-        mesh.squares.columns = mesh.squares.rows = 2;
-        mesh.squares.dirty.data = dirty;
-        mesh.squares.dirty.count = 2;
-        assert_true(kiriOwnership_NoteDirty(&ownership, &memory, &mesh) == (affordable == 3));
-        purse.left = INT32_MAX;
-        assert_true(kiriOwnership_NoteDirty(&ownership, &memory, &mesh));
-        assert_int_equal(ownership.dirty.count, 2);
-        assert_int_equal(ownership.dirty.data[0], 2);
-        assert_int_equal(ownership.dirty.data[1], 0);
-        kiriMemory_FreeAll(&memory);
-    }
-}
-
 /* ---- Pieces ---- */
 
 enum { MOST_FRAMES = 64 };
@@ -627,7 +590,6 @@ static void TestBentPaperGainsNoEnergy(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestDirtyWithoutMemory),
         cmocka_unit_test(TestPiecesAreWhatElementsJoin),
         cmocka_unit_test(TestMomentumIsKept),
         cmocka_unit_test(TestRigidMotionGoesOn),
