@@ -64,53 +64,6 @@ static void BothSidesOfEachEnd(void** state)
     Scene_Release(&scene);
 }
 
-static void NoMoreThanAskedFor(void** state)
-{
-    (void)state;
-    for (int32_t most = 0; most < 6; ++most) {
-        Scene scene;
-        kiriSites sites = { 0 };
-        Scene_Init(&scene, 1.0, 1.0, 20, 20, 40);
-        Scene_Slit(&scene, 0.6, 0.7, 0.8, 0.7);
-        AddPairs(&scene, &sites, 0.1, most);
-        assert_int_equal(sites.count, most < 4 ? most / 2 * 2 : 4);
-        Scene_Release(&scene);
-    }
-}
-
-/* A piece and its slit ends are the same when a budget interrupts the search, also after one that was given up. */
-static void TakenInParts(void** state)
-{
-    (void)state;
-    Scene scene;
-    kiriPlacer whole = { 0 }, parts = { 0 };
-    Scene_Init(&scene, 1.0, 1.0, 20, 20, 40);
-    Scene_Slit(&scene, 0.3, 0.0, 0.3, 0.4);
-    Scene_Slit(&scene, 0.6, 0.7, 0.8, 0.7);
-    Scene_Slit(&scene, 0.9, 0.0, 0.9, 1.0);
-    Scene_BuildGrid(&scene);
-    int32_t cell = Scene_Cell(&scene, 0.01, 0.01);
-    kiriQuota few = { 3, 0, 0, false };
-    assert_true(kiriPlacer_TakePiece(&whole, &scene.memory, &scene.grid, cell));
-    assert_true(kiriPlacer_StartPiece(&parts, &scene.memory, &scene.grid, Scene_Cell(&scene, 0.95, 0.5)));
-    assert_int_equal(kiriPlacer_GoOnWithPiece(&parts, &scene.memory, &scene.grid, &few), KIRI_MORE);
-    assert_true(kiriPlacer_StartPiece(&parts, &scene.memory, &scene.grid, cell));
-    int32_t times = 1;
-    for (kiriQuota quota = { 7, 0, 0, false };
-         kiriPlacer_GoOnWithPiece(&parts, &scene.memory, &scene.grid, &quota) == KIRI_MORE; ++times) {
-        quota = (kiriQuota){ 7, 0, 0, false };
-    }
-    assert_true(times > 10);
-    assert_int_equal(parts.cells.count, whole.cells.count);
-    assert_memory_equal(parts.cells.data, whole.cells.data, sizeof(int32_t) * (size_t)whole.cells.count);
-    assert_int_equal(FindEnds(&scene, &whole, &whole.ends, INT64_MAX), 1);
-    assert_true(FindEnds(&scene, &parts, &parts.ends, 1) > 10);
-    assert_int_equal(whole.ends.count, 3);
-    assert_int_equal(parts.ends.count, 3);
-    assert_memory_equal(parts.ends.data, whole.ends.data, sizeof(kiriSlitEnd) * 3);
-    Scene_Release(&scene);
-}
-
 /* Where another slit is in the way the pair is closer; in a neck of the width of two squares there is none. */
 static void AsCloseAsThereIsRoom(void** state)
 {
@@ -149,32 +102,6 @@ static void OnlyEnds(void** state)
     Scene_Slit(&scene, 0.2, 0.8, 0.1, 0.8);
     Scene_Slit(&scene, 0.1, 0.8, 0.1, 0.6);
     AddPairs(&scene, &sites, 0.1, 100);
-    assert_int_equal(sites.count, 0);
-    Scene_Release(&scene);
-}
-
-static void PairsFailCleanly(void** state)
-{
-    (void)state;
-    Scene scene;
-    kiriSites sites = { 0 };
-    kiriSlitEnds ends = { 0 };
-    kiriPlacer placer = { 0 };
-    Scene_Init(&scene, 1.0, 1.0, 20, 20, 40);
-    Scene_Slit(&scene, 0.3, 0.0, 0.3, 0.4);
-    Scene_BuildGrid(&scene);
-    assert_true(kiriPlacer_TakePiece(&placer, &scene.memory, &scene.grid, 0));
-    for (int k = 0; k < 2; ++k) {
-        scene.purse.budget = k == 0 ? 0 : -1;
-        kiriSlitSearch search = { 0 };
-        kiriQuota quota = { INT64_MAX, 0, 0, false };
-        kiriProgress progress = kiriSlits_FindEnds(&ends, &search, &scene.memory, &scene.grid, &scene.mesh,
-                                                   placer.cells.data, placer.cells.count, &quota);
-        assert_int_equal(progress, k == 0 ? KIRI_FAILED : KIRI_DONE);
-    }
-    assert_int_equal(ends.count, 1);
-    scene.purse.budget = 0;
-    assert_false(kiriSlits_AddPairs(&sites, &scene.memory, &scene.grid, &scene.mesh, &ends, 0.1, 8));
     assert_int_equal(sites.count, 0);
     Scene_Release(&scene);
 }
@@ -296,31 +223,6 @@ static void CloseFramePointsAreRefused(void** state)
         }
         Host_Stop(&host);
     }
-}
-
-/* Half a square apart, but on the two lips of a slit, with a long way from the one to the other. */
-static void LipsAreNotClose(void** state)
-{
-    (void)state;
-    Scene scene;
-    kiriSites sites = { 0 };
-    Scene_Init(&scene, 1.0, 1.0, 20, 20, 10);
-    Scene_Slit(&scene, 0.35, 0.0, 0.35, 0.8);
-    Scene_BuildGrid(&scene);
-    int32_t* holder = malloc(sizeof(int32_t) * (size_t)scene.grid.cells.count);
-    for (int32_t c = 0; c < scene.grid.cells.count; ++c) {
-        holder[c] = KIRI_NONE;
-    }
-    kiriSite left = { { 0.32, 0.25 }, Scene_Cell(&scene, 0.32, 0.25) };
-    kiriSite right = { { 0.37, 0.25 }, Scene_Cell(&scene, 0.37, 0.25) };
-    kiriSite below = { { 0.32, 0.17 }, Scene_Cell(&scene, 0.32, 0.17) };
-    assert_true(kiriArray_Push(&scene.memory, &sites, left));
-    holder[left.cell] = 0;
-    assert_int_not_equal(left.cell, right.cell);
-    assert_false(kiriSites_IsCrowded(&scene.grid, &sites, &right, holder));
-    assert_true(kiriSites_IsCrowded(&scene.grid, &sites, &below, holder));
-    free(holder);
-    Scene_Release(&scene);
 }
 
 static void ManyFramesAreRefused(void** state)
@@ -459,14 +361,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(BothSidesOfEachEnd),
-        cmocka_unit_test(TakenInParts),
-        cmocka_unit_test(NoMoreThanAskedFor),
         cmocka_unit_test(AsCloseAsThereIsRoom),
         cmocka_unit_test(OnlyEnds),
-        cmocka_unit_test(PairsFailCleanly),
         cmocka_unit_test(BordersBeginAtSlitEnds),
         cmocka_unit_test(CloseFramePointsAreRefused),
-        cmocka_unit_test(LipsAreNotClose),
         cmocka_unit_test(ManyFramesAreRefused),
         cmocka_unit_test(ResamplingStops),
         cmocka_unit_test(NoMoreThanTheHostGave),

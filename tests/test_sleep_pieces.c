@@ -713,63 +713,6 @@ static void TestDetachAsleep(void** state)
 
 /* ---- Memory ---- */
 
-/* Refused ticks wake no other pieces than those that ticks with memory do. */
-static void TestRefused(void** state)
-{
-    (void)state;
-    static const float slit[4] = { 0.6f, 0.3f, 0.65f, 0.7f };
-    Host host;
-    kiriSheet sheet = StartStrips(&host);
-    SleepAll(&host, sheet);
-    AddBall(&host, 0.1f, 0.5f, -0.045f, 0.8f);
-    Throw(&host, sheet, 3, 0.2f);
-    Host_Cut(&host, sheet, slit, 2);
-    int refused = 0;
-    for (int64_t at = 0;; ++at) {
-        host.failAt = host.calls + at;
-        kiriResult result = Host_Tick(&host, dt, 2);
-        host.failAt = -1;
-        if (result == KIRI_OK) {
-            break;
-        }
-        assert_int_equal(result, KIRI_ERROR_MEMORY);
-        assert_int_equal(Awake(&host, sheet) & Bit(&host, sheet, 1), 0);
-        ++refused;
-    }
-    assert_true(refused > 3);
-    assert_int_equal(Awake(&host, sheet), Bit(&host, sheet, 3) | Bit(&host, sheet, 2) | Bit(&host, sheet, 0));
-    Host_Stop(&host);
-}
-
-/* Pieces that fall asleep and wake need no memory. */
-static void TestNoAllocation(void** state)
-{
-    (void)state;
-    static const float down[3] = { 0.0f, 0.0f, -9.81f };
-    Host host;
-    kiriSheetDef def = StripsDef();
-    kiriObstacleDef floorDef;
-    kiriObstacle floor;
-    def.position[2] = 0.001f;
-    Host_Start(&host);
-    kiriSheet sheet = AddStrips(&host, &def);
-    kiriDefaultObstacleDef(&floorDef);
-    floorDef.type = KIRI_OBSTACLE_PLANE;
-    OK(kiriCreateObstacle(host.world, &floorDef, &floor));
-    OK(kiriWorld_SetGravity(host.world, down));
-    for (int round = 0; round < 3; ++round) {
-        int64_t calls = host.calls;
-        for (int k = 0; k < 200; ++k) {
-            if (k % 50 == 0) {
-                Throw(&host, sheet, k / 50, 0.05f);
-            }
-            OK(kiriWorld_Tick(host.world, dt, 2));
-        }
-        assert_true(round < 2 || host.calls == calls);
-    }
-    Host_Stop(&host);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -787,8 +730,6 @@ int main(void)
         cmocka_unit_test(TestWhatSleepersPressWith),
         cmocka_unit_test(TestPiecesThatTouch),
         cmocka_unit_test(TestDetachAsleep),
-        cmocka_unit_test(TestRefused),
-        cmocka_unit_test(TestNoAllocation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
