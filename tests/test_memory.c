@@ -193,65 +193,6 @@ static void CheckIndices(const Host* host, kiriSheet sheet, kiriCounts counts)
     }
 }
 
-/* A budget spreads the update over ticks, and one of them gets no memory: what earlier ones did stays. */
-static void TestRefusedInALaterTick(void** state)
-{
-    (void)state;
-    const kiriBudget budget = { 0, 10, 10, 0 }, none = { 0, 0, 0, 0 };
-    uint64_t layout = LayoutWithoutFailure(16);
-    for (int32_t pause = 1; pause < 30; pause += 3) {
-        Host host;
-        Host_Start(&host);
-        kiriSheet sheet = AddForCut(&host, 16);
-        OK(kiriWorld_SetBudget(host.world, &budget));
-        kiriResult result = KIRI_PENDING;
-        for (int32_t tick = 0; tick < pause; ++tick) {
-            result = kiriWorld_Tick(host.world, 1.0f / 60.0f, 1);
-            assert_int_equal(result, KIRI_PENDING);
-        }
-        kiriCounts counts = Host_Counts(&host, sheet);
-        host.failAt = host.calls;
-        while (result == KIRI_PENDING) {
-            result = kiriWorld_Tick(host.world, 1.0f / 60.0f, 1);
-        }
-        assert_int_equal(result, KIRI_ERROR_MEMORY);
-        kiriCounts after = Host_Counts(&host, sheet);
-        assert_true(after.triangles >= counts.triangles && after.vertices >= counts.vertices);
-        CheckIndices(&host, sheet, after);
-        host.failAt = -1;
-        OK(kiriWorld_SetBudget(host.world, &none));
-        OK(kiriWorld_Tick(host.world, 1.0f / 60.0f, 1));
-        assert_true(LayoutOf(&host) == layout);
-        Host_Stop(&host);
-    }
-}
-
-/* The tick of the cut gets no memory from some call on. It says so; the cut goes on in the next, and comes out as if
-   nothing had been refused. */
-static void TestRefusedInTheTickOfACut(void** state)
-{
-    (void)state;
-    uint64_t layout = LayoutWithoutFailure(8);
-    int32_t refused = 0;
-    for (kiriResult result = KIRI_ERROR_MEMORY; result != KIRI_OK; ++refused) {
-        Host host;
-        Host_Start(&host);
-        kiriSheet sheet = AddForCut(&host, 8);
-        host.failAt = host.calls + refused;
-        result = kiriWorld_Tick(host.world, 1.0f / 60.0f, 1);
-        host.failAt = -1;
-        if (result != KIRI_OK) {
-            assert_int_equal(result, KIRI_ERROR_MEMORY);
-            CheckIndices(&host, sheet, Host_Counts(&host, sheet));
-            Host_Validate(&host);
-            OK(kiriWorld_Tick(host.world, 1.0f / 60.0f, 1));
-        }
-        assert_true(LayoutOf(&host) == layout);
-        Host_Stop(&host);
-    }
-    assert_true(refused > 20);
-}
-
 /* A cut that a budget spreads over ticks, while each 10th request for memory is refused: it is done within three times
    the ticks, no tick stands still, and nothing is lost. */
 static void TestScarceMemoryIsASpentBudget(void** state)
@@ -306,9 +247,9 @@ static void TestBytesOfVertices(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestBytesOfVertices),        cmocka_unit_test(TestPlainTicks),
-        cmocka_unit_test(TestCuttingTicks),           cmocka_unit_test(TestRefusedInALaterTick),
-        cmocka_unit_test(TestRefusedInTheTickOfACut),
+        cmocka_unit_test(TestBytesOfVertices),
+        cmocka_unit_test(TestPlainTicks),
+        cmocka_unit_test(TestCuttingTicks),
         cmocka_unit_test(TestScarceMemoryIsASpentBudget),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

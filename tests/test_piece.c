@@ -737,42 +737,6 @@ static void TestPartsAreRefused(void** state)
     Host_Stop(&host);
 }
 
-/* Whatever allocation fails, all is as before, and the same call does it afterwards. */
-static void TestPartsWithoutMemory(void** state)
-{
-    (void)state;
-    for (int what = 0; what < 3; ++what) {
-        Host host;
-        Host_Start(&host);
-        kiriSheet sheet = Strips(&host, 3), detached;
-        int32_t failures = 0, dropped;
-        uint64_t before = Host_Hash(&host);
-        kiriMesh mesh = Host_Mesh(&host, sheet);
-        kiriFrame frame = Host_FrameOf(&host, sheet, 1);
-        kiriResult result;
-        do {
-            int64_t live = host.live;
-            host.failAt = host.calls + failures;
-            host.failOnce = failures % 2 == 0;
-            result = what == 0   ? kiriFrame_DetachPiece(host.world, frame, &detached)
-                     : what == 1 ? kiriFrame_DestroyPiece(host.world, frame)
-                                 : kiriSheet_DropCrumbs(host.world, sheet, 0.33f, &dropped);
-            host.failAt = -1;
-            if (result != KIRI_OK) {
-                assert_int_equal(result, KIRI_ERROR_MEMORY);
-                assert_int_equal(Host_Hash(&host), before);
-                assert_ptr_equal(Host_Mesh(&host, sheet).positions, mesh.positions);
-                assert_true(host.live <= live + 64); /* room in the world's lists, and for staged bodies */
-                ++failures;
-            }
-        } while (result != KIRI_OK);
-        assert_true(failures > (what == 0 ? 100 : 15));
-        Tick(&host, 2);
-        CheckPieces(&host, sheet);
-        Host_Stop(&host);
-    }
-}
-
 /* ---- Crumbs ---- */
 
 static void TestDropCrumbs(void** state)
@@ -877,29 +841,6 @@ static void TestCrumbsOfDef(void** state)
     Host_Stop(&host);
 }
 
-/* Each piece of confetti has a frame and a collision point. */
-static void TestConfettiHasAll(void** state)
-{
-    (void)state;
-    for (uint32_t run = 1; run <= 6; ++run) {
-        uint32_t seed = 313u * run;
-        Host host;
-        Host_Start(&host);
-        kiriSheetDef def = AnyDef(&seed);
-        def.model = KIRI_MODEL_POINTS;
-        def.collisionPoints = 3;
-        def.crumbArea = run % 2 == 0 ? 0.01f : 0.0f;
-        kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 10, 10);
-        for (int pass = 0; pass < 2; ++pass) {
-            Shred(&host, sheet, 12, &seed);
-            Tick(&host, 1);
-            CheckPieces(&host, sheet); /* frames and collision points */
-        }
-        assert_true(Host_Counts(&host, sheet).pieces > 60);
-        Host_Stop(&host);
-    }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -909,9 +850,7 @@ int main(void)
         cmocka_unit_test(TestMotionGoesOn),
         cmocka_unit_test(TestCutsStayWithTheRest), cmocka_unit_test(TestBladeOfTheRestGoesOn),
         cmocka_unit_test(TestIdsMoveAlong),        cmocka_unit_test(TestContactsMoveAlong),
-        cmocka_unit_test(TestPartsAreRefused),     cmocka_unit_test(TestPartsWithoutMemory),
-        cmocka_unit_test(TestDropCrumbs),          cmocka_unit_test(TestCrumbsAreNotSampled),
-        cmocka_unit_test(TestCrumbsOfDef),         cmocka_unit_test(TestConfettiHasAll),
-    };
+        cmocka_unit_test(TestPartsAreRefused),        cmocka_unit_test(TestDropCrumbs),          cmocka_unit_test(TestCrumbsAreNotSampled),
+        cmocka_unit_test(TestCrumbsOfDef),    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -111,53 +111,6 @@ typedef struct Purse {
 
 enum { MOST_FRAMES = 64 };
 
-/* The pieces come from the links. Elements join no two of them; and they join all of each, but for frames that no
-   integration point reaches. */
-static void CheckPieces(Probe* probe)
-{
-    const kiriSheetData* sheet = DataOf(probe);
-    const int32_t* piece = sheet->layout.framePiece.data;
-    int32_t joined[MOST_FRAMES], members[MOST_FRAMES], count = 0;
-    kiriSystem system;
-    memset(&system, 0, sizeof(system));
-    system.mechanics = sheet->settings.mechanics;
-    system.frameCount = sheet->frames.count;
-    system.links = sheet->links.links.data;
-    system.linkCount = sheet->links.links.count;
-    system.areaElements = &sheet->layout.areaElements;
-    assert_true(sheet->frames.count <= MOST_FRAMES);
-    for (int32_t f = 0; f < sheet->frames.count; ++f) {
-        joined[f] = f;
-    }
-    for (int32_t k = 0; k < kiriElement_Count(&system); ++k) {
-        int32_t memberCount = kiriElement_Members(&system, k, members);
-        for (int32_t m = 1; m < memberCount; ++m) {
-            int32_t from = joined[members[m]], to = joined[members[0]];
-            assert_int_equal(piece[members[m]], piece[members[0]]);
-            for (int32_t f = 0; f < sheet->frames.count; ++f) {
-                joined[f] = joined[f] == from ? to : joined[f];
-            }
-        }
-    }
-    for (int32_t f = 0; f < sheet->frames.count; ++f) {
-        count += joined[f] == f;
-    }
-    assert_true(sheet->settings.mechanics.model == KIRI_MODEL_POINTS ? count >= sheet->layout.pieces.count
-                                                                     : count == sheet->layout.pieces.count);
-}
-
-static void TestPiecesAreWhatElementsJoin(void** state)
-{
-    (void)state;
-    for (int32_t number = 0; number < 9; ++number) {
-        Probe probe;
-        Case c = { number % 3, number % 4 == 3, 12, 9, 0.0, 2.0 };
-        FlyAndCut(&probe, &c, CheckPieces, 5u + (uint32_t)number);
-        assert_true(probe.commits > 20 && Host_Counts(&probe.host, probe.sheet).pieces > 3);
-        Host_Stop(&probe.host);
-    }
-}
-
 /* ---- Momentum and energy ---- */
 
 static int32_t limited; /* commits in which angular momentum gave way to energy */
@@ -443,24 +396,6 @@ static void TestFadesEnd(void** state)
     Host_Stop(&host);
 }
 
-static void TestFadesAreInTheHash(void** state)
-{
-    (void)state;
-    Host host;
-    kiriSheet sheet;
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
-    StartFading(&host, &def, &sheet);
-    kiriFades* fades = &host.world->sheets.data[0]->seen.fades;
-    uint64_t hash = Host_Hash(&host);
-    double* offset = &fades->fading.data[fades->fading.count - 1].offset.x;
-    double was = *offset;
-    *offset = was + 1e-6;
-    assert_true(Host_Hash(&host) != hash);
-    *offset = was;
-    Host_Stop(&host);
-}
-
 /* A sheet that lies still is not written again, until it moves or is put elsewhere, by however much. */
 static void TestStillSheetsAreNotWritten(void** state)
 {
@@ -590,13 +525,11 @@ static void TestBentPaperGainsNoEnergy(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestPiecesAreWhatElementsJoin),
         cmocka_unit_test(TestMomentumIsKept),
         cmocka_unit_test(TestRigidMotionGoesOn),
         cmocka_unit_test(TestFarFramesKeepTheirState),
         cmocka_unit_test(TestNothingSeenJumps),
         cmocka_unit_test(TestFadesEnd),
-        cmocka_unit_test(TestFadesAreInTheHash),
         cmocka_unit_test(TestStillSheetsAreNotWritten),
         cmocka_unit_test(TestNoSleepBeforeTheEnd),
         cmocka_unit_test(TestDefsThatAreNone),

@@ -174,50 +174,6 @@ static void TestCutShort(void** state)
     Tape_Free(&tape);
 }
 
-static void TestFlippedBits(void** state)
-{
-    (void)state;
-    Tape tape;
-    uint32_t seed = 5;
-    int32_t noticed = 0, tried = 0;
-    RecordSmall(&tape);
-    for (int64_t byte = 0; byte < tape.size; byte += 1 + Random(&seed) % 3, tried++) {
-        uint8_t flips = (uint8_t)(1u << Random(&seed) % 8);
-        Tape again;
-        noticed += PlayChanged(&tape, byte, flips, &again) < 0;
-        tape.bytes[byte] ^= flips;
-        Tape_Stop(&again);
-        Tape_Free(&again);
-    }
-    assert_true(noticed > tried / 2);
-    Tape_Free(&tape);
-}
-
-/* Entries of nonsense after a good start. */
-static void TestGarbage(void** state)
-{
-    (void)state;
-    Tape tape;
-    uint32_t seed = 11;
-    RecordSmall(&tape);
-    for (int round = 0; round < 300; round++) {
-        Tape again;
-        int64_t from = GRAVITY_BYTE + 12 + Random(&seed) % (uint32_t)(tape.size - GRAVITY_BYTE - 12);
-        Tape broken = tape;
-        broken.bytes = malloc((size_t)tape.size);
-        memcpy(broken.bytes, tape.bytes, (size_t)tape.size);
-        for (int64_t i = from; i < from + 24 && i < tape.size; i++) {
-            broken.bytes[i] = (uint8_t)(Random(&seed) % 4 == 0 ? 0xff : Random(&seed));
-        }
-        Tape_Start(&again);
-        assert_true(Tape_Play(&again, &broken) <= 0);
-        Tape_Stop(&again);
-        Tape_Free(&again);
-        free(broken.bytes);
-    }
-    Tape_Free(&tape);
-}
-
 /* ---- Memory ------------------------------------------------------------------------------------------------------ */
 
 /* Each allocation of a replay is refused once. Then it says so; another world plays it to the end. */
@@ -339,8 +295,6 @@ int main(void)
         cmocka_unit_test(TestOtherVersions),
         cmocka_unit_test(TestAnotherResult),
         cmocka_unit_test(TestCutShort),
-        cmocka_unit_test(TestFlippedBits),
-        cmocka_unit_test(TestGarbage),
         cmocka_unit_test(TestRefusedReplay),
         cmocka_unit_test(TestRecordedRefusals),
         cmocka_unit_test(TestLoad),

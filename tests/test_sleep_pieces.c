@@ -404,40 +404,6 @@ static void TestCutWakesItsPiece(void** state)
     Host_Stop(&host);
 }
 
-/* The same cuts with all made from scratch give the same bits, whoever sleeps. */
-static void TestScratch(void** state)
-{
-    (void)state;
-    Host hosts[2];
-    kiriSheet sheets[2];
-    for (int h = 0; h < 2; ++h) {
-        kiriSheetDef def = StripsDef();
-        def.paper.fromScratch = h;
-        Host_Start(&hosts[h]);
-        sheets[h] = AddStrips(&hosts[h], &def);
-    }
-    for (int cut = 0; cut < 8; ++cut) {
-        float u = 0.13f + 0.25f * (float)(cut % 4), v = 0.2f + 0.08f * (float)cut;
-        const float line[4] = { u - 0.06f, v, u + (cut == 5 ? 0.3f : 0.05f), v + 0.01f };
-        uint32_t seen = 0;
-        for (int h = 0; h < 2; ++h) {
-            Host_Cut(&hosts[h], sheets[h], line, 2);
-        }
-        for (int k = 0; k < 40; ++k) {
-            Tick(&hosts[0]);
-            Tick(&hosts[1]);
-            kiriMesh one = Host_Mesh(&hosts[0], sheets[0]), other = Host_Mesh(&hosts[1], sheets[1]);
-            assert_int_equal(one.vertexCount, other.vertexCount);
-            assert_memory_equal(one.positions, other.positions, 3 * sizeof(float) * (size_t)one.vertexCount);
-            assert_int_equal(Awake(&hosts[0], sheets[0]), Awake(&hosts[1], sheets[1]));
-            seen |= 1u << __builtin_popcount(Awake(&hosts[0], sheets[0]));
-        }
-        assert_true(cut == 0 || cut == 5 || (seen & 2) != 0); /* one alone was awake */
-    }
-    Host_Stop(&hosts[0]);
-    Host_Stop(&hosts[1]);
-}
-
 /* ---- Obstacles ---- */
 
 static kiriObstacle AddBall(Host* host, float u, float v, float z, float up)
@@ -722,7 +688,6 @@ int main(void)
         cmocka_unit_test(TestContactsOfOthers),
         cmocka_unit_test(TestContactsOfOnePoint),
         cmocka_unit_test(TestCutWakesItsPiece),
-        cmocka_unit_test(TestScratch),
         cmocka_unit_test(TestObstacleWakesWhatIsNear),
         cmocka_unit_test(TestObstacleGoes),
         cmocka_unit_test(TestObstacleBesideGone),
