@@ -984,30 +984,6 @@ static void LoadArguments(void** state)
     Host_Stop(host);
 }
 
-/* A pin that is destroyed gives its place to the last one, which keeps its id. */
-static void PinsKeepTheirIds(void** state)
-{
-    (void)state;
-    static const float target[3] = { 1.0f, 2.0f, 3.0f };
-    Fixture f;
-    Setup(&f);
-    kiriPinDef def;
-    kiriPin pins[3];
-    kiriDefaultPinDef(&def);
-    for (int i = 0; i < 3; ++i) {
-        def.restPoint[0] = def.restPoint[1] = 0.2f + 0.2f * (float)i;
-        OK(kiriCreatePin(f.host.world, f.sheet, &def, &pins[i]));
-    }
-    OK(kiriDestroyPin(f.host.world, pins[0]));
-    OK(kiriPin_SetTarget(f.host.world, pins[2], target));
-    OK(kiriPin_SetTarget(f.host.world, pins[1], target));
-    assert_int_equal(kiriPin_SetTarget(f.host.world, pins[0], target), KIRI_ERROR_ID);
-    Host_Validate(&f.host);
-    OK(kiriDestroyPin(f.host.world, pins[2]));
-    OK(kiriDestroyPin(f.host.world, pins[1]));
-    Host_Stop(&f.host);
-}
-
 static void ShortIndicesNeedFewVertices(void** state)
 {
     (void)state;
@@ -1064,51 +1040,6 @@ static void ContactArguments(void** state)
     OK(kiriSheet_SetContacts(w, f.sheet, c, 2));
     OK(kiriSheet_SetContacts(w, f.sheet, NULL, 0));
     Host_Stop(host);
-}
-
-/* Legal, and cuts nothing: no length, or outside all the way, or along the outline. */
-static void HarmlessCuts(void** state)
-{
-    (void)state;
-    static const struct {
-        int32_t count;
-        float points[8];
-    } cuts[] = {
-        { 1, { 0.3f, 0.3f } },
-        { 2, { 0.3f, 0.3f, 0.3f, 0.3f } },
-        { 4, { 0.31f, 0.33f, 0.31f, 0.33f, 0.31f, 0.33f, 0.31f, 0.33f } },
-        { 2, { -1.0f, -1.0f, 2.0f, -1.0f } },
-        { 4, { -1.0f, -1.0f, 2.0f, -1.0f, 2.0f, 2.0f, -1.0f, 2.0f } },
-        { 3, { 1e30f, 1e30f, 3.4e38f, 1e30f, -3.4e38f, 3.4e38f } },
-        { 2, { 0.0f, 0.0f, 1.0f, 0.0f } },
-        { 2, { 1.0f, 0.0f, 2.0f, 0.5f } },
-        { 2, { 1.5f, 0.5f, 0.5f, 1.5f } }, /* touches the corner */
-    };
-    for (size_t i = 0; i < sizeof(cuts) / sizeof(cuts[0]); ++i) {
-        Fixture f;
-        Setup(&f);
-        Host* host = &f.host;
-        kiriEvent event = { 0 };
-        kiriCounts before = Host_Counts(host, f.sheet);
-        kiriTotals totals = Host_Totals(host, f.sheet);
-        kiriCut cut = 0;
-        OK(kiriBeginCut(host->world, f.sheet, cuts[i].points, &cut));
-        if (cuts[i].count > 1) {
-            OK(kiriCut_Extend(host->world, cut, cuts[i].points + 2, cuts[i].count - 1));
-        }
-        OK(kiriCut_End(host->world, cut));
-        OK(Host_Tick(host, 0.01f, 1));
-        assert_int_equal(Host_Events(host, KIRI_EVENT_CUT_FINISHED, &event), 1);
-        assert_true(event.cut == cut && event.sheet == f.sheet && event.frame == 0);
-        assert_int_equal(
-            Host_Events(host, KIRI_EVENT_PIECE_OFF, NULL) + Host_Events(host, KIRI_EVENT_FRAME_ADDED, NULL), 0);
-        kiriCounts after = Host_Counts(host, f.sheet);
-        if (memcmp(&before, &after, sizeof(before)) != 0) {
-            fail_msg("cut %d made %d vertices of %d", (int)i, (int)after.vertices, (int)before.vertices);
-        }
-        assert_true(totals.area == Host_Totals(host, f.sheet).area);
-        Host_Stop(host);
-    }
 }
 
 /* Finite is finite: nothing crashes, and what comes out is finite, or the sheet is said to have diverged. */
@@ -1337,10 +1268,8 @@ int main(void)
         cmocka_unit_test(LineArguments),
         cmocka_unit_test(PoseArguments),
         cmocka_unit_test(LoadArguments),
-        cmocka_unit_test(PinsKeepTheirIds),
         cmocka_unit_test(ShortIndicesNeedFewVertices),
         cmocka_unit_test(ContactArguments),
-        cmocka_unit_test(HarmlessCuts),
         cmocka_unit_test(HugeValues),
         cmocka_unit_test(HugeSheets),
         cmocka_unit_test(Copies),

@@ -710,32 +710,6 @@ static kiriResult Call(Stage* stage, int k)
                             : kiriBlade_MoveEdge(w, stage->blade, from, to);
 }
 
-/* Memory is refused at each place in turn: the call says so, and changes nothing unless it is a tick; in the end the
-   sheet is cut. */
-static void TestWithoutMemory(void** state)
-{
-    (void)state;
-    Stage stage;
-    Stage_StartFlat(&stage, 8, 4);
-    int32_t refused = 0;
-    for (int k = 0; k < CALLS; ++k) {
-        uint64_t before = Host_Hash(&stage.host);
-        kiriResult result = KIRI_ERROR_MEMORY;
-        for (int64_t more = 0; result == KIRI_ERROR_MEMORY; ++more) {
-            bool isTick = k == CALLS - 1 || (k > 0 && k < CALLS - 2 && k % 3 == 0);
-            assert_true(isTick || Host_Hash(&stage.host) == before);
-            stage.host.failAt = stage.host.calls + more;
-            result = Call(&stage, k);
-            refused += result == KIRI_ERROR_MEMORY;
-        }
-        stage.host.failAt = -1;
-        OK(result);
-    }
-    assert_true(Pieces(&stage) >= 2);
-    assert_true(refused > 50);
-    Host_Stop(&stage.host);
-}
-
 /* Rays that somebody casts in between make no difference, though they make boxes. */
 static void TestRaysMakeNoDifference(void** state)
 {
@@ -815,7 +789,6 @@ int main(void)
         cmocka_unit_test(TestOpensAtOnce),
         cmocka_unit_test(TestRefusals),
         cmocka_unit_test(TestExtremeEdges),
-        cmocka_unit_test(TestWithoutMemory),
         cmocka_unit_test(TestRaysMakeNoDifference),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -110,45 +110,39 @@ static void Stand_Stop(Stand* s)
 
 /* ---- The calls ---- */
 
-static kiriResult CallTick(Stand* s)
-{
-    return kiriWorld_Tick(s->host.world, 0.01f, 2);
-}
+/* A call without a body of its own. */
+#define CALL(name, call)                                                                                               \
+    static kiriResult name(Stand* s)                                                                                   \
+    {                                                                                                                  \
+        kiriWorld* world = s->host.world;                                                                              \
+        return call;                                                                                                   \
+    }
 
-static kiriResult CallSetGravity(Stand* s)
-{
-    return kiriWorld_SetGravity(s->host.world, eye);
-}
-
-static kiriResult CallShiftOrigin(Stand* s)
-{
-    return kiriWorld_ShiftOrigin(s->host.world, eye);
-}
+CALL(CallTick, kiriWorld_Tick(world, 0.01f, 2))
+CALL(CallSetGravity, kiriWorld_SetGravity(world, eye))
+CALL(CallShiftOrigin, kiriWorld_ShiftOrigin(world, eye))
+CALL(CallCreateSheet, kiriCreateSheet(world, &s->def, &s->made))
+CALL(CallCreateRectangle, kiriCreateRectangle(world, 1.0f, 1.0f, 4, 4, &s->def, &s->made))
+CALL(CallDestroySheet, kiriDestroySheet(world, s->sheet))
+CALL(CallWake, kiriSheet_Wake(world, s->sheet))
+CALL(CallDetachPiece, kiriFrame_DetachPiece(world, s->frame, &s->made))
+CALL(CallDestroyPiece, kiriFrame_DestroyPiece(world, s->frame))
+CALL(CallDetachPieces, kiriWorld_DetachPieces(world, &s->frame, 1, &s->made))
+CALL(CallDestroyPieces, kiriWorld_DestroyPieces(world, &s->frame, 1))
+CALL(CallBeginCut, kiriBeginCut(world, s->sheet, eye, &s->madeCut))
+CALL(CallEnd, kiriCut_End(world, s->cut))
+CALL(CallHold, kiriFrame_Hold(world, s->frame, eye + 1, eye))
+CALL(CallApplyForce, kiriFrame_ApplyForce(world, s->frame, eye, eye))
+CALL(CallSetPose, kiriPin_SetPose(world, s->clamp, eye, eye))
+CALL(CallApplyForceAt, kiriSheet_ApplyForce(world, s->sheet, eye, eye, eye))
+CALL(CallApplyPressure, kiriSheet_ApplyPressure(world, s->sheet, 2.0f))
+CALL(CallSetTarget, kiriPin_SetTarget(world, s->pin, eye))
+CALL(CallDestroyPin, kiriDestroyPin(world, s->pin))
 
 static kiriResult CallSetBudget(Stand* s)
 {
     kiriBudget budget = { 0, 30, 0, 0 };
     return kiriWorld_SetBudget(s->host.world, &budget);
-}
-
-static kiriResult CallCreateSheet(Stand* s)
-{
-    return kiriCreateSheet(s->host.world, &s->def, &s->made);
-}
-
-static kiriResult CallCreateRectangle(Stand* s)
-{
-    return kiriCreateRectangle(s->host.world, 1.0f, 1.0f, 4, 4, &s->def, &s->made);
-}
-
-static kiriResult CallDestroySheet(Stand* s)
-{
-    return kiriDestroySheet(s->host.world, s->sheet);
-}
-
-static kiriResult CallWake(Stand* s)
-{
-    return kiriSheet_Wake(s->host.world, s->sheet);
 }
 
 static kiriResult CallGetPiece(Stand* s)
@@ -170,35 +164,10 @@ static kiriResult CallGetPieceFrames(Stand* s)
     return kiriSheet_GetPieceFrames(s->host.world, s->sheet, 0, &frames, &count);
 }
 
-static kiriResult CallDetachPiece(Stand* s)
-{
-    return kiriFrame_DetachPiece(s->host.world, s->frame, &s->made);
-}
-
-static kiriResult CallDestroyPiece(Stand* s)
-{
-    return kiriFrame_DestroyPiece(s->host.world, s->frame);
-}
-
-static kiriResult CallDetachPieces(Stand* s)
-{
-    return kiriWorld_DetachPieces(s->host.world, &s->frame, 1, &s->made);
-}
-
-static kiriResult CallDestroyPieces(Stand* s)
-{
-    return kiriWorld_DestroyPieces(s->host.world, &s->frame, 1);
-}
-
 static kiriResult CallDropCrumbs(Stand* s)
 {
     int32_t count;
     return kiriSheet_DropCrumbs(s->host.world, s->sheet, 0.5f, &count);
-}
-
-static kiriResult CallBeginCut(Stand* s)
-{
-    return kiriBeginCut(s->host.world, s->sheet, eye, &s->madeCut);
 }
 
 static kiriResult CallExtend(Stand* s)
@@ -210,25 +179,10 @@ static kiriResult CallExtend(Stand* s)
     return kiriCut_Extend(s->host.world, s->cut, points, 200);
 }
 
-static kiriResult CallEnd(Stand* s)
-{
-    return kiriCut_End(s->host.world, s->cut);
-}
-
 static kiriResult CallSlice(Stand* s)
 {
     static const float blade[12] = { 0.6f, -1.0f, -1.0f, 0.6f, -1.0f, 1.0f, 0.6f, 2.0f, 1.0f, 0.6f, 2.0f, -1.0f };
     return kiriSheet_Slice(s->host.world, s->sheet, blade, &s->madeCut);
-}
-
-static kiriResult CallHold(Stand* s)
-{
-    return kiriFrame_Hold(s->host.world, s->frame, eye + 1, eye);
-}
-
-static kiriResult CallApplyForce(Stand* s)
-{
-    return kiriFrame_ApplyForce(s->host.world, s->frame, eye, eye);
 }
 
 static kiriResult CallCreatePin(Stand* s)
@@ -250,35 +204,10 @@ static kiriResult CallHingeLine(Stand* s)
     return kiriSheet_HingeLine(s->host.world, s->sheet, from, to, &s->madePin);
 }
 
-static kiriResult CallSetPose(Stand* s)
-{
-    return kiriPin_SetPose(s->host.world, s->clamp, eye, eye);
-}
-
-static kiriResult CallApplyForceAt(Stand* s)
-{
-    return kiriSheet_ApplyForce(s->host.world, s->sheet, eye, eye, eye);
-}
-
 static kiriResult CallApplyLineLoad(Stand* s)
 {
     static const float from[2] = { -0.1f, 0.03f }, to[2] = { 1.1f, 0.96f };
     return kiriSheet_ApplyLineLoad(s->host.world, s->sheet, from, to, eye);
-}
-
-static kiriResult CallApplyPressure(Stand* s)
-{
-    return kiriSheet_ApplyPressure(s->host.world, s->sheet, 2.0f);
-}
-
-static kiriResult CallSetTarget(Stand* s)
-{
-    return kiriPin_SetTarget(s->host.world, s->pin, eye);
-}
-
-static kiriResult CallDestroyPin(Stand* s)
-{
-    return kiriDestroyPin(s->host.world, s->pin);
 }
 
 static kiriResult CallSetContacts(Stand* s)

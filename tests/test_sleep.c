@@ -356,31 +356,6 @@ static void TestArguments(void** state)
     Host_Stop(&host);
 }
 
-/* Two worlds with the same calls sleep and wake alike; one that sleeps has another hash than one that was just
-   woken. */
-static void TestSameCallsSameBits(void** state)
-{
-    (void)state;
-    Host hosts[2];
-    kiriPin pins[2];
-    kiriSheet sheets[2];
-    for (int k = 0; k < 2; ++k) {
-        sheets[k] = HangAsleep(&hosts[k], pins);
-    }
-    assert_true(Host_Hash(&hosts[0]) == Host_Hash(&hosts[1]));
-    OK(kiriSheet_Wake(hosts[0].world, sheets[0]));
-    assert_true(Host_Hash(&hosts[0]) != Host_Hash(&hosts[1]));
-    OK(kiriSheet_Wake(hosts[1].world, sheets[1]));
-    for (int tick = 0; tick < 100; ++tick) {
-        Tick(&hosts[0]);
-        Tick(&hosts[1]);
-        assert_true(Host_Hash(&hosts[0]) == Host_Hash(&hosts[1]));
-    }
-    assert_false(IsAwake(&hosts[0], sheets[0]));
-    Host_Stop(&hosts[0]);
-    Host_Stop(&hosts[1]);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -388,7 +363,7 @@ int main(void)
         cmocka_unit_test(TestCallsWake),          cmocka_unit_test(TestHeldSheetSleeps),
         cmocka_unit_test(TestSheetOnFloorSleeps), cmocka_unit_test(TestCreepingFloorWakes),
         cmocka_unit_test(TestSlowDrift),          cmocka_unit_test(TestArguments),
-        cmocka_unit_test(TestSameCallsSameBits),  cmocka_unit_test(TestWaitingCutDoesNotWake),
+cmocka_unit_test(TestWaitingCutDoesNotWake),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

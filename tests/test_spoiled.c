@@ -6,6 +6,12 @@
 
 typedef void SpoilFn(kiriSheetData* sheet);
 
+#define SPOIL(name, statement)                                                                                         \
+    static void name(kiriSheetData* sheet)                                                                             \
+    {                                                                                                                  \
+        statement;                                                                                                     \
+    }
+
 typedef struct Spoiler {
     const char* name;
     SpoilFn* spoil;
@@ -71,45 +77,19 @@ static void CheckAll(Host* host, const Spoiler* spoilers, size_t count)
 
 /* ---- The mesh ---- */
 
-static void TwinIsAnother(kiriSheetData* sheet)
-{
-    sheet->mesh.triangles.data[0].twin[1] = 3 * sheet->mesh.triangles.count - 1;
-}
-
-static void SourceIsFar(kiriSheetData* sheet)
-{
-    sheet->mesh.triangles.data[0].source = 1 << 28;
-}
-
-static void SourceIsBelow(kiriSheetData* sheet)
-{
-    sheet->mesh.triangles.data[0].source = -80;
-}
-
-static void SourcesAreTheSame(kiriSheetData* sheet)
-{
-    sheet->mesh.triangles.data[1].source = sheet->mesh.triangles.data[0].source;
-}
-
-static void OriginalsAreMore(kiriSheetData* sheet)
-{
-    sheet->mesh.originals = sheet->mesh.triangles.count + 1;
-}
-
-static void BlockIsFar(kiriSheetData* sheet)
-{
-    sheet->mesh.sourceBlocks.data[0] = sheet->mesh.sourceCorners.count / (3 * KIRI_SOURCES_A_BLOCK);
-}
+SPOIL(TwinIsAnother, sheet->mesh.triangles.data[0].twin[1] = 3 * sheet->mesh.triangles.count - 1)
+SPOIL(SourceIsFar, sheet->mesh.triangles.data[0].source = 1 << 28)
+SPOIL(SourceIsBelow, sheet->mesh.triangles.data[0].source = -80)
+SPOIL(SourcesAreTheSame, sheet->mesh.triangles.data[1].source = sheet->mesh.triangles.data[0].source)
+SPOIL(OriginalsAreMore, sheet->mesh.originals = sheet->mesh.triangles.count + 1)
+SPOIL(BlockIsFar, sheet->mesh.sourceBlocks.data[0] = sheet->mesh.sourceCorners.count / (3 * KIRI_SOURCES_A_BLOCK))
 
 static void BlockHasNoCorners(kiriSheetData* sheet)
 {
     memset(sheet->mesh.sourceCorners.data, 0, sizeof(kiriLatticePoint) * (size_t)sheet->mesh.sourceCorners.count);
 }
 
-static void CornerIsNone(kiriSheetData* sheet)
-{
-    sheet->mesh.triangles.data[0].vertex[1] = KIRI_NONE;
-}
+SPOIL(CornerIsNone, sheet->mesh.triangles.data[0].vertex[1] = KIRI_NONE)
 
 static void TestMesh(void** state)
 {
@@ -127,15 +107,8 @@ static void TestMesh(void** state)
 
 /* ---- The layout ---- */
 
-static void FrameIsOfNoPiece(kiriSheetData* sheet)
-{
-    sheet->layout.framePiece.data[0] = 1 << 28;
-}
-
-static void FrameHasNoPiece(kiriSheetData* sheet)
-{
-    sheet->layout.framePiece.count -= 1;
-}
+SPOIL(FrameIsOfNoPiece, sheet->layout.framePiece.data[0] = 1 << 28)
+SPOIL(FrameHasNoPiece, sheet->layout.framePiece.count -= 1)
 
 static void TestLayout(void** state)
 {
@@ -151,15 +124,8 @@ static void TestLayout(void** state)
 
 /* ---- Frames ---- */
 
-static void WeightIsNotFinite(kiriSheetData* sheet)
-{
-    sheet->shape.rigidWeight = HUGE_VAL;
-}
-
-static void SiteIsFarFromItsAnchor(kiriSheetData* sheet)
-{
-    sheet->frames.data[0].site.at.x += 0.5;
-}
+SPOIL(WeightIsNotFinite, sheet->shape.rigidWeight = HUGE_VAL)
+SPOIL(SiteIsFarFromItsAnchor, sheet->frames.data[0].site.at.x += 0.5)
 
 static void TestFrames(void** state)
 {
@@ -182,10 +148,7 @@ static void ChangeIsBeyond(kiriSheetData* sheet)
     surface->changes[surface->lastChange].vertices = (kiriRange){ 0, 1 << 20 };
 }
 
-static void PatienceIsNegative(kiriSheetData* sheet)
-{
-    sheet->seen.bounds->patience = -1;
-}
+SPOIL(PatienceIsNegative, sheet->seen.bounds->patience = -1)
 
 static void TestSeen(void** state)
 {
@@ -208,10 +171,7 @@ static void PointEndsACutThatGoesOn(kiriSheetData* sheet)
     sheet->queue.data[0].cut->ended = false;
 }
 
-static void BladeIsAtWork(kiriSheetData* sheet)
-{
-    sheet->cuts.data[0]->tip.blade.phase = KIRI_BLADE_LOOKS;
-}
+SPOIL(BladeIsAtWork, sheet->cuts.data[0]->tip.blade.phase = KIRI_BLADE_LOOKS)
 
 static void TestCuts(void** state)
 {

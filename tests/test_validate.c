@@ -11,6 +11,13 @@
 /* Makes the world wrong in the way of this number, and returns words of the line that it expects; null: no such way. */
 typedef const char* CorruptFn(kiriWorld* world, kiriSheetData* s, int way);
 
+/* The next way: the words, and what makes the world wrong. */
+#define WAY(words, ...)                                                                                                \
+    if (way-- == 0) {                                                                                                  \
+        __VA_ARGS__;                                                                                                   \
+        return words;                                                                                                  \
+    }
+
 /* Two pieces, of which one came off inside the other; a pin, contacts, a blade that is still in the sheet, and a point
    that waits. `frames` 0: the four of the small sheet. */
 static kiriSheetData* Start(Host* host, int32_t model, int32_t frames)
@@ -101,52 +108,26 @@ static const char* CorruptMesh(kiriWorld* world, kiriSheetData* s, int way)
     kiriTriangle* triangles = mesh->triangles.data;
     int32_t h = InnerEdge(mesh, false), open = InnerEdge(mesh, true);
     (void)world;
-    switch (way) {
-    case 0:
-        triangles[h / 3].vertex[h % 3] = mesh->vertices.count;
-        return "mesh: triangle";
-    case 1:
-        mesh->vertices.data[triangles[0].vertex[0]].at = mesh->vertices.data[triangles[0].vertex[1]].at;
-        return "turned over";
-    case 2:
-        triangles[h / 3].twin[h % 3] = kiriEdge_Next(kiriMesh_Twin(mesh, h));
-        return "which has";
-    case 3:
+    WAY("mesh: triangle", triangles[h / 3].vertex[h % 3] = mesh->vertices.count)
+    WAY("turned over", mesh->vertices.data[triangles[0].vertex[0]].at = mesh->vertices.data[triangles[0].vertex[1]].at)
+    WAY("which has", triangles[h / 3].twin[h % 3] = kiriEdge_Next(kiriMesh_Twin(mesh, h)))
+    WAY("only one of twins", Toggle(mesh, open))
+    WAY("outline is marked open", Toggle(mesh, OutlineEdge(mesh)))
+    WAY("fans,",
         Toggle(mesh, open);
-        return "only one of twins";
-    case 4:
-        Toggle(mesh, OutlineEdge(mesh));
-        return "outline is marked open";
-    case 5:
-        Toggle(mesh, open);
-        Toggle(mesh, kiriMesh_Twin(mesh, open));
-        return "fans,";
-    case 6:
+        Toggle(mesh, kiriMesh_Twin(mesh, open)))
+    WAY("is in two fans",
         Toggle(mesh, h);
-        Toggle(mesh, kiriMesh_Twin(mesh, h));
-        return "is in two fans";
-    case 7:
-        mesh->vertices.data[0].edge = mesh->vertices.data[1].edge;
-        return "has half-edge";
-    case 8:
-        triangles[0].source = -1;
-        return "is of source";
-    case 9:
-        mesh->vertices.data[3].source += mesh->vertices.data[3].source > 0 ? -1 : 40;
-        return "from elsewhere";
-    case 10:
-        s->seen.surface.sourceWeights.data[9] += 0.01f;
-        return "vertex 3 has another source";
-    case 11:
-        mesh->oldVertexCount -= 1;
-        return "births";
-    case 12:
+        Toggle(mesh, kiriMesh_Twin(mesh, h)))
+    WAY("has half-edge", mesh->vertices.data[0].edge = mesh->vertices.data[1].edge)
+    WAY("is of source", triangles[0].source = -1)
+    WAY("from elsewhere", mesh->vertices.data[3].source += mesh->vertices.data[3].source > 0 ? -1 : 40)
+    WAY("vertex 3 has another source", s->seen.surface.sourceWeights.data[9] += 0.01f)
+    WAY("births", mesh->oldVertexCount -= 1)
+    WAY("is split from",
         triangles[mesh->triangles.count - 1].parent = mesh->triangles.count;
-        s->update->refit.ownership.triangleCount = mesh->triangles.count - 1;
-        return "is split from";
-    default:
-        return NULL;
-    }
+        s->update->refit.ownership.triangleCount = mesh->triangles.count - 1)
+    return NULL;
 }
 
 static const char* CorruptSquares(kiriWorld* world, kiriSheetData* s, int way)
@@ -154,38 +135,18 @@ static const char* CorruptSquares(kiriWorld* world, kiriSheetData* s, int way)
     kiriSquares* squares = &s->mesh.squares;
     int32_t node = squares->head[0], last = squares->columns * squares->rows - 1;
     (void)world;
-    switch (way) {
-    case 0:
-        squares->head[0] = squares->nodes.data[node].next;
-        return "squares list";
-    case 1:
-        squares->nodes.data[node].triangle = squares->nodes.data[squares->nodes.data[node].next].triangle;
-        return "twice";
-    case 2:
-        squares->nodes.data[node].triangle = squares->nodes.data[squares->head[last]].triangle;
-        return "which is elsewhere";
-    case 3:
+    WAY("squares list", squares->head[0] = squares->nodes.data[node].next)
+    WAY("twice", squares->nodes.data[node].triangle = squares->nodes.data[squares->nodes.data[node].next].triangle)
+    WAY("which is elsewhere", squares->nodes.data[node].triangle = squares->nodes.data[squares->head[last]].triangle)
+    WAY("nodes are used",
         assert_true(squares->nodes.capacity > squares->nodes.count);
-        squares->nodes.data[squares->nodes.count++] = (kiriSquareNode){ KIRI_NONE, KIRI_NONE };
-        return "nodes are used";
-    case 4:
-        squares->freeNode = node;
-        return "has a triangle";
-    case 5:
-        squares->vertexHead[last] = squares->vertexHead[0];
-        return "lists vertex";
-    case 6:
-        squares->vertexHead[last] = KIRI_NONE;
-        return "vertices of";
-    case 7:
-        squares->isDirty[3] = 1;
-        return "are marked";
-    case 8:
-        squares->dirty.data[squares->dirty.count++] = 3;
-        return "is not marked";
-    default:
-        return NULL;
-    }
+        squares->nodes.data[squares->nodes.count++] = (kiriSquareNode){ KIRI_NONE, KIRI_NONE })
+    WAY("has a triangle", squares->freeNode = node)
+    WAY("lists vertex", squares->vertexHead[last] = squares->vertexHead[0])
+    WAY("vertices of", squares->vertexHead[last] = KIRI_NONE)
+    WAY("are marked", squares->isDirty[3] = 1)
+    WAY("is not marked", squares->dirty.data[squares->dirty.count++] = 3)
+    return NULL;
 }
 
 static void SeesMeshes(void** state)
@@ -229,40 +190,17 @@ static const char* CorruptCells(kiriWorld* world, kiriSheetData* s, int way)
     int32_t c = DividedCell(grid), other = grid->cells.data[c].next, square = grid->cells.data[c].square;
     int32_t node = s->mesh.squares.head[square];
     (void)world;
-    switch (way) {
-    case 0:
-        grid->nodeCell.data[node] = grid->nodeCell.data[node] == c ? other : c;
-        return "grid: ";
-    case 1:
-        grid->nodeCell.data[node] = grid->squareCell.data[square > 0 ? 0 : 1];
-        return "is of cell";
-    case 2:
-        grid->cells.data[other].triangle += 1;
-        return "grid: cell";
-    case 3:
-        kiriGrid_OwnMaterial(grid, s->memory, c)->area *= 1.0 + 1e-4;
-        return "the mesh";
-    case 4:
-        grid->cells.data[c].next = KIRI_NONE;
-        return "counted";
-    case 5:
-        grid->cellCount += 1;
-        return "counted";
-    case 6:
-        grid->freeCell = c;
-        return "free cell";
-    case 7:
-        grid->cells.data[c].square += 1;
-        return "says it is of";
-    case 8:
-        grid->whole.data[square] = 1;
-        return "is whole";
-    case 9:
-        grid->nodeCell.count -= 1;
-        return "nodeCell";
-    default:
-        return NULL;
-    }
+    WAY("grid: ", grid->nodeCell.data[node] = grid->nodeCell.data[node] == c ? other : c)
+    WAY("is of cell", grid->nodeCell.data[node] = grid->squareCell.data[square > 0 ? 0 : 1])
+    WAY("grid: cell", grid->cells.data[other].triangle += 1)
+    WAY("the mesh", kiriGrid_OwnMaterial(grid, s->memory, c)->area *= 1.0 + 1e-4)
+    WAY("counted", grid->cells.data[c].next = KIRI_NONE)
+    WAY("counted", grid->cellCount += 1)
+    WAY("free cell", grid->freeCell = c)
+    WAY("says it is of", grid->cells.data[c].square += 1)
+    WAY("is whole", grid->whole.data[square] = 1)
+    WAY("nodeCell", grid->nodeCell.count -= 1)
+    return NULL;
 }
 
 static const char* CorruptFaces(kiriWorld* world, kiriSheetData* s, int way)
@@ -272,24 +210,14 @@ static const char* CorruptFaces(kiriWorld* world, kiriSheetData* s, int way)
     int32_t c = DividedCell(grid), f = grid->cells.data[c].firstFace;
     kiriStepRun* run = &grid->runs.data[c];
     (void)world;
-    switch (way) {
-    case 0:
-        kiriGrid_OwnStretch(grid, s->memory, f)->width = 0.0;
-        return "wide";
-    case 1:
+    WAY("wide", kiriGrid_OwnStretch(grid, s->memory, f)->width = 0.0)
+    WAY("on its side",
         kiriGrid_OwnStretch(grid, s->memory, f)->middle.x += grid->side;
-        kiriGrid_OwnStretch(grid, s->memory, f)->middle.y += grid->side;
-        return "on its side";
-    case 2:
-        grid->faces.data[f].kind ^= 1;
-        return "between squares";
-    case 3:
-        grid->cells.data[c].firstFace = grid->faces.data[f].next[grid->faces.data[f].cell[1] == c];
-        return "cells list";
-    case 4:
-        grid->freeFace = f;
-        return "free face";
-    case 5: {
+        kiriGrid_OwnStretch(grid, s->memory, f)->middle.y += grid->side)
+    WAY("between squares", grid->faces.data[f].kind ^= 1)
+    WAY("cells list", grid->cells.data[c].firstFace = grid->faces.data[f].next[grid->faces.data[f].cell[1] == c])
+    WAY("free face", grid->freeFace = f)
+    WAY("no face between",
         kiriFace* face = &grid->faces.data[f]; /* as if it had never been made */
         for (int end = 0; end < 2; ++end) {
             int32_t* link = &grid->cells.data[face->cell[end]].firstFace;
@@ -300,43 +228,28 @@ static const char* CorruptFaces(kiriWorld* world, kiriSheetData* s, int way)
         }
         face->cell[0] = KIRI_NONE;
         face->next[0] = grid->freeFace;
-        grid->freeFace = f;
-        return "no face between";
-    }
-    case 6:
-        steps[run->first].length += 1;
-        return "grid: the step";
-    case 7:
-        steps[run->first].cell = steps[run->first + 1].cell;
-        return "the step from cell";
-    case 8:
+        grid->freeFace = f)
+    WAY("grid: the step", steps[run->first].length += 1)
+    WAY("the step from cell", steps[run->first].cell = steps[run->first + 1].cell)
+    WAY("squares [",
         steps[run->end[0] - 1].u = (int8_t)-steps[run->end[0] - 1].u;
-        steps[run->end[0] - 1].v = (int8_t)-steps[run->end[0] - 1].v;
-        return "squares [";
-    case 9:
-        run->end[1] = run->end[0] - 1;
-        return "has steps";
-    case 10:
+        steps[run->end[0] - 1].v = (int8_t)-steps[run->end[0] - 1].v)
+    WAY("has steps", run->end[1] = run->end[0] - 1)
+    if (way-- == 0) {
         for (run = grid->runs.data; run->end[2] == run->end[1];) {
             ++run;
         }
         run->end[2] -= 1; /* a knight of it */
         return "no way back";
-    case 11:
-        run->first += 1;
-        return "grid: ";
-    case 12:
-        grid->stepRoom.freeHead[4] = run->first + 1;
-        return "grid: ";
-    case 13:
-        grid->steps.count += 1;
-        return "is in no span";
-    case 14:
+    }
+    WAY("grid: ", run->first += 1)
+    WAY("grid: ", grid->stepRoom.freeHead[4] = run->first + 1)
+    WAY("is in no span", grid->steps.count += 1)
+    if (way-- == 0) {
         run->first = KIRI_NONE; /* as if it were amid whole squares */
         return "has steps";
-    default:
-        return NULL;
     }
+    return NULL;
 }
 
 static void SeesGrids(void** state)
@@ -356,48 +269,22 @@ static const char* CorruptRegions(kiriWorld* world, kiriSheetData* s, int way)
     while (!r->onBorder.data[c] || r->siteAt.data[c] != KIRI_NONE) {
         ++c;
     }
-    switch (way) {
-    case 0:
-        r->field.distance.data[c] -= 1;
-        return "there is a way of";
-    case 1:
-        r->field.owner.data[c] = (r->field.owner.data[c] + 1) % s->frames.count;
-        return "regions: cell";
-    case 2:
-        r->field.owner.data[c] = KIRI_NONE;
-        return "is owned by";
-    case 3:
-        r->siteAt.data[site] = KIRI_NONE;
-        return "has its site";
-    case 4:
-        r->siteAt.data[c] = 0;
-        return "cells have sites";
-    case 5:
-        r->onBorder.data[c] = 0;
-        return "the border";
-    case 6:
-        r->material.data[1].uv.low ^= 1;
-        return "tally";
-    case 7:
-        r->dirty.data[0] = 1;
-        return "dirty";
-    case 8:
-        r->orphans.count = 1;
-        return "orphans";
-    case 9:
-        s->frames.data[1].center.x += 1e-4;
-        return "middle of its region";
-    case 10:
-        s->update->refit.ownership.squares.data[s->grid.cells.data[site].square].owner = 1;
-        return "handed over";
-    case 11:
+    WAY("there is a way of", r->field.distance.data[c] -= 1)
+    WAY("regions: cell", r->field.owner.data[c] = (r->field.owner.data[c] + 1) % s->frames.count)
+    WAY("is owned by", r->field.owner.data[c] = KIRI_NONE)
+    WAY("has its site", r->siteAt.data[site] = KIRI_NONE)
+    WAY("cells have sites", r->siteAt.data[c] = 0)
+    WAY("the border", r->onBorder.data[c] = 0)
+    WAY("tally", r->material.data[1].uv.low ^= 1)
+    WAY("dirty", r->dirty.data[0] = 1)
+    WAY("orphans", r->orphans.count = 1)
+    WAY("middle of its region", s->frames.data[1].center.x += 1e-4)
+    WAY("handed over", s->update->refit.ownership.squares.data[s->grid.cells.data[site].square].owner = 1)
+    WAY("handed over",
         s->update->refit.ownership.triangleOwners
             .data[s->update->refit.ownership.squares.data[s->grid.cells.data[DividedCell(&s->grid)].square].parts.first]
-            .owner ^= 1;
-        return "handed over";
-    default:
-        return NULL;
-    }
+            .owner ^= 1)
+    return NULL;
 }
 
 /* How far a cell in the region of frame 0 is from its site. */
@@ -435,42 +322,20 @@ static const char* CorruptShape(kiriWorld* world, kiriSheetData* s, int way)
         ++c;
     }
     kiriCellWeight* weight = &shape->weights.data[shape->spans.data[c].first];
-    switch (way) {
-    case 0:
-        *weight = kiriCellWeight_Make(weight->frame, 2.0);
-        return "shape functions: cell";
-    case 1:
-        *weight = kiriCellWeight_Make(weight->frame, -kiriCellWeight_Raw(weight));
-        return "shape functions: cell";
-    case 2:
-        weight[1].frame = weight[0].frame;
-        return "after";
-    case 3:
-        shape->spans.data[c] = shape->spans.data[c == 0 ? 1 : 0];
-        return "is in two rooms";
-    case 4:
-        shape->spans.data[c].first = shape->weights.count - 1;
-        return "shape functions: ";
-    case 5:
-        *weight = kiriCellWeight_Make(weight->frame, 0.999 * kiriCellWeight_Raw(weight));
-        return "its weight is";
-    case 6:
-        shape->rigid.data[0] += 1;
-        return "rigidly";
-    case 7:
-        *OwnReach(s) = KIRI_FAR;
-        return "distances give";
-    case 8:
+    WAY("shape functions: cell", *weight = kiriCellWeight_Make(weight->frame, 2.0))
+    WAY("shape functions: cell", *weight = kiriCellWeight_Make(weight->frame, -kiriCellWeight_Raw(weight)))
+    WAY("after", weight[1].frame = weight[0].frame)
+    WAY("is in two rooms", shape->spans.data[c] = shape->spans.data[c == 0 ? 1 : 0])
+    WAY("shape functions: ", shape->spans.data[c].first = shape->weights.count - 1)
+    WAY("its weight is", *weight = kiriCellWeight_Make(weight->frame, 0.999 * kiriCellWeight_Raw(weight)))
+    WAY("rigidly", shape->rigid.data[0] += 1)
+    WAY("distances give", *OwnReach(s) = KIRI_FAR)
+    if (way-- == 0) {
         return AddBlockTwice(s) ? "twice" : NULL;
-    case 9:
-        *OwnReach(s) += 100;
-        return "its weight is";
-    case 10:
-        shape->changes.count = 1;
-        return "changed since";
-    default:
-        return NULL;
     }
+    WAY("its weight is", *OwnReach(s) += 100)
+    WAY("changed since", shape->changes.count = 1)
+    return NULL;
 }
 
 static void SeesFields(void** state)
@@ -486,32 +351,16 @@ static const char* CorruptFrames(kiriWorld* world, kiriSheetData* s, int way)
 {
     kiriFrameData* f = &s->frames.data[1];
     (void)world;
-    switch (way) {
-    case 0:
-        f->x.y = (double)NAN;
-        return "is not finite";
-    case 1:
-        f->spin.z = (double)INFINITY;
-        return "is not finite";
-    case 2:
-        f->A.u = kiriVec3_Scale(1.0 + 1e-6, f->A.u);
-        return "rotation";
-    case 3:
-        f->A.d = kiriVec3_Scale(-1.0, f->A.d);
-        return "rotation";
-    case 4:
+    WAY("is not finite", f->x.y = (double)NAN)
+    WAY("is not finite", f->spin.z = (double)INFINITY)
+    WAY("rotation", f->A.u = kiriVec3_Scale(1.0 + 1e-6, f->A.u))
+    WAY("rotation", f->A.d = kiriVec3_Scale(-1.0, f->A.d))
+    WAY("and mass", f->mass *= 1.01)
+    WAY("the sheet",
         f->mass *= 1.01;
-        return "and mass";
-    case 5:
-        f->mass *= 1.01;
-        f->area *= 1.01;
-        return "the sheet";
-    case 6:
-        f->inertia[1] = f->inertia[0] + f->inertia[2];
-        return "inertia";
-    default:
-        return NULL;
-    }
+        f->area *= 1.01)
+    WAY("inertia", f->inertia[1] = f->inertia[0] + f->inertia[2])
+    return NULL;
 }
 
 static const char* CorruptLayout(kiriWorld* world, kiriSheetData* s, int way)
@@ -520,61 +369,33 @@ static const char* CorruptLayout(kiriWorld* world, kiriSheetData* s, int way)
     kiriLink* links = s->links.links.data;
     int32_t last = s->frames.count - 1, inner = s->mesh.vertices.count; /* a vertex of the piece that came off */
     (void)world;
-    switch (way) {
-    case 0:
-        links[0].j = links[0].i;
-        return "joins frames";
-    case 1:
-        links[1] = links[s->links.links.count - 1];
-        return "comes too late";
-    case 2:
-        links[0].width = 0.0;
-        return "has width";
-    case 3:
-        links[0].normal.x += 1e-3;
-        return "normal";
-    case 4:
+    WAY("joins frames", links[0].j = links[0].i)
+    WAY("comes too late", links[1] = links[s->links.links.count - 1])
+    WAY("has width", links[0].width = 0.0)
+    WAY("normal", links[0].normal.x += 1e-3)
+    if (way-- == 0) {
         links[0].j = last;      /* joins the two pieces */
         return "links: link 1"; /* out of order, too */
-    case 5:
+    }
+    WAY("pieces: ",
         s->links.links.count = s->links.corners.count = 0;
-        s->strainOffsets.strainOffsets.count = 0;
-        return "pieces: ";
-    case 6:
-        s->strainOffsets.strainOffsets.count = 1;
-        return "strain offsets";
-    case 7:
-        layout->framePiece.data[last] = 0;
-        return "pieces: frame";
-    case 8:
-        layout->pieces.data[1].frame = 0;
-        return "pieces: frame";
-    case 9:
-        layout->pieces.data[1].area *= 1.1;
-        return "piece 1 has area";
-    case 10:
-        layout->pinFrame.data[0] = layout->pinFrame.data[0] == 0;
-        return "in the region of";
-    case 11:
-        layout->pinFrame.count = 0;
-        return "pins: ";
-    case 12:
+        s->strainOffsets.strainOffsets.count = 0)
+    WAY("strain offsets", s->strainOffsets.strainOffsets.count = 1)
+    WAY("pieces: frame", layout->framePiece.data[last] = 0)
+    WAY("pieces: frame", layout->pieces.data[1].frame = 0)
+    WAY("piece 1 has area", layout->pieces.data[1].area *= 1.1)
+    WAY("in the region of", layout->pinFrame.data[0] = layout->pinFrame.data[0] == 0)
+    WAY("pins: ", layout->pinFrame.count = 0)
+    WAY("of another piece",
         while (kiriPiece_OfVertex(s, --inner) == 0) {
         }
         for (int32_t k = 0; k < s->vertexSkin.spans.data[inner].count; ++k) {
             assert_int_equal(s->layout.framePiece.data[k], 0);
             s->vertexSkin.weights.data[s->vertexSkin.spans.data[inner].first + k].frame = k;
-        }
-        return "of another piece";
-    case 13:
-        links[0].outer = -1e-9;
-        return "has outer width";
-    case 14:
-        links[0].length *= 0.9;
-        return "its sites are";
-    default:
-        return NULL;
-    }
+        })
+    WAY("has outer width", links[0].outer = -1e-9)
+    WAY("its sites are", links[0].length *= 0.9)
+    return NULL;
 }
 
 static const char* CorruptCorners(kiriWorld* world, kiriSheetData* s, int way)
@@ -582,22 +403,11 @@ static const char* CorruptCorners(kiriWorld* world, kiriSheetData* s, int way)
     kiriCorner* corner = s->links.corners.data;
     (void)world;
     assert_true(s->links.corners.count > 0);
-    switch (way) {
-    case 0:
-        corner->count = 2;
-        return "has 2 links";
-    case 1:
-        corner->link[2] = s->links.links.count;
-        return "corners: corner 0 has link";
-    case 2:
-        corner->weight[1].x *= 1.001;
-        return "weights of corner 0";
-    case 3:
-        corner->area = 0.0;
-        return "has area 0";
-    default:
-        return NULL;
-    }
+    WAY("has 2 links", corner->count = 2)
+    WAY("corners: corner 0 has link", corner->link[2] = s->links.links.count)
+    WAY("weights of corner 0", corner->weight[1].x *= 1.001)
+    WAY("has area 0", corner->area = 0.0)
+    return NULL;
 }
 
 static const char* CorruptPatches(kiriWorld* world, kiriSheetData* s, int way)
@@ -605,22 +415,11 @@ static const char* CorruptPatches(kiriWorld* world, kiriSheetData* s, int way)
     kiriAreaElements* patches = &s->layout.areaElements;
     (void)world;
     assert_true(patches->elements.count > 1);
-    switch (way) {
-    case 0:
-        patches->elements.data[1].first += 1;
-        return "shares from";
-    case 1:
-        patches->elements.data[0].area = 0.0;
-        return "has area";
-    case 2:
-        patches->shares.count -= 1;
-        return "shares of";
-    case 3:
-        patches->shares.data[0].frame = s->frames.count;
-        return "is of frame";
-    default:
-        return NULL;
-    }
+    WAY("shares from", patches->elements.data[1].first += 1)
+    WAY("has area", patches->elements.data[0].area = 0.0)
+    WAY("shares of", patches->shares.count -= 1)
+    WAY("is of frame", patches->shares.data[0].frame = s->frames.count)
+    return NULL;
 }
 
 static const char* CorruptSamples(kiriWorld* world, kiriSheetData* s, int way)
@@ -632,84 +431,37 @@ static const char* CorruptSamples(kiriWorld* world, kiriSheetData* s, int way)
         ++v;
     }
     kiriSampleWeight* weight = &skin->weights.data[skin->spans.data[v].first];
-    switch (way) {
-    case 0:
-        weight->value += 1e-6;
-        return "weights of vertices: the weights";
-    case 1:
-        weight[1].frame = weight[0].frame;
-        return "after";
-    case 2:
-        weight[skin->spans.data[v].count - 1].frame = s->frames.count - 1;
-        return "is of pieces";
-    case 3:
-        skin->spans.data[v].first = 0x7ffffff0;
-        return "outside an array";
-    case 4:
-        skin->spans.data[v] = (kiriSpan){ 0, 0 };
-        return "has no weights";
-    case 5:
-        skin->spans.data[v].count += 40;
-        return "weights of vertices: ";
-    case 6:
-        points->spans.count -= 1;
-        return "weights of collision points: ";
-    case 7:
-        points->weights.data[points->spans.data[0].first].value = -1.0;
-        return "weights of collision points: sample 0";
-    case 8:
-        s->points.data[0].frame = (s->points.data[0].frame + 1) % s->frames.count;
-        return "its cell of";
-    case 9:
-        s->points.data[0].cell += 1;
-        return "is in cell";
-    case 10:
-        s->pointPlaces.head.data[kiriSquares_At(&s->mesh.squares, s->points.data[0].at)] = KIRI_NONE;
-        return "points of";
-    case 11:
-        s->contacts.data[0].contact.point = s->points.count;
-        return "contacts: ";
-    default:
-        return NULL;
-    }
+    WAY("weights of vertices: the weights", weight->value += 1e-6)
+    WAY("after", weight[1].frame = weight[0].frame)
+    WAY("is of pieces", weight[skin->spans.data[v].count - 1].frame = s->frames.count - 1)
+    WAY("outside an array", skin->spans.data[v].first = 0x7ffffff0)
+    WAY("has no weights", skin->spans.data[v] = (kiriSpan){ 0, 0 })
+    WAY("weights of vertices: ", skin->spans.data[v].count += 40)
+    WAY("weights of collision points: ", points->spans.count -= 1)
+    WAY("weights of collision points: sample 0", points->weights.data[points->spans.data[0].first].value = -1.0)
+    WAY("its cell of", s->points.data[0].frame = (s->points.data[0].frame + 1) % s->frames.count)
+    WAY("is in cell", s->points.data[0].cell += 1)
+    WAY("points of", s->pointPlaces.head.data[kiriSquares_At(&s->mesh.squares, s->points.data[0].at)] = KIRI_NONE)
+    WAY("contacts: ", s->contacts.data[0].contact.point = s->points.count)
+    return NULL;
 }
 
 static const char* CorruptSurface(kiriWorld* world, kiriSheetData* s, int way)
 {
     kiriSurface* surface = &s->seen.surface;
     (void)world;
-    switch (way) {
-    case 0:
-        surface->vertexCount -= 1;
-        return "vertices of";
-    case 1:
-        surface->indices.data[4] = 0;
-        return "other corners";
-    case 2:
-        surface->rest.data[2].x += 1e-9;
-        return "rests elsewhere";
-    case 3:
-        surface->normals.data[3] = 2.0f;
-        return "has normal";
-    case 4:
-        surface->positions.data[7] = NAN;
-        return "is at";
-    case 5:
-        surface->revision += 1;
-        return "revision";
-    case 6:
-        surface->sourceWeights.data[5] += 0.5f;
-        return "another source";
-    case 7:
+    WAY("vertices of", surface->vertexCount -= 1)
+    WAY("other corners", surface->indices.data[4] = 0)
+    WAY("rests elsewhere", surface->rest.data[2].x += 1e-9)
+    WAY("has normal", surface->normals.data[3] = 2.0f)
+    WAY("is at", surface->positions.data[7] = NAN)
+    WAY("revision", surface->revision += 1)
+    WAY("another source", surface->sourceWeights.data[5] += 0.5f)
+    WAY("fades: sample",
         assert_true(s->seen.fades.fading.count > 1);
-        s->seen.fades.fading.data[1].sample = s->seen.fades.fading.data[0].sample;
-        return "fades: sample";
-    case 8:
-        s->seen.fades.fading.data[0].left = 0.0;
-        return "fades for";
-    default:
-        return NULL;
-    }
+        s->seen.fades.fading.data[1].sample = s->seen.fades.fading.data[0].sample)
+    WAY("fades for", s->seen.fades.fading.data[0].left = 0.0)
+    return NULL;
 }
 
 static void SeesWhatIsInForce(void** state)
@@ -731,57 +483,25 @@ static const char* CorruptQueue(kiriWorld* world, kiriSheetData* s, int way)
     kiriCutData* cut = s->cuts.data[0];
     (void)world;
     assert_true(s->queue.count == 1 && cut->tip.blade.vertex != KIRI_NONE);
-    switch (way) {
-    case 0:
-        cut->waiting += 1;
-        return "counted";
-    case 1:
-        s->queue.data[0].cut = NULL;
-        return "no more";
-    case 2:
-        cut->tip.blade.vertex = s->mesh.vertices.count;
-        return "is at vertex";
-    case 3:
-        cut->tip.blade.vertex = 0;
-        return "not at its vertex";
-    case 4:
-        s->queue.data[0].to.y = (double)NAN;
-        return "is nowhere";
-    case 5:
-        cut->sheet = NULL;
-        return "another sheet";
-    default:
-        return NULL;
-    }
+    WAY("counted", cut->waiting += 1)
+    WAY("no more", s->queue.data[0].cut = NULL)
+    WAY("is at vertex", cut->tip.blade.vertex = s->mesh.vertices.count)
+    WAY("not at its vertex", cut->tip.blade.vertex = 0)
+    WAY("is nowhere", s->queue.data[0].to.y = (double)NAN)
+    WAY("another sheet", cut->sheet = NULL)
+    return NULL;
 }
 
 static const char* CorruptIds(kiriWorld* world, kiriSheetData* s, int way)
 {
-    switch (way) {
-    case 0:
-        s->frames.data[1].id = s->frames.data[0].id;
-        return "finds";
-    case 1:
-        s->frames.data[1].id ^= 1u << 20;
-        return "finds nothing";
-    case 2:
-        kiriPool_Find(&world->frameIds, s->frames.data[1].id)->index = 0;
-        return "index 0 of 1";
-    case 3:
-        kiriPool_Find(&world->pinIds, s->pins.data[0].id)->owner = world;
-        return "finds something";
-    case 4:
-        (void)kiriPool_Add(&world->frameIds, &world->memory, s, 0);
-        return "ids of kind";
-    case 5:
-        kiriPool_Remove(&world->cutIds, s->cuts.data[0]->id);
-        return "finds nothing";
-    case 6:
-        world->sheetIds.freeSlot = 0;
-        return "is free";
-    default:
-        return NULL;
-    }
+    WAY("finds", s->frames.data[1].id = s->frames.data[0].id)
+    WAY("finds nothing", s->frames.data[1].id ^= 1u << 20)
+    WAY("index 0 of 1", kiriPool_Find(&world->frameIds, s->frames.data[1].id)->index = 0)
+    WAY("finds something", kiriPool_Find(&world->pinIds, s->pins.data[0].id)->owner = world)
+    WAY("ids of kind", (void)kiriPool_Add(&world->frameIds, &world->memory, s, 0))
+    WAY("finds nothing", kiriPool_Remove(&world->cutIds, s->cuts.data[0]->id))
+    WAY("is free", world->sheetIds.freeSlot = 0)
+    return NULL;
 }
 
 static void SeesQueuesAndIds(void** state)
