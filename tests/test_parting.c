@@ -449,32 +449,37 @@ static void TestCallsKeepToTheBudget(void** state)
     assert_true(layouts[0] == layouts[1]);
 }
 
-/* What destroying takes is counted, too: a cut that comes after it has less. */
+/* Destroying pieces counts, too, of all sheets in one call: coming ticks pay for it. */
 static void TestDestroyingIsOnAccount(void** state)
 {
     (void)state;
     const kiriBudget budget = { 0, 0, 50, 0 };
-    Host host;
-    Host_Start(&host);
-    kiriSheetDef def = DefOf(24);
-    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 80, 80);
-    Host_Cut(&host, sheet, (float[]){ 0.7f, -0.1f, 0.7f, 0.3f, 1.1f, 0.3f }, 3);
-    OK(Host_Tick(&host, 1.0f / 60.0f, 1));
-    OK(kiriWorld_SetBudget(host.world, &budget));
-    uint64_t before = Host_Hash(&host);
-    OK(kiriFrame_DestroyPiece(host.world, FrameNear(&host, sheet, 0.85f, 0.15f)));
-    assert_true(Host_Hash(&host) != before);
-    int32_t paid, full = -1;
-    do {
+    int32_t paid[2] = { 0, 0 };
+    for (int32_t sheets = 1; sheets <= 2; ++sheets) {
+        kiriFrame frames[2];
+        Host host;
+        Host_Start(&host);
+        kiriSheetDef def = DefOf(24);
+        for (int32_t i = 0; i < sheets; ++i) {
+            kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 80, 80);
+            Host_Cut(&host, sheet, (float[]){ 0.7f, -0.1f, 0.7f, 0.3f, 1.1f, 0.3f }, 3);
+            OK(Host_Tick(&host, 1.0f / 60.0f, 1));
+            frames[i] = FrameNear(&host, sheet, 0.85f, 0.15f);
+        }
+        OK(kiriWorld_SetBudget(host.world, &budget));
+        uint64_t before = Host_Hash(&host);
+        OK(kiriWorld_DestroyPieces(host.world, frames, sheets));
+        assert_true(Host_Hash(&host) != before);
         kiriProfile profile;
-        OK(Host_Tick(&host, 1.0f / 60.0f, 1));
-        OK(kiriWorld_GetProfile(host.world, &profile));
-        paid = profile.samplesRefreshed;
-        assert_in_range(paid, 0, 50);
-        ++full;
-    } while (paid == 50);
-    assert_true(full > 0);
-    Host_Stop(&host);
+        do {
+            OK(Host_Tick(&host, 1.0f / 60.0f, 1));
+            OK(kiriWorld_GetProfile(host.world, &profile));
+            assert_in_range(profile.samplesRefreshed, 0, 50);
+            paid[sheets - 1] += profile.samplesRefreshed;
+        } while (profile.samplesRefreshed == 50);
+        Host_Stop(&host);
+    }
+    assert_true(paid[0] > 50 && paid[1] == 2 * paid[0]);
 }
 
 /* In whatever stage the work is. The world is validated after every tick. */

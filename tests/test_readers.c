@@ -88,146 +88,47 @@ static void Scene_Stop(Scene* scene)
 /* The call with what it wants, or with something that it refuses. */
 typedef kiriResult ReadFn(const Scene* scene, bool well);
 
-static kiriSheet SheetOf(const Scene* scene, bool well)
-{
-    return well ? scene->sheet : scene->frame;
-}
+/* A call of that name, and its variables. `sheet` is another kind of id where the call is to be refused. */
+#define READER(name, call, ...)                                                                                        \
+    static kiriResult name(const Scene* scene, bool well)                                                              \
+    {                                                                                                                  \
+        const kiriWorld* world = WorldOf(scene);                                                                       \
+        const kiriSheet sheet = well ? scene->sheet : scene->frame;                                                    \
+        __VA_ARGS__                                                                                                    \
+        (void)sheet;                                                                                                   \
+        return call;                                                                                                   \
+    }
 
-static kiriResult ReadHash(const Scene* scene, bool well)
-{
-    uint64_t hash;
-    return kiriWorld_GetStateHash(WorldOf(scene), well ? &hash : NULL);
-}
-
-static kiriResult ReadEvents(const Scene* scene, bool well)
-{
-    const kiriEvent* events;
-    int32_t count;
-    return kiriWorld_GetEvents(WorldOf(scene), &events, well ? &count : NULL);
-}
-
-static kiriResult ReadProfile(const Scene* scene, bool well)
-{
-    kiriProfile profile;
-    return kiriWorld_GetProfile(WorldOf(scene), well ? &profile : NULL);
-}
-
-static kiriResult ReadMesh(const Scene* scene, bool well)
-{
-    kiriMesh mesh;
-    return kiriSheet_GetMesh(WorldOf(scene), SheetOf(scene, well), &mesh);
-}
-
-static kiriResult ReadDirty(const Scene* scene, bool well)
-{
-    kiriDirty dirty;
-    return kiriSheet_GetDirty(WorldOf(scene), SheetOf(scene, well), 1, &dirty);
-}
-
-static kiriResult ReadVertices(const Scene* scene, bool well)
-{
-    float positions[30], normals[30];
-    return kiriSheet_CopyVertices(WorldOf(scene), scene->sheet, well ? 3 : -1, 10, positions, 12, normals, 12);
-}
-
-static kiriResult ReadIndices(const Scene* scene, bool well)
-{
-    uint16_t indices[30];
-    return kiriSheet_CopyIndices16(WorldOf(scene), scene->sheet, 2, well ? 10 : INT32_MAX, indices);
-}
-
-static kiriResult ReadPrevious(const Scene* scene, bool well)
-{
-    int32_t vertices[10];
-    kiriSheet from;
-    return kiriSheet_CopyPrevious(WorldOf(scene), SheetOf(scene, well), 3, 10, vertices, &from);
-}
-
-static kiriResult ReadSources(const Scene* scene, bool well)
-{
-    int32_t sources[10];
-    return kiriSheet_CopySources(WorldOf(scene), scene->sheet, well ? 2 : -1, 10, sources);
-}
-
-static kiriResult ReadSourceWeights(const Scene* scene, bool well)
-{
-    float weights[90];
-    return kiriSheet_CopySourceWeights(WorldOf(scene), scene->sheet, 2, well ? 10 : INT32_MAX, weights);
-}
-
-static kiriResult ReadPoints(const Scene* scene, bool well)
-{
-    const float* positions;
-    int32_t count;
-    return kiriSheet_GetCollisionPoints(WorldOf(scene), SheetOf(scene, well), &positions, &count);
-}
-
-static kiriResult ReadCounts(const Scene* scene, bool well)
-{
-    kiriCounts counts;
-    return kiriSheet_GetCounts(WorldOf(scene), SheetOf(scene, well), &counts);
-}
-
-static kiriResult ReadTotals(const Scene* scene, bool well)
-{
-    kiriTotals totals;
-    return kiriSheet_GetTotals(WorldOf(scene), SheetOf(scene, well), &totals);
-}
-
-static kiriResult ReadEstimate(const Scene* scene, bool well)
-{
-    double relative;
-    return kiriSheet_EstimateError(WorldOf(scene), SheetOf(scene, well), &relative);
-}
-
-static kiriResult ReadAwake(const Scene* scene, bool well)
-{
-    int32_t awake;
-    return kiriSheet_IsAwake(WorldOf(scene), SheetOf(scene, well), &awake);
-}
-
-static kiriResult ReadRay(const Scene* scene, bool well)
-{
-    const float origin[3] = { 0.4f, 0.5f, 1.0f }, down[3] = { 0.0f, 0.0f, well ? -1.0f : 0.0f };
-    kiriHit hit;
-    return kiriSheet_Raycast(WorldOf(scene), scene->sheet, origin, down, 3.0f, &hit);
-}
-
-static kiriResult ReadRayOfAll(const Scene* scene, bool well)
-{
-    const float origin[3] = { 0.4f, 0.5f, 1.0f }, down[3] = { 0.0f, 0.0f, well ? -1.0f : 0.0f };
-    kiriSheet sheet;
-    kiriHit hit;
-    return kiriWorld_Raycast(WorldOf(scene), origin, down, 3.0f, &sheet, &hit);
-}
-
-static kiriResult ReadWeights(const Scene* scene, bool well)
-{
-    const float at[2] = { well ? 0.41f : 7.0f, 0.53f };
-    kiriFrame frames[16];
-    float weights[16], gradients[32];
-    int32_t count;
-    return kiriSheet_GetWeights(WorldOf(scene), scene->sheet, at, frames, weights, gradients, 16, &count);
-}
-
-static kiriResult ReadFramePiece(const Scene* scene, bool well)
-{
-    int32_t piece;
-    return kiriFrame_GetPiece(WorldOf(scene), well ? scene->frame : scene->sheet, &piece);
-}
-
-static kiriResult ReadFrames(const Scene* scene, bool well)
-{
-    kiriFrame frames[4];
-    int32_t count;
-    return kiriSheet_GetFrames(WorldOf(scene), scene->sheet, frames, well ? 4 : -1, &count);
-}
-
-static kiriResult ReadState(const Scene* scene, bool well)
-{
-    kiriFrameState state;
-    return kiriFrame_GetState(WorldOf(scene), well ? scene->frame : 0, &state);
-}
+READER(ReadHash, kiriWorld_GetStateHash(world, well ? &hash : NULL), uint64_t hash;)
+READER(ReadEvents, kiriWorld_GetEvents(world, &events, well ? &count : NULL), const kiriEvent* events; int32_t count;)
+READER(ReadProfile, kiriWorld_GetProfile(world, well ? &profile : NULL), kiriProfile profile;)
+READER(ReadMesh, kiriSheet_GetMesh(world, sheet, &mesh), kiriMesh mesh;)
+READER(ReadDirty, kiriSheet_GetDirty(world, sheet, 1, &dirty), kiriDirty dirty;)
+READER(ReadVertices, kiriSheet_CopyVertices(world, scene->sheet, well ? 3 : -1, 10, positions, 12, normals, 12),
+       float positions[30], normals[30];)
+READER(ReadIndices, kiriSheet_CopyIndices16(world, scene->sheet, 2, well ? 10 : INT32_MAX, indices),
+       uint16_t indices[30];)
+READER(ReadPrevious, kiriSheet_CopyPrevious(world, sheet, 3, 10, vertices, &from),
+       int32_t vertices[10]; kiriSheet from;)
+READER(ReadSources, kiriSheet_CopySources(world, scene->sheet, well ? 2 : -1, 10, sources), int32_t sources[10];)
+READER(ReadSourceWeights, kiriSheet_CopySourceWeights(world, scene->sheet, 2, well ? 10 : INT32_MAX, weights),
+       float weights[90];)
+READER(ReadPoints, kiriSheet_GetCollisionPoints(world, sheet, &positions, &count),
+       const float* positions; int32_t count;)
+READER(ReadCounts, kiriSheet_GetCounts(world, sheet, &counts), kiriCounts counts;)
+READER(ReadTotals, kiriSheet_GetTotals(world, sheet, &totals), kiriTotals totals;)
+READER(ReadEstimate, kiriSheet_EstimateError(world, sheet, &relative), double relative;)
+READER(ReadAwake, kiriSheet_IsAwake(world, sheet, &awake), int32_t awake;)
+READER(ReadRay, kiriSheet_Raycast(world, scene->sheet, origin, down, 3.0f, &hit),
+       const float origin[3] = { 0.4f, 0.5f, 1.0f }, down[3] = { 0.0f, 0.0f, well ? -1.0f : 0.0f }; kiriHit hit;)
+READER(ReadRayOfAll, kiriWorld_Raycast(world, origin, down, 3.0f, &met, &hit),
+       const float origin[3] = { 0.4f, 0.5f, 1.0f }, down[3] = { 0.0f, 0.0f, well ? -1.0f : 0.0f }; kiriSheet met; kiriHit hit;)
+READER(ReadWeights, kiriSheet_GetWeights(world, scene->sheet, at, frames, weights, gradients, 16, &count),
+       const float at[2] = { well ? 0.41f : 7.0f, 0.53f }; kiriFrame frames[16]; float weights[16], gradients[32]; int32_t count;)
+READER(ReadFramePiece, kiriFrame_GetPiece(world, well ? scene->frame : scene->sheet, &piece), int32_t piece;)
+READER(ReadFrames, kiriSheet_GetFrames(world, scene->sheet, frames, well ? 4 : -1, &count),
+       kiriFrame frames[4]; int32_t count;)
+READER(ReadState, kiriFrame_GetState(world, well ? scene->frame : 0, &state), kiriFrameState state;)
 
 typedef struct Reader {
     const char* name;
