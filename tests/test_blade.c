@@ -198,51 +198,6 @@ static void TestTwentySwipes(void** state)
 
 /* ---- Paths ---- */
 
-/* In and out again along the same line: a slit, and nothing comes off. */
-static void TestBackAndForth(void** state)
-{
-    (void)state;
-    Stage stage;
-    Stage_StartFlat(&stage, 16, 8);
-    Begin(&stage);
-    Draw(&stage, -0.2, 0.52, 0.6, 0.53, 20);
-    int32_t vertices = Host_Counts(&stage.host, stage.sheet).vertices;
-    Draw(&stage, 0.6, 0.53, -0.2, 0.52, 17);
-    Draw(&stage, -0.2, 0.52, 0.55, 0.529375, 9);
-    EndAndTick(&stage);
-    assert_int_equal(Pieces(&stage), 1);
-    assert_true(vertices > 17 * 17 + 10);
-    kiriMesh mesh = Host_Mesh(&stage.host, stage.sheet);
-    for (int32_t v = vertices; v < mesh.vertexCount; ++v) {
-        const float* rest = &mesh.restPositions[2 * (size_t)v];
-        assert_float_equal(rest[1], 0.5225f + 0.0125f * rest[0], 2e-4f);
-    }
-    Host_Stop(&stage.host);
-}
-
-/* Around once and a little more: a disc comes out. Faster and slower, one way and the other. */
-static void TestLoops(void** state)
-{
-    (void)state;
-    for (int k = 0; k < 6; ++k) {
-        Stage stage;
-        int32_t corners = 8 + 7 * k, extra = 1 + k / 2;
-        Stage_StartFlat(&stage, 16, 8);
-        Begin(&stage);
-        for (int32_t i = 0; i <= corners + extra; ++i) {
-            double turn = (k % 2 == 0 ? 6.283185307179586 : -6.283185307179586) * i / corners;
-            double radius = i <= corners ? 0.2 - 0.01 * i / corners : 0.23;
-            MoveTo(&stage, 0.5 + radius * cos(turn), 0.5 + radius * sin(turn));
-            Tick(&stage);
-        }
-        EndAndTick(&stage);
-        if (Pieces(&stage) != 2 || LeastArea(&stage) < 0.05) {
-            fail_msg("loop %d: %d pieces, the least %g", k, (int)Pieces(&stage), LeastArea(&stage));
-        }
-        Host_Stop(&stage.host);
-    }
-}
-
 /* A circle that a hand draws on a curtain in a light wind: it comes round beside where it began, and the curtain is
    elsewhere by then. The hand first waits for `held` ticks. Slivers may come off where it overlaps. Returns whether a
    disc came off. */
@@ -770,8 +725,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestSwipesPart),
         cmocka_unit_test(TestTwentySwipes),
-        cmocka_unit_test(TestBackAndForth),
-        cmocka_unit_test(TestLoops),
         cmocka_unit_test(TestCirclesByHand),
         cmocka_unit_test(TestCirclesAfterWaiting),
         cmocka_unit_test(TestFallingSheets),

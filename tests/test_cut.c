@@ -79,14 +79,14 @@ typedef struct Line {
     float points[2 * MOST_POINTS];
 } Line;
 
-/* The sheet is 4 x 4 squares where there is no shape. Counts of 0 and areas of 0 are not checked. */
+/* A case without a shape has 4 x 4 squares. Counts of 0 and areas of 0 are not checked. */
 typedef struct Case {
     const char *name, *shape;
     int32_t columns, rows;
     float snap; /* 0: the default */
     Line lines[MOST_LINES];
     int32_t pieces, vertices, triangles;
-    float place[2]; /* which has so many vertices */
+    float place[2]; /* with atPlace vertices */
     int32_t atPlace;
     struct {
         float at[2], area;

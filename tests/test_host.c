@@ -18,31 +18,6 @@ static kiriSheet Hang(Host* host, kiriSheetDef* def)
     return sheet;
 }
 
-static void TestSettingsAreThoseOfTheDef(void** state)
-{
-    (void)state;
-    Host host;
-    kiriSheetDef def = Host_SmallDef();
-    kiriSheetSettings settings;
-    Host_Start(&host);
-    def.friction = 0.25f;
-    def.contactThickness = 0.003f;
-    def.groups = 6;
-    def.touchesSheets = 1;
-    def.iterations = 3;
-    def.maxFrames = 2; /* four are there at once */
-    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
-    OK(kiriSheet_GetSettings(host.world, sheet, &settings));
-    assert_memory_equal(&settings.material, &def.material, sizeof(def.material));
-    assert_true(settings.friction == 0.25f && settings.contactThickness == 0.003f && settings.groups == 6);
-    assert_true(settings.touchesSheets == 1 && settings.iterations == 3);
-    assert_true(settings.maxFrames == 4 && settings.sleepSpeed == def.sleepSpeed && settings.fadeTime == def.fadeTime);
-    uint64_t hash = Host_Hash(&host);
-    OK(kiriSheet_SetSettings(host.world, sheet, &settings));
-    assert_true(Host_Hash(&host) == hash);
-    Host_Stop(&host);
-}
-
 /* Each of them as a def would have it, before the first tick: then the runs are the same. */
 static void TestSettingsAreADefs(void** state)
 {
@@ -1244,7 +1219,6 @@ static void TestNoAxisIsUp(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(TestSettingsAreThoseOfTheDef),
         cmocka_unit_test(TestSettingsAreADefs),
         cmocka_unit_test(TestSettingsChangeWhileItMoves),
         cmocka_unit_test(TestFadesMayBeginWithAnotherLook),

@@ -1,4 +1,4 @@
-/* Pieces: what is in them, and sheets of their own. */
+/* Pieces: lists, and detached sheets. */
 #include "look.h"
 
 /* ---- Scenes ---- */

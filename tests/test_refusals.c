@@ -110,7 +110,7 @@ static void Stand_Stop(Stand* s)
 
 /* ---- The calls ---- */
 
-/* A call without a body of its own. */
+/* A call of one line. */
 #define CALL(name, call)                                                                                               \
     static kiriResult name(Stand* s)                                                                                   \
     {                                                                                                                  \

@@ -79,25 +79,6 @@ static void TestStrainDerivatives(void** state)
     assert_true(stopped > 20);
 }
 
-static void TestInnerForcesBalance(void** state)
-{
-    uint32_t seed = 11;
-    (void)state;
-    for (int trial = 0; trial < 200; ++trial) {
-        Couple c = RandomCouple(&seed);
-        double strain[KIRI_STRAINS];
-        kiriStrainRow rows[KIRI_STRAINS];
-        MeasureCouple(&c, strain, rows);
-        for (int e = 0; e < KIRI_STRAINS; ++e) {
-            kiriVec3 moment = kiriVec3_Add(kiriVec3_Cross(c.poses[0].x, rows[e].end[0].move),
-                                           kiriVec3_Cross(c.poses[1].x, rows[e].end[1].move));
-            moment = kiriVec3_Add(moment, kiriVec3_Add(rows[e].end[0].turn, rows[e].end[1].turn));
-            AssertNear(kiriVec3_Length(kiriVec3_Add(rows[e].end[0].move, rows[e].end[1].move)), 0.0, 1e-13);
-            AssertNear(kiriVec3_Length(moment), 0.0, 1e-12);
-        }
-    }
-}
-
 /* Two sites on a cylinder, the frames tangent to it: the strains are the angle between them and nothing else, whatever
    way the link runs and wherever its border lies. */
 static void TestArcIsBendingOnly(void** state)
@@ -439,7 +420,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestStrainDerivatives),
-        cmocka_unit_test(TestInnerForcesBalance),
         cmocka_unit_test(TestArcIsBendingOnly),
         cmocka_unit_test(TestFoldsAreSmooth),
         cmocka_unit_test(TestHalfTurnHasNoWall),

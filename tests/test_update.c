@@ -346,33 +346,6 @@ static void TestBladeFasterThanItsBudget(void** state)
     }
 }
 
-/* Three sheets that want two systems each, and a budget of four, then of one: none starves, and none is solved too
-   often. */
-static void TestIterationsAreShared(void** state)
-{
-    (void)state;
-    for (int32_t most = 1; most <= 4; most += 3) {
-        Host host;
-        kiriSheet sheets[3];
-        kiriBudget budget = { 0, 0, 0, most };
-        Host_Start(&host);
-        OK(kiriWorld_SetBudget(host.world, &budget));
-        for (int32_t i = 0; i < 3; ++i) {
-            kiriSheetDef def = Host_SmallDef();
-            sheets[i] = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 8, 8);
-        }
-        for (int32_t tick = 0; tick < 30; ++tick) {
-            kiriResult result = Host_Tick(&host, 1.0f / 60.0f, 2);
-            assert_true(result == KIRI_OK || result == KIRI_PENDING);
-            CheckBudget(&host, &budget);
-        }
-        for (int32_t i = 0; i < 3; ++i) {
-            assert_true(Host_Totals(&host, sheets[i]).momentum[2] < -1e-3);
-        }
-        Host_Stop(&host);
-    }
-}
-
 static void TestBudgetsThatAreNone(void** state)
 {
     (void)state;
@@ -472,7 +445,6 @@ int main(void)
         cmocka_unit_test(TestIncrementalEqualsFromScratch),
         cmocka_unit_test(TestAnyBudgetEqualsNone),
         cmocka_unit_test(TestBladeFasterThanItsBudget),
-        cmocka_unit_test(TestIterationsAreShared),
         cmocka_unit_test(TestBudgetsThatAreNone),
         cmocka_unit_test(TestBudgetFromTime),
         cmocka_unit_test(TestMaterialChangesAmidWork),

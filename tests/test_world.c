@@ -36,75 +36,6 @@ static double Distance(const double* a, const double* b)
 
 /* ---- Memory ---- */
 
-typedef struct Scenario {
-    kiriSheetDef def;
-    float line[6], loop[10];
-    kiriSheet sheet;
-    kiriPin pin;
-    kiriCut cut, slice;
-    kiriContact contacts[12];
-    Rectangle mesh;
-} Scenario;
-
-enum { STEPS = 11 };
-
-/* One call of a scenario: the host asks for everything that allocates. The steps after the first need the ones
-   before. */
-static kiriResult Perform(Host* host, Scenario* s, int step)
-{
-    static const float blade[12] = { 0.6f, -1.0f, -1.0f, 0.6f, -1.0f, 1.0f, 0.6f, 2.0f, 1.0f, 0.6f, 2.0f, -1.0f };
-    kiriPinDef pin;
-    float weights[16], gradients[32], at[2] = { 0.31f, 0.47f };
-    kiriFrame frames[16];
-    int32_t count;
-    kiriDefaultPinDef(&pin);
-    pin.restPoint[0] = 0.1f;
-    pin.restPoint[1] = 0.9f;
-    pin.target[0] = 0.1f;
-    pin.target[1] = 0.9f;
-    switch (step) {
-    case 0:
-        return kiriCreateSheet(host->world, &s->def, &s->sheet);
-    case 1:
-        return kiriCreatePin(host->world, s->sheet, &pin, &s->pin);
-    case 2:
-        return kiriSheet_SetContacts(host->world, s->sheet, s->contacts, 6);
-    case 3:
-        return kiriSheet_GetWeights(host->world, s->sheet, at, frames, weights, gradients, 16, &count);
-    case 4:
-        return Host_Tick(host, 0.01f, 2);
-    case 5:
-        return kiriBeginCut(host->world, s->sheet, s->line, &s->cut);
-    case 6:
-        return kiriCut_Extend(host->world, s->cut, s->line, 3);
-    case 7:
-        return Host_Tick(host, 0.01f, 1);
-    case 8:
-        return kiriCut_Extend(host->world, s->cut, s->loop, 5);
-    case 9:
-        return kiriSheet_Slice(host->world, s->sheet, blade, &s->slice);
-    default:
-        return Host_Tick(host, 0.01f, 2);
-    }
-}
-
-static Scenario MakeScenario(void)
-{
-    static const float line[6] = { -0.2f, 0.31f, 0.4f, 0.33f, 0.5f, 0.5f };
-    static const float loop[10] = { 0.7f, 0.2f, 0.9f, 0.3f, 0.75f, 0.45f, 0.62f, 0.3f, 0.7f, 0.2f };
-    Scenario s;
-    memset(&s, 0, sizeof(s));
-    s.def = Host_SmallDef();
-    memcpy(s.line, line, sizeof(line));
-    memcpy(s.loop, loop, sizeof(loop));
-    for (int i = 0; i < 12; ++i) {
-        kiriContact contact = { .point = i % 6, .normal = { 0.0f, 0.0f, 1.0f }, .offset = 0.001f, .friction = 0.3f };
-        s.contacts[i] = contact;
-    }
-    s.mesh = Rectangle_Make(&s.def, 1.0f, 1.0f, 3, 3);
-    return s;
-}
-
 static void MemoryForWorld(void** state)
 {
     (void)state;
@@ -128,33 +59,6 @@ static void MemoryForWorld(void** state)
 }
 
 /* ---- Worlds and sheets beside each other ---- */
-
-static void WorldsAreApart(void** state)
-{
-    (void)state;
-    Scenario s = MakeScenario(), same = s, other = s;
-    Host alone, a, b;
-    uint64_t hashes[STEPS];
-    Host_Start(&alone);
-    for (int step = 0; step < STEPS; ++step) {
-        OK(Perform(&alone, &s, step));
-        hashes[step] = Host_Hash(&alone);
-        assert_true(step == 0 || step == 3 || hashes[step] != hashes[step - 1]); /* 3 only reads */
-    }
-    Host_Stop(&alone);
-    Host_Start(&a);
-    Host_Start(&b);
-    OK(kiriWorld_SetGravity(b.world, eye));
-    for (int step = 0; step < STEPS; ++step) {
-        OK(Perform(&a, &same, step));
-        assert_true(Host_Hash(&a) == hashes[step]);
-        OK(Perform(&b, &other, step));
-        assert_true(Host_Hash(&a) == hashes[step] && Host_Hash(&b) != hashes[step]);
-    }
-    Host_Stop(&a);
-    Host_Stop(&b);
-    Rectangle_Free(&s.mesh);
-}
 
 static uint64_t LookAt(const Host* host, kiriSheet sheet)
 {
@@ -600,42 +504,6 @@ static double CountingClock(void* user)
     return 0.5 * (double)host->calls++;
 }
 
-/* Systems of many frames count for more; those that are larger than the whole budget are solved all the same, one sheet
-   a tick, in turn. */
-static void LargeSystems(void** state)
-{
-    (void)state;
-    kiriProfile profile;
-    kiriBudget budget = { 0, 0, 0, 1 };
-    int32_t items[2];
-    for (int many = 0; many < 2; ++many) {
-        Host host;
-        Host_Start(&host);
-        kiriSheetDef def = Host_SmallDef();
-        def.gridResolution = 32;
-        def.framePoints = NULL;
-        def.frameCount = def.maxFrames = many ? 64 : 16;
-        def.iterations = 1;
-        Host_AddRectangle(&host, &def, 1.0f, 1.0f, 16, 16);
-        Tick(&host, 0.01f, 1);
-        OK(kiriWorld_GetProfile(host.world, &profile));
-        assert_int_equal(profile.systemsSolved, 1);
-        items[many] = profile.solverIterations;
-        if (many) {
-            Host_AddRectangle(&host, &def, 1.0f, 1.0f, 16, 16);
-            OK(kiriWorld_SetBudget(host.world, &budget));
-            for (int tick = 0; tick < 4; ++tick) {
-                assert_int_equal(Host_Tick(&host, 0.01f, 2), KIRI_PENDING);
-                OK(kiriWorld_GetProfile(host.world, &profile));
-                assert_int_equal(profile.systemsSolved, 1);
-                assert_int_equal(profile.solverIterations, items[1]);
-            }
-        }
-        Host_Stop(&host);
-    }
-    assert_true(items[0] >= 2 && items[1] >= 3 * items[0] - 3 && items[1] <= 6 * items[0]);
-}
-
 static void Profile(void** state)
 {
     (void)state;
@@ -737,7 +605,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(MemoryForWorld),
-        cmocka_unit_test(WorldsAreApart),
         cmocka_unit_test(SheetsAreApart),
         cmocka_unit_test(HashSeesAll),
         cmocka_unit_test(FreeFall),
@@ -750,7 +617,6 @@ int main(void)
         cmocka_unit_test(Slices),
         cmocka_unit_test(Holes),
         cmocka_unit_test(TwoParts),
-        cmocka_unit_test(LargeSystems),
         cmocka_unit_test(Profile),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
