@@ -555,8 +555,8 @@ ifeq ($(config),fuzz)
 $(BUILD)/tests/fuzz_%: override LDFLAGS += -fsanitize=fuzzer
 endif
 
-# A test that compares with the heavy elastica.
-$(BUILD)/tests/test_estimate: $(BUILD)/tests/reference.c.o
+# Tests that compare with the heavy elastica.
+$(BUILD)/tests/test_estimate $(BUILD)/tests/test_layout: $(BUILD)/tests/reference.c.o
 
 # ---- The same bits everywhere ----
 

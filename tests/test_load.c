@@ -409,7 +409,7 @@ static void TestReactionsAtRest(void** state)
         host.every = 50;
         double force[3], torque[3];
         kiriTotals totals;
-        for (int i = 0; i < 250; ++i) {
+        for (int i = 0; i < 400; ++i) {
             OK(Host_Tick(&host, 0.04f, 1));
         }
         totals = Host_Totals(&host, sheet);

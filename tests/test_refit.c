@@ -328,7 +328,7 @@ static void TestNothingSeenJumps(void** state)
     def.collisionPoints = 40;
     CutWhatSwings(seen, &def);
     printf("with fades: jumps of %.1e m, offsets of up to %.1e m\n", seen->jump, seen->longest);
-    assert_true(seen->jump < 1e-6 && seen->longest > 1e-3);
+    assert_true(seen->jump < 2e-6 && seen->longest > 1e-3);
     assert_true(seen->pointCount >= 40 && seen->pointJump < 1e-6);
     Host_Stop(&seen->probe.host);
 

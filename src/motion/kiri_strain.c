@@ -2,9 +2,11 @@
 
 #include <string.h>
 
-/* Factor of the squared offset in the length. Offsetting the ends of a clamped strip by g lengthens it by 3/5 g^2 / l,
-   a straight line by 1/2 g^2 / l. */
-#define ARC_SHARE 1.2
+/* The line between the pivots is longer by Y / l, with Y = gap(m) . d (gap(q) . d - 0.4 gap(m) . d): m is the crossing,
+   q the middle of the pivots. If m = q, this is 3/5 g^2 / l, as for a clamped strip whose ends are offset by g. Bending
+   leaves no gap at m. */
+#define OFFSET_SHARE 0.4
+#define OFFSET_FOLD 0.12 /* 1 - cos of half the fold at which offsets at m and at b count equally */
 /* Square of the angle at which the arc between two sites counts half. */
 #define ARC_FOLD 2.5
 /* Timoshenko's 5/6: a shear that no other links share is not uniform over the width. */
@@ -156,6 +158,13 @@ static void AddRow(kiriStrainRow* row, double a, const kiriStrainRow* other)
     }
 }
 
+static void AddOpening(const MeanAxes* axes, double a, kiriStrainRow* row)
+{
+    for (int k = 0; k < 2; ++k) {
+        row->end[k].turn = kiriVec3_AddScaled(row->end[k].turn, a, axes->openBy[k]);
+    }
+}
+
 /* Returns the point about which a frame turns: its centre of mass, or its site if the host holds it. */
 static kiriVec2 PivotOf(const kiriFrameData* frame)
 {
@@ -170,21 +179,43 @@ static double LeverOf(const kiriLink* link, const kiriFrameData* const frames[2]
     return apart < 0.5 * l ? 0.5 * l : kiriMin(apart, l);
 }
 
-/* Measures stretch, signed along n. With the unsigned length, frames that have passed through each other would be at
-   rest again, and a crushed sheet would stay inside out. */
-static void MeasureStretch(double lever, const MeanAxes* axes, const EndVectors* b, double* strain, kiriStrainRow* row)
+/* Returns a times one pair of vectors plus b times another. */
+static EndVectors Combine(double a, const EndVectors* x, double b, const EndVectors* y)
 {
-    double ahead = lever + kiriVec3_Dot(b->gap, axes->n), aside = kiriVec3_Dot(b->gap, axes->d);
+    EndVectors sum = { { kiriVec3_AddScaled(kiriVec3_Scale(a, x->ends[0]), b, y->ends[0]),
+                         kiriVec3_AddScaled(kiriVec3_Scale(a, x->ends[1]), b, y->ends[1]) },
+                       kiriVec3_AddScaled(kiriVec3_Scale(a, x->gap), b, y->gap) };
+    return sum;
+}
+
+/* Measures stretch, signed along n. With the unsigned length, frames that have passed through each other would be at
+   rest again, and a crushed sheet would stay inside out. In folds the offsets at m and q give way to those at b: a
+   narrow border beside the line of sites resists twist by its offset at b, and not at m. */
+static void MeasureStretch(double lever, const MeanAxes* axes, const EndVectors* b, const EndVectors* m,
+                           const EndVectors* q, double* strain, kiriStrainRow* row)
+{
+    double fold = (1.0 - axes->open) / OFFSET_FOLD, flat = 1.0 / (1.0 + fold * fold);
+    EndVectors aside = Combine(flat, m, 1.0 - flat, b), beside = Combine(flat, q, 1.0 - flat, b);
+    double y = kiriVec3_Dot(aside.gap, axes->d), z = kiriVec3_Dot(beside.gap, axes->d);
+    double ahead = lever + kiriVec3_Dot(b->gap, axes->n);
     double per = ahead < 0.0 ? 0.0 : ahead < lever ? ahead / lever : 1.0; /* base by ahead */
     double base = ahead > lever ? ahead : 0.5 * lever * (1.0 + per * per);
-    double line = sqrt(base * base + ARC_SHARE * aside * aside);
-    *strain = ahead - lever + (line - base);
+    double longer = 2.0 * y * (z - OFFSET_SHARE * y), root = sqrt(base * base + fabs(longer)), share = base / root;
+    bool isShorter = longer < 0.0;
+    *strain = ahead - lever + (isShorter ? base * share : root) - base;
     if (row != NULL) {
+        double byBase = isShorter ? share * (2.0 - share * share) : share, by = (isShorter ? share * share : 1.0) / root;
+        double byY = by * (z - 2.0 * OFFSET_SHARE * y), byZ = by * y;
+        EndVectors offset = Combine(byY, &aside, byZ, &beside), change = Combine(byY, m, byZ, q);
         kiriStrainRow d;
-        WriteGap(axes, axes->d, b, &d);
+        WriteTurns(axes, axes->d, &offset, &d);
+        d.end[1].move = kiriVec3_Scale(byY + byZ, axes->d);
+        d.end[0].move = kiriVec3_Scale(-1.0, d.end[1].move);
         WriteGap(axes, axes->n, b, row);
-        ScaleRow(row, 1.0 - per * (1.0 - base / line));
-        AddRow(row, ARC_SHARE * aside / line, &d);
+        ScaleRow(row, 1.0 + per * (byBase - 1.0));
+        AddRow(row, 1.0, &d);
+        double byFlat = kiriVec3_Dot(change.gap, axes->d) - (byY + byZ) * kiriVec3_Dot(b->gap, axes->d);
+        AddOpening(axes, 2.0 / OFFSET_FOLD * fold * flat * flat * byFlat, row);
     }
 }
 
@@ -204,13 +235,6 @@ static AxisFade FadeOf(const MeanAxes* axes)
         fade.slope = 4.0 * (1.0 - share) * axes->open / FADING;
     }
     return fade;
-}
-
-static void AddOpening(const MeanAxes* axes, double a, kiriStrainRow* row)
-{
-    for (int k = 0; k < 2; ++k) {
-        row->end[k].turn = kiriVec3_AddScaled(row->end[k].turn, a, axes->openBy[k]);
-    }
 }
 
 /* Measures the excess of the gap over `most`: of its part along the mean normal and, as the axes fade, of all of it. */
@@ -252,19 +276,19 @@ static void TakeAngle(const MeanAxes* axes, double* strain, kiriStrainRow* rows)
     }
 }
 
-/* Returns the longest arc for which tension does not turn the frames. The pivots are c apart, e is the distance from
-   their middle to b, psi the angle from their line to the mean of the frames, delta the angle between the frames. The
-   work of turning them is the tension times
+/* Returns the longest arc for which tension does not turn the frames. The pivots are c apart along n, e is the distance
+   along n from their middle to m, psi the angle from their line to the mean of the frames, delta the angle between the
+   frames. The work of turning them is the tension times
 
-       0.1 c psi^2 - 1.2 e psi delta + (c / 8 + 0.6 e^2 / c - s / 12) delta^2
+       0.1 c psi^2 - 0.2 e psi delta + (c / 8 - 0.4 e^2 / c - s / 12) delta^2
 
-   It is positive for s < 1.5 c - 36 e^2 / c. */
+   It is positive for s < 1.5 c - 6 e^2 / c. */
 static double LongestArc(const kiriLink* link, const kiriFrameData* const frames[2])
 {
-    double before = kiriVec2_Dot(kiriVec2_Sub(link->centroid, PivotOf(frames[0])), link->normal);
-    double behind = kiriVec2_Dot(kiriVec2_Sub(PivotOf(frames[1]), link->centroid), link->normal);
+    double before = kiriVec2_Dot(kiriVec2_Sub(link->crossing, PivotOf(frames[0])), link->normal);
+    double behind = kiriVec2_Dot(kiriVec2_Sub(PivotOf(frames[1]), link->crossing), link->normal);
     double c = before + behind, e = 0.5 * (before - behind);
-    double most = c > 0.0 ? 1.4 * c - 36.0 * e * e / c : 0.0;
+    double most = c > 0.0 ? 1.4 * c - 6.0 * e * e / c : 0.0;
     return kiriMax(most, 0.0);
 }
 
@@ -389,10 +413,13 @@ void kiriStrain_Measure(const kiriLink* link, const kiriMaterial* material, cons
     MeanAxes axes;
     TakeMeanAxes(&axes, link, poses, rows != NULL);
     EndVectors b = PointVectors(frames, poses, link->centroid), m = PointVectors(frames, poses, link->crossing);
+    kiriVec2 middle = kiriVec2_Scale(0.5, kiriVec2_Add(PivotOf(frames[0]), PivotOf(frames[1])));
+    EndVectors q = PointVectors(frames, poses, middle);
     EndVectors directors = DirectionVectors(poses[0]->A.d, poses[1]->A.d);
     EndVectors tangents =
         DirectionVectors(kiriPose_Along(poses[0], link->tangent), kiriPose_Along(poses[1], link->tangent));
-    MeasureStretch(LeverOf(link, frames), &axes, &b, &strain[KIRI_STRETCH], rows != NULL ? &rows[KIRI_STRETCH] : NULL);
+    MeasureStretch(LeverOf(link, frames), &axes, &b, &m, &q, &strain[KIRI_STRETCH],
+                   rows != NULL ? &rows[KIRI_STRETCH] : NULL);
     MeasureStop(KIRI_NORMAL_STOP_SHARE * link->length, &axes, &m, &strain[KIRI_NORMAL_STOP],
                 rows != NULL ? &rows[KIRI_NORMAL_STOP] : NULL);
     strain[KIRI_NORMAL_GAP] = kiriVec3_Dot(m.gap, axes.d);

@@ -14,7 +14,7 @@ KIRI_C_BEGIN
    the border (kiriLink.outer). Every energy is 1/2 stiffness strain^2.
 
    strain         value                                               stiffness
-   stretch        |(c + gap(b) . n, sqrt(6/5) gap(b) . d)| - c - a.n  M (Wi / (1 + nu) + Wo)
+   stretch        sqrt((c + gap(b) . n)^2 + 2 Y) - c - a.n            M (Wi / (1 + nu) + Wo)
    shear          gap(b) . tau - a . tau                              M (Wi + 5/12 Wo) / (1 + nu)
    plane bending  ((A_j - A_i) tau) . n                               M I (1 + 3/2 nu / (1 + nu) Wi / W)
    bending        w . n, w along d_j - d_i                            B ((1 - nu) Wi + (1 - nu^2) Wo)
@@ -44,8 +44,9 @@ KIRI_C_BEGIN
    is not stretch. In a row of frames, a only moves the frames. Elsewhere links of all directions would demand different
    moves, and lock.
 
-   Stretch is measured along the line between the centres of mass, c apart (for a held frame, its site): an offset along
-   the normal lengthens it. With gap(b) . n alone, tension would turn the frames away from that line and, above
+   Stretch is measured along the line between the centres of mass, c apart (for a held frame, its site). An offset along
+   the normal lengthens the line: Y = gap(m) . d (gap(q) . d - 2/5 gap(m) . d), q the middle of the centres of mass. In
+   even bending gap(m) . d is zero. gap(b) . d is not if b is off m, and would lock crooked layouts. With gap(b) . n alone, tension would turn the frames away from that line and, above
    12 D / l^2 newtons a metre of width, lay the sheet in steps, as tension buckles a column that is soft in shear; cloth
    would fall apart. An arc that is long compared with c would do the same, so its length is limited.
    Let g = c + gap(b) . n. If g < c, the offset adds to the strain as much as it adds to (c + g^2 / c) / 2; if g < 0, as

@@ -1,0 +1,166 @@
+/* Squares of paper, one edge clamped, with frames where nobody would put them. Without Poisson's ratio they hang as the
+   heavy elastica, whatever slit they have and wherever their frames are. */
+#include "host.h"
+
+#include "reference.h"
+
+#include <stdio.h>
+
+#define SIDE 0.2f
+
+enum { MOST_TICKS = 400, MOST_ROWS = 17 };
+
+/* As stiff and as heavy as printing paper, and `thin` times as thick. */
+static kiriSheetDef PaperDef(int32_t grid, float thin)
+{
+    kiriSheetDef def;
+    kiriDefaultSheetDef(&def);
+    OK(kiriGetMaterial(KIRI_MATERIAL_PAPER, &def.material));
+    def.material.poissonsRatio = 0.0f;
+    def.material.airDamping = 20.0f;
+    def.material.flexDamping = 0.0f;
+    def.material.thickness *= thin;
+    def.material.density /= thin;
+    def.material.youngsModulus /= thin * thin * thin;
+    def.gridResolution = grid;
+    def.rigidWeight = 2.0f;
+    def.iterations = 4;
+    def.sleepSpeed = 0.0f;
+    def.timeStepping = KIRI_TIME_STEPPING_EULER;
+    return def;
+}
+
+static double TipInTheory(void)
+{
+    static Elastica elastica;
+    kiriSheetDef def = PaperDef(1, 1.0f);
+    double h = (double)def.material.thickness, L = (double)SIDE, x, drop;
+    double bending = (double)def.material.youngsModulus * h * h * h / 12.0;
+    Elastica_Solve(&elastica, (double)def.material.density * h * 9.81 * L * L * L / bending);
+    Elastica_At(&elastica, 1.0, &x, &drop);
+    return L * drop;
+}
+
+/* Clamps the edge u = 0, cuts the slit unless it is null, and lets the sheet hang. Returns the error of the far edge's
+   mean drop. */
+static double HangingError(Host* host, kiriSheet sheet, const float* slit)
+{
+    const float from[2] = { 0.0f, 0.0f }, to[2] = { 0.0f, SIDE };
+    double drop = 0.0;
+    int32_t found = 0;
+    kiriPin clamp;
+    OK(kiriSheet_ClampLine(host->world, sheet, from, to, &clamp));
+    if (slit != NULL) {
+        Host_Cut(host, sheet, slit, 2);
+    }
+    for (int32_t tick = 0, calm = 0; calm < 3; ++tick) {
+        assert_true(tick < MOST_TICKS);
+        OK(kiriWorld_Tick(host->world, 0.05f, 1));
+        kiriTotals totals = Host_Totals(host, sheet);
+        calm = 0.05 * sqrt(2.0 * totals.kineticEnergy / totals.mass) < 1e-6 * (double)SIDE ? calm + 1 : 0;
+    }
+    kiriMesh mesh = Host_Mesh(host, sheet);
+    for (int32_t i = 0; i < mesh.vertexCount; ++i) {
+        if (mesh.restPositions[2 * i] > SIDE - 1e-6f) {
+            drop -= (double)mesh.positions[3 * i + 2];
+            ++found;
+        }
+    }
+    return fabs(drop / found / TipInTheory() - 1.0);
+}
+
+/* ---- Slits ------------------------------------------------------------------------------------------------------- */
+
+/* Half as long as the square, through its middle. The library spreads the frames: around the slit if it is there from
+   the start, else before the cut. */
+static double SlitError(int32_t frames, int32_t grid, double angle, bool isThere)
+{
+    float u = (float)(0.25 * cos(angle)) * SIDE, v = (float)(0.25 * sin(angle)) * SIDE, middle = 0.5f * SIDE;
+    const float slit[4] = { middle - u, middle - v, middle + u, middle + v };
+    Host host, mould;
+    kiriSheetDef def = PaperDef(grid, 1.0f), plain = def;
+    kiriSheet sheet;
+    plain.frameCount = plain.maxFrames = 1;
+    def.frameCount = def.maxFrames = frames;
+    Host_Start(&host);
+    Host_Start(&mould);
+    host.every = 1000;
+    if (isThere) {
+        kiriSheet cut = Host_AddRectangle(&mould, &plain, SIDE, SIDE, grid, grid);
+        Host_Cut(&mould, cut, slit, 2);
+        OK(kiriWorld_Tick(mould.world, 1e-3f, 1));
+        kiriMesh mesh = Host_Mesh(&mould, cut);
+        def.restPositions = mesh.restPositions;
+        def.vertexCount = mesh.vertexCount;
+        def.indices = mesh.indices;
+        def.triangleCount = mesh.triangleCount;
+        OK(kiriCreateSheet(host.world, &def, &sheet));
+    } else {
+        sheet = Host_AddRectangle(&host, &def, SIDE, SIDE, grid, grid);
+    }
+    double error = HangingError(&host, sheet, isThere ? NULL : slit);
+    Host_Stop(&mould);
+    Host_Stop(&host);
+    return error;
+}
+
+static void SlitSquaresHangAsTheyShould(void** state)
+{
+    (void)state;
+    static const struct {
+        int32_t frames;
+        double most;
+    } cases[5] = { { 16, 0.07 }, { 25, 0.035 }, { 36, 0.05 }, { 49, 0.02 }, { 81, 0.035 } };
+    static const int32_t grids[3] = { 40, 60, 80 };
+    for (int k = 0; k < 5; ++k) {
+        double worst = 0.0;
+        for (int turn = 0; turn < 8; ++turn) {
+            double error = SlitError(cases[k].frames, grids[turn % 3], 3.14159265358979 / 8.0 * turn, turn % 4 < 2);
+            worst = error > worst ? error : worst;
+        }
+        print_message("%d frames: %.2f %%\n", cases[k].frames, 100.0 * worst);
+        assert_true(worst < cases[k].most);
+    }
+}
+
+/* ---- Rows -------------------------------------------------------------------------------------------------------- */
+
+/* Rows of frames with each frame moved by up to a quarter of the spacing. */
+static void JitteredRowsHangAsTheyShould(void** state)
+{
+    (void)state;
+    static const struct {
+        int32_t rows;
+        double most;
+    } cases[3] = { { 5, 0.04 }, { 9, 0.02 }, { 17, 0.01 } };
+    static const float thin[4] = { 10.0f, 3.0f, 1.0f, 0.3f };
+    for (int k = 0; k < 12; ++k) {
+        int32_t rows = cases[k / 4].rows, count = rows * rows;
+        static float points[2 * MOST_ROWS * MOST_ROWS];
+        uint32_t seed = 101 + (uint32_t)k;
+        kiriSheetDef def = PaperDef(4 * rows, thin[k % 4]);
+        for (int32_t i = 0; i < 2 * count; ++i) {
+            int32_t row = i % 2 == 0 ? i / 2 % rows : i / 2 / rows;
+            points[i] = SIDE * (((float)row + 0.5f) / (float)rows + (float)RandomBetween(&seed, -0.25, 0.25) / (float)rows);
+        }
+        def.frameCount = def.maxFrames = count;
+        def.framePoints = points;
+        Host host;
+        Host_Start(&host);
+        host.every = 1000;
+        kiriSheet sheet = Host_AddRectangle(&host, &def, SIDE, SIDE, 4 * rows, 4 * rows);
+        double error = HangingError(&host, sheet, NULL);
+        print_message("%d rows, h/L 1/%.0f: %.2f %%\n", rows, (double)(SIDE / def.material.thickness), 100.0 * error);
+        assert_true(error < cases[k / 4].most);
+        Host_Stop(&host);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(SlitSquaresHangAsTheyShould),
+        cmocka_unit_test(JitteredRowsHangAsTheyShould),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
