@@ -58,6 +58,7 @@ static void HashLink(uint64_t* hash, const kiriLink* link)
     kiriHash_Int32(hash, link->j);
     HashVec3(hash, kiriVec3_Make(link->width, link->length, link->moment));
     kiriHash_Double(hash, link->outer);
+    kiriHash_Double(hash, link->beyond);
     HashVec2(hash, link->span);
     HashVec2(hash, link->normal);
     HashVec2(hash, link->tangent);

@@ -1,5 +1,5 @@
-/* Squares of paper, one edge clamped, with frames where nobody would put them. Without Poisson's ratio they hang as the
-   heavy elastica, whatever slit they have and wherever their frames are. */
+/* Sheets with crooked layouts of frames. Squares of paper, one edge clamped, hang as the heavy elastica without
+   Poisson's ratio, whatever slit they have; strips with a crooked row of frames twist as others do. */
 #include "host.h"
 
 #include "reference.h"
@@ -156,11 +156,63 @@ static void JitteredRowsHangAsTheyShould(void** state)
     }
 }
 
+/* One row of frames that zigzags by `aside` widths to both sides. Returns the torque that twists the strip by 0.1 rad, by
+   Saint-Venant's. */
+static double TorqueOfZigzag(int32_t count, double aside, float poissonsRatio)
+{
+    const float length = 0.2f, width = 0.02f, angle = 0.1f;
+    const float ends[8] = { 0.0f, 0.0f, 0.0f, width, length, 0.0f, length, width }, middle[3] = { length, 0.5f * width };
+    const float turned[9] = { 1.0f, 0.0f, 0.0f, 0.0f, cosf(angle), sinf(angle), 0.0f, -sinf(angle), cosf(angle) };
+    const float none[3] = { 0.0f, 0.0f, 0.0f };
+    float points[2 * 64];
+    kiriSheetDef def = PaperDef(160, 1.0f);
+    def.material = (kiriMaterial){ 7.4e8f, poissonsRatio, 5e-4f, 1000.0f, 20.0f, 0.0f };
+    def.frameCount = def.maxFrames = count;
+    def.framePoints = points;
+    for (int32_t i = 0; i < count; ++i) {
+        points[2 * i] = length * ((float)i + 0.5f) / (float)count;
+        points[2 * i + 1] = width * (float)(i % 2 == 0 ? 0.5 - aside : 0.5 + aside);
+    }
+    Host host;
+    Host_Start(&host);
+    host.every = 1000;
+    OK(kiriWorld_SetGravity(host.world, none));
+    kiriSheet sheet = Host_AddRectangle(&host, &def, length, width, 160, 16);
+    kiriPin clamps[2];
+    double force[3], torque[3];
+    OK(kiriSheet_ClampLine(host.world, sheet, ends, ends + 2, &clamps[0]));
+    OK(kiriSheet_ClampLine(host.world, sheet, ends + 4, ends + 6, &clamps[1]));
+    OK(kiriPin_SetPose(host.world, clamps[1], middle, turned));
+    for (int32_t tick = 0; tick < 200; ++tick) {
+        OK(kiriWorld_Tick(host.world, 0.5f, 1));
+    }
+    OK(kiriPin_GetReaction(host.world, clamps[1], force, torque));
+    Host_Stop(&host);
+    double nu = (double)poissonsRatio, h = 5e-4, D = 7.4e8 * h * h * h / (12.0 * (1.0 - nu * nu));
+    return torque[0] / (2.0 * (1.0 - nu) * D * (double)width * (double)angle / (double)length);
+}
+
+static void ZigzagsTwistAsTheyShould(void** state)
+{
+    (void)state;
+    static const int32_t counts[4] = { 8, 12, 16, 24 };
+    for (int k = 0; k < 8; ++k) {
+        double worst = 0.0;
+        for (int step = 0; step <= 5; ++step) {
+            double off = fabs(TorqueOfZigzag(counts[k / 2], 0.05 * step, k % 2 == 0 ? 0.0f : 0.3f) - 1.0);
+            worst = off > worst ? off : worst;
+        }
+        print_message("%d frames, nu %.1f: %.2f %%\n", counts[k / 2], 0.3 * (k % 2), 100.0 * worst);
+        assert_true(worst < (counts[k / 2] > 12 ? 0.08 : 0.01));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(SlitSquaresHangAsTheyShould),
         cmocka_unit_test(JitteredRowsHangAsTheyShould),
+        cmocka_unit_test(ZigzagsTwistAsTheyShould),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -125,15 +125,15 @@ static bool Check_Links(Check* check, const kiriSheetData* sheet)
         REQUIRE(link->width > 0.0 && link->length > 0.0 && link->moment >= 0.0 && IsFinite(link->width) &&
                     IsFinite(link->length) && IsFinite(link->moment),
                 "link %d has width %g, length %g, moment %g", k, link->width, link->length, link->moment);
-        double straight =
-            kiriVec2_Length(kiriVec2_Sub(sheet->frames.data[link->j].site.at, sheet->frames.data[link->i].site.at));
-        REQUIRE(link->length >= straight * (1.0 - 1e-12), "link %d is %g long, its sites are %g apart", k, link->length,
-                straight);
-        REQUIRE(link->outer >= 0.0 && link->outer <= link->width, "link %d of width %g has outer width %g", k,
-                link->width, link->outer);
+        REQUIRE(link->outer >= 0.0 && link->outer <= link->width && link->beyond >= 0.0,
+                "link %d of width %g has outer width %g and %g beyond", k, link->width, link->outer, link->beyond);
         REQUIRE(IsNear(kiriVec2_Length(link->normal), 1.0, 1e-9) && IsNear(link->tangent.x, -link->normal.y, 1e-12) &&
                     IsNear(link->tangent.y, link->normal.x, 1e-12),
                 "link %d has normal (%g, %g)", k, link->normal.x, link->normal.y);
+        kiriVec2 span = kiriVec2_Sub(sheet->frames.data[link->j].site.at, sheet->frames.data[link->i].site.at);
+        double along = fabs(kiriVec2_Dot(span, link->normal));
+        REQUIRE(link->length >= along * (1.0 - 1e-12), "link %d is %g long, its sites are %g apart along it", k,
+                link->length, along);
     }
     int32_t offsets = sheet->strainOffsets.strainOffsets.count;
     REQUIRE(offsets == 0 || offsets == sheet->links.links.count, "%d strain offsets, %d links", offsets,

@@ -5,7 +5,7 @@
 #include <string.h>
 
 /* Links and corners are hashed and compared byte by byte. */
-typedef char LinkHasNoPadding[sizeof(kiriLink) == 2 * sizeof(int32_t) + 20 * sizeof(double) ? 1 : -1];
+typedef char LinkHasNoPadding[sizeof(kiriLink) == 2 * sizeof(int32_t) + 21 * sizeof(double) ? 1 : -1];
 typedef char CornerHasNoPadding[sizeof(kiriCorner) == 6 * sizeof(int32_t) + 9 * sizeof(double) ? 1 : -1];
 
 /* Cost in items of the budget: a border cell whose steps are read, one whose faces are read, a kept link beside a dirty
@@ -167,6 +167,7 @@ static void SetEnd(kiriLinkEnd* end, kiriEndKind kind, kiriVec2 at)
 {
     end->kind = kind;
     end->at = at;
+    end->edge = kiriVec2_Make(0.0, 0.0);
     for (int k = 0; k < KIRI_CORNER_REGIONS; ++k) {
         end->region[k] = KIRI_NONE;
     }
@@ -472,6 +473,22 @@ static void StartEndSearch(EndSearch* s, const LinkUpdate* u, const kiriLinkEnd*
     s->line = LineBetween(SiteAt(u, s->near.region[0]), SiteAt(u, s->near.region[1]));
 }
 
+/* Returns the head or the tail of a half-edge, local m. */
+static kiriVec2 EdgeEnd(const kiriMeshData* mesh, int32_t edge, bool isHead)
+{
+    int32_t vertex = kiriMesh_Tail(mesh, isHead ? kiriEdge_Next(edge) : edge);
+    return kiriMesh_Local(mesh, mesh->vertices.data[vertex].at);
+}
+
+/* Sets an open end on an edge of the material. */
+static void SetOpenEnd(const LinkUpdate* u, kiriLinkEnd* end, kiriVec2 at, int32_t edge)
+{
+    kiriVec2 way = kiriVec2_Sub(EdgeEnd(u->mesh, edge, true), EdgeEnd(u->mesh, edge, false));
+    double size = kiriVec2_Length(way);
+    SetEnd(end, KIRI_END_OPEN, at);
+    end->edge = kiriVec2_Scale(size > 0.0 ? 1.0 / size : 0.0, way);
+}
+
 /* ---- Ends that the sites see ------------------------------------------------------------------------------------- */
 
 static const double kiriFarAhead = 1e30;
@@ -536,7 +553,7 @@ static bool FindSeenEnd(EndSearch* s, kiriVec2 from, kiriLinkEnd* end)
     kiriSightHit hit;
     kiriSightEnd met = kiriSight_Cast(&s->sight, from, PointOn(&s->line, s->ahead * goal), &hit);
     if (met == KIRI_SIGHT_EDGE) {
-        SetEnd(end, KIRI_END_OPEN, PointOn(&s->line, s->ahead * (start + hit.share * (goal - start))));
+        SetOpenEnd(s->u, end, PointOn(&s->line, s->ahead * (start + hit.share * (goal - start))), hit.edge);
         return IsEndSeen(s, end);
     }
     return met == KIRI_SIGHT_CLEAR && goal == limit;
@@ -659,13 +676,6 @@ static kiriVec2 FindBetweenOnEdge(const EndSearch* s, kiriVec2 a, double farA, k
     return kiriVec2_AddScaled(a, high, way);
 }
 
-/* Returns the head or the tail of a half-edge, local m. */
-static kiriVec2 EdgeEnd(const kiriMeshData* mesh, int32_t edge, bool isHead)
-{
-    int32_t vertex = kiriMesh_Tail(mesh, isHead ? kiriEdge_Next(edge) : edge);
-    return kiriMesh_Local(mesh, mesh->vertices.data[vertex].at);
-}
-
 /* Goes from a point of an edge along the edges of the material, up to three squares' sides, in the direction in which
    the difference of distances falls, to where it vanishes. */
 static bool WalkToEnd(const EndSearch* s, int32_t* on, kiriVec2 at, kiriLinkEnd* end)
@@ -680,7 +690,7 @@ static bool WalkToEnd(const EndSearch* s, int32_t* on, kiriVec2 at, kiriLinkEnd*
         kiriVec2 goal = EdgeEnd(mesh, edge, ahead);
         double goalFar = FartherAt(s, goal);
         if (far == 0.0 || (far > 0.0) != (goalFar > 0.0)) {
-            SetEnd(end, KIRI_END_OPEN, far == 0.0 ? at : FindBetweenOnEdge(s, at, far, goal, goalFar));
+            SetOpenEnd(s->u, end, far == 0.0 ? at : FindBetweenOnEdge(s, at, far, goal, goalFar), edge);
             *on = edge;
             return true;
         }
@@ -1017,8 +1027,9 @@ static void SetSpread(const LinkUpdate* u, kiriLink* link)
     }
 }
 
-/* Sets the outer width, after everything else of the link. */
-static void SetOuter(kiriLink* link, const kiriLinkEnds* ends)
+/* Sets the outer width, and what is beyond it, after everything else of the link. A border that is next to nothing has
+   nothing beyond it: it may lie on a slit. */
+static void SetOuter(const LinkUpdate* u, kiriLink* link, const kiriLinkEnds* ends)
 {
     double sum = 0.0;
     for (int k = 0; k < 2; ++k) {
@@ -1027,7 +1038,31 @@ static void SetOuter(kiriLink* link, const kiriLinkEnds* ends)
         sum += ends->end[k].kind == KIRI_END_OPEN && way > 0.0 ? way : 0.0;
     }
     bool all = ends->end[0].kind == KIRI_END_OPEN && ends->end[1].kind == KIRI_END_OPEN;
-    link->outer = all || sum > link->width ? link->width : sum;
+    link->outer = all ? link->width : kiriMin(sum, link->width);
+    link->beyond = link->width > kiriSliver * u->grid->side ? kiriMax(sum - link->width, 0.0) : 0.0;
+}
+
+/* Turns the axes of a border that runs aslant from edge to edge. A strip bends and stretches along its edges, so the
+   normal is the mean of their directions, and width and length are measured across and along it. A way with turns keeps
+   its length. */
+static void FollowEdges(const LinkUpdate* u, kiriLink* link, const kiriLinkEnds* ends)
+{
+    kiriVec2 way = kiriVec2_Sub(ends->end[1].at, ends->end[0].at), mean = { 0.0, 0.0 };
+    kiriVec2 straight = kiriVec2_Sub(SiteAt(u, link->j), SiteAt(u, link->i));
+    for (int k = 0; k < 2; ++k) {
+        double along = kiriVec2_Dot(ends->end[k].edge, link->normal);
+        if (fabs(along) < 0.5 || !ends->end[k].isExact) {
+            return;
+        }
+        mean = kiriVec2_AddScaled(mean, along < 0.0 ? -1.0 : 1.0, ends->end[k].edge);
+    }
+    link->normal = kiriVec2_Scale(1.0 / kiriVec2_Length(mean), mean);
+    link->tangent = kiriVec2_Left(link->normal);
+    link->width = kiriVec2_Dot(way, link->tangent);
+    link->moment = link->width * link->width * link->width / 12.0;
+    double along = kiriVec2_Dot(straight, link->normal);
+    bool isStraight = link->span.x == straight.x && link->span.y == straight.y && along > 0.1 * u->grid->side;
+    link->length = isStraight ? along : link->length;
 }
 
 /* Makes the link of the gathered stretch. A border that turns back on itself, around the tip of a slit for instance,
@@ -1067,7 +1102,8 @@ static bool MakeLink(const LinkUpdate* u, bool isPart)
     }
     SetSpread(u, link);
     SetLength(u, link, &made.ends);
-    SetOuter(link, &made.ends);
+    FollowEdges(u, link, &made.ends);
+    SetOuter(u, link, &made.ends);
     return kiriArray_Push(u->memory, &work->made, made);
 }
 
@@ -1140,7 +1176,7 @@ static bool MakeShortLink(const LinkUpdate* u, const kiriLinkEnd* near, const in
     link->span = kiriVec2_Sub(SiteAt(u, link->j), SiteAt(u, link->i));
     link->length = kiriVec2_Length(link->span);
     link->crossing = s.line.middle;
-    SetOuter(link, &made->ends);
+    SetOuter(u, link, &made->ends);
     return link->width < 0.5 * most;
 }
 

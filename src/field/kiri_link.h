@@ -14,6 +14,7 @@ typedef struct kiriLink {
     double width;      /* W: the border from end to end, m */
     double outer;      /* part of W at open ends, m: each end at the outline or at a slit adds the way along the tangent
                           from the crossing to it; 0 where both ends are corners, to W where both are open */
+    double beyond;     /* what the same ways have more than W where the crossing is beside the border, m */
     double length;     /* l: the way from site i to site j through the border, m */
     double moment;     /* I: second moment of the border along the tangent about the centroid, m^3 */
     kiriVec2 span;     /* s: from site i to site j; l along the normal where the way between them is not straight */
@@ -58,6 +59,7 @@ typedef struct kiriLinkEnd {
     int32_t cell[2];                     /* cells of regions i and j beside the border's last face */
     kiriVec2 at;                         /* local m */
     kiriVec2 look;                       /* a point of the material just before the end that the grid has */
+    kiriVec2 edge;                       /* at an open end, the direction of the edge there, unit; 0: unknown */
     bool isExact;                        /* `at` is the end in the Euclidean metric, */
     bool isSeen;                         /* and both sites see it */
 } kiriLinkEnd;

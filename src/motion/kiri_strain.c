@@ -462,20 +462,21 @@ void kiriStrain_TakeOffsets(const double* strain, const double* offset, int coun
 double kiriStrain_NormalGapWidth(const kiriLink* link, double poissonsRatio)
 {
     double outer = link->outer, lone = kiriLink_LoneWidth(link), nu = poissonsRatio;
-    return GAP_INNER * (link->width - outer) + (1.0 - nu * nu) * (GAP_OUTER * (outer - lone) + lone);
+    return GAP_INNER * (link->width - outer - link->beyond) +
+           (1.0 - nu * nu) * (GAP_OUTER * (outer - lone + link->beyond) + lone);
 }
 
 void kiriStrain_Stiffness(const kiriLink* link, const kiriMaterial* material, double stiffness[KIRI_STRAINS])
 {
     double h = (double)material->thickness, nu = (double)material->poissonsRatio, l = link->length;
     double membrane = (double)material->youngsModulus * h / l, bending = membrane * h * h / (12.0 * (1.0 - nu * nu));
-    double outer = link->outer, inner = link->width - outer;
-    stiffness[KIRI_STRETCH] = membrane * (inner / (1.0 + nu) + outer);
+    double outer = link->outer, inner = link->width - outer, beyond = link->beyond;
+    stiffness[KIRI_STRETCH] = membrane * (inner / (1.0 + nu) + outer + nu / (1.0 + nu) * beyond);
     stiffness[KIRI_SHEAR] = membrane * (inner + 0.5 * SHEAR_BEAM * outer) / (1.0 + nu);
     stiffness[KIRI_PLANE_BENDING] =
         membrane * link->moment * (1.0 + PLANE_INNER * nu / (1.0 + nu) * inner / link->width);
-    stiffness[KIRI_BENDING] = bending * (1.0 - nu) * (inner + (1.0 + nu) * outer);
-    stiffness[KIRI_TWIST] = bending * (1.0 - nu) * (inner + 2.0 * outer);
+    stiffness[KIRI_BENDING] = bending * (1.0 - nu) * (inner + (1.0 + nu) * outer + nu * beyond);
+    stiffness[KIRI_TWIST] = bending * (1.0 - nu) * (inner + 2.0 * outer + beyond);
     stiffness[KIRI_NORMAL_GAP] = KIRI_NORMAL_GAP_BETA * bending * kiriStrain_NormalGapWidth(link, nu) / (l * l);
     stiffness[KIRI_NORMAL_STOP] = membrane * link->width;
 }
@@ -579,7 +580,7 @@ void kiriStrainOffsets_Remember(kiriStrainOffsets* strainOffsets, const kiriFram
 }
 
 /* Links and frames are compared byte by byte, so they must have no padding. */
-typedef char kiriLinkHasNoPadding[sizeof(kiriLink) == 2 * sizeof(int32_t) + 20 * sizeof(double) ? 1 : -1];
+typedef char kiriLinkHasNoPadding[sizeof(kiriLink) == 2 * sizeof(int32_t) + 21 * sizeof(double) ? 1 : -1];
 typedef char kiriPoseHasNoPadding[sizeof(kiriPose) == 12 * sizeof(double) ? 1 : -1];
 
 static void MeasureLink(const kiriLink* link, const kiriMaterial* material, const kiriFrameData* i,

@@ -26,6 +26,8 @@ KIRI_C_BEGIN
    K n = (d_j - d_i) / l. Over the links of a Voronoi diagram the sum of W l |K n|^2 equals the area times |K|^2, so
    links represent the first term. The second term couples links of different directions, as does the second term of the
    membrane energy, E h / (1 - nu^2) / 2 ((1 - nu) |eps|^2 + nu (tr eps)^2). Corners represent these terms (see below).
+   If the crossing m is beside the border, the outer width from m to the open end is larger than W. The part that W lacks
+   (kiriLink.beyond) adds what it would add to Wo, and takes as much from Wi; shear and plane bending leave it out.
    Beside a free edge, beyond the last row of sites, corners are missing, and all links run along the edge. There,
    moment and tension across the edge vanish, as in a beam: bending has the factor 1 - nu^2, stretch has 1, and the
    links see one of the two halves of the twist.
@@ -46,9 +48,10 @@ KIRI_C_BEGIN
 
    Stretch is measured along the line between the centres of mass, c apart (for a held frame, its site). An offset along
    the normal lengthens the line: Y = gap(m) . d (gap(q) . d - 2/5 gap(m) . d), q the middle of the centres of mass. In
-   even bending gap(m) . d is zero. gap(b) . d is not if b is off m, and would lock crooked layouts. With gap(b) . n alone, tension would turn the frames away from that line and, above
-   12 D / l^2 newtons a metre of width, lay the sheet in steps, as tension buckles a column that is soft in shear; cloth
-   would fall apart. An arc that is long compared with c would do the same, so its length is limited.
+   even bending gap(m) . d is zero; gap(b) . d is not if b is off m, and crooked layouts would lock. With gap(b) . n
+   alone, tension would turn the frames away from that line and, above 12 D / l^2 newtons a metre of width, lay the sheet
+   in steps, as tension buckles a column that is soft in shear; cloth would fall apart. An arc that is long compared with
+   c would do the same, so its length is limited.
    Let g = c + gap(b) . n. If g < c, the offset adds to the strain as much as it adds to (c + g^2 / c) / 2; if g < 0, as
    much as it adds to c / 2. So frames that have passed through each other are pushed back, the strain grows with
    gap(b) . n everywhere, and it has no kink in which a motion could get stuck.
