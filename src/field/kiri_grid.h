@@ -174,7 +174,7 @@ static inline kiriSteps kiriGrid_GetSteps(const kiriGrid* grid, int32_t cell)
 {
     KIRI_ASSERT(cell >= 0 && cell < grid->runs.count);
     const kiriStepRun* run = &grid->runs.data[cell];
-    if (kiriStepRun_IsOpen(run)) {
+    if (kiriGrid_IsOpen(grid, cell) || kiriStepRun_IsOpen(run)) {
         KIRI_ASSERT(grid->squareCell.data[cell] == cell);
         return kiriGrid_OpenSteps(grid, cell);
     }

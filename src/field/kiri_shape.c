@@ -257,7 +257,6 @@ static bool MarkGone(ShapeJob* job, int32_t item)
     CountFor(job, cell, (kiriCountedCell){ KIRI_NONE, 0 });
     job->work->marks.data[cell] |= MARK_GONE;
     TouchCell(job, cell);
-    job->work->debt += 1;
     return true;
 }
 
@@ -267,14 +266,12 @@ static bool MarkSteps(ShapeJob* job, int32_t item)
     job->work->marks.data[cell] |= MARK_STEPS;
     MarkChanged(job, cell);
     TouchCell(job, cell);
-    job->work->debt += 1;
     return true;
 }
 
 static bool MarkMaterial(ShapeJob* job, int32_t item)
 {
     MarkDirty(job, job->grid->changes.material.data[item].cell);
-    job->work->debt += 1;
     return true;
 }
 
@@ -289,7 +286,6 @@ static bool MarkRegion(ShapeJob* job, int32_t item)
     if ((*mark & MARK_STEPS) == 0) {
         TouchCell(job, was.cell);
     }
-    job->work->debt += 1;
     return true;
 }
 
@@ -309,7 +305,6 @@ static void CountAround(ShapeJob* job, int32_t cell)
 static bool CountSteps(ShapeJob* job, int32_t item)
 {
     CountAround(job, job->grid->changes.steps.data[item]);
-    job->work->debt += 1;
     return true;
 }
 
@@ -319,14 +314,13 @@ static bool CountRegion(ShapeJob* job, int32_t item)
     if ((job->work->marks.data[cell] & MARK_STEPS) == 0) {
         CountAround(job, cell);
     }
-    job->work->debt += 1;
     return true;
 }
 
 /* ---- Distances of a frame, from its blocks ----------------------------------------------------------------------- */
 
 /* Loads the distances of a block of cells, unless they are made from scratch. */
-static void LoadBlock(const ShapeJob* job, int32_t cells)
+static inline void LoadBlock(const ShapeJob* job, int32_t cells)
 {
     enum { COST_OF_LOAD = 8 };
     kiriShapeWork* work = job->work;
@@ -457,9 +451,6 @@ static void LoadChanges(ShapeJob* job, int32_t limit)
     for (int32_t t = frame->firstTouch; t != KIRI_NONE; t = work->touches.data[t].next) {
         LoadTouched(job, work->touches.data[t].cell);
     }
-    for (int32_t k = 0; k < work->seeds.count; ++k) {
-        LoadBlock(job, kiriReach_BlockOf(work->seeds.data[k].cell));
-    }
     if (limit != frame->limit) {
         LoadBeyond(job, limit);
     }
@@ -486,6 +477,7 @@ static bool StartFromSite(ShapeJob* job)
     }
     for (int32_t k = 0; k < work->seeds.count; ++k) {
         work->marks.data[work->seeds.data[k].cell] |= MARK_SEED;
+        LoadBlock(job, kiriReach_BlockOf(work->seeds.data[k].cell));
     }
     if (!frame->moved) {
         LoadChanges(job, limit);
@@ -493,9 +485,6 @@ static bool StartFromSite(ShapeJob* job)
         return true;
     }
     frame->limit = limit;
-    for (int32_t k = 0; k < work->seeds.count; ++k) {
-        LoadBlock(job, kiriReach_BlockOf(work->seeds.data[k].cell));
-    }
     for (int32_t b = reaches->ofFrame.data[job->frame]; b != KIRI_NONE; b = reaches->blocks.data[b].nextOfFrame) {
         LoadBlock(job, reaches->blocks.data[b].cells);
     }
@@ -561,35 +550,34 @@ static void UnloadBlock(ShapeJob* job, kiriLoadedBlock loaded)
     enum { COST_OF_BLOCK = 2, CHANGED_AN_ITEM = 2 };
     kiriShapeWork* work = job->work;
     kiriReaches* reaches = &job->shape->reaches;
-    int32_t first = loaded.cells * KIRI_BLOCK_CELLS, changed = 0;
+    int32_t first = loaded.cells * KIRI_BLOCK_CELLS, index = loaded.block, changed = 0;
     int32_t *fromSite = &work->fromSite.distance.data[first], *fromBorder = &work->fromBorder.distance.data[first];
     bool any = false;
     for (int32_t k = 0; k < KIRI_BLOCK_CELLS; ++k) {
-        any = any || fromSite[k] != KIRI_FAR;
+        any |= fromSite[k] != KIRI_FAR;
+        fromBorder[k] = fromSite[k] != KIRI_FAR ? fromBorder[k] : KIRI_FAR;
     }
-    int32_t index = loaded.block;
     if (any && index == KIRI_NONE) {
         index = kiriReaches_Add(reaches, job->frame, loaded.cells);
     }
-    kiriReachBlock* block = index != KIRI_NONE ? &reaches->blocks.data[index] : NULL;
-    for (int32_t k = 0; k < KIRI_BLOCK_CELLS; ++k) {
-        uint8_t* mark = &work->marks.data[first + k];
-        if (block != NULL && (fromSite[k] != KIRI_FAR || block->fromSite[k] != KIRI_FAR)) {
-            int32_t border = fromSite[k] == KIRI_FAR ? KIRI_FAR : fromBorder[k];
-            bool same = block->fromSite[k] == fromSite[k] && block->fromBorder[k] == border;
-            bool turned = (*mark & MARK_REGION) != 0 &&
-                          (work->wasOwner.data[first + k] == job->frame) != IsInRegion(job, first + k);
-            changed += !same;
-            if ((!same || turned) && kiriGrid_IsCell(job->grid, first + k)) {
-                MarkDirty(job, first + k);
-            }
-            block->fromSite[k] = fromSite[k];
-            block->fromBorder[k] = border;
+    for (int32_t k = 0; index != KIRI_NONE && k < KIRI_BLOCK_CELLS; ++k) {
+        kiriReachBlock* block = &reaches->blocks.data[index];
+        uint8_t mark = work->marks.data[first + k];
+        bool isOther = block->fromSite[k] != fromSite[k] || block->fromBorder[k] != fromBorder[k];
+        bool turned = (mark & MARK_REGION) != 0 && (isOther || fromSite[k] != KIRI_FAR) &&
+                      (work->wasOwner.data[first + k] == job->frame) != IsInRegion(job, first + k);
+        changed += isOther;
+        if ((isOther || turned) && (mark & MARK_GONE) == 0) {
+            MarkDirty(job, first + k);
         }
-        fromSite[k] = fromBorder[k] = KIRI_FAR;
-        *mark &= (uint8_t) ~(MARK_SEED | MARK_SEEN);
+        block->fromSite[k] = fromSite[k];
+        block->fromBorder[k] = fromBorder[k];
     }
-    if (!any && block != NULL) {
+    for (int32_t k = 0; k < KIRI_BLOCK_CELLS; ++k) {
+        fromSite[k] = fromBorder[k] = KIRI_FAR;
+        work->marks.data[first + k] &= (uint8_t) ~(MARK_SEED | MARK_SEEN);
+    }
+    if (!any && index != KIRI_NONE) {
         kiriReaches_Remove(reaches, index);
     }
     work->isLoaded.data[loaded.cells] = 0;
@@ -639,8 +627,8 @@ static bool MeasureFrame(ShapeJob* job, int32_t item)
 
 /* ---- The weights of a cell --------------------------------------------------------------------------------------- */
 
-/* Lists the weights that the distances give a cell, in work->weights, by frame. False for memory. */
-static bool ListWeights(ShapeJob* job, int32_t cell)
+/* Lists the weights that the distances give a cell, in work->weights, by frame. */
+static void ListWeights(const ShapeJob* job, int32_t cell)
 {
     kiriShapeWork* work = job->work;
     const kiriReaches* reaches = &job->shape->reaches;
@@ -654,16 +642,14 @@ static bool ListWeights(ShapeJob* job, int32_t cell)
             block->fromSite[k] != KIRI_FAR ? RawWeight(frame == owner, block->fromSite[k], block->fromBorder[k]) : 0.0;
         if (raw > 0.0) {
             const kiriCellWeight weight = kiriCellWeight_Make(frame, raw);
-            if (!kiriArray_Push(job->memory, &work->weights, weight)) {
-                return false;
-            }
+            KIRI_ASSERT(at < work->weights.capacity);
+            work->weights.count += 1;
             for (; at > 0 && work->weights.data[at - 1].frame > frame; --at) {
                 work->weights.data[at] = work->weights.data[at - 1];
             }
             work->weights.data[at] = weight;
         }
     }
-    return true;
 }
 
 /* Gives a cell the weights that its distances give, and its share of the rigid sums. */
@@ -674,26 +660,31 @@ static bool WeighCell(ShapeJob* job, int32_t item)
     kiriShapeWork* work = job->work;
     int32_t cell = work->dirty.data[item];
     kiriSpan* span = &shape->spans.data[cell];
-    bool ok = ListWeights(job, cell);
-    size_t bytes = sizeof(kiriCellWeight) * (size_t)work->weights.count;
-    AddRigid(job, cell, -work->rigidShares.data[cell]);
-    if (span->count != work->weights.count ||
-        (bytes > 0 && memcmp(&shape->weights.data[span->first], work->weights.data, bytes) != 0)) {
+    double area = kiriGrid_Area(job->grid, cell) / (job->grid->side * job->grid->side);
+    int64_t share = (int64_t)(area * 1099511627776.0 + 0.5), was = work->rigidShares.data[cell];
+    ListWeights(job, cell);
+    int32_t count = work->weights.count;
+    size_t bytes = sizeof(kiriCellWeight) * (size_t)count;
+    if (span->count != count ||
+        (count > 0 && memcmp(&shape->weights.data[span->first], work->weights.data, bytes) != 0)) {
+        AddRigid(job, cell, -was);
+        was = 0;
         shape->recomputed += (work->marks.data[cell] & MARK_RECOMPUTED) == 0;
         work->marks.data[cell] |= MARK_RECOMPUTED;
         MarkChanged(job, cell);
-        ok = ok && kiriSpan_Resize(span, &shape->room, job->memory, &shape->weights, sizeof(kiriCellWeight),
-                                   work->weights.count);
-        if (ok && bytes > 0) {
-            memcpy(&shape->weights.data[span->first], work->weights.data, bytes);
+        if (span->count != count && !kiriSpan_Resize(span, &shape->room, job->memory, &shape->weights,
+                                                     sizeof(kiriCellWeight), count)) {
+            job->outOfMemory = true;
+            return true;
         }
+        memcpy(&shape->weights.data[span->first], work->weights.data, bytes);
     }
-    double share = kiriGrid_Area(job->grid, cell) / (job->grid->side * job->grid->side);
-    work->rigidShares.data[cell] = (int64_t)(share * 1099511627776.0 + 0.5);
-    AddRigid(job, cell, work->rigidShares.data[cell]);
+    if (share != was) {
+        AddRigid(job, cell, share - was);
+    }
+    work->rigidShares.data[cell] = share;
     work->marks.data[cell] &= (uint8_t)~MARK_DIRTY;
-    work->debt += 1 + work->weights.count / WEIGHTS_AN_ITEM;
-    job->outOfMemory = job->outOfMemory || !ok;
+    work->debt += 1 + count / WEIGHTS_AN_ITEM;
     return true;
 }
 
@@ -701,7 +692,7 @@ static bool WeighCell(ShapeJob* job, int32_t item)
 
 /* Stages of algorithm 2, each over its items. An item returns false if the quota is spent before it is done. */
 typedef bool ShapeStageFn(ShapeJob* job, int32_t item);
-enum { SHAPE_STAGES = 8 };
+enum { SHAPE_STAGES = 8, CHANGE_STAGES = 6 };
 static ShapeStageFn* const shapeStages[SHAPE_STAGES] = {
     MarkGone,     /* cells that changed, and the frames that reach them */
     MarkSteps,    /* the same */
@@ -730,6 +721,7 @@ static bool ReserveShape(ShapeJob* job)
         !kiriArray_Resize(memory, &work->wasOwner, cells) || !kiriArray_Resize(memory, &work->counted, cells) ||
         !kiriArray_Resize(memory, &work->rigidShares, cells) ||
         !kiriArray_Reserve(memory, &shape->rigid, job->siteCount) ||
+        !kiriArray_Reserve(memory, &work->weights, job->siteCount) ||
         !kiriArray_Reserve(memory, &work->dirtyFrames, job->siteCount) ||
         !kiriArray_Reserve(memory, &work->frames, job->siteCount)) {
         return false;
@@ -820,7 +812,7 @@ kiriProgress kiriShape_Update(kiriShape* shape, kiriMemory* memory, const kiriGr
                                                MEASURE_PARTS * work->dirtyFrames.count,
                                                work->dirty.count };
         KIRI_ASSERT(work->item <= counts[work->stage]);
-        for (; work->item < counts[work->stage]; ++work->item) {
+        for (; work->item < counts[work->stage]; ++work->item, work->debt += work->stage < CHANGE_STAGES) {
             bool isDone = !kiriMemory_MustPause(memory) && kiriQuota_Pay(quota, &work->debt) &&
                           shapeStages[work->stage](&job, work->item);
             if (job.outOfMemory || !isDone) {

@@ -212,6 +212,7 @@ static void InsertStep(kiriStencil* stencil, const kiriGrid* grid, kiriStep step
    cell. */
 static bool GatherSteps(kiriStencil* stencil, kiriMemory* memory, const kiriGrid* grid, int32_t cell)
 {
+    static const uint8_t sorted[] = { 4, 0, 5, 1, 2, 6, 3, 7 }; /* plain steps, by square */
     kiriSteps steps = kiriGrid_GetSteps(grid, cell);
     bool plain = steps.end[1] == 8 && grid->whole.data[grid->cells.data[cell].square];
     for (int32_t k = 0; plain && k < steps.end[1]; ++k) {
@@ -224,7 +225,7 @@ static bool GatherSteps(kiriStencil* stencil, kiriMemory* memory, const kiriGrid
     }
     stencil->steps.data[stencil->steps.count++] = (kiriStep){ cell, 0, 0, 0 };
     for (int32_t k = 0; k < end; ++k) {
-        InsertStep(stencil, grid, kiriSteps_At(&steps, k));
+        InsertStep(stencil, grid, kiriSteps_At(&steps, plain ? sorted[k] : k));
     }
     for (int32_t k = 0; !plain && k < end; ++k) {
         const kiriStep to = kiriSteps_At(&steps, k);
