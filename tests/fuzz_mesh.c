@@ -2,6 +2,7 @@
 #include "fuzz_world.h"
 
 #include "core/kiri_vec.h"
+#include "world/kiri_world.h"
 
 enum { MOST_VERTICES = 100, MOST_TRIANGLES = 140, COLUMNS = 8 };
 

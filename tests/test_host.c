@@ -536,30 +536,6 @@ static void TestPinsBreak(void** state)
     Host_Stop(&host);
 }
 
-/* All at once, and ids go on. */
-static void TestManyPinsBreak(void** state)
-{
-    (void)state;
-    Host host;
-    kiriSheetDef def = Host_SmallDef();
-    kiriPin pins[6], left[6];
-    int32_t count;
-    Host_Start(&host);
-    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
-    for (int i = 0; i < 6; ++i) {
-        pins[i] = PinAt(&host, sheet, 0.1f + 0.15f * (float)i, 0.9f, i % 2 == 0 ? 1e-6f : 0.0f);
-    }
-    OK(Host_Tick(&host, DT, 2));
-    OK(Host_Tick(&host, DT, 2));
-    OK(kiriSheet_GetPins(host.world, sheet, left, 6, &count));
-    assert_int_equal(count, 3);
-    for (int i = 1; i < 6; i += 2) {
-        double force[3], torque[3];
-        OK(kiriPin_GetReaction(host.world, pins[i], force, torque));
-    }
-    Host_Stop(&host);
-}
-
 /* A sheet that is drawn along by a corner, without gravity: what more substeps find must not differ by much. Returns
    the rms force of the pin. */
 static double Draw(int32_t substeps)
@@ -1233,7 +1209,6 @@ int main(void)
         cmocka_unit_test(TestFlagFlutters),
         cmocka_unit_test(TestWindIsChecked),
         cmocka_unit_test(TestPinsBreak),
-        cmocka_unit_test(TestManyPinsBreak),
         cmocka_unit_test(TestDrawnPinDoesNotJerk),
         cmocka_unit_test(TestHeldFrameMovesEvenly),
         cmocka_unit_test(TestSeenIsHeld),

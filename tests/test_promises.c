@@ -1,13 +1,10 @@
 /* Promises of the header that need more than one call: weights and pins while work on a cut waits, events that name
    pieces, the state hash, and ids. */
 #include "look.h"
+#include "layout_hash.h"
 
 #include "sheet/kiri_update.h"
-
-static int32_t StageOf(const Host* host)
-{
-    return host->world->sheets.data[0]->update->stage;
-}
+#include "world/kiri_world.h"
 
 /* ---- Weights and pins while a cut waits ---- */
 
@@ -109,11 +106,11 @@ static void TestWhileWorkWaits(void** state)
         int ticks = 0;
         do {
             assert_int_equal(kiriWorld_Tick(host.world, 1e-6f, 1), KIRI_PENDING);
-            assert_true(CheckWeights(&host, sheet) == 0 || StageOf(&host) == KIRI_STAGE_CUT);
+            assert_true(CheckWeights(&host, sheet) == 0 || Layout_Stage(host.world, Host_SheetAt(&host, 0)) == KIRI_STAGE_CUT);
             if (ticks++ % 7 == 0) {
                 CheckPins(&host, sheet);
             }
-        } while (StageOf(&host) != stage);
+        } while (Layout_Stage(host.world, Host_SheetAt(&host, 0)) != stage);
         for (int corner = 0; corner < 4; ++corner) {
             PinCorner(&host, sheet, (float)(corner % 2), (float)(corner / 2));
         }

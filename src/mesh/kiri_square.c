@@ -112,11 +112,6 @@ static bool Overlaps(const kiriSquares* squares, SquareBox box, int32_t column, 
     return overlaps;
 }
 
-bool kiriSquares_Overlap(const kiriSquares* squares, int32_t square, const kiriLatticePoint corners[3])
-{
-    return Overlaps(squares, BoxOf(squares, corners), square % squares->columns, square / squares->columns, corners);
-}
-
 int64_t kiriSquares_CountOverlaps(const kiriSquares* squares, const kiriLatticePoint corners[3])
 {
     SquareBox box = BoxOf(squares, corners);

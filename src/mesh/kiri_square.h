@@ -92,9 +92,6 @@ static inline kiriLatticePoint kiriSquares_Corner(const kiriSquares* squares, in
     return kiriSquares_CornerAt(squares, square - row * squares->columns, row);
 }
 
-/* Returns true if the interiors overlap. Exact. */
-bool kiriSquares_Overlap(const kiriSquares* squares, int32_t square, const kiriLatticePoint corners[3]);
-
 /* Returns the number of squares that a triangle overlaps. */
 int64_t kiriSquares_CountOverlaps(const kiriSquares* squares, const kiriLatticePoint corners[3]);
 
