@@ -12,7 +12,7 @@ KIRI_SHARED_TABLE(kiriSiteTable, kiriSite, {
 
 KIRI_TABLE(FieldTable, kiriField, {
     KIRI_DERIVED,
-    KIRI_ARRAYS(kiriField, distance, owner, settled, log, heap, dirty, marks),
+    KIRI_ARRAYS(kiriField, distance, owner, settled, log, seeds, dirty, marks),
     KIRI_ARRAYS(kiriField, ring[0], ring[1], ring[2], ring[3]),
 });
 

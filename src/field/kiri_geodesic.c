@@ -48,48 +48,11 @@ void kiriField_Reset(kiriField* field)
 void kiriField_Clear(kiriField* field)
 {
     field->distance.count = field->owner.count = field->marks.count = 0;
-    field->settled.count = field->log.count = field->heap.count = field->dirty.count = 0;
+    field->settled.count = field->log.count = field->seeds.count = field->dirty.count = 0;
     for (int k = 0; k < KIRI_RING; ++k) {
         field->ring[k].count = 0;
     }
     field->stage = REPAIR_NONE;
-}
-
-/* ---- The heap of seeds, nearest on top --------------------------------------------------------------------------- */
-
-static bool IsNearerSeed(kiriSeed a, kiriSeed b)
-{
-    return a.distance != b.distance ? a.distance < b.distance : a.owner < b.owner;
-}
-
-/* Restores the heap below a place that may hold too far a seed. */
-static void SinkSeed(kiriField* field, int32_t i)
-{
-    KIRI_ASSERT(i >= 0 && i < field->heap.count);
-    kiriSeed* seeds = field->heap.data;
-    kiriSeed sinking = seeds[i];
-    for (int32_t child = 2 * i + 1; child < field->heap.count; child = 2 * i + 1) {
-        if (child + 1 < field->heap.count && IsNearerSeed(seeds[child + 1], seeds[child])) {
-            ++child;
-        }
-        if (!IsNearerSeed(seeds[child], sinking)) {
-            break;
-        }
-        seeds[i] = seeds[child];
-        i = child;
-    }
-    seeds[i] = sinking;
-}
-
-static kiriSeed PopSeed(kiriField* field)
-{
-    KIRI_ASSERT(field->heap.count > 0);
-    kiriSeed top = field->heap.data[0];
-    field->heap.data[0] = field->heap.data[--field->heap.count];
-    if (field->heap.count > 0) {
-        SinkSeed(field, 0);
-    }
-    return top;
 }
 
 /* ---- The sweep: Dijkstra in buckets ------------------------------------------------------------------------------ */
@@ -106,10 +69,16 @@ static inline int32_t BucketOf(int32_t distance)
 
 static void StartSweep(kiriField* field)
 {
-    for (int32_t i = field->heap.count / 2; i-- > 0;) {
-        SinkSeed(field, i);
-    }
     field->bucket = -1;
+    field->nearest = KIRI_FAR;
+    for (int32_t i = 0; i < field->seeds.count; ++i) {
+        field->nearest = kiriMin(field->seeds.data[i].distance, field->nearest);
+    }
+}
+
+static bool IsNearerSeed(kiriSeed a, kiriSeed b)
+{
+    return a.distance != b.distance ? a.distance < b.distance : a.owner < b.owner;
 }
 
 static inline kiriSeed ValueOf(const kiriField* field, int32_t cell)
@@ -160,27 +129,31 @@ static void LookAround(const kiriRule* rule, int32_t cell)
     }
 }
 
-/* Goes on to the next bucket that has cells or seeds. KIRI_DONE: there is none. */
+/* Goes on to the next bucket that has cells or seeds, and takes the seeds of all buckets of the ring. KIRI_DONE: there
+   is none. */
 static kiriProgress OpenBucket(kiriField* field, kiriMemory* memory, const kiriRule* rule, bool repairs)
 {
-    int32_t ahead = 1, seeds = INT32_MAX;
-    if (field->heap.count > 0 && field->heap.data[0].distance <= rule->limit) {
-        seeds = BucketOf(field->heap.data[0].distance);
-    }
+    int32_t ahead = 1, count = field->seeds.count, first = BucketOf(field->nearest);
     while (ahead < KIRI_RING && field->ring[(field->bucket + ahead) % KIRI_RING].count == 0) {
         ++ahead;
     }
-    int32_t next = ahead == KIRI_RING ? seeds : kiriMin(field->bucket + ahead, seeds);
-    if (next == INT32_MAX) {
+    if (field->nearest == KIRI_FAR && ahead == KIRI_RING) {
         return KIRI_DONE;
     }
-    field->bucket = next;
-    while (field->heap.count > 0 && field->heap.data[0].distance <= rule->limit &&
-           BucketOf(field->heap.data[0].distance) == field->bucket) {
+    field->bucket = ahead < KIRI_RING ? kiriMin(field->bucket + ahead, first) : first;
+    if (first > field->bucket) {
+        return KIRI_MORE;
+    }
+    field->nearest = KIRI_FAR;
+    field->seeds.count = 0;
+    for (int32_t i = 0; i < count; ++i) {
+        kiriSeed seed = field->seeds.data[i], value = ValueOf(field, seed.cell);
         /* A cell that has the very value of the seed is dirty itself: it passes its value on. */
-        kiriSeed seed = PopSeed(field), value = ValueOf(field, seed.cell);
-        if ((repairs ? !IsNearerSeed(value, seed) : IsNearerSeed(seed, value)) &&
-            !GiveValue(field, memory, seed, repairs)) {
+        if (BucketOf(seed.distance) >= field->bucket + KIRI_RING) {
+            field->seeds.data[field->seeds.count++] = seed;
+            field->nearest = kiriMin(seed.distance, field->nearest);
+        } else if (seed.distance <= rule->limit && (repairs ? !IsNearerSeed(value, seed) : IsNearerSeed(seed, value)) &&
+                   !GiveValue(field, memory, seed, repairs)) {
             return KIRI_FAILED;
         }
     }
@@ -265,12 +238,12 @@ static inline kiriProgress Sweep(kiriField* field, kiriMemory* memory, const kir
 bool kiriField_Start(kiriField* field, kiriMemory* memory, const kiriSeed* seeds, int32_t seedCount)
 {
     KIRI_ASSERT(field->settled.count == 0 && field->dirty.count == 0 && field->stage == REPAIR_NONE);
-    if (!kiriArray_Resize(memory, &field->heap, seedCount)) {
+    if (!kiriArray_Resize(memory, &field->seeds, seedCount)) {
         return false;
     }
     for (int32_t i = 0; i < seedCount; ++i) {
         KIRI_ASSERT(seeds[i].cell >= 0 && seeds[i].cell < field->distance.count && seeds[i].distance >= 0);
-        field->heap.data[i] = seeds[i];
+        field->seeds.data[i] = seeds[i];
     }
     StartSweep(field);
     return true;
@@ -405,8 +378,8 @@ static kiriProgress SeedSweep(kiriField* field, const kiriRule* rule, kiriQuota*
             kiriSeed best = NearestFor(field, rule, cell);
             bool passes = (field->marks.data[cell] & FIELD_PASSES) != 0;
             if (best.distance != KIRI_FAR && (passes || IsNearerSeed(best, ValueOf(field, cell)))) {
-                KIRI_ASSERT(field->heap.count < field->heap.capacity);
-                field->heap.data[field->heap.count++] = best;
+                KIRI_ASSERT(field->seeds.count < field->seeds.capacity);
+                field->seeds.data[field->seeds.count++] = best;
             }
             field->marks.data[cell] &= (uint8_t)~FIELD_PASSES;
         }
@@ -431,10 +404,10 @@ kiriProgress kiriField_Repair(kiriField* field, kiriMemory* memory, const kiriRu
         if (progress != KIRI_DONE) {
             return progress;
         }
-        if (!kiriArray_Reserve(memory, &field->heap, field->dirty.count)) {
+        if (!kiriArray_Reserve(memory, &field->seeds, field->dirty.count)) {
             return KIRI_FAILED;
         }
-        field->heap.count = field->checked = 0;
+        field->seeds.count = field->checked = 0;
         field->stage = REPAIR_SEEDS;
     }
     if (field->stage == REPAIR_SEEDS) {
@@ -546,8 +519,8 @@ kiriProgress kiriField_Scan(kiriField* field, kiriMemory* memory, const kiriGrid
     for (int32_t c = 0; c < field->distance.count; ++c) {
         scan.keys[c] = KeyOf(KIRI_FAR, KIRI_NONE);
     }
-    for (int32_t k = 0; k < field->heap.count; ++k) {
-        kiriSeed seed = field->heap.data[k];
+    for (int32_t k = 0; k < field->seeds.count; ++k) {
+        kiriSeed seed = field->seeds.data[k];
         scan.keys[seed.cell] = Nearer(scan.keys[seed.cell], KeyOf(seed.distance, seed.owner), 0);
     }
     bool isDone = ScanAll(&scan);
@@ -560,7 +533,7 @@ kiriProgress kiriField_Scan(kiriField* field, kiriMemory* memory, const kiriGrid
         }
     }
     if (isDone) {
-        field->heap.count = 0;
+        field->seeds.count = 0;
     }
     kiriMemory_Free(memory, scan.keys);
     return isDone ? KIRI_DONE : KIRI_MORE;

@@ -49,7 +49,8 @@ typedef struct kiriField {
     KIRI_ARRAY(kiriSeed) log;     /* of repairs: previous values of cells, each once; some may be the same again */
 
     /* Work in progress. */
-    KIRI_ARRAY(kiriSeed) heap;
+    KIRI_ARRAY(kiriSeed) seeds;  /* of a sweep: those that it has not taken yet */
+    int32_t nearest;             /* of their distances, or KIRI_FAR */
     kiriIndices ring[KIRI_RING];         /* of a sweep: cells to be settled, by the bucket of their distance */
     int32_t bucket;              /* of the cells that are settled now */
     kiriIndices dirty;           /* cells to be checked */
