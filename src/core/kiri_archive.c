@@ -130,36 +130,26 @@ static bool AreFinite(const uint8_t* numbers, int32_t width, int64_t bytes)
     return areFinite;
 }
 
-/* Returns true if sums of a few numbers cannot overflow. */
-static bool AreCounts(const int64_t* numbers, int64_t count)
-{
-    bool areFine = true;
-    for (int64_t k = 0; k < count; ++k) {
-        areFine &= numbers[k] >= 0 && numbers[k] < INT64_C(1) << 56;
-    }
-    return areFine;
-}
-
-static bool AreBetween(const int32_t* numbers, int64_t count, int64_t low, int64_t high)
-{
-    bool areBetween = true;
-    for (int64_t k = 0; k < count; ++k) {
-        areBetween &= numbers[k] >= low && numbers[k] <= high;
-    }
-    return areBetween;
-}
-
 static bool AreFine(const kiriArchive* archive, const kiriMember* field, const void* numbers, int64_t bytes)
 {
+    int64_t high = field->high + (field->of == KIRI_OF_NOTHING ? 0 : archive->count[field->of]);
+    bool areFine = true;
     switch (field->item) {
     case KIRI_MEMBER_REALS:
     case KIRI_MEMBER_FLOATS:
         return AreFinite(numbers, field->width, bytes);
     case KIRI_MEMBER_COUNTS:
-        return AreCounts(numbers, bytes / 8);
+        for (int64_t k = 0; k < bytes / 8; ++k) {
+            int64_t count = ((const int64_t*)numbers)[k];
+            areFine &= count >= 0 && count < INT64_C(1) << 56; /* sums of a few cannot overflow */
+        }
+        return areFine;
     case KIRI_MEMBER_INTS:
-        return AreBetween(numbers, bytes / 4, field->low,
-                          field->high + (field->of == KIRI_OF_NOTHING ? 0 : archive->count[field->of]));
+        for (int64_t k = 0; k < bytes / 4; ++k) {
+            int32_t number = ((const int32_t*)numbers)[k];
+            areFine &= number >= field->low && number <= high;
+        }
+        return areFine;
     default:
         return true;
     }

@@ -69,6 +69,16 @@ int32_t kiriMesh_Locate(const kiriMeshData* mesh, kiriLatticePoint at)
     return found;
 }
 
+void kiriMesh_Shares(const kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at, double shares[3])
+{
+    kiriLatticePoint c[3];
+    kiriMesh_Corners(mesh, triangle, c);
+    double area = (double)kiriOrient(c[0], c[1], c[2]);
+    for (int k = 0; k < 3; ++k) {
+        shares[k] = (double)kiriOrient(c[(k + 1) % 3], c[(k + 2) % 3], at) / area;
+    }
+}
+
 int64_t kiriMesh_DoubledArea(const kiriMeshData* mesh)
 {
     int64_t sum = 0;
@@ -295,24 +305,17 @@ static void ReshapeInSquares(kiriMeshData* mesh, int32_t triangle, const kiriLat
     kiriSquares_Reshape(&mesh->squares, triangle, was, is);
 }
 
-/* Reserves room to split the edges of these half-edges, of which the second may be KIRI_NONE, at a point. */
-static bool ReserveSplit(kiriMeshData* mesh, int32_t h, int32_t g, kiriLatticePoint at)
-{
-    kiriLatticePoint made[4][3];
-    int32_t count = g == KIRI_NONE ? 2 : 4;
-    for (int32_t k = 0; k < count; ++k) {
-        int32_t edge = k < 2 ? h : g;
-        kiriMesh_Corners(mesh, edge / 3, made[k]);
-        made[k][(edge + k) % 3] = at; /* h % 3 and the next corner */
-    }
-    return ReserveChange(mesh, (const kiriLatticePoint(*)[3])made, count);
-}
-
 int32_t kiriMesh_SplitEdge(kiriMeshData* mesh, int32_t h, kiriLatticePoint at)
 {
     KIRI_ASSERT(kiriMesh_CanSplitEdge(mesh, h, at));
-    int32_t g = kiriMesh_Twin(mesh, h);
-    if (!ReserveSplit(mesh, h, g, at)) {
+    int32_t g = kiriMesh_Twin(mesh, h), count = g == KIRI_NONE ? 2 : 4;
+    kiriLatticePoint made[4][3];
+    for (int32_t k = 0; k < count; ++k) {
+        int32_t edge = k < 2 ? h : g;
+        kiriMesh_Corners(mesh, edge / 3, made[k]);
+        made[k][(edge + k) % 3] = at; /* edge % 3 and the next corner */
+    }
+    if (!ReserveChange(mesh, (const kiriLatticePoint(*)[3])made, count)) {
         return KIRI_NONE;
     }
     NoteSplit(mesh, h / 3);
@@ -340,19 +343,6 @@ int32_t kiriMesh_SplitEdge(kiriMeshData* mesh, int32_t h, kiriLatticePoint at)
     return p;
 }
 
-static kiriBirth BirthInside(const kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at)
-{
-    kiriLatticePoint c[3];
-    kiriMesh_Corners(mesh, triangle, c);
-    double area = (double)kiriOrient(c[0], c[1], c[2]);
-    kiriBirth birth;
-    for (int i = 0; i < 3; ++i) {
-        birth.parent[i] = mesh->triangles.data[triangle].vertex[i];
-        birth.share[i] = (double)kiriOrient(c[(i + 1) % 3], c[(i + 2) % 3], at) / area;
-    }
-    return birth;
-}
-
 int32_t kiriMesh_SplitTriangle(kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at)
 {
     KIRI_ASSERT(kiriMesh_CanSplitTriangle(mesh, triangle, at));
@@ -371,7 +361,9 @@ int32_t kiriMesh_SplitTriangle(kiriMeshData* mesh, int32_t triangle, kiriLattice
     NoteHalfEdge(mesh, h + 2);
     ++mesh->revision;
     kiriTriangle was = mesh->triangles.data[triangle];
-    kiriBirth birth = BirthInside(mesh, triangle, at);
+    kiriBirth birth;
+    memcpy(birth.parent, was.vertex, sizeof(birth.parent));
+    kiriMesh_Shares(mesh, triangle, at, birth.share);
     int32_t p = AddVertex(mesh, at, was.source, &birth);
     int32_t k = 3 * kiriMesh_AddTriangle(mesh, was.vertex[1], was.vertex[2], p, was.source, triangle);
     int32_t l = 3 * kiriMesh_AddTriangle(mesh, was.vertex[2], was.vertex[0], p, was.source, triangle);
@@ -543,44 +535,31 @@ static bool CopyItems(kiriMeshData* mesh, const kiriMeshData* from, const kiriMe
     return true;
 }
 
-static int32_t DropRepeated(int32_t* sorted, int32_t count)
-{
-    int32_t left = 0;
-    for (int32_t i = 0; i < count; ++i) {
-        if (left == 0 || sorted[i] != sorted[left - 1]) {
-            sorted[left++] = sorted[i];
-        }
-    }
-    return left;
-}
-
-/* Those of the caller's triangles that the part has something of. */
-static bool ListSources(kiriMeshData* mesh)
-{
-    int32_t count = mesh->triangles.count;
-    int32_t* room = kiriMemory_Alloc(mesh->memory, (int64_t)sizeof(int32_t) * count);
-    bool ok = room != NULL && kiriArray_Resize(mesh->memory, &mesh->sources, count);
-    for (int32_t t = 0; ok && t < count; ++t) {
-        mesh->sources.data[t] = mesh->triangles.data[t].source;
-    }
-    if (ok) {
-        kiriSort_Numbers(mesh->sources.data, room, count);
-        mesh->sources.count = DropRepeated(mesh->sources.data, count);
-    }
-    kiriMemory_Free(mesh->memory, room);
-    return ok;
-}
-
+/* Lists the caller's triangles of which the part has something, and their corners. */
 static bool CopySources(kiriMeshData* mesh, const kiriMeshData* from)
 {
-    if (!ListSources(mesh) ||
-        !kiriArray_ResizeJust(mesh->memory, &mesh->sourceCorners, 3 * (int64_t)mesh->sources.count)) {
-        return false;
+    int32_t count = mesh->triangles.count, *sources, left = 0;
+    int32_t* room = kiriMemory_Alloc(mesh->memory, (int64_t)sizeof(int32_t) * count);
+    bool ok = room != NULL && kiriArray_Resize(mesh->memory, &mesh->sources, count);
+    sources = mesh->sources.data;
+    for (int32_t t = 0; ok && t < count; ++t) {
+        sources[t] = mesh->triangles.data[t].source;
     }
-    for (int32_t k = 0; k < mesh->sources.count; ++k) {
-        kiriMesh_SourceCorners(from, mesh->sources.data[k], &mesh->sourceCorners.data[3 * (size_t)k]);
+    if (ok) {
+        kiriSort_Numbers(sources, room, count);
     }
-    return true;
+    for (int32_t i = 0; ok && i < count; ++i) {
+        if (left == 0 || sources[i] != sources[left - 1]) {
+            sources[left++] = sources[i];
+        }
+    }
+    mesh->sources.count = left;
+    kiriMemory_Free(mesh->memory, room);
+    ok = ok && kiriArray_ResizeJust(mesh->memory, &mesh->sourceCorners, 3 * (int64_t)left);
+    for (int32_t k = 0; ok && k < left; ++k) {
+        kiriMesh_SourceCorners(from, sources[k], &mesh->sourceCorners.data[3 * (size_t)k]);
+    }
+    return ok;
 }
 
 static bool StartSquares(kiriMeshData* mesh, const kiriMeshData* from)

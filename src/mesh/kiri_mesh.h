@@ -196,6 +196,9 @@ static inline void kiriMesh_Corners(const kiriMeshData* mesh, int32_t triangle, 
 
 /* ---- Queries ---- */
 
+/* Computes the barycentric coordinates of a point in a triangle. */
+void kiriMesh_Shares(const kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at, double shares[3]);
+
 /* Returns the lowest triangle whose closure contains the point, so lips of a cut do not matter, or KIRI_NONE. */
 int32_t kiriMesh_Locate(const kiriMeshData* mesh, kiriLatticePoint at);
 

@@ -82,29 +82,6 @@ static bool AreSourceCorners(const kiriMeshData* mesh)
     return areFine;
 }
 
-/* The caller's triangles come first, each once. */
-static bool AreOriginals(const kiriMeshData* mesh)
-{
-    bool areFine = mesh->originals >= 0 && mesh->originals <= mesh->triangles.count &&
-                   (mesh->sources.count == 0 || mesh->originals == 0);
-    for (int32_t t = 1; areFine && t < mesh->originals; ++t) {
-        areFine = mesh->triangles.data[t - 1].source < mesh->triangles.data[t].source;
-    }
-    return areFine;
-}
-
-/* Returns true if the source of each triangle is known. Each vertex has the source of a triangle. */
-static bool AreSourcesThere(const kiriMeshData* mesh)
-{
-    bool areFine = true;
-    int64_t most = KIRI_SOURCES_A_BLOCK * (int64_t)mesh->sourceBlocks.count;
-    for (int32_t t = 0; areFine && t < mesh->triangles.count; ++t) {
-        bool isKnown = mesh->sources.count > 0 || mesh->triangles.data[t].source < most;
-        areFine = isKnown && kiriMesh_HasSource(mesh, t);
-    }
-    return areFine;
-}
-
 /* Vertices are even, and lie within the squares, whose lines are odd. */
 static bool AreVertices(const kiriMeshData* mesh)
 {
@@ -119,14 +96,20 @@ static bool AreVertices(const kiriMeshData* mesh)
     return areFine;
 }
 
-/* Triangles are counter-clockwise, and split from older ones. */
+/* Triangles are counter-clockwise, and split from older ones. The caller's triangles come first, each once. The source of
+   each triangle is known; each vertex has the source of a triangle. */
 static bool AreTriangles(const kiriMeshData* mesh)
 {
-    bool areFine = mesh->triangles.count <= KIRI_MOST_TRIANGLES;
+    int64_t most = KIRI_SOURCES_A_BLOCK * (int64_t)mesh->sourceBlocks.count;
+    bool areFine = mesh->triangles.count <= KIRI_MOST_TRIANGLES && mesh->originals >= 0 &&
+                   mesh->originals <= mesh->triangles.count && (mesh->sources.count == 0 || mesh->originals == 0);
     for (int32_t t = 0; areFine && t < mesh->triangles.count; ++t) {
         kiriLatticePoint c[3];
         kiriMesh_Corners(mesh, t, c);
-        areFine = mesh->triangles.data[t].parent < t && kiriOrient(c[0], c[1], c[2]) > 0;
+        const kiriTriangle* triangle = &mesh->triangles.data[t];
+        bool isAscending = t == 0 || t >= mesh->originals || triangle[-1].source < triangle->source;
+        areFine = triangle->parent < t && kiriOrient(c[0], c[1], c[2]) > 0 && isAscending &&
+                  (mesh->sources.count > 0 || triangle->source < most) && kiriMesh_HasSource(mesh, t);
     }
     return areFine;
 }
@@ -151,12 +134,6 @@ static Corner CornerOfHalfEdge(int32_t h)
     return (Corner){ t, (uint32_t)h - 3 * t };
 }
 
-static bool IsAtPlaceOf(const kiriMeshData* mesh, int32_t v, int32_t w)
-{
-    kiriLatticePoint a = mesh->vertices.data[v].at;
-    return w != KIRI_NONE && a.x == mesh->vertices.data[w].at.x && a.y == mesh->vertices.data[w].at.y;
-}
-
 /* The half-edge that leads to a corner of the fan, and its twin, are of one another, and the twin begins where it ends,
    if it is closed at the same vertex. */
 static inline bool IsTwin(const Fan* fan, Corner edge, Corner twin, uint32_t isOpen)
@@ -165,7 +142,8 @@ static inline bool IsTwin(const Fan* fan, Corner edge, Corner twin, uint32_t isO
     int32_t vertex = other->vertex[twin.at];
     return other->twin[twin.at] == (int32_t)(3 * edge.triangle + edge.at) && twin.triangle != edge.triangle &&
            ((uint32_t)other->marks >> twin.at & 1) == isOpen &&
-           (vertex == fan->vertex || (isOpen && IsAtPlaceOf(fan->mesh, fan->vertex, vertex)));
+           (vertex == fan->vertex || (isOpen && vertex != KIRI_NONE &&
+            kiriLattice_IsSame(kiriMesh_At(fan->mesh, fan->vertex), kiriMesh_At(fan->mesh, vertex))));
 }
 
 /* Takes a corner, and looks at the half-edge that leads to it: where all corners are taken, all half-edges were looked
@@ -260,8 +238,7 @@ void kiriMesh_Derive(kiriMeshData* mesh, kiriArchive* archive)
     kiriArchive_Expect(archive, mesh->step > 0.0 && squares->side > 0 && squares->side % 2 == 0 &&
                                     AreLines(squares, squares->firstColumn, squares->columns) &&
                                     AreLines(squares, squares->firstRow, squares->rows) && AreVertices(mesh) &&
-                                    AreTriangles(mesh) && AreSourceCorners(mesh) && AreOriginals(mesh) &&
-                                    AreSourcesThere(mesh) && AreFans(mesh));
+                                    AreSourceCorners(mesh) && AreTriangles(mesh) && AreFans(mesh));
     if (!kiriArchive_HasFailed(archive)) {
         FillSquares(mesh, archive);
     }

@@ -193,18 +193,14 @@ kiriProgress kiriRefit_Stage(kiriRefit* refit, kiriMemory* memory, const kiriGri
     return hasRoom ? KIRI_DONE : KIRI_FAILED;
 }
 
-static void ClearDirtySquares(kiriOwnership* ownership)
+void kiriRefit_Drop(kiriRefit* refit)
 {
+    kiriOwnership* ownership = &refit->ownership;
+    DropStagedOwners(ownership);
     for (int32_t k = 0; k < ownership->dirty.count; ++k) {
         ownership->isDirty.data[ownership->dirty.data[k]] = 0;
     }
     ownership->dirty.count = 0;
-}
-
-void kiriRefit_Drop(kiriRefit* refit)
-{
-    DropStagedOwners(&refit->ownership);
-    ClearDirtySquares(&refit->ownership);
     refit->fits.count = 0;
 }
 

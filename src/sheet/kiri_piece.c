@@ -230,7 +230,7 @@ static int32_t HeaviestAt(const kiriSheetData* sheet, int32_t triangle)
             }
         }
     }
-    return heaviest.frame != KIRI_NONE ? heaviest.frame : KIRI_NONE;
+    return heaviest.frame;
 }
 
 int32_t kiriOwner_At(const kiriSheetData* sheet, kiriLatticePoint at)

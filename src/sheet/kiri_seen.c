@@ -10,12 +10,7 @@ bool kiriPoint_Find(const kiriSheetData* sheet, kiriLatticePoint at, kiriPointPl
     if (place->triangle == KIRI_NONE) {
         return false;
     }
-    kiriLatticePoint corners[3];
-    kiriMesh_Corners(&sheet->mesh, place->triangle, corners);
-    double area = (double)kiriOrient(corners[0], corners[1], corners[2]);
-    for (int k = 0; k < 3; ++k) {
-        place->shares[k] = (double)kiriOrient(corners[(k + 1) % 3], corners[(k + 2) % 3], at) / area;
-    }
+    kiriMesh_Shares(&sheet->mesh, place->triangle, at, place->shares);
     return true;
 }
 
@@ -143,19 +138,13 @@ void kiriBlocks_Forget(kiriBlocks* blocks)
 
 /* ---- Movers ---- */
 
-static int32_t EndOfBlock(const kiriSheetData* sheet, int32_t block)
-{
-    int32_t count = sheet->seen.surface.vertexCount;
-    return kiriMin((block + 1) * KIRI_BLOCK, count);
-}
-
 /* Returns an awake frame of the block, or KIRI_NONE. blocks.moved is current. */
 static int32_t FindMover(const kiriSheetData* sheet, int32_t block)
 {
-    const uint8_t* moves = sheet->seen.blocks.moved.data;
-    for (int32_t v = block * KIRI_BLOCK; v < EndOfBlock(sheet, block); ++v) {
+    int32_t count = sheet->seen.surface.vertexCount, end = kiriMin((block + 1) * KIRI_BLOCK, count);
+    for (int32_t v = block * KIRI_BLOCK; v < end; ++v) {
         int32_t frame = sheet->vertexSkin.weights.data[sheet->vertexSkin.spans.data[v].first].frame;
-        if (moves[frame]) {
+        if (sheet->seen.blocks.moved.data[frame]) {
             return frame;
         }
     }
@@ -341,18 +330,19 @@ void kiriView_ShowNewborn(kiriSheetData* sheet)
 
 void kiriView_TakeFrames(kiriSheetData* sheet)
 {
+    kiriSeen* seen = &sheet->seen;
     const kiriMoved* moved = MovedOf(sheet);
-    kiriSurface_TakeFrames(&sheet->seen.surface, sheet->frames.data, sheet->frames.count, sheet->links.links.data,
+    kiriSurface_TakeFrames(&seen->surface, sheet->frames.data, sheet->frames.count, sheet->links.links.data,
                            sheet->links.links.count, moved != NULL ? &moved->frames : NULL,
                            moved != NULL ? &moved->links : NULL);
-    if (sheet->seen.surface.isPartly && (moved->version != sheet->seen.lists || sheet->seen.blocks.hasUnknown)) {
+    if (seen->surface.isPartly && (moved->version != seen->lists || seen->blocks.hasUnknown)) {
         FindMovers(sheet);
-        sheet->seen.lists = moved->version;
+        seen->lists = moved->version;
     }
     if (HasMovedWaiting(sheet)) {
-        memset(sheet->seen.blocks.stale.data, 1, (size_t)sheet->seen.blocks.stale.count);
+        memset(seen->blocks.stale.data, 1, (size_t)seen->blocks.stale.count);
     }
-    sheet->seen.surface.isWritten &= sheet->seen.fades.fading.count == 0;
+    seen->surface.isWritten &= seen->fades.fading.count == 0;
 }
 
 /* Places collision points by linear blending under any skinning, because contacts use it (see kiri_motion.c). */
@@ -480,16 +470,17 @@ static void TakeVertexJumps(kiriSheetData* sheet)
 /* Turns the jumps of collision points into fades. New points have no previous position. */
 static void TakePointJumps(kiriSheetData* sheet)
 {
-    const kiriVec3 *was = sheet->seen.pointsBefore.data, *is = sheet->seen.exactPoints.data;
-    if (sheet->seen.pointCount > 0) {
-        memcpy(sheet->seen.pointsBefore.data, is, sizeof(kiriVec3) * (size_t)sheet->seen.pointCount);
+    kiriSeen* seen = &sheet->seen;
+    const kiriVec3 *was = seen->pointsBefore.data, *is = seen->exactPoints.data;
+    if (seen->pointCount > 0) {
+        memcpy(seen->pointsBefore.data, is, sizeof(kiriVec3) * (size_t)seen->pointCount);
     }
     BlendPoints(sheet, false);
-    kiriFades_Start(&sheet->seen.pointFades);
-    for (int32_t i = 0; i < sheet->seen.pointCount; ++i) {
-        kiriFades_Take(&sheet->seen.pointFades, i, kiriVec3_Sub(was[i], is[i]));
+    kiriFades_Start(&seen->pointFades);
+    for (int32_t i = 0; i < seen->pointCount; ++i) {
+        kiriFades_Take(&seen->pointFades, i, kiriVec3_Sub(was[i], is[i]));
     }
-    sheet->seen.pointCount = sheet->points.count;
+    seen->pointCount = sheet->points.count;
 }
 
 void kiriView_TakeJump(kiriSheetData* sheet)
@@ -576,21 +567,22 @@ static bool SumSomeNormals(kiriSheetData* sheet)
 
 void kiriView_Sum(kiriSheetData* sheet)
 {
-    if (!sheet->seen.surface.isWritten) {
-        kiriSurface_AddFades(&sheet->seen.surface, &sheet->seen.fades);
+    kiriSeen* seen = &sheet->seen;
+    if (!seen->surface.isWritten) {
+        kiriSurface_AddFades(&seen->surface, &seen->fades);
         if (IsSumKnown(sheet) && SumSomeNormals(sheet)) {
-            sheet->seen.surface.pose += 1;
+            seen->surface.pose += 1;
         } else {
-            kiriSurface_SumNormals(&sheet->seen.surface);
+            kiriSurface_SumNormals(&seen->surface);
         }
     }
-    BlendPoints(sheet, sheet->seen.surface.isPartly);
+    BlendPoints(sheet, seen->surface.isPartly);
     AddPointFades(sheet);
     for (int32_t i = 0; i < sheet->points.count; ++i) {
-        kiriVec3_Store(&sheet->seen.pointPositions.data[3 * i], sheet->seen.exactPoints.data[i]);
+        kiriVec3_Store(&seen->pointPositions.data[3 * i], seen->exactPoints.data[i]);
     }
-    sheet->seen.pointCount = sheet->points.count;
-    sheet->seen.vertexCount = sheet->seen.surface.vertexCount;
+    seen->pointCount = sheet->points.count;
+    seen->vertexCount = seen->surface.vertexCount;
 }
 
 void kiriView_WriteRange(kiriSheetData* sheet, int32_t begin, int32_t end)
@@ -602,16 +594,17 @@ void kiriView_WriteRange(kiriSheetData* sheet, int32_t begin, int32_t end)
 
 void kiriView_EndWriting(kiriSheetData* sheet)
 {
-    if (!sheet->seen.surface.isWritten) {
-        memset(sheet->seen.blocks.stale.data, 0, (size_t)sheet->seen.blocks.stale.count);
+    kiriSeen* seen = &sheet->seen;
+    if (!seen->surface.isWritten) {
+        memset(seen->blocks.stale.data, 0, (size_t)seen->blocks.stale.count);
     }
-    if (sheet->seen.isElsewhere) {
-        memset(sheet->seen.blocks.touched.data, 0, (size_t)sheet->seen.blocks.touched.count);
+    if (seen->isElsewhere) {
+        memset(seen->blocks.touched.data, 0, (size_t)seen->blocks.touched.count);
     }
-    sheet->seen.surface.isPartly &= !HasMovedWaiting(sheet); /* for boxes */
-    sheet->seen.isElsewhere = false;
-    sheet->seen.surface.isWritten = sheet->seen.fades.fading.count == 0;
-    sheet->seen.surface.isSteady = true;
+    seen->surface.isPartly &= !HasMovedWaiting(sheet); /* for boxes */
+    seen->isElsewhere = false;
+    seen->surface.isWritten = seen->fades.fading.count == 0;
+    seen->surface.isSteady = true;
 }
 
 void kiriView_KeepBounds(kiriSheetData* sheet)

@@ -475,24 +475,17 @@ static bool IsOnLattice(kiriLatticePoint at)
     return at.x >= -MOST && at.x <= MOST && at.y >= -MOST && at.y <= MOST;
 }
 
-static bool IsTip(const kiriSheetData* sheet, const kiriBladeTip* blade)
-{
-    bool isFine = IsOnLattice(blade->at) && IsOnLattice(blade->from) && IsOnLattice(blade->to) &&
-                  IsOnLattice(blade->goal) && IsOnLattice(blade->lip) && blade->owed == 0;
-    if (isFine && blade->vertex != KIRI_NONE) {
-        kiriLatticePoint at = sheet->mesh.vertices.data[blade->vertex].at;
-        isFine = at.x == blade->at.x && at.y == blade->at.y;
-    }
-    return isFine;
-}
-
 static bool AreCuts(const kiriSheetData* sheet)
 {
     bool areFine = true;
     for (int32_t c = 0; areFine && c < sheet->cuts.count; ++c) {
         const kiriCutData* cut = sheet->cuts.data[c];
         KIRI_ASSERT(cut->sheet == sheet && cut->index == c);
-        areFine = IsTip(sheet, &cut->tip.blade);
+        const kiriBladeTip* blade = &cut->tip.blade;
+        areFine = IsOnLattice(blade->at) && IsOnLattice(blade->from) && IsOnLattice(blade->to) &&
+                  IsOnLattice(blade->goal) && IsOnLattice(blade->lip) && blade->owed == 0 &&
+                  (blade->vertex == KIRI_NONE ||
+                   kiriLattice_IsSame(kiriMesh_At(&sheet->mesh, blade->vertex), blade->at));
     }
     for (int32_t k = 0; areFine && k < sheet->queue.count; ++k) {
         areFine = !sheet->queue.data[k].ends || sheet->queue.data[k].cut->ended;
@@ -614,17 +607,10 @@ static bool AreContacts(const kiriSheetData* sheet)
     return areFine;
 }
 
-static bool AreFadesSet(const kiriFades* fades, const kiriSettings* settings)
+static bool AreFades(const kiriFades* fades, const kiriSettings* settings, int32_t samples)
 {
-    return fades->time == settings->fadeTime && fades->least == settings->leastFade;
-}
-
-static bool IsSeen(const kiriSheetData* sheet)
-{
-    const kiriSeen* seen = &sheet->seen;
-    return kiriFades_AreSound(&seen->fades, sheet->mesh.vertices.count) &&
-           kiriFades_AreSound(&seen->pointFades, sheet->points.count) &&
-           AreFadesSet(&seen->fades, &sheet->settings) && AreFadesSet(&seen->pointFades, &sheet->settings);
+    return fades->time == settings->fadeTime && fades->least == settings->leastFade &&
+           kiriFades_AreSound(fades, samples);
 }
 
 /* Returns true if arrays with an item a link have that length, and rows and reactions of pins and clamps fit their
@@ -653,7 +639,9 @@ void kiriSheet_Derive(kiriSheetData* sheet, kiriArchive* archive)
     kiriArchive_Expect(archive, kiriArchive_HasFailed(archive) ||
                                     (AreSettings(&sheet->settings) && AreFrames(sheet) && ArePieces(&sheet->layout) &&
                                      AreAreaElements(&sheet->layout) && ArePins(sheet) && ArePoints(sheet) &&
-                                     AreCuts(sheet) && IsSeen(sheet) && AreContacts(sheet)));
+                                     AreCuts(sheet) && AreContacts(sheet) &&
+                                     AreFades(&sheet->seen.fades, &sheet->settings, sheet->mesh.vertices.count) &&
+                                     AreFades(&sheet->seen.pointFades, &sheet->settings, sheet->points.count)));
     if (kiriArchive_HasFailed(archive)) {
         return;
     }

@@ -156,45 +156,25 @@ static bool AddSite(kiriSheetData* sheet, kiriSite site)
            RecordMove(sheet, sheet->update->placing.sites.count - 1, KIRI_NONE);
 }
 
-/* Grows the flags for squares or cells. All flags are 0 between uses, so a use costs only the flags that it sets. */
-static bool MakeFlags(kiriSheetData* sheet)
-{
-    kiriUpdate* u = sheet->update;
-    int32_t old = u->placing.flags.count, squares = sheet->mesh.squares.columns * sheet->mesh.squares.rows;
-    int32_t most = kiriMax(sheet->grid.cells.count, squares);
-    if (most > old && !kiriArray_Resize(sheet->memory, &u->placing.flags, most)) {
-        return false;
-    }
-    memset(u->placing.flags.data + old, 0, (size_t)(u->placing.flags.count - old));
-    return true;
-}
-
 /* Finds the cell of an existing site and flags it as taken. Cells only ever split, so sites in different cells stay in
    different cells; if rounding breaks this, the later site takes a free cell of its square. Returns false if none is
    free, which only a corrupt save can cause. */
 static bool Relocate(kiriSheetData* sheet, int32_t frame)
 {
-    kiriUpdate* u = sheet->update;
+    kiriPlacingWork* placing = &sheet->update->placing;
     int32_t cell = kiriGrid_CellAround(&sheet->grid, &sheet->mesh, sheet->frames.data[frame].anchor);
-    if (u->placing.flags.data[cell]) {
+    if (placing->flags.data[cell]) {
         cell = sheet->grid.squareCell.data[sheet->grid.cells.data[cell].square];
-        while (u->placing.flags.data[cell] && sheet->grid.cells.data[cell].next != KIRI_NONE) {
+        while (placing->flags.data[cell] && sheet->grid.cells.data[cell].next != KIRI_NONE) {
             cell = sheet->grid.cells.data[cell].next;
         }
     }
-    if (u->placing.flags.data[cell]) {
+    if (placing->flags.data[cell]) {
         return false;
     }
-    u->placing.flags.data[cell] = 1;
-    u->placing.sites.data[frame].cell = cell;
+    placing->flags.data[cell] = 1;
+    placing->sites.data[frame].cell = cell;
     return true;
-}
-
-/* Returns the square of the site that was in a cell, or KIRI_NONE. */
-static int32_t SquareOfSite(const kiriSheetData* sheet, int32_t cell)
-{
-    int32_t frame = cell < sheet->regions.siteAt.count ? sheet->regions.siteAt.data[cell] : KIRI_NONE;
-    return frame == KIRI_NONE ? KIRI_NONE : kiriSquares_At(&sheet->mesh.squares, sheet->frames.data[frame].anchor);
 }
 
 /* Sets or clears the flags of squares with sites whose cells changed. Sites conflict only within a square, so only the
@@ -205,10 +185,12 @@ static bool FlagSquares(kiriSheetData* sheet, uint8_t flag)
     int32_t gone = changes->gone.count, steps = gone + changes->steps.count;
     bool any = false;
     for (int32_t i = 0; i < steps + changes->material.count; ++i) {
-        int32_t square = SquareOfSite(sheet, i < gone    ? changes->gone.data[i]
-                                             : i < steps ? changes->steps.data[i - gone]
-                                                         : changes->material.data[i - steps].cell);
-        if (square != KIRI_NONE) {
+        int32_t cell = i < gone    ? changes->gone.data[i]
+                       : i < steps ? changes->steps.data[i - gone]
+                                   : changes->material.data[i - steps].cell;
+        int32_t frame = cell < sheet->regions.siteAt.count ? sheet->regions.siteAt.data[cell] : KIRI_NONE;
+        if (frame != KIRI_NONE) {
+            int32_t square = kiriSquares_At(&sheet->mesh.squares, sheet->frames.data[frame].anchor);
             sheet->update->placing.flags.data[square] = flag;
             any = true;
         }
@@ -236,32 +218,39 @@ static bool CollectMoves(kiriSheetData* sheet)
 
 bool kiriSites_Relocate(kiriSheetData* sheet)
 {
-    kiriUpdate* u = sheet->update;
-    u->placing.moves.count = u->placing.movesSeen = 0;
+    kiriPlacingWork* placing = &sheet->update->placing;
+    placing->moves.count = placing->movesSeen = 0;
     if (sheet->frames.count == 0) { /* a new sheet: its def may give sites */
         bool ok = true;
-        for (int32_t i = 0; ok && i < u->placing.sites.count; ++i) {
+        for (int32_t i = 0; ok && i < placing->sites.count; ++i) {
             ok = RecordMove(sheet, i, KIRI_NONE);
         }
         return ok;
     }
-    if (!MakeFlags(sheet) || !CollectMoves(sheet)) {
+    /* Flags of squares or cells. All are 0 between uses, so a use costs only the flags that it sets. */
+    int32_t old = placing->flags.count, squares = sheet->mesh.squares.columns * sheet->mesh.squares.rows;
+    int32_t most = kiriMax(sheet->grid.cells.count, squares), kept = 0, found = 0;
+    if (most > old) {
+        if (!kiriArray_Resize(sheet->memory, &placing->flags, most)) {
+            return false;
+        }
+        memset(placing->flags.data + old, 0, (size_t)(most - old));
+    }
+    if (!CollectMoves(sheet)) {
         return false;
     }
-    int32_t kept = 0;
-    int32_t found = 0;
-    while (found < u->placing.moves.count && Relocate(sheet, u->placing.moves.data[found].frame)) {
+    while (found < placing->moves.count && Relocate(sheet, placing->moves.data[found].frame)) {
         ++found;
     }
-    bool ok = found == u->placing.moves.count;
+    bool ok = found == placing->moves.count;
     for (int32_t m = 0; m < found; ++m) {
-        kiriSiteMove move = u->placing.moves.data[m];
-        u->placing.flags.data[u->placing.sites.data[move.frame].cell] = 0;
-        if (u->placing.sites.data[move.frame].cell != move.was) {
-            u->placing.moves.data[kept++] = move;
+        kiriSiteMove move = placing->moves.data[m];
+        placing->flags.data[placing->sites.data[move.frame].cell] = 0;
+        if (placing->sites.data[move.frame].cell != move.was) {
+            placing->moves.data[kept++] = move;
         }
     }
-    u->placing.moves.count = kept;
+    placing->moves.count = kept;
     return ok;
 }
 
@@ -333,31 +322,26 @@ int32_t kiriSites_ShareOf(const kiriSheetData* sheet, double count)
 #define OPEN_REACH 1.5
 #define OPEN_FRAMES_AN_END 15.5
 
-/* Returns the frames left to spread, less one for each later piece; at least 1. */
-static int32_t LeftToSpread(const kiriSheetData* sheet)
-{
-    const kiriPlacingWork* placing = &sheet->update->placing;
-    int32_t left = placing->spread - placing->sites.count - (placing->pieces - 1);
-    return kiriMax(left, 1);
-}
-
 /* Returns the initial count of frames of the current piece. */
 static int32_t FramesFor(const kiriSheetData* sheet)
 {
+    const kiriPlacingWork* placing = &sheet->update->placing;
     if (IsCrumbTaken(sheet)) {
         return 1;
     }
-    int32_t most = kiriSites_MostIn(sheet->update->placing.placer.cells.count);
+    int32_t most = kiriSites_MostIn(placing->placer.cells.count);
     if (sheet->settings.frameLength == 0.0) {
-        int32_t share = kiriSites_ShareOf(sheet, sheet->update->placing.spread), left = LeftToSpread(sheet);
+        int32_t share = kiriSites_ShareOf(sheet, placing->spread);
+        int32_t left = placing->spread - placing->sites.count - (placing->pieces - 1); /* one for each later piece */
+        left = kiriMax(left, 1);
         most = kiriMin(left, most);
         return kiriMin(share, most);
     }
     double even = TakenArea(sheet) / (sheet->settings.frameLength * sheet->settings.frameLength);
     double full = OPEN_CLOSENESS * OPEN_CLOSENESS * even;
-    double count = even + OPEN_FRAMES_AN_END * sheet->update->placing.placer.ends.count;
+    double count = even + OPEN_FRAMES_AN_END * placing->placer.ends.count;
     count = 0.5 + kiriMin(count, full);
-    int32_t left = sheet->settings.maxFrames - sheet->update->placing.sites.count;
+    int32_t left = sheet->settings.maxFrames - placing->sites.count;
     most = kiriMin(left, most);
     return count < 1.0 || most < 1 ? 1 : count < most ? (int32_t)count : most;
 }
@@ -408,16 +392,16 @@ static double SpacingOf(const kiriSheetData* sheet, int32_t count)
 /* Starts placing frames in the piece of an orphan, and marks its cells as done. */
 static kiriProgress StartOrphan(kiriSheetData* sheet, int32_t cell, kiriQuota* cells)
 {
-    kiriUpdate* u = sheet->update;
+    kiriPlacingWork* placing = &sheet->update->placing;
     kiriProgress progress = TakePiece(sheet, cell, cells);
     if (progress != KIRI_DONE) {
         return progress;
     }
-    for (int32_t i = 0; i < u->placing.placer.cells.count; ++i) {
-        u->placing.marks.data[u->placing.placer.cells.data[i]] = 1;
+    for (int32_t i = 0; i < placing->placer.cells.count; ++i) {
+        placing->marks.data[placing->placer.cells.data[i]] = 1;
     }
     int32_t count = FramesFor(sheet);
-    u->placing.pieces -= u->placing.pieces > 0;
+    placing->pieces -= placing->pieces > 0;
     return StartPlacing(sheet, count, SpacingOf(sheet, count)) ? KIRI_DONE : KIRI_FAILED;
 }
 
@@ -428,19 +412,19 @@ static bool IsAtPiece(const kiriSheetData* sheet)
 
 kiriProgress kiriSites_PlaceInOrphans(kiriSheetData* sheet, kiriQuota* cells)
 {
-    kiriUpdate* u = sheet->update;
-    for (; u->placing.at < sheet->regions.orphans.count; ++u->placing.at) {
-        int32_t cell = sheet->regions.orphans.data[u->placing.at];
-        if (!IsAtPiece(sheet) && u->placing.marks.data[cell]) {
+    kiriPlacingWork* placing = &sheet->update->placing;
+    for (; placing->at < sheet->regions.orphans.count; ++placing->at) {
+        int32_t cell = sheet->regions.orphans.data[placing->at];
+        if (!IsAtPiece(sheet) && placing->marks.data[cell]) {
             continue;
         }
-        kiriProgress progress = u->placing.isPlacing ? KIRI_DONE : StartOrphan(sheet, cell, cells);
+        kiriProgress progress = placing->isPlacing ? KIRI_DONE : StartOrphan(sheet, cell, cells);
         progress = progress == KIRI_DONE ? kiriSites_RunPlacer(sheet, cells) : progress;
         if (progress != KIRI_DONE) {
             return progress;
         }
-        for (int32_t i = 0; i < u->placing.placer.sites.count; ++i) {
-            if (!AddSite(sheet, u->placing.placer.sites.data[i])) {
+        for (int32_t i = 0; i < placing->placer.sites.count; ++i) {
+            if (!AddSite(sheet, placing->placer.sites.data[i])) {
                 return KIRI_FAILED;
             }
         }
@@ -450,13 +434,13 @@ kiriProgress kiriSites_PlaceInOrphans(kiriSheetData* sheet, kiriQuota* cells)
 
 bool kiriSites_ClearMarks(kiriSheetData* sheet, int32_t count)
 {
-    kiriUpdate* u = sheet->update;
-    u->placing.at = 0;
-    if (!kiriArray_Resize(sheet->memory, &u->placing.marks, count)) {
+    kiriPlacingWork* placing = &sheet->update->placing;
+    placing->at = 0;
+    if (!kiriArray_Resize(sheet->memory, &placing->marks, count)) {
         return false;
     }
     if (count > 0) {
-        memset(u->placing.marks.data, 0, (size_t)count);
+        memset(placing->marks.data, 0, (size_t)count);
     }
     return true;
 }
@@ -498,22 +482,22 @@ static double NeedOf(const kiriSheetData* sheet, int32_t frame)
    large. */
 static bool MarkRigidCells(kiriSheetData* sheet)
 {
-    kiriUpdate* u = sheet->update;
-    if (!kiriArray_Resize(sheet->memory, &u->placing.allowed, sheet->grid.cells.count)) {
+    kiriPlacingWork* placing = &sheet->update->placing;
+    if (!kiriArray_Resize(sheet->memory, &placing->allowed, sheet->grid.cells.count)) {
         return false;
     }
     int32_t last = KIRI_NONE; /* cache: consecutive cells are mostly of one region */
     bool isLarge = false;
-    for (int32_t i = 0; i < u->placing.placer.cells.count; ++i) {
-        int32_t cell = u->placing.placer.cells.data[i], owner = sheet->regions.field.owner.data[cell];
+    for (int32_t i = 0; i < placing->placer.cells.count; ++i) {
+        int32_t cell = placing->placer.cells.data[i], owner = sheet->regions.field.owner.data[cell];
         kiriSpan span = sheet->shape.spans.data[cell];
         double sum = kiriShape_Sum(&sheet->shape, span);
         isLarge = owner == last ? isLarge : Largeness(sheet, owner) > 1.0;
         last = owner;
-        u->placing.allowed.data[cell] = isLarge;
+        placing->allowed.data[cell] = isLarge;
         for (int32_t k = span.first; k < span.first + span.count; ++k) {
             const kiriCellWeight* weight = &sheet->shape.weights.data[k];
-            u->placing.allowed.data[cell] |= kiriCellWeight_Raw(weight) / sum > sheet->shape.rigidWeight &&
+            placing->allowed.data[cell] |= kiriCellWeight_Raw(weight) / sum > sheet->shape.rigidWeight &&
                                              FrameRigidity(sheet, weight->frame) > 1.0;
         }
     }
@@ -523,23 +507,23 @@ static bool MarkRigidCells(kiriSheetData* sheet)
 /* Lists the frames and sites of the current piece. *old is true if a frame existed before this update. */
 static bool TakeSitesOfPiece(kiriSheetData* sheet, bool* old)
 {
-    kiriUpdate* u = sheet->update;
-    u->placing.placer.sites.count = u->placing.own.count = 0;
+    kiriPlacingWork* placing = &sheet->update->placing;
+    placing->placer.sites.count = placing->own.count = 0;
     *old = false;
-    for (int32_t i = 0; i < u->placing.placer.cells.count; ++i) {
-        int32_t frame = sheet->regions.siteAt.data[u->placing.placer.cells.data[i]];
+    for (int32_t i = 0; i < placing->placer.cells.count; ++i) {
+        int32_t frame = sheet->regions.siteAt.data[placing->placer.cells.data[i]];
         if (frame != KIRI_NONE) {
-            u->placing.marks.data[frame] = 1;
+            placing->marks.data[frame] = 1;
             *old = *old || frame < sheet->frames.count;
-            if (!kiriArray_Push(sheet->memory, &u->placing.own, frame)) {
+            if (!kiriArray_Push(sheet->memory, &placing->own, frame)) {
                 return false;
             }
         }
     }
-    kiriSort(u->placing.own.data, u->placing.own.count, NULL, NULL);
+    kiriSort(placing->own.data, placing->own.count, NULL, NULL);
     bool ok = true;
-    for (int32_t i = 0; ok && i < u->placing.own.count; ++i) {
-        ok = kiriArray_Push(sheet->memory, &u->placing.placer.sites, u->placing.sites.data[u->placing.own.data[i]]);
+    for (int32_t i = 0; ok && i < placing->own.count; ++i) {
+        ok = kiriArray_Push(sheet->memory, &placing->placer.sites, placing->sites.data[placing->own.data[i]]);
     }
     return ok;
 }
@@ -583,29 +567,23 @@ static bool AddToPiece(kiriSheetData* sheet)
     return kiriPlacer_Start(&placing->placer, sheet->memory, &sheet->grid, &sheet->mesh, placing->allowed.data, more);
 }
 
-static kiriProgress StartResample(kiriSheetData* sheet, int32_t frame, kiriQuota* cells)
-{
-    kiriProgress progress = TakePiece(sheet, sheet->update->placing.sites.data[frame].cell, cells);
-    return progress != KIRI_DONE || AddToPiece(sheet) ? progress : KIRI_FAILED;
-}
-
 /* Stores the placed sites: they reuse the indices of sites that were placed again, then get new ones. A piece without a
    cell for one more stays unchanged. */
 static bool GiveSites(kiriSheetData* sheet)
 {
-    kiriUpdate* u = sheet->update;
-    bool ok = true, isAgain = u->placing.isAgain;
-    int32_t next = isAgain ? 0 : u->placing.placer.oldCount;
-    if (isAgain && u->placing.placer.sites.count <= u->placing.own.count) {
+    kiriPlacingWork* placing = &sheet->update->placing;
+    bool ok = true, isAgain = placing->isAgain;
+    int32_t next = isAgain ? 0 : placing->placer.oldCount;
+    if (isAgain && placing->placer.sites.count <= placing->own.count) {
         return true;
     }
-    for (int32_t i = 0; ok && isAgain && i < u->placing.own.count; ++i) {
-        int32_t f = u->placing.own.data[i];
-        ok = RecordMove(sheet, f, u->placing.sites.data[f].cell);
-        u->placing.sites.data[f] = u->placing.placer.sites.data[next++];
+    for (int32_t i = 0; ok && isAgain && i < placing->own.count; ++i) {
+        int32_t f = placing->own.data[i];
+        ok = RecordMove(sheet, f, placing->sites.data[f].cell);
+        placing->sites.data[f] = placing->placer.sites.data[next++];
     }
-    while (ok && next < u->placing.placer.sites.count) {
-        ok = AddSite(sheet, u->placing.placer.sites.data[next++]);
+    while (ok && next < placing->placer.sites.count) {
+        ok = AddSite(sheet, placing->placer.sites.data[next++]);
     }
     return ok;
 }
@@ -628,14 +606,18 @@ bool kiriSites_MayBeFew(const kiriSheetData* sheet)
 
 kiriProgress kiriSites_Resample(kiriSheetData* sheet, kiriQuota* cells)
 {
-    kiriUpdate* u = sheet->update;
-    for (; u->placing.at < u->placing.marks.count && u->placing.sites.count < sheet->settings.maxFrames;
-         ++u->placing.at) {
-        if (!IsAtPiece(sheet) && (u->placing.marks.data[u->placing.at] || !(NeedOf(sheet, u->placing.at) > 1.0) ||
-                                  IsOfCrumb(sheet, u->placing.at))) {
+    kiriPlacingWork* placing = &sheet->update->placing;
+    for (; placing->at < placing->marks.count && placing->sites.count < sheet->settings.maxFrames;
+         ++placing->at) {
+        if (!IsAtPiece(sheet) && (placing->marks.data[placing->at] || !(NeedOf(sheet, placing->at) > 1.0) ||
+                                  IsOfCrumb(sheet, placing->at))) {
             continue;
         }
-        kiriProgress progress = u->placing.isPlacing ? KIRI_DONE : StartResample(sheet, u->placing.at, cells);
+        kiriProgress progress = KIRI_DONE;
+        if (!placing->isPlacing) {
+            progress = TakePiece(sheet, placing->sites.data[placing->at].cell, cells);
+            progress = progress != KIRI_DONE || AddToPiece(sheet) ? progress : KIRI_FAILED;
+        }
         progress = progress == KIRI_DONE ? kiriSites_RunPlacer(sheet, cells) : progress;
         if (progress != KIRI_DONE) {
             return progress;

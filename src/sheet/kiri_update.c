@@ -8,24 +8,18 @@
 
 /* ---- Cut: appendix A --------------------------------------------------------------------------------------------- */
 
-/* Reserves all arrays per vertex and per triangle for a step of the blade, so that mesh, weights and visible state stay
-   consistent. */
-static bool ReserveStep(kiriSheetData* sheet)
-{
-    enum { MADE = 6 }; /* vertices and triangles at most */
-    const kiriSurface* surface = &sheet->seen.surface;
-    const kiriViewCounts counts = { sheet->mesh.vertices.count + MADE, sheet->mesh.triangles.count + MADE,
-                                    sheet->frames.count, sheet->points.count };
-    return kiriSkin_ReserveBirths(&sheet->vertexSkin, sheet->memory, MADE, counts.frames) &&
-           kiriView_Reserve(sheet, counts) &&
-           kiriPast_Reserve(&sheet->past, &sheet->pastRoom, sheet->memory, surface->vertexCount, counts.vertices);
-}
-
-/* Moves the blade step by step and reserves before each. */
+/* Moves the blade step by step, and before each reserves all arrays per vertex and per triangle, so that mesh, weights
+   and visible state stay consistent. */
 static kiriProgress MoveBlade(kiriSheetData* sheet, kiriBladeTip* blade, kiriLatticePoint to, kiriQuota* triangles)
 {
+    enum { MADE = 6 }; /* vertices and triangles a step, at most */
     for (;;) {
-        if (!ReserveStep(sheet)) {
+        const kiriViewCounts counts = { sheet->mesh.vertices.count + MADE, sheet->mesh.triangles.count + MADE,
+                                        sheet->frames.count, sheet->points.count };
+        if (!kiriSkin_ReserveBirths(&sheet->vertexSkin, sheet->memory, MADE, counts.frames) ||
+            !kiriView_Reserve(sheet, counts) ||
+            !kiriPast_Reserve(&sheet->past, &sheet->pastRoom, sheet->memory, sheet->seen.surface.vertexCount,
+                              counts.vertices)) {
             return KIRI_FAILED;
         }
         int64_t most = blade->owed + KIRI_MOST_SPLITS;
@@ -70,22 +64,22 @@ static kiriProgress TakeQueuedPoint(kiriSheetData* sheet, const kiriQueuedPoint*
    ends with the tick of the last point; later points belong to the next update. */
 static kiriProgress StageCut(kiriSheetData* sheet, kiriQuota* triangles)
 {
-    kiriUpdate* u = sheet->update;
+    kiriCutWork* cut = &sheet->update->cut;
     kiriProgress progress = KIRI_DONE;
     kiriMesh_Begin(&sheet->mesh);
-    while (progress == KIRI_DONE && u->cut.taken < u->cut.count) {
-        const kiriQueuedPoint* point = &sheet->queue.data[u->cut.taken];
+    while (progress == KIRI_DONE && cut->taken < cut->count) {
+        const kiriQueuedPoint* point = &sheet->queue.data[cut->taken];
         progress = TakeQueuedPoint(sheet, point, triangles);
-        u->cut.settlesSites = u->cut.settlesSites || sheet->mesh.hasMet;
+        cut->settlesSites = cut->settlesSites || sheet->mesh.hasMet;
         if (progress == KIRI_DONE) {
-            u->cut.taken += 1;
-            u->cut.settlesSites = u->cut.settlesSites || point->ends;
-            bool isLast = u->cut.taken == sheet->queue.count || point[1].stamp != point->stamp; /* of its tick */
-            u->cut.count = u->cut.settlesSites && isLast ? u->cut.taken : u->cut.count;
+            cut->taken += 1;
+            cut->settlesSites = cut->settlesSites || point->ends;
+            bool isLast = cut->taken == sheet->queue.count || point[1].stamp != point->stamp; /* of its tick */
+            cut->count = cut->settlesSites && isLast ? cut->taken : cut->count;
         }
     }
-    u->cut.meshChanged = u->cut.meshChanged || sheet->mesh.changedTriangles.count > 0 ||
-                         (progress == KIRI_DONE && u->cut.settlesSites && u->isUnsettled && kiriSites_MayBeFew(sheet));
+    cut->meshChanged = cut->meshChanged || sheet->mesh.changedTriangles.count > 0 ||
+                         (progress == KIRI_DONE && cut->settlesSites && sheet->update->isUnsettled && kiriSites_MayBeFew(sheet));
     return progress;
 }
 
@@ -278,16 +272,6 @@ static bool MarkPiecesWithPoints(kiriSheetData* sheet)
     return true;
 }
 
-static bool StartPlacingPoints(kiriSheetData* sheet, int32_t piece)
-{
-    kiriUpdate* u = sheet->update;
-    int32_t frame = u->next.pieces.data[piece].frame;
-    u->placing.placer.sites.count = 0;
-    return kiriPlacer_TakePiece(&u->placing.placer, sheet->memory, &sheet->grid, u->placing.sites.data[frame].cell) &&
-           kiriPlacer_Start(&u->placing.placer, sheet->memory, &sheet->grid, &sheet->mesh, NULL,
-                            kiriSites_ShareOf(sheet, sheet->settings.collisionPoints));
-}
-
 static bool AddCollisionPoints(kiriSheetData* sheet)
 {
     kiriUpdate* u = sheet->update;
@@ -313,7 +297,13 @@ static kiriProgress PlaceCollisionPoints(kiriSheetData* sheet, kiriQuota* sample
         if (u->placing.marks.data[u->placing.at]) {
             continue;
         }
-        if (!u->placing.isPlacing && !StartPlacingPoints(sheet, u->placing.at)) {
+        kiriPlacer* placer = &u->placing.placer;
+        int32_t cell = u->placing.sites.data[u->next.pieces.data[u->placing.at].frame].cell;
+        placer->sites.count = u->placing.isPlacing ? placer->sites.count : 0;
+        if (!u->placing.isPlacing &&
+            (!kiriPlacer_TakePiece(placer, sheet->memory, &sheet->grid, cell) ||
+             !kiriPlacer_Start(placer, sheet->memory, &sheet->grid, &sheet->mesh, NULL,
+                               kiriSites_ShareOf(sheet, sheet->settings.collisionPoints)))) {
             return KIRI_FAILED;
         }
         kiriProgress progress = kiriSites_RunPlacer(sheet, samples);
@@ -409,17 +399,6 @@ static bool BuildAreaElements(kiriSheetData* sheet)
     }
 }
 
-static bool ReservePoints(kiriSheetData* sheet)
-{
-    const kiriUpdate* u = sheet->update;
-    int32_t need = sheet->points.count + u->samples.newPoints.count;
-    const kiriViewCounts counts = { sheet->mesh.vertices.count, sheet->mesh.triangles.count, u->placing.sites.count,
-                                    need };
-    return kiriArray_Reserve(sheet->memory, &sheet->points, need) &&
-           kiriPlaces_Reserve(&sheet->pointPlaces, sheet->memory, &sheet->mesh, need) &&
-           kiriView_Reserve(sheet, counts);
-}
-
 bool kiriStage_Solver(kiriSheetData* sheet, int32_t frameCount)
 {
     const kiriUpdate* u = sheet->update;
@@ -484,11 +463,17 @@ static kiriProgress PrepareCommit(kiriSheetData* sheet, kiriQuota* samples)
     if (!kiriQuota_Pay(samples, &u->due)) {
         return KIRI_MORE;
     }
+    int32_t points = sheet->points.count + u->samples.newPoints.count;
+    const kiriViewCounts counts = { sheet->mesh.vertices.count, sheet->mesh.triangles.count, u->placing.sites.count,
+                                    points };
     bool ok = (!kiriSheet_KeepsStrains(sheet) ||
                kiriStrainOffsets_Reserve(&sheet->strainOffsets, sheet->memory,
                                          kiriMax(sheet->links.next.count, sheet->links.links.count),
                                          u->placing.sites.count)) &&
-              BuildAreaElements(sheet) && kiriPins_Stage(sheet) && ReservePoints(sheet) &&
+              BuildAreaElements(sheet) && kiriPins_Stage(sheet) &&
+              kiriArray_Reserve(sheet->memory, &sheet->points, points) &&
+              kiriPlaces_Reserve(&sheet->pointPlaces, sheet->memory, &sheet->mesh, points) &&
+              kiriView_Reserve(sheet, counts) &&
               kiriArray_Reserve(sheet->memory, &sheet->frames, u->placing.sites.count) &&
               kiriStage_Solver(sheet, u->placing.sites.count);
     return ok ? KIRI_DONE : KIRI_FAILED;

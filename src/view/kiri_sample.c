@@ -409,17 +409,15 @@ kiriMotion kiriSkin_Motion(const kiriSkin* vertexSkin, const kiriFrameData* fram
     kiriMotion motion;
     memset(&motion, 0, sizeof(motion));
     kiriVec2 local = kiriMesh_Local(mesh, at);
-    kiriLatticePoint corners[3];
-    kiriMesh_Corners(mesh, triangle, corners);
-    double area = (double)kiriOrient(corners[0], corners[1], corners[2]);
+    double shares[3];
+    kiriMesh_Shares(mesh, triangle, at, shares);
     for (int k = 0; k < 3; ++k) {
-        double share = (double)kiriOrient(corners[(k + 1) % 3], corners[(k + 2) % 3], at) / area;
         kiriSpan span = vertexSkin->spans.data[mesh->triangles.data[triangle].vertex[k]];
         for (int32_t i = span.first; i < span.first + span.count; ++i) {
             kiriSampleWeight weight = vertexSkin->weights.data[i];
             const kiriFrameData* frame = &frames[weight.frame];
             kiriMat3 rate = kiriFrame_Rate(frame);
-            double w = share * weight.value;
+            double w = shares[k] * weight.value;
             motion.x = kiriVec3_AddScaled(motion.x, w, kiriFrame_Carry(frame, local));
             motion.velocity = kiriVec3_AddScaled(motion.velocity, w, kiriFrame_VelocityAt(frame, local));
             motion.spin = kiriVec3_AddScaled(motion.spin, w, frame->spin);

@@ -194,27 +194,19 @@ kiriResult kiriSheet_GetReach(const kiriWorld* world, kiriSheet sheet, float dt,
 /* Finds the triangle at the rest point of a contact without a collision point. Fails if the contact has no place. */
 static bool PlaceContact(const kiriSheetData* sheet, kiriGivenContact* given)
 {
-    kiriLatticePoint at, corners[3];
+    kiriLatticePoint at;
+    kiriPointPlace place;
     given->vertex[0] = given->vertex[1] = given->vertex[2] = KIRI_NONE;
     if (given->contact.point >= 0) {
         return given->contact.point < sheet->points.count;
     }
-    if (!kiriCall_AreFinite(given->contact.restPoint, 2) ||
-        !kiriSheet_ToLattice(sheet, given->contact.restPoint, &at)) {
-        return false;
+    bool isFound = kiriCall_AreFinite(given->contact.restPoint, 2) &&
+                   kiriSheet_ToLattice(sheet, given->contact.restPoint, &at) && kiriPoint_Find(sheet, at, &place);
+    if (isFound) {
+        memcpy(given->vertex, sheet->mesh.triangles.data[place.triangle].vertex, sizeof(given->vertex));
+        memcpy(given->share, place.shares, sizeof(given->share));
     }
-    int32_t triangle = kiriMesh_Locate(&sheet->mesh, at);
-    if (triangle == KIRI_NONE) {
-        return false;
-    }
-    kiriMesh_Corners(&sheet->mesh, triangle, corners);
-    double area = (double)kiriOrient(corners[0], corners[1], corners[2]);
-    KIRI_ASSERT(area > 0.0);
-    for (int k = 0; k < 3; ++k) {
-        given->vertex[k] = sheet->mesh.triangles.data[triangle].vertex[k];
-        given->share[k] = (double)kiriOrient(corners[(k + 1) % 3], corners[(k + 2) % 3], at) / area;
-    }
-    return true;
+    return isFound;
 }
 
 kiriResult kiriSheet_SetContacts(kiriWorld* world, kiriSheet sheet, const kiriContact* contacts, int32_t count)

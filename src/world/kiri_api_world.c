@@ -311,17 +311,6 @@ static double TimesAlone(const kiriProfile* profile, int first, int last)
     return seconds > 0.0 ? SecondsOf(profile, KIRI_STAGE_CUT, KIRI_STAGE_CONSTANTS) / seconds : 1.0;
 }
 
-/* The three kinds of work on cuts share one allowance, so each limit gets the time of all three. */
-static void FitCuts(const kiriProfile* profile, double times, kiriBudget* budget)
-{
-    double triangles = times * TimesAlone(profile, KIRI_STAGE_CUT, KIRI_STAGE_CUT),
-           cells = times * TimesAlone(profile, KIRI_STAGE_GRID, KIRI_STAGE_SHAPE),
-           samples = times * TimesAlone(profile, KIRI_STAGE_SAMPLES, KIRI_STAGE_CONSTANTS);
-    budget->triangles = ScaleItems(profile->trianglesSplit, triangles, KIRI_LEAST_TRIANGLES, budget->triangles);
-    budget->cells = ScaleItems(profile->cellsSettled, cells, 1, budget->cells);
-    budget->samples = ScaleItems(profile->samplesRefreshed, samples, 1, budget->samples);
-}
-
 kiriResult kiriFitBudget(const kiriProfile* profile, float microseconds, kiriBudget* budget)
 {
     kiriFault fault;
@@ -337,7 +326,13 @@ kiriResult kiriFitBudget(const kiriProfile* profile, float microseconds, kiriBud
     double seconds = SecondsOf(profile, 0, KIRI_STAGE_COUNT - 1);
     if (seconds > 0.0) {
         double times = 1e-6 * microseconds / seconds;
-        FitCuts(profile, times, budget);
+        /* The three kinds of work on cuts share one allowance, so each limit gets the time of all three. */
+        double triangles = times * TimesAlone(profile, KIRI_STAGE_CUT, KIRI_STAGE_CUT),
+               cells = times * TimesAlone(profile, KIRI_STAGE_GRID, KIRI_STAGE_SHAPE),
+               samples = times * TimesAlone(profile, KIRI_STAGE_SAMPLES, KIRI_STAGE_CONSTANTS);
+        budget->triangles = ScaleItems(profile->trianglesSplit, triangles, KIRI_LEAST_TRIANGLES, budget->triangles);
+        budget->cells = ScaleItems(profile->cellsSettled, cells, 1, budget->cells);
+        budget->samples = ScaleItems(profile->samplesRefreshed, samples, 1, budget->samples);
         budget->iterations = ScaleItems(profile->solverIterations, times, 1, budget->iterations);
     }
     return KIRI_OK;

@@ -117,17 +117,6 @@ static kiriVec3 CornerOfBox(const kiriBox* box, int i)
                          (i & 4) != 0 ? box->upper.z : box->lower.z);
 }
 
-static void DrawBox(Drawing* drawing, const kiriBox* box, uint32_t color)
-{
-    for (int i = 0; i < 8; ++i) {
-        for (int bit = 1; bit < 8; bit *= 2) {
-            if ((i & bit) == 0) {
-                DrawLine(drawing, CornerOfBox(box, i), CornerOfBox(box, i | bit), color);
-            }
-        }
-    }
-}
-
 /* Draws boxes of BOXES_A_PASS pieces in one pass over the vertices. Lists of pieces would need memory. */
 static void DrawBoxesFrom(Drawing* drawing, const kiriSheetData* sheet, int32_t first)
 {
@@ -148,8 +137,12 @@ static void DrawBoxesFrom(Drawing* drawing, const kiriSheetData* sheet, int32_t 
         isSeen[piece - first] = true;
     }
     for (int32_t i = 0; i < BOXES_A_PASS; ++i) {
-        if (isSeen[i]) {
-            DrawBox(drawing, &boxes[i], ColorOfPiece(sheet, first + i));
+        for (int edge = 0; isSeen[i] && edge < 24; ++edge) {
+            int corner = edge / 3, bit = 1 << edge % 3;
+            if ((corner & bit) == 0) {
+                DrawLine(drawing, CornerOfBox(&boxes[i], corner), CornerOfBox(&boxes[i], corner | bit),
+                         ColorOfPiece(sheet, first + i));
+            }
         }
     }
 }
@@ -321,16 +314,6 @@ static void DrawSheet(Drawing* drawing, const kiriSheetData* sheet)
     }
 }
 
-static void DrawBlade(Drawing* drawing, const kiriBladeData* blade)
-{
-    if (blade->isPlaced) {
-        DrawLine(drawing, blade->edge[0], blade->edge[1], Color(0, 0, 0));
-    }
-    for (int32_t k = 0; k < blade->layers.count; ++k) {
-        Draw(drawing, &blade->layers.data[k].at, 1, Color(0, 0, 0));
-    }
-}
-
 void kiriDraw_World(const kiriWorld* world, const kiriDebugDraw* draw, const kiriSheetData* only)
 {
     KIRI_ASSERT(draw->size > 0.0f && (draw->flags & ~(uint32_t)KIRI_DRAW_ALL) == 0);
@@ -353,7 +336,13 @@ void kiriDraw_World(const kiriWorld* world, const kiriDebugDraw* draw, const kir
         DrawObstacle(&drawing, world->obstacles.data[i]);
     }
     for (int32_t i = 0; only == NULL && (draw->flags & KIRI_DRAW_BLADES) != 0 && i < world->blades.count; ++i) {
-        DrawBlade(&drawing, world->blades.data[i]);
+        const kiriBladeData* blade = world->blades.data[i];
+        if (blade->isPlaced) {
+            DrawLine(&drawing, blade->edge[0], blade->edge[1], Color(0, 0, 0));
+        }
+        for (int32_t k = 0; k < blade->layers.count; ++k) {
+            Draw(&drawing, &blade->layers.data[k].at, 1, Color(0, 0, 0));
+        }
     }
     for (int i = 0; i < 3; ++i) {
         FlushBatch(&drawing, &drawing.batches[i]);
