@@ -226,37 +226,23 @@ static kiriMat3 Axes(double u, double v)
     return A;
 }
 
-static void Stretch(Trial* trial)
-{
-    HoldMapped(trial, kiriVec3_Make(10.0, 10.0, 1.0), Axes(1.0, 1.0));
-}
-static void Line(Trial* trial)
-{
-    HoldMapped(trial, kiriVec3_Make(1.0, 0.0, 1.0), Axes(1.0, 1.0));
-}
-static void Point(Trial* trial)
-{
-    HoldMapped(trial, kiriVec3_Make(0.0, 0.0, 0.0), Axes(1.0, 1.0));
-}
+/* Something that is done to a sheet in each tick, in one line. */
+#define ACT(name, what)                                                                                                \
+    static void name(Trial* trial)                                                                                     \
+    {                                                                                                                  \
+        what;                                                                                                          \
+    }
+
+ACT(Stretch, HoldMapped(trial, kiriVec3_Make(10.0, 10.0, 1.0), Axes(1.0, 1.0)))
+ACT(Line, HoldMapped(trial, kiriVec3_Make(1.0, 0.0, 1.0), Axes(1.0, 1.0)))
+ACT(Point, HoldMapped(trial, kiriVec3_Make(0.0, 0.0, 0.0), Axes(1.0, 1.0)))
 
 /* The places are mirrored, and the frames stand as they stood, or turned by pi about their normal, their u, or their v
    (that one is a rigid motion of the whole). */
-static void Mirror(Trial* trial)
-{
-    HoldMapped(trial, kiriVec3_Make(-1.0, 1.0, 1.0), Axes(1.0, 1.0));
-}
-static void MirrorSpun(Trial* trial)
-{
-    HoldMapped(trial, kiriVec3_Make(-1.0, 1.0, 1.0), Axes(-1.0, -1.0));
-}
-static void MirrorAboutU(Trial* trial)
-{
-    HoldMapped(trial, kiriVec3_Make(-1.0, 1.0, 1.0), Axes(1.0, -1.0));
-}
-static void MirrorAboutV(Trial* trial)
-{
-    HoldMapped(trial, kiriVec3_Make(-1.0, 1.0, 1.0), Axes(-1.0, 1.0));
-}
+ACT(Mirror, HoldMapped(trial, kiriVec3_Make(-1.0, 1.0, 1.0), Axes(1.0, 1.0)))
+ACT(MirrorSpun, HoldMapped(trial, kiriVec3_Make(-1.0, 1.0, 1.0), Axes(-1.0, -1.0)))
+ACT(MirrorAboutU, HoldMapped(trial, kiriVec3_Make(-1.0, 1.0, 1.0), Axes(1.0, -1.0)))
+ACT(MirrorAboutV, HoldMapped(trial, kiriVec3_Make(-1.0, 1.0, 1.0), Axes(-1.0, 1.0)))
 
 /* Every second frame is turned. */
 static void HoldTurned(Trial* trial, kiriMat3 A)
@@ -275,22 +261,10 @@ static kiriMat3 HalfTurn(double u, double v)
     return kiriMat3_MulMat(kiriMat3_Cayley(kiriVec3_Make(1e-3, 1e-3, 1e-3)), Axes(u, v));
 }
 
-static void TurnAboutN(Trial* trial)
-{
-    HoldTurned(trial, HalfTurn(-1.0, -1.0));
-}
-static void TurnAboutU(Trial* trial)
-{
-    HoldTurned(trial, HalfTurn(1.0, -1.0));
-}
-static void TurnAboutV(Trial* trial)
-{
-    HoldTurned(trial, HalfTurn(-1.0, 1.0));
-}
-static void TurnExactly(Trial* trial)
-{
-    HoldTurned(trial, Axes(1.0, -1.0));
-}
+ACT(TurnAboutN, HoldTurned(trial, HalfTurn(-1.0, -1.0)))
+ACT(TurnAboutU, HoldTurned(trial, HalfTurn(1.0, -1.0)))
+ACT(TurnAboutV, HoldTurned(trial, HalfTurn(-1.0, 1.0)))
+ACT(TurnExactly, HoldTurned(trial, Axes(1.0, -1.0)))
 
 /* At the same place, and turned at random: for all that the library knows, crumpled. */
 static void Crumple(Trial* trial)

@@ -585,34 +585,6 @@ static void CreateRectangle(void** state)
     }
 }
 
-static void CreateRectangleWithoutMemory(void** state)
-{
-    (void)state;
-    Host host;
-    Host_Start(&host);
-    uint64_t before, after;
-    kiriSheet sheet; /* the first one, so that there is room for an id */
-    OK(kiriCreateRectangle(host.world, 1.0f, 1.0f, 2, 2, NULL, &sheet));
-    OK(kiriDestroySheet(host.world, sheet));
-    OK(kiriWorld_GetStateHash(host.world, &before));
-    kiriResult result = KIRI_ERROR_MEMORY;
-    for (int request = 0; result == KIRI_ERROR_MEMORY; ++request) {
-        int64_t live = host.live;
-        host.failAt = host.calls + request;
-        result = kiriCreateRectangle(host.world, 1.0f, 1.0f, 2, 2, NULL, &sheet);
-        if (result != KIRI_OK) {
-            assert_int_equal(result, KIRI_ERROR_MEMORY);
-            assert_int_equal(host.live, live);
-            assert_string_not_equal(kiriWorld_GetLastError(host.world), "");
-            OK(kiriWorld_GetStateHash(host.world, &after));
-            assert_int_equal(before, after);
-        }
-    }
-    assert_true(host.refused > 10);
-    host.failAt = -1;
-    Host_Stop(&host);
-}
-
 /* What names nothing of a kind: nothing, garbage, neighbours of a living id, ids of other kinds, and the dead. */
 static int32_t WrongIds(const Fixture* f, uint32_t living, uint32_t dead, uint32_t* ids)
 {
@@ -1259,7 +1231,6 @@ int main(void)
         cmocka_unit_test(Meshes),
         cmocka_unit_test(FillRectangle),
         cmocka_unit_test(CreateRectangle),
-        cmocka_unit_test(CreateRectangleWithoutMemory),
         cmocka_unit_test(Ids),
         cmocka_unit_test(SheetArguments),
         cmocka_unit_test(CutArguments),

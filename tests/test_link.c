@@ -79,39 +79,6 @@ static void CornersOfShiftedRows(void** state)
     Scene_Release(&scene);
 }
 
-/* Frame 0 sits at the bottom of a corridor, and frame 1 before its mouth, hardly farther from it: the border turns back
-   around the mouth and runs along the corridor on both sides. */
-static void BentBorderIsSplit(void** state)
-{
-    (void)state;
-    Scene scene;
-    Links links;
-    Scene_Init(&scene, 1.0, 1.0, 20, 20, 41);
-    Scene_Slit(&scene, 0.0, 0.45, 0.4, 0.45);
-    Scene_Slit(&scene, 0.0, 0.55, 0.4, 0.55);
-    Scene_BuildGrid(&scene);
-    kiriSite sites[2] = { Scene_Site(&scene, 0.01, 0.5), Scene_Site(&scene, 0.85, 0.5) };
-    Build(&scene, &links, sites, 2);
-    assert_true(links.made.links.count >= 3);
-    double total = 0.0, expected = 0.0;
-    kiriVec2 vector = { 0.0, 0.0 };
-    for (int32_t k = 0; k < links.made.links.count; ++k) {
-        const kiriLink* link = &links.made.links.data[k];
-        assert_true(link->width > 0.0);
-        assert_true(fabs(link->normal.x) == 1.0 || fabs(link->normal.y) == 1.0);
-        total += link->width;
-        vector = kiriVec2_Add(vector, kiriVec2_Scale(link->width, link->normal));
-    }
-    for (int32_t f = 0; f < scene.grid.faces.count; ++f) {
-        const kiriFace* face = &scene.grid.faces.data[f];
-        double width = kiriGrid_Stretch(&scene.grid, &scene.mesh, f).width;
-        expected += OwnerOf(&links, face->cell[0]) != OwnerOf(&links, face->cell[1]) ? width : 0.0;
-    }
-    AssertNear(total, expected, 1e-12);
-    assert_true(kiriVec2_Length(vector) < 0.5 * total);
-    Scene_Release(&scene);
-}
-
 /* On randomly cut sheets: links are in order, no shorter than the straight line, and join what hangs together; and
    their borders are those of the grid, pair by pair, but for three squares at each end. */
 static void RandomSheetsAddUp(void** state)
@@ -640,7 +607,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(CornersOfShiftedRows),
-        cmocka_unit_test(BentBorderIsSplit),
         cmocka_unit_test(RandomSheetsAddUp),
         cmocka_unit_test(BordersAreThoseOfVoronoi),
         cmocka_unit_test(RowOnACoarseGrid),

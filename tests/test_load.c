@@ -286,34 +286,6 @@ static void TestPointLoads(void** state)
     Host_Stop(&host);
 }
 
-/* A free sheet under each kind of load for one tick: its momentum is force times time. */
-static void TestLoadsMove(void** state)
-{
-    (void)state;
-    static const float at[2] = { 0.9f, 0.35f }, force[3] = { 1.0f, -2.0f, 0.5f }, none[3] = { 0.0f, 0.0f, 0.0f };
-    static const float from[2] = { 0.0f, 0.5f }, to[2] = { 0.5f, 0.5f };
-    static const double expected[3][3] = { { 1.0, -2.0, 0.5 }, { 0.5, -1.0, 0.25 }, { 0.0, 0.0, 3.0 } };
-    for (int k = 0; k < 3; ++k) {
-        Host host;
-        Host_Start(&host);
-        OK(kiriWorld_SetGravity(host.world, none));
-        kiriSheetDef def = Host_SmallDef();
-        def.material.airDamping = 0.0f;
-        kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
-        OK(k == 0   ? kiriSheet_ApplyForce(host.world, sheet, at, force, none)
-           : k == 1 ? kiriSheet_ApplyLineLoad(host.world, sheet, from, to, force)
-                    : kiriSheet_ApplyPressure(host.world, sheet, 3.0f));
-        for (int i = 0; i < 3; ++i) {
-            OK(Host_Tick(&host, 0.01f, 4));
-            kiriTotals totals = Host_Totals(&host, sheet);
-            for (int a = 0; a < 3; ++a) {
-                assert_float_equal(totals.momentum[a], 0.01 * expected[k][a], 1e-8);
-            }
-        }
-        Host_Stop(&host);
-    }
-}
-
 /* ---- Reactions --------------------------------------------------------------------------------------------------- */
 
 enum { POINTS, HINGE, CLAMP, HOLD, MIXED, HOLDS };
@@ -969,7 +941,6 @@ int main(void)
         cmocka_unit_test(TestLineLoads),
         cmocka_unit_test(TestLineAlongCut),
         cmocka_unit_test(TestPointLoads),
-        cmocka_unit_test(TestLoadsMove),
         cmocka_unit_test(TestReactionsAtRest),
         cmocka_unit_test(TestReactionsInMotion),
         cmocka_unit_test(TestHoldsBearWind),

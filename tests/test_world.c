@@ -245,32 +245,6 @@ static void FramesAreHeld(void** state)
     Host_Stop(&host);
 }
 
-/* A force acts for one tick: momentum is force times time. */
-static void ForcesPush(void** state)
-{
-    (void)state;
-    Host host;
-    Host_Start(&host);
-    kiriSheetDef def = Host_SmallDef();
-    const float zero[3] = { 0.0f, 0.0f, 0.0f }, force[3] = { 0.02f, -0.03f, 0.05f };
-    def.material.airDamping = 0.0f;
-    OK(kiriWorld_SetGravity(host.world, zero));
-    kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
-    kiriFrame frame;
-    int32_t count;
-    OK(kiriSheet_GetFrames(host.world, sheet, &frame, 1, &count));
-    OK(kiriFrame_ApplyForce(host.world, frame, force, zero));
-    OK(kiriFrame_ApplyForce(host.world, frame, force, zero)); /* forces add up */
-    for (int tick = 0; tick < 5; ++tick) {
-        Tick(&host, 0.02f, 2);
-        kiriTotals totals = Host_Totals(&host, sheet);
-        for (int k = 0; k < 3; ++k) {
-            AssertNear(totals.momentum[k], 2.0 * 0.02 * (double)force[k], 1e-8, "momentum");
-        }
-    }
-    Host_Stop(&host);
-}
-
 static void ContactsCarry(void** state)
 {
     (void)state;
@@ -610,7 +584,6 @@ int main(void)
         cmocka_unit_test(FreeFall),
         cmocka_unit_test(AirDampingFades),
         cmocka_unit_test(FramesAreHeld),
-        cmocka_unit_test(ForcesPush),
         cmocka_unit_test(ContactsCarry),
         cmocka_unit_test(SmallPieceComesOff),
         cmocka_unit_test(FramesByThemselves),
