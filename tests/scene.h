@@ -143,7 +143,7 @@ static inline void Scene_UpdateGrid(Scene* scene)
     kiriMesh_Commit(&scene->mesh);
     assert_int_equal(kiriGrid_Update(&scene->grid, &scene->mesh, &quota), KIRI_DONE);
     kiriSquares_ClearDirty(&scene->mesh.squares);
-    assert_true(kiriField_Resize(&scene->field, &scene->memory, scene->grid.cells.count, false));
+    assert_true(kiriField_Resize(&scene->field, &scene->memory, scene->grid.cells.count, KIRI_FIELD_OWNERS));
 }
 
 static inline void Scene_BuildGrid(Scene* scene)

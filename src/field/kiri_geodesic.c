@@ -13,23 +13,23 @@ enum { REPAIR_NONE, REPAIR_CLEARS, REPAIR_SEEDS, REPAIR_SETTLES };
 
 /* ---- Room of a field --------------------------------------------------------------------------------------------- */
 
-bool kiriField_Resize(kiriField* field, kiriMemory* memory, int32_t cellCount, bool repairs)
+bool kiriField_Resize(kiriField* field, kiriMemory* memory, int32_t cellCount, int uses)
 {
-    int32_t marked = repairs ? cellCount : 0;
-    if (!kiriArray_Reserve(memory, &field->distance, cellCount) ||
-        !kiriArray_Reserve(memory, &field->owner, cellCount) || !kiriArray_Reserve(memory, &field->dirty, marked) ||
-        !kiriArray_Reserve(memory, &field->marks, marked)) {
+    int32_t owned = (uses & KIRI_FIELD_OWNERS) != 0 ? cellCount : 0;
+    int32_t marked = (uses & KIRI_FIELD_REPAIRS) != 0 ? cellCount : 0;
+    if (!kiriArray_Reserve(memory, &field->distance, cellCount) || !kiriArray_Reserve(memory, &field->owner, owned) ||
+        !kiriArray_Reserve(memory, &field->dirty, marked) || !kiriArray_Reserve(memory, &field->marks, marked)) {
         return false;
     }
-    for (int32_t c = field->distance.count; c < cellCount; ++c) {
-        field->distance.data[c] = KIRI_FAR;
-        field->owner.data[c] = KIRI_NONE;
+    int32_t c = field->distance.count;
+    field->distance.count = cellCount;
+    field->owner.count = owned;
+    for (field->marks.count = marked; c < cellCount; ++c) {
+        kiriField_Forget(field, c);
+        if (c < marked) {
+            field->marks.data[c] = 0;
+        }
     }
-    for (int32_t c = field->marks.count; c < marked; ++c) {
-        field->marks.data[c] = 0;
-    }
-    field->distance.count = field->owner.count = cellCount;
-    field->marks.count = marked;
     return true;
 }
 
@@ -49,9 +49,7 @@ void kiriField_Clear(kiriField* field)
 {
     field->distance.count = field->owner.count = field->marks.count = 0;
     field->settled.count = field->log.count = field->seeds.count = field->dirty.count = 0;
-    for (int k = 0; k < KIRI_RING; ++k) {
-        field->ring[k].count = 0;
-    }
+    field->ring[0].count = field->ring[1].count = field->ring[2].count = field->ring[3].count = 0;
     field->stage = REPAIR_NONE;
 }
 
@@ -84,7 +82,15 @@ static bool IsNearerSeed(kiriSeed a, kiriSeed b)
 static inline kiriSeed ValueOf(const kiriField* field, int32_t cell)
 {
     KIRI_ASSERT(cell >= 0 && cell < field->distance.count);
-    return (kiriSeed){ cell, field->distance.data[cell], field->owner.data[cell] };
+    return (kiriSeed){ cell, field->distance.data[cell], field->owner.count > 0 ? field->owner.data[cell] : KIRI_NONE };
+}
+
+static inline void SetValue(kiriField* field, kiriSeed to)
+{
+    field->distance.data[to.cell] = to.distance;
+    if (field->owner.count > 0) {
+        field->owner.data[to.cell] = to.owner;
+    }
 }
 
 /* Logs the value of a cell before it changes. False for memory. */
@@ -112,21 +118,13 @@ static inline bool GiveValue(kiriField* field, kiriMemory* memory, kiriSeed to, 
     if (!isListed && !kiriArray_Push(memory, &field->ring[bucket % KIRI_RING], to.cell)) {
         return false;
     }
-    field->distance.data[to.cell] = to.distance;
-    field->owner.data[to.cell] = to.owner;
+    SetValue(field, to);
     return true;
 }
 
 static inline bool Passes(const kiriRule* rule, int32_t cell)
 {
     return rule->pass == NULL || rule->pass(rule->context, cell);
-}
-
-static void LookAround(const kiriRule* rule, int32_t cell)
-{
-    if (rule->look != NULL) {
-        rule->look(rule->context, cell);
-    }
 }
 
 /* Goes on to the next bucket that has cells or seeds, and takes the seeds of all buckets of the ring. KIRI_DONE: there
@@ -148,11 +146,11 @@ static kiriProgress OpenBucket(kiriField* field, kiriMemory* memory, const kiriR
     field->seeds.count = 0;
     for (int32_t i = 0; i < count; ++i) {
         kiriSeed seed = field->seeds.data[i], value = ValueOf(field, seed.cell);
-        /* A cell that has the very value of the seed is dirty itself: it passes its value on. */
+        /* In a repair a cell that has the very value of the seed is dirty itself: it passes its value on. */
         if (BucketOf(seed.distance) >= field->bucket + KIRI_RING) {
             field->seeds.data[field->seeds.count++] = seed;
             field->nearest = kiriMin(seed.distance, field->nearest);
-        } else if (seed.distance <= rule->limit && (repairs ? !IsNearerSeed(value, seed) : IsNearerSeed(seed, value)) &&
+        } else if (seed.distance <= rule->limit && !IsNearerSeed(value, seed) &&
                    !GiveValue(field, memory, seed, repairs)) {
             return KIRI_FAILED;
         }
@@ -224,9 +222,10 @@ static inline kiriProgress Sweep(kiriField* field, kiriMemory* memory, const kir
             continue;
         }
         field->settled.data[field->settled.count++] = value.cell;
-        if ((rule->below[0] == NULL || value.distance < rule->below[0][value.cell]) &&
-            (rule->below[1] == NULL || value.distance < rule->below[1][value.cell]) && Passes(rule, value.cell)) {
-            LookAround(rule, value.cell);
+        if (Passes(rule, value.cell)) {
+            if (rule->look != NULL) {
+                rule->look(rule->context, value.cell);
+            }
             bool ok = TakeSteps(field, memory, rule->grid, value, rule->limit - value.distance, repairs);
             progress = ok ? KIRI_MORE : KIRI_FAILED;
         }
@@ -277,8 +276,7 @@ void kiriField_MarkDirty(kiriField* field, int32_t cell)
 void kiriField_Forget(kiriField* field, int32_t cell)
 {
     KIRI_ASSERT(cell >= 0 && cell < field->distance.capacity); /* the field may have had more cells */
-    field->distance.data[cell] = KIRI_FAR;
-    field->owner.data[cell] = KIRI_NONE;
+    SetValue(field, (kiriSeed){ cell, KIRI_FAR, KIRI_NONE });
 }
 
 /* True if its seed or a neighbour still gives the cell its value. Every step is longer than nothing, so the cells of a
@@ -293,7 +291,7 @@ static bool IsSupported(const kiriField* field, const kiriRule* rule, int32_t ce
     for (int32_t s = 0; s < steps.end[2]; ++s) {
         int32_t next = kiriSteps_At(&steps, s).cell;
         if (field->distance.data[next] == value.distance - kiriSteps_At(&steps, s).length &&
-            field->owner.data[next] == value.owner && Passes(rule, next)) {
+            ValueOf(field, next).owner == value.owner && Passes(rule, next)) {
             return true;
         }
     }
@@ -309,7 +307,7 @@ static bool AddDependents(kiriField* field, kiriMemory* memory, const kiriRule* 
     for (int32_t s = 0; s < steps.end[2]; ++s) {
         int32_t next = kiriSteps_At(&steps, s).cell;
         if (field->distance.data[next] == value.distance + kiriSteps_At(&steps, s).length &&
-            field->owner.data[next] == value.owner && (field->marks.data[next] & FIELD_DIRTY) == 0) {
+            ValueOf(field, next).owner == value.owner && (field->marks.data[next] & FIELD_DIRTY) == 0) {
             if (!kiriArray_Push(memory, &field->dirty, next)) {
                 return false;
             }
@@ -328,7 +326,9 @@ static kiriProgress ClearAffected(kiriField* field, kiriMemory* memory, const ki
         int32_t cell = field->dirty.data[field->checked];
         if (field->distance.data[cell] != KIRI_FAR) {
             bool blocked = (field->marks.data[cell] & FIELD_PASSES) != 0 && !Passes(rule, cell);
-            LookAround(rule, cell);
+            if (rule->look != NULL) {
+                rule->look(rule->context, cell);
+            }
             bool supported = IsSupported(field, rule, cell);
             if (!kiriQuota_Take(quota, !supported || field->checked % 4 == 0)) {
                 return KIRI_MORE;
@@ -355,7 +355,7 @@ static kiriSeed NearestFor(const kiriField* field, const kiriRule* rule, int32_t
     for (int32_t s = 0; s < steps.end[2]; ++s) {
         int32_t next = kiriSteps_At(&steps, s).cell, length = kiriSteps_At(&steps, s).length;
         if (field->distance.data[next] <= kiriMin(best.distance, rule->limit) - length) {
-            kiriSeed over = { cell, field->distance.data[next] + length, field->owner.data[next] };
+            kiriSeed over = { cell, field->distance.data[next] + length, ValueOf(field, next).owner };
             best = IsNearerSeed(over, best) && Passes(rule, next) ? over : best;
         }
     }
@@ -374,7 +374,9 @@ static kiriProgress SeedSweep(kiriField* field, const kiriRule* rule, kiriQuota*
             return KIRI_MORE;
         }
         if (seeds) {
-            LookAround(rule, cell);
+            if (rule->look != NULL) {
+                rule->look(rule->context, cell);
+            }
             kiriSeed best = NearestFor(field, rule, cell);
             bool passes = (field->marks.data[cell] & FIELD_PASSES) != 0;
             if (best.distance != KIRI_FAR && (passes || IsNearerSeed(best, ValueOf(field, cell)))) {
@@ -389,7 +391,7 @@ static kiriProgress SeedSweep(kiriField* field, const kiriRule* rule, kiriQuota*
 
 kiriProgress kiriField_Repair(kiriField* field, kiriMemory* memory, const kiriRule* rule, kiriQuota* quota)
 {
-    KIRI_ASSERT(rule->limit < KIRI_FAR && rule->seed != NULL && rule->below[0] == NULL && rule->below[1] == NULL);
+    KIRI_ASSERT(rule->limit < KIRI_FAR && rule->seed != NULL);
     kiriProgress progress = KIRI_DONE;
     if (field->stage == REPAIR_NONE) {
         for (int32_t i = 0; i < field->log.count; ++i) {
@@ -527,8 +529,7 @@ kiriProgress kiriField_Scan(kiriField* field, kiriMemory* memory, const kiriGrid
     for (int32_t k = 0; isDone && k < count; ++k) {
         int32_t cell = cells[k], distance = (int32_t)(scan.keys[cell] >> 32);
         if (distance != KIRI_FAR) {
-            field->distance.data[cell] = distance;
-            field->owner.data[cell] = (int32_t)(uint32_t)scan.keys[cell];
+            SetValue(field, (kiriSeed){ cell, distance, (int32_t)(uint32_t)scan.keys[cell] });
             field->settled.data[field->settled.count++] = cell;
         }
     }

@@ -16,9 +16,7 @@ typedef struct kiriSeed {
     int32_t owner;
 } kiriSeed;
 
-enum { KIRI_FAR = INT32_MAX };
-
-enum { KIRI_RING = 4 }; /* buckets of distances at a time, see kiri_geodesic.c */
+enum { KIRI_FAR = INT32_MAX, KIRI_RING = 4 /* buckets of distances at a time, see kiri_geodesic.c */ };
 
 /* Returns true if ways go on from a cell. Floods ask when its distance is final, repairs also before that: so a cell
    that lets ways pass at some distance must do so at every shorter one. */
@@ -38,20 +36,18 @@ typedef struct kiriRule {
     kiriPassFn* pass; /* or null */
     kiriSeedFn* seed; /* of repairs only */
     const void* context;
-    kiriLookFn* look;        /* or null */
-    const int32_t* below[2]; /* or null; of floods: ways go on only from cells nearer than this, one number a cell */
+    kiriLookFn* look; /* or null */
 } kiriRule;
 
 typedef struct kiriField {
     KIRI_ARRAY(int32_t) distance; /* one a cell; KIRI_FAR where the field does not reach */
-    KIRI_ARRAY(int32_t) owner;    /* of the nearest seed; KIRI_NONE where FAR */
+    KIRI_ARRAY(int32_t) owner;    /* of the nearest seed; KIRI_NONE where FAR; no items: all are KIRI_NONE */
     kiriIndices settled;          /* of floods: cells reached; none once dirty */
     KIRI_ARRAY(kiriSeed) log;     /* of repairs: previous values of cells, each once; some may be the same again */
 
-    /* Work in progress. */
     KIRI_ARRAY(kiriSeed) seeds;  /* of a sweep: those that it has not taken yet */
     int32_t nearest;             /* of their distances, or KIRI_FAR */
-    kiriIndices ring[KIRI_RING];         /* of a sweep: cells to be settled, by the bucket of their distance */
+    kiriIndices ring[KIRI_RING]; /* of a sweep: cells to be settled, by the bucket of their distance */
     int32_t bucket;              /* of the cells that are settled now */
     kiriIndices dirty;           /* cells to be checked */
     KIRI_ARRAY(uint8_t) marks;   /* one a cell; between repairs only of dirty cells */
@@ -59,9 +55,10 @@ typedef struct kiriField {
     int32_t stage;               /* of a repair; 0: none is in progress */
 } kiriField;
 
-/* Makes room for cells; new ones are FAR. `repairs`: there will be some. A zeroed field is empty. False for memory: the
-   field stays as it is. */
-bool kiriField_Resize(kiriField* field, kiriMemory* memory, int32_t cellCount, bool repairs);
+/* Makes room for cells; new ones are FAR. `uses` stay the same. A zeroed field is empty. False for memory: the field
+   stays as it is. */
+enum { KIRI_FIELD_OWNERS = 1, KIRI_FIELD_REPAIRS = 2 };
+bool kiriField_Resize(kiriField* field, kiriMemory* memory, int32_t cellCount, int uses);
 
 /* Makes it a field of no cells, whatever its state; keeps the memory. */
 void kiriField_Clear(kiriField* field);

@@ -115,7 +115,7 @@ static bool MakeRegionRoom(const RegionUpdate* u)
     kiriRegions* r = u->regions;
     int32_t cell = r->siteAt.count, frame = r->material.count, cellCount = u->grid->cells.count;
     const kiriTally none = { .area = { 0, 0 } };
-    if (!kiriField_Resize(&r->field, u->memory, cellCount, true) ||
+    if (!kiriField_Resize(&r->field, u->memory, cellCount, KIRI_FIELD_OWNERS | KIRI_FIELD_REPAIRS) ||
         !kiriArray_Resize(u->memory, &r->siteAt, cellCount) ||
         !kiriArray_Resize(u->memory, &r->onBorder, cellCount) ||
         !kiriBorderCells_Resize(&r->border, u->memory, cellCount, u->siteCount) ||
@@ -370,7 +370,7 @@ static kiriProgress DivideCells(const RegionUpdate* u, kiriQuota* quota)
 {
     enum { ITEMS_OF_CHANGE = 2 };
     kiriRegions* r = u->regions;
-    kiriRule rule = { u->grid, KIRI_FAR - 1, NULL, NearestSiteSeed, u, NULL, { NULL, NULL } };
+    kiriRule rule = { u->grid, KIRI_FAR - 1, NULL, NearestSiteSeed, u, NULL };
     kiriProgress progress = KIRI_DONE;
     if (r->flooding) {
         return kiriField_Flood(&r->field, u->memory, &rule, quota);

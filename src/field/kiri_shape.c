@@ -529,7 +529,7 @@ static bool StartFromBorder(ShapeJob* job)
 static bool MeasureField(ShapeJob* job, kiriField* field, int32_t limit, kiriPassFn* pass, kiriSeedFn* seed)
 {
     bool moved = job->work->frames.data[job->frame].moved;
-    const kiriRule rule = { job->grid, limit, pass, seed, job, moved ? NULL : LoadAround, { NULL, NULL } };
+    const kiriRule rule = { job->grid, limit, pass, seed, job, moved ? NULL : LoadAround };
     int32_t k = field->settled.count;
     kiriProgress progress = moved ? kiriField_Flood(field, job->memory, &rule, job->quota)
                                   : kiriField_Repair(field, job->memory, &rule, job->quota);
@@ -714,8 +714,8 @@ static bool ReserveShape(ShapeJob* job)
     int32_t whole = blocks * KIRI_BLOCK_CELLS, c = shape->spans.count;
     int32_t marks = work->marks.count, loaded = work->isLoaded.count;
     if (!kiriReaches_Resize(&shape->reaches, memory, whole, job->siteCount) ||
-        !kiriField_Resize(&work->fromSite, memory, whole, true) ||
-        !kiriField_Resize(&work->fromBorder, memory, whole, true) ||
+        !kiriField_Resize(&work->fromSite, memory, whole, KIRI_FIELD_REPAIRS) ||
+        !kiriField_Resize(&work->fromBorder, memory, whole, KIRI_FIELD_REPAIRS) ||
         !kiriArray_Resize(memory, &work->marks, whole) || !kiriArray_Reserve(memory, &work->loaded, blocks) ||
         !kiriArray_Resize(memory, &work->isLoaded, blocks) || !kiriArray_Resize(memory, &shape->spans, cells) ||
         !kiriArray_Resize(memory, &work->wasOwner, cells) || !kiriArray_Resize(memory, &work->counted, cells) ||

@@ -263,12 +263,6 @@ static bool IsMostlyCovered(const kiriGrid* grid, int32_t cell)
     return kiriGrid_Area(grid, cell) > 0.5 * grid->side * grid->side;
 }
 
-/* Returns the distances to the old sites, one a cell; null without old sites. */
-static const int32_t* OldDistances(const kiriPlacerWork* work)
-{
-    return work->hasOld ? work->old->distance.data : NULL;
-}
-
 static int32_t OldDistance(const kiriPlacerWork* work, int32_t cell)
 {
     return work->hasOld ? work->old->distance.data[cell] : KIRI_FAR;
@@ -295,9 +289,17 @@ static bool StartFlood(PlacerJob* job, kiriField* field, int32_t first, int32_t 
     return kiriField_Start(field, job->memory, seeds->data, kept);
 }
 
-static kiriProgress Flood(PlacerJob* job, kiriField* field, const int32_t* below, const int32_t* andBelow)
+/* Returns true where no old site is as near as a new one, nor, in sampling, another new one. */
+static bool IsNearest(const void* context, int32_t cell)
 {
-    kiriRule rule = { job->grid, KIRI_FAR - 1, NULL, NULL, NULL, NULL, { below, andBelow } };
+    const kiriPlacerWork* work = context;
+    int32_t distance = work->fresh.distance.data[cell];
+    return distance < OldDistance(work, cell) && (work->stage != FLOOD_NEW || distance < work->sampled.data[cell]);
+}
+
+static kiriProgress Flood(PlacerJob* job, kiriField* field, kiriPassFn* pass)
+{
+    kiriRule rule = { job->grid, KIRI_FAR - 1, pass, NULL, job->work, NULL };
     return kiriField_Flood(field, job->memory, &rule, job->quota);
 }
 
@@ -436,7 +438,7 @@ static kiriProgress FloodAllNew(PlacerJob* job)
             return progress;
         }
     }
-    return Flood(job, &work->fresh, OldDistances(work), NULL);
+    return Flood(job, &work->fresh, IsNearest);
 }
 
 /* Returns the target of the new site that a cell belongs to; null where it belongs to an old one. */
@@ -610,13 +612,13 @@ static kiriProgress RunStage(PlacerJob* job)
     kiriProgress progress = KIRI_DONE;
     switch (work->stage) {
     case FLOOD_ENDS:
-        return Next(job, work->reach > 0 ? Flood(job, &work->ends, NULL, NULL) : KIRI_DONE, FLOOD_OLD);
+        return Next(job, work->reach > 0 ? Flood(job, &work->ends, NULL) : KIRI_DONE, FLOOD_OLD);
     case FLOOD_OLD:
-        return Next(job, work->old == &work->flooded ? Flood(job, &work->flooded, NULL, NULL) : KIRI_DONE, SAMPLE);
+        return Next(job, work->old == &work->flooded ? Flood(job, &work->flooded, NULL) : KIRI_DONE, SAMPLE);
     case SAMPLE:
         return SampleFarthest(job);
     case FLOOD_NEW:
-        return Next(job, Flood(job, &work->fresh, OldDistances(work), work->sampled.data), LOWER);
+        return Next(job, Flood(job, &work->fresh, IsNearest), LOWER);
     case LOWER:
         return Next(job, VisitCells(job, settled, LowerCell), SAMPLE);
     case FLOOD_ALL_NEW:
@@ -677,7 +679,7 @@ static bool StartEnds(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* gr
             return false;
         }
     }
-    if (!kiriField_Resize(&work->ends, memory, grid->cells.count, false)) {
+    if (!kiriField_Resize(&work->ends, memory, grid->cells.count, 0)) {
         return false;
     }
     kiriField_Reset(&work->ends);
@@ -689,8 +691,8 @@ static bool MakePlacerRoom(kiriPlacer* placer, kiriMemory* memory, const kiriGri
 {
     kiriPlacerWork* work = placer->work;
     int32_t cells = grid->cells.count;
-    return (work->old != &work->flooded || kiriField_Resize(&work->flooded, memory, cells, false)) &&
-           kiriField_Resize(&work->fresh, memory, cells, false) && kiriArray_Resize(memory, &work->sampled, cells) &&
+    return (work->old != &work->flooded || kiriField_Resize(&work->flooded, memory, cells, 0)) &&
+           kiriField_Resize(&work->fresh, memory, cells, KIRI_FIELD_OWNERS) && kiriArray_Resize(memory, &work->sampled, cells) &&
            kiriArray_Resize(memory, &work->holds, cells) &&
            kiriArray_Resize(memory, &work->blocks, placer->cells.count / SAMPLE_CELLS + 1) &&
            kiriArray_Resize(memory, &work->targets, kiriMax(count, 1)) &&

@@ -210,7 +210,7 @@ static bool FloodFromPoints(PointBuilder* b)
 {
     kiriIntegrationWork* work = b->work;
     const kiriSites* points = &work->placer.sites;
-    kiriRule rule = { b->grid, KIRI_FAR - 1, NULL, NULL, NULL, NULL, { NULL, NULL } };
+    kiriRule rule = { b->grid, KIRI_FAR - 1, NULL, NULL, NULL, NULL };
     kiriQuota endless = { INT64_MAX, 0, 0, false };
     kiriField_Reset(&work->field);
     work->seeds.count = 0;
@@ -219,7 +219,7 @@ static bool FloodFromPoints(PointBuilder* b)
             return false;
         }
     }
-    return kiriField_Resize(&work->field, b->memory, b->grid->cells.count, false) &&
+    return kiriField_Resize(&work->field, b->memory, b->grid->cells.count, KIRI_FIELD_OWNERS) &&
            kiriField_Start(&work->field, b->memory, work->seeds.data, work->seeds.count) &&
            kiriField_Flood(&work->field, b->memory, &rule, &endless) == KIRI_DONE;
 }
