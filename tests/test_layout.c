@@ -207,12 +207,71 @@ static void ZigzagsTwistAsTheyShould(void** state)
     }
 }
 
+/* ---- Folds ------------------------------------------------------------------------------------------------------- */
+
+/* Cotton that hangs by two corners while a spiral is cut into it. Its links fold by half a turn. */
+static void SpiralsNeverFreeze(void** state)
+{
+    (void)state;
+    static const int32_t counts[2] = { 24, 40 };
+    for (int k = 0; k < 6; ++k) {
+        static float were[3 * 8000];
+        double turns = 2.0 + 0.5 * k;
+        int32_t systems = 0, still = 0;
+        Host host;
+        Host_Start(&host);
+        host.every = 100;
+        kiriSheetDef def;
+        kiriDefaultSheetDef(&def);
+        OK(kiriGetMaterial(KIRI_MATERIAL_COTTON, &def.material));
+        def.frameCount = counts[k % 2];
+        kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 40, 40);
+        for (int32_t corner = 0; corner < 2; ++corner) {
+            kiriPinDef pin;
+            kiriPin made;
+            kiriDefaultPinDef(&pin);
+            pin.restPoint[0] = pin.target[0] = (float)corner;
+            pin.restPoint[1] = pin.target[1] = 1.0f;
+            OK(kiriCreatePin(host.world, sheet, &pin, &made));
+        }
+        kiriCut cut = 0;
+        for (int32_t tick = 0; tick < 400; ++tick) {
+            double share = (tick - 20) / 200.0, r = 0.42 * (1.0 - 0.85 * share), angle = 6.28318530717958 * turns * share;
+            const float to[2] = { (float)(0.5 + r * cos(angle)), (float)(0.5 + r * sin(angle)) };
+            if (tick == 20) {
+                OK(kiriBeginCut(host.world, sheet, to, &cut));
+            } else if (tick > 20 && tick < 220) {
+                OK(kiriCut_Extend(host.world, cut, to, 1));
+            } else if (tick == 220) {
+                OK(kiriCut_End(host.world, cut));
+            }
+            OK(Host_Tick(&host, 1.0f / 60.0f, 2));
+            kiriMesh mesh = Host_Mesh(&host, sheet);
+            kiriProfile profile;
+            double moved = 0.0;
+            assert_true(mesh.vertexCount <= 8000);
+            OK(kiriWorld_GetProfile(host.world, &profile));
+            systems += profile.systemsSolved;
+            for (int32_t i = 0; i < 3 * mesh.vertexCount; ++i) {
+                moved = fmax(moved, fabs((double)mesh.positions[i] - (double)were[i]));
+                were[i] = mesh.positions[i];
+            }
+            still += moved < 1e-6;
+        }
+        print_message("%d frames, %.1f turns: %d still ticks, %.1f systems\n", counts[k % 2], turns, still,
+                      systems / 400.0);
+        assert_true(still <= 4);
+        Host_Stop(&host);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(SlitSquaresHangAsTheyShould),
         cmocka_unit_test(JitteredRowsHangAsTheyShould),
         cmocka_unit_test(ZigzagsTwistAsTheyShould),
+        cmocka_unit_test(SpiralsNeverFreeze),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -159,7 +159,7 @@ static void TestEndLoad(void** state)
         kiriPin clamp;
         ClampStart(&host, sheet, &strip, &clamp);
         host.every = 100;
-        for (int i = 0; i < 400; ++i) {
+        for (int i = 0; i < 700; ++i) {
             OK(k < 2 ? kiriSheet_ApplyForce(host.world, sheet, tip, down, none)
                      : kiriSheet_ApplyLineLoad(host.world, sheet, from, to, down));
             OK(Host_Tick(&host, 0.1f, 1));
@@ -381,7 +381,7 @@ static void TestReactionsAtRest(void** state)
         host.every = 50;
         double force[3], torque[3];
         kiriTotals totals;
-        for (int i = 0; i < 400; ++i) {
+        for (int i = 0; i < 700; ++i) {
             OK(Host_Tick(&host, 0.04f, 1));
         }
         totals = Host_Totals(&host, sheet);
@@ -552,7 +552,7 @@ static void TestPullAndPush(void** state)
         Beam beam;
         Beam_Start(&beam, &strip, k % 2 == 0 ? kiriSheet_ClampLine : kiriSheet_HingeLine, NULL);
         bool isPull = k % 4 < 2;
-        for (int i = 0; i < 400; ++i) {
+        for (int i = 0; i < 700; ++i) {
             OK(kiriSheet_ApplyForce(beam.host.world, beam.sheet, tip, isPull ? along : aside, none));
             OK(Host_Tick(&beam.host, 0.01f, 1));
         }
@@ -605,7 +605,7 @@ static void TestClampThatMoves(void** state)
     Beam_Start(&beam, &strip, kiriSheet_ClampLine, NULL);
     float rotation[9], target[3] = { 0.0f, 0.5f * STRIP_WIDTH, 0.0f };
     double angle = 0.0;
-    for (int i = 0; i < 400; ++i) {
+    for (int i = 0; i < 700; ++i) {
         double end[3], force[3], torque[3];
         angle += i < 240 ? 3.0 * 3.14159265358979 / 180.0 : 0.0;
         target[0] = 0.001f * (float)(i < 200 ? i : 200);
@@ -647,7 +647,7 @@ static void TestModels(void** state)
         ClampStart(&host, sheet, &strip, &clamp);
         const float from[2] = { (float)strip.length, 0.0f }, to[2] = { (float)strip.length, (float)strip.width };
         const float pull[3] = { 20.0f, 0.0f, 5.0f };
-        for (int i = 0; i < 400; ++i) {
+        for (int i = 0; i < 700; ++i) {
             if (isPlanar) {
                 OK(kiriSheet_ApplyLineLoad(host.world, sheet, from, to, pull));
             }

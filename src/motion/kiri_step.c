@@ -555,6 +555,9 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
         for (int e = 0; e < kiriElement_StrainCount(system, k); ++e) {
             solver->loss.data[KIRI_MOST_STRAINS * k + e] = damping * stiffness[e];
         }
+        if (kiriElement_IsRigidLink(system, k) && solver->startStrain.data[KIRI_MOST_STRAINS * k + KIRI_FOLD] > 0.0) {
+            solver->loss.data[KIRI_MOST_STRAINS * k + KIRI_PLANE_BENDING] = 0.0; /* it changes its sign in folds */
+        }
     }
     for (int32_t k = 0; k < system->clampCount; ++k) {
         KIRI_ASSERT(system->clamps[k].isAffine == kiriMechanics_IsAffine(&system->mechanics));
@@ -709,17 +712,22 @@ static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k, 
     DeriveStrains(solver, system, k, count, strain);
     kiriElement_TakeOffsets(system, k, strain, pulling);
     AddElementEnergy(solver, system, k, strain, pulling, energy);
-    /* The stop of a link comes last, and has no derivative where it does not act. */
-    int rows = kiriElement_StrainCount(system, k);
-    bool hasStop = kiriElement_Link(system, k) != NULL && !system->mechanics.planar;
-    rows -= hasStop && strain[rows - 1] == 0.0;
+    /* Fold and stop of a link come last, and push only where they are not zero. But the line search halves every step
+       that runs into a stop. So after a step that was cut short, the stops that it ran into resist as springs of no
+       length. */
+    int rows = kiriElement_StrainCount(system, k), always = rows;
+    bool isStopping = solver->search.scale < KIRI_SHORT_STEP && solver->stopping.data[k];
+    if (kiriElement_Link(system, k) != NULL && !system->mechanics.planar) {
+        always = kiriElement_IsRigidLink(system, k) ? KIRI_FOLD : rows - 1;
+    }
+    while (rows > always && strain[rows - 1] == 0.0 && !isStopping) {
+        --rows;
+    }
     for (int e = 0; e < rows; ++e) {
         springs[e] = stiffness[e] + loss[e];
         pulls[e] = -stiffness[e] * pulling[e] - loss[e] * (strain[e] - start[e]);
     }
-    /* A stop that does not act yet has no derivative, and the line search halves every step that runs into it. So after
-       a step that was cut short, the stops that it ran into resist as springs of no length. */
-    if (solver->search.scale < KIRI_SHORT_STEP && solver->stopping.data[k] && rows == KIRI_NORMAL_STOP) {
+    if (isStopping && strain[KIRI_NORMAL_STOP] == 0.0) {
         springs[KIRI_NORMAL_GAP] += stiffness[KIRI_NORMAL_STOP];
     }
     kiriSolver_AddSquares(solver, solver->members.data, count, solver->J.data, springs, pulls, rows);
@@ -751,8 +759,10 @@ static void AddClamp(kiriSolver* solver, const kiriSystem* system, const kiriCla
         pulls[e] = -row->stiffness[e] * pulling[e] - row->loss[e] * (strain[e] - row->startStrain[e]);
         kiriSolver_Reduce(solver, &rows[e], &J[solver->size * e]);
     }
-    if (solver->search.scale < KIRI_SHORT_STEP && row->stopping && !row->isAffine && !kiriClamp_IsStopped(row, strain)) {
-        springs[KIRI_NORMAL_GAP] += row->stiffness[KIRI_NORMAL_STOP];
+    if (!row->isAffine && row->strainCount > KIRI_NORMAL_STOP && strain[KIRI_NORMAL_STOP] == 0.0) {
+        bool isStopping = solver->search.scale < KIRI_SHORT_STEP && row->stopping;
+        springs[KIRI_NORMAL_GAP] += isStopping ? row->stiffness[KIRI_NORMAL_STOP] : 0.0;
+        springs[KIRI_NORMAL_STOP] = isStopping ? row->stiffness[KIRI_NORMAL_STOP] : 0.0;
     }
     kiriSolver_AddSquares(solver, &row->frame, 1, J, springs, pulls, row->strainCount);
 }

@@ -27,78 +27,76 @@
 
 /* Strains that need the mean axes fade below this square of the cosine of half the fold. */
 #define FADING 0.1
-/* A shorter sum of axes has no direction. */
+/* A shorter sum of directors has no direction. */
 #define LEAST_AXIS 1e-6
+/* Cosine of the turn about d beyond which n leans to the normal of the first frame, where the mean vanishes. */
+#define TURNED (-0.5)
 
 #define HALF_TURN 3.14159265358979
-/* Folds up to this angle have all of their damping, and axes that can be relied on. */
-#define OPEN_FOLD 2.5
 /* Least difference of the squares of half a turn and of an angle. */
 #define LEAST_ROOM 1e-6
 
-/* The mean axes of two frames. When the frames turn by w_0 and w_1, the axes turn by the sum over k of
-   n (nBy[k] . w_k) + tau (tauBy[k] . w_k) + d (dBy[k] . w_k). */
+/* The mean axes of two frames: d is the mean director. The smallest turns that take the directors to d take the frames
+   to two that differ by a turn about d: n and tau are their mean. When the frames turn by w_0 and w_1, the axes turn by
+   the sum over k of n (nBy[k] . w_k) + tau (tauBy[k] . w_k) + d (dBy[k] . w_k). */
 typedef struct MeanAxes {
     kiriVec3 n, tau, d;
     kiriVec3 nBy[2], tauBy[2], dBy[2];
     double open; /* cosine of half the angle between the directors: 1 where the sheet is flat, 0 where it is folded */
     kiriVec3 openBy[2];
+    double sine, cosine; /* of half the turn about d; cosine >= 0 */
+    kiriVec3 turnBy;     /* derivative of that turn by w_1; the opposite by w_0 */
 } MeanAxes;
 
-/* Derives the turns of the mean axes. */
-static void FindAxisTurns(MeanAxes* axes, const kiriVec3 normals[2], const kiriPose* const poses[2], double lean,
-                          double lengthN, double lengthD)
+static kiriVec3 MeanDirectorOf(const kiriPose* const poses[2], kiriVec3 normal, double* open)
 {
-    double perN = 1.0 / lengthN, perD = 1.0 / lengthD;
+    kiriVec3 d = kiriVec3_Add(poses[0]->A.d, poses[1]->A.d);
+    double length = kiriVec3_Length(d);
+    *open = kiriMax(0.5 * length, 0.5 * LEAST_AXIS);
+    /* Folded flat: the director of one of the two folds that lead there. */
+    return length > LEAST_AXIS ? kiriVec3_Scale(1.0 / length, d) : kiriVec3_Scale(-1.0, normal);
+}
+
+/* Sets n and tau, and how fast they turn about d. Where the frames differ by half a turn about d, the sum of their
+   normals vanishes, so the second one counts less and less as the turn nears that. */
+static void TakeNormal(MeanAxes* axes, const kiriVec3 normals[2], const kiriPose* const poses[2])
+{
+    kiriVec3 moved[2], lean[2];
+    double per = 1.0 / (1.0 + axes->open);
     for (int k = 0; k < 2; ++k) {
-        axes->nBy[k] = kiriVec3_Scale(perD, kiriVec3_Cross(axes->tau, poses[k]->A.d));
-        axes->tauBy[k] = kiriVec3_Scale(perD, kiriVec3_Cross(poses[k]->A.d, axes->n));
-        kiriVec3 about = kiriVec3_AddScaled(kiriVec3_Cross(normals[k], axes->tau), lean, axes->nBy[k]);
-        axes->dBy[k] = kiriVec3_Scale(perN, about);
+        lean[k] = kiriVec3_Scale(per, kiriVec3_Add(poses[k]->A.d, axes->d));
+        moved[k] = kiriVec3_AddScaled(normals[k], -kiriVec3_Dot(normals[k], axes->d), lean[k]);
+    }
+    double cosine = kiriVec3_Dot(moved[0], moved[1]), sine = kiriVec3_Dot(axes->d, kiriVec3_Cross(moved[0], moved[1]));
+    double beyond = (TURNED - cosine) / (1.0 + TURNED), share = 1.0, byTurn = 0.0;
+    if (beyond > 0.0) {
+        share = 1.0 - 0.5 * beyond * beyond;
+        double bySine = -beyond * sine * sine / (1.0 + TURNED);
+        byTurn = (share * (share + cosine) + bySine) / (1.0 + share * (share + 2.0 * cosine)) - 0.5;
+    }
+    axes->cosine = kiriRoot(0.5 * (1.0 + cosine));
+    axes->sine = cosine > 0.0 ? 0.5 * sine / axes->cosine : kiriRoot(0.5 * (1.0 - cosine)) * (sine < 0.0 ? -1.0 : 1.0);
+    axes->turnBy = kiriVec3_Scale(1.0 / axes->open, axes->d);
+    axes->n = kiriVec3_Normalize(kiriVec3_AddScaled(moved[0], share, moved[1]));
+    axes->tau = kiriVec3_Cross(axes->d, axes->n);
+    for (int k = 0; k < 2; ++k) {
+        axes->dBy[k] = kiriVec3_AddScaled(kiriVec3_Scale(0.5, lean[k]), k == 0 ? -byTurn : byTurn, axes->turnBy);
     }
 }
 
-static kiriVec3 WithoutPart(kiriVec3 a, kiriVec3 d)
-{
-    return kiriVec3_AddScaled(a, -kiriVec3_Dot(a, d), d);
-}
-
-/* Uses the axes of the first frame if the mean normal is undefined: its normal or, if that is along d, its director.
-   All axes then turn with that frame. */
-static void TakeFirstAxes(MeanAxes* axes, const kiriLink* link, const kiriPose* first)
-{
-    kiriVec3 n = WithoutPart(kiriPose_Along(first, link->normal), axes->d);
-    memset(axes->nBy, 0, sizeof(axes->nBy));
-    memset(axes->tauBy, 0, sizeof(axes->tauBy));
-    memset(axes->dBy, 0, sizeof(axes->dBy));
-    axes->n = axes->nBy[0] = kiriVec3_Normalize(kiriVec3_Length(n) > 0.5 ? n : WithoutPart(first->A.d, axes->d));
-    axes->tau = axes->tauBy[0] = kiriVec3_Cross(axes->d, axes->n);
-    axes->dBy[0] = axes->d;
-}
-
-static void TakeMeanAxes(MeanAxes* axes, const kiriLink* link, const kiriPose* const poses[2], bool turns)
+static MeanAxes MeanAxesOf(const kiriLink* link, const kiriPose* const poses[2], bool turns)
 {
     const kiriVec3 normals[2] = { kiriPose_Along(poses[0], link->normal), kiriPose_Along(poses[1], link->normal) };
-    kiriVec3 d = kiriVec3_Add(poses[0]->A.d, poses[1]->A.d), n = kiriVec3_Add(normals[0], normals[1]);
-    double lengthD = kiriVec3_Length(d);
-    /* Folded flat: the director of one of the two folds that lead there. */
-    axes->d = lengthD > LEAST_AXIS ? kiriVec3_Scale(1.0 / lengthD, d) : kiriVec3_Scale(-1.0, normals[0]);
-    axes->open = 0.5 * lengthD;
-    double lean = kiriVec3_Dot(n, axes->d);
-    n = kiriVec3_AddScaled(n, -lean, axes->d);
-    double lengthN = kiriVec3_Length(n);
-    if (!(lengthD > LEAST_AXIS && lengthN > LEAST_AXIS)) {
-        TakeFirstAxes(axes, link, poses[0]);
-    } else {
-        axes->n = kiriVec3_Scale(1.0 / lengthN, n);
-        axes->tau = kiriVec3_Cross(axes->d, axes->n);
-        if (turns) {
-            FindAxisTurns(axes, normals, poses, lean, lengthN, lengthD);
-        }
-    }
+    MeanAxes axes;
+    axes.d = MeanDirectorOf(poses, normals[0], &axes.open);
+    TakeNormal(&axes, normals, poses);
     for (int k = 0; turns && k < 2; ++k) {
-        axes->openBy[k] = kiriVec3_Scale(0.5, kiriVec3_Cross(poses[k]->A.d, axes->d));
+        kiriVec3 by = kiriVec3_Scale(0.5 / axes.open, poses[k]->A.d);
+        axes.nBy[k] = kiriVec3_Cross(axes.tau, by);
+        axes.tauBy[k] = kiriVec3_Cross(by, axes.n);
+        axes.openBy[k] = kiriVec3_Scale(0.5, kiriVec3_Cross(poses[k]->A.d, axes.d));
     }
+    return axes;
 }
 
 /* A vector of each frame, and their difference, as a link sees them; for a point the arms from the frames' x, and the
@@ -237,7 +235,8 @@ static AxisFade FadeOf(const MeanAxes* axes)
     return fade;
 }
 
-/* Measures the excess of the gap over `most`: of its part along the mean normal and, as the axes fade, of all of it. */
+/* Measures the excess of the gap over `most`: of its part along the mean normal and, as the axes fade, of all of it. In a
+   fold the row is that of the length, with or without an excess: the solver uses it for steps that run into the stop. */
 static void MeasureStop(double most, const MeanAxes* axes, const EndVectors* m, double* strain, kiriStrainRow* row)
 {
     AxisFade fade = FadeOf(axes);
@@ -248,7 +247,7 @@ static void MeasureStop(double most, const MeanAxes* axes, const EndVectors* m, 
     if (row != NULL) {
         memset(row, 0, sizeof(*row));
     }
-    if (row != NULL && length > most) {
+    if (row != NULL && length > (lost > 0.0 ? 0.0 : most)) {
         kiriStrainRow whole;
         double per = 1.0 / length;
         WriteGap(axes, axes->d, m, row);
@@ -315,12 +314,28 @@ static void TakeArc(const kiriLink* link, const kiriFrameData* const frames[2], 
     }
 }
 
-static void FadeStrains(const MeanAxes* axes, double* strain, kiriStrainRow* rows)
+/* Fades what depends on the mean axes. What bending and twist lose goes to the fold: as stiff as twist whichever way it
+   is folded, for the two are indistinguishable at half a turn. So the energy grows up to there. */
+static void FadeStrains(const MeanAxes* axes, double bending, const kiriStrainRow* byBending, double* strain,
+                        kiriStrainRow* rows)
 {
-    const int fading[] = { KIRI_STRETCH, KIRI_SHEAR, KIRI_PLANE_BENDING, KIRI_NORMAL_GAP };
     AxisFade fade = FadeOf(axes);
-    for (int k = 0; fade.keep < 1.0 && k < (int)(sizeof(fading) / sizeof(fading[0])); ++k) {
-        int s = fading[k];
+    double twist = strain[KIRI_TWIST], angle = sqrt(bending * bending + twist * twist);
+    double share = axes->open * axes->open / FADING, root = sqrt(1.0 + fade.keep), lost = (1.0 - share) * root;
+    strain[KIRI_FOLD] = 0.0;
+    if (rows != NULL) {
+        memset(&rows[KIRI_FOLD], 0, sizeof(rows[KIRI_FOLD]));
+    }
+    if (!(share < 1.0)) {
+        return;
+    }
+    strain[KIRI_FOLD] = lost * angle;
+    if (rows != NULL && angle > 0.0) {
+        AddRow(&rows[KIRI_FOLD], lost * bending / angle, byBending);
+        AddRow(&rows[KIRI_FOLD], lost * twist / angle, &rows[KIRI_TWIST]);
+        AddOpening(axes, -4.0 * axes->open / FADING * fade.keep / root * angle, &rows[KIRI_FOLD]);
+    }
+    for (int s = 0; s <= KIRI_NORMAL_GAP; ++s) {
         if (rows != NULL) {
             ScaleRow(&rows[s], fade.keep);
             AddOpening(axes, fade.slope * strain[s], &rows[s]);
@@ -329,121 +344,94 @@ static void FadeStrains(const MeanAxes* axes, double* strain, kiriStrainRow* row
     }
 }
 
-double kiriStrain_Openness(double bending, double twist, double* slope)
-{
-    const double per = 1.0 / (HALF_TURN * HALF_TURN - OPEN_FOLD * OPEN_FOLD);
-    double share = per * (HALF_TURN * HALF_TURN - bending * bending - twist * twist);
-    share = share < 0.0 ? 0.0 : kiriMin(share, 1.0);
-    *slope = share > 0.0 && share < 1.0 ? -2.0 * per * (1.0 - share) : 0.0;
-    return share * (2.0 - share);
-}
-
-/* Makes bending as stiff as twist in a fold, because the two are indistinguishable at half a turn. At open ends twist
-   is stiffer; `most` is the ratio of the stiffnesses. If instead twist became as soft as bending, its energy would fall
-   before half a turn, and folds would stay there. */
-static void TakeFold(double most, double twist, double* bending, kiriStrainRow* rows)
-{
-    double slope, open = kiriStrain_Openness(*bending, twist, &slope);
-    if (open < 1.0) {
-        double factor = sqrt(most + (1.0 - most) * open * open), per = (1.0 - most) * open * slope / factor;
-        if (rows != NULL) {
-            ScaleRow(&rows[KIRI_BENDING], factor + 2.0 * per * *bending * *bending);
-            AddRow(&rows[KIRI_BENDING], 2.0 * per * *bending * twist, &rows[KIRI_TWIST]);
-        }
-        *bending *= factor;
-    }
-}
-
 /* Adds the stretch of the edges of a twisted strip. Twisted by t, a strip one region wide shortens by W^2 t^2 / (24 l),
    because its edges are helices. Their stretch beyond the mean has the energy of the curl, with t^2 - nu b^2 in place
    of -nu b^2 (kiri_strain.h). It is added to t^2, but fades at half a turn: if z is the addition to t^2 and
    R = pi^2 - t^2 - b^2, it adds z R / sqrt(z^2 + R^2). That is z for small angles, and the energy never falls as the
-   angle grows. */
-static void TakeRibbon(const kiriLink* link, double poissonsRatio, const kiriCurl* curl, double* strain,
-                       kiriStrainRow* rows)
+   angle grows. As the axes fade, z does. */
+static void TakeRibbon(const kiriLink* link, const MeanAxes* axes, double poissonsRatio, const kiriCurl* curl,
+                       double* strain, kiriStrainRow* rows)
 {
-    double lone = kiriLink_LoneWidth(link), nu = poissonsRatio, bySquare, byQ;
-    double b = strain[KIRI_BENDING], t = strain[KIRI_TWIST], open = kiriStrain_Openness(b, t, &bySquare);
+    AxisFade fade = FadeOf(axes);
+    double lone = kiriLink_LoneWidth(link), nu = poissonsRatio, byQ;
+    double b = strain[KIRI_BENDING], t = strain[KIRI_TWIST];
     double held = kiriCurl_Held(curl->perSquare * b * b, &byQ), sum = t * t - 2.0 * nu * b * b;
-    double stiff = curl->perSquare * lone / ((1.0 - nu) * (link->width + link->outer)), part = stiff * held * sum;
+    double whole = curl->perSquare * lone / ((1.0 - nu) * (link->width + link->outer)), stiff = fade.keep * whole;
+    double part = stiff * held * sum;
     double z = t * t * part, room = HALF_TURN * HALF_TURN - t * t - b * b;
     double R = kiriMax(room, LEAST_ROOM), per = 1.0 / sqrt(z * z + R * R);
     double factor = sqrt(1.0 + part * R * per), shorter = lone * link->width / (24.0 * link->length);
-    strain[KIRI_STRETCH] += shorter * open * t * t;
+    strain[KIRI_STRETCH] += shorter * t * t;
     strain[KIRI_TWIST] *= factor;
     if (rows != NULL) {
         double byPart = per * per * per * R * R * R, byTwist = -per * per * per * part * part * part * R * t * t;
         double byRoom = room > LEAST_ROOM ? -per * per * per * part * z * z : 0.0;
         double byT = byPart * stiff * held + byTwist + byRoom;
         double byB = byPart * stiff * (curl->perSquare * byQ * sum - 2.0 * nu * held) + byRoom;
-        AddRow(&rows[KIRI_STRETCH], 2.0 * shorter * t * (open + bySquare * t * t), &rows[KIRI_TWIST]);
-        AddRow(&rows[KIRI_STRETCH], 2.0 * shorter * t * t * bySquare * b, &rows[KIRI_BENDING]);
+        AddRow(&rows[KIRI_STRETCH], 2.0 * shorter * t, &rows[KIRI_TWIST]);
         ScaleRow(&rows[KIRI_TWIST], factor + t * t * byT / factor);
         AddRow(&rows[KIRI_TWIST], t * b * byB / factor, &rows[KIRI_BENDING]);
+        AddOpening(axes, 0.5 * t * byPart * whole * held * sum * fade.slope / factor, &rows[KIRI_TWIST]);
     }
 }
 
-/* Scales bending and twist by the widths of the link, so that they fit their stiffness. */
-static void TakeWidths(const kiriLink* link, const kiriMaterial* material, double* strain, kiriStrainRow* rows)
+/* Scales bending by the curl of the strip. */
+static void TakeCurl(const kiriCurl* curl, double* bending, kiriStrainRow* row)
 {
-    if (link->outer > 0.0) {
-        double nu = (double)material->poissonsRatio, outer = link->outer, inner = link->width - outer;
-        double bending = (1.0 - nu) * (inner + (1.0 + nu) * outer) + nu * nu * outer;
-        double most = (1.0 - nu) * (inner + 2.0 * outer) / bending;
-        kiriCurl curl = kiriCurl_Of(link, material, outer);
-        TakeFold(most, strain[KIRI_TWIST], &strain[KIRI_BENDING], rows);
-        if (kiriLink_LoneWidth(link) > 0.0) {
-            TakeRibbon(link, nu, &curl, strain, rows);
-        }
-        if (curl.gain > 0.0) {
-            double slope, squared = strain[KIRI_BENDING] * strain[KIRI_BENDING];
-            double factor = kiriCurl_Factor(&curl, squared, &slope);
-            if (rows != NULL) {
-                ScaleRow(&rows[KIRI_BENDING], factor + 2.0 * slope * squared);
-            }
-            strain[KIRI_BENDING] *= factor;
-        }
+    double slope, squared = *bending * *bending, factor = kiriCurl_Factor(curl, squared, &slope);
+    if (row != NULL) {
+        ScaleRow(row, factor + 2.0 * slope * squared);
     }
+    *bending *= factor;
 }
 
 void kiriStrain_Measure(const kiriLink* link, const kiriMaterial* material, const kiriFrameData* const frames[2],
                         const kiriPose* const poses[2], double strain[KIRI_STRAINS], kiriStrainRow* rows)
 {
     KIRI_ASSERT(link->length > 0.0 && link->width > 0.0);
-    MeanAxes axes;
-    TakeMeanAxes(&axes, link, poses, rows != NULL);
+    MeanAxes axes = MeanAxesOf(link, poses, rows != NULL);
     EndVectors b = PointVectors(frames, poses, link->centroid), m = PointVectors(frames, poses, link->crossing);
     kiriVec2 middle = kiriVec2_Scale(0.5, kiriVec2_Add(PivotOf(frames[0]), PivotOf(frames[1])));
     EndVectors q = PointVectors(frames, poses, middle);
     EndVectors directors = DirectionVectors(poses[0]->A.d, poses[1]->A.d);
-    EndVectors tangents =
-        DirectionVectors(kiriPose_Along(poses[0], link->tangent), kiriPose_Along(poses[1], link->tangent));
     MeasureStretch(LeverOf(link, frames), &axes, &b, &m, &q, &strain[KIRI_STRETCH],
                    rows != NULL ? &rows[KIRI_STRETCH] : NULL);
     MeasureStop(KIRI_NORMAL_STOP_SHARE * link->length, &axes, &m, &strain[KIRI_NORMAL_STOP],
                 rows != NULL ? &rows[KIRI_NORMAL_STOP] : NULL);
     strain[KIRI_NORMAL_GAP] = kiriVec3_Dot(m.gap, axes.d);
     strain[KIRI_SHEAR] = kiriVec3_Dot(b.gap, axes.tau);
-    strain[KIRI_PLANE_BENDING] = kiriVec3_Dot(tangents.gap, axes.n);
+    strain[KIRI_PLANE_BENDING] = -2.0 * axes.sine;
     strain[KIRI_BENDING] = kiriVec3_Dot(directors.gap, axes.n);
     strain[KIRI_TWIST] = kiriVec3_Dot(directors.gap, axes.tau);
     if (rows != NULL) {
         WriteGap(&axes, axes.d, &m, &rows[KIRI_NORMAL_GAP]);
         WriteGap(&axes, axes.tau, &b, &rows[KIRI_SHEAR]);
-        WriteTurns(&axes, axes.n, &tangents, &rows[KIRI_PLANE_BENDING]);
+        memset(&rows[KIRI_PLANE_BENDING], 0, sizeof(rows[KIRI_PLANE_BENDING]));
+        rows[KIRI_PLANE_BENDING].end[0].turn = kiriVec3_Scale(axes.cosine, axes.turnBy);
+        rows[KIRI_PLANE_BENDING].end[1].turn = kiriVec3_Scale(-axes.cosine, axes.turnBy);
         WriteTurns(&axes, axes.n, &directors, &rows[KIRI_BENDING]);
         WriteTurns(&axes, axes.tau, &directors, &rows[KIRI_TWIST]);
     }
     TakeAngle(&axes, strain, rows);
     TakeArc(link, frames, strain, rows);
-    FadeStrains(&axes, strain, rows);
-    TakeWidths(link, material, strain, rows);
+    kiriCurl curl = kiriCurl_Of(link, material, link->outer);
+    if (kiriLink_LoneWidth(link) > 0.0) {
+        TakeRibbon(link, &axes, (double)material->poissonsRatio, &curl, strain, rows);
+    }
+    double bending = strain[KIRI_BENDING];
+    kiriStrainRow byBending;
+    if (rows != NULL) {
+        byBending = rows[KIRI_BENDING];
+    }
+    if (curl.gain > 0.0) {
+        TakeCurl(&curl, &strain[KIRI_BENDING], rows != NULL ? &rows[KIRI_BENDING] : NULL);
+    }
+    FadeStrains(&axes, bending, &byBending, strain, rows);
 }
 
 double kiriStrain_Damping(const double strain[KIRI_STRAINS])
 {
-    double fold = strain[KIRI_BENDING] * strain[KIRI_BENDING] + strain[KIRI_TWIST] * strain[KIRI_TWIST];
-    double share = (HALF_TURN * HALF_TURN - fold) / (HALF_TURN * HALF_TURN - OPEN_FOLD * OPEN_FOLD);
+    double share = kiriMin(1.0 - strain[KIRI_FOLD] / HALF_TURN, 2.0 - fabs(strain[KIRI_PLANE_BENDING]));
     return share < 0.0 ? 0.0 : kiriMin(share, 1.0);
 }
 
@@ -453,9 +441,9 @@ void kiriStrain_TakeOffsets(const double* strain, const double* offset, int coun
     for (int e = 0; e < count; ++e) {
         pulling[e] = strain[e] - offset[e];
     }
-    if (!isAffine && count > KIRI_NORMAL_STOP) { /* the stop only pushes */
-        double over = fabs(strain[KIRI_NORMAL_STOP]) - fabs(offset[KIRI_NORMAL_STOP]);
-        pulling[KIRI_NORMAL_STOP] = over <= 0.0 ? 0.0 : strain[KIRI_NORMAL_STOP] > 0.0 ? over : -over;
+    for (int e = KIRI_FOLD; !isAffine && e < count; ++e) { /* folds and stops only push */
+        double over = fabs(strain[e]) - fabs(offset[e]);
+        pulling[e] = over <= 0.0 ? 0.0 : strain[e] > 0.0 ? over : -over;
     }
 }
 
@@ -478,6 +466,7 @@ void kiriStrain_Stiffness(const kiriLink* link, const kiriMaterial* material, do
     stiffness[KIRI_BENDING] = bending * (1.0 - nu) * (inner + (1.0 + nu) * outer + nu * beyond);
     stiffness[KIRI_TWIST] = bending * (1.0 - nu) * (inner + 2.0 * outer + beyond);
     stiffness[KIRI_NORMAL_GAP] = KIRI_NORMAL_GAP_BETA * bending * kiriStrain_NormalGapWidth(link, nu) / (l * l);
+    stiffness[KIRI_FOLD] = stiffness[KIRI_TWIST];
     stiffness[KIRI_NORMAL_STOP] = membrane * link->width;
 }
 
@@ -495,12 +484,10 @@ kiriTrace kiriTrace_Measure(const kiriCorner* corner, const kiriLink* links, con
         trace.strain[KIRI_TRACE_STRETCH] +=
             alongNormal * strains[k][KIRI_STRETCH] + alongTangent * strains[k][KIRI_SHEAR];
         if (!planar) {
-            double bending = strains[k][KIRI_BENDING], twist = strains[k][KIRI_TWIST], slope;
-            double open = kiriStrain_Openness(bending, twist, &slope);
-            double sum = alongNormal * bending + alongTangent * twist;
-            trace.by[k][KIRI_TRACED_BENDING] = open * alongNormal + 2.0 * slope * sum * bending;
-            trace.by[k][KIRI_TRACED_TWIST] = open * alongTangent + 2.0 * slope * sum * twist;
-            trace.strain[KIRI_TRACE_CURVATURE] += open * sum;
+            trace.by[k][KIRI_TRACED_BENDING] = alongNormal;
+            trace.by[k][KIRI_TRACED_TWIST] = alongTangent;
+            trace.strain[KIRI_TRACE_CURVATURE] +=
+                alongNormal * strains[k][KIRI_BENDING] + alongTangent * strains[k][KIRI_TWIST];
         }
     }
     return trace;
@@ -1081,6 +1068,7 @@ static void SetRigidStiffness(kiriClampRow* row, const kiriMaterial* material)
     row->stiffness[KIRI_STRETCH] = membrane * row->link.width;
     row->stiffness[KIRI_BENDING] = bending * row->link.width;
     row->stiffness[KIRI_TWIST] = bending * (1.0 - nu) * (row->link.width + row->outer);
+    row->stiffness[KIRI_FOLD] = kiriMax(row->stiffness[KIRI_BENDING], row->stiffness[KIRI_TWIST]);
     row->stiffness[KIRI_NORMAL_GAP] = KIRI_NORMAL_GAP_BETA * bending * row->link.width / (l * l);
 }
 
@@ -1109,6 +1097,9 @@ void kiriClamp_Begin(kiriClampRow* row, bool isPlanar, const kiriMaterial* mater
     double share = damping * (row->isAffine ? 1.0 : kiriStrain_Damping(row->startStrain));
     for (int e = 0; e < row->strainCount; ++e) {
         row->loss[e] = share * row->stiffness[e];
+    }
+    if (!row->isAffine && row->startStrain[KIRI_FOLD] > 0.0) {
+        row->loss[KIRI_PLANE_BENDING] = 0.0; /* it changes its sign in folds */
     }
 }
 

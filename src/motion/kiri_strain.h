@@ -16,10 +16,11 @@ KIRI_C_BEGIN
    strain         value                                               stiffness
    stretch        sqrt((c + gap(b) . n)^2 + 2 Y) - c - a.n            M (Wi / (1 + nu) + Wo)
    shear          gap(b) . tau - a . tau                              M (Wi + 5/12 Wo) / (1 + nu)
-   plane bending  ((A_j - A_i) tau) . n                               M I (1 + 3/2 nu / (1 + nu) Wi / W)
+   plane bending  -2 sin of half the turn about d                     M I (1 + 3/2 nu / (1 + nu) Wi / W)
    bending        w . n, w along d_j - d_i                            B ((1 - nu) Wi + (1 - nu^2) Wo)
    twist          w . tau                                             B (1 - nu) (Wi + 2 Wo)
    normal gap     gap(m) . d                                          12 B W' / l^2, W' of kiriStrain_NormalGapWidth
+   fold           the part of |w| that bending and twist lose         as twist
    normal stop    excess of |gap(m) . d| over l / 2                   M W
 
    A plate with the curvature tensor K has the energy D/2 ((1 - nu) |K|^2 + nu (tr K)^2) per area. Along a link,
@@ -34,8 +35,9 @@ KIRI_C_BEGIN
 
    Bending and twist together are the Laplacian of the director, because d_j - d_i has no part along the mean d. |w| is
    the angle between the two directors; their difference is only the chord. Near half a turn the mean axes are
-   undefined: strains of a gap and plane bending fade out, and the stop acts on the whole gap. Twist is then no stiffer than
-   bending, so the energy does not depend on the axes.
+   undefined, and a small turn swings them round. There all strains along them fade out; the fold takes over |w|, which
+   needs no axes, and the stop acts on the whole gap. So strains and their derivatives are continuous for all poses, but
+   for two maxima of the energy: opposite directors, and half a turn about d, where plane bending changes its sign.
 
    Open ends curl across while they bend, hence the factor 1 - nu^2. At larger curvature the edge would stretch and the
    curl is suppressed: bending grows by a factor (kiriCurl_Factor), which is 1 for small angles. The trace also contains
@@ -67,6 +69,7 @@ enum {
     KIRI_BENDING,
     KIRI_TWIST,
     KIRI_NORMAL_GAP,
+    KIRI_FOLD,
     KIRI_NORMAL_STOP,
     KIRI_STRAINS
 };
@@ -84,12 +87,8 @@ typedef struct kiriStrainRow {
 void kiriStrain_Measure(const kiriLink* link, const kiriMaterial* material, const kiriFrameData* const frames[2],
                         const kiriPose* const poses[2], double strain[KIRI_STRAINS], kiriStrainRow* rows);
 
-/* Returns how reliable a link's mean axes are: 1 up to a fold of 2.5 rad, falling to 0 at half a turn, where a small
-   motion swings them round. *slope: derivative by the square of the angle. */
-double kiriStrain_Openness(double bending, double twist, double* slope);
-
-/* Returns the damping factor of a link in a step that starts with these strains, 0 to 1. It is 0 at a fold of half a
-   turn, because bending and twist change their signs there while the sheet hardly moves. */
+/* Returns the damping factor of a link in a step that starts with these strains, 0 to 1. It is 0 at half a turn, where
+   strains change fast while the sheet hardly moves. */
 double kiriStrain_Damping(const double strain[KIRI_STRAINS]);
 
 /* Subtracts the offsets from the strains of a link. The result is the part that causes forces. */
@@ -110,8 +109,7 @@ void kiriStrain_Stiffness(const kiriLink* link, const kiriMaterial* material, do
    of curvature  sum of p_k . (bending_k n_k + twist_k tau_k)    nu D A
 
    If the differences along links are D s_k for a uniform gradient D, both sums give tr D for every layout, because the
-   sum of p_k . D s_k equals D : (sum of p_k s_k^T). In a fold, bending and twist become undefined one after the other,
-   and fade out of the trace. */
+   sum of p_k . D s_k equals D : (sum of p_k s_k^T). */
 enum { KIRI_TRACE_STRETCH, KIRI_TRACE_CURVATURE, KIRI_TRACES };
 
 /* Strains of links that enter the traces. */
