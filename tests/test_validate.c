@@ -301,7 +301,7 @@ static int32_t* OwnReach(kiriSheetData* s)
 static bool AddBlockTwice(kiriSheetData* s)
 {
     kiriReaches* reaches = &s->shape.reaches;
-    int64_t room = kiriReaches_RoomFor(reaches, 1);
+    int64_t room = (int64_t)reaches->blocks.count + 1 - reaches->freeBlocks;
     bool ok =
         kiriArray_Reserve(s->memory, &reaches->blocks, room) && kiriArray_Reserve(s->memory, &reaches->heads, room);
     if (ok) {

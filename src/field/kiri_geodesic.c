@@ -138,7 +138,7 @@ static kiriProgress OpenBucket(kiriField* field, kiriMemory* memory, const kiriR
     if (field->nearest == KIRI_FAR && ahead == KIRI_RING) {
         return KIRI_DONE;
     }
-    field->bucket = ahead < KIRI_RING ? kiriMin(field->bucket + ahead, first) : first;
+    field->bucket = kiriMin(field->bucket + ahead, first);
     if (first > field->bucket) {
         return KIRI_MORE;
     }
@@ -573,11 +573,6 @@ int32_t kiriReaches_Find(const kiriReaches* reaches, int32_t frame, int32_t cell
         block = reaches->heads.data[block].nextOfCells;
     }
     return block;
-}
-
-int64_t kiriReaches_RoomFor(const kiriReaches* reaches, int32_t more)
-{
-    return (int64_t)reaches->blocks.count + more - reaches->freeBlocks;
 }
 
 int32_t kiriReaches_Add(kiriReaches* reaches, int32_t frame, int32_t cells)

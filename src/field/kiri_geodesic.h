@@ -138,10 +138,7 @@ void kiriReaches_Clear(kiriReaches* reaches);
 /* Finds a block, or returns KIRI_NONE. */
 int32_t kiriReaches_Find(const kiriReaches* reaches, int32_t frame, int32_t cells);
 
-/* Returns the capacity that `blocks` and `heads` need for more blocks. */
-int64_t kiriReaches_RoomFor(const kiriReaches* reaches, int32_t more);
-
-/* Adds a block, which reaches nothing. The caller has reserved room. */
+/* Adds a block, which reaches nothing. The caller has reserved room in `blocks` and `heads`. */
 int32_t kiriReaches_Add(kiriReaches* reaches, int32_t frame, int32_t cells);
 void kiriReaches_Remove(kiriReaches* reaches, int32_t block);
 

@@ -589,7 +589,7 @@ static bool UnloadFrame(ShapeJob* job)
 {
     kiriReaches* reaches = &job->shape->reaches;
     kiriShapeWork* work = job->work;
-    int64_t blocks = kiriReaches_RoomFor(reaches, work->loaded.count);
+    int64_t blocks = (int64_t)reaches->blocks.count + work->loaded.count - reaches->freeBlocks;
     if (!kiriArray_Reserve(job->memory, &reaches->blocks, blocks) ||
         !kiriArray_Reserve(job->memory, &reaches->heads, blocks)) {
         return false;

@@ -48,6 +48,7 @@ bool kiriMesh_FillSquares(const kiriMeshData* mesh, kiriSquares* squares, kiriMe
             return false;
         }
     }
+    kiriArray_Shorten(memory, &squares->nodes, sizeof(*squares->nodes.data));
     return true;
 }
 

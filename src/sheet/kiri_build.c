@@ -315,6 +315,7 @@ static void DropScratch(kiriSheetData* sheet)
     kiriShape_DropScratch(&sheet->shape, sheet->memory);
     kiriArray_Release(sheet->memory, &sheet->regions.changes);
     kiriArray_Release(sheet->memory, &sheet->regions.orphans);
+    kiriArray_Release(sheet->memory, &sheet->regions.field.settled);
     kiriArray_Release(sheet->memory, &sheet->vertexSkin.staged);
     kiriArray_Release(sheet->memory, &sheet->update->samples.refresh.noted);
     kiriArray_Release(sheet->memory, &ownership->staged);
