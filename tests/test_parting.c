@@ -783,7 +783,9 @@ static int32_t RunWait(Host* host, Wait* wait, int32_t ticks, int32_t refuseFrom
         host->failOnce = false;
         *last = kiriWorld_Tick(host->world, 1.0f / 60.0f, 1);
         host->failAt = -1;
-        Host_Validate(host);
+        if (done + 2 >= ticks) { /* the last two ticks: other tests validate the others */
+            Host_Validate(host);
+        }
     }
     return done;
 }

@@ -1,9 +1,6 @@
 /* Replays of recordings that differ, are damaged, end too early, or meet a lack of memory. */
 #include "tape.h"
 
-#include "sheet/kiri_update.h"
-#include "world/kiri_call.h"
-#include "world/kiri_world.h"
 
 /* ---- Small recordings -------------------------------------------------------------------------------------------- */
 
@@ -86,7 +83,7 @@ static void TestMisuse(void** state)
 
 /* ---- Differences ------------------------------------------------------------------------------------------------- */
 
-enum { VERSION_BYTE = KIRI_RECORD_MAGIC_BYTES, GRAVITY_BYTE = KIRI_RECORD_MAGIC_BYTES + 4 };
+enum { VERSION_BYTE = 8, GRAVITY_BYTE = 12 }; /* after "KiriRec" and a line end */
 
 /* Replays with one byte changed; the line. */
 static kiriResult PlayChanged(const Tape* tape, int64_t byte, uint8_t flips, Tape* again)

@@ -8,10 +8,6 @@
 #include "host.h"
 #include "layout_hash.h"
 
-#include "core/kiri_archive.h"
-#include "sheet/kiri_update.h"
-#include "world/kiri_world.h"
-
 enum { WORLDS = 24, MOST_TICKS = 24, TWIN_TICKS = 5 };
 
 static int32_t worldCount = WORLDS, firstWorld = 0;
@@ -115,9 +111,12 @@ static Bytes Write(const kiriWorld* world, WriteFn* write)
 
 static bool IsWorkAtHand(const kiriWorld* world)
 {
+    kiriSheet sheets[64];
+    int32_t count;
     bool isAtHand = false;
-    for (int32_t i = 0; i < world->sheets.count; ++i) {
-        isAtHand |= world->sheets.data[i]->update->stage != KIRI_NONE;
+    OK(kiriWorld_GetSheets(world, sheets, 64, &count));
+    for (int32_t i = 0; i < count && i < 64; ++i) {
+        isAtHand |= Layout_Stage(world, sheets[i]) >= 0;
     }
     return isAtHand;
 }
@@ -138,8 +137,7 @@ static void AssertAlike(const Weather* weather, const char* how, Storm* a, Storm
 /* After a load arrays have other rooms, and a budget pays for room: a cut may take effect in another tick. */
 static bool MayDiffer(const kiriWorld* a, const kiriWorld* b)
 {
-    bool isLimited = a->budget.triangles > 0 || a->budget.cells > 0 || a->budget.samples > 0;
-    return isLimited && (IsWorkAtHand(a) || IsWorkAtHand(b));
+    return IsWorkAtHand(a) || IsWorkAtHand(b); /* without a budget no tick leaves work */
 }
 
 /* The world goes back to the snapshot afterwards. */

@@ -143,7 +143,7 @@ static void WanderBothWays(const Case* c, int32_t number, uint32_t seed)
 static void TestIncrementalEqualsFromScratch(void** state)
 {
     (void)state;
-    for (int32_t number = 0; number < 120; ++number) {
+    for (int32_t number = 0; number < 80; ++number) {
         uint32_t seed = 1000u + (uint32_t)number;
         Case c;
         c.mesh = 4 + (int32_t)(Random(&seed) % 16);
@@ -401,7 +401,7 @@ static uint64_t LayoutAfterCut(uint32_t seed, int32_t changeAt, int32_t* ticks)
     def.frameCount = 20;
     def.gridResolution = 16;
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 8, 8);
-    const kiriBudget some = { .cells = 200 }, few = { .cells = 4 };
+    const kiriBudget some = { .cells = 200 }, few = { .cells = 12 };
     OK(kiriWorld_SetBudget(host.world, &some));
     float u = (float)RandomBetween(&seed, 0.1, 0.8), v = (float)RandomBetween(&seed, 0.1, 0.8);
     Host_Cut(&host, sheet, (const float[]){ u, v, u + 0.13f, v + 0.07f }, 2);
