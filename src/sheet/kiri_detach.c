@@ -606,20 +606,13 @@ static void KeepSeen(kiriDetach* detach, kiriMemory* retired)
     kiriSheetData* sheet = detach->sheet;
     kiriSeen* seen = &sheet->seen;
     const kiriSubset* rest = &detach->rest;
-    kiriBlocks_Forget(&seen->blocks);
+    kiriBlocks_Renumber(&seen->blocks, rest->vertices.count, rest->frames.count);
     kiriSurface_Keep(&seen->surface, &detach->shown, &rest->triangles, &rest->vertices, &sheet->mesh,
                      rest->frames.count, retired);
-    kiriBounds_Forget(seen->bounds);
-    kiriBlocks_Resize(&seen->blocks, rest->vertices.count, rest->frames.count);
+    seen->bounds->levelCount = 0;
     seen->vertexCount = rest->vertices.count;
     kiriKeep_Compact(&rest->points, &seen->exactPoints, 1, sizeof(kiriVec3));
-    if (seen->pointPositions.count > 0) {
-        kiriKeep_Copy(&rest->points, detach->points.data, seen->pointPositions.data, 3 * sizeof(float));
-        detach->points.count = 3 * rest->points.count;
-    }
-    kiriArrayHeader was = kiriArray_GetHeader(&seen->pointPositions);
-    kiriArray_SetHeader(&seen->pointPositions, kiriArray_GetHeader(&detach->points));
-    kiriMemory_Adopt(retired, was.data);
+    kiriShown_Take(&rest->points, &seen->pointPositions, &detach->points, 3, retired);
     seen->pointCount = rest->points.count;
     memset(&detach->shown, 0, sizeof(detach->shown));
     memset(&detach->points, 0, sizeof(detach->points));

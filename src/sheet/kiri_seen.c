@@ -98,14 +98,16 @@ kiriMotion kiriPoint_Blend(const kiriSheetData* sheet, const kiriPointPlace* pla
     return motion;
 }
 
-bool kiriBlocks_Reserve(kiriBlocks* blocks, kiriMemory* memory, int32_t vertexCount, int32_t frameCount)
+/* ---- Blocks ---- */
+
+/* Marks a block as unknown, so that its mover is found again: weights changed, or vertices are new. */
+static void ForgetBlock(kiriBlocks* blocks, int32_t block)
 {
-    int32_t count = vertexCount / KIRI_BLOCK + 1;
-    return kiriArray_Reserve(memory, &blocks->touched, count) && kiriArray_Reserve(memory, &blocks->stale, count) &&
-           kiriArray_Reserve(memory, &blocks->movers, count) && kiriArray_Reserve(memory, &blocks->moved, frameCount);
+    blocks->movers.data[block] = KIRI_UNKNOWN;
+    blocks->hasUnknown = true;
 }
 
-void kiriBlocks_Resize(kiriBlocks* blocks, int32_t vertexCount, int32_t frameCount)
+static void ResizeBlocks(kiriBlocks* blocks, int32_t vertexCount, int32_t frameCount)
 {
     int32_t old = blocks->movers.count, count = vertexCount / KIRI_BLOCK + 1, oldFrames = blocks->moved.count;
     KIRI_ASSERT(count <= blocks->movers.capacity && frameCount <= blocks->moved.capacity);
@@ -113,27 +115,22 @@ void kiriBlocks_Resize(kiriBlocks* blocks, int32_t vertexCount, int32_t frameCou
     blocks->moved.count = frameCount;
     for (int32_t block = old; block < count; ++block) {
         blocks->touched.data[block] = blocks->stale.data[block] = 0;
-        kiriBlocks_ForgetOne(blocks, block);
+        ForgetBlock(blocks, block);
     }
     for (int32_t i = oldFrames; i < frameCount; ++i) {
         blocks->moved.data[i] = 0;
     }
 }
 
-void kiriBlocks_ForgetOne(kiriBlocks* blocks, int32_t block)
-{
-    blocks->movers.data[block] = KIRI_UNKNOWN;
-    blocks->hasUnknown = true;
-}
-
-void kiriBlocks_Forget(kiriBlocks* blocks)
+void kiriBlocks_Renumber(kiriBlocks* blocks, int32_t vertexCount, int32_t frameCount)
 {
     for (int32_t block = 0; block < blocks->movers.count; ++block) {
-        kiriBlocks_ForgetOne(blocks, block);
+        ForgetBlock(blocks, block);
     }
     for (int32_t i = 0; i < blocks->moved.count; ++i) {
         blocks->moved.data[i] = 0;
     }
+    ResizeBlocks(blocks, vertexCount, frameCount);
 }
 
 /* ---- Movers ---- */
@@ -234,11 +231,15 @@ static void ForBlocks(kiriSheetData* sheet, int32_t begin, int32_t end, bool orS
 bool kiriView_Reserve(kiriSheetData* sheet, kiriViewCounts counts)
 {
     kiriSeen* seen = &sheet->seen;
+    int32_t blocks = counts.vertices / KIRI_BLOCK + 1;
     bool isSeen = seen->surface.vertexCount > 0; /* a surface never written cannot fade */
     return kiriSurface_Reserve(&seen->surface, &sheet->shown, counts.vertices, counts.triangles, counts.frames) &&
            kiriArray_Reserve(&sheet->shown, &seen->pointPositions, 3 * (int64_t)counts.points) &&
            kiriArray_Reserve(sheet->memory, &seen->exactPoints, counts.points) &&
-           kiriBlocks_Reserve(&seen->blocks, sheet->memory, counts.vertices, counts.frames) &&
+           kiriArray_Reserve(sheet->memory, &seen->blocks.touched, blocks) &&
+           kiriArray_Reserve(sheet->memory, &seen->blocks.stale, blocks) &&
+           kiriArray_Reserve(sheet->memory, &seen->blocks.movers, blocks) &&
+           kiriArray_Reserve(sheet->memory, &seen->blocks.moved, counts.frames) &&
            (!isSeen || kiriView_ReserveFades(sheet, counts.vertices, counts.points, seen->fades.time));
 }
 
@@ -246,17 +247,24 @@ void kiriView_Resize(kiriSheetData* sheet, int32_t frameCount)
 {
     kiriSeen* seen = &sheet->seen;
     kiriSurface_Resize(&seen->surface, sheet->mesh.vertices.count, sheet->mesh.triangles.count, frameCount);
-    kiriBlocks_Resize(&seen->blocks, sheet->mesh.vertices.count, frameCount);
+    ResizeBlocks(&seen->blocks, sheet->mesh.vertices.count, frameCount);
     KIRI_ASSERT(3 * (int64_t)sheet->points.count <= seen->pointPositions.capacity);
     KIRI_ASSERT(sheet->points.count <= seen->exactPoints.capacity);
     seen->pointPositions.count = 3 * sheet->points.count;
     seen->exactPoints.count = sheet->points.count;
 }
 
+static void StaleBlock(kiriSheetData* sheet, int32_t vertex)
+{
+    if (vertex >= 0) {
+        sheet->seen.blocks.stale.data[vertex / KIRI_BLOCK] = 1;
+    }
+}
+
 static void StaleCorners(kiriSheetData* sheet, const int32_t* corners)
 {
     for (int k = 0; k < 3; ++k) {
-        kiriBlocks_Stale(&sheet->seen.blocks, corners[k]);
+        StaleBlock(sheet, corners[k]);
     }
 }
 
@@ -268,7 +276,7 @@ static void StaleChanges(kiriSheetData* sheet)
         StaleCorners(sheet, mesh->triangles.data[mesh->changedTriangles.data[k]].vertex);
     }
     for (int32_t k = 0; k < mesh->changedVertices.count; ++k) {
-        kiriBlocks_Stale(&sheet->seen.blocks, mesh->changedVertices.data[k]);
+        StaleBlock(sheet, mesh->changedVertices.data[k]);
     }
     for (int32_t t = mesh->oldTriangleCount; t < mesh->triangles.count; ++t) {
         StaleCorners(sheet, mesh->triangles.data[t].vertex);
@@ -461,7 +469,7 @@ static void TakeVertexJumps(kiriSheetData* sheet)
             LookAtVertices(sheet, &look, begin, end);
         }
         if (isOther) {
-            kiriBlocks_ForgetOne(&sheet->seen.blocks, begin / KIRI_BLOCK);
+            ForgetBlock(&sheet->seen.blocks, begin / KIRI_BLOCK);
         }
     }
     surface->isSteady = wasSteady && !look.movesSleepers; /* false: normals of sleeping pieces are stale */

@@ -28,25 +28,8 @@ kiriMotion kiriPoint_Blend(const kiriSheetData* sheet, const kiriPointPlace* pla
 
 enum { KIRI_BLOCK = 64, KIRI_UNKNOWN = -2 };
 
-/* Reserves for these counts of vertices and frames. */
-bool kiriBlocks_Reserve(kiriBlocks* blocks, kiriMemory* memory, int32_t vertexCount, int32_t frameCount);
-
-/* Sets the counts, which are reserved. Marks new blocks as unknown. */
-void kiriBlocks_Resize(kiriBlocks* blocks, int32_t vertexCount, int32_t frameCount);
-
-/* Marks all blocks as unknown. Call when vertices or frames were renumbered. */
-void kiriBlocks_Forget(kiriBlocks* blocks);
-
-/* Marks a block as unknown, so that its mover is found again. Call when weights changed or vertices are
-   new. */
-void kiriBlocks_ForgetOne(kiriBlocks* blocks, int32_t block);
-
-static inline void kiriBlocks_Stale(kiriBlocks* blocks, int32_t vertex)
-{
-    if (vertex >= 0) {
-        blocks->stale.data[vertex / KIRI_BLOCK] = 1;
-    }
-}
+/* Sets the counts after vertices or frames were renumbered. Room is reserved. */
+void kiriBlocks_Renumber(kiriBlocks* blocks, int32_t vertexCount, int32_t frameCount);
 
 /* The visible state of a sheet: the skinned mesh and the collision points. */
 

@@ -219,11 +219,6 @@ static void MarkMoving(kiriBounds* bounds, const kiriSurface* surface, const kir
     bounds->version = movers->version;
 }
 
-void kiriBounds_Forget(kiriBounds* bounds)
-{
-    bounds->levelCount = 0;
-}
-
 bool kiriBounds_IsFresh(const kiriBounds* bounds, const kiriSurface* surface)
 {
     return bounds->levelCount > 0 && bounds->pose == surface->pose;

@@ -65,9 +65,6 @@ void kiriBox_Add(kiriBox* box, kiriVec3 at);
 /* Returns the least box around a triangle in world space. */
 kiriBox kiriBox_OfTriangle(const kiriSurface* surface, int32_t triangle);
 
-/* Drops the tree, after triangles were removed. */
-void kiriBounds_Forget(kiriBounds* bounds);
-
 /* Returns true if the boxes fit the surface. All searches below need that. */
 bool kiriBounds_IsFresh(const kiriBounds* bounds, const kiriSurface* surface);
 

@@ -390,8 +390,7 @@ void kiriShown_Release(kiriShown* shown, kiriMemory* memory)
     HOST_ARRAYS(RELEASE_HOST_ARRAY)
 }
 
-/* Replaces an array by `fresh`, with the items that are kept, `each` numbers of 4 bytes an item. */
-static void TakeKept(const kiriKeep* keep, void* array, const void* fresh, int32_t each, kiriMemory* retired)
+void kiriShown_Take(const kiriKeep* keep, void* array, const void* fresh, int32_t each, kiriMemory* retired)
 {
     kiriArrayHeader was = kiriArray_GetHeader(array), is = kiriArray_GetHeader(fresh);
     kiriKeep_Copy(keep, is.data, was.data, 4 * (size_t)each);
@@ -405,7 +404,7 @@ void kiriSurface_Keep(kiriSurface* surface, kiriShown* shown, const kiriKeep* tr
                       const kiriMeshData* mesh, int32_t frameCount, kiriMemory* retired)
 {
     kiriSurface_NeedNormals(surface); /* in another order sums have other bits */
-#define TAKE_HOST_ARRAY(name, each, of) TakeKept(of, &surface->name, &shown->name, each, retired);
+#define TAKE_HOST_ARRAY(name, each, of) kiriShown_Take(of, &surface->name, &shown->name, each, retired);
     HOST_ARRAYS(TAKE_HOST_ARRAY)
     kiriKeep_Compact(vertices, &surface->rest, 1, sizeof(kiriVec2));
     kiriKeep_Compact(vertices, &surface->places, 3, sizeof(float));

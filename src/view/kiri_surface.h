@@ -146,6 +146,9 @@ typedef struct kiriShown {
 bool kiriShown_Reserve(kiriShown* shown, kiriMemory* memory, const kiriKeep* triangles, const kiriKeep* vertices);
 void kiriShown_Release(kiriShown* shown, kiriMemory* memory);
 
+/* Replaces an array by `fresh`, with the items that are kept, `each` numbers of 4 bytes an item. */
+void kiriShown_Take(const kiriKeep* keep, void* array, const void* fresh, int32_t each, kiriMemory* retired);
+
 /* Removes the triangles, vertices and frames that were removed from the mesh. The others keep their positions. The old
    arrays get the owner `retired`. Cannot fail. */
 void kiriSurface_Keep(kiriSurface* surface, kiriShown* shown, const kiriKeep* triangles, const kiriKeep* vertices,
