@@ -207,6 +207,63 @@ static void ZigzagsTwistAsTheyShould(void** state)
     }
 }
 
+/* ---- Clamps ------------------------------------------------------------------------------------------------------ */
+
+/* A strip between two clamps sags as a beam under a small load, and resists as a bar when it is pulled by 1 %. */
+static void CheckClampedStrip(int32_t count, int32_t skinning)
+{
+    const float length = 0.2f, width = 0.02f;
+    const double E = 7.4e8, h = 2e-4, sag = 0.02 * h, L = (double)length;
+    const float ends[8] = { 0.0f, 0.0f, 0.0f, width, length, 0.0f, length, width };
+    const float load[3] = { 0.0f, 0.0f, (float)(-sag * 32.0 * E * h * h / (1000.0 * L * L * L * L)) };
+    kiriSheetDef def = PaperDef(80, 1.0f);
+    def.material = (kiriMaterial){ (float)E, 0.0f, (float)h, 1000.0f, 20.0f, 0.0f };
+    def.skinning = skinning;
+    def.frameCount = def.maxFrames = count;
+    float points[64];
+    def.framePoints = points;
+    for (int32_t i = 0; i < count; ++i) {
+        points[2 * i] = length * ((float)i + 0.5f) / (float)count;
+        points[2 * i + 1] = 0.5f * width;
+    }
+    Host host;
+    Host_Start(&host);
+    host.every = 1000;
+    OK(kiriWorld_SetGravity(host.world, load));
+    kiriSheet sheet = Host_AddRectangle(&host, &def, length, width, 80, 8);
+    kiriPin clamps[2];
+    OK(kiriSheet_ClampLine(host.world, sheet, ends, ends + 2, &clamps[0]));
+    OK(kiriSheet_ClampLine(host.world, sheet, ends + 4, ends + 6, &clamps[1]));
+    for (int32_t tick = 0; tick < 100; ++tick) {
+        OK(kiriWorld_Tick(host.world, 0.5f, 1));
+    }
+    kiriMesh mesh = Host_Mesh(&host, sheet);
+    double low = 0.0, force[3], torque[3];
+    for (int32_t i = 0; i < mesh.vertexCount; ++i) {
+        low = fmin(low, (double)mesh.positions[3 * i + 2]);
+    }
+    for (int32_t tick = 0; tick < 900; ++tick) {
+        const float target[3] = { length * (1.0f + (tick < 100 ? 1e-4f * (float)tick : 0.01f)), 0.5f * width, 0.0f };
+        OK(kiriPin_SetTarget(host.world, clamps[1], target));
+        OK(kiriWorld_Tick(host.world, 1.0f / 30.0f, 2));
+    }
+    OK(kiriPin_GetReaction(host.world, clamps[1], force, torque));
+    Host_Stop(&host);
+    double pull = force[0] / (E * h * (double)width * 0.01);
+    print_message("%d frames, skinning %d: sag %.4f, force %.4f\n", count, skinning, -low / sag, pull);
+    assert_true(fabs(-low / sag - 1.0) < 0.03);
+    assert_true(fabs(pull - 1.0) < 0.005);
+}
+
+static void ClampedStripsAreAsStiffAsTheyShould(void** state)
+{
+    (void)state;
+    static const int32_t counts[4] = { 3, 5, 9, 17 };
+    for (int k = 0; k < 8; ++k) {
+        CheckClampedStrip(counts[k / 2], k % 2 == 0 ? KIRI_SKINNING_LINEAR : KIRI_SKINNING_SMOOTH);
+    }
+}
+
 /* ---- Folds ------------------------------------------------------------------------------------------------------- */
 
 /* Cotton that hangs by two corners while a spiral is cut into it. Its links fold by half a turn. */
@@ -271,6 +328,7 @@ int main(void)
         cmocka_unit_test(SlitSquaresHangAsTheyShould),
         cmocka_unit_test(JitteredRowsHangAsTheyShould),
         cmocka_unit_test(ZigzagsTwistAsTheyShould),
+        cmocka_unit_test(ClampedStripsAreAsStiffAsTheyShould),
         cmocka_unit_test(SpiralsNeverFreeze),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -2592,8 +2592,8 @@ var poolPinSetTarget pool[struct {
 }]
 
 // Sets the target of the pin's point, or of the middle of its line (m, world), for the end of the next tick and until
-// the next call. The pin moves there evenly within the tick. With KIRI_SKINNING_SMOOTH pins and clamps hold the
-// visible surface; a clamp holds its mean along the line for each piece.
+// the next call. The pin moves there evenly within the tick. With KIRI_SKINNING_SMOOTH pins hold the visible surface.
+// A clamp that alone holds a piece holds the mean of the visible line; else that may be off by 0.5 mm.
 func (self Pin) SetTarget(target [3]float32) (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err

@@ -1422,8 +1422,8 @@ export class Pin {
      *  outside the sheet. */
     destroy(): ResultCode;
     /** Sets the target of the pin's point, or of the middle of its line (m, world), for the end of the next tick and
-     *  until the next call. The pin moves there evenly within the tick. With KIRI_SKINNING_SMOOTH pins and clamps hold
-     *  the visible surface; a clamp holds its mean along the line for each piece. */
+     *  until the next call. The pin moves there evenly within the tick. With KIRI_SKINNING_SMOOTH pins hold the visible
+     *  surface. A clamp that alone holds a piece holds the mean of the visible line; else that may be off by 0.5 mm. */
     setTarget(target: ArrayLike<number>): ResultCode;
     /** Sets the target and the rotation of the line's material: columns are the directions of u and v and the normal.
      *  On a planar sheet it is about the sheet's normal. KIRI_ERROR_ARGUMENT: the pin holds a point. */

@@ -1526,8 +1526,8 @@ function Sheet:hingeLine(from, to)
 end
 
 --- Sets the target of the pin's point, or of the middle of its line (m, world), for the end of the next tick and
---- until the next call. The pin moves there evenly within the tick. With KIRI_SKINNING_SMOOTH pins and clamps hold
---- the visible surface; a clamp holds its mean along the line for each piece.
+--- until the next call. The pin moves there evenly within the tick. With KIRI_SKINNING_SMOOTH pins hold the visible
+--- surface. A clamp that alone holds a piece holds the mean of the visible line; else that may be off by 0.5 mm.
 function Pin:setTarget(target)
     local world = self.world
     local result = C.kiriPin_SetTarget(world.c, self.id, vector(1, target, 3))

@@ -806,8 +806,8 @@ KIRI_API kiriResult kiriSheet_HingeLine(kiriWorld* world, kiriSheet sheet, const
                                         kiriPin* hinge);
 
 /* Sets the target of the pin's point, or of the middle of its line (m, world), for the end of the next tick and until
-   the next call. The pin moves there evenly within the tick. With KIRI_SKINNING_SMOOTH pins and clamps hold the visible
-   surface; a clamp holds its mean along the line for each piece. */
+   the next call. The pin moves there evenly within the tick. With KIRI_SKINNING_SMOOTH pins hold the visible
+   surface. A clamp that alone holds a piece holds the mean of the visible line; else that may be off by 0.5 mm. */
 KIRI_API kiriResult kiriPin_SetTarget(kiriWorld* world, kiriPin pin, const float target[3]);
 
 /* Sets the target and the rotation of the line's material: columns are the directions of u and v and the normal. On a

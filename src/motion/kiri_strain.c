@@ -236,7 +236,7 @@ static AxisFade FadeOf(const MeanAxes* axes)
 }
 
 /* Measures the excess of the gap over `most`: of its part along the mean normal and, as the axes fade, of all of it. In a
-   fold the row is that of the length, with or without an excess: the solver uses it for steps that run into the stop. */
+   fold the row derives the length, with or without an excess: the solver uses it for steps that run into the stop. */
 static void MeasureStop(double most, const MeanAxes* axes, const EndVectors* m, double* strain, kiriStrainRow* row)
 {
     AxisFade fade = FadeOf(axes);
@@ -319,9 +319,7 @@ static void TakeArc(const kiriLink* link, const kiriFrameData* const frames[2], 
 static void FadeStrains(const MeanAxes* axes, double bending, const kiriStrainRow* byBending, double* strain,
                         kiriStrainRow* rows)
 {
-    AxisFade fade = FadeOf(axes);
-    double twist = strain[KIRI_TWIST], angle = sqrt(bending * bending + twist * twist);
-    double share = axes->open * axes->open / FADING, root = sqrt(1.0 + fade.keep), lost = (1.0 - share) * root;
+    double twist = strain[KIRI_TWIST], share = axes->open * axes->open / FADING;
     strain[KIRI_FOLD] = 0.0;
     if (rows != NULL) {
         memset(&rows[KIRI_FOLD], 0, sizeof(rows[KIRI_FOLD]));
@@ -329,6 +327,8 @@ static void FadeStrains(const MeanAxes* axes, double bending, const kiriStrainRo
     if (!(share < 1.0)) {
         return;
     }
+    AxisFade fade = FadeOf(axes);
+    double angle = sqrt(bending * bending + twist * twist), root = sqrt(1.0 + fade.keep), lost = (1.0 - share) * root;
     strain[KIRI_FOLD] = lost * angle;
     if (rows != NULL && angle > 0.0) {
         AddRow(&rows[KIRI_FOLD], lost * bending / angle, byBending);

@@ -942,13 +942,34 @@ static bool FindHoldOff(const kiriSheetData* sheet, int32_t first, kiriVec3* off
     return length > 0.0;
 }
 
+/* Returns true if a pin, another line or the host holds the piece too. */
+static bool IsHeldElsewhere(const kiriSheetData* sheet, const kiriPinShare* hold)
+{
+    const int32_t* pieces = sheet->layout.framePiece.data;
+    int32_t piece = pieces[hold->share.frame];
+    bool isHeld = false;
+    for (int32_t i = 0; !isHeld && i < sheet->pins.count; ++i) {
+        isHeld = sheet->pins.data[i].type == KIRI_PIN_POINT && pieces[sheet->layout.pinFrame.data[i]] == piece;
+    }
+    for (int32_t k = 0; !isHeld && k < sheet->layout.pinShares.count; ++k) {
+        const kiriPinShare* other = &sheet->layout.pinShares.data[k];
+        isHeld = other->pin != hold->pin && pieces[other->share.frame] == piece;
+    }
+    for (int32_t f = 0; !isHeld && f < sheet->frames.count; ++f) {
+        isHeld = sheet->frames.data[f].held && pieces[f] == piece;
+    }
+    return isHeld;
+}
+
 /* Moves all shares of a piece by one offset. Separate offsets would bend the line: a sheet that is curled along its
-   clamp is far too stiff, and its surface turns there, which needs larger offsets. */
+   clamp is far too stiff, and its surface turns there, which needs larger offsets. No offset if something else holds the
+   piece: the clamp would pull against that until the visible edge is on the line, and a strip between two clamps would
+   be under tension. */
 static void SettleClamp(kiriSheetData* sheet, int32_t first, double dt)
 {
     kiriPinShares* shares = &sheet->layout.pinShares;
-    kiriVec3 off;
-    if (!FindHoldOff(sheet, first, &off)) {
+    kiriVec3 off = { 0.0, 0.0, 0.0 };
+    if (!IsHeldElsewhere(sheet, &shares->data[first]) && !FindHoldOff(sheet, first, &off)) {
         return;
     }
     for (int32_t k = first; k < shares->count && shares->data[k].pin == shares->data[first].pin; ++k) {

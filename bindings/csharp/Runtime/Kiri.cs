@@ -1383,8 +1383,9 @@ namespace Kiri
         }
 
         /// <summary>Sets the target of the pin's point, or of the middle of its line (m, world), for the end of the next tick
-        /// and until the next call. The pin moves there evenly within the tick. With KIRI_SKINNING_SMOOTH pins and
-        /// clamps hold the visible surface; a clamp holds its mean along the line for each piece.</summary>
+        /// and until the next call. The pin moves there evenly within the tick. With KIRI_SKINNING_SMOOTH pins hold the
+        /// visible surface. A clamp that alone holds a piece holds the mean of the visible line; else that may be off
+        /// by 0.5 mm.</summary>
         public void SetTarget(Float3 target)
         {
             World.Check(Native.kiriPin_SetTarget(World.Handle, Id, (float*)&target));

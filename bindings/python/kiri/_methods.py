@@ -474,8 +474,9 @@ class Pin:
 
     def set_target(self, target):
         """Sets the target of the pin's point, or of the middle of its line (m, world), for the end of the next tick
-        and until the next call. The pin moves there evenly within the tick. With KIRI_SKINNING_SMOOTH pins and
-        clamps hold the visible surface; a clamp holds its mean along the line for each piece.
+        and until the next call. The pin moves there evenly within the tick. With KIRI_SKINNING_SMOOTH pins hold the
+        visible surface. A clamp that alone holds a piece holds the mean of the visible line; else that may be off
+        by 0.5 mm.
         """
         return self.world.call('kiriPin_SetTarget', self.id, core.vector(target, 3))
 

@@ -2830,8 +2830,8 @@ impl Pin {
 
     /// Sets the target of the pin's point, or of the middle of its line (m, world), for the end of
     /// the next tick and until the next call. The pin moves there evenly within the tick. With
-    /// [`Skinning::Smooth`] pins and clamps hold the visible surface; a clamp holds its mean along
-    /// the line for each piece.
+    /// [`Skinning::Smooth`] pins hold the visible surface. A clamp that alone holds a piece holds
+    /// the mean of the visible line; else that may be off by 0.5 mm.
     pub fn set_target(self, world: &mut World, target: [f32; 3]) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriPin_SetTarget(world.raw_mut(), self.raw(), target.as_ptr()) }, world)?;
