@@ -123,19 +123,14 @@ static bool IsSameFrame(const kiriSheetData* sheet, int32_t i)
            frame->inertia[2] == density * about.vv;
 }
 
-static bool IsEarlierLink(const kiriLink* a, const kiriLink* b)
-{
-    return a->i != b->i ? a->i < b->i : a->j < b->j;
-}
-
 /* Links are sorted. */
 static void TouchByLinks(kiriSheetData* sheet)
 {
     int32_t o = 0, n = 0, oldCount = sheet->links.links.count, nextCount = sheet->links.next.count;
     while (o < oldCount || n < nextCount) {
         const kiriLink *old = &sheet->links.links.data[o], *next = &sheet->links.next.data[n];
-        bool isGone = n == nextCount || (o < oldCount && IsEarlierLink(old, next));
-        bool isNew = !isGone && (o == oldCount || IsEarlierLink(next, old));
+        bool isGone = n == nextCount || (o < oldCount && kiriLink_IsBefore(old, next));
+        bool isNew = !isGone && (o == oldCount || kiriLink_IsBefore(next, old));
         if (isGone || isNew || memcmp(old, next, sizeof(*old)) != 0) {
             NextOfFrame(sheet, isGone ? old->i : next->i)->isTouched = true;
             NextOfFrame(sheet, isGone ? old->j : next->j)->isTouched = true;
@@ -291,14 +286,15 @@ static bool CloseEnds(const LineWork* work, int32_t frame, double at)
     return any;
 }
 
-static kiriLineShare* FindShare(const LineWork* work, int32_t frame)
+kiriLineShare* kiriOwner_ShareOf(kiriSheetData* sheet, const kiriLineShare* none)
 {
-    for (int32_t k = 0; k < work->sheet->lineShares.count; ++k) {
-        if (work->sheet->lineShares.data[k].frame == frame) {
-            return &work->sheet->lineShares.data[k];
+    for (int32_t k = 0; k < sheet->lineShares.count; ++k) {
+        if (sheet->lineShares.data[k].frame == none->frame) {
+            return &sheet->lineShares.data[k];
         }
     }
-    return NULL;
+    bool ok = kiriArray_Push(sheet->memory, &sheet->lineShares, *none);
+    return ok ? &sheet->lineShares.data[sheet->lineShares.count - 1] : NULL;
 }
 
 /* Adds a part of the line to the share of `frame`. `other` is the frame on the other side, which takes half of a load;
@@ -308,14 +304,14 @@ static bool AddPart(const LineWork* work, int32_t frame, int32_t other, const ki
     double a = part->from, b = part->to, length = b - a;
     bool isShared = other != KIRI_NONE && other != frame, isAlone = !isShared || !AreLinked(work, frame, other);
     double loaded = isShared ? 0.5 : 1.0;
-    kiriLineShare* share = FindShare(work, frame);
-    if (share == NULL || share->ends[1] != a) {
-        bool isOpen = !CloseEnds(work, frame, a);
-        kiriLineShare none = { frame, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, { a, b }, { isOpen, true } };
-        if (share == NULL && !kiriArray_Push(work->sheet->memory, &work->sheet->lineShares, none)) {
-            return false;
-        }
-        share = FindShare(work, frame);
+    const kiriLineShare none = { frame, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, { a, a }, { true, true } };
+    kiriLineShare* share = kiriOwner_ShareOf(work->sheet, &none);
+    if (share == NULL) {
+        return false;
+    }
+    if (share->length == 0.0 || share->ends[1] != a) {
+        bool isLinked = CloseEnds(work, frame, a);
+        share->open[0] = share->open[0] && !(share->length == 0.0 && isLinked);
     }
     share->length += length;
     share->first += 0.5 * length * (a + b);

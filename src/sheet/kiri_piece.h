@@ -36,6 +36,9 @@ int32_t kiriOwner_OfNode(const kiriSheetData* sheet, int32_t node, bool isStaged
    meets no material. The ends must differ. isStaged: uses the regions of the next commit. Fails on out of memory. */
 bool kiriOwner_FindShares(kiriSheetData* sheet, kiriLatticePoint from, kiriLatticePoint to, bool isStaged);
 
+/* Returns the share of a frame in sheet->lineShares. Adds `none` if the frame has none yet. Null: out of memory. */
+kiriLineShare* kiriOwner_ShareOf(kiriSheetData* sheet, const kiriLineShare* none);
+
 /* Lists of the items of each piece, built when the host requests them. */
 
 /* Lists the items of each piece in ascending order. pieces[i] is the piece of item i, or KIRI_NONE. Fails on out of

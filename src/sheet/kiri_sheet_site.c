@@ -48,19 +48,13 @@ static bool AddSevered(const SeverWork* work, int32_t link, double part)
 /* Adds a stretch of the line around t to the share of frame `to`. */
 static bool AddAcross(const SeverWork* work, int32_t to, const kiriLineShare* own, double t, double length)
 {
-    kiriLineShare* share = NULL;
     double low = own->ends[0] + 0.5 * length, high = own->ends[1] - 0.5 * length;
-    kiriLineShare none = {
+    const kiriLineShare none = {
         to, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, { own->ends[0], own->ends[1] }, { own->open[0], own->open[1] }
     };
-    for (int32_t k = 0; k < work->sheet->lineShares.count; ++k) {
-        share = work->sheet->lineShares.data[k].frame == to ? &work->sheet->lineShares.data[k] : share;
-    }
+    kiriLineShare* share = kiriOwner_ShareOf(work->sheet, &none);
     if (share == NULL) {
-        if (!kiriArray_Push(work->sheet->memory, &work->sheet->lineShares, none)) {
-            return false;
-        }
-        share = &work->sheet->lineShares.data[work->sheet->lineShares.count - 1];
+        return false;
     }
     t = kiriMin(high, t);
     t = kiriMax(low, t);
