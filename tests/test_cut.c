@@ -190,10 +190,10 @@ static void HandMadeCases(void** state)
 
 /* ---- Odd meshes ---- */
 
-static kiriResult AddLoose(Host* host, const float* corners, int32_t triangles, kiriSheet* sheet)
+static kiriResult AddLoose(Host* host, const float* corners, int32_t triangles, double snap, kiriSheet* sheet)
 {
     static const int32_t indices[12] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11 };
-    kiriSheetDef def = DefOf(8, 0.0);
+    kiriSheetDef def = DefOf(8, snap);
     def.restPositions = corners;
     def.vertexCount = 3 * triangles;
     def.indices = indices;
@@ -211,7 +211,7 @@ static void TouchesSharpCorners(void** state)
         Host host;
         kiriSheet sheet;
         Host_Start(&host);
-        OK(AddLoose(&host, triangles[up], 1, &sheet));
+        OK(AddLoose(&host, triangles[up], 1, 0.0, &sheet));
         CutLine(&host, sheet, line, 2);
         assert_int_equal(Host_Counts(&host, sheet).triangles, 1);
         Host_Stop(&host);
@@ -267,7 +267,7 @@ static void MakesNoEdgeTwice(void** state)
             corners[Random(&seed) % 24] += far * ((float)(Random(&seed) % 5) - 2.0f);
         }
         corners[15] = 536870912.0f; /* lattice steps are 1 */
-        if (AddLoose(&host, corners, 4, &sheet) == KIRI_OK) {
+        if (AddLoose(&host, corners, 4, 0.0, &sheet) == KIRI_OK) {
             for (int i = 0; i < 6; ++i) {
                 float xy[8];
                 for (int k = 0; k < 8; ++k) {
@@ -282,6 +282,30 @@ static void MakesNoEdgeTwice(void** state)
         Host_Stop(&host);
     }
     assert_in_range(made, 50, 600);
+}
+
+/* Blades at a slanted side, with a snap distance of one lattice step, do not pull the side along: the validator finds
+   vertices that are not in their source triangles. */
+static void PullsNoOutlineAlong(void** state)
+{
+    (void)state;
+    static const float corners[24] = { 0,    0, 2048, 0,          2048, 2048, 0,    0, 2048, 2048, 0,    1792,
+                                       2048, 0, 4096, 536870912,  2048, 2048, 4096, 0, 4096, 2048, 2048, 2048 };
+    static const float lines[6][8] = {
+        { -256, 4610, 4096, 1794, 3328, 2818, 0, -512 },   { 768, 2818, 1026, 4610, 4608, 3584, 2304, 2050 },
+        { 256, 2, 3842, 1536, -510, 512, 4608, 514 },      { 768, 3586, 4354, 2816, 0, 2048, 3584, 768 },
+        { 3586, 1792, 1536, 1536, 2050, 2818, 3842, 2048 }, { 2304, 3072, 3330, -510, 3074, 2818, 1024, 3840 }
+    };
+    Host host;
+    kiriSheet sheet;
+    Host_Start(&host);
+    OK(AddLoose(&host, corners, 4, 1.0, &sheet));
+    for (int i = 0; i < 6; ++i) {
+        Host_Cut(&host, sheet, lines[i], 4);
+        kiriResult result = Host_Tick(&host, 1e-3f, 1);
+        assert_true(result == KIRI_OK || result == KIRI_DIVERGED);
+    }
+    Host_Stop(&host);
 }
 
 /* ---- Random cuts ---- */
@@ -455,6 +479,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(HandMadeCases),    cmocka_unit_test(TouchesSharpCorners),
         cmocka_unit_test(CutsThroughSplitSides), cmocka_unit_test(MakesNoEdgeTwice),
+        cmocka_unit_test(PullsNoOutlineAlong),
         cmocka_unit_test(LipsFollowTheBlade), cmocka_unit_test(DoesNotDrift),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

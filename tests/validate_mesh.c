@@ -253,7 +253,7 @@ static bool Check_Provenance(Check* check, const kiriMeshData* mesh)
     }
     for (int32_t v = 0; v < mesh->vertices.count; ++v) {
         const kiriVertex* vertex = &mesh->vertices.data[v];
-        double x = 0.0, y = 0.0, sum = 0.0, near = 5e-7 * 536870912.0;
+        double x = 0.0, y = 0.0, sum = 0.0, near = 1.5e-7 * 536870912.0;
         REQUIRE(found[v], "vertex %d takes its source %d from elsewhere", v, vertex->source);
         float share[3];
         kiriLatticePoint corners[3];
@@ -273,7 +273,7 @@ static bool Check_Provenance(Check* check, const kiriMeshData* mesh)
     return true;
 }
 
-/* What vertices born since kiriMesh_Begin say about their parents. */
+/* What vertices born since kiriMesh_Begin say about their parents. Beside thin triangles a split is up to 16 steps off. */
 static bool Check_Births(Check* check, const kiriMeshData* mesh)
 {
     REQUIRE(mesh->births.count == mesh->vertices.count - mesh->oldVertexCount, "%d births, %d vertices before, %d now",
@@ -290,7 +290,7 @@ static bool Check_Births(Check* check, const kiriMeshData* mesh)
                 y += birth->share[k] * mesh->vertices.data[birth->parent[k]].at.y;
             }
         }
-        REQUIRE(IsNear(x, at.x, 4.0) && IsNear(y, at.y, 4.0), "vertex %d is not where its parents have it", vertex);
+        REQUIRE(IsNear(x, at.x, 24.0) && IsNear(y, at.y, 24.0), "vertex %d is not where its parents have it", vertex);
     }
     return true;
 }

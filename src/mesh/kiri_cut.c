@@ -637,13 +637,14 @@ static void Look(BladeWalk* walk)
     tip->phase = KIRI_BLADE_WALKS;
 }
 
-/* Goes on along a lip, if it comes back on the line before the goal, or leads on beside the line. */
+/* Goes on along a lip, if it comes back on the line before the goal, or leads on beside the line. With a reach of a few
+   steps rounding would pull the outline along. */
 static bool FollowLip(BladeWalk* walk)
 {
     kiriBladeTip* tip = walk->tip;
     kiriCorridor corridor = CorridorOf(walk, tip->from, tip->to);
     kiriLipPoint place;
-    bool follows = tip->vertex != KIRI_NONE && kiriLip_Follow(&corridor, tip->vertex, tip->goal, &place);
+    bool follows = tip->vertex != KIRI_NONE && walk->reach >= SLACK && kiriLip_Follow(&corridor, tip->vertex, tip->goal, &place);
     walk->effort += corridor.effort;
     int32_t vertex = follows ? VertexOnEdge(walk, place.edge, place.at) : KIRI_NONE;
     follows = follows && !walk->failed && IsNearerGoal(walk, VertexPoint(walk, vertex)) &&
