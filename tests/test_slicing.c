@@ -114,13 +114,14 @@ static void KeepPart(Game* game, kiriSheet part)
     game->made += 1;
 }
 
-/* Detaches each new piece, and destroys crumbs. */
+/* Detaches each new piece, and destroys crumbs. Then old parts may go: before, they may still have events. */
 static void DetachAll(Game* game)
 {
     enum { MOST = 256 };
     kiriEvent come[MOST];
+    kiriSheet parts[MOST];
     const kiriEvent* events;
-    int32_t count;
+    int32_t count, partCount = 0;
     OK(kiriWorld_GetEvents(game->host.world, &events, &count));
     count = count < MOST ? count : MOST;
     memcpy(come, events, sizeof(kiriEvent) * (size_t)count);
@@ -135,8 +136,11 @@ static void DetachAll(Game* game)
             part = come[i].sheet;
         }
         if (part != 0) {
-            KeepPart(game, part);
+            parts[partCount++] = part;
         }
+    }
+    for (int32_t i = 0; i < partCount; ++i) {
+        KeepPart(game, parts[i]);
     }
 }
 
