@@ -637,8 +637,8 @@ static void Look(BladeWalk* walk)
     tip->phase = KIRI_BLADE_WALKS;
 }
 
-/* Goes on along a lip, if it comes back on the line before the goal, or leads on beside the line. With a reach of a few
-   steps rounding would pull the outline along. */
+/* Goes on along a lip, if it comes back on the line before the goal, or leads on beside the line. Rounding would pull the
+   outline along if the reach were a few steps. */
 static bool FollowLip(BladeWalk* walk)
 {
     kiriBladeTip* tip = walk->tip;

@@ -53,6 +53,9 @@ typedef struct BladeWork {
     kiriSheetData* sheet;
     double snap;      /* m */
     bool isHeld;      /* the edge stays: only the material moves */
+    bool isMessy;     /* the edge is in many layers, for it lies in the sheet: its ways mean little */
+    bool joins;       /* else and if it moves: ways that begin or end amid the material go on to other ways */
+    double unseen;    /* m: the farthest that an unseen way may go */
     int32_t oldCount; /* tracks before the step */
     kiriVec3 drift;   /* motion of the material, of the last layer handled */
     int32_t firstPending;
@@ -67,9 +70,15 @@ typedef struct BladeWork {
 #define PAST 0.5       /* past a border a cut goes on by this, less than blades snap to: so it cuts no notch beyond */
 #define STRAIGHT 0.25  /* tolerance of straight ways */
 #define DEGENERATE 0.25
-#define BESIDE_LIP 1.5 /* a way that stays nearer to lips is in a slit */
+#define BESIDE_LIP 3.0 /* a way that stays nearer to lips is in a slit */
 #define ON_LIP 0.75    /* points nearer to a lip are on it */
 #define SLIT 64.0      /* an edge that stays nearer to a slit slides in it */
+
+/* Between two slits no lip is nearer to the middle than this share of their distance. */
+#define ACROSS 0.3
+
+/* The farthest that an unseen way may go, as a share of the sheet's longer side. */
+#define UNSEEN 0.125
 
 /* Shares of the length of a loop: it passes its beginning nearer than CLOSING, and is closed OVERLAP later. It is ROUND
    times as long as the straight way back: a way out and back encloses nothing. */
@@ -164,24 +173,37 @@ static kiriVec2 FootOnWay(kiriVec2 a, kiriVec2 b, kiriVec2 p)
     return kiriVec2_Add(a, kiriVec2_Scale(share < 0.0 ? 0.0 : share > 1.0 ? 1.0 : share, way));
 }
 
-static void FindLipInTriangle(const kiriMeshData* mesh, int32_t triangle, kiriVec2 rest, bool isOpen, double* distance,
+static bool FindSlit(const BladeWork* work, kiriVec2 rest, double distance, kiriVec2* slit);
+
+/* The edges that FindLipNear looks for: the outline, lips too, or lips of other slits than the place is on. There is
+   material half-way to such a lip. */
+enum { OUTLINE, OUTLINE_AND_LIPS, OUTLINE_AND_LIPS_ACROSS };
+
+static void FindLipInTriangle(const BladeWork* work, int32_t triangle, kiriVec2 rest, int which, double* distance,
                               kiriVec2* lip)
 {
+    const kiriMeshData* mesh = &work->sheet->mesh;
     for (int32_t h = 3 * triangle; h < 3 * triangle + 3; ++h) {
-        if (kiriMesh_Twin(mesh, h) == KIRI_NONE || (isOpen && kiriMesh_IsOpen(mesh, h))) {
-            kiriVec2 foot = FootOnWay(
-                kiriMesh_Local(mesh, mesh->vertices.data[kiriMesh_Tail(mesh, h)].at),
-                kiriMesh_Local(mesh, mesh->vertices.data[kiriMesh_Tail(mesh, kiriEdge_Next(h))].at), rest);
-            double d = RestDistance(foot, rest);
-            *lip = d < *distance ? foot : *lip;
-            *distance = d < *distance ? d : *distance;
+        bool isOutline = kiriMesh_Twin(mesh, h) == KIRI_NONE;
+        if (!isOutline && (which == OUTLINE || !kiriMesh_IsOpen(mesh, h))) {
+            continue;
+        }
+        kiriVec2 foot = FootOnWay(kiriMesh_Local(mesh, kiriMesh_TailAt(mesh, h)),
+                                  kiriMesh_Local(mesh, kiriMesh_HeadAt(mesh, h)), rest);
+        kiriVec2 middle = kiriVec2_Scale(0.5, kiriVec2_Add(rest, foot)), slit;
+        double d = RestDistance(foot, rest);
+        if (d < *distance && (isOutline || which == OUTLINE_AND_LIPS ||
+                              (d > work->snap && !FindSlit(work, middle, ACROSS * d, &slit)))) {
+            *lip = foot;
+            *distance = d;
         }
     }
 }
 
-/* Finds the point of the outline, or of lips too, that is nearest to a place, up to a distance (m). */
-static bool FindLipNear(const kiriMeshData* mesh, kiriVec2 rest, double distance, bool isOpen, kiriVec2* lip)
+/* Finds the point of these edges that is nearest to a place, up to a distance (m). */
+static bool FindLipNear(const BladeWork* work, kiriVec2 rest, double distance, int which, kiriVec2* lip)
 {
+    const kiriMeshData* mesh = &work->sheet->mesh;
     kiriLatticePoint at = kiriMesh_Snap(mesh, rest);
     kiriStrips strips = kiriStrips_Begin(&mesh->squares, at, at, distance / mesh->step);
     double least = distance;
@@ -189,7 +211,7 @@ static bool FindLipNear(const kiriMeshData* mesh, kiriVec2 rest, double distance
         for (int32_t i = 0; i < strips.count; ++i) {
             int32_t slot = mesh->squares.head[strips.square + i * strips.stride];
             for (; slot != KIRI_NONE; slot = mesh->squares.nodes.data[slot].next) {
-                FindLipInTriangle(mesh, mesh->squares.nodes.data[slot].triangle, rest, isOpen, &least, lip);
+                FindLipInTriangle(work, mesh->squares.nodes.data[slot].triangle, rest, which, &least, lip);
             }
         }
     }
@@ -220,23 +242,16 @@ static bool FindPending(const BladeWork* work, int32_t first, int32_t except, ki
 /* Finds the nearest point of the lips of the sheet, in the mesh or pending, up to a distance (m). */
 static bool FindSlit(const BladeWork* work, kiriVec2 rest, double distance, kiriVec2* slit)
 {
-    bool isFound = FindLipNear(&work->sheet->mesh, rest, distance, true, slit);
+    bool isFound = FindLipNear(work, rest, distance, OUTLINE_AND_LIPS, slit);
     distance = isFound ? RestDistance(*slit, rest) : distance;
     return FindPending(work, 0, NO_STROKE, rest, distance, slit) || isFound;
-}
-
-/* Shortens a loop to the straight way from its start. */
-static void StraightenLoop(Track* track)
-{
-    track->loop.isPassed = false;
-    track->loop.length = RestDistance(track->loop.start, track->rest);
 }
 
 /* Puts a track elsewhere in the slit. */
 static bool Slide(BladeWork* work, Track* track, kiriVec2 slit)
 {
+    track->loop.length += RestDistance(track->rest, slit);
     track->rest = slit;
-    StraightenLoop(track);
     if (track->cut == NULL && track->stroke == KIRI_NONE) {
         return true;
     }
@@ -249,7 +264,6 @@ static bool Slide(BladeWork* work, Track* track, kiriVec2 slit)
 static bool LeadHeld(BladeWork* work, Track* track, kiriVec2 rest)
 {
     enum { MOST = 64 };
-    const kiriMeshData* mesh = &work->sheet->mesh;
     double near = SLIT * work->snap, length = RestDistance(track->rest, rest);
     int32_t count = length < 0.5 * MOST * near ? 1 + (int32_t)(length / (0.5 * near)) : 1;
     kiriVec2 from = track->rest;
@@ -263,8 +277,8 @@ static bool LeadHeld(BladeWork* work, Track* track, kiriVec2 rest)
                  AddPoint(work, track, at);
         } else if (!isNear) {
             ok = AddPoint(work, track, at);
-        } else if (FindLipNear(mesh, at, near, false, &other) &&
-                   !FindLipNear(mesh, track->rest, work->snap, false, &here)) {
+        } else if (FindLipNear(work, at, near, OUTLINE, &other) &&
+                   !FindLipNear(work, track->rest, work->snap, OUTLINE, &here)) {
             ok = AddPoint(work, track, at) && AddPoint(work, track, other);
         } else if (!FindSlit(work, kiriVec2_Scale(0.5, kiriVec2_Add(track->rest, slit)), 0.25 * near,
                                        &other)) {
@@ -273,7 +287,8 @@ static bool LeadHeld(BladeWork* work, Track* track, kiriVec2 rest)
             ok = Slide(work, track, slit);
         }
     }
-    StraightenLoop(track);
+    track->loop.isPassed = false;
+    track->loop.length = RestDistance(track->loop.start, track->rest);
     return ok;
 }
 
@@ -282,20 +297,20 @@ static bool LeadHeld(BladeWork* work, Track* track, kiriVec2 rest)
 /* Follows a slit along a way that keeps to it. There is nothing to cut then, and the track goes on from the slit
    itself, not from beside it. The feet of points a snap apart must lead along lips: one that jumps to another slit
    would leave a bridge between the slits. A way to the outline is cut, so that it parts. */
-static bool IsInSlit(const BladeWork* work, kiriVec2 from, kiriVec2 to, kiriVec2* end)
+static bool IsInSlit(const BladeWork* work, kiriVec2 from, kiriVec2 to, kiriVec2* end, kiriVec2* start)
 {
     enum { MOST_PLACES = 4096 };
     double length = RestDistance(from, to) / work->snap;
     int32_t places = 1 + (int32_t)fmin(length, MOST_PLACES);
-    kiriVec2 slit, last;
+    kiriVec2 slit, middle;
     bool isInSlit = places <= MOST_PLACES && FindSlit(work, to, BESIDE_LIP * work->snap, end) &&
-                    !FindLipNear(&work->sheet->mesh, to, 2.0 * BESIDE_LIP * work->snap, false, &slit);
-    last = *end;
+                    !FindLipNear(work, to, 2.0 * BESIDE_LIP * work->snap, OUTLINE, &slit);
+    *start = *end;
     for (int32_t i = places - 1; isInSlit && i >= 0; --i) {
         kiriVec2 at = kiriVec2_Add(from, kiriVec2_Scale((double)i / places, kiriVec2_Sub(to, from)));
         isInSlit = FindSlit(work, at, BESIDE_LIP * work->snap, &slit) &&
-                   FindSlit(work, kiriVec2_Scale(0.5, kiriVec2_Add(last, slit)), ON_LIP * work->snap, &last);
-        last = slit;
+                   FindSlit(work, kiriVec2_Scale(0.5, kiriVec2_Add(*start, slit)), ON_LIP * work->snap, &middle);
+        *start = slit;
     }
     return isInSlit;
 }
@@ -305,9 +320,11 @@ static bool LeadTrack(BladeWork* work, Track* track, kiriVec2 rest)
     if (work->isHeld) {
         return LeadHeld(work, track, rest);
     }
-    kiriVec2 slit;
-    if (IsInSlit(work, track->rest, rest, &slit)) {
-        return Slide(work, track, slit);
+    kiriVec2 slit, foot;
+    if (IsInSlit(work, track->rest, rest, &slit, &foot)) {
+        bool isOn = RestDistance(track->rest, foot) < ON_LIP * work->snap;
+        return (isOn || (track->cut == NULL && track->stroke == KIRI_NONE) || AddPoint(work, track, foot)) &&
+               Slide(work, track, slit);
     }
     NotePassing(track, rest);
     bool ok = AddPoint(work, track, rest);
@@ -352,6 +369,29 @@ static bool EndTrack(BladeWork* work, Track* track)
 static kiriVec3 EdgeAt(const kiriVec3* edge, double share)
 {
     return kiriVec3_AddScaled(edge[0], share, kiriVec3_Sub(edge[1], edge[0]));
+}
+
+/* Returns how far a way may go that is not seen, where the edge left a place or came to it: as far as that may be where
+   the edge has left the whole sheet, and not by its ends. */
+static double UnseenWay(const BladeWork* work, const kiriVec3* edge, kiriVec3 at)
+{
+    kiriVec3 way = kiriVec3_Sub(edge[1], edge[0]), along = kiriVec3_Normalize(way), left = kiriVec3_Sub(at, edge[0]);
+    double distance = kiriVec3_Length(kiriVec3_Cross(along, left)), share = kiriVec3_Dot(along, left);
+    bool isBeside = distance > SAME * work->snap && share > 0.0 && share < kiriVec3_Length(way);
+    bool hasLeft = work->crossings.count == 0 && isBeside;
+    return hasLeft ? work->unseen : kiriMin(2.0 * distance + 8.0 * work->snap, work->unseen);
+}
+
+/* Finds where a way goes on that begins or ends amid the material: at the outline, at another slit or at another way of
+   this step, whichever is nearest. An edge that has left the whole sheet left it over the outline, if that is near. */
+static bool FindOther(const BladeWork* work, kiriVec2 rest, int32_t stroke, double near, kiriVec2* place)
+{
+    if (work->crossings.count == 0 && FindLipNear(work, rest, near, OUTLINE, place)) {
+        return true;
+    }
+    bool isFound = FindLipNear(work, rest, near, work->joins ? OUTLINE_AND_LIPS_ACROSS : OUTLINE, place);
+    near = isFound ? RestDistance(rest, *place) : near;
+    return FindPending(work, work->firstPending, stroke, rest, near, place) || isFound;
 }
 
 /* ---- Places in the material ---- */
@@ -540,12 +580,15 @@ static bool FollowLine(BladeWork* work, Track* track, const kiriSectionLine* lin
     const kiriSectionPoint* end = EndOfWay(work, line, !fromLast);
     int32_t type = line->end[fromLast ? 0 : 1];
     kiriCrossing* crossing =
-        type == KIRI_SIDE_TO ? NearestCrossing(work, end->rest, SAME * work->snap, NULL) : NULL;
+        type != KIRI_SIDE_FROM ? NearestCrossing(work, end->rest, SAME * work->snap, NULL) : NULL;
     bool isStill = crossing != NULL && RestDistance(track->rest, crossing->rest) < SAME * work->snap;
     /* Over a fold the material of the other track has gone another way, and where the edge only touches the fold that
        counts for much: so that track need only be nearer to the end of the line than this one. */
     Track* other =
         type == KIRI_SIDE_FROM ? NearestTrack(work, track, end->rest, RestDistance(track->rest, end->rest)) : NULL;
+    if (type == KIRI_SIDE_FROM && other == NULL) {
+        return true; /* the material moved otherwise: the track is lost where it is */
+    }
     bool ok = isStill || (FindPath(work, line, fromLast) && LeadAlong(work, track));
     if (!ok || crossing != NULL) {
         return ok && GoOn(work, track, crossing);
@@ -553,8 +596,7 @@ static bool FollowLine(BladeWork* work, Track* track, const kiriSectionLine* lin
     if (other != NULL) {
         ok = LeadTrack(work, track, other->rest) && EndTrack(work, other);
     }
-    bool isLost = type == KIRI_SIDE_FROM && other == NULL;
-    return ok && (isLost || EndTrack(work, track));
+    return ok && EndTrack(work, track);
 }
 
 /* Leads a track from where the edge would be had it moved with the material, to where the edge is. */
@@ -610,30 +652,29 @@ static bool AddTrack(BladeWork* work, const kiriCrossing* crossing, kiriVec2 res
     return kiriArray_Push(&work->memory, &work->tracks, track);
 }
 
-/* The farthest that an unseen way over a border or a lip may go, as a share of the sheet's longer side. */
-#define BORDER_DISTANCE 0.05
-
 /* Cuts from the beginning of the line to the crossing at its other end. */
-static bool EnterAlong(BladeWork* work, kiriCrossing* crossing, const kiriSectionLine* line, bool fromLast,
-                       double near)
+static bool EnterAlong(BladeWork* work, kiriCrossing* crossing, const kiriSectionLine* line, bool fromLast, double near)
 {
     const kiriSectionPoint* start = EndOfWay(work, line, fromLast);
+    double length = RestDistance(crossing->rest, start->rest);
     int32_t type = line->end[fromLast ? 1 : 0];
     /* A line over a fold is in the plane of the crossing at its other end, and begins beside another one: that need
        only be nearer to its beginning than this one. */
-    kiriCrossing* other =
-        type == KIRI_SIDE_TO
-            ? NearestCrossing(work, start->rest, RestDistance(crossing->rest, start->rest), crossing)
-            : NULL;
-    const Track* lost = type == KIRI_SIDE_FROM ? NearestTrack(work, NULL, start->rest, near) : NULL;
+    kiriCrossing* other = type == KIRI_SIDE_TO ? NearestCrossing(work, start->rest, length, crossing) : NULL;
+    bool isAmid = type == KIRI_SIDE_FROM || type == KIRI_SIDE_TO;
+    const Track* lost = type == KIRI_SIDE_FROM
+                            ? NearestTrack(work, NULL, start->rest, work->joins ? work->unseen : near)
+                            : NULL;
     if (!FindPath(work, line, fromLast)) {
         return false;
     }
     kiriVec2 from = lost != NULL ? lost->rest : work->path.data[0];
-    kiriLoop loop = lost != NULL ? lost->loop : LoopFrom(from, type != KIRI_END_BORDER);
+    bool isFound = work->joins && isAmid && lost == NULL && FindOther(work, from, KIRI_NONE, near, &from);
+    bool isInside = type != KIRI_END_BORDER && !isFound;
+    kiriLoop loop = lost != NULL ? lost->loop : LoopFrom(from, isInside);
     if (other != NULL) {
         other->triangle = TAKEN;
-        if (!AddTrack(work, other, from, LoopFrom(from, true))) {
+        if (!AddTrack(work, other, work->path.data[0], LoopFrom(from, isInside))) {
             return false;
         }
     }
@@ -676,13 +717,15 @@ static bool EnterLayer(BladeWork* work, kiriCrossing* crossing)
     if (Flatten(work, was, crossing->at, work->is, flat) && !FindLineTo(work, crossing, was, flat, &line, &fromLast)) {
         return false;
     }
+    double near = UnseenWay(work, was, crossing->at);
     if (line != NULL) {
-        double near = kiriVec3_Length(kiriVec3_Sub(EdgeAt(was, crossing->share), crossing->at));
-        return EnterAlong(work, crossing, line, !fromLast, 2.0 * near + SAME * work->snap);
+        return EnterAlong(work, crossing, line, !fromLast, near);
     }
-    bool ok = AddTrack(work, crossing, crossing->rest, LoopFrom(crossing->rest, true));
-    crossing->triangle = TAKEN;
-    return ok;
+    const Track* lost = NearestTrack(work, NULL, crossing->rest, near);
+    kiriVec2 from = lost != NULL ? lost->rest : crossing->rest;
+    bool isInside = lost != NULL || !work->joins || !FindOther(work, from, KIRI_NONE, near, &from);
+    return AddTrack(work, crossing, from, lost != NULL ? lost->loop : LoopFrom(from, isInside)) &&
+           GoOn(work, &work->tracks.data[work->tracks.count - 1], crossing);
 }
 
 /* ---- Layers that it has passed through ---- */
@@ -816,13 +859,14 @@ static bool EndLost(BladeWork* work, Track* track)
     kiriVec3 x;
     kiriVec2 place;
     bool ok = true;
-    if (Seen(work->sheet, track->rest, track->at, &x)) {
-        double near = 2.0 * kiriVec3_Length(kiriVec3_Sub(x, EdgeAt(work->is, track->share))) + 8.0 * work->snap;
-        near = kiriMin(near, BORDER_DISTANCE * KIRI_LATTICE * work->sheet->mesh.step);
-        bool isFound = FindLipNear(&work->sheet->mesh, track->rest, near, false, &place);
-        near = isFound ? RestDistance(track->rest, place) : near;
-        isFound = FindPending(work, work->firstPending, track->stroke, track->rest, near, &place) || isFound;
-        ok = !isFound || LeadTrack(work, track, place);
+    if (!work->isMessy && Seen(work->sheet, track->rest, track->at, &x)) {
+        bool isFound = FindOther(work, track->rest, track->stroke, UnseenWay(work, work->is, x), &place);
+        bool isAlone = isFound || track->loop.isPassed || !work->joins;
+        Track* other = isAlone ? NULL : NearestTrack(work, track, track->rest, work->unseen);
+        if (other != NULL) {
+            return LeadTrack(work, track, other->rest) && EndTrack(work, other) && EndTrack(work, track);
+        }
+        ok = isFound ? LeadTrack(work, track, place) : !track->loop.isPassed || CloseLoop(work, track);
     }
     return ok && EndTrack(work, track);
 }
@@ -831,6 +875,7 @@ static bool EndLost(BladeWork* work, Track* track)
 
 static bool StepThroughSheet(BladeWork* work)
 {
+    enum { MANY = 24 };
     kiriSheetData* sheet = work->sheet;
     bool ok = true;
     work->snap = sheet->settings.snap * sheet->mesh.step;
@@ -842,6 +887,9 @@ static bool StepThroughSheet(BladeWork* work)
     ok = kiriBounds_Update(sheet->seen.bounds, sheet->memory, &sheet->seen.surface) &&
          kiriSurface_Cross(&sheet->seen.surface, sheet->seen.bounds, work->is[0], work->is[1], DEGENERATE * work->snap,
                            &work->memory, &work->crossings);
+    work->isMessy = work->crossings.count + work->oldCount > MANY;
+    work->joins = !work->isHeld && !work->isMessy;
+    work->unseen = UNSEEN * KIRI_LATTICE * sheet->mesh.step;
     for (int32_t i = 0; ok && i < work->oldCount; ++i) {
         Track* track = &work->tracks.data[i];
         if (track->sheet == sheet && !track->isDone) {
