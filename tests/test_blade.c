@@ -469,31 +469,6 @@ static void TestAllSheets(void** state)
 
 /* ---- Sheets that move ---- */
 
-/* A sheet that falls past a blade that stands. */
-static void TestFallsPast(void** state)
-{
-    (void)state;
-    for (int side = 0; side < 2; ++side) {
-        Stage stage;
-        kiriSheetDef def = Def(16, 8);
-        def.axisV[1] = 0.0f;
-        def.axisV[2] = 1.0f;
-        def.position[2] = 0.1f;
-        Host_Start(&stage.host);
-        stage.sheet = Host_AddRectangle(&stage.host, &def, 1.0f, 1.0f, 16, 16);
-        Begin(&stage);
-        for (int k = 0; k < 50; ++k) {
-            const float from[3] = { 0.43f, -1.0f, 0.0f }, to[3] = { 0.43f, 1.0f, 0.0f };
-            OK(side == 0 ? kiriBlade_MoveEdge(stage.host.world, stage.blade, from, to)
-                         : kiriBlade_MoveEdge(stage.host.world, stage.blade, to, from));
-            Tick(&stage);
-        }
-        assert_int_equal(Pieces(&stage), 2);
-        assert_true(LeastArea(&stage) > 0.4);
-        Host_Stop(&stage.host);
-    }
-}
-
 /* A blade that falls with the sheet and crosses it meanwhile leaves one straight line, without hairs at its steps. */
 static void TestFallsAlong(void** state)
 {
@@ -735,7 +710,6 @@ int main(void)
         cmocka_unit_test(TestFold),
         cmocka_unit_test(TestSeveralPieces),
         cmocka_unit_test(TestAllSheets),
-        cmocka_unit_test(TestFallsPast),
         cmocka_unit_test(TestFallsAlong),
         cmocka_unit_test(TestDetached),
         cmocka_unit_test(TestOpensAtOnce),

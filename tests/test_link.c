@@ -320,35 +320,6 @@ static void BordersAreThoseOfVoronoi(void** state)
     }
 }
 
-/* One row of frames hardly farther apart than the cells of the grid. */
-static void RowOnACoarseGrid(void** state)
-{
-    (void)state;
-    for (int32_t n = 25; n <= 37; n += 4) {
-        Scene scene;
-        Links links;
-        kiriSite sites[37];
-        Scene_Init(&scene, 1.0, 0.1, 40, 4, 40);
-        Scene_BuildGrid(&scene);
-        for (int32_t i = 0; i < n; ++i) {
-            double u = (double)i / (n - 1);
-            sites[i].at = kiriVec2_Make(i == 0 ? 1e-4 : i == n - 1 ? 1.0 - 1e-4 : u, 0.05);
-            sites[i].cell = Scene_Cell(&scene, sites[i].at.x, sites[i].at.y);
-        }
-        Build(&scene, &links, sites, n);
-        assert_int_equal(links.made.links.count, n - 1);
-        for (int32_t k = 0; k < n - 1; ++k) {
-            const kiriLink* link = &links.made.links.data[k];
-            AssertNear(link->width, 0.1, 1e-8);
-            AssertNear(link->outer, 0.1, 1e-8);
-            AssertNear(link->length, sites[k + 1].at.x - sites[k].at.x, 1e-12);
-            AssertNear(link->normal.x, 1.0, 1e-12);
-            AssertNear(link->moment, 1e-3 / 12.0, 1e-9);
-        }
-        Scene_Release(&scene);
-    }
-}
-
 /* What changes when one site moves through a cell, in steps of a fiftieth of it: the sizes of all links, between all
    pairs. The largest step is no jump: not much more than the mean of them. */
 static void CheckContinuous(Scene* scene, kiriSite* sites, int32_t count, int32_t which, double most)
@@ -609,7 +580,6 @@ int main(void)
         cmocka_unit_test(CornersOfShiftedRows),
         cmocka_unit_test(RandomSheetsAddUp),
         cmocka_unit_test(BordersAreThoseOfVoronoi),
-        cmocka_unit_test(RowOnACoarseGrid),
         cmocka_unit_test(LinksAreContinuous),
         cmocka_unit_test(LinksAreContinuousBesideSlits),
         cmocka_unit_test(SlitsStopTheSight),

@@ -314,7 +314,7 @@ static void TestEventNamesFrame(void** state)
 
 /* ---- Sheets of their own ---- */
 
-enum { MOST_VERTICES = 8192, MOST_FRAMES = 512, EACH = 7 /* triangles: the middle of one has its weights compared */ };
+enum { MOST_VERTICES = 8192, MOST_FRAMES = 512, EACH = 31 /* triangles: the middle of one has its weights compared */ };
 
 /* A part of a sheet: one piece, or all others. In the order of the sheet, as the part will have it. */
 typedef struct Part {

@@ -305,44 +305,13 @@ static void TestCreepingFloorWakes(void** state)
 
 /* ---- Drift ---- */
 
-static kiriSheet Float(Host* host, float speed, float sleepSpeed)
-{
-    static const float none[3] = { 0.0f, 0.0f, 0.0f };
-    kiriSheetDef def = Host_SmallDef();
-    def.material.airDamping = 0.0f;
-    def.velocity[0] = speed;
-    def.sleepSpeed = sleepSpeed;
-    Host_Start(host);
-    OK(kiriWorld_SetGravity(host->world, none));
-    return Host_AddRectangle(host, &def, 1.0f, 1.0f, 4, 4);
-}
-
-static void TestSlowDrift(void** state)
-{
-    (void)state;
-    Host host;
-    kiriSheet sheet = Float(&host, 0.002f, 0.001f);
-    assert_int_equal(TicksToSleep(&host, sheet, 600), 600);
-    assert_true(fabs(Host_Totals(&host, sheet).center[0] - 0.5 - 0.002 * 10.0) < 1e-6);
-    Host_Stop(&host);
-
-    sheet = Float(&host, 0.0005f, 0.001f);
-    int ticks = TicksToSleep(&host, sheet, 600);
-    assert_true(ticks >= HALF_SECOND && ticks <= HALF_SECOND + 2);
-    Host_Stop(&host);
-
-    sheet = Float(&host, 0.0f, 0.0f); /* 0: never */
-    assert_int_equal(TicksToSleep(&host, sheet, 300), 300);
-    Host_Stop(&host);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestHangingSheetSleeps), cmocka_unit_test(TestCutWakes),
         cmocka_unit_test(TestCallsWake),          cmocka_unit_test(TestHeldSheetSleeps),
         cmocka_unit_test(TestSheetOnFloorSleeps), cmocka_unit_test(TestCreepingFloorWakes),
-        cmocka_unit_test(TestSlowDrift),cmocka_unit_test(TestWaitingCutDoesNotWake),
+cmocka_unit_test(TestWaitingCutDoesNotWake),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -80,39 +80,6 @@ static void TestStrainDerivatives(void** state)
     assert_true(stopped > 20);
 }
 
-/* Two sites on a cylinder, the frames tangent to it: the strains are the angle between them and nothing else, whatever
-   way the link runs and wherever its border lies. */
-static void TestArcIsBendingOnly(void** state)
-{
-    uint32_t seed = 13;
-    (void)state;
-    for (int trial = 0; trial < 200; ++trial) {
-        double strain[KIRI_STRAINS], way = RandomBetween(&seed, 0.0, 6.28), aslant = RandomBetween(&seed, -0.5, 0.5);
-        double angle = RandomBetween(&seed, -0.3, 0.3), turn = angle * cos(way);
-        Couple c = RandomCouple(&seed);
-        c.link.span = kiriVec2_Make(cos(way), sin(way));
-        c.link.normal = kiriVec2_Make(cos(way + aslant), sin(way + aslant));
-        c.link.tangent = kiriVec2_Make(-c.link.normal.y, c.link.normal.x);
-        c.link.crossing = kiriVec2_Make(0.0, 0.0);
-        c.link.centroid = kiriVec2_Scale(RandomBetween(&seed, -0.3, 0.3), kiriVec2_Make(-sin(way), cos(way)));
-        for (int k = 0; k < 2; ++k) {
-            double half = k == 0 ? -0.5 : 0.5, a = half * turn;
-            c.frames[k].center = kiriVec2_Scale(half, c.link.span);
-            c.poses[k].A = (kiriMat3){ { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } };
-            c.poses[k].A.u = kiriVec3_Make(cos(a), 0.0, -sin(a));
-            c.poses[k].A.d = kiriVec3_Make(sin(a), 0.0, cos(a));
-            c.poses[k].x =
-                kiriVec3_Make(angle != 0.0 ? sin(a) / angle : half * cos(way), half * sin(way), (cos(a) - 1.0) / angle);
-        }
-        MeasureCouple(&c, strain, NULL);
-        double bent = sqrt(strain[KIRI_BENDING] * strain[KIRI_BENDING] + strain[KIRI_TWIST] * strain[KIRI_TWIST]);
-        AssertNear(bent, fabs(turn), 0.001 * fabs(turn));
-        AssertNear(strain[KIRI_SHEAR], 0.0, 0.05 * turn * turn);
-        AssertNear(strain[KIRI_STRETCH], 0.0, 0.1 * turn * turn);
-        AssertNear(strain[KIRI_NORMAL_GAP], 0.0, 1e-12);
-    }
-}
-
 /* Turned against each other by up to half a turn: derivatives, and no jump on the way to the other side. */
 static void TestFoldsAreSmooth(void** state)
 {
@@ -486,7 +453,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestStrainDerivatives),
-        cmocka_unit_test(TestArcIsBendingOnly),
         cmocka_unit_test(TestFoldsAreSmooth),
         cmocka_unit_test(TestHalfTurnHasNoWall),
         cmocka_unit_test(TestEveryPoseIsSmooth),

@@ -157,6 +157,47 @@ static void TestIncrementalEqualsFromScratch(void** state)
     }
 }
 
+/* An outline passes the corners of squares at some steps of the lattice. A blade splits it at a point that is rounded to
+   the lattice. Then squares that the sheet only just entered have no cell any more. */
+static void TestOutlineLeavesSquares(void** state)
+{
+    (void)state;
+    int32_t gone = 0;
+    for (uint32_t number = 0; number < 12; ++number) {
+        static const int32_t indices[3] = { 0, 1, 2 };
+        const float rest[6] = { 0.0f, (float)(2 + 2 * (number % 3)) / 536870912.0f, 1.0f, 0.0f, 1.0f, 1.0f };
+        uint32_t seed = 31u + number;
+        Host hosts[2];
+        kiriSheet sheets[2];
+        for (int k = 0; k < 2; ++k) {
+            kiriSheetDef def = Host_SmallDef();
+            def.restPositions = rest;
+            def.indices = indices;
+            def.vertexCount = 3;
+            def.triangleCount = 1;
+            def.gridResolution = 16 + 4 * (int32_t)number;
+            def.framePoints = NULL;
+            def.paper.fromScratch = k;
+            Host_Start(&hosts[k]);
+            OK(kiriCreateSheet(hosts[k].world, &def, &sheets[k]));
+        }
+        for (int32_t tick = 0; tick < 12; ++tick) {
+            float u = (float)RandomBetween(&seed, 0.1, 0.9), line[4] = { u - 0.01f, u + 0.01f, u + 0.03f, u - 0.02f };
+            int32_t cells = Host_Counts(&hosts[0], sheets[0]).cells;
+            for (int k = 0; k < 2; ++k) {
+                Host_Cut(&hosts[k], sheets[k], line, 2);
+                OK(Host_Tick(&hosts[k], 1.0f / 60.0f, 1));
+            }
+            cells -= Host_Counts(&hosts[0], sheets[0]).cells;
+            gone += cells > 0 ? cells : 0;
+            Compare(hosts, (int32_t)number, tick);
+        }
+        Host_Stop(&hosts[0]);
+        Host_Stop(&hosts[1]);
+    }
+    assert_true(gone > 50);
+}
+
 /* ---- Budgets ---- */
 
 static const kiriBudget tight = { .triangles = 20, .cells = 60, .samples = 15, .iterations = 0 };
@@ -443,6 +484,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestIncrementalEqualsFromScratch),
+        cmocka_unit_test(TestOutlineLeavesSquares),
         cmocka_unit_test(TestAnyBudgetEqualsNone),
         cmocka_unit_test(TestBladeFasterThanItsBudget),
         cmocka_unit_test(TestBudgetsThatAreNone),
