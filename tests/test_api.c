@@ -1144,31 +1144,6 @@ static void Copies(void** state)
     CopyEvery(20);
 }
 
-static void HugeSheets(void** state)
-{
-    (void)state;
-    static const float sizes[] = { 1e30f, 1e-30f, 1e6f, 1e-6f };
-    for (int i = 0; i < 4; ++i) {
-        Host h, *host = &h;
-        Host_Start(host);
-        kiriSheetDef def;
-        kiriDefaultSheetDef(&def);
-        def.gridResolution = 8;
-        def.collisionPoints = 3;
-        float line[4] = { 0.5f * sizes[i], -sizes[i], 0.5f * sizes[i], 2.0f * sizes[i] };
-        kiriSheet sheet = Host_AddRectangle(host, &def, sizes[i], 0.5f * sizes[i], 4, 2);
-        Host_Cut(host, sheet, line, 2);
-        kiriResult result = Host_Tick(host, 0.01f, 1);
-        assert_true(result == KIRI_OK || result == KIRI_DIVERGED);
-        assert_int_equal(Host_Counts(host, sheet).pieces, 2);
-        double area = 0.5 * (double)sizes[i] * sizes[i];
-        assert_true(fabs(Host_Totals(host, sheet).area - area) < 1e-6 * area);
-        kiriMesh mesh = Host_Mesh(host, sheet);
-        assert_true(AllFinite(mesh.positions, 3 * mesh.vertexCount));
-        Host_Stop(host);
-    }
-}
-
 /* A line names the function, the argument, the member or index, the value, and what it should be. */
 static void LinesNameArguments(void** state)
 {
@@ -1242,7 +1217,6 @@ int main(void)
         cmocka_unit_test(ShortIndicesNeedFewVertices),
         cmocka_unit_test(ContactArguments),
         cmocka_unit_test(HugeValues),
-        cmocka_unit_test(HugeSheets),
         cmocka_unit_test(Copies),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -184,31 +184,6 @@ static kiriObstacle AddFloor(Host* host)
     return obstacle;
 }
 
-/* Whoever lies on a floor presses on it, also while it waits; and all come to rest. */
-static void TestPiecesComeToRest(void** state)
-{
-    (void)state;
-    Host host;
-    kiriObstacleState floorState;
-    int32_t awake = 1, ticks = 0;
-    kiriSheet sheet = StartDice(&host, 2);
-    kiriObstacle ground = AddFloor(&host);
-    OK(kiriWorld_SetGravity(host.world, (const float[3]){ 0.0f, 0.0f, -9.81f }));
-    for (; awake != 0 && ticks < 3000; ++ticks) {
-        assert_true(Host_Tick(&host, dt, 2) >= 0);
-        assert_true(SystemsOf(&host) <= 2);
-        OK(kiriSheet_IsAwake(host.world, sheet, &awake));
-        if (ticks % 100 == 90) {
-            double weight = 9.81 * Host_Totals(&host, sheet).mass;
-            OK(kiriObstacle_GetState(host.world, ground, &floorState));
-            assert_true(fabs((double)floorState.impulse[2] / (double)dt + weight) < 0.2 * weight);
-        }
-    }
-    assert_int_equal(awake, 0);
-    assert_true(fabs(Host_Totals(&host, sheet).center[2] + 0.05) < 0.003);
-    Host_Stop(&host);
-}
-
 /* What is seen is what is there, whoever waits: far away, with normals, with and without fades, with patches that bend,
    in the tick of the cut or later. Host_Tick looks. */
 static void CutWhileWaiting(int32_t skinning, float x, float fadeTime, int32_t cells)
@@ -279,8 +254,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestPiecesTakeTurns),  cmocka_unit_test(TestForcesAreUsedUp),
-        cmocka_unit_test(TestSheetsTakeTurns),  cmocka_unit_test(TestPiecesComeToRest),
-        cmocka_unit_test(TestSeenWhileWaiting), cmocka_unit_test(TestSaveWhileWaiting),
+        cmocka_unit_test(TestSheetsTakeTurns),        cmocka_unit_test(TestSeenWhileWaiting), cmocka_unit_test(TestSaveWhileWaiting),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
