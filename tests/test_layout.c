@@ -266,6 +266,52 @@ static void ClampedStripsAreAsStiffAsTheyShould(void** state)
 
 /* ---- Folds ------------------------------------------------------------------------------------------------------- */
 
+static void PinCorners(Host* host, kiriSheet sheet, kiriPin pins[2])
+{
+    for (int32_t corner = 0; corner < 2; ++corner) {
+        kiriPinDef pin;
+        kiriDefaultPinDef(&pin);
+        pin.restPoint[0] = pin.target[0] = (float)corner;
+        pin.restPoint[1] = pin.target[1] = 1.0f;
+        OK(kiriCreatePin(host->world, sheet, &pin, &pins[corner]));
+    }
+}
+
+/* A square that hangs in its plane by two corners, which come half as near in a second: it leaves the plane. */
+static void FlatSquaresFold(void** state)
+{
+    (void)state;
+    static const int32_t materials[3] = { KIRI_MATERIAL_COTTON, KIRI_MATERIAL_PAPER, KIRI_MATERIAL_RUBBER };
+    for (int k = 0; k < 6; ++k) {
+        const float down[3] = { 0.0f, -9.81f, 0.0f };
+        kiriPin pins[2];
+        Host host;
+        Host_Start(&host);
+        host.every = 100;
+        OK(kiriWorld_SetGravity(host.world, down));
+        kiriSheetDef def;
+        kiriDefaultSheetDef(&def);
+        OK(kiriGetMaterial(materials[k / 2], &def.material));
+        def.frameCount = k % 2 == 0 ? 9 : 25;
+        kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 40, 40);
+        PinCorners(&host, sheet, pins);
+        for (int32_t tick = 1; tick <= 60; ++tick) {
+            float way = 0.25f / 60.0f * (float)tick;
+            OK(kiriPin_SetTarget(host.world, pins[0], (float[]){ way, 1.0f, 0.0f }));
+            OK(kiriPin_SetTarget(host.world, pins[1], (float[]){ 1.0f - way, 1.0f, 0.0f }));
+            OK(Host_Tick(&host, 1.0f / 60.0f, 4));
+        }
+        kiriMesh mesh = Host_Mesh(&host, sheet);
+        double off = 0.0;
+        for (int32_t i = 0; i < mesh.vertexCount; ++i) {
+            off = fmax(off, fabs((double)mesh.positions[3 * i + 2]));
+        }
+        print_message("material %d, %d frames: %.3f m off the plane\n", materials[k / 2], def.frameCount, off);
+        assert_true(off > 0.02);
+        Host_Stop(&host);
+    }
+}
+
 /* Cotton that hangs by two corners while a spiral is cut into it. Its links fold by half a turn. */
 static void SpiralsNeverFreeze(void** state)
 {
@@ -283,14 +329,8 @@ static void SpiralsNeverFreeze(void** state)
         OK(kiriGetMaterial(KIRI_MATERIAL_COTTON, &def.material));
         def.frameCount = counts[k % 2];
         kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 40, 40);
-        for (int32_t corner = 0; corner < 2; ++corner) {
-            kiriPinDef pin;
-            kiriPin made;
-            kiriDefaultPinDef(&pin);
-            pin.restPoint[0] = pin.target[0] = (float)corner;
-            pin.restPoint[1] = pin.target[1] = 1.0f;
-            OK(kiriCreatePin(host.world, sheet, &pin, &made));
-        }
+        kiriPin pins[2];
+        PinCorners(&host, sheet, pins);
         kiriCut cut = 0;
         for (int32_t tick = 0; tick < 400; ++tick) {
             double share = (tick - 20) / 200.0, r = 0.42 * (1.0 - 0.85 * share), angle = 6.28318530717958 * turns * share;
@@ -329,6 +369,7 @@ int main(void)
         cmocka_unit_test(JitteredRowsHangAsTheyShould),
         cmocka_unit_test(ZigzagsTwistAsTheyShould),
         cmocka_unit_test(ClampedStripsAreAsStiffAsTheyShould),
+        cmocka_unit_test(FlatSquaresFold),
         cmocka_unit_test(SpiralsNeverFreeze),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

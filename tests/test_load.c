@@ -381,7 +381,7 @@ static void TestReactionsAtRest(void** state)
         host.every = 50;
         double force[3], torque[3];
         kiriTotals totals;
-        for (int i = 0; i < 700; ++i) {
+        for (int i = 0; i < 250; ++i) {
             OK(Host_Tick(&host, 0.04f, 1));
         }
         totals = Host_Totals(&host, sheet);
@@ -390,9 +390,9 @@ static void TestReactionsAtRest(void** state)
         const double expected[3] = { 0.0, 0.0, weight };
         const double moment[3] = { totals.center[1] * weight, -totals.center[0] * weight, 0.0 };
         for (int a = 0; a < 3; ++a) {
-            /* affine frames come to rest as near as their noise lets them (AffineNoise) */
-            assert_float_equal(force[a], expected[a], (k < HOLDS ? 1e-6 : 1e-5) * weight);
-            assert_float_equal(torque[a], moment[a], 1e-5 * weight);
+            /* The hung sheet never quite rests: its frames move by some nanometres. */
+            assert_float_equal(force[a], expected[a], 2e-5 * weight);
+            assert_float_equal(torque[a], moment[a], 2e-5 * weight);
         }
         Host_Stop(&host);
     }
@@ -547,11 +547,12 @@ static void TestPullAndPush(void** state)
     const float none[3] = { 0.0f, 0.0f, 0.0f }, tip[2] = { STRIP_LENGTH, 0.5f * STRIP_WIDTH };
     for (int k = 0; k < 8; ++k) {
         const Strip strip = { STRIP_LENGTH, STRIP_WIDTH, STRIP_THICKNESS, 1e8, 1000.0, k < 4 ? 5 : 9 };
-        const double F = 0.1, E = strip.youngs, h = strip.thickness, L = strip.length, W = strip.width;
+        bool isPull = k % 4 < 2;
+        /* Aside, 0.0074 N would buckle the strip out of its plane. */
+        const double F = isPull ? 0.1 : 0.004, E = strip.youngs, h = strip.thickness, L = strip.length, W = strip.width;
         const float along[3] = { (float)F, 0.0f, 0.0f }, aside[3] = { 0.0f, (float)F, 0.0f };
         Beam beam;
         Beam_Start(&beam, &strip, k % 2 == 0 ? kiriSheet_ClampLine : kiriSheet_HingeLine, NULL);
-        bool isPull = k % 4 < 2;
         for (int i = 0; i < 700; ++i) {
             OK(kiriSheet_ApplyForce(beam.host.world, beam.sheet, tip, isPull ? along : aside, none));
             OK(Host_Tick(&beam.host, 0.01f, 1));

@@ -6,6 +6,7 @@
    q the middle of the pivots. If m = q, this is 3/5 g^2 / l, as for a clamped strip whose ends are offset by g. Bending
    leaves no gap at m. */
 #define OFFSET_SHARE 0.4
+#define BUMP 1e-3        /* see BumpOf; by length */
 #define OFFSET_FOLD 0.12 /* 1 - cos of half the fold at which offsets at m and at b count equally */
 /* Square of the angle at which the arc between two sites counts half. */
 #define ARC_FOLD 2.5
@@ -186,10 +187,19 @@ static EndVectors Combine(double a, const EndVectors* x, double b, const EndVect
     return sum;
 }
 
+/* Returns the normal offset (m) at which a crushed link would be straight, of either sign by where the link is. A flat
+   sheet that is pressed in its plane has no other reason to leave it. */
+static double BumpOf(const kiriLink* link)
+{
+    double place = fabs(12.9898 * link->crossing.x + 78.233 * link->crossing.y) / link->length;
+    double part = place - (double)(int64_t)place;
+    return BUMP * link->length * (2.0 * part - 1.0);
+}
+
 /* Measures stretch, signed along n. With the unsigned length, frames that have passed through each other would be at
    rest again, and a crushed sheet would stay inside out. In folds the offsets at m and q give way to those at b: a
    narrow border beside the line of sites resists twist by its offset at b, and not at m. */
-static void MeasureStretch(double lever, const MeanAxes* axes, const EndVectors* b, const EndVectors* m,
+static void MeasureStretch(double lever, double bump, const MeanAxes* axes, const EndVectors* b, const EndVectors* m,
                            const EndVectors* q, double* strain, kiriStrainRow* row)
 {
     double fold = (1.0 - axes->open) / OFFSET_FOLD, flat = 1.0 / (1.0 + fold * fold);
@@ -198,19 +208,20 @@ static void MeasureStretch(double lever, const MeanAxes* axes, const EndVectors*
     double ahead = lever + kiriVec3_Dot(b->gap, axes->n);
     double per = ahead < 0.0 ? 0.0 : ahead < lever ? ahead / lever : 1.0; /* base by ahead */
     double base = ahead > lever ? ahead : 0.5 * lever * (1.0 + per * per);
-    double longer = 2.0 * y * (z - OFFSET_SHARE * y), root = sqrt(base * base + fabs(longer)), share = base / root;
+    double off = bump * (1.0 - per), longer = 2.0 * y * (z - OFFSET_SHARE * y) + off * y, root = sqrt(base * base + fabs(longer)), share = base / root;
     bool isShorter = longer < 0.0;
     *strain = ahead - lever + (isShorter ? base * share : root) - base;
     if (row != NULL) {
         double byBase = isShorter ? share * (2.0 - share * share) : share, by = (isShorter ? share * share : 1.0) / root;
-        double byY = by * (z - 2.0 * OFFSET_SHARE * y), byZ = by * y;
+        double byY = by * (z - 2.0 * OFFSET_SHARE * y + 0.5 * off), byZ = by * y;
         EndVectors offset = Combine(byY, &aside, byZ, &beside), change = Combine(byY, m, byZ, q);
         kiriStrainRow d;
         WriteTurns(axes, axes->d, &offset, &d);
         d.end[1].move = kiriVec3_Scale(byY + byZ, axes->d);
         d.end[0].move = kiriVec3_Scale(-1.0, d.end[1].move);
         WriteGap(axes, axes->n, b, row);
-        ScaleRow(row, 1.0 + per * (byBase - 1.0));
+        double byPer = per > 0.0 && per < 1.0 ? -0.5 * by * bump * y / lever : 0.0;
+        ScaleRow(row, 1.0 + per * (byBase - 1.0) + byPer);
         AddRow(row, 1.0, &d);
         double byFlat = kiriVec3_Dot(change.gap, axes->d) - (byY + byZ) * kiriVec3_Dot(b->gap, axes->d);
         AddOpening(axes, 2.0 / OFFSET_FOLD * fold * flat * flat * byFlat, row);
@@ -394,7 +405,7 @@ void kiriStrain_Measure(const kiriLink* link, const kiriMaterial* material, cons
     kiriVec2 middle = kiriVec2_Scale(0.5, kiriVec2_Add(PivotOf(frames[0]), PivotOf(frames[1])));
     EndVectors q = PointVectors(frames, poses, middle);
     EndVectors directors = DirectionVectors(poses[0]->A.d, poses[1]->A.d);
-    MeasureStretch(LeverOf(link, frames), &axes, &b, &m, &q, &strain[KIRI_STRETCH],
+    MeasureStretch(LeverOf(link, frames), BumpOf(link), &axes, &b, &m, &q, &strain[KIRI_STRETCH],
                    rows != NULL ? &rows[KIRI_STRETCH] : NULL);
     MeasureStop(KIRI_NORMAL_STOP_SHARE * link->length, &axes, &m, &strain[KIRI_NORMAL_STOP],
                 rows != NULL ? &rows[KIRI_NORMAL_STOP] : NULL);

@@ -56,7 +56,8 @@ KIRI_C_BEGIN
    c would do the same, so its length is limited.
    Let g = c + gap(b) . n. If g < c, the offset adds to the strain as much as it adds to (c + g^2 / c) / 2; if g < 0, as
    much as it adds to c / 2. So frames that have passed through each other are pushed back, the strain grows with
-   gap(b) . n everywhere, and it has no kink in which a motion could get stuck.
+   gap(b) . n everywhere, and it has no kink in which a motion could get stuck. If g < c, Y has 1/2 (1 - g / c) e gap(m) . d
+   more, e up to a thousandth of l and of either sign, so a flat sheet that is pressed leaves its plane.
 
    The stop limits the normal gap of sheets that bend within less than l. Nothing else bounds it. */
 #define KIRI_NORMAL_GAP_BETA 12.0 /* for a strip that is clamped at both ends */
