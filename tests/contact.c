@@ -51,6 +51,9 @@ int main(int argc, char** argv)
     if (Contact_IsAsked("sheets")) {
         Contact_MeasureSheets();
     }
+    if (Contact_IsAsked("meetings")) {
+        Contact_MeasureMeetings();
+    }
     if (Contact_IsAsked("box2d")) {
         Contact_MeasureBox2d();
     }

@@ -401,8 +401,8 @@ typedef struct kiriSheetDef {
     float contactThickness; /* m: distance between sheets and pieces, and twice the distance to obstacles. 0 (default):
                                the material's thickness, at least a 20th of a grid square */
     uint32_t groups;        /* obstacles and sheets touch if they share a set bit. Default: all */
-    /* 1: its pieces touch each other, and other sheets that have it set; not where one of two sheets is planar. Folds
-       of one piece do not touch each other. The manual has rules and limits (contact). Default 0. */
+    /* 1: its pieces touch each other, and other sheets of the same model that have it set; not if a sheet is planar.
+       Folds of one piece do not touch each other. The manual has rules and limits (contact). Default 0. */
     int32_t touchesSheets;
     int32_t collisionPoints; /* spread evenly over the sheet, at least one in every piece; default 0: none */
     int32_t iterations; /* Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual */

@@ -209,6 +209,12 @@ static inline kiriVec3 kiriMat3_Mul(kiriMat3 m, kiriVec3 a)
     return kiriVec3_AddScaled(kiriVec3_AddScaled(kiriVec3_Scale(a.x, m.u), a.y, m.v), a.z, m.d);
 }
 
+/* Returns the transposed matrix times a vector. */
+static inline kiriVec3 kiriMat3_MulTransposed(const kiriMat3* m, kiriVec3 a)
+{
+    return kiriVec3_Make(kiriVec3_Dot(m->u, a), kiriVec3_Dot(m->v, a), kiriVec3_Dot(m->d, a));
+}
+
 static inline kiriMat3 kiriMat3_MulMat(kiriMat3 m, kiriMat3 n)
 {
     kiriMat3 r = { kiriMat3_Mul(m, n.u), kiriMat3_Mul(m, n.v), kiriMat3_Mul(m, n.d) };

@@ -13,19 +13,20 @@
 /* ---- Points ------------------------------------------------------------------------------------------------------ */
 
 /* Returns the position of a point that is blended from frames by these weights. */
-static kiriVec3 BlendedPoint(const kiriSystem* system, const kiriWeight* weights, int32_t count, kiriVec2 at,
+static kiriVec3 BlendedPoint(const kiriSystem* system, const kiriContactMember* members, int32_t count,
                              const kiriPose* poses)
 {
     kiriVec3 x = { 0.0, 0.0, 0.0 };
     for (int32_t m = 0; m < count; ++m) {
-        x = kiriVec3_AddScaled(x, weights[m].value, kiriSystem_Point(system, weights[m].frame, at, poses));
+        kiriVec3 point = kiriSystem_Point(system, members[m].frame, members[m].at, poses);
+        x = kiriVec3_AddScaled(x, members[m].value, point);
     }
     return x;
 }
 
 kiriVec3 kiriContact_Point(const kiriSystem* system, const kiriContactStep* step, const kiriPose* poses)
 {
-    return BlendedPoint(system, step->members, step->memberCount, step->row->at, poses);
+    return BlendedPoint(system, step->members, step->memberCount, poses);
 }
 
 static double DepthAt(const kiriContactStep* step, kiriVec3 point)
@@ -57,16 +58,11 @@ static double InertiaOf(const kiriSolver* solver, const kiriContactStep* step)
 
 /* ---- Obstacles that yield ---------------------------------------------------------------------------------------- */
 
-static kiriYieldRow* YieldOf(const kiriSystem* system, const kiriContactRow* row)
-{
-    KIRI_ASSERT(row->yield == KIRI_NONE || (row->yield >= 0 && row->yield < system->yieldCount));
-    return row->yield != KIRI_NONE ? &system->yields[row->yield] : NULL;
-}
-
 /* Returns the velocity of the obstacle's material at a point, including impulses of sheets in this tick, m/s. */
-static kiriVec3 SurfaceVelocity(const kiriSystem* system, const kiriContactRow* row, kiriVec3 point)
+static kiriVec3 SurfaceVelocity(const kiriContactStep* step, kiriVec3 point)
 {
-    const kiriYieldRow* yield = YieldOf(system, row);
+    const kiriContactRow* row = step->row;
+    const kiriYieldRow* yield = step->yield;
     kiriVec3 recoil = { 0.0, 0.0, 0.0 };
     if (yield != NULL && row->felt >= 0.0) {
         recoil = kiriVec3_Scale(row->felt, yield->impulse.force);
@@ -79,11 +75,11 @@ static kiriVec3 SurfaceVelocity(const kiriSystem* system, const kiriContactRow* 
 }
 
 /* Returns the inverse mass of the obstacle at a point, along a direction, 1/kg. */
-static double InverseMass(const kiriSystem* system, const kiriContactRow* row, kiriVec3 point, kiriVec3 along)
+static double InverseMass(const kiriContactStep* step, kiriVec3 point, kiriVec3 along)
 {
-    const kiriYieldRow* yield = YieldOf(system, row);
-    if (yield == NULL || row->felt >= 0.0) {
-        return yield == NULL ? 0.0 : row->felt;
+    const kiriYieldRow* yield = step->yield;
+    if (yield == NULL || step->row->felt >= 0.0) {
+        return yield == NULL ? 0.0 : step->row->felt;
     }
     kiriVec3 arm = kiriVec3_Cross(kiriVec3_Sub(point, yield->center), along);
     return yield->inverseMass + kiriVec3_Dot(arm, kiriMat3_Mul(yield->inverseInertia, arm));
@@ -96,18 +92,18 @@ static double InverseMass(const kiriSystem* system, const kiriContactRow* row, k
 
 /* Chooses the frames that the row acts on: the largest weights whose frames all have blocks of the matrix in common. So
    their coupling is solved exactly. */
-static void ChooseMembers(const kiriSolver* solver, const kiriWeight* weights, kiriContactStep* step)
+static void ChooseMembers(const kiriSolver* solver, const kiriContactMember* all, int32_t count, kiriContactStep* step)
 {
     double sum = 0.0;
-    for (int32_t n = 0; n < step->row->weightCount && step->memberCount < KIRI_CONTACT_MEMBERS; ++n) {
+    for (int32_t n = 0; n < count && step->memberCount < KIRI_CONTACT_MEMBERS; ++n) {
         bool isCoupled = true;
         for (int32_t m = 0; isCoupled && m < step->memberCount; ++m) {
-            kiriPair pair = { step->members[m].frame, weights[n].frame };
+            kiriPair pair = { step->members[m].frame, all[n].frame };
             isCoupled = kiriMatrix_Covers(solver->matrix, pair);
         }
         if (isCoupled) {
-            step->members[step->memberCount++] = weights[n];
-            sum += weights[n].value;
+            step->members[step->memberCount++] = all[n];
+            sum += all[n].value;
         }
     }
     for (int32_t m = 0; m < step->memberCount; ++m) {
@@ -117,42 +113,43 @@ static void ChooseMembers(const kiriSolver* solver, const kiriWeight* weights, k
 
 /* Finds the mass of the members, and whether the host holds too much of them: such a point goes where held frames go.
    Other frames, which hardly carry it, would have to move many times as far as it is deep, and a contact has the force
-   for that. */
+   for that. In a mutual contact both sides may be held. */
 static void WeighMembers(const kiriSystem* system, kiriContactStep* step)
 {
     double free = 0.0;
     for (int32_t m = 0; m < step->memberCount; ++m) {
         const kiriFrameData* frame = &system->frames[step->members[m].frame];
-        free += frame->held ? 0.0 : step->members[m].value;
+        free += frame->held ? 0.0 : fabs(step->members[m].value);
         step->mass += step->members[m].value * frame->mass;
     }
     step->isHeld = free < LEAST_FREE;
 }
 
 /* Places the plane as at the end of the step, and finds how far the obstacle goes. A point that starts below the plane
-   ends no higher than `pushSpeed` lets it. */
-static void PlacePlane(const kiriSolver* solver, const kiriSystem* system, const kiriWeight* weights,
+   ends no higher than `pushSpeed` lets it. all[]: the weights of the row. */
+static void PlacePlane(const kiriSolver* solver, const kiriSystem* system, const kiriContactMember* all, int32_t count,
                        kiriContactStep* step)
 {
     const kiriContactRow* row = step->row;
     const kiriPose* poses = solver->start.data;
     step->start = kiriContact_Point(system, step, poses);
-    kiriVec3 off = kiriVec3_Sub(step->start, BlendedPoint(system, weights, row->weightCount, row->at, poses));
-    step->carried = kiriVec3_Scale(solver->dt, SurfaceVelocity(system, row, step->start));
+    kiriVec3 off = kiriVec3_Sub(step->start, BlendedPoint(system, all, count, poses));
+    step->carried = kiriVec3_Scale(solver->dt, SurfaceVelocity(step, step->start));
     double now = row->offset + kiriVec3_Dot(row->normal, kiriVec3_Add(row->way, off));
     double depth = now - kiriVec3_Dot(row->normal, step->start), pushed = row->pushSpeed * solver->dt;
     pushed += kiriClamp(2.0 * row->reach - depth, 0.0, row->reach); /* a soft contact rests within its reach */
     step->lowered = depth > pushed ? depth - pushed : 0.0;
-    step->lift = kiriVec3_Dot(row->normal, step->carried) + (depth > 0.0 ? depth - step->lowered : 0.0);
+    double out = depth > 0.0 && !kiriContact_IsMutual(step) ? depth - step->lowered : 0.0; /* it may gain energy so */
+    step->lift = kiriVec3_Dot(row->normal, step->carried) + out;
     step->plane = now + kiriVec3_Dot(row->normal, step->carried) - step->lowered - (step->isHeld ? FAR_BELOW : 0.0);
 }
 
 /* Returns the energy that an obstacle can supply by moving along the normal, J: its kinetic energy, or infinity if it
-   does not yield. For another body, the cushion limits it. */
-static double MeansOf(const kiriSystem* system, const kiriContactStep* step, double dt)
+   does not yield. */
+static double MeansOf(const kiriContactStep* step, double dt)
 {
     double speed = kiriVec3_Dot(step->row->normal, step->carried) / dt;
-    double inverse = InverseMass(system, step->row, step->start, step->row->normal) + step->row->cushion;
+    double inverse = InverseMass(step, step->start, step->row->normal);
     return !(fabs(speed) > 0.0) ? 0.0 : inverse > 0.0 ? 0.5 * speed * speed / inverse : DBL_MAX;
 }
 
@@ -166,7 +163,7 @@ static void FindMeans(kiriSolver* solver, const kiriSystem* system)
         const kiriContactStep* step = &solver->contacts.data[k];
         if (!step->isHeld) {
             double fast = (kiriVec3_Length(step->carried) + fabs(step->lift)) / solver->dt;
-            double given = MeansOf(system, step, solver->dt);
+            double given = MeansOf(step, solver->dt);
             obstacleSpeed = kiriMax(fast, obstacleSpeed);
             touch->means = kiriMax(given, touch->means);
             touch->isNear = true;
@@ -177,27 +174,95 @@ static void FindMeans(kiriSolver* solver, const kiriSystem* system)
         double pull = gravity + kiriVec3_Length(frame->force) / frame->mass;
         double own = kiriVec3_Length(frame->velocity), speed = own + solver->dt * pull + obstacleSpeed;
         touch->means +=
-            kiriFrame_KineticEnergy(frame, &system->material) + 0.5 * frame->mass * (speed * speed - own * own);
+            kiriFrame_KineticEnergy(frame, kiriSystem_MaterialOf(system, f)) + 0.5 * frame->mass * (speed * speed - own * own);
     }
+}
+
+/* Returns the yield row of a body of the host. Sheets of an island have a row each; the first one counts. */
+static kiriYieldRow* FindYield(const kiriSolver* solver, const kiriIslandBody* member, int32_t index)
+{
+    kiriYieldRow* own = &member->sheet->yields[index];
+    KIRI_ASSERT(index >= 0 && index < member->sheet->yieldCount);
+    for (int32_t n = 0; n < solver->islandCount; ++n) {
+        const kiriSystem* sheet = solver->islandBodies[n].sheet;
+        for (int32_t k = 0; sheet != member->sheet && own->number > 0 && k < sheet->yieldCount; ++k) {
+            if (sheet->yields[k].number == own->number) {
+                return &sheet->yields[k];
+            }
+        }
+        if (sheet == member->sheet) {
+            break;
+        }
+    }
+    return own;
+}
+
+/* Appends the weights of a side: frames of the island. */
+static int32_t AddSide(const kiriSolver* of, const kiriWeight* weights, int32_t count, double sign, kiriVec2 at,
+                       kiriContactMember* all)
+{
+    for (int32_t n = 0; n < count; ++n) {
+        const kiriSolverBody* body = &of->bodies.bodies.data[of->bodies.bodyOf.data[weights[n].frame]];
+        all[n].frame = body->island + of->bodies.place.data[weights[n].frame];
+        all[n].value = sign * weights[n].value;
+        all[n].at = at;
+    }
+    return count;
+}
+
+/* Turns a mutual contact with the surface of the second point, and moves this point to where the first one is now. So a
+   step has the contact as a search at its start would find it. `others`: the members of the second point. */
+static void FollowSurface(const kiriSolver* solver, const kiriSystem* system, kiriContactRow* row,
+                          kiriContactMember* all)
+{
+    kiriContactMember* others = &all[row->weightCount];
+    const kiriMat3* A = &solver->start.data[others[0].frame].A;
+    if (kiriMechanics_IsAffine(&system->mechanics)) {
+        return; /* its axes stretch */
+    }
+    row->normal = kiriMat3_Mul(*A, row->otherNormal);
+    kiriVec3 apart = BlendedPoint(system, all, row->weightCount + row->otherCount, solver->start.data);
+    kiriVec3 off = kiriVec3_Sub(kiriMat3_MulTransposed(A, apart), row->otherOff);
+    off = kiriVec3_AddScaled(off, -kiriVec3_Dot(off, row->otherNormal), row->otherNormal);
+    row->otherAt = kiriVec2_Add(row->otherAt, kiriVec2_Make(off.x, off.y));
+    for (int32_t n = 0; n < row->otherCount; ++n) {
+        others[n].at = row->otherAt;
+    }
+}
+
+static void BeginContact(kiriSolver* solver, const kiriSystem* system, const kiriIslandBody* member, int32_t k)
+{
+    KIRI_ASSERT(solver->contacts.count < solver->contacts.capacity && k < member->sheet->contactCount);
+    kiriContactStep* step = &solver->contacts.data[solver->contacts.count++];
+    kiriContactRow* row = &member->sheet->contacts[k];
+    kiriContactMember all[KIRI_CONTACT_WEIGHTS + KIRI_CONTACT_SIDE];
+    memset(step, 0, sizeof(*step));
+    step->row = row;
+    step->yield = row->yield != KIRI_NONE ? FindYield(solver, member, row->yield) : NULL;
+    KIRI_ASSERT(row->weightCount > 0 && row->weightCount <= KIRI_CONTACT_WEIGHTS);
+    int32_t count = AddSide(member->solver, row->weights, row->weightCount, 1.0, row->at, all);
+    if (row->other != NULL) {
+        KIRI_ASSERT(row->weightCount <= KIRI_CONTACT_SIDE && row->otherCount <= KIRI_CONTACT_SIDE);
+        count += AddSide(row->other, row->otherWeights, row->otherCount, -1.0, row->otherAt, &all[count]);
+        FollowSurface(solver, system, row, all);
+        memcpy(step->members, all, sizeof(kiriContactMember) * (size_t)count);
+        step->memberCount = count;
+    } else {
+        ChooseMembers(solver, all, count, step);
+    }
+    WeighMembers(system, step);
+    PlacePlane(solver, system, all, count, step);
 }
 
 void kiriSolver_BeginContacts(kiriSolver* solver, const kiriSystem* system)
 {
     solver->contacts.count = 0;
-    for (int32_t k = solver->body->contact; k != KIRI_NONE; k = solver->nextContact.data[k]) {
-        KIRI_ASSERT(solver->contacts.count < solver->contacts.capacity && k < system->contactCount);
-        kiriContactStep* step = &solver->contacts.data[solver->contacts.count++];
-        kiriWeight weights[KIRI_CONTACT_WEIGHTS];
-        memset(step, 0, sizeof(*step));
-        step->row = &system->contacts[k];
-        KIRI_ASSERT(step->row->weightCount > 0 && step->row->weightCount <= KIRI_CONTACT_WEIGHTS);
-        for (int32_t n = 0; n < step->row->weightCount; ++n) {
-            weights[n].frame = solver->bodies.place.data[step->row->weights[n].frame];
-            weights[n].value = step->row->weights[n].value;
+    for (int32_t n = 0; n < solver->islandCount; ++n) {
+        const kiriIslandBody* member = &solver->islandBodies[n];
+        int32_t k = member->solver->bodies.bodies.data[member->body].contact;
+        for (; k != KIRI_NONE; k = member->solver->nextContact.data[k]) {
+            BeginContact(solver, system, member, k);
         }
-        ChooseMembers(solver, weights, step);
-        WeighMembers(system, step);
-        PlacePlane(solver, system, weights, step);
     }
     FindMeans(solver, system);
 }
@@ -224,6 +289,8 @@ static kiriVec3 Beside(kiriVec3 a, kiriVec3 direction)
 #define SOFT_SHARE 0.2     /* of the reach: d */
 #define SOFT_GROWTH 30.0   /* limit of the growth of the stiffness in a step, if a point is deeper than its reach */
 #define PULLING 0.05      /* of the largest push: a system in which a contact pulls by more is rejected */
+#define CHANGED 0.05      /* of the largest push: a larger change of a mutual push needs another system, */
+#define EARLY_MUTUAL 3    /* if fewer were solved */
 
 /* Return the push at a depth (N), its derivative (N/m) and its integral (J). */
 static double PushAt(const kiriContactStep* step, double p)
@@ -313,6 +380,7 @@ static void TakeSoft(kiriContactStep* step, kiriVec3 point, double part)
     double push = step->pull + step->spring * sinks;
     slides = step->sticks ? slides : Beside(slides, step->direction);
     kiriVec3 drag = kiriVec3_AddScaled(step->drags, -step->tie, slides);
+    step->change = part * fabs(push - step->push);
     step->push = (1.0 - part) * step->push + part * push;
     step->drag = kiriVec3_AddScaled(kiriVec3_Scale(1.0 - part, step->drag), part, drag);
 }
@@ -327,9 +395,9 @@ static void GuessState(const kiriSolver* solver, const kiriSystem* system, kiriC
     kiriVec3 predicted = { 0.0, 0.0, 0.0 }, free = predicted;
     for (int32_t m = 0; m < step->memberCount; ++m) {
         const kiriPrediction* prediction = &solver->predictions.data[step->members[m].frame];
-        kiriVec3 arm = kiriSystem_Arm(system, step->members[m].frame, row->at, &prediction->pose);
+        kiriVec3 arm = kiriSystem_Arm(system, step->members[m].frame, step->members[m].at, &prediction->pose);
         predicted = kiriVec3_AddScaled(predicted, step->members[m].value, kiriVec3_Add(prediction->pose.x, arm));
-        arm = kiriSystem_Arm(system, step->members[m].frame, row->at, &prediction->guess);
+        arm = kiriSystem_Arm(system, step->members[m].frame, step->members[m].at, &prediction->guess);
         free = kiriVec3_AddScaled(free, step->members[m].value, kiriVec3_Add(prediction->guess.x, arm));
     }
     double stop = inertia * (step->plane - kiriVec3_Dot(row->normal, predicted));
@@ -361,15 +429,17 @@ void kiriSolver_GuessContacts(kiriSolver* solver, const kiriSystem* system)
 
 /* ---- One linear system ------------------------------------------------------------------------------------------- */
 
-static void CountPressed(const kiriSolver* solver, const kiriSystem* system)
+static void CountPressed(const kiriSolver* solver)
 {
-    for (int32_t k = 0; k < system->yieldCount; ++k) {
-        system->yields[k].pressed = 0;
+    for (int32_t k = 0; k < solver->contacts.count; ++k) {
+        if (solver->contacts.data[k].yield != NULL) {
+            solver->contacts.data[k].yield->pressed = 0;
+        }
     }
     for (int32_t k = 0; k < solver->contacts.count; ++k) {
         const kiriContactStep* step = &solver->contacts.data[k];
-        if (step->isActive && step->row->yield != KIRI_NONE) {
-            YieldOf(system, step->row)->pressed += 1;
+        if (step->isActive && step->yield != NULL) {
+            step->yield->pressed += 1;
         }
     }
 }
@@ -377,10 +447,10 @@ static void CountPressed(const kiriSolver* solver, const kiriSystem* system)
 /* Sets the springs. The contact's spring is stiff enough to be invisible, in series with the inertia of the obstacle.
    Contacts that press on one obstacle each get an equal share of its mass: then no contact gives it more than its
    momentum, and together they give all of it (mass splitting; Tonge, Benevolenski, Voroshilov 2012). */
-static void SetSprings(const kiriSolver* solver, const kiriSystem* system, kiriContactStep* step, kiriVec3 point)
+static void SetSprings(const kiriSolver* solver, kiriContactStep* step, kiriVec3 point)
 {
     const kiriContactRow* row = step->row;
-    const kiriYieldRow* yield = YieldOf(system, row);
+    const kiriYieldRow* yield = step->yield;
     double inertia = InertiaOf(solver, step), part = solver->stepping.part;
     double asked = step->known / SINKING, most = MOST_SPRING * inertia;
     double spring = kiriMax(asked, STIFFNESS * inertia);
@@ -388,14 +458,14 @@ static void SetSprings(const kiriSolver* solver, const kiriSystem* system, kiriC
     double share = yield != NULL && yield->pressed > 1 ? yield->pressed : 1.0;
     double soft = part * part * share;
     kiriVec3 along = kiriVec3_Length(step->direction) > 0.5 ? step->direction : row->normal;
-    step->give = soft * (row->cushion + InverseMass(system, row, point, row->normal));
+    step->give = soft * InverseMass(step, point, row->normal);
     step->stiffness = 1.0 / (1.0 / spring + step->give);
-    step->grip = 1.0 / (1.0 / (GRIP * inertia) + soft * InverseMass(system, row, point, along));
+    step->grip = 1.0 / (1.0 / (GRIP * inertia) + soft * InverseMass(step, point, along));
 }
 
 void kiriSolver_LinearizeContacts(kiriSolver* solver, const kiriSystem* system)
 {
-    CountPressed(solver, system);
+    CountPressed(solver);
     for (int32_t k = 0; k < solver->contacts.count; ++k) {
         kiriContactStep* step = &solver->contacts.data[k];
         kiriVec3 point = kiriContact_Point(system, step, solver->poses.data);
@@ -405,7 +475,7 @@ void kiriSolver_LinearizeContacts(kiriSolver* solver, const kiriSystem* system)
             LinearizeSoft(step, solver->search.isFirst);
             continue;
         }
-        SetSprings(solver, system, step, point);
+        SetSprings(solver, step, point);
         step->sinks = 0.0;
         step->slides = kiriVec3_Make(0.0, 0.0, 0.0);
     }
@@ -461,8 +531,8 @@ static kiriVec3 MoveOf(const kiriSolver* solver, const kiriSystem* system, const
 {
     kiriVec3 sum = { 0.0, 0.0, 0.0 };
     for (int32_t m = 0; m < step->memberCount; ++m) {
-        kiriWeight member = step->members[m];
-        kiriVec2 local = kiriVec2_Sub(step->row->at, system->frames[member.frame].center);
+        kiriContactMember member = step->members[m];
+        kiriVec2 local = kiriVec2_Sub(member.at, system->frames[member.frame].center);
         kiriFrameRow by = kiriSolver_Expand(solver, 1.0, &solver->move.data[solver->size * member.frame]);
         kiriVec3 turn = kiriVec3_AddScaled(kiriVec3_Scale(local.x, by.by[1]), local.y, by.by[2]);
         if (!kiriMechanics_IsAffine(&system->mechanics)) {
@@ -488,7 +558,7 @@ void kiriSolver_MoveContacts(kiriSolver* solver, const kiriSystem* system)
 /* ---- Assembly ---------------------------------------------------------------------------------------------------- */
 
 /* Writes the derivatives of the point's move along an axis by a member's unknowns. `arm`: the point relative to x. */
-static void DerivePoint(const kiriSolver* solver, const kiriSystem* system, kiriWeight member, kiriVec2 local,
+static void DerivePoint(const kiriSolver* solver, const kiriSystem* system, kiriContactMember member, kiriVec2 local,
                         kiriVec3 arm, kiriVec3 axis, double* J)
 {
     kiriVec3 along = kiriVec3_Scale(member.value, axis);
@@ -540,8 +610,8 @@ static void AssembleRows(kiriSolver* solver, const kiriSystem* system, const kir
     double J[CONTACT_ROWS * KIRI_CONTACT_MEMBERS * KIRI_MOST_UNKNOWNS];
     int32_t frames[KIRI_CONTACT_MEMBERS];
     for (int32_t m = 0; m < step->memberCount; ++m) {
-        kiriWeight member = step->members[m];
-        kiriVec2 local = kiriVec2_Sub(step->row->at, system->frames[member.frame].center);
+        kiriContactMember member = step->members[m];
+        kiriVec2 local = kiriVec2_Sub(member.at, system->frames[member.frame].center);
         kiriVec3 arm = kiriPose_Along(&solver->poses.data[member.frame], local);
         frames[m] = member.frame;
         for (int e = 0; e < CONTACT_ROWS; ++e) {
@@ -620,7 +690,7 @@ static void AssembleRigid(kiriSolver* solver, const kiriSystem* system, const ki
         Carrier* carrier = &carriers[count];
         carrier->frame = step->members[m].frame;
         carrier->weight = step->members[m].value;
-        carrier->arm = kiriSystem_Arm(system, carrier->frame, step->row->at, &solver->poses.data[carrier->frame]);
+        carrier->arm = kiriSystem_Arm(system, carrier->frame, step->members[m].at, &solver->poses.data[carrier->frame]);
         for (int c = 0; c < 3; ++c) {
             carrier->moment[c] = kiriVec3_Cross(carrier->arm, springs[c]);
         }
@@ -732,7 +802,8 @@ static bool Review(const kiriSolver* solver, const kiriSystem* system, kiriConta
 {
     const kiriContactRow* row = step->row;
     if (IsSoft(row)) {
-        return step->push < -PULLING * mostPush;
+        bool isEarly = kiriContact_IsMutual(step) && solver->search.solved < EARLY_MUTUAL;
+        return step->push < -PULLING * mostPush || (isEarly && step->change > CHANGED * mostPush);
     }
     kiriVec3 point = kiriContact_Point(system, step, solver->poses.data), slide = SlideAt(step, point);
     double inertia = InertiaOf(solver, step), tolerance = PUSH_TOLERANCE * mostPush, depth = DepthAt(step, point);
@@ -796,7 +867,8 @@ static bool IsDeep(kiriSolver* solver, const kiriSystem* system)
     for (int32_t k = 0; k < solver->contacts.count; ++k) {
         kiriContactStep* step = &solver->contacts.data[k];
         step->solved = step->push;
-        isDeep |= kiriContact_Depth(system, step, solver->poses.data) - Yielded(step) > MOST_DEPTH + step->row->reach;
+        double depth = kiriContact_Depth(system, step, solver->poses.data) - Yielded(step);
+        isDeep |= !kiriContact_IsMutual(step) && depth > MOST_DEPTH + step->row->reach;
     }
     return isDeep;
 }
@@ -804,20 +876,21 @@ static bool IsDeep(kiriSolver* solver, const kiriSystem* system)
 /* Shares the mass of obstacles among all contacts that may be held, which may be many more than the contacts that
    pressed in the last system. Otherwise each would push the obstacle out as if it were alone, and a light body would be
    shot off. */
-static void ShareMass(kiriSolver* solver, const kiriSystem* system)
+static void ShareMass(kiriSolver* solver)
 {
-    for (int32_t k = 0; k < system->yieldCount; ++k) {
-        system->yields[k].held = 0;
+    for (int32_t k = 0; k < solver->contacts.count; ++k) {
+        if (solver->contacts.data[k].yield != NULL) {
+            solver->contacts.data[k].yield->held = 0;
+        }
     }
     for (int32_t k = 0; k < solver->contacts.count; ++k) {
-        kiriYieldRow* yield = YieldOf(system, solver->contacts.data[k].row);
-        if (yield != NULL) {
-            yield->held += 1;
+        if (solver->contacts.data[k].yield != NULL) {
+            solver->contacts.data[k].yield->held += 1;
         }
     }
     for (int32_t k = 0; k < solver->contacts.count; ++k) {
         kiriContactStep* step = &solver->contacts.data[k];
-        const kiriYieldRow* yield = YieldOf(system, step->row);
+        const kiriYieldRow* yield = step->yield;
         int32_t pressed = yield != NULL && yield->pressed > 1 ? yield->pressed : 1;
         step->shared = yield != NULL && yield->held > pressed ? step->give * yield->held / pressed : step->give;
     }
@@ -903,6 +976,9 @@ static void SweepHolds(kiriSolver* solver, const kiriSystem* system, bool isWhol
         isLeft = false;
         for (int32_t k = 0; k < solver->contacts.count; ++k) {
             kiriContactStep* step = &solver->contacts.data[k];
+            if (kiriContact_IsMutual(step)) {
+                continue;
+            }
             isLeft |= isWhole ? HoldWhole(solver, system, step, mass) : HoldFrames(solver, system, step);
         }
     }
@@ -933,7 +1009,7 @@ void kiriSolver_HoldContacts(kiriSolver* solver, const kiriSystem* system)
         return;
     }
     memcpy(solver->trial.data, solver->poses.data, sizeof(kiriPose) * (size_t)system->frameCount);
-    ShareMass(solver, system);
+    ShareMass(solver);
     TurnBack(solver, system);
     SweepHolds(solver, system, false);
     if (!TakeHeld(solver, system)) {
@@ -978,6 +1054,9 @@ void kiriSolver_BalanceContacts(kiriSolver* solver, const kiriSystem* system)
     double part = solver->stepping.part;
     for (int32_t k = 0; k < solver->contacts.count; ++k) {
         const kiriContactStep* step = &solver->contacts.data[k];
+        if (kiriContact_IsMutual(step)) {
+            continue;
+        }
         if (!isMovedByThem) {
             asked = kiriVec3_Add(asked, step->drag);
             asked = kiriVec3_AddScaled(asked, step->push, step->row->normal);
@@ -1004,7 +1083,7 @@ double kiriContact_Work(const kiriSolver* solver, const kiriContactStep* step)
 /* Gives the yield row `times` the impulse of the contact in the step. */
 static void Give(const kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step, double times)
 {
-    kiriYieldRow* yield = YieldOf(system, step->row);
+    kiriYieldRow* yield = step->yield;
     if (yield != NULL) {
         kiriVec3 impulse = kiriVec3_Scale(solver->stepping.part, kiriContact_Force(solver, step));
         kiriVec3 arm = kiriVec3_Sub(kiriContact_Point(system, step, solver->poses.data), yield->center);
@@ -1045,6 +1124,9 @@ static Pinned SumPinned(const kiriSolver* solver, const kiriSystem* system)
         sum.held += pin->stiffness;
     }
     for (int32_t k = 0; k < solver->contacts.count; ++k) {
+        if (kiriContact_IsMutual(&solver->contacts.data[k])) {
+            continue;
+        }
         kiriVec3 impulse = kiriVec3_Scale(part, kiriContact_Force(solver, &solver->contacts.data[k]));
         sum.given = kiriVec3_Add(sum.given, impulse);
         sum.pressed += kiriVec3_Length(impulse);
@@ -1074,10 +1156,10 @@ static void FindPower(const kiriSolver* solver, const kiriSystem* system, const 
     kiriVec3 point = kiriContact_Point(system, step, solver->poses.data), way = { 0.0, 0.0, 0.0 };
     kiriVec3 push = kiriVec3_Scale(-solver->stepping.part, kiriContact_Force(solver, step));
     for (int32_t m = 0; m < step->memberCount; ++m) {
-        kiriVec3 velocity = kiriFrame_VelocityAt(&solver->after.data[step->members[m].frame], step->row->at);
+        kiriVec3 velocity = kiriFrame_VelocityAt(&solver->after.data[step->members[m].frame], step->members[m].at);
         way = kiriVec3_AddScaled(way, step->members[m].value, velocity);
     }
-    *ofObstacle = kiriVec3_Dot(push, SurfaceVelocity(system, step->row, point));
+    *ofObstacle = kiriVec3_Dot(push, SurfaceVelocity(step, point));
     *ofSheet = kiriVec3_Dot(push, way);
 }
 
@@ -1085,12 +1167,15 @@ static void FindPower(const kiriSolver* solver, const kiriSystem* system, const 
 static void GivePushes(const kiriSolver* solver, const kiriSystem* system, bool isMore)
 {
     double ofObstacle, ofSheet;
-    for (int32_t k = 0; k < system->yieldCount; ++k) {
-        system->yields[k].before = system->yields[k].after = system->yields[k].most = 0.0;
+    for (int32_t k = 0; k < solver->contacts.count; ++k) {
+        kiriYieldRow* yield = solver->contacts.data[k].yield;
+        if (yield != NULL) {
+            yield->before = yield->after = yield->most = 0.0;
+        }
     }
     for (int32_t k = 0; isMore && k < solver->contacts.count; ++k) {
         const kiriContactStep* step = &solver->contacts.data[k];
-        kiriYieldRow* yield = YieldOf(system, step->row);
+        kiriYieldRow* yield = step->yield;
         if (yield != NULL) {
             FindPower(solver, system, step, &ofObstacle, &ofSheet);
             yield->before += ofObstacle;
@@ -1102,7 +1187,7 @@ static void GivePushes(const kiriSolver* solver, const kiriSystem* system, bool 
     }
     for (int32_t k = 0; isMore && k < solver->contacts.count; ++k) {
         const kiriContactStep* step = &solver->contacts.data[k];
-        kiriYieldRow* yield = YieldOf(system, step->row);
+        kiriYieldRow* yield = step->yield;
         if (yield != NULL) {
             FindPower(solver, system, step, &ofObstacle, &ofSheet);
             yield->after += ofObstacle;
@@ -1112,10 +1197,10 @@ static void GivePushes(const kiriSolver* solver, const kiriSystem* system, bool 
 
 /* Limits the ratio `more`: the additional impulse may stop an obstacle, or accelerate it to the speed of the sheet, but
    no further. The momentum of a cloth can be thousands of times the momentum of a light body on it. */
-static double LimitMore(const kiriSolver* solver, const kiriSystem* system, double more)
+static double LimitMore(const kiriSolver* solver, double more)
 {
     for (int32_t k = 0; more > 1.0 && k < solver->contacts.count; ++k) {
-        const kiriYieldRow* yield = YieldOf(system, solver->contacts.data[k].row);
+        const kiriYieldRow* yield = solver->contacts.data[k].yield;
         if (yield != NULL) {
             double each = yield->after - yield->before, room = yield->most - yield->before;
             double most = room > each ? room / each : 1.0;
@@ -1134,16 +1219,19 @@ static void BalancePinned(kiriSolver* solver, const kiriSystem* system)
     Pinned sum = SumPinned(solver, system);
     FindMore(solver, &sum);
     GivePushes(solver, system, sum.more > 1.0);
-    sum.more = LimitMore(solver, system, sum.more);
+    sum.more = LimitMore(solver, sum.more);
     for (int32_t k = 0; sum.more > 1.0 && k < solver->contacts.count; ++k) {
         Give(solver, system, &solver->contacts.data[k], sum.more - 1.0);
     }
     solver->touch.keepForces *= sum.more;
     sum.given = kiriVec3_Scale(sum.more, sum.given);
     bool isBalanced = sum.isPinned && solver->touch.isNear && solver->stepping.isEuler;
-    for (int32_t k = 0; isBalanced && system->reactions.pins != NULL && k < system->pinCount; ++k) {
+    for (int32_t k = 0; isBalanced && k < system->pinCount; ++k) {
+        if (solver->pinReactions.data[k] == NULL) {
+            continue;
+        }
         kiriVec3 left = kiriVec3_Sub(sum.asked, sum.given);
-        kiriVec3* impulse = &system->reactions.pins[solver->pinRow.data[k]].impulse.force;
+        kiriVec3* impulse = &solver->pinReactions.data[k]->impulse.force;
         *impulse = kiriVec3_AddScaled(*impulse, system->pins[k].stiffness / sum.held, left);
     }
 }
@@ -1164,6 +1252,6 @@ void kiriSolver_EndContacts(kiriSolver* solver, const kiriSystem* system)
         row->impulse = kiriVec3_AddScaled(row->impulse, solver->stepping.part, kiriContact_Force(solver, step));
         row->force = kiriVec3_Scale(solver->touch.keepForces, WithinCone(step));
         kiriVec3 point = kiriContact_Point(system, step, solver->poses.data);
-        row->way = kiriVec3_AddScaled(row->way, solver->dt, SurfaceVelocity(system, row, point));
+        row->way = kiriVec3_AddScaled(row->way, solver->dt, SurfaceVelocity(step, point));
     }
 }

@@ -125,13 +125,16 @@ static void RestoreMomentum(kiriSolver* solver, const kiriSystem* system)
         const kiriContactStep* step = &solver->contacts.data[k];
         kiriVec3 point = kiriContact_Point(system, step, solver->poses.data);
         kiriVec3 impulse = kiriVec3_Scale(solver->stepping.part, kiriContact_Force(solver, step));
+        if (kiriContact_IsMutual(step)) {
+            continue; /* it acts on both sides */
+        }
         if (system->mechanics.planar) {
             impulse = kiriMechanics_InPlane(&system->mechanics, impulse);
         }
         kiriWrench given = { impulse, kiriVec3_Cross(point, impulse) };
         kiriWrench_Add(&momentum.pushed, 1.0, &given);
     }
-    kiriMomentum_Restore(solver->before.data, solver->after.data, system->frameCount, &momentum, &system->material,
+    kiriMomentum_Restore(solver->before.data, solver->after.data, system->frameCount, &momentum, solver->materials.data,
                          kiriSystem_Gravity(system), solver->dt, normal);
     KIRI_ASSERT(!(momentum.mass < 0.0));
     solver->momentum = momentum;
@@ -170,15 +173,16 @@ static void SumGains(kiriSolver* solver, const kiriSystem* system)
     for (int32_t f = 0; f < system->frameCount; ++f) {
         const kiriFrameData *start = &solver->before.data[f], *end = &solver->after.data[f];
         if (!start->held) {
+            const kiriMaterial* material = kiriSystem_MaterialOf(system, f);
             kiriVec3 way = kiriVec3_Sub(end->x, start->x);
-            double before = kiriFrame_KineticEnergy(start, &system->material);
-            double after = kiriFrame_KineticEnergy(end, &system->material);
+            double before = kiriFrame_KineticEnergy(start, material);
+            double after = kiriFrame_KineticEnergy(end, material);
             double work = start->mass * kiriVec3_Dot(gravity, way) + kiriVec3_Dot(start->force, way) +
                           WorkOfTorque(system, start->torque, end, solver->dt) +
                           (kiriSystem_HasWind(system) ? kiriWind_Work(solver, system, f) : 0.0);
             kiriFrameData beside = *end;
             beside.velocity = kiriVec3_Sub(end->velocity, mean);
-            energy->kinetic += kiriFrame_KineticEnergy(&beside, &system->material);
+            energy->kinetic += kiriFrame_KineticEnergy(&beside, material);
             energy->gain += after - before - work - KIRI_ROUNDING * (before + after + fabs(work));
         }
     }
@@ -265,71 +269,6 @@ void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system)
             frame->spin = kiriVec3_Scale(keepTurning, momentum->spin);
             frame->spin = kiriVec3_AddScaled(frame->spin, keepRest, spin);
             frame->rate = kiriMat3_Scale(keepRest, &frame->rate);
-        }
-    }
-}
-
-/* ---- Other bodies ------------------------------------------------------------------------------------------------ */
-
-/* Returns true if the plane of the row belongs to another body. Only these rows have a cushion. */
-static bool IsOfBody(const kiriContactRow* row)
-{
-    return row->cushion > 0.0;
-}
-
-static bool IsShared(const kiriSolver* solver, const kiriSystem* system)
-{
-    bool isShared = false;
-    for (int32_t f = 0; !isShared && f < system->frameCount; ++f) {
-        const kiriWrench* load = &system->frames[f].load;
-        isShared = kiriVec3_Dot(load->force, load->force) + kiriVec3_Dot(load->moment, load->moment) > 0.0;
-    }
-    for (int32_t k = 0; !isShared && k < solver->contacts.count; ++k) {
-        isShared = IsOfBody(solver->contacts.data[k].row);
-    }
-    return isShared;
-}
-
-/* Adds the growth of energy and the work of loads to the frames of the sheet. The first of them gets what links, pins
-   and clamps stored. */
-static void AddLoads(kiriSolver* solver, const kiriSystem* system)
-{
-    kiriVec3 gravity = kiriSystem_Gravity(system);
-    double stored = solver->search.now.potential - solver->search.start.potential;
-    for (int32_t f = 0; f < system->frameCount; ++f) {
-        const kiriFrameData *start = &solver->before.data[f], *end = &solver->after.data[f];
-        kiriFrameData* frame = &solver->sheetFrames[solver->sheetFrame[f]];
-        if (!start->held) {
-            kiriVec3 way = kiriVec3_Sub(end->x, start->x), torque = kiriVec3_Sub(start->torque, start->load.moment);
-            kiriVec3 force = kiriVec3_AddScaled(kiriVec3_Sub(start->force, start->load.force), start->mass, gravity);
-            double work = kiriVec3_Dot(force, way) + WorkOfTorque(system, torque, end, solver->dt) +
-                          (kiriSystem_HasWind(system) ? kiriWind_Work(solver, system, f) : 0.0);
-            frame->gained += kiriFrame_KineticEnergy(end, &system->material) -
-                             kiriFrame_KineticEnergy(start, &system->material) - work + stored;
-            frame->passed +=
-                kiriVec3_Dot(start->load.force, way) + WorkOfTorque(system, start->load.moment, end, solver->dt);
-            stored = 0.0;
-            frame->received = kiriVec3_AddScaled(frame->received, solver->dt, start->load.force);
-        }
-    }
-}
-
-void kiriSolver_AddGained(kiriSolver* solver, const kiriSystem* system)
-{
-    if (!IsShared(solver, system)) {
-        return;
-    }
-    AddLoads(solver, system);
-    for (int32_t k = 0; k < solver->contacts.count; ++k) {
-        const kiriContactStep* step = &solver->contacts.data[k];
-        KIRI_ASSERT(step->memberCount > 0 && step->memberCount <= KIRI_CONTACT_MEMBERS);
-        kiriFrameData* frame = &solver->sheetFrames[step->row->weights[0].frame];
-        if (IsOfBody(step->row)) {
-            frame->passed += kiriContact_Work(solver, step);
-            frame->received =
-                kiriVec3_AddScaled(frame->received, solver->stepping.part, kiriContact_Force(solver, step));
-        } else {
-            frame->gained -= kiriVec3_Dot(kiriContact_Force(solver, step), step->carried);
         }
     }
 }

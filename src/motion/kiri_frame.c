@@ -103,12 +103,12 @@ static void FindMissing(kiriPieceMomentum* p, const kiriVec3* normal)
 }
 
 void kiriMomentum_Restore(const kiriFrameData* before, kiriFrameData* after, int32_t count, kiriPieceMomentum* p,
-                          const kiriMaterial* material, kiriVec3 gravity, double dt, const kiriVec3* normal)
+                          const kiriMaterial* const* materials, kiriVec3 gravity, double dt, const kiriVec3* normal)
 {
     FindMassCenters(before, after, count, p);
     for (int32_t f = 0; f < count; ++f) {
         if (!before[f].held) {
-            AddFrameTurning(p, &before[f], &after[f], material, gravity, dt);
+            AddFrameTurning(p, &before[f], &after[f], materials[f], gravity, dt);
         }
     }
     if (p->mass > 0.0) {
@@ -126,15 +126,10 @@ void kiriMomentum_Restore(const kiriFrameData* before, kiriFrameData* after, int
 
 static const kiriMat3 IdentityAxes = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } };
 
-static kiriVec3 MulTransposed(const kiriMat3* m, kiriVec3 a)
-{
-    return kiriVec3_Make(kiriVec3_Dot(m->u, a), kiriVec3_Dot(m->v, a), kiriVec3_Dot(m->d, a));
-}
-
 kiriVec3 kiriMat3_Solve(const kiriMat3* m, kiriVec3 a)
 {
     kiriMat3 cofactors = { kiriVec3_Cross(m->v, m->d), kiriVec3_Cross(m->d, m->u), kiriVec3_Cross(m->u, m->v) };
-    return kiriVec3_Scale(1.0 / kiriVec3_Dot(m->u, cofactors.u), MulTransposed(&cofactors, a));
+    return kiriVec3_Scale(1.0 / kiriVec3_Dot(m->u, cofactors.u), kiriMat3_MulTransposed(&cofactors, a));
 }
 
 kiriMat3 kiriMat3_PointInertia(double m, kiriVec3 r)
@@ -245,12 +240,12 @@ static kiriVec3 CayleyVector(kiriVec3 w)
    a Cayley rotation. It conserves L and the energy for any length of the Cayley vector. */
 static kiriMat3 TurnPart(const kiriMat3* A, const kiriMat3* bodyInertia, kiriVec3 L, double h)
 {
-    kiriVec3 start = MulTransposed(A, L), end = start;
+    kiriVec3 start = kiriMat3_MulTransposed(A, L), end = start;
     kiriMat3 turn = IdentityAxes;
     for (int iteration = 0; iteration < 30; ++iteration) {
         kiriVec3 middle = kiriVec3_Scale(0.5 * h, kiriVec3_Add(start, end));
         turn = kiriMat3_Cayley(CayleyVector(kiriMat3_Solve(bodyInertia, middle)));
-        kiriVec3 next = MulTransposed(&turn, start);
+        kiriVec3 next = kiriMat3_MulTransposed(&turn, start);
         double change = kiriVec3_Length(kiriVec3_Sub(next, end));
         end = next;
         if (!(change > 1e-15 * kiriVec3_Length(L))) {
@@ -377,7 +372,7 @@ static void PredictColumns(const kiriFrameData* frame, const kiriStepping* s, ki
     kiriMat3 turn = TurnParts(&IdentityAxes, &inertia, L, s->h * kiriVec3_Length(frame->spin), s->h);
     kiriMat3 grown = kiriMat3_AddScaled(&frame->A, s->h, &frame->rate);
     kiriMat3 free = kiriMat3_MulMat(turn, grown), rate = kiriMat3_MulMat(turn, frame->rate);
-    kiriVec3 spin = kiriMat3_Mul(turn, kiriMat3_Solve(&inertia, MulTransposed(&turn, L)));
+    kiriVec3 spin = kiriMat3_Mul(turn, kiriMat3_Solve(&inertia, kiriMat3_MulTransposed(&turn, L)));
     double before = kiriVec3_Dot(L, kiriMat3_Solve(&inertia, L)), after = kiriVec3_Dot(L, spin);
     prediction->spin = after > before ? kiriVec3_Scale(kiriRoot(before / after), spin) : spin;
     kiriMat3 turning = CrossColumns(prediction->spin, &free);

@@ -67,11 +67,6 @@ typedef struct kiriFrameData {
     kiriVec3 spin;           /* angular velocity, world */
     kiriMat3 rate;           /* derivative of A without spin x A, 1/s; zero for rigid frames */
     kiriVec3 force, torque;  /* from the host, for one tick */
-    kiriWrench load;         /* N s, N m s about x: impulse of other pieces in the last tick, applied in the next one;
-                                N, N m while a tick moves frames */
-    kiriVec3 support;        /* direction of the push by supporting objects in the last tick: unit, or zero */
-    double gained, passed;   /* scratch, J: see kiriSolver_AddGained; a step adds to them */
-    kiriVec3 received;       /* scratch, N s: see kiriSolver_AddGained */
     kiriHistory history;
     int32_t held;          /* the host moves the frame */
     kiriVec3 heldPosition; /* position of the site at the end of the step */
@@ -272,10 +267,10 @@ typedef struct kiriPieceMomentum {
 
 /* Turns a free body like a rigid one until it has the angular momentum `due`. A body with contacts alone gets the whole
    momentum of their impulse. before[] and after[] are the frames before and after the step. The caller sets isFree,
-   isPushed and pushed in `momentum` and clears the rest, which the function writes. `normal`: normal of the plane of a
-   planar sheet, else null. */
+   isPushed and pushed in `momentum` and clears the rest, which the function writes. materials[]: per frame. `normal`:
+   normal of the plane of a planar sheet, else null. */
 void kiriMomentum_Restore(const kiriFrameData* before, kiriFrameData* after, int32_t count, kiriPieceMomentum* momentum,
-                          const kiriMaterial* material, kiriVec3 gravity, double dt, const kiriVec3* normal);
+                          const kiriMaterial* const* materials, kiriVec3 gravity, double dt, const kiriVec3* normal);
 
 KIRI_C_END
 

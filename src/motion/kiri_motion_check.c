@@ -22,7 +22,7 @@ KIRI_TABLE(HistoryTable, kiriHistory, {
 KIRI_SHARED_TABLE(kiriFrameTable, kiriFrameData, {
     KIRI_PART(kiriFrameData, site, kiriSiteTable),
     KIRI_RUN(4, kiriFrameData, anchor, anchor),
-    KIRI_REALS(kiriFrameData, center, support),
+    KIRI_REALS(kiriFrameData, center, torque),
     KIRI_PART(kiriFrameData, history, HistoryTable),
     KIRI_WITHIN(0, 1, kiriFrameData, held, held),
     KIRI_RUN(8, kiriFrameData, heldPosition, heldOff),
@@ -31,7 +31,6 @@ KIRI_SHARED_TABLE(kiriFrameTable, kiriFrameData, {
     KIRI_UNHASHED,
     KIRI_RUN(4, kiriFrameData, id, id),
     KIRI_RUN(8, kiriFrameData, pieceData, pieceData),
-    KIRI_DROPPED(kiriFrameData, gained, received),
 });
 
 KIRI_TABLE(AreaElementTable, kiriAreaElement, {

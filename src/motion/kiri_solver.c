@@ -123,7 +123,9 @@ static bool ReserveSteps(kiriSolver* s, const kiriSystem* body)
            kiriArray_Reserve(memory, &s->tracedRows, traced) && kiriArray_Reserve(memory, &s->stopping, elements) &&
            kiriArray_Reserve(memory, &s->force, s->size * frames) &&
            kiriArray_Reserve(memory, &s->move, s->size * frames) && kiriArray_Reserve(memory, &s->members, most) &&
-           kiriArray_Reserve(memory, &s->rows, rows) && kiriArray_Reserve(memory, &s->J, rows * s->size);
+           kiriArray_Reserve(memory, &s->rows, rows) && kiriArray_Reserve(memory, &s->J, rows * s->size) &&
+           kiriArray_Reserve(memory, &s->sources, frames) && kiriArray_Reserve(memory, &s->materials, frames) &&
+           kiriArray_Reserve(memory, &s->airs, frames);
 }
 
 /* Returns a frame of item k of the sheet. */
@@ -400,14 +402,22 @@ bool kiriSolver_MakeBodies(kiriSolver* solver, const int32_t* framePiece, int32_
     return true;
 }
 
+/* Reserves for the rows of an island. */
+static bool ReserveTaken(kiriSolver* solver, int64_t pins, int64_t clamps, int64_t contacts)
+{
+    kiriMemory* memory = solver->memory;
+    return kiriArray_Reserve(memory, &solver->pins, pins) && kiriArray_Reserve(memory, &solver->pinReactions, pins) &&
+           kiriArray_Reserve(memory, &solver->clamps, clamps) &&
+           kiriArray_Reserve(memory, &solver->clampRows, clamps) &&
+           kiriArray_Reserve(memory, &solver->clampReactions, clamps) &&
+           kiriArray_Reserve(memory, &solver->contacts, contacts);
+}
+
 bool kiriSolver_ReserveRows(kiriSolver* solver, int64_t pins, int64_t clamps, int64_t contacts)
 {
     kiriMemory* memory = solver->memory;
-    return kiriArray_Reserve(memory, &solver->pins, pins) && kiriArray_Reserve(memory, &solver->pinRow, pins) &&
-           kiriArray_Reserve(memory, &solver->nextPin, pins) && kiriArray_Reserve(memory, &solver->clamps, clamps) &&
-           kiriArray_Reserve(memory, &solver->clampRow, clamps) &&
+    return ReserveTaken(solver, pins, clamps, contacts) && kiriArray_Reserve(memory, &solver->nextPin, pins) &&
            kiriArray_Reserve(memory, &solver->nextClamp, clamps) &&
-           kiriArray_Reserve(memory, &solver->contacts, contacts) &&
            kiriArray_Reserve(memory, &solver->nextContact, contacts);
 }
 
@@ -529,44 +539,303 @@ void kiriSolver_ShareRows(kiriSolver* solver, const kiriSystem* system)
     }
 }
 
-static void TakePins(kiriSolver* solver, const kiriSystem* sheet, kiriSystem* system)
+/* ---- Islands ----------------------------------------------------------------------------------------------------- */
+
+static kiriSolverBody* BodyOfMember(const kiriIslandBody* member)
 {
-    solver->pins.count = solver->pinRow.count = 0;
-    for (int32_t k = solver->body->pin; k != KIRI_NONE; k = solver->nextPin.data[k]) {
+    KIRI_ASSERT(member->body >= 0 && member->body < member->solver->bodies.bodies.count);
+    return &member->solver->bodies.bodies.data[member->body];
+}
+
+static void TakeFrames(kiriSolver* solver, const kiriIslandBody* member)
+{
+    kiriSolverBody* body = BodyOfMember(member);
+    const kiriSystem* sheet = member->sheet;
+    const int32_t* frames = &member->solver->bodies.frames.data[body->frames.first];
+    KIRI_ASSERT(solver->sources.count + body->frames.count <= solver->sources.capacity);
+    body->island = solver->sources.count;
+    for (int32_t n = 0; n < body->frames.count; ++n) {
+        int32_t f = solver->sources.count++;
+        kiriReaction* reactions = sheet->reactions.frames;
+        solver->sources.data[f].frame = &sheet->frames[frames[n]];
+        solver->sources.data[f].reaction = reactions != NULL ? &reactions[frames[n]] : NULL;
+        solver->materials.data[f] = &sheet->material;
+        solver->airs.data[f] = sheet->air;
+    }
+}
+
+/* Returns the index in the island of a frame of a sheet. */
+static int32_t IslandFrame(const kiriSolver* solver, int32_t frame)
+{
+    const kiriSolverBodies* bodies = &solver->bodies;
+    return bodies->bodies.data[bodies->bodyOf.data[frame]].island + bodies->place.data[frame];
+}
+
+static void TakePins(kiriSolver* solver, const kiriIslandBody* member)
+{
+    const kiriSystem* sheet = member->sheet;
+    for (int32_t k = BodyOfMember(member)->pin; k != KIRI_NONE; k = member->solver->nextPin.data[k]) {
+        KIRI_ASSERT(solver->pins.count < solver->pins.capacity);
+        solver->pinReactions.data[solver->pins.count] = sheet->reactions.pins != NULL ? &sheet->reactions.pins[k] : NULL;
         kiriPinRow* pin = &solver->pins.data[solver->pins.count++];
         *pin = sheet->pins[k];
-        pin->frame = solver->bodies.place.data[pin->frame];
-        solver->pinRow.data[solver->pinRow.count++] = k;
+        pin->frame = IslandFrame(member->solver, pin->frame);
     }
-    system->pins = solver->pins.data;
-    system->pinCount = solver->pins.count;
 }
 
-static void TakeClamps(kiriSolver* solver, const kiriSystem* sheet, kiriSystem* system)
+static void TakeClamps(kiriSolver* solver, const kiriIslandBody* member)
 {
-    solver->clamps.count = solver->clampRow.count = 0;
-    for (int32_t k = solver->body->clamp; k != KIRI_NONE; k = solver->nextClamp.data[k]) {
-        kiriClampRow* clamp = &solver->clamps.data[solver->clamps.count++];
-        *clamp = sheet->clamps[k];
-        clamp->frame = solver->bodies.place.data[clamp->frame];
-        solver->clampRow.data[solver->clampRow.count++] = k;
+    const kiriSystem* sheet = member->sheet;
+    for (int32_t k = BodyOfMember(member)->clamp; k != KIRI_NONE; k = member->solver->nextClamp.data[k]) {
+        int32_t n = solver->clamps.count++;
+        KIRI_ASSERT(n < solver->clamps.capacity);
+        solver->clampRows.data[n] = &sheet->clamps[k];
+        solver->clampReactions.data[n] = sheet->reactions.clamps != NULL ? &sheet->reactions.clamps[k] : NULL;
+        solver->clamps.data[n] = sheet->clamps[k];
+        solver->clamps.data[n].frame = IslandFrame(member->solver, sheet->clamps[k].frame);
     }
-    system->clamps = solver->clamps.data;
-    system->clampCount = solver->clamps.count;
 }
 
-/* Copies the state of links that changes from tick to tick. */
-static void TakeLinkState(kiriSolver* solver, const kiriSystem* sheet, kiriSystem* system)
+/* Copies the state of links that changes from tick to tick. `first`: of the body's links in the island. */
+static void TakeLinkState(kiriSolver* solver, const kiriIslandBody* member, int32_t first, bool hasParts,
+                          bool hasOffsets)
 {
-    const int32_t* links = solver->bodies.links.data + solver->body->links.first;
-    for (int32_t k = 0; sheet->linkParts != NULL && k < system->linkCount; ++k) {
-        solver->linkParts.data[k] = sheet->linkParts[links[k]];
+    const kiriSystem* sheet = member->sheet;
+    kiriSpan links = BodyOfMember(member)->links;
+    for (int32_t k = 0; k < links.count; ++k) {
+        int32_t link = member->solver->bodies.links.data[links.first + k];
+        if (hasParts) {
+            solver->linkParts.data[first + k] = sheet->linkParts != NULL ? sheet->linkParts[link] : 1.0;
+        }
+        if (hasOffsets) {
+            const kiriStrainOffset none = { 0 };
+            solver->strainOffsets.data[first + k] = sheet->strainOffsets != NULL ? sheet->strainOffsets[link] : none;
+        }
     }
-    for (int32_t k = 0; sheet->strainOffsets != NULL && k < system->linkCount; ++k) {
-        solver->strainOffsets.data[k] = sheet->strainOffsets[links[k]];
+}
+
+/* Copies the elements of a body to those of the island. */
+static void TakeElements(kiriSolver* solver, const kiriIslandBody* member)
+{
+    const kiriSolverBodies* bodies = &member->solver->bodies;
+    const kiriSolverBody* body = BodyOfMember(member);
+    kiriAreaElements* areas = &solver->islandElements;
+    int32_t firstLink = solver->islandLinks.count;
+    for (int32_t k = 0; k < body->links.count; ++k) {
+        KIRI_ASSERT(solver->islandLinks.count < solver->islandLinks.capacity);
+        kiriLink* link = &solver->islandLinks.data[solver->islandLinks.count++];
+        *link = bodies->ownLinks.data[body->links.first + k];
+        link->i += body->island;
+        link->j += body->island;
     }
-    system->linkParts = sheet->linkParts != NULL ? solver->linkParts.data : NULL;
-    system->strainOffsets = sheet->strainOffsets != NULL ? solver->strainOffsets.data : NULL;
+    for (int32_t k = 0; k < body->corners.count; ++k) {
+        kiriCorner* corner = &solver->islandCorners.data[solver->islandCorners.count++];
+        *corner = bodies->corners.data[body->corners.first + k];
+        for (int32_t n = 0; n < corner->count; ++n) {
+            corner->link[n] += firstLink;
+        }
+    }
+    for (int32_t k = 0; k < body->elements.count; ++k) {
+        kiriAreaElement* element = &areas->elements.data[areas->elements.count++];
+        *element = bodies->areaElements.elements.data[body->elements.first + k];
+        const kiriFrameShare* shares = &bodies->areaElements.shares.data[element->first];
+        element->first = areas->shares.count;
+        for (int32_t n = 0; n < element->count; ++n) {
+            kiriFrameShare share = shares[n];
+            share.frame += body->island;
+            areas->shares.data[areas->shares.count++] = share;
+        }
+    }
+}
+
+/* Sums counts of several bodies in the fields of a system. Its material and its scheme are those that need most. */
+static kiriSystem SumSystems(const kiriSolver* solver, const kiriIslandBody* bodies, int32_t count)
+{
+    kiriSystem system = *bodies[0].sheet;
+    system.frameCount = system.linkCount = system.cornerCount = 0;
+    for (int32_t n = 0; n < count; ++n) {
+        const kiriSolverBody* body = BodyOfMember(&bodies[n]);
+        const kiriSystem* sheet = bodies[n].sheet;
+        KIRI_ASSERT(sheet->mechanics.model == system.mechanics.model && !sheet->mechanics.planar);
+        system.frameCount += body->frames.count;
+        system.linkCount += body->links.count;
+        system.cornerCount += body->corners.count;
+        if (sheet->material.poissonsRatio > system.material.poissonsRatio) {
+            system.material.poissonsRatio = sheet->material.poissonsRatio; /* it says whether there are corners */
+        }
+        if (sheet->mechanics.timeStepping == KIRI_TIME_STEPPING_EULER) {
+            system.mechanics.timeStepping = KIRI_TIME_STEPPING_EULER;
+        }
+    }
+    system.links = solver->islandLinks.data;
+    system.corners = solver->islandCorners.data;
+    system.areaElements = &solver->islandElements;
+    return system;
+}
+
+kiriSystem kiriSolver_Open(kiriSolver* solver, const kiriIslandBody* bodies, int32_t count, kiriMatrix* matrix)
+{
+    bool hasParts = false, hasOffsets = false;
+    kiriSystem system;
+    solver->matrix = matrix;
+    solver->islandBodies = bodies;
+    solver->islandCount = count;
+    solver->sources.count = solver->pins.count = solver->clamps.count = 0;
+    solver->islandLinks.count = solver->islandCorners.count = 0;
+    solver->islandElements.elements.count = solver->islandElements.shares.count = 0;
+    for (int32_t n = 0; n < count; ++n) {
+        KIRI_ASSERT(BodyOfMember(&bodies[n])->isMoved);
+        KIRI_ASSERT(bodies[n].sheet->frameCount == bodies[n].solver->bodies.bodyOf.count);
+        TakeFrames(solver, &bodies[n]);
+        TakePins(solver, &bodies[n]);
+        TakeClamps(solver, &bodies[n]);
+        hasParts |= bodies[n].sheet->linkParts != NULL;
+        hasOffsets |= bodies[n].sheet->strainOffsets != NULL;
+    }
+    for (int32_t n = 0, first = 0; n < count; ++n) {
+        TakeLinkState(solver, &bodies[n], first, hasParts, hasOffsets);
+        first += BodyOfMember(&bodies[n])->links.count;
+        if (count > 1) {
+            TakeElements(solver, &bodies[n]);
+        }
+    }
+    system = count > 1 ? SumSystems(solver, bodies, count)
+                       : SystemOf(&bodies->solver->bodies, BodyOfMember(bodies), bodies->sheet, &solver->areaElements);
+    system.frames = solver->before.data;
+    system.materials = solver->materials.data;
+    system.airs = solver->airs.data;
+    system.pins = solver->pins.data;
+    system.pinCount = solver->pins.count;
+    system.clamps = solver->clamps.data;
+    system.clampCount = solver->clamps.count;
+    system.linkParts = hasParts ? solver->linkParts.data : NULL;
+    system.strainOffsets = hasOffsets ? solver->strainOffsets.data : NULL;
+    return system;
+}
+
+void kiriSolver_KeepCoupled(const kiriSolver* solver, kiriWeight* weights, int32_t* count)
+{
+    const kiriSolverBodies* bodies = &solver->bodies;
+    const kiriMatrix* matrix = bodies->bodies.data[bodies->bodyOf.data[weights[0].frame]].matrix;
+    int32_t kept = 0;
+    double sum = 0.0;
+    for (int32_t n = 0; n < *count && kept < KIRI_CONTACT_SIDE; ++n) {
+        bool isCoupled = true;
+        for (int32_t m = 0; isCoupled && m < kept; ++m) {
+            kiriPair pair = { bodies->place.data[weights[m].frame], bodies->place.data[weights[n].frame] };
+            isCoupled = kiriMatrix_Covers(matrix, pair);
+        }
+        if (isCoupled) {
+            weights[kept++] = weights[n];
+            sum += weights[kept - 1].value;
+        }
+    }
+    for (int32_t n = 0; n < kept; ++n) {
+        weights[n].value /= sum;
+    }
+    *count = kept;
+}
+
+static bool AddPair(kiriMemory* memory, kiriIslandMatrix* island, int32_t a, int32_t b)
+{
+    kiriPair pair = { kiriMin(a, b), kiriMax(a, b) };
+    return a == b || kiriArray_Push(memory, &island->next, pair);
+}
+
+/* Collects the pairs of the mutual contacts of a body. */
+static bool AddContactPairs(kiriMemory* memory, kiriIslandMatrix* island, const kiriIslandBody* member)
+{
+    bool ok = true;
+    for (int32_t k = BodyOfMember(member)->contact; ok && k != KIRI_NONE; k = member->solver->nextContact.data[k]) {
+        const kiriContactRow* row = &member->sheet->contacts[k];
+        for (int32_t i = 0; ok && row->other != NULL && i < row->weightCount * row->otherCount; ++i) {
+            int32_t a = row->weights[i / row->otherCount].frame, b = row->otherWeights[i % row->otherCount].frame;
+            ok = AddPair(memory, island, IslandFrame(member->solver, a), IslandFrame(row->other, b));
+        }
+    }
+    return ok;
+}
+
+static bool AddBodyPairs(kiriMemory* memory, kiriIslandMatrix* island, const kiriIslandBody* member)
+{
+    const kiriSolverBody* body = BodyOfMember(member);
+    int32_t first = island->next.count, pairs = kiriMatrix_PairCount(body->matrix);
+    if (!kiriArray_Resize(memory, &island->next, (int64_t)first + pairs)) {
+        return false;
+    }
+    kiriMatrix_GetPairs(body->matrix, &island->next.data[first]);
+    for (int32_t k = first; k < island->next.count; ++k) {
+        island->next.data[k].a += body->island;
+        island->next.data[k].b += body->island;
+    }
+    return true;
+}
+
+static bool ReserveIsland(kiriSolver* solver, const kiriIslandBody* bodies, int32_t count)
+{
+    kiriMemory* memory = solver->memory;
+    int64_t links = 0, corners = 0, areas = 0, shares = 0, pins = 0, clamps = 0, contacts = 0;
+    for (int32_t n = 0; n < count; ++n) {
+        const kiriSolverBody* body = BodyOfMember(&bodies[n]);
+        links += body->links.count;
+        corners += body->corners.count;
+        areas += body->elements.count;
+        shares += bodies[n].solver->bodies.areaElements.shares.count;
+        pins += bodies[n].sheet->pinCount;
+        clamps += bodies[n].sheet->clampCount;
+        contacts += bodies[n].sheet->contactCount;
+    }
+    bool ok = kiriArray_Reserve(memory, &solver->islandLinks, links) &&
+              kiriArray_Reserve(memory, &solver->islandCorners, corners) &&
+              kiriArray_Reserve(memory, &solver->islandElements.elements, areas) &&
+              kiriArray_Reserve(memory, &solver->islandElements.shares, shares) &&
+              ReserveTaken(solver, pins, clamps, contacts);
+    kiriSystem system = SumSystems(solver, bodies, count);
+    kiriAreaElements* elements = &solver->islandElements;
+    elements->elements.count = elements->shares.count = 0;
+    solver->islandLinks.count = solver->islandCorners.count = 0;
+    for (int32_t n = 0; ok && n < count; ++n) {
+        TakeElements(solver, &bodies[n]);
+    }
+    system.links = solver->islandLinks.data;
+    system.corners = solver->islandCorners.data;
+    return ok && ReserveSteps(solver, &system);
+}
+
+bool kiriSolver_PrepareIsland(kiriSolver* solver, kiriMemory* memory, kiriIslandMatrix* island,
+                              const kiriIslandBody* bodies, int32_t count)
+{
+    int32_t frames = 0;
+    bool ok = true;
+    for (int32_t n = 0; n < count; ++n) {
+        BodyOfMember(&bodies[n])->island = frames;
+        frames += BodyOfMember(&bodies[n])->frames.count;
+    }
+    island->next.count = 0;
+    for (int32_t n = 0; ok && n < count; ++n) {
+        ok = AddBodyPairs(memory, island, &bodies[n]) && AddContactPairs(memory, island, &bodies[n]);
+    }
+    if (!ok || !ReserveIsland(solver, bodies, count)) {
+        return false;
+    }
+    if (island->matrix != NULL && island->size == solver->size && island->frameCount == frames &&
+        island->pairs.count == island->next.count &&
+        memcmp(island->pairs.data, island->next.data, sizeof(kiriPair) * (size_t)island->next.count) == 0) {
+        return true;
+    }
+    kiriMatrix_Destroy(island->matrix);
+    island->matrix = kiriMatrix_Create(memory, solver->size);
+    island->size = solver->size;
+    island->frameCount = frames;
+    if (island->matrix == NULL || !kiriMatrix_Shape(island->matrix, frames, island->next.data, island->next.count)) {
+        kiriMatrix_Destroy(island->matrix);
+        island->matrix = NULL;
+        return false;
+    }
+    kiriArrayHeader old = kiriArray_GetHeader(&island->pairs);
+    kiriArray_SetHeader(&island->pairs, kiriArray_GetHeader(&island->next));
+    kiriArray_SetHeader(&island->next, old);
+    return true;
 }
 
 /* ---- A step ------------------------------------------------------------------------------------------------------ */
@@ -584,7 +853,7 @@ static bool IsReadable(const kiriSolver* solver, int32_t frameCount)
 static void WriteFrames(const kiriSolver* solver, const kiriSystem* system)
 {
     for (int32_t f = 0; f < system->frameCount; ++f) {
-        kiriFrameData* frame = &solver->sheetFrames[solver->sheetFrame[f]];
+        kiriFrameData* frame = solver->sources.data[f].frame;
         const kiriFrameData* end = &solver->after.data[f];
         frame->x = end->x;
         frame->A = frame->held                                  ? frame->heldRotation
@@ -608,27 +877,11 @@ static void ForgetHistories(kiriSolver* solver, const kiriSystem* system)
     }
 }
 
-kiriSystem kiriSolver_Open(kiriSolver* solver, const kiriSystem* sheet, int32_t body)
-{
-    KIRI_ASSERT(body >= 0 && body < solver->bodies.bodies.count && solver->bodies.bodies.data[body].isMoved);
-    KIRI_ASSERT(sheet->frameCount == solver->bodies.bodyOf.count);
-    solver->body = &solver->bodies.bodies.data[body];
-    solver->matrix = solver->body->matrix;
-    solver->sheetFrames = sheet->frames;
-    solver->sheetFrame = &solver->bodies.frames.data[solver->body->frames.first];
-    kiriSystem system = SystemOf(&solver->bodies, solver->body, sheet, &solver->areaElements);
-    system.frames = solver->before.data;
-    TakePins(solver, sheet, &system);
-    TakeClamps(solver, sheet, &system);
-    TakeLinkState(solver, sheet, &system);
-    return system;
-}
-
-int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* sheet, int32_t body, double dt, int32_t iterations,
-                        int32_t most)
+int32_t kiriSolver_StepIsland(kiriSolver* solver, kiriMatrix* matrix, const kiriIslandBody* bodies, int32_t count,
+                              double dt, int32_t iterations, int32_t most)
 {
     KIRI_ASSERT(most >= 1 && iterations >= 1 && dt > 0.0);
-    kiriSystem system = kiriSolver_Open(solver, sheet, body);
+    kiriSystem system = kiriSolver_Open(solver, bodies, count, matrix);
     kiriSolver_Begin(solver, &system, dt);
     int32_t done = kiriSolver_Minimise(solver, &system, kiriMin(iterations, most), most);
     if (done >= 0) {
@@ -639,14 +892,20 @@ int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* sheet, int32_t bod
         return -1;
     }
     kiriSolver_AddReactions(solver, &system);
-    kiriSolver_AddGained(solver, &system);
     kiriSolver_EndContacts(solver, &system);
     WriteFrames(solver, &system);
     for (int32_t k = 0; k < system.clampCount; ++k) {
-        kiriClampRow* row = &sheet->clamps[solver->clampRow.data[k]];
-        row->start = row->pose;
+        solver->clampRows.data[k]->start = solver->clampRows.data[k]->pose;
     }
     return done;
+}
+
+int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* sheet, int32_t body, double dt, int32_t iterations,
+                        int32_t most)
+{
+    const kiriIslandBody alone = { solver, sheet, body };
+    KIRI_ASSERT(body >= 0 && body < solver->bodies.bodies.count);
+    return kiriSolver_StepIsland(solver, solver->bodies.bodies.data[body].matrix, &alone, 1, dt, iterations, most);
 }
 
 /* ---- Elements ---------------------------------------------------------------------------------------------------- */
@@ -708,16 +967,18 @@ void kiriElement_Stiffness(const kiriSystem* system, int32_t k, double* stiffnes
     const kiriCorner* corner = kiriElement_Corner(system, k);
     if (corner != NULL) {
         double all[KIRI_TRACES];
-        kiriTrace_Stiffness(corner, &system->material, all);
+        kiriTrace_Stiffness(corner, kiriSystem_MaterialOf(system, system->links[corner->link[0]].i), all);
         bool isAffine = kiriMechanics_IsAffine(&system->mechanics);
         stiffness[0] = all[isAffine ? KIRI_TRACE_CURVATURE : KIRI_TRACE_STRETCH];
         stiffness[1] = all[KIRI_TRACE_CURVATURE]; /* counts where it has two strains */
     } else if (link == NULL) {
-        kiriAreaElement_Stiffness(AreaElementOf(system, k), &system->material, stiffness);
+        const kiriAreaElement* element = AreaElementOf(system, k);
+        int32_t first = system->areaElements->shares.data[element->first].frame;
+        kiriAreaElement_Stiffness(element, kiriSystem_MaterialOf(system, first), stiffness);
     } else if (kiriMechanics_IsAffine(&system->mechanics)) {
-        kiriAffine_Stiffness(link, &system->material, stiffness);
+        kiriAffine_Stiffness(link, kiriSystem_MaterialOf(system, link->i), stiffness);
     } else {
-        kiriStrain_Stiffness(link, &system->material, stiffness);
+        kiriStrain_Stiffness(link, kiriSystem_MaterialOf(system, link->i), stiffness);
     }
     /* A corner counts as much as the link that counts least. */
     double part = system->linkParts != NULL && link != NULL ? system->linkParts[k] : 1.0;
@@ -750,7 +1011,7 @@ static void MeasureRigidLink(const kiriSystem* system, const kiriLink* link, con
 {
     LinkEnds ends = LinkEndsOf(system, link, poses);
     const kiriPose* const endPoses[2] = { &ends.poses[0], &ends.poses[1] };
-    kiriStrain_Measure(link, &system->material, ends.frames, endPoses, strain, rows);
+    kiriStrain_Measure(link, kiriSystem_MaterialOf(system, link->i), ends.frames, endPoses, strain, rows);
 }
 
 static void MeasureRigidRows(const kiriSystem* system, const kiriLink* link, const kiriPose* poses, double* strain,
@@ -829,7 +1090,7 @@ void kiriElement_Measure(const kiriSystem* system, int32_t k, const kiriPose* po
     } else if (kiriMechanics_IsAffine(&system->mechanics)) {
         LinkEnds ends = LinkEndsOf(system, link, poses);
         const kiriPose* const endPoses[2] = { &ends.poses[0], &ends.poses[1] };
-        kiriAffine_Measure(link, &system->material, ends.frames, endPoses, strain, (kiriFrameRow(*)[2])rows);
+        kiriAffine_Measure(link, kiriSystem_MaterialOf(system, link->i), ends.frames, endPoses, strain, (kiriFrameRow(*)[2])rows);
     } else {
         MeasureRigidRows(system, link, poses, strain, rows);
     }

@@ -28,18 +28,26 @@ typedef struct kiriYieldRow {
     double before, after, most;
 } kiriYieldRow;
 
-enum { KIRI_CONTACT_WEIGHTS = 16 }; /* a row keeps its largest weights, scaled to the sum 1 */
+typedef struct kiriSolver kiriSolver;
+
+enum { KIRI_CONTACT_WEIGHTS = 16, KIRI_CONTACT_SIDE = 4 };
 
 /* A material point, blended from frames by weights, that stays above a plane. The plane is given at the start of the
-   tick. It moves with `velocity` and with the impulse of its yield row. */
+   tick. It moves with `velocity` and with the impulse of its yield row. In a mutual contact it moves with a second
+   material point, of the same sheet or of another. */
 typedef struct kiriContactRow {
     uint64_t key; /* identifies the contact from tick to tick; unique */
-    kiriWeight weights[KIRI_CONTACT_WEIGHTS]; /* largest first; all frames are of one piece */
-    int32_t weightCount;                      /* 1 or more */
+    kiriWeight weights[KIRI_CONTACT_WEIGHTS]; /* the largest weights, scaled to the sum 1; all frames are of one piece */
+    int32_t weightCount;                      /* 1 or more; at most KIRI_CONTACT_SIDE in a mutual contact */
+    kiriSolver* other;                        /* solver of the sheet of the second point; null: no mutual contact */
+    kiriWeight otherWeights[KIRI_CONTACT_SIDE]; /* of the second point, likewise */
+    int32_t otherCount;
+    kiriVec2 otherAt; /* local rest, m; a step moves it along the surface to where the first point is */
+    kiriVec3 otherNormal; /* the normal in the axes of its first frame, with which it turns */
+    kiriVec3 otherOff;    /* m: offset from the second point to the first one in these axes, to be kept along the surface */
     int32_t yield;                            /* index of a yield row; KIRI_NONE: the plane does not yield */
     double felt;    /* 1/kg: inverse mass of the yield row at the point, in any direction; below 0: from its mass and
                        inertia */
-    double cushion; /* 1/kg: softens the contact like additional inverse mass of the obstacle, but without recoil */
     kiriVec2 at;    /* local rest, m */
     kiriVec3 normal;   /* unit, to the side of the sheet */
     double offset;     /* m: dot(normal, x) of the plane, for x as blended from the frames. If the visible point differs
@@ -55,8 +63,6 @@ typedef struct kiriContactRow {
 } kiriContactRow;
 
 /* The motion of frames: implicit steps as minimisations, solved by Gauss-Newton steps. */
-
-typedef struct kiriSolver kiriSolver;
 
 /* A material point of a frame, attached to a target by a spring. */
 typedef struct kiriPinRow {
@@ -84,6 +90,9 @@ typedef struct kiriSystem {
     kiriMechanics mechanics;
     kiriFrameData* frames;
     int32_t frameCount;
+    /* Per frame, if the frames are of several sheets; null: `material` and `air` */
+    const kiriMaterial* const* materials;
+    const kiriAir* const* airs;
     const kiriLink* links;
     int32_t linkCount;
     const double* linkParts;   /* factor of each link's stiffness, 0 to 1; null: 1 */
@@ -173,6 +182,34 @@ int32_t kiriSolver_TakeSolved(kiriSolver* solver);
 /* Assigns rows of pins, clamps and contacts to their bodies, all of which must be moved. Call it after rows were
    written and before a step. */
 void kiriSolver_ShareRows(kiriSolver* solver, const kiriSystem* system);
+
+/* A body of an island: bodies that one step moves as one system, because mutual contacts join them. */
+typedef struct kiriIslandBody {
+    kiriSolver* solver;       /* of its sheet */
+    const kiriSystem* sheet;  /* system of its sheet, all of whose bodies are committed */
+    int32_t body;
+} kiriIslandBody;
+
+/* The matrix of an island. It depends on the pairs alone, so it is kept from tick to tick while they are the same. */
+typedef struct kiriIslandMatrix {
+    kiriMatrix* matrix; /* null: none yet */
+    int32_t size, frameCount;
+    KIRI_ARRAY(kiriPair) pairs, next; /* of the matrix, and of the island */
+} kiriIslandMatrix;
+
+/* Keeps the largest weights of one side of a mutual contact whose frames the pattern of their body couples, scaled to the
+   sum 1. */
+void kiriSolver_KeepCoupled(const kiriSolver* solver, kiriWeight* weights, int32_t* count);
+
+/* Shapes the matrix of an island: pairs of the patterns of its bodies, and pairs of mutual contacts. Reserves the scratch
+   of `solver`, which steps the island. Rows are written and shared. Fails on out of memory. */
+bool kiriSolver_PrepareIsland(kiriSolver* solver, kiriMemory* memory, kiriIslandMatrix* matrix,
+                              const kiriIslandBody* bodies, int32_t count);
+
+/* Moves the frames of an island. `solver` has the scratch; its sheet has the same model as all sheets of the island.
+   Otherwise as kiriSolver_Step. */
+int32_t kiriSolver_StepIsland(kiriSolver* solver, kiriMatrix* matrix, const kiriIslandBody* bodies, int32_t count,
+                              double dt, int32_t iterations, int32_t most);
 
 /* Moves the frames of a body by dt. Links, corners and area elements must be the committed ones; normals of contacts
    must be unit vectors, heldRotation a rotation. Returns the number of linear systems solved: `iterations`, and up to
@@ -295,6 +332,14 @@ typedef struct kiriStepEnergy {
 
 enum { KIRI_CONTACT_MEMBERS = 8 };
 
+/* A frame that carries the point of a contact. Weights of the second point of a mutual contact are negative: the point
+   is then the difference of the two. */
+typedef struct kiriContactMember {
+    int32_t frame;
+    double value;
+    kiriVec2 at; /* local rest, m */
+} kiriContactMember;
+
 #define KIRI_SLIDE_FLOOR 1e-9 /* m: shorter slides count as zero */
 
 /* A contact in one step. In a linear system, and along the resulting Gauss-Newton step, it is a spring on the depth, of
@@ -303,7 +348,8 @@ enum { KIRI_CONTACT_MEMBERS = 8 };
    plane push; sticking contacts that exceed the friction limit slip, slipping contacts whose slide reversed stick. */
 typedef struct kiriContactStep {
     kiriContactRow* row;
-    kiriWeight members[KIRI_CONTACT_MEMBERS]; /* frames that it acts on */
+    kiriYieldRow* yield; /* of the row, or null */
+    kiriContactMember members[KIRI_CONTACT_MEMBERS];
     int32_t memberCount;
     bool isHeld;      /* the host holds half of the frames or more, by weight */
     double mass;      /* kg: of the frames, by weight */
@@ -318,7 +364,7 @@ typedef struct kiriContactStep {
     kiriVec3 direction;     /* of the slide: unit or zero */
     double known;           /* N: largest push in any system so far */
     double stiffness, grip; /* N/m: springs on depth and slide */
-    double give;            /* m/N: compliance of the obstacle in the step, and of its cushion */
+    double give;            /* m/N: compliance of the obstacle in the step */
     double shared;          /* m/N: the same while the point is held up after the last system */
     double depth, sinks;    /* m: depth at assembly, and its change by the whole solution */
     kiriVec3 slide, slides; /* m: slide at assembly, and its change by the whole solution */
@@ -330,6 +376,7 @@ typedef struct kiriContactStep {
     kiriVec3 drags;             /* N: friction at assembly */
     double solved;          /* N: push after the last system, before the body was held up */
     double push;            /* N: push after the systems solved so far */
+    double change;          /* N: of the push by the last system */
     kiriVec3 drag;          /* N: friction after the systems solved so far */
 } kiriContactStep;
 
@@ -378,7 +425,14 @@ typedef struct kiriSolverBody {
     bool isMoved;
     int32_t pin, clamp, contact; /* first row of each kind in the tick, or KIRI_NONE */
     int32_t contactCount;
+    int32_t island; /* scratch: its first frame in the island that contains it */
 } kiriSolverBody;
+
+/* Where a frame of an island comes from. */
+typedef struct kiriFrameSource {
+    kiriFrameData* frame;   /* of the sheet */
+    kiriReaction* reaction; /* null: not computed */
+} kiriFrameSource;
 
 /* All bodies of a sheet, with the indices of their pieces. The items of a body are contiguous, in the order of the
    sheet. */
@@ -406,11 +460,16 @@ struct kiriSolver {
     kiriIndices nextPin, nextClamp, nextContact; /* per row: next row of the same body, or KIRI_NONE */
 
     /* State of the body that steps. Arrays have room for the largest body, committed or staged. */
-    const kiriSolverBody* body;
     kiriMatrix* matrix;
-    kiriFrameData* sheetFrames;
-    const int32_t* sheetFrame; /* per frame of the body: its index in the sheet */
-    double dt, damping;        /* s, h of this step; flexDamping / dt */
+    const kiriIslandBody* islandBodies;
+    int32_t islandCount;
+    KIRI_ARRAY(kiriFrameSource) sources;
+    KIRI_ARRAY(const kiriMaterial*) materials;
+    KIRI_ARRAY(const kiriAir*) airs;
+    KIRI_ARRAY(kiriLink) islandLinks;     /* if there are several bodies, copies of theirs */
+    KIRI_ARRAY(kiriCorner) islandCorners;
+    kiriAreaElements islandElements;
+    double dt; /* s, h of this step */
     int32_t elementCount;
     bool isAlong;   /* poses lie on the Gauss-Newton step of the last system */
     bool isHeld;    /* the host holds a frame */
@@ -424,7 +483,8 @@ struct kiriSolver {
     kiriAreaElements areaElements; /* of the body */
     KIRI_ARRAY(kiriPinRow) pins;
     KIRI_ARRAY(kiriClampRow) clamps;
-    kiriIndices pinRow, clampRow; /* per pin and clamp: its row in the sheet */
+    KIRI_ARRAY(kiriClampRow*) clampRows; /* per clamp: its row in the sheet */
+    KIRI_ARRAY(kiriReaction*) pinReactions, clampReactions; /* null: not computed */
     KIRI_ARRAY(kiriContactStep) contacts;
     KIRI_ARRAY(double) linkParts;
     KIRI_ARRAY(kiriStrainOffset) strainOffsets;
@@ -458,8 +518,20 @@ kiriVec3 kiriSystem_Gravity(const kiriSystem* system);
 
 /* ---- Begin of a step (kiri_step.c) ---- */
 
-/* Opens a body for a step and returns its system. kiriSolver_Begin fills in the frames. */
-kiriSystem kiriSolver_Open(kiriSolver* solver, const kiriSystem* sheet, int32_t body);
+/* Opens an island for a step and returns its system. kiriSolver_Begin fills in the frames. */
+kiriSystem kiriSolver_Open(kiriSolver* solver, const kiriIslandBody* bodies, int32_t count, kiriMatrix* matrix);
+
+/* Returns the material, and the air, of a frame. */
+static inline const kiriMaterial* kiriSystem_MaterialOf(const kiriSystem* system, int32_t frame)
+{
+    KIRI_ASSERT(frame >= 0 && frame < system->frameCount);
+    return system->materials != NULL ? system->materials[frame] : &system->material;
+}
+
+static inline const kiriAir* kiriSystem_AirOf(const kiriSystem* system, int32_t frame)
+{
+    return system->airs != NULL ? system->airs[frame] : system->air;
+}
 
 /* Copies the frames from the sheet, chooses the scheme, predicts, and clears the other state. */
 void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt);
@@ -495,6 +567,11 @@ kiriStepEnergy kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system)
 
 /* ---- Wind (kiri_step.c) ---- */
 
+static inline bool kiriAir_Blows(const kiriAir* air)
+{
+    return air != NULL && air->density > 0.0 && (air->drag > 0.0 || air->lift > 0.0);
+}
+
 bool kiriSystem_HasWind(const kiriSystem* system);
 
 /* Returns the work of the wind on a frame in the step, J. Requires solver->after. */
@@ -520,11 +597,6 @@ double kiriSolver_MostTaken(const kiriSolver* solver);
 /* Takes the energy gain of the body out of its velocities. */
 void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system);
 
-/* Adds to frames of the sheet, if bodies press on each other: the increase of energy in the step beyond the work of
-   gravity, of the host's forces and of moving obstacles (`gained`), and the work and the impulse of other bodies
-   (`passed`, `received`). Call it after kiriSolver_LimitEnergy. */
-void kiriSolver_AddGained(kiriSolver* solver, const kiriSystem* system);
-
 /* ---- Contacts (kiri_contact_row.c) ---- */
 
 static inline kiriVec3 kiriVec3_AlongPlane(kiriVec3 a, kiriVec3 normal)
@@ -532,7 +604,12 @@ static inline kiriVec3 kiriVec3_AlongPlane(kiriVec3 a, kiriVec3 normal)
     return kiriVec3_AddScaled(a, -kiriVec3_Dot(a, normal), normal);
 }
 
-/* BeginContacts makes the contacts of the body: planes and points for a step. GuessContacts guesses their initial
+static inline bool kiriContact_IsMutual(const kiriContactStep* step)
+{
+    return step->row->other != NULL;
+}
+
+/* BeginContacts makes the contacts of the island: planes and points for a step. GuessContacts guesses their initial
    state, after the scheme and the prediction are set. */
 void kiriSolver_BeginContacts(kiriSolver* solver, const kiriSystem* system);
 void kiriSolver_GuessContacts(kiriSolver* solver, const kiriSystem* system);

@@ -92,7 +92,7 @@ static void Predict(kiriSolver* solver, const kiriSystem* system)
     bool isAffine = kiriMechanics_IsAffine(&system->mechanics);
     for (int32_t f = 0; f < system->frameCount; ++f) {
         const kiriFrameData* frame = &solver->before.data[f];
-        const kiriMaterial* material = &system->material;
+        const kiriMaterial* material = kiriSystem_MaterialOf(system, f);
         solver->predictions.data[f] = frame->held ? kiriPrediction_Held(frame, material, solver->stepping.h)
                                       : isAffine  ? kiriPrediction_Affine(frame, material, gravity, &solver->stepping)
                                                   : kiriPrediction_Free(frame, material, gravity, &solver->stepping);
@@ -118,7 +118,7 @@ static kiriStepping ChooseStepping(const kiriSolver* solver, const kiriSystem* s
 {
     kiriStepping chosen = kiriStepping_Euler(solver->dt);
     for (int32_t f = 0; f < system->frameCount; ++f) {
-        const kiriFrameData* frame = &solver->sheetFrames[solver->sheetFrame[f]];
+        const kiriFrameData* frame = solver->sources.data[f].frame;
         if (system->mechanics.timeStepping == KIRI_TIME_STEPPING_EULER || IsBroken(frame, solver->dt)) {
             return kiriStepping_Euler(solver->dt);
         }
@@ -205,6 +205,7 @@ static WindSpring SpringAt(const kiriSolver* solver, const kiriSystem* system, i
 {
     const kiriFrameData* frame = &solver->before.data[f];
     const kiriPrediction* prediction = &solver->predictions.data[f];
+    const kiriAir* air = kiriSystem_AirOf(system, f);
     double part = solver->stepping.part;
     WindSpring spring;
     /* The columns of the root (Cholesky's) of the second moments of a unit area, both ways. */
@@ -214,20 +215,20 @@ static WindSpring SpringAt(const kiriSolver* solver, const kiriSystem* system, i
     kiriVec2 root = k < 2 ? kiriVec2_Make(first, cross) : kiriVec2_Make(0.0, rest);
     spring.at = kiriVec2_Add(frame->center, kiriVec2_Scale(k % 2 == 0 ? sqrt(2.0) : -sqrt(2.0), root));
     kiriVec3 wide = kiriVec3_Cross(frame->A.u, frame->A.v); /* an affine frame stretches its area */
-    kiriVec3 past = kiriVec3_Sub(system->air->velocity, kiriFrame_VelocityAt(frame, spring.at));
-    double c = 0.5 * system->air->density * kiriVec3_Length(past) * kiriVec3_Length(wide) * frame->area / SAMPLES;
+    kiriVec3 past = kiriVec3_Sub(air->velocity, kiriFrame_VelocityAt(frame, spring.at));
+    double c = 0.5 * air->density * kiriVec3_Length(past) * kiriVec3_Length(wide) * frame->area / SAMPLES;
     kiriVec2 from = kiriVec2_Sub(spring.at, frame->center);
     kiriVec3 turning = kiriVec3_AddScaled(kiriVec3_Scale(from.x, prediction->rate.u), from.y, prediction->rate.v);
     if (!kiriMechanics_IsAffine(&system->mechanics)) {
         turning = kiriVec3_Cross(prediction->spin, kiriPose_Along(&prediction->pose, from));
     }
     kiriVec3 velocity = kiriVec3_Add(prediction->velocity, turning);
-    kiriVec3 ahead = kiriVec3_Sub(system->air->velocity, velocity);
+    kiriVec3 ahead = kiriVec3_Sub(air->velocity, velocity);
     spring.normal = kiriVec3_Normalize(wide);
     kiriVec3 predicted = kiriVec3_Add(prediction->pose.x, kiriSystem_Arm(system, f, spring.at, &prediction->pose));
     spring.target = kiriVec3_AddScaled(predicted, part, ahead);
-    spring.across = c * system->air->drag / part;
-    spring.along = c * system->air->lift / part;
+    spring.across = c * air->drag / part;
+    spring.along = c * air->lift / part;
     return spring;
 }
 
@@ -241,7 +242,11 @@ static kiriVec3 ForceOf(const WindSpring* spring, kiriVec3 point)
 
 bool kiriSystem_HasWind(const kiriSystem* system)
 {
-    return system->air != NULL && system->air->density > 0.0 && (system->air->drag > 0.0 || system->air->lift > 0.0);
+    bool has = kiriAir_Blows(system->air);
+    for (int32_t f = 0; system->airs != NULL && !has && f < system->frameCount; ++f) {
+        has = kiriAir_Blows(system->airs[f]);
+    }
+    return has;
 }
 
 static void AddWindEnergy(const kiriSolver* solver, const kiriSystem* system, const kiriPose* poses,
@@ -268,7 +273,7 @@ double kiriWind_Work(const kiriSolver* solver, const kiriSystem* system, int32_t
         WindSpring spring = SpringAt(solver, system, f, k);
         kiriVec3 from = kiriFrame_Carry(start, spring.at), to = kiriFrame_Carry(end, spring.at);
         kiriVec3 way = kiriVec3_Sub(to, from);
-        kiriVec3 past = kiriVec3_Sub(system->air->velocity, kiriFrame_VelocityAt(start, spring.at));
+        kiriVec3 past = kiriVec3_Sub(kiriSystem_AirOf(system, f)->velocity, kiriFrame_VelocityAt(start, spring.at));
         WindSpring before = spring;
         before.target = kiriVec3_AddScaled(from, part, past);
         first += kiriVec3_Dot(way, ForceOf(&before, from));
@@ -426,8 +431,11 @@ static double AffineNoise(const kiriSolver* solver, const kiriSystem* system, in
    more energy than that. */
 static void FindNoise(kiriSolver* solver, const kiriSystem* system)
 {
-    const double share = KIRI_LAST_BITS * KIRI_LAST_BITS * (1.0 + solver->damping);
-    double part = solver->stepping.part, sum = 0.0;
+    double part = solver->stepping.part, sum = 0.0, damping = 0.0;
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        damping = kiriMax((double)kiriSystem_MaterialOf(system, f)->flexDamping / solver->dt, damping);
+    }
+    const double share = KIRI_LAST_BITS * KIRI_LAST_BITS * (1.0 + damping);
     for (int32_t f = 0; f < system->frameCount; ++f) {
         kiriVec3 x = solver->start.data[f].x;
         sum += share * system->frames[f].mass * kiriVec3_Dot(x, x) / (part * part);
@@ -474,12 +482,20 @@ static double DampingShare(const kiriSolver* solver, const kiriSystem* system, i
     return least;
 }
 
+static int32_t FirstMember(const kiriSolver* solver, const kiriSystem* system, int32_t k)
+{
+    kiriElement_Members(system, k, solver->members.data);
+    return solver->members.data[0];
+}
+
 static kiriSupport SupportOf(const kiriSolver* solver, const kiriSystem* system)
 {
     bool isHeld = kiriSystem_HasWind(system) || solver->isHeld || system->pinCount > 0 || system->clampCount > 0;
-    return isHeld                       ? KIRI_SUPPORT_HELD
-           : solver->contacts.count > 0 ? KIRI_SUPPORT_CONTACTS
-                                        : KIRI_SUPPORT_NONE;
+    bool isPushed = false;
+    for (int32_t k = 0; k < solver->contacts.count; ++k) {
+        isPushed |= !kiriContact_IsMutual(&solver->contacts.data[k]);
+    }
+    return isHeld ? KIRI_SUPPORT_HELD : isPushed ? KIRI_SUPPORT_CONTACTS : KIRI_SUPPORT_NONE;
 }
 
 static kiriVec3* CarriedOn(const kiriStepping* stepping, kiriHistory* history)
@@ -514,17 +530,16 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
     memset(&solver->search, 0, sizeof(solver->search));
     memset(&solver->touch, 0, sizeof(solver->touch));
     solver->dt = dt;
-    solver->damping = (double)system->material.flexDamping / dt;
     solver->elementCount = kiriElement_Count(system);
     solver->isAlong = solver->isHeld = false;
     solver->search.scale = 1.0;
     /* Air damping is applied first, so it only takes energy, whatever gravity does to the velocity. The second-order
        form equals exp(-z) up to the third power of z. */
-    double z = dt * (double)system->material.airDamping;
     bool isEuler = system->mechanics.timeStepping == KIRI_TIME_STEPPING_EULER;
-    double fade = 1.0 / (1.0 + z + (isEuler ? 0.0 : 0.5 * z * z));
     for (int32_t f = 0; f < system->frameCount; ++f) {
-        const kiriFrameData* frame = &solver->sheetFrames[solver->sheetFrame[f]];
+        double z = dt * (double)kiriSystem_MaterialOf(system, f)->airDamping;
+        double fade = 1.0 / (1.0 + z + (isEuler ? 0.0 : 0.5 * z * z));
+        const kiriFrameData* frame = solver->sources.data[f].frame;
         kiriFrameData* before = &solver->before.data[f];
         solver->isHeld |= frame->held != 0;
         solver->start.data[f] = kiriPose_Of(frame);
@@ -551,7 +566,8 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
         kiriElement_Stiffness(system, k, stiffness);
         MeasureElement(system, k, solver->start.data, solver->startStrain.data);
         solver->stopping.data[k] = 0;
-        double damping = solver->damping * DampingShare(solver, system, k);
+        int32_t first = FirstMember(solver, system, k);
+        double damping = (double)kiriSystem_MaterialOf(system, first)->flexDamping / dt * DampingShare(solver, system, k);
         for (int e = 0; e < kiriElement_StrainCount(system, k); ++e) {
             solver->loss.data[KIRI_MOST_STRAINS * k + e] = damping * stiffness[e];
         }
@@ -561,8 +577,10 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
     }
     for (int32_t k = 0; k < system->clampCount; ++k) {
         KIRI_ASSERT(system->clamps[k].isAffine == kiriMechanics_IsAffine(&system->mechanics));
-        kiriClamp_Begin(&system->clamps[k], system->mechanics.planar, &system->material, solver->damping,
-                        &system->frames[system->clamps[k].frame], &solver->start.data[system->clamps[k].frame]);
+        int32_t frame = system->clamps[k].frame;
+        const kiriMaterial* material = kiriSystem_MaterialOf(system, frame);
+        kiriClamp_Begin(&system->clamps[k], system->mechanics.planar, material, (double)material->flexDamping / dt,
+                        &system->frames[frame], &solver->start.data[frame]);
     }
     for (int32_t f = 0; f < system->frameCount; ++f) {
         if (system->frames[f].held) {
@@ -683,7 +701,7 @@ static void DeriveStrains(kiriSolver* solver, const kiriSystem* system, int32_t 
         const kiriLink* link = kiriElement_Link(system, k);
         const kiriFrameData* const frames[2] = { &system->frames[link->i], &system->frames[link->j] };
         const kiriPose* const ends[2] = { &solver->poses.data[link->i], &solver->poses.data[link->j] };
-        kiriStrain_Measure(link, &system->material, frames, ends, strain, (kiriStrainRow*)J); /* rows are J as it is */
+        kiriStrain_Measure(link, kiriSystem_MaterialOf(system, link->i), frames, ends, strain, (kiriStrainRow*)J); /* rows are J as it is */
     } else {
         kiriElement_Measure(system, k, solver->poses.data, strain, solver->rows.data);
         for (int32_t n = 0; n < kiriElement_StrainCount(system, k) * count; ++n) {
@@ -1077,10 +1095,10 @@ static kiriWrench AboutPoint(const kiriWrench* wrench, kiriVec3 x, kiriVec3 poin
 /* Takes a wrench about x of a frame from its hold: the hold bears all but the frame's own forces. */
 static void TakeFromHold(const kiriSolver* solver, const kiriSystem* system, int32_t frame, kiriWrench wrench)
 {
-    if (system->reactions.frames != NULL && system->frames[frame].held) {
+    if (solver->sources.data[frame].reaction != NULL && system->frames[frame].held) {
         kiriVec3 held = solver->before.data[frame].heldPosition;
         wrench = AboutPoint(&wrench, solver->poses.data[frame].x, held);
-        kiriWrench_Add(&system->reactions.frames[solver->sheetFrame[frame]].now, -1.0, &wrench);
+        kiriWrench_Add(&solver->sources.data[frame].reaction->now, -1.0, &wrench);
     }
 }
 
@@ -1090,8 +1108,8 @@ static void AddPinPulls(const kiriSolver* solver, const kiriSystem* system)
         const kiriPinRow* pin = &system->pins[k];
         kiriVec3 point = kiriSystem_Point(system, pin->frame, pin->at, solver->poses.data);
         kiriVec3 force = kiriVec3_Scale(-pin->stiffness, kiriVec3_Sub(point, pin->target));
-        if (system->reactions.pins != NULL) {
-            system->reactions.pins[solver->pinRow.data[k]].now.force = force;
+        if (solver->pinReactions.data[k] != NULL) {
+            solver->pinReactions.data[k]->now.force = force;
         }
         TakeFromHold(solver, system, pin->frame, ForceAt(solver, pin->frame, point, force));
     }
@@ -1111,8 +1129,8 @@ static void AddClampPulls(const kiriSolver* solver, const kiriSystem* system)
             double pull = -row->stiffness[e] * pulling[e] - row->loss[e] * (strain[e] - row->startStrain[e]);
             AddPull(solver, &rows[e], pull, &pose->A, &wrench);
         }
-        if (system->reactions.clamps != NULL) {
-            system->reactions.clamps[solver->clampRow.data[k]].now = AboutPoint(&wrench, pose->x, row->pose.x);
+        if (solver->clampReactions.data[k] != NULL) {
+            solver->clampReactions.data[k]->now = AboutPoint(&wrench, pose->x, row->pose.x);
         }
         TakeFromHold(solver, system, row->frame, wrench);
     }
@@ -1125,7 +1143,7 @@ static void TakeContactsFromHolds(const kiriSolver* solver, const kiriSystem* sy
         kiriVec3 force = kiriContact_Force(solver, step);
         for (int32_t m = 0; m < step->memberCount; ++m) {
             int32_t frame = step->members[m].frame;
-            kiriVec3 point = kiriSystem_Point(system, frame, step->row->at, solver->poses.data);
+            kiriVec3 point = kiriSystem_Point(system, frame, step->members[m].at, solver->poses.data);
             kiriVec3 part = kiriVec3_Scale(step->members[m].value, force);
             TakeFromHold(solver, system, frame, ForceAt(solver, frame, point, part));
         }
@@ -1165,12 +1183,13 @@ static void AddMomentum(const kiriSolver* solver, const kiriSystem* system, int3
     const kiriFrameData *before = &solver->before.data[f], *after = &solver->after.data[f];
     kiriVec3 gravity = kiriVec3_Scale(before->mass, kiriSystem_Gravity(system));
     kiriVec3 gained = kiriVec3_Scale(before->mass, kiriVec3_Sub(after->velocity, before->velocity));
-    kiriVec3 turned = kiriVec3_Sub(kiriFrame_AngularMomentum(after, &system->material),
-                                   kiriFrame_AngularMomentum(before, &system->material));
+    const kiriMaterial* material = kiriSystem_MaterialOf(system, f);
+    kiriVec3 turned =
+        kiriVec3_Sub(kiriFrame_AngularMomentum(after, material), kiriFrame_AngularMomentum(before, material));
     kiriWrench wrench = { kiriVec3_AddScaled(gained, -solver->dt, kiriVec3_Add(gravity, before->force)),
                           kiriVec3_AddScaled(turned, -solver->dt, before->torque) };
     wrench = AboutPoint(&wrench, solver->poses.data[f].x, before->heldPosition);
-    kiriWrench_Add(&system->reactions.frames[solver->sheetFrame[f]].impulse, 1.0, &wrench);
+    kiriWrench_Add(&solver->sources.data[f].reaction->impulse, 1.0, &wrench);
 }
 
 /* Turns the force at the end of the step into an impulse by the step's scheme (kiri_frame.h), as inner forces are: so
@@ -1189,16 +1208,19 @@ static void EndReaction(const kiriStepping* stepping, kiriReaction* reaction)
 
 static void EndReactions(const kiriSolver* solver, const kiriSystem* system)
 {
-    const kiriReactions* reactions = &system->reactions;
-    for (int32_t k = 0; reactions->pins != NULL && k < system->pinCount; ++k) {
-        EndReaction(&solver->stepping, &reactions->pins[solver->pinRow.data[k]]);
+    for (int32_t k = 0; k < system->pinCount; ++k) {
+        if (solver->pinReactions.data[k] != NULL) {
+            EndReaction(&solver->stepping, solver->pinReactions.data[k]);
+        }
     }
-    for (int32_t k = 0; reactions->clamps != NULL && k < system->clampCount; ++k) {
-        EndReaction(&solver->stepping, &reactions->clamps[solver->clampRow.data[k]]);
+    for (int32_t k = 0; k < system->clampCount; ++k) {
+        if (solver->clampReactions.data[k] != NULL) {
+            EndReaction(&solver->stepping, solver->clampReactions.data[k]);
+        }
     }
-    for (int32_t f = 0; reactions->frames != NULL && f < system->frameCount; ++f) {
-        if (system->frames[f].held) {
-            EndReaction(&solver->stepping, &reactions->frames[solver->sheetFrame[f]]);
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        if (solver->sources.data[f].reaction != NULL && system->frames[f].held) {
+            EndReaction(&solver->stepping, solver->sources.data[f].reaction);
             AddMomentum(solver, system, f);
         }
     }
@@ -1208,7 +1230,7 @@ void kiriSolver_AddReactions(kiriSolver* solver, const kiriSystem* system)
 {
     AddPinPulls(solver, system);
     AddClampPulls(solver, system);
-    if (solver->isHeld && system->reactions.frames != NULL) {
+    if (solver->isHeld) {
         TakeContactsFromHolds(solver, system);
         for (int32_t f = 0; kiriSystem_HasWind(system) && f < system->frameCount; ++f) {
             if (system->frames[f].held) {

@@ -186,7 +186,7 @@ static int32_t ChooseMoved(kiriSheetData* sheet, const kiriQuota* systems)
         kiriSolver_SetMoved(sheet->solver, p, kiriPiece_IsAwake(&sheet->layout.pieces.data[p]));
     }
     bool areOther = kiriSolver_ListMoved(sheet->solver);
-    int32_t next = DeferBodies(sheet, systems);
+    int32_t next = systems != NULL ? DeferBodies(sheet, systems) : 0;
     if (areOther || sheet->turns.waiting > 0) {
         kiriTouches_Sort(sheet);
         kiriSheet_SumRest(sheet);
@@ -227,32 +227,29 @@ static void Stop(kiriSheetData* sheet)
 
 /* ---- Tick ---- */
 
-/* Returns the count of linear systems that the quota has left; at least one if nothing of it is used yet. */
-static int64_t SystemsLeft(const kiriQuota* quota, int64_t items)
+int64_t kiriMotion_SystemsLeft(const kiriQuota* quota, int64_t items)
 {
     int64_t fit = quota->left / items;
     return fit > 0 || kiriQuota_IsBegun(quota) ? fit : 1;
 }
 
-enum { MOST_ROUNDS = 64 + KIRI_EXTRA_SYSTEMS }; /* linear systems of a body in a step */
-
 /* Moves each body by one step. Charges the quota for each round: the n-th systems of all bodies together. */
 static bool StepBodies(kiriSheetData* sheet, const kiriSystem* system, double dt, int64_t most, kiriQuota* systems)
 {
     const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->bodies;
-    int64_t work[MOST_ROUNDS] = { 0 };
+    int64_t work[KIRI_MOST_ROUNDS] = { 0 };
     for (int32_t n = 0; n < moved->count; ++n) {
         int32_t solved = kiriSolver_Step(sheet->solver, system, moved->data[n], dt, sheet->settings.iterations,
                                          (int32_t)kiriMin(most, INT32_MAX));
         if (solved < 0) {
             return false;
         }
-        KIRI_ASSERT(solved <= MOST_ROUNDS);
+        KIRI_ASSERT(solved <= KIRI_MOST_ROUNDS);
         for (int32_t k = 0; k < solved; ++k) {
             work[k] += WorkOfBody(sheet, moved->data[n]);
         }
     }
-    for (int32_t k = 0; k < MOST_ROUNDS && work[k] > 0; ++k) {
+    for (int32_t k = 0; k < KIRI_MOST_ROUNDS && work[k] > 0; ++k) {
         kiriQuota_Take(systems, kiriSolver_ItemsOf(work[k]));
     }
     return true;
@@ -262,12 +259,11 @@ static bool StepBodies(kiriSheetData* sheet, const kiriSystem* system, double dt
 static kiriProgress TakeSubsteps(kiriSheetData* sheet, const kiriSystem* system, double dt, int32_t substeps,
                                  kiriQuota* systems)
 {
-    kiriSolver_ShareRows(sheet->solver, system);
-    int64_t items = ItemsOfMoved(sheet), left = SystemsLeft(systems, items);
+    int64_t items = ItemsOfMoved(sheet), left = kiriMotion_SystemsLeft(systems, items);
     substeps = left < substeps ? (int32_t)left : substeps;
     for (int32_t i = 0; i < substeps; ++i) {
         kiriFollow_Step(sheet, i, substeps, dt / substeps);
-        if (!StepBodies(sheet, system, dt / substeps, SystemsLeft(systems, items) - (substeps - 1 - i), systems)) {
+        if (!StepBodies(sheet, system, dt / substeps, kiriMotion_SystemsLeft(systems, items) - (substeps - 1 - i), systems)) {
             return KIRI_FAILED;
         }
     }
@@ -280,22 +276,29 @@ static bool IsRead(const kiriSheetData* sheet)
     return sheet->touches.found.count > 0 || sheet->pins.count > 0;
 }
 
-/* Writes the rows of pins, then runs the substeps with a system that includes pins and touches. */
-static kiriProgress MoveFrames(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps, kiriQuota* systems)
+int32_t kiriMotion_Begin(kiriSheetData* sheet, kiriVec3 gravity, double dt, const kiriQuota* systems, kiriSystem* system)
 {
-    if (!IsRead(sheet) && SystemsLeft(systems, ItemsOfMoved(sheet)) == 0) {
+    int32_t next = ChooseMoved(sheet, systems);
+    bool isLate = systems != NULL && !sheet->rest.asleep && !IsRead(sheet) &&
+                  kiriMotion_SystemsLeft(systems, ItemsOfMoved(sheet)) == 0;
+    if (sheet->rest.asleep || isLate) {
         sheet->touches.rows.count = 0;
-        return KIRI_MORE;
+        return next;
     }
     kiriFollow_Begin(sheet, dt);
     kiriPins_WriteRows(sheet, 0.0, 1.0);
     kiriPins_BeginReactions(sheet);
     kiriTouches_WriteRows(sheet);
-    kiriSystem system = MakeSystem(sheet, gravity);
-    kiriProgress progress = TakeSubsteps(sheet, &system, dt, substeps, systems);
+    *system = MakeSystem(sheet, gravity);
+    kiriSolver_ShareRows(sheet->solver, system);
+    return next;
+}
+
+void kiriMotion_End(kiriSheetData* sheet, kiriProgress progress, bool isMoved, double dt)
+{
     if (progress == KIRI_FAILED) {
         Stop(sheet);
-    } else if (progress == KIRI_DONE) {
+    } else if (isMoved && progress == KIRI_DONE) {
         kiriPins_TakeReactions(sheet, dt);
         kiriTouches_End(sheet);
         kiriStrainOffsets_Advance(&sheet->strainOffsets, &kiriSolver_Moved(sheet->solver)->links, dt,
@@ -303,20 +306,24 @@ static kiriProgress MoveFrames(kiriSheetData* sheet, kiriVec3 gravity, double dt
         kiriPins_FadeOffsets(sheet, dt, sheet->seen.fades.time);
         CountCalm(sheet, dt);
     }
-    return progress;
+    kiriTouches_Tell(sheet, dt);
+    if (isMoved) {
+        ClearForces(sheet);
+    }
 }
 
 kiriProgress kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps, kiriQuota* systems)
 {
-    int32_t next = ChooseMoved(sheet, systems);
-    if (sheet->rest.asleep) {
-        kiriTouches_Tell(sheet, dt);
-        return KIRI_DONE;
+    kiriSystem system;
+    int32_t next = kiriMotion_Begin(sheet, gravity, dt, systems, &system);
+    bool isMoved = !sheet->rest.asleep;
+    kiriProgress progress = KIRI_DONE;
+    if (isMoved) {
+        bool isLate = !IsRead(sheet) && kiriMotion_SystemsLeft(systems, ItemsOfMoved(sheet)) == 0;
+        progress = isLate ? KIRI_MORE : TakeSubsteps(sheet, &system, dt, substeps, systems);
+        sheet->turns.next = progress == KIRI_DONE ? next : sheet->turns.next;
     }
-    kiriProgress progress = MoveFrames(sheet, gravity, dt, substeps, systems);
-    sheet->turns.next = progress == KIRI_DONE ? next : sheet->turns.next;
-    kiriTouches_Tell(sheet, dt);
-    ClearForces(sheet);
+    kiriMotion_End(sheet, progress, isMoved, dt);
     return progress;
 }
 

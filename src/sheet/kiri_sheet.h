@@ -80,7 +80,7 @@ typedef struct kiriPiece {
     bool cameOff;   /* not the largest part of its origin */
     bool isGone;    /* destroyed by the host: hidden, and removed when the current update ends */
     bool isTouched; /* its frames, links or samples differ from the ones of its origin */
-    int32_t island; /* scratch: index of its island of touching pieces, see kiri_pair.c */
+    int32_t awake;  /* scratch: its number among the awake pieces, see kiri_pair.c */
     kiriRest rest;
 } kiriPiece;
 
@@ -174,7 +174,7 @@ typedef struct kiriProbes {
     kiriPieceRow list;               /* probes, by piece */
     KIRI_ARRAY(kiriVec3) velocities; /* m/s, in the order of `list` */
     KIRI_ARRAY(kiriBox) boxes;       /* per piece, around its visible surface */
-    KIRI_ARRAY(int32_t) touch;       /* per vertex: index of its touch in this tick, see kiri_pair.c */
+    KIRI_ARRAY(int32_t) touch;       /* per vertex: index of its touch in this tick, above and below another piece */
     KIRI_ARRAY(double) speeds;       /* m/s, per piece: speed of the fastest probe */
 } kiriProbes;
 
@@ -275,7 +275,7 @@ typedef struct kiriTouch {
     kiriVec3 velocity;
     double friction, pushSpeed;
     int32_t yield;
-    double felt, cushion;
+    double felt;
     int32_t row;    /* its contact row; KIRI_NONE if its piece sleeps */
     kiriVec3 force; /* N, on the sheet: stored for a touch of a sleeping piece */
 } kiriTouch;
@@ -283,7 +283,8 @@ typedef struct kiriTouch {
 /* Force of a contact in the last tick that moved the sheet. */
 typedef struct kiriTouchForce {
     uint64_t key;
-    kiriVec3 force; /* N, on the sheet */
+    kiriVec3 force;  /* N, on the sheet */
+    kiriVec3 normal; /* of the contact */
 } kiriTouchForce;
 
 /* Touches, and the nonzero forces sorted by key. */

@@ -50,7 +50,7 @@ KIRI_TABLE(PieceTable, kiriPiece, {
     KIRI_RUN(4, kiriPiece, origin, origin),
     KIRI_BOOLS(kiriPiece, cameOff, cameOff),
     KIRI_BOOLS(kiriPiece, isTouched, isTouched),
-    KIRI_RUN(4, kiriPiece, island, island),
+    KIRI_RUN(4, kiriPiece, awake, awake),
 });
 
 KIRI_TABLE(SeveredLinkTable, kiriSeveredLink, {
@@ -124,14 +124,14 @@ KIRI_TABLE(TouchTable, kiriTouch, {
     KIRI_RUN(4, kiriTouch, point, vertex),
     KIRI_REALS(kiriTouch, share, seen),
     KIRI_RUN(4, kiriTouch, yield, yield),
-    KIRI_REALS(kiriTouch, felt, cushion),
+    KIRI_REALS(kiriTouch, felt, felt),
     KIRI_RUN(4, kiriTouch, row, row),
     KIRI_REALS(kiriTouch, force, force),
 });
 
 KIRI_TABLE(TouchForceTable, kiriTouchForce, {
     KIRI_RUN(8, kiriTouchForce, key, key),
-    KIRI_REALS(kiriTouchForce, force, force),
+    KIRI_REALS(kiriTouchForce, force, normal),
 });
 
 KIRI_TABLE(TouchMemoryTable, kiriTouchMemory, {

@@ -616,7 +616,7 @@ static bool MarkVertices(kiriSheetData* sheet)
         !kiriArray_Resize(sheet->memory, &probes->isBorder, vertices) ||
         !kiriArray_Resize(sheet->memory, &probes->leans, vertices) ||
         !kiriArray_Resize(sheet->memory, &probes->isChosen, vertices) ||
-        !kiriArray_Resize(sheet->memory, &probes->touch, vertices) ||
+        !kiriArray_Resize(sheet->memory, &probes->touch, 2 * (int64_t)vertices) ||
         !kiriArray_Resize(sheet->memory, &probes->boxes, sheet->layout.pieces.count) ||
         !kiriArray_Resize(sheet->memory, &probes->speeds, sheet->layout.pieces.count)) {
         return false;
@@ -762,6 +762,7 @@ static void MergeForces(kiriTouchMemory* memory, const int32_t* order, int32_t c
         } else {
             memory->forces.data[to].key = added->key;
             memory->forces.data[to].force = added->force;
+            memory->forces.data[to].normal = added->normal;
             count -= 1;
         }
     }
@@ -1071,24 +1072,36 @@ static void TakeLargest(TouchBlend* blend, int32_t n)
     blend->weights[n] = largest;
 }
 
-/* Writes the weights of a row. If a cut separated the vertices, the piece with the largest weight gets the contact. */
-static void WriteWeights(const kiriSheetData* sheet, TouchBlend* blend, kiriContactRow* row)
+/* Writes the largest weights, at most `most`, and returns their number. If a cut separated the vertices, the piece with
+   the largest weight gets the contact. */
+static int32_t WriteWeights(const kiriSheetData* sheet, TouchBlend* blend, kiriWeight* weights, int32_t most)
 {
+    const int32_t* piece = sheet->layout.framePiece.data;
+    int32_t count = 0;
     double sum = 0.0;
-    row->weightCount = 0;
-    for (int32_t n = 0; n < blend->count && row->weightCount < KIRI_CONTACT_WEIGHTS; ++n) {
+    for (int32_t n = 0; n < blend->count && count < most; ++n) {
         TakeLargest(blend, n);
-        const int32_t* piece = sheet->layout.framePiece.data;
         kiriWeight weight = blend->weights[n];
-        if (weight.value > 0.0 && (n == 0 || piece[weight.frame] == piece[row->weights[0].frame])) {
-            row->weights[row->weightCount++] = weight;
+        if (weight.value > 0.0 && (n == 0 || piece[weight.frame] == piece[weights[0].frame])) {
+            weights[count++] = weight;
             sum += weight.value;
         }
     }
-    KIRI_ASSERT(row->weightCount > 0);
-    for (int32_t n = 0; n < row->weightCount; ++n) {
-        row->weights[n].value /= sum;
+    KIRI_ASSERT(count > 0);
+    for (int32_t n = 0; n < count; ++n) {
+        weights[n].value /= sum;
     }
+    return count;
+}
+
+/* Returns the point that frames carry by these weights. */
+static kiriVec3 CarriedPoint(const kiriSheetData* sheet, const kiriWeight* weights, int32_t count, kiriVec2 at)
+{
+    kiriVec3 x = { 0.0, 0.0, 0.0 };
+    for (int32_t n = 0; n < count; ++n) {
+        x = kiriVec3_AddScaled(x, weights[n].value, kiriFrame_Carry(&sheet->frames.data[weights[n].frame], at));
+    }
+    return x;
 }
 
 static void WriteContactRow(const kiriSheetData* sheet, const kiriTouch* touch, double sampleMass, kiriContactRow* row)
@@ -1107,14 +1120,9 @@ static void WriteContactRow(const kiriSheetData* sheet, const kiriTouch* touch, 
     }
     row->yield = touch->yield;
     row->felt = touch->felt;
-    row->cushion = touch->cushion;
     row->force = kiriTouches_ForceOf(sheet, touch->key);
-    WriteWeights(sheet, &blend, row);
-    kiriVec3 at = { 0.0, 0.0, 0.0 };
-    for (int32_t n = 0; n < row->weightCount; ++n) {
-        const kiriFrameData* frame = &sheet->frames.data[row->weights[n].frame];
-        at = kiriVec3_AddScaled(at, row->weights[n].value, kiriFrame_Carry(frame, row->at));
-    }
+    row->weightCount = WriteWeights(sheet, &blend, row->weights, KIRI_CONTACT_WEIGHTS);
+    kiriVec3 at = CarriedPoint(sheet, row->weights, row->weightCount, row->at);
     row->offset = touch->offset + kiriVec3_Dot(row->normal, kiriVec3_Sub(at, touch->seen));
 }
 
@@ -1128,6 +1136,53 @@ static double SampleMass(const kiriSheetData* sheet)
     }
     double least = (double)material->density * material->thickness * square * square;
     return kiriMax(mass / sheet->mesh.vertices.count, least);
+}
+
+#define PROBE_SHARE 0.25 /* of the mass of the frames that carry a probe: most that it represents */
+
+/* Returns the mass that a probe represents, kg: of its block of grid squares, or less in a small piece. */
+static double ProbeMass(const kiriSheetData* sheet, const kiriWeight* weights, int32_t count)
+{
+    const kiriMaterial* material = &sheet->settings.material;
+    double side = sheet->mesh.step * sheet->mesh.squares.side * sheet->probes.block, carried = 0.0;
+    for (int32_t n = 0; n < count; ++n) {
+        carried += weights[n].value * sheet->frames.data[weights[n].frame].mass;
+    }
+    return kiriMin((double)material->density * material->thickness * side * side, PROBE_SHARE * carried);
+}
+
+bool kiriTouches_JoinRow(kiriSheetData* sheet, const kiriTouch* touch, kiriSheetData* other, const int32_t vertex[3],
+                         const double share[3])
+{
+    kiriContactRow* row = &sheet->touches.rows.data[touch->row];
+    kiriTouch place = { .point = KIRI_NONE };
+    memcpy(place.vertex, vertex, sizeof(place.vertex));
+    memcpy(place.share, share, sizeof(place.share));
+    TouchBlend blend = BlendOf(other, &place);
+    double distance = 0.5 * (sheet->settings.contactThickness + other->settings.contactThickness);
+    KIRI_ASSERT(touch->row >= 0 && touch->row < sheet->touches.rows.count);
+    row->otherCount = WriteWeights(other, &blend, row->otherWeights, KIRI_CONTACT_SIDE);
+    row->mass = kiriMin(ProbeMass(sheet, row->weights, row->weightCount),
+                        ProbeMass(other, row->otherWeights, row->otherCount));
+    row->reach = 0.5 * distance;
+    row->otherAt = blend.at;
+    if (!kiriSheet_Moves(other, row->otherWeights[0].frame) || other->rest.asleep ||
+        other->settings.mechanics.model != sheet->settings.mechanics.model) {
+        return false;
+    }
+    row->other = other->solver;
+    row->velocity = kiriVec3_Make(0.0, 0.0, 0.0);
+    kiriSolver_KeepCoupled(sheet->solver, row->weights, &row->weightCount);
+    kiriSolver_KeepCoupled(other->solver, row->otherWeights, &row->otherCount);
+    /* The plane is at `distance` of the second point. Visible points differ from those that frames carry. */
+    kiriVec3 from = CarriedPoint(other, row->otherWeights, row->otherCount, row->otherAt);
+    kiriVec3 to = CarriedPoint(sheet, row->weights, row->weightCount, row->at);
+    kiriVec3 apart = kiriVec3_Sub(to, from);
+    const kiriMat3* A = &other->frames.data[row->otherWeights[0].frame].A;
+    row->offset = touch->offset + kiriVec3_Dot(row->normal, kiriVec3_Sub(apart, touch->seen));
+    row->otherNormal = kiriMat3_MulTransposed(A, row->normal);
+    row->otherOff = kiriMat3_MulTransposed(A, apart);
+    return true;
 }
 
 void kiriTouches_WriteRows(kiriSheetData* sheet)
@@ -1144,6 +1199,15 @@ void kiriTouches_WriteRows(kiriSheetData* sheet)
         touch->row = isAwake ? touches->rows.count : KIRI_NONE;
         touches->rows.count += isAwake;
     }
+}
+
+bool kiriTouches_NormalOf(const kiriSheetData* sheet, uint64_t key, kiriVec3* normal)
+{
+    const kiriTouchMemory* memory = &sheet->touches.last;
+    int32_t at = FindForce(memory, key);
+    bool isThere = at < memory->forces.count && memory->forces.data[at].key == key;
+    *normal = isThere ? memory->forces.data[at].normal : *normal;
+    return isThere;
 }
 
 /* ---- Stored forces ----------------------------------------------------------------------------------------------- */
@@ -1177,7 +1241,7 @@ static void SortForces(kiriTouches* touches)
     kiriSort(touches->order.data, touches->order.count, IsRowBefore, touches);
     for (int32_t k = 0; k < touches->order.count; ++k) {
         const kiriContactRow* row = &touches->rows.data[touches->order.data[k]];
-        kiriTouchForce force = { row->key, row->force };
+        kiriTouchForce force = { row->key, row->force, row->normal };
         touches->last.forces.data[touches->last.forces.count++] = force;
     }
 }

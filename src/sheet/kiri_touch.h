@@ -89,6 +89,11 @@ bool kiriTouches_Reserve(kiriSheetData* sheet);
 /* Writes a row for each touch of an awake piece, in order. Call after the commit. */
 void kiriTouches_WriteRows(kiriSheetData* sheet);
 
+/* Makes the contact of a touch with a row soft. If the place on the other sheet moves in this tick, and both sheets have
+   the same model, makes the contact mutual and returns true. Otherwise its plane stays fixed. */
+bool kiriTouches_JoinRow(kiriSheetData* sheet, const kiriTouch* touch, kiriSheetData* other, const int32_t vertex[3],
+                         const double share[3]);
+
 /* Finds the next calm piece whose host contacts differ from the ones in its last motion. Returns false at the end.
    *at starts at 0. A piece may come more than once. */
 bool kiriTouches_NextNew(kiriSheetData* sheet, int32_t* at, int32_t* piece);
@@ -111,6 +116,7 @@ void kiriTouches_Clear(kiriSheetData* sheet);
 
 /* Returns the force of the contact with this key in the last motion of its piece, N; zero if there is none. */
 kiriVec3 kiriTouches_ForceOf(const kiriSheetData* sheet, uint64_t key);
+bool kiriTouches_NormalOf(const kiriSheetData* sheet, uint64_t key, kiriVec3* normal);
 
 /* Maps a touch to a detached part with these points and vertices. Returns false if it belongs to another part, or only
    the search that found it can map it. */

@@ -6,6 +6,7 @@
 #include "../sheet/kiri_touch.h"
 #include "../sheet/kiri_piece.h"
 #include "../sheet/kiri_update.h"
+#include "kiri_island.h"
 
 #include <string.h>
 
@@ -82,6 +83,15 @@ bool kiriMoves_Prepare(kiriWorld* world)
         return false;
     }
     kiriUnion_Init(moves->parent.data, count);
+    if (!kiriIslands_FindClusters(world)) {
+        return false;
+    }
+    for (int32_t i = 0; i < count; ++i) {
+        int32_t cluster = kiriIslands_ClusterOf(&world->islands, i);
+        if (cluster != KIRI_NONE) {
+            kiriUnion_Join(moves->parent.data, i, cluster);
+        }
+    }
     return !kiriTasks_AreGiven(&world->tasks) || world->obstacles.count == 0 || JoinByBodies(world);
 }
 
@@ -112,11 +122,36 @@ static bool StandsStill(const MoveTask* task, kiriSheetData* sheet)
     return kiriQuota_IsSpent(&task->systems) && kiriView_IsSettled(sheet) && kiriMotion_Wait(sheet, task->dt);
 }
 
+/* Moves all sheets of a cluster. The first one gets the items. */
+static void MoveCluster(const MoveTask* task, int32_t cluster)
+{
+    kiriWorld* world = task->world;
+    kiriMove* moves = world->moves.of.data;
+    kiriQuota systems = task->systems;
+    for (int32_t i = cluster; i != KIRI_NONE; i = world->islands.next.data[i]) {
+        kiriObstacles_LoadYields(world, world->sheets.data[i]);
+        moves[i].systems = 0;
+    }
+    kiriIslands_Move(world, cluster, task->dt, task->substeps, &systems);
+    moves[cluster].systems = systems.used - task->systems.used;
+    for (int32_t i = cluster; i != KIRI_NONE; i = world->islands.next.data[i]) {
+        GiveImpulses(task, i, true);
+    }
+}
+
+/* A cluster moves when its first sheet does. */
 static void MoveSheet(const MoveTask* task, int32_t i)
 {
     kiriWorld* world = task->world;
     kiriMove* move = &world->moves.of.data[i];
     kiriQuota systems = task->systems;
+    int32_t cluster = kiriIslands_ClusterOf(&world->islands, i);
+    if (cluster != KIRI_NONE) {
+        if (cluster == i) {
+            MoveCluster(task, i);
+        }
+        return;
+    }
     if (StandsStill(task, world->sheets.data[i])) {
         move->progress = KIRI_MORE;
         move->systems = 0;
@@ -157,7 +192,10 @@ static int32_t EndOfWave(const MoveTask* task, int32_t first)
     int32_t end = kiriQuota_IsSpent(&task->systems) ? world->active.count : first;
     int64_t most = 0;
     while (end < world->active.count) {
-        most += kiriMotion_MostItems(world->sheets.data[kiriMoves_SheetAt(world, world->turn, end)], task->substeps);
+        int32_t i = kiriMoves_SheetAt(world, world->turn, end), cluster = kiriIslands_ClusterOf(&task->world->islands, i);
+        most += cluster == KIRI_NONE ? kiriMotion_MostItems(world->sheets.data[i], task->substeps)
+                : cluster == i       ? kiriIslands_MostItems(world, i, task->substeps)
+                                     : 0;
         if (most > task->systems.left && end > first) {
             break;
         }
@@ -187,6 +225,22 @@ static void ListGroups(kiriWorld* world, int32_t first, int32_t end)
     }
 }
 
+/* Gives impulses to fixed obstacles and counts the items of a sheet, or of a cluster with its first sheet. */
+static void EndMoved(const MoveTask* task, int32_t i, kiriQuota* systems)
+{
+    kiriWorld* world = task->world;
+    int32_t cluster = kiriIslands_ClusterOf(&world->islands, i);
+    if (cluster != KIRI_NONE && cluster != i) {
+        return;
+    }
+    while (i != KIRI_NONE) {
+        GiveImpulses(task, i, false);
+        kiriQuota_Take(systems, world->moves.of.data[i].systems);
+        world->profile.systemsSolved += kiriSolver_TakeSolved(world->sheets.data[i]->solver);
+        i = cluster != KIRI_NONE ? world->islands.next.data[i] : KIRI_NONE;
+    }
+}
+
 /* Moves sheets in waves. The sheets of a wave move in parallel; each wave gets the systems that the last one left. */
 void kiriMoves_Run(kiriWorld* world, double dt, int32_t substeps, kiriQuota* systems)
 {
@@ -196,9 +250,7 @@ void kiriMoves_Run(kiriWorld* world, double dt, int32_t substeps, kiriQuota* sys
         ListGroups(world, first, end);
         kiriTasks_Run(&world->tasks, MoveGroups, world->moves.heads.count, 1, &task);
         for (int32_t k = first; k < end; ++k) {
-            GiveImpulses(&task, kiriMoves_SheetAt(world, world->turn, k), false);
-            kiriQuota_Take(systems, world->moves.of.data[kiriMoves_SheetAt(world, world->turn, k)].systems);
-            world->profile.systemsSolved += kiriSolver_TakeSolved(world->sheets.data[kiriMoves_SheetAt(world, world->turn, k)]->solver);
+            EndMoved(&task, kiriMoves_SheetAt(world, world->turn, k), systems);
         }
     }
 }

@@ -9,186 +9,9 @@
 
 #include <string.h>
 
-#define FEELING 0.3    /* s: time constant of loads */
-#define CLOSE_LOAD 0.1 /* of contactThickness: a point no farther above its plane lies on it */
-#define SLOW 20.0      /* times sleepSpeed: limit of the speed of a supported frame that is slowed */
-#define SETTLED 0.01   /* s: time constant of slowing it */
+#define PUSH_SPEED 0.5 /* m/s: limit of the speed at which surfaces that are too close separate */
 
-/* ---- Loads for the lower one ---- */
-
-void kiriPairs_ApplyLoads(kiriWorld* world, double dt)
-{
-    for (int32_t k = 0; k < world->active.count; ++k) {
-        kiriSheetData* sheet = kiriWorld_Active(world, k);
-        for (int32_t f = 0; sheet->settings.touchesSheets && !sheet->rest.asleep && f < sheet->frames.count; ++f) {
-            kiriFrameData* frame = &sheet->frames.data[f];
-            if (!kiriSheet_Moves(sheet, f)) {
-                continue;
-            }
-            frame->load.force = kiriVec3_Scale(1.0 / dt, frame->load.force);
-            frame->load.moment = kiriVec3_Scale(1.0 / dt, frame->load.moment);
-            frame->force = kiriVec3_Add(frame->force, frame->load.force);
-            frame->torque = kiriVec3_Add(frame->torque, frame->load.moment);
-            frame->gained = frame->passed = 0.0;
-            memset(&frame->received, 0, sizeof(kiriVec3));
-        }
-    }
-}
-
-static void ForgetLoads(kiriWorld* world)
-{
-    for (int32_t k = 0; k < world->active.count; ++k) {
-        kiriSheetData* sheet = kiriWorld_Active(world, k);
-        for (int32_t f = 0; sheet->settings.touchesSheets && f < sheet->frames.count; ++f) {
-            memset(&sheet->frames.data[f].load, 0, sizeof(kiriWrench));
-        }
-    }
-}
-
-/* Distributes an impulse at a vertex to the frames of its weights. */
-static void LoadVertex(kiriSheetData* sheet, int32_t vertex, kiriVec3 impulse)
-{
-    kiriSpan span = sheet->vertexSkin.spans.data[vertex];
-    kiriVec2 local = sheet->seen.surface.rest.data[vertex];
-    for (int32_t i = span.first; i < span.first + span.count; ++i) {
-        kiriSampleWeight weight = sheet->vertexSkin.weights.data[i];
-        int32_t f = weight.frame;
-        kiriFrameData* frame = &sheet->frames.data[f];
-        if (!kiriPiece_IsAwake(kiriSheet_PieceOf(sheet, f))) {
-            continue; /* it is not moved, and would get all of it when it wakes */
-        }
-        kiriVec3 arm = kiriVec3_Sub(kiriFrame_Carry(frame, local), frame->x),
-                 part = kiriVec3_Scale(weight.value, impulse);
-        kiriWrench load = { part, kiriVec3_Cross(arm, part) };
-        kiriWrench_Add(&frame->load, 1.0, &load);
-    }
-}
-
-static kiriVec3 FeltForce(const kiriPairs* pairs, uint64_t key)
-{
-    int32_t low;
-    KIRI_SEARCH(low, 0, pairs->felt.count, pairs->felt.data[middle].key < key);
-    return low < pairs->felt.count && pairs->felt.data[low].key == key ? pairs->felt.data[low].force
-                                                                       : kiriVec3_Make(0.0, 0.0, 0.0);
-}
-
-static bool HasLowerKey(const void* context, int32_t a, int32_t b)
-{
-    const kiriPairTouch* touches = context;
-    return touches[a].key < touches[b].key || (touches[a].key == touches[b].key && a < b);
-}
-
-/* Returns the load on the lower piece, a low-pass of the push with the time constant FEELING. An unfiltered load would
-   still be a tick late, and pieces would throw each other. */
-static kiriVec3 Feel(const kiriWorld* world, const kiriPairTouch* touch, double dt)
-{
-    const kiriPairs* pairs = &world->pairs;
-    const kiriTouches* touches = &touch->upper.sheet->touches;
-    kiriVec3 was = FeltForce(pairs, touch->key);
-    KIRI_ASSERT(touch->touch < touches->found.count);
-    int32_t row = touch->touch != KIRI_NONE ? touches->found.data[touch->touch].row : KIRI_NONE;
-    if (row == KIRI_NONE) {
-        return was; /* the upper sheet was not moved */
-    }
-    KIRI_ASSERT(row < touches->rows.count && touches->rows.data[row].key == touch->key);
-    double part = dt / (dt + FEELING);
-    KIRI_ASSERT(kiriSheet_Moves(touch->upper.sheet, touches->rows.data[row].weights[0].frame));
-    const kiriPiece* piece = kiriSheet_PieceOf(touch->upper.sheet, touches->rows.data[row].weights[0].frame);
-    kiriVec3 push = kiriVec3_Scale(pairs->islands.data[piece->island].keepPush / dt, touches->rows.data[row].impulse);
-    return kiriVec3_AddScaled(was, part, kiriVec3_Sub(push, was));
-}
-
-/* Applies the loads of all touches, in the order of keys, and stores them. */
-static void FeelAll(kiriWorld* world, double dt)
-{
-    kiriPairs* pairs = &world->pairs;
-    KIRI_ASSERT(pairs->order.capacity >= pairs->touches.count && pairs->nextFelt.capacity >= pairs->touches.count);
-    pairs->order.count = pairs->touches.count;
-    for (int32_t i = 0; i < pairs->touches.count; ++i) {
-        pairs->order.data[i] = i;
-    }
-    kiriSort(pairs->order.data, pairs->order.count, HasLowerKey, pairs->touches.data);
-    pairs->nextFelt.count = pairs->touches.count;
-    for (int32_t i = 0; i < pairs->order.count; ++i) {
-        const kiriPairTouch* touch = &pairs->touches.data[pairs->order.data[i]];
-        kiriFeltPush felt = { touch->key, Feel(world, touch, dt) };
-        pairs->nextFelt.data[i] = felt;
-        for (int k = 0; k < 3 && touch->lower.vertex[k] != KIRI_NONE; ++k) {
-            LoadVertex(touch->lower.sheet, touch->lower.vertex[k],
-                       kiriVec3_Scale(-dt * touch->lower.share[k], felt.force));
-        }
-    }
-    kiriArrayHeader last = kiriArray_GetHeader(&pairs->felt);
-    kiriArray_SetHeader(&pairs->felt, kiriArray_GetHeader(&pairs->nextFelt));
-    kiriArray_SetHeader(&pairs->nextFelt, last);
-}
-
-/* ---- Rest ---- */
-
-static bool LiesOnPlane(const kiriSheetData* sheet, const kiriContactRow* row)
-{
-    kiriVec3 x = { 0.0, 0.0, 0.0 };
-    for (int32_t m = 0; m < row->weightCount; ++m) {
-        const kiriFrameData* frame = &sheet->frames.data[row->weights[m].frame];
-        x = kiriVec3_AddScaled(x, row->weights[m].value, kiriFrame_Carry(frame, row->at));
-    }
-    double above = kiriVec3_Dot(row->normal, kiriVec3_Sub(x, row->way)) - row->offset;
-    return above < CLOSE_LOAD * sheet->settings.contactThickness;
-}
-
-static void FindSupport(kiriSheetData* sheet)
-{
-    const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->frames;
-    for (int32_t n = 0; n < moved->count; ++n) {
-        sheet->frames.data[moved->data[n]].support = kiriVec3_Make(0.0, 0.0, 0.0);
-    }
-    for (int32_t k = 0; k < sheet->touches.rows.count; ++k) {
-        const kiriContactRow* row = &sheet->touches.rows.data[k];
-        kiriVec3* support = &sheet->frames.data[row->weights[0].frame].support;
-        *support = LiesOnPlane(sheet, row) ? kiriVec3_Add(*support, row->normal) : *support;
-    }
-    for (int32_t n = 0; n < moved->count; ++n) {
-        kiriVec3* support = &sheet->frames.data[moved->data[n]].support;
-        *support = kiriVec3_Normalize(*support);
-    }
-}
-
-/* Brings supported frames that hardly move to rest. Otherwise every shift of load between supports would stir
-   everything above. */
-static void SettleFrames(kiriSheetData* sheet, double dt)
-{
-    double slow = SLOW * sheet->settings.sleepSpeed, keep = SETTLED / (SETTLED + dt);
-    const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->frames;
-    for (int32_t n = 0; n < moved->count; ++n) {
-        kiriFrameData* frame = &sheet->frames.data[moved->data[n]];
-        double energy = kiriFrame_KineticEnergy(frame, &sheet->settings.material);
-        bool isCarried = kiriVec3_Dot(frame->support, frame->support) > 0.0;
-        if (isCarried && !frame->held && energy < 0.5 * frame->mass * slow * slow) {
-            frame->velocity = kiriVec3_Scale(keep, frame->velocity);
-            frame->spin = kiriVec3_Scale(keep, frame->spin);
-            frame->rate = kiriMat3_Scale(keep, &frame->rate);
-        }
-    }
-}
-
-void kiriPairs_TakeLoads(kiriWorld* world, double dt)
-{
-    ForgetLoads(world);
-    FeelAll(world, dt);
-    for (int32_t k = 0; k < world->active.count; ++k) {
-        kiriSheetData* sheet = kiriWorld_Active(world, k);
-        if (sheet->settings.touchesSheets && !sheet->rest.asleep) {
-            FindSupport(sheet);
-            SettleFrames(sheet, dt);
-        }
-    }
-}
-
-#define FIRM 0.5        /* minimum cosine between a push and the normal for the push to count as support */
-#define PUSH_SPEED 0.25 /* m/s: limit of the speed at which pieces that are too close separate */
-enum { PASSES = 8 };
-
-#define CUSHION 100.0 /* times the mass of a frame, see SoftnessOf */
+/* ---- Contacts ---- */
 
 static kiriVec3 SeenAt(const kiriPlace3* place)
 {
@@ -199,152 +22,44 @@ static kiriVec3 SeenAt(const kiriPlace3* place)
     return x;
 }
 
-static const kiriFrameData* LargestFrame(const kiriPlace3* place)
-{
-    double most = 0.0;
-    int32_t best = KIRI_NONE;
-    for (int k = 0; k < 3 && place->vertex[k] != KIRI_NONE; ++k) {
-        kiriSpan span = place->sheet->vertexSkin.spans.data[place->vertex[k]];
-        for (int32_t i = span.first; i < span.first + span.count; ++i) {
-            kiriSampleWeight weight = place->sheet->vertexSkin.weights.data[i];
-            if (weight.value * place->share[k] > most) {
-                most = weight.value * place->share[k];
-                best = weight.frame;
-            }
-        }
-    }
-    KIRI_ASSERT(best != KIRI_NONE);
-    return &place->sheet->frames.data[best];
-}
-
-/* Returns the velocity of the plane of a touch. It follows the material of the lower piece, with two exceptions. A
-   supported lower piece does not sink: the velocity that an implicit step leaves there is only its way to the support.
-   And the plane rises no faster than the lower piece as a whole, so that a flapping piece does not throw the upper one,
-   whose load it gets too late. */
-static kiriVec3 PlaneVelocity(const kiriPairs* pairs, const kiriPairTouch* pair)
-{
-    double stopped = pairs->bodies.data[pair->bodies[1]].least;
-    const kiriFrameData* frame = LargestFrame(&pair->lower);
-    double rises = kiriVec3_Dot(pair->velocity, pair->normal), most = kiriMax(pair->lift, 0.0);
-    bool isCarried = kiriVec3_Dot(frame->support, pair->normal) > FIRM;
-    double least = isCarried || stopped > 0.0 ? 0.0 : stopped, taken = kiriClamp(rises, least, most);
-    return frame->held ? pair->velocity : kiriVec3_AddScaled(pair->velocity, taken - rises, pair->normal);
-}
-
-/* Returns the softness of a frame's planes, 1/kg. If planes were as hard as obstacles, rounding would decide where bent
-   surfaces touch. So each frame has a cushion: everything that presses on it meets CUSHION times its mass. */
-static double SoftnessOf(const kiriPlace3* place)
-{
-    return 1.0 / (CUSHION * LargestFrame(place)->mass);
-}
-
-/* Finds the yield row of the cushion, which all planes under a frame share. Fails on out of memory. */
-static bool FindCushion(const kiriPlace3* place, int32_t* yield)
-{
-    int64_t number = INT64_C(1) << 40 | LargestFrame(place)->id;
-    *yield = kiriTouches_FindYield(place->sheet, number);
-    if (*yield == KIRI_NONE) {
-        kiriYieldRow row;
-        memset(&row, 0, sizeof(row));
-        row.number = number;
-        *yield = kiriTouches_AddYield(place->sheet, &row);
-    }
-    return *yield != KIRI_NONE;
-}
-
-static bool AddPlaneTouch(const kiriPairs* pairs, kiriPairTouch* pair)
+/* Adds a contact to the sheet of the upper place. Its plane is fixed unless kiriIslands_Prepare joins it to the lower
+   place. */
+static bool AddPlaneTouch(kiriPairTouch* pair)
 {
     kiriSheetData* sheet = pair->upper.sheet;
     const kiriSettings *a = &sheet->settings, *b = &pair->lower.sheet->settings;
     kiriTouch touch;
     memset(&touch, 0, sizeof(touch));
     touch.key = pair->key;
-    touch.point = KIRI_NONE;
+    touch.point = touch.yield = KIRI_NONE;
     memcpy(touch.vertex, pair->upper.vertex, sizeof(touch.vertex));
     memcpy(touch.share, pair->upper.share, sizeof(touch.share));
     touch.normal = pair->normal;
     touch.offset = kiriVec3_Dot(pair->normal, SeenAt(&pair->lower)) + 0.5 * (a->contactThickness + b->contactThickness);
-    touch.velocity = PlaneVelocity(pairs, pair);
+    touch.velocity = pair->velocity;
     touch.friction = sqrt(a->friction * b->friction);
     touch.pushSpeed = PUSH_SPEED;
     touch.felt = -1.0;
-    touch.cushion = SoftnessOf(&pair->upper);
-    if (!FindCushion(&pair->upper, &touch.yield)) {
-        return false;
-    }
     pair->touch = sheet->touches.found.count;
     return kiriTouches_Add(sheet, &touch);
 }
 
-/* ---- What will stop a piece in the tick ---- */
+static bool ReserveCalm(kiriWorld* world);
 
-static void RaisePlane(kiriBody* body, const kiriWorld* world, kiriVec3 normal, double least)
+bool kiriPairs_AddTouches(kiriWorld* world)
 {
-    bool carries = -kiriVec3_Dot(normal, kiriVec3_Normalize(world->gravity)) > FIRM;
-    body->least = carries && least > body->least ? least : body->least;
-}
-
-static void StopAtObstacles(kiriWorld* world, kiriSheetData* sheet, double dt)
-{
-    for (int32_t i = 0; i < sheet->touches.found.count; ++i) {
-        const kiriTouch* touch = &sheet->touches.found.data[i];
-        if (touch->point == KIRI_NONE) {
-            int32_t piece = sheet->probes.vertexPiece.data[touch->vertex[0]];
-            double gap = kiriVec3_Dot(touch->normal, touch->seen) - touch->offset;
-            RaisePlane(&world->pairs.bodies.data[sheet->probes.firstBody + piece], world, touch->normal,
-                       gap / dt + kiriVec3_Dot(touch->normal, touch->velocity));
-        }
-    }
-}
-
-/* Stops falls from below upwards: a piece that lands stops pieces above it. Passes end when nothing changes, at most
-   PASSES. */
-static void StopFalls(kiriWorld* world, double dt)
-{
-    kiriPairs* pairs = &world->pairs;
-    bool isChanged = true;
-    for (int pass = 0; isChanged && pass < PASSES; ++pass) {
-        isChanged = false;
-        for (int32_t i = 0; i < pairs->touches.count; ++i) {
-            const kiriPairTouch* touch = &pairs->touches.data[i];
-            kiriBody *upper = &pairs->bodies.data[touch->bodies[0]], *lower = &pairs->bodies.data[touch->bodies[1]];
-            double rises = kiriVec3_Dot(touch->normal, touch->velocity), before = upper->least;
-            rises = kiriMax(rises, lower->least);
-            RaisePlane(upper, world, touch->normal, (touch->gap - kiriPair_Distance(upper, lower)) / dt + rises);
-            isChanged |= upper->least > before;
-        }
-    }
-}
-
-static void FindStops(kiriWorld* world, double dt)
-{
-    for (int32_t i = 0; i < world->pairs.bodies.count; ++i) {
-        world->pairs.bodies.data[i].least = -HUGE_VAL;
-    }
-    for (int32_t i = 0; i < world->pairs.bodies.count; ++i) {
-        if (world->pairs.bodies.data[i].piece == 0) {
-            StopAtObstacles(world, world->pairs.bodies.data[i].sheet, dt);
-        }
-    }
-    StopFalls(world, dt);
-}
-
-bool kiriPairs_AddTouches(kiriWorld* world, double dt)
-{
-    FindStops(world, dt);
-    bool ok = kiriArray_Reserve(&world->memory, &world->pairs.nextFelt, world->pairs.touches.count) &&
-              kiriArray_Reserve(&world->memory, &world->pairs.order, world->pairs.touches.count) &&
-              kiriPairs_ReserveIslands(world);
+    bool ok = true;
     for (int32_t i = 0; ok && i < world->pairs.touches.count; ++i) {
         kiriPairTouch* touch = &world->pairs.touches.data[i];
-        ok = !kiriSheet_IsActive(touch->upper.sheet) || AddPlaneTouch(&world->pairs, touch);
+        ok = !kiriSheet_IsActive(touch->upper.sheet) || AddPlaneTouch(touch);
     }
-    return ok;
+    return ok && ReserveCalm(world);
 }
 
 #define ALONG 0.3  /* minimum cosine between surfaces that lie on each other */
 #define MARGIN 0.5 /* of the distance that pieces keep: a gap up to this may close in the tick */
 #define ALIKE 0.9  /* minimum cosine between normals of planes that are alike */
+#define PREFERRED 0.5 /* of that distance: a surface must be nearer by this to replace one that pushed */
 #define CLOSE 0.1  /* of the distance that pieces keep: a gap up to this counts as touching */
 
 static kiriPlace3 VertexPlace(kiriSheetData* sheet, int32_t vertex)
@@ -429,30 +144,32 @@ static double Approach(const kiriWorld* world, const kiriPairTouch* touch, doubl
     return speed > 0.0 ? dt * speed : 0.0;
 }
 
-/* Keeps the nearest of the planes of a vertex that lie behind each other. Returns true if there was one already. */
-static bool TakeNearer(kiriPairs* pairs, const kiriPairTouch* touch)
+/* Adds a touch. A probe has one for each direction: if there are several surfaces behind each other, the nearest one. */
+static bool AddTouch(kiriWorld* world, const kiriPairTouch* touch)
 {
-    const kiriPlace3* upper = &touch->upper;
-    int32_t known = upper->vertex[1] == KIRI_NONE ? upper->sheet->probes.touch.data[upper->vertex[0]] : KIRI_NONE;
-    if (known == KIRI_NONE || kiriVec3_Dot(pairs->touches.data[known].normal, touch->normal) < ALIKE) {
-        return false;
+    kiriPairs* pairs = &world->pairs;
+    bool isAbove = touch->upper.vertex[1] == KIRI_NONE;
+    const kiriPlace3* probe = isAbove ? &touch->upper : &touch->lower;
+    int32_t* known = &probe->sheet->probes.touch.data[2 * (size_t)probe->vertex[0] + isAbove];
+    if (*known == KIRI_NONE || kiriVec3_Dot(pairs->touches.data[*known].normal, touch->normal) < ALIKE) {
+        *known = pairs->touches.count;
+        return kiriArray_Push(&world->memory, &pairs->touches, *touch);
     }
-    if (touch->gap < pairs->touches.data[known].gap) {
-        pairs->touches.data[known] = *touch;
+    if (touch->rank < pairs->touches.data[*known].rank) {
+        pairs->touches.data[*known] = *touch;
     }
     return true;
 }
 
-static bool AddTouch(kiriWorld* world, const kiriPairTouch* touch)
+/* Ranks touches, so that surfaces at nearly the same distance do not alternate. */
+static void RankTouch(kiriPairTouch* touch, double distance)
 {
-    const kiriPlace3* upper = &touch->upper;
-    if (TakeNearer(&world->pairs, touch)) {
-        return true;
+    kiriVec3 force = kiriTouches_ForceOf(touch->upper.sheet, touch->key);
+    touch->rank = touch->gap - (kiriVec3_Dot(force, force) > 0.0 ? PREFERRED * distance : 0.0);
+    kiriVec3 last = touch->normal;
+    if (kiriTouches_NormalOf(touch->upper.sheet, touch->key, &last) && kiriVec3_Dot(last, touch->normal) > 0.5) {
+        touch->normal = kiriVec3_Normalize(kiriVec3_Add(last, touch->normal));
     }
-    if (upper->vertex[1] == KIRI_NONE) {
-        upper->sheet->probes.touch.data[upper->vertex[0]] = world->pairs.touches.count;
-    }
-    return kiriArray_Push(&world->memory, &world->pairs.touches, *touch);
 }
 
 static void ForgetTouches(kiriWorld* world)
@@ -461,17 +178,11 @@ static void ForgetTouches(kiriWorld* world)
         kiriProbes* probes = &world->pairs.bodies.data[i].sheet->probes;
         kiriSpan span = kiriPieceRow_Of(&probes->list, world->pairs.bodies.data[i].piece);
         for (int32_t k = span.first; k < span.first + span.count; ++k) {
-            probes->touch.data[probes->list.items.data[k]] = KIRI_NONE;
+            probes->touch.data[2 * (size_t)probes->list.items.data[k]] = KIRI_NONE;
+            probes->touch.data[2 * (size_t)probes->list.items.data[k] + 1] = KIRI_NONE;
         }
     }
     world->pairs.touches.count = 0;
-}
-
-/* Returns the velocity of the lower place in the tick. A body that nothing holds or carries falls. */
-static kiriVec3 LowerVelocity(const kiriWorld* world, const kiriBody* lower, const kiriPlace3* place, double dt)
-{
-    kiriVec3 velocity = PlaceVelocity(place);
-    return lower->isHeld || lower->isCarried ? velocity : kiriVec3_AddScaled(velocity, dt, world->gravity);
 }
 
 static bool TouchPair(kiriWorld* world, kiriTouchingPair* pair, double dt)
@@ -488,13 +199,12 @@ static bool TouchPair(kiriWorld* world, kiriTouchingPair* pair, double dt)
             !(isUpper ? TouchFromAbove(pairs, pair, near, &touch) : TouchFromBelow(pairs, pair, near, &touch))) {
             continue;
         }
-        const kiriBody* lower = &pairs->bodies.data[pair->bodies[1]];
-        touch.velocity = LowerVelocity(world, lower, &touch.lower, dt);
+        touch.velocity = PlaceVelocity(&touch.lower);
         touch.touch = KIRI_NONE;
         memcpy(touch.bodies, pair->bodies, sizeof(touch.bodies));
-        touch.lift = lower->isCarried ? 0.0 : kiriVec3_Dot(lower->momentum, touch.normal) / lower->mass;
         double above = touch.gap - Approach(world, &touch, dt);
         if (above < (1.0 + MARGIN) * distance) {
+            RankTouch(&touch, distance);
             ok = AddTouch(world, &touch);
         }
         pair->touches |= above < (1.0 + CLOSE) * distance;
@@ -502,7 +212,7 @@ static bool TouchPair(kiriWorld* world, kiriTouchingPair* pair, double dt)
     return ok;
 }
 
-bool kiriPairs_FindTouches(kiriWorld* world, double dt)
+static bool FindTouches(kiriWorld* world, double dt)
 {
     bool ok = true;
     ForgetTouches(world);
@@ -512,10 +222,7 @@ bool kiriPairs_FindTouches(kiriWorld* world, double dt)
     return ok;
 }
 
-#define HARD 0.01      /* J/kg: a piece that loses more of its motion pushed others too hard */
-#define PUSH_SLACK 0.5 /* m/s: a piece whose pushes are twice their sum and more, beyond this speed, is squeezed */
-
-/* ---- Which pieces touch ---- */
+/* ---- Calm ---- */
 
 /* Counts pieces as they are now, or as a ready update will make them. */
 static int32_t MostPieces(const kiriSheetData* sheet)
@@ -525,7 +232,8 @@ static int32_t MostPieces(const kiriSheetData* sheet)
     return kiriMax(next, now);
 }
 
-bool kiriPairs_ReserveIslands(kiriWorld* world)
+/* Reserves for kiriPairs_JoinCalm. */
+static bool ReserveCalm(kiriWorld* world)
 {
     int64_t count = 0;
     for (int32_t k = 0; k < world->active.count; ++k) {
@@ -533,268 +241,51 @@ bool kiriPairs_ReserveIslands(kiriWorld* world)
         count += kiriPair_TakesPart(sheet) ? MostPieces(sheet) : 0;
     }
     return kiriArray_Reserve(&world->memory, &world->pairs.parents, count) &&
-           kiriArray_Reserve(&world->memory, &world->pairs.islands, count);
+           kiriArray_Reserve(&world->memory, &world->pairs.calms, count);
 }
 
-/* Makes an island of each piece that is awake. */
-static void ListIslands(kiriWorld* world)
+/* Numbers the pieces that are awake. */
+static void ListAwake(kiriWorld* world)
 {
     kiriPairs* pairs = &world->pairs;
-    pairs->islands.count = 0;
+    pairs->calms.count = 0;
     for (int32_t k = 0; k < world->active.count; ++k) {
         kiriSheetData* sheet = kiriWorld_Active(world, k);
         for (int32_t p = 0; kiriPair_TakesPart(sheet) && p < sheet->layout.pieces.count; ++p) {
             kiriPiece* piece = &sheet->layout.pieces.data[p];
-            piece->island = KIRI_NONE;
+            piece->awake = KIRI_NONE;
             if (kiriPiece_IsAwake(piece)) {
-                KIRI_ASSERT(pairs->islands.count < pairs->islands.capacity);
-                piece->island = pairs->islands.count;
-                memset(&pairs->islands.data[pairs->islands.count++], 0, sizeof(kiriIsland));
+                KIRI_ASSERT(pairs->calms.count < pairs->calms.capacity);
+                piece->awake = pairs->calms.count;
+                pairs->calms.data[pairs->calms.count++] = HUGE_VAL;
             }
         }
     }
-    KIRI_ASSERT(pairs->islands.count <= pairs->parents.capacity);
-    pairs->parents.count = pairs->islands.count;
+    pairs->parents.count = pairs->calms.count;
     kiriUnion_Init(pairs->parents.data, pairs->parents.count);
 }
-
-/* Joins the islands of pairs that touch, or of all pairs in the list. */
-static void JoinPairs(kiriWorld* world, const kiriTouchingPairs* list, bool areAll)
-{
-    kiriPairs* pairs = &world->pairs;
-    for (int32_t i = 0; i < list->count; ++i) {
-        const kiriTouchingPair* pair = &list->data[i];
-        const kiriPiece *upper = kiriPair_PieceOf(world, pair->upper), *lower = kiriPair_PieceOf(world, pair->lower);
-        bool areThere = upper != NULL && lower != NULL && kiriPiece_IsAwake(upper) && kiriPiece_IsAwake(lower);
-        if (areThere && (areAll || pair->touches)) {
-            kiriUnion_Join(pairs->parents.data, upper->island, lower->island);
-        }
-    }
-}
-
-static kiriIsland* RootOf(kiriPairs* pairs, int32_t piece)
-{
-    return &pairs->islands.data[kiriUnion_Root(pairs->parents.data, piece)];
-}
-
-/* A frame that is awake, of a piece in an island. */
-typedef struct Member {
-    kiriIsland *piece, *island;
-    kiriFrameData* frame;
-    const kiriMaterial* material;
-} Member;
-
-typedef void MemberFn(const Member* member);
-
-static void ForMembers(kiriWorld* world, MemberFn* visit)
-{
-    kiriPairs* pairs = &world->pairs;
-    for (int32_t k = 0; k < world->active.count; ++k) {
-        kiriSheetData* sheet = kiriWorld_Active(world, k);
-        for (int32_t f = 0; kiriPair_TakesPart(sheet) && f < sheet->frames.count; ++f) {
-            const kiriPiece* piece = kiriSheet_PieceOf(sheet, f);
-            if (kiriPiece_IsAwake(piece)) {
-                Member member = { &pairs->islands.data[piece->island], RootOf(pairs, piece->island),
-                                  &sheet->frames.data[f], &sheet->settings.material };
-                visit(&member);
-            }
-        }
-    }
-}
-
-/* ---- Energy ---- */
-
-static void AddGained(const Member* member)
-{
-    kiriIsland *piece = member->piece, *island = member->island;
-    const kiriFrameData* frame = member->frame;
-    piece->gained += frame->gained;
-    piece->passed += frame->passed;
-    piece->mass += frame->mass;
-    piece->kinetic += kiriFrame_KineticEnergy(frame, member->material);
-    island->isHeld |= frame->held != 0;
-    island->whole += frame->mass;
-    island->velocity = kiriVec3_AddScaled(island->velocity, frame->mass, frame->velocity);
-    island->velocity = kiriVec3_Sub(island->velocity, frame->received);
-}
-
-/* Returns the energy that the piece gained, above 0, or passed on to others, below 0. A piece pays for gains of
-   others only with the energy that it passed on. */
-static double DueOf(const kiriIsland* piece)
-{
-    double passed = kiriMin(piece->passed, 0.0);
-    return kiriMax(piece->gained, passed);
-}
-
-/* Returns the kinetic energy by mass that the piece has without its gain, J/kg. */
-static double OwnHeat(const kiriIsland* piece)
-{
-    return (piece->kinetic - kiriMax(piece->gained, 0.0)) / piece->mass;
-}
-
-static void SumDues(kiriPairs* pairs)
-{
-    for (int32_t i = 0; i < pairs->islands.count; ++i) {
-        const kiriIsland* piece = &pairs->islands.data[i];
-        kiriIsland* island = RootOf(pairs, i);
-        double due = DueOf(piece);
-        island->surplus += due;
-        island->sources += kiriMax(due, 0.0);
-        island->moving += piece->kinetic;
-        island->pieces += 1;
-        island->mostHeat = kiriMax(OwnHeat(piece), island->mostHeat);
-    }
-}
-
-/* Marks islands that pins or obstacles hold, and sums the pushes of other pieces on each piece. */
-static void FindPushes(kiriWorld* world)
-{
-    kiriPairs* pairs = &world->pairs;
-    for (int32_t k = 0; k < world->active.count; ++k) {
-        kiriSheetData* sheet = kiriWorld_Active(world, k);
-        for (int32_t i = 0; kiriPair_TakesPart(sheet) && i < sheet->layout.pinFrame.count; ++i) {
-            const kiriPiece* piece = kiriSheet_PieceOf(sheet, sheet->layout.pinFrame.data[i]);
-            if (kiriPiece_IsAwake(piece)) {
-                RootOf(pairs, piece->island)->isHeld = true;
-            }
-        }
-        for (int32_t i = 0; kiriPair_TakesPart(sheet) && i < sheet->touches.rows.count; ++i) {
-            const kiriContactRow* row = &sheet->touches.rows.data[i];
-            const kiriPiece* piece = kiriSheet_PieceOf(sheet, row->weights[0].frame);
-            double pushed = kiriVec3_Length(row->impulse);
-            if (!(pushed > 0.0) || !kiriPiece_IsAwake(piece)) {
-                continue;
-            }
-            if (row->cushion > 0.0) {
-                kiriIsland* slot = &pairs->islands.data[piece->island];
-                slot->pushed += pushed;
-                slot->push = kiriVec3_Add(slot->push, row->impulse);
-            } else {
-                RootOf(pairs, piece->island)->isHeld = true;
-            }
-        }
-    }
-}
-
-/* True if the island keeps its momentum: nothing holds it, and the pieces that exchanged momentum are all in it. */
-static bool IsOwn(const kiriIsland* island)
-{
-    return !island->isHeld && island->pieces > 1;
-}
-
-/* Returns the factor that takes `energy` out of velocities with the energy `kinetic`. */
-static double KeepWithout(double kinetic, double energy)
-{
-    return energy > 0.0 ? energy < kinetic ? sqrt(1.0 - energy / kinetic) : 0.0 : 1.0;
-}
-
-/* Limits each piece that gained to the speed of the fastest piece of its island without gains. In an island that
-   something holds it also loses its share of the surplus. */
-static void LimitPieces(kiriPairs* pairs)
-{
-    for (int32_t i = 0; i < pairs->islands.count; ++i) {
-        kiriIsland *piece = &pairs->islands.data[i], *island = RootOf(pairs, i);
-        double due = DueOf(piece), above = piece->kinetic - piece->mass * island->mostHeat;
-        double part = IsOwn(island) || !(island->surplus > 0.0) ? 0.0 : island->surplus / island->sources;
-        double taken = kiriMax(above, part * due);
-        piece->keep = due > 0.0 ? KeepWithout(piece->kinetic, kiriMin(taken, due)) : 1.0;
-        piece->keepPush = taken > HARD * piece->mass ? piece->keep : 1.0;
-        double speed = sqrt(2.0 * piece->kinetic / piece->mass), push = kiriVec3_Length(piece->push);
-        double most = 2.0 * push + piece->mass * (speed + PUSH_SLACK);
-        piece->keepPush *= piece->pushed > most ? most / piece->pushed : 1.0;
-    }
-}
-
-static void ScalePiece(const Member* member)
-{
-    kiriFrameData* frame = member->frame;
-    double keep = member->piece->keep;
-    if (keep < 1.0 && !frame->held) {
-        frame->velocity = kiriVec3_Scale(keep, frame->velocity);
-        frame->spin = kiriVec3_Scale(keep, frame->spin);
-        frame->rate = kiriMat3_Scale(keep, &frame->rate);
-    }
-}
-
-static void AddMemberMotion(const Member* member)
-{
-    kiriIsland* island = member->island;
-    const kiriFrameData* frame = member->frame;
-    island->left += kiriFrame_KineticEnergy(frame, member->material);
-    island->mean = kiriVec3_AddScaled(island->mean, frame->mass / island->whole, frame->velocity);
-}
-
-/* Finds the mean velocity that the momentum of an island asks for, and the part of all other motion that stays. */
-static void LimitIslands(kiriWorld* world)
-{
-    kiriPairs* pairs = &world->pairs;
-    ForMembers(world, AddMemberMotion);
-    for (int32_t i = 0; i < pairs->islands.count; ++i) {
-        kiriIsland* island = &pairs->islands.data[i];
-        if (island == RootOf(pairs, i)) {
-            double half = 0.5 * island->whole, beside = island->left - half * kiriVec3_Dot(island->mean, island->mean);
-            island->velocity = kiriVec3_Scale(1.0 / island->whole, island->velocity);
-            double whole = half * kiriVec3_Dot(island->velocity, island->velocity);
-            island->keepBeside = KeepWithout(beside, beside - (island->moving - island->surplus - whole));
-        }
-    }
-}
-
-static void ScaleBeside(const Member* member)
-{
-    kiriFrameData* frame = member->frame;
-    const kiriIsland* island = member->island;
-    if (IsOwn(island) && !frame->held) {
-        frame->velocity =
-            kiriVec3_AddScaled(island->velocity, island->keepBeside, kiriVec3_Sub(frame->velocity, island->mean));
-        frame->spin = kiriVec3_Scale(island->keepBeside, frame->spin);
-        frame->rate = kiriMat3_Scale(island->keepBeside, &frame->rate);
-    }
-}
-
-/* A push and its reaction belong to different ticks, and planes push out deep points: so pieces could gain more energy
-   from each other than they pass on. An island that nothing holds keeps its momentum and loses the surplus of energy
-   from its other motion. In other islands the pieces that gained lose it. */
-void kiriPairs_LimitEnergy(kiriWorld* world)
-{
-    ListIslands(world);
-    JoinPairs(world, &world->pairs.pairs, true);
-    JoinPairs(world, &world->pairs.next, true); /* pairs of the last tick: their loads acted in this one */
-    if (world->pairs.islands.count == 0) {
-        return;
-    }
-    ForMembers(world, AddGained);
-    SumDues(&world->pairs);
-    FindPushes(world);
-    LimitPieces(&world->pairs);
-    ForMembers(world, ScalePiece);
-    LimitIslands(world);
-    ForMembers(world, ScaleBeside);
-}
-
-/* ---- Calm ---- */
 
 void kiriPairs_JoinCalm(kiriWorld* world)
 {
     kiriPairs* pairs = &world->pairs;
-    ListIslands(world);
-    JoinPairs(world, &pairs->pairs, false);
-    for (int32_t i = 0; i < pairs->islands.count; ++i) {
-        pairs->islands.data[i].calm = HUGE_VAL;
+    ListAwake(world);
+    for (int32_t i = 0; i < pairs->pairs.count; ++i) {
+        const kiriTouchingPair* pair = &pairs->pairs.data[i];
+        const kiriPiece *upper = kiriPair_PieceOf(world, pair->upper), *lower = kiriPair_PieceOf(world, pair->lower);
+        bool areThere = upper != NULL && lower != NULL && kiriPiece_IsAwake(upper) && kiriPiece_IsAwake(lower);
+        if (areThere && pair->touches) {
+            kiriUnion_Join(pairs->parents.data, upper->awake, lower->awake);
+        }
     }
     for (int isGiven = 0; isGiven < 2; ++isGiven) {
         for (int32_t k = 0; k < world->active.count; ++k) {
             kiriSheetData* sheet = kiriWorld_Active(world, k);
             for (int32_t p = 0; kiriPair_TakesPart(sheet) && p < sheet->layout.pieces.count; ++p) {
-                kiriRest* rest = &sheet->layout.pieces.data[p].rest;
-                if (!kiriPiece_IsAwake(&sheet->layout.pieces.data[p])) {
-                    continue;
-                }
-                kiriIsland* island = RootOf(pairs, sheet->layout.pieces.data[p].island);
-                if (isGiven) {
-                    rest->calm = island->calm;
-                } else {
-                    island->calm = kiriMin(rest->calm, island->calm);
+                kiriPiece* piece = &sheet->layout.pieces.data[p];
+                if (kiriPiece_IsAwake(piece)) {
+                    double* calm = &pairs->calms.data[kiriUnion_Root(pairs->parents.data, piece->awake)];
+                    *calm = kiriMin(piece->rest.calm, *calm);
+                    piece->rest.calm = isGiven ? *calm : piece->rest.calm;
                 }
             }
         }
@@ -813,7 +304,6 @@ static void SumFrames(kiriPairs* pairs, const kiriSheetData* sheet, int32_t firs
         const kiriFrameData* frame = &sheet->frames.data[i];
         kiriBody* body = &pairs->bodies.data[firstBody + sheet->layout.framePiece.data[i]];
         body->isHeld |= frame->held != 0;
-        body->isCarried |= kiriVec3_Dot(frame->support, frame->support) > 0.0;
         body->mass += frame->mass;
         body->momentum = kiriVec3_AddScaled(body->momentum, frame->mass, frame->velocity);
     }
@@ -1419,7 +909,7 @@ bool kiriPairs_Find(kiriWorld* world, double dt)
     kiriPairs* pairs = &world->pairs;
     pairs->nears.count = pairs->found.count = pairs->next.count = pairs->bodies.count = 0;
     return (!AreSeveral(world) || LookForPairs(world, dt)) && KeepSleeping(world) && SortFound(world) &&
-           kiriPairs_FindTouches(world, dt);
+           FindTouches(world, dt);
 }
 
 /* ---- Sleep ---- */

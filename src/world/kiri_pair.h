@@ -25,16 +25,7 @@ void kiriPairs_Commit(kiriWorld* world);
 
 /* Adds planes of lower pieces to the sheets of upper pieces. Skips sheets that are not active, because they do not
    move. Call it between kiriTouches_Begin and kiriTouches_Reserve. Fails on out of memory. */
-bool kiriPairs_AddTouches(kiriWorld* world, double dt);
-
-/* ApplyLoads applies the pushes of upper pieces in the last tick to the lower pieces; call it before sheets are moved.
-   TakeLoads stores the pushes of this tick for the next one; call it after all sheets are moved. */
-void kiriPairs_ApplyLoads(kiriWorld* world, double dt);
-void kiriPairs_TakeLoads(kiriWorld* world, double dt);
-
-/* Limits the energy of pieces that touch: they gain no more from each other than they pass on. Call it after the sheets
-   are moved and before kiriPairs_TakeLoads. */
-void kiriPairs_LimitEnergy(kiriWorld* world);
+bool kiriPairs_AddTouches(kiriWorld* world);
 
 /* Gives touching pieces the calm of the least calm of them, so that they fall asleep together. Call it last. */
 void kiriPairs_JoinCalm(kiriWorld* world);
@@ -57,13 +48,6 @@ double kiriPair_Distance(const kiriBody* a, const kiriBody* b);
 
 /* Returns the velocity of the place near a probe, m/s. */
 kiriVec3 kiriNear_PlaceVelocity(const kiriPairs* pairs, const kiriNear* near);
-
-/* Finds the places where the pairs of the coming tick touch, from the near places. Fails on out of memory. */
-bool kiriPairs_FindTouches(kiriWorld* world, double dt);
-
-/* Reserves room for the islands of the current tick. Call it after all sheets that may be active are listed. Fails on
-   out of memory. */
-bool kiriPairs_ReserveIslands(kiriWorld* world);
 
 KIRI_C_END
 

@@ -18,18 +18,11 @@ KIRI_TABLE(PairTable, kiriTouchingPair, {
     KIRI_DROPPED(kiriTouchingPair, bodies, nears),
 });
 
-KIRI_TABLE(FeltPushTable, kiriFeltPush, {
-    KIRI_REALS(kiriFeltPush, force, force),
-    KIRI_UNHASHED,
-    KIRI_RUN(8, kiriFeltPush, key, key),
-});
-
 KIRI_TABLE(PairsTable, kiriPairs, {
     KIRI_PARTS(kiriPairs, pairs, PairTable),
-    KIRI_PARTS(kiriPairs, felt, FeltPushTable),
     KIRI_UNHASHED,
-    KIRI_ROOMS(kiriPairs, next, found, bodies, order, nears, parents, islands),
-    KIRI_ROOMS(kiriPairs, touches, nextFelt),
+    KIRI_ROOMS(kiriPairs, next, found, bodies, order, nears, parents, calms),
+    KIRI_ROOMS(kiriPairs, touches),
 });
 
 KIRI_TABLE(LoopTable, kiriLoop, {
@@ -110,6 +103,7 @@ KIRI_TABLE(WorldTable, kiriWorld, {
     KIRI_SPACE_OF(kiriWorld, blades),
     KIRI_ITEMS(4, kiriWorld, obstacleOrder),
     KIRI_ITEMS(4, kiriWorld, events),
+    KIRI_DROPPED(kiriWorld, islands, islands),
     KIRI_PART(kiriWorld, moves, MovesTable),
     KIRI_ROOMS(kiriWorld, active, atWork, skinRanges),
     KIRI_PART(kiriWorld, profile, ProfileTable),

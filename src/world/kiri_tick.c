@@ -8,6 +8,7 @@
 #include "../sheet/kiri_seen.h"
 #include "../sheet/kiri_touch.h"
 #include "kiri_blade.h"
+#include "kiri_island.h"
 #include "kiri_move.h"
 #include "kiri_pair.h"
 
@@ -150,7 +151,7 @@ static bool FindTouches(kiriWorld* world, double dt)
     if (world->obstacles.count > 0) {
         ListActive(world); /* one may have come near a sheet that sleeps */
     }
-    ok = ok && kiriPairs_AddTouches(world, dt);
+    ok = ok && kiriPairs_AddTouches(world);
     for (int32_t k = 0; ok && k < world->active.count; ++k) {
         ok = kiriTouches_Reserve(kiriWorld_Active(world, k)) &&
              kiriObstacles_ReserveRests(world, kiriWorld_Active(world, k));
@@ -329,13 +330,12 @@ static kiriResult SolveAll(kiriWorld* world, double dt, int32_t substeps, kiriQu
 {
     kiriResult result = ReportDeferred(world) ? KIRI_PENDING : KIRI_OK;
     EnterStage(world, KIRI_STAGE_SOLVE);
-    kiriPairs_ApplyLoads(world, dt);
+    bool hasRoom = kiriIslands_Prepare(world, dt);
     kiriMoves_Run(world, dt, substeps, iterations);
     result = ReportMoves(world, result);
-    kiriPairs_LimitEnergy(world);
-    kiriPairs_TakeLoads(world, dt);
     kiriPairs_JoinCalm(world);
-    return result;
+    world->pairs.touches.count = 0; /* they hold pointers to sheets */
+    return hasRoom ? result : KIRI_ERROR_MEMORY;
 }
 
 static bool IsOverloaded(const kiriPinData* pin)

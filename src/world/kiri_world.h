@@ -20,9 +20,7 @@ typedef struct kiriBody {
     kiriVec3 momentum; /* N s */
     double mass;       /* kg */
     bool asleep;
-    double least;   /* m/s: lower bound of its upward velocity in the tick, from planes that will stop it */
-    bool isCarried; /* the body lies on something */
-    bool isHeld;    /* by a pin or by the host */
+    bool isHeld; /* by a pin or by the host */
 } kiriBody;
 
 /* A probe of one body and the nearest place on another. */
@@ -61,34 +59,28 @@ typedef struct kiriPairTouch {
     kiriVec3 normal;   /* unit, towards the upper place */
     kiriVec3 velocity; /* m/s: of the lower place */
     double gap;        /* m: distance of the places along the normal */
-    double
-        lift; /* m/s: mean speed of the lower body along the normal; 0 if it lies on something and only springs up */
+    double rank;       /* m: the gap; less if they pushed in the last tick */
     int32_t touch; /* index in touches.found of the upper sheet, or KIRI_NONE */
 } kiriPairTouch;
 
-/* The part of a touch's push that acts on the lower piece. */
-typedef struct kiriFeltPush {
-    uint64_t key;
-    kiriVec3 force; /* N, on the upper piece */
-} kiriFeltPush;
-
-/* A piece that is awake. The lowest piece of an island (pieces that touch, directly or through others) also stores the
-   sums of the island. */
+/* Bodies joined by mutual contacts: one system, see kiri_island.h. */
 typedef struct kiriIsland {
-    double mass, kinetic;    /* piece: kg, J */
-    double gained, passed;   /* piece: J, see kiriSolver_AddGained */
-    double keep, keepPush;   /* piece: factors of its velocities and of its pushes on others, by the energy limit */
-    double pushed;           /* piece: N s, sum of the magnitudes of pushes by planes of other pieces */
-    kiriVec3 push;           /* piece: N s, vector sum of these pushes */
-    double calm;             /* island: s, of the least calm piece */
-    bool isHeld;             /* island: a pin, the host or an obstacle holds a piece */
-    int32_t pieces;          /* island: number of pieces */
-    double surplus, sources; /* island: J, net energy gain, and sum of the gains of pieces that gained */
-    double moving, mostHeat; /* island: J, kinetic energy; J/kg, of the fastest piece without its gain */
-    double whole, left;      /* island: kg; J, kinetic energy after pieces were limited */
-    kiriVec3 mean, velocity; /* island: m/s, of the centre of mass: after pieces were limited; due by the momentum */
-    double keepBeside;       /* island: factor of velocities relative to `mean` */
+    kiriSpan bodies; /* in kiriIslands.bodies */
+    kiriIslandMatrix matrix;
+    kiriSolver* solver; /* the scratch of its steps */
 } kiriIsland;
+
+/* See kiri_island.h. */
+typedef struct kiriIslands {
+    kiriIndices clusters, next;         /* per sheet: union-find forest of sheets; the next sheet of its cluster */
+    KIRI_ARRAY(uint8_t) isJoined;       /* per sheet: it has a mutual contact */
+    KIRI_ARRAY(kiriSystem) systems;     /* per sheet with a mutual contact */
+    kiriIndices firstBodies;            /* per sheet: number of its body 0 */
+    kiriIndices parents, numbers;       /* per body: union-find forest; island, or KIRI_NONE */
+    KIRI_ARRAY(kiriIslandBody) bodies;  /* by island */
+    KIRI_ARRAY(kiriIsland) islands;     /* `count` of them are used in this tick; all keep their matrix */
+    int32_t count;
+} kiriIslands;
 
 /* See kiri_pair.h. */
 typedef struct kiriPairs {
@@ -97,10 +89,9 @@ typedef struct kiriPairs {
     KIRI_ARRAY(kiriBody) bodies;
     kiriIndices order; /* of bodies, by the lower x of their box */
     KIRI_ARRAY(kiriNear) nears;
-    kiriIndices parents;            /* union-find forest of awake pieces that touch */
-    KIRI_ARRAY(kiriIsland) islands; /* one for each awake piece */
+    kiriIndices parents;      /* union-find forest of awake pieces that touch */
+    KIRI_ARRAY(double) calms; /* s, per awake piece: in a root, of the least calm piece of its tree */
     KIRI_ARRAY(kiriPairTouch) touches;
-    KIRI_ARRAY(kiriFeltPush) felt, nextFelt; /* sorted by key */
 } kiriPairs;
 
 /* State of a recording, see kiri_call.h. */
@@ -128,7 +119,7 @@ typedef struct kiriMove {
     int32_t next, tail; /* next sheet of its group; in a root: last sheet of the group */
     kiriProgress progress;
     bool isStill;    /* the sheet was not moved, and its visible surface does not change */
-    int64_t systems; /* number of systems solved */
+    int64_t systems; /* items of systems solved */
 } kiriMove;
 
 /* See kiri_move.h. */
@@ -166,6 +157,7 @@ struct kiriWorld {
     kiriObstacleSearch obstacleSearch;
     KIRI_ARRAY(kiriObstacleSearch) searches; /* one a task that finds touches */
     kiriPairs pairs;
+    kiriIslands islands;
     kiriMoves moves;
     KIRI_ARRAY(kiriSkinRange) skinRanges;
     KIRI_ARRAY(kiriEvent) events;

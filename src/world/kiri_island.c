@@ -1,0 +1,318 @@
+#include "kiri_island.h"
+#include "../core/kiri_array.h"
+#include "../sheet/kiri_motion.h"
+#include "../sheet/kiri_pin.h"
+#include "../sheet/kiri_touch.h"
+#include "kiri_move.h"
+
+/* ---- Clusters ---------------------------------------------------------------------------------------------------- */
+
+bool kiriIslands_FindClusters(kiriWorld* world)
+{
+    kiriIslands* islands = &world->islands;
+    int32_t count = world->sheets.count;
+    if (!kiriArray_Resize(&world->memory, &islands->clusters, count) ||
+        !kiriArray_Resize(&world->memory, &islands->next, count) ||
+        !kiriArray_Resize(&world->memory, &islands->isJoined, count) ||
+        !kiriArray_Resize(&world->memory, &islands->systems, count) ||
+        !kiriArray_Resize(&world->memory, &islands->firstBodies, count)) {
+        return false;
+    }
+    kiriUnion_Init(islands->clusters.data, count);
+    for (int32_t i = 0; i < count; ++i) {
+        islands->isJoined.data[i] = 0;
+        world->sheets.data[i]->probes.sheet = i;
+    }
+    for (int32_t i = 0; i < world->pairs.touches.count; ++i) {
+        const kiriPairTouch* touch = &world->pairs.touches.data[i];
+        int32_t upper = touch->upper.sheet->probes.sheet, lower = touch->lower.sheet->probes.sheet;
+        if (touch->touch != KIRI_NONE) {
+            islands->isJoined.data[upper] = 1;
+            if (kiriSheet_IsActive(touch->lower.sheet)) {
+                islands->isJoined.data[lower] = 1;
+                kiriUnion_Join(islands->clusters.data, upper, lower);
+            }
+        }
+    }
+    return true;
+}
+
+int32_t kiriIslands_ClusterOf(kiriIslands* islands, int32_t sheet)
+{
+    return islands->isJoined.data[sheet] ? kiriUnion_Root(islands->clusters.data, sheet) : KIRI_NONE;
+}
+
+/* Lists the active sheets of each cluster, from the root on, in the order of sheets. */
+static void ListClusters(kiriWorld* world)
+{
+    kiriIslands* islands = &world->islands;
+    for (int32_t k = world->active.count - 1; k >= 0; --k) {
+        int32_t i = world->active.data[k], root = kiriIslands_ClusterOf(islands, i);
+        islands->next.data[i] = KIRI_NONE;
+        if (root != KIRI_NONE && root != i) {
+            KIRI_ASSERT(root < i);
+        }
+    }
+    for (int32_t k = world->active.count - 1; k >= 0; --k) {
+        int32_t i = world->active.data[k], root = kiriIslands_ClusterOf(islands, i);
+        if (root != KIRI_NONE && root != i) {
+            islands->next.data[i] = islands->next.data[root];
+            islands->next.data[root] = i;
+        }
+    }
+}
+
+/* ---- Islands ----------------------------------------------------------------------------------------------------- */
+
+static kiriSolverBody* BodyOf(kiriSheetData* sheet, int32_t piece)
+{
+    return &sheet->solver->bodies.bodies.data[piece];
+}
+
+/* Begins the motion of the sheets of clusters, and numbers their bodies. Returns the number of bodies. */
+static int32_t BeginSheets(kiriWorld* world, double dt)
+{
+    kiriIslands* islands = &world->islands;
+    int32_t count = 0;
+    for (int32_t k = 0; k < world->active.count; ++k) {
+        int32_t i = world->active.data[k];
+        if (islands->isJoined.data[i]) {
+            kiriSheetData* sheet = world->sheets.data[i];
+            kiriPinStep_Begin(world, sheet, dt);
+            kiriMotion_Begin(sheet, world->gravity, dt, NULL, &islands->systems.data[i]);
+            islands->firstBodies.data[i] = count;
+            count += sheet->layout.pieces.count;
+        }
+    }
+    return count;
+}
+
+static int32_t NumberOfBody(const kiriIslands* islands, const kiriSheetData* sheet, int32_t frame)
+{
+    return islands->firstBodies.data[sheet->probes.sheet] + sheet->layout.framePiece.data[frame];
+}
+
+/* Joins the rows of mutual contacts to their second points, and the bodies of both. A second point that does not move
+   leaves the plane fixed. */
+static void JoinRows(kiriWorld* world)
+{
+    kiriIslands* islands = &world->islands;
+    for (int32_t i = 0; i < world->pairs.touches.count; ++i) {
+        const kiriPairTouch* touch = &world->pairs.touches.data[i];
+        kiriSheetData *upper = touch->upper.sheet, *lower = touch->lower.sheet;
+        if (touch->touch == KIRI_NONE || upper->rest.asleep) {
+            continue;
+        }
+        const kiriTouch* found = &upper->touches.found.data[touch->touch];
+        if (found->row == KIRI_NONE || !kiriTouches_JoinRow(upper, found, lower, touch->lower.vertex, touch->lower.share)) {
+            continue;
+        }
+        const kiriContactRow* row = &upper->touches.rows.data[found->row];
+        int32_t a = NumberOfBody(islands, upper, row->weights[0].frame);
+        int32_t b = NumberOfBody(islands, lower, row->otherWeights[0].frame);
+        kiriUnion_Join(islands->parents.data, a, b);
+        islands->numbers.data[a] = islands->numbers.data[b] = 0;
+    }
+}
+
+/* Lists the bodies of islands: first counts them, then fills the spans. Returns the number of islands. */
+static int32_t ListBodies(kiriWorld* world)
+{
+    kiriIslands* islands = &world->islands;
+    int32_t count = 0, bodies = 0;
+    for (int32_t b = 0; b < islands->parents.count; ++b) {
+        int32_t root = kiriUnion_Root(islands->parents.data, b);
+        if (islands->numbers.data[b] != KIRI_NONE) {
+            if (root == b) {
+                islands->islands.data[count].bodies = (kiriSpan){ 0, 0 };
+            }
+            islands->numbers.data[b] = root == b ? count++ : islands->numbers.data[root];
+            islands->islands.data[islands->numbers.data[b]].bodies.count += 1;
+        }
+    }
+    for (int32_t n = 0; n < count; ++n) {
+        islands->islands.data[n].bodies.first = bodies;
+        bodies += islands->islands.data[n].bodies.count;
+        islands->islands.data[n].bodies.count = 0;
+    }
+    for (int32_t k = 0; k < world->active.count; ++k) {
+        int32_t i = world->active.data[k];
+        kiriSheetData* sheet = world->sheets.data[i];
+        for (int32_t p = 0; islands->isJoined.data[i] && p < sheet->layout.pieces.count; ++p) {
+            int32_t number = islands->numbers.data[islands->firstBodies.data[i] + p];
+            if (number != KIRI_NONE) {
+                kiriSpan* span = &islands->islands.data[number].bodies;
+                kiriIslandBody body = { sheet->solver, &islands->systems.data[i], p };
+                islands->bodies.data[span->first + span->count++] = body;
+            }
+        }
+    }
+    return count;
+}
+
+/* Leaves the contacts between surfaces out of this tick. */
+static void DropRows(kiriWorld* world)
+{
+    for (int32_t i = 0; i < world->pairs.touches.count; ++i) {
+        const kiriPairTouch* touch = &world->pairs.touches.data[i];
+        kiriTouches* touches = &touch->upper.sheet->touches;
+        if (touch->touch != KIRI_NONE && touches->found.data[touch->touch].row != KIRI_NONE) {
+            kiriContactRow* row = &touches->rows.data[touches->found.data[touch->touch].row];
+            row->other = NULL;
+            row->offset = -HUGE_VAL;
+        }
+    }
+}
+
+bool kiriIslands_Prepare(kiriWorld* world, double dt)
+{
+    kiriIslands* islands = &world->islands;
+    kiriMemory* memory = &world->memory;
+    ListClusters(world);
+    int32_t count = BeginSheets(world, dt), had = islands->islands.count;
+    islands->count = 0;
+    bool ok = kiriArray_Resize(memory, &islands->parents, count) &&
+              kiriArray_Resize(memory, &islands->numbers, count) &&
+              kiriArray_Resize(memory, &islands->bodies, count) &&
+              (had >= count || kiriArray_Resize(memory, &islands->islands, count));
+    for (int32_t n = had; ok && n < islands->islands.count; ++n) {
+        memset(&islands->islands.data[n], 0, sizeof(kiriIsland));
+    }
+    if (ok) {
+        kiriUnion_Init(islands->parents.data, count);
+        for (int32_t b = 0; b < count; ++b) {
+            islands->numbers.data[b] = KIRI_NONE;
+        }
+        JoinRows(world);
+        islands->count = ListBodies(world);
+    }
+    for (int32_t n = 0; ok && n < islands->count; ++n) {
+        kiriIsland* island = &islands->islands.data[n];
+        const kiriIslandBody* bodies = &islands->bodies.data[island->bodies.first];
+        island->solver = bodies[0].solver;
+        ok = kiriSolver_PrepareIsland(island->solver, memory, &island->matrix, bodies, island->bodies.count);
+    }
+    if (!ok) {
+        islands->count = 0;
+        DropRows(world);
+    }
+    return ok;
+}
+
+/* ---- Motion ------------------------------------------------------------------------------------------------------ */
+
+/* Returns the island of a body; null: it moves alone. */
+static kiriIsland* IslandOf(kiriIslands* islands, int32_t sheet, int32_t piece)
+{
+    int32_t number = islands->count > 0 ? islands->numbers.data[islands->firstBodies.data[sheet] + piece] : KIRI_NONE;
+    return number != KIRI_NONE ? &islands->islands.data[number] : NULL;
+}
+
+static bool IsFirst(const kiriIslands* islands, const kiriIsland* island, const kiriSheetData* sheet, int32_t piece)
+{
+    const kiriIslandBody* first = &islands->bodies.data[island->bodies.first];
+    return first->solver == sheet->solver && first->body == piece;
+}
+
+static int64_t WorkOfIsland(const kiriIslands* islands, const kiriIsland* island)
+{
+    int64_t work = kiriMatrix_ProductCount(island->matrix.matrix) / 20;
+    for (int32_t n = 0; n < island->bodies.count; ++n) {
+        const kiriIslandBody* body = &islands->bodies.data[island->bodies.first + n];
+        const kiriSolverBody* of = &body->solver->bodies.bodies.data[body->body];
+        work += 4 * of->frames.count * (body->solver->size > 6 ? 3 : 1) + of->contactCount;
+    }
+    return work;
+}
+
+/* Moves all bodies of a cluster by one step. `work` sums the work of the n-th systems of all islands. Fails if the
+   solver does. */
+static bool StepCluster(kiriWorld* world, int32_t cluster, double dt, int64_t most, int64_t* work)
+{
+    kiriIslands* islands = &world->islands;
+    for (int32_t i = cluster; i != KIRI_NONE; i = islands->next.data[i]) {
+        kiriSheetData* sheet = world->sheets.data[i];
+        const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->bodies;
+        int32_t systems = (int32_t)kiriMin(most, INT32_MAX), iterations = sheet->settings.iterations;
+        for (int32_t n = 0; !sheet->rest.asleep && n < moved->count; ++n) {
+            kiriIsland* island = IslandOf(islands, i, moved->data[n]);
+            int32_t solved = 0;
+            int64_t each = 0;
+            if (island == NULL) {
+                solved = kiriSolver_Step(sheet->solver, &islands->systems.data[i], moved->data[n], dt, iterations, systems);
+                each = kiriSolver_WorkOf(sheet->solver, moved->data[n], BodyOf(sheet, moved->data[n])->contactCount);
+            } else if (IsFirst(islands, island, sheet, moved->data[n])) {
+                const kiriIslandBody* bodies = &islands->bodies.data[island->bodies.first];
+                solved = kiriSolver_StepIsland(island->solver, island->matrix.matrix, bodies, island->bodies.count, dt,
+                                               iterations, systems);
+                each = WorkOfIsland(islands, island);
+            }
+            for (int32_t k = 0; k < solved; ++k) {
+                work[k] += each;
+            }
+            if (solved < 0) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* Returns the items of one linear system of each island of the cluster. */
+static int64_t ItemsOfCluster(const kiriWorld* world, int32_t cluster)
+{
+    const kiriIslands* islands = &world->islands;
+    int64_t work = 0;
+    for (int32_t i = cluster; i != KIRI_NONE; i = islands->next.data[i]) {
+        kiriSheetData* sheet = world->sheets.data[i];
+        const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->bodies;
+        for (int32_t n = 0; !sheet->rest.asleep && n < moved->count; ++n) {
+            const kiriIsland* island = IslandOf((kiriIslands*)islands, i, moved->data[n]);
+            work += island == NULL
+                        ? kiriSolver_WorkOf(sheet->solver, moved->data[n], BodyOf(sheet, moved->data[n])->contactCount)
+                    : IsFirst(islands, island, sheet, moved->data[n]) ? WorkOfIsland(islands, island)
+                                                                       : 0;
+        }
+    }
+    return kiriSolver_ItemsOf(work);
+}
+
+int64_t kiriIslands_MostItems(const kiriWorld* world, int32_t cluster, int32_t substeps)
+{
+    return substeps * (KIRI_MOST_ROUNDS)*ItemsOfCluster(world, cluster);
+}
+
+/* Runs the substeps; fewer and longer ones if the quota requires it. */
+static kiriProgress TakeSubsteps(kiriWorld* world, int32_t cluster, double dt, int32_t substeps, kiriQuota* systems)
+{
+    const kiriIslands* islands = &world->islands;
+    int64_t items = ItemsOfCluster(world, cluster), left = kiriMotion_SystemsLeft(systems, items);
+    substeps = left < substeps ? (int32_t)left : substeps;
+    for (int32_t s = 0; s < substeps; ++s) {
+        int64_t work[KIRI_MOST_ROUNDS] = { 0 };
+        for (int32_t i = cluster; i != KIRI_NONE; i = islands->next.data[i]) {
+            if (!world->sheets.data[i]->rest.asleep) {
+                kiriFollow_Step(world->sheets.data[i], s, substeps, dt / substeps);
+            }
+        }
+        if (!StepCluster(world, cluster, dt / substeps, kiriMotion_SystemsLeft(systems, items) - (substeps - 1 - s), work)) {
+            return KIRI_FAILED;
+        }
+        for (int32_t k = 0; k < KIRI_MOST_ROUNDS && work[k] > 0; ++k) {
+            kiriQuota_Take(systems, kiriSolver_ItemsOf(work[k]));
+        }
+    }
+    return substeps > 0 ? KIRI_DONE : KIRI_MORE;
+}
+
+void kiriIslands_Move(kiriWorld* world, int32_t cluster, double dt, int32_t substeps, kiriQuota* systems)
+{
+    const kiriIslands* islands = &world->islands;
+    kiriProgress progress = TakeSubsteps(world, cluster, dt, substeps, systems);
+    for (int32_t i = cluster; i != KIRI_NONE; i = islands->next.data[i]) {
+        kiriSheetData* sheet = world->sheets.data[i];
+        bool isMoved = !sheet->rest.asleep;
+        world->moves.of.data[i].progress = isMoved ? progress : KIRI_DONE;
+        kiriMotion_End(sheet, isMoved ? progress : KIRI_DONE, isMoved, dt);
+    }
+}
