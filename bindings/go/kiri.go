@@ -548,8 +548,8 @@ type SheetDef struct {
 	ContactThickness float32
 	// obstacles and sheets touch if they share a set bit. Default: all
 	Groups uint32
-	// 1: its pieces touch each other, and other sheets that have it set; not where one of two sheets is planar. Folds of
-	// one piece do not touch each other. The manual has rules and limits (contact). Default 0.
+	// 1: its pieces touch each other, and other sheets of the same model that have it set; not if a sheet is planar.
+	// Folds of one piece do not touch each other. The manual has rules and limits (contact). Default 0.
 	TouchesSheets int32
 	// spread evenly over the sheet, at least one in every piece; default 0: none
 	CollisionPoints int32
@@ -590,8 +590,8 @@ type SheetSettings struct {
 	ContactThickness float32
 	// obstacles and sheets touch if they share a set bit. Default: all
 	Groups uint32
-	// 1: its pieces touch each other, and other sheets that have it set; not where one of two sheets is planar. Folds of
-	// one piece do not touch each other. The manual has rules and limits (contact). Default 0.
+	// 1: its pieces touch each other, and other sheets of the same model that have it set; not if a sheet is planar.
+	// Folds of one piece do not touch each other. The manual has rules and limits (contact). Default 0.
 	TouchesSheets int32
 	// Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
 	Iterations int32

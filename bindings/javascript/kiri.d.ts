@@ -513,8 +513,8 @@ export class SheetDef {
     contactThickness: number;
     /** obstacles and sheets touch if they share a set bit. Default: all */
     groups: number;
-    /** 1: its pieces touch each other, and other sheets that have it set; not where one of two sheets is planar. Folds
-     *  of one piece do not touch each other. The manual has rules and limits (contact). Default 0. */
+    /** 1: its pieces touch each other, and other sheets of the same model that have it set; not if a sheet is planar.
+     *  Folds of one piece do not touch each other. The manual has rules and limits (contact). Default 0. */
     touchesSheets: boolean;
     /** spread evenly over the sheet, at least one in every piece; default 0: none */
     collisionPoints: number;
@@ -594,8 +594,8 @@ export interface SheetDefGiven {
     contactThickness?: number;
     /** obstacles and sheets touch if they share a set bit. Default: all */
     groups?: number;
-    /** 1: its pieces touch each other, and other sheets that have it set; not where one of two sheets is planar. Folds
-     *  of one piece do not touch each other. The manual has rules and limits (contact). Default 0. */
+    /** 1: its pieces touch each other, and other sheets of the same model that have it set; not if a sheet is planar.
+     *  Folds of one piece do not touch each other. The manual has rules and limits (contact). Default 0. */
     touchesSheets?: boolean | number;
     /** spread evenly over the sheet, at least one in every piece; default 0: none */
     collisionPoints?: number;
@@ -638,8 +638,8 @@ export class SheetSettings {
     contactThickness: number;
     /** obstacles and sheets touch if they share a set bit. Default: all */
     groups: number;
-    /** 1: its pieces touch each other, and other sheets that have it set; not where one of two sheets is planar. Folds
-     *  of one piece do not touch each other. The manual has rules and limits (contact). Default 0. */
+    /** 1: its pieces touch each other, and other sheets of the same model that have it set; not if a sheet is planar.
+     *  Folds of one piece do not touch each other. The manual has rules and limits (contact). Default 0. */
     touchesSheets: boolean;
     /** Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual */
     iterations: number;
@@ -670,8 +670,8 @@ export interface SheetSettingsGiven {
     contactThickness?: number;
     /** obstacles and sheets touch if they share a set bit. Default: all */
     groups?: number;
-    /** 1: its pieces touch each other, and other sheets that have it set; not where one of two sheets is planar. Folds
-     *  of one piece do not touch each other. The manual has rules and limits (contact). Default 0. */
+    /** 1: its pieces touch each other, and other sheets of the same model that have it set; not if a sheet is planar.
+     *  Folds of one piece do not touch each other. The manual has rules and limits (contact). Default 0. */
     touchesSheets?: boolean | number;
     /** Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual */
     iterations?: number;

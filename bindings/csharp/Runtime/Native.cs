@@ -755,8 +755,8 @@ namespace Kiri
         public float ContactThickness;
         /// <summary>obstacles and sheets touch if they share a set bit. Default: all</summary>
         public uint Groups;
-        /// <summary>1: its pieces touch each other, and other sheets that have it set; not where one of two sheets is planar.
-        /// Folds of one piece do not touch each other. The manual has rules and limits (contact). Default 0.</summary>
+        /// <summary>1: its pieces touch each other, and other sheets of the same model that have it set; not if a sheet is
+        /// planar. Folds of one piece do not touch each other. The manual has rules and limits (contact). Default 0.</summary>
         public Flag TouchesSheets;
         /// <summary>spread evenly over the sheet, at least one in every piece; default 0: none</summary>
         public int CollisionPoints;
@@ -811,8 +811,8 @@ namespace Kiri
         public float ContactThickness;
         /// <summary>obstacles and sheets touch if they share a set bit. Default: all</summary>
         public uint Groups;
-        /// <summary>1: its pieces touch each other, and other sheets that have it set; not where one of two sheets is planar.
-        /// Folds of one piece do not touch each other. The manual has rules and limits (contact). Default 0.</summary>
+        /// <summary>1: its pieces touch each other, and other sheets of the same model that have it set; not if a sheet is
+        /// planar. Folds of one piece do not touch each other. The manual has rules and limits (contact). Default 0.</summary>
         public Flag TouchesSheets;
         /// <summary>Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual</summary>
         public int Iterations;

@@ -869,8 +869,8 @@ pub struct SheetDef<'a> {
     pub contact_thickness: f32,
     /// obstacles and sheets touch if they share a set bit. Default: all
     pub groups: u32,
-    /// 1: its pieces touch each other, and other sheets that have it set; not where one of two
-    /// sheets is planar. Folds of one piece do not touch each other. The manual has rules and
+    /// 1: its pieces touch each other, and other sheets of the same model that have it set; not if
+    /// a sheet is planar. Folds of one piece do not touch each other. The manual has rules and
     /// limits (contact). Default 0.
     pub touches_sheets: bool,
     /// spread evenly over the sheet, at least one in every piece; default 0: none
@@ -1012,8 +1012,8 @@ pub struct SheetSettings {
     pub contact_thickness: f32,
     /// obstacles and sheets touch if they share a set bit. Default: all
     pub groups: u32,
-    /// 1: its pieces touch each other, and other sheets that have it set; not where one of two
-    /// sheets is planar. Folds of one piece do not touch each other. The manual has rules and
+    /// 1: its pieces touch each other, and other sheets of the same model that have it set; not if
+    /// a sheet is planar. Folds of one piece do not touch each other. The manual has rules and
     /// limits (contact). Default 0.
     pub touches_sheets: bool,
     /// Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
