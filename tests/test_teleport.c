@@ -253,7 +253,7 @@ static void TestMovingPins(void** state)
 
 /* ---- Another origin ---- */
 
-enum { SHIFT_AT = 44, SHIFT_AGAIN = 51, SCENE_TICKS = 57 };
+enum { SHIFT_AT = 44, SHIFT_AGAIN = 51, SCENE_TICKS = 55 };
 
 typedef struct Everything {
     Host host;

@@ -614,7 +614,7 @@ static void TakeLinkState(kiriSolver* solver, const kiriIslandBody* member, int3
     }
 }
 
-/* Copies the elements of a body to those of the island. */
+/* Appends copies of a body's elements to the island. */
 static void TakeElements(kiriSolver* solver, const kiriIslandBody* member)
 {
     const kiriSolverBodies* bodies = &member->solver->bodies;

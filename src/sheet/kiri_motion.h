@@ -13,7 +13,7 @@ kiriProgress kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt,
 
 /* The parts of kiriMotion_Solve, for sheets that are moved together: see world/kiri_island.h. Begin chooses the pieces to
    move, all that are awake if `systems` is null, and writes their rows and the system. Returns a frame of the first
-   deferred piece, or 0. End takes what came of the steps. */
+   deferred piece, or 0. End takes the results of the steps. */
 int32_t kiriMotion_Begin(kiriSheetData* sheet, kiriVec3 gravity, double dt, const kiriQuota* systems, kiriSystem* system);
 void kiriMotion_End(kiriSheetData* sheet, kiriProgress progress, bool isMoved, double dt);
 

@@ -3,9 +3,8 @@
 
    A pair keeps its side as long as the two are near: the upper piece stays on that side of the lower one. Triangles
    have sides by the order of their corners in the rest plane. If each point had a separate side, pieces that have
-   crossed would never come to rest: some points push one way, others the other way. Gravity decides which piece is the
-   upper one, so a piece that lies on a floor is not pushed into it. Planes carry the upper piece, and its pushes become
-   loads on the lower one. */
+   crossed would never come to rest: some points push one way, others the other way. Gravity decides which piece is called
+   the upper one. */
 #ifndef KIRI_PAIR_H
 #define KIRI_PAIR_H
 
@@ -23,8 +22,8 @@ bool kiriPairs_Stir(const kiriWorld* world);
 /* Replaces the pairs by the new ones. */
 void kiriPairs_Commit(kiriWorld* world);
 
-/* Adds planes of lower pieces to the sheets of upper pieces. Skips sheets that are not active, because they do not
-   move. Call it between kiriTouches_Begin and kiriTouches_Reserve. Fails on out of memory. */
+/* Adds contacts to the sheets of upper pieces. Skips sheets that are not active, because they do not move. Call it
+   between kiriTouches_Begin and kiriTouches_Reserve. Fails on out of memory. */
 bool kiriPairs_AddTouches(kiriWorld* world);
 
 /* Gives touching pieces the calm of the least calm of them, so that they fall asleep together. Call it last. */
