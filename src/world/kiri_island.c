@@ -3,7 +3,6 @@
 #include "../sheet/kiri_motion.h"
 #include "../sheet/kiri_pin.h"
 #include "../sheet/kiri_touch.h"
-#include "kiri_move.h"
 
 /* ---- Clusters ---------------------------------------------------------------------------------------------------- */
 
@@ -46,12 +45,8 @@ int32_t kiriIslands_ClusterOf(kiriIslands* islands, int32_t sheet)
 static void ListClusters(kiriWorld* world)
 {
     kiriIslands* islands = &world->islands;
-    for (int32_t k = world->active.count - 1; k >= 0; --k) {
-        int32_t i = world->active.data[k], root = kiriIslands_ClusterOf(islands, i);
-        islands->next.data[i] = KIRI_NONE;
-        if (root != KIRI_NONE && root != i) {
-            KIRI_ASSERT(root < i);
-        }
+    for (int32_t k = 0; k < world->active.count; ++k) {
+        islands->next.data[world->active.data[k]] = KIRI_NONE;
     }
     for (int32_t k = world->active.count - 1; k >= 0; --k) {
         int32_t i = world->active.data[k], root = kiriIslands_ClusterOf(islands, i);
@@ -78,7 +73,6 @@ static int32_t BeginSheets(kiriWorld* world, double dt)
         int32_t i = world->active.data[k];
         if (islands->isJoined.data[i]) {
             kiriSheetData* sheet = world->sheets.data[i];
-            kiriPinStep_Begin(world, sheet, dt);
             kiriMotion_Begin(sheet, world->gravity, dt, NULL, &islands->systems.data[i]);
             islands->firstBodies.data[i] = count;
             count += sheet->layout.pieces.count;
@@ -279,7 +273,7 @@ static int64_t ItemsOfCluster(const kiriWorld* world, int32_t cluster)
 
 int64_t kiriIslands_MostItems(const kiriWorld* world, int32_t cluster, int32_t substeps)
 {
-    return substeps * (KIRI_MOST_ROUNDS)*ItemsOfCluster(world, cluster);
+    return (int64_t)substeps * KIRI_MOST_ROUNDS * ItemsOfCluster(world, cluster);
 }
 
 /* Runs the substeps; fewer and longer ones if the quota requires it. */

@@ -11,7 +11,7 @@ KIRI_C_BEGIN
 /* Joins the sheets of mutual contacts to clusters. Call it after touches are found. Fails on out of memory. */
 bool kiriIslands_FindClusters(kiriWorld* world);
 
-/* Begins the motion of all sheets in clusters, joins their bodies to islands, and shapes the matrices of islands. Call it
+/* Begins the motion of all sheets in clusters, whose pins have begun (kiriMoves_BeginClusters), joins their bodies to islands, and shapes the matrices of islands. Call it
    after the commit. On out of memory returns false: then contacts between surfaces are left out in this tick. */
 bool kiriIslands_Prepare(kiriWorld* world, double dt);
 

@@ -95,6 +95,15 @@ bool kiriMoves_Prepare(kiriWorld* world)
     return !kiriTasks_AreGiven(&world->tasks) || world->obstacles.count == 0 || JoinByBodies(world);
 }
 
+void kiriMoves_BeginClusters(kiriWorld* world, double dt)
+{
+    for (int32_t k = 0; k < world->active.count; ++k) {
+        if (kiriIslands_ClusterOf(&world->islands, world->active.data[k]) != KIRI_NONE) {
+            kiriPinStep_Begin(world, kiriWorld_Active(world, k), dt);
+        }
+    }
+}
+
 /* ---- Moving ---- */
 
 typedef struct MoveTask {

@@ -10,6 +10,9 @@ KIRI_C_BEGIN
    */
 bool kiriMoves_Prepare(kiriWorld* world);
 
+/* Begins the pins of sheets in clusters. Call it before kiriIslands_Prepare. */
+void kiriMoves_BeginClusters(kiriWorld* world, double dt);
+
 /* Returns the index of the k-th sheet to move. The order starts at `turn`. */
 int32_t kiriMoves_SheetAt(const kiriWorld* world, int32_t turn, int32_t k);
 

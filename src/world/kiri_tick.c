@@ -330,6 +330,7 @@ static kiriResult SolveAll(kiriWorld* world, double dt, int32_t substeps, kiriQu
 {
     kiriResult result = ReportDeferred(world) ? KIRI_PENDING : KIRI_OK;
     EnterStage(world, KIRI_STAGE_SOLVE);
+    kiriMoves_BeginClusters(world, dt);
     bool hasRoom = kiriIslands_Prepare(world, dt);
     kiriMoves_Run(world, dt, substeps, iterations);
     result = ReportMoves(world, result);
