@@ -11,7 +11,7 @@ import (
 )
 
 // Version of the header.
-const Version = "0.14.0"
+const Version = "0.15.0"
 
 type ResultCode int32
 

@@ -1262,7 +1262,7 @@ namespace Kiri
 #endif
 
         /// <summary>Of the header.</summary>
-        public const int Version = 1400;
+        public const int Version = 1500;
         public const int LeastTriangles = 16;
         public const int MostNoteBytes = 1048576;
 

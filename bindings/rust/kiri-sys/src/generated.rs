@@ -17,7 +17,7 @@ pub struct kiriWorld {
 }
 
 /// Of the header.
-pub const KIRI_VERSION: i32 = 1400;
+pub const KIRI_VERSION: i32 = 1500;
 
 pub const KIRI_OK: i32 = 0;
 /// success; work is left for later ticks
