@@ -159,13 +159,13 @@ static kiriProgress OpenBucket(kiriField* field, kiriMemory* memory, const kiriR
 }
 
 /* Takes a step to a cell. False for memory. */
-static inline bool TakeStep(kiriField* field, kiriMemory* memory, kiriSeed to, bool repairs)
+static inline bool TakeGridStep(kiriField* field, kiriMemory* memory, kiriSeed to, bool repairs)
 {
     return !IsNearerSeed(to, ValueOf(field, to.cell)) || GiveValue(field, memory, to, repairs);
 }
 
 /* Takes the steps from a cell, as far as `room`. False for memory. */
-static inline bool TakeSteps(kiriField* field, kiriMemory* memory, const kiriGrid* grid, kiriSeed from, int32_t room,
+static inline bool TakeGridSteps(kiriField* field, kiriMemory* memory, const kiriGrid* grid, kiriSeed from, int32_t room,
                              bool repairs)
 {
     bool ok = true;
@@ -183,7 +183,7 @@ static inline bool TakeSteps(kiriField* field, kiriMemory* memory, const kiriGri
         for (int k = 0; hits >> k != 0; ++k) {
             if ((hits >> k & 1) != 0) {
                 kiriSeed to = { from.cell + steps[k].cell, from.distance + steps[k].length, from.owner };
-                ok = TakeStep(field, memory, to, repairs) && ok;
+                ok = TakeGridStep(field, memory, to, repairs) && ok;
             }
         }
         return ok;
@@ -192,7 +192,7 @@ static inline bool TakeSteps(kiriField* field, kiriMemory* memory, const kiriGri
     for (int32_t s = 0; ok && s < steps.end[2]; ++s) {
         kiriStep step = kiriSteps_At(&steps, s);
         kiriSeed to = { step.cell, from.distance + step.length, from.owner };
-        ok = step.length > room || TakeStep(field, memory, to, repairs);
+        ok = step.length > room || TakeGridStep(field, memory, to, repairs);
     }
     return ok;
 }
@@ -226,7 +226,7 @@ static inline kiriProgress Sweep(kiriField* field, kiriMemory* memory, const kir
             if (rule->look != NULL) {
                 rule->look(rule->context, value.cell);
             }
-            bool ok = TakeSteps(field, memory, rule->grid, value, rule->limit - value.distance, repairs);
+            bool ok = TakeGridSteps(field, memory, rule->grid, value, rule->limit - value.distance, repairs);
             progress = ok ? KIRI_MORE : KIRI_FAILED;
         }
     }

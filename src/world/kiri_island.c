@@ -59,13 +59,13 @@ static void ListClusters(kiriWorld* world)
 
 /* ---- Islands ----------------------------------------------------------------------------------------------------- */
 
-static kiriSolverBody* BodyOf(kiriSheetData* sheet, int32_t piece)
+static kiriSolverBody* PieceBody(kiriSheetData* sheet, int32_t piece)
 {
     return &sheet->solver->bodies.bodies.data[piece];
 }
 
 /* Begins the motion of the sheets of clusters, and numbers their bodies. Returns the number of bodies. */
-static int32_t BeginSheets(kiriWorld* world, double dt)
+static int32_t BeginClusters(kiriWorld* world, double dt)
 {
     kiriIslands* islands = &world->islands;
     int32_t count = 0;
@@ -110,7 +110,7 @@ static void JoinRows(kiriWorld* world)
 }
 
 /* Lists the bodies of islands: first counts them, then fills the spans. Returns the number of islands. */
-static int32_t ListBodies(kiriWorld* world)
+static int32_t ListIslands(kiriWorld* world)
 {
     kiriIslands* islands = &world->islands;
     int32_t count = 0, bodies = 0;
@@ -163,7 +163,7 @@ bool kiriIslands_Prepare(kiriWorld* world, double dt)
     kiriIslands* islands = &world->islands;
     kiriMemory* memory = &world->memory;
     ListClusters(world);
-    int32_t count = BeginSheets(world, dt), had = islands->islands.count;
+    int32_t count = BeginClusters(world, dt), had = islands->islands.count;
     islands->count = 0;
     bool ok = kiriArray_Resize(memory, &islands->parents, count) &&
               kiriArray_Resize(memory, &islands->numbers, count) &&
@@ -178,7 +178,7 @@ bool kiriIslands_Prepare(kiriWorld* world, double dt)
             islands->numbers.data[b] = KIRI_NONE;
         }
         JoinRows(world);
-        islands->count = ListBodies(world);
+        islands->count = ListIslands(world);
     }
     for (int32_t n = 0; ok && n < islands->count; ++n) {
         kiriIsland* island = &islands->islands.data[n];
@@ -234,7 +234,7 @@ static bool StepCluster(kiriWorld* world, int32_t cluster, double dt, int64_t mo
             int64_t each = 0;
             if (island == NULL) {
                 solved = kiriSolver_Step(sheet->solver, &islands->systems.data[i], moved->data[n], dt, iterations, systems);
-                each = kiriSolver_WorkOf(sheet->solver, moved->data[n], BodyOf(sheet, moved->data[n])->contactCount);
+                each = kiriSolver_WorkOf(sheet->solver, moved->data[n], PieceBody(sheet, moved->data[n])->contactCount);
             } else if (IsFirst(islands, island, sheet, moved->data[n])) {
                 const kiriIslandBody* bodies = &islands->bodies.data[island->bodies.first];
                 solved = kiriSolver_StepIsland(island->solver, island->matrix.matrix, bodies, island->bodies.count, dt,
@@ -263,7 +263,7 @@ static int64_t ItemsOfCluster(const kiriWorld* world, int32_t cluster)
         for (int32_t n = 0; !sheet->rest.asleep && n < moved->count; ++n) {
             const kiriIsland* island = IslandOf((kiriIslands*)islands, i, moved->data[n]);
             work += island == NULL
-                        ? kiriSolver_WorkOf(sheet->solver, moved->data[n], BodyOf(sheet, moved->data[n])->contactCount)
+                        ? kiriSolver_WorkOf(sheet->solver, moved->data[n], PieceBody(sheet, moved->data[n])->contactCount)
                     : IsFirst(islands, island, sheet, moved->data[n]) ? WorkOfIsland(islands, island)
                                                                        : 0;
         }
@@ -277,7 +277,7 @@ int64_t kiriIslands_MostItems(const kiriWorld* world, int32_t cluster, int32_t s
 }
 
 /* Runs the substeps; fewer and longer ones if the quota requires it. */
-static kiriProgress TakeSubsteps(kiriWorld* world, int32_t cluster, double dt, int32_t substeps, kiriQuota* systems)
+static kiriProgress TakeClusterSubsteps(kiriWorld* world, int32_t cluster, double dt, int32_t substeps, kiriQuota* systems)
 {
     const kiriIslands* islands = &world->islands;
     int64_t items = ItemsOfCluster(world, cluster), left = kiriMotion_SystemsLeft(systems, items);
@@ -302,7 +302,7 @@ static kiriProgress TakeSubsteps(kiriWorld* world, int32_t cluster, double dt, i
 void kiriIslands_Move(kiriWorld* world, int32_t cluster, double dt, int32_t substeps, kiriQuota* systems)
 {
     const kiriIslands* islands = &world->islands;
-    kiriProgress progress = TakeSubsteps(world, cluster, dt, substeps, systems);
+    kiriProgress progress = TakeClusterSubsteps(world, cluster, dt, substeps, systems);
     for (int32_t i = cluster; i != KIRI_NONE; i = islands->next.data[i]) {
         kiriSheetData* sheet = world->sheets.data[i];
         bool isMoved = !sheet->rest.asleep;

@@ -59,7 +59,7 @@ bool kiriPairs_AddTouches(kiriWorld* world)
 #define ALONG 0.3  /* minimum cosine between surfaces that lie on each other */
 #define MARGIN 0.5 /* of the distance that pieces keep: a gap up to this may close in the tick */
 #define ALIKE 0.9  /* minimum cosine between normals of planes that are alike */
-#define PREFERRED 0.5 /* of that distance: a surface must be nearer by this to replace one that pushed */
+#define NEARER 0.5 /* of that distance: a surface must be nearer by this to replace one that pushed */
 #define CLOSE 0.1  /* of the distance that pieces keep: a gap up to this counts as touching */
 
 static kiriPlace3 VertexPlace(kiriSheetData* sheet, int32_t vertex)
@@ -165,7 +165,7 @@ static bool AddTouch(kiriWorld* world, const kiriPairTouch* touch)
 static void RankTouch(kiriPairTouch* touch, double distance)
 {
     kiriVec3 force = kiriTouches_ForceOf(touch->upper.sheet, touch->key);
-    touch->rank = touch->gap - (kiriVec3_Dot(force, force) > 0.0 ? PREFERRED * distance : 0.0);
+    touch->rank = touch->gap - (kiriVec3_Dot(force, force) > 0.0 ? NEARER * distance : 0.0);
     kiriVec3 last = touch->normal;
     if (kiriTouches_NormalOf(touch->upper.sheet, touch->key, &last) && kiriVec3_Dot(last, touch->normal) > 0.5) {
         touch->normal = kiriVec3_Normalize(kiriVec3_Add(last, touch->normal));
@@ -212,7 +212,7 @@ static bool TouchPair(kiriWorld* world, kiriTouchingPair* pair, double dt)
     return ok;
 }
 
-static bool FindTouches(kiriWorld* world, double dt)
+static bool TouchPairs(kiriWorld* world, double dt)
 {
     bool ok = true;
     ForgetTouches(world);
@@ -293,7 +293,7 @@ void kiriPairs_JoinCalm(kiriWorld* world)
 }
 
 #define LEVEL 0.2  /* of the direction from the lower to the upper one: less than that along gravity is level */
-#define TURNED 0.5 /* more than that against gravity: the lower one has become the upper one */
+#define TURNED_OVER 0.5 /* more than that against gravity: the lower one has become the upper one */
 #define FLAT 0.1   /* of the distance that they keep: nearer than that motion says which side it is */
 
 /* ---- Bodies ---- */
@@ -742,7 +742,7 @@ static bool HasSideTurned(const kiriWorld* world, const kiriTouchingPair* old, i
         sum = kiriVec3_Add(sum, near->body == lower ? NormalAt(sheet, near->vertex) : near->normal);
     }
     kiriVec3 up = kiriVec3_Scale(old->side, kiriVec3_Normalize(sum));
-    return kiriVec3_Dot(up, kiriVec3_Normalize(world->gravity)) > TURNED;
+    return kiriVec3_Dot(up, kiriVec3_Normalize(world->gravity)) > TURNED_OVER;
 }
 
 static kiriTouchingPair Decide(const kiriWorld* world, int32_t a, int32_t b, kiriSpan nears, double dt)
@@ -909,7 +909,7 @@ bool kiriPairs_Find(kiriWorld* world, double dt)
     kiriPairs* pairs = &world->pairs;
     pairs->nears.count = pairs->found.count = pairs->next.count = pairs->bodies.count = 0;
     return (!AreSeveral(world) || LookForPairs(world, dt)) && KeepSleeping(world) && SortFound(world) &&
-           FindTouches(world, dt);
+           TouchPairs(world, dt);
 }
 
 /* ---- Sleep ---- */
