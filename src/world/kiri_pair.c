@@ -44,7 +44,19 @@ static bool AddPlaneTouch(kiriPairTouch* pair)
     return kiriTouches_Add(sheet, &touch);
 }
 
-static bool ReserveCalm(kiriWorld* world);
+/* Reserves for kiriPairs_JoinCalm: pieces as they are now, or as a ready update will make them. */
+static bool ReserveCalm(kiriWorld* world)
+{
+    int64_t count = 0;
+    for (int32_t k = 0; k < world->active.count; ++k) {
+        const kiriSheetData* sheet = kiriWorld_Active(world, k);
+        bool isReady = sheet->update->stage == KIRI_READY && sheet->update->cut.meshChanged;
+        int32_t now = sheet->layout.pieces.count, next = isReady ? sheet->update->next.pieces.count : 0;
+        count += kiriPair_TakesPart(sheet) ? kiriMax(next, now) : 0;
+    }
+    return kiriArray_Reserve(&world->memory, &world->pairs.parents, count) &&
+           kiriArray_Reserve(&world->memory, &world->pairs.calms, count);
+}
 
 bool kiriPairs_AddTouches(kiriWorld* world)
 {
@@ -223,26 +235,6 @@ static bool TouchPairs(kiriWorld* world, double dt)
 }
 
 /* ---- Calm ---- */
-
-/* Counts pieces as they are now, or as a ready update will make them. */
-static int32_t MostPieces(const kiriSheetData* sheet)
-{
-    bool isReady = sheet->update->stage == KIRI_READY && sheet->update->cut.meshChanged;
-    int32_t now = sheet->layout.pieces.count, next = isReady ? sheet->update->next.pieces.count : 0;
-    return kiriMax(next, now);
-}
-
-/* Reserves for kiriPairs_JoinCalm. */
-static bool ReserveCalm(kiriWorld* world)
-{
-    int64_t count = 0;
-    for (int32_t k = 0; k < world->active.count; ++k) {
-        const kiriSheetData* sheet = kiriWorld_Active(world, k);
-        count += kiriPair_TakesPart(sheet) ? MostPieces(sheet) : 0;
-    }
-    return kiriArray_Reserve(&world->memory, &world->pairs.parents, count) &&
-           kiriArray_Reserve(&world->memory, &world->pairs.calms, count);
-}
 
 /* Numbers the pieces that are awake. */
 static void ListAwake(kiriWorld* world)
