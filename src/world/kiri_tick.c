@@ -393,6 +393,7 @@ static kiriQuota SetAside(const kiriWorld* world, kiriQuotas* quotas)
 /* Ends a tick in which nothing moves. Progress on cuts is kept and continues in the next tick. */
 static void EndUnmoved(kiriWorld* world)
 {
+    world->pairs.touches.count = 0; /* they hold pointers to sheets */
     CommitMeshes(world);
     for (int32_t i = 0; i < world->sheets.count; ++i) {
         kiriView_ShowNewborn(world->sheets.data[i]);
