@@ -7,7 +7,8 @@
 /* Average count of patches a frame. A frame has six unknowns, so only bent surfaces need more points. */
 #define PATCHES_A_FRAME 4.0
 
-/* Hysteresis, as a fraction of the contact distance: a vertex must be deeper by this to replace one with a force. */
+/* Of the contact distance: a vertex must be deeper by this to replace an earlier one, and by as much to replace one that
+   pushed. So a flat surface keeps its vertices. */
 #define PREFERRED 0.5
 
 /* Cosine of 25 degrees. Normals with a smaller angle belong to one face. */
@@ -216,14 +217,14 @@ static bool Yields(const kiriSheetData* sheet, int32_t yield)
     return yield != KIRI_NONE && sheet->touches.yields.data[yield].inverseMass > 0.0;
 }
 
-/* Adds a vertex. Keeps only the deepest of the vertices in one place; the first of equal ones. */
-static void Choose(kiriObstacleSearch* search, kiriNearVertex near)
+/* Adds a vertex. Keeps only one vertex in each place: the first one, unless another is deeper by `margin` (m). */
+static void Choose(kiriObstacleSearch* search, kiriNearVertex near, double margin)
 {
     int32_t* link = &search->heads.data[near.patch];
     while (*link != KIRI_NONE) {
         kiriNearVertex* chosen = &search->chosen.data[*link];
         if (IsSamePlace(chosen, &near)) {
-            if (near.height < chosen->height) {
+            if (near.height < chosen->height - margin) {
                 near.next = chosen->next;
                 *chosen = near;
             }
@@ -264,7 +265,7 @@ static void LookAtVertex(const kiriMeeting* meeting, int32_t vertex)
                                 KIRI_NONE,
                                 height,
                                 nearest.normal };
-        Choose(meeting->search, near);
+        Choose(meeting->search, near, PREFERRED * meeting->gap);
     }
 }
 
