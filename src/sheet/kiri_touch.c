@@ -265,7 +265,8 @@ static void LookAtVertex(const kiriMeeting* meeting, int32_t vertex)
                                 KIRI_NONE,
                                 height,
                                 nearest.normal };
-        Choose(meeting->search, near, PREFERRED * meeting->gap);
+        bool yields = Yields(meeting->sheet, meeting->yield); /* the deepest point stops a body with mass */
+        Choose(meeting->search, near, yields ? 0.0 : PREFERRED * meeting->gap);
     }
 }
 
