@@ -12,6 +12,7 @@ static const float dt = 1.0f / 60.0f;
 static const double g = 9.81, size = 0.3;
 
 static bool isLoud = false;
+static int32_t missed; /* layouts beyond the limits */
 
 typedef struct Touching {
     Host host;
@@ -191,13 +192,10 @@ static void Run(int layout, int way, uint32_t seed, int ticks)
                       layout, way, seed, t.pieces, rise, moved, t.fastest, falls, t.nears, t.contacts);
     }
     assert_true(t.pieces > 1);
-    if (isLoud && !(rise < 2.0 && moved < 1e-3 && t.fastest < falls + 0.2)) {
-        print_message("missed\n");
-        Host_Stop(&t.host);
-        return;
+    if (!(rise < 2.0 && moved < 1e-3 && t.fastest < falls + 0.2)) {
+        print_message("missed: layout %d way %d seed %u\n", layout, way, seed);
+        missed += 1;
     }
-    assert_true(rise < 2.0 && moved < 1e-3);
-    assert_true(t.fastest < falls + 0.2);
     assert_true(t.nears <= 8 * t.pieces && t.contacts <= 400 * t.pieces);
     Host_Stop(&t.host);
 }
@@ -212,6 +210,7 @@ static void TestEnergyNeverRises(void** state)
             }
         }
     }
+    assert_int_equal(missed, 0); /* with 20 seeds 3 of 320: pieces on a floor, by 0.0012, 0.0029 and 0.03 */
 }
 
 /* 256 pieces side by side, which nothing moves: they stay where they are, and nothing is looked at. */
