@@ -723,8 +723,8 @@ static void TestCrumbsWhileTheLargestLeaves(void** state)
 
 /* ---- On a floor ---- */
 
-/* Four strips slide down a slope, and in the second world one goes. What pushes on the others is remembered, whatever number
-   their vertices get; a part has patches of its own, so other vertices touch. */
+/* Four strips slide down a slope, and in the second world one goes. The contacts of the others are remembered, whatever number
+   the vertices of a strip get; a part has patches of its own, so other vertices touch. */
 static void TestTouchesGoOn(void** state)
 {
     (void)state;

@@ -161,8 +161,8 @@ static void TurnAround(Couple* c, int kind, uint32_t* seed)
     c->poses[1].A = kiriMat3_MulMat(kiriMat3_Cayley(lean), c->poses[1].A);
 }
 
-/* Any pose, folds and flips included: the energy is continuous, and its slope is what it says. Paths through half a turn
-   have steps that are no larger than the slopes at their ends allow. */
+/* Any pose, folds and flips included: the energy is continuous, and its slope equals the derivative. Paths through half a turn
+   have no larger steps than the slopes at their ends allow. */
 static void TestEveryPoseIsSmooth(void** state)
 {
     enum { STEPS = 32 };

@@ -4,8 +4,8 @@ import re
 
 INTRODUCTION = """# Reference
 
-All of `include/kiri/kiri.h`, version {version}, by its sections. Made by `make bindings` from `kiri.json`; what is said here
-is what the header says. [The manual](../samples/manual/README.md) shows how the calls go together.
+All of `include/kiri/kiri.h`, version {version}, by its sections. `make bindings` makes it from `kiri.json`; its text
+copies the header. [The manual](../samples/manual/README.md) shows how the calls go together.
 """
 BASICS = "Basics"  # what comes before the first section of the header
 

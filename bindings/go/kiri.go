@@ -1150,9 +1150,9 @@ func GetResultText(result ResultCode) string {
 
 // Advances by one fixed step of dt seconds (1e-6 to 10), in `substeps` equal parts (1 to 64): takes the pending cut
 // points, then moves every sheet. KIRI_PENDING: the budget is spent; events name the cuts that still have work.
-// KIRI_ERROR_MEMORY: work on a cut, or a piece that leaves, goes on in the next tick; the sheets moved, but where
-// memory for contacts or ids is missing. KIRI_ERROR_LIMIT: no ids are left for new frames; nothing moves until frames
-// are destroyed. KIRI_DIVERGED: sheets that events name were stopped, others moved.
+// KIRI_ERROR_MEMORY: cuts and pieces that leave go on in the next tick. Nothing moved if memory for contacts or ids
+// is missing; sheets moved without touching each other if memory for that is. KIRI_ERROR_LIMIT: no ids are left for
+// new frames; nothing moves until some are destroyed. KIRI_DIVERGED: events name sheets that were stopped.
 func (w *World) Tick(dt float32, substeps int32) (bool, error) {
 	if err := w.check(); err != nil {
 		return false, err

@@ -1027,8 +1027,8 @@ static void SetSpread(const LinkUpdate* u, kiriLink* link)
     }
 }
 
-/* Sets the outer width, and what is beyond it, after everything else of the link. A border that is next to nothing has
-   nothing beyond it: it may lie on a slit. */
+/* Sets the outer width and `beyond`, after everything else of the link. A border of hardly any width has no `beyond`,
+   because it may lie on a slit. */
 static void SetOuter(const LinkUpdate* u, kiriLink* link, const kiriLinkEnds* ends)
 {
     double sum = 0.0;

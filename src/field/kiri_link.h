@@ -14,7 +14,7 @@ typedef struct kiriLink {
     double width;      /* W: the border from end to end, m */
     double outer;      /* part of W at open ends, m: each end at the outline or at a slit adds the way along the tangent
                           from the crossing to it; 0 where both ends are corners, to W where both are open */
-    double beyond;     /* what the same ways have more than W where the crossing is beside the border, m */
+    double beyond;     /* excess of the same ways over W if the crossing is beside the border, m */
     double length;     /* l: the way from site i to site j through the border, m */
     double moment;     /* I: second moment of the border along the tangent about the centroid, m^3 */
     kiriVec2 span;     /* s: from site i to site j; l along the normal where the way between them is not straight */

@@ -480,12 +480,27 @@ uint64_t kiriSolver_Hash(const kiriSolver* solver)
 /* ---- Budget ------------------------------------------------------------------------------------------------------ */
 
 /* The links of a frame cost as much as 80 products of blocks, or as 4 contacts. */
+static int64_t WorkOf(const kiriMatrix* matrix, int32_t size, int64_t frames, int64_t contacts)
+{
+    return 4 * frames * (size > 6 ? 3 : 1) + contacts + kiriMatrix_ProductCount(matrix) / 20;
+}
+
 int64_t kiriSolver_WorkOf(const kiriSolver* solver, int32_t body, int32_t contactCount)
 {
     KIRI_ASSERT(body >= 0 && body < solver->bodies.bodies.count && contactCount >= 0);
     const kiriSolverBody* of = &solver->bodies.bodies.data[body];
-    int64_t frames = of->frames.count;
-    return 4 * frames * (solver->size > 6 ? 3 : 1) + contactCount + kiriMatrix_ProductCount(of->matrix) / 20;
+    return WorkOf(of->matrix, solver->size, of->frames.count, contactCount);
+}
+
+int64_t kiriSolver_WorkOfIsland(const kiriMatrix* matrix, const kiriIslandBody* bodies, int32_t count)
+{
+    int64_t frames = 0, contacts = 0;
+    for (int32_t n = 0; n < count; ++n) {
+        const kiriSolverBody* body = &bodies[n].solver->bodies.bodies.data[bodies[n].body];
+        frames += body->frames.count;
+        contacts += body->contactCount;
+    }
+    return WorkOf(matrix, bodies[0].solver->size, frames, contacts);
 }
 
 int64_t kiriSolver_MostItems(const kiriSolver* solver, int32_t contactCount)

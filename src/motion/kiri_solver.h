@@ -206,6 +206,9 @@ void kiriSolver_KeepCoupled(const kiriSolver* solver, kiriWeight* weights, int32
 bool kiriSolver_PrepareIsland(kiriSolver* solver, kiriMemory* memory, kiriIslandMatrix* matrix,
                               const kiriIslandBody* bodies, int32_t count);
 
+/* Returns the work of a linear system of an island, see kiriSolver_WorkOf. */
+int64_t kiriSolver_WorkOfIsland(const kiriMatrix* matrix, const kiriIslandBody* bodies, int32_t count);
+
 /* Moves the frames of an island. `solver` has the scratch; its sheet has the same model as all sheets of the island.
    Otherwise as kiriSolver_Step. */
 int32_t kiriSolver_StepIsland(kiriSolver* solver, kiriMatrix* matrix, const kiriIslandBody* bodies, int32_t count,

@@ -28,7 +28,7 @@ KIRI_C_BEGIN
    links represent the first term. The second term couples links of different directions, as does the second term of the
    membrane energy, E h / (1 - nu^2) / 2 ((1 - nu) |eps|^2 + nu (tr eps)^2). Corners represent these terms (see below).
    If the crossing m is beside the border, the outer width from m to the open end is larger than W. The part that W lacks
-   (kiriLink.beyond) adds what it would add to Wo, and takes as much from Wi; shear and plane bending leave it out.
+   (kiriLink.beyond) counts in Wo, and is subtracted from Wi; shear and plane bending leave it out.
    Beside a free edge, beyond the last row of sites, corners are missing, and all links run along the edge. There,
    moment and tension across the edge vanish, as in a beam: bending has the factor 1 - nu^2, stretch has 1, and the
    links see one of the two halves of the twist.

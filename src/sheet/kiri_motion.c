@@ -319,8 +319,7 @@ kiriProgress kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt,
     bool isMoved = !sheet->rest.asleep;
     kiriProgress progress = KIRI_DONE;
     if (isMoved) {
-        bool isLate = !IsRead(sheet) && kiriMotion_SystemsLeft(systems, ItemsOfMoved(sheet)) == 0;
-        progress = isLate ? KIRI_MORE : TakeSubsteps(sheet, &system, dt, substeps, systems);
+        progress = TakeSubsteps(sheet, &system, dt, substeps, systems); /* takes none if no systems are left */
         sheet->turns.next = progress == KIRI_DONE ? next : sheet->turns.next;
     }
     kiriMotion_End(sheet, progress, isMoved, dt);

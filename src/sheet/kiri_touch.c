@@ -728,14 +728,6 @@ static int32_t FindForce(const kiriTouchMemory* memory, uint64_t key)
     return low;
 }
 
-bool kiriTouchMemory_Find(const kiriTouchMemory* memory, uint64_t key, kiriVec3* force)
-{
-    int32_t at = FindForce(memory, key);
-    bool found = at < memory->forces.count && memory->forces.data[at].key == key;
-    *force = found ? memory->forces.data[at].force : *force;
-    return found;
-}
-
 void kiriTouchMemory_Add(kiriTouchMemory* memory, const kiriTouch* touch, kiriVec3 force)
 {
     KIRI_ASSERT(memory->touches.count < memory->touches.capacity);
@@ -1203,24 +1195,24 @@ void kiriTouches_WriteRows(kiriSheetData* sheet)
     }
 }
 
-bool kiriTouches_NormalOf(const kiriSheetData* sheet, uint64_t key, kiriVec3* normal)
-{
-    const kiriTouchMemory* memory = &sheet->touches.last;
-    int32_t at = FindForce(memory, key);
-    bool isThere = at < memory->forces.count && memory->forces.data[at].key == key;
-    *normal = isThere ? memory->forces.data[at].normal : *normal;
-    return isThere;
-}
-
 /* ---- Stored forces ----------------------------------------------------------------------------------------------- */
+
+const kiriTouchForce* kiriTouches_Find(const kiriSheetData* sheet, uint64_t key)
+{
+    const kiriTouchMemory* memories[] = { &sheet->touches.last, &sheet->touches.slept };
+    for (int n = 0; n < 2; ++n) {
+        int32_t at = FindForce(memories[n], key);
+        if (at < memories[n]->forces.count && memories[n]->forces.data[at].key == key) {
+            return &memories[n]->forces.data[at];
+        }
+    }
+    return NULL;
+}
 
 kiriVec3 kiriTouches_ForceOf(const kiriSheetData* sheet, uint64_t key)
 {
-    kiriVec3 force = { 0.0, 0.0, 0.0 };
-    if (!kiriTouchMemory_Find(&sheet->touches.last, key, &force)) {
-        kiriTouchMemory_Find(&sheet->touches.slept, key, &force);
-    }
-    return force;
+    const kiriTouchForce* found = kiriTouches_Find(sheet, key);
+    return found != NULL ? found->force : kiriVec3_Make(0.0, 0.0, 0.0);
 }
 
 static bool IsRowBefore(const void* context, int32_t a, int32_t b)

@@ -114,9 +114,9 @@ void kiriTouches_Tell(kiriSheetData* sheet, double dt);
 /* Clears the forces of awake pieces, after the solver failed. */
 void kiriTouches_Clear(kiriSheetData* sheet);
 
-/* Returns the force of the contact with this key in the last motion of its piece, N; zero if there is none. */
+/* Returns the contact with this key in the last motion of its piece, or null if it did not push; and its force, N, or zero. */
+const kiriTouchForce* kiriTouches_Find(const kiriSheetData* sheet, uint64_t key);
 kiriVec3 kiriTouches_ForceOf(const kiriSheetData* sheet, uint64_t key);
-bool kiriTouches_NormalOf(const kiriSheetData* sheet, uint64_t key, kiriVec3* normal);
 
 /* Maps a touch to a detached part with these points and vertices. Returns false if it belongs to another part, or only
    the search that found it can map it. */
@@ -193,14 +193,11 @@ static inline bool kiriTouch_IsOfKind(const kiriTouch* touch, int32_t kind)
     return touch->key >> 60 == (uint64_t)kind;
 }
 
-/* Stores a touch and its force. Capacity is reserved. Find works after kiriTouchMemory_SortForces. */
+/* Stores a touch and its force. Capacity is reserved. kiriTouches_Find works after kiriTouchMemory_SortForces. */
 void kiriTouchMemory_Add(kiriTouchMemory* memory, const kiriTouch* touch, kiriVec3 force);
 
 /* Merges the nonzero forces of the touches from `first` on into the sorted forces. `order` has capacity for them. */
 void kiriTouchMemory_SortForces(kiriTouchMemory* memory, int32_t first, kiriIndices* order);
-
-/* Finds the force of a key. Returns false, and leaves *force unchanged, if there is none. */
-bool kiriTouchMemory_Find(const kiriTouchMemory* memory, uint64_t key, kiriVec3* force);
 
 /* Takes the first remaining force of a key; returns zero if there is none. Its entry stays, zeroed, until DropTaken. */
 kiriVec3 kiriTouchMemory_Take(kiriTouchMemory* memory, uint64_t key);

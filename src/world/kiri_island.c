@@ -4,6 +4,8 @@
 #include "../sheet/kiri_pin.h"
 #include "../sheet/kiri_touch.h"
 
+#define FAR_UNDER 1e9 /* m: offset of planes that nothing can touch */
+
 /* ---- Clusters ---------------------------------------------------------------------------------------------------- */
 
 bool kiriIslands_FindClusters(kiriWorld* world)
@@ -127,7 +129,7 @@ static int32_t ListIslands(kiriWorld* world)
     for (int32_t n = 0; n < count; ++n) {
         islands->islands.data[n].bodies.first = bodies;
         bodies += islands->islands.data[n].bodies.count;
-        islands->islands.data[n].bodies.count = 0;
+        islands->islands.data[n].bodies.count = islands->islands.data[n].iterations = 0;
     }
     for (int32_t k = 0; k < world->active.count; ++k) {
         int32_t i = world->active.data[k];
@@ -138,6 +140,8 @@ static int32_t ListIslands(kiriWorld* world)
                 kiriSpan* span = &islands->islands.data[number].bodies;
                 kiriIslandBody body = { sheet->solver, &islands->systems.data[i], p };
                 islands->bodies.data[span->first + span->count++] = body;
+                int32_t* iterations = &islands->islands.data[number].iterations;
+                *iterations = kiriMax(sheet->settings.iterations, *iterations);
             }
         }
     }
@@ -153,7 +157,8 @@ static void DropRows(kiriWorld* world)
         if (touch->touch != KIRI_NONE && touches->found.data[touch->touch].row != KIRI_NONE) {
             kiriContactRow* row = &touches->rows.data[touches->found.data[touch->touch].row];
             row->other = NULL;
-            row->offset = -HUGE_VAL;
+            row->offset = -FAR_UNDER;
+            row->force = kiriVec3_Make(0.0, 0.0, 0.0); /* else the first system expects this push again */
         }
     }
 }
@@ -210,13 +215,7 @@ static bool IsFirst(const kiriIslands* islands, const kiriIsland* island, const 
 
 static int64_t WorkOfIsland(const kiriIslands* islands, const kiriIsland* island)
 {
-    int64_t work = kiriMatrix_ProductCount(island->matrix.matrix) / 20;
-    for (int32_t n = 0; n < island->bodies.count; ++n) {
-        const kiriIslandBody* body = &islands->bodies.data[island->bodies.first + n];
-        const kiriSolverBody* of = &body->solver->bodies.bodies.data[body->body];
-        work += 4 * of->frames.count * (body->solver->size > 6 ? 3 : 1) + of->contactCount;
-    }
-    return work;
+    return kiriSolver_WorkOfIsland(island->matrix.matrix, &islands->bodies.data[island->bodies.first], island->bodies.count);
 }
 
 /* Moves all bodies of a cluster by one step. `work` sums the work of the n-th systems of all islands. Fails if the
@@ -238,7 +237,7 @@ static bool StepCluster(kiriWorld* world, int32_t cluster, double dt, int64_t mo
             } else if (IsFirst(islands, island, sheet, moved->data[n])) {
                 const kiriIslandBody* bodies = &islands->bodies.data[island->bodies.first];
                 solved = kiriSolver_StepIsland(island->solver, island->matrix.matrix, bodies, island->bodies.count, dt,
-                                               iterations, systems);
+                                               island->iterations, systems);
                 each = WorkOfIsland(islands, island);
             }
             for (int32_t k = 0; k < solved; ++k) {

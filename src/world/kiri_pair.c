@@ -11,6 +11,24 @@
 
 #define PUSH_SPEED 0.5 /* m/s: limit of the speed at which surfaces that are too close separate */
 
+static bool TakesPart(const kiriSheetData* sheet)
+{
+    return sheet->settings.touchesSheets && !sheet->settings.mechanics.planar;
+}
+
+/* Returns the piece of a body, or null if it no longer exists. */
+static kiriPiece* PieceOfBody(const kiriWorld* world, kiriFrame id)
+{
+    const kiriSlot* slot = kiriPool_Find(&world->frameIds, id);
+    return slot != NULL ? kiriSheet_PieceOf(slot->owner, slot->index) : NULL;
+}
+
+/* Returns the distance that two bodies keep, m. */
+static double KeptDistance(const kiriBody* a, const kiriBody* b)
+{
+    return 0.5 * (a->sheet->settings.contactThickness + b->sheet->settings.contactThickness);
+}
+
 /* ---- Contacts ---- */
 
 static kiriVec3 SeenAt(const kiriPlace3* place)
@@ -52,7 +70,7 @@ static bool ReserveCalm(kiriWorld* world)
         const kiriSheetData* sheet = kiriWorld_Active(world, k);
         bool isReady = sheet->update->stage == KIRI_READY && sheet->update->cut.meshChanged;
         int32_t now = sheet->layout.pieces.count, next = isReady ? sheet->update->next.pieces.count : 0;
-        count += kiriPair_TakesPart(sheet) ? kiriMax(next, now) : 0;
+        count += TakesPart(sheet) ? kiriMax(next, now) : 0;
     }
     return kiriArray_Reserve(&world->memory, &world->pairs.parents, count) &&
            kiriArray_Reserve(&world->memory, &world->pairs.calms, count);
@@ -70,6 +88,7 @@ bool kiriPairs_AddTouches(kiriWorld* world)
 
 #define ALONG 0.3  /* minimum cosine between surfaces that lie on each other */
 #define MARGIN 0.5 /* of the distance that pieces keep: a gap up to this may close in the tick */
+#define SAME_SIDE 0.5 /* minimum cosine between the normals of a contact in two ticks */
 #define ALIKE 0.9  /* minimum cosine between normals of planes that are alike */
 #define NEARER 0.5 /* of that distance: a surface must be nearer by this to replace one that pushed */
 #define CLOSE 0.1  /* of the distance that pieces keep: a gap up to this counts as touching */
@@ -173,14 +192,14 @@ static bool AddTouch(kiriWorld* world, const kiriPairTouch* touch)
     return true;
 }
 
-/* Ranks touches, so that surfaces at nearly the same distance do not alternate. */
+/* Ranks touches, so that surfaces at nearly the same distance do not alternate. The normal becomes the mean of this tick's and
+   the last one's. */
 static void RankTouch(kiriPairTouch* touch, double distance)
 {
-    kiriVec3 force = kiriTouches_ForceOf(touch->upper.sheet, touch->key);
-    touch->rank = touch->gap - (kiriVec3_Dot(force, force) > 0.0 ? NEARER * distance : 0.0);
-    kiriVec3 last = touch->normal;
-    if (kiriTouches_NormalOf(touch->upper.sheet, touch->key, &last) && kiriVec3_Dot(last, touch->normal) > 0.5) {
-        touch->normal = kiriVec3_Normalize(kiriVec3_Add(last, touch->normal));
+    const kiriTouchForce* last = kiriTouches_Find(touch->upper.sheet, touch->key);
+    touch->rank = touch->gap - (last != NULL ? NEARER * distance : 0.0);
+    if (last != NULL && kiriVec3_Dot(last->normal, touch->normal) > SAME_SIDE) {
+        touch->normal = kiriVec3_Normalize(kiriVec3_Add(last->normal, touch->normal));
     }
 }
 
@@ -200,7 +219,7 @@ static void ForgetTouches(kiriWorld* world)
 static bool TouchPair(kiriWorld* world, kiriTouchingPair* pair, double dt)
 {
     kiriPairs* pairs = &world->pairs;
-    double distance = kiriPair_Distance(&pairs->bodies.data[pair->bodies[0]], &pairs->bodies.data[pair->bodies[1]]);
+    double distance = KeptDistance(&pairs->bodies.data[pair->bodies[0]], &pairs->bodies.data[pair->bodies[1]]);
     bool ok = true;
     pair->touches = 0;
     for (int32_t i = pair->nears.first; ok && i < pair->nears.first + pair->nears.count; ++i) {
@@ -213,7 +232,6 @@ static bool TouchPair(kiriWorld* world, kiriTouchingPair* pair, double dt)
         }
         touch.velocity = PlaceVelocity(&touch.lower);
         touch.touch = KIRI_NONE;
-        memcpy(touch.bodies, pair->bodies, sizeof(touch.bodies));
         double above = touch.gap - Approach(world, &touch, dt);
         if (above < (1.0 + MARGIN) * distance) {
             RankTouch(&touch, distance);
@@ -243,7 +261,7 @@ static void ListAwake(kiriWorld* world)
     pairs->calms.count = 0;
     for (int32_t k = 0; k < world->active.count; ++k) {
         kiriSheetData* sheet = kiriWorld_Active(world, k);
-        for (int32_t p = 0; kiriPair_TakesPart(sheet) && p < sheet->layout.pieces.count; ++p) {
+        for (int32_t p = 0; TakesPart(sheet) && p < sheet->layout.pieces.count; ++p) {
             kiriPiece* piece = &sheet->layout.pieces.data[p];
             piece->awake = KIRI_NONE;
             if (kiriPiece_IsAwake(piece)) {
@@ -263,7 +281,7 @@ void kiriPairs_JoinCalm(kiriWorld* world)
     ListAwake(world);
     for (int32_t i = 0; i < pairs->pairs.count; ++i) {
         const kiriTouchingPair* pair = &pairs->pairs.data[i];
-        const kiriPiece *upper = kiriPair_PieceOf(world, pair->upper), *lower = kiriPair_PieceOf(world, pair->lower);
+        const kiriPiece *upper = PieceOfBody(world, pair->upper), *lower = PieceOfBody(world, pair->lower);
         bool areThere = upper != NULL && lower != NULL && kiriPiece_IsAwake(upper) && kiriPiece_IsAwake(lower);
         if (areThere && pair->touches) {
             kiriUnion_Join(pairs->parents.data, upper->awake, lower->awake);
@@ -272,7 +290,7 @@ void kiriPairs_JoinCalm(kiriWorld* world)
     for (int isGiven = 0; isGiven < 2; ++isGiven) {
         for (int32_t k = 0; k < world->active.count; ++k) {
             kiriSheetData* sheet = kiriWorld_Active(world, k);
-            for (int32_t p = 0; kiriPair_TakesPart(sheet) && p < sheet->layout.pieces.count; ++p) {
+            for (int32_t p = 0; TakesPart(sheet) && p < sheet->layout.pieces.count; ++p) {
                 kiriPiece* piece = &sheet->layout.pieces.data[p];
                 if (kiriPiece_IsAwake(piece)) {
                     double* calm = &pairs->calms.data[kiriUnion_Root(pairs->parents.data, piece->awake)];
@@ -384,7 +402,7 @@ static bool FindWaking(kiriWorld* world, Waking* waking)
     memset(waking, 0, sizeof(*waking));
     for (int32_t k = 0; ok && k < world->active.count; ++k) {
         kiriSheetData* sheet = kiriWorld_Active(world, k);
-        if (kiriPair_TakesPart(sheet) && !sheet->rest.asleep) {
+        if (TakesPart(sheet) && !sheet->rest.asleep) {
             ok = kiriProbes_Update(sheet);
             if (ok) {
                 AddWaking(waking, sheet);
@@ -401,8 +419,8 @@ static bool AreSeveral(const kiriWorld* world)
     int32_t count = 0;
     for (int32_t i = 0; i < world->sheets.count && count < 2; ++i) {
         kiriSheetData* sheet = world->sheets.data[i];
-        count += kiriPair_TakesPart(sheet) ? sheet->layout.pieces.count : 0;
-        last = kiriPair_TakesPart(sheet) ? sheet : last;
+        count += TakesPart(sheet) ? sheet->layout.pieces.count : 0;
+        last = TakesPart(sheet) ? sheet : last;
     }
     if (count == 1) {
         last->probes.isFresh = false;
@@ -424,7 +442,7 @@ static bool ListBodies(kiriWorld* world, const Waking* waking, double dt)
     bool ok = true;
     for (int32_t i = 0; ok && i < world->sheets.count; ++i) {
         kiriSheetData* sheet = world->sheets.data[i];
-        if (!kiriPair_TakesPart(sheet)) {
+        if (!TakesPart(sheet)) {
             continue;
         }
         ok = !sheet->rest.asleep ||
@@ -438,11 +456,6 @@ static bool ListBodies(kiriWorld* world, const Waking* waking, double dt)
 
 /* ---- Where they are near ---- */
 
-double kiriPair_Distance(const kiriBody* a, const kiriBody* b)
-{
-    return 0.5 * (a->sheet->settings.contactThickness + b->sheet->settings.contactThickness);
-}
-
 /* Returns the distance within which pieces are near: their largest approach in the tick, by the velocities of their
    probes and by gravity, plus twice the distance that they keep. Pieces of one sheet that fall side by side do not
    approach each other, unless an obstacle stops one. */
@@ -454,7 +467,7 @@ static double ReachOfPiece(const kiriWorld* world, const kiriBody* a, const kiri
         apart = kiriVec3_AddScaled(apart, -1.0 / b->mass, b->momentum);
         speed = kiriVec3_Length(apart) + a->stir + b->stir;
     }
-    return 2.0 * kiriPair_Distance(a, b) + dt * (speed + falling);
+    return 2.0 * KeptDistance(a, b) + dt * (speed + falling);
 }
 
 static kiriBox Widened(const kiriBox* box, double by)
@@ -631,7 +644,7 @@ static bool FindNears(kiriWorld* world, int32_t body, int32_t other, double reac
         if (!Holds(&box, x)) {
             continue;
         }
-        if (FindNearest(&near, pairs->bodies.data, reach, kiriPair_Distance(a, b))) {
+        if (FindNearest(&near, pairs->bodies.data, reach, KeptDistance(a, b))) {
             ok = kiriArray_Push(&world->memory, &pairs->nears, near);
         }
     }
@@ -640,26 +653,16 @@ static bool FindNears(kiriWorld* world, int32_t body, int32_t other, double reac
 
 /* ---- Which is where ---- */
 
-kiriVec3 kiriNear_PlaceVelocity(const kiriPairs* pairs, const kiriNear* near)
-{
-    const kiriSheetData* sheet = pairs->bodies.data[near->other].sheet;
-    const int32_t* corners = &sheet->seen.surface.indices.data[3 * (size_t)near->triangle];
-    kiriVec3 velocity = { 0.0, 0.0, 0.0 };
-    for (int k = 0; k < 3; ++k) {
-        velocity = kiriVec3_AddScaled(velocity, near->share[k], kiriProbe_Velocity(sheet, corners[k]));
-    }
-    return velocity;
-}
-
 /* Returns the height of the probe above the place, along the place's normal. If both are at the same height, returns
    its change in the tick. */
 static double Above(const kiriPairs* pairs, const kiriNear* near, double dt)
 {
     const kiriBody *a = &pairs->bodies.data[near->body], *b = &pairs->bodies.data[near->other];
-    if (fabs(near->height) >= FLAT * kiriPair_Distance(a, b)) {
+    if (fabs(near->height) >= FLAT * KeptDistance(a, b)) {
         return near->height;
     }
-    kiriVec3 v = kiriVec3_Sub(kiriProbe_Velocity(a->sheet, near->vertex), kiriNear_PlaceVelocity(pairs, near));
+    kiriPlace3 place = TrianglePlace(b->sheet, near->triangle, near->share);
+    kiriVec3 v = kiriVec3_Sub(kiriProbe_Velocity(a->sheet, near->vertex), PlaceVelocity(&place));
     return near->height + dt * kiriVec3_Dot(near->normal, v);
 }
 
@@ -820,7 +823,7 @@ static bool LookAtAll(kiriWorld* world, double dt)
     for (int32_t i = 0; i < pairs->bodies.count; ++i) {
         const kiriBody* body = &pairs->bodies.data[i];
         fastest = kiriMax(body->speed, fastest);
-        thickest = kiriMax(kiriPair_Distance(body, body), thickest);
+        thickest = kiriMax(KeptDistance(body, body), thickest);
         pairs->order.data[i] = i;
     }
     double reach = 2.0 * thickest + dt * (2.0 * fastest + dt * kiriVec3_Length(world->gravity));
@@ -841,15 +844,9 @@ static bool LookAtAll(kiriWorld* world, double dt)
     return true;
 }
 
-kiriPiece* kiriPair_PieceOf(const kiriWorld* world, kiriFrame id)
-{
-    const kiriSlot* slot = kiriPool_Find(&world->frameIds, id);
-    return slot != NULL ? kiriSheet_PieceOf(slot->owner, slot->index) : NULL;
-}
-
 static bool IsPairAsleep(const kiriWorld* world, kiriFrame id)
 {
-    const kiriPiece* piece = kiriPair_PieceOf(world, id);
+    const kiriPiece* piece = PieceOfBody(world, id);
     return piece != NULL && piece->rest.asleep;
 }
 
@@ -915,7 +912,7 @@ static void StirBody(const kiriWorld* world, kiriFrame id)
 
 static bool SleepsOn(const kiriWorld* world, kiriFrame id)
 {
-    return IsPairAsleep(world, id) && !kiriPair_PieceOf(world, id)->rest.isStirred;
+    return IsPairAsleep(world, id) && !PieceOfBody(world, id)->rest.isStirred;
 }
 
 static bool StirTouching(const kiriWorld* world, const kiriTouchingPairs* pairs)

@@ -32,22 +32,6 @@ void kiriPairs_JoinCalm(kiriWorld* world);
 /* Returns the number of pairs that are awake. */
 int32_t kiriPairs_CountAwake(const kiriWorld* world);
 
-/* ---- Used only in kiri_pair.c ---- */
-
-static inline bool kiriPair_TakesPart(const kiriSheetData* sheet)
-{
-    return sheet->settings.touchesSheets && !sheet->settings.mechanics.planar;
-}
-
-/* Returns the piece of a body, or null if it no longer exists. */
-kiriPiece* kiriPair_PieceOf(const kiriWorld* world, kiriFrame id);
-
-/* Returns the distance that two bodies keep, m. */
-double kiriPair_Distance(const kiriBody* a, const kiriBody* b);
-
-/* Returns the velocity of the place near a probe, m/s. */
-kiriVec3 kiriNear_PlaceVelocity(const kiriPairs* pairs, const kiriNear* near);
-
 KIRI_C_END
 
 #endif

@@ -54,7 +54,6 @@ typedef struct kiriPlace3 {
 /* A contact of a pair, current or expected in the coming tick. */
 typedef struct kiriPairTouch {
     kiriPlace3 upper, lower;
-    int32_t bodies[2]; /* of upper and lower */
     uint64_t key;
     kiriVec3 normal;   /* unit, towards the upper place */
     kiriVec3 velocity; /* m/s: of the lower place */
@@ -68,6 +67,7 @@ typedef struct kiriIsland {
     kiriSpan bodies; /* in kiriIslands.bodies */
     kiriIslandMatrix matrix;
     kiriSolver* solver; /* the scratch of its steps */
+    int32_t iterations; /* the most of its sheets */
 } kiriIsland;
 
 /* See kiri_island.h. */

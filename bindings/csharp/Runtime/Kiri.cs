@@ -485,10 +485,10 @@ namespace Kiri
 
         /// <summary>Advances by one fixed step of dt seconds (1e-6 to 10), in `substeps` equal parts (1 to 64): takes the
         /// pending cut points, then moves every sheet. KIRI_PENDING: the budget is spent; events name the cuts that
-        /// still have work. KIRI_ERROR_MEMORY: work on a cut, or a piece that leaves, goes on in the next tick; the
-        /// sheets moved, but where memory for contacts or ids is missing. KIRI_ERROR_LIMIT: no ids are left for new
-        /// frames; nothing moves until frames are destroyed. KIRI_DIVERGED: sheets that events name were stopped,
-        /// others moved.</summary>
+        /// still have work. KIRI_ERROR_MEMORY: cuts and pieces that leave go on in the next tick. Nothing moved if
+        /// memory for contacts or ids is missing; sheets moved without touching each other if memory for that is.
+        /// KIRI_ERROR_LIMIT: no ids are left for new frames; nothing moves until some are destroyed. KIRI_DIVERGED:
+        /// events name sheets that were stopped.</summary>
         public Status Tick(float dt, int substeps)
         {
             int result;

@@ -2017,11 +2017,11 @@ pub fn fill_rectangle(width: f32, height: f32, columns: i32, rows: i32) -> Resul
 impl World {
     /// Advances by one fixed step of dt seconds (1e-6 to 10), in substeps equal parts (1 to 64):
     /// takes the pending cut points, then moves every sheet. [`ResultCode::Pending`]: the budget is
-    /// spent; events name the cuts that still have work. [`ResultCode::ErrorMemory`]: work on a
-    /// cut, or a piece that leaves, goes on in the next tick; the sheets moved, but where memory
-    /// for contacts or ids is missing. [`ResultCode::ErrorLimit`]: no ids are left for new frames;
-    /// nothing moves until frames are destroyed. [`ResultCode::Diverged`]: sheets that events name
-    /// were stopped, others moved.
+    /// spent; events name the cuts that still have work. [`ResultCode::ErrorMemory`]: cuts and
+    /// pieces that leave go on in the next tick. Nothing moved if memory for contacts or ids is
+    /// missing; sheets moved without touching each other if memory for that is.
+    /// [`ResultCode::ErrorLimit`]: no ids are left for new frames; nothing moves until some are
+    /// destroyed. [`ResultCode::Diverged`]: events name sheets that were stopped.
     pub fn tick(&mut self, dt: f32, substeps: i32) -> Result<Status> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         let result = check(unsafe { sys::kiriWorld_Tick(self.raw_mut(), dt, substeps) }, self)?;
