@@ -293,11 +293,50 @@ static void TestMomentumStays(void** state)
     Meet(0.05, 0.1, true);
 }
 
+/* A tick without memory for contacts between sheets moves them without these contacts, or moves nothing. A heap stays
+   finite, stops nowhere, and rests when there is memory again. */
+static void TestScarceMemory(void** state)
+{
+    (void)state;
+    for (int every = 2; every <= 7; ++every) {
+        Touching t;
+        int32_t refused = 0, awake = 1;
+        memset(&t, 0, sizeof(t));
+        Host_Start(&t.host);
+        for (int i = 0; i < 4; ++i) {
+            kiriSheetDef def;
+            kiriDefaultSheetDef(&def);
+            def.touchesSheets = 1;
+            def.gridResolution = 8;
+            def.contactThickness = 0.004f;
+            def.position[2] = 0.01f * (float)(i + 1);
+            t.sheet = Host_AddRectangle(&t.host, &def, 0.2f, 0.2f, 8, 8);
+        }
+        kiriObstacleDef floorDef;
+        kiriObstacle floor;
+        kiriDefaultObstacleDef(&floorDef);
+        floorDef.type = KIRI_OBSTACLE_PLANE;
+        OK(kiriCreateObstacle(t.host.world, &floorDef, &floor));
+        for (int tick = 0; tick < 240 && awake; ++tick) {
+            t.host.failEvery = tick < 40 ? every : 0;
+            kiriResult result = kiriWorld_Tick(t.host.world, dt, 2);
+            t.host.failEvery = 0;
+            assert_true(result >= KIRI_OK || result == KIRI_ERROR_MEMORY);
+            assert_true(result != KIRI_DIVERGED);
+            refused += result == KIRI_ERROR_MEMORY;
+            OK(kiriSheet_IsAwake(t.host.world, t.sheet, &awake));
+        }
+        assert_true(refused > 0 && !awake);
+        Host_Stop(&t.host);
+    }
+}
+
 int main(int count, char** arguments)
 {
     (void)arguments;
     isLoud = count > 1;
     const struct CMUnitTest tests[] = { cmocka_unit_test(TestEnergyNeverRises), cmocka_unit_test(TestSideBySideRests),
-                                        cmocka_unit_test(TestMomentumStays) };
+                                        cmocka_unit_test(TestMomentumStays),
+                                        cmocka_unit_test(TestScarceMemory) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
