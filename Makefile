@@ -58,6 +58,7 @@ NEEDS_gallery := $(NEEDS_play)
 NEEDS_guide := $(NEEDS_run)
 NEEDS_manual := $(NEEDS_run)
 NEEDS_portable := $(NEEDS_lib)
+NEEDS_example := $(NEEDS_lib)
 # Without these, tests of bindings are left out, with a line that says so.
 WANTS_test := python3-cffi cmake pkg-config
 
@@ -411,7 +412,8 @@ single:
 	@{ $(FOR_CLANG); $(SINGLE) $(wildcard src/*/*.cpp); } > build/single/kiri.cpp
 
 # The example of the README, built from the single files.
-example: single
+example: packages-example
+	@$(MAKE) --no-print-directory single
 	@mkdir -p build/single/kiri && cp include/kiri/kiri.h build/single/kiri/kiri.h
 	@sed -n '/^```c$$/,/^```$$/p' README.md | sed '/^```/d' > build/single/example.c
 	@cd build/single && $(CC) -std=c99 -Wall -Werror -I. -c kiri.c example.c && \

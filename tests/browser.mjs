@@ -33,7 +33,7 @@ export async function openBrowser(page, playwright, pictures, executablePath) {
     return {
         errors,
         /** A tab, when the page says that it is ready. first: a function that runs in it before the page's own. */
-        async open(where = "?still", options = { viewport: { width: 1000, height: 640 } }, first = () => {}) {
+        async open(where = "?still&free", options = { viewport: { width: 1000, height: 640 } }, first = () => {}) {
             const context = await browser.newContext(options), tab = await context.newPage();
             await tab.addInitScript(first);
             tab.on("pageerror", (error) => errors.push(`${error.message} ${error.stack}`));

@@ -123,6 +123,13 @@ refuses() { # words, make's arguments
 }
 
 refuses 'make lib needs gcc libc6-dev g++ libeigen3-dev .*apt-get install gcc libc6-dev g++ libeigen3-dev' lib
+# Each target that the README names.
+refuses 'make lib needs gcc' install
+for target in example run play test love; do refuses "make $target needs .*gcc.*libeigen3-dev" $target; done
+refuses 'make web needs .*gcc.*emscripten nodejs npm' web-serve PYTHON=none
+refuses 'make love needs .* love ' love
+refuses 'make pygame needs .*python3-cffi python3-pygame' pygame PYTHON=none
+refuses 'make package-javascript needs .*emscripten nodejs npm.*' package-javascript PYTHON=none
 compilers ''
 refuses 'make lib needs libeigen3-dev ' lib
 mkdir -p "$folder/eigen/Eigen"

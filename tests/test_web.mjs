@@ -31,11 +31,13 @@ const seen = (tab, u, v) => tab.evaluate(([u, v]) => {
     return [(at.x + 1) / 2 * innerWidth, (1 - at.y) / 2 * innerHeight];
 }, [u, v]);
 
-async function drag(tab, points, steps = 6) {
-    await tab.mouse.move(...points[0]);
+/** points: of the window, or of the rest plane, which moves: then they are where they are when the hand is there. */
+async function drag(tab, points, steps = 6, rest = false) {
+    const at = (point) => rest ? seen(tab, ...point) : point;
+    await tab.mouse.move(...await at(points[0]));
     await tab.mouse.down();
     for (const point of points.slice(1)) {
-        await tab.mouse.move(...point, { steps });
+        await tab.mouse.move(...await at(point), { steps });
         await tab.evaluate(() => globalThis.game.step(1 / 60));
     }
     await tab.mouse.up();
@@ -45,7 +47,7 @@ const pieces = (tab) => tab.evaluate(() => globalThis.game.simulation.sheet.getC
 
 try {
     // The page says that it is open when the first picture is there, and makes the rest after that.
-    const tab = await open("?still", { viewport: { width: 1000, height: 640 } }, () => {
+    const tab = await open("?still&free", { viewport: { width: 1000, height: 640 } }, () => {
         const of = WebGL2RenderingContext.prototype, wait = of.clientWaitSync;
         globalThis.waits = [];
         of.clientWaitSync = function (...given) {
@@ -75,9 +77,9 @@ try {
     // A circle drawn by hand falls out.
     const circle = [];
     for (let i = 0; i <= 24; i++) {
-        circle.push(await seen(tab, 0.15 + 0.05 * Math.cos(i * Math.PI / 12), 0.22 + 0.04 * Math.sin(i * Math.PI / 12)));
+        circle.push([0.15 + 0.05 * Math.cos(i * Math.PI / 12), 0.22 + 0.04 * Math.sin(i * Math.PI / 12)]);
     }
-    await drag(tab, circle, 3);
+    await drag(tab, circle, 3, true);
     await pass(tab, 90);
     assert.equal(await pieces(tab), 3, "a circle comes off");
     await picture(tab, "3_pieces");
@@ -95,9 +97,9 @@ try {
         await pass(tab, 20);
         const way = [];
         for (let i = 0; i <= 10; i++) {
-            way.push(await seen(tab, 0.3 * (0.2 + 0.06 * i), 0.15 + 0.06 * Math.cos(0.6 * i)));
+            way.push([0.3 * (0.2 + 0.06 * i), 0.15 + 0.06 * Math.cos(0.6 * i)]);
         }
-        await drag(tab, way);
+        await drag(tab, way, 6, true);
         await pass(tab, 40);
         await picture(tab, `4_${name}`);
     }
@@ -122,10 +124,10 @@ try {
     });
 
     // A link plays to the same hash.
-    await drag(tab, [await seen(tab, 0.05, 0.2), await seen(tab, 0.25, 0.25)], 10);
+    await drag(tab, [[0.05, 0.2], [0.25, 0.25]], 10, true);
     await pass(tab, 5);
     await tab.evaluate(() => globalThis.game.undo());
-    await drag(tab, [await seen(tab, 0.05, 0.1), await seen(tab, 0.25, 0.15)], 10);
+    await drag(tab, [[0.05, 0.1], [0.25, 0.15]], 10, true);
     await pass(tab, 10);
     const recording = await tab.evaluate(() => [...globalThis.game.tape.bytes()]);
     const [link, hash] = await tab.evaluate(async () => [await globalThis.game.link(),
@@ -143,7 +145,7 @@ try {
     writeFileSync(join(pictures, "hash"), hash);
 
     // A phone.
-    const phone = await open("?still", { viewport: { width: 390, height: 780 }, hasTouch: true, isMobile: true });
+    const phone = await open("?still&free", { viewport: { width: 390, height: 780 }, hasTouch: true, isMobile: true });
     await pass(phone, 30);
     await picture(phone, "7_phone");
 

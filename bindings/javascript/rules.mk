@@ -9,6 +9,9 @@
 WASM := build/wasm
 EMCC ?= emcc
 EMXX ?= em++
+NEEDS_web := $(NEEDS_lib) emscripten nodejs npm python3
+NEEDS_package-javascript := $(NEEDS_web)
+NEEDS_babylon := $(NEEDS_web)
 # Small functions within others make less code, not more: without -finline-functions it grows.
 WASM_HOT ?= -Os -finline-functions
 WASM_COLD ?= -Oz -finline-functions
@@ -85,7 +88,9 @@ WEB_TOOLS := build/web_tools
 
 .PHONY: web web-serve web-test
 
-web: $(WEB)/main.js
+# A submake, so that nothing is compiled before the packages are there.
+web: packages-web
+	@$(MAKE) --no-print-directory $(WEB)/main.js
 
 $(WEB_TOOLS)/installed: samples/web/package.json
 	@mkdir -p $(@D) && cp $< $(@D)
@@ -108,8 +113,8 @@ BROWSER ?= $(firstword $(wildcard /usr/bin/chromium /usr/bin/chromium-browser /u
 # The recording of the page ends in the same state here.
 web-test: web $(BUILD)/tests/replay_hash
 	@if [ -z "$(BROWSER)" ]; then echo "web: no chromium, the page was not tested"; \
-	else node tests/test_web.mjs $(WEB) $(WEB_TOOLS)/node_modules/playwright-core/index.js $(WEB)_test $(BROWSER) && \
-	    node tests/test_web_features.mjs $(WEB) $(WEB_TOOLS)/node_modules/playwright-core/index.js $(WEB)_test $(BROWSER) && \
+	else for test in web web_features web_first; do \
+	        node tests/test_$$test.mjs $(WEB) $(WEB_TOOLS)/node_modules/playwright-core/index.js $(WEB)_test $(BROWSER) || exit 1; done; \
 	    test "$$($(BUILD)/tests/replay_hash $(WEB)_test/recording)" = "$$(cat $(WEB)_test/hash)" && \
 	    echo "web: C ends in the same state"; fi
 
@@ -120,7 +125,8 @@ BABYLON_TOOLS := build/babylon_tools
 
 .PHONY: babylon babylon-serve babylon-test
 
-babylon: $(BABYLON)/main.js
+babylon: packages-babylon
+	@$(MAKE) --no-print-directory $(BABYLON)/main.js
 
 $(BABYLON_TOOLS)/installed: samples/babylon/package.json
 	@mkdir -p $(@D) && cp $< $(@D)
@@ -143,7 +149,8 @@ babylon-test: babylon
 # The npm package, installed in an empty folder and used there.
 .PHONY: package-javascript
 
-package-javascript: $(WASM_PACKAGE)/kiri.wasm
+package-javascript: packages-package-javascript
+	@$(MAKE) --no-print-directory $(WASM_PACKAGE)/kiri.wasm
 	@cd $(WASM_PACKAGE) && npm pkg set version=$(VERSION) --silent && npm pack --silent --pack-destination .. > /dev/null
 	@rm -rf $(WASM)/clean && mkdir $(WASM)/clean && cp tests/first_cut.mjs $(WASM)/clean
 	@cd $(WASM)/clean && npm init -y > /dev/null 2>&1 && npm install --no-audit --no-fund --silent ../kiri-$(VERSION).tgz && \

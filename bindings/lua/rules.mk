@@ -29,8 +29,11 @@ package-lua:
 # The game plays itself, and is looked at: pictures are in build/love.
 .PHONY: love love-test
 
-love: $(BUILD)/libkiri.so
-	KIRI_LIBRARY=$(CURDIR)/$< love samples/love
+NEEDS_love := $(NEEDS_lib) love
+
+love: packages-love
+	@$(MAKE) --no-print-directory $(BUILD)/libkiri.so
+	KIRI_LIBRARY=$(CURDIR)/$(BUILD)/libkiri.so love samples/love
 
 love-test: $(BUILD)/libkiri.so
 	@KIRI_LIBRARY=$(CURDIR)/$< sh samples/love/test.sh build/love

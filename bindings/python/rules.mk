@@ -17,8 +17,11 @@ bench-python: $(BUILD)/libkiri.so
 	@KIRI_LIBRARY=$< PYTHONPATH=bindings/python $(PYTHON) bindings/python/bench.py
 
 # A host in pygame. The test plays it without a window, and needs pygame: pip install pygame-ce. Pictures are in build/pygame.
-pygame: $(BUILD)/libkiri.so
-	KIRI_LIBRARY=$< $(PYTHON) samples/pygame/main.py
+NEEDS_pygame := $(NEEDS_lib) python3-cffi python3-pygame
+
+pygame: packages-pygame
+	@$(MAKE) --no-print-directory $(BUILD)/libkiri.so
+	KIRI_LIBRARY=$(BUILD)/libkiri.so $(PYTHON) samples/pygame/main.py
 
 pygame-test: $(BUILD)/libkiri.so
 	@KIRI_LIBRARY=$< sh samples/pygame/test.sh $(PYTHON) build/pygame

@@ -32,7 +32,7 @@ end
 local function start()
     if game then game.world:destroy() end
     game = {ticks = 0, cuts = 0, rest = 0, path = {}, trail = {}, late = 0, from = {0, 0, -0.1}, to = {0, 0, 0.1}}
-    game.world = kiri.World {gravity = {0, 9.81, 0}}
+    game.world = kiri.World {gravity = {0, 9.81, 0}, budget = {cells = 32000, samples = 4000}}
     game.physics = love.physics.newWorld(0, 9.81 * PIXELS, true)
     game.bodies = new_bodies(game.world, game.physics, PIXELS)
     game.touching, game.meshes = {}, {}

@@ -8,11 +8,14 @@ export class Hand {
         this.pointers = new Map();
         this.tool = null; // that is in use
         this.waiting = []; // rays since the last frame
+        this.idle = false; // the tool is done, and the finger still down
+        this.over = null; // where a mouse is, while no button is down
         canvas.addEventListener("pointerdown", (event) => this.down(event));
         canvas.addEventListener("pointermove", (event) => this.move(event));
         for (const name of ["pointerup", "pointercancel"]) {
             canvas.addEventListener(name, (event) => this.up(event));
         }
+        canvas.addEventListener("pointerleave", () => { this.over = null; });
         canvas.addEventListener("wheel", (event) => {
             event.preventDefault();
             game.stage.zoomBy(Math.exp(Math.sign(event.deltaY) * Math.min(60, Math.abs(event.deltaY)) * 0.002));
@@ -33,6 +36,7 @@ export class Hand {
             }
             return;
         }
+        this.idle = false;
         const hit = event.button === 0 && !this.game.isReplaying && this.meet(event.clientX, event.clientY);
         if (hit) {
             this.game.beforeAct();
@@ -56,6 +60,7 @@ export class Hand {
     move(event) {
         const before = this.pointers.get(event.pointerId);
         if (!before) {
+            this.over = event.pointerType === "mouse" ? [event.clientX, event.clientY] : null;
             return;
         }
         if (this.tool) {
@@ -63,6 +68,8 @@ export class Hand {
             for (const { clientX, clientY } of all.length ? all : [event]) {
                 this.waiting.push([clientX, clientY]);
             }
+        } else if (this.idle) {
+            // nothing
         } else if (this.pointers.size === 1) {
             this.game.stage.turnBy(event.clientX - before.x, event.clientY - before.y);
         } else {
@@ -104,13 +111,22 @@ export class Hand {
     }
 
     letGo() {
-        if (this.tool) {
+        const { tool } = this;
+        this.idle = Boolean(tool?.done) && this.pointers.size > 0;
+        if (tool) {
             this.reach();
-            this.game.attempt(() => this.tool.end());
+            this.tool = null;
+            this.game.attempt(() => tool.end());
             this.game.afterAct();
         }
-        this.tool = null;
         this.last = null;
         this.waiting.length = 0;
+    }
+
+    /** Where the tool is in the sheet, or where it would come in; null: nowhere. */
+    point() {
+        const { stage, simulation, isReplaying } = this.game, { tool } = this, at = tool ? this.last : this.over;
+        const hit = at && !isReplaying && !tool?.pin ? simulation.meet(stage.ray(...at)) : null;
+        return hit?.position ?? tool?.at ?? null;
     }
 }

@@ -2,6 +2,7 @@
 
 import { KiriError, Replay, ResultCode, load } from "kiri";
 
+import { Cutter } from "./cutter.js";
 import { Hand } from "./hand.js";
 import { makeMaterials } from "./materials.js";
 import { Panel } from "./panel.js";
@@ -12,9 +13,12 @@ import { SIZE, Simulation, TICK } from "./simulation.js";
 import { Skin } from "./skin.js";
 import { Sound } from "./sound.js";
 import { Stage } from "./stage.js";
+import { Task } from "./task.js";
 import { Grab, Knife, Scissors, Snowflake } from "./tools.js";
 
 const UNDOS = 24;
+const MOST_TICK = 8, SLOW_TICKS = 20; // ms; ticks in turn that take longer: then the quality goes down
+const MOST_BEHIND = 2 * TICK; // s: a device that is slower than this shows slow motion
 const text = new TextEncoder();
 
 class Game {
@@ -23,7 +27,10 @@ class Game {
     undos = [];
     tools = { knife: Knife, scissors: Scissors, grab: Grab };
     behind = 0; // s that the world is behind the clock
+    smooth = false; // pictures come more often than ticks: they show what is between two
+    task = null;
     frames = 0;
+    slowTicks = 0;
     later = []; // what the first picture does not show: made one a frame
     times = { simulation: 0, skin: 0, draw: 0 }; // ms of the last frame
 
@@ -32,6 +39,7 @@ class Game {
         this.materials = makeMaterials();
         this.panel = new Panel(this);
         this.hand = new Hand(canvas, this);
+        this.cutter = new Cutter(this.stage.scene);
         addEventListener("resize", () => this.stage.resize());
     }
 
@@ -44,6 +52,9 @@ class Game {
     }
 
     makeTool() {
+        if (this.task?.trace && !this.grabs) {
+            return this.task.makeTool();
+        }
         return this.choice.folded && !this.grabs ? new Snowflake(this, SIZE / 2) : new this.tools[this.choice.tool](this);
     }
 
@@ -52,6 +63,7 @@ class Game {
     restart(changes = {}, special = {}) {
         Object.assign(this.choice, changes);
         this.replay = null;
+        this.leaveTask();
         this.undos.length = 0;
         this.tape = new Tape();
         this.open(new Simulation({ ...this.options(), ...special }, this.tape.take));
@@ -74,13 +86,14 @@ class Game {
             this.stage.scene.remove(this.skin.mesh);
             this.skin.dispose();
         }
-        const skin = this.skin = new Skin(look);
+        const skin = this.skin = new Skin(look, this.stage, this.choice.hangs === "middle");
         this.later.push(() => skin.printBack());
         this.sound.look = look.sound;
         this.stage.hang(this.choice.hangs);
         this.stage.scene.add(this.skin.mesh);
         this.panel.pressSheet(this.choice.sheet);
         this.behind = 0;
+        this.seen = -1;
     }
 
     // ---- What the host does
@@ -108,7 +121,11 @@ class Game {
 
     afterAct() {
         this.simulation.slow = false;
-        this.simulation.dropCrumbs();
+        if (!this.grabs) {
+            this.simulation.dropCrumbs();
+            this.simulation.breathe();
+        }
+        this.task?.stroked();
     }
 
     undo() {
@@ -148,6 +165,28 @@ class Game {
         this.restart({ sheet: "paper", hangs: "middle", folded: false },
             { mesh: disc(SIZE), def: { frameCount: 80, maxFrames: 100 } });
         this.cut(lantern(SIZE));
+    }
+
+    /** The first task, in quality that this device has time for. */
+    startTask() {
+        this.restart({ sheet: "washi", tool: "knife", hangs: "tip", folded: false }, { def: { touchesSheets: 0 } });
+        this.panel.pressTool("knife");
+        this.task = new Task(this);
+        this.taskTime = 0;
+    }
+
+    leaveTask() {
+        if (this.task) {
+            this.task = null;
+            this.stage.toEvening = 0;
+            this.panel.showTask(null);
+        }
+    }
+
+    /** Free play, with a sheet as it hangs at the start. */
+    playFreely() {
+        this.restart({ sheet: "paper", hangs: "rod", folded: false });
+        this.panel.say("Draw across the sheet to cut it");
     }
 
     // ---- Links
@@ -193,20 +232,21 @@ class Game {
     step(seconds) {
         const start = performance.now();
         const pixels = this.hand.reach();
-        this.sound.cut(this.hand.tool && !this.grabs && this.choice.tool !== "scissors" ? pixels : 0);
-        // While a blade is down each picture has a tick of its own, so that the lip is where the finger is.
-        this.behind = Math.min(this.behind + seconds, 2 * TICK);
-        if (this.simulation.slow && !this.isReplaying) {
-            this.simulation.tick();
-            this.behind = 0;
+        if (this.hand.tool?.done) {
+            this.hand.letGo();
         }
-        for (; this.behind >= 0.9 * TICK; this.behind -= TICK) {
+        this.sound.cut(this.hand.tool && !this.grabs && this.choice.tool !== "scissors" ? pixels : 0);
+        // Ticks are as long at each rate of pictures. One that comes a little late is not waited for.
+        const { simulation } = this, { period } = simulation;
+        this.behind = Math.min(this.behind + seconds, MOST_BEHIND);
+        for (; this.behind >= 0.9 * period; this.behind -= period) {
             if (this.isReplaying) {
                 this.playTick();
             } else {
-                this.simulation.tick();
+                simulation.tick();
             }
         }
+        this.stage.pass(seconds);
         this.times.simulation = performance.now() - start;
     }
 
@@ -215,9 +255,13 @@ class Game {
         if (this.frames > 0) {
             this.later.shift()?.();
         }
-        if (this.simulation.sheet) {
-            this.skin.follow(this.simulation.sheet, this.simulation.sheet.getMesh(this.mesh).revision);
+        const { simulation } = this;
+        if (simulation.sheet && (this.seen !== simulation.looks || this.skin.revision < 0)) {
+            this.seen = simulation.looks;
+            this.skin.take(simulation.sheet, simulation.sheet.getMesh(this.mesh).revision);
         }
+        this.cutter.place(this.choice.tool, this.hand.point(), Boolean(this.hand.tool), this.stage.camera);
+        this.skin.show(this.smooth ? Math.max(0, Math.min(1, this.behind / simulation.period)) : 1);
         const drawn = performance.now();
         this.stage.draw();
         this.times.skin = drawn - start;
@@ -227,12 +271,32 @@ class Game {
         }
     }
 
+    /** A device that is too slow for this quality gets a lower one: at once while nothing is cut, else with the next sheet. */
+    adapt() {
+        this.slowTicks = this.simulation.milliseconds > MOST_TICK ? this.slowTicks + 1 : 0;
+        if (this.slowTicks < SLOW_TICKS || this.choice.quality === 0 || this.isReplaying) {
+            return;
+        }
+        this.slowTicks = 0;
+        this.choice.quality--;
+        if (!this.undos.length) {
+            this.task ? this.startTask() : this.restart();
+        }
+    }
+
     run() {
-        let before = performance.now();
+        let before = performance.now(), pace = TICK;
         const loop = (now) => {
             requestAnimationFrame(loop);
-            this.stage.spare((now - before) / 1000);
-            this.frame(Math.max(0, now - before) / 1000);
+            const seconds = Math.max(0, now - before) / 1000;
+            pace += 0.05 * (Math.min(seconds, TICK) - pace);
+            this.smooth = pace < 0.85 * TICK;
+            this.stage.spare(seconds);
+            this.frame(seconds);
+            this.adapt();
+            if (this.task) {
+                this.panel.showWay(this.task.shows(this.taskTime += seconds));
+            }
             before = now;
         };
         requestAnimationFrame(loop);
@@ -242,16 +306,21 @@ class Game {
 async function start() {
     await load(new URL("./kiri.wasm", import.meta.url));
     const game = globalThis.game = new Game(document.getElementById("view"));
-    const packed = location.hash.slice(1);
-    game.restart();
+    const packed = location.hash.slice(1), asked = new URLSearchParams(location.search);
+    if (packed || asked.has("free")) {
+        game.restart();
+    } else {
+        game.startTask();
+    }
     game.later.push(() => game.stage.addSurroundings());
     if (packed) {
         await game.play(packed);
     }
     await game.stage.drawn();
+    document.body.classList.add("opened");
     game.opened = performance.now();
     // Tests make their frames themselves.
-    if (!new URLSearchParams(location.search).has("still")) {
+    if (!asked.has("still")) {
         game.run();
     }
 }

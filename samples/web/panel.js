@@ -1,17 +1,30 @@
-// Buttons, the slider, and the line about the last cut.
+// Buttons, the task, and numbers for who asks for them.
 
-const button = (text, act) => {
+const ICONS = {
+    knife: "M4 20l4-1 11-11a2.1 2.1 0 0 0-3-3L5 16zM14 7l3 3",
+    scissors: "M20 4 8.6 15.4M14.8 14.8 20 20M8.6 8.6 12 12M9 6a3 3 0 1 1-6 0 3 3 0 0 1 6 0zM9 18a3 3 0 1 1-6 0 3 3 0 0 1 6 0z",
+    grab: "M8 12V6.5a1.5 1.5 0 0 1 3 0V11 5a1.5 1.5 0 0 1 3 0v6-4.5a1.5 1.5 0 0 1 3 0V14c0 4-2 7-5.5 7S7 19 5 15l-1-2a1.4 1.4 0 0 1 2.4-1.4L8 14",
+    undo: "M9 7 4 12l5 5M4 12h10a6 6 0 0 1 6 6",
+    fresh: "M6 3h8l4 4v14H6zM14 3v4h4",
+};
+const SWATCHES = { paper: "#f3ead8", cloth: "#7f9fbd", foil: "linear-gradient(135deg, #f6e1a4, #b98d35 55%, #f3dca0)", rubber: "#c2463a" };
+
+function button(text, act, icon) {
     const made = document.createElement("button");
-    made.textContent = text;
+    made.innerHTML = icon ? `<svg viewBox="0 0 24 24" aria-hidden="true"><path d="${ICONS[icon]}"/></svg>` : "";
+    const label = document.createElement("span");
+    label.textContent = text;
+    made.append(label);
     made.addEventListener("click", act);
     return made;
-};
+}
 
 /** A row of buttons of which one is pressed. */
 function choice(where, names, chosen, act) {
     const buttons = Object.entries(names).map(([name, text]) => {
-        const made = button(text, () => { press(name); act(name); });
+        const made = button(text, () => { press(name); act(name); }, ICONS[name] && name);
         made.dataset.name = name;
+        made.style.setProperty("--swatch", SWATCHES[name] ?? "none");
         return made;
     });
     const press = (name) => buttons.forEach((b) => b.setAttribute("aria-pressed", b.dataset.name === name));
@@ -24,24 +37,32 @@ export class Panel {
     constructor(game) {
         this.game = game;
         const at = (id) => document.getElementById(id);
-        this.pressSheet = choice(at("sheets"), { paper: "Paper", cloth: "Cloth", foil: "Foil", rubber: "Rubber" }, game.choice.sheet,
-            (name) => game.restart({ sheet: name }));
-        this.pressTool = choice(at("tools"), { scissors: "Scissors", knife: "Knife", grab: "Grab" }, game.choice.tool,
+        this.pressTool = choice(at("tools"), { knife: "Knife", scissors: "Scissors", grab: "Grab" }, game.choice.tool,
             (name) => { game.choice.tool = name; });
+        this.pressSheet = choice(at("sheets"), { paper: "Paper", cloth: "Cloth", foil: "Foil", rubber: "Rubber" }, game.choice.sheet,
+            (name) => game.restart({ sheet: name, hangs: "rod", folded: false }));
+        at("main").append(button("Undo", () => game.undo(), "undo"),
+            button("New sheet", () => game.restart({ sheet: game.choice.sheet === "washi" ? "paper" : game.choice.sheet, hangs: "rod", folded: false }), "fresh"));
+        const again = button("Once more", () => game.startTask());
+        again.className = "after";
+        at("next").append(again, button("Cut freely", () => game.playFreely()));
         this.cost = at("cost");
         this.hint = at("hint");
+        this.task = at("task");
+        this.way = at("way");
         this.slider = at("quality");
         this.slider.value = game.choice.quality;
         this.slider.addEventListener("input", () => game.restart({ quality: Number(this.slider.value) }));
+        const act = (text, does) => button(text, () => { at("more").open = false; does(); });
         at("acts").append(
-            button("Undo", () => game.undo()), button("New sheet", () => game.restart({ hangs: "rod", folded: false })),
-            button("Snowflake", () => game.showSnowflake()), button("Lantern", () => game.showLantern()),
-            button("Cut a file…", () => this.askFile()), button("Copy link", () => this.copyLink()),
+            act("Cut along the line", () => game.startTask()), act("Cut freely", () => game.playFreely()),
+            act("Snowflake", () => game.showSnowflake()), act("Lantern", () => game.showLantern()),
+            act("Cut a file…", () => this.askFile()), act("Copy link", () => this.copyLink()),
             this.sound = button("Sound off", () => {
                 game.sound.muted = !game.sound.muted;
-                this.sound.textContent = game.sound.muted ? "Sound on" : "Sound off";
+                this.sound.lastChild.textContent = game.sound.muted ? "Sound on" : "Sound off";
             }));
-        at("more").open = innerWidth > 720;
+        document.getElementById("view").addEventListener("pointerdown", () => { at("more").open = false; });
         addEventListener("keydown", (event) => {
             if (event.key === "z" && (event.ctrlKey || event.metaKey)) {
                 game.undo();
@@ -52,6 +73,33 @@ export class Panel {
             event.preventDefault();
             this.readFile(event.dataTransfer.files[0]);
         });
+    }
+
+    /** What is to do; null: nothing. step of steps are done. */
+    showTask(says, more, step, steps) {
+        this.task.hidden = !says;
+        document.body.classList.toggle("task", Boolean(says));
+        document.body.classList.toggle("ended", step === steps);
+        this.way.hidden = true;
+        if (says) {
+            const [title, line, dots] = this.task.children;
+            title.textContent = says;
+            line.textContent = more;
+            dots.replaceChildren(...Array.from({ length: steps }, (_, i) => {
+                const dot = document.createElement("u");
+                dot.className = i < step ? "done" : "";
+                return dot;
+            }));
+        }
+    }
+
+    /** A ring goes along the line, as a finger would. */
+    showWay(at) {
+        this.way.hidden = !at;
+        if (at) {
+            const { simulation, stage } = this.game, [x, y] = stage.windowOf(simulation.sheet.getPoint(at).position);
+            this.way.style.transform = `translate(${x}px, ${y}px)`;
+        }
     }
 
     askFile() {
@@ -94,6 +142,6 @@ export class Panel {
 
     showCost({ cost, pieces, milliseconds }) {
         const cut = cost.milliseconds ? `last cut ${cost.milliseconds.toFixed(1)} ms · ${cost.vertices} vertices · ${cost.weights} weights\n` : "";
-        this.cost.innerText = `${cut}tick ${milliseconds.toFixed(1)} ms · ${pieces} ${pieces === 1 ? "piece" : "pieces"}`;
+        this.cost.textContent = `${cut}tick ${milliseconds.toFixed(1)} ms · ${pieces} ${pieces === 1 ? "piece" : "pieces"}`;
     }
 }

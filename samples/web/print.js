@@ -49,7 +49,63 @@ function waves(c, radius, line, ground, y0 = 0) {
     }
 }
 
+/** A ring of petals. */
+function ring(c, radius, count, length, width, turn = 0) {
+    for (let i = 0; i < count; i++) {
+        c.save();
+        c.translate(SIDE / 2, SIDE / 2);
+        c.rotate((i + turn) * 2 * Math.PI / count);
+        c.beginPath();
+        c.moveTo(0, -radius);
+        c.bezierCurveTo(width, -radius - length / 3, width, -radius - 2 * length / 3, 0, -radius - length);
+        c.bezierCurveTo(-width, -radius - 2 * length / 3, -width, -radius - length / 3, 0, -radius);
+        c.fill();
+        c.restore();
+    }
+}
+
+/** Long fibres, as in Japanese paper. */
+function fibres(c, count, color) {
+    let s = 5;
+    const next = () => (s = (Math.imul(s, 1664525) + 1013904223) >>> 0) / 4294967296;
+    c.strokeStyle = color;
+    for (let i = 0; i < count; i++) {
+        const x = next() * SIDE, y = next() * SIDE, bend = () => (next() - 0.5) * 130;
+        c.lineWidth = 0.6 + 1.4 * next();
+        c.beginPath();
+        c.moveTo(x, y);
+        c.quadraticCurveTo(x + bend(), y + bend(), x + bend(), y + bend());
+        c.stroke();
+    }
+}
+
 const paints = {
+    washi(c) {
+        fill(c, "#f6efe0");
+        const wash = c.createRadialGradient(SIDE / 2, SIDE / 2, 0, SIDE / 2, SIDE / 2, SIDE * 0.5);
+        wash.addColorStop(0, "#f3c8bb");
+        wash.addColorStop(0.35, "#f5dccb");
+        wash.addColorStop(1, "#f6efe000");
+        fill(c, wash);
+        c.fillStyle = "#c8402f";
+        ring(c, 20, 12, 92, 15);
+        c.fillStyle = "#27507a";
+        ring(c, 232, 24, 60, 12, 0.5);
+        ring(c, 350, 36, 30, 7);
+        c.fillStyle = "#c79a45";
+        ring(c, 130, 12, 70, 10, 0.5);
+        ring(c, 310, 36, 22, 5, 0.5);
+        ring(c, 398, 48, 22, 5);
+        fibres(c, 260, "#ffffff48");
+        fibres(c, 90, "#b59f7838");
+        grain(c, 9, 2);
+    },
+    washiBack(c) {
+        fill(c, "#efe5d2");
+        fibres(c, 260, "#ffffff70");
+        fibres(c, 90, "#b59f7840");
+        grain(c, 9, 8);
+    },
     paper(c) {
         fill(c, "#f3ecdd");
         c.fillStyle = "#c8402f";
@@ -134,6 +190,44 @@ export function makePrint(name) {
     return prints.get(name);
 }
 
+/** A print with a line to cut along, dashed, and its copies around the middle, faint. Points of the rest plane; which of
+ *  them, from `first` on, are what a finger cuts. */
+export function makeGuide(name, points, first, need, copies, middle) {
+    const print = makePrint(name).image;
+    return texture((c) => {
+        c.drawImage(print, 0, 0);
+        const scale = SIDE / (2 * middle);
+        const stroke = (from, count, turn) => {
+            c.save();
+            c.translate(SIDE / 2, SIDE / 2);
+            c.rotate(turn);
+            c.beginPath();
+            for (let i = 0; i <= count; i++) {
+                const [u, v] = points[(from + i) % points.length];
+                c.lineTo((u - middle) * scale, (middle - v) * scale);
+            }
+            c.stroke();
+            c.restore();
+        };
+        c.lineCap = "round";
+        c.lineJoin = "round";
+        c.strokeStyle = "#2c292566";
+        c.lineWidth = 3;
+        c.setLineDash([2, 12]);
+        for (let i = 1; i < copies; i++) {
+            stroke(first, need, i * 2 * Math.PI / copies);
+        }
+        c.setLineDash([]);
+        c.strokeStyle = "#fffaf0e0";
+        c.lineWidth = 13;
+        stroke(first, need, 0);
+        c.setLineDash([18, 16]);
+        c.strokeStyle = "#2c2925";
+        c.lineWidth = 6;
+        stroke(first, need, 0);
+    });
+}
+
 /** Heights of foil that was crumpled and smoothed: straight folds in all directions. */
 export function makeCreases() {
     return texture((c) => {
@@ -154,4 +248,57 @@ export function makeCreases() {
             c.restore();
         }
     }, false);
+}
+
+/** Repeats a texture once a metre. */
+function tiled(map, width, height) {
+    map.repeat.set(width, height);
+    return map;
+}
+
+/** A wall: strokes of a trowel, hardly seen. */
+export function makePlaster(size) {
+    return tiled(texture((c) => {
+        fill(c, "#93a7a1");
+        let s = 31;
+        const next = () => (s = (Math.imul(s, 1664525) + 1013904223) >>> 0) / 4294967296;
+        for (let i = 0; i < 1400; i++) {
+            const x = next() * SIDE, y = next() * SIDE, radius = 20 + 60 * next(), from = 7 * next();
+            c.strokeStyle = next() > 0.5 ? "#ffffff07" : "#00000006";
+            c.lineWidth = 2 + 12 * next();
+            for (const [dx, dy] of [[0, 0], [SIDE, 0], [-SIDE, 0], [0, SIDE], [0, -SIDE]]) {
+                c.beginPath();
+                c.arc(x + dx, y + dy, radius, from, from + 1.4);
+                c.stroke();
+            }
+        }
+        grain(c, 9, 21);
+    }), size, size);
+}
+
+/** Planks of walnut. */
+export function makeWood(width, height) {
+    return tiled(texture((c) => {
+        fill(c, "#6b4a30");
+        let s = 77;
+        const next = () => (s = (Math.imul(s, 1664525) + 1013904223) >>> 0) / 4294967296;
+        for (let plank = 0; plank < 8; plank++) {
+            const top = plank * SIDE / 8, dark = next();
+            c.fillStyle = `rgba(30, 16, 6, ${0.25 * dark})`;
+            c.fillRect(0, top, SIDE, SIDE / 8);
+            for (let i = 0; i < 40; i++) {
+                const y = top + next() * SIDE / 8, wave = 4 * next();
+                c.strokeStyle = next() > 0.4 ? `rgba(35, 18, 6, ${0.3 * next()})` : `rgba(214, 160, 106, ${0.16 * next()})`;
+                c.lineWidth = 0.5 + 1.6 * next();
+                c.beginPath();
+                for (let x = 0; x <= SIDE; x += 64) {
+                    c.lineTo(x, y + wave * Math.sin(2 * Math.PI * x / SIDE + i));
+                }
+                c.stroke();
+            }
+            c.fillStyle = "#1d0f06b0";
+            c.fillRect(0, top, SIDE, 2);
+        }
+        grain(c, 10, 41);
+    }), width, height);
 }

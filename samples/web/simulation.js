@@ -1,16 +1,30 @@
-// The world: one sheet that hangs from a rod above a floor, what holds it, and time. No drawing here.
+// The world: one sheet that hangs from a rod above a table, what holds it, and time. No drawing here.
 
-import { ObstacleType, Profile, Skinning, Stage, World, getQuality } from "kiri";
+import { ObstacleType, Profile, ResultCode, Skinning, Stage, World, fitBudget, getQuality } from "kiri";
 
 export const SIZE = 0.3; // m, of the sheet's sides
 export const TICK = 1 / 60; // s
 export const SLOW = 1 / 4; // of time, while a blade is down
-export const LIFT = 0.13; // m, of the lower edge above the floor
-export const HIGH = 0.4; // m, of a sheet that lies flat
+export const LIFT = 0.075; // m, of the lower edge above the table
+export const HIGH = 0.37; // m, of a sheet that lies flat
 export const TIP = 0.284; // m, where a snowflake hangs
+export const WALLS = { rod: -0.1, tip: -0.1, middle: -0.24 }; // m, z of the wall, by what a sheet hangs from
 const COLUMNS = 64;
-const BREEZE = [0.22, 0, 0.3]; // m/s: flat light looks like no sheet
+const BREEZE = [0.22, 0, -0.25]; // m/s: flat light looks like no sheet
+const GUST = [0.3, 0, -1]; // m/s, for a moment after a cut: it opens lips and flaps, and lets pieces lean on the wall
+const GUST_TICKS = 20;
 const CRUMB = 2e-6; // m^2
+const CUTS = 3000, MOTION = 5000; // us of a tick that the budget allows
+const MEASURED = 30; // ticks between two budgets
+/** Until it was measured: items of a slow phone. */
+const BUDGET = { triangles: 1500, cells: 20000, samples: 3000 };
+
+/** Bits of the sides of the sheet that a rest position is on; of a disc there is one. */
+export function borderOf(u, v, round) {
+    const near = 1e-6;
+    return round ? Number(Math.hypot(u - SIZE / 2, v - SIZE / 2) > SIZE / 2 - 2e-4)
+        : Number(u < near) | Number(u > SIZE - near) << 1 | Number(v < near) << 2 | Number(v > SIZE - near) << 3;
+}
 
 export class Simulation {
     /** options: material (of materials.js), quality (0, 1, 2), hangs ("rod", "tip", "middle"), def and mesh (where it is
@@ -19,8 +33,12 @@ export class Simulation {
         this.options = options;
         this.quality = getQuality(options.quality);
         this.profile = new Profile();
+        this.cuts = new Profile(); // sums, for the budget
+        this.motion = new Profile();
+        this.ticks = this.looks = 0;
+        this.gust = 0; // ticks that are left of it
         this.cost = { milliseconds: 0, vertices: 0, weights: 0 };
-        this.world = new World({ gravity: [0, -9.81, 0], clock: () => performance.now() / 1000, record });
+        this.world = new World({ gravity: [0, -9.81, 0], clock: () => performance.now() / 1000, record, budget: BUDGET });
         this.pieces = 1;
         this.slow = false;
     }
@@ -29,10 +47,17 @@ export class Simulation {
     build() {
         const { mesh } = this.options;
         this.world.createObstacle({ type: ObstacleType.Plane, rotation: [1, 0, 0, 0, 0, -1, 0, 1, 0], friction: 0.8 });
+        this.world.createObstacle({ type: ObstacleType.Plane, position: [0, 0, WALLS[this.options.hangs]], friction: 0.5 });
         this.sheet = mesh ? this.world.createSheet({ ...this.def(), ...mesh })
             : this.world.createRectangle(SIZE, SIZE, COLUMNS, COLUMNS, this.def());
         this.hold();
-        this.sheet.setWind({ velocity: BREEZE, density: 1.2, drag: 1.2, lift: 0.02 });
+        this.blow(BREEZE);
+    }
+
+    /** What is cut off an ornament falls to the front, so that the wall is free. */
+    blow([x, y, z]) {
+        const velocity = [x, y, this.options.hangs === "tip" ? -z : z];
+        this.sheet.setWind({ velocity, density: 1.2, drag: 1.2, lift: 0.02 });
     }
 
     def() {
@@ -61,14 +86,53 @@ export class Simulation {
         }
     }
 
-    /** One step: of slow motion while a blade is down. */
+    /** Seconds of the clock between two ticks. While a blade is down ticks are shorter, and come twice as often. */
+    get period() {
+        return this.slow ? TICK / 2 : TICK;
+    }
+
     tick() {
-        this.world.tick(this.slow ? TICK * SLOW : TICK, this.quality.substeps);
+        if (this.gust > 0 && --this.gust === 0) {
+            this.blow(BREEZE);
+        }
+        const { substeps } = this.quality;
+        const result = this.world.tick(this.slow ? TICK / 2 * SLOW : TICK, this.slow ? Math.max(1, substeps >> 1) : substeps);
+        this.pending = result === ResultCode.Pending; // work on a cut is left for the next tick
         this.look();
+        this.measure();
+    }
+
+    /** Ticks keep to a budget of items, which comes from what cuts and motion took so far on this device. */
+    measure() {
+        const add = (sum, from, to, ...items) => {
+            for (const item of items) {
+                sum[item] += this.profile[item];
+            }
+            for (let i = from; i < to; i++) {
+                sum.seconds[i] += this.profile.seconds[i];
+            }
+        };
+        add(this.cuts, Stage.Cut, Stage.Contact, "trianglesSplit", "cellsSettled", "samplesRefreshed");
+        add(this.motion, Stage.Contact, Stage.Count, "solverIterations");
+        if (++this.ticks % MEASURED === 0) {
+            const budget = { ...BUDGET };
+            fitBudget(this.cuts, CUTS, budget);
+            fitBudget(this.motion, MOTION, budget);
+            this.world.setBudget(budget);
+        }
+    }
+
+    /** A breath of air, which opens what was cut. */
+    breathe() {
+        if (this.sheet) {
+            this.blow(GUST);
+            this.gust = GUST_TICKS;
+        }
     }
 
     /** What the last tick did. */
     look() {
+        this.looks++;
         this.world.getProfile(this.profile);
         for (const sheet of this.world.getSheets()) {
             this.sheet = sheet;

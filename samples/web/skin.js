@@ -1,38 +1,66 @@
-// A sheet as it is drawn: with thickness, a print on both sides, and rims along every cut.
+// A sheet as it is drawn: with thickness, a print on both sides, light that shines through, and rims along every cut.
 
-import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Mesh, MeshStandardMaterial } from "three";
+import { BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, Mesh, MeshStandardMaterial, Vector3 } from "three";
 import { Solid } from "kiri";
 
+import { Lips } from "./lips.js";
 import { makeCreases, makePrint } from "./print.js";
 import { SIZE } from "./simulation.js";
 
 let creases = null;
 
+/** What shines through: light on the wall behind, which comes back to the other side. */
+const SHINES = `
+    totalEmissiveRadiance += diffuseColor.rgb * through * (0.55 + 0.45 * dot(normal, throughFrom));`;
+
 export class Skin {
-    constructor(look) {
+    /** stage: of which the lamps are. */
+    constructor(look, stage, round) {
         const front = makePrint(look.print);
         const shine = { roughness: look.roughness, metalness: look.metalness };
         if (look.creased) {
             Object.assign(shine, { bumpMap: creases ??= makeCreases(), bumpScale: 2.2 });
         }
+        this.through = { value: new Color(0) };
         this.materials = [
-            new MeshStandardMaterial({ map: front, ...shine }),
-            new MeshStandardMaterial({ map: front, ...shine }), // the back: see printBack
+            this.shining(new MeshStandardMaterial({ map: front, ...shine })),
+            this.shining(new MeshStandardMaterial({ map: front, ...shine })), // the back: see printBack
             new MeshStandardMaterial({ color: look.rim, ...shine }),
         ];
-        this.print = look.print;
-        this.thickness = look.drawn;
+        this.look = look;
+        this.stage = stage;
+        this.round = round;
         this.solid = new Solid();
+        this.before = new Float32Array(0); // positions one tick ago
+        this.now = new Float32Array(0);
         this.revision = -1;
         this.mesh = new Mesh(new BufferGeometry(), this.materials);
         this.mesh.castShadow = this.mesh.receiveShadow = true;
         this.mesh.frustumCulled = false;
+        this.lips = new Lips(look, stage.key.position);
+        this.mesh.add(this.lips.mesh);
         this.room(1 << 14, 1 << 15);
+    }
+
+    shining(material) {
+        material.onBeforeCompile = (shader) => {
+            Object.assign(shader.uniforms, { through: this.through, throughFrom: { value: new Vector3(0.5, -0.4, 0.77) } });
+            shader.fragmentShader = `uniform vec3 through, throughFrom;\n${shader.fragmentShader}`
+                .replace("#include <emissivemap_fragment>", `#include <emissivemap_fragment>${SHINES}`);
+        };
+        return material;
     }
 
     /** Not before the first picture, which does not show it. */
     printBack() {
-        this.materials[1].map = makePrint(`${this.print}Back`);
+        this.materials[1].map = makePrint(`${this.look.print}Back`);
+    }
+
+    /** map: null for the print itself. */
+    printFront(map) {
+        this.guide?.dispose();
+        this.guide = map;
+        this.materials[0].map = map ?? makePrint(this.look.print);
     }
 
     /** Buffers with room for so many vertices and triangles. */
@@ -50,16 +78,24 @@ export class Skin {
         this.revision = -1;
     }
 
-    /** Positions and normals each time, the rest where a cut has changed it. */
-    follow(sheet, revision) {
-        const solid = sheet.getSolid(this.thickness, this.solid);
+    /** After a tick. Positions and normals each time, the rest where a cut has changed it. */
+    take(sheet, revision) {
+        const solid = sheet.getSolid(this.look.drawn, this.solid);
         if (solid.vertexCount > this.vertices || solid.triangleCount > this.triangles) {
             this.room(2 * solid.vertexCount, 2 * solid.triangleCount);
         }
-        const { position, normal, uv } = this.mesh.geometry.attributes;
-        this.copy(position, solid.positions);
+        const { normal, uv } = this.mesh.geometry.attributes, same = revision === this.revision;
+        [this.before, this.now] = [this.now, this.before];
+        if (this.now.length < solid.positions.length) {
+            this.now = new Float32Array(3 * this.vertices);
+        }
+        this.now.set(solid.positions);
+        this.count = solid.positions.length;
+        if (!same || this.before.length < this.count) {
+            this.before = this.now.slice();
+        }
         this.copy(normal, solid.normals);
-        if (revision !== this.revision) {
+        if (!same) {
             this.revision = revision;
             const rest = solid.restPositions;
             for (let i = 0; i < rest.length; i++) {
@@ -68,7 +104,20 @@ export class Skin {
             this.sent(uv, rest.length);
             this.copy(this.mesh.geometry.index, solid.indices);
             this.group(solid);
+            this.lips.find(solid, this.round);
         }
+        this.sources = solid.sources.slice();
+    }
+
+    /** For a picture: 0 is one tick ago, 1 is now. */
+    show(part) {
+        const { position, normal } = this.mesh.geometry.attributes, { before, now, count } = this;
+        for (let i = 0; i < count; i++) {
+            position.array[i] = before[i] + part * (now[i] - before[i]);
+        }
+        this.sent(position, count);
+        this.lips.follow(this, position.array, normal.array, this.stage.pixel);
+        this.through.value.copy(this.stage.through).multiplyScalar(this.look.through);
     }
 
     copy(attribute, values) {
@@ -94,5 +143,7 @@ export class Skin {
     dispose() {
         this.mesh.geometry.dispose();
         this.materials.forEach((material) => material.dispose());
+        this.lips.dispose();
+        this.guide?.dispose();
     }
 }

@@ -48,4 +48,20 @@ export class Sound {
         source.start(now, Math.random());
         source.stop(now + 0.12);
     }
+
+    /** Two soft notes, higher with each step. */
+    chime(step) {
+        if (!this.context || this.muted) {
+            return;
+        }
+        [1, 1.5].forEach((ratio, i) => {
+            const at = this.context.currentTime + 0.12 * i, gain = new GainNode(this.context, { gain: 0 });
+            const tone = new OscillatorNode(this.context, { type: "sine", frequency: 392 * 1.125 ** step * ratio });
+            gain.gain.setTargetAtTime(0.12, at, 0.01);
+            gain.gain.setTargetAtTime(0, at + 0.08, 0.25);
+            tone.connect(gain).connect(this.context.destination);
+            tone.start(at);
+            tone.stop(at + 1.6);
+        });
+    }
 }

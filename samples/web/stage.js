@@ -1,16 +1,20 @@
-// Camera, light and ground.
+// Camera, light, wall and table.
 
 import {
-    AmbientLight, BackSide, BoxGeometry, CircleGeometry, Color, CylinderGeometry, DirectionalLight, Fog, HalfFloatType,
-    HemisphereLight, LinearMipmapLinearFilter, Mesh, MeshBasicMaterial, MeshStandardMaterial, NeutralToneMapping,
-    PCFShadowMap, PerspectiveCamera, PMREMGenerator, Scene, SphereGeometry, Vector3, WebGLCubeRenderTarget, WebGLRenderer,
+    BackSide, BoxGeometry, Color, CylinderGeometry, HalfFloatType, HemisphereLight, LinearMipmapLinearFilter, Mesh,
+    MeshBasicMaterial, MeshStandardMaterial, NeutralToneMapping, PCFShadowMap, PerspectiveCamera, PlaneGeometry, PMREMGenerator,
+    Scene, SphereGeometry, SpotLight, Vector3, WebGLCubeRenderTarget, WebGLRenderer,
 } from "three";
 
-import { HIGH, LIFT, SIZE, TIP } from "./simulation.js";
+import { makePlaster, makeWood } from "./print.js";
+import { HIGH, LIFT, SIZE, TIP, WALLS } from "./simulation.js";
 
-const BACKGROUND = 0xd9d4cb;
 const GREY = new Color().setScalar(1.35); // as bright as the surroundings are on the whole
 const MIRRORED = 256; // pixels along a side of what is mirrored
+const VIEW = 25; // degrees
+const FRAMED = { width: 0.375, height: 0.47 }; // m around the sheet that every window shows
+/** By day and in the evening: how bright the lamp is, the sky, and what comes back from the wall. */
+const DAY = { key: 3.4, sky: 1, through: 0.16 }, EVENING = { key: 1.5, sky: 0.42, through: 0.75 };
 
 export class Stage {
     constructor(canvas) {
@@ -19,33 +23,53 @@ export class Stage {
         this.renderer.shadowMap.type = PCFShadowMap;
         this.renderer.toneMapping = NeutralToneMapping;
         this.scene = new Scene();
-        this.scene.background = new Color(BACKGROUND);
-        this.scene.fog = new Fog(BACKGROUND, 1.6, 4);
-        this.camera = new PerspectiveCamera(35, 1, 0.02, 20);
-        this.target = new Vector3(0, 0.2, 0);
+        this.scene.background = new Color(0x4d5f60);
+        this.camera = new PerspectiveCamera(VIEW, 1, 0.02, 20);
+        this.target = new Vector3(0, LIFT + 0.125, 0);
         this.detail = 1; // of the window's pixels: less where drawing takes too long
         this.slowFrames = 0;
-        this.turn = { around: 0.35, above: 0.22, distance: 0.98 };
+        this.turn = { around: 0.16, above: 0.2, distance: 1 }; // distance: times that which frames the sheet
+        this.through = new Color();
+        this.evening = this.toEvening = 0;
         this.addLight();
-        this.addGround();
+        this.addRoom();
         this.addRod();
+        this.light();
         this.resize();
     }
 
     addLight() {
-        const sun = new DirectionalLight(0xfff4e6, 2.5);
-        sun.position.set(0.55, 1.1, 0.75);
-        sun.target.position.set(0, 0.12, 0);
-        sun.castShadow = true;
-        sun.shadow.mapSize.set(1024, 1024);
-        Object.assign(sun.shadow.camera, { left: -0.5, right: 0.5, top: 0.5, bottom: -0.5, near: 0.2, far: 3 });
-        sun.shadow.bias = -0.0006;
-        sun.shadow.normalBias = 0.002;
-        sun.shadow.radius = 4;
-        this.scene.add(sun, sun.target, new HemisphereLight(0xe9f0ff, 0xb8a68e, 0.85), new AmbientLight(0xffffff, 0.12));
+        const key = this.key = new SpotLight(0xffe3bd, 1, 0, 0.36, 0.85, 0);
+        key.position.set(-0.62, 0.92, 1.05);
+        key.target.position.set(0.02, 0.19, -0.05);
+        key.castShadow = true;
+        key.shadow.mapSize.set(2048, 2048);
+        Object.assign(key.shadow.camera, { near: 0.6, far: 2.6 });
+        key.shadow.bias = -0.0004;
+        key.shadow.normalBias = 0.0012;
+        key.shadow.radius = 3;
+        this.sky = new HemisphereLight(0xdfeaff, 0x8a7560, 1);
+        this.scene.add(key, key.target, this.sky);
         this.grey = this.makeGrey();
         this.scene.environment = this.grey.texture;
-        this.scene.environmentIntensity = 0.55;
+    }
+
+    /** As it is on the way from day to evening. */
+    light() {
+        const of = (name) => DAY[name] + this.evening * (EVENING[name] - DAY[name]);
+        this.key.intensity = of("key");
+        this.sky.intensity = 0.7 * of("sky");
+        this.scene.environmentIntensity = 0.4 * of("sky");
+        this.through.set(0xffb25e).multiplyScalar(of("through"));
+    }
+
+    /** Goes on towards the evening, or back. */
+    pass(seconds) {
+        if (this.evening !== this.toEvening) {
+            const way = this.toEvening - this.evening;
+            this.evening += Math.sign(way) * Math.min(Math.abs(way), seconds / 1.6);
+            this.light();
+        }
     }
 
     /** What is mirrored in the first picture. It is laid out as surroundings are, so that no shader is made twice. */
@@ -91,16 +115,22 @@ export class Stage {
         return made;
     }
 
-    addGround() {
-        const ground = new Mesh(new CircleGeometry(6, 48), new MeshStandardMaterial({ color: 0xbdb8b0, roughness: 1 }));
-        ground.rotation.x = -Math.PI / 2;
-        ground.receiveShadow = true;
-        this.scene.add(ground);
+    /** A wall near the sheet, and a table. */
+    addRoom() {
+        const part = (width, height, map, roughness) => {
+            const mesh = new Mesh(new PlaneGeometry(width, height), new MeshStandardMaterial({ map, roughness }));
+            mesh.receiveShadow = true;
+            this.scene.add(mesh);
+            return mesh;
+        };
+        this.wall = part(4, 4, makePlaster(4), 1);
+        this.table = part(4, 2, makeWood(4, 2), 0.55);
+        this.table.rotation.x = -Math.PI / 2;
     }
 
     /** What the sheet hangs from. */
     addRod() {
-        const material = new MeshStandardMaterial({ color: 0x6f5a45, roughness: 0.6 });
+        const material = new MeshStandardMaterial({ color: 0x4a3524, roughness: 0.5 });
         this.rod = new Mesh(new CylinderGeometry(0.0045, 0.0045, SIZE + 0.05, 20), material);
         this.rod.rotation.z = Math.PI / 2;
         this.rod.position.set(0, LIFT + SIZE + 0.002, 0);
@@ -113,6 +143,8 @@ export class Stage {
 
     /** From a rod, or from a string at its tip or in its middle. */
     hang(from) {
+        this.wall.position.set(0, 1, WALLS[from]);
+        this.table.position.set(0, 0, WALLS[from] + 1);
         this.rod.visible = from === "rod";
         this.string.visible = !this.rod.visible;
         this.string.position.set(0, 0.5 + (from === "tip" ? LIFT + TIP : HIGH), 0);
@@ -123,28 +155,30 @@ export class Stage {
         this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2) * this.detail);
         this.renderer.setSize(width, height, false);
         this.camera.aspect = width / height;
-        // The sheet fits in narrow windows too.
-        this.camera.fov = width < height ? 35 * Math.min(1.7, height / width) : 35;
         this.camera.updateProjectionMatrix();
+        // The sheet fits in narrow windows too.
+        const half = Math.tan(VIEW * Math.PI / 360);
+        this.framing = Math.max(FRAMED.height, FRAMED.width / this.camera.aspect) / (2 * half);
+        this.pixel = 2 * half / height;
         this.aim();
     }
 
     /** Turns by so many pixels. */
     turnBy(x, y) {
-        this.turn.around -= x * 0.006;
+        this.turn.around = Math.min(1.3, Math.max(-1.3, this.turn.around - x * 0.006)); // the wall is behind
         this.turn.above = Math.min(1.45, Math.max(-0.05, this.turn.above + y * 0.006));
         this.aim();
     }
 
     zoomBy(factor) {
-        this.turn.distance = Math.min(2.2, Math.max(0.25, this.turn.distance * factor));
+        this.turn.distance = Math.min(1.8, Math.max(0.3, this.turn.distance * factor));
         this.aim();
     }
 
     aim() {
         const { around, above, distance } = this.turn;
         this.camera.position.set(Math.sin(around) * Math.cos(above), Math.sin(above), Math.cos(around) * Math.cos(above))
-            .multiplyScalar(distance).add(this.target);
+            .multiplyScalar(distance * this.framing).add(this.target);
         this.camera.position.y = Math.max(0.02, this.camera.position.y);
         this.camera.lookAt(this.target);
         this.camera.updateMatrixWorld();

@@ -1,4 +1,4 @@
-// What a finger does on the sheet. A tool has begin, move and end, with rays of the window.
+// What a finger does on the sheet. A tool has begin, move and end, with rays of the window, and `at`, where it is.
 
 const DEPTH = 0.1; // m: how far behind the sheet a blade reaches
 const SNIP = 0.011; // m: of scissors
@@ -19,6 +19,7 @@ export class Knife {
 
     move({ origin, direction }) {
         this.blade.moveRay(origin, direction, this.length);
+        this.at = add(origin, direction, this.length - DEPTH);
     }
 
     end() {
@@ -29,17 +30,18 @@ export class Knife {
 /** Cuts straight snips towards the finger. */
 export class Scissors extends Knife {
     begin(ray, hit) {
-        this.at = null;
+        this.snipped = null;
         super.begin(ray, hit);
     }
 
     move(ray) {
         const to = add(ray.origin, ray.direction, this.length - DEPTH);
-        const gone = this.at ? Math.hypot(to[0] - this.at[0], to[1] - this.at[1], to[2] - this.at[2]) : SNIP;
+        const from = this.snipped, gone = from ? Math.hypot(to[0] - from[0], to[1] - from[1], to[2] - from[2]) : SNIP;
         if (gone >= SNIP) {
-            this.at = to;
+            this.snipped = to;
             super.move(ray);
             this.game.sound.snip();
+            this.game.cutter.snip();
         }
     }
 }
@@ -52,11 +54,12 @@ export class Grab {
 
     begin(ray, hit) {
         this.distance = hit.distance;
+        this.at = hit.position;
         this.pin = this.game.simulation.sheet.createPin({ restPoint: hit.restPoint, target: hit.position });
     }
 
     move({ origin, direction }) {
-        this.pin.setTarget(add(origin, direction, this.distance));
+        this.pin.setTarget(this.at = add(origin, direction, this.distance));
     }
 
     end() {
@@ -74,6 +77,7 @@ export class Snowflake {
     begin(ray, hit) {
         this.copies = this.all(hit.restPoint).map((at) => this.game.simulation.sheet.beginCut(at));
         this.last = hit.restPoint;
+        this.at = hit.position;
     }
 
     all([u, v]) {
@@ -91,10 +95,44 @@ export class Snowflake {
             return;
         }
         this.last = hit.restPoint;
+        this.at = hit.position;
         this.all(hit.restPoint).forEach((at, i) => this.copies[i].extend(at));
     }
 
     end() {
         this.copies.forEach((cut) => cut.end());
+    }
+}
+
+/** Follows a closed line of the sheet as far as the finger goes along it, in both directions, and its copies around the
+ *  middle with it. What the finger does beside the line does not matter. */
+export class Guided {
+    constructor(game, trace) {
+        this.game = game;
+        this.trace = trace;
+    }
+
+    begin(ray, hit) {
+        this.hit(hit);
+        this.cuts = null;
+        this.move(ray);
+    }
+
+    hit(hit) {
+        this.at = hit.position;
+        return hit.restPoint;
+    }
+
+    move(ray) {
+        const hit = this.game.simulation.meet(ray), points = hit ? this.trace.advance(this.hit(hit)) : [];
+        for (const copies of points) {
+            this.cuts ??= copies.map((at) => this.game.simulation.sheet.beginCut(at));
+            copies.forEach((at, i) => this.cuts[i].extend(at));
+        }
+        this.done = this.trace.done; // and the hand lets go
+    }
+
+    end() {
+        this.cuts?.forEach((cut) => cut.end());
     }
 }

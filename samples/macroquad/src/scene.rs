@@ -1,13 +1,15 @@
 //! A sheet of paper that hangs over a ball, and a blade. Pieces that come off get a sheet of their own.
 
 use crate::sheet::Drawn;
-use kiri::{Blade, Event, MaterialPreset, ObstacleDef, ObstacleType, PinDef, SheetDef, World, WorldDef};
+use kiri::{Blade, Budget, Event, MaterialPreset, ObstacleDef, ObstacleType, PinDef, SheetDef, World, WorldDef};
 use macroquad::prelude::*;
 
 pub const SIZE: Vec2 = vec2(1.0, 1.0);
 pub const BALL: (Vec3, f32) = (vec3(0.5, -0.55, 0.05), 0.25);
 const FLOOR: f32 = -0.8;
 const TICK: f32 = 1.0 / 60.0;
+// Of work on cuts in a tick: about 2 ms.
+const BUDGET: Budget = Budget { triangles: 0, cells: 32000, samples: 4000, iterations: 0 };
 
 pub struct Scene {
     world: World,
@@ -18,7 +20,7 @@ pub struct Scene {
 
 impl Scene {
     pub fn new() -> kiri::Result<Self> {
-        let mut world = World::new(WorldDef { gravity: [0.0, -9.81, 0.0], ..Default::default() })?;
+        let mut world = World::new(WorldDef { gravity: [0.0, -9.81, 0.0], budget: BUDGET, ..Default::default() })?;
         let mut def = SheetDef {
             material: kiri::material(MaterialPreset::Paper)?,
             axis_u: [1.0, 0.0, 0.0],
