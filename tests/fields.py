@@ -67,7 +67,7 @@ def owns(structs, kind):
 def tables_of(texts):
     """(struct, has KIRI_DERIVED, entries) of each table; an entry is (macro, arguments)."""
     for text in texts:
-        for struct, body in re.findall(r"^KIRI_(?:SHARED_)?TABLE\(\w+, (\w+), \{(.*?)\}\);", text, flags=re.M | re.S):
+        for struct, body in re.findall(r"^KIRI_(?:SHARED_)?TABLE\(\w+, (\w+),\s*\{(.*?)\}\)$", text, flags=re.M | re.S):
             entries = re.findall(r"KIRI_(\w+)\((.*?)\)", body, flags=re.S)
             yield struct, "KIRI_DERIVED" in body, [(macro, [part.strip() for part in arguments.split(",")])
                                                    for macro, arguments in entries]
@@ -78,18 +78,18 @@ def check_table(struct, is_derived, entries, structs, names, blocks):
     order = [name for name, _, _ in fields]
     for macro, arguments in entries:
         if macro == "CUSTOM":
-            custom.add(arguments[1])
+            custom.add(arguments[0])
             continue
         before = ARGUMENTS_BEFORE.get(macro, 0)
         width = int(arguments[0]) if macro in ("RUN", "ITEMS") else VALUES.get(macro, ARRAYS.get(macro))
-        first, last = arguments[before + 1], arguments[-1]
+        first, last = arguments[before], arguments[-1]
         covered = [first]
         if macro in ("ARRAYS", "ROOMS"):  # the items of an array of arrays are listed one by one
-            covered = list(dict.fromkeys(re.sub(r"\[\d+\]$", "", name) for name in arguments[1:]))
+            covered = list(dict.fromkeys(re.sub(r"\[\d+\]$", "", name) for name in arguments))
         if macro in VALUES or macro in SKIPPED:
             covered = order[order.index(first):order.index(last) + 1] if first in order and last in order else [first]
         if macro in ("PART", "PARTS", "OWNED"):
-            covered = [arguments[1]]
+            covered = [arguments[0]]
         for name in covered:
             if name not in order:
                 yield f"{struct} has no field {name}"

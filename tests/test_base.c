@@ -453,7 +453,7 @@ typedef struct Bag {
     KIRI_ARRAY(uint16_t) words;
 } Bag;
 
-KIRI_TABLE(BagTable, Bag, { KIRI_ITEMS(2, Bag, words) });
+KIRI_TABLE(BagTable, Bag, { KIRI_ITEMS(2, words) })
 
 /* Counts that no bytes can have ask for no memory. */
 static void CountsAreLimited(void** state)
@@ -463,10 +463,10 @@ static void CountsAreLimited(void** state)
     Bag bag = { { NULL, 0, 0 } };
     const uint8_t many[9] = { 0xff, 0xff, 0xff, 0x7f, 1, 0, 0, 0, 0 }, negative[9] = { 0xff, 0xff, 0xff, 0xff, 0 };
     kiriArchive archive = kiriArchive_Read(many, sizeof(many), &memory);
-    kiriArchive_Object(&archive, &BagTable, &bag);
+    kiriArchive_Object(&archive, BagTable, &bag);
     assert_true(archive.isBad && !archive.isShort && bag.words.capacity == 0);
     archive = kiriArchive_Read(negative, sizeof(negative), &memory);
-    kiriArchive_Object(&archive, &BagTable, &bag);
+    kiriArchive_Object(&archive, BagTable, &bag);
     assert_true(archive.isBad && bag.words.capacity == 0);
     archive = kiriArchive_Read(many, 4, &memory);
     assert_int_equal(kiriArchive_Count(&archive, 0, 2, 10), 2);
@@ -476,9 +476,9 @@ static void CountsAreLimited(void** state)
 
 /* A struct and its table from one list: a new field is one line. */
 #define COLUMNS(X)                                                                                                     \
-    X(double, weight, KIRI_REALS(Column, weight, weight))                                                              \
-    X(int32_t, frame, KIRI_INDEX(KIRI_OF_FRAMES, Column, frame, frame))                                                \
-    X(int32_t, added, KIRI_WITHIN(3, 5, Column, added, added))
+    X(double, weight, KIRI_REALS(weight))                                                                              \
+    X(int32_t, frame, KIRI_INDEX(KIRI_OF_FRAMES, frame))                                                               \
+    X(int32_t, added, KIRI_WITHIN(3, 5, added))
 #define DECLARE_COLUMN(type, name, entry) type name;
 #define LIST_COLUMN(type, name, entry) entry,
 
@@ -486,17 +486,17 @@ typedef struct Column {
     COLUMNS(DECLARE_COLUMN)
 } Column;
 
-KIRI_TABLE(ColumnTable, Column, { COLUMNS(LIST_COLUMN) });
+KIRI_TABLE(ColumnTable, Column, { COLUMNS(LIST_COLUMN) })
 
 static bool CanLoad(Column column)
 {
     uint8_t bytes[32];
     Column read = { 0 };
     kiriArchive archive = kiriArchive_Write(bytes, sizeof(bytes));
-    kiriArchive_Object(&archive, &ColumnTable, &column);
+    kiriArchive_Object(&archive, ColumnTable, &column);
     archive = kiriArchive_Read(bytes, archive.at, NULL);
     archive.count[KIRI_OF_FRAMES] = 7;
-    kiriArchive_Object(&archive, &ColumnTable, &read);
+    kiriArchive_Object(&archive, ColumnTable, &read);
     assert_true(archive.isBad || (read.weight == column.weight && read.frame == column.frame && read.added == column.added));
     return !archive.isBad;
 }
@@ -504,7 +504,7 @@ static bool CanLoad(Column column)
 static uint64_t HashOfColumn(Column column)
 {
     kiriArchive archive = kiriArchive_Hash();
-    kiriArchive_Object(&archive, &ColumnTable, &column);
+    kiriArchive_Object(&archive, ColumnTable, &column);
     return archive.hash;
 }
 
@@ -523,10 +523,10 @@ static void NewFieldIsOneLine(void** state)
     uint8_t bytes[sizeof(Column)];
     kiriArchive archive = kiriArchive_Write(bytes, sizeof(bytes));
     archive.isWhole = true;
-    kiriArchive_Object(&archive, &ColumnTable, (void*)(uintptr_t)&other);
+    kiriArchive_Object(&archive, ColumnTable, (void*)(uintptr_t)&other);
     archive = kiriArchive_Read(bytes, sizeof(bytes), NULL);
     archive.isWhole = true;
-    kiriArchive_Object(&archive, &ColumnTable, &read);
+    kiriArchive_Object(&archive, ColumnTable, &read);
     assert_true(!archive.isBad && read.added == 5);
 }
 

@@ -243,9 +243,9 @@ static void MoveOwned(kiriArchive* archive, const kiriMember* field, void* point
     memcpy(&object, pointer, sizeof(object));
     int32_t isThere = kiriArchive_Count(archive, object != NULL, 0, 1);
     if (kiriArchive_Reads(archive)) {
-        object = isThere ? MakeBlock(archive, field->table->size) : NULL;
+        object = isThere ? MakeBlock(archive, field->table()->size) : NULL;
         if (object != NULL) {
-            memset(object, 0, (size_t)field->table->size);
+            memset(object, 0, (size_t)field->table()->size);
         }
         memcpy(pointer, &object, sizeof(object));
     }
@@ -275,9 +275,9 @@ static void MoveField(kiriArchive* archive, const kiriMember* field, uint8_t* ob
         }
         break;
     case KIRI_MEMBER_PART:
-        KIRI_ASSERT(field->size % field->table->size == 0);
-        for (int32_t n = 0; n < field->size; n += field->table->size) {
-            MoveFields(archive, field->table, at + n);
+        KIRI_ASSERT(field->size % field->table()->size == 0);
+        for (int32_t n = 0; n < field->size; n += field->table()->size) {
+            MoveFields(archive, field->table(), at + n);
         }
         break;
     case KIRI_MEMBER_ARRAY:
@@ -329,8 +329,8 @@ static int32_t MoveKept(const kiriTable* table, uint8_t* object, uint8_t* kept, 
             KIRI_ASSERT(bytes + field->size <= MOST_KEPT);
             memcpy(isBack ? at : kept + bytes, isBack ? kept + bytes : at, (size_t)field->size);
             bytes += field->size;
-        } else if (field->kind == KIRI_MEMBER_PART && field->size == field->table->size) {
-            bytes += MoveKept(field->table, at, kept + bytes, isBack);
+        } else if (field->kind == KIRI_MEMBER_PART && field->size == field->table()->size) {
+            bytes += MoveKept(field->table(), at, kept + bytes, isBack);
         }
     }
     return bytes;
@@ -343,7 +343,7 @@ static bool IsFlat(const kiriTable* table)
     for (int32_t k = 0; isFlat && k < table->count; ++k) {
         const kiriMember* field = &table->fields[k];
         isFlat = field->kind <= KIRI_MEMBER_BOOLS || field->kind == KIRI_MEMBER_UNHASHED ||
-                 (field->kind == KIRI_MEMBER_PART && IsFlat(field->table));
+                 (field->kind == KIRI_MEMBER_PART && IsFlat(field->table()));
     }
     return isFlat;
 }
@@ -354,7 +354,8 @@ static bool IsTight(const kiriTable* table)
     int32_t size = 0;
     for (int32_t k = 0; k < table->count; ++k) {
         const kiriMember* field = &table->fields[k];
-        bool isNumbers = field->kind < KIRI_MEMBER_BOOLS || (field->kind == KIRI_MEMBER_PART && IsTight(field->table));
+        bool isNumbers =
+            field->kind < KIRI_MEMBER_BOOLS || (field->kind == KIRI_MEMBER_PART && IsTight(field->table()));
         if (field->kind == KIRI_MEMBER_UNHASHED) {
             continue;
         }
@@ -380,8 +381,9 @@ static void MoveWhole(kiriArchive* archive, const kiriTable* table, uint8_t* obj
     }
 }
 
-void kiriArchive_Objects(kiriArchive* archive, const kiriTable* table, void* objects, int64_t count)
+void kiriArchive_Objects(kiriArchive* archive, kiriTableFn* of, void* objects, int64_t count)
 {
+    const kiriTable* table = of();
     KIRI_ASSERT(count >= 0);
     if (archive->isWhole) {
         MoveWhole(archive, table, objects, count);
@@ -398,13 +400,14 @@ void kiriArchive_Objects(kiriArchive* archive, const kiriTable* table, void* obj
     archive->isUnmoved = false;
 }
 
-void kiriArchive_Object(kiriArchive* archive, const kiriTable* table, void* object)
+void kiriArchive_Object(kiriArchive* archive, kiriTableFn* table, void* object)
 {
     kiriArchive_Objects(archive, table, object, 1);
 }
 
-void kiriArchive_HashLayout(const kiriTable* table, uint64_t* hash)
+void kiriArchive_HashLayout(kiriTableFn* of, uint64_t* hash)
 {
+    const kiriTable* table = of();
     kiriHash_Int32(hash, table->size);
     for (int32_t k = 0; k < table->count; ++k) {
         const kiriMember* field = &table->fields[k];

@@ -93,13 +93,15 @@ enum kiriMemberKind {
     KIRI_MEMBER_HANDED   /* arrays are blocks of archive->shown */
 };
 
+typedef const struct kiriTable* kiriTableFn(void);
+
 typedef struct kiriMember {
     int32_t kind;
     int32_t item;         /* ARRAY of numbers: their kind */
     int32_t width;        /* bytes a number */
     int32_t offset, size; /* size: bytes of the field, or of an item of an array */
     int32_t of, low, high;
-    const struct kiriTable* table; /* of parts or items */
+    kiriTableFn* table; /* of parts or items */
     kiriArchiveFn* custom;
 } kiriMember;
 
@@ -109,56 +111,53 @@ typedef struct kiriTable {
     int32_t size; /* bytes of the struct */
 } kiriTable;
 
-#define KIRI_FIELD_SIZE(Type, field) (int32_t)sizeof(((Type*)NULL)->field)
-#define KIRI_MEMBER_ENTRY(kind, item, width, size, Type, field, of, low, high, table, custom)                           \
+/* kiriThis is the struct of the table that an entry is in. */
+#define KIRI_FIELD_SIZE(field) sizeof(((kiriThis*)NULL)->field)
+#define KIRI_MEMBER_ENTRY(kind, item, width, size, field, of, low, high, table, custom)                                \
     {                                                                                                                  \
-        kind, item, width, (int32_t)offsetof(Type, field), (int32_t)(size), of, low, high, table, custom               \
+        kind, item, width, (int32_t)offsetof(kiriThis, field), (int32_t)(size), of, low, high, table, custom           \
     }
-#define KIRI_MEMBER_RUN(kind, width, Type, first, last, of, low, high)                                                  \
-    KIRI_MEMBER_ENTRY(kind, kind, width, offsetof(Type, last) + sizeof(((Type*)NULL)->last) - offsetof(Type, first),    \
-                     Type, first, of, low, high, NULL, NULL)
-#define KIRI_MEMBER_LIST(kind, item, width, Type, field, of, low, high, table)                                          \
-    KIRI_MEMBER_ENTRY(kind, item, width, sizeof(*((Type*)NULL)->field.data), Type, field, of, low, high, table, NULL)
+#define KIRI_MEMBER_LIST(kind, item, width, field, of, low, high, table)                                               \
+    KIRI_MEMBER_ENTRY(kind, item, width, sizeof(*((kiriThis*)NULL)->field.data), field, of, low, high, table, NULL)
 
-/* Entries of tables; `make fields` compares them with the structs. Numbers in fields from `first` to `last`: */
-#define KIRI_RUN(width, Type, first, last)                                                                             \
-    KIRI_MEMBER_RUN(KIRI_MEMBER_NUMBERS, width, Type, first, last, KIRI_OF_NOTHING, 0, 0)
-#define KIRI_REALS(Type, first, last) KIRI_MEMBER_RUN(KIRI_MEMBER_REALS, 8, Type, first, last, KIRI_OF_NOTHING, 0, 0)
-#define KIRI_FLOATS(Type, first, last) KIRI_MEMBER_RUN(KIRI_MEMBER_FLOATS, 4, Type, first, last, KIRI_OF_NOTHING, 0, 0)
-#define KIRI_COUNTS(Type, first, last) KIRI_MEMBER_RUN(KIRI_MEMBER_COUNTS, 8, Type, first, last, KIRI_OF_NOTHING, 0, 0)
-#define KIRI_BOOLS(Type, first, last) KIRI_MEMBER_RUN(KIRI_MEMBER_BOOLS, 1, Type, first, last, KIRI_OF_NOTHING, 0, 0)
-#define KIRI_INDEX(of, Type, first, last) KIRI_MEMBER_RUN(KIRI_MEMBER_INTS, 4, Type, first, last, of, 0, -1)
-#define KIRI_INDEX_OR_NONE(of, Type, first, last)                                                                      \
-    KIRI_MEMBER_RUN(KIRI_MEMBER_INTS, 4, Type, first, last, of, KIRI_NONE, -1)
-#define KIRI_WITHIN(low, high, Type, first, last)                                                                      \
-    KIRI_MEMBER_RUN(KIRI_MEMBER_INTS, 4, Type, first, last, KIRI_OF_NOTHING, low, high)
+/* A field, or the fields from a first to a last one. */
+#define KIRI_MEMBER_RUN(kind, width, of, low, high, ...)                                                               \
+    KIRI_ONCE_MORE(KIRI_RUN_PICK(__VA_ARGS__, KIRI_RUN_2, KIRI_RUN_1, )(kind, width, of, low, high, __VA_ARGS__))
+#define KIRI_RUN_PICK(first, last, Run, ...) Run
+#define KIRI_RUN_1(kind, width, of, low, high, field) KIRI_RUN_2(kind, width, of, low, high, field, field)
+#define KIRI_RUN_2(kind, width, of, low, high, first, last)                                                            \
+    KIRI_MEMBER_ENTRY(kind, kind, width, offsetof(kiriThis, last) + KIRI_FIELD_SIZE(last) - offsetof(kiriThis, first), \
+                      first, of, low, high, NULL, NULL)
+
+/* Entries of tables; `make fields` compares them with the structs. Numbers in a field, or from a first to a last one: */
+#define KIRI_RUN(width, ...) KIRI_MEMBER_RUN(KIRI_MEMBER_NUMBERS, width, KIRI_OF_NOTHING, 0, 0, __VA_ARGS__)
+#define KIRI_REALS(...) KIRI_MEMBER_RUN(KIRI_MEMBER_REALS, 8, KIRI_OF_NOTHING, 0, 0, __VA_ARGS__)
+#define KIRI_FLOATS(...) KIRI_MEMBER_RUN(KIRI_MEMBER_FLOATS, 4, KIRI_OF_NOTHING, 0, 0, __VA_ARGS__)
+#define KIRI_COUNTS(...) KIRI_MEMBER_RUN(KIRI_MEMBER_COUNTS, 8, KIRI_OF_NOTHING, 0, 0, __VA_ARGS__)
+#define KIRI_BOOLS(...) KIRI_MEMBER_RUN(KIRI_MEMBER_BOOLS, 1, KIRI_OF_NOTHING, 0, 0, __VA_ARGS__)
+#define KIRI_INDEX(of, ...) KIRI_MEMBER_RUN(KIRI_MEMBER_INTS, 4, of, 0, -1, __VA_ARGS__)
+#define KIRI_INDEX_OR_NONE(of, ...) KIRI_MEMBER_RUN(KIRI_MEMBER_INTS, 4, of, KIRI_NONE, -1, __VA_ARGS__)
+#define KIRI_WITHIN(low, high, ...) KIRI_MEMBER_RUN(KIRI_MEMBER_INTS, 4, KIRI_OF_NOTHING, low, high, __VA_ARGS__)
+#define KIRI_DROPPED(...) KIRI_MEMBER_RUN(KIRI_MEMBER_DROPPED, 1, 0, 0, 0, __VA_ARGS__)
+#define KIRI_KEPT(...) KIRI_MEMBER_RUN(KIRI_MEMBER_KEPT, 1, 0, 0, 0, __VA_ARGS__)
 
 /* Structs, and arrays: */
-#define KIRI_PART(Type, field, table)                                                                                  \
-    KIRI_MEMBER_ENTRY(KIRI_MEMBER_PART, 0, 0, KIRI_FIELD_SIZE(Type, field), Type, field, 0, 0, 0, &table, NULL)
-#define KIRI_PARTS(Type, field, table) KIRI_MEMBER_LIST(KIRI_MEMBER_ARRAY, 0, 0, Type, field, 0, 0, 0, &table)
-#define KIRI_ITEMS(width, Type, field)                                                                                 \
-    KIRI_MEMBER_LIST(KIRI_MEMBER_ARRAY, KIRI_MEMBER_NUMBERS, width, Type, field, 0, 0, 0, NULL)
-#define KIRI_REAL_ITEMS(Type, field)                                                                                   \
-    KIRI_MEMBER_LIST(KIRI_MEMBER_ARRAY, KIRI_MEMBER_REALS, 8, Type, field, 0, 0, 0, NULL)
-#define KIRI_FLOAT_ITEMS(Type, field)                                                                                  \
-    KIRI_MEMBER_LIST(KIRI_MEMBER_ARRAY, KIRI_MEMBER_FLOATS, 4, Type, field, 0, 0, 0, NULL)
-#define KIRI_INDICES(of, Type, field)                                                                                  \
-    KIRI_MEMBER_LIST(KIRI_MEMBER_ARRAY, KIRI_MEMBER_INTS, 4, Type, field, of, 0, -1, NULL)
-#define KIRI_ROOM_OF(Type, field) KIRI_MEMBER_LIST(KIRI_MEMBER_ROOM, 0, 1, Type, field, 0, 0, 0, NULL)
-#define KIRI_SPACE_OF(Type, field) KIRI_MEMBER_LIST(KIRI_MEMBER_SPACE, 0, 1, Type, field, 0, 0, 0, NULL)
-#define KIRI_OWNED(Type, field, table)                                                                                 \
-    KIRI_MEMBER_ENTRY(KIRI_MEMBER_OWNED, 0, 0, sizeof(void*), Type, field, 0, 0, 0, &table, NULL)
-#define KIRI_CUSTOM(Type, field, function)                                                                             \
-    KIRI_MEMBER_ENTRY(KIRI_MEMBER_CUSTOM, 0, 0, 0, Type, field, 0, 0, 0, NULL, function)
-#define KIRI_DROPPED(Type, first, last) KIRI_MEMBER_RUN(KIRI_MEMBER_DROPPED, 1, Type, first, last, 0, 0, 0)
-#define KIRI_KEPT(Type, first, last) KIRI_MEMBER_RUN(KIRI_MEMBER_KEPT, 1, Type, first, last, 0, 0, 0)
+#define KIRI_PART(field, table)                                                                                        \
+    KIRI_MEMBER_ENTRY(KIRI_MEMBER_PART, 0, 0, KIRI_FIELD_SIZE(field), field, 0, 0, 0, table, NULL)
+#define KIRI_PARTS(field, table) KIRI_MEMBER_LIST(KIRI_MEMBER_ARRAY, 0, 0, field, 0, 0, 0, table)
+#define KIRI_ITEMS(width, field) KIRI_MEMBER_LIST(KIRI_MEMBER_ARRAY, KIRI_MEMBER_NUMBERS, width, field, 0, 0, 0, NULL)
+#define KIRI_REAL_ITEMS(field) KIRI_MEMBER_LIST(KIRI_MEMBER_ARRAY, KIRI_MEMBER_REALS, 8, field, 0, 0, 0, NULL)
+#define KIRI_FLOAT_ITEMS(field) KIRI_MEMBER_LIST(KIRI_MEMBER_ARRAY, KIRI_MEMBER_FLOATS, 4, field, 0, 0, 0, NULL)
+#define KIRI_INDICES(of, field) KIRI_MEMBER_LIST(KIRI_MEMBER_ARRAY, KIRI_MEMBER_INTS, 4, field, of, 0, -1, NULL)
+#define KIRI_ROOM_OF(field) KIRI_MEMBER_LIST(KIRI_MEMBER_ROOM, 0, 1, field, 0, 0, 0, NULL)
+#define KIRI_SPACE_OF(field) KIRI_MEMBER_LIST(KIRI_MEMBER_SPACE, 0, 1, field, 0, 0, 0, NULL)
+#define KIRI_OWNED(field, table) KIRI_MEMBER_ENTRY(KIRI_MEMBER_OWNED, 0, 0, sizeof(void*), field, 0, 0, 0, table, NULL)
+#define KIRI_CUSTOM(field, function) KIRI_MEMBER_ENTRY(KIRI_MEMBER_CUSTOM, 0, 0, 0, field, 0, 0, 0, NULL, function)
 
 /* Several arrays with items in snapshots only; several arrays with their capacity. */
-#define KIRI_ARRAY_OF(Type, field)                                                                                     \
-    KIRI_MEMBER_LIST(KIRI_MEMBER_ARRAY, KIRI_MEMBER_NUMBERS, 1, Type, field, 0, 0, 0, NULL)
-#define KIRI_ARRAYS(Type, ...) KIRI_EACH_FIELD(KIRI_ARRAY_OF, Type, __VA_ARGS__)
-#define KIRI_ROOMS(Type, ...) KIRI_EACH_FIELD(KIRI_ROOM_OF, Type, __VA_ARGS__)
+#define KIRI_ARRAY_OF(field) KIRI_ITEMS(1, field)
+#define KIRI_ARRAYS(...) KIRI_EACH_FIELD(KIRI_ARRAY_OF, __VA_ARGS__)
+#define KIRI_ROOMS(...) KIRI_EACH_FIELD(KIRI_ROOM_OF, __VA_ARGS__)
 
 #define KIRI_MARK(kind)                                                                                                \
     {                                                                                                                  \
@@ -171,27 +170,30 @@ typedef struct kiriTable {
 /* Applies a macro to up to eight fields. KIRI_ONCE_MORE is for the preprocessor of MSVC, which passes __VA_ARGS__ on as
    one argument. */
 #define KIRI_ONCE_MORE(x) x
-#define KIRI_EACH_1(M, Type, a) M(Type, a)
-#define KIRI_EACH_2(M, Type, a, ...) M(Type, a), KIRI_ONCE_MORE(KIRI_EACH_1(M, Type, __VA_ARGS__))
-#define KIRI_EACH_3(M, Type, a, ...) M(Type, a), KIRI_ONCE_MORE(KIRI_EACH_2(M, Type, __VA_ARGS__))
-#define KIRI_EACH_4(M, Type, a, ...) M(Type, a), KIRI_ONCE_MORE(KIRI_EACH_3(M, Type, __VA_ARGS__))
-#define KIRI_EACH_5(M, Type, a, ...) M(Type, a), KIRI_ONCE_MORE(KIRI_EACH_4(M, Type, __VA_ARGS__))
-#define KIRI_EACH_6(M, Type, a, ...) M(Type, a), KIRI_ONCE_MORE(KIRI_EACH_5(M, Type, __VA_ARGS__))
-#define KIRI_EACH_7(M, Type, a, ...) M(Type, a), KIRI_ONCE_MORE(KIRI_EACH_6(M, Type, __VA_ARGS__))
-#define KIRI_EACH_8(M, Type, a, ...) M(Type, a), KIRI_ONCE_MORE(KIRI_EACH_7(M, Type, __VA_ARGS__))
+#define KIRI_EACH_1(M, a) M(a)
+#define KIRI_EACH_2(M, a, ...) M(a), KIRI_ONCE_MORE(KIRI_EACH_1(M, __VA_ARGS__))
+#define KIRI_EACH_3(M, a, ...) M(a), KIRI_ONCE_MORE(KIRI_EACH_2(M, __VA_ARGS__))
+#define KIRI_EACH_4(M, a, ...) M(a), KIRI_ONCE_MORE(KIRI_EACH_3(M, __VA_ARGS__))
+#define KIRI_EACH_5(M, a, ...) M(a), KIRI_ONCE_MORE(KIRI_EACH_4(M, __VA_ARGS__))
+#define KIRI_EACH_6(M, a, ...) M(a), KIRI_ONCE_MORE(KIRI_EACH_5(M, __VA_ARGS__))
+#define KIRI_EACH_7(M, a, ...) M(a), KIRI_ONCE_MORE(KIRI_EACH_6(M, __VA_ARGS__))
+#define KIRI_EACH_8(M, a, ...) M(a), KIRI_ONCE_MORE(KIRI_EACH_7(M, __VA_ARGS__))
 #define KIRI_EACH_PICK(a, b, c, d, e, f, g, h, Each, ...) Each
-#define KIRI_EACH_FIELD(M, Type, ...)                                                                                  \
+#define KIRI_EACH_FIELD(M, ...)                                                                                        \
     KIRI_ONCE_MORE(KIRI_EACH_PICK(__VA_ARGS__, KIRI_EACH_8, KIRI_EACH_7, KIRI_EACH_6, KIRI_EACH_5, KIRI_EACH_4,        \
-                                  KIRI_EACH_3, KIRI_EACH_2, KIRI_EACH_1, )(M, Type, __VA_ARGS__))
+                                  KIRI_EACH_3, KIRI_EACH_2, KIRI_EACH_1, )(M, __VA_ARGS__))
 
 /* A table of a struct, { with its entries }. Other sources may use a shared table. */
-#define KIRI_TABLE(Name, Type, ...)                                                                                    \
-    static const kiriMember Name##Members[] = __VA_ARGS__;                                                             \
-    static const kiriTable Name = { Name##Members, (int32_t)(sizeof(Name##Members) / sizeof(kiriMember)),              \
-                                    (int32_t)sizeof(Type) }
+#define KIRI_TABLE(Name, Type, ...) static KIRI_SHARED_TABLE(Name, Type, __VA_ARGS__)
 #define KIRI_SHARED_TABLE(Name, Type, ...)                                                                             \
-    static const kiriMember Name##Members[] = __VA_ARGS__;                                                             \
-    const kiriTable Name = { Name##Members, (int32_t)(sizeof(Name##Members) / sizeof(kiriMember)), (int32_t)sizeof(Type) }
+    const kiriTable* Name(void)                                                                                        \
+    {                                                                                                                  \
+        typedef Type kiriThis;                                                                                         \
+        static const kiriMember members[] = __VA_ARGS__;                                                               \
+        static const kiriTable table = { members, (int32_t)(sizeof(members) / sizeof(kiriMember)),                     \
+                                         (int32_t)sizeof(kiriThis) };                                                  \
+        return &table;                                                                                                 \
+    }
 
 typedef enum kiriArchiveMode {
     KIRI_ARCHIVE_MEASURE,
@@ -244,14 +246,14 @@ static inline void kiriArchive_Int32(kiriArchive* archive, int32_t* number)
 int32_t kiriArchive_Count(kiriArchive* archive, int64_t count, int64_t least, int64_t most);
 
 /* Transfer one object, or several. READ: the objects must be zeroed, and get blocks of archive->memory. */
-void kiriArchive_Object(kiriArchive* archive, const kiriTable* table, void* object);
-void kiriArchive_Objects(kiriArchive* archive, const kiriTable* table, void* objects, int64_t count);
+void kiriArchive_Object(kiriArchive* archive, kiriTableFn* table, void* object);
+void kiriArchive_Objects(kiriArchive* archive, kiriTableFn* table, void* objects, int64_t count);
 
 /* Transfers a block of numbers that is not a KIRI_ARRAY. READ: charges it to the room; null on failure. */
 void kiriArchive_Block(kiriArchive* archive, void** block, int32_t width, int64_t count);
 
 /* Hashes sizes and offsets of all fields. */
-void kiriArchive_HashLayout(const kiriTable* table, uint64_t* hash);
+void kiriArchive_HashLayout(kiriTableFn* table, uint64_t* hash);
 
 KIRI_C_END
 

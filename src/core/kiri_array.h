@@ -27,6 +27,15 @@ void kiriArray_SetHeader(void* array, kiriArrayHeader header);
 
 typedef KIRI_ARRAY(int32_t) kiriIndices;
 
+/* Loops over the items of an array; `item` points to each. KIRI_EACH_OF is for an array of pointers: `item` is each of
+   them. The array may lose items meanwhile, but not grow. It must exist even where the condition is false. */
+#define KIRI_EACH(Type, item, array) KIRI_EACH_WHILE(true, Type, item, array)
+#define KIRI_EACH_WHILE(condition, Type, item, array)                                                                  \
+    for (Type* item = (array).data; (condition) && item < (array).data + (array).count; ++item)
+#define KIRI_EACH_OF(Type, item, array)                                                                                \
+    for (Type** item##At = (array).data, *item; item##At < (array).data + (array).count && (item = *item##At, true);   \
+         ++item##At)
+
 /* Makes room for `need` items in all. `array` points to a KIRI_ARRAY whose items have itemBytes. */
 bool kiriArray_Grow(kiriMemory* memory, void* array, int64_t need, size_t itemBytes);
 
@@ -87,6 +96,9 @@ typedef struct kiriSpans {
    nothing on out of memory: false. Shrinking cannot fail. */
 bool kiriSpan_Resize(kiriSpan* span, kiriSpans* spans, kiriMemory* memory, void* array, size_t itemBytes,
                      int32_t count);
+
+/* Loops over the indices of a span. */
+#define KIRI_EACH_IN(i, span) for (int32_t i = (span).first; i < (span).first + (span).count; ++i)
 
 /* Union-find over indices. The caller owns the array `parent`, with an entry for each item. The root of a set is its
    lowest item, in any order of joins. */

@@ -8,7 +8,7 @@ double kiriVec2_DistanceToWay(kiriVec2 p, kiriVec2 a, kiriVec2 b)
     kiriVec2 way = kiriVec2_Sub(b, a), to = kiriVec2_Sub(p, a);
     double square = kiriVec2_Dot(way, way), t = square > 0.0 ? kiriVec2_Dot(to, way) / square : 0.0;
     t = kiriClamp(t, 0.0, 1.0);
-    return kiriVec2_Length(kiriVec2_Sub(to, kiriVec2_Scale(t, way)));
+    return kiriVec2_Distance(to, kiriVec2_Scale(t, way));
 }
 
 kiriMat3 kiriMat3_AddScaled(const kiriMat3* A, double s, const kiriMat3* B)

@@ -155,6 +155,11 @@ static inline double kiriVec3_Length(kiriVec3 a)
     return sqrt(kiriVec3_Dot(a, a));
 }
 
+static inline double kiriVec3_Distance(kiriVec3 a, kiriVec3 b)
+{
+    return kiriVec3_Length(kiriVec3_Sub(a, b));
+}
+
 /* Returns true if the vector rounds to these floats, which the host reads. */
 static inline bool kiriVec3_Shows(kiriVec3 a, const float shown[3])
 {
@@ -182,6 +187,11 @@ static inline kiriVec3 kiriVec3_Normalize(kiriVec3 a)
 {
     double length = kiriVec3_Length(a);
     return length > 0.0 ? kiriVec3_Scale(1.0 / length, a) : a;
+}
+
+static inline bool kiriMat3_Equal(const kiriMat3* a, const kiriMat3* b)
+{
+    return kiriVec3_Equal(a->u, b->u) && kiriVec3_Equal(a->v, b->v) && kiriVec3_Equal(a->d, b->d);
 }
 
 /* Returns true if the matrix rounds to these floats, or equals `given`, the rotation nearest to them. */

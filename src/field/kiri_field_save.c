@@ -6,96 +6,96 @@
 #include "kiri_site.h"
 
 KIRI_SHARED_TABLE(kiriSiteTable, kiriSite, {
-    KIRI_REALS(kiriSite, at, at),
+    KIRI_REALS(at),
     KIRI_DERIVED,
-});
+})
 
 KIRI_TABLE(FieldTable, kiriField, {
     KIRI_DERIVED,
-    KIRI_ARRAYS(kiriField, distance, owner, settled, log, seeds, dirty, marks),
-    KIRI_ARRAYS(kiriField, ring[0], ring[1], ring[2], ring[3]),
-});
+    KIRI_ARRAYS(distance, owner, settled, log, seeds, dirty, marks),
+    KIRI_ARRAYS(ring[0], ring[1], ring[2], ring[3]),
+})
 
 /* ---- The grid ---------------------------------------------------------------------------------------------------- */
 
 KIRI_TABLE(GridWorkTable, kiriGridWork, {
     KIRI_DERIVED,
-    KIRI_ARRAYS(kiriGridWork, facesDirty, linksDirty, stepsDirty, knightsDirty, squareFlags, flagged),
-    KIRI_ARRAYS(kiriGridWork, ranges, entries, parent, cellFlags, mark, newCells, oldFaces, steps),
-});
+    KIRI_ARRAYS(facesDirty, linksDirty, stepsDirty, knightsDirty, squareFlags, flagged),
+    KIRI_ARRAYS(ranges, entries, parent, cellFlags, mark, newCells, oldFaces, steps),
+})
 
 KIRI_TABLE(GridChangesTable, kiriGridChanges, {
     KIRI_DERIVED,
-    KIRI_ARRAYS(kiriGridChanges, made, gone, steps, material, edges),
-});
+    KIRI_ARRAYS(made, gone, steps, material, edges),
+})
 
 KIRI_SHARED_TABLE(kiriGridTable, kiriGrid, {
     KIRI_DERIVED,
-    KIRI_ARRAYS(kiriGrid, cells, runs, steps, faces, materials, stretches, unusedMaterials, unusedStretches),
-    KIRI_ARRAYS(kiriGrid, squareCell, nodeCell, vertexCell, whole),
-    KIRI_PART(kiriGrid, changes, GridChangesTable),
-    KIRI_OWNED(kiriGrid, work, GridWorkTable),
-});
+    KIRI_ARRAYS(cells, runs, steps, faces, materials, stretches, unusedMaterials, unusedStretches),
+    KIRI_ARRAYS(squareCell, nodeCell, vertexCell, whole),
+    KIRI_PART(changes, GridChangesTable),
+    KIRI_OWNED(work, GridWorkTable),
+})
 
 /* ---- Regions and shape functions --------------------------------------------------------------------------------- */
 
 KIRI_TABLE(BorderCellsTable, kiriBorderCells, {
     KIRI_DERIVED,
-    KIRI_ARRAYS(kiriBorderCells, first, cells),
-});
+    KIRI_ARRAYS(first, cells),
+})
 
 KIRI_SHARED_TABLE(kiriRegionsTable, kiriRegions, {
     KIRI_UNHASHED,
-    KIRI_ITEMS(1, kiriRegions, dirty),
+    KIRI_ITEMS(1, dirty),
     KIRI_DERIVED,
-    KIRI_PART(kiriRegions, field, FieldTable),
-    KIRI_PART(kiriRegions, border, BorderCellsTable),
-    KIRI_ARRAYS(kiriRegions, siteAt, onBorder, material, changes, orphans, isChanged),
-});
+    KIRI_PART(field, FieldTable),
+    KIRI_PART(border, BorderCellsTable),
+    KIRI_ARRAYS(siteAt, onBorder, material, changes, orphans, isChanged),
+})
 
 KIRI_TABLE(ShapeWorkTable, kiriShapeWork, {
     KIRI_DERIVED,
-    KIRI_PART(kiriShapeWork, fromSite, FieldTable),
-    KIRI_PART(kiriShapeWork, fromBorder, FieldTable),
-    KIRI_ARRAYS(kiriShapeWork, seeds, loaded, isLoaded, marks, wasOwner, rigidShares, counted),
-    KIRI_ARRAYS(kiriShapeWork, sideCounts, frames, dirtyFrames, touches, dirty, weights),
-});
+    KIRI_PART(fromSite, FieldTable),
+    KIRI_PART(fromBorder, FieldTable),
+    KIRI_ARRAYS(seeds, loaded, isLoaded, marks, wasOwner, rigidShares, counted),
+    KIRI_ARRAYS(sideCounts, frames, dirtyFrames, touches, dirty, weights),
+})
 
 KIRI_TABLE(ReachesTable, kiriReaches, {
     KIRI_DERIVED,
-    KIRI_ARRAYS(kiriReaches, blocks, heads, ofCells, ofFrame),
-});
+    KIRI_ARRAYS(blocks, heads, ofCells, ofFrame),
+})
 
 KIRI_SHARED_TABLE(kiriShapeTable, kiriShape, {
-    KIRI_REALS(kiriShape, rigidWeight, rigidWeight),
+    KIRI_REALS(rigidWeight),
     KIRI_UNHASHED,
-    KIRI_BOOLS(kiriShape, eased, eased),
+    KIRI_BOOLS(eased),
     KIRI_DERIVED,
-    KIRI_ARRAYS(kiriShape, spans, weights, rigid, changes),
-    KIRI_PART(kiriShape, reaches, ReachesTable),
-    KIRI_OWNED(kiriShape, work, ShapeWorkTable),
-});
+    KIRI_ARRAYS(spans, weights, rigid, changes),
+    KIRI_PART(reaches, ReachesTable),
+    KIRI_OWNED(work, ShapeWorkTable),
+})
 
 /* ---- Links ------------------------------------------------------------------------------------------------------- */
 
 KIRI_TABLE(SightEdgesTable, kiriSightEdges, {
     KIRI_DERIVED,
-    KIRI_ARRAYS(kiriSightEdges, edges, squares, listed),
-});
+    KIRI_ARRAYS(edges, squares, listed),
+})
 
 KIRI_TABLE(LinkWorkTable, kiriLinkWork, {
     KIRI_DERIVED,
-    KIRI_ARRAYS(kiriLinkWork, marks, stale, faces, to, made, ends, nextEnds),
-    KIRI_ROOMS(kiriLinkWork, order, stretch),
-    KIRI_PART(kiriLinkWork, edges, SightEdgesTable),
-});
+    KIRI_ARRAYS(marks, stale, faces, to, made, ends, nextEnds),
+    KIRI_ROOMS(order, stretch),
+    KIRI_PART(edges, SightEdgesTable),
+})
 
 KIRI_SHARED_TABLE(kiriLinksTable, kiriLinks, {
     KIRI_DERIVED,
-    KIRI_ARRAYS(kiriLinks, links, next, corners, nextCorners),
-    KIRI_ROOM_OF(kiriLinks, was),
-    KIRI_OWNED(kiriLinks, work, LinkWorkTable),
-});
+    KIRI_ARRAYS(links, next, corners, nextCorners),
+    KIRI_ROOM_OF(was),
+    KIRI_OWNED(work, LinkWorkTable),
+})
 
 /* ---- Sites ------------------------------------------------------------------------------------------------------- */
 
@@ -111,17 +111,17 @@ static void MoveOldField(kiriArchive* archive, void* object)
 
 KIRI_TABLE(PlacerWorkTable, kiriPlacerWork, {
     KIRI_DERIVED,
-    KIRI_CUSTOM(kiriPlacerWork, old, MoveOldField),
-    KIRI_PART(kiriPlacerWork, flooded, FieldTable),
-    KIRI_PART(kiriPlacerWork, ends, FieldTable),
-    KIRI_PART(kiriPlacerWork, fresh, FieldTable),
-    KIRI_ARRAYS(kiriPlacerWork, sampled, holds, marks, targets, blocks, seeds),
-    KIRI_DROPPED(kiriPlacerWork, winds, winds),
-});
+    KIRI_CUSTOM(old, MoveOldField),
+    KIRI_PART(flooded, FieldTable),
+    KIRI_PART(ends, FieldTable),
+    KIRI_PART(fresh, FieldTable),
+    KIRI_ARRAYS(sampled, holds, marks, targets, blocks, seeds),
+    KIRI_DROPPED(winds),
+})
 
 KIRI_SHARED_TABLE(kiriPlacerTable, kiriPlacer, {
     KIRI_DERIVED,
-    KIRI_ARRAYS(kiriPlacer, sites, cells, ends),
-    KIRI_DROPPED(kiriPlacer, known, known),
-    KIRI_OWNED(kiriPlacer, work, PlacerWorkTable),
-});
+    KIRI_ARRAYS(sites, cells, ends),
+    KIRI_DROPPED(known),
+    KIRI_OWNED(work, PlacerWorkTable),
+})

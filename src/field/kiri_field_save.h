@@ -6,7 +6,7 @@
 
 KIRI_C_BEGIN
 
-extern const kiriTable kiriGridTable, kiriRegionsTable, kiriShapeTable, kiriLinksTable, kiriPlacerTable, kiriSiteTable;
+kiriTableFn kiriGridTable, kiriRegionsTable, kiriShapeTable, kiriLinksTable, kiriPlacerTable, kiriSiteTable;
 
 KIRI_C_END
 

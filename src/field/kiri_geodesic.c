@@ -38,8 +38,8 @@ void kiriField_Reset(kiriField* field)
     KIRI_ASSERT(field->stage == REPAIR_NONE);
     for (int k = -1; k < KIRI_RING; ++k) {
         kiriIndices* list = k < 0 ? &field->settled : &field->ring[k];
-        for (int32_t i = 0; i < list->count; ++i) {
-            kiriField_Forget(field, list->data[i]);
+        KIRI_EACH(const int32_t, cell, *list) {
+            kiriField_Forget(field, *cell);
         }
         list->count = 0;
     }
@@ -69,8 +69,8 @@ static void StartSweep(kiriField* field)
 {
     field->bucket = -1;
     field->nearest = KIRI_FAR;
-    for (int32_t i = 0; i < field->seeds.count; ++i) {
-        field->nearest = kiriMin(field->seeds.data[i].distance, field->nearest);
+    KIRI_EACH(const kiriSeed, seed, field->seeds) {
+        field->nearest = kiriMin(seed->distance, field->nearest);
     }
 }
 
@@ -188,13 +188,13 @@ static inline bool TakeGridSteps(kiriField* field, kiriMemory* memory, const kir
         }
         return ok;
     }
-    kiriSteps steps = kiriGrid_GetSteps(grid, from.cell);
-    for (int32_t s = 0; ok && s < steps.end[2]; ++s) {
-        kiriStep step = kiriSteps_At(&steps, s);
+    KIRI_EACH_STEP(step, grid, from.cell, KIRI_KNIGHT) {
         kiriSeed to = { step.cell, from.distance + step.length, from.owner };
-        ok = step.length > room || TakeGridStep(field, memory, to, repairs);
+        if (step.length <= room && !TakeGridStep(field, memory, to, repairs)) {
+            return false;
+        }
     }
-    return ok;
+    return true;
 }
 
 /* Settles cells until none is left, or the quota is spent on them. In a repair a cell may have values on all sides, and
@@ -287,11 +287,10 @@ static bool IsSupported(const kiriField* field, const kiriRule* rule, int32_t ce
     if (value.distance > rule->limit) {
         return false;
     }
-    kiriSteps steps = kiriGrid_GetSteps(rule->grid, cell);
-    for (int32_t s = 0; s < steps.end[2]; ++s) {
-        int32_t next = kiriSteps_At(&steps, s).cell;
-        if (field->distance.data[next] == value.distance - kiriSteps_At(&steps, s).length &&
-            ValueOf(field, next).owner == value.owner && Passes(rule, next)) {
+    KIRI_EACH_STEP(step, rule->grid, cell, KIRI_KNIGHT) {
+        int32_t next = step.cell;
+        if (field->distance.data[next] == value.distance - step.length && ValueOf(field, next).owner == value.owner &&
+            Passes(rule, next)) {
             return true;
         }
     }
@@ -303,11 +302,10 @@ static bool IsSupported(const kiriField* field, const kiriRule* rule, int32_t ce
 static bool AddDependents(kiriField* field, kiriMemory* memory, const kiriRule* rule, int32_t cell)
 {
     const kiriSeed value = ValueOf(field, cell);
-    kiriSteps steps = kiriGrid_GetSteps(rule->grid, cell);
-    for (int32_t s = 0; s < steps.end[2]; ++s) {
-        int32_t next = kiriSteps_At(&steps, s).cell;
-        if (field->distance.data[next] == value.distance + kiriSteps_At(&steps, s).length &&
-            ValueOf(field, next).owner == value.owner && (field->marks.data[next] & FIELD_DIRTY) == 0) {
+    KIRI_EACH_STEP(step, rule->grid, cell, KIRI_KNIGHT) {
+        int32_t next = step.cell;
+        if (field->distance.data[next] == value.distance + step.length && ValueOf(field, next).owner == value.owner &&
+            (field->marks.data[next] & FIELD_DIRTY) == 0) {
             if (!kiriArray_Push(memory, &field->dirty, next)) {
                 return false;
             }
@@ -351,12 +349,11 @@ static kiriSeed NearestFor(const kiriField* field, const kiriRule* rule, int32_t
 {
     kiriSeed best = rule->seed(rule->context, cell), value = ValueOf(field, cell);
     best = best.distance <= rule->limit && IsNearerSeed(best, value) ? best : value;
-    kiriSteps steps = kiriGrid_GetSteps(rule->grid, cell);
-    for (int32_t s = 0; s < steps.end[2]; ++s) {
-        int32_t next = kiriSteps_At(&steps, s).cell, length = kiriSteps_At(&steps, s).length;
-        if (field->distance.data[next] <= kiriMin(best.distance, rule->limit) - length) {
-            kiriSeed over = { cell, field->distance.data[next] + length, ValueOf(field, next).owner };
-            best = IsNearerSeed(over, best) && Passes(rule, next) ? over : best;
+    KIRI_EACH_STEP(step, rule->grid, cell, KIRI_KNIGHT) {
+        int32_t distance = field->distance.data[step.cell];
+        if (distance <= kiriMin(best.distance, rule->limit) - step.length) {
+            kiriSeed over = { cell, distance + step.length, ValueOf(field, step.cell).owner };
+            best = IsNearerSeed(over, best) && Passes(rule, step.cell) ? over : best;
         }
     }
     return best;
@@ -394,8 +391,8 @@ kiriProgress kiriField_Repair(kiriField* field, kiriMemory* memory, const kiriRu
     KIRI_ASSERT(rule->limit < KIRI_FAR && rule->seed != NULL);
     kiriProgress progress = KIRI_DONE;
     if (field->stage == REPAIR_NONE) {
-        for (int32_t i = 0; i < field->log.count; ++i) {
-            field->marks.data[field->log.data[i].cell] |= FIELD_LOGGED;
+        KIRI_EACH(const kiriSeed, logged, field->log) {
+            field->marks.data[logged->cell] |= FIELD_LOGGED;
         }
         field->checked = 0;
         field->fromCaller = field->dirty.count;
@@ -423,11 +420,11 @@ kiriProgress kiriField_Repair(kiriField* field, kiriMemory* memory, const kiriRu
     }
     progress = Sweep(field, memory, rule, quota, true);
     if (progress == KIRI_DONE) {
-        for (int32_t i = 0; i < field->log.count; ++i) {
-            field->marks.data[field->log.data[i].cell] = 0;
+        KIRI_EACH(const kiriSeed, logged, field->log) {
+            field->marks.data[logged->cell] = 0;
         }
-        for (int32_t i = 0; i < field->settled.count; ++i) {
-            field->marks.data[field->settled.data[i]] = 0;
+        KIRI_EACH(const int32_t, cell, field->settled) {
+            field->marks.data[*cell] = 0;
         }
         field->settled.count = 0;
         field->stage = REPAIR_NONE;
@@ -484,10 +481,10 @@ static inline bool ScanOnce(const Scan* scan, bool forth)
         int32_t cell = scan->cells[forth ? k : scan->count - 1 - k];
         bool isOpen = kiriGrid_IsOpen(scan->grid, cell);
         ScanKey was = scan->keys[cell], key = isOpen ? PullOpen(scan, cell, forth, was) : was;
-        kiriSteps steps = kiriGrid_GetSteps(scan->grid, cell);
-        for (int32_t s = 0; !isOpen && s < steps.end[2]; ++s) {
-            kiriStep step = kiriSteps_At(&steps, s);
-            key = Nearer(key, scan->keys[step.cell], step.length);
+        if (!isOpen) {
+            KIRI_EACH_STEP(step, scan->grid, cell, KIRI_KNIGHT) {
+                key = Nearer(key, scan->keys[step.cell], step.length);
+            }
         }
         scan->keys[cell] = key;
         changes |= key ^ was;
@@ -521,8 +518,8 @@ kiriProgress kiriField_Scan(kiriField* field, kiriMemory* memory, const kiriGrid
     for (int32_t c = 0; c < field->distance.count; ++c) {
         scan.keys[c] = KeyOf(KIRI_FAR, KIRI_NONE);
     }
-    for (int32_t k = 0; k < field->seeds.count; ++k) {
-        kiriSeed seed = field->seeds.data[k];
+    KIRI_EACH(const kiriSeed, from, field->seeds) {
+        kiriSeed seed = *from;
         scan.keys[seed.cell] = Nearer(scan.keys[seed.cell], KeyOf(seed.distance, seed.owner), 0);
     }
     bool isDone = ScanAll(&scan);

@@ -369,7 +369,7 @@ static void ClipAtSide(ClippedPolygon* polygon, int axis, bool upper, double sid
         if ((depth[i] > 0.0) != (depth[j] > 0.0)) {
             int32_t in = depth[i] > 0.0 ? i : j, out = i + j - in;
             kiriVec2 way = kiriVec2_Sub(was.at[out], was.at[in]);
-            kiriVec2 at = kiriVec2_Add(was.at[in], kiriVec2_Scale(depth[in] / (depth[in] - depth[out]), way));
+            kiriVec2 at = kiriVec2_AddScaled(was.at[in], depth[in] / (depth[in] - depth[out]), way);
             *(axis == 0 ? &at.x : &at.y) = upper ? side : 0.0;
             polygon->at[polygon->count++] = at;
         }
@@ -422,8 +422,8 @@ static bool FindNewCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t squar
         kiriMoments_Add(&work->newCells.data[*rank].material, &part);
     }
     kiriVec2 corner = kiriMesh_Local(mesh, kiriSquares_Corner(&mesh->squares, square));
-    for (int32_t rank = 0; rank < work->newCells.count; ++rank) {
-        kiriMoments* material = &work->newCells.data[rank].material;
+    KIRI_EACH(kiriNewCell, fresh, work->newCells) {
+        kiriMoments* material = &fresh->material;
         double area = leastShare * grid->side * grid->side, half = 0.5 * grid->side;
         if (!(material->area > area)) { /* a speck in the middle of the square */
             *material = (kiriMoments){ area,
@@ -526,8 +526,7 @@ static bool ReplaceCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t squar
     KIRI_ASSERT(square >= 0 && square < grid->squareCell.count);
     int32_t old = grid->squareCell.data[square], last = KIRI_NONE;
     grid->squareCell.data[square] = KIRI_NONE;
-    for (int32_t i = 0; i < grid->work->newCells.count; ++i) {
-        kiriNewCell* made = &grid->work->newCells.data[i];
+    KIRI_EACH(kiriNewCell, made, grid->work->newCells) {
         made->cell = old != KIRI_NONE ? old : AddCell(grid, mesh->memory, square);
         if (made->cell == KIRI_NONE || !SetMaterial(grid, mesh, made->cell, &made->material)) {
             return false;
@@ -587,7 +586,7 @@ static void FillWholeSquare(kiriGrid* grid, const kiriMeshData* mesh, int32_t sq
 {
     int32_t c = grid->squareCell.data[square], lowest = INT32_MAX;
     KIRI_ASSERT(kiriGrid_IsCell(grid, c) && grid->cells.data[c].next == KIRI_NONE);
-    for (int32_t n = mesh->squares.head[square]; n != KIRI_NONE; n = mesh->squares.nodes.data[n].next) {
+    KIRI_EACH_NODE(n, &mesh->squares, square) {
         lowest = kiriMin(mesh->squares.nodes.data[n].triangle, lowest);
         grid->nodeCell.data[n] = c;
         grid->work->debt += COST_OF_NODE;
@@ -613,7 +612,7 @@ static void FillDividedSquare(kiriGrid* grid, const kiriMeshData* mesh, int32_t 
             }
         }
     }
-    for (int32_t c = grid->squareCell.data[square]; c != KIRI_NONE; c = grid->cells.data[c].next) {
+    KIRI_EACH_CELL(c, grid, square) {
         RecordCell(grid, mesh->memory, c, CELL_EDGES, &grid->changes.edges);
     }
     work->debt += 2 * COST_OF_NODE * (int64_t)(range.end - range.first);
@@ -685,7 +684,7 @@ static void AddStretch(kiriStretch* sum, kiriStretch part)
     kiriVec2 apart = kiriVec2_Sub(part.middle, sum->middle);
     double both = sum->width + part.width;
     sum->moment += part.moment + kiriVec2_Dot(apart, apart) * sum->width * part.width / both;
-    sum->middle = kiriVec2_Add(sum->middle, kiriVec2_Scale(part.width / both, apart));
+    sum->middle = kiriVec2_AddScaled(sum->middle, part.width / both, apart);
     sum->width = both;
 }
 
@@ -694,8 +693,8 @@ static void EmptyFaces(kiriGrid* grid, const kiriMeshData* mesh, int32_t square,
 {
     kiriGridWork* work = grid->work;
     work->oldFaces.count = 0;
-    for (int32_t c = grid->squareCell.data[square]; c != KIRI_NONE; c = grid->cells.data[c].next) {
-        for (int32_t f = grid->cells.data[c].firstFace; f != KIRI_NONE; f = kiriFace_Next(&grid->faces.data[f], c)) {
+    KIRI_EACH_CELL(c, grid, square) {
+        KIRI_EACH_FACE(f, grid, c) {
             const kiriFace* face = &grid->faces.data[f];
             if (face->cell[1] == c && kiriFace_Axis(face) == axis) {
                 kiriOldFace old = { f, kiriGrid_Stretch(grid, mesh, f) };
@@ -754,8 +753,7 @@ static void CoverDividedSide(kiriGrid* grid, const kiriMeshData* mesh, int32_t b
 /* Removes the emptied faces that no triangle covers any more, and records those that have changed. */
 static void CompareFaces(kiriGrid* grid, const kiriMeshData* mesh)
 {
-    for (int32_t i = 0; i < grid->work->oldFaces.count; ++i) {
-        const kiriOldFace* old = &grid->work->oldFaces.data[i];
+    KIRI_EACH(const kiriOldFace, old, grid->work->oldFaces) {
         const kiriFace* face = &grid->faces.data[old->face];
         KIRI_ASSERT(face->cell[0] != KIRI_NONE && old->was.width > 0.0);
         const kiriStretch was = old->was, is = kiriGrid_Stretch(grid, mesh, old->face);
@@ -916,19 +914,6 @@ static void SetSteps(kiriGrid* grid, kiriMemory* memory, int32_t c, int32_t stra
     RecordCell(grid, memory, c, CELL_STEPS, &grid->changes.steps);
 }
 
-/* Makes a cell amid whole squares open. If it was, its steps are the same: a square that stays whole keeps its cell. */
-static void OpenSteps(kiriGrid* grid, kiriMemory* memory, int32_t c)
-{
-    KIRI_ASSERT(kiriGrid_IsCell(grid, c) && grid->whole.data[grid->cells.data[c].square]);
-    kiriSteps had = kiriGrid_GetSteps(grid, c), has = kiriGrid_OpenSteps(grid, c);
-    if (!AreStepsSame(&had, &has)) {
-        RecordCell(grid, memory, c, CELL_STEPS, &grid->changes.steps);
-    }
-    ResizeSteps(grid, memory, c, 0);
-    grid->runs.data[c].first = KIRI_NONE;
-    grid->whole.data[c] = KIRI_SQUARE_OPEN;
-}
-
 /* Compares two steps from the same cell: the way tells the order of squares. */
 static bool IsStepBefore(const kiriGrid* grid, kiriStep a, kiriStep b)
 {
@@ -1021,12 +1006,20 @@ static void MakeNearSteps(kiriGrid* grid, const kiriMeshData* mesh, int32_t item
     work->debt += COST_OF_STEPS;
     if (IsWholeAround(grid, &mesh->squares, grid->cells.data[c].square)) {
         if (!kiriStepRun_IsOpen(&grid->runs.data[c])) {
-            OpenSteps(grid, mesh->memory, c);
+            /* The cell becomes open. If it was, its steps are the same: a square that stays whole keeps its cell. */
+            kiriSteps had = kiriGrid_GetSteps(grid, c), has = kiriGrid_OpenSteps(grid, c);
+            KIRI_ASSERT(kiriGrid_IsCell(grid, c) && grid->whole.data[grid->cells.data[c].square]);
+            if (!AreStepsSame(&had, &has)) {
+                RecordCell(grid, mesh->memory, c, CELL_STEPS, &grid->changes.steps);
+            }
+            ResizeSteps(grid, mesh->memory, c, 0);
+            grid->runs.data[c].first = KIRI_NONE;
+            grid->whole.data[c] = KIRI_SQUARE_OPEN;
         }
         return;
     }
     work->steps.count = 0;
-    for (int32_t f = grid->cells.data[c].firstFace; f != KIRI_NONE; f = kiriFace_Next(&grid->faces.data[f], c)) {
+    KIRI_EACH_FACE(f, grid, c) {
         AddStep(grid, mesh->memory, StraightStep(&grid->faces.data[f], c));
     }
     int32_t straight = work->steps.count;
@@ -1086,9 +1079,9 @@ static void FreeCell(kiriGrid* grid, int32_t c)
 static void KeepCellsInUse(kiriGrid* grid, kiriIndices* list)
 {
     int32_t count = 0;
-    for (int32_t k = 0; k < list->count; ++k) {
-        if (kiriGrid_IsCell(grid, list->data[k])) {
-            list->data[count++] = list->data[k];
+    KIRI_EACH(const int32_t, cell, *list) {
+        if (kiriGrid_IsCell(grid, *cell)) {
+            list->data[count++] = *cell;
         }
     }
     grid->work->debt += COST_OF_NODE * (int64_t)list->count;
@@ -1102,8 +1095,8 @@ static void ForgetRemoved(kiriGrid* grid, const kiriMeshData* mesh, int32_t item
     int32_t count = 0;
     (void)mesh;
     (void)item;
-    for (int32_t k = 0; k < changes->material.count; ++k) {
-        const kiriMaterialChange change = changes->material.data[k];
+    KIRI_EACH(const kiriMaterialChange, at, changes->material) {
+        const kiriMaterialChange change = *at;
         if (kiriGrid_IsCell(grid, change.cell)) {
             changes->material.data[count++] = change;
         } else {
@@ -1113,9 +1106,9 @@ static void ForgetRemoved(kiriGrid* grid, const kiriMeshData* mesh, int32_t item
     }
     grid->work->debt += COST_OF_NODE * (int64_t)changes->material.count;
     changes->material.count = count;
-    for (int32_t k = 0; k < changes->made.count; ++k) {
-        if (!kiriGrid_IsCell(grid, changes->made.data[k])) {
-            FreeCell(grid, changes->made.data[k]);
+    KIRI_EACH(const int32_t, cell, changes->made) {
+        if (!kiriGrid_IsCell(grid, *cell)) {
+            FreeCell(grid, *cell);
         }
     }
     KeepCellsInUse(grid, &changes->made);
@@ -1209,8 +1202,8 @@ static bool StartGridUpdate(kiriGrid* grid, const kiriMeshData* mesh)
 static void EndGridUpdate(kiriGridWork* work)
 {
     KIRI_ASSERT(work->flagged.count <= work->squareFlags.count);
-    for (int32_t i = 0; i < work->flagged.count; ++i) {
-        work->squareFlags.data[work->flagged.data[i]] = 0;
+    KIRI_EACH(const int32_t, square, work->flagged) {
+        work->squareFlags.data[*square] = 0;
     }
     work->flagged.count = work->facesDirty.count = work->linksDirty.count = work->stepsDirty.count = 0;
     work->knightsDirty.count = work->entries.count = 0;
@@ -1263,17 +1256,17 @@ void kiriGrid_ClearChanges(kiriGrid* grid)
 {
     kiriGridChanges* changes = &grid->changes;
     KIRI_ASSERT(grid->work == NULL || !grid->work->running);
-    for (int32_t i = 0; i < changes->gone.count; ++i) {
-        FreeCell(grid, changes->gone.data[i]);
+    KIRI_EACH(const int32_t, cell, changes->gone) {
+        FreeCell(grid, *cell);
     }
-    for (int32_t i = 0; i < changes->steps.count; ++i) {
-        grid->work->cellFlags.data[changes->steps.data[i]] = 0;
+    KIRI_EACH(const int32_t, cell, changes->steps) {
+        grid->work->cellFlags.data[*cell] = 0;
     }
-    for (int32_t i = 0; i < changes->material.count; ++i) {
-        grid->work->cellFlags.data[changes->material.data[i].cell] = 0;
+    KIRI_EACH(const kiriMaterialChange, change, changes->material) {
+        grid->work->cellFlags.data[change->cell] = 0;
     }
-    for (int32_t i = 0; i < changes->edges.count; ++i) {
-        grid->work->cellFlags.data[changes->edges.data[i]] = 0;
+    KIRI_EACH(const int32_t, cell, changes->edges) {
+        grid->work->cellFlags.data[*cell] = 0;
     }
     changes->made.count = changes->gone.count = changes->steps.count = changes->material.count = 0;
     changes->edges.count = 0;
@@ -1390,7 +1383,7 @@ kiriLatticePoint kiriGrid_Anchor(const kiriGrid* grid, const kiriMeshData* mesh,
     KIRI_ASSERT(kiriGrid_IsCell(grid, cell));
     kiriMoments largest = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
     int32_t square = grid->cells.data[cell].square, lowest = INT32_MAX;
-    for (int32_t n = mesh->squares.head[square]; n != KIRI_NONE; n = mesh->squares.nodes.data[n].next) {
+    KIRI_EACH_NODE(n, &mesh->squares, square) {
         if (grid->nodeCell.data[n] == cell) {
             int32_t triangle = mesh->squares.nodes.data[n].triangle;
             kiriMoments material = MaterialInSquare(mesh, triangle, square);
@@ -1428,9 +1421,8 @@ void kiriGrid_JoinCells(const kiriGrid* grid, int32_t* parent)
     kiriUnion_Init(parent, grid->cells.count);
     for (int32_t c = 0; c < grid->cells.count; ++c) {
         if (kiriGrid_IsCell(grid, c)) {
-            kiriSteps steps = kiriGrid_GetSteps(grid, c);
-            for (int32_t s = 0; s < steps.end[0]; ++s) {
-                kiriUnion_Join(parent, c, kiriSteps_At(&steps, s).cell);
+            KIRI_EACH_STEP(step, grid, c, KIRI_STRAIGHT) {
+                kiriUnion_Join(parent, c, step.cell);
             }
         }
     }
@@ -1481,8 +1473,7 @@ void kiriBorderCells_Put(kiriBorderCells* lists, int32_t cell, int32_t region)
 void kiriBorderCells_Keep(kiriBorderCells* lists, const kiriKeep* regions)
 {
     const int32_t *to = regions->to.data, first = regions->first;
-    for (int32_t c = 0; c < lists->cells.count && kiriKeep_Moves(regions); ++c) {
-        kiriBorderCell* cell = &lists->cells.data[c];
+    KIRI_EACH_WHILE(kiriKeep_Moves(regions), kiriBorderCell, cell, lists->cells) {
         if (cell->region >= first) {
             cell->region = to[cell->region];
             KIRI_ASSERT(cell->region != KIRI_NONE);

@@ -190,15 +190,40 @@ static inline kiriStep kiriSteps_At(const kiriSteps* steps, int32_t index)
     return step;
 }
 
-/* Returns true for the same cell, and for a straight or diagonal step. */
-static inline bool kiriGrid_AreNear(const kiriGrid* grid, int32_t a, int32_t b)
+/* A walk over steps of a cell. */
+typedef struct kiriStepWalk {
+    int32_t cell, length; /* of the current step */
+    int32_t base;
+    const kiriStep *next, *end;
+} kiriStepWalk;
+
+/* The last kind of step of a walk. */
+enum { KIRI_STRAIGHT, KIRI_DIAGONAL, KIRI_KNIGHT };
+
+static inline kiriStepWalk kiriGrid_Walk(const kiriGrid* grid, int32_t cell, int last)
 {
-    if (a == b) {
-        return true;
+    kiriSteps steps = kiriGrid_GetSteps(grid, cell);
+    return (kiriStepWalk){ cell, 0, steps.base, steps.data, steps.data + steps.end[last] };
+}
+
+static inline bool kiriStepWalk_Next(kiriStepWalk* walk)
+{
+    if (walk->next == walk->end) {
+        return false;
     }
-    kiriSteps steps = kiriGrid_GetSteps(grid, a);
-    for (int32_t s = 0; s < steps.end[1]; ++s) {
-        if (kiriSteps_At(&steps, s).cell == b) {
+    walk->cell = walk->base + walk->next->cell;
+    walk->length = walk->next++->length;
+    return true;
+}
+
+#define KIRI_EACH_STEP(step, grid, from, last)                                                                         \
+    for (kiriStepWalk step = kiriGrid_Walk(grid, from, last); kiriStepWalk_Next(&step);)
+
+/* Returns true if a step joins the cells. */
+static inline bool kiriGrid_HasStep(const kiriGrid* grid, int32_t from, int32_t to, int last)
+{
+    KIRI_EACH_STEP(step, grid, from, last) {
+        if (step.cell == to) {
             return true;
         }
     }
@@ -228,6 +253,13 @@ static inline int32_t kiriFace_Next(const kiriFace* face, int32_t cell)
     KIRI_ASSERT(face->cell[0] == cell || face->cell[1] == cell);
     return face->next[face->cell[1] == cell];
 }
+
+/* Loops over the cells of a square, in their order, and over the faces of a cell. */
+#define KIRI_EACH_CELL(cell, grid, square)                                                                             \
+    for (int32_t cell = (grid)->squareCell.data[square]; cell != KIRI_NONE; cell = (grid)->cells.data[cell].next)
+#define KIRI_EACH_FACE(face, grid, cell)                                                                               \
+    for (int32_t face = (grid)->cells.data[cell].firstFace; face != KIRI_NONE;                                         \
+         face = kiriFace_Next(&(grid)->faces.data[face], cell))
 
 /* Compares in the order of cells: by square, then lowest triangle. */
 static inline bool kiriGrid_IsBefore(const kiriGrid* grid, int32_t a, int32_t b)

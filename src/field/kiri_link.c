@@ -117,7 +117,8 @@ static bool GatherFacesAt(const LinkUpdate* u, const kiriBorderFace* from, int32
             kiriBorderFace face = BorderFaceOf(u, f);
             bool sameWay = face.axis == from->axis && face.sign == from->sign;
             if (face.cell[0] == cell && face.region[1] == from->region[1] && (sameWay || mark != FACE_BENT) &&
-                kiriGrid_AreNear(u->grid, face.cell[1], from->cell[1])) {
+                (face.cell[1] == from->cell[1] ||
+                 kiriGrid_HasStep(u->grid, face.cell[1], from->cell[1], KIRI_DIAGONAL))) {
                 u->work->marks.data[f] = next;
                 if (!kiriArray_Push(u->memory, &u->work->order, f)) {
                     return false;
@@ -141,10 +142,9 @@ static bool GatherStretch(const LinkUpdate* u, int32_t face, uint8_t next)
     bool ok = kiriArray_Push(u->memory, found, face);
     for (int32_t k = 0; ok && k < found->count; ++k) {
         kiriBorderFace from = BorderFaceOf(u, found->data[k]);
-        kiriSteps steps = kiriGrid_GetSteps(u->grid, from.cell[0]);
         ok = GatherFacesAt(u, &from, from.cell[0], mark, next);
-        for (int32_t s = 0; ok && s < steps.end[1]; ++s) {
-            ok = GatherFacesAt(u, &from, kiriSteps_At(&steps, s).cell, mark, next);
+        KIRI_EACH_STEP(step, u->grid, from.cell[0], KIRI_DIAGONAL) {
+            ok = ok && GatherFacesAt(u, &from, step.cell, mark, next);
         }
     }
     if (!ok || !kiriArray_Resize(u->memory, &work->stretch, found->count)) {
@@ -188,17 +188,6 @@ static void AddEndRegion(kiriLinkEnd* end, int32_t region)
     }
 }
 
-static bool HasStraightStep(const kiriGrid* grid, int32_t from, int32_t to)
-{
-    kiriSteps steps = kiriGrid_GetSteps(grid, from);
-    for (int32_t s = 0; s < steps.end[0]; ++s) {
-        if (kiriSteps_At(&steps, s).cell == to) {
-            return true;
-        }
-    }
-    return false;
-}
-
 /* Finds the four cells around a node of the grid, the lower or upper end of a face, in a circle from the face's cells
    on. Faces join each to the next, and none is a sliver: no slit and no outline runs to the node. Where slits leave
    more than one ring the first in the order of cells counts, which is the order of steps. */
@@ -214,7 +203,7 @@ static bool FindRing(const LinkUpdate* u, const kiriFace* face, bool upper, int3
         for (int32_t t = 0; t < b.end[0]; ++t) {
             kiriStep to = kiriSteps_At(&a, s), beside = kiriSteps_At(&b, t);
             if ((axis == 0 ? to.u : to.v) == way && (axis == 0 ? beside.u : beside.v) == way &&
-                HasStraightStep(grid, to.cell, beside.cell) && !IsSliver(grid, to.cell) &&
+                kiriGrid_HasStep(grid, to.cell, beside.cell, KIRI_STRAIGHT) && !IsSliver(grid, to.cell) &&
                 !IsSliver(grid, beside.cell)) {
                 ring[0] = face->cell[0];
                 ring[1] = face->cell[1];
@@ -257,8 +246,8 @@ static bool FindBorderEnd(const LinkUpdate* u, const kiriBorderFace* face, bool 
 /* Returns true if the border has only slivers. Otherwise slivers do not determine its ends. */
 static bool HasOnlySlivers(const LinkUpdate* u)
 {
-    for (int32_t k = 0; k < u->work->stretch.count; ++k) {
-        if (!u->work->stretch.data[k].isSliver) {
+    KIRI_EACH(const kiriBorderFace, face, u->work->stretch) {
+        if (!face->isSliver) {
             return false;
         }
     }
@@ -359,9 +348,8 @@ static void AddRegionsAt(const LinkUpdate* u, NearRegions* near, const int32_t c
     AddRegion(u, near, cells[0]);
     AddRegion(u, near, cells[1]);
     for (int k = 0; k < around; ++k) {
-        kiriSteps steps = kiriGrid_GetSteps(u->grid, cells[k]);
-        for (int32_t s = 0; s < steps.end[2]; ++s) {
-            AddRegion(u, near, kiriSteps_At(&steps, s).cell);
+        KIRI_EACH_STEP(step, u->grid, cells[k], KIRI_KNIGHT) {
+            AddRegion(u, near, step.cell);
         }
     }
 }
@@ -380,9 +368,7 @@ static int32_t CellBefore(const LinkUpdate* u, int32_t cell)
     if (kiriSite_SeedAt(&u->sites[region], region, u->grid, u->mesh, cell).distance == distance) {
         return KIRI_NONE;
     }
-    kiriSteps steps = kiriGrid_GetSteps(u->grid, cell);
-    for (int32_t s = 0; s < steps.end[2]; ++s) {
-        kiriStep step = kiriSteps_At(&steps, s);
+    KIRI_EACH_STEP(step, u->grid, cell, KIRI_KNIGHT) {
         if (field->owner.data[step.cell] == region && field->distance.data[step.cell] + step.length == distance) {
             return step.cell;
         }
@@ -564,8 +550,8 @@ static kiriVec2 PointBefore(const EndSearch* s)
 {
     kiriVec2 best = { 0.0, 0.0 };
     double least = kiriFarAhead;
-    for (int32_t k = 0; k < s->u->work->stretch.count; ++k) {
-        kiriVec2 middle = s->u->work->stretch.data[k].stretch.middle;
+    KIRI_EACH(const kiriBorderFace, face, s->u->work->stretch) {
+        kiriVec2 middle = face->stretch.middle;
         double off = fabs(kiriVec2_Distance(middle, s->grid->at) - s->u->grid->side);
         if (off < least) {
             least = off;
@@ -859,8 +845,8 @@ static void SetSpurious(const LinkUpdate* u, kiriLink* link, kiriLinkEnds* ends)
 static bool IsAlongSlivers(const LinkUpdate* u)
 {
     double widest = 0.0;
-    for (int32_t k = 0; k < u->work->stretch.count; ++k) {
-        widest = kiriMax(u->work->stretch.data[k].stretch.width, widest);
+    KIRI_EACH(const kiriBorderFace, face, u->work->stretch) {
+        widest = kiriMax(face->stretch.width, widest);
     }
     bool isAlong = widest >= kiriSliver * u->grid->side, isNothing = widest < 1e-6 * u->grid->side;
     return (isAlong || isNothing) && HasOnlySlivers(u);
@@ -903,9 +889,7 @@ typedef struct SitesWay {
 static void TryLongSteps(const LinkUpdate* u, int32_t cell, int32_t to, SitesWay* way)
 {
     const kiriField* field = &u->regions->field;
-    kiriSteps steps = kiriGrid_GetSteps(u->grid, cell);
-    for (int32_t s = 0; s < steps.end[2]; ++s) {
-        kiriStep step = kiriSteps_At(&steps, s);
+    KIRI_EACH_STEP(step, u->grid, cell, KIRI_KNIGHT) {
         if (field->owner.data[step.cell] == to) {
             int32_t length = field->distance.data[cell] + step.length + field->distance.data[step.cell];
             if (length < way->length) {
@@ -921,8 +905,7 @@ static SitesWay FindGridWay(const LinkUpdate* u)
 {
     const int32_t* distance = u->regions->field.distance.data;
     SitesWay way = { KIRI_FAR, { 0.0, 0.0 }, KIRI_FAR, { KIRI_NONE, KIRI_NONE }, { 0.0, 0.0 } };
-    for (int32_t k = 0; k < u->work->stretch.count; ++k) {
-        const kiriBorderFace* face = &u->work->stretch.data[k];
+    KIRI_EACH(const kiriBorderFace, face, u->work->stretch) {
         int32_t length = distance[face->cell[0]] + KIRI_UNIT + distance[face->cell[1]];
         if (length < way.overFaces) {
             way.overFaces = length;
@@ -998,15 +981,13 @@ static void SetMoments(const LinkUpdate* u, kiriLink* link)
 {
     double normal[2] = { link->normal.x, link->normal.y }, total = 0.0;
     kiriVec2 first = { 0.0, 0.0 };
-    for (int32_t k = 0; k < u->work->stretch.count; ++k) {
-        const kiriBorderFace* face = &u->work->stretch.data[k];
+    KIRI_EACH(const kiriBorderFace, face, u->work->stretch) {
         double weight = face->stretch.width * fabs(normal[face->axis]);
         total += weight;
         first = kiriVec2_AddScaled(first, weight, face->stretch.middle);
     }
     link->centroid = kiriVec2_Scale(1.0 / total, first);
-    for (int32_t k = 0; k < u->work->stretch.count; ++k) {
-        const kiriBorderFace* face = &u->work->stretch.data[k];
+    KIRI_EACH(const kiriBorderFace, face, u->work->stretch) {
         /* The side's direction along the tangent is as its normal along the normal. */
         double share = fabs(normal[face->axis]);
         double s = kiriVec2_Dot(kiriVec2_Sub(face->stretch.middle, link->centroid), link->tangent);
@@ -1017,8 +998,7 @@ static void SetMoments(const LinkUpdate* u, kiriLink* link)
 /* Sets the spread about the centroid. */
 static void SetSpread(const LinkUpdate* u, kiriLink* link)
 {
-    for (int32_t k = 0; k < u->work->stretch.count; ++k) {
-        const kiriBorderFace* face = &u->work->stretch.data[k];
+    KIRI_EACH(const kiriBorderFace, face, u->work->stretch) {
         kiriVec2 arm = kiriVec2_Sub(face->stretch.middle, link->centroid);
         double along = face->sign * face->stretch.width;
         kiriVec2 normal = { face->axis == 0 ? along : 0.0, face->axis == 0 ? 0.0 : along };
@@ -1072,16 +1052,15 @@ static bool MakeLink(const LinkUpdate* u, bool isPart)
     kiriLinkWork* work = u->work;
     double n[2] = { 0.0, 0.0 }, sum = 0.0;
     KIRI_ASSERT(work->stretch.count > 0);
-    for (int32_t k = 0; k < work->stretch.count; ++k) {
-        const kiriBorderFace* face = &work->stretch.data[k];
+    KIRI_EACH(const kiriBorderFace, face, work->stretch) {
         n[face->axis] += face->sign * face->stretch.width;
         sum += face->stretch.width;
     }
     kiriVec2 normal = { n[0], n[1] };
     double width = kiriVec2_Length(normal);
     if (!isPart && width < 0.5 * sum) {
-        for (int32_t k = 0; k < work->stretch.count; ++k) {
-            work->marks.data[work->stretch.data[k].face] = FACE_BENT;
+        KIRI_EACH(const kiriBorderFace, face, work->stretch) {
+            work->marks.data[face->face] = FACE_BENT;
         }
         return true;
     }
@@ -1196,9 +1175,8 @@ static bool IsLinked(const LinkUpdate* u, int32_t i, int32_t j, int32_t first)
 static bool MakeShortLinksAt(const LinkUpdate* u, const kiriLinkEnd* end, int32_t cell, int32_t first)
 {
     int32_t last = KIRI_NONE;
-    kiriSteps steps = kiriGrid_GetSteps(u->grid, cell);
-    for (int32_t s = 0; s < steps.end[2]; ++s) {
-        int32_t cells[2] = { cell, kiriSteps_At(&steps, s).cell }, i = u->owner[cell], j = u->owner[cells[1]];
+    KIRI_EACH_STEP(step, u->grid, cell, KIRI_KNIGHT) {
+        int32_t cells[2] = { cell, step.cell }, i = u->owner[cell], j = u->owner[cells[1]];
         kiriNewLink made;
         if (j > i && j != last) {
             last = j;
@@ -1461,9 +1439,8 @@ static bool ListFaces(const LinkUpdate* u, int32_t region)
     bool isDirty = regions->dirty.data[region];
     int32_t cell = regions->border.first.data[region];
     for (; cell != KIRI_NONE; cell = regions->border.cells.data[cell].next) {
-        kiriSteps steps = kiriGrid_GetSteps(u->grid, cell);
-        for (int32_t s = 0; isDirty && s < steps.end[2]; ++s) {
-            u->work->stale.data[u->owner[kiriSteps_At(&steps, s).cell]] |= REGION_STALE;
+        KIRI_EACH_STEP(step, u->grid, cell, KIRI_KNIGHT) {
+            u->work->stale.data[u->owner[step.cell]] |= isDirty ? REGION_STALE : 0;
         }
         for (int32_t f = u->grid->cells.data[cell].firstFace; f != KIRI_NONE;) {
             const kiriFace* face = &u->grid->faces.data[f];
@@ -1561,8 +1538,8 @@ static kiriProgress RunLinks(const LinkUpdate* u, kiriQuota* quota)
 
 static void EndLinks(kiriLinkWork* work)
 {
-    for (int32_t k = 0; work->running && k < work->faces.count; ++k) {
-        work->marks.data[work->faces.data[k]] = FACE_PASSED;
+    KIRI_EACH_WHILE(work->running, const int32_t, listed, work->faces) {
+        work->marks.data[*listed] = FACE_PASSED;
     }
     work->running = false;
 }
@@ -1622,8 +1599,8 @@ bool kiriLinks_Keep(kiriLinks* links, kiriMemory* memory, const kiriKeep* kept, 
             ok = kiriArray_Push(memory, &links->next, link) && kiriArray_Push(memory, &work->nextEnds, ends);
         }
     }
-    for (int32_t c = 0; ok && c < links->corners.count; ++c) {
-        kiriCorner corner = links->corners.data[c];
+    KIRI_EACH_WHILE(ok, const kiriCorner, old, links->corners) {
+        kiriCorner corner = *old;
         if (kiriKeep_Has(kept, corner.link[0])) {
             for (int32_t k = 0; k < corner.count; ++k) {
                 corner.link[k] = kiriKeep_To(kept, corner.link[k]);

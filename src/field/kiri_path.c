@@ -39,8 +39,8 @@ bool kiriSightEdges_Start(kiriSightEdges* edges, const kiriMeshData* mesh)
     for (int32_t s = old; s < squares; ++s) {
         edges->listed.data[s] = KIRI_NONE;
     }
-    for (int32_t k = 0; k < edges->squares.count; ++k) {
-        edges->listed.data[edges->squares.data[k].square] = KIRI_NONE;
+    KIRI_EACH(const kiriSquareEdges, square, edges->squares) {
+        edges->listed.data[square->square] = KIRI_NONE;
     }
     edges->squares.count = edges->edges.count = 0;
     edges->failed = false;
@@ -69,7 +69,7 @@ static bool CollectEdges(const kiriSight* sight, int32_t square)
     kiriSightEdges* edges = sight->edges;
     kiriSquareEdges entry = { square, { edges->edges.count, 0 } };
     bool ok = true;
-    for (int32_t n = mesh->squares.head[square]; n != KIRI_NONE; n = mesh->squares.nodes.data[n].next) {
+    KIRI_EACH_NODE(n, &mesh->squares, square) {
         int32_t first = 3 * mesh->squares.nodes.data[n].triangle;
         for (int32_t h = first; ok && h < first + 3; ++h) {
             ok = !IsMaterialEdge(mesh, h) || AddSightEdge(sight, square, h, sight->grid->nodeCell.data[n]);

@@ -48,13 +48,7 @@ kiriSeed kiriSite_SeedAt(const kiriSite* site, int32_t owner, const kiriGrid* gr
     apart = kiriMax(apart, -apart) + 2;
     bool isClose =
         apart <= 4 || (apart >= columns && apart <= columns + 4) || (apart >= 2 * columns && apart <= 2 * columns + 4);
-    bool near = cell == site->cell;
-    if (isClose && !near) {
-        kiriSteps steps = kiriGrid_GetSteps(grid, cell);
-        for (int32_t s = 0; s < steps.end[2] && !near; ++s) {
-            near = kiriSteps_At(&steps, s).cell == site->cell;
-        }
-    }
+    bool near = cell == site->cell || (isClose && kiriGrid_HasStep(grid, cell, site->cell, KIRI_KNIGHT));
     return near ? SeedNear(site, owner, grid, mesh, cell) : (kiriSeed){ cell, KIRI_FAR, KIRI_NONE };
 }
 
@@ -81,9 +75,8 @@ static kiriSeed NearestSiteSeed(const void* context, int32_t cell)
     if (siteAt[cell] != KIRI_NONE) {
         return SeedNear(&u->sites[siteAt[cell]], siteAt[cell], u->grid, u->mesh, cell);
     }
-    kiriSteps steps = kiriGrid_GetSteps(u->grid, cell);
-    for (int32_t s = 0; s < steps.end[2]; ++s) {
-        int32_t owner = siteAt[kiriSteps_At(&steps, s).cell];
+    KIRI_EACH_STEP(step, u->grid, cell, KIRI_KNIGHT) {
+        int32_t owner = siteAt[step.cell];
         if (owner != KIRI_NONE) {
             kiriSeed seed = SeedNear(&u->sites[owner], owner, u->grid, u->mesh, cell);
             bool nearer = seed.distance < best.distance || (seed.distance == best.distance && owner < best.owner);
@@ -148,10 +141,9 @@ static void SetBorder(kiriRegions* regions, int32_t cell, bool isBorder)
 static void MarkDirtyAround(const RegionUpdate* u, int32_t cell)
 {
     if (cell != KIRI_NONE && kiriGrid_IsCell(u->grid, cell)) {
-        kiriSteps steps = kiriGrid_GetSteps(u->grid, cell);
         kiriField_MarkStepsDirty(&u->regions->field, cell);
-        for (int32_t s = 0; s < steps.end[2]; ++s) {
-            kiriField_MarkStepsDirty(&u->regions->field, kiriSteps_At(&steps, s).cell);
+        KIRI_EACH_STEP(step, u->grid, cell, KIRI_KNIGHT) {
+            kiriField_MarkStepsDirty(&u->regions->field, step.cell);
         }
     }
 }
@@ -217,10 +209,10 @@ static bool StartRegionFlood(const RegionUpdate* u)
     for (int32_t i = 0; ok && i < u->siteCount; ++i) {
         ok = kiriSite_Seed(&u->sites[i], i, u->memory, u->grid, u->mesh, &seeds);
     }
-    for (int32_t k = 0; ok && k < seeds.count; ++k) {
-        int32_t holder = u->regions->siteAt.data[seeds.data[k].cell];
-        if (holder == KIRI_NONE || holder == seeds.data[k].owner) {
-            seeds.data[kept++] = seeds.data[k];
+    KIRI_EACH_WHILE(ok, const kiriSeed, seed, seeds) {
+        int32_t holder = u->regions->siteAt.data[seed->cell];
+        if (holder == KIRI_NONE || holder == seed->owner) {
+            seeds.data[kept++] = *seed;
         }
     }
     ok = ok && kiriField_Start(&u->regions->field, u->memory, seeds.data, kept);
@@ -232,11 +224,10 @@ static bool StartRegionFlood(const RegionUpdate* u)
 
 static void FindBorder(const RegionUpdate* u, int32_t cell)
 {
-    kiriSteps steps = kiriGrid_GetSteps(u->grid, cell);
     const int32_t* owner = u->regions->field.owner.data;
     bool border = false;
-    for (int32_t s = 0; s < steps.end[2]; ++s) {
-        border |= owner[kiriSteps_At(&steps, s).cell] != owner[cell];
+    KIRI_EACH_STEP(step, u->grid, cell, KIRI_KNIGHT) {
+        border |= owner[step.cell] != owner[cell];
     }
     SetBorder(u->regions, cell, border);
 }
@@ -244,11 +235,10 @@ static void FindBorder(const RegionUpdate* u, int32_t cell)
 /* Finds the borders around a cell that has another owner. */
 static void FindBordersAround(const RegionUpdate* u, int32_t cell)
 {
-    kiriSteps steps = kiriGrid_GetSteps(u->grid, cell);
     const int32_t* owner = u->regions->field.owner.data;
     FindBorder(u, cell);
-    for (int32_t s = 0; s < steps.end[2]; ++s) {
-        int32_t next = kiriSteps_At(&steps, s).cell;
+    KIRI_EACH_STEP(step, u->grid, cell, KIRI_KNIGHT) {
+        int32_t next = step.cell;
         if (owner[next] != owner[cell]) {
             SetBorder(u->regions, next, true);
         } else if (u->regions->onBorder.data[next]) {
@@ -297,8 +287,8 @@ static bool FinishRepair(const RegionUpdate* u)
     for (int32_t k = r->seen.steps; k < changes->steps.count; ++k) {
         FindBorder(u, changes->steps.data[k]);
     }
-    for (int32_t k = 0; k < r->orphans.count; ++k) {
-        int32_t cell = r->orphans.data[k];
+    KIRI_EACH(const int32_t, orphan, r->orphans) {
+        int32_t cell = *orphan;
         r->orphans.data[orphans] = cell;
         orphans += kiriGrid_IsCell(u->grid, cell) && r->field.owner.data[cell] == KIRI_NONE;
     }
@@ -310,8 +300,8 @@ static bool FinishRepair(const RegionUpdate* u)
         }
     }
     kiriGrid_SortCells(u->grid, r->orphans.data, r->orphans.count);
-    for (int32_t k = 0; k < r->changes.count; ++k) {
-        kiriSeed was = r->changes.data[k];
+    KIRI_EACH(const kiriSeed, change, r->changes) {
+        kiriSeed was = *change;
         bool same = was.distance == r->field.distance.data[was.cell] && was.owner == r->field.owner.data[was.cell];
         bool isKept = !same && kiriGrid_IsCell(u->grid, was.cell);
         r->isChanged.data[was.cell] = isKept;
@@ -329,7 +319,7 @@ static bool FinishFlood(const RegionUpdate* u)
     kiriRegions* r = u->regions;
     r->orphans.count = 0;
     for (int32_t s = 0; s < u->grid->squareCell.count; ++s) {
-        for (int32_t c = u->grid->squareCell.data[s]; c != KIRI_NONE; c = u->grid->cells.data[c].next) {
+        KIRI_EACH_CELL(c, u->grid, s) {
             kiriSeed was = { c, KIRI_FAR, KIRI_NONE };
             int32_t owner = r->field.owner.data[c];
             KIRI_ASSERT(owner >= KIRI_NONE && owner < u->siteCount);
@@ -432,8 +422,8 @@ void kiriRegions_Keep(kiriRegions* regions, const kiriKeep* frames, const int32_
 
 void kiriRegions_ClearChanges(kiriRegions* regions)
 {
-    for (int32_t k = 0; k < regions->changes.count; ++k) {
-        regions->isChanged.data[regions->changes.data[k].cell] = 0;
+    KIRI_EACH(const kiriSeed, change, regions->changes) {
+        regions->isChanged.data[change->cell] = 0;
     }
     regions->changes.count = 0;
     regions->seen = (kiriSeenChanges){ 0, 0, 0, 0, 0 };

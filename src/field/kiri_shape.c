@@ -51,9 +51,7 @@ static int32_t FarthestFor(const ShapeJob* job, int32_t x)
     int64_t farthest = distance[x];
     KIRI_ASSERT(owner[x] != KIRI_NONE && distance[x] < KIRI_FAR);
     if (job->regions->onBorder.data[x]) {
-        kiriSteps steps = kiriGrid_GetSteps(job->grid, x);
-        for (int32_t s = 0; s < steps.end[2]; ++s) {
-            kiriStep step = kiriSteps_At(&steps, s);
+        KIRI_EACH_STEP(step, job->grid, x, KIRI_KNIGHT) {
             int64_t over = (int64_t)distance[x] + step.length + distance[step.cell];
             farthest = owner[step.cell] != owner[x] ? kiriMax(over, farthest) : farthest;
         }
@@ -102,17 +100,6 @@ static void CountCell(ShapeJob* job, int32_t cell)
     CountFor(job, cell, is);
 }
 
-/* Returns the limit of the distances of the frame. */
-static int32_t FindLimit(const ShapeJob* job)
-{
-    const kiriSpan span = job->work->frames.data[job->frame].sides;
-    int64_t sides = span.count;
-    while (sides > 1 && job->work->sideCounts.data[span.first + sides - 1] == 0) {
-        --sides;
-    }
-    return sides < 1 ? KIRI_UNIT : (int32_t)kiriMin(sides * KIRI_UNIT, KIRI_FAR - 1);
-}
-
 /* ---- Algorithm 2: seeds and weights ------------------------------------------------------------------------------ */
 
 static bool IsInRegion(const ShapeJob* job, int32_t cell)
@@ -137,9 +124,7 @@ static kiriSeed BorderSeed(const void* context, int32_t x)
     const int32_t* distance = job->regions->field.distance.data;
     kiriSeed seed = { x, KIRI_FAR, KIRI_NONE };
     if (job->regions->onBorder.data[x] && job->work->fromSite.distance.data[x] != KIRI_FAR) {
-        kiriSteps steps = kiriGrid_GetSteps(job->grid, x);
-        for (int32_t s = 0; s < steps.end[2]; ++s) {
-            kiriStep step = kiriSteps_At(&steps, s);
+        KIRI_EACH_STEP(step, job->grid, x, KIRI_KNIGHT) {
             if (IsInRegion(job, step.cell) != IsInRegion(job, x)) {
                 int32_t half = (distance[step.cell] + step.length - distance[x] + 1) / 2;
                 seed.distance = kiriMin(half, seed.distance);
@@ -240,7 +225,7 @@ static void AddRigid(ShapeJob* job, int32_t cell, int64_t share)
     kiriShape* shape = job->shape;
     kiriSpan span = shape->spans.data[cell];
     double sum = kiriShape_Sum(shape, span);
-    for (int32_t k = span.first; k < span.first + span.count; ++k) {
+    KIRI_EACH_IN(k, span) {
         const kiriCellWeight* weight = &shape->weights.data[k];
         if (kiriCellWeight_Raw(weight) / sum > shape->rigidWeight) {
             shape->rigid.data[weight->frame] += share;
@@ -292,10 +277,9 @@ static bool MarkRegion(ShapeJob* job, int32_t item)
 /* Counts how far distances have to go for the sake of a cell that has changed, and of the cells beside it. */
 static void CountAround(ShapeJob* job, int32_t cell)
 {
-    kiriSteps steps = kiriGrid_GetSteps(job->grid, cell);
     CountCell(job, cell);
-    for (int32_t s = 0; s < steps.end[2]; ++s) {
-        int32_t beside = kiriSteps_At(&steps, s).cell;
+    KIRI_EACH_STEP(step, job->grid, cell, KIRI_KNIGHT) {
+        int32_t beside = step.cell;
         if ((job->work->marks.data[beside] & (MARK_STEPS | MARK_REGION)) == 0) {
             CountCell(job, beside);
         }
@@ -347,9 +331,8 @@ static void LoadAround(const void* context, int32_t cell)
     const ShapeJob* job = context;
     uint8_t* mark = &job->work->marks.data[cell];
     if ((*mark & MARK_SEEN) == 0) {
-        kiriSteps steps = kiriGrid_GetSteps(job->grid, cell);
-        for (int32_t s = 0; s < steps.end[2]; ++s) {
-            LoadBlock(job, kiriReach_BlockOf(kiriSteps_At(&steps, s).cell));
+        KIRI_EACH_STEP(step, job->grid, cell, KIRI_KNIGHT) {
+            LoadBlock(job, kiriReach_BlockOf(step.cell));
         }
         *mark |= MARK_SEEN;
     }
@@ -368,9 +351,8 @@ static void MarkBorderSeedsDirty(ShapeJob* job, int32_t cell)
     } else if (!job->regions->onBorder.data[cell]) {
         return;
     }
-    kiriSteps steps = kiriGrid_GetSteps(job->grid, cell);
-    for (int32_t s = 0; s < steps.end[2]; ++s) {
-        int32_t beside = kiriSteps_At(&steps, s).cell;
+    KIRI_EACH_STEP(step, job->grid, cell, KIRI_KNIGHT) {
+        int32_t beside = step.cell;
         if (turned || IsInRegion(job, beside) != inside) {
             kiriField_MarkStepsDirty(field, cell);
             kiriField_MarkStepsDirty(field, beside);
@@ -386,9 +368,8 @@ static void MarkStepsAround(ShapeJob* job, int32_t cell)
     kiriField_MarkStepsDirty(&work->fromSite, cell);
     kiriField_MarkStepsDirty(&work->fromBorder, cell);
     LoadAround(job, cell);
-    kiriSteps steps = kiriGrid_GetSteps(job->grid, cell);
-    for (int32_t s = 0; s < steps.end[2]; ++s) {
-        int32_t beside = kiriSteps_At(&steps, s).cell;
+    KIRI_EACH_STEP(step, job->grid, cell, KIRI_KNIGHT) {
+        int32_t beside = step.cell;
         if (work->fromSite.distance.data[beside] == KIRI_FAR && (work->marks.data[beside] & MARK_STEPS) != 0) {
             kiriField_MarkStepsDirty(&work->fromSite, beside);
         }
@@ -456,9 +437,8 @@ static void LoadChanges(ShapeJob* job, int32_t limit)
     }
     if ((work->marks.data[cell] & MARK_STEPS) != 0) {
         LoadAround(job, cell);
-        kiriSteps steps = kiriGrid_GetSteps(job->grid, cell);
-        for (int32_t s = 0; s < steps.end[2]; ++s) {
-            kiriField_MarkStepsDirty(&work->fromSite, kiriSteps_At(&steps, s).cell);
+        KIRI_EACH_STEP(step, job->grid, cell, KIRI_KNIGHT) {
+            kiriField_MarkStepsDirty(&work->fromSite, step.cell);
         }
     }
 }
@@ -470,14 +450,18 @@ static bool StartFromSite(ShapeJob* job)
     kiriShapeWork* work = job->work;
     kiriShapeFrame* frame = &work->frames.data[job->frame];
     const kiriReaches* reaches = &job->shape->reaches;
-    int32_t limit = FindLimit(job);
+    int64_t sides = frame->sides.count;
+    while (sides > 1 && work->sideCounts.data[frame->sides.first + sides - 1] == 0) {
+        --sides;
+    }
+    int32_t limit = sides < 1 ? KIRI_UNIT : (int32_t)kiriMin(sides * KIRI_UNIT, KIRI_FAR - 1);
     work->seeds.count = 0;
     if (!kiriSite_Seed(&job->sites[job->frame], KIRI_NONE, job->memory, job->grid, job->mesh, &work->seeds)) {
         return false;
     }
-    for (int32_t k = 0; k < work->seeds.count; ++k) {
-        work->marks.data[work->seeds.data[k].cell] |= MARK_SEED;
-        LoadBlock(job, kiriReach_BlockOf(work->seeds.data[k].cell));
+    KIRI_EACH(const kiriSeed, seed, work->seeds) {
+        work->marks.data[seed->cell] |= MARK_SEED;
+        LoadBlock(job, kiriReach_BlockOf(seed->cell));
     }
     if (!frame->moved) {
         LoadChanges(job, limit);
@@ -516,8 +500,8 @@ static bool StartFromBorder(ShapeJob* job)
     }
     work->seeds.count = 0;
     work->debt += work->fromSite.settled.count / SEEDED_AN_ITEM;
-    for (int32_t k = 0; k < work->fromSite.settled.count; ++k) {
-        kiriSeed seed = BorderSeed(job, work->fromSite.settled.data[k]);
+    KIRI_EACH(const int32_t, cell, work->fromSite.settled) {
+        kiriSeed seed = BorderSeed(job, *cell);
         if (seed.distance < KIRI_FAR && !kiriArray_Push(job->memory, &work->seeds, seed)) {
             return false;
         }
@@ -764,24 +748,24 @@ static void EndShapeUpdate(ShapeJob* job)
     uint8_t* marks = job->work->marks.data;
     const uint8_t kept = (uint8_t) ~(MARK_STEPS | MARK_GONE | MARK_REGION);
     int32_t count = 0;
-    for (int32_t k = 0; k < changes->steps.count; ++k) {
-        marks[changes->steps.data[k]] &= kept;
+    KIRI_EACH(const int32_t, at, changes->steps) {
+        marks[*at] &= kept;
     }
-    for (int32_t k = 0; k < job->regions->changes.count; ++k) {
-        marks[job->regions->changes.data[k].cell] &= kept;
+    KIRI_EACH(const kiriSeed, change, job->regions->changes) {
+        marks[change->cell] &= kept;
     }
-    for (int32_t k = 0; k < shape->changes.count; ++k) {
-        int32_t cell = shape->changes.data[k];
+    KIRI_EACH(const int32_t, changed, shape->changes) {
+        int32_t cell = *changed;
         if ((marks[cell] & MARK_GONE) == 0) {
             shape->changes.data[count++] = cell;
         }
     }
     shape->changes.count = count;
-    for (int32_t k = 0; k < changes->gone.count; ++k) {
-        marks[changes->gone.data[k]] = 0;
+    KIRI_EACH(const int32_t, at, changes->gone) {
+        marks[*at] = 0;
     }
-    for (int32_t k = 0; k < job->work->dirtyFrames.count; ++k) {
-        kiriShapeFrame* frame = &job->work->frames.data[job->work->dirtyFrames.data[k]];
+    KIRI_EACH(const int32_t, dirty, job->work->dirtyFrames) {
+        kiriShapeFrame* frame = &job->work->frames.data[*dirty];
         frame->firstTouch = KIRI_NONE;
         frame->moved = frame->dirty = false;
     }
@@ -855,7 +839,7 @@ void kiriShape_Keep(kiriShape* shape, kiriMemory* memory, const kiriKeep* frames
     kiriReaches_Keep(&shape->reaches, frames);
     for (int32_t c = 0; kiriKeep_Moves(frames) && c < shape->spans.count; ++c) {
         kiriSpan span = shape->spans.data[c];
-        for (int32_t k = span.first; k < span.first + span.count; ++k) {
+        KIRI_EACH_IN(k, span) {
             shape->weights.data[k].frame = kiriKeep_To(frames, shape->weights.data[k].frame);
             KIRI_ASSERT(shape->weights.data[k].frame != KIRI_NONE);
         }
@@ -879,8 +863,8 @@ void kiriShape_DropScratch(kiriShape* shape, kiriMemory* memory)
 void kiriShape_ClearChanges(kiriShape* shape)
 {
     KIRI_ASSERT(shape->work == NULL || !shape->work->running);
-    for (int32_t k = 0; k < shape->changes.count; ++k) {
-        shape->work->marks.data[shape->changes.data[k]] &= (uint8_t) ~(MARK_CHANGED | MARK_RECOMPUTED);
+    KIRI_EACH(const int32_t, cell, shape->changes) {
+        shape->work->marks.data[*cell] &= (uint8_t) ~(MARK_CHANGED | MARK_RECOMPUTED);
     }
     shape->changes.count = 0;
     shape->recomputed = 0;

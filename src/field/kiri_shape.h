@@ -60,7 +60,7 @@ typedef struct kiriShape {
 static inline double kiriShape_Sum(const kiriShape* shape, kiriSpan span)
 {
     double sum = 0.0;
-    for (int32_t k = span.first; k < span.first + span.count; ++k) {
+    KIRI_EACH_IN(k, span) {
         sum += kiriCellWeight_Raw(&shape->weights.data[k]);
     }
     return sum;

@@ -71,7 +71,8 @@ static int32_t CellAlong(const kiriGrid* grid, const kiriMeshData* mesh, const k
     for (int32_t k = 1; k <= parts && cell != KIRI_NONE; ++k) {
         kiriVec2 at = kiriVec2_AddScaled(end->at, (double)k / parts, way);
         int32_t next = kiriGrid_CellAt(grid, mesh, kiriMesh_Snap(mesh, at));
-        cell = next != KIRI_NONE && kiriGrid_AreNear(grid, cell, next) ? next : KIRI_NONE;
+        cell =
+            next != KIRI_NONE && (cell == next || kiriGrid_HasStep(grid, cell, next, KIRI_DIAGONAL)) ? next : KIRI_NONE;
     }
     return cell;
 }
@@ -91,8 +92,8 @@ static bool TryPair(kiriSites* sites, const kiriGrid* grid, const kiriMeshData* 
         kiriVec2 left = kiriVec2_Make(-reach * end->along.y, reach * end->along.x);
         kiriVec2 way = k == 0 ? left : kiriVec2_Scale(-1.0, left);
         pair[k] = (kiriSite){ kiriVec2_Add(end->at, way), CellAlong(grid, mesh, end, way) };
-        for (int32_t i = 0; i < sites->count && pair[k].cell != KIRI_NONE; ++i) {
-            if (sites->data[i].cell == pair[k].cell || SquaredDistance(pair[k].at, sites->data[i].at) < reach * reach) {
+        KIRI_EACH_WHILE(pair[k].cell != KIRI_NONE, const kiriSite, site, *sites) {
+            if (site->cell == pair[k].cell || SquaredDistance(pair[k].at, site->at) < reach * reach) {
                 return false;
             }
         }
@@ -112,10 +113,10 @@ bool kiriSlits_AddPairs(kiriSites* sites, kiriMemory* memory, const kiriGrid* gr
     if (!kiriArray_Reserve(memory, sites, most)) {
         return false;
     }
-    for (int32_t i = 0; i < ends->count && sites->count + 2 <= most; ++i) {
+    KIRI_EACH_WHILE(sites->count + 2 <= most, const kiriSlitEnd, slit, *ends) {
         /* Half the spacing to both sides, or less, but no less than a square. */
         double reach = kiriMax(0.5 * spacing, grid->side);
-        while (!TryPair(sites, grid, mesh, &ends->data[i], reach) && reach > grid->side) {
+        while (!TryPair(sites, grid, mesh, slit, reach) && reach > grid->side) {
             reach = kiriMax(0.5 * reach, grid->side);
         }
     }
@@ -145,8 +146,8 @@ static bool TakeCell(kiriPlacer* placer, kiriMemory* memory, int32_t cell)
 
 static void ClearTakenMarks(kiriPlacer* placer)
 {
-    for (int32_t k = 0; placer->work->isTaking && k < placer->cells.count; ++k) {
-        placer->work->marks.data[placer->cells.data[k]] = 0;
+    KIRI_EACH_WHILE(placer->work->isTaking, const int32_t, at, placer->cells) {
+        placer->work->marks.data[*at] = 0;
     }
     placer->work->isTaking = false;
 }
@@ -182,7 +183,7 @@ static void OrderPiece(kiriPlacer* placer, const kiriGrid* grid)
         return;
     }
     for (int32_t square = first; square <= last; ++square) {
-        for (int32_t c = grid->squareCell.data[square]; c != KIRI_NONE; c = grid->cells.data[c].next) {
+        KIRI_EACH_CELL(c, grid, square) {
             if (placer->work->marks.data[c]) {
                 *cells++ = c;
             }
@@ -199,12 +200,11 @@ kiriProgress kiriPlacer_GoOnWithPiece(kiriPlacer* placer, kiriMemory* memory, co
         return KIRI_DONE;
     }
     for (int32_t* k = &placer->work->cursor; *k < placer->cells.count; ++*k) {
-        kiriSteps steps = kiriGrid_GetSteps(grid, placer->cells.data[*k]);
         if (*k % CELLS_AN_ITEM == 0 && !kiriQuota_Take(quota, 1)) {
             return KIRI_MORE;
         }
-        for (int32_t s = 0; s < steps.end[0]; ++s) {
-            if (!TakeCell(placer, memory, kiriSteps_At(&steps, s).cell)) {
+        KIRI_EACH_STEP(step, grid, placer->cells.data[*k], KIRI_STRAIGHT) {
+            if (!TakeCell(placer, memory, step.cell)) {
                 return KIRI_FAILED;
             }
         }
@@ -280,10 +280,10 @@ static bool StartFlood(PlacerJob* job, kiriField* field, int32_t first, int32_t 
             return false;
         }
     }
-    for (int32_t k = 0; k < seeds->count; ++k) {
-        int32_t holds = job->work->holds.data[seeds->data[k].cell];
-        if (holds < 0 || holds == seeds->data[k].owner) {
-            seeds->data[kept++] = seeds->data[k];
+    KIRI_EACH(const kiriSeed, seed, *seeds) {
+        int32_t holds = job->work->holds.data[seed->cell];
+        if (holds < 0 || holds == seed->owner) {
+            seeds->data[kept++] = *seed;
         }
     }
     return kiriField_Start(field, job->memory, seeds->data, kept);
@@ -334,13 +334,6 @@ static int64_t ClosenessAt(const kiriPlacerWork* work, int32_t cell)
 
 /* ---- Sampling ---------------------------------------------------------------------------------------------------- */
 
-static int64_t SampledDistance(const kiriPlacerWork* work, int32_t cell)
-{
-    KIRI_ASSERT(cell >= 0 && cell < work->sampled.count);
-    int64_t old = OldDistance(work, cell), sampled = work->sampled.data[cell];
-    return kiriMin(old, sampled) * ClosenessAt(work, cell);
-}
-
 /* Finds the farthest free cell of a block, and returns the items for it. In a part without a site all cells are equally
    far, and the first one is taken: relaxation moves the site on. */
 static int32_t LookAtBlock(PlacerJob* job, SampleBlock* block)
@@ -353,7 +346,8 @@ static int32_t LookAtBlock(PlacerJob* job, SampleBlock* block)
     for (int32_t i = first; i < end; ++i) {
         int32_t cell = placer->cells.data[i];
         if (job->work->holds.data[cell] == CELL_FREE) {
-            int64_t distance = SampledDistance(job->work, cell);
+            int64_t old = OldDistance(job->work, cell), sampled = job->work->sampled.data[cell];
+            int64_t distance = kiriMin(old, sampled) * ClosenessAt(job->work, cell);
             bool isCovered = distance >= block->distance && IsMostlyCovered(job->grid, cell);
             if (distance > block->distance || (distance == block->distance && isCovered && !block->isCovered)) {
                 *block = (SampleBlock){ distance, cell, placer->sites.count, isCovered };
@@ -673,8 +667,8 @@ static bool StartEnds(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* gr
     work->reach = (int64_t)(CLOSENESS * KIRI_UNIT * kiriMin(reach, most));
     work->closest = (int32_t)(CLOSENESS * placer->closeness + 0.5);
     work->seeds.count = 0;
-    for (int32_t k = 0; k < placer->ends.count; ++k) {
-        kiriSeed seed = { placer->ends.data[k].cell, 0, 0 };
+    KIRI_EACH(const kiriSlitEnd, end, placer->ends) {
+        kiriSeed seed = { end->cell, 0, 0 };
         if (!kiriArray_Push(memory, &work->seeds, seed)) {
             return false;
         }
@@ -718,8 +712,8 @@ bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* gr
         return false;
     }
     /* Only cells of the part are ever read from `sampled` and `holds`: floods do not leave it. */
-    for (int32_t k = 0; k < placer->cells.count; ++k) {
-        int32_t cell = placer->cells.data[k];
+    KIRI_EACH(const int32_t, at, placer->cells) {
+        int32_t cell = *at;
         work->sampled.data[cell] = KIRI_FAR;
         work->holds.data[cell] = allowed == NULL || allowed[cell] ? CELL_FREE : CELL_BARRED;
     }
@@ -728,8 +722,8 @@ bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* gr
         KIRI_ASSERT(*holds < 0); /* two sites in a cell */
         *holds = i;
     }
-    for (int32_t b = 0; b < work->blocks.count; ++b) {
-        work->blocks.data[b] = (SampleBlock){ INT64_MAX, KIRI_NONE, -1, true };
+    KIRI_EACH(SampleBlock, block, work->blocks) {
+        *block = (SampleBlock){ INT64_MAX, KIRI_NONE, -1, true };
     }
     work->targets.data[0] = (SiteTarget){ .cell = KIRI_NONE };
     work->cursor = work->round = 0;

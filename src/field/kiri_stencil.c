@@ -278,12 +278,12 @@ static bool GatherFrames(kiriStencil* stencil, kiriMemory* memory, const kiriSha
         stencil->columns.data[f] = 0;
     }
     stencil->frames.count = 0;
-    for (int32_t k = 0; k < stencil->steps.count; ++k) {
-        kiriSpan span = shape->spans.data[stencil->steps.data[k].cell];
+    KIRI_EACH(const kiriStep, step, stencil->steps) {
+        kiriSpan span = shape->spans.data[step->cell];
         if (!kiriArray_Reserve(memory, &stencil->frames, (int64_t)stencil->frames.count + span.count)) {
             return false;
         }
-        for (int32_t w = span.first; w < span.first + span.count; ++w) {
+        KIRI_EACH_IN(w, span) {
             int32_t frame = shape->weights.data[w].frame;
             int32_t at = stencil->frames.count;
             KIRI_ASSERT(frame >= 0 && frame < stencil->columns.count);
@@ -316,7 +316,7 @@ static bool GatherWeights(kiriStencil* stencil, kiriMemory* memory, const kiriSh
         for (int32_t i = 0; i < count; ++i) {
             weights[i] = 0.0;
         }
-        for (int32_t w = span.first; w < span.first + span.count; ++w) {
+        KIRI_EACH_IN(w, span) {
             int32_t frame = shape->weights.data[w].frame;
             weights[stencil->columns.data[frame] - 1] = kiriCellWeight_Raw(&shape->weights.data[w]) / sum;
         }
@@ -333,8 +333,8 @@ bool kiriStencil_Gather(kiriStencil* stencil, kiriMemory* memory, const kiriShap
     stencil->eased = shape->eased;
     bool ok = GatherSteps(stencil, memory, grid, cell) && GatherMiddles(stencil, memory, grid, mesh) &&
               GatherFrames(stencil, memory, shape) && GatherWeights(stencil, memory, shape);
-    for (int32_t i = 0; i < stencil->frames.count; ++i) {
-        stencil->columns.data[stencil->frames.data[i]] = 0;
+    KIRI_EACH(const int32_t, frame, stencil->frames) {
+        stencil->columns.data[*frame] = 0;
     }
     stencil->cell = ok ? cell : KIRI_NONE;
     return ok;
@@ -349,7 +349,7 @@ static void SetGradients(kiriStencil* stencil, kiriVec2 at, kiriPointWeights* ou
         const double* weights = stencil->weights.data + (size_t)k * (size_t)out->count;
         for (int32_t i = 0; i < out->count; ++i) {
             kiriPointWeight* weight = &out->data[i];
-            weight->gradient = kiriVec2_Add(weight->gradient, kiriVec2_Scale(weights[i] / stencil->side, slope));
+            weight->gradient = kiriVec2_AddScaled(weight->gradient, weights[i] / stencil->side, slope);
         }
     }
 }
@@ -359,16 +359,14 @@ static void EaseGradients(kiriPointWeights* out)
 {
     double sum = 0.0;
     kiriVec2 slope = { 0.0, 0.0 };
-    for (int32_t i = 0; i < out->count; ++i) {
-        kiriPointWeight* weight = &out->data[i];
+    KIRI_EACH(kiriPointWeight, weight, *out) {
         double w = weight->value;
         weight->gradient = kiriVec2_Scale(6.0 * w * (1.0 - w), weight->gradient);
         weight->value = Ease(w);
         sum += weight->value;
         slope = kiriVec2_Add(slope, weight->gradient);
     }
-    for (int32_t i = 0; i < out->count; ++i) {
-        kiriPointWeight* weight = &out->data[i];
+    KIRI_EACH(kiriPointWeight, weight, *out) {
         weight->value /= sum;
         kiriVec2 rest = kiriVec2_Sub(weight->gradient, kiriVec2_Scale(weight->value, slope));
         weight->gradient = kiriVec2_Scale(1.0 / sum, rest);

@@ -216,8 +216,7 @@ static int32_t FindWedge(BladeWalk* walk)
             return h;
         }
     }
-    int32_t slot = mesh->squares.head[kiriSquares_At(&mesh->squares, walk->tip->at)];
-    for (; slot != KIRI_NONE; slot = mesh->squares.nodes.data[slot].next) {
+    KIRI_EACH_NODE(slot, &mesh->squares, kiriSquares_At(&mesh->squares, walk->tip->at)) {
         walk->effort += LOOK_EFFORT;
         for (int i = 0; i < 3; ++i) {
             int32_t h = 3 * mesh->squares.nodes.data[slot].triangle + i;
@@ -271,8 +270,7 @@ static bool IsThin(kiriLatticePoint a, kiriLatticePoint b, kiriLatticePoint c)
 static bool IsCornerTaken(BladeWalk* walk, kiriLatticePoint at, kiriLatticePoint next, kiriLatticePoint previous)
 {
     const kiriMeshData* mesh = walk->mesh;
-    int32_t slot = mesh->squares.head[kiriSquares_At(&mesh->squares, at)];
-    for (; slot != KIRI_NONE; slot = mesh->squares.nodes.data[slot].next) {
+    KIRI_EACH_NODE(slot, &mesh->squares, kiriSquares_At(&mesh->squares, at)) {
         kiriLatticePoint c[3];
         kiriMesh_Corners(mesh, mesh->squares.nodes.data[slot].triangle, c);
         walk->effort += LOOK_EFFORT;
@@ -472,9 +470,8 @@ static bool EnterSheet(BladeWalk* walk)
     kiriStrips strips = kiriStrips_Begin(&mesh->squares, walk->tip->at, walk->tip->goal, 0.0);
     while (kiriStrips_Next(&strips)) {
         for (int32_t i = 0; i < strips.count; ++i) {
-            int32_t slot = mesh->squares.head[strips.square + i * strips.stride];
             walk->effort += LOOK_EFFORT;
-            for (; slot != KIRI_NONE; slot = mesh->squares.nodes.data[slot].next) {
+            KIRI_EACH_NODE(slot, &mesh->squares, strips.square + i * strips.stride) {
                 walk->effort += LOOK_EFFORT;
                 for (int k = 0; k < 3; ++k) {
                     int32_t h = 3 * mesh->squares.nodes.data[slot].triangle + k;

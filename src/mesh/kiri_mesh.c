@@ -170,8 +170,8 @@ static void NoteVertex(kiriMeshData* mesh, int32_t vertex)
 
 static void EmptyJournal(kiriMeshData* mesh)
 {
-    for (int32_t i = 0; i < mesh->changedTriangles.count; ++i) {
-        mesh->triangles.data[mesh->changedTriangles.data[i]].marks &= ~KIRI_TRIANGLE_CHANGED;
+    KIRI_EACH(const int32_t, triangle, mesh->changedTriangles) {
+        mesh->triangles.data[*triangle].marks &= ~KIRI_TRIANGLE_CHANGED;
     }
     mesh->changedTriangles.count = mesh->changedVertices.count = 0;
 }
@@ -610,8 +610,8 @@ void kiriMesh_Keep(kiriMeshData* mesh, const kiriKeep* triangles, const kiriKeep
         }
     }
     mesh->originals = originals;
-    for (int32_t v = 0; v < mesh->vertices.count; ++v) {
-        mesh->vertices.data[v].edge = EdgeTo(triangles, mesh->vertices.data[v].edge);
+    KIRI_EACH(kiriVertex, vertex, mesh->vertices) {
+        vertex->edge = EdgeTo(triangles, vertex->edge);
     }
     kiriKeep_Relink(vertices, mesh->squares.vertexHead, mesh->squares.columns * mesh->squares.rows,
                     &mesh->vertices.data[0].next, sizeof(kiriVertex));

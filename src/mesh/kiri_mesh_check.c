@@ -5,21 +5,23 @@
 /* ---- Tables ------------------------------------------------------------------------------------------------------ */
 
 KIRI_TABLE(TriangleTable, kiriTriangle, {
-    KIRI_INDEX(KIRI_OF_VERTICES, kiriTriangle, vertex, vertex),
-    KIRI_INDEX_OR_NONE(KIRI_OF_HALF_EDGES, kiriTriangle, twin, twin),
-    KIRI_RUN(4, kiriTriangle, source, source),
-    KIRI_INDEX_OR_NONE(KIRI_OF_TRIANGLES, kiriTriangle, parent, parent),
-    KIRI_WITHIN(0, KIRI_TRIANGLE_OPEN, kiriTriangle, marks, marks),
-});
+    KIRI_INDEX(KIRI_OF_VERTICES, vertex),
+    KIRI_INDEX_OR_NONE(KIRI_OF_HALF_EDGES, twin),
+    KIRI_RUN(4, source),
+    KIRI_INDEX_OR_NONE(KIRI_OF_TRIANGLES, parent),
+    KIRI_WITHIN(0, KIRI_TRIANGLE_OPEN, marks),
+})
 
 KIRI_TABLE(VertexTable, kiriVertex, {
-    KIRI_RUN(4, kiriVertex, at, at),
-    KIRI_INDEX(KIRI_OF_HALF_EDGES, kiriVertex, edge, edge),
-    KIRI_RUN(4, kiriVertex, source, source),
+    KIRI_RUN(4, at),
+    KIRI_INDEX(KIRI_OF_HALF_EDGES, edge),
+    KIRI_RUN(4, source),
     KIRI_DERIVED,
-});
+})
 
-KIRI_TABLE(SourceCornerTable, kiriLatticePoint, { KIRI_WITHIN(0, KIRI_LATTICE, kiriLatticePoint, x, y) });
+KIRI_TABLE(SourceCornerTable, kiriLatticePoint, {
+    KIRI_WITHIN(0, KIRI_LATTICE, x, y)
+})
 
 static int64_t CountSquares(const kiriSquares* squares)
 {
@@ -35,26 +37,26 @@ static void MoveSquares(kiriArchive* archive, void* object)
 }
 
 KIRI_TABLE(SquaresTable, kiriSquares, {
-    KIRI_RUN(4, kiriSquares, columns, side),
+    KIRI_RUN(4, columns, side),
     KIRI_DERIVED,
-    KIRI_CUSTOM(kiriSquares, head, MoveSquares),
-    KIRI_ARRAYS(kiriSquares, nodes, dirty),
-});
+    KIRI_CUSTOM(head, MoveSquares),
+    KIRI_ARRAYS(nodes, dirty),
+})
 
 KIRI_SHARED_TABLE(kiriMeshTable, kiriMeshData, {
-    KIRI_REALS(kiriMeshData, origin, step),
-    KIRI_PARTS(kiriMeshData, triangles, TriangleTable),
-    KIRI_PARTS(kiriMeshData, vertices, VertexTable),
-    KIRI_PART(kiriMeshData, squares, SquaresTable),
+    KIRI_REALS(origin, step),
+    KIRI_PARTS(triangles, TriangleTable),
+    KIRI_PARTS(vertices, VertexTable),
+    KIRI_PART(squares, SquaresTable),
     KIRI_UNHASHED,
-    KIRI_RUN(4, kiriMeshData, revision, originals),
-    KIRI_ITEMS(4, kiriMeshData, sourceBlocks),
-    KIRI_PARTS(kiriMeshData, sourceCorners, SourceCornerTable),
-    KIRI_ITEMS(4, kiriMeshData, sources),
-    KIRI_DROPPED(kiriMeshData, memory, memory),
+    KIRI_RUN(4, revision, originals),
+    KIRI_ITEMS(4, sourceBlocks),
+    KIRI_PARTS(sourceCorners, SourceCornerTable),
+    KIRI_ITEMS(4, sources),
+    KIRI_DROPPED(memory),
     KIRI_DERIVED,
-    KIRI_ARRAYS(kiriMeshData, changedTriangles, changedVertices, births),
-});
+    KIRI_ARRAYS(changedTriangles, changedVertices, births),
+})
 
 /* ---- Numbers ----------------------------------------------------------------------------------------------------- */
 
@@ -89,8 +91,8 @@ static bool AreVertices(const kiriMeshData* mesh)
     kiriLatticePoint low = { squares->firstColumn * squares->side - 1, squares->firstRow * squares->side - 1 },
                      high = { low.x + squares->columns * squares->side, low.y + squares->rows * squares->side };
     bool areFine = true;
-    for (int32_t v = 0; areFine && v < mesh->vertices.count; ++v) {
-        kiriLatticePoint at = mesh->vertices.data[v].at;
+    KIRI_EACH_WHILE(areFine, const kiriVertex, vertex, mesh->vertices) {
+        kiriLatticePoint at = vertex->at;
         areFine = at.x > low.x && at.x < high.x && at.y > low.y && at.y < high.y && ((at.x | at.y) & 1) == 0;
     }
     return areFine;

@@ -8,7 +8,7 @@
 KIRI_C_BEGIN
 
 /* A save has triangles, vertices and sources. Squares and their lists are derived. */
-extern const kiriTable kiriMeshTable;
+kiriTableFn kiriMeshTable;
 
 /* Ends the load of a save, whose numbers are in range: checks that the mesh is one conforming triangulation, and fills
    its squares. Charges them to the room of the archive. */

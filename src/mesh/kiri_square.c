@@ -160,7 +160,7 @@ int32_t kiriSquares_CountNodes(const kiriSquares* squares, int32_t square)
 {
     int32_t count = 0;
     KIRI_ASSERT(square >= 0 && square < squares->columns * squares->rows);
-    for (int32_t n = squares->head[square]; n != KIRI_NONE; n = squares->nodes.data[n].next) {
+    KIRI_EACH_NODE(n, squares, square) {
         ++count;
     }
     return count;
@@ -180,8 +180,8 @@ static void MarkSquareDirty(kiriSquares* squares, int32_t square)
 
 void kiriSquares_ClearDirty(kiriSquares* squares)
 {
-    for (int32_t i = 0; i < squares->dirty.count; ++i) {
-        squares->isDirty[squares->dirty.data[i]] = 0;
+    KIRI_EACH(const int32_t, square, squares->dirty) {
+        squares->isDirty[*square] = 0;
     }
     squares->dirty.count = 0;
 }

@@ -74,6 +74,10 @@ int32_t kiriSquares_At(const kiriSquares* squares, kiriLatticePoint p);
 /* Returns the index in the part of a square of the whole. The part has this square. */
 int32_t kiriSquares_InPart(const kiriSquares* part, const kiriSquares* whole, int32_t square);
 
+/* Loops over the nodes of a square: a node for each triangle that overlaps it. */
+#define KIRI_EACH_NODE(node, squares, square)                                                                          \
+    for (int32_t node = (squares)->head[square]; node != KIRI_NONE; node = (squares)->nodes.data[node].next)
+
 /* Returns the number of triangles that overlap a square. */
 int32_t kiriSquares_CountNodes(const kiriSquares* squares, int32_t square);
 

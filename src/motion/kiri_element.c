@@ -160,8 +160,8 @@ static bool AddAreaElement(PointBuilder* b, kiriVec2 point, kiriVec2 off, double
     const kiriPointWeights* weights = &b->work->weights;
     kiriAreaElement element = { area, 0.0, b->elements->shares.count, weights->count, 0, b->lastRow };
     kiriVec2 at = kiriVec2_Add(point, off);
-    for (int32_t k = 0; k < weights->count; ++k) {
-        kiriPointWeight w = weights->data[k];
+    KIRI_EACH(const kiriPointWeight, from, *weights) {
+        kiriPointWeight w = *from;
         kiriVec2 arm = kiriVec2_Sub(at, kiriMoments_Center(&b->material[w.frame]));
         kiriFrameShare share = { w.frame,
                                  w.gradient,
@@ -236,8 +236,8 @@ static bool DividePiece(PointBuilder* b)
         work->field.owner.data[points->data[i].cell] = i;
         work->material.data[i] = NoMaterial;
     }
-    for (int32_t k = 0; k < work->placer.cells.count; ++k) {
-        int32_t cell = work->placer.cells.data[k];
+    KIRI_EACH(const int32_t, at, work->placer.cells) {
+        int32_t cell = *at;
         kiriMoments material = kiriGrid_Material(b->grid, b->mesh, cell);
         kiriMoments_Add(&work->material.data[work->field.owner.data[cell]], &material);
     }
@@ -251,10 +251,10 @@ static bool AddPiecePoints(PointBuilder* b, int32_t cell)
         return false;
     }
     kiriMoments material = NoMaterial;
-    for (int32_t k = 0; k < work->placer.cells.count; ++k) {
-        kiriMoments more = kiriGrid_Material(b->grid, b->mesh, work->placer.cells.data[k]);
+    KIRI_EACH(const int32_t, at, work->placer.cells) {
+        kiriMoments more = kiriGrid_Material(b->grid, b->mesh, *at);
         kiriMoments_Add(&material, &more);
-        work->seen.data[work->placer.cells.data[k]] = 1;
+        work->seen.data[*at] = 1;
     }
     const kiriSites* points = &work->placer.sites;
     kiriQuota endless = { INT64_MAX, 0, 0, false };
@@ -282,7 +282,7 @@ bool kiriIntegration_Build(kiriAreaElements* elements, kiriIntegrationWork* work
     PointBuilder b = { memory, grid, mesh, shape, material, work, elements, 0.0, order, KIRI_AREA_STRAINS };
     double total = 0.0; /* summed in the order of cells, as are the pieces below */
     for (int32_t s = 0; s < grid->squareCell.count; ++s) {
-        for (int32_t c = grid->squareCell.data[s]; c != KIRI_NONE; c = grid->cells.data[c].next) {
+        KIRI_EACH_CELL(c, grid, s) {
             total += kiriGrid_Area(grid, c);
         }
     }

@@ -246,7 +246,7 @@ static kiriMat3 TurnPart(const kiriMat3* A, const kiriMat3* bodyInertia, kiriVec
         kiriVec3 middle = kiriVec3_Scale(0.5 * h, kiriVec3_Add(start, end));
         turn = kiriMat3_Cayley(CayleyVector(kiriMat3_Solve(bodyInertia, middle)));
         kiriVec3 next = kiriMat3_MulTransposed(&turn, start);
-        double change = kiriVec3_Length(kiriVec3_Sub(next, end));
+        double change = kiriVec3_Distance(next, end);
         end = next;
         if (!(change > 1e-15 * kiriVec3_Length(L))) {
             break;

@@ -7,65 +7,67 @@
 /* ---- Tables ------------------------------------------------------------------------------------------------------ */
 
 KIRI_SHARED_TABLE(kiriMechanicsTable, kiriMechanics, {
-    KIRI_WITHIN(KIRI_MODEL_LINKS, KIRI_MODEL_POINTS, kiriMechanics, model, model),
-    KIRI_BOOLS(kiriMechanics, planar, planar),
-    KIRI_REALS(kiriMechanics, axes, axes),
-    KIRI_WITHIN(KIRI_TIME_STEPPING_SECOND_ORDER, KIRI_TIME_STEPPING_EULER, kiriMechanics, timeStepping, timeStepping),
-});
+    KIRI_WITHIN(KIRI_MODEL_LINKS, KIRI_MODEL_POINTS, model),
+    KIRI_BOOLS(planar),
+    KIRI_REALS(axes),
+    KIRI_WITHIN(KIRI_TIME_STEPPING_SECOND_ORDER, KIRI_TIME_STEPPING_EULER, timeStepping),
+})
 
 KIRI_TABLE(HistoryTable, kiriHistory, {
-    KIRI_REALS(kiriHistory, dt, dt),
-    KIRI_WITHIN(0, 1, kiriHistory, isHalf, isHeld),
-    KIRI_REALS(kiriHistory, gain, turnPull),
-});
+    KIRI_REALS(dt),
+    KIRI_WITHIN(0, 1, isHalf, isHeld),
+    KIRI_REALS(gain, turnPull),
+})
 
 KIRI_SHARED_TABLE(kiriFrameTable, kiriFrameData, {
-    KIRI_PART(kiriFrameData, site, kiriSiteTable),
-    KIRI_RUN(4, kiriFrameData, anchor, anchor),
-    KIRI_REALS(kiriFrameData, center, torque),
-    KIRI_PART(kiriFrameData, history, HistoryTable),
-    KIRI_WITHIN(0, 1, kiriFrameData, held, held),
-    KIRI_RUN(8, kiriFrameData, heldPosition, heldOff),
-    KIRI_BOOLS(kiriFrameData, isOffKnown, isOffKnown),
-    KIRI_REALS(kiriFrameData, reaction, bore),
+    KIRI_PART(site, kiriSiteTable),
+    KIRI_RUN(4, anchor),
+    KIRI_REALS(center, torque),
+    KIRI_PART(history, HistoryTable),
+    KIRI_WITHIN(0, 1, held),
+    KIRI_RUN(8, heldPosition, heldOff),
+    KIRI_BOOLS(isOffKnown),
+    KIRI_REALS(reaction, bore),
     KIRI_UNHASHED,
-    KIRI_RUN(4, kiriFrameData, id, id),
-    KIRI_RUN(8, kiriFrameData, pieceData, pieceData),
-});
+    KIRI_RUN(4, id),
+    KIRI_RUN(8, pieceData),
+})
 
 KIRI_TABLE(AreaElementTable, kiriAreaElement, {
-    KIRI_REALS(kiriAreaElement, area, lean),
-    KIRI_RUN(4, kiriAreaElement, first, count),
-    KIRI_WITHIN(0, KIRI_AREA_STRAINS, kiriAreaElement, firstRow, lastRow),
-});
+    KIRI_REALS(area, lean),
+    KIRI_RUN(4, first, count),
+    KIRI_WITHIN(0, KIRI_AREA_STRAINS, firstRow, lastRow),
+})
 
 KIRI_TABLE(FrameShareTable, kiriFrameShare, {
-    KIRI_INDEX(KIRI_OF_FRAMES, kiriFrameShare, frame, frame),
-    KIRI_RUN(8, kiriFrameShare, move, slope),
-});
+    KIRI_INDEX(KIRI_OF_FRAMES, frame),
+    KIRI_RUN(8, move, slope),
+})
 
 KIRI_SHARED_TABLE(kiriAreaElementsTable, kiriAreaElements, {
-    KIRI_PARTS(kiriAreaElements, elements, AreaElementTable),
-    KIRI_PARTS(kiriAreaElements, shares, FrameShareTable),
-});
+    KIRI_PARTS(elements, AreaElementTable),
+    KIRI_PARTS(shares, FrameShareTable),
+})
 
-KIRI_TABLE(StrainOffsetTable, kiriStrainOffset, { KIRI_REALS(kiriStrainOffset, strain, strain) });
+KIRI_TABLE(StrainOffsetTable, kiriStrainOffset, {
+    KIRI_REALS(strain)
+})
 
 KIRI_SHARED_TABLE(kiriStrainOffsetsTable, kiriStrainOffsets, {
-    KIRI_PARTS(kiriStrainOffsets, strainOffsets, StrainOffsetTable),
-    KIRI_ROOMS(kiriStrainOffsets, older, from, frames, mayMove),
-});
+    KIRI_PARTS(strainOffsets, StrainOffsetTable),
+    KIRI_ROOMS(older, from, frames, mayMove),
+})
 
 KIRI_TABLE(OwnershipTable, kiriOwnership, {
     KIRI_DERIVED,
-    KIRI_ARRAYS(kiriOwnership, squares, triangleOwners, dirty, isDirty, staged, transfers, first),
-});
+    KIRI_ARRAYS(squares, triangleOwners, dirty, isDirty, staged, transfers, first),
+})
 
 KIRI_SHARED_TABLE(kiriRefitTable, kiriRefit, {
     KIRI_DERIVED,
-    KIRI_PART(kiriRefit, ownership, OwnershipTable),
-    KIRI_ROOMS(kiriRefit, fits, bodies),
-});
+    KIRI_PART(ownership, OwnershipTable),
+    KIRI_ROOMS(fits, bodies),
+})
 
 /* ---- Checks ------------------------------------------------------------------------------------------------------ */
 
@@ -86,8 +88,7 @@ bool kiriAreaElements_AreSound(const kiriAreaElements* elements)
 {
     int64_t next = 0;
     bool areFine = true;
-    for (int32_t k = 0; areFine && k < elements->elements.count; ++k) {
-        const kiriAreaElement* element = &elements->elements.data[k];
+    KIRI_EACH_WHILE(areFine, const kiriAreaElement, element, elements->elements) {
         areFine = element->first == next && element->count > 0 && element->firstRow < element->lastRow;
         next += element->count;
         areFine = areFine && next <= elements->shares.count;

@@ -31,8 +31,8 @@ static bool ReserveOwners(kiriOwnership* ownership, kiriMemory* memory, const ki
 bool kiriOwnership_NoteDirty(kiriOwnership* ownership, kiriMemory* memory, const kiriMeshData* mesh)
 {
     bool ok = ReserveOwners(ownership, memory, mesh);
-    for (int32_t k = 0; ok && k < mesh->squares.dirty.count; ++k) {
-        ok = NoteSquare(ownership, memory, mesh->squares.dirty.data[k]);
+    KIRI_EACH_WHILE(ok, const int32_t, square, mesh->squares.dirty) {
+        ok = NoteSquare(ownership, memory, *square);
     }
     return ok;
 }
@@ -41,8 +41,8 @@ bool kiriOwnership_NoteChanges(kiriOwnership* ownership, kiriMemory* memory, con
                                const kiriMeshData* mesh, const kiriRegions* regions)
 {
     bool ok = ReserveOwners(ownership, memory, mesh);
-    for (int32_t k = 0; ok && k < regions->changes.count; ++k) {
-        int32_t cell = regions->changes.data[k].cell;
+    KIRI_EACH_WHILE(ok, const kiriSeed, change, regions->changes) {
+        int32_t cell = change->cell;
         ok = !kiriGrid_IsCell(grid, cell) || NoteSquare(ownership, memory, grid->cells.data[cell].square);
     }
     return ok;
@@ -101,7 +101,7 @@ static bool StageSquare(kiriOwnership* ownership, kiriMemory* memory, const kiri
                         const int32_t* owner, int32_t square)
 {
     int32_t cell = grid->squareCell.data[square];
-    for (int32_t c = cell; c != KIRI_NONE; c = grid->cells.data[c].next) {
+    KIRI_EACH_CELL(c, grid, square) {
         int32_t from = OwnerBefore(ownership, mesh, square, grid->cells.data[c].triangle);
         if (from != KIRI_NONE && from != owner[c]) {
             kiriTransfer* transfer = FindTransfer(ownership, memory, owner[c], from);
@@ -140,8 +140,8 @@ static void FreeParts(kiriOwnership* ownership, kiriSpan* parts)
 
 static void DropStagedOwners(kiriOwnership* ownership)
 {
-    for (int32_t k = 0; k < ownership->staged.count; ++k) {
-        FreeParts(ownership, &ownership->staged.data[k].owners.parts);
+    KIRI_EACH(kiriStagedOwners, staged, ownership->staged) {
+        FreeParts(ownership, &staged->owners.parts);
     }
     ownership->staged.count = ownership->transfers.count = ownership->next = 0;
     ownership->due = 0;
@@ -197,8 +197,8 @@ void kiriRefit_Drop(kiriRefit* refit)
 {
     kiriOwnership* ownership = &refit->ownership;
     DropStagedOwners(ownership);
-    for (int32_t k = 0; k < ownership->dirty.count; ++k) {
-        ownership->isDirty.data[ownership->dirty.data[k]] = 0;
+    KIRI_EACH(const int32_t, square, ownership->dirty) {
+        ownership->isDirty.data[*square] = 0;
     }
     ownership->dirty.count = 0;
     refit->fits.count = 0;
@@ -207,10 +207,10 @@ void kiriRefit_Drop(kiriRefit* refit)
 void kiriRefit_Commit(kiriRefit* refit, const kiriMeshData* mesh)
 {
     kiriOwnership* ownership = &refit->ownership;
-    for (int32_t k = 0; k < ownership->staged.count; ++k) {
-        kiriSquareOwners* owners = &ownership->squares.data[ownership->staged.data[k].square];
+    KIRI_EACH(const kiriStagedOwners, staged, ownership->staged) {
+        kiriSquareOwners* owners = &ownership->squares.data[staged->square];
         FreeParts(ownership, &owners->parts);
-        *owners = ownership->staged.data[k].owners;
+        *owners = staged->owners;
     }
     ownership->staged.count = 0; /* their parts are in place */
     ownership->triangleCount = mesh->triangles.count;
@@ -236,8 +236,7 @@ void kiriOwnership_Keep(kiriOwnership* ownership, const kiriGrid* grid, const ki
         kiriSpan_Resize(parts, &ownership->spans, NULL, &ownership->triangleOwners, sizeof(kiriTriangleOwner), kept);
     }
     bool moves = kiriKeep_Moves(triangles) || kiriKeep_Moves(frames);
-    for (int32_t s = 0; moves && s < ownership->squares.count; ++s) {
-        kiriSquareOwners* owners = &ownership->squares.data[s];
+    KIRI_EACH_WHILE(moves, kiriSquareOwners, owners, ownership->squares) {
         owners->owner = kiriKeep_To(frames, owners->owner);
         for (int32_t p = owners->parts.first; p < owners->parts.first + owners->parts.count; ++p) {
             owned[p].triangle = kiriKeep_To(triangles, owned[p].triangle);
@@ -493,16 +492,16 @@ void kiriRefit_LimitEnergy(kiriRefit* refit, kiriFrameData* frames, int32_t fram
     kiriFitBody* bodies = refit->bodies.data;
     double gained = 0.0, rounding = 0.0;
     KIRI_ASSERT(pieceCount <= refit->bodies.capacity && pieceCount <= frameCount);
-    for (int32_t k = 0; k < refit->fits.count; ++k) {
-        gained += refit->fits.data[k].gained;
-        rounding += 1e-13 * kiriFrame_KineticEnergy(&refit->fits.data[k].state, material);
+    KIRI_EACH(const kiriFit, fit, refit->fits) {
+        gained += fit->gained;
+        rounding += 1e-13 * kiriFrame_KineticEnergy(&fit->state, material);
     }
     if (!(gained > rounding)) {
         return;
     }
     memset(bodies, 0, sizeof(*bodies) * (size_t)pieceCount);
-    for (int32_t k = 0; k < refit->fits.count; ++k) {
-        bodies[framePiece[refit->fits.data[k].frame]].gained += refit->fits.data[k].gained;
+    KIRI_EACH(const kiriFit, fit, refit->fits) {
+        bodies[framePiece[fit->frame]].gained += fit->gained;
     }
     GatherBodies(bodies, pieceCount, frames, frameCount, framePiece, material);
     for (int32_t p = 0; p < pieceCount; ++p) {

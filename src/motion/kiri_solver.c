@@ -230,8 +230,8 @@ static void ShareOutAll(kiriSolver* solver, const kiriSystem* system, const int3
         bodies->bodyOf.data[f] = framePiece[f];
     }
     ShareOut(bodies, offsetof(kiriSolverBody, frames), system, system->frameCount, FrameItself, bodies->frames.data);
-    for (int32_t b = 0; b < bodies->bodies.count; ++b) {
-        const kiriSpan* frames = &bodies->bodies.data[b].frames;
+    KIRI_EACH(const kiriSolverBody, body, bodies->bodies) {
+        const kiriSpan* frames = &body->frames;
         KIRI_ASSERT(frames->count > 0);
         for (int32_t n = 0; n < frames->count; ++n) {
             bodies->place.data[bodies->frames.data[frames->first + n]] = n;
@@ -297,8 +297,8 @@ static bool StageMatrix(kiriSolver* solver, kiriSolverBody* next, const kiriSyst
     if (!CollectPairs(solver, body)) {
         return false;
     }
-    for (int32_t k = 0; isCovered && k < solver->pairs.count; ++k) {
-        isCovered = kiriMatrix_Covers(same->matrix, solver->pairs.data[k]);
+    KIRI_EACH_WHILE(isCovered, const kiriPair, pair, solver->pairs) {
+        isCovered = kiriMatrix_Covers(same->matrix, *pair);
     }
     if (isCovered) {
         next->matrix = same->matrix;
@@ -319,9 +319,9 @@ static bool StageMatrix(kiriSolver* solver, kiriSolverBody* next, const kiriSyst
 
 static void DropStagedBodies(kiriSolver* solver)
 {
-    for (int32_t b = 0; b < solver->next.bodies.count; ++b) {
-        if (solver->next.bodies.data[b].ownsMatrix) {
-            kiriMatrix_Destroy(solver->next.bodies.data[b].matrix);
+    KIRI_EACH(const kiriSolverBody, body, solver->next.bodies) {
+        if (body->ownsMatrix) {
+            kiriMatrix_Destroy(body->matrix);
         }
     }
     solver->next.bodies.count = 0;
@@ -356,16 +356,16 @@ void kiriSolver_Commit(kiriSolver* solver)
         return;
     }
     solver->allWork = 0;
-    for (int32_t b = 0; b < solver->next.bodies.count; ++b) {
-        kiriSolverBody *next = &solver->next.bodies.data[b], *now;
+    KIRI_EACH(kiriSolverBody, body, solver->next.bodies) {
+        kiriSolverBody *next = body, *now;
         const kiriSolverBody* same = next->ownsMatrix ? NULL : FindSame(solver, next);
         if (same != NULL) {
             now = &solver->bodies.bodies.data[same - solver->bodies.bodies.data];
             now->matrix = NULL;
         }
     }
-    for (int32_t b = 0; b < solver->bodies.bodies.count; ++b) {
-        kiriMatrix_Destroy(solver->bodies.bodies.data[b].matrix);
+    KIRI_EACH(const kiriSolverBody, body, solver->bodies.bodies) {
+        kiriMatrix_Destroy(body->matrix);
     }
     kiriSolverBodies now = solver->bodies;
     solver->bodies = solver->next;
@@ -531,8 +531,8 @@ void kiriSolver_ShareRows(kiriSolver* solver, const kiriSystem* system)
     KIRI_ASSERT(solver->moved.isListed);
     KIRI_ASSERT(system->pinCount <= solver->nextPin.capacity && system->clampCount <= solver->nextClamp.capacity &&
                 system->contactCount <= solver->nextContact.capacity);
-    for (int32_t n = 0; n < solver->moved.bodies.count; ++n) {
-        kiriSolverBody* body = &solver->bodies.bodies.data[solver->moved.bodies.data[n]];
+    KIRI_EACH(const int32_t, moved, solver->moved.bodies) {
+        kiriSolverBody* body = &solver->bodies.bodies.data[*moved];
         body->pin = body->clamp = body->contact = KIRI_NONE;
         body->contactCount = 0;
     }

@@ -164,8 +164,8 @@ static bool IsCarried(const kiriSolver* solver, const kiriSystem* system)
 
 bool kiriSolver_AreTouching(const kiriSolver* solver, const kiriSystem* system, const kiriPose* poses)
 {
-    for (int32_t k = 0; k < solver->contacts.count; ++k) {
-        if (kiriContact_Depth(system, &solver->contacts.data[k], poses) > 0.0) {
+    KIRI_EACH(const kiriContactStep, contact, solver->contacts) {
+        if (kiriContact_Depth(system, contact, poses) > 0.0) {
             return true;
         }
     }
@@ -175,8 +175,8 @@ bool kiriSolver_AreTouching(const kiriSolver* solver, const kiriSystem* system, 
 /* Returns true if a contact pushed in the last step: as a rule it goes on. */
 static bool IsPushed(const kiriSolver* solver)
 {
-    for (int32_t k = 0; k < solver->contacts.count; ++k) {
-        const kiriContactRow* row = solver->contacts.data[k].row;
+    KIRI_EACH(const kiriContactStep, contact, solver->contacts) {
+        const kiriContactRow* row = contact->row;
         if (kiriVec3_Dot(row->force, row->normal) > 0.0) {
             return true;
         }
@@ -213,7 +213,7 @@ static WindSpring SpringAt(const kiriSolver* solver, const kiriSystem* system, i
     double vv = frame->inertia[2] / frame->mass, first = kiriRoot(uu);
     double cross = first > 0.0 ? uv / first : 0.0, rest = kiriRoot(vv - cross * cross);
     kiriVec2 root = k < 2 ? kiriVec2_Make(first, cross) : kiriVec2_Make(0.0, rest);
-    spring.at = kiriVec2_Add(frame->center, kiriVec2_Scale(k % 2 == 0 ? sqrt(2.0) : -sqrt(2.0), root));
+    spring.at = kiriVec2_AddScaled(frame->center, k % 2 == 0 ? sqrt(2.0) : -sqrt(2.0), root);
     kiriVec3 wide = kiriVec3_Cross(frame->A.u, frame->A.v); /* an affine frame stretches its area */
     kiriVec3 past = kiriVec3_Sub(air->velocity, kiriFrame_VelocityAt(frame, spring.at));
     double c = 0.5 * air->density * kiriVec3_Length(past) * kiriVec3_Length(wide) * frame->area / SAMPLES;
@@ -330,8 +330,8 @@ static void AddHost(kiriSolver* solver, const kiriSystem* system, const kiriPose
         kiriVec3 off = kiriVec3_Sub(kiriSystem_Point(system, pin->frame, pin->at, poses), pin->target);
         AddEnergy(sum, 0.5 * pin->stiffness * kiriVec3_Dot(off, off), 0.0);
     }
-    for (int32_t k = 0; k < solver->contacts.count; ++k) {
-        AddEnergy(sum, 0.0, kiriContact_Energy(solver, system, &solver->contacts.data[k], poses));
+    KIRI_EACH(const kiriContactStep, contact, solver->contacts) {
+        AddEnergy(sum, 0.0, kiriContact_Energy(solver, system, contact, poses));
     }
     if (kiriSystem_HasWind(system)) {
         AddWindEnergy(solver, system, poses, sum);
@@ -458,9 +458,9 @@ static void FindNoise(kiriSolver* solver, const kiriSystem* system)
         const kiriClampRow* row = &system->clamps[k];
         sum += share * kiriClamp_Noise(row, &solver->start.data[row->frame]);
     }
-    for (int32_t k = 0; k < solver->contacts.count; ++k) {
-        kiriVec3 x = solver->contacts.data[k].start;
-        sum += share * solver->contacts.data[k].stiffness * kiriVec3_Dot(x, x);
+    KIRI_EACH(const kiriContactStep, contact, solver->contacts) {
+        kiriVec3 x = contact->start;
+        sum += share * contact->stiffness * kiriVec3_Dot(x, x);
     }
     solver->search.noise = sum;
 }
@@ -492,8 +492,8 @@ static kiriSupport SupportOf(const kiriSolver* solver, const kiriSystem* system)
 {
     bool isHeld = kiriSystem_HasWind(system) || solver->isHeld || system->pinCount > 0 || system->clampCount > 0;
     bool isPushed = false;
-    for (int32_t k = 0; k < solver->contacts.count; ++k) {
-        isPushed |= !kiriContact_IsMutual(&solver->contacts.data[k]);
+    KIRI_EACH(const kiriContactStep, contact, solver->contacts) {
+        isPushed |= !kiriContact_IsMutual(contact);
     }
     return isHeld ? KIRI_SUPPORT_HELD : isPushed ? KIRI_SUPPORT_CONTACTS : KIRI_SUPPORT_NONE;
 }
@@ -839,8 +839,8 @@ kiriStepEnergy kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system)
             AddClamp(solver, system, &system->clamps[k]);
         }
     }
-    for (int32_t k = 0; k < solver->contacts.count; ++k) {
-        kiriContact_Assemble(solver, system, &solver->contacts.data[k]);
+    KIRI_EACH(const kiriContactStep, contact, solver->contacts) {
+        kiriContact_Assemble(solver, system, contact);
     }
     if (kiriSystem_HasWind(system)) {
         AddWind(solver, system);
@@ -1138,8 +1138,7 @@ static void AddClampPulls(const kiriSolver* solver, const kiriSystem* system)
 
 static void TakeContactsFromHolds(const kiriSolver* solver, const kiriSystem* system)
 {
-    for (int32_t k = 0; k < solver->contacts.count; ++k) {
-        const kiriContactStep* step = &solver->contacts.data[k];
+    KIRI_EACH(const kiriContactStep, step, solver->contacts) {
         kiriVec3 force = kiriContact_Force(solver, step);
         for (int32_t m = 0; m < step->memberCount; ++m) {
             int32_t frame = step->members[m].frame;

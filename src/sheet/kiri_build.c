@@ -115,8 +115,8 @@ bool kiriSettings_Change(kiriSheetData* sheet, const kiriSheetSettings* given)
     }
     if (!kiriSheet_KeepsStrains(sheet)) { /* without fadeTime links and clamps have no strain offsets (kiri_strain.h) */
         sheet->strainOffsets.strainOffsets.count = 0;
-        for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
-            memset(sheet->layout.pinShares.data[k].offset, 0, sizeof(sheet->layout.pinShares.data[k].offset));
+        KIRI_EACH(kiriPinShare, share, sheet->layout.pinShares) {
+            memset(share->offset, 0, sizeof(share->offset));
         }
     }
     if (isOther) {
@@ -229,8 +229,8 @@ static kiriResult TakeFramePoints(kiriSheetData* sheet, const kiriSheetDef* def,
         !kiriArray_Reserve(sheet->memory, &placing->sites, def->frameCount)) {
         return KIRI_ERROR_MEMORY;
     }
-    for (int32_t c = 0; c < placing->own.count; ++c) {
-        placing->own.data[c] = KIRI_NONE;
+    KIRI_EACH(int32_t, own, placing->own) {
+        *own = KIRI_NONE;
     }
     for (int32_t i = 0; i < def->frameCount; ++i) {
         if (!TakeFramePoint(sheet, def, i, placing->own.data, fault)) {

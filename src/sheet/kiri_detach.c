@@ -50,8 +50,7 @@ int32_t kiriSubset_FrameOfPin(const kiriSubset* subset, int32_t pin)
     if (HasFrame(subset, layout->pinFrame.data[pin])) {
         return layout->pinFrame.data[pin];
     }
-    for (int32_t k = 0; k < layout->pinShares.count; ++k) {
-        const kiriPinShare* pinned = &layout->pinShares.data[k];
+    KIRI_EACH(const kiriPinShare, pinned, layout->pinShares) {
         if (pinned->pin == pin && HasFrame(subset, pinned->share.frame) &&
             (longest == NULL || pinned->share.length > longest->length)) {
             longest = &pinned->share;
@@ -63,8 +62,8 @@ int32_t kiriSubset_FrameOfPin(const kiriSubset* subset, int32_t pin)
 static double AreaOfAll(const kiriSheetData* sheet)
 {
     double area = 0.0;
-    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
-        area += sheet->layout.pieces.data[p].area;
+    KIRI_EACH(const kiriPiece, piece, sheet->layout.pieces) {
+        area += piece->area;
     }
     return area;
 }
@@ -267,8 +266,8 @@ static void CopyTouches(const kiriDetach* detach, const kiriIndices* items, cons
                         kiriSheetData* to, kiriTouchMemory* memory)
 {
     int32_t before = memory->touches.count;
-    for (int32_t k = 0; k < items->count; ++k) {
-        kiriTouch touch = from->touches.data[items->data[k]];
+    KIRI_EACH(const int32_t, item, *items) {
+        kiriTouch touch = from->touches.data[*item];
         kiriVec3 force = kiriTouches_ForceOf(detach->sheet, touch.key);
         if (FollowTouch(&detach->part, &touch)) {
             kiriTouchMemory_Add(memory, &touch, force);
@@ -288,8 +287,8 @@ static bool CopyContacts(const kiriDetach* detach, int32_t piece, kiriSheetData*
         !kiriArray_Reserve(&to->shown, &to->touches.nextTold, most) || !kiriTouches_Room(to, most)) {
         return false;
     }
-    for (int32_t i = 0; i < from->contacts.count; ++i) {
-        kiriGivenContact given = from->contacts.data[i];
+    KIRI_EACH(const kiriGivenContact, at, from->contacts) {
+        kiriGivenContact given = *at;
         if (FollowContact(&detach->part, &given)) {
             to->contacts.data[to->contacts.count++] = given;
         }
@@ -317,8 +316,8 @@ static bool CopyFades(const kiriIndices* items, const kiriFades* from, const kir
     if (items->count > 0 && !kiriArray_Reserve(memory, &to->fading, samples->count)) {
         return false;
     }
-    for (int32_t k = 0; k < items->count; ++k) {
-        kiriFading fading = from->fading.data[items->data[k]];
+    KIRI_EACH(const int32_t, item, *items) {
+        kiriFading fading = from->fading.data[*item];
         fading.sample = kiriKeep_To(samples, fading.sample);
         to->fading.data[to->fading.count++] = fading;
     }
@@ -330,13 +329,13 @@ static void CopyPinHistory(const kiriSubset* part, kiriSheetData* to)
 {
     const kiriPinShares* shares = &part->from->layout.pinShares;
     int32_t count = 0;
-    for (int32_t k = 0; k < shares->count && count < to->layout.pinShares.count; ++k) {
-        if (kiriKeep_Has(&part->frames, shares->data[k].share.frame)) {
+    KIRI_EACH_WHILE(count < to->layout.pinShares.count, const kiriPinShare, from, *shares) {
+        if (kiriKeep_Has(&part->frames, from->share.frame)) {
             kiriPinShare* share = &to->layout.pinShares.data[count++];
-            memcpy(share->offset, shares->data[k].offset, sizeof(share->offset));
-            memcpy(share->reactions, shares->data[k].reactions, sizeof(share->reactions));
-            share->bore = shares->data[k].bore;
-            share->off = shares->data[k].off;
+            memcpy(share->offset, from->offset, sizeof(share->offset));
+            memcpy(share->reactions, from->reactions, sizeof(share->reactions));
+            share->bore = from->bore;
+            share->off = from->off;
         }
     }
 }
@@ -473,14 +472,14 @@ static bool StagePins(kiriDetach* detach)
         int32_t frame = kiriSubset_FrameOfPin(rest, i);
         ok = frame == KIRI_NONE || kiriArray_Push(sheet->memory, &next->pinFrame, kiriKeep_To(&rest->frames, frame));
     }
-    for (int32_t k = 0; ok && k < layout->pinShares.count; ++k) {
-        kiriPinShare pinned = layout->pinShares.data[k];
+    KIRI_EACH_WHILE(ok, const kiriPinShare, share, layout->pinShares) {
+        kiriPinShare pinned = *share;
         pinned.pin = kiriKeep_To(&rest->pins, pinned.pin);
         pinned.share.frame = kiriKeep_To(&rest->frames, pinned.share.frame);
         ok = pinned.share.frame == KIRI_NONE || kiriArray_Push(sheet->memory, &next->pinShares, pinned);
     }
-    for (int32_t k = 0; ok && k < layout->severed.count; ++k) {
-        kiriSeveredLink severed = layout->severed.data[k];
+    KIRI_EACH_WHILE(ok, const kiriSeveredLink, link, layout->severed) {
+        kiriSeveredLink severed = *link;
         severed.pin = kiriKeep_To(&rest->pins, severed.pin);
         severed.link = kiriKeep_To(&rest->links, severed.link);
         ok = severed.link == KIRI_NONE || kiriArray_Push(sheet->memory, &next->severed, severed);
@@ -540,8 +539,8 @@ static void KeepSamples(kiriDetach* detach)
     kiriSheetData* sheet = detach->sheet;
     const kiriSubset* rest = &detach->rest;
     kiriKeep_Compact(&rest->points, &sheet->points, 1, sizeof(kiriSample));
-    for (int32_t i = 0; i < sheet->points.count; ++i) {
-        sheet->points.data[i].frame = kiriKeep_To(&rest->frames, sheet->points.data[i].frame);
+    KIRI_EACH(kiriSample, point, sheet->points) {
+        point->frame = kiriKeep_To(&rest->frames, point->frame);
     }
     kiriPlaces_Keep(&sheet->pointPlaces, &rest->points);
     kiriSkin_Keep(&sheet->pointSkin, &rest->points, &rest->frames);
@@ -569,8 +568,8 @@ static void KeepContacts(kiriDetach* detach)
 {
     kiriSheetData* sheet = detach->sheet;
     int32_t left = 0, last = sheet->touches.last.touches.count;
-    for (int32_t i = 0; i < sheet->contacts.count; ++i) {
-        kiriGivenContact given = sheet->contacts.data[i];
+    KIRI_EACH(const kiriGivenContact, contact, sheet->contacts) {
+        kiriGivenContact given = *contact;
         if (FollowContact(&detach->rest, &given)) {
             sheet->contacts.data[left++] = given;
         }
@@ -632,8 +631,8 @@ void kiriDetach_Commit(kiriDetach* detach, kiriMemory* retired)
     KeepSamples(detach);
     KeepContacts(detach);
     CommitLayout(detach);
-    for (int32_t i = 0; i < detach->sheet->cuts.count; ++i) {
-        int32_t* vertex = &detach->sheet->cuts.data[i]->tip.blade.vertex;
+    KIRI_EACH_OF(kiriCutData, cut, detach->sheet->cuts) {
+        int32_t* vertex = &cut->tip.blade.vertex;
         *vertex = kiriKeep_To(&detach->rest.vertices, *vertex);
     }
     KeepSeen(detach, retired);
@@ -703,8 +702,7 @@ static bool Commit(kiriSheetData* sheet)
     for (int32_t f = 0; f < sheet->frames.count; ++f) {
         sheet->frames.data[f].site = u->placing.sites.data[f];
     }
-    for (int32_t i = 0; i < sheet->points.count; ++i) {
-        kiriSample* point = &sheet->points.data[i];
+    KIRI_EACH(kiriSample, point, sheet->points) {
         point->cell = kiriGrid_CellAround(&sheet->grid, &sheet->mesh, point->at);
         point->frame = sheet->regions.field.owner.data[point->cell];
     }

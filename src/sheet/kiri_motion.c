@@ -42,8 +42,8 @@ static kiriSystem MakeSystem(kiriSheetData* sheet, kiriVec3 gravity)
 static void ClearForces(kiriSheetData* sheet)
 {
     const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->frames;
-    for (int32_t n = 0; n < moved->count; ++n) {
-        kiriFrame_DropForces(&sheet->frames.data[moved->data[n]]);
+    KIRI_EACH(const int32_t, frame, *moved) {
+        kiriFrame_DropForces(&sheet->frames.data[*frame]);
     }
 }
 
@@ -53,15 +53,15 @@ static void ClearForces(kiriSheetData* sheet)
 static void MarkFading(kiriSheetData* sheet)
 {
     const kiriFades *fades = &sheet->seen.fades, *pointFades = &sheet->seen.pointFades;
-    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
-        sheet->layout.pieces.data[p].rest.isFading = false;
+    KIRI_EACH(kiriPiece, each, sheet->layout.pieces) {
+        each->rest.isFading = false;
     }
-    for (int32_t k = 0; k < fades->fading.count; ++k) {
-        int32_t piece = kiriPiece_OfVertex(sheet, fades->fading.data[k].sample);
+    KIRI_EACH(const kiriFading, at, fades->fading) {
+        int32_t piece = kiriPiece_OfVertex(sheet, at->sample);
         sheet->layout.pieces.data[piece].rest.isFading = true;
     }
-    for (int32_t k = 0; k < pointFades->fading.count; ++k) {
-        int32_t frame = sheet->points.data[pointFades->fading.data[k].sample].frame;
+    KIRI_EACH(const kiriFading, at, pointFades->fading) {
+        int32_t frame = sheet->points.data[at->sample].frame;
         kiriSheet_PieceOf(sheet, frame)->rest.isFading = true;
     }
 }
@@ -78,8 +78,8 @@ static void FallAsleep(kiriSheetData* sheet)
         if (!rest->asleep && rest->calm >= KIRI_CALM_SECONDS && !rest->isFading) {
             kiriIndexSpan frames = kiriSolver_FramesOf(sheet->solver, p);
             rest->asleep = true;
-            for (int32_t n = 0; n < frames.count; ++n) {
-                kiriFrame_PutToRest(&sheet->frames.data[frames.data[n]]);
+            KIRI_EACH(const int32_t, at, frames) {
+                kiriFrame_PutToRest(&sheet->frames.data[*at]);
             }
         }
     }
@@ -97,8 +97,8 @@ static int64_t ItemsOfMoved(const kiriSheetData* sheet)
 {
     const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->bodies;
     int64_t work = 0;
-    for (int32_t n = 0; n < moved->count; ++n) {
-        work += WorkOfBody(sheet, moved->data[n]);
+    KIRI_EACH(const int32_t, body, *moved) {
+        work += WorkOfBody(sheet, *body);
     }
     return kiriSolver_ItemsOf(work);
 }
@@ -108,11 +108,11 @@ static void CountContacts(kiriSheetData* sheet)
 {
     kiriSolverBody* bodies = sheet->solver->bodies.bodies.data;
     const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->bodies;
-    for (int32_t n = 0; n < moved->count; ++n) {
-        bodies[moved->data[n]].contactCount = 0;
+    KIRI_EACH(const int32_t, body, *moved) {
+        bodies[*body].contactCount = 0;
     }
-    for (int32_t i = 0; i < sheet->touches.found.count; ++i) {
-        bodies[kiriTouch_Piece(sheet, &sheet->touches.found.data[i])].contactCount += 1;
+    KIRI_EACH(const kiriTouch, touch, sheet->touches.found) {
+        bodies[kiriTouch_Piece(sheet, touch)].contactCount += 1;
     }
 }
 
@@ -122,8 +122,8 @@ static void Defer(kiriSheetData* sheet, int32_t body)
     KIRI_ASSERT(body >= 0 && body < sheet->layout.pieces.count && !sheet->layout.pieces.data[body].rest.waits);
     kiriRest* rest = &sheet->layout.pieces.data[body].rest;
     kiriIndexSpan frames = kiriSolver_FramesOf(sheet->solver, body);
-    for (int32_t n = 0; n < frames.count; ++n) {
-        kiriFrame_DropForces(&sheet->frames.data[frames.data[n]]);
+    KIRI_EACH(const int32_t, at, frames) {
+        kiriFrame_DropForces(&sheet->frames.data[*at]);
     }
     rest->waits = true;
     sheet->turns.waiting += 1;
@@ -162,8 +162,8 @@ static int32_t DeferBodies(kiriSheetData* sheet, const kiriQuota* systems)
 
 void kiriMotion_EndTurns(kiriSheetData* sheet)
 {
-    for (int32_t p = 0; sheet->turns.waiting > 0 && p < sheet->layout.pieces.count; ++p) {
-        sheet->layout.pieces.data[p].rest.waits = false;
+    KIRI_EACH_WHILE(sheet->turns.waiting > 0, kiriPiece, piece, sheet->layout.pieces) {
+        piece->rest.waits = false;
     }
     sheet->turns.waiting = 0;
 }
@@ -199,12 +199,12 @@ static void CountCalm(kiriSheetData* sheet, double dt)
 {
     const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->bodies;
     double limit = 0.5 * sheet->settings.sleepSpeed * sheet->settings.sleepSpeed;
-    for (int32_t k = 0; k < moved->count; ++k) {
-        kiriRest* rest = &sheet->layout.pieces.data[moved->data[k]].rest;
-        kiriIndexSpan frames = kiriSolver_FramesOf(sheet->solver, moved->data[k]);
+    KIRI_EACH(const int32_t, body, *moved) {
+        kiriRest* rest = &sheet->layout.pieces.data[*body].rest;
+        kiriIndexSpan frames = kiriSolver_FramesOf(sheet->solver, *body);
         bool isCalm = true;
-        for (int32_t n = 0; isCalm && n < frames.count; ++n) {
-            const kiriFrameData* frame = &sheet->frames.data[frames.data[n]];
+        KIRI_EACH_WHILE(isCalm, const int32_t, at, frames) {
+            const kiriFrameData* frame = &sheet->frames.data[*at];
             isCalm = kiriFrame_KineticEnergy(frame, &sheet->settings.material) < limit * frame->mass;
         }
         rest->calm = isCalm ? rest->calm + dt : 0.0;
@@ -215,11 +215,11 @@ static void CountCalm(kiriSheetData* sheet, double dt)
 static void Stop(kiriSheetData* sheet)
 {
     const kiriMoved* moved = kiriSolver_Moved(sheet->solver);
-    for (int32_t n = 0; n < moved->frames.count; ++n) {
-        kiriFrame_PutToRest(&sheet->frames.data[moved->frames.data[n]]);
+    KIRI_EACH(const int32_t, frame, moved->frames) {
+        kiriFrame_PutToRest(&sheet->frames.data[*frame]);
     }
-    for (int32_t n = 0; n < moved->bodies.count; ++n) {
-        kiriSheet_WakePiece(sheet, moved->bodies.data[n]);
+    KIRI_EACH(const int32_t, body, moved->bodies) {
+        kiriSheet_WakePiece(sheet, *body);
     }
     kiriPins_ClearReactions(sheet);
     kiriTouches_Clear(sheet);
@@ -238,15 +238,15 @@ static bool StepBodies(kiriSheetData* sheet, const kiriSystem* system, double dt
 {
     const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->bodies;
     int64_t work[KIRI_MOST_ROUNDS] = { 0 };
-    for (int32_t n = 0; n < moved->count; ++n) {
-        int32_t solved = kiriSolver_Step(sheet->solver, system, moved->data[n], dt, sheet->settings.iterations,
+    KIRI_EACH(const int32_t, body, *moved) {
+        int32_t solved = kiriSolver_Step(sheet->solver, system, *body, dt, sheet->settings.iterations,
                                          (int32_t)kiriMin(most, INT32_MAX));
         if (solved < 0) {
             return false;
         }
         KIRI_ASSERT(solved <= KIRI_MOST_ROUNDS);
         for (int32_t k = 0; k < solved; ++k) {
-            work[k] += WorkOfBody(sheet, moved->data[n]);
+            work[k] += WorkOfBody(sheet, *body);
         }
     }
     for (int32_t k = 0; k < KIRI_MOST_ROUNDS && work[k] > 0; ++k) {

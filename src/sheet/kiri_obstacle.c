@@ -50,32 +50,17 @@ void kiriObstacle_Bound(kiriObstacleData* obstacle, double dt)
     BoundAlong(obstacle, z, dt, &obstacle->lower.z, &obstacle->upper.z);
 }
 
-/* Returns the signed distance of the lowest corner of a box from a plane. */
-static double HeightAbovePlane(const kiriObstacleData* plane, kiriVec3 lower, kiriVec3 upper)
-{
-    kiriVec3 n = plane->rotation.d;
-    kiriVec3 lowest =
-        kiriVec3_Make(n.x > 0.0 ? lower.x : upper.x, n.y > 0.0 ? lower.y : upper.y, n.z > 0.0 ? lower.z : upper.z);
-    return kiriVec3_Dot(n, kiriVec3_Sub(lowest, plane->position));
-}
-
 bool kiriObstacle_IsNear(const kiriObstacleData* obstacle, kiriVec3 lower, kiriVec3 upper, double reach)
 {
     if (obstacle->shape.type == KIRI_OBSTACLE_PLANE) {
-        return HeightAbovePlane(obstacle, lower, upper) < reach;
+        kiriVec3 n = obstacle->rotation.d; /* the lowest corner of the box counts */
+        kiriVec3 lowest = { n.x > 0.0 ? lower.x : upper.x, n.y > 0.0 ? lower.y : upper.y,
+                            n.z > 0.0 ? lower.z : upper.z };
+        return kiriVec3_Dot(n, kiriVec3_Sub(lowest, obstacle->position)) < reach;
     }
     return lower.x - reach < obstacle->upper.x && lower.y - reach < obstacle->upper.y &&
            lower.z - reach < obstacle->upper.z && upper.x + reach > obstacle->lower.x &&
            upper.y + reach > obstacle->lower.y && upper.z + reach > obstacle->lower.z;
-}
-
-/* Returns the rotation of a rotation vector, with an angle of fourth order: the Cayley map alone turns by
-   2 atan(angle / 2). */
-static kiriMat3 Turn(kiriVec3 w)
-{
-    double half = 0.25 * kiriVec3_Dot(w, w); /* square of half the angle */
-    double stretch = 1.0 + half * (1.0 / 3.0 + half * (2.0 / 15.0));
-    return kiriMat3_Cayley(kiriVec3_Scale(stretch, w));
 }
 
 /* An obstacle farther from the origin does not move, m. */
@@ -89,21 +74,17 @@ void kiriObstacle_Advance(kiriObstacleData* obstacle, double dt)
         obstacle->position = position;
     }
     if (turn > 0.0) {
-        kiriMat3 turned = kiriMat3_MulMat(Turn(kiriVec3_Scale(dt, obstacle->spin)), obstacle->rotation);
-        obstacle->rotation = kiriMat3_Rotation(turned);
+        /* The Cayley map alone turns by 2 atan(angle / 2); so the angle is of fourth order. */
+        kiriVec3 w = kiriVec3_Scale(dt, obstacle->spin);
+        double half = 0.25 * kiriVec3_Dot(w, w); /* square of half the angle */
+        double stretch = 1.0 + half * (1.0 / 3.0 + half * (2.0 / 15.0));
+        kiriMat3 by = kiriMat3_Cayley(kiriVec3_Scale(stretch, w));
+        obstacle->rotation = kiriMat3_Rotation(kiriMat3_MulMat(by, obstacle->rotation));
     }
     obstacle->drift += dt * (speed + kiriObstacle_TurnSpeed(obstacle));
 }
 
 /* ---- Impulses ---------------------------------------------------------------------------------------------------- */
-
-/* Transforms a tensor from local axes to world axes. */
-static kiriMat3 TurnTensor(const kiriMat3* rotation, const kiriMat3* tensor)
-{
-    const kiriMat3* r = rotation;
-    kiriMat3 transposed = { { r->u.x, r->v.x, r->d.x }, { r->u.y, r->v.y, r->d.y }, { r->u.z, r->v.z, r->d.z } };
-    return kiriMat3_MulMat(kiriMat3_MulMat(*rotation, *tensor), transposed);
-}
 
 kiriYieldRow kiriObstacle_YieldRow(const kiriObstacleData* obstacle)
 {
@@ -112,7 +93,9 @@ kiriYieldRow kiriObstacle_YieldRow(const kiriObstacleData* obstacle)
     row.center = kiriObstacle_CenterOfMass(obstacle);
     if (obstacle->mass > 0.0) {
         row.inverseMass = 1.0 / obstacle->mass;
-        row.inverseInertia = TurnTensor(&obstacle->rotation, &obstacle->inverseInertia);
+        const kiriMat3* r = &obstacle->rotation;
+        kiriMat3 transposed = { { r->u.x, r->v.x, r->d.x }, { r->u.y, r->v.y, r->d.y }, { r->u.z, r->v.z, r->d.z } };
+        row.inverseInertia = kiriMat3_MulMat(kiriMat3_MulMat(*r, obstacle->inverseInertia), transposed);
     }
     return row;
 }
@@ -156,29 +139,9 @@ typedef struct Nearest2 {
     kiriVec2 normal;
 } Nearest2;
 
-static Nearest2 NearestOnDisc(double radius, kiriVec2 p)
-{
-    double length = kiriVec2_Length(p);
-    Nearest2 nearest = { length - radius, kiriVec2_Make(1.0, 0.0) };
-    if (length > 0.0) {
-        nearest.normal = kiriVec2_Scale(1.0 / length, p);
-    }
-    return nearest;
-}
-
 static double AboveEdge(const kiriObstacleShape* shape, int32_t edge, kiriVec2 p)
 {
     return kiriVec2_Dot(shape->normals[edge], kiriVec2_Sub(p, shape->outline[edge]));
-}
-
-/* Returns the vector from the nearest point of an edge to p. */
-static kiriVec2 FromEdge(const kiriObstacleShape* shape, int32_t edge, kiriVec2 p)
-{
-    int32_t next = edge + 1 < shape->count ? edge + 1 : 0;
-    kiriVec2 a = shape->outline[edge], along = kiriVec2_Sub(shape->outline[next], a);
-    double t = kiriVec2_Dot(kiriVec2_Sub(p, a), along) / kiriVec2_Dot(along, along);
-    t = kiriClamp(t, 0.0, 1.0);
-    return kiriVec2_Sub(p, kiriVec2_Make(a.x + t * along.x, a.y + t * along.y));
 }
 
 static Nearest2 NearestOutside(const kiriObstacleShape* shape, kiriVec2 p, Nearest2 highest)
@@ -187,7 +150,11 @@ static Nearest2 NearestOutside(const kiriObstacleShape* shape, kiriVec2 p, Neare
     double least = KIRI_ENDLESS;
     for (int32_t i = 0; i < shape->count; ++i) {
         if (AboveEdge(shape, i, p) > 0.0) {
-            kiriVec2 way = FromEdge(shape, i, p);
+            int32_t next = i + 1 < shape->count ? i + 1 : 0;
+            kiriVec2 a = shape->outline[i], along = kiriVec2_Sub(shape->outline[next], a);
+            double t = kiriVec2_Dot(kiriVec2_Sub(p, a), along) / kiriVec2_Dot(along, along);
+            t = kiriClamp(t, 0.0, 1.0);
+            kiriVec2 way = kiriVec2_Sub(p, kiriVec2_AddScaled(a, t, along));
             double length = kiriVec2_Length(way);
             if (length < least) {
                 least = length;
@@ -220,17 +187,11 @@ static kiriVec3 Raise(kiriVec2 normal)
     return kiriVec3_Make(normal.x, normal.y, 0.0);
 }
 
-/* Returns the distance out through a face at this depth, along the plane with normal `across`. */
-static double WayOut(double depth, kiriVec3 normal, kiriVec3 across)
-{
-    double lean = kiriVec3_Dot(normal, across), along = 1.0 - lean * lean;
-    return along > 1e-6 ? depth / sqrt(along) : KIRI_ENDLESS;
-}
-
-/* Takes a face if it is the shortest way out so far. */
+/* Takes a face if it is the shortest way out so far, along the plane with normal `across`. */
 static void TryFace(kiriNearest* best, double* way, double distance, kiriVec3 normal, kiriVec3 across)
 {
-    double out = WayOut(-distance, normal, across);
+    double lean = kiriVec3_Dot(normal, across), along = 1.0 - lean * lean;
+    double out = along > 1e-6 ? -distance / sqrt(along) : KIRI_ENDLESS;
     if (out < *way) {
         *way = out;
         best->distance = distance;
@@ -257,8 +218,13 @@ static kiriNearest NearestInside(const kiriObstacleShape* shape, kiriVec3 p, Nea
 static kiriNearest NearestOnColumn(const kiriObstacleShape* shape, kiriVec3 p, kiriVec3 across)
 {
     kiriVec2 flat = kiriVec2_Make(p.x, p.y);
-    Nearest2 side =
-        shape->type == KIRI_OBSTACLE_CYLINDER ? NearestOnDisc(shape->radius, flat) : NearestOnPolygon(shape, flat);
+    double length = kiriVec2_Length(flat);
+    Nearest2 side = { length - shape->radius, { 1.0, 0.0 } };
+    if (shape->type != KIRI_OBSTACLE_CYLINDER) {
+        side = NearestOnPolygon(shape, flat);
+    } else if (length > 0.0) {
+        side.normal = kiriVec2_Scale(1.0 / length, flat);
+    }
     double cap = fabs(p.z) - shape->half;
     kiriVec3 up = kiriVec3_Make(0.0, 0.0, p.z < 0.0 ? -1.0 : 1.0);
     kiriNearest nearest = { side.distance, Raise(side.normal) };
@@ -275,22 +241,18 @@ static kiriNearest NearestOnColumn(const kiriObstacleShape* shape, kiriVec3 p, k
     return nearest;
 }
 
-/* Returns the normal for a point on the axis: any direction normal to it that is not normal to the sheet's plane. */
-static kiriVec3 AnySide(kiriVec3 across)
-{
-    kiriVec3 x = { 1.0, 0.0, 0.0 }, y = { 0.0, 1.0, 0.0 };
-    return fabs(across.x) < 0.8 ? x : y;
-}
-
-/* Finds the nearest point of a capsule along the third axis; of a sphere if half is 0. */
+/* Finds the nearest point of a capsule along the third axis; of a sphere if half is 0. A point on the axis gets any normal
+   that is not normal to the sheet's plane. */
 static kiriNearest NearestOnCapsule(const kiriObstacleShape* shape, kiriVec3 p, kiriVec3 across)
 {
     double z = kiriClamp(p.z, -shape->half, shape->half);
     kiriVec3 way = kiriVec3_Make(p.x, p.y, p.z - z);
     double length = kiriVec3_Length(way);
-    kiriNearest nearest = { length - shape->radius, AnySide(across) };
+    kiriNearest nearest = { length - shape->radius, { 1.0, 0.0, 0.0 } };
     if (length > 0.0) {
         nearest.normal = kiriVec3_Scale(1.0 / length, way);
+    } else if (!(fabs(across.x) < 0.8)) {
+        nearest.normal = kiriVec3_Make(0.0, 1.0, 0.0);
     }
     return nearest;
 }
@@ -374,15 +336,6 @@ static double HalfWidth(const kiriObstacleShape* shape)
     return 0.5 * least;
 }
 
-static bool RimAt(const kiriObstacleShape* shape, int32_t index, kiriObstacleEdge* edge)
-{
-    double side = index == 0 ? 1.0 : -1.0;
-    edge->from = edge->to = kiriVec3_Make(0.0, 0.0, side * shape->half);
-    edge->faces[0] = edge->faces[1] = kiriVec3_Make(0.0, 0.0, side);
-    edge->radius = shape->radius;
-    return true;
-}
-
 /* Returns edge `index` of a prism: first the edges along the axis, then the edges of both ends. */
 static bool PrismEdgeAt(const kiriObstacleShape* shape, int32_t index, kiriObstacleEdge* edge)
 {
@@ -408,7 +361,14 @@ bool kiriObstacleShape_EdgeAt(const kiriObstacleShape* shape, int32_t index, kir
 {
     double width = HalfWidth(shape);
     edge->thinnest = kiriMin(width, shape->half);
-    return shape->type == KIRI_OBSTACLE_CYLINDER ? RimAt(shape, index, edge) : PrismEdgeAt(shape, index, edge);
+    if (shape->type != KIRI_OBSTACLE_CYLINDER) {
+        return PrismEdgeAt(shape, index, edge);
+    }
+    double side = index == 0 ? 1.0 : -1.0;
+    edge->from = edge->to = kiriVec3_Make(0.0, 0.0, side * shape->half);
+    edge->faces[0] = edge->faces[1] = kiriVec3_Make(0.0, 0.0, side);
+    edge->radius = shape->radius;
+    return true;
 }
 
 int32_t kiriObstacleShape_CornerCount(const kiriObstacleShape* shape)
@@ -448,15 +408,6 @@ kiriVec2 kiriCircle_At(int32_t i, int32_t count)
     return a;
 }
 
-/* Returns the parameter, 0 to 1, of the point of a segment nearest to p. */
-static double ShareOfSegment(kiriVec3 a, kiriVec3 b, kiriVec3 p)
-{
-    kiriVec3 along = kiriVec3_Sub(b, a);
-    double square = kiriVec3_Dot(along, along);
-    double t = square > 0.0 ? kiriVec3_Dot(kiriVec3_Sub(p, a), along) / square : 0.0;
-    return kiriClamp(t, 0.0, 1.0);
-}
-
 static kiriVec3 BlendOfThree(const kiriVec3 x[3], const double share[3])
 {
     return kiriVec3_AddScaled(kiriVec3_AddScaled(kiriVec3_Scale(share[0], x[0]), share[1], x[1]), share[2], x[2]);
@@ -476,8 +427,11 @@ static void NearestOfTriangle(const kiriVec3 x[3], kiriVec3 p, double share[3])
     }
     for (int k = 0; k < 3; ++k) {
         int next = (k + 1) % 3;
-        double t = ShareOfSegment(x[k], x[next], p);
-        double far = kiriVec3_Length(kiriVec3_Sub(kiriVec3_AddScaled(kiriVec3_Scale(1.0 - t, x[k]), t, x[next]), p));
+        kiriVec3 along = kiriVec3_Sub(x[next], x[k]);
+        double side = kiriVec3_Dot(along, along),
+               t = side > 0.0 ? kiriVec3_Dot(kiriVec3_Sub(p, x[k]), along) / side : 0.0;
+        t = kiriClamp(t, 0.0, 1.0);
+        double far = kiriVec3_Distance(kiriVec3_AddScaled(kiriVec3_Scale(1.0 - t, x[k]), t, x[next]), p);
         if (far < least) {
             least = far;
             share[k] = 1.0 - t;
@@ -503,17 +457,6 @@ static void NearestToAxis(double half, const kiriVec3 x[3], double share[3])
     }
 }
 
-/* Returns true if a side of the triangle is so long that an arc of the obstacle fits between its ends. */
-static bool IsCoarse(const kiriMeeting* meeting, const kiriVec3 x[3])
-{
-    double longest = 0.0;
-    for (int k = 0; k < 3; ++k) {
-        double length = kiriVec3_Length(kiriVec3_Sub(x[(k + 1) % 3], x[k]));
-        longest = kiriMax(length, longest);
-    }
-    return longest * longest > 16.0 * meeting->gap * meeting->obstacle->shape.radius;
-}
-
 /* Returns true for a point that is not a vertex; in a planar sheet, only for a point on the border. */
 static bool CountsBetween(const kiriMeeting* meeting, const int32_t* v, const double share[3])
 {
@@ -533,8 +476,8 @@ static void GetCorners(const kiriMeeting* meeting, int32_t triangle, kiriVec3 x[
 {
     const kiriSurface* surface = &meeting->sheet->seen.surface;
     for (int k = 0; k < 3; ++k) {
-        int32_t vertex = surface->indices.data[3 * (int64_t)triangle + k];
-        x[k] = kiriObstacle_PointToLocal(meeting->obstacle, kiriSurface_At(surface, vertex));
+        x[k] = kiriObstacle_PointToLocal(meeting->obstacle,
+                                         kiriSurface_At(surface, kiriSurface_Triangle(surface, triangle)[k]));
     }
 }
 
@@ -542,7 +485,7 @@ static bool TouchRound(const kiriMeeting* meeting, int32_t triangle, kiriTouch* 
 {
     const kiriSheetData* sheet = meeting->sheet;
     const kiriObstacleData* obstacle = meeting->obstacle;
-    const int32_t* v = &sheet->seen.surface.indices.data[3 * (int64_t)triangle];
+    const int32_t* v = kiriSurface_Triangle(&sheet->seen.surface, triangle);
     kiriVec3 x[3], velocity = { 0.0, 0.0, 0.0 };
     double share[3];
     GetCorners(meeting, triangle, x);
@@ -566,16 +509,22 @@ static bool TouchRound(const kiriMeeting* meeting, int32_t triangle, kiriTouch* 
     return true;
 }
 
-/* Lists the coarse triangles nearby, ascending. */
+/* Lists the coarse triangles nearby, ascending: a side is so long that an arc of the obstacle fits between its ends. */
 static bool CollectCoarse(const kiriMeeting* meeting)
 {
     kiriObstacleSearch* search = meeting->search;
     bool ok = true;
     search->crossed.count = 0;
-    for (int32_t i = 0; ok && i < search->triangles.count; ++i) {
+    KIRI_EACH_WHILE(ok, const int32_t, at, search->triangles) {
         kiriVec3 x[3];
-        GetCorners(meeting, search->triangles.data[i], x);
-        ok = !IsCoarse(meeting, x) || kiriArray_Push(search->memory, &search->crossed, search->triangles.data[i]);
+        double longest = 0.0;
+        GetCorners(meeting, *at, x);
+        for (int k = 0; k < 3; ++k) {
+            double length = kiriVec3_Distance(x[(k + 1) % 3], x[k]);
+            longest = kiriMax(length, longest);
+        }
+        bool isCoarse = longest * longest > 16.0 * meeting->gap * meeting->obstacle->shape.radius;
+        ok = !isCoarse || kiriArray_Push(search->memory, &search->crossed, *at);
     }
     if (search->crossed.count > 0) {
         kiriSort(search->crossed.data, search->crossed.count, NULL, NULL);
@@ -590,10 +539,10 @@ bool kiriMeeting_TouchRounds(const kiriMeeting* meeting)
         return true;
     }
     bool ok = CollectCoarse(meeting);
-    for (int32_t i = 0; ok && i < coarse->count; ++i) {
+    KIRI_EACH_WHILE(ok, const int32_t, triangle, *coarse) {
         kiriTouch touch;
-        if (TouchRound(meeting, coarse->data[i], &touch)) {
-            touch.key = kiriMeeting_Key(meeting, true, KIRI_ROUND_ITEM | (uint32_t)coarse->data[i]);
+        if (TouchRound(meeting, *triangle, &touch)) {
+            touch.key = kiriMeeting_Key(meeting, true, KIRI_ROUND_ITEM | (uint32_t)*triangle);
             ok = kiriTouches_Add(meeting->sheet, &touch);
         }
     }
@@ -638,32 +587,24 @@ static bool IsTangentTo(const EdgePoint* point, kiriVec3 normal)
     return true;
 }
 
-/* Returns the interpolated surface normal at a point, on the side of `out`. */
-static kiriVec3 SeenNormal(kiriSurface* surface, const int32_t* v, const double share[3], kiriVec3 out)
-{
-    kiriVec3 sum = { 0.0, 0.0, 0.0 };
-    kiriSurface_NeedNormals(surface);
-    for (int k = 0; k < 3; ++k) {
-        sum = kiriVec3_AddScaled(sum, share[k], kiriVec3_Load(&surface->normals.data[3 * (int64_t)v[k]]));
-    }
-    return kiriVec3_Scale(kiriVec3_Dot(sum, out) < 0.0 ? -1.0 : 1.0, kiriVec3_Normalize(sum));
-}
-
 static bool TouchTriangle(const kiriMeeting* meeting, const EdgePoint* point, int32_t triangle, kiriTouch* touch)
 {
     kiriSheetData* sheet = meeting->sheet;
-    const int32_t* v = &sheet->seen.surface.indices.data[3 * (int64_t)triangle];
-    kiriVec3 x[3] = { kiriSurface_At(&sheet->seen.surface, v[0]), kiriSurface_At(&sheet->seen.surface, v[1]),
-                      kiriSurface_At(&sheet->seen.surface, v[2]) };
+    kiriSurface* surface = &sheet->seen.surface;
+    const int32_t* v = kiriSurface_Triangle(surface, triangle);
+    kiriVec3 x[3] = { kiriSurface_At(surface, v[0]), kiriSurface_At(surface, v[1]), kiriSurface_At(surface, v[2]) };
     double height, share[3], gap = meeting->gap + meeting->obstacle->shape.rounding;
     if (!MeetsTriangle(x, point, &height, share)) {
         return false;
     }
-    kiriVec3 normal = SeenNormal(&sheet->seen.surface, v, share, point->out);
-    kiriVec3 velocity = { 0.0, 0.0, 0.0 }, at = kiriVec3_AddScaled(point->at, height, point->out);
+    kiriVec3 sum = { 0.0, 0.0, 0.0 }, velocity = sum, at = kiriVec3_AddScaled(point->at, height, point->out);
+    kiriSurface_NeedNormals(surface);
     for (int k = 0; k < 3; ++k) {
+        sum = kiriVec3_AddScaled(sum, share[k], kiriVec3_Load(&surface->normals.data[3 * (int64_t)v[k]]));
         velocity = kiriVec3_AddScaled(velocity, share[k], kiriMeeting_VertexVelocity(sheet, v[k]));
     }
+    /* The interpolated surface normal, on the side of `out`. */
+    kiriVec3 normal = kiriVec3_Scale(kiriVec3_Dot(sum, point->out) < 0.0 ? -1.0 : 1.0, kiriVec3_Normalize(sum));
     double above = height * kiriVec3_Dot(normal, point->out) - gap;
     double rise = kiriVec3_Dot(normal, kiriMeeting_Way(meeting, at, velocity));
     if (above + rise > KIRI_NEARBY * gap || !IsTangentTo(point, normal) ||
@@ -707,12 +648,12 @@ static bool FindCrossed(const kiriMeeting* meeting, const EdgePoint* point)
                                crossed)) {
         return false;
     }
-    for (int32_t i = 0; i < crossed->count; ++i) {
-        const int32_t* v = &surface->indices.data[3 * (int64_t)crossed->data[i]];
+    KIRI_EACH(const int32_t, triangle, *crossed) {
+        const int32_t* v = kiriSurface_Triangle(surface, *triangle);
         kiriVec3 x[3] = { kiriSurface_At(surface, v[0]), kiriSurface_At(surface, v[1]), kiriSurface_At(surface, v[2]) };
         double height, share[3];
         if (MeetsTriangle(x, point, &height, share)) {
-            crossed->data[kept++] = crossed->data[i];
+            crossed->data[kept++] = *triangle;
         }
     }
     crossed->count = kept;
@@ -729,9 +670,9 @@ static bool TouchPoint(const kiriMeeting* meeting, const EdgePoint* point)
     const kiriIndices* crossed = &meeting->search->crossed;
     bool ok = FindCrossed(meeting, point);
     uint32_t layers = 0;
-    for (int32_t i = 0; ok && i < crossed->count && layers < MOST_LAYERS; ++i) {
+    KIRI_EACH_WHILE(ok&& layers < MOST_LAYERS, const int32_t, triangle, *crossed) {
         kiriTouch touch;
-        if (TouchTriangle(meeting, point, crossed->data[i], &touch)) {
+        if (TouchTriangle(meeting, point, *triangle, &touch)) {
             touch.key = kiriMeeting_Key(meeting, true, point->item * MOST_LAYERS + layers++);
             ok = kiriTouches_Add(meeting->sheet, &touch);
         }
@@ -915,26 +856,20 @@ static bool TouchSide(const kiriMeeting* meeting, const EdgePoint* point, int32_
     return true;
 }
 
-static kiriBox BoxAround(const EdgePoint* point)
-{
-    kiriVec3 a = kiriVec3_AddScaled(point->at, point->above, point->out);
-    kiriVec3 b = kiriVec3_AddScaled(point->at, -point->below, point->out);
-    kiriBox box = { { kiriMin(a.x, b.x), kiriMin(a.y, b.y), kiriMin(a.z, b.z) },
-                    { kiriMax(b.x, a.x), kiriMax(b.y, a.y), kiriMax(b.z, a.z) } };
-    return box;
-}
-
 static bool TouchCorner(const kiriMeeting* meeting, const EdgePoint* point)
 {
     enum { MOST_SIDES = 4 };
     kiriSheetData* sheet = meeting->sheet;
     kiriObstacleSearch* search = meeting->search;
-    kiriBox box = BoxAround(point);
+    kiriVec3 a = kiriVec3_AddScaled(point->at, point->above, point->out);
+    kiriVec3 b = kiriVec3_AddScaled(point->at, -point->below, point->out);
+    const kiriBox box = { { kiriMin(a.x, b.x), kiriMin(a.y, b.y), kiriMin(a.z, b.z) },
+                          { kiriMax(b.x, a.x), kiriMax(b.y, a.y), kiriMax(b.z, a.z) } };
     uint32_t sides = 0;
     search->crossed.count = 0;
     bool ok = kiriBounds_Box(sheet->seen.bounds, &sheet->seen.surface, &box, search->memory, &search->crossed);
     for (int32_t i = 0; ok && i < 3 * search->crossed.count && sides < MOST_SIDES; ++i) {
-        const int32_t* v = &sheet->seen.surface.indices.data[3 * (int64_t)search->crossed.data[i / 3]];
+        const int32_t* v = kiriSurface_Triangle(&sheet->seen.surface, search->crossed.data[i / 3]);
         kiriTouch touch;
         if (TouchSide(meeting, point, v[i % 3], v[(i + 1) % 3], &touch)) {
             touch.key = kiriMeeting_Key(meeting, true, point->item * MOST_SIDES + sides++);
@@ -959,25 +894,25 @@ bool kiriMeeting_TouchCorners(const kiriMeeting* meeting)
 }
 
 KIRI_TABLE(ObstacleShapeTable, kiriObstacleShape, {
-    KIRI_WITHIN(KIRI_OBSTACLE_PLANE, KIRI_OBSTACLE_PRISM, kiriObstacleShape, type, type),
-    KIRI_REALS(kiriObstacleShape, radius, rounding),
-    KIRI_REALS(kiriObstacleShape, flat, flat),
-    KIRI_KEPT(kiriObstacleShape, outline, count),
-});
+    KIRI_WITHIN(KIRI_OBSTACLE_PLANE, KIRI_OBSTACLE_PRISM, type),
+    KIRI_REALS(radius, rounding),
+    KIRI_REALS(flat),
+    KIRI_KEPT(outline, count),
+})
 
 KIRI_TABLE(ObstacleDataTable, kiriObstacleData, {
-    KIRI_PART(kiriObstacleData, shape, ObstacleShapeTable),
-    KIRI_REALS(kiriObstacleData, position, center),
-    KIRI_RUN(4, kiriObstacleData, body, body),
-    KIRI_REALS(kiriObstacleData, pushSpeed, pushSpeed),
-    KIRI_RUN(4, kiriObstacleData, groups, groups),
-    KIRI_REALS(kiriObstacleData, drift, drift),
+    KIRI_PART(shape, ObstacleShapeTable),
+    KIRI_REALS(position, center),
+    KIRI_RUN(4, body),
+    KIRI_REALS(pushSpeed),
+    KIRI_RUN(4, groups),
+    KIRI_REALS(drift),
     KIRI_UNHASHED,
-    KIRI_RUN(4, kiriObstacleData, id, id),
-    KIRI_REALS(kiriObstacleData, impulse, impulse),
-    KIRI_WITHIN(0, INT32_MAX, kiriObstacleData, contacts, contacts),
-    KIRI_REALS(kiriObstacleData, lower, upper),
-});
+    KIRI_RUN(4, id),
+    KIRI_REALS(impulse),
+    KIRI_WITHIN(0, INT32_MAX, contacts),
+    KIRI_REALS(lower, upper),
+})
 
 static bool IsObstacle(const kiriObstacleData* obstacle)
 {
@@ -1001,7 +936,7 @@ void kiriObstacle_Archive(kiriArchive* archive, kiriObstacleData** made, kiriMem
         archive->isShort |= *made == NULL && !archive->isBad;
     }
     if (*made != NULL) {
-        kiriArchive_Object(archive, &ObstacleDataTable, *made);
+        kiriArchive_Object(archive, ObstacleDataTable, *made);
         kiriArchive_Numbers(archive, (*made)->shape.outline, 8, 4 * (int64_t)corners);
         kiriArchive_Expect(archive, archive->isWhole || IsObstacle(*made));
     }

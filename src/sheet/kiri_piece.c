@@ -13,9 +13,9 @@ static bool JoinFrames(kiriSheetData* sheet)
         return false;
     }
     kiriUnion_Init(u->parent.data, u->placing.sites.count);
-    for (int32_t k = 0; k < sheet->links.next.count; ++k) {
-        KIRI_ASSERT(sheet->links.next.data[k].j < u->parent.count);
-        kiriUnion_Join(u->parent.data, sheet->links.next.data[k].i, sheet->links.next.data[k].j);
+    KIRI_EACH(const kiriLink, link, sheet->links.next) {
+        KIRI_ASSERT(link->j < u->parent.count);
+        kiriUnion_Join(u->parent.data, link->i, link->j);
     }
     return true;
 }
@@ -85,16 +85,15 @@ bool kiriPieces_Stage(kiriSheetData* sheet)
 bool kiriPieces_AnyGone(const kiriSheetData* sheet)
 {
     bool any = false;
-    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
-        any = any || sheet->layout.pieces.data[p].isGone;
+    KIRI_EACH(const kiriPiece, piece, sheet->layout.pieces) {
+        any = any || piece->isGone;
     }
     return any;
 }
 
 void kiriPieces_KeepGone(kiriSheetData* sheet, const kiriLayout* old)
 {
-    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
-        kiriPiece* piece = &sheet->layout.pieces.data[p];
+    KIRI_EACH(kiriPiece, piece, sheet->layout.pieces) {
         piece->isGone = piece->origin != KIRI_NONE && old->pieces.data[piece->origin].isGone;
     }
 }
@@ -143,8 +142,7 @@ static void TouchByLinks(kiriSheetData* sheet)
 /* Samples beside a cut are weighed again, too; most weights stay the same. */
 static void TouchBySamples(kiriSheetData* sheet, const kiriSkin* skin, int32_t oldCount)
 {
-    for (int32_t k = 0; k < skin->staged.count; ++k) {
-        const kiriReweighed* staged = &skin->staged.data[k];
+    KIRI_EACH(const kiriReweighed, staged, skin->staged) {
         const kiriSampleWeight* weights = &skin->weights.data[staged->span.first];
         kiriPiece* piece = NextOfFrame(sheet, weights->frame);
         bool isNew = staged->sample >= oldCount;
@@ -158,14 +156,12 @@ static void TouchBySamples(kiriSheetData* sheet, const kiriSkin* skin, int32_t o
 static void TouchByOrigin(kiriSheetData* sheet)
 {
     kiriLayout* next = &sheet->update->next;
-    for (int32_t p = 0; p < next->pieces.count; ++p) {
-        const kiriPiece* piece = &next->pieces.data[p];
+    KIRI_EACH(const kiriPiece, piece, next->pieces) {
         if (piece->isTouched && piece->origin != KIRI_NONE) {
             sheet->layout.pieces.data[piece->origin].rest.isStirred = true;
         }
     }
-    for (int32_t p = 0; p < next->pieces.count; ++p) {
-        kiriPiece* piece = &next->pieces.data[p];
+    KIRI_EACH(kiriPiece, piece, next->pieces) {
         bool isOfTouched = piece->origin != KIRI_NONE && sheet->layout.pieces.data[piece->origin].rest.isStirred;
         piece->isTouched = piece->isTouched || isOfTouched;
     }
@@ -175,8 +171,8 @@ void kiriPieces_FindTouched(kiriSheetData* sheet)
 {
     kiriLayout* next = &sheet->update->next;
     KIRI_ASSERT(next->framePiece.count == sheet->update->placing.sites.count);
-    for (int32_t p = 0; p < next->pieces.count; ++p) {
-        next->pieces.data[p].isTouched = next->pieces.data[p].cameOff;
+    KIRI_EACH(kiriPiece, piece, next->pieces) {
+        piece->isTouched = piece->cameOff;
     }
     for (int32_t i = 0; i < sheet->update->placing.sites.count; ++i) {
         bool isNew = i >= sheet->frames.count;
@@ -186,8 +182,8 @@ void kiriPieces_FindTouched(kiriSheetData* sheet)
     }
     TouchByLinks(sheet);
     bool areAllTouched = true;
-    for (int32_t p = 0; p < next->pieces.count; ++p) {
-        areAllTouched = areAllTouched && next->pieces.data[p].isTouched;
+    KIRI_EACH(const kiriPiece, piece, next->pieces) {
+        areAllTouched = areAllTouched && piece->isTouched;
     }
     if (!areAllTouched) { /* there may be many samples */
         TouchBySamples(sheet, &sheet->vertexSkin, sheet->update->samples.oldVertices);
@@ -198,8 +194,7 @@ void kiriPieces_FindTouched(kiriSheetData* sheet)
 
 void kiriPieces_KeepRest(kiriSheetData* sheet, const kiriLayout* old)
 {
-    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
-        kiriPiece* piece = &sheet->layout.pieces.data[p];
+    KIRI_EACH(kiriPiece, piece, sheet->layout.pieces) {
         if (piece->origin != KIRI_NONE && !piece->isTouched) {
             piece->rest = old->pieces.data[piece->origin].rest;
         }
@@ -219,7 +214,7 @@ static int32_t HeaviestAt(const kiriSheetData* sheet, int32_t triangle)
     kiriSampleWeight heaviest = { KIRI_NONE, 0.0f };
     for (int corner = 0; corner < 3; ++corner) {
         kiriSpan span = skin->spans.data[sheet->mesh.triangles.data[triangle].vertex[corner]];
-        for (int32_t k = span.first; k < span.first + span.count; ++k) {
+        KIRI_EACH_IN(k, span) {
             if (skin->weights.data[k].value > heaviest.value) {
                 heaviest = skin->weights.data[k];
             }
@@ -276,8 +271,7 @@ static bool AreLinked(const LineWork* work, int32_t a, int32_t b)
 static bool CloseEnds(const LineWork* work, int32_t frame, double at)
 {
     bool any = false;
-    for (int32_t k = 0; k < work->sheet->lineShares.count; ++k) {
-        kiriLineShare* share = &work->sheet->lineShares.data[k];
+    KIRI_EACH(kiriLineShare, share, work->sheet->lineShares) {
         if (share->ends[1] == at && share->frame != frame && AreLinked(work, share->frame, frame)) {
             share->open[1] = false;
             any = true;
@@ -288,9 +282,9 @@ static bool CloseEnds(const LineWork* work, int32_t frame, double at)
 
 kiriLineShare* kiriOwner_ShareOf(kiriSheetData* sheet, const kiriLineShare* none)
 {
-    for (int32_t k = 0; k < sheet->lineShares.count; ++k) {
-        if (sheet->lineShares.data[k].frame == none->frame) {
-            return &sheet->lineShares.data[k];
+    KIRI_EACH(kiriLineShare, share, sheet->lineShares) {
+        if (share->frame == none->frame) {
+            return share;
         }
     }
     bool ok = kiriArray_Push(sheet->memory, &sheet->lineShares, *none);
@@ -329,8 +323,7 @@ bool kiriOwner_FindShares(kiriSheetData* sheet, kiriLatticePoint from, kiriLatti
     const LineWork work = { sheet, isStaged };
     sheet->lineShares.count = 0;
     bool ok = kiriLine_Trace(&sheet->line, sheet->memory, &sheet->mesh, from, to);
-    for (int32_t k = 0; ok && k < sheet->line.parts.count; ++k) {
-        const kiriLinePart* part = &sheet->line.parts.data[k];
+    KIRI_EACH_WHILE(ok, const kiriLinePart, part, sheet->line.parts) {
         int32_t left = kiriOwner_OfNode(sheet, part->node[0], isStaged);
         int32_t right = kiriOwner_OfNode(sheet, part->node[1], isStaged);
         if (left != KIRI_NONE) {

@@ -6,288 +6,6 @@
 
 #include <string.h>
 
-/* ---- Place ------------------------------------------------------------------------------------------------------- */
-
-static void TurnVector(const kiriMat3* R, kiriVec3* a)
-{
-    *a = kiriMat3_Mul(*R, *a);
-}
-
-static void TurnColumns(const kiriMat3* R, kiriMat3* A)
-{
-    *A = kiriMat3_MulMat(*R, *A);
-}
-
-static void CarryFrame(kiriFrameData* frame, const kiriMat3* R, kiriVec3 t, bool isRigid)
-{
-    frame->x = kiriVec3_Add(kiriMat3_Mul(*R, frame->x), t);
-    TurnColumns(R, &frame->A);
-    frame->A = isRigid ? kiriMat3_Rotation(frame->A) : frame->A;
-    TurnVector(R, &frame->velocity);
-    TurnVector(R, &frame->spin);
-    TurnColumns(R, &frame->rate);
-    TurnVector(R, &frame->history.gain);
-    TurnVector(R, &frame->history.lag);
-    TurnVector(R, &frame->history.pull);
-    TurnColumns(R, &frame->history.turnGain);
-    TurnColumns(R, &frame->history.turnLag);
-    TurnColumns(R, &frame->history.turnPull);
-    TurnVector(R, &frame->heldOff);
-}
-
-/* ---- What holds it ---- */
-
-static void TurnWrench(const kiriMat3* R, kiriWrench* wrench)
-{
-    TurnVector(R, &wrench->force);
-    TurnVector(R, &wrench->moment);
-}
-
-static void TurnReaction(const kiriMat3* R, kiriReaction* reaction)
-{
-    TurnWrench(R, &reaction->gain);
-    TurnWrench(R, &reaction->pull);
-}
-
-static double SquareApart(kiriVec3 a, kiriVec3 b)
-{
-    kiriVec3 d = kiriVec3_Sub(a, b);
-    return kiriVec3_Dot(d, d);
-}
-
-/* Returns the squared distance of two poses of a body of this size (m). */
-static double PosesApart(kiriVec3 a, const kiriMat3* A, kiriVec3 b, const kiriMat3* B, double size)
-{
-    double turned = SquareApart(A->u, B->u) + SquareApart(A->v, B->v);
-    return SquareApart(a, b) + size * size * turned;
-}
-
-static void CarryPose(const kiriMat3* R, kiriVec3 t, kiriVec3* x, kiriMat3* A)
-{
-    *x = kiriVec3_Add(kiriMat3_Mul(*R, *x), t);
-    TurnColumns(R, A);
-    *A = kiriMat3_Rotation(*A);
-}
-
-/* Transforms a held pose and its goal for the next tick. A goal nearer to the new pose than to the old one stays: the
-   host has moved it already. */
-static void CarryHeld(const kiriMat3* R, kiriVec3 t, double size, kiriVec3* at, kiriMat3* axes, kiriVec3* goal,
-                      kiriMat3* goalAxes)
-{
-    kiriVec3 was = *at;
-    kiriMat3 wasAxes = *axes;
-    CarryPose(R, t, at, axes);
-    if (!(PosesApart(*goal, goalAxes, *at, axes, size) < PosesApart(*goal, goalAxes, was, &wasAxes, size))) {
-        CarryPose(R, t, goal, goalAxes);
-    }
-}
-
-void kiriCarry_Pin(kiriSheetData* sheet, int32_t index, const kiriMat3* R, kiriVec3 t)
-{
-    KIRI_ASSERT(index >= 0 && index < sheet->pins.count);
-    kiriPinData* pin = &sheet->pins.data[index];
-    kiriVec2 way = kiriVec2_Sub(kiriMesh_Local(&sheet->mesh, pin->to), kiriMesh_Local(&sheet->mesh, pin->at));
-    CarryHeld(R, t, 0.5 * kiriVec2_Length(way), &pin->lastTarget, &pin->lastRotation, &pin->target, &pin->rotation);
-}
-
-static void TurnPins(kiriSheetData* sheet, const kiriMat3* R)
-{
-    for (int32_t i = 0; i < sheet->pins.count; ++i) {
-        kiriPinData* pin = &sheet->pins.data[i];
-        TurnVector(R, &pin->off);
-        TurnReaction(R, &pin->reaction);
-        TurnWrench(R, &pin->bore);
-    }
-    for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
-        kiriPinShare* share = &sheet->layout.pinShares.data[k];
-        TurnVector(R, &share->off);
-        TurnReaction(R, &share->reactions[0]);
-        TurnReaction(R, &share->reactions[1]);
-        TurnWrench(R, &share->bore);
-    }
-}
-
-/* ---- All of it ---- */
-
-bool kiriCarry_FitsSheet(const kiriSheetData* sheet, const kiriMat3* R, kiriVec3 t)
-{
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
-        kiriFrameData moved = sheet->frames.data[i];
-        CarryFrame(&moved, R, t, false);
-        if (!kiriFrame_FitsFloats(&moved)) {
-            return false;
-        }
-    }
-    for (int32_t i = 0; i < sheet->pins.count; ++i) {
-        if (!kiriVec3_FitsFloats(kiriVec3_Add(kiriMat3_Mul(*R, sheet->pins.data[i].target), t))) {
-            return false;
-        }
-    }
-    return true;
-}
-
-static void TurnFades(kiriFades* fades, const kiriMat3* R)
-{
-    for (int32_t k = 0; k < fades->fading.count; ++k) {
-        TurnVector(R, &fades->fading.data[k].offset);
-    }
-}
-
-/* Allocates a new block for an array whose items need not be kept. */
-static float* Renewed(kiriMemory* memory, int32_t capacity)
-{
-    return kiriMemory_Alloc(memory, (int64_t)sizeof(float) * (capacity > 0 ? capacity : 1));
-}
-
-static void Retire(kiriMemory* retired, float** array, float* renewed)
-{
-    if (*array != NULL) {
-        kiriMemory_Adopt(retired, *array);
-    }
-    *array = renewed;
-}
-
-bool kiriCarry_Renew(kiriSheetData* sheet, kiriMemory* retired)
-{
-    kiriSurface* surface = &sheet->seen.surface;
-    float* positions = Renewed(&sheet->shown, surface->positions.capacity);
-    float* normals = Renewed(&sheet->shown, surface->normals.capacity);
-    float* points = Renewed(&sheet->shown, sheet->seen.pointPositions.capacity);
-    if (positions == NULL || normals == NULL || points == NULL) {
-        kiriMemory_Free(&sheet->shown, positions);
-        kiriMemory_Free(&sheet->shown, normals);
-        kiriMemory_Free(&sheet->shown, points);
-        return false;
-    }
-    Retire(retired, &surface->positions.data, positions);
-    Retire(retired, &surface->normals.data, normals);
-    Retire(retired, &sheet->seen.pointPositions.data, points);
-    surface->isWritten = surface->isSteady = false;
-    return true;
-}
-
-bool kiriCarry_Sheet(kiriSheetData* sheet, const kiriMat3* R, kiriVec3 t, kiriMemory* retired)
-{
-    if (!kiriCarry_Renew(sheet, retired)) {
-        return false;
-    }
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
-        kiriFrameData* frame = &sheet->frames.data[i];
-        CarryFrame(frame, R, t, sheet->settings.mechanics.model == KIRI_MODEL_LINKS);
-        if (frame->held) {
-            CarryHeld(R, t, kiriRoot(frame->area), &frame->heldPosition, &frame->heldRotation, &frame->goalPosition,
-                      &frame->goalRotation);
-            TurnReaction(R, &frame->reaction);
-            TurnWrench(R, &frame->bore);
-        }
-    }
-    TurnPins(sheet, R);
-    TurnFades(&sheet->seen.fades, R);
-    TurnFades(&sheet->seen.pointFades, R);
-    kiriView_WritePositions(sheet);
-    kiriSheet_WakeAll(sheet);
-    return true;
-}
-
-/* ---- Another origin ---------------------------------------------------------------------------------------------- */
-
-static void Shift(kiriVec3* at, kiriVec3 origin)
-{
-    *at = kiriVec3_Sub(*at, origin);
-}
-
-static void ShiftTouches(kiriTouch* touches, int32_t count, kiriVec3 origin)
-{
-    for (int32_t i = 0; i < count; ++i) {
-        Shift(&touches[i].seen, origin);
-        touches[i].offset -= kiriVec3_Dot(touches[i].normal, origin);
-    }
-}
-
-static void ShiftContacts(kiriSheetData* sheet, kiriVec3 origin)
-{
-    kiriTouches* touches = &sheet->touches;
-    ShiftTouches(touches->found.data, touches->found.count, origin);
-    ShiftTouches(touches->last.touches.data, touches->last.touches.count, origin);
-    ShiftTouches(touches->slept.touches.data, touches->slept.touches.count, origin);
-    touches->rests.areSummed = false; /* the sums are about centers of mass of obstacles, which shift */
-    for (int32_t i = 0; i < sheet->contacts.count; ++i) {
-        kiriContact* contact = &sheet->contacts.data[i].contact;
-        contact->offset = (float)(contact->offset - kiriVec3_Dot(kiriVec3_Load(contact->normal), origin));
-    }
-}
-
-void kiriCarry_Shift(kiriSheetData* sheet, kiriVec3 origin)
-{
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
-        kiriFrameData* frame = &sheet->frames.data[i];
-        Shift(&frame->x, origin);
-        if (frame->held) {
-            Shift(&frame->heldPosition, origin);
-            Shift(&frame->goalPosition, origin);
-        }
-    }
-    for (int32_t i = 0; i < sheet->pins.count; ++i) {
-        Shift(&sheet->pins.data[i].target, origin);
-        Shift(&sheet->pins.data[i].lastTarget, origin);
-    }
-    ShiftContacts(sheet, origin);
-    kiriView_WritePositions(sheet);
-}
-
-/* ---- Velocity ---------------------------------------------------------------------------------------------------- */
-
-static bool IsOf(const kiriSheetData* sheet, int32_t frame, int32_t piece)
-{
-    return piece == KIRI_NONE || sheet->layout.framePiece.data[frame] == piece;
-}
-
-static kiriVec3 CenterOf(const kiriSheetData* sheet, int32_t piece)
-{
-    kiriVec3 sum = { 0.0, 0.0, 0.0 };
-    double mass = 0.0;
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
-        if (IsOf(sheet, i, piece)) {
-            sum = kiriVec3_AddScaled(sum, sheet->frames.data[i].mass, sheet->frames.data[i].x);
-            mass += sheet->frames.data[i].mass;
-        }
-    }
-    return kiriVec3_Scale(1.0 / mass, sum);
-}
-
-static void GiveVelocity(kiriFrameData* frame, kiriVec3 center, kiriVec3 velocity, kiriVec3 spin)
-{
-    frame->velocity = kiriVec3_Add(velocity, kiriVec3_Cross(spin, kiriVec3_Sub(frame->x, center)));
-    frame->spin = spin;
-    memset(&frame->rate, 0, sizeof(frame->rate));
-    memset(&frame->history, 0, sizeof(frame->history));
-}
-
-/* In a planar sheet, only the components in its plane count. */
-bool kiriCarry_SetVelocity(kiriSheetData* sheet, int32_t piece, kiriVec3 velocity, kiriVec3 spin)
-{
-    const kiriMechanics* mechanics = &sheet->settings.mechanics;
-    kiriVec3 d = mechanics->axes.d, center = CenterOf(sheet, piece);
-    if (mechanics->planar) {
-        velocity = kiriVec3_AddScaled(velocity, -kiriVec3_Dot(velocity, d), d);
-        spin = kiriVec3_Scale(kiriVec3_Dot(spin, d), d);
-    }
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
-        kiriFrameData given = sheet->frames.data[i];
-        GiveVelocity(&given, center, velocity, spin);
-        if (IsOf(sheet, i, piece) && !kiriFrame_FitsFloats(&given)) {
-            return false;
-        }
-    }
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
-        if (IsOf(sheet, i, piece)) {
-            GiveVelocity(&sheet->frames.data[i], center, velocity, spin);
-            kiriSheet_WakeFrame(sheet, i);
-        }
-    }
-    return true;
-}
-
 /* ---- Geometry of lines ------------------------------------------------------------------------------------------- */
 
 /* A line in the rest plane, m, local. */
@@ -307,7 +25,7 @@ static RestLine RestLineOf(const kiriSheetData* sheet, const kiriPinData* pin)
 
 static kiriVec2 PointAlong(const RestLine* line, double t)
 {
-    return kiriVec2_Add(line->from, kiriVec2_Scale(t * line->length, line->along));
+    return kiriVec2_AddScaled(line->from, t * line->length, line->along);
 }
 
 /* Returns the shape of a share of a line, for the site of its frame. Its moment is about its centroid. Its outer width
@@ -347,11 +65,10 @@ void kiriPin_TakePose(const kiriSheetData* sheet, kiriPinData* pin)
     kiriVec3 x = { 0.0, 0.0, 0.0 };
     kiriMat3 A = { x, x, x };
     double sum = 0.0;
-    for (int32_t k = 0; k < sheet->lineShares.count; ++k) {
-        const kiriLineShare* share = &sheet->lineShares.data[k];
+    KIRI_EACH(const kiriLineShare, share, sheet->lineShares) {
         const kiriFrameData* frame = &sheet->frames.data[share->frame];
         kiriVec2 point = PointAlong(&line, share->first / share->length);
-        middle = kiriVec2_Add(middle, kiriVec2_Scale(share->length, point));
+        middle = kiriVec2_AddScaled(middle, share->length, point);
         x = kiriVec3_AddScaled(x, share->length, kiriFrame_Carry(frame, point));
         A = kiriMat3_AddScaled(&A, share->length, &frame->A);
         sum += share->length;
@@ -381,13 +98,13 @@ static bool ReserveRows(kiriSheetData* sheet, int64_t pins, int64_t shares, int6
 static int32_t AppendShares(const kiriSheetData* sheet, int32_t pin, kiriPinShares* shares, int32_t none)
 {
     const kiriLineShare* longest = NULL;
-    for (int32_t k = 0; k < sheet->lineShares.count; ++k) {
+    KIRI_EACH(const kiriLineShare, from, sheet->lineShares) {
         kiriPinShare share;
         memset(&share, 0, sizeof(share));
         share.pin = pin;
-        share.share = sheet->lineShares.data[k];
+        share.share = *from;
         if (longest == NULL || share.share.length > longest->length) {
-            longest = &sheet->lineShares.data[k];
+            longest = from;
         }
         KIRI_ASSERT(shares->count < shares->capacity && share.share.length > 0.0);
         shares->data[shares->count++] = share;
@@ -399,13 +116,13 @@ void kiriPins_WriteLinkParts(kiriSheetData* sheet)
 {
     const kiriSevered* severed = &sheet->layout.severed;
     sheet->linkParts.count = severed->count > 0 ? sheet->links.links.count : 0;
-    for (int32_t k = 0; k < sheet->linkParts.count; ++k) {
-        sheet->linkParts.data[k] = 1.0;
+    KIRI_EACH(double, whole, sheet->linkParts) {
+        *whole = 1.0;
     }
-    for (int32_t k = 0; k < severed->count; ++k) {
-        KIRI_ASSERT(severed->data[k].link >= 0 && severed->data[k].link < sheet->linkParts.count);
-        double* part = &sheet->linkParts.data[severed->data[k].link];
-        *part = *part > severed->data[k].part ? *part - severed->data[k].part : 0.0;
+    KIRI_EACH(const kiriSeveredLink, link, *severed) {
+        KIRI_ASSERT(link->link >= 0 && link->link < sheet->linkParts.count);
+        double* part = &sheet->linkParts.data[link->link];
+        *part = *part > link->part ? *part - link->part : 0.0;
     }
 }
 
@@ -445,50 +162,36 @@ void kiriPins_ForgetHistory(kiriSheetData* sheet, int32_t index)
 {
     const kiriPinShares* shares = &sheet->layout.pinShares;
     ForgetHistory(&sheet->frames.data[sheet->layout.pinFrame.data[index]]);
-    for (int32_t k = 0; k < shares->count; ++k) {
-        if (shares->data[k].pin == index) {
-            ForgetHistory(&sheet->frames.data[shares->data[k].share.frame]);
+    KIRI_EACH(const kiriPinShare, share, *shares) {
+        if (share->pin == index) {
+            ForgetHistory(&sheet->frames.data[share->share.frame]);
         }
     }
 }
 
-/* Removes the shares of a pin. The shares of the last pin, which are last, take their place. */
-static void RemoveShares(kiriPinShares* shares, int32_t index, int32_t last)
+/* Removes the items of a pin from an array whose items begin with the index of their pin, and are in the order of pins.
+   The last pin takes its place. */
+static void RemoveOfPin(void* array, size_t itemBytes, int32_t index, int32_t last)
 {
-    int32_t kept = 0, moved;
-    for (int32_t k = 0; k < shares->count; ++k) {
-        if (shares->data[k].pin != index) {
-            shares->data[kept++] = shares->data[k];
+    kiriArrayHeader header = kiriArray_GetHeader(array);
+    char *items = header.data, item[sizeof(kiriPinShare)];
+    int32_t count = header.count, pin, before;
+    KIRI_ASSERT(itemBytes <= sizeof(item));
+    header.count = 0;
+    for (int32_t k = 0; k < count; ++k) {
+        memcpy(item, items + k * itemBytes, itemBytes);
+        memcpy(&pin, item, sizeof(pin));
+        if (pin != index) {
+            char* to = items + header.count++ * itemBytes;
+            pin = pin == last ? index : pin;
+            memcpy(item, &pin, sizeof(pin));
+            for (; to > items && (memcpy(&before, to - itemBytes, sizeof(before)), before > pin); to -= itemBytes) {
+                memcpy(to, to - itemBytes, itemBytes);
+            }
+            memcpy(to, item, itemBytes);
         }
     }
-    shares->count = kept;
-    for (int32_t k = 0; k < kept; ++k) {
-        kiriPinShare share = shares->data[k];
-        share.pin = share.pin == last ? index : share.pin;
-        for (moved = k; moved > 0 && shares->data[moved - 1].pin > share.pin; --moved) {
-            shares->data[moved] = shares->data[moved - 1];
-        }
-        shares->data[moved] = share;
-    }
-}
-
-static void RemoveSevered(kiriSevered* severed, int32_t index, int32_t last)
-{
-    int32_t kept = 0, moved;
-    for (int32_t k = 0; k < severed->count; ++k) {
-        if (severed->data[k].pin != index) {
-            severed->data[kept++] = severed->data[k];
-        }
-    }
-    severed->count = kept;
-    for (int32_t k = 0; k < kept; ++k) {
-        kiriSeveredLink link = severed->data[k];
-        link.pin = link.pin == last ? index : link.pin;
-        for (moved = k; moved > 0 && severed->data[moved - 1].pin > link.pin; --moved) {
-            severed->data[moved] = severed->data[moved - 1];
-        }
-        severed->data[moved] = link;
-    }
+    kiriArray_SetHeader(array, header);
 }
 
 void kiriPins_Remove(kiriSheetData* sheet, int32_t index)
@@ -498,8 +201,8 @@ void kiriPins_Remove(kiriSheetData* sheet, int32_t index)
     sheet->layout.pinFrame.count = last;
     sheet->pins.data[index] = sheet->pins.data[last];
     sheet->layout.pinFrame.data[index] = sheet->layout.pinFrame.data[last];
-    RemoveShares(&sheet->layout.pinShares, index, last);
-    RemoveSevered(&sheet->layout.severed, index, last);
+    RemoveOfPin(&sheet->layout.pinShares, sizeof(kiriPinShare), index, last);
+    RemoveOfPin(&sheet->layout.severed, sizeof(kiriSeveredLink), index, last);
     kiriPins_WriteLinkParts(sheet);
 }
 
@@ -545,8 +248,7 @@ static kiriVec3 TargetAfter(const kiriPinData* pin, double part)
 static kiriMat3 RotationAfter(const kiriPinData* pin, double part)
 {
     const kiriMat3 *a = &pin->lastRotation, *b = &pin->rotation;
-    bool isSame = kiriVec3_Equal(a->u, b->u) && kiriVec3_Equal(a->v, b->v) && kiriVec3_Equal(a->d, b->d);
-    if (isSame || part <= 0.0 || part >= 1.0) {
+    if (kiriMat3_Equal(a, b) || part <= 0.0 || part >= 1.0) {
         return part >= 1.0 ? *b : *a;
     }
     kiriMat3 mean = { PartWay(a->u, b->u, part), PartWay(a->v, b->v, part), PartWay(a->d, b->d, part) };
@@ -629,8 +331,7 @@ void kiriPins_BeginReactions(kiriSheetData* sheet)
             sheet->pinReactions.data[sheet->pinReactions.count++] = BeginReaction(&sheet->pins.data[i].reaction);
         }
     }
-    for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
-        const kiriPinShare* pinned = &sheet->layout.pinShares.data[k];
+    KIRI_EACH(const kiriPinShare, pinned, sheet->layout.pinShares) {
         if (!kiriSheet_Moves(sheet, pinned->share.frame)) {
             continue;
         }
@@ -643,8 +344,8 @@ void kiriPins_BeginReactions(kiriSheetData* sheet)
     }
     sheet->frameReactions.count = sheet->frames.count;
     const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->frames;
-    for (int32_t n = 0; n < moved->count; ++n) {
-        int32_t i = moved->data[n];
+    KIRI_EACH(const int32_t, at, *moved) {
+        int32_t i = *at;
         sheet->frameReactions.data[i] = BeginReaction(&sheet->frames.data[i].reaction);
     }
     KIRI_ASSERT(sheet->pinReactions.count == sheet->pinRows.count &&
@@ -667,8 +368,7 @@ void kiriPins_WriteRows(kiriSheetData* sheet, double from, double to)
             };
         }
     }
-    for (int32_t k = 0; k < shares->count; ++k) {
-        const kiriPinShare* pinned = &shares->data[k];
+    KIRI_EACH(const kiriPinShare, pinned, *shares) {
         if (!kiriSheet_Moves(sheet, pinned->share.frame)) {
             continue;
         }
@@ -694,9 +394,9 @@ static void MeasureClamp(const kiriSheetData* sheet, const kiriPinShare* pinned,
 
 static const kiriPinShare* FindPinned(const kiriPinShares* shares, int32_t pin, int32_t frame)
 {
-    for (int32_t k = 0; k < shares->count; ++k) {
-        if (shares->data[k].pin == pin && shares->data[k].share.frame == frame) {
-            return &shares->data[k];
+    KIRI_EACH(const kiriPinShare, share, *shares) {
+        if (share->pin == pin && share->share.frame == frame) {
+            return share;
         }
     }
     return NULL;
@@ -704,8 +404,7 @@ static const kiriPinShare* FindPinned(const kiriPinShares* shares, int32_t pin, 
 
 void kiriPins_KeepReactions(kiriSheetData* sheet, const kiriPinShares* old)
 {
-    for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
-        kiriPinShare* pinned = &sheet->layout.pinShares.data[k];
+    KIRI_EACH(kiriPinShare, pinned, sheet->layout.pinShares) {
         const kiriPinShare* older = FindPinned(old, pinned->pin, pinned->share.frame);
         if (older != NULL) {
             memcpy(pinned->reactions, older->reactions, sizeof(pinned->reactions));
@@ -717,8 +416,7 @@ void kiriPins_KeepReactions(kiriSheetData* sheet, const kiriPinShares* old)
 
 void kiriPins_KeepStrains(kiriSheetData* sheet, const kiriPinShares* old)
 {
-    for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
-        kiriPinShare* pinned = &sheet->layout.pinShares.data[k];
+    KIRI_EACH(kiriPinShare, pinned, sheet->layout.pinShares) {
         int32_t frame = pinned->share.frame;
         if (sheet->pins.data[pinned->pin].type != KIRI_PIN_CLAMP) {
             continue;
@@ -739,10 +437,10 @@ void kiriPins_KeepStrains(kiriSheetData* sheet, const kiriPinShares* old)
 void kiriPins_FadeOffsets(kiriSheetData* sheet, double dt, double time)
 {
     double keep = time / (time + dt);
-    for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
-        bool isAwake = kiriSheet_Moves(sheet, sheet->layout.pinShares.data[k].share.frame);
+    KIRI_EACH(kiriPinShare, share, sheet->layout.pinShares) {
+        bool isAwake = kiriSheet_Moves(sheet, share->share.frame);
         for (int e = 0; isAwake && e < KIRI_CLAMP_STRAINS; ++e) {
-            double* offset = &sheet->layout.pinShares.data[k].offset[e];
+            double* offset = &share->offset[e];
             *offset = fabs(*offset) > 1e-12 ? keep * *offset : 0.0;
         }
     }
@@ -751,8 +449,7 @@ void kiriPins_FadeOffsets(kiriSheetData* sheet, double dt, double time)
 double kiriPins_ElasticEnergy(const kiriSheetData* sheet)
 {
     double sum = 0.0;
-    for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
-        const kiriPinShare* pinned = &sheet->layout.pinShares.data[k];
+    KIRI_EACH(const kiriPinShare, pinned, sheet->layout.pinShares) {
         const kiriFrameData* frame = &sheet->frames.data[pinned->share.frame];
         if (sheet->pins.data[pinned->pin].type == KIRI_PIN_CLAMP) {
             double pulling[KIRI_CLAMP_STRAINS];
@@ -791,8 +488,7 @@ static void TakePinReactions(kiriSheetData* sheet, double perTime)
             AddBorne(pin, &pin->reaction, pin->target, perTime, &pin->bore);
         }
     }
-    for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
-        kiriPinShare* pinned = &sheet->layout.pinShares.data[k];
+    KIRI_EACH(kiriPinShare, pinned, sheet->layout.pinShares) {
         const kiriPinData* pin = &sheet->pins.data[pinned->pin];
         if (!kiriSheet_Moves(sheet, pinned->share.frame)) {
             continue;
@@ -817,13 +513,12 @@ static void TakePinReactions(kiriSheetData* sheet, double perTime)
 
 void kiriPins_SumShares(kiriSheetData* sheet)
 {
-    for (int32_t i = 0; i < sheet->pins.count; ++i) {
-        if (sheet->pins.data[i].type != KIRI_PIN_POINT) {
-            memset(&sheet->pins.data[i].bore, 0, sizeof(kiriWrench));
+    KIRI_EACH(kiriPinData, pin, sheet->pins) {
+        if (pin->type != KIRI_PIN_POINT) {
+            memset(&pin->bore, 0, sizeof(kiriWrench));
         }
     }
-    for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
-        const kiriPinShare* pinned = &sheet->layout.pinShares.data[k];
+    KIRI_EACH(const kiriPinShare, pinned, sheet->layout.pinShares) {
         kiriWrench_Add(&sheet->pins.data[pinned->pin].bore, 1.0, &pinned->bore);
     }
 }
@@ -832,16 +527,16 @@ void kiriPins_TakeReactions(kiriSheetData* sheet, double dt)
 {
     TakePinReactions(sheet, 1.0 / dt);
     const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->frames;
-    for (int32_t n = 0; n < moved->count; ++n) {
-        int32_t i = moved->data[n];
+    KIRI_EACH(const int32_t, at, *moved) {
+        int32_t i = *at;
         kiriFrameData* frame = &sheet->frames.data[i];
         frame->reaction = sheet->frameReactions.data[i];
         memset(&frame->bore, 0, sizeof(frame->bore));
         kiriWrench_Add(&frame->bore, 1.0 / dt, &frame->reaction.impulse);
     }
-    for (int32_t i = 0; i < sheet->pins.count; ++i) {
-        sheet->pins.data[i].lastTarget = sheet->pins.data[i].target;
-        sheet->pins.data[i].lastRotation = sheet->pins.data[i].rotation;
+    KIRI_EACH(kiriPinData, pin, sheet->pins) {
+        pin->lastTarget = pin->target;
+        pin->lastRotation = pin->rotation;
     }
 }
 
@@ -863,7 +558,7 @@ static double ShareAt(const kiriSheetData* sheet, const kiriPointPlace* place, i
     double sum = 0.0;
     for (int k = 0; k < 3; ++k) {
         kiriSpan span = sheet->vertexSkin.spans.data[sheet->mesh.triangles.data[place->triangle].vertex[k]];
-        for (int32_t i = span.first; i < span.first + span.count; ++i) {
+        KIRI_EACH_IN(i, span) {
             const kiriSampleWeight* weight = &sheet->vertexSkin.weights.data[i];
             sum += weight->frame == frame ? place->shares[k] * weight->value : 0.0;
         }
@@ -931,7 +626,7 @@ static bool FindHoldOff(const kiriSheetData* sheet, int32_t first, kiriVec3* off
         kiriVec2 at = PointAlong(&line, pinned->share.first / pinned->share.length);
         kiriVec2 way = kiriVec2_Sub(sheet->frames.data[pinned->share.frame].site.at, at);
         double apart = kiriVec2_Length(way), aside = sheet->grid.side / 1024.0;
-        kiriVec2 beside = kiriVec2_Add(at, kiriVec2_Scale(apart > aside ? aside / apart : 1.0, way));
+        kiriVec2 beside = kiriVec2_AddScaled(at, apart > aside ? aside / apart : 1.0, way);
         if (FindSeen(sheet, pinned->share.frame, kiriMesh_Snap(&sheet->mesh, beside), &seen)) {
             kiriVec3 missing = kiriVec3_Sub(HeldPoint(&line, pin->target, &pin->rotation, at), seen);
             sum = kiriVec3_AddScaled(sum, pinned->share.length, kiriVec3_Add(pinned->off, missing));
@@ -951,8 +646,7 @@ static bool IsHeldElsewhere(const kiriSheetData* sheet, const kiriPinShare* hold
     for (int32_t i = 0; !isHeld && i < sheet->pins.count; ++i) {
         isHeld = sheet->pins.data[i].type == KIRI_PIN_POINT && pieces[sheet->layout.pinFrame.data[i]] == piece;
     }
-    for (int32_t k = 0; !isHeld && k < sheet->layout.pinShares.count; ++k) {
-        const kiriPinShare* other = &sheet->layout.pinShares.data[k];
+    KIRI_EACH_WHILE(!isHeld, const kiriPinShare, other, sheet->layout.pinShares) {
         isHeld = other->pin != hold->pin && pieces[other->share.frame] == piece;
     }
     for (int32_t f = 0; !isHeld && f < sheet->frames.count; ++f) {
@@ -982,16 +676,16 @@ static void SettleClamp(kiriSheetData* sheet, int32_t first, double dt)
 static void DropOffs(kiriSheetData* sheet)
 {
     const kiriVec3 none = { 0.0, 0.0, 0.0 };
-    for (int32_t i = 0; i < sheet->pins.count; ++i) {
-        sheet->pins.data[i].off = none;
-        sheet->pins.data[i].offFrame = 0;
+    KIRI_EACH(kiriPinData, pin, sheet->pins) {
+        pin->off = none;
+        pin->offFrame = 0;
     }
-    for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
-        sheet->layout.pinShares.data[k].off = none;
+    KIRI_EACH(kiriPinShare, share, sheet->layout.pinShares) {
+        share->off = none;
     }
     const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->frames;
-    for (int32_t n = 0; n < moved->count; ++n) {
-        int32_t f = moved->data[n];
+    KIRI_EACH(const int32_t, at, *moved) {
+        int32_t f = *at;
         sheet->frames.data[f].heldOff = none;
         sheet->frames.data[f].isOffKnown = false;
     }
@@ -1020,10 +714,10 @@ void kiriFollow_Begin(kiriSheetData* sheet, double dt)
         }
     }
     const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->frames;
-    for (int32_t n = 0; n < moved->count; ++n) {
-        kiriFrameData* frame = &sheet->frames.data[moved->data[n]];
+    KIRI_EACH(const int32_t, at, *moved) {
+        kiriFrameData* frame = &sheet->frames.data[*at];
         kiriVec3 seen;
-        if (frame->held && FindSeen(sheet, moved->data[n], kiriMesh_Snap(&sheet->mesh, frame->site.at), &seen)) {
+        if (frame->held && FindSeen(sheet, *at, kiriMesh_Snap(&sheet->mesh, frame->site.at), &seen)) {
             kiriVec3 own = kiriFrame_Carry(frame, frame->site.at);
             Settle(sheet, &frame->heldOff, kiriVec3_Sub(own, seen), frame->isOffKnown, dt);
             frame->isOffKnown = true;
@@ -1032,11 +726,6 @@ void kiriFollow_Begin(kiriSheetData* sheet, double dt)
 }
 
 /* ---- Steps ---- */
-
-static bool IsSameMat(const kiriMat3* a, const kiriMat3* b)
-{
-    return kiriVec3_Equal(a->u, b->u) && kiriVec3_Equal(a->v, b->v) && kiriVec3_Equal(a->d, b->d);
-}
 
 /* Moves a held frame by 1 / left of the remaining way; the last step ends at the goal. */
 static void MoveHeld(kiriFrameData* frame, int32_t left)
@@ -1051,7 +740,7 @@ static void MoveHeld(kiriFrameData* frame, int32_t left)
     double part = 1.0 / left;
     kiriVec3 way = kiriVec3_Sub(goal, frame->heldPosition);
     frame->heldPosition = kiriVec3_AddScaled(frame->heldPosition, part, way);
-    if (!IsSameMat(&frame->heldRotation, &frame->goalRotation)) {
+    if (!kiriMat3_Equal(&frame->heldRotation, &frame->goalRotation)) {
         kiriMat3 mean = kiriMat3_Scale(1.0 - part, &frame->heldRotation);
         mean = kiriMat3_AddScaled(&mean, part, &frame->goalRotation);
         frame->heldRotation = kiriMat3_RotationFrom(frame->heldRotation, mean);
@@ -1067,7 +756,8 @@ static bool MoveTargets(kiriSheetData* sheet, double after, double h)
     for (int32_t i = 0; i < sheet->pins.count; ++i) {
         kiriPinData* pin = &sheet->pins.data[i];
         kiriPinAnchor* anchor = &pin->anchor;
-        any = any || !kiriVec3_Equal(pin->target, pin->lastTarget) || !IsSameMat(&pin->rotation, &pin->lastRotation);
+        any =
+            any || !kiriVec3_Equal(pin->target, pin->lastTarget) || !kiriMat3_Equal(&pin->rotation, &pin->lastRotation);
         if (!IsAwakePoint(sheet, i)) {
             continue;
         }
@@ -1091,111 +781,10 @@ void kiriFollow_Step(kiriSheetData* sheet, int32_t i, int32_t n, double h)
         kiriPins_WriteRows(sheet, (double)i / n, i + 1 == n ? 1.0 : (i + 1.0) / n);
     }
     const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->frames;
-    for (int32_t k = 0; k < moved->count; ++k) {
-        int32_t f = moved->data[k];
+    KIRI_EACH(const int32_t, at, *moved) {
+        int32_t f = *at;
         if (sheet->frames.data[f].held) {
             MoveHeld(&sheet->frames.data[f], n - i);
         }
     }
-}
-
-void kiriLoad_AtPoint(kiriSheetData* sheet, int32_t frame, kiriVec2 at, kiriVec3 force, kiriVec3 torque)
-{
-    KIRI_ASSERT(frame >= 0 && frame < sheet->frames.count);
-    kiriFrameData* data = &sheet->frames.data[frame];
-    kiriVec3 arm = kiriVec3_Sub(kiriFrame_Carry(data, at), data->x);
-    data->force = kiriVec3_Add(data->force, force);
-    data->torque = kiriVec3_Add(data->torque, kiriVec3_Add(torque, kiriVec3_Cross(arm, force)));
-}
-
-void kiriLoad_AlongLine(kiriSheetData* sheet, kiriLatticePoint from, kiriLatticePoint to, kiriVec3 perLength)
-{
-    kiriVec2 a = kiriMesh_Local(&sheet->mesh, from), way = kiriVec2_Sub(kiriMesh_Local(&sheet->mesh, to), a);
-    double length = kiriVec2_Length(way);
-    for (int32_t k = 0; k < sheet->lineShares.count; ++k) {
-        const kiriLineShare* share = &sheet->lineShares.data[k];
-        kiriVec2 at = kiriVec2_Add(a, kiriVec2_Scale(share->firstLoad / share->load, way));
-        kiriVec3 none = { 0.0, 0.0, 0.0 };
-        kiriLoad_AtPoint(sheet, share->frame, at, kiriVec3_Scale(length * share->load, perLength), none);
-    }
-}
-
-/* The resultant acts at the centroid of a region, which is the center of its frame. |A_u x A_v| is the area stretch of
-   an affine frame, and 1 for a rigid one. */
-void kiriLoad_OnSurface(kiriSheetData* sheet, double pressure)
-{
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
-        kiriFrameData* frame = &sheet->frames.data[i];
-        kiriVec3 across = kiriVec3_Cross(frame->A.u, frame->A.v);
-        frame->force = kiriVec3_AddScaled(frame->force, pressure * frame->area, across);
-    }
-}
-
-/* ---- Impulses ---------------------------------------------------------------------------------------------------- */
-
-/* Applies an impulse and a moment to a frame. In a planar sheet, only the components in its plane. */
-static void Push(const kiriSheetData* sheet, kiriFrameData* frame, kiriVec3 impulse, kiriVec3 moment)
-{
-    const kiriMechanics* mechanics = &sheet->settings.mechanics;
-    kiriVec3 d = mechanics->axes.d;
-    kiriMat3 inertia = kiriFrame_Inertia(frame, &sheet->settings.material);
-    if (mechanics->planar) {
-        impulse = kiriVec3_AddScaled(impulse, -kiriVec3_Dot(impulse, d), d);
-        double about = kiriVec3_Dot(d, kiriMat3_Mul(inertia, d));
-        frame->spin = kiriVec3_AddScaled(frame->spin, kiriVec3_Dot(moment, d) / about, d);
-    } else {
-        frame->spin = kiriVec3_Add(frame->spin, kiriMat3_Solve(&inertia, moment));
-    }
-    frame->velocity = kiriVec3_AddScaled(frame->velocity, 1.0 / frame->mass, impulse);
-}
-
-/* Applies the shares of an impulse to the frames of the triangle's corners. If `only` is a frame, applies its shares
-   to *frames, a copy of it. */
-static void PushFrames(kiriSheetData* sheet, const kiriPointPlace* place, kiriVec3 off, kiriVec3 impulse, int32_t only,
-                       kiriFrameData* frames)
-{
-    const int32_t* corners = sheet->mesh.triangles.data[place->triangle].vertex;
-    for (int k = 0; k < 3; ++k) {
-        kiriVec2 local = kiriMesh_Local(&sheet->mesh, sheet->mesh.vertices.data[corners[k]].at);
-        kiriSpan span = sheet->vertexSkin.spans.data[corners[k]];
-        for (int32_t i = span.first; i < span.first + span.count; ++i) {
-            kiriSampleWeight weight = sheet->vertexSkin.weights.data[i];
-            int32_t f = weight.frame;
-            if (only == KIRI_NONE || only == f) {
-                kiriFrameData* frame = only == KIRI_NONE ? &frames[f] : frames;
-                kiriVec3 arm = kiriVec3_Add(kiriVec3_Sub(kiriFrame_Carry(frame, local), frame->x), off);
-                kiriVec3 part = kiriVec3_Scale(place->shares[k] * weight.value, impulse);
-                Push(sheet, frame, part, kiriVec3_Cross(arm, part));
-            }
-        }
-    }
-}
-
-static bool FitsImpulse(kiriSheetData* sheet, const kiriPointPlace* place, kiriVec3 off, kiriVec3 impulse)
-{
-    const int32_t* corners = sheet->mesh.triangles.data[place->triangle].vertex;
-    for (int k = 0; k < 3; ++k) {
-        kiriSpan span = sheet->vertexSkin.spans.data[corners[k]];
-        for (int32_t i = span.first; i < span.first + span.count; ++i) {
-            int32_t f = sheet->vertexSkin.weights.data[i].frame;
-            kiriFrameData pushed = sheet->frames.data[f];
-            PushFrames(sheet, place, off, impulse, f, &pushed);
-            if (!kiriFrame_FitsFloats(&pushed)) {
-                return false;
-            }
-        }
-    }
-    return true;
-}
-
-/* Fades and bent patches offset the visible point from the blend of the frames. Each share of the impulse acts at this
-   offset from its frame's point, so the sum acts at the visible point. */
-bool kiriLoad_Impulse(kiriSheetData* sheet, const kiriPointPlace* place, kiriVec3 impulse)
-{
-    kiriVec3 off = kiriVec3_Sub(kiriPoint_Position(sheet, place), kiriPoint_Blend(sheet, place).x);
-    if (!FitsImpulse(sheet, place, off, impulse)) {
-        return false;
-    }
-    PushFrames(sheet, place, off, impulse, KIRI_NONE, sheet->frames.data);
-    return true;
 }

@@ -1,4 +1,4 @@
-/* Pins, clamps, hinges, held frames and loads in the steps of a tick; sheets that the host moves all at once. */
+/* Pins, clamps, hinges and held frames in the steps of a tick. */
 #ifndef KIRI_PIN_H
 #define KIRI_PIN_H
 
@@ -7,26 +7,6 @@
 #include "kiri_seen.h"
 
 KIRI_C_BEGIN
-
-/* Transforms the sheet by x -> R x + t, with velocities, history and holds. Arrays that the host may hold get the owner
-   `retired` and are replaced. Changes nothing on out of memory: false. */
-bool kiriCarry_Sheet(kiriSheetData* sheet, const kiriMat3* R, kiriVec3 t, kiriMemory* retired);
-
-/* Transforms the target of a pin likewise. */
-void kiriCarry_Pin(kiriSheetData* sheet, int32_t index, const kiriMat3* R, kiriVec3 t);
-
-/* Shift moves the origin of the world and changes nothing else. Call Renew first: arrays that the host may hold get the
-   owner `retired`, and the new ones are unset until positions are written. Renew changes nothing on out of memory:
-   false. */
-bool kiriCarry_Renew(kiriSheetData* sheet, kiriMemory* retired);
-void kiriCarry_Shift(kiriSheetData* sheet, kiriVec3 origin);
-
-/* Returns true if the transformed frames fit floats, see kiriFrame_FitsFloats. */
-bool kiriCarry_FitsSheet(const kiriSheetData* sheet, const kiriMat3* R, kiriVec3 t);
-
-/* Sets the velocities of a piece, or of all (KIRI_NONE), to a rigid motion with `spin` about the center of mass.
-   Returns false, and changes nothing, if frames would not fit floats. */
-bool kiriCarry_SetVelocity(kiriSheetData* sheet, int32_t piece, kiriVec3 velocity, kiriVec3 spin);
 
 /* Pins: points and lines of the material that the host holds. */
 
@@ -94,21 +74,6 @@ void kiriFollow_Begin(kiriSheetData* sheet, double dt);
 
 /* Sets the targets before step i of n, of h seconds. */
 void kiriFollow_Step(kiriSheetData* sheet, int32_t i, int32_t n, double h);
-
-/* Loads of the host for the next tick, added to the forces of frames. */
-
-/* Adds a force (N) at a material point of the frame, and a torque (N m). */
-void kiriLoad_AtPoint(kiriSheetData* sheet, int32_t frame, kiriVec2 at, kiriVec3 force, kiriVec3 torque);
-
-/* Adds a force along a line (N/m of rest length), on its shares in sheet->lineShares. */
-void kiriLoad_AlongLine(kiriSheetData* sheet, kiriLatticePoint from, kiriLatticePoint to, kiriVec3 perLength);
-
-/* Adds a pressure (Pa) that pushes along the current normal of each frame. */
-void kiriLoad_OnSurface(kiriSheetData* sheet, double pressure);
-
-/* Applies an impulse (N s) at the visible position of a point, at once, to the frames that carry it. The sheet gains
-   exactly this linear and angular momentum. Returns false, and changes nothing, if frames would not fit floats. */
-bool kiriLoad_Impulse(kiriSheetData* sheet, const kiriPointPlace* place, kiriVec3 impulse);
 
 KIRI_C_END
 

@@ -87,7 +87,7 @@ kiriMotion kiriPoint_Blend(const kiriSheetData* sheet, const kiriPointPlace* pla
         int32_t corner = CornersOf(sheet, place)[k];
         kiriVec2 local = kiriMesh_Local(&sheet->mesh, sheet->mesh.vertices.data[corner].at);
         kiriSpan span = sheet->vertexSkin.spans.data[corner];
-        for (int32_t i = span.first; i < span.first + span.count; ++i) {
+        KIRI_EACH_IN(i, span) {
             kiriSampleWeight weight = sheet->vertexSkin.weights.data[i];
             const kiriFrameData* frame = &sheet->frames.data[weight.frame];
             double share = place->shares[k] * weight.value;
@@ -127,8 +127,8 @@ void kiriBlocks_Renumber(kiriBlocks* blocks, int32_t vertexCount, int32_t frameC
     for (int32_t block = 0; block < blocks->movers.count; ++block) {
         ForgetBlock(blocks, block);
     }
-    for (int32_t i = 0; i < blocks->moved.count; ++i) {
-        blocks->moved.data[i] = 0;
+    KIRI_EACH(uint8_t, moved, blocks->moved) {
+        *moved = 0;
     }
     ResizeBlocks(blocks, vertexCount, frameCount);
 }
@@ -272,11 +272,11 @@ static void StaleCorners(kiriSheetData* sheet, const int32_t* corners)
 static void StaleChanges(kiriSheetData* sheet)
 {
     const kiriMeshData* mesh = &sheet->mesh;
-    for (int32_t k = 0; k < mesh->changedTriangles.count; ++k) {
-        StaleCorners(sheet, mesh->triangles.data[mesh->changedTriangles.data[k]].vertex);
+    KIRI_EACH(const int32_t, triangle, mesh->changedTriangles) {
+        StaleCorners(sheet, mesh->triangles.data[*triangle].vertex);
     }
-    for (int32_t k = 0; k < mesh->changedVertices.count; ++k) {
-        StaleBlock(sheet, mesh->changedVertices.data[k]);
+    KIRI_EACH(const int32_t, changed, mesh->changedVertices) {
+        StaleBlock(sheet, *changed);
     }
     for (int32_t t = mesh->oldTriangleCount; t < mesh->triangles.count; ++t) {
         StaleCorners(sheet, mesh->triangles.data[t].vertex);
@@ -288,7 +288,7 @@ static void HideTriangles(kiriSheetData* sheet)
     for (int32_t t = 0; t < sheet->mesh.triangles.count; ++t) {
         int32_t piece = kiriPiece_OfTriangle(sheet, t);
         if (sheet->layout.pieces.data[piece].isGone) {
-            StaleCorners(sheet, &sheet->seen.surface.indices.data[3 * (size_t)t]);
+            StaleCorners(sheet, kiriSurface_Triangle(&sheet->seen.surface, t));
             kiriSurface_HideTriangle(&sheet->seen.surface, t);
         }
     }
@@ -368,8 +368,8 @@ static void BlendPoints(kiriSheetData* sheet, bool isPartly)
 
 static void AddPointFades(kiriSheetData* sheet)
 {
-    for (int32_t k = 0; k < sheet->seen.pointFades.fading.count; ++k) {
-        kiriFading fading = sheet->seen.pointFades.fading.data[k];
+    KIRI_EACH(const kiriFading, from, sheet->seen.pointFades.fading) {
+        kiriFading fading = *from;
         kiriVec3* at = &sheet->seen.exactPoints.data[fading.sample];
         *at = kiriVec3_Add(*at, fading.offset);
     }
@@ -377,8 +377,8 @@ static void AddPointFades(kiriSheetData* sheet)
 
 void kiriView_TouchStaged(kiriSheetData* sheet)
 {
-    for (int32_t k = 0; k < sheet->vertexSkin.staged.count; ++k) {
-        sheet->seen.blocks.touched.data[sheet->vertexSkin.staged.data[k].sample / KIRI_BLOCK] = 1;
+    KIRI_EACH(const kiriReweighed, staged, sheet->vertexSkin.staged) {
+        sheet->seen.blocks.touched.data[staged->sample / KIRI_BLOCK] = 1;
     }
 }
 
@@ -443,8 +443,8 @@ static void TakeVertexJumps(kiriSheetData* sheet)
     kiriVec3 middle = surface->middle;
     bool wasSteady = surface->isSteady;
     JumpLook look = { .before = kiriSurface_Places(surface) };
-    for (int32_t k = 0; k < sheet->seen.fades.fading.count; ++k) {
-        sheet->seen.blocks.touched.data[sheet->seen.fades.fading.data[k].sample / KIRI_BLOCK] = 1;
+    KIRI_EACH(const kiriFading, fading, sheet->seen.fades.fading) {
+        sheet->seen.blocks.touched.data[fading->sample / KIRI_BLOCK] = 1;
     }
     surface->isSteady = false;
     kiriView_TakeFrames(sheet);
@@ -458,8 +458,8 @@ static void TakeVertexJumps(kiriSheetData* sheet)
         *isOther = *isOther == KIRI_PATCH_ROUNDED && moves ? KIRI_PATCH_SAME : *isOther;
     }
     look.isShifted = look.movesSleepers = look.shift.x != 0.0 || look.shift.y != 0.0 || look.shift.z != 0.0;
-    for (int32_t p = 0; !look.anySleeps && p < sheet->layout.pieces.count; ++p) {
-        look.anySleeps = !kiriPiece_IsMoved(&sheet->layout.pieces.data[p]);
+    KIRI_EACH_WHILE(!look.anySleeps, const kiriPiece, each, sheet->layout.pieces) {
+        look.anySleeps = !kiriPiece_IsMoved(each);
     }
     kiriFades_Start(&sheet->seen.fades);
     for (int32_t begin = 0; begin < surface->vertexCount; begin += KIRI_BLOCK) {

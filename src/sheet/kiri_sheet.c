@@ -61,9 +61,9 @@ void kiriSheet_WakePin(kiriSheetData* sheet, int32_t pin)
 {
     const kiriPinShares* shares = &sheet->layout.pinShares;
     kiriSheet_WakeFrame(sheet, sheet->layout.pinFrame.data[pin]);
-    for (int32_t k = 0; k < shares->count; ++k) {
-        if (shares->data[k].pin == pin) {
-            kiriSheet_WakeFrame(sheet, shares->data[k].share.frame);
+    KIRI_EACH(const kiriPinShare, share, *shares) {
+        if (share->pin == pin) {
+            kiriSheet_WakeFrame(sheet, share->share.frame);
         }
     }
 }
@@ -87,8 +87,8 @@ void kiriSheet_WakeStirred(kiriSheetData* sheet)
 
 void kiriSheet_LetRest(kiriSheetData* sheet)
 {
-    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
-        sheet->layout.pieces.data[p].rest.isStirred = false;
+    KIRI_EACH(kiriPiece, piece, sheet->layout.pieces) {
+        piece->rest.isStirred = false;
     }
     sheet->rest.isStirred = false;
 }
@@ -96,8 +96,8 @@ void kiriSheet_LetRest(kiriSheetData* sheet)
 void kiriSheet_SumRest(kiriSheetData* sheet)
 {
     bool any = false;
-    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
-        any = any || kiriPiece_IsAwake(&sheet->layout.pieces.data[p]);
+    KIRI_EACH(const kiriPiece, piece, sheet->layout.pieces) {
+        any = any || kiriPiece_IsAwake(piece);
     }
     sheet->rest.asleep = !any;
     sheet->rest.isIdle = sheet->rest.isIdle && !any;

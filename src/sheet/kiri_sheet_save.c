@@ -15,266 +15,266 @@
 /* ---- Settings and layout ----------------------------------------------------------------------------------------- */
 
 KIRI_TABLE(SettingsTable, kiriSettings, {
-    KIRI_RUN(4, kiriSettings, material, material),
-    KIRI_PART(kiriSettings, mechanics, kiriMechanicsTable),
-    KIRI_REALS(kiriSettings, snap, frameLength),
-    KIRI_WITHIN(1, INT32_MAX, kiriSettings, maxFrames, maxFrames),
-    KIRI_WITHIN(1, 64, kiriSettings, iterations, iterations),
-    KIRI_WITHIN(KIRI_SKINNING_LINEAR, KIRI_SKINNING_SMOOTH, kiriSettings, skinning, skinning),
-    KIRI_REALS(kiriSettings, fadeTime, contactThickness),
-    KIRI_RUN(4, kiriSettings, groups, groups),
-    KIRI_BOOLS(kiriSettings, touchesSheets, touchesSheets),
-    KIRI_REALS(kiriSettings, air, air),
-    KIRI_REALS(kiriSettings, collisionPoints, integrationPoints),
-    KIRI_WITHIN(1, 2, kiriSettings, integrationOrder, integrationOrder),
-    KIRI_BOOLS(kiriSettings, popping, eased),
+    KIRI_RUN(4, material),
+    KIRI_PART(mechanics, kiriMechanicsTable),
+    KIRI_REALS(snap, frameLength),
+    KIRI_WITHIN(1, INT32_MAX, maxFrames),
+    KIRI_WITHIN(1, 64, iterations),
+    KIRI_WITHIN(KIRI_SKINNING_LINEAR, KIRI_SKINNING_SMOOTH, skinning),
+    KIRI_REALS(fadeTime, contactThickness),
+    KIRI_RUN(4, groups),
+    KIRI_BOOLS(touchesSheets),
+    KIRI_REALS(air),
+    KIRI_REALS(collisionPoints, integrationPoints),
+    KIRI_WITHIN(1, 2, integrationOrder),
+    KIRI_BOOLS(popping, eased),
     KIRI_UNHASHED,
-    KIRI_RUN(4, kiriSettings, given, given),
-    KIRI_RUN(8, kiriSettings, userData, userData),
-    KIRI_BOOLS(kiriSettings, fromScratch, fromScratch),
-});
+    KIRI_RUN(4, given),
+    KIRI_RUN(8, userData),
+    KIRI_BOOLS(fromScratch),
+})
 
 KIRI_TABLE(RestTable, kiriRest, {
-    KIRI_REALS(kiriRest, calm, calm),
-    KIRI_BOOLS(kiriRest, asleep, asleep),
+    KIRI_REALS(calm),
+    KIRI_BOOLS(asleep),
     KIRI_UNHASHED,
-    KIRI_BOOLS(kiriRest, isStirred, isFading),
-});
+    KIRI_BOOLS(isStirred, isFading),
+})
 
 KIRI_TABLE(PieceTable, kiriPiece, {
-    KIRI_BOOLS(kiriPiece, isGone, isGone),
-    KIRI_PART(kiriPiece, rest, RestTable),
+    KIRI_BOOLS(isGone),
+    KIRI_PART(rest, RestTable),
     KIRI_UNHASHED,
-    KIRI_REALS(kiriPiece, area, area),
-    KIRI_INDEX(KIRI_OF_FRAMES, kiriPiece, frame, frame),
-    KIRI_RUN(4, kiriPiece, origin, origin),
-    KIRI_BOOLS(kiriPiece, cameOff, cameOff),
-    KIRI_BOOLS(kiriPiece, isTouched, isTouched),
-    KIRI_RUN(4, kiriPiece, awake, awake),
-});
+    KIRI_REALS(area),
+    KIRI_INDEX(KIRI_OF_FRAMES, frame),
+    KIRI_RUN(4, origin),
+    KIRI_BOOLS(cameOff),
+    KIRI_BOOLS(isTouched),
+    KIRI_RUN(4, awake),
+})
 
 KIRI_TABLE(SeveredLinkTable, kiriSeveredLink, {
-    KIRI_INDEX(KIRI_OF_PINS, kiriSeveredLink, pin, pin),
-    KIRI_WITHIN(0, INT32_MAX, kiriSeveredLink, link, link),
-    KIRI_REALS(kiriSeveredLink, part, part),
-});
+    KIRI_INDEX(KIRI_OF_PINS, pin),
+    KIRI_WITHIN(0, INT32_MAX, link),
+    KIRI_REALS(part),
+})
 
 KIRI_TABLE(LineShareTable, kiriLineShare, {
-    KIRI_INDEX(KIRI_OF_FRAMES, kiriLineShare, frame, frame),
-    KIRI_REALS(kiriLineShare, length, ends),
-    KIRI_RUN(4, kiriLineShare, open, open),
-});
+    KIRI_INDEX(KIRI_OF_FRAMES, frame),
+    KIRI_REALS(length, ends),
+    KIRI_RUN(4, open),
+})
 
 KIRI_TABLE(PinShareTable, kiriPinShare, {
-    KIRI_INDEX(KIRI_OF_PINS, kiriPinShare, pin, pin),
-    KIRI_PART(kiriPinShare, share, LineShareTable),
-    KIRI_REALS(kiriPinShare, offset, bore),
-});
+    KIRI_INDEX(KIRI_OF_PINS, pin),
+    KIRI_PART(share, LineShareTable),
+    KIRI_REALS(offset, bore),
+})
 
 KIRI_TABLE(LayoutTable, kiriLayout, {
-    KIRI_PARTS(kiriLayout, pieces, PieceTable),
-    KIRI_INDICES(KIRI_OF_PIECES, kiriLayout, framePiece),
-    KIRI_INDICES(KIRI_OF_FRAMES, kiriLayout, pinFrame),
-    KIRI_PARTS(kiriLayout, severed, SeveredLinkTable),
-    KIRI_PARTS(kiriLayout, pinShares, PinShareTable),
-    KIRI_PART(kiriLayout, areaElements, kiriAreaElementsTable),
-});
+    KIRI_PARTS(pieces, PieceTable),
+    KIRI_INDICES(KIRI_OF_PIECES, framePiece),
+    KIRI_INDICES(KIRI_OF_FRAMES, pinFrame),
+    KIRI_PARTS(severed, SeveredLinkTable),
+    KIRI_PARTS(pinShares, PinShareTable),
+    KIRI_PART(areaElements, kiriAreaElementsTable),
+})
 
 /* ---- Pins and contacts ------------------------------------------------------------------------------------------- */
 
 KIRI_TABLE(PinAnchorTable, kiriPinAnchor, {
-    KIRI_REALS(kiriPinAnchor, local, local),
+    KIRI_REALS(local),
     KIRI_UNHASHED,
-    KIRI_RUN(4, kiriPinAnchor, obstacle, obstacle),
-    KIRI_REALS(kiriPinAnchor, give, softness),
-});
+    KIRI_RUN(4, obstacle),
+    KIRI_REALS(give, softness),
+})
 
 KIRI_TABLE(PinDataTable, kiriPinData, {
-    KIRI_WITHIN(KIRI_PIN_POINT, KIRI_PIN_CLAMP, kiriPinData, type, type),
-    KIRI_RUN(4, kiriPinData, at, to),
-    KIRI_REALS(kiriPinData, target, breakForce),
-    KIRI_PART(kiriPinData, anchor, PinAnchorTable),
-    KIRI_REALS(kiriPinData, off, off),
-    KIRI_REALS(kiriPinData, stiffness, bore),
+    KIRI_WITHIN(KIRI_PIN_POINT, KIRI_PIN_CLAMP, type),
+    KIRI_RUN(4, at, to),
+    KIRI_REALS(target, breakForce),
+    KIRI_PART(anchor, PinAnchorTable),
+    KIRI_REALS(off),
+    KIRI_REALS(stiffness, bore),
     KIRI_UNHASHED,
-    KIRI_RUN(4, kiriPinData, id, id),
-    KIRI_RUN(8, kiriPinData, userData, userData),
-    KIRI_RUN(4, kiriPinData, offFrame, offFrame),
-});
+    KIRI_RUN(4, id),
+    KIRI_RUN(8, userData),
+    KIRI_RUN(4, offFrame),
+})
 
 KIRI_TABLE(ContactTable, kiriContact, {
-    KIRI_RUN(4, kiriContact, point, point),
-    KIRI_FLOATS(kiriContact, normal, pushSpeed),
-    KIRI_RUN(4, kiriContact, obstacle, obstacle),
+    KIRI_RUN(4, point),
+    KIRI_FLOATS(normal, pushSpeed),
+    KIRI_RUN(4, obstacle),
     KIRI_UNHASHED,
-    KIRI_FLOATS(kiriContact, restPoint, restPoint),
-});
+    KIRI_FLOATS(restPoint),
+})
 
 KIRI_TABLE(GivenContactTable, kiriGivenContact, {
-    KIRI_PART(kiriGivenContact, contact, ContactTable),
-    KIRI_REALS(kiriGivenContact, share, share),
+    KIRI_PART(contact, ContactTable),
+    KIRI_REALS(share),
     KIRI_UNHASHED,
-    KIRI_RUN(4, kiriGivenContact, vertex, vertex),
-});
+    KIRI_RUN(4, vertex),
+})
 
 KIRI_TABLE(TouchTable, kiriTouch, {
-    KIRI_RUN(8, kiriTouch, key, key),
-    KIRI_REALS(kiriTouch, normal, pushSpeed),
+    KIRI_RUN(8, key),
+    KIRI_REALS(normal, pushSpeed),
     KIRI_UNHASHED,
-    KIRI_RUN(4, kiriTouch, point, vertex),
-    KIRI_REALS(kiriTouch, share, seen),
-    KIRI_RUN(4, kiriTouch, yield, yield),
-    KIRI_REALS(kiriTouch, felt, felt),
-    KIRI_RUN(4, kiriTouch, row, row),
-    KIRI_REALS(kiriTouch, force, force),
-});
+    KIRI_RUN(4, point, vertex),
+    KIRI_REALS(share, seen),
+    KIRI_RUN(4, yield),
+    KIRI_REALS(felt),
+    KIRI_RUN(4, row),
+    KIRI_REALS(force),
+})
 
 KIRI_TABLE(TouchForceTable, kiriTouchForce, {
-    KIRI_RUN(8, kiriTouchForce, key, key),
-    KIRI_REALS(kiriTouchForce, force, normal),
-});
+    KIRI_RUN(8, key),
+    KIRI_REALS(force, normal),
+})
 
 KIRI_TABLE(TouchMemoryTable, kiriTouchMemory, {
-    KIRI_PARTS(kiriTouchMemory, touches, TouchTable),
-    KIRI_PARTS(kiriTouchMemory, forces, TouchForceTable),
+    KIRI_PARTS(touches, TouchTable),
+    KIRI_PARTS(forces, TouchForceTable),
     KIRI_UNHASHED,
-    KIRI_RUN(4, kiriTouchMemory, given, given),
-});
+    KIRI_RUN(4, given),
+})
 
 KIRI_TABLE(ContactForceTable, kiriContactForce, {
-    KIRI_RUN(8, kiriContactForce, impulse, depth),
-    KIRI_RUN(4, kiriContactForce, point, obstacle),
-});
+    KIRI_RUN(8, impulse, depth),
+    KIRI_RUN(4, point, obstacle),
+})
 
 /* Sums are a cache: a load computes them again. */
 KIRI_TABLE(RestLoadsTable, kiriRestLoads, {
     KIRI_UNHASHED,
-    KIRI_ROOM_OF(kiriRestLoads, on),
-    KIRI_DROPPED(kiriRestLoads, dt, areSummed),
-});
+    KIRI_ROOM_OF(on),
+    KIRI_DROPPED(dt, areSummed),
+})
 
 KIRI_TABLE(TouchesTable, kiriTouches, {
-    KIRI_PART(kiriTouches, last, TouchMemoryTable),
-    KIRI_PART(kiriTouches, slept, TouchMemoryTable),
+    KIRI_PART(last, TouchMemoryTable),
+    KIRI_PART(slept, TouchMemoryTable),
     KIRI_UNHASHED,
-    KIRI_SPACE_OF(kiriTouches, found),
-    KIRI_ROOMS(kiriTouches, yields, rows, order),
-    KIRI_PART(kiriTouches, rests, RestLoadsTable),
-    KIRI_BOOLS(kiriTouches, isShort, isShort),
+    KIRI_SPACE_OF(found),
+    KIRI_ROOMS(yields, rows, order),
+    KIRI_PART(rests, RestLoadsTable),
+    KIRI_BOOLS(isShort),
     KIRI_HANDED,
-    KIRI_PARTS(kiriTouches, told, ContactForceTable),
-    KIRI_ROOM_OF(kiriTouches, nextTold),
-});
+    KIRI_PARTS(told, ContactForceTable),
+    KIRI_ROOM_OF(nextTold),
+})
 
 /* ---- Visible state ----------------------------------------------------------------------------------------------- */
 
 KIRI_TABLE(BlocksTable, kiriBlocks, {
     KIRI_DERIVED,
-    KIRI_ARRAYS(kiriBlocks, touched, stale, movers, moved),
-});
+    KIRI_ARRAYS(touched, stale, movers, moved),
+})
 
 KIRI_TABLE(SeenTable, kiriSeen, {
-    KIRI_PART(kiriSeen, fades, kiriFadesTable),
-    KIRI_PART(kiriSeen, pointFades, kiriFadesTable),
+    KIRI_PART(fades, kiriFadesTable),
+    KIRI_PART(pointFades, kiriFadesTable),
     KIRI_UNHASHED,
-    KIRI_PART(kiriSeen, surface, kiriSurfaceTable),
-    KIRI_KEPT(kiriSeen, bounds, bounds),
-    KIRI_RUN(4, kiriSeen, pointCount, pointCount),
-    KIRI_ROOM_OF(kiriSeen, pointsBefore),
-    KIRI_BOOLS(kiriSeen, isElsewhere, isElsewhere),
-    KIRI_WITHIN(0, INT32_MAX, kiriSeen, vertexCount, vertexCount),
-    KIRI_BOOLS(kiriSeen, areFadesAsleep, areFadesAsleep),
+    KIRI_PART(surface, kiriSurfaceTable),
+    KIRI_KEPT(bounds),
+    KIRI_RUN(4, pointCount),
+    KIRI_ROOM_OF(pointsBefore),
+    KIRI_BOOLS(isElsewhere),
+    KIRI_WITHIN(0, INT32_MAX, vertexCount),
+    KIRI_BOOLS(areFadesAsleep),
     KIRI_DERIVED,
-    KIRI_PART(kiriSeen, blocks, BlocksTable),
-    KIRI_ARRAYS(kiriSeen, exactPoints),
+    KIRI_PART(blocks, BlocksTable),
+    KIRI_ARRAYS(exactPoints),
     KIRI_HANDED,
-    KIRI_ARRAYS(kiriSeen, pointPositions),
-});
+    KIRI_ARRAYS(pointPositions),
+})
 
 /* A load chooses the probes again; their velocities are saved. */
 KIRI_TABLE(ProbesTable, kiriProbes, {
-    KIRI_BOOLS(kiriProbes, isFresh, isFresh),
-    KIRI_RUN(4, kiriProbes, block, block),
-    KIRI_ITEMS(8, kiriProbes, velocities),
-    KIRI_ITEMS(8, kiriProbes, speeds),
-    KIRI_DROPPED(kiriProbes, areGrouped, areGrouped),
-    KIRI_DROPPED(kiriProbes, sheet, list),
-    KIRI_DROPPED(kiriProbes, boxes, touch),
-});
+    KIRI_BOOLS(isFresh),
+    KIRI_RUN(4, block),
+    KIRI_ITEMS(8, velocities),
+    KIRI_ITEMS(8, speeds),
+    KIRI_DROPPED(areGrouped),
+    KIRI_DROPPED(sheet, list),
+    KIRI_DROPPED(boxes, touch),
+})
 
 /* ---- Work on a cut ----------------------------------------------------------------------------------------------- */
 
 KIRI_TABLE(PlacingWorkTable, kiriPlacingWork, {
     KIRI_DERIVED,
-    KIRI_ARRAYS(kiriPlacingWork, sites, moves, marks, allowed, flags, own),
-    KIRI_PART(kiriPlacingWork, placer, kiriPlacerTable),
-});
+    KIRI_ARRAYS(sites, moves, marks, allowed, flags, own),
+    KIRI_PART(placer, kiriPlacerTable),
+})
 
 KIRI_TABLE(SampleWorkTable, kiriSampleWork, {
     KIRI_DERIVED,
-    KIRI_PART(kiriSampleWork, refresh, kiriRefreshTable),
-    KIRI_ARRAYS(kiriSampleWork, newPoints, movedPoints),
-});
+    KIRI_PART(refresh, kiriRefreshTable),
+    KIRI_ARRAYS(newPoints, movedPoints),
+})
 
 KIRI_TABLE(UpdateTable, kiriUpdate, {
-    KIRI_BOOLS(kiriUpdate, isUnsettled, isUnsettled),
+    KIRI_BOOLS(isUnsettled),
     KIRI_DERIVED,
-    KIRI_PART(kiriUpdate, placing, PlacingWorkTable),
-    KIRI_PART(kiriUpdate, samples, SampleWorkTable),
-    KIRI_PART(kiriUpdate, refit, kiriRefitTable),
-    KIRI_PART(kiriUpdate, next, LayoutTable),
-    KIRI_ARRAYS(kiriUpdate, material, newFrames, parent),
-    KIRI_DROPPED(kiriUpdate, integration, integration),
-});
+    KIRI_PART(placing, PlacingWorkTable),
+    KIRI_PART(samples, SampleWorkTable),
+    KIRI_PART(refit, kiriRefitTable),
+    KIRI_PART(next, LayoutTable),
+    KIRI_ARRAYS(material, newFrames, parent),
+    KIRI_DROPPED(integration),
+})
 
 KIRI_TABLE(BladeTipTable, kiriBladeTip, {
-    KIRI_RUN(4, kiriBladeTip, at, at),
-    KIRI_INDEX_OR_NONE(KIRI_OF_VERTICES, kiriBladeTip, vertex, vertex),
-    KIRI_WITHIN(KIRI_BLADE_RESTS, KIRI_BLADE_RESTS, kiriBladeTip, phase, phase),
-    KIRI_COUNTS(kiriBladeTip, owed, owed),
+    KIRI_RUN(4, at),
+    KIRI_INDEX_OR_NONE(KIRI_OF_VERTICES, vertex),
+    KIRI_WITHIN(KIRI_BLADE_RESTS, KIRI_BLADE_RESTS, phase),
+    KIRI_COUNTS(owed),
     KIRI_UNHASHED,
-    KIRI_RUN(4, kiriBladeTip, from, lip),
-});
+    KIRI_RUN(4, from, lip),
+})
 
 KIRI_TABLE(TipTable, kiriTip, {
-    KIRI_REALS(kiriTip, last, last),
-    KIRI_PART(kiriTip, blade, BladeTipTable),
-});
+    KIRI_REALS(last),
+    KIRI_PART(blade, BladeTipTable),
+})
 
 KIRI_TABLE(CutDataTable, kiriCutData, {
-    KIRI_PART(kiriCutData, tip, TipTable),
-    KIRI_BOOLS(kiriCutData, ended, ended),
+    KIRI_PART(tip, TipTable),
+    KIRI_BOOLS(ended),
     KIRI_UNHASHED,
-    KIRI_RUN(4, kiriCutData, id, id),
-    KIRI_DROPPED(kiriCutData, sheet, index),
-    KIRI_DROPPED(kiriCutData, waiting, waiting),
-});
+    KIRI_RUN(4, id),
+    KIRI_DROPPED(sheet, index),
+    KIRI_DROPPED(waiting),
+})
 
 KIRI_TABLE(QueuedPointTable, kiriQueuedPoint, {
-    KIRI_REALS(kiriQueuedPoint, to, to),
-    KIRI_BOOLS(kiriQueuedPoint, jump, ends),
+    KIRI_REALS(to),
+    KIRI_BOOLS(jump, ends),
     KIRI_UNHASHED,
-    KIRI_COUNTS(kiriQueuedPoint, stamp, stamp),
-    KIRI_DROPPED(kiriQueuedPoint, cut, cut),
-});
+    KIRI_COUNTS(stamp),
+    KIRI_DROPPED(cut),
+})
 
 /* ---- The sheet --------------------------------------------------------------------------------------------------- */
 
 KIRI_TABLE(SampleTable, kiriSample, {
-    KIRI_RUN(4, kiriSample, at, at),
+    KIRI_RUN(4, at),
     KIRI_DERIVED,
-});
+})
 
 KIRI_TABLE(SheetRestTable, kiriSheetRest, {
-    KIRI_BOOLS(kiriSheetRest, asleep, asleep),
+    KIRI_BOOLS(asleep),
     KIRI_UNHASHED,
-    KIRI_BOOLS(kiriSheetRest, isStirred, isIdle),
-});
+    KIRI_BOOLS(isStirred, isIdle),
+})
 
 KIRI_TABLE(TurnsTable, kiriPieceTurns, {
-    KIRI_WITHIN(0, INT32_MAX, kiriPieceTurns, next, next),
-    KIRI_WITHIN(0, 0, kiriPieceTurns, waiting, waiting),
-});
+    KIRI_WITHIN(0, INT32_MAX, next),
+    KIRI_WITHIN(0, 0, waiting),
+})
 
 /* Counts come first: a load checks indices against them as it reads. */
 static void MoveCounts(kiriArchive* archive, void* object)
@@ -291,41 +291,41 @@ static void MoveCounts(kiriArchive* archive, void* object)
 }
 
 KIRI_TABLE(SheetTable, kiriSheetData, {
-    KIRI_CUSTOM(kiriSheetData, id, MoveCounts),
-    KIRI_PART(kiriSheetData, settings, SettingsTable),
-    KIRI_PART(kiriSheetData, mesh, kiriMeshTable),
-    KIRI_PART(kiriSheetData, shape, kiriShapeTable),
-    KIRI_OWNED(kiriSheetData, update, UpdateTable),
-    KIRI_PARTS(kiriSheetData, frames, kiriFrameTable),
-    KIRI_PART(kiriSheetData, layout, LayoutTable),
-    KIRI_PART(kiriSheetData, strainOffsets, kiriStrainOffsetsTable),
-    KIRI_PARTS(kiriSheetData, points, SampleTable),
-    KIRI_PARTS(kiriSheetData, pins, PinDataTable),
-    KIRI_PARTS(kiriSheetData, contacts, GivenContactTable),
-    KIRI_ITEMS(4, kiriSheetData, leaving),
-    KIRI_COUNTS(kiriSheetData, leavingPaid, leavingPaid),
-    KIRI_REAL_ITEMS(kiriSheetData, linkParts),
-    KIRI_PART(kiriSheetData, touches, TouchesTable),
-    KIRI_PART(kiriSheetData, rest, SheetRestTable),
-    KIRI_PART(kiriSheetData, turns, TurnsTable),
-    KIRI_PART(kiriSheetData, seen, SeenTable),
+    KIRI_CUSTOM(id, MoveCounts),
+    KIRI_PART(settings, SettingsTable),
+    KIRI_PART(mesh, kiriMeshTable),
+    KIRI_PART(shape, kiriShapeTable),
+    KIRI_OWNED(update, UpdateTable),
+    KIRI_PARTS(frames, kiriFrameTable),
+    KIRI_PART(layout, LayoutTable),
+    KIRI_PART(strainOffsets, kiriStrainOffsetsTable),
+    KIRI_PARTS(points, SampleTable),
+    KIRI_PARTS(pins, PinDataTable),
+    KIRI_PARTS(contacts, GivenContactTable),
+    KIRI_ITEMS(4, leaving),
+    KIRI_COUNTS(leavingPaid),
+    KIRI_REAL_ITEMS(linkParts),
+    KIRI_PART(touches, TouchesTable),
+    KIRI_PART(rest, SheetRestTable),
+    KIRI_PART(turns, TurnsTable),
+    KIRI_PART(seen, SeenTable),
     KIRI_UNHASHED,
-    KIRI_RUN(4, kiriSheetData, id, id),
-    KIRI_PART(kiriSheetData, regions, kiriRegionsTable),
-    KIRI_PART(kiriSheetData, probes, ProbesTable),
-    KIRI_ROOMS(kiriSheetData, pinRows, clampRows, pinReactions, clampReactions, frameReactions),
-    KIRI_KEPT(kiriSheetData, memory, shown),
-    KIRI_DROPPED(kiriSheetData, solver, cuts),
-    KIRI_DROPPED(kiriSheetData, line, lineShares),
-    KIRI_DROPPED(kiriSheetData, lists, lists),
-    KIRI_DROPPED(kiriSheetData, past, pastRoom),
+    KIRI_RUN(4, id),
+    KIRI_PART(regions, kiriRegionsTable),
+    KIRI_PART(probes, ProbesTable),
+    KIRI_ROOMS(pinRows, clampRows, pinReactions, clampReactions, frameReactions),
+    KIRI_KEPT(memory, shown),
+    KIRI_DROPPED(solver, cuts),
+    KIRI_DROPPED(line, lineShares),
+    KIRI_DROPPED(lists),
+    KIRI_DROPPED(past, pastRoom),
     KIRI_DERIVED,
-    KIRI_PART(kiriSheetData, grid, kiriGridTable),
-    KIRI_PART(kiriSheetData, links, kiriLinksTable),
-    KIRI_PART(kiriSheetData, vertexSkin, kiriSkinTable),
-    KIRI_PART(kiriSheetData, pointSkin, kiriSkinTable),
-    KIRI_PART(kiriSheetData, pointPlaces, kiriPlacesTable),
-});
+    KIRI_PART(grid, kiriGridTable),
+    KIRI_PART(links, kiriLinksTable),
+    KIRI_PART(vertexSkin, kiriSkinTable),
+    KIRI_PART(pointSkin, kiriSkinTable),
+    KIRI_PART(pointPlaces, kiriPlacesTable),
+})
 
 /* Moves the cuts and their pending points, which are blocks of the world's memory. */
 static void MoveCuts(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* memory)
@@ -338,7 +338,7 @@ static void MoveCuts(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* mem
         }
         KIRI_ASSERT(archive->isShort || (i < sheet->cuts.count && sheet->cuts.data[i] != NULL));
         if (!archive->isShort) {
-            kiriArchive_Object(archive, &CutDataTable, sheet->cuts.data[i]);
+            kiriArchive_Object(archive, CutDataTable, sheet->cuts.data[i]);
         }
         if (kiriArchive_Reads(archive) && !archive->isShort) {
             sheet->cuts.data[i]->sheet = sheet;
@@ -354,7 +354,7 @@ static void MoveCuts(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* mem
         }
         kiriQueuedPoint* point = &sheet->queue.data[i];
         int32_t cut = kiriArchive_Count(archive, point->cut != NULL ? point->cut->index : 0, 0, sheet->cuts.count - 1);
-        kiriArchive_Object(archive, &QueuedPointTable, point);
+        kiriArchive_Object(archive, QueuedPointTable, point);
         if (kiriArchive_Reads(archive) && !kiriArchive_HasFailed(archive)) {
             KIRI_ASSERT(cut >= 0 && cut < sheet->cuts.count);
             point->cut = sheet->cuts.data[cut];
@@ -435,7 +435,7 @@ void kiriSheet_Archive(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* m
     KIRI_ASSERT(memory != &sheet->own && sheet->memory == &sheet->own);
     archive->memory = &sheet->own;
     archive->shown = &sheet->shown;
-    kiriArchive_Object(archive, &SheetTable, sheet);
+    kiriArchive_Object(archive, SheetTable, sheet);
     kiriArchive_Expect(archive, AreCounted(archive, sheet));
     if (isHash) {
         uint64_t pattern = kiriSolver_Hash(sheet->solver);
@@ -461,9 +461,9 @@ void kiriSheet_Archive(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* m
 
 void kiriSheet_HashLayout(uint64_t* hash)
 {
-    kiriArchive_HashLayout(&SheetTable, hash);
-    kiriArchive_HashLayout(&CutDataTable, hash);
-    kiriArchive_HashLayout(&QueuedPointTable, hash);
+    kiriArchive_HashLayout(SheetTable, hash);
+    kiriArchive_HashLayout(CutDataTable, hash);
+    kiriArchive_HashLayout(QueuedPointTable, hash);
 }
 
 /* ---- Checks ------------------------------------------------------------------------------------------------------ */
@@ -487,8 +487,8 @@ static bool AreCuts(const kiriSheetData* sheet)
                   (blade->vertex == KIRI_NONE ||
                    kiriLattice_IsSame(kiriMesh_At(&sheet->mesh, blade->vertex), blade->at));
     }
-    for (int32_t k = 0; areFine && k < sheet->queue.count; ++k) {
-        areFine = !sheet->queue.data[k].ends || sheet->queue.data[k].cut->ended;
+    KIRI_EACH_WHILE(areFine, const kiriQueuedPoint, point, sheet->queue) {
+        areFine = !point->ends || point->cut->ended;
     }
     return areFine;
 }
@@ -504,8 +504,8 @@ static bool AreSettings(const kiriSettings* settings)
 static bool AreFrames(const kiriSheetData* sheet)
 {
     bool areFine = sheet->regions.dirty.count == sheet->frames.count;
-    for (int32_t f = 0; areFine && f < sheet->frames.count; ++f) {
-        areFine = kiriFrame_IsSound(&sheet->frames.data[f], &sheet->mesh);
+    KIRI_EACH_WHILE(areFine, const kiriFrameData, frame, sheet->frames) {
+        areFine = kiriFrame_IsSound(frame, &sheet->mesh);
     }
     return areFine;
 }
@@ -520,9 +520,9 @@ static bool ArePieces(const kiriLayout* layout)
         areFine = piece <= pieces && (piece < pieces || layout->pieces.data[piece].frame == f);
         pieces += piece == pieces;
     }
-    for (int32_t p = 0; p < layout->pieces.count; ++p) {
-        areFine = areFine && !layout->pieces.data[p].rest.waits;
-        isLeft = isLeft || !layout->pieces.data[p].isGone;
+    KIRI_EACH(const kiriPiece, each, layout->pieces) {
+        areFine = areFine && !each->rest.waits;
+        isLeft = isLeft || !each->isGone;
     }
     return areFine && isLeft && pieces == layout->pieces.count;
 }
@@ -532,9 +532,9 @@ static bool AreAreaElements(const kiriLayout* layout)
 {
     const kiriAreaElements* areas = &layout->areaElements;
     bool areFine = kiriAreaElements_AreSound(areas);
-    for (int32_t k = 0; areFine && k < areas->elements.count; ++k) {
-        const kiriFrameShare* shares = &areas->shares.data[areas->elements.data[k].first];
-        for (int32_t n = 1; areFine && n < areas->elements.data[k].count; ++n) {
+    KIRI_EACH_WHILE(areFine, const kiriAreaElement, element, areas->elements) {
+        const kiriFrameShare* shares = &areas->shares.data[element->first];
+        for (int32_t n = 1; areFine && n < element->count; ++n) {
             areFine = shares[n - 1].frame < shares[n].frame &&
                       layout->framePiece.data[shares[n].frame] == layout->framePiece.data[shares[0].frame];
         }
@@ -546,8 +546,7 @@ static bool ArePins(const kiriSheetData* sheet)
 {
     const kiriPinShares* shares = &sheet->layout.pinShares;
     bool areFine = true;
-    for (int32_t i = 0; areFine && i < sheet->pins.count; ++i) {
-        const kiriPinData* pin = &sheet->pins.data[i];
+    KIRI_EACH_WHILE(areFine, const kiriPinData, pin, sheet->pins) {
         bool isPoint = pin->type == KIRI_PIN_POINT;
         areFine = IsOnLattice(pin->at) && IsOnLattice(pin->to) &&
                   isPoint == (pin->at.x == pin->to.x && pin->at.y == pin->to.y) && isPoint == (pin->stiffness > 0.0);
@@ -564,8 +563,8 @@ static bool ArePins(const kiriSheetData* sheet)
 static bool ArePoints(const kiriSheetData* sheet)
 {
     bool areFine = true;
-    for (int32_t i = 0; areFine && i < sheet->points.count; ++i) {
-        kiriLatticePoint at = sheet->points.data[i].at;
+    KIRI_EACH_WHILE(areFine, const kiriSample, point, sheet->points) {
+        kiriLatticePoint at = point->at;
         int32_t square =
             IsOnLattice(at) && at.x >= 0 && at.y >= 0 ? kiriSquares_At(&sheet->mesh.squares, at) : KIRI_NONE;
         areFine = square != KIRI_NONE && sheet->mesh.squares.head[square] != KIRI_NONE;
@@ -587,8 +586,8 @@ static bool IsPlace(const kiriSheetData* sheet, int32_t point, const int32_t ver
 static bool IsTouchMemory(const kiriSheetData* sheet, const kiriTouchMemory* memory)
 {
     bool isFine = memory->given >= 0 && memory->given <= memory->touches.count;
-    for (int32_t k = 0; isFine && k < memory->touches.count; ++k) {
-        isFine = IsPlace(sheet, memory->touches.data[k].point, memory->touches.data[k].vertex);
+    KIRI_EACH_WHILE(isFine, const kiriTouch, touch, memory->touches) {
+        isFine = IsPlace(sheet, touch->point, touch->vertex);
     }
     return isFine;
 }
@@ -599,8 +598,7 @@ static bool AreContacts(const kiriSheetData* sheet)
     bool areFine = touches->nextTold.capacity >= sheet->contacts.count &&
                    touches->found.capacity >= sheet->contacts.count && IsTouchMemory(sheet, &touches->last) &&
                    IsTouchMemory(sheet, &touches->slept);
-    for (int32_t k = 0; areFine && k < sheet->contacts.count; ++k) {
-        const kiriGivenContact* given = &sheet->contacts.data[k];
+    KIRI_EACH_WHILE(areFine, const kiriGivenContact, given, sheet->contacts) {
         bool isPoint = given->contact.point != KIRI_NONE;
         areFine = IsPlace(sheet, given->contact.point, given->vertex) && (isPoint || given->vertex[2] != KIRI_NONE);
     }
@@ -624,8 +622,8 @@ static bool HaveArraysRoom(const kiriSheetData* sheet)
                   sheet->pinRows.capacity >= pins && sheet->clampRows.capacity >= shares &&
                   sheet->pinReactions.capacity >= pins && sheet->clampReactions.capacity >= shares &&
                   sheet->frameReactions.capacity >= sheet->frames.count;
-    for (int32_t k = 0; isFine && k < sheet->layout.severed.count; ++k) {
-        isFine = sheet->layout.severed.data[k].link < links;
+    KIRI_EACH_WHILE(isFine, const kiriSeveredLink, link, sheet->layout.severed) {
+        isFine = link->link < links;
     }
     return isFine;
 }

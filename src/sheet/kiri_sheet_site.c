@@ -32,7 +32,7 @@ static bool IsAcross(const SeverWork* work, const kiriLink* link, double* t, dou
         return false;
     }
     double share = before / (before - behind);
-    kiriVec2 crossing = kiriVec2_Add(kiriVec2_Scale(1.0 - share, a), kiriVec2_Scale(share, b));
+    kiriVec2 crossing = kiriVec2_AddScaled(kiriVec2_Scale(1.0 - share, a), share, b);
     *t = kiriVec2_Dot(crossing, work->along) / work->length;
     *width = link->width * fabs(kiriVec2_Dot(link->normal, work->left)) / work->length;
     return *t > 0.0 && *t < 1.0 && *width > 0.0;
@@ -127,8 +127,8 @@ bool kiriSever_Across(kiriSheetData* sheet, kiriLatticePoint from, kiriLatticePo
         return true; /* no links */
     }
     int32_t own = sheet->lineShares.count;
-    for (int32_t k = 0; ok && k < sheet->line.parts.count; ++k) {
-        ok = SeverBorder(&work, &sheet->line.parts.data[k]);
+    KIRI_EACH_WHILE(ok, const kiriLinePart, part, sheet->line.parts) {
+        ok = SeverBorder(&work, part);
     }
     for (int32_t k = 0; ok && k < own; ++k) {
         ok = SpreadShare(&work, sheet->lineShares.data[k]);
@@ -258,9 +258,8 @@ int32_t kiriSites_MostIn(int32_t cells)
 bool kiriSites_IsCrowded(const kiriGrid* grid, const kiriSites* sites, const kiriSite* site, const int32_t* holder)
 {
     double least = 0.999 * grid->side; /* points of the caller are floats */
-    kiriSteps steps = kiriGrid_GetSteps(grid, site->cell);
-    for (int32_t s = 0; s < steps.end[1]; ++s) {
-        int32_t other = holder[kiriSteps_At(&steps, s).cell];
+    KIRI_EACH_STEP(step, grid, site->cell, KIRI_DIAGONAL) {
+        int32_t other = holder[step.cell];
         if (other != KIRI_NONE) {
             kiriVec2 off = kiriVec2_Sub(sites->data[other].at, site->at);
             if (kiriVec2_Dot(off, off) < least * least) {
@@ -278,8 +277,8 @@ static double TakenArea(const kiriSheetData* sheet)
 {
     const kiriPlacer* placer = &sheet->update->placing.placer;
     double area = 0.0;
-    for (int32_t i = 0; i < placer->cells.count; ++i) {
-        area += kiriGrid_Area(&sheet->grid, placer->cells.data[i]);
+    KIRI_EACH(const int32_t, at, placer->cells) {
+        area += kiriGrid_Area(&sheet->grid, *at);
     }
     return area;
 }
@@ -391,8 +390,8 @@ static kiriProgress StartOrphan(kiriSheetData* sheet, int32_t cell, kiriQuota* c
     if (progress != KIRI_DONE) {
         return progress;
     }
-    for (int32_t i = 0; i < placing->placer.cells.count; ++i) {
-        placing->marks.data[placing->placer.cells.data[i]] = 1;
+    KIRI_EACH(const int32_t, at, placing->placer.cells) {
+        placing->marks.data[*at] = 1;
     }
     int32_t count = FramesFor(sheet);
     placing->pieces -= placing->pieces > 0;
@@ -417,8 +416,8 @@ kiriProgress kiriSites_PlaceInOrphans(kiriSheetData* sheet, kiriQuota* cells)
         if (progress != KIRI_DONE) {
             return progress;
         }
-        for (int32_t i = 0; i < placing->placer.sites.count; ++i) {
-            if (!AddSite(sheet, placing->placer.sites.data[i])) {
+        KIRI_EACH(const kiriSite, site, placing->placer.sites) {
+            if (!AddSite(sheet, *site)) {
                 return KIRI_FAILED;
             }
         }
@@ -482,14 +481,14 @@ static bool MarkRigidCells(kiriSheetData* sheet)
     }
     int32_t last = KIRI_NONE; /* cache: consecutive cells are mostly of one region */
     bool isLarge = false;
-    for (int32_t i = 0; i < placing->placer.cells.count; ++i) {
-        int32_t cell = placing->placer.cells.data[i], owner = sheet->regions.field.owner.data[cell];
+    KIRI_EACH(const int32_t, at, placing->placer.cells) {
+        int32_t cell = *at, owner = sheet->regions.field.owner.data[cell];
         kiriSpan span = sheet->shape.spans.data[cell];
         double sum = kiriShape_Sum(&sheet->shape, span);
         isLarge = owner == last ? isLarge : Largeness(sheet, owner) > 1.0;
         last = owner;
         placing->allowed.data[cell] = isLarge;
-        for (int32_t k = span.first; k < span.first + span.count; ++k) {
+        KIRI_EACH_IN(k, span) {
             const kiriCellWeight* weight = &sheet->shape.weights.data[k];
             placing->allowed.data[cell] |= kiriCellWeight_Raw(weight) / sum > sheet->shape.rigidWeight &&
                                              FrameRigidity(sheet, weight->frame) > 1.0;
@@ -504,8 +503,8 @@ static bool TakeSitesOfPiece(kiriSheetData* sheet, bool* old)
     kiriPlacingWork* placing = &sheet->update->placing;
     placing->placer.sites.count = placing->own.count = 0;
     *old = false;
-    for (int32_t i = 0; i < placing->placer.cells.count; ++i) {
-        int32_t frame = sheet->regions.siteAt.data[placing->placer.cells.data[i]];
+    KIRI_EACH(const int32_t, at, placing->placer.cells) {
+        int32_t frame = sheet->regions.siteAt.data[*at];
         if (frame != KIRI_NONE) {
             placing->marks.data[frame] = 1;
             *old = *old || frame < sheet->frames.count;
@@ -516,8 +515,8 @@ static bool TakeSitesOfPiece(kiriSheetData* sheet, bool* old)
     }
     kiriSort(placing->own.data, placing->own.count, NULL, NULL);
     bool ok = true;
-    for (int32_t i = 0; ok && i < placing->own.count; ++i) {
-        ok = kiriArray_Push(sheet->memory, &placing->placer.sites, placing->sites.data[placing->own.data[i]]);
+    KIRI_EACH_WHILE(ok, const int32_t, own, placing->own) {
+        ok = kiriArray_Push(sheet->memory, &placing->placer.sites, placing->sites.data[*own]);
     }
     return ok;
 }
@@ -571,8 +570,8 @@ static bool GiveSites(kiriSheetData* sheet)
     if (isAgain && placing->placer.sites.count <= placing->own.count) {
         return true;
     }
-    for (int32_t i = 0; ok && isAgain && i < placing->own.count; ++i) {
-        int32_t f = placing->own.data[i];
+    KIRI_EACH_WHILE(ok&& isAgain, const int32_t, own, placing->own) {
+        int32_t f = *own;
         ok = RecordMove(sheet, f, placing->sites.data[f].cell);
         placing->sites.data[f] = placing->placer.sites.data[next++];
     }

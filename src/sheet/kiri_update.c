@@ -240,8 +240,8 @@ static kiriProgress StageShape(kiriSheetData* sheet, kiriQuota* cells)
 static bool MoveCollisionPoints(kiriSheetData* sheet)
 {
     kiriUpdate* u = sheet->update;
-    for (int32_t k = 0; k < sheet->pointSkin.staged.count; ++k) {
-        int32_t point = sheet->pointSkin.staged.data[k].sample;
+    KIRI_EACH(const kiriReweighed, staged, sheet->pointSkin.staged) {
+        int32_t point = staged->sample;
         kiriLatticePoint at = sheet->points.data[point].at;
         kiriSample moved = { at, kiriGrid_CellAround(&sheet->grid, &sheet->mesh, at), point };
         if (!kiriArray_Push(sheet->memory, &u->samples.movedPoints, moved)) {
@@ -265,8 +265,8 @@ static bool MarkPiecesWithPoints(kiriSheetData* sheet)
         return false;
     }
     u->placing.whole = NeedsPoints(sheet) ? kiriMesh_Area(&sheet->mesh) : 0.0;
-    for (int32_t i = 0; NeedsPoints(sheet) && i < sheet->points.count; ++i) {
-        int32_t cell = kiriGrid_CellAround(&sheet->grid, &sheet->mesh, sheet->points.data[i].at);
+    KIRI_EACH_WHILE(NeedsPoints(sheet), const kiriSample, point, sheet->points) {
+        int32_t cell = kiriGrid_CellAround(&sheet->grid, &sheet->mesh, point->at);
         u->placing.marks.data[u->next.framePiece.data[sheet->regions.field.owner.data[cell]]] = 1;
     }
     return true;
@@ -275,8 +275,8 @@ static bool MarkPiecesWithPoints(kiriSheetData* sheet)
 static bool AddCollisionPoints(kiriSheetData* sheet)
 {
     kiriUpdate* u = sheet->update;
-    for (int32_t i = 0; i < u->placing.placer.sites.count; ++i) {
-        int32_t cell = u->placing.placer.sites.data[i].cell, sample = sheet->points.count + u->samples.newPoints.count;
+    KIRI_EACH(const kiriSite, site, u->placing.placer.sites) {
+        int32_t cell = site->cell, sample = sheet->points.count + u->samples.newPoints.count;
         kiriLatticePoint at = kiriGrid_Anchor(&sheet->grid, &sheet->mesh, cell);
         cell = kiriGrid_CellAround(&sheet->grid, &sheet->mesh, at); /* the anchor may lie in a neighboring cell */
         kiriSample point = { at, cell, KIRI_NONE };
@@ -701,9 +701,9 @@ static void TakeMotion(const kiriSheetData* sheet, kiriFrameData* frame, int32_t
 static void TakeFits(kiriSheetData* sheet)
 {
     kiriRefit* refit = &sheet->update->refit;
-    for (int32_t k = 0; k < refit->fits.count; ++k) {
-        const kiriFrameData* state = &refit->fits.data[k].state;
-        kiriFrameData* frame = &sheet->frames.data[refit->fits.data[k].frame];
+    KIRI_EACH(const kiriFit, fit, refit->fits) {
+        const kiriFrameData* state = &fit->state;
+        kiriFrameData* frame = &sheet->frames.data[fit->frame];
         frame->x = state->x;
         frame->A = state->A;
         frame->velocity = state->velocity;
@@ -715,9 +715,9 @@ static void TakeFits(kiriSheetData* sheet)
                           &sheet->settings.material);
     /* Frames that do not fit floats: their piece diverged, so a fit of its rotation overflowed. Without fits velocities are
        from the host and in range. */
-    for (int32_t f = 0; refit->fits.count > 0 && f < sheet->frames.count; ++f) {
-        if (!kiriFrame_FitsFloats(&sheet->frames.data[f])) {
-            kiriFrame_PutToRest(&sheet->frames.data[f]);
+    KIRI_EACH_WHILE(refit->fits.count > 0, kiriFrameData, each, sheet->frames) {
+        if (!kiriFrame_FitsFloats(each)) {
+            kiriFrame_PutToRest(each);
         }
     }
     kiriRefit_Commit(refit, &sheet->mesh);
@@ -782,15 +782,15 @@ static void CommitFrames(kiriSheetData* sheet)
 static void CommitPoints(kiriSheetData* sheet)
 {
     kiriUpdate* u = sheet->update;
-    for (int32_t i = 0; i < u->samples.movedPoints.count; ++i) {
-        sheet->points.data[u->samples.movedPoints.data[i].frame].cell = u->samples.movedPoints.data[i].cell;
+    KIRI_EACH(const kiriSample, moved, u->samples.movedPoints) {
+        sheet->points.data[moved->frame].cell = moved->cell;
     }
-    for (int32_t i = 0; i < u->samples.newPoints.count; ++i) {
-        sheet->points.data[sheet->points.count++] = u->samples.newPoints.data[i];
-        kiriPlaces_Add(&sheet->pointPlaces, sheet->memory, &sheet->mesh, u->samples.newPoints.data[i].at);
+    KIRI_EACH(const kiriSample, fresh, u->samples.newPoints) {
+        sheet->points.data[sheet->points.count++] = *fresh;
+        kiriPlaces_Add(&sheet->pointPlaces, sheet->memory, &sheet->mesh, fresh->at);
     }
-    for (int32_t i = 0; i < sheet->points.count; ++i) {
-        sheet->points.data[i].frame = sheet->regions.field.owner.data[sheet->points.data[i].cell];
+    KIRI_EACH(kiriSample, point, sheet->points) {
+        point->frame = sheet->regions.field.owner.data[point->cell];
     }
     u->samples.newPoints.count = u->samples.movedPoints.count = 0;
 }

@@ -29,7 +29,7 @@ static void GetWorldCorners(const kiriSurface* surface, int32_t triangle, kiriVe
 {
     KIRI_ASSERT(triangle >= 0 && triangle < surface->triangleCount);
     for (int k = 0; k < 3; ++k) {
-        corner[k] = kiriSurface_At(surface, surface->indices.data[3 * (size_t)triangle + (size_t)k]);
+        corner[k] = kiriSurface_At(surface, kiriSurface_Triangle(surface, triangle)[k]);
     }
 }
 
@@ -47,7 +47,7 @@ kiriBox kiriBox_OfTriangle(const kiriSurface* surface, int32_t triangle)
 /* Returns true if the corners of a triangle are one, see kiriSurface_HideTriangle. */
 static bool IsHidden(const kiriSurface* surface, int32_t triangle)
 {
-    const int32_t* corner = &surface->indices.data[3 * (size_t)triangle];
+    const int32_t* corner = kiriSurface_Triangle(surface, triangle);
     return corner[0] == corner[1];
 }
 
@@ -142,7 +142,7 @@ static void SortTriangles(kiriBounds* bounds, const kiriSurface* surface)
     }
     double width = upper.x - lower.x, height = upper.y - lower.y, scale = 65535.0 / kiriMax(width, height);
     for (int32_t t = 0; t < surface->triangleCount; ++t) {
-        const int32_t* v = &surface->indices.data[3 * (size_t)t];
+        const int32_t* v = kiriSurface_Triangle(surface, t);
         kiriVec2 sum = kiriVec2_Add(kiriVec2_Add(rest[v[0]], rest[v[1]]), rest[v[2]]);
         uint32_t x = (uint32_t)(scale * (sum.x / 3.0 - lower.x)), y = (uint32_t)(scale * (sum.y / 3.0 - lower.y));
         bounds->codes.data[t] = SpreadBits(x) | (SpreadBits(y) << 1);
@@ -169,7 +169,7 @@ static void FitBoxes(kiriBounds* bounds, const kiriSurface* surface, const uint8
                 box.upper = Most(nodes[i].upper, box.upper);
             }
             for (int32_t i = first; level == 0 && i < end; ++i) {
-                const int32_t* corner = &surface->indices.data[3 * (size_t)bounds->order.data[i]];
+                const int32_t* corner = kiriSurface_Triangle(surface, bounds->order.data[i]);
                 for (int k = 0; k < 3 && corner[0] != corner[1]; ++k) {
                     kiriVec3 at = kiriSurface_At(surface, corner[k]);
                     box.lower = Least(at, box.lower);
@@ -568,10 +568,10 @@ static bool HitTriangle(const kiriVec3 corner[3], const Ray* ray, double rim, Ra
 
 static kiriVec2 RestPoint(const kiriSurface* surface, int32_t triangle, RayHit hit)
 {
-    const int32_t* vertex = &surface->indices.data[3 * (size_t)triangle];
+    const int32_t* vertex = kiriSurface_Triangle(surface, triangle);
     kiriVec2 p = kiriVec2_Scale(1.0 - hit.b - hit.c, surface->rest.data[vertex[0]]);
-    p = kiriVec2_Add(p, kiriVec2_Scale(hit.b, surface->rest.data[vertex[1]]));
-    return kiriVec2_Add(p, kiriVec2_Scale(hit.c, surface->rest.data[vertex[2]]));
+    p = kiriVec2_AddScaled(p, hit.b, surface->rest.data[vertex[1]]);
+    return kiriVec2_AddScaled(p, hit.c, surface->rest.data[vertex[2]]);
 }
 
 typedef struct RaySearch {
@@ -676,7 +676,7 @@ bool kiriSurface_Cross(const kiriSurface* surface, const kiriBounds* bounds, kir
     for (int32_t i = search.first; i < crossings->count; ++i) {
         bool isKnown = false;
         for (int32_t k = search.first; !isKnown && k < kept; ++k) {
-            isKnown = kiriVec2_Length(kiriVec2_Sub(crossings->data[k].rest, crossings->data[i].rest)) < apart;
+            isKnown = kiriVec2_Distance(crossings->data[k].rest, crossings->data[i].rest) < apart;
         }
         if (!isKnown) {
             crossings->data[kept++] = crossings->data[i];

@@ -82,8 +82,7 @@ bool kiriSkin_Stage(kiriSkin* skin, kiriMemory* memory, const kiriShape* shape, 
 
 void kiriSkin_Commit(kiriSkin* skin)
 {
-    for (int32_t k = 0; k < skin->staged.count; ++k) {
-        kiriReweighed* staged = &skin->staged.data[k];
+    KIRI_EACH(const kiriReweighed, staged, skin->staged) {
         if (staged->sample == skin->spans.count) {
             KIRI_ASSERT(skin->spans.count < skin->spans.capacity);
             skin->spans.data[skin->spans.count++] = (kiriSpan){ 0, 0 };
@@ -97,8 +96,8 @@ void kiriSkin_Commit(kiriSkin* skin)
 
 void kiriSkin_Drop(kiriSkin* skin)
 {
-    for (int32_t k = 0; k < skin->staged.count; ++k) {
-        DropSpan(skin, &skin->staged.data[k].span);
+    KIRI_EACH(kiriReweighed, staged, skin->staged) {
+        DropSpan(skin, &staged->span);
     }
     skin->staged.count = 0;
 }
@@ -111,12 +110,12 @@ bool kiriSkin_Sort(kiriSkin* skin, kiriMemory* memory)
     if (!kiriArray_Reserve(memory, &sorted.weights, skin->weights.count + (int64_t)skin->weights.count / 8)) {
         return false;
     }
-    for (int32_t i = 0; i < skin->spans.count; ++i) {
-        kiriSpan was = skin->spans.data[i], is = { 0, 0 };
+    KIRI_EACH(kiriSpan, at, skin->spans) {
+        kiriSpan was = *at, is = { 0, 0 };
         ResizeSampleWeights(&sorted, memory, &is, was.count); /* there is room */
         memcpy(sorted.weights.data + is.first, skin->weights.data + was.first,
                sizeof(kiriSampleWeight) * (size_t)was.count);
-        skin->spans.data[i] = is;
+        *at = is;
     }
     kiriArray_Release(memory, &skin->weights);
     kiriArray_SetHeader(&skin->weights, kiriArray_GetHeader(&sorted.weights));
@@ -187,10 +186,10 @@ void kiriSkin_Keep(kiriSkin* skin, const kiriKeep* samples, const kiriKeep* fram
         }
     }
     kiriKeep_Compact(samples, &skin->spans, 1, sizeof(kiriSpan));
-    for (int32_t i = 0; kiriKeep_Moves(frames) && i < skin->spans.count; ++i) {
-        kiriSampleWeight* weights = skin->weights.data + skin->spans.data[i].first;
+    KIRI_EACH_WHILE(kiriKeep_Moves(frames), const kiriSpan, at, skin->spans) {
+        kiriSampleWeight* weights = skin->weights.data + at->first;
         /* Frames ascend, and those below `first` stay. */
-        for (int32_t k = skin->spans.data[i].count; k-- > 0 && weights[k].frame >= frames->first;) {
+        for (int32_t k = at->count; k-- > 0 && weights[k].frame >= frames->first;) {
             KIRI_ASSERT(kiriKeep_Has(frames, weights[k].frame));
             weights[k].frame = frames->to.data[weights[k].frame];
         }
@@ -279,8 +278,8 @@ bool kiriRefresh_NoteDirty(kiriRefresh* refresh, kiriMemory* memory, const kiriM
 
 void kiriRefresh_Drop(kiriRefresh* refresh)
 {
-    for (int32_t k = 0; refresh->change > 0 && k < refresh->squares.count; ++k) {
-        refresh->marks.data[refresh->squares.data[k]] = 0;
+    KIRI_EACH_WHILE(refresh->change > 0, const int32_t, square, refresh->squares) {
+        refresh->marks.data[*square] = 0;
     }
     refresh->noted.count = refresh->change = 0;
 }
@@ -396,7 +395,7 @@ kiriVec3 kiriSkin_Position(const kiriSkin* skin, int32_t sample, const kiriFrame
     KIRI_ASSERT(sample >= 0 && sample < skin->spans.count);
     kiriVec3 x = { 0.0, 0.0, 0.0 };
     kiriSpan span = skin->spans.data[sample];
-    for (int32_t i = span.first; i < span.first + span.count; ++i) {
+    KIRI_EACH_IN(i, span) {
         kiriSampleWeight weight = skin->weights.data[i];
         x = kiriVec3_AddScaled(x, weight.value, kiriFrame_Carry(&frames[weight.frame], local));
     }
@@ -413,7 +412,7 @@ kiriMotion kiriSkin_Motion(const kiriSkin* vertexSkin, const kiriFrameData* fram
     kiriMesh_Shares(mesh, triangle, at, shares);
     for (int k = 0; k < 3; ++k) {
         kiriSpan span = vertexSkin->spans.data[mesh->triangles.data[triangle].vertex[k]];
-        for (int32_t i = span.first; i < span.first + span.count; ++i) {
+        KIRI_EACH_IN(i, span) {
             kiriSampleWeight weight = vertexSkin->weights.data[i];
             const kiriFrameData* frame = &frames[weight.frame];
             kiriMat3 rate = kiriFrame_Rate(frame);

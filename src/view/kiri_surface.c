@@ -16,8 +16,8 @@ void kiriFades_Trim(kiriFades* fades, kiriMemory* memory)
 void kiriFades_Keep(kiriFades* fades, const kiriKeep* samples)
 {
     int32_t kept = 0;
-    for (int32_t k = 0; k < fades->fading.count; ++k) {
-        kiriFading fading = fades->fading.data[k];
+    KIRI_EACH(const kiriFading, at, fades->fading) {
+        kiriFading fading = *at;
         fading.sample = kiriKeep_To(samples, fading.sample);
         if (fading.sample != KIRI_NONE) {
             fades->fading.data[kept++] = fading;
@@ -45,7 +45,7 @@ void kiriFades_TakeJump(kiriFades* fades, int32_t sample, kiriVec3 offset)
     if (kiriFades_Has(fades, sample)) {
         older = fades->fading.data[fades->older++];
     }
-    double jump = kiriVec3_Length(kiriVec3_Sub(offset, older.offset)), length = kiriVec3_Length(older.offset);
+    double jump = kiriVec3_Distance(offset, older.offset), length = kiriVec3_Length(older.offset);
     fades->jump = kiriMax(jump, fades->jump);
     if (fades->time > 0.0 && kiriVec3_Length(offset) > fades->least) {
         /* A jump on top of another: the mean of both times, weighted by lengths. */
@@ -58,8 +58,8 @@ void kiriFades_TakeJump(kiriFades* fades, int32_t sample, kiriVec3 offset)
 void kiriFades_Advance(kiriFades* fades, double dt)
 {
     int32_t kept = 0;
-    for (int32_t k = 0; k < fades->fading.count; ++k) {
-        kiriFading fading = fades->fading.data[k];
+    KIRI_EACH(const kiriFading, at, fades->fading) {
+        kiriFading fading = *at;
         double share = dt < fading.left ? (fading.left - dt) / fading.left : 0.0;
         double length = kiriVec3_Length(fading.offset), left = share * length;
         left = left > fades->least ? left : 0.0;
@@ -140,7 +140,7 @@ bool kiriSolid_Build(kiriSolid* solid, kiriMemory* memory, const kiriSurface* su
             AddSolidVertex(&to, surface, v, side == 0 ? half : -half, kiriVec3_Scale(side == 0 ? 1.0 : -1.0, normal));
         }
         for (int32_t t = 0, first = side * surface->vertexCount; t < surface->triangleCount; ++t) {
-            const int32_t* corners = &surface->indices.data[3 * (int64_t)t];
+            const int32_t* corners = kiriSurface_Triangle(surface, t);
             AddSolidTriangle(&to, first + corners[0], first + corners[1 + side], first + corners[2 - side]);
         }
     }
@@ -222,25 +222,25 @@ static void Extend(kiriRange* range, int32_t index)
 static void WriteTriangle(kiriSurface* surface, const kiriMeshData* mesh, int32_t t)
 {
     KIRI_ASSERT(t >= 0 && t < mesh->triangles.count);
-    memcpy(&surface->indices.data[3 * (size_t)t], mesh->triangles.data[t].vertex, 3 * sizeof(int32_t));
+    memcpy(kiriSurface_Triangle(surface, t), mesh->triangles.data[t].vertex, 3 * sizeof(int32_t));
 }
 
 /* The journal has more triangles than change: those with another neighbour. */
 static void WriteOldTriangles(kiriSurface* surface, const kiriMeshData* mesh, kiriChange* change)
 {
-    for (int32_t i = 0; i < mesh->changedTriangles.count; ++i) {
-        int32_t t = mesh->changedTriangles.data[i];
+    KIRI_EACH(const int32_t, changed, mesh->changedTriangles) {
+        int32_t t = *changed;
         const int32_t* vertex = mesh->triangles.data[t].vertex;
         if (t < change->oldTriangleCount &&
-            memcmp(vertex, &surface->indices.data[3 * (size_t)t], 3 * sizeof(int32_t)) != 0) {
+            memcmp(vertex, kiriSurface_Triangle(surface, t), 3 * sizeof(int32_t)) != 0) {
             WriteTriangle(surface, mesh, t);
             Extend(&change->triangles, t);
         }
     }
     /* When all of them are written: two that share an edge may both change. */
-    for (int32_t i = 0; i < mesh->changedTriangles.count; ++i) {
-        if (mesh->changedTriangles.data[i] < change->oldTriangleCount) {
-            WriteTurn(surface, mesh->changedTriangles.data[i] / 2);
+    KIRI_EACH(const int32_t, changed, mesh->changedTriangles) {
+        if (*changed < change->oldTriangleCount) {
+            WriteTurn(surface, *changed / 2);
         }
     }
 }
@@ -278,8 +278,8 @@ void kiriSurface_WriteTopology(kiriSurface* surface, const kiriMeshData* mesh)
     surface->triangleCount = mesh->triangles.count;
     kiriSurface_Derive(surface, mesh, change.oldVertexCount, change.oldTriangleCount);
     /* Vertices never move in the rest plane, but a tear may give one to another triangle of the caller. */
-    for (int32_t i = 0; i < mesh->changedVertices.count; ++i) {
-        int32_t v = mesh->changedVertices.data[i];
+    KIRI_EACH(const int32_t, changed, mesh->changedVertices) {
+        int32_t v = *changed;
         if (v < change.oldVertexCount && mesh->vertices.data[v].source != surface->sourceTriangles.data[v]) {
             WriteSource(surface, mesh, v);
             Extend(&change.vertices, v);
@@ -358,7 +358,7 @@ bool kiriSurface_RenewIndices(kiriSurface* surface, kiriMemory* memory, kiriMemo
 
 void kiriSurface_HideTriangle(kiriSurface* surface, int32_t triangle)
 {
-    int32_t* corners = &surface->indices.data[3 * (size_t)triangle];
+    int32_t* corners = kiriSurface_Triangle(surface, triangle);
     KIRI_ASSERT(triangle >= 0 && triangle < surface->triangleCount);
     corners[1] = corners[2] = corners[0];
     WriteTurn(surface, triangle / 2);
@@ -509,8 +509,8 @@ void kiriSurface_BlendRange(kiriSurface* surface, const kiriSkin* skin, int32_t 
 
 void kiriSurface_AddFades(kiriSurface* surface, const kiriFades* fades)
 {
-    for (int32_t k = 0; k < fades->fading.count; ++k) {
-        kiriFading fading = fades->fading.data[k];
+    KIRI_EACH(const kiriFading, at, fades->fading) {
+        kiriFading fading = *at;
         kiriSurface_Place(surface, fading.sample, kiriVec3_Add(kiriSurface_At(surface, fading.sample), fading.offset));
     }
 }

@@ -154,6 +154,12 @@ void kiriShown_Take(const kiriKeep* keep, void* array, const void* fresh, int32_
 void kiriSurface_Keep(kiriSurface* surface, kiriShown* shown, const kiriKeep* triangles, const kiriKeep* vertices,
                       const kiriMeshData* mesh, int32_t frameCount, kiriMemory* retired);
 
+/* Returns the three vertices of a triangle. */
+static inline int32_t* kiriSurface_Triangle(const kiriSurface* surface, int32_t triangle)
+{
+    return &surface->indices.data[3 * (int64_t)triangle];
+}
+
 /* Notes that the host gets the indices in this tick. Safe to call from several threads. */
 void kiriSurface_LendIndices(const kiriSurface* surface, int64_t ticks);
 

@@ -4,13 +4,13 @@
 
 KIRI_SHARED_TABLE(kiriSkinTable, kiriSkin, {
     KIRI_DERIVED,
-    KIRI_ARRAYS(kiriSkin, spans, weights, staged),
-});
+    KIRI_ARRAYS(spans, weights, staged),
+})
 
 KIRI_SHARED_TABLE(kiriPlacesTable, kiriPlaces, {
     KIRI_DERIVED,
-    KIRI_ARRAYS(kiriPlaces, head, next),
-});
+    KIRI_ARRAYS(head, next),
+})
 
 /* The stencil is gathered again. */
 static void ForgetStencil(kiriArchive* archive, void* object)
@@ -22,50 +22,50 @@ static void ForgetStencil(kiriArchive* archive, void* object)
 
 KIRI_SHARED_TABLE(kiriRefreshTable, kiriRefresh, {
     KIRI_DERIVED,
-    KIRI_ARRAYS(kiriRefresh, noted, squares, marks),
-    KIRI_DROPPED(kiriRefresh, stencil, stencil),
-    KIRI_CUSTOM(kiriRefresh, stencil, ForgetStencil),
-});
+    KIRI_ARRAYS(noted, squares, marks),
+    KIRI_DROPPED(stencil),
+    KIRI_CUSTOM(stencil, ForgetStencil),
+})
 
 KIRI_TABLE(FadingTable, kiriFading, {
-    KIRI_WITHIN(0, INT32_MAX, kiriFading, sample, sample),
-    KIRI_REALS(kiriFading, left, offset),
-});
+    KIRI_WITHIN(0, INT32_MAX, sample),
+    KIRI_REALS(left, offset),
+})
 
 KIRI_SHARED_TABLE(kiriFadesTable, kiriFades, {
-    KIRI_REALS(kiriFades, time, least),
-    KIRI_PARTS(kiriFades, fading, FadingTable),
+    KIRI_REALS(time, least),
+    KIRI_PARTS(fading, FadingTable),
     KIRI_UNHASHED,
-    KIRI_RUN(4, kiriFades, older, older),
-    KIRI_REALS(kiriFades, jump, move),
-});
+    KIRI_RUN(4, older),
+    KIRI_REALS(jump, move),
+})
 
 KIRI_TABLE(PatchesTable, kiriPatches, {
-    KIRI_FLOAT_ITEMS(kiriPatches, floats),
-    KIRI_ITEMS(1, kiriPatches, isOther),
-    KIRI_WITHIN(0, INT32_MAX, kiriPatches, count, count),
-    KIRI_BOOLS(kiriPatches, isBent, areOther),
-});
+    KIRI_FLOAT_ITEMS(floats),
+    KIRI_ITEMS(1, isOther),
+    KIRI_WITHIN(0, INT32_MAX, count),
+    KIRI_BOOLS(isBent, areOther),
+})
 
 KIRI_SHARED_TABLE(kiriSurfaceTable, kiriSurface, {
     KIRI_UNHASHED,
     KIRI_HANDED,
-    KIRI_WITHIN(KIRI_SKINNING_LINEAR, KIRI_SKINNING_SMOOTH, kiriSurface, skinning, skinning),
-    KIRI_RUN(4, kiriSurface, revision, revision),
-    KIRI_COUNTS(kiriSurface, pose, pose),
-    KIRI_REALS(kiriSurface, middle, middle),
-    KIRI_ITEMS(8, kiriSurface, carriers),
-    KIRI_PART(kiriSurface, patches, PatchesTable),
-    KIRI_BOOLS(kiriSurface, isWritten, hasNormals),
-    KIRI_RUN(4, kiriSurface, changes, changes),
-    KIRI_WITHIN(0, KIRI_CHANGES, kiriSurface, changeCount, changeCount),
-    KIRI_WITHIN(0, KIRI_CHANGES - 1, kiriSurface, lastChange, lastChange),
-    KIRI_DROPPED(kiriSurface, lentAt, lentAt),
-    KIRI_DROPPED(kiriSurface, hasSlopes, hasSlopes),
+    KIRI_WITHIN(KIRI_SKINNING_LINEAR, KIRI_SKINNING_SMOOTH, skinning),
+    KIRI_RUN(4, revision),
+    KIRI_COUNTS(pose),
+    KIRI_REALS(middle),
+    KIRI_ITEMS(8, carriers),
+    KIRI_PART(patches, PatchesTable),
+    KIRI_BOOLS(isWritten, hasNormals),
+    KIRI_RUN(4, changes),
+    KIRI_WITHIN(0, KIRI_CHANGES, changeCount),
+    KIRI_WITHIN(0, KIRI_CHANGES - 1, lastChange),
+    KIRI_DROPPED(lentAt),
+    KIRI_DROPPED(hasSlopes),
     KIRI_DERIVED,
-    KIRI_ARRAYS(kiriSurface, positions, normals, restPositions, sourceWeights, indices, sourceTriangles),
-    KIRI_ARRAYS(kiriSurface, rest, turns, slopes, places, bends),
-});
+    KIRI_ARRAYS(positions, normals, restPositions, sourceWeights, indices, sourceTriangles),
+    KIRI_ARRAYS(rest, turns, slopes, places, bends),
+})
 
 /* ---- Checks ------------------------------------------------------------------------------------------------------ */
 

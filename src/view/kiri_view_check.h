@@ -7,7 +7,7 @@
 
 KIRI_C_BEGIN
 
-extern const kiriTable kiriSkinTable, kiriPlacesTable, kiriRefreshTable, kiriFadesTable, kiriSurfaceTable;
+kiriTableFn kiriSkinTable, kiriPlacesTable, kiriRefreshTable, kiriFadesTable, kiriSurfaceTable;
 
 /* Returns true if loaded fades are of samples, each once. */
 bool kiriFades_AreSound(const kiriFades* fades, int32_t samples);

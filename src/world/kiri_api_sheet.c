@@ -4,7 +4,7 @@
 #include "kiri_part.h"
 #include "../sheet/kiri_piece.h"
 #include "../sheet/kiri_motion.h"
-#include "../sheet/kiri_pin.h"
+#include "../sheet/kiri_seen.h"
 #include "kiri_blade.h"
 #include "kiri_move.h"
 
@@ -379,26 +379,250 @@ bool kiriCall_KeepsPlane(const kiriSheetData* sheet, kiriVec3 d)
     return !sheet->settings.mechanics.planar || kiriVec3_Dot(d, sheet->settings.mechanics.axes.d) > 0.999999;
 }
 
+/* ---- Place ------------------------------------------------------------------------------------------------------- */
+
+static void TurnVector(const kiriMat3* R, kiriVec3* a)
+{
+    *a = kiriMat3_Mul(*R, *a);
+}
+
+static void TurnColumns(const kiriMat3* R, kiriMat3* A)
+{
+    *A = kiriMat3_MulMat(*R, *A);
+}
+
+static void CarryFrame(kiriFrameData* frame, const kiriMat3* R, kiriVec3 t, bool isRigid)
+{
+    frame->x = kiriVec3_Add(kiriMat3_Mul(*R, frame->x), t);
+    TurnColumns(R, &frame->A);
+    frame->A = isRigid ? kiriMat3_Rotation(frame->A) : frame->A;
+    TurnVector(R, &frame->velocity);
+    TurnVector(R, &frame->spin);
+    TurnColumns(R, &frame->rate);
+    TurnVector(R, &frame->history.gain);
+    TurnVector(R, &frame->history.lag);
+    TurnVector(R, &frame->history.pull);
+    TurnColumns(R, &frame->history.turnGain);
+    TurnColumns(R, &frame->history.turnLag);
+    TurnColumns(R, &frame->history.turnPull);
+    TurnVector(R, &frame->heldOff);
+}
+
+/* ---- What holds it ---- */
+
+static void TurnWrench(const kiriMat3* R, kiriWrench* wrench)
+{
+    TurnVector(R, &wrench->force);
+    TurnVector(R, &wrench->moment);
+}
+
+static void TurnReaction(const kiriMat3* R, kiriReaction* reaction)
+{
+    TurnWrench(R, &reaction->gain);
+    TurnWrench(R, &reaction->pull);
+}
+
+static double SquareApart(kiriVec3 a, kiriVec3 b)
+{
+    kiriVec3 d = kiriVec3_Sub(a, b);
+    return kiriVec3_Dot(d, d);
+}
+
+/* Returns the squared distance of two poses of a body of this size (m). */
+static double PosesApart(kiriVec3 a, const kiriMat3* A, kiriVec3 b, const kiriMat3* B, double size)
+{
+    double turned = SquareApart(A->u, B->u) + SquareApart(A->v, B->v);
+    return SquareApart(a, b) + size * size * turned;
+}
+
+static void CarryPose(const kiriMat3* R, kiriVec3 t, kiriVec3* x, kiriMat3* A)
+{
+    *x = kiriVec3_Add(kiriMat3_Mul(*R, *x), t);
+    TurnColumns(R, A);
+    *A = kiriMat3_Rotation(*A);
+}
+
+/* Transforms a held pose and its goal for the next tick. A goal nearer to the new pose than to the old one stays: the
+   host has moved it already. */
+static void CarryHeld(const kiriMat3* R, kiriVec3 t, double size, kiriVec3* at, kiriMat3* axes, kiriVec3* goal,
+                      kiriMat3* goalAxes)
+{
+    kiriVec3 was = *at;
+    kiriMat3 wasAxes = *axes;
+    CarryPose(R, t, at, axes);
+    if (!(PosesApart(*goal, goalAxes, *at, axes, size) < PosesApart(*goal, goalAxes, was, &wasAxes, size))) {
+        CarryPose(R, t, goal, goalAxes);
+    }
+}
+
+static void TurnPins(kiriSheetData* sheet, const kiriMat3* R)
+{
+    KIRI_EACH(kiriPinData, pin, sheet->pins) {
+        TurnVector(R, &pin->off);
+        TurnReaction(R, &pin->reaction);
+        TurnWrench(R, &pin->bore);
+    }
+    KIRI_EACH(kiriPinShare, share, sheet->layout.pinShares) {
+        TurnVector(R, &share->off);
+        TurnReaction(R, &share->reactions[0]);
+        TurnReaction(R, &share->reactions[1]);
+        TurnWrench(R, &share->bore);
+    }
+}
+
+/* Returns true if floats can hold the sheet after x -> R x + t, see kiriFrame_FitsFloats. */
+static bool FitsCarried(const kiriSheetData* sheet, const kiriMat3* R, kiriVec3 t)
+{
+    KIRI_EACH(const kiriFrameData, frame, sheet->frames) {
+        kiriFrameData moved = *frame;
+        CarryFrame(&moved, R, t, false);
+        if (!kiriFrame_FitsFloats(&moved)) {
+            return false;
+        }
+    }
+    KIRI_EACH(const kiriPinData, pin, sheet->pins) {
+        if (!kiriVec3_FitsFloats(kiriVec3_Add(kiriMat3_Mul(*R, pin->target), t))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static void TurnFades(kiriFades* fades, const kiriMat3* R)
+{
+    KIRI_EACH(kiriFading, at, fades->fading) {
+        TurnVector(R, &at->offset);
+    }
+}
+
+/* Allocates a new block for an array whose items need not be kept. */
+static float* Renewed(kiriMemory* memory, int32_t capacity)
+{
+    return kiriMemory_Alloc(memory, (int64_t)sizeof(float) * (capacity > 0 ? capacity : 1));
+}
+
+static void Retire(kiriMemory* retired, float** array, float* renewed)
+{
+    if (*array != NULL) {
+        kiriMemory_Adopt(retired, *array);
+    }
+    *array = renewed;
+}
+
+/* Replaces the arrays that the host may hold: they get the owner `retired`, and the new ones are unset until positions are
+   written. Changes nothing on out of memory: false. */
+static bool RenewArrays(kiriSheetData* sheet, kiriMemory* retired)
+{
+    kiriSurface* surface = &sheet->seen.surface;
+    float* positions = Renewed(&sheet->shown, surface->positions.capacity);
+    float* normals = Renewed(&sheet->shown, surface->normals.capacity);
+    float* points = Renewed(&sheet->shown, sheet->seen.pointPositions.capacity);
+    if (positions == NULL || normals == NULL || points == NULL) {
+        kiriMemory_Free(&sheet->shown, positions);
+        kiriMemory_Free(&sheet->shown, normals);
+        kiriMemory_Free(&sheet->shown, points);
+        return false;
+    }
+    Retire(retired, &surface->positions.data, positions);
+    Retire(retired, &surface->normals.data, normals);
+    Retire(retired, &sheet->seen.pointPositions.data, points);
+    surface->isWritten = surface->isSteady = false;
+    return true;
+}
+
 kiriResult kiriSheet_Transform(kiriWorld* world, kiriSheet sheet, const float rotation[9], const float translation[3])
 {
     KIRI_CHANGES(Sheet_Transform, &sheet, rotation, translation);
     kiriSheetData* data = call->sheet;
     kiriMat3 R = kiriMat3_Rotation(kiriMat3_Load(rotation));
+    kiriVec3 t = kiriVec3_Load(translation);
     KIRI_CHECK(kiriCall_KeepsPlane(data, kiriMat3_Mul(R, data->settings.mechanics.axes.d)),
                "rotation turns a planar sheet out of its plane");
-    KIRI_CHECK(kiriCarry_FitsSheet(data, &R, kiriVec3_Load(translation)), "floats cannot hold what comes of it");
-    bool isDone = kiriCarry_Sheet(data, &R, kiriVec3_Load(translation), &world->retired);
-    if (isDone) {
-        kiriPinStep_Carry(world, data, &R, kiriVec3_Load(translation));
+    KIRI_CHECK(FitsCarried(data, &R, t), "floats cannot hold what comes of it");
+    KIRI_REQUIRE(RenewArrays(data, &world->retired), KIRI_ERROR_MEMORY, NULL);
+    KIRI_EACH(kiriFrameData, frame, data->frames) {
+        CarryFrame(frame, &R, t, data->settings.mechanics.model == KIRI_MODEL_LINKS);
+        if (frame->held) {
+            CarryHeld(&R, t, kiriRoot(frame->area), &frame->heldPosition, &frame->heldRotation, &frame->goalPosition,
+                      &frame->goalRotation);
+            TurnReaction(&R, &frame->reaction);
+            TurnWrench(&R, &frame->bore);
+        }
     }
-    KIRI_RETURN(isDone ? KIRI_OK : KIRI_ERROR_MEMORY);
+    TurnPins(data, &R);
+    TurnFades(&data->seen.fades, &R);
+    TurnFades(&data->seen.pointFades, &R);
+    kiriView_WritePositions(data);
+    kiriSheet_WakeAll(data);
+    KIRI_EACH(kiriPinData, pin, data->pins) {
+        if (kiriPinStep_Obstacle(world, pin) == NULL) {
+            double length =
+                kiriVec2_Distance(kiriMesh_Local(&data->mesh, pin->to), kiriMesh_Local(&data->mesh, pin->at));
+            CarryHeld(&R, t, 0.5 * length, &pin->lastTarget, &pin->lastRotation, &pin->target, &pin->rotation);
+        }
+    }
+    KIRI_RETURN(KIRI_OK);
+}
+
+/* ---- Velocity ---------------------------------------------------------------------------------------------------- */
+
+static bool IsOf(const kiriSheetData* sheet, int32_t frame, int32_t piece)
+{
+    return piece == KIRI_NONE || sheet->layout.framePiece.data[frame] == piece;
+}
+
+static kiriVec3 CenterOf(const kiriSheetData* sheet, int32_t piece)
+{
+    kiriVec3 sum = { 0.0, 0.0, 0.0 };
+    double mass = 0.0;
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        if (IsOf(sheet, i, piece)) {
+            sum = kiriVec3_AddScaled(sum, sheet->frames.data[i].mass, sheet->frames.data[i].x);
+            mass += sheet->frames.data[i].mass;
+        }
+    }
+    return kiriVec3_Scale(1.0 / mass, sum);
+}
+
+static void GiveVelocity(kiriFrameData* frame, kiriVec3 center, kiriVec3 velocity, kiriVec3 spin)
+{
+    frame->velocity = kiriVec3_Add(velocity, kiriVec3_Cross(spin, kiriVec3_Sub(frame->x, center)));
+    frame->spin = spin;
+    memset(&frame->rate, 0, sizeof(frame->rate));
+    memset(&frame->history, 0, sizeof(frame->history));
+}
+
+/* Gives a piece, or all (KIRI_NONE), a rigid motion about its center of mass. In a planar sheet, only the components in its
+   plane count. Returns false, and changes nothing, if frames would not fit floats. */
+static bool SetRigidVelocity(kiriSheetData* sheet, int32_t piece, kiriVec3 velocity, kiriVec3 spin)
+{
+    const kiriMechanics* mechanics = &sheet->settings.mechanics;
+    kiriVec3 d = mechanics->axes.d, center = CenterOf(sheet, piece);
+    if (mechanics->planar) {
+        velocity = kiriVec3_AddScaled(velocity, -kiriVec3_Dot(velocity, d), d);
+        spin = kiriVec3_Scale(kiriVec3_Dot(spin, d), d);
+    }
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        kiriFrameData given = sheet->frames.data[i];
+        GiveVelocity(&given, center, velocity, spin);
+        if (IsOf(sheet, i, piece) && !kiriFrame_FitsFloats(&given)) {
+            return false;
+        }
+    }
+    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+        if (IsOf(sheet, i, piece)) {
+            GiveVelocity(&sheet->frames.data[i], center, velocity, spin);
+            kiriSheet_WakeFrame(sheet, i);
+        }
+    }
+    return true;
 }
 
 kiriResult kiriSheet_SetVelocity(kiriWorld* world, kiriSheet sheet, const float velocity[3],
                                  const float angularVelocity[3])
 {
     KIRI_CHANGES(Sheet_SetVelocity, &sheet, velocity, angularVelocity);
-    KIRI_CHECK(kiriCarry_SetVelocity(call->sheet, KIRI_NONE, kiriVec3_Load(velocity), kiriVec3_Load(angularVelocity)),
+    KIRI_CHECK(SetRigidVelocity(call->sheet, KIRI_NONE, kiriVec3_Load(velocity), kiriVec3_Load(angularVelocity)),
                "floats cannot hold what comes of it");
     KIRI_RETURN(KIRI_OK);
 }
@@ -409,19 +633,62 @@ kiriResult kiriFrame_SetPieceVelocity(kiriWorld* world, kiriFrame frame, const f
     KIRI_CHANGES(Frame_SetPieceVelocity, &frame, velocity, angularVelocity);
     KIRI_ASSERT(call->index < call->sheet->layout.framePiece.count);
     int32_t piece = call->sheet->layout.framePiece.data[call->index];
-    KIRI_CHECK(kiriCarry_SetVelocity(call->sheet, piece, kiriVec3_Load(velocity), kiriVec3_Load(angularVelocity)),
+    KIRI_CHECK(SetRigidVelocity(call->sheet, piece, kiriVec3_Load(velocity), kiriVec3_Load(angularVelocity)),
                "floats cannot hold what comes of it");
     KIRI_RETURN(KIRI_OK);
 }
 
 /* ---- Another origin ---------------------------------------------------------------------------------------------- */
 
+static void Shift(kiriVec3* at, kiriVec3 origin)
+{
+    *at = kiriVec3_Sub(*at, origin);
+}
+
+static void ShiftTouches(kiriTouch* touches, int32_t count, kiriVec3 origin)
+{
+    for (int32_t i = 0; i < count; ++i) {
+        Shift(&touches[i].seen, origin);
+        touches[i].offset -= kiriVec3_Dot(touches[i].normal, origin);
+    }
+}
+
+static void ShiftContacts(kiriSheetData* sheet, kiriVec3 origin)
+{
+    kiriTouches* touches = &sheet->touches;
+    ShiftTouches(touches->found.data, touches->found.count, origin);
+    ShiftTouches(touches->last.touches.data, touches->last.touches.count, origin);
+    ShiftTouches(touches->slept.touches.data, touches->slept.touches.count, origin);
+    touches->rests.areSummed = false; /* the sums are about centers of mass of obstacles, which shift */
+    KIRI_EACH(kiriGivenContact, given, sheet->contacts) {
+        kiriContact* contact = &given->contact;
+        contact->offset = (float)(contact->offset - kiriVec3_Dot(kiriVec3_Load(contact->normal), origin));
+    }
+}
+
+static void ShiftSheet(kiriSheetData* sheet, kiriVec3 origin)
+{
+    KIRI_EACH(kiriFrameData, frame, sheet->frames) {
+        Shift(&frame->x, origin);
+        if (frame->held) {
+            Shift(&frame->heldPosition, origin);
+            Shift(&frame->goalPosition, origin);
+        }
+    }
+    KIRI_EACH(kiriPinData, pin, sheet->pins) {
+        Shift(&pin->target, origin);
+        Shift(&pin->lastTarget, origin);
+    }
+    ShiftContacts(sheet, origin);
+    kiriView_WritePositions(sheet);
+}
+
 static bool FitsShift(const kiriWorld* world, kiriVec3 origin)
 {
     const kiriMat3 axes = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } };
     bool fits = true;
     for (int32_t i = 0; fits && i < world->sheets.count; ++i) {
-        fits = kiriCarry_FitsSheet(world->sheets.data[i], &axes, kiriVec3_Scale(-1.0, origin));
+        fits = FitsCarried(world->sheets.data[i], &axes, kiriVec3_Scale(-1.0, origin));
     }
     for (int32_t i = 0; fits && i < world->obstacles.count; ++i) {
         fits = kiriVec3_FitsFloats(kiriVec3_Sub(world->obstacles.data[i]->position, origin));
@@ -434,16 +701,6 @@ static bool FitsShift(const kiriWorld* world, kiriVec3 origin)
     return fits;
 }
 
-static void ShiftBlade(kiriBladeData* blade, kiriVec3 origin)
-{
-    for (int end = 0; end < 2 && blade->isPlaced; ++end) {
-        blade->edge[end] = kiriVec3_Sub(blade->edge[end], origin);
-    }
-    for (int32_t i = 0; i < blade->layers.count; ++i) {
-        blade->layers.data[i].at = kiriVec3_Sub(blade->layers.data[i].at, origin);
-    }
-}
-
 kiriResult kiriWorld_ShiftOrigin(kiriWorld* world, const float origin[3])
 {
     KIRI_CHANGES(World_ShiftOrigin, origin);
@@ -454,24 +711,28 @@ kiriResult kiriWorld_ShiftOrigin(kiriWorld* world, const float origin[3])
     KIRI_CHECK(FitsShift(world, to), "floats cannot hold what comes of it");
     /* Arrays that the host may hold are replaced, for all sheets or for none. */
     int32_t done = 0;
-    while (done < world->sheets.count && kiriCarry_Renew(world->sheets.data[done], &world->retired)) {
+    while (done < world->sheets.count && RenewArrays(world->sheets.data[done], &world->retired)) {
         ++done;
     }
     KIRI_ASSERT(done <= world->sheets.count);
     bool areAll = done == world->sheets.count;
     const kiriVec3 none = { 0.0, 0.0, 0.0 };
     for (int32_t i = 0; i < done; ++i) {
-        kiriCarry_Shift(world->sheets.data[i], areAll ? to : none);
+        ShiftSheet(world->sheets.data[i], areAll ? to : none);
     }
     KIRI_REQUIRE(areAll, KIRI_ERROR_MEMORY, NULL);
-    for (int32_t i = 0; i < world->obstacles.count; ++i) {
-        kiriObstacleData* obstacle = world->obstacles.data[i];
+    KIRI_EACH_OF(kiriObstacleData, obstacle, world->obstacles) {
         obstacle->position = kiriVec3_Sub(obstacle->position, to);
         obstacle->lower = kiriVec3_Sub(obstacle->lower, to);
         obstacle->upper = kiriVec3_Sub(obstacle->upper, to);
     }
-    for (int32_t i = 0; i < world->blades.count; ++i) {
-        ShiftBlade(world->blades.data[i], to);
+    KIRI_EACH_OF(kiriBladeData, blade, world->blades) {
+        for (int end = 0; end < 2 && blade->isPlaced; ++end) {
+            blade->edge[end] = kiriVec3_Sub(blade->edge[end], to);
+        }
+        KIRI_EACH(kiriLayer, layer, blade->layers) {
+            layer->at = kiriVec3_Sub(layer->at, to);
+        }
     }
     KIRI_RETURN(KIRI_OK);
 }

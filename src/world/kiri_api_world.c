@@ -402,51 +402,12 @@ kiriResult kiriSheet_SetSettings(kiriWorld* world, kiriSheet sheet, const kiriSh
     KIRI_RETURN(kiriSettings_Change(call->sheet, settings) ? KIRI_OK : KIRI_ERROR_MEMORY);
 }
 
-kiriResult kiriWorld_Save(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size)
-{
-    KIRI_READS(world);
-    KIRI_CHECK(size != NULL && capacity >= 0, "size is null, or capacity below 0");
-    kiriResult result = kiriSave_Write(world, bytes, capacity, size);
-    KIRI_CHECK(result != KIRI_ERROR_ARGUMENT, "capacity is less than the bytes of a save");
-    return result;
-}
-
-kiriResult kiriWorld_Load(kiriWorld* world, const void* bytes, int64_t size)
-{
-    int32_t count = size >= 0 && size <= INT32_MAX ? (int32_t)size : KIRI_NONE;
-    KIRI_CHANGES(World_Load, bytes, &count);
-    KIRI_CHECK(bytes != NULL && count >= 0, "bytes is null, or size not within 0 and 2147483647");
-    const char* why = NULL;
-    kiriResult result = kiriSave_Read(world, bytes, size, &why);
-    return KIRI_FAIL(result, why);
-}
-
 kiriResult kiriWorld_FinishCuts(kiriWorld* world)
 {
     KIRI_CHANGES(World_FinishCuts, NULL);
     world->begun += 1; /* vertices change as in a tick */
     kiriResult result = kiriWorld_FinishUpdates(world);
     return KIRI_FAIL(result, result == KIRI_ERROR_LIMIT ? "there are no ids left for new frames" : NULL);
-}
-
-kiriResult kiriWorld_Snapshot(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size)
-{
-    KIRI_READS(world);
-    KIRI_CHECK(size != NULL && capacity >= 0, "size is null, or capacity below 0");
-    kiriResult result = kiriSnapshot_Write(world, bytes, capacity, size);
-    KIRI_CHECK(result == KIRI_OK, "capacity is less than the bytes of a snapshot");
-    return KIRI_OK;
-}
-
-kiriResult kiriWorld_Restore(kiriWorld* world, const void* bytes, int64_t size)
-{
-    KIRI_PREPARES(world);
-    KIRI_CHECK(bytes != NULL && size >= 0, "bytes is null, or size below 0");
-    if (world->recorder.write != NULL) {
-        return KIRI_FAIL(KIRI_ERROR_STATE, "the world is recorded: snapshots are of one process, recordings are not");
-    }
-    kiriResult result = kiriSnapshot_Read(world, bytes, size);
-    return KIRI_FAIL(result, result == KIRI_ERROR_DATA ? "the bytes are no snapshot of this build" : NULL);
 }
 
 /* Wakes the frame for loads that are not zero. */
@@ -457,6 +418,8 @@ static void WakeFor(kiriSheetData* sheet, int32_t frame, const float force[3], c
         kiriSheet_WakeFrame(sheet, frame);
     }
 }
+
+/* ---- Loads ------------------------------------------------------------------------------------------------------- */
 
 kiriResult kiriFrame_ApplyForce(kiriWorld* world, kiriFrame frame, const float force[3], const float torque[3])
 {
@@ -469,6 +432,16 @@ kiriResult kiriFrame_ApplyForce(kiriWorld* world, kiriFrame frame, const float f
     KIRI_RETURN(KIRI_OK);
 }
 
+/* Adds a force (N) at a material point of the frame, and a torque (N m). */
+static void AddLoad(kiriSheetData* sheet, int32_t frame, kiriVec2 at, kiriVec3 force, kiriVec3 torque)
+{
+    KIRI_ASSERT(frame >= 0 && frame < sheet->frames.count);
+    kiriFrameData* data = &sheet->frames.data[frame];
+    kiriVec3 arm = kiriVec3_Sub(kiriFrame_Carry(data, at), data->x);
+    data->force = kiriVec3_Add(data->force, force);
+    data->torque = kiriVec3_Add(data->torque, kiriVec3_Add(torque, kiriVec3_Cross(arm, force)));
+}
+
 kiriResult kiriSheet_ApplyForce(kiriWorld* world, kiriSheet sheet, const float restPoint[2], const float force[3],
                                 const float torque[3])
 {
@@ -477,7 +450,7 @@ kiriResult kiriSheet_ApplyForce(kiriWorld* world, kiriSheet sheet, const float r
     kiriLatticePoint at;
     int32_t frame = kiriSheet_ToLattice(data, restPoint, &at) ? kiriOwner_At(data, at) : KIRI_NONE;
     KIRI_CHECK(frame != KIRI_NONE, "restPoint lies outside the material");
-    kiriLoad_AtPoint(data, frame, kiriMesh_Local(&data->mesh, at), kiriVec3_Load(force), kiriVec3_Load(torque));
+    AddLoad(data, frame, kiriMesh_Local(&data->mesh, at), kiriVec3_Load(force), kiriVec3_Load(torque));
     WakeFor(data, frame, force, torque);
     KIRI_RETURN(KIRI_OK);
 }
@@ -491,23 +464,89 @@ kiriResult kiriSheet_ApplyLineLoad(kiriWorld* world, kiriSheet sheet, const floa
     const char* why;
     kiriResult result = kiriCall_FindLine(data, from, to, ends, &why);
     KIRI_REQUIRE(result == KIRI_OK, result, why);
-    kiriLoad_AlongLine(data, ends[0], ends[1], kiriVec3_Load(forcePerLength));
-    for (int32_t k = 0; k < data->lineShares.count; ++k) {
-        WakeFor(data, data->lineShares.data[k].frame, forcePerLength, forcePerLength);
+    kiriVec2 a = kiriMesh_Local(&data->mesh, ends[0]), way = kiriVec2_Sub(kiriMesh_Local(&data->mesh, ends[1]), a);
+    double length = kiriVec2_Length(way);
+    KIRI_EACH(const kiriLineShare, share, data->lineShares) {
+        kiriVec2 at = kiriVec2_AddScaled(a, share->firstLoad / share->load, way);
+        kiriVec3 force = kiriVec3_Scale(length * share->load, kiriVec3_Load(forcePerLength)), none = { 0.0, 0.0, 0.0 };
+        AddLoad(data, share->frame, at, force, none);
+        WakeFor(data, share->frame, forcePerLength, forcePerLength);
     }
     KIRI_RETURN(KIRI_OK);
 }
 
+/* The resultant acts at the centroid of a region, which is the center of its frame. |A_u x A_v| is the area stretch of
+   an affine frame, and 1 for a rigid one. */
 kiriResult kiriSheet_ApplyPressure(kiriWorld* world, kiriSheet sheet, float pressure)
 {
     KIRI_CHANGES(Sheet_ApplyPressure, &sheet, &pressure);
-    kiriLoad_OnSurface(call->sheet, pressure);
+    KIRI_EACH(kiriFrameData, frame, call->sheet->frames) {
+        kiriVec3 across = kiriVec3_Cross(frame->A.u, frame->A.v);
+        frame->force = kiriVec3_AddScaled(frame->force, (double)pressure * frame->area, across);
+    }
     if (pressure != 0.0f) {
         kiriSheet_WakeAll(call->sheet);
     }
     KIRI_RETURN(KIRI_OK);
 }
 
+/* Applies an impulse and a moment to a frame. In a planar sheet, only the components in its plane. */
+static void Push(const kiriSheetData* sheet, kiriFrameData* frame, kiriVec3 impulse, kiriVec3 moment)
+{
+    const kiriMechanics* mechanics = &sheet->settings.mechanics;
+    kiriVec3 d = mechanics->axes.d;
+    kiriMat3 inertia = kiriFrame_Inertia(frame, &sheet->settings.material);
+    if (mechanics->planar) {
+        impulse = kiriVec3_AddScaled(impulse, -kiriVec3_Dot(impulse, d), d);
+        double about = kiriVec3_Dot(d, kiriMat3_Mul(inertia, d));
+        frame->spin = kiriVec3_AddScaled(frame->spin, kiriVec3_Dot(moment, d) / about, d);
+    } else {
+        frame->spin = kiriVec3_Add(frame->spin, kiriMat3_Solve(&inertia, moment));
+    }
+    frame->velocity = kiriVec3_AddScaled(frame->velocity, 1.0 / frame->mass, impulse);
+}
+
+/* Applies the shares of an impulse to the frames of the triangle's corners. If `only` is a frame, applies its shares
+   to *frames, a copy of it. */
+static void PushFrames(kiriSheetData* sheet, const kiriPointPlace* place, kiriVec3 off, kiriVec3 impulse, int32_t only,
+                       kiriFrameData* frames)
+{
+    const int32_t* corners = sheet->mesh.triangles.data[place->triangle].vertex;
+    for (int k = 0; k < 3; ++k) {
+        kiriVec2 local = kiriMesh_Local(&sheet->mesh, sheet->mesh.vertices.data[corners[k]].at);
+        kiriSpan span = sheet->vertexSkin.spans.data[corners[k]];
+        KIRI_EACH_IN(i, span) {
+            kiriSampleWeight weight = sheet->vertexSkin.weights.data[i];
+            int32_t f = weight.frame;
+            if (only == KIRI_NONE || only == f) {
+                kiriFrameData* frame = only == KIRI_NONE ? &frames[f] : frames;
+                kiriVec3 arm = kiriVec3_Add(kiriVec3_Sub(kiriFrame_Carry(frame, local), frame->x), off);
+                kiriVec3 part = kiriVec3_Scale(place->shares[k] * weight.value, impulse);
+                Push(sheet, frame, part, kiriVec3_Cross(arm, part));
+            }
+        }
+    }
+}
+
+static bool FitsImpulse(kiriSheetData* sheet, const kiriPointPlace* place, kiriVec3 off, kiriVec3 impulse)
+{
+    const int32_t* corners = sheet->mesh.triangles.data[place->triangle].vertex;
+    for (int k = 0; k < 3; ++k) {
+        kiriSpan span = sheet->vertexSkin.spans.data[corners[k]];
+        KIRI_EACH_IN(i, span) {
+            int32_t f = sheet->vertexSkin.weights.data[i].frame;
+            kiriFrameData pushed = sheet->frames.data[f];
+            PushFrames(sheet, place, off, impulse, f, &pushed);
+            if (!kiriFrame_FitsFloats(&pushed)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* Fades and bent patches offset the visible point from the blend of the frames. Each share of the impulse acts at this
+   offset from its frame's point, so the sum acts at the visible point. */
 kiriResult kiriSheet_ApplyImpulse(kiriWorld* world, kiriSheet sheet, const float restPoint[2], const float impulse[3])
 {
     KIRI_CHANGES(Sheet_ApplyImpulse, &sheet, restPoint, impulse);
@@ -516,7 +555,9 @@ kiriResult kiriSheet_ApplyImpulse(kiriWorld* world, kiriSheet sheet, const float
     kiriPointPlace place;
     KIRI_CHECK(kiriSheet_ToLattice(data, restPoint, &at) && kiriPoint_Find(data, at, &place),
                "restPoint lies outside the material");
-    KIRI_CHECK(kiriLoad_Impulse(data, &place, kiriVec3_Load(impulse)), "floats cannot hold what comes of it");
+    kiriVec3 off = kiriVec3_Sub(kiriPoint_Position(data, &place), kiriPoint_Blend(data, &place).x);
+    KIRI_CHECK(FitsImpulse(data, &place, off, kiriVec3_Load(impulse)), "floats cannot hold what comes of it");
+    PushFrames(data, &place, off, kiriVec3_Load(impulse), KIRI_NONE, data->frames.data);
     if (impulse[0] != 0.0f || impulse[1] != 0.0f || impulse[2] != 0.0f) {
         int32_t vertex = data->mesh.triangles.data[place.triangle].vertex[0];
         kiriSheet_WakePiece(data, kiriPiece_OfVertex(data, vertex));

@@ -334,87 +334,33 @@ static const kiriStruct obstacleDefStruct =
 
 static const kiriValue byteItem = { .form = KIRI_FORM_BYTE }, contactItem = STRUCT_ARGUMENT(contactStruct, .count = 1);
 
-const kiriValue kiriArguments[KIRI_ARGUMENT_KINDS] = {
-    [KIRI_ARGUMENT_SHEET] = ID_OF(sheet, false),
-    [KIRI_ARGUMENT_ANY_SHEET] = ID_OF(sheet, true),
-    [KIRI_ARGUMENT_FRAME] = ID_OF(frame, false),
-    [KIRI_ARGUMENT_PIN] = ID_OF(pin, false),
-    [KIRI_ARGUMENT_OBSTACLE] = ID_OF(obstacle, false),
-    [KIRI_ARGUMENT_CUT] = ID_OF(cut, false),
-    [KIRI_ARGUMENT_BLADE] = ID_OF(blade, false),
-    [KIRI_ARGUMENT_INT] = { .form = KIRI_FORM_INTS, .count = 1, ANY_NUMBER },
-    [KIRI_ARGUMENT_COUNT] = { .form = KIRI_FORM_COUNT },
-    [KIRI_ARGUMENT_FLOAT] = FLOATS_OF(1, ANY_NUMBER),
-    [KIRI_ARGUMENT_FINITE] = FLOATS_OF(1, ANY_FINITE),
-    [KIRI_ARGUMENT_SIZE] = FLOATS_OF(1, FROM_0),
-    [KIRI_ARGUMENT_LENGTH] = FLOATS_OF(1, ABOVE_0),
-    [KIRI_ARGUMENT_DATA] = { .form = KIRI_FORM_DATA },
-    [KIRI_ARGUMENT_POINT] = FLOATS_OF(2, ANY_FINITE),
-    [KIRI_ARGUMENT_VECTOR] = FLOATS_OF(3, ANY_FINITE),
-    [KIRI_ARGUMENT_VECTOR_OR_NULL] = FLOATS_OF(3, ANY_FINITE, .isOptional = true),
-    [KIRI_ARGUMENT_PLACE] = FLOATS_OF(3, FITTING),
-    [KIRI_ARGUMENT_DIRECTION] = FLOATS_OF(3, ANY_FINITE, .fault = FaultOfDirection),
-    [KIRI_ARGUMENT_ROTATION] = FLOATS_OF(9, ANY_FINITE, .fault = FaultOfRotation),
-    [KIRI_ARGUMENT_ROTATION_OR_NULL] = FLOATS_OF(9, ANY_FINITE, .fault = FaultOfRotation, .isOptional = true),
-    [KIRI_ARGUMENT_INERTIA] = FLOATS_OF(6, ANY_FINITE, .fault = FaultOfInertia),
-    [KIRI_ARGUMENT_QUAD] = FLOATS_OF(12, ANY_FINITE),
-    [KIRI_ARGUMENT_BUDGET] = STRUCT_ARGUMENT(budgetStruct, .count = 1),
-    [KIRI_ARGUMENT_WIND] = STRUCT_ARGUMENT(windStruct, .count = 1),
-    [KIRI_ARGUMENT_SETTINGS] = STRUCT_ARGUMENT(kiriSettingsStruct, .count = 1),
-    [KIRI_ARGUMENT_PIN_DEF] = STRUCT_ARGUMENT(pinDefStruct, .count = 1),
-    [KIRI_ARGUMENT_SHEET_DEF] = STRUCT_ARGUMENT(sheetDefStruct, .fault = FaultOfSheetDef),
-    [KIRI_ARGUMENT_OBSTACLE_DEF] = STRUCT_ARGUMENT(obstacleDefStruct, .fault = FaultOfObstacleDef),
-    [KIRI_ARGUMENT_NOTE] = ARRAY_ARGUMENT(byteItem, WITHIN(1, KIRI_MOST_NOTE_BYTES)),
-    [KIRI_ARGUMENT_SAVE] = ARRAY_ARGUMENT(byteItem, ANY_NUMBER), /* kiriWorld_Load checks the size */
-    [KIRI_ARGUMENT_POINTS] = ARRAY_ARGUMENT(kiriArguments[KIRI_ARGUMENT_POINT], WITHIN(1, 1 << 24)),
-    [KIRI_ARGUMENT_FRAMES] = ARRAY_ARGUMENT(kiriArguments[KIRI_ARGUMENT_FRAME], COUNTING),
-    [KIRI_ARGUMENT_CONTACTS] = ARRAY_ARGUMENT(contactItem, COUNTING),
-    [KIRI_ARGUMENT_NEW_ID] = { .form = KIRI_FORM_NEW },
-    [KIRI_ARGUMENT_NEW_COUNT] = { .form = KIRI_FORM_NEW },
-    [KIRI_ARGUMENT_NEW_IDS] = { .form = KIRI_FORM_NEWS },
-};
+#define FORM(...)                                                                                                      \
+    {                                                                                                                  \
+        .form = __VA_ARGS__                                                                                            \
+    }
+#define VALUE_OF(Name, Type, ...) [KIRI_ARGUMENT_##Name] = __VA_ARGS__,
+#define POINTER_OF(Name, ...) VALUE_OF(Name, , __VA_ARGS__)
+const kiriValue kiriArguments[KIRI_ARGUMENT_KINDS] = { KIRI_ARGUMENTS(VALUE_OF, POINTER_OF, POINTER_OF) };
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
 
 /* How MAKE passes an argument to the function. */
-#define GIVEN(Type, i) (*(const Type*)at[i])
-#define PASS_SHEET(i) GIVEN(uint32_t, i)
-#define PASS_ANY_SHEET PASS_SHEET
-#define PASS_FRAME PASS_SHEET
-#define PASS_PIN PASS_SHEET
-#define PASS_OBSTACLE PASS_SHEET
-#define PASS_CUT PASS_SHEET
-#define PASS_BLADE PASS_SHEET
-#define PASS_INT(i) GIVEN(int32_t, i)
-#define PASS_COUNT PASS_INT
-#define PASS_FLOAT(i) GIVEN(float, i)
-#define PASS_FINITE PASS_FLOAT
-#define PASS_SIZE PASS_FLOAT
-#define PASS_LENGTH PASS_FLOAT
-#define PASS_DATA(i) GIVEN(uint64_t, i)
-#define PASS_POINT(i) at[i]
-#define PASS_VECTOR PASS_POINT
-#define PASS_VECTOR_OR_NULL PASS_POINT
-#define PASS_PLACE PASS_POINT
-#define PASS_DIRECTION PASS_POINT
-#define PASS_ROTATION PASS_POINT
-#define PASS_ROTATION_OR_NULL PASS_POINT
-#define PASS_INERTIA PASS_POINT
-#define PASS_QUAD PASS_POINT
-#define PASS_BUDGET PASS_POINT
-#define PASS_WIND PASS_POINT
-#define PASS_SETTINGS PASS_POINT
-#define PASS_PIN_DEF PASS_POINT
-#define PASS_SHEET_DEF PASS_POINT
-#define PASS_OBSTACLE_DEF PASS_POINT
-#define PASS_NOTE PASS_POINT
-#define PASS_SAVE PASS_POINT
-#define PASS_POINTS PASS_POINT
-#define PASS_FRAMES PASS_POINT
-#define PASS_CONTACTS PASS_POINT
-#define PASS_NEW_ID(i) (void*)at[i]
-#define PASS_NEW_COUNT PASS_NEW_ID
-#define PASS_NEW_IDS PASS_NEW_ID
+#define PASS_VALUE(Name, Type, ...)                                                                                    \
+    static inline Type Pass_##Name(const void* at)                                                                     \
+    {                                                                                                                  \
+        return *(const Type*)at;                                                                                       \
+    }
+#define PASS_POINTER(Name, ...)                                                                                        \
+    static inline const void* Pass_##Name(const void* at)                                                              \
+    {                                                                                                                  \
+        return at;                                                                                                     \
+    }
+#define PASS_RESULT(Name, ...)                                                                                         \
+    static inline void* Pass_##Name(const void* at)                                                                    \
+    {                                                                                                                  \
+        return (void*)at;                                                                                              \
+    }
+KIRI_ARGUMENTS(PASS_VALUE, PASS_POINTER, PASS_RESULT)
 
 #define MAKE(Name, ...)                                                                                                \
     static kiriResult Make##Name(kiriWorld* world, const void* const* at)                                              \
@@ -423,10 +369,10 @@ const kiriValue kiriArguments[KIRI_ARGUMENT_KINDS] = {
         return kiri##Name(world __VA_ARGS__);                                                                          \
     }
 #define MAKE0(Name) MAKE(Name, )
-#define MAKE1(Name, A) MAKE(Name, , PASS_##A(0))
-#define MAKE2(Name, A, B) MAKE(Name, , PASS_##A(0), PASS_##B(1))
-#define MAKE3(Name, A, B, C) MAKE(Name, , PASS_##A(0), PASS_##B(1), PASS_##C(2))
-#define MAKE4(Name, A, B, C, D) MAKE(Name, , PASS_##A(0), PASS_##B(1), PASS_##C(2), PASS_##D(3))
+#define MAKE1(Name, A) MAKE(Name, , Pass_##A(at[0]))
+#define MAKE2(Name, A, B) MAKE(Name, , Pass_##A(at[0]), Pass_##B(at[1]))
+#define MAKE3(Name, A, B, C) MAKE(Name, , Pass_##A(at[0]), Pass_##B(at[1]), Pass_##C(at[2]))
+#define MAKE4(Name, A, B, C, D) MAKE(Name, , Pass_##A(at[0]), Pass_##B(at[1]), Pass_##C(at[2]), Pass_##D(at[3]))
 KIRI_CALLS(MAKE0, MAKE1, MAKE2, MAKE3, MAKE4)
 
 /* Sets gravity and budget of the world of a replay, which exists already. */

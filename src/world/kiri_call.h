@@ -74,48 +74,51 @@ enum kiriCallNumber {
 
 enum { KIRI_CALL_ARGUMENTS = 4 }; /* maximum, without the world */
 
-/* Kinds of arguments: first those by value, then pointers. */
+/* Kinds of arguments: V for a value with a type, P for a pointer, N for a pointer to results (one a call). kiri_call.c
+   says what each may be. */
+#define KIRI_ARGUMENTS(V, P, N)                                                                                        \
+    V(SHEET, uint32_t, ID_OF(sheet, false))                                                                            \
+    V(ANY_SHEET, uint32_t, ID_OF(sheet, true)) /* or 0 */                                                              \
+    V(FRAME, uint32_t, ID_OF(frame, false))                                                                            \
+    V(PIN, uint32_t, ID_OF(pin, false))                                                                                \
+    V(OBSTACLE, uint32_t, ID_OF(obstacle, false))                                                                      \
+    V(CUT, uint32_t, ID_OF(cut, false))                                                                                \
+    V(BLADE, uint32_t, ID_OF(blade, false))                                                                            \
+    V(INT, int32_t, FORM(KIRI_FORM_INTS, .count = 1, ANY_NUMBER)) /* unchecked */                                      \
+    V(COUNT, int32_t, FORM(KIRI_FORM_COUNT))                      /* of the array just before it */                    \
+    V(FLOAT, float, FLOATS_OF(1, ANY_NUMBER))                     /* unchecked */                                      \
+    V(FINITE, float, FLOATS_OF(1, ANY_FINITE))                    /* float */                                          \
+    V(SIZE, float, FLOATS_OF(1, FROM_0))                          /* float, 0 or more */                               \
+    V(LENGTH, float, FLOATS_OF(1, ABOVE_0))                       /* float, above 0 */                                 \
+    V(DATA, uint64_t, FORM(KIRI_FORM_DATA))                       /* 64 bits */                                        \
+    P(POINT, FLOATS_OF(2, ANY_FINITE))                            /* 2 floats */                                       \
+    P(VECTOR, FLOATS_OF(3, ANY_FINITE))                           /* 3 floats */                                       \
+    P(VECTOR_OR_NULL, FLOATS_OF(3, ANY_FINITE, .isOptional = true))                                                    \
+    P(PLACE, FLOATS_OF(3, FITTING)) /* 3 floats that kiriVec3_FitsFloats accepts */                                    \
+    P(DIRECTION, FLOATS_OF(3, ANY_FINITE, .fault = FaultOfDirection))                                                  \
+    P(ROTATION, FLOATS_OF(9, ANY_FINITE, .fault = FaultOfRotation))                                                    \
+    P(ROTATION_OR_NULL, FLOATS_OF(9, ANY_FINITE, .fault = FaultOfRotation, .isOptional = true))                        \
+    P(INERTIA, FLOATS_OF(6, ANY_FINITE, .fault = FaultOfInertia))                                                      \
+    P(QUAD, FLOATS_OF(12, ANY_FINITE))                                                                                 \
+    P(BUDGET, STRUCT_ARGUMENT(budgetStruct, .count = 1)) /* structs */                                                 \
+    P(WIND, STRUCT_ARGUMENT(windStruct, .count = 1))                                                                   \
+    P(SETTINGS, STRUCT_ARGUMENT(kiriSettingsStruct, .count = 1))                                                       \
+    P(PIN_DEF, STRUCT_ARGUMENT(pinDefStruct, .count = 1))                                                              \
+    P(SHEET_DEF, STRUCT_ARGUMENT(sheetDefStruct, .fault = FaultOfSheetDef))                                            \
+    P(OBSTACLE_DEF, STRUCT_ARGUMENT(obstacleDefStruct, .fault = FaultOfObstacleDef))                                   \
+    P(NOTE, ARRAY_ARGUMENT(byteItem, WITHIN(1, KIRI_MOST_NOTE_BYTES))) /* arrays, each with a COUNT behind it */       \
+    P(SAVE, ARRAY_ARGUMENT(byteItem, ANY_NUMBER))                                                                      \
+    P(POINTS, ARRAY_ARGUMENT(kiriArguments[KIRI_ARGUMENT_POINT], WITHIN(1, 1 << 24)))                                  \
+    P(FRAMES, ARRAY_ARGUMENT(kiriArguments[KIRI_ARGUMENT_FRAME], COUNTING))                                            \
+    P(CONTACTS, ARRAY_ARGUMENT(contactItem, COUNTING))                                                                 \
+    N(NEW_ID, FORM(KIRI_FORM_NEW)) /* results, at most one a call */                                                   \
+    N(NEW_COUNT, FORM(KIRI_FORM_NEW))                                                                                  \
+    N(NEW_IDS, FORM(KIRI_FORM_NEWS)) /* as many as the COUNT just before it */
+
+#define KIRI_KIND(Name, ...) KIRI_ARGUMENT_##Name,
 typedef enum kiriArgument {
     KIRI_ARGUMENT_NONE,
-    KIRI_ARGUMENT_SHEET,
-    KIRI_ARGUMENT_ANY_SHEET, /* or 0 */
-    KIRI_ARGUMENT_FRAME,
-    KIRI_ARGUMENT_PIN,
-    KIRI_ARGUMENT_OBSTACLE,
-    KIRI_ARGUMENT_CUT,
-    KIRI_ARGUMENT_BLADE,
-    KIRI_ARGUMENT_INT,    /* unchecked */
-    KIRI_ARGUMENT_COUNT,  /* of the array just before it */
-    KIRI_ARGUMENT_FLOAT,  /* unchecked */
-    KIRI_ARGUMENT_FINITE, /* float */
-    KIRI_ARGUMENT_SIZE,   /* float, 0 or more */
-    KIRI_ARGUMENT_LENGTH, /* float, above 0 */
-    KIRI_ARGUMENT_DATA,   /* 64 bits */
-
-    KIRI_ARGUMENT_POINT,  /* 2 floats */
-    KIRI_ARGUMENT_VECTOR, /* 3 floats */
-    KIRI_ARGUMENT_VECTOR_OR_NULL,
-    KIRI_ARGUMENT_PLACE, /* 3 floats that kiriVec3_FitsFloats accepts */
-    KIRI_ARGUMENT_DIRECTION,
-    KIRI_ARGUMENT_ROTATION,
-    KIRI_ARGUMENT_ROTATION_OR_NULL,
-    KIRI_ARGUMENT_INERTIA,
-    KIRI_ARGUMENT_QUAD,
-    KIRI_ARGUMENT_BUDGET, /* structs */
-    KIRI_ARGUMENT_WIND,
-    KIRI_ARGUMENT_SETTINGS,
-    KIRI_ARGUMENT_PIN_DEF,
-    KIRI_ARGUMENT_SHEET_DEF,
-    KIRI_ARGUMENT_OBSTACLE_DEF,
-    KIRI_ARGUMENT_NOTE, /* arrays, each with a COUNT behind it */
-    KIRI_ARGUMENT_SAVE,
-    KIRI_ARGUMENT_POINTS,
-    KIRI_ARGUMENT_FRAMES,
-    KIRI_ARGUMENT_CONTACTS,
-    KIRI_ARGUMENT_NEW_ID, /* results, at most one a call */
-    KIRI_ARGUMENT_NEW_COUNT,
-    KIRI_ARGUMENT_NEW_IDS, /* as many as the COUNT just before it */
-    KIRI_ARGUMENT_KINDS
+    KIRI_ARGUMENTS(KIRI_KIND, KIRI_KIND, KIRI_KIND) KIRI_ARGUMENT_KINDS
 } kiriArgument;
 
 /* `arguments`: pointers to arguments that go by value, and arguments that are pointers. */

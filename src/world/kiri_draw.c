@@ -168,8 +168,7 @@ static void DrawFrames(Drawing* drawing, const kiriSheetData* sheet)
 static void DrawLinks(Drawing* drawing, const kiriSheetData* sheet)
 {
     const uint32_t color = Color(30, 30, 35);
-    for (int32_t k = 0; k < sheet->links.links.count; ++k) {
-        const kiriLink* link = &sheet->links.links.data[k];
+    KIRI_EACH(const kiriLink, link, sheet->links.links) {
         KIRI_ASSERT(link->i >= 0 && link->i < sheet->frames.count && link->j >= 0 && link->j < sheet->frames.count);
         const kiriFrameData *a = &sheet->frames.data[link->i], *b = &sheet->frames.data[link->j];
         if (kiriSheet_IsGone(sheet, link->i)) {
@@ -217,8 +216,7 @@ static kiriVec3 PlaceOfTouch(const kiriSheetData* sheet, const kiriTouch* touch)
 static void DrawContacts(Drawing* drawing, const kiriSheetData* sheet, const kiriTouchMemory* memory)
 {
     const uint32_t color = Color(0, 150, 170);
-    for (int32_t i = 0; i < memory->touches.count; ++i) {
-        const kiriTouch* touch = &memory->touches.data[i];
+    KIRI_EACH(const kiriTouch, touch, memory->touches) {
         kiriVec3 force = kiriTouches_ForceOf(sheet, touch->key);
         if (kiriVec3_Dot(force, force) > 0.0) {
             kiriVec3 at = PlaceOfTouch(sheet, touch);
@@ -302,8 +300,8 @@ static void DrawSheet(Drawing* drawing, const kiriSheetData* sheet)
     if ((flags & KIRI_DRAW_LINKS) != 0) {
         DrawLinks(drawing, sheet);
     }
-    for (int32_t i = 0; (flags & KIRI_DRAW_PINS) != 0 && i < sheet->pins.count; ++i) {
-        DrawPin(drawing, sheet, &sheet->pins.data[i]);
+    KIRI_EACH_WHILE((flags & KIRI_DRAW_PINS) != 0, const kiriPinData, pin, sheet->pins) {
+        DrawPin(drawing, sheet, pin);
     }
     if ((flags & KIRI_DRAW_CONTACTS) != 0) {
         DrawContacts(drawing, sheet, &sheet->touches.last);
@@ -327,9 +325,9 @@ void kiriDraw_World(const kiriWorld* world, const kiriDebugDraw* draw, const kir
         drawing.batches[i].draw = functions[i];
         drawing.batches[i].count = 0;
     }
-    for (int32_t i = 0; i < world->sheets.count; ++i) {
-        if (only == NULL || only == world->sheets.data[i]) {
-            DrawSheet(&drawing, world->sheets.data[i]);
+    KIRI_EACH_OF(kiriSheetData, sheet, world->sheets) {
+        if (only == NULL || only == sheet) {
+            DrawSheet(&drawing, sheet);
         }
     }
     for (int32_t i = 0; only == NULL && (draw->flags & KIRI_DRAW_OBSTACLES) != 0 && i < world->obstacles.count; ++i) {
@@ -340,8 +338,8 @@ void kiriDraw_World(const kiriWorld* world, const kiriDebugDraw* draw, const kir
         if (blade->isPlaced) {
             DrawLine(&drawing, blade->edge[0], blade->edge[1], Color(0, 0, 0));
         }
-        for (int32_t k = 0; k < blade->layers.count; ++k) {
-            Draw(&drawing, &blade->layers.data[k].at, 1, Color(0, 0, 0));
+        KIRI_EACH(const kiriLayer, layer, blade->layers) {
+            Draw(&drawing, &layer->at, 1, Color(0, 0, 0));
         }
     }
     for (int i = 0; i < 3; ++i) {

@@ -28,16 +28,16 @@ static bool ListMeets(kiriWorld* world, int32_t sheet)
     const kiriObstacleData* last = NULL;
     bool ok = true;
     const kiriTouchMemory* memories[] = { &data->touches.last, &data->touches.slept };
-    for (int32_t i = 0; ok && i < data->touches.found.count; ++i) {
-        ok = AddMeet(world, sheet, kiriObstacles_OwnerOf(world, data->touches.found.data[i].key), &last);
+    KIRI_EACH_WHILE(ok, const kiriTouch, touch, data->touches.found) {
+        ok = AddMeet(world, sheet, kiriObstacles_OwnerOf(world, touch->key), &last);
     }
     for (int n = 0; n < 2; ++n) {
-        for (int32_t i = 0; ok && i < memories[n]->touches.count; ++i) {
-            ok = AddMeet(world, sheet, kiriObstacles_OwnerOf(world, memories[n]->touches.data[i].key), &last);
+        KIRI_EACH_WHILE(ok, const kiriTouch, touch, memories[n]->touches) {
+            ok = AddMeet(world, sheet, kiriObstacles_OwnerOf(world, touch->key), &last);
         }
     }
-    for (int32_t i = 0; ok && i < data->pins.count; ++i) {
-        ok = AddMeet(world, sheet, kiriPinStep_Obstacle(world, &data->pins.data[i]), &last);
+    KIRI_EACH_WHILE(ok, const kiriPinData, pin, data->pins) {
+        ok = AddMeet(world, sheet, kiriPinStep_Obstacle(world, pin), &last);
     }
     return ok;
 }
@@ -278,15 +278,6 @@ void kiriPinStep_Fasten(const kiriWorld* world, kiriPinData* pin)
     }
 }
 
-void kiriPinStep_Carry(const kiriWorld* world, kiriSheetData* sheet, const kiriMat3* R, kiriVec3 t)
-{
-    for (int32_t i = 0; i < sheet->pins.count; ++i) {
-        if (kiriPinStep_Obstacle(world, &sheet->pins.data[i]) == NULL) {
-            kiriCarry_Pin(sheet, i, R, t);
-        }
-    }
-}
-
 /* Returns the move of the point by an impulse along an axis. */
 static kiriVec3 GiveAlong(const kiriYieldRow* body, kiriVec3 arm, kiriVec3 axis)
 {
@@ -299,8 +290,8 @@ static void Soften(const kiriWorld* world, const kiriSheetData* sheet, const kir
                    kiriVec3 target, kiriPinAnchor* anchor)
 {
     int32_t pins = 0;
-    for (int32_t i = 0; i < sheet->pins.count; ++i) {
-        const kiriObstacleData* other = kiriPinStep_Obstacle(world, &sheet->pins.data[i]);
+    KIRI_EACH(const kiriPinData, pin, sheet->pins) {
+        const kiriObstacleData* other = kiriPinStep_Obstacle(world, pin);
         pins += other != NULL && (other == obstacle || (other->body != 0 && other->body == obstacle->body));
     }
     kiriYieldRow body = kiriObstacle_YieldRow(obstacle);
@@ -318,8 +309,7 @@ static bool IsTargetStill(const kiriSheetData* sheet, const kiriPinData* pin, ki
 {
     double least = KIRI_CALM_SECONDS * sheet->settings.sleepSpeed;
     return kiriSheet_PieceOf(sheet, sheet->layout.pinFrame.data[pin - sheet->pins.data])->rest.asleep &&
-           kiriVec3_Length(kiriVec3_Sub(from, pin->target)) <= least &&
-           kiriVec3_Length(kiriVec3_Sub(to, pin->target)) <= least;
+           kiriVec3_Distance(from, pin->target) <= least && kiriVec3_Distance(to, pin->target) <= least;
 }
 
 static void BeginPin(const kiriWorld* world, kiriSheetData* sheet, int32_t index, double dt)
@@ -356,8 +346,7 @@ void kiriPinStep_Begin(const kiriWorld* world, kiriSheetData* sheet, double dt)
 
 void kiriPinStep_End(const kiriWorld* world, const kiriSheetData* sheet, double dt, bool areMovable)
 {
-    for (int32_t i = 0; i < sheet->pins.count; ++i) {
-        const kiriPinData* pin = &sheet->pins.data[i];
+    KIRI_EACH(const kiriPinData, pin, sheet->pins) {
         kiriObstacleData* obstacle = kiriPinStep_Obstacle(world, pin);
         if (obstacle != NULL && kiriObstacle_IsMovable(obstacle) == areMovable) {
             kiriObstacle_TakeImpulse(obstacle, kiriVec3_Scale(-dt, pin->bore.force), pin->target);
@@ -378,8 +367,8 @@ void kiriObstacles_Add(kiriWorld* world, kiriObstacleData* obstacle)
 {
     world->obstacles.data[world->obstacles.count++] = obstacle;
     obstacle->id = kiriPool_Add(&world->obstacleIds, &world->memory, obstacle, 0);
-    for (int32_t i = 0; i < world->sheets.count; ++i) {
-        world->sheets.data[i]->touches.rests.areSummed = false; /* another obstacle may have had its slot */
+    KIRI_EACH_OF(kiriSheetData, sheet, world->sheets) {
+        sheet->touches.rests.areSummed = false; /* another obstacle may have had its slot */
     }
 }
 
@@ -389,8 +378,8 @@ void kiriObstacles_Add(kiriWorld* world, kiriObstacleData* obstacle)
 static double LeastDrift(const kiriWorld* world)
 {
     double least = KIRI_ENDLESS;
-    for (int32_t i = 0; i < world->sheets.count; ++i) {
-        double far = KIRI_CALM_SECONDS * world->sheets.data[i]->settings.sleepSpeed;
+    KIRI_EACH_OF(kiriSheetData, sheet, world->sheets) {
+        double far = KIRI_CALM_SECONDS * sheet->settings.sleepSpeed;
         least = far > 0.0 && far < least ? far : least;
     }
     return least;
@@ -412,16 +401,15 @@ static void WakeNear(kiriWorld* world, kiriSheetData* sheet, const kiriObstacleD
         kiriSheet_WakeAll(sheet);
         return;
     }
-    for (int32_t i = 0; i < triangles->count; ++i) {
-        kiriSheet_WakePiece(sheet, kiriPiece_OfTriangle(sheet, triangles->data[i]));
+    KIRI_EACH(const int32_t, triangle, *triangles) {
+        kiriSheet_WakePiece(sheet, kiriPiece_OfTriangle(sheet, *triangle));
     }
 }
 
 static void WakeAround(kiriWorld* world, kiriObstacleData* obstacle)
 {
     kiriObstacle_Bound(obstacle, 0.0);
-    for (int32_t i = 0; i < world->sheets.count; ++i) {
-        kiriSheetData* sheet = world->sheets.data[i];
+    KIRI_EACH_OF(kiriSheetData, sheet, world->sheets) {
         kiriBox box = kiriSheet_Box(sheet);
         if ((obstacle->groups & sheet->settings.groups) != 0 &&
             kiriObstacle_IsNear(obstacle, box.lower, box.upper, sheet->settings.contactThickness)) {
@@ -449,14 +437,14 @@ static double WayToObstacle(const kiriObstacleData* obstacle, kiriVec3 position,
 {
     kiriObstacleData turning = *obstacle;
     const kiriMat3* r = &obstacle->rotation;
-    double turn = kiriVec3_Length(kiriVec3_Sub(rotation.u, r->u)) + kiriVec3_Length(kiriVec3_Sub(rotation.v, r->v));
+    double turn = kiriVec3_Distance(rotation.u, r->u) + kiriVec3_Distance(rotation.v, r->v);
     if (turn > 0.1) {
         return KIRI_ENDLESS;
     }
     turning.spin = kiriVec3_Scale(
         0.5, kiriVec3_Add(kiriVec3_Cross(r->u, rotation.u),
                           kiriVec3_Add(kiriVec3_Cross(r->v, rotation.v), kiriVec3_Cross(r->d, rotation.d))));
-    return kiriVec3_Length(kiriVec3_Sub(position, obstacle->position)) + kiriObstacle_TurnSpeed(&turning);
+    return kiriVec3_Distance(position, obstacle->position) + kiriObstacle_TurnSpeed(&turning);
 }
 
 void kiriObstacles_Put(kiriWorld* world, kiriObstacleData* obstacle, kiriVec3 position, kiriMat3 rotation)
@@ -550,8 +538,8 @@ static bool StirNear(kiriObstacleSearch* search, kiriSheetData* sheet, const kir
         return true;
     }
     bool ok = FindNear(search, sheet, obstacle, reach);
-    for (int32_t i = 0; ok && i < triangles->count; ++i) {
-        Stir(sheet, kiriPiece_OfTriangle(sheet, triangles->data[i]));
+    KIRI_EACH_WHILE(ok, const int32_t, triangle, *triangles) {
+        Stir(sheet, kiriPiece_OfTriangle(sheet, *triangle));
     }
     return ok;
 }
@@ -573,8 +561,8 @@ static bool StirSleepers(const TouchSearch* looking, kiriObstacleSearch* search,
 static bool HasSleepers(const kiriSheetData* sheet)
 {
     bool any = false;
-    for (int32_t p = 0; !any && p < sheet->layout.pieces.count; ++p) {
-        any = sheet->layout.pieces.data[p].rest.asleep;
+    KIRI_EACH_WHILE(!any, const kiriPiece, piece, sheet->layout.pieces) {
+        any = piece->rest.asleep;
     }
     return any;
 }
@@ -680,8 +668,8 @@ bool kiriObstacles_FindTouches(kiriWorld* world, double dt)
     }
     double least = LeastDrift(world);
     TouchSearch looking = { world, dt, least, false };
-    for (int32_t i = 0; i < world->obstacles.count; ++i) {
-        looking.isAnyMoving |= IsMoving(world->obstacles.data[i], dt, least);
+    KIRI_EACH_OF(kiriObstacleData, obstacle, world->obstacles) {
+        looking.isAnyMoving |= IsMoving(obstacle, dt, least);
     }
     bool areTasks = kiriTasks_AreGiven(&world->tasks);
     bool ok = SortObstacles(world, dt) && (!areTasks || LookInTasks(&looking));
@@ -699,16 +687,15 @@ bool kiriObstacles_FindTouches(kiriWorld* world, double dt)
 
 void kiriObstacles_Begin(kiriWorld* world)
 {
-    for (int32_t i = 0; i < world->obstacles.count; ++i) {
-        memset(&world->obstacles.data[i]->impulse, 0, sizeof(kiriWrench));
-        world->obstacles.data[i]->contacts = 0;
+    KIRI_EACH_OF(kiriObstacleData, obstacle, world->obstacles) {
+        memset(&obstacle->impulse, 0, sizeof(kiriWrench));
+        obstacle->contacts = 0;
     }
 }
 
 void kiriObstacles_LoadYields(const kiriWorld* world, kiriSheetData* sheet)
 {
-    for (int32_t k = 0; k < sheet->touches.yields.count; ++k) {
-        kiriYieldRow* row = &sheet->touches.yields.data[k];
+    KIRI_EACH(kiriYieldRow, row, sheet->touches.yields) {
         for (int32_t i = 0; row->number > 0 && row->inverseMass > 0.0 && i < world->obstacles.count; ++i) {
             const kiriObstacleData* obstacle = world->obstacles.data[i];
             if (kiriObstacles_NumberOf(obstacle) == row->number) {
@@ -773,9 +760,9 @@ static kiriObstacleData* OwnerOfSlot(const kiriWorld* world, int32_t slot)
 static bool AreRestsSummed(const kiriWorld* world, const kiriRestLoads* rests, double dt)
 {
     bool are = rests->areSummed && rests->dt == dt;
-    for (int32_t k = 0; are && k < rests->on.count; ++k) {
-        const kiriObstacleData* obstacle = OwnerOfSlot(world, rests->on.data[k].slot);
-        kiriVec3 was = rests->on.data[k].center, is = obstacle != NULL ? kiriObstacle_CenterOfMass(obstacle) : was;
+    KIRI_EACH_WHILE(are, const kiriRestLoad, load, rests->on) {
+        const kiriObstacleData* obstacle = OwnerOfSlot(world, load->slot);
+        kiriVec3 was = load->center, is = obstacle != NULL ? kiriObstacle_CenterOfMass(obstacle) : was;
         are = obstacle != NULL && was.x == is.x && was.y == is.y && was.z == is.z;
     }
     return are;
@@ -789,8 +776,8 @@ static void SumRests(const kiriWorld* world, kiriSheetData* sheet, double dt)
         rests->on.count = 0;
         rests->dt = dt;
         rests->areSummed = true;
-        for (int32_t i = 0; i < sheet->touches.slept.touches.count; ++i) {
-            AddToRests(world, rests, &sheet->touches.slept.touches.data[i]);
+        KIRI_EACH(const kiriTouch, touch, sheet->touches.slept.touches) {
+            AddToRests(world, rests, touch);
         }
     }
 }
@@ -799,16 +786,14 @@ void kiriObstacles_TakeImpulses(const kiriWorld* world, kiriSheetData* sheet, do
 {
     const kiriTouches* touches = &sheet->touches;
     SumRests(world, sheet, dt);
-    for (int32_t k = 0; k < touches->rests.on.count; ++k) {
-        const kiriRestLoad* load = &touches->rests.on.data[k];
+    KIRI_EACH(const kiriRestLoad, load, touches->rests.on) {
         kiriObstacleData* obstacle = OwnerOfSlot(world, load->slot);
         if (kiriObstacle_IsMovable(obstacle) == areMovable) {
             kiriWrench_Add(&obstacle->impulse, 1.0, &load->impulse);
             obstacle->contacts += load->contacts;
         }
     }
-    for (int32_t i = 0; i < touches->found.count; ++i) {
-        const kiriTouch* touch = &touches->found.data[i];
+    KIRI_EACH(const kiriTouch, touch, touches->found) {
         const kiriContactRow* row = touch->row != KIRI_NONE ? &touches->rows.data[touch->row] : NULL;
         kiriObstacleData* obstacle = row != NULL ? kiriObstacles_OwnerOf(world, row->key) : NULL;
         if (obstacle != NULL && kiriObstacle_IsMovable(obstacle) == areMovable &&
@@ -822,8 +807,7 @@ void kiriObstacles_TakeImpulses(const kiriWorld* world, kiriSheetData* sheet, do
 void kiriObstacles_End(kiriWorld* world, double dt)
 {
     double least = world->obstacles.count > 0 ? LeastDrift(world) : 0.0;
-    for (int32_t i = 0; i < world->obstacles.count; ++i) {
-        kiriObstacleData* obstacle = world->obstacles.data[i];
+    KIRI_EACH_OF(kiriObstacleData, obstacle, world->obstacles) {
         kiriObstacle_Advance(obstacle, dt);
         obstacle->drift = obstacle->drift > least ? 0.0 : obstacle->drift;
     }
@@ -856,15 +840,6 @@ bool kiriSkinStep_Prepare(kiriWorld* world)
         count += world->sheets.data[i]->mesh.vertices.count / RANGE_VERTICES + 1;
     }
     return kiriArray_Reserve(&world->memory, &world->skinRanges, count);
-}
-
-/* Finds the sheets that the budget left unmoved: their surfaces stay as last written. */
-static void FindStill(kiriWorld* world)
-{
-    for (int32_t k = 0; k < world->active.count; ++k) {
-        kiriMove* move = &world->moves.of.data[world->active.data[k]];
-        move->isStill = move->progress == KIRI_MORE && kiriView_IsSettled(kiriWorld_Active(world, k));
-    }
 }
 
 static void ListRanges(kiriWorld* world)
@@ -946,7 +921,11 @@ static void EndSheets(int32_t start, int32_t end, void* context)
 void kiriSkinStep_Run(kiriWorld* world, double dt)
 {
     SkinTask task = { world, dt };
-    FindStill(world);
+    /* The surfaces of sheets that the budget left unmoved stay as last written. */
+    for (int32_t k = 0; k < world->active.count; ++k) {
+        kiriMove* move = &world->moves.of.data[world->active.data[k]];
+        move->isStill = move->progress == KIRI_MORE && kiriView_IsSettled(kiriWorld_Active(world, k));
+    }
     ListRanges(world);
     kiriTasks_Run(&world->tasks, BeginSheets, world->active.count, 1, &task);
     if (world->skinRanges.count > 0) {

@@ -27,9 +27,6 @@ kiriObstacleData* kiriPinStep_Obstacle(const kiriWorld* world, const kiriPinData
 /* Attaches the pin's current target to the obstacle. */
 void kiriPinStep_Fasten(const kiriWorld* world, kiriPinData* pin);
 
-/* Moves the targets of the sheet's pins to R x + t, except pins on obstacles. */
-void kiriPinStep_Carry(const kiriWorld* world, kiriSheetData* sheet, const kiriMat3* R, kiriVec3 t);
-
 /* Sets the motion of targets from the obstacles' current poses to their poses at the end of the tick. Wakes the sheet
    if a target moved. Call it before a sheet is moved. */
 void kiriPinStep_Begin(const kiriWorld* world, kiriSheetData* sheet, double dt);

@@ -29,8 +29,7 @@ typedef struct Part {
 typedef struct Parting {
     kiriWorld* world;
     kiriMemory memory;
-    PartSource* sources;
-    int32_t sourceCount, sourceRoom;
+    KIRI_ARRAY(PartSource) sources; /* never moves: each owns memory */
     bool isInTick;
     KIRI_ARRAY(Part) parts;
 } Parting;
@@ -41,15 +40,13 @@ static bool StartParting(Parting* parting, kiriWorld* world, int32_t sheets)
     memset(parting, 0, sizeof(*parting));
     parting->world = world;
     parting->memory = kiriMemory_Like(&world->memory);
-    parting->sourceRoom = sheets;
-    parting->sources = kiriMemory_AllocZeroed(&parting->memory, sheets * (int64_t)sizeof(PartSource));
-    return parting->sources != NULL;
+    return kiriArray_ReserveJust(&parting->memory, &parting->sources, sheets);
 }
 
 static void EndParting(Parting* parting)
 {
-    for (int32_t k = 0; k < parting->sourceCount; ++k) {
-        kiriDetach_Drop(&parting->sources[k].detach);
+    KIRI_EACH(PartSource, source, parting->sources) {
+        kiriDetach_Drop(&source->detach);
     }
     kiriMemory_FreeAll(&parting->memory);
 }
@@ -59,8 +56,9 @@ static void EndParting(Parting* parting)
 /* Adds a sheet. All its pieces stay for now, except those that are gone. Null for memory. */
 static PartSource* AddSource(Parting* parting, kiriSheetData* sheet)
 {
-    KIRI_ASSERT(parting->sourceCount < parting->sourceRoom);
-    PartSource* source = &parting->sources[parting->sourceCount++];
+    KIRI_ASSERT(parting->sources.count < parting->sources.capacity);
+    PartSource* source = &parting->sources.data[parting->sources.count++];
+    memset(source, 0, sizeof(*source));
     if (!kiriDetach_Init(&source->detach, sheet)) {
         return NULL;
     }
@@ -72,9 +70,9 @@ static PartSource* AddSource(Parting* parting, kiriSheetData* sheet)
 
 static PartSource* FindSource(const Parting* parting, const kiriSheetData* sheet)
 {
-    for (int32_t k = 0; k < parting->sourceCount; ++k) {
-        if (parting->sources[k].detach.sheet == sheet) {
-            return &parting->sources[k];
+    KIRI_EACH(PartSource, source, parting->sources) {
+        if (source->detach.sheet == sheet) {
+            return source;
         }
     }
     return NULL;
@@ -110,9 +108,8 @@ static bool MarkPieces(Parting* parting, const kiriFrame* frames, int32_t count)
 /* Returns true if the piece waits to become a sheet. */
 static bool IsLeaving(const kiriWorld* world, const kiriSheetData* sheet, int32_t piece)
 {
-    for (int32_t k = 0; k < sheet->leaving.count; ++k) {
-        if (kiriPool_Find(&world->frameIds, sheet->leaving.data[k]) != NULL &&
-            PieceOfFrame(world, sheet->leaving.data[k]) == piece) {
+    KIRI_EACH(const kiriFrame, at, sheet->leaving) {
+        if (kiriPool_Find(&world->frameIds, *at) != NULL && PieceOfFrame(world, *at) == piece) {
             return true;
         }
     }
@@ -123,8 +120,8 @@ static bool IsLeaving(const kiriWorld* world, const kiriSheetData* sheet, int32_
 static bool LeavesSome(const Parting* parting)
 {
     bool all = true;
-    for (int32_t k = 0; k < parting->sourceCount; ++k) {
-        const kiriSubset* rest = &parting->sources[k].detach.rest;
+    KIRI_EACH(const PartSource, source, parting->sources) {
+        const kiriSubset* rest = &source->detach.rest;
         bool some = false;
         for (int32_t p = 0; p < rest->pieces.count && !some; ++p) {
             some = rest->pieces.data[p] && !IsLeaving(parting->world, rest->from, p);
@@ -137,8 +134,8 @@ static bool LeavesSome(const Parting* parting)
 static kiriResult ResultOf(const Parting* parting)
 {
     kiriResult result = KIRI_OK;
-    for (int32_t k = 0; k < parting->sourceCount; ++k) {
-        result = parting->sources[k].waits ? KIRI_PENDING : result;
+    KIRI_EACH(const PartSource, source, parting->sources) {
+        result = source->waits ? KIRI_PENDING : result;
     }
     return result;
 }
@@ -151,8 +148,7 @@ static void ChooseWhatWaits(Parting* parting, bool makesSheets)
 {
     kiriWorld* world = parting->world;
     double left = world->budget.samples > 0 ? (double)world->budget.samples - (double)world->samplesDue : 1e18;
-    for (int32_t k = 0; k < parting->sourceCount; ++k) {
-        PartSource* source = &parting->sources[k];
+    KIRI_EACH(PartSource, source, parting->sources) {
         const kiriSheetData* sheet = source->detach.sheet;
         bool isBusy = !kiriUpdate_IsFieldCurrent(sheet->update);
         source->samples = kiriDetach_Samples(sheet, 1.0 - kiriSubset_Share(&source->detach.rest), makesSheets);
@@ -166,8 +162,8 @@ static void ChooseWhatWaits(Parting* parting, bool makesSheets)
 static void Charge(const Parting* parting)
 {
     kiriWorld* world = parting->world;
-    for (int32_t k = 0; k < parting->sourceCount && world->budget.samples > 0 && !parting->isInTick; ++k) {
-        world->samplesDue += parting->sources[k].waits ? 0 : (int64_t)parting->sources[k].samples;
+    KIRI_EACH_WHILE(world->budget.samples > 0 && !parting->isInTick, const PartSource, source, parting->sources) {
+        world->samplesDue += source->waits ? 0 : (int64_t)source->samples;
     }
 }
 
@@ -176,8 +172,7 @@ static void Charge(const Parting* parting)
 static bool MapSources(Parting* parting, bool makesParts)
 {
     bool ok = true;
-    for (int32_t k = 0; ok && k < parting->sourceCount; ++k) {
-        PartSource* source = &parting->sources[k];
+    KIRI_EACH_WHILE(ok, PartSource, source, parting->sources) {
         ok = source->waits || kiriDetach_Map(&source->detach, makesParts);
     }
     return ok;
@@ -186,8 +181,7 @@ static bool MapSources(Parting* parting, bool makesParts)
 static bool StageSources(Parting* parting)
 {
     bool ok = true;
-    for (int32_t k = 0; ok && k < parting->sourceCount; ++k) {
-        PartSource* source = &parting->sources[k];
+    KIRI_EACH_WHILE(ok, PartSource, source, parting->sources) {
         const kiriPast past = kiriPast_At(&source->detach.sheet->past, parting->world->begun);
         ok = source->waits ||
              (kiriDetach_Stage(&source->detach) &&
@@ -196,25 +190,27 @@ static bool StageSources(Parting* parting)
     return ok;
 }
 
+static void PointId(const kiriPool* pool, uint32_t id, kiriSheetData* sheet, int32_t index)
+{
+    kiriSlot* slot = kiriPool_Find(pool, id);
+    slot->owner = sheet;
+    slot->index = index;
+}
+
 /* Updates the ids of items that moved to this sheet, or to another index in it. */
 static void PointIds(kiriWorld* world, kiriSheetData* sheet)
 {
     for (int32_t i = 0; i < sheet->frames.count; ++i) {
-        kiriSlot* slot = kiriPool_Find(&world->frameIds, sheet->frames.data[i].id);
-        slot->owner = sheet;
-        slot->index = i;
+        PointId(&world->frameIds, sheet->frames.data[i].id, sheet, i);
     }
     for (int32_t i = 0; i < sheet->pins.count; ++i) {
-        kiriSlot* slot = kiriPool_Find(&world->pinIds, sheet->pins.data[i].id);
-        slot->owner = sheet;
-        slot->index = i;
+        PointId(&world->pinIds, sheet->pins.data[i].id, sheet, i);
     }
 }
 
 static void CommitSources(Parting* parting)
 {
-    for (int32_t k = 0; k < parting->sourceCount; ++k) {
-        PartSource* source = &parting->sources[k];
+    KIRI_EACH(PartSource, source, parting->sources) {
         kiriSheetData* sheet = source->detach.sheet;
         if (!source->waits) {
             KIRI_ASSERT(kiriUpdate_IsFieldCurrent(sheet->update));
@@ -231,8 +227,7 @@ static void CommitSources(Parting* parting)
 static bool MakeParts(Parting* parting)
 {
     bool ok = true;
-    for (int32_t k = 0; ok && k < parting->parts.count; ++k) {
-        Part* part = &parting->parts.data[k];
+    KIRI_EACH_WHILE(ok, Part, part, parting->parts) {
         kiriDetach* detach = &part->from->detach;
         if (!part->from->waits) {
             const kiriPast past = kiriPast_At(&detach->sheet->past, parting->world->begun);
@@ -252,10 +247,10 @@ static kiriResult ReserveIdsOfParts(Parting* parting)
 {
     int64_t pins = 0;
     int32_t made = 0;
-    for (int32_t k = 0; k < parting->parts.count; ++k) {
-        kiriSheetData *sheet = parting->parts.data[k].sheet, *from = parting->parts.data[k].from->detach.sheet;
-        pins += sheet != NULL ? sheet->pins.count : 0;
-        made += sheet != NULL;
+    KIRI_EACH(const Part, part, parting->parts) {
+        kiriSheetData* from = part->from->detach.sheet;
+        pins += part->sheet != NULL ? part->sheet->pins.count : 0;
+        made += part->sheet != NULL;
         if (!kiriArray_Reserve(from->memory, &from->leaving, (int64_t)from->leaving.count + parting->parts.count)) {
             return KIRI_ERROR_MEMORY;
         }
@@ -288,8 +283,7 @@ static kiriResult Detach(Parting* parting)
     ChooseWhatWaits(parting, true);
     bool ok = MapSources(parting, parting->parts.count > 0) && MakeParts(parting) && StageSources(parting);
     kiriResult result = ok ? ReserveIdsOfParts(parting) : KIRI_ERROR_MEMORY;
-    for (int32_t k = 0; k < parting->parts.count; ++k) {
-        const Part* part = &parting->parts.data[k];
+    KIRI_EACH(const Part, part, parting->parts) {
         kiriSheetData* from = part->from->detach.sheet;
         if (result != KIRI_OK) {
             kiriSheet_Delete(part->sheet, &parting->world->memory);
@@ -330,8 +324,8 @@ kiriResult kiriParts_Detach(kiriWorld* world, const kiriFrame* frames, int32_t c
 static void ForgetStaleLeaving(kiriWorld* world, kiriSheetData* sheet)
 {
     int32_t kept = 0;
-    for (int32_t k = 0; k < sheet->leaving.count; ++k) {
-        kiriFrame frame = sheet->leaving.data[k];
+    KIRI_EACH(const kiriFrame, at, sheet->leaving) {
+        kiriFrame frame = *at;
         const kiriSlot* slot = kiriPool_Find(&world->frameIds, frame);
         if (slot != NULL && slot->owner == sheet) {
             sheet->leaving.data[kept++] = frame;
@@ -472,10 +466,10 @@ static void HidePieces(kiriWorld* world, const kiriDetach* detach)
 static bool RenewIndices(Parting* parting)
 {
     bool ok = true;
-    for (int32_t k = 0; ok && k < parting->sourceCount; ++k) {
-        kiriSheetData* sheet = parting->sources[k].detach.sheet;
-        ok = !parting->sources[k].waits || kiriSurface_RenewIndices(&sheet->seen.surface, &sheet->shown,
-                                                                    &parting->world->retired, parting->world->ticks);
+    KIRI_EACH_WHILE(ok, const PartSource, source, parting->sources) {
+        kiriSheetData* sheet = source->detach.sheet;
+        ok = !source->waits || kiriSurface_RenewIndices(&sheet->seen.surface, &sheet->shown, &parting->world->retired,
+                                                        parting->world->ticks);
     }
     return ok;
 }
@@ -486,9 +480,9 @@ static kiriResult Destroy(Parting* parting)
     if (!MapSources(parting, false) || !StageSources(parting) || !RenewIndices(parting)) {
         return KIRI_ERROR_MEMORY;
     }
-    for (int32_t k = 0; k < parting->sourceCount; ++k) {
-        const kiriDetach* detach = &parting->sources[k].detach;
-        if (parting->sources[k].waits) {
+    KIRI_EACH(const PartSource, source, parting->sources) {
+        const kiriDetach* detach = &source->detach;
+        if (source->waits) {
             HidePieces(parting->world, detach);
         } else {
             ForgetFrames(parting->world, detach);

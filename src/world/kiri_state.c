@@ -11,64 +11,64 @@
 
 /* Indices and nears are of the current tick alone. */
 KIRI_TABLE(PairTable, kiriTouchingPair, {
-    KIRI_WITHIN(-1, 1, kiriTouchingPair, side, side),
-    KIRI_WITHIN(0, 1, kiriTouchingPair, touches, touches),
+    KIRI_WITHIN(-1, 1, side),
+    KIRI_WITHIN(0, 1, touches),
     KIRI_UNHASHED,
-    KIRI_RUN(4, kiriTouchingPair, upper, lower),
-    KIRI_DROPPED(kiriTouchingPair, bodies, nears),
-});
+    KIRI_RUN(4, upper, lower),
+    KIRI_DROPPED(bodies, nears),
+})
 
 KIRI_TABLE(PairsTable, kiriPairs, {
-    KIRI_PARTS(kiriPairs, pairs, PairTable),
+    KIRI_PARTS(pairs, PairTable),
     KIRI_UNHASHED,
-    KIRI_ROOMS(kiriPairs, next, found, bodies, order, nears, parents, calms),
-    KIRI_ROOMS(kiriPairs, touches),
-});
+    KIRI_ROOMS(next, found, bodies, order, nears, parents, calms),
+    KIRI_ROOMS(touches),
+})
 
 KIRI_TABLE(LoopTable, kiriLoop, {
-    KIRI_BOOLS(kiriLoop, isOpen, isPassed),
-    KIRI_REALS(kiriLoop, start, then),
-});
+    KIRI_BOOLS(isOpen, isPassed),
+    KIRI_REALS(start, then),
+})
 
 KIRI_TABLE(LayerTable, kiriLayer, {
-    KIRI_REALS(kiriLayer, rest, share),
-    KIRI_PART(kiriLayer, loop, LoopTable),
+    KIRI_REALS(rest, share),
+    KIRI_PART(loop, LoopTable),
     KIRI_UNHASHED,
-    KIRI_RUN(4, kiriLayer, sheet, cut),
-});
+    KIRI_RUN(4, sheet, cut),
+})
 
 KIRI_TABLE(BladeDataTable, kiriBladeData, {
-    KIRI_BOOLS(kiriBladeData, isPlaced, isPlaced),
-    KIRI_REALS(kiriBladeData, edge, elapsed),
-    KIRI_PARTS(kiriBladeData, layers, LayerTable),
+    KIRI_BOOLS(isPlaced),
+    KIRI_REALS(edge, elapsed),
+    KIRI_PARTS(layers, LayerTable),
     KIRI_UNHASHED,
-    KIRI_RUN(4, kiriBladeData, id, sheet),
-});
+    KIRI_RUN(4, id, sheet),
+})
 
 enum { MOST_GENERATIONS = 127 };
 
 /* Owners are found by their ids. */
 KIRI_TABLE(SlotTable, kiriSlot, {
-    KIRI_RUN(4, kiriSlot, index, index),
-    KIRI_WITHIN(1, MOST_GENERATIONS, kiriSlot, generation, generation),
-    KIRI_DROPPED(kiriSlot, owner, owner),
-});
+    KIRI_RUN(4, index),
+    KIRI_WITHIN(1, MOST_GENERATIONS, generation),
+    KIRI_DROPPED(owner),
+})
 
 KIRI_TABLE(PoolTable, kiriPool, {
-    KIRI_RUN(4, kiriPool, kind, freeCount),
-    KIRI_PARTS(kiriPool, slots, SlotTable),
-});
+    KIRI_RUN(4, kind, freeCount),
+    KIRI_PARTS(slots, SlotTable),
+})
 
 KIRI_TABLE(MovesTable, kiriMoves, {
-    KIRI_ROOMS(kiriMoves, of, meets, order, parent, heads),
-});
+    KIRI_ROOMS(of, meets, order, parent, heads),
+})
 
 /* Times are of this machine. */
 KIRI_TABLE(ProfileTable, kiriProfile, {
-    KIRI_RUN(4, kiriProfile, cutSegments, sheetPairs),
-    KIRI_RUN(8, kiriProfile, largestJump, largestFade),
-    KIRI_DROPPED(kiriProfile, seconds, seconds),
-});
+    KIRI_RUN(4, cutSegments, sheetPairs),
+    KIRI_RUN(8, largestJump, largestFade),
+    KIRI_DROPPED(seconds),
+})
 
 /* Whose turn it is under a budget. */
 static void HashTurn(kiriArchive* archive, void* object)
@@ -83,35 +83,35 @@ static void HashTurn(kiriArchive* archive, void* object)
 
 /* The world that reads keeps its hooks. */
 KIRI_TABLE(WorldTable, kiriWorld, {
-    KIRI_REALS(kiriWorld, gravity, gravity),
-    KIRI_WITHIN(0, INT32_MAX, kiriWorld, budget, budget),
-    KIRI_COUNTS(kiriWorld, samplesDue, samplesDue),
-    KIRI_WITHIN(0, INT32_MAX, kiriWorld, turn, turn),
-    KIRI_PART(kiriWorld, pairs, PairsTable),
-    KIRI_CUSTOM(kiriWorld, ticks, HashTurn),
+    KIRI_REALS(gravity),
+    KIRI_WITHIN(0, INT32_MAX, budget),
+    KIRI_COUNTS(samplesDue),
+    KIRI_WITHIN(0, INT32_MAX, turn),
+    KIRI_PART(pairs, PairsTable),
+    KIRI_CUSTOM(ticks, HashTurn),
     KIRI_UNHASHED,
-    KIRI_COUNTS(kiriWorld, ticks, ticks),
-    KIRI_WITHIN(0, INT32_MAX, kiriWorld, newEvents, newEvents),
-    KIRI_PART(kiriWorld, sheetIds, PoolTable),
-    KIRI_PART(kiriWorld, cutIds, PoolTable),
-    KIRI_PART(kiriWorld, frameIds, PoolTable),
-    KIRI_PART(kiriWorld, pinIds, PoolTable),
-    KIRI_PART(kiriWorld, obstacleIds, PoolTable),
-    KIRI_PART(kiriWorld, bladeIds, PoolTable),
-    KIRI_SPACE_OF(kiriWorld, sheets),
-    KIRI_SPACE_OF(kiriWorld, obstacles),
-    KIRI_SPACE_OF(kiriWorld, blades),
-    KIRI_ITEMS(4, kiriWorld, obstacleOrder),
-    KIRI_ITEMS(4, kiriWorld, events),
-    KIRI_DROPPED(kiriWorld, islands, islands),
-    KIRI_PART(kiriWorld, moves, MovesTable),
-    KIRI_ROOMS(kiriWorld, active, atWork, skinRanges),
-    KIRI_PART(kiriWorld, profile, ProfileTable),
-    KIRI_KEPT(kiriWorld, memory, retired),
-    KIRI_DROPPED(kiriWorld, log, user),
-    KIRI_DROPPED(kiriWorld, obstacleSearch, searches),
-    KIRI_DROPPED(kiriWorld, begun, logs),
-});
+    KIRI_COUNTS(ticks),
+    KIRI_WITHIN(0, INT32_MAX, newEvents),
+    KIRI_PART(sheetIds, PoolTable),
+    KIRI_PART(cutIds, PoolTable),
+    KIRI_PART(frameIds, PoolTable),
+    KIRI_PART(pinIds, PoolTable),
+    KIRI_PART(obstacleIds, PoolTable),
+    KIRI_PART(bladeIds, PoolTable),
+    KIRI_SPACE_OF(sheets),
+    KIRI_SPACE_OF(obstacles),
+    KIRI_SPACE_OF(blades),
+    KIRI_ITEMS(4, obstacleOrder),
+    KIRI_ITEMS(4, events),
+    KIRI_DROPPED(islands),
+    KIRI_PART(moves, MovesTable),
+    KIRI_ROOMS(active, atWork, skinRanges),
+    KIRI_PART(profile, ProfileTable),
+    KIRI_KEPT(memory, retired),
+    KIRI_DROPPED(log, user),
+    KIRI_DROPPED(obstacleSearch, searches),
+    KIRI_DROPPED(begun, logs),
+})
 
 /* ---- Both directions --------------------------------------------------------------------------------------------- */
 
@@ -138,7 +138,7 @@ static void ArchiveBlades(kiriArchive* archive, kiriWorld* world)
             archive->isShort |= world->blades.data[i] == NULL;
         }
         if (world->blades.data[i] != NULL) {
-            kiriArchive_Object(archive, &BladeDataTable, world->blades.data[i]);
+            kiriArchive_Object(archive, BladeDataTable, world->blades.data[i]);
         }
     }
 }
@@ -146,7 +146,7 @@ static void ArchiveBlades(kiriArchive* archive, kiriWorld* world)
 static void ArchiveWorld(kiriArchive* archive, kiriWorld* world)
 {
     archive->memory = &world->memory;
-    kiriArchive_Object(archive, &WorldTable, world);
+    kiriArchive_Object(archive, WorldTable, world);
     for (int32_t i = 0; i < world->obstacles.count && !kiriArchive_HasFailed(archive); ++i) {
         kiriObstacle_Archive(archive, &world->obstacles.data[i], &world->memory);
     }
@@ -176,14 +176,14 @@ static bool ClaimIdsOfSheet(kiriWorld* world, kiriSheetData* sheet)
 static bool ClaimIds(kiriWorld* world)
 {
     bool ok = true;
-    for (int32_t i = 0; i < world->obstacles.count; ++i) {
-        ok = ok && kiriPool_Claim(&world->obstacleIds, world->obstacles.data[i]->id, world->obstacles.data[i], 0);
+    KIRI_EACH_OF(kiriObstacleData, obstacle, world->obstacles) {
+        ok = ok && kiriPool_Claim(&world->obstacleIds, obstacle->id, obstacle, 0);
     }
-    for (int32_t i = 0; i < world->blades.count; ++i) {
-        ok = ok && kiriPool_Claim(&world->bladeIds, world->blades.data[i]->id, world->blades.data[i], 0);
+    KIRI_EACH_OF(kiriBladeData, blade, world->blades) {
+        ok = ok && kiriPool_Claim(&world->bladeIds, blade->id, blade, 0);
     }
-    for (int32_t i = 0; i < world->sheets.count; ++i) {
-        ok = ok && ClaimIdsOfSheet(world, world->sheets.data[i]);
+    KIRI_EACH_OF(kiriSheetData, sheet, world->sheets) {
+        ok = ok && ClaimIdsOfSheet(world, sheet);
     }
     return ok;
 }
@@ -216,8 +216,7 @@ static bool IsWorld(const kiriWorld* world)
 static bool AreLayers(const kiriWorld* world, const kiriBladeData* blade)
 {
     bool areFine = true;
-    for (int32_t k = 0; areFine && k < blade->layers.count; ++k) {
-        const kiriLayer* layer = &blade->layers.data[k];
+    KIRI_EACH_WHILE(areFine, const kiriLayer, layer, blade->layers) {
         const kiriSlot* cut = kiriPool_Find(&world->cutIds, layer->cut);
         areFine = cut == NULL || ((const kiriCutData*)cut->owner)->sheet->id == layer->sheet;
     }
@@ -234,8 +233,8 @@ static bool IsSheet(const kiriWorld* world, const kiriSheetData* sheet)
                   memcmp(&given->material, &settings->material, sizeof(given->material)) == 0 &&
                   given->iterations == settings->iterations && given->skinning == settings->skinning &&
                   given->timeStepping == settings->mechanics.timeStepping;
-    for (int32_t k = 0; isFine && k < sheet->leaving.count; ++k) {
-        const kiriSlot* slot = kiriPool_Find(&world->frameIds, sheet->leaving.data[k]);
+    KIRI_EACH_WHILE(isFine, const kiriFrame, at, sheet->leaving) {
+        const kiriSlot* slot = kiriPool_Find(&world->frameIds, *at);
         isFine = slot == NULL || slot->owner == sheet;
     }
     return isFine;
@@ -253,10 +252,10 @@ typedef struct SaveHead {
 } SaveHead;
 
 KIRI_TABLE(SaveHeadTable, SaveHead, {
-    KIRI_RUN(1, SaveHead, magic, magic),
-    KIRI_RUN(4, SaveHead, version, library),
-    KIRI_RUN(8, SaveHead, size, size),
-});
+    KIRI_RUN(1, magic),
+    KIRI_RUN(4, version, library),
+    KIRI_RUN(8, size),
+})
 
 static uint64_t WordAt(const uint8_t* b, int64_t count)
 {
@@ -290,7 +289,7 @@ static const char* FaultOfBytes(const uint8_t* bytes, int64_t size)
 {
     SaveHead head;
     kiriArchive archive = kiriArchive_Read(bytes, size, NULL);
-    kiriArchive_Object(&archive, &SaveHeadTable, &head);
+    kiriArchive_Object(&archive, SaveHeadTable, &head);
     if (archive.isBad || memcmp(head.magic, saveMagic, sizeof(head.magic)) != 0) {
         return "these bytes are no save of kiriWorld_Save";
     }
@@ -304,28 +303,30 @@ static const char* FaultOfBytes(const uint8_t* bytes, int64_t size)
     return isSame ? NULL : "the bytes are not those that were saved";
 }
 
-kiriResult kiriSave_Write(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size)
+kiriResult kiriWorld_Save(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size)
 {
+    KIRI_READS(world);
+    KIRI_CHECK(size != NULL && capacity >= 0, "size is null, or capacity below 0");
     *size = 0;
-    for (int32_t i = 0; i < world->sheets.count; ++i) {
-        if (world->sheets.data[i]->update->stage != KIRI_NONE) {
+    KIRI_EACH_OF(kiriSheetData, sheet, world->sheets) {
+        if (sheet->update->stage != KIRI_NONE) {
             return KIRI_PENDING;
         }
     }
     kiriArchive archive = kiriArchive_Measure();
     ArchiveWorld(&archive, Unlocked(world));
     *size = HEAD_BYTES + archive.at + SUM_BYTES;
-    if (bytes == NULL || capacity < *size) {
-        return bytes == NULL ? KIRI_OK : KIRI_ERROR_ARGUMENT;
+    KIRI_CHECK(bytes == NULL || capacity >= *size, "capacity is less than the bytes of a save");
+    if (bytes != NULL) {
+        SaveHead head = { { 0 }, SAVE_VERSION, KIRI_VERSION, *size };
+        memcpy(head.magic, saveMagic, sizeof(head.magic));
+        archive = kiriArchive_Write(bytes, *size);
+        kiriArchive_Object(&archive, SaveHeadTable, &head);
+        ArchiveWorld(&archive, Unlocked(world));
+        uint64_t sum = SumBytes(bytes, archive.at);
+        kiriArchive_Numbers(&archive, &sum, 8, 1);
+        KIRI_ASSERT(!archive.isBad && archive.at == *size);
     }
-    SaveHead head = { { 0 }, SAVE_VERSION, KIRI_VERSION, *size };
-    memcpy(head.magic, saveMagic, sizeof(head.magic));
-    archive = kiriArchive_Write(bytes, *size);
-    kiriArchive_Object(&archive, &SaveHeadTable, &head);
-    ArchiveWorld(&archive, Unlocked(world));
-    uint64_t sum = SumBytes(bytes, archive.at);
-    kiriArchive_Numbers(&archive, &sum, 8, 1);
-    KIRI_ASSERT(!archive.isBad && archive.at == *size);
     return KIRI_OK;
 }
 
@@ -333,11 +334,11 @@ kiriResult kiriSave_Write(const kiriWorld* world, void* bytes, int64_t capacity,
 
 static void DropSheets(kiriWorld* world, kiriMemory* shown)
 {
-    for (int32_t i = 0; i < world->sheets.count; ++i) {
-        if (world->sheets.data[i] != NULL && shown != NULL) {
-            kiriMemory_AdoptAll(shown, &world->sheets.data[i]->shown);
+    KIRI_EACH_OF(kiriSheetData, sheet, world->sheets) {
+        if (sheet != NULL && shown != NULL) {
+            kiriMemory_AdoptAll(shown, &sheet->shown);
         }
-        kiriSheet_Delete(world->sheets.data[i], &world->memory);
+        kiriSheet_Delete(sheet, &world->memory);
     }
     world->sheets.count = 0;
 }
@@ -393,8 +394,8 @@ static void TakeWorld(kiriWorld* world, kiriWorld* made)
     world->isBusy = was.isBusy;
     memcpy(world->errorLine, was.errorLine, sizeof(was.errorLine));
     kiriMemory_AdoptAll(&world->memory, &made->memory);
-    for (int32_t i = 0; i < world->sheets.count; ++i) {
-        world->sheets.data[i]->past = kiriPast_None(world->begun);
+    KIRI_EACH_OF(kiriSheetData, sheet, world->sheets) {
+        sheet->past = kiriPast_None(world->begun);
     }
 }
 
@@ -414,15 +415,15 @@ static kiriResult BecomeWorld(kiriWorld* world, const uint8_t* bytes, int64_t si
     return result;
 }
 
-kiriResult kiriSave_Read(kiriWorld* world, const void* bytes, int64_t size, const char** why)
+kiriResult kiriWorld_Load(kiriWorld* world, const void* bytes, int64_t size)
 {
-    *why = FaultOfBytes(bytes, size);
-    if (*why != NULL) {
-        return KIRI_ERROR_DATA;
-    }
+    int32_t count = size >= 0 && size <= INT32_MAX ? (int32_t)size : KIRI_NONE;
+    KIRI_CHANGES(World_Load, bytes, &count);
+    KIRI_CHECK(bytes != NULL && count >= 0, "bytes is null, or size not within 0 and 2147483647");
+    const char* why = FaultOfBytes(bytes, size);
+    KIRI_REQUIRE(why == NULL, KIRI_ERROR_DATA, why);
     kiriResult result = BecomeWorld(world, (const uint8_t*)bytes + HEAD_BYTES, size - HEAD_BYTES - SUM_BYTES, false);
-    *why = result == KIRI_ERROR_DATA ? "the bytes have a right sum, but no world" : NULL;
-    return result;
+    return KIRI_FAIL(result, result == KIRI_ERROR_DATA ? "the bytes have a right sum, but no world" : NULL);
 }
 
 /* ---- Snapshots --------------------------------------------------------------------------------------------------- */
@@ -438,37 +439,44 @@ static SnapshotHead HeadOfSnapshot(int64_t size)
 {
     SnapshotHead head = { { 'K', 'i', 'r', 'i', 'S', 'n', 'a', 'p' }, KIRI_HASH_START, size };
     kiriHash_Int32(&head.layout, KIRI_VERSION);
-    kiriArchive_HashLayout(&WorldTable, &head.layout);
-    kiriArchive_HashLayout(&BladeDataTable, &head.layout);
+    kiriArchive_HashLayout(WorldTable, &head.layout);
+    kiriArchive_HashLayout(BladeDataTable, &head.layout);
     kiriSheet_HashLayout(&head.layout);
     return head;
 }
 
-kiriResult kiriSnapshot_Write(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size)
+kiriResult kiriWorld_Snapshot(const kiriWorld* world, void* bytes, int64_t capacity, int64_t* size)
 {
+    KIRI_READS(world);
+    KIRI_CHECK(size != NULL && capacity >= 0, "size is null, or capacity below 0");
     kiriArchive archive = kiriArchive_Measure();
     archive.isWhole = true;
     ArchiveWorld(&archive, Unlocked(world));
     *size = (int64_t)sizeof(SnapshotHead) + archive.at;
-    if (bytes == NULL || capacity < *size) {
-        return bytes == NULL ? KIRI_OK : KIRI_ERROR_ARGUMENT;
+    KIRI_CHECK(bytes == NULL || capacity >= *size, "capacity is less than the bytes of a snapshot");
+    if (bytes != NULL) {
+        SnapshotHead head = HeadOfSnapshot(*size);
+        memcpy(bytes, &head, sizeof(head));
+        archive = kiriArchive_Write((uint8_t*)bytes + sizeof(head), *size - (int64_t)sizeof(head));
+        archive.isWhole = true;
+        ArchiveWorld(&archive, Unlocked(world));
+        KIRI_ASSERT(!archive.isBad && archive.at == archive.size);
     }
-    SnapshotHead head = HeadOfSnapshot(*size);
-    memcpy(bytes, &head, sizeof(head));
-    archive = kiriArchive_Write((uint8_t*)bytes + sizeof(head), *size - (int64_t)sizeof(head));
-    archive.isWhole = true;
-    ArchiveWorld(&archive, Unlocked(world));
-    KIRI_ASSERT(!archive.isBad && archive.at == archive.size);
     return KIRI_OK;
 }
 
-kiriResult kiriSnapshot_Read(kiriWorld* world, const void* bytes, int64_t size)
+kiriResult kiriWorld_Restore(kiriWorld* world, const void* bytes, int64_t size)
 {
+    KIRI_PREPARES(world);
+    KIRI_CHECK(bytes != NULL && size >= 0, "bytes is null, or size below 0");
+    KIRI_REQUIRE(world->recorder.write == NULL, KIRI_ERROR_STATE,
+                 "the world is recorded: snapshots are of one process, recordings are not");
     const SnapshotHead head = HeadOfSnapshot(size);
-    if (size < (int64_t)sizeof(head) || memcmp(bytes, &head, sizeof(head)) != 0) {
-        return KIRI_ERROR_DATA;
-    }
-    return BecomeWorld(world, (const uint8_t*)bytes + sizeof(head), size - (int64_t)sizeof(head), true);
+    bool isOurs = size >= (int64_t)sizeof(head) && memcmp(bytes, &head, sizeof(head)) == 0;
+    kiriResult result =
+        isOurs ? BecomeWorld(world, (const uint8_t*)bytes + sizeof(head), size - (int64_t)sizeof(head), true)
+               : KIRI_ERROR_DATA;
+    return KIRI_FAIL(result, result == KIRI_ERROR_DATA ? "the bytes are no snapshot of this build" : NULL);
 }
 
 /* ---- The state hash ---------------------------------------------------------------------------------------------- */
@@ -500,8 +508,8 @@ uint64_t kiriStateHash_Of(const kiriWorld* world)
 {
     kiriArchive archive = kiriArchive_Hash();
     ArchiveWorld(&archive, Unlocked(world));
-    for (int32_t i = 0; i < world->sheets.count; ++i) {
-        HashWork(&archive.hash, world, world->sheets.data[i]);
+    KIRI_EACH_OF(kiriSheetData, sheet, world->sheets) {
+        HashWork(&archive.hash, world, sheet);
     }
     return archive.hash;
 }

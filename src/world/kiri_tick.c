@@ -38,8 +38,8 @@ static bool IsIdle(const kiriSheetData* sheet)
     const kiriTouches* touches = &sheet->touches;
     const kiriFades* fades = &sheet->seen.fades;
     bool isCarried = false; /* a pin is on an obstacle, which may move */
-    for (int32_t i = 0; i < sheet->pins.count; ++i) {
-        isCarried |= sheet->pins.data[i].anchor.obstacle != 0;
+    KIRI_EACH(const kiriPinData, pin, sheet->pins) {
+        isCarried |= pin->anchor.obstacle != 0;
     }
     return sheet->rest.asleep && sheet->cuts.count == 0 && sheet->queue.count == 0 && sheet->contacts.count == 0 &&
            touches->last.touches.count == 0 && touches->slept.touches.count == 0 && touches->found.count == 0 &&
@@ -115,8 +115,8 @@ static kiriResult UpdateAll(kiriWorld* world, kiriQuotas* quotas)
 {
     const kiriWatch watch = { EnterStage, world };
     kiriResult result = KIRI_OK;
-    for (int32_t k = 0; k < world->atWork.count; ++k) {
-        kiriSheetData* sheet = world->sheets.data[world->atWork.data[k]];
+    KIRI_EACH(const int32_t, at, world->atWork) {
+        kiriSheetData* sheet = world->sheets.data[*at];
         if (kiriPipeline_CanRun(sheet, quotas) && kiriPipeline_Run(sheet, quotas, &watch) == KIRI_FAILED) {
             result = KIRI_ERROR_MEMORY;
         }
@@ -152,10 +152,9 @@ static bool FindTouches(kiriWorld* world, double dt)
         ListActive(world); /* one may have come near a sheet that sleeps */
     }
     ok = ok && kiriPairs_AddTouches(world);
-    for (int32_t k = 0; ok && k < world->active.count; ++k) {
-        ok = kiriTouches_Reserve(kiriWorld_Active(world, k)) &&
-             kiriObstacles_ReserveRests(world, kiriWorld_Active(world, k));
-        world->profile.contacts += kiriWorld_Active(world, k)->touches.found.count;
+    KIRI_EACH_ACTIVE(sheet, world) {
+        ok = ok && kiriTouches_Reserve(sheet) && kiriObstacles_ReserveRests(world, sheet);
+        world->profile.contacts += sheet->touches.found.count;
     }
     return ok;
 }
@@ -167,8 +166,7 @@ static kiriResult ReserveRoom(kiriWorld* world)
 {
     int64_t frames = 0, events = world->events.count + 2 * (int64_t)world->sheets.count + world->cutIds.slots.count +
                                  world->pinIds.slots.count;
-    for (int32_t k = 0; k < world->active.count; ++k) {
-        kiriSheetData* sheet = kiriWorld_Active(world, k);
+    KIRI_EACH_ACTIVE(sheet, world) {
         if (IsReady(sheet) && sheet->update->cut.meshChanged) {
             frames += sheet->update->placing.sites.count - sheet->frames.count;
             events += sheet->update->next.pieces.count;
@@ -198,12 +196,12 @@ static void CommitUpdate(kiriWorld* world, kiriSheetData* sheet)
         bool isGone = kiriSheet_IsGone(sheet, i);
         sheet->frames.data[i].id = isGone ? 0 : kiriPool_Add(&world->frameIds, &world->memory, sheet, i);
     }
-    for (int32_t piece = 0; piece < sheet->layout.pieces.count; ++piece) {
-        if (sheet->layout.pieces.data[piece].cameOff && !sheet->layout.pieces.data[piece].isGone) {
+    KIRI_EACH(const kiriPiece, each, sheet->layout.pieces) {
+        if (each->cameOff && !each->isGone) {
             kiriEvent* event = kiriWorld_AddEvent(world, KIRI_EVENT_PIECE_OFF, sheet);
-            event->frame = sheet->frames.data[sheet->layout.pieces.data[piece].frame].id;
-            event->crumb = sheet->layout.pieces.data[piece].area < sheet->settings.crumbArea;
-            event->area = (float)sheet->layout.pieces.data[piece].area;
+            event->frame = sheet->frames.data[each->frame].id;
+            event->crumb = each->area < sheet->settings.crumbArea;
+            event->area = (float)each->area;
         }
     }
     for (int32_t i = oldFrames; i < sheet->frames.count; ++i) {
@@ -216,8 +214,7 @@ static void CommitUpdate(kiriWorld* world, kiriSheetData* sheet)
 static void FinishCuts(kiriWorld* world, kiriSheetData* sheet)
 {
     int32_t kept = 0;
-    for (int32_t i = 0; i < sheet->cuts.count; ++i) {
-        kiriCutData* cut = sheet->cuts.data[i];
+    KIRI_EACH_OF(kiriCutData, cut, sheet->cuts) {
         if (cut->ended && cut->waiting == 0) {
             kiriWorld_AddEvent(world, KIRI_EVENT_CUT_FINISHED, sheet)->cut = cut->id;
             kiriWorld_RemoveCut(world, cut);
@@ -235,8 +232,8 @@ static void FinishCuts(kiriWorld* world, kiriSheetData* sheet)
 /* Commits the changes of this tick to meshes. */
 static void CommitMeshes(kiriWorld* world)
 {
-    for (int32_t k = 0; k < world->atWork.count; ++k) {
-        kiriSheetData* sheet = world->sheets.data[world->atWork.data[k]];
+    KIRI_EACH(const int32_t, at, world->atWork) {
+        kiriSheetData* sheet = world->sheets.data[*at];
         int32_t known = sheet->seen.surface.vertexCount;
         if (sheet->mesh.vertices.count > known) {
             kiriPast_Grow(&sheet->past, world->begun, &sheet->pastRoom, &sheet->mesh, known);
@@ -259,8 +256,7 @@ static void CommitAll(kiriWorld* world)
 {
     EnterStage(world, KIRI_STAGE_CONSTANTS); /* its items have paid for it */
     CommitMeshes(world);
-    for (int32_t k = 0; k < world->active.count; ++k) {
-        kiriSheetData* sheet = kiriWorld_Active(world, k);
+    KIRI_EACH_ACTIVE(sheet, world) {
         if (IsReady(sheet)) {
             for (int32_t i = 0; i < sheet->update->cut.count; ++i) {
                 world->profile.cutSegments += !sheet->queue.data[i].jump;
@@ -279,9 +275,9 @@ static void CommitAll(kiriWorld* world)
 /* Wakes stirred sheets, all of which are active. */
 static void WakeStirred(kiriWorld* world)
 {
-    for (int32_t k = 0; k < world->active.count; ++k) {
-        if (kiriWorld_Active(world, k)->rest.isStirred) {
-            kiriSheet_WakeStirred(kiriWorld_Active(world, k));
+    KIRI_EACH_ACTIVE(sheet, world) {
+        if (sheet->rest.isStirred) {
+            kiriSheet_WakeStirred(sheet);
         }
     }
 }
@@ -290,8 +286,7 @@ static void WakeStirred(kiriWorld* world)
 static bool ReportDeferred(kiriWorld* world)
 {
     bool any = false;
-    for (int32_t k = 0; k < world->active.count; ++k) {
-        const kiriSheetData* sheet = kiriWorld_Active(world, k);
+    KIRI_EACH_ACTIVE(sheet, world) {
         if (sheet->queue.count > 0) {
             kiriEvent* event = kiriWorld_AddEvent(world, KIRI_EVENT_DEFERRED, sheet);
             event->stage = sheet->update->stage == KIRI_NONE ? KIRI_STAGE_CUT : sheet->update->stage;
@@ -347,9 +342,9 @@ static bool IsOverloaded(const kiriPinData* pin)
 /* Removes broken pins from the last on, because the last pin takes the index of a removed one. */
 static void BreakPins(kiriWorld* world, kiriSheetData* sheet)
 {
-    for (int32_t i = 0; i < sheet->pins.count; ++i) {
-        if (IsOverloaded(&sheet->pins.data[i])) {
-            kiriWorld_AddEvent(world, KIRI_EVENT_PIN_BROKE, sheet)->pin = sheet->pins.data[i].id;
+    KIRI_EACH(const kiriPinData, pin, sheet->pins) {
+        if (IsOverloaded(pin)) {
+            kiriWorld_AddEvent(world, KIRI_EVENT_PIN_BROKE, sheet)->pin = pin->id;
         }
     }
     for (int32_t i = sheet->pins.count - 1; i >= 0; --i) {
@@ -363,9 +358,9 @@ static void SkinAll(kiriWorld* world, double dt)
 {
     EnterStage(world, KIRI_STAGE_SKIN);
     kiriSkinStep_Run(world, dt);
-    for (int32_t k = 0; k < world->active.count; ++k) {
-        kiriMotion_EndTurns(kiriWorld_Active(world, k));
-        const kiriFades* fades = &kiriWorld_Active(world, k)->seen.fades;
+    KIRI_EACH_ACTIVE(sheet, world) {
+        kiriMotion_EndTurns(sheet);
+        const kiriFades* fades = &sheet->seen.fades;
         world->profile.largestJump = kiriMax(fades->jump, world->profile.largestJump);
         world->profile.largestFade = kiriMax(fades->move, world->profile.largestFade);
     }
@@ -395,10 +390,10 @@ static void EndUnmoved(kiriWorld* world)
 {
     world->pairs.touches.count = 0; /* they hold pointers to sheets */
     CommitMeshes(world);
-    for (int32_t i = 0; i < world->sheets.count; ++i) {
-        kiriView_ShowNewborn(world->sheets.data[i]);
-        kiriPipeline_Wait(world->sheets.data[i]);
-        kiriSheet_LetRest(world->sheets.data[i]);
+    KIRI_EACH_OF(kiriSheetData, sheet, world->sheets) {
+        kiriView_ShowNewborn(sheet);
+        kiriPipeline_Wait(sheet);
+        kiriSheet_LetRest(sheet);
     }
     world->stage = KIRI_NONE;
 }
@@ -417,14 +412,14 @@ static kiriResult MoveAll(kiriWorld* world, double dt, int32_t substeps, kiriQuo
     (void)withRoom;
     kiriResult result = SolveAll(world, dt, substeps, &quotas->of[KIRI_QUOTA_ITERATIONS]);
     kiriObstacles_End(world, dt);
-    for (int32_t k = 0; k < world->active.count; ++k) {
-        BreakPins(world, kiriWorld_Active(world, k));
+    KIRI_EACH_ACTIVE(sheet, world) {
+        BreakPins(world, sheet);
     }
     SkinAll(world, dt);
     samples->left += aside;
-    for (int32_t k = 0; k < world->active.count; ++k) { /* pieces that wait to be detached */
-        kiriParts_Pay(world, kiriWorld_Active(world, k), samples);
-        result = result == KIRI_OK && kiriParts_AreDue(kiriWorld_Active(world, k)) ? KIRI_PENDING : result;
+    KIRI_EACH_ACTIVE(sheet, world) { /* pieces that wait to be detached */
+        kiriParts_Pay(world, sheet, samples);
+        result = result == KIRI_OK && kiriParts_AreDue(sheet) ? KIRI_PENDING : result;
     }
     world->profile.trianglesSplit = (int32_t)quotas->of[KIRI_QUOTA_TRIANGLES].used;
     world->profile.cellsSettled = (int32_t)quotas->of[KIRI_QUOTA_CELLS].used;
@@ -492,13 +487,13 @@ kiriResult kiriWorld_FinishUpdates(kiriWorld* world)
         world->profile = profile;
         return result;
     }
-    for (int32_t k = 0; k < world->active.count; ++k) {
-        StirTouched(kiriWorld_Active(world, k));
+    KIRI_EACH_ACTIVE(sheet, world) {
+        StirTouched(sheet);
     }
     CommitAll(world);
     WakeStirred(world);
-    for (int32_t k = 0; k < world->active.count; ++k) {
-        world->moves.of.data[world->active.data[k]].progress = KIRI_DONE;
+    KIRI_EACH(const int32_t, at, world->active) {
+        world->moves.of.data[*at].progress = KIRI_DONE;
     }
     SkinAll(world, 0.0);
     EnterStage(world, KIRI_NONE);

@@ -39,10 +39,12 @@ kiriResult kiriWorld_AddSheet(kiriWorld* world, const kiriSheetDef* def, kiriShe
 {
     kiriSheetData* sheet = kiriSheet_New(&world->memory);
     kiriResult result = sheet != NULL ? kiriBuild_FromDef(sheet, def, fault) : KIRI_ERROR_MEMORY;
-    for (int32_t i = 0; result == KIRI_OK && i < sheet->frames.count; ++i) {
-        if (!kiriFrame_FitsFloats(&sheet->frames.data[i])) {
-            KIRI_SAY(fault, "floats cannot hold where it is, or how it moves");
-            result = KIRI_ERROR_ARGUMENT;
+    if (sheet != NULL) {
+        KIRI_EACH_WHILE(result == KIRI_OK, const kiriFrameData, frame, sheet->frames) {
+            if (!kiriFrame_FitsFloats(frame)) {
+                KIRI_SAY(fault, "floats cannot hold where it is, or how it moves");
+                result = KIRI_ERROR_ARGUMENT;
+            }
         }
     }
     if (result == KIRI_OK) {
@@ -68,14 +70,14 @@ kiriResult kiriWorld_AddSheet(kiriWorld* world, const kiriSheetDef* def, kiriShe
 
 void kiriWorld_RemoveSheet(kiriWorld* world, kiriSheetData* sheet)
 {
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
-        kiriPool_Remove(&world->frameIds, sheet->frames.data[i].id);
+    KIRI_EACH(const kiriFrameData, frame, sheet->frames) {
+        kiriPool_Remove(&world->frameIds, frame->id);
     }
-    for (int32_t i = 0; i < sheet->pins.count; ++i) {
-        kiriPool_Remove(&world->pinIds, sheet->pins.data[i].id);
+    KIRI_EACH(const kiriPinData, pin, sheet->pins) {
+        kiriPool_Remove(&world->pinIds, pin->id);
     }
-    for (int32_t i = 0; i < sheet->cuts.count; ++i) {
-        kiriWorld_RemoveCut(world, sheet->cuts.data[i]);
+    KIRI_EACH_OF(kiriCutData, cut, sheet->cuts) {
+        kiriWorld_RemoveCut(world, cut);
     }
     kiriPool_Remove(&world->sheetIds, sheet->id);
     int32_t kept = 0;

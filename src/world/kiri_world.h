@@ -177,6 +177,11 @@ static inline kiriSheetData* kiriWorld_Active(const kiriWorld* world, int32_t k)
     return world->sheets.data[world->active.data[k]];
 }
 
+/* Loops over the active sheets. The body may not break. */
+#define KIRI_EACH_ACTIVE(sheet, world)                                                                                 \
+    for (int32_t sheet##At = 0; sheet##At < (world)->active.count; ++sheet##At)                                        \
+        for (kiriSheetData* sheet = kiriWorld_Active(world, sheet##At); sheet != NULL; sheet = NULL)
+
 /* Makes a sheet from a checked def, and gives the sheet and its frames their ids. On failure the fault has the reason,
    or "" if the result says enough. */
 kiriResult kiriWorld_AddSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* id, kiriFault* fault);
