@@ -23,7 +23,7 @@
 #   make accuracy compares with references from outside, and plots error against cost; CASE=torsion: that one only
 #   make contact  measures contact against laws and peers; CASE=laws: that group only
 #   make extremes runs what nobody should do to a sheet, and says what became of it
-#   make gallery  renders the pictures of samples/README.md, and the film that the README begins with
+#   make gallery  renders the pictures of samples/README.md; make web-film: the film that the README begins with
 #   make gallery-engines  pictures of the samples in other engines, from their tests
 #   make guide    renders the pictures of src/README.md
 #   make manual   compiles and runs the programs of the manual, and renders its pictures
@@ -242,10 +242,6 @@ contact: packages-contact
 
 # Scenes in samples/README.md; and the shape functions of one, as in figure 2 of the paper.
 GALLERY := bunny spiral kirigami patchwork vortex fallingguy rubber flat
-# The film film.png: a man is cut out of a sheet that moves, 15 pictures a second, in the time of the scene. It ends where
-# he swings to the front.
-FILM := --scene fallingguy --ticks 390 --every 4 --size 480x360
-
 # Films of the games; the first one plays itself.
 PLAY_FILM := --headless --size 320x240 --oversampling 4 --every 6
 CURTAIN_FILM := --game curtain --level 5 --demo --ticks 480
@@ -259,7 +255,6 @@ gallery: packages-gallery accuracy
 	    cp build/gallery/$$scene/contact_sheet.png samples/pictures/$$scene.png; done
 	$(RUN) --scene fallingguy --paper --weights all --size 800x600 --every 1000 --output build/gallery/weights
 	cp build/gallery/weights/contact_sheet.png samples/pictures/weights.png
-	$(RUN) $(FILM) --output build/gallery/film --film samples/pictures/film.png
 	$(PLAY) $(CURTAIN_FILM) $(PLAY_FILM) --film samples/pictures/curtain.png
 	$(PLAY) $(NET_FILM) $(PLAY_FILM) --film samples/pictures/net.png
 	$(BOX2D) --output build/gallery/box2d

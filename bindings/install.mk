@@ -32,6 +32,7 @@ install: lib
 	$(FILL) bindings/pkgconfig/kiri.pc.in > '$(INSTALL_LIBRARY)/pkgconfig/kiri.pc'
 	$(FILL) bindings/cmake/kiri-config.cmake.in > '$(INSTALL_LIBRARY)/cmake/kiri/kiri-config.cmake'
 	$(FILL) bindings/cmake/kiri-config-version.cmake.in > '$(INSTALL_LIBRARY)/cmake/kiri/kiri-config-version.cmake'
+	@[ -n '$(DESTDIR)' ] || [ "$$(id -u)" != 0 ] || ! command -v ldconfig > /dev/null || ldconfig
 
 # Folders that are empty then go too, but for those that others use.
 uninstall:

@@ -3,7 +3,7 @@
 #   make wasm                build/wasm/kiri.wasm
 #   make javascript          the binding's tests, under node
 #   make package-javascript  the npm package, and a test that installs it
-#   make web                 the page, static files in build/web; web-serve; web-test
+#   make web                 the page, static files in build/web; web-serve; web-test; web-film: the film of the README
 #   make babylon             a host in babylon.js, static files in build/babylon; babylon-serve; babylon-test
 
 WASM := build/wasm
@@ -97,7 +97,7 @@ $(WEB_TOOLS)/installed: samples/web/package.json
 	@npm install --prefix $(@D) --no-audit --no-fund --silent
 	@touch $@
 
-$(WEB)/main.js: $(wildcard samples/web/*) $(WASM_PACKAGE)/kiri.wasm $(WEB_TOOLS)/installed
+$(WEB)/main.js: $(filter-out %.md %/film.mjs,$(wildcard samples/web/*)) $(WASM_PACKAGE)/kiri.wasm $(WEB_TOOLS)/installed
 	@mkdir -p $(@D)
 	@cp samples/web/*.html samples/web/*.css $(WASM_PACKAGE)/kiri.wasm $(@D)
 	@NODE_PATH=$(WEB_TOOLS)/node_modules $(WEB_TOOLS)/node_modules/.bin/esbuild samples/web/main.js --bundle --minify \
@@ -117,6 +117,20 @@ web-test: web $(BUILD)/tests/replay_hash
 	        node tests/test_$$test.mjs $(WEB) $(WEB_TOOLS)/node_modules/playwright-core/index.js $(WEB)_test $(BROWSER) || exit 1; done; \
 	    test "$$($(BUILD)/tests/replay_hash $(WEB)_test/recording)" = "$$(cat $(WEB)_test/hash)" && \
 	    echo "web: C ends in the same state"; fi
+
+# The moving picture of the README.
+NEEDS_web-film := $(NEEDS_web) chromium ffmpeg
+FILM_PICTURES := build/web_film
+
+.PHONY: web-film
+
+web-film: packages-web-film
+	@$(MAKE) --no-print-directory $(WEB)/main.js
+	@rm -rf $(FILM_PICTURES)
+	@node samples/web/film.mjs $(WEB) $(WEB_TOOLS)/node_modules/playwright-core/index.js $(FILM_PICTURES) $(BROWSER)
+	@ffmpeg -v error -y -framerate 15 -i $(FILM_PICTURES)/film_%03d.png -c:v libwebp_anim -quality 55 -compression_level 6 -loop 0 \
+	    samples/pictures/film.webp
+	@echo "  samples/pictures/film.webp: $$(wc -c < samples/pictures/film.webp) bytes"
 
 # ---- The host in babylon.js: static files in build/babylon ----
 
