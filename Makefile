@@ -171,8 +171,14 @@ play: packages-play
 	@$(MAKE) --no-print-directory $(PLAY)
 	$(PLAY) $(if $(GAME),--game $(GAME)) $(ARGS)
 
+# Each program that passes leaves a file in $(BUILD)/passed; the end says how many, and what was skipped and why.
 test: packages-test
-	@$(MAKE) --no-print-directory -k all-tests
+	@rm -rf $(BUILD)/passed && mkdir -p $(BUILD)/passed
+	@{ $(MAKE) --no-print-directory -k all-tests; echo $$? > $(BUILD)/status; } 2>&1 | tee $(BUILD)/test.log; \
+	grep -E 'not tested|no .* made$$' $(BUILD)/test.log | sed 's/^/skipped: /'; \
+	grep ' FAILED$$' $(BUILD)/test.log | sed 's/^== /failed: /; s/ FAILED$$//'; \
+	echo "$$(ls $(BUILD)/passed | wc -l) of $(words $(ALL_RUNS)) programs passed, $$(cat $(BUILD)/passed/* | awk '{ n += $$1 } END { print n + 0 }') tests ($(config))"; \
+	exit $$(cat $(BUILD)/status)
 
 fuzz: packages-fuzz
 	@$(MAKE) --no-print-directory config=fuzz CC=clang CXX=clang++ build/fuzz/tests/fuzz_$(FUZZ)
@@ -313,9 +319,13 @@ LONG_RUNS := $(filter $(TEST_RUNS),$(addprefix run-test_,samples refusals update
 
 run-tests: $(TEST_RUNS)
 
+# What a run that passed prints: its name; in `make test` which of all it is; the last line of its log.
+ALL_RUNS = $(TEST_RUNS) $(FUZZ_RUNS) run-sweep_saves
+PASSED = echo "== $<"; if [ -d $(BUILD)/passed ]; then sed -n 's/^\[  PASSED  \] \([0-9]*\).*/\1/p' $<.log > $(BUILD)/passed/$(<F); \
+    echo "$$(ls $(BUILD)/passed | wc -l) of $(words $(ALL_RUNS)): $$(tail -n 1 $<.log)"; else tail -n 1 $<.log; fi
+
 $(TEST_RUNS): run-%: $(BUILD)/tests/%
-	@if $< > $<.log 2>&1; then echo "== $<"; grep '^\[  PASSED' $<.log; \
-	else echo "== $< FAILED"; cat $<.log; exit 1; fi
+	@if $< > $<.log 2>&1; then $(PASSED); else echo "== $< FAILED"; cat $<.log; exit 1; fi
 
 # Input that fuzzers have found, and more at random.
 FUZZ_RUNS := $(patsubst %,run-fuzz_%,$(FUZZERS))
@@ -323,14 +333,14 @@ FUZZ_RUNS := $(patsubst %,run-fuzz_%,$(FUZZERS))
 .PHONY: $(FUZZ_RUNS)
 
 $(FUZZ_RUNS): run-fuzz_%: $(BUILD)/tests/fuzz_%
-	@if $< tests/data/fuzz/$* > $<.log 2>&1; then echo "== $<"; tail -n 1 $<.log; \
+	@if $< tests/data/fuzz/$* > $<.log 2>&1; then $(PASSED); \
 	else echo "== $< FAILED"; tail -n 20 $<.log; exit 1; fi
 
 # Of two worlds each 30th save.
 .PHONY: run-sweep_saves
 
 run-sweep_saves: $(BUILD)/tests/sweep_saves
-	@if $< 34 36 1 30 > $<.log 2>&1; then echo "== $<"; tail -n 1 $<.log; \
+	@if $< 34 36 1 30 > $<.log 2>&1; then $(PASSED); \
 	else echo "== $< FAILED"; tail -n 20 $<.log; exit 1; fi
 
 all-tests: $(LONG_RUNS) $(BUILD_CHECK) $(if $(filter release,$(config)),$(LANGUAGE_CHECKS)) $(TEST_RUNS) $(FUZZ_RUNS) run-sweep_saves \
