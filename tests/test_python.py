@@ -6,11 +6,13 @@ import gc
 import json
 import os
 import pathlib
+import re
 import struct
 import subprocess
 import sys
 import tempfile
 import threading
+import typing
 
 repository = pathlib.Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(repository / "bindings/python"))
@@ -526,6 +528,39 @@ def test_lengths_are_checked():
     raises(ValueError, sheet.frames()[0].hold, (0, 0, 0), (1, 0, 0, 0, 1, 0, 0, 0))
     raises(ValueError, sheet.slice, [(0, 0, 0)] * 3)
     raises(ValueError, sheet.create_pin, (0, 0), (1, 2))
+
+
+def test_python_finds_mistakes():
+    """Texts are no numbers, names of fields are suggested, records go where dicts do, and enums have names."""
+    world = kiri.World()
+    sheet = world.create_rectangle(1, 1, 8, 8, material=kiri.material(kiri.MaterialPreset.FOIL), model=kiri.Model.AFFINE)
+    for wrong in ("ab", [("a", 0.5)], [b"ab"], ["0.1", "0.2"]):
+        raises(TypeError, sheet.begin_cut, wrong)
+    assert "did you mean frameCount?" in str(raises(TypeError, world.create_rectangle, 1, 1, 8, 8, framecount=9))
+    assert abs(sheet.settings().material.thickness - 16e-6) < 1e-9
+    cut = sheet.begin_cut((-0.1, 0.5))
+    cut.extend([(1.1, 0.5)])
+    cut.end()
+    world.tick(1 / 60)
+    types = {event.type for event in world.events()}
+    assert kiri.EventType.PIECE_OFF in types and all(isinstance(one, kiri.EventType) for one in types)
+    assert kiri.KIRI_EVENT_PIECE_OFF is kiri.EventType.PIECE_OFF == 2
+    assert kiri.DrawFlag.EDGES | kiri.DrawFlag.BORDERS == kiri.KIRI_DRAW_EDGES + kiri.KIRI_DRAW_BORDERS
+
+
+def test_annotations():
+    """Each public function has a docstring without pointers; generated ones have types that can be read."""
+    for of in (kiri.World, kiri.Sheet, kiri.Cut, kiri.Frame, kiri.Pin, kiri.Obstacle, kiri.Blade):
+        for name, function in vars(of).items():
+            if name[0] != "_" and callable(function):
+                assert function.__doc__, f"{of.__name__}.{name} has no docstring"
+        for name, function in vars(of.__mro__[-2] if of is kiri.World else of.__mro__[2]).items():
+            if name[0] != "_" and callable(function) and function.__module__ == "kiri._methods":
+                hints = typing.get_type_hints(function, {**vars(kiri._methods), "kiri": kiri})
+                assert "return" in hints and len(hints) > function.__code__.co_argcount - 1, f"{of.__name__}.{name}"
+                assert not re.search(r"[*]\w|->|[Nn]ull\b", function.__doc__), f"{of.__name__}.{name}: {function.__doc__}"
+    assert (pathlib.Path(kiri.__file__).parent / "py.typed").exists()
+    assert not {"Record", "Numbers", "enum", "annotations"} & set(vars(kiri))
 
 
 def test_lines_and_loads():

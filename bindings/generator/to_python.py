@@ -20,12 +20,60 @@ BY_HAND = {"kiriCreateWorld": "World", "kiriDestroyWorld": "close", "kiriWorld_R
            "kiriSheet_CopySources": "copy_sources", "kiriSheet_CopySourceWeights": "copy_source_weights",
            "kiriSheet_CopyPrevious": "copy_previous",
            "kiriFillRectangle": "fill_rectangle", "kiriFitBudget": "fit_budget", "kiriWorld_GetLastError": "last_error"}
+# What the header says of pointers and of C's ways to return, in Python's words; None: no docstring of another function.
+DOCS = {"kiriWorld_GetSheets": "Returns the sheets of the world, in the order of their making.",
+        "kiriSheet_GetFrames": "Returns the frames of the sheet.", "kiriSheet_GetPins": "Returns the pins of the sheet, of all types.",
+        "kiriWorld_GetEvents": "Returns the events since the start of the last tick.",
+        "kiriWorld_SetGravity": "Sets gravity (m/s^2) from the next tick on. All pieces wake.",
+        "kiriWorld_SetBudget": "Sets the budget from the next tick on: fields of kiriBudget by name.",
+        "kiriSheet_IsAwake": "Returns False where all pieces sleep; piece() tells which.", "kiriSheet_Wake": "Wakes all pieces.",
+        "kiriSheet_GetPieceFrames": "Returns the frames of a piece.",
+        "kiriFrame_GetPiece": "Returns the current index of the piece with this frame.",
+        "kiriDestroySheet": "Destroys the sheet with its cuts, frames and pins.", "kiriDestroyPin": "Destroys a pin of any type.",
+        "kiriDestroyObstacle": "Destroys the obstacle. Pieces that rested on it wake.",
+        "kiriGetVersion": "Returns the version of the library, as KIRI_VERSION.",
+        "kiriGetResultName": "Returns the name of a result, such as 'KIRI_OK'.",
+        "kiriGetResultText": "Returns a line with the meaning of a result."}
 CLASSES = ("World", "Sheet", "Cut", "Frame", "Pin", "Obstacle", "Blade")
 
 
 def name_of(function):
     """As C's, but a getter is named by what it gets."""
     return BY_HAND.get(function["name"]) or naming.snake(re.sub(r"^Get(?=[A-Z])", "", function["method"]))
+
+
+def doc_of(function):
+    """As a docstring says it: what C writes behind a pointer is returned, null is None, ids are objects."""
+    if function["name"] in DOCS:
+        return DOCS[function["name"]]
+    if function["name"].startswith("kiriDefault"):
+        return f"Returns the defaults of {function['parameters'][0]['type']}."
+    doc = re.sub(r"^Gets? ", "Returns ", function["doc"])
+    doc = re.sub(r" ?On failure \*\w+ is 0\.", "", doc)
+    doc = re.sub(r"\*count is their number", "The result is their number", doc)
+    doc = re.sub(r"\*(\w+) is 0", lambda found: "the result is None", doc)
+    doc = re.sub(r"\b[Nn]ull\b", "None", doc)
+    return doc[:1].upper() + doc[1:]
+
+
+def hint_of(kind, ids, width=1):
+    """The type of a number, an id or an array, as annotations have it."""
+    if kind in ids:
+        return f"kiri.{kind[4:]}"
+    return "float" if kind in ("float", "double") else "bool" if kind == "bool" else "int"
+
+
+def enums(description):
+    text = '"""Made from kiri.h by `make bindings`: the enums of C, whose values are ints, too."""\n\nimport enum as _enum\n'
+    for one in description["enums"]:
+        base = "IntFlag" if naming.is_flags(one) else "IntEnum"
+        text += f"\n\nclass {naming.bare(one['name'])}(_enum.{base}):\n"
+        text += naming.comment(f'"""{one["doc"]}"""', "    ", 112) if one["doc"] else ""
+        text += "".join(f"    {naming.constant(one, value)} = {value['value']}\n" for value in one["values"])
+    text += "\n\n"
+    text += "".join(f"{value['name']} = {naming.bare(one['name'])}.{naming.constant(one, value)}\n"
+                    for one in description["enums"] for value in one["values"])
+    return text
 
 
 def declarations(description):
@@ -38,6 +86,8 @@ def declarations(description):
                                     if field["form"] == "pointer" and field.get("length")} for struct in structs},
         "IDS": {struct["name"]: {field["name"]: field["type"][4:] for field in struct["fields"] if field["type"] in ids}
                 for struct in structs},
+        "ENUMS": {struct["name"]: {field["name"]: field["enum"][4:] for field in struct["fields"] if "enum" in field}
+                  for struct in structs},
         "CHANGES": {function["name"]: function["changes"] for function in functions},
         "METHODS": {function["name"]: (function["class"], name_of(function)) for function in description["functions"]},
     }
@@ -101,13 +151,14 @@ class Method:
             (self._in if parameter["direction"] == "in" else self._out.append)(parameter)
         body = self._before + self._body()
         first = ["self"] if function["class"] else []
-        names = ["*names"] if self._is_copied() else []
-        head = f"def {name_of(function)}({', '.join(first + self._given + names + self._keywords)}):"
-        doc = naming.comment(function["doc"], "", 108).rstrip("\n").replace("\\", "\\\\").replace('"', "'")
+        names = ["*names: str"] if self._is_copied() else []
+        returned = self._returned()
+        head = f"def {name_of(function)}({', '.join(first + self._given + names + self._keywords)}) -> {returned}:"
+        doc = naming.comment(doc_of(function), "", 108).rstrip("\n").replace("\\", "\\\\").replace('"', "'")
         made = [f'"""{doc}"""' if "\n" not in doc else f'"""{doc}\n"""', *body]
         text = self._indented(head, made)
         if self._is_copied():
-            viewed = f"def {name_of(function)}_view({', '.join(first + self._given + self._keywords)}):"
+            viewed = f"def {name_of(function)}_view({', '.join(first + self._given + self._keywords)}) -> core.Loan:"
             kind = self._out[0]["type"]
             text += "\n" + self._indented(viewed, [
                 '"""The same without copies, for a `with` statement, within which the world does not change: see Loan."""',
@@ -135,7 +186,7 @@ class Method:
         default = DEFAULTS.get(f"{self._function['name']}.{parameter['name']}", DEFAULTS.get(parameter["name"]))
         if parameter.get("nullable"):
             default = "None"
-        given = f"{name}={default}" if default else name
+        given = f"{name}: {self._hint(parameter)}" + (f" = {default}" if default else "")
         (self._keywords if default and self._is_copied() else self._given).append(given)
         if form == "number" and parameter["type"] not in self._ids:
             self._passed.append(name)
@@ -153,12 +204,44 @@ class Method:
             raise SyntaxError(f"{self._function['name']}: {form}")
 
     def _structure(self, parameter):
-        self._keywords.append("**fields")
+        self._keywords.append("**fields: Any")
         self._before += ["kept = []  # until C has read it",
                          f"structure = core.structure({self._world}, '{parameter['type']}', fields, kept)"]
         self._passed.append("structure")
 
+    def _hint(self, parameter):
+        kind = hint_of(parameter["type"], self._ids)
+        if parameter["form"] == "array":
+            numbers = "Iterable" if parameter["type"] in self._ids else "Numbers"
+            kind = f"{numbers}[{kind}]" if numbers == "Iterable" else numbers
+        return f"Optional[{kind}]" if parameter.get("nullable") else kind
+
     # ---- Out
+
+    def _returned(self):
+        """The annotation of what the function returns."""
+        function, out = self._function, self._out
+        if not function["class"]:
+            return "str" if function["returns"] == "const char*" else "Record" if out else "int"
+        if self._is_copied():
+            return "Record"
+        if not out:
+            return "int"
+        kind = hint_of(out[0]["type"], self._ids)
+        if out[0]["form"] == "view":
+            if out[0]["type"] in self._structs:
+                return "List[Record]"
+            return f"List[{kind}]" if out[0]["type"] in self._ids else "Any"
+        if any(parameter.get("length") == "capacity" for parameter in out):
+            return f"List[{kind}]"
+        if out[0]["form"] == "array":
+            made = ["Tuple[float, ...]" if hint_of(p["type"], ()) == "float" else "Tuple[int, ...]" for p in out]
+            return made[0] if len(made) == 1 else f"Tuple[{', '.join(made)}]"
+        if out[0]["form"] == "struct":
+            return "Record"
+        if out[0]["form"] == "id":
+            return f"Optional[{kind}]" if naming.may_give_none(function, out[0]) else kind
+        return "bool" if out[0].get("flag") else kind
 
     def _is_copied(self):
         return any(parameter["form"] == "struct" and parameter["direction"] == "out"
@@ -226,7 +309,13 @@ class Method:
 
 def methods(description):
     text = '"""Made from kiri.h by `make bindings`: the functions of C as methods of what they are about."""\n\n'
-    text += "from . import _core as core\n"
+    text += "from __future__ import annotations\n\n"
+    text += "from types import SimpleNamespace as Record\n"
+    text += "from typing import TYPE_CHECKING, Any, Iterable, List, Optional, Tuple\n\n"
+    text += "from . import _core as core\nfrom ._core import Numbers\n\n"
+    text += "if TYPE_CHECKING:\n    import kiri\n"
+    plain = [name_of(one) for one in description["functions"] if not one["class"] and one["name"] not in BY_HAND]
+    text += f"\n__all__ = {pprint.pformat(plain, width=116, compact=True)}\n"
     for of in (None, *CLASSES):
         made = [Method(description, function).text() for function in description["functions"]
                 if function["class"] == of and function["name"] not in BY_HAND]
@@ -241,4 +330,4 @@ def methods(description):
 
 def files(description):
     return {"bindings/python/kiri/_declarations.py": declarations(description),
-            "bindings/python/kiri/_methods.py": methods(description)}
+            "bindings/python/kiri/_enums.py": enums(description), "bindings/python/kiri/_methods.py": methods(description)}

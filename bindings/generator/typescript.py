@@ -5,7 +5,8 @@ import textwrap
 
 NUMBERS = "ArrayLike<number>"
 
-HEAD = """// Made from include/kiri/kiri.h by bindings/generator. Do not edit.
+HEAD = """/// <reference lib="esnext.disposable" />
+// Made from include/kiri/kiri.h by bindings/generator. Do not edit.
 
 /** Loads kiri.wasm, once, before anything else here is used. source: its URL, bytes or module; else it lies beside kiri.js. */
 export function load(source?: string | URL | BufferSource | Response | WebAssembly.Module): Promise<void>;
@@ -234,7 +235,8 @@ def declarations(maker):
             lines += ["/** A world, empty at first. Destroy it when it is done with: its memory is not JavaScript's. */",
                       "export class World {", "    /** def: what differs from defaultWorldDef(). */",
                       "    constructor(def?: WorldDefGiven);", "    readonly isAlive: boolean;",
-                      "    /** Frees the world and all that is in it; once is enough. */", "    destroy(): void;"]
+                      "    /** Frees the world and all that is in it; once is enough. */", "    destroy(): void;",
+                      "    /** For `using world = new World()`. */", "    [Symbol.dispose](): void;"]
         else:
             lines += [f"export class {name} {{", "    readonly world: World;",
                       "    /** Two that are the same have the same id. */", "    readonly id: number;"]

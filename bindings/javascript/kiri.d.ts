@@ -1,3 +1,4 @@
+/// <reference lib="esnext.disposable" />
 // Made from include/kiri/kiri.h by bindings/generator. Do not edit.
 
 /** Loads kiri.wasm, once, before anything else here is used. source: its URL, bytes or module; else it lies beside kiri.js. */
@@ -1132,6 +1133,8 @@ export class World {
     readonly isAlive: boolean;
     /** Frees the world and all that is in it; once is enough. */
     destroy(): void;
+    /** For `using world = new World()`. */
+    [Symbol.dispose](): void;
     /** Advances by one fixed step of dt seconds (1e-6 to 10), in `substeps` equal parts (1 to 64): takes the pending
      *  cut points, then moves every sheet. KIRI_PENDING: the budget is spent; events name the cuts that still have
      *  work. KIRI_ERROR_MEMORY: cuts and pieces that leave go on in the next tick. Nothing moved if memory for contacts

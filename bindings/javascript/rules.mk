@@ -169,4 +169,8 @@ package-javascript: packages-package-javascript
 	@rm -rf $(WASM)/clean && mkdir $(WASM)/clean && cp tests/first_cut.mjs $(WASM)/clean
 	@cd $(WASM)/clean && npm init -y > /dev/null 2>&1 && npm install --no-audit --no-fund --silent ../kiri-$(VERSION).tgz && \
 	    node first_cut.mjs | grep '^2 pieces'
+	@$(MAKE) --no-print-directory $(WEB_TOOLS)/installed
+	@{ sed 's/^const world = /using world = /' tests/first_cut.mjs; } > $(WASM)/clean/first_cut.mts
+	@cd $(WASM)/clean && ../../web_tools/node_modules/.bin/tsc --noEmit --strict --target es2022 --module nodenext first_cut.mts && \
+	    echo "  TypeScript takes the declarations, and using world = new World()"
 	@echo "  $(WASM)/kiri-$(VERSION).tgz: $$(wc -c < $(WASM)/kiri-$(VERSION).tgz) bytes"

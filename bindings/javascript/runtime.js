@@ -177,6 +177,12 @@ export class WorldBase {
     _clock = null;
     _record = null;
 
+    constructor() {
+        if (!wasm) {
+            throw new Error("kiri.wasm is not loaded: call `await load()` before anything else");
+        }
+    }
+
     /** Before kiriCreateWorld, with the def that it gets. */
     _begin(def, at) {
         this._number = worlds.indexOf(null, 1) < 0 ? worlds.length : worlds.indexOf(null, 1);

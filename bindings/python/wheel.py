@@ -22,6 +22,7 @@ def contents(library):
     name = f"kiri-{version()}.dist-info"
     tag = f"py3-none-{sysconfig.get_platform().replace('-', '_').replace('.', '_')}"
     files = {f"kiri/{path.name}": path.read_bytes() for path in sorted((here / "kiri").glob("*.py"))}
+    files["kiri/py.typed"] = (here / "kiri/py.typed").read_bytes()
     files["kiri/libkiri.so"] = pathlib.Path(library).read_bytes()
     files["kiri/include/kiri/kiri.h"] = (here.parents[1] / "include/kiri/kiri.h").read_bytes()
     files[f"{name}/METADATA"] = f"""Metadata-Version: 2.1

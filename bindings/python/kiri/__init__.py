@@ -23,18 +23,18 @@ The library is the argument of World, $KIRI_LIBRARY, the one beside this file, o
 """
 
 import types
+from typing import Any, Dict, Iterator, List, Optional, Tuple
 
 from . import _core, _methods
 from ._core import Handle, KiriError, Loan, ffi, load
 from ._core import KIRI_VERSION, KIRI_VERSION_MAJOR, KIRI_VERSION_MINOR, KIRI_VERSION_PATCH
-from ._declarations import CONSTANTS
+from ._enums import *  # EventType.PIECE_OFF, which is KIRI_EVENT_PIECE_OFF, and so on
 from ._methods import *
 
-globals().update(CONSTANTS)  # KIRI_EVENT_PIECE_OFF and so on
 __version__ = _core.VERSION
 
 
-def fill_rectangle(width, height, columns, rows):
+def fill_rectangle(width: float, height: float, columns: int, rows: int) -> Tuple[Any, Any]:
     """Rest positions and triangles of a rectangle, as create_sheet takes them."""
     positions = ffi.new("float[]", max(2 * (columns + 1) * (rows + 1), 1))
     triangles = ffi.new("int32_t[]", max(6 * columns * rows, 1))
@@ -42,7 +42,7 @@ def fill_rectangle(width, height, columns, rows):
     return positions, triangles
 
 
-def fit_budget(profile, microseconds, **budget):
+def fit_budget(profile: types.SimpleNamespace, microseconds: float, **budget: int) -> Dict[str, int]:
     """The budget (a dict, for set_budget) whose work would have taken so many microseconds a tick at the pace of a
     profile. `budget`: what it is where the profile has none of an item."""
     known, fitted = ffi.new("kiriProfile*", vars(profile)), ffi.new("kiriBudget*", budget)
@@ -53,7 +53,7 @@ def fit_budget(profile, microseconds, **budget):
 class World(_core.World, _methods.World):
     """Fields of kiriWorldDef by name, and an executor. `record` gets bytes: a file's write will do."""
 
-    def last_error(self):
+    def last_error(self) -> str:
         """The line of the last call that changed the world, or ''. Exceptions have it already."""
         self._turns.enter(False)
         try:
@@ -61,12 +61,12 @@ class World(_core.World, _methods.World):
         finally:
             self._turns.leave()
 
-    def note(self, note):
+    def note(self, note: bytes) -> None:
         """Bytes for the recording, which replays find."""
         note = bytes(memoryview(note))
         self.call("kiriWorld_Note", note, len(note))
 
-    def replay(self, recording):
+    def replay(self, recording: bytes) -> Iterator[Optional[bytes]]:
         """Makes the calls of a recording. Yields after each tick None, and each note as bytes. A call that goes otherwise
         than recorded, and a damaged recording, raise KiriError."""
         recording = bytes(memoryview(recording))
@@ -83,23 +83,23 @@ class World(_core.World, _methods.World):
             return bytes(data)
         return self.call(name, ffi.NULL, 0, size, take=take)
 
-    def save(self):
+    def save(self) -> Optional[bytes]:
         """The world as bytes: see load. None while a cut is being worked on: see finish_cuts."""
         return self._bytes("kiriWorld_Save")
 
-    def load(self, data):
+    def load(self, data: bytes) -> None:
         """The world becomes what was saved; objects go on naming what they named then. The bytes may come from anybody."""
         self.call("kiriWorld_Load", ffi.from_buffer(data), len(data))
 
-    def snapshot(self):
+    def snapshot(self) -> bytes:
         """All of the world, for rollback in this process: see restore."""
         return self._bytes("kiriWorld_Snapshot")
 
-    def restore(self, data):
+    def restore(self, data: bytes) -> None:
         """The world becomes what it was when the snapshot was made."""
         self.call("kiriWorld_Restore", ffi.from_buffer(data), len(data))
 
-    def detach_pieces(self, frames):
+    def detach_pieces(self, frames: "List[Frame]") -> "List[Optional[Sheet]]":
         """The pieces of these frames as sheets, None for those that wait: see Frame.detach_piece. In one pass;
         frames of one piece have the same."""
         ids = [self.id_of(frame, "Frame") for frame in frames]
@@ -107,7 +107,7 @@ class World(_core.World, _methods.World):
         self.call("kiriWorld_DetachPieces", ffi.new("kiriFrame[]", ids), len(ids), made)
         return [Sheet(self, made[i]) if made[i] else None for i in range(len(ids))]
 
-    def raycast(self, origin, direction, max_distance):
+    def raycast(self, origin: _core.Numbers, direction: _core.Numbers, max_distance: float) -> "Optional[Tuple[Sheet, types.SimpleNamespace]]":
         """The first sheet that a ray meets, and a kiriHit; or None."""
         sheet, hit = ffi.new("kiriSheet*"), ffi.new("kiriHit*")
         self.call("kiriWorld_Raycast", _core.vector(origin, 3), _core.vector(direction, 3), max_distance, sheet, hit)
@@ -125,7 +125,7 @@ class World(_core.World, _methods.World):
         self.call("kiriWorld_DebugDraw", _core.definition(self, "kiriDebugDraw", fields, kept))
         return drawn
 
-    def create_sheet(self, positions, triangles, **fields):
+    def create_sheet(self, positions: _core.Numbers, triangles: _core.Numbers, **fields: Any) -> "Sheet":
         """Rest positions and triangles, flat or in rows; other fields of kiriSheetDef by name, material and paper as
         dicts."""
         positions, vertex_count = _core.rows("float", positions, 2)
@@ -133,7 +133,7 @@ class World(_core.World, _methods.World):
         return Sheet(self, self.create("Sheet", restPositions=positions, vertexCount=vertex_count, indices=triangles,
                                        triangleCount=triangle_count, **fields))
 
-    def create_obstacle(self, type, **fields):
+    def create_obstacle(self, type: int, **fields: Any) -> "Obstacle":
         """KIRI_OBSTACLE_..., and other fields of kiriObstacleDef by name."""
         if "outline" in fields:
             fields["outline"], fields["outlineCount"] = _core.rows("float", fields["outline"], 2)
@@ -141,26 +141,27 @@ class World(_core.World, _methods.World):
 
 
 class Sheet(Handle, _methods.Sheet):
-    def set_settings(self, **fields):
+    def set_settings(self, **fields: Any) -> None:
         """Fields of kiriSheetSettings by name, material as a dict; others stay."""
         settings, kept = ffi.new("kiriSheetSettings*"), []
         self.world.call("kiriSheet_GetSettings", self.id, settings)
         _core.fill(self.world, settings, fields, kept)
         self.world.call("kiriSheet_SetSettings", self.id, settings)
 
-    def raycast(self, origin, direction, max_distance):
+    def raycast(self, origin: _core.Numbers, direction: _core.Numbers, max_distance: float) -> "Optional[types.SimpleNamespace]":
         """A kiriHit, or None."""
         hit = self.world.get("kiriSheet_Raycast", "kiriHit", self.id, _core.vector(origin, 3), _core.vector(direction, 3),
                              max_distance)
         return _core.record(hit) if hit.triangle >= 0 else None
 
-    def weights(self, rest_point):
+    def weights(self, rest_point: _core.Numbers) -> "Dict[Frame, float]":
         """The weight of each frame that counts at a rest point."""
         frames, weights = self.world.lists("kiriSheet_GetWeights", ("kiriFrame", "float"), self.id,
                                            _core.vector(rest_point, 2), null=(ffi.NULL,))
         return {Frame(self.world, frame): weight for frame, weight in zip(frames, weights)}
 
-    def create_pin(self, rest_point, target, **fields):
+    def create_pin(self, rest_point, target, **fields) -> "Pin":
+        """Holds a point of the material at a place of the world; other fields of kiriPinDef by name."""
         return Pin(self.world, self.world.create("Pin", self.id, restPoint=rest_point, target=target, **fields))
 
     def set_contacts(self, contacts):
@@ -214,11 +215,12 @@ class Cut(Handle, _methods.Cut):
 
 
 class Frame(Handle, _methods.Frame):
-    def hold(self, position, rotation):
+    def hold(self, position: _core.Numbers, rotation: _core.Numbers) -> None:
         """Rotation: 9 numbers, column after column."""
         self.world.call("kiriFrame_Hold", self.id, _core.vector(position, 3), _core.vector(rotation, 9))
 
-    def release(self):
+    def release(self) -> None:
+        """Lets a held frame go."""
         self.world.call("kiriFrame_Hold", self.id, ffi.NULL, ffi.NULL)
 
 

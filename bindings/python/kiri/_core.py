@@ -1,10 +1,12 @@
 """What all of the binding stands on: the library, values on their way to C and back, worlds and their turns."""
 
 import atexit
+import difflib
 import os
 import pathlib
 import threading
 import types
+import typing
 import weakref
 
 try:
@@ -17,7 +19,10 @@ try:
 except ImportError:
     numpy = None
 
-from ._declarations import ARRAYS, CDEF, CHANGES, CONSTANTS, IDS, METHODS, VERSION
+from . import _enums
+from ._declarations import ARRAYS, CDEF, CHANGES, CONSTANTS, ENUMS, IDS, METHODS, VERSION
+
+Numbers = typing.Any  # numbers, flat or in rows: a list, a tuple, an array of numpy, any buffer
 
 KIRI_VERSION_MAJOR, KIRI_VERSION_MINOR, KIRI_VERSION_PATCH = map(int, VERSION.split("."))
 KIRI_VERSION = 10000 * KIRI_VERSION_MAJOR + 100 * KIRI_VERSION_MINOR + KIRI_VERSION_PATCH
@@ -71,6 +76,8 @@ class KiriError(Exception):
 
 def _flatten(values):
     for value in values:
+        if isinstance(value, (str, bytes)):
+            raise TypeError(f"numbers are wanted, not {value!r}")
         if hasattr(value, "__len__"):
             yield from _flatten(value)
         else:
@@ -81,6 +88,8 @@ def array(item, values):
     """A C array of values, nested or flat. A copy, which nobody changes while C reads it."""
     if isinstance(values, ffi.CData):
         return values
+    if isinstance(values, str):
+        raise TypeError(f"numbers are wanted, not {values!r}")
     try:
         view = memoryview(values)
     except TypeError:
@@ -118,8 +127,11 @@ def fill(world, struct, values, kept):
     given = {}
     for name, value in values.items():
         if name not in fields:
-            raise TypeError(f"{kind.cname} has no field {name}")
+            near = difflib.get_close_matches(name, fields, 1, 0.5)
+            raise TypeError(f"{kind.cname} has no field {name}" + (f": did you mean {near[0]}?" if near else ""))
         field = fields[name].type
+        if isinstance(value, types.SimpleNamespace):  # a record, such as material() returns
+            value = vars(value)
         if isinstance(value, dict) and field.kind == "struct":
             fill(world, getattr(struct, name), value, kept)
             continue
@@ -173,8 +185,18 @@ def record(struct, world=None):
             value = world.thing(IDS[kind.cname][name], value)
         elif field.type.kind in ("pointer", "function"):
             continue
+        elif name in ENUMS.get(kind.cname, ()):
+            value = _enum_of(ENUMS[kind.cname][name], value)
         values[name] = value
     return types.SimpleNamespace(**values)
+
+
+def _enum_of(name, value):
+    """A member of an enum; a number where it has none, as an event of no stage has -1."""
+    try:
+        return getattr(_enums, name)(value)
+    except ValueError:
+        return value
 
 
 def check(result):

@@ -29,6 +29,13 @@ IDS = {'kiriEvent': {'sheet': 'Sheet', 'cut': 'Cut', 'frame': 'Frame', 'pin': 'P
  'kiriPinState': {'sheet': 'Sheet', 'obstacle': 'Obstacle'},
  'kiriDebugDraw': {'sheet': 'Sheet'}}
 
+ENUMS = {'kiriEvent': {'type': 'EventType', 'stage': 'Stage'},
+ 'kiriSheetDef': {'model': 'Model', 'skinning': 'Skinning', 'timeStepping': 'TimeStepping'},
+ 'kiriSheetSettings': {'skinning': 'Skinning', 'timeStepping': 'TimeStepping'},
+ 'kiriPinState': {'type': 'PinType'},
+ 'kiriObstacleDef': {'type': 'ObstacleType'},
+ 'kiriDebugDraw': {'flags': 'DrawFlag'}}
+
 CHANGES = {'kiriWorld_Tick': True,
  'kiriWorld_ShiftOrigin': True,
  'kiriWorld_SetGravity': True,

@@ -1,85 +1,91 @@
 """Made from kiri.h by `make bindings`: the functions of C as methods of what they are about."""
 
+from __future__ import annotations
+
+from types import SimpleNamespace as Record
+from typing import TYPE_CHECKING, Any, Iterable, List, Optional, Tuple
+
 from . import _core as core
+from ._core import Numbers
+
+if TYPE_CHECKING:
+    import kiri
+
+__all__ = ['version', 'result_name', 'result_text', 'default_world_def', 'stage_name', 'material', 'quality',
+ 'default_sheet_def', 'default_pin_def', 'default_obstacle_def', 'default_debug_draw']
 
 
-def version():
-    """Return the version of the library, as KIRI_VERSION; the name of a result, as 'KIRI_OK'; a line with its
-    meaning.
-    """
+def version() -> int:
+    """Returns the version of the library, as KIRI_VERSION."""
     return core.load().kiriGetVersion()
 
 
-def result_name(result):
-    """Return the version of the library, as KIRI_VERSION; the name of a result, as 'KIRI_OK'; a line with its
-    meaning.
-    """
+def result_name(result: int) -> str:
+    """Returns the name of a result, such as 'KIRI_OK'."""
     return core.ffi.string(core.load().kiriGetResultName(result)).decode()
 
 
-def result_text(result):
-    """Return the version of the library, as KIRI_VERSION; the name of a result, as 'KIRI_OK'; a line with its
-    meaning.
-    """
+def result_text(result: int) -> str:
+    """Returns a line with the meaning of a result."""
     return core.ffi.string(core.load().kiriGetResultText(result)).decode()
 
 
-def default_world_def():
-    """Fills the def with its defaults, and stamps it."""
+def default_world_def() -> Record:
+    """Returns the defaults of kiriWorldDef."""
     structure = core.ffi.new('kiriWorldDef*')
     core.load().kiriDefaultWorldDef(structure)
     return core.record(structure[0])
 
 
-def stage_name(stage):
+def stage_name(stage: int) -> str:
     """Returns the name of a stage; '' for another number."""
     return core.ffi.string(core.load().kiriGetStageName(stage)).decode()
 
 
-def material(preset):
-    """Gets the numbers of a preset, KIRI_MATERIAL_..."""
+def material(preset: int) -> Record:
+    """Returns the numbers of a preset, KIRI_MATERIAL_..."""
     structure = core.ffi.new('kiriMaterial*')
     core.check(core.load().kiriGetMaterial(preset, structure))
     return core.record(structure[0])
 
 
-def quality(preset):
-    """Gets the numbers of a preset, KIRI_QUALITY_..."""
+def quality(preset: int) -> Record:
+    """Returns the numbers of a preset, KIRI_QUALITY_..."""
     structure = core.ffi.new('kiriQuality*')
     core.check(core.load().kiriGetQuality(preset, structure))
     return core.record(structure[0])
 
 
-def default_sheet_def():
-    """Fills the def with its defaults, and stamps it. It has no mesh yet."""
+def default_sheet_def() -> Record:
+    """Returns the defaults of kiriSheetDef."""
     structure = core.ffi.new('kiriSheetDef*')
     core.load().kiriDefaultSheetDef(structure)
     return core.record(structure[0])
 
 
-def default_pin_def():
-    """Fills the def with its defaults, and stamps it."""
+def default_pin_def() -> Record:
+    """Returns the defaults of kiriPinDef."""
     structure = core.ffi.new('kiriPinDef*')
     core.load().kiriDefaultPinDef(structure)
     return core.record(structure[0])
 
 
-def default_obstacle_def():
-    """Fills the def with its defaults, and stamps it."""
+def default_obstacle_def() -> Record:
+    """Returns the defaults of kiriObstacleDef."""
     structure = core.ffi.new('kiriObstacleDef*')
     core.load().kiriDefaultObstacleDef(structure)
     return core.record(structure[0])
 
 
-def default_debug_draw():
-    """Fills it with its defaults, and stamps it."""
+def default_debug_draw() -> Record:
+    """Returns the defaults of kiriDebugDraw."""
     structure = core.ffi.new('kiriDebugDraw*')
     core.load().kiriDefaultDebugDraw(structure)
     return core.record(structure[0])
 
 
 class World:
-    def tick(self, dt, substeps=1):
+    def tick(self, dt: float, substeps: int = 1) -> int:
         """Advances by one fixed step of dt seconds (1e-6 to 10), in `substeps` equal parts (1 to 64): takes the
         pending cut points, then moves every sheet. KIRI_PENDING: the budget is spent; events name the cuts that
         still have work. KIRI_ERROR_MEMORY: cuts and pieces that leave go on in the next tick. Nothing moved if
@@ -89,64 +95,62 @@ class World:
         """
         return self.call('kiriWorld_Tick', dt, substeps)
 
-    def shift_origin(self, origin):
+    def shift_origin(self, origin: Numbers) -> int:
         """Moves the origin of the world to a point (m): subtracts it from all positions, as large worlds need because
         of floats. The motion goes on as before, to rounding; nothing wakes. The host shifts its own data. Returned
         arrays keep the old positions until the next tick. KIRI_ERROR_ARGUMENT: a position would not fit a float.
         """
         return self.call('kiriWorld_ShiftOrigin', core.vector(origin, 3))
 
-    def set_gravity(self, gravity):
-        """Set gravity (m/s^2; all pieces wake), and the budget, from the next tick on."""
+    def set_gravity(self, gravity: Numbers) -> int:
+        """Sets gravity (m/s^2) from the next tick on. All pieces wake."""
         return self.call('kiriWorld_SetGravity', core.vector(gravity, 3))
 
-    def set_budget(self, **fields):
-        """Set gravity (m/s^2; all pieces wake), and the budget, from the next tick on."""
+    def set_budget(self, **fields: Any) -> int:
+        """Sets the budget from the next tick on: fields of kiriBudget by name."""
         kept = []  # until C has read it
         structure = core.structure(self, 'kiriBudget', fields, kept)
         return self.call('kiriWorld_SetBudget', structure)
 
-    def state_hash(self):
+    def state_hash(self) -> int:
         """Hashes all state that the coming ticks depend on, pending work included. Two worlds with the same calls have
         the same hash, and two worlds with the same hash go on alike. After refused memory it may differ while work
         is pending.
         """
         return self.get('kiriWorld_GetStateHash', 'uint64_t')
 
-    def sheets(self):
-        """Writes up to `capacity` ids of the world's sheets, in the order of their making; *count is how many there
-        are.
-        """
+    def sheets(self) -> List[kiri.Sheet]:
+        """Returns the sheets of the world, in the order of their making."""
         things, = self.lists('kiriWorld_GetSheets', ('kiriSheet',))
         return [self.thing('Sheet', thing) for thing in things]
 
-    def finish_cuts(self):
+    def finish_cuts(self) -> int:
         """Finishes the work on cuts at once, whatever the budget is, without moving anything. The next tick reports
         the events. Arrays that the world handed out end as with a tick. KIRI_ERROR_MEMORY, KIRI_ERROR_LIMIT: as in
         kiriWorld_Tick.
         """
         return self.call('kiriWorld_FinishCuts')
 
-    def events(self):
-        """Gets the events: *events points to *count of them."""
+    def events(self) -> List[Record]:
+        """Returns the events since the start of the last tick."""
         return self.get_array(
             lambda array, count: [core.record(array[i], self) for i in range(count)],
             'kiriWorld_GetEvents', 'kiriEvent')
 
-    def profile(self):
-        """Gets the profile of the last tick that was not refused."""
+    def profile(self) -> Record:
+        """Returns the profile of the last tick that was not refused."""
         return core.record(self.get('kiriWorld_GetProfile', 'kiriProfile'), self)
 
-    def create_rectangle(self, width, height, columns, rows, **fields):
+    def create_rectangle(self, width: float, height: float, columns: int, rows: int, **fields: Any) -> kiri.Sheet:
         """Adds a rectangular sheet from (0, 0) to (width, height) of the rest plane, of 2 * columns * rows triangles;
-        columns and rows are 1 to 4096. def: its mesh is not read; null: the defaults. A recording stores it as
+        columns and rows are 1 to 4096. def: its mesh is not read; None: the defaults. A recording stores it as
         kiriCreateSheet.
         """
         kept = []  # until C has read it
         structure = core.structure(self, 'kiriSheetDef', fields, kept)
         return self.thing('Sheet', self.get('kiriCreateRectangle', 'kiriSheet', width, height, columns, rows, structure))
 
-    def destroy_pieces(self, frames):
+    def destroy_pieces(self, frames: Iterable[kiri.Frame]) -> int:
         """Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet; frames of one
         piece count once. All are done or pending, or none if one is refused. KIRI_PENDING: some are pending, all in
         a sheet together. detached[i] is the sheet made of the piece of frames[i], 0 where it is pending.
@@ -154,58 +158,55 @@ class World:
         ids = [self.id_of(thing, 'Frame') for thing in frames]
         return self.call('kiriWorld_DestroyPieces', core.ffi.new('kiriFrame[]', ids), len(ids))
 
-    def begin_blade(self, sheet=None):
+    def begin_blade(self, sheet: Optional[kiri.Sheet] = None) -> kiri.Blade:
         """Begins a blade for one sheet; 0: for all sheets, also those that are made later."""
         return self.thing('Blade', self.get('kiriBeginBlade', 'kiriBlade', self.id_of(sheet, 'Sheet') if sheet else 0))
 
 
 class Sheet:
-    def destroy(self):
-        """Add a sheet, and destroy one with its cuts, frames and pins. On failure *sheet is 0. KIRI_ERROR_MESH: the
-        triangles do not form a sheet; the line says why, and names the triangle, or the two at an edge, by index in
-        the def.
-        """
+    def destroy(self) -> int:
+        """Destroys the sheet with its cuts, frames and pins."""
         return self.world.call('kiriDestroySheet', self.id)
 
-    def settings(self):
-        """Gets the current settings, stamped for kiriSheet_SetSettings."""
+    def settings(self) -> Record:
+        """Returns the current settings, stamped for kiriSheet_SetSettings."""
         return core.record(self.world.get('kiriSheet_GetSettings', 'kiriSheetSettings', self.id), self.world)
 
-    def mesh(self, *names):
-        """Gets the arrays, without a copy."""
+    def mesh(self, *names: str) -> Record:
+        """Returns the arrays, without a copy."""
         return self.world.get_copies(names, 'kiriSheet_GetMesh', 'kiriMesh', self.id)
 
-    def mesh_view(self):
+    def mesh_view(self) -> core.Loan:
         """The same without copies, for a `with` statement, within which the world does not change: see Loan."""
         return core.Loan(self.world, 'kiriSheet_GetMesh', 'kiriMesh', self.id)
 
-    def dirty(self, since_revision):
-        """Gets the changes since a revision; the whole mesh if the revision is too old, or 0."""
+    def dirty(self, since_revision: int) -> Record:
+        """Returns the changes since a revision; the whole mesh if the revision is too old, or 0."""
         return core.record(self.world.get('kiriSheet_GetDirty', 'kiriDirty', self.id, since_revision), self.world)
 
-    def solid(self, *names, thickness=0.0):
+    def solid(self, *names: str, thickness: float = 0.0) -> Record:
         """Makes the solid surface. thickness: m, 0: the material's thickness."""
         return self.world.get_copies(names, 'kiriSheet_GetSolid', 'kiriSolid', self.id, thickness)
 
-    def solid_view(self, thickness=0.0):
+    def solid_view(self, thickness: float = 0.0) -> core.Loan:
         """The same without copies, for a `with` statement, within which the world does not change: see Loan."""
         return core.Loan(self.world, 'kiriSheet_GetSolid', 'kiriSolid', self.id, thickness)
 
-    def collision_points(self):
-        """Gets the collision points: 3 floats of position (m, world) a point."""
+    def collision_points(self) -> Any:
+        """Returns the collision points: 3 floats of position (m, world) a point."""
         return self.world.get_array(
             lambda array, count: core.copy(array, count, 3),
             'kiriSheet_GetCollisionPoints', 'float', self.id)
 
-    def counts(self):
-        """Gets the counts, at no cost."""
+    def counts(self) -> Record:
+        """Returns the counts, at no cost."""
         return core.record(self.world.get('kiriSheet_GetCounts', 'kiriCounts', self.id), self.world)
 
-    def totals(self):
+    def totals(self) -> Record:
         """Sums the totals over the frames."""
         return core.record(self.world.get('kiriSheet_GetTotals', 'kiriTotals', self.id), self.world)
 
-    def estimate_error(self):
+    def estimate_error(self) -> float:
         """Estimates the error of the current shape of a sheet that rests or moves slowly: rms distance from a sheet of
         very many frames under the same loads, over its rms way from the flat shape; 0 to 1, and 1 with too few
         frames to tell. KIRI_MODEL_LINKS only; else KIRI_ERROR_STATE. It allocates memory. The manual says how good
@@ -213,19 +214,15 @@ class Sheet:
         """
         return self.world.get('kiriSheet_EstimateError', 'double', self.id)
 
-    def is_awake(self):
-        """Read and end sleep: *awake is 0 where all pieces sleep (kiriPieceState tells which); kiriSheet_Wake wakes
-        all.
-        """
+    def is_awake(self) -> bool:
+        """Returns False where all pieces sleep; piece() tells which."""
         return self.world.get('kiriSheet_IsAwake', 'int32_t', self.id) != 0
 
-    def wake(self):
-        """Read and end sleep: *awake is 0 where all pieces sleep (kiriPieceState tells which); kiriSheet_Wake wakes
-        all.
-        """
+    def wake(self) -> int:
+        """Wakes all pieces."""
         return self.world.call('kiriSheet_Wake', self.id)
 
-    def transform(self, rotation, translation):
+    def transform(self, rotation: Numbers, translation: Numbers) -> int:
         """Teleports the sheet: every point x (m, world) moves to R x + t at once; velocities turn, and the sheet
         wakes. The columns of `rotation` are the images of the world's axes; a planar sheet turns about its normal
         only. Targets of pins, hinges, clamps and holds move along; pins on an obstacle stay on it. The manual has
@@ -233,108 +230,108 @@ class Sheet:
         """
         return self.world.call('kiriSheet_Transform', self.id, core.vector(rotation, 9), core.vector(translation, 3))
 
-    def set_velocity(self, velocity, angular_velocity=(0.0, 0.0, 0.0)):
+    def set_velocity(self, velocity: Numbers, angular_velocity: Numbers = (0.0, 0.0, 0.0)) -> int:
         """Set rigid motion of a sheet, or of the piece with a frame, until forces change it: `velocity` (m/s) of its
         centre of mass, and `angularVelocity` (rad/s) about it. Planar sheets drop motion across their plane; held
         frames stay held.
         """
         return self.world.call('kiriSheet_SetVelocity', self.id, core.vector(velocity, 3), core.vector(angular_velocity, 3))
 
-    def set_user_data(self, data):
+    def set_user_data(self, data: int) -> int:
         """Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and
         a piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it
         has both.
         """
         return self.world.call('kiriSheet_SetUserData', self.id, data)
 
-    def user_data(self):
+    def user_data(self) -> int:
         """Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and
         a piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it
         has both.
         """
         return self.world.get('kiriSheet_GetUserData', 'uint64_t', self.id)
 
-    def point(self, rest_point):
-        """Gets the state of a point. KIRI_ERROR_ARGUMENT: it is outside the sheet. On a cut: on a lip that has the
+    def point(self, rest_point: Numbers) -> Record:
+        """Returns the state of a point. KIRI_ERROR_ARGUMENT: it is outside the sheet. On a cut: on a lip that has the
         point.
         """
         return core.record(self.world.get('kiriSheet_GetPoint', 'kiriPointState', self.id, core.vector(rest_point, 2)), self.world)
 
-    def piece(self, piece):
-        """Get a piece. The first call after a cut sorts the sheet by pieces. KIRI_ERROR_ARGUMENT: no piece has the
+    def piece(self, piece: int) -> Record:
+        """Returns a piece. The first call after a cut sorts the sheet by pieces. KIRI_ERROR_ARGUMENT: no piece has the
         index.
         """
         return core.record(self.world.get('kiriSheet_GetPiece', 'kiriPieceState', self.id, piece), self.world)
 
-    def piece_mesh(self, piece, *names):
-        """Get a piece. The first call after a cut sorts the sheet by pieces. KIRI_ERROR_ARGUMENT: no piece has the
+    def piece_mesh(self, piece: int, *names: str) -> Record:
+        """Returns a piece. The first call after a cut sorts the sheet by pieces. KIRI_ERROR_ARGUMENT: no piece has the
         index.
         """
         return self.world.get_copies(names, 'kiriSheet_GetPieceMesh', 'kiriPieceMesh', self.id, piece)
 
-    def piece_mesh_view(self, piece):
+    def piece_mesh_view(self, piece: int) -> core.Loan:
         """The same without copies, for a `with` statement, within which the world does not change: see Loan."""
         return core.Loan(self.world, 'kiriSheet_GetPieceMesh', 'kiriPieceMesh', self.id, piece)
 
-    def piece_frames(self, piece):
-        """Get the frames of a piece (*frames points to *count ids), and the current index of the piece with a frame."""
+    def piece_frames(self, piece: int) -> List[kiri.Frame]:
+        """Returns the frames of a piece."""
         return self.world.get_array(
             lambda array, count: [self.world.thing('Frame', array[i]) for i in range(count)],
             'kiriSheet_GetPieceFrames', 'kiriFrame', self.id, piece)
 
-    def drop_crumbs(self, area):
-        """Destroys all pieces below an area (m^2) except the largest piece, at the cost of one. *count is their
+    def drop_crumbs(self, area: float) -> int:
+        """Destroys all pieces below an area (m^2) except the largest piece, at the cost of one. The result is their
         number. If the largest piece is pending to become a sheet, the largest of the others stays, too.
         """
         return self.world.get('kiriSheet_DropCrumbs', 'int32_t', self.id, area)
 
-    def begin_cut(self, rest_point):
+    def begin_cut(self, rest_point: Numbers) -> kiri.Cut:
         """Begins a cut: a polyline in the rest plane. Outside the sheet it cuts nothing. Points take effect with the
         next tick or, by the budget, a later one. The end of a cut inside the sheet stays closed until the next
         point.
         """
         return self.world.thing('Cut', self.world.get('kiriBeginCut', 'kiriCut', self.id, core.vector(rest_point, 2)))
 
-    def slice(self, blade):
+    def slice(self, blade: Numbers) -> kiri.Cut:
         """Cuts where the quadrilateral swept by an edge in world space, from blade[0]-blade[1] to blade[3]-blade[2],
         meets the current sheet; past borders, so that it separates the parts that it crosses. The cut is already
         ended.
         """
         return self.world.thing('Cut', self.world.get('kiriSheet_Slice', 'kiriCut', self.id, core.vector(blade, 12)))
 
-    def frames(self):
-        """Writes up to `capacity` ids of the sheet's frames; *count is how many there are."""
+    def frames(self) -> List[kiri.Frame]:
+        """Returns the frames of the sheet."""
         things, = self.world.lists('kiriSheet_GetFrames', ('kiriFrame',), self.id)
         return [self.world.thing('Frame', thing) for thing in things]
 
-    def apply_force(self, rest_point, force, torque=(0.0, 0.0, 0.0)):
+    def apply_force(self, rest_point: Numbers, force: Numbers, torque: Numbers = (0.0, 0.0, 0.0)) -> int:
         """Apply a force (N, world) at the frame's centre of mass, or at a point of the material, and a torque (N m)."""
         return self.world.call('kiriSheet_ApplyForce', self.id, core.vector(rest_point, 2), core.vector(force, 3), core.vector(torque, 3))
 
-    def apply_line_load(self, start, end, force_per_length):
+    def apply_line_load(self, start: Numbers, end: Numbers, force_per_length: Numbers) -> int:
         """Applies a force (N/m, world) along a straight line of the rest plane where it lies in the material, edges
         included. Along a cut each lip gets half. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no material.
         """
         return self.world.call('kiriSheet_ApplyLineLoad', self.id, core.vector(start, 2), core.vector(end, 2), core.vector(force_per_length, 3))
 
-    def apply_pressure(self, pressure):
+    def apply_pressure(self, pressure: float) -> int:
         """Applies a pressure (Pa) to the whole sheet along its normal; below 0: against it."""
         return self.world.call('kiriSheet_ApplyPressure', self.id, pressure)
 
-    def apply_impulse(self, rest_point, impulse):
+    def apply_impulse(self, rest_point: Numbers, impulse: Numbers) -> int:
         """Applies an impulse (N s, world) at a point of the material on the visible surface, at once, by the mass of
         the frames that carry the point; a held frame's share is lost. KIRI_ERROR_ARGUMENT: the point is outside the
         sheet.
         """
         return self.world.call('kiriSheet_ApplyImpulse', self.id, core.vector(rest_point, 2), core.vector(impulse, 3))
 
-    def set_wind(self, **fields):
+    def set_wind(self, **fields: Any) -> int:
         """Copies the wind; it blows until the next call."""
         kept = []  # until C has read it
         structure = core.structure(self.world, 'kiriWind', fields, kept)
         return self.world.call('kiriSheet_SetWind', self.id, structure)
 
-    def clamp_line(self, start, end):
+    def clamp_line(self, start: Numbers, end: Numbers) -> kiri.Pin:
         """Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds the place and
         direction of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The
         line is straight, with its rest length: bent material and separate pieces are pulled to it, at any speed. A
@@ -343,7 +340,7 @@ class Sheet:
         """
         return self.world.thing('Pin', self.world.get('kiriSheet_ClampLine', 'kiriPin', self.id, core.vector(start, 2), core.vector(end, 2)))
 
-    def hinge_line(self, start, end):
+    def hinge_line(self, start: Numbers, end: Numbers) -> kiri.Pin:
         """Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds the place and
         direction of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The
         line is straight, with its rest length: bent material and separate pieces are pulled to it, at any speed. A
@@ -352,22 +349,22 @@ class Sheet:
         """
         return self.world.thing('Pin', self.world.get('kiriSheet_HingeLine', 'kiriPin', self.id, core.vector(start, 2), core.vector(end, 2)))
 
-    def pins(self):
-        """Writes up to `capacity` ids of the sheet's pins, of all types; *count is how many there are."""
+    def pins(self) -> List[kiri.Pin]:
+        """Returns the pins of the sheet, of all types."""
         things, = self.world.lists('kiriSheet_GetPins', ('kiriPin',), self.id)
         return [self.world.thing('Pin', thing) for thing in things]
 
-    def contact_forces(self):
-        """Gets one result for each contact that was set before the last tick, in that order. A sleeping piece presses
-        on.
+    def contact_forces(self) -> List[Record]:
+        """Returns one result for each contact that was set before the last tick, in that order. A sleeping piece
+        presses on.
         """
         return self.world.get_array(
             lambda array, count: [core.record(array[i], self.world) for i in range(count)],
             'kiriSheet_GetContactForces', 'kiriContactForce', self.id)
 
-    def reach(self, dt):
-        """Gets a box (m, world) around all that the sheet can touch in a tick of dt (s, as in kiriWorld_Tick): a host
-        needs no obstacles or contacts outside. For moving obstacles add their own way.
+    def reach(self, dt: float) -> Tuple[Tuple[float, ...], Tuple[float, ...]]:
+        """Returns a box (m, world) around all that the sheet can touch in a tick of dt (s, as in kiriWorld_Tick): a
+        host needs no obstacles or contacts outside. For moving obstacles add their own way.
         """
         lower = core.ffi.new('float[3]')
         upper = core.ffi.new('float[3]')
@@ -376,13 +373,13 @@ class Sheet:
 
 
 class Cut:
-    def extend(self, rest_points):
+    def extend(self, rest_points: Numbers) -> int:
         """Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the tick in which its
         last point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the frames that it needs.
         """
         return self.world.call('kiriCut_Extend', self.id, *core.rows('float', rest_points, 2))
 
-    def end(self):
+    def end(self) -> int:
         """Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the tick in which its
         last point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the frames that it needs.
         """
@@ -390,89 +387,87 @@ class Cut:
 
 
 class Frame:
-    def set_piece_velocity(self, velocity, angular_velocity=(0.0, 0.0, 0.0)):
+    def set_piece_velocity(self, velocity: Numbers, angular_velocity: Numbers = (0.0, 0.0, 0.0)) -> int:
         """Set rigid motion of a sheet, or of the piece with a frame, until forces change it: `velocity` (m/s) of its
         centre of mass, and `angularVelocity` (rad/s) about it. Planar sheets drop motion across their plane; held
         frames stay held.
         """
         return self.world.call('kiriFrame_SetPieceVelocity', self.id, core.vector(velocity, 3), core.vector(angular_velocity, 3))
 
-    def set_piece_user_data(self, data):
+    def set_piece_user_data(self, data: int) -> int:
         """Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and
         a piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it
         has both.
         """
         return self.world.call('kiriFrame_SetPieceUserData', self.id, data)
 
-    def piece_user_data(self):
+    def piece_user_data(self) -> int:
         """Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and
         a piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it
         has both.
         """
         return self.world.get('kiriFrame_GetPieceUserData', 'uint64_t', self.id)
 
-    def piece(self):
-        """Get the frames of a piece (*frames points to *count ids), and the current index of the piece with a frame."""
+    def piece(self) -> int:
+        """Returns the current index of the piece with this frame."""
         return self.world.get('kiriFrame_GetPiece', 'int32_t', self.id)
 
-    def detach_piece(self):
+    def detach_piece(self) -> Optional[kiri.Sheet]:
         """Makes a sheet of the piece with this frame. All that belongs to the piece moves along, with ids and states,
         and the motion goes on; cuts stay with the old sheet. A clamp or hinge that holds both gets a copy with a
         new id in the new sheet. KIRI_PENDING: work on a cut is pending, or the piece takes more samples than the
-        budget leaves; *detached is 0. Further cuts of the sheet then wait, and KIRI_EVENT_PIECE_DETACHED names the
-        sheet in a later tick. KIRI_ERROR_STATE: nothing would be left of the sheet. The manual has indices and
+        budget leaves; the result is None. Further cuts of the sheet then wait, and KIRI_EVENT_PIECE_DETACHED names
+        the sheet in a later tick. KIRI_ERROR_STATE: nothing would be left of the sheet. The manual has indices and
         costs (cutting).
         """
         return self.world.thing('Sheet', self.world.get('kiriFrame_DetachPiece', 'kiriSheet', self.id))
 
-    def destroy_piece(self):
+    def destroy_piece(self) -> int:
         """Removes the piece with this frame at once: ids of its frames and pins are stale, and the coming ticks have
         fewer samples. KIRI_PENDING: work on a cut is pending. Until it is done the triangles stay in kiriMesh with
         three equal corners, and kiriCounts counts the piece, with a kiriPieceState of all zeros.
         """
         return self.world.call('kiriFrame_DestroyPiece', self.id)
 
-    def state(self):
-        """Gets the current state."""
+    def state(self) -> Record:
+        """Returns the current state."""
         return core.record(self.world.get('kiriFrame_GetState', 'kiriFrameState', self.id), self.world)
 
-    def reaction(self):
-        """Gets the force (N, world) and torque (N m, about the frame's rest point) that the hold applied to the sheet:
-        means over the last tick that moved the piece, with the frame's own weight and change of momentum. Zero for
-        a free one.
+    def reaction(self) -> Tuple[Tuple[float, ...], Tuple[float, ...]]:
+        """Returns the force (N, world) and torque (N m, about the frame's rest point) that the hold applied to the
+        sheet: means over the last tick that moved the piece, with the frame's own weight and change of momentum.
+        Zero for a free one.
         """
         force = core.ffi.new('double[3]')
         torque = core.ffi.new('double[3]')
         self.world.call('kiriFrame_GetReaction', self.id, force, torque)
         return tuple(force), tuple(torque)
 
-    def apply_force(self, force, torque=(0.0, 0.0, 0.0)):
+    def apply_force(self, force: Numbers, torque: Numbers = (0.0, 0.0, 0.0)) -> int:
         """Apply a force (N, world) at the frame's centre of mass, or at a point of the material, and a torque (N m)."""
         return self.world.call('kiriFrame_ApplyForce', self.id, core.vector(force, 3), core.vector(torque, 3))
 
 
 class Pin:
-    def set_user_data(self, data):
+    def set_user_data(self, data: int) -> int:
         """Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and
         a piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it
         has both.
         """
         return self.world.call('kiriPin_SetUserData', self.id, data)
 
-    def user_data(self):
+    def user_data(self) -> int:
         """Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and
         a piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it
         has both.
         """
         return self.world.get('kiriPin_GetUserData', 'uint64_t', self.id)
 
-    def destroy(self):
-        """Pin a point of the sheet, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: the
-        point is outside the sheet.
-        """
+    def destroy(self) -> int:
+        """Destroys a pin of any type."""
         return self.world.call('kiriDestroyPin', self.id)
 
-    def set_target(self, target):
+    def set_target(self, target: Numbers) -> int:
         """Sets the target of the pin's point, or of the middle of its line (m, world), for the end of the next tick
         and until the next call. The pin moves there evenly within the tick. With KIRI_SKINNING_SMOOTH pins hold the
         visible surface. A clamp that alone holds a piece holds the mean of the visible line; else that may be off
@@ -480,24 +475,24 @@ class Pin:
         """
         return self.world.call('kiriPin_SetTarget', self.id, core.vector(target, 3))
 
-    def set_pose(self, target, rotation):
+    def set_pose(self, target: Numbers, rotation: Numbers) -> int:
         """Sets the target and the rotation of the line's material: columns are the directions of u and v and the
         normal. On a planar sheet it is about the sheet's normal. KIRI_ERROR_ARGUMENT: the pin holds a point.
         """
         return self.world.call('kiriPin_SetPose', self.id, core.vector(target, 3), core.vector(rotation, 9))
 
-    def set_break_force(self, break_force):
+    def set_break_force(self, break_force: float) -> int:
         """Sets the force (N) that breaks a pin of any type; 0: it never breaks."""
         return self.world.call('kiriPin_SetBreakForce', self.id, break_force)
 
-    def state(self):
-        """Gets the current state."""
+    def state(self) -> Record:
+        """Returns the current state."""
         return core.record(self.world.get('kiriPin_GetState', 'kiriPinState', self.id), self.world)
 
-    def reaction(self):
-        """Gets the force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over
-        the last tick that moved the piece. All reactions are the weight of a sheet at rest, and change its momentum
-        in motion.
+    def reaction(self) -> Tuple[Tuple[float, ...], Tuple[float, ...]]:
+        """Returns the force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means
+        over the last tick that moved the piece. All reactions are the weight of a sheet at rest, and change its
+        momentum in motion.
         """
         force = core.ffi.new('double[3]')
         torque = core.ffi.new('double[3]')
@@ -506,52 +501,52 @@ class Pin:
 
 
 class Obstacle:
-    def destroy(self):
-        """Add and destroy an obstacle. On failure *obstacle is 0. Pieces that rested on a destroyed one wake."""
+    def destroy(self) -> int:
+        """Destroys the obstacle. Pieces that rested on it wake."""
         return self.world.call('kiriDestroyObstacle', self.id)
 
-    def set_pose(self, position, rotation=(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)):
+    def set_pose(self, position: Numbers, rotation: Numbers = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)) -> int:
         """Teleports the obstacle (m, world). Sheets react to its velocity (kiriObstacle_SetVelocity), not to the jump."""
         return self.world.call('kiriObstacle_SetPose', self.id, core.vector(position, 3), core.vector(rotation, 9))
 
-    def set_velocity(self, velocity, angular_velocity=(0.0, 0.0, 0.0)):
+    def set_velocity(self, velocity: Numbers, angular_velocity: Numbers = (0.0, 0.0, 0.0)) -> int:
         """Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg), inertia and centre of
         mass.
         """
         return self.world.call('kiriObstacle_SetVelocity', self.id, core.vector(velocity, 3), core.vector(angular_velocity, 3))
 
-    def set_surface_velocity(self, velocity):
+    def set_surface_velocity(self, velocity: Numbers) -> int:
         """Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg), inertia and centre of
         mass.
         """
         return self.world.call('kiriObstacle_SetSurfaceVelocity', self.id, core.vector(velocity, 3))
 
-    def set_mass(self, mass, inertia=(0.0, 0.0, 0.0, 0.0, 0.0, 0.0), center_of_mass=(0.0, 0.0, 0.0)):
+    def set_mass(self, mass: float, inertia: Numbers = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0), center_of_mass: Numbers = (0.0, 0.0, 0.0)) -> int:
         """Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg), inertia and centre of
         mass.
         """
         return self.world.call('kiriObstacle_SetMass', self.id, mass, core.vector(inertia, 6), core.vector(center_of_mass, 3))
 
-    def state(self):
-        """Gets the current state."""
+    def state(self) -> Record:
+        """Returns the current state."""
         return core.record(self.world.get('kiriObstacle_GetState', 'kiriObstacleState', self.id), self.world)
 
 
 class Blade:
-    def move_edge(self, start, end):
+    def move_edge(self, start: Numbers, end: Numbers) -> int:
         """Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera
         casts; each end goes straight. The first call only says where it begins. An end inside cuts along its own
         way.
         """
         return self.world.call('kiriBlade_MoveEdge', self.id, core.vector(start, 3), core.vector(end, 3))
 
-    def move_ray(self, origin, direction, length):
+    def move_ray(self, origin: Numbers, direction: Numbers, length: float) -> int:
         """Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera
         casts; each end goes straight. The first call only says where it begins. An end inside cuts along its own
         way.
         """
         return self.world.call('kiriBlade_MoveRay', self.id, core.vector(origin, 3), core.vector(direction, 3), length)
 
-    def end(self):
+    def end(self) -> int:
         """It is gone, its id stale; what it has cut stays, and where it was in a layer the cut ends."""
         return self.world.call('kiriBlade_End', self.id)
