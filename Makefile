@@ -54,7 +54,7 @@ NEEDS_bench := $(NEEDS_lib) libcmocka-dev
 NEEDS_accuracy := $(NEEDS_lib) libpng-dev
 NEEDS_contact := $(NEEDS_lib) libbox2d-dev
 NEEDS_extremes := $(NEEDS_lib)
-NEEDS_gallery := $(NEEDS_play)
+NEEDS_gallery := $(NEEDS_play) ffmpeg
 NEEDS_guide := $(NEEDS_run)
 NEEDS_manual := $(NEEDS_run)
 NEEDS_portable := $(NEEDS_lib)
@@ -178,7 +178,7 @@ test: packages-test
 	grep -E 'not tested|no .* made$$' $(BUILD)/test.log | sed 's/^/skipped: /'; \
 	grep ' FAILED$$' $(BUILD)/test.log | sed 's/^== /failed: /; s/ FAILED$$//'; \
 	echo "$$(ls $(BUILD)/passed | wc -l) of $(words $(ALL_RUNS)) programs passed, $$(cat $(BUILD)/passed/* | awk '{ n += $$1 } END { print n + 0 }') tests ($(config))"; \
-	exit $$(cat $(BUILD)/status)
+	rm -rf $(BUILD)/passed; exit $$(cat $(BUILD)/status)
 
 fuzz: packages-fuzz
 	@$(MAKE) --no-print-directory config=fuzz CC=clang CXX=clang++ build/fuzz/tests/fuzz_$(FUZZ)
@@ -249,7 +249,8 @@ contact: packages-contact
 # Scenes in samples/README.md; and the shape functions of one, as in figure 2 of the paper.
 GALLERY := bunny spiral kirigami patchwork vortex fallingguy rubber flat
 # Films of the games; the first one plays itself.
-PLAY_FILM := --headless --size 320x240 --oversampling 4 --every 6
+PLAY_FILM := --headless --size 640x480 --oversampling 3 --every 6
+JOIN = ffmpeg -v error -y -framerate 10 -i build/gallery/$(1)/frame_%04d.png -c:v libwebp_anim -quality 60 -loop 0 samples/pictures/$(1).webp
 CURTAIN_FILM := --game curtain --level 5 --demo --ticks 480
 NET_FILM := --script samples/games/scripts/net_6.txt
 
@@ -261,8 +262,10 @@ gallery: packages-gallery accuracy
 	    cp build/gallery/$$scene/contact_sheet.png samples/pictures/$$scene.png; done
 	$(RUN) --scene fallingguy --paper --weights all --size 800x600 --every 1000 --output build/gallery/weights
 	cp build/gallery/weights/contact_sheet.png samples/pictures/weights.png
-	$(PLAY) $(CURTAIN_FILM) $(PLAY_FILM) --film samples/pictures/curtain.png
-	$(PLAY) $(NET_FILM) $(PLAY_FILM) --film samples/pictures/net.png
+	$(PLAY) $(CURTAIN_FILM) $(PLAY_FILM) --pictures build/gallery/curtain
+	$(PLAY) $(NET_FILM) $(PLAY_FILM) --pictures build/gallery/net
+	$(call JOIN,curtain)
+	$(call JOIN,net)
 	$(BOX2D) --output build/gallery/box2d
 	cp build/gallery/box2d/contact_sheet.png samples/pictures/box2d.png
 	for scene in strip square tongue; do cp build/accuracy/trade_$$scene.png samples/pictures/; done
@@ -272,9 +275,9 @@ gallery: packages-gallery accuracy
 
 gallery-engines: web-test babylon-test love-test pygame-test godot-test
 	cp build/babylon_test/2_cut.png samples/pictures/babylon.png
-	cp build/web_test/3_pieces.png samples/pictures/web_cut.png
-	cp build/web_test/5_snowflake.png samples/pictures/web_snowflake.png
-	cp build/web_test/6_lantern.png samples/pictures/web_lantern.png
+	ffmpeg -v error -y -i build/web_test/3_pieces.png -quality 82 samples/pictures/web_cut.webp
+	ffmpeg -v error -y -i build/web_test/5_snowflake.png -quality 82 samples/pictures/web_snowflake.webp
+	ffmpeg -v error -y -i build/web_test/6_lantern.png -quality 82 samples/pictures/web_lantern.webp
 	cp build/love/love_290.png samples/pictures/love.png
 	cp build/pygame/pygame_195.png samples/pictures/pygame.png
 	cp $(BUILD)/godot/godot4.png samples/pictures/godot.png
@@ -321,7 +324,7 @@ run-tests: $(TEST_RUNS)
 
 # What a run that passed prints: its name; in `make test` which of all it is; the last line of its log.
 ALL_RUNS = $(TEST_RUNS) $(FUZZ_RUNS) run-sweep_saves
-PASSED = echo "== $<"; if [ -d $(BUILD)/passed ]; then sed -n 's/^\[  PASSED  \] \([0-9]*\).*/\1/p' $<.log > $(BUILD)/passed/$(<F); \
+PASSED = echo "== $<"; if [ -d $(BUILD)/passed ]; then sed -n 's/^\[  PASSED  \] \([0-9]*\) test.*/\1/p' $<.log > $(BUILD)/passed/$(<F); \
     echo "$$(ls $(BUILD)/passed | wc -l) of $(words $(ALL_RUNS)): $$(tail -n 1 $<.log)"; else tail -n 1 $<.log; fi
 
 $(TEST_RUNS): run-%: $(BUILD)/tests/%

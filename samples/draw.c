@@ -261,7 +261,7 @@ static void DrawSheet(const Painter* painter, const View* view, float zoom)
     glEnable(GL_LIGHTING);
     if (!view->isSolid) { /* lines along its edges lie before it */
         glEnable(GL_POLYGON_OFFSET_FILL);
-        glPolygonOffset(1.0f, 4.0f);
+        glPolygonOffset(2.0f, 12.0f);
     }
     if (view->colors != NULL) {
         DrawColored(&view->mesh, view->colors);
@@ -279,18 +279,31 @@ static void DrawSheet(const Painter* painter, const View* view, float zoom)
 
 /* ---- Open edges ------------------------------------------------------------------------------------------------- */
 
-static void DrawOpenEdges(Painter* painter, const kiriMesh* mesh, const float cutColor[3])
+/* Those of cuts, or the others; width in pixels. */
+static void DrawEdgesOfKind(const Edge* edges, int32_t count, const float* positions, bool cut, const float color[3],
+                            float width)
 {
-    Edge* edges = painter->edges;
-    int32_t count = Edges_FindOpen(edges, mesh);
-    glLineWidth(1.3f * OVERSAMPLING);
+    glLineWidth(width * OVERSAMPLING);
+    glColor3fv(color);
     glBegin(GL_LINES);
     for (int32_t i = 0; i < count; i++) {
-        glColor3fv(edges[i].cut ? cutColor : edgeColor);
-        glVertex3fv(mesh->positions + 3 * edges[i].a);
-        glVertex3fv(mesh->positions + 3 * edges[i].b);
+        if (edges[i].cut == cut) {
+            glVertex3fv(positions + 3 * edges[i].a);
+            glVertex3fv(positions + 3 * edges[i].b);
+        }
     }
     glEnd();
+}
+
+/* A cut that has not opened is a dark line with edges of the lips' colour. */
+static void DrawOpenEdges(Painter* painter, const kiriMesh* mesh, const float cutColor[3])
+{
+    int32_t count = Edges_FindOpen(painter->edges, mesh);
+    DrawEdgesOfKind(painter->edges, count, mesh->positions, false, edgeColor, 1.3f);
+    DrawEdgesOfKind(painter->edges, count, mesh->positions, true, cutColor, 3.2f);
+    glDepthFunc(GL_LEQUAL);
+    DrawEdgesOfKind(painter->edges, count, mesh->positions, true, edgeColor, 1.2f);
+    glDepthFunc(GL_LESS);
 }
 
 static bool ReserveEdges(Painter* painter, int32_t count)

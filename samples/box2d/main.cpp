@@ -300,7 +300,7 @@ bool Paint(Simulation& simulation, Painter* painter, Image* image)
         }
     }
     View view = View();
-    view.camera = { { 0.7f, -2.4f, 1.0f }, { 0.0f, 0.0f, 0.24f }, 25.0f };
+    view.camera = { { 0.7f, -2.4f, 1.0f }, { 0.0f, 0.0f, 0.2f }, 22.0f };
     view.mesh.positions = soup.positions.data();
     view.mesh.normals = soup.normals.data();
     view.mesh.restPositions = soup.restPositions.data();

@@ -103,7 +103,7 @@ static void DrawCloth(Canvas* canvas, Curtain* curtain, Cloth* cloth, float alph
     CanvasSheet sheet = { .texture = &cloth->texture,
                           .front = white,
                           .back = { 0.74f, 0.70f, 0.70f, 1.0f },
-                          .lip = { 0.99f, 0.95f, 0.86f, 1.0f },
+                          .lip = { 0.87f, 0.66f, 0.44f, 1.0f },
                           .rim = { 0.35f, 0.22f, 0.16f, 1.0f } };
     if (cloth->sheet != 0 && Track_Get(&cloth->track, curtain->world, alpha, &sheet)) {
         Canvas_AddSheet(canvas, &sheet);
@@ -165,9 +165,9 @@ static void DrawStatus(Canvas* canvas, const Curtain* curtain)
     }
     int32_t left = level->seconds - curtain->tick / GAME_RATE;
     if (level->seconds > 0) {
-        snprintf(text, sizeof text, "%d s   %d", left > 0 ? left : 0, curtain->score);
+        snprintf(text, sizeof text, "%d s   score %d", left > 0 ? left : 0, curtain->score);
     } else {
-        snprintf(text, sizeof text, "%d cut   %d", curtain->collected, curtain->score);
+        snprintf(text, sizeof text, "caught %d   score %d", curtain->collected, curtain->score);
     }
     Canvas_AddText(canvas, GAME_WIDTH - 24.0f, 18.0f, 22.0f, 1.0f, ink, text);
     if (curtain->tick < 8 * GAME_RATE && curtain->state == GAME_PLAYING) {

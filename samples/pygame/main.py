@@ -14,6 +14,7 @@ import pygame
 
 WIDTH, HEIGHT = 960, 640
 TICK, SUBSTEPS = 1 / 60, 2
+SCALE = 2  # pixels drawn for one that is seen, along each side
 BUDGET = {"cells": 32000, "samples": 4000}  # of work on cuts in a tick: about 2 ms
 SKY, FLOOR, INK = (243, 234, 217), (206, 189, 163), (52, 46, 60)
 STRIPES = ((214, 84, 61), (240, 196, 118))
@@ -74,6 +75,11 @@ def color_of(rest, normal):
     return tuple(int(min(255, light * part)) for part in stripe)
 
 
+def spot(camera, x, y, z):
+    """Where a point of the world is on the canvas, which has SCALE pixels for one of the window along each side."""
+    return tuple(SCALE * part for part in camera.pixel(x, y, z))
+
+
 def triangles_of(sheet, camera, look):
     """Depth, colour and corners of each triangle, and corners of its shadow; the library's arrays are read without a
     copy. `look` keeps colours of vertices, which only cuts add to."""
@@ -81,37 +87,51 @@ def triangles_of(sheet, camera, look):
         positions, normals = mesh.positions.tolist(), mesh.normals.tolist()
         if look.get("revision") != mesh.revision:
             look.update(revision=mesh.revision, rest=mesh.restPositions.tolist(), indices=mesh.indices.tolist())
-    pixels = [camera.pixel(*position) for position in positions]
-    shadows = [camera.pixel(x + 0.35 * z, y + 0.55 * z, 0.0) for x, y, z in positions]
+    pixels = [spot(camera, *position) for position in positions]
+    shadows = [spot(camera, x + 0.35 * z, y + 0.55 * z, 0.0) for x, y, z in positions]
     for a, b, c in look["indices"]:
         if a != b:
             rest = [(look["rest"][a][i] + look["rest"][b][i] + look["rest"][c][i]) / 3 for i in (0, 1)]
-            yield (positions[a][1] + positions[b][1] + positions[c][1], color_of(rest, normals[a]),
+            normal = [(p + q + r) / 3 for p, q, r in zip(normals[a], normals[b], normals[c])]
+            yield (positions[a][1] + positions[b][1] + positions[c][1], color_of(rest, normal),
                    (pixels[a], pixels[b], pixels[c]), (shadows[a], shadows[b], shadows[c]))
 
 
-def draw_ball(screen, camera, radius, position):
-    x, y = camera.pixel(*position)
-    size = radius * camera.focus * HEIGHT / (position[1] - camera.eye)
-    for i in range(24):
-        part = i / 23
-        shade = tuple(int(90 + 110 * part + more) for more in (0, 8, 20))
-        pygame.draw.circle(screen, shade, (x - 0.25 * part * size, y - 0.3 * part * size), size * (1 - 0.92 * part))
+def draw_ball(canvas, camera, radius, position):
+    x, y = spot(camera, *position)
+    size = SCALE * radius * camera.focus * HEIGHT / (position[1] - camera.eye)
+    for i in range(48):
+        part = i / 47
+        shade = tuple(int(60 + 140 * part + more) for more in (0, 8, 20))
+        pygame.draw.circle(canvas, shade, (x - 0.25 * part * size, y - 0.3 * part * size), size * (1 - 0.92 * part))
+
+
+def make_ground(camera):
+    """Wall and floor, which get darker away from the lamp."""
+    ground, horizon = pygame.Surface((SCALE * WIDTH, SCALE * HEIGHT)), SCALE * camera.pixel(0, 8.0, 0.0)[1]
+    for y in range(SCALE * HEIGHT):
+        floor, part = y > horizon, y / (SCALE * HEIGHT)
+        light = 0.72 + 0.28 * part if floor else 1.04 - 0.22 * part
+        color = tuple(min(255, int(light * one)) for one in (FLOOR if floor else SKY))
+        pygame.draw.line(ground, color, (0, y), (SCALE * WIDTH, y))
+    return ground
 
 
 def draw(screen, curtain, camera, looks, font):
-    screen.fill(SKY)
-    horizon = camera.pixel(0, 8.0, 0.0)[1]
-    pygame.draw.rect(screen, FLOOR, (0, horizon, WIDTH, HEIGHT - horizon))
+    if "canvas" not in looks:
+        looks.update(canvas=pygame.Surface((SCALE * WIDTH, SCALE * HEIGHT)), ground=make_ground(camera))
+    canvas = looks["canvas"]
+    canvas.blit(looks["ground"], (0, 0))
     drawn = [triangle for sheet in curtain.sheets for triangle in triangles_of(sheet, camera, looks.setdefault(sheet.id, {}))]
     drawn.sort(key=lambda triangle: -triangle[0])
-    shadow = tuple(int(0.82 * part) for part in FLOOR)
+    shadow = tuple(int(0.66 * part) for part in FLOOR)
     for _, _, _, corners in drawn:
-        pygame.draw.polygon(screen, shadow, corners)
-    draw_ball(screen, camera, 0.21, (0.15, 0.24, 0.45))
+        pygame.draw.polygon(canvas, shadow, corners)
+    draw_ball(canvas, camera, 0.21, (0.15, 0.24, 0.45))
     for _, color, corners, _ in drawn:
-        pygame.draw.polygon(screen, color, corners)
-    pygame.draw.line(screen, INK, camera.pixel(-0.8, 0, 1.18), camera.pixel(0.8, 0, 1.18), 6)
+        pygame.draw.polygon(canvas, color, corners)
+    pygame.draw.line(canvas, INK, spot(camera, -0.8, 0, 1.18), spot(camera, 0.8, 0, 1.18), 6 * SCALE)
+    pygame.transform.smoothscale(canvas, (WIDTH, HEIGHT), screen)
     pieces = sum(sheet.counts().pieces for sheet in curtain.sheets)
     screen.blit(font.render(f"drag to cut   R: a new curtain   cuts {curtain.cuts}   pieces {pieces}", True, INK), (16, 12))
 

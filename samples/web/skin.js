@@ -105,8 +105,8 @@ export class Skin {
             this.copy(this.mesh.geometry.index, solid.indices);
             this.group(solid);
             this.lips.find(solid, this.round);
+            this.sources = solid.sources.slice();
         }
-        this.sources = solid.sources.slice();
     }
 
     /** For a picture: 0 is one tick ago, 1 is now. */
