@@ -432,7 +432,8 @@ static void CheckKind(const char* name, MakeLayout* make)
     static const int32_t squares[] = { 8, 16, 32, 32, 64, 64, 64, 128 };
     static Layout layout;
     int32_t wrong = 0;
-    for (int32_t i = firstSeed; i < firstSeed + layoutCount; ++i) {
+    for (int32_t k = 0; k <= layoutCount; ++k) {
+        int32_t i = k < layoutCount ? firstSeed + k : 500261; /* a saw that once cut a crumb at a twig */
         memset(&layout, 0, sizeof(layout));
         layout.seed = 2654435761u * (uint32_t)i + 77u;
         layout.snap = snaps[(Random(&layout.seed) >> 8) % 5];

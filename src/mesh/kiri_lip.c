@@ -258,6 +258,45 @@ static bool FollowFrom(kiriCorridor* corridor, LipWalk* walk, kiriLatticePoint s
     return false;
 }
 
+/* Adds a vertex, unless one at its point is there. */
+static bool AddPoint(const kiriCorridor* corridor, int32_t vertex, int32_t* vertices, int32_t most, int32_t* count)
+{
+    int32_t k = 0;
+    while (k < *count && !kiriLattice_IsSame(PointOf(corridor, vertices[k]), PointOf(corridor, vertex))) {
+        ++k;
+    }
+    bool isAdded = k == *count && k < most;
+    if (isAdded) {
+        vertices[(*count)++] = vertex;
+    }
+    return isAdded;
+}
+
+/* Returns true if lips lead from the vertex to a point ahead, on any way within the corridor: at most its width back, or
+   beyond the point. */
+static bool IsReached(kiriCorridor* corridor, int32_t vertex, kiriLatticePoint to)
+{
+    enum { MANY = 48 };
+    int32_t vertices[MANY] = { vertex }, count = 1;
+    const double width = 2.0 * corridor->reach * corridor->length;
+    const double least = (double)kiriCorridor_Progress(corridor, PointOf(corridor, vertex)) - width,
+                 most = (double)kiriCorridor_Progress(corridor, to) + width;
+    for (int32_t i = 0; i < count; ++i) {
+        LipsAround around = BeginLips(corridor, vertices[i]);
+        while (NextLip(corridor, &around)) {
+            kiriLatticePoint there = PointOf(corridor, around.end);
+            double progress = (double)kiriCorridor_Progress(corridor, there);
+            if (kiriLattice_IsSame(there, to)) {
+                return true;
+            }
+            if (fabs(kiriCorridor_Side(corridor, there)) <= corridor->reach && progress >= least && progress <= most) {
+                AddPoint(corridor, around.end, vertices, MANY, &count);
+            }
+        }
+    }
+    return false;
+}
+
 bool kiriLip_Follow(kiriCorridor* corridor, int32_t vertex, kiriLatticePoint limit, kiriLipPoint* place)
 {
     int64_t most = kiriCorridor_Progress(corridor, limit);
@@ -280,6 +319,11 @@ bool kiriLip_Follow(kiriCorridor* corridor, int32_t vertex, kiriLatticePoint lim
                 return true;
             }
         }
+    }
+    int32_t last = kiriMesh_VertexAt(corridor->mesh, limit, &corridor->effort);
+    if (last != KIRI_NONE && IsReached(corridor, vertex, limit)) {
+        *place = (kiriLipPoint){ corridor->mesh->vertices.data[last].edge, limit };
+        return true;
     }
     *place = farthest.place;
     return place->edge != KIRI_NONE &&
@@ -426,19 +470,15 @@ static bool IsLoose(kiriCorridor* corridor, int32_t vertex)
             if (Crosses(corridor, PointOf(corridor, vertices[i]), there, &crossing)) {
                 return false;
             }
-            int32_t k = 0;
-            while (k < count && !kiriLattice_IsSame(PointOf(corridor, vertices[k]), there)) {
-                ++k;
-            }
-            if (side > corridor->reach || k < count) {
+            bool isFull = count == MANY;
+            if (side > corridor->reach ||
+                !(isFull || AddPoint(corridor, around.end, vertices, MANY, &count))) {
                 continue;
             }
-            if (side < nearest || (side == nearest && around.end < vertex) || count == MANY ||
+            if (side < nearest || (side == nearest && around.end < vertex) || isFull ||
                 !IsBetweenEnds(corridor, (double)kiriCorridor_Progress(corridor, there))) {
                 return false;
             }
-            KIRI_ASSERT(count < MANY);
-            vertices[count++] = around.end;
         }
     }
     return true;
