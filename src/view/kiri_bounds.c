@@ -534,18 +534,6 @@ static bool MeetsRay(const void* context, const kiriBox* box)
            Clip(o.z, d.z, low.z - s, high.z + s, &from, &to);
 }
 
-/* Visits the leaves that the ray meets. */
-static bool WalkAlongRay(const kiriBounds* bounds, Ray* ray, VisitFn* visit, void* context)
-{
-    if (bounds->nodes.count > 0) {
-        kiriBox all = kiriBounds_All(bounds);
-        kiriVec3 most = Most(Most(all.upper, kiriVec3_Scale(-1.0, all.lower)),
-                             kiriVec3_Make(fabs(ray->origin.x), fabs(ray->origin.y), fabs(ray->origin.z)));
-        ray->slack = 1e-9 * kiriMax(kiriMax(most.x, most.y), most.z);
-    }
-    return WalkTree(&(BoxWalk){ bounds, NULL, MeetsRay, ray, visit, context });
-}
-
 typedef struct RayHit {
     double distance, b, c; /* along the ray; shares of the second and third corner */
 } RayHit;
@@ -564,14 +552,6 @@ static bool HitTriangle(const kiriVec3 corner[3], const Ray* ray, double rim, Ra
     hit->c = kiriVec3_Dot(ray->direction, q) / determinant;
     hit->distance = kiriVec3_Dot(ac, q) / determinant;
     return hit->b >= -rim && hit->c >= -rim && hit->b + hit->c <= 1.0 + rim && hit->distance >= 0.0;
-}
-
-static kiriVec2 RestPoint(const kiriSurface* surface, int32_t triangle, RayHit hit)
-{
-    const int32_t* vertex = kiriSurface_Triangle(surface, triangle);
-    kiriVec2 p = kiriVec2_Scale(1.0 - hit.b - hit.c, surface->rest.data[vertex[0]]);
-    p = kiriVec2_AddScaled(p, hit.b, surface->rest.data[vertex[1]]);
-    return kiriVec2_AddScaled(p, hit.c, surface->rest.data[vertex[2]]);
 }
 
 typedef struct RaySearch {
@@ -607,7 +587,13 @@ void kiriSurface_Raycast(const kiriSurface* surface, const kiriBounds* bounds, k
     memset(hit, 0, sizeof(*hit));
     hit->triangle = KIRI_NONE;
     if (bounds != NULL && kiriBounds_IsFresh(bounds, surface)) {
-        (void)WalkAlongRay(bounds, &search.ray, FindFirstHit, &search);
+        if (bounds->nodes.count > 0) {
+            kiriBox all = kiriBounds_All(bounds);
+            kiriVec3 most = Most(Most(all.upper, kiriVec3_Scale(-1.0, all.lower)),
+                                 kiriVec3_Make(fabs(origin.x), fabs(origin.y), fabs(origin.z)));
+            search.ray.slack = 1e-9 * kiriMax(kiriMax(most.x, most.y), most.z);
+        }
+        (void)WalkTree(&(BoxWalk){ bounds, NULL, MeetsRay, &search.ray, FindFirstHit, &search });
     } else {
         for (int32_t t = 0; t < surface->triangleCount; ++t) {
             FindFirstHit(&search, &t, 1);
@@ -619,7 +605,12 @@ void kiriSurface_Raycast(const kiriSurface* surface, const kiriBounds* bounds, k
     kiriVec3 corner[3];
     GetWorldCorners(surface, search.triangle, corner);
     kiriVec3 ab = kiriVec3_Sub(corner[1], corner[0]), ac = kiriVec3_Sub(corner[2], corner[0]);
-    kiriVec2 rest = kiriVec2_Add(surface->origin, RestPoint(surface, search.triangle, search.hit));
+    const int32_t* v = &surface->indices.data[3 * (size_t)search.triangle];
+    const double shares[3] = { 1.0 - search.hit.b - search.hit.c, search.hit.b, search.hit.c };
+    kiriVec2 rest = surface->origin;
+    for (int k = 0; k < 3; ++k) {
+        rest = kiriVec2_AddScaled(rest, shares[k], surface->rest.data[v[k]]);
+    }
     hit->restPoint[0] = (float)rest.x;
     hit->restPoint[1] = (float)rest.y;
     kiriVec3_Store(hit->position,
@@ -627,61 +618,4 @@ void kiriSurface_Raycast(const kiriSurface* surface, const kiriBounds* bounds, k
     kiriVec3_Store(hit->normal, kiriVec3_Normalize(kiriVec3_Cross(ab, ac)));
     hit->distance = (float)search.hit.distance;
     hit->triangle = search.triangle;
-}
-
-typedef struct EdgeSearch {
-    const kiriSurface* surface;
-    Ray ray;
-    kiriMemory* memory;
-    kiriCrossings* crossings;
-    int32_t first; /* of the crossings of this edge */
-} EdgeSearch;
-
-/* Inserts crossings in the order of triangles. The rim keeps edges from slipping through between two triangles. */
-static bool AddCrossings(void* context, const int32_t* triangles, int32_t count)
-{
-    EdgeSearch* search = context;
-    kiriCrossings* all = search->crossings;
-    for (int32_t k = 0; k < count; ++k) {
-        kiriVec3 corner[3];
-        RayHit hit;
-        GetWorldCorners(search->surface, triangles[k], corner);
-        if (!HitTriangle(corner, &search->ray, 1e-9, &hit) || hit.distance > 1.0) {
-            continue;
-        }
-        const kiriCrossing crossing = { RestPoint(search->surface, triangles[k], hit),
-                                        kiriVec3_AddScaled(search->ray.origin, hit.distance, search->ray.direction),
-                                        hit.distance, triangles[k] };
-        if (!kiriArray_Push(search->memory, all, crossing)) {
-            return false;
-        }
-        int32_t i = all->count - 1;
-        for (; i > search->first && all->data[i - 1].triangle > crossing.triangle; --i) {
-            all->data[i] = all->data[i - 1];
-        }
-        all->data[i] = crossing;
-    }
-    return true;
-}
-
-bool kiriSurface_Cross(const kiriSurface* surface, const kiriBounds* bounds, kiriVec3 from, kiriVec3 to, double apart,
-                       kiriMemory* memory, kiriCrossings* crossings)
-{
-    KIRI_ASSERT(kiriBounds_IsFresh(bounds, surface));
-    EdgeSearch search = {
-        surface, { from, kiriVec3_Sub(to, from), 1.0, 0.0 }, memory, crossings, crossings->count
-    };
-    int32_t kept = crossings->count;
-    bool ok = WalkAlongRay(bounds, &search.ray, AddCrossings, &search);
-    for (int32_t i = search.first; i < crossings->count; ++i) {
-        bool isKnown = false;
-        for (int32_t k = search.first; !isKnown && k < kept; ++k) {
-            isKnown = kiriVec2_Distance(crossings->data[k].rest, crossings->data[i].rest) < apart;
-        }
-        if (!isKnown) {
-            crossings->data[kept++] = crossings->data[i];
-        }
-    }
-    crossings->count = kept;
-    return ok;
 }

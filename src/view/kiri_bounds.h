@@ -51,14 +51,6 @@ static inline bool kiriBox_Meet(const kiriBox* a, const kiriBox* b)
            b->lower.y <= a->upper.y && a->lower.z <= b->upper.z && b->lower.z <= a->upper.z;
 }
 
-/* Returns true if the boxes are at most this far apart along each axis. */
-static inline bool kiriBox_MeetWithin(const kiriBox* a, const kiriBox* b, double distance)
-{
-    const kiriVec3 d = { distance, distance, distance };
-    const kiriBox wider = { kiriVec3_Sub(a->lower, d), kiriVec3_Add(a->upper, d) };
-    return kiriBox_Meet(&wider, b);
-}
-
 /* Enlarges the box to hold a point. */
 void kiriBox_Add(kiriBox* box, kiriVec3 at);
 
@@ -123,21 +115,6 @@ bool kiriBounds_Box(const kiriBounds* bounds, const kiriSurface* surface, const 
    fit the surface or are null, with the same result. */
 void kiriSurface_Raycast(const kiriSurface* surface, const kiriBounds* bounds, kiriVec3 origin, kiriVec3 direction,
                          double maxDistance, kiriHit* hit);
-
-/* A point where an edge meets the surface. */
-typedef struct kiriCrossing {
-    kiriVec2 rest; /* local */
-    kiriVec3 at;
-    double share; /* along the edge, 0 to 1 */
-    int32_t triangle;
-} kiriCrossing;
-
-typedef KIRI_ARRAY(kiriCrossing) kiriCrossings;
-
-/* Appends all crossings of the edge with the surface, which its bounds must fit. Crossings nearer than `apart` in the rest
-   plane count as one: at an edge of the mesh there are two. Returns false on out of memory. */
-bool kiriSurface_Cross(const kiriSurface* surface, const kiriBounds* bounds, kiriVec3 from, kiriVec3 to, double apart,
-                       kiriMemory* memory, kiriCrossings* crossings);
 
 KIRI_C_END
 

@@ -2,341 +2,354 @@
 
 #include "../core/kiri_array.h"
 
-/* ---- Windows ----------------------------------------------------------------------------------------------------- */
+/* In the view along the edge the edge is a point, the origin, and each corner of a triangle moves along a straight way while
+   the edge moves. So a triangle is a prism: below, its corners as they were, above, as they are. The prism is three
+   tetrahedra, and prisms of neighbours have the same triangles on their common side. The view is linear in a
+   tetrahedron, so the edge is in a straight piece between two of its faces. The corners have whole coordinates, and signs are exact,
+   as if no corner were in line with another: so each piece that ends on a face goes on beyond it. */
 
-/* Sets a side along a and b. If it has no length, all is inside. */
-static void SetSide(kiriWindow* window, int side, kiriVec3 a, kiriVec3 b, kiriVec3 inside)
-{
-    kiriVec3 inward = kiriVec3_Cross(window->normal, kiriVec3_Sub(b, a));
-    double level = kiriVec3_Dot(inward, a);
-    bool isTurned = kiriVec3_Dot(inward, inside) < level;
-    window->inward[side] = isTurned ? kiriVec3_Scale(-1.0, inward) : inward;
-    window->level[side] = isTurned ? -level : level;
-}
+/* ---- The view along the edge ------------------------------------------------------------------------------------- */
 
-/* Sets the side along which an end of the edge moves. If the corners are not a convex quadrilateral (such as a ray from an
-   eye that hardly moves), that line would cut off a part of the edge: then the side is where the end is farthest out. */
-static void SetEndSide(kiriWindow* window, int side, const kiriVec3 corner[4], kiriVec3 inside)
-{
-    const kiriVec3 a = corner[side], b = corner[(side + 1) % 4];
-    bool isConvex = true;
-    SetSide(window, side, a, b, inside);
-    for (int k = 2; k < 4; ++k) {
-        double level = window->level[side], at = kiriVec3_Dot(window->inward[side], corner[(side + k) % 4]),
-               depth = at - level;
-        isConvex = isConvex && !(depth < -1e-9 * (fabs(level) + fabs(depth + level)));
-    }
-    if (!isConvex) {
-        kiriVec3 along = kiriVec3_Add(kiriVec3_Sub(corner[0], corner[1]), kiriVec3_Sub(corner[3], corner[2]));
-        kiriVec3 inward = side == KIRI_SIDE_SECOND ? along : kiriVec3_Scale(-1.0, along);
-        double atA = kiriVec3_Dot(inward, a), atB = kiriVec3_Dot(inward, b);
-        window->inward[side] = inward;
-        window->level[side] = kiriMin(atA, atB);
-    }
-}
+enum { ACROSS, BESIDE, ALONG, AXES };
 
-bool kiriWindow_Make(kiriWindow* window, const kiriVec3 corner[4], kiriVec3 from, kiriVec3 to)
-{
-    kiriVec3 along = kiriVec3_Sub(corner[1], corner[0]), middle = kiriVec3_Scale(0.5, kiriVec3_Add(from, to));
-    along = kiriVec3_Dot(along, along) > 0.0 ? along : kiriVec3_Sub(corner[2], corner[3]);
-    kiriVec3 normal = kiriVec3_Cross(along, kiriVec3_Sub(to, from));
-    double size = kiriVec3_Dot(along, along) + kiriVec3_Dot(kiriVec3_Sub(to, from), kiriVec3_Sub(to, from));
-    if (!(kiriVec3_Length(normal) > 1e-12 * size)) {
-        return false;
-    }
-    window->normal = kiriVec3_Normalize(normal);
-    window->offset = kiriVec3_Dot(window->normal, to);
-    window->box = (kiriBox){ corner[0], corner[0] };
-    SetSide(window, KIRI_SIDE_FROM, corner[0], corner[1], to);
-    SetSide(window, KIRI_SIDE_TO, corner[2], corner[3], from);
-    SetEndSide(window, KIRI_SIDE_SECOND, corner, middle);
-    SetEndSide(window, KIRI_SIDE_FIRST, corner, middle);
-    for (int i = 0; i < 4; ++i) {
-        kiriBox_Add(&window->box, corner[i]);
-    }
-    return true;
-}
+/* The edge at one time. */
+typedef struct EdgeView {
+    kiriVec3 origin;
+    kiriVec3 slope[AXES]; /* coordinates are slope . (x - origin); ALONG has the length of the edge at its second end */
+    double length;        /* m */
+} EdgeView;
 
-/* Boxes are enlarged a little: the plane of the window is rounded, too. */
-static bool MeetsWindow(const void* context, const kiriBox* box)
-{
-    const kiriWindow* window = context;
-    kiriVec3 n = window->normal, half = kiriVec3_Scale(0.5, kiriVec3_Sub(box->upper, box->lower));
-    kiriVec3 middle = kiriVec3_Add(box->lower, half);
-    double reach = fabs(n.x) * half.x + fabs(n.y) * half.y + fabs(n.z) * half.z;
-    double slack = 1e-9 * (fabs(window->offset) + fabs(middle.x) + fabs(middle.y) + fabs(middle.z) + reach);
-    return fabs(kiriVec3_Dot(n, middle) - window->offset) <= reach + slack &&
-           kiriBox_MeetWithin(&window->box, box, slack);
-}
+typedef struct Corner {
+    int32_t id; /* 2 * vertex + (0: as it was, 1: as it is) */
+    int32_t x, y;
+    double inside[2]; /* m along the edge: beyond its first end, before its second */
+} Corner;
 
-/* ---- Pieces of lines: one a triangle ----------------------------------------------------------------------------- */
-
-enum { OPEN_END = -1 }; /* an end that goes on in the next triangle, if there is one */
-
-/* The part of a line in a triangle. The side above the plane is to its left. */
+/* The part of a line in a tetrahedron. */
 typedef struct Piece {
     kiriSectionPoint point[2];
     int32_t end[2];
-    int64_t edge[2]; /* of open ends: the edge of the mesh, by its vertices */
-    kiriVec2 out[2];
+    int32_t face[2][3]; /* of open ends: the ids of the corners, ascending */
     int32_t next; /* the piece that goes on from its end, or KIRI_NONE */
     bool isReached, isDone;
 } Piece;
 
+enum { OPEN_END = -1 }; /* an end that goes on in the next tetrahedron, if there is one */
+
 typedef struct Pieces {
     const kiriSurface* surface;
-    const kiriWindow* window;
+    const kiriSweep* sweep;
+    EdgeView view[2]; /* as the edge was, and as it is */
+    double scale;     /* units of corners a metre */
+    kiriMemory* memory;
     KIRI_ARRAY(Piece) pieces;
-    kiriIndices triangles, starts; /* starts: pieces whose first end is open, sorted by edge */
+    kiriIndices triangles, starts; /* starts: pieces whose first end is open, sorted by face */
 } Pieces;
 
-static double HeightOf(const Pieces* p, int32_t vertex)
+static double ViewOf(const EdgeView* view, int axis, kiriVec3 at)
 {
-    return kiriVec3_Dot(p->window->normal, kiriSurface_At(p->surface, vertex)) - p->window->offset;
+    return kiriVec3_Dot(view->slope[axis], kiriVec3_Sub(at, view->origin));
 }
 
-static kiriSectionPoint Between(kiriSectionPoint a, kiriSectionPoint b, double t)
+/* Returns half the size of a box with these half sides along an axis, enlarged a little for rounding. */
+static double HalfOf(const EdgeView* view, int axis, kiriVec3 middle, kiriVec3 half)
 {
-    kiriSectionPoint point = { kiriVec2_Add(a.rest, kiriVec2_Scale(t, kiriVec2_Sub(b.rest, a.rest))),
-                               kiriVec3_AddScaled(a.at, t, kiriVec3_Sub(b.at, a.at)) };
-    return point;
+    kiriVec3 s = view->slope[axis], d = kiriVec3_Sub(middle, view->origin);
+    double size = fabs(s.x) * half.x + fabs(s.y) * half.y + fabs(s.z) * half.z;
+    return size + 1e-9 * (size + fabs(s.x * d.x) + fabs(s.y * d.y) + fabs(s.z * d.z));
 }
 
-/* Writes the end where the plane crosses an edge, with the same bits from both triangles. `other` is the third corner. */
-static void CrossEdge(const Pieces* p, Piece* piece, int k, int32_t a, int32_t b, int32_t other)
+/* Returns true if the edge may go through a triangle in the box. */
+static bool MeetsSweep(const void* context, const kiriBox* box)
 {
-    int32_t low = kiriMin(a, b), high = kiriMax(b, a);
-    const kiriVec2* rest = p->surface->rest.data;
-    kiriSectionPoint from = { rest[low], kiriSurface_At(p->surface, low) },
-                     to = { rest[high], kiriSurface_At(p->surface, high) };
-    KIRI_ASSERT(low >= 0 && low < high && high < p->surface->vertexCount);
-    double above = HeightOf(p, low), t = above / (above - HeightOf(p, high));
-    kiriVec2 way = kiriVec2_Sub(rest[high], rest[low]), in = kiriVec2_Sub(rest[other], rest[low]);
-    kiriVec2 out = kiriVec2_Make(way.y, -way.x);
-    piece->point[k] = Between(from, to, t);
-    piece->end[k] = OPEN_END;
-    piece->edge[k] = (int64_t)low << 32 | high;
-    piece->out[k] = kiriVec2_Scale((kiriVec2_Dot(out, in) > 0.0 ? -1.0 : 1.0) / kiriVec2_Length(way), out);
-}
-
-/* Cuts a triangle with the plane and the window. Returns false if nothing is left. A vertex in the plane counts as above
-   it: so each triangle is crossed by two of its edges, or by none. */
-static bool CrossTriangle(const Pieces* p, int32_t triangle, Piece* piece)
-{
-    const int32_t* v = &p->surface->indices.data[3 * (size_t)triangle];
-    bool above[3];
-    KIRI_ASSERT(triangle >= 0 && triangle < p->surface->triangleCount);
-    for (int i = 0; i < 3; ++i) {
-        above[i] = HeightOf(p, v[i]) >= 0.0;
-    }
-    if (above[0] == above[1] && above[1] == above[2]) {
-        return false;
-    }
-    int odd = above[1] == above[2] ? 0 : above[2] == above[0] ? 1 : 2, next = (odd + 1) % 3, last = (odd + 2) % 3;
-    int first = above[odd] ? 0 : 1;
-    CrossEdge(p, piece, first, v[odd], v[next], v[last]);
-    CrossEdge(p, piece, 1 - first, v[odd], v[last], v[next]);
-    for (int side = 0; side < KIRI_SIDES; ++side) {
-        double depth[2];
+    const Pieces* p = context;
+    kiriVec3 half = kiriVec3_Scale(0.5, kiriVec3_Sub(box->upper, box->lower)), middle = kiriVec3_Add(box->lower, half);
+    double reach = p->sweep->reach;
+    bool meets = true;
+    for (int axis = 0; axis < AXES; ++axis) {
+        double low = 1e300, high = -1e300;
         for (int k = 0; k < 2; ++k) {
-            depth[k] = kiriVec3_Dot(p->window->inward[side], piece->point[k].at) - p->window->level[side];
+            double more = k == 0 ? reach : 0.0, at = ViewOf(&p->view[k], axis, middle);
+            double size = HalfOf(&p->view[k], axis, middle, kiriVec3_Add(half, kiriVec3_Make(more, more, more)));
+            low = kiriMin(low, at - size - (axis == ALONG ? p->view[k].length : 0.0));
+            high = kiriMax(high, at + size);
         }
-        if (depth[0] < 0.0 && depth[1] < 0.0) {
+        meets = meets && low <= 0.0 && high >= 0.0;
+    }
+    return meets;
+}
+
+/* Looks along the edge from both sides of its sweep. Returns false if it has no direction. */
+static bool MakeViews(Pieces* p, const kiriBounds* bounds)
+{
+    const kiriSweep* sweep = p->sweep;
+    kiriVec3 way[2] = { kiriVec3_Sub(sweep->was[1], sweep->was[0]), kiriVec3_Sub(sweep->is[1], sweep->is[0]) };
+    kiriVec3 go = kiriVec3_Add(kiriVec3_Sub(sweep->is[0], sweep->was[0]), kiriVec3_Sub(sweep->is[1], sweep->was[1]));
+    kiriVec3 along = kiriVec3_Normalize(kiriVec3_Add(kiriVec3_Normalize(way[0]), kiriVec3_Normalize(way[1])));
+    kiriVec3 beside = kiriVec3_Cross(along, kiriVec3_Normalize(go)), axis[3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
+    for (int i = 0; i < 3 && kiriVec3_Length(beside) < 1e-3; ++i) {
+        beside = kiriVec3_Cross(along, axis[i]);
+    }
+    beside = kiriVec3_Normalize(beside);
+    kiriVec3 across = kiriVec3_Cross(beside, along);
+    kiriBox all = kiriBounds_All(bounds);
+    kiriVec3 half = kiriVec3_Scale(0.5, kiriVec3_Sub(all.upper, all.lower)), middle = kiriVec3_Add(all.lower, half);
+    half = kiriVec3_Add(half, kiriVec3_Make(sweep->reach, sweep->reach, sweep->reach));
+    double most = 0.0;
+    for (int k = 0; k < 2; ++k) {
+        EdgeView* view = &p->view[k];
+        double length = kiriVec3_Dot(way[k], along);
+        kiriVec3 lean = length > 0.0 ? kiriVec3_Scale(1.0 / length, way[k]) : along;
+        view->origin = k == 0 ? sweep->was[0] : sweep->is[0];
+        view->length = kiriMax(length, 0.0);
+        view->slope[ALONG] = along;
+        view->slope[ACROSS] = kiriVec3_AddScaled(across, -kiriVec3_Dot(across, lean), along);
+        view->slope[BESIDE] = kiriVec3_AddScaled(beside, -kiriVec3_Dot(beside, lean), along);
+        for (int i = ACROSS; i <= BESIDE; ++i) {
+            most = kiriMax(most, fabs(ViewOf(view, i, middle)) + HalfOf(view, i, middle, half));
+        }
+    }
+    p->scale = (double)(1 << 29) / most;
+    return most > 0.0 && most < 1e30 && kiriVec3_Dot(along, along) > 0.5;
+}
+
+static Corner SeeCorner(const Pieces* p, int32_t vertex, int k)
+{
+    enum { MOST = 1 << 30 };
+    const EdgeView* view = &p->view[k];
+    kiriVec3 at = kiriSurface_At(p->surface, vertex);
+    if (k == 0 && p->sweep->came != NULL) {
+        at = kiriVec3_Sub(at, p->sweep->came(p->sweep->context, vertex));
+    }
+    double x = p->scale * ViewOf(view, ACROSS, at), y = p->scale * ViewOf(view, BESIDE, at);
+    double along = ViewOf(view, ALONG, at);
+    return (Corner){ 2 * vertex + k,
+                     (int32_t)kiriClamp(x, -(double)MOST, (double)MOST),
+                     (int32_t)kiriClamp(y, -(double)MOST, (double)MOST),
+                     { along, view->length - along } };
+}
+
+/* ---- Pieces of lines: one a tetrahedron -------------------------------------------------------------------------- */
+
+static int64_t Turn(const Corner* a, const Corner* b)
+{
+    return (int64_t)a->x * b->y - (int64_t)a->y * b->x;
+}
+
+/* Returns true if b is to the left of a, seen from the origin. The corners are moved by less than any number, the lower the
+   id the more, along x more than along y: so this is never undecided. */
+static bool IsLeft(const Corner* a, const Corner* b)
+{
+    if (a->id > b->id) {
+        return !IsLeft(b, a);
+    }
+    int64_t turn = Turn(a, b);
+    return turn != 0 ? turn > 0 : b->y != 0 ? b->y > 0 : b->x != 0 ? b->x < 0 : a->y < 0;
+}
+
+/* Finds the shares of the corners at the origin. A face that is seen edge-on has the origin between two of them. */
+static void FindShares(const Corner* const face[3], double shares[3])
+{
+    double sum = 0.0;
+    for (int i = 0; i < 3; ++i) {
+        shares[i] = fabs((double)Turn(face[(i + 1) % 3], face[(i + 2) % 3]));
+        sum += shares[i];
+    }
+    for (int i = 0; i < 3 && sum == 0.0; ++i) {
+        const Corner *a = face[i], *b = face[(i + 1) % 3];
+        if ((int64_t)a->x * b->x + (int64_t)a->y * b->y <= 0) {
+            shares[i] = fabs((double)b->x) + fabs((double)b->y);
+            shares[(i + 1) % 3] = fabs((double)a->x) + fabs((double)a->y);
+            sum = shares[i] + shares[(i + 1) % 3];
+        }
+    }
+    for (int i = 0; i < 3; ++i) {
+        shares[i] = sum > 0.0 ? shares[i] / sum : 1.0 / 3.0;
+    }
+}
+
+/* Writes an end of a piece, with the same bits from both tetrahedra at the face; its depths inside the ends of the edge. */
+static void EndOnFace(const Pieces* p, const Corner* const face[3], Piece* piece, int k, double depth[2])
+{
+    double shares[3];
+    int tops = 0;
+    kiriSectionPoint point = { { 0.0, 0.0 }, { 0.0, 0.0, 0.0 } };
+    FindShares(face, shares);
+    depth[0] = depth[1] = 0.0;
+    for (int i = 0; i < 3; ++i) {
+        int32_t v = face[i]->id / 2;
+        point.rest = kiriVec2_AddScaled(point.rest, shares[i], p->surface->rest.data[v]);
+        point.at = kiriVec3_AddScaled(point.at, shares[i], kiriSurface_At(p->surface, v));
+        depth[0] += shares[i] * face[i]->inside[0];
+        depth[1] += shares[i] * face[i]->inside[1];
+        piece->face[k][i] = face[i]->id;
+        tops += face[i]->id % 2;
+    }
+    piece->point[k] = point;
+    piece->end[k] = tops == 0 ? KIRI_END_FROM : tops == 3 ? KIRI_END_TO : OPEN_END;
+}
+
+/* Shortens the piece to between the ends of the edge. Returns false if nothing is left. */
+static bool ClipPiece(Piece* piece, double depth[2][2])
+{
+    for (int side = 0; side < 2; ++side) {
+        double d[2] = { depth[0][side], depth[1][side] };
+        if (d[0] < 0.0 && d[1] < 0.0) {
             return false;
         }
         for (int k = 0; k < 2; ++k) {
-            if (depth[k] < 0.0) {
-                piece->point[k] =
-                    Between(piece->point[k], piece->point[1 - k], depth[k] / (depth[k] - depth[1 - k]));
-                piece->end[k] = side;
+            if (d[k] < 0.0) {
+                double t = d[k] / (d[k] - d[1 - k]);
+                kiriSectionPoint *a = &piece->point[k], *b = &piece->point[1 - k];
+                a->rest = kiriVec2_AddScaled(a->rest, t, kiriVec2_Sub(b->rest, a->rest));
+                a->at = kiriVec3_AddScaled(a->at, t, kiriVec3_Sub(b->at, a->at));
+                depth[k][1 - side] += t * (depth[1 - k][1 - side] - depth[k][1 - side]);
+                piece->end[k] = side == 0 ? KIRI_END_FIRST : KIRI_END_SECOND;
             }
         }
     }
-    piece->next = KIRI_NONE;
-    piece->isReached = piece->isDone = false;
     return true;
 }
 
-static bool IsEdgeBefore(const void* context, int32_t a, int32_t b)
+/* Adds the piece in a tetrahedron. Its corners ascend; isRight: in this order they are right-handed. Pieces go from first
+   to last ends through all of them: by the side from which the origin looks at the face. */
+static bool CrossTetrahedron(Pieces* p, const Corner* const corner[4], bool isRight)
 {
-    const Piece* pieces = context;
-    return pieces[a].edge[0] != pieces[b].edge[0] ? pieces[a].edge[0] < pieces[b].edge[0] : a < b;
-}
-
-/* Collects the pieces, and links each to the piece that starts at the edge where it ends. The sides of an open edge have
-   different vertices, so no link goes across it. */
-static bool CollectPieces(Pieces* p, kiriMemory* memory)
-{
-    for (int32_t i = 0; i < p->triangles.count; ++i) {
-        Piece piece;
-        if (CrossTriangle(p, p->triangles.data[i], &piece) &&
-            (!kiriArray_Push(memory, &p->pieces, piece) ||
-             (piece.end[0] == OPEN_END && !kiriArray_Push(memory, &p->starts, p->pieces.count - 1)))) {
-            return false;
+    Piece piece = { .next = KIRI_NONE };
+    double depth[2][2];
+    int ends = 0;
+    for (int f = 0; f < 4; ++f) {
+        const Corner* const face[3] = { corner[f == 0 ? 1 : 0], corner[f < 2 ? 2 : 1], corner[f < 3 ? 3 : 2] };
+        bool isLeft = IsLeft(face[0], face[1]);
+        if (IsLeft(face[1], face[2]) == isLeft && IsLeft(face[2], face[0]) == isLeft) { /* it has the origin */
+            int k = ((f % 2 == 0) == isRight) == isLeft ? 1 : 0;
+            KIRI_ASSERT((ends & 1 << k) == 0);
+            EndOnFace(p, face, &piece, k, depth[k]);
+            ends |= 1 << k;
         }
     }
+    KIRI_ASSERT(ends == 0 || ends == 3);
+    if (ends == 0 || !ClipPiece(&piece, depth)) {
+        return true;
+    }
+    return kiriArray_Push(p->memory, &p->pieces, piece) &&
+           (piece.end[0] != OPEN_END || kiriArray_Push(p->memory, &p->starts, p->pieces.count - 1));
+}
+
+static bool CrossTriangle(Pieces* p, int32_t triangle)
+{
+    const int32_t* v = &p->surface->indices.data[3 * (size_t)triangle];
+    int32_t order[3] = { v[0], v[1], v[2] };
+    bool isRight = true, beyond[4] = { true, true, true, true };
+    KIRI_ASSERT(triangle >= 0 && triangle < p->surface->triangleCount);
+    for (int i = 0; i < 3; ++i) { /* 0 and 1, 1 and 2, 0 and 1 */
+        int k = i % 2;
+        if (order[k] > order[k + 1]) {
+            int32_t last = order[k];
+            order[k] = order[k + 1];
+            order[k + 1] = last;
+            isRight = !isRight;
+        }
+    }
+    Corner corner[6];
+    for (int i = 0; i < 6; ++i) {
+        corner[i] = SeeCorner(p, order[i / 2], i % 2);
+        const bool isBeyond[4] = { corner[i].x < 0, corner[i].x > 0, corner[i].y < 0, corner[i].y > 0 };
+        for (int k = 0; k < 4; ++k) {
+            beyond[k] = beyond[k] && isBeyond[k];
+        }
+    }
+    const Corner* const parts[3][4] = { { &corner[0], &corner[2], &corner[4], &corner[5] },
+                                        { &corner[0], &corner[2], &corner[3], &corner[5] },
+                                        { &corner[0], &corner[1], &corner[3], &corner[5] } };
+    bool ok = true;
+    for (int i = 0; ok && i < 3 && !(beyond[0] || beyond[1] || beyond[2] || beyond[3]); ++i) {
+        ok = CrossTetrahedron(p, parts[i], (i == 1) != isRight);
+    }
+    return ok;
+}
+
+/* ---- Lines ------------------------------------------------------------------------------------------------------- */
+
+static int CompareFaces(const int32_t* a, const int32_t* b)
+{
+    int i = 0;
+    while (i < 2 && a[i] == b[i]) {
+        ++i;
+    }
+    return (a[i] > b[i]) - (a[i] < b[i]);
+}
+
+static bool IsFaceBefore(const void* context, int32_t a, int32_t b)
+{
+    const Piece* pieces = context;
+    int order = CompareFaces(pieces[a].face[0], pieces[b].face[0]);
+    return order != 0 ? order < 0 : a < b;
+}
+
+/* Links each piece to the one that starts at the face where it ends. The sides of an open edge have different vertices, so
+   no link goes across it. */
+static void LinkPieces(Pieces* p)
+{
     Piece* pieces = p->pieces.data;
     const int32_t *starts = p->starts.data, count = p->starts.count;
-    kiriSort(p->starts.data, count, IsEdgeBefore, pieces);
+    kiriSort(p->starts.data, count, IsFaceBefore, pieces);
     for (int32_t i = 0; i < p->pieces.count; ++i) {
         int32_t k = count;
         if (pieces[i].end[1] == OPEN_END) {
-            KIRI_SEARCH(k, 0, count, pieces[starts[middle]].edge[0] < pieces[i].edge[1]);
+            KIRI_SEARCH(k, 0, count, CompareFaces(pieces[starts[middle]].face[0], pieces[i].face[1]) < 0);
         }
-        if (k < count && pieces[starts[k]].edge[0] == pieces[i].edge[1]) {
+        if (k < count && CompareFaces(pieces[starts[k]].face[0], pieces[i].face[1]) == 0) {
             pieces[i].next = starts[k];
             pieces[starts[k]].isReached = true;
         }
     }
-    return true;
 }
 
 /* Adds the line that begins with a piece. */
-static bool AddLine(Pieces* p, kiriSection* section, kiriMemory* memory, int32_t start)
+static bool AddLine(Pieces* p, kiriSection* section, int32_t start)
 {
     KIRI_ASSERT(start >= 0 && start < p->pieces.count);
     Piece *first = &p->pieces.data[start], *last = first;
-    kiriSectionLine line = { section->points.count, 0, { 0, 0 }, { first->out[0], first->out[0] } };
-    bool ok = kiriArray_Push(memory, &section->points, first->point[0]);
+    kiriSectionLine line = { section->points.count, 0, { 0, 0 } };
+    bool ok = kiriArray_Push(p->memory, &section->points, first->point[0]);
     for (int32_t i = start; ok && i != KIRI_NONE && !p->pieces.data[i].isDone; i = last->next) {
         last = &p->pieces.data[i];
         last->isDone = true;
-        ok = kiriArray_Push(memory, &section->points, last->point[1]);
+        ok = kiriArray_Push(p->memory, &section->points, last->point[1]);
     }
     const int32_t end[2] = { first->end[0], last->end[1] };
     for (int k = 0; k < 2; ++k) {
         line.end[k] = last->next != KIRI_NONE ? KIRI_END_LOOP : end[k] == OPEN_END ? KIRI_END_BORDER : end[k];
     }
     line.count = section->points.count - line.first;
-    line.out[1] = last->out[1];
-    return ok && kiriArray_Push(memory, &section->lines, line);
+    return ok && kiriArray_Push(p->memory, &section->lines, line);
 }
 
-bool kiriSection_Add(kiriSection* section, kiriMemory* memory, const kiriSurface* surface, const kiriBounds* bounds,
-                     const kiriWindow* window)
+bool kiriSection_Sweep(kiriSection* section, kiriMemory* memory, const kiriSurface* surface, const kiriBounds* bounds,
+                       const kiriSweep* sweep)
 {
-    Pieces p = { surface, window, { NULL, 0, 0 }, { NULL, 0, 0 }, { NULL, 0, 0 } };
+    Pieces p = { .surface = surface, .sweep = sweep, .memory = memory };
     KIRI_ASSERT(kiriBounds_IsFresh(bounds, surface));
-    bool ok = kiriBounds_Find(bounds, surface, MeetsWindow, window, memory, &p.triangles) && CollectPieces(&p, memory);
+    section->points.count = section->lines.count = 0;
+    bool ok = bounds->levelCount == 0 || !MakeViews(&p, bounds) || kiriBounds_Find(bounds, surface, MeetsSweep, &p, memory, &p.triangles);
+    for (int32_t i = 0; ok && i < p.triangles.count; ++i) {
+        ok = CrossTriangle(&p, p.triangles.data[i]);
+    }
+    if (ok) {
+        LinkPieces(&p);
+    }
     /* Lines that begin somewhere, then loops. */
     for (int pass = 0; pass < 2; ++pass) {
         for (int32_t i = 0; ok && i < p.pieces.count; ++i) {
             if (!p.pieces.data[i].isDone && (pass == 1 || !p.pieces.data[i].isReached)) {
-                ok = AddLine(&p, section, memory, i);
+                ok = AddLine(&p, section, i);
             }
         }
     }
     kiriArray_Release(memory, &p.pieces);
     kiriArray_Release(memory, &p.triangles);
     kiriArray_Release(memory, &p.starts);
-    return ok;
-}
-
-/* ---- Sweeps: two windows that share a side ----------------------------------------------------------------------- */
-
-/* An end of a line is 2 * line + (0 or 1). */
-typedef struct Seam {
-    kiriSection parts; /* lines of the first window, then of the second */
-    int32_t firstCount;
-    kiriIndices mates;     /* of each end: the end that it goes on from, or KIRI_NONE */
-    KIRI_ARRAY(bool) done; /* of each line */
-} Seam;
-
-static bool IsAtSeam(const Seam* seam, int32_t end)
-{
-    KIRI_ASSERT(end >= 0 && end / 2 < seam->parts.lines.count);
-    return seam->parts.lines.data[end / 2].end[end % 2] ==
-           (end / 2 < seam->firstCount ? KIRI_SIDE_TO : KIRI_SIDE_FROM);
-}
-
-static kiriVec2 RestOfEnd(const Seam* seam, int32_t end)
-{
-    const kiriSectionLine* line = &seam->parts.lines.data[end / 2];
-    return seam->parts.points.data[line->first + (end % 2 == 0 ? 0 : line->count - 1)].rest;
-}
-
-/* Both windows find the same points on the seam, but for rounding: so the nearest free end is the mate. */
-static void MateEnds(Seam* seam)
-{
-    int32_t second = 2 * seam->firstCount, *mates = seam->mates.data;
-    for (int32_t i = 0; i < seam->mates.count; ++i) {
-        mates[i] = KIRI_NONE;
-        seam->done.data[i / 2] = false;
-    }
-    for (int32_t a = 0; a < second; ++a) {
-        double nearest = 1e300;
-        for (int32_t b = second; IsAtSeam(seam, a) && b < seam->mates.count; ++b) {
-            double distance = kiriVec2_Length(kiriVec2_Sub(RestOfEnd(seam, a), RestOfEnd(seam, b)));
-            if (IsAtSeam(seam, b) && mates[b] == KIRI_NONE && distance < nearest) {
-                nearest = distance;
-                mates[a] = b;
-            }
-        }
-        if (mates[a] != KIRI_NONE) {
-            mates[mates[a]] = a;
-        }
-    }
-}
-
-/* Adds the line that begins with an end of a part. */
-static bool JoinLine(Seam* seam, kiriSection* section, kiriMemory* memory, int32_t start)
-{
-    const kiriSectionLine* lines = seam->parts.lines.data;
-    kiriSectionLine line = { section->points.count, 0, { KIRI_END_LOOP, KIRI_END_LOOP }, { { 0, 0 }, { 0, 0 } } };
-    int32_t at = start, end = start;
-    while (at != KIRI_NONE && !seam->done.data[at / 2]) {
-        const kiriSectionLine* part = &lines[at / 2];
-        seam->done.data[at / 2] = true;
-        for (int32_t i = 0; i < part->count; ++i) {
-            int32_t point = part->first + (at % 2 == 0 ? i : part->count - 1 - i);
-            if (!kiriArray_Push(memory, &section->points, seam->parts.points.data[point])) {
-                return false;
-            }
-        }
-        end = at ^ 1;
-        at = seam->mates.data[end];
-    }
-    if (at == KIRI_NONE) {
-        line.end[0] = lines[start / 2].end[start % 2];
-        line.end[1] = lines[end / 2].end[end % 2];
-    }
-    line.out[0] = lines[start / 2].out[start % 2];
-    line.out[1] = lines[end / 2].out[end % 2];
-    line.count = section->points.count - line.first;
-    return kiriArray_Push(memory, &section->lines, line);
-}
-
-bool kiriSection_Sweep(kiriSection* section, kiriMemory* memory, const kiriSurface* surface, const kiriBounds* bounds,
-                       const kiriVec3 edge[4])
-{
-    const kiriVec3 halves[2][4] = { { edge[0], edge[1], edge[2], edge[0] }, { edge[0], edge[2], edge[2], edge[3] } };
-    Seam seam = { { { NULL, 0, 0 }, { NULL, 0, 0 } }, 0, { NULL, 0, 0 }, { NULL, 0, 0 } };
-    bool ok = true;
-    for (int k = 0; ok && k < 2; ++k) {
-        const kiriVec3* c = halves[k];
-        kiriVec3 from = kiriVec3_Scale(0.5, kiriVec3_Add(c[0], c[1])), to = kiriVec3_Scale(0.5, kiriVec3_Add(c[2], c[3]));
-        kiriWindow window;
-        seam.firstCount = seam.parts.lines.count;
-        ok = !kiriWindow_Make(&window, c, from, to) || kiriSection_Add(&seam.parts, memory, surface, bounds, &window);
-    }
-    int32_t lines = seam.parts.lines.count;
-    ok = ok && kiriArray_Resize(memory, &seam.mates, 2 * (int64_t)lines) && kiriArray_Resize(memory, &seam.done, lines);
-    if (ok) {
-        MateEnds(&seam);
-    }
-    section->points.count = section->lines.count = 0;
-    /* Lines that end somewhere, then loops. */
-    for (int pass = 0; pass < 2; ++pass) {
-        for (int32_t end = 0; ok && end < 2 * lines; ++end) {
-            if (!seam.done.data[end / 2] && (pass == 1 || seam.mates.data[end] == KIRI_NONE)) {
-                ok = JoinLine(&seam, section, memory, end);
-            }
-        }
-    }
-    kiriArray_Release(memory, &seam.parts.points);
-    kiriArray_Release(memory, &seam.parts.lines);
-    kiriArray_Release(memory, &seam.mates);
-    kiriArray_Release(memory, &seam.done);
     return ok;
 }
 
@@ -365,22 +378,13 @@ static int32_t JumpFrom(const kiriSection* section, const kiriSectionLine* line,
     return jump;
 }
 
-/* Adds a point beyond an end of the line, if that is at a border. */
-static bool AddBeyond(const kiriSection* section, const kiriSectionLine* line, int end, double reach,
+bool kiriSection_Path(const kiriSection* section, const kiriSectionLine* line, bool fromLast, double tolerance,
                       kiriMemory* memory, kiriRestPoints* path)
 {
-    kiriVec2 at = RestAt(section, line, end == 1, 0);
-    return line->end[end] != KIRI_END_BORDER ||
-           kiriArray_Push(memory, path, kiriVec2_Add(at, kiriVec2_Scale(reach, line->out[end])));
-}
-
-bool kiriSection_Path(const kiriSection* section, const kiriSectionLine* line, bool fromLast, double reach,
-                      double tolerance, kiriMemory* memory, kiriRestPoints* path)
-{
     KIRI_ASSERT(line->count >= 2 && line->first + line->count <= section->points.count);
-    bool ok = AddBeyond(section, line, fromLast ? 1 : 0, reach, memory, path);
+    bool ok = true;
     for (int32_t i = 0; ok && i < line->count; i += JumpFrom(section, line, fromLast, i, tolerance)) {
         ok = kiriArray_Push(memory, path, RestAt(section, line, fromLast, i));
     }
-    return ok && AddBeyond(section, line, fromLast ? 0 : 1, reach, memory, path);
+    return ok;
 }

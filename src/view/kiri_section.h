@@ -1,5 +1,5 @@
-/* The lines in which a plane that a blade sweeps meets the surface. Each goes in one piece from border to border, or as far
-   as the blade goes. */
+/* The lines that the edge of a blade draws on the surface while both move. Each goes in one piece from border to border, or
+   as far as the blade goes. */
 #ifndef KIRI_SECTION_H
 #define KIRI_SECTION_H
 
@@ -7,38 +7,34 @@
 
 KIRI_C_BEGIN
 
-/* A quadrilateral in a plane, between the previous (side 0) and the current place (side 2) of an edge. Its ends move along
-   the other two sides. */
-enum { KIRI_SIDE_FROM, KIRI_SIDE_SECOND, KIRI_SIDE_TO, KIRI_SIDE_FIRST, KIRI_SIDES };
+/* Returns how far a vertex came while the edge moved. */
+typedef kiriVec3 kiriCameFn(const void* context, int32_t vertex);
 
-typedef struct kiriWindow {
-    kiriVec3 normal;
-    double offset;               /* the plane: normal . x = offset */
-    kiriVec3 inward[KIRI_SIDES]; /* inside is inward . x >= level, for each side */
-    double level[KIRI_SIDES];
-    kiriBox box;
-} kiriWindow;
+typedef struct kiriSweep {
+    kiriVec3 was[2], is[2]; /* the edge: its ends; the two of one edge may be the same */
+    kiriCameFn* came;       /* or null: the surface stays */
+    const void* context;
+    double reach; /* m: no vertex came farther */
+} kiriSweep;
 
-/* Makes a window. corner: first and second end of the previous edge, then second and first end of the current one, in a
-   plane; two may be the same point. `from` and `to` are points of the previous and the current edge, and determine the
-   inside if the edges cross. Returns false if the window has no area. */
-bool kiriWindow_Make(kiriWindow* window, const kiriVec3 corner[4], kiriVec3 from, kiriVec3 to);
-
-/* The end of a line: a side of the window, or one of these. */
+/* The end of a line. */
 enum {
-    KIRI_END_BORDER = KIRI_SIDES, /* the outline, or a lip */
-    KIRI_END_LOOP                 /* the begin of the same line */
+    KIRI_END_FROM,   /* where the edge was */
+    KIRI_END_TO,     /* where it is */
+    KIRI_END_FIRST,  /* the first end of the edge went over it */
+    KIRI_END_SECOND, /* the second one */
+    KIRI_END_BORDER, /* the outline, or a lip */
+    KIRI_END_LOOP    /* the begin of the same line */
 };
 
 typedef struct kiriSectionPoint {
     kiriVec2 rest; /* local */
-    kiriVec3 at;   /* world space */
+    kiriVec3 at;   /* world space; as the surface is now */
 } kiriSectionPoint;
 
 typedef struct kiriSectionLine {
     int32_t first, count; /* of its points, two at least */
     int32_t end[2];       /* of its first and its last point */
-    kiriVec2 out[2];      /* at a border: direction out of the material in the rest plane, unit */
 } kiriSectionLine;
 
 typedef struct kiriSection {
@@ -46,22 +42,16 @@ typedef struct kiriSection {
     KIRI_ARRAY(kiriSectionLine) lines;
 } kiriSection;
 
-/* Appends the lines in which the surface meets the window, in the order of triangles. The bounds must fit the surface.
-   Returns false on out of memory. */
-bool kiriSection_Add(kiriSection* section, kiriMemory* memory, const kiriSurface* surface, const kiriBounds* bounds,
-                     const kiriWindow* window);
-
-/* Replaces the section by the lines in the area that an edge sweeps from edge[0]-edge[1] to edge[3]-edge[2]. The area is
-   two triangles; no line ends at their common side. */
+/* Replaces the section by the lines of a sweep, in the order of triangles. The bounds must fit the surface. Returns false
+   on out of memory. */
 bool kiriSection_Sweep(kiriSection* section, kiriMemory* memory, const kiriSurface* surface, const kiriBounds* bounds,
-                       const kiriVec3 edge[4]);
+                       const kiriSweep* sweep);
 
-/* Appends the path of a cut along a line, from its first or its last point on. It goes past borders by `reach` (m), and
-   leaves out points within `tolerance` (m) of the straight way between the points that it keeps. Returns false on out of
-   memory. */
+/* Appends the path of a cut along a line, from its first or its last point on. Leaves out points within `tolerance` (m) of
+   the straight way between the points that it keeps. Returns false on out of memory. */
 typedef KIRI_ARRAY(kiriVec2) kiriRestPoints;
-bool kiriSection_Path(const kiriSection* section, const kiriSectionLine* line, bool fromLast, double reach,
-                      double tolerance, kiriMemory* memory, kiriRestPoints* path);
+bool kiriSection_Path(const kiriSection* section, const kiriSectionLine* line, bool fromLast, double tolerance,
+                      kiriMemory* memory, kiriRestPoints* path);
 
 KIRI_C_END
 

@@ -162,6 +162,7 @@ bool kiriSurface_Reserve(kiriSurface* surface, kiriMemory* memory, int64_t verti
 {
     return kiriArray_Reserve(memory, &surface->positions, 3 * vertices + 1) &&
            kiriArray_Reserve(memory, &surface->places, 3 * vertices + 1) &&
+           kiriArray_Reserve(memory, &surface->before, 3 * vertices) &&
            kiriArray_Reserve(memory, &surface->normals, 3 * vertices) &&
            kiriArray_Reserve(memory, &surface->restPositions, 2 * vertices) &&
            kiriArray_Reserve(memory, &surface->sourceWeights, 3 * vertices) &&
@@ -193,6 +194,14 @@ void kiriSurface_Resize(kiriSurface* surface, int32_t vertices, int32_t triangle
     surface->indices.count = 3 * triangles;
     surface->turns.count = triangles / 2 + triangles % 2;
     surface->carriers.count = surface->bends.count = frameCount;
+}
+
+void kiriSurface_Remember(kiriSurface* surface)
+{
+    KIRI_ASSERT(3 * surface->vertexCount <= surface->before.capacity);
+    surface->before.count = 3 * surface->vertexCount;
+    surface->middleBefore = surface->middle;
+    memcpy(surface->before.data, kiriSurface_Places(surface), sizeof(float) * (size_t)surface->before.count);
 }
 
 /* ---- Topology ---------------------------------------------------------------------------------------------------- */
@@ -273,6 +282,7 @@ void kiriSurface_WriteTopology(kiriSurface* surface, const kiriMeshData* mesh)
     };
     surface->pose += 1;
     surface->isWritten = surface->isSteady = false;
+    surface->before.count = 0;
     surface->revision = mesh->revision;
     surface->vertexCount = mesh->vertices.count;
     surface->triangleCount = mesh->triangles.count;
@@ -408,6 +418,7 @@ void kiriSurface_Keep(kiriSurface* surface, kiriShown* shown, const kiriKeep* tr
     HOST_ARRAYS(TAKE_HOST_ARRAY)
     kiriKeep_Compact(vertices, &surface->rest, 1, sizeof(kiriVec2));
     kiriKeep_Compact(vertices, &surface->places, 3, sizeof(float));
+    kiriKeep_Compact(vertices, &surface->before, 3, sizeof(float));
     surface->slopes.count = 4 * vertices->count;
     surface->hasSlopes = false;
     surface->carriers.count = surface->bends.count = frameCount;

@@ -85,6 +85,8 @@ typedef struct kiriSurface {
     int64_t pose;              /* grows whenever positions or corners may have changed */
     kiriVec3 middle;           /* m: near the sheet; 0 if the sheet is near the origin of the world */
     KIRI_ARRAY(float) places;  /* positions from `middle`, 3 a vertex; unused if `middle` is 0 */
+    KIRI_ARRAY(float) before;  /* for blades: the places at the start of the last tick; empty: nothing moved, or not known */
+    kiriVec3 middleBefore;     /* m: `middle` at that time */
     KIRI_ARRAY(kiriCarrier) carriers;
     KIRI_ARRAY(kiriBend) bends;
     kiriPatches patches;
@@ -117,6 +119,14 @@ static inline kiriVec3 kiriSurface_At(const kiriSurface* surface, int32_t vertex
     return kiriVec3_Add(surface->middle, kiriVec3_Load(kiriSurface_Places(surface) + 3 * (ptrdiff_t)vertex));
 }
 
+/* Returns how far a vertex came in the last tick. */
+static inline kiriVec3 kiriSurface_Came(const kiriSurface* surface, int32_t vertex)
+{
+    bool isKnown = surface->before.count == 3 * surface->vertexCount;
+    kiriVec3 before = isKnown ? kiriVec3_Load(surface->before.data + 3 * (ptrdiff_t)vertex) : kiriVec3_Make(0.0, 0.0, 0.0);
+    return isKnown ? kiriVec3_Sub(kiriSurface_At(surface, vertex), kiriVec3_Add(surface->middleBefore, before)) : before;
+}
+
 static inline void kiriSurface_Place(kiriSurface* surface, int32_t vertex, kiriVec3 at)
 {
     kiriVec3_Store(kiriSurface_Places(surface) + 3 * (ptrdiff_t)vertex, kiriVec3_Sub(at, surface->middle));
@@ -128,6 +138,9 @@ bool kiriSurface_Reserve(kiriSurface* surface, kiriMemory* memory, int64_t verti
 
 /* Sets the counts of all arrays, for which there is room. Before WriteTopology, and when frames change. */
 void kiriSurface_Resize(kiriSurface* surface, int32_t vertices, int32_t triangles, int32_t frameCount);
+
+/* Remembers the places, for kiriSurface_Came. Room is reserved. */
+void kiriSurface_Remember(kiriSurface* surface);
 
 /* Takes over what kiriMesh_Begin's journal says has changed; call it before kiriMesh_Commit. The first time
    all of the mesh. */

@@ -48,6 +48,8 @@ KIRI_TABLE(PatchesTable, kiriPatches, {
 })
 
 KIRI_SHARED_TABLE(kiriSurfaceTable, kiriSurface, {
+    KIRI_FLOAT_ITEMS(before),
+    KIRI_REALS(middleBefore),
     KIRI_UNHASHED,
     KIRI_HANDED,
     KIRI_WITHIN(KIRI_SKINNING_LINEAR, KIRI_SKINNING_SMOOTH, skinning),

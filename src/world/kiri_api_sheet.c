@@ -165,14 +165,15 @@ static kiriResult QueueSlice(kiriWorld* world, kiriSheetData* sheet, const kiriV
     kiriSection section = { { NULL, 0, 0 }, { NULL, 0, 0 } };
     kiriRestPoints ways = { NULL, 0, 0 };
     kiriIndices starts = { NULL, 0, 0 };
+    const kiriSweep sweep = { { quad[0], quad[1] }, { quad[3], quad[2] }, NULL, NULL, 0.0 };
     if (!kiriBounds_Update(sheet->seen.bounds, sheet->memory, &sheet->seen.surface) ||
-        !kiriSection_Sweep(&section, scratch, &sheet->seen.surface, sheet->seen.bounds, quad)) {
+        !kiriSection_Sweep(&section, scratch, &sheet->seen.surface, sheet->seen.bounds, &sweep)) {
         return KIRI_ERROR_MEMORY;
     }
     double snap = sheet->settings.snap * sheet->mesh.step;
     for (int32_t i = 0; i < section.lines.count; ++i) {
         if (!kiriArray_Push(scratch, &starts, ways.count) ||
-            !kiriSection_Path(&section, &section.lines.data[i], false, 0.5 * snap, 0.25 * snap, scratch, &ways)) {
+            !kiriSection_Path(&section, &section.lines.data[i], false, 0.25 * snap, scratch, &ways)) {
             return KIRI_ERROR_MEMORY;
         }
     }
@@ -552,6 +553,7 @@ kiriResult kiriSheet_Transform(kiriWorld* world, kiriSheet sheet, const float ro
     TurnPins(data, &R);
     TurnFades(&data->seen.fades, &R);
     TurnFades(&data->seen.pointFades, &R);
+    data->seen.surface.before.count = 0;
     kiriView_WritePositions(data);
     kiriSheet_WakeAll(data);
     KIRI_EACH(kiriPinData, pin, data->pins) {
@@ -680,6 +682,7 @@ static void ShiftSheet(kiriSheetData* sheet, kiriVec3 origin)
         Shift(&pin->lastTarget, origin);
     }
     ShiftContacts(sheet, origin);
+    sheet->seen.surface.before.count = 0;
     kiriView_WritePositions(sheet);
 }
 

@@ -31,13 +31,16 @@ typedef struct Track {
     kiriSheetData* sheet;
     kiriCutData* cut; /* or null */
     int32_t stroke;   /* or KIRI_NONE: it has got no point yet */
-    kiriVec2 rest;
+    kiriVec2 rest, met;
     kiriVec3 at;
-    double share;
     kiriLoop loop;
-    bool isDone; /* this step has handled it */
     bool isOver; /* the blade is out of the layer */
     bool isLost; /* its layer was not found again; another track may continue it */
+
+    /* In a step. */
+    bool isSeen;
+    kiriVec3 seen; /* where its place is seen */
+    kiriVec3 more; /* its place came this much farther than its triangle */
 } Track;
 
 typedef struct BladeWork {
@@ -49,29 +52,29 @@ typedef struct BladeWork {
 
     /* One step for one sheet. */
     kiriVec3 was[2], is[2]; /* the edge */
-    double elapsed;         /* s since the edge was there */
+    int32_t ticks;          /* since the edge was there */
     kiriSheetData* sheet;
     double snap;      /* m */
     bool isHeld;      /* the edge stays: only the material moves */
     bool isMessy;     /* the edge is in many layers, for it lies in the sheet: its ways mean little */
     bool joins;       /* else and if it moves: ways that begin or end amid the material go on to other ways */
+    bool isKnown;     /* where the material was when the edge was there */
     double unseen;    /* m: the farthest that an unseen way may go */
     int32_t oldCount; /* tracks before the step */
-    kiriVec3 drift;   /* motion of the material, of the last layer handled */
+    int32_t crossings; /* of the edge as it is */
     int32_t firstPending;
-    kiriCrossings crossings; /* of the edge as it is */
     kiriSection section;
-    KIRI_ARRAY(kiriSectionPoint) middles; /* of lines */
+    kiriIndices taker; /* of each end of a line, first and last: the track that goes on from it, or KIRI_NONE */
     kiriRestPoints path;
 } BladeWork;
 
 /* Distances in the rest plane, in snap distances. */
 #define SAME 2.0       /* places nearer than this are one; a layer that moved less is not led on */
-#define PAST 0.5       /* past a border a cut goes on by this, less than blades snap to: so it cuts no notch beyond */
 #define STRAIGHT 0.25  /* tolerance of straight ways */
 #define DEGENERATE 0.25
 #define BESIDE_LIP 3.0 /* a way that stays nearer to lips is in a slit */
 #define ON_LIP 0.75    /* points nearer to a lip are on it */
+#define FOUND 8.0      /* a layer goes on this near to where its track is; more than this counts a place beside it */
 #define SLIT 64.0      /* an edge that stays nearer to a slit slides in it */
 
 /* Between two slits no lip is nearer to the middle than this share of their distance. */
@@ -200,20 +203,47 @@ static void FindLipInTriangle(const BladeWork* work, int32_t triangle, kiriVec2 
     }
 }
 
-/* Finds the point of these edges that is nearest to a place, up to a distance (m). */
-static bool FindLipNear(const BladeWork* work, kiriVec2 rest, double distance, int which, kiriVec2* lip)
+/* The triangles in the squares around a place. Some come twice. */
+typedef struct Around {
+    const kiriSquares* squares;
+    kiriStrips strips;
+    int32_t square, node;
+} Around;
+
+static Around LookAround(const BladeWork* work, kiriVec2 rest, double distance)
 {
     const kiriMeshData* mesh = &work->sheet->mesh;
     kiriLatticePoint at = kiriMesh_Snap(mesh, rest);
-    kiriStrips strips = kiriStrips_Begin(&mesh->squares, at, at, distance / mesh->step);
-    double least = distance;
-    while (kiriStrips_Next(&strips)) {
-        for (int32_t i = 0; i < strips.count; ++i) {
-            int32_t slot = mesh->squares.head[strips.square + i * strips.stride];
-            for (; slot != KIRI_NONE; slot = mesh->squares.nodes.data[slot].next) {
-                FindLipInTriangle(work, mesh->squares.nodes.data[slot].triangle, rest, which, &least, lip);
+    Around around = { &mesh->squares, kiriStrips_Begin(&mesh->squares, at, at, distance / mesh->step), 0, KIRI_NONE };
+    around.strips.count = 0;
+    return around;
+}
+
+/* Returns KIRI_NONE after the last. */
+static int32_t NextAround(Around* around)
+{
+    while (around->node == KIRI_NONE) {
+        if (around->square == around->strips.count) {
+            around->square = 0;
+            if (!kiriStrips_Next(&around->strips)) {
+                return KIRI_NONE;
             }
+        } else {
+            around->node = around->squares->head[around->strips.square + around->square++ * around->strips.stride];
         }
+    }
+    int32_t triangle = around->squares->nodes.data[around->node].triangle;
+    around->node = around->squares->nodes.data[around->node].next;
+    return triangle;
+}
+
+/* Finds the point of these edges that is nearest to a place, up to a distance (m). */
+static bool FindLipNear(const BladeWork* work, kiriVec2 rest, double distance, int which, kiriVec2* lip)
+{
+    double least = distance;
+    Around around = LookAround(work, rest, distance);
+    for (int32_t t = NextAround(&around); t != KIRI_NONE; t = NextAround(&around)) {
+        FindLipInTriangle(work, t, rest, which, &least, lip);
     }
     return least < distance;
 }
@@ -355,7 +385,7 @@ static bool EndTrack(BladeWork* work, Track* track)
     bool isIdle = track->cut == NULL && track->stroke == KIRI_NONE;
     bool ok = !track->loop.isPassed || kiriMesh_Locate(mesh, kiriMesh_Snap(mesh, track->rest)) != KIRI_NONE ||
               CloseLoop(work, track);
-    track->isDone = track->isOver = true;
+    track->isOver = true;
     if (!isIdle) {
         int32_t stroke = StrokeOf(work, track);
         ok = ok && stroke != KIRI_NONE;
@@ -366,27 +396,11 @@ static bool EndTrack(BladeWork* work, Track* track)
     return ok;
 }
 
-static kiriVec3 EdgeAt(const kiriVec3* edge, double share)
-{
-    return kiriVec3_AddScaled(edge[0], share, kiriVec3_Sub(edge[1], edge[0]));
-}
-
-/* Returns how far a way may go that is not seen, where the edge left a place or came to it: as far as that may be where
-   the edge has left the whole sheet, and not by its ends. */
-static double UnseenWay(const BladeWork* work, const kiriVec3* edge, kiriVec3 at)
-{
-    kiriVec3 way = kiriVec3_Sub(edge[1], edge[0]), along = kiriVec3_Normalize(way), left = kiriVec3_Sub(at, edge[0]);
-    double distance = kiriVec3_Length(kiriVec3_Cross(along, left)), share = kiriVec3_Dot(along, left);
-    bool isBeside = distance > SAME * work->snap && share > 0.0 && share < kiriVec3_Length(way);
-    bool hasLeft = work->crossings.count == 0 && isBeside;
-    return hasLeft ? work->unseen : kiriMin(2.0 * distance + 8.0 * work->snap, work->unseen);
-}
-
 /* Finds where a way goes on that begins or ends amid the material: at the outline, at another slit or at another way of
    this step, whichever is nearest. An edge that has left the whole sheet left it over the outline, if that is near. */
 static bool FindOther(const BladeWork* work, kiriVec2 rest, int32_t stroke, double near, kiriVec2* place)
 {
-    if (work->crossings.count == 0 && FindLipNear(work, rest, near, OUTLINE, place)) {
+    if (work->crossings == 0 && FindLipNear(work, rest, near, OUTLINE, place)) {
         return true;
     }
     bool isFound = FindLipNear(work, rest, near, work->joins ? OUTLINE_AND_LIPS_ACROSS : OUTLINE, place);
@@ -396,176 +410,158 @@ static bool FindOther(const BladeWork* work, kiriVec2 rest, int32_t stroke, doub
 
 /* ---- Places in the material ---- */
 
-/* Finds where a place in the material is seen. A lip has a place on each side; the one nearest to `by` is taken,
-   because a piece that came off may have fallen far. False where the sheet has no material. */
-static bool Seen(const kiriSheetData* sheet, kiriVec2 rest, kiriVec3 by, kiriVec3* at)
+/* Returns the point of a triangle that is nearest to a place, and writes the shares of its corners. */
+static kiriVec2 NearestInTriangle(const kiriVec2 corner[3], kiriVec2 p, double shares[3])
 {
-    const kiriSquares* squares = &sheet->mesh.squares;
-    kiriLatticePoint p = kiriMesh_Snap(&sheet->mesh, rest), c[3];
-    int32_t square = kiriSquares_At(squares, p);
-    double nearest = 1e300;
-    bool isFound = false;
-    for (int32_t n = square == KIRI_NONE ? KIRI_NONE : squares->head[square]; n != KIRI_NONE;
-         n = squares->nodes.data[n].next) {
-        int32_t triangle = squares->nodes.data[n].triangle;
-        kiriMesh_Corners(&sheet->mesh, triangle, c);
-        const int32_t* v = sheet->mesh.triangles.data[triangle].vertex;
-        const int64_t part[3] = { kiriOrient(c[1], c[2], p), kiriOrient(c[2], c[0], p), kiriOrient(c[0], c[1], p) };
-        if (part[0] < 0 || part[1] < 0 || part[2] < 0) {
-            continue;
-        }
-        double whole = (double)kiriOrient(c[0], c[1], c[2]);
-        kiriVec3 seen = kiriVec3_Make(0.0, 0.0, 0.0);
-        for (int k = 0; k < 3; ++k) {
-            seen = kiriVec3_AddScaled(seen, (double)part[k] / whole, kiriSurface_At(&sheet->seen.surface, v[k]));
-        }
-        double distance = kiriVec3_Length(kiriVec3_Sub(seen, by));
-        if (!isFound || distance < nearest) {
-            nearest = distance;
-            *at = seen;
-            isFound = true;
-        }
-    }
-    return isFound;
-}
-
-/* Returns the velocity that the frames give a vertex. */
-static kiriVec3 VelocityOf(const kiriSheetData* sheet, int32_t vertex)
-{
-    KIRI_ASSERT(vertex >= 0 && vertex < sheet->vertexSkin.spans.count);
-    kiriSpan span = sheet->vertexSkin.spans.data[vertex];
-    kiriVec3 sum = { 0.0, 0.0, 0.0 };
-    for (int32_t i = 0; i < span.count; ++i) {
-        kiriSampleWeight w = sheet->vertexSkin.weights.data[span.first + i];
-        kiriVec2 rest = sheet->seen.surface.rest.data[vertex];
-        sum = kiriVec3_AddScaled(sum, w.value,
-                                 kiriFrame_VelocityAt(&sheet->frames.data[w.frame], rest));
-    }
-    return sum;
-}
-
-/* Returns how far the material of a triangle has moved since the last move of the edge. */
-static kiriVec3 DriftOf(const BladeWork* work, int32_t triangle)
-{
-    KIRI_ASSERT(triangle >= 0 && triangle < work->sheet->mesh.triangles.count);
-    const int32_t* v = work->sheet->mesh.triangles.data[triangle].vertex;
-    kiriVec3 sum = { 0.0, 0.0, 0.0 };
+    kiriVec2 nearest = p;
+    bool isIn = true;
     for (int k = 0; k < 3; ++k) {
-        sum = kiriVec3_AddScaled(sum, work->elapsed / 3.0, VelocityOf(work->sheet, v[k]));
-    }
-    return sum;
-}
-
-/* ---- Crossings ---- */
-
-enum { TAKEN = -1 }; /* the triangle of a crossing that belongs to a track */
-
-/* Finds the nearest free crossing but one, up to a distance in the rest plane, or returns null. */
-static kiriCrossing* NearestCrossing(const BladeWork* work, kiriVec2 rest, double distance, const kiriCrossing* except)
-{
-    kiriCrossing* nearest = NULL;
-    for (int32_t i = 0; i < work->crossings.count; ++i) {
-        kiriCrossing* crossing = &work->crossings.data[i];
-        double d = RestDistance(crossing->rest, rest);
-        if (crossing->triangle != TAKEN && crossing != except && d <= distance) {
-            distance = d;
-            nearest = crossing;
+        kiriVec2 a = corner[k], b = corner[(k + 1) % 3], foot = FootOnWay(a, b, p);
+        if (kiriVec2_Cross(kiriVec2_Sub(b, a), kiriVec2_Sub(p, a)) < 0.0 &&
+            (isIn || RestDistance(foot, p) < RestDistance(nearest, p))) {
+            nearest = foot;
+            isIn = false;
         }
     }
+    kiriVec2 ab = kiriVec2_Sub(corner[1], corner[0]), ac = kiriVec2_Sub(corner[2], corner[0]);
+    kiriVec2 ap = kiriVec2_Sub(nearest, corner[0]);
+    shares[1] = kiriVec2_Cross(ap, ac) / kiriVec2_Cross(ab, ac);
+    shares[2] = kiriVec2_Cross(ab, ap) / kiriVec2_Cross(ab, ac);
+    shares[0] = 1.0 - shares[1] - shares[2];
     return nearest;
 }
 
-/* Leads a track to a crossing, unless it is there. */
-static bool GoOn(BladeWork* work, Track* track, kiriCrossing* crossing)
+/* Finds where the place of a track in the material is seen, and how much farther it came than the last tick tells. Near a
+   lip there are places on both sides, and a piece that came off may have fallen far: the one that came as expected is
+   taken. The place is not seen where the sheet has no material, or just a piece that is elsewhere. */
+static void FindPlace(const BladeWork* work, Track* track)
 {
-    KIRI_ASSERT(crossing->triangle != TAKEN && track->sheet == work->sheet);
-    bool isStill = RestDistance(track->rest, crossing->rest) < SAME * work->snap;
-    bool ok = isStill || LeadTrack(work, track, crossing->rest);
-    track->at = crossing->at;
-    track->share = crossing->share;
-    track->isDone = true;
-    crossing->triangle = TAKEN;
-    return ok;
-}
-
-/* ---- Lines of the section ---- */
-
-/* Finds the longest line with an end at a place, or returns null; *fromLast says which end. */
-static const kiriSectionLine* LineFrom(const BladeWork* work, kiriVec2 rest, bool* fromLast)
-{
-    const kiriSection* section = &work->section;
-    const kiriSectionLine* found = NULL;
-    double longest = -1.0;
-    for (int32_t i = 0; i < section->lines.count; ++i) {
-        const kiriSectionLine* line = &section->lines.data[i];
-        const kiriSectionPoint* points = &section->points.data[line->first];
-        double d[2] = { RestDistance(points[0].rest, rest),
-                        RestDistance(points[line->count - 1].rest, rest) };
-        int end = d[0] <= d[1] ? 0 : 1;
-        if (d[end] < SAME * work->snap && d[1 - end] > longest) {
-            longest = d[1 - end];
-            found = line;
-            *fromLast = end == 1;
+    const kiriSheetData* sheet = work->sheet;
+    const kiriSurface* surface = &sheet->seen.surface;
+    double best = work->unseen, near = SAME * work->snap;
+    Around around = LookAround(work, track->rest, near);
+    track->isSeen = false;
+    for (int32_t t = NextAround(&around); t != KIRI_NONE; t = NextAround(&around)) {
+        const int32_t* v = sheet->mesh.triangles.data[t].vertex;
+        const kiriVec2 corner[3] = { surface->rest.data[v[0]], surface->rest.data[v[1]], surface->rest.data[v[2]] };
+        double shares[3], off = RestDistance(NearestInTriangle(corner, track->rest, shares), track->rest);
+        kiriVec3 seen = kiriVec3_Make(0.0, 0.0, 0.0), came = seen;
+        for (int k = 0; k < 3; ++k) {
+            seen = kiriVec3_AddScaled(seen, shares[k], kiriSurface_At(surface, v[k]));
+            came = kiriVec3_AddScaled(came, work->ticks * shares[k], kiriSurface_Came(surface, v[k]));
+        }
+        kiriVec3 more = kiriVec3_Sub(kiriVec3_Sub(seen, track->at), came);
+        double cost = kiriVec3_Length(more) + FOUND * off;
+        if (off < near && cost < best) {
+            best = cost;
+            track->isSeen = true;
+            track->seen = seen;
+            track->more = more;
         }
     }
-    return found;
 }
 
-static const kiriSectionPoint* EndOfWay(const BladeWork* work, const kiriSectionLine* line, bool last)
+/* Returns how far a vertex came since the edge was at its last place. If that is not known, it came as the tracks did. */
+static kiriVec3 CameOf(const void* context, int32_t vertex)
 {
-    return &work->section.points.data[line->first + (last ? line->count - 1 : 0)];
+    const BladeWork* work = context;
+    kiriVec3 sum = { 0.0, 0.0, 0.0 };
+    double weights = 0.0;
+    for (int32_t i = 0; i < work->oldCount && !work->isKnown; ++i) {
+        const Track* track = &work->tracks.data[i];
+        if (track->sheet == work->sheet && track->isSeen) {
+            kiriVec2 way = kiriVec2_Sub(work->sheet->seen.surface.rest.data[vertex], track->rest);
+            double weight = 1.0 / (kiriVec2_Dot(way, way) + work->snap * work->snap);
+            sum = kiriVec3_AddScaled(sum, weight, track->more);
+            weights += weight;
+        }
+    }
+    sum = weights > 0.0 ? kiriVec3_Scale(1.0 / weights, sum) : sum;
+    return kiriVec3_AddScaled(sum, work->ticks, kiriSurface_Came(&work->sheet->seen.surface, vertex));
 }
 
-static bool FindPath(BladeWork* work, const kiriSectionLine* line, bool fromLast)
+/* Removes lines that stay at a place: where a track is in its slit, rounding tells on which side it begins. */
+static void DropPoints(BladeWork* work)
 {
-    KIRI_ASSERT(line->first >= 0 && line->count >= 2 && line->first + line->count <= work->section.points.count);
-    work->path.count = 0;
-    return kiriSection_Path(&work->section, line, fromLast, PAST * work->snap, STRAIGHT * work->snap, &work->memory,
-                            &work->path);
+    kiriSection* section = &work->section;
+    int32_t kept = 0;
+    for (int32_t i = 0; i < section->lines.count; ++i) {
+        const kiriSectionLine line = section->lines.data[i];
+        const kiriSectionPoint* points = &section->points.data[line.first];
+        bool isLong = line.end[0] == KIRI_END_TO || line.end[1] == KIRI_END_TO;
+        for (int32_t k = 1; k < line.count && !isLong; ++k) {
+            isLong = RestDistance(points[k].rest, points[0].rest) > DEGENERATE * work->snap;
+        }
+        section->lines.data[kept] = line;
+        kept += isLong;
+    }
+    section->lines.count = kept;
 }
 
-/* Makes the section with the area that the edge sweeps in a plane, on a way `from` `to`. False for memory. */
-static bool CutPlane(BladeWork* work, const kiriVec3* was, const kiriVec3* is, kiriVec3 from, kiriVec3 to)
+/* Finds the lines that the edge draws in this step. */
+static bool FindLines(BladeWork* work)
 {
-    const kiriVec3 corner[4] = { was[0], was[1], is[1], is[0] };
-    const kiriSurface* surface = &work->sheet->seen.surface;
-    kiriWindow window;
-    work->section.points.count = work->section.lines.count = 0;
-    return !kiriWindow_Make(&window, corner, from, to) ||
-           kiriSection_Add(&work->section, &work->memory, surface, work->sheet->seen.bounds, &window);
-}
-
-/* Projects the ends of an edge into the plane through the other edge and x. False where x lies on the other edge. */
-static bool Flatten(const BladeWork* work, const kiriVec3* other, kiriVec3 x, const kiriVec3* edge, kiriVec3* flat)
-{
-    kiriVec3 along = kiriVec3_Normalize(kiriVec3_Sub(other[1], other[0]));
-    kiriVec3 normal = kiriVec3_Cross(along, kiriVec3_Sub(x, other[0]));
-    double distance = kiriVec3_Length(normal);
-    if (!(distance > DEGENERATE * work->snap)) {
+    kiriSheetData* sheet = work->sheet;
+    kiriSweep sweep = { { work->was[0], work->was[1] }, { work->is[0], work->is[1] }, CameOf, work, 0.0 };
+    if (!kiriBounds_Update(sheet->seen.bounds, sheet->memory, &sheet->seen.surface)) {
         return false;
     }
-    normal = kiriVec3_Scale(1.0 / distance, normal);
-    for (int k = 0; k < 2; ++k) {
-        flat[k] = kiriVec3_AddScaled(edge[k], -kiriVec3_Dot(normal, kiriVec3_Sub(edge[k], other[0])), normal);
+    work->isKnown = work->ticks == 0 || (work->ticks == 1 && sheet->seen.surface.before.count > 0);
+    for (int32_t i = 0; i < work->oldCount; ++i) {
+        Track* track = &work->tracks.data[i];
+        if (track->sheet == sheet) {
+            FindPlace(work, track);
+            sweep.reach = track->isSeen && !work->isKnown ? kiriMax(sweep.reach, kiriVec3_Length(track->more)) : sweep.reach;
+        }
     }
-    return true;
+    double most = 0.0;
+    for (int32_t v = 0; v < sheet->seen.surface.vertexCount && work->ticks > 0; ++v) {
+        kiriVec3 came = kiriSurface_Came(&sheet->seen.surface, v);
+        most = kiriMax(most, kiriVec3_Dot(came, came));
+    }
+    sweep.reach += work->ticks * kiriRoot(most);
+    return kiriSection_Sweep(&work->section, &work->memory, &sheet->seen.surface, sheet->seen.bounds, &sweep);
 }
 
-/* ---- Layers that the blade was in ---- */
+/* ---- Lines and tracks ---- */
 
-/* Finds the nearest track of the last step, up to a distance in the rest plane, or returns null. With `except`: one of
-   this sheet that is not handled yet, but this one; without: one that was lost, in whatever sheet its material is
-   now. */
-static Track* NearestTrack(const BladeWork* work, const Track* except, kiriVec2 rest, double distance)
+static const kiriSectionPoint* EndOfLine(const BladeWork* work, const kiriSectionLine* line, int end)
+{
+    return &work->section.points.data[line->first + (end == 1 ? line->count - 1 : 0)];
+}
+
+/* Gives a track the nearest end of a line from which it goes on: where the edge was, or a border beside the track, which
+   the edge was on. `most`: m. */
+static void MatchTrack(BladeWork* work, int32_t index, double most)
+{
+    Track* track = &work->tracks.data[index];
+    kiriVec2 from = work->isKnown ? track->met : track->rest;
+    int32_t nearest = KIRI_NONE;
+    for (int32_t i = 0; i < work->taker.count; ++i) {
+        const kiriSectionLine* line = &work->section.lines.data[i / 2];
+        int32_t type = line->end[i % 2];
+        double far = type == KIRI_END_FROM ? most : type == KIRI_END_BORDER ? kiriMin(most, SAME * work->snap) : 0.0;
+        double d = far > 0.0 ? RestDistance(EndOfLine(work, line, i % 2)->rest, from) : 1e300;
+        if (d < far && work->taker.data[i] == KIRI_NONE) {
+            most = d;
+            nearest = i;
+        }
+    }
+    if (nearest != KIRI_NONE) {
+        work->taker.data[nearest] = index;
+        track->isLost = false;
+    }
+}
+
+/* Finds the nearest lost track of the last step, up to a distance in the rest plane, but one, or returns null. */
+static Track* NearestLost(const BladeWork* work, const Track* except, kiriVec2 rest, double distance)
 {
     Track* nearest = NULL;
     KIRI_ASSERT(work->oldCount <= work->tracks.count);
     for (int32_t i = 0; i < work->oldCount; ++i) {
         Track* track = &work->tracks.data[i];
         double d = RestDistance(track->rest, rest);
-        bool fits =
-            except != NULL ? track != except && track->sheet == work->sheet && !track->isDone : track->isLost;
-        if (fits && d <= distance) {
+        if (track->isLost && track != except && (except == NULL || !track->isOver) && d <= distance) {
             distance = d;
             nearest = track;
         }
@@ -573,296 +569,110 @@ static Track* NearestTrack(const BladeWork* work, const Track* except, kiriVec2 
     return nearest;
 }
 
-/* Leads a track along a line. It ends at the edge as it is now, beyond a border, where the blade ended, or, over a
-   fold, at another layer that the blade was in. */
-static bool FollowLine(BladeWork* work, Track* track, const kiriSectionLine* line, bool fromLast)
-{
-    const kiriSectionPoint* end = EndOfWay(work, line, !fromLast);
-    int32_t type = line->end[fromLast ? 0 : 1];
-    kiriCrossing* crossing =
-        type != KIRI_SIDE_FROM ? NearestCrossing(work, end->rest, SAME * work->snap, NULL) : NULL;
-    bool isStill = crossing != NULL && RestDistance(track->rest, crossing->rest) < SAME * work->snap;
-    /* Over a fold the material of the other track has gone another way, and where the edge only touches the fold that
-       counts for much: so that track need only be nearer to the end of the line than this one. */
-    Track* other =
-        type == KIRI_SIDE_FROM ? NearestTrack(work, track, end->rest, RestDistance(track->rest, end->rest)) : NULL;
-    if (type == KIRI_SIDE_FROM && other == NULL) {
-        return true; /* the material moved otherwise: the track is lost where it is */
-    }
-    bool ok = isStill || (FindPath(work, line, fromLast) && LeadAlong(work, track));
-    if (!ok || crossing != NULL) {
-        return ok && GoOn(work, track, crossing);
-    }
-    if (other != NULL) {
-        ok = LeadTrack(work, track, other->rest) && EndTrack(work, other);
-    }
-    return ok && EndTrack(work, track);
-}
-
-/* Leads a track from where the edge would be had it moved with the material, to where the edge is. */
-static bool FollowTrack(BladeWork* work, Track* track)
-{
-    kiriVec3 x, to = EdgeAt(work->is, track->share);
-    if (!Seen(work->sheet, track->rest, track->at, &x)) {
-        return true;
-    }
-    work->drift = kiriVec3_Sub(x, track->at);
-    const kiriVec3 was[2] = { kiriVec3_Add(work->was[0], work->drift), kiriVec3_Add(work->was[1], work->drift) };
-    kiriVec3 flat[2];
-    const kiriSectionLine* line = NULL;
-    bool fromLast = false;
-    if (Flatten(work, work->is, x, was, flat)) {
-        if (!CutPlane(work, flat, work->is, x, to)) {
-            return false;
-        }
-        line = LineFrom(work, track->rest, &fromLast);
-        if (line != NULL &&
-            (line->end[fromLast ? 0 : 1] == KIRI_SIDE_TO ||
-             RestDistance(EndOfWay(work, line, false)->rest, EndOfWay(work, line, true)->rest) > SAME * work->snap)) {
-            return FollowLine(work, track, line, fromLast);
-        }
-    }
-    /* Hardly any way, or the tip of the cut stands out of the surface: then the layer is where the edge is nearest in
-       the material. */
-    double way = kiriVec3_Length(kiriVec3_Sub(to, x));
-    kiriCrossing* crossing = NearestCrossing(work, track->rest, 2.0 * way + SAME * work->snap, NULL);
-    if (crossing != NULL) {
-        return GoOn(work, track, crossing);
-    }
-    /* There may be a border here; but the way may go on elsewhere (PassAlong): the track counts as lost. */
-    kiriVec2 rest = track->rest;
-    bool ok = line == NULL || line->end[fromLast ? 0 : 1] != KIRI_END_BORDER ||
-              (FindPath(work, line, fromLast) && LeadAlong(work, track));
-    track->rest = rest;
-    return ok;
-}
-
-/* ---- Layers that it has come into ---- */
-
 static kiriLoop LoopFrom(kiriVec2 rest, bool isOpen)
 {
     const kiriLoop loop = { isOpen, false, rest, rest, 0.0, 0.0 };
     return loop;
 }
 
-static bool AddTrack(BladeWork* work, const kiriCrossing* crossing, kiriVec2 rest, kiriLoop loop)
+/* Says where the edge met the layer of a track. */
+static void MeetTrack(Track* track, const kiriSectionPoint* point)
 {
-    const Track track = { work->sheet,     NULL, KIRI_NONE, rest,  crossing->at,
-                              crossing->share, loop, true,      false, false };
+    track->met = point->rest;
+    track->at = point->at;
+}
+
+static bool AddTrack(BladeWork* work, kiriVec2 rest, kiriLoop loop)
+{
+    const Track track = { .sheet = work->sheet, .stroke = KIRI_NONE, .rest = rest, .loop = loop };
     return kiriArray_Push(&work->memory, &work->tracks, track);
 }
 
-/* Cuts from the beginning of the line to the crossing at its other end. */
-static bool EnterAlong(BladeWork* work, kiriCrossing* crossing, const kiriSectionLine* line, bool fromLast, double near)
+/* Begins a track where no other one went on from. The edge comes into a layer over a border, but for its ends: amid the
+   material the cut goes on from something near, or is a loop that is open. */
+static bool BeginTrack(BladeWork* work, const kiriSectionLine* line, int begin)
 {
-    const kiriSectionPoint* start = EndOfWay(work, line, fromLast);
-    double length = RestDistance(crossing->rest, start->rest);
-    int32_t type = line->end[fromLast ? 1 : 0];
-    /* A line over a fold is in the plane of the crossing at its other end, and begins beside another one: that need
-       only be nearer to its beginning than this one. */
-    kiriCrossing* other = type == KIRI_SIDE_TO ? NearestCrossing(work, start->rest, length, crossing) : NULL;
-    bool isAmid = type == KIRI_SIDE_FROM || type == KIRI_SIDE_TO;
-    const Track* lost = type == KIRI_SIDE_FROM
-                            ? NearestTrack(work, NULL, start->rest, work->joins ? work->unseen : near)
-                            : NULL;
-    if (!FindPath(work, line, fromLast)) {
+    int32_t type = line->end[begin];
+    kiriVec2 from = work->path.data[0];
+    double way = RestDistance(EndOfLine(work, line, 0)->rest, EndOfLine(work, line, 1)->rest);
+    double near = kiriMin(2.0 * way + FOUND * work->snap, work->unseen);
+    const Track* lost = type == KIRI_END_FROM ? NearestLost(work, NULL, from, work->joins ? work->unseen : near) : NULL;
+    from = lost != NULL ? lost->rest : from;
+    KIRI_ASSERT(work->path.count > 0 && type >= KIRI_END_FROM && type <= KIRI_END_LOOP);
+    bool isAmid = (type == KIRI_END_FROM && lost == NULL) || type == KIRI_END_FIRST || type == KIRI_END_SECOND;
+    bool isFound = isAmid && work->joins && FindOther(work, from, KIRI_NONE, near, &from);
+    if ((isAmid && !isFound) || type == KIRI_END_TO) {
+        isFound = FindSlit(work, from, BESIDE_LIP * work->snap, &from);
+    }
+    return AddTrack(work, from, lost != NULL ? lost->loop : LoopFrom(from, isAmid && !isFound));
+}
+
+/* The order in which the ends of a line are its begin. */
+static int RankOf(const BladeWork* work, int32_t end)
+{
+    static const int ranks[] = { [KIRI_END_FROM] = 1,   [KIRI_END_BORDER] = 2, [KIRI_END_FIRST] = 3,
+                                 [KIRI_END_SECOND] = 3, [KIRI_END_TO] = 4,     [KIRI_END_LOOP] = 5 };
+    return work->taker.data[end] != KIRI_NONE ? 0 : ranks[work->section.lines.data[end / 2].end[end % 2]];
+}
+
+/* Cuts along a line: with the track that goes on from its begin, or a new one. It ends at the edge as it is now, beyond a
+   border, where the blade ended, or, over a fold, at another layer that the blade was in. */
+static bool FollowLine(BladeWork* work, int32_t index)
+{
+    const kiriSectionLine* line = &work->section.lines.data[index];
+    int begin = RankOf(work, 2 * index) <= RankOf(work, 2 * index + 1) ? 0 : 1;
+    int32_t track = work->taker.data[2 * index + begin], other = work->taker.data[2 * index + 1 - begin];
+    int32_t type = line->end[1 - begin];
+    if (track == KIRI_NONE && line->end[begin] == KIRI_END_FROM && type != KIRI_END_TO) {
+        return true; /* no layer was there: the material moved otherwise */
+    }
+    KIRI_ASSERT(line->first >= 0 && line->count >= 2 && line->first + line->count <= work->section.points.count);
+    work->path.count = 0;
+    if (!kiriSection_Path(&work->section, line, begin == 1, STRAIGHT * work->snap, &work->memory, &work->path) ||
+        (track == KIRI_NONE && !BeginTrack(work, line, begin))) {
         return false;
     }
-    kiriVec2 from = lost != NULL ? lost->rest : work->path.data[0];
-    bool isFound = work->joins && isAmid && lost == NULL && FindOther(work, from, KIRI_NONE, near, &from);
-    bool isInside = type != KIRI_END_BORDER && !isFound;
-    kiriLoop loop = lost != NULL ? lost->loop : LoopFrom(from, isInside);
-    if (other != NULL) {
-        other->triangle = TAKEN;
-        if (!AddTrack(work, other, work->path.data[0], LoopFrom(from, isInside))) {
+    track = track == KIRI_NONE ? work->tracks.count - 1 : track;
+    if (line->end[begin] == KIRI_END_TO) {
+        kiriVec2 from = work->tracks.data[track].rest;
+        if (!AddTrack(work, from, LoopFrom(from, false))) {
             return false;
         }
+        MeetTrack(&work->tracks.data[work->tracks.count - 1], EndOfLine(work, line, begin));
     }
-    if (!AddTrack(work, crossing, from, loop)) {
-        return false;
+    const kiriSectionPoint* end = EndOfLine(work, line, 1 - begin);
+    Track* led = &work->tracks.data[track];
+    bool isStill = type == KIRI_END_TO && RestDistance(led->rest, end->rest) < SAME * work->snap;
+    bool ok = isStill || LeadAlong(work, led);
+    if (type == KIRI_END_TO || (type == KIRI_END_FROM && other == KIRI_NONE)) {
+        led->isLost = type == KIRI_END_FROM;
+        led->seen = end->at;
+        MeetTrack(led, end);
+        return ok;
     }
-    Track* track = &work->tracks.data[work->tracks.count - 1];
-    return LeadAlong(work, track) && GoOn(work, track, crossing);
+    if (other != KIRI_NONE) {
+        ok = ok && LeadTrack(work, led, work->tracks.data[other].rest) && EndTrack(work, &work->tracks.data[other]);
+    }
+    return ok && EndTrack(work, led);
 }
-
-/* Finds the line that leads to the crossing from where the edge was. An edge enters a layer over a border, but for its
-   ends, and where the material was then is known only roughly: so the search goes farther back to find a border. */
-static bool FindLineTo(BladeWork* work, const kiriCrossing* crossing, const kiriVec3* was, const kiriVec3* flat,
-                       const kiriSectionLine** line, bool* fromLast)
-{
-    static const double farther[] = { 0.5, 2.0, 8.0, 0.0 };
-    kiriVec3 from = EdgeAt(was, crossing->share), back = kiriVec3_Sub(from, crossing->at);
-    double length = kiriVec3_Length(back);
-    for (int i = 0; i < 4; ++i) {
-        kiriVec3 more = kiriVec3_Scale(farther[i] * (1.0 + 8.0 * work->snap / length), back);
-        const kiriVec3 edge[2] = { kiriVec3_Add(was[0], more), kiriVec3_Add(was[1], more) };
-        if (!CutPlane(work, edge, flat, kiriVec3_Add(from, more), crossing->at)) {
-            return false;
-        }
-        *line = LineFrom(work, crossing->rest, fromLast);
-        if (*line != NULL && (*line)->end[*fromLast ? 0 : 1] != KIRI_SIDE_FROM) {
-            break;
-        }
-    }
-    return true;
-}
-
-static bool EnterLayer(BladeWork* work, kiriCrossing* crossing)
-{
-    kiriVec3 drift = DriftOf(work, crossing->triangle), flat[2];
-    const kiriVec3 was[2] = { kiriVec3_Add(work->was[0], drift), kiriVec3_Add(work->was[1], drift) };
-    const kiriSectionLine* line = NULL;
-    bool fromLast = false;
-    work->drift = drift;
-    if (Flatten(work, was, crossing->at, work->is, flat) && !FindLineTo(work, crossing, was, flat, &line, &fromLast)) {
-        return false;
-    }
-    double near = UnseenWay(work, was, crossing->at);
-    if (line != NULL) {
-        return EnterAlong(work, crossing, line, !fromLast, near);
-    }
-    const Track* lost = NearestTrack(work, NULL, crossing->rest, near);
-    kiriVec2 from = lost != NULL ? lost->rest : crossing->rest;
-    bool isInside = lost != NULL || !work->joins || !FindOther(work, from, KIRI_NONE, near, &from);
-    return AddTrack(work, crossing, from, lost != NULL ? lost->loop : LoopFrom(from, isInside)) &&
-           GoOn(work, &work->tracks.data[work->tracks.count - 1], crossing);
-}
-
-/* ---- Layers that it has passed through ---- */
-
-static kiriSectionPoint MiddleOf(const kiriSection* section, const kiriSectionLine* line)
-{
-    const kiriSectionPoint* b = &section->points.data[line->first + line->count / 2];
-    kiriSectionPoint middle = { kiriVec2_Scale(0.5, kiriVec2_Add(b[-1].rest, b->rest)),
-                                kiriVec3_Scale(0.5, kiriVec3_Add(b[-1].at, b->at)) };
-    return middle;
-}
-
-/* Cuts along a line that no track follows. A line from a layer that the blade is in, or was in, belongs to its track,
-   unless that was lost. */
-static bool PassAlong(BladeWork* work, const kiriSectionLine* line)
-{
-    double near = 2.0 * kiriVec3_Length(work->drift) + SAME * work->snap;
-    int inner = line->end[0] == KIRI_SIDE_FROM ? 0 : line->end[1] == KIRI_SIDE_FROM ? 1 : KIRI_NONE;
-    const kiriSectionPoint *first = EndOfWay(work, line, false), *last = EndOfWay(work, line, true);
-    kiriVec2 middle = MiddleOf(&work->section, line).rest, led;
-    bool isLed = FindPending(work, work->firstPending, NO_STROKE, middle,
-                             2.0 * SAME * work->snap + kiriVec3_Length(work->drift), &led);
-    if (line->end[0] == KIRI_SIDE_TO || line->end[1] == KIRI_SIDE_TO || isLed) {
-        return true;
-    }
-    const Track* lost =
-        inner != KIRI_NONE ? NearestTrack(work, NULL, inner == 0 ? first->rest : last->rest, near) : NULL;
-    if (inner != KIRI_NONE && (lost == NULL || line->end[1 - inner] == KIRI_SIDE_FROM)) {
-        return true;
-    }
-    if (!FindPath(work, line, inner == 1)) {
-        return false;
-    }
-    kiriVec2 from = lost != NULL ? lost->rest : work->path.data[0];
-    Track track = {
-        work->sheet, NULL, KIRI_NONE, from, work->is[0], 0.0, LoopFrom(from, false), false, false, false
-    };
-    return LeadAlong(work, &track) && EndTrack(work, &track);
-}
-
-static const kiriSectionLine* LineNear(const kiriSection* section, kiriVec2 rest)
-{
-    const kiriSectionLine* nearest = NULL;
-    double least = 1e300;
-    for (int32_t i = 0; i < section->lines.count; ++i) {
-        const kiriSectionLine* line = &section->lines.data[i];
-        for (int32_t k = line->first; k + 1 < line->first + line->count; ++k) {
-            const kiriSectionPoint* at = &section->points.data[k];
-            double distance = kiriVec2_DistanceToWay(rest, at->rest, at[1].rest);
-            nearest = distance < least ? line : nearest;
-            least = distance < least ? distance : least;
-        }
-    }
-    return nearest;
-}
-
-/* Cuts along the sweep of an edge that turns, near a place on it: in the plane that touches it there. */
-static bool PassNear(BladeWork* work, const kiriVec3 was[2], const kiriSectionPoint* place)
-{
-    kiriVec3 edge[2], from = was[0], way = { 0.0, 0.0, 0.0 }, flat[4];
-    double share = 0.5, time = 0.5;
-    for (int k = 0; k < 3; ++k) {
-        edge[0] = kiriVec3_AddScaled(was[0], time, kiriVec3_Sub(work->is[0], was[0]));
-        edge[1] = kiriVec3_AddScaled(was[1], time, kiriVec3_Sub(work->is[1], was[1]));
-        way = kiriVec3_Sub(edge[1], edge[0]);
-        double square = kiriVec3_Dot(way, way);
-        share = square > 0.0 ? kiriVec3_Dot(kiriVec3_Sub(place->at, edge[0]), way) / square : 0.0;
-        from = EdgeAt(was, share);
-        way = kiriVec3_Sub(EdgeAt(work->is, share), from);
-        square = kiriVec3_Dot(way, way);
-        time = square > 0.0 ? kiriVec3_Dot(kiriVec3_Sub(place->at, from), way) / square : 0.0;
-    }
-    kiriVec3 normal = kiriVec3_Normalize(kiriVec3_Cross(kiriVec3_Sub(edge[1], edge[0]), way));
-    const kiriVec3 corner[4] = { was[0], was[1], work->is[0], work->is[1] };
-    for (int k = 0; k < 4; ++k) {
-        flat[k] = kiriVec3_AddScaled(corner[k], -kiriVec3_Dot(normal, kiriVec3_Sub(corner[k], from)), normal);
-    }
-    if (!CutPlane(work, flat, flat + 2, from, kiriVec3_Add(from, way))) {
-        return false;
-    }
-    const kiriSectionLine* line = LineNear(&work->section, place->rest);
-    return line == NULL || PassAlong(work, line);
-}
-
-/* Finds the drift of the material where no layer has told it. The material may have moved over the edge, and then the
-   sweep would seem to begin inside it. */
-static bool FindDrift(BladeWork* work)
-{
-    const kiriSheetData* sheet = work->sheet;
-    const kiriVec3 corner[4] = { work->was[0], work->was[1], work->is[1], work->is[0] };
-    bool ok = kiriSection_Sweep(&work->section, &work->memory, &sheet->seen.surface, sheet->seen.bounds, corner);
-    if (ok && work->section.lines.count > 0) {
-        kiriVec2 rest = MiddleOf(&work->section, &work->section.lines.data[0]).rest;
-        int32_t triangle = kiriMesh_Locate(&sheet->mesh, kiriMesh_Snap(&sheet->mesh, rest));
-        work->drift = triangle != KIRI_NONE ? DriftOf(work, triangle) : work->drift;
-    }
-    return ok;
-}
-
-static bool PassThrough(BladeWork* work)
-{
-    const kiriSheetData* sheet = work->sheet;
-    bool isKnown = kiriVec3_Dot(work->drift, work->drift) > 0.0;
-    if (!isKnown && !FindDrift(work)) {
-        return false;
-    }
-    const kiriVec3 corner[4] = { kiriVec3_Add(work->was[0], work->drift), kiriVec3_Add(work->was[1], work->drift),
-                                 work->is[1], work->is[0] };
-    kiriVec3 normal =
-        kiriVec3_Normalize(kiriVec3_Cross(kiriVec3_Sub(corner[2], corner[0]), kiriVec3_Sub(corner[3], corner[1])));
-    bool isFlat = fabs(kiriVec3_Dot(normal, kiriVec3_Sub(corner[1], corner[0]))) < DEGENERATE * work->snap;
-    bool ok = kiriSection_Sweep(&work->section, &work->memory, &sheet->seen.surface, sheet->seen.bounds, corner);
-    work->middles.count = 0;
-    for (int32_t i = 0; ok && i < work->section.lines.count; ++i) {
-        const kiriSectionLine* line = &work->section.lines.data[i];
-        ok = isFlat ? PassAlong(work, line)
-                    : kiriArray_Push(&work->memory, &work->middles, MiddleOf(&work->section, line));
-    }
-    for (int32_t i = 0; ok && i < work->middles.count; ++i) {
-        ok = PassNear(work, corner, &work->middles.data[i]);
-    }
-    return ok;
-}
-
-/* ---- Layers that it was not found in ---- */
 
 /* Ends a layer that the edge has left. It left over a border, or entered again on another way: where one of these is
    near, the cut goes on to it. */
 static bool EndLost(BladeWork* work, Track* track)
 {
-    kiriVec3 x;
     kiriVec2 place;
     bool ok = true;
-    if (!work->isMessy && Seen(work->sheet, track->rest, track->at, &x)) {
-        bool isFound = FindOther(work, track->rest, track->stroke, UnseenWay(work, work->is, x), &place);
+    KIRI_ASSERT(track->isLost && !track->isOver);
+    if (!work->isMessy && track->isSeen) {
+        /* The way to there is not seen. It may be long where the edge has left the whole sheet, and not by its ends. */
+        kiriVec3 way = kiriVec3_Sub(work->is[1], work->is[0]), left = kiriVec3_Sub(track->seen, work->is[0]);
+        double distance = kiriVec3_Length(kiriVec3_Cross(kiriVec3_Normalize(way), left)), share = kiriVec3_Dot(way, left);
+        bool isBeside = distance > SAME * work->snap && share > 0.0 && share < kiriVec3_Dot(way, way);
+        bool hasLeft = work->crossings == 0 && isBeside;
+        double near = hasLeft ? work->unseen : kiriMin(2.0 * distance + FOUND * work->snap, work->unseen);
+        bool isFound = FindOther(work, track->rest, track->stroke, near, &place);
         bool isAlone = isFound || track->loop.isPassed || !work->joins;
-        Track* other = isAlone ? NULL : NearestTrack(work, track, track->rest, work->unseen);
+        Track* other = isAlone ? NULL : NearestLost(work, track, track->rest, work->unseen);
         if (other != NULL) {
             return LeadTrack(work, track, other->rest) && EndTrack(work, other) && EndTrack(work, track);
         }
@@ -877,32 +687,39 @@ static bool StepThroughSheet(BladeWork* work)
 {
     enum { MANY = 24 };
     kiriSheetData* sheet = work->sheet;
-    bool ok = true;
     work->snap = sheet->settings.snap * sheet->mesh.step;
+    work->unseen = UNSEEN * KIRI_LATTICE * sheet->mesh.step;
     work->firstPending = work->pending.count;
     work->isHeld = kiriVec3_Length(kiriVec3_Sub(work->is[0], work->was[0])) < work->snap &&
                    kiriVec3_Length(kiriVec3_Sub(work->is[1], work->was[1])) < work->snap;
-    work->crossings.count = 0;
-    work->drift = kiriVec3_Make(0.0, 0.0, 0.0);
-    ok = kiriBounds_Update(sheet->seen.bounds, sheet->memory, &sheet->seen.surface) &&
-         kiriSurface_Cross(&sheet->seen.surface, sheet->seen.bounds, work->is[0], work->is[1], DEGENERATE * work->snap,
-                           &work->memory, &work->crossings);
-    work->isMessy = work->crossings.count + work->oldCount > MANY;
+    bool ok = FindLines(work);
+    DropPoints(work);
+    work->crossings = 0;
+    for (int32_t i = 0; ok && i < 2 * work->section.lines.count; ++i) {
+        work->crossings += work->section.lines.data[i / 2].end[i % 2] == KIRI_END_TO;
+    }
+    work->isMessy = work->crossings + work->oldCount > MANY;
     work->joins = !work->isHeld && !work->isMessy;
-    work->unseen = UNSEEN * KIRI_LATTICE * sheet->mesh.step;
-    for (int32_t i = 0; ok && i < work->oldCount; ++i) {
-        Track* track = &work->tracks.data[i];
-        if (track->sheet == sheet && !track->isDone) {
-            ok = FollowTrack(work, track);
-            track->isLost = !track->isDone;
+    ok = ok && kiriArray_Resize(&work->memory, &work->taker, 2 * work->section.lines.count);
+    for (int32_t i = 0; ok && i < work->taker.count; ++i) {
+        work->taker.data[i] = KIRI_NONE;
+    }
+    for (int pass = 0; pass < 2; ++pass) { /* the ends beside a track, then others */
+        for (int32_t i = 0; ok && i < work->oldCount; ++i) {
+            Track* track = &work->tracks.data[i];
+            double far = work->joins ? work->unseen : FOUND * work->snap + kiriVec3_Length(track->more);
+            track->isLost |= track->sheet == sheet && pass == 0;
+            if (track->sheet == sheet && track->isLost) {
+                MatchTrack(work, i, pass == 0 ? SAME * work->snap : far);
+            }
         }
     }
-    for (int32_t i = 0; ok && i < work->crossings.count; ++i) {
-        if (work->crossings.data[i].triangle != TAKEN) {
-            ok = EnterLayer(work, &work->crossings.data[i]);
+    for (int pass = 0; pass < 2; ++pass) { /* lines that a track goes on along, then others */
+        for (int32_t i = 0; ok && i < work->section.lines.count; ++i) {
+            bool isTaken = work->taker.data[2 * i] != KIRI_NONE || work->taker.data[2 * i + 1] != KIRI_NONE;
+            ok = isTaken != (pass == 0) || FollowLine(work, i);
         }
     }
-    ok = ok && PassThrough(work);
     for (int32_t i = 0; ok && i < work->oldCount; ++i) {
         Track* track = &work->tracks.data[i];
         ok = track->sheet != sheet || !track->isLost || track->isOver || EndLost(work, track);
@@ -976,10 +793,10 @@ kiriResult kiriWorld_RemoveBlade(kiriWorld* world, kiriBladeData* blade)
     return KIRI_OK;
 }
 
-void kiriWorld_AdvanceBlades(kiriWorld* world, double dt)
+void kiriWorld_AdvanceBlades(kiriWorld* world)
 {
     for (int32_t i = 0; i < world->blades.count; ++i) {
-        world->blades.data[i]->elapsed += dt;
+        world->blades.data[i]->ticks += 1;
     }
 }
 
@@ -999,8 +816,8 @@ static bool StartTracks(BladeWork* work, const kiriWorld* world, const kiriBlade
         kiriSheetData* sheet = slot->owner;
         bool isThere = cut != NULL && cut->waiting == 0 && cut->tip.blade.vertex != KIRI_NONE;
         kiriVec2 rest = isThere ? kiriMesh_Local(&sheet->mesh, cut->tip.blade.at) : layer->rest;
-        const Track track = { sheet,     cut,          KIRI_NONE,   rest,  layer->at,
-                              layer->share, layer->loop, false, false, false };
+        const Track track = { .sheet = sheet, .cut = cut, .stroke = KIRI_NONE, .rest = rest, .met = layer->met, .at = layer->at,
+                              .loop = layer->loop };
         if (!kiriArray_Push(&work->memory, &work->tracks, track)) {
             return false;
         }
@@ -1041,8 +858,7 @@ static void NextStep(BladeWork* work)
     int32_t kept = 0;
     for (int32_t i = 0; i < work->tracks.count; ++i) {
         if (!work->tracks.data[i].isOver && !work->tracks.data[i].isLost) {
-            work->tracks.data[kept] = work->tracks.data[i];
-            work->tracks.data[kept++].isDone = false;
+            work->tracks.data[kept++] = work->tracks.data[i];
         }
     }
     work->tracks.count = work->oldCount = kept;
@@ -1073,7 +889,7 @@ static bool TakeSteps(BladeWork* work, const kiriWorld* world, const kiriBladeDa
             work->was[k] = blade->isPlaced ? Towards(blade->edge[k], to[k], (double)i / steps) : to[k];
             work->is[k] = blade->isPlaced ? Towards(blade->edge[k], to[k], (double)(i + 1) / steps) : to[k];
         }
-        work->elapsed = i == 0 && blade->isPlaced ? blade->elapsed : 0.0;
+        work->ticks = i == 0 && blade->isPlaced ? blade->ticks : 0;
         NextStep(work);
         for (int32_t k = 0; ok && k < world->sheets.count; ++k) {
             work->sheet = world->sheets.data[k];
@@ -1170,8 +986,7 @@ static kiriResult Apply(kiriWorld* world, kiriBladeData* blade, BladeWork* work)
     for (int32_t i = 0; i < work->tracks.count; ++i) {
         const Track* track = &work->tracks.data[i];
         const kiriCutData* cut = track->stroke != KIRI_NONE ? work->strokes.data[track->stroke].cut : track->cut;
-        const kiriLayer layer = { track->sheet->id, cut != NULL ? cut->id : 0, track->rest, track->at, track->share,
-                                  track->loop };
+        const kiriLayer layer = { track->sheet->id, cut != NULL ? cut->id : 0, track->rest, track->met, track->at, track->loop };
         blade->layers.data[blade->layers.count++] = layer;
     }
     return KIRI_OK;
@@ -1192,7 +1007,7 @@ kiriResult kiriWorld_MoveBlade(kiriWorld* world, kiriBladeData* blade, kiriVec3 
         blade->edge[0] = from;
         blade->edge[1] = to;
         blade->isPlaced = true;
-        blade->elapsed = 0.0;
+        blade->ticks = 0;
     }
     return result;
 }

@@ -1,6 +1,5 @@
 /* Blades in world space. A blade stores each layer of material that it is in: a point of the material. A move finds the
-   way of its edge relative to the material, in the surface as it is seen now, and continues the layer's cut along it.
-   So the motion of the sheet between two moves does not matter. */
+   lines that its edge draws on the material while both move, and continues the layer's cut along one of them. */
 #ifndef KIRI_BLADE_H
 #define KIRI_BLADE_H
 
@@ -26,8 +25,8 @@ typedef struct kiriLayer {
     kiriSheet sheet;
     kiriCut cut;   /* or 0: it has cut nothing yet */
     kiriVec2 rest; /* local: the end of the cut so far */
-    kiriVec3 at;   /* where the edge met it in the last move */
-    double share;  /* along the edge, 0 to 1 */
+    kiriVec2 met;  /* local: where the edge met it in the last move */
+    kiriVec3 at;   /* in world space */
     kiriLoop loop;
 } kiriLayer;
 
@@ -36,7 +35,7 @@ typedef struct kiriBladeData {
     kiriSheet sheet; /* or 0: it cuts all */
     bool isPlaced;   /* it has an edge */
     kiriVec3 edge[2];
-    double elapsed; /* s since it was moved */
+    int32_t ticks; /* since it was moved */
     KIRI_ARRAY(kiriLayer) layers;
 } kiriBladeData;
 
@@ -50,8 +49,8 @@ kiriResult kiriWorld_RemoveBlade(kiriWorld* world, kiriBladeData* blade);
 /* Moves each end of the edge along a straight line, and queues the cuts. */
 kiriResult kiriWorld_MoveBlade(kiriWorld* world, kiriBladeData* blade, kiriVec3 from, kiriVec3 to);
 
-/* Adds the time of a tick. */
-void kiriWorld_AdvanceBlades(kiriWorld* world, double dt);
+/* Counts a tick. */
+void kiriWorld_AdvanceBlades(kiriWorld* world);
 
 KIRI_C_END
 

@@ -434,7 +434,10 @@ static bool IsNearWaking(const kiriWorld* world, const Waking* waking, const kir
 {
     kiriBox box = kiriSheet_Box(sheet);
     double speed = waking->speed + FastestOf(sheet) + dt * kiriVec3_Length(world->gravity);
-    return kiriBox_MeetWithin(&box, &waking->box, waking->thickness + sheet->settings.contactThickness + dt * speed);
+    double reach = waking->thickness + sheet->settings.contactThickness + dt * speed;
+    const kiriVec3 wider = { reach, reach, reach };
+    box = (kiriBox){ kiriVec3_Sub(box.lower, wider), kiriVec3_Add(box.upper, wider) };
+    return kiriBox_Meet(&box, &waking->box);
 }
 
 static bool ListBodies(kiriWorld* world, const Waking* waking, double dt)

@@ -31,7 +31,7 @@ KIRI_TABLE(LoopTable, kiriLoop, {
 })
 
 KIRI_TABLE(LayerTable, kiriLayer, {
-    KIRI_REALS(rest, share),
+    KIRI_REALS(rest, at),
     KIRI_PART(loop, LoopTable),
     KIRI_UNHASHED,
     KIRI_RUN(4, sheet, cut),
@@ -39,7 +39,8 @@ KIRI_TABLE(LayerTable, kiriLayer, {
 
 KIRI_TABLE(BladeDataTable, kiriBladeData, {
     KIRI_BOOLS(isPlaced),
-    KIRI_REALS(edge, elapsed),
+    KIRI_REALS(edge),
+    KIRI_RUN(4, ticks),
     KIRI_PARTS(layers, LayerTable),
     KIRI_UNHASHED,
     KIRI_RUN(4, id, sheet),

@@ -248,6 +248,9 @@ static void TakeJumps(int32_t start, int32_t end, void* context)
 {
     const kiriWorld* world = context;
     for (int32_t i = start; i < end; ++i) {
+        if (world->blades.count > 0) {
+            kiriSurface_Remember(&kiriWorld_Active(world, i)->seen.surface);
+        }
         kiriView_TakeJump(kiriWorld_Active(world, i));
     }
 }
@@ -267,6 +270,9 @@ static void CommitAll(kiriWorld* world)
             kiriPipeline_Finish(sheet);
         }
         FinishCuts(world, sheet);
+    }
+    for (int32_t i = 0; i < world->sheets.count; ++i) {
+        world->sheets.data[i]->seen.surface.before.count = 0;
     }
     EnterStage(world, KIRI_STAGE_SKIN);
     kiriTasks_Run(&world->tasks, TakeJumps, world->active.count, 1, world);
@@ -427,7 +433,7 @@ static kiriResult MoveAll(kiriWorld* world, double dt, int32_t substeps, kiriQuo
     world->profile.solverIterations = (int32_t)quotas->of[KIRI_QUOTA_ITERATIONS].used;
     world->profile.sheetPairs = kiriPairs_CountAwake(world);
     EnterStage(world, KIRI_NONE);
-    kiriWorld_AdvanceBlades(world, dt);
+    kiriWorld_AdvanceBlades(world);
     world->ticks += 1;
     return result;
 }
