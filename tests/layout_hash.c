@@ -59,6 +59,7 @@ static void HashLink(uint64_t* hash, const kiriLink* link)
     HashVec3(hash, kiriVec3_Make(link->width, link->length, link->moment));
     kiriHash_Double(hash, link->outer);
     kiriHash_Double(hash, link->beyond);
+    kiriHash_Double(hash, link->lean);
     HashVec2(hash, link->span);
     HashVec2(hash, link->normal);
     HashVec2(hash, link->tangent);
@@ -136,6 +137,7 @@ static void HashInForce(uint64_t* hash, const kiriSheetData* sheet)
         kiriHash_Int32(hash, layout->severed.data[k].pin);
         kiriHash_Int32(hash, layout->severed.data[k].link);
         kiriHash_Double(hash, layout->severed.data[k].part);
+        kiriHash_Double(hash, layout->severed.data[k].held);
     }
     for (int32_t k = 0; k < layout->pinShares.count; ++k) {
         HashPinShare(hash, &layout->pinShares.data[k]);

@@ -110,7 +110,7 @@ static void SlitSquaresHangAsTheyShould(void** state)
     static const struct {
         int32_t frames;
         double most;
-    } cases[5] = { { 16, 0.07 }, { 25, 0.035 }, { 36, 0.05 }, { 49, 0.02 }, { 81, 0.035 } };
+    } cases[5] = { { 16, 0.03 }, { 25, 0.01 }, { 36, 0.0125 }, { 49, 0.01 }, { 81, 0.01 } };
     static const int32_t grids[3] = { 40, 60, 80 };
     for (int k = 0; k < 5; ++k) {
         double worst = 0.0;
@@ -132,7 +132,7 @@ static void JitteredRowsHangAsTheyShould(void** state)
     static const struct {
         int32_t rows;
         double most;
-    } cases[3] = { { 5, 0.04 }, { 9, 0.02 }, { 17, 0.01 } };
+    } cases[3] = { { 5, 0.03 }, { 9, 0.01 }, { 17, 0.005 } };
     static const float thin[4] = { 10.0f, 3.0f, 1.0f, 0.3f };
     for (int k = 0; k < 12; ++k) {
         int32_t rows = cases[k / 4].rows, count = rows * rows;

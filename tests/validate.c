@@ -269,8 +269,8 @@ static bool Check_PinShares(Check* check, const kiriSheetData* sheet)
     for (int32_t k = 0; k < sheet->layout.severed.count; ++k) {
         const kiriSeveredLink* severed = &sheet->layout.severed.data[k];
         REQUIRE(IsIndex(severed->pin, sheet->pins.count) && sheet->pins.data[severed->pin].type == KIRI_PIN_CLAMP &&
-                    IsIndex(severed->link, sheet->links.links.count) && severed->part > 0.0,
-                "pin %d severs %g of link %d", severed->pin, severed->part, severed->link);
+                    IsIndex(severed->link, sheet->links.links.count) && (severed->part > 0.0 || severed->held > 0.0),
+                "pin %d severs %g and holds %g of link %d", severed->pin, severed->part, severed->held, severed->link);
     }
     REQUIRE(sheet->linkParts.count == (sheet->layout.severed.count > 0 ? sheet->links.links.count : 0),
             "parts of %d links of %d, %d severed", sheet->linkParts.count, sheet->links.links.count,

@@ -5,7 +5,7 @@
 #include <string.h>
 
 /* Links and corners are hashed and compared byte by byte. */
-typedef char LinkHasNoPadding[sizeof(kiriLink) == 2 * sizeof(int32_t) + 21 * sizeof(double) ? 1 : -1];
+typedef char LinkHasNoPadding[sizeof(kiriLink) == 2 * sizeof(int32_t) + 22 * sizeof(double) ? 1 : -1];
 typedef char CornerHasNoPadding[sizeof(kiriCorner) == 6 * sizeof(int32_t) + 9 * sizeof(double) ? 1 : -1];
 
 /* Cost in items of the budget: a border cell whose steps are read, one whose faces are read, a kept link beside a dirty
@@ -1007,8 +1007,11 @@ static void SetSpread(const LinkUpdate* u, kiriLink* link)
     }
 }
 
-/* Sets the outer width and `beyond`, after everything else of the link. A border of hardly any width has no `beyond`,
-   because it may lie on a slit. */
+/* Cosine of the angle to the normal beyond which an edge has no say. */
+#define LEAST_ALONG 0.5
+
+/* Sets the outer width, `beyond` and `lean`, after everything else of the link. A border of hardly any width has no
+   `beyond`, because it may lie on a slit. */
 static void SetOuter(const LinkUpdate* u, kiriLink* link, const kiriLinkEnds* ends)
 {
     double sum = 0.0;
@@ -1016,9 +1019,14 @@ static void SetOuter(const LinkUpdate* u, kiriLink* link, const kiriLinkEnds* en
         double way = kiriVec2_Dot(kiriVec2_Sub(ends->end[k].at, link->crossing), link->tangent);
         way = k == 0 ? -way : way;
         sum += ends->end[k].kind == KIRI_END_OPEN && way > 0.0 ? way : 0.0;
+        double along = kiriVec2_Dot(ends->end[k].edge, link->normal);
+        if (ends->end[k].kind == KIRI_END_OPEN && ends->end[k].isExact && fabs(along) > LEAST_ALONG) {
+            link->lean = kiriVec2_Dot(ends->end[k].edge, link->tangent) / along;
+        }
     }
     bool all = ends->end[0].kind == KIRI_END_OPEN && ends->end[1].kind == KIRI_END_OPEN;
     link->outer = all ? link->width : kiriMin(sum, link->width);
+    link->lean = all ? 0.0 : link->lean;
     link->beyond = link->width > kiriSliver * u->grid->side ? kiriMax(sum - link->width, 0.0) : 0.0;
 }
 
@@ -1031,7 +1039,7 @@ static void FollowEdges(const LinkUpdate* u, kiriLink* link, const kiriLinkEnds*
     kiriVec2 straight = kiriVec2_Sub(SiteAt(u, link->j), SiteAt(u, link->i));
     for (int k = 0; k < 2; ++k) {
         double along = kiriVec2_Dot(ends->end[k].edge, link->normal);
-        if (fabs(along) < 0.5 || !ends->end[k].isExact) {
+        if (fabs(along) < LEAST_ALONG || !ends->end[k].isExact) {
             return;
         }
         mean = kiriVec2_AddScaled(mean, along < 0.0 ? -1.0 : 1.0, ends->end[k].edge);

@@ -15,6 +15,7 @@ typedef struct kiriLink {
     double outer;      /* part of W at open ends, m: each end at the outline or at a slit adds the way along the tangent
                           from the crossing to it; 0 where both ends are corners, to W where both are open */
     double beyond;     /* excess of the same ways over W if the crossing is beside the border, m */
+    double lean;       /* tangent of the angle from the normal to the edge of the material, if one end is open; else 0 */
     double length;     /* l: the way from site i to site j through the border, m */
     double moment;     /* I: second moment of the border along the tangent about the centroid, m^3 */
     kiriVec2 span;     /* s: from site i to site j; l along the normal where the way between them is not straight */

@@ -305,6 +305,17 @@ static kiriVec2 InPlane(const kiriLink* link, double along, double across)
     return kiriVec2_Add(kiriVec2_Scale(along, link->normal), kiriVec2_Scale(across, link->tangent));
 }
 
+/* Bending and twist are along and across the edge of the material, see kiri_strain.h. */
+static LinkStrains TakeStrains(const kiriLink* link, const double* strain)
+{
+    double c = 1.0 / sqrt(1.0 + link->lean * link->lean), s = c * link->lean;
+    double bending = c * strain[KIRI_BENDING] - s * strain[KIRI_TWIST];
+    double twist = c * strain[KIRI_TWIST] + s * strain[KIRI_BENDING];
+    LinkStrains strains = { InPlane(link, bending, twist), InPlane(link, strain[KIRI_STRETCH], strain[KIRI_SHEAR]),
+                            strain[KIRI_PLANE_BENDING] };
+    return strains;
+}
+
 static LinkStrains StrainsOfLink(const kiriLink* link, const kiriMaterial* material, const kiriFrameData* frames)
 {
     const kiriFrameData* const ends[2] = { &frames[link->i], &frames[link->j] };
@@ -312,9 +323,15 @@ static LinkStrains StrainsOfLink(const kiriLink* link, const kiriMaterial* mater
     const kiriPose* const poses[2] = { &own[0], &own[1] };
     double strain[KIRI_STRAINS];
     kiriStrain_Measure(link, material, ends, poses, strain, NULL);
-    LinkStrains strains = { InPlane(link, strain[KIRI_BENDING], strain[KIRI_TWIST]),
-                            InPlane(link, strain[KIRI_STRETCH], strain[KIRI_SHEAR]), strain[KIRI_PLANE_BENDING] };
-    return strains;
+    return TakeStrains(link, strain);
+}
+
+static LinkStrains StrainsOfClamp(const kiriClampRow* clamp, const kiriFrameData* frames)
+{
+    kiriPose pose = kiriPose_Of(&frames[clamp->frame]);
+    double strain[KIRI_CLAMP_STRAINS];
+    kiriClamp_Measure(clamp, &frames[clamp->frame], &clamp->pose, &pose, strain, NULL);
+    return TakeStrains(&clamp->link, strain);
 }
 
 /* ---- Recovery ---- */
@@ -406,13 +423,23 @@ static double MissingIn(const kiriLink* link, const Fit* a, const Fit* b, Rigidi
     return longer * longer * l * energy / 12.0;
 }
 
-/* Links measure strains halfway between two sites. There they are more accurate than a field that is constant on each
-   link: for cantilevers, squares and sheets with slits, the error is about half of the error of such a field
-   (tests/test_estimate.c). */
-#define MISSED_SHARE 0.5
+static kiriVec2 TimesSpan(Tensor t, kiriVec2 s)
+{
+    return kiriVec2_Make(t.uu * s.x + t.uv * s.y, t.uv * s.x + t.vv * s.y);
+}
+
+/* Returns the missing energy between a region and a clamped line. The clamp has the strains halfway; so from the region
+   to the line they change by twice the difference. */
+static double MissingAtClamp(const kiriLink* link, const LinkStrains* strains, const Fit* fit, Rigidity rigidity)
+{
+    LinkStrains off = { kiriVec2_Sub(strains->bending, TimesSpan(fit->bending, link->span)),
+                        kiriVec2_Sub(strains->strain, TimesSpan(fit->strain, link->span)),
+                        strains->turn - kiriVec2_Dot(fit->turn, link->span) };
+    return EnergyOf(link, &off, rigidity) / 3.0;
+}
 
 static double RatioOf(const Fit* fits, const kiriFrameData* frames, const kiriLink* links, int32_t linkCount,
-                      const kiriMaterial* material)
+                      const kiriClampRow* clamps, int32_t clampCount, const kiriMaterial* material)
 {
     double h = (double)material->thickness, nu = (double)material->poissonsRatio;
     double membrane = (double)material->youngsModulus * h, plate = membrane / (1.0 - nu * nu);
@@ -423,11 +450,17 @@ static double RatioOf(const Fit* fits, const kiriFrameData* frames, const kiriLi
         missing += MissingIn(&links[k], &fits[links[k].i], &fits[links[k].j], rigidity);
         held += EnergyOf(&links[k], &strains, rigidity);
     }
-    return missing + held > 0.0 ? MISSED_SHARE * missing / (missing + held) : 0.0;
+    for (int32_t k = 0; k < clampCount; ++k) {
+        LinkStrains strains = StrainsOfClamp(&clamps[k], frames);
+        missing += MissingAtClamp(&clamps[k].link, &strains, &fits[clamps[k].frame], rigidity);
+        held += EnergyOf(&clamps[k].link, &strains, rigidity);
+    }
+    return missing + held > 0.0 ? missing / (missing + held) : 0.0;
 }
 
 bool kiriEstimate_Error(kiriMemory* memory, const kiriFrameData* frames, int32_t frameCount, const kiriLink* links,
-                        int32_t linkCount, const kiriMaterial* material, double* relative)
+                        int32_t linkCount, const kiriClampRow* clamps, int32_t clampCount,
+                        const kiriMaterial* material, double* relative)
 {
     Fit* fits = kiriMemory_AllocZeroed(memory, (int64_t)sizeof(Fit) * frameCount);
     if (fits == NULL) {
@@ -438,12 +471,16 @@ bool kiriEstimate_Error(kiriMemory* memory, const kiriFrameData* frames, int32_t
         AddToFit(&fits[links[k].i], &links[k], &strains);
         AddToFit(&fits[links[k].j], &links[k], &strains);
     }
+    for (int32_t k = 0; k < clampCount; ++k) {
+        LinkStrains strains = StrainsOfClamp(&clamps[k], frames);
+        AddToFit(&fits[clamps[k].frame], &clamps[k].link, &strains);
+    }
     for (int32_t i = 0; i < frameCount; ++i) {
         if (fits[i].weight > 0.0) {
             SolveFit(&fits[i]);
         }
     }
-    double ratio = RatioOf(fits, frames, links, linkCount, material);
+    double ratio = RatioOf(fits, frames, links, linkCount, clamps, clampCount, material);
     *relative = linkCount > 1 ? ratio : 1.0;
     kiriMemory_Free(memory, fits);
     return true;

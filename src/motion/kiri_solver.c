@@ -620,7 +620,8 @@ static void TakeLinkState(kiriSolver* solver, const kiriIslandBody* member, int3
     for (int32_t k = 0; k < links.count; ++k) {
         int32_t link = member->solver->bodies.links.data[links.first + k];
         if (hasParts) {
-            solver->linkParts.data[first + k] = sheet->linkParts != NULL ? sheet->linkParts[link] : 1.0;
+            const kiriLinkPart all = { 1.0, 1.0 };
+            solver->linkParts.data[first + k] = sheet->linkParts != NULL ? sheet->linkParts[link] : all;
         }
         if (hasOffsets) {
             const kiriStrainOffset none = { 0 };
@@ -990,15 +991,21 @@ void kiriElement_Stiffness(const kiriSystem* system, int32_t k, double* stiffnes
         const kiriAreaElement* element = AreaElementOf(system, k);
         int32_t first = system->areaElements->shares.data[element->first].frame;
         kiriAreaElement_Stiffness(element, kiriSystem_MaterialOf(system, first), stiffness);
-    } else if (kiriMechanics_IsAffine(&system->mechanics)) {
-        kiriAffine_Stiffness(link, kiriSystem_MaterialOf(system, link->i), stiffness);
     } else {
-        kiriStrain_Stiffness(link, kiriSystem_MaterialOf(system, link->i), stiffness);
+        kiriLink seen = *link;
+        double free = system->linkParts != NULL ? system->linkParts[k].free : 1.0;
+        seen.outer *= free;
+        seen.beyond *= free;
+        if (kiriMechanics_IsAffine(&system->mechanics)) {
+            kiriAffine_Stiffness(&seen, kiriSystem_MaterialOf(system, link->i), stiffness);
+        } else {
+            kiriStrain_Stiffness(&seen, kiriSystem_MaterialOf(system, link->i), stiffness);
+        }
     }
     /* A corner counts as much as the link that counts least. */
-    double part = system->linkParts != NULL && link != NULL ? system->linkParts[k] : 1.0;
+    double part = system->linkParts != NULL && link != NULL ? system->linkParts[k].part : 1.0;
     for (int32_t n = 0; system->linkParts != NULL && corner != NULL && n < corner->count; ++n) {
-        part = kiriMin(system->linkParts[corner->link[n]], part);
+        part = kiriMin(system->linkParts[corner->link[n]].part, part);
     }
     for (int e = 0; part < 1.0 && e < kiriElement_StrainCount(system, k); ++e) {
         stiffness[e] *= part;

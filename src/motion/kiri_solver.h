@@ -86,6 +86,11 @@ typedef struct kiriAir {
     double density, drag, lift; /* kg/m^3; coefficients */
 } kiriAir;
 
+/* What clamps leave of a link, 0 to 1: factors of its stiffness and of its outer width. A held edge is not free. */
+typedef struct kiriLinkPart {
+    double part, free;
+} kiriLinkPart;
+
 typedef struct kiriSystem {
     kiriMechanics mechanics;
     kiriFrameData* frames;
@@ -95,7 +100,7 @@ typedef struct kiriSystem {
     const kiriAir* const* airs;
     const kiriLink* links;
     int32_t linkCount;
-    const double* linkParts;   /* factor of each link's stiffness, 0 to 1; null: 1 */
+    const kiriLinkPart* linkParts; /* null: all of every link */
     const kiriCorner* corners; /* corners of `links` */
     int32_t cornerCount;
     const kiriStrainOffset* strainOffsets; /* one a link between rigid frames, or null */
@@ -489,7 +494,7 @@ struct kiriSolver {
     KIRI_ARRAY(kiriClampRow*) clampRows; /* per clamp: its row in the sheet */
     KIRI_ARRAY(kiriReaction*) pinReactions, clampReactions; /* null: not computed */
     KIRI_ARRAY(kiriContactStep) contacts;
-    KIRI_ARRAY(double) linkParts;
+    KIRI_ARRAY(kiriLinkPart) linkParts;
     KIRI_ARRAY(kiriStrainOffset) strainOffsets;
     /* Flattened if the sheet is planar. Velocities include the air damping. */
     KIRI_ARRAY(kiriFrameData) before, after;

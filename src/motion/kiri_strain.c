@@ -386,6 +386,21 @@ static void TakeRibbon(const kiriLink* link, const MeanAxes* axes, double poisso
     }
 }
 
+/* Takes bending and twist along and across the edge of the material instead of the link's normal. */
+static void FollowEdge(const kiriLink* link, double* strain, kiriStrainRow* rows)
+{
+    double c = 1.0 / sqrt(1.0 + link->lean * link->lean), s = c * link->lean, bending = strain[KIRI_BENDING];
+    strain[KIRI_BENDING] = c * bending + s * strain[KIRI_TWIST];
+    strain[KIRI_TWIST] = c * strain[KIRI_TWIST] - s * bending;
+    if (rows != NULL) {
+        kiriStrainRow byBending = rows[KIRI_BENDING];
+        ScaleRow(&rows[KIRI_BENDING], c);
+        AddRow(&rows[KIRI_BENDING], s, &rows[KIRI_TWIST]);
+        ScaleRow(&rows[KIRI_TWIST], c);
+        AddRow(&rows[KIRI_TWIST], -s, &byBending);
+    }
+}
+
 /* Scales bending by the curl of the strip. */
 static void TakeCurl(const kiriCurl* curl, double* bending, kiriStrainRow* row)
 {
@@ -425,8 +440,11 @@ void kiriStrain_Measure(const kiriLink* link, const kiriMaterial* material, cons
     }
     TakeAngle(&axes, strain, rows);
     TakeArc(link, frames, strain, rows);
+    if (link->lean != 0.0) {
+        FollowEdge(link, strain, rows);
+    }
     kiriCurl curl = kiriCurl_Of(link, material, link->outer);
-    if (kiriLink_LoneWidth(link) > 0.0) {
+    if (link->outer >= link->width) { /* open at both ends */
         TakeRibbon(link, &axes, (double)material->poissonsRatio, &curl, strain, rows);
     }
     double bending = strain[KIRI_BENDING];
@@ -495,10 +513,11 @@ kiriTrace kiriTrace_Measure(const kiriCorner* corner, const kiriLink* links, con
         trace.strain[KIRI_TRACE_STRETCH] +=
             alongNormal * strains[k][KIRI_STRETCH] + alongTangent * strains[k][KIRI_SHEAR];
         if (!planar) {
-            trace.by[k][KIRI_TRACED_BENDING] = alongNormal;
-            trace.by[k][KIRI_TRACED_TWIST] = alongTangent;
-            trace.strain[KIRI_TRACE_CURVATURE] +=
-                alongNormal * strains[k][KIRI_BENDING] + alongTangent * strains[k][KIRI_TWIST];
+            double c = 1.0 / sqrt(1.0 + link->lean * link->lean), s = c * link->lean; /* see FollowEdge */
+            trace.by[k][KIRI_TRACED_BENDING] = c * alongNormal + s * alongTangent;
+            trace.by[k][KIRI_TRACED_TWIST] = c * alongTangent - s * alongNormal;
+            trace.strain[KIRI_TRACE_CURVATURE] += trace.by[k][KIRI_TRACED_BENDING] * strains[k][KIRI_BENDING] +
+                                                  trace.by[k][KIRI_TRACED_TWIST] * strains[k][KIRI_TWIST];
         }
     }
     return trace;
@@ -578,7 +597,7 @@ void kiriStrainOffsets_Remember(kiriStrainOffsets* strainOffsets, const kiriFram
 }
 
 /* Links and frames are compared byte by byte, so they must have no padding. */
-typedef char kiriLinkHasNoPadding[sizeof(kiriLink) == 2 * sizeof(int32_t) + 21 * sizeof(double) ? 1 : -1];
+typedef char kiriLinkHasNoPadding[sizeof(kiriLink) == 2 * sizeof(int32_t) + 22 * sizeof(double) ? 1 : -1];
 typedef char kiriPoseHasNoPadding[sizeof(kiriPose) == 12 * sizeof(double) ? 1 : -1];
 
 static void MeasureLink(const kiriLink* link, const kiriMaterial* material, const kiriFrameData* i,

@@ -17,8 +17,8 @@ KIRI_C_BEGIN
    stretch        sqrt((c + gap(b) . n)^2 + 2 Y) - c - a.n            M (Wi / (1 + nu) + Wo)
    shear          gap(b) . tau - a . tau                              M (Wi + 5/12 Wo) / (1 + nu)
    plane bending  -2 sin of half the turn about d                     M I (1 + 3/2 nu / (1 + nu) Wi / W)
-   bending        w . n, w along d_j - d_i                            B ((1 - nu) Wi + (1 - nu^2) Wo)
-   twist          w . tau                                             B (1 - nu) (Wi + 2 Wo)
+   bending        w . e, w along d_j - d_i                            B ((1 - nu) Wi + (1 - nu^2) Wo)
+   twist          w . (d x e)                                         B (1 - nu) (Wi + 2 Wo)
    normal gap     gap(m) . d                                          12 B W' / l^2, W' of kiriStrain_NormalGapWidth
    fold           the part of |w| that bending and twist lose         as twist
    normal stop    excess of |gap(m) . d| over l / 2                   M W
@@ -31,7 +31,9 @@ KIRI_C_BEGIN
    (kiriLink.beyond) counts in Wo, and is subtracted from Wi; shear and plane bending leave it out.
    Beside a free edge, beyond the last row of sites, corners are missing, and all links run along the edge. There,
    moment and tension across the edge vanish, as in a beam: bending has the factor 1 - nu^2, stretch has 1, and the
-   links see one of the two halves of the twist.
+   links see one of the two halves of the twist. So bending and twist are along and across e: the direction of the edge
+   if one end of the border is open (kiriLink.lean), else n. With n, links aslant would read bending along the edge as
+   twist. An edge that a clamp holds is not free: its outer width counts as inner (kiriLinkPart).
 
    Bending and twist together are the Laplacian of the director, because d_j - d_i has no part along the mean d. |w| is
    the angle between the two directors; their difference is only the chord. Near half a turn the mean axes are

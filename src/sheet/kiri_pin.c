@@ -116,13 +116,14 @@ void kiriPins_WriteLinkParts(kiriSheetData* sheet)
 {
     const kiriSevered* severed = &sheet->layout.severed;
     sheet->linkParts.count = severed->count > 0 ? sheet->links.links.count : 0;
-    KIRI_EACH(double, whole, sheet->linkParts) {
-        *whole = 1.0;
+    KIRI_EACH(kiriLinkPart, whole, sheet->linkParts) {
+        *whole = (kiriLinkPart){ 1.0, 1.0 };
     }
     KIRI_EACH(const kiriSeveredLink, link, *severed) {
         KIRI_ASSERT(link->link >= 0 && link->link < sheet->linkParts.count);
-        double* part = &sheet->linkParts.data[link->link];
-        *part = *part > link->part ? *part - link->part : 0.0;
+        kiriLinkPart* left = &sheet->linkParts.data[link->link];
+        left->part = kiriMax(left->part - link->part, 0.0);
+        left->free = kiriMax(left->free - link->held, 0.0);
     }
 }
 
@@ -463,6 +464,18 @@ double kiriPins_ElasticEnergy(const kiriSheetData* sheet)
         }
     }
     return sum;
+}
+
+int32_t kiriPins_WriteClamps(const kiriSheetData* sheet, kiriClampRow* rows)
+{
+    int32_t count = 0;
+    for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
+        const kiriPinShare* pinned = &sheet->layout.pinShares.data[k];
+        if (sheet->pins.data[pinned->pin].type == KIRI_PIN_CLAMP) {
+            rows[count++] = ClampRowOf(sheet, pinned, &sheet->frames.data[pinned->share.frame], 0.0, 1.0);
+        }
+    }
+    return count;
 }
 
 /* ---- Reactions --------------------------------------------------------------------------------------------------- */

@@ -106,10 +106,10 @@ typedef struct kiriPinShare {
 
 typedef KIRI_ARRAY(kiriPinShare) kiriPinShares;
 
-/* A link that a clamp replaces, by a part in [0, 1]. */
+/* A link that a clamp replaces, or whose free edge it holds, by parts in [0, 1]. */
 typedef struct kiriSeveredLink {
     int32_t pin, link; /* indices */
-    double part;
+    double part, held;
 } kiriSeveredLink;
 
 typedef KIRI_ARRAY(kiriSeveredLink) kiriSevered;
@@ -120,7 +120,7 @@ typedef struct kiriLayout {
     KIRI_ARRAY(kiriPiece) pieces;
     KIRI_ARRAY(int32_t) framePiece; /* piece of each frame */
     KIRI_ARRAY(int32_t) pinFrame;   /* frame of each pin; for a line, the frame with the largest share */
-    kiriSevered severed;            /* links that clamps replace, in the order of pins */
+    kiriSevered severed;            /* links that clamps replace or hold, in the order of pins */
     kiriPinShares pinShares;        /* shares of pins along lines, in the order of pins, then along the line */
     kiriAreaElements areaElements;  /* for affine frames */
 } kiriLayout;
@@ -469,7 +469,7 @@ typedef struct kiriSheetData {
     /* Buffers that are reserved in advance, so that a tick without a cut allocates nothing. */
     KIRI_ARRAY(kiriPinRow) pinRows;     /* one for each point, then two for each share of a hinge */
     KIRI_ARRAY(kiriClampRow) clampRows; /* one for each share of a clamp */
-    KIRI_ARRAY(double) linkParts;       /* part of each link that clamps do not replace; empty: all of every link */
+    KIRI_ARRAY(kiriLinkPart) linkParts; /* of each link, what clamps leave; empty: all of every link */
     KIRI_ARRAY(kiriReaction) pinReactions, clampReactions, frameReactions; /* of rows, and of frames */
     kiriLine line;                                                         /* last line query */
     KIRI_ARRAY(kiriLineShare) lineShares;                                  /* its result: a share for each frame */

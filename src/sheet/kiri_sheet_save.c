@@ -56,7 +56,11 @@ KIRI_TABLE(PieceTable, kiriPiece, {
 KIRI_TABLE(SeveredLinkTable, kiriSeveredLink, {
     KIRI_INDEX(KIRI_OF_PINS, pin),
     KIRI_WITHIN(0, INT32_MAX, link),
-    KIRI_REALS(part),
+    KIRI_REALS(part, held),
+})
+
+KIRI_TABLE(LinkPartTable, kiriLinkPart, {
+    KIRI_REALS(part, free),
 })
 
 KIRI_TABLE(LineShareTable, kiriLineShare, {
@@ -304,7 +308,7 @@ KIRI_TABLE(SheetTable, kiriSheetData, {
     KIRI_PARTS(contacts, GivenContactTable),
     KIRI_ITEMS(4, leaving),
     KIRI_COUNTS(leavingPaid),
-    KIRI_REAL_ITEMS(linkParts),
+    KIRI_PARTS(linkParts, LinkPartTable),
     KIRI_PART(touches, TouchesTable),
     KIRI_PART(rest, SheetRestTable),
     KIRI_PART(turns, TurnsTable),

@@ -38,10 +38,10 @@ static bool IsAcross(const SeverWork* work, const kiriLink* link, double* t, dou
     return *t > 0.0 && *t < 1.0 && *width > 0.0;
 }
 
-/* Adds a severed link. `part` is in [0, 1]. */
-static bool AddSevered(const SeverWork* work, int32_t link, double part)
+/* Adds a severed link. `part` and `held` are in [0, 1]. */
+static bool AddSevered(const SeverWork* work, int32_t link, double part, double held)
 {
-    kiriSeveredLink severed = { work->pin, link, part };
+    kiriSeveredLink severed = { work->pin, link, part, held };
     return kiriArray_Push(work->sheet->memory, work->severed, severed);
 }
 
@@ -83,7 +83,7 @@ static bool SpreadShare(const SeverWork* work, kiriLineShare own)
         bool isOwn = link->i == own.frame || link->j == own.frame;
         if (isOwn && IsAcross(work, link, &t, &width)) {
             int32_t other = link->i == own.frame ? link->j : link->i;
-            if (!AddAcross(work, other, &own, t, spread * width / sum) || !AddSevered(work, k, spread / sum)) {
+            if (!AddAcross(work, other, &own, t, spread * width / sum) || !AddSevered(work, k, spread / sum, 0.0)) {
                 return false;
             }
         }
@@ -100,7 +100,29 @@ static bool SeverBorder(const SeverWork* work, const kiriLinePart* part)
     for (int32_t k = 0; i != KIRI_NONE && i != j && k < work->linkCount; ++k) {
         double t, width;
         if (work->links[k].i == i && work->links[k].j == j && IsAcross(work, &work->links[k], &t, &width)) {
-            return AddSevered(work, k, (part->to - part->from) / width);
+            return AddSevered(work, k, (part->to - part->from) / width, 0.0);
+        }
+    }
+    return true;
+}
+
+/* Holds the links that end at the line from inside, at an edge of the material. They run along the clamped edge, which
+   neither curls nor twists, and the clamp has the curvature across it. */
+static bool HoldEdges(const SeverWork* work)
+{
+    const double near = 0.01 * work->sheet->grid.side;
+    for (int32_t k = 0; k < work->linkCount; ++k) {
+        const kiriLink* link = &work->links[k];
+        for (int32_t end = -1; end <= 1; end += 2) {
+            kiriVec2 at = kiriVec2_AddScaled(link->centroid, 0.5 * end * link->width, link->tangent);
+            kiriVec2 off = kiriVec2_Sub(at, work->from);
+            double t = kiriVec2_Dot(off, work->along) / work->length;
+            double way = end * kiriVec2_Dot(kiriVec2_Sub(at, link->crossing), link->tangent);
+            bool isOuter = way > 0.0 && fabs(way - link->outer - link->beyond) < near;
+            if (isOuter && t >= 0.0 && t <= 1.0 && fabs(kiriVec2_Dot(off, work->left)) < near &&
+                !AddSevered(work, k, 0.0, 1.0)) {
+                return false;
+            }
         }
     }
     return true;
@@ -133,7 +155,7 @@ bool kiriSever_Across(kiriSheetData* sheet, kiriLatticePoint from, kiriLatticePo
     for (int32_t k = 0; ok && k < own; ++k) {
         ok = SpreadShare(&work, sheet->lineShares.data[k]);
     }
-    return ok;
+    return ok && HoldEdges(&work);
 }
 
 /* ---- Existing sites ---- */

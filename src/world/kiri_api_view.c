@@ -1,6 +1,7 @@
 #include "kiri_call.h"
 #include "../motion/kiri_energy.h"
 #include "../sheet/kiri_motion.h"
+#include "../sheet/kiri_pin.h"
 #include "../sheet/kiri_seen.h"
 #include "../sheet/kiri_update.h"
 #include "../view/kiri_bounds.h"
@@ -217,9 +218,14 @@ kiriResult kiriSheet_EstimateError(const kiriWorld* world, kiriSheet sheet, doub
     KIRI_REQUIRE(found->settings.mechanics.model == KIRI_MODEL_LINKS, KIRI_ERROR_STATE,
                  "only sheets of KIRI_MODEL_LINKS have an estimate");
     kiriMemory scratch = kiriMemory_Like(&world->memory);
+    int64_t shares = found->layout.pinShares.count;
     kiriCall_BeginCallbacks(world);
-    bool ok = kiriEstimate_Error(&scratch, found->frames.data, found->frames.count, found->links.links.data,
-                                 found->links.links.count, &found->settings.material, relative);
+    kiriClampRow* clamps = shares > 0 ? kiriMemory_Alloc(&scratch, shares * (int64_t)sizeof(*clamps)) : NULL;
+    bool ok = (shares == 0 || clamps != NULL) &&
+              kiriEstimate_Error(&scratch, found->frames.data, found->frames.count, found->links.links.data,
+                                 found->links.links.count, clamps, kiriPins_WriteClamps(found, clamps),
+                                 &found->settings.material, relative);
+    kiriMemory_Free(&scratch, clamps);
     kiriCall_EndCallbacks(world);
     return ok ? KIRI_OK : KIRI_FAIL(KIRI_ERROR_MEMORY, "out of memory");
 }
