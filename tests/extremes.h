@@ -32,7 +32,7 @@ typedef struct Outcome {
     bool finite;
     const char* failed; /* a call that did not return KIRI_OK, or null */
     double gain; /* the largest gain of energy in a tick: over the energy before the tick and the work of gravity; what
-                    the rounding of positions leaves unknown of both is taken off */
+                    the rounding of positions leaves unknown of both is taken off, and what earlier ticks lost */
     int gainTick;
     int recovered;  /* ticks after the cause, with damping; -1: never */
     double elastic; /* energy at the end, over its largest */

@@ -413,8 +413,9 @@ export interface MaterialGiven {
     flexDamping?: number;
 }
 
-/** Work against accuracy. Errors of a swinging strip and square, rms over their way: FAST at most 2 %, BALANCED 0.8 %,
- *  ACCURATE 0.4 %. Narrow arms that a cut leaves need more frames. The manual has details (accuracy). */
+/** Work against accuracy. Errors of a swinging strip and square of paper, rms over their way: FAST at most 2 %,
+ *  BALANCED 0.8 %, ACCURATE 0.4 %; cloth: up to twice that. Narrow arms of a cut need more frames. See the manual
+ *  (accuracy). */
 export class Quality {
     /** control frames in a row along a strip; a square needs 3 x 3, 5 x 5, 9 x 9 */
     framesAlong: number;

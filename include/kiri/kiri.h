@@ -311,8 +311,8 @@ enum kiriMaterialPreset {
 /* Gets the numbers of a preset, KIRI_MATERIAL_... */
 KIRI_API kiriResult kiriGetMaterial(int32_t preset, kiriMaterial* material);
 
-/* Work against accuracy. Errors of a swinging strip and square, rms over their way: FAST at most 2 %, BALANCED 0.8 %,
-   ACCURATE 0.4 %. Narrow arms that a cut leaves need more frames. The manual has details (accuracy). */
+/* Work against accuracy. Errors of a swinging strip and square of paper, rms over their way: FAST at most 2 %, BALANCED
+   0.8 %, ACCURATE 0.4 %; cloth: up to twice that. Narrow arms of a cut need more frames. See the manual (accuracy). */
 typedef struct kiriQuality {
     int32_t framesAlong;    /* control frames in a row along a strip; a square needs 3 x 3, 5 x 5, 9 x 9 */
     int32_t gridResolution; /* for the sheet def */

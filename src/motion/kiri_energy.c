@@ -246,18 +246,33 @@ static void LimitPushes(kiriSolver* solver, const kiriSystem* system)
     }
 }
 
+#define MOST_CREDIT 0.02 /* of the kinetic energy */
+
 /* Takes energy first from velocities that differ from a rigid body's, which keeps the momenta; then from the rotation
-   as one body; and last from the mean velocity, unless the body is free. */
+   as one body; and last from the mean velocity, unless the body is free. Along a swing, steps of second order take and
+   give energy by turns. The energy that they took is the credit of the body: a limit without credit would take each gain,
+   and swings would fade. */
 void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system)
 {
     LimitPushes(solver, system);
     const kiriEnergyStep* has = &solver->energy;
     const kiriPieceMomentum* momentum = &solver->momentum;
-    double energy = kiriMax(has->gain, 0.0), beside = has->kinetic - has->turning;
+    double credit = 0.0, most = MOST_CREDIT * (has->kinetic + has->moving);
+    bool hasCredit = !solver->stepping.isEuler && solver->support != KIRI_SUPPORT_CONTACTS;
+    for (int32_t f = 0; hasCredit && f < system->frameCount; ++f) {
+        credit += solver->before.data[f].history.credit;
+    }
+    credit = kiriMax(kiriMin(credit, most), 0.0);
+    double energy = kiriMax(has->gain - credit, 0.0), beside = has->kinetic - has->turning;
     double keepRest = TakeEnergy(kiriMax(beside, 0.0), &energy), keepTurning = TakeEnergy(has->turning, &energy);
     bool isOwn = solver->support == KIRI_SUPPORT_NONE || (solver->support == KIRI_SUPPORT_CONTACTS &&
     !IsThrown(solver)); double keepMean = isOwn ? 1.0 : TakeEnergy(has->moving, &energy);
-    for (int32_t f = 0; has->gain > 0.0 && f < system->frameCount; ++f) {
+    double left = kiriMax(credit - has->gain, 0.0) / momentum->mass;
+    for (int32_t f = 0; f < system->frameCount; ++f) {
+        kiriFrameData* frame = &solver->after.data[f];
+        frame->history.credit = frame->held || solver->stepping.isEuler ? 0.0 : left * frame->mass;
+    }
+    for (int32_t f = 0; has->gain > credit && f < system->frameCount; ++f) {
         kiriFrameData* frame = &solver->after.data[f];
         if (!frame->held) {
             kiriVec3 mean = momentum->velocityAfter, arm = kiriVec3_Sub(frame->x, momentum->centerAfter);
@@ -423,18 +438,15 @@ static double MissingIn(const kiriLink* link, const Fit* a, const Fit* b, Rigidi
     return longer * longer * l * energy / 12.0;
 }
 
-static kiriVec2 TimesSpan(Tensor t, kiriVec2 s)
-{
-    return kiriVec2_Make(t.uu * s.x + t.uv * s.y, t.uv * s.x + t.vv * s.y);
-}
-
 /* Returns the missing energy between a region and a clamped line. The clamp has the strains halfway; so from the region
    to the line they change by twice the difference. */
 static double MissingAtClamp(const kiriLink* link, const LinkStrains* strains, const Fit* fit, Rigidity rigidity)
 {
-    LinkStrains off = { kiriVec2_Sub(strains->bending, TimesSpan(fit->bending, link->span)),
-                        kiriVec2_Sub(strains->strain, TimesSpan(fit->strain, link->span)),
-                        strains->turn - kiriVec2_Dot(fit->turn, link->span) };
+    const Tensor *K = &fit->bending, *E = &fit->strain;
+    kiriVec2 s = link->span;
+    LinkStrains off = { { strains->bending.x - K->uu * s.x - K->uv * s.y, strains->bending.y - K->uv * s.x - K->vv * s.y },
+                        { strains->strain.x - E->uu * s.x - E->uv * s.y, strains->strain.y - E->uv * s.x - E->vv * s.y },
+                        strains->turn - kiriVec2_Dot(fit->turn, s) };
     return EnergyOf(link, &off, rigidity) / 3.0;
 }
 

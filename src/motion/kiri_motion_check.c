@@ -14,7 +14,7 @@ KIRI_SHARED_TABLE(kiriMechanicsTable, kiriMechanics, {
 })
 
 KIRI_TABLE(HistoryTable, kiriHistory, {
-    KIRI_REALS(dt),
+    KIRI_REALS(dt, credit),
     KIRI_WITHIN(0, 1, isHalf, isHeld),
     KIRI_REALS(gain, turnPull),
 })

@@ -375,9 +375,9 @@ pub struct kiriMaterial {
     pub flexDamping: f32,
 }
 
-/// Work against accuracy. Errors of a swinging strip and square, rms over their way: FAST at most 2
-/// %, BALANCED 0.8 %, ACCURATE 0.4 %. Narrow arms that a cut leaves need more frames. The manual
-/// has details (accuracy).
+/// Work against accuracy. Errors of a swinging strip and square of paper, rms over their way: FAST
+/// at most 2 %, BALANCED 0.8 %, ACCURATE 0.4 %; cloth: up to twice that. Narrow arms of a cut need
+/// more frames. See the manual (accuracy).
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriQuality {
