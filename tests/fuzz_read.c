@@ -240,6 +240,8 @@ static void ReadMaterial(Fuzz* fuzz, kiriMaterial* material)
     if (kind >= 5) {
         material->airDamping = FuzzBytes_Float(&fuzz->bytes, 0.0f, 3.0f);
         material->flexDamping = FuzzBytes_Float(&fuzz->bytes, 0.0f, 0.01f);
+        material->yieldStress = FuzzBytes_Float(&fuzz->bytes, 0.0f, 1e8f);
+        material->hardening = FuzzBytes_Float(&fuzz->bytes, 0.0f, 0.9f);
     }
 }
 

@@ -192,6 +192,7 @@ static void ChangeSettings(Storm* storm)
     settings.fadeTime = Storm_Random(storm, 2) == 0 ? 0.1f : settings.fadeTime;
     settings.material.airDamping = Storm_Between(storm, 0.0f, 1.0f);
     settings.material.flexDamping = Storm_Between(storm, 0.0f, 0.002f);
+    settings.material.yieldStress = Storm_Random(storm, 2) == 0 ? 0.0f : 1e7f;
     Storm_Note(storm, kiriSheet_SetSettings(storm->world, sheet, &settings));
 }
 

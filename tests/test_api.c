@@ -370,7 +370,8 @@ static void SheetDefFloats(void** state)
         int count;
     } fields[] = { { def.position, 3 },      { def.axisU, 3 },         { def.axisV, 3 },      { def.velocity, 3 },
                    { &m->youngsModulus, 1 }, { &m->poissonsRatio, 1 }, { &m->thickness, 1 },  { &m->density, 1 },
-                   { &m->airDamping, 1 },    { &m->flexDamping, 1 },   { points, 8 },         { &def.snapDistance, 1 },
+                   { &m->airDamping, 1 },    { &m->flexDamping, 1 },   { &m->yieldStress, 1 },
+                   { &m->hardening, 1 },     { points, 8 },            { &def.snapDistance, 1 },
                    { &def.weldDistance, 1 }, { &def.rigidWeight, 1 },  { &def.rigidArea, 1 }, { r.positions, 18 } };
     for (size_t i = 0; i < sizeof(fields) / sizeof(fields[0]); ++i) {
         kiriSheet made = 0;
@@ -382,7 +383,8 @@ static void SheetDefFloats(void** state)
     } ranges[] = { { &m->youngsModulus, 0.0f },  { &m->youngsModulus, -1.0f }, { &m->poissonsRatio, -0.1f },
                    { &m->poissonsRatio, 0.5f },  { &m->thickness, 0.0f },      { &m->thickness, -1.0f },
                    { &m->density, 0.0f },        { &m->density, -1.0f },       { &m->airDamping, -0.1f },
-                   { &m->flexDamping, -0.1f },   { &def.snapDistance, -0.1f }, { &def.rigidWeight, 0.0f },
+                   { &m->flexDamping, -0.1f },   { &m->yieldStress, -1.0f },   { &m->hardening, 1.0f },
+                   { &def.snapDistance, -0.1f }, { &def.rigidWeight, 0.0f },
                    { &def.weldDistance, -0.1f }, { &def.rigidArea, -1.0f },    { &def.axisU[0], 0.0f },
                    { &def.axisU[0], 1.1f },      { &def.axisU[1], 0.1f },      { &def.axisV[1], -2.0f },
                    { &def.axisV[0], 1e30f },     { &points[0], -0.1f },        { &points[1], 1.1f },

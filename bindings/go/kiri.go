@@ -169,7 +169,9 @@ const (
 	MaterialRubber MaterialPreset = 2
 	// aluminium, 16 um
 	MaterialFoil MaterialPreset = 3
-	MaterialCount MaterialPreset = 4
+	// paperboard, 0.4 mm
+	MaterialCard MaterialPreset = 4
+	MaterialCount MaterialPreset = 5
 )
 
 var namesMaterialPreset = map[MaterialPreset]string{
@@ -177,7 +179,8 @@ var namesMaterialPreset = map[MaterialPreset]string{
 	1: "KIRI_MATERIAL_COTTON",
 	2: "KIRI_MATERIAL_RUBBER",
 	3: "KIRI_MATERIAL_FOIL",
-	4: "KIRI_MATERIAL_COUNT",
+	4: "KIRI_MATERIAL_CARD",
+	5: "KIRI_MATERIAL_COUNT",
 }
 
 func (value MaterialPreset) String() string { return namesMaterialPreset[value] }
@@ -464,6 +467,11 @@ type Material struct {
 	AirDamping float32
 	// s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation
 	FlexDamping float32
+	// Bending beyond a curvature of 2 yieldStress / (youngsModulus thickness) stays (manual, folding). Only with
+	// KIRI_MODEL_LINKS; planar sheets do not bend. Pa, 0 or more; 0: elastic
+	YieldStress float32
+	// modulus beyond the yield stress, relative to youngsModulus; 0 to below 1
+	Hardening float32
 }
 
 // Work against accuracy. Errors of a swinging strip and square of paper, rms over their way: FAST at most 2 %,

@@ -83,9 +83,11 @@ static const Field MATERIAL_FIELDS[] = {
     { "density", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriMaterial, density), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "air_damping", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriMaterial, airDamping), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "flex_damping", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriMaterial, flexDamping), 1, 0, 0, 0, CLASS_NONE, NULL },
+    { "yield_stress", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriMaterial, yieldStress), 1, 0, 0, 0, CLASS_NONE, NULL },
+    { "hardening", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriMaterial, hardening), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-static const Struct MATERIAL = { "Material", (int)sizeof(kiriMaterial), 6, MATERIAL_FIELDS, NULL, NULL };
+static const Struct MATERIAL = { "Material", (int)sizeof(kiriMaterial), 8, MATERIAL_FIELDS, NULL, NULL };
 
 static const Field QUALITY_FIELDS[] = {
     { "frames_along", TYPE_INT32, KIND_INT, (int)offsetof(kiriQuality, framesAlong), 1, 0, 0, 0, CLASS_NONE, NULL },
@@ -2144,7 +2146,8 @@ const Constant CONSTANTS[] = {
     { "MaterialPreset", "MATERIAL_COTTON", 1, 0 },
     { "MaterialPreset", "MATERIAL_RUBBER", 2, 0 },
     { "MaterialPreset", "MATERIAL_FOIL", 3, 0 },
-    { "MaterialPreset", "MATERIAL_COUNT", 4, 0 },
+    { "MaterialPreset", "MATERIAL_CARD", 4, 0 },
+    { "MaterialPreset", "MATERIAL_COUNT", 5, 0 },
     { "QualityPreset", "QUALITY_FAST", 0, 0 },
     { "QualityPreset", "QUALITY_BALANCED", 1, 0 },
     { "QualityPreset", "QUALITY_ACCURATE", 2, 0 },

@@ -116,7 +116,9 @@ export enum MaterialPreset {
     Rubber = 2,
     /** aluminium, 16 um */
     Foil = 3,
-    Count = 4,
+    /** paperboard, 0.4 mm */
+    Card = 4,
+    Count = 5,
 }
 
 export enum QualityPreset {
@@ -396,6 +398,11 @@ export class Material {
     airDamping: number;
     /** s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation */
     flexDamping: number;
+    /** Bending beyond a curvature of 2 yieldStress / (youngsModulus thickness) stays (manual, folding). Only with
+     *  KIRI_MODEL_LINKS; planar sheets do not bend. Pa, 0 or more; 0: elastic */
+    yieldStress: number;
+    /** modulus beyond the yield stress, relative to youngsModulus; 0 to below 1 */
+    hardening: number;
 }
 /** What a host gives as Material: what is left out is 0. */
 export interface MaterialGiven {
@@ -411,6 +418,11 @@ export interface MaterialGiven {
     airDamping?: number;
     /** s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation */
     flexDamping?: number;
+    /** Bending beyond a curvature of 2 yieldStress / (youngsModulus thickness) stays (manual, folding). Only with
+     *  KIRI_MODEL_LINKS; planar sheets do not bend. Pa, 0 or more; 0: elastic */
+    yieldStress?: number;
+    /** modulus beyond the yield stress, relative to youngsModulus; 0 to below 1 */
+    hardening?: number;
 }
 
 /** Work against accuracy. Errors of a swinging strip and square of paper, rms over their way: FAST at most 2 %,

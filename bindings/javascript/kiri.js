@@ -19,7 +19,7 @@ export const EventType = enumeration({ CutFinished: 1, PieceOff: 2, FrameAdded: 
     6, PieceDetached: 7 });
 export const Stage = enumeration({ Cut: 0, Grid: 1, Regions: 2, Shape: 3, Samples: 4, Constants: 5, Contact: 6, Solve:
     7, Skin: 8, Count: 9 });
-export const MaterialPreset = enumeration({ Paper: 0, Cotton: 1, Rubber: 2, Foil: 3, Count: 4 });
+export const MaterialPreset = enumeration({ Paper: 0, Cotton: 1, Rubber: 2, Foil: 3, Card: 4, Count: 5 });
 export const QualityPreset = enumeration({ Fast: 0, Balanced: 1, Accurate: 2, Count: 3 });
 export const Model = enumeration({ Links: 0, Affine: 1, Points: 2 });
 export const Skinning = enumeration({ Linear: 0, Smooth: 1 });
@@ -49,20 +49,20 @@ export const layouts = {
         samplesRefreshed: 84, solverIterations: 88, cellsChanged: 92, weightsChanged: 96, verticesChanged: 100,
         pointsChanged: 104, linksChanged: 108, commits: 112, systemsSolved: 116, contacts: 120, sheetPairs: 124,
         largestJump: 128, largestFade: 136 } },
-    kiriMaterial: { size: 24, fields: { youngsModulus: 0, poissonsRatio: 4, thickness: 8, density: 12, airDamping: 16,
-        flexDamping: 20 } },
+    kiriMaterial: { size: 32, fields: { youngsModulus: 0, poissonsRatio: 4, thickness: 8, density: 12, airDamping: 16,
+        flexDamping: 20, yieldStress: 24, hardening: 28 } },
     kiriQuality: { size: 16, fields: { framesAlong: 0, gridResolution: 4, iterations: 8, substeps: 12 } },
     kiriPaperOptions: { size: 20, fields: { fromScratch: 0, popping: 4, linearWeights: 8, integrationPoints: 12,
         integrationOrder: 16 } },
-    kiriSheetDef: { size: 208, fields: { cookie: 0, restPositions: 4, vertexCount: 8, indices: 12, triangleCount: 16,
-        position: 20, axisU: 32, axisV: 44, velocity: 56, material: 68, gridResolution: 92, snapDistance: 96,
-        weldDistance: 100, frameCount: 104, frameLength: 108, accuracy: 112, framePoints: 116, maxFrames: 120,
-        rigidWeight: 124, rigidArea: 128, crumbArea: 132, friction: 136, contactThickness: 140, groups: 144,
-        touchesSheets: 148, collisionPoints: 152, iterations: 156, sleepSpeed: 160, model: 164, skinning: 168, planar:
-        172, timeStepping: 176, fadeTime: 180, normals: 184, paper: 188 } },
-    kiriSheetSettings: { size: 76, fields: { cookie: 0, material: 4, maxFrames: 28, crumbArea: 32, friction: 36,
-        contactThickness: 40, groups: 44, touchesSheets: 48, iterations: 52, sleepSpeed: 56, skinning: 60,
-        timeStepping: 64, fadeTime: 68, normals: 72 } },
+    kiriSheetDef: { size: 216, fields: { cookie: 0, restPositions: 4, vertexCount: 8, indices: 12, triangleCount: 16,
+        position: 20, axisU: 32, axisV: 44, velocity: 56, material: 68, gridResolution: 100, snapDistance: 104,
+        weldDistance: 108, frameCount: 112, frameLength: 116, accuracy: 120, framePoints: 124, maxFrames: 128,
+        rigidWeight: 132, rigidArea: 136, crumbArea: 140, friction: 144, contactThickness: 148, groups: 152,
+        touchesSheets: 156, collisionPoints: 160, iterations: 164, sleepSpeed: 168, model: 172, skinning: 176, planar:
+        180, timeStepping: 184, fadeTime: 188, normals: 192, paper: 196 } },
+    kiriSheetSettings: { size: 84, fields: { cookie: 0, material: 4, maxFrames: 36, crumbArea: 40, friction: 44,
+        contactThickness: 48, groups: 52, touchesSheets: 56, iterations: 60, sleepSpeed: 64, skinning: 68,
+        timeStepping: 72, fadeTime: 76, normals: 80 } },
     kiriMesh: { size: 36, fields: { positions: 0, normals: 4, restPositions: 8, indices: 12, sourceTriangles: 16,
         sourceWeights: 20, vertexCount: 24, triangleCount: 28, revision: 32 } },
     kiriRange: { size: 8, fields: { first: 0, count: 4 } },
@@ -331,6 +331,8 @@ export class Material {
     density = 0;
     airDamping = 0;
     flexDamping = 0;
+    yieldStress = 0;
+    hardening = 0;
 }
 
 function readMaterial(o, at, world) {
@@ -340,11 +342,13 @@ function readMaterial(o, at, world) {
     o.density = F32[(at + 12) >> 2];
     o.airDamping = F32[(at + 16) >> 2];
     o.flexDamping = F32[(at + 20) >> 2];
+    o.yieldStress = F32[(at + 24) >> 2];
+    o.hardening = F32[(at + 28) >> 2];
     return o;
 }
 
 const fieldsOfMaterial = new Set(["youngsModulus", "poissonsRatio", "thickness", "density", "airDamping",
-    "flexDamping"]);
+    "flexDamping", "yieldStress", "hardening"]);
 
 function writeMaterial(o, at, world) {
     known(o, fieldsOfMaterial, "Material");
@@ -365,6 +369,12 @@ function writeMaterial(o, at, world) {
     }
     if (o.flexDamping !== undefined) {
         F32[(at + 20) >> 2] = o.flexDamping;
+    }
+    if (o.yieldStress !== undefined) {
+        F32[(at + 24) >> 2] = o.yieldStress;
+    }
+    if (o.hardening !== undefined) {
+        F32[(at + 28) >> 2] = o.hardening;
     }
 }
 
@@ -471,31 +481,31 @@ function readSheetDef(o, at, world) {
     fill(F32, (at + 44) >> 2, o.axisV);
     fill(F32, (at + 56) >> 2, o.velocity);
     readMaterial(o.material, at + 68, world);
-    o.gridResolution = I32[(at + 92) >> 2];
-    o.snapDistance = F32[(at + 96) >> 2];
-    o.weldDistance = F32[(at + 100) >> 2];
-    o.frameCount = I32[(at + 104) >> 2];
-    o.frameLength = F32[(at + 108) >> 2];
-    o.accuracy = F32[(at + 112) >> 2];
+    o.gridResolution = I32[(at + 100) >> 2];
+    o.snapDistance = F32[(at + 104) >> 2];
+    o.weldDistance = F32[(at + 108) >> 2];
+    o.frameCount = I32[(at + 112) >> 2];
+    o.frameLength = F32[(at + 116) >> 2];
+    o.accuracy = F32[(at + 120) >> 2];
     o.framePoints = null;
-    o.maxFrames = I32[(at + 120) >> 2];
-    o.rigidWeight = F32[(at + 124) >> 2];
-    o.rigidArea = F32[(at + 128) >> 2];
-    o.crumbArea = F32[(at + 132) >> 2];
-    o.friction = F32[(at + 136) >> 2];
-    o.contactThickness = F32[(at + 140) >> 2];
-    o.groups = U32[(at + 144) >> 2];
-    o.touchesSheets = I32[(at + 148) >> 2] !== 0;
-    o.collisionPoints = I32[(at + 152) >> 2];
-    o.iterations = I32[(at + 156) >> 2];
-    o.sleepSpeed = F32[(at + 160) >> 2];
-    o.model = I32[(at + 164) >> 2];
-    o.skinning = I32[(at + 168) >> 2];
-    o.planar = I32[(at + 172) >> 2] !== 0;
-    o.timeStepping = I32[(at + 176) >> 2];
-    o.fadeTime = F32[(at + 180) >> 2];
-    o.normals = I32[(at + 184) >> 2] !== 0;
-    readPaperOptions(o.paper, at + 188, world);
+    o.maxFrames = I32[(at + 128) >> 2];
+    o.rigidWeight = F32[(at + 132) >> 2];
+    o.rigidArea = F32[(at + 136) >> 2];
+    o.crumbArea = F32[(at + 140) >> 2];
+    o.friction = F32[(at + 144) >> 2];
+    o.contactThickness = F32[(at + 148) >> 2];
+    o.groups = U32[(at + 152) >> 2];
+    o.touchesSheets = I32[(at + 156) >> 2] !== 0;
+    o.collisionPoints = I32[(at + 160) >> 2];
+    o.iterations = I32[(at + 164) >> 2];
+    o.sleepSpeed = F32[(at + 168) >> 2];
+    o.model = I32[(at + 172) >> 2];
+    o.skinning = I32[(at + 176) >> 2];
+    o.planar = I32[(at + 180) >> 2] !== 0;
+    o.timeStepping = I32[(at + 184) >> 2];
+    o.fadeTime = F32[(at + 188) >> 2];
+    o.normals = I32[(at + 192) >> 2] !== 0;
+    readPaperOptions(o.paper, at + 196, world);
     return o;
 }
 
@@ -534,80 +544,80 @@ function writeSheetDef(o, at, world) {
         writeMaterial(o.material, at + 68, world);
     }
     if (o.gridResolution !== undefined) {
-        I32[(at + 92) >> 2] = o.gridResolution;
+        I32[(at + 100) >> 2] = o.gridResolution;
     }
     if (o.snapDistance !== undefined) {
-        F32[(at + 96) >> 2] = o.snapDistance;
+        F32[(at + 104) >> 2] = o.snapDistance;
     }
     if (o.weldDistance !== undefined) {
-        F32[(at + 100) >> 2] = o.weldDistance;
+        F32[(at + 108) >> 2] = o.weldDistance;
     }
     if (o.frameCount !== undefined) {
-        I32[(at + 104) >> 2] = o.frameCount;
+        I32[(at + 112) >> 2] = o.frameCount;
     }
     if (o.frameLength !== undefined) {
-        F32[(at + 108) >> 2] = o.frameLength;
+        F32[(at + 116) >> 2] = o.frameLength;
     }
     if (o.accuracy !== undefined) {
-        F32[(at + 112) >> 2] = o.accuracy;
+        F32[(at + 120) >> 2] = o.accuracy;
     }
     if (o.framePoints != null) {
-        U32[(at + 116) >> 2] = putRows("Float32Array", o.framePoints, 2, "framePoints");
-        I32[(at + 104) >> 2] = o.framePoints.length / 2;
+        U32[(at + 124) >> 2] = putRows("Float32Array", o.framePoints, 2, "framePoints");
+        I32[(at + 112) >> 2] = o.framePoints.length / 2;
     }
     if (o.maxFrames !== undefined) {
-        I32[(at + 120) >> 2] = o.maxFrames;
+        I32[(at + 128) >> 2] = o.maxFrames;
     }
     if (o.rigidWeight !== undefined) {
-        F32[(at + 124) >> 2] = o.rigidWeight;
+        F32[(at + 132) >> 2] = o.rigidWeight;
     }
     if (o.rigidArea !== undefined) {
-        F32[(at + 128) >> 2] = o.rigidArea;
+        F32[(at + 136) >> 2] = o.rigidArea;
     }
     if (o.crumbArea !== undefined) {
-        F32[(at + 132) >> 2] = o.crumbArea;
+        F32[(at + 140) >> 2] = o.crumbArea;
     }
     if (o.friction !== undefined) {
-        F32[(at + 136) >> 2] = o.friction;
+        F32[(at + 144) >> 2] = o.friction;
     }
     if (o.contactThickness !== undefined) {
-        F32[(at + 140) >> 2] = o.contactThickness;
+        F32[(at + 148) >> 2] = o.contactThickness;
     }
     if (o.groups !== undefined) {
-        U32[(at + 144) >> 2] = o.groups;
+        U32[(at + 152) >> 2] = o.groups;
     }
     if (o.touchesSheets !== undefined) {
-        I32[(at + 148) >> 2] = o.touchesSheets;
+        I32[(at + 156) >> 2] = o.touchesSheets;
     }
     if (o.collisionPoints !== undefined) {
-        I32[(at + 152) >> 2] = o.collisionPoints;
+        I32[(at + 160) >> 2] = o.collisionPoints;
     }
     if (o.iterations !== undefined) {
-        I32[(at + 156) >> 2] = o.iterations;
+        I32[(at + 164) >> 2] = o.iterations;
     }
     if (o.sleepSpeed !== undefined) {
-        F32[(at + 160) >> 2] = o.sleepSpeed;
+        F32[(at + 168) >> 2] = o.sleepSpeed;
     }
     if (o.model !== undefined) {
-        I32[(at + 164) >> 2] = o.model;
+        I32[(at + 172) >> 2] = o.model;
     }
     if (o.skinning !== undefined) {
-        I32[(at + 168) >> 2] = o.skinning;
+        I32[(at + 176) >> 2] = o.skinning;
     }
     if (o.planar !== undefined) {
-        I32[(at + 172) >> 2] = o.planar;
+        I32[(at + 180) >> 2] = o.planar;
     }
     if (o.timeStepping !== undefined) {
-        I32[(at + 176) >> 2] = o.timeStepping;
+        I32[(at + 184) >> 2] = o.timeStepping;
     }
     if (o.fadeTime !== undefined) {
-        F32[(at + 180) >> 2] = o.fadeTime;
+        F32[(at + 188) >> 2] = o.fadeTime;
     }
     if (o.normals !== undefined) {
-        I32[(at + 184) >> 2] = o.normals;
+        I32[(at + 192) >> 2] = o.normals;
     }
     if (o.paper !== undefined) {
-        writePaperOptions(o.paper, at + 188, world);
+        writePaperOptions(o.paper, at + 196, world);
     }
 }
 
@@ -631,18 +641,18 @@ export class SheetSettings {
 function readSheetSettings(o, at, world) {
     o.cookie = U32[(at) >> 2];
     readMaterial(o.material, at + 4, world);
-    o.maxFrames = I32[(at + 28) >> 2];
-    o.crumbArea = F32[(at + 32) >> 2];
-    o.friction = F32[(at + 36) >> 2];
-    o.contactThickness = F32[(at + 40) >> 2];
-    o.groups = U32[(at + 44) >> 2];
-    o.touchesSheets = I32[(at + 48) >> 2] !== 0;
-    o.iterations = I32[(at + 52) >> 2];
-    o.sleepSpeed = F32[(at + 56) >> 2];
-    o.skinning = I32[(at + 60) >> 2];
-    o.timeStepping = I32[(at + 64) >> 2];
-    o.fadeTime = F32[(at + 68) >> 2];
-    o.normals = I32[(at + 72) >> 2] !== 0;
+    o.maxFrames = I32[(at + 36) >> 2];
+    o.crumbArea = F32[(at + 40) >> 2];
+    o.friction = F32[(at + 44) >> 2];
+    o.contactThickness = F32[(at + 48) >> 2];
+    o.groups = U32[(at + 52) >> 2];
+    o.touchesSheets = I32[(at + 56) >> 2] !== 0;
+    o.iterations = I32[(at + 60) >> 2];
+    o.sleepSpeed = F32[(at + 64) >> 2];
+    o.skinning = I32[(at + 68) >> 2];
+    o.timeStepping = I32[(at + 72) >> 2];
+    o.fadeTime = F32[(at + 76) >> 2];
+    o.normals = I32[(at + 80) >> 2] !== 0;
     return o;
 }
 
@@ -658,40 +668,40 @@ function writeSheetSettings(o, at, world) {
         writeMaterial(o.material, at + 4, world);
     }
     if (o.maxFrames !== undefined) {
-        I32[(at + 28) >> 2] = o.maxFrames;
+        I32[(at + 36) >> 2] = o.maxFrames;
     }
     if (o.crumbArea !== undefined) {
-        F32[(at + 32) >> 2] = o.crumbArea;
+        F32[(at + 40) >> 2] = o.crumbArea;
     }
     if (o.friction !== undefined) {
-        F32[(at + 36) >> 2] = o.friction;
+        F32[(at + 44) >> 2] = o.friction;
     }
     if (o.contactThickness !== undefined) {
-        F32[(at + 40) >> 2] = o.contactThickness;
+        F32[(at + 48) >> 2] = o.contactThickness;
     }
     if (o.groups !== undefined) {
-        U32[(at + 44) >> 2] = o.groups;
+        U32[(at + 52) >> 2] = o.groups;
     }
     if (o.touchesSheets !== undefined) {
-        I32[(at + 48) >> 2] = o.touchesSheets;
+        I32[(at + 56) >> 2] = o.touchesSheets;
     }
     if (o.iterations !== undefined) {
-        I32[(at + 52) >> 2] = o.iterations;
+        I32[(at + 60) >> 2] = o.iterations;
     }
     if (o.sleepSpeed !== undefined) {
-        F32[(at + 56) >> 2] = o.sleepSpeed;
+        F32[(at + 64) >> 2] = o.sleepSpeed;
     }
     if (o.skinning !== undefined) {
-        I32[(at + 60) >> 2] = o.skinning;
+        I32[(at + 68) >> 2] = o.skinning;
     }
     if (o.timeStepping !== undefined) {
-        I32[(at + 64) >> 2] = o.timeStepping;
+        I32[(at + 72) >> 2] = o.timeStepping;
     }
     if (o.fadeTime !== undefined) {
-        F32[(at + 68) >> 2] = o.fadeTime;
+        F32[(at + 76) >> 2] = o.fadeTime;
     }
     if (o.normals !== undefined) {
-        I32[(at + 72) >> 2] = o.normals;
+        I32[(at + 80) >> 2] = o.normals;
     }
 }
 
@@ -1585,11 +1595,11 @@ export class World extends WorldBase {
         try {
             wasm.kiriDefaultSheetDef(scratch);
             writeSheetDef(def, scratch, this);
-            const $result = wasm.kiriCreateSheet($world, scratch, scratch + 208);
+            const $result = wasm.kiriCreateSheet($world, scratch, scratch + 216);
             if ($result < 0) {
                 fail(this, $result, "kiriCreateSheet");
             }
-            return thing(Sheet, this, U32[(scratch + 208) >> 2]);
+            return thing(Sheet, this, U32[(scratch + 216) >> 2]);
         } finally {
             release();
         }
@@ -1602,11 +1612,11 @@ export class World extends WorldBase {
                 wasm.kiriDefaultSheetDef(scratch);
                 writeSheetDef(def, scratch, this);
             }
-            const $result = wasm.kiriCreateRectangle($world, width, height, columns, rows, def ? scratch : 0, scratch + 208);
+            const $result = wasm.kiriCreateRectangle($world, width, height, columns, rows, def ? scratch : 0, scratch + 216);
             if ($result < 0) {
                 fail(this, $result, "kiriCreateRectangle");
             }
-            return thing(Sheet, this, U32[(scratch + 208) >> 2]);
+            return thing(Sheet, this, U32[(scratch + 216) >> 2]);
         } finally {
             release();
         }
@@ -1714,7 +1724,7 @@ export class Sheet extends Thing {
 
     setSettings(settings) {
         const $world = pointer(this.world);
-        U8.fill(0, scratch, scratch + 76);
+        U8.fill(0, scratch, scratch + 84);
         writeSheetSettings(settings, scratch, this.world);
         const $result = wasm.kiriSheet_SetSettings($world, this.id, scratch);
         if ($result < 0) {

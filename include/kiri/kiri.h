@@ -297,6 +297,10 @@ typedef struct kiriMaterial {
     float density;       /* kg/m^3, above 0 */
     float airDamping;    /* 1/s, 0 or more: velocities fade as exp(-airDamping t) */
     float flexDamping;   /* s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation */
+    /* Bending beyond a curvature of 2 yieldStress / (youngsModulus thickness) stays (manual, folding). Only with
+       KIRI_MODEL_LINKS; planar sheets do not bend. */
+    float yieldStress; /* Pa, 0 or more; 0: elastic */
+    float hardening;   /* modulus beyond the yield stress, relative to youngsModulus; 0 to below 1 */
 } kiriMaterial;
 
 /* Materials to start from; src/world/kiri_api_world.c names the sources of their numbers. */
@@ -305,6 +309,7 @@ enum kiriMaterialPreset {
     KIRI_MATERIAL_COTTON, /* cloth, 0.5 mm; the default of a sheet def */
     KIRI_MATERIAL_RUBBER, /* natural rubber, 1 mm */
     KIRI_MATERIAL_FOIL,   /* aluminium, 16 um */
+    KIRI_MATERIAL_CARD,   /* paperboard, 0.4 mm */
     KIRI_MATERIAL_COUNT
 };
 

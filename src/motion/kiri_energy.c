@@ -290,21 +290,16 @@ void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system)
 
 /* ---- Estimate of the error --------------------------------------------------------------------------------------- */
 
-/* A symmetric tensor of the rest plane. */
-typedef struct Tensor {
-    double uu, uv, vv;
-} Tensor;
-
 /* The fields at a region: a least-squares fit to its links. A link with the span s gives the value of T s for a tensor
    T. */
 typedef struct Fit {
-    Tensor matrix;          /* sum of w s s^T */
+    kiriTensor matrix;          /* sum of w s s^T */
     kiriVec2 bendingBy[2];  /* sum of w s (K s)^T: of its two rows */
     kiriVec2 strainBy[2];   /* the same of the strain */
     kiriVec2 turnBy;        /* sum of w s turn */
     double weight;          /* sum of w s . s */
     kiriVec2 at;            /* times where the links are: then where the fields are measured */
-    Tensor bending, strain; /* 1/m; 1 */
+    kiriTensor bending, strain; /* 1/m; 1 */
     kiriVec2 turn;          /* slope of the turn in the plane, 1/m */
 } Fit;
 
@@ -371,34 +366,15 @@ static void AddToFit(Fit* fit, const kiriLink* link, const LinkStrains* strains)
     fit->at = kiriVec2_Add(fit->at, kiriVec2_Scale(weight, link->crossing));
 }
 
-/* Returns the symmetric T that minimises the sum of w |T s - value|^2. If all spans have one direction, the
-   undetermined part of T is 0, due to a small addition to the matrix. The equations are T M + M T = B + B^T, divided by
-   two:
-
-       [ uu  uv  0       ]          [ B_uu        ]
-       [ uv  uu + vv  uv ] (T)  =   [ B_uv + B_vu ]
-       [ 0   uv  vv      ]          [ B_vv        ] */
-static Tensor SolveTensor(Tensor m, const kiriVec2 by[2])
-{
-    double a = m.uu, b = m.uv, c = m.vv, sum = a + c;
-    double p = by[0].x, q = by[0].y + by[1].x, r = by[1].y;
-    double middle = sum - b * b / a - b * b / c;
-    Tensor t;
-    t.uv = (q - b * p / a - b * r / c) / middle;
-    t.uu = (p - b * t.uv) / a;
-    t.vv = (r - b * t.uv) / c;
-    return t;
-}
-
 static void SolveFit(Fit* fit)
 {
-    Tensor m = fit->matrix;
+    kiriTensor m = fit->matrix;
     double least = 0.02 * (m.uu + m.vv);
     m.uu += least;
     m.vv += least;
     double determinant = m.uu * m.vv - m.uv * m.uv;
-    fit->bending = SolveTensor(m, fit->bendingBy);
-    fit->strain = SolveTensor(m, fit->strainBy);
+    fit->bending = kiriTensor_Solve(m, fit->bendingBy);
+    fit->strain = kiriTensor_Solve(m, fit->strainBy);
     fit->turn = kiriVec2_Make((m.vv * fit->turnBy.x - m.uv * fit->turnBy.y) / determinant,
                               (m.uu * fit->turnBy.y - m.uv * fit->turnBy.x) / determinant);
     fit->at = kiriVec2_Scale(1.0 / fit->weight, fit->at);
@@ -418,7 +394,7 @@ static double EnergyOf(const kiriLink* link, const LinkStrains* strains, Rigidit
            rigidity.turn * link->moment / link->length * strains->turn * strains->turn;
 }
 
-static double SquaredChange(Tensor a, Tensor b)
+static double SquaredChange(kiriTensor a, kiriTensor b)
 {
     double uu = b.uu - a.uu, uv = b.uv - a.uv, vv = b.vv - a.vv;
     return uu * uu + 2.0 * uv * uv + vv * vv;
@@ -442,7 +418,7 @@ static double MissingIn(const kiriLink* link, const Fit* a, const Fit* b, Rigidi
    to the line they change by twice the difference. */
 static double MissingAtClamp(const kiriLink* link, const LinkStrains* strains, const Fit* fit, Rigidity rigidity)
 {
-    const Tensor *K = &fit->bending, *E = &fit->strain;
+    const kiriTensor *K = &fit->bending, *E = &fit->strain;
     kiriVec2 s = link->span;
     LinkStrains off = { { strains->bending.x - K->uu * s.x - K->uv * s.y, strains->bending.y - K->uv * s.x - K->vv * s.y },
                         { strains->strain.x - E->uu * s.x - E->uv * s.y, strains->strain.y - E->uv * s.x - E->vv * s.y },

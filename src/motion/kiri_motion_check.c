@@ -58,6 +58,16 @@ KIRI_SHARED_TABLE(kiriStrainOffsetsTable, kiriStrainOffsets, {
     KIRI_ROOMS(older, from, frames, mayMove),
 })
 
+KIRI_SHARED_TABLE(kiriPlasticTable, kiriPlastic, {
+    KIRI_REALS(part, reach),
+})
+
+KIRI_SHARED_TABLE(kiriPlasticsTable, kiriPlastics, {
+    KIRI_BOOLS(isKept),
+    KIRI_PARTS(links, kiriPlasticTable),
+    KIRI_ROOMS(next, regions),
+})
+
 KIRI_TABLE(OwnershipTable, kiriOwnership, {
     KIRI_DERIVED,
     KIRI_ARRAYS(squares, triangleOwners, dirty, isDirty, staged, transfers, first),

@@ -84,6 +84,7 @@ static kiriSystem SystemOf(const kiriSolverBodies* bodies, const kiriSolverBody*
     system.cornerCount = body->corners.count;
     system.linkParts = NULL;
     system.strainOffsets = NULL;
+    system.plastics = NULL;
     return system;
 }
 
@@ -114,7 +115,10 @@ static bool ReserveSteps(kiriSolver* s, const kiriSystem* body)
     bool hasTraces = kiriElement_CornerCount(body) > 0 && !kiriMechanics_IsAffine(&body->mechanics);
     int64_t traced = hasTraces ? KIRI_TRACED * 2 * s->size * links : 0, most = kiriElement_MostMembers(body);
     int64_t strains = KIRI_MOST_STRAINS * elements, rows = KIRI_MOST_STRAINS * most;
-    return kiriArray_Reserve(memory, &s->linkParts, links) && kiriArray_Reserve(memory, &s->strainOffsets, links) &&
+    int64_t yields = body->material.yieldStress > 0.0f ? links : 0;
+    return kiriArray_Reserve(memory, &s->plastics, yields) && kiriArray_Reserve(memory, &s->flows, yields) &&
+           kiriArray_Reserve(memory, &s->regions, yields > 0 ? frames : 0) &&
+           kiriArray_Reserve(memory, &s->linkParts, links) && kiriArray_Reserve(memory, &s->strainOffsets, links) &&
            kiriArray_Reserve(memory, &s->before, frames) && kiriArray_Reserve(memory, &s->after, frames) &&
            kiriArray_Reserve(memory, &s->predictions, frames) && kiriArray_Reserve(memory, &s->start, frames) &&
            kiriArray_Reserve(memory, &s->poses, frames) && kiriArray_Reserve(memory, &s->trial, frames) &&
@@ -613,12 +617,16 @@ static void TakeClamps(kiriSolver* solver, const kiriIslandBody* member)
 
 /* Copies the state of links that changes from tick to tick. `first`: of the body's links in the island. */
 static void TakeLinkState(kiriSolver* solver, const kiriIslandBody* member, int32_t first, bool hasParts,
-                          bool hasOffsets)
+                          bool hasOffsets, bool hasYields)
 {
     const kiriSystem* sheet = member->sheet;
     kiriSpan links = BodyOfMember(member)->links;
     for (int32_t k = 0; k < links.count; ++k) {
         int32_t link = member->solver->bodies.links.data[links.first + k];
+        if (hasYields) {
+            const kiriPlastic none = { { 0.0, 0.0, 0.0 }, 0.0 };
+            solver->plastics.data[first + k] = sheet->plastics != NULL ? sheet->plastics[link] : none;
+        }
         if (hasParts) {
             const kiriLinkPart all = { 1.0, 1.0 };
             solver->linkParts.data[first + k] = sheet->linkParts != NULL ? sheet->linkParts[link] : all;
@@ -679,6 +687,7 @@ static kiriSystem SumSystems(const kiriSolver* solver, const kiriIslandBody* bod
         if (sheet->material.poissonsRatio > system.material.poissonsRatio) {
             system.material.poissonsRatio = sheet->material.poissonsRatio; /* it says whether there are corners */
         }
+        system.material.yieldStress = kiriMax(sheet->material.yieldStress, system.material.yieldStress);
         if (sheet->mechanics.timeStepping == KIRI_TIME_STEPPING_EULER) {
             system.mechanics.timeStepping = KIRI_TIME_STEPPING_EULER;
         }
@@ -691,7 +700,7 @@ static kiriSystem SumSystems(const kiriSolver* solver, const kiriIslandBody* bod
 
 kiriSystem kiriSolver_Open(kiriSolver* solver, const kiriIslandBody* bodies, int32_t count, kiriMatrix* matrix)
 {
-    bool hasParts = false, hasOffsets = false;
+    bool hasParts = false, hasOffsets = false, hasYields = false;
     kiriSystem system;
     solver->matrix = matrix;
     solver->islandBodies = bodies;
@@ -707,9 +716,10 @@ kiriSystem kiriSolver_Open(kiriSolver* solver, const kiriIslandBody* bodies, int
         TakeClamps(solver, &bodies[n]);
         hasParts |= bodies[n].sheet->linkParts != NULL;
         hasOffsets |= bodies[n].sheet->strainOffsets != NULL;
+        hasYields |= bodies[n].sheet->plastics != NULL;
     }
     for (int32_t n = 0, first = 0; n < count; ++n) {
-        TakeLinkState(solver, &bodies[n], first, hasParts, hasOffsets);
+        TakeLinkState(solver, &bodies[n], first, hasParts, hasOffsets, hasYields);
         first += BodyOfMember(&bodies[n])->links.count;
         if (count > 1) {
             TakeElements(solver, &bodies[n]);
@@ -726,6 +736,9 @@ kiriSystem kiriSolver_Open(kiriSolver* solver, const kiriIslandBody* bodies, int
     system.clampCount = solver->clamps.count;
     system.linkParts = hasParts ? solver->linkParts.data : NULL;
     system.strainOffsets = hasOffsets ? solver->strainOffsets.data : NULL;
+    system.plastics = hasYields ? solver->plastics.data : NULL;
+    system.flows = hasYields ? solver->flows.data : NULL;
+    KIRI_ASSERT(hasOffsets || !hasYields);
     return system;
 }
 
@@ -893,6 +906,31 @@ static void ForgetHistories(kiriSolver* solver, const kiriSystem* system)
     }
 }
 
+/* Keeps the flow of the step: in the sheets, and in clamps. */
+static void KeepFlow(const kiriSolver* solver, const kiriSystem* system)
+{
+    for (int32_t n = 0, first = 0; system->flows != NULL && n < solver->islandCount; ++n) {
+        const kiriIslandBody* member = &solver->islandBodies[n];
+        const kiriSystem* sheet = member->sheet;
+        kiriSpan links = BodyOfMember(member)->links;
+        for (int32_t k = first; sheet->plastics != NULL && k < first + links.count; ++k) {
+            int32_t link = member->solver->bodies.links.data[links.first + k - first];
+            double strain[KIRI_MOST_STRAINS];
+            kiriElement_Measure(system, k, solver->poses.data, strain, NULL);
+            kiriStrain_EndFlow(&system->flows[k], strain, &sheet->plastics[link], sheet->strainOffsets[link].strain);
+        }
+        first += links.count;
+    }
+    for (int32_t k = 0; k < system->clampCount; ++k) {
+        kiriClampRow* row = &system->clamps[k];
+        if (row->keptPlastic != NULL) {
+            double strain[KIRI_CLAMP_STRAINS];
+            kiriClamp_Measure(row, &system->frames[row->frame], &row->pose, &solver->poses.data[row->frame], strain, NULL);
+            kiriStrain_EndFlow(&row->yield, strain, row->keptPlastic, row->keptOffset);
+        }
+    }
+}
+
 int32_t kiriSolver_StepIsland(kiriSolver* solver, kiriMatrix* matrix, const kiriIslandBody* bodies, int32_t count,
                               double dt, int32_t iterations, int32_t most)
 {
@@ -908,6 +946,7 @@ int32_t kiriSolver_StepIsland(kiriSolver* solver, kiriMatrix* matrix, const kiri
         return -1;
     }
     kiriSolver_AddReactions(solver, &system);
+    KeepFlow(solver, &system);
     kiriSolver_EndContacts(solver, &system);
     WriteFrames(solver, &system);
     for (int32_t k = 0; k < system.clampCount; ++k) {

@@ -103,7 +103,9 @@ typedef struct kiriSystem {
     const kiriLinkPart* linkParts; /* null: all of every link */
     const kiriCorner* corners; /* corners of `links` */
     int32_t cornerCount;
-    const kiriStrainOffset* strainOffsets; /* one a link between rigid frames, or null */
+    kiriStrainOffset* strainOffsets; /* one a link between rigid frames, or null; a step writes them where links flow */
+    kiriPlastic* plastics; /* one a link, or null: no link flows. A step writes them */
+    kiriYield* flows;      /* of the system of a body: one a link, or null */
     const kiriAreaElements* areaElements;  /* of affine frames; null: none */
     const kiriPinRow* pins;
     int32_t pinCount;
@@ -307,6 +309,17 @@ void kiriElement_Measure(const kiriSystem* system, int32_t k, const kiriPose* po
    */
 kiriTrace kiriElement_Trace(const kiriSystem* system, int32_t k, const double* strains);
 
+/* Finds the flow of a link at these strains. Returns the energy that it takes, J. Corners read the offsets of links, so
+   links come first. */
+static inline double kiriElement_Flow(const kiriSystem* system, int32_t k, const double* strain, bool mayFlow)
+{
+    if (system->flows == NULL || !kiriElement_IsRigidLink(system, k)) {
+        return 0.0;
+    }
+    kiriStrain_Flow(&system->flows[k], strain, mayFlow, system->strainOffsets[k].strain);
+    return system->flows[k].lost;
+}
+
 /* Subtracts the offsets from the strains. The result is the part that causes forces. */
 void kiriElement_TakeOffsets(const kiriSystem* system, int32_t k, const double* strain, double* pulling);
 
@@ -336,6 +349,7 @@ typedef struct kiriUnknown {
 /* The objective, and the elastic and contact energy in it. The rest is damping and inertia. */
 typedef struct kiriStepEnergy {
     double objective, potential;
+    double flow; /* J: part of the potential that plastic flow takes */
 } kiriStepEnergy;
 
 enum { KIRI_CONTACT_MEMBERS = 8 };
@@ -406,6 +420,7 @@ typedef struct kiriSearch {
     int32_t solved;            /* systems solved since the iteration started */
     int32_t suspects;          /* consecutive Gauss-Newton steps that gained too much energy */
     bool isFirst;              /* the next Gauss-Newton step is the first */
+    bool mayFlow;              /* links yield; the first iterations are elastic */
 } kiriSearch;
 
 /* The contacts of a body together. */
@@ -482,6 +497,7 @@ struct kiriSolver {
     bool isAlong;   /* poses lie on the Gauss-Newton step of the last system */
     bool isHeld;    /* the host holds a frame */
     bool isTouched; /* a contact acts in this step, or a hold carries the body */
+    bool yields;    /* the material may flow */
     kiriSupport support;
     kiriStepping stepping;
     kiriSearch search;
@@ -496,6 +512,9 @@ struct kiriSolver {
     KIRI_ARRAY(kiriContactStep) contacts;
     KIRI_ARRAY(kiriLinkPart) linkParts;
     KIRI_ARRAY(kiriStrainOffset) strainOffsets;
+    KIRI_ARRAY(kiriPlastic) plastics;
+    KIRI_ARRAY(kiriYield) flows;
+    KIRI_ARRAY(kiriPlasticRegion) regions;
     /* Flattened if the sheet is planar. Velocities include the air damping. */
     KIRI_ARRAY(kiriFrameData) before, after;
     KIRI_ARRAY(kiriPrediction) predictions;   /* one a frame */

@@ -303,6 +303,12 @@ static void AddEnergy(kiriStepEnergy* sum, double stored, double lost)
     sum->objective += stored + lost;
 }
 
+static void AddFlow(kiriStepEnergy* sum, double flow)
+{
+    AddEnergy(sum, flow, 0.0);
+    sum->flow += flow;
+}
+
 /* Adds the energies of the springs and dampers of strains; `pulling` are the strains without their offsets. */
 static void AddStrains(int count, const double* stiffness, const double* loss, const double* start,
                        const double* strain, const double* pulling, kiriStepEnergy* sum)
@@ -321,6 +327,7 @@ static void AddHost(kiriSolver* solver, const kiriSystem* system, const kiriPose
         kiriClampRow* row = &system->clamps[k];
         double strain[KIRI_CLAMP_STRAINS], pulling[KIRI_CLAMP_STRAINS];
         kiriClamp_Measure(row, &system->frames[row->frame], &row->pose, &poses[row->frame], strain, NULL);
+        AddFlow(sum, kiriClamp_Flow(row, strain, solver->search.mayFlow));
         kiriClamp_TakeOffsets(row, strain, pulling);
         AddStrains(row->strainCount, row->stiffness, row->loss, row->startStrain, strain, pulling, sum);
         row->stopping |= kiriClamp_IsStopped(row, strain);
@@ -361,7 +368,7 @@ static void AddElementEnergy(const kiriSolver* solver, const kiriSystem* system,
 
 static kiriStepEnergy InertiaEnergy(const kiriSolver* solver, const kiriSystem* system, const kiriPose* poses)
 {
-    kiriStepEnergy sum = { 0.0, 0.0 };
+    kiriStepEnergy sum = { 0.0, 0.0, 0.0 };
     double part = solver->stepping.part;
     for (int32_t f = 0; f < system->frameCount; ++f) {
         const kiriPrediction* prediction = &solver->predictions.data[f];
@@ -384,8 +391,10 @@ kiriStepEnergy kiriObjective_Evaluate(kiriSolver* solver, const kiriSystem* syst
             MeasureElement(system, k, poses, solver->nowStrain.data);
         }
         const double* strain = &(isKnown ? solver->startStrain.data : solver->nowStrain.data)[KIRI_MOST_STRAINS * k];
+        double flow = kiriElement_Flow(system, k, strain, solver->search.mayFlow);
         kiriElement_TakeOffsets(system, k, strain, pulling);
         AddElementEnergy(solver, system, k, strain, pulling, &sum);
+        AddFlow(&sum, flow);
         solver->stopping.data[k] |=
             !isKnown && hasStops && kiriElement_IsRigidLink(system, k) && strain[KIRI_NORMAL_STOP] != 0.0;
     }
@@ -523,6 +532,26 @@ static void CenterHistories(kiriSolver* solver, int32_t frameCount)
     }
 }
 
+/* Prepares links that yield, from their strains at the start. */
+static void BeginYields(kiriSolver* solver, const kiriSystem* system)
+{
+    solver->yields = system->flows != NULL;
+    for (int32_t k = 0; solver->yields && k < system->linkCount; ++k) {
+        const kiriMaterial* material = kiriSystem_MaterialOf(system, system->links[k].i);
+        const kiriBentStrain strain = kiriBentStrain_Of(&solver->startStrain.data[KIRI_MOST_STRAINS * k]);
+        const kiriBentStrain stiffness = kiriBentStrain_Of(&solver->stiffness.data[KIRI_MOST_STRAINS * k]);
+        const kiriBentStrain offset = kiriBentStrain_Of(system->strainOffsets[k].strain);
+        double length = kiriStrain_YieldLength(&system->links[k], material, strain.bending);
+        kiriYield_Begin(&system->flows[k], &system->plastics[k], material, length, &stiffness, &offset, &strain);
+    }
+    if (solver->yields) {
+        kiriYields_Share(system->flows, system->links, system->linkCount, solver->regions.data, system->frameCount);
+    }
+    for (int32_t k = 0; k < system->clampCount; ++k) {
+        solver->yields |= system->clamps[k].keptPlastic != NULL;
+    }
+}
+
 void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
 {
     KIRI_ASSERT(dt > 0.0 && system->frames == solver->before.data && system->frameCount <= solver->before.capacity);
@@ -587,6 +616,7 @@ void kiriSolver_Begin(kiriSolver* solver, const kiriSystem* system, double dt)
             solver->start.data[f] = solver->predictions.data[f].pose;
         }
     }
+    BeginYields(solver, system);
     FindNoise(solver, system);
     kiriSolver_CenterBody(solver, system);
 }
@@ -719,6 +749,16 @@ static void DeriveStrains(kiriSolver* solver, const kiriSystem* system, int32_t 
     }
 }
 
+static void TurnSprings(const kiriYield* yield, const double* loss, const double* strain, const double* start,
+                        double* springs, double* pulls)
+{
+    kiriBentStrain now = kiriBentStrain_Of(strain), then = kiriBentStrain_Of(start), stiff = kiriBentStrain_Of(springs), pull = kiriBentStrain_Of(pulls);
+    kiriBentStrain change = { now.bending - then.bending, now.twist - then.twist, now.fold - then.fold };
+    kiriYield_TurnSprings(yield, loss[KIRI_BENDING], &change, &stiff, &pull);
+    kiriBentStrain_Write(&stiff, springs);
+    kiriBentStrain_Write(&pull, pulls);
+}
+
 static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k, kiriStepEnergy* energy)
 {
     const double* stiffness = &solver->stiffness.data[KIRI_MOST_STRAINS * k];
@@ -728,8 +768,10 @@ static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k, 
     double *strain = &solver->nowStrain.data[KIRI_MOST_STRAINS * k], pulling[KIRI_MOST_STRAINS];
     double springs[KIRI_MOST_STRAINS], pulls[KIRI_MOST_STRAINS];
     DeriveStrains(solver, system, k, count, strain);
+    double flow = kiriElement_Flow(system, k, strain, solver->search.mayFlow);
     kiriElement_TakeOffsets(system, k, strain, pulling);
     AddElementEnergy(solver, system, k, strain, pulling, energy);
+    AddFlow(energy, flow);
     /* Fold and stop of a link come last, and push only where they are not zero. But the line search halves every step
        that runs into a stop. So after a step that was cut short, the stops that it ran into resist as springs of no
        length. */
@@ -744,6 +786,16 @@ static void AddElement(kiriSolver* solver, const kiriSystem* system, int32_t k, 
     for (int e = 0; e < rows; ++e) {
         springs[e] = stiffness[e] + loss[e];
         pulls[e] = -stiffness[e] * pulling[e] - loss[e] * (strain[e] - start[e]);
+    }
+    if (flow > 0.0) {
+        const kiriYield* yield = &system->flows[k];
+        double *J = solver->J.data, *traced[2] = { NULL, NULL };
+        int width = 2 * solver->size;
+        for (int s = 0; kiriElement_CornerCount(system) > 0 && s < 2; ++s) {
+            traced[s] = TracedRows(solver, k, KIRI_TRACED_BENDING + s);
+        }
+        kiriYield_TurnRows(yield, width, &J[width * KIRI_BENDING], &J[width * KIRI_TWIST], traced);
+        TurnSprings(yield, loss, strain, start, springs, pulls);
     }
     if (isStopping && strain[KIRI_NORMAL_STOP] == 0.0) {
         springs[KIRI_NORMAL_GAP] += stiffness[KIRI_NORMAL_STOP];
@@ -765,17 +817,23 @@ static void AddSpring(kiriSolver* solver, const kiriSystem* system, int32_t f, k
 }
 
 /* Same as AddElement, for a clamp and its frame. */
-static void AddClamp(kiriSolver* solver, const kiriSystem* system, const kiriClampRow* row)
+static void AddClamp(kiriSolver* solver, const kiriSystem* system, kiriClampRow* row)
 {
     kiriFrameRow rows[KIRI_CLAMP_STRAINS];
     double strain[KIRI_CLAMP_STRAINS], pulling[KIRI_CLAMP_STRAINS], J[KIRI_CLAMP_STRAINS * KIRI_MOST_UNKNOWNS];
     double springs[KIRI_CLAMP_STRAINS], pulls[KIRI_CLAMP_STRAINS];
     kiriClamp_Measure(row, &system->frames[row->frame], &row->pose, &solver->poses.data[row->frame], strain, rows);
+    bool flows = kiriClamp_Flow(row, strain, solver->search.mayFlow) > 0.0;
     kiriClamp_TakeOffsets(row, strain, pulling);
     for (int e = 0; e < row->strainCount; ++e) {
         springs[e] = row->stiffness[e] + row->loss[e];
         pulls[e] = -row->stiffness[e] * pulling[e] - row->loss[e] * (strain[e] - row->startStrain[e]);
         kiriSolver_Reduce(solver, &rows[e], &J[solver->size * e]);
+    }
+    if (flows) {
+        double* const traced[2] = { NULL, NULL };
+        kiriYield_TurnRows(&row->yield, solver->size, &J[solver->size * KIRI_BENDING], &J[solver->size * KIRI_TWIST], traced);
+        TurnSprings(&row->yield, row->loss, strain, row->startStrain, springs, pulls);
     }
     if (!row->isAffine && row->strainCount > KIRI_NORMAL_STOP && strain[KIRI_NORMAL_STOP] == 0.0) {
         bool isStopping = solver->search.scale < KIRI_SHORT_STEP && row->stopping;
@@ -857,6 +915,7 @@ kiriStepEnergy kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system)
 #define FRESH_STARTS 2             /* further iterations, from the start of the step, if these fail */
 #define FREE_SYSTEMS 2             /* systems of a body near contacts before its stored energy is limited */
 #define WORTHWHILE 1e-6            /* of the objective: smaller promises of a step that was cut short do not count */
+#define LASTING 1e-2               /* of the energy that flow takes: a larger promise counts, for a false flow stays */
 #define MOST_RISE 100.0            /* limit of the objective after the first step, relative to its start */
 #define MOST_TAKEN 0.5             /* of the kinetic energy: a body with a raised objective that loses more restarts */
 #define TOLERABLE_GAIN 1e-2        /* in a step of second order: of the energy that the limit can take, */
@@ -980,16 +1039,28 @@ static bool IsUnfinished(const kiriSolver* solver, int32_t done)
     const kiriSearch* search = &solver->search;
     bool isShort = search->scale < KIRI_SHORT_STEP && search->promise > WORTHWHILE * search->now.objective;
     bool hasGained = solver->stepping.isEuler && !(solver->energy.gain <= 0.0);
-    return done < search->wanted || hasGained || search->suspects > 0 || isShort || solver->touch.isUnsettled;
+    bool isFlowing = search->now.flow > 0.0 && search->promise > LASTING * search->now.flow;
+    return done < search->wanted || isFlowing || hasGained || search->suspects > 0 || isShort || solver->touch.isUnsettled;
 }
 
 /* Restarts the iteration at the poses before the step. */
 static void EvaluateStart(kiriSolver* solver, const kiriSystem* system)
 {
     kiriSolver_GuessContacts(solver, system);
+    solver->search.mayFlow = false;
     solver->search.start = kiriObjective_Evaluate(solver, system, solver->start.data);
     solver->search.isFirst = true;
     solver->search.solved = 0;
+}
+
+/* Lets links flow, from the poses of the elastic iteration on. At the poses before the step, a clamp that moves bends one
+   link by the whole step, and that link would take all of the flow. */
+static void BeginFlow(kiriSolver* solver, const kiriSystem* system, int32_t done)
+{
+    kiriSearch* search = &solver->search;
+    search->mayFlow = true;
+    search->now = kiriObjective_Evaluate(solver, system, solver->poses.data);
+    search->wanted = search->now.flow > 0.0 ? kiriMax(done + 1, search->wanted) : search->wanted;
 }
 
 /* Repeats the step by backward Euler. */
@@ -1043,6 +1114,9 @@ int32_t kiriSolver_Minimise(kiriSolver* solver, const kiriSystem* system, int32_
         }
         ++done;
         bool isBad = false;
+        if (done >= iterations && !solver->search.mayFlow && solver->yields) {
+            BeginFlow(solver, system, done);
+        }
         if (done >= iterations) {
             kiriSolver_FindGains(solver, system);
             bool isSuspect = IsSuspect(solver);
@@ -1118,12 +1192,13 @@ static void AddPinPulls(const kiriSolver* solver, const kiriSystem* system)
 static void AddClampPulls(const kiriSolver* solver, const kiriSystem* system)
 {
     for (int32_t k = 0; k < system->clampCount; ++k) {
-        const kiriClampRow* row = &system->clamps[k];
+        kiriClampRow* row = &system->clamps[k];
         const kiriPose* pose = &solver->poses.data[row->frame];
         double strain[KIRI_CLAMP_STRAINS], pulling[KIRI_CLAMP_STRAINS];
         kiriFrameRow rows[KIRI_CLAMP_STRAINS];
         kiriWrench wrench = { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } };
         kiriClamp_Measure(row, &system->frames[row->frame], &row->pose, pose, strain, rows);
+        kiriClamp_Flow(row, strain, true);
         kiriClamp_TakeOffsets(row, strain, pulling);
         for (int e = 0; e < row->strainCount; ++e) {
             double pull = -row->stiffness[e] * pulling[e] - row->loss[e] * (strain[e] - row->startStrain[e]);
@@ -1162,6 +1237,7 @@ static void TakeElementFromHolds(const kiriSolver* solver, const kiriSystem* sys
         return;
     }
     kiriElement_Measure(system, k, solver->poses.data, strain, solver->rows.data);
+    kiriElement_Flow(system, k, strain, true);
     kiriElement_TakeOffsets(system, k, strain, pulling);
     for (int32_t m = 0; m < count; ++m) {
         int32_t frame = solver->members.data[m];

@@ -583,6 +583,15 @@ bool kiriStrainOffsets_Reserve(kiriStrainOffsets* strainOffsets, kiriMemory* mem
            kiriArray_Reserve(memory, &strainOffsets->mayMove, frameCount);
 }
 
+void kiriStrainOffsets_Start(kiriStrainOffsets* strainOffsets, int32_t linkCount)
+{
+    if (strainOffsets->strainOffsets.count == 0 && linkCount > 0) {
+        KIRI_ASSERT(linkCount <= strainOffsets->strainOffsets.capacity);
+        memset(strainOffsets->strainOffsets.data, 0, sizeof(kiriStrainOffset) * (size_t)linkCount);
+        strainOffsets->strainOffsets.count = linkCount;
+    }
+}
+
 void kiriStrainOffsets_Remember(kiriStrainOffsets* strainOffsets, const kiriFrameData* frames, int32_t frameCount,
                                 const uint8_t* mayMove)
 {
@@ -675,8 +684,8 @@ static void SaveOlder(kiriStrainOffsets* strainOffsets, int32_t linkCount)
     }
 }
 
-void kiriStrainOffsets_Take(kiriStrainOffsets* strainOffsets, const kiriLink* old, int32_t oldCount,
-                            const kiriLink* links, int32_t linkCount, const int32_t* was, const kiriFrameData* frames,
+void kiriStrainOffsets_Take(kiriStrainOffsets* strainOffsets, kiriPlastics* plastics, const kiriLink* old,
+                            int32_t oldCount, const kiriLink* links, int32_t linkCount, const int32_t* was, const kiriFrameData* frames,
                             const kiriMaterial* material)
 {
     KIRI_ASSERT(linkCount <= strainOffsets->strainOffsets.capacity && linkCount <= strainOffsets->from.capacity);
@@ -701,17 +710,37 @@ void kiriStrainOffsets_Take(kiriStrainOffsets* strainOffsets, const kiriLink* ol
         }
     }
     strainOffsets->strainOffsets.count = linkCount;
+    if (plastics->isKept) {
+        kiriPlastics_Take(plastics, old, links, linkCount, strainOffsets->from.data);
+    }
 }
 
-void kiriStrainOffsets_Advance(kiriStrainOffsets* strainOffsets, const kiriIndices* links, double dt, double time)
+void kiriStrainOffset_Fade(double* offset, const kiriPlastic* plastic, int count, double keep)
+{
+    if (plastic != NULL) {
+        offset[KIRI_BENDING] -= plastic->part.bending;
+        offset[KIRI_TWIST] -= plastic->part.twist;
+        offset[KIRI_FOLD] -= plastic->part.fold;
+    }
+    for (int e = 0; e < count; ++e) {
+        offset[e] = fabs(offset[e]) > 1e-12 ? keep * offset[e] : 0.0;
+    }
+    if (plastic != NULL) {
+        offset[KIRI_BENDING] += plastic->part.bending;
+        offset[KIRI_TWIST] += plastic->part.twist;
+        offset[KIRI_FOLD] += plastic->part.fold;
+    }
+}
+
+void kiriStrainOffsets_Advance(kiriStrainOffsets* strainOffsets, const kiriPlastics* plastics, const kiriIndices* links,
+                               double dt, double time)
 {
     double keep = time / (time + dt);
     for (int32_t n = 0; strainOffsets->strainOffsets.count > 0 && n < links->count; ++n) {
-        KIRI_ASSERT(links->data[n] < strainOffsets->strainOffsets.count);
-        for (int e = 0; e < KIRI_STRAINS; ++e) {
-            double* strain = &strainOffsets->strainOffsets.data[links->data[n]].strain[e];
-            *strain = fabs(*strain) > 1e-12 ? keep * *strain : 0.0;
-        }
+        int32_t k = links->data[n];
+        KIRI_ASSERT(k < strainOffsets->strainOffsets.count);
+        kiriStrainOffset_Fade(strainOffsets->strainOffsets.data[k].strain,
+                              plastics->links.count > 0 ? &plastics->links.data[k] : NULL, KIRI_STRAINS, keep);
     }
 }
 
@@ -755,6 +784,13 @@ double kiriCurl_Factor(const kiriCurl* curl, double squaredAngle, double* slope)
     double factor = sqrt(1.0 + curl->gain * (1.0 - share));
     *slope = -0.5 * curl->gain * curl->perSquare * byQ / factor;
     return factor;
+}
+
+double kiriStrain_YieldLength(const kiriLink* link, const kiriMaterial* material, double bending)
+{
+    double slope;
+    kiriCurl curl = kiriCurl_Of(link, material, link->outer);
+    return link->length * (curl.gain > 0.0 ? kiriCurl_Factor(&curl, bending * bending, &slope) : 1.0);
 }
 
 #define GAP_SHARE 0.3    /* of the membrane stiffness, against gaps in the plane */
@@ -1127,6 +1163,11 @@ void kiriClamp_Begin(kiriClampRow* row, bool isPlanar, const kiriMaterial* mater
     double share = damping * (row->isAffine ? 1.0 : kiriStrain_Damping(row->startStrain));
     for (int e = 0; e < row->strainCount; ++e) {
         row->loss[e] = share * row->stiffness[e];
+    }
+    if (row->keptPlastic != NULL) {
+        const kiriBentStrain stiffness = kiriBentStrain_Of(row->stiffness), offset = kiriBentStrain_Of(row->offset);
+        const kiriBentStrain strain = kiriBentStrain_Of(row->startStrain);
+        kiriYield_Begin(&row->yield, &row->plastic, material, row->link.length, &stiffness, &offset, &strain);
     }
     if (!row->isAffine && row->startStrain[KIRI_FOLD] > 0.0) {
         row->loss[KIRI_PLANE_BENDING] = 0.0; /* it changes its sign in folds */

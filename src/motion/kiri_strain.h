@@ -6,6 +6,7 @@
 #include "kiri_frame.h"
 #include "../field/kiri_link.h"
 #include "kiri_element.h"
+#include "kiri_plastic.h"
 
 KIRI_C_BEGIN
 
@@ -132,6 +133,10 @@ typedef struct kiriTrace {
     double by[4][KIRI_TRACED];
 } kiriTrace;
 
+/* Returns the length of a link whose bending strain by the curl (below) is the angle of a longer one: the law of plastic
+   bending is in terms of the angle. */
+double kiriStrain_YieldLength(const kiriLink* link, const kiriMaterial* material, double bending);
+
 /* Measures the traces from the strains of the corner's links, KIRI_STRAINS for each link. */
 kiriTrace kiriTrace_Measure(const kiriCorner* corner, const kiriLink* links, const double* const strains[4],
                             bool planar);
@@ -164,6 +169,9 @@ typedef struct kiriStrainOffsets {
 bool kiriStrainOffsets_Reserve(kiriStrainOffsets* strainOffsets, kiriMemory* memory, int32_t linkCount,
                                int32_t frameCount);
 
+/* Makes offsets of zero for this number of links, if there are none. Cannot fail. */
+void kiriStrainOffsets_Start(kiriStrainOffsets* strainOffsets, int32_t linkCount);
+
 /* Stores frames before the commit. mayMove[f]: the commit may change the position of frame f, or its center. */
 void kiriStrainOffsets_Remember(kiriStrainOffsets* strainOffsets, const kiriFrameData* frames, int32_t frameCount,
                                 const uint8_t* mayMove);
@@ -173,15 +181,47 @@ void kiriStrainOffsets_Remember(kiriStrainOffsets* strainOffsets, const kiriFram
 const kiriFrameData* kiriStrainOffsets_FrameBefore(const kiriStrainOffsets* strainOffsets, const kiriFrameData* frames,
                                                    int32_t frame);
 
-/* Sets offsets after the commit. Links of the same pair of frames, matched in their order, keep their strain; new links
-   have none. was[k], unless `was` is null: index of the old link that equals link k bit for bit, or KIRI_NONE if
-   unknown. */
-void kiriStrainOffsets_Take(kiriStrainOffsets* strainOffsets, const kiriLink* old, int32_t oldCount,
-                            const kiriLink* links, int32_t linkCount, const int32_t* was, const kiriFrameData* frames,
+/* Sets offsets and plastic parts after the commit. Links of the same pair of frames, matched in their order, keep their
+   strain; new links have none. was[k], unless `was` is null: index of the old link that equals link k bit for bit, or
+   KIRI_NONE if unknown. */
+void kiriStrainOffsets_Take(kiriStrainOffsets* strainOffsets, kiriPlastics* plastics, const kiriLink* old,
+                            int32_t oldCount, const kiriLink* links, int32_t linkCount, const int32_t* was, const kiriFrameData* frames,
                             const kiriMaterial* material);
 
-/* Fades the offsets of these links by 1 / e per `time` (s). */
-void kiriStrainOffsets_Advance(kiriStrainOffsets* strainOffsets, const kiriIndices* links, double dt, double time);
+/* Fades the offsets of these links by 1 / e per `time` (s), but for their plastic parts. */
+void kiriStrainOffsets_Advance(kiriStrainOffsets* strainOffsets, const kiriPlastics* plastics, const kiriIndices* links,
+                               double dt, double time);
+void kiriStrainOffset_Fade(double* offset, const kiriPlastic* plastic, int count, double keep);
+
+/* The strains of a link that flow, and their places. */
+static inline kiriBentStrain kiriBentStrain_Of(const double* strain)
+{
+    return (kiriBentStrain){ strain[KIRI_BENDING], strain[KIRI_TWIST], strain[KIRI_FOLD] };
+}
+
+static inline void kiriBentStrain_Write(const kiriBentStrain* bend, double* strain)
+{
+    strain[KIRI_BENDING] = bend->bending;
+    strain[KIRI_TWIST] = bend->twist;
+    strain[KIRI_FOLD] = bend->fold;
+}
+
+/* Finds the flow of a link at these strains, and writes its offsets. */
+static inline void kiriStrain_Flow(kiriYield* yield, const double* strain, bool mayFlow, double* offset)
+{
+    kiriBentStrain bend = kiriBentStrain_Of(strain), off;
+    kiriYield_Flow(yield, &bend, mayFlow, &off);
+    kiriBentStrain_Write(&off, offset);
+}
+
+/* Does so at the end of a step, and keeps the flow. */
+static inline void kiriStrain_EndFlow(kiriYield* yield, const double* strain, kiriPlastic* plastic, double* offset)
+{
+    kiriBentStrain bend = kiriBentStrain_Of(strain), off;
+    kiriYield_Flow(yield, &bend, true, &off);
+    kiriYield_End(yield, &bend, plastic, &off);
+    kiriBentStrain_Write(&off, offset);
+}
 
 /* How the free edges of a strip stiffen as it bends. Bent to the curvature k, a strip curls across to -nu k and has the
    bending stiffness D (1 - nu^2) W. But the curl moves the edges away from the axis of bending, which stretches them.
@@ -301,6 +341,9 @@ typedef struct kiriClampRow {
     kiriVec2 foot;
     kiriPose pose, start;              /* of the line, x at the foot: at the end and at the start of the step */
     double offset[KIRI_CLAMP_STRAINS]; /* subtracted from strains, see kiriStrainOffset */
+    kiriPlastic plastic;
+    double* keptOffset; /* where a step writes offset and plastic part at its end; null: the clamp is elastic */
+    kiriPlastic* keptPlastic;
 
     double outer; /* m: part of the width at free ends; link.outer is zero, because the line does not curl */
     const kiriMaterial* material;
@@ -309,6 +352,7 @@ typedef struct kiriClampRow {
     /* For the current step. */
     int strainCount;
     double stiffness[KIRI_CLAMP_STRAINS], loss[KIRI_CLAMP_STRAINS], startStrain[KIRI_CLAMP_STRAINS];
+    kiriYield yield;
     bool stopping; /* a trial step would have reached the normal stop */
 } kiriClampRow;
 
@@ -333,6 +377,16 @@ void kiriClamp_Begin(kiriClampRow* row, bool isPlanar, const kiriMaterial* mater
    frame. */
 void kiriClamp_Measure(const kiriClampRow* row, const kiriFrameData* frame, const kiriPose* line, const kiriPose* pose,
                        double* strain, kiriFrameRow* rows);
+
+/* Finds the flow at these strains. Returns the energy that it takes, J. */
+static inline double kiriClamp_Flow(kiriClampRow* row, const double* strain, bool mayFlow)
+{
+    if (row->keptPlastic == NULL) {
+        return 0.0;
+    }
+    kiriStrain_Flow(&row->yield, strain, mayFlow, row->offset);
+    return row->yield.lost;
+}
 
 /* Subtracts the offsets from the strains. The result is the part that causes forces. */
 void kiriClamp_TakeOffsets(const kiriClampRow* row, const double* strain, double* pulling);

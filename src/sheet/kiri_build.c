@@ -58,6 +58,7 @@ void kiriSettings_Apply(kiriSheetData* sheet)
     sheet->seen.surface.wantsNormals = settings->given.normals != 0;
     sheet->seen.fades.time = sheet->seen.pointFades.time = settings->fadeTime;
     sheet->seen.fades.least = sheet->seen.pointFades.least = settings->leastFade;
+    sheet->plastics.isKept |= kiriSettings_Yield(settings);
 }
 
 /* ---- Change --------------------------------------------------------------------------------------------------- */
@@ -93,6 +94,17 @@ static void Weigh(kiriSheetData* sheet, const kiriMaterial* before)
     kiriLinks_BeginAgain(&sheet->links);
 }
 
+/* Reserves room for the state of links, if the material of this sheet begins to yield. */
+static bool ReservePlastics(kiriSheetData* sheet, const kiriMaterial* material)
+{
+    int32_t links = sheet->links.links.count, frames = sheet->frames.count;
+    kiriSettings next = sheet->settings;
+    next.material = *material;
+    return !kiriSettings_Yield(&next) ||
+           (kiriPlastics_Reserve(&sheet->plastics, sheet->memory, links, frames) &&
+            kiriStrainOffsets_Reserve(&sheet->strainOffsets, sheet->memory, links, frames));
+}
+
 bool kiriSettings_Change(kiriSheetData* sheet, const kiriSheetSettings* given)
 {
     kiriSheetSettings before = sheet->settings.given, after = *given;
@@ -104,6 +116,7 @@ bool kiriSettings_Change(kiriSheetData* sheet, const kiriSheetSettings* given)
     bool isOther = memcmp(&given->material, &before.material, sizeof(kiriMaterial)) != 0;
     if ((looksOther &&
          !kiriView_ReserveFades(sheet, sheet->mesh.vertices.count, sheet->points.count, given->fadeTime)) ||
+        !ReservePlastics(sheet, &given->material) ||
         (isOther && !kiriSheet_RestageSolver(sheet, &given->material))) {
         return false;
     }
@@ -113,6 +126,8 @@ bool kiriSettings_Change(kiriSheetData* sheet, const kiriSheetSettings* given)
     if (sheet->seen.surface.wantsNormals) {
         kiriSurface_NeedNormals(&sheet->seen.surface);
     }
+    kiriPlastics_Start(&sheet->plastics, sheet->links.links.count);
+    kiriStrainOffsets_Start(&sheet->strainOffsets, sheet->plastics.isKept ? sheet->links.links.count : 0);
     if (!kiriSheet_KeepsStrains(sheet)) { /* without fadeTime links and clamps have no strain offsets (kiri_strain.h) */
         sheet->strainOffsets.strainOffsets.count = 0;
         KIRI_EACH(kiriPinShare, share, sheet->layout.pinShares) {

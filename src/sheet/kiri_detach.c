@@ -333,6 +333,7 @@ static void CopyPinHistory(const kiriSubset* part, kiriSheetData* to)
         if (kiriKeep_Has(&part->frames, from->share.frame)) {
             kiriPinShare* share = &to->layout.pinShares.data[count++];
             memcpy(share->offset, from->offset, sizeof(share->offset));
+            share->plastic = from->plastic;
             memcpy(share->reactions, from->reactions, sizeof(share->reactions));
             share->bore = from->bore;
             share->off = from->off;
@@ -357,6 +358,7 @@ static bool FillPart(kiriDetach* detach, int32_t piece, kiriSheetData* to)
     to->settings.integrationPoints *= share;
     to->settings.maxFrames = 0;
     kiriSettings_Apply(to);
+    to->plastics.isKept = from->plastics.isKept;
     to->seen.bounds->patience = from->seen.bounds->patience;
     to->solver = kiriSolver_Create(to->memory, &to->settings.mechanics);
     bool ok = to->solver != NULL && kiriMesh_MakePart(&to->mesh, to->memory, &from->mesh, &triangles, &vertices) &&
@@ -381,6 +383,10 @@ static bool FillPart(kiriDetach* detach, int32_t piece, kiriSheetData* to)
     for (int32_t k = 0; from->strainOffsets.strainOffsets.count > 0 && k < links.count; ++k) {
         KIRI_ASSERT(to->strainOffsets.strainOffsets.count == links.count); /* links have the same order as in the sheet */
         to->strainOffsets.strainOffsets.data[k] = from->strainOffsets.strainOffsets.data[links.data[k]];
+    }
+    for (int32_t k = 0; from->plastics.links.count > 0 && k < links.count; ++k) {
+        KIRI_ASSERT(to->plastics.links.count == links.count);
+        to->plastics.links.data[k] = from->plastics.links.data[links.data[k]];
     }
     CopyPinHistory(part, to);
     kiriPins_SumShares(to);
@@ -591,6 +597,7 @@ static void CommitLayout(kiriDetach* detach)
     kiriKeep_Compact(&rest->frames, &sheet->update->placing.sites, 1, sizeof(kiriSite));
     kiriKeep_Compact(&rest->pins, &sheet->pins, 1, sizeof(kiriPinData));
     kiriKeep_Compact(&rest->links, &sheet->strainOffsets.strainOffsets, 1, sizeof(kiriStrainOffset));
+    kiriKeep_Compact(&rest->links, &sheet->plastics.links, 1, sizeof(kiriPlastic));
     kiriLinks_Commit(&sheet->links);
     kiriSolver_Commit(sheet->solver);
     sheet->layout = sheet->update->next;

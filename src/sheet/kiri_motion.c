@@ -19,6 +19,11 @@ static kiriSystem MakeSystem(kiriSheetData* sheet, kiriVec3 gravity)
     system.cornerCount = sheet->links.corners.count;
     system.strainOffsets =
         sheet->strainOffsets.strainOffsets.count > 0 ? sheet->strainOffsets.strainOffsets.data : NULL;
+    if (kiriSettings_Yield(&sheet->settings)) {
+        KIRI_ASSERT(sheet->plastics.links.count == system.linkCount && system.linkCount == sheet->strainOffsets.strainOffsets.count);
+        system.plastics = sheet->plastics.links.data;
+        system.strainOffsets = sheet->strainOffsets.strainOffsets.data;
+    }
     system.pins = sheet->pinRows.data;
     system.pinCount = sheet->pinRows.count;
     system.linkParts = sheet->linkParts.count > 0 ? sheet->linkParts.data : NULL;
@@ -301,7 +306,7 @@ void kiriMotion_End(kiriSheetData* sheet, kiriProgress progress, bool isMoved, d
     } else if (isMoved && progress == KIRI_DONE) {
         kiriPins_TakeReactions(sheet, dt);
         kiriTouches_End(sheet);
-        kiriStrainOffsets_Advance(&sheet->strainOffsets, &kiriSolver_Moved(sheet->solver)->links, dt,
+        kiriStrainOffsets_Advance(&sheet->strainOffsets, &sheet->plastics, &kiriSolver_Moved(sheet->solver)->links, dt,
                                   sheet->seen.fades.time);
         kiriPins_FadeOffsets(sheet, dt, sheet->seen.fades.time);
         CountCalm(sheet, dt);

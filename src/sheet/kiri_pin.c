@@ -304,6 +304,7 @@ static kiriClampRow ClampRowOf(const kiriSheetData* sheet, const kiriPinShare* p
     row.pose.x = IntoPlane(sheet, frame, kiriVec3_Add(end, pinned->off));
     row.start.x = IntoPlane(sheet, frame, kiriVec3_Add(start, pinned->off));
     memcpy(row.offset, pinned->offset, sizeof(row.offset));
+    row.plastic = pinned->plastic;
     return row;
 }
 
@@ -355,7 +356,7 @@ void kiriPins_BeginReactions(kiriSheetData* sheet)
 
 void kiriPins_WriteRows(kiriSheetData* sheet, double from, double to)
 {
-    const kiriPinShares* shares = &sheet->layout.pinShares;
+    bool yields = kiriSettings_Yield(&sheet->settings);
     sheet->pinRows.count = sheet->clampRows.count = 0;
     for (int32_t i = 0; i < sheet->pins.count; ++i) {
         if (IsAwakePoint(sheet, i)) {
@@ -369,7 +370,7 @@ void kiriPins_WriteRows(kiriSheetData* sheet, double from, double to)
             };
         }
     }
-    KIRI_EACH(const kiriPinShare, pinned, *shares) {
+    KIRI_EACH(kiriPinShare, pinned, sheet->layout.pinShares) {
         if (!kiriSheet_Moves(sheet, pinned->share.frame)) {
             continue;
         }
@@ -378,7 +379,10 @@ void kiriPins_WriteRows(kiriSheetData* sheet, double from, double to)
         } else {
             const kiriFrameData* frame = &sheet->frames.data[pinned->share.frame];
             KIRI_ASSERT(sheet->clampRows.count < sheet->clampRows.capacity);
-            sheet->clampRows.data[sheet->clampRows.count++] = ClampRowOf(sheet, pinned, frame, from, to);
+            kiriClampRow* row = &sheet->clampRows.data[sheet->clampRows.count++];
+            *row = ClampRowOf(sheet, pinned, frame, from, to);
+            row->keptOffset = yields ? pinned->offset : NULL;
+            row->keptPlastic = yields ? &pinned->plastic : NULL;
         }
     }
 }
@@ -432,6 +436,12 @@ void kiriPins_KeepStrains(kiriSheetData* sheet, const kiriPinShares* old)
         for (int e = 0; e < KIRI_STRAINS; ++e) {
             pinned->offset[e] -= older != NULL ? was[e] - older->offset[e] : 0.0;
         }
+        memset(&pinned->plastic, 0, sizeof(pinned->plastic));
+        if (older != NULL) {
+            double is = ClampRowOf(sheet, pinned, &sheet->frames.data[frame], 0.0, 1.0).link.length;
+            double before = ClampRowOf(sheet, older, &sheet->frames.data[frame], 0.0, 1.0).link.length;
+            pinned->plastic = kiriPlastic_Scaled(&older->plastic, is / before);
+        }
     }
 }
 
@@ -440,9 +450,8 @@ void kiriPins_FadeOffsets(kiriSheetData* sheet, double dt, double time)
     double keep = time / (time + dt);
     KIRI_EACH(kiriPinShare, share, sheet->layout.pinShares) {
         bool isAwake = kiriSheet_Moves(sheet, share->share.frame);
-        for (int e = 0; isAwake && e < KIRI_CLAMP_STRAINS; ++e) {
-            double* offset = &share->offset[e];
-            *offset = fabs(*offset) > 1e-12 ? keep * *offset : 0.0;
+        if (isAwake) {
+            kiriStrainOffset_Fade(share->offset, sheet->plastics.isKept ? &share->plastic : NULL, KIRI_CLAMP_STRAINS, keep);
         }
     }
 }

@@ -99,6 +99,7 @@ typedef struct kiriPinShare {
     int32_t pin; /* index */
     kiriLineShare share;
     double offset[KIRI_CLAMP_STRAINS]; /* clamp: strain offsets, see kiri_strain.h */
+    kiriPlastic plastic;               /* clamp */
     kiriReaction reactions[2];         /* clamp: the first one; hinge: one for each of its two springs */
     kiriVec3 off;                      /* m; clamp: surface offset, see kiri_pin.h */
     kiriWrench bore;                   /* its part of the wrench of the pin */
@@ -453,6 +454,7 @@ typedef struct kiriSheetData {
     kiriLayout layout;
     kiriLinks links;
     kiriStrainOffsets strainOffsets; /* for links between rigid frames */
+    kiriPlastics plastics;           /* likewise */
     kiriSamples points;              /* collision points */
     kiriSkin vertexSkin, pointSkin;
     kiriPlaces pointPlaces;
@@ -546,10 +548,18 @@ static inline bool kiriSheet_Moves(const kiriSheetData* sheet, int32_t frame)
     return kiriPiece_IsMoved(kiriSheet_PieceOf(sheet, frame));
 }
 
+/* Returns true if the material of these settings yields. */
+static inline bool kiriSettings_Yield(const kiriSettings* settings)
+{
+    return settings->mechanics.model == KIRI_MODEL_LINKS && !settings->mechanics.planar &&
+           settings->material.yieldStress > 0.0f;
+}
+
 /* Returns true if links keep their strains when a cut changes them. */
 static inline bool kiriSheet_KeepsStrains(const kiriSheetData* sheet)
 {
-    return sheet->settings.mechanics.model == KIRI_MODEL_LINKS && sheet->settings.fadeTime > 0.0;
+    return sheet->settings.mechanics.model == KIRI_MODEL_LINKS &&
+           (sheet->settings.fadeTime > 0.0 || sheet->plastics.isKept);
 }
 
 /* Returns the length of the longer side, m. */

@@ -72,7 +72,9 @@ KIRI_TABLE(LineShareTable, kiriLineShare, {
 KIRI_TABLE(PinShareTable, kiriPinShare, {
     KIRI_INDEX(KIRI_OF_PINS, pin),
     KIRI_PART(share, LineShareTable),
-    KIRI_REALS(offset, bore),
+    KIRI_REALS(offset),
+    KIRI_PART(plastic, kiriPlasticTable),
+    KIRI_REALS(reactions, bore),
 })
 
 KIRI_TABLE(LayoutTable, kiriLayout, {
@@ -303,6 +305,7 @@ KIRI_TABLE(SheetTable, kiriSheetData, {
     KIRI_PARTS(frames, kiriFrameTable),
     KIRI_PART(layout, LayoutTable),
     KIRI_PART(strainOffsets, kiriStrainOffsetsTable),
+    KIRI_PART(plastics, kiriPlasticsTable),
     KIRI_PARTS(points, SampleTable),
     KIRI_PARTS(pins, PinDataTable),
     KIRI_PARTS(contacts, GivenContactTable),
@@ -621,7 +624,10 @@ static bool HaveArraysRoom(const kiriSheetData* sheet)
 {
     int32_t links = sheet->links.links.count, offsets = sheet->strainOffsets.strainOffsets.count;
     int64_t shares = sheet->layout.pinShares.count, pins = sheet->pins.count + 2 * shares;
-    bool isFine = (offsets == 0 || (offsets == links && kiriSheet_KeepsStrains(sheet))) &&
+    bool isPlastic = sheet->plastics.isKept;
+    bool isFine = ((offsets == 0 && !isPlastic) || (offsets == links && kiriSheet_KeepsStrains(sheet))) &&
+                  (!kiriSettings_Yield(&sheet->settings) || isPlastic) &&
+                  sheet->plastics.links.count == (isPlastic ? links : 0) &&
                   sheet->linkParts.count == (sheet->layout.severed.count > 0 ? links : 0) &&
                   sheet->pinRows.capacity >= pins && sheet->clampRows.capacity >= shares &&
                   sheet->pinReactions.capacity >= pins && sheet->clampReactions.capacity >= shares &&

@@ -470,6 +470,10 @@ static kiriProgress PrepareCommit(kiriSheetData* sheet, kiriQuota* samples)
                kiriStrainOffsets_Reserve(&sheet->strainOffsets, sheet->memory,
                                          kiriMax(sheet->links.next.count, sheet->links.links.count),
                                          u->placing.sites.count)) &&
+              (!sheet->plastics.isKept ||
+               kiriPlastics_Reserve(&sheet->plastics, sheet->memory,
+                                    kiriMax(sheet->links.next.count, sheet->links.links.count),
+                                    u->placing.sites.count)) &&
               BuildAreaElements(sheet) && kiriPins_Stage(sheet) &&
               kiriArray_Reserve(sheet->memory, &sheet->points, points) &&
               kiriPlaces_Reserve(&sheet->pointPlaces, sheet->memory, &sheet->mesh, points) &&
@@ -810,6 +814,10 @@ void kiriStage_Commit(kiriSheetData* sheet)
         kiriStrainOffsets_Remember(&sheet->strainOffsets, sheet->frames.data, sheet->frames.count,
                                    sheet->regions.dirty.data);
     }
+    if (sheet->plastics.isKept) {
+        kiriPlastics_Remember(&sheet->plastics, sheet->links.links.data, oldLinks, sheet->frames.count,
+                              u->placing.sites.count, &u->refit.ownership, kiriSheet_Extent(sheet));
+    }
     CommitFrames(sheet);
     CommitPoints(sheet);
     kiriView_TouchStaged(sheet);
@@ -818,8 +826,9 @@ void kiriStage_Commit(kiriSheetData* sheet)
     kiriLinks_Commit(&sheet->links);
     if (keepsStrains) {
         const int32_t* was = sheet->links.was.count > 0 ? sheet->links.was.data : NULL;
-        kiriStrainOffsets_Take(&sheet->strainOffsets, sheet->links.next.data, oldLinks, sheet->links.links.data,
-                               sheet->links.links.count, was, sheet->frames.data, &sheet->settings.material);
+        kiriStrainOffsets_Take(&sheet->strainOffsets, &sheet->plastics, sheet->links.next.data, oldLinks,
+                               sheet->links.links.data, sheet->links.links.count, was, sheet->frames.data,
+                               &sheet->settings.material);
     }
     kiriSolver_Commit(sheet->solver);
     kiriLayout layout = sheet->layout;

@@ -228,6 +228,8 @@ static const kiriValue materialMembers[] = {
     FLOATS_IN(density, ABOVE_0),
     FLOATS_IN(airDamping, FROM_0),
     FLOATS_IN(flexDamping, FROM_0),
+    FLOATS_IN(yieldStress, FROM_0),
+    FLOATS_IN(hardening, WITHIN(0.0, 0.99999994)), /* the last float below 1 */
 };
 #undef OF
 static const kiriStruct materialStruct = STRUCT_OF(kiriMaterial, 0, NULL, materialMembers);

@@ -404,7 +404,9 @@ namespace Kiri
         Rubber = 2,
         /// <summary>aluminium, 16 um</summary>
         Foil = 3,
-        Count = 4,
+        /// <summary>paperboard, 0.4 mm</summary>
+        Card = 4,
+        Count = 5,
     }
 
     public enum QualityPreset
@@ -661,6 +663,11 @@ namespace Kiri
         public float AirDamping;
         /// <summary>s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation</summary>
         public float FlexDamping;
+        /// <summary>Bending beyond a curvature of 2 yieldStress / (youngsModulus thickness) stays (manual, folding). Only with
+        /// KIRI_MODEL_LINKS; planar sheets do not bend. Pa, 0 or more; 0: elastic</summary>
+        public float YieldStress;
+        /// <summary>modulus beyond the yield stress, relative to youngsModulus; 0 to below 1</summary>
+        public float Hardening;
     }
 
     /// <summary>Work against accuracy. Errors of a swinging strip and square of paper, rms over their way: FAST at most 2 %,

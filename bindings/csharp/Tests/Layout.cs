@@ -136,13 +136,15 @@ namespace Kiri.Tests
         {
             Material s;
             byte* at = (byte*)&s;
-            Is("Material", sizeof(Material), 24);
+            Is("Material", sizeof(Material), 32);
             Is("Material.YoungsModulus", (byte*)&s.YoungsModulus - at, 0);
             Is("Material.PoissonsRatio", (byte*)&s.PoissonsRatio - at, 4);
             Is("Material.Thickness", (byte*)&s.Thickness - at, 8);
             Is("Material.Density", (byte*)&s.Density - at, 12);
             Is("Material.AirDamping", (byte*)&s.AirDamping - at, 16);
             Is("Material.FlexDamping", (byte*)&s.FlexDamping - at, 20);
+            Is("Material.YieldStress", (byte*)&s.YieldStress - at, 24);
+            Is("Material.Hardening", (byte*)&s.Hardening - at, 28);
         }
 
         static void Quality()
@@ -172,7 +174,7 @@ namespace Kiri.Tests
         {
             SheetDef s;
             byte* at = (byte*)&s;
-            Is("SheetDef", sizeof(SheetDef), 232);
+            Is("SheetDef", sizeof(SheetDef), 240);
             Is("SheetDef.cookie", (byte*)&s.cookie - at, 0);
             Is("SheetDef.restPositions", (byte*)&s.restPositions - at, 8);
             Is("SheetDef.vertexCount", (byte*)&s.vertexCount - at, 16);
@@ -183,52 +185,52 @@ namespace Kiri.Tests
             Is("SheetDef.AxisV", (byte*)&s.AxisV - at, 60);
             Is("SheetDef.Velocity", (byte*)&s.Velocity - at, 72);
             Is("SheetDef.Material", (byte*)&s.Material - at, 84);
-            Is("SheetDef.GridResolution", (byte*)&s.GridResolution - at, 108);
-            Is("SheetDef.SnapDistance", (byte*)&s.SnapDistance - at, 112);
-            Is("SheetDef.WeldDistance", (byte*)&s.WeldDistance - at, 116);
-            Is("SheetDef.FrameCount", (byte*)&s.FrameCount - at, 120);
-            Is("SheetDef.FrameLength", (byte*)&s.FrameLength - at, 124);
-            Is("SheetDef.Accuracy", (byte*)&s.Accuracy - at, 128);
-            Is("SheetDef.framePoints", (byte*)&s.framePoints - at, 136);
-            Is("SheetDef.MaxFrames", (byte*)&s.MaxFrames - at, 144);
-            Is("SheetDef.RigidWeight", (byte*)&s.RigidWeight - at, 148);
-            Is("SheetDef.RigidArea", (byte*)&s.RigidArea - at, 152);
-            Is("SheetDef.CrumbArea", (byte*)&s.CrumbArea - at, 156);
-            Is("SheetDef.Friction", (byte*)&s.Friction - at, 160);
-            Is("SheetDef.ContactThickness", (byte*)&s.ContactThickness - at, 164);
-            Is("SheetDef.Groups", (byte*)&s.Groups - at, 168);
-            Is("SheetDef.TouchesSheets", (byte*)&s.TouchesSheets - at, 172);
-            Is("SheetDef.CollisionPoints", (byte*)&s.CollisionPoints - at, 176);
-            Is("SheetDef.Iterations", (byte*)&s.Iterations - at, 180);
-            Is("SheetDef.SleepSpeed", (byte*)&s.SleepSpeed - at, 184);
-            Is("SheetDef.Model", (byte*)&s.Model - at, 188);
-            Is("SheetDef.Skinning", (byte*)&s.Skinning - at, 192);
-            Is("SheetDef.Planar", (byte*)&s.Planar - at, 196);
-            Is("SheetDef.TimeStepping", (byte*)&s.TimeStepping - at, 200);
-            Is("SheetDef.FadeTime", (byte*)&s.FadeTime - at, 204);
-            Is("SheetDef.Normals", (byte*)&s.Normals - at, 208);
-            Is("SheetDef.Paper", (byte*)&s.Paper - at, 212);
+            Is("SheetDef.GridResolution", (byte*)&s.GridResolution - at, 116);
+            Is("SheetDef.SnapDistance", (byte*)&s.SnapDistance - at, 120);
+            Is("SheetDef.WeldDistance", (byte*)&s.WeldDistance - at, 124);
+            Is("SheetDef.FrameCount", (byte*)&s.FrameCount - at, 128);
+            Is("SheetDef.FrameLength", (byte*)&s.FrameLength - at, 132);
+            Is("SheetDef.Accuracy", (byte*)&s.Accuracy - at, 136);
+            Is("SheetDef.framePoints", (byte*)&s.framePoints - at, 144);
+            Is("SheetDef.MaxFrames", (byte*)&s.MaxFrames - at, 152);
+            Is("SheetDef.RigidWeight", (byte*)&s.RigidWeight - at, 156);
+            Is("SheetDef.RigidArea", (byte*)&s.RigidArea - at, 160);
+            Is("SheetDef.CrumbArea", (byte*)&s.CrumbArea - at, 164);
+            Is("SheetDef.Friction", (byte*)&s.Friction - at, 168);
+            Is("SheetDef.ContactThickness", (byte*)&s.ContactThickness - at, 172);
+            Is("SheetDef.Groups", (byte*)&s.Groups - at, 176);
+            Is("SheetDef.TouchesSheets", (byte*)&s.TouchesSheets - at, 180);
+            Is("SheetDef.CollisionPoints", (byte*)&s.CollisionPoints - at, 184);
+            Is("SheetDef.Iterations", (byte*)&s.Iterations - at, 188);
+            Is("SheetDef.SleepSpeed", (byte*)&s.SleepSpeed - at, 192);
+            Is("SheetDef.Model", (byte*)&s.Model - at, 196);
+            Is("SheetDef.Skinning", (byte*)&s.Skinning - at, 200);
+            Is("SheetDef.Planar", (byte*)&s.Planar - at, 204);
+            Is("SheetDef.TimeStepping", (byte*)&s.TimeStepping - at, 208);
+            Is("SheetDef.FadeTime", (byte*)&s.FadeTime - at, 212);
+            Is("SheetDef.Normals", (byte*)&s.Normals - at, 216);
+            Is("SheetDef.Paper", (byte*)&s.Paper - at, 220);
         }
 
         static void SheetSettings()
         {
             SheetSettings s;
             byte* at = (byte*)&s;
-            Is("SheetSettings", sizeof(SheetSettings), 76);
+            Is("SheetSettings", sizeof(SheetSettings), 84);
             Is("SheetSettings.cookie", (byte*)&s.cookie - at, 0);
             Is("SheetSettings.Material", (byte*)&s.Material - at, 4);
-            Is("SheetSettings.MaxFrames", (byte*)&s.MaxFrames - at, 28);
-            Is("SheetSettings.CrumbArea", (byte*)&s.CrumbArea - at, 32);
-            Is("SheetSettings.Friction", (byte*)&s.Friction - at, 36);
-            Is("SheetSettings.ContactThickness", (byte*)&s.ContactThickness - at, 40);
-            Is("SheetSettings.Groups", (byte*)&s.Groups - at, 44);
-            Is("SheetSettings.TouchesSheets", (byte*)&s.TouchesSheets - at, 48);
-            Is("SheetSettings.Iterations", (byte*)&s.Iterations - at, 52);
-            Is("SheetSettings.SleepSpeed", (byte*)&s.SleepSpeed - at, 56);
-            Is("SheetSettings.Skinning", (byte*)&s.Skinning - at, 60);
-            Is("SheetSettings.TimeStepping", (byte*)&s.TimeStepping - at, 64);
-            Is("SheetSettings.FadeTime", (byte*)&s.FadeTime - at, 68);
-            Is("SheetSettings.Normals", (byte*)&s.Normals - at, 72);
+            Is("SheetSettings.MaxFrames", (byte*)&s.MaxFrames - at, 36);
+            Is("SheetSettings.CrumbArea", (byte*)&s.CrumbArea - at, 40);
+            Is("SheetSettings.Friction", (byte*)&s.Friction - at, 44);
+            Is("SheetSettings.ContactThickness", (byte*)&s.ContactThickness - at, 48);
+            Is("SheetSettings.Groups", (byte*)&s.Groups - at, 52);
+            Is("SheetSettings.TouchesSheets", (byte*)&s.TouchesSheets - at, 56);
+            Is("SheetSettings.Iterations", (byte*)&s.Iterations - at, 60);
+            Is("SheetSettings.SleepSpeed", (byte*)&s.SleepSpeed - at, 64);
+            Is("SheetSettings.Skinning", (byte*)&s.Skinning - at, 68);
+            Is("SheetSettings.TimeStepping", (byte*)&s.TimeStepping - at, 72);
+            Is("SheetSettings.FadeTime", (byte*)&s.FadeTime - at, 76);
+            Is("SheetSettings.Normals", (byte*)&s.Normals - at, 80);
         }
 
         static void Mesh()

@@ -58,7 +58,8 @@ class MaterialPreset(_enum.IntEnum):
     COTTON = 1
     RUBBER = 2
     FOIL = 3
-    COUNT = 4
+    CARD = 4
+    COUNT = 5
 
 
 class QualityPreset(_enum.IntEnum):
@@ -160,6 +161,7 @@ KIRI_MATERIAL_PAPER = MaterialPreset.PAPER
 KIRI_MATERIAL_COTTON = MaterialPreset.COTTON
 KIRI_MATERIAL_RUBBER = MaterialPreset.RUBBER
 KIRI_MATERIAL_FOIL = MaterialPreset.FOIL
+KIRI_MATERIAL_CARD = MaterialPreset.CARD
 KIRI_MATERIAL_COUNT = MaterialPreset.COUNT
 KIRI_QUALITY_FAST = QualityPreset.FAST
 KIRI_QUALITY_BALANCED = QualityPreset.BALANCED

@@ -308,15 +308,18 @@ pub enum MaterialPreset {
     Rubber = 2,
     /// aluminium, 16 um
     Foil = 3,
+    /// paperboard, 0.4 mm
+    Card = 4,
 }
 
 impl MaterialPreset {
     /// All of them.
-    pub const ALL: [Self; 4] = [
+    pub const ALL: [Self; 5] = [
         Self::Paper,
         Self::Cotton,
         Self::Rubber,
         Self::Foil,
+        Self::Card,
     ];
 
     /// Of a number of C.
@@ -701,6 +704,11 @@ pub struct Material {
     pub air_damping: f32,
     /// s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation
     pub flex_damping: f32,
+    /// Bending beyond a curvature of 2 `yield_stress` / (`youngs_modulus` thickness) stays (manual,
+    /// folding). Only with [`Model::Links`]; planar sheets do not bend. Pa, 0 or more; 0: elastic
+    pub yield_stress: f32,
+    /// modulus beyond the yield stress, relative to `youngs_modulus`; 0 to below 1
+    pub hardening: f32,
 }
 
 const _: () = {
@@ -712,6 +720,8 @@ const _: () = {
     assert!(offset_of!(Material, density) == offset_of!(sys::kiriMaterial, density));
     assert!(offset_of!(Material, air_damping) == offset_of!(sys::kiriMaterial, airDamping));
     assert!(offset_of!(Material, flex_damping) == offset_of!(sys::kiriMaterial, flexDamping));
+    assert!(offset_of!(Material, yield_stress) == offset_of!(sys::kiriMaterial, yieldStress));
+    assert!(offset_of!(Material, hardening) == offset_of!(sys::kiriMaterial, hardening));
 };
 
 impl Material {
