@@ -304,7 +304,7 @@ static void MoveField(kiriArchive* archive, const kiriMember* field, uint8_t* ob
 static void MoveFields(kiriArchive* archive, const kiriTable* table, uint8_t* object)
 {
     kiriMemory* memory = archive->memory;
-    for (int32_t k = 0; k < table->count; ++k) {
+    KIRI_EACH_INDEX(k, *table) {
         const kiriMember* field = &table->fields[k];
         if ((field->kind == KIRI_MEMBER_DERIVED && !archive->isWhole) ||
             (field->kind == KIRI_MEMBER_UNHASHED && archive->mode == KIRI_ARCHIVE_HASH)) {
@@ -322,7 +322,7 @@ enum { MOST_KEPT = 1024 };
 static int32_t MoveKept(const kiriTable* table, uint8_t* object, uint8_t* kept, bool isBack)
 {
     int32_t bytes = 0;
-    for (int32_t k = 0; k < table->count; ++k) {
+    KIRI_EACH_INDEX(k, *table) {
         const kiriMember* field = &table->fields[k];
         uint8_t* at = object + field->offset;
         if (field->kind == KIRI_MEMBER_KEPT) {
@@ -352,7 +352,7 @@ static bool IsFlat(const kiriTable* table)
 static bool IsTight(const kiriTable* table)
 {
     int32_t size = 0;
-    for (int32_t k = 0; k < table->count; ++k) {
+    KIRI_EACH_INDEX(k, *table) {
         const kiriMember* field = &table->fields[k];
         bool isNumbers =
             field->kind < KIRI_MEMBER_BOOLS || (field->kind == KIRI_MEMBER_PART && IsTight(field->table()));
@@ -409,7 +409,7 @@ void kiriArchive_HashLayout(kiriTableFn* of, uint64_t* hash)
 {
     const kiriTable* table = of();
     kiriHash_Int32(hash, table->size);
-    for (int32_t k = 0; k < table->count; ++k) {
+    KIRI_EACH_INDEX(k, *table) {
         const kiriMember* field = &table->fields[k];
         kiriHash_Int32(hash, field->kind);
         kiriHash_Int32(hash, field->offset);

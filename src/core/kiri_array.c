@@ -15,15 +15,6 @@ void kiriArray_SetHeader(void* array, kiriArrayHeader header)
     memcpy(array, &header, sizeof(header));
 }
 
-/* An eighth more even at first, so that the first cut does not copy the whole sheet. */
-static int64_t NextCapacity(int64_t capacity, int64_t need)
-{
-    int64_t next = 2 * capacity, least = need + need / 8;
-    next = kiriMax(least, next);
-    next = kiriMax(8, next);
-    return kiriMin(INT32_MAX, next);
-}
-
 /* Moves the items to a new block of `capacity` items. */
 static bool MoveArray(kiriMemory* memory, void* array, int64_t capacity, size_t itemBytes)
 {
@@ -44,7 +35,10 @@ static bool MoveArray(kiriMemory* memory, void* array, int64_t capacity, size_t 
 
 bool kiriArray_Grow(kiriMemory* memory, void* array, int64_t need, size_t itemBytes)
 {
-    int64_t has = kiriArray_GetHeader(array).capacity, capacity = NextCapacity(has, need);
+    int64_t has = kiriArray_GetHeader(array).capacity;
+    /* An eighth more even at first, so that the first cut does not copy the whole sheet. */
+    int64_t capacity = kiriMax(need + need / 8, 2 * has);
+    capacity = kiriMin(INT32_MAX, kiriMax(8, capacity));
     return need <= has || (capacity >= need && MoveArray(memory, array, capacity, itemBytes));
 }
 
@@ -62,10 +56,28 @@ void kiriArray_Shorten(kiriMemory* memory, void* array, size_t itemBytes)
     }
 }
 
+void kiriArray_SetFrom(void* array, int32_t from, int byte, size_t itemBytes)
+{
+    kiriArrayHeader header = kiriArray_GetHeader(array);
+    if (header.count > from) {
+        memset((char*)header.data + (size_t)from * itemBytes, byte, (size_t)(header.count - from) * itemBytes);
+    }
+}
+
+void kiriArray_ExtendTo(void* array, int32_t size, int byte, size_t itemBytes)
+{
+    kiriArrayHeader header = kiriArray_GetHeader(array);
+    int32_t from = header.count;
+    KIRI_ASSERT(size <= header.capacity);
+    header.count = kiriMax(size, from);
+    kiriArray_SetHeader(array, header);
+    kiriArray_SetFrom(array, from, byte, itemBytes);
+}
+
 void kiriArray_Release(kiriMemory* memory, void* array)
 {
     kiriArrayHeader header = kiriArray_GetHeader(array);
-    const kiriArrayHeader empty = { NULL, 0, 0 };
+    const kiriArrayHeader empty = { 0 };
     kiriMemory_Free(memory, header.data);
     kiriArray_SetHeader(array, empty);
 }
@@ -154,7 +166,7 @@ static int SizeClassOf(int32_t count)
 static unsigned char* ItemAt(const void* array, size_t itemBytes, int32_t index)
 {
     kiriArrayHeader header = kiriArray_GetHeader(array);
-    KIRI_ASSERT(index >= 0 && index < header.count);
+    KIRI_ASSERT_HAS(header, index);
     return (unsigned char*)header.data + (size_t)index * itemBytes;
 }
 
@@ -235,10 +247,8 @@ bool kiriKeep_Init(kiriKeep* keep, kiriMemory* memory, int32_t items)
 void kiriKeep_Clear(kiriKeep* keep, int32_t items)
 {
     KIRI_ASSERT(items >= 0 && items <= keep->to.capacity);
-    for (int32_t i = 0; i < items; ++i) {
-        keep->to.data[i] = KIRI_NONE;
-    }
     keep->to.count = items;
+    kiriArray_Set(&keep->to, KIRI_NONE);
     keep->count = keep->first = 0;
 }
 

@@ -28,13 +28,26 @@ void kiriArray_SetHeader(void* array, kiriArrayHeader header);
 typedef KIRI_ARRAY(int32_t) kiriIndices;
 
 /* Loops over the items of an array; `item` points to each. KIRI_EACH_OF is for an array of pointers: `item` is each of
-   them. The array may lose items meanwhile, but not grow. It must exist even where the condition is false. */
+   them. The array may lose items meanwhile, but not grow. It must exist even where the condition is false.
+   KIRI_EACH_INDEX is for what needs the index. */
 #define KIRI_EACH(Type, item, array) KIRI_EACH_WHILE(true, Type, item, array)
 #define KIRI_EACH_WHILE(condition, Type, item, array)                                                                  \
     for (Type* item = (array).data; (condition) && item < (array).data + (array).count; ++item)
+#define KIRI_EACH_INDEX(i, array) for (int32_t i = 0; i < (array).count; ++i)
 #define KIRI_EACH_OF(Type, item, array)                                                                                \
     for (Type** item##At = (array).data, *item; item##At < (array).data + (array).count && (item = *item##At, true);   \
          ++item##At)
+
+#define KIRI_ASSERT_HAS(array, index) KIRI_ASSERT((index) >= 0 && (index) < (array).count)
+
+/* Set all items, or new ones up to `size`, for which there is room, to bytes: 0, or -1 for KIRI_NONE. */
+#define kiriArray_Set(array, byte) kiriArray_SetFrom((array), 0, (byte), sizeof(*(array)->data))
+#define kiriArray_Extend(array, size, byte) kiriArray_ExtendTo((array), (size), (byte), sizeof(*(array)->data))
+void kiriArray_SetFrom(void* array, int32_t from, int byte, size_t itemBytes);
+void kiriArray_ExtendTo(void* array, int32_t size, int byte, size_t itemBytes);
+
+/* Appends an item, for which there is room: to be assigned. */
+#define KIRI_NEXT(array) (*(KIRI_ASSERT((array).count < (array).capacity), (array).data + (array).count++))
 
 /* Makes room for `need` items in all. `array` points to a KIRI_ARRAY whose items have itemBytes. */
 bool kiriArray_Grow(kiriMemory* memory, void* array, int64_t need, size_t itemBytes);
@@ -146,9 +159,8 @@ void kiriKeep_Drop(kiriKeep* keep, const int32_t* items, int32_t count);
 /* Appends an item. Capacity is reserved. */
 static inline void kiriKeep_Add(kiriKeep* keep, bool isKept)
 {
-    KIRI_ASSERT(keep->to.count < keep->to.capacity);
     keep->first += isKept && keep->first == keep->to.count;
-    keep->to.data[keep->to.count++] = isKept ? keep->count++ : KIRI_NONE;
+    KIRI_NEXT(keep->to) = isKept ? keep->count++ : KIRI_NONE;
 }
 
 /* Makes a map of `items` that keeps none. Capacity is reserved. */

@@ -28,6 +28,9 @@ typedef struct kiriLatticePoint {
     int32_t x, y;
 } kiriLatticePoint;
 
+/* Loops over the corners of a triangle. */
+#define KIRI_EACH_CORNER(k) for (int k = 0; k < 3; ++k)
+
 /* Twice the signed area of a, b, c: positive when counter-clockwise. Exact. */
 static inline int64_t kiriOrient(kiriLatticePoint a, kiriLatticePoint b, kiriLatticePoint c)
 {

@@ -81,7 +81,7 @@ static bool IsNearerSeed(kiriSeed a, kiriSeed b)
 
 static inline kiriSeed ValueOf(const kiriField* field, int32_t cell)
 {
-    KIRI_ASSERT(cell >= 0 && cell < field->distance.count);
+    KIRI_ASSERT_HAS(field->distance, cell);
     return (kiriSeed){ cell, field->distance.data[cell], field->owner.count > 0 ? field->owner.data[cell] : KIRI_NONE };
 }
 
@@ -96,7 +96,7 @@ static inline void SetValue(kiriField* field, kiriSeed to)
 /* Logs the value of a cell before it changes. False for memory. */
 static bool LogValue(kiriField* field, kiriMemory* memory, int32_t cell)
 {
-    KIRI_ASSERT(cell >= 0 && cell < field->marks.count);
+    KIRI_ASSERT_HAS(field->marks, cell);
     bool isLogged = (field->marks.data[cell] & FIELD_LOGGED) != 0;
     field->marks.data[cell] |= FIELD_LOGGED;
     return isLogged || kiriArray_Push(memory, &field->log, ValueOf(field, cell));
@@ -148,7 +148,7 @@ static kiriProgress OpenBucket(kiriField* field, kiriMemory* memory, const kiriR
         kiriSeed seed = field->seeds.data[i], value = ValueOf(field, seed.cell);
         /* In a repair a cell that has the very value of the seed is dirty itself: it passes its value on. */
         if (BucketOf(seed.distance) >= field->bucket + KIRI_RING) {
-            field->seeds.data[field->seeds.count++] = seed;
+            KIRI_NEXT(field->seeds) = seed;
             field->nearest = kiriMin(seed.distance, field->nearest);
         } else if (seed.distance <= rule->limit && !IsNearerSeed(value, seed) &&
                    !GiveValue(field, memory, seed, repairs)) {
@@ -221,7 +221,7 @@ static inline kiriProgress Sweep(kiriField* field, kiriMemory* memory, const kir
         if (BucketOf(value.distance) != field->bucket) {
             continue;
         }
-        field->settled.data[field->settled.count++] = value.cell;
+        KIRI_NEXT(field->settled) = value.cell;
         if (Passes(rule, value.cell)) {
             if (rule->look != NULL) {
                 rule->look(rule->context, value.cell);
@@ -258,12 +258,11 @@ kiriProgress kiriField_Flood(kiriField* field, kiriMemory* memory, const kiriRul
 
 void kiriField_MarkStepsDirty(kiriField* field, int32_t cell)
 {
-    KIRI_ASSERT(cell >= 0 && cell < field->marks.count);
+    KIRI_ASSERT_HAS(field->marks, cell);
     if ((field->marks.data[cell] & FIELD_DIRTY) == 0) {
         field->settled.count = 0; /* of a flood */
-        KIRI_ASSERT(field->dirty.count < field->dirty.capacity);
         field->marks.data[cell] |= FIELD_DIRTY;
-        field->dirty.data[field->dirty.count++] = cell;
+        KIRI_NEXT(field->dirty) = cell;
     }
 }
 
@@ -377,8 +376,7 @@ static kiriProgress SeedSweep(kiriField* field, const kiriRule* rule, kiriQuota*
             kiriSeed best = NearestFor(field, rule, cell);
             bool passes = (field->marks.data[cell] & FIELD_PASSES) != 0;
             if (best.distance != KIRI_FAR && (passes || IsNearerSeed(best, ValueOf(field, cell)))) {
-                KIRI_ASSERT(field->seeds.count < field->seeds.capacity);
-                field->seeds.data[field->seeds.count++] = best;
+                KIRI_NEXT(field->seeds) = best;
             }
             field->marks.data[cell] &= (uint8_t)~FIELD_PASSES;
         }
@@ -477,7 +475,7 @@ static inline ScanKey PullOpen(const Scan* scan, int32_t cell, bool forth, ScanK
 static inline bool ScanOnce(const Scan* scan, bool forth)
 {
     ScanKey changes = 0;
-    for (int32_t k = 0; k < scan->count; ++k) {
+    KIRI_EACH_INDEX(k, *scan) {
         int32_t cell = scan->cells[forth ? k : scan->count - 1 - k];
         bool isOpen = kiriGrid_IsOpen(scan->grid, cell);
         ScanKey was = scan->keys[cell], key = isOpen ? PullOpen(scan, cell, forth, was) : was;
@@ -515,7 +513,7 @@ kiriProgress kiriField_Scan(kiriField* field, kiriMemory* memory, const kiriGrid
         kiriMemory_Free(memory, scan.keys);
         return KIRI_FAILED;
     }
-    for (int32_t c = 0; c < field->distance.count; ++c) {
+    KIRI_EACH_INDEX(c, field->distance) {
         scan.keys[c] = KeyOf(KIRI_FAR, KIRI_NONE);
     }
     KIRI_EACH(const kiriSeed, from, field->seeds) {
@@ -527,7 +525,7 @@ kiriProgress kiriField_Scan(kiriField* field, kiriMemory* memory, const kiriGrid
         int32_t cell = cells[k], distance = (int32_t)(scan.keys[cell] >> 32);
         if (distance != KIRI_FAR) {
             SetValue(field, (kiriSeed){ cell, distance, (int32_t)(uint32_t)scan.keys[cell] });
-            field->settled.data[field->settled.count++] = cell;
+            KIRI_NEXT(field->settled) = cell;
         }
     }
     if (isDone) {
@@ -541,18 +539,13 @@ kiriProgress kiriField_Scan(kiriField* field, kiriMemory* memory, const kiriGrid
 
 bool kiriReaches_Resize(kiriReaches* reaches, kiriMemory* memory, int32_t cellCount, int32_t frameCount)
 {
-    int32_t cells = reaches->ofCells.count, frames = reaches->ofFrame.count;
-    int32_t needed = kiriReach_BlockOf(cellCount + KIRI_BLOCK_CELLS - 1);
-    if (!kiriArray_Resize(memory, &reaches->ofCells, kiriMax(needed, cells)) ||
-        !kiriArray_Resize(memory, &reaches->ofFrame, kiriMax(frameCount, frames))) {
+    int32_t blocks = kiriReach_BlockOf(cellCount + KIRI_BLOCK_CELLS - 1);
+    if (!kiriArray_Reserve(memory, &reaches->ofCells, blocks) ||
+        !kiriArray_Reserve(memory, &reaches->ofFrame, frameCount)) {
         return false;
     }
-    for (; cells < reaches->ofCells.count; ++cells) {
-        reaches->ofCells.data[cells] = KIRI_NONE;
-    }
-    for (; frames < reaches->ofFrame.count; ++frames) {
-        reaches->ofFrame.data[frames] = KIRI_NONE;
-    }
+    kiriArray_Extend(&reaches->ofCells, blocks, KIRI_NONE);
+    kiriArray_Extend(&reaches->ofFrame, frameCount, KIRI_NONE);
     return true;
 }
 
@@ -564,7 +557,7 @@ void kiriReaches_Clear(kiriReaches* reaches)
 
 int32_t kiriReaches_Find(const kiriReaches* reaches, int32_t frame, int32_t cells)
 {
-    KIRI_ASSERT(cells >= 0 && cells < reaches->ofCells.count);
+    KIRI_ASSERT_HAS(reaches->ofCells, cells);
     int32_t block = reaches->ofCells.data[cells];
     while (block != KIRI_NONE && reaches->heads.data[block].frame != frame) {
         block = reaches->heads.data[block].nextOfCells;
@@ -601,7 +594,7 @@ int32_t kiriReaches_Add(kiriReaches* reaches, int32_t frame, int32_t cells)
 
 void kiriReaches_Remove(kiriReaches* reaches, int32_t index)
 {
-    KIRI_ASSERT(index >= 0 && index < reaches->heads.count);
+    KIRI_ASSERT_HAS(reaches->heads, index);
     kiriReachBlock *blocks = reaches->blocks.data, *block = &blocks[index];
     kiriReachHead* head = &reaches->heads.data[index];
     int32_t* link = &reaches->ofCells.data[block->cells];
@@ -625,7 +618,7 @@ void kiriReaches_Remove(kiriReaches* reaches, int32_t index)
 
 void kiriReaches_Forget(kiriReaches* reaches, int32_t frame)
 {
-    KIRI_ASSERT(frame >= 0 && frame < reaches->ofFrame.count);
+    KIRI_ASSERT_HAS(reaches->ofFrame, frame);
     while (reaches->ofFrame.data[frame] != KIRI_NONE) {
         kiriReaches_Remove(reaches, reaches->ofFrame.data[frame]);
     }

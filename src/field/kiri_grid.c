@@ -77,7 +77,7 @@ static void RecordLink(kiriGrid* grid, kiriMemory* memory, const kiriFace* face)
 
 static kiriMoments MaterialOfWhole(const kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
 {
-    KIRI_ASSERT(square >= 0 && square < grid->squareCell.count);
+    KIRI_ASSERT_HAS(grid->squareCell, square);
     double x = grid->side, area = x * x;
     kiriMoments about = {
         area, x / 2.0 * area, x / 2.0 * area, area * area / 3.0, area * area / 4.0, area * area / 3.0
@@ -104,7 +104,7 @@ static int32_t StretchIndexOf(const kiriFace* face)
 
 kiriMoments kiriGrid_Material(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell)
 {
-    KIRI_ASSERT(cell >= 0 && cell < grid->cells.count);
+    KIRI_ASSERT_HAS(grid->cells, cell);
     const kiriCell* at = &grid->cells.data[cell];
     return at->material == KIRI_NONE ? MaterialOfWhole(grid, mesh, at->square) : grid->materials.data[at->material];
 }
@@ -137,14 +137,13 @@ static int32_t TakeUnusedItem(kiriMemory* memory, void* array, size_t itemBytes,
 static void GiveItemBack(kiriIndices* unused, int32_t index)
 {
     if (index != KIRI_NONE) {
-        KIRI_ASSERT(unused->count < unused->capacity);
-        unused->data[unused->count++] = index;
+        KIRI_NEXT(*unused) = index;
     }
 }
 
 kiriMoments* kiriGrid_OwnMaterial(kiriGrid* grid, kiriMemory* memory, int32_t cell)
 {
-    KIRI_ASSERT(cell >= 0 && cell < grid->cells.count);
+    KIRI_ASSERT_HAS(grid->cells, cell);
     int32_t* index = &grid->cells.data[cell].material;
     if (*index == KIRI_NONE) {
         *index = TakeUnusedItem(memory, &grid->materials, sizeof(kiriMoments), &grid->unusedMaterials);
@@ -154,14 +153,14 @@ kiriMoments* kiriGrid_OwnMaterial(kiriGrid* grid, kiriMemory* memory, int32_t ce
 
 static void DropMaterial(kiriGrid* grid, int32_t cell)
 {
-    KIRI_ASSERT(cell >= 0 && cell < grid->cells.count);
+    KIRI_ASSERT_HAS(grid->cells, cell);
     GiveItemBack(&grid->unusedMaterials, grid->cells.data[cell].material);
     grid->cells.data[cell].material = KIRI_NONE;
 }
 
 kiriStretch* kiriGrid_OwnStretch(kiriGrid* grid, kiriMemory* memory, int32_t face)
 {
-    KIRI_ASSERT(face >= 0 && face < grid->faces.count);
+    KIRI_ASSERT_HAS(grid->faces, face);
     kiriFace* at = &grid->faces.data[face];
     if (!kiriFace_HasOwnStretch(at)) {
         int32_t index = TakeUnusedItem(memory, &grid->stretches, sizeof(kiriStretch), &grid->unusedStretches);
@@ -172,7 +171,7 @@ kiriStretch* kiriGrid_OwnStretch(kiriGrid* grid, kiriMemory* memory, int32_t fac
 
 static void DropStretch(kiriGrid* grid, int32_t face)
 {
-    KIRI_ASSERT(face >= 0 && face < grid->faces.count);
+    KIRI_ASSERT_HAS(grid->faces, face);
     kiriFace* at = &grid->faces.data[face];
     GiveItemBack(&grid->unusedStretches, StretchIndexOf(at));
     at->kind = kiriFace_Axis(at);
@@ -263,7 +262,7 @@ static bool ResizeSteps(kiriGrid* grid, kiriMemory* memory, int32_t c, int32_t c
 
 static int32_t TriangleAt(const kiriGridWork* work, const kiriMeshData* mesh, int32_t entry)
 {
-    KIRI_ASSERT(entry >= 0 && entry < work->entries.count);
+    KIRI_ASSERT_HAS(work->entries, entry);
     return mesh->squares.nodes.data[work->entries.data[entry]].triangle;
 }
 
@@ -350,7 +349,7 @@ typedef struct ClippedPolygon {
 static void ClipAtSide(ClippedPolygon* polygon, int axis, bool upper, double side)
 {
     double depth[MOST_CORNERS], least = side;
-    for (int32_t i = 0; i < polygon->count; ++i) {
+    KIRI_EACH_INDEX(i, *polygon) {
         double x = axis == 0 ? polygon->at[i].x : polygon->at[i].y;
         depth[i] = upper ? side - x : x;
         least = kiriMin(depth[i], least);
@@ -360,7 +359,7 @@ static void ClipAtSide(ClippedPolygon* polygon, int axis, bool upper, double sid
     }
     ClippedPolygon was = *polygon;
     polygon->count = 0;
-    for (int32_t i = 0; i < was.count; ++i) {
+    KIRI_EACH_INDEX(i, was) {
         int32_t j = i + 1 < was.count ? i + 1 : 0;
         KIRI_ASSERT(polygon->count + 2 <= MOST_CORNERS);
         if (depth[i] > 0.0) {
@@ -380,19 +379,19 @@ static void ClipAtSide(ClippedPolygon* polygon, int axis, bool upper, double sid
    part. */
 static kiriMoments MaterialInSquare(const kiriMeshData* mesh, int32_t triangle, int32_t square)
 {
-    KIRI_ASSERT(triangle >= 0 && triangle < mesh->triangles.count);
+    KIRI_ASSERT_HAS(mesh->triangles, triangle);
     kiriLatticePoint low = kiriSquares_Corner(&mesh->squares, square), corners[3];
     ClippedPolygon part;
     kiriMoments sum = { 0 };
     kiriMesh_Corners(mesh, triangle, corners);
     part.count = 3;
-    for (int i = 0; i < 3; ++i) {
+    KIRI_EACH_CORNER(i) {
         part.at[i] = kiriVec2_Make((double)corners[i].x - low.x, (double)corners[i].y - low.y);
     }
     for (int k = 0; k < 4; ++k) {
         ClipAtSide(&part, k / 2, k % 2 == 1, mesh->squares.side);
     }
-    for (int32_t i = 0; i < part.count; ++i) {
+    KIRI_EACH_INDEX(i, part) {
         part.at[i] = kiriVec2_Scale(mesh->step, part.at[i]);
         if (i >= 2) {
             kiriMoments fan = kiriMoments_Triangle(part.at[0], part.at[i - 1], part.at[i]);
@@ -445,7 +444,7 @@ static bool FindNewCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t squar
 static int32_t AddCell(kiriGrid* grid, kiriMemory* memory, int32_t square)
 {
     const kiriCell cell = { square, KIRI_NONE, KIRI_NONE, KIRI_NONE, KIRI_NONE };
-    const kiriStepRun run = { 0, { 0, 0, 0 } };
+    const kiriStepRun run = { 0 };
     kiriGridWork* work = grid->work;
     bool isOwn = work->fromScratch && grid->cells.data[square].square == KIRI_NONE;
     int32_t c = isOwn ? square : grid->freeCell;
@@ -523,7 +522,7 @@ static bool RemoveCell(kiriGrid* grid, const kiriMeshData* mesh, int32_t c)
 /* Replaces the old cells of the square by the new ones, in order. Adds or removes cells if their number changes. */
 static bool ReplaceCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t square)
 {
-    KIRI_ASSERT(square >= 0 && square < grid->squareCell.count);
+    KIRI_ASSERT_HAS(grid->squareCell, square);
     int32_t old = grid->squareCell.data[square], last = KIRI_NONE;
     grid->squareCell.data[square] = KIRI_NONE;
     KIRI_EACH(kiriNewCell, made, grid->work->newCells) {
@@ -553,7 +552,7 @@ static bool ReplaceCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t squar
 static bool RunsThroughSquare(const kiriMeshData* mesh, const kiriTriangle* t, int32_t square)
 {
     KIRI_ASSERT(t->vertex[0] >= 0 && t->vertex[0] < mesh->vertices.count);
-    for (int i = 0; i < 3; ++i) {
+    KIRI_EACH_CORNER(i) {
         if ((t->twin[i] == KIRI_NONE || (t->marks >> i & 1) != 0) &&
             kiriSquares_RunsThrough(&mesh->squares, square, mesh->vertices.data[t->vertex[i]].at,
                                     mesh->vertices.data[t->vertex[(i + 1) % 3]].at)) {
@@ -623,7 +622,7 @@ static void MakeCells(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
 {
     kiriGridWork* work = grid->work;
     int32_t square = work->fromScratch ? item : mesh->squares.dirty.data[item];
-    KIRI_ASSERT(square >= 0 && square < grid->whole.count);
+    KIRI_ASSERT_HAS(grid->whole, square);
     bool wasWhole = grid->whole.data[square], isWhole = IsSquareWhole(work, mesh, square);
     grid->whole.data[square] = isWhole && wasWhole ? grid->whole.data[square] : isWhole;
     work->newCells.count = 0;
@@ -656,7 +655,7 @@ static kiriStretch StretchOfTriangle(const kiriMeshData* mesh, int32_t triangle,
     kiriLatticePoint low = kiriSquares_Corner(&mesh->squares, square), corners[3];
     double from = mesh->squares.side, to = 0.0;
     kiriMesh_Corners(mesh, triangle, corners);
-    for (int i = 0; i < 3; ++i) {
+    KIRI_EACH_CORNER(i) {
         kiriLatticePoint p = corners[i], q = corners[(i + 1) % 3];
         /* Across the side and along it, from the side's lower end; 64 bits hold the products below. */
         int64_t pa = axis == 0 ? p.x - low.x : p.y - low.y, ps = axis == 0 ? p.y - low.y : p.x - low.x;
@@ -794,7 +793,7 @@ static void MakeSide(kiriGrid* grid, const kiriMeshData* mesh, int32_t before, i
 static void MakeFaces(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
 {
     const kiriSquares* squares = &mesh->squares;
-    KIRI_ASSERT(item >= 0 && item < grid->work->facesDirty.count);
+    KIRI_ASSERT_HAS(grid->work->facesDirty, item);
     int32_t square = grid->work->facesDirty.data[item];
     int32_t place[2] = { square % squares->columns, square / squares->columns };
     for (int32_t axis = 0; axis < 2; ++axis) {
@@ -957,7 +956,7 @@ static kiriStep JoinedStep(kiriStep a, kiriStep b, int16_t length)
 static int32_t NewMark(kiriGridWork* work)
 {
     if (work->lastMark > INT32_MAX - 4) { /* rare: a thousand large cuts */
-        memset(work->mark.data, 0, sizeof(*work->mark.data) * (size_t)work->mark.count);
+        kiriArray_Set(&work->mark, 0);
         work->lastMark = 0;
     }
     work->lastMark += 2;
@@ -1055,7 +1054,7 @@ static void AddKnightSteps(kiriGrid* grid, kiriMemory* memory, const kiriSteps* 
 
 static void MakeKnightSteps(kiriGrid* grid, const kiriMeshData* mesh, int32_t item)
 {
-    KIRI_ASSERT(item >= 0 && item < grid->work->knightsDirty.count);
+    KIRI_ASSERT_HAS(grid->work->knightsDirty, item);
     int32_t c = grid->work->knightsDirty.data[item];
     kiriSteps has = kiriGrid_GetSteps(grid, c);
     grid->work->debt += COST_OF_STEPS;
@@ -1144,8 +1143,8 @@ static bool MakeUnusedCells(kiriGrid* grid, const kiriMeshData* mesh)
         return false;
     }
     grid->cells.count = grid->runs.count = work->cellFlags.count = work->mark.count = squares;
-    memset(grid->runs.data, 0, sizeof(kiriStepRun) * (size_t)squares);
-    memset(work->mark.data, 0, sizeof(int32_t) * (size_t)squares);
+    kiriArray_Set(&grid->runs, 0);
+    kiriArray_Set(&work->mark, 0);
     for (int32_t s = squares - 1; s >= 0; --s) {
         bool isFree = mesh->squares.head[s] == KIRI_NONE;
         grid->cells.data[s] = (kiriCell){ KIRI_NONE, grid->freeCell, KIRI_NONE, KIRI_NONE, KIRI_NONE };
@@ -1167,11 +1166,9 @@ static bool StartFromScratch(kiriGrid* grid, const kiriMeshData* mesh)
         !kiriArray_ResizeJust(mesh->memory, &work->ranges, squareCount)) {
         return false;
     }
-    memset(grid->whole.data, 0, (size_t)squareCount);
-    memset(work->squareFlags.data, 0, (size_t)squareCount);
-    for (int32_t s = 0; s < squareCount; ++s) {
-        grid->squareCell.data[s] = KIRI_NONE;
-    }
+    kiriArray_Set(&grid->whole, 0);
+    kiriArray_Set(&work->squareFlags, 0);
+    kiriArray_Set(&grid->squareCell, KIRI_NONE);
     for (int k = 0; k < KIRI_OPEN_STEPS; ++k) {
         grid->openSteps[k] = openSteps[k];
         grid->openSteps[k].cell = openSteps[k].v * mesh->squares.columns + openSteps[k].u;
@@ -1381,7 +1378,7 @@ kiriVec2 kiriGrid_Middle(const kiriGrid* grid, const kiriMeshData* mesh, int32_t
 kiriLatticePoint kiriGrid_Anchor(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell)
 {
     KIRI_ASSERT(kiriGrid_IsCell(grid, cell));
-    kiriMoments largest = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+    kiriMoments largest = { 0 };
     int32_t square = grid->cells.data[cell].square, lowest = INT32_MAX;
     KIRI_EACH_NODE(n, &mesh->squares, square) {
         if (grid->nodeCell.data[n] == cell) {
@@ -1419,7 +1416,7 @@ void kiriGrid_JoinCells(const kiriGrid* grid, int32_t* parent)
 {
     KIRI_ASSERT(grid->runs.count == grid->cells.count);
     kiriUnion_Init(parent, grid->cells.count);
-    for (int32_t c = 0; c < grid->cells.count; ++c) {
+    KIRI_EACH_INDEX(c, grid->cells) {
         if (kiriGrid_IsCell(grid, c)) {
             KIRI_EACH_STEP(step, grid, c, KIRI_STRAIGHT) {
                 kiriUnion_Join(parent, c, step.cell);
@@ -1438,10 +1435,10 @@ bool kiriBorderCells_Resize(kiriBorderCells* lists, kiriMemory* memory, int32_t 
         return false;
     }
     while (lists->cells.count < cellCount) {
-        lists->cells.data[lists->cells.count++] = none;
+        KIRI_NEXT(lists->cells) = none;
     }
     while (lists->first.count < regionCount) {
-        lists->first.data[lists->first.count++] = KIRI_NONE;
+        KIRI_NEXT(lists->first) = KIRI_NONE;
     }
     return true;
 }

@@ -153,14 +153,14 @@ void kiriGrid_Keep(kiriGrid* grid, kiriMemory* memory, const kiriKeep* triangles
 
 static inline bool kiriGrid_IsCell(const kiriGrid* grid, int32_t cell)
 {
-    KIRI_ASSERT(cell >= 0 && cell < grid->cells.count);
+    KIRI_ASSERT_HAS(grid->cells, cell);
     return grid->cells.data[cell].square != KIRI_NONE;
 }
 
 /* Returns true for most open cells. Its answers take less memory to read than runs. */
 static inline bool kiriGrid_IsOpen(const kiriGrid* grid, int32_t cell)
 {
-    KIRI_ASSERT(cell >= 0 && cell < grid->runs.count);
+    KIRI_ASSERT_HAS(grid->runs, cell);
     return cell < grid->whole.count && grid->whole.data[cell] == KIRI_SQUARE_OPEN;
 }
 
@@ -172,7 +172,7 @@ static inline kiriSteps kiriGrid_OpenSteps(const kiriGrid* grid, int32_t cell)
 /* Returns the steps of a cell. Valid until the grid changes or `steps` moves. */
 static inline kiriSteps kiriGrid_GetSteps(const kiriGrid* grid, int32_t cell)
 {
-    KIRI_ASSERT(cell >= 0 && cell < grid->runs.count);
+    KIRI_ASSERT_HAS(grid->runs, cell);
     const kiriStepRun* run = &grid->runs.data[cell];
     if (kiriGrid_IsOpen(grid, cell) || kiriStepRun_IsOpen(run)) {
         KIRI_ASSERT(grid->squareCell.data[cell] == cell);

@@ -93,7 +93,7 @@ static bool IsFaceBefore(const void* grid, int32_t a, int32_t b)
 /* Returns a border face without its stretch. */
 static kiriBorderFace BorderFaceOf(const LinkUpdate* u, int32_t face)
 {
-    KIRI_ASSERT(face >= 0 && face < u->grid->faces.count);
+    KIRI_ASSERT_HAS(u->grid->faces, face);
     const kiriFace* f = &u->grid->faces.data[face];
     KIRI_ASSERT(f->cell[0] != KIRI_NONE && u->owner[f->cell[0]] != u->owner[f->cell[1]]);
     int32_t low = u->owner[f->cell[0]] < u->owner[f->cell[1]] ? 0 : 1;
@@ -109,7 +109,7 @@ static kiriBorderFace BorderFaceOf(const LinkUpdate* u, int32_t face)
 /* Adds the faces of a cell that continue the stretch of `from`, and gives them the mark `next`. */
 static bool GatherFacesAt(const LinkUpdate* u, const kiriBorderFace* from, int32_t cell, uint8_t mark, uint8_t next)
 {
-    KIRI_ASSERT(cell >= 0 && cell < u->regions->onBorder.count);
+    KIRI_ASSERT_HAS(u->regions->onBorder, cell);
     bool may = u->regions->onBorder.data[cell] && u->owner[cell] == from->region[0];
     int32_t f = may ? u->grid->cells.data[cell].firstFace : KIRI_NONE;
     for (; f != KIRI_NONE; f = kiriFace_Next(&u->grid->faces.data[f], cell)) {
@@ -134,7 +134,7 @@ static bool GatherStretch(const LinkUpdate* u, int32_t face, uint8_t next)
 {
     kiriLinkWork* work = u->work;
     kiriIndices* found = &work->order;
-    KIRI_ASSERT(face >= 0 && face < work->marks.count);
+    KIRI_ASSERT_HAS(work->marks, face);
     uint8_t mark = work->marks.data[face];
     KIRI_ASSERT(mark != next);
     found->count = 0;
@@ -151,7 +151,7 @@ static bool GatherStretch(const LinkUpdate* u, int32_t face, uint8_t next)
         return false;
     }
     kiriSort(found->data, found->count, IsFaceBefore, u->grid);
-    for (int32_t k = 0; k < found->count; ++k) {
+    KIRI_EACH_INDEX(k, *found) {
         kiriBorderFace* f = &work->stretch.data[k];
         *f = BorderFaceOf(u, found->data[k]);
         f->stretch = kiriGrid_Stretch(u->grid, u->mesh, f->face);
@@ -257,10 +257,9 @@ static bool HasOnlySlivers(const LinkUpdate* u)
 /* Finds the ends of the stretch: the outermost along the tangent. `isPart`: the border was split. */
 static kiriLinkEnds FindEnds(const LinkUpdate* u, const kiriLink* link, bool isPart)
 {
-    kiriLinkEnds ends;
+    kiriLinkEnds ends = { 0 };
     double low = 0.0, high = 0.0;
     bool any = false, takesAll = HasOnlySlivers(u);
-    memset(&ends, 0, sizeof(ends));
     for (int k = 0; k < 2; ++k) { /* a border that closes on itself has no other */
         SetEnd(&ends.end[k], KIRI_END_INNER, link->centroid);
         memcpy(ends.end[k].cell, u->work->stretch.data[0].cell, sizeof(ends.end[k].cell));
@@ -330,8 +329,8 @@ static kiriVec2 SiteAt(const LinkUpdate* u, int32_t region)
 
 static void AddRegion(const LinkUpdate* u, NearRegions* near, int32_t cell)
 {
-    KIRI_ASSERT(cell >= 0 && cell < u->regions->field.owner.count);
-    for (int32_t k = 0; k < near->count; ++k) {
+    KIRI_ASSERT_HAS(u->regions->field.owner, cell);
+    KIRI_EACH_INDEX(k, *near) {
         if (near->region[k] == u->owner[cell]) {
             return;
         }
@@ -452,7 +451,7 @@ static void StartEndSearch(EndSearch* s, const LinkUpdate* u, const kiriLinkEnd*
     s->least = kiriBorderLeast * u->grid->side;
     s->near.count = 0;
     AddRegionsAt(u, &s->near, cells, around);
-    for (int32_t k = 0; k < s->near.count; ++k) {
+    KIRI_EACH_INDEX(k, s->near) {
         s->reach[k].state = REACH_UNKNOWN;
     }
     s->sight = SightOf(u, &s->near);
@@ -548,7 +547,7 @@ static bool FindSeenEnd(EndSearch* s, kiriVec2 from, kiriLinkEnd* end)
 /* Returns a point of the stretch about a square's side before the end. */
 static kiriVec2 PointBefore(const EndSearch* s)
 {
-    kiriVec2 best = { 0.0, 0.0 };
+    kiriVec2 best = { 0 };
     double least = kiriFarAhead;
     KIRI_EACH(const kiriBorderFace, face, s->u->work->stretch) {
         kiriVec2 middle = face->stretch.middle;
@@ -609,9 +608,9 @@ static kiriVec2 AtMost(kiriVec2 step, double most)
    regions, so that all links of the corner find the same. */
 static bool FindTurnedCorner(const EndSearch* s, kiriLinkEnd* end)
 {
-    const SiteReach* reach[3] = { NULL, NULL, NULL };
-    double off[2] = { 0.0, 0.0 };
-    for (int32_t k = 0; k < s->near.count; ++k) {
+    const SiteReach* reach[3] = { 0 };
+    double off[2] = { 0 };
+    KIRI_EACH_INDEX(k, s->near) {
         for (int r = 0; r < 3; ++r) {
             reach[r] = s->grid->region[r] == s->near.region[k] ? &s->reach[k] : reach[r];
         }
@@ -727,7 +726,7 @@ static bool FindEndOnEdge(EndSearch* s, int32_t edge, kiriVec2 at, kiriLinkEnd* 
 static bool FindBorderBefore(const EndSearch* s, kiriVec2* at, kiriVec2* ahead)
 {
     double side = s->u->grid->side, size = 0.0;
-    kiriVec2 before = PointBefore(s), slope = { 0.0, 0.0 };
+    kiriVec2 before = PointBefore(s), slope = { 0 };
     *at = before;
     for (int round = 0; round < 8; ++round) {
         double far = Farther(&s->reach[0], &s->reach[1], *at, &slope);
@@ -763,7 +762,7 @@ static bool FindTurnedOpenEnd(EndSearch* s, kiriLinkEnd* end)
 /* Finds the distances to the sites that take part in the end: both of the link, and others that the grid has there. */
 static bool FindReaches(EndSearch* s)
 {
-    for (int32_t k = 0; k < s->near.count; ++k) {
+    KIRI_EACH_INDEX(k, s->near) {
         bool takesPart = k < 2;
         for (int r = 0; r < KIRI_CORNER_REGIONS && s->grid->kind == KIRI_END_CORNER; ++r) {
             takesPart |= s->grid->region[r] == s->near.region[k];
@@ -980,7 +979,7 @@ static void SetLength(const LinkUpdate* u, kiriLink* link, const kiriLinkEnds* e
 static void SetMoments(const LinkUpdate* u, kiriLink* link)
 {
     double normal[2] = { link->normal.x, link->normal.y }, total = 0.0;
-    kiriVec2 first = { 0.0, 0.0 };
+    kiriVec2 first = { 0 };
     KIRI_EACH(const kiriBorderFace, face, u->work->stretch) {
         double weight = face->stretch.width * fabs(normal[face->axis]);
         total += weight;
@@ -992,18 +991,6 @@ static void SetMoments(const LinkUpdate* u, kiriLink* link)
         double share = fabs(normal[face->axis]);
         double s = kiriVec2_Dot(kiriVec2_Sub(face->stretch.middle, link->centroid), link->tangent);
         link->moment += share * (face->stretch.width * s * s + face->stretch.moment * share * share);
-    }
-}
-
-/* Sets the spread about the centroid. */
-static void SetSpread(const LinkUpdate* u, kiriLink* link)
-{
-    KIRI_EACH(const kiriBorderFace, face, u->work->stretch) {
-        kiriVec2 arm = kiriVec2_Sub(face->stretch.middle, link->centroid);
-        double along = face->sign * face->stretch.width;
-        kiriVec2 normal = { face->axis == 0 ? along : 0.0, face->axis == 0 ? 0.0 : along };
-        link->spread[0] = kiriVec2_AddScaled(link->spread[0], arm.x, normal);
-        link->spread[1] = kiriVec2_AddScaled(link->spread[1], arm.y, normal);
     }
 }
 
@@ -1035,7 +1022,7 @@ static void SetOuter(const LinkUpdate* u, kiriLink* link, const kiriLinkEnds* en
    its length. */
 static void FollowEdges(const LinkUpdate* u, kiriLink* link, const kiriLinkEnds* ends)
 {
-    kiriVec2 way = kiriVec2_Sub(ends->end[1].at, ends->end[0].at), mean = { 0.0, 0.0 };
+    kiriVec2 way = kiriVec2_Sub(ends->end[1].at, ends->end[0].at), mean = { 0 };
     kiriVec2 straight = kiriVec2_Sub(SiteAt(u, link->j), SiteAt(u, link->i));
     for (int k = 0; k < 2; ++k) {
         double along = kiriVec2_Dot(ends->end[k].edge, link->normal);
@@ -1058,7 +1045,7 @@ static void FollowEdges(const LinkUpdate* u, kiriLink* link, const kiriLinkEnds*
 static bool MakeLink(const LinkUpdate* u, bool isPart)
 {
     kiriLinkWork* work = u->work;
-    double n[2] = { 0.0, 0.0 }, sum = 0.0;
+    double n[2] = { 0 }, sum = 0.0;
     KIRI_ASSERT(work->stretch.count > 0);
     KIRI_EACH(const kiriBorderFace, face, work->stretch) {
         n[face->axis] += face->sign * face->stretch.width;
@@ -1072,9 +1059,8 @@ static bool MakeLink(const LinkUpdate* u, bool isPart)
         }
         return true;
     }
-    kiriNewLink made;
+    kiriNewLink made = { 0 };
     kiriLink* link = &made.link;
-    memset(&made, 0, sizeof(made));
     made.face = work->stretch.data[0].face;
     link->i = work->stretch.data[0].region[0];
     link->j = work->stretch.data[0].region[1];
@@ -1087,7 +1073,13 @@ static bool MakeLink(const LinkUpdate* u, bool isPart)
     if (!isPart) {
         MakeExact(u, link, &made.ends);
     }
-    SetSpread(u, link);
+    KIRI_EACH(const kiriBorderFace, face, work->stretch) { /* the spread about the centroid */
+        kiriVec2 arm = kiriVec2_Sub(face->stretch.middle, link->centroid);
+        double along = face->sign * face->stretch.width;
+        normal = kiriVec2_Make(face->axis == 0 ? along : 0.0, face->axis == 0 ? 0.0 : along);
+        link->spread[0] = kiriVec2_AddScaled(link->spread[0], arm.x, normal);
+        link->spread[1] = kiriVec2_AddScaled(link->spread[1], arm.y, normal);
+    }
     SetLength(u, link, &made.ends);
     FollowEdges(u, link, &made.ends);
     SetOuter(u, link, &made.ends);
@@ -1230,10 +1222,9 @@ static bool IsMadeBefore(const void* context, int32_t a, int32_t b)
 
 static void AddNext(const LinkUpdate* u, const kiriLink* link, const kiriLinkEnds* ends, int32_t was)
 {
-    KIRI_ASSERT(u->links->next.count < u->links->next.capacity);
-    u->links->was.data[u->links->was.count++] = was;
-    u->links->next.data[u->links->next.count++] = *link;
-    u->work->nextEnds.data[u->work->nextEnds.count++] = *ends;
+    KIRI_NEXT(u->links->was) = was;
+    KIRI_NEXT(u->links->next) = *link;
+    KIRI_NEXT(u->work->nextEnds) = *ends;
 }
 
 /* Sorts the links that were made by their keys, and merges them with the kept ones; no pair of regions has both. Counts
@@ -1249,7 +1240,7 @@ static bool MergeLinks(const LinkUpdate* u)
         !kiriArray_Reserve(u->memory, &links->was, most)) {
         return false;
     }
-    for (int32_t k = 0; k < work->order.count; ++k) {
+    KIRI_EACH_INDEX(k, work->order) {
         work->order.data[k] = k;
     }
     kiriSort(work->order.data, work->order.count, IsMadeBefore, u);
@@ -1333,8 +1324,7 @@ static bool AddLinkCorner(const LinkUpdate* u, int32_t k, const kiriLinkEnd* end
     const kiriLink* next = u->links->next.data;
     int32_t list[4], count = end->kind == KIRI_END_CORNER ? ListLinksAt(u, end, list) : 0;
     double sum = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
-    kiriCorner corner;
-    memset(&corner, 0, sizeof(corner));
+    kiriCorner corner = { 0 };
     if (count < 3 || count > 4 || list[0] != k || !IsRing(u->links, end, list, count)) {
         return true;
     }
@@ -1391,7 +1381,7 @@ static bool MakeCorners(const LinkUpdate* u)
         for (; ok && old < links->corners.count && links->corners.data[old].link[0] <= links->was.data[k]; ++old) {
             kiriCorner corner = links->corners.data[old];
             if (corner.link[0] == links->was.data[k]) {
-                for (int32_t c = 0; c < corner.count; ++c) {
+                KIRI_EACH_INDEX(c, corner) {
                     corner.link[c] = u->work->to.data[corner.link[c]];
                     KIRI_ASSERT(corner.link[c] != KIRI_NONE);
                 }
@@ -1476,7 +1466,7 @@ static bool AreEndsClean(const LinkUpdate* u, const kiriLinkEnds* ends)
         AddRegionsAt(u, &near, ends->end[k].cell, 2);
     }
     bool areClean = near.count < KIRI_NEAR_REGIONS;
-    for (int32_t k = 0; k < near.count; ++k) {
+    KIRI_EACH_INDEX(k, near) {
         areClean = areClean && !u->regions->dirty.data[near.region[k]];
     }
     return areClean;
@@ -1511,15 +1501,6 @@ static bool KeepLinks(const LinkUpdate* u)
     return ok;
 }
 
-static bool FinishLinks(const LinkUpdate* u)
-{
-    int32_t made = u->work->made.count;
-    bool ok = MergeLinks(u) && MakeShortLinks(u);
-    ok = ok && (u->work->made.count == made || MergeLinks(u)) && MakeCorners(u);
-    u->work->due += 2 * (int64_t)u->links->next.count;
-    return ok;
-}
-
 /* Goes on with the update, item by item. Edges that are seen first are an item each: a square may have thousands. */
 static kiriProgress RunLinks(const LinkUpdate* u, kiriQuota* quota)
 {
@@ -1534,7 +1515,9 @@ static kiriProgress RunLinks(const LinkUpdate* u, kiriQuota* quota)
         } else if (face < work->faces.count) {
             ok = MakeLinksAt(u, work->faces.data[face]);
         } else if (face == work->faces.count) {
-            ok = FinishLinks(u);
+            int32_t made = work->made.count;
+            ok = MergeLinks(u) && MakeShortLinks(u) && (work->made.count == made || MergeLinks(u)) && MakeCorners(u);
+            work->due += 2 * (int64_t)u->links->next.count;
         } else {
             return KIRI_DONE;
         }
@@ -1610,7 +1593,7 @@ bool kiriLinks_Keep(kiriLinks* links, kiriMemory* memory, const kiriKeep* kept, 
     KIRI_EACH_WHILE(ok, const kiriCorner, old, links->corners) {
         kiriCorner corner = *old;
         if (kiriKeep_Has(kept, corner.link[0])) {
-            for (int32_t k = 0; k < corner.count; ++k) {
+            KIRI_EACH_INDEX(k, corner) {
                 corner.link[k] = kiriKeep_To(kept, corner.link[k]);
             }
             ok = kiriArray_Push(memory, &links->nextCorners, corner);

@@ -32,13 +32,11 @@ int32_t kiriSight_EdgeBefore(const kiriMeshData* mesh, int32_t h)
 
 bool kiriSightEdges_Start(kiriSightEdges* edges, const kiriMeshData* mesh)
 {
-    int32_t squares = mesh->squares.columns * mesh->squares.rows, old = edges->listed.count;
-    if (!kiriArray_ResizeJust(mesh->memory, &edges->listed, squares)) {
+    int32_t squares = mesh->squares.columns * mesh->squares.rows;
+    if (!kiriArray_ReserveJust(mesh->memory, &edges->listed, squares)) {
         return false;
     }
-    for (int32_t s = old; s < squares; ++s) {
-        edges->listed.data[s] = KIRI_NONE;
-    }
+    kiriArray_Extend(&edges->listed, squares, KIRI_NONE);
     KIRI_EACH(const kiriSquareEdges, square, edges->squares) {
         edges->listed.data[square->square] = KIRI_NONE;
     }
@@ -87,7 +85,7 @@ static bool CollectEdges(const kiriSight* sight, int32_t square)
 static const kiriSightEdge* EdgesOfSquare(const kiriSight* sight, int32_t square, int32_t* count)
 {
     kiriSightEdges* edges = sight->edges;
-    KIRI_ASSERT(square >= 0 && square < edges->listed.count);
+    KIRI_ASSERT_HAS(edges->listed, square);
     if (edges->listed.data[square] == KIRI_NONE && !edges->failed) {
         edges->failed = !CollectEdges(sight, square);
     }
@@ -146,7 +144,7 @@ static void MeetEdge(SightRay* ray, const kiriSightEdge* e)
 
 static bool MayLookIn(const kiriSight* sight, int32_t cell)
 {
-    KIRI_ASSERT(cell >= 0 && cell < sight->grid->cells.count);
+    KIRI_ASSERT_HAS(sight->grid->cells, cell);
     for (int32_t k = 0; k < sight->regionCount; ++k) {
         if (sight->owner[cell] == sight->regions[k]) {
             return true;
@@ -157,7 +155,7 @@ static bool MayLookIn(const kiriSight* sight, int32_t cell)
 
 static bool MayLookAt(const kiriSight* sight, int32_t square)
 {
-    KIRI_ASSERT(square >= 0 && square < sight->grid->squareCell.count);
+    KIRI_ASSERT_HAS(sight->grid->squareCell, square);
     int32_t c = sight->grid->squareCell.data[square];
     while (c != KIRI_NONE && !MayLookIn(sight, c)) {
         c = sight->grid->cells.data[c].next;
@@ -285,7 +283,7 @@ static void ScanSquare(kiriTurns* turns, const kiriSight* sight, int32_t square)
 
 void kiriTurns_AddAround(kiriTurns* turns, const kiriSight* sight, int32_t cell)
 {
-    KIRI_ASSERT(cell >= 0 && cell < sight->grid->cells.count);
+    KIRI_ASSERT_HAS(sight->grid->cells, cell);
     const kiriSquares* squares = &sight->mesh->squares;
     int32_t square = sight->grid->cells.data[cell].square;
     int32_t column = square % squares->columns, row = square / squares->columns;
@@ -336,13 +334,6 @@ static bool IsTangent(const WaySearch* s, const WayNode* node, kiriVec2 directio
     return !(a > least && b < -least) && !(a < -least && b > least);
 }
 
-static bool CanGo(const WaySearch* s, const WayNode* a, const WayNode* b)
-{
-    kiriVec2 way = kiriVec2_Sub(b->at, a->at);
-    return IsTangent(s, a, way) && IsTangent(s, b, kiriVec2_Scale(-1.0, way)) &&
-           kiriSight_IsClear(s->sight, a->at, b->at);
-}
-
 static inline void TryWay(WaySearch* s, int32_t from, WayNode* node)
 {
     if ((node->blocked >> from & 1) == 0) {
@@ -361,14 +352,17 @@ static void Step(WaySearch* s, int32_t k)
 {
     WayNode* node = &s->node[k];
     KIRI_ASSERT(!node->isDone && (k == 0 || s->node[node->from].isDone));
-    bool canGo = k == 0 || CanGo(s, &s->node[node->from], node);
+    const WayNode* from = &s->node[node->from];
+    kiriVec2 way = kiriVec2_Sub(node->at, from->at);
+    bool canGo = k == 0 || (IsTangent(s, from, way) && IsTangent(s, node, kiriVec2_Scale(-1.0, way)) &&
+                            kiriSight_IsClear(s->sight, from->at, node->at));
     node->isDone = canGo;
     node->whole = kiriNoWay;
     if (!canGo) {
         node->blocked |= (uint64_t)1 << node->from;
         node->length = kiriNoWay;
     }
-    for (int32_t other = 0; other < s->count; ++other) {
+    KIRI_EACH_INDEX(other, *s) {
         if (canGo && !s->node[other].isDone) {
             TryWay(s, k, &s->node[other]);
         } else if (!canGo && s->node[other].isDone) {
@@ -387,7 +381,7 @@ bool kiriWay_Find(const kiriTurns* turns, const kiriSight* sight, kiriWay* way)
     s.count = turns->count + 2;
     WayNode* goal = &s.node[s.count - 1];
     KIRI_ASSERT(s.count <= KIRI_MOST_TURNS + 2);
-    for (int32_t k = 0; k < s.count; ++k) {
+    KIRI_EACH_INDEX(k, s) {
         WayNode* node = &s.node[k];
         *node =
             (WayNode){ .at = k == 0 ? turns->from : turns->to, .length = k == 0 ? 0.0 : kiriNoWay, .whole = kiriNoWay };
@@ -403,7 +397,7 @@ bool kiriWay_Find(const kiriTurns* turns, const kiriSight* sight, kiriWay* way)
         double least = kiriNoWay;
         Step(&s, next);
         next = KIRI_NONE;
-        for (int32_t k = 0; k < s.count; ++k) {
+        KIRI_EACH_INDEX(k, s) {
             if (s.node[k].whole < least) {
                 least = s.node[k].whole;
                 next = k;

@@ -107,7 +107,7 @@ static bool MakeRegionRoom(const RegionUpdate* u)
 {
     kiriRegions* r = u->regions;
     int32_t cell = r->siteAt.count, frame = r->material.count, cellCount = u->grid->cells.count;
-    const kiriTally none = { .area = { 0, 0 } };
+    const kiriTally none = { .area = { 0 } };
     if (!kiriField_Resize(&r->field, u->memory, cellCount, KIRI_FIELD_OWNERS | KIRI_FIELD_REPAIRS) ||
         !kiriArray_Resize(u->memory, &r->siteAt, cellCount) ||
         !kiriArray_Resize(u->memory, &r->onBorder, cellCount) ||
@@ -131,7 +131,7 @@ static bool MakeRegionRoom(const RegionUpdate* u)
 /* Sets whether a cell is on the border of its region. */
 static void SetBorder(kiriRegions* regions, int32_t cell, bool isBorder)
 {
-    KIRI_ASSERT(cell >= 0 && cell < regions->onBorder.count);
+    KIRI_ASSERT_HAS(regions->onBorder, cell);
     regions->onBorder.data[cell] = isBorder;
     kiriBorderCells_Put(&regions->border, cell, isBorder ? regions->field.owner.data[cell] : KIRI_NONE);
 }
@@ -318,7 +318,7 @@ static bool FinishFlood(const RegionUpdate* u)
 {
     kiriRegions* r = u->regions;
     r->orphans.count = 0;
-    for (int32_t s = 0; s < u->grid->squareCell.count; ++s) {
+    KIRI_EACH_INDEX(s, u->grid->squareCell) {
         KIRI_EACH_CELL(c, u->grid, s) {
             kiriSeed was = { c, KIRI_FAR, KIRI_NONE };
             int32_t owner = r->field.owner.data[c];
@@ -426,7 +426,7 @@ void kiriRegions_ClearChanges(kiriRegions* regions)
         regions->isChanged.data[change->cell] = 0;
     }
     regions->changes.count = 0;
-    regions->seen = (kiriSeenChanges){ 0, 0, 0, 0, 0 };
+    regions->seen = (kiriSeenChanges){ 0 };
 }
 
 void kiriRegions_Reset(kiriRegions* regions)

@@ -104,7 +104,7 @@ static void CountCell(ShapeJob* job, int32_t cell)
 
 static bool IsInRegion(const ShapeJob* job, int32_t cell)
 {
-    KIRI_ASSERT(cell >= 0 && cell < job->regions->field.owner.count);
+    KIRI_ASSERT_HAS(job->regions->field.owner, cell);
     return job->regions->field.owner.data[cell] == job->frame;
 }
 
@@ -174,9 +174,8 @@ static void MarkFrameDirty(ShapeJob* job, int32_t frame)
     kiriShapeWork* work = job->work;
     KIRI_ASSERT(frame >= KIRI_NONE && frame < job->siteCount);
     if (frame != KIRI_NONE && !work->frames.data[frame].dirty) {
-        KIRI_ASSERT(work->dirtyFrames.count < work->dirtyFrames.capacity);
         work->frames.data[frame].dirty = true;
-        work->dirtyFrames.data[work->dirtyFrames.count++] = frame;
+        KIRI_NEXT(work->dirtyFrames) = frame;
     }
 }
 
@@ -309,15 +308,14 @@ static inline void LoadBlock(const ShapeJob* job, int32_t cells)
     enum { COST_OF_LOAD = 8 };
     kiriShapeWork* work = job->work;
     const kiriReaches* reaches = &job->shape->reaches;
-    KIRI_ASSERT(cells >= 0 && cells < work->isLoaded.count);
+    KIRI_ASSERT_HAS(work->isLoaded, cells);
     if (work->isLoaded.data[cells]) {
         return;
     }
     int32_t block = kiriReaches_Find(reaches, job->frame, cells), first = cells * KIRI_BLOCK_CELLS;
-    KIRI_ASSERT(work->loaded.count < work->loaded.capacity);
     work->isLoaded.data[cells] = 1;
     work->debt += COST_OF_LOAD;
-    work->loaded.data[work->loaded.count++] = (kiriLoadedBlock){ cells, block };
+    KIRI_NEXT(work->loaded) = (kiriLoadedBlock){ cells, block };
     if (block != KIRI_NONE && !work->frames.data[job->frame].moved) {
         const kiriReachBlock* from = &reaches->blocks.data[block];
         memcpy(&work->fromSite.distance.data[first], from->fromSite, sizeof(from->fromSite));
@@ -696,12 +694,11 @@ static bool ReserveShape(ShapeJob* job)
     kiriMemory* memory = job->memory;
     int32_t cells = job->grid->cells.count, blocks = kiriReach_BlockOf(cells + KIRI_BLOCK_CELLS - 1);
     int32_t whole = blocks * KIRI_BLOCK_CELLS, c = shape->spans.count;
-    int32_t marks = work->marks.count, loaded = work->isLoaded.count;
     if (!kiriReaches_Resize(&shape->reaches, memory, whole, job->siteCount) ||
         !kiriField_Resize(&work->fromSite, memory, whole, KIRI_FIELD_REPAIRS) ||
         !kiriField_Resize(&work->fromBorder, memory, whole, KIRI_FIELD_REPAIRS) ||
-        !kiriArray_Resize(memory, &work->marks, whole) || !kiriArray_Reserve(memory, &work->loaded, blocks) ||
-        !kiriArray_Resize(memory, &work->isLoaded, blocks) || !kiriArray_Resize(memory, &shape->spans, cells) ||
+        !kiriArray_Reserve(memory, &work->marks, whole) || !kiriArray_Reserve(memory, &work->loaded, blocks) ||
+        !kiriArray_Reserve(memory, &work->isLoaded, blocks) || !kiriArray_Resize(memory, &shape->spans, cells) ||
         !kiriArray_Resize(memory, &work->wasOwner, cells) || !kiriArray_Resize(memory, &work->counted, cells) ||
         !kiriArray_Resize(memory, &work->rigidShares, cells) ||
         !kiriArray_Reserve(memory, &shape->rigid, job->siteCount) ||
@@ -710,16 +707,16 @@ static bool ReserveShape(ShapeJob* job)
         !kiriArray_Reserve(memory, &work->frames, job->siteCount)) {
         return false;
     }
-    memset(work->marks.data + marks, 0, (size_t)(whole - marks));
-    memset(work->isLoaded.data + loaded, 0, (size_t)(blocks - loaded));
+    kiriArray_Extend(&work->marks, whole, 0);
+    kiriArray_Extend(&work->isLoaded, blocks, 0);
     for (; c < cells; ++c) {
-        shape->spans.data[c] = (kiriSpan){ 0, 0 };
+        shape->spans.data[c] = (kiriSpan){ 0 };
         work->counted.data[c] = (kiriCountedCell){ KIRI_NONE, 0 };
         work->rigidShares.data[c] = 0;
     }
     while (shape->rigid.count < job->siteCount) {
-        shape->rigid.data[shape->rigid.count++] = 0;
-        work->frames.data[work->frames.count++] = (kiriShapeFrame){ 0, { 0, 0 }, KIRI_NONE, false, false };
+        KIRI_NEXT(shape->rigid) = 0;
+        KIRI_NEXT(work->frames) = (kiriShapeFrame){ 0, { 0, 0 }, KIRI_NONE, false, false };
     }
     return true;
 }

@@ -1,14 +1,12 @@
 #include "kiri_site.h"
 
-#include <string.h>
-
 /* ---- Slit ends --------------------------------------------------------------------------------------------------- */
 
 /* Returns the open half-edge that leaves the vertex, where its fan goes all around from the one lip of that edge to the
    other; else KIRI_NONE. */
 static int32_t LipAt(const kiriMeshData* mesh, int32_t vertex)
 {
-    KIRI_ASSERT(vertex >= 0 && vertex < mesh->vertices.count);
+    KIRI_ASSERT_HAS(mesh->vertices, vertex);
     int32_t start = mesh->vertices.data[vertex].edge, first = start, last = start;
     for (int32_t h = kiriMesh_Clockwise(mesh, first); h != KIRI_NONE; h = kiriMesh_Clockwise(mesh, h)) {
         if (h == start) {
@@ -102,8 +100,8 @@ static bool TryPair(kiriSites* sites, const kiriGrid* grid, const kiriMeshData* 
         return false;
     }
     KIRI_ASSERT(sites->count + 2 <= sites->capacity);
-    sites->data[sites->count++] = pair[0];
-    sites->data[sites->count++] = pair[1];
+    KIRI_NEXT(*sites) = pair[0];
+    KIRI_NEXT(*sites) = pair[1];
     return true;
 }
 
@@ -135,7 +133,7 @@ static kiriPlacerWork* PlacerWorkOf(kiriPlacer* placer, kiriMemory* memory)
 
 static bool TakeCell(kiriPlacer* placer, kiriMemory* memory, int32_t cell)
 {
-    KIRI_ASSERT(cell >= 0 && cell < placer->work->marks.count);
+    KIRI_ASSERT_HAS(placer->work->marks, cell);
     uint8_t* mark = &placer->work->marks.data[cell];
     if (!*mark && !kiriArray_Push(memory, &placer->cells, cell)) {
         return false;
@@ -159,9 +157,7 @@ bool kiriPlacer_StartPiece(kiriPlacer* placer, kiriMemory* memory, const kiriGri
         return false;
     }
     ClearTakenMarks(placer); /* after a piece that was given up */
-    while (work->marks.count < grid->cells.count) {
-        work->marks.data[work->marks.count++] = 0;
-    }
+    kiriArray_Extend(&work->marks, grid->cells.count, 0);
     KIRI_ASSERT(kiriGrid_IsCell(grid, cell));
     placer->cells.count = work->cursor = 0;
     work->isTaking = true;
@@ -399,9 +395,8 @@ static kiriProgress SampleFarthest(PlacerJob* job)
     }
     work->left = best->cell == KIRI_NONE ? 0 : work->left - 1;
     if (best->cell != KIRI_NONE) {
-        KIRI_ASSERT(sites->count < sites->capacity);
         work->holds.data[best->cell] = sites->count;
-        sites->data[sites->count++] = kiriFrames_SiteIn(job->grid, job->mesh, best->cell); /* Start made room */
+        KIRI_NEXT(*sites) = kiriFrames_SiteIn(job->grid, job->mesh, best->cell); /* Start made room */
     }
     if (work->left == 0) {
         return StartRound(job);
@@ -633,8 +628,7 @@ static kiriProgress RunStage(PlacerJob* job)
     case AIM_PART:
         progress = VisitCells(job, part, AimCell);
         if (progress == KIRI_DONE && work->targets.data[0].cell != KIRI_NONE) {
-            KIRI_ASSERT(sites->count < sites->capacity);
-            sites->data[sites->count++] = kiriFrames_SiteIn(job->grid, job->mesh, work->targets.data[0].cell);
+            KIRI_NEXT(*sites) = kiriFrames_SiteIn(job->grid, job->mesh, work->targets.data[0].cell);
         }
         return Next(job, progress, PLACER_RESTS);
     default:
@@ -717,7 +711,7 @@ bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* gr
         work->sampled.data[cell] = KIRI_FAR;
         work->holds.data[cell] = allowed == NULL || allowed[cell] ? CELL_FREE : CELL_BARRED;
     }
-    for (int32_t i = 0; i < placer->sites.count; ++i) {
+    KIRI_EACH_INDEX(i, placer->sites) {
         int32_t* holds = &work->holds.data[placer->sites.data[i].cell];
         KIRI_ASSERT(*holds < 0); /* two sites in a cell */
         *holds = i;

@@ -62,7 +62,7 @@ static kiriVec2 SetKernel(kiriStencil* stencil, kiriVec2 at, kiriVec2 lean)
         u[i] = QuadraticSpline(i - 1 - off.x);
         v[i] = QuadraticSpline(i - 1 - off.y);
     }
-    for (int32_t k = 0; k < stencil->steps.count; ++k) {
+    KIRI_EACH_INDEX(k, stencil->steps) {
         stencil->shares.data[k] = u[stencil->steps.data[k].u + 1] * v[stencil->steps.data[k].v + 1];
     }
     if (stencil->split) {
@@ -91,7 +91,7 @@ static void InvertMoments(PointFit* fit)
 static PointFit FitAround(kiriStencil* stencil, kiriVec2 at, kiriVec2 lean)
 {
     PointFit fit = { SetKernel(stencil, at, lean), 0.0, { 0.0, 0.0 }, 0.0, 0.0, 0.0 };
-    for (int32_t k = 0; k < stencil->steps.count; ++k) {
+    KIRI_EACH_INDEX(k, stencil->steps) {
         kiriStep to = stencil->steps.data[k];
         double kernel = stencil->shares.data[k];
         fit.sum += kernel;
@@ -125,7 +125,7 @@ static void SetShares(kiriStencil* stencil, kiriVec2 at, kiriVec2 lean)
     }
     PointFit fit = FitAround(stencil, at, lean);
     kiriVec2 way = kiriVec2_Sub(fit.at, fit.mean);
-    for (int32_t k = 0; k < stencil->steps.count; ++k) {
+    KIRI_EACH_INDEX(k, stencil->steps) {
         double kernel = stencil->shares.data[k];
         stencil->shares.data[k] = kernel / fit.sum + kiriVec2_Dot(FitSlope(&fit, stencil->steps.data[k], kernel), way);
     }
@@ -154,7 +154,7 @@ static void WeighLinear(kiriStencil* stencil, kiriVec2 at, kiriVec2 lean)
     for (int32_t i = 0; i < count; ++i) {
         values[i] = 0.0;
     }
-    for (int32_t k = 0; k < stencil->steps.count; ++k) {
+    KIRI_EACH_INDEX(k, stencil->steps) {
         const double* weights = stencil->weights.data + (size_t)k * (size_t)count;
         double share = stencil->shares.data[k];
         for (int32_t i = 0; i < count; ++i) {
@@ -223,7 +223,7 @@ static bool GatherSteps(kiriStencil* stencil, kiriMemory* memory, const kiriGrid
     if (!kiriArray_Reserve(memory, &stencil->steps, (int64_t)end + 1)) {
         return false;
     }
-    stencil->steps.data[stencil->steps.count++] = (kiriStep){ cell, 0, 0, 0 };
+    KIRI_NEXT(stencil->steps) = (kiriStep){ cell, 0, 0, 0 };
     for (int32_t k = 0; k < end; ++k) {
         InsertStep(stencil, grid, kiriSteps_At(&steps, plain ? sorted[k] : k));
     }
@@ -270,13 +270,10 @@ static bool GatherMiddles(kiriStencil* stencil, kiriMemory* memory, const kiriGr
 /* Gathers the frames with weight in any of the cells, sorted; `columns` says where each frame is. */
 static bool GatherFrames(kiriStencil* stencil, kiriMemory* memory, const kiriShape* shape)
 {
-    int32_t old = stencil->columns.count;
-    if (!kiriArray_Resize(memory, &stencil->columns, kiriMax(old, shape->rigid.count))) {
+    if (!kiriArray_Reserve(memory, &stencil->columns, shape->rigid.count)) {
         return false;
     }
-    for (int32_t f = old; f < stencil->columns.count; ++f) {
-        stencil->columns.data[f] = 0;
-    }
+    kiriArray_Extend(&stencil->columns, shape->rigid.count, 0);
     stencil->frames.count = 0;
     KIRI_EACH(const kiriStep, step, stencil->steps) {
         kiriSpan span = shape->spans.data[step->cell];
@@ -286,7 +283,7 @@ static bool GatherFrames(kiriStencil* stencil, kiriMemory* memory, const kiriSha
         KIRI_EACH_IN(w, span) {
             int32_t frame = shape->weights.data[w].frame;
             int32_t at = stencil->frames.count;
-            KIRI_ASSERT(frame >= 0 && frame < stencil->columns.count);
+            KIRI_ASSERT_HAS(stencil->columns, frame);
             if (stencil->columns.data[frame] == 0) {
                 stencil->columns.data[frame] = 1;
                 for (; at > 0 && stencil->frames.data[at - 1] > frame; --at) {
@@ -297,7 +294,7 @@ static bool GatherFrames(kiriStencil* stencil, kiriMemory* memory, const kiriSha
             }
         }
     }
-    for (int32_t i = 0; i < stencil->frames.count; ++i) {
+    KIRI_EACH_INDEX(i, stencil->frames) {
         stencil->columns.data[stencil->frames.data[i]] = i + 1;
     }
     return true;
@@ -310,7 +307,7 @@ static bool GatherWeights(kiriStencil* stencil, kiriMemory* memory, const kiriSh
         !kiriArray_Resize(memory, &stencil->values, count)) {
         return false;
     }
-    for (int32_t k = 0; k < stencil->steps.count; ++k) {
+    KIRI_EACH_INDEX(k, stencil->steps) {
         kiriSpan span = shape->spans.data[stencil->steps.data[k].cell];
         double *weights = stencil->weights.data + (size_t)k * (size_t)count, sum = kiriShape_Sum(shape, span);
         for (int32_t i = 0; i < count; ++i) {
@@ -344,10 +341,10 @@ bool kiriStencil_Gather(kiriStencil* stencil, kiriMemory* memory, const kiriShap
 static void SetGradients(kiriStencil* stencil, kiriVec2 at, kiriPointWeights* out)
 {
     PointFit fit = FitAround(stencil, at, kiriVec2_Make(0.0, 0.0));
-    for (int32_t k = 0; k < stencil->steps.count; ++k) {
+    KIRI_EACH_INDEX(k, stencil->steps) {
         kiriVec2 slope = FitSlope(&fit, stencil->steps.data[k], stencil->shares.data[k]);
         const double* weights = stencil->weights.data + (size_t)k * (size_t)out->count;
-        for (int32_t i = 0; i < out->count; ++i) {
+        KIRI_EACH_INDEX(i, *out) {
             kiriPointWeight* weight = &out->data[i];
             weight->gradient = kiriVec2_AddScaled(weight->gradient, weights[i] / stencil->side, slope);
         }
@@ -358,7 +355,7 @@ static void SetGradients(kiriStencil* stencil, kiriVec2 at, kiriPointWeights* ou
 static void EaseGradients(kiriPointWeights* out)
 {
     double sum = 0.0;
-    kiriVec2 slope = { 0.0, 0.0 };
+    kiriVec2 slope = { 0 };
     KIRI_EACH(kiriPointWeight, weight, *out) {
         double w = weight->value;
         weight->gradient = kiriVec2_Scale(6.0 * w * (1.0 - w), weight->gradient);
@@ -376,9 +373,9 @@ static void EaseGradients(kiriPointWeights* out)
 /* Makes the gradients sum to 0: subtracts the rest, which is rounding, from the gradient of the largest weight. */
 static void BalanceGradients(kiriPointWeights* out)
 {
-    kiriVec2 rest = { 0.0, 0.0 };
+    kiriVec2 rest = { 0 };
     int32_t largest = 0;
-    for (int32_t i = 0; i < out->count; ++i) {
+    KIRI_EACH_INDEX(i, *out) {
         rest = kiriVec2_Add(rest, out->data[i].gradient);
         largest = out->data[i].value > out->data[largest].value ? i : largest;
     }
@@ -396,7 +393,7 @@ bool kiriShape_At(const kiriShape* shape, kiriMemory* memory, const kiriGrid* gr
               kiriArray_Resize(memory, out, stencil.frames.count);
     if (ok) {
         WeighLinear(&stencil, at, kiriVec2_Make(0.0, 0.0));
-        for (int32_t i = 0; i < out->count; ++i) {
+        KIRI_EACH_INDEX(i, *out) {
             out->data[i] = (kiriPointWeight){ stencil.frames.data[i], stencil.values.data[i], { 0.0, 0.0 } };
         }
         SetGradients(&stencil, at, out);

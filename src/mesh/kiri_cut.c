@@ -43,7 +43,7 @@ static bool CoverSquare(const kiriMeshData* mesh, const kiriLatticePoint p[2], k
         kiriLineCover cover = { whole.from, whole.to, node };
         kiriLatticePoint c[3];
         kiriMesh_Corners(mesh, squares->nodes.data[node].triangle, c);
-        for (int i = 0; i < 3; ++i) {
+        KIRI_EACH_CORNER(i) {
             kiriLatticePoint a = c[i], b = c[(i + 1) % 3];
             bool isUp = a.y < b.y || (a.y == b.y && a.x < b.x);
             ClipBy((double)kiriOrient(a, b, p[0]), (double)kiriOrient(a, b, p[1]), isUp, &cover.from, &cover.to);
@@ -77,7 +77,7 @@ static bool CoverLine(const kiriMeshData* mesh, kiriMemory* memory, const kiriLa
     }
     kiriStrips strips = kiriStrips_Begin(&mesh->squares, p[0], p[1], 0.0);
     while (kiriStrips_Next(&strips)) {
-        for (int32_t i = 0; i < strips.count; ++i) {
+        KIRI_EACH_INDEX(i, strips) {
             if (!CoverSquare(mesh, p, memory, strips.square + i * strips.stride, line)) {
                 return false;
             }
@@ -86,7 +86,7 @@ static bool CoverLine(const kiriMeshData* mesh, kiriMemory* memory, const kiriLa
     if (!kiriArray_Resize(memory, order, line->covers.count - first)) {
         return false;
     }
-    for (int32_t k = 0; k < order->count; ++k) {
+    KIRI_EACH_INDEX(k, *order) {
         order->data[k] = first + k;
     }
     kiriSort(order->data, order->count, IsCoverBefore, line->covers.data);
@@ -114,7 +114,7 @@ bool kiriLine_Trace(kiriLine* line, kiriMemory* memory, const kiriMeshData* mesh
                     kiriLatticePoint to)
 {
     const kiriLatticePoint ends[2] = { from, to };
-    int32_t next[2] = { 0, 0 };
+    int32_t next[2] = { 0 };
     bool ok = true;
     KIRI_ASSERT(!kiriLattice_IsSame(from, to));
     line->parts.count = line->covers.count = 0;
@@ -218,7 +218,7 @@ static int32_t FindWedge(BladeWalk* walk)
     }
     KIRI_EACH_NODE(slot, &mesh->squares, kiriSquares_At(&mesh->squares, walk->tip->at)) {
         walk->effort += LOOK_EFFORT;
-        for (int i = 0; i < 3; ++i) {
+        KIRI_EACH_CORNER(i) {
             int32_t h = 3 * mesh->squares.nodes.data[slot].triangle + i;
             bool isHere = kiriLattice_IsSame(kiriMesh_TailAt(mesh, h), walk->tip->at);
             if (isHere && (found == KIRI_NONE || h < found) && WedgeHolds(walk, h)) {
@@ -258,7 +258,7 @@ static bool IsThin(kiriLatticePoint a, kiriLatticePoint b, kiriLatticePoint c)
     enum { THIN = 256 };
     const kiriLatticePoint p[4] = { a, b, c, a };
     int64_t around = 0;
-    for (int i = 0; i < 3; ++i) {
+    KIRI_EACH_CORNER(i) {
         int64_t x = (int64_t)p[i + 1].x - p[i].x, y = (int64_t)p[i + 1].y - p[i].y;
         around += kiriMax(x, -x) + kiriMax(y, -y);
     }
@@ -274,7 +274,7 @@ static bool IsCornerTaken(BladeWalk* walk, kiriLatticePoint at, kiriLatticePoint
         kiriLatticePoint c[3];
         kiriMesh_Corners(mesh, mesh->squares.nodes.data[slot].triangle, c);
         walk->effort += LOOK_EFFORT;
-        for (int i = 0; i < 3; ++i) {
+        KIRI_EACH_CORNER(i) {
             if (kiriLattice_IsSame(c[i], at) &&
                 (kiriLattice_IsSame(c[(i + 1) % 3], next) || kiriLattice_IsSame(c[(i + 2) % 3], previous))) {
                 return true;
@@ -313,14 +313,6 @@ static bool CanSplitEdge(BladeWalk* walk, int32_t h, kiriLatticePoint at)
     }
     return kiriMesh_CanSplitEdge(mesh, h, at) &&
            AreEdgesFree(walk, at, (const kiriLatticePoint(*)[2])sides, count, count == 2);
-}
-
-static bool CanSplitTriangle(BladeWalk* walk, int32_t triangle, kiriLatticePoint at)
-{
-    kiriLatticePoint c[3];
-    kiriMesh_Corners(walk->mesh, triangle, c);
-    const kiriLatticePoint sides[3][2] = { { c[0], c[1] }, { c[1], c[2] }, { c[2], c[0] } };
-    return AreEdgesFree(walk, at, sides, 3, false) && kiriMesh_CanSplitTriangle(walk->mesh, triangle, at);
 }
 
 /* Flips an edge that cannot be split, so that the vertex opposite of it sees farther. The segment from there to the goal
@@ -381,7 +373,7 @@ static int32_t VertexIn(BladeWalk* walk, int32_t triangle, kiriLatticePoint at)
     kiriLatticePoint c[3], foot = at;
     int nearest = 0;
     int32_t h = KIRI_NONE;
-    KIRI_ASSERT(triangle >= 0 && triangle < walk->mesh->triangles.count);
+    KIRI_ASSERT_HAS(walk->mesh->triangles, triangle);
     kiriMesh_Corners(walk->mesh, triangle, c);
     for (int i = 1; i < 3; ++i) {
         nearest = kiriDistanceSquared(c[i], at) < kiriDistanceSquared(c[nearest], at) ? i : nearest;
@@ -390,7 +382,7 @@ static int32_t VertexIn(BladeWalk* walk, int32_t triangle, kiriLatticePoint at)
     if (IsWithinDistance(c[nearest], at, walk->on)) {
         return corner;
     }
-    for (int i = 0; i < 3; ++i) {
+    KIRI_EACH_CORNER(i) {
         kiriLatticePoint p = kiriLattice_Nearest(c[i], c[(i + 1) % 3], at);
         if (h == KIRI_NONE || kiriDistanceSquared(p, at) < kiriDistanceSquared(foot, at)) {
             h = 3 * triangle + i;
@@ -400,7 +392,8 @@ static int32_t VertexIn(BladeWalk* walk, int32_t triangle, kiriLatticePoint at)
     if (IsWithinDistance(foot, at, walk->on) && FindSplit(walk, h, &foot)) {
         return SplitEdge(walk, h, foot);
     }
-    if (!CanSplitTriangle(walk, triangle, at)) {
+    const kiriLatticePoint sides[3][2] = { { c[0], c[1] }, { c[1], c[2] }, { c[2], c[0] } };
+    if (!AreEdgesFree(walk, at, sides, 3, false) || !kiriMesh_CanSplitTriangle(walk->mesh, triangle, at)) {
         return corner;
     }
     walk->splits += 3;
@@ -469,11 +462,11 @@ static bool EnterSheet(BladeWalk* walk)
     double least = 2.0;
     kiriStrips strips = kiriStrips_Begin(&mesh->squares, walk->tip->at, walk->tip->goal, 0.0);
     while (kiriStrips_Next(&strips)) {
-        for (int32_t i = 0; i < strips.count; ++i) {
+        KIRI_EACH_INDEX(i, strips) {
             walk->effort += LOOK_EFFORT;
             KIRI_EACH_NODE(slot, &mesh->squares, strips.square + i * strips.stride) {
                 walk->effort += LOOK_EFFORT;
-                for (int k = 0; k < 3; ++k) {
+                KIRI_EACH_CORNER(k) {
                     int32_t h = 3 * mesh->squares.nodes.data[slot].triangle + k;
                     double share = EntryOver(walk, h);
                     if (share < least || (share == least && share <= 1.0 && h < edge)) {

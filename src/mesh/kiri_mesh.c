@@ -41,7 +41,7 @@ void kiriMesh_ListVertex(kiriMeshData* mesh, int32_t vertex)
 
 bool kiriMesh_FillSquares(const kiriMeshData* mesh, kiriSquares* squares, kiriMemory* memory)
 {
-    for (int32_t t = 0; t < mesh->triangles.count; ++t) {
+    KIRI_EACH_INDEX(t, mesh->triangles) {
         kiriLatticePoint corners[3];
         kiriMesh_Corners(mesh, t, corners);
         if (!kiriSquares_Insert(squares, memory, t, corners)) {
@@ -75,7 +75,7 @@ void kiriMesh_Shares(const kiriMeshData* mesh, int32_t triangle, kiriLatticePoin
     kiriLatticePoint c[3];
     kiriMesh_Corners(mesh, triangle, c);
     double area = (double)kiriOrient(c[0], c[1], c[2]);
-    for (int k = 0; k < 3; ++k) {
+    KIRI_EACH_CORNER(k) {
         shares[k] = (double)kiriOrient(c[(k + 1) % 3], c[(k + 2) % 3], at) / area;
     }
 }
@@ -83,7 +83,7 @@ void kiriMesh_Shares(const kiriMeshData* mesh, int32_t triangle, kiriLatticePoin
 int64_t kiriMesh_DoubledArea(const kiriMeshData* mesh)
 {
     int64_t sum = 0;
-    for (int32_t t = 0; t < mesh->triangles.count; ++t) {
+    KIRI_EACH_INDEX(t, mesh->triangles) {
         kiriLatticePoint c[3];
         kiriMesh_Corners(mesh, t, c);
         sum += kiriOrient(c[0], c[1], c[2]);
@@ -151,8 +151,7 @@ static void NoteTriangle(kiriMeshData* mesh, int32_t triangle)
     KIRI_ASSERT(mesh->isOpen && triangle >= 0 && triangle < mesh->triangles.count);
     kiriTriangle* t = &mesh->triangles.data[triangle];
     if (triangle < mesh->oldTriangleCount && (t->marks & KIRI_TRIANGLE_CHANGED) == 0) {
-        KIRI_ASSERT(mesh->changedTriangles.count < mesh->changedTriangles.capacity);
-        mesh->changedTriangles.data[mesh->changedTriangles.count++] = triangle;
+        KIRI_NEXT(mesh->changedTriangles) = triangle;
         t->marks |= KIRI_TRIANGLE_CHANGED;
     }
 }
@@ -162,8 +161,7 @@ static void NoteVertex(kiriMeshData* mesh, int32_t vertex)
     KIRI_ASSERT(mesh->isOpen && vertex >= 0 && vertex < mesh->vertices.count);
     kiriVertex* v = &mesh->vertices.data[vertex];
     if (vertex < mesh->oldVertexCount && v->stamp != mesh->stamp) {
-        KIRI_ASSERT(mesh->changedVertices.count < mesh->changedVertices.capacity);
-        mesh->changedVertices.data[mesh->changedVertices.count++] = vertex;
+        KIRI_NEXT(mesh->changedVertices) = vertex;
         v->stamp = mesh->stamp;
     }
 }
@@ -261,7 +259,7 @@ static int32_t AddVertex(kiriMeshData* mesh, kiriLatticePoint at, int32_t source
     v->edge = KIRI_NONE;
     kiriMesh_ListVertex(mesh, index);
     kiriMesh_SetSource(mesh, index, source);
-    mesh->births.data[mesh->births.count++] = *birth;
+    KIRI_NEXT(mesh->births) = *birth;
     return index;
 }
 
@@ -350,7 +348,7 @@ int32_t kiriMesh_SplitTriangle(kiriMeshData* mesh, int32_t triangle, kiriLattice
     int32_t h = 3 * triangle;
     kiriLatticePoint corners[3], made[3][3];
     kiriMesh_Corners(mesh, triangle, corners);
-    for (int k = 0; k < 3; ++k) {
+    KIRI_EACH_CORNER(k) {
         memcpy(made[k], corners, sizeof(corners));
         made[k][k] = at;
     }
@@ -503,7 +501,7 @@ static int32_t EdgeTo(const kiriKeep* triangles, int32_t h)
    only until the cut is committed: see kiri_refit.c. */
 static void RenumberTriangle(kiriTriangle* t, const kiriKeep* triangles, const kiriKeep* vertices)
 {
-    for (int i = 0; i < 3; ++i) {
+    KIRI_EACH_CORNER(i) {
         t->vertex[i] = kiriKeep_To(vertices, t->vertex[i]);
         t->twin[i] = EdgeTo(triangles, t->twin[i]);
         t->marks &= t->twin[i] == KIRI_NONE ? ~(1 << i) : ~0;
@@ -520,14 +518,14 @@ static bool CopyItems(kiriMeshData* mesh, const kiriMeshData* from, const kiriMe
         !kiriArray_Resize(mesh->memory, &mesh->triangles, triangles->items.count)) {
         return false;
     }
-    for (int32_t k = 0; k < mesh->vertices.count; ++k) {
+    KIRI_EACH_INDEX(k, mesh->vertices) {
         kiriVertex vertex = from->vertices.data[vertices->items.data[k]];
         vertex.edge = EdgeTo(triangles->keep, vertex.edge);
         KIRI_ASSERT(vertex.edge != KIRI_NONE);
         vertex.stamp = 0;
         mesh->vertices.data[k] = vertex;
     }
-    for (int32_t k = 0; k < mesh->triangles.count; ++k) {
+    KIRI_EACH_INDEX(k, mesh->triangles) {
         kiriTriangle triangle = from->triangles.data[triangles->items.data[k]];
         RenumberTriangle(&triangle, triangles->keep, vertices->keep);
         triangle.marks &= KIRI_TRIANGLE_OPEN;
@@ -589,7 +587,7 @@ bool kiriMesh_MakePart(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshDat
         !kiriMesh_FillSquares(mesh, &mesh->squares, memory)) {
         return false;
     }
-    for (int32_t v = 0; v < mesh->vertices.count; ++v) {
+    KIRI_EACH_INDEX(v, mesh->vertices) {
         kiriMesh_ListVertex(mesh, v);
     }
     kiriMesh_Begin(mesh);
@@ -603,7 +601,7 @@ void kiriMesh_Keep(kiriMeshData* mesh, const kiriKeep* triangles, const kiriKeep
 {
     KIRI_ASSERT(!mesh->isOpen && mesh->changedTriangles.count == 0);
     int32_t originals = 0;
-    for (int32_t t = 0; t < mesh->triangles.count; ++t) {
+    KIRI_EACH_INDEX(t, mesh->triangles) {
         if (kiriKeep_Has(triangles, t)) {
             RenumberTriangle(&mesh->triangles.data[t], triangles, vertices);
             originals += t < mesh->originals;

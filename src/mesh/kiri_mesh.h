@@ -136,7 +136,7 @@ static inline int32_t kiriMesh_Head(const kiriMeshData* mesh, int32_t h)
 /* Returns the lattice point of a vertex. */
 static inline kiriLatticePoint kiriMesh_At(const kiriMeshData* mesh, int32_t vertex)
 {
-    KIRI_ASSERT(vertex >= 0 && vertex < mesh->vertices.count);
+    KIRI_ASSERT_HAS(mesh->vertices, vertex);
     return mesh->vertices.data[vertex].at;
 }
 
@@ -188,7 +188,7 @@ static inline bool kiriMesh_IsBorder(const kiriMeshData* mesh, int32_t h)
 static inline void kiriMesh_Corners(const kiriMeshData* mesh, int32_t triangle, kiriLatticePoint corners[3])
 {
     const kiriTriangle* t = kiriMesh_TriangleOf(mesh, 3 * triangle);
-    for (int i = 0; i < 3; ++i) {
+    KIRI_EACH_CORNER(i) {
         KIRI_ASSERT(t->vertex[i] >= 0 && t->vertex[i] < mesh->vertices.count);
         corners[i] = mesh->vertices.data[t->vertex[i]].at;
     }

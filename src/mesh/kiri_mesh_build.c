@@ -158,7 +158,7 @@ static kiriResult PlaceVertices(kiriMeshData* mesh, const kiriMeshInput* input, 
 static bool GetWeldedCorners(const kiriMeshInput* input, const WeldedVertices* welded, int32_t triangle,
                              int32_t corners[3])
 {
-    for (int i = 0; i < 3; ++i) {
+    KIRI_EACH_CORNER(i) {
         corners[i] = welded->to[input->indices[3 * (int64_t)triangle + i]];
         KIRI_ASSERT(corners[i] >= 0 && corners[i] < input->vertexCount);
     }
@@ -190,9 +190,7 @@ static kiriResult AddVertices(kiriMeshData* mesh, const kiriMeshInput* input, co
         !kiriArray_ResizeJust(mesh->memory, &mesh->sourceBlocks, blocks)) {
         return KIRI_ERROR_MEMORY;
     }
-    for (int32_t k = 0; k < blocks; ++k) {
-        mesh->sourceBlocks.data[k] = KIRI_NONE;
-    }
+    kiriArray_Set(&mesh->sourceBlocks, KIRI_NONE);
     for (int32_t i = 0; i < input->vertexCount; ++i) {
         if (welded->number[i] != KIRI_NONE) {
             mesh->vertices.data[welded->number[i]] = (kiriVertex){ welded->at[i], KIRI_NONE, 0, 0, 0 };
@@ -338,7 +336,7 @@ typedef struct OverlapTree {
 static bool EdgeSeparates(const kiriLatticePoint a[3], const kiriLatticePoint b[3])
 {
     int64_t area = kiriOrient(a[0], a[1], a[2]);
-    for (int i = 0; i < 3; ++i) {
+    KIRI_EACH_CORNER(i) {
         kiriLatticePoint p = a[i], q = a[(i + 1) % 3];
         int64_t inner = kiriOrient(p, q, b[0]), outer = inner;
         for (int k = 1; k < 3; ++k) {
@@ -518,7 +516,7 @@ static kiriResult CheckOverlaps(const kiriMeshData* mesh, kiriMemory* scratch, k
         return KIRI_OK;
     }
     tree.hasEdges = false;
-    for (int32_t t = 0; t < mesh->triangles.count; ++t) {
+    KIRI_EACH_INDEX(t, mesh->triangles) {
         kiriLatticePoint c[3];
         kiriMesh_Corners(mesh, t, c);
         tree.items[t] = MakeOverlapItem(c, 3, 0, t);
@@ -571,7 +569,7 @@ static bool ClaimFans(kiriMeshData* mesh, kiriMemory* scratch)
 kiriResult kiriMesh_Init(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshInput* input, kiriFault* fault)
 {
     kiriMemory scratch = kiriMemory_Like(memory);
-    kiriLatticePoint extent = { 0, 0 };
+    kiriLatticePoint extent = { 0 };
     memset(mesh, 0, sizeof(*mesh));
     mesh->memory = memory;
     fault->line[0] = '\0';
@@ -591,7 +589,7 @@ kiriResult kiriMesh_Init(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshI
     if (result != KIRI_OK) {
         return result;
     }
-    for (int32_t v = 0; v < mesh->vertices.count; ++v) {
+    KIRI_EACH_INDEX(v, mesh->vertices) {
         kiriMesh_ListVertex(mesh, v);
     }
     mesh->revision = 1;
@@ -673,7 +671,7 @@ void kiriMesh_KeepSource(kiriMeshData* mesh, int32_t triangle)
 
 void kiriMesh_SetSource(kiriMeshData* mesh, int32_t vertex, int32_t source)
 {
-    KIRI_ASSERT(vertex >= 0 && vertex < mesh->vertices.count);
+    KIRI_ASSERT_HAS(mesh->vertices, vertex);
     mesh->vertices.data[vertex].source = source;
 }
 
@@ -682,7 +680,7 @@ void kiriMesh_SetSource(kiriMeshData* mesh, int32_t vertex, int32_t source)
 static void ShareNearestEdge(const kiriLatticePoint c[3], kiriLatticePoint at, double share[3])
 {
     double nearest = 0.0;
-    for (int i = 0; i < 3; ++i) {
+    KIRI_EACH_CORNER(i) {
         kiriLatticePoint a = c[i], b = c[(i + 1) % 3];
         double x = (double)b.x - a.x, y = (double)b.y - a.y, u = (double)at.x - a.x, v = (double)at.y - a.y;
         double along = (u * x + v * y) / (x * x + y * y);
@@ -704,12 +702,12 @@ void kiriMesh_GetShare(const kiriMeshData* mesh, int32_t vertex, float to[3])
 
 void kiriMesh_GetShareIn(const kiriMeshData* mesh, int32_t vertex, int32_t source, float to[3])
 {
-    kiriLatticePoint at = kiriMesh_At(mesh, vertex), c[3] = { { 0, 0 }, { 0, 0 }, { 0, 0 } };
+    kiriLatticePoint at = kiriMesh_At(mesh, vertex), c[3] = { 0 };
     bool isKnown = kiriMesh_SourceCorners(mesh, source, c), isInside = true;
     double share[3], sum = 0.0;
     KIRI_ASSERT(isKnown);
     (void)isKnown;
-    for (int i = 0; i < 3; ++i) {
+    KIRI_EACH_CORNER(i) {
         share[i] = (double)kiriOrient(c[(i + 1) % 3], c[(i + 2) % 3], at);
         isInside = isInside && share[i] >= 0.0;
         sum += share[i];
@@ -718,7 +716,7 @@ void kiriMesh_GetShareIn(const kiriMeshData* mesh, int32_t vertex, int32_t sourc
         ShareNearestEdge(c, at, share);
         sum = 1.0;
     }
-    for (int i = 0; i < 3; ++i) {
+    KIRI_EACH_CORNER(i) {
         to[i] = (float)(share[i] / sum);
     }
 }

@@ -85,7 +85,7 @@ static void AddToBox(SquareBox* box, int32_t column, int32_t row)
 static SquareBox BoxOf(const kiriSquares* squares, const kiriLatticePoint c[3])
 {
     SquareBox box = { INT32_MAX, -1, INT32_MAX, -1 };
-    for (int i = 0; i < 3; ++i) {
+    KIRI_EACH_CORNER(i) {
         AddToBox(&box, LineOf(squares, c[i].x) - squares->firstColumn, LineOf(squares, c[i].y) - squares->firstRow);
     }
     KIRI_ASSERT(box.firstColumn >= 0 && box.lastColumn < squares->columns);
@@ -172,9 +172,8 @@ static void MarkSquareDirty(kiriSquares* squares, int32_t square)
 {
     KIRI_ASSERT(square >= 0 && square < squares->columns * squares->rows);
     if (!squares->isDirty[square]) {
-        KIRI_ASSERT(squares->dirty.count < squares->dirty.capacity);
         squares->isDirty[square] = 1;
-        squares->dirty.data[squares->dirty.count++] = square;
+        KIRI_NEXT(squares->dirty) = square;
     }
 }
 

@@ -1,7 +1,5 @@
 #include "kiri_element.h"
 
-#include <string.h>
-
 /* F_u, F_v, D_u, D_v, D; or the derivatives of a strain by them. */
 typedef struct SurfaceState {
     kiriVec3 u, v, du, dv, d;
@@ -15,9 +13,9 @@ static void AddVector(kiriVec3* sum, double a, kiriVec3 b)
 static SurfaceState SurfaceStateOf(const kiriAreaElement* element, const kiriFrameShare* shares,
                                    const kiriFrameData* frames, const kiriPose* poses)
 {
-    kiriVec3 zero = { 0.0, 0.0, 0.0 };
+    kiriVec3 zero = { 0 };
     SurfaceState s = { zero, zero, zero, zero, zero };
-    for (int32_t k = 0; k < element->count; ++k) {
+    KIRI_EACH_INDEX(k, *element) {
         const kiriFrameShare* share = &shares[element->first + k];
         KIRI_ASSERT(share->frame >= 0);
         kiriPose pose = poses != NULL ? poses[share->frame] : kiriPose_Of(&frames[share->frame]);
@@ -53,7 +51,7 @@ static void StrainsOf(const SurfaceState* s, double lean, double strain[KIRI_ARE
 /* Writes the derivative of each strain by the shape. */
 static void SlopesOf(const SurfaceState* s, double lean, SurfaceState slope[KIRI_AREA_STRAINS])
 {
-    kiriVec3 zero = { 0.0, 0.0, 0.0 }, minusV = kiriVec3_Scale(-1.0, s->v), minusDv = kiriVec3_Scale(-1.0, s->dv);
+    kiriVec3 zero = { 0 }, minusV = kiriVec3_Scale(-1.0, s->v), minusDv = kiriVec3_Scale(-1.0, s->dv);
     double leanU = lean * kiriVec3_Dot(s->u, s->d), leanV = lean * kiriVec3_Dot(s->v, s->d);
     kiriVec3 u = kiriVec3_AddScaled(s->u, leanU, s->d), v = kiriVec3_AddScaled(s->v, leanV, s->d);
     kiriVec3 byU = kiriVec3_Scale(leanU, s->u), byV = kiriVec3_Scale(leanV, s->v);
@@ -91,7 +89,7 @@ void kiriAreaElement_Measure(const kiriAreaElement* element, const kiriFrameShar
     if (rows != NULL) {
         SlopesOf(&shape, element->lean, slope);
         for (int e = element->firstRow; e < element->lastRow; ++e) {
-            for (int32_t k = 0; k < element->count; ++k) {
+            KIRI_EACH_INDEX(k, *element) {
                 const kiriFrameShare* share = &shares[element->first + k];
                 kiriVec3 bend = kiriVec3_Scale(share->slope.x, slope[e].du);
                 bend = kiriVec3_AddScaled(bend, share->slope.y, slope[e].dv);
@@ -149,7 +147,7 @@ typedef struct PointBuilder {
     int32_t lastRow;
 } PointBuilder;
 
-static const kiriMoments NoMaterial = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+static const kiriMoments NoMaterial = { 0 };
 
 /* ---- Elements ---------------------------------------------------------------------------------------------------- */
 
@@ -196,7 +194,7 @@ static bool AddFour(PointBuilder* b, kiriVec2 point, const kiriMoments* material
 /* Adds the elements of a point. A region without area gets none. */
 static bool AddIntegrationPoint(PointBuilder* b, const kiriSite* point, const kiriMoments* material)
 {
-    const kiriVec2 here = { 0.0, 0.0 };
+    const kiriVec2 here = { 0 };
     if (!(material->area > 0.0)) {
         return true;
     }
@@ -214,7 +212,7 @@ static bool FloodFromPoints(PointBuilder* b)
     kiriQuota endless = { INT64_MAX, 0, 0, false };
     kiriField_Reset(&work->field);
     work->seeds.count = 0;
-    for (int32_t i = 0; i < points->count; ++i) {
+    KIRI_EACH_INDEX(i, *points) {
         if (!kiriSite_Seed(&points->data[i], i, b->memory, b->grid, b->mesh, &work->seeds)) {
             return false;
         }
@@ -232,7 +230,7 @@ static bool DividePiece(PointBuilder* b)
     if (!kiriArray_Resize(b->memory, &work->material, points->count) || !FloodFromPoints(b)) {
         return false;
     }
-    for (int32_t i = 0; i < points->count; ++i) {
+    KIRI_EACH_INDEX(i, *points) {
         work->field.owner.data[points->data[i].cell] = i;
         work->material.data[i] = NoMaterial;
     }
@@ -281,7 +279,7 @@ bool kiriIntegration_Build(kiriAreaElements* elements, kiriIntegrationWork* work
 {
     PointBuilder b = { memory, grid, mesh, shape, material, work, elements, 0.0, order, KIRI_AREA_STRAINS };
     double total = 0.0; /* summed in the order of cells, as are the pieces below */
-    for (int32_t s = 0; s < grid->squareCell.count; ++s) {
+    KIRI_EACH_INDEX(s, grid->squareCell) {
         KIRI_EACH_CELL(c, grid, s) {
             total += kiriGrid_Area(grid, c);
         }
@@ -290,9 +288,7 @@ bool kiriIntegration_Build(kiriAreaElements* elements, kiriIntegrationWork* work
     b.lastRow = planar ? KIRI_AREA_SHEAR + 1 : KIRI_AREA_STRAINS;
     elements->elements.count = elements->shares.count = 0;
     bool ok = kiriArray_Resize(memory, &work->seen, grid->cells.count);
-    if (ok) {
-        memset(work->seen.data, 0, (size_t)grid->cells.count);
-    }
+    kiriArray_Set(&work->seen, 0);
     for (int32_t s = 0; ok && s < grid->squareCell.count; ++s) {
         for (int32_t c = grid->squareCell.data[s]; ok && c != KIRI_NONE; c = grid->cells.data[c].next) {
             ok = work->seen.data[c] || AddPiecePoints(&b, c);

@@ -310,8 +310,7 @@ static void PredictTurn(const kiriFrameData* frame, const kiriStepping* s, kiriP
 
 static kiriPrediction Standing(const kiriFrameData* frame, const kiriMaterial* material)
 {
-    kiriPrediction prediction;
-    memset(&prediction, 0, sizeof(prediction));
+    kiriPrediction prediction = { 0 };
     prediction.moments = kiriFrame_MassMoments(frame, material);
     prediction.pose = prediction.guess = kiriPose_Of(frame);
     return prediction;

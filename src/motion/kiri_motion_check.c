@@ -111,7 +111,7 @@ bool kiriAreaElements_AreSound(const kiriAreaElements* elements)
 /* Reads the bodies that frames are of, and makes them without elements. Bodies are numbered by their lowest frame. */
 static void ReadBodies(kiriArchive* archive, kiriSolver* solver, int32_t frameCount, int32_t bodyCount)
 {
-    kiriIndices bodyOf = { NULL, 0, 0 };
+    kiriIndices bodyOf = { 0 };
     if (!kiriArray_Resize(solver->memory, &bodyOf, frameCount)) {
         archive->isShort = true;
         return;

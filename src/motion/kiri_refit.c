@@ -6,7 +6,7 @@
 
 static bool NoteSquare(kiriOwnership* ownership, kiriMemory* memory, int32_t square)
 {
-    KIRI_ASSERT(square >= 0 && square < ownership->isDirty.count);
+    KIRI_ASSERT_HAS(ownership->isDirty, square);
     if (!ownership->isDirty.data[square] && !kiriArray_Push(memory, &ownership->dirty, square)) {
         return false;
     }
@@ -22,8 +22,8 @@ static bool ReserveOwners(kiriOwnership* ownership, kiriMemory* memory, const ki
         return false;
     }
     while (ownership->squares.count < count) {
-        ownership->squares.data[ownership->squares.count++] = (kiriSquareOwners){ KIRI_NONE, { 0, 0 } };
-        ownership->isDirty.data[ownership->isDirty.count++] = 0;
+        KIRI_NEXT(ownership->squares) = (kiriSquareOwners){ KIRI_NONE, { 0, 0 } };
+        KIRI_NEXT(ownership->isDirty) = 0;
     }
     return true;
 }
@@ -128,7 +128,7 @@ static bool StageSquare(kiriOwnership* ownership, kiriMemory* memory, const kiri
         ownership->triangleOwners.data[staged.owners.parts.first + k] =
             (kiriTriangleOwner){ mesh->squares.nodes.data[n].triangle, owner[grid->nodeCell.data[n]] };
     }
-    ownership->staged.data[ownership->staged.count++] = staged;
+    KIRI_NEXT(ownership->staged) = staged;
     return true;
 }
 
@@ -152,9 +152,7 @@ static bool StartStaging(kiriOwnership* ownership, kiriMemory* memory, const kir
 {
     DropStagedOwners(ownership);
     bool ok = ReserveOwners(ownership, memory, mesh) && kiriArray_Resize(memory, &ownership->first, frameCount);
-    for (int32_t f = 0; ok && f < frameCount; ++f) {
-        ownership->first.data[f] = KIRI_NONE;
-    }
+    kiriArray_Set(&ownership->first, KIRI_NONE);
     for (int32_t s = 0; ok && isScratch && s < ownership->isDirty.count; ++s) {
         ok = NoteSquare(ownership, memory, s);
     }
@@ -307,7 +305,7 @@ static void VisitPart(MotionFit* fit, int32_t from, const kiriTally* tally,
 static void VisitParts(MotionFit* fit, int32_t frame, const kiriTally* region,
                        void visit(MotionFit* fit, const kiriFrameData* part))
 {
-    KIRI_ASSERT(frame >= 0 && frame < fit->ownership->first.count);
+    KIRI_ASSERT_HAS(fit->ownership->first, frame);
     const kiriTransfer* transfers = fit->ownership->transfers.data;
     kiriTally kept = *region;
     for (int32_t k = fit->ownership->first.data[frame]; k != KIRI_NONE; k = transfers[k].next) {
@@ -393,7 +391,7 @@ static void FitState(MotionFit* fit)
 /* Fits a frame; false where all its material is new. */
 static bool FitFrame(MotionFit* fit, int32_t frame, const kiriTally* region, const kiriMoments* material)
 {
-    kiriVec3 zero = { 0.0, 0.0, 0.0 };
+    kiriVec3 zero = { 0 };
     kiriFrameData* state = fit->state;
     kiriFrame_Recenter(state, material, fit->densityPerArea);
     state->x = state->velocity = state->spin = fit->angular = zero;
@@ -418,17 +416,15 @@ void kiriRefit_Solve(kiriRefit* refit, const kiriFrameData* frames, int32_t fram
                      const kiriRegions* regions, const kiriMoments* regionMoments, const kiriMaterial* material,
                      bool isRigid)
 {
-    MotionFit fit;
-    memset(&fit, 0, sizeof(fit));
-    fit.ownership = &refit->ownership;
-    fit.frames = frames;
-    fit.frameCount = frameCount;
-    fit.material = material;
-    fit.extent = KIRI_LATTICE * mesh->step;
-    fit.densityPerArea = (double)material->density * material->thickness;
-    fit.isRigid = isRigid;
+    MotionFit fit = { .ownership = &refit->ownership,
+                      .frames = frames,
+                      .frameCount = frameCount,
+                      .material = material,
+                      .extent = KIRI_LATTICE * mesh->step,
+                      .densityPerArea = (double)material->density * material->thickness,
+                      .isRigid = isRigid };
     refit->fits.count = 0;
-    for (int32_t f = 0; f < refit->ownership.first.count; ++f) {
+    KIRI_EACH_INDEX(f, refit->ownership.first) {
         if (refit->ownership.first.data[f] == KIRI_NONE || frames[f].held) {
             continue;
         }

@@ -37,8 +37,7 @@ void kiriSolver_Reduce(const kiriSolver* solver, const kiriFrameRow* row, double
 
 kiriFrameRow kiriSolver_Expand(const kiriSolver* solver, double scale, const double* values)
 {
-    kiriFrameRow vectors;
-    memset(&vectors, 0, sizeof(vectors));
+    kiriFrameRow vectors = { 0 };
     if (!solver->mechanics.planar) {
         for (int32_t n = 0; n < solver->size; n += 3) {
             vectors.by[n / 3] = kiriVec3_Make(scale * values[n], scale * values[n + 1], scale * values[n + 2]);
@@ -386,10 +385,7 @@ void kiriSolver_Commit(kiriSolver* solver)
 
 bool kiriSolver_MakeBodies(kiriSolver* solver, const int32_t* framePiece, int32_t frameCount, int32_t pieceCount)
 {
-    kiriSystem system;
-    memset(&system, 0, sizeof(system));
-    system.mechanics = solver->mechanics;
-    system.frameCount = frameCount;
+    kiriSystem system = { .mechanics = solver->mechanics, .frameCount = frameCount };
     if (!ReserveBodies(solver, &system) || !kiriArray_Resize(solver->memory, &solver->next.bodies, pieceCount)) {
         return false;
     }
@@ -429,7 +425,7 @@ bool kiriSolver_ReserveRows(kiriSolver* solver, int64_t pins, int64_t clamps, in
 
 void kiriSolver_SetMoved(kiriSolver* solver, int32_t body, bool isMoved)
 {
-    KIRI_ASSERT(body >= 0 && body < solver->bodies.bodies.count);
+    KIRI_ASSERT_HAS(solver->bodies.bodies, body);
     solver->moved.isListed = solver->moved.isListed && solver->bodies.bodies.data[body].isMoved == isMoved;
     solver->bodies.bodies.data[body].isMoved = isMoved;
 }
@@ -445,12 +441,12 @@ bool kiriSolver_ListMoved(kiriSolver* solver)
     for (int32_t b = 0; b < bodies->bodies.count; ++b) {
         const kiriSolverBody* body = &bodies->bodies.data[b];
         if (body->isMoved) {
-            moved->bodies.data[moved->bodies.count++] = b;
+            KIRI_NEXT(moved->bodies) = b;
             for (int32_t n = 0; n < body->frames.count; ++n) {
-                moved->frames.data[moved->frames.count++] = bodies->frames.data[body->frames.first + n];
+                KIRI_NEXT(moved->frames) = bodies->frames.data[body->frames.first + n];
             }
             for (int32_t n = 0; n < body->links.count; ++n) {
-                moved->links.data[moved->links.count++] = bodies->links.data[body->links.first + n];
+                KIRI_NEXT(moved->links) = bodies->links.data[body->links.first + n];
             }
         }
     }
@@ -466,7 +462,7 @@ const kiriMoved* kiriSolver_Moved(const kiriSolver* solver)
 
 kiriIndexSpan kiriSolver_FramesOf(const kiriSolver* solver, int32_t body)
 {
-    KIRI_ASSERT(body >= 0 && body < solver->bodies.bodies.count);
+    KIRI_ASSERT_HAS(solver->bodies.bodies, body);
     kiriSpan frames = solver->bodies.bodies.data[body].frames;
     return (kiriIndexSpan){ &solver->bodies.frames.data[frames.first], frames.count };
 }
@@ -523,7 +519,7 @@ int32_t kiriSolver_TakeSolved(kiriSolver* solver)
 
 static kiriSolverBody* BodyOf(kiriSolver* solver, int32_t frame)
 {
-    KIRI_ASSERT(frame >= 0 && frame < solver->bodies.bodyOf.count);
+    KIRI_ASSERT_HAS(solver->bodies.bodyOf, frame);
     kiriSolverBody* body = &solver->bodies.bodies.data[solver->bodies.bodyOf.data[frame]];
     KIRI_ASSERT(body->isMoved);
     return body;
@@ -594,9 +590,8 @@ static void TakePins(kiriSolver* solver, const kiriIslandBody* member)
 {
     const kiriSystem* sheet = member->sheet;
     for (int32_t k = BodyOfMember(member)->pin; k != KIRI_NONE; k = member->solver->nextPin.data[k]) {
-        KIRI_ASSERT(solver->pins.count < solver->pins.capacity);
         solver->pinReactions.data[solver->pins.count] = sheet->reactions.pins != NULL ? &sheet->reactions.pins[k] : NULL;
-        kiriPinRow* pin = &solver->pins.data[solver->pins.count++];
+        kiriPinRow* pin = &KIRI_NEXT(solver->pins);
         *pin = sheet->pins[k];
         pin->frame = IslandFrame(member->solver, pin->frame);
     }
@@ -646,28 +641,27 @@ static void TakeElements(kiriSolver* solver, const kiriIslandBody* member)
     kiriAreaElements* areas = &solver->islandElements;
     int32_t firstLink = solver->islandLinks.count;
     for (int32_t k = 0; k < body->links.count; ++k) {
-        KIRI_ASSERT(solver->islandLinks.count < solver->islandLinks.capacity);
-        kiriLink* link = &solver->islandLinks.data[solver->islandLinks.count++];
+        kiriLink* link = &KIRI_NEXT(solver->islandLinks);
         *link = bodies->ownLinks.data[body->links.first + k];
         link->i += body->island;
         link->j += body->island;
     }
     for (int32_t k = 0; k < body->corners.count; ++k) {
-        kiriCorner* corner = &solver->islandCorners.data[solver->islandCorners.count++];
+        kiriCorner* corner = &KIRI_NEXT(solver->islandCorners);
         *corner = bodies->corners.data[body->corners.first + k];
         for (int32_t n = 0; n < corner->count; ++n) {
             corner->link[n] += firstLink;
         }
     }
     for (int32_t k = 0; k < body->elements.count; ++k) {
-        kiriAreaElement* element = &areas->elements.data[areas->elements.count++];
+        kiriAreaElement* element = &KIRI_NEXT(areas->elements);
         *element = bodies->areaElements.elements.data[body->elements.first + k];
         const kiriFrameShare* shares = &bodies->areaElements.shares.data[element->first];
         element->first = areas->shares.count;
         for (int32_t n = 0; n < element->count; ++n) {
             kiriFrameShare share = shares[n];
             share.frame += body->island;
-            areas->shares.data[areas->shares.count++] = share;
+            KIRI_NEXT(areas->shares) = share;
         }
     }
 }
@@ -959,7 +953,7 @@ int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* sheet, int32_t bod
                         int32_t most)
 {
     const kiriIslandBody alone = { solver, sheet, body };
-    KIRI_ASSERT(body >= 0 && body < solver->bodies.bodies.count);
+    KIRI_ASSERT_HAS(solver->bodies.bodies, body);
     return kiriSolver_StepIsland(solver, solver->bodies.bodies.data[body].matrix, &alone, 1, dt, iterations, most);
 }
 
@@ -1130,7 +1124,7 @@ static void MeasureAffineCorner(const kiriSystem* system, const kiriCorner* corn
     for (int32_t k = 0; k < corner->count; ++k) {
         LinkEnds link = LinkEndsOf(system, &system->links[corner->link[k]], poses);
         const kiriPose* const endPoses[2] = { &link.poses[0], &link.poses[1] };
-        kiriFrameRow* own[2] = { NULL, NULL };
+        kiriFrameRow* own[2] = { 0 };
         for (int end = 0; rows != NULL && end < 2; ++end) {
             own[end] = &rows[ends[k][end]];
         }
@@ -1160,7 +1154,7 @@ void kiriElement_Measure(const kiriSystem* system, int32_t k, const kiriPose* po
 kiriTrace kiriElement_Trace(const kiriSystem* system, int32_t k, const double* strains)
 {
     const kiriCorner* corner = kiriElement_Corner(system, k);
-    const double* all[4] = { NULL, NULL, NULL, NULL };
+    const double* all[4] = { 0 };
     for (int32_t n = 0; n < corner->count; ++n) {
         all[n] = &strains[KIRI_MOST_STRAINS * (size_t)corner->link[n]];
     }
@@ -1178,7 +1172,7 @@ void kiriElement_TakeOffsets(const kiriSystem* system, int32_t k, const double* 
     memcpy(pulling, strain, sizeof(double) * (size_t)count);
     if (system->strainOffsets != NULL && kiriElement_IsRigidCorner(system, k)) {
         const kiriCorner* corner = kiriElement_Corner(system, k);
-        const double* all[4] = { NULL, NULL, NULL, NULL };
+        const double* all[4] = { 0 };
         for (int32_t n = 0; n < corner->count; ++n) {
             all[n] = system->strainOffsets[corner->link[n]].strain;
         }

@@ -18,9 +18,7 @@ static kiriVec3 AlongNormal(const kiriMechanics* mechanics, kiriVec3 a)
 
 static kiriMat3 ColumnsInPlane(const kiriMechanics* mechanics, const kiriMat3* A)
 {
-    kiriMat3 flat = { kiriMechanics_InPlane(mechanics, A->u),
-                      kiriMechanics_InPlane(mechanics, A->v),
-                      { 0.0, 0.0, 0.0 } };
+    kiriMat3 flat = { .u = kiriMechanics_InPlane(mechanics, A->u), .v = kiriMechanics_InPlane(mechanics, A->v) };
     return flat;
 }
 
@@ -67,7 +65,7 @@ kiriVec3 kiriSystem_Gravity(const kiriSystem* system)
    body takes a single step of backward Euler between steps of second order. */
 static void ShiftFreeBody(kiriSolver* solver, const kiriSystem* system)
 {
-    kiriVec3 mean = { 0.0, 0.0, 0.0 };
+    kiriVec3 mean = { 0 };
     double mass = 0.0;
     if (solver->support != KIRI_SUPPORT_NONE || !solver->stepping.isEuler ||
         system->mechanics.timeStepping == KIRI_TIME_STEPPING_EULER) {
@@ -267,6 +265,7 @@ static void AddWindEnergy(const kiriSolver* solver, const kiriSystem* system, co
    false gains of energy. */
 double kiriWind_Work(const kiriSolver* solver, const kiriSystem* system, int32_t f)
 {
+    KIRI_ASSERT(f >= 0 && f < system->frameCount);
     const kiriFrameData *start = &solver->before.data[f], *end = &solver->after.data[f];
     double part = solver->stepping.part, first = 0.0, last = 0.0;
     for (int k = 0; k < SAMPLES; ++k) {
@@ -284,7 +283,7 @@ double kiriWind_Work(const kiriSolver* solver, const kiriSystem* system, int32_t
 
 static kiriWrench WindOnFrame(const kiriSolver* solver, const kiriSystem* system, int32_t f)
 {
-    kiriWrench sum = { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } };
+    kiriWrench sum = { 0 };
     for (int k = 0; k < SAMPLES; ++k) {
         WindSpring spring = SpringAt(solver, system, f, k);
         kiriVec3 point = kiriSystem_Point(system, f, spring.at, solver->poses.data);
@@ -368,7 +367,7 @@ static void AddElementEnergy(const kiriSolver* solver, const kiriSystem* system,
 
 static kiriStepEnergy InertiaEnergy(const kiriSolver* solver, const kiriSystem* system, const kiriPose* poses)
 {
-    kiriStepEnergy sum = { 0.0, 0.0, 0.0 };
+    kiriStepEnergy sum = { 0 };
     double part = solver->stepping.part;
     for (int32_t f = 0; f < system->frameCount; ++f) {
         const kiriPrediction* prediction = &solver->predictions.data[f];
@@ -516,7 +515,7 @@ static kiriVec3* CarriedOn(const kiriStepping* stepping, kiriHistory* history)
    masses may have left a mean. */
 static void CenterHistories(kiriSolver* solver, int32_t frameCount)
 {
-    kiriVec3 mean = { 0.0, 0.0, 0.0 };
+    kiriVec3 mean = { 0 };
     double mass = 0.0;
     if (solver->support != KIRI_SUPPORT_NONE || solver->stepping.isEuler) {
         return;
@@ -628,8 +627,7 @@ static kiriFrameRow InertiaForce(const kiriSolver* solver, const kiriSystem* sys
 {
     const kiriPrediction* prediction = &solver->predictions.data[f];
     const kiriPose* pose = &solver->poses.data[f];
-    kiriFrameRow force;
-    memset(&force, 0, sizeof(force));
+    kiriFrameRow force = { 0 };
     force.by[0] = kiriVec3_Scale(system->frames[f].mass, kiriVec3_Sub(prediction->pose.x, pose->x));
     if (kiriMechanics_IsAffine(&system->mechanics)) {
         kiriMat3 gradient = kiriPrediction_Gradient(prediction, &pose->A);
@@ -644,6 +642,7 @@ static kiriFrameRow InertiaForce(const kiriSolver* solver, const kiriSystem* sys
 
 static void AddFrameInertia(kiriSolver* solver, const kiriSystem* system, int32_t f)
 {
+    KIRI_ASSERT(f >= 0 && f < system->frameCount);
     const kiriMassMoments* m = &solver->predictions.data[f].moments;
     const double moments[4][4] = { { system->frames[f].mass, 0.0, 0.0, 0.0 },
                                    { 0.0, m->uu, m->uv, 0.0 },
@@ -874,7 +873,7 @@ kiriStepEnergy kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system)
             AddFrameInertia(solver, system, f);
             continue;
         }
-        double identity[KIRI_MOST_UNKNOWNS * KIRI_MOST_UNKNOWNS] = { 0.0 }; /* it stays where it is */
+        double identity[KIRI_MOST_UNKNOWNS * KIRI_MOST_UNKNOWNS] = { 0 }; /* it stays where it is */
         for (int32_t n = 0; n < solver->size; ++n) {
             identity[(solver->size + 1) * n] = 1.0;
         }
@@ -1196,7 +1195,7 @@ static void AddClampPulls(const kiriSolver* solver, const kiriSystem* system)
         const kiriPose* pose = &solver->poses.data[row->frame];
         double strain[KIRI_CLAMP_STRAINS], pulling[KIRI_CLAMP_STRAINS];
         kiriFrameRow rows[KIRI_CLAMP_STRAINS];
-        kiriWrench wrench = { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } };
+        kiriWrench wrench = { 0 };
         kiriClamp_Measure(row, &system->frames[row->frame], &row->pose, pose, strain, rows);
         kiriClamp_Flow(row, strain, true);
         kiriClamp_TakeOffsets(row, strain, pulling);
@@ -1241,7 +1240,7 @@ static void TakeElementFromHolds(const kiriSolver* solver, const kiriSystem* sys
     kiriElement_TakeOffsets(system, k, strain, pulling);
     for (int32_t m = 0; m < count; ++m) {
         int32_t frame = solver->members.data[m];
-        kiriWrench wrench = { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } };
+        kiriWrench wrench = { 0 };
         for (int e = 0; e < kiriElement_StrainCount(system, k); ++e) {
             int32_t n = KIRI_MOST_STRAINS * k + e;
             double change = strain[e] - solver->startStrain.data[n];
@@ -1255,6 +1254,7 @@ static void TakeElementFromHolds(const kiriSolver* solver, const kiriSystem* sys
 /* Adds the impulse that changed a held frame's momentum in the step, without gravity and the host's forces. */
 static void AddMomentum(const kiriSolver* solver, const kiriSystem* system, int32_t f)
 {
+    KIRI_ASSERT(f >= 0 && f < system->frameCount);
     const kiriFrameData *before = &solver->before.data[f], *after = &solver->after.data[f];
     kiriVec3 gravity = kiriVec3_Scale(before->mass, kiriSystem_Gravity(system));
     kiriVec3 gained = kiriVec3_Scale(before->mass, kiriVec3_Sub(after->velocity, before->velocity));
@@ -1271,7 +1271,7 @@ static void AddMomentum(const kiriSolver* solver, const kiriSystem* system, int3
    impulses add up to the momentum of the frames. */
 static void EndReaction(const kiriStepping* stepping, kiriReaction* reaction)
 {
-    kiriWrench gain = { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } }, none = gain;
+    kiriWrench gain = { 0 }, none = gain;
     kiriWrench_Add(&gain, stepping->c, &reaction->gain);
     kiriWrench_Add(&gain, stepping->l, &reaction->pull);
     kiriWrench_Add(&gain, stepping->part, &reaction->now);

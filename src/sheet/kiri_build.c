@@ -11,21 +11,20 @@
 
 static kiriSheetSettings SettingsOf(const kiriSheetDef* def)
 {
-    kiriSheetSettings given;
-    memset(&given, 0, sizeof(given));
-    given.material = def->material;
-    given.maxFrames = def->maxFrames > 0 && def->maxFrames < def->frameCount ? def->frameCount : def->maxFrames;
-    given.crumbArea = def->crumbArea;
-    given.friction = def->friction;
-    given.contactThickness = def->contactThickness;
-    given.groups = def->groups;
-    given.touchesSheets = def->touchesSheets;
-    given.iterations = def->iterations;
-    given.sleepSpeed = def->sleepSpeed;
-    given.skinning = def->skinning;
-    given.timeStepping = def->timeStepping;
-    given.fadeTime = def->fadeTime;
-    given.normals = def->normals;
+    kiriSheetSettings given = { .material = def->material,
+                                .maxFrames = def->maxFrames > 0 && def->maxFrames < def->frameCount ? def->frameCount
+                                                                                                    : def->maxFrames,
+                                .crumbArea = def->crumbArea,
+                                .friction = def->friction,
+                                .contactThickness = def->contactThickness,
+                                .groups = def->groups,
+                                .touchesSheets = def->touchesSheets,
+                                .iterations = def->iterations,
+                                .sleepSpeed = def->sleepSpeed,
+                                .skinning = def->skinning,
+                                .timeStepping = def->timeStepping,
+                                .fadeTime = def->fadeTime,
+                                .normals = def->normals };
     return given;
 }
 
@@ -82,7 +81,7 @@ static void Weigh(kiriSheetData* sheet, const kiriMaterial* before)
 {
     const kiriMaterial* now = &sheet->settings.material;
     double was = (double)before->density * before->thickness, is = (double)now->density * now->thickness;
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+    KIRI_EACH_INDEX(i, sheet->frames) {
         kiriFrameData* frame = &sheet->frames.data[i];
         frame->mass = is * frame->area;
         for (int k = 0; k < 3; ++k) {
@@ -232,7 +231,7 @@ static bool TakeFramePoint(kiriSheetData* sheet, const kiriSheetDef* def, int32_
         return false;
     }
     holder[site.cell] = sites->count;
-    sites->data[sites->count++] = site;
+    KIRI_NEXT(*sites) = site;
     return true;
 }
 
@@ -285,7 +284,7 @@ static bool CountPieces(kiriSheetData* sheet, int32_t* pieces)
     }
     kiriGrid_JoinCells(grid, parent);
     *pieces = 0;
-    for (int32_t c = 0; c < grid->cells.count; ++c) {
+    KIRI_EACH_INDEX(c, grid->cells) {
         *pieces += kiriGrid_IsCell(grid, c) && kiriUnion_Root(parent, c) == c;
     }
     kiriMemory_Free(sheet->memory, parent);
@@ -315,7 +314,7 @@ static kiriResult BuildFromMesh(kiriSheetData* sheet, const kiriSheetDef* def, k
         return KIRI_ERROR_MEMORY;
     }
     sheet->frames.count = sheet->update->placing.sites.count;
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+    KIRI_EACH_INDEX(i, sheet->frames) {
         LayFrame(sheet, def, i);
     }
     return kiriBuild_Commit(sheet) ? KIRI_OK : KIRI_ERROR_MEMORY;

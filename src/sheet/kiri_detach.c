@@ -17,7 +17,7 @@ static bool InitSubset(kiriSubset* subset, const kiriSheetData* from, kiriMemory
     if (!kiriArray_Resize(memory, &subset->pieces, from->layout.pieces.count)) {
         return false;
     }
-    memset(subset->pieces.data, 0, (size_t)subset->pieces.count);
+    kiriArray_Set(&subset->pieces, 0);
     return true;
 }
 
@@ -71,7 +71,7 @@ static double AreaOfAll(const kiriSheetData* sheet)
 double kiriSubset_Share(const kiriSubset* subset)
 {
     double area = 0.0;
-    for (int32_t p = 0; p < subset->pieces.count; ++p) {
+    KIRI_EACH_INDEX(p, subset->pieces) {
         area += subset->pieces.data[p] ? subset->from->layout.pieces.data[p].area : 0.0;
     }
     return area / AreaOfAll(subset->from);
@@ -87,12 +87,13 @@ double kiriDetach_Samples(const kiriSheetData* sheet, double share, bool makesPa
 
 static int32_t PartOfPiece(const kiriDetach* detach, int32_t piece)
 {
-    KIRI_ASSERT(piece >= 0 && piece < detach->rest.pieces.count);
+    KIRI_ASSERT_HAS(detach->rest.pieces, piece);
     return detach->rest.pieces.data[piece] ? KIRI_NONE : piece;
 }
 
 static int32_t PartOfFrame(const kiriDetach* detach, int32_t frame)
 {
+    KIRI_ASSERT_HAS(detach->sheet->frames, frame);
     return PartOfPiece(detach, detach->sheet->layout.framePiece.data[frame]);
 }
 
@@ -155,7 +156,7 @@ bool kiriDetach_Map(kiriDetach* detach, bool makesParts)
         if (mapOfRest == NULL && !makesParts) {
             continue;
         }
-        kiriIndices parts = { NULL, 0, 0 };
+        kiriIndices parts = { 0 };
         ok = kiriArray_Resize(memory, &parts, count) && (mapOfRest == NULL || kiriKeep_Init(mapOfRest, memory, count)) &&
              (mapOfPart == NULL || kiriKeep_Init(mapOfPart, memory, count));
         for (int32_t i = 0; ok && i < count; ++i) {
@@ -239,7 +240,7 @@ static bool CopySites(const kiriDetach* detach, const kiriIndices* frames, kiriS
     if (!kiriArray_Resize(to->memory, sites, frames->count)) {
         return false;
     }
-    for (int32_t k = 0; k < frames->count; ++k) {
+    KIRI_EACH_INDEX(k, *frames) {
         kiriSite site = detach->sheet->frames.data[frames->data[k]].site;
         site.cell = CellInPart(detach, to, site.cell);
         sites->data[k] = site;
@@ -253,7 +254,7 @@ static bool CopyPoints(const kiriDetach* detach, int32_t piece, kiriSheetData* t
     bool ok = true;
     for (int32_t k = 0; ok && k < points.count; ++k) {
         kiriSample point = { detach->sheet->points.data[points.data[k]].at, KIRI_NONE, KIRI_NONE };
-        kiriSpan none = { 0, 0 };
+        kiriSpan none = { 0 };
         ok = kiriArray_Push(to->memory, &to->points, point) &&
              kiriArray_Push(to->memory, &to->pointSkin.spans, none) &&
              kiriPlaces_Add(&to->pointPlaces, to->memory, &to->mesh, point.at);
@@ -290,7 +291,7 @@ static bool CopyContacts(const kiriDetach* detach, int32_t piece, kiriSheetData*
     KIRI_EACH(const kiriGivenContact, at, from->contacts) {
         kiriGivenContact given = *at;
         if (FollowContact(&detach->part, &given)) {
-            to->contacts.data[to->contacts.count++] = given;
+            KIRI_NEXT(to->contacts) = given;
         }
     }
     CopyTouches(detach, &last, &from->touches.last, to, &to->touches.last);
@@ -303,7 +304,7 @@ static void CopyFrames(const kiriSheetData* from, const kiriIndices* frames, kir
 {
     KIRI_ASSERT(to->update->placing.sites.count == frames->count && to->frames.capacity >= frames->count);
     to->frames.count = frames->count;
-    for (int32_t k = 0; k < frames->count; ++k) {
+    KIRI_EACH_INDEX(k, *frames) {
         to->frames.data[k] = from->frames.data[frames->data[k]];
         to->frames.data[k].site = to->update->placing.sites.data[k];
     }
@@ -319,7 +320,7 @@ static bool CopyFades(const kiriIndices* items, const kiriFades* from, const kir
     KIRI_EACH(const int32_t, item, *items) {
         kiriFading fading = from->fading.data[*item];
         fading.sample = kiriKeep_To(samples, fading.sample);
-        to->fading.data[to->fading.count++] = fading;
+        KIRI_NEXT(to->fading) = fading;
     }
     return true;
 }
@@ -377,7 +378,7 @@ static bool FillPart(kiriDetach* detach, int32_t piece, kiriSheetData* to)
         return false;
     }
     CopyFrames(from, &frames, to);
-    for (int32_t k = 0; k < frames.count; ++k) { /* a changed material leaves regions dirty, see kiri_sheet.c */
+    KIRI_EACH_INDEX(k, frames) { /* a changed material leaves regions dirty, see kiri_sheet.c */
         to->regions.dirty.data[k] = from->regions.dirty.data[frames.data[k]];
     }
     for (int32_t k = 0; from->strainOffsets.strainOffsets.count > 0 && k < links.count; ++k) {
@@ -455,12 +456,12 @@ static bool StagePieces(kiriDetach* detach)
                             .rest = was->rest };
         kiriKeep_Add(&pieces, rest->pieces.data[p] != 0);
         if (rest->pieces.data[p]) {
-            next->pieces.data[next->pieces.count++] = piece;
+            KIRI_NEXT(next->pieces) = piece;
         }
     }
     for (int32_t f = 0; ok && f < layout->framePiece.count; ++f) {
         if (kiriKeep_Has(&rest->frames, f)) {
-            next->framePiece.data[next->framePiece.count++] = kiriKeep_To(&pieces, layout->framePiece.data[f]);
+            KIRI_NEXT(next->framePiece) = kiriKeep_To(&pieces, layout->framePiece.data[f]);
         }
     }
     return ok;
@@ -678,12 +679,12 @@ static bool RunStages(kiriSheetData* sheet, bool* isBad)
         !kiriArray_Resize(sheet->memory, &u->placing.sites, sheet->frames.count)) {
         return false;
     }
-    memset(vertices->spans.data, 0, sizeof(kiriSpan) * (size_t)vertices->spans.count);
-    for (int32_t i = 0; i < points->spans.count; ++i) {
-        points->spans.data[i] = (kiriSpan){ 0, 0 };
-        kiriPlaces_Add(&sheet->pointPlaces, sheet->memory, &sheet->mesh, sheet->points.data[i].at); /* has room */
+    kiriArray_Set(&vertices->spans, 0);
+    kiriArray_Set(&points->spans, 0);
+    KIRI_EACH(const kiriSample, point, sheet->points) {
+        kiriPlaces_Add(&sheet->pointPlaces, sheet->memory, &sheet->mesh, point->at); /* has room */
     }
-    for (int32_t f = 0; f < sheet->frames.count; ++f) {
+    KIRI_EACH_INDEX(f, sheet->frames) {
         u->placing.sites.data[f] = (kiriSite){ sheet->frames.data[f].site.at, 0 };
     }
     sheet->settings.maxFrames = 0;
@@ -706,7 +707,7 @@ static bool Commit(kiriSheetData* sheet)
     kiriRefit_Commit(&u->refit, &sheet->mesh);
     kiriShape_ClearChanges(&sheet->shape);
     kiriRefresh_Drop(&u->samples.refresh);
-    for (int32_t f = 0; f < sheet->frames.count; ++f) {
+    KIRI_EACH_INDEX(f, sheet->frames) {
         sheet->frames.data[f].site = u->placing.sites.data[f];
     }
     KIRI_EACH(kiriSample, point, sheet->points) {

@@ -5,12 +5,9 @@
 #include "kiri_touch.h"
 #include "kiri_piece.h"
 
-#include <string.h>
-
 static kiriSystem MakeSystem(kiriSheetData* sheet, kiriVec3 gravity)
 {
-    kiriSystem system;
-    memset(&system, 0, sizeof(system));
+    kiriSystem system = { 0 };
     system.frames = sheet->frames.data;
     system.frameCount = sheet->frames.count;
     system.links = sheet->links.links.data;
@@ -76,7 +73,7 @@ static void FallAsleep(kiriSheetData* sheet)
 {
     MarkFading(sheet);
     sheet->seen.areFadesAsleep = false;
-    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+    KIRI_EACH_INDEX(p, sheet->layout.pieces) {
         kiriRest* rest = &sheet->layout.pieces.data[p].rest;
         bool isStill = rest->asleep || sheet->layout.pieces.data[p].isGone;
         sheet->seen.areFadesAsleep |= isStill && rest->isFading;
@@ -94,6 +91,7 @@ static void FallAsleep(kiriSheetData* sheet)
 
 static int64_t WorkOfBody(const kiriSheetData* sheet, int32_t body)
 {
+    KIRI_ASSERT_HAS(sheet->solver->bodies.bodies, body);
     return kiriSolver_WorkOf(sheet->solver, body, sheet->solver->bodies.bodies.data[body].contactCount);
 }
 
@@ -158,7 +156,7 @@ static int32_t DeferBodies(kiriSheetData* sheet, const kiriQuota* systems)
             taken += work;
         }
     }
-    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+    KIRI_EACH_INDEX(p, sheet->layout.pieces) {
         kiriSolver_SetMoved(sheet->solver, p, kiriPiece_IsMoved(&sheet->layout.pieces.data[p]));
     }
     kiriSolver_ListMoved(sheet->solver);
@@ -187,7 +185,7 @@ static int32_t ChooseMoved(kiriSheetData* sheet, const kiriQuota* systems)
     }
     KIRI_ASSERT(sheet->solver->bodies.bodies.count == sheet->layout.pieces.count);
     FallAsleep(sheet);
-    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+    KIRI_EACH_INDEX(p, sheet->layout.pieces) {
         kiriSolver_SetMoved(sheet->solver, p, kiriPiece_IsAwake(&sheet->layout.pieces.data[p]));
     }
     bool areOther = kiriSolver_ListMoved(sheet->solver);

@@ -2,8 +2,6 @@
 #include "kiri_touch.h"
 #include "../core/kiri_array.h"
 
-#include <string.h>
-
 kiriObstacleData* kiriObstacle_Alloc(kiriMemory* memory, int32_t corners)
 {
     int64_t bytes = (int64_t)(sizeof(kiriObstacleData) + 2 * sizeof(kiriVec2) * (size_t)corners);
@@ -88,8 +86,7 @@ void kiriObstacle_Advance(kiriObstacleData* obstacle, double dt)
 
 kiriYieldRow kiriObstacle_YieldRow(const kiriObstacleData* obstacle)
 {
-    kiriYieldRow row;
-    memset(&row, 0, sizeof(row));
+    kiriYieldRow row = { 0 };
     row.center = kiriObstacle_CenterOfMass(obstacle);
     if (obstacle->mass > 0.0) {
         row.inverseMass = 1.0 / obstacle->mass;
@@ -148,7 +145,7 @@ static Nearest2 NearestOutside(const kiriObstacleShape* shape, kiriVec2 p, Neare
 {
     Nearest2 nearest = highest;
     double least = KIRI_ENDLESS;
-    for (int32_t i = 0; i < shape->count; ++i) {
+    KIRI_EACH_INDEX(i, *shape) {
         if (AboveEdge(shape, i, p) > 0.0) {
             int32_t next = i + 1 < shape->count ? i + 1 : 0;
             kiriVec2 a = shape->outline[i], along = kiriVec2_Sub(shape->outline[next], a);
@@ -170,7 +167,7 @@ static Nearest2 NearestOutside(const kiriObstacleShape* shape, kiriVec2 p, Neare
 static Nearest2 NearestOnPolygon(const kiriObstacleShape* shape, kiriVec2 p)
 {
     Nearest2 highest = { -KIRI_ENDLESS, { 1.0, 0.0 } };
-    for (int32_t i = 0; i < shape->count; ++i) {
+    KIRI_EACH_INDEX(i, *shape) {
         double above = AboveEdge(shape, i, p);
         if (above > highest.distance) {
             highest.distance = above;
@@ -208,7 +205,7 @@ static kiriNearest NearestInside(const kiriObstacleShape* shape, kiriVec3 p, Nea
     if (shape->type == KIRI_OBSTACLE_CYLINDER) {
         TryFace(&best, &way, side.distance, Raise(side.normal), across);
     }
-    for (int32_t i = 0; i < shape->count; ++i) {
+    KIRI_EACH_INDEX(i, *shape) {
         TryFace(&best, &way, AboveEdge(shape, i, kiriVec2_Make(p.x, p.y)), Raise(shape->normals[i]), across);
     }
     return best;
@@ -301,7 +298,7 @@ double kiriObstacleShape_Reach(const kiriObstacleShape* shape, kiriVec3 directio
         return reach + shape->radius * flat + shape->rounding;
     }
     double farthest = -KIRI_ENDLESS;
-    for (int32_t i = 0; i < shape->count; ++i) {
+    KIRI_EACH_INDEX(i, *shape) {
         double far = kiriVec2_Dot(shape->outline[i], kiriVec2_Make(direction.x, direction.y));
         farthest = kiriMax(far, farthest);
     }
@@ -325,9 +322,9 @@ int32_t kiriObstacleShape_EdgeCount(const kiriObstacleShape* shape)
 static double HalfWidth(const kiriObstacleShape* shape)
 {
     double least = shape->type == KIRI_OBSTACLE_CYLINDER ? 2.0 * shape->radius : KIRI_ENDLESS;
-    for (int32_t i = 0; i < shape->count; ++i) {
+    KIRI_EACH_INDEX(i, *shape) {
         double deepest = 0.0;
-        for (int32_t k = 0; k < shape->count; ++k) {
+        KIRI_EACH_INDEX(k, *shape) {
             double below = -AboveEdge(shape, i, shape->outline[k]);
             deepest = kiriMax(below, deepest);
         }
@@ -425,7 +422,7 @@ static void NearestOfTriangle(const kiriVec3 x[3], kiriVec3 p, double share[3])
     if (square > 0.0 && share[0] >= 0.0 && share[1] >= 0.0 && share[2] >= 0.0) {
         return;
     }
-    for (int k = 0; k < 3; ++k) {
+    KIRI_EACH_CORNER(k) {
         int next = (k + 1) % 3;
         kiriVec3 along = kiriVec3_Sub(x[next], x[k]);
         double side = kiriVec3_Dot(along, along),
@@ -446,7 +443,7 @@ static void NearestOfTriangle(const kiriVec3 x[3], kiriVec3 p, double share[3])
 static void NearestToAxis(double half, const kiriVec3 x[3], double share[3])
 {
     enum { TURNS = 24 };
-    kiriVec3 onAxis = { 0.0, 0.0, 0.0 };
+    kiriVec3 onAxis = { 0 };
     for (int turn = 0; turn < TURNS; ++turn) {
         NearestOfTriangle(x, onAxis, share);
         double z = BlendOfThree(x, share).z;
@@ -475,7 +472,7 @@ static bool CountsBetween(const kiriMeeting* meeting, const int32_t* v, const do
 static void GetCorners(const kiriMeeting* meeting, int32_t triangle, kiriVec3 x[3])
 {
     const kiriSurface* surface = &meeting->sheet->seen.surface;
-    for (int k = 0; k < 3; ++k) {
+    KIRI_EACH_CORNER(k) {
         x[k] = kiriObstacle_PointToLocal(meeting->obstacle,
                                          kiriSurface_At(surface, kiriSurface_Triangle(surface, triangle)[k]));
     }
@@ -486,14 +483,14 @@ static bool TouchRound(const kiriMeeting* meeting, int32_t triangle, kiriTouch* 
     const kiriSheetData* sheet = meeting->sheet;
     const kiriObstacleData* obstacle = meeting->obstacle;
     const int32_t* v = kiriSurface_Triangle(&sheet->seen.surface, triangle);
-    kiriVec3 x[3], velocity = { 0.0, 0.0, 0.0 };
+    kiriVec3 x[3], velocity = { 0 };
     double share[3];
     GetCorners(meeting, triangle, x);
     NearestToAxis(obstacle->shape.half, x, share);
     if (!CountsBetween(meeting, v, share)) {
         return false;
     }
-    for (int k = 0; k < 3; ++k) {
+    KIRI_EACH_CORNER(k) {
         velocity = kiriVec3_AddScaled(velocity, share[k], kiriMeeting_VertexVelocity(sheet, v[k]));
     }
     kiriVec3 local = BlendOfThree(x, share);
@@ -519,7 +516,7 @@ static bool CollectCoarse(const kiriMeeting* meeting)
         kiriVec3 x[3];
         double longest = 0.0;
         GetCorners(meeting, *at, x);
-        for (int k = 0; k < 3; ++k) {
+        KIRI_EACH_CORNER(k) {
             double length = kiriVec3_Distance(x[(k + 1) % 3], x[k]);
             longest = kiriMax(length, longest);
         }
@@ -597,9 +594,9 @@ static bool TouchTriangle(const kiriMeeting* meeting, const EdgePoint* point, in
     if (!MeetsTriangle(x, point, &height, share)) {
         return false;
     }
-    kiriVec3 sum = { 0.0, 0.0, 0.0 }, velocity = sum, at = kiriVec3_AddScaled(point->at, height, point->out);
+    kiriVec3 sum = { 0 }, velocity = sum, at = kiriVec3_AddScaled(point->at, height, point->out);
     kiriSurface_NeedNormals(surface);
-    for (int k = 0; k < 3; ++k) {
+    KIRI_EACH_CORNER(k) {
         sum = kiriVec3_AddScaled(sum, share[k], kiriVec3_Load(&surface->normals.data[3 * (int64_t)v[k]]));
         velocity = kiriVec3_AddScaled(velocity, share[k], kiriMeeting_VertexVelocity(sheet, v[k]));
     }
@@ -685,7 +682,7 @@ static EdgePoint MakePoint(const kiriMeeting* meeting, kiriVec3 at, const kiriVe
                            double thinnest)
 {
     const kiriObstacleData* obstacle = meeting->obstacle;
-    kiriVec3 sum = { 0.0, 0.0, 0.0 };
+    kiriVec3 sum = { 0 };
     EdgePoint point;
     point.at = kiriObstacle_PointToWorld(obstacle, at);
     point.faceCount = faceCount;

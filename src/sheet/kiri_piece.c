@@ -40,17 +40,17 @@ static void MarkCameOff(kiriSheetData* sheet)
     kiriLayout* next = &sheet->update->next;
     int32_t* largest = sheet->update->parent.data; /* of each origin: there are no more origins than frames */
     KIRI_ASSERT(sheet->layout.pieces.count <= sheet->update->parent.count);
-    for (int32_t o = 0; o < sheet->layout.pieces.count; ++o) {
+    KIRI_EACH_INDEX(o, sheet->layout.pieces) {
         largest[o] = KIRI_NONE;
     }
-    for (int32_t p = 0; p < next->pieces.count; ++p) {
+    KIRI_EACH_INDEX(p, next->pieces) {
         int32_t o = next->pieces.data[p].origin;
         if (o != KIRI_NONE &&
             (largest[o] == KIRI_NONE || next->pieces.data[p].area > next->pieces.data[largest[o]].area)) {
             largest[o] = p;
         }
     }
-    for (int32_t p = 0; p < next->pieces.count; ++p) {
+    KIRI_EACH_INDEX(p, next->pieces) {
         kiriPiece* piece = &next->pieces.data[p];
         piece->cameOff = piece->origin != KIRI_NONE && largest[piece->origin] != p;
     }
@@ -65,7 +65,7 @@ bool kiriPieces_Stage(kiriSheetData* sheet)
     if (!JoinFrames(sheet) || !kiriArray_Resize(sheet->memory, &next->framePiece, u->placing.sites.count)) {
         return false;
     }
-    for (int32_t i = 0; i < u->placing.sites.count; ++i) {
+    KIRI_EACH_INDEX(i, u->placing.sites) {
         int32_t root = kiriUnion_Root(u->parent.data, i);
         KIRI_ASSERT(root <= i);
         if (root == i) {
@@ -103,7 +103,7 @@ void kiriPieces_KeepGone(kiriSheetData* sheet, const kiriLayout* old)
 static kiriPiece* NextOfFrame(const kiriSheetData* sheet, int32_t frame)
 {
     const kiriLayout* next = &sheet->update->next;
-    KIRI_ASSERT(frame >= 0 && frame < next->framePiece.count);
+    KIRI_ASSERT_HAS(next->framePiece, frame);
     return &next->pieces.data[next->framePiece.data[frame]];
 }
 
@@ -174,7 +174,7 @@ void kiriPieces_FindTouched(kiriSheetData* sheet)
     KIRI_EACH(kiriPiece, piece, next->pieces) {
         piece->isTouched = piece->cameOff;
     }
-    for (int32_t i = 0; i < sheet->update->placing.sites.count; ++i) {
+    KIRI_EACH_INDEX(i, sheet->update->placing.sites) {
         bool isNew = i >= sheet->frames.count;
         if (isNew || (sheet->regions.dirty.data[i] && !IsSameFrame(sheet, i))) {
             NextOfFrame(sheet, i)->isTouched = true;
@@ -212,7 +212,7 @@ static int32_t HeaviestAt(const kiriSheetData* sheet, int32_t triangle)
 {
     const kiriSkin* skin = &sheet->vertexSkin;
     kiriSampleWeight heaviest = { KIRI_NONE, 0.0f };
-    for (int corner = 0; corner < 3; ++corner) {
+    KIRI_EACH_CORNER(corner) {
         kiriSpan span = skin->spans.data[sheet->mesh.triangles.data[triangle].vertex[corner]];
         KIRI_EACH_IN(k, span) {
             if (skin->weights.data[k].value > heaviest.value) {
@@ -395,7 +395,7 @@ bool kiriPieces_ListFrames(kiriSheetData* sheet)
         !ListPoints(sheet) || !kiriArray_Resize(&sheet->shown, &lists->ids, sheet->frames.count)) {
         return false;
     }
-    for (int32_t i = 0; i < lists->ids.count; ++i) {
+    KIRI_EACH_INDEX(i, lists->ids) {
         lists->ids.data[i] = sheet->frames.data[lists->frames.items.data[i]].id;
     }
     lists->hasFrames = true;
@@ -423,7 +423,7 @@ static bool ListMesh(kiriSheetData* sheet, int32_t* pieces)
         !kiriArray_Resize(memory, &lists->corners, 3 * (int64_t)lists->triangles.items.count)) {
         return false;
     }
-    for (int32_t i = 0; i < lists->triangles.items.count; ++i) {
+    KIRI_EACH_INDEX(i, lists->triangles.items) {
         memcpy(&lists->corners.data[3 * (size_t)i], &indices[3 * (size_t)lists->triangles.items.data[i]],
                3 * sizeof(int32_t));
     }
@@ -443,7 +443,7 @@ bool kiriPieces_ListMesh(kiriSheetData* sheet)
 
 kiriSpan kiriPieceItems_Of(const kiriPieceItems* list, int32_t piece)
 {
-    KIRI_ASSERT(piece >= 0 && piece < list->spans.count);
+    KIRI_ASSERT_HAS(list->spans, piece);
     return list->spans.data[piece];
 }
 
@@ -492,10 +492,7 @@ kiriPieceState kiriPiece_State(const kiriSheetData* sheet, int32_t piece)
         return (kiriPieceState){ 0 };
     }
     kiriTotals totals = kiriSheet_SumFrames(sheet, lists->frames.items.data + frames.first, frames.count);
-    kiriPieceState state;
-    memset(&state, 0, sizeof(state));
-    state.area = totals.area;
-    state.mass = totals.mass;
+    kiriPieceState state = { .area = totals.area, .mass = totals.mass };
     memcpy(state.center, totals.center, sizeof(state.center));
     memcpy(state.momentum, totals.momentum, sizeof(state.momentum));
     memcpy(state.angularMomentum, totals.angularMomentum, sizeof(state.angularMomentum));

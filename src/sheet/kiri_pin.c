@@ -61,8 +61,8 @@ static kiriVec3 HeldPoint(const RestLine* line, kiriVec3 target, const kiriMat3*
 void kiriPin_TakePose(const kiriSheetData* sheet, kiriPinData* pin)
 {
     RestLine line = RestLineOf(sheet, pin);
-    kiriVec2 middle = { 0.0, 0.0 };
-    kiriVec3 x = { 0.0, 0.0, 0.0 };
+    kiriVec2 middle = { 0 };
+    kiriVec3 x = { 0 };
     kiriMat3 A = { x, x, x };
     double sum = 0.0;
     KIRI_EACH(const kiriLineShare, share, sheet->lineShares) {
@@ -99,15 +99,12 @@ static int32_t AppendShares(const kiriSheetData* sheet, int32_t pin, kiriPinShar
 {
     const kiriLineShare* longest = NULL;
     KIRI_EACH(const kiriLineShare, from, sheet->lineShares) {
-        kiriPinShare share;
-        memset(&share, 0, sizeof(share));
-        share.pin = pin;
-        share.share = *from;
+        kiriPinShare share = { .pin = pin, .share = *from };
         if (longest == NULL || share.share.length > longest->length) {
             longest = from;
         }
         KIRI_ASSERT(shares->count < shares->capacity && share.share.length > 0.0);
-        shares->data[shares->count++] = share;
+        KIRI_NEXT(*shares) = share;
     }
     return longest != NULL ? longest->frame : none;
 }
@@ -149,7 +146,7 @@ bool kiriPins_Add(kiriSheetData* sheet, const kiriPinData* pin, int32_t frame)
     if (pin->type != KIRI_PIN_POINT) {
         frame = AppendShares(sheet, index, &sheet->layout.pinShares, frame);
     }
-    sheet->layout.pinFrame.data[sheet->layout.pinFrame.count++] = frame;
+    KIRI_NEXT(sheet->layout.pinFrame) = frame;
     kiriPins_WriteLinkParts(sheet);
     return true;
 }
@@ -161,6 +158,7 @@ static void ForgetHistory(kiriFrameData* frame)
 
 void kiriPins_ForgetHistory(kiriSheetData* sheet, int32_t index)
 {
+    KIRI_ASSERT_HAS(sheet->pins, index);
     const kiriPinShares* shares = &sheet->layout.pinShares;
     ForgetHistory(&sheet->frames.data[sheet->layout.pinFrame.data[index]]);
     KIRI_EACH(const kiriPinShare, share, *shares) {
@@ -274,7 +272,7 @@ static void WriteHinge(kiriSheetData* sheet, const kiriPinShare* pinned, double 
     for (int k = 0; k < 2; ++k) {
         kiriVec3 target = HeldPoint(&line, TargetAfter(pin, to), &rotation, at[k]);
         kiriPinRow spring = { pinned->share.frame, at[k], target, 0.5 * stiffness };
-        sheet->pinRows.data[sheet->pinRows.count++] = spring;
+        KIRI_NEXT(sheet->pinRows) = spring;
     }
 }
 
@@ -293,8 +291,7 @@ static kiriClampRow ClampRowOf(const kiriSheetData* sheet, const kiriPinShare* p
     const kiriPinData* pin = &sheet->pins.data[pinned->pin];
     RestLine line = RestLineOf(sheet, pin);
     kiriClampShape shape = ShapeOf(sheet, &line, &pinned->share, frame->site.at);
-    kiriClampRow row;
-    memset(&row, 0, sizeof(row));
+    kiriClampRow row = { 0 };
     row.frame = pinned->share.frame;
     kiriClamp_Shape(&row, &shape, frame->site.at);
     row.pose.A = RotationAfter(pin, to);
@@ -312,13 +309,14 @@ static kiriClampRow ClampRowOf(const kiriSheetData* sheet, const kiriPinShare* p
    rows and keep their reactions. */
 static bool IsAwakePoint(const kiriSheetData* sheet, int32_t index)
 {
+    KIRI_ASSERT_HAS(sheet->pins, index);
     return sheet->pins.data[index].type == KIRI_PIN_POINT && kiriSheet_Moves(sheet, sheet->layout.pinFrame.data[index]);
 }
 
 /* Returns a reaction at the start of a tick: zero, with the history of the last one. */
 static kiriReaction BeginReaction(const kiriReaction* last)
 {
-    const kiriWrench none = { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } };
+    const kiriWrench none = { 0 };
     kiriReaction reaction = { none, last->gain, last->pull, none };
     return reaction;
 }
@@ -328,9 +326,9 @@ void kiriPins_BeginReactions(kiriSheetData* sheet)
 {
     KIRI_ASSERT(sheet->frameReactions.capacity >= sheet->frames.count);
     sheet->pinReactions.count = sheet->clampReactions.count = 0;
-    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+    KIRI_EACH_INDEX(i, sheet->pins) {
         if (IsAwakePoint(sheet, i)) {
-            sheet->pinReactions.data[sheet->pinReactions.count++] = BeginReaction(&sheet->pins.data[i].reaction);
+            KIRI_NEXT(sheet->pinReactions) = BeginReaction(&sheet->pins.data[i].reaction);
         }
     }
     KIRI_EACH(const kiriPinShare, pinned, sheet->layout.pinShares) {
@@ -338,10 +336,10 @@ void kiriPins_BeginReactions(kiriSheetData* sheet)
             continue;
         }
         if (sheet->pins.data[pinned->pin].type == KIRI_PIN_CLAMP) {
-            sheet->clampReactions.data[sheet->clampReactions.count++] = BeginReaction(&pinned->reactions[0]);
+            KIRI_NEXT(sheet->clampReactions) = BeginReaction(&pinned->reactions[0]);
         } else {
-            sheet->pinReactions.data[sheet->pinReactions.count++] = BeginReaction(&pinned->reactions[0]);
-            sheet->pinReactions.data[sheet->pinReactions.count++] = BeginReaction(&pinned->reactions[1]);
+            KIRI_NEXT(sheet->pinReactions) = BeginReaction(&pinned->reactions[0]);
+            KIRI_NEXT(sheet->pinReactions) = BeginReaction(&pinned->reactions[1]);
         }
     }
     sheet->frameReactions.count = sheet->frames.count;
@@ -358,16 +356,14 @@ void kiriPins_WriteRows(kiriSheetData* sheet, double from, double to)
 {
     bool yields = kiriSettings_Yield(&sheet->settings);
     sheet->pinRows.count = sheet->clampRows.count = 0;
-    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+    KIRI_EACH_INDEX(i, sheet->pins) {
         if (IsAwakePoint(sheet, i)) {
             /* A yielding obstacle is a second spring in series. */
             const kiriPinData* pin = &sheet->pins.data[i];
             kiriVec3 target = kiriVec3_Add(kiriVec3_Add(TargetAfter(pin, to), pin->off), pin->anchor.way);
             double stiffness = pin->stiffness / (1.0 + pin->stiffness * pin->anchor.softness);
-            KIRI_ASSERT(sheet->pinRows.count < sheet->pinRows.capacity);
-            sheet->pinRows.data[sheet->pinRows.count++] = (kiriPinRow){
-                sheet->layout.pinFrame.data[i], kiriMesh_Local(&sheet->mesh, pin->at), target, stiffness
-            };
+            KIRI_NEXT(sheet->pinRows) = (kiriPinRow){ sheet->layout.pinFrame.data[i],
+                                                      kiriMesh_Local(&sheet->mesh, pin->at), target, stiffness };
         }
     }
     KIRI_EACH(kiriPinShare, pinned, sheet->layout.pinShares) {
@@ -378,8 +374,7 @@ void kiriPins_WriteRows(kiriSheetData* sheet, double from, double to)
             WriteHinge(sheet, pinned, to);
         } else {
             const kiriFrameData* frame = &sheet->frames.data[pinned->share.frame];
-            KIRI_ASSERT(sheet->clampRows.count < sheet->clampRows.capacity);
-            kiriClampRow* row = &sheet->clampRows.data[sheet->clampRows.count++];
+            kiriClampRow* row = &KIRI_NEXT(sheet->clampRows);
             *row = ClampRowOf(sheet, pinned, frame, from, to);
             row->keptOffset = yields ? pinned->offset : NULL;
             row->keptPlastic = yields ? &pinned->plastic : NULL;
@@ -427,7 +422,7 @@ void kiriPins_KeepStrains(kiriSheetData* sheet, const kiriPinShares* old)
             continue;
         }
         const kiriPinShare* older = FindPinned(old, pinned->pin, frame);
-        double was[KIRI_CLAMP_STRAINS] = { 0.0 };
+        double was[KIRI_CLAMP_STRAINS] = { 0 };
         MeasureClamp(sheet, pinned, &sheet->frames.data[frame], pinned->offset);
         if (older != NULL) {
             MeasureClamp(sheet, older, kiriStrainOffsets_FrameBefore(&sheet->strainOffsets, sheet->frames.data, frame),
@@ -501,7 +496,7 @@ static void AddBorne(const kiriPinData* pin, const kiriReaction* reaction, kiriV
 static void TakePinReactions(kiriSheetData* sheet, double perTime)
 {
     int32_t row = 0, clamp = 0;
-    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+    KIRI_EACH_INDEX(i, sheet->pins) {
         kiriPinData* pin = &sheet->pins.data[i];
         if (IsAwakePoint(sheet, i)) {
             KIRI_ASSERT(row < sheet->pinReactions.count);
@@ -577,8 +572,9 @@ void kiriPins_ClearReactions(kiriSheetData* sheet)
 /* Returns the share of a frame in the position of a point. */
 static double ShareAt(const kiriSheetData* sheet, const kiriPointPlace* place, int32_t frame)
 {
+    KIRI_ASSERT_HAS(sheet->frames, frame);
     double sum = 0.0;
-    for (int k = 0; k < 3; ++k) {
+    KIRI_EACH_CORNER(k) {
         kiriSpan span = sheet->vertexSkin.spans.data[sheet->mesh.triangles.data[place->triangle].vertex[k]];
         KIRI_EACH_IN(i, span) {
             const kiriSampleWeight* weight = &sheet->vertexSkin.weights.data[i];
@@ -613,6 +609,7 @@ static void Settle(const kiriSheetData* sheet, kiriVec3* off, kiriVec3 measured,
 
 static void SettlePoint(kiriSheetData* sheet, int32_t index, double dt)
 {
+    KIRI_ASSERT_HAS(sheet->pins, index);
     kiriPinData* pin = &sheet->pins.data[index];
     int32_t frame = sheet->layout.pinFrame.data[index];
     const kiriFrameData* data = &sheet->frames.data[frame];
@@ -637,7 +634,7 @@ static bool FindHoldOff(const kiriSheetData* sheet, int32_t first, kiriVec3* off
     const kiriPinShares* shares = &sheet->layout.pinShares;
     const kiriPinData* pin = &sheet->pins.data[shares->data[first].pin];
     RestLine line = RestLineOf(sheet, pin);
-    kiriVec3 sum = { 0.0, 0.0, 0.0 }, seen;
+    kiriVec3 sum = { 0 }, seen;
     double length = 0.0;
     for (int32_t k = first; k < shares->count && shares->data[k].pin == shares->data[first].pin; ++k) {
         const kiriPinShare* pinned = &shares->data[k];
@@ -684,7 +681,7 @@ static bool IsHeldElsewhere(const kiriSheetData* sheet, const kiriPinShare* hold
 static void SettleClamp(kiriSheetData* sheet, int32_t first, double dt)
 {
     kiriPinShares* shares = &sheet->layout.pinShares;
-    kiriVec3 off = { 0.0, 0.0, 0.0 };
+    kiriVec3 off = { 0 };
     if (!IsHeldElsewhere(sheet, &shares->data[first]) && !FindHoldOff(sheet, first, &off)) {
         return;
     }
@@ -697,7 +694,7 @@ static void SettleClamp(kiriSheetData* sheet, int32_t first, double dt)
 
 static void DropOffs(kiriSheetData* sheet)
 {
-    const kiriVec3 none = { 0.0, 0.0, 0.0 };
+    const kiriVec3 none = { 0 };
     KIRI_EACH(kiriPinData, pin, sheet->pins) {
         pin->off = none;
         pin->offFrame = 0;
@@ -719,12 +716,12 @@ void kiriFollow_Begin(kiriSheetData* sheet, double dt)
         DropOffs(sheet);
         return;
     }
-    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+    KIRI_EACH_INDEX(i, sheet->pins) {
         if (IsAwakePoint(sheet, i)) {
             SettlePoint(sheet, i, dt);
         }
     }
-    for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
+    KIRI_EACH_INDEX(k, sheet->layout.pinShares) {
         const kiriPinShare* pinned = &sheet->layout.pinShares.data[k];
         bool isFirst =
             sheet->pins.data[pinned->pin].type == KIRI_PIN_CLAMP && kiriSheet_Moves(sheet, pinned->share.frame);
@@ -775,7 +772,7 @@ static bool MoveTargets(kiriSheetData* sheet, double after, double h)
 {
     bool any = false;
     int32_t row = 0;
-    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+    KIRI_EACH_INDEX(i, sheet->pins) {
         kiriPinData* pin = &sheet->pins.data[i];
         kiriPinAnchor* anchor = &pin->anchor;
         any =

@@ -21,8 +21,8 @@ static const int32_t* CornersOf(const kiriSheetData* sheet, const kiriPointPlace
 
 kiriVec3 kiriPoint_Position(const kiriSheetData* sheet, const kiriPointPlace* place)
 {
-    kiriVec3 x = { 0.0, 0.0, 0.0 };
-    for (int k = 0; k < 3; ++k) {
+    kiriVec3 x = { 0 };
+    KIRI_EACH_CORNER(k) {
         x = kiriVec3_AddScaled(x, place->shares[k], kiriSurface_At(&sheet->seen.surface, CornersOf(sheet, place)[k]));
     }
     return x;
@@ -40,12 +40,13 @@ static kiriVec3 AddCorner(const kiriSheetData* sheet, kiriVec3 sum, int32_t h)
    query may not write. */
 static kiriVec3 VertexNormal(const kiriSheetData* sheet, int32_t vertex)
 {
+    KIRI_ASSERT_HAS(sheet->mesh.vertices, vertex);
     const kiriSurface* surface = &sheet->seen.surface;
     if (surface->hasNormals) {
         return kiriVec3_Load(&surface->normals.data[3 * (size_t)vertex]);
     }
     int32_t start = sheet->mesh.vertices.data[vertex].edge, h = start;
-    kiriVec3 sum = { 0.0, 0.0, 0.0 };
+    kiriVec3 sum = { 0 };
     do {
         sum = AddCorner(sheet, sum, h);
         h = kiriMesh_CounterClockwise(&sheet->mesh, h);
@@ -63,9 +64,9 @@ static kiriVec3 VertexNormal(const kiriSheetData* sheet, int32_t vertex)
 kiriVec3 kiriPoint_Normal(const kiriSheetData* sheet, const kiriPointPlace* place)
 {
     const int32_t* corners = CornersOf(sheet, place);
-    kiriVec3 sum = { 0.0, 0.0, 0.0 };
+    kiriVec3 sum = { 0 };
     int heaviest = 0;
-    for (int k = 0; k < 3; ++k) {
+    KIRI_EACH_CORNER(k) {
         sum = kiriVec3_AddScaled(sum, place->shares[k], VertexNormal(sheet, corners[k]));
         heaviest = place->shares[k] > place->shares[heaviest] ? k : heaviest;
     }
@@ -81,9 +82,8 @@ kiriVec3 kiriPoint_Normal(const kiriSheetData* sheet, const kiriPointPlace* plac
 /* Blends the frames at the corners, then the corners, as the visible mesh does. */
 kiriMotion kiriPoint_Blend(const kiriSheetData* sheet, const kiriPointPlace* place)
 {
-    kiriMotion motion;
-    memset(&motion, 0, sizeof(motion));
-    for (int k = 0; k < 3; ++k) {
+    kiriMotion motion = { 0 };
+    KIRI_EACH_CORNER(k) {
         int32_t corner = CornersOf(sheet, place)[k];
         kiriVec2 local = kiriMesh_Local(&sheet->mesh, sheet->mesh.vertices.data[corner].at);
         kiriSpan span = sheet->vertexSkin.spans.data[corner];
@@ -124,7 +124,7 @@ static void ResizeBlocks(kiriBlocks* blocks, int32_t vertexCount, int32_t frameC
 
 void kiriBlocks_Renumber(kiriBlocks* blocks, int32_t vertexCount, int32_t frameCount)
 {
-    for (int32_t block = 0; block < blocks->movers.count; ++block) {
+    KIRI_EACH_INDEX(block, blocks->movers) {
         ForgetBlock(blocks, block);
     }
     KIRI_EACH(uint8_t, moved, blocks->moved) {
@@ -154,12 +154,12 @@ static void FindMovers(kiriSheetData* sheet)
 {
     kiriBlocks* blocks = &sheet->seen.blocks;
     bool anyWoke = false;
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+    KIRI_EACH_INDEX(i, sheet->frames) {
         uint8_t moves = kiriSheet_Moves(sheet, i);
         anyWoke = anyWoke || (moves && !blocks->moved.data[i]);
         blocks->moved.data[i] = moves;
     }
-    for (int32_t block = 0; block < blocks->movers.count; ++block) {
+    KIRI_EACH_INDEX(block, blocks->movers) {
         int32_t mover = blocks->movers.data[block];
         bool isKnown = mover == KIRI_NONE ? !anyWoke : mover != KIRI_UNKNOWN && blocks->moved.data[mover];
         blocks->movers.data[block] = isKnown ? mover : FindMover(sheet, block);
@@ -256,6 +256,7 @@ void kiriView_Resize(kiriSheetData* sheet, int32_t frameCount)
 
 static void StaleBlock(kiriSheetData* sheet, int32_t vertex)
 {
+    KIRI_ASSERT(vertex < sheet->mesh.vertices.count);
     if (vertex >= 0) {
         sheet->seen.blocks.stale.data[vertex / KIRI_BLOCK] = 1;
     }
@@ -263,7 +264,7 @@ static void StaleBlock(kiriSheetData* sheet, int32_t vertex)
 
 static void StaleCorners(kiriSheetData* sheet, const int32_t* corners)
 {
-    for (int k = 0; k < 3; ++k) {
+    KIRI_EACH_CORNER(k) {
         StaleBlock(sheet, corners[k]);
     }
 }
@@ -285,7 +286,7 @@ static void StaleChanges(kiriSheetData* sheet)
 
 static void HideTriangles(kiriSheetData* sheet)
 {
-    for (int32_t t = 0; t < sheet->mesh.triangles.count; ++t) {
+    KIRI_EACH_INDEX(t, sheet->mesh.triangles) {
         int32_t piece = kiriPiece_OfTriangle(sheet, t);
         if (sheet->layout.pieces.data[piece].isGone) {
             StaleCorners(sheet, kiriSurface_Triangle(&sheet->seen.surface, t));
@@ -311,7 +312,7 @@ void kiriView_WriteTopology(kiriSheetData* sheet)
     kiriView_Resize(sheet, sheet->frames.count);
     for (int32_t v = sheet->mesh.oldVertexCount; v < sheet->mesh.oldVertexCount + sheet->mesh.births.count; ++v) {
         const kiriBirth* birth = &sheet->mesh.births.data[v - sheet->mesh.oldVertexCount];
-        kiriVec3 at = { 0.0, 0.0, 0.0 }; /* on the visible triangle that the vertex was born in */
+        kiriVec3 at = { 0 }; /* on the visible triangle that the vertex was born in */
         for (int k = 0; k < 3 && birth->parent[k] != KIRI_NONE; ++k) {
             at = kiriVec3_AddScaled(at, birth->share[k], kiriSurface_At(&sheet->seen.surface, birth->parent[k]));
         }
@@ -348,7 +349,7 @@ void kiriView_TakeFrames(kiriSheetData* sheet)
         seen->lists = moved->version;
     }
     if (HasMovedWaiting(sheet)) {
-        memset(seen->blocks.stale.data, 1, (size_t)seen->blocks.stale.count);
+        kiriArray_Set(&seen->blocks.stale, 1);
     }
     seen->surface.isWritten &= seen->fades.fading.count == 0;
 }
@@ -356,7 +357,7 @@ void kiriView_TakeFrames(kiriSheetData* sheet)
 /* Places collision points by linear blending under any skinning, because contacts use it (see kiri_motion.c). */
 static void BlendPoints(kiriSheetData* sheet, bool isPartly)
 {
-    for (int32_t i = 0; i < sheet->points.count; ++i) {
+    KIRI_EACH_INDEX(i, sheet->points) {
         if (isPartly && !kiriSheet_Moves(sheet, sheet->points.data[i].frame)) {
             continue;
         }
@@ -393,6 +394,7 @@ typedef struct JumpLook {
 
 static bool IsVertexAwake(const kiriSheetData* sheet, int32_t vertex)
 {
+    KIRI_ASSERT_HAS(sheet->mesh.vertices, vertex);
     return kiriPiece_IsMoved(&sheet->layout.pieces.data[kiriPiece_OfVertex(sheet, vertex)]);
 }
 
@@ -451,7 +453,7 @@ static void TakeVertexJumps(kiriSheetData* sheet)
     surface->isWritten = false;
     look.shift = kiriVec3_Sub(middle, surface->middle);
     /* Patches that changed only by rounding do not count if their piece moves in this tick: it is written again anyway. */
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+    KIRI_EACH_INDEX(i, sheet->frames) {
         const kiriPiece* piece = kiriSheet_PieceOf(sheet, i);
         uint8_t* isOther = &surface->patches.isOther.data[i];
         bool moves = kiriPiece_IsAwake(piece) && piece->rest.calm < KIRI_CALM_SECONDS;
@@ -586,7 +588,7 @@ void kiriView_Sum(kiriSheetData* sheet)
     }
     BlendPoints(sheet, seen->surface.isPartly);
     AddPointFades(sheet);
-    for (int32_t i = 0; i < sheet->points.count; ++i) {
+    KIRI_EACH_INDEX(i, sheet->points) {
         kiriVec3_Store(&seen->pointPositions.data[3 * i], seen->exactPoints.data[i]);
     }
     seen->pointCount = sheet->points.count;
@@ -604,10 +606,10 @@ void kiriView_EndWriting(kiriSheetData* sheet)
 {
     kiriSeen* seen = &sheet->seen;
     if (!seen->surface.isWritten) {
-        memset(seen->blocks.stale.data, 0, (size_t)seen->blocks.stale.count);
+        kiriArray_Set(&seen->blocks.stale, 0);
     }
     if (seen->isElsewhere) {
-        memset(seen->blocks.touched.data, 0, (size_t)seen->blocks.touched.count);
+        kiriArray_Set(&seen->blocks.touched, 0);
     }
     seen->surface.isPartly &= !HasMovedWaiting(sheet); /* for boxes */
     seen->isElsewhere = false;

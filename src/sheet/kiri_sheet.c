@@ -1,8 +1,6 @@
 #include "kiri_sheet.h"
 #include "../core/kiri_array.h"
 
-#include <string.h>
-
 kiriSheetData* kiriSheet_New(kiriMemory* memory)
 {
     kiriSheetData* sheet = kiriMemory_AllocZeroed(memory, sizeof(*sheet));
@@ -44,7 +42,7 @@ bool kiriSheet_ToLattice(const kiriSheetData* sheet, const float rest[2], kiriLa
 
 void kiriSheet_WakePiece(kiriSheetData* sheet, int32_t piece)
 {
-    KIRI_ASSERT(piece >= 0 && piece < sheet->layout.pieces.count);
+    KIRI_ASSERT_HAS(sheet->layout.pieces, piece);
     kiriPiece* woken = &sheet->layout.pieces.data[piece];
     if (!woken->isGone) {
         woken->rest.asleep = sheet->rest.asleep = sheet->rest.isIdle = false;
@@ -54,11 +52,13 @@ void kiriSheet_WakePiece(kiriSheetData* sheet, int32_t piece)
 
 void kiriSheet_WakeFrame(kiriSheetData* sheet, int32_t frame)
 {
+    KIRI_ASSERT_HAS(sheet->frames, frame);
     kiriSheet_WakePiece(sheet, sheet->layout.framePiece.data[frame]);
 }
 
 void kiriSheet_WakePin(kiriSheetData* sheet, int32_t pin)
 {
+    KIRI_ASSERT_HAS(sheet->pins, pin);
     const kiriPinShares* shares = &sheet->layout.pinShares;
     kiriSheet_WakeFrame(sheet, sheet->layout.pinFrame.data[pin]);
     KIRI_EACH(const kiriPinShare, share, *shares) {
@@ -70,14 +70,14 @@ void kiriSheet_WakePin(kiriSheetData* sheet, int32_t pin)
 
 void kiriSheet_WakeAll(kiriSheetData* sheet)
 {
-    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+    KIRI_EACH_INDEX(p, sheet->layout.pieces) {
         kiriSheet_WakePiece(sheet, p);
     }
 }
 
 void kiriSheet_WakeStirred(kiriSheetData* sheet)
 {
-    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+    KIRI_EACH_INDEX(p, sheet->layout.pieces) {
         if (sheet->layout.pieces.data[p].rest.isStirred) {
             kiriSheet_WakePiece(sheet, p);
         }
@@ -105,9 +105,8 @@ void kiriSheet_SumRest(kiriSheetData* sheet)
 
 kiriTotals kiriSheet_SumFrames(const kiriSheetData* sheet, const int32_t* indices, int32_t count)
 {
-    kiriTotals totals;
-    memset(&totals, 0, sizeof(totals));
-    kiriVec3 center = { 0.0, 0.0, 0.0 }, momentum = center, angular = center;
+    kiriTotals totals = { 0 };
+    kiriVec3 center = { 0 }, momentum = center, angular = center;
     for (int32_t i = 0; i < count; ++i) {
         const kiriFrameData* frame = &sheet->frames.data[indices != NULL ? indices[i] : i];
         if (kiriSheet_IsGone(sheet, indices != NULL ? indices[i] : i)) {

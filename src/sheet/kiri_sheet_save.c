@@ -363,7 +363,7 @@ static void MoveCuts(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* mem
         int32_t cut = kiriArchive_Count(archive, point->cut != NULL ? point->cut->index : 0, 0, sheet->cuts.count - 1);
         kiriArchive_Object(archive, QueuedPointTable, point);
         if (kiriArchive_Reads(archive) && !kiriArchive_HasFailed(archive)) {
-            KIRI_ASSERT(cut >= 0 && cut < sheet->cuts.count);
+            KIRI_ASSERT_HAS(sheet->cuts, cut);
             point->cut = sheet->cuts.data[cut];
             point->cut->waiting += 1;
         }
@@ -396,8 +396,8 @@ static void ReserveSeen(kiriArchive* archive, kiriSheetData* sheet)
                                     kiriSurface_AreChangesSound(surface));
     if (!kiriArchive_HasFailed(archive)) {
         kiriView_Resize(sheet, counts.frames);
-        memset(blocks->touched.data, 1, (size_t)blocks->touched.count);
-        memset(blocks->stale.data, 1, (size_t)blocks->stale.count);
+        kiriArray_Set(&blocks->touched, 1);
+        kiriArray_Set(&blocks->stale, 1);
     }
 }
 
@@ -661,7 +661,7 @@ void kiriSheet_Derive(kiriSheetData* sheet, kiriArchive* archive)
     }
     KIRI_ASSERT(sheet->update->stage == KIRI_NONE && sheet->vertexSkin.spans.count == sheet->mesh.vertices.count);
     kiriSurface_Derive(&sheet->seen.surface, &sheet->mesh, 0, 0);
-    for (int32_t t = 0; t < sheet->mesh.triangles.count; ++t) {
+    KIRI_EACH_INDEX(t, sheet->mesh.triangles) {
         if (sheet->layout.pieces.data[kiriPiece_OfTriangle(sheet, t)].isGone) {
             kiriSurface_HideTriangle(&sheet->seen.surface, t);
         }

@@ -4,7 +4,6 @@
 #include "../field/kiri_site.h"
 
 #include <math.h>
-#include <string.h>
 
 typedef struct SeverWork {
     kiriSheetData* sheet;
@@ -41,6 +40,7 @@ static bool IsAcross(const SeverWork* work, const kiriLink* link, double* t, dou
 /* Adds a severed link. `part` and `held` are in [0, 1]. */
 static bool AddSevered(const SeverWork* work, int32_t link, double part, double held)
 {
+    KIRI_ASSERT(link >= 0 && link < work->linkCount);
     kiriSeveredLink severed = { work->pin, link, part, held };
     return kiriArray_Push(work->sheet->memory, work->severed, severed);
 }
@@ -177,6 +177,7 @@ static bool AddSite(kiriSheetData* sheet, kiriSite site)
    free, which only a corrupt save can cause. */
 static bool Relocate(kiriSheetData* sheet, int32_t frame)
 {
+    KIRI_ASSERT_HAS(sheet->frames, frame);
     kiriPlacingWork* placing = &sheet->update->placing;
     int32_t cell = kiriGrid_CellAround(&sheet->grid, &sheet->mesh, sheet->frames.data[frame].anchor);
     if (placing->flags.data[cell]) {
@@ -244,14 +245,12 @@ bool kiriSites_Relocate(kiriSheetData* sheet)
         return ok;
     }
     /* Flags of squares or cells. All are 0 between uses, so a use costs only the flags that it sets. */
-    int32_t old = placing->flags.count, squares = sheet->mesh.squares.columns * sheet->mesh.squares.rows;
+    int32_t squares = sheet->mesh.squares.columns * sheet->mesh.squares.rows;
     int32_t most = kiriMax(sheet->grid.cells.count, squares), kept = 0, found = 0;
-    if (most > old) {
-        if (!kiriArray_Resize(sheet->memory, &placing->flags, most)) {
-            return false;
-        }
-        memset(placing->flags.data + old, 0, (size_t)(most - old));
+    if (!kiriArray_Reserve(sheet->memory, &placing->flags, most)) {
+        return false;
     }
+    kiriArray_Extend(&placing->flags, most, 0);
     if (!CollectMoves(sheet)) {
         return false;
     }
@@ -384,7 +383,7 @@ static kiriProgress TakePiece(kiriSheetData* sheet, int32_t cell, kiriQuota* cel
     kiriPlacingWork* placing = &sheet->update->placing;
     kiriPlacer* placer = &placing->placer;
     if (!placing->isTaking) {
-        placing->search = (kiriSlitSearch){ 0, 0 };
+        placing->search = (kiriSlitSearch){ 0 };
         if (!kiriPlacer_StartPiece(placer, sheet->memory, &sheet->grid, cell)) {
             return KIRI_FAILED;
         }
@@ -454,9 +453,7 @@ bool kiriSites_ClearMarks(kiriSheetData* sheet, int32_t count)
     if (!kiriArray_Resize(sheet->memory, &placing->marks, count)) {
         return false;
     }
-    if (count > 0) {
-        memset(placing->marks.data, 0, (size_t)count);
-    }
+    kiriArray_Set(&placing->marks, 0);
     return true;
 }
 

@@ -190,7 +190,7 @@ static bool MeasureRegions(kiriSheetData* sheet)
     if (!kiriArray_Resize(sheet->memory, &u->material, u->placing.sites.count)) {
         return false;
     }
-    for (int32_t i = 0; i < u->placing.sites.count; ++i) {
+    KIRI_EACH_INDEX(i, u->placing.sites) {
         if (i < known && !sheet->regions.dirty.data[i]) {
             continue;
         }
@@ -450,7 +450,7 @@ static kiriProgress PlaceNewFrames(kiriSheetData* sheet, kiriQuota* samples)
         kiriNewFrame frame = { kiriGrid_Anchor(&sheet->grid, &sheet->mesh, cell), KIRI_NONE };
         frame.triangle = kiriMesh_Locate(&sheet->mesh, frame.anchor);
         frame.triangle = frame.triangle == KIRI_NONE ? sheet->grid.cells.data[cell].triangle : frame.triangle;
-        u->newFrames.data[u->newFrames.count++] = frame;
+        KIRI_NEXT(u->newFrames) = frame;
         u->due = 1 + kiriSquares_CountNodes(&sheet->mesh.squares, sheet->grid.cells.data[cell].square) / 4;
     }
     return KIRI_MORE;
@@ -533,7 +533,7 @@ kiriQuotas kiriQuotas_Of(const kiriBudget* budget)
 
 kiriQuotas kiriQuotas_Unlimited(void)
 {
-    const kiriBudget unlimited = { 0, 0, 0, 0 };
+    const kiriBudget unlimited = { 0 };
     return kiriQuotas_Of(&unlimited);
 }
 
@@ -587,7 +587,7 @@ bool kiriPipeline_Make(kiriSheetData* sheet, int32_t end)
         if (sheet->update == NULL || !kiriArray_Resize(sheet->memory, &skin->spans, sheet->mesh.vertices.count)) {
             return false;
         }
-        memset(skin->spans.data, 0, sizeof(kiriSpan) * (size_t)skin->spans.count);
+        kiriArray_Set(&skin->spans, 0);
         sheet->update->stage = KIRI_STAGE_GRID;
         sheet->update->isScratch = true;
         sheet->update->cut.settlesSites = true;
@@ -664,7 +664,7 @@ void kiriPipeline_Finish(kiriSheetData* sheet)
 {
     kiriUpdate* u = sheet->update;
     KIRI_ASSERT(u->stage == KIRI_READY && u->cut.taken == u->cut.count && u->cut.count <= sheet->queue.count);
-    for (int32_t i = 0; i < sheet->queue.count; ++i) {
+    KIRI_EACH_INDEX(i, sheet->queue) {
         if (i < u->cut.count) {
             sheet->queue.data[i].cut->waiting -= 1;
         } else {
@@ -766,7 +766,7 @@ static void CommitFrames(kiriSheetData* sheet)
     const kiriUpdate* u = sheet->update;
     double densityPerArea = (double)sheet->settings.material.density * sheet->settings.material.thickness;
     AddFrames(sheet);
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+    KIRI_EACH_INDEX(i, sheet->frames) {
         kiriFrameData* frame = &sheet->frames.data[i];
         frame->site = u->placing.sites.data[i];
         if (sheet->regions.dirty.data[i]) {
@@ -790,7 +790,7 @@ static void CommitPoints(kiriSheetData* sheet)
         sheet->points.data[moved->frame].cell = moved->cell;
     }
     KIRI_EACH(const kiriSample, fresh, u->samples.newPoints) {
-        sheet->points.data[sheet->points.count++] = *fresh;
+        KIRI_NEXT(sheet->points) = *fresh;
         kiriPlaces_Add(&sheet->pointPlaces, sheet->memory, &sheet->mesh, fresh->at);
     }
     KIRI_EACH(kiriSample, point, sheet->points) {

@@ -536,7 +536,7 @@ inline int32_t FindBlock(const kiriMatrix* matrix, int32_t a, int32_t b)
 
 inline double* BlockOf(const kiriMatrix* matrix, int32_t block)
 {
-    KIRI_ASSERT(block >= 0 && block < matrix->pattern.row.count);
+    KIRI_ASSERT_HAS(matrix->pattern.row, block);
     return matrix->values.data + (int64_t)matrix->size * matrix->size * block;
 }
 
@@ -589,7 +589,7 @@ extern "C" void kiriMatrix_Clear(kiriMatrix* matrix)
 
 extern "C" void kiriMatrix_AddOwn(kiriMatrix* matrix, int32_t frame, const double* block)
 {
-    KIRI_ASSERT(frame >= 0 && frame < matrix->count);
+    KIRI_ASSERT_HAS(*matrix, frame);
     double* out = DiagonalBlockOf(matrix, matrix->order.data[frame]);
     for (int32_t n = 0; n < matrix->size * matrix->size; ++n) {
         out[n] += block[n];

@@ -28,7 +28,7 @@ void kiriBox_Add(kiriBox* box, kiriVec3 at)
 static void GetWorldCorners(const kiriSurface* surface, int32_t triangle, kiriVec3 corner[3])
 {
     KIRI_ASSERT(triangle >= 0 && triangle < surface->triangleCount);
-    for (int k = 0; k < 3; ++k) {
+    KIRI_EACH_CORNER(k) {
         corner[k] = kiriSurface_At(surface, kiriSurface_Triangle(surface, triangle)[k]);
     }
 }
@@ -38,7 +38,7 @@ kiriBox kiriBox_OfTriangle(const kiriSurface* surface, int32_t triangle)
     kiriVec3 corner[3];
     kiriBox box = EmptyBox;
     GetWorldCorners(surface, triangle, corner);
-    for (int k = 0; k < 3; ++k) {
+    KIRI_EACH_CORNER(k) {
         kiriBox_Add(&box, corner[k]);
     }
     return box;

@@ -44,7 +44,7 @@ static bool StageWeights(kiriSkin* skin, kiriMemory* memory, const kiriStencil* 
     kiriReweighed staged = { sample, { 0, 0 } };
     int32_t count = 0;
     KIRI_ASSERT(sample >= 0);
-    for (int32_t i = 0; i < stencil->frames.count; ++i) {
+    KIRI_EACH_INDEX(i, stencil->frames) {
         count += stencil->values.data[i] >= LEAST_SHARE;
     }
     if (!kiriArray_Reserve(memory, &skin->spans, (int64_t)sample + 1) ||
@@ -53,7 +53,7 @@ static bool StageWeights(kiriSkin* skin, kiriMemory* memory, const kiriStencil* 
         return false;
     }
     kiriSampleWeight* weight = skin->weights.data + staged.span.first;
-    for (int32_t i = 0; i < stencil->frames.count; ++i) {
+    KIRI_EACH_INDEX(i, stencil->frames) {
         if (stencil->values.data[i] >= LEAST_SHARE) {
             *weight++ = (kiriSampleWeight){ stencil->frames.data[i], (float)stencil->values.data[i] };
         }
@@ -62,7 +62,7 @@ static bool StageWeights(kiriSkin* skin, kiriMemory* memory, const kiriStencil* 
         *weight = (kiriSampleWeight){ stencil->frames.count > 0 ? stencil->frames.data[0] : 0, 1.0f };
     }
     RoundWeights(skin->weights.data + staged.span.first, staged.span.count);
-    skin->staged.data[skin->staged.count++] = staged;
+    KIRI_NEXT(skin->staged) = staged;
     return true;
 }
 
@@ -84,8 +84,7 @@ void kiriSkin_Commit(kiriSkin* skin)
 {
     KIRI_EACH(const kiriReweighed, staged, skin->staged) {
         if (staged->sample == skin->spans.count) {
-            KIRI_ASSERT(skin->spans.count < skin->spans.capacity);
-            skin->spans.data[skin->spans.count++] = (kiriSpan){ 0, 0 };
+            KIRI_NEXT(skin->spans) = (kiriSpan){ 0 };
         }
         KIRI_ASSERT(staged->sample < skin->spans.count);
         DropSpan(skin, &skin->spans.data[staged->sample]);
@@ -105,13 +104,12 @@ void kiriSkin_Drop(kiriSkin* skin)
 bool kiriSkin_Sort(kiriSkin* skin, kiriMemory* memory)
 {
     KIRI_ASSERT(skin->staged.count == 0);
-    kiriSkin sorted;
-    memset(&sorted, 0, sizeof(sorted));
+    kiriSkin sorted = { 0 };
     if (!kiriArray_Reserve(memory, &sorted.weights, skin->weights.count + (int64_t)skin->weights.count / 8)) {
         return false;
     }
     KIRI_EACH(kiriSpan, at, skin->spans) {
-        kiriSpan was = *at, is = { 0, 0 };
+        kiriSpan was = *at, is = { 0 };
         ResizeSampleWeights(&sorted, memory, &is, was.count); /* there is room */
         memcpy(sorted.weights.data + is.first, skin->weights.data + was.first,
                sizeof(kiriSampleWeight) * (size_t)was.count);
@@ -141,7 +139,7 @@ static void Blend(kiriSkin* skin, kiriSpan* span, int32_t frame, double value)
 
 static void InheritOne(kiriSkin* skin, kiriMemory* memory, const kiriBirth* birth)
 {
-    kiriSpan span = { 0, 0 };
+    kiriSpan span = { 0 };
     int32_t most = 0;
     for (int k = 0; k < 3 && birth->parent[k] != KIRI_NONE; ++k) {
         most += skin->spans.data[birth->parent[k]].count;
@@ -159,7 +157,7 @@ static void InheritOne(kiriSkin* skin, kiriMemory* memory, const kiriBirth* birt
     }
     sum.count = RoundWeights(skin->weights.data + sum.first, sum.count);
     ResizeSampleWeights(skin, memory, &span, sum.count);
-    skin->spans.data[skin->spans.count++] = span;
+    KIRI_NEXT(skin->spans) = span;
 }
 
 bool kiriSkin_ReserveBirths(kiriSkin* skin, kiriMemory* memory, int32_t births, int32_t frames)
@@ -205,17 +203,14 @@ static int32_t SquareCount(const kiriMeshData* mesh)
 
 bool kiriPlaces_Reserve(kiriPlaces* places, kiriMemory* memory, const kiriMeshData* mesh, int64_t sampleCount)
 {
-    int32_t old = places->head.count;
     if (sampleCount == 0) {
         return true;
     }
     if (!kiriArray_Reserve(memory, &places->next, sampleCount) ||
-        !kiriArray_ResizeJust(memory, &places->head, SquareCount(mesh))) {
+        !kiriArray_ReserveJust(memory, &places->head, SquareCount(mesh))) {
         return false;
     }
-    for (int32_t s = old; s < places->head.count; ++s) {
-        places->head.data[s] = KIRI_NONE;
-    }
+    kiriArray_Extend(&places->head, SquareCount(mesh), KIRI_NONE);
     return true;
 }
 
@@ -245,11 +240,10 @@ void kiriPlaces_Keep(kiriPlaces* places, const kiriKeep* samples)
 
 static void AddSquare(kiriRefresh* refresh, int32_t square)
 {
-    KIRI_ASSERT(square >= 0 && square < refresh->marks.count);
+    KIRI_ASSERT_HAS(refresh->marks, square);
     if (!refresh->marks.data[square]) {
-        KIRI_ASSERT(refresh->squares.count < refresh->squares.capacity);
         refresh->marks.data[square] = 1;
-        refresh->squares.data[refresh->squares.count++] = square;
+        KIRI_NEXT(refresh->squares) = square;
     }
 }
 
@@ -290,18 +284,16 @@ kiriProgress kiriRefresh_Start(kiriRefresh* refresh, const kiriSampleSource* sou
     enum { CHANGES_AN_ITEM = 16 };
     const kiriMeshData* mesh = source->mesh;
     int32_t cells = source->shape->changes.count, squares = cells + refresh->noted.count;
-    int32_t count = squares + mesh->vertices.count - firstVertex, old = refresh->marks.count;
+    int32_t count = squares + mesh->vertices.count - firstVertex;
     refresh->oldCount = firstVertex;
     if (refresh->change == 0) {
         refresh->squares.count = refresh->square = 0;
         refresh->sample = refresh->stencil.cell = KIRI_NONE;
         if (!kiriArray_ReserveJust(source->memory, &refresh->squares, SquareCount(mesh)) ||
-            !kiriArray_ResizeJust(source->memory, &refresh->marks, SquareCount(mesh))) {
+            !kiriArray_ReserveJust(source->memory, &refresh->marks, SquareCount(mesh))) {
             return KIRI_FAILED;
         }
-        for (int32_t s = old; s < refresh->marks.count; ++s) {
-            refresh->marks.data[s] = 0;
-        }
+        kiriArray_Extend(&refresh->marks, SquareCount(mesh), 0);
     }
     for (; refresh->change < count; ++refresh->change) {
         int32_t k = refresh->change;
@@ -329,7 +321,7 @@ static bool RefreshOne(kiriRefresh* refresh, const kiriSampleSource* source, int
     kiriSkin* skin = source->skin;
     bool isVertex = source->places == NULL;
     kiriLatticePoint at = isVertex ? kiriMesh_At(mesh, sample) : source->points->data[sample].at;
-    KIRI_ASSERT(square >= 0 && square < grid->squareCell.count);
+    KIRI_ASSERT_HAS(grid->squareCell, square);
     int32_t cell = grid->squareCell.data[square];
     if (grid->cells.data[cell].next != KIRI_NONE) {
         cell = isVertex ? kiriGrid_CellOfVertex(grid, mesh, sample) : kiriGrid_CellAround(grid, mesh, at);
@@ -345,7 +337,7 @@ static bool RefreshOne(kiriRefresh* refresh, const kiriSampleSource* source, int
     /* Weights of an old vertex have often not changed: then it is not staged. A point that is staged may have another
        cell, too. */
     kiriSpan* is = &skin->staged.data[skin->staged.count - 1].span;
-    kiriSpan was = isVertex && sample < refresh->oldCount ? skin->spans.data[sample] : (kiriSpan){ 0, 0 };
+    kiriSpan was = isVertex && sample < refresh->oldCount ? skin->spans.data[sample] : (kiriSpan){ 0 };
     if (was.count == is->count && memcmp(skin->weights.data + was.first, skin->weights.data + is->first,
                                          sizeof(kiriSampleWeight) * (size_t)is->count) == 0) {
         DropSpan(skin, is);
@@ -392,8 +384,8 @@ kiriProgress kiriRefresh_Stage(kiriRefresh* refresh, const kiriSampleSource* sou
 kiriVec3 kiriSkin_Position(const kiriSkin* skin, int32_t sample, const kiriFrameData* frames,
                            kiriVec2 local)
 {
-    KIRI_ASSERT(sample >= 0 && sample < skin->spans.count);
-    kiriVec3 x = { 0.0, 0.0, 0.0 };
+    KIRI_ASSERT_HAS(skin->spans, sample);
+    kiriVec3 x = { 0 };
     kiriSpan span = skin->spans.data[sample];
     KIRI_EACH_IN(i, span) {
         kiriSampleWeight weight = skin->weights.data[i];
@@ -405,12 +397,11 @@ kiriVec3 kiriSkin_Position(const kiriSkin* skin, int32_t sample, const kiriFrame
 kiriMotion kiriSkin_Motion(const kiriSkin* vertexSkin, const kiriFrameData* frames,
                            const kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at)
 {
-    kiriMotion motion;
-    memset(&motion, 0, sizeof(motion));
+    kiriMotion motion = { 0 };
     kiriVec2 local = kiriMesh_Local(mesh, at);
     double shares[3];
     kiriMesh_Shares(mesh, triangle, at, shares);
-    for (int k = 0; k < 3; ++k) {
+    KIRI_EACH_CORNER(k) {
         kiriSpan span = vertexSkin->spans.data[mesh->triangles.data[triangle].vertex[k]];
         KIRI_EACH_IN(i, span) {
             kiriSampleWeight weight = vertexSkin->weights.data[i];

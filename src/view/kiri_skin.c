@@ -92,7 +92,7 @@ void kiriCarriers_Bend(kiriCarrier* carriers, kiriBend* bends, const kiriFrameDa
                        const kiriLink* links, int32_t linkCount, const kiriIndices* some, const kiriIndices* someLinks)
 {
     for (int32_t n = 0; n < ItemCount(some, count); ++n) {
-        bends[SampleAt(some, n)] = (kiriBend){ 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+        bends[SampleAt(some, n)] = (kiriBend){ 0 };
     }
     for (int32_t n = 0; n < ItemCount(someLinks, linkCount) && SampleAt(someLinks, n) < linkCount; ++n) {
         const kiriLink* link = &links[SampleAt(someLinks, n)];
@@ -170,9 +170,7 @@ bool kiriPatches_Write(kiriPatches* patches, const kiriCarrier* carriers, int32_
     patches->isBent = isBent;
     patches->floats.count = (int32_t)each * count;
     KIRI_ASSERT(patches->floats.count <= patches->floats.capacity && count <= patches->isOther.capacity);
-    for (int32_t i = 0; i < count; ++i) {
-        patches->isOther.data[i] = KIRI_PATCH_SAME;
-    }
+    kiriArray_Set(&patches->isOther, KIRI_PATCH_SAME);
     for (int32_t n = 0; n < ItemCount(some, count); ++n) {
         int32_t i = SampleAt(some, n);
         float row[KIRI_BENT_FLOATS], *was = patches->floats.data + each * (size_t)i;
@@ -357,7 +355,7 @@ bool kiriNormals_SumOne(float* slopes, int32_t vertex, const float* positions, c
     enum { MOST_PAIRS = 64 };
     int32_t pairs[MOST_PAIRS], count = 0, edge = mesh->vertices.data[vertex].edge, first = edge;
     kiriLanes sum = kiriLanes_Splat(0.0f);
-    KIRI_ASSERT(vertex >= 0 && vertex < mesh->vertices.count);
+    KIRI_ASSERT_HAS(mesh->vertices, vertex);
     for (int32_t h = edge; h != KIRI_NONE;) {
         first = h;
         h = kiriMesh_Clockwise(mesh, h);

@@ -51,7 +51,7 @@ void kiriFades_TakeJump(kiriFades* fades, int32_t sample, kiriVec3 offset)
         /* A jump on top of another: the mean of both times, weighted by lengths. */
         double sum = length + jump, left = sum > 0.0 ? (length * older.left + jump * fades->time) / sum : 0.0;
         KIRI_ASSERT(fades->fading.count < fades->older); /* Reserve has made room */
-        fades->fading.data[fades->fading.count++] = (kiriFading){ sample, left, offset };
+        KIRI_NEXT(fades->fading) = (kiriFading){ sample, left, offset };
     }
 }
 
@@ -208,14 +208,14 @@ void kiriSurface_Remember(kiriSurface* surface)
 
 static void WriteSource(kiriSurface* surface, const kiriMeshData* mesh, int32_t v)
 {
-    KIRI_ASSERT(v >= 0 && v < surface->sourceTriangles.count);
+    KIRI_ASSERT_HAS(surface->sourceTriangles, v);
     surface->sourceTriangles.data[v] = mesh->vertices.data[v].source;
     kiriMesh_GetShare(mesh, v, &surface->sourceWeights.data[3 * (size_t)v]);
 }
 
 static void WriteTurn(kiriSurface* surface, int32_t pair)
 {
-    KIRI_ASSERT(pair >= 0 && pair < surface->turns.count);
+    KIRI_ASSERT_HAS(surface->turns, pair);
     const int32_t* indices = &surface->indices.data[6 * (size_t)pair];
     surface->turns.data[pair] = kiriNormals_TurnOf(indices, 2 * pair + 1 == surface->triangleCount);
 }
@@ -230,7 +230,7 @@ static void Extend(kiriRange* range, int32_t index)
 
 static void WriteTriangle(kiriSurface* surface, const kiriMeshData* mesh, int32_t t)
 {
-    KIRI_ASSERT(t >= 0 && t < mesh->triangles.count);
+    KIRI_ASSERT_HAS(mesh->triangles, t);
     memcpy(kiriSurface_Triangle(surface, t), mesh->triangles.data[t].vertex, 3 * sizeof(int32_t));
 }
 
@@ -352,7 +352,7 @@ void kiriSurface_LendIndices(const kiriSurface* surface, int64_t ticks)
 
 bool kiriSurface_RenewIndices(kiriSurface* surface, kiriMemory* memory, kiriMemory* retired, int64_t ticks)
 {
-    kiriIndices fresh = { NULL, 0, 0 };
+    kiriIndices fresh = { 0 };
     kiriArrayHeader was = kiriArray_GetHeader(&surface->indices);
     if (surface->lentAt != LentAfter(ticks) || !kiriArray_Resize(memory, &fresh, was.count)) {
         return surface->lentAt != LentAfter(ticks);
@@ -484,7 +484,7 @@ static kiriVec3 FindMiddle(const kiriFrameData* frames, int32_t frameCount, doub
     while (unit > 4.0 * longer) {
         unit *= 0.5;
     }
-    kiriVec3 sum = { 0.0, 0.0, 0.0 };
+    kiriVec3 sum = { 0 };
     for (int32_t i = 0; i < frameCount; ++i) {
         sum = kiriVec3_AddScaled(sum, 1.0 / frameCount, frames[i].x);
     }
@@ -540,6 +540,7 @@ static void SumSlopes(kiriSurface* surface)
 
 bool kiriSurface_SumNormal(kiriSurface* surface, const kiriMeshData* mesh, int32_t vertex)
 {
+    KIRI_ASSERT_HAS(mesh->vertices, vertex);
     kiriCorners corners = CornersOfSurface(surface);
     return kiriNormals_SumOne(surface->slopes.data, vertex, kiriSurface_Places(surface), &corners, mesh);
 }
@@ -562,7 +563,7 @@ void kiriSurface_WriteRange(kiriSurface* surface, int32_t begin, int32_t end)
     KIRI_ASSERT(begin >= 0 && begin <= end && end <= surface->vertexCount);
     /* Four vertices at a time are three lanes: x, y, z, x and so on. */
     for (; i + 12 <= last; i += 12) {
-        for (int k = 0; k < 3; ++k) {
+        KIRI_EACH_CORNER(k) {
             kiriLanes local = kiriLanes_Load(surface->places.data + i + 4 * k);
             kiriLanes_Store(surface->positions.data + i + 4 * k, kiriLanes_Add(kiriLanes_Load(middle + k), local));
         }

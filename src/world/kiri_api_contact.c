@@ -26,11 +26,11 @@ static void FillOutline(kiriObstacleShape* shape, const kiriObstacleDef* def)
 {
     double x = 0.5 * def->size[0], y = 0.5 * def->size[1];
     const kiriVec2 box[4] = { { -x, -y }, { x, -y }, { x, y }, { -x, y } };
-    for (int32_t i = 0; i < shape->count; ++i) {
+    KIRI_EACH_INDEX(i, *shape) {
         bool isBox = def->type == KIRI_OBSTACLE_BOX;
         shape->outline[i] = isBox ? box[i] : kiriVec2_Make(def->outline[2 * i], def->outline[2 * i + 1]);
     }
-    for (int32_t i = 0; i < shape->count; ++i) {
+    KIRI_EACH_INDEX(i, *shape) {
         kiriVec2 along = kiriVec2_Sub(shape->outline[(i + 1) % shape->count], shape->outline[i]);
         KIRI_ASSERT(kiriVec2_Length(along) > 0.0);
         shape->normals[i] = kiriVec2_Scale(1.0 / kiriVec2_Length(along), kiriVec2_Make(along.y, -along.x));
@@ -53,7 +53,7 @@ static void FillShape(kiriObstacleShape* shape, const kiriObstacleDef* def)
     }
     FillOutline(shape, def);
     double farthest = shape->type == KIRI_OBSTACLE_PLANE ? KIRI_ENDLESS : shape->radius;
-    for (int32_t i = 0; i < shape->count; ++i) {
+    KIRI_EACH_INDEX(i, *shape) {
         double length = kiriVec2_Length(shape->outline[i]);
         farthest = kiriMax(length, farthest);
     }
@@ -255,8 +255,7 @@ void kiriDefaultPinDef(kiriPinDef* def)
 
 static kiriPinData MakePin(int32_t type)
 {
-    kiriPinData pin;
-    memset(&pin, 0, sizeof(pin));
+    kiriPinData pin = { 0 };
     pin.type = type;
     pin.rotation.u.x = pin.rotation.v.y = pin.rotation.d.z = 1.0;
     pin.lastRotation = pin.rotation;

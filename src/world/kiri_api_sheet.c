@@ -162,16 +162,16 @@ kiriResult kiriCut_End(kiriWorld* world, kiriCut cut)
 static kiriResult QueueSlice(kiriWorld* world, kiriSheetData* sheet, const kiriVec3 quad[4], kiriMemory* scratch,
                              kiriCut* cut)
 {
-    kiriSection section = { { NULL, 0, 0 }, { NULL, 0, 0 } };
-    kiriRestPoints ways = { NULL, 0, 0 };
-    kiriIndices starts = { NULL, 0, 0 };
+    kiriSection section = { 0 };
+    kiriRestPoints ways = { 0 };
+    kiriIndices starts = { 0 };
     const kiriSweep sweep = { { quad[0], quad[1] }, { quad[3], quad[2] }, NULL, NULL, 0.0 };
     if (!kiriBounds_Update(sheet->seen.bounds, sheet->memory, &sheet->seen.surface) ||
         !kiriSection_Sweep(&section, scratch, &sheet->seen.surface, sheet->seen.bounds, &sweep)) {
         return KIRI_ERROR_MEMORY;
     }
     double snap = sheet->settings.snap * sheet->mesh.step;
-    for (int32_t i = 0; i < section.lines.count; ++i) {
+    KIRI_EACH_INDEX(i, section.lines) {
         if (!kiriArray_Push(scratch, &starts, ways.count) ||
             !kiriSection_Path(&section, &section.lines.data[i], false, 0.25 * snap, scratch, &ways)) {
             return KIRI_ERROR_MEMORY;
@@ -306,7 +306,7 @@ kiriResult kiriSheet_GetFrames(const kiriWorld* world, kiriSheet sheet, kiriFram
     KIRI_CHECK_LIST(frames);
     KIRI_FIND(sheet);
     *count = 0;
-    for (int32_t i = 0; i < found->frames.count; ++i) {
+    KIRI_EACH_INDEX(i, found->frames) {
         bool isGone = kiriSheet_IsGone(found, i);
         if (!isGone && *count < capacity) {
             frames[*count] = found->frames.data[i].id;
@@ -575,9 +575,10 @@ static bool IsOf(const kiriSheetData* sheet, int32_t frame, int32_t piece)
 
 static kiriVec3 CenterOf(const kiriSheetData* sheet, int32_t piece)
 {
-    kiriVec3 sum = { 0.0, 0.0, 0.0 };
+    KIRI_ASSERT(piece >= KIRI_NONE && piece < sheet->layout.pieces.count);
+    kiriVec3 sum = { 0 };
     double mass = 0.0;
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+    KIRI_EACH_INDEX(i, sheet->frames) {
         if (IsOf(sheet, i, piece)) {
             sum = kiriVec3_AddScaled(sum, sheet->frames.data[i].mass, sheet->frames.data[i].x);
             mass += sheet->frames.data[i].mass;
@@ -604,14 +605,14 @@ static bool SetRigidVelocity(kiriSheetData* sheet, int32_t piece, kiriVec3 veloc
         velocity = kiriVec3_AddScaled(velocity, -kiriVec3_Dot(velocity, d), d);
         spin = kiriVec3_Scale(kiriVec3_Dot(spin, d), d);
     }
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+    KIRI_EACH_INDEX(i, sheet->frames) {
         kiriFrameData given = sheet->frames.data[i];
         GiveVelocity(&given, center, velocity, spin);
         if (IsOf(sheet, i, piece) && !kiriFrame_FitsFloats(&given)) {
             return false;
         }
     }
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+    KIRI_EACH_INDEX(i, sheet->frames) {
         if (IsOf(sheet, i, piece)) {
             GiveVelocity(&sheet->frames.data[i], center, velocity, spin);
             kiriSheet_WakeFrame(sheet, i);
@@ -719,7 +720,7 @@ kiriResult kiriWorld_ShiftOrigin(kiriWorld* world, const float origin[3])
     }
     KIRI_ASSERT(done <= world->sheets.count);
     bool areAll = done == world->sheets.count;
-    const kiriVec3 none = { 0.0, 0.0, 0.0 };
+    const kiriVec3 none = { 0 };
     for (int32_t i = 0; i < done; ++i) {
         ShiftSheet(world->sheets.data[i], areAll ? to : none);
     }

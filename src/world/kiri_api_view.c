@@ -200,7 +200,7 @@ kiriResult kiriWorld_Raycast(const kiriWorld* world, const float origin[3], cons
     *sheet = 0;
     memset(hit, 0, sizeof(*hit));
     hit->triangle = KIRI_NONE;
-    for (int32_t i = 0; i < world->sheets.count; ++i) {
+    KIRI_EACH_INDEX(i, world->sheets) {
         kiriHit next;
         CastRay(world->sheets.data[i], origin, direction, maxDistance, &next);
         if (next.triangle != KIRI_NONE && (*sheet == 0 || next.distance < hit->distance)) {
@@ -261,7 +261,7 @@ kiriResult kiriSheet_GetWeights(const kiriWorld* world, kiriSheet sheet, const f
     bool inRange = kiriSheet_ToLattice(found, restPoint, &at);
     int32_t cell = inRange ? kiriGrid_CellAt(&found->grid, &found->mesh, at) : KIRI_NONE;
     KIRI_CHECK(cell != KIRI_NONE, "restPoint lies outside the material");
-    kiriPointWeights point = { NULL, 0, 0 };
+    kiriPointWeights point = { 0 };
     kiriMemory scratch = kiriMemory_Like(&world->memory);
     kiriCall_BeginCallbacks(world);
     bool ok = kiriShape_At(&found->shape, &scratch, &found->grid, &found->mesh, cell,

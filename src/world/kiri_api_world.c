@@ -378,7 +378,7 @@ kiriResult kiriFrame_SetPieceUserData(kiriWorld* world, kiriFrame frame, uint64_
     kiriSheetData* sheet = call->sheet;
     KIRI_ASSERT(call->index < sheet->frames.count);
     int32_t piece = sheet->layout.framePiece.data[call->index];
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+    KIRI_EACH_INDEX(i, sheet->frames) {
         if (sheet->layout.framePiece.data[i] == piece) {
             sheet->frames.data[i].pieceData = data;
         }
@@ -418,7 +418,8 @@ kiriResult kiriWorld_FinishCuts(kiriWorld* world)
 /* Wakes the frame for loads that are not zero. */
 static void WakeFor(kiriSheetData* sheet, int32_t frame, const float force[3], const float torque[3])
 {
-    const kiriVec3 none = { 0.0, 0.0, 0.0 };
+    KIRI_ASSERT_HAS(sheet->frames, frame);
+    const kiriVec3 none = { 0 };
     if (!kiriVec3_Equal(kiriVec3_Load(force), none) || !kiriVec3_Equal(kiriVec3_Load(torque), none)) {
         kiriSheet_WakeFrame(sheet, frame);
     }
@@ -440,7 +441,7 @@ kiriResult kiriFrame_ApplyForce(kiriWorld* world, kiriFrame frame, const float f
 /* Adds a force (N) at a material point of the frame, and a torque (N m). */
 static void AddLoad(kiriSheetData* sheet, int32_t frame, kiriVec2 at, kiriVec3 force, kiriVec3 torque)
 {
-    KIRI_ASSERT(frame >= 0 && frame < sheet->frames.count);
+    KIRI_ASSERT_HAS(sheet->frames, frame);
     kiriFrameData* data = &sheet->frames.data[frame];
     kiriVec3 arm = kiriVec3_Sub(kiriFrame_Carry(data, at), data->x);
     data->force = kiriVec3_Add(data->force, force);
@@ -473,7 +474,7 @@ kiriResult kiriSheet_ApplyLineLoad(kiriWorld* world, kiriSheet sheet, const floa
     double length = kiriVec2_Length(way);
     KIRI_EACH(const kiriLineShare, share, data->lineShares) {
         kiriVec2 at = kiriVec2_AddScaled(a, share->firstLoad / share->load, way);
-        kiriVec3 force = kiriVec3_Scale(length * share->load, kiriVec3_Load(forcePerLength)), none = { 0.0, 0.0, 0.0 };
+        kiriVec3 force = kiriVec3_Scale(length * share->load, kiriVec3_Load(forcePerLength)), none = { 0 };
         AddLoad(data, share->frame, at, force, none);
         WakeFor(data, share->frame, forcePerLength, forcePerLength);
     }
@@ -517,7 +518,7 @@ static void PushFrames(kiriSheetData* sheet, const kiriPointPlace* place, kiriVe
                        kiriFrameData* frames)
 {
     const int32_t* corners = sheet->mesh.triangles.data[place->triangle].vertex;
-    for (int k = 0; k < 3; ++k) {
+    KIRI_EACH_CORNER(k) {
         kiriVec2 local = kiriMesh_Local(&sheet->mesh, sheet->mesh.vertices.data[corners[k]].at);
         kiriSpan span = sheet->vertexSkin.spans.data[corners[k]];
         KIRI_EACH_IN(i, span) {
@@ -536,7 +537,7 @@ static void PushFrames(kiriSheetData* sheet, const kiriPointPlace* place, kiriVe
 static bool FitsImpulse(kiriSheetData* sheet, const kiriPointPlace* place, kiriVec3 off, kiriVec3 impulse)
 {
     const int32_t* corners = sheet->mesh.triangles.data[place->triangle].vertex;
-    for (int k = 0; k < 3; ++k) {
+    KIRI_EACH_CORNER(k) {
         kiriSpan span = sheet->vertexSkin.spans.data[corners[k]];
         KIRI_EACH_IN(i, span) {
             int32_t f = sheet->vertexSkin.weights.data[i].frame;

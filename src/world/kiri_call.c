@@ -517,7 +517,7 @@ static kiriResult CheckValue(const kiriValue* value, const kiriWorld* world, con
 kiriResult kiriStruct_Check(const kiriStruct* of, const char* name, const kiriWorld* world, const void* at,
                             kiriFault* fault)
 {
-    for (int32_t i = 0; i < of->count; ++i) {
+    KIRI_EACH_INDEX(i, *of) {
         const kiriValue* member = &of->members[i];
         const char* place = (const char*)at + member->offset;
         kiriResult result = KIRI_OK;

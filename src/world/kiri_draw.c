@@ -68,7 +68,7 @@ static uint32_t ColorOfPiece(const kiriSheetData* sheet, int32_t piece)
 {
     static const uint8_t colors[8][3] = { { 230, 159, 0 }, { 86, 180, 233 }, { 0, 158, 115 },   { 240, 228, 66 },
                                           { 0, 114, 178 }, { 213, 94, 0 },   { 204, 121, 167 }, { 150, 150, 150 } };
-    KIRI_ASSERT(piece >= 0 && piece < sheet->layout.pieces.count);
+    KIRI_ASSERT_HAS(sheet->layout.pieces, piece);
     const uint8_t* c = colors[piece % 8];
     uint32_t pale = sheet->layout.pieces.data[piece].rest.asleep ? 1 : 0;
     return Color((c[0] + 255 * pale) >> pale, (c[1] + 255 * pale) >> pale, (c[2] + 255 * pale) >> pale);
@@ -77,7 +77,7 @@ static uint32_t ColorOfPiece(const kiriSheetData* sheet, int32_t piece)
 /* Draws an edge between two triangles with the triangle that has the lower half-edge. */
 static void DrawEdges(Drawing* drawing, const kiriSheetData* sheet, int32_t triangle, const kiriVec3 corners[3])
 {
-    for (int32_t k = 0; k < 3; ++k) {
+    KIRI_EACH_CORNER(k) {
         int32_t h = 3 * triangle + k;
         KIRI_ASSERT(h >= 0 && h < 3 * sheet->mesh.triangles.count);
         bool isBorder = kiriMesh_IsBorder(&sheet->mesh, h);
@@ -90,13 +90,13 @@ static void DrawEdges(Drawing* drawing, const kiriSheetData* sheet, int32_t tria
 
 static void DrawMesh(Drawing* drawing, const kiriSheetData* sheet)
 {
-    for (int32_t t = 0; t < sheet->mesh.triangles.count; ++t) {
+    KIRI_EACH_INDEX(t, sheet->mesh.triangles) {
         int32_t piece = kiriPiece_OfTriangle(sheet, t);
         if (sheet->layout.pieces.data[piece].isGone) {
             continue;
         }
         kiriVec3 corners[3];
-        for (int k = 0; k < 3; ++k) {
+        KIRI_EACH_CORNER(k) {
             corners[k] = kiriSurface_At(&sheet->seen.surface, sheet->mesh.triangles.data[t].vertex[k]);
         }
         if ((drawing->flags & KIRI_DRAW_TRIANGLES) != 0) {
@@ -123,7 +123,7 @@ static void DrawBoxesFrom(Drawing* drawing, const kiriSheetData* sheet, int32_t 
     KIRI_ASSERT(first >= 0 && first % BOXES_A_PASS == 0);
     kiriBox boxes[BOXES_A_PASS];
     bool isSeen[BOXES_A_PASS] = { false };
-    for (int32_t v = 0; v < sheet->mesh.vertices.count; ++v) {
+    KIRI_EACH_INDEX(v, sheet->mesh.vertices) {
         int32_t piece = kiriPiece_OfVertex(sheet, v);
         if (piece < first || piece >= first + BOXES_A_PASS || sheet->layout.pieces.data[piece].isGone) {
             continue;
@@ -151,7 +151,7 @@ static void DrawBoxesFrom(Drawing* drawing, const kiriSheetData* sheet, int32_t 
 
 static void DrawFrames(Drawing* drawing, const kiriSheetData* sheet)
 {
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+    KIRI_EACH_INDEX(i, sheet->frames) {
         const kiriFrameData* frame = &sheet->frames.data[i];
         if (kiriSheet_IsGone(sheet, i)) {
             continue;
@@ -200,12 +200,12 @@ static void DrawPin(Drawing* drawing, const kiriSheetData* sheet, const kiriPinD
 /* Returns where the surface shows the point of a contact now. */
 static kiriVec3 PlaceOfTouch(const kiriSheetData* sheet, const kiriTouch* touch)
 {
-    kiriVec3 at = { 0.0, 0.0, 0.0 };
+    kiriVec3 at = { 0 };
     if (touch->point != KIRI_NONE) {
         KIRI_ASSERT(touch->point >= 0 && touch->point < sheet->points.count);
         return sheet->seen.exactPoints.data[touch->point];
     }
-    for (int k = 0; k < 3; ++k) {
+    KIRI_EACH_CORNER(k) {
         if (touch->vertex[k] != KIRI_NONE) {
             at = kiriVec3_AddScaled(at, touch->share[k], kiriSurface_At(&sheet->seen.surface, touch->vertex[k]));
         }

@@ -60,7 +60,7 @@ static bool JoinByBodies(kiriWorld* world)
     if (!ok || !kiriArray_Resize(&world->memory, &moves->order, moves->meets.count)) {
         return false;
     }
-    for (int32_t k = 0; k < moves->order.count; ++k) {
+    KIRI_EACH_INDEX(k, moves->order) {
         moves->order.data[k] = k;
     }
     kiriSort(moves->order.data, moves->order.count, HasLowerNumber, moves->meets.data);
@@ -97,7 +97,7 @@ bool kiriMoves_Prepare(kiriWorld* world)
 
 void kiriMoves_BeginClusters(kiriWorld* world, double dt)
 {
-    for (int32_t k = 0; k < world->active.count; ++k) {
+    KIRI_EACH_INDEX(k, world->active) {
         if (kiriIslands_ClusterOf(&world->islands, world->active.data[k]) != KIRI_NONE) {
             kiriPinStep_Begin(world, kiriWorld_Active(world, k), dt);
         }
@@ -122,13 +122,6 @@ static void GiveImpulses(const MoveTask* task, int32_t i, bool areMovable)
     if (task->world->moves.of.data[i].progress != KIRI_MORE) {
         kiriPinStep_End(task->world, sheet, task->dt, areMovable);
     }
-}
-
-/* Returns true if no system is left for the sheet and its visible surface does not change. Then waiting costs nearly
-   nothing, even for many sheets. */
-static bool StandsStill(const MoveTask* task, kiriSheetData* sheet)
-{
-    return kiriQuota_IsSpent(&task->systems) && kiriView_IsSettled(sheet) && kiriMotion_Wait(sheet, task->dt);
 }
 
 /* Moves all sheets of a cluster. The first one gets the items. */
@@ -161,14 +154,17 @@ static void MoveSheet(const MoveTask* task, int32_t i)
         }
         return;
     }
-    if (StandsStill(task, world->sheets.data[i])) {
+    kiriSheetData* sheet = world->sheets.data[i];
+    /* No system is left for the sheet, and its visible surface does not change. Then waiting costs nearly nothing, even
+       for many sheets. */
+    if (kiriQuota_IsSpent(&task->systems) && kiriView_IsSettled(sheet) && kiriMotion_Wait(sheet, task->dt)) {
         move->progress = KIRI_MORE;
         move->systems = 0;
         return;
     }
-    kiriObstacles_LoadYields(world, world->sheets.data[i]);
-    kiriPinStep_Begin(world, world->sheets.data[i], task->dt);
-    move->progress = kiriMotion_Solve(world->sheets.data[i], world->gravity, task->dt, task->substeps, &systems);
+    kiriObstacles_LoadYields(world, sheet);
+    kiriPinStep_Begin(world, sheet, task->dt);
+    move->progress = kiriMotion_Solve(sheet, world->gravity, task->dt, task->substeps, &systems);
     move->systems = systems.used - task->systems.used;
     GiveImpulses(task, i, true);
 }
@@ -225,7 +221,7 @@ static void ListGroups(kiriWorld* world, int32_t first, int32_t end)
         int32_t i = kiriMoves_SheetAt(world, world->turn, k);
         int32_t* tail = &moves->of.data[kiriUnion_Root(moves->parent.data, i)].tail;
         if (*tail == KIRI_NONE) {
-            moves->heads.data[moves->heads.count++] = i;
+            KIRI_NEXT(moves->heads) = i;
         } else {
             moves->of.data[*tail].next = i;
         }
@@ -314,6 +310,7 @@ static bool IsTargetStill(const kiriSheetData* sheet, const kiriPinData* pin, ki
 
 static void BeginPin(const kiriWorld* world, kiriSheetData* sheet, int32_t index, double dt)
 {
+    KIRI_ASSERT_HAS(sheet->pins, index);
     kiriPinData* pin = &sheet->pins.data[index];
     const kiriObstacleData* obstacle = kiriPinStep_Obstacle(world, pin);
     if (obstacle == NULL) {
@@ -335,7 +332,7 @@ static void BeginPin(const kiriWorld* world, kiriSheetData* sheet, int32_t index
 
 void kiriPinStep_Begin(const kiriWorld* world, kiriSheetData* sheet, double dt)
 {
-    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+    KIRI_EACH_INDEX(i, sheet->pins) {
         kiriPinAnchor* anchor = &sheet->pins.data[i].anchor;
         memset(&anchor->give, 0, sizeof(anchor->give));
         anchor->most = anchor->softness = 0.0;
@@ -365,7 +362,7 @@ kiriResult kiriObstacles_Reserve(kiriWorld* world)
 
 void kiriObstacles_Add(kiriWorld* world, kiriObstacleData* obstacle)
 {
-    world->obstacles.data[world->obstacles.count++] = obstacle;
+    KIRI_NEXT(world->obstacles) = obstacle;
     obstacle->id = kiriPool_Add(&world->obstacleIds, &world->memory, obstacle, 0);
     KIRI_EACH_OF(kiriSheetData, sheet, world->sheets) {
         sheet->touches.rests.areSummed = false; /* another obstacle may have had its slot */
@@ -422,7 +419,7 @@ void kiriObstacles_Remove(kiriWorld* world, kiriObstacleData* obstacle)
 {
     int32_t kept = 0;
     WakeAround(world, obstacle);
-    for (int32_t i = 0; i < world->obstacles.count; ++i) {
+    KIRI_EACH_INDEX(i, world->obstacles) {
         if (world->obstacles.data[i] != obstacle) {
             world->obstacles.data[kept++] = world->obstacles.data[i];
         }
@@ -485,7 +482,7 @@ static bool SortObstacles(kiriWorld* world, double dt)
     if (!kiriArray_Resize(&world->memory, order, world->obstacles.count)) {
         return false;
     }
-    for (int32_t i = 0; i < order->count; ++i) {
+    KIRI_EACH_INDEX(i, *order) {
         kiriObstacle_Bound(world->obstacles.data[i], 2.0 * dt);
         order->data[i] = i;
     }
@@ -524,6 +521,7 @@ typedef struct TouchSearch {
 
 static void Stir(kiriSheetData* sheet, int32_t piece)
 {
+    KIRI_ASSERT_HAS(sheet->layout.pieces, piece);
     kiriRest* rest = &sheet->layout.pieces.data[piece].rest;
     rest->isStirred = rest->isStirred || rest->asleep;
     sheet->rest.isStirred = sheet->rest.isStirred || rest->asleep;
@@ -730,8 +728,7 @@ static kiriRestLoad* RestLoadOn(kiriRestLoads* rests, int32_t slot, kiriVec3 cen
             return &rests->on.data[k];
         }
     }
-    KIRI_ASSERT(rests->on.count < rests->on.capacity);
-    kiriRestLoad* load = &rests->on.data[rests->on.count++];
+    kiriRestLoad* load = &KIRI_NEXT(rests->on);
     memset(load, 0, sizeof(*load));
     load->slot = slot;
     load->center = center;
@@ -845,12 +842,12 @@ bool kiriSkinStep_Prepare(kiriWorld* world)
 static void ListRanges(kiriWorld* world)
 {
     world->skinRanges.count = 0;
-    for (int32_t k = 0; k < world->active.count; ++k) {
+    KIRI_EACH_INDEX(k, world->active) {
         const kiriSheetData* sheet = kiriWorld_Active(world, k);
         int32_t vertices = IsInRanges(world, k) ? sheet->mesh.vertices.count : 0;
         for (int32_t v = 0; v < vertices; v += RANGE_VERTICES) {
             kiriSkinRange range = { world->active.data[k], v, kiriMin(v + RANGE_VERTICES, vertices) };
-            world->skinRanges.data[world->skinRanges.count++] = range;
+            KIRI_NEXT(world->skinRanges) = range;
         }
     }
 }
@@ -922,7 +919,7 @@ void kiriSkinStep_Run(kiriWorld* world, double dt)
 {
     SkinTask task = { world, dt };
     /* The surfaces of sheets that the budget left unmoved stay as last written. */
-    for (int32_t k = 0; k < world->active.count; ++k) {
+    KIRI_EACH_INDEX(k, world->active) {
         kiriMove* move = &world->moves.of.data[world->active.data[k]];
         move->isStill = move->progress == KIRI_MORE && kiriView_IsSettled(kiriWorld_Active(world, k));
     }
@@ -934,7 +931,7 @@ void kiriSkinStep_Run(kiriWorld* world, double dt)
         kiriTasks_Run(&world->tasks, WriteRanges, world->skinRanges.count, 1, &task);
         kiriTasks_Run(&world->tasks, EndSheets, world->active.count, 1, &task);
     }
-    for (int32_t k = 0; k < world->active.count; ++k) {
+    KIRI_EACH_INDEX(k, world->active) {
         if (!StoodStill(world, k) && !kiriWorld_Active(world, k)->rest.asleep) {
             kiriView_Trim(kiriWorld_Active(world, k));
         }

@@ -56,13 +56,12 @@ static void EndParting(Parting* parting)
 /* Adds a sheet. All its pieces stay for now, except those that are gone. Null for memory. */
 static PartSource* AddSource(Parting* parting, kiriSheetData* sheet)
 {
-    KIRI_ASSERT(parting->sources.count < parting->sources.capacity);
-    PartSource* source = &parting->sources.data[parting->sources.count++];
+    PartSource* source = &KIRI_NEXT(parting->sources);
     memset(source, 0, sizeof(*source));
     if (!kiriDetach_Init(&source->detach, sheet)) {
         return NULL;
     }
-    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+    KIRI_EACH_INDEX(p, sheet->layout.pieces) {
         source->detach.rest.pieces.data[p] = !sheet->layout.pieces.data[p].isGone;
     }
     return source;
@@ -108,6 +107,7 @@ static bool MarkPieces(Parting* parting, const kiriFrame* frames, int32_t count)
 /* Returns true if the piece waits to become a sheet. */
 static bool IsLeaving(const kiriWorld* world, const kiriSheetData* sheet, int32_t piece)
 {
+    KIRI_ASSERT_HAS(sheet->layout.pieces, piece);
     KIRI_EACH(const kiriFrame, at, sheet->leaving) {
         if (kiriPool_Find(&world->frameIds, *at) != NULL && PieceOfFrame(world, *at) == piece) {
             return true;
@@ -200,10 +200,10 @@ static void PointId(const kiriPool* pool, uint32_t id, kiriSheetData* sheet, int
 /* Updates the ids of items that moved to this sheet, or to another index in it. */
 static void PointIds(kiriWorld* world, kiriSheetData* sheet)
 {
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+    KIRI_EACH_INDEX(i, sheet->frames) {
         PointId(&world->frameIds, sheet->frames.data[i].id, sheet, i);
     }
-    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+    KIRI_EACH_INDEX(i, sheet->pins) {
         PointId(&world->pinIds, sheet->pins.data[i].id, sheet, i);
     }
 }
@@ -266,10 +266,10 @@ static void AddSheetOfPart(kiriWorld* world, const Part* part)
     const kiriDetach* detach = &part->from->detach;
     kiriSheetData* sheet = part->sheet;
     KIRI_ASSERT(world->sheets.count < world->sheets.capacity && sheet->layout.pieces.count == 1);
-    world->sheets.data[world->sheets.count++] = sheet;
+    KIRI_NEXT(world->sheets) = sheet;
     sheet->id = kiriPool_Add(&world->sheetIds, &world->memory, sheet, 0);
     kiriMemory_Adopt(&world->retired, (void*)sheet->past.others);
-    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+    KIRI_EACH_INDEX(i, sheet->pins) {
         const kiriSlot* slot = kiriPool_Find(&world->pinIds, sheet->pins.data[i].id);
         if (slot->owner != detach->sheet || kiriKeep_Has(&detach->rest.pins, slot->index)) {
             sheet->pins.data[i].id = kiriPool_Add(&world->pinIds, &world->memory, sheet, i);
@@ -290,8 +290,8 @@ static kiriResult Detach(Parting* parting)
         } else if (part->sheet != NULL) {
             AddSheetOfPart(parting->world, part);
         } else if (!IsLeaving(parting->world, from, part->piece)) {
-            KIRI_ASSERT(part->from->waits && from->leaving.count < from->leaving.capacity);
-            from->leaving.data[from->leaving.count++] = part->frame;
+            KIRI_ASSERT(part->from->waits);
+            KIRI_NEXT(from->leaving) = part->frame;
             from->rest.isIdle = false;
         }
     }
@@ -345,13 +345,13 @@ static int32_t CountPaid(const kiriWorld* world, const kiriSheetData* sheet, int
 {
     const kiriPiece* pieces = sheet->layout.pieces.data;
     double whole = 0.0, gone = 0.0, leaving = 0.0, none = kiriDetach_Samples(sheet, 0.0, true);
-    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+    KIRI_EACH_INDEX(p, sheet->layout.pieces) {
         whole += pieces[p].area;
         gone += pieces[p].isGone ? pieces[p].area : 0.0;
     }
     KIRI_ASSERT(gone < whole);
     *cost = (int64_t)none;
-    for (int32_t k = 0; k < sheet->leaving.count; ++k) {
+    KIRI_EACH_INDEX(k, sheet->leaving) {
         leaving += pieces[PieceOfFrame(world, sheet->leaving.data[k])].area;
         int64_t next = (int64_t)kiriDetach_Samples(sheet, leaving / whole, true);
         if (k > 0 && next > samples) {
@@ -425,7 +425,7 @@ kiriResult kiriParts_Leave(kiriWorld* world, kiriSheetData* sheet)
 static void ForgetFrames(kiriWorld* world, const kiriDetach* detach)
 {
     kiriSheetData* sheet = detach->sheet;
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+    KIRI_EACH_INDEX(i, sheet->frames) {
         if (!detach->rest.pieces.data[sheet->layout.framePiece.data[i]]) {
             kiriPool_Remove(&world->frameIds, sheet->frames.data[i].id);
             sheet->frames.data[i].id = 0;
@@ -443,7 +443,7 @@ static void RemovePins(kiriWorld* world, const kiriDetach* detach)
             kiriPins_Remove(sheet, i);
         }
     }
-    for (int32_t i = 0; i < sheet->pins.count; ++i) {
+    KIRI_EACH_INDEX(i, sheet->pins) {
         kiriPool_Find(&world->pinIds, sheet->pins.data[i].id)->index = i;
     }
 }
@@ -454,7 +454,7 @@ static void HidePieces(kiriWorld* world, const kiriDetach* detach)
     kiriSheetData* sheet = detach->sheet;
     ForgetFrames(world, detach);
     RemovePins(world, detach);
-    for (int32_t p = 0; p < detach->rest.pieces.count; ++p) {
+    KIRI_EACH_INDEX(p, detach->rest.pieces) {
         sheet->layout.pieces.data[p].isGone = !detach->rest.pieces.data[p];
     }
     kiriTouches_Sort(sheet); /* nothing that is gone pushes */
@@ -486,7 +486,7 @@ static kiriResult Destroy(Parting* parting)
             HidePieces(parting->world, detach);
         } else {
             ForgetFrames(parting->world, detach);
-            for (int32_t i = 0; i < detach->sheet->pins.count; ++i) {
+            KIRI_EACH_INDEX(i, detach->sheet->pins) {
                 if (!kiriKeep_Has(&detach->rest.pins, i)) {
                     kiriPool_Remove(&parting->world->pinIds, detach->sheet->pins.data[i].id);
                 }
@@ -516,7 +516,7 @@ static int32_t LargestOf(const kiriWorld* world, const kiriSubset* subset, bool 
 {
     const kiriPiece* pieces = subset->from->layout.pieces.data;
     int32_t largest = KIRI_NONE;
-    for (int32_t p = 0; p < subset->pieces.count; ++p) {
+    KIRI_EACH_INDEX(p, subset->pieces) {
         bool isLarger = largest == KIRI_NONE || pieces[p].area > pieces[largest].area;
         if (subset->pieces.data[p] && isLarger && !(isToStay && IsLeaving(world, subset->from, p))) {
             largest = p;
@@ -531,7 +531,7 @@ static int32_t MarkBelow(const kiriWorld* world, kiriSubset* rest, double area)
     const kiriPiece* pieces = rest->from->layout.pieces.data;
     int32_t dropped = 0, largest = LargestOf(world, rest, false);
     int32_t second = IsLeaving(world, rest->from, largest) ? LargestOf(world, rest, true) : largest;
-    for (int32_t p = 0; p < rest->pieces.count; ++p) {
+    KIRI_EACH_INDEX(p, rest->pieces) {
         bool stays = p == largest || p == second || pieces[p].area >= area;
         dropped += rest->pieces.data[p] && !stays;
         rest->pieces.data[p] = rest->pieces.data[p] && stays;

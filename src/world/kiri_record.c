@@ -165,7 +165,7 @@ static void CodeValue(Coder* coder, const kiriValue* value, void* at)
 {
     switch (value->form) {
     case KIRI_FORM_INTS: /* unsigned ones too: UINT32_MAX is -1, which takes one byte */
-        for (int32_t i = 0; i < value->count; ++i) {
+        KIRI_EACH_INDEX(i, *value) {
             CodeInt(coder, (int32_t*)at + i);
         }
         break;
@@ -229,7 +229,7 @@ static void CodeStruct(Coder* coder, const kiriStruct* of, char* at)
         memcpy(at, &of->cookie, sizeof(of->cookie));
     }
     KIRI_ASSERT(at != NULL);
-    for (int32_t i = 0; i < of->count; ++i) {
+    KIRI_EACH_INDEX(i, *of) {
         if (of->members[i].form >= KIRI_FORM_FLOATS_AT) {
             CodeArrayOf(coder, &of->members[i], at);
         } else {

@@ -403,8 +403,7 @@ static void TakeWorld(kiriWorld* world, kiriWorld* made)
 /* Reads a world from the bytes between the header and the checksum. */
 static kiriResult BecomeWorld(kiriWorld* world, const uint8_t* bytes, int64_t size, bool isWhole)
 {
-    kiriWorld made;
-    memset(&made, 0, sizeof(made));
+    kiriWorld made = { 0 };
     made.memory = kiriMemory_Like(&world->memory);
     kiriResult result = ReadWorld(&made, bytes, size, isWhole);
     if (result == KIRI_OK) {

@@ -50,11 +50,11 @@ static bool IsIdle(const kiriSheetData* sheet)
 static void ListActive(kiriWorld* world)
 {
     world->active.count = 0;
-    for (int32_t i = 0; i < world->sheets.count; ++i) {
+    KIRI_EACH_INDEX(i, world->sheets) {
         kiriSheetRest* rest = &world->sheets.data[i]->rest;
         rest->isIdle = !rest->isStirred && (rest->isIdle || IsIdle(world->sheets.data[i]));
         if (!rest->isIdle) {
-            world->active.data[world->active.count++] = i;
+            KIRI_NEXT(world->active) = i;
         }
     }
 }
@@ -97,14 +97,14 @@ static bool IsServedFirst(const void* context, int32_t a, int32_t b)
 static void StartAll(kiriWorld* world, bool finishes)
 {
     world->atWork.count = 0;
-    for (int32_t k = 0; k < world->active.count; ++k) {
+    KIRI_EACH_INDEX(k, world->active) {
         kiriSheetData* sheet = kiriWorld_Active(world, k);
         if (kiriParts_AreDue(sheet) && !(finishes && sheet->update->stage != KIRI_NONE)) {
             continue;
         }
         kiriPipeline_Start(sheet);
         if (sheet->update->stage != KIRI_NONE) {
-            world->atWork.data[world->atWork.count++] = world->active.data[k];
+            KIRI_NEXT(world->atWork) = world->active.data[k];
         }
     }
     kiriSort(world->atWork.data, world->atWork.count, IsServedFirst, world);
@@ -261,7 +261,7 @@ static void CommitAll(kiriWorld* world)
     CommitMeshes(world);
     KIRI_EACH_ACTIVE(sheet, world) {
         if (IsReady(sheet)) {
-            for (int32_t i = 0; i < sheet->update->cut.count; ++i) {
+            KIRI_EACH_INDEX(i, sheet->update->cut) {
                 world->profile.cutSegments += !sheet->queue.data[i].jump;
             }
             if (sheet->update->cut.meshChanged) {
@@ -310,7 +310,7 @@ static kiriResult ReportMoves(kiriWorld* world, kiriResult result)
     bool isLate = false, isPartlyLate = false;
     int32_t turn = world->turn;
     world->turn = 0;
-    for (int32_t k = 0; k < world->active.count; ++k) {
+    KIRI_EACH_INDEX(k, world->active) {
         int32_t i = kiriMoves_SheetAt(world, turn, k);
         kiriProgress progress = world->moves.of.data[i].progress;
         if (progress == KIRI_FAILED) {

@@ -15,6 +15,7 @@ kiriResult kiriWorld_ReserveIds(kiriWorld* world, kiriPool* pool, int64_t count)
 
 void kiriWorld_RemovePin(kiriWorld* world, kiriSheetData* sheet, int32_t index)
 {
+    KIRI_ASSERT_HAS(sheet->pins, index);
     kiriPin pin = sheet->pins.data[index].id;
     kiriPins_ForgetHistory(sheet, index);
     kiriSheet_WakePin(sheet, index);
@@ -57,9 +58,9 @@ kiriResult kiriWorld_AddSheet(kiriWorld* world, const kiriSheetDef* def, kiriShe
         kiriSheet_Delete(sheet, &world->memory);
         return result;
     }
-    world->sheets.data[world->sheets.count++] = sheet;
+    KIRI_NEXT(world->sheets) = sheet;
     sheet->id = kiriPool_Add(&world->sheetIds, &world->memory, sheet, 0);
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+    KIRI_EACH_INDEX(i, sheet->frames) {
         sheet->frames.data[i].id = kiriPool_Add(&world->frameIds, &world->memory, sheet, i);
     }
     kiriView_WritePositions(sheet);
@@ -81,7 +82,7 @@ void kiriWorld_RemoveSheet(kiriWorld* world, kiriSheetData* sheet)
     }
     kiriPool_Remove(&world->sheetIds, sheet->id);
     int32_t kept = 0;
-    for (int32_t i = 0; i < world->sheets.count; ++i) {
+    KIRI_EACH_INDEX(i, world->sheets) {
         if (world->sheets.data[i] != sheet) {
             world->sheets.data[kept++] = world->sheets.data[i];
         }
@@ -109,12 +110,11 @@ kiriResult kiriWorld_AddCut(kiriWorld* world, kiriSheetData* sheet, int64_t poin
 
 void kiriWorld_EnlistCut(kiriWorld* world, kiriSheetData* sheet, kiriCutData* cut)
 {
-    KIRI_ASSERT(sheet->cuts.count < sheet->cuts.capacity);
     cut->sheet = sheet;
     cut->tip.blade.vertex = KIRI_NONE;
     cut->id = kiriPool_Add(&world->cutIds, &world->memory, cut, 0);
     cut->index = sheet->cuts.count;
-    sheet->cuts.data[sheet->cuts.count++] = cut;
+    KIRI_NEXT(sheet->cuts) = cut;
     sheet->rest.isIdle = false;
 }
 
@@ -122,9 +122,8 @@ void kiriWorld_QueuePoint(const kiriWorld* world, kiriCutData* cut, kiriVec2 to,
 {
     kiriSheetData* sheet = cut->sheet;
     const kiriQueuedPoint point = { cut, to, world->ticks, jump, false };
-    KIRI_ASSERT(sheet->queue.count < sheet->queue.capacity);
     cut->waiting += 1;
-    sheet->queue.data[sheet->queue.count++] = point;
+    KIRI_NEXT(sheet->queue) = point;
 }
 
 void kiriWorld_EndCut(const kiriWorld* world, kiriCutData* cut)
@@ -152,7 +151,7 @@ void kiriWorld_RemoveCut(kiriWorld* world, kiriCutData* cut)
 
 kiriEvent* kiriWorld_AddEvent(kiriWorld* world, int32_t type, const kiriSheetData* sheet)
 {
-    kiriEvent* event = &world->events.data[world->events.count++];
+    kiriEvent* event = &KIRI_NEXT(world->events);
     memset(event, 0, sizeof(*event));
     event->type = type;
     event->sheet = sheet->id;
