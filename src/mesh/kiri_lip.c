@@ -513,7 +513,7 @@ bool kiriLip_FindStop(kiriCorridor* corridor, kiriLatticePoint after, kiriLipSto
     int64_t progress = kiriCorridor_Progress(corridor, after);
     kiriStrips strips = kiriStrips_Begin(&mesh->squares, after, corridor->to, 2.0 * corridor->reach);
     while (kiriStrips_Next(&strips)) {
-        for (int32_t i = 0; i < strips.count; ++i) {
+        KIRI_EACH_INDEX(i, strips) {
             int32_t v = mesh->squares.vertexHead[strips.square + i * strips.stride];
             corridor->effort += PASSING_EFFORT;
             for (; v != KIRI_NONE; v = mesh->vertices.data[v].next) {

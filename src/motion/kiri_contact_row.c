@@ -16,7 +16,7 @@
 static kiriVec3 BlendedPoint(const kiriSystem* system, const kiriContactMember* members, int32_t count,
                              const kiriPose* poses)
 {
-    kiriVec3 x = { 0.0, 0.0, 0.0 };
+    kiriVec3 x = { 0 };
     for (int32_t m = 0; m < count; ++m) {
         kiriVec3 point = kiriSystem_Point(system, members[m].frame, members[m].at, poses);
         x = kiriVec3_AddScaled(x, members[m].value, point);
@@ -63,7 +63,7 @@ static kiriVec3 SurfaceVelocity(const kiriContactStep* step, kiriVec3 point)
 {
     const kiriContactRow* row = step->row;
     const kiriYieldRow* yield = step->yield;
-    kiriVec3 recoil = { 0.0, 0.0, 0.0 };
+    kiriVec3 recoil = { 0 };
     if (yield != NULL && row->felt >= 0.0) {
         recoil = kiriVec3_Scale(row->felt, yield->impulse.force);
     } else if (yield != NULL) {
@@ -159,9 +159,7 @@ static void FindMeans(kiriSolver* solver, const kiriSystem* system)
 {
     kiriContactSum* touch = &solver->touch;
     double obstacleSpeed = 0.0, gravity = kiriVec3_Length(kiriSystem_Gravity(system));
-    for (int32_t k = 0; k < solver->contacts.count; ++k) {
-        const kiriContactStep* step = &solver->contacts.data[k];
-        if (!step->isHeld) {
+    KIRI_EACH(const kiriContactStep, step, solver->contacts) {        if (!step->isHeld) {
             double fast = (kiriVec3_Length(step->carried) + fabs(step->lift)) / solver->dt;
             double given = MeansOf(step, solver->dt);
             obstacleSpeed = kiriMax(fast, obstacleSpeed);
@@ -233,7 +231,7 @@ static void FollowSurface(const kiriSolver* solver, const kiriSystem* system, ki
 static void BeginContact(kiriSolver* solver, const kiriSystem* system, const kiriIslandBody* member, int32_t k)
 {
     KIRI_ASSERT(solver->contacts.count < solver->contacts.capacity && k < member->sheet->contactCount);
-    kiriContactStep* step = &solver->contacts.data[solver->contacts.count++];
+    kiriContactStep* step = &KIRI_NEXT(solver->contacts);
     kiriContactRow* row = &member->sheet->contacts[k];
     kiriContactMember all[KIRI_CONTACT_WEIGHTS + KIRI_CONTACT_SIDE];
     memset(step, 0, sizeof(*step));
@@ -392,7 +390,7 @@ static void GuessState(const kiriSolver* solver, const kiriSystem* system, kiriC
 {
     const kiriContactRow* row = step->row;
     double inertia = InertiaOf(solver, step), was = kiriVec3_Dot(row->normal, row->force);
-    kiriVec3 predicted = { 0.0, 0.0, 0.0 }, free = predicted;
+    kiriVec3 predicted = { 0 }, free = predicted;
     for (int32_t m = 0; m < step->memberCount; ++m) {
         const kiriPrediction* prediction = &solver->predictions.data[step->members[m].frame];
         kiriVec3 arm = kiriSystem_Arm(system, step->members[m].frame, step->members[m].at, &prediction->pose);
@@ -422,8 +420,8 @@ static void GuessState(const kiriSolver* solver, const kiriSystem* system, kiriC
 
 void kiriSolver_GuessContacts(kiriSolver* solver, const kiriSystem* system)
 {
-    for (int32_t k = 0; k < solver->contacts.count; ++k) {
-        GuessState(solver, system, &solver->contacts.data[k]);
+    KIRI_EACH(kiriContactStep, contact, solver->contacts) {
+        GuessState(solver, system, contact);
     }
 }
 
@@ -431,14 +429,12 @@ void kiriSolver_GuessContacts(kiriSolver* solver, const kiriSystem* system)
 
 static void CountPressed(const kiriSolver* solver)
 {
-    for (int32_t k = 0; k < solver->contacts.count; ++k) {
-        if (solver->contacts.data[k].yield != NULL) {
-            solver->contacts.data[k].yield->pressed = 0;
+    KIRI_EACH(kiriContactStep, contact, solver->contacts) {
+        if (contact->yield != NULL) {
+            contact->yield->pressed = 0;
         }
     }
-    for (int32_t k = 0; k < solver->contacts.count; ++k) {
-        const kiriContactStep* step = &solver->contacts.data[k];
-        if (step->isActive && step->yield != NULL) {
+    KIRI_EACH(const kiriContactStep, step, solver->contacts) {        if (step->isActive && step->yield != NULL) {
             step->yield->pressed += 1;
         }
     }
@@ -466,9 +462,7 @@ static void SetSprings(const kiriSolver* solver, kiriContactStep* step, kiriVec3
 void kiriSolver_LinearizeContacts(kiriSolver* solver, const kiriSystem* system)
 {
     CountPressed(solver);
-    for (int32_t k = 0; k < solver->contacts.count; ++k) {
-        kiriContactStep* step = &solver->contacts.data[k];
-        kiriVec3 point = kiriContact_Point(system, step, solver->poses.data);
+    KIRI_EACH(kiriContactStep, step, solver->contacts) {        kiriVec3 point = kiriContact_Point(system, step, solver->poses.data);
         step->depth = DepthAt(step, point);
         step->slide = SlideAt(step, point);
         if (IsSoft(step->row)) {
@@ -529,7 +523,7 @@ static kiriVec3 DragOf(const kiriContactStep* step, double part)
 /* Returns the move of the point by the solution, to first order. */
 static kiriVec3 MoveOf(const kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step)
 {
-    kiriVec3 sum = { 0.0, 0.0, 0.0 };
+    kiriVec3 sum = { 0 };
     for (int32_t m = 0; m < step->memberCount; ++m) {
         kiriContactMember member = step->members[m];
         kiriVec2 local = kiriVec2_Sub(member.at, system->frames[member.frame].center);
@@ -545,9 +539,7 @@ static kiriVec3 MoveOf(const kiriSolver* solver, const kiriSystem* system, const
 
 void kiriSolver_MoveContacts(kiriSolver* solver, const kiriSystem* system)
 {
-    for (int32_t k = 0; k < solver->contacts.count; ++k) {
-        kiriContactStep* step = &solver->contacts.data[k];
-        if (step->isActive && !IsSoft(step->row)) {
+    KIRI_EACH(kiriContactStep, step, solver->contacts) {        if (step->isActive && !IsSoft(step->row)) {
             kiriVec3 move = MoveOf(solver, system, step);
             step->sinks = -kiriVec3_Dot(step->row->normal, move);
             step->slides = kiriVec3_AlongPlane(move, step->row->normal);
@@ -680,7 +672,7 @@ static void AssembleRigid(kiriSolver* solver, const kiriSystem* system, const ki
                           const PointSprings* at)
 {
     Carrier carriers[KIRI_CONTACT_MEMBERS];
-    kiriVec3 springs[3], pull = { 0.0, 0.0, 0.0 };
+    kiriVec3 springs[3], pull = { 0 };
     int32_t count = 0;
     SumSprings(at, springs);
     for (int e = 0; e < CONTACT_ROWS; ++e) {
@@ -731,9 +723,7 @@ static double FrictionSlope(const kiriContactStep* step, double part)
 static double SlopeAt(const kiriSolver* solver, double part)
 {
     double slope = -2.0 * solver->search.promise * (1.0 - part);
-    for (int32_t k = 0; k < solver->contacts.count; ++k) {
-        const kiriContactStep* step = &solver->contacts.data[k];
-        if (step->isActive && !IsSoft(step->row)) {
+    KIRI_EACH(const kiriContactStep, step, solver->contacts) {        if (step->isActive && !IsSoft(step->row)) {
             slope += FrictionSlope(step, part);
         }
     }
@@ -794,7 +784,7 @@ static bool ReviewFriction(kiriContactStep* step, double limit, kiriVec3 slide, 
     step->direction = kiriVec3_Scale(size > 0.0 ? -1.0 / size : 0.0, trial);
     step->limit = limit;
     kiriVec3 next = size > limit ? kiriVec3_Scale(limit / size, trial) : trial;
-    return kiriVec3_Length(kiriVec3_Sub(next, drag)) > tolerance;
+    return kiriVec3_Distance(next, drag) > tolerance;
 }
 
 /* Chooses the state of the contact in the next system. Returns true if the contact needs another system. */
@@ -826,9 +816,7 @@ static bool Review(const kiriSolver* solver, const kiriSystem* system, kiriConta
 void kiriSolver_ReviewContacts(kiriSolver* solver, const kiriSystem* system)
 {
     double mostPush = 0.0; /* N */
-    for (int32_t k = 0; k < solver->contacts.count; ++k) {
-        kiriContactStep* step = &solver->contacts.data[k];
-        if (!IsSoft(step->row)) {
+    KIRI_EACH(kiriContactStep, step, solver->contacts) {        if (!IsSoft(step->row)) {
             TakeForces(step, solver->search.scale);
         } else if (solver->search.scale > 0.0) {
             TakeSoft(step, kiriContact_Point(system, step, solver->poses.data), solver->search.scale);
@@ -836,8 +824,8 @@ void kiriSolver_ReviewContacts(kiriSolver* solver, const kiriSystem* system)
         mostPush = kiriMax(step->push, mostPush);
     }
     solver->touch.isUnsettled = false;
-    for (int32_t k = 0; k < solver->contacts.count; ++k) {
-        solver->touch.isUnsettled |= Review(solver, system, &solver->contacts.data[k], mostPush);
+    KIRI_EACH(kiriContactStep, contact, solver->contacts) {
+        solver->touch.isUnsettled |= Review(solver, system, contact, mostPush);
     }
 }
 
@@ -864,9 +852,7 @@ static double Yielded(const kiriContactStep* step)
 static bool IsDeep(kiriSolver* solver, const kiriSystem* system)
 {
     bool isDeep = false;
-    for (int32_t k = 0; k < solver->contacts.count; ++k) {
-        kiriContactStep* step = &solver->contacts.data[k];
-        step->solved = step->push;
+    KIRI_EACH(kiriContactStep, step, solver->contacts) {        step->solved = step->push;
         double depth = kiriContact_Depth(system, step, solver->poses.data) - Yielded(step);
         isDeep |= !kiriContact_IsMutual(step) && depth > MOST_DEPTH + step->row->reach;
     }
@@ -878,19 +864,17 @@ static bool IsDeep(kiriSolver* solver, const kiriSystem* system)
    shot off. */
 static void ShareMass(kiriSolver* solver)
 {
-    for (int32_t k = 0; k < solver->contacts.count; ++k) {
-        if (solver->contacts.data[k].yield != NULL) {
-            solver->contacts.data[k].yield->held = 0;
+    KIRI_EACH(kiriContactStep, contact, solver->contacts) {
+        if (contact->yield != NULL) {
+            contact->yield->held = 0;
         }
     }
-    for (int32_t k = 0; k < solver->contacts.count; ++k) {
-        if (solver->contacts.data[k].yield != NULL) {
-            solver->contacts.data[k].yield->held += 1;
+    KIRI_EACH(kiriContactStep, contact, solver->contacts) {
+        if (contact->yield != NULL) {
+            contact->yield->held += 1;
         }
     }
-    for (int32_t k = 0; k < solver->contacts.count; ++k) {
-        kiriContactStep* step = &solver->contacts.data[k];
-        const kiriYieldRow* yield = step->yield;
+    KIRI_EACH(kiriContactStep, step, solver->contacts) {        const kiriYieldRow* yield = step->yield;
         int32_t pressed = yield != NULL && yield->pressed > 1 ? yield->pressed : 1;
         step->shared = yield != NULL && yield->held > pressed ? step->give * yield->held / pressed : step->give;
     }
@@ -974,9 +958,7 @@ static void SweepHolds(kiriSolver* solver, const kiriSystem* system, bool isWhol
     }
     for (int sweep = 0; isLeft && sweep < SWEEPS; ++sweep) {
         isLeft = false;
-        for (int32_t k = 0; k < solver->contacts.count; ++k) {
-            kiriContactStep* step = &solver->contacts.data[k];
-            if (kiriContact_IsMutual(step)) {
+        KIRI_EACH(kiriContactStep, step, solver->contacts) {            if (kiriContact_IsMutual(step)) {
                 continue;
             }
             isLeft |= isWhole ? HoldWhole(solver, system, step, mass) : HoldFrames(solver, system, step);
@@ -997,8 +979,8 @@ static bool TakeHeld(kiriSolver* solver, const kiriSystem* system)
         return true;
     }
     memcpy(solver->poses.data, solver->trial.data, sizeof(kiriPose) * (size_t)system->frameCount);
-    for (int32_t k = 0; k < solver->contacts.count; ++k) {
-        solver->contacts.data[k].push = solver->contacts.data[k].solved;
+    KIRI_EACH(kiriContactStep, contact, solver->contacts) {
+        contact->push = contact->solved;
     }
     return false;
 }
@@ -1050,11 +1032,9 @@ kiriVec3 kiriContact_Force(const kiriSolver* solver, const kiriContactStep* step
 void kiriSolver_BalanceContacts(kiriSolver* solver, const kiriSystem* system)
 {
     bool isMovedByThem = solver->touch.isHeldUp && solver->support == KIRI_SUPPORT_CONTACTS;
-    kiriVec3 asked = { 0.0, 0.0, 0.0 }, given = asked;
+    kiriVec3 asked = { 0 }, given = asked;
     double part = solver->stepping.part;
-    for (int32_t k = 0; k < solver->contacts.count; ++k) {
-        const kiriContactStep* step = &solver->contacts.data[k];
-        if (kiriContact_IsMutual(step)) {
+    KIRI_EACH(const kiriContactStep, step, solver->contacts) {        if (kiriContact_IsMutual(step)) {
             continue;
         }
         if (!isMovedByThem) {
@@ -1123,11 +1103,11 @@ static Pinned SumPinned(const kiriSolver* solver, const kiriSystem* system)
         sum.asked = kiriVec3_AddScaled(sum.asked, part * pin->stiffness, off);
         sum.held += pin->stiffness;
     }
-    for (int32_t k = 0; k < solver->contacts.count; ++k) {
-        if (kiriContact_IsMutual(&solver->contacts.data[k])) {
+    KIRI_EACH(kiriContactStep, contact, solver->contacts) {
+        if (kiriContact_IsMutual(contact)) {
             continue;
         }
-        kiriVec3 impulse = kiriVec3_Scale(part, kiriContact_Force(solver, &solver->contacts.data[k]));
+        kiriVec3 impulse = kiriVec3_Scale(part, kiriContact_Force(solver, contact));
         sum.given = kiriVec3_Add(sum.given, impulse);
         sum.pressed += kiriVec3_Length(impulse);
     }
@@ -1153,7 +1133,7 @@ static void FindMore(kiriSolver* solver, Pinned* sum)
 static void FindPower(const kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step,
                       double* ofObstacle, double* ofSheet)
 {
-    kiriVec3 point = kiriContact_Point(system, step, solver->poses.data), way = { 0.0, 0.0, 0.0 };
+    kiriVec3 point = kiriContact_Point(system, step, solver->poses.data), way = { 0 };
     kiriVec3 push = kiriVec3_Scale(-solver->stepping.part, kiriContact_Force(solver, step));
     for (int32_t m = 0; m < step->memberCount; ++m) {
         kiriVec3 velocity = kiriFrame_VelocityAt(&solver->after.data[step->members[m].frame], step->members[m].at);
@@ -1167,27 +1147,23 @@ static void FindPower(const kiriSolver* solver, const kiriSystem* system, const 
 static void GivePushes(const kiriSolver* solver, const kiriSystem* system, bool isMore)
 {
     double ofObstacle, ofSheet;
-    for (int32_t k = 0; k < solver->contacts.count; ++k) {
-        kiriYieldRow* yield = solver->contacts.data[k].yield;
+    KIRI_EACH(kiriContactStep, contact, solver->contacts) {
+        kiriYieldRow* yield = contact->yield;
         if (yield != NULL) {
             yield->before = yield->after = yield->most = 0.0;
         }
     }
-    for (int32_t k = 0; isMore && k < solver->contacts.count; ++k) {
-        const kiriContactStep* step = &solver->contacts.data[k];
-        kiriYieldRow* yield = step->yield;
+    KIRI_EACH_WHILE(isMore, const kiriContactStep, step, solver->contacts) {        kiriYieldRow* yield = step->yield;
         if (yield != NULL) {
             FindPower(solver, system, step, &ofObstacle, &ofSheet);
             yield->before += ofObstacle;
             yield->most += kiriMax(ofSheet, 0.0);
         }
     }
-    for (int32_t k = 0; k < solver->contacts.count; ++k) {
-        Give(solver, system, &solver->contacts.data[k], 1.0);
+    KIRI_EACH(kiriContactStep, contact, solver->contacts) {
+        Give(solver, system, contact, 1.0);
     }
-    for (int32_t k = 0; isMore && k < solver->contacts.count; ++k) {
-        const kiriContactStep* step = &solver->contacts.data[k];
-        kiriYieldRow* yield = step->yield;
+    KIRI_EACH_WHILE(isMore, const kiriContactStep, step, solver->contacts) {        kiriYieldRow* yield = step->yield;
         if (yield != NULL) {
             FindPower(solver, system, step, &ofObstacle, &ofSheet);
             yield->after += ofObstacle;
@@ -1199,8 +1175,8 @@ static void GivePushes(const kiriSolver* solver, const kiriSystem* system, bool 
    no further. The momentum of a cloth can be thousands of times the momentum of a light body on it. */
 static double LimitMore(const kiriSolver* solver, double more)
 {
-    for (int32_t k = 0; more > 1.0 && k < solver->contacts.count; ++k) {
-        const kiriYieldRow* yield = solver->contacts.data[k].yield;
+    KIRI_EACH_WHILE(more > 1.0, kiriContactStep, contact, solver->contacts) {
+        const kiriYieldRow* yield = contact->yield;
         if (yield != NULL) {
             double each = yield->after - yield->before, room = yield->most - yield->before;
             double most = room > each ? room / each : 1.0;
@@ -1220,8 +1196,8 @@ static void BalancePinned(kiriSolver* solver, const kiriSystem* system)
     FindMore(solver, &sum);
     GivePushes(solver, system, sum.more > 1.0);
     sum.more = LimitMore(solver, sum.more);
-    for (int32_t k = 0; sum.more > 1.0 && k < solver->contacts.count; ++k) {
-        Give(solver, system, &solver->contacts.data[k], sum.more - 1.0);
+    KIRI_EACH_WHILE(sum.more > 1.0, kiriContactStep, contact, solver->contacts) {
+        Give(solver, system, contact, sum.more - 1.0);
     }
     solver->touch.keepForces *= sum.more;
     sum.given = kiriVec3_Scale(sum.more, sum.given);
@@ -1242,13 +1218,11 @@ void kiriSolver_EndContacts(kiriSolver* solver, const kiriSystem* system)
     if (solver->contacts.count > 0 && system->pinCount > 0) {
         BalancePinned(solver, system);
     } else {
-        for (int32_t k = 0; k < solver->contacts.count; ++k) {
-            Give(solver, system, &solver->contacts.data[k], 1.0);
+        KIRI_EACH(kiriContactStep, contact, solver->contacts) {
+            Give(solver, system, contact, 1.0);
         }
     }
-    for (int32_t k = 0; k < solver->contacts.count; ++k) {
-        const kiriContactStep* step = &solver->contacts.data[k];
-        kiriContactRow* row = step->row;
+    KIRI_EACH(const kiriContactStep, step, solver->contacts) {        kiriContactRow* row = step->row;
         row->impulse = kiriVec3_AddScaled(row->impulse, solver->stepping.part, kiriContact_Force(solver, step));
         row->force = kiriVec3_Scale(solver->touch.keepForces, WithinCone(step));
         kiriVec3 point = kiriContact_Point(system, step, solver->poses.data);

@@ -8,7 +8,7 @@
 /* Moves a free body to the predicted centre of mass, which no inner force moves, however incomplete the iteration. */
 void kiriSolver_CenterBody(kiriSolver* solver, const kiriSystem* system)
 {
-    kiriVec3 mean = { 0.0, 0.0, 0.0 };
+    kiriVec3 mean = { 0 };
     double mass = 0.0, part = solver->stepping.part;
     if (solver->support != KIRI_SUPPORT_NONE) {
         return;
@@ -121,9 +121,7 @@ static void RestoreMomentum(kiriSolver* solver, const kiriSystem* system)
     const kiriVec3* normal = system->mechanics.planar ? &system->mechanics.axes.d : NULL;
     kiriPieceMomentum momentum = { .isFree = solver->support == KIRI_SUPPORT_NONE,
                                    .isPushed = solver->support == KIRI_SUPPORT_CONTACTS };
-    for (int32_t k = 0; k < solver->contacts.count; ++k) {
-        const kiriContactStep* step = &solver->contacts.data[k];
-        kiriVec3 point = kiriContact_Point(system, step, solver->poses.data);
+    KIRI_EACH(const kiriContactStep, step, solver->contacts) {        kiriVec3 point = kiriContact_Point(system, step, solver->poses.data);
         kiriVec3 impulse = kiriVec3_Scale(solver->stepping.part, kiriContact_Force(solver, step));
         if (kiriContact_IsMutual(step)) {
             continue; /* it acts on both sides */
@@ -348,8 +346,8 @@ static LinkStrains StrainsOfClamp(const kiriClampRow* clamp, const kiriFrameData
 
 static void AddOuter(kiriVec2 rows[2], double w, kiriVec2 s, kiriVec2 value)
 {
-    rows[0] = kiriVec2_Add(rows[0], kiriVec2_Scale(w * value.x, s));
-    rows[1] = kiriVec2_Add(rows[1], kiriVec2_Scale(w * value.y, s));
+    rows[0] = kiriVec2_AddScaled(rows[0], w * value.x, s);
+    rows[1] = kiriVec2_AddScaled(rows[1], w * value.y, s);
 }
 
 static void AddToFit(Fit* fit, const kiriLink* link, const LinkStrains* strains)
@@ -361,9 +359,9 @@ static void AddToFit(Fit* fit, const kiriLink* link, const LinkStrains* strains)
     fit->matrix.vv += w * s.y * s.y;
     AddOuter(fit->bendingBy, w, s, strains->bending);
     AddOuter(fit->strainBy, w, s, strains->strain);
-    fit->turnBy = kiriVec2_Add(fit->turnBy, kiriVec2_Scale(w * strains->turn, s));
+    fit->turnBy = kiriVec2_AddScaled(fit->turnBy, w * strains->turn, s);
     fit->weight += weight;
-    fit->at = kiriVec2_Add(fit->at, kiriVec2_Scale(weight, link->crossing));
+    fit->at = kiriVec2_AddScaled(fit->at, weight, link->crossing);
 }
 
 static void SolveFit(Fit* fit)
@@ -405,7 +403,7 @@ static double SquaredChange(kiriTensor a, kiriTensor b)
    shorter distance. */
 static double MissingIn(const kiriLink* link, const Fit* a, const Fit* b, Rigidity rigidity)
 {
-    double l = link->length, apart = kiriVec2_Length(kiriVec2_Sub(b->at, a->at));
+    double l = link->length, apart = kiriVec2_Distance(b->at, a->at);
     double turn = kiriVec2_Dot(kiriVec2_Sub(b->turn, a->turn), link->normal);
     double longer = apart > 0.5 * l ? l / apart : 2.0;
     double energy = rigidity.bending * link->width * SquaredChange(a->bending, b->bending) +

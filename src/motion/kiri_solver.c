@@ -200,7 +200,7 @@ static void TakeCorners(kiriSolver* solver, const kiriSystem* system)
     for (int32_t n = 0; n < count; ++n) {
         kiriCorner* corner = &bodies->corners.data[n];
         *corner = system->corners[solver->order.data[n]];
-        for (int32_t k = 0; k < corner->count; ++k) {
+        KIRI_EACH_INDEX(k, *corner) {
             corner->link[k] = solver->linkPlace.data[corner->link[k]];
         }
     }
@@ -217,7 +217,7 @@ static void TakeAreas(kiriSolver* solver, const kiriSystem* system)
     for (int32_t n = 0; n < count; ++n) {
         bodies->areaElements.elements.data[n] = system->areaElements->elements.data[solver->order.data[n]];
     }
-    for (int32_t n = 0; n < bodies->areaElements.shares.count; ++n) {
+    KIRI_EACH_INDEX(n, bodies->areaElements.shares) {
         kiriFrameShare* share = &bodies->areaElements.shares.data[n];
         *share = system->areaElements->shares.data[n];
         share->frame = bodies->place.data[share->frame];
@@ -236,7 +236,7 @@ static void ShareOutAll(kiriSolver* solver, const kiriSystem* system, const int3
     KIRI_EACH(const kiriSolverBody, body, bodies->bodies) {
         const kiriSpan* frames = &body->frames;
         KIRI_ASSERT(frames->count > 0);
-        for (int32_t n = 0; n < frames->count; ++n) {
+        KIRI_EACH_INDEX(n, *frames) {
             bodies->place.data[bodies->frames.data[frames->first + n]] = n;
         }
     }
@@ -375,7 +375,7 @@ void kiriSolver_Commit(kiriSolver* solver)
     solver->next = now;
     solver->next.bodies.count = 0;
     solver->isStaged = false;
-    for (int32_t b = 0; b < solver->bodies.bodies.count; ++b) {
+    KIRI_EACH_INDEX(b, solver->bodies.bodies) {
         solver->bodies.bodies.data[b].ownsMatrix = false;
         solver->bodies.bodies.data[b].isMoved = true;
         solver->allWork += kiriSolver_WorkOf(solver, b, 0);
@@ -569,7 +569,7 @@ static void TakeFrames(kiriSolver* solver, const kiriIslandBody* member)
     const int32_t* frames = &member->solver->bodies.frames.data[body->frames.first];
     KIRI_ASSERT(solver->sources.count + body->frames.count <= solver->sources.capacity);
     body->island = solver->sources.count;
-    for (int32_t n = 0; n < body->frames.count; ++n) {
+    KIRI_EACH_INDEX(n, body->frames) {
         int32_t f = solver->sources.count++;
         kiriReaction* reactions = sheet->reactions.frames;
         solver->sources.data[f].frame = &sheet->frames[frames[n]];
@@ -640,25 +640,25 @@ static void TakeElements(kiriSolver* solver, const kiriIslandBody* member)
     const kiriSolverBody* body = BodyOfMember(member);
     kiriAreaElements* areas = &solver->islandElements;
     int32_t firstLink = solver->islandLinks.count;
-    for (int32_t k = 0; k < body->links.count; ++k) {
+    KIRI_EACH_INDEX(k, body->links) {
         kiriLink* link = &KIRI_NEXT(solver->islandLinks);
         *link = bodies->ownLinks.data[body->links.first + k];
         link->i += body->island;
         link->j += body->island;
     }
-    for (int32_t k = 0; k < body->corners.count; ++k) {
+    KIRI_EACH_INDEX(k, body->corners) {
         kiriCorner* corner = &KIRI_NEXT(solver->islandCorners);
         *corner = bodies->corners.data[body->corners.first + k];
-        for (int32_t n = 0; n < corner->count; ++n) {
+        KIRI_EACH_INDEX(n, *corner) {
             corner->link[n] += firstLink;
         }
     }
-    for (int32_t k = 0; k < body->elements.count; ++k) {
+    KIRI_EACH_INDEX(k, body->elements) {
         kiriAreaElement* element = &KIRI_NEXT(areas->elements);
         *element = bodies->areaElements.elements.data[body->elements.first + k];
         const kiriFrameShare* shares = &bodies->areaElements.shares.data[element->first];
         element->first = areas->shares.count;
-        for (int32_t n = 0; n < element->count; ++n) {
+        KIRI_EACH_INDEX(n, *element) {
             kiriFrameShare share = shares[n];
             share.frame += body->island;
             KIRI_NEXT(areas->shares) = share;
@@ -991,7 +991,7 @@ int32_t kiriElement_Members(const kiriSystem* system, int32_t k, int32_t* member
         return kiriElement_Corner(system, k)->count;
     }
     const kiriAreaElement* element = AreaElementOf(system, k);
-    for (int32_t m = 0; m < element->count; ++m) {
+    KIRI_EACH_INDEX(m, *element) {
         members[m] = system->areaElements->shares.data[element->first + m].frame;
         KIRI_ASSERT(members[m] >= 0 && members[m] < system->frameCount);
         KIRI_ASSERT(m == 0 || members[m - 1] < members[m]);
@@ -1121,7 +1121,7 @@ static void MeasureAffineCorner(const kiriSystem* system, const kiriCorner* corn
     if (rows != NULL) {
         memset(rows, 0, sizeof(*rows) * (size_t)corner->count);
     }
-    for (int32_t k = 0; k < corner->count; ++k) {
+    KIRI_EACH_INDEX(k, *corner) {
         LinkEnds link = LinkEndsOf(system, &system->links[corner->link[k]], poses);
         const kiriPose* const endPoses[2] = { &link.poses[0], &link.poses[1] };
         kiriFrameRow* own[2] = { 0 };
@@ -1155,7 +1155,7 @@ kiriTrace kiriElement_Trace(const kiriSystem* system, int32_t k, const double* s
 {
     const kiriCorner* corner = kiriElement_Corner(system, k);
     const double* all[4] = { 0 };
-    for (int32_t n = 0; n < corner->count; ++n) {
+    KIRI_EACH_INDEX(n, *corner) {
         all[n] = &strains[KIRI_MOST_STRAINS * (size_t)corner->link[n]];
     }
     return kiriTrace_Measure(corner, system->links, all, system->mechanics.planar);
@@ -1173,7 +1173,7 @@ void kiriElement_TakeOffsets(const kiriSystem* system, int32_t k, const double* 
     if (system->strainOffsets != NULL && kiriElement_IsRigidCorner(system, k)) {
         const kiriCorner* corner = kiriElement_Corner(system, k);
         const double* all[4] = { 0 };
-        for (int32_t n = 0; n < corner->count; ++n) {
+        KIRI_EACH_INDEX(n, *corner) {
             all[n] = system->strainOffsets[corner->link[n]].strain;
         }
         kiriTrace offset = kiriTrace_Measure(corner, system->links, all, system->mechanics.planar);

@@ -123,7 +123,7 @@ static EndVectors PointVectors(const kiriFrameData* const frames[2], const kiriP
 /* Writes the derivative of gap . axis. The ends turn with their frames, the axis with both frames. */
 static void WriteTurns(const MeanAxes* axes, kiriVec3 axis, const EndVectors* pair, kiriStrainRow* row)
 {
-    kiriVec3 g = kiriVec3_Cross(axis, pair->gap), zero = { 0.0, 0.0, 0.0 };
+    kiriVec3 g = kiriVec3_Cross(axis, pair->gap), zero = { 0 };
     double gn = kiriVec3_Dot(g, axes->n), gtau = kiriVec3_Dot(g, axes->tau), gd = kiriVec3_Dot(g, axes->d);
     for (int k = 0; k < 2; ++k) {
         kiriVec3 arm = kiriVec3_Cross(axis, pair->ends[k]), turn = k == 0 ? arm : kiriVec3_Scale(-1.0, arm);
@@ -621,7 +621,7 @@ static void MeasureLink(const kiriLink* link, const kiriMaterial* material, cons
 const kiriFrameData* kiriStrainOffsets_FrameBefore(const kiriStrainOffsets* strainOffsets, const kiriFrameData* frames,
                                                    int32_t frame)
 {
-    KIRI_ASSERT(frame >= 0 && frame < strainOffsets->mayMove.count);
+    KIRI_ASSERT_HAS(strainOffsets->mayMove, frame);
     return strainOffsets->mayMove.data[frame] ? &strainOffsets->frames.data[frame] : &frames[frame];
 }
 
@@ -643,7 +643,7 @@ static kiriStrainOffset StrainOffsetOf(const kiriStrainOffsets* strainOffsets, c
                                        const kiriMaterial* material)
 {
     kiriStrainOffset offset;
-    double was[KIRI_STRAINS] = { 0.0 };
+    double was[KIRI_STRAINS] = { 0 };
     MeasureLink(link, material, &frames[link->i], &frames[link->j], offset.strain);
     if (old != NULL) {
         MeasureLink(old, material, kiriStrainOffsets_FrameBefore(strainOffsets, frames, old->i),
@@ -877,7 +877,7 @@ static void MeasureInPlane(const FrameDifference* g, const MeanDirector* mean, d
 /* Measures the difference of the directors, scaled up by the curl of the strip: see kiri_strain.h. */
 static void MeasureBending(const kiriCurl* curl, const kiriPose* const poses[2], double* strain, kiriFrameRow rows[][2])
 {
-    const kiriVec3 axes[3] = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } }, zero = { 0.0, 0.0, 0.0 };
+    const kiriVec3 axes[3] = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } }, zero = { 0 };
     kiriVec3 bent = kiriVec3_Sub(poses[1]->A.d, poses[0]->A.d);
     double slope, factor = kiriCurl_Factor(curl, kiriVec3_Dot(bent, bent), &slope);
     for (int a = 0; a < 3; ++a) {
@@ -921,7 +921,7 @@ static void MeasureTwist(const kiriLink* link, const kiriPose* const poses[2], d
 static void MeasureNormalGap(const kiriLink* link, const FrameDifference* g, const MeanDirector* mean, double* strain,
                              kiriFrameRow rows[][2])
 {
-    kiriVec3 zero = { 0.0, 0.0, 0.0 };
+    kiriVec3 zero = { 0 };
     double gap = kiriVec3_Dot(g->value, mean->d), over = fabs(gap) - KIRI_NORMAL_STOP_SHARE * link->length;
     strain[0] = gap;
     strain[1] = over <= 0.0 ? 0.0 : gap > 0.0 ? over : -over;
@@ -1007,8 +1007,8 @@ static bool AddBorder(kiriAreaElements* elements, const RegionLinks* regions, ki
         double scale = (end == 0 ? -0.5 : 0.5) / element->area;
         kiriVec2 normal = kiriVec2_Scale(scale, link->sum);
         kiriVec2 arm = kiriVec2_Sub(link->centroid, kiriMoments_Center(&regions->material[frame]));
-        kiriVec2 u = kiriVec2_Add(kiriVec2_Scale(arm.x, normal), kiriVec2_Scale(scale, link->spread[0]));
-        kiriVec2 v = kiriVec2_Add(kiriVec2_Scale(arm.y, normal), kiriVec2_Scale(scale, link->spread[1]));
+        kiriVec2 u = kiriVec2_AddScaled(kiriVec2_Scale(arm.x, normal), scale, link->spread[0]);
+        kiriVec2 v = kiriVec2_AddScaled(kiriVec2_Scale(arm.y, normal), scale, link->spread[1]);
         share->move = kiriVec2_Add(share->move, normal);
         share->u = kiriVec2_Add(share->u, u);
         share->v = kiriVec2_Add(share->v, v);
@@ -1080,7 +1080,7 @@ void kiriClamp_Shape(kiriClampRow* row, const kiriClampShape* shape, kiriVec2 si
     kiriLink* link = &row->link;
     kiriVec2 off = kiriVec2_Sub(site, shape->from), left = { -shape->along.y, shape->along.x };
     double away = kiriVec2_Dot(off, left);
-    row->foot = kiriVec2_Add(shape->from, kiriVec2_Scale(kiriVec2_Dot(off, shape->along), shape->along));
+    row->foot = kiriVec2_AddScaled(shape->from, kiriVec2_Dot(off, shape->along), shape->along);
     row->isAffine = shape->isAffine;
     memset(link, 0, sizeof(*link));
     link->i = KIRI_NONE;

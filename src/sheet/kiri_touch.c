@@ -51,7 +51,7 @@ static double Lever(const kiriFrameData* frame, const kiriBox* box)
 double kiriSheet_SpeedLimit(const kiriSheetData* sheet, const kiriBox* box)
 {
     double fastest = 0.0;
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+    KIRI_EACH_INDEX(i, sheet->frames) {
         const kiriFrameData* frame = &sheet->frames.data[i];
         if (kiriSheet_PieceOf(sheet, i)->rest.asleep) {
             continue;
@@ -78,8 +78,8 @@ static double SpeedOf(const kiriObstacleData* obstacle, const kiriBox* box)
 kiriVec3 kiriMeeting_VertexVelocity(const kiriSheetData* sheet, int32_t vertex)
 {
     kiriSpan span = sheet->vertexSkin.spans.data[vertex];
-    kiriVec3 velocity = { 0.0, 0.0, 0.0 };
-    for (int32_t k = span.first; k < span.first + span.count; ++k) {
+    kiriVec3 velocity = { 0 };
+    KIRI_EACH_IN(k, span) {
         kiriSampleWeight weight = sheet->vertexSkin.weights.data[k];
         velocity = kiriVec3_AddScaled(velocity, weight.value,
                                       kiriFrame_VelocityAt(&sheet->frames.data[weight.frame],
@@ -150,8 +150,8 @@ void kiriMeeting_SetPlace(kiriTouch* touch, const int32_t* vertices, const doubl
 bool kiriMeeting_IsBorder(const kiriSurface* surface, const kiriIndices* near, int32_t a, int32_t b)
 {
     const int32_t* indices = surface->indices.data;
-    for (int32_t i = 0; i < near->count; ++i) {
-        const int32_t* v = &indices[3 * (int64_t)near->data[i]];
+    KIRI_EACH(const int32_t, triangle, *near) {
+        const int32_t* v = &indices[3 * (int64_t)*triangle];
         if ((v[0] == b && v[1] == a) || (v[1] == b && v[2] == a) || (v[2] == b && v[0] == a)) {
             return false;
         }
@@ -191,8 +191,8 @@ static bool IsBoxNear(const void* context, const kiriBox* box)
 {
     const kiriMeeting* meeting = context;
     const kiriObstacleShape* shape = &meeting->obstacle->shape;
-    kiriVec3 middle = kiriVec3_Scale(0.5, kiriVec3_Add(box->lower, box->upper)), none = { 0.0, 0.0, 0.0 };
-    double reach = meeting->reach + 0.5 * kiriVec3_Length(kiriVec3_Sub(box->upper, box->lower));
+    kiriVec3 middle = kiriVec3_Scale(0.5, kiriVec3_Add(box->lower, box->upper)), none = { 0 };
+    double reach = meeting->reach + 0.5 * kiriVec3_Distance(box->upper, box->lower);
     kiriVec3 local = kiriObstacle_PointToLocal(meeting->obstacle, middle);
     return kiriObstacleShape_MayReach(shape, local, reach) &&
            kiriObstacleShape_Nearest(shape, local, none).distance < reach;
@@ -233,7 +233,7 @@ static void Choose(kiriObstacleSearch* search, kiriNearVertex near, double margi
         link = &chosen->next;
     }
     *link = search->chosen.count;
-    search->chosen.data[search->chosen.count++] = near;
+    KIRI_NEXT(search->chosen) = near;
 }
 
 /* Returns the extra depth (m) of a vertex that had a force, so that vertices of similar depth do not alternate. */
@@ -283,7 +283,7 @@ static void CollectVertices(const kiriMeeting* meeting)
         int32_t vertex = indices[3 * (int64_t)search->triangles.data[i / 3] + i % 3];
         if (search->marks.data[vertex] != search->mark) {
             search->marks.data[vertex] = search->mark;
-            search->vertices.data[search->vertices.count++] = vertex;
+            KIRI_NEXT(search->vertices) = vertex;
             low = kiriMin(vertex, low);
             high = kiriMax(vertex, high);
         }
@@ -304,11 +304,11 @@ static void ChooseVertices(const kiriMeeting* meeting)
     kiriObstacleSearch* search = meeting->search;
     search->chosen.count = 0;
     CollectVertices(meeting);
-    for (int32_t i = 0; i < search->vertices.count; ++i) {
-        LookAtVertex(meeting, search->vertices.data[i]);
+    KIRI_EACH(const int32_t, vertex, search->vertices) {
+        LookAtVertex(meeting, *vertex);
     }
-    for (int32_t i = 0; meeting->isThinned && i < search->chosen.count; ++i) {
-        search->heads.data[search->chosen.data[i].patch] = KIRI_NONE;
+    KIRI_EACH_WHILE(meeting->isThinned, const kiriNearVertex, chosen, search->chosen) {
+        search->heads.data[chosen->patch] = KIRI_NONE;
     }
 }
 
@@ -339,9 +339,9 @@ bool kiriMeeting_TouchVertices(const kiriMeeting* meeting)
     const kiriObstacleSearch* search = meeting->search;
     bool ok = true;
     ChooseVertices(meeting);
-    for (int32_t i = 0; ok && i < search->chosen.count; ++i) {
+    KIRI_EACH_WHILE(ok, const kiriNearVertex, chosen, search->chosen) {
         kiriTouch touch;
-        if (TouchVertex(meeting, search->chosen.data[i].vertex, &touch)) {
+        if (TouchVertex(meeting, chosen->vertex, &touch)) {
             ok = kiriTouches_Add(meeting->sheet, &touch);
         }
     }
@@ -354,8 +354,8 @@ bool kiriMeeting_TouchVertices(const kiriMeeting* meeting)
 static int32_t PatchSide(const kiriSheetData* sheet, double square)
 {
     double area = 0.0;
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
-        area += sheet->frames.data[i].area;
+    KIRI_EACH(const kiriFrameData, frame, sheet->frames) {
+        area += frame->area;
     }
     double side = sqrt(area / (PATCHES_A_FRAME * sheet->frames.count)) / square;
     return side < 2.0 ? 1 : side < 4096.0 ? (int32_t)side : 4096;
@@ -446,8 +446,8 @@ static int64_t VersionOf(const kiriSheetData* sheet)
 static void DropSleepers(kiriObstacleSearch* search, const kiriSheetData* sheet)
 {
     int32_t kept = 0;
-    for (int32_t i = 0; i < search->triangles.count; ++i) {
-        int32_t triangle = search->triangles.data[i], piece = kiriPiece_OfTriangle(sheet, triangle);
+    KIRI_EACH(const int32_t, at, search->triangles) {
+        int32_t triangle = *at, piece = kiriPiece_OfTriangle(sheet, triangle);
         if (kiriPiece_MayMove(&sheet->layout.pieces.data[piece])) {
             search->triangles.data[kept++] = triangle;
         }
@@ -508,9 +508,7 @@ static bool ConsiderVertex(const kiriSheetData* sheet, kiriMemory* scratch, Choi
 {
     Choice choice = { sheet->probes.vertexPiece.data[vertex], QuarterOf(sheet, block, vertex), vertex,
                       Rank(sheet, vertex) };
-    for (int32_t i = 0; i < choices->count; ++i) {
-        Choice* other = &choices->data[i];
-        if (other->piece == choice.piece && other->quarter == choice.quarter) {
+    KIRI_EACH(Choice, other, *choices) {        if (other->piece == choice.piece && other->quarter == choice.quarter) {
             bool isBetter = choice.rank < other->rank || (choice.rank == other->rank && vertex < other->vertex);
             *other = isBetter ? choice : *other;
             return true;
@@ -523,8 +521,8 @@ static bool ConsiderVertex(const kiriSheetData* sheet, kiriMemory* scratch, Choi
 static bool IsNeeded(const Choices* choices, const Choice* choice)
 {
     bool hasBorder = false;
-    for (int32_t i = 0; i < choices->count; ++i) {
-        hasBorder |= choices->data[i].piece == choice->piece && choices->data[i].quarter != INSIDE;
+    KIRI_EACH(const Choice, other, *choices) {
+        hasBorder |= other->piece == choice->piece && other->quarter != INSIDE;
     }
     return choice->quarter != INSIDE || !hasBorder;
 }
@@ -600,9 +598,7 @@ static void MarkBorderEdge(kiriSheetData* sheet, int32_t from, int32_t to)
 
 static void MarkBorder(kiriSheetData* sheet)
 {
-    for (int32_t t = 0; t < sheet->mesh.triangles.count; ++t) {
-        const kiriTriangle* triangle = &sheet->mesh.triangles.data[t];
-        for (int i = 0; i < 3; ++i) {
+    KIRI_EACH(const kiriTriangle, triangle, sheet->mesh.triangles) {        for (int i = 0; i < 3; ++i) {
             if ((triangle->marks >> i & 1) != 0 || triangle->twin[i] == KIRI_NONE) {
                 MarkBorderEdge(sheet, triangle->vertex[i], triangle->vertex[(i + 1) % 3]);
             }
@@ -654,8 +650,8 @@ kiriVec3 kiriProbe_Velocity(const kiriSheetData* sheet, int32_t vertex)
 {
     kiriSpan span = sheet->vertexSkin.spans.data[vertex];
     kiriVec2 local = sheet->seen.surface.rest.data[vertex];
-    kiriVec3 velocity = { 0.0, 0.0, 0.0 };
-    for (int32_t i = span.first; i < span.first + span.count; ++i) {
+    kiriVec3 velocity = { 0 };
+    KIRI_EACH_IN(i, span) {
         kiriSampleWeight weight = sheet->vertexSkin.weights.data[i];
         velocity = kiriVec3_AddScaled(
             velocity, weight.value,
@@ -667,11 +663,11 @@ kiriVec3 kiriProbe_Velocity(const kiriSheetData* sheet, int32_t vertex)
 static void BoundPieces(kiriSheetData* sheet)
 {
     kiriProbes* probes = &sheet->probes;
-    for (int32_t p = 0; p < probes->boxes.count; ++p) {
+    KIRI_EACH_INDEX(p, probes->boxes) {
         probes->boxes.data[p].lower = kiriVec3_Make(HUGE_VAL, HUGE_VAL, HUGE_VAL);
         probes->boxes.data[p].upper = kiriVec3_Make(-HUGE_VAL, -HUGE_VAL, -HUGE_VAL);
     }
-    for (int32_t v = 0; v < probes->vertexPiece.count; ++v) {
+    KIRI_EACH_INDEX(v, probes->vertexPiece) {
         kiriBox* box = &probes->boxes.data[probes->vertexPiece.data[v]];
         kiriVec3 x = kiriSurface_At(&sheet->seen.surface, v), *a = &box->lower, *b = &box->upper;
         *a = kiriVec3_Make(kiriMin(x.x, a->x), kiriMin(x.y, a->y), kiriMin(x.z, a->z));
@@ -682,10 +678,10 @@ static void BoundPieces(kiriSheetData* sheet)
 static void MeasureVelocities(kiriSheetData* sheet)
 {
     kiriProbes* probes = &sheet->probes;
-    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+    KIRI_EACH_INDEX(p, sheet->layout.pieces) {
         kiriSpan span = kiriPieceRow_Of(&probes->list, p);
         double most = 0.0;
-        for (int32_t i = span.first; i < span.first + span.count; ++i) {
+        KIRI_EACH_IN(i, span) {
             probes->velocities.data[i] = kiriProbe_Velocity(sheet, probes->list.items.data[i]);
             double squared = kiriVec3_Dot(probes->velocities.data[i], probes->velocities.data[i]);
             most = kiriMax(squared, most);
@@ -730,10 +726,9 @@ static int32_t FindForce(const kiriTouchMemory* memory, uint64_t key)
 
 void kiriTouchMemory_Add(kiriTouchMemory* memory, const kiriTouch* touch, kiriVec3 force)
 {
-    KIRI_ASSERT(memory->touches.count < memory->touches.capacity);
     memory->given += kiriTouch_IsOfKind(touch, KIRI_TOUCH_HOST);
     memory->touches.data[memory->touches.count] = *touch;
-    memory->touches.data[memory->touches.count++].force = force;
+    KIRI_NEXT(memory->touches).force = force;
 }
 
 static bool IsKeyBefore(const void* context, int32_t a, int32_t b)
@@ -768,8 +763,7 @@ void kiriTouchMemory_SortForces(kiriTouchMemory* memory, int32_t first, kiriIndi
     for (int32_t i = first; i < memory->touches.count; ++i) {
         kiriVec3 force = memory->touches.data[i].force;
         if (kiriVec3_Dot(force, force) > 0.0) {
-            KIRI_ASSERT(order->count < order->capacity);
-            order->data[order->count++] = i;
+            KIRI_NEXT(*order) = i;
         }
     }
     kiriSort(order->data, order->count, IsKeyBefore, memory->touches.data);
@@ -783,7 +777,7 @@ static bool IsNone(kiriVec3 force)
 
 kiriVec3 kiriTouchMemory_Take(kiriTouchMemory* memory, uint64_t key)
 {
-    const kiriVec3 none = { 0.0, 0.0, 0.0 };
+    const kiriVec3 none = { 0 };
     for (int32_t at = FindForce(memory, key); at < memory->forces.count && memory->forces.data[at].key == key; ++at) {
         kiriVec3 force = memory->forces.data[at].force;
         if (!IsNone(force)) {
@@ -797,9 +791,9 @@ kiriVec3 kiriTouchMemory_Take(kiriTouchMemory* memory, uint64_t key)
 void kiriTouchMemory_DropTaken(kiriTouchMemory* memory)
 {
     int32_t kept = 0;
-    for (int32_t i = 0; i < memory->forces.count; ++i) {
-        if (!IsNone(memory->forces.data[i].force)) {
-            memory->forces.data[kept++] = memory->forces.data[i];
+    KIRI_EACH(const kiriTouchForce, force, memory->forces) {
+        if (!IsNone(force->force)) {
+            memory->forces.data[kept++] = *force;
         }
     }
     memory->forces.count = kept;
@@ -815,7 +809,7 @@ static kiriVec3 WhereSeen(const kiriSheetData* sheet, const kiriTouch* touch)
     if (touch->point != KIRI_NONE) {
         return sheet->seen.exactPoints.data[touch->point];
     }
-    kiriVec3 at = { 0.0, 0.0, 0.0 };
+    kiriVec3 at = { 0 };
     for (int n = 0; n < 3 && touch->vertex[n] != KIRI_NONE; ++n) {
         at = kiriVec3_AddScaled(at, touch->share[n], kiriSurface_At(&sheet->seen.surface, touch->vertex[n]));
     }
@@ -845,7 +839,7 @@ static bool IsTouchFinite(const kiriTouch* touch)
 /* Replaces a touch that overflowed (positions or speeds near 1e30) by one whose plane nothing reaches. */
 static void Disarm(const kiriSheetData* sheet, kiriTouch* touch)
 {
-    const kiriVec3 up = { 0.0, 0.0, 1.0 }, none = { 0.0, 0.0, 0.0 };
+    const kiriVec3 up = { 0.0, 0.0, 1.0 }, none = { 0 };
     touch->share[0] = 1.0;
     touch->share[1] = touch->share[2] = 0.0;
     touch->normal = up;
@@ -951,12 +945,12 @@ static void NumberRepeated(kiriTouches* touches)
     enum { MOST_REPEATED = 64 };
     kiriTouch* found = touches->found.data;
     KIRI_ASSERT(touches->order.capacity >= touches->found.count);
-    for (int32_t i = 0; i < touches->found.count; ++i) {
+    KIRI_EACH_INDEX(i, touches->found) {
         touches->order.data[i] = i;
     }
     kiriSort(touches->order.data, touches->found.count, HasLowerGivenKey, found);
     uint64_t last = 0, repeated = 0;
-    for (int32_t k = 0; k < touches->found.count; ++k) {
+    KIRI_EACH_INDEX(k, touches->found) {
         kiriTouch* touch = &found[touches->order.data[k]];
         repeated = k > 0 && touch->key == last ? repeated + 1 : 0;
         last = touch->key;
@@ -968,8 +962,8 @@ bool kiriTouches_Begin(kiriSheetData* sheet)
 {
     bool ok = true;
     sheet->touches.found.count = sheet->touches.yields.count = sheet->touches.rows.count = 0;
-    for (int32_t i = 0; ok && i < sheet->contacts.count; ++i) {
-        ok = AddGiven(sheet, &sheet->contacts.data[i]);
+    KIRI_EACH_WHILE(ok, const kiriGivenContact, contact, sheet->contacts) {
+        ok = AddGiven(sheet, contact);
     }
     if (ok && sheet->contacts.count > 1) {
         NumberRepeated(&sheet->touches);
@@ -1019,7 +1013,7 @@ typedef struct TouchBlend {
 static void AddWeights(TouchBlend* blend, const kiriSkin* skin, int32_t sample, double share)
 {
     kiriSpan span = skin->spans.data[sample];
-    for (int32_t k = span.first; k < span.first + span.count; ++k) {
+    KIRI_EACH_IN(k, span) {
         kiriSampleWeight weight = skin->weights.data[k];
         int32_t n = 0, frame = weight.frame;
         while (n < blend->count && blend->weights[n].frame != frame) {
@@ -1047,7 +1041,7 @@ static TouchBlend BlendOf(const kiriSheetData* sheet, const kiriTouch* touch)
     blend.at = kiriVec2_Make(0.0, 0.0);
     for (int n = 0; n < 3 && touch->vertex[n] != KIRI_NONE; ++n) {
         kiriVec2 corner = kiriMesh_Local(&sheet->mesh, sheet->mesh.vertices.data[touch->vertex[n]].at);
-        blend.at = kiriVec2_Add(blend.at, kiriVec2_Scale(touch->share[n], corner));
+        blend.at = kiriVec2_AddScaled(blend.at, touch->share[n], corner);
         AddWeights(&blend, &sheet->vertexSkin, touch->vertex[n], touch->share[n]);
     }
     return blend;
@@ -1091,7 +1085,7 @@ static int32_t WriteWeights(const kiriSheetData* sheet, TouchBlend* blend, kiriW
 /* Returns the point that frames carry by these weights. */
 static kiriVec3 CarriedPoint(const kiriSheetData* sheet, const kiriWeight* weights, int32_t count, kiriVec2 at)
 {
-    kiriVec3 x = { 0.0, 0.0, 0.0 };
+    kiriVec3 x = { 0 };
     for (int32_t n = 0; n < count; ++n) {
         x = kiriVec3_AddScaled(x, weights[n].value, kiriFrame_Carry(&sheet->frames.data[weights[n].frame], at));
     }
@@ -1125,8 +1119,8 @@ static double SampleMass(const kiriSheetData* sheet)
 {
     const kiriMaterial* material = &sheet->settings.material;
     double square = sheet->mesh.step * sheet->mesh.squares.side, mass = 0.0;
-    for (int32_t f = 0; f < sheet->frames.count; ++f) {
-        mass += sheet->frames.data[f].mass;
+    KIRI_EACH(const kiriFrameData, frame, sheet->frames) {
+        mass += frame->mass;
     }
     double least = (double)material->density * material->thickness * square * square;
     return kiriMax(mass / sheet->mesh.vertices.count, least);
@@ -1185,9 +1179,7 @@ void kiriTouches_WriteRows(kiriSheetData* sheet)
     KIRI_ASSERT(touches->rows.capacity >= touches->found.count);
     touches->rows.count = 0;
     double mass = touches->found.count > 0 ? SampleMass(sheet) : 0.0;
-    for (int32_t i = 0; i < touches->found.count; ++i) {
-        kiriTouch* touch = &touches->found.data[i];
-        kiriContactRow* row = &touches->rows.data[touches->rows.count];
+    KIRI_EACH(kiriTouch, touch, touches->found) {        kiriContactRow* row = &touches->rows.data[touches->rows.count];
         WriteContactRow(sheet, touch, mass, row);
         bool isAwake = kiriSheet_Moves(sheet, row->weights[0].frame);
         touch->row = isAwake ? touches->rows.count : KIRI_NONE;
@@ -1227,16 +1219,16 @@ static void SortForces(kiriTouches* touches)
     KIRI_ASSERT(touches->order.capacity >= touches->rows.count);
     KIRI_ASSERT(touches->last.forces.capacity >= touches->rows.count);
     touches->order.count = touches->last.forces.count = 0;
-    for (int32_t i = 0; i < touches->rows.count; ++i) {
+    KIRI_EACH_INDEX(i, touches->rows) {
         if (kiriVec3_Dot(touches->rows.data[i].force, touches->rows.data[i].normal) > 0.0) {
-            touches->order.data[touches->order.count++] = i;
+            KIRI_NEXT(touches->order) = i;
         }
     }
     kiriSort(touches->order.data, touches->order.count, IsRowBefore, touches);
-    for (int32_t k = 0; k < touches->order.count; ++k) {
-        const kiriContactRow* row = &touches->rows.data[touches->order.data[k]];
+    KIRI_EACH(const int32_t, at, touches->order) {
+        const kiriContactRow* row = &touches->rows.data[*at];
         kiriTouchForce force = { row->key, row->force, row->normal };
-        touches->last.forces.data[touches->last.forces.count++] = force;
+        KIRI_NEXT(touches->last.forces) = force;
     }
 }
 
@@ -1246,10 +1238,10 @@ void kiriTouches_End(kiriSheetData* sheet)
     SortForces(touches);
     KIRI_ASSERT(touches->last.touches.capacity >= touches->found.count);
     touches->last.touches.count = touches->last.given = 0;
-    for (int32_t i = 0; i < touches->found.count; ++i) {
-        if (touches->found.data[i].row != KIRI_NONE) {
-            touches->last.touches.data[touches->last.touches.count++] = touches->found.data[i];
-            touches->last.given += kiriTouch_IsOfKind(&touches->found.data[i], KIRI_TOUCH_HOST);
+    KIRI_EACH(const kiriTouch, touch, touches->found) {
+        if (touch->row != KIRI_NONE) {
+            KIRI_NEXT(touches->last.touches) = *touch;
+            touches->last.given += kiriTouch_IsOfKind(touch, KIRI_TOUCH_HOST);
         }
     }
 }
@@ -1258,8 +1250,8 @@ void kiriTouches_Clear(kiriSheetData* sheet)
 {
     sheet->touches.last.forces.count = sheet->touches.last.touches.count = sheet->touches.last.given = 0;
     sheet->touches.rows.count = 0;
-    for (int32_t i = 0; i < sheet->touches.found.count; ++i) {
-        sheet->touches.found.data[i].row = KIRI_NONE;
+    KIRI_EACH(kiriTouch, touch, sheet->touches.found) {
+        touch->row = KIRI_NONE;
     }
 }
 
@@ -1270,7 +1262,7 @@ void kiriTouches_Clear(kiriSheetData* sheet)
 static void MoveTouches(kiriSheetData* sheet, kiriTouchMemory* from, kiriTouchMemory* to, bool areMoved)
 {
     int32_t kept = 0, given = 0, before = to->touches.count;
-    for (int32_t i = 0; i < from->touches.count; ++i) {
+    KIRI_EACH_INDEX(i, from->touches) {
         kiriTouch touch = from->touches.data[i];
         const kiriPiece* piece = PieceOfTouch(sheet, &touch);
         if (piece->isGone) {
@@ -1330,8 +1322,7 @@ static void ListCalm(kiriSheetData* sheet)
     for (int32_t i = 0; i < count; ++i) {
         const kiriTouch* touch = TouchAt(touches, i);
         if (kiriTouch_IsOfKind(touch, KIRI_TOUCH_HOST) && PieceOfTouch(sheet, touch)->rest.calm >= KIRI_CALM_SECONDS) {
-            KIRI_ASSERT(touches->order.count < touches->order.capacity);
-            touches->order.data[touches->order.count++] = i;
+            KIRI_NEXT(touches->order) = i;
         }
     }
     if (touches->order.count > 1) {
@@ -1414,7 +1405,7 @@ static void TellOne(const kiriSheetData* sheet, int32_t i, double dt, kiriContac
     kiriVec3 way = kiriVec3_Make(0.0, 0.0, 0.0);
     if (touch->row != KIRI_NONE) {
         const kiriContactRow* row = &sheet->touches.rows.data[touch->row];
-        kiriVec3 now = { 0.0, 0.0, 0.0 };
+        kiriVec3 now = { 0 };
         for (int32_t n = 0; n < row->weightCount; ++n) {
             kiriVec3 x = kiriFrame_Carry(&sheet->frames.data[row->weights[n].frame], row->at);
             now = kiriVec3_AddScaled(now, row->weights[n].value, x);

@@ -150,7 +150,7 @@ static void InheritOne(kiriSkin* skin, kiriMemory* memory, const kiriBirth* birt
     kiriSpan sum = { span.first, 0 };
     for (int k = 0; k < 3 && birth->parent[k] != KIRI_NONE; ++k) {
         kiriSpan parent = skin->spans.data[birth->parent[k]];
-        for (int32_t i = parent.first; i < parent.first + parent.count; ++i) {
+        KIRI_EACH_IN(i, parent) {
             kiriSampleWeight weight = skin->weights.data[i];
             Blend(skin, &sum, weight.frame, birth->share[k] * weight.value);
         }

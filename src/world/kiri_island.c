@@ -24,9 +24,7 @@ bool kiriIslands_FindClusters(kiriWorld* world)
         islands->isJoined.data[i] = 0;
         world->sheets.data[i]->probes.sheet = i;
     }
-    for (int32_t i = 0; i < world->pairs.touches.count; ++i) {
-        const kiriPairTouch* touch = &world->pairs.touches.data[i];
-        int32_t upper = touch->upper.sheet->probes.sheet, lower = touch->lower.sheet->probes.sheet;
+    KIRI_EACH(const kiriPairTouch, touch, world->pairs.touches) {        int32_t upper = touch->upper.sheet->probes.sheet, lower = touch->lower.sheet->probes.sheet;
         if (touch->touch != KIRI_NONE) {
             islands->isJoined.data[upper] = 1;
             if (kiriSheet_IsActive(touch->lower.sheet)) {
@@ -47,8 +45,8 @@ int32_t kiriIslands_ClusterOf(kiriIslands* islands, int32_t sheet)
 static void ListClusters(kiriWorld* world)
 {
     kiriIslands* islands = &world->islands;
-    for (int32_t k = 0; k < world->active.count; ++k) {
-        islands->next.data[world->active.data[k]] = KIRI_NONE;
+    KIRI_EACH(const int32_t, at, world->active) {
+        islands->next.data[*at] = KIRI_NONE;
     }
     for (int32_t k = world->active.count - 1; k >= 0; --k) {
         int32_t i = world->active.data[k], root = kiriIslands_ClusterOf(islands, i);
@@ -71,8 +69,8 @@ static int32_t BeginClusters(kiriWorld* world, double dt)
 {
     kiriIslands* islands = &world->islands;
     int32_t count = 0;
-    for (int32_t k = 0; k < world->active.count; ++k) {
-        int32_t i = world->active.data[k];
+    KIRI_EACH(const int32_t, at, world->active) {
+        int32_t i = *at;
         if (islands->isJoined.data[i]) {
             kiriSheetData* sheet = world->sheets.data[i];
             kiriMotion_Begin(sheet, world->gravity, dt, NULL, &islands->systems.data[i]);
@@ -116,11 +114,11 @@ static int32_t ListIslands(kiriWorld* world)
 {
     kiriIslands* islands = &world->islands;
     int32_t count = 0, bodies = 0;
-    for (int32_t b = 0; b < islands->parents.count; ++b) {
+    KIRI_EACH_INDEX(b, islands->parents) {
         int32_t root = kiriUnion_Root(islands->parents.data, b);
         if (islands->numbers.data[b] != KIRI_NONE) {
             if (root == b) {
-                islands->islands.data[count].bodies = (kiriSpan){ 0, 0 };
+                islands->islands.data[count].bodies = (kiriSpan){ 0 };
             }
             islands->numbers.data[b] = root == b ? count++ : islands->numbers.data[root];
             islands->islands.data[islands->numbers.data[b]].bodies.count += 1;
@@ -131,8 +129,8 @@ static int32_t ListIslands(kiriWorld* world)
         bodies += islands->islands.data[n].bodies.count;
         islands->islands.data[n].bodies.count = islands->islands.data[n].iterations = 0;
     }
-    for (int32_t k = 0; k < world->active.count; ++k) {
-        int32_t i = world->active.data[k];
+    KIRI_EACH(const int32_t, at, world->active) {
+        int32_t i = *at;
         kiriSheetData* sheet = world->sheets.data[i];
         for (int32_t p = 0; islands->isJoined.data[i] && p < sheet->layout.pieces.count; ++p) {
             int32_t number = islands->numbers.data[islands->firstBodies.data[i] + p];
@@ -227,14 +225,14 @@ static bool StepCluster(kiriWorld* world, int32_t cluster, double dt, int64_t mo
         kiriSheetData* sheet = world->sheets.data[i];
         const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->bodies;
         int32_t systems = (int32_t)kiriMin(most, INT32_MAX), iterations = sheet->settings.iterations;
-        for (int32_t n = 0; !sheet->rest.asleep && n < moved->count; ++n) {
-            kiriIsland* island = IslandOf(islands, i, moved->data[n]);
+        KIRI_EACH_WHILE(!sheet->rest.asleep, const int32_t, at, *moved) {
+            kiriIsland* island = IslandOf(islands, i, *at);
             int32_t solved = 0;
             int64_t each = 0;
             if (island == NULL) {
-                solved = kiriSolver_Step(sheet->solver, &islands->systems.data[i], moved->data[n], dt, iterations, systems);
-                each = kiriSolver_WorkOf(sheet->solver, moved->data[n], PieceBody(sheet, moved->data[n])->contactCount);
-            } else if (IsFirst(islands, island, sheet, moved->data[n])) {
+                solved = kiriSolver_Step(sheet->solver, &islands->systems.data[i], *at, dt, iterations, systems);
+                each = kiriSolver_WorkOf(sheet->solver, *at, PieceBody(sheet, *at)->contactCount);
+            } else if (IsFirst(islands, island, sheet, *at)) {
                 const kiriIslandBody* bodies = &islands->bodies.data[island->bodies.first];
                 solved = kiriSolver_StepIsland(island->solver, island->matrix.matrix, bodies, island->bodies.count, dt,
                                                island->iterations, systems);
@@ -259,11 +257,11 @@ static int64_t ItemsOfCluster(const kiriWorld* world, int32_t cluster)
     for (int32_t i = cluster; i != KIRI_NONE; i = islands->next.data[i]) {
         kiriSheetData* sheet = world->sheets.data[i];
         const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->bodies;
-        for (int32_t n = 0; !sheet->rest.asleep && n < moved->count; ++n) {
-            const kiriIsland* island = IslandOf((kiriIslands*)islands, i, moved->data[n]);
+        KIRI_EACH_WHILE(!sheet->rest.asleep, const int32_t, at, *moved) {
+            const kiriIsland* island = IslandOf((kiriIslands*)islands, i, *at);
             work += island == NULL
-                        ? kiriSolver_WorkOf(sheet->solver, moved->data[n], PieceBody(sheet, moved->data[n])->contactCount)
-                    : IsFirst(islands, island, sheet, moved->data[n]) ? WorkOfIsland(islands, island)
+                        ? kiriSolver_WorkOf(sheet->solver, *at, PieceBody(sheet, *at)->contactCount)
+                    : IsFirst(islands, island, sheet, *at) ? WorkOfIsland(islands, island)
                                                                        : 0;
         }
     }

@@ -33,7 +33,7 @@ static double KeptDistance(const kiriBody* a, const kiriBody* b)
 
 static kiriVec3 SeenAt(const kiriPlace3* place)
 {
-    kiriVec3 x = { 0.0, 0.0, 0.0 };
+    kiriVec3 x = { 0 };
     for (int k = 0; k < 3 && place->vertex[k] != KIRI_NONE; ++k) {
         x = kiriVec3_AddScaled(x, place->share[k], kiriSurface_At(&place->sheet->seen.surface, place->vertex[k]));
     }
@@ -66,7 +66,7 @@ static bool AddPlaneTouch(kiriPairTouch* pair)
 static bool ReserveCalm(kiriWorld* world)
 {
     int64_t count = 0;
-    for (int32_t k = 0; k < world->active.count; ++k) {
+    KIRI_EACH_INDEX(k, world->active) {
         const kiriSheetData* sheet = kiriWorld_Active(world, k);
         bool isReady = sheet->update->stage == KIRI_READY && sheet->update->cut.meshChanged;
         int32_t now = sheet->layout.pieces.count, next = isReady ? sheet->update->next.pieces.count : 0;
@@ -79,9 +79,7 @@ static bool ReserveCalm(kiriWorld* world)
 bool kiriPairs_AddTouches(kiriWorld* world)
 {
     bool ok = true;
-    for (int32_t i = 0; ok && i < world->pairs.touches.count; ++i) {
-        kiriPairTouch* touch = &world->pairs.touches.data[i];
-        ok = !kiriSheet_IsActive(touch->upper.sheet) || AddPlaneTouch(touch);
+    KIRI_EACH_WHILE(ok, kiriPairTouch, touch, world->pairs.touches) {        ok = !kiriSheet_IsActive(touch->upper.sheet) || AddPlaneTouch(touch);
     }
     return ok && ReserveCalm(world);
 }
@@ -108,7 +106,7 @@ static kiriPlace3 TrianglePlace(kiriSheetData* sheet, int32_t triangle, const do
 
 static kiriVec3 PlaceVelocity(const kiriPlace3* place)
 {
-    kiriVec3 velocity = { 0.0, 0.0, 0.0 };
+    kiriVec3 velocity = { 0 };
     for (int k = 0; k < 3 && place->vertex[k] != KIRI_NONE; ++k) {
         kiriVec3 v = kiriProbe_Velocity(place->sheet, place->vertex[k]);
         velocity = kiriVec3_AddScaled(velocity, place->share[k], v);
@@ -246,8 +244,8 @@ static bool TouchPairs(kiriWorld* world, double dt)
 {
     bool ok = true;
     ForgetTouches(world);
-    for (int32_t i = 0; ok && i < world->pairs.next.count; ++i) {
-        ok = world->pairs.next.data[i].nears.count == 0 || TouchPair(world, &world->pairs.next.data[i], dt);
+    KIRI_EACH_WHILE(ok, kiriTouchingPair, pair, world->pairs.next) {
+        ok = pair->nears.count == 0 || TouchPair(world, pair, dt);
     }
     return ok;
 }
@@ -259,15 +257,12 @@ static void ListAwake(kiriWorld* world)
 {
     kiriPairs* pairs = &world->pairs;
     pairs->calms.count = 0;
-    for (int32_t k = 0; k < world->active.count; ++k) {
+    KIRI_EACH_INDEX(k, world->active) {
         kiriSheetData* sheet = kiriWorld_Active(world, k);
-        for (int32_t p = 0; TakesPart(sheet) && p < sheet->layout.pieces.count; ++p) {
-            kiriPiece* piece = &sheet->layout.pieces.data[p];
-            piece->awake = KIRI_NONE;
+        KIRI_EACH_WHILE(TakesPart(sheet), kiriPiece, piece, sheet->layout.pieces) {            piece->awake = KIRI_NONE;
             if (kiriPiece_IsAwake(piece)) {
-                KIRI_ASSERT(pairs->calms.count < pairs->calms.capacity);
                 piece->awake = pairs->calms.count;
-                pairs->calms.data[pairs->calms.count++] = HUGE_VAL;
+                KIRI_NEXT(pairs->calms) = HUGE_VAL;
             }
         }
     }
@@ -310,14 +305,14 @@ void kiriPairs_JoinCalm(kiriWorld* world)
 
 static void SumFrames(kiriPairs* pairs, const kiriSheetData* sheet, int32_t firstBody)
 {
-    for (int32_t i = 0; i < sheet->frames.count; ++i) {
+    KIRI_EACH_INDEX(i, sheet->frames) {
         const kiriFrameData* frame = &sheet->frames.data[i];
         kiriBody* body = &pairs->bodies.data[firstBody + sheet->layout.framePiece.data[i]];
         body->isHeld |= frame->held != 0;
         body->mass += frame->mass;
         body->momentum = kiriVec3_AddScaled(body->momentum, frame->mass, frame->velocity);
     }
-    for (int32_t i = 0; i < sheet->layout.pinFrame.count; ++i) {
+    KIRI_EACH_INDEX(i, sheet->layout.pinFrame) {
         int32_t piece = sheet->layout.framePiece.data[sheet->layout.pinFrame.data[i]];
         pairs->bodies.data[firstBody + piece].isHeld = true;
     }
@@ -326,11 +321,11 @@ static void SumFrames(kiriPairs* pairs, const kiriSheetData* sheet, int32_t firs
 /* Measures the speed of the fastest probe of each body relative to its mean velocity. */
 static void MeasureStir(kiriPairs* pairs, const kiriSheetData* sheet, int32_t firstBody)
 {
-    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+    KIRI_EACH_INDEX(p, sheet->layout.pieces) {
         kiriBody* body = &pairs->bodies.data[firstBody + p];
         kiriSpan span = kiriPieceRow_Of(&sheet->probes.list, p);
         double most = 0.0;
-        for (int32_t i = span.first; i < span.first + span.count; ++i) {
+        KIRI_EACH_IN(i, span) {
             kiriVec3 beside = kiriVec3_AddScaled(sheet->probes.velocities.data[i], -1.0 / body->mass, body->momentum);
             double squared = kiriVec3_Dot(beside, beside);
             most = kiriMax(squared, most);
@@ -373,7 +368,7 @@ typedef struct Waking {
 static double FastestOf(const kiriSheetData* sheet)
 {
     double fastest = 0.0;
-    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+    KIRI_EACH_INDEX(p, sheet->layout.pieces) {
         fastest = kiriMax(sheet->probes.speeds.data[p], fastest);
     }
     return fastest;
@@ -382,7 +377,7 @@ static double FastestOf(const kiriSheetData* sheet)
 static void AddWaking(Waking* waking, const kiriSheetData* sheet)
 {
     double speed = FastestOf(sheet), thickness = sheet->settings.contactThickness;
-    for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
+    KIRI_EACH_INDEX(p, sheet->layout.pieces) {
         const kiriBox* box = &sheet->probes.boxes.data[p];
         if (kiriPiece_IsAwake(&sheet->layout.pieces.data[p])) {
             waking->box = waking->any ? waking->box : *box;
@@ -672,8 +667,8 @@ static double Above(const kiriPairs* pairs, const kiriNear* near, double dt)
 /* Returns the direction from body b to body a, by the near places. */
 static kiriVec3 DirectionFrom(const kiriPairs* pairs, kiriSpan nears, int32_t a, double dt)
 {
-    kiriVec3 sum = { 0.0, 0.0, 0.0 };
-    for (int32_t i = nears.first; i < nears.first + nears.count; ++i) {
+    kiriVec3 sum = { 0 };
+    KIRI_EACH_IN(i, nears) {
         const kiriNear* near = &pairs->nears.data[i];
         double above = Above(pairs, near, dt);
         sum = kiriVec3_AddScaled(sum, near->body == a ? above : -above, near->normal);
@@ -823,7 +818,7 @@ static bool LookAtAll(kiriWorld* world, double dt)
     if (!kiriArray_Resize(&world->memory, &pairs->order, pairs->bodies.count)) {
         return false;
     }
-    for (int32_t i = 0; i < pairs->bodies.count; ++i) {
+    KIRI_EACH_INDEX(i, pairs->bodies) {
         const kiriBody* body = &pairs->bodies.data[i];
         fastest = kiriMax(body->speed, fastest);
         thickest = kiriMax(KeptDistance(body, body), thickest);
@@ -831,7 +826,7 @@ static bool LookAtAll(kiriWorld* world, double dt)
     }
     double reach = 2.0 * thickest + dt * (2.0 * fastest + dt * kiriVec3_Length(world->gravity));
     kiriSort(pairs->order.data, pairs->order.count, IsFarther, pairs->bodies.data);
-    for (int32_t i = 0; i < pairs->order.count; ++i) {
+    KIRI_EACH_INDEX(i, pairs->order) {
         int32_t a = pairs->order.data[i];
         double end = pairs->bodies.data[a].box.upper.x + reach;
         for (int32_t k = i + 1; k < pairs->order.count; ++k) {
@@ -921,9 +916,7 @@ static bool SleepsOn(const kiriWorld* world, kiriFrame id)
 static bool StirTouching(const kiriWorld* world, const kiriTouchingPairs* pairs)
 {
     bool any = false;
-    for (int32_t i = 0; i < pairs->count; ++i) {
-        const kiriTouchingPair* pair = &pairs->data[i];
-        bool isUpperAsleep = SleepsOn(world, pair->upper), isLowerAsleep = SleepsOn(world, pair->lower);
+    KIRI_EACH(const kiriTouchingPair, pair, *pairs) {        bool isUpperAsleep = SleepsOn(world, pair->upper), isLowerAsleep = SleepsOn(world, pair->lower);
         if (pair->touches && isUpperAsleep != isLowerAsleep) {
             StirBody(world, isUpperAsleep ? pair->upper : pair->lower);
             any = true;
@@ -948,8 +941,8 @@ void kiriPairs_Commit(kiriWorld* world)
 int32_t kiriPairs_CountAwake(const kiriWorld* world)
 {
     int32_t count = 0;
-    for (int32_t i = 0; i < world->pairs.pairs.count; ++i) {
-        count += world->pairs.pairs.data[i].nears.count > 0;
+    KIRI_EACH(const kiriTouchingPair, pair, world->pairs.pairs) {
+        count += pair->nears.count > 0;
     }
     return count;
 }
