@@ -244,9 +244,9 @@ typedef struct PlacerJob {
     kiriQuota* quota;
 } PlacerJob;
 
-/* The site of a full cell is its middle, where the cell's weight is exactly 1. In other cells the middle may not be
-   material. */
-kiriSite kiriFrames_SiteIn(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell)
+/* Returns the site that a frame takes in a cell. In a full cell it is the middle, where the cell's weight is exactly 1.
+   In other cells the middle may not be material. */
+static kiriSite SiteInCell(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell)
 {
     KIRI_ASSERT(kiriGrid_IsCell(grid, cell));
     bool full = kiriGrid_Area(grid, cell) > 0.999 * grid->side * grid->side;
@@ -396,7 +396,7 @@ static kiriProgress SampleFarthest(PlacerJob* job)
     work->left = best->cell == KIRI_NONE ? 0 : work->left - 1;
     if (best->cell != KIRI_NONE) {
         work->holds.data[best->cell] = sites->count;
-        KIRI_NEXT(*sites) = kiriFrames_SiteIn(job->grid, job->mesh, best->cell); /* Start made room */
+        KIRI_NEXT(*sites) = SiteInCell(job->grid, job->mesh, best->cell); /* Start made room */
     }
     if (work->left == 0) {
         return StartRound(job);
@@ -555,7 +555,7 @@ static bool MoveToTargets(PlacerJob* job)
         kiriSite site = placer->sites.data[i];
         if (target->cell != KIRI_NONE) {
             kiriVec2 off = kiriVec2_Sub(target->center, kiriGrid_Middle(job->grid, job->mesh, target->cell));
-            site = kiriFrames_SiteIn(job->grid, job->mesh, target->cell);
+            site = SiteInCell(job->grid, job->mesh, target->cell);
             site.at = fabs(off.x) < half && fabs(off.y) < half ? target->center : site.at;
         }
         moved =
@@ -575,7 +575,7 @@ static kiriProgress EndRound(PlacerJob* job)
         return StartRound(job);
     }
     for (int32_t i = job->placer->oldCount; i < sites->count; ++i) {
-        sites->data[i] = kiriFrames_SiteIn(job->grid, job->mesh, sites->data[i].cell);
+        sites->data[i] = SiteInCell(job->grid, job->mesh, sites->data[i].cell);
     }
     job->work->stage = PLACER_RESTS;
     return KIRI_DONE;
@@ -628,7 +628,7 @@ static kiriProgress RunStage(PlacerJob* job)
     case AIM_PART:
         progress = VisitCells(job, part, AimCell);
         if (progress == KIRI_DONE && work->targets.data[0].cell != KIRI_NONE) {
-            KIRI_NEXT(*sites) = kiriFrames_SiteIn(job->grid, job->mesh, work->targets.data[0].cell);
+            KIRI_NEXT(*sites) = SiteInCell(job->grid, job->mesh, work->targets.data[0].cell);
         }
         return Next(job, progress, PLACER_RESTS);
     default:

@@ -75,9 +75,6 @@ bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* gr
 kiriProgress kiriPlacer_Run(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                             kiriQuota* quota);
 
-/* Returns the site that a frame takes in a cell. */
-kiriSite kiriFrames_SiteIn(const kiriGrid* grid, const kiriMeshData* mesh, int32_t cell);
-
 /* Work of a placer. Private to kiri_site.c and to snapshots. */
 
 typedef enum PlacerStage {

@@ -112,7 +112,8 @@ static bool Overlaps(const kiriSquares* squares, SquareBox box, int32_t column, 
     return overlaps;
 }
 
-int64_t kiriSquares_CountOverlaps(const kiriSquares* squares, const kiriLatticePoint corners[3])
+/* Returns the number of squares that a triangle overlaps. */
+static int64_t CountOverlaps(const kiriSquares* squares, const kiriLatticePoint corners[3])
 {
     SquareBox box = BoxOf(squares, corners);
     int64_t count = 0;
@@ -213,7 +214,7 @@ int64_t kiriSquares_MostNodes(const kiriSquares* squares, const kiriLatticePoint
     enum { FEW = 16 };
     SquareBox box = BoxOf(squares, corners);
     int64_t inBox = (box.lastColumn - box.firstColumn + 1) * (int64_t)(box.lastRow - box.firstRow + 1);
-    return inBox <= FEW ? inBox : kiriSquares_CountOverlaps(squares, corners);
+    return inBox <= FEW ? inBox : CountOverlaps(squares, corners);
 }
 
 /* Adds a node, for which there is room. */

@@ -96,9 +96,6 @@ static inline kiriLatticePoint kiriSquares_Corner(const kiriSquares* squares, in
     return kiriSquares_CornerAt(squares, square - row * squares->columns, row);
 }
 
-/* Returns the number of squares that a triangle overlaps. */
-int64_t kiriSquares_CountOverlaps(const kiriSquares* squares, const kiriLatticePoint corners[3]);
-
 /* The squares within `margin` of a segment, in strips across its longer axis, from its start on. */
 typedef struct kiriStrips {
     const kiriSquares* squares;

@@ -159,7 +159,8 @@ static void FindMeans(kiriSolver* solver, const kiriSystem* system)
 {
     kiriContactSum* touch = &solver->touch;
     double obstacleSpeed = 0.0, gravity = kiriVec3_Length(kiriSystem_Gravity(system));
-    KIRI_EACH(const kiriContactStep, step, solver->contacts) {        if (!step->isHeld) {
+    KIRI_EACH(const kiriContactStep, step, solver->contacts) {
+        if (!step->isHeld) {
             double fast = (kiriVec3_Length(step->carried) + fabs(step->lift)) / solver->dt;
             double given = MeansOf(step, solver->dt);
             obstacleSpeed = kiriMax(fast, obstacleSpeed);
@@ -434,7 +435,8 @@ static void CountPressed(const kiriSolver* solver)
             contact->yield->pressed = 0;
         }
     }
-    KIRI_EACH(const kiriContactStep, step, solver->contacts) {        if (step->isActive && step->yield != NULL) {
+    KIRI_EACH(const kiriContactStep, step, solver->contacts) {
+        if (step->isActive && step->yield != NULL) {
             step->yield->pressed += 1;
         }
     }
@@ -462,7 +464,8 @@ static void SetSprings(const kiriSolver* solver, kiriContactStep* step, kiriVec3
 void kiriSolver_LinearizeContacts(kiriSolver* solver, const kiriSystem* system)
 {
     CountPressed(solver);
-    KIRI_EACH(kiriContactStep, step, solver->contacts) {        kiriVec3 point = kiriContact_Point(system, step, solver->poses.data);
+    KIRI_EACH(kiriContactStep, step, solver->contacts) {
+        kiriVec3 point = kiriContact_Point(system, step, solver->poses.data);
         step->depth = DepthAt(step, point);
         step->slide = SlideAt(step, point);
         if (IsSoft(step->row)) {
@@ -539,7 +542,8 @@ static kiriVec3 MoveOf(const kiriSolver* solver, const kiriSystem* system, const
 
 void kiriSolver_MoveContacts(kiriSolver* solver, const kiriSystem* system)
 {
-    KIRI_EACH(kiriContactStep, step, solver->contacts) {        if (step->isActive && !IsSoft(step->row)) {
+    KIRI_EACH(kiriContactStep, step, solver->contacts) {
+        if (step->isActive && !IsSoft(step->row)) {
             kiriVec3 move = MoveOf(solver, system, step);
             step->sinks = -kiriVec3_Dot(step->row->normal, move);
             step->slides = kiriVec3_AlongPlane(move, step->row->normal);
@@ -723,7 +727,8 @@ static double FrictionSlope(const kiriContactStep* step, double part)
 static double SlopeAt(const kiriSolver* solver, double part)
 {
     double slope = -2.0 * solver->search.promise * (1.0 - part);
-    KIRI_EACH(const kiriContactStep, step, solver->contacts) {        if (step->isActive && !IsSoft(step->row)) {
+    KIRI_EACH(const kiriContactStep, step, solver->contacts) {
+        if (step->isActive && !IsSoft(step->row)) {
             slope += FrictionSlope(step, part);
         }
     }
@@ -816,7 +821,8 @@ static bool Review(const kiriSolver* solver, const kiriSystem* system, kiriConta
 void kiriSolver_ReviewContacts(kiriSolver* solver, const kiriSystem* system)
 {
     double mostPush = 0.0; /* N */
-    KIRI_EACH(kiriContactStep, step, solver->contacts) {        if (!IsSoft(step->row)) {
+    KIRI_EACH(kiriContactStep, step, solver->contacts) {
+        if (!IsSoft(step->row)) {
             TakeForces(step, solver->search.scale);
         } else if (solver->search.scale > 0.0) {
             TakeSoft(step, kiriContact_Point(system, step, solver->poses.data), solver->search.scale);
@@ -852,7 +858,8 @@ static double Yielded(const kiriContactStep* step)
 static bool IsDeep(kiriSolver* solver, const kiriSystem* system)
 {
     bool isDeep = false;
-    KIRI_EACH(kiriContactStep, step, solver->contacts) {        step->solved = step->push;
+    KIRI_EACH(kiriContactStep, step, solver->contacts) {
+        step->solved = step->push;
         double depth = kiriContact_Depth(system, step, solver->poses.data) - Yielded(step);
         isDeep |= !kiriContact_IsMutual(step) && depth > MOST_DEPTH + step->row->reach;
     }
@@ -874,7 +881,8 @@ static void ShareMass(kiriSolver* solver)
             contact->yield->held += 1;
         }
     }
-    KIRI_EACH(kiriContactStep, step, solver->contacts) {        const kiriYieldRow* yield = step->yield;
+    KIRI_EACH(kiriContactStep, step, solver->contacts) {
+        const kiriYieldRow* yield = step->yield;
         int32_t pressed = yield != NULL && yield->pressed > 1 ? yield->pressed : 1;
         step->shared = yield != NULL && yield->held > pressed ? step->give * yield->held / pressed : step->give;
     }
@@ -958,7 +966,8 @@ static void SweepHolds(kiriSolver* solver, const kiriSystem* system, bool isWhol
     }
     for (int sweep = 0; isLeft && sweep < SWEEPS; ++sweep) {
         isLeft = false;
-        KIRI_EACH(kiriContactStep, step, solver->contacts) {            if (kiriContact_IsMutual(step)) {
+        KIRI_EACH(kiriContactStep, step, solver->contacts) {
+            if (kiriContact_IsMutual(step)) {
                 continue;
             }
             isLeft |= isWhole ? HoldWhole(solver, system, step, mass) : HoldFrames(solver, system, step);
@@ -1034,7 +1043,8 @@ void kiriSolver_BalanceContacts(kiriSolver* solver, const kiriSystem* system)
     bool isMovedByThem = solver->touch.isHeldUp && solver->support == KIRI_SUPPORT_CONTACTS;
     kiriVec3 asked = { 0 }, given = asked;
     double part = solver->stepping.part;
-    KIRI_EACH(const kiriContactStep, step, solver->contacts) {        if (kiriContact_IsMutual(step)) {
+    KIRI_EACH(const kiriContactStep, step, solver->contacts) {
+        if (kiriContact_IsMutual(step)) {
             continue;
         }
         if (!isMovedByThem) {
@@ -1153,7 +1163,8 @@ static void GivePushes(const kiriSolver* solver, const kiriSystem* system, bool 
             yield->before = yield->after = yield->most = 0.0;
         }
     }
-    KIRI_EACH_WHILE(isMore, const kiriContactStep, step, solver->contacts) {        kiriYieldRow* yield = step->yield;
+    KIRI_EACH_WHILE(isMore, const kiriContactStep, step, solver->contacts) {
+        kiriYieldRow* yield = step->yield;
         if (yield != NULL) {
             FindPower(solver, system, step, &ofObstacle, &ofSheet);
             yield->before += ofObstacle;
@@ -1163,7 +1174,8 @@ static void GivePushes(const kiriSolver* solver, const kiriSystem* system, bool 
     KIRI_EACH(kiriContactStep, contact, solver->contacts) {
         Give(solver, system, contact, 1.0);
     }
-    KIRI_EACH_WHILE(isMore, const kiriContactStep, step, solver->contacts) {        kiriYieldRow* yield = step->yield;
+    KIRI_EACH_WHILE(isMore, const kiriContactStep, step, solver->contacts) {
+        kiriYieldRow* yield = step->yield;
         if (yield != NULL) {
             FindPower(solver, system, step, &ofObstacle, &ofSheet);
             yield->after += ofObstacle;
@@ -1222,7 +1234,8 @@ void kiriSolver_EndContacts(kiriSolver* solver, const kiriSystem* system)
             Give(solver, system, contact, 1.0);
         }
     }
-    KIRI_EACH(const kiriContactStep, step, solver->contacts) {        kiriContactRow* row = step->row;
+    KIRI_EACH(const kiriContactStep, step, solver->contacts) {
+        kiriContactRow* row = step->row;
         row->impulse = kiriVec3_AddScaled(row->impulse, solver->stepping.part, kiriContact_Force(solver, step));
         row->force = kiriVec3_Scale(solver->touch.keepForces, WithinCone(step));
         kiriVec3 point = kiriContact_Point(system, step, solver->poses.data);

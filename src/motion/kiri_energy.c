@@ -121,7 +121,8 @@ static void RestoreMomentum(kiriSolver* solver, const kiriSystem* system)
     const kiriVec3* normal = system->mechanics.planar ? &system->mechanics.axes.d : NULL;
     kiriPieceMomentum momentum = { .isFree = solver->support == KIRI_SUPPORT_NONE,
                                    .isPushed = solver->support == KIRI_SUPPORT_CONTACTS };
-    KIRI_EACH(const kiriContactStep, step, solver->contacts) {        kiriVec3 point = kiriContact_Point(system, step, solver->poses.data);
+    KIRI_EACH(const kiriContactStep, step, solver->contacts) {
+        kiriVec3 point = kiriContact_Point(system, step, solver->poses.data);
         kiriVec3 impulse = kiriVec3_Scale(solver->stepping.part, kiriContact_Force(solver, step));
         if (kiriContact_IsMutual(step)) {
             continue; /* it acts on both sides */

@@ -368,12 +368,12 @@ bool kiriObstacleShape_EdgeAt(const kiriObstacleShape* shape, int32_t index, kir
     return true;
 }
 
-int32_t kiriObstacleShape_CornerCount(const kiriObstacleShape* shape)
+static int32_t CornerCount(const kiriObstacleShape* shape)
 {
     return shape->type == KIRI_OBSTACLE_PRISM && shape->half < KIRI_ENDLESS ? 2 * shape->count : 0;
 }
 
-bool kiriObstacleShape_CornerAt(const kiriObstacleShape* shape, int32_t index, kiriObstacleCorner* corner)
+static bool CornerAt(const kiriObstacleShape* shape, int32_t index, kiriObstacleCorner* corner)
 {
     kiriObstacleEdge edge;
     bool isSharp = kiriObstacleShape_EdgeAt(shape, index % shape->count, &edge);
@@ -767,9 +767,9 @@ static bool TouchTips(const kiriMeeting* meeting)
     const kiriObstacleShape* shape = &meeting->obstacle->shape;
     const uint32_t tips = UINT32_C(1) << 28; /* first item number of corners, above all points of edges */
     bool ok = true;
-    for (int32_t i = 0; ok && i < kiriObstacleShape_CornerCount(shape); ++i) {
+    for (int32_t i = 0; ok && i < CornerCount(shape); ++i) {
         kiriObstacleCorner corner;
-        if (kiriObstacleShape_CornerAt(shape, i, &corner)) {
+        if (CornerAt(shape, i, &corner)) {
             EdgePoint point = MakePoint(meeting, corner.at, corner.faces, 3, corner.thinnest);
             point.item = tips + (uint32_t)i;
             ok = TouchPoint(meeting, &point);

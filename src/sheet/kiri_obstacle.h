@@ -74,9 +74,6 @@ typedef struct kiriObstacleCorner {
     double thinnest; /* see kiriObstacleEdge */
 } kiriObstacleCorner;
 
-int32_t kiriObstacleShape_CornerCount(const kiriObstacleShape* shape);
-bool kiriObstacleShape_CornerAt(const kiriObstacleShape* shape, int32_t index, kiriObstacleCorner* corner);
-
 /* Returns point i of `count` (4 times a power of 2) on the unit circle. */
 kiriVec2 kiriCircle_At(int32_t i, int32_t count);
 

@@ -508,7 +508,8 @@ static bool ConsiderVertex(const kiriSheetData* sheet, kiriMemory* scratch, Choi
 {
     Choice choice = { sheet->probes.vertexPiece.data[vertex], QuarterOf(sheet, block, vertex), vertex,
                       Rank(sheet, vertex) };
-    KIRI_EACH(Choice, other, *choices) {        if (other->piece == choice.piece && other->quarter == choice.quarter) {
+    KIRI_EACH(Choice, other, *choices) {
+        if (other->piece == choice.piece && other->quarter == choice.quarter) {
             bool isBetter = choice.rank < other->rank || (choice.rank == other->rank && vertex < other->vertex);
             *other = isBetter ? choice : *other;
             return true;
@@ -598,7 +599,8 @@ static void MarkBorderEdge(kiriSheetData* sheet, int32_t from, int32_t to)
 
 static void MarkBorder(kiriSheetData* sheet)
 {
-    KIRI_EACH(const kiriTriangle, triangle, sheet->mesh.triangles) {        for (int i = 0; i < 3; ++i) {
+    KIRI_EACH(const kiriTriangle, triangle, sheet->mesh.triangles) {
+        for (int i = 0; i < 3; ++i) {
             if ((triangle->marks >> i & 1) != 0 || triangle->twin[i] == KIRI_NONE) {
                 MarkBorderEdge(sheet, triangle->vertex[i], triangle->vertex[(i + 1) % 3]);
             }
@@ -1179,7 +1181,8 @@ void kiriTouches_WriteRows(kiriSheetData* sheet)
     KIRI_ASSERT(touches->rows.capacity >= touches->found.count);
     touches->rows.count = 0;
     double mass = touches->found.count > 0 ? SampleMass(sheet) : 0.0;
-    KIRI_EACH(kiriTouch, touch, touches->found) {        kiriContactRow* row = &touches->rows.data[touches->rows.count];
+    KIRI_EACH(kiriTouch, touch, touches->found) {
+        kiriContactRow* row = &touches->rows.data[touches->rows.count];
         WriteContactRow(sheet, touch, mass, row);
         bool isAwake = kiriSheet_Moves(sheet, row->weights[0].frame);
         touch->row = isAwake ? touches->rows.count : KIRI_NONE;

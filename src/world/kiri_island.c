@@ -24,7 +24,8 @@ bool kiriIslands_FindClusters(kiriWorld* world)
         islands->isJoined.data[i] = 0;
         world->sheets.data[i]->probes.sheet = i;
     }
-    KIRI_EACH(const kiriPairTouch, touch, world->pairs.touches) {        int32_t upper = touch->upper.sheet->probes.sheet, lower = touch->lower.sheet->probes.sheet;
+    KIRI_EACH(const kiriPairTouch, touch, world->pairs.touches) {
+        int32_t upper = touch->upper.sheet->probes.sheet, lower = touch->lower.sheet->probes.sheet;
         if (touch->touch != KIRI_NONE) {
             islands->isJoined.data[upper] = 1;
             if (kiriSheet_IsActive(touch->lower.sheet)) {
@@ -259,10 +260,9 @@ static int64_t ItemsOfCluster(const kiriWorld* world, int32_t cluster)
         const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->bodies;
         KIRI_EACH_WHILE(!sheet->rest.asleep, const int32_t, at, *moved) {
             const kiriIsland* island = IslandOf((kiriIslands*)islands, i, *at);
-            work += island == NULL
-                        ? kiriSolver_WorkOf(sheet->solver, *at, PieceBody(sheet, *at)->contactCount)
+            work += island == NULL ? kiriSolver_WorkOf(sheet->solver, *at, PieceBody(sheet, *at)->contactCount)
                     : IsFirst(islands, island, sheet, *at) ? WorkOfIsland(islands, island)
-                                                                       : 0;
+                                                           : 0;
         }
     }
     return kiriSolver_ItemsOf(work);

@@ -79,7 +79,8 @@ static bool ReserveCalm(kiriWorld* world)
 bool kiriPairs_AddTouches(kiriWorld* world)
 {
     bool ok = true;
-    KIRI_EACH_WHILE(ok, kiriPairTouch, touch, world->pairs.touches) {        ok = !kiriSheet_IsActive(touch->upper.sheet) || AddPlaneTouch(touch);
+    KIRI_EACH_WHILE(ok, kiriPairTouch, touch, world->pairs.touches) {
+        ok = !kiriSheet_IsActive(touch->upper.sheet) || AddPlaneTouch(touch);
     }
     return ok && ReserveCalm(world);
 }
@@ -259,7 +260,8 @@ static void ListAwake(kiriWorld* world)
     pairs->calms.count = 0;
     KIRI_EACH_INDEX(k, world->active) {
         kiriSheetData* sheet = kiriWorld_Active(world, k);
-        KIRI_EACH_WHILE(TakesPart(sheet), kiriPiece, piece, sheet->layout.pieces) {            piece->awake = KIRI_NONE;
+        KIRI_EACH_WHILE(TakesPart(sheet), kiriPiece, piece, sheet->layout.pieces) {
+            piece->awake = KIRI_NONE;
             if (kiriPiece_IsAwake(piece)) {
                 piece->awake = pairs->calms.count;
                 KIRI_NEXT(pairs->calms) = HUGE_VAL;
@@ -916,7 +918,8 @@ static bool SleepsOn(const kiriWorld* world, kiriFrame id)
 static bool StirTouching(const kiriWorld* world, const kiriTouchingPairs* pairs)
 {
     bool any = false;
-    KIRI_EACH(const kiriTouchingPair, pair, *pairs) {        bool isUpperAsleep = SleepsOn(world, pair->upper), isLowerAsleep = SleepsOn(world, pair->lower);
+    KIRI_EACH(const kiriTouchingPair, pair, *pairs) {
+        bool isUpperAsleep = SleepsOn(world, pair->upper), isLowerAsleep = SleepsOn(world, pair->lower);
         if (pair->touches && isUpperAsleep != isLowerAsleep) {
             StirBody(world, isUpperAsleep ? pair->upper : pair->lower);
             any = true;
