@@ -26,6 +26,9 @@ kiriArrayHeader kiriArray_GetHeader(const void* array);
 void kiriArray_SetHeader(void* array, kiriArrayHeader header);
 
 typedef KIRI_ARRAY(int32_t) kiriIndices;
+typedef KIRI_ARRAY(uint8_t) kiriFlags;
+typedef KIRI_ARRAY(double) kiriReals;
+typedef KIRI_ARRAY(float) kiriFloats;
 
 /* Loops over the items of an array; `item` points to each. KIRI_EACH_OF is for an array of pointers: `item` is each of
    them. The array may lose items meanwhile, but not grow. It must exist even where the condition is false.
@@ -144,7 +147,7 @@ static inline void kiriUnion_Join(int32_t* parent, int32_t i, int32_t j)
 /* Index maps: the new index of each item of an array from which items are removed. Orders are kept. */
 
 typedef struct kiriKeep {
-    KIRI_ARRAY(int32_t) to; /* per item: new index, or KIRI_NONE */
+    kiriIndices to;         /* per item: new index, or KIRI_NONE */
     int32_t count;          /* count of kept items */
     int32_t first;          /* first removed item, or the count of items: items before it keep their index */
 } kiriKeep;

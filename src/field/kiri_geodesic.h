@@ -40,8 +40,8 @@ typedef struct kiriRule {
 } kiriRule;
 
 typedef struct kiriField {
-    KIRI_ARRAY(int32_t) distance; /* one a cell; KIRI_FAR where the field does not reach */
-    KIRI_ARRAY(int32_t) owner;    /* of the nearest seed; KIRI_NONE where FAR; no items: all are KIRI_NONE */
+    kiriIndices distance;         /* one a cell; KIRI_FAR where the field does not reach */
+    kiriIndices owner;            /* of the nearest seed; KIRI_NONE where FAR; no items: all are KIRI_NONE */
     kiriIndices settled;          /* of floods: cells reached; none once dirty */
     KIRI_ARRAY(kiriSeed) log;     /* of repairs: previous values of cells, each once; some may be the same again */
 
@@ -50,7 +50,7 @@ typedef struct kiriField {
     kiriIndices ring[KIRI_RING]; /* of a sweep: cells to be settled, by the bucket of their distance */
     int32_t bucket;              /* of the cells that are settled now */
     kiriIndices dirty;           /* cells to be checked */
-    KIRI_ARRAY(uint8_t) marks;   /* one a cell; between repairs only of dirty cells */
+    kiriFlags marks;             /* one a cell; between repairs only of dirty cells */
     int32_t checked, fromCaller; /* dirty cells: the next one to check, and how many the caller marked */
     int32_t stage;               /* of a repair; 0: none is in progress */
 } kiriField;
@@ -124,8 +124,8 @@ typedef struct kiriReachBlock {
 typedef struct kiriReaches {
     KIRI_ARRAY(kiriReachBlock) blocks; /* by index, with gaps */
     KIRI_ARRAY(kiriReachHead) heads;   /* one for each block */
-    KIRI_ARRAY(int32_t) ofCells;       /* of each block of cells: the head of its list, or KIRI_NONE */
-    KIRI_ARRAY(int32_t) ofFrame;       /* of each frame: the head of its list, or KIRI_NONE */
+    kiriIndices ofCells;               /* of each block of cells: the head of its list, or KIRI_NONE */
+    kiriIndices ofFrame;               /* of each frame: the head of its list, or KIRI_NONE */
     int32_t freeBlocks, freeBlock;     /* how many blocks are not in use, and the head of their list */
 } kiriReaches;
 

@@ -117,10 +117,10 @@ typedef struct kiriGrid {
     KIRI_ARRAY(kiriStretch) stretches;
     kiriIndices unusedMaterials, unusedStretches; /* their capacity is enough for all */
 
-    KIRI_ARRAY(int32_t) squareCell; /* a square's first cell, or KIRI_NONE */
-    KIRI_ARRAY(int32_t) nodeCell;   /* the cell of each node of mesh->squares.nodes; unused ones mean nothing */
-    KIRI_ARRAY(int32_t) vertexCell; /* the cell of each vertex in a square with several; others mean nothing */
-    KIRI_ARRAY(uint8_t) whole;      /* of each square: 0, or KIRI_SQUARE_WHOLE, or KIRI_SQUARE_OPEN */
+    kiriIndices squareCell;         /* a square's first cell, or KIRI_NONE */
+    kiriIndices nodeCell;           /* the cell of each node of mesh->squares.nodes; unused ones mean nothing */
+    kiriIndices vertexCell;         /* the cell of each vertex in a square with several; others mean nothing */
+    kiriFlags whole;                /* of each square: 0, or KIRI_SQUARE_WHOLE, or KIRI_SQUARE_OPEN */
     int32_t cellCount;              /* cells in use */
     int32_t freeCell, freeFace;     /* heads of lists, or KIRI_NONE */
     kiriGridChanges changes;
@@ -321,14 +321,14 @@ struct kiriGridWork {
     kiriIndices stepsDirty;   /* cells whose steps are made again; from scratch: all, and not listed */
     kiriIndices knightsDirty; /* cells of stepsDirty that are not open */
 
-    KIRI_ARRAY(uint8_t) squareFlags;  /* of each square */
+    kiriFlags squareFlags;            /* of each square */
     kiriIndices flagged;              /* squares that have flags */
     KIRI_ARRAY(kiriNodeRange) ranges; /* of each square that is collected */
     kiriIndices entries;              /* of squares that are collected: nodes by triangle */
     kiriIndices parent;               /* union-find over the entries of a square */
 
-    KIRI_ARRAY(uint8_t) cellFlags; /* of each cell: which lists of changes it is in */
-    KIRI_ARRAY(int32_t) mark;      /* of each cell, for cells that are reached in two ways; 0 to lastMark + 1 */
+    kiriFlags cellFlags; /* of each cell: which lists of changes it is in */
+    kiriIndices mark;    /* of each cell, for cells that are reached in two ways; 0 to lastMark + 1 */
     int32_t lastMark;
 
     KIRI_ARRAY(kiriNewCell) newCells; /* of a square */
@@ -351,7 +351,7 @@ typedef struct kiriBorderCell {
 
 /* A zeroed one is empty. */
 typedef struct kiriBorderCells {
-    KIRI_ARRAY(int32_t) first; /* of each region, or KIRI_NONE */
+    kiriIndices first; /* of each region, or KIRI_NONE */
     KIRI_ARRAY(kiriBorderCell) cells;
 } kiriBorderCells;
 

@@ -94,8 +94,8 @@ typedef struct kiriLinkWork {
     bool running;                       /* the update waits for more quota */
     int32_t at;                         /* next item: a region, then the old links, then a face, then the merge */
     int64_t due;                        /* items done that the quota has not paid yet */
-    KIRI_ARRAY(uint8_t) marks;          /* a mark for each face; all are zero between updates */
-    KIRI_ARRAY(uint8_t) stale;          /* flags for each region */
+    kiriFlags marks;                    /* a mark for each face; all are zero between updates */
+    kiriFlags stale;                    /* flags for each region */
     kiriIndices faces;                  /* border faces whose links are made */
     KIRI_ARRAY(kiriNewLink) made;       /* in no order */
     kiriIndices to;                     /* for each old link: index in `next`, or KIRI_NONE where it is made again */

@@ -34,25 +34,24 @@ typedef struct kiriSeenChanges {
 typedef struct kiriRegions {
     kiriField field; /* owner: the frame whose region a cell is in; KIRI_NONE where its piece has no frame */
 
-    KIRI_ARRAY(int32_t) siteAt;   /* for each cell: the frame whose site it holds, or KIRI_NONE; two never share one */
-    KIRI_ARRAY(uint8_t) onBorder; /* for each cell: a step from it leads to another region */
+    kiriIndices siteAt; /* for each cell: the frame whose site it holds, or KIRI_NONE; two never share one */
+    kiriFlags onBorder; /* for each cell: a step from it leads to another region */
 
     kiriBorderCells border;         /* for each frame: the border cells of its region */
     KIRI_ARRAY(kiriTally) material; /* for each frame: material of its region, exact */
-    KIRI_ARRAY(uint8_t)
-    dirty; /* for each frame, until the sheet's commit: its region, distances in it, or its
+    kiriFlags dirty;                /* for each frame, until the sheet's commit: its region, distances in it, or its
                                        cells' steps, material or edges changed */
 
     /* Since kiriRegions_ClearChanges: live cells whose owner or distance changed, with the old values. */
     KIRI_ARRAY(kiriSeed) changes;
-    KIRI_ARRAY(int32_t) orphans; /* all cells whose piece has no frame, in the order of cells */
+    kiriIndices orphans;         /* all cells whose piece has no frame, in the order of cells */
     bool running;                /* an update waits for more quota */
 
     /* Private. */
     bool flooding;                 /* the update is one from scratch */
     bool following;                /* the field is right again; */
     int32_t followed;              /* entries of its log that have been followed */
-    KIRI_ARRAY(uint8_t) isChanged; /* for each cell: it is in `changes` */
+    kiriFlags isChanged;           /* for each cell: it is in `changes` */
     kiriSeenChanges seen;
 } kiriRegions;
 

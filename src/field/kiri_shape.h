@@ -124,13 +124,13 @@ struct kiriShapeWork {
     kiriField fromBorder; /* and to the border of its region */
     kiriSeeds seeds;
     KIRI_ARRAY(kiriLoadedBlock) loaded;
-    KIRI_ARRAY(uint8_t) isLoaded; /* of each block of cells */
+    kiriFlags isLoaded; /* of each block of cells */
 
-    KIRI_ARRAY(uint8_t) marks;           /* of each cell */
-    KIRI_ARRAY(int32_t) wasOwner;        /* of cells whose owner or distance changed */
+    kiriFlags marks;                     /* of each cell */
+    kiriIndices wasOwner;                /* of cells whose owner or distance changed */
     KIRI_ARRAY(int64_t) rigidShares;     /* of each cell: its area in the rigid sums of its frames */
     KIRI_ARRAY(kiriCountedCell) counted; /* of each cell */
-    KIRI_ARRAY(int32_t) sideCounts;
+    kiriIndices sideCounts;
     kiriSpans sideRoom;
     KIRI_ARRAY(kiriShapeFrame) frames;
     kiriIndices dirtyFrames;

@@ -119,9 +119,9 @@ struct kiriPlacerWork {
     int64_t reach;                  /* of these, on the grid, times CLOSENESS; 0: sites are as close everywhere */
     int32_t closest;                /* closeness at the ends, times CLOSENESS */
     kiriField fresh;                /* from the site just sampled, or from all new ones */
-    KIRI_ARRAY(int32_t) sampled;    /* of each cell: distance to the nearest new site while sampling */
-    KIRI_ARRAY(int32_t) holds;      /* of each cell: the site in it, or KIRI_CELL_FREE, or barred to sampling */
-    KIRI_ARRAY(uint8_t) marks;      /* of each cell: zero, but while a piece is taken */
+    kiriIndices sampled;            /* of each cell: distance to the nearest new site while sampling */
+    kiriIndices holds;              /* of each cell: the site in it, or KIRI_CELL_FREE, or barred to sampling */
+    kiriFlags marks;                /* of each cell: zero, but while a piece is taken */
     bool isTaking;                  /* a piece */
     KIRI_ARRAY(SiteTarget) targets; /* of each new site */
     KIRI_ARRAY(SampleBlock) blocks; /* of the part */

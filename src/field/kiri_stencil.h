@@ -26,11 +26,11 @@ typedef struct kiriStencil {
     double side;
     KIRI_ARRAY(kiriStep) steps;   /* to these cells, first to the cell itself, then by square */
     KIRI_ARRAY(kiriVec2) centers; /* of their material, in squares from `middle`, where a square is split */
-    KIRI_ARRAY(int32_t) frames;   /* that have weight in any of them, in order */
-    KIRI_ARRAY(double) weights;   /* by step, then frame */
-    KIRI_ARRAY(double) shares;    /* of the last point: factors of the steps */
-    KIRI_ARRAY(double) values;    /* of the last point: weights of the frames; sum 1 */
-    KIRI_ARRAY(int32_t) columns;  /* of all frames: index in `frames` plus 1, while they are gathered */
+    kiriIndices frames;           /* that have weight in any of them, in order */
+    kiriReals weights;            /* by step, then frame */
+    kiriReals shares;             /* of the last point: factors of the steps */
+    kiriReals values;             /* of the last point: weights of the frames; sum 1 */
+    kiriIndices columns;          /* of all frames: index in `frames` plus 1, while they are gathered */
 } kiriStencil;
 
 /* Gathers the weights around a cell. False for memory: then the stencil has no cell. */

@@ -30,7 +30,7 @@ typedef struct kiriSquares {
     KIRI_ARRAY(kiriSquareNode) nodes;
     int32_t freeNode;
     int32_t* vertexHead;       /* a square's first vertex, or KIRI_NONE: see kiriVertex */
-    KIRI_ARRAY(int32_t) dirty; /* squares that changed since ClearDirty, each once; has room for all */
+    kiriIndices dirty;         /* squares that changed since ClearDirty, each once; has room for all */
     uint8_t* isDirty;          /* of each square: 1 if it is in `dirty` */
     int64_t effort;            /* cost of changes so far, about ns */
 } kiriSquares;

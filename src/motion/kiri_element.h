@@ -81,7 +81,7 @@ typedef struct kiriIntegrationWork {
     kiriPlacer placer; /* of the current piece */
     kiriField field;   /* distances from its points */
     kiriSeeds seeds;
-    KIRI_ARRAY(uint8_t) seen;         /* per cell: 1 if the points of its piece exist */
+    kiriFlags seen;                   /* per cell: 1 if the points of its piece exist */
     KIRI_ARRAY(kiriMoments) material; /* per point of the current piece: its region */
     kiriPointWeights weights;         /* of the current point */
 } kiriIntegrationWork;

@@ -41,13 +41,13 @@ typedef struct kiriOwnership {
     kiriSpans spans;                              /* free room in triangleOwners */
     int32_t triangleCount;                        /* triangles at the last commit */
 
-    KIRI_ARRAY(int32_t) dirty;   /* squares in which owners may have changed, each once */
-    KIRI_ARRAY(uint8_t) isDirty; /* for each square */
+    kiriIndices dirty;           /* squares in which owners may have changed, each once */
+    kiriFlags isDirty;           /* for each square */
     int32_t next;                /* next of `dirty` to stage; 0: nothing is staged */
     int64_t due;                 /* items of the previous one that are not paid yet */
     KIRI_ARRAY(kiriStagedOwners) staged;
     KIRI_ARRAY(kiriTransfer) transfers;
-    KIRI_ARRAY(int32_t) first; /* for each frame: its first transfer, or KIRI_NONE */
+    kiriIndices first; /* for each frame: its first transfer, or KIRI_NONE */
 } kiriOwnership;
 
 /* The state that a frame gets. */

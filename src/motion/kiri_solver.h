@@ -520,16 +520,16 @@ struct kiriSolver {
     KIRI_ARRAY(kiriPrediction) predictions;   /* one a frame */
     KIRI_ARRAY(kiriPose) start, poses, trial; /* one a frame: at the start of the step, current, and tried */
     /* KIRI_MOST_STRAINS an element: stiffness, damping, and strains at the start of the step. */
-    KIRI_ARRAY(double) stiffness, loss, startStrain;
+    kiriReals stiffness, loss, startStrain;
     /* Results of the last measurement: strains, which corners read for their links, and derivatives of these strains by
        the unknowns of both ends of a link. */
-    KIRI_ARRAY(double) nowStrain, tracedRows;
-    KIRI_ARRAY(double) force, move; /* right-hand side (minus the gradient), and solution */
-    KIRI_ARRAY(uint8_t) stopping;   /* per element: 1 if a tried step would have reached its normal stop */
+    kiriReals nowStrain, tracedRows;
+    kiriReals force, move; /* right-hand side (minus the gradient), and solution */
+    kiriFlags stopping;    /* per element: 1 if a tried step would have reached its normal stop */
     /* Scratch for one element. */
     kiriIndices members;
     KIRI_ARRAY(kiriFrameRow) rows;
-    KIRI_ARRAY(double) J;
+    kiriReals J;
 };
 
 /* ---- Unknowns (kiri_solver.c) ---- */

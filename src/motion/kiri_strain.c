@@ -991,7 +991,7 @@ static kiriFrameShare* FrameShareOf(kiriAreaElements* elements, kiriMemory* memo
 typedef struct RegionLinks {
     kiriMemory* memory;
     const kiriMoments* material; /* of each region */
-    KIRI_ARRAY(int32_t) start;
+    kiriIndices start;
     KIRI_ARRAY(const kiriLink*) links;
 } RegionLinks;
 

@@ -159,9 +159,9 @@ typedef struct kiriStrainOffset {
 typedef struct kiriStrainOffsets {
     KIRI_ARRAY(kiriStrainOffset) strainOffsets; /* one a link; empty if no cut has changed links */
     KIRI_ARRAY(kiriStrainOffset) older;         /* scratch: offsets by old index, for links whose index changes */
-    KIRI_ARRAY(int32_t) from;                   /* scratch: index of the old link, or KIRI_NONE */
+    kiriIndices from;                           /* scratch: index of the old link, or KIRI_NONE */
     KIRI_ARRAY(kiriFrameData) frames;           /* scratch: frames before the commit, where mayMove is set */
-    KIRI_ARRAY(uint8_t) mayMove;                /* scratch: 1 if the commit may move the frame */
+    kiriFlags mayMove;                          /* scratch: 1 if the commit may move the frame */
 } kiriStrainOffsets;
 
 /* Reserves room for this number of links and frames, so that the functions below cannot fail. Fails on out of memory.

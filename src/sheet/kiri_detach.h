@@ -11,7 +11,7 @@ KIRI_C_BEGIN
 /* Some pieces of a sheet: which of its items belong to them, and the index of each item among these. */
 typedef struct kiriSubset {
     const kiriSheetData* from;
-    KIRI_ARRAY(uint8_t) pieces; /* 1 for each piece of the subset */
+    kiriFlags pieces; /* 1 for each piece of the subset */
     kiriKeep triangles, vertices, frames, points, pins, links;
 } kiriSubset;
 
@@ -40,7 +40,7 @@ typedef struct kiriDetach {
     kiriIndices cells, squares;           /* cells that leave, and their squares, each once */
     KIRI_ARRAY(kiriVec3) forces;          /* N, of each contact of the last tick, then of pieces that sleep */
     kiriShown shown;
-    KIRI_ARRAY(float) points; /* positions of the collision points that stay */
+    kiriFloats points; /* positions of the collision points that stay */
 } kiriDetach;
 
 /* Initialises the work. No piece stays until the caller sets detach->rest.pieces. Fails on out of memory. Call

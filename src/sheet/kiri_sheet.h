@@ -129,7 +129,7 @@ typedef struct kiriLayout {
 /* The items of each piece, by index. */
 typedef struct kiriPieceItems {
     KIRI_ARRAY(kiriSpan) spans; /* of each piece */
-    KIRI_ARRAY(int32_t) items;
+    kiriIndices items;
 } kiriPieceItems;
 
 /* Lists by piece, built when the host requests them. */
@@ -137,13 +137,13 @@ typedef struct kiriPieceLists {
     bool hasFrames, hasMesh;                            /* current: mesh and pieces have not changed since */
     kiriPieceItems frames, points, vertices, triangles; /* hasFrames: frames, points; hasMesh: vertices, triangles */
     KIRI_ARRAY(kiriFrame) ids;                          /* ids of `frames` */
-    KIRI_ARRAY(int32_t) corners;                        /* vertex indices of `triangles` */
+    kiriIndices corners;                                /* vertex indices of `triangles` */
 } kiriPieceLists;
 
 /* A list of vertices, sorted by piece. */
 typedef struct kiriPieceRow {
-    KIRI_ARRAY(int32_t) first; /* first item of each piece, then the end of the last */
-    KIRI_ARRAY(int32_t) items;
+    kiriIndices first; /* first item of each piece, then the end of the last */
+    kiriIndices items;
 } kiriPieceRow;
 
 static inline kiriSpan kiriPieceRow_Of(const kiriPieceRow* row, int32_t piece)
@@ -168,10 +168,10 @@ typedef struct kiriProbes {
     bool areGrouped;                 /* the bounds are grouped by piece, unless they were rebuilt since */
     int32_t block;                   /* side of a block in grid squares; a block has one probe inside a piece */
     int32_t sheet, firstBody;        /* kiri_pair.c: index of the sheet, and of the body of its piece 0 */
-    KIRI_ARRAY(int32_t) vertexPiece; /* per vertex: piece */
-    KIRI_ARRAY(uint8_t) isBorder;    /* per vertex: true on the outline or on a lip */
+    kiriIndices vertexPiece;         /* per vertex: piece */
+    kiriFlags isBorder;              /* per vertex: true on the outline or on a lip */
     KIRI_ARRAY(kiriVec2) leans;      /* per vertex: 8 kiriMesh_Lean on the border, else zero */
-    KIRI_ARRAY(uint8_t) isChosen;    /* per vertex: true if it is a probe */
+    kiriFlags isChosen;              /* per vertex: true if it is a probe */
     kiriPieceRow list;               /* probes, by piece */
     KIRI_ARRAY(kiriVec3) velocities; /* m/s, in the order of `list` */
     KIRI_ARRAY(kiriBox) boxes;       /* per piece, around its visible surface */
@@ -333,10 +333,10 @@ typedef struct kiriGivenContact {
 
 /* Caches for each block of vertices, see kiri_seen.h. */
 typedef struct kiriBlocks {
-    KIRI_ARRAY(uint8_t) touched;      /* the weights of a vertex changed, or a vertex fades */
-    KIRI_ARRAY(uint8_t) stale;        /* triangles changed, so normals are stale */
-    KIRI_ARRAY(int32_t) movers;       /* an awake frame of the block; KIRI_NONE: it sleeps; or KIRI_UNKNOWN */
-    KIRI_ARRAY(uint8_t) moved;        /* per frame: true if it was awake when movers were found last */
+    kiriFlags touched;                /* the weights of a vertex changed, or a vertex fades */
+    kiriFlags stale;                  /* triangles changed, so normals are stale */
+    kiriIndices movers;               /* an awake frame of the block; KIRI_NONE: it sleeps; or KIRI_UNKNOWN */
+    kiriFlags moved;                  /* per frame: true if it was awake when movers were found last */
     bool hasUnknown;                  /* a mover is unknown */
 } kiriBlocks;
 
@@ -347,7 +347,7 @@ typedef struct kiriSeen {
     kiriFades fades, pointFades;      /* of vertices, and of collision points */
     KIRI_ARRAY(kiriVec3) exactPoints; /* m: visible collision points, in double precision */
     int32_t pointCount;               /* length of exactPoints and pointPositions */
-    KIRI_ARRAY(float) pointPositions;
+    kiriFloats pointPositions;
     KIRI_ARRAY(kiriVec3) pointsBefore; /* scratch: exactPoints before a cut takes effect */
     bool isElsewhere;                  /* positions are stale: a commit or new vertices since they were written */
     int32_t vertexCount;               /* vertices whose positions were written */
@@ -386,10 +386,10 @@ typedef struct kiriPlacingWork {
     bool isFirst;                /* first round of re-sampling in this update */
     double whole;                /* m^2: area of the sheet, while items are spread over it */
     int32_t at;                  /* current orphan, frame or piece */
-    KIRI_ARRAY(uint8_t) marks;   /* per cell, frame or piece */
-    KIRI_ARRAY(uint8_t) allowed; /* per cell */
-    KIRI_ARRAY(uint8_t) flags;   /* per square or cell */
-    KIRI_ARRAY(int32_t) own;     /* frames of the current piece */
+    kiriFlags marks;             /* per cell, frame or piece */
+    kiriFlags allowed;           /* per cell */
+    kiriFlags flags;             /* per square or cell */
+    kiriIndices own;             /* frames of the current piece */
 } kiriPlacingWork;
 
 typedef struct kiriSampleWork {
@@ -429,7 +429,7 @@ typedef struct kiriUpdate {
 
     /* Staged for the commit, beside links and weights. */
     kiriLayout next;
-    KIRI_ARRAY(int32_t) parent; /* union-find of frames */
+    kiriIndices parent; /* union-find of frames */
     kiriCommitCounts counts;
 } kiriUpdate;
 

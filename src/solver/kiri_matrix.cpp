@@ -63,7 +63,7 @@ enum {
 
 /* Lower block pattern: rows of column c begin at start[c] and ascend, so the diagonal block comes first. */
 struct Pattern {
-    KIRI_ARRAY(int32_t) start, row;
+    kiriIndices start, row;
 };
 
 /* Supernode: adjacent columns with the same rows below them. Its values are a tall matrix, column by column. The top is
@@ -90,15 +90,15 @@ struct kiriMatrix {
     bool usesAvx;
     int64_t products;                 /* of blocks, in a factorisation */
     KIRI_ARRAY(kiriPair) pairs;       /* of the pattern: a < b, ascending */
-    KIRI_ARRAY(int32_t) order;        /* position of each frame */
+    kiriIndices order;        /* position of each frame */
     Pattern pattern, factor;          /* of the matrix; of the factor, column by column */
     KIRI_ARRAY(Panel) panels;         /* and one more, where all of them end */
-    KIRI_ARRAY(int32_t) panelOf;      /* of each column */
+    kiriIndices panelOf;      /* of each column */
     KIRI_ARRAY(Update) updates;
-    KIRI_ARRAY(double) values, factors, right;
-    KIRI_ARRAY(double) scaled, part;          /* scratch: rows of a panel times D; the right side of a panel */
+    kiriReals values, factors, right;
+    kiriReals scaled, part;          /* scratch: rows of a panel times D; the right side of a panel */
     KIRI_ARRAY(kiriPair) blocks;              /* scratch: column and row of each block */
-    KIRI_ARRAY(int32_t) child, sibling, mark; /* scratch: the elimination tree; position of a row in a panel */
+    kiriIndices child, sibling, mark; /* scratch: the elimination tree; position of a row in a panel */
 };
 
 namespace

@@ -25,15 +25,15 @@ typedef struct kiriBounds {
     int32_t asked;    /* set by readers, from any thread; read by the tick alone */
     int32_t patience; /* ticks for which boxes are still kept */
 
-    KIRI_ARRAY(int32_t) order;          /* of triangles, leaf by leaf */
+    kiriIndices order;                  /* of triangles, leaf by leaf */
     KIRI_ARRAY(kiriBox) nodes;          /* leaves first, then each level above them; the last is the root */
     KIRI_ARRAY(uint32_t) codes;         /* scratch of sorting */
-    KIRI_ARRAY(int32_t) other;          /* the same */
+    kiriIndices other;                  /* the same */
     int32_t firsts[KIRI_BOUNDS_LEVELS]; /* of each level: its first node */
     int32_t levelCount;                 /* 0: no tree */
     int32_t sorted;                     /* number of triangles when the tree was made */
     int64_t pose;                       /* surface->pose that the boxes fit */
-    KIRI_ARRAY(uint8_t) moves;          /* of each node: 1 if a vertex of it is awake. Empty: not known */
+    kiriFlags moves;                    /* of each node: 1 if a vertex of it is awake. Empty: not known */
     int64_t version;                    /* of the movers from which `moves` was made */
     KIRI_ARRAY(uint64_t) groups;        /* of each node: the groups of its triangles, bit g & 63 for group g */
 } kiriBounds;

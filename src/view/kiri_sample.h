@@ -57,8 +57,8 @@ bool kiriSkin_Sort(kiriSkin* skin, kiriMemory* memory);
 
 /* Lists of the samples in each square, for samples that never move. */
 typedef struct kiriPlaces {
-    KIRI_ARRAY(int32_t) head; /* of each square, or KIRI_NONE; empty without samples */
-    KIRI_ARRAY(int32_t) next; /* of each sample */
+    kiriIndices head; /* of each square, or KIRI_NONE; empty without samples */
+    kiriIndices next; /* of each sample */
 } kiriPlaces;
 
 /* Makes room for samples, so that Add cannot fail. */
@@ -68,9 +68,9 @@ bool kiriPlaces_Add(kiriPlaces* places, kiriMemory* memory, const kiriMeshData* 
 /* Stages the samples whose weights may have changed: those in or beside the square of a cell in shape->changes, or in
    or beside a square that was noted. */
 typedef struct kiriRefresh {
-    KIRI_ARRAY(int32_t) noted;   /* squares in which the mesh changed, until Start */
-    KIRI_ARRAY(int32_t) squares; /* with such samples */
-    KIRI_ARRAY(uint8_t) marks;   /* of each square; all 0 but during Start */
+    kiriIndices noted;           /* squares in which the mesh changed, until Start */
+    kiriIndices squares;         /* with such samples */
+    kiriFlags marks;             /* of each square; all 0 but during Start */
     int32_t change;              /* next in Start */
     int32_t oldCount;            /* samples that are not new */
     int32_t square, sample;      /* next in Stage */

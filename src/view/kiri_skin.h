@@ -40,8 +40,8 @@ enum { KIRI_FLAT_FLOATS = 12, KIRI_BENT_FLOATS = 24 };
 enum kiriPatchChange { KIRI_PATCH_SAME, KIRI_PATCH_ROUNDED, KIRI_PATCH_OTHER };
 
 typedef struct kiriPatches {
-    KIRI_ARRAY(float) floats;
-    KIRI_ARRAY(uint8_t) isOther; /* of each row: KIRI_PATCH_... */
+    kiriFloats floats;
+    kiriFlags isOther;           /* of each row: KIRI_PATCH_... */
     int32_t count;               /* of rows */
     bool isBent;
     bool areOther; /* a row is not KIRI_PATCH_SAME */

@@ -73,15 +73,15 @@ typedef struct kiriSurface {
     double longer;    /* m: side of the sheet */
 
     /* Arrays that the host reads. The mesh may change before they do. */
-    KIRI_ARRAY(float) positions, normals, restPositions, sourceWeights;
-    KIRI_ARRAY(int32_t) indices, sourceTriangles;
+    kiriFloats positions, normals, restPositions, sourceWeights;
+    kiriIndices indices, sourceTriangles;
     int32_t vertexCount, triangleCount;
     uint32_t revision;
     int32_t lentAt; /* 1 + the tick after which the host last got the indices */
 
     KIRI_ARRAY(kiriVec2) rest; /* local m */
-    KIRI_ARRAY(uint8_t) turns; /* of pairs of triangles, for normals: see kiriCorners */
-    KIRI_ARRAY(float) slopes;  /* sums for the normals, 4 a vertex */
+    kiriFlags turns;           /* of pairs of triangles, for normals: see kiriCorners */
+    kiriFloats slopes;         /* sums for the normals, 4 a vertex */
     int64_t pose;              /* grows whenever positions or corners may have changed */
     kiriVec3 middle;           /* m: near the sheet; 0 if the sheet is near the origin of the world */
     KIRI_ARRAY(float) places;  /* positions from `middle`, 3 a vertex; unused if `middle` is 0 */
@@ -151,8 +151,8 @@ void kiriSurface_Derive(kiriSurface* surface, const kiriMeshData* mesh, int32_t 
 
 /* New arrays for a surface. The host may still hold the old ones. */
 typedef struct kiriShown {
-    KIRI_ARRAY(float) positions, normals, restPositions, sourceWeights;
-    KIRI_ARRAY(int32_t) indices, sourceTriangles;
+    kiriFloats positions, normals, restPositions, sourceWeights;
+    kiriIndices indices, sourceTriangles;
 } kiriShown;
 
 /* Makes room for the kept items, in the memory of the surface. Returns false on out of memory: then call Release. */

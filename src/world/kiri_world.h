@@ -73,7 +73,7 @@ typedef struct kiriIsland {
 /* See kiri_island.h. */
 typedef struct kiriIslands {
     kiriIndices clusters, next;         /* per sheet: union-find forest of sheets; the next sheet of its cluster */
-    KIRI_ARRAY(uint8_t) isJoined;       /* per sheet: it has a mutual contact */
+    kiriFlags isJoined;                 /* per sheet: it has a mutual contact */
     KIRI_ARRAY(kiriSystem) systems;     /* per sheet with a mutual contact */
     kiriIndices firstBodies;            /* per sheet: number of its body 0 */
     kiriIndices parents, numbers;       /* per body: union-find forest; island, or KIRI_NONE */
@@ -90,7 +90,7 @@ typedef struct kiriPairs {
     kiriIndices order; /* of bodies, by the lower x of their box */
     KIRI_ARRAY(kiriNear) nears;
     kiriIndices parents;      /* union-find forest of awake pieces that touch */
-    KIRI_ARRAY(double) calms; /* s, per awake piece: in a root, of the least calm piece of its tree */
+    kiriReals calms;          /* s, per awake piece: in a root, of the least calm piece of its tree */
     KIRI_ARRAY(kiriPairTouch) touches;
 } kiriPairs;
 
