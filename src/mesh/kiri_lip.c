@@ -49,7 +49,7 @@ kiriLatticePoint kiriLattice_Nearest(kiriLatticePoint a, kiriLatticePoint b, kir
 
 int32_t kiriMesh_FirstAround(const kiriMeshData* mesh, int32_t vertex)
 {
-    KIRI_ASSERT(vertex >= 0 && vertex < mesh->vertices.count);
+    KIRI_ASSERT_HAS(mesh->vertices, vertex);
     int32_t start = mesh->vertices.data[vertex].edge, h = start;
     KIRI_ASSERT(kiriMesh_Tail(mesh, start) == vertex);
     for (int32_t twin = kiriMesh_Twin(mesh, h); twin != KIRI_NONE; twin = kiriMesh_Twin(mesh, h)) {

@@ -173,7 +173,7 @@ static void EndOnFace(const Pieces* p, const Corner* const face[3], Piece* piece
 {
     double shares[3];
     int tops = 0;
-    kiriSectionPoint point = { { 0.0, 0.0 }, { 0.0, 0.0, 0.0 } };
+    kiriSectionPoint point = { 0 };
     FindShares(face, shares);
     depth[0] = depth[1] = 0.0;
     for (int i = 0; i < 3; ++i) {
@@ -294,7 +294,7 @@ static void LinkPieces(Pieces* p)
     Piece* pieces = p->pieces.data;
     const int32_t *starts = p->starts.data, count = p->starts.count;
     kiriSort(p->starts.data, count, IsFaceBefore, pieces);
-    for (int32_t i = 0; i < p->pieces.count; ++i) {
+    KIRI_EACH_INDEX(i, p->pieces) {
         int32_t k = count;
         if (pieces[i].end[1] == OPEN_END) {
             KIRI_SEARCH(k, 0, count, CompareFaces(pieces[starts[middle]].face[0], pieces[i].face[1]) < 0);
@@ -309,7 +309,7 @@ static void LinkPieces(Pieces* p)
 /* Adds the line that begins with a piece. */
 static bool AddLine(Pieces* p, kiriSection* section, int32_t start)
 {
-    KIRI_ASSERT(start >= 0 && start < p->pieces.count);
+    KIRI_ASSERT_HAS(p->pieces, start);
     Piece *first = &p->pieces.data[start], *last = first;
     kiriSectionLine line = { section->points.count, 0, { 0, 0 } };
     bool ok = kiriArray_Push(p->memory, &section->points, first->point[0]);
@@ -357,7 +357,7 @@ bool kiriSection_Sweep(kiriSection* section, kiriMemory* memory, const kiriSurfa
 
 static kiriVec2 RestAt(const kiriSection* section, const kiriSectionLine* line, bool fromLast, int32_t i)
 {
-    KIRI_ASSERT(i >= 0 && i < line->count);
+    KIRI_ASSERT_HAS(*line, i);
     return section->points.data[line->first + (fromLast ? line->count - 1 - i : i)].rest;
 }
 

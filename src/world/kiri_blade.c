@@ -114,7 +114,7 @@ static int32_t StrokeOf(BladeWork* work, Track* track)
 
 static bool AddCut(BladeWork* work, int32_t stroke, kiriVec2 from, kiriVec2 to)
 {
-    KIRI_ASSERT(stroke >= 0 && stroke < work->strokes.count);
+    KIRI_ASSERT_HAS(work->strokes, stroke);
     const StrokePoint point = { stroke, to, false };
     const PendingLip lip = { work->sheet, from, to, stroke };
     return kiriArray_Push(&work->memory, &work->points, point) && kiriArray_Push(&work->memory, &work->pending, lip);
@@ -465,7 +465,7 @@ static void FindPlace(const BladeWork* work, Track* track)
 static kiriVec3 CameOf(const void* context, int32_t vertex)
 {
     const BladeWork* work = context;
-    kiriVec3 sum = { 0.0, 0.0, 0.0 };
+    kiriVec3 sum = { 0 };
     double weights = 0.0;
     for (int32_t i = 0; i < work->oldCount && !work->isKnown; ++i) {
         const Track* track = &work->tracks.data[i];
@@ -485,7 +485,7 @@ static void DropPoints(BladeWork* work)
 {
     kiriSection* section = &work->section;
     int32_t kept = 0;
-    for (int32_t i = 0; i < section->lines.count; ++i) {
+    KIRI_EACH_INDEX(i, section->lines) {
         const kiriSectionLine line = section->lines.data[i];
         const kiriSectionPoint* points = &section->points.data[line.first];
         bool isLong = line.end[0] == KIRI_END_TO || line.end[1] == KIRI_END_TO;
@@ -537,7 +537,7 @@ static void MatchTrack(BladeWork* work, int32_t index, double most)
     Track* track = &work->tracks.data[index];
     kiriVec2 from = work->isKnown ? track->met : track->rest;
     int32_t nearest = KIRI_NONE;
-    for (int32_t i = 0; i < work->taker.count; ++i) {
+    KIRI_EACH_INDEX(i, work->taker) {
         const kiriSectionLine* line = &work->section.lines.data[i / 2];
         int32_t type = line->end[i % 2];
         double far = type == KIRI_END_FROM ? most : type == KIRI_END_BORDER ? kiriMin(most, SAME * work->snap) : 0.0;
@@ -740,7 +740,7 @@ kiriResult kiriWorld_AddBlade(kiriWorld* world, kiriSheet sheet, kiriBladeData**
     }
     blade->sheet = sheet;
     blade->id = kiriPool_Add(&world->bladeIds, &world->memory, blade, 0);
-    world->blades.data[world->blades.count++] = blade;
+    KIRI_NEXT(world->blades) = blade;
     *made = blade;
     return KIRI_OK;
 }
@@ -754,8 +754,7 @@ static kiriCutData* CutOf(const kiriWorld* world, const kiriLayer* layer)
 /* Ends the cuts of a blade. Loops whose ends have nearly met are closed. */
 static void EndCuts(kiriWorld* world, const kiriBladeData* blade)
 {
-    for (int32_t i = 0; i < blade->layers.count; ++i) {
-        const kiriLayer* layer = &blade->layers.data[i];
+    KIRI_EACH(const kiriLayer, layer, blade->layers) {
         kiriCutData* cut = CutOf(world, layer);
         if (cut != NULL && layer->loop.isPassed) {
             kiriWorld_QueuePoint(world, cut, layer->loop.near, true);
@@ -772,7 +771,7 @@ static void EndCuts(kiriWorld* world, const kiriBladeData* blade)
 kiriResult kiriWorld_RemoveBlade(kiriWorld* world, kiriBladeData* blade)
 {
     int32_t kept = 0;
-    for (int32_t i = 0; i < blade->layers.count; ++i) {
+    KIRI_EACH_INDEX(i, blade->layers) {
         const kiriCutData* cut = CutOf(world, &blade->layers.data[i]);
         if (cut != NULL && !kiriArray_Reserve(&world->memory, &cut->sheet->queue,
                                               (int64_t)cut->sheet->queue.count + 3 * (int64_t)blade->layers.count)) {
@@ -780,7 +779,7 @@ kiriResult kiriWorld_RemoveBlade(kiriWorld* world, kiriBladeData* blade)
         }
     }
     EndCuts(world, blade);
-    for (int32_t i = 0; i < world->blades.count; ++i) {
+    KIRI_EACH_INDEX(i, world->blades) {
         if (world->blades.data[i] != blade) {
             world->blades.data[kept++] = world->blades.data[i];
         }
@@ -795,8 +794,8 @@ kiriResult kiriWorld_RemoveBlade(kiriWorld* world, kiriBladeData* blade)
 
 void kiriWorld_AdvanceBlades(kiriWorld* world)
 {
-    for (int32_t i = 0; i < world->blades.count; ++i) {
-        world->blades.data[i]->ticks += 1;
+    KIRI_EACH_OF(kiriBladeData, blade, world->blades) {
+        blade->ticks += 1;
     }
 }
 
@@ -806,8 +805,7 @@ void kiriWorld_AdvanceBlades(kiriWorld* world)
    have snapped to a vertex. */
 static bool StartTracks(BladeWork* work, const kiriWorld* world, const kiriBladeData* blade)
 {
-    for (int32_t i = 0; i < blade->layers.count; ++i) {
-        const kiriLayer* layer = &blade->layers.data[i];
+    KIRI_EACH(const kiriLayer, layer, blade->layers) {
         const kiriSlot* slot = kiriPool_Find(&world->sheetIds, layer->sheet);
         if (slot == NULL) {
             continue;
@@ -828,7 +826,7 @@ static bool StartTracks(BladeWork* work, const kiriWorld* world, const kiriBlade
 /* Lists the cuts that are in the queues. */
 static bool ListPending(BladeWork* work, const kiriWorld* world, const kiriBladeData* blade)
 {
-    KIRI_ARRAY(kiriVec2) ends = { NULL, 0, 0 };
+    KIRI_ARRAY(kiriVec2) ends = { 0 };
     bool ok = true;
     for (int32_t i = 0; ok && i < world->sheets.count; ++i) {
         const kiriSheetData* sheet = world->sheets.data[i];
@@ -839,8 +837,7 @@ static bool ListPending(BladeWork* work, const kiriWorld* world, const kiriBlade
         for (int32_t k = 0; ok && k < sheet->cuts.count; ++k) {
             ok = kiriArray_Push(&work->memory, &ends, sheet->cuts.data[k]->tip.last);
         }
-        for (int32_t k = 0; ok && k < sheet->queue.count; ++k) {
-            const kiriQueuedPoint* point = &sheet->queue.data[k];
+        KIRI_EACH_WHILE(ok, const kiriQueuedPoint, point, sheet->queue) {
             KIRI_ASSERT(point->cut->index >= 0 && point->cut->index < ends.count);
             kiriVec2* end = &ends.data[point->cut->index];
             const PendingLip lip = { sheet, *end, point->to, KIRI_NONE };
@@ -856,7 +853,7 @@ static bool ListPending(BladeWork* work, const kiriWorld* world, const kiriBlade
 static void NextStep(BladeWork* work)
 {
     int32_t kept = 0;
-    for (int32_t i = 0; i < work->tracks.count; ++i) {
+    KIRI_EACH_INDEX(i, work->tracks) {
         if (!work->tracks.data[i].isOver && !work->tracks.data[i].isLost) {
             work->tracks.data[kept++] = work->tracks.data[i];
         }
@@ -908,13 +905,12 @@ typedef KIRI_ARRAY(kiriCutData*) CutList;
 static kiriResult ReserveStrokes(kiriWorld* world, const BladeWork* work)
 {
     int64_t made = 0;
-    for (int32_t i = 0; i < world->sheets.count; ++i) {
-        kiriSheetData* sheet = world->sheets.data[i];
+    KIRI_EACH_OF(kiriSheetData, sheet, world->sheets) {
         int64_t points = sheet->queue.count, cuts = sheet->cuts.count;
-        for (int32_t k = 0; k < work->points.count; ++k) {
+        KIRI_EACH_INDEX(k, work->points) {
             points += work->strokes.data[work->points.data[k].stroke].sheet == sheet;
         }
-        for (int32_t k = 0; k < work->strokes.count; ++k) {
+        KIRI_EACH_INDEX(k, work->strokes) {
             cuts += work->strokes.data[k].sheet == sheet && work->strokes.data[k].cut == NULL;
             points += work->strokes.data[k].sheet == sheet; /* to end with */
         }
@@ -950,20 +946,18 @@ static bool MakeCuts(kiriWorld* world, BladeWork* work, CutList* made)
 static void QueueStrokes(kiriWorld* world, BladeWork* work, const CutList* made)
 {
     int32_t used = 0;
-    for (int32_t i = 0; i < work->strokes.count; ++i) {
-        Stroke* stroke = &work->strokes.data[i];
+    KIRI_EACH(Stroke, stroke, work->strokes) {
         if (stroke->cut == NULL) {
             KIRI_ASSERT(used < made->count);
             stroke->cut = made->data[used++];
             kiriWorld_EnlistCut(world, stroke->sheet, stroke->cut);
         }
     }
-    for (int32_t i = 0; i < work->points.count; ++i) {
-        const StrokePoint* point = &work->points.data[i];
+    KIRI_EACH(const StrokePoint, point, work->points) {
         KIRI_ASSERT(work->strokes.data[point->stroke].cut->sheet == work->strokes.data[point->stroke].sheet);
         kiriWorld_QueuePoint(world, work->strokes.data[point->stroke].cut, point->rest, point->isStart);
     }
-    for (int32_t i = 0; i < work->strokes.count; ++i) {
+    KIRI_EACH_INDEX(i, work->strokes) {
         if (work->strokes.data[i].isOver) {
             kiriWorld_EndCut(world, work->strokes.data[i].cut);
         }
@@ -972,7 +966,7 @@ static void QueueStrokes(kiriWorld* world, BladeWork* work, const CutList* made)
 
 static kiriResult Apply(kiriWorld* world, kiriBladeData* blade, BladeWork* work)
 {
-    CutList made = { NULL, 0, 0 };
+    CutList made = { 0 };
     kiriResult result = ReserveStrokes(world, work);
     if (result != KIRI_OK) {
         return result;
@@ -983,11 +977,10 @@ static kiriResult Apply(kiriWorld* world, kiriBladeData* blade, BladeWork* work)
     QueueStrokes(world, work, &made);
     KIRI_ASSERT(blade->layers.capacity >= work->tracks.count);
     blade->layers.count = 0;
-    for (int32_t i = 0; i < work->tracks.count; ++i) {
-        const Track* track = &work->tracks.data[i];
+    KIRI_EACH(const Track, track, work->tracks) {
         const kiriCutData* cut = track->stroke != KIRI_NONE ? work->strokes.data[track->stroke].cut : track->cut;
         const kiriLayer layer = { track->sheet->id, cut != NULL ? cut->id : 0, track->rest, track->met, track->at, track->loop };
-        blade->layers.data[blade->layers.count++] = layer;
+        KIRI_NEXT(blade->layers) = layer;
     }
     return KIRI_OK;
 }
