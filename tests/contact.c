@@ -54,6 +54,9 @@ int main(int argc, char** argv)
     if (Contact_IsAsked("meetings")) {
         Contact_MeasureMeetings();
     }
+    if (Contact_IsAsked("folds")) {
+        Contact_MeasureFolds();
+    }
     if (Contact_IsAsked("box2d")) {
         Contact_MeasureBox2d();
     }

@@ -12,7 +12,7 @@
 typedef struct CrossingTriangle {
     double corner[3][3];
     double low[3], high[3];
-    int32_t piece;
+    int32_t piece, vertex[3];
     bool crosses;
 } CrossingTriangle;
 
@@ -47,6 +47,7 @@ static inline int32_t Crossing_Gather(const kiriMesh* mesh, int32_t firstPiece, 
         triangle->piece = firstPiece + Crossing_Root(parent, mesh->indices[3 * t]);
         triangle->crosses = false;
         for (int k = 0; k < 3; ++k) {
+            triangle->vertex[k] = mesh->indices[3 * t + k];
             for (int d = 0; d < 3; ++d) {
                 double x = (double)mesh->positions[3 * mesh->indices[3 * t + k] + d];
                 triangle->corner[k][d] = x;
@@ -99,6 +100,15 @@ static inline bool Crossing_Cross(const CrossingTriangle* s, const CrossingTrian
     return false;
 }
 
+static inline bool Crossing_AreNeighbors(const CrossingTriangle* s, const CrossingTriangle* t)
+{
+    bool any = false;
+    for (int k = 0; k < 9; ++k) {
+        any |= s->vertex[k / 3] == t->vertex[k % 3];
+    }
+    return any;
+}
+
 static inline int Crossing_ByLow(const void* a, const void* b)
 {
     double x = ((const CrossingTriangle*)a)->low[0], y = ((const CrossingTriangle*)b)->low[0];
@@ -123,32 +133,53 @@ static inline double Crossing_AreaOf(const CrossingTriangle* t)
     return 0.5 * root;
 }
 
-static inline Crossing Crossing_Measure(const kiriWorld* world, const kiriSheet* sheets, int32_t count)
+/* Marks the triangles that cross: of different pieces, or of one piece if they have no vertex in common. */
+static inline void Crossing_Mark(CrossingTriangle* all, int32_t count, bool ofOnePiece, Crossing* result)
 {
-    Crossing result = { 0, 0, 0.0 };
-    CrossingTriangle* all = NULL;
-    int32_t pieces = 0;
+    qsort(all, (size_t)count, sizeof(*all), Crossing_ByLow);
     for (int32_t i = 0; i < count; ++i) {
-        kiriMesh mesh;
-        if (kiriSheet_GetMesh(world, sheets[i], &mesh) == KIRI_OK) {
-            all = realloc(all, sizeof(*all) * (size_t)(result.triangles + mesh.triangleCount));
-            result.triangles += Crossing_Gather(&mesh, pieces, all + result.triangles);
-            pieces += mesh.vertexCount;
-        }
-    }
-    qsort(all, (size_t)result.triangles, sizeof(*all), Crossing_ByLow);
-    for (int32_t i = 0; i < result.triangles; ++i) {
-        for (int32_t k = i + 1; k < result.triangles && all[k].low[0] <= all[i].high[0]; ++k) {
-            if (all[i].piece != all[k].piece && Crossing_Cross(&all[i], &all[k])) {
+        for (int32_t k = i + 1; k < count && all[k].low[0] <= all[i].high[0]; ++k) {
+            bool isMeant = ofOnePiece ? !Crossing_AreNeighbors(&all[i], &all[k]) : all[i].piece != all[k].piece;
+            if (isMeant && Crossing_Cross(&all[i], &all[k])) {
                 all[i].crosses = all[k].crosses = true;
             }
         }
     }
-    for (int32_t i = 0; i < result.triangles; ++i) {
-        result.crossing += all[i].crosses;
-        result.area += all[i].crosses ? Crossing_AreaOf(&all[i]) : 0.0;
+    result->triangles = count;
+    for (int32_t i = 0; i < count; ++i) {
+        result->crossing += all[i].crosses;
+        result->area += all[i].crosses ? Crossing_AreaOf(&all[i]) : 0.0;
     }
+}
+
+static inline Crossing Crossing_Measure(const kiriWorld* world, const kiriSheet* sheets, int32_t count)
+{
+    Crossing result = { 0, 0, 0.0 };
+    CrossingTriangle* all = NULL;
+    int32_t pieces = 0, triangles = 0;
+    for (int32_t i = 0; i < count; ++i) {
+        kiriMesh mesh;
+        if (kiriSheet_GetMesh(world, sheets[i], &mesh) == KIRI_OK) {
+            all = realloc(all, sizeof(*all) * (size_t)(triangles + mesh.triangleCount));
+            triangles += Crossing_Gather(&mesh, pieces, all + triangles);
+            pieces += mesh.vertexCount;
+        }
+    }
+    Crossing_Mark(all, triangles, false, &result);
     free(all);
+    return result;
+}
+
+/* Triangles of a sheet that cross others of it. */
+static inline Crossing Crossing_MeasureSelf(const kiriWorld* world, kiriSheet sheet)
+{
+    Crossing result = { 0, 0, 0.0 };
+    kiriMesh mesh;
+    if (kiriSheet_GetMesh(world, sheet, &mesh) == KIRI_OK) {
+        CrossingTriangle* all = malloc(sizeof(*all) * (size_t)mesh.triangleCount);
+        Crossing_Mark(all, Crossing_Gather(&mesh, 0, all), true, &result);
+        free(all);
+    }
     return result;
 }
 

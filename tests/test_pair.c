@@ -390,6 +390,61 @@ static void TestPieceFallsClear(void** state)
     Host_Stop(&host);
 }
 
+/* Lays one half of a cloth over the other, lets go, and cuts it. Returns the triangles that cross before the cut. */
+static int32_t FoldOnce(int32_t selfContact, uint64_t* hash)
+{
+    Host host;
+    kiriSheetDef def;
+    kiriObstacleDef floorDef;
+    kiriObstacle floor;
+    kiriPin pins[3];
+    Host_Start(&host);
+    kiriDefaultObstacleDef(&floorDef);
+    floorDef.type = KIRI_OBSTACLE_PLANE;
+    OK(kiriCreateObstacle(host.world, &floorDef, &floor));
+    kiriDefaultSheetDef(&def);
+    def.frameCount = 36;
+    def.selfContact = selfContact;
+    def.contactThickness = 0.004f;
+    def.position[2] = 0.005f;
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 0.6f, 0.6f, 32, 32);
+    for (int tick = 0; tick < 150; ++tick) {
+        float angle = 3.1f * fminf((float)tick / 90.0f, 1.0f);
+        for (int i = 0; i < 3; ++i) {
+            const float y = 0.001f + 0.299f * (float)i;
+            const float target[3] = { 0.3f + 0.3f * cosf(angle), y, 0.005f + 0.3f * sinf(angle) };
+            kiriPinDef pin;
+            kiriDefaultPinDef(&pin);
+            pin.restPoint[0] = 0.599f;
+            pin.restPoint[1] = y;
+            memcpy(pin.target, target, sizeof target);
+            OK(tick == 0 ? kiriCreatePin(host.world, sheet, &pin, &pins[i]) :
+               tick < 110 ? kiriPin_SetTarget(host.world, pins[i], target) :
+               tick == 110 ? kiriDestroyPin(host.world, pins[i]) : KIRI_OK);
+        }
+        OK(Host_Tick(&host, dt, 2));
+    }
+    int32_t crossing = Crossing_MeasureSelf(host.world, sheet).crossing;
+    Host_Cut(&host, sheet, (const float[]){ -0.1f, 0.2f, 0.7f, 0.21f }, 2);
+    for (int tick = 0; tick < 20; ++tick) {
+        OK(Host_Tick(&host, dt, 2));
+    }
+    *hash = Host_Hash(&host);
+    Host_Stop(&host);
+    return crossing;
+}
+
+static void TestFoldsStayApart(void** state)
+{
+    (void)state;
+    uint64_t hashes[2];
+    assert_true(FoldOnce(0, &hashes[0]) > 50);
+    for (int run = 0; run < 2; ++run) {
+        assert_int_equal(FoldOnce(1, &hashes[run]), 0);
+    }
+    assert_true(hashes[0] == hashes[1]);
+}
+
 static void TestSameCallsSameBits(void** state)
 {
     (void)state;
@@ -468,6 +523,7 @@ int main(void)
         cmocka_unit_test(TestLowerSheetFeelsTheWeight),
         cmocka_unit_test(TestFallingPairFallsFreely),
         cmocka_unit_test(TestPieceFallsClear),
+        cmocka_unit_test(TestFoldsStayApart),
         cmocka_unit_test(TestSameCallsSameBits),
         cmocka_unit_test(TestPlainTicksAllocateNothing),
         cmocka_unit_test(TestRefusedTicksChangeNothing),

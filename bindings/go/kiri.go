@@ -557,9 +557,12 @@ type SheetDef struct {
 	ContactThickness float32
 	// obstacles and sheets touch if they share a set bit. Default: all
 	Groups uint32
-	// 1: its pieces touch each other, and other sheets of the same model that have it set; not if a sheet is planar.
-	// Folds of one piece do not touch each other. The manual has rules and limits (contact). Default 0.
+	// touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1:
+	// layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0.
 	TouchesSheets int32
+	// touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1:
+	// layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0.
+	SelfContact int32
 	// spread evenly over the sheet, at least one in every piece; default 0: none
 	CollisionPoints int32
 	// Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
@@ -599,9 +602,12 @@ type SheetSettings struct {
 	ContactThickness float32
 	// obstacles and sheets touch if they share a set bit. Default: all
 	Groups uint32
-	// 1: its pieces touch each other, and other sheets of the same model that have it set; not if a sheet is planar.
-	// Folds of one piece do not touch each other. The manual has rules and limits (contact). Default 0.
+	// touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1:
+	// layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0.
 	TouchesSheets int32
+	// touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1:
+	// layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0.
+	SelfContact int32
 	// Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
 	Iterations int32
 	// A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a second,
@@ -1004,6 +1010,7 @@ func (def *SheetDef) toC(pinner *runtime.Pinner) *C.kiriSheetDef {
 	c.contactThickness = C.float(def.ContactThickness)
 	c.groups = C.uint32_t(def.Groups)
 	c.touchesSheets = C.int32_t(def.TouchesSheets)
+	c.selfContact = C.int32_t(def.SelfContact)
 	c.collisionPoints = C.int32_t(def.CollisionPoints)
 	c.iterations = C.int32_t(def.Iterations)
 	c.sleepSpeed = C.float(def.SleepSpeed)
@@ -1041,6 +1048,7 @@ func (def *SheetDef) fromC(c *C.kiriSheetDef) {
 	def.ContactThickness = float32(c.contactThickness)
 	def.Groups = uint32(c.groups)
 	def.TouchesSheets = int32(c.touchesSheets)
+	def.SelfContact = int32(c.selfContact)
 	def.CollisionPoints = int32(c.collisionPoints)
 	def.Iterations = int32(c.iterations)
 	def.SleepSpeed = float32(c.sleepSpeed)

@@ -135,7 +135,8 @@ static const Field SHEET_DEF_FIELDS[] = {
     { "friction", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriSheetDef, friction), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "contact_thickness", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriSheetDef, contactThickness), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "groups", TYPE_UINT32, KIND_INT, (int)offsetof(kiriSheetDef, groups), 1, 0, 0, 0, CLASS_NONE, NULL },
-    { "touches_sheets", TYPE_FLAG, KIND_BOOL, (int)offsetof(kiriSheetDef, touchesSheets), 1, 0, 0, 0, CLASS_NONE, NULL },
+    { "touches_sheets", TYPE_INT32, KIND_INT, (int)offsetof(kiriSheetDef, touchesSheets), 1, 0, 0, 0, CLASS_NONE, NULL },
+    { "self_contact", TYPE_INT32, KIND_INT, (int)offsetof(kiriSheetDef, selfContact), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "collision_points", TYPE_INT32, KIND_INT, (int)offsetof(kiriSheetDef, collisionPoints), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "iterations", TYPE_INT32, KIND_INT, (int)offsetof(kiriSheetDef, iterations), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "sleep_speed", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriSheetDef, sleepSpeed), 1, 0, 0, 0, CLASS_NONE, NULL },
@@ -148,7 +149,7 @@ static const Field SHEET_DEF_FIELDS[] = {
     { "paper", TYPE_STRUCT, KIND_DICTIONARY, (int)offsetof(kiriSheetDef, paper), 1, 0, 0, 0, CLASS_NONE, &PAPER_OPTIONS },
 };
 
-static const Struct SHEET_DEF = { "SheetDef", (int)sizeof(kiriSheetDef), 32, SHEET_DEF_FIELDS, FillSheetDef, NULL };
+static const Struct SHEET_DEF = { "SheetDef", (int)sizeof(kiriSheetDef), 33, SHEET_DEF_FIELDS, FillSheetDef, NULL };
 
 static const Field SHEET_SETTINGS_FIELDS[] = {
     { "material", TYPE_STRUCT, KIND_DICTIONARY, (int)offsetof(kiriSheetSettings, material), 1, 0, 0, 0, CLASS_NONE, &MATERIAL },
@@ -157,7 +158,8 @@ static const Field SHEET_SETTINGS_FIELDS[] = {
     { "friction", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriSheetSettings, friction), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "contact_thickness", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriSheetSettings, contactThickness), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "groups", TYPE_UINT32, KIND_INT, (int)offsetof(kiriSheetSettings, groups), 1, 0, 0, 0, CLASS_NONE, NULL },
-    { "touches_sheets", TYPE_FLAG, KIND_BOOL, (int)offsetof(kiriSheetSettings, touchesSheets), 1, 0, 0, 0, CLASS_NONE, NULL },
+    { "touches_sheets", TYPE_INT32, KIND_INT, (int)offsetof(kiriSheetSettings, touchesSheets), 1, 0, 0, 0, CLASS_NONE, NULL },
+    { "self_contact", TYPE_INT32, KIND_INT, (int)offsetof(kiriSheetSettings, selfContact), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "iterations", TYPE_INT32, KIND_INT, (int)offsetof(kiriSheetSettings, iterations), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "sleep_speed", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriSheetSettings, sleepSpeed), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "skinning", TYPE_INT32, KIND_INT, (int)offsetof(kiriSheetSettings, skinning), 1, 0, 0, 0, CLASS_NONE, NULL },
@@ -166,7 +168,7 @@ static const Field SHEET_SETTINGS_FIELDS[] = {
     { "normals", TYPE_FLAG, KIND_BOOL, (int)offsetof(kiriSheetSettings, normals), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-const Struct SHEET_SETTINGS = { "SheetSettings", (int)sizeof(kiriSheetSettings), 13, SHEET_SETTINGS_FIELDS, NULL, NULL };
+const Struct SHEET_SETTINGS = { "SheetSettings", (int)sizeof(kiriSheetSettings), 14, SHEET_SETTINGS_FIELDS, NULL, NULL };
 
 static const Field MESH_FIELDS[] = {
     { "positions", TYPE_FLOAT, KIND_VECTORS3, (int)offsetof(kiriMesh, positions), 1, (int)offsetof(kiriMesh, vertexCount), 3, 0, CLASS_NONE, NULL },

@@ -527,9 +527,12 @@ export class SheetDef {
     contactThickness: number;
     /** obstacles and sheets touch if they share a set bit. Default: all */
     groups: number;
-    /** 1: its pieces touch each other, and other sheets of the same model that have it set; not if a sheet is planar.
-     *  Folds of one piece do not touch each other. The manual has rules and limits (contact). Default 0. */
-    touchesSheets: boolean;
+    /** touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact
+     *  1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0. */
+    touchesSheets: number;
+    /** touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact
+     *  1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0. */
+    selfContact: number;
     /** spread evenly over the sheet, at least one in every piece; default 0: none */
     collisionPoints: number;
     /** Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual */
@@ -608,9 +611,12 @@ export interface SheetDefGiven {
     contactThickness?: number;
     /** obstacles and sheets touch if they share a set bit. Default: all */
     groups?: number;
-    /** 1: its pieces touch each other, and other sheets of the same model that have it set; not if a sheet is planar.
-     *  Folds of one piece do not touch each other. The manual has rules and limits (contact). Default 0. */
-    touchesSheets?: boolean | number;
+    /** touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact
+     *  1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0. */
+    touchesSheets?: number;
+    /** touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact
+     *  1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0. */
+    selfContact?: number;
     /** spread evenly over the sheet, at least one in every piece; default 0: none */
     collisionPoints?: number;
     /** Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual */
@@ -652,9 +658,12 @@ export class SheetSettings {
     contactThickness: number;
     /** obstacles and sheets touch if they share a set bit. Default: all */
     groups: number;
-    /** 1: its pieces touch each other, and other sheets of the same model that have it set; not if a sheet is planar.
-     *  Folds of one piece do not touch each other. The manual has rules and limits (contact). Default 0. */
-    touchesSheets: boolean;
+    /** touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact
+     *  1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0. */
+    touchesSheets: number;
+    /** touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact
+     *  1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0. */
+    selfContact: number;
     /** Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual */
     iterations: number;
     /** A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a second,
@@ -684,9 +693,12 @@ export interface SheetSettingsGiven {
     contactThickness?: number;
     /** obstacles and sheets touch if they share a set bit. Default: all */
     groups?: number;
-    /** 1: its pieces touch each other, and other sheets of the same model that have it set; not if a sheet is planar.
-     *  Folds of one piece do not touch each other. The manual has rules and limits (contact). Default 0. */
-    touchesSheets?: boolean | number;
+    /** touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact
+     *  1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0. */
+    touchesSheets?: number;
+    /** touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact
+     *  1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0. */
+    selfContact?: number;
     /** Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual */
     iterations?: number;
     /** A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a second,

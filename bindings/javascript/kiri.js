@@ -54,15 +54,15 @@ export const layouts = {
     kiriQuality: { size: 16, fields: { framesAlong: 0, gridResolution: 4, iterations: 8, substeps: 12 } },
     kiriPaperOptions: { size: 20, fields: { fromScratch: 0, popping: 4, linearWeights: 8, integrationPoints: 12,
         integrationOrder: 16 } },
-    kiriSheetDef: { size: 216, fields: { cookie: 0, restPositions: 4, vertexCount: 8, indices: 12, triangleCount: 16,
+    kiriSheetDef: { size: 220, fields: { cookie: 0, restPositions: 4, vertexCount: 8, indices: 12, triangleCount: 16,
         position: 20, axisU: 32, axisV: 44, velocity: 56, material: 68, gridResolution: 100, snapDistance: 104,
         weldDistance: 108, frameCount: 112, frameLength: 116, accuracy: 120, framePoints: 124, maxFrames: 128,
         rigidWeight: 132, rigidArea: 136, crumbArea: 140, friction: 144, contactThickness: 148, groups: 152,
-        touchesSheets: 156, collisionPoints: 160, iterations: 164, sleepSpeed: 168, model: 172, skinning: 176, planar:
-        180, timeStepping: 184, fadeTime: 188, normals: 192, paper: 196 } },
-    kiriSheetSettings: { size: 84, fields: { cookie: 0, material: 4, maxFrames: 36, crumbArea: 40, friction: 44,
-        contactThickness: 48, groups: 52, touchesSheets: 56, iterations: 60, sleepSpeed: 64, skinning: 68,
-        timeStepping: 72, fadeTime: 76, normals: 80 } },
+        touchesSheets: 156, selfContact: 160, collisionPoints: 164, iterations: 168, sleepSpeed: 172, model: 176,
+        skinning: 180, planar: 184, timeStepping: 188, fadeTime: 192, normals: 196, paper: 200 } },
+    kiriSheetSettings: { size: 88, fields: { cookie: 0, material: 4, maxFrames: 36, crumbArea: 40, friction: 44,
+        contactThickness: 48, groups: 52, touchesSheets: 56, selfContact: 60, iterations: 64, sleepSpeed: 68,
+        skinning: 72, timeStepping: 76, fadeTime: 80, normals: 84 } },
     kiriMesh: { size: 36, fields: { positions: 0, normals: 4, restPositions: 8, indices: 12, sourceTriangles: 16,
         sourceWeights: 20, vertexCount: 24, triangleCount: 28, revision: 32 } },
     kiriRange: { size: 8, fields: { first: 0, count: 4 } },
@@ -457,7 +457,8 @@ export class SheetDef {
     friction = 0;
     contactThickness = 0;
     groups = 0;
-    touchesSheets = false;
+    touchesSheets = 0;
+    selfContact = 0;
     collisionPoints = 0;
     iterations = 0;
     sleepSpeed = 0;
@@ -495,25 +496,26 @@ function readSheetDef(o, at, world) {
     o.friction = F32[(at + 144) >> 2];
     o.contactThickness = F32[(at + 148) >> 2];
     o.groups = U32[(at + 152) >> 2];
-    o.touchesSheets = I32[(at + 156) >> 2] !== 0;
-    o.collisionPoints = I32[(at + 160) >> 2];
-    o.iterations = I32[(at + 164) >> 2];
-    o.sleepSpeed = F32[(at + 168) >> 2];
-    o.model = I32[(at + 172) >> 2];
-    o.skinning = I32[(at + 176) >> 2];
-    o.planar = I32[(at + 180) >> 2] !== 0;
-    o.timeStepping = I32[(at + 184) >> 2];
-    o.fadeTime = F32[(at + 188) >> 2];
-    o.normals = I32[(at + 192) >> 2] !== 0;
-    readPaperOptions(o.paper, at + 196, world);
+    o.touchesSheets = I32[(at + 156) >> 2];
+    o.selfContact = I32[(at + 160) >> 2];
+    o.collisionPoints = I32[(at + 164) >> 2];
+    o.iterations = I32[(at + 168) >> 2];
+    o.sleepSpeed = F32[(at + 172) >> 2];
+    o.model = I32[(at + 176) >> 2];
+    o.skinning = I32[(at + 180) >> 2];
+    o.planar = I32[(at + 184) >> 2] !== 0;
+    o.timeStepping = I32[(at + 188) >> 2];
+    o.fadeTime = F32[(at + 192) >> 2];
+    o.normals = I32[(at + 196) >> 2] !== 0;
+    readPaperOptions(o.paper, at + 200, world);
     return o;
 }
 
 const fieldsOfSheetDef = new Set(["cookie", "restPositions", "vertexCount", "indices", "triangleCount", "position",
     "axisU", "axisV", "velocity", "material", "gridResolution", "snapDistance", "weldDistance", "frameCount",
     "frameLength", "accuracy", "framePoints", "maxFrames", "rigidWeight", "rigidArea", "crumbArea", "friction",
-    "contactThickness", "groups", "touchesSheets", "collisionPoints", "iterations", "sleepSpeed", "model", "skinning",
-    "planar", "timeStepping", "fadeTime", "normals", "paper"]);
+    "contactThickness", "groups", "touchesSheets", "selfContact", "collisionPoints", "iterations", "sleepSpeed",
+    "model", "skinning", "planar", "timeStepping", "fadeTime", "normals", "paper"]);
 
 function writeSheetDef(o, at, world) {
     known(o, fieldsOfSheetDef, "SheetDef");
@@ -589,35 +591,38 @@ function writeSheetDef(o, at, world) {
     if (o.touchesSheets !== undefined) {
         I32[(at + 156) >> 2] = o.touchesSheets;
     }
+    if (o.selfContact !== undefined) {
+        I32[(at + 160) >> 2] = o.selfContact;
+    }
     if (o.collisionPoints !== undefined) {
-        I32[(at + 160) >> 2] = o.collisionPoints;
+        I32[(at + 164) >> 2] = o.collisionPoints;
     }
     if (o.iterations !== undefined) {
-        I32[(at + 164) >> 2] = o.iterations;
+        I32[(at + 168) >> 2] = o.iterations;
     }
     if (o.sleepSpeed !== undefined) {
-        F32[(at + 168) >> 2] = o.sleepSpeed;
+        F32[(at + 172) >> 2] = o.sleepSpeed;
     }
     if (o.model !== undefined) {
-        I32[(at + 172) >> 2] = o.model;
+        I32[(at + 176) >> 2] = o.model;
     }
     if (o.skinning !== undefined) {
-        I32[(at + 176) >> 2] = o.skinning;
+        I32[(at + 180) >> 2] = o.skinning;
     }
     if (o.planar !== undefined) {
-        I32[(at + 180) >> 2] = o.planar;
+        I32[(at + 184) >> 2] = o.planar;
     }
     if (o.timeStepping !== undefined) {
-        I32[(at + 184) >> 2] = o.timeStepping;
+        I32[(at + 188) >> 2] = o.timeStepping;
     }
     if (o.fadeTime !== undefined) {
-        F32[(at + 188) >> 2] = o.fadeTime;
+        F32[(at + 192) >> 2] = o.fadeTime;
     }
     if (o.normals !== undefined) {
-        I32[(at + 192) >> 2] = o.normals;
+        I32[(at + 196) >> 2] = o.normals;
     }
     if (o.paper !== undefined) {
-        writePaperOptions(o.paper, at + 196, world);
+        writePaperOptions(o.paper, at + 200, world);
     }
 }
 
@@ -629,7 +634,8 @@ export class SheetSettings {
     friction = 0;
     contactThickness = 0;
     groups = 0;
-    touchesSheets = false;
+    touchesSheets = 0;
+    selfContact = 0;
     iterations = 0;
     sleepSpeed = 0;
     skinning = 0;
@@ -646,18 +652,20 @@ function readSheetSettings(o, at, world) {
     o.friction = F32[(at + 44) >> 2];
     o.contactThickness = F32[(at + 48) >> 2];
     o.groups = U32[(at + 52) >> 2];
-    o.touchesSheets = I32[(at + 56) >> 2] !== 0;
-    o.iterations = I32[(at + 60) >> 2];
-    o.sleepSpeed = F32[(at + 64) >> 2];
-    o.skinning = I32[(at + 68) >> 2];
-    o.timeStepping = I32[(at + 72) >> 2];
-    o.fadeTime = F32[(at + 76) >> 2];
-    o.normals = I32[(at + 80) >> 2] !== 0;
+    o.touchesSheets = I32[(at + 56) >> 2];
+    o.selfContact = I32[(at + 60) >> 2];
+    o.iterations = I32[(at + 64) >> 2];
+    o.sleepSpeed = F32[(at + 68) >> 2];
+    o.skinning = I32[(at + 72) >> 2];
+    o.timeStepping = I32[(at + 76) >> 2];
+    o.fadeTime = F32[(at + 80) >> 2];
+    o.normals = I32[(at + 84) >> 2] !== 0;
     return o;
 }
 
 const fieldsOfSheetSettings = new Set(["cookie", "material", "maxFrames", "crumbArea", "friction", "contactThickness",
-    "groups", "touchesSheets", "iterations", "sleepSpeed", "skinning", "timeStepping", "fadeTime", "normals"]);
+    "groups", "touchesSheets", "selfContact", "iterations", "sleepSpeed", "skinning", "timeStepping", "fadeTime",
+    "normals"]);
 
 function writeSheetSettings(o, at, world) {
     known(o, fieldsOfSheetSettings, "SheetSettings");
@@ -685,23 +693,26 @@ function writeSheetSettings(o, at, world) {
     if (o.touchesSheets !== undefined) {
         I32[(at + 56) >> 2] = o.touchesSheets;
     }
+    if (o.selfContact !== undefined) {
+        I32[(at + 60) >> 2] = o.selfContact;
+    }
     if (o.iterations !== undefined) {
-        I32[(at + 60) >> 2] = o.iterations;
+        I32[(at + 64) >> 2] = o.iterations;
     }
     if (o.sleepSpeed !== undefined) {
-        F32[(at + 64) >> 2] = o.sleepSpeed;
+        F32[(at + 68) >> 2] = o.sleepSpeed;
     }
     if (o.skinning !== undefined) {
-        I32[(at + 68) >> 2] = o.skinning;
+        I32[(at + 72) >> 2] = o.skinning;
     }
     if (o.timeStepping !== undefined) {
-        I32[(at + 72) >> 2] = o.timeStepping;
+        I32[(at + 76) >> 2] = o.timeStepping;
     }
     if (o.fadeTime !== undefined) {
-        F32[(at + 76) >> 2] = o.fadeTime;
+        F32[(at + 80) >> 2] = o.fadeTime;
     }
     if (o.normals !== undefined) {
-        I32[(at + 80) >> 2] = o.normals;
+        I32[(at + 84) >> 2] = o.normals;
     }
 }
 
@@ -1595,11 +1606,11 @@ export class World extends WorldBase {
         try {
             wasm.kiriDefaultSheetDef(scratch);
             writeSheetDef(def, scratch, this);
-            const $result = wasm.kiriCreateSheet($world, scratch, scratch + 216);
+            const $result = wasm.kiriCreateSheet($world, scratch, scratch + 224);
             if ($result < 0) {
                 fail(this, $result, "kiriCreateSheet");
             }
-            return thing(Sheet, this, U32[(scratch + 216) >> 2]);
+            return thing(Sheet, this, U32[(scratch + 224) >> 2]);
         } finally {
             release();
         }
@@ -1612,11 +1623,11 @@ export class World extends WorldBase {
                 wasm.kiriDefaultSheetDef(scratch);
                 writeSheetDef(def, scratch, this);
             }
-            const $result = wasm.kiriCreateRectangle($world, width, height, columns, rows, def ? scratch : 0, scratch + 216);
+            const $result = wasm.kiriCreateRectangle($world, width, height, columns, rows, def ? scratch : 0, scratch + 224);
             if ($result < 0) {
                 fail(this, $result, "kiriCreateRectangle");
             }
-            return thing(Sheet, this, U32[(scratch + 216) >> 2]);
+            return thing(Sheet, this, U32[(scratch + 224) >> 2]);
         } finally {
             release();
         }
@@ -1724,7 +1735,7 @@ export class Sheet extends Thing {
 
     setSettings(settings) {
         const $world = pointer(this.world);
-        U8.fill(0, scratch, scratch + 84);
+        U8.fill(0, scratch, scratch + 88);
         writeSheetSettings(settings, scratch, this.world);
         const $result = wasm.kiriSheet_SetSettings($world, this.id, scratch);
         if ($result < 0) {

@@ -406,9 +406,9 @@ typedef struct kiriSheetDef {
     float contactThickness; /* m: distance between sheets and pieces, and twice the distance to obstacles. 0 (default):
                                the material's thickness, at least a 20th of a grid square */
     uint32_t groups;        /* obstacles and sheets touch if they share a set bit. Default: all */
-    /* 1: its pieces touch each other, and other sheets of the same model that have it set; not if a sheet is planar.
-       Folds of one piece do not touch each other. The manual has rules and limits (contact). Default 0. */
-    int32_t touchesSheets;
+    /* touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set. selfContact 1:
+       layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact). Default 0. */
+    int32_t touchesSheets, selfContact;
     int32_t collisionPoints; /* spread evenly over the sheet, at least one in every piece; default 0: none */
     int32_t iterations; /* Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual */
     /* A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a second,
@@ -445,7 +445,7 @@ typedef struct kiriSheetSettings {
     int32_t maxFrames;
     float crumbArea, friction, contactThickness;
     uint32_t groups;
-    int32_t touchesSheets, iterations;
+    int32_t touchesSheets, selfContact, iterations;
     float sleepSpeed;
     int32_t skinning, timeStepping;
     float fadeTime; /* stays 0 with paper.popping */

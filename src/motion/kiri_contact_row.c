@@ -285,6 +285,7 @@ static kiriVec3 Beside(kiriVec3 a, kiriVec3 direction)
    to the friction limit (Huber). */
 
 #define SOFT_STIFFNESS 1e3 /* minimum, as a multiple of the mass of the sample / h'^2 */
+#define FOLD_STIFFNESS 3e2  /* the same for two places of one body. It does not grow, so a fold gains no energy */
 #define SOFT_SHARE 0.2     /* of the reach: d */
 #define SOFT_GROWTH 30.0   /* limit of the growth of the stiffness in a step, if a point is deeper than its reach */
 #define PULLING 0.05      /* of the largest push: a system in which a contact pulls by more is rejected */
@@ -323,8 +324,9 @@ static void GuessSoft(const kiriSolver* solver, kiriContactStep* step, double st
     const kiriContactRow* row = step->row;
     double part = solver->stepping.part, inertia = row->mass / (part * part);
     step->soft = SOFT_SHARE * row->reach;
-    step->stiffness = kiriMax(2.0 * inertia * stopDepth / row->reach, SOFT_STIFFNESS * inertia);
-    step->mostStiffness = SOFT_GROWTH * step->stiffness;
+    double least = row->isFold ? FOLD_STIFFNESS : SOFT_STIFFNESS;
+    step->stiffness = kiriMax(2.0 * inertia * stopDepth / row->reach, least * inertia);
+    step->mostStiffness = row->isFold ? step->stiffness : SOFT_GROWTH * step->stiffness;
     step->grip = GRIP * inertia;
     step->was = kiriVec3_Dot(row->normal, row->force);
     step->known = step->was > 0.0 ? step->was : kiriMax(inertia * stopDepth, 0.0);
@@ -603,19 +605,28 @@ static PointSprings SpringsOf(const kiriContactStep* step, kiriVec3 normal)
 static void AssembleRows(kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step,
                          const PointSprings* at)
 {
-    double J[CONTACT_ROWS * KIRI_CONTACT_MEMBERS * KIRI_MOST_UNKNOWNS];
-    int32_t frames[KIRI_CONTACT_MEMBERS];
+    double J[CONTACT_ROWS * KIRI_CONTACT_MEMBERS * KIRI_MOST_UNKNOWNS] = { 0.0 }, own[KIRI_MOST_UNKNOWNS];
+    int32_t frames[KIRI_CONTACT_MEMBERS], places[KIRI_CONTACT_MEMBERS], count = 0;
+    for (int32_t m = 0; m < step->memberCount; ++m) { /* a frame may carry both points */
+        places[m] = 0;
+        while (places[m] < count && frames[places[m]] != step->members[m].frame) {
+            places[m] += 1;
+        }
+        frames[places[m]] = step->members[m].frame;
+        count = kiriMax(places[m] + 1, count);
+    }
     for (int32_t m = 0; m < step->memberCount; ++m) {
         kiriContactMember member = step->members[m];
         kiriVec2 local = kiriVec2_Sub(member.at, system->frames[member.frame].center);
         kiriVec3 arm = kiriPose_Along(&solver->poses.data[member.frame], local);
-        frames[m] = member.frame;
         for (int e = 0; e < CONTACT_ROWS; ++e) {
-            DerivePoint(solver, system, member, local, arm, at->axis[e],
-                        &J[solver->size * (step->memberCount * e + m)]);
+            DerivePoint(solver, system, member, local, arm, at->axis[e], own);
+            for (int32_t n = 0; n < solver->size; ++n) {
+                J[solver->size * (count * e + places[m]) + n] += own[n];
+            }
         }
     }
-    kiriSolver_AddSquares(solver, frames, step->memberCount, J, at->spring, at->pull, CONTACT_ROWS);
+    kiriSolver_AddSquares(solver, frames, count, J, at->spring, at->pull, CONTACT_ROWS);
 }
 
 /* ---- The same of rigid frames in space: all is made of one 3 x 3 matrix ---- */
@@ -706,7 +717,7 @@ void kiriContact_Assemble(kiriSolver* solver, const kiriSystem* system, const ki
 {
     if (step->isActive) {
         PointSprings at = SpringsOf(step, step->row->normal);
-        bool isRigid = !kiriMechanics_IsAffine(&system->mechanics) && !system->mechanics.planar;
+        bool isRigid = !kiriMechanics_IsAffine(&system->mechanics) && !system->mechanics.planar && !step->row->isFold;
         (isRigid ? AssembleRigid : AssembleRows)(solver, system, step, &at);
     }
 }

@@ -39,6 +39,7 @@ typedef struct kiriContactRow {
     uint64_t key; /* identifies the contact from tick to tick; unique */
     kiriWeight weights[KIRI_CONTACT_WEIGHTS]; /* the largest weights, scaled to the sum 1; all frames are of one piece */
     int32_t weightCount;                      /* 1 or more; at most KIRI_CONTACT_SIDE in a mutual contact */
+    bool isFold;                              /* both points are of one body */
     kiriSolver* other;                        /* solver of the sheet of the second point; null: no mutual contact */
     kiriWeight otherWeights[KIRI_CONTACT_SIDE]; /* of the second point, likewise */
     int32_t otherCount;

@@ -9,6 +9,9 @@
 /* Smallest contact thickness, as a fraction of a grid square. Less would need a finer contact search. */
 #define LEAST_CONTACT_THICKNESS 0.05
 
+/* The same between places of one piece, which bends sharply where it folds. */
+#define FOLD_THICKNESS 0.125
+
 static kiriSheetSettings SettingsOf(const kiriSheetDef* def)
 {
     kiriSheetSettings given = { .material = def->material,
@@ -19,6 +22,7 @@ static kiriSheetSettings SettingsOf(const kiriSheetDef* def)
                                 .contactThickness = def->contactThickness,
                                 .groups = def->groups,
                                 .touchesSheets = def->touchesSheets,
+                                .selfContact = def->selfContact,
                                 .iterations = def->iterations,
                                 .sleepSpeed = def->sleepSpeed,
                                 .skinning = def->skinning,
@@ -39,8 +43,10 @@ static void TakeSettings(kiriSettings* settings, const kiriSheetSettings* given,
     settings->crumbArea = given->crumbArea;
     settings->friction = given->friction;
     settings->contactThickness = given->contactThickness > 0.0f ? given->contactThickness : kiriMax(thickness, least);
+    settings->foldThickness = kiriMax(settings->contactThickness, FOLD_THICKNESS * square);
     settings->groups = given->groups;
     settings->touchesSheets = given->touchesSheets != 0;
+    settings->selfContact = given->selfContact != 0;
     settings->iterations = given->iterations;
     settings->sleepSpeed = given->sleepSpeed;
     settings->skinning = given->skinning;

@@ -165,6 +165,7 @@ typedef struct kiriPinAnchor {
 /* Probes: the vertices that may touch other sheets, see kiri_touch.h. */
 typedef struct kiriProbes {
     bool isFresh;                    /* mesh and pieces have not changed since */
+    bool folds;                      /* a piece folds, so that it may touch itself */
     bool areGrouped;                 /* the bounds are grouped by piece, unless they were rebuilt since */
     int32_t block;                   /* side of a block in grid squares; a block has one probe inside a piece */
     int32_t sheet, firstBody;        /* kiri_pair.c: index of the sheet, and of the body of its piece 0 */
@@ -177,6 +178,8 @@ typedef struct kiriProbes {
     KIRI_ARRAY(kiriBox) boxes;       /* per piece, around its visible surface */
     KIRI_ARRAY(int32_t) touch;       /* per vertex: index of its touch in this tick, above and below another piece */
     KIRI_ARRAY(double) speeds;       /* m/s, per piece: speed of the fastest probe */
+    kiriIndices vertexFrame;         /* if it folds. Per vertex: the frame with the largest weight; its region has it */
+    kiriPieceRow regions;            /* if it folds: probes, by frame */
 } kiriProbes;
 
 typedef struct kiriPinData {
@@ -234,8 +237,9 @@ typedef struct kiriSettings {
     double sleepSpeed;          /* m/s; 0: never sleeps */
     double friction;            /* coefficient of the sheet alone */
     double contactThickness;    /* m, above 0: distance between sheets; half of it to obstacles */
+    double foldThickness;       /* m: distance between places of one piece */
     uint32_t groups;
-    bool touchesSheets;
+    bool touchesSheets, selfContact;
     kiriAir air;
     uint64_t userData;        /* stored for the host */
     double collisionPoints;   /* count over the whole sheet; a detached part gets its share by area */

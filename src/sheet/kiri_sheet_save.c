@@ -21,9 +21,9 @@ KIRI_TABLE(SettingsTable, kiriSettings, {
     KIRI_WITHIN(1, INT32_MAX, maxFrames),
     KIRI_WITHIN(1, 64, iterations),
     KIRI_WITHIN(KIRI_SKINNING_LINEAR, KIRI_SKINNING_SMOOTH, skinning),
-    KIRI_REALS(fadeTime, contactThickness),
+    KIRI_REALS(fadeTime, foldThickness),
     KIRI_RUN(4, groups),
-    KIRI_BOOLS(touchesSheets),
+    KIRI_BOOLS(touchesSheets, selfContact),
     KIRI_REALS(air),
     KIRI_REALS(collisionPoints, integrationPoints),
     KIRI_WITHIN(1, 2, integrationOrder),
@@ -199,13 +199,14 @@ KIRI_TABLE(SeenTable, kiriSeen, {
 
 /* A load chooses the probes again; their velocities are saved. */
 KIRI_TABLE(ProbesTable, kiriProbes, {
-    KIRI_BOOLS(isFresh),
+    KIRI_BOOLS(isFresh, folds),
     KIRI_RUN(4, block),
     KIRI_ITEMS(8, velocities),
     KIRI_ITEMS(8, speeds),
     KIRI_DROPPED(areGrouped),
     KIRI_DROPPED(sheet, list),
     KIRI_DROPPED(boxes, touch),
+    KIRI_DROPPED(vertexFrame, regions),
 })
 
 /* ---- Work on a cut ----------------------------------------------------------------------------------------------- */
@@ -686,6 +687,7 @@ static bool RemakeProbes(kiriSheetData* sheet)
     memset(&sheet->probes, 0, sizeof(sheet->probes));
     sheet->probes.block = read.block > 0 ? read.block : 1;
     sheet->probes.isFresh = true;
+    sheet->probes.folds = read.folds;
     bool ok = kiriProbes_Remake(sheet);
     if (ok) {
         TakeSpeeds(&sheet->probes.velocities, &read.velocities, sizeof(kiriVec3));

@@ -88,7 +88,7 @@ kiriVec3 kiriMeeting_VertexVelocity(const kiriSheetData* sheet, int32_t vertex)
     return velocity;
 }
 
-static int32_t LeadingFrame(const kiriSkin* skin, int32_t sample)
+int32_t kiriSkin_LeadingFrame(const kiriSkin* skin, int32_t sample)
 {
     kiriSpan span = skin->spans.data[sample];
     kiriSampleWeight most = skin->weights.data[span.first];
@@ -261,7 +261,7 @@ static void LookAtVertex(const kiriMeeting* meeting, int32_t vertex)
         double height = nearest.distance - Preference(meeting, vertex, nearest.distance);
         kiriNearVertex near = { vertex,
                                 PatchOf(meeting, vertex),
-                                LeadingFrame(&meeting->sheet->vertexSkin, vertex),
+                                kiriSkin_LeadingFrame(&meeting->sheet->vertexSkin, vertex),
                                 KIRI_NONE,
                                 height,
                                 nearest.normal };
@@ -558,33 +558,43 @@ static int32_t BlockSize(const kiriSheetData* sheet)
     return size;
 }
 
-/* Lists the probes by piece, then by index. */
-static bool ListChosen(kiriSheetData* sheet)
+/* Lists the probes by the group of their vertex, then by index. */
+static bool ListChosen(kiriSheetData* sheet, const int32_t* ofVertex, int32_t groups, kiriPieceRow* row)
 {
-    kiriProbes* probes = &sheet->probes;
-    int32_t pieces = sheet->layout.pieces.count, count = 0;
-    if (!kiriArray_Resize(sheet->memory, &probes->list.first, pieces + 2)) {
+    const kiriProbes* probes = &sheet->probes;
+    if (!kiriArray_Resize(sheet->memory, &row->first, groups + 2)) {
         return false;
     }
-    int32_t* first = probes->list.first.data;
-    memset(first, 0, sizeof(int32_t) * (size_t)(pieces + 2));
+    int32_t *first = row->first.data, count = 0;
+    memset(first, 0, sizeof(int32_t) * (size_t)(groups + 2));
     for (int32_t v = 0; v < probes->isChosen.count; ++v) {
-        first[probes->vertexPiece.data[v] + 2] += probes->isChosen.data[v];
+        first[ofVertex[v] + 2] += probes->isChosen.data[v];
         count += probes->isChosen.data[v];
     }
-    for (int32_t p = 0; p < pieces; ++p) {
-        first[p + 2] += first[p + 1];
+    for (int32_t g = 0; g < groups; ++g) {
+        first[g + 2] += first[g + 1];
     }
-    if (!kiriArray_Resize(sheet->memory, &probes->list.items, count) ||
-        !kiriArray_Resize(sheet->memory, &probes->velocities, count)) {
+    if (!kiriArray_Resize(sheet->memory, &row->items, count)) {
         return false;
     }
     for (int32_t v = 0; v < probes->isChosen.count; ++v) {
         if (probes->isChosen.data[v]) {
-            probes->list.items.data[first[probes->vertexPiece.data[v] + 1]++] = v;
+            row->items.data[first[ofVertex[v] + 1]++] = v;
         }
     }
     return true;
+}
+
+bool kiriProbes_ListRegions(kiriSheetData* sheet)
+{
+    kiriProbes* probes = &sheet->probes;
+    if (!kiriArray_Resize(sheet->memory, &probes->vertexFrame, probes->vertexPiece.count)) {
+        return false;
+    }
+    for (int32_t v = 0; v < probes->vertexFrame.count; ++v) {
+        probes->vertexFrame.data[v] = kiriSkin_LeadingFrame(&sheet->vertexSkin, v);
+    }
+    return ListChosen(sheet, probes->vertexFrame.data, sheet->frames.count, &probes->regions);
 }
 
 /* Marks the vertices of a border edge, and adds its normal to their leans. */
@@ -643,7 +653,8 @@ static bool ChooseProbes(kiriSheetData* sheet)
         }
     }
     kiriMemory_FreeAll(&scratch);
-    return ok && ListChosen(sheet);
+    return ok && ListChosen(sheet, sheet->probes.vertexPiece.data, sheet->layout.pieces.count, &sheet->probes.list) &&
+           kiriArray_Resize(sheet->memory, &sheet->probes.velocities, sheet->probes.list.items.count);
 }
 
 /* ---- Where they are ---- */
@@ -1141,29 +1152,30 @@ static double ProbeMass(const kiriSheetData* sheet, const kiriWeight* weights, i
     return kiriMin((double)material->density * material->thickness * side * side, PROBE_SHARE * carried);
 }
 
-bool kiriTouches_JoinRow(kiriSheetData* sheet, const kiriTouch* touch, kiriSheetData* other, const int32_t vertex[3],
-                         const double share[3])
+bool kiriTouches_JoinRow(kiriSheetData* sheet, const kiriTouch* touch, double distance, kiriSheetData* other,
+                         const int32_t vertex[3], const double share[3])
 {
     kiriContactRow* row = &sheet->touches.rows.data[touch->row];
     kiriTouch place = { .point = KIRI_NONE };
     memcpy(place.vertex, vertex, sizeof(place.vertex));
     memcpy(place.share, share, sizeof(place.share));
     TouchBlend blend = BlendOf(other, &place);
-    double distance = 0.5 * (sheet->settings.contactThickness + other->settings.contactThickness);
     KIRI_ASSERT(touch->row >= 0 && touch->row < sheet->touches.rows.count);
     row->otherCount = WriteWeights(other, &blend, row->otherWeights, KIRI_CONTACT_SIDE);
     row->mass = kiriMin(ProbeMass(sheet, row->weights, row->weightCount),
                         ProbeMass(other, row->otherWeights, row->otherCount));
     row->reach = 0.5 * distance;
     row->otherAt = blend.at;
+    const int32_t* pieces = sheet->layout.framePiece.data;
+    row->isFold = sheet == other && pieces[row->weights[0].frame] == pieces[row->otherWeights[0].frame];
     if (!kiriSheet_Moves(other, row->otherWeights[0].frame) || other->rest.asleep ||
         other->settings.mechanics.model != sheet->settings.mechanics.model) {
         return false;
     }
-    row->other = other->solver;
-    row->velocity = kiriVec3_Make(0.0, 0.0, 0.0);
     kiriSolver_KeepCoupled(sheet->solver, row->weights, &row->weightCount);
     kiriSolver_KeepCoupled(other->solver, row->otherWeights, &row->otherCount);
+    row->other = other->solver;
+    row->velocity = kiriVec3_Make(0.0, 0.0, 0.0);
     /* The plane is at `distance` of the second point. Visible points differ from those that frames carry. */
     kiriVec3 from = CarriedPoint(other, row->otherWeights, row->otherCount, row->otherAt);
     kiriVec3 to = CarriedPoint(sheet, row->weights, row->weightCount, row->at);

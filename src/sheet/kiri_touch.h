@@ -89,10 +89,10 @@ bool kiriTouches_Reserve(kiriSheetData* sheet);
 /* Writes a row for each touch of an awake piece, in order. Call after the commit. */
 void kiriTouches_WriteRows(kiriSheetData* sheet);
 
-/* Makes the contact of a touch with a row soft. If the place on the other sheet moves in this tick, and both sheets have
+/* Makes the contact of a touch with a row soft. `distance`: that they keep, m. If the place on the other sheet moves in this tick, and both sheets have
    the same model, makes the contact mutual and returns true. Otherwise its plane stays fixed. */
-bool kiriTouches_JoinRow(kiriSheetData* sheet, const kiriTouch* touch, kiriSheetData* other, const int32_t vertex[3],
-                         const double share[3]);
+bool kiriTouches_JoinRow(kiriSheetData* sheet, const kiriTouch* touch, double distance, kiriSheetData* other,
+                         const int32_t vertex[3], const double share[3]);
 
 /* Finds the next calm piece whose host contacts differ from the ones in its last motion. Returns false at the end.
    *at starts at 0. A piece may come more than once. */
@@ -182,6 +182,12 @@ bool kiriProbes_Update(kiriSheetData* sheet);
 
 /* Chooses the probes of a loaded sheet, with the stored `block`. */
 bool kiriProbes_Remake(kiriSheetData* sheet);
+
+/* Returns the frame with the largest weight. */
+int32_t kiriSkin_LeadingFrame(const kiriSkin* skin, int32_t sample);
+
+/* Sets vertexFrame, and lists the probes by frame. Probes are up to date. Fails on out of memory. */
+bool kiriProbes_ListRegions(kiriSheetData* sheet);
 
 /* Returns the velocity of a vertex, m/s. */
 kiriVec3 kiriProbe_Velocity(const kiriSheetData* sheet, int32_t vertex);

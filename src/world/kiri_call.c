@@ -238,7 +238,8 @@ static const kiriStruct materialStruct = STRUCT_OF(kiriMaterial, 0, NULL, materi
 #define SETTINGS_MEMBERS                                                                                               \
     STRUCT_IN(material, materialStruct), INTS_IN(maxFrames, WITHIN(1, INT32_MAX)), FLOATS_IN(crumbArea, FROM_0),       \
         FLOATS_IN(friction, FROM_0), FLOATS_IN(contactThickness, FROM_0), INTS_IN(groups, ANY_NUMBER),                 \
-        INTS_IN(touchesSheets, YES_OR_NO), INTS_IN(iterations, WITHIN(1, 64)), FLOATS_IN(sleepSpeed, FROM_0),          \
+        INTS_IN(touchesSheets, YES_OR_NO), INTS_IN(selfContact, YES_OR_NO), INTS_IN(iterations, WITHIN(1, 64)),        \
+        FLOATS_IN(sleepSpeed, FROM_0),                                                                                 \
         INTS_IN(skinning, WITHIN(KIRI_SKINNING_LINEAR, KIRI_SKINNING_SMOOTH)),                                         \
         INTS_IN(timeStepping, WITHIN(KIRI_TIME_STEPPING_SECOND_ORDER, KIRI_TIME_STEPPING_EULER)),                      \
         FLOATS_IN(fadeTime, FROM_0), INTS_IN(normals, YES_OR_NO)

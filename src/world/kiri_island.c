@@ -87,6 +87,14 @@ static int32_t NumberOfBody(const kiriIslands* islands, const kiriSheetData* she
     return islands->firstBodies.data[sheet->probes.sheet] + sheet->layout.framePiece.data[frame];
 }
 
+/* Leaves the contact out of this tick. */
+static void DropRow(kiriContactRow* row)
+{
+    row->other = NULL;
+    row->offset = -FAR_UNDER;
+    row->force = kiriVec3_Make(0.0, 0.0, 0.0); /* else the first system expects this push again */
+}
+
 /* Joins the rows of mutual contacts to their second points, and the bodies of both. A second point that does not move
    leaves the plane fixed. */
 static void JoinRows(kiriWorld* world)
@@ -99,10 +107,13 @@ static void JoinRows(kiriWorld* world)
             continue;
         }
         const kiriTouch* found = &upper->touches.found.data[touch->touch];
-        if (found->row == KIRI_NONE || !kiriTouches_JoinRow(upper, found, lower, touch->lower.vertex, touch->lower.share)) {
+        if (found->row == KIRI_NONE) {
             continue;
         }
-        const kiriContactRow* row = &upper->touches.rows.data[found->row];
+        kiriContactRow* row = &upper->touches.rows.data[found->row];
+        if (!kiriTouches_JoinRow(upper, found, touch->distance, lower, touch->lower.vertex, touch->lower.share)) {
+            continue;
+        }
         int32_t a = NumberOfBody(islands, upper, row->weights[0].frame);
         int32_t b = NumberOfBody(islands, lower, row->otherWeights[0].frame);
         kiriUnion_Join(islands->parents.data, a, b);
@@ -154,10 +165,7 @@ static void DropRows(kiriWorld* world)
         const kiriPairTouch* touch = &world->pairs.touches.data[i];
         kiriTouches* touches = &touch->upper.sheet->touches;
         if (touch->touch != KIRI_NONE && touches->found.data[touch->touch].row != KIRI_NONE) {
-            kiriContactRow* row = &touches->rows.data[touches->found.data[touch->touch].row];
-            row->other = NULL;
-            row->offset = -FAR_UNDER;
-            row->force = kiriVec3_Make(0.0, 0.0, 0.0); /* else the first system expects this push again */
+            DropRow(&touches->rows.data[touches->found.data[touch->touch].row]);
         }
     }
 }

@@ -9,11 +9,17 @@
 
 #include <string.h>
 
-#define PUSH_SPEED 0.5 /* m/s: limit of the speed at which surfaces that are too close separate */
+#define PUSH_SPEED 0.5       /* m/s: limit of the speed at which surfaces that are too close separate, */
+#define FOLD_PUSH_SPEED 0.05 /* and of the same piece: a fold that is in its own way must not gain energy */
 
 static bool TakesPart(const kiriSheetData* sheet)
 {
     return sheet->settings.touchesSheets && !sheet->settings.mechanics.planar;
+}
+
+static bool MayFold(const kiriSheetData* sheet)
+{
+    return sheet->settings.selfContact && !sheet->settings.mechanics.planar;
 }
 
 /* Returns the piece of a body, or null if it no longer exists. */
@@ -23,10 +29,24 @@ static kiriPiece* PieceOfBody(const kiriWorld* world, kiriFrame id)
     return slot != NULL ? kiriSheet_PieceOf(slot->owner, slot->index) : NULL;
 }
 
+static bool IsRegion(const kiriBody* body)
+{
+    return body->frame != KIRI_NONE;
+}
+
+/* Returns the probes of a body. */
+static kiriIndexSpan ProbesOf(const kiriBody* body)
+{
+    const kiriPieceRow* row = IsRegion(body) ? &body->sheet->probes.regions : &body->sheet->probes.list;
+    kiriSpan span = kiriPieceRow_Of(row, IsRegion(body) ? body->frame : body->piece);
+    return (kiriIndexSpan){ row->items.data + span.first, span.count };
+}
+
 /* Returns the distance that two bodies keep, m. */
 static double KeptDistance(const kiriBody* a, const kiriBody* b)
 {
-    return 0.5 * (a->sheet->settings.contactThickness + b->sheet->settings.contactThickness);
+    const kiriSettings *one = &a->sheet->settings, *other = &b->sheet->settings;
+    return IsRegion(a) ? one->foldThickness : 0.5 * (one->contactThickness + other->contactThickness);
 }
 
 /* ---- Contacts ---- */
@@ -53,10 +73,10 @@ static bool AddPlaneTouch(kiriPairTouch* pair)
     memcpy(touch.vertex, pair->upper.vertex, sizeof(touch.vertex));
     memcpy(touch.share, pair->upper.share, sizeof(touch.share));
     touch.normal = pair->normal;
-    touch.offset = kiriVec3_Dot(pair->normal, SeenAt(&pair->lower)) + 0.5 * (a->contactThickness + b->contactThickness);
+    touch.offset = kiriVec3_Dot(pair->normal, SeenAt(&pair->lower)) + pair->distance;
     touch.velocity = pair->velocity;
     touch.friction = sqrt(a->friction * b->friction);
-    touch.pushSpeed = PUSH_SPEED;
+    touch.pushSpeed = pair->isFold ? FOLD_PUSH_SPEED : PUSH_SPEED;
     touch.felt = -1.0;
     pair->touch = sheet->touches.found.count;
     return kiriTouches_Add(sheet, &touch);
@@ -70,7 +90,7 @@ static bool ReserveCalm(kiriWorld* world)
         const kiriSheetData* sheet = kiriWorld_Active(world, k);
         bool isReady = sheet->update->stage == KIRI_READY && sheet->update->cut.meshChanged;
         int32_t now = sheet->layout.pieces.count, next = isReady ? sheet->update->next.pieces.count : 0;
-        count += TakesPart(sheet) ? kiriMax(next, now) : 0;
+        count += TakesPart(sheet) || MayFold(sheet) ? kiriMax(next, now) : 0;
     }
     return kiriArray_Reserve(&world->memory, &world->pairs.parents, count) &&
            kiriArray_Reserve(&world->memory, &world->pairs.calms, count);
@@ -161,7 +181,7 @@ static bool IsPairNeeded(const kiriPairs* pairs, const kiriTouchingPair* pair, c
 {
     const kiriSheetData* upper = pairs->bodies.data[pair->bodies[0]].sheet;
     const kiriSheetData* lower = pairs->bodies.data[pair->bodies[1]].sheet;
-    return near->body == pair->bodies[0] || lower->probes.isBorder.data[near->vertex] ||
+    return near->body == pair->bodies[0] || IsRegion(&pairs->bodies.data[near->body]) || lower->probes.isBorder.data[near->vertex] ||
            lower->mesh.step * lower->mesh.squares.side < 0.5 * upper->mesh.step * upper->mesh.squares.side;
 }
 
@@ -206,10 +226,10 @@ static void ForgetTouches(kiriWorld* world)
 {
     for (int32_t i = 0; i < world->pairs.bodies.count; ++i) {
         kiriProbes* probes = &world->pairs.bodies.data[i].sheet->probes;
-        kiriSpan span = kiriPieceRow_Of(&probes->list, world->pairs.bodies.data[i].piece);
-        for (int32_t k = span.first; k < span.first + span.count; ++k) {
-            probes->touch.data[2 * (size_t)probes->list.items.data[k]] = KIRI_NONE;
-            probes->touch.data[2 * (size_t)probes->list.items.data[k] + 1] = KIRI_NONE;
+        kiriIndexSpan span = ProbesOf(&world->pairs.bodies.data[i]);
+        for (int32_t k = 0; k < span.count; ++k) {
+            probes->touch.data[2 * (size_t)span.data[k]] = KIRI_NONE;
+            probes->touch.data[2 * (size_t)span.data[k] + 1] = KIRI_NONE;
         }
     }
     world->pairs.touches.count = 0;
@@ -226,9 +246,12 @@ static bool TouchPair(kiriWorld* world, kiriTouchingPair* pair, double dt)
         kiriPairTouch touch;
         bool isUpper = near->body == pair->bodies[0];
         if (!IsPairNeeded(pairs, pair, near) ||
-            !(isUpper ? TouchFromAbove(pairs, pair, near, &touch) : TouchFromBelow(pairs, pair, near, &touch))) {
+            !(isUpper ? TouchFromAbove(pairs, pair, near, &touch) : TouchFromBelow(pairs, pair, near, &touch)) ||
+            (IsRegion(&pairs->bodies.data[near->body]) && touch.gap < -distance)) {
             continue;
         }
+        touch.distance = distance;
+        touch.isFold = IsRegion(&pairs->bodies.data[near->body]);
         touch.velocity = PlaceVelocity(&touch.lower);
         touch.touch = KIRI_NONE;
         double above = touch.gap - Approach(world, &touch, dt);
@@ -260,7 +283,7 @@ static void ListAwake(kiriWorld* world)
     pairs->calms.count = 0;
     KIRI_EACH_INDEX(k, world->active) {
         kiriSheetData* sheet = kiriWorld_Active(world, k);
-        KIRI_EACH_WHILE(TakesPart(sheet), kiriPiece, piece, sheet->layout.pieces) {
+        KIRI_EACH_WHILE(TakesPart(sheet) || MayFold(sheet), kiriPiece, piece, sheet->layout.pieces) {
             piece->awake = KIRI_NONE;
             if (kiriPiece_IsAwake(piece)) {
                 piece->awake = pairs->calms.count;
@@ -279,7 +302,8 @@ void kiriPairs_JoinCalm(kiriWorld* world)
     for (int32_t i = 0; i < pairs->pairs.count; ++i) {
         const kiriTouchingPair* pair = &pairs->pairs.data[i];
         const kiriPiece *upper = PieceOfBody(world, pair->upper), *lower = PieceOfBody(world, pair->lower);
-        bool areThere = upper != NULL && lower != NULL && kiriPiece_IsAwake(upper) && kiriPiece_IsAwake(lower);
+        bool areThere = upper != NULL && lower != NULL && upper != lower;
+        areThere = areThere && kiriPiece_IsAwake(upper) && kiriPiece_IsAwake(lower);
         if (areThere && pair->touches) {
             kiriUnion_Join(pairs->parents.data, upper->awake, lower->awake);
         }
@@ -287,7 +311,8 @@ void kiriPairs_JoinCalm(kiriWorld* world)
     for (int isGiven = 0; isGiven < 2; ++isGiven) {
         for (int32_t k = 0; k < world->active.count; ++k) {
             kiriSheetData* sheet = kiriWorld_Active(world, k);
-            for (int32_t p = 0; TakesPart(sheet) && p < sheet->layout.pieces.count; ++p) {
+            bool mayTouch = TakesPart(sheet) || MayFold(sheet);
+            for (int32_t p = 0; mayTouch && p < sheet->layout.pieces.count; ++p) {
                 kiriPiece* piece = &sheet->layout.pieces.data[p];
                 if (kiriPiece_IsAwake(piece)) {
                     double* calm = &pairs->calms.data[kiriUnion_Root(pairs->parents.data, piece->awake)];
@@ -349,6 +374,7 @@ static bool ListBodiesOf(kiriWorld* world, kiriSheetData* sheet)
         memset(&body, 0, sizeof(body));
         body.sheet = sheet;
         body.piece = p;
+        body.frame = KIRI_NONE;
         body.id = sheet->frames.data[sheet->layout.pieces.data[p].frame].id;
         body.box = sheet->probes.boxes.data[p];
         body.speed = sheet->probes.speeds.data[p];
@@ -409,7 +435,8 @@ static bool FindWaking(kiriWorld* world, Waking* waking)
     return ok;
 }
 
-/* Returns true if there are at least two bodies. The probes of a single body are not kept up to date. */
+/* Returns true if there are at least two bodies. The probes of a single body that does not fold are not kept up to
+   date. */
 static bool AreSeveral(const kiriWorld* world)
 {
     kiriSheetData* last = NULL;
@@ -420,7 +447,7 @@ static bool AreSeveral(const kiriWorld* world)
         last = TakesPart(sheet) ? sheet : last;
     }
     if (count == 1) {
-        last->probes.isFresh = false;
+        last->probes.isFresh &= last->probes.folds;
     }
     return count > 1;
 }
@@ -590,7 +617,11 @@ static bool IsBeside(const kiriNear* near, const kiriBody* bodies, double distan
     const kiriSheetData* sheet = bodies[near->other].sheet;
     double across = near->height * near->height, way = WayToBorder(sheet, near);
     bool isLip = bodies[near->body].sheet->probes.isBorder.data[near->vertex];
-    return (way <= 0.0 && squared - across >= STEEP * STEEP * across) ||
+    bool isEdge = way <= 0.0; /* or of a region: its neighbor is nearer */
+    for (int k = 0; IsRegion(&bodies[near->other]) && k < 3; ++k) {
+        isEdge |= near->share[k] <= 0.0;
+    }
+    return (isEdge && squared - across >= STEEP * STEEP * across) ||
            (isLip && way < INSIDE_TRIANGLE * distance && fabs(near->height) < FLAT_TRIANGLE * distance);
 }
 
@@ -605,6 +636,11 @@ static double LookAtTriangle(void* context, int32_t triangle)
 {
     Looking* looking = context;
     kiriNear one = *looking->near;
+    const kiriBody* other = &looking->bodies[one.other];
+    int32_t corner = other->sheet->seen.surface.indices.data[3 * (size_t)triangle];
+    if (IsRegion(other) && other->sheet->probes.vertexFrame.data[corner] != other->frame) {
+        return looking->least;
+    }
     double squared = Measure(&one, looking->bodies, triangle);
     bool isLower = looking->found && squared == looking->least && triangle < looking->near->triangle;
     if (squared < looking->least || isLower) {
@@ -628,23 +664,53 @@ static bool FindNearest(kiriNear* near, const kiriBody* bodies, double reach, do
     return looking.found && !IsBeside(near, bodies, distance, looking.least);
 }
 
+#define MOST_SHARED 0.5 /* of the weights, on frames that carry both places: if more are shared the places move together */
+#define OPEN 0.5        /* of their distance at rest: places farther apart are beside each other */
+
+/* Returns true if a probe and a place of the same piece may touch. */
+static bool MayTouchItself(const kiriSheetData* sheet, const kiriNear* near)
+{
+    const kiriSkin* skin = &sheet->vertexSkin;
+    const kiriSurface* surface = &sheet->seen.surface;
+    const int32_t* corners = &surface->indices.data[3 * (size_t)near->triangle];
+    kiriSpan own = skin->spans.data[near->vertex];
+    kiriVec2 rest = kiriVec2_Scale(-1.0, surface->rest.data[near->vertex]);
+    kiriVec3 off = kiriVec3_Scale(-1.0, kiriSurface_At(surface, near->vertex));
+    double shared = 0.0;
+    for (int c = 0; c < 3; ++c) {
+        rest = kiriVec2_Add(rest, kiriVec2_Scale(near->share[c], surface->rest.data[corners[c]]));
+        off = kiriVec3_AddScaled(off, near->share[c], kiriSurface_At(surface, corners[c]));
+    }
+    for (int32_t k = own.first; k < own.first + own.count; ++k) {
+        double there = 0.0;
+        for (int c = 0; c < 3; ++c) {
+            kiriSpan other = skin->spans.data[corners[c]];
+            for (int32_t n = other.first; n < other.first + other.count; ++n) {
+                const kiriSampleWeight* weight = &skin->weights.data[n];
+                there += weight->frame == skin->weights.data[k].frame ? near->share[c] * weight->value : 0.0;
+            }
+        }
+        shared += kiriMin(skin->weights.data[k].value, there);
+    }
+    return shared <= MOST_SHARED && kiriVec3_Dot(off, off) < OPEN * OPEN * kiriVec2_Dot(rest, rest);
+}
+
 /* Finds the near places of a body's probes on another body. Fails on out of memory. */
 static bool FindNears(kiriWorld* world, int32_t body, int32_t other, double reach)
 {
     kiriPairs* pairs = &world->pairs;
     const kiriBody *a = &pairs->bodies.data[body], *b = &pairs->bodies.data[other];
-    kiriSpan probes = kiriPieceRow_Of(&a->sheet->probes.list, a->piece);
+    kiriIndexSpan probes = ProbesOf(a);
     kiriBox box = Widened(&b->box, reach);
     bool ok = true;
-    for (int32_t i = probes.first; ok && i < probes.first + probes.count; ++i) {
-        kiriNear near = {
-            body, other, a->sheet->probes.list.items.data[i], KIRI_NONE, { 0.0 }, { 0.0, 0.0, 0.0 }, 0.0
-        };
+    for (int32_t i = 0; ok && i < probes.count; ++i) {
+        kiriNear near = { body, other, probes.data[i], KIRI_NONE, { 0.0 }, { 0.0, 0.0, 0.0 }, 0.0 };
         kiriVec3 x = kiriSurface_At(&a->sheet->seen.surface, near.vertex);
         if (!Holds(&box, x)) {
             continue;
         }
-        if (FindNearest(&near, pairs->bodies.data, reach, KeptDistance(a, b))) {
+        if (FindNearest(&near, pairs->bodies.data, reach, KeptDistance(a, b)) &&
+            (!IsRegion(a) || MayTouchItself(a->sheet, &near))) {
             ok = kiriArray_Push(&world->memory, &pairs->nears, near);
         }
     }
@@ -740,12 +806,27 @@ static bool HasSideTurned(const kiriWorld* world, const kiriTouchingPair* old, i
     return kiriVec3_Dot(up, kiriVec3_Normalize(world->gravity)) > TURNED_OVER;
 }
 
+/* Returns true if regions did not touch, or if a probe is so deep that it has passed through, or round the border. */
+static bool IsLost(const kiriPairs* pairs, const kiriTouchingPair* old, kiriSpan nears, int32_t lower)
+{
+    const kiriSheetData* sheet = pairs->bodies.data[lower].sheet;
+    double most = KeptDistance(&pairs->bodies.data[lower], &pairs->bodies.data[lower]);
+    bool isLost = !old->touches;
+    for (int32_t i = nears.first; i < nears.first + nears.count; ++i) {
+        const kiriNear* near = &pairs->nears.data[i];
+        bool isTurned = near->body == lower && kiriVec3_Dot(near->normal, NormalAt(sheet, near->vertex)) > 0.0;
+        isLost |= (isTurned ? -old->side : old->side) * near->height < -most;
+    }
+    return isLost;
+}
+
 static kiriTouchingPair Decide(const kiriWorld* world, int32_t a, int32_t b, kiriSpan nears, double dt)
 {
     const kiriPairs* pairs = &world->pairs;
     const kiriBody *one = &pairs->bodies.data[a], *other = &pairs->bodies.data[b];
     const kiriTouchingPair* old = FindOld(pairs, one->id, other->id);
-    if (old != NULL && HasSideTurned(world, old, old->upper == one->id ? b : a, nears)) {
+    int32_t last = old != NULL && old->upper == one->id ? b : a; /* the lower one in the last tick */
+    if (old != NULL && (IsRegion(one) ? IsLost(pairs, old, nears, last) : HasSideTurned(world, old, last, nears))) {
         old = NULL;
     }
     bool isUpper = old != NULL ? old->upper == one->id : IsUpper(world, one, other, DirectionFrom(pairs, nears, a, dt));
@@ -844,6 +925,115 @@ static bool LookAtAll(kiriWorld* world, double dt)
     return true;
 }
 
+/* ---- Folds ----
+
+   Regions of a piece that folds are bodies like pieces: pairs of them keep sides. */
+
+#define FOLDED 0.3  /* cosine: if the directors of all frames are nearer to their mean the piece does not fold */
+#define CLOSER 0.75 /* of the distance at rest: farther frames do not touch */
+
+static bool Folds(const kiriSheetData* sheet, int32_t piece)
+{
+    kiriIndexSpan frames = kiriSolver_FramesOf(sheet->solver, piece);
+    kiriVec3 sum = { 0.0, 0.0, 0.0 };
+    bool folds = false;
+    for (int32_t k = 0; k < frames.count; ++k) {
+        sum = kiriVec3_Add(sum, sheet->frames.data[frames.data[k]].A.d);
+    }
+    for (int32_t k = 0; k < frames.count && !folds; ++k) {
+        folds = kiriVec3_Dot(sum, sheet->frames.data[frames.data[k]].A.d) < FOLDED * kiriVec3_Length(sum);
+    }
+    return folds && kiriPiece_IsAwake(&sheet->layout.pieces.data[piece]) && !sheet->layout.pieces.data[piece].isGone;
+}
+
+/* Adds the regions of a piece, with empty boxes. Fails on out of memory. */
+static bool ListRegions(kiriWorld* world, kiriSheetData* sheet, int32_t piece)
+{
+    kiriPairs* pairs = &world->pairs;
+    kiriIndexSpan frames = kiriSolver_FramesOf(sheet->solver, piece);
+    bool ok = true;
+    for (int32_t k = 0; ok && k < frames.count; ++k) {
+        const kiriFrameData* frame = &sheet->frames.data[frames.data[k]];
+        kiriBody body = { .sheet = sheet, .piece = piece, .frame = frames.data[k], .id = frame->id };
+        body.box.lower = kiriVec3_Make(HUGE_VAL, HUGE_VAL, HUGE_VAL);
+        body.box.upper = kiriVec3_Make(-HUGE_VAL, -HUGE_VAL, -HUGE_VAL);
+        body.mass = frame->mass;
+        body.momentum = kiriVec3_Scale(frame->mass, frame->velocity);
+        body.isHeld = frame->held != 0;
+        pairs->frameBodies.data[frames.data[k]] = pairs->bodies.count;
+        ok = kiriArray_Push(&world->memory, &pairs->bodies, body);
+    }
+    return ok;
+}
+
+/* Finds the boxes of regions, and the speeds of their probes. */
+static void MeasureRegions(kiriPairs* pairs, const kiriSheetData* sheet, int32_t first)
+{
+    for (int32_t v = 0; v < sheet->probes.vertexFrame.count; ++v) {
+        int32_t body = pairs->frameBodies.data[sheet->probes.vertexFrame.data[v]];
+        if (body != KIRI_NONE) {
+            kiriBox_Add(&pairs->bodies.data[body].box, kiriSurface_At(&sheet->seen.surface, v));
+        }
+    }
+    for (int32_t b = first; b < pairs->bodies.count; ++b) {
+        kiriBody* body = &pairs->bodies.data[b];
+        kiriIndexSpan probes = ProbesOf(body);
+        for (int32_t k = 0; k < probes.count; ++k) {
+            kiriVec3 velocity = kiriProbe_Velocity(sheet, probes.data[k]);
+            kiriVec3 beside = kiriVec3_Sub(velocity, sheet->frames.data[body->frame].velocity);
+            body->speed = kiriMax(kiriVec3_Length(velocity), body->speed);
+            body->stir = kiriMax(kiriVec3_Length(beside), body->stir);
+        }
+    }
+}
+
+static bool LookAtFolds(kiriWorld* world, kiriSheetData* sheet, double dt)
+{
+    kiriPairs* pairs = &world->pairs;
+    int32_t first = pairs->bodies.count;
+    bool ok = kiriProbes_Update(sheet) && kiriProbes_ListRegions(sheet) &&
+              kiriArray_Resize(&world->memory, &pairs->frameBodies, sheet->frames.count);
+    for (int32_t f = 0; ok && f < sheet->frames.count; ++f) {
+        pairs->frameBodies.data[f] = KIRI_NONE;
+    }
+    for (int32_t p = 0; ok && p < sheet->layout.pieces.count; ++p) {
+        ok = !Folds(sheet, p) || ListRegions(world, sheet, p);
+    }
+    if (ok) {
+        MeasureRegions(pairs, sheet, first);
+    }
+    for (int32_t a = first; ok && a < pairs->bodies.count; ++a) {
+        const kiriFrameData* one = &sheet->frames.data[pairs->bodies.data[a].frame];
+        int32_t piece = pairs->bodies.data[a].piece;
+        for (int32_t b = a + 1; ok && b < pairs->bodies.count && pairs->bodies.data[b].piece == piece; ++b) {
+            const kiriFrameData* other = &sheet->frames.data[pairs->bodies.data[b].frame];
+            kiriVec3 off = kiriVec3_Sub(other->x, one->x);
+            kiriVec2 rest = kiriVec2_Sub(other->center, one->center);
+            if (kiriVec3_Dot(off, off) < CLOSER * CLOSER * kiriVec2_Dot(rest, rest)) {
+                ok = LookAtPair(world, a, b, dt);
+            }
+        }
+    }
+    return ok;
+}
+
+static bool LookForFolds(kiriWorld* world, double dt)
+{
+    bool ok = true;
+    for (int32_t k = 0; ok && k < world->active.count; ++k) {
+        kiriSheetData* sheet = kiriWorld_Active(world, k);
+        if (!sheet->rest.asleep) {
+            sheet->probes.folds = false;
+            for (int32_t p = 0; MayFold(sheet) && p < sheet->layout.pieces.count; ++p) {
+                sheet->probes.folds = sheet->probes.folds || Folds(sheet, p);
+            }
+            sheet->probes.isFresh &= sheet->probes.folds || TakesPart(sheet);
+            ok = !sheet->probes.folds || LookAtFolds(world, sheet, dt);
+        }
+    }
+    return ok;
+}
+
 static bool IsPairAsleep(const kiriWorld* world, kiriFrame id)
 {
     const kiriPiece* piece = PieceOfBody(world, id);
@@ -897,8 +1087,8 @@ bool kiriPairs_Find(kiriWorld* world, double dt)
 {
     kiriPairs* pairs = &world->pairs;
     pairs->nears.count = pairs->found.count = pairs->next.count = pairs->bodies.count = 0;
-    return (!AreSeveral(world) || LookForPairs(world, dt)) && KeepSleeping(world) && SortFound(world) &&
-           TouchPairs(world, dt);
+    return (!AreSeveral(world) || LookForPairs(world, dt)) && LookForFolds(world, dt) &&
+           KeepSleeping(world) && SortFound(world) && TouchPairs(world, dt);
 }
 
 /* ---- Sleep ---- */

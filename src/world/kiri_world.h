@@ -13,7 +13,8 @@ KIRI_C_BEGIN
 typedef struct kiriBody {
     kiriSheetData* sheet;
     int32_t piece;
-    kiriFrame id; /* id of the lowest frame of the piece; identifies the body from tick to tick */
+    int32_t frame; /* the body is the region of this frame; KIRI_NONE: the whole piece */
+    kiriFrame id; /* id of the frame, or of the lowest one of the piece; identifies the body from tick to tick */
     kiriBox box;
     double speed;      /* m/s: of its fastest probe */
     double stir;       /* m/s: of its fastest probe, relative to its mean velocity */
@@ -58,6 +59,8 @@ typedef struct kiriPairTouch {
     kiriVec3 normal;   /* unit, towards the upper place */
     kiriVec3 velocity; /* m/s: of the lower place */
     double gap;        /* m: distance of the places along the normal */
+    double distance;   /* m: that they keep */
+    bool isFold;       /* both places are of one piece */
     double rank;       /* m: the gap; less if they pushed in the last tick */
     int32_t touch; /* index in touches.found of the upper sheet, or KIRI_NONE */
 } kiriPairTouch;
@@ -86,8 +89,9 @@ typedef struct kiriIslands {
 typedef struct kiriPairs {
     kiriTouchingPairs pairs, next; /* of this tick, and found for the coming tick; sorted by ids */
     kiriTouchingPairs found;       /* unsorted */
-    KIRI_ARRAY(kiriBody) bodies;
+    KIRI_ARRAY(kiriBody) bodies;   /* pieces; then regions of pieces that fold */
     kiriIndices order; /* of bodies, by the lower x of their box */
+    kiriIndices frameBodies; /* per frame of a sheet that folds: its body, or KIRI_NONE */
     KIRI_ARRAY(kiriNear) nears;
     kiriIndices parents;      /* union-find forest of awake pieces that touch */
     kiriReals calms;          /* s, per awake piece: in a root, of the least calm piece of its tree */

@@ -763,9 +763,14 @@ namespace Kiri
         public float ContactThickness;
         /// <summary>obstacles and sheets touch if they share a set bit. Default: all</summary>
         public uint Groups;
-        /// <summary>1: its pieces touch each other, and other sheets of the same model that have it set; not if a sheet is
-        /// planar. Folds of one piece do not touch each other. The manual has rules and limits (contact). Default 0.</summary>
-        public Flag TouchesSheets;
+        /// <summary>touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set.
+        /// selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact).
+        /// Default 0.</summary>
+        public int TouchesSheets;
+        /// <summary>touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set.
+        /// selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact).
+        /// Default 0.</summary>
+        public int SelfContact;
         /// <summary>spread evenly over the sheet, at least one in every piece; default 0: none</summary>
         public int CollisionPoints;
         /// <summary>Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual</summary>
@@ -819,9 +824,14 @@ namespace Kiri
         public float ContactThickness;
         /// <summary>obstacles and sheets touch if they share a set bit. Default: all</summary>
         public uint Groups;
-        /// <summary>1: its pieces touch each other, and other sheets of the same model that have it set; not if a sheet is
-        /// planar. Folds of one piece do not touch each other. The manual has rules and limits (contact). Default 0.</summary>
-        public Flag TouchesSheets;
+        /// <summary>touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set.
+        /// selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact).
+        /// Default 0.</summary>
+        public int TouchesSheets;
+        /// <summary>touchesSheets 1: its pieces touch each other, and other sheets of the same model that have it set.
+        /// selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules and limits (contact).
+        /// Default 0.</summary>
+        public int SelfContact;
         /// <summary>Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual</summary>
         public int Iterations;
         /// <summary>A piece falls asleep when all its frames move slower than this (m/s, rms over their material) for half a

@@ -174,7 +174,7 @@ namespace Kiri.Tests
         {
             SheetDef s;
             byte* at = (byte*)&s;
-            Is("SheetDef", sizeof(SheetDef), 240);
+            Is("SheetDef", sizeof(SheetDef), 248);
             Is("SheetDef.cookie", (byte*)&s.cookie - at, 0);
             Is("SheetDef.restPositions", (byte*)&s.restPositions - at, 8);
             Is("SheetDef.vertexCount", (byte*)&s.vertexCount - at, 16);
@@ -200,23 +200,24 @@ namespace Kiri.Tests
             Is("SheetDef.ContactThickness", (byte*)&s.ContactThickness - at, 172);
             Is("SheetDef.Groups", (byte*)&s.Groups - at, 176);
             Is("SheetDef.TouchesSheets", (byte*)&s.TouchesSheets - at, 180);
-            Is("SheetDef.CollisionPoints", (byte*)&s.CollisionPoints - at, 184);
-            Is("SheetDef.Iterations", (byte*)&s.Iterations - at, 188);
-            Is("SheetDef.SleepSpeed", (byte*)&s.SleepSpeed - at, 192);
-            Is("SheetDef.Model", (byte*)&s.Model - at, 196);
-            Is("SheetDef.Skinning", (byte*)&s.Skinning - at, 200);
-            Is("SheetDef.Planar", (byte*)&s.Planar - at, 204);
-            Is("SheetDef.TimeStepping", (byte*)&s.TimeStepping - at, 208);
-            Is("SheetDef.FadeTime", (byte*)&s.FadeTime - at, 212);
-            Is("SheetDef.Normals", (byte*)&s.Normals - at, 216);
-            Is("SheetDef.Paper", (byte*)&s.Paper - at, 220);
+            Is("SheetDef.SelfContact", (byte*)&s.SelfContact - at, 184);
+            Is("SheetDef.CollisionPoints", (byte*)&s.CollisionPoints - at, 188);
+            Is("SheetDef.Iterations", (byte*)&s.Iterations - at, 192);
+            Is("SheetDef.SleepSpeed", (byte*)&s.SleepSpeed - at, 196);
+            Is("SheetDef.Model", (byte*)&s.Model - at, 200);
+            Is("SheetDef.Skinning", (byte*)&s.Skinning - at, 204);
+            Is("SheetDef.Planar", (byte*)&s.Planar - at, 208);
+            Is("SheetDef.TimeStepping", (byte*)&s.TimeStepping - at, 212);
+            Is("SheetDef.FadeTime", (byte*)&s.FadeTime - at, 216);
+            Is("SheetDef.Normals", (byte*)&s.Normals - at, 220);
+            Is("SheetDef.Paper", (byte*)&s.Paper - at, 224);
         }
 
         static void SheetSettings()
         {
             SheetSettings s;
             byte* at = (byte*)&s;
-            Is("SheetSettings", sizeof(SheetSettings), 84);
+            Is("SheetSettings", sizeof(SheetSettings), 88);
             Is("SheetSettings.cookie", (byte*)&s.cookie - at, 0);
             Is("SheetSettings.Material", (byte*)&s.Material - at, 4);
             Is("SheetSettings.MaxFrames", (byte*)&s.MaxFrames - at, 36);
@@ -225,12 +226,13 @@ namespace Kiri.Tests
             Is("SheetSettings.ContactThickness", (byte*)&s.ContactThickness - at, 48);
             Is("SheetSettings.Groups", (byte*)&s.Groups - at, 52);
             Is("SheetSettings.TouchesSheets", (byte*)&s.TouchesSheets - at, 56);
-            Is("SheetSettings.Iterations", (byte*)&s.Iterations - at, 60);
-            Is("SheetSettings.SleepSpeed", (byte*)&s.SleepSpeed - at, 64);
-            Is("SheetSettings.Skinning", (byte*)&s.Skinning - at, 68);
-            Is("SheetSettings.TimeStepping", (byte*)&s.TimeStepping - at, 72);
-            Is("SheetSettings.FadeTime", (byte*)&s.FadeTime - at, 76);
-            Is("SheetSettings.Normals", (byte*)&s.Normals - at, 80);
+            Is("SheetSettings.SelfContact", (byte*)&s.SelfContact - at, 60);
+            Is("SheetSettings.Iterations", (byte*)&s.Iterations - at, 64);
+            Is("SheetSettings.SleepSpeed", (byte*)&s.SleepSpeed - at, 68);
+            Is("SheetSettings.Skinning", (byte*)&s.Skinning - at, 72);
+            Is("SheetSettings.TimeStepping", (byte*)&s.TimeStepping - at, 76);
+            Is("SheetSettings.FadeTime", (byte*)&s.FadeTime - at, 80);
+            Is("SheetSettings.Normals", (byte*)&s.Normals - at, 84);
         }
 
         static void Mesh()

@@ -482,10 +482,14 @@ pub struct kiriSheetDef {
     pub contactThickness: f32,
     /// obstacles and sheets touch if they share a set bit. Default: all
     pub groups: u32,
-    /// 1: its pieces touch each other, and other sheets of the same model that have it set; not if
-    /// a sheet is planar. Folds of one piece do not touch each other. The manual has rules and
-    /// limits (contact). Default 0.
+    /// touchesSheets 1: its pieces touch each other, and other sheets of the same model that have
+    /// it set. selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules
+    /// and limits (contact). Default 0.
     pub touchesSheets: i32,
+    /// touchesSheets 1: its pieces touch each other, and other sheets of the same model that have
+    /// it set. selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules
+    /// and limits (contact). Default 0.
+    pub selfContact: i32,
     /// spread evenly over the sheet, at least one in every piece; default 0: none
     pub collisionPoints: i32,
     /// Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
@@ -529,10 +533,14 @@ pub struct kiriSheetSettings {
     pub contactThickness: f32,
     /// obstacles and sheets touch if they share a set bit. Default: all
     pub groups: u32,
-    /// 1: its pieces touch each other, and other sheets of the same model that have it set; not if
-    /// a sheet is planar. Folds of one piece do not touch each other. The manual has rules and
-    /// limits (contact). Default 0.
+    /// touchesSheets 1: its pieces touch each other, and other sheets of the same model that have
+    /// it set. selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules
+    /// and limits (contact). Default 0.
     pub touchesSheets: i32,
+    /// touchesSheets 1: its pieces touch each other, and other sheets of the same model that have
+    /// it set. selfContact 1: layers of a piece that folds stay apart. Not if planar. Manual: rules
+    /// and limits (contact). Default 0.
+    pub selfContact: i32,
     /// Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
     pub iterations: i32,
     /// A piece falls asleep when all its frames move slower than this (m/s, rms over their
@@ -1423,7 +1431,7 @@ const _: () = {
     assert!(offset_of!(kiriPaperOptions, linearWeights) == 8);
     assert!(offset_of!(kiriPaperOptions, integrationPoints) == 12);
     assert!(offset_of!(kiriPaperOptions, integrationOrder) == 16);
-    assert!(size_of::<kiriSheetDef>() == 240);
+    assert!(size_of::<kiriSheetDef>() == 248);
     assert!(align_of::<kiriSheetDef>() == 8);
     assert!(offset_of!(kiriSheetDef, cookie) == 0);
     assert!(offset_of!(kiriSheetDef, restPositions) == 8);
@@ -1450,17 +1458,18 @@ const _: () = {
     assert!(offset_of!(kiriSheetDef, contactThickness) == 172);
     assert!(offset_of!(kiriSheetDef, groups) == 176);
     assert!(offset_of!(kiriSheetDef, touchesSheets) == 180);
-    assert!(offset_of!(kiriSheetDef, collisionPoints) == 184);
-    assert!(offset_of!(kiriSheetDef, iterations) == 188);
-    assert!(offset_of!(kiriSheetDef, sleepSpeed) == 192);
-    assert!(offset_of!(kiriSheetDef, model) == 196);
-    assert!(offset_of!(kiriSheetDef, skinning) == 200);
-    assert!(offset_of!(kiriSheetDef, planar) == 204);
-    assert!(offset_of!(kiriSheetDef, timeStepping) == 208);
-    assert!(offset_of!(kiriSheetDef, fadeTime) == 212);
-    assert!(offset_of!(kiriSheetDef, normals) == 216);
-    assert!(offset_of!(kiriSheetDef, paper) == 220);
-    assert!(size_of::<kiriSheetSettings>() == 84);
+    assert!(offset_of!(kiriSheetDef, selfContact) == 184);
+    assert!(offset_of!(kiriSheetDef, collisionPoints) == 188);
+    assert!(offset_of!(kiriSheetDef, iterations) == 192);
+    assert!(offset_of!(kiriSheetDef, sleepSpeed) == 196);
+    assert!(offset_of!(kiriSheetDef, model) == 200);
+    assert!(offset_of!(kiriSheetDef, skinning) == 204);
+    assert!(offset_of!(kiriSheetDef, planar) == 208);
+    assert!(offset_of!(kiriSheetDef, timeStepping) == 212);
+    assert!(offset_of!(kiriSheetDef, fadeTime) == 216);
+    assert!(offset_of!(kiriSheetDef, normals) == 220);
+    assert!(offset_of!(kiriSheetDef, paper) == 224);
+    assert!(size_of::<kiriSheetSettings>() == 88);
     assert!(align_of::<kiriSheetSettings>() == 4);
     assert!(offset_of!(kiriSheetSettings, cookie) == 0);
     assert!(offset_of!(kiriSheetSettings, material) == 4);
@@ -1470,12 +1479,13 @@ const _: () = {
     assert!(offset_of!(kiriSheetSettings, contactThickness) == 48);
     assert!(offset_of!(kiriSheetSettings, groups) == 52);
     assert!(offset_of!(kiriSheetSettings, touchesSheets) == 56);
-    assert!(offset_of!(kiriSheetSettings, iterations) == 60);
-    assert!(offset_of!(kiriSheetSettings, sleepSpeed) == 64);
-    assert!(offset_of!(kiriSheetSettings, skinning) == 68);
-    assert!(offset_of!(kiriSheetSettings, timeStepping) == 72);
-    assert!(offset_of!(kiriSheetSettings, fadeTime) == 76);
-    assert!(offset_of!(kiriSheetSettings, normals) == 80);
+    assert!(offset_of!(kiriSheetSettings, selfContact) == 60);
+    assert!(offset_of!(kiriSheetSettings, iterations) == 64);
+    assert!(offset_of!(kiriSheetSettings, sleepSpeed) == 68);
+    assert!(offset_of!(kiriSheetSettings, skinning) == 72);
+    assert!(offset_of!(kiriSheetSettings, timeStepping) == 76);
+    assert!(offset_of!(kiriSheetSettings, fadeTime) == 80);
+    assert!(offset_of!(kiriSheetSettings, normals) == 84);
     assert!(size_of::<kiriMesh>() == 64);
     assert!(align_of::<kiriMesh>() == 8);
     assert!(offset_of!(kiriMesh, positions) == 0);
@@ -1745,7 +1755,7 @@ const _: () = {
     assert!(offset_of!(kiriPaperOptions, linearWeights) == 8);
     assert!(offset_of!(kiriPaperOptions, integrationPoints) == 12);
     assert!(offset_of!(kiriPaperOptions, integrationOrder) == 16);
-    assert!(size_of::<kiriSheetDef>() == 216);
+    assert!(size_of::<kiriSheetDef>() == 220);
     assert!(align_of::<kiriSheetDef>() == 4);
     assert!(offset_of!(kiriSheetDef, cookie) == 0);
     assert!(offset_of!(kiriSheetDef, restPositions) == 4);
@@ -1772,17 +1782,18 @@ const _: () = {
     assert!(offset_of!(kiriSheetDef, contactThickness) == 148);
     assert!(offset_of!(kiriSheetDef, groups) == 152);
     assert!(offset_of!(kiriSheetDef, touchesSheets) == 156);
-    assert!(offset_of!(kiriSheetDef, collisionPoints) == 160);
-    assert!(offset_of!(kiriSheetDef, iterations) == 164);
-    assert!(offset_of!(kiriSheetDef, sleepSpeed) == 168);
-    assert!(offset_of!(kiriSheetDef, model) == 172);
-    assert!(offset_of!(kiriSheetDef, skinning) == 176);
-    assert!(offset_of!(kiriSheetDef, planar) == 180);
-    assert!(offset_of!(kiriSheetDef, timeStepping) == 184);
-    assert!(offset_of!(kiriSheetDef, fadeTime) == 188);
-    assert!(offset_of!(kiriSheetDef, normals) == 192);
-    assert!(offset_of!(kiriSheetDef, paper) == 196);
-    assert!(size_of::<kiriSheetSettings>() == 84);
+    assert!(offset_of!(kiriSheetDef, selfContact) == 160);
+    assert!(offset_of!(kiriSheetDef, collisionPoints) == 164);
+    assert!(offset_of!(kiriSheetDef, iterations) == 168);
+    assert!(offset_of!(kiriSheetDef, sleepSpeed) == 172);
+    assert!(offset_of!(kiriSheetDef, model) == 176);
+    assert!(offset_of!(kiriSheetDef, skinning) == 180);
+    assert!(offset_of!(kiriSheetDef, planar) == 184);
+    assert!(offset_of!(kiriSheetDef, timeStepping) == 188);
+    assert!(offset_of!(kiriSheetDef, fadeTime) == 192);
+    assert!(offset_of!(kiriSheetDef, normals) == 196);
+    assert!(offset_of!(kiriSheetDef, paper) == 200);
+    assert!(size_of::<kiriSheetSettings>() == 88);
     assert!(align_of::<kiriSheetSettings>() == 4);
     assert!(offset_of!(kiriSheetSettings, cookie) == 0);
     assert!(offset_of!(kiriSheetSettings, material) == 4);
@@ -1792,12 +1803,13 @@ const _: () = {
     assert!(offset_of!(kiriSheetSettings, contactThickness) == 48);
     assert!(offset_of!(kiriSheetSettings, groups) == 52);
     assert!(offset_of!(kiriSheetSettings, touchesSheets) == 56);
-    assert!(offset_of!(kiriSheetSettings, iterations) == 60);
-    assert!(offset_of!(kiriSheetSettings, sleepSpeed) == 64);
-    assert!(offset_of!(kiriSheetSettings, skinning) == 68);
-    assert!(offset_of!(kiriSheetSettings, timeStepping) == 72);
-    assert!(offset_of!(kiriSheetSettings, fadeTime) == 76);
-    assert!(offset_of!(kiriSheetSettings, normals) == 80);
+    assert!(offset_of!(kiriSheetSettings, selfContact) == 60);
+    assert!(offset_of!(kiriSheetSettings, iterations) == 64);
+    assert!(offset_of!(kiriSheetSettings, sleepSpeed) == 68);
+    assert!(offset_of!(kiriSheetSettings, skinning) == 72);
+    assert!(offset_of!(kiriSheetSettings, timeStepping) == 76);
+    assert!(offset_of!(kiriSheetSettings, fadeTime) == 80);
+    assert!(offset_of!(kiriSheetSettings, normals) == 84);
     assert!(size_of::<kiriMesh>() == 36);
     assert!(align_of::<kiriMesh>() == 4);
     assert!(offset_of!(kiriMesh, positions) == 0);

@@ -879,10 +879,14 @@ pub struct SheetDef<'a> {
     pub contact_thickness: f32,
     /// obstacles and sheets touch if they share a set bit. Default: all
     pub groups: u32,
-    /// 1: its pieces touch each other, and other sheets of the same model that have it set; not if
-    /// a sheet is planar. Folds of one piece do not touch each other. The manual has rules and
-    /// limits (contact). Default 0.
-    pub touches_sheets: bool,
+    /// `touches_sheets` 1: its pieces touch each other, and other sheets of the same model that
+    /// have it set. `self_contact` 1: layers of a piece that folds stay apart. Not if planar.
+    /// Manual: rules and limits (contact). Default 0.
+    pub touches_sheets: i32,
+    /// `touches_sheets` 1: its pieces touch each other, and other sheets of the same model that
+    /// have it set. `self_contact` 1: layers of a piece that folds stay apart. Not if planar.
+    /// Manual: rules and limits (contact). Default 0.
+    pub self_contact: i32,
     /// spread evenly over the sheet, at least one in every piece; default 0: none
     pub collision_points: i32,
     /// Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
@@ -949,7 +953,8 @@ impl<'a> SheetDef<'a> {
             friction: raw.friction,
             contact_thickness: raw.contactThickness,
             groups: raw.groups,
-            touches_sheets: raw.touchesSheets != 0,
+            touches_sheets: raw.touchesSheets,
+            self_contact: raw.selfContact,
             collision_points: raw.collisionPoints,
             iterations: raw.iterations,
             sleep_speed: raw.sleepSpeed,
@@ -991,7 +996,8 @@ impl<'a> SheetDef<'a> {
         raw.friction = self.friction;
         raw.contactThickness = self.contact_thickness;
         raw.groups = self.groups;
-        raw.touchesSheets = i32::from(self.touches_sheets);
+        raw.touchesSheets = self.touches_sheets;
+        raw.selfContact = self.self_contact;
         raw.collisionPoints = self.collision_points;
         raw.iterations = self.iterations;
         raw.sleepSpeed = self.sleep_speed;
@@ -1022,10 +1028,14 @@ pub struct SheetSettings {
     pub contact_thickness: f32,
     /// obstacles and sheets touch if they share a set bit. Default: all
     pub groups: u32,
-    /// 1: its pieces touch each other, and other sheets of the same model that have it set; not if
-    /// a sheet is planar. Folds of one piece do not touch each other. The manual has rules and
-    /// limits (contact). Default 0.
-    pub touches_sheets: bool,
+    /// `touches_sheets` 1: its pieces touch each other, and other sheets of the same model that
+    /// have it set. `self_contact` 1: layers of a piece that folds stay apart. Not if planar.
+    /// Manual: rules and limits (contact). Default 0.
+    pub touches_sheets: i32,
+    /// `touches_sheets` 1: its pieces touch each other, and other sheets of the same model that
+    /// have it set. `self_contact` 1: layers of a piece that folds stay apart. Not if planar.
+    /// Manual: rules and limits (contact). Default 0.
+    pub self_contact: i32,
     /// Newton steps a substep, 1 to 64; default 2. A sheet of 1000 frames needs 8, see the manual
     pub iterations: i32,
     /// A piece falls asleep when all its frames move slower than this (m/s, rms over their
@@ -1053,7 +1063,8 @@ impl SheetSettings {
             friction: raw.friction,
             contact_thickness: raw.contactThickness,
             groups: raw.groups,
-            touches_sheets: raw.touchesSheets != 0,
+            touches_sheets: raw.touchesSheets,
+            self_contact: raw.selfContact,
             iterations: raw.iterations,
             sleep_speed: raw.sleepSpeed,
             skinning: Skinning::known(raw.skinning),
@@ -1072,7 +1083,8 @@ impl SheetSettings {
             friction: self.friction,
             contactThickness: self.contact_thickness,
             groups: self.groups,
-            touchesSheets: i32::from(self.touches_sheets),
+            touchesSheets: self.touches_sheets,
+            selfContact: self.self_contact,
             iterations: self.iterations,
             sleepSpeed: self.sleep_speed,
             skinning: self.skinning as i32,
