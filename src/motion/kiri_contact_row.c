@@ -137,7 +137,8 @@ static void PlacePlane(const kiriSolver* solver, const kiriSystem* system, const
     step->carried = kiriVec3_Scale(solver->dt, SurfaceVelocity(step, step->start));
     double now = row->offset + kiriVec3_Dot(row->normal, kiriVec3_Add(row->way, off));
     double depth = now - kiriVec3_Dot(row->normal, step->start), pushed = row->pushSpeed * solver->dt;
-    pushed += kiriClamp(2.0 * row->reach - depth, 0.0, row->reach); /* a soft contact rests within its reach */
+    /* A soft contact rests within its reach. A fold may lie deeper: its push may not fall with the depth. */
+    pushed += row->isFold ? row->reach : kiriClamp(2.0 * row->reach - depth, 0.0, row->reach);
     step->lowered = depth > pushed ? depth - pushed : 0.0;
     double out = depth > 0.0 && !kiriContact_IsMutual(step) ? depth - step->lowered : 0.0; /* it may gain energy so */
     step->lift = kiriVec3_Dot(row->normal, step->carried) + out;
