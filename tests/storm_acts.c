@@ -193,6 +193,7 @@ static void ChangeSettings(Storm* storm)
     settings.material.airDamping = Storm_Between(storm, 0.0f, 1.0f);
     settings.material.flexDamping = Storm_Between(storm, 0.0f, 0.002f);
     settings.material.yieldStress = Storm_Random(storm, 2) == 0 ? 0.0f : 1e7f;
+    settings.material.detail = settings.iterations % 3;
     Storm_Note(storm, kiriSheet_SetSettings(storm->world, sheet, &settings));
 }
 

@@ -31,7 +31,7 @@ static Sheet MakeSheet(float length, float width, float square, float poissonsRa
 
 static kiriSheetDef DefOf(const Sheet* s)
 {
-    kiriMaterial material = { 7.438285638990287e8f, s->poissonsRatio, 5e-4f, 1000.0f, 20.0f, 0.0f, 0.0f, 0.0f };
+    kiriMaterial material = { 7.438285638990287e8f, s->poissonsRatio, 5e-4f, 1000.0f, 20.0f, 0.0f, 0.0f, 0.0f, 0 };
     kiriSheetDef def;
     kiriDefaultSheetDef(&def);
     def.material = material;

@@ -167,7 +167,7 @@ static double TorqueOfZigzag(int32_t count, double aside, float poissonsRatio)
     const float none[3] = { 0.0f, 0.0f, 0.0f };
     float points[2 * 64];
     kiriSheetDef def = PaperDef(160, 1.0f);
-    def.material = (kiriMaterial){ 7.4e8f, poissonsRatio, 5e-4f, 1000.0f, 20.0f, 0.0f, 0.0f, 0.0f };
+    def.material = (kiriMaterial){ 7.4e8f, poissonsRatio, 5e-4f, 1000.0f, 20.0f, 0.0f, 0.0f, 0.0f, 0 };
     def.frameCount = def.maxFrames = count;
     def.framePoints = points;
     for (int32_t i = 0; i < count; ++i) {
@@ -218,7 +218,7 @@ static void CheckClampedStrip(int32_t count, int32_t skinning)
     const float ends[8] = { 0.0f, 0.0f, 0.0f, width, length, 0.0f, length, width };
     const float load[3] = { 0.0f, 0.0f, (float)(-sag * 32.0 * E * h * h / (1000.0 * L * L * L * L)) };
     kiriSheetDef def = PaperDef(80, 1.0f);
-    def.material = (kiriMaterial){ (float)E, 0.0f, (float)h, 1000.0f, 20.0f, 0.0f, 0.0f, 0.0f };
+    def.material = (kiriMaterial){ (float)E, 0.0f, (float)h, 1000.0f, 20.0f, 0.0f, 0.0f, 0.0f, 0 };
     def.skinning = skinning;
     def.frameCount = def.maxFrames = count;
     float points[64];

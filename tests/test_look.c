@@ -69,6 +69,7 @@ static Looks LookAtArc(double angle, int32_t linear, int32_t skinning)
     kiriSheetDef def;
     kiriDefaultSheetDef(&def);
     def.gridResolution = 280;
+    def.material.detail = 0; /* weights alone */
     def.frameCount = def.maxFrames = FRAMES;
     def.framePoints = points;
     def.paper.linearWeights = linear;

@@ -543,6 +543,7 @@ static void TestMotionGoesOn(void** state)
         kiriSheetDef def = AnyDef(&seed);
         def.velocity[0] = 0.3f;
         def.material.youngsModulus = 1e6f;
+        def.material.detail = 0; /* the order of its sweeps follows the indices of triangles */
         def.iterations = 16;
         def.model = (int32_t)(run % 3);
         assert_true(RunTwice(&def, seed, run % 2 == 0 ? 1 : 4) < 1e-6);

@@ -1,6 +1,6 @@
 /* What a tick does not write anew is seen as if it were: the world is validated after each tick, and that writes all of
    it. */
-#include "host.h"
+#include "look.h"
 
 enum { SQUARES = 96, DICE = 12, TICKS = 150 };
 
@@ -168,11 +168,149 @@ static void TestPartsWakeAlone(void** state)
     Host_Stop(&host);
 }
 
+/* Share of the area whose in-plane strain exceeds 5 %. */
+static double StrainedShare(const kiriMesh* mesh)
+{
+    double all = 0.0, strained = 0.0;
+    for (int32_t t = 0; t < mesh->triangleCount; ++t) {
+        const int32_t* v = mesh->indices + 3 * t;
+        double rest[2][2], along[2][3], p = 0.0, q = 0.0, s = 0.0;
+        for (int k = 0; k < 2; ++k) {
+            for (int i = 0; i < 3; ++i) {
+                along[k][i] = mesh->positions[3 * v[k + 1] + i] - mesh->positions[3 * v[0] + i];
+                rest[k][i % 2] = mesh->restPositions[2 * v[k + 1] + i % 2] - mesh->restPositions[2 * v[0] + i % 2];
+            }
+        }
+        double area = rest[0][0] * rest[1][1] - rest[0][1] * rest[1][0];
+        for (int i = 0; i < 3; ++i) {
+            double du = (rest[1][1] * along[0][i] - rest[0][1] * along[1][i]) / area;
+            double dv = (rest[0][0] * along[1][i] - rest[1][0] * along[0][i]) / area;
+            p += du * du;
+            q += dv * dv;
+            s += du * dv;
+        }
+        double middle = 0.5 * (p + q), by = sqrt(0.25 * (p - q) * (p - q) + s * s);
+        all += area;
+        strained += middle + by > 1.05 * 1.05 || middle - by < 0.95 * 0.95 ? area : 0.0;
+    }
+    return strained / all;
+}
+
+/* A curtain whose upper corners come together, or a cloth that falls over a ball. */
+static kiriSheet AddCloth(Host* host, int32_t detail, int32_t frames, kiriPin pins[2])
+{
+    kiriSheetDef def;
+    kiriPinDef pin;
+    kiriDefaultSheetDef(&def);
+    kiriDefaultPinDef(&pin);
+    def.material.detail = detail;
+    def.frameCount = frames;
+    host->every = 20;
+    kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 48, 48);
+    for (int k = 0; pins != NULL && k < 2; ++k) {
+        pin.restPoint[0] = pin.target[0] = (float)k;
+        pin.restPoint[1] = pin.target[1] = 1.0f;
+        OK(kiriCreatePin(host->world, sheet, &pin, &pins[k]));
+    }
+    return sheet;
+}
+
+/* The detail layer takes the strain out of gathered cloth, and moves no frame; a commit does not make it jump. */
+static void TestDetailOfCurtain(void** state)
+{
+    (void)state;
+    enum { GATHER = 60, HANG = 600 };
+    for (int32_t frames = 25; frames <= 100; frames += 75) {
+        Host hosts[2];
+        kiriSheet sheet[2];
+        kiriPin pins[2];
+        kiriMesh mesh[2];
+        for (int32_t i = 0; i < 2; ++i) {
+            Host_Start(&hosts[i]);
+            sheet[i] = AddCloth(&hosts[i], 2 * i, frames, pins);
+            for (int32_t tick = 0; tick < HANG; ++tick) {
+                float in = 0.35f * (float)(tick < GATHER ? tick + 1 : GATHER) / GATHER;
+                OK(kiriPin_SetTarget(hosts[i].world, pins[0], (float[]){ in, 1.0f, 0.0f }));
+                OK(kiriPin_SetTarget(hosts[i].world, pins[1], (float[]){ 1.0f - in, 1.0f, 0.0f }));
+                OK(Host_Tick(&hosts[i], dt, 4));
+            }
+            mesh[i] = Host_Mesh(&hosts[i], sheet[i]);
+        }
+        kiriTotals plain = Host_Totals(&hosts[0], sheet[0]), detailed = Host_Totals(&hosts[1], sheet[1]);
+        assert_memory_equal(&plain, &detailed, sizeof(plain));
+        double without = StrainedShare(&mesh[0]), with = StrainedShare(&mesh[1]);
+        assert_true(without > 0.2);
+        assert_true(with < (frames == 25 ? 0.2 * without : 0.01)); /* 25 frames leave more than the layer takes */
+        int32_t count = mesh[1].vertexCount;
+        float most = 0.0f, *before = malloc(12 * (size_t)count);
+        memcpy(before, mesh[1].positions, 12 * (size_t)count);
+        Host_Cut(&hosts[1], sheet[1], (float[]){ 0.4f, -0.1f, 0.6f, 0.8f }, 2);
+        OK(kiriWorld_FinishCuts(hosts[1].world));
+        mesh[1] = Host_Mesh(&hosts[1], sheet[1]);
+        assert_true(mesh[1].vertexCount > count);
+        for (int32_t k = 0; k < 3 * count; ++k) {
+            most = fmaxf(most, fabsf(mesh[1].positions[k] - before[k]));
+        }
+        assert_true(most < 1e-4f / 32.0f);
+        free(before);
+        Host_Stop(&hosts[0]);
+        Host_Stop(&hosts[1]);
+    }
+}
+
+/* The detail layer is at most as deep in a ball as the skin, and sleeps with its piece. */
+static void TestDetailOnBall(void** state)
+{
+    (void)state;
+    Host hosts[2];
+    kiriSheet sheet[2];
+    kiriMesh mesh[2];
+    int32_t awake = 1;
+    for (int32_t i = 0; i < 2; ++i) {
+        kiriObstacleDef def;
+        kiriObstacle ball;
+        Host_Start(&hosts[i]);
+        sheet[i] = AddCloth(&hosts[i], 2 * i, 25, NULL);
+        kiriDefaultObstacleDef(&def);
+        def.type = KIRI_OBSTACLE_SPHERE;
+        def.radius = 0.3f;
+        def.position[0] = def.position[1] = 0.5f;
+        def.position[2] = -0.31f;
+        OK(kiriCreateObstacle(hosts[i].world, &def, &ball));
+        def.type = KIRI_OBSTACLE_PLANE;
+        def.position[2] = -0.62f;
+        OK(kiriCreateObstacle(hosts[i].world, &def, &ball));
+    }
+    for (int32_t tick = 0; awake && tick < 900; ++tick) {
+        for (int32_t i = 0; i < 2; ++i) {
+            OK(Host_Tick(&hosts[i], dt, 4));
+            mesh[i] = Host_Mesh(&hosts[i], sheet[i]);
+        }
+        for (int32_t v = 0; tick % 20 == 0 && v < mesh[1].vertexCount; ++v) {
+            double from[2];
+            for (int32_t i = 0; i < 2; ++i) {
+                const float* x = mesh[i].positions + 3 * (size_t)v;
+                from[i] = sqrt((x[0] - 0.5) * (x[0] - 0.5) + (x[1] - 0.5) * (x[1] - 0.5) + (x[2] + 0.31) * (x[2] + 0.31));
+            }
+            assert_true(from[1] > fmin(from[0], 0.3) - 1e-5);
+        }
+        OK(kiriSheet_IsAwake(hosts[1].world, sheet[1], &awake));
+    }
+    assert_false(awake);
+    uint64_t seen = Look_Sheet(0, hosts[1].world, sheet[1]);
+    OK(Host_Tick(&hosts[1], dt, 4));
+    assert_true(Look_Sheet(0, hosts[1].world, sheet[1]) == seen);
+    Host_Stop(&hosts[0]);
+    Host_Stop(&hosts[1]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestAsWrittenAnew),
         cmocka_unit_test(TestPartsWakeAlone),
+        cmocka_unit_test(TestDetailOfCurtain),
+        cmocka_unit_test(TestDetailOnBall),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-static const kiriMaterial Paper = { 2e9f, 0.3f, 1e-4f, 800.0f, 0.0f, 0.0f, 0.0f, 0.0f };
+static const kiriMaterial Paper = { 2e9f, 0.3f, 1e-4f, 800.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0 };
 
 /* ---- Links of frames that turn ---- */
 
@@ -306,7 +306,7 @@ static void TestForcesAreTheSlopeOfTheEnergy(void** state)
     const double eps = 1e-6;
     uint32_t seed = 37;
     (void)state;
-    BodyDef def = DefOf(KIRI_MODEL_LINKS, (kiriMaterial){ 1e6f, 0.4f, 0.01f, 1000.0f, 0.0f, 0.0f, 0.0f, 0.0f });
+    BodyDef def = DefOf(KIRI_MODEL_LINKS, (kiriMaterial){ 1e6f, 0.4f, 0.01f, 1000.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0 });
     Make(&body, &def, 4, 3, 0.0, 1);
     for (int k = 0; k < body.system.linkCount; ++k) {
         for (int e = 0; e < KIRI_NORMAL_STOP; ++e) {

@@ -232,6 +232,7 @@ static void SurfaceIsTheBlend(void** state)
         def.frameCount = FRAMES_OF_RANDOM;
         def.model = seed % 3 == 2 ? KIRI_MODEL_AFFINE : KIRI_MODEL_LINKS;
         def.fadeTime = 0.0f;
+        def.material.detail = 0;
         kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 13, 13);
         OK(kiriSheet_ClampLine(host.world, sheet, (float[]){ 0.0f, 1.0f }, (float[]){ 1.0f, 1.0f }, &pin));
         for (int tick = 0; tick < 20; ++tick) {

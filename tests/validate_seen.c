@@ -1,6 +1,9 @@
 /* What is seen: as if all of it were written anew. */
 #include "validate_check.h"
 
+#include "sheet/kiri_build.h"
+
+#include <math.h>
 #include <string.h>
 
 static float* CopyFloats(Check* check, const float* from, int64_t count)
@@ -29,8 +32,30 @@ static bool Check_AreFarSums(Check* check, const kiriSurface* surface)
 {
     const float middle[3] = { (float)surface->middle.x, (float)surface->middle.y, (float)surface->middle.z };
     for (int64_t k = 0; kiriSurface_IsFar(surface) && k < 3 * (int64_t)surface->vertexCount; ++k) {
-        float sum = middle[k % 3] + surface->places.data[k];
+        float sum = middle[k % 3] + kiriSurface_Drawn(surface)[k];
         REQUIRE(surface->positions.data[k] == sum, "coordinate %d is %.9g, and not %.9g", (int)k, (double)surface->positions.data[k], (double)sum);
+    }
+    return true;
+}
+
+/* Offsets are no longer than the leash, and edges of a color share no vertex. */
+static bool Check_Detail(Check* check, const kiriSheetData* sheet)
+{
+    const kiriDetail* detail = &sheet->seen.surface.detail;
+    int32_t* last = Check_Ints(check, sheet->mesh.vertices.count, KIRI_NONE);
+    REQUIRE(detail->sweeps == kiriSettings_Detail(&sheet->settings), "%d sweeps", detail->sweeps);
+    REQUIRE(detail->offsets.count == (detail->sweeps > 0 ? 3 * sheet->seen.surface.vertexCount : 0), "%d offsets",
+            detail->offsets.count);
+    for (int32_t k = 0; k < detail->offsets.count; ++k) {
+        REQUIRE(isfinite(detail->offsets.data[k]), "the offset of vertex %d is %g", k / 3, (double)detail->offsets.data[k]);
+    }
+    for (int32_t color = 0; detail->isListed && color < KIRI_DETAIL_COLORS - 1; ++color) {
+        for (int32_t k = detail->colorStart[color]; k < detail->colorStart[color + 1]; ++k) {
+            const kiriDetailEdge* edge = &detail->edges.data[k];
+            REQUIRE(last[edge->a] != color && last[edge->b] != color, "edge %d %d meets another of color %d", edge->a,
+                    edge->b, color);
+            last[edge->a] = last[edge->b] = color;
+        }
     }
     return true;
 }
@@ -41,16 +66,21 @@ bool Check_Seen(Check* check, const kiriSheetData* sheet)
     kiriSurface anew = *surface;
     int64_t count = surface->vertexCount;
     check->part = "seen";
+    if (!Check_Detail(check, sheet)) {
+        return false;
+    }
     if (!surface->isSteady || surface->patches.count != sheet->frames.count ||
         sheet->seen.isElsewhere) {
         return true; /* something has changed since it was written */
     }
     anew.positions.data = CopyFloats(check, surface->positions.data, 3 * count + 1);
     anew.places.data = CopyFloats(check, surface->places.data, 3 * count + 1);
+    anew.detail.drawn.data = CopyFloats(check, surface->detail.drawn.data, surface->detail.drawn.count);
     anew.normals.data = CopyFloats(check, surface->normals.data, 3 * count);
     anew.slopes.data = CopyFloats(check, surface->slopes.data, 4 * count);
     kiriSurface_BlendRange(&anew, &sheet->vertexSkin, 0, surface->vertexCount);
     kiriSurface_AddFades(&anew, &sheet->seen.fades);
+    kiriSurface_DrawRange(&anew, 0, surface->vertexCount);
     kiriSurface_SumNormals(&anew);
     kiriSurface_WriteRange(&anew, 0, surface->vertexCount);
     return Check_AreFarSums(check, &anew) &&

@@ -85,9 +85,10 @@ static const Field MATERIAL_FIELDS[] = {
     { "flex_damping", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriMaterial, flexDamping), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "yield_stress", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriMaterial, yieldStress), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "hardening", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriMaterial, hardening), 1, 0, 0, 0, CLASS_NONE, NULL },
+    { "detail", TYPE_INT32, KIND_INT, (int)offsetof(kiriMaterial, detail), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-static const Struct MATERIAL = { "Material", (int)sizeof(kiriMaterial), 8, MATERIAL_FIELDS, NULL, NULL };
+static const Struct MATERIAL = { "Material", (int)sizeof(kiriMaterial), 9, MATERIAL_FIELDS, NULL, NULL };
 
 static const Field QUALITY_FIELDS[] = {
     { "frames_along", TYPE_INT32, KIND_INT, (int)offsetof(kiriQuality, framesAlong), 1, 0, 0, 0, CLASS_NONE, NULL },

@@ -403,6 +403,8 @@ export class Material {
     yieldStress: number;
     /** modulus beyond the yield stress, relative to youngsModulus; 0 to below 1 */
     hardening: number;
+    /** sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cotton 2, others 0 */
+    detail: number;
 }
 /** What a host gives as Material: what is left out is 0. */
 export interface MaterialGiven {
@@ -423,6 +425,8 @@ export interface MaterialGiven {
     yieldStress?: number;
     /** modulus beyond the yield stress, relative to youngsModulus; 0 to below 1 */
     hardening?: number;
+    /** sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cotton 2, others 0 */
+    detail?: number;
 }
 
 /** Work against accuracy. Errors of a swinging strip and square of paper, rms over their way: FAST at most 2 %,
@@ -714,10 +718,10 @@ export interface SheetSettingsGiven {
     normals?: boolean | number;
 }
 
-/** The triangles to draw, as after the last tick. revision grows when indices or vertices are added or changed. Rest
- *  positions are floats, so small triangles far from the origin of the rest plane may look flat in them;
- *  sourceTriangles and sourceWeights have the precision of the library, 2^-29 of the sheet. Arrays are those of the
- *  library: after the next tick they throw. */
+/** The triangles to draw, as after the last tick, with the detail layer of the material (manual, sheets). revision
+ *  grows when indices or vertices are added or changed. Rest positions are floats, so small triangles far from the
+ *  origin of the rest plane may look flat in them; sourceTriangles and sourceWeights have the precision of the library,
+ *  2^-29 of the sheet. Arrays are those of the library: after the next tick they throw. */
 export class Mesh {
     /** 3 a vertex, m, world */
     readonly positions: Float32Array;

@@ -49,20 +49,20 @@ export const layouts = {
         samplesRefreshed: 84, solverIterations: 88, cellsChanged: 92, weightsChanged: 96, verticesChanged: 100,
         pointsChanged: 104, linksChanged: 108, commits: 112, systemsSolved: 116, contacts: 120, sheetPairs: 124,
         largestJump: 128, largestFade: 136 } },
-    kiriMaterial: { size: 32, fields: { youngsModulus: 0, poissonsRatio: 4, thickness: 8, density: 12, airDamping: 16,
-        flexDamping: 20, yieldStress: 24, hardening: 28 } },
+    kiriMaterial: { size: 36, fields: { youngsModulus: 0, poissonsRatio: 4, thickness: 8, density: 12, airDamping: 16,
+        flexDamping: 20, yieldStress: 24, hardening: 28, detail: 32 } },
     kiriQuality: { size: 16, fields: { framesAlong: 0, gridResolution: 4, iterations: 8, substeps: 12 } },
     kiriPaperOptions: { size: 20, fields: { fromScratch: 0, popping: 4, linearWeights: 8, integrationPoints: 12,
         integrationOrder: 16 } },
-    kiriSheetDef: { size: 220, fields: { cookie: 0, restPositions: 4, vertexCount: 8, indices: 12, triangleCount: 16,
-        position: 20, axisU: 32, axisV: 44, velocity: 56, material: 68, gridResolution: 100, snapDistance: 104,
-        weldDistance: 108, frameCount: 112, frameLength: 116, accuracy: 120, framePoints: 124, maxFrames: 128,
-        rigidWeight: 132, rigidArea: 136, crumbArea: 140, friction: 144, contactThickness: 148, groups: 152,
-        touchesSheets: 156, selfContact: 160, collisionPoints: 164, iterations: 168, sleepSpeed: 172, model: 176,
-        skinning: 180, planar: 184, timeStepping: 188, fadeTime: 192, normals: 196, paper: 200 } },
-    kiriSheetSettings: { size: 88, fields: { cookie: 0, material: 4, maxFrames: 36, crumbArea: 40, friction: 44,
-        contactThickness: 48, groups: 52, touchesSheets: 56, selfContact: 60, iterations: 64, sleepSpeed: 68,
-        skinning: 72, timeStepping: 76, fadeTime: 80, normals: 84 } },
+    kiriSheetDef: { size: 224, fields: { cookie: 0, restPositions: 4, vertexCount: 8, indices: 12, triangleCount: 16,
+        position: 20, axisU: 32, axisV: 44, velocity: 56, material: 68, gridResolution: 104, snapDistance: 108,
+        weldDistance: 112, frameCount: 116, frameLength: 120, accuracy: 124, framePoints: 128, maxFrames: 132,
+        rigidWeight: 136, rigidArea: 140, crumbArea: 144, friction: 148, contactThickness: 152, groups: 156,
+        touchesSheets: 160, selfContact: 164, collisionPoints: 168, iterations: 172, sleepSpeed: 176, model: 180,
+        skinning: 184, planar: 188, timeStepping: 192, fadeTime: 196, normals: 200, paper: 204 } },
+    kiriSheetSettings: { size: 92, fields: { cookie: 0, material: 4, maxFrames: 40, crumbArea: 44, friction: 48,
+        contactThickness: 52, groups: 56, touchesSheets: 60, selfContact: 64, iterations: 68, sleepSpeed: 72,
+        skinning: 76, timeStepping: 80, fadeTime: 84, normals: 88 } },
     kiriMesh: { size: 36, fields: { positions: 0, normals: 4, restPositions: 8, indices: 12, sourceTriangles: 16,
         sourceWeights: 20, vertexCount: 24, triangleCount: 28, revision: 32 } },
     kiriRange: { size: 8, fields: { first: 0, count: 4 } },
@@ -333,6 +333,7 @@ export class Material {
     flexDamping = 0;
     yieldStress = 0;
     hardening = 0;
+    detail = 0;
 }
 
 function readMaterial(o, at, world) {
@@ -344,11 +345,12 @@ function readMaterial(o, at, world) {
     o.flexDamping = F32[(at + 20) >> 2];
     o.yieldStress = F32[(at + 24) >> 2];
     o.hardening = F32[(at + 28) >> 2];
+    o.detail = I32[(at + 32) >> 2];
     return o;
 }
 
 const fieldsOfMaterial = new Set(["youngsModulus", "poissonsRatio", "thickness", "density", "airDamping",
-    "flexDamping", "yieldStress", "hardening"]);
+    "flexDamping", "yieldStress", "hardening", "detail"]);
 
 function writeMaterial(o, at, world) {
     known(o, fieldsOfMaterial, "Material");
@@ -375,6 +377,9 @@ function writeMaterial(o, at, world) {
     }
     if (o.hardening !== undefined) {
         F32[(at + 28) >> 2] = o.hardening;
+    }
+    if (o.detail !== undefined) {
+        I32[(at + 32) >> 2] = o.detail;
     }
 }
 
@@ -482,32 +487,32 @@ function readSheetDef(o, at, world) {
     fill(F32, (at + 44) >> 2, o.axisV);
     fill(F32, (at + 56) >> 2, o.velocity);
     readMaterial(o.material, at + 68, world);
-    o.gridResolution = I32[(at + 100) >> 2];
-    o.snapDistance = F32[(at + 104) >> 2];
-    o.weldDistance = F32[(at + 108) >> 2];
-    o.frameCount = I32[(at + 112) >> 2];
-    o.frameLength = F32[(at + 116) >> 2];
-    o.accuracy = F32[(at + 120) >> 2];
+    o.gridResolution = I32[(at + 104) >> 2];
+    o.snapDistance = F32[(at + 108) >> 2];
+    o.weldDistance = F32[(at + 112) >> 2];
+    o.frameCount = I32[(at + 116) >> 2];
+    o.frameLength = F32[(at + 120) >> 2];
+    o.accuracy = F32[(at + 124) >> 2];
     o.framePoints = null;
-    o.maxFrames = I32[(at + 128) >> 2];
-    o.rigidWeight = F32[(at + 132) >> 2];
-    o.rigidArea = F32[(at + 136) >> 2];
-    o.crumbArea = F32[(at + 140) >> 2];
-    o.friction = F32[(at + 144) >> 2];
-    o.contactThickness = F32[(at + 148) >> 2];
-    o.groups = U32[(at + 152) >> 2];
-    o.touchesSheets = I32[(at + 156) >> 2];
-    o.selfContact = I32[(at + 160) >> 2];
-    o.collisionPoints = I32[(at + 164) >> 2];
-    o.iterations = I32[(at + 168) >> 2];
-    o.sleepSpeed = F32[(at + 172) >> 2];
-    o.model = I32[(at + 176) >> 2];
-    o.skinning = I32[(at + 180) >> 2];
-    o.planar = I32[(at + 184) >> 2] !== 0;
-    o.timeStepping = I32[(at + 188) >> 2];
-    o.fadeTime = F32[(at + 192) >> 2];
-    o.normals = I32[(at + 196) >> 2] !== 0;
-    readPaperOptions(o.paper, at + 200, world);
+    o.maxFrames = I32[(at + 132) >> 2];
+    o.rigidWeight = F32[(at + 136) >> 2];
+    o.rigidArea = F32[(at + 140) >> 2];
+    o.crumbArea = F32[(at + 144) >> 2];
+    o.friction = F32[(at + 148) >> 2];
+    o.contactThickness = F32[(at + 152) >> 2];
+    o.groups = U32[(at + 156) >> 2];
+    o.touchesSheets = I32[(at + 160) >> 2];
+    o.selfContact = I32[(at + 164) >> 2];
+    o.collisionPoints = I32[(at + 168) >> 2];
+    o.iterations = I32[(at + 172) >> 2];
+    o.sleepSpeed = F32[(at + 176) >> 2];
+    o.model = I32[(at + 180) >> 2];
+    o.skinning = I32[(at + 184) >> 2];
+    o.planar = I32[(at + 188) >> 2] !== 0;
+    o.timeStepping = I32[(at + 192) >> 2];
+    o.fadeTime = F32[(at + 196) >> 2];
+    o.normals = I32[(at + 200) >> 2] !== 0;
+    readPaperOptions(o.paper, at + 204, world);
     return o;
 }
 
@@ -546,83 +551,83 @@ function writeSheetDef(o, at, world) {
         writeMaterial(o.material, at + 68, world);
     }
     if (o.gridResolution !== undefined) {
-        I32[(at + 100) >> 2] = o.gridResolution;
+        I32[(at + 104) >> 2] = o.gridResolution;
     }
     if (o.snapDistance !== undefined) {
-        F32[(at + 104) >> 2] = o.snapDistance;
+        F32[(at + 108) >> 2] = o.snapDistance;
     }
     if (o.weldDistance !== undefined) {
-        F32[(at + 108) >> 2] = o.weldDistance;
+        F32[(at + 112) >> 2] = o.weldDistance;
     }
     if (o.frameCount !== undefined) {
-        I32[(at + 112) >> 2] = o.frameCount;
+        I32[(at + 116) >> 2] = o.frameCount;
     }
     if (o.frameLength !== undefined) {
-        F32[(at + 116) >> 2] = o.frameLength;
+        F32[(at + 120) >> 2] = o.frameLength;
     }
     if (o.accuracy !== undefined) {
-        F32[(at + 120) >> 2] = o.accuracy;
+        F32[(at + 124) >> 2] = o.accuracy;
     }
     if (o.framePoints != null) {
-        U32[(at + 124) >> 2] = putRows("Float32Array", o.framePoints, 2, "framePoints");
-        I32[(at + 112) >> 2] = o.framePoints.length / 2;
+        U32[(at + 128) >> 2] = putRows("Float32Array", o.framePoints, 2, "framePoints");
+        I32[(at + 116) >> 2] = o.framePoints.length / 2;
     }
     if (o.maxFrames !== undefined) {
-        I32[(at + 128) >> 2] = o.maxFrames;
+        I32[(at + 132) >> 2] = o.maxFrames;
     }
     if (o.rigidWeight !== undefined) {
-        F32[(at + 132) >> 2] = o.rigidWeight;
+        F32[(at + 136) >> 2] = o.rigidWeight;
     }
     if (o.rigidArea !== undefined) {
-        F32[(at + 136) >> 2] = o.rigidArea;
+        F32[(at + 140) >> 2] = o.rigidArea;
     }
     if (o.crumbArea !== undefined) {
-        F32[(at + 140) >> 2] = o.crumbArea;
+        F32[(at + 144) >> 2] = o.crumbArea;
     }
     if (o.friction !== undefined) {
-        F32[(at + 144) >> 2] = o.friction;
+        F32[(at + 148) >> 2] = o.friction;
     }
     if (o.contactThickness !== undefined) {
-        F32[(at + 148) >> 2] = o.contactThickness;
+        F32[(at + 152) >> 2] = o.contactThickness;
     }
     if (o.groups !== undefined) {
-        U32[(at + 152) >> 2] = o.groups;
+        U32[(at + 156) >> 2] = o.groups;
     }
     if (o.touchesSheets !== undefined) {
-        I32[(at + 156) >> 2] = o.touchesSheets;
+        I32[(at + 160) >> 2] = o.touchesSheets;
     }
     if (o.selfContact !== undefined) {
-        I32[(at + 160) >> 2] = o.selfContact;
+        I32[(at + 164) >> 2] = o.selfContact;
     }
     if (o.collisionPoints !== undefined) {
-        I32[(at + 164) >> 2] = o.collisionPoints;
+        I32[(at + 168) >> 2] = o.collisionPoints;
     }
     if (o.iterations !== undefined) {
-        I32[(at + 168) >> 2] = o.iterations;
+        I32[(at + 172) >> 2] = o.iterations;
     }
     if (o.sleepSpeed !== undefined) {
-        F32[(at + 172) >> 2] = o.sleepSpeed;
+        F32[(at + 176) >> 2] = o.sleepSpeed;
     }
     if (o.model !== undefined) {
-        I32[(at + 176) >> 2] = o.model;
+        I32[(at + 180) >> 2] = o.model;
     }
     if (o.skinning !== undefined) {
-        I32[(at + 180) >> 2] = o.skinning;
+        I32[(at + 184) >> 2] = o.skinning;
     }
     if (o.planar !== undefined) {
-        I32[(at + 184) >> 2] = o.planar;
+        I32[(at + 188) >> 2] = o.planar;
     }
     if (o.timeStepping !== undefined) {
-        I32[(at + 188) >> 2] = o.timeStepping;
+        I32[(at + 192) >> 2] = o.timeStepping;
     }
     if (o.fadeTime !== undefined) {
-        F32[(at + 192) >> 2] = o.fadeTime;
+        F32[(at + 196) >> 2] = o.fadeTime;
     }
     if (o.normals !== undefined) {
-        I32[(at + 196) >> 2] = o.normals;
+        I32[(at + 200) >> 2] = o.normals;
     }
     if (o.paper !== undefined) {
-        writePaperOptions(o.paper, at + 200, world);
+        writePaperOptions(o.paper, at + 204, world);
     }
 }
 
@@ -647,19 +652,19 @@ export class SheetSettings {
 function readSheetSettings(o, at, world) {
     o.cookie = U32[(at) >> 2];
     readMaterial(o.material, at + 4, world);
-    o.maxFrames = I32[(at + 36) >> 2];
-    o.crumbArea = F32[(at + 40) >> 2];
-    o.friction = F32[(at + 44) >> 2];
-    o.contactThickness = F32[(at + 48) >> 2];
-    o.groups = U32[(at + 52) >> 2];
-    o.touchesSheets = I32[(at + 56) >> 2];
-    o.selfContact = I32[(at + 60) >> 2];
-    o.iterations = I32[(at + 64) >> 2];
-    o.sleepSpeed = F32[(at + 68) >> 2];
-    o.skinning = I32[(at + 72) >> 2];
-    o.timeStepping = I32[(at + 76) >> 2];
-    o.fadeTime = F32[(at + 80) >> 2];
-    o.normals = I32[(at + 84) >> 2] !== 0;
+    o.maxFrames = I32[(at + 40) >> 2];
+    o.crumbArea = F32[(at + 44) >> 2];
+    o.friction = F32[(at + 48) >> 2];
+    o.contactThickness = F32[(at + 52) >> 2];
+    o.groups = U32[(at + 56) >> 2];
+    o.touchesSheets = I32[(at + 60) >> 2];
+    o.selfContact = I32[(at + 64) >> 2];
+    o.iterations = I32[(at + 68) >> 2];
+    o.sleepSpeed = F32[(at + 72) >> 2];
+    o.skinning = I32[(at + 76) >> 2];
+    o.timeStepping = I32[(at + 80) >> 2];
+    o.fadeTime = F32[(at + 84) >> 2];
+    o.normals = I32[(at + 88) >> 2] !== 0;
     return o;
 }
 
@@ -676,43 +681,43 @@ function writeSheetSettings(o, at, world) {
         writeMaterial(o.material, at + 4, world);
     }
     if (o.maxFrames !== undefined) {
-        I32[(at + 36) >> 2] = o.maxFrames;
+        I32[(at + 40) >> 2] = o.maxFrames;
     }
     if (o.crumbArea !== undefined) {
-        F32[(at + 40) >> 2] = o.crumbArea;
+        F32[(at + 44) >> 2] = o.crumbArea;
     }
     if (o.friction !== undefined) {
-        F32[(at + 44) >> 2] = o.friction;
+        F32[(at + 48) >> 2] = o.friction;
     }
     if (o.contactThickness !== undefined) {
-        F32[(at + 48) >> 2] = o.contactThickness;
+        F32[(at + 52) >> 2] = o.contactThickness;
     }
     if (o.groups !== undefined) {
-        U32[(at + 52) >> 2] = o.groups;
+        U32[(at + 56) >> 2] = o.groups;
     }
     if (o.touchesSheets !== undefined) {
-        I32[(at + 56) >> 2] = o.touchesSheets;
+        I32[(at + 60) >> 2] = o.touchesSheets;
     }
     if (o.selfContact !== undefined) {
-        I32[(at + 60) >> 2] = o.selfContact;
+        I32[(at + 64) >> 2] = o.selfContact;
     }
     if (o.iterations !== undefined) {
-        I32[(at + 64) >> 2] = o.iterations;
+        I32[(at + 68) >> 2] = o.iterations;
     }
     if (o.sleepSpeed !== undefined) {
-        F32[(at + 68) >> 2] = o.sleepSpeed;
+        F32[(at + 72) >> 2] = o.sleepSpeed;
     }
     if (o.skinning !== undefined) {
-        I32[(at + 72) >> 2] = o.skinning;
+        I32[(at + 76) >> 2] = o.skinning;
     }
     if (o.timeStepping !== undefined) {
-        I32[(at + 76) >> 2] = o.timeStepping;
+        I32[(at + 80) >> 2] = o.timeStepping;
     }
     if (o.fadeTime !== undefined) {
-        F32[(at + 80) >> 2] = o.fadeTime;
+        F32[(at + 84) >> 2] = o.fadeTime;
     }
     if (o.normals !== undefined) {
-        I32[(at + 84) >> 2] = o.normals;
+        I32[(at + 88) >> 2] = o.normals;
     }
 }
 
@@ -1735,7 +1740,7 @@ export class Sheet extends Thing {
 
     setSettings(settings) {
         const $world = pointer(this.world);
-        U8.fill(0, scratch, scratch + 88);
+        U8.fill(0, scratch, scratch + 92);
         writeSheetSettings(settings, scratch, this.world);
         const $result = wasm.kiriSheet_SetSettings($world, this.id, scratch);
         if ($result < 0) {

@@ -301,6 +301,7 @@ typedef struct kiriMaterial {
        KIRI_MODEL_LINKS; planar sheets do not bend. */
     float yieldStress; /* Pa, 0 or more; 0: elastic */
     float hardening;   /* modulus beyond the yield stress, relative to youngsModulus; 0 to below 1 */
+    int32_t detail;    /* sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cotton 2, others 0 */
 } kiriMaterial;
 
 /* Materials to start from; src/world/kiri_api_world.c names the sources of their numbers. */
@@ -465,9 +466,10 @@ KIRI_API kiriResult kiriSheet_SetSettings(kiriWorld* world, kiriSheet sheet, con
 KIRI_API kiriResult kiriFillRectangle(float width, float height, int32_t columns, int32_t rows, float* restPositions,
                                       int32_t* indices);
 
-/* The triangles to draw, as after the last tick. revision grows when indices or vertices are added or changed. Rest
-   positions are floats, so small triangles far from the origin of the rest plane may look flat in them; sourceTriangles
-   and sourceWeights have the precision of the library, 2^-29 of the sheet. */
+/* The triangles to draw, as after the last tick, with the detail layer of the material (manual, sheets). revision grows
+   when indices or vertices are added or changed. Rest positions are floats, so small triangles far from the origin of
+   the rest plane may look flat in them; sourceTriangles and sourceWeights have the precision of the library, 2^-29 of
+   the sheet. */
 typedef struct kiriMesh {
     const float* positions;         /* 3 a vertex, m, world */
     const float* normals;           /* 3 a vertex, unit; null where the sheet makes none */

@@ -54,6 +54,11 @@ static void TakeSettings(kiriSettings* settings, const kiriSheetSettings* given,
     settings->fadeTime = settings->popping ? 0.0 : given->fadeTime;
 }
 
+int32_t kiriSettings_Detail(const kiriSettings* settings)
+{
+    return settings->mechanics.planar ? 0 : settings->material.detail;
+}
+
 void kiriSettings_Apply(kiriSheetData* sheet)
 {
     const kiriSettings* settings = &sheet->settings;
@@ -61,6 +66,7 @@ void kiriSettings_Apply(kiriSheetData* sheet)
     sheet->shape.eased = settings->eased;
     sheet->seen.surface.skinning = settings->skinning;
     sheet->seen.surface.wantsNormals = settings->given.normals != 0;
+    kiriSurface_SetDetail(&sheet->seen.surface, kiriSettings_Detail(settings));
     sheet->seen.fades.time = sheet->seen.pointFades.time = settings->fadeTime;
     sheet->seen.fades.least = sheet->seen.pointFades.least = settings->leastFade;
     sheet->plastics.isKept |= kiriSettings_Yield(settings);
@@ -117,9 +123,16 @@ bool kiriSettings_Change(kiriSheetData* sheet, const kiriSheetSettings* given)
     if (memcmp(&before, &after, sizeof(after)) == 0) { /* fields of four bytes: no padding */
         return true;
     }
-    bool looksOther = sheet->seen.isElsewhere || given->skinning != before.skinning;
-    bool isOther = memcmp(&given->material, &before.material, sizeof(kiriMaterial)) != 0;
-    if ((looksOther &&
+    bool looksOther = sheet->seen.isElsewhere || given->skinning != before.skinning ||
+                      given->material.detail != before.material.detail;
+    bool isOther = memcmp(&given->material, &before.material, offsetof(kiriMaterial, detail)) != 0;
+    kiriDetail* detail = &sheet->seen.surface.detail;
+    int32_t sweeps = detail->sweeps;
+    detail->sweeps = sheet->settings.mechanics.planar ? 0 : given->material.detail;
+    bool hasRoom = kiriDetail_Reserve(detail, &sheet->shown, sheet->mesh.vertices.count, sheet->mesh.triangles.count,
+                                      sheet->frames.count);
+    detail->sweeps = sweeps;
+    if (!hasRoom || (looksOther &&
          !kiriView_ReserveFades(sheet, sheet->mesh.vertices.count, sheet->points.count, given->fadeTime)) ||
         !ReservePlastics(sheet, &given->material) ||
         (isOther && !kiriSheet_RestageSolver(sheet, &given->material))) {

@@ -8,6 +8,9 @@ KIRI_C_BEGIN
 
 /* Settings that the host may change after creation. */
 
+/* Returns the sweeps of the detail layer. A planar sheet has no layer. */
+int32_t kiriSettings_Detail(const kiriSettings* settings);
+
 /* Copies the settings to the parts of a new sheet that store a copy. */
 void kiriSettings_Apply(kiriSheetData* sheet);
 

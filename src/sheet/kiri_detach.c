@@ -389,6 +389,10 @@ static bool FillPart(kiriDetach* detach, int32_t piece, kiriSheetData* to)
         KIRI_ASSERT(to->plastics.links.count == links.count);
         to->plastics.links.data[k] = from->plastics.links.data[links.data[k]];
     }
+    for (int32_t k = 0; kiriSurface_HasDetail(&to->seen.surface) && k < vertices.items.count; ++k) {
+        memcpy(to->seen.surface.detail.offsets.data + 3 * (ptrdiff_t)k,
+               from->seen.surface.detail.offsets.data + 3 * (ptrdiff_t)vertices.items.data[k], 3 * sizeof(float));
+    }
     CopyPinHistory(part, to);
     kiriPins_SumShares(to);
     to->layout.pieces.data[0].rest = from->layout.pieces.data[piece].rest;

@@ -1,4 +1,5 @@
 #include "kiri_obstacle.h"
+#include "kiri_seen.h"
 #include "kiri_touch.h"
 #include "../core/kiri_array.h"
 
@@ -597,7 +598,7 @@ static bool TouchTriangle(const kiriMeeting* meeting, const EdgePoint* point, in
     kiriVec3 sum = { 0 }, velocity = sum, at = kiriVec3_AddScaled(point->at, height, point->out);
     kiriSurface_NeedNormals(surface);
     KIRI_EACH_CORNER(k) {
-        sum = kiriVec3_AddScaled(sum, share[k], kiriVec3_Load(&surface->normals.data[3 * (int64_t)v[k]]));
+        sum = kiriVec3_AddScaled(sum, share[k], kiriVertex_SkinNormal(sheet, v[k]));
         velocity = kiriVec3_AddScaled(velocity, share[k], kiriMeeting_VertexVelocity(sheet, v[k]));
     }
     /* The interpolated surface normal, on the side of `out`. */

@@ -1,6 +1,7 @@
 #include "kiri_seen.h"
 #include "kiri_piece.h"
 
+#include <math.h>
 #include <string.h>
 
 bool kiriPoint_Find(const kiriSheetData* sheet, kiriLatticePoint at, kiriPointPlace* place)
@@ -28,36 +29,60 @@ kiriVec3 kiriPoint_Position(const kiriSheetData* sheet, const kiriPointPlace* pl
     return x;
 }
 
-static kiriVec3 AddCorner(const kiriSheetData* sheet, kiriVec3 sum, int32_t h)
+kiriVec3 kiriPoint_Detail(const kiriSheetData* sheet, const kiriPointPlace* place)
 {
     const kiriSurface* surface = &sheet->seen.surface;
+    kiriVec3 by = { 0 };
+    for (int k = 0; k < 3 && kiriSurface_HasDetail(surface); ++k) {
+        const float* offset = surface->detail.offsets.data + 3 * (ptrdiff_t)CornersOf(sheet, place)[k];
+        by = kiriVec3_AddScaled(by, place->shares[k], kiriVec3_Load(offset));
+    }
+    return by;
+}
+
+static kiriVec3 AddCorner(const kiriSheetData* sheet, const float* places, kiriVec3 sum, int32_t h)
+{
     const int32_t* v = sheet->mesh.triangles.data[h / 3].vertex;
-    kiriVec3 a = kiriSurface_At(surface, v[0]), b = kiriSurface_At(surface, v[1]), c = kiriSurface_At(surface, v[2]);
+    if (kiriMax(kiriMax(v[0], v[1]), v[2]) >= sheet->seen.surface.vertexCount) {
+        return sum; /* a vertex of the cut under way: it has no place yet */
+    }
+    kiriVec3 a = kiriVec3_Load(places + 3 * (ptrdiff_t)v[0]), b = kiriVec3_Load(places + 3 * (ptrdiff_t)v[1]);
+    kiriVec3 c = kiriVec3_Load(places + 3 * (ptrdiff_t)v[2]);
     return kiriVec3_Add(sum, kiriVec3_Cross(kiriVec3_Sub(b, a), kiriVec3_Sub(c, a)));
 }
 
-/* Returns the normal of kiriNormals_Write, up to rounding. Without stored normals it sums the fan of the vertex: a
-   query may not write. */
-static kiriVec3 VertexNormal(const kiriSheetData* sheet, int32_t vertex)
+/* Returns the normal of the fan around the vertex. `places`: of the skin, or of the drawn surface. */
+static kiriVec3 FanNormal(const kiriSheetData* sheet, const float* places, int32_t vertex)
 {
     KIRI_ASSERT_HAS(sheet->mesh.vertices, vertex);
-    const kiriSurface* surface = &sheet->seen.surface;
-    if (surface->hasNormals) {
-        return kiriVec3_Load(&surface->normals.data[3 * (size_t)vertex]);
-    }
     int32_t start = sheet->mesh.vertices.data[vertex].edge, h = start;
     kiriVec3 sum = { 0 };
     do {
-        sum = AddCorner(sheet, sum, h);
+        sum = AddCorner(sheet, places, sum, h);
         h = kiriMesh_CounterClockwise(&sheet->mesh, h);
     } while (h != KIRI_NONE && h != start);
     if (h == KIRI_NONE) {
         for (h = kiriMesh_Clockwise(&sheet->mesh, start); h != KIRI_NONE; h = kiriMesh_Clockwise(&sheet->mesh, h)) {
-            sum = AddCorner(sheet, sum, h);
+            sum = AddCorner(sheet, places, sum, h);
         }
     }
     kiriVec3 unit = kiriVec3_Normalize(sum);
     return kiriVec3_Dot(unit, unit) > 0.0 ? unit : kiriVec3_Make(0.0, 0.0, 1.0);
+}
+
+/* Returns the normal of kiriNormals_Write. Without stored normals it sums the fan: a query may not write. */
+static kiriVec3 VertexNormal(const kiriSheetData* sheet, int32_t vertex)
+{
+    const kiriSurface* surface = &sheet->seen.surface;
+    return surface->hasNormals ? kiriVec3_Load(&surface->normals.data[3 * (size_t)vertex])
+                               : FanNormal(sheet, kiriSurface_Drawn(surface), vertex);
+}
+
+kiriVec3 kiriVertex_SkinNormal(const kiriSheetData* sheet, int32_t vertex)
+{
+    const kiriSurface* surface = &sheet->seen.surface;
+    KIRI_ASSERT(surface->hasNormals);
+    return kiriSurface_HasDetail(surface) ? FanNormal(sheet, surface->places.data, vertex) : VertexNormal(sheet, vertex);
 }
 
 /* Falls back to the normal of the triangle if the corner normals cancel out, and to one corner if its area is zero. */
@@ -72,8 +97,8 @@ kiriVec3 kiriPoint_Normal(const kiriSheetData* sheet, const kiriPointPlace* plac
     }
     if (kiriVec3_Length(sum) < 1e-3) {
         const kiriSurface* surface = &sheet->seen.surface;
-        kiriVec3 a = kiriSurface_At(surface, corners[0]), b = kiriSurface_At(surface, corners[1]);
-        sum = kiriVec3_Cross(kiriVec3_Sub(b, a), kiriVec3_Sub(kiriSurface_At(surface, corners[2]), a));
+        kiriVec3 a = kiriSurface_DrawnAt(surface, corners[0]), b = kiriSurface_DrawnAt(surface, corners[1]);
+        sum = kiriVec3_Cross(kiriVec3_Sub(b, a), kiriVec3_Sub(kiriSurface_DrawnAt(surface, corners[2]), a));
     }
     kiriVec3 unit = kiriVec3_Normalize(sum);
     return kiriVec3_Dot(unit, unit) > 0.5 ? unit : VertexNormal(sheet, corners[heaviest]);
@@ -317,6 +342,13 @@ void kiriView_WriteTopology(kiriSheetData* sheet)
             at = kiriVec3_AddScaled(at, birth->share[k], kiriSurface_At(&sheet->seen.surface, birth->parent[k]));
         }
         kiriSurface_Place(&sheet->seen.surface, v, at);
+        if (kiriSurface_HasDetail(&sheet->seen.surface)) {
+            kiriDetail_Bear(&sheet->seen.surface.detail, v, birth);
+            kiriSurface_DrawRange(&sheet->seen.surface, v, v + 1);
+            kiriVec3 drawn = kiriVec3_Load(kiriSurface_Drawn(&sheet->seen.surface) + 3 * (ptrdiff_t)v);
+            kiriVec3_Store(&sheet->seen.surface.positions.data[3 * (size_t)v],
+                           kiriVec3_Add(sheet->seen.surface.middle, drawn));
+        }
     }
     kiriSurface_WriteTopology(&sheet->seen.surface, &sheet->mesh);
     StaleChanges(sheet);
@@ -575,11 +607,24 @@ static bool SumSomeNormals(kiriSheetData* sheet)
     return ok;
 }
 
+static void DrawVertices(kiriSheetData* sheet, int32_t begin, int32_t end)
+{
+    kiriSurface_DrawRange(&sheet->seen.surface, begin, end);
+}
+
+void kiriView_AddFades(kiriSheetData* sheet)
+{
+    if (!sheet->seen.surface.isWritten) {
+        kiriSurface_AddFades(&sheet->seen.surface, &sheet->seen.fades);
+    }
+}
+
 void kiriView_Sum(kiriSheetData* sheet)
 {
     kiriSeen* seen = &sheet->seen;
     if (!seen->surface.isWritten) {
-        kiriSurface_AddFades(&seen->surface, &seen->fades);
+        ForBlocks(sheet, 0, seen->surface.vertexCount, true, DrawVertices);
+        kiriDetail_Measure(&seen->surface.detail);
         if (IsSumKnown(sheet) && SumSomeNormals(sheet)) {
             seen->surface.pose += 1;
         } else {
@@ -617,6 +662,111 @@ void kiriView_EndWriting(kiriSheetData* sheet)
     seen->surface.isSteady = true;
 }
 
+/* ---- Detail layer ---- */
+
+/* Returns true if a pin is nearer to the vertex, in the rest plane, than another vertex. */
+static bool IsPinned(const kiriSheetData* sheet, int32_t vertex)
+{
+    const kiriMeshData* mesh = &sheet->mesh;
+    KIRI_ASSERT_HAS(mesh->vertices, vertex);
+    kiriVec2 p = kiriMesh_Local(mesh, mesh->vertices.data[vertex].at);
+    kiriVec2 edge = kiriVec2_Sub(kiriMesh_Local(mesh, kiriMesh_HeadAt(mesh, mesh->vertices.data[vertex].edge)), p);
+    bool isPinned = false;
+    KIRI_EACH_WHILE(!isPinned, const kiriPinData, pin, sheet->pins) {
+        kiriVec2 from = kiriMesh_Local(mesh, pin->at), by = kiriVec2_Sub(p, from);
+        kiriVec2 along = kiriVec2_Sub(kiriMesh_Local(mesh, pin->to), from);
+        double square = kiriVec2_Dot(along, along);
+        double t = square > 0.0 ? kiriClamp(kiriVec2_Dot(along, by) / square, 0.0, 1.0) : 0.0;
+        by = kiriVec2_AddScaled(by, -t, along);
+        isPinned = kiriVec2_Dot(by, by) < kiriVec2_Dot(edge, edge);
+    }
+    return isPinned;
+}
+
+/* The longest offset by the side of a frame's region. */
+#define LEASH 0.25
+
+/* Lists vertices and edges again if pieces woke or fell asleep, or the mesh, the pieces or the pins are others. */
+static void ListDetail(kiriSheetData* sheet)
+{
+    kiriDetail* detail = &sheet->seen.surface.detail;
+    KIRI_ASSERT(detail->awake.count == sheet->frames.count);
+    uint64_t pins = KIRI_HASH_START;
+    KIRI_EACH(const kiriPinData, pin, sheet->pins) {
+        kiriHash_Word(&pins, pin->id);
+    }
+    bool isStale = !detail->isListed || sheet->seen.isElsewhere || pins != detail->pins;
+    KIRI_EACH_INDEX(f, sheet->frames) {
+        uint8_t moves = kiriSheet_Moves(sheet, f);
+        isStale = isStale || moves != detail->awake.data[f];
+        detail->awake.data[f] = moves;
+    }
+    if (isStale) {
+        detail->pins = pins;
+        detail->vertices.count = 0;
+        KIRI_EACH_INDEX(v, sheet->mesh.vertices) {
+            int32_t frame = sheet->vertexSkin.weights.data[sheet->vertexSkin.spans.data[v].first].frame;
+            if (detail->awake.data[frame]) {
+                double leash = IsPinned(sheet, v) ? 0.0 : LEASH * sqrt(sheet->frames.data[frame].area);
+                KIRI_NEXT(detail->vertices) = (kiriDetailVertex){ v, (float)leash, 0.0f };
+            }
+        }
+        kiriDetail_ListEdges(detail, &sheet->mesh);
+    }
+}
+
+typedef struct DetailTask {
+    kiriDetail* detail;
+    const float* skin;
+    int32_t color;
+} DetailTask;
+
+static void BeginDetail(int32_t start, int32_t end, void* context)
+{
+    const DetailTask* task = context;
+    kiriDetail_Begin(task->detail, task->skin, start, end);
+}
+
+static void SweepDetail(int32_t start, int32_t end, void* context)
+{
+    const DetailTask* task = context;
+    kiriDetail_Sweep(task->detail, task->color, start, end);
+}
+
+static void LeashDetail(int32_t start, int32_t end, void* context)
+{
+    const DetailTask* task = context;
+    kiriDetail_Leash(task->detail, task->skin, start, end);
+}
+
+bool kiriView_Relax(kiriSheetData* sheet, const kiriTasks* tasks)
+{
+    enum { GROUPS = 512, VERTICES = 4096 }; /* a task of about 10 us */
+    kiriSurface* surface = &sheet->seen.surface;
+    DetailTask task = { &surface->detail, kiriSurface_Places(surface), 0 };
+    if (!kiriSurface_HasDetail(surface) || surface->isWritten) {
+        return false;
+    }
+    ListDetail(sheet);
+    int32_t count = task.detail->vertices.count;
+    kiriTasks_Run(tasks, BeginDetail, count, VERTICES, &task);
+    for (int32_t sweep = 0; sweep < task.detail->sweeps; ++sweep) {
+        for (task.color = 0; task.color < KIRI_DETAIL_COLORS; ++task.color) {
+            int32_t groups = kiriDetail_GroupCount(task.detail, task.color);
+            kiriTasks_Run(tasks, SweepDetail, groups, task.color < KIRI_DETAIL_COLORS - 1 ? GROUPS : INT32_MAX, &task);
+        }
+        kiriTasks_Run(tasks, LeashDetail, count, VERTICES, &task);
+    }
+    kiriDetail_Smooth(task.detail, task.skin);
+    return count > 0;
+}
+
+void kiriView_EndRelaxing(kiriSheetData* sheet)
+{
+    kiriSurface* surface = &sheet->seen.surface;
+    kiriDetail_End(&surface->detail, kiriSurface_Places(surface), 0, surface->detail.vertices.count);
+}
+
 void kiriView_KeepBounds(kiriSheetData* sheet)
 {
     bool isKnown = sheet->seen.surface.isPartly;
@@ -629,6 +779,7 @@ void kiriView_WritePositions(kiriSheetData* sheet)
     int32_t count = sheet->seen.surface.vertexCount;
     kiriView_TakeFrames(sheet);
     kiriView_BlendRange(sheet, 0, count);
+    kiriView_AddFades(sheet);
     kiriView_Sum(sheet);
     kiriView_WriteRange(sheet, 0, count);
     kiriView_EndWriting(sheet);

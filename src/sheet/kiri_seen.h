@@ -16,9 +16,15 @@ typedef struct kiriPointPlace {
 /* Finds the triangle of a point. Returns false outside the material. */
 bool kiriPoint_Find(const kiriSheetData* sheet, kiriLatticePoint at, kiriPointPlace* place);
 
-/* Return the last visible position, and the unit normal there. */
+/* Return the last position on the skin, and the unit normal of the drawn surface there. */
 kiriVec3 kiriPoint_Position(const kiriSheetData* sheet, const kiriPointPlace* place);
 kiriVec3 kiriPoint_Normal(const kiriSheetData* sheet, const kiriPointPlace* place);
+
+/* Returns the offset of the detail layer at the point, m. */
+kiriVec3 kiriPoint_Detail(const kiriSheetData* sheet, const kiriPointPlace* place);
+
+/* Returns the normal of the skin at a vertex, for contacts. Call kiriSurface_NeedNormals first. */
+kiriVec3 kiriVertex_SkinNormal(const kiriSheetData* sheet, int32_t vertex);
 
 /* Returns x and velocity by linear blending of the current frames, without fades. The other fields are not set. */
 kiriMotion kiriPoint_Blend(const kiriSheetData* sheet, const kiriPointPlace* place);
@@ -79,9 +85,15 @@ void kiriView_WritePositions(kiriSheetData* sheet);
    ranges that begin at multiples of 4 may run in parallel. */
 void kiriView_TakeFrames(kiriSheetData* sheet);
 void kiriView_BlendRange(kiriSheetData* sheet, int32_t begin, int32_t end);
+void kiriView_AddFades(kiriSheetData* sheet);
 void kiriView_Sum(kiriSheetData* sheet);
 void kiriView_WriteRange(kiriSheetData* sheet, int32_t begin, int32_t end);
 void kiriView_EndWriting(kiriSheetData* sheet);
+
+/* The tick of the detail layer, between AddFades and Sum: Relax sweeps, and EndRelaxing takes the offsets. In between
+   obstacles push out the vertices in `moving` of the layer. Return false if there is nothing to relax. */
+bool kiriView_Relax(kiriSheetData* sheet, const kiriTasks* tasks);
+void kiriView_EndRelaxing(kiriSheetData* sheet);
 
 KIRI_C_END
 

@@ -182,8 +182,8 @@ KIRI_TABLE(BlocksTable, kiriBlocks, {
 KIRI_TABLE(SeenTable, kiriSeen, {
     KIRI_PART(fades, kiriFadesTable),
     KIRI_PART(pointFades, kiriFadesTable),
-    KIRI_UNHASHED,
     KIRI_PART(surface, kiriSurfaceTable),
+    KIRI_UNHASHED,
     KIRI_KEPT(bounds),
     KIRI_RUN(4, pointCount),
     KIRI_ROOM_OF(pointsBefore),
@@ -505,6 +505,7 @@ static bool AreSettings(const kiriSettings* settings)
 {
     enum { MOST_POINTS = 1 << 20 };
     return settings->snap >= 0.0 && settings->contactThickness > 0.0 && settings->frameLength >= 0.0 &&
+           settings->material.detail >= 0 && settings->material.detail <= KIRI_MOST_DETAIL &&
            settings->collisionPoints >= 0.0 && settings->collisionPoints <= MOST_POINTS &&
            settings->integrationPoints >= 0.0 && settings->integrationPoints <= MOST_POINTS;
 }
@@ -646,7 +647,9 @@ void kiriSheet_Derive(kiriSheetData* sheet, kiriArchive* archive)
     KIRI_ASSERT(kiriArchive_Reads(archive) && !archive->isWhole && sheet->mesh.memory == &sheet->own);
     kiriMesh_Derive(&sheet->mesh, archive);
     kiriArchive_Expect(archive, kiriArchive_HasFailed(archive) ||
-                                    (AreSettings(&sheet->settings) && AreFrames(sheet) && ArePieces(&sheet->layout) &&
+                                    (AreSettings(&sheet->settings) &&
+                                     sheet->seen.surface.detail.sweeps == kiriSettings_Detail(&sheet->settings) &&
+                                     AreFrames(sheet) && ArePieces(&sheet->layout) &&
                                      AreAreaElements(&sheet->layout) && ArePins(sheet) && ArePoints(sheet) &&
                                      AreCuts(sheet) && AreContacts(sheet) &&
                                      AreFades(&sheet->seen.fades, &sheet->settings, sheet->mesh.vertices.count) &&
@@ -709,6 +712,8 @@ bool kiriSheet_EndReading(kiriSheetData* sheet, bool isWhole)
         kiriSurface_AddFades(surface, &sheet->seen.fades);
     }
     surface->hasNormals = false;
+    kiriSurface_DrawRange(surface, 0, isWhole ? 0 : surface->vertexCount);
+    kiriDetail_Measure(&surface->detail);
     if (!isWhole) {
         kiriSurface_WriteRange(surface, 0, surface->vertexCount);
     }

@@ -1450,3 +1450,55 @@ void kiriTouches_Tell(kiriSheetData* sheet, double dt)
     kiriArray_SetHeader(&touches->nextTold, told);
     sheet->contacts.count = 0;
 }
+
+/* ---- Detail layer ------------------------------------------------------------------------------------------------ */
+
+/* Returns the box of the vertices that the layer moves. */
+static kiriBox BoxOfDetail(const kiriSurface* surface)
+{
+    const kiriDetail* detail = &surface->detail;
+    kiriBox box = { { KIRI_ENDLESS, KIRI_ENDLESS, KIRI_ENDLESS }, { -KIRI_ENDLESS, -KIRI_ENDLESS, -KIRI_ENDLESS } };
+    for (int32_t k = 0; k < detail->vertices.count; ++k) {
+        kiriBox_Add(&box, kiriVec3_Load(detail->moving.data + 4 * (ptrdiff_t)detail->vertices.data[k].vertex));
+    }
+    box.lower = kiriVec3_Add(box.lower, surface->middle);
+    box.upper = kiriVec3_Add(box.upper, surface->middle);
+    return box;
+}
+
+/* Ends the way from the skin to the drawn vertex where it enters the obstacle; the rest of it slides along there. So thin
+   obstacles stop it, too. */
+static void PushDetail(const kiriObstacleData* obstacle, kiriSheetData* sheet)
+{
+    kiriSurface* surface = &sheet->seen.surface;
+    const kiriVec3 across = { 0.0, 0.0, 0.0 };
+    double gap = 0.5 * sheet->settings.contactThickness;
+    KIRI_ASSERT(surface->detail.isListed && !surface->isWritten);
+    KIRI_EACH(const kiriDetailVertex, item, surface->detail.vertices) {
+        float* moving = surface->detail.moving.data + 4 * (ptrdiff_t)item->vertex;
+        kiriVec3 skin = kiriVec3_Load(kiriSurface_Places(surface) + 3 * (ptrdiff_t)item->vertex);
+        kiriVec3 way = kiriObstacle_ToLocal(obstacle, kiriVec3_Sub(kiriVec3_Load(moving), skin));
+        kiriVec3 from = kiriObstacle_PointToLocal(obstacle, kiriVec3_Add(surface->middle, skin));
+        if (!kiriObstacleShape_MayReach(&obstacle->shape, from, gap + kiriVec3_Length(way))) {
+            continue;
+        }
+        kiriNearest nearest;
+        double share = kiriObstacleShape_Enter(&obstacle->shape, from, way, gap, across, &nearest);
+        double into = (1.0 - share) * kiriVec3_Dot(way, nearest.normal);
+        if (share < 1.0 && into < 0.0) {
+            way = kiriVec3_AddScaled(way, -into, nearest.normal);
+            kiriVec3_Store(moving, kiriVec3_Add(skin, kiriObstacle_ToWorld(obstacle, way)));
+        }
+    }
+}
+
+void kiriObstacles_PushDetail(kiriObstacleData* const* obstacles, int32_t count, kiriSheetData* sheet)
+{
+    kiriBox box = count > 0 ? BoxOfDetail(&sheet->seen.surface) : (kiriBox){ 0 };
+    for (int32_t i = 0; i < count; ++i) {
+        if ((obstacles[i]->groups & sheet->settings.groups) != 0 &&
+            kiriObstacle_IsNear(obstacles[i], box.lower, box.upper, sheet->settings.contactThickness)) {
+            PushDetail(obstacles[i], sheet);
+        }
+    }
+}

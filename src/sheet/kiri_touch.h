@@ -209,6 +209,9 @@ void kiriTouchMemory_SortForces(kiriTouchMemory* memory, int32_t first, kiriIndi
 kiriVec3 kiriTouchMemory_Take(kiriTouchMemory* memory, uint64_t key);
 void kiriTouchMemory_DropTaken(kiriTouchMemory* memory);
 
+/* While the detail layer relaxes: keeps its vertices out of obstacles, and at the contact distance where the skin is. */
+void kiriObstacles_PushDetail(kiriObstacleData* const* obstacles, int32_t count, kiriSheetData* sheet);
+
 KIRI_C_END
 
 #endif

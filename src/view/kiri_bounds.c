@@ -509,7 +509,7 @@ void kiriBounds_Nearest(const kiriBounds* bounds, const kiriSurface* surface, ki
 typedef struct Ray {
     kiriVec3 origin, direction;
     double distance; /* in units of the direction; a search may shorten it */
-    double slack;    /* by which boxes are enlarged: a hit is rounded, too */
+    double slack;    /* by which boxes are enlarged: a hit is rounded, and the detail layer is beside the skin */
 } Ray;
 
 /* Cuts the stretch of the ray to the space between two planes. Returns false if nothing is left. */
@@ -561,6 +561,13 @@ typedef struct RaySearch {
     RayHit hit;
 } RaySearch;
 
+static void GetDrawnCorners(const kiriSurface* surface, int32_t triangle, kiriVec3 corner[3])
+{
+    for (int k = 0; k < 3; ++k) {
+        corner[k] = kiriSurface_DrawnAt(surface, kiriSurface_Triangle(surface, triangle)[k]);
+    }
+}
+
 /* The result does not depend on the order of triangles. */
 static bool FindFirstHit(void* context, const int32_t* triangles, int32_t count)
 {
@@ -568,7 +575,7 @@ static bool FindFirstHit(void* context, const int32_t* triangles, int32_t count)
     for (int32_t i = 0; i < count; ++i) {
         kiriVec3 corner[3];
         RayHit hit;
-        GetWorldCorners(search->surface, triangles[i], corner);
+        GetDrawnCorners(search->surface, triangles[i], corner);
         if (HitTriangle(corner, &search->ray, 0.0, &hit) &&
             (hit.distance < search->ray.distance ||
              (hit.distance == search->ray.distance && triangles[i] > search->triangle))) {
@@ -591,7 +598,7 @@ void kiriSurface_Raycast(const kiriSurface* surface, const kiriBounds* bounds, k
             kiriBox all = kiriBounds_All(bounds);
             kiriVec3 most = Most(Most(all.upper, kiriVec3_Scale(-1.0, all.lower)),
                                  kiriVec3_Make(fabs(origin.x), fabs(origin.y), fabs(origin.z)));
-            search.ray.slack = 1e-9 * kiriMax(kiriMax(most.x, most.y), most.z);
+            search.ray.slack = 1e-9 * kiriMax(kiriMax(most.x, most.y), most.z) + surface->detail.longest;
         }
         (void)WalkTree(&(BoxWalk){ bounds, NULL, MeetsRay, &search.ray, FindFirstHit, &search });
     } else {
@@ -603,7 +610,7 @@ void kiriSurface_Raycast(const kiriSurface* surface, const kiriBounds* bounds, k
         return;
     }
     kiriVec3 corner[3];
-    GetWorldCorners(surface, search.triangle, corner);
+    GetDrawnCorners(surface, search.triangle, corner);
     kiriVec3 ab = kiriVec3_Sub(corner[1], corner[0]), ac = kiriVec3_Sub(corner[2], corner[0]);
     const int32_t* v = &surface->indices.data[3 * (size_t)search.triangle];
     const double shares[3] = { 1.0 - search.hit.b - search.hit.c, search.hit.b, search.hit.c };

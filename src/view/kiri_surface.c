@@ -87,7 +87,7 @@ static void AddSolidVertex(SolidArrays* to, const kiriSurface* surface, int32_t 
     int32_t n = to->vertexCount++;
     kiriVec3 out = kiriVec3_Load(&surface->normals.data[3 * vertex]);
     KIRI_ASSERT(vertex >= 0 && vertex < surface->vertexCount);
-    kiriVec3_Store(&to->positions[3 * n], kiriVec3_AddScaled(kiriSurface_At(surface, vertex), above, out));
+    kiriVec3_Store(&to->positions[3 * n], kiriVec3_AddScaled(kiriSurface_DrawnAt(surface, vertex), above, out));
     kiriVec3_Store(&to->normals[3 * n], normal);
     memcpy(&to->restPositions[2 * n], &surface->restPositions.data[2 * vertex], 2 * sizeof(float));
     to->sources[n] = vertex;
@@ -173,7 +173,8 @@ bool kiriSurface_Reserve(kiriSurface* surface, kiriMemory* memory, int64_t verti
            kiriArray_Reserve(memory, &surface->turns, triangles / 2 + triangles % 2) &&
            kiriArray_Reserve(memory, &surface->carriers, frameCount) &&
            kiriArray_Reserve(memory, &surface->bends, frameCount) &&
-           kiriPatches_Reserve(&surface->patches, memory, frameCount);
+           kiriPatches_Reserve(&surface->patches, memory, frameCount) &&
+           kiriDetail_Reserve(&surface->detail, memory, vertices, triangles, frameCount);
 }
 
 void kiriSurface_Resize(kiriSurface* surface, int32_t vertices, int32_t triangles, int32_t frameCount)
@@ -194,6 +195,21 @@ void kiriSurface_Resize(kiriSurface* surface, int32_t vertices, int32_t triangle
     surface->indices.count = 3 * triangles;
     surface->turns.count = triangles / 2 + triangles % 2;
     surface->carriers.count = surface->bends.count = frameCount;
+    kiriDetail_Resize(&surface->detail, vertices, frameCount);
+}
+
+void kiriSurface_SetDetail(kiriSurface* surface, int32_t sweeps)
+{
+    bool wasOn = kiriSurface_HasDetail(surface), isOn = sweeps > 0;
+    surface->detail.sweeps = sweeps;
+    if (isOn != wasOn) {
+        kiriDetail_Resize(&surface->detail, surface->vertexCount, surface->carriers.count);
+        surface->isWritten = surface->isSteady = false;
+        if (isOn && !kiriSurface_IsFar(surface) && surface->vertexCount > 0) {
+            memcpy(surface->places.data, surface->positions.data, sizeof(float) * (size_t)surface->positions.count);
+        }
+        kiriDetail_Draw(&surface->detail, surface->places.data, 0, isOn ? surface->vertexCount : 0);
+    }
 }
 
 void kiriSurface_Remember(kiriSurface* surface)
@@ -419,6 +435,11 @@ void kiriSurface_Keep(kiriSurface* surface, kiriShown* shown, const kiriKeep* tr
     kiriKeep_Compact(vertices, &surface->rest, 1, sizeof(kiriVec2));
     kiriKeep_Compact(vertices, &surface->places, 3, sizeof(float));
     kiriKeep_Compact(vertices, &surface->before, 3, sizeof(float));
+    if (kiriSurface_HasDetail(surface)) {
+        kiriKeep_Compact(vertices, &surface->detail.offsets, 3, sizeof(float));
+        kiriKeep_Compact(vertices, &surface->detail.drawn, 3, sizeof(float));
+        kiriDetail_Resize(&surface->detail, vertices->count, frameCount);
+    }
     surface->slopes.count = 4 * vertices->count;
     surface->hasSlopes = false;
     surface->carriers.count = surface->bends.count = frameCount;
@@ -526,6 +547,13 @@ void kiriSurface_AddFades(kiriSurface* surface, const kiriFades* fades)
     }
 }
 
+void kiriSurface_DrawRange(kiriSurface* surface, int32_t begin, int32_t end)
+{
+    if (kiriSurface_HasDetail(surface)) {
+        kiriDetail_Draw(&surface->detail, surface->places.data, begin, end);
+    }
+}
+
 static kiriCorners CornersOfSurface(const kiriSurface* surface)
 {
     return (kiriCorners){ surface->indices.data, surface->turns.data, surface->triangleCount };
@@ -535,14 +563,14 @@ static void SumSlopes(kiriSurface* surface)
 {
     kiriCorners corners = CornersOfSurface(surface);
     surface->hasSlopes = true;
-    kiriNormals_Sum(surface->slopes.data, surface->vertexCount, kiriSurface_Places(surface), &corners);
+    kiriNormals_Sum(surface->slopes.data, surface->vertexCount, kiriSurface_Drawn(surface), &corners);
 }
 
 bool kiriSurface_SumNormal(kiriSurface* surface, const kiriMeshData* mesh, int32_t vertex)
 {
     KIRI_ASSERT_HAS(mesh->vertices, vertex);
     kiriCorners corners = CornersOfSurface(surface);
-    return kiriNormals_SumOne(surface->slopes.data, vertex, kiriSurface_Places(surface), &corners, mesh);
+    return kiriNormals_SumOne(surface->slopes.data, vertex, kiriSurface_Drawn(surface), &corners, mesh);
 }
 
 void kiriSurface_SumNormals(kiriSurface* surface)
@@ -558,18 +586,19 @@ void kiriSurface_WriteRange(kiriSurface* surface, int32_t begin, int32_t end)
 {
     const kiriVec3 m = surface->middle;
     const float middle[6] = { (float)m.x, (float)m.y, (float)m.z, (float)m.x, (float)m.y, (float)m.z };
-    const ptrdiff_t last = kiriSurface_IsFar(surface) ? 3 * (ptrdiff_t)end : 0;
+    const float* drawn = kiriSurface_Drawn(surface);
+    const ptrdiff_t last = drawn != surface->positions.data ? 3 * (ptrdiff_t)end : 0;
     ptrdiff_t i = 3 * (ptrdiff_t)begin;
     KIRI_ASSERT(begin >= 0 && begin <= end && end <= surface->vertexCount);
     /* Four vertices at a time are three lanes: x, y, z, x and so on. */
     for (; i + 12 <= last; i += 12) {
         KIRI_EACH_CORNER(k) {
-            kiriLanes local = kiriLanes_Load(surface->places.data + i + 4 * k);
+            kiriLanes local = kiriLanes_Load(drawn + i + 4 * k);
             kiriLanes_Store(surface->positions.data + i + 4 * k, kiriLanes_Add(kiriLanes_Load(middle + k), local));
         }
     }
     for (; i < last; ++i) {
-        surface->positions.data[i] = middle[i % 3] + surface->places.data[i];
+        surface->positions.data[i] = middle[i % 3] + drawn[i];
     }
     if (surface->hasNormals) {
         kiriNormals_Write(surface->normals.data, surface->slopes.data, begin, end);

@@ -5,6 +5,7 @@
 
 #include "../core/kiri_array.h"
 #include "../core/kiri_vec.h"
+#include "kiri_detail.h"
 #include "kiri_skin.h"
 #include "../motion/kiri_frame.h"
 
@@ -84,7 +85,8 @@ typedef struct kiriSurface {
     kiriFloats slopes;         /* sums for the normals, 4 a vertex */
     int64_t pose;              /* grows whenever positions or corners may have changed */
     kiriVec3 middle;           /* m: near the sheet; 0 if the sheet is near the origin of the world */
-    KIRI_ARRAY(float) places;  /* positions from `middle`, 3 a vertex; unused if `middle` is 0 */
+    KIRI_ARRAY(float) places;  /* the skin from `middle`, 3 a vertex; unused if it is `positions`, see Places */
+    kiriDetail detail;
     KIRI_ARRAY(float) before;  /* for blades: the places at the start of the last tick; empty: nothing moved, or not known */
     kiriVec3 middleBefore;     /* m: `middle` at that time */
     KIRI_ARRAY(kiriCarrier) carriers;
@@ -107,13 +109,25 @@ static inline bool kiriSurface_IsFar(const kiriSurface* surface)
     return surface->middle.x != 0.0 || surface->middle.y != 0.0 || surface->middle.z != 0.0;
 }
 
-/* Returns the positions from `middle`, 3 floats a vertex. */
-static inline float* kiriSurface_Places(const kiriSurface* surface)
+static inline bool kiriSurface_HasDetail(const kiriSurface* surface)
 {
-    return kiriSurface_IsFar(surface) ? surface->places.data : surface->positions.data;
+    return surface->detail.sweeps > 0;
 }
 
-/* Returns the position of a vertex in world space, exact to 1e-6 of the size of the sheet. */
+/* Returns the positions of the skin from `middle`, 3 floats a vertex. */
+static inline float* kiriSurface_Places(const kiriSurface* surface)
+{
+    bool isApart = kiriSurface_IsFar(surface) || kiriSurface_HasDetail(surface);
+    return isApart ? surface->places.data : surface->positions.data;
+}
+
+/* Returns the drawn positions from `middle`, 3 floats a vertex: with the detail layer. */
+static inline const float* kiriSurface_Drawn(const kiriSurface* surface)
+{
+    return kiriSurface_HasDetail(surface) ? surface->detail.drawn.data : kiriSurface_Places(surface);
+}
+
+/* Returns the position of a vertex of the skin in world space, exact to 1e-6 of the size of the sheet. */
 static inline kiriVec3 kiriSurface_At(const kiriSurface* surface, int32_t vertex)
 {
     return kiriVec3_Add(surface->middle, kiriVec3_Load(kiriSurface_Places(surface) + 3 * (ptrdiff_t)vertex));
@@ -125,6 +139,12 @@ static inline kiriVec3 kiriSurface_Came(const kiriSurface* surface, int32_t vert
     bool isKnown = surface->before.count == 3 * surface->vertexCount;
     kiriVec3 before = isKnown ? kiriVec3_Load(surface->before.data + 3 * (ptrdiff_t)vertex) : kiriVec3_Make(0.0, 0.0, 0.0);
     return isKnown ? kiriVec3_Sub(kiriSurface_At(surface, vertex), kiriVec3_Add(surface->middleBefore, before)) : before;
+}
+
+/* Returns the drawn position of a vertex in world space. */
+static inline kiriVec3 kiriSurface_DrawnAt(const kiriSurface* surface, int32_t vertex)
+{
+    return kiriVec3_Add(surface->middle, kiriVec3_Load(kiriSurface_Drawn(surface) + 3 * (ptrdiff_t)vertex));
 }
 
 static inline void kiriSurface_Place(kiriSurface* surface, int32_t vertex, kiriVec3 at)
@@ -193,8 +213,14 @@ void kiriSurface_TakeFrames(kiriSurface* surface, const kiriFrameData* frames, i
 /* Writes the positions of the vertices from `begin` to `end`, without fades. Ranges may be written in parallel. */
 void kiriSurface_BlendRange(kiriSurface* surface, const kiriSkin* skin, int32_t begin, int32_t end);
 
+/* Turns the detail layer on or off, or changes its sweeps. Room is reserved. The next tick writes all positions. */
+void kiriSurface_SetDetail(kiriSurface* surface, int32_t sweeps);
+
 /* Adds the offsets of fades to the positions. */
 void kiriSurface_AddFades(kiriSurface* surface, const kiriFades* fades);
+
+/* Writes the drawn positions of the vertices from `begin` to `end`, if there is a detail layer. */
+void kiriSurface_DrawRange(kiriSurface* surface, int32_t begin, int32_t end);
 
 /* Writes the sums for the normals, once in a tick when all positions are written, if the host asks for normals. */
 void kiriSurface_SumNormals(kiriSurface* surface);

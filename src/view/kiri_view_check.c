@@ -47,9 +47,21 @@ KIRI_TABLE(PatchesTable, kiriPatches, {
     KIRI_BOOLS(isBent, areOther),
 })
 
+KIRI_TABLE(DetailTable, kiriDetail, {
+    KIRI_HANDED,
+    KIRI_WITHIN(0, KIRI_MOST_DETAIL, sweeps),
+    KIRI_FLOAT_ITEMS(offsets),
+    KIRI_UNHASHED,
+    KIRI_DROPPED(longest),
+    KIRI_DROPPED(isListed),
+    KIRI_DERIVED,
+    KIRI_ARRAYS(drawn, moving, crease, vertices, edges, awake),
+})
+
 KIRI_SHARED_TABLE(kiriSurfaceTable, kiriSurface, {
     KIRI_FLOAT_ITEMS(before),
     KIRI_REALS(middleBefore),
+    KIRI_PART(detail, DetailTable),
     KIRI_UNHASHED,
     KIRI_HANDED,
     KIRI_WITHIN(KIRI_SKINNING_LINEAR, KIRI_SKINNING_SMOOTH, skinning),

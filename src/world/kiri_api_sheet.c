@@ -554,6 +554,10 @@ kiriResult kiriSheet_Transform(kiriWorld* world, kiriSheet sheet, const float ro
     TurnFades(&data->seen.fades, &R);
     TurnFades(&data->seen.pointFades, &R);
     data->seen.surface.before.count = 0;
+    for (int32_t k = 0; k < data->seen.surface.detail.offsets.count; k += 3) {
+        float* offset = data->seen.surface.detail.offsets.data + k;
+        kiriVec3_Store(offset, kiriMat3_Mul(R, kiriVec3_Load(offset)));
+    }
     kiriView_WritePositions(data);
     kiriSheet_WakeAll(data);
     KIRI_EACH(kiriPinData, pin, data->pins) {

@@ -23,13 +23,14 @@
    Handbook, volume 2; the appendix has 30 MPa and more); it reaches 65 MPa at 5 %, hence the hardening. Card: paperboard,
    0.4 mm: means over both directions of the board of Xia, Boyce and Parks (Int. J. Solids Struct. 39, 4053 (2002)): 5.6 and
    2 GPa; its steep part ends at about 30 and 13 MPa in tension, and at half of that in pressure; then a seventh of the
-   modulus. Paper is between that and its strength, 40 MPa at 3 %: assumed. Cotton and rubber are elastic. */
+   modulus. Paper is between that and its strength, 40 MPa at 3 %: assumed. Cotton and rubber are elastic.
+   Only cotton has a detail layer: paper, card and foil hardly strain, and rubber is meant to look stretched. */
 static const kiriMaterial materials[KIRI_MATERIAL_COUNT] = {
-    { 2.92e9f, 0.3f, 1.1e-4f, 727.0f, 1.0f, 2e-3f, 2e7f, 0.2f },
-    { 1.2e6f, 0.3f, 5e-4f, 400.0f, 0.8f, 2e-2f, 0.0f, 0.0f },
-    { 2e6f, 0.49f, 1e-3f, 925.0f, 0.3f, 1e-2f, 0.0f, 0.0f },
-    { 6.9e10f, 0.33f, 1.6e-5f, 2700.0f, 1.0f, 1e-3f, 3.4e7f, 0.01f },
-    { 3.3e9f, 0.3f, 4e-4f, 780.0f, 1.0f, 2e-3f, 1.5e7f, 0.15f },
+    { 2.92e9f, 0.3f, 1.1e-4f, 727.0f, 1.0f, 2e-3f, 2e7f, 0.2f, 0 },
+    { 1.2e6f, 0.3f, 5e-4f, 400.0f, 0.8f, 2e-2f, 0.0f, 0.0f, 2 },
+    { 2e6f, 0.49f, 1e-3f, 925.0f, 0.3f, 1e-2f, 0.0f, 0.0f, 0 },
+    { 6.9e10f, 0.33f, 1.6e-5f, 2700.0f, 1.0f, 1e-3f, 3.4e7f, 0.01f, 0 },
+    { 3.3e9f, 0.3f, 4e-4f, 780.0f, 1.0f, 2e-3f, 1.5e7f, 0.15f, 0 },
 };
 
 kiriResult kiriGetMaterial(int32_t preset, kiriMaterial* material)

@@ -97,7 +97,7 @@ static void DrawMesh(Drawing* drawing, const kiriSheetData* sheet)
         }
         kiriVec3 corners[3];
         KIRI_EACH_CORNER(k) {
-            corners[k] = kiriSurface_At(&sheet->seen.surface, sheet->mesh.triangles.data[t].vertex[k]);
+            corners[k] = kiriSurface_DrawnAt(&sheet->seen.surface, sheet->mesh.triangles.data[t].vertex[k]);
         }
         if ((drawing->flags & KIRI_DRAW_TRIANGLES) != 0) {
             Draw(drawing, corners, 3, ColorOfPiece(sheet, piece));
@@ -128,7 +128,7 @@ static void DrawBoxesFrom(Drawing* drawing, const kiriSheetData* sheet, int32_t 
         if (piece < first || piece >= first + BOXES_A_PASS || sheet->layout.pieces.data[piece].isGone) {
             continue;
         }
-        kiriVec3 at = kiriSurface_At(&sheet->seen.surface, v);
+        kiriVec3 at = kiriSurface_DrawnAt(&sheet->seen.surface, v);
         kiriBox* box = &boxes[piece - first];
         if (!isSeen[piece - first]) {
             box->lower = box->upper = at;

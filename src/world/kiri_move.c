@@ -852,6 +852,22 @@ static void ListRanges(kiriWorld* world)
     }
 }
 
+/* Returns true if the detail layer of the sheet is worth tasks for each color. */
+static bool IsLarge(const kiriSheetData* sheet)
+{
+    return sheet->mesh.vertices.count > 16 * RANGE_VERTICES;
+}
+
+/* Ends the skin of a sheet: fades, and the detail layer if time goes on. */
+static void Relax(const SkinTask* task, kiriSheetData* sheet, const kiriTasks* tasks)
+{
+    kiriView_AddFades(sheet);
+    if (task->dt > 0.0 && kiriView_Relax(sheet, tasks)) {
+        kiriObstacles_PushDetail(task->world->obstacles.data, task->world->obstacles.count, sheet);
+        kiriView_EndRelaxing(sheet);
+    }
+}
+
 static void BeginSheets(int32_t start, int32_t end, void* context)
 {
     const SkinTask* task = context;
@@ -868,7 +884,13 @@ static void BeginSheets(int32_t start, int32_t end, void* context)
             continue;
         }
         if (!sheet->rest.asleep || sheet->seen.isElsewhere) {
-            kiriView_WritePositions(sheet);
+            const kiriTasks none = { NULL, NULL, NULL, 0 };
+            kiriView_TakeFrames(sheet);
+            kiriView_BlendRange(sheet, 0, sheet->seen.surface.vertexCount);
+            Relax(task, sheet, &none);
+            kiriView_Sum(sheet);
+            kiriView_WriteRange(sheet, 0, sheet->seen.surface.vertexCount);
+            kiriView_EndWriting(sheet);
         }
         kiriView_KeepBounds(sheet);
     }
@@ -886,9 +908,13 @@ static void BlendRanges(int32_t start, int32_t end, void* context)
 static void SumSheets(int32_t start, int32_t end, void* context)
 {
     const SkinTask* task = context;
+    const kiriTasks none = { NULL, NULL, NULL, 0 };
     for (int32_t k = start; k < end; ++k) {
         kiriSheetData* sheet = kiriWorld_Active(task->world, k);
         if (IsInRanges(task->world, k)) {
+            if (!IsLarge(sheet)) {
+                Relax(task, sheet, &none);
+            }
             kiriView_Sum(sheet);
         }
     }
@@ -927,6 +953,11 @@ void kiriSkinStep_Run(kiriWorld* world, double dt)
     kiriTasks_Run(&world->tasks, BeginSheets, world->active.count, 1, &task);
     if (world->skinRanges.count > 0) {
         kiriTasks_Run(&world->tasks, BlendRanges, world->skinRanges.count, 1, &task);
+        for (int32_t k = 0; k < world->active.count; ++k) {
+            if (IsInRanges(world, k) && IsLarge(kiriWorld_Active(world, k))) {
+                Relax(&task, kiriWorld_Active(world, k), &world->tasks);
+            }
+        }
         kiriTasks_Run(&world->tasks, SumSheets, world->active.count, 1, &task);
         kiriTasks_Run(&world->tasks, WriteRanges, world->skinRanges.count, 1, &task);
         kiriTasks_Run(&world->tasks, EndSheets, world->active.count, 1, &task);

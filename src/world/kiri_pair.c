@@ -4,6 +4,7 @@
 #include "../sheet/kiri_touch.h"
 #include "../core/kiri_archive.h"
 #include "../sheet/kiri_piece.h"
+#include "../sheet/kiri_seen.h"
 #include "../sheet/kiri_update.h"
 #include "../sheet/kiri_motion.h"
 
@@ -165,7 +166,7 @@ static bool TouchFromBelow(const kiriPairs* pairs, const kiriTouchingPair* pair,
                            kiriPairTouch* touch)
 {
     const kiriBody *lower = &pairs->bodies.data[near->body], *upper = &pairs->bodies.data[near->other];
-    kiriVec3 normal = kiriVec3_Load(&lower->sheet->seen.surface.normals.data[3 * (size_t)near->vertex]);
+    kiriVec3 normal = kiriVertex_SkinNormal(lower->sheet, near->vertex);
     double along = pair->side * kiriVec3_Dot(normal, near->normal);
     double sign = along >= 0.0 ? 1.0 : -1.0;
     touch->upper = TrianglePlace(upper->sheet, near->triangle, near->share);
@@ -744,11 +745,6 @@ static kiriVec3 DirectionFrom(const kiriPairs* pairs, kiriSpan nears, int32_t a,
     return kiriVec3_Normalize(sum);
 }
 
-static kiriVec3 NormalAt(const kiriSheetData* sheet, int32_t vertex)
-{
-    return kiriVec3_Load(&sheet->seen.surface.normals.data[3 * (size_t)vertex]);
-}
-
 /* Returns the side of the lower body's normals on which the upper body lies. */
 static int32_t SideOfPair(const kiriPairs* pairs, kiriSpan nears, int32_t lower, double dt)
 {
@@ -757,7 +753,7 @@ static int32_t SideOfPair(const kiriPairs* pairs, kiriSpan nears, int32_t lower,
     for (int32_t i = nears.first; i < nears.first + nears.count; ++i) {
         const kiriNear* near = &pairs->nears.data[i];
         double above = Above(pairs, near, dt);
-        sum += near->body == lower ? -above * kiriVec3_Dot(near->normal, NormalAt(sheet, near->vertex)) : above;
+        sum += near->body == lower ? -above * kiriVec3_Dot(near->normal, kiriVertex_SkinNormal(sheet, near->vertex)) : above;
     }
     return sum >= 0.0 ? 1 : -1;
 }
@@ -800,7 +796,7 @@ static bool HasSideTurned(const kiriWorld* world, const kiriTouchingPair* old, i
     kiriVec3 sum = { 0.0, 0.0, 0.0 };
     for (int32_t i = nears.first; i < nears.first + nears.count; ++i) {
         const kiriNear* near = &world->pairs.nears.data[i];
-        sum = kiriVec3_Add(sum, near->body == lower ? NormalAt(sheet, near->vertex) : near->normal);
+        sum = kiriVec3_Add(sum, near->body == lower ? kiriVertex_SkinNormal(sheet, near->vertex) : near->normal);
     }
     kiriVec3 up = kiriVec3_Scale(old->side, kiriVec3_Normalize(sum));
     return kiriVec3_Dot(up, kiriVec3_Normalize(world->gravity)) > TURNED_OVER;
@@ -814,7 +810,7 @@ static bool IsLost(const kiriPairs* pairs, const kiriTouchingPair* old, kiriSpan
     bool isLost = !old->touches;
     for (int32_t i = nears.first; i < nears.first + nears.count; ++i) {
         const kiriNear* near = &pairs->nears.data[i];
-        bool isTurned = near->body == lower && kiriVec3_Dot(near->normal, NormalAt(sheet, near->vertex)) > 0.0;
+        bool isTurned = near->body == lower && kiriVec3_Dot(near->normal, kiriVertex_SkinNormal(sheet, near->vertex)) > 0.0;
         isLost |= (isTurned ? -old->side : old->side) * near->height < -most;
     }
     return isLost;

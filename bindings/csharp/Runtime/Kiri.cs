@@ -358,9 +358,10 @@ namespace Kiri
         }
     }
 
-    /// <summary>The triangles to draw, as after the last tick. revision grows when indices or vertices are added or changed.
-    /// Rest positions are floats, so small triangles far from the origin of the rest plane may look flat in them;
-    /// sourceTriangles and sourceWeights have the precision of the library, 2^-29 of the sheet.</summary>
+    /// <summary>The triangles to draw, as after the last tick, with the detail layer of the material (manual, sheets). revision
+    /// grows when indices or vertices are added or changed. Rest positions are floats, so small triangles far from the
+    /// origin of the rest plane may look flat in them; sourceTriangles and sourceWeights have the precision of the
+    /// library, 2^-29 of the sheet.</summary>
     public unsafe struct MeshView
     {
         readonly World world;

@@ -668,6 +668,8 @@ namespace Kiri
         public float YieldStress;
         /// <summary>modulus beyond the yield stress, relative to youngsModulus; 0 to below 1</summary>
         public float Hardening;
+        /// <summary>sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cotton 2, others 0</summary>
+        public int Detail;
     }
 
     /// <summary>Work against accuracy. Errors of a swinging strip and square of paper, rms over their way: FAST at most 2 %,
@@ -848,9 +850,10 @@ namespace Kiri
         public Flag Normals;
     }
 
-    /// <summary>The triangles to draw, as after the last tick. revision grows when indices or vertices are added or changed.
-    /// Rest positions are floats, so small triangles far from the origin of the rest plane may look flat in them;
-    /// sourceTriangles and sourceWeights have the precision of the library, 2^-29 of the sheet.</summary>
+    /// <summary>The triangles to draw, as after the last tick, with the detail layer of the material (manual, sheets). revision
+    /// grows when indices or vertices are added or changed. Rest positions are floats, so small triangles far from the
+    /// origin of the rest plane may look flat in them; sourceTriangles and sourceWeights have the precision of the
+    /// library, 2^-29 of the sheet.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct NativeMesh
     {

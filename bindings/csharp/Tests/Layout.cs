@@ -136,7 +136,7 @@ namespace Kiri.Tests
         {
             Material s;
             byte* at = (byte*)&s;
-            Is("Material", sizeof(Material), 32);
+            Is("Material", sizeof(Material), 36);
             Is("Material.YoungsModulus", (byte*)&s.YoungsModulus - at, 0);
             Is("Material.PoissonsRatio", (byte*)&s.PoissonsRatio - at, 4);
             Is("Material.Thickness", (byte*)&s.Thickness - at, 8);
@@ -145,6 +145,7 @@ namespace Kiri.Tests
             Is("Material.FlexDamping", (byte*)&s.FlexDamping - at, 20);
             Is("Material.YieldStress", (byte*)&s.YieldStress - at, 24);
             Is("Material.Hardening", (byte*)&s.Hardening - at, 28);
+            Is("Material.Detail", (byte*)&s.Detail - at, 32);
         }
 
         static void Quality()
@@ -185,12 +186,12 @@ namespace Kiri.Tests
             Is("SheetDef.AxisV", (byte*)&s.AxisV - at, 60);
             Is("SheetDef.Velocity", (byte*)&s.Velocity - at, 72);
             Is("SheetDef.Material", (byte*)&s.Material - at, 84);
-            Is("SheetDef.GridResolution", (byte*)&s.GridResolution - at, 116);
-            Is("SheetDef.SnapDistance", (byte*)&s.SnapDistance - at, 120);
-            Is("SheetDef.WeldDistance", (byte*)&s.WeldDistance - at, 124);
-            Is("SheetDef.FrameCount", (byte*)&s.FrameCount - at, 128);
-            Is("SheetDef.FrameLength", (byte*)&s.FrameLength - at, 132);
-            Is("SheetDef.Accuracy", (byte*)&s.Accuracy - at, 136);
+            Is("SheetDef.GridResolution", (byte*)&s.GridResolution - at, 120);
+            Is("SheetDef.SnapDistance", (byte*)&s.SnapDistance - at, 124);
+            Is("SheetDef.WeldDistance", (byte*)&s.WeldDistance - at, 128);
+            Is("SheetDef.FrameCount", (byte*)&s.FrameCount - at, 132);
+            Is("SheetDef.FrameLength", (byte*)&s.FrameLength - at, 136);
+            Is("SheetDef.Accuracy", (byte*)&s.Accuracy - at, 140);
             Is("SheetDef.framePoints", (byte*)&s.framePoints - at, 144);
             Is("SheetDef.MaxFrames", (byte*)&s.MaxFrames - at, 152);
             Is("SheetDef.RigidWeight", (byte*)&s.RigidWeight - at, 156);
@@ -217,22 +218,22 @@ namespace Kiri.Tests
         {
             SheetSettings s;
             byte* at = (byte*)&s;
-            Is("SheetSettings", sizeof(SheetSettings), 88);
+            Is("SheetSettings", sizeof(SheetSettings), 92);
             Is("SheetSettings.cookie", (byte*)&s.cookie - at, 0);
             Is("SheetSettings.Material", (byte*)&s.Material - at, 4);
-            Is("SheetSettings.MaxFrames", (byte*)&s.MaxFrames - at, 36);
-            Is("SheetSettings.CrumbArea", (byte*)&s.CrumbArea - at, 40);
-            Is("SheetSettings.Friction", (byte*)&s.Friction - at, 44);
-            Is("SheetSettings.ContactThickness", (byte*)&s.ContactThickness - at, 48);
-            Is("SheetSettings.Groups", (byte*)&s.Groups - at, 52);
-            Is("SheetSettings.TouchesSheets", (byte*)&s.TouchesSheets - at, 56);
-            Is("SheetSettings.SelfContact", (byte*)&s.SelfContact - at, 60);
-            Is("SheetSettings.Iterations", (byte*)&s.Iterations - at, 64);
-            Is("SheetSettings.SleepSpeed", (byte*)&s.SleepSpeed - at, 68);
-            Is("SheetSettings.Skinning", (byte*)&s.Skinning - at, 72);
-            Is("SheetSettings.TimeStepping", (byte*)&s.TimeStepping - at, 76);
-            Is("SheetSettings.FadeTime", (byte*)&s.FadeTime - at, 80);
-            Is("SheetSettings.Normals", (byte*)&s.Normals - at, 84);
+            Is("SheetSettings.MaxFrames", (byte*)&s.MaxFrames - at, 40);
+            Is("SheetSettings.CrumbArea", (byte*)&s.CrumbArea - at, 44);
+            Is("SheetSettings.Friction", (byte*)&s.Friction - at, 48);
+            Is("SheetSettings.ContactThickness", (byte*)&s.ContactThickness - at, 52);
+            Is("SheetSettings.Groups", (byte*)&s.Groups - at, 56);
+            Is("SheetSettings.TouchesSheets", (byte*)&s.TouchesSheets - at, 60);
+            Is("SheetSettings.SelfContact", (byte*)&s.SelfContact - at, 64);
+            Is("SheetSettings.Iterations", (byte*)&s.Iterations - at, 68);
+            Is("SheetSettings.SleepSpeed", (byte*)&s.SleepSpeed - at, 72);
+            Is("SheetSettings.Skinning", (byte*)&s.Skinning - at, 76);
+            Is("SheetSettings.TimeStepping", (byte*)&s.TimeStepping - at, 80);
+            Is("SheetSettings.FadeTime", (byte*)&s.FadeTime - at, 84);
+            Is("SheetSettings.Normals", (byte*)&s.Normals - at, 88);
         }
 
         static void Mesh()

@@ -380,6 +380,8 @@ pub struct kiriMaterial {
     pub yieldStress: f32,
     /// modulus beyond the yield stress, relative to youngsModulus; 0 to below 1
     pub hardening: f32,
+    /// sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cotton 2, others 0
+    pub detail: i32,
 }
 
 /// Work against accuracy. Errors of a swinging strip and square of paper, rms over their way: FAST
@@ -557,10 +559,10 @@ pub struct kiriSheetSettings {
     pub normals: i32,
 }
 
-/// The triangles to draw, as after the last tick. revision grows when indices or vertices are added
-/// or changed. Rest positions are floats, so small triangles far from the origin of the rest plane
-/// may look flat in them; sourceTriangles and sourceWeights have the precision of the library,
-/// 2^-29 of the sheet.
+/// The triangles to draw, as after the last tick, with the detail layer of the material (manual,
+/// sheets). revision grows when indices or vertices are added or changed. Rest positions are
+/// floats, so small triangles far from the origin of the rest plane may look flat in them;
+/// sourceTriangles and sourceWeights have the precision of the library, 2^-29 of the sheet.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriMesh {
@@ -1408,7 +1410,7 @@ const _: () = {
     assert!(offset_of!(kiriProfile, sheetPairs) == 124);
     assert!(offset_of!(kiriProfile, largestJump) == 128);
     assert!(offset_of!(kiriProfile, largestFade) == 136);
-    assert!(size_of::<kiriMaterial>() == 32);
+    assert!(size_of::<kiriMaterial>() == 36);
     assert!(align_of::<kiriMaterial>() == 4);
     assert!(offset_of!(kiriMaterial, youngsModulus) == 0);
     assert!(offset_of!(kiriMaterial, poissonsRatio) == 4);
@@ -1418,6 +1420,7 @@ const _: () = {
     assert!(offset_of!(kiriMaterial, flexDamping) == 20);
     assert!(offset_of!(kiriMaterial, yieldStress) == 24);
     assert!(offset_of!(kiriMaterial, hardening) == 28);
+    assert!(offset_of!(kiriMaterial, detail) == 32);
     assert!(size_of::<kiriQuality>() == 16);
     assert!(align_of::<kiriQuality>() == 4);
     assert!(offset_of!(kiriQuality, framesAlong) == 0);
@@ -1443,12 +1446,12 @@ const _: () = {
     assert!(offset_of!(kiriSheetDef, axisV) == 60);
     assert!(offset_of!(kiriSheetDef, velocity) == 72);
     assert!(offset_of!(kiriSheetDef, material) == 84);
-    assert!(offset_of!(kiriSheetDef, gridResolution) == 116);
-    assert!(offset_of!(kiriSheetDef, snapDistance) == 120);
-    assert!(offset_of!(kiriSheetDef, weldDistance) == 124);
-    assert!(offset_of!(kiriSheetDef, frameCount) == 128);
-    assert!(offset_of!(kiriSheetDef, frameLength) == 132);
-    assert!(offset_of!(kiriSheetDef, accuracy) == 136);
+    assert!(offset_of!(kiriSheetDef, gridResolution) == 120);
+    assert!(offset_of!(kiriSheetDef, snapDistance) == 124);
+    assert!(offset_of!(kiriSheetDef, weldDistance) == 128);
+    assert!(offset_of!(kiriSheetDef, frameCount) == 132);
+    assert!(offset_of!(kiriSheetDef, frameLength) == 136);
+    assert!(offset_of!(kiriSheetDef, accuracy) == 140);
     assert!(offset_of!(kiriSheetDef, framePoints) == 144);
     assert!(offset_of!(kiriSheetDef, maxFrames) == 152);
     assert!(offset_of!(kiriSheetDef, rigidWeight) == 156);
@@ -1469,23 +1472,23 @@ const _: () = {
     assert!(offset_of!(kiriSheetDef, fadeTime) == 216);
     assert!(offset_of!(kiriSheetDef, normals) == 220);
     assert!(offset_of!(kiriSheetDef, paper) == 224);
-    assert!(size_of::<kiriSheetSettings>() == 88);
+    assert!(size_of::<kiriSheetSettings>() == 92);
     assert!(align_of::<kiriSheetSettings>() == 4);
     assert!(offset_of!(kiriSheetSettings, cookie) == 0);
     assert!(offset_of!(kiriSheetSettings, material) == 4);
-    assert!(offset_of!(kiriSheetSettings, maxFrames) == 36);
-    assert!(offset_of!(kiriSheetSettings, crumbArea) == 40);
-    assert!(offset_of!(kiriSheetSettings, friction) == 44);
-    assert!(offset_of!(kiriSheetSettings, contactThickness) == 48);
-    assert!(offset_of!(kiriSheetSettings, groups) == 52);
-    assert!(offset_of!(kiriSheetSettings, touchesSheets) == 56);
-    assert!(offset_of!(kiriSheetSettings, selfContact) == 60);
-    assert!(offset_of!(kiriSheetSettings, iterations) == 64);
-    assert!(offset_of!(kiriSheetSettings, sleepSpeed) == 68);
-    assert!(offset_of!(kiriSheetSettings, skinning) == 72);
-    assert!(offset_of!(kiriSheetSettings, timeStepping) == 76);
-    assert!(offset_of!(kiriSheetSettings, fadeTime) == 80);
-    assert!(offset_of!(kiriSheetSettings, normals) == 84);
+    assert!(offset_of!(kiriSheetSettings, maxFrames) == 40);
+    assert!(offset_of!(kiriSheetSettings, crumbArea) == 44);
+    assert!(offset_of!(kiriSheetSettings, friction) == 48);
+    assert!(offset_of!(kiriSheetSettings, contactThickness) == 52);
+    assert!(offset_of!(kiriSheetSettings, groups) == 56);
+    assert!(offset_of!(kiriSheetSettings, touchesSheets) == 60);
+    assert!(offset_of!(kiriSheetSettings, selfContact) == 64);
+    assert!(offset_of!(kiriSheetSettings, iterations) == 68);
+    assert!(offset_of!(kiriSheetSettings, sleepSpeed) == 72);
+    assert!(offset_of!(kiriSheetSettings, skinning) == 76);
+    assert!(offset_of!(kiriSheetSettings, timeStepping) == 80);
+    assert!(offset_of!(kiriSheetSettings, fadeTime) == 84);
+    assert!(offset_of!(kiriSheetSettings, normals) == 88);
     assert!(size_of::<kiriMesh>() == 64);
     assert!(align_of::<kiriMesh>() == 8);
     assert!(offset_of!(kiriMesh, positions) == 0);
@@ -1732,7 +1735,7 @@ const _: () = {
     assert!(offset_of!(kiriProfile, sheetPairs) == 124);
     assert!(offset_of!(kiriProfile, largestJump) == 128);
     assert!(offset_of!(kiriProfile, largestFade) == 136);
-    assert!(size_of::<kiriMaterial>() == 32);
+    assert!(size_of::<kiriMaterial>() == 36);
     assert!(align_of::<kiriMaterial>() == 4);
     assert!(offset_of!(kiriMaterial, youngsModulus) == 0);
     assert!(offset_of!(kiriMaterial, poissonsRatio) == 4);
@@ -1742,6 +1745,7 @@ const _: () = {
     assert!(offset_of!(kiriMaterial, flexDamping) == 20);
     assert!(offset_of!(kiriMaterial, yieldStress) == 24);
     assert!(offset_of!(kiriMaterial, hardening) == 28);
+    assert!(offset_of!(kiriMaterial, detail) == 32);
     assert!(size_of::<kiriQuality>() == 16);
     assert!(align_of::<kiriQuality>() == 4);
     assert!(offset_of!(kiriQuality, framesAlong) == 0);
@@ -1755,7 +1759,7 @@ const _: () = {
     assert!(offset_of!(kiriPaperOptions, linearWeights) == 8);
     assert!(offset_of!(kiriPaperOptions, integrationPoints) == 12);
     assert!(offset_of!(kiriPaperOptions, integrationOrder) == 16);
-    assert!(size_of::<kiriSheetDef>() == 220);
+    assert!(size_of::<kiriSheetDef>() == 224);
     assert!(align_of::<kiriSheetDef>() == 4);
     assert!(offset_of!(kiriSheetDef, cookie) == 0);
     assert!(offset_of!(kiriSheetDef, restPositions) == 4);
@@ -1767,49 +1771,49 @@ const _: () = {
     assert!(offset_of!(kiriSheetDef, axisV) == 44);
     assert!(offset_of!(kiriSheetDef, velocity) == 56);
     assert!(offset_of!(kiriSheetDef, material) == 68);
-    assert!(offset_of!(kiriSheetDef, gridResolution) == 100);
-    assert!(offset_of!(kiriSheetDef, snapDistance) == 104);
-    assert!(offset_of!(kiriSheetDef, weldDistance) == 108);
-    assert!(offset_of!(kiriSheetDef, frameCount) == 112);
-    assert!(offset_of!(kiriSheetDef, frameLength) == 116);
-    assert!(offset_of!(kiriSheetDef, accuracy) == 120);
-    assert!(offset_of!(kiriSheetDef, framePoints) == 124);
-    assert!(offset_of!(kiriSheetDef, maxFrames) == 128);
-    assert!(offset_of!(kiriSheetDef, rigidWeight) == 132);
-    assert!(offset_of!(kiriSheetDef, rigidArea) == 136);
-    assert!(offset_of!(kiriSheetDef, crumbArea) == 140);
-    assert!(offset_of!(kiriSheetDef, friction) == 144);
-    assert!(offset_of!(kiriSheetDef, contactThickness) == 148);
-    assert!(offset_of!(kiriSheetDef, groups) == 152);
-    assert!(offset_of!(kiriSheetDef, touchesSheets) == 156);
-    assert!(offset_of!(kiriSheetDef, selfContact) == 160);
-    assert!(offset_of!(kiriSheetDef, collisionPoints) == 164);
-    assert!(offset_of!(kiriSheetDef, iterations) == 168);
-    assert!(offset_of!(kiriSheetDef, sleepSpeed) == 172);
-    assert!(offset_of!(kiriSheetDef, model) == 176);
-    assert!(offset_of!(kiriSheetDef, skinning) == 180);
-    assert!(offset_of!(kiriSheetDef, planar) == 184);
-    assert!(offset_of!(kiriSheetDef, timeStepping) == 188);
-    assert!(offset_of!(kiriSheetDef, fadeTime) == 192);
-    assert!(offset_of!(kiriSheetDef, normals) == 196);
-    assert!(offset_of!(kiriSheetDef, paper) == 200);
-    assert!(size_of::<kiriSheetSettings>() == 88);
+    assert!(offset_of!(kiriSheetDef, gridResolution) == 104);
+    assert!(offset_of!(kiriSheetDef, snapDistance) == 108);
+    assert!(offset_of!(kiriSheetDef, weldDistance) == 112);
+    assert!(offset_of!(kiriSheetDef, frameCount) == 116);
+    assert!(offset_of!(kiriSheetDef, frameLength) == 120);
+    assert!(offset_of!(kiriSheetDef, accuracy) == 124);
+    assert!(offset_of!(kiriSheetDef, framePoints) == 128);
+    assert!(offset_of!(kiriSheetDef, maxFrames) == 132);
+    assert!(offset_of!(kiriSheetDef, rigidWeight) == 136);
+    assert!(offset_of!(kiriSheetDef, rigidArea) == 140);
+    assert!(offset_of!(kiriSheetDef, crumbArea) == 144);
+    assert!(offset_of!(kiriSheetDef, friction) == 148);
+    assert!(offset_of!(kiriSheetDef, contactThickness) == 152);
+    assert!(offset_of!(kiriSheetDef, groups) == 156);
+    assert!(offset_of!(kiriSheetDef, touchesSheets) == 160);
+    assert!(offset_of!(kiriSheetDef, selfContact) == 164);
+    assert!(offset_of!(kiriSheetDef, collisionPoints) == 168);
+    assert!(offset_of!(kiriSheetDef, iterations) == 172);
+    assert!(offset_of!(kiriSheetDef, sleepSpeed) == 176);
+    assert!(offset_of!(kiriSheetDef, model) == 180);
+    assert!(offset_of!(kiriSheetDef, skinning) == 184);
+    assert!(offset_of!(kiriSheetDef, planar) == 188);
+    assert!(offset_of!(kiriSheetDef, timeStepping) == 192);
+    assert!(offset_of!(kiriSheetDef, fadeTime) == 196);
+    assert!(offset_of!(kiriSheetDef, normals) == 200);
+    assert!(offset_of!(kiriSheetDef, paper) == 204);
+    assert!(size_of::<kiriSheetSettings>() == 92);
     assert!(align_of::<kiriSheetSettings>() == 4);
     assert!(offset_of!(kiriSheetSettings, cookie) == 0);
     assert!(offset_of!(kiriSheetSettings, material) == 4);
-    assert!(offset_of!(kiriSheetSettings, maxFrames) == 36);
-    assert!(offset_of!(kiriSheetSettings, crumbArea) == 40);
-    assert!(offset_of!(kiriSheetSettings, friction) == 44);
-    assert!(offset_of!(kiriSheetSettings, contactThickness) == 48);
-    assert!(offset_of!(kiriSheetSettings, groups) == 52);
-    assert!(offset_of!(kiriSheetSettings, touchesSheets) == 56);
-    assert!(offset_of!(kiriSheetSettings, selfContact) == 60);
-    assert!(offset_of!(kiriSheetSettings, iterations) == 64);
-    assert!(offset_of!(kiriSheetSettings, sleepSpeed) == 68);
-    assert!(offset_of!(kiriSheetSettings, skinning) == 72);
-    assert!(offset_of!(kiriSheetSettings, timeStepping) == 76);
-    assert!(offset_of!(kiriSheetSettings, fadeTime) == 80);
-    assert!(offset_of!(kiriSheetSettings, normals) == 84);
+    assert!(offset_of!(kiriSheetSettings, maxFrames) == 40);
+    assert!(offset_of!(kiriSheetSettings, crumbArea) == 44);
+    assert!(offset_of!(kiriSheetSettings, friction) == 48);
+    assert!(offset_of!(kiriSheetSettings, contactThickness) == 52);
+    assert!(offset_of!(kiriSheetSettings, groups) == 56);
+    assert!(offset_of!(kiriSheetSettings, touchesSheets) == 60);
+    assert!(offset_of!(kiriSheetSettings, selfContact) == 64);
+    assert!(offset_of!(kiriSheetSettings, iterations) == 68);
+    assert!(offset_of!(kiriSheetSettings, sleepSpeed) == 72);
+    assert!(offset_of!(kiriSheetSettings, skinning) == 76);
+    assert!(offset_of!(kiriSheetSettings, timeStepping) == 80);
+    assert!(offset_of!(kiriSheetSettings, fadeTime) == 84);
+    assert!(offset_of!(kiriSheetSettings, normals) == 88);
     assert!(size_of::<kiriMesh>() == 36);
     assert!(align_of::<kiriMesh>() == 4);
     assert!(offset_of!(kiriMesh, positions) == 0);

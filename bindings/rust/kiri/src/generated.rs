@@ -709,6 +709,8 @@ pub struct Material {
     pub yield_stress: f32,
     /// modulus beyond the yield stress, relative to `youngs_modulus`; 0 to below 1
     pub hardening: f32,
+    /// sweeps of the detail layer a tick, 0 (off) to 16, see [`Mesh`]. Presets: cotton 2, others 0
+    pub detail: i32,
 }
 
 const _: () = {
@@ -722,6 +724,7 @@ const _: () = {
     assert!(offset_of!(Material, flex_damping) == offset_of!(sys::kiriMaterial, flexDamping));
     assert!(offset_of!(Material, yield_stress) == offset_of!(sys::kiriMaterial, yieldStress));
     assert!(offset_of!(Material, hardening) == offset_of!(sys::kiriMaterial, hardening));
+    assert!(offset_of!(Material, detail) == offset_of!(sys::kiriMaterial, detail));
 };
 
 impl Material {
@@ -1095,10 +1098,10 @@ impl SheetSettings {
     }
 }
 
-/// The triangles to draw, as after the last tick. revision grows when indices or vertices are added
-/// or changed. Rest positions are floats, so small triangles far from the origin of the rest plane
-/// may look flat in them; `source_triangles` and `source_weights` have the precision of the
-/// library, 2^-29 of the sheet.
+/// The triangles to draw, as after the last tick, with the detail layer of the material (manual,
+/// sheets). revision grows when indices or vertices are added or changed. Rest positions are
+/// floats, so small triangles far from the origin of the rest plane may look flat in them;
+/// `source_triangles` and `source_weights` have the precision of the library, 2^-29 of the sheet.
 #[derive(Clone, Copy, Debug)]
 pub struct Mesh<'a> {
     /// 3 a vertex, m, world

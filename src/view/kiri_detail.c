@@ -1,0 +1,297 @@
+#include "kiri_detail.h"
+#include "../core/kiri_lanes.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Share of the offsets that a tick takes away. Edges do not see a shift of the whole sheet, so without it the layer would
+   drift to the end of its leash. */
+#define PULL 0.002f
+
+/* Part of the squared Laplacian of the offsets that a tick takes away. Stable up to 1/2. Twice as much leaves lips no
+   evener, and cloth that lies in a heap more strained. */
+#define SMOOTHING 0.1f
+
+/* ---- Room -------------------------------------------------------------------------------------------------------- */
+
+/* Two free items at the end stand for the ends of missing edges in a group. Euler's formula limits the edges: a hole has at
+   least three vertices. */
+bool kiriDetail_Reserve(kiriDetail* detail, kiriMemory* memory, int64_t vertices, int64_t triangles, int32_t frames)
+{
+    return detail->sweeps == 0 ||
+           (kiriArray_Reserve(memory, &detail->offsets, 3 * vertices) &&
+            kiriArray_Reserve(memory, &detail->drawn, 3 * vertices + 1) &&
+            kiriArray_Reserve(memory, &detail->moving, 4 * vertices + 8) &&
+            kiriArray_Reserve(memory, &detail->crease, 4 * vertices) &&
+            kiriArray_Reserve(memory, &detail->vertices, vertices) &&
+            kiriArray_Reserve(memory, &detail->edges, triangles + vertices + vertices / 3) &&
+            kiriArray_Reserve(memory, &detail->awake, frames));
+}
+
+void kiriDetail_Resize(kiriDetail* detail, int32_t vertices, int32_t frames)
+{
+    int32_t was = detail->offsets.count, is = detail->sweeps > 0 ? 3 * vertices : 0;
+    KIRI_ASSERT(is <= detail->offsets.capacity && (is == 0 || frames <= detail->awake.capacity));
+    if (is > was) {
+        memset(detail->offsets.data + was, 0, sizeof(float) * (size_t)(is - was));
+    }
+    detail->offsets.count = detail->drawn.count = is;
+    detail->awake.count = is > 0 ? frames : 0;
+    detail->isListed = false;
+}
+
+void kiriDetail_Bear(kiriDetail* detail, int32_t vertex, const kiriBirth* birth)
+{
+    float sum[3] = { 0 };
+    KIRI_ASSERT(3 * vertex < detail->offsets.count);
+    for (int k = 0; k < 3 && birth->parent[k] != KIRI_NONE; ++k) {
+        for (int i = 0; i < 3; ++i) {
+            sum[i] += (float)birth->share[k] * detail->offsets.data[3 * (ptrdiff_t)birth->parent[k] + i];
+        }
+    }
+    memcpy(detail->offsets.data + 3 * (ptrdiff_t)vertex, sum, sizeof(sum));
+}
+
+/* ---- Lists ------------------------------------------------------------------------------------------------------- */
+
+/* Returns true if an edge of the list stands for the half-edge. Both lips of an open edge have one. */
+static inline bool IsListed(const kiriMeshData* mesh, const uint32_t* marks, int32_t h)
+{
+    const kiriTriangle* t = &mesh->triangles.data[h / 3];
+    int32_t twin = t->twin[h % 3];
+    bool isOwn = h < twin || kiriMesh_IsBorder(mesh, h);
+    return isOwn && marks[t->vertex[h % 3]] != UINT32_MAX;
+}
+
+#define BORDER 0x80000000u
+
+void kiriDetail_ListEdges(kiriDetail* detail, const kiriMeshData* mesh)
+{
+    const int32_t last = KIRI_DETAIL_COLORS - 1, halfEdges = 3 * mesh->triangles.count;
+    int32_t counts[KIRI_DETAIL_COLORS] = { 0 };
+    /* Scratch in `crease`, which a tick fills later: colors of the edges of each vertex, and the color of each half-edge. */
+    uint32_t* marks = (void*)detail->crease.data;
+    uint8_t* colors = (uint8_t*)(marks + mesh->vertices.count);
+    KIRI_ASSERT(mesh->vertices.count + (int64_t)halfEdges / 4 < detail->crease.capacity);
+    memset(marks, 0xFF, sizeof(*marks) * (size_t)mesh->vertices.count);
+    KIRI_EACH_INDEX(k, detail->vertices) {
+        KIRI_ASSERT_HAS(mesh->vertices, detail->vertices.data[k].vertex);
+        marks[detail->vertices.data[k].vertex] = 0;
+    }
+    for (int32_t h = 0; h < halfEdges; ++h) {
+        if (IsListed(mesh, marks, h)) {
+            uint32_t *a = &marks[kiriMesh_Tail(mesh, h)], *b = &marks[kiriMesh_Head(mesh, h)], taken = *a | *b;
+            KIRI_ASSERT(*b != UINT32_MAX);
+            int32_t color = 0;
+            while (color < last && (taken >> color & 1) != 0) {
+                ++color;
+            }
+            uint32_t mark = color < last ? 1u << color : 0; /* the last color stays free: marks do not fill up */
+            *a |= mark;
+            *b |= mark;
+            colors[h] = (uint8_t)color;
+            counts[color] += 1;
+        }
+    }
+    detail->colorStart[0] = 0;
+    for (int32_t color = 0; color <= last; ++color) {
+        detail->colorStart[color + 1] = detail->colorStart[color] + counts[color];
+        counts[color] = detail->colorStart[color];
+    }
+    detail->edges.count = detail->colorStart[last + 1];
+    KIRI_ASSERT(detail->edges.count <= detail->edges.capacity);
+    for (int32_t h = 0; h < halfEdges; ++h) {
+        if (IsListed(mesh, marks, h)) {
+            kiriDetailEdge* edge = &detail->edges.data[counts[colors[h]]++];
+            edge->a = kiriMesh_Tail(mesh, h);
+            edge->b = kiriMesh_Head(mesh, h);
+            kiriVec2 along = kiriVec2_Sub(kiriMesh_Local(mesh, mesh->vertices.data[edge->b].at),
+                                          kiriMesh_Local(mesh, mesh->vertices.data[edge->a].at));
+            edge->rest = (float)sqrt(along.x * along.x + along.y * along.y);
+        }
+    }
+    memset(marks, 0, sizeof(*marks) * (size_t)mesh->vertices.count); /* now: number of edges, and the border */
+    KIRI_EACH_INDEX(k, detail->edges) {
+        marks[detail->edges.data[k].a] += 1;
+        marks[detail->edges.data[k].b] += 1;
+    }
+    for (int32_t h = 0; h < halfEdges; ++h) {
+        if (kiriMesh_IsBorder(mesh, h)) {
+            marks[kiriMesh_Tail(mesh, h)] |= BORDER;
+            marks[kiriMesh_Head(mesh, h)] |= BORDER;
+        }
+    }
+    KIRI_EACH_INDEX(k, detail->vertices) {
+        uint32_t mark = marks[detail->vertices.data[k].vertex];
+        KIRI_ASSERT((mark & ~BORDER) > 0);
+        float share = 1.0f / (float)(mark & ~BORDER);
+        detail->vertices.data[k].share = (mark & BORDER) != 0 ? -share : share;
+    }
+    detail->isListed = true;
+}
+
+/* ---- A tick ------------------------------------------------------------------------------------------------------ */
+
+void kiriDetail_Begin(kiriDetail* detail, const float* skin, int32_t begin, int32_t end)
+{
+    KIRI_ASSERT(detail->isListed && begin >= 0 && end <= detail->vertices.count);
+    for (int32_t k = begin; k < end; ++k) {
+        kiriDetailVertex item = detail->vertices.data[k];
+        const float *from = skin + 3 * (ptrdiff_t)item.vertex, *by = detail->offsets.data + 3 * (ptrdiff_t)item.vertex;
+        float *to = detail->moving.data + 4 * (ptrdiff_t)item.vertex, keep = item.leash > 0.0f ? 1.0f - PULL : 0.8f;
+        for (int i = 0; i < 3; ++i) {
+            to[i] = from[i] + keep * by[i];
+        }
+        to[3] = item.leash > 0.0f ? 1.0f : 0.0f;
+    }
+}
+
+int32_t kiriDetail_GroupCount(const kiriDetail* detail, int32_t color)
+{
+    int32_t edges = detail->colorStart[color + 1] - detail->colorStart[color];
+    return color < KIRI_DETAIL_COLORS - 1 ? (edges + 3) / 4 : edges;
+}
+
+#define DETAIL_ROW(k) (at + 4 * (ptrdiff_t)(k))
+
+/* Moves the ends of four edges towards each other, by half of the error in all if both are free. */
+static inline void RelaxFour(float* at, const int32_t* a, const int32_t* b, kiriLanes rest)
+{
+    const kiriLanes least = kiriLanes_Splat(1e-30f), none = kiriLanes_Splat(0.0f);
+    kiriLanes p[4], q[4], by[4];
+    for (int k = 0; k < 4; ++k) {
+        p[k] = kiriLanes_Load(DETAIL_ROW(a[k]));
+        q[k] = kiriLanes_Load(DETAIL_ROW(b[k]));
+        by[k] = kiriLanes_Sub(q[k], p[k]);
+    }
+    kiriLanes xy0 = kiriLanes_Join(by[0], 0, 1, by[1], 0, 1), xy1 = kiriLanes_Join(by[2], 0, 1, by[3], 0, 1);
+    kiriLanes x = kiriLanes_Join(xy0, 0, 2, xy1, 0, 2), y = kiriLanes_Join(xy0, 1, 3, xy1, 1, 3);
+    kiriLanes z = kiriLanes_Join(kiriLanes_Join(by[0], 2, 2, by[1], 2, 2), 0, 2,
+                                 kiriLanes_Join(by[2], 2, 2, by[3], 2, 2), 0, 2);
+    kiriLanes free0 = kiriLanes_Join(kiriLanes_Join(p[0], 3, 3, p[1], 3, 3), 0, 2,
+                                     kiriLanes_Join(p[2], 3, 3, p[3], 3, 3), 0, 2);
+    kiriLanes free1 = kiriLanes_Join(kiriLanes_Join(q[0], 3, 3, q[1], 3, 3), 0, 2,
+                                     kiriLanes_Join(q[2], 3, 3, q[3], 3, 3), 0, 2);
+    kiriLanes square = kiriLanes_Add(kiriLanes_Add(kiriLanes_Mul(x, x), kiriLanes_Mul(y, y)), kiriLanes_Mul(z, z));
+    kiriLanes length = kiriLanes_Sqrt(kiriLanes_Add(square, least));
+    kiriLanes shares = kiriLanes_Add(kiriLanes_Add(free0, free1), kiriLanes_Splat(1e-12f));
+    kiriLanes scale = kiriLanes_Div(kiriLanes_Sub(length, rest), kiriLanes_Mul(length, shares));
+    kiriLanes cx = kiriLanes_Mul(scale, x), cy = kiriLanes_Mul(scale, y), cz = kiriLanes_Mul(scale, z);
+    kiriLanes low = kiriLanes_Join(cx, 0, 1, cy, 0, 1), high = kiriLanes_Join(cx, 2, 3, cy, 2, 3);
+    kiriLanes lowZ = kiriLanes_Join(cz, 0, 1, none, 0, 1), highZ = kiriLanes_Join(cz, 2, 3, none, 0, 1);
+    by[0] = kiriLanes_Join(low, 0, 2, lowZ, 0, 2);
+    by[1] = kiriLanes_Join(low, 1, 3, lowZ, 1, 3);
+    by[2] = kiriLanes_Join(high, 0, 2, highZ, 0, 2);
+    by[3] = kiriLanes_Join(high, 1, 3, highZ, 1, 3);
+    for (int k = 0; k < 4; ++k) {
+        kiriLanes_Store(DETAIL_ROW(a[k]), kiriLanes_Add(p[k], kiriLanes_Mul(by[k], kiriLanes_Pick(p[k], 3, 3, 3, 3))));
+        kiriLanes_Store(DETAIL_ROW(b[k]), kiriLanes_Sub(q[k], kiriLanes_Mul(by[k], kiriLanes_Pick(q[k], 3, 3, 3, 3))));
+    }
+}
+
+void kiriDetail_Sweep(kiriDetail* detail, int32_t color, int32_t begin, int32_t end)
+{
+    const int32_t each = color < KIRI_DETAIL_COLORS - 1 ? 4 : 1, vertices = detail->offsets.count / 3;
+    const kiriDetailEdge* edges = detail->edges.data + detail->colorStart[color];
+    const int32_t count = detail->colorStart[color + 1] - detail->colorStart[color];
+    KIRI_ASSERT(detail->isListed && begin >= 0 && end <= kiriDetail_GroupCount(detail, color));
+    for (int32_t group = begin; group < end; ++group) {
+        int32_t first = each * group, a[4], b[4], real = kiriMin(each, count - first);
+        float rest[4] = { 0 };
+        for (int32_t k = 0; k < 4; ++k) {
+            a[k] = k < real ? edges[first + k].a : vertices;
+            b[k] = k < real ? edges[first + k].b : vertices + 1;
+            rest[k] = k < real ? edges[first + k].rest : 0.0f;
+        }
+        if (real < 4) {
+            memset(detail->moving.data + 4 * (ptrdiff_t)vertices, 0, 8 * sizeof(float));
+        }
+        RelaxFour(detail->moving.data, a, b, kiriLanes_Load(rest));
+    }
+}
+
+void kiriDetail_Leash(kiriDetail* detail, const float* skin, int32_t begin, int32_t end)
+{
+    KIRI_ASSERT(detail->isListed && begin >= 0 && end <= detail->vertices.count);
+    for (int32_t k = begin; k < end; ++k) {
+        kiriDetailVertex item = detail->vertices.data[k];
+        const float* from = skin + 3 * (ptrdiff_t)item.vertex;
+        float* at = detail->moving.data + 4 * (ptrdiff_t)item.vertex;
+        float x = at[0] - from[0], y = at[1] - from[1], z = at[2] - from[2], square = x * x + y * y + z * z;
+        if (item.leash > 0.0f && !(square <= item.leash * item.leash)) {
+            float share = square < 1e30f ? item.leash / sqrtf(square) : 0.0f;
+            at[0] = from[0] + share * x;
+            at[1] = from[1] + share * y;
+            at[2] = from[2] + share * z;
+        }
+    }
+}
+
+/* Takes a part of the squared Laplacian off the offsets: else compressed cloth crinkles from edge to edge of the mesh. On
+   the outline the first Laplacian counts as 0, as on the free edge of a plate. */
+void kiriDetail_Smooth(kiriDetail* detail, const float* skin)
+{
+    float *offsets = detail->moving.data, *crease = detail->crease.data;
+    KIRI_ASSERT(detail->isListed);
+    KIRI_EACH_INDEX(k, detail->vertices) {
+        ptrdiff_t vertex = detail->vertices.data[k].vertex;
+        kiriLanes from = kiriLanes_Four(skin[3 * vertex], skin[3 * vertex + 1], skin[3 * vertex + 2], 0.0f);
+        kiriLanes_Store(offsets + 4 * vertex, kiriLanes_Sub(kiriLanes_Load(offsets + 4 * vertex), from));
+        kiriLanes_Store(crease + 4 * vertex, kiriLanes_Splat(0.0f));
+    }
+    KIRI_EACH_INDEX(k, detail->edges) {
+        float *a = crease + 4 * (ptrdiff_t)detail->edges.data[k].a, *b = crease + 4 * (ptrdiff_t)detail->edges.data[k].b;
+        kiriLanes by = kiriLanes_Sub(kiriLanes_Load(offsets + (b - crease)), kiriLanes_Load(offsets + (a - crease)));
+        kiriLanes_Store(a, kiriLanes_Add(kiriLanes_Load(a), by));
+        kiriLanes_Store(b, kiriLanes_Sub(kiriLanes_Load(b), by));
+    }
+    KIRI_EACH_INDEX(k, detail->vertices) {
+        kiriDetailVertex item = detail->vertices.data[k];
+        float* of = crease + 4 * (ptrdiff_t)item.vertex;
+        kiriLanes_Store(of, kiriLanes_Mul(kiriLanes_Splat(kiriMax(item.share, 0.0f)), kiriLanes_Load(of)));
+        of[3] = item.leash > 0.0f ? SMOOTHING * fabsf(item.share) : 0.0f;
+    }
+    KIRI_EACH_INDEX(k, detail->edges) {
+        float *a = offsets + 4 * (ptrdiff_t)detail->edges.data[k].a, *b = offsets + 4 * (ptrdiff_t)detail->edges.data[k].b;
+        kiriLanes first = kiriLanes_Load(crease + (a - offsets)), second = kiriLanes_Load(crease + (b - offsets));
+        kiriLanes by = kiriLanes_Sub(second, first);
+        kiriLanes_Store(a, kiriLanes_Sub(kiriLanes_Load(a), kiriLanes_Mul(kiriLanes_Pick(first, 3, 3, 3, 3), by)));
+        kiriLanes_Store(b, kiriLanes_Add(kiriLanes_Load(b), kiriLanes_Mul(kiriLanes_Pick(second, 3, 3, 3, 3), by)));
+    }
+    KIRI_EACH_INDEX(k, detail->vertices) {
+        ptrdiff_t vertex = detail->vertices.data[k].vertex;
+        kiriLanes from = kiriLanes_Four(skin[3 * vertex], skin[3 * vertex + 1], skin[3 * vertex + 2], 0.0f);
+        kiriLanes_Store(offsets + 4 * vertex, kiriLanes_Add(kiriLanes_Load(offsets + 4 * vertex), from));
+    }
+}
+
+void kiriDetail_End(kiriDetail* detail, const float* skin, int32_t begin, int32_t end)
+{
+    KIRI_ASSERT(detail->isListed && begin >= 0 && end <= detail->vertices.count);
+    for (int32_t k = begin; k < end; ++k) {
+        kiriDetailVertex item = detail->vertices.data[k];
+        const float *at = detail->moving.data + 4 * (ptrdiff_t)item.vertex, *from = skin + 3 * (ptrdiff_t)item.vertex;
+        float by[3] = { at[0] - from[0], at[1] - from[1], at[2] - from[2] }, *to = detail->offsets.data + (from - skin);
+        float square = by[0] * by[0] + by[1] * by[1] + by[2] * by[2];
+        bool isSound = square <= (item.leash > 0.0f ? 4.0f * item.leash * item.leash : 1e18f); /* false for NaN */
+        for (int i = 0; i < 3; ++i) {
+            to[i] = isSound ? by[i] : 0.0f;
+        }
+    }
+}
+
+void kiriDetail_Measure(kiriDetail* detail)
+{
+    detail->longest = 0.0f;
+    KIRI_EACH_INDEX(i, detail->offsets) {
+        detail->longest = kiriMax(fabsf(detail->offsets.data[i]), detail->longest);
+    }
+}
+
+void kiriDetail_Draw(kiriDetail* detail, const float* skin, int32_t begin, int32_t end)
+{
+    KIRI_ASSERT(3 * end <= detail->drawn.count && detail->drawn.count == detail->offsets.count);
+    for (ptrdiff_t i = 3 * (ptrdiff_t)begin; i < 3 * (ptrdiff_t)end; ++i) {
+        detail->drawn.data[i] = skin[i] + detail->offsets.data[i];
+    }
+}

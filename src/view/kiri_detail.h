@@ -1,0 +1,71 @@
+/* The detail layer: the drawn mesh is the skin plus an offset a vertex. A few sweeps a tick give the edges of the
+   mesh their rest length. So cloth shows less stretch where the skin blends frames that turn against each other: of gathered
+   cotton 0.4 % of the area is strained beyond 5 % with 100 frames, 8 % with 25 (58 and 78 % without). The layer is only
+   drawn and picked: contacts and blades meet the skin, and frames do not feel it. */
+#ifndef KIRI_DETAIL_H
+#define KIRI_DETAIL_H
+
+#include "../core/kiri_array.h"
+#include "../mesh/kiri_mesh.h"
+
+KIRI_C_BEGIN
+
+typedef struct kiriDetailEdge {
+    int32_t a, b; /* vertices */
+    float rest;   /* m: length */
+} kiriDetailEdge;
+
+/* A vertex that the sweeps move. */
+typedef struct kiriDetailVertex {
+    int32_t vertex;
+    float leash; /* m: longest offset; 0: held by a pin */
+    float share; /* 1 over the number of its edges; negative on the outline and on lips */
+} kiriDetailVertex;
+
+/* Edges of a color share no vertex, so their order changes no bit. Only edges of the last color may: they go one by one. */
+enum { KIRI_DETAIL_COLORS = 32, KIRI_MOST_DETAIL = 16 /* sweeps */ };
+
+typedef struct kiriDetail {
+    int32_t sweeps;            /* a tick; 0: no layer, and all arrays are empty */
+    KIRI_ARRAY(float) offsets; /* m: from the skin to the drawn position, 3 a vertex */
+    KIRI_ARRAY(float) drawn;   /* drawn positions, 3 a vertex, from where the skin's are */
+    float longest;             /* m: no offset is longer along an axis */
+    KIRI_ARRAY(float) moving;  /* scratch of a tick, 4 a vertex: position, and 1 if the vertex is free */
+    KIRI_ARRAY(float) crease;  /* scratch of a tick, 4 a vertex: Laplacian of the offsets, and weight */
+
+    /* Lists of the vertices and edges of awake pieces. */
+    bool isListed; /* false: they are stale */
+    KIRI_ARRAY(kiriDetailVertex) vertices;
+    KIRI_ARRAY(kiriDetailEdge) edges;         /* sorted by color */
+    int32_t colorStart[KIRI_DETAIL_COLORS + 1];
+    KIRI_ARRAY(uint8_t) awake;                /* per frame: awake when listed */
+    uint64_t pins;                            /* hash of the pins when listed */
+} kiriDetail;
+
+/* Reserves for these counts, if there is a layer. Resize sets the counts; new offsets are 0. */
+bool kiriDetail_Reserve(kiriDetail* detail, kiriMemory* memory, int64_t vertices, int64_t triangles, int32_t frames);
+void kiriDetail_Resize(kiriDetail* detail, int32_t vertices, int32_t frames);
+
+/* Gives a new vertex the blend of its parents' offsets. */
+void kiriDetail_Bear(kiriDetail* detail, int32_t vertex, const kiriBirth* birth);
+
+/* Lists the edges between the listed vertices, and colors them in the order of half-edges: lists follow from the mesh
+   alone. O(triangles). */
+void kiriDetail_ListEdges(kiriDetail* detail, const kiriMeshData* mesh);
+
+/* A tick: Begin, sweeps over the colors, each followed by Leash, Smooth, then End. `skin`: 3 floats a vertex. Items
+   [begin, end) are groups of edges in a color, or listed vertices; ranges may run in parallel. */
+void kiriDetail_Begin(kiriDetail* detail, const float* skin, int32_t begin, int32_t end);
+int32_t kiriDetail_GroupCount(const kiriDetail* detail, int32_t color);
+void kiriDetail_Sweep(kiriDetail* detail, int32_t color, int32_t begin, int32_t end);
+void kiriDetail_Leash(kiriDetail* detail, const float* skin, int32_t begin, int32_t end);
+void kiriDetail_Smooth(kiriDetail* detail, const float* skin);
+void kiriDetail_End(kiriDetail* detail, const float* skin, int32_t begin, int32_t end);
+
+/* Writes the drawn positions of the vertices from `begin` to `end`. Measure updates `longest`. */
+void kiriDetail_Draw(kiriDetail* detail, const float* skin, int32_t begin, int32_t end);
+void kiriDetail_Measure(kiriDetail* detail);
+
+KIRI_C_END
+
+#endif
