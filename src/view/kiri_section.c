@@ -10,20 +10,20 @@
 
 /* ---- The view along the edge ------------------------------------------------------------------------------------- */
 
-enum { ACROSS, BESIDE, ALONG, AXES };
+enum { VIEW_ACROSS, VIEW_BESIDE, VIEW_ALONG, VIEW_AXES };
 
 /* The edge at one time. */
 typedef struct EdgeView {
     kiriVec3 origin;
-    kiriVec3 slope[AXES]; /* coordinates are slope . (x - origin); ALONG has the length of the edge at its second end */
+    kiriVec3 slope[VIEW_AXES]; /* coordinates are slope . (x - origin); VIEW_ALONG has the length of the edge at its second end */
     double length;        /* m */
 } EdgeView;
 
-typedef struct Corner {
+typedef struct SeenCorner {
     int32_t id; /* 2 * vertex + (0: as it was, 1: as it is) */
     int32_t x, y;
     double inside[2]; /* m along the edge: beyond its first end, before its second */
-} Corner;
+} SeenCorner;
 
 /* The part of a line in a tetrahedron. */
 typedef struct Piece {
@@ -66,12 +66,12 @@ static bool MeetsSweep(const void* context, const kiriBox* box)
     kiriVec3 half = kiriVec3_Scale(0.5, kiriVec3_Sub(box->upper, box->lower)), middle = kiriVec3_Add(box->lower, half);
     double reach = p->sweep->reach;
     bool meets = true;
-    for (int axis = 0; axis < AXES; ++axis) {
+    for (int axis = 0; axis < VIEW_AXES; ++axis) {
         double low = 1e300, high = -1e300;
         for (int k = 0; k < 2; ++k) {
             double more = k == 0 ? reach : 0.0, at = ViewOf(&p->view[k], axis, middle);
             double size = HalfOf(&p->view[k], axis, middle, kiriVec3_Add(half, kiriVec3_Make(more, more, more)));
-            low = kiriMin(low, at - size - (axis == ALONG ? p->view[k].length : 0.0));
+            low = kiriMin(low, at - size - (axis == VIEW_ALONG ? p->view[k].length : 0.0));
             high = kiriMax(high, at + size);
         }
         meets = meets && low <= 0.0 && high >= 0.0;
@@ -102,10 +102,10 @@ static bool MakeViews(Pieces* p, const kiriBounds* bounds)
         kiriVec3 lean = length > 0.0 ? kiriVec3_Scale(1.0 / length, way[k]) : along;
         view->origin = k == 0 ? sweep->was[0] : sweep->is[0];
         view->length = kiriMax(length, 0.0);
-        view->slope[ALONG] = along;
-        view->slope[ACROSS] = kiriVec3_AddScaled(across, -kiriVec3_Dot(across, lean), along);
-        view->slope[BESIDE] = kiriVec3_AddScaled(beside, -kiriVec3_Dot(beside, lean), along);
-        for (int i = ACROSS; i <= BESIDE; ++i) {
+        view->slope[VIEW_ALONG] = along;
+        view->slope[VIEW_ACROSS] = kiriVec3_AddScaled(across, -kiriVec3_Dot(across, lean), along);
+        view->slope[VIEW_BESIDE] = kiriVec3_AddScaled(beside, -kiriVec3_Dot(beside, lean), along);
+        for (int i = VIEW_ACROSS; i <= VIEW_BESIDE; ++i) {
             most = kiriMax(most, fabs(ViewOf(view, i, middle)) + HalfOf(view, i, middle, half));
         }
     }
@@ -113,7 +113,7 @@ static bool MakeViews(Pieces* p, const kiriBounds* bounds)
     return most > 0.0 && most < 1e30 && kiriVec3_Dot(along, along) > 0.5;
 }
 
-static Corner SeeCorner(const Pieces* p, int32_t vertex, int k)
+static SeenCorner SeeCorner(const Pieces* p, int32_t vertex, int k)
 {
     enum { MOST = 1 << 30 };
     const EdgeView* view = &p->view[k];
@@ -121,9 +121,9 @@ static Corner SeeCorner(const Pieces* p, int32_t vertex, int k)
     if (k == 0 && p->sweep->came != NULL) {
         at = kiriVec3_Sub(at, p->sweep->came(p->sweep->context, vertex));
     }
-    double x = p->scale * ViewOf(view, ACROSS, at), y = p->scale * ViewOf(view, BESIDE, at);
-    double along = ViewOf(view, ALONG, at);
-    return (Corner){ 2 * vertex + k,
+    double x = p->scale * ViewOf(view, VIEW_ACROSS, at), y = p->scale * ViewOf(view, VIEW_BESIDE, at);
+    double along = ViewOf(view, VIEW_ALONG, at);
+    return (SeenCorner){ 2 * vertex + k,
                      (int32_t)kiriClamp(x, -(double)MOST, (double)MOST),
                      (int32_t)kiriClamp(y, -(double)MOST, (double)MOST),
                      { along, view->length - along } };
@@ -131,14 +131,14 @@ static Corner SeeCorner(const Pieces* p, int32_t vertex, int k)
 
 /* ---- Pieces of lines: one a tetrahedron -------------------------------------------------------------------------- */
 
-static int64_t Turn(const Corner* a, const Corner* b)
+static int64_t Turn(const SeenCorner* a, const SeenCorner* b)
 {
     return (int64_t)a->x * b->y - (int64_t)a->y * b->x;
 }
 
 /* Returns true if b is to the left of a, seen from the origin. The corners are moved by less than any number, the lower the
    id the more, along x more than along y: so this is never undecided. */
-static bool IsLeft(const Corner* a, const Corner* b)
+static bool IsLeft(const SeenCorner* a, const SeenCorner* b)
 {
     if (a->id > b->id) {
         return !IsLeft(b, a);
@@ -148,7 +148,7 @@ static bool IsLeft(const Corner* a, const Corner* b)
 }
 
 /* Finds the shares of the corners at the origin. A face that is seen edge-on has the origin between two of them. */
-static void FindShares(const Corner* const face[3], double shares[3])
+static void FindShares(const SeenCorner* const face[3], double shares[3])
 {
     double sum = 0.0;
     for (int i = 0; i < 3; ++i) {
@@ -156,7 +156,7 @@ static void FindShares(const Corner* const face[3], double shares[3])
         sum += shares[i];
     }
     for (int i = 0; i < 3 && sum == 0.0; ++i) {
-        const Corner *a = face[i], *b = face[(i + 1) % 3];
+        const SeenCorner *a = face[i], *b = face[(i + 1) % 3];
         if ((int64_t)a->x * b->x + (int64_t)a->y * b->y <= 0) {
             shares[i] = fabs((double)b->x) + fabs((double)b->y);
             shares[(i + 1) % 3] = fabs((double)a->x) + fabs((double)a->y);
@@ -169,7 +169,7 @@ static void FindShares(const Corner* const face[3], double shares[3])
 }
 
 /* Writes an end of a piece, with the same bits from both tetrahedra at the face; its depths inside the ends of the edge. */
-static void EndOnFace(const Pieces* p, const Corner* const face[3], Piece* piece, int k, double depth[2])
+static void EndOnFace(const Pieces* p, const SeenCorner* const face[3], Piece* piece, int k, double depth[2])
 {
     double shares[3];
     int tops = 0;
@@ -213,13 +213,13 @@ static bool ClipPiece(Piece* piece, double depth[2][2])
 
 /* Adds the piece in a tetrahedron. Its corners ascend; isRight: in this order they are right-handed. Pieces go from first
    to last ends through all of them: by the side from which the origin looks at the face. */
-static bool CrossTetrahedron(Pieces* p, const Corner* const corner[4], bool isRight)
+static bool CrossTetrahedron(Pieces* p, const SeenCorner* const corner[4], bool isRight)
 {
     Piece piece = { .next = KIRI_NONE };
     double depth[2][2];
     int ends = 0;
     for (int f = 0; f < 4; ++f) {
-        const Corner* const face[3] = { corner[f == 0 ? 1 : 0], corner[f < 2 ? 2 : 1], corner[f < 3 ? 3 : 2] };
+        const SeenCorner* const face[3] = { corner[f == 0 ? 1 : 0], corner[f < 2 ? 2 : 1], corner[f < 3 ? 3 : 2] };
         bool isLeft = IsLeft(face[0], face[1]);
         if (IsLeft(face[1], face[2]) == isLeft && IsLeft(face[2], face[0]) == isLeft) { /* it has the origin */
             int k = ((f % 2 == 0) == isRight) == isLeft ? 1 : 0;
@@ -251,7 +251,7 @@ static bool CrossTriangle(Pieces* p, int32_t triangle)
             isRight = !isRight;
         }
     }
-    Corner corner[6];
+    SeenCorner corner[6];
     for (int i = 0; i < 6; ++i) {
         corner[i] = SeeCorner(p, order[i / 2], i % 2);
         const bool isBeyond[4] = { corner[i].x < 0, corner[i].x > 0, corner[i].y < 0, corner[i].y > 0 };
@@ -259,7 +259,7 @@ static bool CrossTriangle(Pieces* p, int32_t triangle)
             beyond[k] = beyond[k] && isBeyond[k];
         }
     }
-    const Corner* const parts[3][4] = { { &corner[0], &corner[2], &corner[4], &corner[5] },
+    const SeenCorner* const parts[3][4] = { { &corner[0], &corner[2], &corner[4], &corner[5] },
                                         { &corner[0], &corner[2], &corner[3], &corner[5] },
                                         { &corner[0], &corner[1], &corner[3], &corner[5] } };
     bool ok = true;
@@ -271,7 +271,7 @@ static bool CrossTriangle(Pieces* p, int32_t triangle)
 
 /* ---- Lines ------------------------------------------------------------------------------------------------------- */
 
-static int CompareFaces(const int32_t* a, const int32_t* b)
+static int CompareSides(const int32_t* a, const int32_t* b)
 {
     int i = 0;
     while (i < 2 && a[i] == b[i]) {
@@ -280,10 +280,10 @@ static int CompareFaces(const int32_t* a, const int32_t* b)
     return (a[i] > b[i]) - (a[i] < b[i]);
 }
 
-static bool IsFaceBefore(const void* context, int32_t a, int32_t b)
+static bool IsPieceBefore(const void* context, int32_t a, int32_t b)
 {
     const Piece* pieces = context;
-    int order = CompareFaces(pieces[a].face[0], pieces[b].face[0]);
+    int order = CompareSides(pieces[a].face[0], pieces[b].face[0]);
     return order != 0 ? order < 0 : a < b;
 }
 
@@ -293,13 +293,13 @@ static void LinkPieces(Pieces* p)
 {
     Piece* pieces = p->pieces.data;
     const int32_t *starts = p->starts.data, count = p->starts.count;
-    kiriSort(p->starts.data, count, IsFaceBefore, pieces);
+    kiriSort(p->starts.data, count, IsPieceBefore, pieces);
     KIRI_EACH_INDEX(i, p->pieces) {
         int32_t k = count;
         if (pieces[i].end[1] == OPEN_END) {
-            KIRI_SEARCH(k, 0, count, CompareFaces(pieces[starts[middle]].face[0], pieces[i].face[1]) < 0);
+            KIRI_SEARCH(k, 0, count, CompareSides(pieces[starts[middle]].face[0], pieces[i].face[1]) < 0);
         }
-        if (k < count && CompareFaces(pieces[starts[k]].face[0], pieces[i].face[1]) == 0) {
+        if (k < count && CompareSides(pieces[starts[k]].face[0], pieces[i].face[1]) == 0) {
             pieces[i].next = starts[k];
             pieces[starts[k]].isReached = true;
         }

@@ -126,7 +126,7 @@ static bool AddStart(BladeWork* work, int32_t stroke, kiriVec2 rest)
     return kiriArray_Push(&work->memory, &work->points, point);
 }
 
-static bool AddPoint(BladeWork* work, Track* track, kiriVec2 rest)
+static bool AddTrackPoint(BladeWork* work, Track* track, kiriVec2 rest)
 {
     int32_t stroke = StrokeOf(work, track);
     kiriVec2 from = track->rest;
@@ -204,23 +204,23 @@ static void FindLipInTriangle(const BladeWork* work, int32_t triangle, kiriVec2 
 }
 
 /* The triangles in the squares around a place. Some come twice. */
-typedef struct Around {
+typedef struct Nearby {
     const kiriSquares* squares;
     kiriStrips strips;
     int32_t square, node;
-} Around;
+} Nearby;
 
-static Around LookAround(const BladeWork* work, kiriVec2 rest, double distance)
+static Nearby LookAround(const BladeWork* work, kiriVec2 rest, double distance)
 {
     const kiriMeshData* mesh = &work->sheet->mesh;
     kiriLatticePoint at = kiriMesh_Snap(mesh, rest);
-    Around around = { &mesh->squares, kiriStrips_Begin(&mesh->squares, at, at, distance / mesh->step), 0, KIRI_NONE };
+    Nearby around = { &mesh->squares, kiriStrips_Begin(&mesh->squares, at, at, distance / mesh->step), 0, KIRI_NONE };
     around.strips.count = 0;
     return around;
 }
 
 /* Returns KIRI_NONE after the last. */
-static int32_t NextAround(Around* around)
+static int32_t NextAround(Nearby* around)
 {
     while (around->node == KIRI_NONE) {
         if (around->square == around->strips.count) {
@@ -241,7 +241,7 @@ static int32_t NextAround(Around* around)
 static bool FindLipNear(const BladeWork* work, kiriVec2 rest, double distance, int which, kiriVec2* lip)
 {
     double least = distance;
-    Around around = LookAround(work, rest, distance);
+    Nearby around = LookAround(work, rest, distance);
     for (int32_t t = NextAround(&around); t != KIRI_NONE; t = NextAround(&around)) {
         FindLipInTriangle(work, t, rest, which, &least, lip);
     }
@@ -304,15 +304,15 @@ static bool LeadHeld(BladeWork* work, Track* track, kiriVec2 rest)
         bool isNear = FindSlit(work, at, near, &slit);
         if (!isNear && FindSlit(work, at, 2.0 * near, &slit)) {
             ok = (RestDistance(slit, track->rest) < work->snap || Slide(work, track, slit)) &&
-                 AddPoint(work, track, at);
+                 AddTrackPoint(work, track, at);
         } else if (!isNear) {
-            ok = AddPoint(work, track, at);
+            ok = AddTrackPoint(work, track, at);
         } else if (FindLipNear(work, at, near, OUTLINE, &other) &&
                    !FindLipNear(work, track->rest, work->snap, OUTLINE, &here)) {
-            ok = AddPoint(work, track, at) && AddPoint(work, track, other);
+            ok = AddTrackPoint(work, track, at) && AddTrackPoint(work, track, other);
         } else if (!FindSlit(work, kiriVec2_Scale(0.5, kiriVec2_Add(track->rest, slit)), 0.25 * near,
                                        &other)) {
-            ok = AddPoint(work, track, at) && AddPoint(work, track, slit);
+            ok = AddTrackPoint(work, track, at) && AddTrackPoint(work, track, slit);
         } else if (RestDistance(slit, track->rest) > work->snap) {
             ok = Slide(work, track, slit);
         }
@@ -353,11 +353,11 @@ static bool LeadTrack(BladeWork* work, Track* track, kiriVec2 rest)
     kiriVec2 slit, foot;
     if (IsInSlit(work, track->rest, rest, &slit, &foot)) {
         bool isOn = RestDistance(track->rest, foot) < ON_LIP * work->snap;
-        return (isOn || (track->cut == NULL && track->stroke == KIRI_NONE) || AddPoint(work, track, foot)) &&
+        return (isOn || (track->cut == NULL && track->stroke == KIRI_NONE) || AddTrackPoint(work, track, foot)) &&
                Slide(work, track, slit);
     }
     NotePassing(track, rest);
-    bool ok = AddPoint(work, track, rest);
+    bool ok = AddTrackPoint(work, track, rest);
     bool hasGoneOn = track->loop.isPassed && track->loop.length > (1.0 + OVERLAP) * track->loop.then;
     return ok && (!hasGoneOn || CloseLoop(work, track));
 }
@@ -439,7 +439,7 @@ static void FindPlace(const BladeWork* work, Track* track)
     const kiriSheetData* sheet = work->sheet;
     const kiriSurface* surface = &sheet->seen.surface;
     double best = work->unseen, near = SAME * work->snap;
-    Around around = LookAround(work, track->rest, near);
+    Nearby around = LookAround(work, track->rest, near);
     track->isSeen = false;
     for (int32_t t = NextAround(&around); t != KIRI_NONE; t = NextAround(&around)) {
         const int32_t* v = sheet->mesh.triangles.data[t].vertex;

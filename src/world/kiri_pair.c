@@ -963,7 +963,7 @@ static bool ListRegions(kiriWorld* world, kiriSheetData* sheet, int32_t piece)
 }
 
 /* Finds the boxes of regions, and the speeds of their probes. */
-static void MeasureRegions(kiriPairs* pairs, const kiriSheetData* sheet, int32_t first)
+static void MeasureFolded(kiriPairs* pairs, const kiriSheetData* sheet, int32_t first)
 {
     for (int32_t v = 0; v < sheet->probes.vertexFrame.count; ++v) {
         int32_t body = pairs->frameBodies.data[sheet->probes.vertexFrame.data[v]];
@@ -996,7 +996,7 @@ static bool LookAtFolds(kiriWorld* world, kiriSheetData* sheet, double dt)
         ok = !Folds(sheet, p) || ListRegions(world, sheet, p);
     }
     if (ok) {
-        MeasureRegions(pairs, sheet, first);
+        MeasureFolded(pairs, sheet, first);
     }
     for (int32_t a = first; ok && a < pairs->bodies.count; ++a) {
         const kiriFrameData* one = &sheet->frames.data[pairs->bodies.data[a].frame];
