@@ -11,7 +11,7 @@ import (
 )
 
 // Version of the header.
-const Version = "0.15.0"
+const Version = "0.16.0"
 
 type ResultCode int32
 
@@ -384,8 +384,7 @@ type Budget struct {
 	Cells int32
 	// vertices and collision points with new weights, and the cost of the commit, paid before it
 	Samples int32
-	// linear systems, 30 to 60 us each; a large one counts as several. A sheet with too few takes longer substeps, and
-	// pieces take turns, see the manual (budget)
+	// linear systems, 30 to 60 us each; a large one counts as several (manual, budget)
 	Iterations int32
 }
 
@@ -467,8 +466,8 @@ type Material struct {
 	AirDamping float32
 	// s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation
 	FlexDamping float32
-	// Bending beyond a curvature of 2 yieldStress / (youngsModulus thickness) stays (manual, folding). Only with
-	// KIRI_MODEL_LINKS; planar sheets do not bend. Pa, 0 or more; 0: elastic
+	// Bending beyond a curvature of 2 yieldStress / (youngsModulus thickness) stays (KIRI_MODEL_LINKS only). Pa, 0 or
+	// more; 0: elastic
 	YieldStress float32
 	// modulus beyond the yield stress, relative to youngsModulus; 0 to below 1
 	Hardening float32

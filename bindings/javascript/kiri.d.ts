@@ -221,8 +221,7 @@ export class Budget {
     cells: number;
     /** vertices and collision points with new weights, and the cost of the commit, paid before it */
     samples: number;
-    /** linear systems, 30 to 60 us each; a large one counts as several. A sheet with too few takes longer substeps, and
-     *  pieces take turns, see the manual (budget) */
+    /** linear systems, 30 to 60 us each; a large one counts as several (manual, budget) */
     iterations: number;
 }
 /** What a host gives as Budget: what is left out is 0. */
@@ -233,8 +232,7 @@ export interface BudgetGiven {
     cells?: number;
     /** vertices and collision points with new weights, and the cost of the commit, paid before it */
     samples?: number;
-    /** linear systems, 30 to 60 us each; a large one counts as several. A sheet with too few takes longer substeps, and
-     *  pieces take turns, see the manual (budget) */
+    /** linear systems, 30 to 60 us each; a large one counts as several (manual, budget) */
     iterations?: number;
 }
 
@@ -398,8 +396,8 @@ export class Material {
     airDamping: number;
     /** s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation */
     flexDamping: number;
-    /** Bending beyond a curvature of 2 yieldStress / (youngsModulus thickness) stays (manual, folding). Only with
-     *  KIRI_MODEL_LINKS; planar sheets do not bend. Pa, 0 or more; 0: elastic */
+    /** Bending beyond a curvature of 2 yieldStress / (youngsModulus thickness) stays (KIRI_MODEL_LINKS only). Pa, 0 or
+     *  more; 0: elastic */
     yieldStress: number;
     /** modulus beyond the yield stress, relative to youngsModulus; 0 to below 1 */
     hardening: number;
@@ -420,8 +418,8 @@ export interface MaterialGiven {
     airDamping?: number;
     /** s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation */
     flexDamping?: number;
-    /** Bending beyond a curvature of 2 yieldStress / (youngsModulus thickness) stays (manual, folding). Only with
-     *  KIRI_MODEL_LINKS; planar sheets do not bend. Pa, 0 or more; 0: elastic */
+    /** Bending beyond a curvature of 2 yieldStress / (youngsModulus thickness) stays (KIRI_MODEL_LINKS only). Pa, 0 or
+     *  more; 0: elastic */
     yieldStress?: number;
     /** modulus beyond the yield stress, relative to youngsModulus; 0 to below 1 */
     hardening?: number;

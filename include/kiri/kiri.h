@@ -21,7 +21,7 @@
 
 /* Version of this header. kiriGetVersion() returns the version of the linked library. */
 #define KIRI_VERSION_MAJOR 0
-#define KIRI_VERSION_MINOR 15
+#define KIRI_VERSION_MINOR 16
 #define KIRI_VERSION_PATCH 0
 #define KIRI_VERSION (10000 * KIRI_VERSION_MAJOR + 100 * KIRI_VERSION_MINOR + KIRI_VERSION_PATCH)
 
@@ -75,8 +75,7 @@ KIRI_API const char* kiriGetResultText(kiriResult result);
 
 /* Functions of the host. They may call other worlds, and functions that take no world. While a function that takes a
    world without const runs, they may call kiriWorld_GetLastError alone of the same world; while one runs that takes a
-   const kiriWorld, functions that do so, too. Other calls give KIRI_ERROR_STATE. The manual has threads and memory
-   (budget). */
+   const kiriWorld, functions that do so, too. Other calls give KIRI_ERROR_STATE (manual, budget). */
 typedef void* kiriAllocFn(void* user, int64_t bytes); /* at least 16-byte aligned, or null */
 typedef void kiriFreeFn(void* user, void* pointer);
 typedef void kiriLogFn(void* user, const char* line);
@@ -98,8 +97,7 @@ typedef struct kiriBudget {
     int32_t triangles; /* split by blades; 0, or KIRI_LEAST_TRIANGLES and more */
     int32_t cells;     /* visited, or with a new distance: grid, regions, shape functions. A link counts as a cell */
     int32_t samples;   /* vertices and collision points with new weights, and the cost of the commit, paid before it */
-    int32_t iterations; /* linear systems, 30 to 60 us each; a large one counts as several. A sheet with too few takes
-                           longer substeps, and pieces take turns, see the manual (budget) */
+    int32_t iterations; /* linear systems, 30 to 60 us each; a large one counts as several (manual, budget) */
 } kiriBudget;
 
 enum kiriBudgetLimit { KIRI_LEAST_TRIANGLES = 16 };
@@ -297,8 +295,7 @@ typedef struct kiriMaterial {
     float density;       /* kg/m^3, above 0 */
     float airDamping;    /* 1/s, 0 or more: velocities fade as exp(-airDamping t) */
     float flexDamping;   /* s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation */
-    /* Bending beyond a curvature of 2 yieldStress / (youngsModulus thickness) stays (manual, folding). Only with
-       KIRI_MODEL_LINKS; planar sheets do not bend. */
+    /* Bending beyond a curvature of 2 yieldStress / (youngsModulus thickness) stays (KIRI_MODEL_LINKS only). */
     float yieldStress; /* Pa, 0 or more; 0: elastic */
     float hardening;   /* modulus beyond the yield stress, relative to youngsModulus; 0 to below 1 */
     int32_t detail;    /* sweeps of the detail layer a tick, 0 (off) to 16, see kiriMesh. Presets: cotton 2, others 0 */

@@ -519,8 +519,7 @@ namespace Kiri
         public int Cells;
         /// <summary>vertices and collision points with new weights, and the cost of the commit, paid before it</summary>
         public int Samples;
-        /// <summary>linear systems, 30 to 60 us each; a large one counts as several. A sheet with too few takes longer substeps,
-        /// and pieces take turns, see the manual (budget)</summary>
+        /// <summary>linear systems, 30 to 60 us each; a large one counts as several (manual, budget)</summary>
         public int Iterations;
     }
 
@@ -663,8 +662,8 @@ namespace Kiri
         public float AirDamping;
         /// <summary>s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation</summary>
         public float FlexDamping;
-        /// <summary>Bending beyond a curvature of 2 yieldStress / (youngsModulus thickness) stays (manual, folding). Only with
-        /// KIRI_MODEL_LINKS; planar sheets do not bend. Pa, 0 or more; 0: elastic</summary>
+        /// <summary>Bending beyond a curvature of 2 yieldStress / (youngsModulus thickness) stays (KIRI_MODEL_LINKS only). Pa, 0
+        /// or more; 0: elastic</summary>
         public float YieldStress;
         /// <summary>modulus beyond the yield stress, relative to youngsModulus; 0 to below 1</summary>
         public float Hardening;
@@ -1283,7 +1282,7 @@ namespace Kiri
 #endif
 
         /// <summary>Of the header.</summary>
-        public const int Version = 1500;
+        public const int Version = 1600;
         public const int LeastTriangles = 16;
         public const int MostNoteBytes = 1048576;
 

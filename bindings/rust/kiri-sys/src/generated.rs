@@ -17,7 +17,7 @@ pub struct kiriWorld {
 }
 
 /// Of the header.
-pub const KIRI_VERSION: i32 = 1500;
+pub const KIRI_VERSION: i32 = 1600;
 
 pub const KIRI_OK: i32 = 0;
 /// success; work is left for later ticks
@@ -168,34 +168,32 @@ pub const KIRI_DRAW_ALL: i32 = 2047;
 /// Functions of the host. They may call other worlds, and functions that take no world. While a
 /// function that takes a world without const runs, they may call kiriWorld_GetLastError alone of
 /// the same world; while one runs that takes a const kiriWorld, functions that do so, too. Other
-/// calls give KIRI_ERROR_STATE. The manual has threads and memory (budget). at least 16-byte
-/// aligned, or null
+/// calls give KIRI_ERROR_STATE (manual, budget). at least 16-byte aligned, or null
 pub type kiriAllocFn = Option<unsafe extern "C" fn(user: *mut c_void, bytes: i64) -> *mut c_void>;
 
 /// Functions of the host. They may call other worlds, and functions that take no world. While a
 /// function that takes a world without const runs, they may call kiriWorld_GetLastError alone of
 /// the same world; while one runs that takes a const kiriWorld, functions that do so, too. Other
-/// calls give KIRI_ERROR_STATE. The manual has threads and memory (budget).
+/// calls give KIRI_ERROR_STATE (manual, budget).
 pub type kiriFreeFn = Option<unsafe extern "C" fn(user: *mut c_void, pointer: *mut c_void)>;
 
 /// Functions of the host. They may call other worlds, and functions that take no world. While a
 /// function that takes a world without const runs, they may call kiriWorld_GetLastError alone of
 /// the same world; while one runs that takes a const kiriWorld, functions that do so, too. Other
-/// calls give KIRI_ERROR_STATE. The manual has threads and memory (budget).
+/// calls give KIRI_ERROR_STATE (manual, budget).
 pub type kiriLogFn = Option<unsafe extern "C" fn(user: *mut c_void, line: *const c_char)>;
 
 /// Functions of the host. They may call other worlds, and functions that take no world. While a
 /// function that takes a world without const runs, they may call kiriWorld_GetLastError alone of
 /// the same world; while one runs that takes a const kiriWorld, functions that do so, too. Other
-/// calls give KIRI_ERROR_STATE. The manual has threads and memory (budget). seconds; read for the
-/// profile only, never by the simulation
+/// calls give KIRI_ERROR_STATE (manual, budget). seconds; read for the profile only, never by the
+/// simulation
 pub type kiriClockFn = Option<unsafe extern "C" fn(user: *mut c_void) -> f64>;
 
 /// Functions of the host. They may call other worlds, and functions that take no world. While a
 /// function that takes a world without const runs, they may call kiriWorld_GetLastError alone of
 /// the same world; while one runs that takes a const kiriWorld, functions that do so, too. Other
-/// calls give KIRI_ERROR_STATE. The manual has threads and memory (budget). the next bytes of the
-/// recording
+/// calls give KIRI_ERROR_STATE (manual, budget). the next bytes of the recording
 pub type kiriRecordFn = Option<unsafe extern "C" fn(user: *mut c_void, bytes: *const c_void, count: i32)>;
 
 /// For hosts that lend their threads to a tick. \`start\` calls the task, from any threads, for
@@ -234,8 +232,7 @@ pub struct kiriBudget {
     pub cells: i32,
     /// vertices and collision points with new weights, and the cost of the commit, paid before it
     pub samples: i32,
-    /// linear systems, 30 to 60 us each; a large one counts as several. A sheet with too few takes
-    /// longer substeps, and pieces take turns, see the manual (budget)
+    /// linear systems, 30 to 60 us each; a large one counts as several (manual, budget)
     pub iterations: i32,
 }
 
@@ -375,8 +372,8 @@ pub struct kiriMaterial {
     pub airDamping: f32,
     /// s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation
     pub flexDamping: f32,
-    /// Bending beyond a curvature of 2 yieldStress / (youngsModulus thickness) stays (manual,
-    /// folding). Only with KIRI_MODEL_LINKS; planar sheets do not bend. Pa, 0 or more; 0: elastic
+    /// Bending beyond a curvature of 2 yieldStress / (youngsModulus thickness) stays
+    /// (KIRI_MODEL_LINKS only). Pa, 0 or more; 0: elastic
     pub yieldStress: f32,
     /// modulus beyond the yield stress, relative to youngsModulus; 0 to below 1
     pub hardening: f32,

@@ -572,8 +572,7 @@ pub struct Budget {
     pub cells: i32,
     /// vertices and collision points with new weights, and the cost of the commit, paid before it
     pub samples: i32,
-    /// linear systems, 30 to 60 us each; a large one counts as several. A sheet with too few takes
-    /// longer substeps, and pieces take turns, see the manual (budget)
+    /// linear systems, 30 to 60 us each; a large one counts as several (manual, budget)
     pub iterations: i32,
 }
 
@@ -704,8 +703,8 @@ pub struct Material {
     pub air_damping: f32,
     /// s, 0 or more: stiffness-proportional (Rayleigh) damping of deformation
     pub flex_damping: f32,
-    /// Bending beyond a curvature of 2 `yield_stress` / (`youngs_modulus` thickness) stays (manual,
-    /// folding). Only with [`Model::Links`]; planar sheets do not bend. Pa, 0 or more; 0: elastic
+    /// Bending beyond a curvature of 2 `yield_stress` / (`youngs_modulus` thickness) stays
+    /// ([`Model::Links`] only). Pa, 0 or more; 0: elastic
     pub yield_stress: f32,
     /// modulus beyond the yield stress, relative to `youngs_modulus`; 0 to below 1
     pub hardening: f32,
