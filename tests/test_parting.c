@@ -724,7 +724,7 @@ static void TestCrumbsWhileTheLargestLeaves(void** state)
 /* ---- On a floor ---- */
 
 /* Four strips slide down a slope, and in the second world one goes. The contacts of the others are remembered, whatever number
-   the vertices of a strip get; a part has patches of its own, so other vertices touch. */
+   the vertices of a strip get. A part has its own patches, so other vertices touch. */
 static void TestTouchesGoOn(void** state)
 {
     (void)state;
