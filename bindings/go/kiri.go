@@ -225,8 +225,9 @@ var namesModel = map[Model]string{
 
 func (value Model) String() string { return namesModel[value] }
 
-// The surface between the frames, which rays, blades, contacts, pins and clamps meet. Where nothing touches or holds
-// the sheet, skinning does not change its motion. Collision points stay on the linear surface.
+// The surface between the frames, which blades, contacts, pins and clamps meet; rays meet the drawn mesh. Where
+// nothing touches or holds the sheet, skinning does not change its motion. Collision points stay on the linear
+// surface.
 type Skinning int32
 
 const (

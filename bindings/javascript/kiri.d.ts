@@ -140,8 +140,9 @@ export enum Model {
     Points = 2,
 }
 
-/** The surface between the frames, which rays, blades, contacts, pins and clamps meet. Where nothing touches or holds
- *  the sheet, skinning does not change its motion. Collision points stay on the linear surface. */
+/** The surface between the frames, which blades, contacts, pins and clamps meet; rays meet the drawn mesh. Where
+ *  nothing touches or holds the sheet, skinning does not change its motion. Collision points stay on the linear
+ *  surface. */
 export enum Skinning {
     /** each frame carries a flat patch; the weights blend them (equation 1 of the paper) */
     Linear = 0,

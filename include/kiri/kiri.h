@@ -340,7 +340,7 @@ enum kiriModel {
     KIRI_MODEL_POINTS = 2
 };
 
-/* The surface between the frames, which rays, blades, contacts, pins and clamps meet. Where nothing touches or holds
+/* The surface between the frames, which blades, contacts, pins and clamps meet; rays meet the drawn mesh. Where nothing touches or holds
    the sheet, skinning does not change its motion. Collision points stay on the linear surface. */
 enum kiriSkinning {
     KIRI_SKINNING_LINEAR = 0, /* each frame carries a flat patch; the weights blend them (equation 1 of the paper) */

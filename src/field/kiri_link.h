@@ -28,6 +28,20 @@ typedef struct kiriLink {
     kiriVec2 sum, spread[2];
 } kiriLink;
 
+/* Turn a vector of parts along normal and tangent to parts along and across the edge of the material, and back into the
+   rest plane. */
+static inline kiriVec2 kiriLink_AlongEdge(const kiriLink* link, kiriVec2 parts)
+{
+    double c = 1.0 / sqrt(1.0 + link->lean * link->lean), s = c * link->lean;
+    return kiriVec2_Make(c * parts.x + s * parts.y, c * parts.y - s * parts.x);
+}
+static inline kiriVec2 kiriLink_FromEdge(const kiriLink* link, kiriVec2 parts)
+{
+    double c = 1.0 / sqrt(1.0 + link->lean * link->lean), s = c * link->lean;
+    double along = c * parts.x - s * parts.y, across = c * parts.y + s * parts.x;
+    return kiriVec2_Add(kiriVec2_Scale(along, link->normal), kiriVec2_Scale(across, link->tangent));
+}
+
 /* Orders links by their regions. */
 static inline bool kiriLink_IsBefore(const kiriLink* a, const kiriLink* b)
 {

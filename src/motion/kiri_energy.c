@@ -249,8 +249,8 @@ static void LimitPushes(kiriSolver* solver, const kiriSystem* system)
 
 /* Takes energy first from velocities that differ from a rigid body's, which keeps the momenta; then from the rotation
    as one body; and last from the mean velocity, unless the body is free. Along a swing, steps of second order take and
-   give energy by turns. The energy that they took is the credit of the body: a limit without credit would take each gain,
-   and swings would fade. */
+   give energy by turns. The energy that they lost, and that damping took, is the credit of the body: a limit without credit
+   would take each gain, and swings would fade. Contacts give no credit. */
 void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system)
 {
     LimitPushes(solver, system);
@@ -264,16 +264,14 @@ void kiriSolver_LimitEnergy(kiriSolver* solver, const kiriSystem* system)
     credit = kiriMax(kiriMin(credit, most), 0.0);
     double energy = kiriMax(has->gain - credit, 0.0), beside = has->kinetic - has->turning;
     double keepRest = TakeEnergy(kiriMax(beside, 0.0), &energy), keepTurning = TakeEnergy(has->turning, &energy);
-    bool isOwn = solver->support == KIRI_SUPPORT_NONE || (solver->support == KIRI_SUPPORT_CONTACTS &&
-    !IsThrown(solver)); double keepMean = isOwn ? 1.0 : TakeEnergy(has->moving, &energy);
-    double left = kiriMax(credit - has->gain, 0.0) / momentum->mass;
+    bool isTouched = solver->support == KIRI_SUPPORT_CONTACTS;
+    bool isOwn = solver->support == KIRI_SUPPORT_NONE || (isTouched && !IsThrown(solver));
+    double keepMean = isOwn ? 1.0 : TakeEnergy(has->moving, &energy);
+    double left = hasCredit ? kiriMax(credit - has->gain, 0.0) / momentum->mass : 0.0;
     for (int32_t f = 0; f < system->frameCount; ++f) {
         kiriFrameData* frame = &solver->after.data[f];
-        frame->history.credit = frame->held || solver->stepping.isEuler ? 0.0 : left * frame->mass;
-    }
-    for (int32_t f = 0; has->gain > credit && f < system->frameCount; ++f) {
-        kiriFrameData* frame = &solver->after.data[f];
-        if (!frame->held) {
+        frame->history.credit = frame->held ? 0.0 : left * frame->mass;
+        if (!frame->held && has->gain > credit) {
             kiriVec3 mean = momentum->velocityAfter, arm = kiriVec3_Sub(frame->x, momentum->centerAfter);
             kiriVec3 round = kiriVec3_Cross(momentum->spin, arm);
             kiriVec3 rest = kiriVec3_Sub(kiriVec3_Sub(frame->velocity, mean), round);
@@ -309,18 +307,12 @@ typedef struct LinkStrains {
     double turn;      /* in the plane, rad */
 } LinkStrains;
 
-static kiriVec2 InPlane(const kiriLink* link, double along, double across)
-{
-    return kiriVec2_Add(kiriVec2_Scale(along, link->normal), kiriVec2_Scale(across, link->tangent));
-}
-
 /* Bending and twist are along and across the edge of the material, see kiri_strain.h. */
 static LinkStrains TakeStrains(const kiriLink* link, const double* strain)
 {
-    double c = 1.0 / sqrt(1.0 + link->lean * link->lean), s = c * link->lean;
-    double bending = c * strain[KIRI_BENDING] - s * strain[KIRI_TWIST];
-    double twist = c * strain[KIRI_TWIST] + s * strain[KIRI_BENDING];
-    LinkStrains strains = { InPlane(link, bending, twist), InPlane(link, strain[KIRI_STRETCH], strain[KIRI_SHEAR]),
+    LinkStrains strains = { kiriLink_FromEdge(link, kiriVec2_Make(strain[KIRI_BENDING], strain[KIRI_TWIST])),
+                            kiriVec2_AddScaled(kiriVec2_Scale(strain[KIRI_STRETCH], link->normal), strain[KIRI_SHEAR],
+                                               link->tangent),
                             strain[KIRI_PLANE_BENDING] };
     return strains;
 }

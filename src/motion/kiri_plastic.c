@@ -177,7 +177,7 @@ static kiriVec2 CurvatureOf(const kiriBentStrain* strain, const kiriLink* link)
 {
     const kiriBentStrain none = { 1.0, 0.0, 0.0 };
     kiriVec2 v = kiriVec2_Scale(1.0 / link->length, Unfold(strain, &none));
-    return kiriVec2_Add(kiriVec2_Scale(v.x, link->normal), kiriVec2_Scale(v.y, link->tangent));
+    return kiriLink_FromEdge(link, v);
 }
 
 static void AddLink(kiriPlasticRegion* region, const kiriLink* link, kiriVec2 curvature, double reach)
@@ -323,7 +323,8 @@ void kiriPlastics_Take(kiriPlastics* plastics, const kiriLink* old, const kiriLi
             next->reach = older->reach;
         }
         curvature = kiriVec2_Scale(link->length, curvature);
-        next->part = Refold(kiriVec2_Make(kiriVec2_Dot(curvature, link->normal), kiriVec2_Dot(curvature, link->tangent)), &by);
+        kiriVec2 parts = { kiriVec2_Dot(curvature, link->normal), kiriVec2_Dot(curvature, link->tangent) };
+        next->part = Refold(kiriLink_AlongEdge(link, parts), &by);
     }
     kiriArrayHeader header = kiriArray_GetHeader(&plastics->links);
     kiriArray_SetHeader(&plastics->links, kiriArray_GetHeader(&plastics->next));

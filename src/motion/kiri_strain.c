@@ -513,9 +513,9 @@ kiriTrace kiriTrace_Measure(const kiriCorner* corner, const kiriLink* links, con
         trace.strain[KIRI_TRACE_STRETCH] +=
             alongNormal * strains[k][KIRI_STRETCH] + alongTangent * strains[k][KIRI_SHEAR];
         if (!planar) {
-            double c = 1.0 / sqrt(1.0 + link->lean * link->lean), s = c * link->lean; /* see FollowEdge */
-            trace.by[k][KIRI_TRACED_BENDING] = c * alongNormal + s * alongTangent;
-            trace.by[k][KIRI_TRACED_TWIST] = c * alongTangent - s * alongNormal;
+            kiriVec2 by = kiriLink_AlongEdge(link, kiriVec2_Make(alongNormal, alongTangent)); /* see FollowEdge */
+            trace.by[k][KIRI_TRACED_BENDING] = by.x;
+            trace.by[k][KIRI_TRACED_TWIST] = by.y;
             trace.strain[KIRI_TRACE_CURVATURE] += trace.by[k][KIRI_TRACED_BENDING] * strains[k][KIRI_BENDING] +
                                                   trace.by[k][KIRI_TRACED_TWIST] * strains[k][KIRI_TWIST];
         }

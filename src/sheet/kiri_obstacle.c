@@ -668,7 +668,7 @@ static bool TouchPoint(const kiriMeeting* meeting, const EdgePoint* point)
     const kiriIndices* crossed = &meeting->search->crossed;
     bool ok = FindCrossed(meeting, point);
     uint32_t layers = 0;
-    KIRI_EACH_WHILE(ok&& layers < MOST_LAYERS, const int32_t, triangle, *crossed) {
+    KIRI_EACH_WHILE(ok && layers < MOST_LAYERS, const int32_t, triangle, *crossed) {
         kiriTouch touch;
         if (TouchTriangle(meeting, point, *triangle, &touch)) {
             touch.key = kiriMeeting_Key(meeting, true, point->item * MOST_LAYERS + layers++);

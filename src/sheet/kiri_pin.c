@@ -432,7 +432,7 @@ void kiriPins_KeepStrains(kiriSheetData* sheet, const kiriPinShares* old)
             pinned->offset[e] -= older != NULL ? was[e] - older->offset[e] : 0.0;
         }
         memset(&pinned->plastic, 0, sizeof(pinned->plastic));
-        if (older != NULL) {
+        if (older != NULL && sheet->plastics.isKept) {
             double is = ClampRowOf(sheet, pinned, &sheet->frames.data[frame], 0.0, 1.0).link.length;
             double before = ClampRowOf(sheet, older, &sheet->frames.data[frame], 0.0, 1.0).link.length;
             pinned->plastic = kiriPlastic_Scaled(&older->plastic, is / before);

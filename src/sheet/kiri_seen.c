@@ -623,8 +623,10 @@ void kiriView_Sum(kiriSheetData* sheet)
 {
     kiriSeen* seen = &sheet->seen;
     if (!seen->surface.isWritten) {
-        ForBlocks(sheet, 0, seen->surface.vertexCount, true, DrawVertices);
-        kiriDetail_Measure(&seen->surface.detail);
+        if (kiriSurface_HasDetail(&seen->surface)) {
+            ForBlocks(sheet, 0, seen->surface.vertexCount, true, DrawVertices);
+            kiriDetail_Measure(&seen->surface.detail);
+        }
         if (IsSumKnown(sheet) && SumSomeNormals(sheet)) {
             seen->surface.pose += 1;
         } else {
@@ -758,6 +760,7 @@ bool kiriView_Relax(kiriSheetData* sheet, const kiriTasks* tasks)
         kiriTasks_Run(tasks, LeashDetail, count, VERTICES, &task);
     }
     kiriDetail_Smooth(task.detail, task.skin);
+    kiriTasks_Run(tasks, LeashDetail, count, VERTICES, &task);
     return count > 0;
 }
 

@@ -168,7 +168,7 @@ typedef struct kiriProbes {
     bool folds;                      /* a piece folds, so that it may touch itself */
     bool areGrouped;                 /* the bounds are grouped by piece, unless they were rebuilt since */
     int32_t block;                   /* side of a block in grid squares; a block has one probe inside a piece */
-    int32_t sheet, firstBody;        /* kiri_pair.c: index of the sheet, and of the body of its piece 0 */
+    int32_t sheet;                   /* kiri_pair.c: index of the sheet */
     kiriIndices vertexPiece;         /* per vertex: piece */
     kiriFlags isBorder;              /* per vertex: true on the outline or on a lip */
     KIRI_ARRAY(kiriVec2) leans;      /* per vertex: 8 kiriMesh_Lean on the border, else zero */

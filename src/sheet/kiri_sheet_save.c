@@ -394,6 +394,7 @@ static void ReserveSeen(kiriArchive* archive, kiriSheetData* sheet)
     surface->triangleCount = counts.triangles;
     kiriArchive_Expect(archive, surface->carriers.count >= counts.frames && surface->patches.count <= counts.frames &&
                                     sheet->seen.pointCount >= 0 && sheet->seen.pointCount <= counts.points &&
+                                    (surface->before.count == 0 || surface->before.count == 3 * (int64_t)counts.vertices) &&
                                     kiriSurface_AreChangesSound(surface));
     if (!kiriArchive_HasFailed(archive)) {
         kiriView_Resize(sheet, counts.frames);

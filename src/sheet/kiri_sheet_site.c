@@ -589,7 +589,7 @@ static bool GiveSites(kiriSheetData* sheet)
     if (isAgain && placing->placer.sites.count <= placing->own.count) {
         return true;
     }
-    KIRI_EACH_WHILE(ok&& isAgain, const int32_t, own, placing->own) {
+    KIRI_EACH_WHILE(ok && isAgain, const int32_t, own, placing->own) {
         int32_t f = *own;
         ok = RecordMove(sheet, f, placing->sites.data[f].cell);
         placing->sites.data[f] = placing->placer.sites.data[next++];

@@ -53,7 +53,7 @@ void kiriDetail_Bear(kiriDetail* detail, int32_t vertex, const kiriBirth* birth)
    alone. O(triangles). */
 void kiriDetail_ListEdges(kiriDetail* detail, const kiriMeshData* mesh);
 
-/* A tick: Begin, sweeps over the colors, each followed by Leash, Smooth, then End. `skin`: 3 floats a vertex. Items
+/* A tick: Begin, sweeps over the colors, each followed by Leash, Smooth, Leash, then End. `skin`: 3 floats a vertex. Items
    [begin, end) are groups of edges in a color, or listed vertices; ranges may run in parallel. */
 void kiriDetail_Begin(kiriDetail* detail, const float* skin, int32_t begin, int32_t end);
 int32_t kiriDetail_GroupCount(const kiriDetail* detail, int32_t color);

@@ -102,7 +102,7 @@ static void AddSolidTriangle(SolidArrays* to, int32_t a, int32_t b, int32_t c)
 /* Adds the rim along an edge. It shares no vertices, so that it is flat and its edges are sharp. */
 static void AddRim(SolidArrays* to, const kiriSurface* surface, int32_t a, int32_t b, double half)
 {
-    kiriVec3 along = kiriVec3_Sub(kiriSurface_At(surface, b), kiriSurface_At(surface, a));
+    kiriVec3 along = kiriVec3_Sub(kiriSurface_DrawnAt(surface, b), kiriSurface_DrawnAt(surface, a));
     kiriVec3 up =
         kiriVec3_Add(kiriVec3_Load(&surface->normals.data[3 * a]), kiriVec3_Load(&surface->normals.data[3 * b]));
     kiriVec3 out = kiriVec3_Normalize(kiriVec3_Cross(along, up));
@@ -205,6 +205,7 @@ void kiriSurface_SetDetail(kiriSurface* surface, int32_t sweeps)
     if (isOn != wasOn) {
         kiriDetail_Resize(&surface->detail, surface->vertexCount, surface->carriers.count);
         surface->isWritten = surface->isSteady = false;
+        surface->pose += 1;
         if (isOn && !kiriSurface_IsFar(surface) && surface->vertexCount > 0) {
             memcpy(surface->places.data, surface->positions.data, sizeof(float) * (size_t)surface->positions.count);
         }

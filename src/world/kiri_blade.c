@@ -561,7 +561,7 @@ static Track* NearestLost(const BladeWork* work, const Track* except, kiriVec2 r
     for (int32_t i = 0; i < work->oldCount; ++i) {
         Track* track = &work->tracks.data[i];
         double d = RestDistance(track->rest, rest);
-        if (track->isLost && track != except && (except == NULL || !track->isOver) && d <= distance) {
+        if (track->sheet == work->sheet && track->isLost && track != except && (except == NULL || !track->isOver) && d <= distance) {
             distance = d;
             nearest = track;
         }
@@ -694,11 +694,14 @@ static bool StepThroughSheet(BladeWork* work)
                    kiriVec3_Length(kiriVec3_Sub(work->is[1], work->was[1])) < work->snap;
     bool ok = FindLines(work);
     DropPoints(work);
-    work->crossings = 0;
+    int32_t layers = work->crossings = 0;
     for (int32_t i = 0; ok && i < 2 * work->section.lines.count; ++i) {
         work->crossings += work->section.lines.data[i / 2].end[i % 2] == KIRI_END_TO;
     }
-    work->isMessy = work->crossings + work->oldCount > MANY;
+    for (int32_t i = 0; ok && i < work->oldCount; ++i) {
+        layers += work->tracks.data[i].sheet == work->sheet;
+    }
+    work->isMessy = work->crossings + layers > MANY;
     work->joins = !work->isHeld && !work->isMessy;
     ok = ok && kiriArray_Resize(&work->memory, &work->taker, 2 * work->section.lines.count);
     for (int32_t i = 0; ok && i < work->taker.count; ++i) {

@@ -366,7 +366,6 @@ static bool ListBodiesOf(kiriWorld* world, kiriSheetData* sheet)
 {
     kiriPairs* pairs = &world->pairs;
     int32_t first = pairs->bodies.count, count = sheet->layout.pieces.count;
-    sheet->probes.firstBody = first;
     if (!kiriArray_Resize(&world->memory, &pairs->bodies, (int64_t)first + count)) {
         return false;
     }
@@ -965,10 +964,12 @@ static bool ListRegions(kiriWorld* world, kiriSheetData* sheet, int32_t piece)
 /* Finds the boxes of regions, and the speeds of their probes. */
 static void MeasureFolded(kiriPairs* pairs, const kiriSheetData* sheet, int32_t first)
 {
-    for (int32_t v = 0; v < sheet->probes.vertexFrame.count; ++v) {
-        int32_t body = pairs->frameBodies.data[sheet->probes.vertexFrame.data[v]];
+    const int32_t* corners = sheet->seen.surface.indices.data; /* a triangle is of the region of its first corner */
+    for (int32_t n = 0; n < sheet->seen.surface.indices.count; ++n) {
+        KIRI_ASSERT_HAS(sheet->probes.vertexFrame, corners[n]);
+        int32_t body = pairs->frameBodies.data[sheet->probes.vertexFrame.data[corners[n - n % 3]]];
         if (body != KIRI_NONE) {
-            kiriBox_Add(&pairs->bodies.data[body].box, kiriSurface_At(&sheet->seen.surface, v));
+            kiriBox_Add(&pairs->bodies.data[body].box, kiriSurface_At(&sheet->seen.surface, corners[n]));
         }
     }
     for (int32_t b = first; b < pairs->bodies.count; ++b) {

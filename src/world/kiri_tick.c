@@ -271,8 +271,8 @@ static void CommitAll(kiriWorld* world)
         }
         FinishCuts(world, sheet);
     }
-    for (int32_t i = 0; i < world->sheets.count; ++i) {
-        world->sheets.data[i]->seen.surface.before.count = 0;
+    KIRI_EACH_OF(kiriSheetData, sheet, world->sheets) {
+        sheet->seen.surface.before.count = 0;
     }
     EnterStage(world, KIRI_STAGE_SKIN);
     kiriTasks_Run(&world->tasks, TakeJumps, world->active.count, 1, world);
@@ -497,6 +497,9 @@ kiriResult kiriWorld_FinishUpdates(kiriWorld* world)
         StirTouched(sheet);
     }
     CommitAll(world);
+    KIRI_EACH_OF(kiriSheetData, sheet, world->sheets) {
+        sheet->seen.surface.before.count = 0; /* no tick leads here from these places */
+    }
     WakeStirred(world);
     KIRI_EACH(const int32_t, at, world->active) {
         world->moves.of.data[*at].progress = KIRI_DONE;

@@ -430,8 +430,9 @@ namespace Kiri
         Points = 2,
     }
 
-    /// <summary>The surface between the frames, which rays, blades, contacts, pins and clamps meet. Where nothing touches or
-    /// holds the sheet, skinning does not change its motion. Collision points stay on the linear surface.</summary>
+    /// <summary>The surface between the frames, which blades, contacts, pins and clamps meet; rays meet the drawn mesh. Where
+    /// nothing touches or holds the sheet, skinning does not change its motion. Collision points stay on the linear
+    /// surface.</summary>
     public enum Skinning
     {
         /// <summary>each frame carries a flat patch; the weights blend them (equation 1 of the paper)</summary>

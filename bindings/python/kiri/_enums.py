@@ -77,8 +77,9 @@ class Model(_enum.IntEnum):
 
 
 class Skinning(_enum.IntEnum):
-    """The surface between the frames, which rays, blades, contacts, pins and clamps meet. Where nothing touches
-    or holds the sheet, skinning does not change its motion. Collision points stay on the linear surface."""
+    """The surface between the frames, which blades, contacts, pins and clamps meet; rays meet the drawn mesh.
+    Where nothing touches or holds the sheet, skinning does not change its motion. Collision points stay on the
+    linear surface."""
     LINEAR = 0
     SMOOTH = 1
 

@@ -397,9 +397,9 @@ impl Model {
     }
 }
 
-/// The surface between the frames, which rays, blades, contacts, pins and clamps meet. Where
-/// nothing touches or holds the sheet, skinning does not change its motion. Collision points stay
-/// on the linear surface.
+/// The surface between the frames, which blades, contacts, pins and clamps meet; rays meet the
+/// drawn mesh. Where nothing touches or holds the sheet, skinning does not change its motion.
+/// Collision points stay on the linear surface.
 #[non_exhaustive]
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
