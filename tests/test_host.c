@@ -1097,6 +1097,14 @@ static void TestSolidIsClosed(void** state)
         OK(Host_Tick(&host, DT, 2));
     }
     OK(kiriSheet_GetSolid(host.world, sheet, 0.01f, &solid));
+    for (int32_t v = solid.indices[3 * solid.rimTriangle + 1]; v < solid.vertexCount; v += 4) { /* rims of drawn edges */
+        double dot = 0.0;
+        for (int k = 0; k < 3; ++k) {
+            const float* p = &solid.positions[3 * v + k];
+            dot += solid.normals[3 * v + k] * ((double)p[3] - p[0] + p[9] - p[6]);
+        }
+        assert_true(fabs(dot) < 1e-6);
+    }
     float x = solid.positions[0];
     OK(kiriSheet_GetSolid(host.world, sheet, 0.0f, &again));
     CheckClosed(&solid, Host_Mesh(&host, sheet).vertexCount);
