@@ -1,5 +1,5 @@
 #include "kiri_detach.h"
-#include "kiri_touch.h"
+#include "kiri_meeting.h"
 #include "kiri_piece.h"
 #include "../core/kiri_array.h"
 #include "kiri_update.h"

@@ -67,13 +67,6 @@ int32_t kiriObstacleShape_EdgeCount(const kiriObstacleShape* shape);
 /* Returns false for a nearly flat edge: the angle between its faces is less than 20 degrees. */
 bool kiriObstacleShape_EdgeAt(const kiriObstacleShape* shape, int32_t index, kiriObstacleEdge* edge);
 
-/* A corner of a finite prism, where three faces meet. kiriObstacleShape_CornerAt returns false for a corner that is
-   nearly flat along the outline: its edges are enough. */
-typedef struct kiriObstacleCorner {
-    kiriVec3 at, faces[3];
-    double thinnest; /* see kiriObstacleEdge */
-} kiriObstacleCorner;
-
 /* Returns point i of `count` (4 times a power of 2) on the unit circle. */
 kiriVec2 kiriCircle_At(int32_t i, int32_t count);
 

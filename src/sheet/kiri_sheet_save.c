@@ -3,7 +3,6 @@
 #include "../field/kiri_field_save.h"
 #include "../mesh/kiri_mesh_check.h"
 #include "../motion/kiri_motion_check.h"
-#include "../view/kiri_view_check.h"
 #include "kiri_build.h"
 #include "kiri_detach.h"
 #include "kiri_seen.h"

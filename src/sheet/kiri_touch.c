@@ -4,16 +4,6 @@
 
 #include <string.h>
 
-/* Average count of patches a frame. A frame has six unknowns, so only bent surfaces need more points. */
-#define PATCHES_A_FRAME 4.0
-
-/* Of the contact distance: a vertex must be deeper by this to replace an earlier one, and by as much to replace one that
-   pushed. So a flat surface keeps its vertices. */
-#define PREFERRED 0.5
-
-/* Cosine of 25 degrees. Normals with a smaller angle belong to one face. */
-#define SAME_FACE 0.9
-
 /* ---- The sheet as a whole ---------------------------------------------------------------------------------------- */
 
 kiriBox kiriSheet_Box(const kiriSheetData* sheet)
@@ -22,28 +12,18 @@ kiriBox kiriSheet_Box(const kiriSheetData* sheet)
     if (kiriBounds_IsFresh(sheet->seen.bounds, surface)) {
         return kiriBounds_All(sheet->seen.bounds);
     }
-    kiriBox box = { kiriSurface_At(surface, 0), kiriSurface_At(surface, 0) };
-    for (int32_t v = 1; v < surface->vertexCount; ++v) {
-        kiriVec3 x = kiriSurface_At(surface, v);
-        box.lower = kiriVec3_Make(kiriMin(x.x, box.lower.x), kiriMin(x.y, box.lower.y), kiriMin(x.z, box.lower.z));
-        box.upper = kiriVec3_Make(kiriMax(x.x, box.upper.x), kiriMax(x.y, box.upper.y), kiriMax(x.z, box.upper.z));
+    kiriBox box = KIRI_EMPTY_BOX;
+    for (int32_t v = 0; v < surface->vertexCount; ++v) {
+        kiriBox_Add(&box, kiriSurface_At(surface, v));
     }
     return box;
-}
-
-/* Returns the distance from a point to the farthest corner of the box. */
-static double FarthestCorner(const kiriBox* box, kiriVec3 from)
-{
-    kiriVec3 a = kiriVec3_Sub(box->lower, from), b = kiriVec3_Sub(box->upper, from);
-    return kiriVec3_Length(kiriVec3_Make(fabs(a.x) > fabs(b.x) ? a.x : b.x, fabs(a.y) > fabs(b.y) ? a.y : b.y,
-                                         fabs(a.z) > fabs(b.z) ? a.z : b.z));
 }
 
 /* Returns a bound of the distance to the farthest point that the frame carries, m: six radii of gyration of its region,
    or the farthest corner of the sheet's box. */
 static double Lever(const kiriFrameData* frame, const kiriBox* box)
 {
-    double corner = FarthestCorner(box, frame->x), square = frame->inertia[0] + frame->inertia[2];
+    double corner = kiriBox_Farthest(box, frame->x), square = frame->inertia[0] + frame->inertia[2];
     double radius = frame->mass > 0.0 ? 6.0 * kiriRoot(square / frame->mass) : corner;
     return kiriMin(radius, corner);
 }
@@ -68,26 +48,6 @@ double kiriReach_Of(double speed, kiriVec3 gravity, double dt)
     return 2.0 * dt * (speed + dt * kiriVec3_Length(gravity));
 }
 
-/* Returns an upper bound of the obstacle's speed within the sheet's box. */
-static double SpeedOf(const kiriObstacleData* obstacle, const kiriBox* box)
-{
-    return kiriVec3_Length(obstacle->velocity) +
-           kiriVec3_Length(obstacle->spin) * FarthestCorner(box, obstacle->position);
-}
-
-kiriVec3 kiriMeeting_VertexVelocity(const kiriSheetData* sheet, int32_t vertex)
-{
-    kiriSpan span = sheet->vertexSkin.spans.data[vertex];
-    kiriVec3 velocity = { 0 };
-    KIRI_EACH_IN(k, span) {
-        kiriSampleWeight weight = sheet->vertexSkin.weights.data[k];
-        velocity = kiriVec3_AddScaled(velocity, weight.value,
-                                      kiriFrame_VelocityAt(&sheet->frames.data[weight.frame],
-                                                           sheet->seen.surface.rest.data[vertex]));
-    }
-    return velocity;
-}
-
 int32_t kiriSkin_LeadingFrame(const kiriSkin* skin, int32_t sample)
 {
     kiriSpan span = skin->spans.data[sample];
@@ -96,378 +56,6 @@ int32_t kiriSkin_LeadingFrame(const kiriSkin* skin, int32_t sample)
         most = skin->weights.data[k].value > most.value ? skin->weights.data[k] : most;
     }
     return most.frame;
-}
-
-/* ---- Touches ----------------------------------------------------------------------------------------------------- */
-
-bool kiriMeeting_MakePlane(const kiriMeeting* meeting, kiriVec3 normal, kiriVec3 at, double gap, kiriTouch* touch)
-{
-    const kiriMechanics* mechanics = &meeting->sheet->settings.mechanics;
-    const kiriObstacleData* obstacle = meeting->obstacle;
-    kiriVec3 slip = kiriVec3_AddScaled(obstacle->surface, -kiriVec3_Dot(obstacle->surface, normal), normal);
-    memset(touch, 0, sizeof(*touch));
-    touch->velocity = kiriVec3_Add(kiriObstacle_VelocityAt(obstacle, at), slip);
-    touch->offset = kiriVec3_Dot(normal, at) + gap;
-    if (mechanics->planar) {
-        /* The plane's intersection with the sheet's plane: a line. */
-        double lean = kiriVec3_Dot(normal, mechanics->axes.d), along = 1.0 - lean * lean;
-        double height = kiriVec3_Dot(mechanics->axes.d, meeting->sheet->frames.data[0].x);
-        if (along < 1e-2) {
-            return false;
-        }
-        normal = kiriVec3_Scale(1.0 / sqrt(along), kiriVec3_AddScaled(normal, -lean, mechanics->axes.d));
-        touch->offset = (touch->offset - lean * height) / sqrt(along);
-    }
-    touch->normal = normal;
-    touch->friction = meeting->friction;
-    touch->pushSpeed = obstacle->pushSpeed;
-    touch->yield = meeting->yield;
-    touch->felt = -1.0;
-    touch->point = KIRI_NONE;
-    return true;
-}
-
-kiriVec3 kiriMeeting_Way(const kiriMeeting* meeting, kiriVec3 point, kiriVec3 velocity)
-{
-    const kiriObstacleSearch* search = meeting->search;
-    kiriVec3 relative = kiriVec3_Sub(velocity, kiriObstacle_VelocityAt(meeting->obstacle, point));
-    kiriVec3 way = kiriVec3_Scale(2.0 * search->dt, kiriVec3_AddScaled(relative, search->dt, search->gravity));
-    if (meeting->sheet->settings.mechanics.planar) {
-        kiriVec3 d = meeting->sheet->settings.mechanics.axes.d;
-        way = kiriVec3_AddScaled(way, -kiriVec3_Dot(way, d), d);
-    }
-    return way;
-}
-
-void kiriMeeting_SetPlace(kiriTouch* touch, const int32_t* vertices, const double* shares, int32_t count)
-{
-    for (int k = 0; k < 3; ++k) {
-        touch->vertex[k] = k < count ? vertices[k] : KIRI_NONE;
-        touch->share[k] = k < count ? shares[k] : 0.0;
-    }
-}
-
-bool kiriMeeting_IsBorder(const kiriSurface* surface, const kiriIndices* near, int32_t a, int32_t b)
-{
-    const int32_t* indices = surface->indices.data;
-    KIRI_EACH(const int32_t, triangle, *near) {
-        const int32_t* v = &indices[3 * (int64_t)*triangle];
-        if ((v[0] == b && v[1] == a) || (v[1] == b && v[2] == a) || (v[2] == b && v[0] == a)) {
-            return false;
-        }
-    }
-    return true;
-}
-
-enum { KEY_SLOTS = 1 << 22 };
-
-uint64_t kiriMeeting_Key(const kiriMeeting* meeting, bool isEdge, uint32_t item)
-{
-    return (uint64_t)KIRI_TOUCH_OBSTACLE << 60 | (uint64_t)isEdge << 59 |
-           (uint64_t)(meeting->obstacle->id & (KEY_SLOTS - 1)) << 32 | item;
-}
-
-bool kiriObstacle_FollowKey(uint64_t* key, const kiriKeep* vertices, const kiriKeep* triangles)
-{
-    bool isEdge = (*key >> 59 & 1) != 0, isRound = isEdge && (*key & KIRI_ROUND_ITEM) != 0;
-    int32_t item = (int32_t)(*key & (KIRI_ROUND_ITEM - 1));
-    if (isEdge && !isRound) {
-        return true; /* the item is a point of the obstacle */
-    }
-    const kiriKeep* keep = isRound ? triangles : vertices;
-    int32_t to = item < keep->to.count ? kiriKeep_To(keep, item) : KIRI_NONE; /* keys of a save may say anything */
-    *key = (*key & ~(uint64_t)(KIRI_ROUND_ITEM - 1)) | (uint32_t)to;
-    return to != KIRI_NONE;
-}
-
-int32_t kiriObstacle_SlotOfKey(uint64_t key)
-{
-    return (int32_t)(key >> 32 & (KEY_SLOTS - 1));
-}
-
-/* ---- Vertices ---------------------------------------------------------------------------------------------------- */
-
-static bool IsBoxNear(const void* context, const kiriBox* box)
-{
-    const kiriMeeting* meeting = context;
-    const kiriObstacleShape* shape = &meeting->obstacle->shape;
-    kiriVec3 middle = kiriVec3_Scale(0.5, kiriVec3_Add(box->lower, box->upper)), none = { 0 };
-    double reach = meeting->reach + 0.5 * kiriVec3_Distance(box->upper, box->lower);
-    kiriVec3 local = kiriObstacle_PointToLocal(meeting->obstacle, middle);
-    return kiriObstacleShape_MayReach(shape, local, reach) &&
-           kiriObstacleShape_Nearest(shape, local, none).distance < reach;
-}
-
-static int32_t PatchOf(const kiriMeeting* meeting, int32_t vertex)
-{
-    const kiriMeshData* mesh = &meeting->sheet->mesh;
-    int32_t square = kiriSquares_At(&mesh->squares, mesh->vertices.data[vertex].at);
-    int32_t column = square % mesh->squares.columns, row = square / mesh->squares.columns;
-    return row / meeting->squares * meeting->columns + column / meeting->squares;
-}
-
-static bool IsSamePlace(const kiriNearVertex* a, const kiriNearVertex* b)
-{
-    return a->frame == b->frame && kiriVec3_Dot(a->normal, b->normal) > SAME_FACE;
-}
-
-/* Returns true if the obstacle of the row can move. Fixed obstacles have rows too, which sum their impulses. */
-static bool Yields(const kiriSheetData* sheet, int32_t yield)
-{
-    return yield != KIRI_NONE && sheet->touches.yields.data[yield].inverseMass > 0.0;
-}
-
-/* Adds a vertex. Keeps only one vertex in each place: the first one, unless another is deeper by `margin` (m). */
-static void Choose(kiriObstacleSearch* search, kiriNearVertex near, double margin)
-{
-    int32_t* link = &search->heads.data[near.patch];
-    while (*link != KIRI_NONE) {
-        kiriNearVertex* chosen = &search->chosen.data[*link];
-        if (IsSamePlace(chosen, &near)) {
-            if (near.height < chosen->height - margin) {
-                near.next = chosen->next;
-                *chosen = near;
-            }
-            return;
-        }
-        link = &chosen->next;
-    }
-    *link = search->chosen.count;
-    KIRI_NEXT(search->chosen) = near;
-}
-
-/* Returns the extra depth (m) of a vertex that had a force, so that vertices of similar depth do not alternate. */
-static double Preference(const kiriMeeting* meeting, int32_t vertex, double height)
-{
-    if (height > 2.0 * meeting->gap) {
-        return 0.0;
-    }
-    kiriVec3 force = kiriTouches_ForceOf(meeting->sheet, kiriMeeting_Key(meeting, false, (uint32_t)vertex));
-    return kiriVec3_Dot(force, force) > 0.0 ? PREFERRED * meeting->gap : 0.0;
-}
-
-static void LookAtVertex(const kiriMeeting* meeting, int32_t vertex)
-{
-    const kiriObstacleShape* shape = &meeting->obstacle->shape;
-    kiriVec3 x = kiriSurface_At(&meeting->sheet->seen.surface, vertex);
-    kiriVec3 local = kiriObstacle_PointToLocal(meeting->obstacle, x);
-    if (!kiriObstacleShape_MayReach(shape, local, meeting->reach)) {
-        return;
-    }
-    kiriNearest nearest = kiriObstacleShape_Nearest(shape, local, meeting->across);
-    if (nearest.distance < meeting->reach && !meeting->isThinned) {
-        meeting->search->chosen.data[meeting->search->chosen.count++] = (kiriNearVertex){ .vertex = vertex };
-    } else if (nearest.distance < meeting->reach) {
-        double height = nearest.distance - Preference(meeting, vertex, nearest.distance);
-        kiriNearVertex near = { vertex,
-                                PatchOf(meeting, vertex),
-                                kiriSkin_LeadingFrame(&meeting->sheet->vertexSkin, vertex),
-                                KIRI_NONE,
-                                height,
-                                nearest.normal };
-        bool yields = Yields(meeting->sheet, meeting->yield); /* the deepest point stops a body with mass */
-        Choose(meeting->search, near, yields ? 0.0 : PREFERRED * meeting->gap);
-    }
-}
-
-/* Lists each vertex of the near triangles once, ascending, so that the choice does not depend on the order of
-   triangles. */
-static void CollectVertices(const kiriMeeting* meeting)
-{
-    kiriObstacleSearch* search = meeting->search;
-    const int32_t* indices = meeting->sheet->seen.surface.indices.data;
-    int32_t low = INT32_MAX, high = -1;
-    search->mark += 1;
-    search->vertices.count = 0;
-    for (int64_t i = 0; i < 3 * (int64_t)search->triangles.count; ++i) {
-        int32_t vertex = indices[3 * (int64_t)search->triangles.data[i / 3] + i % 3];
-        if (search->marks.data[vertex] != search->mark) {
-            search->marks.data[vertex] = search->mark;
-            KIRI_NEXT(search->vertices) = vertex;
-            low = kiriMin(vertex, low);
-            high = kiriMax(vertex, high);
-        }
-    }
-    if (high - low > 16 * (int64_t)search->vertices.count) {
-        kiriSort(search->vertices.data, search->vertices.count, NULL, NULL);
-        return;
-    }
-    search->vertices.count = 0;
-    for (int32_t v = low; v <= high; ++v) {
-        search->vertices.data[search->vertices.count] = v;
-        search->vertices.count += search->marks.data[v] == search->mark;
-    }
-}
-
-static void ChooseVertices(const kiriMeeting* meeting)
-{
-    kiriObstacleSearch* search = meeting->search;
-    search->chosen.count = 0;
-    CollectVertices(meeting);
-    KIRI_EACH(const int32_t, vertex, search->vertices) {
-        LookAtVertex(meeting, *vertex);
-    }
-    KIRI_EACH_WHILE(meeting->isThinned, const kiriNearVertex, chosen, search->chosen) {
-        search->heads.data[chosen->patch] = KIRI_NONE;
-    }
-}
-
-/* Makes the touch of a vertex: the plane where it enters the obstacle, or the nearest one. Returns false if none. */
-static bool TouchVertex(const kiriMeeting* meeting, int32_t vertex, kiriTouch* touch)
-{
-    const kiriObstacleData* obstacle = meeting->obstacle;
-    kiriVec3 x = kiriSurface_At(&meeting->sheet->seen.surface, vertex), from = kiriObstacle_PointToLocal(obstacle, x);
-    kiriVec3 way =
-        kiriObstacle_ToLocal(obstacle, kiriMeeting_Way(meeting, x, kiriMeeting_VertexVelocity(meeting->sheet, vertex)));
-    kiriNearest nearest;
-    double share = kiriObstacleShape_Enter(&obstacle->shape, from, way, meeting->gap, meeting->across, &nearest);
-    if (share >= 1.0 && nearest.distance > (1.0 + KIRI_NEARBY) * meeting->gap) {
-        return false;
-    }
-    kiriVec3 there = kiriVec3_AddScaled(kiriVec3_AddScaled(from, share, way), -nearest.distance, nearest.normal);
-    if (!kiriMeeting_MakePlane(meeting, kiriObstacle_ToWorld(obstacle, nearest.normal),
-                               kiriObstacle_PointToWorld(obstacle, there), meeting->gap, touch)) {
-        return false;
-    }
-    kiriMeeting_SetPlace(touch, &vertex, (const double[1]){ 1.0 }, 1);
-    touch->key = kiriMeeting_Key(meeting, false, (uint32_t)vertex);
-    return true;
-}
-
-bool kiriMeeting_TouchVertices(const kiriMeeting* meeting)
-{
-    const kiriObstacleSearch* search = meeting->search;
-    bool ok = true;
-    ChooseVertices(meeting);
-    KIRI_EACH_WHILE(ok, const kiriNearVertex, chosen, search->chosen) {
-        kiriTouch touch;
-        if (TouchVertex(meeting, chosen->vertex, &touch)) {
-            ok = kiriTouches_Add(meeting->sheet, &touch);
-        }
-    }
-    return ok;
-}
-
-/* ---- Search ------------------------------------------------------------------------------------------------------ */
-
-/* Returns the side of a patch in grid squares. */
-static int32_t PatchSide(const kiriSheetData* sheet, double square)
-{
-    double area = 0.0;
-    KIRI_EACH(const kiriFrameData, frame, sheet->frames) {
-        area += frame->area;
-    }
-    double side = sqrt(area / (PATCHES_A_FRAME * sheet->frames.count)) / square;
-    return side < 2.0 ? 1 : side < 4096.0 ? (int32_t)side : 4096;
-}
-
-typedef struct NearBox {
-    const kiriObstacleData* obstacle;
-    double reach;
-} NearBox;
-
-static bool IsBoxWithin(const void* context, const kiriBox* box)
-{
-    const NearBox* near = context;
-    return kiriObstacle_IsNear(near->obstacle, box->lower, box->upper, near->reach);
-}
-
-bool kiriObstacleSearch_Near(kiriObstacleSearch* search, const kiriSheetData* sheet, const kiriObstacleData* obstacle,
-                             double reach)
-{
-    const NearBox near = { obstacle, reach };
-    search->triangles.count = 0;
-    return kiriBounds_Find(sheet->seen.bounds, &sheet->seen.surface, IsBoxWithin, &near, search->memory,
-                           &search->triangles);
-}
-
-bool kiriObstacleSearch_Reserve(kiriObstacleSearch* search, const kiriSheetData* sheet)
-{
-    const kiriSquares* squares = &sheet->mesh.squares;
-    int32_t vertices = sheet->seen.surface.vertexCount, triangles = sheet->seen.surface.triangleCount;
-    int32_t patches = squares->columns * squares->rows, oldMarks = search->marks.count, oldHeads = search->heads.count;
-    if (!kiriArray_Reserve(search->memory, &search->triangles, triangles) ||
-        !kiriArray_Reserve(search->memory, &search->crossed, triangles) ||
-        !kiriArray_Reserve(search->memory, &search->vertices, (int64_t)vertices + 1) ||
-        !kiriArray_Reserve(search->memory, &search->chosen, vertices) ||
-        (oldMarks < vertices && !kiriArray_Resize(search->memory, &search->marks, vertices)) ||
-        (oldHeads < patches && !kiriArray_Resize(search->memory, &search->heads, patches))) {
-        return false;
-    }
-    for (int32_t i = oldMarks; i < search->marks.count; ++i) {
-        search->marks.data[i] = 0;
-    }
-    for (int32_t i = oldHeads; i < search->heads.count; ++i) {
-        search->heads.data[i] = KIRI_NONE;
-    }
-    return true;
-}
-
-static kiriMeeting MakeMeeting(kiriObstacleSearch* search, kiriSheetData* sheet, const kiriObstacleData* obstacle,
-                               double speed, int32_t yield)
-{
-    kiriMeeting meeting = { search,
-                            sheet,
-                            obstacle,
-                            { 0.0, 0.0, 0.0 },
-                            0.5 * sheet->settings.contactThickness,
-                            0.0,
-                            0.0,
-                            1,
-                            1,
-                            sqrt(sheet->settings.friction * obstacle->friction),
-                            yield,
-                            obstacle->shape.type == KIRI_OBSTACLE_PLANE || Yields(sheet, yield) };
-    kiriBox box = kiriBounds_All(sheet->seen.bounds);
-    double square = sheet->mesh.step * sheet->mesh.squares.side;
-    meeting.squares = PatchSide(sheet, square);
-    meeting.columns = (sheet->mesh.squares.columns + meeting.squares - 1) / meeting.squares;
-    meeting.square = square;
-    meeting.reach =
-        kiriReach_Of(speed + SpeedOf(obstacle, &box), search->gravity, search->dt) + (1.0 + KIRI_NEARBY) * meeting.gap;
-    if (sheet->settings.mechanics.planar) {
-        meeting.across = kiriObstacle_ToLocal(obstacle, sheet->settings.mechanics.axes.d);
-    }
-    return meeting;
-}
-
-/* Returns the version of the movers; 0 if another piece woke since, or wakes in this tick. */
-static int64_t VersionOf(const kiriSheetData* sheet)
-{
-    const kiriMoved* moved = kiriSolver_Moved(sheet->solver);
-    bool isSame = moved->isListed && moved->version == sheet->seen.lists;
-    for (int32_t p = 0; isSame && p < sheet->layout.pieces.count; ++p) {
-        isSame = sheet->solver->bodies.bodies.data[p].isMoved || !kiriPiece_MayMove(&sheet->layout.pieces.data[p]);
-    }
-    return isSame ? moved->version : 0;
-}
-
-/* Drops the found triangles of pieces that neither move nor wake in this tick. */
-static void DropSleepers(kiriObstacleSearch* search, const kiriSheetData* sheet)
-{
-    int32_t kept = 0;
-    KIRI_EACH(const int32_t, at, search->triangles) {
-        int32_t triangle = *at, piece = kiriPiece_OfTriangle(sheet, triangle);
-        if (kiriPiece_MayMove(&sheet->layout.pieces.data[piece])) {
-            search->triangles.data[kept++] = triangle;
-        }
-    }
-    search->triangles.count = kept;
-}
-
-bool kiriObstacleSearch_Run(kiriObstacleSearch* search, kiriSheetData* sheet, const kiriObstacleData* obstacle,
-                            double speed, int32_t yield)
-{
-    kiriMeeting meeting = MakeMeeting(search, sheet, obstacle, speed, yield);
-    search->triangles.count = 0;
-    if (!kiriBounds_FindLeaves(sheet->seen.bounds, &sheet->seen.surface, IsBoxNear, &meeting, VersionOf(sheet),
-                               search->memory, &search->triangles)) {
-        return false;
-    }
-    DropSleepers(search, sheet);
-    return search->triangles.count == 0 ||
-           (kiriMeeting_TouchVertices(&meeting) && kiriMeeting_TouchRounds(&meeting) &&
-            (sheet->settings.mechanics.planar ? kiriMeeting_TouchCorners(&meeting) : kiriMeeting_TouchEdges(&meeting)));
 }
 
 /* ---- Choice ---- */
@@ -677,14 +265,10 @@ static void BoundPieces(kiriSheetData* sheet)
 {
     kiriProbes* probes = &sheet->probes;
     KIRI_EACH_INDEX(p, probes->boxes) {
-        probes->boxes.data[p].lower = kiriVec3_Make(HUGE_VAL, HUGE_VAL, HUGE_VAL);
-        probes->boxes.data[p].upper = kiriVec3_Make(-HUGE_VAL, -HUGE_VAL, -HUGE_VAL);
+        probes->boxes.data[p] = KIRI_EMPTY_BOX;
     }
     KIRI_EACH_INDEX(v, probes->vertexPiece) {
-        kiriBox* box = &probes->boxes.data[probes->vertexPiece.data[v]];
-        kiriVec3 x = kiriSurface_At(&sheet->seen.surface, v), *a = &box->lower, *b = &box->upper;
-        *a = kiriVec3_Make(kiriMin(x.x, a->x), kiriMin(x.y, a->y), kiriMin(x.z, a->z));
-        *b = kiriVec3_Make(kiriMax(x.x, b->x), kiriMax(x.y, b->y), kiriMax(x.z, b->z));
+        kiriBox_Add(&probes->boxes.data[probes->vertexPiece.data[v]], kiriSurface_At(&sheet->seen.surface, v));
     }
 }
 
@@ -1115,7 +699,7 @@ static void WriteContactRow(const kiriSheetData* sheet, const kiriTouch* touch, 
     row->velocity = touch->velocity;
     row->friction = touch->friction;
     row->pushSpeed = touch->pushSpeed;
-    if (kiriTouch_IsOfKind(touch, KIRI_TOUCH_OBSTACLE) && !Yields(sheet, touch->yield)) {
+    if (kiriTouch_IsOfKind(touch, KIRI_TOUCH_OBSTACLE) && !kiriTouches_CanYield(sheet, touch->yield)) {
         row->mass = sampleMass;
         row->reach = 0.5 * sheet->settings.contactThickness;
     }
@@ -1449,56 +1033,4 @@ void kiriTouches_Tell(kiriSheetData* sheet, double dt)
     kiriArray_SetHeader(&touches->told, kiriArray_GetHeader(&touches->nextTold));
     kiriArray_SetHeader(&touches->nextTold, told);
     sheet->contacts.count = 0;
-}
-
-/* ---- Detail layer ------------------------------------------------------------------------------------------------ */
-
-/* Returns the box of the vertices that the layer moves. */
-static kiriBox BoxOfDetail(const kiriSurface* surface)
-{
-    const kiriDetail* detail = &surface->detail;
-    kiriBox box = { { KIRI_ENDLESS, KIRI_ENDLESS, KIRI_ENDLESS }, { -KIRI_ENDLESS, -KIRI_ENDLESS, -KIRI_ENDLESS } };
-    for (int32_t k = 0; k < detail->vertices.count; ++k) {
-        kiriBox_Add(&box, kiriVec3_Load(detail->moving.data + 4 * (ptrdiff_t)detail->vertices.data[k].vertex));
-    }
-    box.lower = kiriVec3_Add(box.lower, surface->middle);
-    box.upper = kiriVec3_Add(box.upper, surface->middle);
-    return box;
-}
-
-/* Ends the way from the skin to the drawn vertex where it enters the obstacle; the rest of it slides along there. So thin
-   obstacles stop it, too. */
-static void PushDetail(const kiriObstacleData* obstacle, kiriSheetData* sheet)
-{
-    kiriSurface* surface = &sheet->seen.surface;
-    const kiriVec3 across = { 0.0, 0.0, 0.0 };
-    double gap = 0.5 * sheet->settings.contactThickness;
-    KIRI_ASSERT(surface->detail.isListed && !surface->isWritten);
-    KIRI_EACH(const kiriDetailVertex, item, surface->detail.vertices) {
-        float* moving = surface->detail.moving.data + 4 * (ptrdiff_t)item->vertex;
-        kiriVec3 skin = kiriVec3_Load(kiriSurface_Places(surface) + 3 * (ptrdiff_t)item->vertex);
-        kiriVec3 way = kiriObstacle_ToLocal(obstacle, kiriVec3_Sub(kiriVec3_Load(moving), skin));
-        kiriVec3 from = kiriObstacle_PointToLocal(obstacle, kiriVec3_Add(surface->middle, skin));
-        if (!kiriObstacleShape_MayReach(&obstacle->shape, from, gap + kiriVec3_Length(way))) {
-            continue;
-        }
-        kiriNearest nearest;
-        double share = kiriObstacleShape_Enter(&obstacle->shape, from, way, gap, across, &nearest);
-        double into = (1.0 - share) * kiriVec3_Dot(way, nearest.normal);
-        if (share < 1.0 && into < 0.0) {
-            way = kiriVec3_AddScaled(way, -into, nearest.normal);
-            kiriVec3_Store(moving, kiriVec3_Add(skin, kiriObstacle_ToWorld(obstacle, way)));
-        }
-    }
-}
-
-void kiriObstacles_PushDetail(kiriObstacleData* const* obstacles, int32_t count, kiriSheetData* sheet)
-{
-    kiriBox box = count > 0 ? BoxOfDetail(&sheet->seen.surface) : (kiriBox){ 0 };
-    for (int32_t i = 0; i < count; ++i) {
-        if ((obstacles[i]->groups & sheet->settings.groups) != 0 &&
-            kiriObstacle_IsNear(obstacles[i], box.lower, box.upper, sheet->settings.contactThickness)) {
-            PushDetail(obstacles[i], sheet);
-        }
-    }
 }

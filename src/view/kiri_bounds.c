@@ -7,8 +7,6 @@ enum { LEAF_SIZE = 8, NODE_SIZE = 4 }; /* triangles of a leaf, children of a nod
 
 /* ---- Boxes ------------------------------------------------------------------------------------------------------- */
 
-static const kiriBox EmptyBox = { { DBL_MAX, DBL_MAX, DBL_MAX }, { -DBL_MAX, -DBL_MAX, -DBL_MAX } };
-
 static kiriVec3 Least(kiriVec3 a, kiriVec3 b)
 {
     return kiriVec3_Make(kiriMin(a.x, b.x), kiriMin(a.y, b.y), kiriMin(a.z, b.z));
@@ -25,6 +23,13 @@ void kiriBox_Add(kiriBox* box, kiriVec3 at)
     box->upper = Most(at, box->upper);
 }
 
+double kiriBox_Farthest(const kiriBox* box, kiriVec3 from)
+{
+    kiriVec3 a = kiriVec3_Sub(box->lower, from), b = kiriVec3_Sub(box->upper, from);
+    return kiriVec3_Length(kiriVec3_Make(fabs(a.x) > fabs(b.x) ? a.x : b.x, fabs(a.y) > fabs(b.y) ? a.y : b.y,
+                                         fabs(a.z) > fabs(b.z) ? a.z : b.z));
+}
+
 static void GetWorldCorners(const kiriSurface* surface, int32_t triangle, kiriVec3 corner[3])
 {
     KIRI_ASSERT(triangle >= 0 && triangle < surface->triangleCount);
@@ -36,7 +41,7 @@ static void GetWorldCorners(const kiriSurface* surface, int32_t triangle, kiriVe
 kiriBox kiriBox_OfTriangle(const kiriSurface* surface, int32_t triangle)
 {
     kiriVec3 corner[3];
-    kiriBox box = EmptyBox;
+    kiriBox box = KIRI_EMPTY_BOX;
     GetWorldCorners(surface, triangle, corner);
     KIRI_EACH_CORNER(k) {
         kiriBox_Add(&box, corner[k]);
@@ -163,7 +168,7 @@ static void FitBoxes(kiriBounds* bounds, const kiriSurface* surface, const uint8
                 continue;
             }
             int32_t first, end = LeafItems(bounds, level, node, &first);
-            kiriBox box = EmptyBox;
+            kiriBox box = KIRI_EMPTY_BOX;
             for (int32_t i = first; level > 0 && i < end; ++i) {
                 box.lower = Least(nodes[i].lower, box.lower);
                 box.upper = Most(nodes[i].upper, box.upper);
@@ -338,7 +343,7 @@ static bool PushTriangles(void* context, const int32_t* triangles, int32_t count
     const TriangleSearch* search = context;
     bool ok = true;
     for (int32_t i = 0; ok && i < count; ++i) {
-        kiriBox box = EmptyBox;
+        kiriBox box = KIRI_EMPTY_BOX;
         if (IsHidden(search->surface, triangles[i])) {
             continue;
         }

@@ -51,8 +51,13 @@ static inline bool kiriBox_Meet(const kiriBox* a, const kiriBox* b)
            b->lower.y <= a->upper.y && a->lower.z <= b->upper.z && b->lower.z <= a->upper.z;
 }
 
+#define KIRI_EMPTY_BOX ((kiriBox){ { DBL_MAX, DBL_MAX, DBL_MAX }, { -DBL_MAX, -DBL_MAX, -DBL_MAX } })
+
 /* Enlarges the box to hold a point. */
 void kiriBox_Add(kiriBox* box, kiriVec3 at);
+
+/* Returns the distance from a point to the farthest corner of the box. */
+double kiriBox_Farthest(const kiriBox* box, kiriVec3 from);
 
 /* Returns the least box around a triangle in world space. */
 kiriBox kiriBox_OfTriangle(const kiriSurface* surface, int32_t triangle);

@@ -3,6 +3,7 @@
 #ifndef KIRI_SURFACE_H
 #define KIRI_SURFACE_H
 
+#include "../core/kiri_archive.h"
 #include "../core/kiri_array.h"
 #include "../core/kiri_vec.h"
 #include "kiri_detail.h"
@@ -249,6 +250,15 @@ bool kiriSurface_CopyIndices16(const kiriSurface* surface, int32_t firstTriangle
    arrays are in one block of `memory`. Returns false on out of memory. */
 bool kiriSolid_Build(kiriSolid* solid, kiriMemory* memory, const kiriSurface* surface, const kiriMeshData* mesh,
                      double thickness);
+
+/* Tables for saves, see core/kiri_archive.h. */
+kiriTableFn kiriSkinTable, kiriPlacesTable, kiriRefreshTable, kiriFadesTable, kiriSurfaceTable;
+
+/* Returns true if loaded fades are of samples, each once. */
+bool kiriFades_AreSound(const kiriFades* fades, int32_t samples);
+
+/* Returns true if the changes of a loaded surface are within it. */
+bool kiriSurface_AreChangesSound(const kiriSurface* surface);
 
 KIRI_C_END
 

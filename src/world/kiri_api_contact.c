@@ -1,6 +1,6 @@
 #include "kiri_call.h"
 #include "kiri_move.h"
-#include "../sheet/kiri_touch.h"
+#include "../sheet/kiri_meeting.h"
 #include "../sheet/kiri_motion.h"
 #include "../sheet/kiri_pin.h"
 #include "kiri_blade.h"

@@ -1,7 +1,7 @@
 #include "kiri_draw.h"
 #include "../sheet/kiri_piece.h"
 #include "../sheet/kiri_seen.h"
-#include "../sheet/kiri_touch.h"
+#include "../sheet/kiri_obstacle.h"
 #include "kiri_blade.h"
 
 #include <math.h>

@@ -3,7 +3,7 @@
 #include "../sheet/kiri_motion.h"
 #include "../sheet/kiri_seen.h"
 #include "../sheet/kiri_pin.h"
-#include "../sheet/kiri_touch.h"
+#include "../sheet/kiri_meeting.h"
 #include "../sheet/kiri_piece.h"
 #include "../sheet/kiri_update.h"
 #include "kiri_island.h"

@@ -5,7 +5,7 @@
 #include "../sheet/kiri_sheet.h"
 #include "../core/kiri_archive.h"
 #include "../core/kiri_base.h"
-#include "../sheet/kiri_touch.h"
+#include "../sheet/kiri_meeting.h"
 
 KIRI_C_BEGIN
 

@@ -1,0 +1,950 @@
+#include "kiri_meeting.h"
+#include "kiri_piece.h"
+#include "kiri_seen.h"
+
+#include <string.h>
+
+/* Average count of patches a frame. A frame has six unknowns, so only bent surfaces need more points. */
+#define PATCHES_A_FRAME 4.0
+
+/* Of the contact distance: a vertex must be deeper by this to replace an earlier one, and by as much to replace one that
+   pushed. So a flat surface keeps its vertices. */
+#define PREFERRED 0.5
+
+/* Cosine of 25 degrees. Normals with a smaller angle belong to one face. */
+#define SAME_FACE 0.9
+
+/* Fraction of the contact distance. A point this little above it is a touch, even if it cannot reach it in this tick.
+   So a resting point that lifts a little keeps its force. */
+#define NEARBY 0.5
+
+/* Key bit of round sides: the item is a triangle, not a point of an edge. */
+#define ROUND_ITEM (UINT32_C(1) << 31)
+
+/* Input of the searches for one sheet and one obstacle. */
+typedef struct kiriMeeting {
+    kiriObstacleSearch* search;
+    kiriSheetData* sheet;
+    const kiriObstacleData* obstacle;
+    kiriVec3 across;          /* plane normal of a planar sheet, local to the obstacle; else zero */
+    double gap;               /* m: contact distance */
+    double reach;             /* m: largest distance at which they may touch in the tick */
+    double square;            /* m: side of a grid square */
+    int32_t squares, columns; /* grid squares along the side of a patch; patches in a row */
+    double friction;          /* coefficient of the pair */
+    int32_t yield;            /* yield row of the obstacle's body, or KIRI_NONE */
+    bool isThinned;           /* one vertex a patch touches; else all vertices */
+} kiriMeeting;
+
+/* ---- Touches ----------------------------------------------------------------------------------------------------- */
+
+static bool MakePlane(const kiriMeeting* meeting, kiriVec3 normal, kiriVec3 at, double gap, kiriTouch* touch)
+{
+    const kiriMechanics* mechanics = &meeting->sheet->settings.mechanics;
+    const kiriObstacleData* obstacle = meeting->obstacle;
+    kiriVec3 slip = kiriVec3_AddScaled(obstacle->surface, -kiriVec3_Dot(obstacle->surface, normal), normal);
+    memset(touch, 0, sizeof(*touch));
+    touch->velocity = kiriVec3_Add(kiriObstacle_VelocityAt(obstacle, at), slip);
+    touch->offset = kiriVec3_Dot(normal, at) + gap;
+    if (mechanics->planar) {
+        /* The plane's intersection with the sheet's plane: a line. */
+        double lean = kiriVec3_Dot(normal, mechanics->axes.d), along = 1.0 - lean * lean;
+        double height = kiriVec3_Dot(mechanics->axes.d, meeting->sheet->frames.data[0].x);
+        if (along < 1e-2) {
+            return false;
+        }
+        normal = kiriVec3_Scale(1.0 / sqrt(along), kiriVec3_AddScaled(normal, -lean, mechanics->axes.d));
+        touch->offset = (touch->offset - lean * height) / sqrt(along);
+    }
+    touch->normal = normal;
+    touch->friction = meeting->friction;
+    touch->pushSpeed = obstacle->pushSpeed;
+    touch->yield = meeting->yield;
+    touch->felt = -1.0;
+    touch->point = KIRI_NONE;
+    return true;
+}
+
+static kiriVec3 WayOf(const kiriMeeting* meeting, kiriVec3 point, kiriVec3 velocity)
+{
+    const kiriObstacleSearch* search = meeting->search;
+    kiriVec3 relative = kiriVec3_Sub(velocity, kiriObstacle_VelocityAt(meeting->obstacle, point));
+    kiriVec3 way = kiriVec3_Scale(2.0 * search->dt, kiriVec3_AddScaled(relative, search->dt, search->gravity));
+    if (meeting->sheet->settings.mechanics.planar) {
+        kiriVec3 d = meeting->sheet->settings.mechanics.axes.d;
+        way = kiriVec3_AddScaled(way, -kiriVec3_Dot(way, d), d);
+    }
+    return way;
+}
+
+static void SetPlace(kiriTouch* touch, const int32_t* vertices, const double* shares, int32_t count)
+{
+    for (int k = 0; k < 3; ++k) {
+        touch->vertex[k] = k < count ? vertices[k] : KIRI_NONE;
+        touch->share[k] = k < count ? shares[k] : 0.0;
+    }
+}
+
+/* Makes the touch of a blend of up to three vertices with the plane through `on`. `above` is the height of the blend, at
+   `at`, over that plane, m. Returns false if it stays more than `most` above the plane in the tick. */
+static bool TouchBlend(const kiriMeeting* meeting, const int32_t* v, const double* share, int32_t count, kiriVec3 at,
+                       kiriVec3 normal, double above, double most, kiriVec3 on, double gap, kiriTouch* touch)
+{
+    kiriVec3 velocity = { 0 };
+    for (int32_t k = 0; k < count; ++k) {
+        velocity = kiriVec3_AddScaled(velocity, share[k], kiriProbe_Velocity(meeting->sheet, v[k]));
+    }
+    if (above + kiriVec3_Dot(normal, WayOf(meeting, at, velocity)) > most ||
+        !MakePlane(meeting, normal, on, gap, touch)) {
+        return false;
+    }
+    SetPlace(touch, v, share, count);
+    return true;
+}
+
+static bool IsBorderEdge(const kiriSurface* surface, const kiriIndices* near, int32_t a, int32_t b)
+{
+    const int32_t* indices = surface->indices.data;
+    KIRI_EACH(const int32_t, triangle, *near) {
+        const int32_t* v = &indices[3 * (int64_t)*triangle];
+        if ((v[0] == b && v[1] == a) || (v[1] == b && v[2] == a) || (v[2] == b && v[0] == a)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+enum { KEY_SLOTS = 1 << 22 };
+
+static uint64_t MakeKey(const kiriMeeting* meeting, bool isEdge, uint32_t item)
+{
+    return (uint64_t)KIRI_TOUCH_OBSTACLE << 60 | (uint64_t)isEdge << 59 |
+           (uint64_t)(meeting->obstacle->id & (KEY_SLOTS - 1)) << 32 | item;
+}
+
+bool kiriObstacle_FollowKey(uint64_t* key, const kiriKeep* vertices, const kiriKeep* triangles)
+{
+    bool isEdge = (*key >> 59 & 1) != 0, isRound = isEdge && (*key & ROUND_ITEM) != 0;
+    int32_t item = (int32_t)(*key & (ROUND_ITEM - 1));
+    if (isEdge && !isRound) {
+        return true; /* the item is a point of the obstacle */
+    }
+    const kiriKeep* keep = isRound ? triangles : vertices;
+    int32_t to = item < keep->to.count ? kiriKeep_To(keep, item) : KIRI_NONE; /* keys of a save may say anything */
+    *key = (*key & ~(uint64_t)(ROUND_ITEM - 1)) | (uint32_t)to;
+    return to != KIRI_NONE;
+}
+
+int32_t kiriObstacle_SlotOfKey(uint64_t key)
+{
+    return (int32_t)(key >> 32 & (KEY_SLOTS - 1));
+}
+
+/* ---- Vertices ---------------------------------------------------------------------------------------------------- */
+
+static bool IsBoxNear(const void* context, const kiriBox* box)
+{
+    const kiriMeeting* meeting = context;
+    const kiriObstacleShape* shape = &meeting->obstacle->shape;
+    kiriVec3 middle = kiriVec3_Scale(0.5, kiriVec3_Add(box->lower, box->upper)), none = { 0 };
+    double reach = meeting->reach + 0.5 * kiriVec3_Distance(box->upper, box->lower);
+    kiriVec3 local = kiriObstacle_PointToLocal(meeting->obstacle, middle);
+    return kiriObstacleShape_MayReach(shape, local, reach) &&
+           kiriObstacleShape_Nearest(shape, local, none).distance < reach;
+}
+
+static int32_t PatchOf(const kiriMeeting* meeting, int32_t vertex)
+{
+    const kiriMeshData* mesh = &meeting->sheet->mesh;
+    int32_t square = kiriSquares_At(&mesh->squares, mesh->vertices.data[vertex].at);
+    int32_t column = square % mesh->squares.columns, row = square / mesh->squares.columns;
+    return row / meeting->squares * meeting->columns + column / meeting->squares;
+}
+
+static bool IsSamePlace(const kiriNearVertex* a, const kiriNearVertex* b)
+{
+    return a->frame == b->frame && kiriVec3_Dot(a->normal, b->normal) > SAME_FACE;
+}
+
+/* Adds a vertex. Keeps only one vertex in each place: the first one, unless another is deeper by `margin` (m). */
+static void Choose(kiriObstacleSearch* search, kiriNearVertex near, double margin)
+{
+    int32_t* link = &search->heads.data[near.patch];
+    while (*link != KIRI_NONE) {
+        kiriNearVertex* chosen = &search->chosen.data[*link];
+        if (IsSamePlace(chosen, &near)) {
+            if (near.height < chosen->height - margin) {
+                near.next = chosen->next;
+                *chosen = near;
+            }
+            return;
+        }
+        link = &chosen->next;
+    }
+    *link = search->chosen.count;
+    KIRI_NEXT(search->chosen) = near;
+}
+
+/* Returns the extra depth (m) of a vertex that had a force, so that vertices of similar depth do not alternate. */
+static double Preference(const kiriMeeting* meeting, int32_t vertex, double height)
+{
+    if (height > 2.0 * meeting->gap) {
+        return 0.0;
+    }
+    kiriVec3 force = kiriTouches_ForceOf(meeting->sheet, MakeKey(meeting, false, (uint32_t)vertex));
+    return kiriVec3_Dot(force, force) > 0.0 ? PREFERRED * meeting->gap : 0.0;
+}
+
+static void LookAtVertex(const kiriMeeting* meeting, int32_t vertex)
+{
+    const kiriObstacleShape* shape = &meeting->obstacle->shape;
+    kiriVec3 x = kiriSurface_At(&meeting->sheet->seen.surface, vertex);
+    kiriVec3 local = kiriObstacle_PointToLocal(meeting->obstacle, x);
+    if (!kiriObstacleShape_MayReach(shape, local, meeting->reach)) {
+        return;
+    }
+    kiriNearest nearest = kiriObstacleShape_Nearest(shape, local, meeting->across);
+    if (nearest.distance < meeting->reach && !meeting->isThinned) {
+        meeting->search->chosen.data[meeting->search->chosen.count++] = (kiriNearVertex){ .vertex = vertex };
+    } else if (nearest.distance < meeting->reach) {
+        double height = nearest.distance - Preference(meeting, vertex, nearest.distance);
+        kiriNearVertex near = { vertex,
+                                PatchOf(meeting, vertex),
+                                kiriSkin_LeadingFrame(&meeting->sheet->vertexSkin, vertex),
+                                KIRI_NONE,
+                                height,
+                                nearest.normal };
+        bool yields =
+            kiriTouches_CanYield(meeting->sheet, meeting->yield); /* the deepest point stops a body with mass */
+        Choose(meeting->search, near, yields ? 0.0 : PREFERRED * meeting->gap);
+    }
+}
+
+/* Lists each vertex of the near triangles once, ascending, so that the choice does not depend on the order of
+   triangles. */
+static void CollectVertices(const kiriMeeting* meeting)
+{
+    kiriObstacleSearch* search = meeting->search;
+    const int32_t* indices = meeting->sheet->seen.surface.indices.data;
+    int32_t low = INT32_MAX, high = -1;
+    search->mark += 1;
+    search->vertices.count = 0;
+    for (int64_t i = 0; i < 3 * (int64_t)search->triangles.count; ++i) {
+        int32_t vertex = indices[3 * (int64_t)search->triangles.data[i / 3] + i % 3];
+        if (search->marks.data[vertex] != search->mark) {
+            search->marks.data[vertex] = search->mark;
+            KIRI_NEXT(search->vertices) = vertex;
+            low = kiriMin(vertex, low);
+            high = kiriMax(vertex, high);
+        }
+    }
+    if (high - low > 16 * (int64_t)search->vertices.count) {
+        kiriSort(search->vertices.data, search->vertices.count, NULL, NULL);
+        return;
+    }
+    search->vertices.count = 0;
+    for (int32_t v = low; v <= high; ++v) {
+        search->vertices.data[search->vertices.count] = v;
+        search->vertices.count += search->marks.data[v] == search->mark;
+    }
+}
+
+static void ChooseVertices(const kiriMeeting* meeting)
+{
+    kiriObstacleSearch* search = meeting->search;
+    search->chosen.count = 0;
+    CollectVertices(meeting);
+    KIRI_EACH(const int32_t, vertex, search->vertices) {
+        LookAtVertex(meeting, *vertex);
+    }
+    KIRI_EACH_WHILE(meeting->isThinned, const kiriNearVertex, chosen, search->chosen) {
+        search->heads.data[chosen->patch] = KIRI_NONE;
+    }
+}
+
+/* Makes the touch of a vertex: the plane where it enters the obstacle, or the nearest one. Returns false if none. */
+static bool TouchVertex(const kiriMeeting* meeting, int32_t vertex, kiriTouch* touch)
+{
+    const kiriObstacleData* obstacle = meeting->obstacle;
+    kiriVec3 x = kiriSurface_At(&meeting->sheet->seen.surface, vertex), from = kiriObstacle_PointToLocal(obstacle, x);
+    kiriVec3 way = kiriObstacle_ToLocal(obstacle, WayOf(meeting, x, kiriProbe_Velocity(meeting->sheet, vertex)));
+    kiriNearest nearest;
+    double share = kiriObstacleShape_Enter(&obstacle->shape, from, way, meeting->gap, meeting->across, &nearest);
+    if (share >= 1.0 && nearest.distance > (1.0 + NEARBY) * meeting->gap) {
+        return false;
+    }
+    kiriVec3 there = kiriVec3_AddScaled(kiriVec3_AddScaled(from, share, way), -nearest.distance, nearest.normal);
+    if (!MakePlane(meeting, kiriObstacle_ToWorld(obstacle, nearest.normal), kiriObstacle_PointToWorld(obstacle, there),
+                   meeting->gap, touch)) {
+        return false;
+    }
+    SetPlace(touch, &vertex, (const double[1]){ 1.0 }, 1);
+    touch->key = MakeKey(meeting, false, (uint32_t)vertex);
+    return true;
+}
+
+static bool TouchVertices(const kiriMeeting* meeting)
+{
+    const kiriObstacleSearch* search = meeting->search;
+    bool ok = true;
+    ChooseVertices(meeting);
+    KIRI_EACH_WHILE(ok, const kiriNearVertex, chosen, search->chosen) {
+        kiriTouch touch;
+        if (TouchVertex(meeting, chosen->vertex, &touch)) {
+            ok = kiriTouches_Add(meeting->sheet, &touch);
+        }
+    }
+    return ok;
+}
+
+/* ---- Between vertices ---- */
+
+static kiriVec3 BlendOfThree(const kiriVec3 x[3], const double share[3])
+{
+    return kiriVec3_AddScaled(kiriVec3_AddScaled(kiriVec3_Scale(share[0], x[0]), share[1], x[1]), share[2], x[2]);
+}
+
+/* Computes the barycentric coordinates of the point of a triangle nearest to p: its projection, or on a side. */
+static void NearestOfTriangle(const kiriVec3 x[3], kiriVec3 p, double share[3])
+{
+    kiriVec3 ab = kiriVec3_Sub(x[1], x[0]), ac = kiriVec3_Sub(x[2], x[0]), to = kiriVec3_Sub(p, x[0]);
+    kiriVec3 n = kiriVec3_Cross(ab, ac);
+    double square = kiriVec3_Dot(n, n), least = KIRI_ENDLESS;
+    share[1] = kiriVec3_Dot(n, kiriVec3_Cross(to, ac)) / square;
+    share[2] = kiriVec3_Dot(n, kiriVec3_Cross(ab, to)) / square;
+    share[0] = 1.0 - share[1] - share[2];
+    if (square > 0.0 && share[0] >= 0.0 && share[1] >= 0.0 && share[2] >= 0.0) {
+        return;
+    }
+    KIRI_EACH_CORNER(k) {
+        int next = (k + 1) % 3;
+        kiriVec3 along = kiriVec3_Sub(x[next], x[k]);
+        double side = kiriVec3_Dot(along, along),
+               t = side > 0.0 ? kiriVec3_Dot(kiriVec3_Sub(p, x[k]), along) / side : 0.0;
+        t = kiriClamp(t, 0.0, 1.0);
+        double far = kiriVec3_Distance(kiriVec3_AddScaled(kiriVec3_Scale(1.0 - t, x[k]), t, x[next]), p);
+        if (far < least) {
+            least = far;
+            share[k] = 1.0 - t;
+            share[next] = t;
+            share[3 - k - next] = 0.0;
+        }
+    }
+}
+
+/* Finds the point of a triangle nearest to the axis of a round obstacle, by alternating projections. Both are convex,
+   so they converge. */
+static void NearestToAxis(double half, const kiriVec3 x[3], double share[3])
+{
+    enum { TURNS = 24 };
+    kiriVec3 onAxis = { 0 };
+    for (int turn = 0; turn < TURNS; ++turn) {
+        NearestOfTriangle(x, onAxis, share);
+        double z = BlendOfThree(x, share).z;
+        onAxis.z = kiriClamp(z, -half, half);
+        if (half <= 0.0) {
+            return;
+        }
+    }
+}
+
+/* Returns true for a point that is not a vertex; in a planar sheet, only for a point on the border. */
+static bool CountsBetween(const kiriMeeting* meeting, const int32_t* v, const double share[3])
+{
+    int zero = share[0] <= 0.0 ? 0 : share[1] <= 0.0 ? 1 : share[2] <= 0.0 ? 2 : KIRI_NONE;
+    if (share[0] >= 1.0 || share[1] >= 1.0 || share[2] >= 1.0) {
+        return false;
+    }
+    if (!meeting->sheet->settings.mechanics.planar) {
+        return true;
+    }
+    return zero != KIRI_NONE && IsBorderEdge(&meeting->sheet->seen.surface, &meeting->search->triangles,
+                                             v[(zero + 1) % 3], v[(zero + 2) % 3]);
+}
+
+/* Computes the corners of a triangle in the axes of the obstacle. */
+static void GetCorners(const kiriMeeting* meeting, int32_t triangle, kiriVec3 x[3])
+{
+    const kiriSurface* surface = &meeting->sheet->seen.surface;
+    KIRI_EACH_CORNER(k) {
+        x[k] = kiriObstacle_PointToLocal(meeting->obstacle,
+                                         kiriSurface_At(surface, kiriSurface_Triangle(surface, triangle)[k]));
+    }
+}
+
+static bool TouchRound(const kiriMeeting* meeting, int32_t triangle, kiriTouch* touch)
+{
+    const kiriSheetData* sheet = meeting->sheet;
+    const kiriObstacleData* obstacle = meeting->obstacle;
+    const int32_t* v = kiriSurface_Triangle(&sheet->seen.surface, triangle);
+    kiriVec3 x[3];
+    double share[3];
+    GetCorners(meeting, triangle, x);
+    NearestToAxis(obstacle->shape.half, x, share);
+    if (!CountsBetween(meeting, v, share)) {
+        return false;
+    }
+    kiriVec3 local = BlendOfThree(x, share);
+    kiriNearest nearest = kiriObstacleShape_Nearest(&obstacle->shape, local, meeting->across);
+    kiriVec3 on = kiriObstacle_PointToWorld(obstacle, kiriVec3_AddScaled(local, -nearest.distance, nearest.normal));
+    return TouchBlend(meeting, v, share, 3, kiriObstacle_PointToWorld(obstacle, local),
+                      kiriObstacle_ToWorld(obstacle, nearest.normal), nearest.distance, (1.0 + NEARBY) * meeting->gap,
+                      on, meeting->gap, touch);
+}
+
+/* Lists the coarse triangles nearby, ascending: a side is so long that an arc of the obstacle fits between its ends. */
+static bool CollectCoarse(const kiriMeeting* meeting)
+{
+    kiriObstacleSearch* search = meeting->search;
+    bool ok = true;
+    search->crossed.count = 0;
+    KIRI_EACH_WHILE(ok, const int32_t, at, search->triangles) {
+        kiriVec3 x[3];
+        double longest = 0.0;
+        GetCorners(meeting, *at, x);
+        KIRI_EACH_CORNER(k) {
+            double length = kiriVec3_Distance(x[(k + 1) % 3], x[k]);
+            longest = kiriMax(length, longest);
+        }
+        bool isCoarse = longest * longest > 16.0 * meeting->gap * meeting->obstacle->shape.radius;
+        ok = !isCoarse || kiriArray_Push(search->memory, &search->crossed, *at);
+    }
+    if (search->crossed.count > 0) {
+        kiriSort(search->crossed.data, search->crossed.count, NULL, NULL);
+    }
+    return ok;
+}
+
+static bool TouchRounds(const kiriMeeting* meeting)
+{
+    const kiriIndices* coarse = &meeting->search->crossed;
+    if (!(meeting->obstacle->shape.radius > 0.0)) {
+        return true;
+    }
+    bool ok = CollectCoarse(meeting);
+    KIRI_EACH_WHILE(ok, const int32_t, triangle, *coarse) {
+        kiriTouch touch;
+        if (TouchRound(meeting, *triangle, &touch)) {
+            touch.key = MakeKey(meeting, true, ROUND_ITEM | (uint32_t)*triangle);
+            ok = kiriTouches_Add(meeting->sheet, &touch);
+        }
+    }
+    return ok;
+}
+
+#define LINE_SLACK 1e-9 /* m: tolerance, so that a line in the side of a box meets it */
+
+/* A point on an edge or a corner, in the world. */
+typedef struct EdgePoint {
+    kiriVec3 at, out; /* out: unit bisector of the faces' normals */
+    kiriVec3 faces[3];
+    int32_t faceCount;
+    double below, above; /* m: search range along `out` */
+    uint32_t item;
+} EdgePoint;
+
+/* Intersects the line of the point with a triangle. Returns false if it misses. */
+static bool MeetsTriangle(const kiriVec3 x[3], const EdgePoint* point, double* height, double share[3])
+{
+    kiriVec3 ab = kiriVec3_Sub(x[1], x[0]), ac = kiriVec3_Sub(x[2], x[0]), to = kiriVec3_Sub(point->at, x[0]);
+    kiriVec3 across = kiriVec3_Cross(point->out, ac), other = kiriVec3_Cross(to, ab);
+    double det = kiriVec3_Dot(ab, across);
+    if (!(fabs(det) > 0.0)) {
+        return false;
+    }
+    share[1] = kiriVec3_Dot(to, across) / det;
+    share[2] = kiriVec3_Dot(point->out, other) / det;
+    share[0] = 1.0 - share[1] - share[2];
+    *height = kiriVec3_Dot(ac, other) / det;
+    return share[0] >= 0.0 && share[1] >= 0.0 && share[2] >= 0.0 && *height > -point->below && *height < point->above;
+}
+
+/* Returns true if the normal can be of a tangent plane at the edge: it opposes none of the faces. */
+static bool IsTangentTo(const EdgePoint* point, kiriVec3 normal)
+{
+    for (int32_t k = 0; k < point->faceCount; ++k) {
+        if (kiriVec3_Dot(normal, point->faces[k]) < -0.2) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool TouchTriangle(const kiriMeeting* meeting, const EdgePoint* point, int32_t triangle, kiriTouch* touch)
+{
+    kiriSheetData* sheet = meeting->sheet;
+    kiriSurface* surface = &sheet->seen.surface;
+    const int32_t* v = kiriSurface_Triangle(surface, triangle);
+    kiriVec3 x[3] = { kiriSurface_At(surface, v[0]), kiriSurface_At(surface, v[1]), kiriSurface_At(surface, v[2]) };
+    double height, share[3], gap = meeting->gap + meeting->obstacle->shape.rounding;
+    if (!MeetsTriangle(x, point, &height, share)) {
+        return false;
+    }
+    kiriVec3 sum = { 0 }, at = kiriVec3_AddScaled(point->at, height, point->out);
+    kiriSurface_NeedNormals(surface);
+    KIRI_EACH_CORNER(k) {
+        sum = kiriVec3_AddScaled(sum, share[k], kiriVertex_SkinNormal(sheet, v[k]));
+    }
+    /* The interpolated surface normal, on the side of `out`. */
+    kiriVec3 normal = kiriVec3_Scale(kiriVec3_Dot(sum, point->out) < 0.0 ? -1.0 : 1.0, kiriVec3_Normalize(sum));
+    double above = height * kiriVec3_Dot(normal, point->out) - gap;
+    return IsTangentTo(point, normal) &&
+           TouchBlend(meeting, v, share, 3, at, normal, above, NEARBY * gap, point->at, gap, touch);
+}
+
+/* Returns true if the line of the point meets a box (slab test). */
+static bool MeetsLine(const void* context, const kiriBox* box)
+{
+    const EdgePoint* point = context;
+    const double at[3] = { point->at.x, point->at.y, point->at.z },
+                 out[3] = { point->out.x, point->out.y, point->out.z };
+    const double lower[3] = { box->lower.x, box->lower.y, box->lower.z };
+    const double upper[3] = { box->upper.x, box->upper.y, box->upper.z };
+    double from = -point->below, to = point->above;
+    for (int k = 0; k < 3; ++k) {
+        double low = lower[k] - at[k] - LINE_SLACK, high = upper[k] - at[k] + LINE_SLACK;
+        if (fabs(out[k]) < 1e-12) {
+            to = low > 0.0 || high < 0.0 ? from - 1.0 : to;
+            continue;
+        }
+        double enter = (out[k] > 0.0 ? low : high) / out[k], leave = (out[k] > 0.0 ? high : low) / out[k];
+        from = kiriMax(enter, from);
+        to = kiriMin(leave, to);
+    }
+    return from <= to;
+}
+
+/* Lists the triangles that the line of the point meets, ascending, so that layers get the same keys in each tick. */
+static bool FindCrossed(const kiriMeeting* meeting, const EdgePoint* point)
+{
+    const kiriSurface* surface = &meeting->sheet->seen.surface;
+    kiriIndices* crossed = &meeting->search->crossed;
+    int32_t kept = 0;
+    crossed->count = 0;
+    if (!kiriBounds_FindLeaves(meeting->sheet->seen.bounds, surface, MeetsLine, point, 0, meeting->search->memory,
+                               crossed)) {
+        return false;
+    }
+    KIRI_EACH(const int32_t, triangle, *crossed) {
+        const int32_t* v = kiriSurface_Triangle(surface, *triangle);
+        kiriVec3 x[3] = { kiriSurface_At(surface, v[0]), kiriSurface_At(surface, v[1]), kiriSurface_At(surface, v[2]) };
+        double height, share[3];
+        if (MeetsTriangle(x, point, &height, share)) {
+            crossed->data[kept++] = *triangle;
+        }
+    }
+    crossed->count = kept;
+    if (kept > 1) {
+        kiriSort(crossed->data, kept, NULL, NULL);
+    }
+    return true;
+}
+
+/* Adds a touch for each layer over a point, up to MOST_LAYERS. */
+static bool TouchPoint(const kiriMeeting* meeting, const EdgePoint* point)
+{
+    enum { MOST_LAYERS = 4 };
+    const kiriIndices* crossed = &meeting->search->crossed;
+    bool ok = FindCrossed(meeting, point);
+    uint32_t layers = 0;
+    KIRI_EACH_WHILE(ok&& layers < MOST_LAYERS, const int32_t, triangle, *crossed) {
+        kiriTouch touch;
+        if (TouchTriangle(meeting, point, *triangle, &touch)) {
+            touch.key = MakeKey(meeting, true, point->item * MOST_LAYERS + layers++);
+            ok = kiriTouches_Add(meeting->sheet, &touch);
+        }
+    }
+    return ok;
+}
+
+/* Makes a point from local coordinates of the obstacle. */
+static EdgePoint MakePoint(const kiriMeeting* meeting, kiriVec3 at, const kiriVec3* faces, int32_t faceCount,
+                           double thinnest)
+{
+    const kiriObstacleData* obstacle = meeting->obstacle;
+    kiriVec3 sum = { 0 };
+    EdgePoint point;
+    point.at = kiriObstacle_PointToWorld(obstacle, at);
+    point.faceCount = faceCount;
+    for (int32_t k = 0; k < faceCount; ++k) {
+        point.faces[k] = kiriObstacle_ToWorld(obstacle, faces[k]);
+        sum = kiriVec3_Add(sum, point.faces[k]);
+    }
+    point.out = kiriVec3_Normalize(sum);
+    point.below = kiriMin(thinnest, meeting->square);
+    point.above = obstacle->shape.rounding + meeting->gap + meeting->reach;
+    point.item = 0;
+    return point;
+}
+
+static bool TouchRim(const kiriMeeting* meeting, const kiriObstacleEdge* edge, int32_t index)
+{
+    int32_t count = 8;
+    while (count < 1024 && count * meeting->square < 6.3 * edge->radius) {
+        count *= 2;
+    }
+    bool ok = true;
+    for (int32_t i = 0; ok && i < count; ++i) {
+        kiriVec2 circle = kiriCircle_At(i, count);
+        kiriVec3 faces[2] = { edge->faces[0], { circle.x, circle.y, 0.0 } };
+        EdgePoint point =
+            MakePoint(meeting, kiriVec3_AddScaled(edge->from, edge->radius, faces[1]), faces, 2, edge->thinnest);
+        point.item = (uint32_t)(index * 1024 + i);
+        ok = TouchPoint(meeting, &point);
+    }
+    return ok;
+}
+
+/* Clips the steps of an edge to the sheet's box. */
+static void ClipEdge(const kiriMeeting* meeting, kiriVec3 from, kiriVec3 step, int32_t* first, int32_t* last)
+{
+    kiriBox box = kiriBounds_All(meeting->sheet->seen.bounds);
+    const double lower[3] = { box.lower.x, box.lower.y, box.lower.z },
+                 upper[3] = { box.upper.x, box.upper.y, box.upper.z };
+    const double a[3] = { from.x, from.y, from.z }, d[3] = { step.x, step.y, step.z };
+    double start = *first, end = *last, margin = meeting->reach + meeting->gap + meeting->square;
+    for (int k = 0; k < 3; ++k) {
+        double enter = lower[k] - margin - a[k], leave = upper[k] + margin - a[k];
+        if (fabs(d[k]) * (end - start + 1.0) < 1e-9) {
+            end = enter > 0.0 || leave < 0.0 ? start - 1.0 : end;
+            continue;
+        }
+        double s = d[k] > 0.0 ? enter / d[k] : leave / d[k], t = d[k] > 0.0 ? leave / d[k] : enter / d[k];
+        start = kiriMax(s, start);
+        end = kiriMin(t, end);
+    }
+    *first = start <= end ? (int32_t)start : 0;
+    *last = start <= end ? (int32_t)end : -1;
+}
+
+/* Touches a straight edge at the middles of steps about one grid square long; its ends are corners. An infinite edge
+   has MOST_POINTS steps. */
+static bool TouchStraight(const kiriMeeting* meeting, const kiriObstacleEdge* edge, int32_t index)
+{
+    enum { MOST_POINTS = 1 << 18 };
+    kiriVec3 from = edge->from, way = kiriVec3_Sub(edge->to, edge->from);
+    if (meeting->obstacle->shape.half >= KIRI_ENDLESS) {
+        way = kiriVec3_Make(0.0, 0.0, MOST_POINTS * meeting->square);
+        from.z = -0.5 * way.z;
+    }
+    double wanted = kiriVec3_Length(way) / meeting->square;
+    int32_t count = wanted < MOST_POINTS - 1 ? (int32_t)wanted + 1 : MOST_POINTS, first = 0, last = count - 1;
+    kiriVec3 step = kiriVec3_Scale(1.0 / count, way);
+    from = kiriVec3_AddScaled(from, 0.5, step);
+    ClipEdge(meeting, kiriObstacle_PointToWorld(meeting->obstacle, from), kiriObstacle_ToWorld(meeting->obstacle, step),
+             &first, &last);
+    bool ok = true;
+    for (int32_t i = first; ok && i <= last; ++i) {
+        EdgePoint point = MakePoint(meeting, kiriVec3_AddScaled(from, i, step), edge->faces, 2, edge->thinnest);
+        point.item = (uint32_t)index * MOST_POINTS + (uint32_t)i;
+        ok = TouchPoint(meeting, &point);
+    }
+    return ok;
+}
+
+/* Corners of a finite prism, where three faces meet. One that is nearly flat along the outline has edges enough. */
+static bool TouchTips(const kiriMeeting* meeting)
+{
+    const kiriObstacleShape* shape = &meeting->obstacle->shape;
+    const uint32_t tips = UINT32_C(1) << 28; /* first item number of corners, above all points of edges */
+    int32_t count = shape->type == KIRI_OBSTACLE_PRISM && shape->half < KIRI_ENDLESS ? 2 * shape->count : 0;
+    bool ok = true;
+    for (int32_t i = 0; ok && i < count; ++i) {
+        kiriObstacleEdge edge;
+        if (kiriObstacleShape_EdgeAt(shape, i % shape->count, &edge)) {
+            bool isLow = i < shape->count;
+            const kiriVec3 faces[3] = { edge.faces[0], edge.faces[1], { 0.0, 0.0, isLow ? -1.0 : 1.0 } };
+            EdgePoint point = MakePoint(meeting, isLow ? edge.from : edge.to, faces, 3, edge.thinnest);
+            point.item = tips + (uint32_t)i;
+            ok = TouchPoint(meeting, &point);
+        }
+    }
+    return ok;
+}
+
+static bool TouchEdges(const kiriMeeting* meeting)
+{
+    const kiriObstacleShape* shape = &meeting->obstacle->shape;
+    bool ok = TouchTips(meeting);
+    for (int32_t i = 0; ok && i < kiriObstacleShape_EdgeCount(shape); ++i) {
+        kiriObstacleEdge edge;
+        if (kiriObstacleShape_EdgeAt(shape, i, &edge)) {
+            ok = edge.radius > 0.0 ? TouchRim(meeting, &edge, i) : TouchStraight(meeting, &edge, i);
+        }
+    }
+    return ok;
+}
+
+/* ---- Corners against the borders of planar sheets ---------------------------------------------------------------- */
+
+/* Intersects an edge of the obstacle with the sheet's plane: a corner of the section. Returns false if they do not
+   meet, or are nearly parallel. */
+static bool CutEdge(const kiriMeeting* meeting, const kiriObstacleEdge* edge, int32_t index, EdgePoint* point)
+{
+    kiriVec3 d = meeting->sheet->settings.mechanics.axes.d, onPlane = meeting->sheet->frames.data[0].x;
+    kiriVec3 from = kiriObstacle_PointToWorld(meeting->obstacle, edge->from);
+    kiriVec3 way = kiriObstacle_ToWorld(meeting->obstacle, kiriVec3_Sub(edge->to, edge->from));
+    double rise = kiriVec3_Dot(way, d), below = kiriVec3_Dot(kiriVec3_Sub(onPlane, from), d);
+    if (edge->radius > 0.0 || !(fabs(rise) > 0.1 * kiriVec3_Length(way)) || below / rise < 0.0 || below / rise > 1.0) {
+        return false;
+    }
+    *point = MakePoint(meeting, edge->from, edge->faces, 2, edge->thinnest);
+    point->item = (uint32_t)index;
+    point->at = kiriVec3_AddScaled(from, below / rise, way);
+    for (int k = 0; k < 2; ++k) {
+        kiriVec3 face = point->faces[k];
+        point->faces[k] = kiriVec3_Normalize(kiriVec3_AddScaled(face, -kiriVec3_Dot(face, d), d));
+    }
+    point->out = kiriVec3_Normalize(kiriVec3_Add(point->faces[0], point->faces[1]));
+    return true;
+}
+
+/* Intersects the line of the point with a side, in the sheet's plane. Returns false if it misses. */
+static bool MeetSide(kiriVec3 a, kiriVec3 b, kiriVec3 d, const EdgePoint* point, double* height, double* share)
+{
+    kiriVec3 along = kiriVec3_Sub(b, a), to = kiriVec3_Sub(point->at, a);
+    double det = kiriVec3_Dot(d, kiriVec3_Cross(point->out, along));
+    if (!(fabs(det) > 0.0)) {
+        return false;
+    }
+    *share = kiriVec3_Dot(d, kiriVec3_Cross(point->out, to)) / det;
+    *height = kiriVec3_Dot(d, kiriVec3_Cross(along, to)) / det;
+    return *share >= 0.0 && *share <= 1.0 && *height > -point->below && *height < point->above;
+}
+
+static bool TouchSide(const kiriMeeting* meeting, const EdgePoint* point, int32_t a, int32_t b, kiriTouch* touch)
+{
+    const kiriSheetData* sheet = meeting->sheet;
+    kiriVec3 d = sheet->settings.mechanics.axes.d;
+    kiriVec3 from = kiriSurface_At(&sheet->seen.surface, a), to = kiriSurface_At(&sheet->seen.surface, b);
+    double height, share, gap = meeting->gap + meeting->obstacle->shape.rounding;
+    if (!MeetSide(from, to, d, point, &height, &share) ||
+        !IsBorderEdge(&sheet->seen.surface, &meeting->search->crossed, a, b)) {
+        return false;
+    }
+    /* The material is left of its border, so the normal points into the material, away from the obstacle. */
+    kiriVec3 normal = kiriVec3_Normalize(kiriVec3_Cross(d, kiriVec3_Sub(to, from)));
+    double above = height * kiriVec3_Dot(normal, point->out) - gap, shares[2] = { 1.0 - share, share };
+    return IsTangentTo(point, normal) &&
+           TouchBlend(meeting, (const int32_t[2]){ a, b }, shares, 2, kiriVec3_AddScaled(point->at, height, point->out),
+                      normal, above, NEARBY * gap, point->at, gap, touch);
+}
+
+static bool TouchCorner(const kiriMeeting* meeting, const EdgePoint* point)
+{
+    enum { MOST_SIDES = 4 };
+    kiriSheetData* sheet = meeting->sheet;
+    kiriObstacleSearch* search = meeting->search;
+    kiriVec3 a = kiriVec3_AddScaled(point->at, point->above, point->out);
+    kiriVec3 b = kiriVec3_AddScaled(point->at, -point->below, point->out);
+    kiriBox box = KIRI_EMPTY_BOX;
+    uint32_t sides = 0;
+    kiriBox_Add(&box, a);
+    kiriBox_Add(&box, b);
+    search->crossed.count = 0;
+    bool ok = kiriBounds_Box(sheet->seen.bounds, &sheet->seen.surface, &box, search->memory, &search->crossed);
+    for (int32_t i = 0; ok && i < 3 * search->crossed.count && sides < MOST_SIDES; ++i) {
+        const int32_t* v = kiriSurface_Triangle(&sheet->seen.surface, search->crossed.data[i / 3]);
+        kiriTouch touch;
+        if (TouchSide(meeting, point, v[i % 3], v[(i + 1) % 3], &touch)) {
+            touch.key = MakeKey(meeting, true, point->item * MOST_SIDES + sides++);
+            ok = kiriTouches_Add(sheet, &touch);
+        }
+    }
+    return ok;
+}
+
+static bool TouchCorners(const kiriMeeting* meeting)
+{
+    const kiriObstacleShape* shape = &meeting->obstacle->shape;
+    bool ok = true;
+    for (int32_t i = 0; ok && i < kiriObstacleShape_EdgeCount(shape); ++i) {
+        kiriObstacleEdge edge;
+        EdgePoint point;
+        if (kiriObstacleShape_EdgeAt(shape, i, &edge) && CutEdge(meeting, &edge, i, &point)) {
+            ok = TouchCorner(meeting, &point);
+        }
+    }
+    return ok;
+}
+
+/* ---- Search ------------------------------------------------------------------------------------------------------ */
+
+/* Returns the side of a patch in grid squares. */
+static int32_t PatchSide(const kiriSheetData* sheet, double square)
+{
+    double area = 0.0;
+    KIRI_EACH(const kiriFrameData, frame, sheet->frames) {
+        area += frame->area;
+    }
+    double side = sqrt(area / (PATCHES_A_FRAME * sheet->frames.count)) / square;
+    return side < 2.0 ? 1 : side < 4096.0 ? (int32_t)side : 4096;
+}
+
+typedef struct NearBox {
+    const kiriObstacleData* obstacle;
+    double reach;
+} NearBox;
+
+static bool IsBoxWithin(const void* context, const kiriBox* box)
+{
+    const NearBox* near = context;
+    return kiriObstacle_IsNear(near->obstacle, box->lower, box->upper, near->reach);
+}
+
+bool kiriObstacleSearch_Near(kiriObstacleSearch* search, const kiriSheetData* sheet, const kiriObstacleData* obstacle,
+                             double reach)
+{
+    const NearBox near = { obstacle, reach };
+    search->triangles.count = 0;
+    return kiriBounds_Find(sheet->seen.bounds, &sheet->seen.surface, IsBoxWithin, &near, search->memory,
+                           &search->triangles);
+}
+
+bool kiriObstacleSearch_Reserve(kiriObstacleSearch* search, const kiriSheetData* sheet)
+{
+    const kiriSquares* squares = &sheet->mesh.squares;
+    int32_t vertices = sheet->seen.surface.vertexCount, triangles = sheet->seen.surface.triangleCount;
+    int32_t patches = squares->columns * squares->rows, oldMarks = search->marks.count, oldHeads = search->heads.count;
+    if (!kiriArray_Reserve(search->memory, &search->triangles, triangles) ||
+        !kiriArray_Reserve(search->memory, &search->crossed, triangles) ||
+        !kiriArray_Reserve(search->memory, &search->vertices, (int64_t)vertices + 1) ||
+        !kiriArray_Reserve(search->memory, &search->chosen, vertices) ||
+        (oldMarks < vertices && !kiriArray_Resize(search->memory, &search->marks, vertices)) ||
+        (oldHeads < patches && !kiriArray_Resize(search->memory, &search->heads, patches))) {
+        return false;
+    }
+    for (int32_t i = oldMarks; i < search->marks.count; ++i) {
+        search->marks.data[i] = 0;
+    }
+    for (int32_t i = oldHeads; i < search->heads.count; ++i) {
+        search->heads.data[i] = KIRI_NONE;
+    }
+    return true;
+}
+
+/* Returns an upper bound of the obstacle's speed within the sheet's box. */
+static double SpeedOf(const kiriObstacleData* obstacle, const kiriBox* box)
+{
+    return kiriVec3_Length(obstacle->velocity) +
+           kiriVec3_Length(obstacle->spin) * kiriBox_Farthest(box, obstacle->position);
+}
+
+static kiriMeeting MakeMeeting(kiriObstacleSearch* search, kiriSheetData* sheet, const kiriObstacleData* obstacle,
+                               double speed, int32_t yield)
+{
+    kiriMeeting meeting = { search,
+                            sheet,
+                            obstacle,
+                            { 0.0, 0.0, 0.0 },
+                            0.5 * sheet->settings.contactThickness,
+                            0.0,
+                            0.0,
+                            1,
+                            1,
+                            sqrt(sheet->settings.friction * obstacle->friction),
+                            yield,
+                            obstacle->shape.type == KIRI_OBSTACLE_PLANE || kiriTouches_CanYield(sheet, yield) };
+    kiriBox box = kiriBounds_All(sheet->seen.bounds);
+    double square = sheet->mesh.step * sheet->mesh.squares.side;
+    meeting.squares = PatchSide(sheet, square);
+    meeting.columns = (sheet->mesh.squares.columns + meeting.squares - 1) / meeting.squares;
+    meeting.square = square;
+    meeting.reach =
+        kiriReach_Of(speed + SpeedOf(obstacle, &box), search->gravity, search->dt) + (1.0 + NEARBY) * meeting.gap;
+    if (sheet->settings.mechanics.planar) {
+        meeting.across = kiriObstacle_ToLocal(obstacle, sheet->settings.mechanics.axes.d);
+    }
+    return meeting;
+}
+
+/* Returns the version of the movers; 0 if another piece woke since, or wakes in this tick. */
+static int64_t VersionOf(const kiriSheetData* sheet)
+{
+    const kiriMoved* moved = kiriSolver_Moved(sheet->solver);
+    bool isSame = moved->isListed && moved->version == sheet->seen.lists;
+    for (int32_t p = 0; isSame && p < sheet->layout.pieces.count; ++p) {
+        isSame = sheet->solver->bodies.bodies.data[p].isMoved || !kiriPiece_MayMove(&sheet->layout.pieces.data[p]);
+    }
+    return isSame ? moved->version : 0;
+}
+
+/* Drops the found triangles of pieces that neither move nor wake in this tick. */
+static void DropSleepers(kiriObstacleSearch* search, const kiriSheetData* sheet)
+{
+    int32_t kept = 0;
+    KIRI_EACH(const int32_t, at, search->triangles) {
+        int32_t triangle = *at, piece = kiriPiece_OfTriangle(sheet, triangle);
+        if (kiriPiece_MayMove(&sheet->layout.pieces.data[piece])) {
+            search->triangles.data[kept++] = triangle;
+        }
+    }
+    search->triangles.count = kept;
+}
+
+bool kiriObstacleSearch_Run(kiriObstacleSearch* search, kiriSheetData* sheet, const kiriObstacleData* obstacle,
+                            double speed, int32_t yield)
+{
+    kiriMeeting meeting = MakeMeeting(search, sheet, obstacle, speed, yield);
+    search->triangles.count = 0;
+    if (!kiriBounds_FindLeaves(sheet->seen.bounds, &sheet->seen.surface, IsBoxNear, &meeting, VersionOf(sheet),
+                               search->memory, &search->triangles)) {
+        return false;
+    }
+    DropSleepers(search, sheet);
+    return search->triangles.count == 0 ||
+           (TouchVertices(&meeting) && TouchRounds(&meeting) &&
+            (sheet->settings.mechanics.planar ? TouchCorners(&meeting) : TouchEdges(&meeting)));
+}
+
+/* ---- Detail layer ------------------------------------------------------------------------------------------------ */
+
+/* Returns the box of the vertices that the layer moves. */
+static kiriBox BoxOfDetail(const kiriSurface* surface)
+{
+    const kiriDetail* detail = &surface->detail;
+    kiriBox box = KIRI_EMPTY_BOX;
+    for (int32_t k = 0; k < detail->vertices.count; ++k) {
+        kiriBox_Add(&box, kiriVec3_Load(detail->moving.data + 4 * (ptrdiff_t)detail->vertices.data[k].vertex));
+    }
+    box.lower = kiriVec3_Add(box.lower, surface->middle);
+    box.upper = kiriVec3_Add(box.upper, surface->middle);
+    return box;
+}
+
+/* Ends the way from the skin to the drawn vertex where it enters the obstacle; the rest of it slides along there. So thin
+   obstacles stop it, too. */
+static void PushDetail(const kiriObstacleData* obstacle, kiriSheetData* sheet)
+{
+    kiriSurface* surface = &sheet->seen.surface;
+    const kiriVec3 across = { 0.0, 0.0, 0.0 };
+    double gap = 0.5 * sheet->settings.contactThickness;
+    KIRI_ASSERT(surface->detail.isListed && !surface->isWritten);
+    KIRI_EACH(const kiriDetailVertex, item, surface->detail.vertices) {
+        float* moving = surface->detail.moving.data + 4 * (ptrdiff_t)item->vertex;
+        kiriVec3 skin = kiriVec3_Load(kiriSurface_Places(surface) + 3 * (ptrdiff_t)item->vertex);
+        kiriVec3 way = kiriObstacle_ToLocal(obstacle, kiriVec3_Sub(kiriVec3_Load(moving), skin));
+        kiriVec3 from = kiriObstacle_PointToLocal(obstacle, kiriVec3_Add(surface->middle, skin));
+        if (!kiriObstacleShape_MayReach(&obstacle->shape, from, gap + kiriVec3_Length(way))) {
+            continue;
+        }
+        kiriNearest nearest;
+        double share = kiriObstacleShape_Enter(&obstacle->shape, from, way, gap, across, &nearest);
+        double into = (1.0 - share) * kiriVec3_Dot(way, nearest.normal);
+        if (share < 1.0 && into < 0.0) {
+            way = kiriVec3_AddScaled(way, -into, nearest.normal);
+            kiriVec3_Store(moving, kiriVec3_Add(skin, kiriObstacle_ToWorld(obstacle, way)));
+        }
+    }
+}
+
+void kiriObstacles_PushDetail(kiriObstacleData* const* obstacles, int32_t count, kiriSheetData* sheet)
+{
+    kiriBox box = count > 0 ? BoxOfDetail(&sheet->seen.surface) : (kiriBox){ 0 };
+    for (int32_t i = 0; i < count; ++i) {
+        if ((obstacles[i]->groups & sheet->settings.groups) != 0 &&
+            kiriObstacle_IsNear(obstacles[i], box.lower, box.upper, sheet->settings.contactThickness)) {
+            PushDetail(obstacles[i], sheet);
+        }
+    }
+}
