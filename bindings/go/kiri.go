@@ -225,9 +225,8 @@ var namesModel = map[Model]string{
 
 func (value Model) String() string { return namesModel[value] }
 
-// The surface between the frames, which blades, contacts, pins and clamps meet; rays meet the drawn mesh. Where
-// nothing touches or holds the sheet, skinning does not change its motion. Collision points stay on the linear
-// surface.
+// The surface between the frames, which blades, contacts, pins and clamps meet; rays meet the drawn mesh. It changes
+// the motion only where something touches or holds the sheet. Collision points stay on the linear surface.
 type Skinning int32
 
 const (
@@ -626,9 +625,8 @@ type SheetSettings struct {
 }
 
 // The triangles to draw, as after the last tick, with the detail layer of the material (manual, sheets). revision
-// grows when indices or vertices are added or changed. Rest positions are floats, so small triangles far from the
-// origin of the rest plane may look flat in them; sourceTriangles and sourceWeights have the precision of the
-// library, 2^-29 of the sheet.
+// grows when indices or vertices are added or changed. Rest positions are floats; sourceTriangles and sourceWeights
+// have the precision of the library, 2^-29 of the sheet.
 type Mesh struct {
 	// 3 a vertex, m, world
 	Positions View[[3]float32]
@@ -2522,8 +2520,7 @@ var poolSheetCreatePin pool[struct {
 	pin C.kiriPin
 }]
 
-// Pin a point of the sheet, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: the point is
-// outside the sheet.
+// Pin a point, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: it is outside the sheet.
 func (self Sheet) CreatePin(def *PinDef) (Pin, error) {
 	var made0 Pin
 	if err := self.World.check(); err != nil {
@@ -2539,8 +2536,7 @@ func (self Sheet) CreatePin(def *PinDef) (Pin, error) {
 	return Pin{self.World, PinID(answer.pin)}, nil
 }
 
-// Pin a point of the sheet, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: the point is
-// outside the sheet.
+// Pin a point, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: it is outside the sheet.
 func (self Pin) Destroy() (bool, error) {
 	if err := self.World.check(); err != nil {
 		return false, err

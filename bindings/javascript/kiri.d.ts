@@ -140,9 +140,8 @@ export enum Model {
     Points = 2,
 }
 
-/** The surface between the frames, which blades, contacts, pins and clamps meet; rays meet the drawn mesh. Where
- *  nothing touches or holds the sheet, skinning does not change its motion. Collision points stay on the linear
- *  surface. */
+/** The surface between the frames, which blades, contacts, pins and clamps meet; rays meet the drawn mesh. It changes
+ *  the motion only where something touches or holds the sheet. Collision points stay on the linear surface. */
 export enum Skinning {
     /** each frame carries a flat patch; the weights blend them (equation 1 of the paper) */
     Linear = 0,
@@ -718,9 +717,9 @@ export interface SheetSettingsGiven {
 }
 
 /** The triangles to draw, as after the last tick, with the detail layer of the material (manual, sheets). revision
- *  grows when indices or vertices are added or changed. Rest positions are floats, so small triangles far from the
- *  origin of the rest plane may look flat in them; sourceTriangles and sourceWeights have the precision of the library,
- *  2^-29 of the sheet. Arrays are those of the library: after the next tick they throw. */
+ *  grows when indices or vertices are added or changed. Rest positions are floats; sourceTriangles and sourceWeights
+ *  have the precision of the library, 2^-29 of the sheet. Arrays are those of the library: after the next tick they
+ *  throw. */
 export class Mesh {
     /** 3 a vertex, m, world */
     readonly positions: Float32Array;
@@ -1357,8 +1356,7 @@ export class Sheet {
     applyImpulse(restPoint: ArrayLike<number>, impulse: ArrayLike<number>): ResultCode;
     /** Copies the wind; it blows until the next call. */
     setWind(wind: WindGiven): ResultCode;
-    /** Pin a point of the sheet, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: the point is
-     *  outside the sheet. */
+    /** Pin a point, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: it is outside the sheet. */
     createPin(def: PinDefGiven): Pin;
     /** Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds the place and
      *  direction of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The
@@ -1450,8 +1448,7 @@ export class Pin {
      *  piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
      *  both. */
     getUserData(): bigint;
-    /** Pin a point of the sheet, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: the point is
-     *  outside the sheet. */
+    /** Pin a point, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: it is outside the sheet. */
     destroy(): ResultCode;
     /** Sets the target of the pin's point, or of the middle of its line (m, world), for the end of the next tick and
      *  until the next call. The pin moves there evenly within the tick. With KIRI_SKINNING_SMOOTH pins hold the visible

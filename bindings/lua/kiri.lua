@@ -1484,8 +1484,7 @@ function kiri.defaultPinDef(def)
     return def
 end
 
---- Pin a point of the sheet, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: the point is
---- outside the sheet.
+--- Pin a point, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: it is outside the sheet.
 function Sheet:createPin(def)
     local world = self.world
     local result = C.kiriCreatePin(world.c, self.id, struct_of(world, def, "kiriPinDef"), out.Pin)
@@ -1493,8 +1492,7 @@ function Sheet:createPin(def)
     return handle(world, out.Pin[0], "Pin")
 end
 
---- Pin a point of the sheet, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: the point is
---- outside the sheet.
+--- Pin a point, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: it is outside the sheet.
 function Pin:destroy()
     local world = self.world
     local result = C.kiriDestroyPin(world.c, self.id)

@@ -340,8 +340,8 @@ enum kiriModel {
     KIRI_MODEL_POINTS = 2
 };
 
-/* The surface between the frames, which blades, contacts, pins and clamps meet; rays meet the drawn mesh. Where nothing touches or holds
-   the sheet, skinning does not change its motion. Collision points stay on the linear surface. */
+/* The surface between the frames, which blades, contacts, pins and clamps meet; rays meet the drawn mesh. It changes
+   the motion only where something touches or holds the sheet. Collision points stay on the linear surface. */
 enum kiriSkinning {
     KIRI_SKINNING_LINEAR = 0, /* each frame carries a flat patch; the weights blend them (equation 1 of the paper) */
     KIRI_SKINNING_SMOOTH = 1  /* each carries a patch that bends towards its neighbours: no bumps at the frames */
@@ -464,9 +464,8 @@ KIRI_API kiriResult kiriFillRectangle(float width, float height, int32_t columns
                                       int32_t* indices);
 
 /* The triangles to draw, as after the last tick, with the detail layer of the material (manual, sheets). revision grows
-   when indices or vertices are added or changed. Rest positions are floats, so small triangles far from the origin of
-   the rest plane may look flat in them; sourceTriangles and sourceWeights have the precision of the library, 2^-29 of
-   the sheet. */
+   when indices or vertices are added or changed. Rest positions are floats; sourceTriangles and sourceWeights have the
+   precision of the library, 2^-29 of the sheet. */
 typedef struct kiriMesh {
     const float* positions;         /* 3 a vertex, m, world */
     const float* normals;           /* 3 a vertex, unit; null where the sheet makes none */
@@ -795,8 +794,7 @@ typedef struct kiriPinDef {
 /* Fills the def with its defaults, and stamps it. */
 KIRI_API void kiriDefaultPinDef(kiriPinDef* def);
 
-/* Pin a point of the sheet, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: the point is
-   outside the sheet. */
+/* Pin a point, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: it is outside the sheet. */
 KIRI_API kiriResult kiriCreatePin(kiriWorld* world, kiriSheet sheet, const kiriPinDef* def, kiriPin* pin);
 KIRI_API kiriResult kiriDestroyPin(kiriWorld* world, kiriPin pin);
 

@@ -359,9 +359,8 @@ namespace Kiri
     }
 
     /// <summary>The triangles to draw, as after the last tick, with the detail layer of the material (manual, sheets). revision
-    /// grows when indices or vertices are added or changed. Rest positions are floats, so small triangles far from the
-    /// origin of the rest plane may look flat in them; sourceTriangles and sourceWeights have the precision of the
-    /// library, 2^-29 of the sheet.</summary>
+    /// grows when indices or vertices are added or changed. Rest positions are floats; sourceTriangles and
+    /// sourceWeights have the precision of the library, 2^-29 of the sheet.</summary>
     public unsafe struct MeshView
     {
         readonly World world;
@@ -1155,8 +1154,8 @@ namespace Kiri
             World.Check(Native.kiriSheet_SetWind(World.Handle, Id, &wind));
         }
 
-        /// <summary>Pin a point of the sheet, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: the
-        /// point is outside the sheet.</summary>
+        /// <summary>Pin a point, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: it is outside the
+        /// sheet.</summary>
         public Pin CreatePin(PinDef @def)
         {
             var pinValue = new PinId();
@@ -1376,8 +1375,8 @@ namespace Kiri
             return dataValue;
         }
 
-        /// <summary>Pin a point of the sheet, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: the
-        /// point is outside the sheet.</summary>
+        /// <summary>Pin a point, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: it is outside the
+        /// sheet.</summary>
         public void Destroy()
         {
             World.Check(Native.kiriDestroyPin(World.Handle, Id));

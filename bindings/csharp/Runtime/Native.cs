@@ -430,9 +430,8 @@ namespace Kiri
         Points = 2,
     }
 
-    /// <summary>The surface between the frames, which blades, contacts, pins and clamps meet; rays meet the drawn mesh. Where
-    /// nothing touches or holds the sheet, skinning does not change its motion. Collision points stay on the linear
-    /// surface.</summary>
+    /// <summary>The surface between the frames, which blades, contacts, pins and clamps meet; rays meet the drawn mesh. It
+    /// changes the motion only where something touches or holds the sheet. Collision points stay on the linear surface.</summary>
     public enum Skinning
     {
         /// <summary>each frame carries a flat patch; the weights blend them (equation 1 of the paper)</summary>
@@ -851,9 +850,8 @@ namespace Kiri
     }
 
     /// <summary>The triangles to draw, as after the last tick, with the detail layer of the material (manual, sheets). revision
-    /// grows when indices or vertices are added or changed. Rest positions are floats, so small triangles far from the
-    /// origin of the rest plane may look flat in them; sourceTriangles and sourceWeights have the precision of the
-    /// library, 2^-29 of the sheet.</summary>
+    /// grows when indices or vertices are added or changed. Rest positions are floats; sourceTriangles and
+    /// sourceWeights have the precision of the library, 2^-29 of the sheet.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct NativeMesh
     {

@@ -78,8 +78,8 @@ class Model(_enum.IntEnum):
 
 class Skinning(_enum.IntEnum):
     """The surface between the frames, which blades, contacts, pins and clamps meet; rays meet the drawn mesh.
-    Where nothing touches or holds the sheet, skinning does not change its motion. Collision points stay on the
-    linear surface."""
+    It changes the motion only where something touches or holds the sheet. Collision points stay on the linear
+    surface."""
     LINEAR = 0
     SMOOTH = 1
 

@@ -558,8 +558,7 @@ pub struct kiriSheetSettings {
 
 /// The triangles to draw, as after the last tick, with the detail layer of the material (manual,
 /// sheets). revision grows when indices or vertices are added or changed. Rest positions are
-/// floats, so small triangles far from the origin of the rest plane may look flat in them;
-/// sourceTriangles and sourceWeights have the precision of the library, 2^-29 of the sheet.
+/// floats; sourceTriangles and sourceWeights have the precision of the library, 2^-29 of the sheet.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct kiriMesh {
@@ -1269,11 +1268,11 @@ unsafe extern "C" {
     pub fn kiriSheet_SetWind(world: *mut kiriWorld, sheet: kiriSheet, wind: *const kiriWind) -> kiriResult;
     /// Fills the def with its defaults, and stamps it.
     pub fn kiriDefaultPinDef(def: *mut kiriPinDef);
-    /// Pin a point of the sheet, and destroy a pin of any type. On failure \*pin is 0.
-    /// KIRI_ERROR_ARGUMENT: the point is outside the sheet.
+    /// Pin a point, and destroy a pin of any type. On failure \*pin is 0. KIRI_ERROR_ARGUMENT: it
+    /// is outside the sheet.
     pub fn kiriCreatePin(world: *mut kiriWorld, sheet: kiriSheet, def: *const kiriPinDef, pin: *mut kiriPin) -> kiriResult;
-    /// Pin a point of the sheet, and destroy a pin of any type. On failure \*pin is 0.
-    /// KIRI_ERROR_ARGUMENT: the point is outside the sheet.
+    /// Pin a point, and destroy a pin of any type. On failure \*pin is 0. KIRI_ERROR_ARGUMENT: it
+    /// is outside the sheet.
     pub fn kiriDestroyPin(world: *mut kiriWorld, pin: kiriPin) -> kiriResult;
     /// Hold a straight line of the rest plane, at an edge of the sheet or elsewhere. A clamp holds
     /// the place and direction of its material, as a vice does; a hinge only the place, so the

@@ -398,8 +398,8 @@ impl Model {
 }
 
 /// The surface between the frames, which blades, contacts, pins and clamps meet; rays meet the
-/// drawn mesh. Where nothing touches or holds the sheet, skinning does not change its motion.
-/// Collision points stay on the linear surface.
+/// drawn mesh. It changes the motion only where something touches or holds the sheet. Collision
+/// points stay on the linear surface.
 #[non_exhaustive]
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -1099,8 +1099,8 @@ impl SheetSettings {
 
 /// The triangles to draw, as after the last tick, with the detail layer of the material (manual,
 /// sheets). revision grows when indices or vertices are added or changed. Rest positions are
-/// floats, so small triangles far from the origin of the rest plane may look flat in them;
-/// `source_triangles` and `source_weights` have the precision of the library, 2^-29 of the sheet.
+/// floats; `source_triangles` and `source_weights` have the precision of the library, 2^-29 of the
+/// sheet.
 #[derive(Clone, Copy, Debug)]
 pub struct Mesh<'a> {
     /// 3 a vertex, m, world
@@ -2637,8 +2637,8 @@ impl Sheet {
         Ok(())
     }
 
-    /// Pin a point of the sheet, and destroy a pin of any type. On failure \*pin is 0.
-    /// [`ResultCode::ErrorArgument`]: the point is outside the sheet.
+    /// Pin a point, and destroy a pin of any type. On failure \*pin is 0.
+    /// [`ResultCode::ErrorArgument`]: it is outside the sheet.
     pub fn create_pin(self, world: &mut World, def: &PinDef) -> Result<Pin> {
         let mut pin = 0;
         // SAFETY: pointers are to what is named, and lengths are theirs.
@@ -2844,8 +2844,8 @@ impl Pin {
         Ok(data)
     }
 
-    /// Pin a point of the sheet, and destroy a pin of any type. On failure \*pin is 0.
-    /// [`ResultCode::ErrorArgument`]: the point is outside the sheet.
+    /// Pin a point, and destroy a pin of any type. On failure \*pin is 0.
+    /// [`ResultCode::ErrorArgument`]: it is outside the sheet.
     pub fn destroy(self, world: &mut World) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriDestroyPin(world.raw_mut(), self.raw()) }, world)?;
