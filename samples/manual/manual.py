@@ -1,6 +1,6 @@
 """The programs of the manual: python3 samples/manual/manual.py FOLDER COMMAND [--pictures RENDERER | --write].
 
-Each chapter has a program, ```c, and what it prints, ```text. COMMAND compiles `{source}` to `{program}`. A program that
+Each chapter has programs, ```c, each with what it prints, ```text. COMMAND compiles `{source}` to `{program}`. A program that
 does not compile without a warning, fails, or prints something else is an error. --write puts into the chapters what
 programs print. --pictures compiles with picture.h before each program, and RENDERER, objects and libraries, after it."""
 
@@ -12,7 +12,7 @@ import sys
 
 here = pathlib.Path(__file__).resolve().parent
 pictures = here.parent / "pictures"
-CHAPTER = re.compile(r"```c\n(?P<program>.*?)```\n```text\n(?P<prints>.*?)```\n<!-- picture: (?P<picture>.*?) -->", re.S)
+PROGRAM = re.compile(r"```c\n(?P<program>(?:(?!```).)*)```\n```text\n(?P<prints>(?:(?!```).)*)```\n(?:<!-- picture: (?P<picture>.*?) -->)?", re.S)
 
 
 def compiled(folder, name, text, command, more=()):
@@ -37,21 +37,26 @@ def main(folder, command, option=None, *renderer):
     folder.mkdir(parents=True, exist_ok=True)
     chapters = sorted(path for path in here.glob("*.md") if path.name != "README.md")
     for path in chapters:
-        text, name = path.read_text(), path.stem
-        chapter = CHAPTER.search(text)
-        if not chapter:
-            sys.exit(f"{path.name} has no program with what it prints and its picture")
-        if option == "--pictures":
-            program = compiled(folder, name, f'#include "picture.h"\n{chapter["program"]}', command.split(),
-                               [f"-I{here}", *renderer])
-            run(name, program, {"KIRI_PICTURE": f"{pictures / f'manual_{name}.png'}; {chapter['picture']}"})
-            continue
-        prints = run(name, compiled(folder, name, chapter["program"], command.split()))
+        text = path.read_text()
+        programs = list(PROGRAM.finditer(text))
+        if len(programs) != text.count("```c\n") or not programs:
+            sys.exit(f"{path.name} has no program, or one without what it prints")
+        for number, found in reversed(list(enumerate(programs, 1))):
+            name = path.stem if len(programs) == 1 else f"{path.stem}_{number}"
+            if option == "--pictures":
+                if found["picture"]:
+                    program = compiled(folder, name, f'#include "picture.h"\n{found["program"]}', command.split(),
+                                       [f"-I{here}", *renderer])
+                    run(name, program, {"KIRI_PICTURE": f"{pictures / f'manual_{name}.png'}; {found['picture']}"})
+                continue
+            prints = run(name, compiled(folder, name, found["program"], command.split()))
+            if option == "--write":
+                text = text[:found.start("prints")] + prints + text[found.end("prints"):]
+            elif prints != found["prints"]:
+                sys.exit(f"{path.name}: its program prints\n{prints}and not\n{found['prints']}"
+                         "`make manual-golden` puts it there")
         if option == "--write":
-            path.write_text(text[:chapter.start("prints")] + prints + text[chapter.end("prints"):])
-        elif prints != chapter["prints"]:
-            sys.exit(f"{path.name}: its program prints\n{prints}and not\n{chapter['prints']}"
-                     "`make manual-golden` puts it there")
+            path.write_text(text)
     print(f"manual: {len(chapters)} chapters {'have their pictures' if option == '--pictures' else 'hold'}")
 
 
