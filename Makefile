@@ -485,7 +485,7 @@ $(BUILD)/samples/%.cpp.o: samples/%.cpp $(TO_COMPILE)
 $(BUILD)/tests/%.c.o: tests/%.c $(TO_COMPILE)
 	@mkdir -p $(@D)
 	@echo "  $<"
-	@$(COMPILE_C) -Iinclude -Isrc -Isamples -Itests -c $< -o $@
+	@$(COMPILE_C) -Iinclude -Isrc -Isamples -Itests -Wno-unused-parameter -c $< -o $@
 
 $(BUILD)/tests/%.cpp.o: tests/%.cpp $(TO_COMPILE)
 	@mkdir -p $(@D)

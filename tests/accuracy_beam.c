@@ -67,26 +67,30 @@ static SpecimenDef Hanging(double young, double thickness, int frames, int grid)
     return def;
 }
 
+/* Cantilevers of each number of frames on the first `grids` of the grids 40, 80, 160. */
+static void HangAll(const char* name, int model, int grids, const int* frames, const double* targets, int count)
+{
+    for (int k = 0; k < grids * count; ++k) {
+        SpecimenDef def = Hanging(5e8, 5e-4, frames[k % count], 40 << k / count);
+        def.model = model;
+        def.iterations = model == KIRI_MODEL_AFFINE ? 8 : def.iterations;
+        Row row = Hang(&def, name, "nu 0");
+        row.target = targets[k % count];
+        Results_Add(&row);
+    }
+}
+
 static void Cantilever(const char* data)
 {
-    static const int frames[] = { 3, 5, 9, 17, 33 }, grids[] = { 40, 80, 160 };
+    static const int frames[] = { 3, 5, 9, 17, 33 };
     static const double targets[] = { 0.03, 0.01, 0.005, 0.0025, 0.0025 };
-    (void)data;
-    for (int g = 0; g < COUNT(grids); ++g) {
-        for (int k = 0; k < COUNT(frames); ++k) {
-            SpecimenDef def = Hanging(5e8, 5e-4, frames[k], grids[g]);
-            Row row = Hang(&def, "cantilever", "nu 0");
-            row.target = targets[k];
-            Results_Add(&row);
-        }
-    }
+    HangAll("cantilever", KIRI_MODEL_LINKS, 3, frames, targets, COUNT(frames));
 }
 
 /* Clamped by holding the frames on the edge: a held frame clamps at its site, and its region moves with it. */
 static void HeldFrames(const char* data)
 {
     static const int frames[] = { 3, 5, 9, 17 };
-    (void)data;
     for (int ends = 0; ends < 2; ++ends) {
         for (int k = 0; k < COUNT(frames); ++k) {
             SpecimenDef def = Hanging(5e8, 5e-4, frames[k], 80);
@@ -110,32 +114,16 @@ static void HeldFrames(const char* data)
 /* More frames than the grid can carry must not go wrong silently. */
 static void Crowded(const char* data)
 {
-    static const int frames[] = { 17, 25, 29, 33, 37 }, grids[] = { 40, 80 };
-    (void)data;
-    for (int g = 0; g < COUNT(grids); ++g) {
-        for (int k = 0; k < COUNT(frames); ++k) {
-            SpecimenDef def = Hanging(5e8, 5e-4, frames[k], grids[g]);
-            Row row = Hang(&def, "crowded row", "nu 0");
-            row.target = 0.0025;
-            Results_Add(&row);
-        }
-    }
+    static const int frames[] = { 17, 25, 29, 33, 37 };
+    static const double targets[] = { 0.0025, 0.0025, 0.0025, 0.0025, 0.0025 };
+    HangAll("crowded row", KIRI_MODEL_LINKS, 2, frames, targets, COUNT(frames));
 }
 
 static void Models(const char* data)
 {
-    static const int frames[] = { 5, 9, 17 }, grids[] = { 40, 80 };
-    (void)data;
-    for (int g = 0; g < COUNT(grids); ++g) {
-        for (int k = 0; k < COUNT(frames); ++k) {
-            SpecimenDef def = Hanging(5e8, 5e-4, frames[k], grids[g]);
-            def.model = KIRI_MODEL_AFFINE;
-            def.iterations = 8;
-            Row row = Hang(&def, "affine cantilever", "nu 0");
-            row.target = k == 1 ? 0.01 : 0.0;
-            Results_Add(&row);
-        }
-    }
+    static const int frames[] = { 5, 9, 17 };
+    static const double targets[] = { 0.0, 0.01, 0.0 };
+    HangAll("affine cantilever", KIRI_MODEL_AFFINE, 2, frames, targets, COUNT(frames));
 }
 
 /* The same curve whatever the thickness: Young's modulus goes with it. */
@@ -149,7 +137,6 @@ static void Thinness(const char* data)
 {
     static const double thin[] = { 10.0, 50.0, 200.0, 400.0, 1000.0, 4000.0 };
     static const int frames[] = { 5, 9, 17 };
-    (void)data;
     for (int t = 0; t < COUNT(thin); ++t) {
         for (int k = 0; k < COUNT(frames); ++k) {
             char setting[SETTING_LENGTH];
@@ -166,7 +153,6 @@ static void Thinness(const char* data)
 static void Points(const char* data)
 {
     static const double thin[] = { 10.0, 20.0, 50.0, 100.0, 200.0, 400.0 };
-    (void)data;
     for (int t = 0; t < COUNT(thin); ++t) {
         char setting[SETTING_LENGTH];
         SpecimenDef def = HangingThin(1.0 / thin[t], 9);
@@ -235,7 +221,6 @@ static void PlaneBending(const char* data)
     double E = 5e8, h = 5e-3, L = 0.2, W = 0.05, load = 1000.0 * h * W * G;
     double theory = load * L * L * L * L / (8.0 * E * h * W * W * W / 12.0);
     theory += load * L * L / (2.0 * 5.0 / 6.0 * E / 2.0 * h * W);
-    (void)data;
     for (int k = 0; k < COUNT(rows); ++k) {
         char setting[SETTING_LENGTH];
         SpecimenDef def = Specimen_Strip(E, 0.0, h);
@@ -250,7 +235,6 @@ static void PlaneBending(const char* data)
 static void Tension(const char* data)
 {
     static const int rows[] = { 1, 2, 4 }, columns[] = { 9, 9, 17 };
-    (void)data;
     for (int n = 0; n < 2; ++n) {
         for (int k = 0; k < COUNT(rows); ++k) {
             char setting[SETTING_LENGTH];
@@ -309,7 +293,6 @@ static void EndLoad(const char* data)
 {
     static const int frames[] = { 5, 9, 17, 33 }, grids[] = { 40, 80, 160 };
     static const double loads[] = { 2.0, 4.0 }, moves[][2] = { { 1.6064, 4.9346 }, { 3.2894, 6.6996 } };
-    (void)data;
     for (int p = 0; p < 2; ++p) {
         for (int g = 0; g < COUNT(grids); ++g) {
             for (int k = 0; k < COUNT(frames); ++k) {
@@ -348,7 +331,6 @@ static void AddRollUp(int halfTurns, int frames, int grid)
 static void RollUp(const char* data)
 {
     static const int frames[] = { 9, 17, 33 }, grids[] = { 40, 80, 160 };
-    (void)data;
     for (int half = 1; half <= 2; ++half) {
         for (int g = 0; g < COUNT(grids); ++g) {
             for (int k = 0; k < COUNT(frames); ++k) {
@@ -365,7 +347,6 @@ static void FirstShape(const void* data, double u, double v, double w[3])
 {
     double L = *(const double*)data, k = 1.8751040687 / L, x = k * u;
     double s = (cosh(1.8751040687) + cos(1.8751040687)) / (sinh(1.8751040687) + sin(1.8751040687));
-    (void)v;
     w[0] = cosh(x) - cos(x) - s * (sinh(x) - sin(x));
     w[1] = k * (sinh(x) + sin(x) - s * (cosh(x) - cos(x)));
     w[2] = 0.0;
@@ -374,7 +355,6 @@ static void FirstShape(const void* data, double u, double v, double w[3])
 static void FirstFrequency(const char* data)
 {
     static const int frames[] = { 5, 9, 17 }, grids[] = { 40, 80, 160 };
-    (void)data;
     for (int g = 0; g < COUNT(grids); ++g) {
         for (int k = 0; k < COUNT(frames); ++k) {
             double E = 5e8, h = 5e-4, L = 0.2;

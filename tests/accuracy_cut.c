@@ -59,7 +59,6 @@ static void SlitAcross(const char* data)
 {
     static const double ends[] = { 0.025, 0.04 }, added[] = { 7.845e-3, 22.50e-3 };
     static const int frames[] = { 24, 48, 96, 192 };
-    (void)data;
     for (int e = 0; e < COUNT(ends); ++e) {
         for (int g = 0; g < COUNT(GRIDS); ++g) {
             for (int k = 0; k < COUNT(frames); ++k) {
@@ -122,7 +121,6 @@ static void AddKirigami(const SpecimenDef* def, const char* setting, const char*
 static void Kirigami(const char* data)
 {
     static const int frames[] = { 24, 48, 96, 192 }, grids[] = { 40, 80, 160, 320 };
-    (void)data;
     for (int g = 0; g < COUNT(grids); ++g) {
         for (int k = 0; k < COUNT(frames); ++k) {
             SpecimenDef def = KirigamiDef(grids[g]);
@@ -223,7 +221,6 @@ static void AddExponent(const char* setting, const Accordion* a, const Accordion
 /* The strips at the ends are held, and do not bend. */
 static void Scaling(const char* data)
 {
-    (void)data;
     for (int dense = 1; dense <= 2; ++dense) {
         const Accordion base = { 0.04 / 12.0, 0.04, 5e-5, 8, 12 * dense };
         Accordion narrow = base, thick = base, many = base, wide = base;
@@ -294,7 +291,6 @@ static void Order(const char* data)
     static const float points[] = { 0.05f, 0.0f, 0.05f, 0.07f, 0.08f, 0.07f };
     static const int frames[] = { 24, 48, 96, 192 };
     const Slit slit = { points, 3 };
-    (void)data;
     for (int n = 0; n < 2; ++n) {
         for (int k = 0; k < COUNT(frames); ++k) {
             SpecimenDef def = Specimen_Strip(YOUNG, n == 0 ? 0.0 : 0.3, 5e-4);

@@ -87,7 +87,6 @@ static void AddSwing(int timeStepping, int frames, int substeps)
 static void Swing(const char* data)
 {
     static const int frames[] = { 5, 9 }, substeps[] = { 1, 2, 4, 8, 64 };
-    (void)data;
     for (int k = 0; k < 2; ++k) {
         for (int f = 0; f < COUNT(frames); ++f) {
             for (int s = 0; s < COUNT(substeps); ++s) {

@@ -52,7 +52,6 @@ static void BendShape(const void* data, double u, double v, double w[3])
 {
     double k = 1.8751040687 / *(const double*)data, x = k * u;
     double s = (cosh(1.8751040687) + cos(1.8751040687)) / (sinh(1.8751040687) + sin(1.8751040687));
-    (void)v;
     w[0] = cosh(x) - cos(x) - s * (sinh(x) - sin(x));
     w[1] = k * (sinh(x) + sin(x) - s * (cosh(x) - cos(x)));
     w[2] = 0.0;
@@ -95,7 +94,6 @@ static void AddMode(const char* name, const PlateMode* mode, bool twist, int kin
 static void Torsion(const char* data)
 {
     static const int rows[] = { 1, 2, 4 }, columns[] = { 9, 9, 17 };
-    (void)data;
     for (int m = 0; m < 2; ++m) {
         for (int k = 0; k < COUNT(rows); ++k) {
             for (int g = 0; g < COUNT(GRIDS); ++g) {
@@ -112,7 +110,6 @@ static void Torsion(const char* data)
 static void PlateFrequencies(const char* data)
 {
     static const int frames[] = { 3, 5, 9 };
-    (void)data;
     for (int m = 2; m < 4; ++m) {
         for (int twist = 0; twist < 2; ++twist) {
             for (int k = 0; k < COUNT(frames); ++k) {
@@ -188,7 +185,6 @@ static void AddFreeMode(const FreeMode* mode, int n, int along, int kind)
 static void FreePlate(const char* data)
 {
     static const int along[] = { 5, 7, 10 };
-    (void)data;
     for (int n = 0; n < COUNT(POISSON); ++n) {
         for (int m = 0; m < COUNT(freeModes); ++m) {
             for (int k = 0; k < COUNT(along); ++k) {
@@ -349,7 +345,6 @@ static void Membrane(const char* data)
 {
     static const double biaxial[] = { 0.01, 0.01, 0.0 }, shear[] = { 0.0, 0.0, 0.01 }, pull[] = { 0.01, 0.0, 0.0 };
     static const int along[] = { 5, 9 };
-    (void)data;
     for (int n = 0; n < COUNT(POISSON); ++n) {
         for (int kind = 0; kind < LAYOUT_KINDS; ++kind) {
             for (int g = 0; g < COUNT(GRIDS); ++g) {
@@ -365,7 +360,6 @@ static void Membrane(const char* data)
 
 static void Narrowing(const char* data)
 {
-    (void)data;
     for (int rows = 2; rows <= 8; rows *= 2) {
         AddNarrowing(1, LAYOUT_ROWS, rows, KIRI_MODEL_LINKS);
         AddNarrowing(1, LAYOUT_LLOYD, rows, KIRI_MODEL_LINKS);

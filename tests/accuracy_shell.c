@@ -240,7 +240,6 @@ static void Annulus(const char* data)
 {
     static const int around[] = { 16, 25, 38, 50, 76 }, grids[] = { 80, 160 };
     static const int rings[] = { 1, 2, 3, 4, 6 };
-    (void)data;
     for (int g = 0; g < COUNT(grids); ++g) {
         for (int k = 0; k < COUNT(rings); ++k) {
             AddAnnulus(rings[k], around[k], grids[g]);

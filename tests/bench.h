@@ -71,6 +71,37 @@ static inline bool Bench_AddSheet(kiriWorld* world, kiriSheetDef* def, int32_t s
     return fine;
 }
 
+/* Pins the corners of u = 0 and 1 at `v` to the places (u, 0, z). */
+static inline bool Bench_PinCorners(kiriWorld* world, kiriSheet sheet, float v, float z)
+{
+    bool fine = true;
+    for (int corner = 0; fine && corner < 2; ++corner) {
+        kiriPinDef pin;
+        kiriPin id;
+        kiriDefaultPinDef(&pin);
+        pin.restPoint[0] = pin.target[0] = (float)corner;
+        pin.restPoint[1] = v;
+        pin.target[2] = z;
+        fine = kiriCreatePin(world, sheet, &pin, &id) == KIRI_OK;
+    }
+    return fine;
+}
+
+/* Moves as many bytes as skinning writes. */
+static inline double Bench_TimeCopy(kiriWorld* world, kiriSheet sheet, float* buffer)
+{
+    kiriMesh mesh;
+    kiriSheet_GetMesh(world, sheet, &mesh);
+    size_t count = 3 * (size_t)mesh.vertexCount;
+    double start = Bench_Clock(NULL);
+    memcpy(buffer, mesh.positions, count * sizeof(float));
+    if (mesh.normals != NULL) {
+        memcpy(buffer + count, mesh.normals, count * sizeof(float));
+    }
+    double seconds = Bench_Clock(NULL) - start;
+    return buffer[count / 2] < 2.0f ? seconds : (double)NAN; /* read, so that it is written */
+}
+
 /* ---- Series ------------------------------------------------------------------------------------------------------ */
 
 typedef struct Series {

@@ -33,19 +33,16 @@ static bool CutSpiral(Bed* bed, int32_t count, double turns, double radius)
 
 static bool CutSpiral20k(Bed* bed, int32_t action)
 {
-    (void)action;
     return CutSpiral(bed, 20000, 10.0, 0.45);
 }
 
 static bool CutKnot20k(Bed* bed, int32_t action)
 {
-    (void)action;
     return CutSpiral(bed, 20000, 100.0, 0.05);
 }
 
 static bool CutTurns(Bed* bed, int32_t action)
 {
-    (void)action;
     return CutSpiral(bed, 2000, 10.0, 0.45);
 }
 
@@ -63,7 +60,6 @@ static bool CutDice(Bed* bed, int32_t parts)
 
 static bool CutDice41(Bed* bed, int32_t action)
 {
-    (void)action;
     return CutDice(bed, 41);
 }
 
@@ -77,13 +73,11 @@ static bool CutShort(Bed* bed, int32_t action)
 /* From one triangle of a coarse mesh to another. */
 static bool CutAcross(Bed* bed, int32_t action)
 {
-    (void)action;
     return CutAlong(bed, 0, (float[]){ 0.41f, 0.33f, 0.52f, 0.46f }, 2);
 }
 
 static bool CutEachShort(Bed* bed, int32_t action)
 {
-    (void)action;
     bool fine = true;
     for (int32_t i = 0; fine && i < bed->count; i++) {
         fine = CutAlong(bed, i, (float[]){ 0.41f, 0.33f, 0.59f, 0.66f }, 2);
@@ -93,7 +87,6 @@ static bool CutEachShort(Bed* bed, int32_t action)
 
 static bool Slash(Bed* bed, int32_t action)
 {
-    (void)action;
     return CutAlong(bed, 0, (float[]){ -0.1f, 0.487f, 1.1f, 0.513f }, 2);
 }
 
@@ -131,7 +124,6 @@ static bool CutCorner(Bed* bed)
 
 static bool Detach(Bed* bed, int32_t action)
 {
-    (void)action;
     kiriSheet detached = 0;
     kiriResult result = kiriFrame_DetachPiece(bed->world, bed->corner, &detached);
     bed->leaving = result == KIRI_PENDING ? bed->corner : 0;
@@ -140,7 +132,6 @@ static bool Detach(Bed* bed, int32_t action)
 
 static bool DropCrumbs(Bed* bed, int32_t action)
 {
-    (void)action;
     int32_t count;
     return kiriSheet_DropCrumbs(bed->world, bed->sheets[0], 1.0f, &count) >= 0;
 }
@@ -186,7 +177,6 @@ static bool AddFinePatch(Bed* bed, kiriSheetDef* def)
 
 static bool CutFinePatch(Bed* bed, int32_t action)
 {
-    (void)action;
     return CutAlong(bed, 0, (float[]){ 0.49f, 0.513f, 0.54f, 0.519f }, 2);
 }
 

@@ -15,7 +15,6 @@ static int64_t liveBytes;
 
 static void* CountAlloc(void* user, int64_t bytes)
 {
-    (void)user;
     int64_t* block = malloc((size_t)bytes + HEADER);
     if (block == NULL) {
         return NULL;
@@ -27,7 +26,6 @@ static void* CountAlloc(void* user, int64_t bytes)
 
 static void CountFree(void* user, void* pointer)
 {
-    (void)user;
     int64_t* block = (int64_t*)((char*)pointer - HEADER);
     liveBytes -= *block;
     free(block);
@@ -42,7 +40,6 @@ typedef struct Feature {
 
 static void SetNothing(kiriSheetDef* def)
 {
-    (void)def;
 }
 static void SetPoints(kiriSheetDef* def)
 {
@@ -113,15 +110,8 @@ static bool MakeWorld(kiriWorld** world, kiriSheet* sheet, void (*set)(kiriSheet
     def.gridResolution = 50;
     def.sleepSpeed = 0.0f;
     set(&def);
-    bool fine = kiriCreateWorld(&worldDef, world) == KIRI_OK && Bench_AddSheet(*world, &def, SQUARES, sheet);
-    for (int corner = 0; fine && corner < 2; ++corner) {
-        kiriPinDef pin;
-        kiriPin id;
-        kiriDefaultPinDef(&pin);
-        pin.restPoint[0] = pin.target[0] = (float)corner;
-        pin.restPoint[1] = pin.target[2] = 1.0f;
-        fine = kiriCreatePin(*world, *sheet, &pin, &id) == KIRI_OK;
-    }
+    bool fine = kiriCreateWorld(&worldDef, world) == KIRI_OK && Bench_AddSheet(*world, &def, SQUARES, sheet) &&
+                Bench_PinCorners(*world, *sheet, 1.0f, 1.0f);
     return fine;
 }
 

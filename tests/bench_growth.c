@@ -151,19 +151,6 @@ typedef struct LoadTimes {
     Series all, solve, skin, copy;
 } LoadTimes;
 
-/* Moves as many bytes as skinning writes. */
-static double TimeCopy(kiriWorld* world, kiriSheet sheet, float* buffer)
-{
-    kiriMesh mesh;
-    kiriSheet_GetMesh(world, sheet, &mesh);
-    size_t count = 3 * (size_t)mesh.vertexCount;
-    double start = Bench_Clock(NULL);
-    memcpy(buffer, mesh.positions, count * sizeof(float));
-    memcpy(buffer + count, mesh.normals, count * sizeof(float));
-    double seconds = Bench_Clock(NULL) - start;
-    return buffer[count] < 2.0f ? seconds : (double)NAN; /* read, so that it is written */
-}
-
 static bool TimeTicks(kiriWorld* world, const kiriSheet* sheets, int32_t count, float* buffer, LoadTimes* times)
 {
     for (int32_t i = -WARM_TICKS; i < TICKS; i++) {
@@ -174,7 +161,7 @@ static bool TimeTicks(kiriWorld* world, const kiriSheet* sheets, int32_t count, 
         }
         double seconds = Bench_Clock(NULL) - start, copy = 0.0;
         for (int32_t k = 0; k < count; k++) {
-            copy += TimeCopy(world, sheets[k], buffer);
+            copy += Bench_TimeCopy(world, sheets[k], buffer);
         }
         if (i >= 0) {
             Series_Add(&times->all, 1e3 * seconds);

@@ -18,35 +18,6 @@ static void FreeTimes(Times* times)
     Series_Free(&times->systems);
 }
 
-/* Moves as many bytes as skinning writes. */
-static double TimeCopy(kiriWorld* world, kiriSheet sheet, float* buffer)
-{
-    kiriMesh mesh;
-    kiriSheet_GetMesh(world, sheet, &mesh);
-    size_t count = 3 * (size_t)mesh.vertexCount;
-    double start = Bench_Clock(NULL);
-    memcpy(buffer, mesh.positions, count * sizeof(float));
-    if (mesh.normals != NULL) {
-        memcpy(buffer + count, mesh.normals, count * sizeof(float));
-    }
-    double seconds = Bench_Clock(NULL) - start;
-    return buffer[count / 2] < 2.0f ? seconds : (double)NAN; /* read, so that it is written */
-}
-
-/* Hangs by two corners. */
-static bool Pin(kiriWorld* world, kiriSheet sheet)
-{
-    bool fine = true;
-    for (int32_t i = 0; fine && i < 2; i++) {
-        kiriPinDef def;
-        kiriPin pin;
-        kiriDefaultPinDef(&def);
-        def.restPoint[0] = def.target[0] = (float)i;
-        fine = kiriCreatePin(world, sheet, &def, &pin) == KIRI_OK;
-    }
-    return fine;
-}
-
 static bool TimeTicks(kiriWorld* world, kiriSheet sheet, int32_t substeps, float* buffer, Times* times)
 {
     kiriCounts counts;
@@ -55,7 +26,7 @@ static bool TimeTicks(kiriWorld* world, kiriSheet sheet, int32_t substeps, float
         kiriProfile profile;
         double start = Bench_Clock(NULL);
         fine = kiriWorld_Tick(world, 1.0f / 60.0f, substeps) == KIRI_OK;
-        double seconds = Bench_Clock(NULL) - start, copy = TimeCopy(world, sheet, buffer);
+        double seconds = Bench_Clock(NULL) - start, copy = Bench_TimeCopy(world, sheet, buffer);
         fine = fine && kiriWorld_GetProfile(world, &profile) == KIRI_OK;
         if (fine && i >= 0) {
             Series_Add(&times->all, 1e3 * seconds);
@@ -78,7 +49,7 @@ static bool Run(kiriSheetDef* def, int32_t squares, int32_t substeps, Times* tim
     def->rigidArea = 1.0f;
     def->sleepSpeed = 0.0f;
     bool fine = buffer != NULL && kiriCreateWorld(&worldDef, &world) == KIRI_OK &&
-                Bench_AddSheet(world, def, squares, &sheet) && Pin(world, sheet) &&
+                Bench_AddSheet(world, def, squares, &sheet) && Bench_PinCorners(world, sheet, 0.0f, 0.0f) &&
                 TimeTicks(world, sheet, substeps, buffer, times);
     kiriDestroyWorld(world);
     free(buffer);

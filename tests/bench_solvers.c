@@ -29,15 +29,8 @@ static bool MakeSheet(kiriWorld** world, int32_t frames, int32_t model)
         def.gridResolution *= 2;
     }
     def.frameCount = def.maxFrames = frames;
-    bool fine = kiriCreateWorld(&worldDef, world) == KIRI_OK && Bench_AddSheet(*world, &def, SQUARES, &sheet);
-    for (int corner = 0; fine && corner < 2; ++corner) {
-        kiriPinDef pin;
-        kiriPin id;
-        kiriDefaultPinDef(&pin);
-        pin.restPoint[0] = pin.target[0] = (float)corner;
-        pin.restPoint[1] = pin.target[2] = 1.0f;
-        fine = kiriCreatePin(*world, sheet, &pin, &id) == KIRI_OK;
-    }
+    bool fine = kiriCreateWorld(&worldDef, world) == KIRI_OK && Bench_AddSheet(*world, &def, SQUARES, &sheet) &&
+                Bench_PinCorners(*world, sheet, 1.0f, 1.0f);
     for (int tick = 0; fine && tick < TICKS; ++tick) {
         fine = kiriWorld_Tick(*world, 1.0f / 60.0f, 1) == KIRI_OK;
     }

@@ -4,106 +4,19 @@
 #define _POSIX_C_SOURCE 200809L
 
 #include "bench.h"
-
-#include <pthread.h>
+#include "crew.h"
 
 enum { MOST_WORKERS = 2, TICKS = 30, WARM_TICKS = 10, RUNS = 3 };
 
-/* ---- A host with threads ---- */
-
-typedef struct Crew {
-    pthread_t threads[MOST_WORKERS];
-    pthread_mutex_t lock;
-    pthread_cond_t changed;
-    bool isOver;
-    kiriTaskFn* task; /* at hand, or null */
-    void* context;
-    int32_t next, left, items, range; /* item to begin with, items that are not done */
-} Crew;
-
-/* With the lock: takes a range and does it without. False where none is left. */
-static bool WorkOnce(Crew* crew)
-{
-    int32_t start = crew->next, end = start + crew->range < crew->items ? start + crew->range : crew->items;
-    if (crew->task == NULL || start >= crew->items) {
-        return false;
-    }
-    kiriTaskFn* task = crew->task;
-    crew->next = end;
-    pthread_mutex_unlock(&crew->lock);
-    task(start, end, crew->context);
-    pthread_mutex_lock(&crew->lock);
-    crew->left -= end - start;
-    if (crew->left == 0) {
-        pthread_cond_broadcast(&crew->changed);
-    }
-    return true;
-}
-
-static void* Serve(void* user)
-{
-    Crew* crew = user;
-    pthread_mutex_lock(&crew->lock);
-    while (!crew->isOver) {
-        if (!WorkOnce(crew)) {
-            pthread_cond_wait(&crew->changed, &crew->lock);
-        }
-    }
-    pthread_mutex_unlock(&crew->lock);
-    return NULL;
-}
-
 static void* StartTask(void* user, kiriTaskFn* task, int32_t itemCount, int32_t minRange, void* context)
 {
-    Crew* crew = user;
-    pthread_mutex_lock(&crew->lock);
-    crew->task = task;
-    crew->context = context;
-    crew->items = crew->left = itemCount;
-    crew->range = minRange;
-    crew->next = 0;
-    pthread_cond_broadcast(&crew->changed);
-    pthread_mutex_unlock(&crew->lock);
-    return crew;
+    Crew_Begin(user, task, itemCount, minRange, context);
+    return user;
 }
 
 static void FinishTask(void* user, void* handle)
 {
-    Crew* crew = user;
-    (void)handle;
-    pthread_mutex_lock(&crew->lock);
-    while (WorkOnce(crew)) {
-    }
-    while (crew->left > 0) {
-        pthread_cond_wait(&crew->changed, &crew->lock);
-    }
-    crew->task = NULL;
-    pthread_mutex_unlock(&crew->lock);
-}
-
-static bool Crew_Start(Crew* crew, int32_t workers)
-{
-    memset(crew, 0, sizeof *crew);
-    pthread_mutex_init(&crew->lock, NULL);
-    pthread_cond_init(&crew->changed, NULL);
-    bool fine = true;
-    for (int32_t i = 1; fine && i < workers; i++) {
-        fine = pthread_create(&crew->threads[i], NULL, Serve, crew) == 0;
-    }
-    return fine;
-}
-
-static void Crew_Stop(Crew* crew, int32_t workers)
-{
-    pthread_mutex_lock(&crew->lock);
-    crew->isOver = true;
-    pthread_cond_broadcast(&crew->changed);
-    pthread_mutex_unlock(&crew->lock);
-    for (int32_t i = 1; i < workers; i++) {
-        pthread_join(crew->threads[i], NULL);
-    }
-    pthread_cond_destroy(&crew->changed);
-    pthread_mutex_destroy(&crew->lock);
+    Crew_Finish(user);
 }
 
 /* ---- Rows ---- */
@@ -174,7 +87,7 @@ static bool Run(const Row* row, int32_t workers, double* seconds, uint64_t* hash
     }
     fine = fine && kiriWorld_GetStateHash(world, hash) == KIRI_OK;
     kiriDestroyWorld(world);
-    Crew_Stop(&crew, workers);
+    Crew_Stop(&crew);
     return fine;
 }
 

@@ -194,7 +194,6 @@ static void Fly(Trial* trial)
 
 static void Nothing(Trial* trial)
 {
-    (void)trial;
 }
 
 static kiriVec3 StartOf(const Trial* trial, int frame)

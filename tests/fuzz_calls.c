@@ -54,7 +54,6 @@ CALL(Tick)
 
 CALL(PlainTick)
 {
-    (void)act;
     return kiriWorld_Tick(world, 1.0f / 60.0f, 1);
 }
 

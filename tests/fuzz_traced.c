@@ -24,7 +24,6 @@ static Blocks blocks;
 
 static void* TakeBlock(void* user, int64_t bytes)
 {
-    (void)user;
     char* at = blocks.count < TRACED_BLOCKS ? calloc(1, (size_t)bytes) : NULL;
     if (at != NULL) {
         blocks.of[blocks.count++] = (Block){ at, bytes };
@@ -34,7 +33,6 @@ static void* TakeBlock(void* user, int64_t bytes)
 
 static void GiveBlock(void* user, void* pointer)
 {
-    (void)user;
     int32_t k = 0;
     while (k < blocks.count && blocks.of[k].at != pointer) {
         ++k;

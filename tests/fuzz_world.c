@@ -10,7 +10,6 @@
 /* Ranges one after the other, from the last one on. */
 static void* StartBackwards(void* user, kiriTaskFn* task, int32_t itemCount, int32_t minRange, void* context)
 {
-    (void)user;
     int32_t range = minRange + itemCount / 5;
     for (int32_t start = (itemCount - 1) / range * range; start >= 0; start -= range) {
         task(start, start + range < itemCount ? start + range : itemCount, context);
@@ -20,8 +19,6 @@ static void* StartBackwards(void* user, kiriTaskFn* task, int32_t itemCount, int
 
 static void FinishNothing(void* user, void* handle)
 {
-    (void)user;
-    (void)handle;
 }
 
 static void StartHost(Fuzz* fuzz, int32_t k, const float gravity[3], const kiriBudget* budget)

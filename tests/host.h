@@ -231,6 +231,43 @@ static inline kiriCut Host_Cut(Host* host, kiriSheet sheet, const float* points,
     return cut;
 }
 
+static inline kiriPinDef Host_PinDef(float u, float v, float x, float y, float z)
+{
+    kiriPinDef def;
+    kiriDefaultPinDef(&def);
+    def.restPoint[0] = u;
+    def.restPoint[1] = v;
+    def.target[0] = x;
+    def.target[1] = y;
+    def.target[2] = z;
+    return def;
+}
+
+static inline kiriPin Host_Pin(Host* host, kiriSheet sheet, float u, float v, float x, float y, float z)
+{
+    kiriPinDef def = Host_PinDef(u, v, x, y, z);
+    kiriPin pin = 0;
+    OK(kiriCreatePin(host->world, sheet, &def, &pin));
+    return pin;
+}
+
+/* A cut across all of the sheet, or a loop in it. */
+static inline void Host_CutSomewhere(Host* host, kiriSheet sheet, uint32_t* seed)
+{
+    float from = (float)RandomBetween(seed, 0.0, 1.0), to = (float)RandomBetween(seed, 0.0, 1.0);
+    float u = (float)RandomBetween(seed, 0.1, 0.8), v = (float)RandomBetween(seed, 0.1, 0.8);
+    switch (Random(seed) % 3) {
+    case 0:
+        Host_Cut(host, sheet, (float[]){ from, -0.1f, to, 1.1f }, 2);
+        break;
+    case 1:
+        Host_Cut(host, sheet, (float[]){ -0.1f, from, 1.1f, to }, 2);
+        break;
+    default:
+        Host_Cut(host, sheet, (float[]){ u, v, u + 0.15f, v, u + 0.1f, v + 0.15f, u, v }, 4);
+    }
+}
+
 static inline int32_t Host_SheetCount(const Host* host)
 {
     int32_t count;

@@ -21,7 +21,6 @@ void Require(bool ok, const char* what)
 double ProcessorTime(void* user)
 {
     struct timespec now;
-    (void)user;
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }

@@ -20,7 +20,6 @@ const StormType Storm_Types[STORM_TYPES] = {
 /* Ranges in an order of its own: the bits are the same. */
 static void* StartTask(void* user, kiriTaskFn* task, int32_t itemCount, int32_t minRange, void* taskContext)
 {
-    (void)user;
     for (int32_t end = itemCount; end > 0;) {
         int32_t start = end > 2 * minRange ? (end - 1) / minRange * minRange : 0;
         task(start, end, taskContext);
@@ -31,8 +30,6 @@ static void* StartTask(void* user, kiriTaskFn* task, int32_t itemCount, int32_t 
 
 static void FinishTask(void* user, void* handle)
 {
-    (void)user;
-    (void)handle;
 }
 
 kiriResult Storm_Start(Storm* storm, int32_t kind, kiriWorldDef* def)

@@ -68,27 +68,23 @@ typedef struct Fixture {
     kiriPin pin;
 } Fixture;
 
-static void Setup(Fixture* f)
+static Host* Setup(Fixture* f)
 {
     Host* host = &f->host;
     kiriSheetDef def = Host_SmallDef();
-    kiriPinDef pinDef;
     float start[2] = { -1.0f, 0.5f };
     int32_t frames;
     Host_Start(host);
     f->sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 4, 4);
-    kiriDefaultPinDef(&pinDef);
-    pinDef.restPoint[0] = 0.3f;
-    pinDef.restPoint[1] = 0.9f;
-    OK(kiriCreatePin(host->world, f->sheet, &pinDef, &f->pin));
+    f->pin = Host_Pin(host, f->sheet, 0.3f, 0.9f, 0.0f, 0.0f, 0.0f);
     OK(kiriBeginCut(host->world, f->sheet, start, &f->cut));
     OK(kiriSheet_GetFrames(host->world, f->sheet, &f->frame, 1, &frames));
     OK(Host_Tick(host, 0.01f, 1));
+    return host;
 }
 
 static void NullWorld(void** state)
 {
-    (void)state;
     float v[12] = { 0.0f };
     kiriSheetDef sheetDef = Host_SmallDef();
     kiriPinDef pinDef;
@@ -174,7 +170,6 @@ static void NullWorld(void** state)
 
 static void Names(void** state)
 {
-    (void)state;
     static const char* const results[] = { "KIRI_ERROR_REPLAY", "KIRI_ERROR_DATA",     "KIRI_ERROR_BUILD",
                                            "KIRI_ERROR_LIMIT",  "KIRI_DIVERGED",       "KIRI_ERROR_MEMORY",
                                            "KIRI_ERROR_STATE",  "KIRI_ERROR_MESH",     "KIRI_ERROR_ID",
@@ -216,7 +211,6 @@ static void AssertModeRefused(kiriResult result, const Host* host)
 /* In each mode of the processor that gives other bits; and a world is made again afterwards. */
 static void ModesOfFloats(void** state)
 {
-    (void)state;
     static const int roundings[] = { FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO };
     for (int i = 0; i < 3; ++i) {
         Host host = { .failAt = -1 };
@@ -246,7 +240,6 @@ static void ModesOfFloats(void** state)
 /* Every preset makes a sheet; other numbers make none. */
 static void Materials(void** state)
 {
-    (void)state;
     Host host;
     Host_Start(&host);
     for (int32_t preset = 0; preset < KIRI_MATERIAL_COUNT; ++preset) {
@@ -265,7 +258,6 @@ static void Materials(void** state)
    test_quality.c. */
 static void Qualities(void** state)
 {
-    (void)state;
     Host host;
     kiriQuality quality = { 0, 0, 0, 0 }, refused = { 7, 7, 7, 7 };
     Host_Start(&host);
@@ -291,7 +283,6 @@ static void Qualities(void** state)
 
 static void WorldDefs(void** state)
 {
-    (void)state;
     Host plain;
     memset(&plain, 0, sizeof(plain));
     plain.failAt = -1;
@@ -320,10 +311,8 @@ static void WorldDefs(void** state)
 
 static void WorldArguments(void** state)
 {
-    (void)state;
     Fixture f;
-    Setup(&f);
-    Host* host = &f.host;
+    Host* host = Setup(&f);
     kiriWorld* w = host->world;
     static const float badSteps[] = { NAN, INFINITY, -INFINITY, 0.0f, -0.01f, 0.9e-6f, 10.001f, 1e30f };
     static const int32_t badSubsteps[] = { 0, -1, 65, INT32_MAX, INT32_MIN };
@@ -355,10 +344,8 @@ static void WorldArguments(void** state)
 
 static void SheetDefFloats(void** state)
 {
-    (void)state;
     Fixture f;
-    Setup(&f);
-    Host* host = &f.host;
+    Host* host = Setup(&f);
     kiriSheetDef def = Host_SmallDef();
     float points[8];
     memcpy(points, def.framePoints, sizeof(points));
@@ -405,10 +392,8 @@ static void SheetDefFloats(void** state)
 
 static void SheetDefInts(void** state)
 {
-    (void)state;
     Fixture f;
-    Setup(&f);
-    Host* host = &f.host;
+    Host* host = Setup(&f);
     kiriSheetDef def = Host_SmallDef();
     Rectangle r = Rectangle_Make(&def, 1.0f, 1.0f, 2, 2);
     const struct {
@@ -450,10 +435,8 @@ static void SheetDefInts(void** state)
 /* A program that forgets a kiriDefault function gets a code and a line that names the function. */
 static void ZeroedDefs(void** state)
 {
-    (void)state;
     Fixture f;
-    Setup(&f);
-    Host* host = &f.host;
+    Host* host = Setup(&f);
     static const union {
         kiriWorldDef world;
         kiriSheetDef sheet;
@@ -486,10 +469,8 @@ static void ZeroedDefs(void** state)
 
 static void Meshes(void** state)
 {
-    (void)state;
     Fixture f;
-    Setup(&f);
-    Host* host = &f.host;
+    Host* host = Setup(&f);
     static const float square[14] = { 0.0f, 0.0f, 1.0f, 0.0f,  1.0f,  1.0f,  0.0f,
                                       1.0f, 0.5f, 0.5f, 0.25f, 0.25f, 0.75f, 0.6f };
     static const struct {
@@ -534,7 +515,6 @@ static void Meshes(void** state)
 
 static void FillRectangle(void** state)
 {
-    (void)state;
     float positions[18];
     int32_t indices[24];
     static const float badSizes[] = { NAN, INFINITY, -INFINITY, 0.0f, -1.0f };
@@ -554,7 +534,6 @@ static void FillRectangle(void** state)
 /* It is the sheet that kiriFillRectangle and kiriCreateSheet make, or none, and leaves no memory behind. */
 static void CreateRectangle(void** state)
 {
-    (void)state;
     Host hosts[2];
     kiriSheet sheets[2];
     uint64_t hashes[2];
@@ -621,7 +600,6 @@ static Dead MakeDead(Fixture* f)
     Host* host = &f->host;
     Dead dead;
     kiriSheetDef def = Host_SmallDef();
-    kiriPinDef pinDef;
     int32_t frames;
     static const float line[4] = { 0.2f, -0.1f, 0.2f, 1.1f };
     dead.sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 2, 2);
@@ -629,19 +607,15 @@ static Dead MakeDead(Fixture* f)
     OK(kiriDestroySheet(host->world, dead.sheet));
     dead.cut = Host_Cut(host, f->sheet, line, 2);
     OK(Host_Tick(host, 0.01f, 1));
-    kiriDefaultPinDef(&pinDef);
-    pinDef.restPoint[0] = 0.5f;
-    OK(kiriCreatePin(host->world, f->sheet, &pinDef, &dead.pin));
+    dead.pin = Host_Pin(host, f->sheet, 0.5f, 0.0f, 0.0f, 0.0f, 0.0f);
     OK(kiriDestroyPin(host->world, dead.pin));
     return dead;
 }
 
 static void Ids(void** state)
 {
-    (void)state;
     Fixture f;
-    Setup(&f);
-    Host* host = &f.host;
+    Host* host = Setup(&f);
     kiriWorld* w = host->world;
     Dead dead = MakeDead(&f);
     uint32_t ids[16], made;
@@ -711,10 +685,8 @@ static void Ids(void** state)
 
 static void SheetArguments(void** state)
 {
-    (void)state;
     Fixture f;
-    Setup(&f);
-    Host* host = &f.host;
+    Host* host = Setup(&f);
     kiriWorld* w = host->world;
     kiriSheet s = f.sheet;
     float a[3] = { 0.5f, 0.5f, 1.0f }, b[3] = { 0.0f, 0.0f, -1.0f }, far = 1.0f;
@@ -766,10 +738,8 @@ static void SheetArguments(void** state)
 
 static void CutArguments(void** state)
 {
-    (void)state;
     Fixture f;
-    Setup(&f);
-    Host* host = &f.host;
+    Host* host = Setup(&f);
     kiriWorld* w = host->world;
     float v[12] = { 0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.6f, 0.7f, 0.8f, 0.9f, 1.0f, 1.1f, 1.2f };
     kiriCut cut;
@@ -796,10 +766,8 @@ static void CutArguments(void** state)
 
 static void FrameArguments(void** state)
 {
-    (void)state;
     Fixture f;
-    Setup(&f);
-    Host* host = &f.host;
+    Host* host = Setup(&f);
     kiriWorld* w = host->world;
     float v[3] = { 1.0f, 2.0f, 3.0f }, r[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
     REFUSED(KIRI_ERROR_ARGUMENT, kiriFrame_GetState(w, f.frame, NULL));
@@ -830,10 +798,8 @@ static void FrameArguments(void** state)
 
 static void PinArguments(void** state)
 {
-    (void)state;
     Fixture f;
-    Setup(&f);
-    Host* host = &f.host;
+    Host* host = Setup(&f);
     kiriWorld* w = host->world;
     kiriPinDef def;
     kiriPin pin;
@@ -874,10 +840,8 @@ static void PinArguments(void** state)
 /* Lines that are none, or meet nothing, whoever asks for them. */
 static void LineArguments(void** state)
 {
-    (void)state;
     Fixture f;
-    Setup(&f);
-    Host* host = &f.host;
+    Host* host = Setup(&f);
     kiriWorld* w = host->world;
     kiriPin pin;
     float a[2] = { 0.2f, 0.3f }, b[2] = { 0.7f, 0.9f }, q[3] = { 1.0f, 2.0f, 3.0f };
@@ -911,10 +875,8 @@ static void LineArguments(void** state)
 
 static void PoseArguments(void** state)
 {
-    (void)state;
     Fixture f;
-    Setup(&f);
-    Host* host = &f.host;
+    Host* host = Setup(&f);
     kiriWorld* w = host->world;
     kiriPin pin;
     float x[3] = { 0.0f, 0.0f, 0.0f }, r[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
@@ -936,10 +898,8 @@ static void PoseArguments(void** state)
 
 static void LoadArguments(void** state)
 {
-    (void)state;
     Fixture f;
-    Setup(&f);
-    Host* host = &f.host;
+    Host* host = Setup(&f);
     kiriWorld* w = host->world;
     float at[2] = { 0.4f, 0.6f }, v[3] = { 1.0f, 2.0f, 3.0f }, u[3] = { 0.0f, 0.0f, 0.0f }, p = 1.0f;
     static const float out[5] = { -0.01f, 1.01f, 1e30f, -1e30f, 16.5f };
@@ -960,7 +920,6 @@ static void LoadArguments(void** state)
 
 static void ShortIndicesNeedFewVertices(void** state)
 {
-    (void)state;
     enum { SIDE = 256 };
     uint16_t indices[3];
     Host host;
@@ -975,10 +934,8 @@ static void ShortIndicesNeedFewVertices(void** state)
 
 static void ContactArguments(void** state)
 {
-    (void)state;
     Fixture f;
-    Setup(&f);
-    Host* host = &f.host;
+    Host* host = Setup(&f);
     kiriWorld* w = host->world;
     int32_t points = Host_Counts(host, f.sheet).collisionPoints;
     kiriContact c[2] = { { .point = 0, .normal = { 0.0f, 0.6f, 0.8f }, .friction = 0.5f },
@@ -1019,7 +976,6 @@ static void ContactArguments(void** state)
 /* Finite is finite: nothing crashes, and what comes out is finite, or the sheet is said to have diverged. */
 static void HugeValues(void** state)
 {
-    (void)state;
     for (int what = 0; what < 8; ++what) {
         Fixture f;
         Setup(&f);
@@ -1140,7 +1096,6 @@ static void CopyEvery(int32_t every)
 
 static void Copies(void** state)
 {
-    (void)state;
     CopyEvery(1);
     CopyEvery(7);
     CopyEvery(20);
@@ -1149,10 +1104,8 @@ static void Copies(void** state)
 /* A line names the function, the argument, the member or index, the value, and what it should be. */
 static void LinesNameArguments(void** state)
 {
-    (void)state;
     Fixture f;
-    Setup(&f);
-    Host* host = &f.host;
+    Host* host = Setup(&f);
     kiriWorld* w = host->world;
     const float bad[4] = { 0.0f, 0.0f, 0.0f, NAN };
     const kiriBudget budget = { 0, -7, 0, 0 };

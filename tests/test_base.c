@@ -48,7 +48,6 @@ static uint64_t HashOfText(const char* text)
 /* The published values of FNV-1a. */
 static void HashesAreFnv(void** state)
 {
-    (void)state;
     assert_true(HashOfText("") == UINT64_C(0xcbf29ce484222325));
     assert_true(HashOfText("a") == UINT64_C(0xaf63dc4c8601ec8c));
     assert_true(HashOfText("foobar") == UINT64_C(0x85944171f73967e8));
@@ -97,7 +96,6 @@ static int32_t KeyOf(int pattern, int32_t i, int32_t count, uint32_t* seed)
 
 static void SortsAnything(void** state)
 {
-    (void)state;
     const int32_t counts[] = { 0, 1, 2, 3, 10, 24, 25, 26, 100, 1000, 30000 };
     uint32_t seed = 23;
     for (size_t c = 0; c < sizeof(counts) / sizeof(counts[0]); ++c) {
@@ -127,7 +125,6 @@ static void SortsAnything(void** state)
 /* Each number as often as it was there, from the lowest on. */
 static void SortsNumbers(void** state)
 {
-    (void)state;
     const int32_t counts[] = { 0, 1, 2, 100, 5000 }, mosts[] = { 0, 1, 2047, 2048, 5000000, INT32_MAX };
     uint32_t seed = 31;
     for (size_t c = 0; c < sizeof(counts) / sizeof(counts[0]); ++c) {
@@ -175,7 +172,6 @@ static void CheckRotation(kiriMat3 r, double tolerance)
 
 static void CayleyRotates(void** state)
 {
-    (void)state;
     uint32_t seed = 12345;
     for (int i = 0; i < 1000; ++i) {
         kiriVec3 w = RandomVec3(&seed, i % 3 == 0 ? 1e-6 : i % 3 == 1 ? 1.0 : 100.0), x = RandomVec3(&seed, 1.0);
@@ -243,7 +239,6 @@ static kiriMat3 Stretched(uint32_t* seed, double a, double b, double c)
 
 static void RotationIsPolarFactor(void** state)
 {
-    (void)state;
     uint32_t seed = 777;
     for (int i = 0; i < 200; ++i) {
         double a = RandomBetween(&seed, 0.3, 3.0), b = RandomBetween(&seed, 0.3, 3.0),
@@ -260,7 +255,6 @@ static void RotationIsPolarFactor(void** state)
 
 static void RotationOfSingular(void** state)
 {
-    (void)state;
     uint32_t seed = 4242;
     const kiriVec3 zero = { 0.0, 0.0, 0.0 }, x = { 1.0, 0.0, 0.0 }, z = { 0.0, 0.0, 1.0 };
     const kiriMat3 special[] = {
@@ -315,7 +309,6 @@ static kiriVec2 RandomPlace(uint32_t* seed)
 
 static void MomentsOfTriangles(void** state)
 {
-    (void)state;
     uint32_t seed = 31;
     for (int i = 0; i < 50; ++i) {
         kiriVec2 a = RandomPlace(&seed), b = RandomPlace(&seed), c = RandomPlace(&seed), o = RandomPlace(&seed);
@@ -376,7 +369,6 @@ enum { EXTENTS = sizeof(extents) / sizeof(extents[0]), PARTS = 3000 };
 /* Added in one order, added in another, and with others in between that go again: the very same bits. */
 static void OrderDoesNotMatter(void** state)
 {
-    (void)state;
     uint32_t seed = 8;
     for (int e = 0; e < EXTENTS; ++e) {
         kiriMoments parts[PARTS], sum = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
@@ -402,7 +394,6 @@ static void OrderDoesNotMatter(void** state)
 
 static void TakingAwayLeavesZero(void** state)
 {
-    (void)state;
     uint32_t seed = 81;
     const kiriTally zero = { 0 };
     for (int e = 0; e < EXTENTS; ++e) {
@@ -427,7 +418,6 @@ static void TakingAwayLeavesZero(void** state)
    second moments are smaller by eight decades. */
 static void SliversKeepTheirDigits(void** state)
 {
-    (void)state;
     for (int e = 0; e < EXTENTS; ++e) {
         double square = extents[e] / 4096.0;
         for (int far = 0; far < 2; ++far) {
@@ -458,7 +448,6 @@ KIRI_TABLE(BagTable, Bag, { KIRI_ITEMS(2, words) })
 /* Counts that no bytes can have ask for no memory. */
 static void CountsAreLimited(void** state)
 {
-    (void)state;
     kiriMemory memory = kiriMemory_Make(NULL, NULL, NULL);
     Bag bag = { { NULL, 0, 0 } };
     const uint8_t many[9] = { 0xff, 0xff, 0xff, 0x7f, 1, 0, 0, 0, 0 }, negative[9] = { 0xff, 0xff, 0xff, 0xff, 0 };
@@ -511,7 +500,6 @@ static uint64_t HashOfColumn(Column column)
 /* It is saved, checked, hashed and restored. */
 static void NewFieldIsOneLine(void** state)
 {
-    (void)state;
     const Column fine = { 0.5, 6, 4 }, other = { 0.5, 6, 5 };
     const Column bad[] = { { HUGE_VAL, 6, 4 }, { 0.5, 7, 4 }, { 0.5, -1, 4 }, { 0.5, 6, 2 }, { 0.5, 6, 6 } };
     assert_true(CanLoad(fine) && CanLoad(other));
@@ -608,7 +596,6 @@ static void CheckLanesOfNormals(const Patchwork* work, const float* positions)
 /* Skinning and normals: plain C and the lanes of the machine give the same bits, in ranges too. */
 static void BitsAreThoseOfPlainC(void** state)
 {
-    (void)state;
     static const double sizes[] = { 1.0, 1e-12, 1e12 };
     for (uint32_t seed = 1; seed <= 60; ++seed) {
         float plain[3 * VERTICES + 1] = { 0.0f }, positions[3 * VERTICES + 1] = { 0.0f };

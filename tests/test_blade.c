@@ -41,12 +41,7 @@ static void Stage_StartCurtain(Stage* stage, int32_t grid, int32_t ticks)
     stage->host.every = 40;
     stage->sheet = Host_AddRectangle(&stage->host, &def, 1.0f, 1.0f, grid, grid);
     for (int k = 0; k < 2; ++k) {
-        kiriPinDef pinDef;
-        kiriPin pin;
-        kiriDefaultPinDef(&pinDef);
-        pinDef.restPoint[0] = pinDef.target[0] = (float)k;
-        pinDef.restPoint[1] = pinDef.target[2] = 1.0f;
-        OK(kiriCreatePin(stage->host.world, stage->sheet, &pinDef, &pin));
+        Host_Pin(&stage->host, stage->sheet, (float)k, 1.0f, (float)k, 0.0f, 1.0f);
     }
     for (int32_t i = 0; i < ticks; ++i) {
         OK(Host_Tick(&stage->host, 1.0f / 60.0f, 2));
@@ -171,7 +166,6 @@ static void CheckSwipe(const Swipe* swipe)
 /* Once across, in one step or many, part it, each time. */
 static void TestSwipesPart(void** state)
 {
-    (void)state;
     static const int32_t steps[4] = { 1, 3, 20, 90 };
     for (int32_t motion = 0; motion < MOTIONS; ++motion) {
         for (int k = 0; k < 16; ++k) {
@@ -231,21 +225,18 @@ static int32_t CountDiscs(int32_t count, int32_t held)
 
 static void TestCirclesByHand(void** state)
 {
-    (void)state;
     assert_int_equal(CountDiscs(36, 0), 36);
 }
 
 /* A blade that waits where the circle begins closes it as well. */
 static void TestCirclesAfterWaiting(void** state)
 {
-    (void)state;
     assert_int_equal(CountDiscs(12, 10), 12);
 }
 
 /* A loop that ends where it began, to the bit, is closed. */
 static void TestClosedLoop(void** state)
 {
-    (void)state;
     static const double corners[5][2] = { { 0.3, 0.3 }, { 0.7, 0.32 }, { 0.68, 0.7 }, { 0.31, 0.69 }, { 0.3, 0.3 } };
     Stage stage;
     Stage_StartFlat(&stage, 16, 8);
@@ -263,7 +254,6 @@ static void TestClosedLoop(void** state)
 /* A blade that stands in a sheet at rest does nothing. */
 static void TestStandsStill(void** state)
 {
-    (void)state;
     Stage stage;
     Stage_StartFlat(&stage, 16, 8);
     Begin(&stage);
@@ -285,7 +275,6 @@ static void TestStandsStill(void** state)
 /* Out over a border, back in, and out again: each time it parts. */
 static void TestLeavesAndComesBack(void** state)
 {
-    (void)state;
     Stage stage;
     Stage_StartFlat(&stage, 16, 8);
     Begin(&stage);
@@ -305,7 +294,6 @@ static void TestLeavesAndComesBack(void** state)
 /* An edge that ends above the sheet for half of its way cuts the other half. */
 static void TestShortEdge(void** state)
 {
-    (void)state;
     Stage stage;
     double longest = 0.0;
     Stage_StartFlat(&stage, 16, 8);
@@ -330,7 +318,6 @@ static void TestShortEdge(void** state)
 /* An edge that turns while it moves, fast. */
 static void TestTurningEdge(void** state)
 {
-    (void)state;
     for (int steps = 1; steps < 12; steps += 5) {
         Stage stage;
         Stage_StartFlat(&stage, 16, 8);
@@ -380,7 +367,6 @@ static void StartFolded(Stage* stage)
 /* Through both layers beside each other; and over the fold, from the open side or from the fold's. */
 static void TestFold(void** state)
 {
-    (void)state;
     static const double ways[3][4] = { { 0.2, -0.2, 0.23, 1.2 }, { -0.2, 0.5, 0.8, 0.52 }, { 0.8, 0.5, -0.2, 0.53 } };
     for (int k = 0; k < 9; ++k) {
         static const int32_t steps[3] = { 1, 20, 111 };
@@ -413,7 +399,6 @@ static void Push(const Stage* stage, int32_t piece, float y, float z)
 /* Three strips that drift apart while the blade goes through them. */
 static void TestSeveralPieces(void** state)
 {
-    (void)state;
     for (int steps = 1; steps <= 40; steps += 13) {
         static const float lines[2][4] = { { 0.35f, -0.1f, 0.35f, 1.1f }, { 0.7f, -0.1f, 0.7f, 1.1f } };
         Stage stage;
@@ -437,7 +422,6 @@ static void TestSeveralPieces(void** state)
 /* One blade for all sheets. */
 static void TestAllSheets(void** state)
 {
-    (void)state;
     Stage stage;
     kiriSheet others[2];
     Stage_StartFlat(&stage, 16, 8);
@@ -461,7 +445,6 @@ static void TestAllSheets(void** state)
 /* A blade that falls with the sheet and crosses it meanwhile leaves one straight line, without hairs at its steps. */
 static void TestFallsAlong(void** state)
 {
-    (void)state;
     Stage stage;
     kiriSheetDef def = Def(16, 8);
     def.axisV[1] = 0.0f;
@@ -492,7 +475,6 @@ static void TestFallsAlong(void** state)
 /* A piece gets a sheet of its own while the blade is in it: a blade for all goes on in it. */
 static void TestDetached(void** state)
 {
-    (void)state;
     static const float line[4] = { -0.1f, 0.3f, 1.1f, 0.3f };
     for (int lower = 0; lower < 2; ++lower) {
         Stage stage;
@@ -522,7 +504,6 @@ static void TestDetached(void** state)
    two steps. */
 static void TestOpensAtOnce(void** state)
 {
-    (void)state;
     const double dt = 1.0 / 60.0, fallen = 0.75 * 9.81 * dt * dt;
     Stage stage;
     Stage_StartCurtain(&stage, 32, 200);
@@ -557,7 +538,6 @@ static void TestOpensAtOnce(void** state)
 /* What is refused, and that it changes nothing. */
 static void TestRefusals(void** state)
 {
-    (void)state;
     Stage stage;
     kiriBlade blade = 0;
     float a[3] = { 0.0f, 0.5f, -1.0f }, b[3] = { 0.0f, 0.5f, 1.0f }, zero[3] = { 0.0f, 0.0f, 0.0f };
@@ -594,7 +574,6 @@ static void TestRefusals(void** state)
 /* Edges of any size, and of none. */
 static void TestExtremeEdges(void** state)
 {
-    (void)state;
     static const float edges[8][6] = {
         { 0.5f, -1.0f, 0.0f, 0.5f, 2.0f, 0.0f },   { 3e38f, -3e38f, 3e38f, -3e38f, 3e38f, -3e38f },
         { 0.5f, 0.5f, -1e30f, 0.5f, 0.5f, 1e30f }, { 0.6f, 0.6f, 0.0f, 0.6f, 0.6f, 0.0f },
@@ -631,7 +610,6 @@ static kiriResult Call(Stage* stage, int k)
 /* Rays that somebody casts in between make no difference, though they make boxes. */
 static void TestRaysMakeNoDifference(void** state)
 {
-    (void)state;
     uint64_t hashes[2];
     for (int asks = 0; asks < 2; ++asks) {
         Stage stage;
@@ -653,7 +631,6 @@ static void TestRaysMakeNoDifference(void** state)
 /* A ray goes straight through a sheet that falls: two pieces, and no crumb. */
 static void TestFallingSheets(void** state)
 {
-    (void)state;
     for (int32_t k = 0; k < 120; ++k) {
         kiriWorldDef worldDef;
         kiriSheetDef sheetDef;

@@ -61,7 +61,6 @@ static bool CheckRay(const Host* host, kiriSheet sheet, const float origin[3], c
 
 static void TestRays(void** state)
 {
-    (void)state;
     uint32_t seed = 17;
     int32_t hits = 0, rays = 0;
     for (int round = 0; round < 6; ++round) {
@@ -114,7 +113,6 @@ static kiriHit Cast(const Host* host, kiriSheet sheet, float x, float y)
    more. */
 static void TestWhoAsks(void** state)
 {
-    (void)state;
     Host host;
     Host_Start(&host);
     kiriSheetDef def = Host_SmallDef();
@@ -143,7 +141,6 @@ static void TestWhoAsks(void** state)
 /* The sheet that a ray meets first, of three above each other, with and without boxes. */
 static void TestAllSheets(void** state)
 {
-    (void)state;
     Host host;
     kiriSheet sheets[3], met;
     kiriHit hit;

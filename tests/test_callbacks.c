@@ -49,7 +49,6 @@ enum { FUNCTIONS = sizeof(functions) / sizeof(*functions) };
 /* The list has each function that the header declares with a world, with const or without. */
 static void TestListIsWhole(void** state)
 {
-    (void)state;
     char line[512];
     int32_t found = 0;
     FILE* header = fopen("include/kiri/kiri.h", "r");
@@ -130,14 +129,12 @@ static double Clock(void* user)
 
 static void Record(void* user, const void* bytes, int32_t count)
 {
-    (void)bytes;
     ((Caller*)user)->noted += count;
     CallAll(user, IN_RECORD);
 }
 
 static void* StartTask(void* user, kiriTaskFn* task, int32_t itemCount, int32_t minRange, void* taskContext)
 {
-    (void)minRange;
     CallAll(user, IN_START);
     task(0, itemCount, taskContext);
     return user;
@@ -145,14 +142,11 @@ static void* StartTask(void* user, kiriTaskFn* task, int32_t itemCount, int32_t 
 
 static void FinishTask(void* user, void* handle)
 {
-    (void)handle;
     CallAll(user, IN_FINISH);
 }
 
 static void Draw(void* user, const kiriDrawVertex* vertices, int32_t count)
 {
-    (void)vertices;
-    (void)count;
     CallAll(user, IN_DRAW);
 }
 
@@ -226,7 +220,6 @@ static uint64_t Run(Caller* caller, bool isArmed, int32_t* callbacks)
 
 static void TestChanging(void** state)
 {
-    (void)state;
     static Caller callers[2];
     int32_t callbacks;
     Start(&callers[0]);
@@ -256,7 +249,6 @@ static void TestChanging(void** state)
 
 static void TestReading(void** state)
 {
-    (void)state;
     static Caller caller;
     int32_t callbacks, count;
     kiriFrame frames[16];
@@ -288,14 +280,12 @@ static kiriWorld* other;
 
 static double TickOther(void* user)
 {
-    (void)user;
     OK(kiriWorld_Tick(other, 1.0f / 60.0f, 1));
     return 0.0;
 }
 
 static void TestOtherWorld(void** state)
 {
-    (void)state;
     Host hosts[2];
     Host_Start(&hosts[0]);
     other = hosts[0].world;

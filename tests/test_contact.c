@@ -25,7 +25,6 @@ static double MeanSpeed(const Touching* t, int axis)
    slides as a block does. */
 static void TestFrictionAngle(void** state)
 {
-    (void)state;
     static const double frictions[] = { 0.2, 0.5, 1.0 };
     for (int k = 0; k < 12; ++k) {
         double friction = frictions[k % 3], degree = 0.017453292519943295, gravity[3], from = 0.0;
@@ -58,7 +57,6 @@ static void TestFrictionAngle(void** state)
 
 static void TestStopping(void** state)
 {
-    (void)state;
     for (int k = 0; k < 4; ++k) {
         TouchingDef def = Touching_Def(k % 2, 5);
         Plane floor = Touching_Floor(0.4);
@@ -79,7 +77,6 @@ static void TestStopping(void** state)
 /* The floor of a conveyor moves on, and where it is does not change. */
 static void TestConveyor(void** state)
 {
-    (void)state;
     TouchingDef def = Touching_Def(TOUCHING_CLOTH, 5);
     Plane belt = Touching_Floor(0.3);
     Touching t;
@@ -99,7 +96,6 @@ static void TestConveyor(void** state)
 /* A lift carries the sheet up and along, and slows down no faster than it falls. */
 static void TestLift(void** state)
 {
-    (void)state;
     TouchingDef def = Touching_Def(TOUCHING_PLATE, 3);
     Plane floor = Touching_Floor(0.3);
     Touching t;
@@ -128,7 +124,6 @@ static double OwnTurning(const kiriTotals* t)
    by their moments. */
 static void TestSumsOfImpulses(void** state)
 {
-    (void)state;
     for (int k = 0; k < 6; ++k) {
         double gravity[3];
         TouchingDef def = Touching_Def(TOUCHING_CLOTH, 3);
@@ -161,7 +156,6 @@ static void TestSumsOfImpulses(void** state)
 /* Where it lies at rest, and where a hand lets it down on the floor: floor and hand bear the weight together. */
 static void TestRestAndHolds(void** state)
 {
-    (void)state;
     for (int held = 0; held < 2; ++held) {
         TouchingDef def = Touching_Def(TOUCHING_CLOTH, 3);
         Plane floor = Touching_Floor(0.5);
@@ -195,7 +189,6 @@ static void TestRestAndHolds(void** state)
 /* A sheet meets a free body: they go on together, momentum stays to rounding, and energy never grows. */
 static void TestMassRatios(void** state)
 {
-    (void)state;
     for (int k = 0; k < 14; ++k) {
         double ratio = pow(10.0, k % 7 - 3);
         TouchingDef def = Touching_Def(TOUCHING_PLATE, 3);
@@ -225,7 +218,6 @@ static void TestMassRatios(void** state)
    rests. */
 static void TestCrates(void** state)
 {
-    (void)state;
     static kiriContact contacts[2 * TOUCHING_MOST_POINTS];
     for (int k = 0; k < 7; ++k) {
         TouchingDef def = Touching_Def(TOUCHING_CLOTH, 3);
@@ -256,7 +248,6 @@ static void TestCrates(void** state)
 
 static void TestLoads(void** state)
 {
-    (void)state;
     for (int k = 0; k < 8; ++k) {
         double load = pow(10.0, k % 4);
         TouchingDef def = Touching_Def(k / 4, 5);
@@ -276,7 +267,6 @@ static void TestLoads(void** state)
 /* At 100 m/s in the way of a wall 1 cm thick, by any step. */
 static void TestFast(void** state)
 {
-    (void)state;
     for (int k = 0; k < 12; ++k) {
         TouchingDef def = Touching_Def(k % 2, k / 2 % 2 ? 5 : 1);
         Plane wall = Touching_Floor(0.3);
@@ -297,7 +287,6 @@ static void TestFast(void** state)
 
 static void TestPushSpeed(void** state)
 {
-    (void)state;
     static const double speeds[] = { 0.0, 0.25, 2.0 };
     for (int k = 0; k < 3; ++k) {
         double fastest = 0.0, speed = speeds[k] > 0.0 ? speeds[k] : 1.0;
@@ -334,7 +323,6 @@ static int32_t Corners(kiriContact contacts[4], const float velocity[3])
 
 static void TestRestPoints(void** state)
 {
-    (void)state;
     static const float still[3] = { 0.0f, 0.0f, 0.0f };
     TouchingDef def = Touching_Def(TOUCHING_PLATE, 3);
     kiriContact contacts[4];
@@ -393,7 +381,6 @@ static void LieDown(Touching* t, Plane* floor)
 /* A sheet that sleeps goes on to press. What moves below it, or goes, wakes it. */
 static void TestSleep(void** state)
 {
-    (void)state;
     for (int k = 0; k < 4; ++k) {
         Plane floor = Touching_Floor(0.5);
         Touching t;
@@ -420,7 +407,6 @@ static void TestSleep(void** state)
 /* Nothing of contact is left where there is none: forces are of the last tick. */
 static void TestForcesAreOfTheLastTick(void** state)
 {
-    (void)state;
     Plane floor = Touching_Floor(0.5);
     Touching t;
     const kiriContactForce* forces;
@@ -439,7 +425,6 @@ static void TestForcesAreOfTheLastTick(void** state)
 /* A planar sheet that stands on a floor in its plane. */
 static void TestPlanar(void** state)
 {
-    (void)state;
     for (int model = 0; model < 2; ++model) {
         TouchingDef def = Touching_Def(TOUCHING_PLATE, 3);
         const double along[3] = { 0.0, -9.81, 0.0 };

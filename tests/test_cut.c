@@ -181,7 +181,6 @@ static void CheckCase(const Case* c, bool isParted)
 
 static void HandMadeCases(void** state)
 {
-    (void)state;
     for (size_t k = 0; k < sizeof(cases) / sizeof(cases[0]); ++k) {
         CheckCase(&cases[k], false);
         CheckCase(&cases[k], true);
@@ -204,7 +203,6 @@ static kiriResult AddLoose(Host* host, const float* corners, int32_t triangles, 
 /* The blade only touches the sharp corner; it must not be led along a side. */
 static void TouchesSharpCorners(void** state)
 {
-    (void)state;
     static const float triangles[2][6] = { { 0, 0, 4, -1, 4, 0 }, { 0, 0, 4, 0, 4, 1 } };
     for (int up = 0; up < 2; ++up) {
         float side = up ? 1.0f : -1.0f, line[4] = { -1.5f, -side, 3.0f, 2.0f * side };
@@ -221,7 +219,6 @@ static void TouchesSharpCorners(void** state)
 /* A corner in the middle of another part's side: the blade goes on from part to part. */
 static void CutsThroughSplitSides(void** state)
 {
-    (void)state;
     static const float positions[] = { 0, 0, 1, 0, 1, 2, 0, 2, 1, 0, 2, 0, 2, 1, 1, 1, 2, 2, 1, 2 };
     static const int32_t indices[] = { 0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7, 7, 6, 8, 7, 8, 9 };
     for (int way = 0; way < 2; ++way) {
@@ -249,7 +246,6 @@ static void CutsThroughSplitSides(void** state)
    along their edges make none twice. */
 static void MakesNoEdgeTwice(void** state)
 {
-    (void)state;
     static const float eighths[] = { 0, 0, 8, 0, 8, 8, 0, 0, 8, 8, 0, 8, 8, 0, 16, 0, 8, 8, 16, 0, 16, 8, 8, 8 };
     uint32_t seed = 77;
     int32_t made = 0;
@@ -288,7 +284,6 @@ static void MakesNoEdgeTwice(void** state)
    vertices that are not in their source triangles. */
 static void PullsNoOutlineAlong(void** state)
 {
-    (void)state;
     static const float corners[24] = { 0,    0, 2048, 0,          2048, 2048, 0,    0, 2048, 2048, 0,    1792,
                                        2048, 0, 4096, 536870912,  2048, 2048, 4096, 0, 4096, 2048, 2048, 2048 };
     static const float lines[6][8] = {
@@ -417,7 +412,6 @@ static float Near(uint32_t* seed, float last, double reach)
 
 static void LipsFollowTheBlade(void** state)
 {
-    (void)state;
     static const double snaps[] = { 1.6e-5, 1.6e-3, 0.16 };
     for (uint32_t round = 0; round < 12; ++round) {
         uint32_t seed = 2015 + round;
@@ -452,7 +446,6 @@ static void LipsFollowTheBlade(void** state)
 /* A row of vertices at a small angle must not lead the blade away. */
 static void DoesNotDrift(void** state)
 {
-    (void)state;
     static const float line[4] = { 0.0f, 1.0f, 256.0f, 1.6f };
     Host host;
     kiriSheet sheet;

@@ -107,11 +107,7 @@ static void Begin(Stage* stage)
     ball.position[2] = -0.27f;
     OK(kiriCreateObstacle(stage->host.world, &ball, &stage->ball));
 
-    kiriPinDef pin;
-    kiriPin made;
-    kiriDefaultPinDef(&pin);
-    pin.target[2] = 0.01f;
-    OK(kiriCreatePin(stage->host.world, stage->sheet, &pin, &made));
+    kiriPin made = Host_Pin(&stage->host, stage->sheet, 0.0f, 0.0f, 0.0f, 0.0f, 0.01f);
     OK(kiriSheet_HingeLine(stage->host.world, stage->sheet, (float[]){ 0.0f, 0.0f }, (float[]){ 1.0f, 0.0f }, &made));
     Host_Cut(&stage->host, stage->sheet, (float[]){ 0.7f, 1.1f, 0.72f, 0.71f, 1.1f, 0.7f }, 3);
     for (int i = 0; i < 30; ++i) {
@@ -147,7 +143,6 @@ static void CountEdges(const kiriMesh* mesh, int32_t* inner, int32_t* border)
 
 static void TestCounts(void** state)
 {
-    (void)state;
     Stage stage;
     Begin(&stage);
     Canvas* canvas = &stage.canvas;
@@ -206,7 +201,6 @@ static float DistanceTo(const kiriDrawVertex* vertex, const float point[3])
 
 static void TestPlaces(void** state)
 {
-    (void)state;
     Stage stage;
     Begin(&stage);
     Canvas* canvas = &stage.canvas;
@@ -253,7 +247,6 @@ static void TestPlaces(void** state)
 
 static void TestBlades(void** state)
 {
-    (void)state;
     Stage stage;
     Begin(&stage);
     Canvas* canvas = &stage.canvas;
@@ -273,7 +266,6 @@ static void TestBlades(void** state)
 /* While a cut waits for its budget, and for pieces that are destroyed meanwhile: what is seen is drawn. */
 static void TestWork(void** state)
 {
-    (void)state;
     Stage stage;
     Begin(&stage);
     kiriBudget budget = { .cells = 40, .samples = 20 };
@@ -319,7 +311,6 @@ static void AddShape(Host* host, int32_t type, float height)
 
 static void TestShapes(void** state)
 {
-    (void)state;
     static const int32_t lines[6] = { 5, 96, 132, 12, 68, 9 }; /* by type */
     int32_t all = 0;
     Host host;
@@ -341,7 +332,6 @@ static void TestShapes(void** state)
 
 static void TestOfOneSheet(void** state)
 {
-    (void)state;
     Stage stage;
     Begin(&stage);
     kiriSheetDef def = Host_SmallDef();
@@ -357,7 +347,6 @@ static void TestOfOneSheet(void** state)
 
 static void TestFaults(void** state)
 {
-    (void)state;
     Stage stage;
     Begin(&stage);
     kiriDebugDraw draw = stage.canvas.draw;

@@ -113,7 +113,6 @@ static bool TryFall(const Fall* fall)
 
 static void TestFalls(void** state)
 {
-    (void)state;
     static const int32_t frames[] = { 1, 4, 12 }, obstacles[] = { -1, KIRI_OBSTACLE_BOX, KIRI_OBSTACLE_SPHERE };
     static const float tilts[] = { 0.0f, 0.3f, 1.2f, 1.57f };
     int failed = 0;

@@ -157,7 +157,6 @@ static double Drop(const Sheet* s, int32_t count)
    squares. */
 static void SlitsBendAsFarAsTheyShould(void** state)
 {
-    (void)state;
     static const float half[4] = { 0.05f, -0.01f, 0.05f, 0.025f }, most[4] = { 0.05f, -0.01f, 0.05f, 0.04f };
     static const int32_t counts[5] = { 24, 36, 48, 96, 150 };
     static const float squares[2] = { 0.00125f, 0.0013f };
@@ -180,7 +179,6 @@ static void SlitsBendAsFarAsTheyShould(void** state)
    160 x 40. */
 static void LigamentsStretchAsTheyShould(void** state)
 {
-    (void)state;
     static const float slits[12] = { 0.08f, -0.01f, 0.08f, 0.035f, 0.12f, -0.01f,
                                      0.12f, 0.035f, 0.1f,  0.06f,  0.1f,  0.015f };
     static const int32_t counts[4] = { 36, 48, 96, 150 };
@@ -313,7 +311,6 @@ static bool IsTold(const char* name, Outcome o)
 
 static void EstimateOfARow(void** state)
 {
-    (void)state;
     static Elastica elastica;
     static const int32_t counts[5] = { 3, 4, 5, 7, 10 };
     Reference reference = { &elastica, NULL };
@@ -325,7 +322,6 @@ static void EstimateOfARow(void** state)
 
 static void EstimateOfWideSheets(void** state)
 {
-    (void)state;
     static Shell shell;
     static const int32_t counts[4] = { 6, 12, 24, 48 };
     Reference reference = { NULL, &shell };
@@ -337,7 +333,6 @@ static void EstimateOfWideSheets(void** state)
 
 static void EstimateAroundASlit(void** state)
 {
-    (void)state;
     static Shell shell;
     static const int32_t counts[12] = { 6, 9, 12, 15, 18, 24, 30, 36, 48, 64, 96, 140 };
     Reference reference = { NULL, &shell };
@@ -352,7 +347,6 @@ static void EstimateAroundASlit(void** state)
 /* Layouts on which no constant was chosen. */
 static void EstimateOfCrookedLayouts(void** state)
 {
-    (void)state;
     static Elastica elastica;
     static Shell wide, tongue;
     static const int32_t counts[3] = { 14, 33, 64 };
@@ -371,7 +365,6 @@ static void EstimateOfCrookedLayouts(void** state)
 /* Nothing bends: no error. One frame, or two: nothing to tell from. Other models have no links to ask. */
 static void EstimateAtTheEnds(void** state)
 {
-    (void)state;
     for (int32_t frames = 1; frames < 4; ++frames) {
         double estimate = -1.0;
         Host host;
@@ -391,7 +384,6 @@ static void EstimateAtTheEnds(void** state)
 
 static void EstimateNeedsLittle(void** state)
 {
-    (void)state;
     double estimate = -1.0;
     Host host;
     StartHost(&host);
@@ -428,7 +420,6 @@ static void AssertReached(const char* name, const Sheet* s, const Reference* ref
 
 static void AccuracyIsReached(void** state)
 {
-    (void)state;
     static Elastica elastica;
     static Shell wide, tongue;
     Reference references[3] = { { &elastica, NULL }, { NULL, &wide }, { NULL, &tongue } };
@@ -441,7 +432,6 @@ static void AccuracyIsReached(void** state)
 /* No more than the grid carries, and not fewer than it takes to bend. */
 static void AccuracyHasLimits(void** state)
 {
-    (void)state;
     static const struct {
         float young, accuracy;
         int32_t least, most;

@@ -19,7 +19,6 @@ static void AssertWell(const Extreme* e)
 
 static void TestTable(void** state)
 {
-    (void)state;
     for (int i = 0; i < extremeCount; ++i) {
         if (!extremes[i].full) {
             AssertWell(&extremes[i]);
@@ -30,7 +29,6 @@ static void TestTable(void** state)
 static void TestAtRandom(void** state)
 {
     uint32_t seed = 98765;
-    (void)state;
     for (int i = 0; i < 40; ++i) {
         Extreme e = Extreme_Random(&seed);
         AssertWell(&e);
@@ -107,7 +105,6 @@ static void AssertAtRest(const State* now, const State* before)
 static void TestOneDiverges(void** state)
 {
     Host host, other;
-    (void)state;
     Host_Start(&host);
     Host_Start(&other);
     kiriSheet first = AddSheet(&host, 0.0f), bad = AddSheet(&host, 5.0f), last = AddSheet(&host, 9.0f);
@@ -144,7 +141,6 @@ static void TestOneDiverges(void** state)
 static void TestForcesUpTo(void** state)
 {
     Host host;
-    (void)state;
     Host_Start(&host);
     kiriSheet sheet = AddSheet(&host, 0.0f);
     int diverged = 0;
@@ -174,7 +170,6 @@ static void TestForcesUpTo(void** state)
 static void TestSpinsUpTo(void** state)
 {
     int diverged = 0;
-    (void)state;
     for (int k = 0; k < 38; ++k) {
         Host host;
         Host_Start(&host);
@@ -208,7 +203,6 @@ static void TestHeldOutOfReach(void** state)
 {
     Host host;
     const float far[3] = { 3e38f, -3e38f, 3e38f }, rotation[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
-    (void)state;
     Host_Start(&host);
     kiriSheet sheet = AddSheet(&host, 0.0f);
     State before = Read(&host, sheet);
@@ -230,7 +224,6 @@ static void TestHeldOutOfReach(void** state)
 static void TestNormalsFarAway(void** state)
 {
     Host host;
-    (void)state;
     Host_Start(&host);
     kiriSheetDef def = Host_SmallDef();
     def.position[0] = def.position[1] = def.position[2] = 1e5f;

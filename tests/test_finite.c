@@ -124,7 +124,6 @@ static void RunNet(uint32_t run)
 
 static void TestNets(void** state)
 {
-    (void)state;
     for (uint32_t run = 1; run <= 150; ++run) {
         RunNet(run);
     }

@@ -26,7 +26,6 @@ static void WriteText(const char* text)
 
 static void TestScriptKeepsEvents(void** state)
 {
-    (void)state;
     const GameEvent events[] = { { 3, GAME_DOWN, 0, GAME_LEFT, 480, 360, 0 },
                                  { 3, GAME_MOVE, 0, 0, -5, 719, 0 },
                                  { 4, GAME_KEY_PRESSED, 0, 0, 0, 0, GAME_KEY_SPACE },
@@ -60,7 +59,6 @@ static void TestScriptKeepsEvents(void** state)
 
 static void TestScriptRefusesNonsense(void** state)
 {
-    (void)state;
     static const char* const texts[] = { "3 jump 0 1\n", "down 0 1 2 3\n", "3 down 0 1 2\n", "3 keydown enter\n",
                                          "5 move 0 1 2\n4 move 0 1 2\n" };
     Script script;
@@ -79,7 +77,6 @@ static void TestScriptRefusesNonsense(void** state)
 
 static void TestRaysMeetWhatIsSeenThere(void** state)
 {
-    (void)state;
     const GameCamera cameras[2] = { { { 0.3f, -3.0f, 1.5f }, { 0.0f, 0.2f, 0.8f }, 34.0f, 0.0f },
                                     { { 0.0f, -5.0f, 1.0f }, { 0.5f, 0.0f, 1.2f }, 0.0f, 2.5f } };
     const float point[3] = { 0.4f, 0.3f, 1.1f };
@@ -101,7 +98,6 @@ static void TestRaysMeetWhatIsSeenThere(void** state)
 
 static void TestSoundsAreHeardAndEnd(void** state)
 {
-    (void)state;
     static float samples[2 * SOUND_RATE];
     Sounds sounds;
     for (int32_t type = 0; type < SOUND_COUNT; type++) {
@@ -168,7 +164,6 @@ static uint64_t PlayEvents(Play* play, const Recorded* recorded, int32_t firstTi
 /* What was recorded gives the same again, after a restart, too. */
 static void TestCurtainIsReplayed(void** state)
 {
-    (void)state;
     static Recorded recorded;
     static Play play;
     const GameEvent restart = { RECORD_TICKS, GAME_KEY_PRESSED, 0, 0, 0, 0, 'r' };
@@ -184,7 +179,6 @@ static void TestCurtainIsReplayed(void** state)
 /* The file has the calls since the level was last started: they go as they did without the game. */
 static void TestCallsAreRecorded(void** state)
 {
-    (void)state;
     static Play play;
     static uint8_t bytes[1 << 18];
     const GameEvent restart = { 2, GAME_KEY_PRESSED, 0, 0, 0, 0, 'r' };
@@ -246,7 +240,6 @@ static uint64_t PlayUntil(Play* play, const Recorded* recorded, int32_t tick, in
 /* A cut that is taken back was never there: what follows goes as it did. */
 static void TestCutsAreTakenBack(void** state)
 {
-    (void)state;
     static Recorded recorded;
     static Play play;
     PlayDemo(&curtainGame, 5, 0, RECORD_TICKS, &recorded);
@@ -283,7 +276,6 @@ static void TestCutsAreTakenBack(void** state)
 /* The demo cuts the same lines whatever the cloth does, so it does not win every level. */
 static void TestCurtainIsWon(void** state)
 {
-    (void)state;
     static Recorded recorded;
     int32_t won = 0;
     for (int32_t i = 0; i < 8; i++) {
@@ -297,7 +289,6 @@ static void TestCurtainIsWon(void** state)
 
 int main(int count, char** words)
 {
-    (void)count;
     snprintf(filePath, sizeof filePath, "%s.script", words[0]);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestScriptKeepsEvents),       cmocka_unit_test(TestScriptRefusesNonsense),

@@ -107,7 +107,6 @@ static void CheckChunk(Walk* walk, const uint8_t* chunk)
 
 static void TestChunks(void** state)
 {
-    (void)state;
     static uint8_t bytes[MAX_FILE];
     WriteFilm();
     size_t size = ReadFile(bytes), at = 8;
@@ -131,7 +130,6 @@ static void TestChunks(void** state)
 /* A program that does not know animated PNG sees the first frame. */
 static void TestFirstFrame(void** state)
 {
-    (void)state;
     static uint8_t seen[BYTES];
     Image drawn;
     png_image png;
@@ -191,7 +189,6 @@ static void GoOver(uint8_t* shown, const uint8_t* rgba)
 /* One over the other, all frames show what was drawn but for 2 in 255, and these do not add up. */
 static void TestAllFrames(void** state)
 {
-    (void)state;
     static uint8_t film[MAX_FILE], file[MAX_FILE], rgba[4 * WIDTH * HEIGHT], shown[BYTES];
     static const int seen[FRAMES] = { 0, 0, 2 }; /* of which frame the lower rows are */
     Image drawn, lower;
@@ -220,7 +217,6 @@ static void TestAllFrames(void** state)
 
 static void TestRefusals(void** state)
 {
-    (void)state;
     Image image;
     Apng apng;
     assert_true(Image_Create(&image, WIDTH, HEIGHT));
@@ -238,7 +234,6 @@ static void TestRefusals(void** state)
 
 static int RemoveFile(void** state)
 {
-    (void)state;
     return remove(filePath);
 }
 

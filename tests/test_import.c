@@ -191,7 +191,6 @@ static void CutAndCheckUvs(Host* host, kiriSheet sheet, const Import* mesh, doub
 /* Two islands of texture coordinates side by side, as tools unwrap them: the vertices between are there twice. */
 static void ClosesSeams(void** state)
 {
-    (void)state;
     for (int i = 0; i < 2; ++i) {
         uint32_t seed = 5;
         double shake = i == 0 ? 0.0 : 1e-4;
@@ -215,7 +214,6 @@ static void ClosesSeams(void** state)
 /* A side of a tube, unwrapped around an axis: a ring whose ends meet, of triangles of an island each. */
 static void ClosesRings(void** state)
 {
-    (void)state;
     enum { SECTORS = 24, RINGS = 4 };
     Host host;
     Host_Start(&host);
@@ -309,7 +307,6 @@ static void CutBoth(Host* a, Host* b, uint32_t* seed)
 /* A soup and the mesh with shared vertices give the same sheet, bit for bit, also after cuts. */
 static void WeldsSoupsOfAnyMesh(void** state)
 {
-    (void)state;
     uint32_t seed = 41;
     for (int i = 0; i < 60; ++i) {
         Host hosts[2];
@@ -329,7 +326,6 @@ static void WeldsSoupsOfAnyMesh(void** state)
 /* The same where the copies of a vertex lie beside each other. */
 static void WeldsShakenSoups(void** state)
 {
-    (void)state;
     uint32_t seed = 42;
     for (int i = 0; i < 60; ++i) {
         float weld = (float)RandomBetween(&seed, 1e-5, 1e-2);
@@ -360,7 +356,6 @@ static void GoOnElsewhere(Host* host)
 /* Squares in a row, with gaps: those narrower than the distance close. */
 static void WeldsWhatIsNear(void** state)
 {
-    (void)state;
     static const struct {
         float gaps[2];
         int32_t pieces;
@@ -389,7 +384,6 @@ static void WeldsWhatIsNear(void** state)
 /* Where two corners of a triangle are one, nothing is left of it, and its neighbours meet. */
 static void LeavesOutSlivers(void** state)
 {
-    (void)state;
     static const float rest[] = { 0, 0, 1, 0, 1, 0.5f, 1, 0.5001f, 1, 1, 0, 1 };
     static const int32_t indices[] = { 0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 5 };
     Host host;
@@ -430,7 +424,6 @@ static void LeavesOutSlivers(void** state)
 /* They change nothing, wherever they lie. */
 static void LeavesOutUnusedVertices(void** state)
 {
-    (void)state;
     uint32_t seed = 44;
     for (int i = 0; i < 40; ++i) {
         int32_t to[MOST_VERTICES];
@@ -481,7 +474,6 @@ static void Refuse(Host* host, const Import* mesh, float weld, kiriResult expect
 /* One triangle of many is bad: the line has its number, wherever it is. */
 static void NamesTheTriangle(void** state)
 {
-    (void)state;
     uint32_t seed = 46;
     Host host;
     Host_Start(&host);
@@ -526,7 +518,6 @@ static void NamesTheTriangle(void** state)
 
 static void NamesWhatWeldingDoes(void** state)
 {
-    (void)state;
     static const float flat[] = { 2, 2, 2, 2, 2, 2 }, small[] = { 0, 0, 1, 0, 0, 1 };
     static const float flips[] = { 0, 0, 1, 0, 0.5f, 0.01f, 0.505f, -0.03f, 0.52f, -1 };
     static const int32_t two[] = { 0, 1, 2, 0, 3, 1 }, one[] = { 0, 1, 2 };
@@ -564,7 +555,6 @@ static void NamesWhatWeldingDoes(void** state)
 /* A line names the call that the host made. */
 static void RectanglesSpeakForThemselves(void** state)
 {
-    (void)state;
     static const float far[] = { 0.5f, 0.5f, 3.0f, 3.0f };
     Host host;
     kiriSheet sheet;

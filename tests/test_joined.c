@@ -159,7 +159,6 @@ static Outcome DrawAtRandom(uint32_t run, const kiriBudget* budget)
 /* Mesh, grid, regions, frames, weights and links do not depend on the budget, though updates do. */
 static void TestSameInTheEnd(void** state)
 {
-    (void)state;
     static const kiriBudget none = { 0, 0, 0, 0 };
     static const kiriBudget budgets[] = { { 16, 6, 4, 0 },     { 40, 60, 20, 0 }, { 100, 400, 100, 0 },
                                           { 0, 1500, 400, 0 }, { 30, 0, 0, 0 },   { 0, 0, 50, 0 } };
@@ -218,7 +217,6 @@ static int32_t TicksToPart(const kiriBudget* budget, int32_t squares, int32_t bl
 /* A slow hand does not make lips wait longer than an update that is at work when the blade leaves does. */
 static void TestSlowBladePartsSoon(void** state)
 {
-    (void)state;
     static const int32_t bladeTicks[] = { 4, 8, 16, 30, 60 };
     static const kiriBudget budget = { 0, 4000, 1000, 0 };
     int32_t atOnce = TicksToPart(&budget, 32, 1);
@@ -274,7 +272,6 @@ static int32_t TicksOfShort(const kiriBudget* budget, bool isOtherCut)
 /* A long cut in one sheet does not hold up a short one in another. */
 static void TestShortCutGoesFirst(void** state)
 {
-    (void)state;
     static const kiriBudget budget = { 0, 600, 200, 0 };
     int32_t alone = TicksOfShort(&budget, false), beside = TicksOfShort(&budget, true);
     assert_in_range(beside, alone, 2 * alone + 2);
@@ -283,7 +280,6 @@ static void TestShortCutGoesFirst(void** state)
 /* Nor do short ones hold up a long one for ever, however many come. */
 static void TestLongCutComesToItsEnd(void** state)
 {
-    (void)state;
     static const kiriBudget budget = { 0, 600, 200, 0 };
     int32_t ticks[2];
     for (int k = 0; k < 2; ++k) {
@@ -303,7 +299,6 @@ static void TestLongCutComesToItsEnd(void** state)
 /* Slits that part nothing make frames rigid; more are added when the cut ends, in whatever tick. */
 static void TestFramesWhenCutEnds(void** state)
 {
-    (void)state;
     static const kiriBudget budgets[] = { { 0, 0, 0, 0 }, { 30, 90, 30, 0 } };
     for (size_t k = 0; k < 2; ++k) {
         Host host;
@@ -337,7 +332,6 @@ static void TestFramesWhenCutEnds(void** state)
    again. */
 static void TestEndIsRefused(void** state)
 {
-    (void)state;
     int32_t refused = 0;
     for (int32_t points = 1; points < 40; ++points) {
         Host host;

@@ -107,7 +107,6 @@ static double SlitError(int32_t frames, int32_t grid, double angle, bool isThere
 
 static void SlitSquaresHangAsTheyShould(void** state)
 {
-    (void)state;
     static const struct {
         int32_t frames;
         double most;
@@ -129,7 +128,6 @@ static void SlitSquaresHangAsTheyShould(void** state)
 /* Rows of frames with each frame moved by up to a quarter of the spacing. */
 static void JitteredRowsHangAsTheyShould(void** state)
 {
-    (void)state;
     static const struct {
         int32_t rows;
         double most;
@@ -157,32 +155,41 @@ static void JitteredRowsHangAsTheyShould(void** state)
     }
 }
 
-/* One row of frames that zigzags by `aside` widths to both sides. Returns the torque that twists the strip by 0.1 rad, by
-   Saint-Venant's. */
-static double TorqueOfZigzag(int32_t count, double aside, float poissonsRatio)
+/* A strip of 0.2 x 0.02 m with one row of frames that zigzags by `aside` widths to both sides, clamped at both ends. */
+static kiriSheet AddClampedStrip(Host* host, kiriSheetDef* def, int32_t count, double aside, const float gravity[3],
+                                 int32_t columns, kiriPin clamps[2])
 {
-    const float length = 0.2f, width = 0.02f, angle = 0.1f;
-    const float ends[8] = { 0.0f, 0.0f, 0.0f, width, length, 0.0f, length, width }, middle[3] = { length, 0.5f * width };
-    const float turned[9] = { 1.0f, 0.0f, 0.0f, 0.0f, cosf(angle), sinf(angle), 0.0f, -sinf(angle), cosf(angle) };
-    const float none[3] = { 0.0f, 0.0f, 0.0f };
+    const float length = 0.2f, width = 0.02f;
+    const float ends[8] = { 0.0f, 0.0f, 0.0f, width, length, 0.0f, length, width };
     float points[2 * 64];
-    kiriSheetDef def = PaperDef(160, 1.0f);
-    def.material = (kiriMaterial){ 7.4e8f, poissonsRatio, 5e-4f, 1000.0f, 20.0f, 0.0f, 0.0f, 0.0f, 0 };
-    def.frameCount = def.maxFrames = count;
-    def.framePoints = points;
+    def->frameCount = def->maxFrames = count;
+    def->framePoints = points;
     for (int32_t i = 0; i < count; ++i) {
         points[2 * i] = length * ((float)i + 0.5f) / (float)count;
         points[2 * i + 1] = width * (float)(i % 2 == 0 ? 0.5 - aside : 0.5 + aside);
     }
+    Host_Start(host);
+    host->every = 1000;
+    OK(kiriWorld_SetGravity(host->world, gravity));
+    kiriSheet sheet = Host_AddRectangle(host, def, length, width, columns, columns / 10);
+    OK(kiriSheet_ClampLine(host->world, sheet, ends, ends + 2, &clamps[0]));
+    OK(kiriSheet_ClampLine(host->world, sheet, ends + 4, ends + 6, &clamps[1]));
+    return sheet;
+}
+
+/* Returns the torque that twists a zigzag by 0.1 rad, by Saint-Venant's. */
+static double TorqueOfZigzag(int32_t count, double aside, float poissonsRatio)
+{
+    const float length = 0.2f, width = 0.02f, angle = 0.1f;
+    const float middle[3] = { length, 0.5f * width };
+    const float turned[9] = { 1.0f, 0.0f, 0.0f, 0.0f, cosf(angle), sinf(angle), 0.0f, -sinf(angle), cosf(angle) };
+    const float none[3] = { 0.0f, 0.0f, 0.0f };
+    kiriSheetDef def = PaperDef(160, 1.0f);
+    def.material = (kiriMaterial){ 7.4e8f, poissonsRatio, 5e-4f, 1000.0f, 20.0f, 0.0f, 0.0f, 0.0f, 0 };
     Host host;
-    Host_Start(&host);
-    host.every = 1000;
-    OK(kiriWorld_SetGravity(host.world, none));
-    kiriSheet sheet = Host_AddRectangle(&host, &def, length, width, 160, 16);
     kiriPin clamps[2];
     double force[3], torque[3];
-    OK(kiriSheet_ClampLine(host.world, sheet, ends, ends + 2, &clamps[0]));
-    OK(kiriSheet_ClampLine(host.world, sheet, ends + 4, ends + 6, &clamps[1]));
+    AddClampedStrip(&host, &def, count, aside, none, 160, clamps);
     OK(kiriPin_SetPose(host.world, clamps[1], middle, turned));
     for (int32_t tick = 0; tick < 200; ++tick) {
         OK(kiriWorld_Tick(host.world, 0.5f, 1));
@@ -195,7 +202,6 @@ static double TorqueOfZigzag(int32_t count, double aside, float poissonsRatio)
 
 static void ZigzagsTwistAsTheyShould(void** state)
 {
-    (void)state;
     static const int32_t counts[4] = { 8, 12, 16, 24 };
     for (int k = 0; k < 8; ++k) {
         double worst = 0.0;
@@ -215,26 +221,13 @@ static void CheckClampedStrip(int32_t count, int32_t skinning)
 {
     const float length = 0.2f, width = 0.02f;
     const double E = 7.4e8, h = 2e-4, sag = 0.02 * h, L = (double)length;
-    const float ends[8] = { 0.0f, 0.0f, 0.0f, width, length, 0.0f, length, width };
     const float load[3] = { 0.0f, 0.0f, (float)(-sag * 32.0 * E * h * h / (1000.0 * L * L * L * L)) };
     kiriSheetDef def = PaperDef(80, 1.0f);
     def.material = (kiriMaterial){ (float)E, 0.0f, (float)h, 1000.0f, 20.0f, 0.0f, 0.0f, 0.0f, 0 };
     def.skinning = skinning;
-    def.frameCount = def.maxFrames = count;
-    float points[64];
-    def.framePoints = points;
-    for (int32_t i = 0; i < count; ++i) {
-        points[2 * i] = length * ((float)i + 0.5f) / (float)count;
-        points[2 * i + 1] = 0.5f * width;
-    }
     Host host;
-    Host_Start(&host);
-    host.every = 1000;
-    OK(kiriWorld_SetGravity(host.world, load));
-    kiriSheet sheet = Host_AddRectangle(&host, &def, length, width, 80, 8);
     kiriPin clamps[2];
-    OK(kiriSheet_ClampLine(host.world, sheet, ends, ends + 2, &clamps[0]));
-    OK(kiriSheet_ClampLine(host.world, sheet, ends + 4, ends + 6, &clamps[1]));
+    kiriSheet sheet = AddClampedStrip(&host, &def, count, 0.0, load, 80, clamps);
     for (int32_t tick = 0; tick < 100; ++tick) {
         OK(kiriWorld_Tick(host.world, 0.5f, 1));
     }
@@ -258,7 +251,6 @@ static void CheckClampedStrip(int32_t count, int32_t skinning)
 
 static void ClampedStripsAreAsStiffAsTheyShould(void** state)
 {
-    (void)state;
     static const int32_t counts[4] = { 3, 5, 9, 17 };
     for (int k = 0; k < 8; ++k) {
         CheckClampedStrip(counts[k / 2], k % 2 == 0 ? KIRI_SKINNING_LINEAR : KIRI_SKINNING_SMOOTH);
@@ -270,18 +262,13 @@ static void ClampedStripsAreAsStiffAsTheyShould(void** state)
 static void PinCorners(Host* host, kiriSheet sheet, kiriPin pins[2])
 {
     for (int32_t corner = 0; corner < 2; ++corner) {
-        kiriPinDef pin;
-        kiriDefaultPinDef(&pin);
-        pin.restPoint[0] = pin.target[0] = (float)corner;
-        pin.restPoint[1] = pin.target[1] = 1.0f;
-        OK(kiriCreatePin(host->world, sheet, &pin, &pins[corner]));
+        pins[corner] = Host_Pin(host, sheet, (float)corner, 1.0f, (float)corner, 1.0f, 0.0f);
     }
 }
 
 /* A square that hangs in its plane by two corners, which come half as near in a second: it leaves the plane. */
 static void FlatSquaresFold(void** state)
 {
-    (void)state;
     static const int32_t materials[3] = { KIRI_MATERIAL_COTTON, KIRI_MATERIAL_PAPER, KIRI_MATERIAL_RUBBER };
     for (int k = 0; k < 6; ++k) {
         const float down[3] = { 0.0f, -9.81f, 0.0f };
@@ -316,7 +303,6 @@ static void FlatSquaresFold(void** state)
 /* Cotton that hangs by two corners while a spiral is cut into it. Its links fold by half a turn. */
 static void SpiralsNeverFreeze(void** state)
 {
-    (void)state;
     static const int32_t counts[2] = { 24, 40 };
     for (int k = 0; k < 6; ++k) {
         static float were[3 * 8000];

@@ -166,7 +166,6 @@ static void DropCrumbs(Desk* desk, uint32_t random)
 
 static void DestroySheet(Desk* desk, uint32_t random)
 {
-    (void)random;
     OK(kiriDestroySheet(desk->host.world, desk->sheet));
     OK(kiriCreateSheet(desk->host.world, &desk->def, &desk->sheet));
 }
@@ -218,12 +217,7 @@ static void Pin(Desk* desk, uint32_t random)
 {
     for (uint32_t i = 0; i < 1 + random % 20; ++i) {
         const float* at = &Host_Mesh(&desk->host, desk->sheet).restPositions[0];
-        kiriPinDef def;
-        kiriPin pin;
-        kiriDefaultPinDef(&def);
-        def.restPoint[0] = at[0];
-        def.restPoint[1] = at[1];
-        OK(kiriCreatePin(desk->host.world, desk->sheet, &def, &pin));
+        Host_Pin(&desk->host, desk->sheet, at[0], at[1], 0.0f, 0.0f, 0.0f);
     }
 }
 
@@ -273,7 +267,6 @@ enum { BETWEENS = sizeof(betweens) / sizeof(betweens[0]) };
 
 static void TestEachCall(void** state)
 {
-    (void)state;
     for (int k = 0; k < BETWEENS; ++k) {
         Desk desk;
         Desk_Start(&desk);
@@ -288,7 +281,6 @@ static void TestEachCall(void** state)
 /* Many calls between two ticks, and arrays lent at any time: what the first call makes stale the others keep. */
 static void TestCallsAtRandom(void** state)
 {
-    (void)state;
     enum { RUNS = 40, STEPS = 12 };
     for (uint32_t run = 1; run <= RUNS; ++run) {
         uint32_t seed = 104729u * run;
@@ -314,7 +306,6 @@ static void TestCallsAtRandom(void** state)
 /* What was lent is given back: a tick frees it. */
 static void TestTickFreesWhatWasLent(void** state)
 {
-    (void)state;
     Desk desk;
     Desk_Start(&desk);
     OK(kiriDestroySheet(desk.host.world, desk.sheet));

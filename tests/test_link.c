@@ -56,7 +56,6 @@ static void CheckCorner(const Links* l, const kiriCorner* corner)
 /* Three rows, the middle one shifted by half a region: three regions meet at each corner. */
 static void CornersOfShiftedRows(void** state)
 {
-    (void)state;
     Scene scene;
     Links links;
     kiriSite sites[12];
@@ -83,7 +82,6 @@ static void CornersOfShiftedRows(void** state)
    their borders are those of the grid, pair by pair, but for three squares at each end. */
 static void RandomSheetsAddUp(void** state)
 {
-    (void)state;
     uint32_t seed = 3;
     int32_t found = 0, corners = 0;
     for (int round = 0; round < 150; ++round) {
@@ -291,7 +289,6 @@ static int32_t PlaceNet(const Scene* scene, int net, int n, uint32_t* seed, kiri
 /* On nets of 4, 6, 8 and 12 cells a spacing, wherever in its cell a site is. */
 static void BordersAreThoseOfVoronoi(void** state)
 {
-    (void)state;
     const int perSpacing[4] = { 4, 6, 8, 12 };
     uint32_t seed = 11;
     for (int net = 0; net < NETS; ++net) {
@@ -360,7 +357,6 @@ static void CheckContinuous(Scene* scene, kiriSite* sites, int32_t count, int32_
 
 static void LinksAreContinuous(void** state)
 {
-    (void)state;
     for (int net = 0; net < NETS; ++net) {
         enum { ROWS = 4 };
         uint32_t seed = 5;
@@ -378,7 +374,6 @@ static void LinksAreContinuous(void** state)
 /* Beside slits: ways turn at their ends, and borders come to their sides. */
 static void LinksAreContinuousBesideSlits(void** state)
 {
-    (void)state;
     enum { ROWS = 4 };
     const int32_t moved[] = { 5, 6, 9, 13 };
     uint32_t seed = 5;
@@ -460,7 +455,6 @@ static kiriWay WayOf(Plain* p, kiriVec2 from, kiriVec2 to)
 
 static void SlitsStopTheSight(void** state)
 {
-    (void)state;
     Plain p;
     kiriSightHit hit;
     Plain_Start(&p, 1.0, 1.0, 10, 10, 21);
@@ -487,7 +481,6 @@ static void SlitsStopTheSight(void** state)
 /* Against all edges of the mesh, one by one. */
 static void SightIsThatOfAllEdges(void** state)
 {
-    (void)state;
     uint32_t seed = 9;
     int32_t clear = 0, stopped = 0;
     for (int round = 0; round < 40; ++round) {
@@ -526,7 +519,6 @@ static void SightIsThatOfAllEdges(void** state)
 
 static void WaysTurnAtSlitEnds(void** state)
 {
-    (void)state;
     Plain p;
     Plain_Start(&p, 1.0, 1.0, 10, 10, 21);
     Scene_Slit(&p.scene, 0.3, 0.0, 0.3, 0.8);
@@ -554,7 +546,6 @@ static void WaysTurnAtSlitEnds(void** state)
    through it. */
 static void NoWayThroughAKnee(void** state)
 {
-    (void)state;
     Plain p;
     Plain_Start(&p, 1.0, 1.0, 10, 10, 21);
     Scene_Slit(&p.scene, 0.5, 0.2, 0.5, 0.5);

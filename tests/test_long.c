@@ -14,7 +14,6 @@ static int64_t bytesLive;
 
 static void* CountingAlloc(void* user, int64_t bytes)
 {
-    (void)user;
     int64_t* block = malloc(16 + (size_t)bytes);
     assert_non_null(block);
     block[0] = bytes;
@@ -24,7 +23,6 @@ static void* CountingAlloc(void* user, int64_t bytes)
 
 static void CountingFree(void* user, void* pointer)
 {
-    (void)user;
     if (pointer != NULL) {
         int64_t* block = (int64_t*)pointer - 2;
         bytesLive -= block[0];
@@ -270,19 +268,16 @@ static void PlayLong(bool staysOne)
 
 static void TestSheetsThatGo(void** state)
 {
-    (void)state;
     PlayLong(false);
 }
 
 static void TestSheetThatStays(void** state)
 {
-    (void)state;
     PlayLong(true);
 }
 
 int main(int count, char** arguments)
 {
-    (void)arguments;
     const struct CMUnitTest tests[] = { cmocka_unit_test(TestSheetsThatGo), cmocka_unit_test(TestSheetThatStays) };
     period = count > 1 ? LONG_PERIOD : PERIOD;
     return cmocka_run_group_tests(tests, NULL, NULL);

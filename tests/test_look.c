@@ -88,7 +88,6 @@ static Looks LookAtArc(double angle, int32_t linear, int32_t skinning)
    curvature, over the circle's, at most 4 more. */
 static void EasedWeightsLeaveNoCrease(void** state)
 {
-    (void)state;
     static const double angles[] = { 0.1, 0.3, 0.6, 1.0 };
     for (size_t k = 0; k < sizeof(angles) / sizeof(angles[0]); ++k) {
         double t = angles[k];
@@ -104,7 +103,6 @@ static void EasedWeightsLeaveNoCrease(void** state)
 /* The same frames: a smooth surface is nearly the cylinder, a linear one is not. */
 static void SmoothSurfacesAreRound(void** state)
 {
-    (void)state;
     static const double angles[] = { 0.09, 0.26, 0.52 };
     for (size_t k = 0; k < sizeof(angles) / sizeof(angles[0]); ++k) {
         Looks flat = LookAtArc(angles[k], 0, KIRI_SKINNING_LINEAR), round = LookAtArc(angles[k], 0, KIRI_SKINNING_SMOOTH);
@@ -118,7 +116,6 @@ static void SmoothSurfacesAreRound(void** state)
 /* Creases: a patch bends by at most 0.2 rad, rms over its region, which is a sag of 9 mm, whatever its neighbors do. */
 static void StrongBendsAreLimited(void** state)
 {
-    (void)state;
     static const double angles[] = { 0.52, 1.26, 2.4 };
     for (size_t k = 0; k < sizeof(angles) / sizeof(angles[0]); ++k) {
         Looks flat = LookAtArc(angles[k], 0, KIRI_SKINNING_LINEAR), bent = LookAtArc(angles[k], 0, KIRI_SKINNING_SMOOTH);
@@ -220,7 +217,6 @@ static double SteepestOpening(double end, double slant)
    mean, and up to 3.9. */
 static void SlitsOpenFromTheirEnd(void** state)
 {
-    (void)state;
     static const double slants[] = { 0.37, -0.2, 0.5 };
     double sum = 0.0, worst = 0.0;
     for (int k = 0; k < 18; ++k) {

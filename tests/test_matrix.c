@@ -21,6 +21,16 @@ typedef struct Element {
 
 static Element elements[16];
 
+static void FillElement(Element* element, int32_t size, uint32_t* seed)
+{
+    for (int32_t n = 0; n < ROWS * element->count * size; ++n) {
+        element->J[n] = RandomBetween(seed, -1.0, 1.0);
+    }
+    for (int32_t n = 0; n < ROWS; ++n) {
+        element->k[n] = RandomBetween(seed, 0.1, 10.0);
+    }
+}
+
 static void MakeElements(uint32_t* seed, int32_t size, int32_t frames, int32_t count)
 {
     pairCount = 0;
@@ -33,12 +43,7 @@ static void MakeElements(uint32_t* seed, int32_t size, int32_t frames, int32_t c
                 pairs[pairCount++] = (kiriPair){ element->frames[n], element->frames[m] };
             }
         }
-        for (int32_t n = 0; n < ROWS * element->count * size; ++n) {
-            element->J[n] = RandomBetween(seed, -1.0, 1.0);
-        }
-        for (int32_t n = 0; n < ROWS; ++n) {
-            element->k[n] = RandomBetween(seed, 0.1, 10.0);
-        }
+        FillElement(element, size, seed);
     }
 }
 
@@ -103,10 +108,20 @@ static void CheckBlocks(const kiriMatrix* matrix, int32_t size, int32_t frames)
     }
 }
 
+/* Factors and solves for a right side at random. */
+static void CheckSolution(kiriMatrix* matrix, int32_t unknowns, uint32_t* seed)
+{
+    for (int32_t n = 0; n < unknowns; ++n) {
+        right[n] = RandomBetween(seed, -1.0, 1.0);
+    }
+    assert_true(kiriMatrix_Factor(matrix));
+    kiriMatrix_Solve(matrix, right, solution);
+    assert_true(Residual(unknowns) < 1e-10);
+}
+
 /* One matrix gets pattern after pattern; some cover more pairs than there are elements. */
 static void TestSolves(void** state)
 {
-    (void)state;
     static const int32_t sizes[3] = { 3, 6, 12 };
     kiriMemory memory = kiriMemory_Make(NULL, NULL, NULL);
     uint32_t seed = 77;
@@ -125,12 +140,7 @@ static void TestSolves(void** state)
             for (int again = 0; again < 2; ++again) {
                 Assemble(matrix, &seed, sizes[s], frames, count);
                 CheckBlocks(matrix, sizes[s], frames);
-                for (int32_t n = 0; n < unknowns; ++n) {
-                    right[n] = RandomBetween(&seed, -1.0, 1.0);
-                }
-                assert_true(kiriMatrix_Factor(matrix));
-                kiriMatrix_Solve(matrix, right, solution);
-                assert_true(Residual(unknowns) < 1e-10);
+                CheckSolution(matrix, unknowns, &seed);
             }
         }
         kiriMemory_FreeAll(&memory);
@@ -155,18 +165,12 @@ static void MakeWideElements(uint32_t* seed, int32_t size, int32_t frames, int32
             int32_t quarter = (last - first) / MOST_MEMBERS;
             element->frames[m] = first + quarter * m + (int32_t)(Random(seed) % (uint32_t)quarter);
         }
-        for (int32_t n = 0; n < ROWS * element->count * size; ++n) {
-            element->J[n] = RandomBetween(seed, -1.0, 1.0);
-        }
-        for (int32_t n = 0; n < ROWS; ++n) {
-            element->k[n] = RandomBetween(seed, 0.1, 10.0);
-        }
+        FillElement(element, size, seed);
     }
 }
 
 static void TestWidePanels(void** state)
 {
-    (void)state;
     static const int32_t sizes[3] = { 3, 6, 12 };
     kiriMemory memory = kiriMemory_Make(NULL, NULL, NULL);
     uint32_t seed = 123;
@@ -177,12 +181,7 @@ static void TestWidePanels(void** state)
         MakeWideElements(&seed, size, frames, 12 + trial / 3);
         assert_true(kiriMatrix_Shape(matrix, frames, pairs, pairCount));
         Assemble(matrix, &seed, size, frames, 16);
-        for (int32_t n = 0; n < unknowns; ++n) {
-            right[n] = RandomBetween(&seed, -1.0, 1.0);
-        }
-        assert_true(kiriMatrix_Factor(matrix));
-        kiriMatrix_Solve(matrix, right, solution);
-        assert_true(Residual(unknowns) < 1e-10);
+        CheckSolution(matrix, unknowns, &seed);
     }
     kiriMemory_FreeAll(&memory);
 }
@@ -190,7 +189,6 @@ static void TestWidePanels(void** state)
 /* The AVX kernel and Eigen give the same bits. */
 static void TestVectors(void** state)
 {
-    (void)state;
     static double other[MOST];
     static const int32_t sizes[3] = { 3, 6, 12 };
     kiriMemory memory = kiriMemory_Make(NULL, NULL, NULL);
@@ -219,7 +217,6 @@ static void TestVectors(void** state)
 
 static void TestCovers(void** state)
 {
-    (void)state;
     kiriMemory memory = kiriMemory_Make(NULL, NULL, NULL);
     uint32_t seed = 5;
     kiriMatrix* matrix = kiriMatrix_Create(&memory, 6);
@@ -248,7 +245,6 @@ static void TestCovers(void** state)
 /* No factor where a pivot is not positive by far; one all the same where only rounding says so. */
 static void TestNotPositive(void** state)
 {
-    (void)state;
     kiriMemory memory = kiriMemory_Make(NULL, NULL, NULL);
     kiriMatrix* matrix = kiriMatrix_Create(&memory, 3);
     kiriPair pair = { 0, 1 };
@@ -275,7 +271,6 @@ static void TestNotPositive(void** state)
 /* Every target gives these bits. */
 static void TestHashes(void** state)
 {
-    (void)state;
     kiriMemory memory = kiriMemory_Make(NULL, NULL, NULL);
     for (int k = 0; k < MATRIX_SIZES; ++k) {
         assert_true(MatrixHash(&memory, matrixGolden[k].size, false) == matrixGolden[k].hash);
@@ -306,21 +301,18 @@ void* malloc(size_t bytes)
 
 static void* CountAlloc(void* user, int64_t bytes)
 {
-    (void)user;
     ++requests;
     return malloc((size_t)bytes);
 }
 
 static void FreeCounted(void* user, void* pointer)
 {
-    (void)user;
     free(pointer);
 }
 
 /* Neither the host nor malloc is asked for memory after Shape. */
 static void TestNoMemory(void** state)
 {
-    (void)state;
     static const int32_t sizes[3] = { 3, 6, 12 };
     kiriMemory memory = kiriMemory_Make(CountAlloc, FreeCounted, NULL);
     uint32_t seed = 31;

@@ -81,17 +81,12 @@ static kiriSheet AddSheet(Host* host, const Setting* setting)
     def.planar = setting->planar;
     def.paper.integrationOrder = setting->order;
     kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 6, 6);
-    kiriPinDef pin;
-    kiriPin id;
-    kiriDefaultPinDef(&pin);
-    pin.restPoint[0] = pin.restPoint[1] = pin.target[0] = pin.target[1] = 0.9f;
-    OK(kiriCreatePin(host->world, sheet, &pin, &id));
+    Host_Pin(host, sheet, 0.9f, 0.9f, 0.9f, 0.9f, 0.0f);
     return sheet;
 }
 
 static void TestPlainTicks(void** state)
 {
-    (void)state;
     static const Setting settings[] = { { KIRI_MODEL_LINKS, 0, 1 },  { KIRI_MODEL_LINKS, 1, 1 },
                                         { KIRI_MODEL_AFFINE, 0, 1 }, { KIRI_MODEL_AFFINE, 1, 1 },
                                         { KIRI_MODEL_POINTS, 0, 2 }, { KIRI_MODEL_POINTS, 1, 1 } };
@@ -124,7 +119,6 @@ static void TestPlainTicks(void** state)
    doubles: so ever fewer ticks ask for memory. */
 static void TestCuttingTicks(void** state)
 {
-    (void)state;
     enum { TICKS = 800 };
     Host host;
     kiriCut cut;
@@ -197,7 +191,6 @@ static void CheckIndices(const Host* host, kiriSheet sheet, kiriCounts counts)
    the ticks, no tick stands still, and nothing is lost. */
 static void TestScarceMemoryIsASpentBudget(void** state)
 {
-    (void)state;
     enum { EVERY = 10 };
     const kiriBudget budget = { 64, 700, 700, 0 };
     int32_t ticks[2] = { 0, 0 };
@@ -226,7 +219,6 @@ static void TestScarceMemoryIsASpentBudget(void** state)
    the most; and of one with fewer. The detail layer of cotton takes 121. */
 static void TestBytesOfVertices(void** state)
 {
-    (void)state;
     static const struct {
         int32_t grid;
         double most;

@@ -43,7 +43,6 @@ static const float Unit[] = { 0, 0, 1, 0, 1, 1, 0, 1 };
 
 static void RefusesWhatIsNoSheet(void** state)
 {
-    (void)state;
     const int32_t repeated[] = { 0, 1, 1, 0, 2, 3 }, clockwise[] = { 0, 2, 1, 0, 2, 3 }, twice[] = { 0, 1, 2, 0, 1, 2 };
     const int32_t same[] = { 0, 1, 2, 0, 2, 3, 1, 2, 3 }, one[] = { 0, 1, 2 };
     const float point[] = { 3, 3, 3, 3, 3, 3 }, line[] = { 0, 0, 1, 1, 2, 2 };
@@ -61,7 +60,6 @@ static void RefusesWhatIsNoSheet(void** state)
 
 static void RefusesOverlap(void** state)
 {
-    (void)state;
     const int32_t two[] = { 0, 1, 2, 3, 4, 5 };
     const float crossing[] = { 0, 0, 4, 0, 2, 3, 0, 2, 2, -1, 4, 2 }, inside[] = { 0, 0, 9, 0, 0, 9, 1, 1, 2, 1, 1, 2 };
     const float apart[] = { 0, 0, 4, 0, 2, 3, 9, 0, 12, 0, 9, 3 };
@@ -77,7 +75,6 @@ static void RefusesOverlap(void** state)
    rounding does not let them lie on each other. */
 static void RefusesOverlapOfTheSmallest(void** state)
 {
-    (void)state;
     const int32_t two[] = { 0, 1, 2, 3, 4, 5 };
     const float on[] = { 0, 0, 1e8f, 0, 0, 1, 0.5f, 0, 1.5f, 0, 1.5f, 1 };
     const float beside[] = { 0, 0, 1e8f, 0, 0, 1, 0.5f, 1, 1.5f, 1, 1.5f, 2 };
@@ -104,7 +101,6 @@ static bool IsApart(const float* a, const float* b)
 /* Triangles thrown at random, few enough that often none overlap: against all pairs. */
 static void RefusesOverlapAnywhere(void** state)
 {
-    (void)state;
     enum { TRIANGLES = 12, RANGE = 40 };
     uint32_t seed = 5;
     int32_t refused = 0, indices[3 * TRIANGLES];
@@ -137,7 +133,6 @@ static void RefusesOverlapAnywhere(void** state)
    few do, others do, too. */
 static void RefusesStripsOverThemselves(void** state)
 {
-    (void)state;
     enum { LINKS = 24, POINTS = 2 * (LINKS + 1), TRIANGLES = 2 * LINKS };
     uint32_t seed = 11;
     int32_t refused = 0, indices[3 * TRIANGLES];
@@ -178,7 +173,6 @@ static void RefusesStripsOverThemselves(void** state)
 /* 20 000 triangles within 1e-4 of the sheet, and one far away; then one more in the crowd, on others. */
 static void TakesCrowds(void** state)
 {
-    (void)state;
     enum { SIDE = 100, VERTICES = (SIDE + 1) * (SIDE + 1), TRIANGLES = 2 * SIDE * SIDE };
     static float points[2 * (VERTICES + 6)];
     static int32_t indices[3 * (TRIANGLES + 2)];
@@ -196,7 +190,6 @@ static void TakesCrowds(void** state)
 /* All triangles around one vertex. */
 static void TakesHubs(void** state)
 {
-    (void)state;
     enum { SPOKES = 3000 };
     static float points[2 * (SPOKES + 1)];
     static int32_t indices[3 * SPOKES];
@@ -213,7 +206,6 @@ static void TakesHubs(void** state)
 /* Nine triangles wound twice around a vertex: no edge is used twice, but they lie on each other. */
 static void RefusesWindingTwice(void** state)
 {
-    (void)state;
     const float ring[] = { 0, 0, 4, 0, 3, 3, 0, 4, -3, 3, -4, 0, -3, -3, 0, -4, 3, -3 };
     int32_t indices[24];
     for (int32_t i = 0; i < 8; ++i) {
@@ -233,7 +225,6 @@ static void RefusesWindingTwice(void** state)
    corner alone have a vertex each. */
 static void DividesVertices(void** state)
 {
-    (void)state;
     const float slit[] = { 0, 0, 1, 0, 2, 0, 0, 1, 1, 1, 2, 1, 1, 0 }, pinch[] = { 0, 0, 1, 0, 0, 1, 1, 1, 2, 1, 1, 2, 2, 2 };
     const int32_t lips[] = { 0, 1, 4, 0, 4, 3, 6, 2, 5, 6, 5, 4 }, squares[] = { 0, 1, 3, 0, 3, 2, 3, 4, 6, 3, 6, 5 };
     CheckTaken(slit, 7, lips, 4, 2, 8);

@@ -61,12 +61,7 @@ static uint64_t CutInTwo(const Choice* choice, float* fallen)
     SetGravity(&host, 0.5f, -9.81f, choice->planar ? 0.0f : 1.0f);
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 3, 3);
     for (int k = 0; k < 2; ++k) {
-        kiriPinDef pin;
-        kiriPin id;
-        kiriDefaultPinDef(&pin);
-        memcpy(pin.restPoint, at[k], sizeof(at[k]));
-        memcpy(pin.target, at[k], sizeof(at[k]));
-        OK(kiriCreatePin(host.world, sheet, &pin, &id));
+        Host_Pin(&host, sheet, at[k][0], at[k][1], at[k][0], at[k][1], 0.0f);
     }
     for (int n = 0; n < 60; ++n) {
         if (n == 20) {
@@ -93,7 +88,6 @@ static uint64_t CutInTwo(const Choice* choice, float* fallen)
 static void CutsAllModels(void** state)
 {
     uint64_t hashes[CHOICES];
-    (void)state;
     for (int k = 0; k < CHOICES; ++k) {
         float first, second;
         hashes[k] = CutInTwo(&choices[k], &first);
@@ -117,7 +111,6 @@ static void NewFramesAreStretched(void** state)
     Choice choice = { KIRI_MODEL_AFFINE, 0, 0, 1 };
     kiriSheetDef def = DefOf(&choice);
     Host host;
-    (void)state;
     Host_Start(&host);
     SetGravity(&host, 0.0f, -9.81f, 0.0f);
     def.material.airDamping = 5.0f;
@@ -126,12 +119,7 @@ static void NewFramesAreStretched(void** state)
     def.gridResolution = 32;
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
     for (int k = 0; k < 5; ++k) {
-        kiriPinDef pin;
-        kiriPin id;
-        kiriDefaultPinDef(&pin);
-        pin.restPoint[0] = pin.target[0] = 0.25f * k;
-        pin.restPoint[1] = pin.target[1] = 1.0f;
-        OK(kiriCreatePin(host.world, sheet, &pin, &id));
+        Host_Pin(&host, sheet, 0.25f * k, 1.0f, 0.25f * k, 1.0f, 0.0f);
     }
     for (int n = 0; n < 200; ++n) {
         OK(kiriWorld_Tick(host.world, 0.02f, 1));
@@ -154,7 +142,6 @@ static void NewFramesAreStretched(void** state)
 /* A free sheet keeps its momentum, and energy only falls. */
 static void TotalsHold(void** state)
 {
-    (void)state;
     for (int k = 0; k < CHOICES; ++k) {
         kiriSheetDef def = DefOf(&choices[k]);
         Host host;
@@ -193,7 +180,6 @@ static void TotalsHold(void** state)
 /* A sheet whose axes are slanted, with forces across its plane and a hold off it, stays in its plane. */
 static void PlanarSheetsStayInTheirPlane(void** state)
 {
-    (void)state;
     for (int k = 0; k < CHOICES; ++k) {
         uint32_t seed = 31;
         kiriSheetDef def = DefOf(&choices[k]);
@@ -235,7 +221,6 @@ static void PlanarSheetsStayInTheirPlane(void** state)
 /* In its plane a sheet moves alike with and without motion across it. */
 static void PlanarEqualsSpace(void** state)
 {
-    (void)state;
     for (int k = 0; k < CHOICES; ++k) {
         kiriFrameState states[2];
         for (int planar = 0; planar < 2; ++planar) {
@@ -265,7 +250,6 @@ static void PlanarEqualsSpace(void** state)
 /* A sheet that is pulled at one end, and was not quite flat, becomes flat: tension does not make it buckle. */
 static void TensionDoesNotBuckle(void** state)
 {
-    (void)state;
     for (int k = 0; k < CHOICES; ++k) {
         static const float pull[3] = { 4.0f, 0.0f, 0.0f }, push[3] = { 0.0f, 0.0f, 1e-3f };
         kiriSheetDef def = DefOf(&choices[k]);
@@ -301,7 +285,6 @@ static void TensionDoesNotBuckle(void** state)
 static void MemoryIsKept(void** state)
 {
     static const float line[4] = { -0.2f, 0.45f, 1.2f, 0.55f };
-    (void)state;
     for (int k = 0; k < CHOICES; ++k) {
         kiriSheetDef def = DefOf(&choices[k]);
         Rectangle rectangle = Rectangle_Make(&def, 1.0f, 1.0f, 3, 3);
@@ -353,7 +336,6 @@ static void ArgumentsAreChecked(void** state)
     Choice planar = { KIRI_MODEL_AFFINE, 1, 0, 1 };
     kiriSheetDef def = DefOf(&planar);
     Host host;
-    (void)state;
     Host_Start(&host);
     assert_int_equal(TryDef(&host, -1, 0, 0, 1), KIRI_ERROR_ARGUMENT);
     assert_int_equal(TryDef(&host, 3, 0, 0, 1), KIRI_ERROR_ARGUMENT);

@@ -75,7 +75,6 @@ static void CheckPoints(const Pile* with, const Pile* without)
 /* With contacts at edges, with sheets that touch each other or do not, and with cuts that take effect. */
 static void TestAllElseIsTheSame(void** state)
 {
-    (void)state;
     for (int32_t which = 0; which < 4; ++which) {
         const int32_t skinning = which % 2, touches = which / 2;
         static const float line[4] = { -0.1f, 0.4f, 0.6f, 0.55f }, across[4] = { -0.1f, 0.2f, 1.1f, 0.3f };
@@ -110,7 +109,6 @@ static void TestAllElseIsTheSame(void** state)
 /* Normals that are asked for in between are there at once; those of a sheet that makes none are refused. */
 static void TestNormalsComeAndGo(void** state)
 {
-    (void)state;
     Pile piles[2];
     kiriSheetSettings settings;
     float copied[3];

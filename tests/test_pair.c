@@ -33,7 +33,6 @@ static kiriSheet AddSquare(Host* host, const kiriSheetDef* def)
 
 static void TestPairsAreFoundWhereNear(void** state)
 {
-    (void)state;
     static const float none[3] = { 0.0f, 0.0f, 0.0f };
     const struct {
         float x, z;
@@ -78,7 +77,6 @@ static bool IsAwake(const Host* host, kiriSheet sheet)
 /* A sheet that moved while it was the only one, and fell asleep, is found where it lies. */
 static void TestWhoWasAloneIsFound(void** state)
 {
-    (void)state;
     Host host;
     Host_Start(&host);
     host.every = 30;
@@ -107,12 +105,8 @@ static kiriSheet AddPinnedSquare(Host* host, float z, kiriPin pins[4])
     def.material.airDamping = 5.0f;
     kiriSheet sheet = AddSquare(host, &def);
     for (int k = 0; k < 4; ++k) {
-        kiriPinDef pin;
-        kiriDefaultPinDef(&pin);
-        pin.restPoint[0] = pin.target[0] = 0.2f * (float)(k % 2);
-        pin.restPoint[1] = pin.target[1] = 0.2f * (float)(k / 2);
-        pin.target[2] = z;
-        OK(kiriCreatePin(host->world, sheet, &pin, &pins[k]));
+        float u = 0.2f * (float)(k % 2), v = 0.2f * (float)(k / 2);
+        pins[k] = Host_Pin(host, sheet, u, v, u, v, z);
     }
     return sheet;
 }
@@ -121,7 +115,6 @@ static kiriSheet AddPinnedSquare(Host* host, float z, kiriPin pins[4])
    that is refused on the way changes nothing. */
 static void TestSleeperIsMet(void** state)
 {
-    (void)state;
     for (int way = 0; way < 4; ++way) {
         const float z = way % 2 == 0 ? -0.3f : 0.3f;
         Host host;
@@ -164,7 +157,6 @@ static void TestSleeperIsMet(void** state)
 
 static void TestGroupsApart(void** state)
 {
-    (void)state;
     Host host;
     Host_Start(&host);
     kiriSheetDef def = SquareDef(0.0f, 0.0f, 0.0f);
@@ -216,7 +208,6 @@ static void TickUntilAsleep(Host* host, const kiriSheet* sheets, int count, int 
 
 static void TestPileRestsInOrder(void** state)
 {
-    (void)state;
     Host host;
     kiriSheet sheets[PILE];
     StartPile(&host, sheets);
@@ -236,7 +227,6 @@ static void TestPileRestsInOrder(void** state)
 /* In a high pile the lower sheets are stopped in the tick in which those above still fall. */
 static void TestHighPileRests(void** state)
 {
-    (void)state;
     enum { HIGH = 16 };
     Host host;
     kiriSheet sheets[HIGH];
@@ -254,7 +244,6 @@ static void TestHighPileRests(void** state)
 
 static void TestNeverCrossOnTheirWay(void** state)
 {
-    (void)state;
     Host host;
     kiriSheet sheets[PILE];
     StartPile(&host, sheets);
@@ -267,7 +256,6 @@ static void TestNeverCrossOnTheirWay(void** state)
 
 static void TestWhatTouchesWakesAndFallsAsleepTogether(void** state)
 {
-    (void)state;
     Host host;
     kiriSheet sheets[PILE];
     StartPile(&host, sheets);
@@ -303,12 +291,8 @@ static double Sag(bool isLoaded)
     def.contactThickness = 0.004f;
     kiriSheet cloth = Host_AddRectangle(&host, &def, 0.4f, 0.4f, 16, 16);
     for (int k = 0; k < 4; ++k) {
-        kiriPinDef pin;
-        kiriPin id;
-        kiriDefaultPinDef(&pin);
-        pin.restPoint[0] = pin.target[0] = k % 2 == 0 ? 0.0f : 0.4f;
-        pin.restPoint[1] = pin.target[1] = k < 2 ? 0.0f : 0.4f;
-        OK(kiriCreatePin(host.world, cloth, &pin, &id));
+        float u = k % 2 == 0 ? 0.0f : 0.4f, v = k < 2 ? 0.0f : 0.4f;
+        Host_Pin(&host, cloth, u, v, u, v, 0.0f);
     }
     if (isLoaded) {
         def.position[0] = def.position[1] = 0.15f;
@@ -327,7 +311,6 @@ static double Sag(bool isLoaded)
 
 static void TestLowerSheetFeelsTheWeight(void** state)
 {
-    (void)state;
     double own = Sag(false), loaded = Sag(true);
     assert_true(own > 0.0 && own < 0.2 && loaded > 1.05 * own && loaded < 0.2);
 }
@@ -335,7 +318,6 @@ static void TestLowerSheetFeelsTheWeight(void** state)
 /* Two sheets that fall together do so as one that falls alone. */
 static void TestFallingPairFallsFreely(void** state)
 {
-    (void)state;
     Host host;
     Host_Start(&host);
     kiriSheetDef def = SquareDef(0.0f, 0.0f, 0.0f);
@@ -357,7 +339,6 @@ static void TestFallingPairFallsFreely(void** state)
 /* A square is cut out of a sheet that hangs, and falls clear of it. */
 static void TestPieceFallsClear(void** state)
 {
-    (void)state;
     static const float square[] = { 0.35f, 0.3f, 0.65f, 0.3f, 0.65f, 0.6f, 0.35f, 0.6f, 0.35f, 0.3f };
     Host host;
     Host_Start(&host);
@@ -370,12 +351,7 @@ static void TestPieceFallsClear(void** state)
     def.axisV[2] = 1.0f;
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 32, 32);
     for (int k = 0; k < 3; ++k) {
-        kiriPinDef pin;
-        kiriPin id;
-        kiriDefaultPinDef(&pin);
-        pin.restPoint[0] = pin.target[0] = 0.5f * (float)k;
-        pin.restPoint[1] = pin.target[2] = 1.0f;
-        OK(kiriCreatePin(host.world, sheet, &pin, &id));
+        Host_Pin(&host, sheet, 0.5f * (float)k, 1.0f, 0.5f * (float)k, 0.0f, 1.0f);
     }
     OK(Host_Tick(&host, dt, 2));
     Host_Cut(&host, sheet, square, 5);
@@ -413,11 +389,7 @@ static int32_t FoldOnce(int32_t selfContact, uint64_t* hash)
         for (int i = 0; i < 3; ++i) {
             const float y = 0.001f + 0.299f * (float)i;
             const float target[3] = { 0.3f + 0.3f * cosf(angle), y, 0.005f + 0.3f * sinf(angle) };
-            kiriPinDef pin;
-            kiriDefaultPinDef(&pin);
-            pin.restPoint[0] = 0.599f;
-            pin.restPoint[1] = y;
-            memcpy(pin.target, target, sizeof target);
+            kiriPinDef pin = Host_PinDef(0.599f, y, target[0], y, target[2]);
             OK(tick == 0 ? kiriCreatePin(host.world, sheet, &pin, &pins[i]) :
                tick < 110 ? kiriPin_SetTarget(host.world, pins[i], target) :
                tick == 110 ? kiriDestroyPin(host.world, pins[i]) : KIRI_OK);
@@ -436,7 +408,6 @@ static int32_t FoldOnce(int32_t selfContact, uint64_t* hash)
 
 static void TestFoldsStayApart(void** state)
 {
-    (void)state;
     uint64_t hashes[2];
     assert_true(FoldOnce(0, &hashes[0]) > 50);
     for (int run = 0; run < 2; ++run) {
@@ -447,7 +418,6 @@ static void TestFoldsStayApart(void** state)
 
 static void TestSameCallsSameBits(void** state)
 {
-    (void)state;
     uint64_t hashes[2];
     for (int run = 0; run < 2; ++run) {
         Host host;
@@ -464,7 +434,6 @@ static void TestSameCallsSameBits(void** state)
 
 static void TestPlainTicksAllocateNothing(void** state)
 {
-    (void)state;
     Host host;
     kiriSheet sheets[PILE];
     StartPile(&host, sheets);
@@ -485,7 +454,6 @@ static void TestPlainTicksAllocateNothing(void** state)
 /* A tick that is refused leaves the world as it was, and the next ones go on as if nothing had been. */
 static void TestRefusedTicksChangeNothing(void** state)
 {
-    (void)state;
     enum { TICKS = 6 };
     uint64_t expected = 0;
     for (int64_t fail = -1; fail < 40; ++fail) {

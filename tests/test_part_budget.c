@@ -98,23 +98,6 @@ static kiriSheet AnySheet(const Host* host, uint32_t* seed)
     return Host_SheetAt(host, draw % 5 == 0 ? (int32_t)(other % count) : 0);
 }
 
-/* Across all of the sheet, or a loop in it. */
-static void CutSomewhere(Host* host, kiriSheet sheet, uint32_t* seed)
-{
-    float from = (float)RandomBetween(seed, 0.0, 1.0), to = (float)RandomBetween(seed, 0.0, 1.0);
-    float u = (float)RandomBetween(seed, 0.1, 0.8), v = (float)RandomBetween(seed, 0.1, 0.8);
-    switch (Random(seed) % 3) {
-    case 0:
-        Host_Cut(host, sheet, (float[]){ from, -0.1f, to, 1.1f }, 2);
-        break;
-    case 1:
-        Host_Cut(host, sheet, (float[]){ -0.1f, from, 1.1f, to }, 2);
-        break;
-    default:
-        Host_Cut(host, sheet, (float[]){ u, v, u + 0.15f, v, u + 0.1f, v + 0.15f, u, v }, 4);
-    }
-}
-
 /* Frames of so many pieces of the sheet, each once, and not of all. */
 static int32_t ChooseTargets(const Host* host, kiriSheet sheet, uint32_t* seed, kiriFrame* targets)
 {
@@ -193,14 +176,14 @@ static double PlayRound(Host* host, uint32_t* seed, int32_t samples, int32_t* wa
 {
     kiriFrame targets[MOST_TARGETS];
     for (int32_t cuts = 2 + (int32_t)(Random(seed) % 3); cuts > 0; --cuts) {
-        CutSomewhere(host, AnySheet(host, seed), seed);
+        Host_CutSomewhere(host, AnySheet(host, seed), seed);
     }
     Settle(host, samples);
     kiriSheet sheet = AnySheet(host, seed);
     double gone = Random(seed) % 3 == 0 ? Drop(host, sheet, 0.004) : 0.0;
     int32_t count = ChooseTargets(host, sheet, seed, targets);
     gone += Part(host, sheet, targets, count, seed, waited, samples);
-    CutSomewhere(host, sheet, seed);
+    Host_CutSomewhere(host, sheet, seed);
     return gone;
 }
 
@@ -312,7 +295,6 @@ static int32_t TicksToLeave(const kiriBudget* budget, bool isOtherCut)
 /* Cuts in another sheet take all of a tick, or what they need, and leave enough. */
 static void TestOthersAreCut(void** state)
 {
-    (void)state;
     static const kiriBudget budgets[] = { { 0, 0, 20, 0 }, { 40, 100, 20, 0 }, { 40, 400, 100, 0 } };
     for (size_t i = 0; i < sizeof(budgets) / sizeof(*budgets); ++i) {
         int32_t alone = TicksToLeave(&budgets[i], false), beside = TicksToLeave(&budgets[i], true);
@@ -323,7 +305,6 @@ static void TestOthersAreCut(void** state)
 /* The part is what it would be at once. */
 static void TestDisturbed(void** state)
 {
-    (void)state;
     for (int disturbance = 0; disturbance < DISTURBANCES; ++disturbance) {
         Host hosts[2];
         StartDisturbed(&hosts[0], disturbance, true);
@@ -390,7 +371,6 @@ static void RunAtRandom(uint32_t run, int32_t squares, const kiriBudget* budget,
 
 static void TestSmallSheets(void** state)
 {
-    (void)state;
     int32_t waited = 0;
     for (uint32_t run = 1; run <= 8; ++run) {
         const kiriBudget budget = { 60, 300, run % 2 ? 25 : 150, 0 };
@@ -401,7 +381,6 @@ static void TestSmallSheets(void** state)
 
 static void TestLargeSheets(void** state)
 {
-    (void)state;
     int32_t waited = 0;
     for (uint32_t run = 1; run <= 2; ++run) {
         const kiriBudget budget = { 200, 1500, run % 2 ? 150 : 1500, 0 };

@@ -87,7 +87,6 @@ static int32_t ListFrames(Host* host, kiriSheet sheet, int32_t stays, kiriFrame*
 
 static void TestManyAreAsOneByOne(void** state)
 {
-    (void)state;
     static kiriFrame frames[MOST_PIECES];
     static kiriSheet sheets[2][MOST_PIECES];
     for (int detach = 0; detach < 2; ++detach) {
@@ -120,7 +119,6 @@ static void TestManyAreAsOneByOne(void** state)
 /* Of several sheets, and frames of one piece more than once. */
 static void TestOfSeveralSheets(void** state)
 {
-    (void)state;
     Host host;
     Host_Start(&host);
     kiriSheetDef def = DefOf(16);
@@ -177,7 +175,6 @@ static kiriFrame FrameNear(Host* host, kiriSheet sheet, float u, float v)
    too. */
 static void TestPartsCountOtherMassesExactly(void** state)
 {
-    (void)state;
     Host hosts[2];
     for (int k = 0; k < 2; ++k) {
         kiriSheetDef def = DefOf(24);
@@ -202,24 +199,6 @@ static void TestPartsCountOtherMassesExactly(void** state)
 }
 
 /* ---- At random ---- */
-
-static void CutAtRandom(Host* host, kiriSheet sheet, uint32_t* seed)
-{
-    float from = (float)RandomBetween(seed, 0.0, 1.0), to = (float)RandomBetween(seed, 0.0, 1.0);
-    float u = (float)RandomBetween(seed, 0.1, 0.8), v = (float)RandomBetween(seed, 0.1, 0.8);
-    float chord[4] = { from, -0.1f, to, 1.1f }, across[4] = { -0.1f, from, 1.1f, to };
-    float loop[8] = { u, v, u + 0.15f, v, u + 0.1f, v + 0.15f, u, v };
-    switch (Random(seed) % 3) {
-    case 0:
-        Host_Cut(host, sheet, chord, 2);
-        break;
-    case 1:
-        Host_Cut(host, sheet, across, 2);
-        break;
-    default:
-        Host_Cut(host, sheet, loop, 4);
-    }
-}
 
 /* Detaches or destroys up to three pieces of the first sheet. The area that is left is what it was but for theirs. */
 static kiriResult PartAtRandom(Host* host, kiriSheet sheet, uint32_t* seed)
@@ -253,7 +232,6 @@ static kiriResult PartAtRandom(Host* host, kiriSheet sheet, uint32_t* seed)
 /* The same calls to a sheet that is made anew after each cut: what is left is what a rebuild would give. */
 static void TestLeftIsAsFromScratch(void** state)
 {
-    (void)state;
     int32_t parted = 0;
     for (uint32_t run = 1; run <= 3; ++run) {
         Host hosts[2];
@@ -268,7 +246,7 @@ static void TestLeftIsAsFromScratch(void** state)
         }
         for (int tick = 0; tick < 30; ++tick) {
             for (int k = 0; k < 2; ++k) {
-                CutAtRandom(&hosts[k], sheets[k], &seeds[k]);
+                Host_CutSomewhere(&hosts[k], sheets[k], &seeds[k]);
                 assert_true(Host_Tick(&hosts[k], 1.0f / 60.0f, 1) >= 0);
                 if (tick % 3 == 2) {
                     kiriResult result = PartAtRandom(&hosts[k], sheets[k], &seeds[k]);
@@ -312,7 +290,6 @@ static bool IsHit(const Host* host, kiriSheet sheet, float u, float v)
 /* Arrays that the host has stay as they were. What has left is neither in the mesh nor hit. */
 static void TestGoneIsNotSeen(void** state)
 {
-    (void)state;
     Host host;
     kiriSheetDef def = DefOf(24);
     Host_Start(&host);
@@ -355,7 +332,6 @@ static void TestGoneIsNotSeen(void** state)
 /* A small sheet falls through the place of a removed piece in a large one that is held, and lies on it beside. */
 static void TestGoneTouchesNothing(void** state)
 {
-    (void)state;
     Host host;
     Host_Start(&host);
     kiriSheetDef def = DefOf(24), small = DefOf(8);
@@ -396,7 +372,6 @@ static void TestGoneTouchesNothing(void** state)
    tick, and no tick spends more than it has. In the end all is as without a budget. */
 static void TestCallsKeepToTheBudget(void** state)
 {
-    (void)state;
     enum { PIECES = 36, SAMPLES = 3000 };
     uint64_t layouts[2] = { 0, 0 };
     for (int k = 0; k < 2; ++k) {
@@ -452,7 +427,6 @@ static void TestCallsKeepToTheBudget(void** state)
 /* Destroying pieces counts, too, of all sheets in one call: coming ticks pay for it. */
 static void TestDestroyingIsOnAccount(void** state)
 {
-    (void)state;
     const kiriBudget budget = { 0, 0, 50, 0 };
     int32_t paid[2] = { 0, 0 };
     for (int32_t sheets = 1; sheets <= 2; ++sheets) {
@@ -485,7 +459,6 @@ static void TestDestroyingIsOnAccount(void** state)
 /* In whatever stage the work is. The world is validated after every tick. */
 static void TestUnderBudgets(void** state)
 {
-    (void)state;
     int32_t waited[KIRI_STAGE_COUNT] = { 0 }, finished = 0;
     for (uint32_t run = 1; run <= 4; ++run) {
         const kiriBudget budgets[2] = { { 20, 60, 15, 0 }, { 0, 200, 60, 0 } };
@@ -498,7 +471,7 @@ static void TestUnderBudgets(void** state)
         OK(kiriWorld_SetBudget(host.world, &budgets[run % 2]));
         for (int tick = 0; tick < 150; ++tick) {
             if (tick % 12 == 0 && tick < 90) {
-                CutAtRandom(&host, sheet, &seed);
+                Host_CutSomewhere(&host, sheet, &seed);
             }
             assert_true(Host_Tick(&host, 1.0f / 60.0f, 1) >= 0);
             finished += Host_Events(&host, KIRI_EVENT_PIECE_DETACHED, NULL);
@@ -571,7 +544,6 @@ static Wait StartWait(Host* host, const kiriBudget* budget)
 /* What comes of it is what comes of it without a budget. */
 static void TestWaitingChangesNothing(void** state)
 {
-    (void)state;
     static const kiriBudget budgets[2] = { { 0, 50, 20, 0 }, { 0, 0, 0, 0 } };
     Host hosts[2];
     for (int k = 0; k < 2; ++k) {
@@ -605,7 +577,6 @@ static void TestWaitingChangesNothing(void** state)
 /* A piece that waits to go is not seen, not hit and not found, and nothing touches it. */
 static void TestGoneIsGone(void** state)
 {
-    (void)state;
     static const kiriBudget budget = { 0, 30, 20, 0 };
     Host host;
     Wait wait = StartWait(&host, &budget);
@@ -673,7 +644,6 @@ static void TestGoneIsGone(void** state)
 /* What waits to be detached may be destroyed, and something has to be left all the time. */
 static void TestAskedTwice(void** state)
 {
-    (void)state;
     static const kiriBudget budget = { 0, 30, 20, 0 };
     Host host;
     Wait wait = StartWait(&host, &budget);
@@ -701,7 +671,6 @@ static void TestAskedTwice(void** state)
 /* The largest piece waits to be detached: crumbs are below the next one, too, for the sheet must not be left empty. */
 static void TestCrumbsWhileTheLargestLeaves(void** state)
 {
-    (void)state;
     static const kiriBudget budget = { 0, 30, 20, 0 };
     Host host;
     Wait wait = StartWait(&host, &budget);
@@ -727,7 +696,6 @@ static void TestCrumbsWhileTheLargestLeaves(void** state)
    the vertices of a strip get. A part has its own patches, so other vertices touch. */
 static void TestTouchesGoOn(void** state)
 {
-    (void)state;
     for (int detach = 0; detach < 2; ++detach) {
         Host hosts[2];
         kiriSheet sheets[2], made = 0;
@@ -793,7 +761,6 @@ static int32_t RunWait(Host* host, Wait* wait, int32_t ticks, int32_t refuseFrom
 /* Memory that is refused in the tick in which pieces go is an error of that tick, and they wait on: no more. */
 static void TestWaitingIsPatient(void** state)
 {
-    (void)state;
     int32_t refused = 0, ticks;
     bool isDone = false;
     Host host;
@@ -859,7 +826,6 @@ static void TryShape(float width, float height, int32_t columns, int32_t rows, i
 /* What used to hang: more frames than cells, by count or by rigidArea. */
 static void TestFewCells(void** state)
 {
-    (void)state;
     static const int32_t resolutions[] = { 1, 2, 3, 4, 8, 24, 96 }, frames[] = { 1, 2, 5, 24 };
     static const float heights[] = { 0.01f, 0.1f, 1.0f }, rigidAreas[] = { 0.0f, 1e-4f, 5e-3f };
     int32_t refused = 0, tried = 0;

@@ -300,7 +300,6 @@ static void Tick(Past* past)
 
 static void FollowsAStorm(void** state)
 {
-    (void)state;
     int64_t moved = 0, torn = 0, fromOthers = 0, new = 0;
     for (uint32_t seed = 1; seed <= 6; ++seed) {
         Past past = { .seed = seed * 7919 };
@@ -331,7 +330,6 @@ static void FollowsAStorm(void** state)
 
 static void CostsNothingWhereNothingChanges(void** state)
 {
-    (void)state;
     Past past = { .seed = 3 };
     Host_Start(&past.host);
     AddSheet(&past);
@@ -353,7 +351,6 @@ static void CostsNothingWhereNothingChanges(void** state)
 
 static void Refuses(void** state)
 {
-    (void)state;
     Past past = { .seed = 3 };
     Host_Start(&past.host);
     AddSheet(&past);

@@ -189,7 +189,6 @@ static void CheckPieces(Host* host, kiriSheet sheet)
 
 static void TestListsOfConfetti(void** state)
 {
-    (void)state;
     int32_t most = 0;
     for (uint32_t run = 1; run <= 12; ++run) {
         uint32_t seed = 77u * run;
@@ -213,7 +212,6 @@ static void TestListsOfConfetti(void** state)
 /* While a budget holds the work up, pieces are those of the model: they hang together as before. */
 static void TestListsWhileWorkWaits(void** state)
 {
-    (void)state;
     uint32_t seed = 5;
     Host host;
     Host_Start(&host);
@@ -239,7 +237,6 @@ static void TestListsWhileWorkWaits(void** state)
 /* Nothing is sorted again when nothing has changed; the arrays stay where they are. */
 static void TestListsAreLazy(void** state)
 {
-    (void)state;
     uint32_t seed = 9;
     Host host;
     Host_Start(&host);
@@ -259,7 +256,6 @@ static void TestListsAreLazy(void** state)
 
 static void TestPieceErrors(void** state)
 {
-    (void)state;
     Host host;
     Host_Start(&host);
     kiriSheetDef def = Host_SmallDef();
@@ -291,7 +287,6 @@ static void TestPieceErrors(void** state)
 /* The frame that the event names is in the piece, whatever the piece is numbered later. */
 static void TestEventNamesFrame(void** state)
 {
-    (void)state;
     Host host;
     Host_Start(&host);
     kiriSheetDef def = Host_SmallDef();
@@ -433,12 +428,8 @@ static kiriSheet Furnish(Host* host, kiriSheetDef* def, int32_t lines, uint32_t*
 {
     kiriSheet sheet = Host_AddRectangle(host, def, 1.0f, 1.0f, 10, 10);
     for (int i = 0; i < 4; ++i) {
-        kiriPinDef pin;
-        kiriPin id;
-        kiriDefaultPinDef(&pin);
-        pin.restPoint[0] = pin.target[0] = i % 2 == 0 ? 0.0f : 0.97f;
-        pin.restPoint[1] = pin.target[1] = i / 2 == 0 ? 0.01f : 1.0f;
-        OK(kiriCreatePin(host->world, sheet, &pin, &id));
+        float u = i % 2 == 0 ? 0.0f : 0.97f, v = i / 2 == 0 ? 0.01f : 1.0f;
+        Host_Pin(host, sheet, u, v, u, v, 0.0f);
     }
     Shred(host, sheet, lines, seed);
     Tick(host, 5);
@@ -447,7 +438,6 @@ static kiriSheet Furnish(Host* host, kiriSheetDef* def, int32_t lines, uint32_t*
 
 static void TestPartsAreWhatTheyWere(void** state)
 {
-    (void)state;
     static Part own, rest;
     for (uint32_t run = 1; run <= 12; ++run) {
         uint32_t seed = 191u * run;
@@ -537,7 +527,6 @@ static double RunTwice(const kiriSheetDef* def, uint32_t seed, int32_t detach)
 
 static void TestMotionGoesOn(void** state)
 {
-    (void)state;
     for (uint32_t run = 1; run <= 18; ++run) {
         uint32_t seed = 401u * run;
         kiriSheetDef def = AnyDef(&seed);
@@ -589,7 +578,6 @@ static int32_t PieceAt(Host* host, kiriSheet sheet, double v)
 /* A blade that stands in a piece which goes cuts nothing there, but cuts the rest when it gets there. */
 static void TestCutsStayWithTheRest(void** state)
 {
-    (void)state;
     for (int kept = 0; kept < 2; ++kept) {
         Host host;
         Host_Start(&host);
@@ -624,7 +612,6 @@ static void TestCutsStayWithTheRest(void** state)
 /* The blade stands in the rest, on a vertex that gets another number. */
 static void TestBladeOfTheRestGoesOn(void** state)
 {
-    (void)state;
     uint64_t areas = 0;
     double most[2] = { 0.0, 0.0 };
     for (int detach = 0; detach < 2; ++detach) {
@@ -652,17 +639,13 @@ static void TestBladeOfTheRestGoesOn(void** state)
 
 static void TestIdsMoveAlong(void** state)
 {
-    (void)state;
     Host host;
     Host_Start(&host);
     kiriSheet sheet = Strips(&host, 3), detached;
     kiriPin pins[3];
     for (int i = 0; i < 3; ++i) {
-        kiriPinDef def;
-        kiriDefaultPinDef(&def);
-        def.restPoint[0] = def.target[0] = 0.5f;
-        def.restPoint[1] = def.target[1] = 0.2f + 0.3f * (float)i;
-        OK(kiriCreatePin(host.world, sheet, &def, &pins[i]));
+        float v = 0.2f + 0.3f * (float)i;
+        pins[i] = Host_Pin(&host, sheet, 0.5f, v, 0.5f, v, 0.0f);
     }
     kiriFrame frames[3];
     for (int i = 0; i < 3; ++i) {
@@ -694,7 +677,6 @@ static void TestIdsMoveAlong(void** state)
 /* Contacts that wait push the part that has the point. */
 static void TestContactsMoveAlong(void** state)
 {
-    (void)state;
     Host host;
     Host_Start(&host);
     static const float none[3] = { 0.0f, 0.0f, 0.0f };
@@ -714,7 +696,6 @@ static void TestContactsMoveAlong(void** state)
 
 static void TestPartsAreRefused(void** state)
 {
-    (void)state;
     Host host;
     Host_Start(&host);
     kiriSheet sheet = Strips(&host, 2), detached = 1;
@@ -742,7 +723,6 @@ static void TestPartsAreRefused(void** state)
 
 static void TestDropCrumbs(void** state)
 {
-    (void)state;
     for (uint32_t run = 1; run <= 6; ++run) {
         uint32_t seed = 1009u * run;
         Host host;
@@ -776,7 +756,6 @@ static void TestDropCrumbs(void** state)
 /* Strips of several areas come off: those that are crumbs keep to one frame. */
 static void TestCrumbsAreNotSampled(void** state)
 {
-    (void)state;
     int32_t frames[2] = { 0, 0 }, crumbs[2] = { 0, 0 };
     for (int with = 0; with < 2; ++with) {
         Host host;
@@ -820,7 +799,6 @@ static void TestCrumbsAreNotSampled(void** state)
 /* All parts of a def that are crumbs have one frame from the start. */
 static void TestCrumbsOfDef(void** state)
 {
-    (void)state;
     static const float positions[16] = { 0, 0, 0.2f, 0, 0.2f, 0.2f, 0, 0.2f, 0.5f, 0, 1.5f, 0, 1.5f, 1, 0.5f, 1 };
     static const int32_t indices[12] = { 0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7 };
     Host host;

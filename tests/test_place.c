@@ -44,7 +44,6 @@ static void AssertSite(const kiriSites* sites, int32_t index, double u, double v
 /* A slit from the outline has one end, one inside the sheet two; their sites mirror each other. */
 static void BothSidesOfEachEnd(void** state)
 {
-    (void)state;
     Scene scene;
     kiriSites sites = { 0 };
     Scene_Init(&scene, 1.0, 1.0, 20, 20, 40);
@@ -67,7 +66,6 @@ static void BothSidesOfEachEnd(void** state)
 /* Where another slit is in the way the pair is closer; in a neck of the width of two squares there is none. */
 static void AsCloseAsThereIsRoom(void** state)
 {
-    (void)state;
     Scene scene;
     kiriSites sites = { 0 };
     Scene_Init(&scene, 1.0, 1.0, 20, 20, 40);
@@ -91,7 +89,6 @@ static void AsCloseAsThereIsRoom(void** state)
 /* Corners of cuts, crossings, ends on the outline and on another cut are no slit ends. */
 static void OnlyEnds(void** state)
 {
-    (void)state;
     Scene scene;
     kiriSites sites = { 0 };
     Scene_Init(&scene, 1.0, 1.0, 20, 20, 40);
@@ -110,7 +107,6 @@ static void OnlyEnds(void** state)
    grid line, or across the middle. */
 static void BordersBeginAtSlitEnds(void** state)
 {
-    (void)state;
     for (int32_t resolution = 30; resolution < 70; ++resolution) {
         for (int k = 0; k < 6; ++k) {
             const float end = 0.35f + 0.05f * (float)(k % 3), tilt = k < 3 ? 0.0f : 0.01f;
@@ -143,7 +139,6 @@ static const float aroundEnd[8][2] = { { 1.0f, 0.0f },  { -1.0f, 0.0f }, { 0.5f,
    slivers of cells lie along it. */
 static void BordersStayBesideSlits(void** state)
 {
-    (void)state;
     const float slit[4] = { 0.5f, 1.1f, 0.5f, 0.3f };
     for (int32_t resolution = 20; resolution <= 80; resolution += 10) {
         float points[8][2];
@@ -176,7 +171,6 @@ static void BordersStayBesideSlits(void** state)
 /* An end gets a pair also where that is two squares apart, as close as pairs are, and where sites shall be closer. */
 static void PairsTwoSquaresApart(void** state)
 {
-    (void)state;
     for (int32_t resolution = 20; resolution < 60; ++resolution) {
         for (int k = 1; k <= 2; ++k) {
             Scene scene;
@@ -206,7 +200,6 @@ static void AssertRefused(Host* host, kiriSheetDef* def, const char* part)
 
 static void CloseFramePointsAreRefused(void** state)
 {
-    (void)state;
     for (int32_t k = 1; k < 20; ++k) {
         float points[4] = { 0.51f, 0.26f, 0.51f + 0.01f * (float)k, 0.26f };
         kiriSheetDef def;
@@ -227,7 +220,6 @@ static void CloseFramePointsAreRefused(void** state)
 
 static void ManyFramesAreRefused(void** state)
 {
-    (void)state;
     kiriSheetDef def;
     Host host;
     Host_Start(&host);
@@ -245,7 +237,6 @@ static void ManyFramesAreRefused(void** state)
 /* Re-sampling stops there, after cuts too. */
 static void ResamplingStops(void** state)
 {
-    (void)state;
     static const float across[4] = { 0.31f, -0.1f, 0.31f, 0.6f }, along[4] = { 0.5f, 0.26f, 1.1f, 0.26f };
     kiriSheetDef def;
     Host host;
@@ -309,7 +300,6 @@ static Rectangle MakeShape(kiriSheetDef* def, uint32_t* seed)
    however rigid frames are. After cuts there may be more. */
 static void NoMoreThanTheHostGave(void** state)
 {
-    (void)state;
     uint32_t seed = 5;
     int32_t made = 0, parts = 0, more = 0;
     for (int32_t run = 0; run < 200; ++run) {
@@ -343,7 +333,6 @@ static void NoMoreThanTheHostGave(void** state)
 /* A cut brings frames where it makes some more rigid, and not those that a new sheet might have done with, too. */
 static void FramesWhereCutIs(void** state)
 {
-    (void)state;
     kiriSheetDef def;
     Host host;
     Host_Start(&host);

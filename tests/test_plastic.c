@@ -135,7 +135,6 @@ static void CheckSpringback(int32_t frames, double radius, double hardening, int
 
 static void TestSpringback(void** unused)
 {
-    (void)unused;
     const int32_t frames[3] = { 5, 9, 17 };
     const double tolerance[3] = { 5e-3, 1e-3, 5e-4 };
     for (int k = 0; k < 3; ++k) {
@@ -152,7 +151,6 @@ static void TestSpringback(void** unused)
    takes: by the law, whose reach grows with all that has flowed. */
 static void TestEnergy(void** unused)
 {
-    (void)unused;
     const double goals[4] = { 100.0, 0.0, -60.0, 0.0 };
     double stiffness = Young * pow(Thickness, 3.0) / 12.0 * Width * Length, most = YieldCurvature();
     double elastic = 0.0, flowed = 0.0, reach = 1.0, work = 0.0, lost = 0.0, at = 0.0;
@@ -187,7 +185,6 @@ static void TestEnergy(void** unused)
 /* A material that never reaches its yield stress moves as an elastic one, bit for bit: through a cut, too. */
 static void TestStrongIsElastic(void** unused)
 {
-    (void)unused;
     Strip s[2];
     for (int k = 0; k < 2; ++k) {
         Strip_Start(&s[k], 9, k == 0 ? 0.0 : 1e12, 0.1);
@@ -214,7 +211,6 @@ static void TestStrongIsElastic(void** unused)
    loaded. All keep the curvature. */
 static void TestPiecesKeepTheirShape(void** unused)
 {
-    (void)unused;
     Strip s;
     Strip_Start(&s, 9, Yield, 0.0);
     Strip_Bend(&s, 0.0, 100.0, 60);
@@ -263,7 +259,6 @@ static void TestPiecesKeepTheirShape(void** unused)
 /* The material may begin to yield, and become elastic again: the bend stays. */
 static void TestMaterialChanges(void** unused)
 {
-    (void)unused;
     Strip s;
     Strip_Start(&s, 9, 0.0, 0.0);
     Strip_Bend(&s, 0.0, 30.0, 10);
@@ -335,7 +330,6 @@ static double EnergyOfRoll(double c, double a, double curvature, double yieldStr
 /* A sheet yields at the same curvature in whichever direction it is rolled. */
 static void TestAnyDirection(void** unused)
 {
-    (void)unused;
     const double curvature = 60.0, ratio = curvature / YieldCurvature();
     for (int k = 0; k < 3; ++k) {
         double a = k == 0 ? 0.0 : k == 1 ? 0.4 : sqrt(0.5), c = sqrt(1.0 - a * a);

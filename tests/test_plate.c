@@ -191,7 +191,6 @@ static void CheckTile(int layout, double nu, double thickness)
 
 static void EvenStatesAreExact(void** state)
 {
-    (void)state;
     for (int layout = 0; layout < LAYOUTS; ++layout) {
         for (int n = 0; n < RATIOS * THIN; ++n) {
             CheckTile(layout, ratios[n % RATIOS], thin[n / RATIOS]);
@@ -384,7 +383,6 @@ static void FreeEdgesAreFree(void** state)
         int columns, rows;
     } strips[] = { { REGULAR, 9, 1 }, { REGULAR, 9, 2 }, { REGULAR, 13, 3 },  { REGULAR, 25, 8 },  { LLOYD, 9, 2 },
                    { LLOYD, 17, 4 },  { LLOYD, 25, 8 },  { HEXAGONAL, 9, 2 }, { HEXAGONAL, 17, 4 } };
-    (void)state;
     for (size_t n = 0; n < sizeof(strips) / sizeof(strips[0]); ++n) {
         bool isLarge = strips[n].columns * strips[n].rows > 100;
         for (int r = 0; r < (isLarge ? 2 : RATIOS); ++r) {
@@ -409,7 +407,6 @@ static double ExactCurl(double theta)
 /* Energies of one link of a strip between small angles, D (1 - nu^2), and large ones, D. */
 static void StripsStiffenAsTheirCurlIsHeldBack(void** state)
 {
-    (void)state;
     for (int r = 1; r < RATIOS; ++r) {
         double nu = (double)(float)ratios[r], h = (double)(float)0.01, W = 2.0, l = 0.5;
         kiriMaterial material = MaterialOf(nu, 0.01);
@@ -442,7 +439,6 @@ static void StripsStiffenAsTheirCurlIsHeldBack(void** state)
 static void RibbonsBendAndTwist(void** state)
 {
     const double W = 0.5, l = 0.05;
-    (void)state;
     for (int n = 0; n < 6 * RATIOS; ++n) {
         const double bends[6] = { 0.0, 0.3, 1.0, 0.3, 2.0, 0.1 }, twists[6] = { 0.3, 0.3, 0.3, 1.0, 2.0, 1.0 };
         double nu = (double)(float)ratios[n % RATIOS], h = (double)(float)0.01, k = bends[n / RATIOS];
@@ -557,7 +553,6 @@ static void DerivativesAreExact(void** state)
 {
     uint32_t seed = 29;
     static kiriPose poses[VORONOI_SITES];
-    (void)state;
     for (int trial = 0; trial < 40; ++trial) {
         MakePlate(&sheet, 4, trial % 2 == 0 ? 1 : 3, trial / 2 % 2, MaterialOf(0.4, 0.02));
         Crumple(&sheet, trial % 3 == 0 ? 3.0 : 0.4, &seed, poses);

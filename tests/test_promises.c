@@ -53,28 +53,13 @@ static void CheckPins(Host* host, kiriSheet sheet)
 {
     const kiriSheetData* data = host->world->sheets.data[0];
     for (int i = 0; i < 400; ++i) {
-        kiriPinDef def;
-        kiriPin pin;
-        kiriDefaultPinDef(&def);
-        def.restPoint[0] = ((float)(i % 20) + 0.47f) / 20.0f;
-        def.restPoint[1] = ((float)(i / 20) + 0.53f) / 20.0f;
-        OK(kiriCreatePin(host->world, sheet, &def, &pin));
+        float u = ((float)(i % 20) + 0.47f) / 20.0f, v = ((float)(i / 20) + 0.53f) / 20.0f;
+        kiriPin pin = Host_Pin(host, sheet, u, v, 0.0f, 0.0f, 0.0f);
         for (int32_t k = 0; k < data->pins.count; ++k) {
             assert_in_range(data->layout.pinFrame.data[k], 0, data->frames.count - 1);
         }
         OK(kiriDestroyPin(host->world, pin));
     }
-}
-
-static kiriPin PinCorner(Host* host, kiriSheet sheet, float u, float v)
-{
-    kiriPinDef def;
-    kiriPin pin;
-    kiriDefaultPinDef(&def);
-    def.restPoint[0] = def.target[0] = u;
-    def.restPoint[1] = def.target[1] = v;
-    OK(kiriCreatePin(host->world, sheet, &def, &pin));
-    return pin;
 }
 
 /* How far the frame that a pin holds takes the pin's point from its target. What is seen there is a blend of frames. */
@@ -89,7 +74,6 @@ static double OffTarget(const Host* host, int32_t pin)
 /* Four corners are pinned while work waits at a stage, and hold when it is done. */
 static void TestWhileWorkWaits(void** state)
 {
-    (void)state;
     for (int32_t stage = KIRI_STAGE_CUT; stage <= KIRI_STAGE_SAMPLES; ++stage) {
         static const kiriBudget tight = { KIRI_LEAST_TRIANGLES, 40, 8, 0 }, none = { 0, 0, 0, 0 };
         Host host;
@@ -112,7 +96,8 @@ static void TestWhileWorkWaits(void** state)
             }
         } while (Layout_Stage(host.world, Host_SheetAt(&host, 0)) != stage);
         for (int corner = 0; corner < 4; ++corner) {
-            PinCorner(&host, sheet, (float)(corner % 2), (float)(corner / 2));
+            float u = (float)(corner % 2), v = (float)(corner / 2);
+            Host_Pin(&host, sheet, u, v, u, v, 0.0f);
         }
         OK(kiriWorld_SetBudget(host.world, &none));
         for (int tick = 0; tick < 60; ++tick) {
@@ -144,7 +129,6 @@ static void GiveDisc(Host* host, kiriSheet sheet, float u, float v, float radius
    name something else. */
 static void TestLoopOverEvents(void** state)
 {
-    (void)state;
     for (int order = 0; order < 6; ++order) {
         static const int orders[6][3] = {
             { 0, 1, 2 }, { 0, 2, 1 }, { 1, 0, 2 }, { 1, 2, 0 }, { 2, 0, 1 }, { 2, 1, 0 }
@@ -256,7 +240,6 @@ static void GoOnAlike(Host* a, Host* b)
 /* Two worlds that got other budgets until some tick, and the same from there on. */
 static void TestHashTellsProgress(void** state)
 {
-    (void)state;
     int32_t alike[KIRI_READY] = { 0 }, apart[KIRI_READY] = { 0 };
     for (uint32_t run = 1; run <= 300; ++run) {
         uint32_t seed = 2654435761u * run;
@@ -324,7 +307,6 @@ static kiriSheetDef TinyDef(void)
 /* Sheets, cuts and frames that come and go, and many more pins: more than a slot has generations. */
 static void TestIdsComeOnce(void** state)
 {
-    (void)state;
     enum { SHEETS = 600, PINS = 20000 };
     static uint32_t ids[3 * SHEETS + PINS];
     int32_t all = 0;
@@ -419,7 +401,6 @@ static kiriPool* PoolOf(kiriWorld* world, int way)
 /* No id left of a kind: the call says so, and nothing has changed; when there are ids again, it goes through. */
 static void TestIdsRunOut(void** state)
 {
-    (void)state;
     for (int way = 0; way < WAYS; ++way) {
         Office office;
         memset(&office, 0, sizeof(office));

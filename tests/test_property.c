@@ -98,7 +98,6 @@ static uint64_t Run(uint32_t seed, bool check)
 
 static void RandomCuts(void** state)
 {
-    (void)state;
     uint64_t hash = Run(2463534242u, true);
     assert_true(hash == Run(2463534242u, false));
     assert_true(hash != Run(88172645u, true));

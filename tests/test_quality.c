@@ -10,7 +10,6 @@ static int count;
 
 static int RunSweep(void** state)
 {
-    (void)state;
     count = Sweep_Settings(SWEEP_STRIP, settings, true);
     bool ok = Sweep_Prepare(&referenceSetting);
     for (int i = 0; i < count && ok; ++i) {
@@ -33,7 +32,6 @@ static void TestReferenceIsConverged(void** state)
 {
     Setting half = referenceSetting;
     Outcome outcome;
-    (void)state;
     half.substeps /= 2;
     assert_true(Sweep_Run(&half, NULL, &outcome));
     assert_true(outcome.error > 0.0 && outcome.error < 0.001);
@@ -41,7 +39,6 @@ static void TestReferenceIsConverged(void** state)
 
 static void TestNoPresetIsDominated(void** state)
 {
-    (void)state;
     for (int32_t p = 0; p < KIRI_QUALITY_COUNT; ++p) {
         Setting setting;
         Outcome outcome = RunPreset(p, &setting);
@@ -59,7 +56,6 @@ static void TestNoPresetIsDominated(void** state)
 static void TestMostAreDominated(void** state)
 {
     int dominated = 0;
-    (void)state;
     for (int i = 0; i < count; ++i) {
         dominated += Sweep_Dominating(settings, outcomes, count, &settings[i], &outcomes[i]) >= 0 ? 1 : 0;
     }
@@ -78,7 +74,6 @@ static void CheckErrors(int32_t preset, const double error[2])
 
 static void TestErrorsAreAsDocumented(void** state)
 {
-    (void)state;
     for (int32_t p = 0; p < KIRI_QUALITY_COUNT; ++p) {
         kiriQuality quality;
         double error[2];
@@ -93,7 +88,6 @@ static void TestErrorsAreAsDocumented(void** state)
 static void TestErrorsInTwoDimensions(void** state)
 {
     static const Setting fine = { SWEEP_SQUARE, 9, 9, 60, 1, 16, 1, KIRI_MODEL_LINKS, 0 };
-    (void)state;
     assert_true(Sweep_Prepare(&fine));
     for (int32_t p = 0; p < KIRI_QUALITY_ACCURATE; ++p) {
         kiriQuality quality;
@@ -110,7 +104,6 @@ static void TestErrorFallsAndCostGrows(void** state)
 {
     Setting setting;
     Outcome before = RunPreset(0, &setting);
-    (void)state;
     for (int32_t p = 1; p < KIRI_QUALITY_COUNT; ++p) {
         Outcome outcome = RunPreset(p, &setting);
         assert_true(outcome.error < 0.5 * before.error && outcome.cost > before.cost);

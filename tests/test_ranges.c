@@ -31,7 +31,6 @@ static char trial[GUARD_BYTES];
 static void OnAlarm(int number)
 {
     static const char what[] = "\nendless: ";
-    (void)number;
     ssize_t written = write(STDERR_FILENO, what, sizeof(what) - 1);
     written += write(STDERR_FILENO, trial, strlen(trial));
     _exit(written > 0 ? 1 : 2);
@@ -322,7 +321,6 @@ static void TryField(int32_t part, int32_t index, bool isStrip)
 
 static void TestOneByOne(void** state)
 {
-    (void)state;
     Play play;
     Part parts[PARTS];
     ListParts(&play, parts);
@@ -369,7 +367,6 @@ static void Restrain(Play* play)
 
 static void TestAtRandom(void** state)
 {
-    (void)state;
     int32_t accepted = 0, runs = IS_SLOW ? 60 : 250;
     for (int32_t run = 1; run <= runs; ++run) {
         uint32_t seed = 2654435761u * (uint32_t)run;
@@ -397,7 +394,6 @@ static void TestAtRandom(void** state)
 /* More frames are wanted than the grid carries: at once, which is refused, or by re-sampling, which stops. */
 static void TestMoreFramesThanCells(void** state)
 {
-    (void)state;
     static const struct {
         int32_t grid, frames, most;
         float rigidArea;
@@ -428,7 +424,6 @@ static void TestMoreFramesThanCells(void** state)
 /* In a tick: a strip is cut off and destroyed, then a single cell is cut out. */
 static void TestSingleCellCutOut(void** state)
 {
-    (void)state;
     static const float strip[4] = { 0.3f, -0.1f, 0.3f, 1.1f };
     static const float cell[10] = { 0.626f, 0.626f, 0.749f, 0.626f, 0.749f, 0.749f, 0.626f, 0.749f, 0.626f, 0.626f };
     Play play;
@@ -455,7 +450,6 @@ static void TestSingleCellCutOut(void** state)
 /* The finest grid, the most frames and points, each on a sheet that they do not make large. */
 static void TestTheMost(void** state)
 {
-    (void)state;
     for (int what = 0; what < (IS_SLOW ? 1 : 4); ++what) {
         Play play;
         Host host;

@@ -208,7 +208,6 @@ static void CheckReader(Scene* scene, const Reader* reader, bool isWaiting)
 
 static void TestNothingChanges(void** state)
 {
-    (void)state;
     for (int isWaiting = 0; isWaiting < 2; ++isWaiting) {
         Scene scene;
         Scene_Start(&scene, isWaiting != 0);
@@ -223,7 +222,6 @@ static void TestNothingChanges(void** state)
 /* Weights take memory; refused, they say so, and nothing is left behind. */
 static void TestWeightsWithoutMemory(void** state)
 {
-    (void)state;
     Scene scene;
     Bytes before, after;
     Scene_Start(&scene, false);
@@ -271,7 +269,6 @@ static void* ReadAll(void* argument)
 
 static void TestTwoThreads(void** state)
 {
-    (void)state;
     for (int isWaiting = 0; isWaiting < 2; ++isWaiting) {
         Scene scene;
         Bytes before, after;

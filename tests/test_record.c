@@ -58,7 +58,6 @@ static void RecordStorm(Tape* tape, const StormType* type, uint64_t hashes[STORM
 
 static void TestStorm(void** state)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof storms / sizeof storms[0]; i++) {
         Tape tape, again;
         uint64_t hashes[STORM_TICKS];
@@ -307,7 +306,6 @@ static void RecordAll(Tape* tape, kiriRecordFn* write)
 
 static void TestAll(void** state)
 {
-    (void)state;
     Tape tape, again;
     RecordAll(&tape, Tape_Write);
     Tape_Start(&again);
@@ -341,7 +339,6 @@ static void WriteAndCount(void* user, const void* bytes, int32_t count)
 
 static void TestAllCallsAreRecorded(void** state)
 {
-    (void)state;
     Tape tape;
     RecordAll(&tape, WriteAndCount);
     for (int32_t number = KIRI_CALL_DestroyWorld; number < KIRI_CALL_COUNT; number++) {
@@ -378,7 +375,6 @@ static bool IsLook(const char* name)
 
 static void TestHeaderAndTableAgree(void** state)
 {
-    (void)state;
     FILE* header = fopen("include/kiri/kiri.h", "r");
     assert_non_null(header);
     char line[512], name[128];
@@ -429,7 +425,6 @@ static void CheckStruct(const char* name, const kiriStruct* of)
 
 static void TestAllFieldsAreRecorded(void** state)
 {
-    (void)state;
     int32_t found = 0;
     for (int32_t kind = 0; kind < KIRI_ARGUMENT_KINDS; kind++) {
         const kiriValue* value = &kiriArguments[kind];
@@ -457,7 +452,6 @@ static const void* Freeze(const void* bytes, size_t size)
 /* What a host gives is not even written with what is in it. */
 static void TestReadOnlyArguments(void** state)
 {
-    (void)state;
     const kiriBudget budget = { 1000, 100000, 100000, 1000 };
     const kiriContact contact = { -1, { 0.4f, 0.4f }, { 0.0f, 0.0f, 1.0f }, -0.1f, { 0 }, 0.5f, 0.0f, 0.0f, 3 };
     kiriObstacleDef obstacleDef;
@@ -487,7 +481,6 @@ static void TestReadOnlyArguments(void** state)
 
 static void TestSize(void** state)
 {
-    (void)state;
     Tape tape;
     float stroke[200];
     for (int i = 0; i < 200; i++) {
@@ -509,7 +502,6 @@ static void TestSize(void** state)
 /* A world that records allocates as one that does not. */
 static void TestNoMemory(void** state)
 {
-    (void)state;
     int64_t calls[2];
     for (int records = 0; records < 2; records++) {
         Tape tape;

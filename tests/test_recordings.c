@@ -23,7 +23,6 @@ static void Read(Tape* tape, const char* path)
 
 static void TestRecordings(void** state)
 {
-    (void)state;
     for (int i = 0; i < RECORDINGS; i++) {
         Tape tape, again;
         Read(&tape, paths[i]);

@@ -150,7 +150,6 @@ static void CheckTurned(Probe* probe)
 
 static void TestMomentumIsKept(void** state)
 {
-    (void)state;
     double momentum = 0.0, energy = -1.0;
     int32_t commits = 0;
     limited = 0;
@@ -195,7 +194,6 @@ static void CheckRigid(Probe* probe)
 
 static void TestRigidMotionGoesOn(void** state)
 {
-    (void)state;
     for (int32_t model = KIRI_MODEL_LINKS; model <= KIRI_MODEL_POINTS; ++model) {
         Probe probe;
         kiriProfile profile;
@@ -224,7 +222,6 @@ static void TestRigidMotionGoesOn(void** state)
 /* Far from the cut nothing happens, to the last bit. */
 static void TestFarFramesKeepTheirState(void** state)
 {
-    (void)state;
     static const float way[6] = { -0.1f, 0.1f, 0.1f, 0.13f, 0.15f, -0.1f };
     Probe probe;
     kiriSheetDef def;
@@ -320,7 +317,6 @@ static void CutWhatSwings(Seen* seen, const kiriSheetDef* def)
 
 static void TestNothingSeenJumps(void** state)
 {
-    (void)state;
     Seen* seen = malloc(sizeof(Seen));
     kiriSheetDef def;
     kiriDefaultSheetDef(&def);
@@ -375,7 +371,6 @@ static double LongestFade(const kiriFades* fades)
 
 static void TestFadesEnd(void** state)
 {
-    (void)state;
     Host host;
     kiriSheet sheet;
     kiriSheetDef def;
@@ -403,7 +398,6 @@ static void TestStillSheetsAreNotWritten(void** state)
                        spin[3] = { 0.0f, 0.0f, 0.0f };
     static const float away[3] = { 2.0f, 0.0f, 0.0f },
                        upright[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
-    (void)state;
     Host host;
     kiriSheetDef def;
     kiriMesh mesh;
@@ -430,7 +424,6 @@ static void TestStillSheetsAreNotWritten(void** state)
 
 static void TestNoSleepBeforeTheEnd(void** state)
 {
-    (void)state;
     Host host;
     kiriSheet sheet;
     kiriSheetDef def;
@@ -450,7 +443,6 @@ static void TestNoSleepBeforeTheEnd(void** state)
 
 static void TestDefsThatAreNone(void** state)
 {
-    (void)state;
     const struct {
         float fadeTime;
         int32_t popping;
@@ -472,8 +464,6 @@ static void TestDefsThatAreNone(void** state)
 static kiriSheet BentPaper(Host* host, float poissonsRatio)
 {
     kiriSheetDef def;
-    kiriPinDef pin;
-    kiriPin id;
     Host_Start(host);
     kiriDefaultSheetDef(&def);
     def.material = (kiriMaterial){ 2e9f, poissonsRatio, 2e-4f, 800.0f, 3.0f, 0.0f, 0.0f, 0.0f, 0 };
@@ -483,11 +473,8 @@ static kiriSheet BentPaper(Host* host, float poissonsRatio)
     def.sleepSpeed = 0.0f;
     kiriSheet sheet = Host_AddRectangle(host, &def, 0.3f, 0.3f, 30, 30);
     for (int k = 0; k < 4; ++k) {
-        kiriDefaultPinDef(&pin);
-        pin.restPoint[0] = k % 2 == 0 ? 0.0f : 0.3f;
-        pin.restPoint[1] = pin.target[1] = k / 2 == 0 ? 0.0f : 0.1f;
-        pin.target[0] = 0.8f * pin.restPoint[0];
-        OK(kiriCreatePin(host->world, sheet, &pin, &id));
+        float u = k % 2 == 0 ? 0.0f : 0.3f, v = k / 2 == 0 ? 0.0f : 0.1f;
+        Host_Pin(host, sheet, u, v, 0.8f * u, v, 0.0f);
     }
     for (int tick = 0; tick < 200; ++tick) {
         OK(kiriWorld_Tick(host->world, 1.0f / 60.0f, 2));
@@ -500,7 +487,6 @@ static void TestBentPaperGainsNoEnergy(void** state)
 {
     static const float ratios[2] = { 0.3f, 0.45f };
     uint32_t seed = 77;
-    (void)state;
     for (int trial = 0; trial < 4; ++trial) {
         Host host;
         kiriSheet sheet = BentPaper(&host, ratios[trial % 2]);

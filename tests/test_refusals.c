@@ -31,15 +31,6 @@ static int32_t WaitingStage(const Host* host)
     return event.stage;
 }
 
-static kiriPinDef PinAt(float u, float v)
-{
-    kiriPinDef def;
-    kiriDefaultPinDef(&def);
-    def.restPoint[0] = def.target[0] = u;
-    def.restPoint[1] = def.target[1] = v;
-    return def;
-}
-
 /* A way in and out, and a loop whose piece needs frames and collision points of its own. */
 static void GiveCuts(Stand* s)
 {
@@ -77,7 +68,7 @@ static void Stand_Start(Stand* s, int32_t work)
     static const kiriBudget budget = { KIRI_LEAST_TRIANGLES, 25, 5, 0 };
     memset(s, 0, sizeof(*s));
     Host_Start(&s->host);
-    kiriPinDef pin = PinAt(0.1f, 0.9f);
+    kiriPinDef pin = Host_PinDef(0.1f, 0.9f, 0.1f, 0.9f, 0.0f);
     s->def = Host_SmallDef();
     s->def.framePoints = NULL;
     s->def.collisionPoints = 12;
@@ -187,7 +178,7 @@ static kiriResult CallSlice(Stand* s)
 
 static kiriResult CallCreatePin(Stand* s)
 {
-    kiriPinDef def = PinAt(0.9f, 0.1f);
+    kiriPinDef def = Host_PinDef(0.9f, 0.1f, 0.9f, 0.1f, 0.0f);
     return kiriCreatePin(s->host.world, s->sheet, &def, &s->madePin);
 }
 
@@ -374,7 +365,6 @@ static int32_t CheckCall(const Call* call, int32_t work, bool once)
 /* Calls that change a world, but for ticks. */
 static void TestCallsRefused(void** state)
 {
-    (void)state;
     int32_t all = 0;
     for (int32_t work = 0; work < STATES; ++work) {
         for (int32_t k = 1; k < CALLS; ++k) { /* the first is a tick */
@@ -420,7 +410,6 @@ static int32_t CheckTick(int32_t work, bool isLifted, bool once, const Outcome* 
 
 static void TestTicksRefused(void** state)
 {
-    (void)state;
     for (int32_t work = 0; work < STATES; ++work) {
         Outcome rich = OutcomeOf(&calls[0], work);
         for (int isLifted = 0; isLifted < 2; ++isLifted) {
@@ -435,7 +424,6 @@ static void TestTicksRefused(void** state)
 /* Refused at random, again and again, under random budgets. */
 static void TestRefusedAtRandom(void** state)
 {
-    (void)state;
     uint64_t layout = OutcomeOf(&calls[0], NO_WORK).layout;
     int32_t refused[KIRI_STAGE_COUNT + 1] = { 0 };
     for (uint32_t run = 1; run <= 60; ++run) {
@@ -501,7 +489,6 @@ static bool GoOnFromSnapshot(int32_t work, int64_t n)
 
 static void TestSnapshotAfterRefusal(void** state)
 {
-    (void)state;
     for (int32_t work = 0; work < STATES; ++work) {
         int64_t n = 0;
         while (GoOnFromSnapshot(work, n)) {
@@ -514,7 +501,6 @@ static void TestSnapshotAfterRefusal(void** state)
 /* The journal of the mesh is closed then: pieces may leave the sheet. */
 static void TestDetachAfterRefusal(void** state)
 {
-    (void)state;
     kiriResult result = KIRI_ERROR_MEMORY;
     int32_t refused = 0;
     for (; result == KIRI_ERROR_MEMORY; ++refused) {

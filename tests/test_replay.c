@@ -25,7 +25,6 @@ static void RecordSmall(Tape* tape)
 
 static void TestNotes(void** state)
 {
-    (void)state;
     Tape tape, again;
     RecordSmall(&tape);
     Tape_Start(&again);
@@ -53,7 +52,6 @@ static void TestNotes(void** state)
 
 static void TestMisuse(void** state)
 {
-    (void)state;
     Tape tape, again;
     kiriReplay replay = { 0 };
     kiriWorldDef def = Tape_Def(&again);
@@ -96,7 +94,6 @@ static kiriResult PlayChanged(const Tape* tape, int64_t byte, uint8_t flips, Tap
 
 static void TestAnotherGravity(void** state)
 {
-    (void)state;
     Tape tape, again;
     RecordSmall(&tape);
     assert_int_equal(PlayChanged(&tape, GRAVITY_BYTE + 10, 1, &again), KIRI_ERROR_REPLAY);
@@ -111,7 +108,6 @@ static void TestAnotherGravity(void** state)
 
 static void TestOtherVersions(void** state)
 {
-    (void)state;
     Tape tape, again;
     RecordSmall(&tape);
     assert_int_equal(PlayChanged(&tape, VERSION_BYTE, 3, &again), KIRI_ERROR_DATA);
@@ -123,7 +119,6 @@ static void TestOtherVersions(void** state)
 
 static void TestAnotherResult(void** state)
 {
-    (void)state;
     Tape tape, again;
     Tape_Start(&tape);
     kiriSheet sheet = Tape_AddSheet(&tape, 0.0f);
@@ -151,7 +146,6 @@ static void TestAnotherResult(void** state)
 /* The end of one call is a good end; within a call it is none. */
 static void TestCutShort(void** state)
 {
-    (void)state;
     Tape tape;
     int32_t whole = 0, within = 0;
     RecordSmall(&tape);
@@ -176,7 +170,6 @@ static void TestCutShort(void** state)
 /* Each allocation of a replay is refused once. Then it says so; another world plays it to the end. */
 static void TestRefusedReplay(void** state)
 {
-    (void)state;
     Tape tape;
     bool isDone = false;
     RecordSmall(&tape);
@@ -203,7 +196,6 @@ static void TestRefusedReplay(void** state)
 /* What was refused memory when it was recorded is left out. */
 static void TestRecordedRefusals(void** state)
 {
-    (void)state;
     static const float way[4] = { 0.3f, -0.1f, 0.5f, 1.5f };
     for (int64_t failAt = 1; failAt < 400; failAt += 7) {
         Tape tape, again;
@@ -261,7 +253,6 @@ static Bytes SaveOf(const Tape* tape)
 /* A cut that is finished at once, a save and a load. */
 static void TestLoad(void** state)
 {
-    (void)state;
     const kiriBudget one = { 0, 1, 0, 0 };
     Tape tape, again;
     Tape_Start(&tape);

@@ -67,7 +67,6 @@ static void Start(Scene* scene, const char* name)
 
 static void TestTable(void** state)
 {
-    (void)state;
     for (int i = 0; i < ROWS; i++) {
         Scene scene;
         kiriCounts counts;
@@ -85,7 +84,6 @@ static void TestTable(void** state)
 /* The scenes' own frames: more, so that what is seen is not strained, in the same pieces. */
 static void TestOwnFrames(void** state)
 {
-    (void)state;
     static const int rows[] = { SPIRAL, KIRIGAMI, VORTEX, FALLING_GUY };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         const Row* row = &table[rows[i]];
@@ -120,7 +118,6 @@ static void CheckTimes(const Scene* scene)
 /* And so at any pace, in as many more ticks. */
 static void TestTimes(void** state)
 {
-    (void)state;
     static const float paces[] = { 1.0f, 0.25f, 2.0f };
     for (int i = 0; Scene_GetType(i) != NULL; i++) {
         const SceneType* type = Scene_GetType(i);
@@ -153,7 +150,6 @@ static uint64_t HashAt(float pace)
 
 static void TestPaceOfOne(void** state)
 {
-    (void)state;
     assert_true(HashAt(0.0f) == HashAt(1.0f));
     assert_true(HashAt(0.0f) != HashAt(0.5f));
 }
@@ -195,7 +191,6 @@ static float LongestSide(const Outline* way)
 /* At a slow pace the blade goes on a little in every tick, on its way, and all points of the way are cut. */
 static void TestSlowBlade(void** state)
 {
-    (void)state;
     Scene scene;
     StartAt(&scene, "bunny", 0.2f);
     const Stroke* stroke = &scene.strokes[0];
@@ -287,7 +282,6 @@ static void RunWhole(const Row* row, Scene* scene, Watch* watch)
 
 static void TestSpiralScene(void** state)
 {
-    (void)state;
     Scene scene;
     RunWhole(&table[SPIRAL], &scene, NULL);
     Scene_Stop(&scene);
@@ -314,7 +308,6 @@ static float HeightOf(const Scene* scene, const Stroke* stroke)
 
 static void TestPatchworkScene(void** state)
 {
-    (void)state;
     Scene scene;
     RunWhole(&table[PATCHWORK], &scene, NULL);
     for (int32_t i = 0; i < scene.strokeCount; i++) {
@@ -361,7 +354,6 @@ static double HeightOfMiddle(const Scene* scene)
    apart and together. */
 static void TestRubberStretches(void** state)
 {
-    (void)state;
     for (int plain = 0; plain < 2; plain++) {
         Scene scene;
         kiriWorldDef def;
@@ -381,7 +373,6 @@ static void TestRubberStretches(void** state)
    no offsets of strains: 5e-5 of all. */
 static void TestRubberScene(void** state)
 {
-    (void)state;
     Scene scene;
     double elastic;
     Watch watch = { .still = Scene_FindType("rubber")->firstCut };
@@ -396,7 +387,6 @@ static void TestRubberScene(void** state)
 /* Nothing leaves the plane or brings energy; in the end the halves of the disc lie on the floor, apart. */
 static void TestFlatScene(void** state)
 {
-    (void)state;
     Scene scene;
     Watch watch = { .still = 1 };
     RunWhole(&table[FLAT], &scene, &watch);
@@ -419,7 +409,6 @@ static void TestFlatScene(void** state)
    though each commit changes the borders of bent regions. */
 static void TestSpiralIsNotThrown(void** state)
 {
-    (void)state;
     Scene scene;
     Start(&scene, "spiral");
     double most = 0.0, fall = 0.0;
@@ -437,7 +426,6 @@ static void TestSpiralIsNotThrown(void** state)
 /* A spiral of equal steps, whose radius is linear in the angle; lengths as by calculus. */
 static void TestSpiral(void** state)
 {
-    (void)state;
     const Spiral spiral = { { 0.3, -0.2 }, 0.05, 0.4, 0.125, 3.0, 0.004 };
     const double tau = 6.283185307179586;
     Outline outline = { .points = NULL };
@@ -459,7 +447,6 @@ static void TestSpiral(void** state)
 
 static void TestCircle(void** state)
 {
-    (void)state;
     const Spiral circle = { { 0.0, 0.0 }, 0.5, 0.5, 0.9, -1.0, 0.001 };
     Outline outline = { .points = NULL };
     assert_true(Outline_AddSpiral(&outline, &circle));

@@ -205,7 +205,6 @@ static void PlayWorld(int32_t world)
 
 static void TestTwinsAgree(void** state)
 {
-    (void)state;
     for (int32_t k = 0; k < worldCount; ++k) {
         PlayWorld(firstWorld + k);
     }
@@ -214,7 +213,6 @@ static void TestTwinsAgree(void** state)
 /* Triangles that are large for the grid. */
 static void TestOddMeshes(void** state)
 {
-    (void)state;
     static Weather weather;
     for (int32_t world = SAVED_LARGE; world < SAVED_WORLDS; ++world) {
         const Saved* saved = Saved_Get(world);
@@ -254,7 +252,6 @@ static uint64_t LayoutOf(const Host* host)
 /* In whatever step a tick has left the work, and where memory is refused first: the cut does the same. */
 static void TestFinishedCuts(void** state)
 {
-    (void)state;
     const kiriBudget little = { 64, 5, 3, 0 }, unlimited = { 0 };
     Host host, whole;
     StartCut(&whole, &unlimited);
@@ -292,10 +289,7 @@ static void StartSmall(Host* host)
     def.gridResolution = 6;
     kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 3, 3);
     const float points[4] = { -0.1f, 0.4f, 1.1f, 0.6f };
-    kiriPinDef pin;
-    kiriDefaultPinDef(&pin);
-    kiriPin pinned;
-    assert_int_equal(kiriCreatePin(host->world, sheet, &pin, &pinned), KIRI_OK);
+    Host_Pin(host, sheet, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f);
     kiriObstacleDef obstacleDef;
     kiriDefaultObstacleDef(&obstacleDef);
     obstacleDef.type = KIRI_OBSTACLE_BOX;
@@ -316,7 +310,6 @@ static void AssertRefused(Host* host, const uint8_t* bytes, int64_t size, uint64
 
 static void TestBytesCutShort(void** state)
 {
-    (void)state;
     Host host;
     StartSmall(&host);
     Bytes bytes = Write(host.world, kiriWorld_Save);
@@ -335,7 +328,6 @@ static void TestBytesCutShort(void** state)
 
 static void TestBitsThatChange(void** state)
 {
-    (void)state;
     Host host;
     StartSmall(&host);
     Bytes bytes = Write(host.world, kiriWorld_Save);
@@ -352,7 +344,6 @@ static void TestBitsThatChange(void** state)
 
 static void TestMisuse(void** state)
 {
-    (void)state;
     Host host;
     StartSmall(&host);
     Bytes bytes = Write(host.world, kiriWorld_Save);
@@ -382,7 +373,6 @@ static void TestMisuse(void** state)
 /* Which is said before anything is read: another version may have written the same bytes for other things. */
 static void TestOtherVersions(void** state)
 {
-    (void)state;
     enum { FORMAT = 8, LIBRARY = 12 };
     Host host;
     StartSmall(&host);
@@ -432,7 +422,6 @@ static void CheckRefusedMemory(WriteFn* write, ReadFn* read)
 
 static void TestRefusedMemory(void** state)
 {
-    (void)state;
     CheckRefusedMemory(kiriWorld_Save, kiriWorld_Load);
     CheckRefusedMemory(kiriWorld_Snapshot, kiriWorld_Restore);
 }
@@ -440,7 +429,6 @@ static void TestRefusedMemory(void** state)
 /* Snapshots of other builds, saves, and bytes that are cut short are no snapshots. */
 static void TestNoSnapshots(void** state)
 {
-    (void)state;
     Host host;
     StartSmall(&host);
     Bytes snapshot = Write(host.world, kiriWorld_Snapshot), save = Write(host.world, kiriWorld_Save);
@@ -489,7 +477,6 @@ static int64_t MostMemory(const Save* good, int32_t number)
 
 static void TestSmallSavesTakeLittle(void** state)
 {
-    (void)state;
     static const int32_t numbers[] = { INT32_MAX, 1 << 24, 1 << 16, 5000 };
     Host host;
     Host_Start(&host);

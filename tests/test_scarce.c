@@ -97,7 +97,6 @@ void* malloc(size_t bytes)
 
 static void* ScarceAlloc(void* user, int64_t bytes)
 {
-    (void)user;
     if (IsRefused(bytes)) {
         scarcity.refused += 1;
         return NULL;
@@ -111,7 +110,6 @@ static void* ScarceAlloc(void* user, int64_t bytes)
 
 static void ScarceFree(void* user, void* pointer)
 {
-    (void)user;
     if (pointer == NULL) {
         return;
     }
@@ -126,7 +124,6 @@ static void ScarceFree(void* user, void* pointer)
 /* The first thing that a tick does is to look at the clock: what the scene does before it gets its memory. */
 static double Arm(void* user)
 {
-    (void)user;
     scarcity.isArmed = scarcity.left >= 0;
     return 0.0;
 }
@@ -280,7 +277,6 @@ static bool IsMeant(const char* name)
 
 static void TestScenes(void** state)
 {
-    (void)state;
     for (int32_t i = 0; Scene_GetType(i) != NULL; ++i) {
         if (IsMeant(Scene_GetType(i)->name)) {
             RunBoth(Scene_GetType(i));

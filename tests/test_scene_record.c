@@ -54,7 +54,6 @@ static void CheckReplay(const char* name, int32_t ticks)
 
 static void TestReplay(void** state)
 {
-    (void)state;
     CheckReplay("bunny", Scene_FindType("bunny")->firstCut + 20);
     CheckReplay("kirigami", Scene_FindType("kirigami")->firstCut + 3);
     remove(filePath);
@@ -62,7 +61,6 @@ static void TestReplay(void** state)
 
 static void TestNoRecording(void** state)
 {
-    (void)state;
     Scene scene;
     SceneReplay replay;
     FILE* file;

@@ -100,7 +100,6 @@ static void Disturb(Host* host, kiriSheet sheet, uint32_t* seed)
 
 static void TestAsWrittenAnew(void** state)
 {
-    (void)state;
     static const Way ways[] = {
         { KIRI_SKINNING_LINEAR, KIRI_MODEL_LINKS, false, false, false },
         { KIRI_SKINNING_SMOOTH, KIRI_MODEL_LINKS, false, true, true },
@@ -142,7 +141,6 @@ static void TestAsWrittenAnew(void** state)
 /* Pieces that are cut in two sleep, and each part wakes alone: vertices have other frames than when they moved last. */
 static void TestPartsWakeAlone(void** state)
 {
-    (void)state;
     enum { CUTS = 6 };
     static const float none[3] = { 0.0f, 0.0f, 0.0f }, up[3] = { 0.0f, 0.0f, 0.2f };
     const Way way = { KIRI_SKINNING_LINEAR, KIRI_MODEL_LINKS, false, false, false };
@@ -200,17 +198,13 @@ static double StrainedShare(const kiriMesh* mesh)
 static kiriSheet AddCloth(Host* host, int32_t detail, int32_t frames, kiriPin pins[2])
 {
     kiriSheetDef def;
-    kiriPinDef pin;
     kiriDefaultSheetDef(&def);
-    kiriDefaultPinDef(&pin);
     def.material.detail = detail;
     def.frameCount = frames;
     host->every = 20;
     kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 48, 48);
     for (int k = 0; pins != NULL && k < 2; ++k) {
-        pin.restPoint[0] = pin.target[0] = (float)k;
-        pin.restPoint[1] = pin.target[1] = 1.0f;
-        OK(kiriCreatePin(host->world, sheet, &pin, &pins[k]));
+        pins[k] = Host_Pin(host, sheet, (float)k, 1.0f, (float)k, 1.0f, 0.0f);
     }
     return sheet;
 }
@@ -218,7 +212,6 @@ static kiriSheet AddCloth(Host* host, int32_t detail, int32_t frames, kiriPin pi
 /* The detail layer takes the strain out of gathered cloth, and moves no frame; a commit does not make it jump. */
 static void TestDetailOfCurtain(void** state)
 {
-    (void)state;
     enum { GATHER = 60, HANG = 600 };
     for (int32_t frames = 25; frames <= 100; frames += 75) {
         Host hosts[2];
@@ -261,7 +254,6 @@ static void TestDetailOfCurtain(void** state)
 /* The detail layer is at most as deep in a ball as the skin, and sleeps with its piece. */
 static void TestDetailOnBall(void** state)
 {
-    (void)state;
     Host hosts[2];
     kiriSheet sheet[2];
     kiriMesh mesh[2];

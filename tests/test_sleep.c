@@ -27,17 +27,6 @@ static int TicksToSleep(Host* host, kiriSheet sheet, int most)
     return ticks;
 }
 
-static kiriPin AddPin(Host* host, kiriSheet sheet, float u, float v)
-{
-    kiriPinDef def;
-    kiriPin pin = 0;
-    kiriDefaultPinDef(&def);
-    def.restPoint[0] = def.target[0] = u;
-    def.restPoint[1] = def.target[1] = v;
-    OK(kiriCreatePin(host->world, sheet, &def, &pin));
-    return pin;
-}
-
 /* A damped cloth that hangs from two corners, at rest and asleep. */
 static kiriSheet HangAsleep(Host* host, kiriPin pins[2])
 {
@@ -46,8 +35,8 @@ static kiriSheet HangAsleep(Host* host, kiriPin pins[2])
     def.material.flexDamping = 0.01f;
     Host_Start(host);
     kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 4, 4);
-    pins[0] = AddPin(host, sheet, 0.0f, 1.0f);
-    pins[1] = AddPin(host, sheet, 1.0f, 1.0f);
+    pins[0] = Host_Pin(host, sheet, 0.0f, 1.0f, 0.0f, 1.0f, 0.0f);
+    pins[1] = Host_Pin(host, sheet, 1.0f, 1.0f, 1.0f, 1.0f, 0.0f);
     int ticks = TicksToSleep(host, sheet, 3000);
     assert_true(ticks > HALF_SECOND && ticks < 3000);
     return sheet;
@@ -55,7 +44,6 @@ static kiriSheet HangAsleep(Host* host, kiriPin pins[2])
 
 static void TestHangingSheetSleeps(void** state)
 {
-    (void)state;
     Host host;
     kiriPin pins[2];
     float before[75];
@@ -88,7 +76,6 @@ static void TestHangingSheetSleeps(void** state)
 
 static void TestCutWakes(void** state)
 {
-    (void)state;
     static const float across[4] = { -0.1f, 0.41f, 1.1f, 0.43f };
     Host host;
     kiriPin pins[2];
@@ -111,7 +98,6 @@ static void TestCutWakes(void** state)
 /* Sheets with a cut that waits for the budget go on sleeping, and wake one after another as their cuts take effect. */
 static void TestWaitingCutDoesNotWake(void** state)
 {
-    (void)state;
     enum { SHEETS = 6 };
     static const float from[2] = { 0.3f, 0.41f }, to[2] = { 0.7f, 0.43f };
     const kiriBudget budget = { .triangles = KIRI_LEAST_TRIANGLES, .cells = 40, .samples = 20 };
@@ -186,7 +172,6 @@ static void Perform(Host* host, kiriSheet sheet, const kiriPin pins[2], Call cal
 /* What is new wakes it, and what is as it was does not. */
 static void TestCallsWake(void** state)
 {
-    (void)state;
     for (int call = 0; call < CALLS; ++call) {
         Host host;
         kiriPin pins[2];
@@ -205,7 +190,6 @@ static void TestCallsWake(void** state)
 /* A hold stays a hold however often it is said; one that moves, or ends, wakes. */
 static void TestHeldSheetSleeps(void** state)
 {
-    (void)state;
     static const float turned[9] = { 0.0f, 1.0f, 0.0f, -1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f };
     Host host;
     kiriPin pins[2];
@@ -268,7 +252,6 @@ static kiriSheet LieAsleep(Host* host)
 
 static void TestSheetOnFloorSleeps(void** state)
 {
-    (void)state;
     static const struct {
         float floor, sway;
         bool wakes;
@@ -291,7 +274,6 @@ static void TestSheetOnFloorSleeps(void** state)
 /* The floor creeps up, each tick by less than what wakes it: it is the floor that it fell asleep on that counts. */
 static void TestCreepingFloorWakes(void** state)
 {
-    (void)state;
     Host host;
     kiriSheet sheet = LieAsleep(&host);
     int tick = 0;

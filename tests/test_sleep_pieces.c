@@ -112,7 +112,6 @@ static void Throw(Host* host, kiriSheet sheet, int strip, float up)
    then no more. */
 static void TestOneByOne(void** state)
 {
-    (void)state;
     static const float speeds[STRIPS] = { 0.0f, 1.0f, 0.01f, 0.1f };
     static const int order[STRIPS] = { 0, 2, 3, 1 };
     Host hosts[2];
@@ -155,7 +154,6 @@ static void TestOneByOne(void** state)
 /* What sleeps takes nothing from the budget. */
 static void TestWork(void** state)
 {
-    (void)state;
     kiriSheetDef def = StripsDef();
     kiriProfile profile;
     Host host;
@@ -261,15 +259,9 @@ static void Perform(Host* host, kiriSheet sheet, Call call)
 static kiriPin PinStrip(Host* host, kiriSheet sheet)
 {
     static const float at[2] = { 0.6f, 0.48f };
-    kiriPinDef def;
-    kiriPin pin;
     kiriPointState point;
-    kiriDefaultPinDef(&def);
     OK(kiriSheet_GetPoint(host->world, sheet, at, &point));
-    memcpy(def.restPoint, at, sizeof(at));
-    memcpy(def.target, point.position, sizeof(def.target));
-    OK(kiriCreatePin(host->world, sheet, &def, &pin));
-    return pin;
+    return Host_Pin(host, sheet, at[0], at[1], point.position[0], point.position[1], point.position[2]);
 }
 
 static void PerformWithPin(Host* host, kiriSheet sheet, Call call)
@@ -285,7 +277,6 @@ static void PerformWithPin(Host* host, kiriSheet sheet, Call call)
 /* What is new to a piece wakes it, and no other. */
 static void TestCallsWake(void** state)
 {
-    (void)state;
     for (int call = 0; call < CALLS; ++call) {
         Host host;
         kiriSheet sheet = StartStrips(&host);
@@ -307,7 +298,6 @@ static void TestCallsWake(void** state)
 /* Contacts that a piece fell asleep with leave it asleep, whatever others get. */
 static void TestContactsOfOthers(void** state)
 {
-    (void)state;
     Host host;
     kiriSheet sheet = StartStrips(&host);
     kiriContact contacts[2] = { { .point = -1, .restPoint = { 0.1f, 0.5f }, .normal = { 0, 0, 1 }, .offset = -0.5f },
@@ -333,7 +323,6 @@ static void TestContactsOfOthers(void** state)
    each pushed with. */
 static void TestContactsOfOnePoint(void** state)
 {
-    (void)state;
     enum { CONTACTS = 8 };
     static const float slope = 0.6f, rise = 0.8f, down[3] = { 0.0f, 0.0f, -9.81f };
     Host host;
@@ -385,7 +374,6 @@ static void TestContactsOfOnePoint(void** state)
    it. */
 static void TestCutWakesItsPiece(void** state)
 {
-    (void)state;
     static const float slit[4] = { 0.6f, 0.3f, 0.65f, 0.6f };
     static const float loop[8] = { 0.6f, 0.7f, 0.7f, 0.7f, 0.65f, 0.9f, 0.6f, 0.7f };
     Host host;
@@ -423,7 +411,6 @@ static kiriObstacle AddBall(Host* host, float u, float v, float z, float up)
 
 static void TestObstacleWakesWhatIsNear(void** state)
 {
-    (void)state;
     Host host;
     kiriSheet sheet = StartStrips(&host);
     SleepAll(&host, sheet);
@@ -446,7 +433,6 @@ static void TestObstacleWakesWhatIsNear(void** state)
 /* Away from under a piece, an obstacle wakes that. */
 static void TestObstacleGoes(void** state)
 {
-    (void)state;
     Host host;
     kiriSheet sheet = StartStrips(&host);
     kiriObstacle ball = AddBall(&host, 0.37f, 0.5f, -0.032f, 0.0f);
@@ -492,7 +478,6 @@ static void PutAndTake(Host* host, kiriSheet sheet, float u, uint32_t woken)
    a sheet that sleeps or of which a strip moves, wakes what is beside the gap, and that alone. */
 static void TestObstacleBesideGone(void** state)
 {
-    (void)state;
     static const float places[3] = { 0.39f, 0.527f, 0.233f }; /* amid the strip that left; near the strip after, and before it */
     static const int woken[3] = { -1, 2, 0 };
     for (int run = 0; run < 12; ++run) {
@@ -524,7 +509,6 @@ static void TestObstacleBesideGone(void** state)
 /* Strips on a floor sleep while one is pushed about. All the while the floor bears the weight of all. */
 static void TestFloorBearsSleepers(void** state)
 {
-    (void)state;
     static const float down[3] = { 0.0f, 0.0f, -9.81f };
     Host host;
     kiriSheetDef def = StripsDef();
@@ -561,7 +545,6 @@ static void TestFloorBearsSleepers(void** state)
    too little to wake anybody. */
 static void TestWhatSleepersPressWith(void** state)
 {
-    (void)state;
     static const float down[3] = { 0.0f, 0.0f, -9.81f }, eye[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
     float at[3] = { 0.5f, 0.5f, -0.1f };
     Host host;
@@ -604,7 +587,6 @@ static void TestWhatSleepersPressWith(void** state)
 /* The first strip is carried over the second, and laid down there. */
 static void TestPiecesThatTouch(void** state)
 {
-    (void)state;
     static const float down[3] = { 0.0f, 0.0f, -9.81f }, none[3] = { 0.0f, 0.0f, 0.0f };
     static const struct {
         float velocity[3];
@@ -657,7 +639,6 @@ static void TestPiecesThatTouch(void** state)
 /* A piece that sleeps sleeps on as a sheet of its own, and so do those that are left. */
 static void TestDetachAsleep(void** state)
 {
-    (void)state;
     Host host;
     kiriSheet sheet = StartStrips(&host), part;
     int32_t awake;

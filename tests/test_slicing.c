@@ -24,7 +24,6 @@ typedef struct Game {
 /* A crew of one, who works on ranges from the last one on. */
 static void* DoBackwards(void* user, kiriTaskFn* task, int32_t items, int32_t range, void* context)
 {
-    (void)user;
     for (int32_t start = (items - 1) / range * range; start >= 0; start -= range) {
         task(start, start + range < items ? start + range : items, context);
     }
@@ -33,8 +32,6 @@ static void* DoBackwards(void* user, kiriTaskFn* task, int32_t items, int32_t ra
 
 static void NothingToFinish(void* user, void* handle)
 {
-    (void)user;
-    (void)handle;
 }
 
 static void HangBanner(Game* game, int i)
@@ -216,7 +213,6 @@ static void Play(uint32_t seed, bool hasBudget, bool hasTasks, int ticks)
 
 static void TestGames(void** state)
 {
-    (void)state;
     for (uint32_t seed = firstSeed; seed < firstSeed + seeds; ++seed) {
         Play(seed, (seed & 1) != 0, (seed & 2) != 0, isLong ? 3600 : 200);
     }

@@ -93,7 +93,6 @@ SPOIL(CornerIsNone, sheet->mesh.triangles.data[0].vertex[1] = KIRI_NONE)
 
 static void TestMesh(void** state)
 {
-    (void)state;
     static const Spoiler spoilers[] = {
         { "TwinIsAnother", TwinIsAnother },         { "SourceIsFar", SourceIsFar },
         { "SourceIsBelow", SourceIsBelow },         { "SourcesAreTheSame", SourcesAreTheSame },
@@ -112,7 +111,6 @@ SPOIL(FrameHasNoPiece, sheet->layout.framePiece.count -= 1)
 
 static void TestLayout(void** state)
 {
-    (void)state;
     static const Spoiler spoilers[] = {
         { "FrameIsOfNoPiece", FrameIsOfNoPiece },
         { "FrameHasNoPiece", FrameHasNoPiece },
@@ -129,7 +127,6 @@ SPOIL(SiteIsFarFromItsAnchor, sheet->frames.data[0].site.at.x += 0.5)
 
 static void TestFrames(void** state)
 {
-    (void)state;
     static const Spoiler spoilers[] = {
         { "WeightIsNotFinite", WeightIsNotFinite },
         { "SiteIsFarFromItsAnchor", SiteIsFarFromItsAnchor },
@@ -152,7 +149,6 @@ SPOIL(PatienceIsNegative, sheet->seen.bounds->patience = -1)
 
 static void TestSeen(void** state)
 {
-    (void)state;
     static const Spoiler spoilers[] = {
         { "ChangeIsBeyond", ChangeIsBeyond },
         { "PatienceIsNegative", PatienceIsNegative },
@@ -175,7 +171,6 @@ SPOIL(BladeIsAtWork, sheet->cuts.data[0]->tip.blade.phase = KIRI_BLADE_LOOKS)
 
 static void TestCuts(void** state)
 {
-    (void)state;
     static const Spoiler spoilers[] = {
         { "PointEndsACutThatGoesOn", PointEndsACutThatGoesOn },
         { "BladeIsAtWork", BladeIsAtWork },
@@ -233,7 +228,6 @@ static void FramesShareASite(kiriSheetData* sheet)
 
 static void TestPiecesElsewhere(void** state)
 {
-    (void)state;
     static const Spoiler spoilers[] = {
         { "FramesChangePlaces", FramesChangePlaces },
         { "FramesShareASite", FramesShareASite },

@@ -1,60 +1,21 @@
 /* Tasks on threads of the host: whatever these are, and in whatever order they work, a tick gives the same bits. */
 #define _POSIX_C_SOURCE 200809L
 
+#include "crew.h"
 #include "host.h"
 
-#include <pthread.h>
-
-enum { MOST_WORKERS = 16, SHEETS = 9, BODIES = 5 };
+enum { SHEETS = 9, BODIES = 5 };
 
 /* ---- A host with threads ---- */
 
-typedef struct Crew {
-    Host host; /* first: its hooks get the crew */
-    pthread_t threads[MOST_WORKERS];
-    pthread_mutex_t lock;
-    pthread_cond_t changed;
-    int32_t workers;    /* the caller with them */
-    bool isBackwards;   /* no threads: the caller does all at once, from the last range on */
-    bool isOver;        /* threads end */
-    bool isBusy;        /* a task is at hand */
-    kiriTaskFn* task;   /* that */
-    void* context;      /* with this */
-    int32_t next, left; /* item to begin with; items that are not done */
-    int32_t items, range;
+typedef struct Team {
+    Host host; /* first: its hooks get the team */
+    Crew crew;
+    bool isBackwards;       /* no threads: the caller does all at once, from the last range on */
     int32_t started, split; /* tasks; tasks of several ranges */
     kiriSheet sheets[SHEETS];
     kiriObstacle bodies[BODIES];
-} Crew;
-
-/* With the lock: takes a range and does it without. False where none is left. */
-static bool WorkOnce(Crew* crew)
-{
-    int32_t start = crew->next, end = start + crew->range < crew->items ? start + crew->range : crew->items;
-    if (!crew->isBusy || start >= crew->items) {
-        return false;
-    }
-    crew->next = end;
-    pthread_mutex_unlock(&crew->lock);
-    crew->task(start, end, crew->context);
-    pthread_mutex_lock(&crew->lock);
-    crew->left -= end - start;
-    pthread_cond_broadcast(&crew->changed);
-    return true;
-}
-
-static void* Serve(void* user)
-{
-    Crew* crew = user;
-    pthread_mutex_lock(&crew->lock);
-    while (!crew->isOver) {
-        if (!WorkOnce(crew)) {
-            pthread_cond_wait(&crew->changed, &crew->lock);
-        }
-    }
-    pthread_mutex_unlock(&crew->lock);
-    return NULL;
-}
+} Team;
 
 static void DoBackwards(const Crew* crew)
 {
@@ -65,102 +26,73 @@ static void DoBackwards(const Crew* crew)
 
 static void* StartTask(void* user, kiriTaskFn* task, int32_t itemCount, int32_t minRange, void* context)
 {
-    Crew* crew = user;
-    pthread_mutex_lock(&crew->lock);
-    assert_false(crew->isBusy);
+    Team* team = user;
+    assert_false(team->crew.isBusy);
     assert_true(itemCount > 0 && minRange > 0);
-    crew->isBusy = true;
-    crew->task = task;
-    crew->context = context;
-    crew->items = crew->left = itemCount;
-    crew->range = minRange;
-    crew->next = 0;
-    ++crew->started;
-    crew->split += itemCount > minRange;
-    pthread_cond_broadcast(&crew->changed);
-    pthread_mutex_unlock(&crew->lock);
-    if (crew->isBackwards) {
-        DoBackwards(crew);
-        crew->isBusy = false;
+    ++team->started;
+    team->split += itemCount > minRange;
+    Crew_Begin(&team->crew, task, itemCount, minRange, context);
+    if (team->isBackwards) {
+        DoBackwards(&team->crew);
+        team->crew.isBusy = false;
         return NULL;
     }
-    return crew;
+    return team;
 }
 
 static void FinishTask(void* user, void* handle)
 {
-    Crew* crew = user;
-    assert_ptr_equal(crew, handle);
-    pthread_mutex_lock(&crew->lock);
-    while (WorkOnce(crew)) {
-    }
-    while (crew->left > 0) {
-        pthread_cond_wait(&crew->changed, &crew->lock);
-    }
-    crew->isBusy = false;
-    pthread_mutex_unlock(&crew->lock);
+    assert_ptr_equal(user, handle);
+    Crew_Finish(&((Team*)user)->crew);
 }
 
 /* Within a task the library asks the host for nothing. */
 static void* CrewAlloc(void* user, int64_t bytes)
 {
-    assert_false(((Crew*)user)->isBusy);
+    assert_false(((Team*)user)->crew.isBusy);
     return Host_Alloc(user, bytes);
 }
 
 static void CrewFree(void* user, void* pointer)
 {
-    assert_false(((Crew*)user)->isBusy);
+    assert_false(((Team*)user)->crew.isBusy);
     Host_Free(user, pointer);
 }
 
 static double CrewClock(void* user)
 {
-    assert_false(((Crew*)user)->isBusy);
+    assert_false(((Team*)user)->crew.isBusy);
     return 0.0;
 }
 
 /* Of 0 workers it gives no tasks; of fewer than 0 it works backwards. */
-static void Crew_Start(Crew* crew, int32_t workers)
+static void Team_Start(Team* team, int32_t workers)
 {
-    memset(crew, 0, sizeof(*crew));
-    crew->host.failAt = -1;
-    crew->host.every = 12;
-    crew->isBackwards = workers < 0;
-    crew->workers = workers;
-    pthread_mutex_init(&crew->lock, NULL);
-    pthread_cond_init(&crew->changed, NULL);
-    kiriWorldDef def = Host_Def(&crew->host);
+    memset(team, 0, sizeof(*team));
+    team->host.failAt = -1;
+    team->host.every = 12;
+    team->isBackwards = workers < 0;
+    kiriWorldDef def = Host_Def(&team->host);
     def.alloc = CrewAlloc;
     def.free = CrewFree;
     def.clock = CrewClock;
-    def.user = crew;
+    def.user = team;
     def.startTask = workers != 0 ? StartTask : NULL;
     def.finishTask = workers != 0 ? FinishTask : NULL;
     def.workerCount = workers < 0 ? 4 : workers;
-    OK(kiriCreateWorld(&def, &crew->host.world));
-    for (int32_t i = 1; i < workers; ++i) {
-        assert_int_equal(pthread_create(&crew->threads[i], NULL, Serve, crew), 0);
-    }
+    assert_true(Crew_Start(&team->crew, workers));
+    OK(kiriCreateWorld(&def, &team->host.world));
 }
 
-static void Crew_Stop(Crew* crew)
+static void Team_Stop(Team* team)
 {
-    pthread_mutex_lock(&crew->lock);
-    crew->isOver = true;
-    pthread_cond_broadcast(&crew->changed);
-    pthread_mutex_unlock(&crew->lock);
-    for (int32_t i = 1; i < crew->workers; ++i) {
-        pthread_join(crew->threads[i], NULL);
-    }
-    Host_Stop(&crew->host);
-    pthread_cond_destroy(&crew->changed);
-    pthread_mutex_destroy(&crew->lock);
+    Crew_Stop(&team->crew);
+    Host_Stop(&team->host);
 }
 
 /* ---- A scene ---- */
 
-static kiriObstacle AddBody(Crew* crew, int32_t type, const float position[3], float mass, uint32_t body)
+static kiriObstacle AddBody(Team* team, int32_t type, const float position[3], float mass, uint32_t body)
 {
     kiriObstacleDef def;
     kiriObstacle obstacle = 0;
@@ -173,23 +105,23 @@ static kiriObstacle AddBody(Crew* crew, int32_t type, const float position[3], f
         def.inertia[k] = 0.016f * mass;
     }
     def.body = body;
-    OK(kiriCreateObstacle(crew->host.world, &def, &obstacle));
+    OK(kiriCreateObstacle(team->host.world, &def, &obstacle));
     return obstacle;
 }
 
-static kiriSheet AddSheet(Crew* crew, float x, float y, float z, int32_t squares)
+static kiriSheet AddSheet(Team* team, float x, float y, float z, int32_t squares)
 {
     kiriSheetDef def = Host_SmallDef();
     def.position[0] = x;
     def.position[1] = y;
     def.position[2] = z;
     def.touchesSheets = 1;
-    return Host_AddRectangle(&crew->host, &def, 1.0f, 1.0f, squares, squares);
+    return Host_AddRectangle(&team->host, &def, 1.0f, 1.0f, squares, squares);
 }
 
 /* A floor; two sheets that lie on each other; two balls, each under two sheets, the second one of a body with a third
    ball; a sheet that hangs on a ball, which lies on another sheet. */
-static void Build(Crew* crew)
+static void Build(Team* team)
 {
     static const float floor[3] = { 0.0f, 0.0f, 0.0f }, first[3] = { 1.2f, 0.5f, 0.3f },
                        second[3] = { 4.2f, 0.5f, 0.3f }, third[3] = { 5.4f, 0.5f, 0.3f },
@@ -199,48 +131,46 @@ static void Build(Crew* crew)
         { 3.0f, 0.0f, 0.52f },  { 5.2f, 0.0f, 0.53f }, { 0.2f, 2.0f, 0.05f },
         { 0.25f, 2.05f, 0.1f }, { 7.0f, 0.0f, 0.35f }, { 7.5f, 0.5f, 0.9f },
     };
-    crew->bodies[0] = AddBody(crew, KIRI_OBSTACLE_PLANE, floor, 0.0f, 0);
-    crew->bodies[1] = AddBody(crew, KIRI_OBSTACLE_SPHERE, first, 0.3f, 0);
-    crew->bodies[2] = AddBody(crew, KIRI_OBSTACLE_SPHERE, second, 0.4f, 7);
-    crew->bodies[3] = AddBody(crew, KIRI_OBSTACLE_SPHERE, third, 0.4f, 7);
-    crew->bodies[4] = AddBody(crew, KIRI_OBSTACLE_SPHERE, fourth, 0.2f, 0);
+    team->bodies[0] = AddBody(team, KIRI_OBSTACLE_PLANE, floor, 0.0f, 0);
+    team->bodies[1] = AddBody(team, KIRI_OBSTACLE_SPHERE, first, 0.3f, 0);
+    team->bodies[2] = AddBody(team, KIRI_OBSTACLE_SPHERE, second, 0.4f, 7);
+    team->bodies[3] = AddBody(team, KIRI_OBSTACLE_SPHERE, third, 0.4f, 7);
+    team->bodies[4] = AddBody(team, KIRI_OBSTACLE_SPHERE, fourth, 0.2f, 0);
     for (int32_t i = 0; i < SHEETS; ++i) {
-        crew->sheets[i] = AddSheet(crew, spots[i][0], spots[i][1], spots[i][2], i == 5 ? 46 : 4 + 2 * (i % 4));
+        team->sheets[i] = AddSheet(team, spots[i][0], spots[i][1], spots[i][2], i == 5 ? 46 : 4 + 2 * (i % 4));
     }
-    kiriPinDef pin;
+    kiriPinDef pin = Host_PinDef(0.0f, 0.0f, spots[8][0], spots[8][1], spots[8][2]);
     kiriPin made;
-    kiriDefaultPinDef(&pin);
-    memcpy(pin.target, spots[8], sizeof(pin.target));
-    pin.obstacle = crew->bodies[4];
-    OK(kiriCreatePin(crew->host.world, crew->sheets[8], &pin, &made));
+    pin.obstacle = team->bodies[4];
+    OK(kiriCreatePin(team->host.world, team->sheets[8], &pin, &made));
 }
 
 /* The host moves its bodies by what sheets gave them. */
-static void MoveBodies(Crew* crew, float dt)
+static void MoveBodies(Team* team, float dt)
 {
     for (int32_t i = 1; i < BODIES; ++i) {
         kiriObstacleState state;
-        OK(kiriObstacle_GetState(crew->host.world, crew->bodies[i], &state));
+        OK(kiriObstacle_GetState(team->host.world, team->bodies[i], &state));
         for (int k = 0; k < 3; ++k) {
             state.velocity[k] += (float)state.impulse[k] / 0.4f - (k == 2 ? 9.81f * dt : 0.0f);
         }
-        OK(kiriObstacle_SetVelocity(crew->host.world, crew->bodies[i], state.velocity, state.angularVelocity));
+        OK(kiriObstacle_SetVelocity(team->host.world, team->bodies[i], state.velocity, state.angularVelocity));
     }
 }
 
-static void Do(Crew* crew, int32_t tick)
+static void Do(Team* team, int32_t tick)
 {
     static const float across[4] = { -0.1f, 0.45f, 1.1f, 0.55f }, slit[4] = { 0.3f, 0.3f, 0.7f, 0.7f };
     if (tick % 10 == 3) {
-        Host_Cut(&crew->host, crew->sheets[tick / 10 % SHEETS], across, 2);
-        Host_Cut(&crew->host, crew->sheets[(tick / 10 + 4) % SHEETS], slit, 2);
+        Host_Cut(&team->host, team->sheets[tick / 10 % SHEETS], across, 2);
+        Host_Cut(&team->host, team->sheets[(tick / 10 + 4) % SHEETS], slit, 2);
     }
-    MoveBodies(crew, 0.01f);
+    MoveBodies(team, 0.01f);
 }
 
 /* ---- Comparing ---- */
 
-static void CompareSheets(const Crew* a, const Crew* b)
+static void CompareSheets(const Team* a, const Team* b)
 {
     for (int32_t i = 0; i < SHEETS; ++i) {
         kiriMesh left = Host_Mesh(&a->host, a->sheets[i]), right = Host_Mesh(&b->host, b->sheets[i]);
@@ -251,7 +181,7 @@ static void CompareSheets(const Crew* a, const Crew* b)
     }
 }
 
-static void CompareWorlds(const Crew* a, const Crew* b)
+static void CompareWorlds(const Team* a, const Team* b)
 {
     kiriProfile left, right;
     const kiriEvent *first, *second;
@@ -277,27 +207,27 @@ static void CompareWorlds(const Crew* a, const Crew* b)
 /* Returns how many contacts there were in all ticks. */
 static int64_t Compare(int32_t workers, const kiriBudget* budget, int32_t ticks)
 {
-    static Crew crew, alone;
+    static Team team, alone;
     int64_t contacts = 0;
-    Crew_Start(&crew, workers);
-    Crew_Start(&alone, 0);
-    Build(&crew);
+    Team_Start(&team, workers);
+    Team_Start(&alone, 0);
+    Build(&team);
     Build(&alone);
-    OK(kiriWorld_SetBudget(crew.host.world, budget));
+    OK(kiriWorld_SetBudget(team.host.world, budget));
     OK(kiriWorld_SetBudget(alone.host.world, budget));
     for (int32_t tick = 0; tick < ticks; ++tick) {
-        Do(&crew, tick);
+        Do(&team, tick);
         Do(&alone, tick);
-        assert_int_equal(Host_Tick(&crew.host, 0.01f, 2), Host_Tick(&alone.host, 0.01f, 2));
-        CompareWorlds(&crew, &alone);
+        assert_int_equal(Host_Tick(&team.host, 0.01f, 2), Host_Tick(&alone.host, 0.01f, 2));
+        CompareWorlds(&team, &alone);
         kiriProfile profile;
-        OK(kiriWorld_GetProfile(crew.host.world, &profile));
+        OK(kiriWorld_GetProfile(team.host.world, &profile));
         contacts += profile.contacts;
     }
     assert_int_equal(alone.started, 0);
-    assert_true(workers == 1 ? crew.started == 0 : crew.split > ticks);
-    Crew_Stop(&crew);
-    Crew_Stop(&alone);
+    assert_true(workers == 1 ? team.started == 0 : team.split > ticks);
+    Team_Stop(&team);
+    Team_Stop(&alone);
     return contacts;
 }
 
@@ -307,7 +237,6 @@ static void AnyCrewGivesTheSameBits(void** state)
 {
     static const int32_t crews[] = { -1, 1, 2, 16 };
     static const kiriBudget all = { 0, 0, 0, 0 };
-    (void)state;
     for (size_t i = 0; i < sizeof(crews) / sizeof(*crews); ++i) {
         assert_true(Compare(crews[i], &all, 36) > 1000);
     }
@@ -317,7 +246,6 @@ static void AnyCrewGivesTheSameBits(void** state)
 static void SoItDoesOnABudget(void** state)
 {
     static const kiriBudget tight = { 32, 60, 40, 14 }, wide = { 64, 200, 100, 120 };
-    (void)state;
     Compare(-1, &tight, 24);
     Compare(4, &tight, 24);
     Compare(-1, &wide, 24);
@@ -328,25 +256,24 @@ static void SoItDoesOnABudget(void** state)
 static int32_t TasksOfFall(bool hasObstacle)
 {
     static const float below[3] = { 0.0f, 0.0f, -100.0f };
-    static Crew crew;
-    Crew_Start(&crew, 2);
+    static Team team;
+    Team_Start(&team, 2);
     for (int32_t i = 0; i < 4; ++i) {
-        AddSheet(&crew, 2.0f * (float)i, 0.0f, 0.5f, 6);
+        AddSheet(&team, 2.0f * (float)i, 0.0f, 0.5f, 6);
     }
     if (hasObstacle) {
-        AddBody(&crew, KIRI_OBSTACLE_PLANE, below, 0.0f, 0);
+        AddBody(&team, KIRI_OBSTACLE_PLANE, below, 0.0f, 0);
     }
-    Host_Tick(&crew.host, 0.01f, 2);
-    int32_t before = crew.started;
-    Host_Tick(&crew.host, 0.01f, 2);
-    int32_t tasks = crew.started - before;
-    Crew_Stop(&crew);
+    Host_Tick(&team.host, 0.01f, 2);
+    int32_t before = team.started;
+    Host_Tick(&team.host, 0.01f, 2);
+    int32_t tasks = team.started - before;
+    Team_Stop(&team);
     return tasks;
 }
 
 static void SheetsLookForObstaclesInATask(void** state)
 {
-    (void)state;
     assert_int_equal(TasksOfFall(true), TasksOfFall(false) + 1);
 }
 
@@ -354,7 +281,6 @@ static void HooksComeTogether(void** state)
 {
     Host host;
     kiriWorld* world = NULL;
-    (void)state;
     memset(&host, 0, sizeof(host));
     host.failAt = -1;
     kiriWorldDef def = Host_Def(&host);

@@ -44,11 +44,7 @@ static void TurnAxes(const Motion* motion, const float from[9], float to[9])
 
 static void AddPin(Scene* scene, float u, float v)
 {
-    kiriPinDef def;
-    kiriDefaultPinDef(&def);
-    def.restPoint[0] = def.target[0] = u;
-    def.restPoint[1] = def.target[1] = v;
-    def.target[2] = 1.0f;
+    kiriPinDef def = Host_PinDef(u, v, u, v, 1.0f);
     def.obstacle = scene->obstacle;
     OK(kiriCreatePin(scene->host.world, scene->sheet, &def, &scene->pins[scene->pinCount++]));
 }
@@ -180,7 +176,6 @@ static void CheckTeleport(int kind, int order, int model, int skinning, int32_t 
 
 static void TestSheetsAtRest(void** state)
 {
-    (void)state;
     for (int kind = 0; kind < KINDS; ++kind) {
         for (int order = 0; order < ORDERS; ++order) {
             for (int model = KIRI_MODEL_LINKS; model <= KIRI_MODEL_AFFINE; ++model) {
@@ -193,7 +188,6 @@ static void TestSheetsAtRest(void** state)
 /* A target that is set before counts as moved, though by nothing: that step is one of backward Euler. */
 static void TestSwingingSheets(void** state)
 {
-    (void)state;
     for (int kind = 0; kind < KINDS; ++kind) {
         for (int order = ALONE; order < SET_FIRST && kind != ON_OBSTACLE; ++order) {
             CheckTeleport(kind, order, KIRI_MODEL_LINKS, KIRI_SKINNING_LINEAR, 17);
@@ -220,7 +214,6 @@ static void MovePins(Scene* scene, int32_t tick, const Motion* motion)
 
 static void TestMovingPins(void** state)
 {
-    (void)state;
     static const Motion none = { { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f }, { 0.0f, 0.0f, 0.0f } },
                         away = { { 0.0f, 1.0f, 0.0f, -1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f }, { 16.0f, -4.0f, 2.0f } };
     for (int move = 0; move < MOVES; ++move) {
@@ -399,7 +392,6 @@ static void CompareEverything(const Everything* a, const Everything* b, int32_t 
 
 static void TestOrigin(void** state)
 {
-    (void)state;
     static Everything worlds[2];
     static const float none[3] = { 0.0f, -0.0f, 0.0f };
     int32_t pending = 0, contacts = 0, slept = 0;
@@ -443,7 +435,6 @@ static void TestOrigin(void** state)
 
 static void TestOriginIsChecked(void** state)
 {
-    (void)state;
     static Everything all;
     const float far[3] = { 0.0f, 3e38f, 0.0f }, nan[3] = { NAN, 0.0f, 0.0f };
     StartEverything(&all);

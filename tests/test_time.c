@@ -109,7 +109,6 @@ static void TestTorqueArrives(void** state)
 {
     const int frames[3] = { 5, 9, 17 };
     const double hertz[3] = { 60.0, 120.0, 480.0 };
-    (void)state;
     for (int k = 0; k < 9; ++k) {
         StripDef d = { frames[k / 3], KIRI_MODEL_LINKS, 0, 0.0f };
         AssertTurns(&d, 0.5, hertz[k % 3], 0.01);
@@ -124,7 +123,6 @@ static void TestTorqueArrivesInOtherSheets(void** state)
                                { 9, KIRI_MODEL_LINKS, 1, 1e5f },
                                { 9, KIRI_MODEL_AFFINE, 1, 1e5f } };
     const double tolerances[3] = { 0.01, 0.01, 0.04 };
-    (void)state;
     for (int k = 0; k < 3; ++k) {
         AssertTurns(&defs[k], 0.3, 60.0, tolerances[k]);
     }
@@ -133,7 +131,6 @@ static void TestTorqueArrivesInOtherSheets(void** state)
 /* At rest under a steady torque the links give as much as the torque takes: no step is taken anew. */
 static void TestTorqueAtRest(void** state)
 {
-    (void)state;
     for (int frames = 5; frames <= 17; frames += 6) {
         const StripDef d = { frames, KIRI_MODEL_LINKS, 0, 0.0f };
         const float torque[3] = { 0.0f, (float)(-0.5 * BendingStiffness(&d)), 0.0f };
@@ -251,7 +248,6 @@ static void TestSwingLasts(void** state)
 {
     const Swing two = { 0, 2, 1, false, 1.5 }, four = { 0, 4, 1, false, 1.5 }, euler = { 1, 2, 1, false, 1.5 };
     const Swing uneven = { 0, 0, 1, true, 1.5 }, more = { 0, 0, 2, true, 1.5 };
-    (void)state;
     double left = EnergyLeft(&two, 10.0), finer = EnergyLeft(&four, 10.0);
     assert_true(left > 0.95 && left < 1.0 && finer > 0.99 && finer < 1.0);
     assert_true(EnergyLeft(&euler, 10.0) < 0.05);
@@ -292,7 +288,6 @@ static double SagError(int timeStepping, int substeps, const double exact[3])
 static void TestOrder(void** state)
 {
     double exact[3];
-    (void)state;
     Sag(KIRI_TIME_STEPPING_SECOND_ORDER, 64, exact);
     double coarse = SagError(KIRI_TIME_STEPPING_SECOND_ORDER, 2, exact);
     double fine = SagError(KIRI_TIME_STEPPING_SECOND_ORDER, 4, exact);
@@ -329,7 +324,6 @@ static double EnergyLeftBesideSlit(int timeStepping)
 
 static void TestSlitGrows(void** state)
 {
-    (void)state;
     double left = EnergyLeftBesideSlit(KIRI_TIME_STEPPING_SECOND_ORDER);
     assert_true(left > 0.8 && left < 1.02);
     assert_true(EnergyLeftBesideSlit(KIRI_TIME_STEPPING_EULER) < 0.5);

@@ -75,7 +75,6 @@ static void TestForcesAreSorted(void** state)
     kiriIndices order = { 0 };
     static PlainForces plain;
     uint32_t seed = 2463534242u;
-    (void)state;
     memset(&memory, 0, sizeof(memory));
     assert_true(kiriArray_Reserve(&owner, &memory.touches, ROUNDS * 12) &&
                 kiriArray_Reserve(&owner, &memory.forces, MOST) && kiriArray_Reserve(&owner, &order, 12));

@@ -202,7 +202,6 @@ static void Run(int layout, int way, uint32_t seed, int ticks)
 
 static void TestEnergyNeverRises(void** state)
 {
-    (void)state;
     for (int layout = 0; layout < LAYOUTS; ++layout) {
         for (int way = 0; way < WAYS; ++way) {
             for (uint32_t seed = 0; seed < (isLoud ? 20 : 1); ++seed) {
@@ -216,7 +215,6 @@ static void TestEnergyNeverRises(void** state)
 /* 256 pieces side by side, which nothing moves: they stay where they are, and nothing is looked at. */
 static void TestSideBySideRests(void** state)
 {
-    (void)state;
     enum { SIDE = 16 };
     static const float none[3] = { 0.0f, 0.0f, 0.0f };
     Touching t;
@@ -285,7 +283,6 @@ static void Meet(double off, double width, bool isUpwards)
 
 static void TestMomentumStays(void** state)
 {
-    (void)state;
     Meet(0.0, 0.2, false);
     Meet(0.1, 0.2, false);
     Meet(0.0, 0.1, false);
@@ -297,7 +294,6 @@ static void TestMomentumStays(void** state)
    finite, stops nowhere, and rests when there is memory again. */
 static void TestScarceMemory(void** state)
 {
-    (void)state;
     for (int every = 2; every <= 7; ++every) {
         Touching t;
         int32_t refused = 0, awake = 1;
@@ -333,7 +329,6 @@ static void TestScarceMemory(void** state)
 
 int main(int count, char** arguments)
 {
-    (void)arguments;
     isLoud = count > 1;
     const struct CMUnitTest tests[] = { cmocka_unit_test(TestEnergyNeverRises), cmocka_unit_test(TestSideBySideRests),
                                         cmocka_unit_test(TestMomentumStays),

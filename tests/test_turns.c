@@ -76,7 +76,6 @@ static void CheckMomentum(const Host* host, kiriSheet sheet, const double* momen
    velocity. */
 static void TestPiecesTakeTurns(void** state)
 {
-    (void)state;
     Host host;
     kiriFrame frames[MOST];
     kiriFrameState was[MOST], is[MOST];
@@ -117,7 +116,6 @@ static void TestPiecesTakeTurns(void** state)
 /* Forces are of one tick, also for those that wait in it. */
 static void TestForcesAreUsedUp(void** state)
 {
-    (void)state;
     Host host;
     kiriFrame frames[MOST];
     kiriFrameState states[MOST], after[MOST];
@@ -142,7 +140,6 @@ static void TestForcesAreUsedUp(void** state)
 /* Small sheets that come after the dice are moved as well. */
 static void TestSheetsTakeTurns(void** state)
 {
-    (void)state;
     enum { OTHERS = 3 };
     Host host;
     kiriSheet others[OTHERS];
@@ -214,7 +211,6 @@ static void CutWhileWaiting(int32_t skinning, float x, float fadeTime, int32_t c
 
 static void TestSeenWhileWaiting(void** state)
 {
-    (void)state;
     for (int32_t cells = 0; cells <= 5000; cells += 2500) {
         CutWhileWaiting(KIRI_SKINNING_LINEAR, 0.0f, 0.25f, cells);
         CutWhileWaiting(KIRI_SKINNING_LINEAR, 0.0f, 0.0f, cells);
@@ -226,7 +222,6 @@ static void TestSeenWhileWaiting(void** state)
 /* Who comes next is a part of the state. */
 static void TestSaveWhileWaiting(void** state)
 {
-    (void)state;
     Host host, other;
     int64_t size;
     kiriSheet sheet = StartDice(&host, 1);

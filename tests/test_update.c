@@ -142,7 +142,6 @@ static void WanderBothWays(const Case* c, int32_t number, uint32_t seed)
 
 static void TestIncrementalEqualsFromScratch(void** state)
 {
-    (void)state;
     for (int32_t number = 0; number < 80; ++number) {
         uint32_t seed = 1000u + (uint32_t)number;
         Case c;
@@ -161,7 +160,6 @@ static void TestIncrementalEqualsFromScratch(void** state)
    the lattice. Then squares that the sheet only just entered have no cell any more. */
 static void TestOutlineLeavesSquares(void** state)
 {
-    (void)state;
     int32_t gone = 0;
     for (uint32_t number = 0; number < 12; ++number) {
         static const int32_t indices[3] = { 0, 1, 2 };
@@ -273,7 +271,6 @@ static void GiveSpiral(Host* host, kiriSheet sheet, int32_t index)
 {
     enum { COUNT = 2000 };
     static float points[2 * COUNT];
-    (void)index;
     for (int32_t i = 0; i < COUNT; ++i) {
         double t = 6.0 * 3.14159265358979 * i / (COUNT - 1), r = 0.1 + 0.35 * i / (COUNT - 1);
         points[2 * i] = (float)(0.5 + r * cos(t) + 0.01 * sin(9.0 * t));
@@ -284,7 +281,6 @@ static void GiveSpiral(Host* host, kiriSheet sheet, int32_t index)
 
 static void GiveSlash(Host* host, kiriSheet sheet, int32_t index)
 {
-    (void)index;
     Host_Cut(host, sheet, (float[]){ -0.1f, 0.31f, 1.1f, 0.63f }, 2);
 }
 
@@ -292,7 +288,6 @@ enum { DICE_LINES = 6 };
 
 static void GiveDice(Host* host, kiriSheet sheet, int32_t index)
 {
-    (void)index;
     for (int i = 0; i < 2 * DICE_LINES; ++i) {
         float at = ((float)(i / 2) + 0.613f) / DICE_LINES;
         float line[4] = { i % 2 ? at : -0.1f, i % 2 ? -0.1f : at, i % 2 ? at : 1.1f, i % 2 ? 1.1f : at };
@@ -312,7 +307,6 @@ static void GiveCircle(Host* host, kiriSheet sheet, int32_t index)
    a tick takes; many pieces at once; many sheets. */
 static void TestAnyBudgetEqualsNone(void** state)
 {
-    (void)state;
     static const struct {
         void (*give)(Host* host, kiriSheet sheet, int32_t index);
         int32_t sheets, mesh, grid, frames, points, pieces, leastTicks, every;
@@ -356,7 +350,6 @@ static void TestAnyBudgetEqualsNone(void** state)
    together. */
 static void TestBladeFasterThanItsBudget(void** state)
 {
-    (void)state;
     for (uint32_t number = 0; number < 12; ++number) {
         Host hosts[2];
         kiriSheet sheets[2];
@@ -389,7 +382,6 @@ static void TestBladeFasterThanItsBudget(void** state)
 
 static void TestBudgetsThatAreNone(void** state)
 {
-    (void)state;
     Host host;
     Host_Start(&host);
     kiriBudget few = { .triangles = KIRI_LEAST_TRIANGLES - 1, .cells = 0, .samples = 0, .iterations = 0 };
@@ -404,7 +396,6 @@ static void TestBudgetsThatAreNone(void** state)
 
 static void TestBudgetFromTime(void** state)
 {
-    (void)state;
     kiriProfile profile;
     memset(&profile, 0, sizeof(profile));
     kiriBudget budget = { 100, 200, 300, 400 };
@@ -469,7 +460,6 @@ static uint64_t LayoutAfterCut(uint32_t seed, int32_t changeAt, int32_t* ticks)
 /* What comes of a cut does not depend on it: links that are being made look at all regions that have become dirty. */
 static void TestMaterialChangesAmidWork(void** state)
 {
-    (void)state;
     for (uint32_t seed = 1; seed < 3; ++seed) {
         int32_t count, ticks;
         uint64_t layout = LayoutAfterCut(seed, 0, &count);

@@ -107,7 +107,6 @@ static const char* CorruptMesh(kiriWorld* world, kiriSheetData* s, int way)
     kiriMeshData* mesh = &s->mesh;
     kiriTriangle* triangles = mesh->triangles.data;
     int32_t h = InnerEdge(mesh, false), open = InnerEdge(mesh, true);
-    (void)world;
     WAY("mesh: triangle", triangles[h / 3].vertex[h % 3] = mesh->vertices.count)
     WAY("turned over", mesh->vertices.data[triangles[0].vertex[0]].at = mesh->vertices.data[triangles[0].vertex[1]].at)
     WAY("which has", triangles[h / 3].twin[h % 3] = kiriEdge_Next(kiriMesh_Twin(mesh, h)))
@@ -134,7 +133,6 @@ static const char* CorruptSquares(kiriWorld* world, kiriSheetData* s, int way)
 {
     kiriSquares* squares = &s->mesh.squares;
     int32_t node = squares->head[0], last = squares->columns * squares->rows - 1;
-    (void)world;
     WAY("squares list", squares->head[0] = squares->nodes.data[node].next)
     WAY("twice", squares->nodes.data[node].triangle = squares->nodes.data[squares->nodes.data[node].next].triangle)
     WAY("which is elsewhere", squares->nodes.data[node].triangle = squares->nodes.data[squares->head[last]].triangle)
@@ -151,7 +149,6 @@ static const char* CorruptSquares(kiriWorld* world, kiriSheetData* s, int way)
 
 static void SeesMeshes(void** state)
 {
-    (void)state;
     CheckWays(CorruptMesh, KIRI_MODEL_LINKS);
     CheckWays(CorruptSquares, KIRI_MODEL_LINKS);
 }
@@ -159,7 +156,6 @@ static void SeesMeshes(void** state)
 /* Edges that lie on each other and are not twins are as in a mesh that does not conform. */
 static void SeesThatTwinsAreMissing(void** state)
 {
-    (void)state;
     Host host;
     kiriMeshData* mesh = &Start(&host, KIRI_MODEL_LINKS, 0)->mesh;
     int32_t h = InnerEdge(mesh, true), twin = kiriMesh_Twin(mesh, h);
@@ -189,7 +185,6 @@ static const char* CorruptCells(kiriWorld* world, kiriSheetData* s, int way)
     kiriGrid* grid = &s->grid;
     int32_t c = DividedCell(grid), other = grid->cells.data[c].next, square = grid->cells.data[c].square;
     int32_t node = s->mesh.squares.head[square];
-    (void)world;
     WAY("grid: ", grid->nodeCell.data[node] = grid->nodeCell.data[node] == c ? other : c)
     WAY("is of cell", grid->nodeCell.data[node] = grid->squareCell.data[square > 0 ? 0 : 1])
     WAY("grid: cell", grid->cells.data[other].triangle += 1)
@@ -209,7 +204,6 @@ static const char* CorruptFaces(kiriWorld* world, kiriSheetData* s, int way)
     kiriStep* steps = grid->steps.data;
     int32_t c = DividedCell(grid), f = grid->cells.data[c].firstFace;
     kiriStepRun* run = &grid->runs.data[c];
-    (void)world;
     WAY("wide", kiriGrid_OwnStretch(grid, s->memory, f)->width = 0.0)
     WAY("on its side",
         kiriGrid_OwnStretch(grid, s->memory, f)->middle.x += grid->side;
@@ -254,7 +248,6 @@ static const char* CorruptFaces(kiriWorld* world, kiriSheetData* s, int way)
 
 static void SeesGrids(void** state)
 {
-    (void)state;
     CheckWays(CorruptCells, KIRI_MODEL_LINKS);
     CheckWays(CorruptFaces, KIRI_MODEL_LINKS);
 }
@@ -265,7 +258,6 @@ static const char* CorruptRegions(kiriWorld* world, kiriSheetData* s, int way)
 {
     kiriRegions* r = &s->regions;
     int32_t c = 0, site = s->frames.data[0].site.cell;
-    (void)world;
     while (!r->onBorder.data[c] || r->siteAt.data[c] != KIRI_NONE) {
         ++c;
     }
@@ -317,7 +309,6 @@ static const char* CorruptShape(kiriWorld* world, kiriSheetData* s, int way)
 {
     kiriShape* shape = &s->shape;
     int32_t c = 0;
-    (void)world;
     while (shape->spans.data[c].count < 2) {
         ++c;
     }
@@ -340,7 +331,6 @@ static const char* CorruptShape(kiriWorld* world, kiriSheetData* s, int way)
 
 static void SeesFields(void** state)
 {
-    (void)state;
     CheckWays(CorruptRegions, KIRI_MODEL_LINKS);
     CheckWays(CorruptShape, KIRI_MODEL_LINKS);
 }
@@ -350,7 +340,6 @@ static void SeesFields(void** state)
 static const char* CorruptFrames(kiriWorld* world, kiriSheetData* s, int way)
 {
     kiriFrameData* f = &s->frames.data[1];
-    (void)world;
     WAY("is not finite", f->x.y = (double)NAN)
     WAY("is not finite", f->spin.z = (double)INFINITY)
     WAY("rotation", f->A.u = kiriVec3_Scale(1.0 + 1e-6, f->A.u))
@@ -368,7 +357,6 @@ static const char* CorruptLayout(kiriWorld* world, kiriSheetData* s, int way)
     kiriLayout* layout = &s->layout;
     kiriLink* links = s->links.links.data;
     int32_t last = s->frames.count - 1, inner = s->mesh.vertices.count; /* a vertex of the piece that came off */
-    (void)world;
     WAY("joins frames", links[0].j = links[0].i)
     WAY("comes too late", links[1] = links[s->links.links.count - 1])
     WAY("has width", links[0].width = 0.0)
@@ -401,7 +389,6 @@ static const char* CorruptLayout(kiriWorld* world, kiriSheetData* s, int way)
 static const char* CorruptCorners(kiriWorld* world, kiriSheetData* s, int way)
 {
     kiriCorner* corner = s->links.corners.data;
-    (void)world;
     assert_true(s->links.corners.count > 0);
     WAY("has 2 links", corner->count = 2)
     WAY("corners: corner 0 has link", corner->link[2] = s->links.links.count)
@@ -413,7 +400,6 @@ static const char* CorruptCorners(kiriWorld* world, kiriSheetData* s, int way)
 static const char* CorruptPatches(kiriWorld* world, kiriSheetData* s, int way)
 {
     kiriAreaElements* patches = &s->layout.areaElements;
-    (void)world;
     assert_true(patches->elements.count > 1);
     WAY("shares from", patches->elements.data[1].first += 1)
     WAY("has area", patches->elements.data[0].area = 0.0)
@@ -426,7 +412,6 @@ static const char* CorruptSamples(kiriWorld* world, kiriSheetData* s, int way)
 {
     kiriSkin *skin = &s->vertexSkin, *points = &s->pointSkin;
     int32_t v = 0;
-    (void)world;
     while (skin->spans.data[v].count < 2) {
         ++v;
     }
@@ -449,7 +434,6 @@ static const char* CorruptSamples(kiriWorld* world, kiriSheetData* s, int way)
 static const char* CorruptSurface(kiriWorld* world, kiriSheetData* s, int way)
 {
     kiriSurface* surface = &s->seen.surface;
-    (void)world;
     WAY("vertices of", surface->vertexCount -= 1)
     WAY("other corners", surface->indices.data[4] = 0)
     WAY("rests elsewhere", surface->rest.data[2].x += 1e-9)
@@ -466,7 +450,6 @@ static const char* CorruptSurface(kiriWorld* world, kiriSheetData* s, int way)
 
 static void SeesWhatIsInForce(void** state)
 {
-    (void)state;
     CheckWays(CorruptFrames, KIRI_MODEL_LINKS);
     CheckWays(CorruptLayout, KIRI_MODEL_LINKS);
     CheckWaysWith(CorruptCorners, KIRI_MODEL_LINKS, 12);
@@ -481,7 +464,6 @@ static void SeesWhatIsInForce(void** state)
 static const char* CorruptQueue(kiriWorld* world, kiriSheetData* s, int way)
 {
     kiriCutData* cut = s->cuts.data[0];
-    (void)world;
     assert_true(s->queue.count == 1 && cut->tip.blade.vertex != KIRI_NONE);
     WAY("counted", cut->waiting += 1)
     WAY("no more", s->queue.data[0].cut = NULL)
@@ -506,14 +488,12 @@ static const char* CorruptIds(kiriWorld* world, kiriSheetData* s, int way)
 
 static void SeesQueuesAndIds(void** state)
 {
-    (void)state;
     CheckWays(CorruptQueue, KIRI_MODEL_LINKS);
     CheckWays(CorruptIds, KIRI_MODEL_LINKS);
 }
 
 static void SeesLostBlocks(void** state)
 {
-    (void)state;
     Host host;
     kiriSheetData* sheet = Start(&host, KIRI_MODEL_LINKS, 0);
     kiriBlock** link = sheet->own.blocks->next->link;
@@ -530,12 +510,8 @@ static void HoldAllOver(Host* host, kiriSheet sheet, int32_t* frames)
 {
     kiriSheetData* data = host->world->sheets.data[0];
     for (int i = 0; i < 400; ++i) {
-        kiriPinDef def;
-        kiriPin pin;
-        kiriDefaultPinDef(&def);
-        def.restPoint[0] = 0.03f + 0.05f * (float)(i % 20);
-        def.restPoint[1] = 0.021f + 0.05f * (float)(i / 20);
-        OK(kiriCreatePin(host->world, sheet, &def, &pin));
+        float u = 0.03f + 0.05f * (float)(i % 20), v = 0.021f + 0.05f * (float)(i / 20);
+        kiriPin pin = Host_Pin(host, sheet, u, v, 0.0f, 0.0f, 0.0f);
         frames[i] = data->layout.pinFrame.data[data->pins.count - 1];
         assert_in_range(frames[i], 0, data->frames.count - 1);
         OK(kiriDestroyPin(host->world, pin));
@@ -546,7 +522,6 @@ static void HoldAllOver(Host* host, kiriSheet sheet, int32_t* frames)
    must not ask it. */
 static void PinsWhileTheMeshIsCut(void** state)
 {
-    (void)state;
     const float line[4] = { 0.05f, 0.47f, 0.95f, 0.53f };
     const kiriBudget budget = { KIRI_LEAST_TRIANGLES, 0, 0, 0 };
     Host host;
@@ -565,7 +540,6 @@ static void PinsWhileTheMeshIsCut(void** state)
 /* Nor after a tick whose work on the cut was refused memory: it goes on in the next. */
 static void PinsAfterATickWithoutMemory(void** state)
 {
-    (void)state;
     const float line[4] = { 0.05f, 0.47f, 0.95f, 0.53f };
     Host host;
     int32_t frames[400];
@@ -587,7 +561,6 @@ static void PinsAfterATickWithoutMemory(void** state)
    be a move, after which all is measured again, without end. A budget keeps the ticks short. */
 static void ResamplingComesToAnEnd(void** state)
 {
-    (void)state;
     const float line[4] = { 0.625f, -0.1f, 0.625f, 1.1f };
     const kiriBudget budget = { 0, 2000, 0, 0 };
     Host host;

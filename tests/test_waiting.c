@@ -151,7 +151,6 @@ static void RunTwins(uint32_t run, uint32_t often, int32_t* waited)
 
 static void TestLoadedTwins(void** state)
 {
-    (void)state;
     int32_t waited = 0;
     for (uint32_t run = 1; run <= 5; ++run) {
         RunTwins(run, 1, &waited);
@@ -226,7 +225,6 @@ static void RunStarved(int32_t squares, int32_t from, int64_t request)
 
 static void TestStarved(void** state)
 {
-    (void)state;
     for (int32_t from = 0; from < 40; from += 3) {
         for (int64_t request = 0; request < 120; request += request < 8 ? 1 : 13) {
             RunStarved(6 + from % 5, from, request);
@@ -237,7 +235,6 @@ static void TestStarved(void** state)
 /* Storms, in which each tick is tried without memory first. Blades that follow sheets, contacts, tasks: all kinds. */
 static void TestStorms(void** state)
 {
-    (void)state;
     int32_t refused = 0;
     for (int32_t kind = 0; kind < STORM_TYPES; ++kind) {
         Host host = { .failAt = -1, .every = 8 };

@@ -47,7 +47,6 @@ static kiriSheet AddSheet(Host* host, kiriSheetDef* def, const float* points, in
    The border between the regions lies in a cell, or between two. */
 static void LinearBetweenTwoFrames(void** state)
 {
-    (void)state;
     for (int last = 31; last <= 32; ++last) {
         const float points[4] = { 4.5f / 36, 0.125f, ((float)last + 0.5f) / 36, 0.125f };
         const double length = (last - 4) / 36.0;
@@ -78,7 +77,6 @@ static void LinearBetweenTwoFrames(void** state)
    change little from point to point. */
 static void WeightsEndAtTheSlit(void** state)
 {
-    (void)state;
     static const float points[8] = { 0.3f, 0.15f, 0.7f, 0.15f, 0.3f, 0.7f, 0.7f, 0.7f }, slit[4] = { 0.5f, -0.1f, 0.5f, 0.8f };
     kiriFrame frames[4];
     kiriSheetDef def;
@@ -123,7 +121,6 @@ static void CutAtRandom(Host* host, kiriSheet sheet, uint32_t* seed)
    about the slopes of the weights, and their sum is 0. */
 static void EasedWeightsFollowLinearOnes(void** state)
 {
-    (void)state;
     double apart = 0.0;
     int32_t near = 0, all = 0;
     for (uint32_t seed = 1; seed <= 12; ++seed) {
@@ -219,7 +216,6 @@ static void CheckNormals(const kiriMesh* mesh)
    weights of their own side, so those are left out. */
 static void SurfaceIsTheBlend(void** state)
 {
-    (void)state;
     int32_t checked = 0, all = 0;
     for (uint32_t seed = 1; seed <= 8; ++seed) {
         uint32_t random = 2654435761u * seed;
@@ -274,7 +270,6 @@ static void SurfaceIsTheBlend(void** state)
 /* Frames that the library spreads have about as much area each; one frame goes to the middle of its piece. */
 static void FramesAreSpread(void** state)
 {
-    (void)state;
     static const int32_t counts[5] = { 1, 2, 5, 16, 47 };
     for (int k = 0; k < 5; ++k) {
         kiriFrame frames[MOST];

@@ -8,20 +8,6 @@ static void Tick(Host* host, float dt, int32_t substeps)
     OK(Host_Tick(host, dt, substeps));
 }
 
-static kiriPin AddPin(Host* host, kiriSheet sheet, float u, float v, float x, float y, float z)
-{
-    kiriPinDef def;
-    kiriPin pin = 0;
-    kiriDefaultPinDef(&def);
-    def.restPoint[0] = u;
-    def.restPoint[1] = v;
-    def.target[0] = x;
-    def.target[1] = y;
-    def.target[2] = z;
-    OK(kiriCreatePin(host->world, sheet, &def, &pin));
-    return pin;
-}
-
 static void AssertNear(double a, double b, double tolerance, const char* what)
 {
     if (!(fabs(a - b) <= tolerance)) {
@@ -38,7 +24,6 @@ static double Distance(const double* a, const double* b)
 
 static void MemoryForWorld(void** state)
 {
-    (void)state;
     for (int n = 0;; ++n) {
         Host host;
         memset(&host, 0, sizeof(host));
@@ -68,7 +53,6 @@ static uint64_t LookAt(const Host* host, kiriSheet sheet)
 
 static void SheetsAreApart(void** state)
 {
-    (void)state;
     static const float line[4] = { 0.5f, -0.1f, 0.52f, 1.1f };
     for (int order = 0; order < 6; ++order) {
         static const int orders[6][3] = {
@@ -83,8 +67,8 @@ static void SheetsAreApart(void** state)
             sheets[i] = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 3, 3);
         }
         lonely = Host_AddRectangle(&single, &def, 1.0f, 1.0f, 3, 3);
-        AddPin(&host, sheets[1], 0.1f, 0.1f, 0.1f, 0.1f, 0.2f);
-        AddPin(&single, lonely, 0.1f, 0.1f, 0.1f, 0.1f, 0.2f);
+        Host_Pin(&host, sheets[1], 0.1f, 0.1f, 0.1f, 0.1f, 0.2f);
+        Host_Pin(&single, lonely, 0.1f, 0.1f, 0.1f, 0.1f, 0.2f);
         Host_Cut(&host, sheets[0], line, 2);
         for (int i = 0; i < 5; ++i) {
             Tick(&host, 0.01f, 1);
@@ -108,7 +92,6 @@ static void SheetsAreApart(void** state)
 /* The hash tells apart what the coming ticks tell apart. */
 static void HashSeesAll(void** state)
 {
-    (void)state;
     uint64_t hashes[9];
     int same = 0;
     for (int what = 0; what < 9; ++what) {
@@ -146,7 +129,6 @@ static void HashSeesAll(void** state)
 
 static void FreeFall(void** state)
 {
-    (void)state;
     Host host;
     Host_Start(&host);
     kiriSheetDef def = Host_SmallDef();
@@ -186,7 +168,6 @@ static void FreeFall(void** state)
 
 static void AirDampingFades(void** state)
 {
-    (void)state;
     Host host;
     Host_Start(&host);
     kiriSheetDef def = Host_SmallDef();
@@ -205,7 +186,6 @@ static void AirDampingFades(void** state)
 
 static void FramesAreHeld(void** state)
 {
-    (void)state;
     Host host;
     Host_Start(&host);
     kiriSheetDef def = Host_SmallDef();
@@ -247,7 +227,6 @@ static void FramesAreHeld(void** state)
 
 static void ContactsCarry(void** state)
 {
-    (void)state;
     Host host;
     Host_Start(&host);
     kiriSheetDef def = Host_SmallDef();
@@ -285,7 +264,6 @@ static void ContactsCarry(void** state)
 /* The largest piece goes on, wherever the frames are. */
 static void SmallPieceComesOff(void** state)
 {
-    (void)state;
     Host host;
     Host_Start(&host);
     static const float corner[2] = { 0.0625f, 0.0625f }, line[4] = { 0.2f, -0.01f, -0.01f, 0.2f };
@@ -324,7 +302,6 @@ static void Above(const kiriSheetDef* def, float u, float v, float h, float* x)
 
 static void Slices(void** state)
 {
-    (void)state;
     static const float ways[4][4] = { { 0.37f, -0.3f, 0.37f, 1.3f },
                                       { -0.3f, 0.61f, 1.3f, 0.58f },
                                       { 0.5f, -0.3f, 0.5f, 1.3f }, /* along mesh edges */
@@ -406,7 +383,6 @@ static bool InTwoParts(double u, double v)
 
 static void Holes(void** state)
 {
-    (void)state;
     Host host;
     Host_Start(&host);
     kiriSheetDef def = Host_SmallDef();
@@ -435,7 +411,6 @@ static void Holes(void** state)
 
 static void TwoParts(void** state)
 {
-    (void)state;
     Host host;
     Host_Start(&host);
     kiriSheetDef def = Host_SmallDef();
@@ -458,7 +433,7 @@ static void TwoParts(void** state)
     }
     AssertNear(left, 0.25, 1e-6, "left part");
     AssertNear(sum, area, 1e-6, "both parts");
-    AddPin(&host, sheet, 0.1f, 0.5f, 0.1f, 0.5f, 0.0f);
+    Host_Pin(&host, sheet, 0.1f, 0.5f, 0.1f, 0.5f, 0.0f);
     for (int tick = 0; tick < 100; ++tick) {
         Tick(&host, 0.01f, 1);
     }
@@ -480,7 +455,6 @@ static double CountingClock(void* user)
 
 static void Profile(void** state)
 {
-    (void)state;
     static const float line[8] = { 0.1f, 0.33f, 0.4f, 0.35f, 0.6f, 0.62f, 0.9f, 0.63f };
     for (int timed = 0; timed < 2; ++timed) {
         Host host;
@@ -538,7 +512,6 @@ static double LargestRegion(const Host* host, kiriSheet sheet, int32_t* frames)
 /* Frames in number as the material asks for them, and more where a cut leaves long arms; never more than the cap. */
 static void FramesByThemselves(void** state)
 {
-    (void)state;
     Host host;
     kiriSheetDef def;
     int32_t before, after;
