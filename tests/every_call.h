@@ -88,6 +88,11 @@
     READS(kiriPin_GetReaction, world, 0, NULL, NULL)                                                                   \
     READS(kiriSheet_GetPins, world, 0, NULL, 0, NULL)                                                                  \
     CHANGES(kiriDestroyPin, world, 0)                                                                                  \
+    READS(kiriSeam_GetCount, world, 0, NULL)                                                                           \
+    READS(kiriWorld_GetSeams, world, NULL, 0, NULL)                                                                    \
+    READS(kiriSeam_GetStitch, world, 0, 0, NULL)                                                                       \
+    CHANGES(kiriDestroySeam, world, 0)                                                                                 \
+    CHANGES(kiriCreateSeam, world, NULL, NULL)                                                                         \
     CHANGES(kiriSheet_SetContacts, world, 0, NULL, 0)                                                                  \
     READS(kiriSheet_GetContactForces, world, 0, NULL, NULL)                                                            \
     CHANGES(kiriCreateObstacle, world, NULL, NULL)                                                                     \

@@ -160,6 +160,11 @@ static void NullWorld(void** state)
         kiriCreatePin(NULL, 1, &pinDef, &id),
         kiriPin_SetTarget(NULL, 1, v),
         kiriDestroyPin(NULL, 1),
+        kiriCreateSeam(NULL, NULL, &id),
+        kiriDestroySeam(NULL, 1),
+        kiriSeam_GetStitch(NULL, 1, 0, NULL),
+        kiriSeam_GetCount(NULL, 1, &count),
+        kiriWorld_GetSeams(NULL, &id, 1, &count),
         kiriSheet_SetContacts(NULL, 1, &contact, 1),
     };
     for (size_t i = 0; i < sizeof(results) / sizeof(results[0]); ++i) {

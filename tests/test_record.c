@@ -186,6 +186,25 @@ static void Pin(Tape* tape, kiriSheet sheet, kiriObstacle obstacle)
     OK(kiriDestroyPin(world, pins[1]));
 }
 
+/* The seam goes with the other sheet. */
+static void Sew(Tape* tape, kiriSheet sheet, kiriSheet other)
+{
+    static const float line[4] = { 0.55f, 0.9f, 0.55f, 0.95f };
+    kiriWorld* world = tape->host.world;
+    kiriSeamDef def;
+    kiriSeam seam;
+    kiriDefaultSeamDef(&def);
+    def.sheetA = sheet;
+    def.sheetB = other;
+    def.lineA = def.lineB = line;
+    def.countA = def.countB = 2;
+    def.breakForce = 1e-3f;
+    OK(kiriCreateSeam(world, &def, &seam));
+    OK(kiriDestroySeam(world, seam));
+    OK(kiriCreateSeam(world, &def, &seam));
+    Tape_Tick(tape);
+}
+
 static kiriObstacle Obstruct(Tape* tape)
 {
     static const float outline[8] = { -1.0f, -1.0f, 1.0f, -1.0f, 1.0f, 1.0f, -1.0f, 1.0f };
@@ -297,6 +316,7 @@ static void RecordAll(Tape* tape, kiriRecordFn* write)
     HoldAndLoad(tape, sheet);
     Pin(tape, sheet, obstacle);
     Change(tape, sheet);
+    Sew(tape, sheet, other);
     GoBack(tape);
     Refuse(tape, sheet);
     OK(kiriDestroySheet(tape->host.world, other));
@@ -434,7 +454,7 @@ static void TestAllFieldsAreRecorded(void** state)
             found++;
         }
     }
-    assert_int_equal(found, 7);
+    assert_int_equal(found, 8);
 }
 
 /* ---- Read-only arguments ----------------------------------------------------------------------------------------- */

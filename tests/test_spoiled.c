@@ -237,13 +237,58 @@ static void TestPiecesElsewhere(void** state)
     CHECK_ALL_REFUSED(&host, spoilers);
 }
 
+/* ---- Seams ---- */
+
+static Host sewn;
+
+#define SPOIL_STITCH(name, statement)                                                                                  \
+    static void name(kiriSheetData* sheet)                                                                             \
+    {                                                                                                                  \
+        kiriStitchData* stitch = &sewn.world->seams.data[0]->stitches.data[1];                                         \
+        (void)sheet, (void)stitch;                                                                                     \
+        statement;                                                                                                     \
+    }
+
+SPOIL_STITCH(FrameIsNone, stitch->frames[0] = 12345)
+SPOIL_STITCH(PointIsFar, stitch->at[1].x = INT32_MAX)
+SPOIL_STITCH(PointIsOutside, stitch->at[1].x -= 1 << 24)
+SPOIL_STITCH(LengthIsNegative, stitch->length = -1.0)
+SPOIL_STITCH(StiffnessIsZero, stitch->stiffness = 0.0)
+SPOIL_STITCH(SeamIsOther, sewn.world->seams.data[0]->id += 1)
+SPOIL_STITCH(SeamIsEmpty, sewn.world->seams.data[0]->stitches.count = 0)
+
+static void TestSeams(void** state)
+{
+    (void)state;
+    static const Spoiler spoilers[] = {
+        { "FrameIsNone", FrameIsNone },         { "PointIsFar", PointIsFar },
+        { "PointIsOutside", PointIsOutside },   { "LengthIsNegative", LengthIsNegative },
+        { "StiffnessIsZero", StiffnessIsZero }, { "SeamIsOther", SeamIsOther },
+        { "SeamIsEmpty", SeamIsEmpty },
+    };
+    static const float right[4] = { 1.0f, 0.0f, 1.0f, 1.0f }, left[4] = { 0.0f, 0.0f, 0.0f, 1.0f };
+    kiriSeamDef seam;
+    kiriSeam made;
+    Host_Start(&sewn);
+    kiriSheetDef def = Host_SmallDef();
+    kiriDefaultSeamDef(&seam);
+    seam.sheetA = Host_AddRectangle(&sewn, &def, 1.0f, 1.0f, 4, 4);
+    def.position[0] = 1.0f;
+    seam.sheetB = Host_AddRectangle(&sewn, &def, 1.0f, 1.0f, 4, 4);
+    seam.lineA = right;
+    seam.lineB = left;
+    seam.countA = seam.countB = 2;
+    OK(kiriCreateSeam(sewn.world, &seam, &made));
+    CHECK_ALL_REFUSED(&sewn, spoilers);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestMesh),   
         cmocka_unit_test(TestLayout), cmocka_unit_test(TestFrames),
         cmocka_unit_test(TestSeen),   cmocka_unit_test(TestCuts),
-        cmocka_unit_test(TestPiecesElsewhere),
+        cmocka_unit_test(TestPiecesElsewhere), cmocka_unit_test(TestSeams),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

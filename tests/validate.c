@@ -629,7 +629,21 @@ static bool Check_Ids(Check* check, const kiriWorld* world)
             return false;
         }
     }
-    return Check_Pool(check, &world->sheetIds, world->sheets.count) && Check_Pool(check, &world->frameIds, frames) &&
+    for (int32_t i = 0; i < world->seams.count; ++i) {
+        const kiriSeamData* seam = world->seams.data[i];
+        bool ok = Check_Id(check, &world->seamIds, seam->id, seam, 0);
+        for (int32_t k = 0; ok && k < 2 * seam->stitches.count; ++k) {
+            const kiriStitchData* stitch = &seam->stitches.data[k / 2];
+            const kiriSlot* slot = kiriPool_Find(&world->frameIds, stitch->frames[k % 2]);
+            const kiriSheetData* sheet = slot != NULL ? slot->owner : NULL;
+            ok = sheet != NULL && kiriMesh_Locate(&sheet->mesh, stitch->at[k % 2]) != KIRI_NONE;
+            REQUIRE(ok, "end %d of stitch %d of seam %u has no material", k % 2, k / 2, seam->id);
+        }
+        if (!ok) {
+            return false;
+        }
+    }
+    return Check_Pool(check, &world->seamIds, world->seams.count) && Check_Pool(check, &world->sheetIds, world->sheets.count) && Check_Pool(check, &world->frameIds, frames) &&
            Check_Pool(check, &world->bladeIds, world->blades.count) && Check_Pool(check, &world->pinIds, pins) &&
            Check_Pool(check, &world->cutIds, cuts);
 }

@@ -16,6 +16,7 @@ ARRAYS = {
     "kiriPieceMesh": {"vertices": ("vertexCount", 1), "triangles": ("triangleCount", 1),
                       "indices": ("triangleCount", 3), "collisionPoints": ("collisionPointCount", 1)},
     "kiriObstacleDef": {"outline": ("outlineCount", 2)},
+    "kiriSeamDef": {"lineA": ("countA", 2), "lineB": ("countB", 2)},
     "kiriReplay": {"note": ("noteCount", 1)},
 }
 NULLABLE = {"kiriSheetDef.framePoints", "kiriObstacleDef.outline", "kiriMesh.normals", "kiriReplay.note",

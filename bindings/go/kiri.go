@@ -103,6 +103,8 @@ const (
 	EventPinBroke EventType = 6
 	// sheet (the new one), frame, area: a pending kiriFrame_DetachPiece is done
 	EventPieceDetached EventType = 7
+	// seam, stitches: some stitches broke; with none left the id is stale from now on
+	EventSeamBroke EventType = 8
 )
 
 var namesEventType = map[EventType]string{
@@ -113,6 +115,7 @@ var namesEventType = map[EventType]string{
 	5: "KIRI_EVENT_DEFERRED",
 	6: "KIRI_EVENT_PIN_BROKE",
 	7: "KIRI_EVENT_PIECE_DETACHED",
+	8: "KIRI_EVENT_SEAM_BROKE",
 }
 
 func (value EventType) String() string { return namesEventType[value] }
@@ -373,6 +376,9 @@ type ObstacleID uint32
 // BladeID is an id as C has it; 0 is none.
 type BladeID uint32
 
+// SeamID is an id as C has it; 0 is none.
+type SeamID uint32
+
 // Limits the work of one tick, over all sheets. 0: no limit. Triangles, cells and samples share one allowance: using
 // 30 % of one leaves 70 % of the others. Other work goes on in the next tick. The tick in which a cut takes effect
 // depends on the budget; the mesh, grid, regions, weights and sites of frames after all work is done do not, bit for
@@ -407,6 +413,10 @@ type Event struct {
 	Stage Stage
 	// points and ends of cuts that are pending or in work; or 0
 	Waiting int32
+	// or 0
+	Seam SeamID
+	// that the seam has left, or 0
+	Stitches int32
 }
 
 // Work and time of the last tick.
@@ -849,6 +859,41 @@ type PinState struct {
 	Obstacle ObstacleID
 }
 
+// A seam joins two lines in the material, of two sheets or of one: a sleeve, a bag, a patch. Both lines are divided
+// into the same parts of their lengths, and stitches join these points. A stitch belongs to its two points: cuts go
+// through a seam, and pieces that come off or become sheets keep their stitches. It ends with the piece of one of
+// them.
+type SeamDef struct {
+	cookie uint32
+	// of the same model, and not planar
+	SheetA SheetID
+	// of the same model, and not planar
+	SheetB SheetID
+	// 2 floats a point, m, in the material, such as its edge; copied
+	LineA [][2]float32
+	LineB [][2]float32
+	// up to 4096; 0 (default): two for each distance of frames
+	Stitches int32
+	// N/m: a stitch breaks in a tick with a larger force for its length; 0: never
+	BreakForce float32
+}
+
+// A stitch, as after the last tick.
+type Stitch struct {
+	SheetA SheetID
+	SheetB SheetID
+	// m, in the material
+	RestA [2]float32
+	// m, in the material
+	RestB [2]float32
+	// m, world: where both points meet. A host that welds the drawn lips puts them there
+	Position [3]float32
+	// m: distance of the two points; a stitch yields by micrometres under the sheet's weight
+	Gap float32
+	// N, on sheet A: mean over the last tick that moved it
+	Force [3]float32
+}
+
 // A contact of a point of the material: the plane dot(normal, x) = offset keeps the point on its upper side, and
 // Coulomb friction acts along the plane. The host computes the plane for each tick from the visible surface of the
 // sheet. A contact that the point does not reach in the tick costs little and does nothing.
@@ -969,6 +1014,7 @@ var _ [0]struct{} = [unsafe.Sizeof(FrameState{}) - C.sizeof_kiriFrameState]struc
 var _ [0]struct{} = [unsafe.Sizeof(Wind{}) - C.sizeof_kiriWind]struct{}{}
 var _ [0]struct{} = [unsafe.Sizeof(PinDef{}) - C.sizeof_kiriPinDef]struct{}{}
 var _ [0]struct{} = [unsafe.Sizeof(PinState{}) - C.sizeof_kiriPinState]struct{}{}
+var _ [0]struct{} = [unsafe.Sizeof(Stitch{}) - C.sizeof_kiriStitch]struct{}{}
 var _ [0]struct{} = [unsafe.Sizeof(Contact{}) - C.sizeof_kiriContact]struct{}{}
 var _ [0]struct{} = [unsafe.Sizeof(ContactForce{}) - C.sizeof_kiriContactForce]struct{}{}
 var _ [0]struct{} = [unsafe.Sizeof(ObstacleState{}) - C.sizeof_kiriObstacleState]struct{}{}
@@ -1099,6 +1145,35 @@ func viewPieceMesh(world *World, c *C.kiriPieceMesh) PieceMesh {
 		TriangleCount: int32(c.triangleCount),
 		CollisionPointCount: int32(c.collisionPointCount),
 	}
+}
+
+// Arrays stay where they are until the pinner lets go.
+func (def *SeamDef) toC(pinner *runtime.Pinner) *C.kiriSeamDef {
+	c := new(C.kiriSeamDef)
+	c.cookie = C.uint32_t(def.cookie)
+	c.sheetA = C.kiriSheet(def.SheetA)
+	c.sheetB = C.kiriSheet(def.SheetB)
+	if len(def.LineA) > 0 {
+		pinner.Pin(&def.LineA[0])
+		c.lineA = (*C.float)(unsafe.Pointer(&def.LineA[0]))
+	}
+	if len(def.LineB) > 0 {
+		pinner.Pin(&def.LineB[0])
+		c.lineB = (*C.float)(unsafe.Pointer(&def.LineB[0]))
+	}
+	c.countA = C.int32_t(len(def.LineA))
+	c.countB = C.int32_t(len(def.LineB))
+	c.stitches = C.int32_t(def.Stitches)
+	c.breakForce = C.float(def.BreakForce)
+	return c
+}
+
+func (def *SeamDef) fromC(c *C.kiriSeamDef) {
+	def.cookie = uint32(c.cookie)
+	def.SheetA = SheetID(c.sheetA)
+	def.SheetB = SheetID(c.sheetB)
+	def.Stitches = int32(c.stitches)
+	def.BreakForce = float32(c.breakForce)
 }
 
 // Arrays stay where they are until the pinner lets go.
@@ -2731,6 +2806,124 @@ func (self Sheet) Pins() ([]Pin, error) {
 	return things[Pin](self.World, pins[:answer.count]), nil
 }
 
+var poolDefaultSeamDef pool[struct {
+	def C.kiriSeamDef
+}]
+
+// Fills the def with its defaults, and stamps it.
+func DefaultSeamDef() SeamDef {
+	block := poolDefaultSeamDef.take()
+	C.kiriDefaultSeamDef(&block.def)
+	answer := poolDefaultSeamDef.give(block)
+	var made SeamDef
+	made.fromC(&answer.def)
+	return made
+}
+
+var poolWorldCreateSeam pool[struct {
+	seam C.kiriSeam
+}]
+
+// Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
+// KIRI_ERROR_ARGUMENT: a line leaves the material; a sheet is planar; the models differ.
+func (w *World) CreateSeam(def *SeamDef) (Seam, error) {
+	var made0 Seam
+	if err := w.check(); err != nil {
+		return made0, err
+	}
+	var pinner runtime.Pinner
+	defer pinner.Unpin()
+	block := poolWorldCreateSeam.take()
+	result := C.kiriCreateSeam(w.c, def.toC(&pinner), &block.seam)
+	answer := poolWorldCreateSeam.give(block)
+	runtime.KeepAlive(w)
+	if err := failure(w, "kiriCreateSeam", result, true); err != nil {
+		return made0, err
+	}
+	return Seam{w, SeamID(answer.seam)}, nil
+}
+
+// Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
+// KIRI_ERROR_ARGUMENT: a line leaves the material; a sheet is planar; the models differ.
+func (self Seam) Destroy() (bool, error) {
+	if err := self.World.check(); err != nil {
+		return false, err
+	}
+	result := C.kiriDestroySeam(self.World.c, C.kiriSeam(self.ID))
+	runtime.KeepAlive(self.World)
+	if err := failure(self.World, "kiriDestroySeam", result, true); err != nil {
+		return false, err
+	}
+	return result == C.KIRI_PENDING, nil
+}
+
+var poolSeamGetStitch pool[struct {
+	stitch Stitch
+}]
+
+// Gets a stitch of those that are left, in the order of the lines. KIRI_ERROR_ARGUMENT: no stitch has the index.
+func (self Seam) Stitch(index int32) (Stitch, error) {
+	var made0 Stitch
+	if err := self.World.check(); err != nil {
+		return made0, err
+	}
+	block := poolSeamGetStitch.take()
+	result := C.kiriSeam_GetStitch(self.World.c, C.kiriSeam(self.ID), C.int32_t(index), (*C.kiriStitch)(unsafe.Pointer(&block.stitch)))
+	answer := poolSeamGetStitch.give(block)
+	runtime.KeepAlive(self.World)
+	if err := failure(self.World, "kiriSeam_GetStitch", result, false); err != nil {
+		return made0, err
+	}
+	return answer.stitch, nil
+}
+
+var poolSeamGetCount pool[struct {
+	stitches C.int32_t
+}]
+
+// Gets the number of stitches that are left.
+func (self Seam) Count() (int32, error) {
+	var made0 int32
+	if err := self.World.check(); err != nil {
+		return made0, err
+	}
+	block := poolSeamGetCount.take()
+	result := C.kiriSeam_GetCount(self.World.c, C.kiriSeam(self.ID), &block.stitches)
+	answer := poolSeamGetCount.give(block)
+	runtime.KeepAlive(self.World)
+	if err := failure(self.World, "kiriSeam_GetCount", result, false); err != nil {
+		return made0, err
+	}
+	return int32(answer.stitches), nil
+}
+
+var poolWorldGetSeams pool[struct {
+	count C.int32_t
+}]
+
+// Writes up to `capacity` ids of the world's seams; *count is how many there are.
+func (w *World) Seams() ([]Seam, error) {
+	var made0 []Seam
+	if err := w.check(); err != nil {
+		return made0, err
+	}
+	room := C.int32_t(64)
+	again:
+	seams := make([]C.kiriSeam, room)
+	block := poolWorldGetSeams.take()
+	result := C.kiriWorld_GetSeams(w.c, unsafe.SliceData(seams), room, &block.count)
+	answer := poolWorldGetSeams.give(block)
+	runtime.KeepAlive(w)
+	if err := failure(w, "kiriWorld_GetSeams", result, false); err != nil {
+		return made0, err
+	}
+	if answer.count > room {
+		room = answer.count
+		goto again
+	}
+	return things[Seam](w, seams[:answer.count]), nil
+}
+
 // Sets the contacts of the next tick; they replace those set before, and end with the tick. A contact with the point,
 // or rest point, and obstacle of an earlier one starts with the earlier impulse.
 func (self Sheet) SetContacts(contacts []Contact) (bool, error) {
@@ -3044,6 +3237,12 @@ var functions = map[string]string{
 	"kiriPin_GetState": "Pin.State",
 	"kiriPin_GetReaction": "Pin.Reaction",
 	"kiriSheet_GetPins": "Sheet.Pins",
+	"kiriDefaultSeamDef": ".DefaultSeamDef",
+	"kiriCreateSeam": "World.CreateSeam",
+	"kiriDestroySeam": "Seam.Destroy",
+	"kiriSeam_GetStitch": "Seam.Stitch",
+	"kiriSeam_GetCount": "Seam.Count",
+	"kiriWorld_GetSeams": "World.Seams",
 	"kiriSheet_SetContacts": "Sheet.SetContacts",
 	"kiriSheet_GetContactForces": "Sheet.ContactForces",
 	"kiriDefaultObstacleDef": ".DefaultObstacleDef",

@@ -38,7 +38,7 @@ static const Field REPLAY_FIELDS[] = {
 static const Struct REPLAY = { "Replay", (int)sizeof(kiriReplay), 4, REPLAY_FIELDS, NULL, NULL };
 
 /* Fields of events, by type. */
-static const uint32_t EVENT_MASKS[] = { 0x1, 0x7, 0x6b, 0xb, 0x3, 0x183, 0x13, 0x4b };
+static const uint32_t EVENT_MASKS[] = { 0x1, 0x7, 0x6b, 0xb, 0x3, 0x183, 0x13, 0x4b, 0x603 };
 
 static const Field EVENT_FIELDS[] = {
     { "type", TYPE_INT32, KIND_INT, (int)offsetof(kiriEvent, type), 1, 0, 0, 0, CLASS_NONE, NULL },
@@ -50,9 +50,11 @@ static const Field EVENT_FIELDS[] = {
     { "area", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriEvent, area), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "stage", TYPE_INT32, KIND_INT, (int)offsetof(kiriEvent, stage), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "waiting", TYPE_INT32, KIND_INT, (int)offsetof(kiriEvent, waiting), 1, 0, 0, 0, CLASS_NONE, NULL },
+    { "seam", TYPE_ID, KIND_OBJECT, (int)offsetof(kiriEvent, seam), 1, 0, 0, 0, CLASS_SEAM, NULL },
+    { "stitches", TYPE_INT32, KIND_INT, (int)offsetof(kiriEvent, stitches), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-static const Struct EVENT = { "Event", (int)sizeof(kiriEvent), 9, EVENT_FIELDS, NULL, EVENT_MASKS };
+static const Struct EVENT = { "Event", (int)sizeof(kiriEvent), 11, EVENT_FIELDS, NULL, EVENT_MASKS };
 
 static const Field PROFILE_FIELDS[] = {
     { "seconds", TYPE_DOUBLE, KIND_FLOATS, (int)offsetof(kiriProfile, seconds), 9, 0, 0, 0, CLASS_NONE, NULL },
@@ -330,6 +332,34 @@ static const Field PIN_STATE_FIELDS[] = {
 };
 
 static const Struct PIN_STATE = { "PinState", (int)sizeof(kiriPinState), 8, PIN_STATE_FIELDS, NULL, NULL };
+
+static void FillSeamDef(void* filled)
+{
+    kiriDefaultSeamDef(filled);
+}
+
+static const Field SEAM_DEF_FIELDS[] = {
+    { "sheet_a", TYPE_ID, KIND_OBJECT, (int)offsetof(kiriSeamDef, sheetA), 1, 0, 0, 0, CLASS_SHEET, NULL },
+    { "sheet_b", TYPE_ID, KIND_OBJECT, (int)offsetof(kiriSeamDef, sheetB), 1, 0, 0, 0, CLASS_SHEET, NULL },
+    { "line_a", TYPE_FLOAT, KIND_VECTORS2, (int)offsetof(kiriSeamDef, lineA), 1, (int)offsetof(kiriSeamDef, countA), 2, 0, CLASS_NONE, NULL },
+    { "line_b", TYPE_FLOAT, KIND_VECTORS2, (int)offsetof(kiriSeamDef, lineB), 1, (int)offsetof(kiriSeamDef, countB), 2, 0, CLASS_NONE, NULL },
+    { "stitches", TYPE_INT32, KIND_INT, (int)offsetof(kiriSeamDef, stitches), 1, 0, 0, 0, CLASS_NONE, NULL },
+    { "break_force", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriSeamDef, breakForce), 1, 0, 0, 0, CLASS_NONE, NULL },
+};
+
+static const Struct SEAM_DEF = { "SeamDef", (int)sizeof(kiriSeamDef), 6, SEAM_DEF_FIELDS, FillSeamDef, NULL };
+
+static const Field STITCH_FIELDS[] = {
+    { "sheet_a", TYPE_ID, KIND_OBJECT, (int)offsetof(kiriStitch, sheetA), 1, 0, 0, 0, CLASS_SHEET, NULL },
+    { "sheet_b", TYPE_ID, KIND_OBJECT, (int)offsetof(kiriStitch, sheetB), 1, 0, 0, 0, CLASS_SHEET, NULL },
+    { "rest_a", TYPE_FLOAT, KIND_VECTOR2, (int)offsetof(kiriStitch, restA), 2, 0, 0, 0, CLASS_NONE, NULL },
+    { "rest_b", TYPE_FLOAT, KIND_VECTOR2, (int)offsetof(kiriStitch, restB), 2, 0, 0, 0, CLASS_NONE, NULL },
+    { "position", TYPE_FLOAT, KIND_VECTOR3, (int)offsetof(kiriStitch, position), 3, 0, 0, 0, CLASS_NONE, NULL },
+    { "gap", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriStitch, gap), 1, 0, 0, 0, CLASS_NONE, NULL },
+    { "force", TYPE_FLOAT, KIND_VECTOR3, (int)offsetof(kiriStitch, force), 3, 0, 0, 0, CLASS_NONE, NULL },
+};
+
+static const Struct STITCH = { "Stitch", (int)sizeof(kiriStitch), 7, STITCH_FIELDS, NULL, NULL };
 
 static const Field CONTACT_FIELDS[] = {
     { "point", TYPE_INT32, KIND_INT, (int)offsetof(kiriContact, point), 1, 0, 0, 0, CLASS_NONE, NULL },
@@ -1812,6 +1842,80 @@ static const Parameter SHEET_GET_PINS_PARAMETERS[] = {
     { "count", FORM_OUT_COUNT, TYPE_INT32, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
 };
 
+static int64_t Call_kiriDefaultSeamDef(void* const* a)
+{
+    kiriDefaultSeamDef(a[0]);
+    return 0;
+}
+
+static const Parameter KIRI_DEFAULT_SEAM_DEF_PARAMETERS[] = {
+    { "def", FORM_OUT_STRUCT, TYPE_STRUCT, KIND_DICTIONARY, 1, 0, 0, 0, CLASS_NONE, &SEAM_DEF, NULL },
+};
+
+static const Argument WORLD_CREATE_SEAM_ARGUMENTS[] = {
+    { "def", KIND_DICTIONARY, CLASS_NONE },
+};
+
+static int64_t Call_kiriCreateSeam(void* const* a)
+{
+    return kiriCreateSeam(a[0], a[1], a[2]);
+}
+
+static const Parameter WORLD_CREATE_SEAM_PARAMETERS[] = {
+    { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "def", FORM_IN_STRUCT, TYPE_STRUCT, KIND_DICTIONARY, 1, 0, 0, 0, CLASS_NONE, &SEAM_DEF, NULL },
+    { "seam", FORM_OUT, TYPE_ID, KIND_OBJECT, 1, 0, 0, 0, CLASS_SEAM, NULL, NULL },
+};
+
+static int64_t Call_kiriDestroySeam(void* const* a)
+{
+    return kiriDestroySeam(a[0], *(kiriSeam*)a[1]);
+}
+
+static const Parameter SEAM_DESTROY_PARAMETERS[] = {
+    { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "seam", FORM_SELF, TYPE_ID, KIND_OBJECT, 1, 0, 0, 0, CLASS_SEAM, NULL, NULL },
+};
+
+static const Argument SEAM_GET_STITCH_ARGUMENTS[] = {
+    { "index", KIND_INT, CLASS_NONE },
+};
+
+static int64_t Call_kiriSeam_GetStitch(void* const* a)
+{
+    return kiriSeam_GetStitch(a[0], *(kiriSeam*)a[1], *(int32_t*)a[2], a[3]);
+}
+
+static const Parameter SEAM_GET_STITCH_PARAMETERS[] = {
+    { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "seam", FORM_SELF, TYPE_ID, KIND_OBJECT, 1, 0, 0, 0, CLASS_SEAM, NULL, NULL },
+    { "index", FORM_IN, TYPE_INT32, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "stitch", FORM_OUT_STRUCT, TYPE_STRUCT, KIND_DICTIONARY, 1, 0, 0, 0, CLASS_NONE, &STITCH, NULL },
+};
+
+static int64_t Call_kiriSeam_GetCount(void* const* a)
+{
+    return kiriSeam_GetCount(a[0], *(kiriSeam*)a[1], a[2]);
+}
+
+static const Parameter SEAM_GET_COUNT_PARAMETERS[] = {
+    { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "seam", FORM_SELF, TYPE_ID, KIND_OBJECT, 1, 0, 0, 0, CLASS_SEAM, NULL, NULL },
+    { "stitches", FORM_OUT, TYPE_INT32, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
+};
+
+static int64_t Call_kiriWorld_GetSeams(void* const* a)
+{
+    return kiriWorld_GetSeams(a[0], a[1], *(int32_t*)a[2], a[3]);
+}
+
+static const Parameter WORLD_GET_SEAMS_PARAMETERS[] = {
+    { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "seams", FORM_OUT_LIST, TYPE_ID, KIND_ARRAY, 1, 0, 1, 0, CLASS_SEAM, NULL, NULL },
+    { "capacity", FORM_CAPACITY, TYPE_INT32, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "count", FORM_OUT_COUNT, TYPE_INT32, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
+};
+
 static const Argument SHEET_SET_CONTACTS_ARGUMENTS[] = {
     { "contacts", KIND_ARRAY, CLASS_NONE },
 };
@@ -2088,6 +2192,12 @@ const Method METHODS[] = {
     { CLASS_PIN, "get_state", "kiriPin_GetState", RETURNS_RESULT, KIND_DICTIONARY, CLASS_NONE, 0, 0, NULL, 3, PIN_GET_STATE_PARAMETERS, Call_kiriPin_GetState, NULL },
     { CLASS_PIN, "get_reaction", "kiriPin_GetReaction", RETURNS_RESULT, KIND_DICTIONARY, CLASS_NONE, 0, 0, NULL, 4, PIN_GET_REACTION_PARAMETERS, Call_kiriPin_GetReaction, NULL },
     { CLASS_SHEET, "get_pins", "kiriSheet_GetPins", RETURNS_RESULT, KIND_ARRAY, CLASS_NONE, 0, 0, NULL, 5, SHEET_GET_PINS_PARAMETERS, Call_kiriSheet_GetPins, NULL },
+    { CLASS_KIRI, "default_seam_def", "kiriDefaultSeamDef", RETURNS_NOTHING, KIND_DICTIONARY, CLASS_NONE, 0, 0, NULL, 1, KIRI_DEFAULT_SEAM_DEF_PARAMETERS, Call_kiriDefaultSeamDef, NULL },
+    { CLASS_WORLD, "create_seam", "kiriCreateSeam", RETURNS_RESULT, KIND_OBJECT, CLASS_SEAM, 1, 1, WORLD_CREATE_SEAM_ARGUMENTS, 3, WORLD_CREATE_SEAM_PARAMETERS, Call_kiriCreateSeam, NULL },
+    { CLASS_SEAM, "destroy", "kiriDestroySeam", RETURNS_RESULT, KIND_INT, CLASS_NONE, 0, 0, NULL, 2, SEAM_DESTROY_PARAMETERS, Call_kiriDestroySeam, NULL },
+    { CLASS_SEAM, "get_stitch", "kiriSeam_GetStitch", RETURNS_RESULT, KIND_DICTIONARY, CLASS_NONE, 1, 1, SEAM_GET_STITCH_ARGUMENTS, 4, SEAM_GET_STITCH_PARAMETERS, Call_kiriSeam_GetStitch, NULL },
+    { CLASS_SEAM, "get_count", "kiriSeam_GetCount", RETURNS_RESULT, KIND_INT, CLASS_NONE, 0, 0, NULL, 3, SEAM_GET_COUNT_PARAMETERS, Call_kiriSeam_GetCount, NULL },
+    { CLASS_WORLD, "get_seams", "kiriWorld_GetSeams", RETURNS_RESULT, KIND_ARRAY, CLASS_NONE, 0, 0, NULL, 4, WORLD_GET_SEAMS_PARAMETERS, Call_kiriWorld_GetSeams, NULL },
     { CLASS_SHEET, "set_contacts", "kiriSheet_SetContacts", RETURNS_RESULT, KIND_INT, CLASS_NONE, 1, 1, SHEET_SET_CONTACTS_ARGUMENTS, 4, SHEET_SET_CONTACTS_PARAMETERS, Call_kiriSheet_SetContacts, NULL },
     { CLASS_SHEET, "get_contact_forces", "kiriSheet_GetContactForces", RETURNS_RESULT, KIND_ARRAY, CLASS_NONE, 0, 0, NULL, 4, SHEET_GET_CONTACT_FORCES_PARAMETERS, Call_kiriSheet_GetContactForces, NULL },
     { CLASS_KIRI, "default_obstacle_def", "kiriDefaultObstacleDef", RETURNS_NOTHING, KIND_DICTIONARY, CLASS_NONE, 0, 0, NULL, 1, KIRI_DEFAULT_OBSTACLE_DEF_PARAMETERS, Call_kiriDefaultObstacleDef, NULL },
@@ -2135,6 +2245,7 @@ const Constant CONSTANTS[] = {
     { "EventType", "EVENT_DEFERRED", 5, 0 },
     { "EventType", "EVENT_PIN_BROKE", 6, 0 },
     { "EventType", "EVENT_PIECE_DETACHED", 7, 0 },
+    { "EventType", "EVENT_SEAM_BROKE", 8, 0 },
     { "Stage", "STAGE_CUT", 0, 0 },
     { "Stage", "STAGE_GRID", 1, 0 },
     { "Stage", "STAGE_REGIONS", 2, 0 },

@@ -81,6 +81,8 @@ export enum EventType {
     PinBroke = 6,
     /** sheet (the new one), frame, area: a pending Frame.detachPiece is done */
     PieceDetached = 7,
+    /** seam, stitches: some stitches broke; with none left the id is stale from now on */
+    SeamBroke = 8,
 }
 
 /** The stages of a tick in their order. */
@@ -295,7 +297,8 @@ export type Event =
     { type: EventType.Diverged; sheet: Sheet } |
     { type: EventType.Deferred; sheet: Sheet; stage: Stage; waiting: number } |
     { type: EventType.PinBroke; sheet: Sheet; pin: Pin } |
-    { type: EventType.PieceDetached; sheet: Sheet; frame: Frame; area: number };
+    { type: EventType.PieceDetached; sheet: Sheet; frame: Frame; area: number } |
+    { type: EventType.SeamBroke; sheet: Sheet; seam: Seam; stitches: number };
 
 /** Work and time of the last tick. */
 export class Profile {
@@ -959,6 +962,62 @@ export class PinState {
     obstacle: Obstacle | null;
 }
 
+/** A seam joins two lines in the material, of two sheets or of one: a sleeve, a bag, a patch. Both lines are divided
+ *  into the same parts of their lengths, and stitches join these points. A stitch belongs to its two points: cuts go
+ *  through a seam, and pieces that come off or become sheets keep their stitches. It ends with the piece of one of
+ *  them. */
+export class SeamDef {
+    cookie: number;
+    /** of the same model, and not planar */
+    sheetA: Sheet | null;
+    /** of the same model, and not planar */
+    sheetB: Sheet | null;
+    /** 2 floats a point, m, in the material, such as its edge; copied */
+    lineA: Float32Array;
+    lineB: Float32Array;
+    /** points: 2 or more */
+    countA: number;
+    /** points: 2 or more */
+    countB: number;
+    /** up to 4096; 0 (default): two for each distance of frames */
+    stitches: number;
+    /** N/m: a stitch breaks in a tick with a larger force for its length; 0: never */
+    breakForce: number;
+}
+/** What a host gives as SeamDef: what is left out is as the default has it. */
+export interface SeamDefGiven {
+    cookie?: number;
+    /** of the same model, and not planar */
+    sheetA?: Sheet | null;
+    /** of the same model, and not planar */
+    sheetB?: Sheet | null;
+    /** 2 floats a point, m, in the material, such as its edge; copied */
+    lineA?: ArrayLike<number> | null;
+    lineB?: ArrayLike<number> | null;
+    /** up to 4096; 0 (default): two for each distance of frames */
+    stitches?: number;
+    /** N/m: a stitch breaks in a tick with a larger force for its length; 0: never */
+    breakForce?: number;
+}
+
+export function defaultSeamDef(into?: SeamDef): SeamDef;
+
+/** A stitch, as after the last tick. */
+export class Stitch {
+    sheetA: Sheet | null;
+    sheetB: Sheet | null;
+    /** m, in the material */
+    restA: number[];
+    /** m, in the material */
+    restB: number[];
+    /** m, world: where both points meet. A host that welds the drawn lips puts them there */
+    position: number[];
+    /** m: distance of the two points; a stitch yields by micrometres under the sheet's weight */
+    gap: number;
+    /** N, on sheet A: mean over the last tick that moved it */
+    force: number[];
+}
+
 /** What a host gives as Contact: what is left out is 0. */
 export interface ContactGiven {
     /** index of the collision point; -1: restPoint names the point */
@@ -1240,6 +1299,11 @@ export class World {
     destroyPieces(frames: Frame[]): ResultCode;
     /** Begins a blade for one sheet; 0: for all sheets, also those that are made later. */
     beginBlade(sheet?: Sheet | null): Blade;
+    /** Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
+     *  KIRI_ERROR_ARGUMENT: a line leaves the material; a sheet is planar; the models differ. */
+    createSeam(def: SeamDefGiven): Seam;
+    /** Writes up to `capacity` ids of the world's seams; *count is how many there are. */
+    getSeams(): Seam[];
     /** Add and destroy an obstacle. On failure *obstacle is 0. Pieces that rested on a destroyed one wake. */
     createObstacle(def: ObstacleDefGiven): Obstacle;
     /** Draws the world as after the last tick, by functions of the host. Only reads the world, and takes no memory. */
@@ -1500,4 +1564,17 @@ export class Blade {
     moveRay(origin: ArrayLike<number>, direction: ArrayLike<number>, length: number): ResultCode;
     /** It is gone, its id stale; what it has cut stays, and where it was in a layer the cut ends. */
     end(): ResultCode;
+}
+
+export class Seam {
+    readonly world: World;
+    /** Two that are the same have the same id. */
+    readonly id: number;
+    /** Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
+     *  KIRI_ERROR_ARGUMENT: a line leaves the material; a sheet is planar; the models differ. */
+    destroy(): ResultCode;
+    /** Gets a stitch of those that are left, in the order of the lines. KIRI_ERROR_ARGUMENT: no stitch has the index. */
+    getStitch(index: number, into?: Stitch): Stitch;
+    /** Gets the number of stitches that are left. */
+    getCount(): number;
 }

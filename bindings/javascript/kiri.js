@@ -16,7 +16,7 @@ export const ResultCode = enumeration({ Ok: 0, Pending: 1, ErrorArgument: -1, Er
 export const LEAST_TRIANGLES = 16;
 export const MOST_NOTE_BYTES = 1048576;
 export const EventType = enumeration({ CutFinished: 1, PieceOff: 2, FrameAdded: 3, Diverged: 4, Deferred: 5, PinBroke:
-    6, PieceDetached: 7 });
+    6, PieceDetached: 7, SeamBroke: 8 });
 export const Stage = enumeration({ Cut: 0, Grid: 1, Regions: 2, Shape: 3, Samples: 4, Constants: 5, Contact: 6, Solve:
     7, Skin: 8, Count: 9 });
 export const MaterialPreset = enumeration({ Paper: 0, Cotton: 1, Rubber: 2, Foil: 3, Card: 4, Count: 5 });
@@ -43,8 +43,8 @@ export const layouts = {
     kiriWorldDef: { size: 72, fields: { cookie: 0, gravity: 4, budget: 16, alloc: 32, free: 36, log: 40, clock: 44,
         startTask: 48, finishTask: 52, workerCount: 56, user: 60, record: 64, recordHashTicks: 68 } },
     kiriReplay: { size: 32, fields: { offset: 0, calls: 8, ticks: 16, note: 24, noteCount: 28 } },
-    kiriEvent: { size: 36, fields: { type: 0, sheet: 4, cut: 8, frame: 12, pin: 16, crumb: 20, area: 24, stage: 28,
-        waiting: 32 } },
+    kiriEvent: { size: 44, fields: { type: 0, sheet: 4, cut: 8, frame: 12, pin: 16, crumb: 20, area: 24, stage: 28,
+        waiting: 32, seam: 36, stitches: 40 } },
     kiriProfile: { size: 144, fields: { seconds: 0, cutSegments: 72, trianglesSplit: 76, cellsSettled: 80,
         samplesRefreshed: 84, solverIterations: 88, cellsChanged: 92, weightsChanged: 96, verticesChanged: 100,
         pointsChanged: 104, linksChanged: 108, commits: 112, systemsSolved: 116, contacts: 120, sheetPairs: 124,
@@ -87,6 +87,9 @@ export const layouts = {
         } },
     kiriPinState: { size: 80, fields: { type: 0, sheet: 4, from: 8, to: 16, target: 24, rotation: 36, breakForce: 72,
         obstacle: 76 } },
+    kiriSeamDef: { size: 36, fields: { cookie: 0, sheetA: 4, sheetB: 8, lineA: 12, lineB: 16, countA: 20, countB: 24,
+        stitches: 28, breakForce: 32 } },
+    kiriStitch: { size: 52, fields: { sheetA: 0, sheetB: 4, restA: 8, restB: 16, position: 24, gap: 36, force: 40 } },
     kiriContact: { size: 56, fields: { point: 0, restPoint: 4, normal: 12, offset: 24, velocity: 28, friction: 40,
         inverseMass: 44, pushSpeed: 48, obstacle: 52 } },
     kiriContactForce: { size: 64, fields: { impulse: 0, position: 24, depth: 48, point: 56, obstacle: 60 } },
@@ -209,6 +212,8 @@ export class Event {
     area = 0;
     stage = 0;
     waiting = 0;
+    seam = null;
+    stitches = 0;
 }
 
 function readEvent(o, at, world) {
@@ -221,6 +226,8 @@ function readEvent(o, at, world) {
     o.area = F32[(at + 24) >> 2];
     o.stage = I32[(at + 28) >> 2];
     o.waiting = I32[(at + 32) >> 2];
+    o.seam = thing(Seam, world, U32[(at + 36) >> 2], o.seam);
+    o.stitches = I32[(at + 40) >> 2];
     return o;
 }
 
@@ -1080,6 +1087,82 @@ function readPinState(o, at, world) {
     return o;
 }
 
+export class SeamDef {
+    cookie = 0;
+    sheetA = null;
+    sheetB = null;
+    lineA = null;
+    lineB = null;
+    countA = 0;
+    countB = 0;
+    stitches = 0;
+    breakForce = 0;
+}
+
+function readSeamDef(o, at, world) {
+    o.cookie = U32[(at) >> 2];
+    o.sheetA = thing(Sheet, world, U32[(at + 4) >> 2], o.sheetA);
+    o.sheetB = thing(Sheet, world, U32[(at + 8) >> 2], o.sheetB);
+    o.lineA = null;
+    o.lineB = null;
+    o.countA = I32[(at + 20) >> 2];
+    o.countB = I32[(at + 24) >> 2];
+    o.stitches = I32[(at + 28) >> 2];
+    o.breakForce = F32[(at + 32) >> 2];
+    return o;
+}
+
+const fieldsOfSeamDef = new Set(["cookie", "sheetA", "sheetB", "lineA", "lineB", "countA", "countB", "stitches",
+    "breakForce"]);
+
+function writeSeamDef(o, at, world) {
+    known(o, fieldsOfSeamDef, "SeamDef");
+    if (o.cookie !== undefined) {
+        U32[(at) >> 2] = o.cookie;
+    }
+    if (o.sheetA !== undefined) {
+        U32[(at + 4) >> 2] = idOf(o.sheetA, world);
+    }
+    if (o.sheetB !== undefined) {
+        U32[(at + 8) >> 2] = idOf(o.sheetB, world);
+    }
+    if (o.lineA != null) {
+        U32[(at + 12) >> 2] = putRows("Float32Array", o.lineA, 2, "lineA");
+        I32[(at + 20) >> 2] = o.lineA.length / 2;
+    }
+    if (o.lineB != null) {
+        U32[(at + 16) >> 2] = putRows("Float32Array", o.lineB, 2, "lineB");
+        I32[(at + 24) >> 2] = o.lineB.length / 2;
+    }
+    if (o.stitches !== undefined) {
+        I32[(at + 28) >> 2] = o.stitches;
+    }
+    if (o.breakForce !== undefined) {
+        F32[(at + 32) >> 2] = o.breakForce;
+    }
+}
+
+export class Stitch {
+    sheetA = null;
+    sheetB = null;
+    restA = [0, 0];
+    restB = [0, 0];
+    position = [0, 0, 0];
+    gap = 0;
+    force = [0, 0, 0];
+}
+
+function readStitch(o, at, world) {
+    o.sheetA = thing(Sheet, world, U32[(at) >> 2], o.sheetA);
+    o.sheetB = thing(Sheet, world, U32[(at + 4) >> 2], o.sheetB);
+    fill(F32, (at + 8) >> 2, o.restA);
+    fill(F32, (at + 16) >> 2, o.restB);
+    fill(F32, (at + 24) >> 2, o.position);
+    o.gap = F32[(at + 36) >> 2];
+    fill(F32, (at + 40) >> 2, o.force);
+    return o;
+}
+
 const fieldsOfContact = new Set(["point", "restPoint", "normal", "offset", "velocity", "friction", "inverseMass",
     "pushSpeed", "obstacle"]);
 
@@ -1311,6 +1394,11 @@ export function defaultSheetDef(into = new SheetDef()) {
 export function defaultPinDef(into = new PinDef()) {
     wasm.kiriDefaultPinDef(scratch);
     return readPinDef(into, scratch, null);
+}
+
+export function defaultSeamDef(into = new SeamDef()) {
+    wasm.kiriDefaultSeamDef(scratch);
+    return readSeamDef(into, scratch, null);
 }
 
 export function defaultObstacleDef(into = new ObstacleDef()) {
@@ -1594,7 +1682,7 @@ export class World extends WorldBase {
             fail(this, $result, "kiriWorld_GetEvents");
         }
         const $count = I32[(scratch + 8) >> 2];
-        return new Rows(this, U32[(scratch) >> 2], $count, 36, Event, readEvent);
+        return new Rows(this, U32[(scratch) >> 2], $count, 44, Event, readEvent);
     }
 
     getProfile(into = new Profile()) {
@@ -1689,6 +1777,40 @@ export class World extends WorldBase {
             fail(this, $result, "kiriBeginBlade");
         }
         return thing(Blade, this, U32[(scratch) >> 2]);
+    }
+
+    createSeam(def) {
+        const $world = pointer(this);
+        try {
+            wasm.kiriDefaultSeamDef(scratch);
+            writeSeamDef(def, scratch, this);
+            const $result = wasm.kiriCreateSeam($world, scratch, scratch + 40);
+            if ($result < 0) {
+                fail(this, $result, "kiriCreateSeam");
+            }
+            return thing(Seam, this, U32[(scratch + 40) >> 2]);
+        } finally {
+            release();
+        }
+    }
+
+    getSeams() {
+        const $world = pointer(this);
+        try {
+            let $result = wasm.kiriWorld_GetSeams($world, scratch + 2048, 0, scratch);
+            if ($result < 0) {
+                fail(this, $result, "kiriWorld_GetSeams");
+            }
+            const $capacity = I32[(scratch) >> 2];
+            const $seams = take(4 * $capacity);
+            $result = wasm.kiriWorld_GetSeams($world, $seams, $capacity, scratch);
+            if ($result < 0) {
+                fail(this, $result, "kiriWorld_GetSeams");
+            }
+            return things(Seam, this, $seams, $capacity);
+        } finally {
+            release();
+        }
     }
 
     createObstacle(def) {
@@ -2463,5 +2585,34 @@ export class Blade extends Thing {
             fail(this.world, $result, "kiriBlade_End");
         }
         return $result;
+    }
+}
+
+export class Seam extends Thing {
+    destroy() {
+        const $world = pointer(this.world);
+        const $result = wasm.kiriDestroySeam($world, this.id);
+        if ($result < 0) {
+            fail(this.world, $result, "kiriDestroySeam");
+        }
+        return $result;
+    }
+
+    getStitch(index, into = new Stitch()) {
+        const $world = pointer(this.world);
+        const $result = wasm.kiriSeam_GetStitch($world, this.id, index, scratch);
+        if ($result < 0) {
+            fail(this.world, $result, "kiriSeam_GetStitch");
+        }
+        return readStitch(into, scratch, this.world);
+    }
+
+    getCount() {
+        const $world = pointer(this.world);
+        const $result = wasm.kiriSeam_GetCount($world, this.id, scratch);
+        if ($result < 0) {
+            fail(this.world, $result, "kiriSeam_GetCount");
+        }
+        return I32[(scratch) >> 2];
     }
 }

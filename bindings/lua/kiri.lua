@@ -31,6 +31,7 @@ typedef uint32_t kiriFrame;
 typedef uint32_t kiriPin;
 typedef uint32_t kiriObstacle;
 typedef uint32_t kiriBlade;
+typedef uint32_t kiriSeam;
 typedef int32_t kiriResult;
 typedef struct kiriBudget kiriBudget;
 typedef struct kiriWorldDef kiriWorldDef;
@@ -56,6 +57,8 @@ typedef struct kiriFrameState kiriFrameState;
 typedef struct kiriWind kiriWind;
 typedef struct kiriPinDef kiriPinDef;
 typedef struct kiriPinState kiriPinState;
+typedef struct kiriSeamDef kiriSeamDef;
+typedef struct kiriStitch kiriStitch;
 typedef struct kiriContact kiriContact;
 typedef struct kiriContactForce kiriContactForce;
 typedef struct kiriObstacleDef kiriObstacleDef;
@@ -74,7 +77,7 @@ typedef void kiriDrawFn(void* user, const kiriDrawVertex* vertices, int32_t coun
 struct kiriBudget { int32_t triangles; int32_t cells; int32_t samples; int32_t iterations; };
 struct kiriWorldDef { uint32_t cookie; float gravity[3]; kiriBudget budget; kiriAllocFn* alloc; kiriFreeFn* free; kiriLogFn* log; kiriClockFn* clock; kiriStartTaskFn* startTask; kiriFinishTaskFn* finishTask; int32_t workerCount; void* user; kiriRecordFn* record; int32_t recordHashTicks; };
 struct kiriReplay { int64_t offset; int64_t calls; int64_t ticks; const void* note; int32_t noteCount; };
-struct kiriEvent { int32_t type; kiriSheet sheet; kiriCut cut; kiriFrame frame; kiriPin pin; int32_t crumb; float area; int32_t stage; int32_t waiting; };
+struct kiriEvent { int32_t type; kiriSheet sheet; kiriCut cut; kiriFrame frame; kiriPin pin; int32_t crumb; float area; int32_t stage; int32_t waiting; kiriSeam seam; int32_t stitches; };
 struct kiriProfile { double seconds[9]; int32_t cutSegments; int32_t trianglesSplit; int32_t cellsSettled; int32_t samplesRefreshed; int32_t solverIterations; int32_t cellsChanged; int32_t weightsChanged; int32_t verticesChanged; int32_t pointsChanged; int32_t linksChanged; int32_t commits; int32_t systemsSolved; int32_t contacts; int32_t sheetPairs; double largestJump; double largestFade; };
 struct kiriMaterial { float youngsModulus; float poissonsRatio; float thickness; float density; float airDamping; float flexDamping; float yieldStress; float hardening; int32_t detail; };
 struct kiriQuality { int32_t framesAlong; int32_t gridResolution; int32_t iterations; int32_t substeps; };
@@ -95,6 +98,8 @@ struct kiriFrameState { float restPoint[2]; float position[3]; float rotation[9]
 struct kiriWind { float velocity[3]; float density; float drag; float lift; };
 struct kiriPinDef { uint32_t cookie; float restPoint[2]; float target[3]; float stiffness; float breakForce; kiriObstacle obstacle; };
 struct kiriPinState { int32_t type; kiriSheet sheet; float from[2]; float to[2]; float target[3]; float rotation[9]; float breakForce; kiriObstacle obstacle; };
+struct kiriSeamDef { uint32_t cookie; kiriSheet sheetA; kiriSheet sheetB; const float* lineA; const float* lineB; int32_t countA; int32_t countB; int32_t stitches; float breakForce; };
+struct kiriStitch { kiriSheet sheetA; kiriSheet sheetB; float restA[2]; float restB[2]; float position[3]; float gap; float force[3]; };
 struct kiriContact { int32_t point; float restPoint[2]; float normal[3]; float offset; float velocity[3]; float friction; float inverseMass; float pushSpeed; int32_t obstacle; };
 struct kiriContactForce { double impulse[3]; double position[3]; double depth; int32_t point; int32_t obstacle; };
 struct kiriObstacleDef { uint32_t cookie; int32_t type; float size[3]; float radius; float height; const float* outline; int32_t outlineCount; float rounding; float position[3]; float rotation[9]; float velocity[3]; float angularVelocity[3]; float surfaceVelocity[3]; float friction; float mass; float inertia[6]; float centerOfMass[3]; uint32_t body; float pushSpeed; uint32_t groups; };
@@ -199,6 +204,12 @@ kiriResult kiriPin_SetBreakForce(kiriWorld* world, kiriPin pin, float breakForce
 kiriResult kiriPin_GetState(const kiriWorld* world, kiriPin pin, kiriPinState* state);
 kiriResult kiriPin_GetReaction(const kiriWorld* world, kiriPin pin, double force[3], double torque[3]);
 kiriResult kiriSheet_GetPins(const kiriWorld* world, kiriSheet sheet, kiriPin* pins, int32_t capacity, int32_t* count);
+void kiriDefaultSeamDef(kiriSeamDef* def);
+kiriResult kiriCreateSeam(kiriWorld* world, const kiriSeamDef* def, kiriSeam* seam);
+kiriResult kiriDestroySeam(kiriWorld* world, kiriSeam seam);
+kiriResult kiriSeam_GetStitch(const kiriWorld* world, kiriSeam seam, int32_t index, kiriStitch* stitch);
+kiriResult kiriSeam_GetCount(const kiriWorld* world, kiriSeam seam, int32_t* stitches);
+kiriResult kiriWorld_GetSeams(const kiriWorld* world, kiriSeam* seams, int32_t capacity, int32_t* count);
 kiriResult kiriSheet_SetContacts(kiriWorld* world, kiriSheet sheet, const kiriContact* contacts, int32_t count);
 kiriResult kiriSheet_GetContactForces(const kiriWorld* world, kiriSheet sheet, const kiriContactForce** forces, int32_t* count);
 void kiriDefaultObstacleDef(kiriObstacleDef* def);
@@ -239,7 +250,8 @@ kiri.EVENT_DIVERGED = 4
 kiri.EVENT_DEFERRED = 5
 kiri.EVENT_PIN_BROKE = 6
 kiri.EVENT_PIECE_DETACHED = 7
-kiri.EventType = {[1] = "CUT_FINISHED", [2] = "PIECE_OFF", [3] = "FRAME_ADDED", [4] = "DIVERGED", [5] = "DEFERRED", [6] = "PIN_BROKE", [7] = "PIECE_DETACHED"}
+kiri.EVENT_SEAM_BROKE = 8
+kiri.EventType = {[1] = "CUT_FINISHED", [2] = "PIECE_OFF", [3] = "FRAME_ADDED", [4] = "DIVERGED", [5] = "DEFERRED", [6] = "PIN_BROKE", [7] = "PIECE_DETACHED", [8] = "SEAM_BROKE"}
 kiri.STAGE_CUT = 0
 kiri.STAGE_GRID = 1
 kiri.STAGE_REGIONS = 2
@@ -614,7 +626,7 @@ end
 structs.kiriBudget = {fields = {triangles = "number", cells = "number", samples = "number", iterations = "number"}}
 structs.kiriWorldDef = {fields = {cookie = "number", gravity = 3, budget = "kiriBudget", alloc = "callback", free = "callback", log = "callback", clock = "callback", startTask = "callback", finishTask = "callback", workerCount = "number", user = "pointer", record = "callback", recordHashTicks = "number"}, default = "kiriDefaultWorldDef"}
 structs.kiriReplay = {fields = {offset = "number", calls = "number", ticks = "number", note = {item = "void", count = "noteCount", width = 1}, noteCount = "number"}}
-structs.kiriEvent = {fields = {type = "number", sheet = "id", cut = "id", frame = "id", pin = "id", crumb = "number", area = "number", stage = "number", waiting = "number"}}
+structs.kiriEvent = {fields = {type = "number", sheet = "id", cut = "id", frame = "id", pin = "id", crumb = "number", area = "number", stage = "number", waiting = "number", seam = "id", stitches = "number"}}
 structs.kiriProfile = {fields = {seconds = 9, cutSegments = "number", trianglesSplit = "number", cellsSettled = "number", samplesRefreshed = "number", solverIterations = "number", cellsChanged = "number", weightsChanged = "number", verticesChanged = "number", pointsChanged = "number", linksChanged = "number", commits = "number", systemsSolved = "number", contacts = "number", sheetPairs = "number", largestJump = "number", largestFade = "number"}}
 structs.kiriMaterial = {fields = {youngsModulus = "number", poissonsRatio = "number", thickness = "number", density = "number", airDamping = "number", flexDamping = "number", yieldStress = "number", hardening = "number", detail = "number"}}
 structs.kiriQuality = {fields = {framesAlong = "number", gridResolution = "number", iterations = "number", substeps = "number"}}
@@ -635,6 +647,8 @@ structs.kiriFrameState = {fields = {restPoint = 2, position = 3, rotation = 9, v
 structs.kiriWind = {fields = {velocity = 3, density = "number", drag = "number", lift = "number"}}
 structs.kiriPinDef = {fields = {cookie = "number", restPoint = 2, target = 3, stiffness = "number", breakForce = "number", obstacle = "id"}, default = "kiriDefaultPinDef"}
 structs.kiriPinState = {fields = {type = "number", sheet = "id", from = 2, to = 2, target = 3, rotation = 9, breakForce = "number", obstacle = "id"}}
+structs.kiriSeamDef = {fields = {cookie = "number", sheetA = "id", sheetB = "id", lineA = {item = "float", count = "countA", width = 2}, lineB = {item = "float", count = "countB", width = 2}, countA = "number", countB = "number", stitches = "number", breakForce = "number"}, default = "kiriDefaultSeamDef"}
+structs.kiriStitch = {fields = {sheetA = "id", sheetB = "id", restA = 2, restB = 2, position = 3, gap = "number", force = 3}}
 structs.kiriContact = {fields = {point = "number", restPoint = 2, normal = 3, offset = "number", velocity = 3, friction = "number", inverseMass = "number", pushSpeed = "number", obstacle = "number"}}
 structs.kiriContactForce = {fields = {impulse = 3, position = 3, depth = "number", point = "number", obstacle = "number"}}
 structs.kiriObstacleDef = {fields = {cookie = "number", type = "number", size = 3, radius = "number", height = "number", outline = {item = "float", count = "outlineCount", width = 2}, outlineCount = "number", rounding = "number", position = 3, rotation = 9, velocity = 3, angularVelocity = 3, surfaceVelocity = 3, friction = "number", mass = "number", inertia = 6, centerOfMass = 3, body = "number", pushSpeed = "number", groups = "number"}, default = "kiriDefaultObstacleDef"}
@@ -643,7 +657,7 @@ structs.kiriDrawVertex = {fields = {position = 3, color = "number"}}
 structs.kiriDebugDraw = {fields = {cookie = "number", flags = "number", sheet = "id", size = "number", points = "callback", lines = "callback", triangles = "callback", user = "pointer"}, default = "kiriDefaultDebugDraw"}
 
 array_type("kiriFrame", "Frame", nil)
-array_type("kiriEvent", nil, {sheet = "Sheet", cut = "Cut", frame = "Frame", pin = "Pin"})
+array_type("kiriEvent", nil, {sheet = "Sheet", cut = "Cut", frame = "Frame", pin = "Pin", seam = "Seam"})
 array_type("kiriContactForce", nil, {})
 array_type("int32_t", nil, nil)
 array_type("float", nil, nil)
@@ -652,6 +666,7 @@ view_type("kiriSolid", {positions = {"float", "vertexCount", 3}, normals = {"flo
 view_type("kiriPointState", {frame = {"Frame"}})
 view_type("kiriPieceMesh", {vertices = {"int32_t", "vertexCount", 1}, triangles = {"int32_t", "triangleCount", 1}, indices = {"int32_t", "triangleCount", 3}, collisionPoints = {"int32_t", "collisionPointCount", 1}})
 view_type("kiriPinState", {sheet = {"Sheet"}, obstacle = {"Obstacle"}})
+view_type("kiriStitch", {sheetA = {"Sheet"}, sheetB = {"Sheet"}})
 
 for name in pairs(structs) do
     new[name] = new[name] or ffi.typeof(name)
@@ -1580,6 +1595,59 @@ function Sheet:getPins()
     if result < 0 then fail(world, "kiriSheet_GetPins", result, false) end
     if out.int32_t[0] > room.size then make_room(out.int32_t[0]) return Sheet.getPins(self) end
     return list_of(world, room.kiriPin, out.int32_t[0], "Pin")
+end
+
+--- Fills the def with its defaults, and stamps it.
+function kiri.defaultSeamDef(def)
+    def = def or new.kiriSeamDef()
+    C.kiriDefaultSeamDef(def)
+    return def
+end
+
+--- Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
+--- KIRI_ERROR_ARGUMENT: a line leaves the material; a sheet is planar; the models differ.
+function World:createSeam(def)
+    local world = self
+    local result = C.kiriCreateSeam(world.c, struct_of(world, def, "kiriSeamDef"), out.Seam)
+    if result < 0 then fail(world, "kiriCreateSeam", result, true) end
+    return handle(world, out.Seam[0], "Seam")
+end
+
+--- Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
+--- KIRI_ERROR_ARGUMENT: a line leaves the material; a sheet is planar; the models differ.
+function Seam:destroy()
+    local world = self.world
+    local result = C.kiriDestroySeam(world.c, self.id)
+    if result < 0 then fail(world, "kiriDestroySeam", result, true) end
+    return result == 1
+end
+
+--- Gets a stitch of those that are left, in the order of the lines. KIRI_ERROR_ARGUMENT: no stitch has the index.
+function Seam:getStitch(index, stitch)
+    local world = self.world
+    stitch = stitch or new.kiriStitchView()
+    local result = C.kiriSeam_GetStitch(world.c, self.id, index, stitch.c)
+    if result < 0 then fail(world, "kiriSeam_GetStitch", result, false) end
+    stitch.world, stitch.epoch = world.cell, now[world.cell]
+    return stitch
+end
+
+--- Gets the number of stitches that are left.
+function Seam:getCount()
+    local world = self.world
+    local result = C.kiriSeam_GetCount(world.c, self.id, out.int32_t)
+    if result < 0 then fail(world, "kiriSeam_GetCount", result, false) end
+    local stitches = out.int32_t[0]
+    return stitches
+end
+
+--- Writes up to `capacity` ids of the world's seams; *count is how many there are.
+function World:getSeams()
+    local world = self
+    local result = C.kiriWorld_GetSeams(world.c, room.kiriSeam, room.size, out.int32_t)
+    if result < 0 then fail(world, "kiriWorld_GetSeams", result, false) end
+    if out.int32_t[0] > room.size then make_room(out.int32_t[0]) return World.getSeams(self) end
+    return list_of(world, room.kiriSeam, out.int32_t[0], "Seam")
 end
 
 --- Sets the contacts of the next tick; they replace those set before, and end with the tick. A contact with the

@@ -7,7 +7,7 @@
    - The rest plane holds the flat, undeformed sheet. A rest position is (u, v) in metres.
    - A rotation is 9 floats, column after column.
    - A negative kiriResult is a failure: the world is as before the call, and kiriWorld_GetLastError() says why.
-   - Sheets, cuts, frames, pins, obstacles and blades are 32-bit ids. 0 is never a valid id. A stale id, or the id of
+   - Sheets, cuts, frames, pins, obstacles, blades and seams are 32-bit ids. 0 is never a valid id. A stale id, or the id of
      another kind, gives KIRI_ERROR_ID.
    - The library owns the arrays that it returns. They stay unchanged until the next kiriWorld_Tick or kiriDestroyWorld,
      whatever is called in between.
@@ -48,6 +48,7 @@ typedef uint32_t kiriFrame;
 typedef uint32_t kiriPin;
 typedef uint32_t kiriObstacle;
 typedef uint32_t kiriBlade;
+typedef uint32_t kiriSeam;
 
 typedef int32_t kiriResult;
 enum kiriResultCode {
@@ -224,7 +225,8 @@ enum kiriEventType {
     KIRI_EVENT_DIVERGED = 4,      /* the sheet was stopped */
     KIRI_EVENT_DEFERRED = 5,      /* stage, waiting: the budget ended in this stage of the sheet's work */
     KIRI_EVENT_PIN_BROKE = 6,     /* pin: its force exceeded breakForce; the id is stale from now on */
-    KIRI_EVENT_PIECE_DETACHED = 7 /* sheet (the new one), frame, area: a pending kiriFrame_DetachPiece is done */
+    KIRI_EVENT_PIECE_DETACHED = 7, /* sheet (the new one), frame, area: a pending kiriFrame_DetachPiece is done */
+    KIRI_EVENT_SEAM_BROKE = 8 /* seam, stitches: some stitches broke; with none left the id is stale from now on */
 };
 
 /* An event. It fills the fields that its type names, and `sheet`. Other fields are 0, and `stage` is -1. */
@@ -238,6 +240,8 @@ typedef struct kiriEvent {
     float area;      /* m^2 of the piece, or 0 */
     int32_t stage;   /* KIRI_STAGE_..., or -1 */
     int32_t waiting; /* points and ends of cuts that are pending or in work; or 0 */
+    kiriSeam seam;   /* or 0 */
+    int32_t stitches; /* that the seam has left, or 0 */
 } kiriEvent;
 
 /* Gets the events: *events points to *count of them. */
@@ -843,6 +847,49 @@ KIRI_API kiriResult kiriPin_GetReaction(const kiriWorld* world, kiriPin pin, dou
 /* Writes up to `capacity` ids of the sheet's pins, of all types; *count is how many there are. */
 KIRI_API kiriResult kiriSheet_GetPins(const kiriWorld* world, kiriSheet sheet, kiriPin* pins, int32_t capacity,
                                       int32_t* count);
+
+/* ---- Seam ------------------------------------------------------------------------------------------------------- */
+
+/* A seam joins two lines in the material, of two sheets or of one: a sleeve, a bag, a patch. Both lines are divided into
+   the same parts of their lengths, and stitches join these points. A stitch belongs to its two points: cuts go through
+   a seam, and pieces that come off or become sheets keep their stitches. It ends with the piece of one of them. */
+typedef struct kiriSeamDef {
+    uint32_t cookie;
+    kiriSheet sheetA, sheetB;   /* of the same model, and not planar */
+    const float* lineA;         /* 2 floats a point, m, in the material, such as its edge; copied */
+    const float* lineB;
+    int32_t countA, countB;     /* points: 2 or more */
+    int32_t stitches;           /* up to 4096; 0 (default): two for each distance of frames */
+    float breakForce;           /* N/m: a stitch breaks in a tick with a larger force for its length; 0: never */
+} kiriSeamDef;
+
+/* Fills the def with its defaults, and stamps it. */
+KIRI_API void kiriDefaultSeamDef(kiriSeamDef* def);
+
+/* Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
+   KIRI_ERROR_ARGUMENT: a line leaves the material; a sheet is planar; the models differ. */
+KIRI_API kiriResult kiriCreateSeam(kiriWorld* world, const kiriSeamDef* def, kiriSeam* seam);
+KIRI_API kiriResult kiriDestroySeam(kiriWorld* world, kiriSeam seam);
+
+/* A stitch, as after the last tick. */
+typedef struct kiriStitch {
+    kiriSheet sheetA, sheetB;
+    float restA[2], restB[2]; /* m, in the material */
+    float position[3];        /* m, world: where both points meet. A host that welds the drawn lips puts them there */
+    float gap;                /* m: distance of the two points; a stitch yields by micrometres under the sheet's weight */
+    float force[3];           /* N, on sheet A: mean over the last tick that moved it */
+} kiriStitch;
+
+/* Gets a stitch of those that are left, in the order of the lines. KIRI_ERROR_ARGUMENT: no stitch has the index. */
+KIRI_API kiriResult kiriSeam_GetStitch(const kiriWorld* world, kiriSeam seam, int32_t index, kiriStitch* stitch);
+
+/* Gets the number of stitches that are left. */
+KIRI_API kiriResult kiriSeam_GetCount(const kiriWorld* world, kiriSeam seam, int32_t* stitches);
+
+/* Writes up to `capacity` ids of the world's seams; *count is how many there are. */
+KIRI_API kiriResult kiriWorld_GetSeams(const kiriWorld* world, kiriSeam* seams, int32_t capacity, int32_t* count);
+
+/* ---- Contact ---------------------------------------------------------------------------------------------------- */
 
 /* A contact of a point of the material: the plane dot(normal, x) = offset keeps the point on its upper side, and
    Coulomb friction acts along the plane. The host computes the plane for each tick from the visible surface of the

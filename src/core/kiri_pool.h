@@ -13,7 +13,8 @@ enum {
     KIRI_KIND_FRAME = 2,
     KIRI_KIND_PIN = 3,
     KIRI_KIND_OBSTACLE = 4,
-    KIRI_KIND_BLADE = 5
+    KIRI_KIND_BLADE = 5,
+    KIRI_KIND_SEAM = 6
 };
 
 typedef struct kiriSlot {

@@ -12,9 +12,8 @@
 
 /* ---- Points ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the position of a point that is blended from frames by these weights. */
-static kiriVec3 BlendedPoint(const kiriSystem* system, const kiriContactMember* members, int32_t count,
-                             const kiriPose* poses)
+kiriVec3 kiriSystem_Blend(const kiriSystem* system, const kiriContactMember* members, int32_t count,
+                          const kiriPose* poses)
 {
     kiriVec3 x = { 0 };
     for (int32_t m = 0; m < count; ++m) {
@@ -26,7 +25,7 @@ static kiriVec3 BlendedPoint(const kiriSystem* system, const kiriContactMember* 
 
 kiriVec3 kiriContact_Point(const kiriSystem* system, const kiriContactStep* step, const kiriPose* poses)
 {
-    return BlendedPoint(system, step->members, step->memberCount, poses);
+    return kiriSystem_Blend(system, step->members, step->memberCount, poses);
 }
 
 static double DepthAt(const kiriContactStep* step, kiriVec3 point)
@@ -133,7 +132,7 @@ static void PlacePlane(const kiriSolver* solver, const kiriSystem* system, const
     const kiriContactRow* row = step->row;
     const kiriPose* poses = solver->start.data;
     step->start = kiriContact_Point(system, step, poses);
-    kiriVec3 off = kiriVec3_Sub(step->start, BlendedPoint(system, all, count, poses));
+    kiriVec3 off = kiriVec3_Sub(step->start, kiriSystem_Blend(system, all, count, poses));
     step->carried = kiriVec3_Scale(solver->dt, SurfaceVelocity(step, step->start));
     double now = row->offset + kiriVec3_Dot(row->normal, kiriVec3_Add(row->way, off));
     double depth = now - kiriVec3_Dot(row->normal, step->start), pushed = row->pushSpeed * solver->dt;
@@ -221,7 +220,7 @@ static void FollowSurface(const kiriSolver* solver, const kiriSystem* system, ki
         return; /* its axes stretch */
     }
     row->normal = kiriMat3_Mul(*A, row->otherNormal);
-    kiriVec3 apart = BlendedPoint(system, all, row->weightCount + row->otherCount, solver->start.data);
+    kiriVec3 apart = kiriSystem_Blend(system, all, row->weightCount + row->otherCount, solver->start.data);
     kiriVec3 off = kiriVec3_Sub(kiriMat3_MulTransposed(A, apart), row->otherOff);
     off = kiriVec3_AddScaled(off, -kiriVec3_Dot(off, row->otherNormal), row->otherNormal);
     row->otherAt = kiriVec2_Add(row->otherAt, kiriVec2_Make(off.x, off.y));
@@ -581,19 +580,11 @@ static void FindAxes(const kiriContactStep* step, kiriVec3 normal, kiriVec3 axes
     axes[0] = kiriVec3_Cross(axes[1], normal);
 }
 
-enum { CONTACT_ROWS = 3 };
-
-/* Springs on the point along three axes, and with what each pulls. */
-typedef struct PointSprings {
-    kiriVec3 axis[CONTACT_ROWS];
-    double spring[CONTACT_ROWS], pull[CONTACT_ROWS];
-} PointSprings;
-
-static PointSprings SpringsOf(const kiriContactStep* step, kiriVec3 normal)
+static kiriPointSprings SpringsOf(const kiriContactStep* step, kiriVec3 normal)
 {
     bool isSoft = IsSoft(step->row);
     kiriVec3 drag = isSoft ? step->drags : DragOf(step, 0.0);
-    PointSprings at = { { normal }, { isSoft ? step->spring : step->stiffness, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } };
+    kiriPointSprings at = { { normal }, { isSoft ? step->spring : step->stiffness, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } };
     FindAxes(step, normal, &at.axis[1]);
     at.spring[2] = isSoft ? step->tie : step->sticks ? step->grip : TurnSpring(step);
     at.spring[1] = step->sticks ? at.spring[2] : 0.0;
@@ -603,31 +594,32 @@ static PointSprings SpringsOf(const kiriContactStep* step, kiriVec3 normal)
     return at;
 }
 
-static void AssembleRows(kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step,
-                         const PointSprings* at)
+void kiriSolver_AddPointSprings(kiriSolver* solver, const kiriSystem* system, const kiriContactMember* members,
+                                int32_t count, const kiriPointSprings* at)
 {
-    double J[CONTACT_ROWS * KIRI_CONTACT_MEMBERS * KIRI_MOST_UNKNOWNS] = { 0.0 }, own[KIRI_MOST_UNKNOWNS];
-    int32_t frames[KIRI_CONTACT_MEMBERS], places[KIRI_CONTACT_MEMBERS], count = 0;
-    for (int32_t m = 0; m < step->memberCount; ++m) { /* a frame may carry both points */
+    double J[KIRI_POINT_ROWS * KIRI_STITCH_MEMBERS * KIRI_MOST_UNKNOWNS], own[KIRI_MOST_UNKNOWNS];
+    int32_t frames[KIRI_STITCH_MEMBERS], places[KIRI_STITCH_MEMBERS], different = 0;
+    KIRI_ASSERT(count <= KIRI_STITCH_MEMBERS);
+    for (int32_t m = 0; m < count; ++m) { /* a frame may carry both points */
         places[m] = 0;
-        while (places[m] < count && frames[places[m]] != step->members[m].frame) {
+        while (places[m] < different && frames[places[m]] != members[m].frame) {
             places[m] += 1;
         }
-        frames[places[m]] = step->members[m].frame;
-        count = kiriMax(places[m] + 1, count);
+        frames[places[m]] = members[m].frame;
+        different = kiriMax(places[m] + 1, different);
     }
-    for (int32_t m = 0; m < step->memberCount; ++m) {
-        kiriContactMember member = step->members[m];
-        kiriVec2 local = kiriVec2_Sub(member.at, system->frames[member.frame].center);
-        kiriVec3 arm = kiriPose_Along(&solver->poses.data[member.frame], local);
-        for (int e = 0; e < CONTACT_ROWS; ++e) {
-            DerivePoint(solver, system, member, local, arm, at->axis[e], own);
+    memset(J, 0, sizeof(double) * (size_t)(KIRI_POINT_ROWS * different * solver->size));
+    for (int32_t m = 0; m < count; ++m) {
+        kiriVec2 local = kiriVec2_Sub(members[m].at, system->frames[members[m].frame].center);
+        kiriVec3 arm = kiriPose_Along(&solver->poses.data[members[m].frame], local);
+        for (int e = 0; e < KIRI_POINT_ROWS; ++e) {
+            DerivePoint(solver, system, members[m], local, arm, at->axis[e], own);
             for (int32_t n = 0; n < solver->size; ++n) {
-                J[solver->size * (count * e + places[m]) + n] += own[n];
+                J[solver->size * (different * e + places[m]) + n] += own[n];
             }
         }
     }
-    kiriSolver_AddSquares(solver, frames, count, J, at->spring, at->pull, CONTACT_ROWS);
+    kiriSolver_AddSquares(solver, frames, different, J, at->spring, at->pull, KIRI_POINT_ROWS);
 }
 
 /* ---- The same of rigid frames in space: all is made of one 3 x 3 matrix ---- */
@@ -640,10 +632,10 @@ typedef struct Carrier {
 } Carrier;
 
 /* Returns the columns of the sum of springs along axes. */
-static void SumSprings(const PointSprings* at, kiriVec3 columns[3])
+static void SumSprings(const kiriPointSprings* at, kiriVec3 columns[3])
 {
     memset(columns, 0, 3 * sizeof(kiriVec3));
-    for (int e = 0; e < CONTACT_ROWS; ++e) {
+    for (int e = 0; e < KIRI_POINT_ROWS; ++e) {
         kiriVec3 axis = at->axis[e], scaled = kiriVec3_Scale(at->spring[e], axis);
         columns[0] = kiriVec3_AddScaled(columns[0], axis.x, scaled);
         columns[1] = kiriVec3_AddScaled(columns[1], axis.y, scaled);
@@ -685,13 +677,13 @@ static void AddCarried(kiriSolver* solver, const Carrier* carrier, kiriVec3 pull
 }
 
 static void AssembleRigid(kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step,
-                          const PointSprings* at)
+                          const kiriPointSprings* at)
 {
     Carrier carriers[KIRI_CONTACT_MEMBERS];
     kiriVec3 springs[3], pull = { 0 };
     int32_t count = 0;
     SumSprings(at, springs);
-    for (int e = 0; e < CONTACT_ROWS; ++e) {
+    for (int e = 0; e < KIRI_POINT_ROWS; ++e) {
         pull = kiriVec3_AddScaled(pull, at->pull[e], at->axis[e]);
     }
     for (int32_t m = 0; m < step->memberCount; ++m) {
@@ -717,9 +709,13 @@ static void AssembleRigid(kiriSolver* solver, const kiriSystem* system, const ki
 void kiriContact_Assemble(kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step)
 {
     if (step->isActive) {
-        PointSprings at = SpringsOf(step, step->row->normal);
+        kiriPointSprings at = SpringsOf(step, step->row->normal);
         bool isRigid = !kiriMechanics_IsAffine(&system->mechanics) && !system->mechanics.planar && !step->row->isFold;
-        (isRigid ? AssembleRigid : AssembleRows)(solver, system, step, &at);
+        if (isRigid) {
+            AssembleRigid(solver, system, step, &at);
+        } else {
+            kiriSolver_AddPointSprings(solver, system, step->members, step->memberCount, &at);
+        }
     }
 }
 

@@ -779,6 +779,22 @@ static bool AddContactPairs(kiriMemory* memory, kiriIslandMatrix* island, const 
     return ok;
 }
 
+/* Collects the pairs of all frames of each stitch. */
+static bool AddStitchPairs(kiriMemory* memory, kiriIslandMatrix* island, kiriStitchRow* stitches)
+{
+    bool ok = true;
+    for (kiriStitchRow* row = stitches; ok && row != NULL; row = row->next) {
+        for (int32_t a = 0; a < row->counts[0] + row->counts[1]; ++a) {
+            KIRI_ASSERT(row->solvers[a >= row->counts[0]] != NULL);
+            row->members[a].frame = IslandFrame(row->solvers[a >= row->counts[0]], row->members[a].frame);
+            for (int32_t b = 0; ok && b < a; ++b) {
+                ok = AddPair(memory, island, row->members[a].frame, row->members[b].frame);
+            }
+        }
+    }
+    return ok;
+}
+
 static bool AddBodyPairs(kiriMemory* memory, kiriIslandMatrix* island, const kiriIslandBody* member)
 {
     const kiriSolverBody* body = BodyOfMember(member);
@@ -826,7 +842,7 @@ static bool ReserveIsland(kiriSolver* solver, const kiriIslandBody* bodies, int3
 }
 
 bool kiriSolver_PrepareIsland(kiriSolver* solver, kiriMemory* memory, kiriIslandMatrix* island,
-                              const kiriIslandBody* bodies, int32_t count)
+                              const kiriIslandBody* bodies, int32_t count, kiriStitchRow* stitches)
 {
     int32_t frames = 0;
     bool ok = true;
@@ -838,7 +854,7 @@ bool kiriSolver_PrepareIsland(kiriSolver* solver, kiriMemory* memory, kiriIsland
     for (int32_t n = 0; ok && n < count; ++n) {
         ok = AddBodyPairs(memory, island, &bodies[n]) && AddContactPairs(memory, island, &bodies[n]);
     }
-    if (!ok || !ReserveIsland(solver, bodies, count)) {
+    if (!ok || !AddStitchPairs(memory, island, stitches) || !ReserveIsland(solver, bodies, count)) {
         return false;
     }
     if (island->matrix != NULL && island->size == solver->size && island->frameCount == frames &&
@@ -926,10 +942,11 @@ static void KeepFlow(const kiriSolver* solver, const kiriSystem* system)
 }
 
 int32_t kiriSolver_StepIsland(kiriSolver* solver, kiriMatrix* matrix, const kiriIslandBody* bodies, int32_t count,
-                              double dt, int32_t iterations, int32_t most)
+                              kiriStitchRow* stitches, double dt, int32_t iterations, int32_t most)
 {
     KIRI_ASSERT(most >= 1 && iterations >= 1 && dt > 0.0);
     kiriSystem system = kiriSolver_Open(solver, bodies, count, matrix);
+    system.stitches = stitches;
     kiriSolver_Begin(solver, &system, dt);
     int32_t done = kiriSolver_Minimise(solver, &system, kiriMin(iterations, most), most);
     if (done >= 0) {
@@ -954,7 +971,7 @@ int32_t kiriSolver_Step(kiriSolver* solver, const kiriSystem* sheet, int32_t bod
 {
     const kiriIslandBody alone = { solver, sheet, body };
     KIRI_ASSERT_HAS(solver->bodies.bodies, body);
-    return kiriSolver_StepIsland(solver, solver->bodies.bodies.data[body].matrix, &alone, 1, dt, iterations, most);
+    return kiriSolver_StepIsland(solver, solver->bodies.bodies.data[body].matrix, &alone, 1, NULL, dt, iterations, most);
 }
 
 /* ---- Elements ---------------------------------------------------------------------------------------------------- */

@@ -63,6 +63,28 @@ typedef struct kiriContactRow {
     kiriVec3 impulse;  /* N s, on the sheet, since the start of the tick; a step adds to it */
 } kiriContactRow;
 
+enum { KIRI_STITCH_MEMBERS = 2 * KIRI_CONTACT_WEIGHTS };
+
+/* A frame that carries a point. Weights of a second point are negative: the point is then the difference of the two. */
+typedef struct kiriContactMember {
+    int32_t frame;
+    double value;
+    kiriVec2 at; /* local rest, m */
+} kiriContactMember;
+
+/* A stitch of a seam: a spring between two material points, of one body or of two. */
+typedef struct kiriStitchRow {
+    struct kiriStitchRow* next; /* of the same island; null: the last */
+    int32_t body;               /* scratch of the caller */
+    kiriSolver* solvers[2];     /* of the sheets of both points; null: the point does not move */
+    int32_t counts[2];
+    /* Of the first point, then of the second one. PrepareIsland replaces the frames of sheets by frames of the island. */
+    kiriContactMember members[KIRI_STITCH_MEMBERS];
+    kiriVec3 off;     /* m: the difference of the points that the spring keeps */
+    double stiffness; /* N/m */
+    kiriVec3 impulse; /* N s, on the first point, since the start of the tick; a step adds to it */
+} kiriStitchRow;
+
 /* The motion of frames: implicit steps as minimisations, solved by Gauss-Newton steps. */
 
 /* A material point of a frame, attached to a target by a spring. */
@@ -116,6 +138,7 @@ typedef struct kiriSystem {
     int32_t contactCount;
     kiriYieldRow* yields;
     int32_t yieldCount;
+    kiriStitchRow* stitches; /* of the system of an island: the first one, or null; a step adds to their impulses */
     kiriReactions reactions; /* a step adds to them; null: not computed */
     kiriMaterial material;
     kiriVec3 gravity;
@@ -209,18 +232,18 @@ typedef struct kiriIslandMatrix {
    sum 1. */
 void kiriSolver_KeepCoupled(const kiriSolver* solver, kiriWeight* weights, int32_t* count);
 
-/* Shapes the matrix of an island: pairs of the patterns of its bodies, and pairs of mutual contacts. Reserves the scratch
-   of `solver`, which steps the island. Rows are written and shared. Fails on out of memory. */
+/* Shapes the matrix of an island: pairs of the patterns of its bodies, and pairs of mutual contacts and of stitches.
+   Reserves the scratch of `solver`, which steps the island. Rows are written and shared. Fails on out of memory. */
 bool kiriSolver_PrepareIsland(kiriSolver* solver, kiriMemory* memory, kiriIslandMatrix* matrix,
-                              const kiriIslandBody* bodies, int32_t count);
+                              const kiriIslandBody* bodies, int32_t count, kiriStitchRow* stitches);
 
 /* Returns the work of a linear system of an island, see kiriSolver_WorkOf. */
 int64_t kiriSolver_WorkOfIsland(const kiriMatrix* matrix, const kiriIslandBody* bodies, int32_t count);
 
 /* Moves the frames of an island. `solver` has the scratch; its sheet has the same model as all sheets of the island.
-   Otherwise as kiriSolver_Step. */
+   `stitches`: the first one, or null. Otherwise as kiriSolver_Step. */
 int32_t kiriSolver_StepIsland(kiriSolver* solver, kiriMatrix* matrix, const kiriIslandBody* bodies, int32_t count,
-                              double dt, int32_t iterations, int32_t most);
+                              kiriStitchRow* stitches, double dt, int32_t iterations, int32_t most);
 
 /* Moves the frames of a body by dt. Links, corners and area elements must be the committed ones; normals of contacts
    must be unit vectors, heldRotation a rotation. Returns the number of linear systems solved: `iterations`, and up to
@@ -354,14 +377,6 @@ typedef struct kiriStepEnergy {
 } kiriStepEnergy;
 
 enum { KIRI_CONTACT_MEMBERS = 8 };
-
-/* A frame that carries the point of a contact. Weights of the second point of a mutual contact are negative: the point
-   is then the difference of the two. */
-typedef struct kiriContactMember {
-    int32_t frame;
-    double value;
-    kiriVec2 at; /* local rest, m */
-} kiriContactMember;
 
 #define KIRI_SLIDE_FLOOR 1e-9 /* m: shorter slides count as zero */
 
@@ -676,6 +691,37 @@ double kiriContact_Work(const kiriSolver* solver, const kiriContactStep* step);
 
 /* Writes forces and impulses of the step to the contact rows, and impulses to the yield rows. */
 void kiriSolver_EndContacts(kiriSolver* solver, const kiriSystem* system);
+
+/* ---- Points of several frames (kiri_contact_row.c) ---- */
+
+/* Springs on a point along three axes, and what each pulls with. */
+enum { KIRI_POINT_ROWS = 3 };
+typedef struct kiriPointSprings {
+    kiriVec3 axis[KIRI_POINT_ROWS];
+    double spring[KIRI_POINT_ROWS], pull[KIRI_POINT_ROWS];
+} kiriPointSprings;
+
+/* Adds the springs to the system. A frame may carry both points. */
+void kiriSolver_AddPointSprings(kiriSolver* solver, const kiriSystem* system, const kiriContactMember* members,
+                                int32_t count, const kiriPointSprings* at);
+
+/* Returns the position of a point that is blended from frames by these weights. */
+kiriVec3 kiriSystem_Blend(const kiriSystem* system, const kiriContactMember* members, int32_t count,
+                          const kiriPose* poses);
+
+/* ---- Stitches (kiri_stitch.c) ----
+
+   A stitch is an elastic energy of the objective, like an element: 1/2 k |a - b - off|^2, with a and b its points. Its
+   force is an inner one, so bodies that stitches join keep their momentum, without a lag. */
+
+#define KIRI_EACH_STITCH(row, system) for (kiriStitchRow* row = (system)->stitches; row != NULL; row = row->next)
+
+double kiriStitches_Energy(const kiriSystem* system, const kiriPose* poses);
+double kiriStitches_Noise(const kiriSolver* solver, const kiriSystem* system);
+void kiriStitches_Assemble(kiriSolver* solver, const kiriSystem* system);
+
+/* Returns the force of the stitch on its first point at these poses, N. */
+kiriVec3 kiriStitch_Force(const kiriSystem* system, const kiriStitchRow* row, const kiriPose* poses);
 
 /* ---- Reactions (kiri_step.c) ---- */
 

@@ -336,6 +336,7 @@ static void AddHost(kiriSolver* solver, const kiriSystem* system, const kiriPose
         kiriVec3 off = kiriVec3_Sub(kiriSystem_Point(system, pin->frame, pin->at, poses), pin->target);
         AddEnergy(sum, 0.5 * pin->stiffness * kiriVec3_Dot(off, off), 0.0);
     }
+    AddEnergy(sum, kiriStitches_Energy(system, poses), 0.0);
     KIRI_EACH(const kiriContactStep, contact, solver->contacts) {
         AddEnergy(sum, 0.0, kiriContact_Energy(solver, system, contact, poses));
     }
@@ -470,7 +471,7 @@ static void FindNoise(kiriSolver* solver, const kiriSystem* system)
         kiriVec3 x = contact->start;
         sum += share * contact->stiffness * kiriVec3_Dot(x, x);
     }
-    solver->search.noise = sum;
+    solver->search.noise = sum + share * kiriStitches_Noise(solver, system);
 }
 
 /* ---- Begin ---- */
@@ -500,6 +501,9 @@ static kiriSupport SupportOf(const kiriSolver* solver, const kiriSystem* system)
 {
     bool isHeld = kiriSystem_HasWind(system) || solver->isHeld || system->pinCount > 0 || system->clampCount > 0;
     bool isPushed = false;
+    KIRI_EACH_STITCH(row, system) {
+        isHeld |= row->solvers[0] == NULL || row->solvers[1] == NULL;
+    }
     KIRI_EACH(const kiriContactStep, contact, solver->contacts) {
         isPushed |= !kiriContact_IsMutual(contact);
     }
@@ -891,6 +895,7 @@ kiriStepEnergy kiriSolver_Assemble(kiriSolver* solver, const kiriSystem* system)
             AddSpring(solver, system, pin->frame, pin->at, axes[a], kiriVec3_Dot(off, axes[a]), pin->stiffness);
         }
     }
+    kiriStitches_Assemble(solver, system);
     for (int32_t k = 0; k < system->clampCount; ++k) {
         if (!system->frames[system->clamps[k].frame].held) {
             AddClamp(solver, system, &system->clamps[k]);
@@ -1210,16 +1215,14 @@ static void AddClampPulls(const kiriSolver* solver, const kiriSystem* system)
     }
 }
 
-static void TakeContactsFromHolds(const kiriSolver* solver, const kiriSystem* system)
+/* Takes a force on a point of several frames from their holds. */
+static void TakePointFromHolds(const kiriSolver* solver, const kiriSystem* system, const kiriContactMember* members,
+                               int32_t count, kiriVec3 force)
 {
-    KIRI_EACH(const kiriContactStep, step, solver->contacts) {
-        kiriVec3 force = kiriContact_Force(solver, step);
-        for (int32_t m = 0; m < step->memberCount; ++m) {
-            int32_t frame = step->members[m].frame;
-            kiriVec3 point = kiriSystem_Point(system, frame, step->members[m].at, solver->poses.data);
-            kiriVec3 part = kiriVec3_Scale(step->members[m].value, force);
-            TakeFromHold(solver, system, frame, ForceAt(solver, frame, point, part));
-        }
+    for (int32_t m = 0; m < count; ++m) {
+        kiriVec3 point = kiriSystem_Point(system, members[m].frame, members[m].at, solver->poses.data);
+        kiriVec3 part = kiriVec3_Scale(members[m].value, force);
+        TakeFromHold(solver, system, members[m].frame, ForceAt(solver, members[m].frame, point, part));
     }
 }
 
@@ -1305,8 +1308,15 @@ void kiriSolver_AddReactions(kiriSolver* solver, const kiriSystem* system)
 {
     AddPinPulls(solver, system);
     AddClampPulls(solver, system);
+    KIRI_EACH_STITCH(row, system) {
+        kiriVec3 force = kiriStitch_Force(system, row, solver->poses.data);
+        row->impulse = kiriVec3_AddScaled(row->impulse, solver->dt, force);
+        TakePointFromHolds(solver, system, row->members, row->counts[0] + row->counts[1], force);
+    }
     if (solver->isHeld) {
-        TakeContactsFromHolds(solver, system);
+        KIRI_EACH(const kiriContactStep, step, solver->contacts) {
+            TakePointFromHolds(solver, system, step->members, step->memberCount, kiriContact_Force(solver, step));
+        }
         for (int32_t f = 0; kiriSystem_HasWind(system) && f < system->frameCount; ++f) {
             if (system->frames[f].held) {
                 TakeFromHold(solver, system, f, WindOnFrame(solver, system, f));

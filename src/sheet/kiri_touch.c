@@ -1,6 +1,7 @@
 #include "kiri_touch.h"
 #include "../core/kiri_array.h"
 #include "kiri_piece.h"
+#include "kiri_seen.h"
 
 #include <string.h>
 
@@ -677,6 +678,19 @@ static int32_t WriteWeights(const kiriSheetData* sheet, TouchBlend* blend, kiriW
         weights[n].value /= sum;
     }
     return count;
+}
+
+int32_t kiriTouches_WeighPoint(const kiriSheetData* sheet, kiriLatticePoint at, kiriWeight* weights)
+{
+    kiriTouch touch = { .point = KIRI_NONE };
+    kiriPointPlace place;
+    if (!kiriPoint_Find(sheet, at, &place)) {
+        return 0;
+    }
+    memcpy(touch.vertex, sheet->mesh.triangles.data[place.triangle].vertex, sizeof(touch.vertex));
+    memcpy(touch.share, place.shares, sizeof(touch.share));
+    TouchBlend blend = BlendOf(sheet, &touch);
+    return WriteWeights(sheet, &blend, weights, KIRI_CONTACT_WEIGHTS);
 }
 
 /* Returns the point that frames carry by these weights. */

@@ -102,6 +102,10 @@ bool kiriProbes_ListRegions(kiriSheetData* sheet);
 /* Returns the velocity of a vertex, m/s. */
 kiriVec3 kiriProbe_Velocity(const kiriSheetData* sheet, int32_t vertex);
 
+/* Writes the largest weights of a material point, up to KIRI_CONTACT_WEIGHTS, largest first, with the sum 1. All frames
+   are of one piece. Returns their number; 0 outside the material. */
+int32_t kiriTouches_WeighPoint(const kiriSheetData* sheet, kiriLatticePoint at, kiriWeight* weights);
+
 /* Stored contact forces, by key. */
 
 static inline bool kiriTouch_IsOfKind(const kiriTouch* touch, int32_t kind)

@@ -4,6 +4,7 @@
 #include "../sheet/kiri_motion.h"
 #include "../sheet/kiri_pin.h"
 #include "kiri_blade.h"
+#include "kiri_seam.h"
 
 #include <string.h>
 
@@ -443,6 +444,75 @@ kiriResult kiriDestroyPin(kiriWorld* world, kiriPin pin)
     KIRI_CHANGES(DestroyPin, &pin);
     kiriWorld_RemovePin(world, call->sheet, call->index);
     KIRI_RETURN(KIRI_OK);
+}
+
+/* ---- Seams ------------------------------------------------------------------------------------------------------- */
+
+void kiriDefaultSeamDef(kiriSeamDef* def)
+{
+    if (def != NULL) {
+        memset(def, 0, sizeof(*def));
+        def->cookie = KIRI_COOKIE(kiriSeamDef);
+    }
+}
+
+kiriResult kiriCreateSeam(kiriWorld* world, const kiriSeamDef* def, kiriSeam* seam)
+{
+    KIRI_CHANGES(CreateSeam, def, seam);
+    kiriSeamData* made;
+    const char* why;
+    kiriResult result = kiriSeams_Create(world, def, &made, &why);
+    *seam = result == KIRI_OK ? made->id : 0;
+    return KIRI_FAIL(result, why);
+}
+
+kiriResult kiriDestroySeam(kiriWorld* world, kiriSeam seam)
+{
+    KIRI_CHANGES(DestroySeam, &seam);
+    kiriSeams_Remove(world, call->owner);
+    KIRI_RETURN(KIRI_OK);
+}
+
+kiriResult kiriSeam_GetStitch(const kiriWorld* world, kiriSeam seam, int32_t index, kiriStitch* stitch)
+{
+    KIRI_READS(world);
+    KIRI_CHECK_OUT(stitch);
+    const kiriSlot* slot = kiriPool_Find(&world->seamIds, seam);
+    KIRI_REQUIRE(slot != NULL, KIRI_ERROR_ID, "there is no seam with this id");
+    const kiriSeamData* data = slot->owner;
+    KIRI_CHECK(index >= 0 && index < data->stitches.count, "no stitch has this index");
+    const kiriStitchData* from = &data->stitches.data[index];
+    const kiriSheetData *a = kiriStitch_Sheet(world, from, 0), *b = kiriStitch_Sheet(world, from, 1);
+    kiriVec3 x = kiriStitch_Point(world, from, 0), y = kiriStitch_Point(world, from, 1);
+    stitch->sheetA = a->id;
+    stitch->sheetB = b->id;
+    StoreRest(a, from->at[0], stitch->restA);
+    StoreRest(b, from->at[1], stitch->restB);
+    kiriVec3_Store(stitch->position, kiriVec3_Scale(0.5, kiriVec3_Add(x, y)));
+    stitch->gap = (float)kiriVec3_Distance(x, y);
+    kiriVec3_Store(stitch->force, from->force);
+    return KIRI_OK;
+}
+
+kiriResult kiriSeam_GetCount(const kiriWorld* world, kiriSeam seam, int32_t* stitches)
+{
+    KIRI_READS(world);
+    KIRI_CHECK_OUT(stitches);
+    const kiriSlot* slot = kiriPool_Find(&world->seamIds, seam);
+    KIRI_REQUIRE(slot != NULL, KIRI_ERROR_ID, "there is no seam with this id");
+    *stitches = ((const kiriSeamData*)slot->owner)->stitches.count;
+    return KIRI_OK;
+}
+
+kiriResult kiriWorld_GetSeams(const kiriWorld* world, kiriSeam* seams, int32_t capacity, int32_t* count)
+{
+    KIRI_READS(world);
+    KIRI_CHECK_LIST(seams);
+    for (int32_t i = 0; i < world->seams.count && i < capacity; ++i) {
+        seams[i] = world->seams.data[i]->id;
+    }
+    *count = world->seams.count;
+    return KIRI_OK;
 }
 
 kiriResult kiriBeginBlade(kiriWorld* world, kiriSheet sheet, kiriBlade* blade)

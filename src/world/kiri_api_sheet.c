@@ -2,6 +2,7 @@
 #include "../sheet/kiri_sheet.h"
 #include "../view/kiri_section.h"
 #include "kiri_part.h"
+#include "kiri_seam.h"
 #include "../sheet/kiri_piece.h"
 #include "../sheet/kiri_motion.h"
 #include "../sheet/kiri_seen.h"
@@ -54,6 +55,7 @@ kiriResult kiriDestroySheet(kiriWorld* world, kiriSheet sheet)
 {
     KIRI_CHANGES(DestroySheet, &sheet);
     kiriWorld_RemoveSheet(world, call->sheet);
+    kiriSeams_DropStale(world);
     KIRI_RETURN(KIRI_OK);
 }
 

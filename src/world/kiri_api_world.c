@@ -186,6 +186,7 @@ kiriResult kiriCreateWorld(const kiriWorldDef* def, kiriWorld** world)
     kiriPool_Init(&made->pinIds, KIRI_KIND_PIN);
     kiriPool_Init(&made->obstacleIds, KIRI_KIND_OBSTACLE);
     kiriPool_Init(&made->bladeIds, KIRI_KIND_BLADE);
+    kiriPool_Init(&made->seamIds, KIRI_KIND_SEAM);
     kiriRecord_Start(made, def);
     *world = made;
     return KIRI_OK;

@@ -126,6 +126,12 @@ static const char* FaultOfObstacleDef(const void* value)
     return isPrism && !IsConvex(def) ? "has an outline that is not a convex polygon, counter-clockwise" : NULL;
 }
 
+static const char* FaultOfSeamDef(const void* value)
+{
+    const kiriSeamDef* def = value;
+    return def->lineA != NULL && def->lineB != NULL ? NULL : "has no lineA or no lineB";
+}
+
 /* ---- Structs ----------------------------------------------------------------------------------------------------- */
 
 /* Tables of members. All are listed but the cookie and functions of the host. OF is the type of the struct. */
@@ -219,6 +225,25 @@ static const kiriValue pinDefMembers[] = {
 #undef OF
 static const kiriStruct pinDefStruct =
     STRUCT_OF(kiriPinDef, KIRI_COOKIE(kiriPinDef), "kiriDefaultPinDef", pinDefMembers);
+
+#define SHEET_IN(member)                                                                                               \
+    {                                                                                                                  \
+        .form = KIRI_FORM_ID, NUMBERS_IN(member), .refers = (int32_t)offsetof(kiriWorld, sheetIds)                     \
+    }
+#define OF kiriSeamDef
+static const kiriValue seamDefMembers[] = {
+    SHEET_IN(sheetA),
+    SHEET_IN(sheetB),
+    INTS_IN(countA, WITHIN(2, 65536)),
+    INTS_IN(countB, WITHIN(2, 65536)),
+    ARRAY_IN(KIRI_FORM_FLOATS_AT, lineA, 2, countA, ANY_FINITE),
+    ARRAY_IN(KIRI_FORM_FLOATS_AT, lineB, 2, countB, ANY_FINITE),
+    INTS_IN(stitches, WITHIN(0, 4096)),
+    FLOATS_IN(breakForce, FROM_0),
+};
+#undef OF
+static const kiriStruct seamDefStruct =
+    STRUCT_OF(kiriSeamDef, KIRI_COOKIE(kiriSeamDef), "kiriDefaultSeamDef", seamDefMembers);
 
 #define OF kiriMaterial
 static const kiriValue materialMembers[] = {

@@ -62,7 +62,9 @@ KIRI_C_BEGIN
     X3(Obstacle_SetPose, OBSTACLE, PLACE, ROTATION)                                                                    \
     X3(Obstacle_SetVelocity, OBSTACLE, PLACE, PLACE)                                                                   \
     X2(Obstacle_SetSurfaceVelocity, OBSTACLE, PLACE)                                                                   \
-    X4(Obstacle_SetMass, OBSTACLE, SIZE, INERTIA, VECTOR)
+    X4(Obstacle_SetMass, OBSTACLE, SIZE, INERTIA, VECTOR)                                                              \
+    X2(CreateSeam, SEAM_DEF, NEW_ID)                                                                                   \
+    X1(DestroySeam, SEAM)
 
 #define KIRI_NUMBER(Name, ...) KIRI_CALL_##Name,
 #define KIRI_NUMBER0(Name) KIRI_CALL_##Name,
@@ -84,6 +86,7 @@ enum { KIRI_CALL_ARGUMENTS = 4 }; /* maximum, without the world */
     V(OBSTACLE, uint32_t, ID_OF(obstacle, false))                                                                      \
     V(CUT, uint32_t, ID_OF(cut, false))                                                                                \
     V(BLADE, uint32_t, ID_OF(blade, false))                                                                            \
+    V(SEAM, uint32_t, ID_OF(seam, false))                                                                              \
     V(INT, int32_t, FORM(KIRI_FORM_INTS, .count = 1, ANY_NUMBER)) /* unchecked */                                      \
     V(COUNT, int32_t, FORM(KIRI_FORM_COUNT))                      /* of the array just before it */                    \
     V(FLOAT, float, FLOATS_OF(1, ANY_NUMBER))                     /* unchecked */                                      \
@@ -104,6 +107,7 @@ enum { KIRI_CALL_ARGUMENTS = 4 }; /* maximum, without the world */
     P(WIND, STRUCT_ARGUMENT(windStruct, .count = 1))                                                                   \
     P(SETTINGS, STRUCT_ARGUMENT(kiriSettingsStruct, .count = 1))                                                       \
     P(PIN_DEF, STRUCT_ARGUMENT(pinDefStruct, .count = 1))                                                              \
+    P(SEAM_DEF, STRUCT_ARGUMENT(seamDefStruct, .fault = FaultOfSeamDef))                                               \
     P(SHEET_DEF, STRUCT_ARGUMENT(sheetDefStruct, .fault = FaultOfSheetDef))                                            \
     P(OBSTACLE_DEF, STRUCT_ARGUMENT(obstacleDefStruct, .fault = FaultOfObstacleDef))                                   \
     P(NOTE, ARRAY_ARGUMENT(byteItem, WITHIN(1, KIRI_MOST_NOTE_BYTES))) /* arrays, each with a COUNT behind it */       \

@@ -3,6 +3,7 @@
 #include "../sheet/kiri_motion.h"
 #include "../sheet/kiri_pin.h"
 #include "../sheet/kiri_touch.h"
+#include "kiri_seam.h"
 
 #define FAR_UNDER 1e9 /* m: offset of planes that nothing can touch */
 
@@ -23,6 +24,16 @@ bool kiriIslands_FindClusters(kiriWorld* world)
     for (int32_t i = 0; i < count; ++i) {
         islands->isJoined.data[i] = 0;
         world->sheets.data[i]->probes.sheet = i;
+    }
+    KIRI_EACH_OF(kiriSeamData, seam, world->seams) {
+        KIRI_EACH(const kiriStitchData, stitch, seam->stitches) {
+            const kiriSheetData *a = kiriStitch_Sheet(world, stitch, 0), *b = kiriStitch_Sheet(world, stitch, 1);
+            islands->isJoined.data[a->probes.sheet] |= kiriSheet_IsActive(a);
+            islands->isJoined.data[b->probes.sheet] |= kiriSheet_IsActive(b);
+            if (kiriSheet_IsActive(a) && kiriSheet_IsActive(b)) {
+                kiriUnion_Join(islands->clusters.data, a->probes.sheet, b->probes.sheet);
+            }
+        }
     }
     KIRI_EACH(const kiriPairTouch, touch, world->pairs.touches) {
         int32_t upper = touch->upper.sheet->probes.sheet, lower = touch->lower.sheet->probes.sheet;
@@ -121,6 +132,50 @@ static void JoinRows(kiriWorld* world)
     }
 }
 
+/* Writes the rows of stitches, and joins the bodies of both ends. */
+static void JoinStitches(kiriWorld* world, double dt)
+{
+    kiriIslands* islands = &world->islands;
+    KIRI_EACH_OF(kiriSeamData, seam, world->seams) {
+        seam->rows.count = seam->stitches.count;
+        KIRI_EACH_INDEX(k, seam->rows) {
+            kiriStitchRow* row = &seam->rows.data[k];
+            kiriSheetData* sheets[2] = { NULL, NULL };
+            bool isMoved = kiriSeam_WriteRow(world, seam, k, dt, sheets);
+            row->body = KIRI_NONE;
+            for (int end = 0; isMoved && end < 2; ++end) {
+                if (sheets[end] != NULL) {
+                    KIRI_ASSERT(row->counts[end] > 0);
+                    int32_t frame = row->members[end * row->counts[0]].frame;
+                    int32_t body = NumberOfBody(islands, sheets[end], frame);
+                    row->body = row->body == KIRI_NONE ? body : row->body;
+                    kiriUnion_Join(islands->parents.data, row->body, body);
+                    islands->numbers.data[body] = 0;
+                }
+            }
+        }
+    }
+}
+
+/* Lists the stitches of each island. Links are made from the last row on, so that each list ascends. */
+static void ListStitches(kiriWorld* world)
+{
+    kiriIslands* islands = &world->islands;
+    for (int32_t i = world->seams.count - 1; i >= 0; --i) {
+        kiriSeamData* seam = world->seams.data[i];
+        for (int32_t k = seam->rows.count - 1; k >= 0; --k) {
+            kiriStitchRow* row = &seam->rows.data[k];
+            if (row->body != KIRI_NONE) {
+                KIRI_ASSERT_HAS(islands->numbers, row->body);
+                KIRI_ASSERT(islands->numbers.data[row->body] < islands->count);
+                kiriIsland* island = &islands->islands.data[islands->numbers.data[row->body]];
+                row->next = island->stitches;
+                island->stitches = row;
+            }
+        }
+    }
+}
+
 /* Lists the bodies of islands: first counts them, then fills the spans. Returns the number of islands. */
 static int32_t ListIslands(kiriWorld* world)
 {
@@ -131,6 +186,7 @@ static int32_t ListIslands(kiriWorld* world)
         if (islands->numbers.data[b] != KIRI_NONE) {
             if (root == b) {
                 islands->islands.data[count].bodies = (kiriSpan){ 0 };
+                islands->islands.data[count].stitches = NULL;
             }
             islands->numbers.data[b] = root == b ? count++ : islands->numbers.data[root];
             islands->islands.data[islands->numbers.data[b]].bodies.count += 1;
@@ -190,13 +246,16 @@ bool kiriIslands_Prepare(kiriWorld* world, double dt)
             islands->numbers.data[b] = KIRI_NONE;
         }
         JoinRows(world);
+        JoinStitches(world, dt);
         islands->count = ListIslands(world);
+        ListStitches(world);
     }
     for (int32_t n = 0; ok && n < islands->count; ++n) {
         kiriIsland* island = &islands->islands.data[n];
         const kiriIslandBody* bodies = &islands->bodies.data[island->bodies.first];
         island->solver = bodies[0].solver;
-        ok = kiriSolver_PrepareIsland(island->solver, memory, &island->matrix, bodies, island->bodies.count);
+        ok = kiriSolver_PrepareIsland(island->solver, memory, &island->matrix, bodies, island->bodies.count,
+                                      island->stitches);
     }
     if (!ok) {
         islands->count = 0;
@@ -243,8 +302,8 @@ static bool StepCluster(kiriWorld* world, int32_t cluster, double dt, int64_t mo
                 each = kiriSolver_WorkOf(sheet->solver, *at, PieceBody(sheet, *at)->contactCount);
             } else if (IsFirst(islands, island, sheet, *at)) {
                 const kiriIslandBody* bodies = &islands->bodies.data[island->bodies.first];
-                solved = kiriSolver_StepIsland(island->solver, island->matrix.matrix, bodies, island->bodies.count, dt,
-                                               island->iterations, systems);
+                solved = kiriSolver_StepIsland(island->solver, island->matrix.matrix, bodies, island->bodies.count,
+                                               island->stitches, dt, island->iterations, systems);
                 each = WorkOfIsland(islands, island);
             }
             for (int32_t k = 0; k < solved; ++k) {

@@ -91,7 +91,7 @@ static bool ReserveCalm(kiriWorld* world)
         const kiriSheetData* sheet = kiriWorld_Active(world, k);
         bool isReady = sheet->update->stage == KIRI_READY && sheet->update->cut.meshChanged;
         int32_t now = sheet->layout.pieces.count, next = isReady ? sheet->update->next.pieces.count : 0;
-        count += TakesPart(sheet) || MayFold(sheet) ? kiriMax(next, now) : 0;
+        count += kiriMax(next, now);
     }
     return kiriArray_Reserve(&world->memory, &world->pairs.parents, count) &&
            kiriArray_Reserve(&world->memory, &world->pairs.calms, count);
@@ -284,7 +284,7 @@ static void ListAwake(kiriWorld* world)
     pairs->calms.count = 0;
     KIRI_EACH_INDEX(k, world->active) {
         kiriSheetData* sheet = kiriWorld_Active(world, k);
-        KIRI_EACH_WHILE(TakesPart(sheet) || MayFold(sheet), kiriPiece, piece, sheet->layout.pieces) {
+        KIRI_EACH(kiriPiece, piece, sheet->layout.pieces) {
             piece->awake = KIRI_NONE;
             if (kiriPiece_IsAwake(piece)) {
                 piece->awake = pairs->calms.count;
@@ -309,11 +309,18 @@ void kiriPairs_JoinCalm(kiriWorld* world)
             kiriUnion_Join(pairs->parents.data, upper->awake, lower->awake);
         }
     }
+    KIRI_EACH_OF(kiriSeamData, seam, world->seams) {
+        KIRI_EACH(const kiriStitchData, stitch, seam->stitches) {
+            const kiriPiece *one = PieceOfBody(world, stitch->frames[0]), *other = PieceOfBody(world, stitch->frames[1]);
+            if (kiriPiece_IsAwake(one) && kiriPiece_IsAwake(other)) {
+                kiriUnion_Join(pairs->parents.data, one->awake, other->awake);
+            }
+        }
+    }
     for (int isGiven = 0; isGiven < 2; ++isGiven) {
         for (int32_t k = 0; k < world->active.count; ++k) {
             kiriSheetData* sheet = kiriWorld_Active(world, k);
-            bool mayTouch = TakesPart(sheet) || MayFold(sheet);
-            for (int32_t p = 0; mayTouch && p < sheet->layout.pieces.count; ++p) {
+            for (int32_t p = 0; p < sheet->layout.pieces.count; ++p) {
                 kiriPiece* piece = &sheet->layout.pieces.data[p];
                 if (kiriPiece_IsAwake(piece)) {
                     double* calm = &pairs->calms.data[kiriUnion_Root(pairs->parents.data, piece->awake)];

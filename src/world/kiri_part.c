@@ -1,4 +1,5 @@
 #include "kiri_part.h"
+#include "kiri_seam.h"
 #include "../sheet/kiri_detach.h"
 #include "../sheet/kiri_piece.h"
 #include "../sheet/kiri_seen.h"
@@ -494,6 +495,7 @@ static kiriResult Destroy(Parting* parting)
         }
     }
     CommitSources(parting);
+    kiriSeams_DropStale(parting->world);
     Charge(parting);
     return ResultOf(parting);
 }

@@ -4,6 +4,7 @@
 #include "../sheet/kiri_update.h"
 #include "kiri_blade.h"
 #include "kiri_call.h"
+#include "kiri_seam.h"
 
 #include <string.h>
 
@@ -44,6 +45,21 @@ KIRI_TABLE(BladeDataTable, kiriBladeData, {
     KIRI_PARTS(layers, LayerTable),
     KIRI_UNHASHED,
     KIRI_RUN(4, id, sheet),
+})
+
+KIRI_TABLE(StitchTable, kiriStitchData, {
+    KIRI_RUN(4, at),
+    KIRI_REALS(length, force),
+    KIRI_UNHASHED,
+    KIRI_RUN(4, frames),
+})
+
+KIRI_TABLE(SeamTable, kiriSeamData, {
+    KIRI_REALS(breakForce),
+    KIRI_PARTS(stitches, StitchTable),
+    KIRI_UNHASHED,
+    KIRI_RUN(4, id),
+    KIRI_ROOM_OF(rows),
 })
 
 enum { MOST_GENERATIONS = 127 };
@@ -99,9 +115,11 @@ KIRI_TABLE(WorldTable, kiriWorld, {
     KIRI_PART(pinIds, PoolTable),
     KIRI_PART(obstacleIds, PoolTable),
     KIRI_PART(bladeIds, PoolTable),
+    KIRI_PART(seamIds, PoolTable),
     KIRI_SPACE_OF(sheets),
     KIRI_SPACE_OF(obstacles),
     KIRI_SPACE_OF(blades),
+    KIRI_SPACE_OF(seams),
     KIRI_ITEMS(4, obstacleOrder),
     KIRI_ITEMS(4, events),
     KIRI_DROPPED(islands),
@@ -144,6 +162,19 @@ static void ArchiveBlades(kiriArchive* archive, kiriWorld* world)
     }
 }
 
+static void ArchiveSeams(kiriArchive* archive, kiriWorld* world)
+{
+    for (int32_t i = 0; i < world->seams.count && !kiriArchive_HasFailed(archive); ++i) {
+        if (kiriArchive_Reads(archive)) {
+            world->seams.data[i] = kiriMemory_AllocZeroed(&world->memory, sizeof(kiriSeamData));
+            archive->isShort |= world->seams.data[i] == NULL;
+        }
+        if (world->seams.data[i] != NULL) {
+            kiriArchive_Object(archive, SeamTable, world->seams.data[i]);
+        }
+    }
+}
+
 static void ArchiveWorld(kiriArchive* archive, kiriWorld* world)
 {
     archive->memory = &world->memory;
@@ -152,6 +183,7 @@ static void ArchiveWorld(kiriArchive* archive, kiriWorld* world)
         kiriObstacle_Archive(archive, &world->obstacles.data[i], &world->memory);
     }
     ArchiveBlades(archive, world);
+    ArchiveSeams(archive, world);
     ArchiveSheets(archive, world);
 }
 
@@ -183,6 +215,9 @@ static bool ClaimIds(kiriWorld* world)
     KIRI_EACH_OF(kiriBladeData, blade, world->blades) {
         ok = ok && kiriPool_Claim(&world->bladeIds, blade->id, blade, 0);
     }
+    KIRI_EACH_OF(kiriSeamData, seam, world->seams) {
+        ok = ok && kiriPool_Claim(&world->seamIds, seam->id, seam, 0);
+    }
     KIRI_EACH_OF(kiriSheetData, sheet, world->sheets) {
         ok = ok && ClaimIdsOfSheet(world, sheet);
     }
@@ -209,6 +244,7 @@ static bool IsWorld(const kiriWorld* world)
     return IsPool(&world->sheetIds, KIRI_KIND_SHEET) && IsPool(&world->cutIds, KIRI_KIND_CUT) &&
            IsPool(&world->frameIds, KIRI_KIND_FRAME) && IsPool(&world->pinIds, KIRI_KIND_PIN) &&
            IsPool(&world->obstacleIds, KIRI_KIND_OBSTACLE) && IsPool(&world->bladeIds, KIRI_KIND_BLADE) &&
+           IsPool(&world->seamIds, KIRI_KIND_SEAM) &&
            world->active.capacity >= sheets && world->atWork.capacity >= sheets &&
            world->newEvents <= world->events.count;
 }
@@ -222,6 +258,23 @@ static bool AreLayers(const kiriWorld* world, const kiriBladeData* blade)
         areFine = cut == NULL || ((const kiriCutData*)cut->owner)->sheet->id == layer->sheet;
     }
     return areFine;
+}
+
+/* Returns true if the points of all stitches are in sheets that can be sewn. */
+static bool IsSeam(const kiriWorld* world, const kiriSeamData* seam)
+{
+    bool isFine = seam->breakForce >= 0.0 && seam->stitches.count > 0 && seam->rows.capacity >= seam->stitches.count;
+    KIRI_EACH_WHILE(isFine, const kiriStitchData, stitch, seam->stitches) {
+        const kiriSheetData* sheets[2];
+        isFine = stitch->length > 0.0 && stitch->stiffness > 0.0;
+        for (int end = 0; isFine && end < 2; ++end) {
+            sheets[end] = kiriStitch_Sheet(world, stitch, end);
+            isFine = sheets[end] != NULL && !sheets[end]->settings.mechanics.planar &&
+                     kiriMesh_Locate(&sheets[end]->mesh, stitch->at[end]) != KIRI_NONE &&
+                     sheets[end]->settings.mechanics.model == sheets[0]->settings.mechanics.model;
+        }
+    }
+    return isFine;
 }
 
 /* Returns true if settings are legal, and leaving pieces are pieces of this sheet. */
@@ -357,6 +410,9 @@ static void FinishSave(kiriArchive* archive, kiriWorld* made)
     for (int32_t i = 0; i < made->blades.count && !kiriArchive_HasFailed(archive); ++i) {
         kiriArchive_Expect(archive, AreLayers(made, made->blades.data[i]));
     }
+    for (int32_t i = 0; i < made->seams.count && !kiriArchive_HasFailed(archive); ++i) {
+        kiriArchive_Expect(archive, IsSeam(made, made->seams.data[i]));
+    }
 }
 
 static kiriResult ReadWorld(kiriWorld* made, const uint8_t* bytes, int64_t size, bool isWhole)
@@ -441,6 +497,8 @@ static SnapshotHead HeadOfSnapshot(int64_t size)
     kiriHash_Int32(&head.layout, KIRI_VERSION);
     kiriArchive_HashLayout(WorldTable, &head.layout);
     kiriArchive_HashLayout(BladeDataTable, &head.layout);
+    kiriArchive_HashLayout(SeamTable, &head.layout);
+    kiriArchive_HashLayout(StitchTable, &head.layout);
     kiriSheet_HashLayout(&head.layout);
     return head;
 }

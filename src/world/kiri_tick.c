@@ -11,6 +11,7 @@
 #include "kiri_island.h"
 #include "kiri_move.h"
 #include "kiri_pair.h"
+#include "kiri_seam.h"
 
 #include <string.h>
 
@@ -140,7 +141,8 @@ static bool FindTouches(kiriWorld* world, double dt)
 {
     bool ok = true;
     EnterStage(world, KIRI_STAGE_CONTACT);
-    if (kiriPairs_Stir(world)) {
+    bool isPairStirred = kiriPairs_Stir(world);
+    if (kiriSeams_Stir(world) || isPairStirred) {
         ListActive(world);
     }
     for (int32_t k = 0; ok && k < world->active.count; ++k) {
@@ -165,7 +167,7 @@ static bool FindTouches(kiriWorld* world, double dt)
 static kiriResult ReserveRoom(kiriWorld* world)
 {
     int64_t frames = 0, events = world->events.count + 2 * (int64_t)world->sheets.count + world->cutIds.slots.count +
-                                 world->pinIds.slots.count;
+                                 world->pinIds.slots.count + world->seams.count;
     KIRI_EACH_ACTIVE(sheet, world) {
         if (IsReady(sheet) && sheet->update->cut.meshChanged) {
             frames += sheet->update->placing.sites.count - sheet->frames.count;
@@ -259,7 +261,9 @@ static void CommitAll(kiriWorld* world)
 {
     EnterStage(world, KIRI_STAGE_CONSTANTS); /* its items have paid for it */
     CommitMeshes(world);
+    bool isCommitted = false;
     KIRI_EACH_ACTIVE(sheet, world) {
+        isCommitted |= IsReady(sheet);
         if (IsReady(sheet)) {
             KIRI_EACH_INDEX(i, sheet->update->cut) {
                 world->profile.cutSegments += !sheet->queue.data[i].jump;
@@ -270,6 +274,9 @@ static void CommitAll(kiriWorld* world)
             kiriPipeline_Finish(sheet);
         }
         FinishCuts(world, sheet);
+    }
+    if (isCommitted) {
+        kiriSeams_Follow(world);
     }
     KIRI_EACH_OF(kiriSheetData, sheet, world->sheets) {
         sheet->seen.surface.before.count = 0;
@@ -421,6 +428,7 @@ static kiriResult MoveAll(kiriWorld* world, double dt, int32_t substeps, kiriQuo
     KIRI_EACH_ACTIVE(sheet, world) {
         BreakPins(world, sheet);
     }
+    kiriSeams_End(world, dt);
     SkinAll(world, dt);
     samples->left += aside;
     KIRI_EACH_ACTIVE(sheet, world) { /* pieces that wait to be detached */

@@ -70,6 +70,7 @@ typedef struct kiriIsland {
     kiriSpan bodies; /* in kiriIslands.bodies */
     kiriIslandMatrix matrix;
     kiriSolver* solver; /* the scratch of its steps */
+    kiriStitchRow* stitches; /* the first one, or null */
     int32_t iterations; /* the most of its sheets */
 } kiriIsland;
 
@@ -97,6 +98,24 @@ typedef struct kiriPairs {
     kiriReals calms;          /* s, per awake piece: in a root, of the least calm piece of its tree */
     KIRI_ARRAY(kiriPairTouch) touches;
 } kiriPairs;
+
+/* Seams, see kiri_seam.h. */
+
+/* A stitch joins two material points. */
+typedef struct kiriStitchData {
+    kiriFrame frames[2];    /* each carries most of a point; it names the sheet, whichever sheet its piece is in */
+    kiriLatticePoint at[2]; /* of the lattice of the sheet, which detached pieces keep */
+    double length;          /* m of the seam */
+    double stiffness;       /* N/m */
+    kiriVec3 force;         /* N, on the first point: mean over the last tick that moved it */
+} kiriStitchData;
+
+typedef struct kiriSeamData {
+    kiriSeam id;
+    double breakForce; /* N/m; 0: never */
+    KIRI_ARRAY(kiriStitchData) stitches;
+    KIRI_ARRAY(kiriStitchRow) rows; /* of the stitches, in the current tick */
+} kiriSeamData;
 
 /* State of a recording, see kiri_call.h. */
 
@@ -152,11 +171,12 @@ struct kiriWorld {
     int64_t ticks;
     int32_t turn;      /* index of the sheet to move first: the last tick had no systems left for it */
     int32_t newEvents; /* number of events at the end of `events` from refused ticks, for the next accepted tick */
-    kiriPool sheetIds, cutIds, frameIds, pinIds, obstacleIds, bladeIds;
+    kiriPool sheetIds, cutIds, frameIds, pinIds, obstacleIds, bladeIds, seamIds;
     KIRI_ARRAY(kiriSheetData*) sheets; /* in the order of creation */
     kiriIndices active, atWork;        /* indices of sheets: processed by the current tick; with a cut to work on */
     KIRI_ARRAY(kiriObstacleData*) obstacles; /* in the order of creation */
     KIRI_ARRAY(struct kiriBladeData*) blades;
+    KIRI_ARRAY(kiriSeamData*) seams; /* in the order of creation */
     kiriIndices obstacleOrder; /* by the lower x of their box */
     kiriObstacleSearch obstacleSearch;
     KIRI_ARRAY(kiriObstacleSearch) searches; /* one a task that finds touches */

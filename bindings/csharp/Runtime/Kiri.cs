@@ -481,6 +481,7 @@ namespace Kiri
         public Frame Get(FrameId id) { return new Frame(this, id); }
         public Obstacle Get(ObstacleId id) { return new Obstacle(this, id); }
         public Pin Get(PinId id) { return new Pin(this, id); }
+        public Seam Get(SeamId id) { return new Seam(this, id); }
         public Sheet Get(SheetId id) { return new Sheet(this, id); }
 
         /// <summary>Advances by one fixed step of dt seconds (1e-6 to 10), in `substeps` equal parts (1 to 64): takes the
@@ -727,6 +728,41 @@ namespace Kiri
             var bladeValue = new BladeId();
             Check(Native.kiriBeginBlade(Handle, sheet, &bladeValue));
             return new Blade(this, bladeValue);
+        }
+
+        /// <summary>Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
+        /// KIRI_ERROR_ARGUMENT: a line leaves the material; a sheet is planar; the models differ.</summary>
+        public Seam CreateSeam(float[] lineA, float[] lineB, SeamDef @def)
+        {
+            @def.countA = lineA.Length / 2;
+            @def.countB = lineB.Length / 2;
+            var seamValue = new SeamId();
+            fixed (float* lineARows = lineA)
+            fixed (float* lineBRows = lineB)
+            {
+                @def.lineA = lineARows;
+                @def.lineB = lineBRows;
+                Check(Native.kiriCreateSeam(Handle, &@def, &seamValue));
+            }
+            return new Seam(this, seamValue);
+        }
+
+        /// <summary>Writes up to `capacity` ids of the world's seams; *count is how many there are.</summary>
+        public int GetSeams(SeamId[] seams)
+        {
+            int count = 0;
+            fixed (SeamId* seamsRows = seams)
+            {
+                CheckRead(Native.kiriWorld_GetSeams(Handle, seamsRows, (seams == null ? 0 : seams.Length), &count));
+            }
+            return count;
+        }
+
+        public SeamId[] GetSeams()
+        {
+            var seams = new SeamId[GetSeams(null)];
+            GetSeams(seams);
+            return seams;
         }
 
         /// <summary>Add and destroy an obstacle. On failure *obstacle is 0. Pieces that rested on a destroyed one wake.</summary>
@@ -1489,6 +1525,43 @@ namespace Kiri
         public void End()
         {
             World.Check(Native.kiriBlade_End(World.Handle, Id));
+        }
+    }
+
+    public unsafe partial struct Seam : IEquatable<Seam>
+    {
+        public readonly World World;
+        public readonly SeamId Id;
+
+        internal Seam(World world, SeamId id) { World = world; Id = id; }
+        public bool IsNone { get { return Id.IsNone; } }
+        public bool Equals(Seam other) { return World == other.World && Id == other.Id; }
+        public override bool Equals(object other) { return other is Seam && Equals((Seam)other); }
+        public override int GetHashCode() { return Id.GetHashCode(); }
+        public static implicit operator SeamId(Seam handle) { return handle.Id; }
+
+        /// <summary>Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
+        /// KIRI_ERROR_ARGUMENT: a line leaves the material; a sheet is planar; the models differ.</summary>
+        public void Destroy()
+        {
+            World.Check(Native.kiriDestroySeam(World.Handle, Id));
+        }
+
+        /// <summary>Gets a stitch of those that are left, in the order of the lines. KIRI_ERROR_ARGUMENT: no stitch has the
+        /// index.</summary>
+        public Stitch GetStitch(int index)
+        {
+            var stitchValue = new Stitch();
+            World.CheckRead(Native.kiriSeam_GetStitch(World.Handle, Id, index, &stitchValue));
+            return stitchValue;
+        }
+
+        /// <summary>Gets the number of stitches that are left.</summary>
+        public int GetCount()
+        {
+            int stitchesValue = 0;
+            World.CheckRead(Native.kiriSeam_GetCount(World.Handle, Id, &stitchesValue));
+            return stitchesValue;
         }
     }
 

@@ -321,6 +321,21 @@ namespace Kiri
         public static bool operator !=(BladeId a, BladeId b) { return a.Value != b.Value; }
     }
 
+    /// <summary>The number of a seam; 0 is none. World.Get makes a Seam of it.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct SeamId : IEquatable<SeamId>
+    {
+        public readonly uint Value;
+
+        public SeamId(uint value) { Value = value; }
+        public bool IsNone { get { return Value == 0; } }
+        public bool Equals(SeamId other) { return Value == other.Value; }
+        public override bool Equals(object other) { return other is SeamId && Equals((SeamId)other); }
+        public override int GetHashCode() { return (int)Value; }
+        public static bool operator ==(SeamId a, SeamId b) { return a.Value == b.Value; }
+        public static bool operator !=(SeamId a, SeamId b) { return a.Value != b.Value; }
+    }
+
     public enum ResultCode
     {
         Ok = 0,
@@ -367,6 +382,8 @@ namespace Kiri
         PinBroke = 6,
         /// <summary>sheet (the new one), frame, area: a pending kiriFrame_DetachPiece is done</summary>
         PieceDetached = 7,
+        /// <summary>seam, stitches: some stitches broke; with none left the id is stale from now on</summary>
+        SeamBroke = 8,
     }
 
     /// <summary>The stages of a tick in their order.</summary>
@@ -599,6 +616,10 @@ namespace Kiri
         public Stage Stage;
         /// <summary>points and ends of cuts that are pending or in work; or 0</summary>
         public int Waiting;
+        /// <summary>or 0</summary>
+        public SeamId Seam;
+        /// <summary>that the seam has left, or 0</summary>
+        public int Stitches;
     }
 
     /// <summary>Work and time of the last tick.</summary>
@@ -1114,6 +1135,60 @@ namespace Kiri
         public ObstacleId Obstacle;
     }
 
+    /// <summary>A seam joins two lines in the material, of two sheets or of one: a sleeve, a bag, a patch. Both lines are
+    /// divided into the same parts of their lengths, and stitches join these points. A stitch belongs to its two
+    /// points: cuts go through a seam, and pieces that come off or become sheets keep their stitches. It ends with the
+    /// piece of one of them.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct SeamDef
+    {
+        internal uint cookie;
+        /// <summary>of the same model, and not planar</summary>
+        public SheetId SheetA;
+        /// <summary>of the same model, and not planar</summary>
+        public SheetId SheetB;
+        /// <summary>2 floats a point, m, in the material, such as its edge; copied</summary>
+        internal float* lineA;
+        internal float* lineB;
+        /// <summary>points: 2 or more</summary>
+        internal int countA;
+        /// <summary>points: 2 or more</summary>
+        internal int countB;
+        /// <summary>up to 4096; 0 (default): two for each distance of frames</summary>
+        public int Stitches;
+        /// <summary>N/m: a stitch breaks in a tick with a larger force for its length; 0: never</summary>
+        public float BreakForce;
+
+        /// <summary>With the defaults of the library.</summary>
+        public static SeamDef Default
+        {
+            get
+            {
+                SeamDef def;
+                Native.kiriDefaultSeamDef(&def);
+                return def;
+            }
+        }
+    }
+
+    /// <summary>A stitch, as after the last tick.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct Stitch
+    {
+        public SheetId SheetA;
+        public SheetId SheetB;
+        /// <summary>m, in the material</summary>
+        public Float2 RestA;
+        /// <summary>m, in the material</summary>
+        public Float2 RestB;
+        /// <summary>m, world: where both points meet. A host that welds the drawn lips puts them there</summary>
+        public Float3 Position;
+        /// <summary>m: distance of the two points; a stitch yields by micrometres under the sheet's weight</summary>
+        public float Gap;
+        /// <summary>N, on sheet A: mean over the last tick that moved it</summary>
+        public Float3 Force;
+    }
+
     /// <summary>A contact of a point of the material: the plane dot(normal, x) = offset keeps the point on its upper side, and
     /// Coulomb friction acts along the plane. The host computes the plane for each tick from the visible surface of the
     /// sheet. A contact that the point does not reach in the tick costs little and does nothing.</summary>
@@ -1578,6 +1653,24 @@ namespace Kiri
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int kiriSheet_GetPins(IntPtr world, SheetId sheet, PinId* pins, int capacity, int* count);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern void kiriDefaultSeamDef(SeamDef* @def);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int kiriCreateSeam(IntPtr world, SeamDef* @def, SeamId* seam);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int kiriDestroySeam(IntPtr world, SeamId seam);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int kiriSeam_GetStitch(IntPtr world, SeamId seam, int @index, Stitch* stitch);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int kiriSeam_GetCount(IntPtr world, SeamId seam, int* stitches);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int kiriWorld_GetSeams(IntPtr world, SeamId* seams, int capacity, int* count);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int kiriSheet_SetContacts(IntPtr world, SheetId sheet, Contact* contacts, int count);

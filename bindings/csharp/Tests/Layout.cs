@@ -41,6 +41,8 @@ namespace Kiri.Tests
             Wind();
             PinDef();
             PinState();
+            SeamDef();
+            Stitch();
             Contact();
             ContactForce();
             ObstacleDef();
@@ -96,7 +98,7 @@ namespace Kiri.Tests
         {
             Event s;
             byte* at = (byte*)&s;
-            Is("Event", sizeof(Event), 36);
+            Is("Event", sizeof(Event), 44);
             Is("Event.Type", (byte*)&s.Type - at, 0);
             Is("Event.Sheet", (byte*)&s.Sheet - at, 4);
             Is("Event.Cut", (byte*)&s.Cut - at, 8);
@@ -106,6 +108,8 @@ namespace Kiri.Tests
             Is("Event.Area", (byte*)&s.Area - at, 24);
             Is("Event.Stage", (byte*)&s.Stage - at, 28);
             Is("Event.Waiting", (byte*)&s.Waiting - at, 32);
+            Is("Event.Seam", (byte*)&s.Seam - at, 36);
+            Is("Event.Stitches", (byte*)&s.Stitches - at, 40);
         }
 
         static void Profile()
@@ -425,6 +429,36 @@ namespace Kiri.Tests
             Is("PinState.Rotation", (byte*)&s.Rotation - at, 36);
             Is("PinState.BreakForce", (byte*)&s.BreakForce - at, 72);
             Is("PinState.Obstacle", (byte*)&s.Obstacle - at, 76);
+        }
+
+        static void SeamDef()
+        {
+            SeamDef s;
+            byte* at = (byte*)&s;
+            Is("SeamDef", sizeof(SeamDef), 48);
+            Is("SeamDef.cookie", (byte*)&s.cookie - at, 0);
+            Is("SeamDef.SheetA", (byte*)&s.SheetA - at, 4);
+            Is("SeamDef.SheetB", (byte*)&s.SheetB - at, 8);
+            Is("SeamDef.lineA", (byte*)&s.lineA - at, 16);
+            Is("SeamDef.lineB", (byte*)&s.lineB - at, 24);
+            Is("SeamDef.countA", (byte*)&s.countA - at, 32);
+            Is("SeamDef.countB", (byte*)&s.countB - at, 36);
+            Is("SeamDef.Stitches", (byte*)&s.Stitches - at, 40);
+            Is("SeamDef.BreakForce", (byte*)&s.BreakForce - at, 44);
+        }
+
+        static void Stitch()
+        {
+            Stitch s;
+            byte* at = (byte*)&s;
+            Is("Stitch", sizeof(Stitch), 52);
+            Is("Stitch.SheetA", (byte*)&s.SheetA - at, 0);
+            Is("Stitch.SheetB", (byte*)&s.SheetB - at, 4);
+            Is("Stitch.RestA", (byte*)&s.RestA - at, 8);
+            Is("Stitch.RestB", (byte*)&s.RestB - at, 16);
+            Is("Stitch.Position", (byte*)&s.Position - at, 24);
+            Is("Stitch.Gap", (byte*)&s.Gap - at, 36);
+            Is("Stitch.Force", (byte*)&s.Force - at, 40);
         }
 
         static void Contact()

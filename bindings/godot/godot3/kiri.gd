@@ -27,6 +27,7 @@ const EVENT_DIVERGED = 4
 const EVENT_DEFERRED = 5
 const EVENT_PIN_BROKE = 6
 const EVENT_PIECE_DETACHED = 7
+const EVENT_SEAM_BROKE = 8
 const STAGE_CUT = 0
 const STAGE_GRID = 1
 const STAGE_REGIONS = 2
@@ -111,6 +112,9 @@ static func fill_rectangle(width, height, columns, rows):
 
 static func default_pin_def():
 	return Native.new().default_pin_def()
+
+static func default_seam_def():
+	return Native.new().default_seam_def()
 
 static func default_obstacle_def():
 	return Native.new().default_obstacle_def()

@@ -21,12 +21,15 @@ ARRAYS = {'kiriReplay': {'note': ('noteCount', 1)},
                    'triangles': ('triangleCount', 1),
                    'indices': ('triangleCount', 3),
                    'collisionPoints': ('collisionPointCount', 1)},
+ 'kiriSeamDef': {'lineA': ('countA', 2), 'lineB': ('countB', 2)},
  'kiriObstacleDef': {'outline': ('outlineCount', 2)}}
 
-IDS = {'kiriEvent': {'sheet': 'Sheet', 'cut': 'Cut', 'frame': 'Frame', 'pin': 'Pin'},
+IDS = {'kiriEvent': {'sheet': 'Sheet', 'cut': 'Cut', 'frame': 'Frame', 'pin': 'Pin', 'seam': 'Seam'},
  'kiriPointState': {'frame': 'Frame'},
  'kiriPinDef': {'obstacle': 'Obstacle'},
  'kiriPinState': {'sheet': 'Sheet', 'obstacle': 'Obstacle'},
+ 'kiriSeamDef': {'sheetA': 'Sheet', 'sheetB': 'Sheet'},
+ 'kiriStitch': {'sheetA': 'Sheet', 'sheetB': 'Sheet'},
  'kiriDebugDraw': {'sheet': 'Sheet'}}
 
 ENUMS = {'kiriEvent': {'type': 'EventType', 'stage': 'Stage'},
@@ -120,6 +123,11 @@ CHANGES = {'kiriWorld_Tick': True,
  'kiriPin_GetState': False,
  'kiriPin_GetReaction': False,
  'kiriSheet_GetPins': False,
+ 'kiriCreateSeam': True,
+ 'kiriDestroySeam': True,
+ 'kiriSeam_GetStitch': False,
+ 'kiriSeam_GetCount': False,
+ 'kiriWorld_GetSeams': False,
  'kiriSheet_SetContacts': True,
  'kiriSheet_GetContactForces': False,
  'kiriCreateObstacle': True,
@@ -230,6 +238,12 @@ METHODS = {'kiriGetVersion': (None, 'version'),
  'kiriPin_GetState': ('Pin', 'state'),
  'kiriPin_GetReaction': ('Pin', 'reaction'),
  'kiriSheet_GetPins': ('Sheet', 'pins'),
+ 'kiriDefaultSeamDef': (None, 'default_seam_def'),
+ 'kiriCreateSeam': ('World', 'create_seam'),
+ 'kiriDestroySeam': ('Seam', 'destroy'),
+ 'kiriSeam_GetStitch': ('Seam', 'stitch'),
+ 'kiriSeam_GetCount': ('Seam', 'count'),
+ 'kiriWorld_GetSeams': ('World', 'seams'),
  'kiriSheet_SetContacts': ('Sheet', 'set_contacts'),
  'kiriSheet_GetContactForces': ('Sheet', 'contact_forces'),
  'kiriDefaultObstacleDef': (None, 'default_obstacle_def'),
@@ -266,6 +280,7 @@ CONSTANTS = {'KIRI_OK': 0,
  'KIRI_EVENT_DEFERRED': 5,
  'KIRI_EVENT_PIN_BROKE': 6,
  'KIRI_EVENT_PIECE_DETACHED': 7,
+ 'KIRI_EVENT_SEAM_BROKE': 8,
  'KIRI_STAGE_CUT': 0,
  'KIRI_STAGE_GRID': 1,
  'KIRI_STAGE_REGIONS': 2,
@@ -323,11 +338,12 @@ typedef uint32_t kiriFrame;
 typedef uint32_t kiriPin;
 typedef uint32_t kiriObstacle;
 typedef uint32_t kiriBlade;
+typedef uint32_t kiriSeam;
 typedef int32_t kiriResult;
 enum kiriResultCode { KIRI_OK = 0, KIRI_PENDING = 1, KIRI_ERROR_ARGUMENT = -1, KIRI_ERROR_DEF = -2, KIRI_ERROR_ID = -3, KIRI_ERROR_MESH = -4, KIRI_ERROR_STATE = -5, KIRI_ERROR_MEMORY = -6, KIRI_DIVERGED = -7, KIRI_ERROR_LIMIT = -8, KIRI_ERROR_BUILD = -9, KIRI_ERROR_DATA = -10, KIRI_ERROR_REPLAY = -11 };
 enum kiriBudgetLimit { KIRI_LEAST_TRIANGLES = 16 };
 enum kiriNoteLimit { KIRI_MOST_NOTE_BYTES = 1048576 };
-enum kiriEventType { KIRI_EVENT_CUT_FINISHED = 1, KIRI_EVENT_PIECE_OFF = 2, KIRI_EVENT_FRAME_ADDED = 3, KIRI_EVENT_DIVERGED = 4, KIRI_EVENT_DEFERRED = 5, KIRI_EVENT_PIN_BROKE = 6, KIRI_EVENT_PIECE_DETACHED = 7 };
+enum kiriEventType { KIRI_EVENT_CUT_FINISHED = 1, KIRI_EVENT_PIECE_OFF = 2, KIRI_EVENT_FRAME_ADDED = 3, KIRI_EVENT_DIVERGED = 4, KIRI_EVENT_DEFERRED = 5, KIRI_EVENT_PIN_BROKE = 6, KIRI_EVENT_PIECE_DETACHED = 7, KIRI_EVENT_SEAM_BROKE = 8 };
 enum kiriStage { KIRI_STAGE_CUT = 0, KIRI_STAGE_GRID = 1, KIRI_STAGE_REGIONS = 2, KIRI_STAGE_SHAPE = 3, KIRI_STAGE_SAMPLES = 4, KIRI_STAGE_CONSTANTS = 5, KIRI_STAGE_CONTACT = 6, KIRI_STAGE_SOLVE = 7, KIRI_STAGE_SKIN = 8, KIRI_STAGE_COUNT = 9 };
 enum kiriMaterialPreset { KIRI_MATERIAL_PAPER = 0, KIRI_MATERIAL_COTTON = 1, KIRI_MATERIAL_RUBBER = 2, KIRI_MATERIAL_FOIL = 3, KIRI_MATERIAL_CARD = 4, KIRI_MATERIAL_COUNT = 5 };
 enum kiriQualityPreset { KIRI_QUALITY_FAST = 0, KIRI_QUALITY_BALANCED = 1, KIRI_QUALITY_ACCURATE = 2, KIRI_QUALITY_COUNT = 3 };
@@ -361,6 +377,8 @@ typedef struct kiriFrameState kiriFrameState;
 typedef struct kiriWind kiriWind;
 typedef struct kiriPinDef kiriPinDef;
 typedef struct kiriPinState kiriPinState;
+typedef struct kiriSeamDef kiriSeamDef;
+typedef struct kiriStitch kiriStitch;
 typedef struct kiriContact kiriContact;
 typedef struct kiriContactForce kiriContactForce;
 typedef struct kiriObstacleDef kiriObstacleDef;
@@ -379,7 +397,7 @@ typedef void kiriDrawFn(void* user, const kiriDrawVertex* vertices, int32_t coun
 struct kiriBudget { int32_t triangles; int32_t cells; int32_t samples; int32_t iterations; };
 struct kiriWorldDef { uint32_t cookie; float gravity[3]; kiriBudget budget; kiriAllocFn* alloc; kiriFreeFn* free; kiriLogFn* log; kiriClockFn* clock; kiriStartTaskFn* startTask; kiriFinishTaskFn* finishTask; int32_t workerCount; void* user; kiriRecordFn* record; int32_t recordHashTicks; };
 struct kiriReplay { int64_t offset; int64_t calls; int64_t ticks; const void* note; int32_t noteCount; };
-struct kiriEvent { int32_t type; kiriSheet sheet; kiriCut cut; kiriFrame frame; kiriPin pin; int32_t crumb; float area; int32_t stage; int32_t waiting; };
+struct kiriEvent { int32_t type; kiriSheet sheet; kiriCut cut; kiriFrame frame; kiriPin pin; int32_t crumb; float area; int32_t stage; int32_t waiting; kiriSeam seam; int32_t stitches; };
 struct kiriProfile { double seconds[9]; int32_t cutSegments; int32_t trianglesSplit; int32_t cellsSettled; int32_t samplesRefreshed; int32_t solverIterations; int32_t cellsChanged; int32_t weightsChanged; int32_t verticesChanged; int32_t pointsChanged; int32_t linksChanged; int32_t commits; int32_t systemsSolved; int32_t contacts; int32_t sheetPairs; double largestJump; double largestFade; };
 struct kiriMaterial { float youngsModulus; float poissonsRatio; float thickness; float density; float airDamping; float flexDamping; float yieldStress; float hardening; int32_t detail; };
 struct kiriQuality { int32_t framesAlong; int32_t gridResolution; int32_t iterations; int32_t substeps; };
@@ -400,6 +418,8 @@ struct kiriFrameState { float restPoint[2]; float position[3]; float rotation[9]
 struct kiriWind { float velocity[3]; float density; float drag; float lift; };
 struct kiriPinDef { uint32_t cookie; float restPoint[2]; float target[3]; float stiffness; float breakForce; kiriObstacle obstacle; };
 struct kiriPinState { int32_t type; kiriSheet sheet; float from[2]; float to[2]; float target[3]; float rotation[9]; float breakForce; kiriObstacle obstacle; };
+struct kiriSeamDef { uint32_t cookie; kiriSheet sheetA; kiriSheet sheetB; const float* lineA; const float* lineB; int32_t countA; int32_t countB; int32_t stitches; float breakForce; };
+struct kiriStitch { kiriSheet sheetA; kiriSheet sheetB; float restA[2]; float restB[2]; float position[3]; float gap; float force[3]; };
 struct kiriContact { int32_t point; float restPoint[2]; float normal[3]; float offset; float velocity[3]; float friction; float inverseMass; float pushSpeed; int32_t obstacle; };
 struct kiriContactForce { double impulse[3]; double position[3]; double depth; int32_t point; int32_t obstacle; };
 struct kiriObstacleDef { uint32_t cookie; int32_t type; float size[3]; float radius; float height; const float* outline; int32_t outlineCount; float rounding; float position[3]; float rotation[9]; float velocity[3]; float angularVelocity[3]; float surfaceVelocity[3]; float friction; float mass; float inertia[6]; float centerOfMass[3]; uint32_t body; float pushSpeed; uint32_t groups; };
@@ -504,6 +524,12 @@ kiriResult kiriPin_SetBreakForce(kiriWorld* world, kiriPin pin, float breakForce
 kiriResult kiriPin_GetState(const kiriWorld* world, kiriPin pin, kiriPinState* state);
 kiriResult kiriPin_GetReaction(const kiriWorld* world, kiriPin pin, double force[3], double torque[3]);
 kiriResult kiriSheet_GetPins(const kiriWorld* world, kiriSheet sheet, kiriPin* pins, int32_t capacity, int32_t* count);
+void kiriDefaultSeamDef(kiriSeamDef* def);
+kiriResult kiriCreateSeam(kiriWorld* world, const kiriSeamDef* def, kiriSeam* seam);
+kiriResult kiriDestroySeam(kiriWorld* world, kiriSeam seam);
+kiriResult kiriSeam_GetStitch(const kiriWorld* world, kiriSeam seam, int32_t index, kiriStitch* stitch);
+kiriResult kiriSeam_GetCount(const kiriWorld* world, kiriSeam seam, int32_t* stitches);
+kiriResult kiriWorld_GetSeams(const kiriWorld* world, kiriSeam* seams, int32_t capacity, int32_t* count);
 kiriResult kiriSheet_SetContacts(kiriWorld* world, kiriSheet sheet, const kiriContact* contacts, int32_t count);
 kiriResult kiriSheet_GetContactForces(const kiriWorld* world, kiriSheet sheet, const kiriContactForce** forces, int32_t* count);
 void kiriDefaultObstacleDef(kiriObstacleDef* def);

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     import kiri
 
 __all__ = ['version', 'result_name', 'result_text', 'default_world_def', 'stage_name', 'material', 'quality',
- 'default_sheet_def', 'default_pin_def', 'default_obstacle_def', 'default_debug_draw']
+ 'default_sheet_def', 'default_pin_def', 'default_seam_def', 'default_obstacle_def', 'default_debug_draw']
 
 
 def version() -> int:
@@ -67,6 +67,13 @@ def default_pin_def() -> Record:
     """Returns the defaults of kiriPinDef."""
     structure = core.ffi.new('kiriPinDef*')
     core.load().kiriDefaultPinDef(structure)
+    return core.record(structure[0])
+
+
+def default_seam_def() -> Record:
+    """Returns the defaults of kiriSeamDef."""
+    structure = core.ffi.new('kiriSeamDef*')
+    core.load().kiriDefaultSeamDef(structure)
     return core.record(structure[0])
 
 
@@ -161,6 +168,19 @@ class World:
     def begin_blade(self, sheet: Optional[kiri.Sheet] = None) -> kiri.Blade:
         """Begins a blade for one sheet; 0: for all sheets, also those that are made later."""
         return self.thing('Blade', self.get('kiriBeginBlade', 'kiriBlade', self.id_of(sheet, 'Sheet') if sheet else 0))
+
+    def create_seam(self, **fields: Any) -> kiri.Seam:
+        """Create and destroy a seam. Lips that are apart are drawn together at up to 1 m/s. KIRI_ERROR_ARGUMENT: a
+        line leaves the material; a sheet is planar; the models differ.
+        """
+        kept = []  # until C has read it
+        structure = core.structure(self, 'kiriSeamDef', fields, kept)
+        return self.thing('Seam', self.get('kiriCreateSeam', 'kiriSeam', structure))
+
+    def seams(self) -> List[kiri.Seam]:
+        """Writes up to `capacity` ids of the world's seams; *count is how many there are."""
+        things, = self.lists('kiriWorld_GetSeams', ('kiriSeam',))
+        return [self.thing('Seam', thing) for thing in things]
 
 
 class Sheet:

@@ -9,6 +9,7 @@ pub type kiriFrame = u32;
 pub type kiriPin = u32;
 pub type kiriObstacle = u32;
 pub type kiriBlade = u32;
+pub type kiriSeam = u32;
 pub type kiriResult = i32;
 
 #[repr(C)]
@@ -63,6 +64,8 @@ pub const KIRI_EVENT_DEFERRED: i32 = 5;
 pub const KIRI_EVENT_PIN_BROKE: i32 = 6;
 /// sheet (the new one), frame, area: a pending kiriFrame_DetachPiece is done
 pub const KIRI_EVENT_PIECE_DETACHED: i32 = 7;
+/// seam, stitches: some stitches broke; with none left the id is stale from now on
+pub const KIRI_EVENT_SEAM_BROKE: i32 = 8;
 
 /// splits the mesh along the blade
 pub const KIRI_STAGE_CUT: i32 = 0;
@@ -302,6 +305,10 @@ pub struct kiriEvent {
     pub stage: i32,
     /// points and ends of cuts that are pending or in work; or 0
     pub waiting: i32,
+    /// or 0
+    pub seam: kiriSeam,
+    /// that the seam has left, or 0
+    pub stitches: i32,
 }
 
 /// Work and time of the last tick.
@@ -814,6 +821,49 @@ pub struct kiriPinState {
     pub obstacle: kiriObstacle,
 }
 
+/// A seam joins two lines in the material, of two sheets or of one: a sleeve, a bag, a patch. Both
+/// lines are divided into the same parts of their lengths, and stitches join these points. A stitch
+/// belongs to its two points: cuts go through a seam, and pieces that come off or become sheets
+/// keep their stitches. It ends with the piece of one of them.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct kiriSeamDef {
+    pub cookie: u32,
+    /// of the same model, and not planar
+    pub sheetA: kiriSheet,
+    /// of the same model, and not planar
+    pub sheetB: kiriSheet,
+    /// 2 floats a point, m, in the material, such as its edge; copied
+    pub lineA: *const f32,
+    pub lineB: *const f32,
+    /// points: 2 or more
+    pub countA: i32,
+    /// points: 2 or more
+    pub countB: i32,
+    /// up to 4096; 0 (default): two for each distance of frames
+    pub stitches: i32,
+    /// N/m: a stitch breaks in a tick with a larger force for its length; 0: never
+    pub breakForce: f32,
+}
+
+/// A stitch, as after the last tick.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct kiriStitch {
+    pub sheetA: kiriSheet,
+    pub sheetB: kiriSheet,
+    /// m, in the material
+    pub restA: [f32; 2],
+    /// m, in the material
+    pub restB: [f32; 2],
+    /// m, world: where both points meet. A host that welds the drawn lips puts them there
+    pub position: [f32; 3],
+    /// m: distance of the two points; a stitch yields by micrometres under the sheet's weight
+    pub gap: f32,
+    /// N, on sheet A: mean over the last tick that moved it
+    pub force: [f32; 3],
+}
+
 /// A contact of a point of the material: the plane dot(normal, x) = offset keeps the point on its
 /// upper side, and Coulomb friction acts along the plane. The host computes the plane for each tick
 /// from the visible surface of the sheet. A contact that the point does not reach in the tick costs
@@ -1306,6 +1356,23 @@ unsafe extern "C" {
     /// Writes up to \`capacity\` ids of the sheet's pins, of all types; \*count is how many there
     /// are.
     pub fn kiriSheet_GetPins(world: *const kiriWorld, sheet: kiriSheet, pins: *mut kiriPin, capacity: i32, count: *mut i32) -> kiriResult;
+    /// Fills the def with its defaults, and stamps it.
+    pub fn kiriDefaultSeamDef(def: *mut kiriSeamDef);
+    /// Create and destroy a seam. On failure \*seam is 0. Lips that are apart are drawn together at
+    /// up to 1 m/s. KIRI_ERROR_ARGUMENT: a line leaves the material; a sheet is planar; the models
+    /// differ.
+    pub fn kiriCreateSeam(world: *mut kiriWorld, def: *const kiriSeamDef, seam: *mut kiriSeam) -> kiriResult;
+    /// Create and destroy a seam. On failure \*seam is 0. Lips that are apart are drawn together at
+    /// up to 1 m/s. KIRI_ERROR_ARGUMENT: a line leaves the material; a sheet is planar; the models
+    /// differ.
+    pub fn kiriDestroySeam(world: *mut kiriWorld, seam: kiriSeam) -> kiriResult;
+    /// Gets a stitch of those that are left, in the order of the lines. KIRI_ERROR_ARGUMENT: no
+    /// stitch has the index.
+    pub fn kiriSeam_GetStitch(world: *const kiriWorld, seam: kiriSeam, index: i32, stitch: *mut kiriStitch) -> kiriResult;
+    /// Gets the number of stitches that are left.
+    pub fn kiriSeam_GetCount(world: *const kiriWorld, seam: kiriSeam, stitches: *mut i32) -> kiriResult;
+    /// Writes up to \`capacity\` ids of the world's seams; \*count is how many there are.
+    pub fn kiriWorld_GetSeams(world: *const kiriWorld, seams: *mut kiriSeam, capacity: i32, count: *mut i32) -> kiriResult;
     /// Sets the contacts of the next tick; they replace those set before, and end with the tick. A
     /// contact with the point, or rest point, and obstacle of an earlier one starts with the
     /// earlier impulse.
@@ -1376,7 +1443,7 @@ const _: () = {
     assert!(offset_of!(kiriReplay, ticks) == 16);
     assert!(offset_of!(kiriReplay, note) == 24);
     assert!(offset_of!(kiriReplay, noteCount) == 32);
-    assert!(size_of::<kiriEvent>() == 36);
+    assert!(size_of::<kiriEvent>() == 44);
     assert!(align_of::<kiriEvent>() == 4);
     assert!(offset_of!(kiriEvent, type_) == 0);
     assert!(offset_of!(kiriEvent, sheet) == 4);
@@ -1387,6 +1454,8 @@ const _: () = {
     assert!(offset_of!(kiriEvent, area) == 24);
     assert!(offset_of!(kiriEvent, stage) == 28);
     assert!(offset_of!(kiriEvent, waiting) == 32);
+    assert!(offset_of!(kiriEvent, seam) == 36);
+    assert!(offset_of!(kiriEvent, stitches) == 40);
     assert!(size_of::<kiriProfile>() == 144);
     assert!(align_of::<kiriProfile>() == 8);
     assert!(offset_of!(kiriProfile, seconds) == 0);
@@ -1606,6 +1675,26 @@ const _: () = {
     assert!(offset_of!(kiriPinState, rotation) == 36);
     assert!(offset_of!(kiriPinState, breakForce) == 72);
     assert!(offset_of!(kiriPinState, obstacle) == 76);
+    assert!(size_of::<kiriSeamDef>() == 48);
+    assert!(align_of::<kiriSeamDef>() == 8);
+    assert!(offset_of!(kiriSeamDef, cookie) == 0);
+    assert!(offset_of!(kiriSeamDef, sheetA) == 4);
+    assert!(offset_of!(kiriSeamDef, sheetB) == 8);
+    assert!(offset_of!(kiriSeamDef, lineA) == 16);
+    assert!(offset_of!(kiriSeamDef, lineB) == 24);
+    assert!(offset_of!(kiriSeamDef, countA) == 32);
+    assert!(offset_of!(kiriSeamDef, countB) == 36);
+    assert!(offset_of!(kiriSeamDef, stitches) == 40);
+    assert!(offset_of!(kiriSeamDef, breakForce) == 44);
+    assert!(size_of::<kiriStitch>() == 52);
+    assert!(align_of::<kiriStitch>() == 4);
+    assert!(offset_of!(kiriStitch, sheetA) == 0);
+    assert!(offset_of!(kiriStitch, sheetB) == 4);
+    assert!(offset_of!(kiriStitch, restA) == 8);
+    assert!(offset_of!(kiriStitch, restB) == 16);
+    assert!(offset_of!(kiriStitch, position) == 24);
+    assert!(offset_of!(kiriStitch, gap) == 36);
+    assert!(offset_of!(kiriStitch, force) == 40);
     assert!(size_of::<kiriContact>() == 56);
     assert!(align_of::<kiriContact>() == 4);
     assert!(offset_of!(kiriContact, point) == 0);
@@ -1701,7 +1790,7 @@ const _: () = {
     assert!(offset_of!(kiriReplay, ticks) == 16);
     assert!(offset_of!(kiriReplay, note) == 24);
     assert!(offset_of!(kiriReplay, noteCount) == 28);
-    assert!(size_of::<kiriEvent>() == 36);
+    assert!(size_of::<kiriEvent>() == 44);
     assert!(align_of::<kiriEvent>() == 4);
     assert!(offset_of!(kiriEvent, type_) == 0);
     assert!(offset_of!(kiriEvent, sheet) == 4);
@@ -1712,6 +1801,8 @@ const _: () = {
     assert!(offset_of!(kiriEvent, area) == 24);
     assert!(offset_of!(kiriEvent, stage) == 28);
     assert!(offset_of!(kiriEvent, waiting) == 32);
+    assert!(offset_of!(kiriEvent, seam) == 36);
+    assert!(offset_of!(kiriEvent, stitches) == 40);
     assert!(size_of::<kiriProfile>() == 144);
     assert!(align_of::<kiriProfile>() == 8);
     assert!(offset_of!(kiriProfile, seconds) == 0);
@@ -1931,6 +2022,26 @@ const _: () = {
     assert!(offset_of!(kiriPinState, rotation) == 36);
     assert!(offset_of!(kiriPinState, breakForce) == 72);
     assert!(offset_of!(kiriPinState, obstacle) == 76);
+    assert!(size_of::<kiriSeamDef>() == 36);
+    assert!(align_of::<kiriSeamDef>() == 4);
+    assert!(offset_of!(kiriSeamDef, cookie) == 0);
+    assert!(offset_of!(kiriSeamDef, sheetA) == 4);
+    assert!(offset_of!(kiriSeamDef, sheetB) == 8);
+    assert!(offset_of!(kiriSeamDef, lineA) == 12);
+    assert!(offset_of!(kiriSeamDef, lineB) == 16);
+    assert!(offset_of!(kiriSeamDef, countA) == 20);
+    assert!(offset_of!(kiriSeamDef, countB) == 24);
+    assert!(offset_of!(kiriSeamDef, stitches) == 28);
+    assert!(offset_of!(kiriSeamDef, breakForce) == 32);
+    assert!(size_of::<kiriStitch>() == 52);
+    assert!(align_of::<kiriStitch>() == 4);
+    assert!(offset_of!(kiriStitch, sheetA) == 0);
+    assert!(offset_of!(kiriStitch, sheetB) == 4);
+    assert!(offset_of!(kiriStitch, restA) == 8);
+    assert!(offset_of!(kiriStitch, restB) == 16);
+    assert!(offset_of!(kiriStitch, position) == 24);
+    assert!(offset_of!(kiriStitch, gap) == 36);
+    assert!(offset_of!(kiriStitch, force) == 40);
     assert!(size_of::<kiriContact>() == 56);
     assert!(align_of::<kiriContact>() == 4);
     assert!(offset_of!(kiriContact, point) == 0);

@@ -137,6 +137,28 @@ impl Blade {
     }
 }
 
+/// An id. It is of one world, and may be of something that is gone: then calls give
+/// [`ResultCode::ErrorId`].
+#[repr(transparent)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Seam(NonZeroU32);
+
+impl Seam {
+    /// Of a number that is an id of C; `None` for 0.
+    pub fn from_raw(id: u32) -> Option<Self> {
+        NonZeroU32::new(id).map(Self)
+    }
+
+    pub(crate) fn known(id: u32) -> Self {
+        Self::from_raw(id).expect("the library gives an id")
+    }
+
+    /// As C has it.
+    pub fn raw(self) -> u32 {
+        self.0.get()
+    }
+}
+
 #[non_exhaustive]
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -220,11 +242,13 @@ pub enum EventType {
     PinBroke = 6,
     /// sheet (the new one), frame, area: a pending [`Frame::detach_piece`] is done
     PieceDetached = 7,
+    /// seam, stitches: some stitches broke; with none left the id is stale from now on
+    SeamBroke = 8,
 }
 
 impl EventType {
     /// All of them.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::CutFinished,
         Self::PieceOff,
         Self::FrameAdded,
@@ -232,6 +256,7 @@ impl EventType {
         Self::Deferred,
         Self::PinBroke,
         Self::PieceDetached,
+        Self::SeamBroke,
     ];
 
     /// Of a number of C.
@@ -1642,6 +1667,99 @@ impl PinState {
     }
 }
 
+/// A seam joins two lines in the material, of two sheets or of one: a sleeve, a bag, a patch. Both
+/// lines are divided into the same parts of their lengths, and stitches join these points. A stitch
+/// belongs to its two points: cuts go through a seam, and pieces that come off or become sheets
+/// keep their stitches. It ends with the piece of one of them.
+#[derive(Clone, Copy, Debug)]
+pub struct SeamDef<'a> {
+    /// of the same model, and not planar
+    pub sheet_a: Sheet,
+    /// of the same model, and not planar
+    pub sheet_b: Sheet,
+    /// 2 floats a point, m, in the material, such as its edge; copied
+    pub line_a: &'a [[f32; 2]],
+    pub line_b: &'a [[f32; 2]],
+    /// up to 4096; 0 (default): two for each distance of frames
+    pub stitches: i32,
+    /// N/m: a stitch breaks in a tick with a larger force for its length; 0: never
+    pub break_force: f32,
+}
+
+impl Default for SeamDef<'_> {
+    fn default() -> Self {
+        Self::from_raw(&Self::default_raw())
+    }
+}
+
+impl<'a> SeamDef<'a> {
+    fn default_raw() -> sys::kiriSeamDef {
+        let mut raw = MaybeUninit::<sys::kiriSeamDef>::uninit();
+        // SAFETY: it fills all of the struct.
+        unsafe {
+            sys::kiriDefaultSeamDef(raw.as_mut_ptr());
+            raw.assume_init()
+        }
+    }
+
+    #[allow(dead_code)]
+    pub(crate) fn from_raw(raw: &sys::kiriSeamDef) -> Self {
+        Self {
+            sheet_a: Sheet::known(raw.sheetA),
+            sheet_b: Sheet::known(raw.sheetB),
+            line_a: unsafe { view(raw.lineA, raw.countA) },
+            line_b: unsafe { view(raw.lineB, raw.countB) },
+            stitches: raw.stitches,
+            break_force: raw.breakForce,
+        }
+    }
+
+    pub(crate) fn raw(&self) -> sys::kiriSeamDef {
+        let mut raw = Self::default_raw();
+        raw.sheetA = self.sheet_a.raw();
+        raw.sheetB = self.sheet_b.raw();
+        raw.lineA = self.line_a.as_ptr().cast();
+        raw.countA = self.line_a.len() as i32;
+        raw.lineB = self.line_b.as_ptr().cast();
+        raw.countB = self.line_b.len() as i32;
+        raw.stitches = self.stitches;
+        raw.breakForce = self.break_force;
+        raw
+    }
+}
+
+/// A stitch, as after the last tick.
+#[derive(Clone, Copy, Debug)]
+pub struct Stitch {
+    pub sheet_a: Sheet,
+    pub sheet_b: Sheet,
+    /// m, in the material
+    pub rest_a: [f32; 2],
+    /// m, in the material
+    pub rest_b: [f32; 2],
+    /// m, world: where both points meet. A host that welds the drawn lips puts them there
+    pub position: [f32; 3],
+    /// m: distance of the two points; a stitch yields by micrometres under the sheet's weight
+    pub gap: f32,
+    /// N, on sheet A: mean over the last tick that moved it
+    pub force: [f32; 3],
+}
+
+impl Stitch {
+    #[allow(dead_code)]
+    pub(crate) fn from_raw(raw: &sys::kiriStitch) -> Self {
+        Self {
+            sheet_a: Sheet::known(raw.sheetA),
+            sheet_b: Sheet::known(raw.sheetB),
+            rest_a: raw.restA,
+            rest_b: raw.restB,
+            position: raw.position,
+            gap: raw.gap,
+            force: raw.force,
+        }
+    }
+}
+
 /// A contact of a point of the material: the plane dot(normal, x) = offset keeps the point on its
 /// upper side, and Coulomb friction acts along the plane. The host computes the plane for each tick
 /// from the visible surface of the sheet. A contact that the point does not reach in the tick costs
@@ -1959,6 +2077,12 @@ pub enum Event {
         frame: Frame,
         area: f32,
     },
+    /// seam, stitches: some stitches broke; with none left the id is stale from now on
+    SeamBroke {
+        sheet: Sheet,
+        seam: Seam,
+        stitches: i32,
+    },
 }
 
 impl Event {
@@ -1971,6 +2095,7 @@ impl Event {
             EventType::Deferred => Self::Deferred { sheet: Sheet::known(raw.sheet), stage: Stage::known(raw.stage), waiting: raw.waiting },
             EventType::PinBroke => Self::PinBroke { sheet: Sheet::known(raw.sheet), pin: Pin::known(raw.pin) },
             EventType::PieceDetached => Self::PieceDetached { sheet: Sheet::known(raw.sheet), frame: Frame::known(raw.frame), area: raw.area },
+            EventType::SeamBroke => Self::SeamBroke { sheet: Sheet::known(raw.sheet), seam: Seam::known(raw.seam), stitches: raw.stitches },
         }
     }
 }
@@ -2258,6 +2383,35 @@ impl World {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriBeginBlade(self.raw_mut(), sheet.map_or(0, |id| id.raw()), &mut blade) }, self)?;
         Ok(Blade::known(blade))
+    }
+
+    /// Create and destroy a seam. On failure \*seam is 0. Lips that are apart are drawn together at
+    /// up to 1 m/s. [`ResultCode::ErrorArgument`]: a line leaves the material; a sheet is planar;
+    /// the models differ.
+    pub fn create_seam(&mut self, def: &SeamDef<'_>) -> Result<Seam> {
+        let mut seam = 0;
+        // SAFETY: pointers are to what is named, and lengths are theirs.
+        check(unsafe { sys::kiriCreateSeam(self.raw_mut(), &def.raw(), &mut seam) }, self)?;
+        Ok(Seam::known(seam))
+    }
+
+    /// Writes up to capacity ids of the world's seams; \*count is how many there are.
+    pub fn seams(&self) -> Result<Vec<Seam>> {
+        let mut seams = Vec::<Seam>::new();
+        let mut count = 0;
+        let mut capacity = 0;
+        loop {
+            // SAFETY: the arrays have room for so many.
+            check_read(unsafe { sys::kiriWorld_GetSeams(self.raw(), seams.as_mut_ptr().cast(), capacity as i32, &mut count) })?;
+            let needed = count as usize;
+            if needed <= capacity {
+                unsafe { seams.set_len(needed) };
+                break;
+            }
+            capacity = needed;
+            seams.reserve_exact(capacity);
+        }
+        Ok(seams)
     }
 
     /// Add and destroy an obstacle. On failure \*obstacle is 0. Pieces that rested on a destroyed
@@ -2944,6 +3098,36 @@ impl Blade {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriBlade_End(world.raw_mut(), self.raw()) }, world)?;
         Ok(())
+    }
+}
+
+impl Seam {
+    /// Create and destroy a seam. On failure \*seam is 0. Lips that are apart are drawn together at
+    /// up to 1 m/s. [`ResultCode::ErrorArgument`]: a line leaves the material; a sheet is planar;
+    /// the models differ.
+    pub fn destroy(self, world: &mut World) -> Result<()> {
+        // SAFETY: pointers are to what is named, and lengths are theirs.
+        check(unsafe { sys::kiriDestroySeam(world.raw_mut(), self.raw()) }, world)?;
+        Ok(())
+    }
+
+    /// Gets a stitch of those that are left, in the order of the lines.
+    /// [`ResultCode::ErrorArgument`]: no stitch has the index.
+    pub fn stitch(self, world: &World, index: i32) -> Result<Stitch> {
+        let mut stitch = MaybeUninit::<sys::kiriStitch>::uninit();
+        // SAFETY: pointers are to what is named, and lengths are theirs.
+        check_read(unsafe { sys::kiriSeam_GetStitch(world.raw(), self.raw(), index, stitch.as_mut_ptr()) })?;
+        // SAFETY: it filled the struct.
+        let stitch = unsafe { stitch.assume_init() };
+        Ok(Stitch::from_raw(&stitch))
+    }
+
+    /// Gets the number of stitches that are left.
+    pub fn count(self, world: &World) -> Result<i32> {
+        let mut stitches: i32 = Default::default();
+        // SAFETY: pointers are to what is named, and lengths are theirs.
+        check_read(unsafe { sys::kiriSeam_GetCount(world.raw(), self.raw(), &mut stitches) })?;
+        Ok(stitches)
     }
 }
 

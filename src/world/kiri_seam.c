@@ -1,0 +1,376 @@
+#include "kiri_seam.h"
+#include "../sheet/kiri_piece.h"
+#include "../sheet/kiri_touch.h"
+
+#include <string.h>
+
+#define STIFFNESS 100.0   /* of a stitch, relative to Young's modulus times thickness: more resists no pull, */
+#define SQUARED_PITCH 5e7 /* 1/s^2: and of a frame on it. It sinks by 2e-7 m under its weight */
+#define CLOSING_SPEED 1.0 /* m/s: limit of the speed at which lips that are apart are drawn together */
+#define NEAR 256          /* lattice steps: rounding error of the host's floats */
+#define PER_SPACING 1.5   /* stitches for the distance of frames */
+#define MOST_STITCHES 4096
+
+/* ---- Ends -------------------------------------------------------------------------------------------------------- */
+
+static const kiriSlot* SlotOf(const kiriWorld* world, const kiriStitchData* stitch, int end)
+{
+    return kiriPool_Find(&world->frameIds, stitch->frames[end]);
+}
+
+kiriSheetData* kiriStitch_Sheet(const kiriWorld* world, const kiriStitchData* stitch, int end)
+{
+    const kiriSlot* slot = SlotOf(world, stitch, end);
+    return slot != NULL ? slot->owner : NULL;
+}
+
+/* Wakes the pieces of a stitch that comes or goes. Their forces do not predict the next step. */
+static void WakeEnds(const kiriWorld* world, const kiriStitchData* stitch)
+{
+    for (int end = 0; end < 2; ++end) {
+        const kiriSlot* slot = SlotOf(world, stitch, end);
+        if (slot != NULL) {
+            kiriSheetData* sheet = slot->owner;
+            int32_t piece = sheet->layout.framePiece.data[slot->index];
+            kiriIndexSpan frames = kiriSolver_FramesOf(sheet->solver, piece);
+            kiriSheet_WakePiece(sheet, piece);
+            KIRI_EACH(const int32_t, frame, frames) {
+                memset(&sheet->frames.data[*frame].history, 0, sizeof(kiriHistory));
+            }
+        }
+    }
+}
+
+/* Sets the frame that carries most of the point. Returns false outside the material, and on a destroyed piece. */
+static bool FollowEnd(const kiriSheetData* sheet, kiriStitchData* stitch, int end)
+{
+    kiriWeight weights[KIRI_CONTACT_WEIGHTS];
+    int32_t count = kiriTouches_WeighPoint(sheet, stitch->at[end], weights);
+    bool isThere = count > 0 && !kiriSheet_IsGone(sheet, weights[0].frame);
+    stitch->frames[end] = isThere ? sheet->frames.data[weights[0].frame].id : stitch->frames[end];
+    return isThere;
+}
+
+void kiriSeams_Follow(kiriWorld* world)
+{
+    KIRI_EACH_OF(kiriSeamData, seam, world->seams) {
+        KIRI_EACH(kiriStitchData, stitch, seam->stitches) {
+            for (int end = 0; end < 2; ++end) {
+                const kiriSheetData* sheet = kiriStitch_Sheet(world, stitch, end);
+                (void)(sheet != NULL && FollowEnd(sheet, stitch, end));
+            }
+        }
+    }
+}
+
+/* Finds the frames that carry a point of a lip, and the points that they carry. Material between frames is an arc: from
+   the centre of each frame to the point it goes along the mean of the frame's axes and of the axes at the point, which
+   are blended from all frames. So lips with other frames bend alike. Returns the number of frames. */
+static int32_t CarryEnd(const kiriSheetData* sheet, kiriLatticePoint at, kiriContactMember* members)
+{
+    kiriWeight weights[KIRI_CONTACT_WEIGHTS];
+    int32_t count = kiriTouches_WeighPoint(sheet, at, weights);
+    KIRI_ASSERT(count >= 0 && count <= KIRI_CONTACT_WEIGHTS);
+    kiriVec2 point = kiriMesh_Local(&sheet->mesh, at), rest = point;
+    for (int32_t n = 0; n < count; ++n) {
+        rest = kiriVec2_AddScaled(rest, -weights[n].value, sheet->frames.data[weights[n].frame].center);
+    }
+    for (int32_t n = 0; n < count; ++n) {
+        kiriVec2 center = sheet->frames.data[weights[n].frame].center;
+        kiriVec2 arm = kiriVec2_Scale(0.5, kiriVec2_Add(kiriVec2_Sub(point, center), rest));
+        members[n] = (kiriContactMember){ weights[n].frame, weights[n].value, kiriVec2_Add(center, arm) };
+    }
+    return count;
+}
+
+static kiriVec3 CarriedEnd(const kiriSheetData* sheet, const kiriContactMember* members, int32_t count)
+{
+    kiriVec3 x = { 0 };
+    for (int32_t n = 0; n < count; ++n) {
+        kiriVec3 carried = kiriFrame_Carry(&sheet->frames.data[members[n].frame], members[n].at);
+        x = kiriVec3_AddScaled(x, members[n].value, carried);
+    }
+    return x;
+}
+
+/* ---- Seams come and go ------------------------------------------------------------------------------------------- */
+
+static kiriVec2 LinePoint(const float* line, int32_t i)
+{
+    return kiriVec2_Make(line[2 * i], line[2 * i + 1]);
+}
+
+static double LineLength(const float* line, int32_t count)
+{
+    double length = 0.0;
+    for (int32_t i = 1; i < count; ++i) {
+        length += kiriVec2_Length(kiriVec2_Sub(LinePoint(line, i), LinePoint(line, i - 1)));
+    }
+    return length;
+}
+
+/* Finds the point of the material at a length along the line. Tries points beside it if it is outside by rounding. */
+static bool PlaceEnd(const kiriSheetData* sheet, const float* line, int32_t count, double along, kiriStitchData* stitch,
+                     int end)
+{
+    static const int8_t sides[9][2] = { { 0, 0 }, { 1, 0 },  { -1, 0 }, { 0, 1 },  { 0, -1 },
+                                        { 1, 1 }, { -1, 1 }, { 1, -1 }, { -1, -1 } };
+    KIRI_ASSERT(count >= 2 && along >= 0.0);
+    int32_t i = 1;
+    kiriVec2 from = LinePoint(line, 0), way = kiriVec2_Sub(LinePoint(line, 1), from);
+    for (; i + 1 < count && along > kiriVec2_Length(way); ++i) {
+        along -= kiriVec2_Length(way);
+        from = LinePoint(line, i);
+        way = kiriVec2_Sub(LinePoint(line, i + 1), from);
+    }
+    double length = kiriVec2_Length(way);
+    kiriVec2 point = kiriVec2_AddScaled(from, length > 0.0 ? kiriMin(along / length, 1.0) : 0.0, way);
+    const float rest[2] = { (float)point.x, (float)point.y };
+    kiriLatticePoint at;
+    bool isFound = false;
+    for (int k = 0; k < 9 && !isFound && kiriSheet_ToLattice(sheet, rest, &at); ++k) {
+        stitch->at[end].x = at.x + NEAR * sides[k][0];
+        stitch->at[end].y = at.y + NEAR * sides[k][1];
+        isFound = FollowEnd(sheet, stitch, end);
+    }
+    return isFound;
+}
+
+/* Returns the distance of frames, m. */
+static double SpacingOf(const kiriSheetData* sheet)
+{
+    double area = 0.0;
+    KIRI_EACH(const kiriFrameData, frame, sheet->frames) {
+        area += frame->area;
+    }
+    return sqrt(area / sheet->frames.count);
+}
+
+static const char* PlaceStitches(const kiriSeamDef* def, kiriSheetData* const sheets[2], kiriSeamData* seam)
+{
+    const float* lines[2] = { def->lineA, def->lineB };
+    const int32_t counts[2] = { def->countA, def->countB };
+    double lengths[2], stiffness = 0.0;
+    bool isClosed = true;
+    for (int end = 0; end < 2; ++end) {
+        const kiriMaterial* material = &sheets[end]->settings.material;
+        double own = (double)material->youngsModulus * material->thickness;
+        lengths[end] = LineLength(lines[end], counts[end]);
+        stiffness = kiriMax(own, stiffness);
+        isClosed = isClosed && memcmp(lines[end], &lines[end][2 * (counts[end] - 1)], 2 * sizeof(float)) == 0;
+    }
+    int32_t count = seam->stitches.count, parts = isClosed ? count : count - 1;
+    KIRI_ASSERT(parts > 0 && stiffness > 0.0);
+    KIRI_EACH_INDEX(k, seam->stitches) {
+        kiriStitchData* stitch = &seam->stitches.data[k];
+        double part = (double)k / parts;
+        bool isEnd = !isClosed && (k == 0 || k == parts);
+        memset(stitch, 0, sizeof(*stitch));
+        stitch->stiffness = STIFFNESS * stiffness;
+        stitch->length = (isEnd ? 0.5 : 1.0) / parts * 0.5 * (lengths[0] + lengths[1]);
+        for (int end = 0; end < 2; ++end) {
+            if (!PlaceEnd(sheets[end], lines[end], counts[end], part * lengths[end], stitch, end)) {
+                return end == 0 ? "def.lineA leaves the material" : "def.lineB leaves the material";
+            }
+        }
+    }
+    return NULL;
+}
+
+static void FreeSeam(kiriWorld* world, kiriSeamData* seam)
+{
+    kiriArray_Release(&world->memory, &seam->stitches);
+    kiriArray_Release(&world->memory, &seam->rows);
+    kiriMemory_Free(&world->memory, seam);
+}
+
+kiriResult kiriSeams_Create(kiriWorld* world, const kiriSeamDef* def, kiriSeamData** made, const char** why)
+{
+    kiriSheetData* sheets[2] = { kiriPool_Find(&world->sheetIds, def->sheetA)->owner,
+                                 kiriPool_Find(&world->sheetIds, def->sheetB)->owner };
+    double length = kiriMax(LineLength(def->lineA, def->countA), LineLength(def->lineB, def->countB));
+    double spacing = kiriMin(SpacingOf(sheets[0]), SpacingOf(sheets[1]));
+    *why = !(length > 0.0) ? "def.lineA and def.lineB have no length"
+           : sheets[0]->settings.mechanics.planar || sheets[1]->settings.mechanics.planar
+               ? "def names a planar sheet: it cannot be sewn"
+           : sheets[0]->settings.mechanics.model != sheets[1]->settings.mechanics.model
+               ? "def names sheets of different models"
+               : NULL;
+    if (*why != NULL) {
+        return KIRI_ERROR_ARGUMENT;
+    }
+    double wanted = kiriMin(1.5 + PER_SPACING * length / spacing, MOST_STITCHES);
+    int32_t count = def->stitches > 0 ? def->stitches : kiriMax((int32_t)wanted, 2);
+    kiriResult result = kiriArray_Reserve(&world->memory, &world->seams, (int64_t)world->seams.count + 1)
+                            ? kiriWorld_ReserveIds(world, &world->seamIds, 1)
+                            : KIRI_ERROR_MEMORY;
+    kiriSeamData* seam = result == KIRI_OK ? kiriMemory_AllocZeroed(&world->memory, sizeof(*seam)) : NULL;
+    if (seam == NULL) {
+        return result != KIRI_OK ? result : KIRI_ERROR_MEMORY;
+    }
+    bool hasRoom = kiriArray_ResizeJust(&world->memory, &seam->stitches, count) &&
+                   kiriArray_ReserveJust(&world->memory, &seam->rows, count);
+    *why = hasRoom ? PlaceStitches(def, sheets, seam) : NULL;
+    if (!hasRoom || *why != NULL) {
+        FreeSeam(world, seam);
+        return hasRoom ? KIRI_ERROR_ARGUMENT : KIRI_ERROR_MEMORY;
+    }
+    seam->breakForce = def->breakForce;
+    seam->id = kiriPool_Add(&world->seamIds, &world->memory, seam, 0);
+    KIRI_NEXT(world->seams) = seam;
+    KIRI_EACH(const kiriStitchData, stitch, seam->stitches) {
+        WakeEnds(world, stitch);
+    }
+    *made = seam;
+    return KIRI_OK;
+}
+
+void kiriSeams_Remove(kiriWorld* world, kiriSeamData* seam)
+{
+    int32_t kept = 0;
+    KIRI_EACH(const kiriStitchData, stitch, seam->stitches) {
+        WakeEnds(world, stitch);
+    }
+    KIRI_EACH_INDEX(i, world->seams) {
+        if (world->seams.data[i] != seam) {
+            world->seams.data[kept++] = world->seams.data[i];
+        }
+    }
+    KIRI_ASSERT(kept == world->seams.count - 1);
+    world->seams.count = kept;
+    kiriPool_Remove(&world->seamIds, seam->id);
+    FreeSeam(world, seam);
+}
+
+/* Returns true if a stitch ends. */
+typedef bool EndsFn(const kiriWorld* world, const kiriSeamData* seam, const kiriStitchData* stitch);
+
+/* Removes the stitches that end, and wakes what they held. Returns their number. */
+static int32_t DropStitches(const kiriWorld* world, kiriSeamData* seam, EndsFn* ends)
+{
+    int32_t kept = 0, count = seam->stitches.count;
+    KIRI_ASSERT(seam->rows.count == 0 || seam->rows.count == count);
+    KIRI_EACH_INDEX(k, seam->stitches) {
+        const kiriStitchData stitch = seam->stitches.data[k];
+        if (ends(world, seam, &stitch)) {
+            WakeEnds(world, &stitch);
+        } else {
+            seam->stitches.data[kept++] = stitch;
+        }
+    }
+    seam->stitches.count = kept;
+    seam->rows.count = 0;
+    return count - kept;
+}
+
+static bool IsStale(const kiriWorld* world, const kiriSeamData* seam, const kiriStitchData* stitch)
+{
+    (void)seam;
+    return SlotOf(world, stitch, 0) == NULL || SlotOf(world, stitch, 1) == NULL;
+}
+
+void kiriSeams_DropStale(kiriWorld* world)
+{
+    for (int32_t i = world->seams.count - 1; i >= 0; --i) {
+        kiriSeamData* seam = world->seams.data[i];
+        if (DropStitches(world, seam, IsStale) > 0 && seam->stitches.count == 0) {
+            kiriSeams_Remove(world, seam);
+        }
+    }
+}
+
+/* ---- In a tick --------------------------------------------------------------------------------------------------- */
+
+bool kiriSeams_Stir(const kiriWorld* world)
+{
+    bool any = false;
+    for (bool isNew = true; isNew;) { /* pieces may be sewn in a row */
+        isNew = false;
+        KIRI_EACH_OF(kiriSeamData, seam, world->seams) {
+            KIRI_EACH(const kiriStitchData, stitch, seam->stitches) {
+                const kiriSlot *a = SlotOf(world, stitch, 0), *b = SlotOf(world, stitch, 1);
+                kiriPiece *one = kiriSheet_PieceOf(a->owner, a->index), *other = kiriSheet_PieceOf(b->owner, b->index);
+                if (kiriPiece_MayMove(one) != kiriPiece_MayMove(other)) {
+                    kiriSheetData* asleep = kiriPiece_MayMove(one) ? b->owner : a->owner;
+                    (kiriPiece_MayMove(one) ? other : one)->rest.isStirred = asleep->rest.isStirred = isNew = true;
+                }
+            }
+        }
+        any |= isNew;
+    }
+    return any;
+}
+
+kiriVec3 kiriStitch_Point(const kiriWorld* world, const kiriStitchData* stitch, int end)
+{
+    kiriContactMember members[KIRI_CONTACT_WEIGHTS];
+    const kiriSheetData* sheet = kiriStitch_Sheet(world, stitch, end);
+    return CarriedEnd(sheet, members, CarryEnd(sheet, stitch->at[end], members));
+}
+
+bool kiriSeam_WriteRow(const kiriWorld* world, kiriSeamData* seam, int32_t stitch, double dt, kiriSheetData* sheets[2])
+{
+    KIRI_ASSERT_HAS(seam->stitches, stitch);
+    const kiriStitchData* data = &seam->stitches.data[stitch];
+    kiriStitchRow* row = &seam->rows.data[stitch];
+    kiriVec3 apart = { 0 };
+    double mass = 0.0;
+    KIRI_ASSERT(seam->rows.capacity >= seam->stitches.count);
+    memset(row, 0, sizeof(*row));
+    row->stiffness = data->stiffness;
+    for (int end = 0; end < 2; ++end) {
+        kiriSheetData* sheet = kiriStitch_Sheet(world, data, end);
+        kiriContactMember members[KIRI_CONTACT_WEIGHTS];
+        int32_t count = CarryEnd(sheet, data->at[end], members);
+        if (count == 0) {
+            return false;
+        }
+        bool isMoved = world->islands.isJoined.data[sheet->probes.sheet] && !sheet->rest.asleep &&
+                       kiriSheet_Moves(sheet, members[0].frame);
+        kiriVec3 x = kiriVec3_Scale(end == 0 ? 1.0 : -1.0, CarriedEnd(sheet, members, count));
+        apart = kiriVec3_Add(apart, x);
+        mass = kiriMax(sheet->frames.data[members[0].frame].mass, mass);
+        sheets[end] = isMoved ? sheet : NULL;
+        row->solvers[end] = isMoved ? sheet->solver : NULL;
+        row->counts[end] = isMoved ? count : 0;
+        row->off = isMoved ? row->off : kiriVec3_Sub(row->off, x);
+        for (int32_t n = 0; isMoved && n < count; ++n) {
+            kiriContactMember* member = &row->members[end * row->counts[0] + n];
+            *member = members[n];
+            member->value = end == 0 ? member->value : -member->value;
+        }
+    }
+    row->stiffness = kiriMin(SQUARED_PITCH * mass, row->stiffness);
+    double gap = kiriVec3_Length(apart), closed = CLOSING_SPEED * dt;
+    row->off = kiriVec3_AddScaled(row->off, gap > closed ? 1.0 - closed / gap : 0.0, apart);
+    return row->solvers[0] != NULL || row->solvers[1] != NULL;
+}
+
+static bool IsTorn(const kiriWorld* world, const kiriSeamData* seam, const kiriStitchData* stitch)
+{
+    (void)world;
+    return kiriVec3_Length(stitch->force) > seam->breakForce * stitch->length;
+}
+
+void kiriSeams_End(kiriWorld* world, double dt)
+{
+    for (int32_t i = world->seams.count - 1; i >= 0; --i) {
+        kiriSeamData* seam = world->seams.data[i];
+        KIRI_ASSERT(seam->stitches.count > 0 && seam->rows.count <= seam->stitches.count);
+        KIRI_EACH_INDEX(k, seam->rows) {
+            if (seam->rows.data[k].body != KIRI_NONE) {
+                seam->stitches.data[k].force = kiriVec3_Scale(1.0 / dt, seam->rows.data[k].impulse);
+            }
+        }
+        seam->rows.count = 0;
+        const kiriSheetData* sheet = kiriStitch_Sheet(world, &seam->stitches.data[0], 0);
+        if (seam->breakForce > 0.0 && DropStitches(world, seam, IsTorn) > 0) {
+            kiriEvent* event = kiriWorld_AddEvent(world, KIRI_EVENT_SEAM_BROKE, sheet);
+            event->seam = seam->id;
+            event->stitches = seam->stitches.count;
+            if (seam->stitches.count == 0) {
+                kiriSeams_Remove(world, seam);
+            }
+        }
+    }
+}

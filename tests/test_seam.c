@@ -1,0 +1,460 @@
+/* Seams: lips stay together, motion keeps momentum, and stitches stay with their points whatever happens to the sheets. */
+#include "tape.h"
+
+static const float dt = 1.0f / 60.0f;
+
+enum { MOST_STITCHES = 128 };
+
+typedef struct Pair {
+    kiriSheet a, b;
+    kiriSeam seam;
+} Pair;
+
+static kiriSeamDef SeamDef(kiriSheet a, const float* lineA, kiriSheet b, const float* lineB, int32_t count)
+{
+    kiriSeamDef def;
+    kiriDefaultSeamDef(&def);
+    def.sheetA = a;
+    def.lineA = lineA;
+    def.sheetB = b;
+    def.lineB = lineB;
+    def.countA = def.countB = count;
+    return def;
+}
+
+static const float rightEdge[4] = { 0.5f, 0.0f, 0.5f, 0.5f }, leftEdge[4] = { 0.0f, 0.0f, 0.0f, 0.5f };
+
+/* Two squares side by side, sewn where they meet. */
+static Pair Pair_Make(Host* host, kiriSheetDef* def, int32_t framesA, int32_t framesB)
+{
+    Pair pair;
+    def->framePoints = NULL;
+    def->frameCount = framesA;
+    pair.a = Host_AddRectangle(host, def, 0.5f, 0.5f, 8, 8);
+    def->position[0] += 0.5f;
+    def->frameCount = framesB;
+    pair.b = Host_AddRectangle(host, def, 0.5f, 0.5f, 8, 8);
+    kiriSeamDef seam = SeamDef(pair.a, rightEdge, pair.b, leftEdge, 2);
+    OK(kiriCreateSeam(host->world, &seam, &pair.seam));
+    return pair;
+}
+
+static int32_t GetStitches(const Host* host, kiriSeam seam, kiriStitch stitches[MOST_STITCHES])
+{
+    int32_t count;
+    OK(kiriSeam_GetCount(host->world, seam, &count));
+    assert_in_range(count, 1, MOST_STITCHES);
+    for (int32_t k = 0; k < count; ++k) {
+        OK(kiriSeam_GetStitch(host->world, seam, k, &stitches[k]));
+    }
+    assert_int_equal(kiriSeam_GetStitch(host->world, seam, count, &stitches[0]), KIRI_ERROR_ARGUMENT);
+    return count;
+}
+
+/* Returns the number of stitches. *gap, *force: the largest. */
+static int32_t Measure(const Host* host, kiriSeam seam, double* gap, double* force)
+{
+    kiriStitch stitches[MOST_STITCHES];
+    int32_t count = GetStitches(host, seam, stitches);
+    *gap = *force = 0.0;
+    for (int32_t k = 0; k < count; ++k) {
+        const float* f = stitches[k].force;
+        *gap = fmax(stitches[k].gap, *gap);
+        *force = fmax(sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]), *force);
+    }
+    return count;
+}
+
+static double Gap(const Host* host, kiriSeam seam)
+{
+    double gap, force;
+    assert_true(Measure(host, seam, &gap, &force) > 0);
+    return gap;
+}
+
+static void HoldTop(Host* host, kiriSheet sheet)
+{
+    kiriPinDef pin;
+    kiriPin made;
+    kiriDefaultPinDef(&pin);
+    OK(kiriCreatePin(host->world, sheet, &pin, &made));
+    pin.restPoint[1] = pin.target[1] = 0.5f;
+    OK(kiriCreatePin(host->world, sheet, &pin, &made));
+}
+
+/* ---- Motion ------------------------------------------------------------------------------------------------------ */
+
+typedef struct Sum {
+    double mass, energy, momentum[6];
+} Sum;
+
+static Sum SumOf(const Host* host, const Pair* pair)
+{
+    Sum sum = { 0 };
+    for (int k = 0; k < 2; ++k) {
+        kiriTotals totals;
+        OK(kiriSheet_GetTotals(host->world, k == 0 ? pair->a : pair->b, &totals));
+        sum.mass += totals.mass;
+        sum.energy += totals.kineticEnergy + totals.elasticEnergy;
+        for (int i = 0; i < 3; ++i) {
+            sum.momentum[i] += totals.momentum[i];
+            sum.momentum[3 + i] += totals.angularMomentum[i];
+        }
+    }
+    return sum;
+}
+
+/* One square is thrown, and drags the other along. */
+static void Throw(int32_t preset, int32_t framesA, int32_t framesB, int32_t model)
+{
+    static const float none[3] = { 0.0f, 0.0f, 0.0f }, velocity[3] = { 0.1f, 0.3f, 1.0f };
+    Host host;
+    Host_Start(&host);
+    OK(kiriWorld_SetGravity(host.world, none));
+    kiriSheetDef def = Host_SmallDef();
+    OK(kiriGetMaterial(preset, &def.material));
+    def.material.airDamping = 0.0f;
+    def.model = model;
+    Pair pair = Pair_Make(&host, &def, framesA, framesB);
+    OK(kiriSheet_SetVelocity(host.world, pair.b, velocity, none));
+    Sum start = SumOf(&host, &pair);
+    double size = start.mass * 1.05;
+    for (int32_t tick = 0; tick < 90; ++tick) {
+        OK(Host_Tick(&host, dt, 2));
+        Sum now = SumOf(&host, &pair);
+        for (int i = 0; i < 6; ++i) {
+            assert_true(fabs(now.momentum[i] - start.momentum[i]) < 1e-6 * size);
+        }
+        assert_true(now.energy < start.energy * (1.0 + 1e-6));
+        assert_true(Gap(&host, pair.seam) < 1e-3);
+    }
+    Host_Stop(&host);
+}
+
+static void TestMomentum(void** state)
+{
+    (void)state;
+    Throw(KIRI_MATERIAL_PAPER, 9, 9, KIRI_MODEL_LINKS);
+    Throw(KIRI_MATERIAL_PAPER, 1, 16, KIRI_MODEL_LINKS);
+    Throw(KIRI_MATERIAL_COTTON, 4, 16, KIRI_MODEL_LINKS);
+    Throw(KIRI_MATERIAL_RUBBER, 9, 6, KIRI_MODEL_LINKS);
+    Throw(KIRI_MATERIAL_CARD, 4, 9, KIRI_MODEL_LINKS);
+    Throw(KIRI_MATERIAL_COTTON, 4, 5, KIRI_MODEL_AFFINE);
+}
+
+/* A square hangs on another one: they come to rest, sleep, and wake together. */
+static void Hang(int32_t preset, int32_t framesA, int32_t framesB)
+{
+    Host host;
+    int32_t awake[2] = { 1, 1 };
+    Host_Start(&host);
+    host.every = 50;
+    kiriSheetDef def = Host_SmallDef();
+    OK(kiriGetMaterial(preset, &def.material));
+    def.material.airDamping = 3.0f;
+    def.sleepSpeed = 0.01f;
+    Pair pair = Pair_Make(&host, &def, framesA, framesB);
+    HoldTop(&host, pair.a);
+    for (int32_t tick = 0; tick < 2000 && awake[0]; ++tick) {
+        OK(Host_Tick(&host, dt, 2));
+        OK(kiriSheet_IsAwake(host.world, pair.a, &awake[0]));
+        OK(kiriSheet_IsAwake(host.world, pair.b, &awake[1]));
+        assert_int_equal(awake[0], awake[1]);
+    }
+    assert_int_equal(awake[0], 0);
+    double gap, force;
+    Measure(&host, pair.seam, &gap, &force);
+    assert_true(gap < 1e-5 * 0.5 && force > 0.0);
+    OK(kiriSheet_Wake(host.world, pair.b));
+    OK(Host_Tick(&host, dt, 2));
+    OK(kiriSheet_IsAwake(host.world, pair.a, &awake[0]));
+    assert_int_equal(awake[0], 1);
+    OK(kiriDestroySeam(host.world, pair.seam));
+    for (int32_t tick = 0; tick < 30; ++tick) {
+        OK(Host_Tick(&host, dt, 2));
+    }
+    kiriTotals fallen;
+    OK(kiriSheet_GetTotals(host.world, pair.b, &fallen));
+    assert_true(fallen.momentum[2] < -fallen.mass);
+    Host_Stop(&host);
+}
+
+static void TestSleep(void** state)
+{
+    (void)state;
+    Hang(KIRI_MATERIAL_COTTON, 9, 9);
+    Hang(KIRI_MATERIAL_RUBBER, 4, 12);
+}
+
+/* Opposite edges of one sheet: a tube. The lips start apart, and are drawn together. */
+static void TestTube(void** state)
+{
+    (void)state;
+    static const float none[3] = { 0.0f, 0.0f, 0.0f };
+    Host host;
+    Host_Start(&host);
+    host.every = 20;
+    OK(kiriWorld_SetGravity(host.world, none));
+    kiriSheetDef def = Host_SmallDef();
+    def.framePoints = NULL;
+    def.frameCount = 12;
+    def.material.airDamping = 2.0f;
+    kiriSheet sheet = Host_AddRectangle(&host, &def, 0.5f, 0.5f, 8, 8);
+    kiriSeamDef seam = SeamDef(sheet, rightEdge, sheet, leftEdge, 2);
+    kiriSeam made;
+    kiriTotals totals;
+    OK(kiriCreateSeam(host.world, &seam, &made));
+    assert_true(Gap(&host, made) > 0.49);
+    for (int32_t tick = 0; tick < 120; ++tick) {
+        OK(Host_Tick(&host, dt, 2));
+        OK(kiriSheet_GetTotals(host.world, sheet, &totals));
+        for (int i = 0; i < 3; ++i) {
+            assert_true(fabs(totals.momentum[i]) < 1e-6 * totals.mass);
+        }
+    }
+    assert_true(Gap(&host, made) < 1e-4);
+    Host_Stop(&host);
+}
+
+/* ---- Cuts, pieces and sheets ------------------------------------------------------------------------------------- */
+
+/* A cut through both sheets parts the seam. Pieces become sheets, and are destroyed. */
+static void TestPieces(void** state)
+{
+    (void)state;
+    static const float cut[4] = { -0.1f, 0.23f, 0.6f, 0.23f };
+    Host host;
+    Host_Start(&host);
+    kiriSheetDef def = Host_SmallDef();
+    Pair pair = Pair_Make(&host, &def, 9, 9);
+    kiriStitch stitches[MOST_STITCHES], now[MOST_STITCHES];
+    int32_t left, lower = 0;
+    HoldTop(&host, pair.a);
+    int32_t count = GetStitches(&host, pair.seam, stitches);
+    for (int32_t k = 0; k < count; ++k) {
+        lower += stitches[k].restB[1] < cut[1];
+    }
+    assert_true(lower > 0 && lower < count);
+    Host_Cut(&host, pair.a, cut, 2);
+    Host_Cut(&host, pair.b, cut, 2);
+    for (int32_t tick = 0; tick < 20; ++tick) {
+        OK(Host_Tick(&host, dt, 2));
+    }
+    assert_int_equal(Host_Counts(&host, pair.b).pieces, 2);
+    assert_true(Gap(&host, pair.seam) < 1e-3);
+    kiriPointState point;
+    kiriSheet part;
+    const float below[2] = { 0.25f, 0.1f };
+    OK(kiriSheet_GetPoint(host.world, pair.b, below, &point));
+    OK(kiriFrame_DetachPiece(host.world, point.frame, &part));
+    assert_int_equal(GetStitches(&host, pair.seam, now), count);
+    for (int32_t k = 0; k < count; ++k) {
+        assert_memory_equal(now[k].restB, stitches[k].restB, sizeof(now[k].restB));
+        assert_int_equal(now[k].sheetB, stitches[k].restB[1] < cut[1] ? part : pair.b);
+        assert_int_equal(now[k].sheetA, pair.a);
+    }
+    for (int32_t tick = 0; tick < 20; ++tick) {
+        OK(Host_Tick(&host, dt, 2));
+    }
+    assert_true(Gap(&host, pair.seam) < 1e-3);
+    OK(kiriSheet_GetPoint(host.world, pair.a, below, &point));
+    OK(kiriFrame_DestroyPiece(host.world, point.frame));
+    Host_Validate(&host);
+    assert_int_equal(GetStitches(&host, pair.seam, now), count - lower);
+    OK(Host_Tick(&host, dt, 2));
+    OK(kiriDestroySheet(host.world, pair.b));
+    assert_int_equal(kiriSeam_GetCount(host.world, pair.seam, &left), KIRI_ERROR_ID);
+    OK(kiriWorld_GetSeams(host.world, NULL, 0, &left));
+    assert_int_equal(left, 0);
+    OK(Host_Tick(&host, dt, 2));
+    Host_Stop(&host);
+}
+
+/* A weak seam opens under the weight of the sheet, and names its stitches in events. */
+static void TestBreak(void** state)
+{
+    (void)state;
+    Host host;
+    Host_Start(&host);
+    kiriSheetDef def = Host_SmallDef();
+    Pair pair = Pair_Make(&host, &def, 9, 9);
+    HoldTop(&host, pair.a);
+    OK(kiriDestroySeam(host.world, pair.seam));
+    kiriSeamDef seam = SeamDef(pair.a, rightEdge, pair.b, leftEdge, 2);
+    seam.breakForce = 0.05f;
+    OK(kiriCreateSeam(host.world, &seam, &pair.seam));
+    int32_t left, events = 0;
+    for (int32_t tick = 0; tick < 200 && (events == 0 || left > 0); ++tick) {
+        kiriEvent event;
+        OK(Host_Tick(&host, dt, 2));
+        if (Host_Events(&host, KIRI_EVENT_SEAM_BROKE, &event) > 0) {
+            assert_int_equal(event.seam, pair.seam);
+            left = event.stitches;
+            ++events;
+        }
+    }
+    assert_true(events > 0);
+    assert_int_equal(left, 0);
+    assert_int_equal(kiriDestroySeam(host.world, pair.seam), KIRI_ERROR_ID);
+    Host_Stop(&host);
+}
+
+/* ---- Bytes ------------------------------------------------------------------------------------------------------- */
+
+static void Store(const Host* host, bool isSave, void** bytes, int64_t* size)
+{
+    OK(isSave ? kiriWorld_Save(host->world, NULL, 0, size) : kiriWorld_Snapshot(host->world, NULL, 0, size));
+    *bytes = malloc((size_t)*size);
+    assert_non_null(*bytes);
+    OK(isSave ? kiriWorld_Save(host->world, *bytes, *size, size)
+              : kiriWorld_Snapshot(host->world, *bytes, *size, size));
+}
+
+/* A loaded world goes on as the saved one. */
+static void TestSaves(void** state)
+{
+    (void)state;
+    for (int isSave = 0; isSave < 2; ++isSave) {
+        Host host, twin;
+        void* bytes;
+        int64_t size;
+        Host_Start(&host);
+        Host_Start(&twin);
+        kiriSheetDef def = Host_SmallDef();
+        Pair pair = Pair_Make(&host, &def, 9, 5);
+        HoldTop(&host, pair.a);
+        for (int32_t tick = 0; tick < 10; ++tick) {
+            OK(Host_Tick(&host, dt, 2));
+        }
+        Store(&host, isSave, &bytes, &size);
+        OK(isSave ? kiriWorld_Load(twin.world, bytes, size) : kiriWorld_Restore(twin.world, bytes, size));
+        free(bytes);
+        for (int32_t tick = 0; tick < 20; ++tick) {
+            assert_true(Host_Hash(&host) == Host_Hash(&twin));
+            OK(Host_Tick(&host, dt, 2));
+            OK(Host_Tick(&twin, dt, 2));
+        }
+        Host_Stop(&host);
+        Host_Stop(&twin);
+    }
+}
+
+static void TestReplay(void** state)
+{
+    (void)state;
+    Tape tape, again;
+    Tape_Start(&tape);
+    kiriSheetDef def = Host_SmallDef();
+    Pair pair = Pair_Make(&tape.host, &def, 6, 9);
+    for (int32_t tick = 0; tick < 5; ++tick) {
+        Tape_Tick(&tape);
+    }
+    OK(kiriDestroySeam(tape.host.world, pair.seam));
+    Tape_Tick(&tape);
+    Tape_Stop(&tape);
+    Tape_Start(&again);
+    OK(Tape_Play(&again, &tape));
+    Tape_Stop(&again);
+    assert_int_equal(again.size, tape.size);
+    assert_memory_equal(again.bytes, tape.bytes, (size_t)tape.size);
+    Tape_Free(&again);
+    Tape_Free(&tape);
+}
+
+/* ---- Refusals ---------------------------------------------------------------------------------------------------- */
+
+static void TestMemory(void** state)
+{
+    (void)state;
+    for (int32_t call = 0; call >= 0; ++call) {
+        Host host;
+        Host_Start(&host);
+        kiriSheetDef def = Host_SmallDef();
+        Pair pair = Pair_Make(&host, &def, 4, 5);
+        kiriSeamDef seam = SeamDef(pair.b, rightEdge, pair.a, leftEdge, 2);
+        kiriSeam made;
+        uint64_t hash = Host_Hash(&host);
+        host.failAt = host.calls + call;
+        host.failOnce = true;
+        kiriResult result = kiriCreateSeam(host.world, &seam, &made);
+        if (result == KIRI_OK) {
+            result = kiriWorld_Tick(host.world, dt, 2);
+        } else {
+            assert_true(made == 0 && Host_Hash(&host) == hash);
+        }
+        Host_Validate(&host);
+        assert_true(result == KIRI_OK || result == KIRI_ERROR_MEMORY);
+        call = host.refused > 0 ? call : -2;
+        host.failAt = -1;
+        OK(Host_Tick(&host, dt, 2));
+        Host_Stop(&host);
+    }
+}
+
+static void Refused(Host* host, const kiriSeamDef* def, kiriResult result, const char* line)
+{
+    kiriSeam seam = 1;
+    uint64_t hash = Host_Hash(host);
+    assert_int_equal(kiriCreateSeam(host->world, def, &seam), result);
+    assert_non_null(strstr(kiriWorld_GetLastError(host->world), line));
+    assert_true(seam == 0 && Host_Hash(host) == hash);
+}
+
+static void TestArguments(void** state)
+{
+    (void)state;
+    static const float outside[4] = { 0.5f, 0.0f, 0.7f, 0.5f }, point[4] = { 0.1f, 0.1f, 0.1f, 0.1f };
+    static const float bad[4] = { 0.1f, NAN, 0.1f, 0.1f };
+    Host host;
+    Host_Start(&host);
+    kiriSheetDef def = Host_SmallDef();
+    Pair pair = Pair_Make(&host, &def, 4, 4);
+    def.planar = 1;
+    kiriSheet planar = Host_AddRectangle(&host, &def, 0.5f, 0.5f, 8, 8);
+    def.planar = 0;
+    def.model = KIRI_MODEL_AFFINE;
+    kiriSheet affine = Host_AddRectangle(&host, &def, 0.5f, 0.5f, 8, 8);
+    const kiriSeamDef good = SeamDef(pair.a, leftEdge, pair.b, rightEdge, 2);
+    kiriSeamDef d = good;
+    d.cookie = 0;
+    Refused(&host, &d, KIRI_ERROR_DEF, "kiriDefaultSeamDef");
+    Refused(&host, NULL, KIRI_ERROR_ARGUMENT, "def is null");
+    d = SeamDef(planar, leftEdge, pair.b, rightEdge, 2);
+    Refused(&host, &d, KIRI_ERROR_ARGUMENT, "planar");
+    d = SeamDef(affine, leftEdge, pair.b, rightEdge, 2);
+    Refused(&host, &d, KIRI_ERROR_ARGUMENT, "models");
+    d = SeamDef(pair.a, outside, pair.b, rightEdge, 2);
+    Refused(&host, &d, KIRI_ERROR_ARGUMENT, "lineA leaves");
+    d = SeamDef(pair.a, leftEdge, pair.b, outside, 2);
+    Refused(&host, &d, KIRI_ERROR_ARGUMENT, "lineB leaves");
+    d = SeamDef(pair.a, point, pair.b, point, 2);
+    Refused(&host, &d, KIRI_ERROR_ARGUMENT, "no length");
+    d = SeamDef(pair.a, bad, pair.b, rightEdge, 2);
+    Refused(&host, &d, KIRI_ERROR_ARGUMENT, "NaN");
+    d = SeamDef(pair.a, NULL, pair.b, rightEdge, 2);
+    Refused(&host, &d, KIRI_ERROR_ARGUMENT, "no lineA");
+    d = SeamDef(pair.a, leftEdge, pair.b, rightEdge, 1);
+    Refused(&host, &d, KIRI_ERROR_ARGUMENT, "countA");
+    d = SeamDef(pair.a + 100, leftEdge, pair.b, rightEdge, 2);
+    Refused(&host, &d, KIRI_ERROR_ID, "sheetA");
+    d = good;
+    d.stitches = -1;
+    Refused(&host, &d, KIRI_ERROR_ARGUMENT, "stitches");
+    d.stitches = 0;
+    d.breakForce = -1.0f;
+    Refused(&host, &d, KIRI_ERROR_ARGUMENT, "breakForce");
+    assert_int_equal(kiriDestroySeam(host.world, pair.a), KIRI_ERROR_ID);
+    OK(kiriDestroySeam(host.world, pair.seam));
+    assert_int_equal(kiriDestroySeam(host.world, pair.seam), KIRI_ERROR_ID);
+    Host_Stop(&host);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(TestMomentum), cmocka_unit_test(TestSleep),  cmocka_unit_test(TestTube),
+        cmocka_unit_test(TestPieces),   cmocka_unit_test(TestBreak),  cmocka_unit_test(TestSaves),
+        cmocka_unit_test(TestReplay),   cmocka_unit_test(TestMemory), cmocka_unit_test(TestArguments),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
