@@ -101,6 +101,8 @@ GAME_OBJECTS := $(patsubst %,$(BUILD)/%.o,$(wildcard samples/games/*.c samples/g
 ADAPTER_OBJECTS := $(BUILD)/samples/box2d/kiri_box2d.cpp.o
 # Without window and main: for tests.
 GAME_PARTS := $(filter-out %/main.c.o %/shell.c.o %/window.c.o,$(GAME_OBJECTS))
+# Drawings to cut: SVG, DXF, FOLD.
+IMPORT_OBJECTS := $(filter $(BUILD)/samples/import%,$(SAMPLE_OBJECTS))
 # What games and their tests share with the samples.
 PICTURE_OBJECTS := $(patsubst %,$(BUILD)/samples/%.c.o,image edges)
 # What tests and benchmarks take from the samples: the scenes.
@@ -537,6 +539,8 @@ $(BUILD)/tests/bench_solvers: $(BUILD)/tests/eigen_solvers.cpp.o
 $(BUILD)/tests/%: $(BUILD)/tests/%.c.o $(VALIDATE_OBJECTS) $(SCENE_OBJECTS) $(BUILD)/libkiri.a
 	@echo "  $@"
 	@$(LINK) -o $@ $(filter-out %.a,$^) $(filter %.a,$^) -lcmocka $(TEST_LIBRARIES) -lm
+
+$(BUILD)/tests/test_drawing: $(IMPORT_OBJECTS)
 
 $(BUILD)/tests/test_image: $(BUILD)/samples/image.c.o
 $(BUILD)/tests/test_image: TEST_LIBRARIES := -lpng -lz
