@@ -21,6 +21,9 @@
     READS(kiriWorld_GetProfile, world, NULL)                                                                           \
     CHANGES(kiriCreateSheet, world, NULL, NULL)                                                                        \
     CHANGES(kiriDestroySheet, world, 0)                                                                                \
+    CHANGES(kiriCreateFoldedSheet, world, NULL, NULL, 0, NULL)                                                         \
+    READS(kiriSheet_GetFold, world, 0, 0, NULL)                                                                        \
+    CHANGES(kiriSheet_SetFold, world, 0, 0, 0, 0)                                                                      \
     CHANGES(kiriCreateRectangle, world, 0, 0, 0, 0, NULL, NULL)                                                        \
     READS(kiriSheet_GetSettings, world, 0, NULL)                                                                       \
     CHANGES(kiriSheet_SetSettings, world, 0, NULL)                                                                     \

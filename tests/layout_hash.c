@@ -56,6 +56,9 @@ static void HashLink(uint64_t* hash, const kiriLink* link)
 {
     kiriHash_Int32(hash, link->i);
     kiriHash_Int32(hash, link->j);
+    if (link->fold != 0) {
+        kiriHash_Int32(hash, link->fold);
+    }
     HashVec3(hash, kiriVec3_Make(link->width, link->length, link->moment));
     kiriHash_Double(hash, link->outer);
     kiriHash_Double(hash, link->beyond);

@@ -116,7 +116,7 @@ static inline void Scene_Slit(Scene* scene, double u0, double v0, double u1, dou
             on = on && along > -near && along < length + near && fabs(across) < near;
         }
         if (on) {
-            assert_true(kiriMesh_Open(&scene->mesh, h));
+            assert_true(kiriMesh_Open(&scene->mesh, h, false));
         }
     }
 }
@@ -127,7 +127,7 @@ static inline void Scene_CutAtRandom(Scene* scene, int32_t count, int32_t steps,
     for (int32_t k = 0; k < count; ++k) {
         int32_t h = (int32_t)(Random(seed) % (uint32_t)(3 * scene->mesh.triangles.count));
         for (int32_t s = 0; s < steps && kiriMesh_Twin(&scene->mesh, h) != KIRI_NONE; ++s) {
-            assert_true(kiriMesh_Open(&scene->mesh, h));
+            assert_true(kiriMesh_Open(&scene->mesh, h, false));
             h = kiriEdge_Next(h);
             for (uint32_t turn = Random(seed) % 3; turn > 0 && kiriMesh_Twin(&scene->mesh, h) != KIRI_NONE; --turn) {
                 h = kiriEdge_Next(kiriMesh_Twin(&scene->mesh, h));

@@ -18,6 +18,7 @@ typedef struct StormType {
     bool touches;   /* sheets touch each other */
     bool obstacles; /* there are obstacles, and contacts of the host */
     bool tasks;     /* ticks are shared out */
+    bool folds;     /* sheets have folds */
     int32_t sheets; /* at the start */
     kiriBudget budget;
 } StormType;
@@ -38,7 +39,7 @@ typedef struct Storm {
 
 /* ---- Storms ---- */
 
-enum { STORM_TYPES = 10 };
+enum { STORM_TYPES = 11 };
 extern const StormType Storm_Types[STORM_TYPES];
 
 /* With a world of the def, which gets the type's budget and tasks. */

@@ -166,7 +166,16 @@ void Storm_AddSheet(Storm* storm)
     def.vertexCount = CORNERS * CORNERS;
     def.triangleCount = 2 * STORM_SQUARES * STORM_SQUARES;
     kiriSheet sheet = 0;
-    Storm_Note(storm, kiriCreateSheet(storm->world, &def, &sheet));
+    kiriFold folds[4];
+    for (int i = 0; storm->type->folds && i < 4; i++) {
+        folds[i] = (kiriFold){ { Storm_Between(storm, -0.1f, 1.1f), Storm_Between(storm, -0.1f, 1.1f) },
+                               { Storm_Between(storm, -0.1f, 1.1f), Storm_Between(storm, -0.1f, 1.1f) },
+                               Storm_Between(storm, 0.0f, 1e-3f),
+                               Storm_Between(storm, -3.0f, 3.0f),
+                               Storm_Between(storm, 0.0f, 1e-4f) };
+    }
+    Storm_Note(storm, storm->type->folds ? kiriCreateFoldedSheet(storm->world, &def, folds, 4, &sheet)
+                                         : kiriCreateSheet(storm->world, &def, &sheet));
     Storm_KeepSheet(storm, sheet);
 }
 
@@ -195,6 +204,10 @@ static void ChangeSettings(Storm* storm)
     settings.material.yieldStress = Storm_Random(storm, 2) == 0 ? 0.0f : 1e7f;
     settings.material.detail = settings.iterations % 3;
     Storm_Note(storm, kiriSheet_SetSettings(storm->world, sheet, &settings));
+    if (storm->type->folds) {
+        Storm_Note(storm, kiriSheet_SetFold(storm->world, sheet, (int32_t)Storm_Random(storm, 4), 1e-4f,
+                                            Storm_Between(storm, -1.0f, 1.0f)));
+    }
 }
 
 /* One without pins, which would draw it back with all their stiffness. */

@@ -230,6 +230,19 @@ static kiriObstacle Obstruct(Tape* tape)
     return obstacle;
 }
 
+static void AddFolded(kiriWorld* world)
+{
+    const kiriFold folds[2] = { { { 0.0f, 0.5f }, { 1.0f, 0.5f }, 1e-3f, 0.5f, 0.0f },
+                                { { 0.5f, 0.0f }, { 0.5f, 1.0f }, 0.0f, 0.0f, 1e-4f } };
+    kiriSheetDef def = Host_SmallDef();
+    kiriSheet sheet;
+    Rectangle mesh = Rectangle_Make(&def, 1.0f, 1.0f, 4, 4);
+    def.position[0] = 5.0f;
+    OK(kiriCreateFoldedSheet(world, &def, folds, 2, &sheet));
+    OK(kiriSheet_SetFold(world, sheet, 0, 2e-3f, -0.5f));
+    Rectangle_Free(&mesh);
+}
+
 static void Change(Tape* tape, kiriSheet sheet)
 {
     kiriWorld* world = tape->host.world;
@@ -247,6 +260,7 @@ static void Change(Tape* tape, kiriSheet sheet)
     OK(kiriSheet_SetVelocity(world, sheet, up, zero));
     OK(kiriFrame_SetPieceVelocity(world, FrameAt(tape, sheet, 0.5f, 0.1f), zero, up));
     OK(kiriSheet_SetUserData(world, sheet, 12345678901234567u));
+    AddFolded(world);
     OK(kiriFrame_SetPieceUserData(world, FrameAt(tape, sheet, 0.5f, 0.1f), 1));
     OK(kiriWorld_Note(world, "a note", 6));
     Tape_Tick(tape);
@@ -454,7 +468,7 @@ static void TestAllFieldsAreRecorded(void** state)
             found++;
         }
     }
-    assert_int_equal(found, 8);
+    assert_int_equal(found, 9);
 }
 
 /* ---- Read-only arguments ----------------------------------------------------------------------------------------- */

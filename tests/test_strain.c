@@ -187,6 +187,38 @@ static void TestEveryPoseIsSmooth(void** state)
     assert_true(worst < 1.0);
 }
 
+/* The strains of a fold: their slopes are their derivatives, at any angle but half a turn off the rest angle. */
+static void TestFoldLinesAreSmooth(void** state)
+{
+    uint32_t seed = 29;
+    const double eps = 1e-6;
+    int looked = 0;
+    (void)state;
+    for (int trial = 0; trial < 3000; ++trial) {
+        Couple couple = RandomCouple(&seed);
+        couple.material = Paper;
+        couple.link.fold = 1;
+        couple.link.hinge = 1e-3;
+        couple.link.rest = RandomBetween(&seed, -3.0, 3.0);
+        TurnAround(&couple, 0, &seed);
+        couple.poses[1].A = kiriMat3_MulMat(kiriMat3_Cayley(RandomVec3(&seed, 1.0)), couple.poses[1].A);
+        int k = trial % 2;
+        kiriVec3 move = RandomVec3(&seed, 1.0), spin = RandomVec3(&seed, 1.0);
+        double slope, unused, strain[KIRI_STRAINS];
+        UnitEnergy(&couple, k, move, spin, &slope);
+        MeasureCouple(&couple, strain, NULL);
+        bool isAhead = fabs(fabs(strain[KIRI_BENDING] + 0.75 * couple.link.rest) - 3.14159265) < 0.01;
+        Couple a = Displaced(&couple, k, kiriVec3_Scale(eps, move), kiriVec3_Scale(eps, spin));
+        Couple b = Displaced(&couple, k, kiriVec3_Scale(-eps, move), kiriVec3_Scale(-eps, spin));
+        double change = UnitEnergy(&a, k, move, spin, &unused) - UnitEnergy(&b, k, move, spin, &unused);
+        if (!isAhead && fabs(strain[KIRI_TWIST]) < 0.9) { /* lines that are almost across each other have no angle */
+            AssertNear(change / (2.0 * eps), slope, 1e-5 * (1.0 + fabs(slope)));
+            ++looked;
+        }
+    }
+    assert_true(looked > 1000);
+}
+
 /* ---- Energies ---- */
 
 typedef struct Pair {
@@ -442,6 +474,7 @@ int main(void)
         cmocka_unit_test(TestFoldsAreSmooth),
         cmocka_unit_test(TestHalfTurnHasNoWall),
         cmocka_unit_test(TestEveryPoseIsSmooth),
+        cmocka_unit_test(TestFoldLinesAreSmooth),
         cmocka_unit_test(TestEnergies),
         cmocka_unit_test(TestForcesAreTheSlopeOfTheEnergy),
         cmocka_unit_test(TestLinkDerivatives),

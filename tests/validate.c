@@ -128,11 +128,12 @@ static bool Check_Links(Check* check, const kiriSheetData* sheet)
         const kiriLink* last = k > 0 ? link - 1 : NULL;
         REQUIRE(link->i >= 0 && link->i < link->j && link->j < sheet->frames.count, "link %d joins frames %d and %d", k,
                 link->i, link->j);
-        REQUIRE(last == NULL || last->i < link->i || (last->i == link->i && last->j <= link->j),
+        REQUIRE(last == NULL || !kiriLink_IsBefore(link, last),
                 "link %d of frames %d and %d comes too late", k, link->i, link->j);
         REQUIRE(link->width > 0.0 && link->length > 0.0 && link->moment >= 0.0 && IsFinite(link->width) &&
                     IsFinite(link->length) && IsFinite(link->moment),
                 "link %d has width %g, length %g, moment %g", k, link->width, link->length, link->moment);
+        REQUIRE(link->fold >= 0 && link->fold <= sheet->mesh.folds.count, "link %d has fold %d", k, link->fold);
         REQUIRE(link->outer >= 0.0 && link->outer <= link->width && link->beyond >= 0.0,
                 "link %d of width %g has outer width %g and %g beyond", k, link->width, link->outer, link->beyond);
         REQUIRE(IsNear(kiriVec2_Length(link->normal), 1.0, 1e-9) && IsNear(link->tangent.x, -link->normal.y, 1e-12) &&
@@ -214,7 +215,7 @@ static bool Check_PiecesOfMesh(Check* check, const kiriSheetData* sheet)
     check->part = "pieces";
     for (int32_t h = 0; h < 3 * mesh->triangles.count; ++h) {
         int32_t twin = kiriMesh_Twin(mesh, h);
-        if (twin != KIRI_NONE && !kiriMesh_IsOpen(mesh, h)) {
+        if (twin != KIRI_NONE && (!kiriMesh_IsOpen(mesh, h) || kiriMesh_IsCrease(mesh, h))) {
             pieces = Union_Join(parent, h / 3, twin / 3, pieces);
         }
     }

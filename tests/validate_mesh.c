@@ -23,7 +23,8 @@ static bool Check_Triangles(Check* check, const kiriMeshData* mesh)
         REQUIRE(kiriOrient(c[0], c[1], c[2]) > 0, "triangle %d is turned over or has no area", t);
         REQUIRE(((c[0].x | c[0].y) & 1) == 0, "triangle %d has a corner with an odd coordinate", t);
         REQUIRE(kiriMesh_SourceCorners(mesh, triangle->source, c), "triangle %d is of source %d", t, triangle->source);
-        REQUIRE((triangle->marks & ~(KIRI_TRIANGLE_OPEN | (mesh->isOpen ? KIRI_TRIANGLE_CHANGED : 0))) == 0,
+        REQUIRE((triangle->marks >> 4 & ~triangle->marks) == 0 &&
+                    (triangle->marks & ~(KIRI_TRIANGLE_OPEN | KIRI_TRIANGLE_CREASE | (mesh->isOpen ? KIRI_TRIANGLE_CHANGED : 0))) == 0,
                 "triangle %d has marks %d", t, triangle->marks);
     }
     return true;

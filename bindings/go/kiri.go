@@ -634,6 +634,30 @@ type SheetSettings struct {
 	Normals int32
 }
 
+// A straight line of the rest plane along which a sheet folds: a hinge, a score, a crease. The sheet stays in one
+// piece, and each side of the line has its own control frames. Lines may end in the material, meet and cross; two
+// lines in one place add their stiffness. Cuts go through a fold, or along it. The manual has more (folding).
+type Fold struct {
+	// m
+	From [2]float32
+	// m
+	To [2]float32
+	// N m/rad per metre of the line, 0 or more; 0: a free hinge
+	Stiffness float32
+	// rad, -pi to pi; above 0 the sides fold towards the normal (valley), below away from it
+	RestAngle float32
+	// N m per metre: most that it carries; an angle beyond stays. 0: no limit. Only in a material with a yieldStress
+	YieldMoment float32
+}
+
+// A fold, its angle (rad, as restAngle; the mean over its length) and the length (m) along which two sides are
+// joined: 0 where all of it is cut, or inside one region.
+type FoldState struct {
+	Fold Fold
+	Angle float64
+	Length float64
+}
+
 // The triangles to draw, as after the last tick, with the detail layer of the material (manual, sheets). revision
 // grows when indices or vertices are added or changed. Rest positions are floats; sourceTriangles and sourceWeights
 // have the precision of the library, 2^-29 of the sheet.
@@ -1003,6 +1027,8 @@ var _ [0]struct{} = [unsafe.Sizeof(Material{}) - C.sizeof_kiriMaterial]struct{}{
 var _ [0]struct{} = [unsafe.Sizeof(Quality{}) - C.sizeof_kiriQuality]struct{}{}
 var _ [0]struct{} = [unsafe.Sizeof(PaperOptions{}) - C.sizeof_kiriPaperOptions]struct{}{}
 var _ [0]struct{} = [unsafe.Sizeof(SheetSettings{}) - C.sizeof_kiriSheetSettings]struct{}{}
+var _ [0]struct{} = [unsafe.Sizeof(Fold{}) - C.sizeof_kiriFold]struct{}{}
+var _ [0]struct{} = [unsafe.Sizeof(FoldState{}) - C.sizeof_kiriFoldState]struct{}{}
 var _ [0]struct{} = [unsafe.Sizeof(Range{}) - C.sizeof_kiriRange]struct{}{}
 var _ [0]struct{} = [unsafe.Sizeof(Dirty{}) - C.sizeof_kiriDirty]struct{}{}
 var _ [0]struct{} = [unsafe.Sizeof(Counts{}) - C.sizeof_kiriCounts]struct{}{}
@@ -1607,6 +1633,64 @@ func (self Sheet) SetSettings(settings *SheetSettings) (bool, error) {
 	result := C.kiriSheet_SetSettings(self.World.c, C.kiriSheet(self.ID), (*C.kiriSheetSettings)(unsafe.Pointer(settings)))
 	runtime.KeepAlive(self.World)
 	if err := failure(self.World, "kiriSheet_SetSettings", result, true); err != nil {
+		return false, err
+	}
+	return result == C.KIRI_PENDING, nil
+}
+
+var poolWorldCreateFoldedSheet pool[struct {
+	sheet C.kiriSheet
+}]
+
+// Adds a sheet with folds, 1 to 65536. They are copied, and each keeps its index. KIRI_ERROR_ARGUMENT: the model is
+// not KIRI_MODEL_LINKS.
+func (w *World) CreateFoldedSheet(def *SheetDef, folds []Fold) (Sheet, error) {
+	var made0 Sheet
+	if err := w.check(); err != nil {
+		return made0, err
+	}
+	var pinner runtime.Pinner
+	defer pinner.Unpin()
+	block := poolWorldCreateFoldedSheet.take()
+	result := C.kiriCreateFoldedSheet(w.c, def.toC(&pinner), (*C.kiriFold)(unsafe.Pointer(unsafe.SliceData(folds))), C.int32_t(len(folds)), &block.sheet)
+	answer := poolWorldCreateFoldedSheet.give(block)
+	runtime.KeepAlive(w)
+	if err := failure(w, "kiriCreateFoldedSheet", result, true); err != nil {
+		return made0, err
+	}
+	return Sheet{w, SheetID(answer.sheet)}, nil
+}
+
+var poolSheetGetFold pool[struct {
+	state FoldState
+}]
+
+// Get and change a fold by its index. A part of the sheet that is detached has its own folds, with the same indices.
+// A rest angle drives the fold by its stiffness: change it in small steps. The sheet wakes.
+func (self Sheet) Fold(index int32) (FoldState, error) {
+	var made0 FoldState
+	if err := self.World.check(); err != nil {
+		return made0, err
+	}
+	block := poolSheetGetFold.take()
+	result := C.kiriSheet_GetFold(self.World.c, C.kiriSheet(self.ID), C.int32_t(index), (*C.kiriFoldState)(unsafe.Pointer(&block.state)))
+	answer := poolSheetGetFold.give(block)
+	runtime.KeepAlive(self.World)
+	if err := failure(self.World, "kiriSheet_GetFold", result, false); err != nil {
+		return made0, err
+	}
+	return answer.state, nil
+}
+
+// Get and change a fold by its index. A part of the sheet that is detached has its own folds, with the same indices.
+// A rest angle drives the fold by its stiffness: change it in small steps. The sheet wakes.
+func (self Sheet) SetFold(index int32, stiffness float32, restAngle float32) (bool, error) {
+	if err := self.World.check(); err != nil {
+		return false, err
+	}
+	result := C.kiriSheet_SetFold(self.World.c, C.kiriSheet(self.ID), C.int32_t(index), C.float(stiffness), C.float(restAngle))
+	runtime.KeepAlive(self.World)
+	if err := failure(self.World, "kiriSheet_SetFold", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -3171,6 +3255,9 @@ var functions = map[string]string{
 	"kiriCreateRectangle": "World.CreateRectangle",
 	"kiriSheet_GetSettings": "Sheet.Settings",
 	"kiriSheet_SetSettings": "Sheet.SetSettings",
+	"kiriCreateFoldedSheet": "World.CreateFoldedSheet",
+	"kiriSheet_GetFold": "Sheet.Fold",
+	"kiriSheet_SetFold": "Sheet.SetFold",
 	"kiriFillRectangle": ".FillRectangle",
 	"kiriSheet_GetMesh": "Sheet.Mesh",
 	"kiriSheet_GetDirty": "Sheet.Dirty",

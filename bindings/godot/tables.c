@@ -173,6 +173,24 @@ static const Field SHEET_SETTINGS_FIELDS[] = {
 
 const Struct SHEET_SETTINGS = { "SheetSettings", (int)sizeof(kiriSheetSettings), 14, SHEET_SETTINGS_FIELDS, NULL, NULL };
 
+static const Field FOLD_FIELDS[] = {
+    { "from", TYPE_FLOAT, KIND_VECTOR2, (int)offsetof(kiriFold, from), 2, 0, 0, 0, CLASS_NONE, NULL },
+    { "to", TYPE_FLOAT, KIND_VECTOR2, (int)offsetof(kiriFold, to), 2, 0, 0, 0, CLASS_NONE, NULL },
+    { "stiffness", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriFold, stiffness), 1, 0, 0, 0, CLASS_NONE, NULL },
+    { "rest_angle", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriFold, restAngle), 1, 0, 0, 0, CLASS_NONE, NULL },
+    { "yield_moment", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriFold, yieldMoment), 1, 0, 0, 0, CLASS_NONE, NULL },
+};
+
+static const Struct FOLD = { "Fold", (int)sizeof(kiriFold), 5, FOLD_FIELDS, NULL, NULL };
+
+static const Field FOLD_STATE_FIELDS[] = {
+    { "fold", TYPE_STRUCT, KIND_DICTIONARY, (int)offsetof(kiriFoldState, fold), 1, 0, 0, 0, CLASS_NONE, &FOLD },
+    { "angle", TYPE_DOUBLE, KIND_REAL, (int)offsetof(kiriFoldState, angle), 1, 0, 0, 0, CLASS_NONE, NULL },
+    { "length", TYPE_DOUBLE, KIND_REAL, (int)offsetof(kiriFoldState, length), 1, 0, 0, 0, CLASS_NONE, NULL },
+};
+
+static const Struct FOLD_STATE = { "FoldState", (int)sizeof(kiriFoldState), 3, FOLD_STATE_FIELDS, NULL, NULL };
+
 static const Field MESH_FIELDS[] = {
     { "positions", TYPE_FLOAT, KIND_VECTORS3, (int)offsetof(kiriMesh, positions), 1, (int)offsetof(kiriMesh, vertexCount), 3, 0, CLASS_NONE, NULL },
     { "normals", TYPE_FLOAT, KIND_VECTORS3, (int)offsetof(kiriMesh, normals), 1, (int)offsetof(kiriMesh, vertexCount), 3, 1, CLASS_NONE, NULL },
@@ -835,6 +853,59 @@ static const Parameter SHEET_SET_SETTINGS_PARAMETERS[] = {
     { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
     { "sheet", FORM_SELF, TYPE_ID, KIND_OBJECT, 1, 0, 0, 0, CLASS_SHEET, NULL, NULL },
     { "settings", FORM_IN_STRUCT, TYPE_STRUCT, KIND_DICTIONARY, 1, 0, 0, 0, CLASS_NONE, &SHEET_SETTINGS, NULL },
+};
+
+static const Argument WORLD_CREATE_FOLDED_SHEET_ARGUMENTS[] = {
+    { "def", KIND_DICTIONARY, CLASS_NONE },
+    { "folds", KIND_ARRAY, CLASS_NONE },
+};
+
+static int64_t Call_kiriCreateFoldedSheet(void* const* a)
+{
+    return kiriCreateFoldedSheet(a[0], a[1], a[2], *(int32_t*)a[3], a[4]);
+}
+
+static const Parameter WORLD_CREATE_FOLDED_SHEET_PARAMETERS[] = {
+    { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "def", FORM_IN_STRUCT, TYPE_STRUCT, KIND_DICTIONARY, 1, 0, 0, 0, CLASS_NONE, &SHEET_DEF, NULL },
+    { "folds", FORM_IN_ROWS, TYPE_STRUCT, KIND_ARRAY, 1, 3, 1, 0, CLASS_NONE, &FOLD, NULL },
+    { "count", FORM_IN_COUNT, TYPE_INT32, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "sheet", FORM_OUT, TYPE_ID, KIND_OBJECT, 1, 0, 0, 0, CLASS_SHEET, NULL, NULL },
+};
+
+static const Argument SHEET_GET_FOLD_ARGUMENTS[] = {
+    { "index", KIND_INT, CLASS_NONE },
+};
+
+static int64_t Call_kiriSheet_GetFold(void* const* a)
+{
+    return kiriSheet_GetFold(a[0], *(kiriSheet*)a[1], *(int32_t*)a[2], a[3]);
+}
+
+static const Parameter SHEET_GET_FOLD_PARAMETERS[] = {
+    { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "sheet", FORM_SELF, TYPE_ID, KIND_OBJECT, 1, 0, 0, 0, CLASS_SHEET, NULL, NULL },
+    { "index", FORM_IN, TYPE_INT32, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "state", FORM_OUT_STRUCT, TYPE_STRUCT, KIND_DICTIONARY, 1, 0, 0, 0, CLASS_NONE, &FOLD_STATE, NULL },
+};
+
+static const Argument SHEET_SET_FOLD_ARGUMENTS[] = {
+    { "index", KIND_INT, CLASS_NONE },
+    { "stiffness", KIND_REAL, CLASS_NONE },
+    { "rest_angle", KIND_REAL, CLASS_NONE },
+};
+
+static int64_t Call_kiriSheet_SetFold(void* const* a)
+{
+    return kiriSheet_SetFold(a[0], *(kiriSheet*)a[1], *(int32_t*)a[2], *(float*)a[3], *(float*)a[4]);
+}
+
+static const Parameter SHEET_SET_FOLD_PARAMETERS[] = {
+    { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "sheet", FORM_SELF, TYPE_ID, KIND_OBJECT, 1, 0, 0, 0, CLASS_SHEET, NULL, NULL },
+    { "index", FORM_IN, TYPE_INT32, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "stiffness", FORM_IN, TYPE_FLOAT, KIND_REAL, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "rest_angle", FORM_IN, TYPE_FLOAT, KIND_REAL, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
 };
 
 static const Argument KIRI_FILL_RECTANGLE_ARGUMENTS[] = {
@@ -2126,6 +2197,9 @@ const Method METHODS[] = {
     { CLASS_WORLD, "create_rectangle", "kiriCreateRectangle", RETURNS_RESULT, KIND_OBJECT, CLASS_SHEET, 5, 4, WORLD_CREATE_RECTANGLE_ARGUMENTS, 7, WORLD_CREATE_RECTANGLE_PARAMETERS, Call_kiriCreateRectangle, NULL },
     { CLASS_SHEET, "get_settings", "kiriSheet_GetSettings", RETURNS_RESULT, KIND_DICTIONARY, CLASS_NONE, 0, 0, NULL, 3, SHEET_GET_SETTINGS_PARAMETERS, Call_kiriSheet_GetSettings, NULL },
     { CLASS_SHEET, "set_settings", "kiriSheet_SetSettings", RETURNS_RESULT, KIND_INT, CLASS_NONE, 1, 1, SHEET_SET_SETTINGS_ARGUMENTS, 3, SHEET_SET_SETTINGS_PARAMETERS, Call_kiriSheet_SetSettings, NULL },
+    { CLASS_WORLD, "create_folded_sheet", "kiriCreateFoldedSheet", RETURNS_RESULT, KIND_OBJECT, CLASS_SHEET, 2, 2, WORLD_CREATE_FOLDED_SHEET_ARGUMENTS, 5, WORLD_CREATE_FOLDED_SHEET_PARAMETERS, Call_kiriCreateFoldedSheet, NULL },
+    { CLASS_SHEET, "get_fold", "kiriSheet_GetFold", RETURNS_RESULT, KIND_DICTIONARY, CLASS_NONE, 1, 1, SHEET_GET_FOLD_ARGUMENTS, 4, SHEET_GET_FOLD_PARAMETERS, Call_kiriSheet_GetFold, NULL },
+    { CLASS_SHEET, "set_fold", "kiriSheet_SetFold", RETURNS_RESULT, KIND_INT, CLASS_NONE, 3, 3, SHEET_SET_FOLD_ARGUMENTS, 5, SHEET_SET_FOLD_PARAMETERS, Call_kiriSheet_SetFold, NULL },
     { CLASS_KIRI, "fill_rectangle", "kiriFillRectangle", RETURNS_RESULT, KIND_DICTIONARY, CLASS_NONE, 4, 4, KIRI_FILL_RECTANGLE_ARGUMENTS, 6, KIRI_FILL_RECTANGLE_PARAMETERS, Call_kiriFillRectangle, NULL },
     { CLASS_SHEET, "get_mesh", "kiriSheet_GetMesh", RETURNS_RESULT, KIND_DICTIONARY, CLASS_NONE, 0, 0, NULL, 3, SHEET_GET_MESH_PARAMETERS, Call_kiriSheet_GetMesh, NULL },
     { CLASS_SHEET, "get_dirty", "kiriSheet_GetDirty", RETURNS_RESULT, KIND_DICTIONARY, CLASS_NONE, 1, 1, SHEET_GET_DIRTY_ARGUMENTS, 4, SHEET_GET_DIRTY_PARAMETERS, Call_kiriSheet_GetDirty, NULL },

@@ -719,6 +719,43 @@ export interface SheetSettingsGiven {
     normals?: boolean | number;
 }
 
+/** A straight line of the rest plane along which a sheet folds: a hinge, a score, a crease. The sheet stays in one
+ *  piece, and each side of the line has its own control frames. Lines may end in the material, meet and cross; two
+ *  lines in one place add their stiffness. Cuts go through a fold, or along it. The manual has more (folding). */
+export class Fold {
+    /** m */
+    from: number[];
+    /** m */
+    to: number[];
+    /** N m/rad per metre of the line, 0 or more; 0: a free hinge */
+    stiffness: number;
+    /** rad, -pi to pi; above 0 the sides fold towards the normal (valley), below away from it */
+    restAngle: number;
+    /** N m per metre: most that it carries; an angle beyond stays. 0: no limit. Only in a material with a yieldStress */
+    yieldMoment: number;
+}
+/** What a host gives as Fold: what is left out is 0. */
+export interface FoldGiven {
+    /** m */
+    from?: ArrayLike<number>;
+    /** m */
+    to?: ArrayLike<number>;
+    /** N m/rad per metre of the line, 0 or more; 0: a free hinge */
+    stiffness?: number;
+    /** rad, -pi to pi; above 0 the sides fold towards the normal (valley), below away from it */
+    restAngle?: number;
+    /** N m per metre: most that it carries; an angle beyond stays. 0: no limit. Only in a material with a yieldStress */
+    yieldMoment?: number;
+}
+
+/** A fold, its angle (rad, as restAngle; the mean over its length) and the length (m) along which two sides are joined:
+ *  0 where all of it is cut, or inside one region. */
+export class FoldState {
+    fold: Fold;
+    angle: number;
+    length: number;
+}
+
 /** The triangles to draw, as after the last tick, with the detail layer of the material (manual, sheets). revision
  *  grows when indices or vertices are added or changed. Rest positions are floats; sourceTriangles and sourceWeights
  *  have the precision of the library, 2^-29 of the sheet. Arrays are those of the library: after the next tick they
@@ -1286,6 +1323,9 @@ export class World {
      *  columns and rows are 1 to 4096. def: its mesh is not read; null: the defaults. A recording stores it as
      *  kiriCreateSheet. */
     createRectangle(width: number, height: number, columns: number, rows: number, def?: SheetDefGiven | null): Sheet;
+    /** Adds a sheet with folds, 1 to 65536. They are copied, and each keeps its index. KIRI_ERROR_ARGUMENT: the model
+     *  is not KIRI_MODEL_LINKS. */
+    createFoldedSheet(def: SheetDefGiven, folds: FoldGiven[]): Sheet;
     /** Find where a ray first meets the sheet, or any (*sheet is 0 if none), up to maxDistance; hit->triangle is -1 if
      *  it does not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray. */
     raycast(origin: ArrayLike<number>, direction: ArrayLike<number>, maxDistance: number, into?: Hit): { sheet: Sheet | null, hit: Hit };
@@ -1324,6 +1364,12 @@ export class Sheet {
      *  Sheet.getSettings. The sheet wakes if one differs. Positions and velocities are kept, so a new mass changes the
      *  momentum; the stiffness of pins and the lengths that placed the frames are kept, too. */
     setSettings(settings: SheetSettingsGiven): ResultCode;
+    /** Get and change a fold by its index. A part of the sheet that is detached has its own folds, with the same
+     *  indices. A rest angle drives the fold by its stiffness: change it in small steps. The sheet wakes. */
+    getFold(index: number, into?: FoldState): FoldState;
+    /** Get and change a fold by its index. A part of the sheet that is detached has its own folds, with the same
+     *  indices. A rest angle drives the fold by its stiffness: change it in small steps. The sheet wakes. */
+    setFold(index: number, stiffness: number, restAngle: number): ResultCode;
     /** Gets the arrays, without a copy. */
     getMesh(into?: Mesh): Mesh;
     /** Gets the changes since a revision; the whole mesh if the revision is too old, or 0. */

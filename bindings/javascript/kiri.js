@@ -63,6 +63,8 @@ export const layouts = {
     kiriSheetSettings: { size: 92, fields: { cookie: 0, material: 4, maxFrames: 40, crumbArea: 44, friction: 48,
         contactThickness: 52, groups: 56, touchesSheets: 60, selfContact: 64, iterations: 68, sleepSpeed: 72,
         skinning: 76, timeStepping: 80, fadeTime: 84, normals: 88 } },
+    kiriFold: { size: 28, fields: { from: 0, to: 8, stiffness: 16, restAngle: 20, yieldMoment: 24 } },
+    kiriFoldState: { size: 48, fields: { fold: 0, angle: 32, length: 40 } },
     kiriMesh: { size: 36, fields: { positions: 0, normals: 4, restPositions: 8, indices: 12, sourceTriangles: 16,
         sourceWeights: 20, vertexCount: 24, triangleCount: 28, revision: 32 } },
     kiriRange: { size: 8, fields: { first: 0, count: 4 } },
@@ -726,6 +728,57 @@ function writeSheetSettings(o, at, world) {
     if (o.normals !== undefined) {
         I32[(at + 88) >> 2] = o.normals;
     }
+}
+
+export class Fold {
+    from = [0, 0];
+    to = [0, 0];
+    stiffness = 0;
+    restAngle = 0;
+    yieldMoment = 0;
+}
+
+function readFold(o, at, world) {
+    fill(F32, (at) >> 2, o.from);
+    fill(F32, (at + 8) >> 2, o.to);
+    o.stiffness = F32[(at + 16) >> 2];
+    o.restAngle = F32[(at + 20) >> 2];
+    o.yieldMoment = F32[(at + 24) >> 2];
+    return o;
+}
+
+const fieldsOfFold = new Set(["from", "to", "stiffness", "restAngle", "yieldMoment"]);
+
+function writeFold(o, at, world) {
+    known(o, fieldsOfFold, "Fold");
+    if (o.from !== undefined) {
+        put("Float32Array", at, o.from, 2, "from");
+    }
+    if (o.to !== undefined) {
+        put("Float32Array", at + 8, o.to, 2, "to");
+    }
+    if (o.stiffness !== undefined) {
+        F32[(at + 16) >> 2] = o.stiffness;
+    }
+    if (o.restAngle !== undefined) {
+        F32[(at + 20) >> 2] = o.restAngle;
+    }
+    if (o.yieldMoment !== undefined) {
+        F32[(at + 24) >> 2] = o.yieldMoment;
+    }
+}
+
+export class FoldState {
+    fold = new Fold();
+    angle = 0;
+    length = 0;
+}
+
+function readFoldState(o, at, world) {
+    readFold(o.fold, at, world);
+    o.angle = F64[(at + 32) >> 3];
+    o.length = F64[(at + 40) >> 3];
+    return o;
 }
 
 export class Mesh extends Shown {
@@ -1726,6 +1779,26 @@ export class World extends WorldBase {
         }
     }
 
+    createFoldedSheet(def, folds) {
+        const $world = pointer(this);
+        try {
+            wasm.kiriDefaultSheetDef(scratch);
+            writeSheetDef(def, scratch, this);
+            const $folds = take(28 * folds.length);
+            U8.fill(0, $folds, $folds + 28 * folds.length);
+            for (let i = 0; i < folds.length; i++) {
+                writeFold(folds[i], $folds + 28 * i, this);
+            }
+            const $result = wasm.kiriCreateFoldedSheet($world, scratch, $folds, folds.length, scratch + 224);
+            if ($result < 0) {
+                fail(this, $result, "kiriCreateFoldedSheet");
+            }
+            return thing(Sheet, this, U32[(scratch + 224) >> 2]);
+        } finally {
+            release();
+        }
+    }
+
     raycast(origin, direction, maxDistance, into = new Hit()) {
         const $world = pointer(this);
         const $result = wasm.kiriWorld_Raycast($world, put("Float32Array", scratch, origin, 3, "origin"), put("Float32Array", scratch + 16, direction, 3, "direction"), maxDistance, scratch + 32, scratch + 40);
@@ -1867,6 +1940,24 @@ export class Sheet extends Thing {
         const $result = wasm.kiriSheet_SetSettings($world, this.id, scratch);
         if ($result < 0) {
             fail(this.world, $result, "kiriSheet_SetSettings");
+        }
+        return $result;
+    }
+
+    getFold(index, into = new FoldState()) {
+        const $world = pointer(this.world);
+        const $result = wasm.kiriSheet_GetFold($world, this.id, index, scratch);
+        if ($result < 0) {
+            fail(this.world, $result, "kiriSheet_GetFold");
+        }
+        return readFoldState(into, scratch, this.world);
+    }
+
+    setFold(index, stiffness, restAngle) {
+        const $world = pointer(this.world);
+        const $result = wasm.kiriSheet_SetFold($world, this.id, index, stiffness, restAngle);
+        if ($result < 0) {
+            fail(this.world, $result, "kiriSheet_SetFold");
         }
         return $result;
     }

@@ -43,6 +43,8 @@ typedef struct kiriQuality kiriQuality;
 typedef struct kiriPaperOptions kiriPaperOptions;
 typedef struct kiriSheetDef kiriSheetDef;
 typedef struct kiriSheetSettings kiriSheetSettings;
+typedef struct kiriFold kiriFold;
+typedef struct kiriFoldState kiriFoldState;
 typedef struct kiriMesh kiriMesh;
 typedef struct kiriRange kiriRange;
 typedef struct kiriDirty kiriDirty;
@@ -84,6 +86,8 @@ struct kiriQuality { int32_t framesAlong; int32_t gridResolution; int32_t iterat
 struct kiriPaperOptions { int32_t fromScratch; int32_t popping; int32_t linearWeights; int32_t integrationPoints; int32_t integrationOrder; };
 struct kiriSheetDef { uint32_t cookie; const float* restPositions; int32_t vertexCount; const int32_t* indices; int32_t triangleCount; float position[3]; float axisU[3]; float axisV[3]; float velocity[3]; kiriMaterial material; int32_t gridResolution; float snapDistance; float weldDistance; int32_t frameCount; float frameLength; float accuracy; const float* framePoints; int32_t maxFrames; float rigidWeight; float rigidArea; float crumbArea; float friction; float contactThickness; uint32_t groups; int32_t touchesSheets; int32_t selfContact; int32_t collisionPoints; int32_t iterations; float sleepSpeed; int32_t model; int32_t skinning; int32_t planar; int32_t timeStepping; float fadeTime; int32_t normals; kiriPaperOptions paper; };
 struct kiriSheetSettings { uint32_t cookie; kiriMaterial material; int32_t maxFrames; float crumbArea; float friction; float contactThickness; uint32_t groups; int32_t touchesSheets; int32_t selfContact; int32_t iterations; float sleepSpeed; int32_t skinning; int32_t timeStepping; float fadeTime; int32_t normals; };
+struct kiriFold { float from[2]; float to[2]; float stiffness; float restAngle; float yieldMoment; };
+struct kiriFoldState { kiriFold fold; double angle; double length; };
 struct kiriMesh { const float* positions; const float* normals; const float* restPositions; const int32_t* indices; const int32_t* sourceTriangles; const float* sourceWeights; int32_t vertexCount; int32_t triangleCount; uint32_t revision; };
 struct kiriRange { int32_t first; int32_t count; };
 struct kiriDirty { kiriRange newVertices; kiriRange newTriangles; kiriRange oldVertices; kiriRange oldTriangles; uint32_t revision; };
@@ -138,6 +142,9 @@ kiriResult kiriDestroySheet(kiriWorld* world, kiriSheet sheet);
 kiriResult kiriCreateRectangle(kiriWorld* world, float width, float height, int32_t columns, int32_t rows, const kiriSheetDef* def, kiriSheet* sheet);
 kiriResult kiriSheet_GetSettings(const kiriWorld* world, kiriSheet sheet, kiriSheetSettings* settings);
 kiriResult kiriSheet_SetSettings(kiriWorld* world, kiriSheet sheet, const kiriSheetSettings* settings);
+kiriResult kiriCreateFoldedSheet(kiriWorld* world, const kiriSheetDef* def, const kiriFold* folds, int32_t count, kiriSheet* sheet);
+kiriResult kiriSheet_GetFold(const kiriWorld* world, kiriSheet sheet, int32_t index, kiriFoldState* state);
+kiriResult kiriSheet_SetFold(kiriWorld* world, kiriSheet sheet, int32_t index, float stiffness, float restAngle);
 kiriResult kiriFillRectangle(float width, float height, int32_t columns, int32_t rows, float* restPositions, int32_t* indices);
 kiriResult kiriSheet_GetMesh(const kiriWorld* world, kiriSheet sheet, kiriMesh* mesh);
 kiriResult kiriSheet_GetDirty(const kiriWorld* world, kiriSheet sheet, uint32_t sinceRevision, kiriDirty* dirty);
@@ -633,6 +640,8 @@ structs.kiriQuality = {fields = {framesAlong = "number", gridResolution = "numbe
 structs.kiriPaperOptions = {fields = {fromScratch = "number", popping = "number", linearWeights = "number", integrationPoints = "number", integrationOrder = "number"}}
 structs.kiriSheetDef = {fields = {cookie = "number", restPositions = {item = "float", count = "vertexCount", width = 2}, vertexCount = "number", indices = {item = "int32_t", count = "triangleCount", width = 3}, triangleCount = "number", position = 3, axisU = 3, axisV = 3, velocity = 3, material = "kiriMaterial", gridResolution = "number", snapDistance = "number", weldDistance = "number", frameCount = "number", frameLength = "number", accuracy = "number", framePoints = {item = "float", count = "frameCount", width = 2}, maxFrames = "number", rigidWeight = "number", rigidArea = "number", crumbArea = "number", friction = "number", contactThickness = "number", groups = "number", touchesSheets = "number", selfContact = "number", collisionPoints = "number", iterations = "number", sleepSpeed = "number", model = "number", skinning = "number", planar = "number", timeStepping = "number", fadeTime = "number", normals = "number", paper = "kiriPaperOptions"}, default = "kiriDefaultSheetDef"}
 structs.kiriSheetSettings = {fields = {cookie = "number", material = "kiriMaterial", maxFrames = "number", crumbArea = "number", friction = "number", contactThickness = "number", groups = "number", touchesSheets = "number", selfContact = "number", iterations = "number", sleepSpeed = "number", skinning = "number", timeStepping = "number", fadeTime = "number", normals = "number"}}
+structs.kiriFold = {fields = {from = 2, to = 2, stiffness = "number", restAngle = "number", yieldMoment = "number"}}
+structs.kiriFoldState = {fields = {fold = "kiriFold", angle = "number", length = "number"}}
 structs.kiriMesh = {fields = {positions = {item = "float", count = "vertexCount", width = 3}, normals = {item = "float", count = "vertexCount", width = 3}, restPositions = {item = "float", count = "vertexCount", width = 2}, indices = {item = "int32_t", count = "triangleCount", width = 3}, sourceTriangles = {item = "int32_t", count = "vertexCount", width = 1}, sourceWeights = {item = "float", count = "vertexCount", width = 3}, vertexCount = "number", triangleCount = "number", revision = "number"}}
 structs.kiriRange = {fields = {first = "number", count = "number"}}
 structs.kiriDirty = {fields = {newVertices = "kiriRange", newTriangles = "kiriRange", oldVertices = "kiriRange", oldTriangles = "kiriRange", revision = "number"}}
@@ -959,6 +968,35 @@ function Sheet:setSettings(settings)
     local world = self.world
     local result = C.kiriSheet_SetSettings(world.c, self.id, struct_of(world, settings, "kiriSheetSettings"))
     if result < 0 then fail(world, "kiriSheet_SetSettings", result, true) end
+    return result == 1
+end
+
+--- Adds a sheet with folds, 1 to 65536. They are copied, and each keeps its index. KIRI_ERROR_ARGUMENT: the model is
+--- not KIRI_MODEL_LINKS.
+function World:createFoldedSheet(def, folds, count)
+    local world = self
+    folds, count = rows_of(folds, count, "kiriFold", 1)
+    local result = C.kiriCreateFoldedSheet(world.c, struct_of(world, def, "kiriSheetDef"), folds, count, out.Sheet)
+    if result < 0 then fail(world, "kiriCreateFoldedSheet", result, true) end
+    return handle(world, out.Sheet[0], "Sheet")
+end
+
+--- Get and change a fold by its index. A part of the sheet that is detached has its own folds, with the same indices.
+--- A rest angle drives the fold by its stiffness: change it in small steps. The sheet wakes.
+function Sheet:getFold(index, state)
+    local world = self.world
+    state = state or new.kiriFoldState()
+    local result = C.kiriSheet_GetFold(world.c, self.id, index, state)
+    if result < 0 then fail(world, "kiriSheet_GetFold", result, false) end
+    return state
+end
+
+--- Get and change a fold by its index. A part of the sheet that is detached has its own folds, with the same indices.
+--- A rest angle drives the fold by its stiffness: change it in small steps. The sheet wakes.
+function Sheet:setFold(index, stiffness, restAngle)
+    local world = self.world
+    local result = C.kiriSheet_SetFold(world.c, self.id, index, stiffness, restAngle)
+    if result < 0 then fail(world, "kiriSheet_SetFold", result, true) end
     return result == 1
 end
 

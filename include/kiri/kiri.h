@@ -462,6 +462,35 @@ KIRI_API kiriResult kiriSheet_GetSettings(const kiriWorld* world, kiriSheet shee
    momentum; the stiffness of pins and the lengths that placed the frames are kept, too. */
 KIRI_API kiriResult kiriSheet_SetSettings(kiriWorld* world, kiriSheet sheet, const kiriSheetSettings* settings);
 
+/* A straight line of the rest plane along which a sheet folds: a hinge, a score, a crease. The sheet stays in one piece,
+   and each side of the line has its own control frames. Lines may end in the material, meet and cross; two lines in
+   one place add their stiffness. Cuts go through a fold, or along it. The manual has more (folding). */
+typedef struct kiriFold {
+    float from[2], to[2]; /* m */
+    float stiffness;      /* N m/rad per metre of the line, 0 or more; 0: a free hinge */
+    float restAngle;      /* rad, -pi to pi; above 0 the sides fold towards the normal (valley), below away from it */
+    float yieldMoment;    /* N m per metre: most that it carries; an angle beyond stays. 0: no limit. Only in a material
+                             with a yieldStress */
+} kiriFold;
+
+/* Adds a sheet with folds, 1 to 65536. They are copied, and each keeps its index. KIRI_ERROR_ARGUMENT: the model is not
+   KIRI_MODEL_LINKS. */
+KIRI_API kiriResult kiriCreateFoldedSheet(kiriWorld* world, const kiriSheetDef* def, const kiriFold* folds,
+                                          int32_t count, kiriSheet* sheet);
+
+/* A fold, its angle (rad, as restAngle; the mean over its length) and the length (m) along which two sides are joined:
+   0 where all of it is cut, or inside one region. */
+typedef struct kiriFoldState {
+    kiriFold fold;
+    double angle, length;
+} kiriFoldState;
+
+/* Get and change a fold by its index. A part of the sheet that is detached has its own folds, with the same indices. A
+   rest angle drives the fold by its stiffness: change it in small steps. The sheet wakes. */
+KIRI_API kiriResult kiriSheet_GetFold(const kiriWorld* world, kiriSheet sheet, int32_t index, kiriFoldState* state);
+KIRI_API kiriResult kiriSheet_SetFold(kiriWorld* world, kiriSheet sheet, int32_t index, float stiffness,
+                                      float restAngle);
+
 /* Fills in a rectangle from (0, 0) to (width, height) for a sheet def: writes 2 * (columns + 1) * (rows + 1) floats and
    6 * columns * rows indices. columns and rows are 1 to 4096. */
 KIRI_API kiriResult kiriFillRectangle(float width, float height, int32_t columns, int32_t rows, float* restPositions,

@@ -11,6 +11,19 @@ double kiriVec2_DistanceToWay(kiriVec2 p, kiriVec2 a, kiriVec2 b)
     return kiriVec2_Distance(to, kiriVec2_Scale(t, way));
 }
 
+double kiriAngle(double sine, double cosine)
+{
+    double length = sqrt(sine * sine + cosine * cosine), t = length > 0.0 ? sine / (length + fabs(cosine)) : 0.0, sum = 0.0;
+    for (int k = 0; k < 2; ++k) { /* t is the tangent of half the angle, then of a quarter and of an eighth */
+        t /= 1.0 + sqrt(1.0 + t * t);
+    }
+    for (int n = 15; n > 0; n -= 2) {
+        sum = 1.0 / n - t * t * sum;
+    }
+    double angle = 8.0 * t * sum;
+    return cosine >= 0.0 ? angle : (sine < 0.0 ? -3.14159265358979324 : 3.14159265358979324) - angle;
+}
+
 kiriMat3 kiriMat3_AddScaled(const kiriMat3* A, double s, const kiriMat3* B)
 {
     kiriMat3 r = { kiriVec3_AddScaled(A->u, s, B->u), kiriVec3_AddScaled(A->v, s, B->v),

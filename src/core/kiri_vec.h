@@ -81,6 +81,9 @@ static inline double kiriRoot(double a)
 {
     return a > 0.0 ? sqrt(a) : 0.0;
 }
+/* Returns the angle of a vector (cosine, sine) of any length, from -pi to pi. */
+double kiriAngle(double sine, double cosine);
+
 static inline double kiriVec2_Length(kiriVec2 a)
 {
     return sqrt(kiriVec2_Dot(a, a));

@@ -86,7 +86,7 @@ KIRI_TABLE(SightEdgesTable, kiriSightEdges, {
 KIRI_TABLE(LinkWorkTable, kiriLinkWork, {
     KIRI_DERIVED,
     KIRI_ARRAYS(marks, stale, faces, to, made, ends, nextEnds),
-    KIRI_ROOMS(order, stretch),
+    KIRI_ROOMS(order, stretch, parts),
     KIRI_PART(edges, SightEdgesTable),
 })
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 /* Links and corners are hashed and compared byte by byte. */
-typedef char LinkHasNoPadding[sizeof(kiriLink) == 2 * sizeof(int32_t) + 22 * sizeof(double) ? 1 : -1];
+typedef char LinkHasNoPadding[sizeof(kiriLink) == 4 * sizeof(int32_t) + 25 * sizeof(double) ? 1 : -1];
 typedef char CornerHasNoPadding[sizeof(kiriCorner) == 6 * sizeof(int32_t) + 9 * sizeof(double) ? 1 : -1];
 
 /* Cost in items of the budget: a border cell whose steps are read, one whose faces are read, a kept link beside a dirty
@@ -44,7 +44,7 @@ static bool IsStale(const LinkUpdate* u, int32_t region)
 
 static bool IsOfPair(const kiriLink* link, int32_t i, int32_t j)
 {
-    return link->i == i && link->j == j;
+    return link->i == i && link->j == j && link->fold == 0;
 }
 
 /* Returns the first link of a pair of regions, or of the next pair, in a sorted array. */
@@ -52,7 +52,7 @@ static int32_t FirstOfPair(const kiriLink* links, int32_t count, int32_t i, int3
 {
     int32_t low;
     KIRI_ASSERT(i >= 0 && i < j);
-    KIRI_SEARCH(low, 0, count, links[middle].i < i || (links[middle].i == i && links[middle].j < j));
+    KIRI_SEARCH(low, 0, count, links[middle].fold == 0 && (links[middle].i < i || (links[middle].i == i && links[middle].j < j)));
     return low;
 }
 
@@ -1392,6 +1392,199 @@ static bool MakeCorners(const LinkUpdate* u)
     return ok;
 }
 
+/* ---- Folds ------------------------------------------------------------------------------------------------------- */
+
+/* Clips the part of the segment from a to b, as shares, to a square. */
+static bool ClipToSquare(const kiriMeshData* mesh, int32_t square, kiriLatticePoint a, kiriLatticePoint b, double share[2])
+{
+    kiriLatticePoint low = kiriSquares_Corner(&mesh->squares, square);
+    const double from[2] = { (double)a.x - low.x, (double)a.y - low.y };
+    const double way[2] = { (double)b.x - a.x, (double)b.y - a.y };
+    share[0] = 0.0;
+    share[1] = 1.0;
+    for (int k = 0; k < 4; ++k) {
+        double s = k % 2 == 0 ? -from[k / 2] : (double)mesh->squares.side - from[k / 2], v = way[k / 2];
+        bool isEntry = (k % 2 == 0) == (v > 0.0);
+        if (v != 0.0) {
+            share[isEntry ? 0 : 1] = isEntry ? kiriMax(s / v, share[0]) : kiriMin(s / v, share[1]);
+        } else if (k % 2 == 0 ? s > 0.0 : s < 0.0) {
+            return false;
+        }
+    }
+    return share[0] < share[1];
+}
+
+/* Returns the region of a triangle's material in a square, or KIRI_NONE. */
+static int32_t RegionIn(const LinkUpdate* u, int32_t square, int32_t triangle)
+{
+    KIRI_EACH_NODE(node, &u->mesh->squares, square) {
+        if (u->mesh->squares.nodes.data[node].triangle == triangle) {
+            return u->owner[u->grid->nodeCell.data[node]];
+        }
+    }
+    return KIRI_NONE;
+}
+
+/* Adds the part of a crease that lies in a square; h runs along the fold. */
+static bool AddFoldPart(const LinkUpdate* u, const kiriFoldLine* fold, int32_t square, int32_t h)
+{
+    const kiriMeshData* mesh = u->mesh;
+    kiriLatticePoint ends[2] = { kiriMesh_TailAt(mesh, h), kiriMesh_HeadAt(mesh, h) };
+    kiriVec2 start = kiriMesh_Local(mesh, fold->from), way = kiriVec2_Sub(kiriMesh_Local(mesh, fold->to), start);
+    double length = kiriVec2_Length(way), along[2], share[2];
+    for (int k = 0; k < 2; ++k) {
+        along[k] = kiriVec2_Dot(kiriVec2_Sub(kiriMesh_Local(mesh, ends[k]), start), way) / length;
+    }
+    int32_t twin = kiriMesh_Twin(mesh, h);
+    KIRI_ASSERT(length > 0.0 && twin != KIRI_NONE && kiriMesh_IsOpen(mesh, h));
+    if (!(along[0] < along[1]) || !kiriFoldLine_Has(fold, ends[0], ends[1]) ||
+        !ClipToSquare(mesh, square, ends[0], ends[1], share)) {
+        return true;
+    }
+    kiriFoldPart part = { along[0] + share[0] * (along[1] - along[0]), along[0] + share[1] * (along[1] - along[0]),
+                          { RegionIn(u, square, h / 3), RegionIn(u, square, twin / 3) } };
+    bool isDivided = part.region[0] != KIRI_NONE && part.region[1] != KIRI_NONE && part.region[0] != part.region[1];
+    return !isDivided || kiriArray_Push(u->memory, &u->work->parts, part);
+}
+
+/* Orders the parts of a fold by pairs of regions, then along it: in the same way however the mesh came about. */
+static bool IsPartBefore(const void* context, int32_t a, int32_t b)
+{
+    const kiriFoldPart *x = (const kiriFoldPart*)context + a, *y = (const kiriFoldPart*)context + b;
+    for (int k = 0; k < 2; ++k) {
+        if (x->region[k] != y->region[k]) {
+            return x->region[k] < y->region[k];
+        }
+    }
+    return x->from != y->from ? x->from < y->from : x->to < y->to;
+}
+
+/* Makes the link of parts order[first] to order[end - 1], of one pair of regions. */
+static bool MakeFoldLink(const LinkUpdate* u, int32_t fold, int32_t first, int32_t end)
+{
+    const kiriFoldLine* line = &u->mesh->folds.data[fold];
+    const int32_t* order = u->work->order.data;
+    kiriVec2 start = kiriMesh_Local(u->mesh, line->from);
+    kiriVec2 way = kiriVec2_Sub(kiriMesh_Local(u->mesh, line->to), start);
+    kiriVec2 along = kiriVec2_Scale(1.0 / kiriVec2_Length(way), way);
+    kiriNewLink made = { 0 };
+    kiriLink* link = &made.link;
+    double sum = 0.0, second = 0.0;
+    for (int32_t k = first; k < end; ++k) {
+        const kiriFoldPart* part = &u->work->parts.data[order[k]];
+        double length = part->to - part->from;
+        link->width += length;
+        sum += 0.5 * length * (part->from + part->to);
+        second += length * (part->from * part->from + part->from * part->to + part->to * part->to) / 3.0;
+    }
+    const int32_t* region = u->work->parts.data[order[first]].region;
+    bool isLeft = region[0] < region[1];
+    KIRI_ASSERT(first < end && region[0] != region[1] && link->width > 0.0);
+    double middle = sum / link->width, spread = second - sum * middle;
+    link->i = region[isLeft ? 0 : 1];
+    link->j = region[isLeft ? 1 : 0];
+    link->fold = fold + 1;
+    link->hinge = line->stiffness;
+    link->rest = line->restAngle;
+    link->yield = line->yieldMoment;
+    link->tangent = isLeft ? along : kiriVec2_Scale(-1.0, along);
+    link->normal = kiriVec2_Make(link->tangent.y, -link->tangent.x);
+    link->centroid = kiriVec2_AddScaled(start, middle, along);
+    link->moment = kiriMax(spread, 0.0);
+    double before = kiriVec2_Dot(kiriVec2_Sub(link->centroid, SiteAt(u, link->i)), link->normal);
+    double behind = kiriVec2_Dot(kiriVec2_Sub(SiteAt(u, link->j), link->centroid), link->normal);
+    link->length = kiriMax(fabs(before) + fabs(behind), u->grid->side);
+    link->span = kiriVec2_Scale(link->length, link->normal);
+    link->crossing = kiriVec2_AddScaled(link->centroid, 0.5 * (behind - before), link->normal);
+    made.ends.isShort = true;
+    return kiriArray_Push(u->memory, &u->work->made, made);
+}
+
+static bool MakeLinksOfFold(const LinkUpdate* u, int32_t fold)
+{
+    const kiriFoldLine* line = &u->mesh->folds.data[fold];
+    kiriLinkWork* work = u->work;
+    kiriLatticePoint from = line->from, to = line->to;
+    const kiriMeshData* mesh = u->mesh;
+    kiriStrips strips = kiriStrips_Begin(&mesh->squares, from, to, line->reach);
+    work->parts.count = 0;
+    while (kiriStrips_Next(&strips)) {
+        KIRI_EACH_INDEX(i, strips) {
+            int32_t square = strips.square + i * strips.stride;
+            KIRI_EACH_NODE(node, &mesh->squares, square) {
+                KIRI_EACH_CORNER(k) {
+                    int32_t h = 3 * mesh->squares.nodes.data[node].triangle + k;
+                    if (kiriMesh_IsCrease(mesh, h) && !AddFoldPart(u, line, square, h)) {
+                        return false;
+                    }
+                }
+            }
+        }
+    }
+    work->due += work->parts.count;
+    if (!kiriArray_Resize(u->memory, &work->order, work->parts.count)) {
+        return false;
+    }
+    KIRI_EACH_INDEX(k, work->order) {
+        work->order.data[k] = k;
+    }
+    kiriSort(work->order.data, work->order.count, IsPartBefore, work->parts.data);
+    for (int32_t first = 0, end; first < work->order.count; first = end) {
+        const int32_t* region = work->parts.data[work->order.data[first]].region;
+        for (end = first; end < work->order.count; ++end) {
+            const int32_t* other = work->parts.data[work->order.data[end]].region;
+            if (other[0] != region[0] || other[1] != region[1]) {
+                break;
+            }
+        }
+        if (!MakeFoldLink(u, fold, first, end)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool IsFoldBefore(const void* context, int32_t a, int32_t b)
+{
+    const kiriNewLink *x = (const kiriNewLink*)context + a, *y = (const kiriNewLink*)context + b;
+    bool isOfPair = x->link.i == y->link.i && x->link.j == y->link.j;
+    return isOfPair ? a < b : kiriLink_IsBefore(&x->link, &y->link);
+}
+
+/* Makes the links of all folds, after the others. */
+static bool MakeFoldLinks(const LinkUpdate* u)
+{
+    kiriLinks* links = u->links;
+    kiriLinkWork* work = u->work;
+    int32_t old = 0;
+    bool ok = true;
+    KIRI_ASSERT(links->next.count == work->nextEnds.count && links->next.count == links->was.count);
+    work->made.count = 0;
+    for (int32_t f = 0; ok && f < u->mesh->folds.count; ++f) {
+        ok = MakeLinksOfFold(u, f);
+    }
+    int64_t most = (int64_t)links->next.count + work->made.count;
+    if (!ok || !kiriArray_Resize(u->memory, &work->order, work->made.count) ||
+        !kiriArray_Reserve(u->memory, &links->next, most) || !kiriArray_Reserve(u->memory, &work->nextEnds, most) ||
+        !kiriArray_Reserve(u->memory, &links->was, most)) {
+        return false;
+    }
+    KIRI_EACH_INDEX(k, work->order) {
+        work->order.data[k] = k;
+    }
+    kiriSort(work->order.data, work->order.count, IsFoldBefore, work->made.data);
+    KIRI_EACH_INDEX(k, work->order) {
+        const kiriNewLink* made = &work->made.data[work->order.data[k]];
+        while (old < links->links.count && kiriLink_IsBefore(&links->links.data[old], &made->link)) {
+            ++old;
+        }
+        bool isSame = old < links->links.count && memcmp(&links->links.data[old], &made->link, sizeof(made->link)) == 0;
+        links->changed += !isSame;
+        AddNext(u, &made->link, &made->ends, KIRI_NONE);
+    }
+    return true;
+}
+
 /* ---- Updates ----------------------------------------------------------------------------------------------------- */
 
 static bool BeginLinks(const LinkUpdate* u)
@@ -1481,6 +1674,11 @@ static bool KeepLinks(const LinkUpdate* u)
     const kiriLinks* links = u->links;
     bool ok = kiriArray_Resize(u->memory, &work->to, links->links.count);
     for (int32_t first = 0, end = 0; ok && first < links->links.count; first = end) {
+        if (links->links.data[first].fold != 0) {
+            work->to.data[first] = KIRI_NONE;
+            end = first + 1;
+            continue;
+        }
         int32_t i = links->links.data[first].i, j = links->links.data[first].j;
         bool isShort = work->ends.data[first].isShort, isKept = !IsStale(u, i) && (!IsStale(u, j) || isShort);
         bool mayKeep = !isKept && !isShort && !u->regions->dirty.data[i] && !u->regions->dirty.data[j];
@@ -1516,7 +1714,8 @@ static kiriProgress RunLinks(const LinkUpdate* u, kiriQuota* quota)
             ok = MakeLinksAt(u, work->faces.data[face]);
         } else if (face == work->faces.count) {
             int32_t made = work->made.count;
-            ok = MergeLinks(u) && MakeShortLinks(u) && (work->made.count == made || MergeLinks(u)) && MakeCorners(u);
+            ok = MergeLinks(u) && MakeShortLinks(u) && (work->made.count == made || MergeLinks(u)) && MakeCorners(u) &&
+                 MakeFoldLinks(u);
             work->due += 2 * (int64_t)u->links->next.count;
         } else {
             return KIRI_DONE;

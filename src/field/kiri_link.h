@@ -8,9 +8,12 @@
 
 KIRI_C_BEGIN
 
-/* One connected stretch of border between regions i < j. */
+/* One connected stretch of border between regions i < j; or, along a fold, the part of it that two regions share. */
 typedef struct kiriLink {
     int32_t i, j;
+    int32_t fold;      /* 0: a border; else index of the fold line + 1 */
+    int32_t unused;    /* always 0: fills the padding */
+    double hinge, rest, yield; /* of a fold: stiffness and yield moment, N m/rad and N m per m; rest angle, rad */
     double width;      /* W: the border from end to end, m */
     double outer;      /* part of W at open ends, m: each end at the outline or at a slit adds the way along the tangent
                           from the crossing to it; 0 where both ends are corners, to W where both are open */
@@ -42,10 +45,31 @@ static inline kiriVec2 kiriLink_FromEdge(const kiriLink* link, kiriVec2 parts)
     return kiriVec2_Add(kiriVec2_Scale(along, link->normal), kiriVec2_Scale(across, link->tangent));
 }
 
-/* Orders links by their regions. */
+/* Orders links by their regions; folds come last. */
 static inline bool kiriLink_IsBefore(const kiriLink* a, const kiriLink* b)
 {
-    return a->i != b->i ? a->i < b->i : a->j < b->j;
+    bool isFold = a->fold != 0;
+    return isFold != (b->fold != 0) ? !isFold : a->i != b->i ? a->i < b->i : a->j < b->j;
+}
+
+/* Sets stiffness and rest angle of the links of a fold. */
+static inline void kiriLink_SetFolds(kiriLink* links, int32_t count, int32_t fold, double hinge, double rest)
+{
+    for (int32_t k = 0; k < count; ++k) {
+        if (links[k].fold == fold + 1) {
+            links[k].hinge = hinge;
+            links[k].rest = rest;
+        }
+    }
+}
+
+/* Returns the number of links of borders: links of folds come after them. */
+static inline int32_t kiriLink_CountBorders(const kiriLink* links, int32_t count)
+{
+    while (count > 0 && links[count - 1].fold != 0) {
+        --count;
+    }
+    return count;
 }
 
 /* Where three or four regions meet. It couples curvatures, and stretches, of different directions: the sum over its
@@ -103,6 +127,12 @@ typedef struct kiriBorderFace {
     bool isSliver;       /* its material is next to nothing: it does not say where a border ends */
 } kiriBorderFace;
 
+/* The part of a fold that a crease has in a square. */
+typedef struct kiriFoldPart {
+    double from, to;   /* m along the fold */
+    int32_t region[2]; /* left and right of it */
+} kiriFoldPart;
+
 /* An update in progress. Private to kiri_link.c and to snapshots. */
 typedef struct kiriLinkWork {
     bool running;                       /* the update waits for more quota */
@@ -118,10 +148,12 @@ typedef struct kiriLinkWork {
     kiriSightEdges edges;               /* cache, for the squares near the links that are made */
     kiriIndices order;                  /* scratch: faces of a stretch, or `made` by key */
     KIRI_ARRAY(kiriBorderFace) stretch; /* scratch: faces of the link that is being made, in order */
+    KIRI_ARRAY(kiriFoldPart) parts;     /* scratch: of a fold */
 } kiriLinkWork;
 
 typedef struct kiriLinks {
-    /* Sorted by key: (i, j), then the lowest face: by square, axis, and the lowest triangles of its cells. */
+    /* Sorted by key: (i, j), then the lowest face: by square, axis, and the lowest triangles of its cells. Then the
+       links of folds, by (i, j) and fold. */
     KIRI_ARRAY(kiriLink) links;
     KIRI_ARRAY(kiriLink) next; /* result of kiriLinks_Update; Commit swaps */
     int32_t changed;           /* links of `next` that differ from the old ones */

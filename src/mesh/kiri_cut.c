@@ -240,7 +240,7 @@ static bool OpenBetween(BladeWalk* walk, int32_t vertex, kiriLatticePoint other)
         walk->effort += 2 * LOOK_EFFORT; /* once more where the fan is torn */
         bool leaves = kiriLattice_IsSame(kiriMesh_HeadAt(mesh, h), other);
         if (leaves || kiriLattice_IsSame(kiriMesh_TailAt(mesh, previous), other)) {
-            walk->failed = !kiriMesh_Open(walk->mesh, leaves ? h : previous);
+            walk->failed = !kiriMesh_Open(walk->mesh, leaves ? h : previous, walk->tip->isFold != 0);
             return !walk->failed;
         }
     }
@@ -533,7 +533,7 @@ static bool StepBlade(BladeWalk* walk)
 
 static kiriCorridor CorridorOf(const BladeWalk* walk, kiriLatticePoint from, kiriLatticePoint to)
 {
-    return kiriCorridor_Make(walk->mesh, from, to, walk->on + walk->slack, walk->reach);
+    return kiriCorridor_Make(walk->mesh, from, to, walk->on + walk->slack, walk->reach, walk->tip->isFold != 0);
 }
 
 /* Returns a triangle at a point, or KIRI_NONE. */

@@ -52,6 +52,8 @@ typedef struct kiriBladeTip {
     kiriLatticePoint lip;      /* KIRI_BLADE_WALKS: the lip to join at the goal, or the goal itself. KIRI_BLADE_JOINS:
                                   the place on the line to go back to. KIRI_BLADE_LOOKS: the last lip on the way */
     int64_t owed;              /* items of finished work that are not yet paid */
+    int32_t isFold;            /* 1: it creases edges instead of cutting them */
+    int32_t unused;            /* always 0: fills the padding */
 } kiriBladeTip;
 
 /* Upper limit of the triangles that one step of the blade makes or reshapes: it splits one edge or triangle. With less
@@ -74,7 +76,7 @@ kiriProgress kiriCut_Move(kiriMeshData* mesh, kiriBladeTip* blade, kiriLatticePo
 /* Returns a blade at a lattice point, for kiriCut_Move. */
 static inline kiriBladeTip kiriCut_PlaceAt(kiriLatticePoint at)
 {
-    kiriBladeTip blade = { at, KIRI_NONE, KIRI_BLADE_RESTS, at, at, at, at, 0 };
+    kiriBladeTip blade = { at, KIRI_NONE, KIRI_BLADE_RESTS, at, at, at, at, 0, 0, 0 };
     return blade;
 }
 

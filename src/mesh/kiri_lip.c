@@ -6,11 +6,16 @@ enum { LIP_EFFORT = 8, PASSING_EFFORT = 2 };
 /* ---- Corridor ---------------------------------------------------------------------------------------------------- */
 
 kiriCorridor kiriCorridor_Make(const kiriMeshData* mesh, kiriLatticePoint from, kiriLatticePoint to, double on,
-                               double reach)
+                               double reach, bool isFold)
 {
-    kiriCorridor corridor = { mesh, from, to, sqrt((double)kiriDistanceSquared(from, to)), on, reach, 0 };
+    kiriCorridor corridor = { mesh, from, to, sqrt((double)kiriDistanceSquared(from, to)), on, reach, isFold, 0 };
     KIRI_ASSERT(on >= 0.0 && reach >= on);
     return corridor;
+}
+
+static bool IsLip(const kiriCorridor* corridor, int32_t h)
+{
+    return kiriMesh_IsOpen(corridor->mesh, h) && (corridor->isFold || !kiriMesh_IsCrease(corridor->mesh, h));
 }
 
 double kiriCorridor_Side(const kiriCorridor* corridor, kiriLatticePoint p)
@@ -101,7 +106,7 @@ static bool NextLip(kiriCorridor* corridor, LipsAround* around)
         corridor->effort += LIP_EFFORT;
         around->endsWithOutline = isOutline && !isLast;
         around->next = around->endsWithOutline ? h : kiriMesh_NextAround(mesh, h, around->first);
-        if (isLast || kiriMesh_Twin(mesh, h) == KIRI_NONE || kiriMesh_IsOpen(mesh, h)) {
+        if (isLast || kiriMesh_Twin(mesh, h) == KIRI_NONE || IsLip(corridor, h)) {
             around->lip = isLast ? previous : h;
             around->end = isLast ? kiriMesh_Tail(mesh, previous) : kiriMesh_Head(mesh, h);
             return true;
@@ -383,7 +388,7 @@ static bool NextInBox(kiriCorridor* corridor, LipsInBox* box)
     for (;;) {
         while (box->next < box->end) {
             int32_t h = box->next++, twin = kiriMesh_Twin(mesh, h);
-            if (twin == KIRI_NONE || (h < twin && kiriMesh_IsOpen(mesh, h))) {
+            if (twin == KIRI_NONE || (h < twin && IsLip(corridor, h))) {
                 box->lip = h;
                 box->a = kiriMesh_TailAt(mesh, h);
                 box->b = kiriMesh_HeadAt(mesh, h);

@@ -1,5 +1,5 @@
 /* Finds the lips that a blade joins, near a point or along a line. A lip is an edge that a cut has opened; here the outline
-   of the sheet counts as a lip, too. */
+   of the sheet counts as a lip, too. A crease is a lip for folds alone: a cut goes through it, or along it. */
 #ifndef KIRI_LIP_H
 #define KIRI_LIP_H
 
@@ -14,11 +14,12 @@ typedef struct kiriCorridor {
     double length;
     double on;      /* points this near are on the line */
     double reach;   /* half the width of the strip */
+    bool isFold;    /* creases are lips */
     int64_t effort; /* about ns */
 } kiriCorridor;
 
 kiriCorridor kiriCorridor_Make(const kiriMeshData* mesh, kiriLatticePoint from, kiriLatticePoint to, double on,
-                               double reach);
+                               double reach, bool isFold);
 
 /* Returns the distance from the line, positive on its left. */
 double kiriCorridor_Side(const kiriCorridor* corridor, kiriLatticePoint p);

@@ -17,7 +17,15 @@ void kiriMesh_Link(kiriMeshData* mesh, int32_t h, int32_t g)
 void kiriMesh_SetOpen(kiriMeshData* mesh, int32_t h, bool open)
 {
     kiriTriangle* t = &mesh->triangles.data[h / 3];
-    t->marks = (t->marks & ~(1 << (h % 3))) | ((open ? 1 : 0) << (h % 3));
+    t->marks = (t->marks & ~((open ? 1 : 17) << (h % 3))) | ((open ? 1 : 0) << (h % 3));
+}
+
+void kiriMesh_CopyMarks(kiriMeshData* mesh, int32_t h, int32_t g)
+{
+    KIRI_ASSERT(g >= 0 && g / 3 < mesh->triangles.count);
+    kiriTriangle* t = &mesh->triangles.data[g / 3];
+    int32_t marks = kiriMesh_TriangleOf(mesh, h)->marks >> (h % 3) & 17;
+    t->marks = (t->marks & ~(17 << (g % 3))) | marks << (g % 3);
 }
 
 int32_t kiriMesh_AddTriangle(kiriMeshData* mesh, int32_t a, int32_t b, int32_t c, int32_t source, int32_t parent)
@@ -53,6 +61,14 @@ bool kiriMesh_FillSquares(const kiriMeshData* mesh, kiriSquares* squares, kiriMe
 }
 
 /* ---- Questions --------------------------------------------------------------------------------------------------- */
+
+bool kiriFoldLine_Has(const kiriFoldLine* fold, kiriLatticePoint a, kiriLatticePoint b)
+{
+    const kiriVec2 from = { fold->from.x, fold->from.y }, to = { fold->to.x, fold->to.y };
+    KIRI_ASSERT(fold->reach >= 0.0);
+    const kiriVec2 first = { a.x, a.y }, last = { b.x, b.y };
+    return kiriVec2_DistanceToWay(first, from, to) <= fold->reach && kiriVec2_DistanceToWay(last, from, to) <= fold->reach;
+}
 
 int32_t kiriMesh_Locate(const kiriMeshData* mesh, kiriLatticePoint at)
 {
@@ -197,7 +213,7 @@ void kiriMesh_Commit(kiriMeshData* mesh)
 static void MoveHalfEdge(kiriMeshData* mesh, int32_t h, int32_t g)
 {
     kiriVertex* tail = &mesh->vertices.data[kiriMesh_Tail(mesh, g)];
-    kiriMesh_SetOpen(mesh, g, kiriMesh_IsOpen(mesh, h));
+    kiriMesh_CopyMarks(mesh, h, g);
     kiriMesh_Link(mesh, g, kiriMesh_Twin(mesh, h));
     kiriMesh_SetOpen(mesh, h, false);
     if (tail->edge == h) {
@@ -279,7 +295,7 @@ static int32_t SplitSide(kiriMeshData* mesh, int32_t h, int32_t p)
 {
     int32_t next = kiriEdge_Next(h), b = kiriMesh_Tail(mesh, next), c = kiriMesh_Tail(mesh, kiriEdge_Previous(h));
     int32_t added = 3 * kiriMesh_AddTriangle(mesh, p, b, c, mesh->triangles.data[h / 3].source, h / 3);
-    kiriMesh_SetOpen(mesh, added, kiriMesh_IsOpen(mesh, h));
+    kiriMesh_CopyMarks(mesh, h, added);
     MoveHalfEdge(mesh, next, added + 1);
     mesh->triangles.data[next / 3].vertex[next % 3] = p;
     kiriMesh_Link(mesh, next, added + 2);
@@ -432,10 +448,12 @@ static void TearFan(kiriMeshData* mesh, int32_t h)
     kiriMesh_SetSource(mesh, old, mesh->triangles.data[twin / 3].source);
 }
 
-bool kiriMesh_Open(kiriMeshData* mesh, int32_t h)
+bool kiriMesh_Open(kiriMeshData* mesh, int32_t h, bool isCrease)
 {
     int32_t twin = kiriMesh_Twin(mesh, h);
-    if (twin == KIRI_NONE || kiriMesh_IsOpen(mesh, h)) {
+    bool wasCrease = twin != KIRI_NONE && kiriMesh_IsCrease(mesh, h);
+    KIRI_ASSERT(twin == KIRI_NONE || kiriMesh_IsCrease(mesh, twin) == wasCrease);
+    if (twin == KIRI_NONE || (kiriMesh_IsOpen(mesh, h) && (isCrease || !wasCrease))) {
         return true;
     }
     if (!kiriMesh_Reserve(mesh, 1)) {
@@ -445,13 +463,19 @@ bool kiriMesh_Open(kiriMeshData* mesh, int32_t h)
     NoteTriangle(mesh, twin / 3);
     int32_t before = mesh->vertices.count;
     ++mesh->revision;
-    kiriMesh_SetOpen(mesh, h, true);
-    kiriMesh_SetOpen(mesh, twin, true);
+    for (int side = 0; side < 2; ++side) {
+        int32_t g = side == 0 ? h : twin;
+        kiriMesh_SetOpen(mesh, g, false);
+        kiriMesh_SetOpen(mesh, g, true);
+        mesh->triangles.data[g / 3].marks |= (isCrease ? 16 : 0) << g % 3;
+    }
     kiriSquares_MarkEdgeDirty(&mesh->squares, mesh->vertices.data[kiriMesh_Tail(mesh, h)].at,
                               mesh->vertices.data[kiriMesh_Tail(mesh, kiriEdge_Next(h))].at);
-    TearFan(mesh, h);
-    TearFan(mesh, twin);
-    mesh->hasMet |= mesh->vertices.count == before + 2; /* both ends are torn */
+    if (!wasCrease) {
+        TearFan(mesh, h);
+        TearFan(mesh, twin);
+    }
+    mesh->hasMet |= wasCrease || mesh->vertices.count == before + 2; /* both ends are torn */
     return true;
 }
 
@@ -504,7 +528,7 @@ static void RenumberTriangle(kiriTriangle* t, const kiriKeep* triangles, const k
     KIRI_EACH_CORNER(i) {
         t->vertex[i] = kiriKeep_To(vertices, t->vertex[i]);
         t->twin[i] = EdgeTo(triangles, t->twin[i]);
-        t->marks &= t->twin[i] == KIRI_NONE ? ~(1 << i) : ~0;
+        t->marks &= t->twin[i] == KIRI_NONE ? ~(17 << i) : ~0;
     }
     t->parent = kiriKeep_To(triangles, t->parent);
 }
@@ -528,7 +552,7 @@ static bool CopyItems(kiriMeshData* mesh, const kiriMeshData* from, const kiriMe
     KIRI_EACH_INDEX(k, mesh->triangles) {
         kiriTriangle triangle = from->triangles.data[triangles->items.data[k]];
         RenumberTriangle(&triangle, triangles->keep, vertices->keep);
-        triangle.marks &= KIRI_TRIANGLE_OPEN;
+        triangle.marks &= KIRI_TRIANGLE_OPEN | KIRI_TRIANGLE_CREASE;
         mesh->triangles.data[k] = triangle;
     }
     return true;
@@ -584,8 +608,12 @@ bool kiriMesh_MakePart(kiriMeshData* mesh, kiriMemory* memory, const kiriMeshDat
     mesh->step = from->step;
     mesh->revision = from->revision + 1;
     if (!CopyItems(mesh, from, triangles, vertices) || !CopySources(mesh, from) || !StartSquares(mesh, from) ||
-        !kiriMesh_FillSquares(mesh, &mesh->squares, memory)) {
+        !kiriMesh_FillSquares(mesh, &mesh->squares, memory) ||
+        !kiriArray_Resize(memory, &mesh->folds, from->folds.count)) {
         return false;
+    }
+    KIRI_EACH_INDEX(k, mesh->folds) {
+        mesh->folds.data[k] = from->folds.data[k];
     }
     KIRI_EACH_INDEX(v, mesh->vertices) {
         kiriMesh_ListVertex(mesh, v);

@@ -23,12 +23,14 @@ typedef struct kiriTriangle {
     int32_t source;    /* the caller's triangle that contains it */
     int32_t parent;    /* older triangle from which it was split, or KIRI_NONE */
     int32_t
-        marks; /* KIRI_TRIANGLE_..., and bit i: half-edge i is open (cut); its twin agrees. Outline edges are not. */
+        marks; /* KIRI_TRIANGLE_..., and bit i: half-edge i is open (cut); bit 4 + i: it is a crease, which is open,
+                  too; its twin agrees. Outline edges are not. */
 } kiriTriangle;
 
 enum {
-    KIRI_TRIANGLE_OPEN = 7,   /* its open edges */
-    KIRI_TRIANGLE_CHANGED = 8 /* in changedTriangles */
+    KIRI_TRIANGLE_OPEN = 7,    /* its open edges */
+    KIRI_TRIANGLE_CHANGED = 8, /* in changedTriangles */
+    KIRI_TRIANGLE_CREASE = 7 << 4
 };
 
 typedef struct kiriVertex {
@@ -46,6 +48,16 @@ typedef struct kiriBirth {
     double share[3];
 } kiriBirth;
 
+/* A straight line along which the sheet folds. Its edges are creases: open, but a link joins the two sides. */
+typedef struct kiriFoldLine {
+    kiriLatticePoint from, to;
+    double reach; /* lattice steps: creases this near to the line belong to it */
+    float stiffness, restAngle, yieldMoment; /* see kiriFold */
+    int32_t unused; /* always 0: fills the padding */
+} kiriFoldLine;
+
+#define KIRI_MOST_FOLD 3.14159275 /* rad: most of a rest angle; pi, as a float too */
+
 typedef struct kiriMeshData {
     kiriMemory* memory;
     kiriVec2 origin; /* m, rest plane: position of lattice point (0, 0) */
@@ -53,6 +65,7 @@ typedef struct kiriMeshData {
     KIRI_ARRAY(kiriTriangle) triangles;
     KIRI_ARRAY(kiriVertex) vertices;
     kiriSquares squares;
+    KIRI_ARRAY(kiriFoldLine) folds; /* parts keep all of them, in the same order */
     uint32_t revision; /* incremented with every change */
 
     /* Corners of the caller's triangles, three a triangle: they give the barycentric coordinates of vertices, see
@@ -160,6 +173,11 @@ static inline bool kiriMesh_IsOpen(const kiriMeshData* mesh, int32_t h)
     return (kiriMesh_TriangleOf(mesh, h)->marks >> (h % 3) & 1) != 0;
 }
 
+static inline bool kiriMesh_IsCrease(const kiriMeshData* mesh, int32_t h)
+{
+    return (kiriMesh_TriangleOf(mesh, h)->marks >> (4 + h % 3) & 1) != 0;
+}
+
 /* A half-edge stands for the corner at its tail. Returns the next corner of the fan, or KIRI_NONE at the end. */
 static inline int32_t kiriMesh_CounterClockwise(const kiriMeshData* mesh, int32_t h)
 {
@@ -195,6 +213,9 @@ static inline void kiriMesh_Corners(const kiriMeshData* mesh, int32_t triangle, 
 }
 
 /* ---- Queries ---- */
+
+/* Returns true if the crease between two points belongs to the fold. */
+bool kiriFoldLine_Has(const kiriFoldLine* fold, kiriLatticePoint a, kiriLatticePoint b);
 
 /* Computes the barycentric coordinates of a point in a triangle. */
 void kiriMesh_Shares(const kiriMeshData* mesh, int32_t triangle, kiriLatticePoint at, double shares[3]);
@@ -236,9 +257,11 @@ kiriLatticePoint kiriMesh_Snap(const kiriMeshData* mesh, kiriVec2 local);
 /* Adds a triangle without twins and returns its index. */
 int32_t kiriMesh_AddTriangle(kiriMeshData* mesh, int32_t a, int32_t b, int32_t c, int32_t source, int32_t parent);
 
-/* Link makes half-edges h and g twins; g may be KIRI_NONE. SetOpen marks h as open or closed, but not its twin. */
+/* Link makes half-edges h and g twins; g may be KIRI_NONE. SetOpen marks h as open or closed, but not its twin, and
+   as a cut. CopyMarks marks g as h. */
 void kiriMesh_Link(kiriMeshData* mesh, int32_t h, int32_t g);
 void kiriMesh_SetOpen(kiriMeshData* mesh, int32_t h, bool open);
+void kiriMesh_CopyMarks(kiriMeshData* mesh, int32_t h, int32_t g);
 
 /* Writes the corners of one of the caller's triangles. Returns false if the mesh has no part of it. */
 bool kiriMesh_SourceCorners(const kiriMeshData* mesh, int32_t source, kiriLatticePoint corners[3]);
@@ -280,8 +303,9 @@ int32_t kiriMesh_SplitTriangle(kiriMeshData* mesh, int32_t triangle, kiriLattice
    new edge is half-edge kiriEdge_Next(h). */
 bool kiriMesh_FlipEdge(kiriMeshData* mesh, int32_t h);
 
-/* Opens the edge. Each fan at its two ends gets its own vertex. */
-bool kiriMesh_Open(kiriMeshData* mesh, int32_t h);
+/* Opens the edge. Each fan at its two ends gets its own vertex. isCrease: as a crease, unless it is open already. Else
+   a crease becomes a cut. */
+bool kiriMesh_Open(kiriMeshData* mesh, int32_t h, bool isCrease);
 
 /* Return true if all new triangles would be counter-clockwise. Exact. */
 bool kiriMesh_CanSplitEdge(const kiriMeshData* mesh, int32_t h, kiriLatticePoint at);

@@ -9,8 +9,23 @@ KIRI_TABLE(TriangleTable, kiriTriangle, {
     KIRI_INDEX_OR_NONE(KIRI_OF_HALF_EDGES, twin),
     KIRI_RUN(4, source),
     KIRI_INDEX_OR_NONE(KIRI_OF_TRIANGLES, parent),
-    KIRI_WITHIN(0, KIRI_TRIANGLE_OPEN, marks),
+    KIRI_WITHIN(0, KIRI_TRIANGLE_OPEN | KIRI_TRIANGLE_CREASE, marks),
 })
+
+KIRI_TABLE(FoldLineTable, kiriFoldLine, {
+    KIRI_RUN(4, from, to),
+    KIRI_REALS(reach),
+    KIRI_FLOATS(stiffness, yieldMoment),
+    KIRI_WITHIN(0, 0, unused),
+})
+
+static void HashFolds(kiriArchive* archive, void* object)
+{
+    const kiriMeshData* mesh = object;
+    if (archive->mode == KIRI_ARCHIVE_HASH) {
+        kiriArchive_Objects(archive, FoldLineTable, mesh->folds.data, mesh->folds.count);
+    }
+}
 
 KIRI_TABLE(VertexTable, kiriVertex, {
     KIRI_RUN(4, at),
@@ -48,7 +63,9 @@ KIRI_SHARED_TABLE(kiriMeshTable, kiriMeshData, {
     KIRI_PARTS(triangles, TriangleTable),
     KIRI_PARTS(vertices, VertexTable),
     KIRI_PART(squares, SquaresTable),
+    KIRI_CUSTOM(folds, HashFolds),
     KIRI_UNHASHED,
+    KIRI_PARTS(folds, FoldLineTable),
     KIRI_RUN(4, revision, originals),
     KIRI_ITEMS(4, sourceBlocks),
     KIRI_PARTS(sourceCorners, SourceCornerTable),
@@ -110,7 +127,9 @@ static bool AreTriangles(const kiriMeshData* mesh)
         kiriMesh_Corners(mesh, t, c);
         const kiriTriangle* triangle = &mesh->triangles.data[t];
         bool isAscending = t == 0 || t >= mesh->originals || triangle[-1].source < triangle->source;
+        int32_t marks = triangle->marks;
         areFine = triangle->parent < t && kiriOrient(c[0], c[1], c[2]) > 0 && isAscending &&
+                  (marks & KIRI_TRIANGLE_CHANGED) == 0 && (marks >> 4 & ~marks) == 0 &&
                   (mesh->sources.count > 0 || triangle->source < most) && kiriMesh_HasSource(mesh, t);
     }
     return areFine;
@@ -143,8 +162,8 @@ static inline bool IsTwin(const Fan* fan, Corner edge, Corner twin, uint32_t isO
     const kiriTriangle* other = &fan->mesh->triangles.data[twin.triangle];
     int32_t vertex = other->vertex[twin.at];
     return other->twin[twin.at] == (int32_t)(3 * edge.triangle + edge.at) && twin.triangle != edge.triangle &&
-           ((uint32_t)other->marks >> twin.at & 1) == isOpen &&
-           (vertex == fan->vertex || (isOpen && vertex != KIRI_NONE &&
+           ((uint32_t)other->marks >> twin.at & 17) == isOpen &&
+           (vertex == fan->vertex || (isOpen != 0 && vertex != KIRI_NONE &&
             kiriLattice_IsSame(kiriMesh_At(fan->mesh, fan->vertex), kiriMesh_At(fan->mesh, vertex))));
 }
 
@@ -155,17 +174,17 @@ static inline bool TakeCorner(Fan* fan, Corner* corner)
     const kiriTriangle* triangle = &fan->mesh->triangles.data[corner->triangle];
     Corner before = { corner->triangle, corner->at == 0 ? 2 : corner->at - 1 };
     int32_t twin = triangle->twin[before.at];
-    uint32_t isOpen = (uint32_t)triangle->marks >> before.at & 1;
+    uint32_t isOpen = (uint32_t)triangle->marks >> before.at & 17; /* or a crease */
     fan->hasSource |= triangle->source == fan->source;
     fan->count += 1;
     if (twin == KIRI_NONE) {
-        fan->isFine = triangle->vertex[corner->at] == fan->vertex && !isOpen;
+        fan->isFine = triangle->vertex[corner->at] == fan->vertex && isOpen == 0;
         return false;
     }
     Corner next = CornerOfHalfEdge(twin);
     fan->isFine = triangle->vertex[corner->at] == fan->vertex && IsTwin(fan, before, next, isOpen);
     *corner = next;
-    return fan->isFine && !isOpen;
+    return fan->isFine && isOpen == 0;
 }
 
 /* All corners from one on: each is followed by one, and follows one. So it ends: it does not come back but to the
@@ -204,6 +223,30 @@ static bool AreFans(const kiriMeshData* mesh)
     return areFine && corners == 0;
 }
 
+/* Each crease belongs to a fold: so a link joins its sides. */
+static bool AreFolds(const kiriMeshData* mesh)
+{
+    enum { MOST = KIRI_LATTICE + KIRI_LATTICE / 2 + 2 };
+    bool areFine = true;
+    KIRI_EACH_WHILE(areFine, const kiriFoldLine, fold, mesh->folds) {
+        const int32_t ends[4] = { fold->from.x, fold->from.y, fold->to.x, fold->to.y };
+        for (int k = 0; k < 4; ++k) {
+            areFine = areFine && ends[k] >= -MOST && ends[k] <= MOST;
+        }
+        areFine = areFine && !kiriLattice_IsSame(fold->from, fold->to) && fold->reach >= 0.0 &&
+                  fold->reach <= KIRI_LATTICE && fold->stiffness >= 0.0f && fold->yieldMoment >= 0.0f &&
+                  fabs((double)fold->restAngle) <= KIRI_MOST_FOLD;
+    }
+    for (int32_t h = 0; areFine && h < 3 * mesh->triangles.count; ++h) {
+        bool isClaimed = !kiriMesh_IsCrease(mesh, h);
+        for (int32_t f = 0; !isClaimed && f < mesh->folds.count; ++f) {
+            isClaimed = kiriFoldLine_Has(&mesh->folds.data[f], kiriMesh_TailAt(mesh, h), kiriMesh_HeadAt(mesh, h));
+        }
+        areFine = isClaimed;
+    }
+    return areFine;
+}
+
 /* ---- Squares ----------------------------------------------------------------------------------------------------- */
 
 /* Vertices and triangles come into squares in ascending order, as in a mesh that is made. */
@@ -240,7 +283,8 @@ void kiriMesh_Derive(kiriMeshData* mesh, kiriArchive* archive)
     kiriArchive_Expect(archive, mesh->step > 0.0 && squares->side > 0 && squares->side % 2 == 0 &&
                                     AreLines(squares, squares->firstColumn, squares->columns) &&
                                     AreLines(squares, squares->firstRow, squares->rows) && AreVertices(mesh) &&
-                                    AreSourceCorners(mesh) && AreTriangles(mesh) && AreFans(mesh));
+                                    AreSourceCorners(mesh) && AreTriangles(mesh) && AreFans(mesh) &&
+                                    AreFolds(mesh));
     if (!kiriArchive_HasFailed(archive)) {
         FillSquares(mesh, archive);
     }

@@ -442,6 +442,7 @@ bool kiriEstimate_Error(kiriMemory* memory, const kiriFrameData* frames, int32_t
                         const kiriMaterial* material, double* relative)
 {
     Fit* fits = kiriMemory_AllocZeroed(memory, (int64_t)sizeof(Fit) * frameCount);
+    linkCount = kiriLink_CountBorders(links, linkCount);
     if (fits == NULL) {
         return false;
     }

@@ -215,6 +215,7 @@ void kiriYields_Share(kiriYield* yields, const kiriLink* links, int32_t linkCoun
                       int32_t frameCount)
 {
     memset(regions, 0, sizeof(*regions) * (size_t)frameCount);
+    linkCount = kiriLink_CountBorders(links, linkCount);
     for (int32_t k = 0; k < linkCount; ++k) {
         kiriVec2 curvature = CurvatureOf(&yields[k].elastic, &links[k]);
         AddLink(&regions[links[k].i], &links[k], curvature, 0.0);
@@ -258,7 +259,7 @@ void kiriPlastics_Remember(kiriPlastics* plastics, const kiriLink* links, int32_
     KIRI_ASSERT(plastics->links.count == 0 || plastics->links.count == linkCount);
     plastics->regions.count = frameCount;
     memset(regions, 0, sizeof(*regions) * (size_t)frameCount);
-    for (int32_t k = 0; k < plastics->links.count; ++k) {
+    for (int32_t k = 0, end = kiriLink_CountBorders(links, plastics->links.count); k < end; ++k) {
         kiriVec2 curvature = CurvatureOf(&plastics->links.data[k].part, &links[k]);
         AddLink(&regions[links[k].i], &links[k], curvature, plastics->links.data[k].reach);
         AddLink(&regions[links[k].j], &links[k], curvature, plastics->links.data[k].reach);
@@ -308,14 +309,19 @@ void kiriPlastics_Take(kiriPlastics* plastics, const kiriLink* old, const kiriLi
     for (int32_t k = 0; k < linkCount; ++k) {
         const kiriLink *link = &links[k], *was = from[k] != KIRI_NONE ? &old[from[k]] : NULL;
         kiriPlastic* next = &plastics->next.data[k];
-        if (was != NULL && from[k] < plastics->links.count && memcmp(was, link, sizeof(*link)) == 0) {
+        bool hasOlder = was != NULL && from[k] < plastics->links.count;
+        if (link->fold != 0 && !hasOlder) {
+            memset(next, 0, sizeof(*next));
+            continue;
+        }
+        if (hasOlder && (link->fold != 0 || memcmp(was, link, sizeof(*link)) == 0)) {
             *next = plastics->links.data[from[k]];
             continue;
         }
         kiriVec2 curvature = MeanCurvature(plastics, link->i, link->j, link->normal);
         kiriBentStrain by = { 1.0, 0.0, 0.0 };
         next->reach = 0.5 * (plastics->regions.data[link->i].reach + plastics->regions.data[link->j].reach);
-        if (was != NULL && from[k] < plastics->links.count) { /* it keeps its difference to the mean */
+        if (hasOlder) { /* it keeps its difference to the mean */
             const kiriPlastic* older = &plastics->links.data[from[k]];
             kiriVec2 mean = MeanCurvature(plastics, was->i, was->j, was->normal);
             curvature = kiriVec2_Add(curvature, kiriVec2_Sub(CurvatureOf(&older->part, was), mean));

@@ -87,6 +87,11 @@ static kiriSystem SystemOf(const kiriSolverBodies* bodies, const kiriSolverBody*
     return system;
 }
 
+void kiriSolver_SetFold(kiriSolver* solver, int32_t fold, double hinge, double rest)
+{
+    kiriLink_SetFolds(solver->bodies.ownLinks.data, solver->bodies.ownLinks.count, fold, hinge, rest);
+}
+
 /* Fails on out of memory. */
 static bool ReserveBodies(kiriSolver* s, const kiriSystem* next)
 {

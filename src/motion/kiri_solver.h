@@ -172,6 +172,9 @@ bool kiriSolver_Stage(kiriSolver* solver, const kiriSystem* next, const int32_t*
 /* Replaces the bodies with the staged ones, all of them moved. No-op if nothing is staged. Cannot fail. */
 void kiriSolver_Commit(kiriSolver* solver);
 
+/* Sets stiffness and rest angle of a fold. */
+void kiriSolver_SetFold(kiriSolver* solver, int32_t fold, double hinge, double rest);
+
 /* Makes bodies without elements, and with empty matrices, for a load. Fails on out of memory. */
 bool kiriSolver_MakeBodies(kiriSolver* solver, const int32_t* framePiece, int32_t frameCount, int32_t pieceCount);
 

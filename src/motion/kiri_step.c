@@ -542,9 +542,9 @@ static void BeginYields(kiriSolver* solver, const kiriSystem* system)
     for (int32_t k = 0; solver->yields && k < system->linkCount; ++k) {
         const kiriMaterial* material = kiriSystem_MaterialOf(system, system->links[k].i);
         const kiriBentStrain strain = kiriBentStrain_Of(&solver->startStrain.data[KIRI_MOST_STRAINS * k]);
-        const kiriBentStrain stiffness = kiriBentStrain_Of(&solver->stiffness.data[KIRI_MOST_STRAINS * k]);
         const kiriBentStrain offset = kiriBentStrain_Of(system->strainOffsets[k].strain);
-        double length = kiriStrain_YieldLength(&system->links[k], material, strain.bending);
+        kiriBentStrain stiffness = kiriBentStrain_Of(&solver->stiffness.data[KIRI_MOST_STRAINS * k]);
+        double length = kiriStrain_YieldLength(&system->links[k], material, &stiffness, strain.bending);
         kiriYield_Begin(&system->flows[k], &system->plastics[k], material, length, &stiffness, &offset, &strain);
     }
     if (solver->yields) {

@@ -411,10 +411,89 @@ static void TakeCurl(const kiriCurl* curl, double* bending, kiriStrainRow* row)
     *bending *= factor;
 }
 
+/* Returns D of a plate, N m. */
+static double PlateStiffness(const kiriMaterial* material)
+{
+    double h = (double)material->thickness, nu = (double)material->poissonsRatio;
+    return (double)material->youngsModulus * h * h * h / (12.0 * (1.0 - nu * nu));
+}
+
+/* Measures the part along a vector that frame i carries, of a vector that j carries, or of the gap at a point: `from` are
+   the arms of the gap, or null. */
+static double MeasureAlong(kiriVec3 axis, kiriVec3 vector, const EndVectors* from, kiriStrainRow* row)
+{
+    if (row != NULL) {
+        kiriVec3 turn = kiriVec3_Cross(axis, vector), move = from != NULL ? axis : (kiriVec3){ 0 };
+        row->end[0].turn = from != NULL ? kiriVec3_Add(turn, kiriVec3_Cross(axis, from->ends[0])) : turn;
+        row->end[1].turn = kiriVec3_Cross(from != NULL ? from->ends[1] : vector, axis);
+        row->end[0].move = kiriVec3_Scale(-1.0, move);
+        row->end[1].move = move;
+    }
+    return kiriVec3_Dot(axis, vector);
+}
+
+/* Measures the angle by which j is folded up against i. It is counted from half a turn before to half a turn behind a
+   quarter of the rest angle: so both the flat sheet and the rest angle are within the range. */
+static double MeasureHinge(const kiriLink* link, const kiriVec3 axes[2][3], kiriStrainRow* row)
+{
+    kiriStrainRow byCosine;
+    double sine = MeasureAlong(axes[0][2], axes[1][0], NULL, row);
+    double cosine = MeasureAlong(axes[0][2], axes[1][2], NULL, row != NULL ? &byCosine : NULL);
+    double square = kiriMax(sine * sine + cosine * cosine, LEAST_AXIS), angle = kiriAngle(sine, cosine);
+    double low = 0.25 * link->rest - HALF_TURN, high = 0.25 * link->rest + HALF_TURN;
+    if (row != NULL) {
+        ScaleRow(row, cosine / square);
+        AddRow(row, -sine / square, &byCosine);
+    }
+    return angle < low ? angle + 2.0 * HALF_TURN : angle > high ? angle - 2.0 * HALF_TURN : angle;
+}
+
+/* Measures the strains of a fold, see kiri_strain.h. */
+static void MeasureFold(const kiriLink* link, const kiriFrameData* const frames[2], const kiriPose* const poses[2],
+                        double strain[KIRI_STRAINS], kiriStrainRow* rows)
+{
+    KIRI_ASSERT(link->fold > 0 && link->hinge >= 0.0);
+    EndVectors b = PointVectors(frames, poses, link->centroid);
+    kiriVec3 axes[2][3];
+    for (int k = 0; k < 2; ++k) {
+        axes[k][0] = kiriPose_Along(poses[k], link->normal);
+        axes[k][1] = kiriPose_Along(poses[k], link->tangent);
+        axes[k][2] = poses[k]->A.d;
+    }
+#define FOLD_ROW(s) (rows != NULL ? &rows[s] : NULL)
+    strain[KIRI_STRETCH] = MeasureAlong(axes[0][0], b.gap, &b, FOLD_ROW(KIRI_STRETCH));
+    strain[KIRI_SHEAR] = MeasureAlong(axes[0][1], b.gap, &b, FOLD_ROW(KIRI_SHEAR));
+    strain[KIRI_NORMAL_GAP] = MeasureAlong(axes[0][2], b.gap, &b, FOLD_ROW(KIRI_NORMAL_GAP));
+    strain[KIRI_PLANE_BENDING] = MeasureAlong(axes[0][0], axes[1][1], NULL, FOLD_ROW(KIRI_PLANE_BENDING));
+    strain[KIRI_TWIST] = MeasureAlong(axes[0][2], axes[1][1], NULL, FOLD_ROW(KIRI_TWIST));
+    strain[KIRI_BENDING] = MeasureHinge(link, (const kiriVec3(*)[3])axes, FOLD_ROW(KIRI_BENDING)) - link->rest;
+#undef FOLD_ROW
+    for (int s = KIRI_FOLD; s <= KIRI_NORMAL_STOP; ++s) {
+        strain[s] = 0.0;
+        if (rows != NULL) {
+            memset(&rows[s], 0, sizeof(rows[s]));
+        }
+    }
+}
+
+double kiriFold_Angle(const kiriLink* link, const kiriMaterial* material, const kiriFrameData* const frames[2],
+                      const kiriPose* const poses[2], double offset)
+{
+    double strain[KIRI_STRAINS], stiffness[KIRI_STRAINS];
+    MeasureFold(link, frames, poses, strain, NULL);
+    kiriStrain_Stiffness(link, material, stiffness);
+    double moment = stiffness[KIRI_BENDING] * (strain[KIRI_BENDING] - offset);
+    return strain[KIRI_BENDING] + link->rest - moment / (PlateStiffness(material) * link->width / link->length);
+}
+
 void kiriStrain_Measure(const kiriLink* link, const kiriMaterial* material, const kiriFrameData* const frames[2],
                         const kiriPose* const poses[2], double strain[KIRI_STRAINS], kiriStrainRow* rows)
 {
     KIRI_ASSERT(link->length > 0.0 && link->width > 0.0);
+    if (link->fold != 0) {
+        MeasureFold(link, frames, poses, strain, rows);
+        return;
+    }
     MeanAxes axes = MeanAxesOf(link, poses, rows != NULL);
     EndVectors b = PointVectors(frames, poses, link->centroid), m = PointVectors(frames, poses, link->crossing);
     kiriVec2 middle = kiriVec2_Scale(0.5, kiriVec2_Add(PivotOf(frames[0]), PivotOf(frames[1])));
@@ -483,8 +562,32 @@ double kiriStrain_NormalGapWidth(const kiriLink* link, double poissonsRatio)
            (1.0 - nu * nu) * (GAP_OUTER * (outer - lone + link->beyond) + lone);
 }
 
+/* Part of the turn of a fold that the material makes at which a fold is half a hinge, half a plate. */
+#define HALF_HINGE 0.05
+
+/* Sets the stiffness of a fold. Along its line the material neither stretches nor curls. The hinge and the material up to
+   the two sites turn in series. At a soft hinge both sides are as stiff as they are in their plane, or they would come
+   apart visibly; the regions beyond bend and twist. A stiff one bends and twists as a plate. */
+static void SetFoldStiffness(const kiriLink* link, const kiriMaterial* material, double stiffness[KIRI_STRAINS])
+{
+    double nu = (double)material->poissonsRatio, W = link->width, l = link->length;
+    double membrane = (double)material->youngsModulus * material->thickness / l, bending = PlateStiffness(material) / l;
+    double share = link->hinge / (bending + link->hinge), loose = 1.0 / (1.0 + share * share / (HALF_HINGE * HALF_HINGE));
+    stiffness[KIRI_STRETCH] = membrane * W;
+    stiffness[KIRI_SHEAR] = membrane * W / (1.0 + nu);
+    stiffness[KIRI_PLANE_BENDING] = membrane * kiriMax(link->moment, W * W * W / 12.0);
+    stiffness[KIRI_BENDING] = W * bending * share;
+    stiffness[KIRI_TWIST] = bending * (1.0 - nu) * W + loose * stiffness[KIRI_PLANE_BENDING];
+    stiffness[KIRI_NORMAL_GAP] = KIRI_NORMAL_GAP_BETA * bending * W / (l * l) + loose * membrane * W;
+    stiffness[KIRI_FOLD] = stiffness[KIRI_NORMAL_STOP] = 0.0;
+}
+
 void kiriStrain_Stiffness(const kiriLink* link, const kiriMaterial* material, double stiffness[KIRI_STRAINS])
 {
+    if (link->fold != 0) {
+        SetFoldStiffness(link, material, stiffness);
+        return;
+    }
     double h = (double)material->thickness, nu = (double)material->poissonsRatio, l = link->length;
     double membrane = (double)material->youngsModulus * h / l, bending = membrane * h * h / (12.0 * (1.0 - nu * nu));
     double outer = link->outer, inner = link->width - outer, beyond = link->beyond;
@@ -605,8 +708,7 @@ void kiriStrainOffsets_Remember(kiriStrainOffsets* strainOffsets, const kiriFram
     }
 }
 
-/* Links and frames are compared byte by byte, so they must have no padding. */
-typedef char kiriLinkHasNoPadding[sizeof(kiriLink) == 2 * sizeof(int32_t) + 22 * sizeof(double) ? 1 : -1];
+/* Frames are compared byte by byte, so they must have no padding. */
 typedef char kiriPoseHasNoPadding[sizeof(kiriPose) == 12 * sizeof(double) ? 1 : -1];
 
 static void MeasureLink(const kiriLink* link, const kiriMaterial* material, const kiriFrameData* i,
@@ -630,11 +732,6 @@ static bool IsFrameUnmoved(const kiriStrainOffsets* strainOffsets, const kiriFra
     const kiriFrameData *was = kiriStrainOffsets_FrameBefore(strainOffsets, frames, f), *is = &frames[f];
     return was == is || (memcmp(&was->x, &is->x, sizeof(is->x)) == 0 && memcmp(&was->A, &is->A, sizeof(is->A)) == 0 &&
                          memcmp(&was->center, &is->center, sizeof(is->center)) == 0);
-}
-
-static bool IsLinkBefore(const kiriLink* a, const kiriLink* b)
-{
-    return a->i != b->i ? a->i < b->i : a->j < b->j;
 }
 
 /* Returns the offset of a link; `old` is the link that it goes on from, or null. */
@@ -663,10 +760,10 @@ static void FindOlder(kiriStrainOffsets* strainOffsets, const kiriLink* old, int
     for (int32_t k = 0; k < linkCount; ++k) {
         bool known = was != NULL && was[k] == o;
         if (!known) {
-            while (o < oldCount && IsLinkBefore(&old[o], &links[k])) {
+            while (o < oldCount && kiriLink_IsBefore(&old[o], &links[k])) {
                 ++o;
             }
-            known = o < oldCount && !IsLinkBefore(&links[k], &old[o]);
+            known = o < oldCount && !kiriLink_IsBefore(&links[k], &old[o]);
         }
         strainOffsets->from.data[k] = known ? o : KIRI_NONE;
         o += known;
@@ -786,9 +883,16 @@ double kiriCurl_Factor(const kiriCurl* curl, double squaredAngle, double* slope)
     return factor;
 }
 
-double kiriStrain_YieldLength(const kiriLink* link, const kiriMaterial* material, double bending)
+double kiriStrain_YieldLength(const kiriLink* link, const kiriMaterial* material, kiriBentStrain* stiffness,
+                              double bending)
 {
     double slope;
+    if (link->fold != 0) {
+        double perAngle = 2.0 * (double)material->yieldStress / ((double)material->youngsModulus * material->thickness);
+        double limit = link->yield > 0.0 && stiffness->bending > 0.0 ? link->yield * link->width / (1.5 * stiffness->bending) : 0.0;
+        *stiffness = (kiriBentStrain){ limit > 0.0 ? stiffness->bending : 0.0, 0.0, 0.0 };
+        return limit / perAngle;
+    }
     kiriCurl curl = kiriCurl_Of(link, material, link->outer);
     return link->length * (curl.gain > 0.0 ? kiriCurl_Factor(&curl, bending * bending, &slope) : 1.0);
 }

@@ -91,6 +91,14 @@ typedef struct kiriStrainRow {
 void kiriStrain_Measure(const kiriLink* link, const kiriMaterial* material, const kiriFrameData* const frames[2],
                         const kiriPose* const poses[2], double strain[KIRI_STRAINS], kiriStrainRow* rows);
 
+/* Folds (kiriLink.fold) have the same strains, with another meaning: gaps at the middle of the line, along the axes of
+   frame i; plane bending and twist are the parts of tau_j along n_i and d_i; bending is the angle by which the sheet is
+   folded towards its normal, less the rest angle. So nothing is undefined at half a turn, and the law is linear in the
+   angle. Returns the angle of the hinge alone, without the bending of the material up to the two sites; offset: of the
+   bending strain. */
+double kiriFold_Angle(const kiriLink* link, const kiriMaterial* material, const kiriFrameData* const frames[2],
+                      const kiriPose* const poses[2], double offset);
+
 /* Returns the damping factor of a link in a step that starts with these strains, 0 to 1. It is 0 at half a turn, where
    strains change fast while the sheet hardly moves. */
 double kiriStrain_Damping(const double strain[KIRI_STRAINS]);
@@ -134,8 +142,11 @@ typedef struct kiriTrace {
 } kiriTrace;
 
 /* Returns the length of a link whose bending strain by the curl (below) is the angle of a longer one: the law of plastic
-   bending is in terms of the angle. */
-double kiriStrain_YieldLength(const kiriLink* link, const kiriMaterial* material, double bending);
+   bending is in terms of the angle. A fold has the length of a strip that begins to yield at two thirds of its yield
+   moment, so it carries hardly more than that; only its hinge flows, and nothing if it has none: then stiffness, of
+   what flows, becomes zero. */
+double kiriStrain_YieldLength(const kiriLink* link, const kiriMaterial* material, kiriBentStrain* stiffness,
+                              double bending);
 
 /* Measures the traces from the strains of the corner's links, KIRI_STRAINS for each link. */
 kiriTrace kiriTrace_Measure(const kiriCorner* corner, const kiriLink* links, const double* const strains[4],

@@ -369,7 +369,52 @@ bool kiriBuild_Commit(kiriSheetData* sheet)
     return true;
 }
 
-kiriResult kiriBuild_FromDef(kiriSheetData* sheet, const kiriSheetDef* def, kiriFault* fault)
+/* ---- Folds ------------------------------------------------------------------------------------------------------ */
+
+/* Distance from the line within which its creases are, in snap distances: ends are within 3/2 (kiri_cut.h). */
+#define FOLD_REACH 2.0
+
+kiriResult kiriFolds_Add(kiriSheetData* sheet, const kiriFold* fold, kiriFault* fault)
+{
+    kiriMeshData* mesh = &sheet->mesh;
+    kiriVec2 from = kiriSheet_ToLocal(sheet, fold->from), to = kiriSheet_ToLocal(sheet, fold->to);
+    bool isInside = kiriCut_Clip(mesh, &from, &to);
+    kiriFoldLine line = { kiriMesh_Snap(mesh, from),
+                          kiriMesh_Snap(mesh, to),
+                          FOLD_REACH * sheet->settings.snap,
+                          fold->stiffness,
+                          fold->restAngle,
+                          fold->yieldMoment,
+                          0 };
+    if (!isInside || kiriLattice_IsSame(line.from, line.to)) {
+        KIRI_SAY(fault, "fold %lld is a point, or far from the sheet", (long long)mesh->folds.count);
+        return KIRI_ERROR_ARGUMENT;
+    }
+    return kiriArray_Push(sheet->memory, &mesh->folds, line) ? KIRI_OK : KIRI_ERROR_MEMORY;
+}
+
+/* Creases the mesh along folds. */
+static kiriResult AddFolds(kiriSheetData* sheet, const kiriFold* folds, int32_t count, kiriFault* fault)
+{
+    kiriMeshData* mesh = &sheet->mesh;
+    kiriResult result = KIRI_OK;
+    for (int32_t i = 0; result == KIRI_OK && i < count; ++i) {
+        result = kiriFolds_Add(sheet, &folds[i], fault);
+        if (result == KIRI_OK) {
+            const kiriFoldLine* line = &mesh->folds.data[i];
+            kiriQuota unlimited = { INT64_MAX, 0, 0, false };
+            kiriBladeTip blade = kiriCut_PlaceAt(line->from);
+            blade.isFold = 1;
+            kiriProgress progress = kiriCut_Move(mesh, &blade, line->to, sheet->settings.snap, &unlimited);
+            result = progress == KIRI_DONE ? KIRI_OK : KIRI_ERROR_MEMORY;
+        }
+    }
+    kiriMesh_Begin(mesh);
+    return result;
+}
+
+kiriResult kiriBuild_FromDef(kiriSheetData* sheet, const kiriSheetDef* def, const kiriFold* folds, int32_t foldCount,
+                             kiriFault* fault)
 {
     const kiriMeshInput input = { def->restPositions, def->vertexCount,    def->indices,
                                   def->triangleCount, def->gridResolution, def->weldDistance };
@@ -380,6 +425,10 @@ kiriResult kiriBuild_FromDef(kiriSheetData* sheet, const kiriSheetDef* def, kiri
     SetAll(&sheet->settings, &sheet->mesh, def);
     kiriSettings_Apply(sheet);
     kiriMesh_Begin(&sheet->mesh);
+    result = AddFolds(sheet, folds, foldCount, fault);
+    if (result != KIRI_OK) {
+        return result;
+    }
     sheet->solver = kiriSolver_Create(sheet->memory, &sheet->settings.mechanics);
     return sheet->solver != NULL ? BuildFromMesh(sheet, def, fault) : KIRI_ERROR_MEMORY;
 }

@@ -25,10 +25,14 @@ bool kiriSheet_RestageSolver(kiriSheetData* sheet, const kiriMaterial* material)
 
 /* Builds a new sheet from a checked def. On failure the fault gives the reason, or "" if the result is enough, and the
    caller deletes the sheet. The world assigns the ids of sheet and frames. */
-kiriResult kiriBuild_FromDef(kiriSheetData* sheet, const kiriSheetDef* def, kiriFault* fault);
+kiriResult kiriBuild_FromDef(kiriSheetData* sheet, const kiriSheetDef* def, const kiriFold* folds, int32_t foldCount,
+                             kiriFault* fault);
 
 /* Commits the first layout of a sheet, after all stages. Fails on out of memory. */
 bool kiriBuild_Commit(kiriSheetData* sheet);
+
+/* Adds a checked fold to the table; its creases are made later. KIRI_ERROR_ARGUMENT, with a fault, or out of memory. */
+kiriResult kiriFolds_Add(kiriSheetData* sheet, const kiriFold* fold, kiriFault* fault);
 
 KIRI_C_END
 

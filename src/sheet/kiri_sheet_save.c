@@ -240,6 +240,8 @@ KIRI_TABLE(BladeTipTable, kiriBladeTip, {
     KIRI_COUNTS(owed),
     KIRI_UNHASHED,
     KIRI_RUN(4, from, lip),
+    KIRI_WITHIN(0, 1, isFold),
+    KIRI_WITHIN(0, 0, unused),
 })
 
 KIRI_TABLE(TipTable, kiriTip, {

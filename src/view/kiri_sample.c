@@ -312,13 +312,12 @@ kiriProgress kiriRefresh_Start(kiriRefresh* refresh, const kiriSampleSource* sou
     return KIRI_DONE;
 }
 
-/* Stages one sample. Many samples have the cell of the sample before. */
-static bool RefreshOne(kiriRefresh* refresh, const kiriSampleSource* source, int32_t square, int32_t sample)
+/* Puts the weights of one sample into the stencil. Many samples have the cell of the sample before. */
+static bool WeighSample(kiriRefresh* refresh, const kiriSampleSource* source, int32_t square, int32_t sample)
 {
     const kiriGrid* grid = source->grid;
     const kiriMeshData* mesh = source->mesh;
     kiriStencil* stencil = &refresh->stencil;
-    kiriSkin* skin = source->skin;
     bool isVertex = source->places == NULL;
     kiriLatticePoint at = isVertex ? kiriMesh_At(mesh, sample) : source->points->data[sample].at;
     KIRI_ASSERT_HAS(grid->squareCell, square);
@@ -331,7 +330,95 @@ static bool RefreshOne(kiriRefresh* refresh, const kiriSampleSource* source, int
     }
     kiriVec2 lean = stencil->split && isVertex ? kiriMesh_Lean(mesh, sample) : kiriVec2_Make(0.0, 0.0);
     kiriStencil_Weigh(stencil, kiriMesh_Local(mesh, at), lean);
-    if (!StageWeights(skin, source->memory, stencil, sample)) {
+    return true;
+}
+
+/* Lists the vertices that creases join at the point of a vertex, ascending. */
+static bool ListJoined(kiriIndices* joined, kiriMemory* memory, const kiriMeshData* mesh, int32_t vertex)
+{
+    int32_t start = mesh->vertices.data[vertex].edge, h = start;
+    bool ok = true;
+    KIRI_ASSERT(start >= 0 && kiriMesh_Tail(mesh, start) == vertex);
+    joined->count = 0;
+    for (int32_t back = start;;) { /* clockwise to the first edge of the fans */
+        int32_t twin = kiriMesh_Twin(mesh, back);
+        bool isJoined = twin != KIRI_NONE && (!kiriMesh_IsOpen(mesh, back) || kiriMesh_IsCrease(mesh, back));
+        h = back;
+        back = isJoined ? kiriEdge_Next(twin) : start;
+        if (back == start) {
+            break;
+        }
+    }
+    const int32_t first = h;
+    do {
+        int32_t previous = kiriEdge_Previous(h), v = kiriMesh_Tail(mesh, h), at = joined->count;
+        bool isKnown = false;
+        KIRI_EACH_INDEX(k, *joined) {
+            isKnown = isKnown || joined->data[k] == v;
+        }
+        ok = isKnown || kiriArray_Push(memory, joined, v);
+        for (; ok && !isKnown && at > 0 && joined->data[at - 1] > v; --at) {
+            joined->data[at] = joined->data[at - 1];
+            joined->data[at - 1] = v;
+        }
+        bool isJoined = !kiriMesh_IsOpen(mesh, previous) || kiriMesh_IsCrease(mesh, previous);
+        h = isJoined ? kiriMesh_Twin(mesh, previous) : KIRI_NONE;
+    } while (ok && h != KIRI_NONE && h != first);
+    return ok;
+}
+
+/* Adds a part of a weight to the mean. Its frames stay sorted. */
+static bool AddToMean(kiriStencil* mean, kiriMemory* memory, int32_t frame, double value)
+{
+    int32_t at = mean->frames.count;
+    KIRI_ASSERT(mean->values.count == at && frame >= 0);
+    while (at > 0 && mean->frames.data[at - 1] >= frame) {
+        --at;
+    }
+    if (at == mean->frames.count || mean->frames.data[at] != frame) {
+        if (!kiriArray_Push(memory, &mean->frames, frame) || !kiriArray_Push(memory, &mean->values, 0.0)) {
+            return false;
+        }
+        for (int32_t k = mean->frames.count - 1; k > at; --k) {
+            mean->frames.data[k] = mean->frames.data[k - 1];
+            mean->values.data[k] = mean->values.data[k - 1];
+        }
+        mean->frames.data[at] = frame;
+        mean->values.data[at] = 0.0;
+    }
+    mean->values.data[at] += value;
+    return true;
+}
+
+/* Finds the weights of a sample. The vertices of a fold at one point have the mean of their weights: so they have one
+   position, and a blend of both sides is nowhere else. */
+static const kiriStencil* FindWeights(kiriRefresh* refresh, const kiriSampleSource* source, int32_t square, int32_t sample)
+{
+    kiriStencil* mean = &refresh->mean;
+    refresh->joined.count = 0;
+    bool isJoined = source->places == NULL && source->mesh->folds.count > 0;
+    bool ok = !isJoined || ListJoined(&refresh->joined, source->memory, source->mesh, sample);
+    if (ok && refresh->joined.count < 2) {
+        return WeighSample(refresh, source, square, sample) ? &refresh->stencil : NULL;
+    }
+    mean->frames.count = mean->values.count = 0;
+    KIRI_EACH_WHILE(ok, const int32_t, vertex, refresh->joined) {
+        ok = WeighSample(refresh, source, square, *vertex);
+        for (int32_t k = 0; ok && k < refresh->stencil.frames.count; ++k) {
+            ok = AddToMean(mean, source->memory, refresh->stencil.frames.data[k],
+                           refresh->stencil.values.data[k] / refresh->joined.count);
+        }
+    }
+    return ok ? mean : NULL;
+}
+
+/* Stages one sample. */
+static bool RefreshOne(kiriRefresh* refresh, const kiriSampleSource* source, int32_t square, int32_t sample)
+{
+    kiriSkin* skin = source->skin;
+    bool isVertex = source->places == NULL;
+    const kiriStencil* stencil = FindWeights(refresh, source, square, sample);
+    if (stencil == NULL || !StageWeights(skin, source->memory, stencil, sample)) {
         return false;
     }
     /* Weights of an old vertex have often not changed: then it is not staged. A point that is staged may have another

@@ -75,6 +75,8 @@ typedef struct kiriRefresh {
     int32_t oldCount;            /* samples that are not new */
     int32_t square, sample;      /* next in Stage */
     kiriStencil stencil;         /* of the current cell */
+    kiriIndices joined;          /* scratch: vertices that creases join at a point */
+    kiriStencil mean;            /* scratch: the mean of their weights; only frames and values */
 } kiriRefresh;
 
 /* Samples, and the data from which their weights come. */

@@ -94,6 +94,7 @@ void kiriCarriers_Bend(kiriCarrier* carriers, kiriBend* bends, const kiriFrameDa
     for (int32_t n = 0; n < ItemCount(some, count); ++n) {
         bends[SampleAt(some, n)] = (kiriBend){ 0 };
     }
+    linkCount = kiriLink_CountBorders(links, linkCount); /* a patch does not bend over a fold */
     for (int32_t n = 0; n < ItemCount(someLinks, linkCount) && SampleAt(someLinks, n) < linkCount; ++n) {
         const kiriLink* link = &links[SampleAt(someLinks, n)];
         KIRI_ASSERT(link->i >= 0 && link->i < count && link->j >= 0 && link->j < count);

@@ -638,7 +638,8 @@ static void ForgetStencil(kiriArchive* archive, void* object)
 KIRI_SHARED_TABLE(kiriRefreshTable, kiriRefresh, {
     KIRI_DERIVED,
     KIRI_ARRAYS(noted, squares, marks),
-    KIRI_DROPPED(stencil),
+    KIRI_ROOM_OF(joined),
+    KIRI_DROPPED(stencil, mean),
     KIRI_CUSTOM(stencil, ForgetStencil),
 })
 

@@ -43,7 +43,7 @@ static kiriResult AddSheet(kiriWorld* world, const char* function, const kiriShe
     const void* const arguments[] = { def, sheet };
     KIRI_BEGIN(KIRI_CALL_CreateSheet, function, "def, sheet", arguments);
     kiriFault fault = { "" };
-    return KIRI_FAIL(kiriWorld_AddSheet(world, def, sheet, &fault), fault.line);
+    return KIRI_FAIL(kiriWorld_AddSheet(world, def, NULL, 0, sheet, &fault), fault.line);
 }
 
 kiriResult kiriCreateSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* sheet)
@@ -743,6 +743,60 @@ kiriResult kiriWorld_ShiftOrigin(kiriWorld* world, const float origin[3])
         KIRI_EACH(kiriLayer, layer, blade->layers) {
             layer->at = kiriVec3_Sub(layer->at, to);
         }
+    }
+    KIRI_RETURN(KIRI_OK);
+}
+
+/* ---- Folds ------------------------------------------------------------------------------------------------------- */
+
+kiriResult kiriCreateFoldedSheet(kiriWorld* world, const kiriSheetDef* def, const kiriFold* folds, int32_t count,
+                                 kiriSheet* sheet)
+{
+    KIRI_CHANGES(CreateFoldedSheet, def, folds, &count, sheet);
+    kiriFault fault = { "" };
+    KIRI_CHECK(def->model == KIRI_MODEL_LINKS, "only KIRI_MODEL_LINKS has folds");
+    return KIRI_FAIL(kiriWorld_AddSheet(world, def, folds, count, sheet, &fault), fault.line);
+}
+
+kiriResult kiriSheet_GetFold(const kiriWorld* world, kiriSheet sheet, int32_t index, kiriFoldState* state)
+{
+    KIRI_READS_OF(sheet, state);
+    KIRI_CHECK(index >= 0 && index < found->mesh.folds.count, "there is no fold with this index");
+    const kiriFoldLine* line = &found->mesh.folds.data[index];
+    kiriVec2 from = kiriVec2_Add(found->mesh.origin, kiriMesh_Local(&found->mesh, line->from));
+    kiriVec2 to = kiriVec2_Add(found->mesh.origin, kiriMesh_Local(&found->mesh, line->to));
+    kiriFold fold = { { (float)from.x, (float)from.y }, { (float)to.x, (float)to.y }, line->stiffness,
+                      line->restAngle, line->yieldMoment };
+    *state = (kiriFoldState){ fold, 0.0, 0.0 };
+    KIRI_EACH_INDEX(k, found->links.links) {
+        const kiriLink* link = &found->links.links.data[k];
+        if (link->fold == index + 1) {
+            const kiriFrameData* const frames[2] = { &found->frames.data[link->i], &found->frames.data[link->j] };
+            const kiriPose ends[2] = { kiriPose_Of(frames[0]), kiriPose_Of(frames[1]) };
+            const kiriPose* const poses[2] = { &ends[0], &ends[1] };
+            bool hasOffsets = found->strainOffsets.strainOffsets.count > 0;
+            double offset = hasOffsets ? found->strainOffsets.strainOffsets.data[k].strain[KIRI_BENDING] : 0.0;
+            double angle = kiriFold_Angle(link, &found->settings.material, frames, poses, offset);
+            state->length += link->width;
+            state->angle += link->width / state->length * (angle - state->angle);
+        }
+    }
+    return KIRI_OK;
+}
+
+kiriResult kiriSheet_SetFold(kiriWorld* world, kiriSheet sheet, int32_t index, float stiffness, float restAngle)
+{
+    KIRI_CHANGES(Sheet_SetFold, &sheet, &index, &stiffness, &restAngle);
+    kiriSheetData* data = call->sheet;
+    KIRI_CHECK(index >= 0 && index < data->mesh.folds.count, "there is no fold with this index");
+    kiriFoldLine* line = &data->mesh.folds.data[index];
+    if (line->stiffness != stiffness || line->restAngle != restAngle) {
+        line->stiffness = stiffness;
+        line->restAngle = restAngle;
+        kiriLink_SetFolds(data->links.links.data, data->links.links.count, index, stiffness, restAngle);
+        kiriLink_SetFolds(data->links.next.data, data->links.next.count, index, stiffness, restAngle);
+        kiriSolver_SetFold(data->solver, index, stiffness, restAngle);
+        kiriSheet_WakeAll(data);
     }
     KIRI_RETURN(KIRI_OK);
 }

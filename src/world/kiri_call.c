@@ -245,6 +245,17 @@ static const kiriValue seamDefMembers[] = {
 static const kiriStruct seamDefStruct =
     STRUCT_OF(kiriSeamDef, KIRI_COOKIE(kiriSeamDef), "kiriDefaultSeamDef", seamDefMembers);
 
+#define OF kiriFold
+static const kiriValue foldMembers[] = {
+    FLOATS_IN(from, ANY_FINITE),
+    FLOATS_IN(to, ANY_FINITE),
+    FLOATS_IN(stiffness, FROM_0),
+    FLOATS_IN(restAngle, WITHIN(-KIRI_MOST_FOLD, KIRI_MOST_FOLD)),
+    FLOATS_IN(yieldMoment, FROM_0),
+};
+#undef OF
+static const kiriStruct foldStruct = STRUCT_OF(kiriFold, 0, NULL, foldMembers);
+
 #define OF kiriMaterial
 static const kiriValue materialMembers[] = {
     FLOATS_IN(youngsModulus, ABOVE_0),
@@ -361,7 +372,8 @@ static const kiriStruct obstacleDefStruct =
         .form = KIRI_FORM_ARRAY, .item = &item_, __VA_ARGS__                                                           \
     }
 
-static const kiriValue byteItem = { .form = KIRI_FORM_BYTE }, contactItem = STRUCT_ARGUMENT(contactStruct, .count = 1);
+static const kiriValue byteItem = { .form = KIRI_FORM_BYTE }, contactItem = STRUCT_ARGUMENT(contactStruct, .count = 1),
+                       foldItem = STRUCT_ARGUMENT(foldStruct, .count = 1);
 
 #define FORM(...)                                                                                                      \
     {                                                                                                                  \

@@ -64,7 +64,9 @@ KIRI_C_BEGIN
     X2(Obstacle_SetSurfaceVelocity, OBSTACLE, PLACE)                                                                   \
     X4(Obstacle_SetMass, OBSTACLE, SIZE, INERTIA, VECTOR)                                                              \
     X2(CreateSeam, SEAM_DEF, NEW_ID)                                                                                   \
-    X1(DestroySeam, SEAM)
+    X1(DestroySeam, SEAM)                                                                                              \
+    X4(CreateFoldedSheet, SHEET_DEF, FOLDS, COUNT, NEW_ID)                                                             \
+    X4(Sheet_SetFold, SHEET, INT, SIZE, FOLD_ANGLE)
 
 #define KIRI_NUMBER(Name, ...) KIRI_CALL_##Name,
 #define KIRI_NUMBER0(Name) KIRI_CALL_##Name,
@@ -93,6 +95,7 @@ enum { KIRI_CALL_ARGUMENTS = 4 }; /* maximum, without the world */
     V(FINITE, float, FLOATS_OF(1, ANY_FINITE))                    /* float */                                          \
     V(SIZE, float, FLOATS_OF(1, FROM_0))                          /* float, 0 or more */                               \
     V(LENGTH, float, FLOATS_OF(1, ABOVE_0))                       /* float, above 0 */                                 \
+    V(FOLD_ANGLE, float, FLOATS_OF(1, WITHIN(-KIRI_MOST_FOLD, KIRI_MOST_FOLD)))                                        \
     V(DATA, uint64_t, FORM(KIRI_FORM_DATA))                       /* 64 bits */                                        \
     P(POINT, FLOATS_OF(2, ANY_FINITE))                            /* 2 floats */                                       \
     P(VECTOR, FLOATS_OF(3, ANY_FINITE))                           /* 3 floats */                                       \
@@ -115,6 +118,7 @@ enum { KIRI_CALL_ARGUMENTS = 4 }; /* maximum, without the world */
     P(POINTS, ARRAY_ARGUMENT(kiriArguments[KIRI_ARGUMENT_POINT], WITHIN(1, 1 << 24)))                                  \
     P(FRAMES, ARRAY_ARGUMENT(kiriArguments[KIRI_ARGUMENT_FRAME], COUNTING))                                            \
     P(CONTACTS, ARRAY_ARGUMENT(contactItem, COUNTING))                                                                 \
+    P(FOLDS, ARRAY_ARGUMENT(foldItem, WITHIN(1, 65536)))                                                               \
     N(NEW_ID, FORM(KIRI_FORM_NEW)) /* results, at most one a call */                                                   \
     N(NEW_COUNT, FORM(KIRI_FORM_NEW))                                                                                  \
     N(NEW_IDS, FORM(KIRI_FORM_NEWS)) /* as many as the COUNT just before it */

@@ -36,10 +36,11 @@ kiriResult kiriWorld_ReserveSheets(kiriWorld* world, int32_t count)
                : KIRI_ERROR_MEMORY;
 }
 
-kiriResult kiriWorld_AddSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* id, kiriFault* fault)
+kiriResult kiriWorld_AddSheet(kiriWorld* world, const kiriSheetDef* def, const kiriFold* folds, int32_t foldCount,
+                              kiriSheet* id, kiriFault* fault)
 {
     kiriSheetData* sheet = kiriSheet_New(&world->memory);
-    kiriResult result = sheet != NULL ? kiriBuild_FromDef(sheet, def, fault) : KIRI_ERROR_MEMORY;
+    kiriResult result = sheet != NULL ? kiriBuild_FromDef(sheet, def, folds, foldCount, fault) : KIRI_ERROR_MEMORY;
     if (sheet != NULL) {
         KIRI_EACH_WHILE(result == KIRI_OK, const kiriFrameData, frame, sheet->frames) {
             if (!kiriFrame_FitsFloats(frame)) {

@@ -208,7 +208,8 @@ static inline kiriSheetData* kiriWorld_Active(const kiriWorld* world, int32_t k)
 
 /* Makes a sheet from a checked def, and gives the sheet and its frames their ids. On failure the fault has the reason,
    or "" if the result says enough. */
-kiriResult kiriWorld_AddSheet(kiriWorld* world, const kiriSheetDef* def, kiriSheet* id, kiriFault* fault);
+kiriResult kiriWorld_AddSheet(kiriWorld* world, const kiriSheetDef* def, const kiriFold* folds, int32_t foldCount,
+                              kiriSheet* id, kiriFault* fault);
 void kiriWorld_RemoveSheet(kiriWorld* world, kiriSheetData* sheet);
 
 /* Adds an event. The list must have room. Fields that the type does not use are zero. */

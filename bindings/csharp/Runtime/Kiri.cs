@@ -677,6 +677,29 @@ namespace Kiri
             return new Sheet(this, sheetValue);
         }
 
+        /// <summary>Adds a sheet with folds, 1 to 65536. They are copied, and each keeps its index. KIRI_ERROR_ARGUMENT: the
+        /// model is not KIRI_MODEL_LINKS.</summary>
+        public Sheet CreateFoldedSheet(float[] restPositions, int[] indices, SheetDef @def, Fold[] folds, float[] framePoints = null, int count = -1)
+        {
+            @def.vertexCount = restPositions.Length / 2;
+            @def.triangleCount = indices.Length / 3;
+            if (framePoints != null) @def.FrameCount = framePoints.Length / 2;
+            if (count < 0) count = folds.Length;
+            if (count > folds.Length) World.ThrowRange();
+            var sheetValue = new SheetId();
+            fixed (float* restPositionsRows = restPositions)
+            fixed (int* indicesRows = indices)
+            fixed (float* framePointsRows = framePoints)
+            fixed (Fold* foldsRows = folds)
+            {
+                @def.restPositions = restPositionsRows;
+                @def.indices = indicesRows;
+                @def.framePoints = framePointsRows;
+                Check(Native.kiriCreateFoldedSheet(Handle, &@def, foldsRows, count, &sheetValue));
+            }
+            return new Sheet(this, sheetValue);
+        }
+
         /// <summary>Find where a ray first meets the sheet, or any (*sheet is 0 if none), up to maxDistance; hit-&gt;triangle is
         /// -1 if it does not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a
         /// ray.</summary>
@@ -878,6 +901,22 @@ namespace Kiri
         public void SetSettings(SheetSettings settings)
         {
             World.Check(Native.kiriSheet_SetSettings(World.Handle, Id, &settings));
+        }
+
+        /// <summary>Get and change a fold by its index. A part of the sheet that is detached has its own folds, with the same
+        /// indices. A rest angle drives the fold by its stiffness: change it in small steps. The sheet wakes.</summary>
+        public FoldState GetFold(int index)
+        {
+            var stateValue = new FoldState();
+            World.CheckRead(Native.kiriSheet_GetFold(World.Handle, Id, index, &stateValue));
+            return stateValue;
+        }
+
+        /// <summary>Get and change a fold by its index. A part of the sheet that is detached has its own folds, with the same
+        /// indices. A rest angle drives the fold by its stiffness: change it in small steps. The sheet wakes.</summary>
+        public void SetFold(int index, float stiffness, float restAngle)
+        {
+            World.Check(Native.kiriSheet_SetFold(World.Handle, Id, index, stiffness, restAngle));
         }
 
         /// <summary>Gets the arrays, without a copy.</summary>

@@ -870,6 +870,35 @@ namespace Kiri
         public Flag Normals;
     }
 
+    /// <summary>A straight line of the rest plane along which a sheet folds: a hinge, a score, a crease. The sheet stays in one
+    /// piece, and each side of the line has its own control frames. Lines may end in the material, meet and cross; two
+    /// lines in one place add their stiffness. Cuts go through a fold, or along it. The manual has more (folding).</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct Fold
+    {
+        /// <summary>m</summary>
+        public Float2 From;
+        /// <summary>m</summary>
+        public Float2 To;
+        /// <summary>N m/rad per metre of the line, 0 or more; 0: a free hinge</summary>
+        public float Stiffness;
+        /// <summary>rad, -pi to pi; above 0 the sides fold towards the normal (valley), below away from it</summary>
+        public float RestAngle;
+        /// <summary>N m per metre: most that it carries; an angle beyond stays. 0: no limit. Only in a material with a
+        /// yieldStress</summary>
+        public float YieldMoment;
+    }
+
+    /// <summary>A fold, its angle (rad, as restAngle; the mean over its length) and the length (m) along which two sides are
+    /// joined: 0 where all of it is cut, or inside one region.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct FoldState
+    {
+        public Fold Fold;
+        public double Angle;
+        public double Length;
+    }
+
     /// <summary>The triangles to draw, as after the last tick, with the detail layer of the material (manual, sheets). revision
     /// grows when indices or vertices are added or changed. Rest positions are floats; sourceTriangles and
     /// sourceWeights have the precision of the library, 2^-29 of the sheet.</summary>
@@ -1455,6 +1484,15 @@ namespace Kiri
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int kiriSheet_SetSettings(IntPtr world, SheetId sheet, SheetSettings* settings);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int kiriCreateFoldedSheet(IntPtr world, SheetDef* @def, Fold* folds, int count, SheetId* sheet);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int kiriSheet_GetFold(IntPtr world, SheetId sheet, int @index, FoldState* state);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int kiriSheet_SetFold(IntPtr world, SheetId sheet, int @index, float stiffness, float restAngle);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int kiriFillRectangle(float width, float height, int columns, int rows, float* restPositions, int* @indices);

@@ -27,6 +27,8 @@ namespace Kiri.Tests
             PaperOptions();
             SheetDef();
             SheetSettings();
+            Fold();
+            FoldState();
             Mesh();
             Range();
             Dirty();
@@ -238,6 +240,28 @@ namespace Kiri.Tests
             Is("SheetSettings.TimeStepping", (byte*)&s.TimeStepping - at, 80);
             Is("SheetSettings.FadeTime", (byte*)&s.FadeTime - at, 84);
             Is("SheetSettings.Normals", (byte*)&s.Normals - at, 88);
+        }
+
+        static void Fold()
+        {
+            Fold s;
+            byte* at = (byte*)&s;
+            Is("Fold", sizeof(Fold), 28);
+            Is("Fold.From", (byte*)&s.From - at, 0);
+            Is("Fold.To", (byte*)&s.To - at, 8);
+            Is("Fold.Stiffness", (byte*)&s.Stiffness - at, 16);
+            Is("Fold.RestAngle", (byte*)&s.RestAngle - at, 20);
+            Is("Fold.YieldMoment", (byte*)&s.YieldMoment - at, 24);
+        }
+
+        static void FoldState()
+        {
+            FoldState s;
+            byte* at = (byte*)&s;
+            Is("FoldState", sizeof(FoldState), 48);
+            Is("FoldState.Fold", (byte*)&s.Fold - at, 0);
+            Is("FoldState.Angle", (byte*)&s.Angle - at, 32);
+            Is("FoldState.Length", (byte*)&s.Length - at, 40);
         }
 
         static void Mesh()

@@ -59,6 +59,9 @@ CHANGES = {'kiriWorld_Tick': True,
  'kiriCreateRectangle': True,
  'kiriSheet_GetSettings': False,
  'kiriSheet_SetSettings': True,
+ 'kiriCreateFoldedSheet': True,
+ 'kiriSheet_GetFold': False,
+ 'kiriSheet_SetFold': True,
  'kiriSheet_GetMesh': False,
  'kiriSheet_GetDirty': False,
  'kiriSheet_CopyVertices': False,
@@ -172,6 +175,9 @@ METHODS = {'kiriGetVersion': (None, 'version'),
  'kiriCreateRectangle': ('World', 'create_rectangle'),
  'kiriSheet_GetSettings': ('Sheet', 'settings'),
  'kiriSheet_SetSettings': ('Sheet', 'set_settings'),
+ 'kiriCreateFoldedSheet': ('World', 'create_folded_sheet'),
+ 'kiriSheet_GetFold': ('Sheet', 'fold'),
+ 'kiriSheet_SetFold': ('Sheet', 'set_fold'),
  'kiriFillRectangle': (None, 'fill_rectangle'),
  'kiriSheet_GetMesh': ('Sheet', 'mesh'),
  'kiriSheet_GetDirty': ('Sheet', 'dirty'),
@@ -363,6 +369,8 @@ typedef struct kiriQuality kiriQuality;
 typedef struct kiriPaperOptions kiriPaperOptions;
 typedef struct kiriSheetDef kiriSheetDef;
 typedef struct kiriSheetSettings kiriSheetSettings;
+typedef struct kiriFold kiriFold;
+typedef struct kiriFoldState kiriFoldState;
 typedef struct kiriMesh kiriMesh;
 typedef struct kiriRange kiriRange;
 typedef struct kiriDirty kiriDirty;
@@ -404,6 +412,8 @@ struct kiriQuality { int32_t framesAlong; int32_t gridResolution; int32_t iterat
 struct kiriPaperOptions { int32_t fromScratch; int32_t popping; int32_t linearWeights; int32_t integrationPoints; int32_t integrationOrder; };
 struct kiriSheetDef { uint32_t cookie; const float* restPositions; int32_t vertexCount; const int32_t* indices; int32_t triangleCount; float position[3]; float axisU[3]; float axisV[3]; float velocity[3]; kiriMaterial material; int32_t gridResolution; float snapDistance; float weldDistance; int32_t frameCount; float frameLength; float accuracy; const float* framePoints; int32_t maxFrames; float rigidWeight; float rigidArea; float crumbArea; float friction; float contactThickness; uint32_t groups; int32_t touchesSheets; int32_t selfContact; int32_t collisionPoints; int32_t iterations; float sleepSpeed; int32_t model; int32_t skinning; int32_t planar; int32_t timeStepping; float fadeTime; int32_t normals; kiriPaperOptions paper; };
 struct kiriSheetSettings { uint32_t cookie; kiriMaterial material; int32_t maxFrames; float crumbArea; float friction; float contactThickness; uint32_t groups; int32_t touchesSheets; int32_t selfContact; int32_t iterations; float sleepSpeed; int32_t skinning; int32_t timeStepping; float fadeTime; int32_t normals; };
+struct kiriFold { float from[2]; float to[2]; float stiffness; float restAngle; float yieldMoment; };
+struct kiriFoldState { kiriFold fold; double angle; double length; };
 struct kiriMesh { const float* positions; const float* normals; const float* restPositions; const int32_t* indices; const int32_t* sourceTriangles; const float* sourceWeights; int32_t vertexCount; int32_t triangleCount; uint32_t revision; };
 struct kiriRange { int32_t first; int32_t count; };
 struct kiriDirty { kiriRange newVertices; kiriRange newTriangles; kiriRange oldVertices; kiriRange oldTriangles; uint32_t revision; };
@@ -458,6 +468,9 @@ kiriResult kiriDestroySheet(kiriWorld* world, kiriSheet sheet);
 kiriResult kiriCreateRectangle(kiriWorld* world, float width, float height, int32_t columns, int32_t rows, const kiriSheetDef* def, kiriSheet* sheet);
 kiriResult kiriSheet_GetSettings(const kiriWorld* world, kiriSheet sheet, kiriSheetSettings* settings);
 kiriResult kiriSheet_SetSettings(kiriWorld* world, kiriSheet sheet, const kiriSheetSettings* settings);
+kiriResult kiriCreateFoldedSheet(kiriWorld* world, const kiriSheetDef* def, const kiriFold* folds, int32_t count, kiriSheet* sheet);
+kiriResult kiriSheet_GetFold(const kiriWorld* world, kiriSheet sheet, int32_t index, kiriFoldState* state);
+kiriResult kiriSheet_SetFold(kiriWorld* world, kiriSheet sheet, int32_t index, float stiffness, float restAngle);
 kiriResult kiriFillRectangle(float width, float height, int32_t columns, int32_t rows, float* restPositions, int32_t* indices);
 kiriResult kiriSheet_GetMesh(const kiriWorld* world, kiriSheet sheet, kiriMesh* mesh);
 kiriResult kiriSheet_GetDirty(const kiriWorld* world, kiriSheet sheet, uint32_t sinceRevision, kiriDirty* dirty);

@@ -157,6 +157,14 @@ class World:
         structure = core.structure(self, 'kiriSheetDef', fields, kept)
         return self.thing('Sheet', self.get('kiriCreateRectangle', 'kiriSheet', width, height, columns, rows, structure))
 
+    def create_folded_sheet(self, folds: Numbers, **fields: Any) -> kiri.Sheet:
+        """Adds a sheet with folds, 1 to 65536. They are copied, and each keeps its index. KIRI_ERROR_ARGUMENT: the
+        model is not KIRI_MODEL_LINKS.
+        """
+        kept = []  # until C has read it
+        structure = core.structure(self, 'kiriSheetDef', fields, kept)
+        return self.thing('Sheet', self.get('kiriCreateFoldedSheet', 'kiriSheet', structure, *core.rows('kiriFold', folds, 1)))
+
     def destroy_pieces(self, frames: Iterable[kiri.Frame]) -> int:
         """Detach or remove the pieces of `count` frames, of any sheets, in one pass for each sheet; frames of one
         piece count once. All are done or pending, or none if one is refused. KIRI_PENDING: some are pending, all in
@@ -191,6 +199,18 @@ class Sheet:
     def settings(self) -> Record:
         """Returns the current settings, stamped for kiriSheet_SetSettings."""
         return core.record(self.world.get('kiriSheet_GetSettings', 'kiriSheetSettings', self.id), self.world)
+
+    def fold(self, index: int) -> Record:
+        """Returns and change a fold by its index. A part of the sheet that is detached has its own folds, with the
+        same indices. A rest angle drives the fold by its stiffness: change it in small steps. The sheet wakes.
+        """
+        return core.record(self.world.get('kiriSheet_GetFold', 'kiriFoldState', self.id, index), self.world)
+
+    def set_fold(self, index: int, stiffness: float, rest_angle: float) -> int:
+        """Returns and change a fold by its index. A part of the sheet that is detached has its own folds, with the
+        same indices. A rest angle drives the fold by its stiffness: change it in small steps. The sheet wakes.
+        """
+        return self.world.call('kiriSheet_SetFold', self.id, index, stiffness, rest_angle)
 
     def mesh(self, *names: str) -> Record:
         """Returns the arrays, without a copy."""

@@ -563,6 +563,36 @@ pub struct kiriSheetSettings {
     pub normals: i32,
 }
 
+/// A straight line of the rest plane along which a sheet folds: a hinge, a score, a crease. The
+/// sheet stays in one piece, and each side of the line has its own control frames. Lines may end in
+/// the material, meet and cross; two lines in one place add their stiffness. Cuts go through a
+/// fold, or along it. The manual has more (folding).
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct kiriFold {
+    /// m
+    pub from: [f32; 2],
+    /// m
+    pub to: [f32; 2],
+    /// N m/rad per metre of the line, 0 or more; 0: a free hinge
+    pub stiffness: f32,
+    /// rad, -pi to pi; above 0 the sides fold towards the normal (valley), below away from it
+    pub restAngle: f32,
+    /// N m per metre: most that it carries; an angle beyond stays. 0: no limit. Only in a material
+    /// with a yieldStress
+    pub yieldMoment: f32,
+}
+
+/// A fold, its angle (rad, as restAngle; the mean over its length) and the length (m) along which
+/// two sides are joined: 0 where all of it is cut, or inside one region.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct kiriFoldState {
+    pub fold: kiriFold,
+    pub angle: f64,
+    pub length: f64,
+}
+
 /// The triangles to draw, as after the last tick, with the detail layer of the material (manual,
 /// sheets). revision grows when indices or vertices are added or changed. Rest positions are
 /// floats; sourceTriangles and sourceWeights have the precision of the library, 2^-29 of the sheet.
@@ -1117,6 +1147,17 @@ unsafe extern "C" {
     /// are kept, so a new mass changes the momentum; the stiffness of pins and the lengths that
     /// placed the frames are kept, too.
     pub fn kiriSheet_SetSettings(world: *mut kiriWorld, sheet: kiriSheet, settings: *const kiriSheetSettings) -> kiriResult;
+    /// Adds a sheet with folds, 1 to 65536. They are copied, and each keeps its index.
+    /// KIRI_ERROR_ARGUMENT: the model is not KIRI_MODEL_LINKS.
+    pub fn kiriCreateFoldedSheet(world: *mut kiriWorld, def: *const kiriSheetDef, folds: *const kiriFold, count: i32, sheet: *mut kiriSheet) -> kiriResult;
+    /// Get and change a fold by its index. A part of the sheet that is detached has its own folds,
+    /// with the same indices. A rest angle drives the fold by its stiffness: change it in small
+    /// steps. The sheet wakes.
+    pub fn kiriSheet_GetFold(world: *const kiriWorld, sheet: kiriSheet, index: i32, state: *mut kiriFoldState) -> kiriResult;
+    /// Get and change a fold by its index. A part of the sheet that is detached has its own folds,
+    /// with the same indices. A rest angle drives the fold by its stiffness: change it in small
+    /// steps. The sheet wakes.
+    pub fn kiriSheet_SetFold(world: *mut kiriWorld, sheet: kiriSheet, index: i32, stiffness: f32, restAngle: f32) -> kiriResult;
     /// Fills in a rectangle from (0, 0) to (width, height) for a sheet def: writes 2 \* (columns +
     /// 1) \* (rows + 1) floats and 6 \* columns \* rows indices. columns and rows are 1 to 4096.
     pub fn kiriFillRectangle(width: f32, height: f32, columns: i32, rows: i32, restPositions: *mut f32, indices: *mut i32) -> kiriResult;
@@ -1554,6 +1595,18 @@ const _: () = {
     assert!(offset_of!(kiriSheetSettings, timeStepping) == 80);
     assert!(offset_of!(kiriSheetSettings, fadeTime) == 84);
     assert!(offset_of!(kiriSheetSettings, normals) == 88);
+    assert!(size_of::<kiriFold>() == 28);
+    assert!(align_of::<kiriFold>() == 4);
+    assert!(offset_of!(kiriFold, from) == 0);
+    assert!(offset_of!(kiriFold, to) == 8);
+    assert!(offset_of!(kiriFold, stiffness) == 16);
+    assert!(offset_of!(kiriFold, restAngle) == 20);
+    assert!(offset_of!(kiriFold, yieldMoment) == 24);
+    assert!(size_of::<kiriFoldState>() == 48);
+    assert!(align_of::<kiriFoldState>() == 8);
+    assert!(offset_of!(kiriFoldState, fold) == 0);
+    assert!(offset_of!(kiriFoldState, angle) == 32);
+    assert!(offset_of!(kiriFoldState, length) == 40);
     assert!(size_of::<kiriMesh>() == 64);
     assert!(align_of::<kiriMesh>() == 8);
     assert!(offset_of!(kiriMesh, positions) == 0);
@@ -1901,6 +1954,18 @@ const _: () = {
     assert!(offset_of!(kiriSheetSettings, timeStepping) == 80);
     assert!(offset_of!(kiriSheetSettings, fadeTime) == 84);
     assert!(offset_of!(kiriSheetSettings, normals) == 88);
+    assert!(size_of::<kiriFold>() == 28);
+    assert!(align_of::<kiriFold>() == 4);
+    assert!(offset_of!(kiriFold, from) == 0);
+    assert!(offset_of!(kiriFold, to) == 8);
+    assert!(offset_of!(kiriFold, stiffness) == 16);
+    assert!(offset_of!(kiriFold, restAngle) == 20);
+    assert!(offset_of!(kiriFold, yieldMoment) == 24);
+    assert!(size_of::<kiriFoldState>() == 48);
+    assert!(align_of::<kiriFoldState>() == 8);
+    assert!(offset_of!(kiriFoldState, fold) == 0);
+    assert!(offset_of!(kiriFoldState, angle) == 32);
+    assert!(offset_of!(kiriFoldState, length) == 40);
     assert!(size_of::<kiriMesh>() == 36);
     assert!(align_of::<kiriMesh>() == 4);
     assert!(offset_of!(kiriMesh, positions) == 0);

@@ -1122,6 +1122,82 @@ impl SheetSettings {
     }
 }
 
+/// A straight line of the rest plane along which a sheet folds: a hinge, a score, a crease. The
+/// sheet stays in one piece, and each side of the line has its own control frames. Lines may end in
+/// the material, meet and cross; two lines in one place add their stiffness. Cuts go through a
+/// fold, or along it. The manual has more (folding).
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Fold {
+    /// m
+    pub from: [f32; 2],
+    /// m
+    pub to: [f32; 2],
+    /// N m/rad per metre of the line, 0 or more; 0: a free hinge
+    pub stiffness: f32,
+    /// rad, -pi to pi; above 0 the sides fold towards the normal (valley), below away from it
+    pub rest_angle: f32,
+    /// N m per metre: most that it carries; an angle beyond stays. 0: no limit. Only in a material
+    /// with a `yield_stress`
+    pub yield_moment: f32,
+}
+
+const _: () = {
+    assert!(size_of::<Fold>() == size_of::<sys::kiriFold>());
+    assert!(align_of::<Fold>() == align_of::<sys::kiriFold>());
+    assert!(offset_of!(Fold, from) == offset_of!(sys::kiriFold, from));
+    assert!(offset_of!(Fold, to) == offset_of!(sys::kiriFold, to));
+    assert!(offset_of!(Fold, stiffness) == offset_of!(sys::kiriFold, stiffness));
+    assert!(offset_of!(Fold, rest_angle) == offset_of!(sys::kiriFold, restAngle));
+    assert!(offset_of!(Fold, yield_moment) == offset_of!(sys::kiriFold, yieldMoment));
+};
+
+impl Fold {
+    #[allow(dead_code)]
+    pub(crate) fn from_raw(raw: &sys::kiriFold) -> Self {
+        // SAFETY: the layout is the same, and any bits are a value of each field.
+        unsafe { *std::ptr::from_ref(raw).cast() }
+    }
+
+    #[allow(dead_code)]
+    pub(crate) fn raw(&self) -> sys::kiriFold {
+        // SAFETY: as above.
+        unsafe { *std::ptr::from_ref(self).cast() }
+    }
+}
+
+/// A fold, its angle (rad, as `rest_angle`; the mean over its length) and the length (m) along
+/// which two sides are joined: 0 where all of it is cut, or inside one region.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct FoldState {
+    pub fold: Fold,
+    pub angle: f64,
+    pub length: f64,
+}
+
+const _: () = {
+    assert!(size_of::<FoldState>() == size_of::<sys::kiriFoldState>());
+    assert!(align_of::<FoldState>() == align_of::<sys::kiriFoldState>());
+    assert!(offset_of!(FoldState, fold) == offset_of!(sys::kiriFoldState, fold));
+    assert!(offset_of!(FoldState, angle) == offset_of!(sys::kiriFoldState, angle));
+    assert!(offset_of!(FoldState, length) == offset_of!(sys::kiriFoldState, length));
+};
+
+impl FoldState {
+    #[allow(dead_code)]
+    pub(crate) fn from_raw(raw: &sys::kiriFoldState) -> Self {
+        // SAFETY: the layout is the same, and any bits are a value of each field.
+        unsafe { *std::ptr::from_ref(raw).cast() }
+    }
+
+    #[allow(dead_code)]
+    pub(crate) fn raw(&self) -> sys::kiriFoldState {
+        // SAFETY: as above.
+        unsafe { *std::ptr::from_ref(self).cast() }
+    }
+}
+
 /// The triangles to draw, as after the last tick, with the detail layer of the material (manual,
 /// sheets). revision grows when indices or vertices are added or changed. Rest positions are
 /// floats; `source_triangles` and `source_weights` have the precision of the library, 2^-29 of the
@@ -2343,6 +2419,15 @@ impl World {
         Ok(Sheet::known(sheet))
     }
 
+    /// Adds a sheet with folds, 1 to 65536. They are copied, and each keeps its index.
+    /// [`ResultCode::ErrorArgument`]: the model is not [`Model::Links`].
+    pub fn create_folded_sheet(&mut self, def: &SheetDef<'_>, folds: &[Fold]) -> Result<Sheet> {
+        let mut sheet = 0;
+        // SAFETY: pointers are to what is named, and lengths are theirs.
+        check(unsafe { sys::kiriCreateFoldedSheet(self.raw_mut(), &def.raw(), folds.as_ptr().cast(), folds.len() as i32, &mut sheet) }, self)?;
+        Ok(Sheet::known(sheet))
+    }
+
     /// Find where a ray first meets the sheet, or any (\*sheet is 0 if none), up to `max_distance`;
     /// hit-\>triangle is -1 if it does not. Boxes over triangles that make rays fast follow the
     /// sheet until 120 ticks pass without a ray.
@@ -2451,6 +2536,27 @@ impl Sheet {
     pub fn set_settings(self, world: &mut World, settings: &SheetSettings) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriSheet_SetSettings(world.raw_mut(), self.raw(), &settings.raw()) }, world)?;
+        Ok(())
+    }
+
+    /// Get and change a fold by its index. A part of the sheet that is detached has its own folds,
+    /// with the same indices. A rest angle drives the fold by its stiffness: change it in small
+    /// steps. The sheet wakes.
+    pub fn fold(self, world: &World, index: i32) -> Result<FoldState> {
+        let mut state = MaybeUninit::<sys::kiriFoldState>::uninit();
+        // SAFETY: pointers are to what is named, and lengths are theirs.
+        check_read(unsafe { sys::kiriSheet_GetFold(world.raw(), self.raw(), index, state.as_mut_ptr()) })?;
+        // SAFETY: it filled the struct.
+        let state = unsafe { state.assume_init() };
+        Ok(FoldState::from_raw(&state))
+    }
+
+    /// Get and change a fold by its index. A part of the sheet that is detached has its own folds,
+    /// with the same indices. A rest angle drives the fold by its stiffness: change it in small
+    /// steps. The sheet wakes.
+    pub fn set_fold(self, world: &mut World, index: i32, stiffness: f32, rest_angle: f32) -> Result<()> {
+        // SAFETY: pointers are to what is named, and lengths are theirs.
+        check(unsafe { sys::kiriSheet_SetFold(world.raw_mut(), self.raw(), index, stiffness, rest_angle) }, world)?;
         Ok(())
     }
 
