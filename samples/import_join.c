@@ -55,7 +55,8 @@ static bool AddSegment(Join* join, Segment segment)
 
 /* ---- The grid ---- */
 
-static bool MakeGrid(Join* join, int32_t items, double square)
+/* Squares for some items of a mean length: a few in a square, and few squares for an item. */
+static bool MakeGrid(Join* join, int32_t items, double length, double square)
 {
     Grid* grid = &join->grid;
     double upper[2] = { -1e300, -1e300 };
@@ -65,7 +66,8 @@ static bool MakeGrid(Join* join, int32_t items, double square)
         upper[i % 2] = fmax(upper[i % 2], join->drawing->points[i]);
     }
     double size = fmax(upper[0] - grid->lower[0], upper[1] - grid->lower[1]) + 4.0 * join->distance;
-    int32_t side = (int32_t)fmin(fmax(2.0 * sqrt((double)items), 1.0), (double)MOST_SIDE);
+    double side = 2.0 * sqrt((double)items) / (1.0 + length / fmax(size, 1e-300) * sqrt((double)items));
+    side = floor(fmin(fmax(side, 1.0), (double)MOST_SIDE));
     grid->square = fmax(size / side, square);
     grid->lower[0] -= 2.0 * join->distance;
     grid->lower[1] -= 2.0 * join->distance;
@@ -223,7 +225,7 @@ static void Mate(Join* join, int32_t a, int32_t b)
 /* Mates free ends that are nearer than the distance: the nearest ones first at the same point, then others. */
 static bool MateEnds(Join* join, double distance)
 {
-    if (!MakeGrid(join, join->count, 2.0 * join->distance)) {
+    if (!MakeGrid(join, join->count, 0.0, 2.0 * join->distance)) {
         return false;
     }
     Grid* grid = &join->grid;
@@ -361,7 +363,14 @@ bool Import_Join(Import* drawing, double distance)
     Join all = { .drawing = drawing, .distance = distance }, rest = { .drawing = drawing, .distance = distance };
     TakeSegments(&all);
     all.stamps = malloc(sizeof(int32_t) * ((size_t)all.count + 1));
-    bool isFine = drawing->error[0] == 0 && HasMemory(&all, all.stamps != NULL) && MakeGrid(&all, all.count, 0.0);
+    double length = 0.0;
+    for (int32_t i = 0; i < all.count; i++) {
+        length +=
+            hypot(all.segments[i].to[0] - all.segments[i].from[0], all.segments[i].to[1] - all.segments[i].from[1]) /
+            all.count;
+    }
+    bool isFine =
+        drawing->error[0] == 0 && HasMemory(&all, all.stamps != NULL) && MakeGrid(&all, all.count, length, 0.0);
     for (int32_t i = 0; i < all.count && isFine; i++) {
         all.stamps[i] = NONE;
     }

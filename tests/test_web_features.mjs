@@ -104,9 +104,33 @@ async function cutsFold(tab) {
     near(found[1], 0.24 * 0.12, 1e-4, "the outline");
 }
 
+/** Sizes in mm are kept. A red line in a drawing with black ones is a fold, until the table says otherwise. */
+async function cutsStyles(tab) {
+    const text = `<svg xmlns="http://www.w3.org/2000/svg" width="120mm" height="120mm" viewBox="0 0 120 120" fill="none">
+        <path d="M10 10h100v100h-100z" stroke="#000"/><path d="M0 60h120" stroke="#f00"/><text>a</text></svg>`;
+    await press(tab, "New sheet");
+    await tab.evaluate((text) => globalThis.game.panel.readFile(new File([text], "x")), text);
+    await settle(tab);
+    const [, square, ...none] = await areas(tab);
+    near(square, 0.1 ** 2, 1e-4, "the square in its size");
+    assert.deepEqual(none, []);
+    assert.match(await hint(tab), /^1 cut; 1 fold left whole; left out: 1 x text$/);
+    assert.equal(await tab.evaluate(() => document.querySelectorAll("#styles label").length), 2);
+    await tab.evaluate(() => {
+        const select = document.querySelectorAll("#styles select")[1];
+        select.value = "1";
+        select.dispatchEvent(new Event("change"));
+    });
+    await tab.waitForFunction(() => document.querySelectorAll("#styles select")[1].value === "1" && /^2 cuts/.test(document.getElementById("hint").textContent));
+    await settle(tab);
+    near((await areas(tab))[1], 0.1 * 0.05, 1e-4, "half of the square");
+    await press(tab, "Undo");
+}
+
 async function refusesOthers(tab) {
     await press(tab, "New sheet");
-    for (const [text, says] of [["{}", /FOLD/], ["<p>no</p>", /SVG/], ["{ \"a\"", /FOLD/], ["<svg xmlns='http://www.w3.org/2000/svg'/>", /outline/]]) {
+    for (const [text, says] of [["{}", /FOLD/], ["<p>no</p>", /SVG/], ["{ \"a\"", /FOLD/], ["<svg xmlns='http://www.w3.org/2000/svg'/>", /no line/],
+        ["0\nSECTION\n2\nHEADER\n0\nEOF\n", /ENTITIES/]]) {
         await tab.evaluate((text) => globalThis.game.panel.readFile(new File([text], "x")), text);
         assert.match(await hint(tab), says);
     }
@@ -339,7 +363,7 @@ async function fingers(tab) {
 try {
     const tab = await browser.open("?still&free", { viewport: { width: 1000, height: 640 } }, listen);
     await frame(tab, 20);
-    for (const test of [cutsSvg, cutsFold, refusesOthers, scissorsSnip, grabHolds, knifeIsSlow, foldedPaper, knifeSounds, sliderTells,
+    for (const test of [cutsSvg, cutsFold, cutsStyles, refusesOthers, scissorsSnip, grabHolds, knifeIsSlow, foldedPaper, knifeSounds, sliderTells,
                         wheelZooms, linkPlays]) {
         await test(tab);
         console.log(`web: ${test.name}`);

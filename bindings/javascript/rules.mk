@@ -97,9 +97,19 @@ $(WEB_TOOLS)/installed: samples/web/package.json
 	@npm install --prefix $(@D) --no-audit --no-fund --silent
 	@touch $@
 
-$(WEB)/main.js: $(filter-out %.md %/film.mjs,$(wildcard samples/web/*)) $(WASM_PACKAGE)/kiri.wasm $(WEB_TOOLS)/installed
+# Drawings to cut, for the page.
+IMPORT_CALLS := _readDrawing,_joinDrawing,_getText,_getStyles,_getLines,_getPoints,_getNumber,_malloc,_free
+IMPORT_SOURCES := $(wildcard samples/import*.c) samples/web/import_web.c
+
+$(WASM)/import.wasm: $(IMPORT_SOURCES) $(wildcard samples/import*.h) bindings/javascript/rules.mk
 	@mkdir -p $(@D)
-	@cp samples/web/*.html samples/web/*.css $(WASM_PACKAGE)/kiri.wasm $(@D)
+	@$(EMCC) -std=c99 -Os -flto -Wall -Wextra -DNDEBUG --no-entry -sSTANDALONE_WASM -sALLOW_MEMORY_GROWTH -sMALLOC=emmalloc \
+	    -sTOTAL_STACK=262144 -sINITIAL_MEMORY=1MB -sEXPORTED_FUNCTIONS=$(IMPORT_CALLS) $(IMPORT_SOURCES) -o $@
+	@echo "  $@: $$(wc -c < $@) bytes, $$(gzip -9c $@ | wc -c) as gzip"
+
+$(WEB)/main.js: $(filter-out %.md %.c %/film.mjs,$(wildcard samples/web/*)) $(WASM_PACKAGE)/kiri.wasm $(WASM)/import.wasm $(WEB_TOOLS)/installed
+	@mkdir -p $(@D)
+	@cp samples/web/*.html samples/web/*.css $(WASM_PACKAGE)/kiri.wasm $(WASM)/import.wasm $(@D)
 	@NODE_PATH=$(WEB_TOOLS)/node_modules $(WEB_TOOLS)/node_modules/.bin/esbuild samples/web/main.js --bundle --minify \
 	    --format=esm --target=es2022 --alias:kiri=./$(WASM_PACKAGE)/kiri.js --outfile=$@ --log-level=warning
 	@echo "  $(WEB): $$(cat $(WEB)/* | wc -c) bytes"

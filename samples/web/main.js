@@ -144,15 +144,23 @@ class Game {
         this.afterAct();
     }
 
-    cutFile(content) {
-        let paths;
+    /** uses: what lines of a style mean, where the user chose it. */
+    async cutFile(content, uses = {}) {
         try {
-            paths = readCuts(content, SIZE);
+            const { paths, styles, says } = await readCuts(content, SIZE, uses);
+            if (paths.length) {
+                this.cut(paths);
+            }
+            this.panel.say(says);
+            this.panel.showStyles(styles, (name, use) => {
+                if (paths.length) {
+                    this.undo();
+                }
+                this.cutFile(content, { ...uses, [name]: use });
+            });
         } catch (error) {
             this.panel.say(error.message);
-            return;
         }
-        this.cut(paths);
     }
 
     showSnowflake() {

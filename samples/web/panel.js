@@ -1,5 +1,7 @@
 // Buttons, the task, and numbers for who asks for them.
 
+import { USES } from "./paths.js";
+
 const ICONS = {
     knife: "M4 20l4-1 11-11a2.1 2.1 0 0 0-3-3L5 16zM14 7l3 3",
     scissors: "M20 4 8.6 15.4M14.8 14.8 20 20M8.6 8.6 12 12M9 6a3 3 0 1 1-6 0 3 3 0 0 1 6 0zM9 18a3 3 0 1 1-6 0 3 3 0 0 1 6 0z",
@@ -105,15 +107,29 @@ export class Panel {
     askFile() {
         const input = document.createElement("input");
         input.type = "file";
-        input.accept = ".svg,.fold,image/svg+xml,application/json";
+        input.accept = ".svg,.dxf,.fold,image/svg+xml,image/vnd.dxf,application/json";
         input.addEventListener("change", () => this.readFile(input.files[0]));
         input.click();
     }
 
     async readFile(file) {
         if (file) {
-            this.game.attempt(this.game.cutFile.bind(this.game, await file.text()));
+            await this.game.cutFile(await file.text());
         }
+    }
+
+    /** The table of a drawing with several styles: a choice of use each. */
+    showStyles(styles, choose) {
+        const table = document.getElementById("styles");
+        table.hidden = styles.length < 2;
+        table.replaceChildren(...styles.map(({ name, use, count }) => {
+            const row = document.createElement("label"), select = document.createElement("select");
+            select.append(...USES.map((text, i) => new Option(text, i, i === use, i === use)));
+            select.addEventListener("change", () => choose(name, Number(select.value)));
+            row.style.setProperty("--swatch", name.slice(0, 7));
+            row.append(`${name} (${count})`, select);
+            return row;
+        }));
     }
 
     async copyLink() {

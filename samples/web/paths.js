@@ -1,83 +1,70 @@
-// Cuts from files: outlines of an SVG, or cuts and borders of a FOLD.
+// Drawings to cut: SVG, DXF and FOLD, read by samples/import.c. Its WebAssembly loads with the first file.
 
-const STEP = 0.002; // of the drawing: how far points of a curve are apart
+const TOLERANCE = 0.02, MEET = 0.05; // mm: of curves; of ends that are joined
+const LARGEST = 0.96, FITTED = 0.8; // of the sheet's width: a drawing with units; one without, or a larger one
 
-/** Polylines of the drawing: arrays of [x, y]. */
-function fromSvg(text) {
-    const svg = new DOMParser().parseFromString(text, "image/svg+xml").querySelector("svg");
-    if (!svg) {
-        throw new Error("this is no SVG");
-    }
-    svg.style.cssText = "position:absolute;visibility:hidden";
-    document.body.append(svg);
-    const box = svg.getBBox(), step = STEP * Math.max(box.width, box.height, 1e-9);
-    const lines = [...svg.querySelectorAll("path,polygon,polyline,line,rect,circle,ellipse")].flatMap((shape) => lineOf(shape, step));
-    svg.remove();
-    return lines;
+/** What a line may mean, by number. */
+export const USES = ["nothing", "cut", "mountain", "valley", "score"];
+const CUT = USES.indexOf("cut");
+
+let loading;
+
+async function load() {
+    const unused = new Proxy({}, { get: () => () => 0 });
+    const imports = new Proxy({}, { get: () => unused });
+    const answer = await fetch(new URL("./import.wasm", import.meta.url));
+    const { instance } = await WebAssembly.instantiate(await answer.arrayBuffer(), imports);
+    instance.exports._initialize?.();
+    return instance.exports;
 }
 
-/** A shape, parted where a path jumps. */
-function lineOf(shape, step) {
-    const length = shape.getTotalLength(), matrix = shape.getCTM() ?? new DOMMatrix(), lines = [[]];
-    const count = Math.min(4000, Math.max(2, Math.ceil(length / step)));
-    const add = ({ x, y }) => lines.at(-1).push([matrix.a * x + matrix.c * y + matrix.e, -(matrix.b * x + matrix.d * y + matrix.f)]);
-    add(shape.getPointAtLength(0));
-    for (let i = 1; i <= count; i++) {
-        const [end, next] = findJump(shape, length * (i - 1) / count, length * i / count);
-        if (end) {
-            add(end);
-            lines.push([]);
-            add(next);
-        }
-        add(shape.getPointAtLength(length * i / count));
-    }
-    return lines.filter((line) => line.length > 1);
+function textAt(code, at, most = 1 << 16) {
+    const bytes = new Uint8Array(code.memory.buffer, at, Math.min(most, code.memory.buffer.byteLength - at));
+    return new TextDecoder().decode(bytes.slice(0, bytes.indexOf(0)));
 }
 
-/** Where a path ends between two lengths, and where it goes on: points that are further apart than the way between them. */
-function findJump(shape, from, to) {
-    const jumps = (a, b) => {
-        const p = shape.getPointAtLength(a), q = shape.getPointAtLength(b);
-        return Math.hypot(p.x - q.x, p.y - q.y) > 1.5 * (b - a) + 1e-4 * (to - from);
+/** The drawing in mm: its lines, the table of its styles, and one line about what was left out. uses: name of a style to its use. */
+async function read(content, uses) {
+    const code = await (loading ??= load()), text = new TextEncoder().encode(content), place = code.malloc(text.length + 1);
+    new Uint8Array(code.memory.buffer, place, text.length).set(text);
+    const isRead = code.readDrawing(place, text.length, TOLERANCE);
+    code.free(place);
+    if (!isRead) {
+        throw new Error(textAt(code, code.getText()));
+    }
+    const note = textAt(code, code.getText()), [count, , , isSized, size, offset] = [0, 1, 2, 3, 4, 5].map(code.getNumber);
+    const styles = Array.from({ length: count }, (_, i) => {
+        const at = code.getStyles() + i * size, numbers = new Int32Array(code.memory.buffer, at + offset, 2), name = textAt(code, at, offset);
+        numbers[0] = uses[name] ?? numbers[0];
+        return { name, use: numbers[0], count: numbers[1] };
+    });
+    if (!code.joinDrawing(MEET)) {
+        throw new Error(textAt(code, code.getText()));
+    }
+    const numbers = new Int32Array(code.memory.buffer, code.getLines(), 4 * code.getNumber(1));
+    const points = new Float64Array(code.memory.buffer, code.getPoints(), 2 * code.getNumber(2));
+    const lines = Array.from({ length: numbers.length / 4 }, (_, i) => {
+        const [first, length, , use] = numbers.subarray(4 * i, 4 * i + 4);
+        return { use, points: points.slice(2 * first, 2 * (first + length)) };
+    });
+    return { lines, styles: styles.filter((style) => style.count), note, isSized };
+}
+
+/** Cuts of a square sheet of this size (m) in its rest plane: arrays u, v, u, v...; the table of styles; and one line to show. */
+export async function readCuts(content, size, uses = {}) {
+    const { lines, styles, note, isSized } = await read(content, uses), all = lines.flatMap(({ points }) => [...points]);
+    const low = [Infinity, Infinity], high = [-Infinity, -Infinity];
+    all.forEach((x, i) => {
+        low[i % 2] = Math.min(low[i % 2], x);
+        high[i % 2] = Math.max(high[i % 2], x);
+    });
+    const width = Math.max(high[0] - low[0], high[1] - low[1]), isTrue = isSized && width <= 1000 * LARGEST * size;
+    const scale = isTrue ? 0.001 : FITTED * size / width, cuts = lines.filter((line) => line.use === CUT);
+    const folds = lines.length - cuts.length, plural = (n, word) => `${n} ${word}${n === 1 ? "" : "s"}`;
+    const says = [plural(cuts.length, "cut"), folds > 0 && `${plural(folds, "fold")} left whole`,
+        isSized && !isTrue && `at ${(100 * scale * 1000).toPrecision(2)} % of its size`, note];
+    return {
+        paths: cuts.map(({ points }) => Array.from(points, (x, i) => size / 2 + (x - (low[i % 2] + high[i % 2]) / 2) * scale)),
+        styles, says: says.filter(Boolean).join("; "),
     };
-    if (!jumps(from, to)) {
-        return [];
-    }
-    for (let i = 0; i < 20; i++) {
-        const middle = (from + to) / 2;
-        [from, to] = jumps(from, middle) ? [from, middle] : [middle, to];
-    }
-    return [shape.getPointAtLength(from), shape.getPointAtLength(to)];
-}
-
-function frameOf(text) {
-    try {
-        const fold = JSON.parse(text);
-        return fold.vertices_coords ? fold : fold.file_frames?.[0];
-    } catch {
-        return null;
-    }
-}
-
-/** FOLD: edges that are cuts (C) or borders (B). */
-function fromFold(text) {
-    const frame = frameOf(text);
-    if (!frame?.vertices_coords || !frame.edges_vertices) {
-        throw new Error("this is no FOLD with edges");
-    }
-    return frame.edges_vertices
-        .filter((_, i) => /[BC]/.test(frame.edges_assignment?.[i] ?? "C"))
-        .map((edge) => edge.map((vertex) => frame.vertices_coords[vertex].slice(0, 2)));
-}
-
-/** Polylines of the rest plane, in a square of this size with a margin: arrays u, v, u, v... */
-export function readCuts(text, size) {
-    const lines = text.trimStart().startsWith("{") ? fromFold(text) : fromSvg(text), points = lines.flat();
-    if (!points.length) {
-        throw new Error("there is no outline in this file");
-    }
-    const low = [0, 1].map((k) => Math.min(...points.map((p) => p[k])));
-    const high = [0, 1].map((k) => Math.max(...points.map((p) => p[k])));
-    const scale = 0.8 * size / Math.max(high[0] - low[0], high[1] - low[1]);
-    return lines.map((line) => line.flatMap((p) => [0, 1].map((k) => size / 2 + (p[k] - (low[k] + high[k]) / 2) * scale)));
 }
