@@ -85,7 +85,10 @@ class Safe:
                       "kiriWorld_Replay": "[`Replay`]", "kiriEvent": "[`Event`]", "kiriReplay": "[`Replay`]"})
         return names
 
-    def _doc(self, doc, start):
+    def _doc(self, doc, start, name=None):
+        """Where C has no comment, the words of the name."""
+        if not doc and name:
+            doc = naming.snake(name).replace("_", " ").capitalize() + "."
         doc = re.sub(r"\w+", lambda match: self._docs.get(match[0], match[0]), re.sub(r"`(\w+)`", r"\1", self._plainer(doc)))
         return naming.wrapped(doc, start)
 
@@ -119,17 +122,18 @@ class Safe:
     def _enum(self, enum):
         name = naming.bare(enum["name"])
         if enum["name"] in CONSTANTS:
-            return "\n".join(f"pub const {value['name'][5:]}: i32 = {value['value']};" for value in enum["values"]) + "\n"
+            return "".join("\n".join([*self._doc(value["doc"], "/// ", value["name"][5:].lower()),
+                                      f"pub const {value['name'][5:]}: i32 = {value['value']};\n"]) for value in enum["values"])
         if naming.is_flags(enum):
             lines = self._doc(enum["doc"], "// ")
             for value in enum["values"]:
-                lines += self._doc(value["doc"], "/// ")
+                lines += self._doc(value["doc"], "/// ", value["name"][5:].lower())
                 lines.append(f"pub const {value['name'][5:]}: u32 = {value['value']};")
             return "\n".join(lines + [""])
-        lines = self._doc(enum["doc"], "/// ")
+        lines = self._doc(enum["doc"], "/// ", naming.bare(enum["name"]))
         lines += ["#[non_exhaustive]", "#[repr(i32)]", "#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]", f"pub enum {name} {{"]
         for value in self._values(enum):
-            lines += self._doc(value["doc"], "    /// ")
+            lines += self._doc(value["doc"], "    /// ", naming.constant(enum, value).lower())
             lines.append(f"    {self._variant(enum, value)} = {value['value']},")
         lines += ["}", "", f"impl {name} {{", f"    /// All of them.", f"    pub const ALL: [Self; {len(self._values(enum))}] = ["]
         lines += [f"        Self::{self._variant(enum, value)}," for value in self._values(enum)]
@@ -183,10 +187,10 @@ class Safe:
 
     def _plain(self, struct):
         name, default = naming.bare(struct["name"]), "" if "default" in struct else ", Default"
-        lines = self._doc(struct["doc"], "/// ")
+        lines = self._doc(struct["doc"], "/// ", naming.bare(struct["name"]))
         lines += ["#[repr(C)]", f"#[derive(Clone, Copy, Debug, PartialEq{default})]", f"pub struct {name} {{"]
         for field in struct["fields"]:
-            lines += self._doc(field["doc"], "    /// ")
+            lines += self._doc(field["doc"], "    /// ", field["name"])
             lines.append(f"    pub {snake_field(field['name'])}: {self._field_type(struct, field)},")
         lines += ["}", "", "const _: () = {",
                   f"    assert!(size_of::<{name}>() == size_of::<sys::{struct['name']}>());",
@@ -208,10 +212,10 @@ class Safe:
         counts = {count for count in counts if f"{struct['name']}.{count}" not in OWN_COUNTS and default}
         fields = [field for field in struct["fields"] if field["name"] not in counts
                   and not (field["name"] == "cookie" and default)]
-        lines = self._doc(struct["doc"], "/// ")
+        lines = self._doc(struct["doc"], "/// ", naming.bare(struct["name"]))
         lines += ["#[derive(Clone, Copy, Debug)]", f"pub struct {name}{of} {{"]
         for field in fields:
-            lines += self._doc(field["doc"], "    /// ")
+            lines += self._doc(field["doc"], "    /// ", field["name"])
             public = "" if field["name"] == "cookie" else "pub "
             lines.append(f"    {public}{snake_field(field['name'])}: {self._field_type(struct, field)},")
         lines += ["}", ""]
@@ -295,11 +299,11 @@ class Safe:
         arms = []
         for value in enum["values"]:
             used, variant = self._d["eventFields"][value["name"]], self._variant(enum, value)
-            lines += self._doc(value["doc"], "    /// ") + [f"    {variant} {{"]
+            lines += self._doc(value["doc"], "    /// ", naming.constant(enum, value).lower()) + [f"    {variant} {{"]
             for name in used:
                 field = fields[name]
                 kind = naming.bare(field["type"]) if field["form"] == "id" else self._field_type(struct, field)
-                lines.append(f"        {snake_field(name)}: {kind},")
+                lines += [*self._doc("" if field["doc"] == "or 0" else field["doc"], "        /// ", name), f"        {snake_field(name)}: {kind},"]
             lines.append("    },")
             taken = ", ".join(f"{snake_field(name)}: {self._of_event(fields[name])}" for name in used)
             arms.append(f"            EventType::{variant} => Self::{variant} {{ {taken} }},")

@@ -20,6 +20,16 @@ HAND_STRUCTS = {"kiriWorldDef", "kiriReplay", "kiriDebugDraw"}
 WORDS = {"type": "kind", "range": "span", "func": "function"}
 
 
+def constant(name):
+    """As Go names it: an error begins with Err, and ID is in capitals."""
+    return re.sub(r"Id$", "ID", re.sub(r"^Error(?=.)", "Err", naming.pascal(name[5:])))
+
+
+def receiver(name):
+    """One small letter."""
+    return naming.bare(name)[0].lower()
+
+
 class Go:
     def __init__(self, description):
         self.of = description
@@ -40,10 +50,10 @@ class Go:
             values = {value["value"]: value for value in enum["values"]}
             lines.append(naming.comment(enum["doc"], "// ") + f"type {name} {kind}\n\nconst (")
             for value in enum["values"]:
-                lines.append(naming.comment(value["doc"], "\t// ") + f"\t{naming.pascal(value['name'][5:])} {name} = {value['value']}")
+                lines.append(naming.comment(value["doc"], "\t// ") + f"\t{constant(value['name'])} {name} = {value['value']}")
             lines.append(f")\n\nvar names{name} = map[{name}]string{{")
             lines += [f"\t{value['value']}: \"{value['name']}\"," for value in values.values()]
-            lines.append(f"}}\n\nfunc (value {name}) String() string {{ return names{name}[value] }}\n")
+            lines.append(f"}}\n\nfunc (v {name}) String() string {{ return names{name}[v] }}\n")
         return "\n".join(lines)
 
     def types(self):
@@ -145,7 +155,8 @@ class Method:
         self._given, self._before, self._passed, self._after = [], [], [], []
         self._kinds, self._values = [], []
         self._block, self._filled = {}, []  # what C reads and writes by pointer: in memory of a pool
-        self._world = "w" if function["class"] == "World" else "self.World"
+        self._of = receiver(function["class"]) if function["class"] else ""
+        self._world = "w" if function["class"] == "World" else f"{self._of}.World"
 
     @staticmethod
     def name(function):
@@ -159,10 +170,10 @@ class Method:
         if of:
             self._passed.append(f"{self._world}.c")
         if of not in (None, "World"):
-            self._passed.append(f"C.kiri{of}(self.ID)")
+            self._passed.append(f"C.kiri{of}({self._of}.ID)")
         for parameter in function["parameters"][0 if not of else 1 if of == "World" else 2:]:
             self._parameter(parameter)
-        receiver = "" if not of else "(w *World) " if of == "World" else f"(self {of}) "
+        receiver = "" if not of else "(w *World) " if of == "World" else f"({self._of} {of}) "
         body, results = self._body()
         head = f"func {receiver}{self.name(function)}({', '.join(self._given)}) {results} {{"
         return self._pool() + naming.comment(function["doc"], "// ") + "\n".join([head, *(f"\t{line}" for line in body), "}", ""])
@@ -250,8 +261,8 @@ class Method:
         if self._go.has_pointers(self._go.structs[kind]):
             self._before += ["var pinner runtime.Pinner", "defer pinner.Unpin()"]
             if parameter.get("nullable"):
-                self._before += [f"var c *C.{kind}", f"if {name} != nil {{", f"\tc = {name}.toC(&pinner)", "}"]
-                self._passed.append("c")
+                self._before += [f"var inC *C.{kind}", f"if {name} != nil {{", f"\tinC = {name}.toC(&pinner)", "}"]
+                self._passed.append("inC")
             else:
                 self._passed.append(f"{name}.toC(&pinner)")
         else:

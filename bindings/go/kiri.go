@@ -20,27 +20,27 @@ const (
 	// success; work is left for later ticks
 	Pending ResultCode = 1
 	// null, NaN, infinite, outside the documented range, or beyond 4e37 m, m/s or 1/s
-	ErrorArgument ResultCode = -1
+	ErrArgument ResultCode = -1
 	// the def was not filled by its kiriDefault function: call that first
-	ErrorDef ResultCode = -2
+	ErrDef ResultCode = -2
 	// unknown or stale id, or the id of another kind
-	ErrorId ResultCode = -3
+	ErrID ResultCode = -3
 	// the triangles do not form a sheet: degenerate, inverted, duplicate, overlapping
-	ErrorMesh ResultCode = -4
+	ErrMesh ResultCode = -4
 	// the call comes in the wrong order, or from a callback that may not make it
-	ErrorState ResultCode = -5
+	ErrState ResultCode = -5
 	// the allocator returned null
-	ErrorMemory ResultCode = -6
+	ErrMemory ResultCode = -6
 	// the motion of a sheet could not be continued; the sheet was stopped where it was
 	Diverged ResultCode = -7
 	// all ids of a kind are used up: 4 194 304 at a time, 2^29 over the life of a world
-	ErrorLimit ResultCode = -8
+	ErrLimit ResultCode = -8
 	// floats are not computed as on other machines, see kiriCreateWorld
-	ErrorBuild ResultCode = -9
+	ErrBuild ResultCode = -9
 	// the bytes are damaged, cut short, of another kind, or of a later version
-	ErrorData ResultCode = -10
+	ErrData ResultCode = -10
 	// a repeated call gave another result than its recording has
-	ErrorReplay ResultCode = -11
+	ErrReplay ResultCode = -11
 )
 
 var namesResultCode = map[ResultCode]string{
@@ -59,7 +59,7 @@ var namesResultCode = map[ResultCode]string{
 	-11: "KIRI_ERROR_REPLAY",
 }
 
-func (value ResultCode) String() string { return namesResultCode[value] }
+func (v ResultCode) String() string { return namesResultCode[v] }
 
 type BudgetLimit int32
 
@@ -71,7 +71,7 @@ var namesBudgetLimit = map[BudgetLimit]string{
 	16: "KIRI_LEAST_TRIANGLES",
 }
 
-func (value BudgetLimit) String() string { return namesBudgetLimit[value] }
+func (v BudgetLimit) String() string { return namesBudgetLimit[v] }
 
 type NoteLimit int32
 
@@ -83,7 +83,7 @@ var namesNoteLimit = map[NoteLimit]string{
 	1048576: "KIRI_MOST_NOTE_BYTES",
 }
 
-func (value NoteLimit) String() string { return namesNoteLimit[value] }
+func (v NoteLimit) String() string { return namesNoteLimit[v] }
 
 // Events since the start of the last tick that was not refused.
 type EventType int32
@@ -118,7 +118,7 @@ var namesEventType = map[EventType]string{
 	8: "KIRI_EVENT_SEAM_BROKE",
 }
 
-func (value EventType) String() string { return namesEventType[value] }
+func (v EventType) String() string { return namesEventType[v] }
 
 // The stages of a tick in their order.
 type Stage int32
@@ -158,7 +158,7 @@ var namesStage = map[Stage]string{
 	9: "KIRI_STAGE_COUNT",
 }
 
-func (value Stage) String() string { return namesStage[value] }
+func (v Stage) String() string { return namesStage[v] }
 
 // Materials to start from; src/world/kiri_api_world.c names the sources of their numbers.
 type MaterialPreset int32
@@ -186,7 +186,7 @@ var namesMaterialPreset = map[MaterialPreset]string{
 	5: "KIRI_MATERIAL_COUNT",
 }
 
-func (value MaterialPreset) String() string { return namesMaterialPreset[value] }
+func (v MaterialPreset) String() string { return namesMaterialPreset[v] }
 
 type QualityPreset int32
 
@@ -204,7 +204,7 @@ var namesQualityPreset = map[QualityPreset]string{
 	3: "KIRI_QUALITY_COUNT",
 }
 
-func (value QualityPreset) String() string { return namesQualityPreset[value] }
+func (v QualityPreset) String() string { return namesQualityPreset[v] }
 
 // How a sheet deforms.
 type Model int32
@@ -226,7 +226,7 @@ var namesModel = map[Model]string{
 	2: "KIRI_MODEL_POINTS",
 }
 
-func (value Model) String() string { return namesModel[value] }
+func (v Model) String() string { return namesModel[v] }
 
 // The surface between the frames, which blades, contacts, pins and clamps meet; rays meet the drawn mesh. It changes
 // the motion only where something touches or holds the sheet. Collision points stay on the linear surface.
@@ -244,7 +244,7 @@ var namesSkinning = map[Skinning]string{
 	1: "KIRI_SKINNING_SMOOTH",
 }
 
-func (value Skinning) String() string { return namesSkinning[value] }
+func (v Skinning) String() string { return namesSkinning[v] }
 
 // Integration in time. Both solve one linear system an iteration.
 type TimeStepping int32
@@ -262,7 +262,7 @@ var namesTimeStepping = map[TimeStepping]string{
 	1: "KIRI_TIME_STEPPING_EULER",
 }
 
-func (value TimeStepping) String() string { return namesTimeStepping[value] }
+func (v TimeStepping) String() string { return namesTimeStepping[v] }
 
 // The types of pins.
 type PinType int32
@@ -279,7 +279,7 @@ var namesPinType = map[PinType]string{
 	2: "KIRI_PIN_CLAMP",
 }
 
-func (value PinType) String() string { return namesPinType[value] }
+func (v PinType) String() string { return namesPinType[v] }
 
 // A body that sheets touch: a floor, a ball, a crate of another engine. It moves on with its velocities; forces do
 // not move it. A host with an engine sets pose and velocities before each tick, and applies the impulse of
@@ -310,7 +310,7 @@ var namesObstacleType = map[ObstacleType]string{
 	5: "KIRI_OBSTACLE_PRISM",
 }
 
-func (value ObstacleType) String() string { return namesObstacleType[value] }
+func (v ObstacleType) String() string { return namesObstacleType[v] }
 
 // The things to draw.
 type DrawFlag uint32
@@ -356,7 +356,7 @@ var namesDrawFlag = map[DrawFlag]string{
 	2047: "KIRI_DRAW_ALL",
 }
 
-func (value DrawFlag) String() string { return namesDrawFlag[value] }
+func (v DrawFlag) String() string { return namesDrawFlag[v] }
 
 // SheetID is an id as C has it; 0 is none.
 type SheetID uint32
@@ -1564,13 +1564,13 @@ func (w *World) CreateSheet(def *SheetDef) (Sheet, error) {
 
 // Add a sheet, and destroy one with its cuts, frames and pins. On failure *sheet is 0. KIRI_ERROR_MESH: the triangles
 // do not form a sheet; the line says why, and names the triangle, or the two at an edge, by index in the def.
-func (self Sheet) Destroy() (bool, error) {
-	if err := self.World.check(); err != nil {
+func (s Sheet) Destroy() (bool, error) {
+	if err := s.World.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriDestroySheet(self.World.c, C.kiriSheet(self.ID))
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriDestroySheet", result, true); err != nil {
+	result := C.kiriDestroySheet(s.World.c, C.kiriSheet(s.ID))
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriDestroySheet", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -1589,12 +1589,12 @@ func (w *World) CreateRectangle(width float32, height float32, columns int32, ro
 	}
 	var pinner runtime.Pinner
 	defer pinner.Unpin()
-	var c *C.kiriSheetDef
+	var inC *C.kiriSheetDef
 	if def != nil {
-		c = def.toC(&pinner)
+		inC = def.toC(&pinner)
 	}
 	block := poolWorldCreateRectangle.take()
-	result := C.kiriCreateRectangle(w.c, C.float(width), C.float(height), C.int32_t(columns), C.int32_t(rows), c, &block.sheet)
+	result := C.kiriCreateRectangle(w.c, C.float(width), C.float(height), C.int32_t(columns), C.int32_t(rows), inC, &block.sheet)
 	answer := poolWorldCreateRectangle.give(block)
 	runtime.KeepAlive(w)
 	if err := failure(w, "kiriCreateRectangle", result, true); err != nil {
@@ -1608,16 +1608,16 @@ var poolSheetGetSettings pool[struct {
 }]
 
 // Gets the current settings, stamped for kiriSheet_SetSettings.
-func (self Sheet) Settings() (SheetSettings, error) {
+func (s Sheet) Settings() (SheetSettings, error) {
 	var made0 SheetSettings
-	if err := self.World.check(); err != nil {
+	if err := s.World.check(); err != nil {
 		return made0, err
 	}
 	block := poolSheetGetSettings.take()
-	result := C.kiriSheet_GetSettings(self.World.c, C.kiriSheet(self.ID), (*C.kiriSheetSettings)(unsafe.Pointer(&block.settings)))
+	result := C.kiriSheet_GetSettings(s.World.c, C.kiriSheet(s.ID), (*C.kiriSheetSettings)(unsafe.Pointer(&block.settings)))
 	answer := poolSheetGetSettings.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_GetSettings", result, false); err != nil {
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_GetSettings", result, false); err != nil {
 		return made0, err
 	}
 	return answer.settings, nil
@@ -1626,13 +1626,13 @@ func (self Sheet) Settings() (SheetSettings, error) {
 // Sets all settings, or none; checks them as kiriCreateSheet does. KIRI_ERROR_DEF: they do not come from
 // kiriSheet_GetSettings. The sheet wakes if one differs. Positions and velocities are kept, so a new mass changes the
 // momentum; the stiffness of pins and the lengths that placed the frames are kept, too.
-func (self Sheet) SetSettings(settings *SheetSettings) (bool, error) {
-	if err := self.World.check(); err != nil {
+func (s Sheet) SetSettings(settings *SheetSettings) (bool, error) {
+	if err := s.World.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriSheet_SetSettings(self.World.c, C.kiriSheet(self.ID), (*C.kiriSheetSettings)(unsafe.Pointer(settings)))
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_SetSettings", result, true); err != nil {
+	result := C.kiriSheet_SetSettings(s.World.c, C.kiriSheet(s.ID), (*C.kiriSheetSettings)(unsafe.Pointer(settings)))
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_SetSettings", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -1667,16 +1667,16 @@ var poolSheetGetFold pool[struct {
 
 // Get and change a fold by its index. A part of the sheet that is detached has its own folds, with the same indices.
 // A rest angle drives the fold by its stiffness: change it in small steps. The sheet wakes.
-func (self Sheet) Fold(index int32) (FoldState, error) {
+func (s Sheet) Fold(index int32) (FoldState, error) {
 	var made0 FoldState
-	if err := self.World.check(); err != nil {
+	if err := s.World.check(); err != nil {
 		return made0, err
 	}
 	block := poolSheetGetFold.take()
-	result := C.kiriSheet_GetFold(self.World.c, C.kiriSheet(self.ID), C.int32_t(index), (*C.kiriFoldState)(unsafe.Pointer(&block.state)))
+	result := C.kiriSheet_GetFold(s.World.c, C.kiriSheet(s.ID), C.int32_t(index), (*C.kiriFoldState)(unsafe.Pointer(&block.state)))
 	answer := poolSheetGetFold.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_GetFold", result, false); err != nil {
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_GetFold", result, false); err != nil {
 		return made0, err
 	}
 	return answer.state, nil
@@ -1684,13 +1684,13 @@ func (self Sheet) Fold(index int32) (FoldState, error) {
 
 // Get and change a fold by its index. A part of the sheet that is detached has its own folds, with the same indices.
 // A rest angle drives the fold by its stiffness: change it in small steps. The sheet wakes.
-func (self Sheet) SetFold(index int32, stiffness float32, restAngle float32) (bool, error) {
-	if err := self.World.check(); err != nil {
+func (s Sheet) SetFold(index int32, stiffness float32, restAngle float32) (bool, error) {
+	if err := s.World.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriSheet_SetFold(self.World.c, C.kiriSheet(self.ID), C.int32_t(index), C.float(stiffness), C.float(restAngle))
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_SetFold", result, true); err != nil {
+	result := C.kiriSheet_SetFold(s.World.c, C.kiriSheet(s.ID), C.int32_t(index), C.float(stiffness), C.float(restAngle))
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_SetFold", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -1701,19 +1701,19 @@ var poolSheetGetMesh pool[struct {
 }]
 
 // Gets the arrays, without a copy.
-func (self Sheet) Mesh() (Mesh, error) {
+func (s Sheet) Mesh() (Mesh, error) {
 	var made0 Mesh
-	if err := self.World.check(); err != nil {
+	if err := s.World.check(); err != nil {
 		return made0, err
 	}
 	block := poolSheetGetMesh.take()
-	result := C.kiriSheet_GetMesh(self.World.c, C.kiriSheet(self.ID), &block.mesh)
+	result := C.kiriSheet_GetMesh(s.World.c, C.kiriSheet(s.ID), &block.mesh)
 	answer := poolSheetGetMesh.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_GetMesh", result, false); err != nil {
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_GetMesh", result, false); err != nil {
 		return made0, err
 	}
-	return viewMesh(self.World, &answer.mesh), nil
+	return viewMesh(s.World, &answer.mesh), nil
 }
 
 var poolSheetGetDirty pool[struct {
@@ -1721,16 +1721,16 @@ var poolSheetGetDirty pool[struct {
 }]
 
 // Gets the changes since a revision; the whole mesh if the revision is too old, or 0.
-func (self Sheet) Dirty(sinceRevision uint32) (Dirty, error) {
+func (s Sheet) Dirty(sinceRevision uint32) (Dirty, error) {
 	var made0 Dirty
-	if err := self.World.check(); err != nil {
+	if err := s.World.check(); err != nil {
 		return made0, err
 	}
 	block := poolSheetGetDirty.take()
-	result := C.kiriSheet_GetDirty(self.World.c, C.kiriSheet(self.ID), C.uint32_t(sinceRevision), (*C.kiriDirty)(unsafe.Pointer(&block.dirty)))
+	result := C.kiriSheet_GetDirty(s.World.c, C.kiriSheet(s.ID), C.uint32_t(sinceRevision), (*C.kiriDirty)(unsafe.Pointer(&block.dirty)))
 	answer := poolSheetGetDirty.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_GetDirty", result, false); err != nil {
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_GetDirty", result, false); err != nil {
 		return made0, err
 	}
 	return answer.dirty, nil
@@ -1741,19 +1741,19 @@ var poolSheetGetSolid pool[struct {
 }]
 
 // Makes the solid surface. thickness: m, 0: the material's thickness.
-func (self Sheet) Solid(thickness float32) (Solid, error) {
+func (s Sheet) Solid(thickness float32) (Solid, error) {
 	var made0 Solid
-	if err := self.World.check(); err != nil {
+	if err := s.World.check(); err != nil {
 		return made0, err
 	}
 	block := poolSheetGetSolid.take()
-	result := C.kiriSheet_GetSolid(self.World.c, C.kiriSheet(self.ID), C.float(thickness), &block.solid)
+	result := C.kiriSheet_GetSolid(s.World.c, C.kiriSheet(s.ID), C.float(thickness), &block.solid)
 	answer := poolSheetGetSolid.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_GetSolid", result, true); err != nil {
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_GetSolid", result, true); err != nil {
 		return made0, err
 	}
-	return viewSolid(self.World, &answer.solid), nil
+	return viewSolid(s.World, &answer.solid), nil
 }
 
 var poolSheetGetCollisionPoints pool[struct {
@@ -1762,19 +1762,19 @@ var poolSheetGetCollisionPoints pool[struct {
 }]
 
 // Gets the collision points: 3 floats of position (m, world) a point.
-func (self Sheet) CollisionPoints() (View[[3]float32], error) {
+func (s Sheet) CollisionPoints() (View[[3]float32], error) {
 	var made0 View[[3]float32]
-	if err := self.World.check(); err != nil {
+	if err := s.World.check(); err != nil {
 		return made0, err
 	}
 	block := poolSheetGetCollisionPoints.take()
-	result := C.kiriSheet_GetCollisionPoints(self.World.c, C.kiriSheet(self.ID), &block.positions, &block.count)
+	result := C.kiriSheet_GetCollisionPoints(s.World.c, C.kiriSheet(s.ID), &block.positions, &block.count)
 	answer := poolSheetGetCollisionPoints.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_GetCollisionPoints", result, false); err != nil {
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_GetCollisionPoints", result, false); err != nil {
 		return made0, err
 	}
-	return viewOf[[3]float32](self.World, unsafe.Pointer(answer.positions), int(answer.count)), nil
+	return viewOf[[3]float32](s.World, unsafe.Pointer(answer.positions), int(answer.count)), nil
 }
 
 var poolSheetGetCounts pool[struct {
@@ -1782,16 +1782,16 @@ var poolSheetGetCounts pool[struct {
 }]
 
 // Gets the counts, at no cost.
-func (self Sheet) Counts() (Counts, error) {
+func (s Sheet) Counts() (Counts, error) {
 	var made0 Counts
-	if err := self.World.check(); err != nil {
+	if err := s.World.check(); err != nil {
 		return made0, err
 	}
 	block := poolSheetGetCounts.take()
-	result := C.kiriSheet_GetCounts(self.World.c, C.kiriSheet(self.ID), (*C.kiriCounts)(unsafe.Pointer(&block.counts)))
+	result := C.kiriSheet_GetCounts(s.World.c, C.kiriSheet(s.ID), (*C.kiriCounts)(unsafe.Pointer(&block.counts)))
 	answer := poolSheetGetCounts.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_GetCounts", result, false); err != nil {
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_GetCounts", result, false); err != nil {
 		return made0, err
 	}
 	return answer.counts, nil
@@ -1802,16 +1802,16 @@ var poolSheetGetTotals pool[struct {
 }]
 
 // Sums the totals over the frames.
-func (self Sheet) Totals() (Totals, error) {
+func (s Sheet) Totals() (Totals, error) {
 	var made0 Totals
-	if err := self.World.check(); err != nil {
+	if err := s.World.check(); err != nil {
 		return made0, err
 	}
 	block := poolSheetGetTotals.take()
-	result := C.kiriSheet_GetTotals(self.World.c, C.kiriSheet(self.ID), (*C.kiriTotals)(unsafe.Pointer(&block.totals)))
+	result := C.kiriSheet_GetTotals(s.World.c, C.kiriSheet(s.ID), (*C.kiriTotals)(unsafe.Pointer(&block.totals)))
 	answer := poolSheetGetTotals.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_GetTotals", result, false); err != nil {
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_GetTotals", result, false); err != nil {
 		return made0, err
 	}
 	return answer.totals, nil
@@ -1824,16 +1824,16 @@ var poolSheetEstimateError pool[struct {
 // Estimates the error of the current shape of a sheet that rests or moves slowly: rms distance from a sheet of very
 // many frames under the same loads, over its rms way from the flat shape; 0 to 1, and 1 with too few frames to tell.
 // KIRI_MODEL_LINKS only; else KIRI_ERROR_STATE. It allocates memory. The manual says how good it is (accuracy).
-func (self Sheet) EstimateError() (float64, error) {
+func (s Sheet) EstimateError() (float64, error) {
 	var made0 float64
-	if err := self.World.check(); err != nil {
+	if err := s.World.check(); err != nil {
 		return made0, err
 	}
 	block := poolSheetEstimateError.take()
-	result := C.kiriSheet_EstimateError(self.World.c, C.kiriSheet(self.ID), &block.relative)
+	result := C.kiriSheet_EstimateError(s.World.c, C.kiriSheet(s.ID), &block.relative)
 	answer := poolSheetEstimateError.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_EstimateError", result, false); err != nil {
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_EstimateError", result, false); err != nil {
 		return made0, err
 	}
 	return float64(answer.relative), nil
@@ -1844,29 +1844,29 @@ var poolSheetIsAwake pool[struct {
 }]
 
 // Read and end sleep: *awake is 0 where all pieces sleep (kiriPieceState tells which); kiriSheet_Wake wakes all.
-func (self Sheet) IsAwake() (bool, error) {
+func (s Sheet) IsAwake() (bool, error) {
 	var made0 bool
-	if err := self.World.check(); err != nil {
+	if err := s.World.check(); err != nil {
 		return made0, err
 	}
 	block := poolSheetIsAwake.take()
-	result := C.kiriSheet_IsAwake(self.World.c, C.kiriSheet(self.ID), &block.awake)
+	result := C.kiriSheet_IsAwake(s.World.c, C.kiriSheet(s.ID), &block.awake)
 	answer := poolSheetIsAwake.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_IsAwake", result, false); err != nil {
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_IsAwake", result, false); err != nil {
 		return made0, err
 	}
 	return answer.awake != 0, nil
 }
 
 // Read and end sleep: *awake is 0 where all pieces sleep (kiriPieceState tells which); kiriSheet_Wake wakes all.
-func (self Sheet) Wake() (bool, error) {
-	if err := self.World.check(); err != nil {
+func (s Sheet) Wake() (bool, error) {
+	if err := s.World.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriSheet_Wake(self.World.c, C.kiriSheet(self.ID))
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_Wake", result, true); err != nil {
+	result := C.kiriSheet_Wake(s.World.c, C.kiriSheet(s.ID))
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_Wake", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -1881,17 +1881,17 @@ var poolSheetTransform pool[struct {
 // columns of `rotation` are the images of the world's axes; a planar sheet turns about its normal only. Targets of
 // pins, hinges, clamps and holds move along; pins on an obstacle stay on it. The manual has the order of calls that
 // set targets or move obstacles (sheets). Pending loads and contacts stay.
-func (self Sheet) Transform(rotation [9]float32, translation [3]float32) (bool, error) {
-	if err := self.World.check(); err != nil {
+func (s Sheet) Transform(rotation [9]float32, translation [3]float32) (bool, error) {
+	if err := s.World.check(); err != nil {
 		return false, err
 	}
 	block := poolSheetTransform.take()
 	block.rotation = rotation
 	block.translation = translation
-	result := C.kiriSheet_Transform(self.World.c, C.kiriSheet(self.ID), (*C.float)(unsafe.Pointer(&block.rotation)), (*C.float)(unsafe.Pointer(&block.translation)))
+	result := C.kiriSheet_Transform(s.World.c, C.kiriSheet(s.ID), (*C.float)(unsafe.Pointer(&block.rotation)), (*C.float)(unsafe.Pointer(&block.translation)))
 	poolSheetTransform.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_Transform", result, true); err != nil {
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_Transform", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -1905,17 +1905,17 @@ var poolSheetSetVelocity pool[struct {
 // Set rigid motion of a sheet, or of the piece with a frame, until forces change it: `velocity` (m/s) of its centre
 // of mass, and `angularVelocity` (rad/s) about it. Planar sheets drop motion across their plane; held frames stay
 // held.
-func (self Sheet) SetVelocity(velocity [3]float32, angularVelocity [3]float32) (bool, error) {
-	if err := self.World.check(); err != nil {
+func (s Sheet) SetVelocity(velocity [3]float32, angularVelocity [3]float32) (bool, error) {
+	if err := s.World.check(); err != nil {
 		return false, err
 	}
 	block := poolSheetSetVelocity.take()
 	block.velocity = velocity
 	block.angularVelocity = angularVelocity
-	result := C.kiriSheet_SetVelocity(self.World.c, C.kiriSheet(self.ID), (*C.float)(unsafe.Pointer(&block.velocity)), (*C.float)(unsafe.Pointer(&block.angularVelocity)))
+	result := C.kiriSheet_SetVelocity(s.World.c, C.kiriSheet(s.ID), (*C.float)(unsafe.Pointer(&block.velocity)), (*C.float)(unsafe.Pointer(&block.angularVelocity)))
 	poolSheetSetVelocity.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_SetVelocity", result, true); err != nil {
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_SetVelocity", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -1929,17 +1929,17 @@ var poolFrameSetPieceVelocity pool[struct {
 // Set rigid motion of a sheet, or of the piece with a frame, until forces change it: `velocity` (m/s) of its centre
 // of mass, and `angularVelocity` (rad/s) about it. Planar sheets drop motion across their plane; held frames stay
 // held.
-func (self Frame) SetPieceVelocity(velocity [3]float32, angularVelocity [3]float32) (bool, error) {
-	if err := self.World.check(); err != nil {
+func (f Frame) SetPieceVelocity(velocity [3]float32, angularVelocity [3]float32) (bool, error) {
+	if err := f.World.check(); err != nil {
 		return false, err
 	}
 	block := poolFrameSetPieceVelocity.take()
 	block.velocity = velocity
 	block.angularVelocity = angularVelocity
-	result := C.kiriFrame_SetPieceVelocity(self.World.c, C.kiriFrame(self.ID), (*C.float)(unsafe.Pointer(&block.velocity)), (*C.float)(unsafe.Pointer(&block.angularVelocity)))
+	result := C.kiriFrame_SetPieceVelocity(f.World.c, C.kiriFrame(f.ID), (*C.float)(unsafe.Pointer(&block.velocity)), (*C.float)(unsafe.Pointer(&block.angularVelocity)))
 	poolFrameSetPieceVelocity.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriFrame_SetPieceVelocity", result, true); err != nil {
+	runtime.KeepAlive(f.World)
+	if err := failure(f.World, "kiriFrame_SetPieceVelocity", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -1948,13 +1948,13 @@ func (self Frame) SetPieceVelocity(velocity [3]float32, angularVelocity [3]float
 // Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and a
 // piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
 // both.
-func (self Sheet) SetUserData(data uint64) (bool, error) {
-	if err := self.World.check(); err != nil {
+func (s Sheet) SetUserData(data uint64) (bool, error) {
+	if err := s.World.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriSheet_SetUserData(self.World.c, C.kiriSheet(self.ID), C.uint64_t(data))
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_SetUserData", result, true); err != nil {
+	result := C.kiriSheet_SetUserData(s.World.c, C.kiriSheet(s.ID), C.uint64_t(data))
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_SetUserData", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -1967,16 +1967,16 @@ var poolSheetGetUserData pool[struct {
 // Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and a
 // piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
 // both.
-func (self Sheet) UserData() (uint64, error) {
+func (s Sheet) UserData() (uint64, error) {
 	var made0 uint64
-	if err := self.World.check(); err != nil {
+	if err := s.World.check(); err != nil {
 		return made0, err
 	}
 	block := poolSheetGetUserData.take()
-	result := C.kiriSheet_GetUserData(self.World.c, C.kiriSheet(self.ID), &block.data)
+	result := C.kiriSheet_GetUserData(s.World.c, C.kiriSheet(s.ID), &block.data)
 	answer := poolSheetGetUserData.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_GetUserData", result, false); err != nil {
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_GetUserData", result, false); err != nil {
 		return made0, err
 	}
 	return uint64(answer.data), nil
@@ -1985,13 +1985,13 @@ func (self Sheet) UserData() (uint64, error) {
 // Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and a
 // piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
 // both.
-func (self Pin) SetUserData(data uint64) (bool, error) {
-	if err := self.World.check(); err != nil {
+func (p Pin) SetUserData(data uint64) (bool, error) {
+	if err := p.World.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriPin_SetUserData(self.World.c, C.kiriPin(self.ID), C.uint64_t(data))
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriPin_SetUserData", result, true); err != nil {
+	result := C.kiriPin_SetUserData(p.World.c, C.kiriPin(p.ID), C.uint64_t(data))
+	runtime.KeepAlive(p.World)
+	if err := failure(p.World, "kiriPin_SetUserData", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -2004,16 +2004,16 @@ var poolPinGetUserData pool[struct {
 // Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and a
 // piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
 // both.
-func (self Pin) UserData() (uint64, error) {
+func (p Pin) UserData() (uint64, error) {
 	var made0 uint64
-	if err := self.World.check(); err != nil {
+	if err := p.World.check(); err != nil {
 		return made0, err
 	}
 	block := poolPinGetUserData.take()
-	result := C.kiriPin_GetUserData(self.World.c, C.kiriPin(self.ID), &block.data)
+	result := C.kiriPin_GetUserData(p.World.c, C.kiriPin(p.ID), &block.data)
 	answer := poolPinGetUserData.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriPin_GetUserData", result, false); err != nil {
+	runtime.KeepAlive(p.World)
+	if err := failure(p.World, "kiriPin_GetUserData", result, false); err != nil {
 		return made0, err
 	}
 	return uint64(answer.data), nil
@@ -2022,13 +2022,13 @@ func (self Pin) UserData() (uint64, error) {
 // Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and a
 // piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
 // both.
-func (self Frame) SetPieceUserData(data uint64) (bool, error) {
-	if err := self.World.check(); err != nil {
+func (f Frame) SetPieceUserData(data uint64) (bool, error) {
+	if err := f.World.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriFrame_SetPieceUserData(self.World.c, C.kiriFrame(self.ID), C.uint64_t(data))
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriFrame_SetPieceUserData", result, true); err != nil {
+	result := C.kiriFrame_SetPieceUserData(f.World.c, C.kiriFrame(f.ID), C.uint64_t(data))
+	runtime.KeepAlive(f.World)
+	if err := failure(f.World, "kiriFrame_SetPieceUserData", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -2041,16 +2041,16 @@ var poolFrameGetPieceUserData pool[struct {
 // Store a number of the host, 0 at first. No tick and no state hash depends on it. A sheet has one, a pin, and a
 // piece, named by any of its frames: parts of a piece that is cut inherit it, and a sheet that is made of it has
 // both.
-func (self Frame) PieceUserData() (uint64, error) {
+func (f Frame) PieceUserData() (uint64, error) {
 	var made0 uint64
-	if err := self.World.check(); err != nil {
+	if err := f.World.check(); err != nil {
 		return made0, err
 	}
 	block := poolFrameGetPieceUserData.take()
-	result := C.kiriFrame_GetPieceUserData(self.World.c, C.kiriFrame(self.ID), &block.data)
+	result := C.kiriFrame_GetPieceUserData(f.World.c, C.kiriFrame(f.ID), &block.data)
 	answer := poolFrameGetPieceUserData.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriFrame_GetPieceUserData", result, false); err != nil {
+	runtime.KeepAlive(f.World)
+	if err := failure(f.World, "kiriFrame_GetPieceUserData", result, false); err != nil {
 		return made0, err
 	}
 	return uint64(answer.data), nil
@@ -2064,18 +2064,18 @@ var poolSheetRaycast pool[struct {
 
 // Find where a ray first meets the sheet, or any (*sheet is 0 if none), up to maxDistance; hit->triangle is -1 if it
 // does not. Boxes over triangles that make rays fast follow the sheet until 120 ticks pass without a ray.
-func (self Sheet) Raycast(origin [3]float32, direction [3]float32, maxDistance float32) (Hit, error) {
+func (s Sheet) Raycast(origin [3]float32, direction [3]float32, maxDistance float32) (Hit, error) {
 	var made0 Hit
-	if err := self.World.check(); err != nil {
+	if err := s.World.check(); err != nil {
 		return made0, err
 	}
 	block := poolSheetRaycast.take()
 	block.origin = origin
 	block.direction = direction
-	result := C.kiriSheet_Raycast(self.World.c, C.kiriSheet(self.ID), (*C.float)(unsafe.Pointer(&block.origin)), (*C.float)(unsafe.Pointer(&block.direction)), C.float(maxDistance), (*C.kiriHit)(unsafe.Pointer(&block.hit)))
+	result := C.kiriSheet_Raycast(s.World.c, C.kiriSheet(s.ID), (*C.float)(unsafe.Pointer(&block.origin)), (*C.float)(unsafe.Pointer(&block.direction)), C.float(maxDistance), (*C.kiriHit)(unsafe.Pointer(&block.hit)))
 	answer := poolSheetRaycast.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_Raycast", result, false); err != nil {
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_Raycast", result, false); err != nil {
 		return made0, err
 	}
 	return answer.hit, nil
@@ -2114,17 +2114,17 @@ var poolSheetGetPoint pool[struct {
 }]
 
 // Gets the state of a point. KIRI_ERROR_ARGUMENT: it is outside the sheet. On a cut: on a lip that has the point.
-func (self Sheet) Point(restPoint [2]float32) (PointState, error) {
+func (s Sheet) Point(restPoint [2]float32) (PointState, error) {
 	var made0 PointState
-	if err := self.World.check(); err != nil {
+	if err := s.World.check(); err != nil {
 		return made0, err
 	}
 	block := poolSheetGetPoint.take()
 	block.restPoint = restPoint
-	result := C.kiriSheet_GetPoint(self.World.c, C.kiriSheet(self.ID), (*C.float)(unsafe.Pointer(&block.restPoint)), (*C.kiriPointState)(unsafe.Pointer(&block.state)))
+	result := C.kiriSheet_GetPoint(s.World.c, C.kiriSheet(s.ID), (*C.float)(unsafe.Pointer(&block.restPoint)), (*C.kiriPointState)(unsafe.Pointer(&block.state)))
 	answer := poolSheetGetPoint.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_GetPoint", result, false); err != nil {
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_GetPoint", result, false); err != nil {
 		return made0, err
 	}
 	return answer.state, nil
@@ -2135,16 +2135,16 @@ var poolSheetGetPiece pool[struct {
 }]
 
 // Get a piece. The first call after a cut sorts the sheet by pieces. KIRI_ERROR_ARGUMENT: no piece has the index.
-func (self Sheet) Piece(piece int32) (PieceState, error) {
+func (s Sheet) Piece(piece int32) (PieceState, error) {
 	var made0 PieceState
-	if err := self.World.check(); err != nil {
+	if err := s.World.check(); err != nil {
 		return made0, err
 	}
 	block := poolSheetGetPiece.take()
-	result := C.kiriSheet_GetPiece(self.World.c, C.kiriSheet(self.ID), C.int32_t(piece), (*C.kiriPieceState)(unsafe.Pointer(&block.state)))
+	result := C.kiriSheet_GetPiece(s.World.c, C.kiriSheet(s.ID), C.int32_t(piece), (*C.kiriPieceState)(unsafe.Pointer(&block.state)))
 	answer := poolSheetGetPiece.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_GetPiece", result, true); err != nil {
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_GetPiece", result, true); err != nil {
 		return made0, err
 	}
 	return answer.state, nil
@@ -2155,19 +2155,19 @@ var poolSheetGetPieceMesh pool[struct {
 }]
 
 // Get a piece. The first call after a cut sorts the sheet by pieces. KIRI_ERROR_ARGUMENT: no piece has the index.
-func (self Sheet) PieceMesh(piece int32) (PieceMesh, error) {
+func (s Sheet) PieceMesh(piece int32) (PieceMesh, error) {
 	var made0 PieceMesh
-	if err := self.World.check(); err != nil {
+	if err := s.World.check(); err != nil {
 		return made0, err
 	}
 	block := poolSheetGetPieceMesh.take()
-	result := C.kiriSheet_GetPieceMesh(self.World.c, C.kiriSheet(self.ID), C.int32_t(piece), &block.mesh)
+	result := C.kiriSheet_GetPieceMesh(s.World.c, C.kiriSheet(s.ID), C.int32_t(piece), &block.mesh)
 	answer := poolSheetGetPieceMesh.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_GetPieceMesh", result, true); err != nil {
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_GetPieceMesh", result, true); err != nil {
 		return made0, err
 	}
-	return viewPieceMesh(self.World, &answer.mesh), nil
+	return viewPieceMesh(s.World, &answer.mesh), nil
 }
 
 var poolSheetGetPieceFrames pool[struct {
@@ -2176,19 +2176,19 @@ var poolSheetGetPieceFrames pool[struct {
 }]
 
 // Get the frames of a piece (*frames points to *count ids), and the current index of the piece with a frame.
-func (self Sheet) PieceFrames(piece int32) (View[FrameID], error) {
+func (s Sheet) PieceFrames(piece int32) (View[FrameID], error) {
 	var made0 View[FrameID]
-	if err := self.World.check(); err != nil {
+	if err := s.World.check(); err != nil {
 		return made0, err
 	}
 	block := poolSheetGetPieceFrames.take()
-	result := C.kiriSheet_GetPieceFrames(self.World.c, C.kiriSheet(self.ID), C.int32_t(piece), &block.frames, &block.count)
+	result := C.kiriSheet_GetPieceFrames(s.World.c, C.kiriSheet(s.ID), C.int32_t(piece), &block.frames, &block.count)
 	answer := poolSheetGetPieceFrames.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_GetPieceFrames", result, true); err != nil {
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_GetPieceFrames", result, true); err != nil {
 		return made0, err
 	}
-	return viewOf[FrameID](self.World, unsafe.Pointer(answer.frames), int(answer.count)), nil
+	return viewOf[FrameID](s.World, unsafe.Pointer(answer.frames), int(answer.count)), nil
 }
 
 var poolFrameGetPiece pool[struct {
@@ -2196,16 +2196,16 @@ var poolFrameGetPiece pool[struct {
 }]
 
 // Get the frames of a piece (*frames points to *count ids), and the current index of the piece with a frame.
-func (self Frame) Piece() (int32, error) {
+func (f Frame) Piece() (int32, error) {
 	var made0 int32
-	if err := self.World.check(); err != nil {
+	if err := f.World.check(); err != nil {
 		return made0, err
 	}
 	block := poolFrameGetPiece.take()
-	result := C.kiriFrame_GetPiece(self.World.c, C.kiriFrame(self.ID), &block.piece)
+	result := C.kiriFrame_GetPiece(f.World.c, C.kiriFrame(f.ID), &block.piece)
 	answer := poolFrameGetPiece.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriFrame_GetPiece", result, false); err != nil {
+	runtime.KeepAlive(f.World)
+	if err := failure(f.World, "kiriFrame_GetPiece", result, false); err != nil {
 		return made0, err
 	}
 	return int32(answer.piece), nil
@@ -2220,31 +2220,31 @@ var poolFrameDetachPiece pool[struct {
 // sheet. KIRI_PENDING: work on a cut is pending, or the piece takes more samples than the budget leaves; *detached is
 // 0. Further cuts of the sheet then wait, and KIRI_EVENT_PIECE_DETACHED names the sheet in a later tick.
 // KIRI_ERROR_STATE: nothing would be left of the sheet. The manual has indices and costs (cutting).
-func (self Frame) DetachPiece() (Sheet, error) {
+func (f Frame) DetachPiece() (Sheet, error) {
 	var made0 Sheet
-	if err := self.World.check(); err != nil {
+	if err := f.World.check(); err != nil {
 		return made0, err
 	}
 	block := poolFrameDetachPiece.take()
-	result := C.kiriFrame_DetachPiece(self.World.c, C.kiriFrame(self.ID), &block.detached)
+	result := C.kiriFrame_DetachPiece(f.World.c, C.kiriFrame(f.ID), &block.detached)
 	answer := poolFrameDetachPiece.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriFrame_DetachPiece", result, true); err != nil {
+	runtime.KeepAlive(f.World)
+	if err := failure(f.World, "kiriFrame_DetachPiece", result, true); err != nil {
 		return made0, err
 	}
-	return Sheet{self.World, SheetID(answer.detached)}, nil
+	return Sheet{f.World, SheetID(answer.detached)}, nil
 }
 
 // Removes the piece with this frame at once: ids of its frames and pins are stale, and the coming ticks have fewer
 // samples. KIRI_PENDING: work on a cut is pending. Until it is done the triangles stay in kiriMesh with three equal
 // corners, and kiriCounts counts the piece, with a kiriPieceState of all zeros.
-func (self Frame) DestroyPiece() (bool, error) {
-	if err := self.World.check(); err != nil {
+func (f Frame) DestroyPiece() (bool, error) {
+	if err := f.World.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriFrame_DestroyPiece(self.World.c, C.kiriFrame(self.ID))
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriFrame_DestroyPiece", result, true); err != nil {
+	result := C.kiriFrame_DestroyPiece(f.World.c, C.kiriFrame(f.ID))
+	runtime.KeepAlive(f.World)
+	if err := failure(f.World, "kiriFrame_DestroyPiece", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -2290,16 +2290,16 @@ var poolSheetDropCrumbs pool[struct {
 
 // Destroys all pieces below an area (m^2) except the largest piece, at the cost of one. *count is their number. If
 // the largest piece is pending to become a sheet, the largest of the others stays, too.
-func (self Sheet) DropCrumbs(area float32) (int, error) {
+func (s Sheet) DropCrumbs(area float32) (int, error) {
 	var made0 int
-	if err := self.World.check(); err != nil {
+	if err := s.World.check(); err != nil {
 		return made0, err
 	}
 	block := poolSheetDropCrumbs.take()
-	result := C.kiriSheet_DropCrumbs(self.World.c, C.kiriSheet(self.ID), C.float(area), &block.count)
+	result := C.kiriSheet_DropCrumbs(s.World.c, C.kiriSheet(s.ID), C.float(area), &block.count)
 	answer := poolSheetDropCrumbs.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_DropCrumbs", result, true); err != nil {
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_DropCrumbs", result, true); err != nil {
 		return made0, err
 	}
 	return int(answer.count), nil
@@ -2312,31 +2312,31 @@ var poolSheetBeginCut pool[struct {
 
 // Begins a cut: a polyline in the rest plane. Outside the sheet it cuts nothing. Points take effect with the next
 // tick or, by the budget, a later one. The end of a cut inside the sheet stays closed until the next point.
-func (self Sheet) BeginCut(restPoint [2]float32) (Cut, error) {
+func (s Sheet) BeginCut(restPoint [2]float32) (Cut, error) {
 	var made0 Cut
-	if err := self.World.check(); err != nil {
+	if err := s.World.check(); err != nil {
 		return made0, err
 	}
 	block := poolSheetBeginCut.take()
 	block.restPoint = restPoint
-	result := C.kiriBeginCut(self.World.c, C.kiriSheet(self.ID), (*C.float)(unsafe.Pointer(&block.restPoint)), &block.cut)
+	result := C.kiriBeginCut(s.World.c, C.kiriSheet(s.ID), (*C.float)(unsafe.Pointer(&block.restPoint)), &block.cut)
 	answer := poolSheetBeginCut.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriBeginCut", result, true); err != nil {
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriBeginCut", result, true); err != nil {
 		return made0, err
 	}
-	return Cut{self.World, CutID(answer.cut)}, nil
+	return Cut{s.World, CutID(answer.cut)}, nil
 }
 
 // Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the tick in which its last
 // point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the frames that it needs.
-func (self Cut) Extend(restPoints [][2]float32) (bool, error) {
-	if err := self.World.check(); err != nil {
+func (c Cut) Extend(restPoints [][2]float32) (bool, error) {
+	if err := c.World.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriCut_Extend(self.World.c, C.kiriCut(self.ID), (*C.float)(unsafe.Pointer(unsafe.SliceData(restPoints))), C.int32_t(len(restPoints)))
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriCut_Extend", result, true); err != nil {
+	result := C.kiriCut_Extend(c.World.c, C.kiriCut(c.ID), (*C.float)(unsafe.Pointer(unsafe.SliceData(restPoints))), C.int32_t(len(restPoints)))
+	runtime.KeepAlive(c.World)
+	if err := failure(c.World, "kiriCut_Extend", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -2344,13 +2344,13 @@ func (self Cut) Extend(restPoints [][2]float32) (bool, error) {
 
 // Add points (2 floats each; count is 1 to 2^24), and end the cut. Its id is stale after the tick in which its last
 // point takes effect (KIRI_EVENT_CUT_FINISHED). The sheet then adds the frames that it needs.
-func (self Cut) End() (bool, error) {
-	if err := self.World.check(); err != nil {
+func (c Cut) End() (bool, error) {
+	if err := c.World.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriCut_End(self.World.c, C.kiriCut(self.ID))
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriCut_End", result, true); err != nil {
+	result := C.kiriCut_End(c.World.c, C.kiriCut(c.ID))
+	runtime.KeepAlive(c.World)
+	if err := failure(c.World, "kiriCut_End", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -2363,20 +2363,20 @@ var poolSheetSlice pool[struct {
 
 // Cuts where the quadrilateral swept by an edge in world space, from blade[0]-blade[1] to blade[3]-blade[2], meets
 // the current sheet; past borders, so that it separates the parts that it crosses. The cut is already ended.
-func (self Sheet) Slice(blade [12]float32) (Cut, error) {
+func (s Sheet) Slice(blade [12]float32) (Cut, error) {
 	var made0 Cut
-	if err := self.World.check(); err != nil {
+	if err := s.World.check(); err != nil {
 		return made0, err
 	}
 	block := poolSheetSlice.take()
 	block.blade = blade
-	result := C.kiriSheet_Slice(self.World.c, C.kiriSheet(self.ID), (*C.float)(unsafe.Pointer(&block.blade)), &block.cut)
+	result := C.kiriSheet_Slice(s.World.c, C.kiriSheet(s.ID), (*C.float)(unsafe.Pointer(&block.blade)), &block.cut)
 	answer := poolSheetSlice.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_Slice", result, true); err != nil {
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_Slice", result, true); err != nil {
 		return made0, err
 	}
-	return Cut{self.World, CutID(answer.cut)}, nil
+	return Cut{s.World, CutID(answer.cut)}, nil
 }
 
 var poolWorldBeginBlade pool[struct {
@@ -2406,17 +2406,17 @@ var poolBladeMoveEdge pool[struct {
 
 // Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera casts;
 // each end goes straight. The first call only says where it begins. An end inside cuts along its own way.
-func (self Blade) MoveEdge(from [3]float32, to [3]float32) (bool, error) {
-	if err := self.World.check(); err != nil {
+func (b Blade) MoveEdge(from [3]float32, to [3]float32) (bool, error) {
+	if err := b.World.check(); err != nil {
 		return false, err
 	}
 	block := poolBladeMoveEdge.take()
 	block.from = from
 	block.to = to
-	result := C.kiriBlade_MoveEdge(self.World.c, C.kiriBlade(self.ID), (*C.float)(unsafe.Pointer(&block.from)), (*C.float)(unsafe.Pointer(&block.to)))
+	result := C.kiriBlade_MoveEdge(b.World.c, C.kiriBlade(b.ID), (*C.float)(unsafe.Pointer(&block.from)), (*C.float)(unsafe.Pointer(&block.to)))
 	poolBladeMoveEdge.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriBlade_MoveEdge", result, true); err != nil {
+	runtime.KeepAlive(b.World)
+	if err := failure(b.World, "kiriBlade_MoveEdge", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -2429,30 +2429,30 @@ var poolBladeMoveRay pool[struct {
 
 // Move the blade to the straight edge between two points (m, world), or `length` m along a ray that a camera casts;
 // each end goes straight. The first call only says where it begins. An end inside cuts along its own way.
-func (self Blade) MoveRay(origin [3]float32, direction [3]float32, length float32) (bool, error) {
-	if err := self.World.check(); err != nil {
+func (b Blade) MoveRay(origin [3]float32, direction [3]float32, length float32) (bool, error) {
+	if err := b.World.check(); err != nil {
 		return false, err
 	}
 	block := poolBladeMoveRay.take()
 	block.origin = origin
 	block.direction = direction
-	result := C.kiriBlade_MoveRay(self.World.c, C.kiriBlade(self.ID), (*C.float)(unsafe.Pointer(&block.origin)), (*C.float)(unsafe.Pointer(&block.direction)), C.float(length))
+	result := C.kiriBlade_MoveRay(b.World.c, C.kiriBlade(b.ID), (*C.float)(unsafe.Pointer(&block.origin)), (*C.float)(unsafe.Pointer(&block.direction)), C.float(length))
 	poolBladeMoveRay.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriBlade_MoveRay", result, true); err != nil {
+	runtime.KeepAlive(b.World)
+	if err := failure(b.World, "kiriBlade_MoveRay", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
 }
 
 // It is gone, its id stale; what it has cut stays, and where it was in a layer the cut ends.
-func (self Blade) End() (bool, error) {
-	if err := self.World.check(); err != nil {
+func (b Blade) End() (bool, error) {
+	if err := b.World.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriBlade_End(self.World.c, C.kiriBlade(self.ID))
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriBlade_End", result, true); err != nil {
+	result := C.kiriBlade_End(b.World.c, C.kiriBlade(b.ID))
+	runtime.KeepAlive(b.World)
+	if err := failure(b.World, "kiriBlade_End", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -2463,26 +2463,26 @@ var poolSheetGetFrames pool[struct {
 }]
 
 // Writes up to `capacity` ids of the sheet's frames; *count is how many there are.
-func (self Sheet) Frames() ([]Frame, error) {
+func (s Sheet) Frames() ([]Frame, error) {
 	var made0 []Frame
-	if err := self.World.check(); err != nil {
+	if err := s.World.check(); err != nil {
 		return made0, err
 	}
 	room := C.int32_t(64)
 	again:
 	frames := make([]C.kiriFrame, room)
 	block := poolSheetGetFrames.take()
-	result := C.kiriSheet_GetFrames(self.World.c, C.kiriSheet(self.ID), unsafe.SliceData(frames), room, &block.count)
+	result := C.kiriSheet_GetFrames(s.World.c, C.kiriSheet(s.ID), unsafe.SliceData(frames), room, &block.count)
 	answer := poolSheetGetFrames.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_GetFrames", result, false); err != nil {
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_GetFrames", result, false); err != nil {
 		return made0, err
 	}
 	if answer.count > room {
 		room = answer.count
 		goto again
 	}
-	return things[Frame](self.World, frames[:answer.count]), nil
+	return things[Frame](s.World, frames[:answer.count]), nil
 }
 
 var poolFrameGetState pool[struct {
@@ -2490,16 +2490,16 @@ var poolFrameGetState pool[struct {
 }]
 
 // Gets the current state.
-func (self Frame) State() (FrameState, error) {
+func (f Frame) State() (FrameState, error) {
 	var made0 FrameState
-	if err := self.World.check(); err != nil {
+	if err := f.World.check(); err != nil {
 		return made0, err
 	}
 	block := poolFrameGetState.take()
-	result := C.kiriFrame_GetState(self.World.c, C.kiriFrame(self.ID), (*C.kiriFrameState)(unsafe.Pointer(&block.state)))
+	result := C.kiriFrame_GetState(f.World.c, C.kiriFrame(f.ID), (*C.kiriFrameState)(unsafe.Pointer(&block.state)))
 	answer := poolFrameGetState.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriFrame_GetState", result, false); err != nil {
+	runtime.KeepAlive(f.World)
+	if err := failure(f.World, "kiriFrame_GetState", result, false); err != nil {
 		return made0, err
 	}
 	return answer.state, nil
@@ -2508,13 +2508,13 @@ func (self Frame) State() (FrameState, error) {
 // Holds the frame: its rest point on the visible surface moves evenly to `position` (m, world) with `rotation`
 // (columns as above; on a planar sheet about its normal) in the next tick, and stays there. Null, null: frees it.
 // Material of which held frames carry more than half moves through obstacles.
-func (self Frame) Hold(position *[3]float32, rotation *[9]float32) (bool, error) {
-	if err := self.World.check(); err != nil {
+func (f Frame) Hold(position *[3]float32, rotation *[9]float32) (bool, error) {
+	if err := f.World.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriFrame_Hold(self.World.c, C.kiriFrame(self.ID), (*C.float)(unsafe.Pointer(position)), (*C.float)(unsafe.Pointer(rotation)))
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriFrame_Hold", result, true); err != nil {
+	result := C.kiriFrame_Hold(f.World.c, C.kiriFrame(f.ID), (*C.float)(unsafe.Pointer(position)), (*C.float)(unsafe.Pointer(rotation)))
+	runtime.KeepAlive(f.World)
+	if err := failure(f.World, "kiriFrame_Hold", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -2527,17 +2527,17 @@ var poolFrameGetReaction pool[struct {
 
 // Gets the force (N, world) and torque (N m, about the frame's rest point) that the hold applied to the sheet: means
 // over the last tick that moved the piece, with the frame's own weight and change of momentum. Zero for a free one.
-func (self Frame) Reaction() ([3]float64, [3]float64, error) {
+func (f Frame) Reaction() ([3]float64, [3]float64, error) {
 	var made0 [3]float64
 	var made1 [3]float64
-	if err := self.World.check(); err != nil {
+	if err := f.World.check(); err != nil {
 		return made0, made1, err
 	}
 	block := poolFrameGetReaction.take()
-	result := C.kiriFrame_GetReaction(self.World.c, C.kiriFrame(self.ID), (*C.double)(unsafe.Pointer(&block.force)), (*C.double)(unsafe.Pointer(&block.torque)))
+	result := C.kiriFrame_GetReaction(f.World.c, C.kiriFrame(f.ID), (*C.double)(unsafe.Pointer(&block.force)), (*C.double)(unsafe.Pointer(&block.torque)))
 	answer := poolFrameGetReaction.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriFrame_GetReaction", result, false); err != nil {
+	runtime.KeepAlive(f.World)
+	if err := failure(f.World, "kiriFrame_GetReaction", result, false); err != nil {
 		return made0, made1, err
 	}
 	return answer.force, answer.torque, nil
@@ -2549,17 +2549,17 @@ var poolFrameApplyForce pool[struct {
 }]
 
 // Apply a force (N, world) at the frame's centre of mass, or at a point of the material, and a torque (N m).
-func (self Frame) ApplyForce(force [3]float32, torque [3]float32) (bool, error) {
-	if err := self.World.check(); err != nil {
+func (f Frame) ApplyForce(force [3]float32, torque [3]float32) (bool, error) {
+	if err := f.World.check(); err != nil {
 		return false, err
 	}
 	block := poolFrameApplyForce.take()
 	block.force = force
 	block.torque = torque
-	result := C.kiriFrame_ApplyForce(self.World.c, C.kiriFrame(self.ID), (*C.float)(unsafe.Pointer(&block.force)), (*C.float)(unsafe.Pointer(&block.torque)))
+	result := C.kiriFrame_ApplyForce(f.World.c, C.kiriFrame(f.ID), (*C.float)(unsafe.Pointer(&block.force)), (*C.float)(unsafe.Pointer(&block.torque)))
 	poolFrameApplyForce.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriFrame_ApplyForce", result, true); err != nil {
+	runtime.KeepAlive(f.World)
+	if err := failure(f.World, "kiriFrame_ApplyForce", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -2572,18 +2572,18 @@ var poolSheetApplyForce pool[struct {
 }]
 
 // Apply a force (N, world) at the frame's centre of mass, or at a point of the material, and a torque (N m).
-func (self Sheet) ApplyForce(restPoint [2]float32, force [3]float32, torque [3]float32) (bool, error) {
-	if err := self.World.check(); err != nil {
+func (s Sheet) ApplyForce(restPoint [2]float32, force [3]float32, torque [3]float32) (bool, error) {
+	if err := s.World.check(); err != nil {
 		return false, err
 	}
 	block := poolSheetApplyForce.take()
 	block.restPoint = restPoint
 	block.force = force
 	block.torque = torque
-	result := C.kiriSheet_ApplyForce(self.World.c, C.kiriSheet(self.ID), (*C.float)(unsafe.Pointer(&block.restPoint)), (*C.float)(unsafe.Pointer(&block.force)), (*C.float)(unsafe.Pointer(&block.torque)))
+	result := C.kiriSheet_ApplyForce(s.World.c, C.kiriSheet(s.ID), (*C.float)(unsafe.Pointer(&block.restPoint)), (*C.float)(unsafe.Pointer(&block.force)), (*C.float)(unsafe.Pointer(&block.torque)))
 	poolSheetApplyForce.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_ApplyForce", result, true); err != nil {
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_ApplyForce", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -2597,31 +2597,31 @@ var poolSheetApplyLineLoad pool[struct {
 
 // Applies a force (N/m, world) along a straight line of the rest plane where it lies in the material, edges included.
 // Along a cut each lip gets half. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no material.
-func (self Sheet) ApplyLineLoad(from [2]float32, to [2]float32, forcePerLength [3]float32) (bool, error) {
-	if err := self.World.check(); err != nil {
+func (s Sheet) ApplyLineLoad(from [2]float32, to [2]float32, forcePerLength [3]float32) (bool, error) {
+	if err := s.World.check(); err != nil {
 		return false, err
 	}
 	block := poolSheetApplyLineLoad.take()
 	block.from = from
 	block.to = to
 	block.forcePerLength = forcePerLength
-	result := C.kiriSheet_ApplyLineLoad(self.World.c, C.kiriSheet(self.ID), (*C.float)(unsafe.Pointer(&block.from)), (*C.float)(unsafe.Pointer(&block.to)), (*C.float)(unsafe.Pointer(&block.forcePerLength)))
+	result := C.kiriSheet_ApplyLineLoad(s.World.c, C.kiriSheet(s.ID), (*C.float)(unsafe.Pointer(&block.from)), (*C.float)(unsafe.Pointer(&block.to)), (*C.float)(unsafe.Pointer(&block.forcePerLength)))
 	poolSheetApplyLineLoad.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_ApplyLineLoad", result, true); err != nil {
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_ApplyLineLoad", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
 }
 
 // Applies a pressure (Pa) to the whole sheet along its normal; below 0: against it.
-func (self Sheet) ApplyPressure(pressure float32) (bool, error) {
-	if err := self.World.check(); err != nil {
+func (s Sheet) ApplyPressure(pressure float32) (bool, error) {
+	if err := s.World.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriSheet_ApplyPressure(self.World.c, C.kiriSheet(self.ID), C.float(pressure))
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_ApplyPressure", result, true); err != nil {
+	result := C.kiriSheet_ApplyPressure(s.World.c, C.kiriSheet(s.ID), C.float(pressure))
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_ApplyPressure", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -2634,30 +2634,30 @@ var poolSheetApplyImpulse pool[struct {
 
 // Applies an impulse (N s, world) at a point of the material on the visible surface, at once, by the mass of the
 // frames that carry the point; a held frame's share is lost. KIRI_ERROR_ARGUMENT: the point is outside the sheet.
-func (self Sheet) ApplyImpulse(restPoint [2]float32, impulse [3]float32) (bool, error) {
-	if err := self.World.check(); err != nil {
+func (s Sheet) ApplyImpulse(restPoint [2]float32, impulse [3]float32) (bool, error) {
+	if err := s.World.check(); err != nil {
 		return false, err
 	}
 	block := poolSheetApplyImpulse.take()
 	block.restPoint = restPoint
 	block.impulse = impulse
-	result := C.kiriSheet_ApplyImpulse(self.World.c, C.kiriSheet(self.ID), (*C.float)(unsafe.Pointer(&block.restPoint)), (*C.float)(unsafe.Pointer(&block.impulse)))
+	result := C.kiriSheet_ApplyImpulse(s.World.c, C.kiriSheet(s.ID), (*C.float)(unsafe.Pointer(&block.restPoint)), (*C.float)(unsafe.Pointer(&block.impulse)))
 	poolSheetApplyImpulse.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_ApplyImpulse", result, true); err != nil {
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_ApplyImpulse", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
 }
 
 // Copies the wind; it blows until the next call.
-func (self Sheet) SetWind(wind *Wind) (bool, error) {
-	if err := self.World.check(); err != nil {
+func (s Sheet) SetWind(wind *Wind) (bool, error) {
+	if err := s.World.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriSheet_SetWind(self.World.c, C.kiriSheet(self.ID), (*C.kiriWind)(unsafe.Pointer(wind)))
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_SetWind", result, true); err != nil {
+	result := C.kiriSheet_SetWind(s.World.c, C.kiriSheet(s.ID), (*C.kiriWind)(unsafe.Pointer(wind)))
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_SetWind", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -2680,29 +2680,29 @@ var poolSheetCreatePin pool[struct {
 }]
 
 // Pin a point, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: it is outside the sheet.
-func (self Sheet) CreatePin(def *PinDef) (Pin, error) {
+func (s Sheet) CreatePin(def *PinDef) (Pin, error) {
 	var made0 Pin
-	if err := self.World.check(); err != nil {
+	if err := s.World.check(); err != nil {
 		return made0, err
 	}
 	block := poolSheetCreatePin.take()
-	result := C.kiriCreatePin(self.World.c, C.kiriSheet(self.ID), (*C.kiriPinDef)(unsafe.Pointer(def)), &block.pin)
+	result := C.kiriCreatePin(s.World.c, C.kiriSheet(s.ID), (*C.kiriPinDef)(unsafe.Pointer(def)), &block.pin)
 	answer := poolSheetCreatePin.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriCreatePin", result, true); err != nil {
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriCreatePin", result, true); err != nil {
 		return made0, err
 	}
-	return Pin{self.World, PinID(answer.pin)}, nil
+	return Pin{s.World, PinID(answer.pin)}, nil
 }
 
 // Pin a point, and destroy a pin of any type. On failure *pin is 0. KIRI_ERROR_ARGUMENT: it is outside the sheet.
-func (self Pin) Destroy() (bool, error) {
-	if err := self.World.check(); err != nil {
+func (p Pin) Destroy() (bool, error) {
+	if err := p.World.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriDestroyPin(self.World.c, C.kiriPin(self.ID))
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriDestroyPin", result, true); err != nil {
+	result := C.kiriDestroyPin(p.World.c, C.kiriPin(p.ID))
+	runtime.KeepAlive(p.World)
+	if err := failure(p.World, "kiriDestroyPin", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -2718,21 +2718,21 @@ var poolSheetClampLine pool[struct {
 // of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The line is
 // straight, with its rest length: bent material and separate pieces are pulled to it, at any speed. A line along a
 // cut holds both lips; a line beside it holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no material.
-func (self Sheet) ClampLine(from [2]float32, to [2]float32) (Pin, error) {
+func (s Sheet) ClampLine(from [2]float32, to [2]float32) (Pin, error) {
 	var made0 Pin
-	if err := self.World.check(); err != nil {
+	if err := s.World.check(); err != nil {
 		return made0, err
 	}
 	block := poolSheetClampLine.take()
 	block.from = from
 	block.to = to
-	result := C.kiriSheet_ClampLine(self.World.c, C.kiriSheet(self.ID), (*C.float)(unsafe.Pointer(&block.from)), (*C.float)(unsafe.Pointer(&block.to)), &block.clamp)
+	result := C.kiriSheet_ClampLine(s.World.c, C.kiriSheet(s.ID), (*C.float)(unsafe.Pointer(&block.from)), (*C.float)(unsafe.Pointer(&block.to)), &block.clamp)
 	answer := poolSheetClampLine.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_ClampLine", result, true); err != nil {
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_ClampLine", result, true); err != nil {
 		return made0, err
 	}
-	return Pin{self.World, PinID(answer.clamp)}, nil
+	return Pin{s.World, PinID(answer.clamp)}, nil
 }
 
 var poolSheetHingeLine pool[struct {
@@ -2745,21 +2745,21 @@ var poolSheetHingeLine pool[struct {
 // of its material, as a vice does; a hinge only the place, so the sheet can turn about the line. The line is
 // straight, with its rest length: bent material and separate pieces are pulled to it, at any speed. A line along a
 // cut holds both lips; a line beside it holds one. The ends differ. KIRI_ERROR_ARGUMENT: the line meets no material.
-func (self Sheet) HingeLine(from [2]float32, to [2]float32) (Pin, error) {
+func (s Sheet) HingeLine(from [2]float32, to [2]float32) (Pin, error) {
 	var made0 Pin
-	if err := self.World.check(); err != nil {
+	if err := s.World.check(); err != nil {
 		return made0, err
 	}
 	block := poolSheetHingeLine.take()
 	block.from = from
 	block.to = to
-	result := C.kiriSheet_HingeLine(self.World.c, C.kiriSheet(self.ID), (*C.float)(unsafe.Pointer(&block.from)), (*C.float)(unsafe.Pointer(&block.to)), &block.hinge)
+	result := C.kiriSheet_HingeLine(s.World.c, C.kiriSheet(s.ID), (*C.float)(unsafe.Pointer(&block.from)), (*C.float)(unsafe.Pointer(&block.to)), &block.hinge)
 	answer := poolSheetHingeLine.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_HingeLine", result, true); err != nil {
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_HingeLine", result, true); err != nil {
 		return made0, err
 	}
-	return Pin{self.World, PinID(answer.hinge)}, nil
+	return Pin{s.World, PinID(answer.hinge)}, nil
 }
 
 var poolPinSetTarget pool[struct {
@@ -2769,16 +2769,16 @@ var poolPinSetTarget pool[struct {
 // Sets the target of the pin's point, or of the middle of its line (m, world), for the end of the next tick and until
 // the next call. The pin moves there evenly within the tick. With KIRI_SKINNING_SMOOTH pins hold the visible surface.
 // A clamp that alone holds a piece holds the mean of the visible line; else that may be off by 0.5 mm.
-func (self Pin) SetTarget(target [3]float32) (bool, error) {
-	if err := self.World.check(); err != nil {
+func (p Pin) SetTarget(target [3]float32) (bool, error) {
+	if err := p.World.check(); err != nil {
 		return false, err
 	}
 	block := poolPinSetTarget.take()
 	block.target = target
-	result := C.kiriPin_SetTarget(self.World.c, C.kiriPin(self.ID), (*C.float)(unsafe.Pointer(&block.target)))
+	result := C.kiriPin_SetTarget(p.World.c, C.kiriPin(p.ID), (*C.float)(unsafe.Pointer(&block.target)))
 	poolPinSetTarget.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriPin_SetTarget", result, true); err != nil {
+	runtime.KeepAlive(p.World)
+	if err := failure(p.World, "kiriPin_SetTarget", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -2791,30 +2791,30 @@ var poolPinSetPose pool[struct {
 
 // Sets the target and the rotation of the line's material: columns are the directions of u and v and the normal. On a
 // planar sheet it is about the sheet's normal. KIRI_ERROR_ARGUMENT: the pin holds a point.
-func (self Pin) SetPose(target [3]float32, rotation [9]float32) (bool, error) {
-	if err := self.World.check(); err != nil {
+func (p Pin) SetPose(target [3]float32, rotation [9]float32) (bool, error) {
+	if err := p.World.check(); err != nil {
 		return false, err
 	}
 	block := poolPinSetPose.take()
 	block.target = target
 	block.rotation = rotation
-	result := C.kiriPin_SetPose(self.World.c, C.kiriPin(self.ID), (*C.float)(unsafe.Pointer(&block.target)), (*C.float)(unsafe.Pointer(&block.rotation)))
+	result := C.kiriPin_SetPose(p.World.c, C.kiriPin(p.ID), (*C.float)(unsafe.Pointer(&block.target)), (*C.float)(unsafe.Pointer(&block.rotation)))
 	poolPinSetPose.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriPin_SetPose", result, true); err != nil {
+	runtime.KeepAlive(p.World)
+	if err := failure(p.World, "kiriPin_SetPose", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
 }
 
 // Sets the force (N) that breaks a pin of any type; 0: it never breaks.
-func (self Pin) SetBreakForce(breakForce float32) (bool, error) {
-	if err := self.World.check(); err != nil {
+func (p Pin) SetBreakForce(breakForce float32) (bool, error) {
+	if err := p.World.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriPin_SetBreakForce(self.World.c, C.kiriPin(self.ID), C.float(breakForce))
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriPin_SetBreakForce", result, true); err != nil {
+	result := C.kiriPin_SetBreakForce(p.World.c, C.kiriPin(p.ID), C.float(breakForce))
+	runtime.KeepAlive(p.World)
+	if err := failure(p.World, "kiriPin_SetBreakForce", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -2825,16 +2825,16 @@ var poolPinGetState pool[struct {
 }]
 
 // Gets the current state.
-func (self Pin) State() (PinState, error) {
+func (p Pin) State() (PinState, error) {
 	var made0 PinState
-	if err := self.World.check(); err != nil {
+	if err := p.World.check(); err != nil {
 		return made0, err
 	}
 	block := poolPinGetState.take()
-	result := C.kiriPin_GetState(self.World.c, C.kiriPin(self.ID), (*C.kiriPinState)(unsafe.Pointer(&block.state)))
+	result := C.kiriPin_GetState(p.World.c, C.kiriPin(p.ID), (*C.kiriPinState)(unsafe.Pointer(&block.state)))
 	answer := poolPinGetState.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriPin_GetState", result, false); err != nil {
+	runtime.KeepAlive(p.World)
+	if err := failure(p.World, "kiriPin_GetState", result, false); err != nil {
 		return made0, err
 	}
 	return answer.state, nil
@@ -2847,17 +2847,17 @@ var poolPinGetReaction pool[struct {
 
 // Gets the force (N, world) and torque (N m, about the target) that the pin applied to the sheet: means over the last
 // tick that moved the piece. All reactions are the weight of a sheet at rest, and change its momentum in motion.
-func (self Pin) Reaction() ([3]float64, [3]float64, error) {
+func (p Pin) Reaction() ([3]float64, [3]float64, error) {
 	var made0 [3]float64
 	var made1 [3]float64
-	if err := self.World.check(); err != nil {
+	if err := p.World.check(); err != nil {
 		return made0, made1, err
 	}
 	block := poolPinGetReaction.take()
-	result := C.kiriPin_GetReaction(self.World.c, C.kiriPin(self.ID), (*C.double)(unsafe.Pointer(&block.force)), (*C.double)(unsafe.Pointer(&block.torque)))
+	result := C.kiriPin_GetReaction(p.World.c, C.kiriPin(p.ID), (*C.double)(unsafe.Pointer(&block.force)), (*C.double)(unsafe.Pointer(&block.torque)))
 	answer := poolPinGetReaction.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriPin_GetReaction", result, false); err != nil {
+	runtime.KeepAlive(p.World)
+	if err := failure(p.World, "kiriPin_GetReaction", result, false); err != nil {
 		return made0, made1, err
 	}
 	return answer.force, answer.torque, nil
@@ -2868,26 +2868,26 @@ var poolSheetGetPins pool[struct {
 }]
 
 // Writes up to `capacity` ids of the sheet's pins, of all types; *count is how many there are.
-func (self Sheet) Pins() ([]Pin, error) {
+func (s Sheet) Pins() ([]Pin, error) {
 	var made0 []Pin
-	if err := self.World.check(); err != nil {
+	if err := s.World.check(); err != nil {
 		return made0, err
 	}
 	room := C.int32_t(64)
 	again:
 	pins := make([]C.kiriPin, room)
 	block := poolSheetGetPins.take()
-	result := C.kiriSheet_GetPins(self.World.c, C.kiriSheet(self.ID), unsafe.SliceData(pins), room, &block.count)
+	result := C.kiriSheet_GetPins(s.World.c, C.kiriSheet(s.ID), unsafe.SliceData(pins), room, &block.count)
 	answer := poolSheetGetPins.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_GetPins", result, false); err != nil {
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_GetPins", result, false); err != nil {
 		return made0, err
 	}
 	if answer.count > room {
 		room = answer.count
 		goto again
 	}
-	return things[Pin](self.World, pins[:answer.count]), nil
+	return things[Pin](s.World, pins[:answer.count]), nil
 }
 
 var poolDefaultSeamDef pool[struct {
@@ -2929,13 +2929,13 @@ func (w *World) CreateSeam(def *SeamDef) (Seam, error) {
 
 // Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
 // KIRI_ERROR_ARGUMENT: a line leaves the material; a sheet is planar; the models differ.
-func (self Seam) Destroy() (bool, error) {
-	if err := self.World.check(); err != nil {
+func (s Seam) Destroy() (bool, error) {
+	if err := s.World.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriDestroySeam(self.World.c, C.kiriSeam(self.ID))
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriDestroySeam", result, true); err != nil {
+	result := C.kiriDestroySeam(s.World.c, C.kiriSeam(s.ID))
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriDestroySeam", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -2946,16 +2946,16 @@ var poolSeamGetStitch pool[struct {
 }]
 
 // Gets a stitch of those that are left, in the order of the lines. KIRI_ERROR_ARGUMENT: no stitch has the index.
-func (self Seam) Stitch(index int32) (Stitch, error) {
+func (s Seam) Stitch(index int32) (Stitch, error) {
 	var made0 Stitch
-	if err := self.World.check(); err != nil {
+	if err := s.World.check(); err != nil {
 		return made0, err
 	}
 	block := poolSeamGetStitch.take()
-	result := C.kiriSeam_GetStitch(self.World.c, C.kiriSeam(self.ID), C.int32_t(index), (*C.kiriStitch)(unsafe.Pointer(&block.stitch)))
+	result := C.kiriSeam_GetStitch(s.World.c, C.kiriSeam(s.ID), C.int32_t(index), (*C.kiriStitch)(unsafe.Pointer(&block.stitch)))
 	answer := poolSeamGetStitch.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSeam_GetStitch", result, false); err != nil {
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSeam_GetStitch", result, false); err != nil {
 		return made0, err
 	}
 	return answer.stitch, nil
@@ -2966,16 +2966,16 @@ var poolSeamGetCount pool[struct {
 }]
 
 // Gets the number of stitches that are left.
-func (self Seam) Count() (int32, error) {
+func (s Seam) Count() (int32, error) {
 	var made0 int32
-	if err := self.World.check(); err != nil {
+	if err := s.World.check(); err != nil {
 		return made0, err
 	}
 	block := poolSeamGetCount.take()
-	result := C.kiriSeam_GetCount(self.World.c, C.kiriSeam(self.ID), &block.stitches)
+	result := C.kiriSeam_GetCount(s.World.c, C.kiriSeam(s.ID), &block.stitches)
 	answer := poolSeamGetCount.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSeam_GetCount", result, false); err != nil {
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSeam_GetCount", result, false); err != nil {
 		return made0, err
 	}
 	return int32(answer.stitches), nil
@@ -3010,13 +3010,13 @@ func (w *World) Seams() ([]Seam, error) {
 
 // Sets the contacts of the next tick; they replace those set before, and end with the tick. A contact with the point,
 // or rest point, and obstacle of an earlier one starts with the earlier impulse.
-func (self Sheet) SetContacts(contacts []Contact) (bool, error) {
-	if err := self.World.check(); err != nil {
+func (s Sheet) SetContacts(contacts []Contact) (bool, error) {
+	if err := s.World.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriSheet_SetContacts(self.World.c, C.kiriSheet(self.ID), (*C.kiriContact)(unsafe.Pointer(unsafe.SliceData(contacts))), C.int32_t(len(contacts)))
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_SetContacts", result, true); err != nil {
+	result := C.kiriSheet_SetContacts(s.World.c, C.kiriSheet(s.ID), (*C.kiriContact)(unsafe.Pointer(unsafe.SliceData(contacts))), C.int32_t(len(contacts)))
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_SetContacts", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -3028,19 +3028,19 @@ var poolSheetGetContactForces pool[struct {
 }]
 
 // Gets one result for each contact that was set before the last tick, in that order. A sleeping piece presses on.
-func (self Sheet) ContactForces() (View[ContactForce], error) {
+func (s Sheet) ContactForces() (View[ContactForce], error) {
 	var made0 View[ContactForce]
-	if err := self.World.check(); err != nil {
+	if err := s.World.check(); err != nil {
 		return made0, err
 	}
 	block := poolSheetGetContactForces.take()
-	result := C.kiriSheet_GetContactForces(self.World.c, C.kiriSheet(self.ID), &block.forces, &block.count)
+	result := C.kiriSheet_GetContactForces(s.World.c, C.kiriSheet(s.ID), &block.forces, &block.count)
 	answer := poolSheetGetContactForces.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_GetContactForces", result, false); err != nil {
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_GetContactForces", result, false); err != nil {
 		return made0, err
 	}
-	return viewOf[ContactForce](self.World, unsafe.Pointer(answer.forces), int(answer.count)), nil
+	return viewOf[ContactForce](s.World, unsafe.Pointer(answer.forces), int(answer.count)), nil
 }
 
 var poolDefaultObstacleDef pool[struct {
@@ -3080,13 +3080,13 @@ func (w *World) CreateObstacle(def *ObstacleDef) (Obstacle, error) {
 }
 
 // Add and destroy an obstacle. On failure *obstacle is 0. Pieces that rested on a destroyed one wake.
-func (self Obstacle) Destroy() (bool, error) {
-	if err := self.World.check(); err != nil {
+func (o Obstacle) Destroy() (bool, error) {
+	if err := o.World.check(); err != nil {
 		return false, err
 	}
-	result := C.kiriDestroyObstacle(self.World.c, C.kiriObstacle(self.ID))
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriDestroyObstacle", result, true); err != nil {
+	result := C.kiriDestroyObstacle(o.World.c, C.kiriObstacle(o.ID))
+	runtime.KeepAlive(o.World)
+	if err := failure(o.World, "kiriDestroyObstacle", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -3098,17 +3098,17 @@ var poolObstacleSetPose pool[struct {
 }]
 
 // Teleports the obstacle (m, world). Sheets react to its velocity (kiriObstacle_SetVelocity), not to the jump.
-func (self Obstacle) SetPose(position [3]float32, rotation [9]float32) (bool, error) {
-	if err := self.World.check(); err != nil {
+func (o Obstacle) SetPose(position [3]float32, rotation [9]float32) (bool, error) {
+	if err := o.World.check(); err != nil {
 		return false, err
 	}
 	block := poolObstacleSetPose.take()
 	block.position = position
 	block.rotation = rotation
-	result := C.kiriObstacle_SetPose(self.World.c, C.kiriObstacle(self.ID), (*C.float)(unsafe.Pointer(&block.position)), (*C.float)(unsafe.Pointer(&block.rotation)))
+	result := C.kiriObstacle_SetPose(o.World.c, C.kiriObstacle(o.ID), (*C.float)(unsafe.Pointer(&block.position)), (*C.float)(unsafe.Pointer(&block.rotation)))
 	poolObstacleSetPose.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriObstacle_SetPose", result, true); err != nil {
+	runtime.KeepAlive(o.World)
+	if err := failure(o.World, "kiriObstacle_SetPose", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -3120,17 +3120,17 @@ var poolObstacleSetVelocity pool[struct {
 }]
 
 // Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg), inertia and centre of mass.
-func (self Obstacle) SetVelocity(velocity [3]float32, angularVelocity [3]float32) (bool, error) {
-	if err := self.World.check(); err != nil {
+func (o Obstacle) SetVelocity(velocity [3]float32, angularVelocity [3]float32) (bool, error) {
+	if err := o.World.check(); err != nil {
 		return false, err
 	}
 	block := poolObstacleSetVelocity.take()
 	block.velocity = velocity
 	block.angularVelocity = angularVelocity
-	result := C.kiriObstacle_SetVelocity(self.World.c, C.kiriObstacle(self.ID), (*C.float)(unsafe.Pointer(&block.velocity)), (*C.float)(unsafe.Pointer(&block.angularVelocity)))
+	result := C.kiriObstacle_SetVelocity(o.World.c, C.kiriObstacle(o.ID), (*C.float)(unsafe.Pointer(&block.velocity)), (*C.float)(unsafe.Pointer(&block.angularVelocity)))
 	poolObstacleSetVelocity.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriObstacle_SetVelocity", result, true); err != nil {
+	runtime.KeepAlive(o.World)
+	if err := failure(o.World, "kiriObstacle_SetVelocity", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -3141,16 +3141,16 @@ var poolObstacleSetSurfaceVelocity pool[struct {
 }]
 
 // Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg), inertia and centre of mass.
-func (self Obstacle) SetSurfaceVelocity(velocity [3]float32) (bool, error) {
-	if err := self.World.check(); err != nil {
+func (o Obstacle) SetSurfaceVelocity(velocity [3]float32) (bool, error) {
+	if err := o.World.check(); err != nil {
 		return false, err
 	}
 	block := poolObstacleSetSurfaceVelocity.take()
 	block.velocity = velocity
-	result := C.kiriObstacle_SetSurfaceVelocity(self.World.c, C.kiriObstacle(self.ID), (*C.float)(unsafe.Pointer(&block.velocity)))
+	result := C.kiriObstacle_SetSurfaceVelocity(o.World.c, C.kiriObstacle(o.ID), (*C.float)(unsafe.Pointer(&block.velocity)))
 	poolObstacleSetSurfaceVelocity.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriObstacle_SetSurfaceVelocity", result, true); err != nil {
+	runtime.KeepAlive(o.World)
+	if err := failure(o.World, "kiriObstacle_SetSurfaceVelocity", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -3162,17 +3162,17 @@ var poolObstacleSetMass pool[struct {
 }]
 
 // Set the velocity (m/s, rad/s), and the surface's, for all coming ticks; or mass (kg), inertia and centre of mass.
-func (self Obstacle) SetMass(mass float32, inertia [6]float32, centerOfMass [3]float32) (bool, error) {
-	if err := self.World.check(); err != nil {
+func (o Obstacle) SetMass(mass float32, inertia [6]float32, centerOfMass [3]float32) (bool, error) {
+	if err := o.World.check(); err != nil {
 		return false, err
 	}
 	block := poolObstacleSetMass.take()
 	block.inertia = inertia
 	block.centerOfMass = centerOfMass
-	result := C.kiriObstacle_SetMass(self.World.c, C.kiriObstacle(self.ID), C.float(mass), (*C.float)(unsafe.Pointer(&block.inertia)), (*C.float)(unsafe.Pointer(&block.centerOfMass)))
+	result := C.kiriObstacle_SetMass(o.World.c, C.kiriObstacle(o.ID), C.float(mass), (*C.float)(unsafe.Pointer(&block.inertia)), (*C.float)(unsafe.Pointer(&block.centerOfMass)))
 	poolObstacleSetMass.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriObstacle_SetMass", result, true); err != nil {
+	runtime.KeepAlive(o.World)
+	if err := failure(o.World, "kiriObstacle_SetMass", result, true); err != nil {
 		return false, err
 	}
 	return result == C.KIRI_PENDING, nil
@@ -3183,16 +3183,16 @@ var poolObstacleGetState pool[struct {
 }]
 
 // Gets the current state.
-func (self Obstacle) State() (ObstacleState, error) {
+func (o Obstacle) State() (ObstacleState, error) {
 	var made0 ObstacleState
-	if err := self.World.check(); err != nil {
+	if err := o.World.check(); err != nil {
 		return made0, err
 	}
 	block := poolObstacleGetState.take()
-	result := C.kiriObstacle_GetState(self.World.c, C.kiriObstacle(self.ID), (*C.kiriObstacleState)(unsafe.Pointer(&block.state)))
+	result := C.kiriObstacle_GetState(o.World.c, C.kiriObstacle(o.ID), (*C.kiriObstacleState)(unsafe.Pointer(&block.state)))
 	answer := poolObstacleGetState.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriObstacle_GetState", result, false); err != nil {
+	runtime.KeepAlive(o.World)
+	if err := failure(o.World, "kiriObstacle_GetState", result, false); err != nil {
 		return made0, err
 	}
 	return answer.state, nil
@@ -3205,17 +3205,17 @@ var poolSheetGetReach pool[struct {
 
 // Gets a box (m, world) around all that the sheet can touch in a tick of dt (s, as in kiriWorld_Tick): a host needs
 // no obstacles or contacts outside. For moving obstacles add their own way.
-func (self Sheet) Reach(dt float32) ([3]float32, [3]float32, error) {
+func (s Sheet) Reach(dt float32) ([3]float32, [3]float32, error) {
 	var made0 [3]float32
 	var made1 [3]float32
-	if err := self.World.check(); err != nil {
+	if err := s.World.check(); err != nil {
 		return made0, made1, err
 	}
 	block := poolSheetGetReach.take()
-	result := C.kiriSheet_GetReach(self.World.c, C.kiriSheet(self.ID), C.float(dt), (*C.float)(unsafe.Pointer(&block.lower)), (*C.float)(unsafe.Pointer(&block.upper)))
+	result := C.kiriSheet_GetReach(s.World.c, C.kiriSheet(s.ID), C.float(dt), (*C.float)(unsafe.Pointer(&block.lower)), (*C.float)(unsafe.Pointer(&block.upper)))
 	answer := poolSheetGetReach.give(block)
-	runtime.KeepAlive(self.World)
-	if err := failure(self.World, "kiriSheet_GetReach", result, false); err != nil {
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_GetReach", result, false); err != nil {
 		return made0, made1, err
 	}
 	return answer.lower, answer.upper, nil

@@ -50,7 +50,7 @@ func TestAllFunctionsAreThere(t *testing.T) {
 	}
 	types := map[string]reflect.Type{"World": reflect.TypeOf(&World{}), "Sheet": reflect.TypeOf(Sheet{}),
 		"Cut": reflect.TypeOf(Cut{}), "Frame": reflect.TypeOf(Frame{}), "Pin": reflect.TypeOf(Pin{}),
-		"Obstacle": reflect.TypeOf(Obstacle{}), "Blade": reflect.TypeOf(Blade{})}
+		"Obstacle": reflect.TypeOf(Obstacle{}), "Blade": reflect.TypeOf(Blade{}), "Seam": reflect.TypeOf(Seam{})}
 	for _, function := range described.Functions {
 		class, method, _ := strings.Cut(functions[function.Name], ".")
 		if method == "" {
@@ -127,7 +127,7 @@ func TestErrorsSayWhat(t *testing.T) {
 	world, sheet := halved(nil)
 	_, err := world.CreateRectangle(-1, 1, 1, 1, nil)
 	var failed *Error
-	if !errors.Is(err, ErrorArgument) || !errors.As(err, &failed) || failed.Line == "" || failed.Call != "kiriCreateRectangle" {
+	if !errors.Is(err, ErrArgument) || !errors.As(err, &failed) || failed.Line == "" || failed.Call != "kiriCreateRectangle" {
 		t.Error(err)
 	}
 	if _, err = sheet.Point([2]float32{9, 9}); !errors.As(err, &failed) || failed.Line == "" {
@@ -194,7 +194,7 @@ func TestSheetsFromArraysAndPieces(t *testing.T) {
 	if err != nil || len(weights) != 2 || weights[0]+weights[1] < 0.999 {
 		t.Error(weights, err)
 	}
-	if err := two.CopyVertices(0, 4, make([]byte, 47), 12, nil, 12); !errors.Is(err, ErrorArgument) {
+	if err := two.CopyVertices(0, 4, make([]byte, 47), 12, nil, 12); !errors.Is(err, ErrArgument) {
 		t.Error(err)
 	}
 	sources, sourceWeights, before := make([]int32, 2), make([][9]float32, 2), make([]int32, 4)

@@ -65,6 +65,10 @@ type (
 		World *World
 		ID    BladeID
 	}
+	Seam struct {
+		World *World
+		ID    SeamID
+	}
 )
 
 func (w *World) Sheet(id SheetID) Sheet          { return Sheet{w, id} }
@@ -73,9 +77,10 @@ func (w *World) Frame(id FrameID) Frame          { return Frame{w, id} }
 func (w *World) Pin(id PinID) Pin                { return Pin{w, id} }
 func (w *World) Obstacle(id ObstacleID) Obstacle { return Obstacle{w, id} }
 func (w *World) Blade(id BladeID) Blade          { return Blade{w, id} }
+func (w *World) Seam(id SeamID) Seam             { return Seam{w, id} }
 
 type thing interface {
-	Sheet | Cut | Frame | Pin | Obstacle | Blade
+	Sheet | Cut | Frame | Pin | Obstacle | Blade | Seam
 }
 
 // As all of them are laid out.
@@ -102,7 +107,7 @@ func idsOf[T thing](things []T) []uint32 {
 
 // ---- Errors
 
-// Error is a call that failed. errors.Is(err, kiri.ErrorId) asks for its result.
+// Error is a call that failed. errors.Is(err, kiri.ErrID) asks for its result.
 type Error struct {
 	Result ResultCode
 	Call   string
@@ -118,11 +123,11 @@ func (e *Error) Error() string {
 
 func (e *Error) Unwrap() error { return e.Result }
 
-func (value ResultCode) Error() string { return value.String() }
+func (v ResultCode) Error() string { return v.String() }
 
 func (w *World) check() error {
 	if w == nil || w.c == nil {
-		return &Error{ErrorArgument, "kiri", "the world is gone, or there is none"}
+		return &Error{ErrArgument, "kiri", "the world is gone, or there is none"}
 	}
 	return nil
 }
@@ -442,81 +447,81 @@ func (w *World) DebugDraw(what DebugDraw) error {
 }
 
 // Weights gives the frames that count at a rest point, their weights, and the gradients of these (1/m).
-func (self Sheet) Weights(restPoint [2]float32) ([]Frame, []float32, [][2]float32, error) {
-	if err := self.World.check(); err != nil {
+func (s Sheet) Weights(restPoint [2]float32) ([]Frame, []float32, [][2]float32, error) {
+	if err := s.World.check(); err != nil {
 		return nil, nil, nil, err
 	}
 	for room := C.int32_t(16); ; {
 		frames, weights, gradients := make([]uint32, room), make([]float32, room), make([][2]float32, room)
 		var count C.int32_t
-		result := C.kiriSheet_GetWeights(self.World.c, C.kiriSheet(self.ID), (*C.float)(unsafe.Pointer(&restPoint)),
+		result := C.kiriSheet_GetWeights(s.World.c, C.kiriSheet(s.ID), (*C.float)(unsafe.Pointer(&restPoint)),
 			(*C.kiriFrame)(unsafe.Pointer(&frames[0])), (*C.float)(unsafe.Pointer(&weights[0])),
 			(*C.float)(unsafe.Pointer(&gradients[0])), room, &count)
-		if err := failure(self.World, "kiriSheet_GetWeights", result, false); err != nil {
+		if err := failure(s.World, "kiriSheet_GetWeights", result, false); err != nil {
 			return nil, nil, nil, err
 		}
 		if count <= room {
-			return things[Frame](self.World, frames[:count]), weights[:count], gradients[:count], nil
+			return things[Frame](s.World, frames[:count]), weights[:count], gradients[:count], nil
 		}
 		room = count
 	}
 }
 
 // CopyVertices copies positions, and normals unless nil, of some vertices to the buffers, strides in bytes.
-func (self Sheet) CopyVertices(first, count int32, positions []byte, positionStride int32, normals []byte, normalStride int32) error {
-	if err := self.World.check(); err != nil {
+func (s Sheet) CopyVertices(first, count int32, positions []byte, positionStride int32, normals []byte, normalStride int32) error {
+	if err := s.World.check(); err != nil {
 		return err
 	}
 	isShort := func(bytes []byte, stride int32) bool {
 		return bytes != nil && count > 0 && len(bytes) < int(count-1)*int(stride)+12
 	}
 	if isShort(positions, positionStride) || isShort(normals, normalStride) {
-		return &Error{ErrorArgument, "kiriSheet_CopyVertices", "a buffer is too short"}
+		return &Error{ErrArgument, "kiriSheet_CopyVertices", "a buffer is too short"}
 	}
-	result := C.kiriSheet_CopyVertices(self.World.c, C.kiriSheet(self.ID), C.int32_t(first), C.int32_t(count),
+	result := C.kiriSheet_CopyVertices(s.World.c, C.kiriSheet(s.ID), C.int32_t(first), C.int32_t(count),
 		unsafe.Pointer(unsafe.SliceData(positions)), C.int32_t(positionStride), unsafe.Pointer(unsafe.SliceData(normals)),
 		C.int32_t(normalStride))
-	return failure(self.World, "kiriSheet_CopyVertices", result, false)
+	return failure(s.World, "kiriSheet_CopyVertices", result, false)
 }
 
 // CopySources says which triangles of the def some triangles are parts of: as many as there is room for.
-func (self Sheet) CopySources(firstTriangle int32, sources []int32) error {
-	if err := self.World.check(); err != nil {
+func (s Sheet) CopySources(firstTriangle int32, sources []int32) error {
+	if err := s.World.check(); err != nil {
 		return err
 	}
-	result := C.kiriSheet_CopySources(self.World.c, C.kiriSheet(self.ID), C.int32_t(firstTriangle), C.int32_t(len(sources)),
+	result := C.kiriSheet_CopySources(s.World.c, C.kiriSheet(s.ID), C.int32_t(firstTriangle), C.int32_t(len(sources)),
 		(*C.int32_t)(unsafe.Pointer(unsafe.SliceData(sources))))
-	return failure(self.World, "kiriSheet_CopySources", result, false)
+	return failure(s.World, "kiriSheet_CopySources", result, false)
 }
 
 // CopySourceWeights says where the corners of as many triangles as there is room for are in these of the def.
-func (self Sheet) CopySourceWeights(firstTriangle int32, weights [][9]float32) error {
-	if err := self.World.check(); err != nil {
+func (s Sheet) CopySourceWeights(firstTriangle int32, weights [][9]float32) error {
+	if err := s.World.check(); err != nil {
 		return err
 	}
-	result := C.kiriSheet_CopySourceWeights(self.World.c, C.kiriSheet(self.ID), C.int32_t(firstTriangle),
+	result := C.kiriSheet_CopySourceWeights(s.World.c, C.kiriSheet(s.ID), C.int32_t(firstTriangle),
 		C.int32_t(len(weights)), (*C.float)(unsafe.Pointer(unsafe.SliceData(weights))))
-	return failure(self.World, "kiriSheet_CopySourceWeights", result, false)
+	return failure(s.World, "kiriSheet_CopySourceWeights", result, false)
 }
 
 // CopyPrevious says which index as many vertices as there is room for had when the last tick began, or -1, in the sheet
 // that had them.
-func (self Sheet) CopyPrevious(first int32, vertices []int32) (Sheet, error) {
-	if err := self.World.check(); err != nil {
+func (s Sheet) CopyPrevious(first int32, vertices []int32) (Sheet, error) {
+	if err := s.World.check(); err != nil {
 		return Sheet{}, err
 	}
 	from := new(C.kiriSheet)
-	result := C.kiriSheet_CopyPrevious(self.World.c, C.kiriSheet(self.ID), C.int32_t(first), C.int32_t(len(vertices)),
+	result := C.kiriSheet_CopyPrevious(s.World.c, C.kiriSheet(s.ID), C.int32_t(first), C.int32_t(len(vertices)),
 		(*C.int32_t)(unsafe.Pointer(unsafe.SliceData(vertices))), from)
-	return Sheet{self.World, SheetID(*from)}, failure(self.World, "kiriSheet_CopyPrevious", result, false)
+	return Sheet{s.World, SheetID(*from)}, failure(s.World, "kiriSheet_CopyPrevious", result, false)
 }
 
 // CopyIndices16 copies the corners of as many triangles as there is room for.
-func (self Sheet) CopyIndices16(firstTriangle int32, indices [][3]uint16) error {
-	if err := self.World.check(); err != nil {
+func (s Sheet) CopyIndices16(firstTriangle int32, indices [][3]uint16) error {
+	if err := s.World.check(); err != nil {
 		return err
 	}
-	result := C.kiriSheet_CopyIndices16(self.World.c, C.kiriSheet(self.ID), C.int32_t(firstTriangle), C.int32_t(len(indices)),
+	result := C.kiriSheet_CopyIndices16(s.World.c, C.kiriSheet(s.ID), C.int32_t(firstTriangle), C.int32_t(len(indices)),
 		(*C.uint16_t)(unsafe.Pointer(unsafe.SliceData(indices))))
-	return failure(self.World, "kiriSheet_CopyIndices16", result, false)
+	return failure(s.World, "kiriSheet_CopyIndices16", result, false)
 }

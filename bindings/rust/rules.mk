@@ -13,6 +13,10 @@ RUST_ENV = KIRI_LIBRARY_DIR='$(CURDIR)/$(BUILD)' CARGO_TARGET_DIR='$(RUST_TARGET
 RUST_IS_THERE = [ "$$(printf '%s\n' 1.82 "$$($(CARGO) --version 2> /dev/null | cut -d ' ' -f 2)" | sort -V | head -n 1)" = 1.82 ]
 RUST_CARGO = cd bindings/rust && $(RUST_ENV) $(CARGO)
 
+# As the documentation site makes it: without the library and without Eigen; each public item has a comment.
+RUST_DOCS = cd bindings/rust && DOCS_RS=1 EIGEN_DIR=/none CARGO_TARGET_DIR='$(RUST_TARGET)/docs' RUSTDOCFLAGS='-D warnings' \
+    $(CARGO) doc --offline --locked --quiet --no-deps
+
 rust: $(BUILD)/libkiri.a $(BUILD)/tests/twin
 	@if ! $(RUST_IS_THERE); then echo "rust: no cargo of 1.82 or later, binding not tested"; exit 0; fi; \
 	mkdir -p $(RUST_TARGET); log=$(RUST_TARGET)/log; \
@@ -22,6 +26,7 @@ rust: $(BUILD)/libkiri.a $(BUILD)/tests/twin
 	($(RUST_CARGO) test --offline --locked --quiet) > $$log 2>&1 || { cat $$log; exit 1; }; \
 	if $(CARGO) clippy --version > /dev/null 2>&1; then \
 	    ($(RUST_CARGO) clippy --offline --locked --quiet --all-targets -- -D warnings) > $$log 2>&1 || { cat $$log; exit 1; }; fi; \
+	($(RUST_DOCS)) > $$log 2>&1 || { cat $$log; exit 1; }; \
 	for example in first_cut twin; do ($(RUST_CARGO) build --offline --locked --quiet --example $$example) || exit 1; done; \
 	$(RUST_TARGET)/debug/examples/first_cut | grep -qx '2 pieces' || { echo "rust: the first cut gives no 2 pieces"; exit 1; }; \
 	$(RUST_TARGET)/debug/examples/twin > $(RUST_TARGET)/twin.txt; $(BUILD)/tests/twin | head -n 2 | cmp - $(RUST_TARGET)/twin.txt || exit 1; \

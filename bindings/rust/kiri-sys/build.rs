@@ -1,15 +1,18 @@
 //! Builds the library: from the files that the crate has, or from the repository that it stands in.
 //!
 //! KIRI_LIBRARY_DIR: links to the libkiri.a there, and builds nothing. EIGEN_DIR: where the headers of Eigen are; else
-//! pkg-config says it.
+//! pkg-config says it. DOCS_RS: documentation alone is made, which takes no library.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs};
 
 fn main() {
-    for name in ["KIRI_LIBRARY_DIR", "EIGEN_DIR"] {
+    for name in ["KIRI_LIBRARY_DIR", "EIGEN_DIR", "DOCS_RS"] {
         println!("cargo:rerun-if-env-changed={name}");
+    }
+    if env::var_os("DOCS_RS").is_some() {
+        return;
     }
     if let Some(folder) = env::var_os("KIRI_LIBRARY_DIR") {
         let folder = Path::new(&folder);

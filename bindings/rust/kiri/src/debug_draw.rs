@@ -8,8 +8,11 @@ use std::mem::MaybeUninit;
 /// What vertices are drawn as: one for a point, two for a line, three for a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Shape {
+    /// One vertex each.
     Points,
+    /// Two vertices each.
     Lines,
+    /// Three vertices each.
     Triangles,
 }
 

@@ -159,10 +159,12 @@ impl Seam {
     }
 }
 
+/// Result code.
 #[non_exhaustive]
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ResultCode {
+    /// Ok.
     Ok = 0,
     /// success; work is left for later ticks
     Pending = 1,
@@ -219,8 +221,10 @@ impl ResultCode {
     }
 }
 
+/// Least triangles.
 pub const LEAST_TRIANGLES: i32 = 16;
 
+/// Most note bytes.
 pub const MOST_NOTE_BYTES: i32 = 1048576;
 
 /// Events since the start of the last tick that was not refused.
@@ -358,12 +362,16 @@ impl MaterialPreset {
     }
 }
 
+/// Quality preset.
 #[non_exhaustive]
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum QualityPreset {
+    /// Fast.
     Fast = 0,
+    /// Balanced.
     Balanced = 1,
+    /// Accurate.
     Accurate = 2,
 }
 
@@ -489,8 +497,11 @@ impl TimeStepping {
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum PinType {
+    /// Point.
     Point = 0,
+    /// Hinge.
     Hinge = 1,
+    /// Clamp.
     Clamp = 2,
 }
 
@@ -581,6 +592,7 @@ pub const DRAW_BOXES: u32 = 256;
 pub const DRAW_OBSTACLES: u32 = 512;
 /// a point for each collision point
 pub const DRAW_POINTS: u32 = 1024;
+/// Draw all.
 pub const DRAW_ALL: u32 = 2047;
 
 /// Limits the work of one tick, over all sheets. 0: no limit. Triangles, cells and samples share
@@ -866,6 +878,7 @@ pub struct SheetDef<'a> {
     /// Start: x = position + u `axis_u` + v `axis_v` (m, world), with orthonormal axes; and
     /// velocity, m/s.
     pub velocity: [f32; 3],
+    /// Material.
     pub material: Material,
     /// grid squares along the longer side, 1 to 4096; default 32
     pub grid_resolution: i32,
@@ -887,6 +900,7 @@ pub struct SheetDef<'a> {
     pub frame_length: f32,
     /// 1e-4 to 1; used where `frame_count` and `frame_length` are 0; default 0.02
     pub accuracy: f32,
+    /// Frame points.
     pub frame_points: Option<&'a [[f32; 2]]>,
     /// re-sampling stops here; default 256
     pub max_frames: i32,
@@ -1042,7 +1056,9 @@ impl<'a> SheetDef<'a> {
 /// Sheet settings that can change after creation. Fields mean the same as in [`SheetDef`].
 #[derive(Clone, Copy, Debug)]
 pub struct SheetSettings {
+    /// Cookie.
     cookie: u32,
+    /// Material.
     pub material: Material,
     /// re-sampling stops here; default 256
     pub max_frames: i32,
@@ -1171,8 +1187,11 @@ impl Fold {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct FoldState {
+    /// Fold.
     pub fold: Fold,
+    /// Angle.
     pub angle: f64,
+    /// Length.
     pub length: f64,
 }
 
@@ -1216,8 +1235,11 @@ pub struct Mesh<'a> {
     pub source_triangles: &'a [i32],
     /// 3 a vertex: and its barycentric coordinates there
     pub source_weights: &'a [[f32; 3]],
+    /// Vertex count.
     pub vertex_count: i32,
+    /// Triangle count.
     pub triangle_count: i32,
+    /// Revision.
     pub revision: u32,
 }
 
@@ -1242,7 +1264,9 @@ impl<'a> Mesh<'a> {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Range {
+    /// First.
     pub first: i32,
+    /// Count.
     pub count: i32,
 }
 
@@ -1324,7 +1348,9 @@ pub struct Solid<'a> {
     pub indices: &'a [[i32; 3]],
     /// 1 a vertex: its vertex in [`Mesh`]
     pub sources: &'a [i32],
+    /// Vertex count.
     pub vertex_count: i32,
+    /// Triangle count.
     pub triangle_count: i32,
     /// rims begin at this triangle
     pub rim_triangle: i32,
@@ -1350,12 +1376,19 @@ impl<'a> Solid<'a> {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Counts {
+    /// Vertices.
     pub vertices: i32,
+    /// Triangles.
     pub triangles: i32,
+    /// Cells.
     pub cells: i32,
+    /// Frames.
     pub frames: i32,
+    /// Links.
     pub links: i32,
+    /// Pieces.
     pub pieces: i32,
+    /// Collision points.
     pub collision_points: i32,
 }
 
@@ -1390,12 +1423,19 @@ impl Counts {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Totals {
+    /// Area.
     pub area: f64,
+    /// Mass.
     pub mass: f64,
+    /// Kinetic energy.
     pub kinetic_energy: f64,
+    /// Elastic energy.
     pub elastic_energy: f64,
+    /// Center.
     pub center: [f64; 3],
+    /// Momentum.
     pub momentum: [f64; 3],
+    /// Angular momentum.
     pub angular_momentum: [f64; 3],
 }
 
@@ -1557,8 +1597,11 @@ pub struct PieceMesh<'a> {
     pub indices: &'a [[i32; 3]],
     /// see [`Sheet::collision_points`]
     pub collision_points: &'a [i32],
+    /// Vertex count.
     pub vertex_count: i32,
+    /// Triangle count.
     pub triangle_count: i32,
+    /// Collision point count.
     pub collision_point_count: i32,
 }
 
@@ -1712,6 +1755,7 @@ impl PinDef {
 pub struct PinState {
     /// KIRI_PIN_...
     pub kind: PinType,
+    /// Sheet.
     pub sheet: Sheet,
     /// m, rest plane: the ends of the line, or the point twice
     pub from: [f32; 2],
@@ -1755,6 +1799,7 @@ pub struct SeamDef<'a> {
     pub sheet_b: Sheet,
     /// 2 floats a point, m, in the material, such as its edge; copied
     pub line_a: &'a [[f32; 2]],
+    /// Line b.
     pub line_b: &'a [[f32; 2]],
     /// up to 4096; 0 (default): two for each distance of frames
     pub stitches: i32,
@@ -1807,7 +1852,9 @@ impl<'a> SeamDef<'a> {
 /// A stitch, as after the last tick.
 #[derive(Clone, Copy, Debug)]
 pub struct Stitch {
+    /// Sheet a.
     pub sheet_a: Sheet,
+    /// Sheet b.
     pub sheet_b: Sheet,
     /// m, in the material
     pub rest_a: [f32; 2],
@@ -2042,9 +2089,13 @@ impl<'a> ObstacleDef<'a> {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct ObstacleState {
+    /// Position.
     pub position: [f32; 3],
+    /// Rotation.
     pub rotation: [f32; 9],
+    /// Velocity.
     pub velocity: [f32; 3],
+    /// Angular velocity.
     pub angular_velocity: [f32; 3],
     /// N s, N m s about its centre of mass: of sheets and pins in the last tick
     pub impulse: [f64; 3],
@@ -2117,46 +2168,66 @@ impl DrawVertex {
 pub enum Event {
     /// cut: all of it is in the mesh; the id is stale from now on
     CutFinished {
+        /// Sheet.
         sheet: Sheet,
+        /// Cut.
         cut: Cut,
     },
     /// frame (its first, which names it), crumb, area: a connected part came off
     PieceOff {
+        /// Sheet.
         sheet: Sheet,
+        /// Frame.
         frame: Frame,
+        /// 1: the piece is a crumb, see [`SheetDef`]
         crumb: bool,
+        /// m^2 of the piece, or 0
         area: f32,
     },
     /// frame
     FrameAdded {
+        /// Sheet.
         sheet: Sheet,
+        /// Frame.
         frame: Frame,
     },
     /// the sheet was stopped
     Diverged {
+        /// Sheet.
         sheet: Sheet,
     },
     /// stage, waiting: the budget ended in this stage of the sheet's work
     Deferred {
+        /// Sheet.
         sheet: Sheet,
+        /// KIRI_STAGE_..., or -1
         stage: Stage,
+        /// points and ends of cuts that are pending or in work; or 0
         waiting: i32,
     },
     /// pin: its force exceeded `break_force`; the id is stale from now on
     PinBroke {
+        /// Sheet.
         sheet: Sheet,
+        /// Pin.
         pin: Pin,
     },
     /// sheet (the new one), frame, area: a pending [`Frame::detach_piece`] is done
     PieceDetached {
+        /// Sheet.
         sheet: Sheet,
+        /// Frame.
         frame: Frame,
+        /// m^2 of the piece, or 0
         area: f32,
     },
     /// seam, stitches: some stitches broke; with none left the id is stale from now on
     SeamBroke {
+        /// Sheet.
         sheet: Sheet,
+        /// Seam.
         seam: Seam,
+        /// that the seam has left, or 0
         stitches: i32,
     },
 }

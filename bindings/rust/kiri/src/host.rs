@@ -21,7 +21,10 @@ pub(crate) fn take_line() -> String {
 /// # Safety
 /// `alloc` gives that many bytes, aligned to 16, or null; they stay until `free`.
 pub unsafe trait Allocator: Send + Sync {
+    /// Gives memory, or null.
     fn alloc(&self, bytes: usize) -> *mut u8;
+    /// Takes memory back.
+    ///
     /// # Safety
     /// The pointer came from `alloc`.
     unsafe fn free(&self, pointer: *mut u8);
@@ -181,6 +184,7 @@ impl<'t> Task<'t> {
     }
 }
 
+/// Parts of a task, for the threads of a host.
 pub struct Parts<'t> {
     work: &'t Work,
     start: i32,
@@ -208,6 +212,7 @@ pub struct Part<'t> {
 }
 
 impl Part<'_> {
+    /// Does the work on its items.
     pub fn run(self) {
         // SAFETY: no other part has these items, and the task still goes on.
         unsafe { (self.work.run)(self.start, self.end, self.work.context) };

@@ -1,4 +1,5 @@
 #![doc = include_str!("../README.md")]
+#![deny(missing_docs)]
 
 use kiri_sys as sys;
 use std::fmt;
@@ -18,10 +19,13 @@ pub use host::{Allocator, Part, Parts, Task, WorldDef};
 /// What a call refuses: what it is, and a line that says why.
 #[derive(Clone, Debug)]
 pub struct Error {
+    /// The result of C.
     pub code: ResultCode,
+    /// What was wrong; or "".
     pub line: String,
 }
 
+/// What a call gives, or why it failed.
 pub type Result<T> = std::result::Result<T, Error>;
 
 impl fmt::Display for Error {
@@ -36,7 +40,9 @@ impl std::error::Error for Error {}
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[must_use = "work may be left for later ticks"]
 pub enum Status {
+    /// Nothing is left.
     Done,
+    /// Work is left for later ticks.
     Pending,
 }
 
@@ -121,6 +127,7 @@ unsafe impl Send for World {}
 unsafe impl Sync for World {}
 
 impl World {
+    /// Makes an empty world.
     pub fn new(def: WorldDef) -> Result<Self> {
         assert_eq!(version(), sys::KIRI_VERSION, "the library is of another version than the crate");
         let (raw_def, host) = def.into_raw();
@@ -199,7 +206,9 @@ impl ExactSizeIterator for Events<'_> {}
 /// # Safety
 /// At these offsets, which are multiples of 4, it has 3 floats, or whatever may be any bits.
 pub unsafe trait Vertex {
+    /// Bytes from the start of a vertex to its position.
     const POSITION: usize;
+    /// Bytes from the start of a vertex to its normal; `None`: it has none.
     const NORMAL: Option<usize>;
 }
 
@@ -267,6 +276,7 @@ pub struct Replay<'r> {
 }
 
 impl<'r> Replay<'r> {
+    /// Begins at the start of a recording.
     pub fn new(recording: &'r [u8]) -> Self {
         let raw = sys::kiriReplay { offset: 0, calls: 0, ticks: 0, note: std::ptr::null(), noteCount: 0 };
         Self { raw, recording, _note: PhantomData }
