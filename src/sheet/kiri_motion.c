@@ -89,7 +89,7 @@ static void FallAsleep(kiriSheetData* sheet)
 
 /* ---- Turns ---- */
 
-static int64_t WorkOfBody(const kiriSheetData* sheet, int32_t body)
+int64_t kiriMotion_WorkOf(const kiriSheetData* sheet, int32_t body)
 {
     KIRI_ASSERT_HAS(sheet->solver->bodies.bodies, body);
     return kiriSolver_WorkOf(sheet->solver, body, sheet->solver->bodies.bodies.data[body].contactCount);
@@ -101,7 +101,7 @@ static int64_t ItemsOfMoved(const kiriSheetData* sheet)
     const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->bodies;
     int64_t work = 0;
     KIRI_EACH(const int32_t, body, *moved) {
-        work += WorkOfBody(sheet, *body);
+        work += kiriMotion_WorkOf(sheet, *body);
     }
     return kiriSolver_ItemsOf(work);
 }
@@ -148,7 +148,7 @@ static int32_t DeferBodies(kiriSheetData* sheet, const kiriQuota* systems)
     KIRI_SEARCH(first, 0, count, moved->data[middle] < turn);
     for (int32_t n = 0; n < count; ++n) {
         int32_t body = moved->data[(first + n) % count];
-        int64_t work = WorkOfBody(sheet, body);
+        int64_t work = kiriMotion_WorkOf(sheet, body);
         if (sheet->turns.waiting > 0 || (taken > 0 && kiriSolver_ItemsOf(taken + work) > systems->left)) {
             next = sheet->turns.waiting > 0 ? next : sheet->layout.pieces.data[body].frame;
             Defer(sheet, body);
@@ -236,50 +236,14 @@ int64_t kiriMotion_SystemsLeft(const kiriQuota* quota, int64_t items)
     return fit > 0 || kiriQuota_IsBegun(quota) ? fit : 1;
 }
 
-/* Moves each body by one step. Charges the quota for each round: the n-th systems of all bodies together. */
-static bool StepBodies(kiriSheetData* sheet, const kiriSystem* system, double dt, int64_t most, kiriQuota* systems)
-{
-    const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->bodies;
-    int64_t work[KIRI_MOST_ROUNDS] = { 0 };
-    KIRI_EACH(const int32_t, body, *moved) {
-        int32_t solved = kiriSolver_Step(sheet->solver, system, *body, dt, sheet->settings.iterations,
-                                         (int32_t)kiriMin(most, INT32_MAX));
-        if (solved < 0) {
-            return false;
-        }
-        KIRI_ASSERT(solved <= KIRI_MOST_ROUNDS);
-        for (int32_t k = 0; k < solved; ++k) {
-            work[k] += WorkOfBody(sheet, *body);
-        }
-    }
-    for (int32_t k = 0; k < KIRI_MOST_ROUNDS && work[k] > 0; ++k) {
-        kiriQuota_Take(systems, kiriSolver_ItemsOf(work[k]));
-    }
-    return true;
-}
-
-/* Runs the substeps; fewer and longer ones if the quota requires it, with at least one system each. */
-static kiriProgress TakeSubsteps(kiriSheetData* sheet, const kiriSystem* system, double dt, int32_t substeps,
-                                 kiriQuota* systems)
-{
-    int64_t items = ItemsOfMoved(sheet), left = kiriMotion_SystemsLeft(systems, items);
-    substeps = left < substeps ? (int32_t)left : substeps;
-    for (int32_t i = 0; i < substeps; ++i) {
-        kiriFollow_Step(sheet, i, substeps, dt / substeps);
-        if (!StepBodies(sheet, system, dt / substeps, kiriMotion_SystemsLeft(systems, items) - (substeps - 1 - i), systems)) {
-            return KIRI_FAILED;
-        }
-    }
-    return substeps > 0 ? KIRI_DONE : KIRI_MORE;
-}
-
 /* Returns true if pins or contacts read the motion. */
 static bool IsRead(const kiriSheetData* sheet)
 {
     return sheet->touches.found.count > 0 || sheet->pins.count > 0;
 }
 
-int32_t kiriMotion_Begin(kiriSheetData* sheet, kiriVec3 gravity, double dt, const kiriQuota* systems, kiriSystem* system)
+int32_t kiriMotion_Begin(kiriSheetData* sheet, kiriVec3 gravity, double dt, const kiriQuota* systems,
+                         kiriSystem* system)
 {
     int32_t next = ChooseMoved(sheet, systems);
     bool isLate = systems != NULL && !sheet->rest.asleep && !IsRead(sheet) &&
@@ -313,20 +277,6 @@ void kiriMotion_End(kiriSheetData* sheet, kiriProgress progress, bool isMoved, d
     if (isMoved) {
         ClearForces(sheet);
     }
-}
-
-kiriProgress kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps, kiriQuota* systems)
-{
-    kiriSystem system;
-    int32_t next = kiriMotion_Begin(sheet, gravity, dt, systems, &system);
-    bool isMoved = !sheet->rest.asleep;
-    kiriProgress progress = KIRI_DONE;
-    if (isMoved) {
-        progress = TakeSubsteps(sheet, &system, dt, substeps, systems); /* takes none if no systems are left */
-        sheet->turns.next = progress == KIRI_DONE ? next : sheet->turns.next;
-    }
-    kiriMotion_End(sheet, progress, isMoved, dt);
-    return progress;
 }
 
 bool kiriMotion_Wait(kiriSheetData* sheet, double dt)

@@ -6,23 +6,25 @@
 
 KIRI_C_BEGIN
 
-/* Moves the frames by dt in equal substeps, except in pieces that sleep, fall asleep or are deferred (kiriPieceTurns).
-   The quota counts items of linear systems (kiriSolver_SystemItems). KIRI_MORE: no items left, frames unchanged.
-   KIRI_FAILED: the solver failed; frames keep their positions and stop. Consumes forces and contacts. */
-kiriProgress kiriMotion_Solve(kiriSheetData* sheet, kiriVec3 gravity, double dt, int32_t substeps, kiriQuota* systems);
+/* Chooses the pieces to move: not those that sleep or fall asleep. With `systems`, the limit of items of linear systems
+   (kiriSolver_ItemsOf), it defers pieces that it does not suffice for (kiriPieceTurns). Writes rows and the system. The
+   steps are in world/kiri_island.c. Returns a frame of the first deferred piece, or 0. */
+int32_t kiriMotion_Begin(kiriSheetData* sheet, kiriVec3 gravity, double dt, const kiriQuota* systems,
+                         kiriSystem* system);
 
-/* The parts of kiriMotion_Solve, for sheets that are moved together: see world/kiri_island.h. Begin chooses the pieces to
-   move, all that are awake if `systems` is null, and writes their rows and the system. Returns a frame of the first
-   deferred piece, or 0. End takes the results of the steps. */
-int32_t kiriMotion_Begin(kiriSheetData* sheet, kiriVec3 gravity, double dt, const kiriQuota* systems, kiriSystem* system);
+/* Takes the results of the steps; consumes forces and contacts. KIRI_MORE: no items were left, frames are unchanged.
+   KIRI_FAILED: the solver failed; frames keep their positions and stop. */
 void kiriMotion_End(kiriSheetData* sheet, kiriProgress progress, bool isMoved, double dt);
+
+/* Returns the work of a linear system of a body. */
+int64_t kiriMotion_WorkOf(const kiriSheetData* sheet, int32_t body);
 
 enum { KIRI_MOST_ROUNDS = 64 + KIRI_EXTRA_SYSTEMS }; /* linear systems of a body in a step */
 
 /* Returns the count of linear systems of these items that the quota has left; at least one if nothing of it is used. */
 int64_t kiriMotion_SystemsLeft(const kiriQuota* quota, int64_t items);
 
-/* Replaces kiriMotion_Solve if no linear system is left and the visible state is current. The sheet stands still; sleep
+/* Replaces a motion if no linear system is left and the visible state is current. The sheet stands still; sleep
    and other updates are deferred to its turn. Returns false if their results are read in this tick. */
 bool kiriMotion_Wait(kiriSheetData* sheet, double dt);
 

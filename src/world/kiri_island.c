@@ -71,11 +71,6 @@ static void ListClusters(kiriWorld* world)
 
 /* ---- Islands ----------------------------------------------------------------------------------------------------- */
 
-static kiriSolverBody* PieceBody(kiriSheetData* sheet, int32_t piece)
-{
-    return &sheet->solver->bodies.bodies.data[piece];
-}
-
 /* Begins the motion of the sheets of clusters, and numbers their bodies. Returns the number of bodies. */
 static int32_t BeginClusters(kiriWorld* world, double dt)
 {
@@ -269,7 +264,8 @@ bool kiriIslands_Prepare(kiriWorld* world, double dt)
 /* Returns the island of a body; null: it moves alone. */
 static kiriIsland* IslandOf(kiriIslands* islands, int32_t sheet, int32_t piece)
 {
-    int32_t number = islands->count > 0 ? islands->numbers.data[islands->firstBodies.data[sheet] + piece] : KIRI_NONE;
+    bool mayBeIn = islands->count > 0 && islands->isJoined.data[sheet];
+    int32_t number = mayBeIn ? islands->numbers.data[islands->firstBodies.data[sheet] + piece] : KIRI_NONE;
     return number != KIRI_NONE ? &islands->islands.data[number] : NULL;
 }
 
@@ -279,13 +275,23 @@ static bool IsFirst(const kiriIslands* islands, const kiriIsland* island, const 
     return first->solver == sheet->solver && first->body == piece;
 }
 
-static int64_t WorkOfIsland(const kiriIslands* islands, const kiriIsland* island)
+/* Returns the work of a linear system of a body that moves alone, or, with its first body, of an island. */
+static int64_t WorkAt(const kiriWorld* world, int32_t i, int32_t piece)
 {
-    return kiriSolver_WorkOfIsland(island->matrix.matrix, &islands->bodies.data[island->bodies.first], island->bodies.count);
+    const kiriIslands* islands = &world->islands;
+    const kiriSheetData* sheet = world->sheets.data[i];
+    const kiriIsland* island = IslandOf((kiriIslands*)islands, i, piece);
+    if (island == NULL) {
+        return kiriMotion_WorkOf(sheet, piece);
+    }
+    return IsFirst(islands, island, sheet, piece)
+               ? kiriSolver_WorkOfIsland(island->matrix.matrix, &islands->bodies.data[island->bodies.first],
+                                         island->bodies.count)
+               : 0;
 }
 
-/* Moves all bodies of a cluster by one step. `work` sums the work of the n-th systems of all islands. Fails if the
-   solver does. */
+/* Moves all bodies of a cluster by one step. `work` sums the work of the n-th systems of all bodies and islands. Fails
+   if the solver does. */
 static bool StepCluster(kiriWorld* world, int32_t cluster, double dt, int64_t most, int64_t* work)
 {
     kiriIslands* islands = &world->islands;
@@ -296,21 +302,20 @@ static bool StepCluster(kiriWorld* world, int32_t cluster, double dt, int64_t mo
         KIRI_EACH_WHILE(!sheet->rest.asleep, const int32_t, at, *moved) {
             kiriIsland* island = IslandOf(islands, i, *at);
             int32_t solved = 0;
-            int64_t each = 0;
             if (island == NULL) {
                 solved = kiriSolver_Step(sheet->solver, &islands->systems.data[i], *at, dt, iterations, systems);
-                each = kiriSolver_WorkOf(sheet->solver, *at, PieceBody(sheet, *at)->contactCount);
             } else if (IsFirst(islands, island, sheet, *at)) {
-                const kiriIslandBody* bodies = &islands->bodies.data[island->bodies.first];
-                solved = kiriSolver_StepIsland(island->solver, island->matrix.matrix, bodies, island->bodies.count,
+                solved = kiriSolver_StepIsland(island->solver, island->matrix.matrix,
+                                               &islands->bodies.data[island->bodies.first], island->bodies.count,
                                                island->stitches, dt, island->iterations, systems);
-                each = WorkOfIsland(islands, island);
-            }
-            for (int32_t k = 0; k < solved; ++k) {
-                work[k] += each;
             }
             if (solved < 0) {
                 return false;
+            }
+            KIRI_ASSERT(solved <= KIRI_MOST_ROUNDS);
+            int64_t each = WorkAt(world, i, *at);
+            for (int32_t k = 0; k < solved; ++k) {
+                work[k] += each;
             }
         }
     }
@@ -326,10 +331,7 @@ static int64_t ItemsOfCluster(const kiriWorld* world, int32_t cluster)
         kiriSheetData* sheet = world->sheets.data[i];
         const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->bodies;
         KIRI_EACH_WHILE(!sheet->rest.asleep, const int32_t, at, *moved) {
-            const kiriIsland* island = IslandOf((kiriIslands*)islands, i, *at);
-            work += island == NULL ? kiriSolver_WorkOf(sheet->solver, *at, PieceBody(sheet, *at)->contactCount)
-                    : IsFirst(islands, island, sheet, *at) ? WorkOfIsland(islands, island)
-                                                           : 0;
+            work += WorkAt(world, i, *at);
         }
     }
     return kiriSolver_ItemsOf(work);
@@ -340,8 +342,8 @@ int64_t kiriIslands_MostItems(const kiriWorld* world, int32_t cluster, int32_t s
     return (int64_t)substeps * KIRI_MOST_ROUNDS * ItemsOfCluster(world, cluster);
 }
 
-/* Runs the substeps; fewer and longer ones if the quota requires it. */
-static kiriProgress TakeClusterSubsteps(kiriWorld* world, int32_t cluster, double dt, int32_t substeps, kiriQuota* systems)
+/* Runs the substeps; fewer and longer ones if the quota requires it, with at least one system each. */
+static kiriProgress TakeSubsteps(kiriWorld* world, int32_t cluster, double dt, int32_t substeps, kiriQuota* systems)
 {
     const kiriIslands* islands = &world->islands;
     int64_t items = ItemsOfCluster(world, cluster), left = kiriMotion_SystemsLeft(systems, items);
@@ -353,7 +355,8 @@ static kiriProgress TakeClusterSubsteps(kiriWorld* world, int32_t cluster, doubl
                 kiriFollow_Step(world->sheets.data[i], s, substeps, dt / substeps);
             }
         }
-        if (!StepCluster(world, cluster, dt / substeps, kiriMotion_SystemsLeft(systems, items) - (substeps - 1 - s), work)) {
+        left = kiriMotion_SystemsLeft(systems, items) - (substeps - 1 - s);
+        if (!StepCluster(world, cluster, dt / substeps, left, work)) {
             return KIRI_FAILED;
         }
         for (int32_t k = 0; k < KIRI_MOST_ROUNDS && work[k] > 0; ++k) {
@@ -366,7 +369,7 @@ static kiriProgress TakeClusterSubsteps(kiriWorld* world, int32_t cluster, doubl
 void kiriIslands_Move(kiriWorld* world, int32_t cluster, double dt, int32_t substeps, kiriQuota* systems)
 {
     const kiriIslands* islands = &world->islands;
-    kiriProgress progress = TakeClusterSubsteps(world, cluster, dt, substeps, systems);
+    kiriProgress progress = TakeSubsteps(world, cluster, dt, substeps, systems);
     for (int32_t i = cluster; i != KIRI_NONE; i = islands->next.data[i]) {
         kiriSheetData* sheet = world->sheets.data[i];
         bool isMoved = !sheet->rest.asleep;

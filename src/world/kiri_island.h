@@ -11,8 +11,9 @@ KIRI_C_BEGIN
 /* Joins the sheets of mutual contacts to clusters. Call it after touches are found. Fails on out of memory. */
 bool kiriIslands_FindClusters(kiriWorld* world);
 
-/* Begins the motion of all sheets in clusters, whose pins have begun (kiriMoves_BeginClusters), joins their bodies to islands, and shapes the matrices of islands. Call it
-   after the commit. On out of memory returns false: then contacts between surfaces are left out in this tick. */
+/* Begins the motion of all sheets in clusters, whose pins have begun (kiriMoves_BeginClusters), joins their bodies to
+   islands, and shapes the matrices of islands. Call it after the commit. On out of memory returns false: then contacts
+   between surfaces are left out in this tick. */
 bool kiriIslands_Prepare(kiriWorld* world, double dt);
 
 /* Returns the cluster of a sheet: the index of its first sheet; KIRI_NONE: no mutual contact. */
@@ -21,7 +22,7 @@ int32_t kiriIslands_ClusterOf(kiriIslands* islands, int32_t sheet);
 /* Returns an upper bound of the items that a tick of a cluster takes. */
 int64_t kiriIslands_MostItems(const kiriWorld* world, int32_t cluster, int32_t substeps);
 
-/* Moves the sheets of a cluster. Writes their progress. */
+/* Moves the sheets of a cluster, or one sheet alone, whose motion has begun. Writes their progress. */
 void kiriIslands_Move(kiriWorld* world, int32_t cluster, double dt, int32_t substeps, kiriQuota* systems);
 
 KIRI_C_END

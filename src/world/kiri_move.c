@@ -124,49 +124,42 @@ static void GiveImpulses(const MoveTask* task, int32_t i, bool areMovable)
     }
 }
 
-/* Moves all sheets of a cluster. The first one gets the items. */
-static void MoveCluster(const MoveTask* task, int32_t cluster)
+/* Moves a sheet, or all sheets of a cluster when its first one moves, which gets the items. */
+static void MoveSheet(const MoveTask* task, int32_t first)
 {
     kiriWorld* world = task->world;
+    kiriSheetData* sheet = world->sheets.data[first];
     kiriMove* moves = world->moves.of.data;
     kiriQuota systems = task->systems;
-    for (int32_t i = cluster; i != KIRI_NONE; i = world->islands.next.data[i]) {
+    int32_t cluster = kiriIslands_ClusterOf(&world->islands, first), next = 0;
+    bool isAlone = cluster == KIRI_NONE;
+    if (!isAlone && cluster != first) {
+        return;
+    }
+    /* No system is left for the sheet, and its visible surface does not change. Then waiting costs nearly nothing, even
+       for many sheets. */
+    if (isAlone && kiriQuota_IsSpent(&systems) && kiriView_IsSettled(sheet) && kiriMotion_Wait(sheet, task->dt)) {
+        moves[first].progress = KIRI_MORE;
+        moves[first].systems = 0;
+        return;
+    }
+    for (int32_t i = first; i != KIRI_NONE; i = world->islands.next.data[i]) {
         kiriObstacles_LoadYields(world, world->sheets.data[i]);
         moves[i].systems = 0;
     }
-    kiriIslands_Move(world, cluster, task->dt, task->substeps, &systems);
-    moves[cluster].systems = systems.used - task->systems.used;
-    for (int32_t i = cluster; i != KIRI_NONE; i = world->islands.next.data[i]) {
+    if (isAlone) {
+        kiriPinStep_Begin(world, sheet, task->dt);
+        next = kiriMotion_Begin(sheet, world->gravity, task->dt, &systems, &world->islands.systems.data[first]);
+    }
+    bool isMoved = !sheet->rest.asleep;
+    kiriIslands_Move(world, first, task->dt, task->substeps, &systems);
+    moves[first].systems = systems.used - task->systems.used;
+    if (isAlone && isMoved && moves[first].progress == KIRI_DONE) {
+        sheet->turns.next = next;
+    }
+    for (int32_t i = first; i != KIRI_NONE; i = world->islands.next.data[i]) {
         GiveImpulses(task, i, true);
     }
-}
-
-/* A cluster moves when its first sheet does. */
-static void MoveSheet(const MoveTask* task, int32_t i)
-{
-    kiriWorld* world = task->world;
-    kiriMove* move = &world->moves.of.data[i];
-    kiriQuota systems = task->systems;
-    int32_t cluster = kiriIslands_ClusterOf(&world->islands, i);
-    if (cluster != KIRI_NONE) {
-        if (cluster == i) {
-            MoveCluster(task, i);
-        }
-        return;
-    }
-    kiriSheetData* sheet = world->sheets.data[i];
-    /* No system is left for the sheet, and its visible surface does not change. Then waiting costs nearly nothing, even
-       for many sheets. */
-    if (kiriQuota_IsSpent(&task->systems) && kiriView_IsSettled(sheet) && kiriMotion_Wait(sheet, task->dt)) {
-        move->progress = KIRI_MORE;
-        move->systems = 0;
-        return;
-    }
-    kiriObstacles_LoadYields(world, sheet);
-    kiriPinStep_Begin(world, sheet, task->dt);
-    move->progress = kiriMotion_Solve(sheet, world->gravity, task->dt, task->substeps, &systems);
-    move->systems = systems.used - task->systems.used;
-    GiveImpulses(task, i, true);
 }
 
 static void MoveGroups(int32_t start, int32_t end, void* context)

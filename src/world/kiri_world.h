@@ -78,7 +78,7 @@ typedef struct kiriIsland {
 typedef struct kiriIslands {
     kiriIndices clusters, next;         /* per sheet: union-find forest of sheets; the next sheet of its cluster */
     kiriFlags isJoined;                 /* per sheet: it has a mutual contact */
-    KIRI_ARRAY(kiriSystem) systems;     /* per sheet with a mutual contact */
+    KIRI_ARRAY(kiriSystem) systems;     /* per sheet */
     kiriIndices firstBodies;            /* per sheet: number of its body 0 */
     kiriIndices parents, numbers;       /* per body: union-find forest; island, or KIRI_NONE */
     KIRI_ARRAY(kiriIslandBody) bodies;  /* by island */
