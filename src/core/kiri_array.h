@@ -43,6 +43,18 @@ typedef KIRI_ARRAY(float) kiriFloats;
 
 #define KIRI_ASSERT_HAS(array, index) KIRI_ASSERT((index) >= 0 && (index) < (array).count)
 
+/* Removes the items for which a condition of `item`, a pointer to each, is false. The others keep their order. */
+#define KIRI_KEEP_IF(Type, item, array, condition)                                                                     \
+    do {                                                                                                               \
+        int32_t itemsKept = 0;                                                                                         \
+        KIRI_EACH(Type, item, array) {                                                                                 \
+            if (condition) {                                                                                           \
+                (array).data[itemsKept++] = *item;                                                                     \
+            }                                                                                                          \
+        }                                                                                                              \
+        (array).count = itemsKept;                                                                                     \
+    } while (0)
+
 /* Set all items, or new ones up to `size`, for which there is room, to bytes: 0, or -1 for KIRI_NONE. */
 #define kiriArray_Set(array, byte) kiriArray_SetFrom((array), 0, (byte), sizeof(*(array)->data))
 #define kiriArray_Extend(array, size, byte) kiriArray_ExtendTo((array), (size), (byte), sizeof(*(array)->data))

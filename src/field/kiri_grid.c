@@ -1077,14 +1077,8 @@ static void FreeCell(kiriGrid* grid, int32_t c)
 
 static void KeepCellsInUse(kiriGrid* grid, kiriIndices* list)
 {
-    int32_t count = 0;
-    KIRI_EACH(const int32_t, cell, *list) {
-        if (kiriGrid_IsCell(grid, *cell)) {
-            list->data[count++] = *cell;
-        }
-    }
     grid->work->debt += COST_OF_NODE * (int64_t)list->count;
-    list->count = count;
+    KIRI_KEEP_IF(const int32_t, cell, *list, kiriGrid_IsCell(grid, *cell));
 }
 
 /* Takes removed cells out of the other lists. Those that were made and removed since ClearChanges leave no trace. */

@@ -205,17 +205,12 @@ static bool StartRegionFlood(const RegionUpdate* u)
 {
     kiriSeeds seeds = { 0 };
     bool ok = true;
-    int32_t kept = 0;
     for (int32_t i = 0; ok && i < u->siteCount; ++i) {
         ok = kiriSite_Seed(&u->sites[i], i, u->memory, u->grid, u->mesh, &seeds);
     }
-    KIRI_EACH_WHILE(ok, const kiriSeed, seed, seeds) {
-        int32_t holder = u->regions->siteAt.data[seed->cell];
-        if (holder == KIRI_NONE || holder == seed->owner) {
-            seeds.data[kept++] = *seed;
-        }
-    }
-    ok = ok && kiriField_Start(&u->regions->field, u->memory, seeds.data, kept);
+    const int32_t* holders = u->regions->siteAt.data;
+    KIRI_KEEP_IF(const kiriSeed, seed, seeds, holders[seed->cell] == KIRI_NONE || holders[seed->cell] == seed->owner);
+    ok = ok && kiriField_Start(&u->regions->field, u->memory, seeds.data, seeds.count);
     kiriArray_Release(u->memory, &seeds);
     return ok;
 }

@@ -200,22 +200,24 @@ static void TouchCell(ShapeJob* job, int32_t cell)
 }
 
 /* Lists a cell with other distances or material. */
-static void MarkDirty(ShapeJob* job, int32_t cell)
+/* Adds a cell to a list, unless it has this mark of the list. */
+static void MarkCell(ShapeJob* job, int32_t cell, uint8_t mark, kiriIndices* list)
 {
     KIRI_ASSERT(kiriGrid_IsCell(job->grid, cell));
-    if ((job->work->marks.data[cell] & MARK_DIRTY) == 0) {
-        job->work->marks.data[cell] |= MARK_DIRTY;
-        AppendCell(job, &job->work->dirty, cell);
+    if ((job->work->marks.data[cell] & mark) == 0) {
+        job->work->marks.data[cell] |= mark;
+        AppendCell(job, list, cell);
     }
+}
+
+static void MarkDirty(ShapeJob* job, int32_t cell)
+{
+    MarkCell(job, cell, MARK_DIRTY, &job->work->dirty);
 }
 
 static void MarkChanged(ShapeJob* job, int32_t cell)
 {
-    KIRI_ASSERT(kiriGrid_IsCell(job->grid, cell));
-    if ((job->work->marks.data[cell] & MARK_CHANGED) == 0) {
-        job->work->marks.data[cell] |= MARK_CHANGED;
-        AppendCell(job, &job->shape->changes, cell);
-    }
+    MarkCell(job, cell, MARK_CHANGED, &job->shape->changes);
 }
 
 /* Adds a share to the rigid sums of the frames that hold the cell rigidly. */
@@ -744,20 +746,13 @@ static void EndShapeUpdate(ShapeJob* job)
     const kiriGridChanges* changes = &job->grid->changes;
     uint8_t* marks = job->work->marks.data;
     const uint8_t kept = (uint8_t) ~(MARK_STEPS | MARK_GONE | MARK_REGION);
-    int32_t count = 0;
     KIRI_EACH(const int32_t, at, changes->steps) {
         marks[*at] &= kept;
     }
     KIRI_EACH(const kiriSeed, change, job->regions->changes) {
         marks[change->cell] &= kept;
     }
-    KIRI_EACH(const int32_t, changed, shape->changes) {
-        int32_t cell = *changed;
-        if ((marks[cell] & MARK_GONE) == 0) {
-            shape->changes.data[count++] = cell;
-        }
-    }
-    shape->changes.count = count;
+    KIRI_KEEP_IF(const int32_t, at, shape->changes, (marks[*at] & MARK_GONE) == 0);
     KIRI_EACH(const int32_t, at, changes->gone) {
         marks[*at] = 0;
     }

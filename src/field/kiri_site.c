@@ -268,7 +268,7 @@ static int32_t OldDistance(const kiriPlacerWork* work, int32_t cell)
 static bool StartFlood(PlacerJob* job, kiriField* field, int32_t first, int32_t end)
 {
     kiriSeeds* seeds = &job->work->seeds;
-    int32_t kept = 0;
+    const int32_t* holds = job->work->holds.data;
     kiriField_Reset(field);
     seeds->count = 0;
     for (int32_t i = first; i < end; ++i) {
@@ -276,13 +276,8 @@ static bool StartFlood(PlacerJob* job, kiriField* field, int32_t first, int32_t 
             return false;
         }
     }
-    KIRI_EACH(const kiriSeed, seed, *seeds) {
-        int32_t holds = job->work->holds.data[seed->cell];
-        if (holds < 0 || holds == seed->owner) {
-            seeds->data[kept++] = *seed;
-        }
-    }
-    return kiriField_Start(field, job->memory, seeds->data, kept);
+    KIRI_KEEP_IF(const kiriSeed, seed, *seeds, holds[seed->cell] < 0 || holds[seed->cell] == seed->owner);
+    return kiriField_Start(field, job->memory, seeds->data, seeds->count);
 }
 
 /* Returns true where no old site is as near as a new one, nor, in sampling, another new one. */

@@ -32,6 +32,12 @@ static inline void kiriWrench_Add(kiriWrench* sum, double scale, const kiriWrenc
     sum->moment = kiriVec3_AddScaled(sum->moment, scale, wrench->moment);
 }
 
+static inline void kiriWrench_Store(const kiriWrench* wrench, double force[3], double moment[3])
+{
+    kiriVec3_StoreDoubles(force, wrench->force);
+    kiriVec3_StoreDoubles(moment, wrench->moment);
+}
+
 /* State of control frames (section 5 of the paper). */
 
 /* Motion of a frame by inner forces (links, pins, contacts) in its last step, input for the scheme of the next step.

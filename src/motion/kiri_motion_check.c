@@ -131,7 +131,7 @@ static void ReadBodies(kiriArchive* archive, kiriSolver* solver, int32_t frameCo
 
 enum { BYTES_A_BODY = 1024 }; /* of memory, with its matrix */
 
-/* Stores the patterns of bodies and the version of the lists. kiriSheet_RestageSolver derives the rest. */
+/* Stores the patterns of bodies and the version of the lists. kiriStage_Solver derives the rest. */
 void kiriSolver_Archive(kiriArchive* archive, kiriSolver** made, const kiriMechanics* mechanics)
 {
     bool reads = kiriArchive_Reads(archive);

@@ -74,19 +74,6 @@ void kiriSettings_Apply(kiriSheetData* sheet)
 
 /* ---- Change --------------------------------------------------------------------------------------------------- */
 
-bool kiriSheet_RestageSolver(kiriSheetData* sheet, const kiriMaterial* material)
-{
-    const kiriSystem system = { .mechanics = sheet->settings.mechanics,
-                                .material = *material,
-                                .frameCount = sheet->frames.count,
-                                .links = sheet->links.links.data,
-                                .linkCount = sheet->links.links.count,
-                                .corners = sheet->links.corners.data,
-                                .cornerCount = sheet->links.corners.count,
-                                .areaElements = &sheet->layout.areaElements };
-    return kiriSolver_Stage(sheet->solver, &system, sheet->layout.framePiece.data, sheet->layout.pieces.count);
-}
-
 /* Computes the masses for a new material; keeps poses and velocities. The next commit computes masses from the regions'
    exact moments. */
 static void Weigh(kiriSheetData* sheet, const kiriMaterial* before)
@@ -135,7 +122,7 @@ bool kiriSettings_Change(kiriSheetData* sheet, const kiriSheetSettings* given)
     if (!hasRoom || (looksOther &&
          !kiriView_ReserveFades(sheet, sheet->mesh.vertices.count, sheet->points.count, given->fadeTime)) ||
         !ReservePlastics(sheet, &given->material) ||
-        (isOther && !kiriSheet_RestageSolver(sheet, &given->material))) {
+        (isOther && !kiriStage_Solver(sheet, sheet->frames.count, &given->material, false))) {
         return false;
     }
     TakeSettings(&sheet->settings, given, sheet->mesh.step * sheet->mesh.squares.side);

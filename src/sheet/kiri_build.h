@@ -17,10 +17,6 @@ void kiriSettings_Apply(kiriSheetData* sheet);
 /* Changes the settings of an existing sheet and updates dependent state. Changes nothing on out of memory: false. */
 bool kiriSettings_Change(kiriSheetData* sheet, const kiriSheetSettings* given);
 
-/* Stages the solver for the committed state: after a load, or for a new material, which may add corners. An update
-   stages the solver in the tick of its commit, so this cannot destroy its staging. Fails on out of memory. */
-bool kiriSheet_RestageSolver(kiriSheetData* sheet, const kiriMaterial* material);
-
 /* Creation of a sheet from its def. */
 
 /* Builds a new sheet from a checked def. On failure the fault gives the reason, or "" if the result is enough, and the

@@ -527,7 +527,7 @@ bool kiriDetach_Stage(kiriDetach* detach)
            kiriLinks_Keep(&sheet->links, sheet->memory, &rest->links, &rest->frames) &&
            kiriShown_Reserve(&detach->shown, &sheet->shown, &rest->triangles, &rest->vertices) &&
            kiriArray_Reserve(&sheet->shown, &detach->points, 3 * (int64_t)rest->points.count) &&
-           kiriStage_Solver(sheet, rest->frames.count);
+           kiriStage_Solver(sheet, rest->frames.count, &sheet->settings.material, true);
 }
 
 static void KeepFields(kiriDetach* detach)
@@ -578,14 +578,8 @@ static void KeepTouches(kiriDetach* detach, kiriTouchMemory* memory, const kiriV
 static void KeepContacts(kiriDetach* detach)
 {
     kiriSheetData* sheet = detach->sheet;
-    int32_t left = 0, last = sheet->touches.last.touches.count;
-    KIRI_EACH(const kiriGivenContact, contact, sheet->contacts) {
-        kiriGivenContact given = *contact;
-        if (FollowContact(&detach->rest, &given)) {
-            sheet->contacts.data[left++] = given;
-        }
-    }
-    sheet->contacts.count = left;
+    int32_t last = sheet->touches.last.touches.count;
+    KIRI_KEEP_IF(kiriGivenContact, given, sheet->contacts, FollowContact(&detach->rest, given));
     KeepTouches(detach, &sheet->touches.last, detach->forces.data);
     KeepTouches(detach, &sheet->touches.slept, detach->forces.data + last);
     sheet->touches.rests.areSummed = false;

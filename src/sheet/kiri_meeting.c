@@ -872,14 +872,8 @@ static int64_t VersionOf(const kiriSheetData* sheet)
 /* Drops the found triangles of pieces that neither move nor wake in this tick. */
 static void DropSleepers(kiriObstacleSearch* search, const kiriSheetData* sheet)
 {
-    int32_t kept = 0;
-    KIRI_EACH(const int32_t, at, search->triangles) {
-        int32_t triangle = *at, piece = kiriPiece_OfTriangle(sheet, triangle);
-        if (kiriPiece_MayMove(&sheet->layout.pieces.data[piece])) {
-            search->triangles.data[kept++] = triangle;
-        }
-    }
-    search->triangles.count = kept;
+    const kiriPiece* pieces = sheet->layout.pieces.data;
+    KIRI_KEEP_IF(const int32_t, at, search->triangles, kiriPiece_MayMove(&pieces[kiriPiece_OfTriangle(sheet, *at)]));
 }
 
 bool kiriObstacleSearch_Run(kiriObstacleSearch* search, kiriSheetData* sheet, const kiriObstacleData* obstacle,

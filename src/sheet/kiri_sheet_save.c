@@ -727,7 +727,7 @@ bool kiriSheet_EndReading(kiriSheetData* sheet, bool isWhole)
     sheet->seen.bounds->levelCount = 0;
     bool ok = !hasBounds || kiriBounds_Update(sheet->seen.bounds, sheet->memory, surface);
     sheet->seen.bounds->patience = patience;
-    ok = ok && kiriSheet_RestageSolver(sheet, &sheet->settings.material) &&
+    ok = ok && kiriStage_Solver(sheet, sheet->frames.count, &sheet->settings.material, false) &&
          kiriSolver_ReserveRows(sheet->solver, sheet->pins.count + 2 * (int64_t)sheet->layout.pinShares.count,
                                 sheet->layout.pinShares.count, 0);
     kiriSolver_Commit(sheet->solver);

@@ -388,13 +388,7 @@ kiriVec3 kiriTouchMemory_Take(kiriTouchMemory* memory, uint64_t key)
 
 void kiriTouchMemory_DropTaken(kiriTouchMemory* memory)
 {
-    int32_t kept = 0;
-    KIRI_EACH(const kiriTouchForce, force, memory->forces) {
-        if (!IsNone(force->force)) {
-            memory->forces.data[kept++] = *force;
-        }
-    }
-    memory->forces.count = kept;
+    KIRI_KEEP_IF(const kiriTouchForce, force, memory->forces, !IsNone(force->force));
 }
 
 #define CALM_SLOPE 1e-3  /* largest change of a contact normal while a sheet falls asleep */

@@ -399,18 +399,19 @@ static bool BuildAreaElements(kiriSheetData* sheet)
     }
 }
 
-bool kiriStage_Solver(kiriSheetData* sheet, int32_t frameCount)
+bool kiriStage_Solver(kiriSheetData* sheet, int32_t frameCount, const kiriMaterial* material, bool isNext)
 {
-    const kiriUpdate* u = sheet->update;
-    const kiriSystem next = { .mechanics = sheet->settings.mechanics,
-                              .material = sheet->settings.material,
-                              .frameCount = frameCount,
-                              .links = sheet->links.next.data,
-                              .linkCount = sheet->links.next.count,
-                              .corners = sheet->links.nextCorners.data,
-                              .cornerCount = sheet->links.nextCorners.count,
-                              .areaElements = &u->next.areaElements };
-    return kiriSolver_Stage(sheet->solver, &next, u->next.framePiece.data, u->next.pieces.count);
+    const kiriLinks* links = &sheet->links;
+    const kiriLayout* layout = isNext ? &sheet->update->next : &sheet->layout;
+    const kiriSystem system = { .mechanics = sheet->settings.mechanics,
+                                .material = *material,
+                                .frameCount = frameCount,
+                                .links = isNext ? links->next.data : links->links.data,
+                                .linkCount = isNext ? links->next.count : links->links.count,
+                                .corners = isNext ? links->nextCorners.data : links->corners.data,
+                                .cornerCount = isNext ? links->nextCorners.count : links->corners.count,
+                                .areaElements = &layout->areaElements };
+    return kiriSolver_Stage(sheet->solver, &system, layout->framePiece.data, layout->pieces.count);
 }
 
 static kiriProgress StageOwnersOfMaterial(kiriSheetData* sheet, kiriQuota* samples)
@@ -479,7 +480,7 @@ static kiriProgress PrepareCommit(kiriSheetData* sheet, kiriQuota* samples)
               kiriPlaces_Reserve(&sheet->pointPlaces, sheet->memory, &sheet->mesh, points) &&
               kiriView_Reserve(sheet, counts) &&
               kiriArray_Reserve(sheet->memory, &sheet->frames, u->placing.sites.count) &&
-              kiriStage_Solver(sheet, u->placing.sites.count);
+              kiriStage_Solver(sheet, u->placing.sites.count, &sheet->settings.material, true);
     return ok ? KIRI_DONE : KIRI_FAILED;
 }
 

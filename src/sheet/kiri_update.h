@@ -6,8 +6,9 @@
 
 KIRI_C_BEGIN
 
-/* Stages the solver for `frameCount` frames, with the staged links and layout. Fails on out of memory. */
-bool kiriStage_Solver(kiriSheetData* sheet, int32_t frameCount);
+/* Stages the solver for `frameCount` frames, with the staged links and layout, or the ones in use. Fails on out of
+   memory. */
+bool kiriStage_Solver(kiriSheetData* sheet, int32_t frameCount, const kiriMaterial* material, bool isNext);
 
 /* Runs the first step of KIRI_STAGE_CONSTANTS for a new sheet. It depends on the mesh alone. */
 kiriProgress kiriStage_Owners(kiriSheetData* sheet, kiriQuota* samples);

@@ -15,15 +15,7 @@ void kiriFades_Trim(kiriFades* fades, kiriMemory* memory)
 
 void kiriFades_Keep(kiriFades* fades, const kiriKeep* samples)
 {
-    int32_t kept = 0;
-    KIRI_EACH(const kiriFading, at, fades->fading) {
-        kiriFading fading = *at;
-        fading.sample = kiriKeep_To(samples, fading.sample);
-        if (fading.sample != KIRI_NONE) {
-            fades->fading.data[kept++] = fading;
-        }
-    }
-    fades->fading.count = kept;
+    KIRI_KEEP_IF(kiriFading, at, fades->fading, (at->sample = kiriKeep_To(samples, at->sample)) != KIRI_NONE);
 }
 
 /* Moves the old fades to the end of the room. From there they are merged to the front with the new jumps. There is room for

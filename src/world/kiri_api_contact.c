@@ -169,8 +169,7 @@ kiriResult kiriObstacle_GetState(const kiriWorld* world, kiriObstacle obstacle, 
     kiriMat3_Store(state->rotation, data->rotation);
     kiriVec3_Store(state->velocity, data->velocity);
     kiriVec3_Store(state->angularVelocity, data->spin);
-    kiriVec3_StoreDoubles(state->impulse, data->impulse.force);
-    kiriVec3_StoreDoubles(state->angularImpulse, data->impulse.moment);
+    kiriWrench_Store(&data->impulse, state->impulse, state->angularImpulse);
     state->contacts = data->contacts;
     return KIRI_OK;
 }
@@ -351,36 +350,36 @@ kiriResult kiriSheet_HingeLine(kiriWorld* world, kiriSheet sheet, const float fr
 
 /* ---- All pins ---------------------------------------------------------------------------------------------------- */
 
+/* Moves a pin to a target, and turns it unless `rotation` is null. */
+static void MovePin(kiriCall* call, const float target[3], const float* rotation, const kiriMat3* to)
+{
+    kiriPinData* pin = &call->sheet->pins.data[call->index];
+    if (!kiriVec3_Shows(pin->target, target) || (to != NULL && !kiriMat3_Shows(&pin->rotation, to, rotation))) {
+        pin->target = kiriVec3_Load(target);
+        pin->rotation = to != NULL ? *to : pin->rotation;
+        kiriPinStep_Fasten(call->world, pin);
+        kiriPins_ForgetHistory(call->sheet, call->index);
+        kiriSheet_WakePin(call->sheet, call->index);
+    }
+}
+
 kiriResult kiriPin_SetTarget(kiriWorld* world, kiriPin pin, const float target[3])
 {
     KIRI_CHANGES(Pin_SetTarget, &pin, target);
-    kiriSheetData* sheet = call->sheet;
-    KIRI_ASSERT(call->index < sheet->pins.count && sheet->pins.data[call->index].id == pin);
-    kiriPinData* data = &sheet->pins.data[call->index];
-    if (!kiriVec3_Shows(data->target, target)) {
-        data->target = kiriVec3_Load(target);
-        kiriPinStep_Fasten(world, data);
-        kiriPins_ForgetHistory(sheet, call->index);
-        kiriSheet_WakePin(sheet, call->index);
-    }
+    KIRI_ASSERT(call->index < call->sheet->pins.count && call->sheet->pins.data[call->index].id == pin);
+    MovePin(call, target, NULL, NULL);
     KIRI_RETURN(KIRI_OK);
 }
 
 kiriResult kiriPin_SetPose(kiriWorld* world, kiriPin pin, const float target[3], const float rotation[9])
 {
     KIRI_CHANGES(Pin_SetPose, &pin, target, rotation);
-    kiriSheetData* sheet = call->sheet;
-    KIRI_ASSERT(call->index < sheet->pins.count && sheet->pins.data[call->index].id == pin);
-    kiriPinData* data = &sheet->pins.data[call->index];
-    KIRI_CHECK(data->type != KIRI_PIN_POINT, "the pin holds a point, which has no rotation");
-    kiriMat3 m = kiriMat3_Rotation(kiriMat3_Load(rotation));
-    KIRI_CHECK(kiriCall_KeepsPlane(sheet, m.d), "rotation turns a planar sheet out of its plane");
-    if (!kiriVec3_Shows(data->target, target) || !kiriMat3_Shows(&data->rotation, &m, rotation)) {
-        data->target = kiriVec3_Load(target);
-        data->rotation = m;
-        kiriPins_ForgetHistory(sheet, call->index);
-        kiriSheet_WakePin(sheet, call->index);
-    }
+    KIRI_ASSERT(call->index < call->sheet->pins.count && call->sheet->pins.data[call->index].id == pin);
+    KIRI_CHECK(call->sheet->pins.data[call->index].type != KIRI_PIN_POINT,
+               "the pin holds a point, which has no rotation");
+    kiriMat3 to = kiriMat3_Rotation(kiriMat3_Load(rotation));
+    KIRI_CHECK(kiriCall_KeepsPlane(call->sheet, to.d), "rotation turns a planar sheet out of its plane");
+    MovePin(call, target, rotation, &to);
     KIRI_RETURN(KIRI_OK);
 }
 
@@ -422,8 +421,7 @@ kiriResult kiriPin_GetReaction(const kiriWorld* world, kiriPin pin, double force
 {
     KIRI_READS_OF(pin, force);
     KIRI_CHECK_OUT(torque);
-    kiriVec3_StoreDoubles(force, found->pins.data[slot->index].bore.force);
-    kiriVec3_StoreDoubles(torque, found->pins.data[slot->index].bore.moment);
+    kiriWrench_Store(&found->pins.data[slot->index].bore, force, torque);
     return KIRI_OK;
 }
 

@@ -261,38 +261,35 @@ kiriResult kiriFrame_GetPiece(const kiriWorld* world, kiriFrame frame, int32_t* 
     return KIRI_OK;
 }
 
-/* Returns the line for a result of kiriParts_Detach or _Destroy. */
-static const char* FaultOfParting(kiriResult result)
+/* Ends a call with the result of kiriParts_Detach or kiriParts_Destroy. */
+static kiriResult EndParts(kiriCall* call, kiriResult result)
 {
-    return result == KIRI_ERROR_STATE ? "the piece is all that is left of its sheet" : NULL;
+    return kiriCall_End(call->world, call, call->function, result,
+                        result == KIRI_ERROR_STATE ? "the piece is all that is left of its sheet" : NULL);
 }
 
 kiriResult kiriFrame_DetachPiece(kiriWorld* world, kiriFrame frame, kiriSheet* detached)
 {
     KIRI_CHANGES(Frame_DetachPiece, &frame, detached);
-    kiriResult result = kiriParts_Detach(world, &frame, 1, detached);
-    return KIRI_FAIL(result, FaultOfParting(result));
+    return EndParts(call, kiriParts_Detach(world, &frame, 1, detached));
 }
 
 kiriResult kiriFrame_DestroyPiece(kiriWorld* world, kiriFrame frame)
 {
     KIRI_CHANGES(Frame_DestroyPiece, &frame);
-    kiriResult result = kiriParts_Destroy(world, &frame, 1);
-    return KIRI_FAIL(result, FaultOfParting(result));
+    return EndParts(call, kiriParts_Destroy(world, &frame, 1));
 }
 
 kiriResult kiriWorld_DetachPieces(kiriWorld* world, const kiriFrame* frames, int32_t count, kiriSheet* detached)
 {
     KIRI_CHANGES(World_DetachPieces, frames, &count, detached);
-    kiriResult result = kiriParts_Detach(world, frames, count, detached);
-    return KIRI_FAIL(result, FaultOfParting(result));
+    return EndParts(call, kiriParts_Detach(world, frames, count, detached));
 }
 
 kiriResult kiriWorld_DestroyPieces(kiriWorld* world, const kiriFrame* frames, int32_t count)
 {
     KIRI_CHANGES(World_DestroyPieces, frames, &count);
-    kiriResult result = kiriParts_Destroy(world, frames, count);
-    return KIRI_FAIL(result, FaultOfParting(result));
+    return EndParts(call, kiriParts_Destroy(world, frames, count));
 }
 
 kiriResult kiriSheet_DropCrumbs(kiriWorld* world, kiriSheet sheet, float area, int32_t* count)
@@ -372,8 +369,7 @@ kiriResult kiriFrame_GetReaction(const kiriWorld* world, kiriFrame frame, double
 {
     KIRI_READS_OF(frame, force);
     KIRI_CHECK_OUT(torque);
-    kiriVec3_StoreDoubles(force, found->frames.data[slot->index].bore.force);
-    kiriVec3_StoreDoubles(torque, found->frames.data[slot->index].bore.moment);
+    kiriWrench_Store(&found->frames.data[slot->index].bore, force, torque);
     return KIRI_OK;
 }
 
@@ -627,13 +623,18 @@ static bool SetRigidVelocity(kiriSheetData* sheet, int32_t piece, kiriVec3 veloc
     return true;
 }
 
+static kiriResult SetVelocity(kiriCall* call, int32_t piece, const float velocity[3], const float spin[3])
+{
+    bool fits = SetRigidVelocity(call->sheet, piece, kiriVec3_Load(velocity), kiriVec3_Load(spin));
+    return kiriCall_End(call->world, call, call->function, fits ? KIRI_OK : KIRI_ERROR_ARGUMENT,
+                        fits ? NULL : "floats cannot hold what comes of it");
+}
+
 kiriResult kiriSheet_SetVelocity(kiriWorld* world, kiriSheet sheet, const float velocity[3],
                                  const float angularVelocity[3])
 {
     KIRI_CHANGES(Sheet_SetVelocity, &sheet, velocity, angularVelocity);
-    KIRI_CHECK(SetRigidVelocity(call->sheet, KIRI_NONE, kiriVec3_Load(velocity), kiriVec3_Load(angularVelocity)),
-               "floats cannot hold what comes of it");
-    KIRI_RETURN(KIRI_OK);
+    return SetVelocity(call, KIRI_NONE, velocity, angularVelocity);
 }
 
 kiriResult kiriFrame_SetPieceVelocity(kiriWorld* world, kiriFrame frame, const float velocity[3],
@@ -641,10 +642,7 @@ kiriResult kiriFrame_SetPieceVelocity(kiriWorld* world, kiriFrame frame, const f
 {
     KIRI_CHANGES(Frame_SetPieceVelocity, &frame, velocity, angularVelocity);
     KIRI_ASSERT(call->index < call->sheet->layout.framePiece.count);
-    int32_t piece = call->sheet->layout.framePiece.data[call->index];
-    KIRI_CHECK(SetRigidVelocity(call->sheet, piece, kiriVec3_Load(velocity), kiriVec3_Load(angularVelocity)),
-               "floats cannot hold what comes of it");
-    KIRI_RETURN(KIRI_OK);
+    return SetVelocity(call, call->sheet->layout.framePiece.data[call->index], velocity, angularVelocity);
 }
 
 /* ---- Another origin ---------------------------------------------------------------------------------------------- */

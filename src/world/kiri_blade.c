@@ -773,7 +773,6 @@ static void EndCuts(kiriWorld* world, const kiriBladeData* blade)
 
 kiriResult kiriWorld_RemoveBlade(kiriWorld* world, kiriBladeData* blade)
 {
-    int32_t kept = 0;
     KIRI_EACH_INDEX(i, blade->layers) {
         const kiriCutData* cut = CutOf(world, &blade->layers.data[i]);
         if (cut != NULL && !kiriArray_Reserve(&world->memory, &cut->sheet->queue,
@@ -782,13 +781,7 @@ kiriResult kiriWorld_RemoveBlade(kiriWorld* world, kiriBladeData* blade)
         }
     }
     EndCuts(world, blade);
-    KIRI_EACH_INDEX(i, world->blades) {
-        if (world->blades.data[i] != blade) {
-            world->blades.data[kept++] = world->blades.data[i];
-        }
-    }
-    KIRI_ASSERT(kept == world->blades.count - 1);
-    world->blades.count = kept;
+    KIRI_KEEP_IF(kiriBladeData*, at, world->blades, *at != blade);
     kiriPool_Remove(&world->bladeIds, blade->id);
     kiriArray_Release(&world->memory, &blade->layers);
     kiriMemory_Free(&world->memory, blade);
@@ -855,13 +848,8 @@ static bool ListPending(BladeWork* work, const kiriWorld* world, const kiriBlade
 
 static void NextStep(BladeWork* work)
 {
-    int32_t kept = 0;
-    KIRI_EACH_INDEX(i, work->tracks) {
-        if (!work->tracks.data[i].isOver && !work->tracks.data[i].isLost) {
-            work->tracks.data[kept++] = work->tracks.data[i];
-        }
-    }
-    work->tracks.count = work->oldCount = kept;
+    KIRI_KEEP_IF(const Track, track, work->tracks, !track->isOver && !track->isLost);
+    work->oldCount = work->tracks.count;
 }
 
 static kiriVec3 Towards(kiriVec3 a, kiriVec3 b, double share)

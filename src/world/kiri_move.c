@@ -410,14 +410,8 @@ static void WakeAround(kiriWorld* world, kiriObstacleData* obstacle)
 
 void kiriObstacles_Remove(kiriWorld* world, kiriObstacleData* obstacle)
 {
-    int32_t kept = 0;
     WakeAround(world, obstacle);
-    KIRI_EACH_INDEX(i, world->obstacles) {
-        if (world->obstacles.data[i] != obstacle) {
-            world->obstacles.data[kept++] = world->obstacles.data[i];
-        }
-    }
-    world->obstacles.count = kept;
+    KIRI_KEEP_IF(kiriObstacleData*, at, world->obstacles, *at != obstacle);
     kiriPool_Remove(&world->obstacleIds, obstacle->id);
     kiriMemory_Free(&world->memory, obstacle);
 }

@@ -324,15 +324,9 @@ kiriResult kiriParts_Detach(kiriWorld* world, const kiriFrame* frames, int32_t c
 /* Drops stale frames of pieces that were removed, or detached by a call, in the meantime. */
 static void ForgetStaleLeaving(kiriWorld* world, kiriSheetData* sheet)
 {
-    int32_t kept = 0;
-    KIRI_EACH(const kiriFrame, at, sheet->leaving) {
-        kiriFrame frame = *at;
-        const kiriSlot* slot = kiriPool_Find(&world->frameIds, frame);
-        if (slot != NULL && slot->owner == sheet) {
-            sheet->leaving.data[kept++] = frame;
-        }
-    }
-    sheet->leaving.count = kept;
+    const kiriSlot* slot;
+    KIRI_KEEP_IF(const kiriFrame, frame, sheet->leaving,
+                 (slot = kiriPool_Find(&world->frameIds, *frame)) != NULL && slot->owner == sheet);
 }
 
 bool kiriParts_AreDue(const kiriSheetData* sheet)

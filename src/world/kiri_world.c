@@ -82,13 +82,7 @@ void kiriWorld_RemoveSheet(kiriWorld* world, kiriSheetData* sheet)
         kiriWorld_RemoveCut(world, cut);
     }
     kiriPool_Remove(&world->sheetIds, sheet->id);
-    int32_t kept = 0;
-    KIRI_EACH_INDEX(i, world->sheets) {
-        if (world->sheets.data[i] != sheet) {
-            world->sheets.data[kept++] = world->sheets.data[i];
-        }
-    }
-    world->sheets.count = kept;
+    KIRI_KEEP_IF(kiriSheetData*, at, world->sheets, *at != sheet);
     kiriMemory_AdoptAll(&world->retired, &sheet->shown);
     kiriSheet_Delete(sheet, &world->memory);
 }
