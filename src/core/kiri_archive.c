@@ -34,19 +34,6 @@ void kiriArchive_Expect(kiriArchive* archive, bool isFine)
 
 /* ---- Numbers ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the next bytes; null if they are only measured, or there are fewer. */
-static uint8_t* TakeBytes(kiriArchive* archive, int64_t count)
-{
-    if (count > archive->size - archive->at || kiriArchive_HasFailed(archive)) {
-        archive->isBad |= !archive->isShort;
-        return NULL;
-    }
-    uint8_t* bytes = archive->bytes == NULL ? NULL : archive->bytes + archive->at;
-    archive->at += count;
-    KIRI_ASSERT(count >= 0 && archive->at >= 0);
-    return bytes;
-}
-
 static bool IsLittleEndian(void)
 {
     const uint16_t one = 1;
@@ -92,7 +79,14 @@ void kiriArchive_Numbers(kiriArchive* archive, void* numbers, int32_t width, int
         HashNumbers(&archive->hash, numbers, width, count);
         return;
     }
-    uint8_t* bytes = count == 0 ? NULL : TakeBytes(archive, count * width);
+    uint8_t* bytes = NULL; /* numbers are only measured, or there are too few bytes */
+    if (count * width > archive->size - archive->at || kiriArchive_HasFailed(archive)) {
+        archive->isBad |= count > 0 && !archive->isShort;
+    } else {
+        bytes = archive->bytes == NULL || count == 0 ? NULL : archive->bytes + archive->at;
+        archive->at += count * width;
+    }
+    KIRI_ASSERT(archive->at >= 0);
     if (bytes != NULL && kiriArchive_Reads(archive)) {
         CopyNumbers(numbers, bytes, width, count);
     } else if (bytes != NULL) {

@@ -200,17 +200,6 @@ static inline bool kiriQuota_Take(kiriQuota* quota, int64_t items)
     return true;
 }
 
-/* Takes items; a step larger than the whole quota is charged as the quota. */
-static inline bool kiriQuota_TakeAtMostAll(kiriQuota* quota, int64_t items)
-{
-    int64_t counted = kiriMin(items, quota->left);
-    if (items > counted && kiriQuota_IsBegun(quota)) {
-        return false;
-    }
-    quota->beyond += items - counted;
-    return kiriQuota_Take(quota, counted);
-}
-
 /* Returns true if not even a step larger than the whole quota can be taken. */
 static inline bool kiriQuota_IsSpent(const kiriQuota* quota)
 {

@@ -230,7 +230,11 @@ static inline kiriProgress Sweep(kiriField* field, kiriMemory* memory, const kir
             progress = ok ? KIRI_MORE : KIRI_FAILED;
         }
     }
-    kiriQuota_TakeAtMostAll(quota, (int64_t)items * (field->settled.count - before));
+    int64_t done = (int64_t)items * (field->settled.count - before), counted = kiriMin(done, quota->left);
+    if (done == counted || !kiriQuota_IsBegun(quota)) { /* more than the whole quota is charged as the quota */
+        quota->beyond += done - counted;
+        kiriQuota_Take(quota, counted);
+    }
     return progress;
 }
 

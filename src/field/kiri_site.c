@@ -669,19 +669,6 @@ static bool StartEnds(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* gr
     return kiriField_Start(&work->ends, memory, work->seeds.data, work->seeds.count);
 }
 
-/* Makes room for the job, so that only seeds need memory while it runs. */
-static bool MakePlacerRoom(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, int32_t count)
-{
-    kiriPlacerWork* work = placer->work;
-    int32_t cells = grid->cells.count;
-    return (work->old != &work->flooded || kiriField_Resize(&work->flooded, memory, cells, 0)) &&
-           kiriField_Resize(&work->fresh, memory, cells, KIRI_FIELD_OWNERS) && kiriArray_Resize(memory, &work->sampled, cells) &&
-           kiriArray_Resize(memory, &work->holds, cells) &&
-           kiriArray_Resize(memory, &work->blocks, placer->cells.count / SAMPLE_CELLS + 1) &&
-           kiriArray_Resize(memory, &work->targets, kiriMax(count, 1)) &&
-           kiriArray_Reserve(memory, &placer->sites, (int64_t)placer->sites.count + count);
-}
-
 bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                       const uint8_t* allowed, int32_t count)
 {
@@ -697,7 +684,13 @@ bool kiriPlacer_Start(kiriPlacer* placer, kiriMemory* memory, const kiriGrid* gr
     work->stage = PLACER_RESTS;
     work->hasOld = known != NULL || placer->oldCount > 0;
     work->old = known != NULL || !work->hasOld ? known : &work->flooded;
-    if (!MakePlacerRoom(placer, memory, grid, count)) {
+    int32_t cells = grid->cells.count; /* room for all but seeds */
+    if ((work->old == &work->flooded && !kiriField_Resize(&work->flooded, memory, cells, 0)) ||
+        !kiriField_Resize(&work->fresh, memory, cells, KIRI_FIELD_OWNERS) ||
+        !kiriArray_Resize(memory, &work->sampled, cells) || !kiriArray_Resize(memory, &work->holds, cells) ||
+        !kiriArray_Resize(memory, &work->blocks, placer->cells.count / SAMPLE_CELLS + 1) ||
+        !kiriArray_Resize(memory, &work->targets, kiriMax(count, 1)) ||
+        !kiriArray_Reserve(memory, &placer->sites, (int64_t)placer->sites.count + count)) {
         return false;
     }
     /* Only cells of the part are ever read from `sampled` and `holds`: floods do not leave it. */

@@ -92,17 +92,6 @@ static void Weigh(kiriSheetData* sheet, const kiriMaterial* before)
     kiriLinks_BeginAgain(&sheet->links);
 }
 
-/* Reserves room for the state of links, if the material of this sheet begins to yield. */
-static bool ReservePlastics(kiriSheetData* sheet, const kiriMaterial* material)
-{
-    int32_t links = sheet->links.links.count, frames = sheet->frames.count;
-    kiriSettings next = sheet->settings;
-    next.material = *material;
-    return !kiriSettings_Yield(&next) ||
-           (kiriPlastics_Reserve(&sheet->plastics, sheet->memory, links, frames) &&
-            kiriStrainOffsets_Reserve(&sheet->strainOffsets, sheet->memory, links, frames));
-}
-
 bool kiriSettings_Change(kiriSheetData* sheet, const kiriSheetSettings* given)
 {
     kiriSheetSettings before = sheet->settings.given, after = *given;
@@ -115,13 +104,18 @@ bool kiriSettings_Change(kiriSheetData* sheet, const kiriSheetSettings* given)
     bool isOther = memcmp(&given->material, &before.material, offsetof(kiriMaterial, detail)) != 0;
     kiriDetail* detail = &sheet->seen.surface.detail;
     int32_t sweeps = detail->sweeps;
+    kiriSettings next = sheet->settings;
+    next.material = given->material;
     detail->sweeps = sheet->settings.mechanics.planar ? 0 : given->material.detail;
     bool hasRoom = kiriDetail_Reserve(detail, &sheet->shown, sheet->mesh.vertices.count, sheet->mesh.triangles.count,
                                       sheet->frames.count);
     detail->sweeps = sweeps;
     if (!hasRoom || (looksOther &&
          !kiriView_ReserveFades(sheet, sheet->mesh.vertices.count, sheet->points.count, given->fadeTime)) ||
-        !ReservePlastics(sheet, &given->material) ||
+        (kiriSettings_Yield(&next) &&
+         (!kiriPlastics_Reserve(&sheet->plastics, sheet->memory, sheet->links.links.count, sheet->frames.count) ||
+          !kiriStrainOffsets_Reserve(&sheet->strainOffsets, sheet->memory, sheet->links.links.count,
+                                     sheet->frames.count))) ||
         (isOther && !kiriStage_Solver(sheet, sheet->frames.count, &given->material, false))) {
         return false;
     }
@@ -149,16 +143,6 @@ bool kiriSettings_Change(kiriSheetData* sheet, const kiriSheetSettings* given)
 
 /* ---- Settings ---- */
 
-/* Computes the cube root by Newton's iteration from above. */
-static double CubeRoot(double a)
-{
-    double x = kiriMax(a, 1.0);
-    for (int i = 0; i < 200; ++i) {
-        x = (2.0 * x + a / (x * x)) / 3.0;
-    }
-    return x;
-}
-
 /* Returns the spacing of frames for the accuracy. The error grows with (spacing / length)^2, where length is the longer
    side, or if it is shorter twice the length at which bending stiffness and weight of the material balance. Measured:
    tests/test_estimate.c. */
@@ -167,8 +151,11 @@ static double SpacingFor(const kiriSheetDef* def, double longer)
     const kiriMaterial* m = &def->material;
     double h = m->thickness, nu = m->poissonsRatio;
     double stiffness = m->youngsModulus * h * h * h / (12.0 * (1.0 - nu * nu));
-    double bent = def->planar ? longer : 2.0 * CubeRoot(stiffness / (m->density * h * 9.81));
-    return sqrt((double)def->accuracy) * kiriMin(bent, longer);
+    double cube = stiffness / (m->density * h * 9.81), root = kiriMax(cube, 1.0);
+    for (int i = 0; i < 200; ++i) { /* Newton's iteration from above */
+        root = (2.0 * root + cube / (root * root)) / 3.0;
+    }
+    return sqrt((double)def->accuracy) * (def->planar ? longer : kiriMin(2.0 * root, longer));
 }
 
 static void SetFrames(kiriSettings* settings, const kiriMeshData* mesh, const kiriSheetDef* def)

@@ -575,16 +575,6 @@ static void KeepTouches(kiriDetach* detach, kiriTouchMemory* memory, const kiriV
     kiriTouchMemory_SortForces(memory, 0, &detach->sheet->touches.order);
 }
 
-static void KeepContacts(kiriDetach* detach)
-{
-    kiriSheetData* sheet = detach->sheet;
-    int32_t last = sheet->touches.last.touches.count;
-    KIRI_KEEP_IF(kiriGivenContact, given, sheet->contacts, FollowContact(&detach->rest, given));
-    KeepTouches(detach, &sheet->touches.last, detach->forces.data);
-    KeepTouches(detach, &sheet->touches.slept, detach->forces.data + last);
-    sheet->touches.rests.areSummed = false;
-}
-
 /* Commits the staged layout, like kiriStage_Commit. */
 static void CommitLayout(kiriDetach* detach)
 {
@@ -629,13 +619,18 @@ static void KeepSeen(kiriDetach* detach, kiriMemory* retired)
 void kiriDetach_Commit(kiriDetach* detach, kiriMemory* retired)
 {
     kiriSettings* settings = &detach->sheet->settings;
+    kiriTouches* touches = &detach->sheet->touches;
     KIRI_ASSERT(detach->sheet->update->next.framePiece.count == detach->rest.frames.count); /* staged */
     double share = kiriSubset_Share(&detach->rest); /* by the old layout */
     settings->collisionPoints *= share;
     settings->integrationPoints *= share;
     KeepFields(detach);
     KeepSamples(detach);
-    KeepContacts(detach);
+    int32_t last = touches->last.touches.count;
+    KIRI_KEEP_IF(kiriGivenContact, given, detach->sheet->contacts, FollowContact(&detach->rest, given));
+    KeepTouches(detach, &touches->last, detach->forces.data);
+    KeepTouches(detach, &touches->slept, detach->forces.data + last);
+    touches->rests.areSummed = false;
     CommitLayout(detach);
     KIRI_EACH_OF(kiriCutData, cut, detach->sheet->cuts) {
         int32_t* vertex = &cut->tip.blade.vertex;
@@ -645,23 +640,6 @@ void kiriDetach_Commit(kiriDetach* detach, kiriMemory* retired)
 }
 
 /* ---- Fields of a load -------------------------------------------------------------------------------------------- */
-
-/* Returns true if the stages failed in kiriSites_Relocate although its arrays are reserved: two sites share a cell. */
-static bool IsCrowded(const kiriSheetData* sheet)
-{
-    const kiriUpdate* u = sheet->update;
-    return u->stage == KIRI_STAGE_REGIONS && u->step == 0 && u->placing.flags.count >= sheet->grid.cells.count &&
-           u->placing.moves.capacity >= sheet->frames.count;
-}
-
-/* Returns true if the made layout has the same frames and pieces as the saved one. */
-static bool IsLayoutThat(const kiriSheetData* sheet)
-{
-    const kiriLayout *made = &sheet->update->next, *read = &sheet->layout;
-    int32_t frames = sheet->frames.count;
-    return sheet->update->placing.sites.count == frames && made->pieces.count == read->pieces.count &&
-           memcmp(made->framePiece.data, read->framePiece.data, sizeof(int32_t) * (size_t)frames) == 0;
-}
 
 /* Runs the stages from the grid to the owners of material, as for a new sheet. Adds no frames, except in a piece
    without one. */
@@ -689,7 +667,14 @@ static bool RunStages(kiriSheetData* sheet, bool* isBad)
     u->isScratch = true;
     u->stage = KIRI_STAGE_GRID;
     bool ok = kiriPipeline_Make(sheet, KIRI_STAGE_CONSTANTS);
-    *isBad = (!ok && IsCrowded(sheet)) || (ok && !IsLayoutThat(sheet));
+    const kiriLayout *made = &u->next, *read = &sheet->layout;
+    bool isSame = u->placing.sites.count == sheet->frames.count && made->pieces.count == read->pieces.count &&
+                  memcmp(made->framePiece.data, read->framePiece.data, sizeof(int32_t) * (size_t)sheet->frames.count) == 0;
+    /* kiriSites_Relocate failed although its arrays are reserved: two sites share a cell. */
+    bool isCrowded = u->stage == KIRI_STAGE_REGIONS && u->step == 0 &&
+                     u->placing.flags.count >= sheet->grid.cells.count &&
+                     u->placing.moves.capacity >= sheet->frames.count;
+    *isBad = ok ? !isSame : isCrowded;
     ok = ok && !*isBad && kiriStage_Owners(sheet, &unlimited.of[KIRI_QUOTA_SAMPLES]) == KIRI_DONE;
     sheet->settings.maxFrames = maxFrames;
     return ok;

@@ -106,19 +106,6 @@ static int64_t ItemsOfMoved(const kiriSheetData* sheet)
     return kiriSolver_ItemsOf(work);
 }
 
-/* Counts the contacts of each moved body from the touches; contact rows are not written yet. */
-static void CountContacts(kiriSheetData* sheet)
-{
-    kiriSolverBody* bodies = sheet->solver->bodies.bodies.data;
-    const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->bodies;
-    KIRI_EACH(const int32_t, body, *moved) {
-        bodies[*body].contactCount = 0;
-    }
-    KIRI_EACH(const kiriTouch, touch, sheet->touches.found) {
-        bodies[kiriTouch_Piece(sheet, touch)].contactCount += 1;
-    }
-}
-
 /* Defers a body to a later tick: drops its forces; its fades continue. */
 static void Defer(kiriSheetData* sheet, int32_t body)
 {
@@ -140,7 +127,12 @@ static int32_t DeferBodies(kiriSheetData* sheet, const kiriQuota* systems)
     const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->bodies;
     int32_t count = moved->count, first = 0, next = 0;
     int64_t taken = 0;
-    CountContacts(sheet);
+    KIRI_EACH(const int32_t, body, *moved) {
+        sheet->solver->bodies.bodies.data[*body].contactCount = 0;
+    }
+    KIRI_EACH(const kiriTouch, touch, sheet->touches.found) { /* contact rows are not written yet */
+        sheet->solver->bodies.bodies.data[kiriTouch_Piece(sheet, touch)].contactCount += 1;
+    }
     if (count < 2 || systems->left <= 0 || ItemsOfMoved(sheet) <= systems->left) {
         return 0;
     }

@@ -408,18 +408,6 @@ KIRI_TABLE(ObstacleDataTable, kiriObstacleData, {
     KIRI_REALS(lower, upper),
 })
 
-static bool IsObstacle(const kiriObstacleData* obstacle)
-{
-    const kiriObstacleShape* shape = &obstacle->shape;
-    bool isPrism = shape->type == KIRI_OBSTACLE_PRISM;
-    bool isFine = shape->type != KIRI_OBSTACLE_BOX && (isPrism ? shape->count >= 3 : shape->count == 0) &&
-                  obstacle->mass >= 0.0;
-    for (int32_t k = 0; k < 2 * shape->count; ++k) {
-        isFine = isFine && fabs(shape->outline[k].x) <= 2e6 && fabs(shape->outline[k].y) <= 2e6;
-    }
-    return isFine;
-}
-
 void kiriObstacle_Archive(kiriArchive* archive, kiriObstacleData** made, kiriMemory* memory)
 {
     enum { MOST_OUTLINE = 64 };
@@ -432,6 +420,12 @@ void kiriObstacle_Archive(kiriArchive* archive, kiriObstacleData** made, kiriMem
     if (*made != NULL) {
         kiriArchive_Object(archive, ObstacleDataTable, *made);
         kiriArchive_Numbers(archive, (*made)->shape.outline, 8, 4 * (int64_t)corners);
-        kiriArchive_Expect(archive, archive->isWhole || IsObstacle(*made));
+        const kiriObstacleShape* shape = &(*made)->shape;
+        bool isPrism = shape->type == KIRI_OBSTACLE_PRISM;
+        bool isFine = shape->type != KIRI_OBSTACLE_BOX && (isPrism ? corners >= 3 : corners == 0) && (*made)->mass >= 0.0;
+        for (int32_t k = 0; k < 2 * corners; ++k) { /* normals follow the outline */
+            isFine = isFine && fabs(shape->outline[k].x) <= 2e6 && fabs(shape->outline[k].y) <= 2e6;
+        }
+        kiriArchive_Expect(archive, archive->isWhole || isFine);
     }
 }

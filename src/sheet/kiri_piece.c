@@ -266,20 +266,6 @@ static bool AreLinked(const LineWork* work, int32_t a, int32_t b)
     return false;
 }
 
-/* Closes the ends of shares that end at `at`, where `frame` begins, and are linked to it. Returns true if there are
-   any: then the start of `frame` is closed, too. */
-static bool CloseEnds(const LineWork* work, int32_t frame, double at)
-{
-    bool any = false;
-    KIRI_EACH(kiriLineShare, share, work->sheet->lineShares) {
-        if (share->ends[1] == at && share->frame != frame && AreLinked(work, share->frame, frame)) {
-            share->open[1] = false;
-            any = true;
-        }
-    }
-    return any;
-}
-
 kiriLineShare* kiriOwner_ShareOf(kiriSheetData* sheet, const kiriLineShare* none)
 {
     KIRI_EACH(kiriLineShare, share, sheet->lineShares) {
@@ -304,8 +290,12 @@ static bool AddPart(const LineWork* work, int32_t frame, int32_t other, const ki
         return false;
     }
     if (share->length == 0.0 || share->ends[1] != a) {
-        bool isLinked = CloseEnds(work, frame, a);
-        share->open[0] = share->open[0] && !(share->length == 0.0 && isLinked);
+        KIRI_EACH(kiriLineShare, before, work->sheet->lineShares) { /* it begins where others end: both ends close */
+            if (before->ends[1] == a && before->frame != frame && AreLinked(work, before->frame, frame)) {
+                before->open[1] = false;
+                share->open[0] = share->open[0] && share->length != 0.0;
+            }
+        }
     }
     share->length += length;
     share->first += 0.5 * length * (a + b);

@@ -160,19 +160,6 @@ void kiriBlocks_Renumber(kiriBlocks* blocks, int32_t vertexCount, int32_t frameC
 
 /* ---- Movers ---- */
 
-/* Returns an awake frame of the block, or KIRI_NONE. blocks.moved is current. */
-static int32_t FindMover(const kiriSheetData* sheet, int32_t block)
-{
-    int32_t count = sheet->seen.surface.vertexCount, end = kiriMin((block + 1) * KIRI_BLOCK, count);
-    for (int32_t v = block * KIRI_BLOCK; v < end; ++v) {
-        int32_t frame = sheet->vertexSkin.weights.data[sheet->vertexSkin.spans.data[v].first].frame;
-        if (sheet->seen.blocks.moved.data[frame]) {
-            return frame;
-        }
-    }
-    return KIRI_NONE;
-}
-
 /* Updates the movers after the set of awake pieces changed, or blocks became unknown. A block keeps its mover until that
    frame falls asleep; a block without a mover gets one when a frame wakes. */
 static void FindMovers(kiriSheetData* sheet)
@@ -187,7 +174,12 @@ static void FindMovers(kiriSheetData* sheet)
     KIRI_EACH_INDEX(block, blocks->movers) {
         int32_t mover = blocks->movers.data[block];
         bool isKnown = mover == KIRI_NONE ? !anyWoke : mover != KIRI_UNKNOWN && blocks->moved.data[mover];
-        blocks->movers.data[block] = isKnown ? mover : FindMover(sheet, block);
+        int32_t end = kiriMin((block + 1) * KIRI_BLOCK, sheet->seen.surface.vertexCount);
+        for (int32_t v = block * KIRI_BLOCK; !isKnown && v < end; ++v) {
+            mover = sheet->vertexSkin.weights.data[sheet->vertexSkin.spans.data[v].first].frame;
+            isKnown = blocks->moved.data[mover] != 0;
+        }
+        blocks->movers.data[block] = isKnown ? mover : KIRI_NONE;
     }
     blocks->hasUnknown = false;
 }
@@ -202,16 +194,6 @@ bool kiriView_ReserveFades(kiriSheetData* sheet, int32_t vertexCount, int32_t po
 
 /* ---- Sleeping blocks ---- */
 
-/* Returns the bodies that the tick moved; null if visible positions of other bodies may have changed too. */
-static const kiriMoved* MovedOf(kiriSheetData* sheet)
-{
-    const kiriMoved* moved = kiriSolver_Moved(sheet->solver);
-    bool hasLinks = sheet->settings.mechanics.model != KIRI_MODEL_POINTS;
-    bool isOther = !sheet->seen.surface.isSteady || sheet->seen.areFadesAsleep ||
-                   (sheet->rest.asleep && sheet->seen.fades.fading.count + sheet->seen.pointFades.fading.count > 0);
-    return moved->isListed && !isOther && (hasLinks || sheet->settings.skinning == KIRI_SKINNING_LINEAR) ? moved : NULL;
-}
-
 /* Returns true if a commit moved deferred pieces whose normals and bounds are still stale. */
 static bool HasMovedWaiting(const kiriSheetData* sheet)
 {
@@ -224,17 +206,6 @@ static inline bool IsMeant(const kiriBlocks* blocks, int32_t block, bool orStale
     return blocks->movers.data[block] != KIRI_NONE || (orStale && blocks->stale.data[block]);
 }
 
-/* Returns the end of the run of blocks from `begin` on with the same IsMeant as the first; *are is that value. */
-static int32_t EndOfBlocks(const kiriBlocks* blocks, int32_t begin, int32_t end, bool orStale, bool* are)
-{
-    int32_t block = begin / KIRI_BLOCK, last = (end - 1) / KIRI_BLOCK;
-    *are = IsMeant(blocks, block, orStale);
-    while (block < last && IsMeant(blocks, block + 1, orStale) == *are) {
-        ++block;
-    }
-    return block < last ? (block + 1) * KIRI_BLOCK : end;
-}
-
 typedef void WriteVerticesFn(kiriSheetData* sheet, int32_t begin, int32_t end);
 
 /* Calls `write` for all vertices; if only a part is written, for runs of blocks with IsMeant. */
@@ -245,8 +216,13 @@ static void ForBlocks(kiriSheetData* sheet, int32_t begin, int32_t end, bool orS
         return;
     }
     for (int32_t next; begin < end; begin = next) {
-        bool are;
-        next = EndOfBlocks(&sheet->seen.blocks, begin, end, orStale, &are);
+        const kiriBlocks* blocks = &sheet->seen.blocks;
+        int32_t block = begin / KIRI_BLOCK, last = (end - 1) / KIRI_BLOCK;
+        bool are = IsMeant(blocks, block, orStale);
+        while (block < last && IsMeant(blocks, block + 1, orStale) == are) {
+            ++block;
+        }
+        next = block < last ? (block + 1) * KIRI_BLOCK : end;
         if (are) {
             write(sheet, begin, next);
         }
@@ -372,7 +348,12 @@ void kiriView_ShowNewborn(kiriSheetData* sheet)
 void kiriView_TakeFrames(kiriSheetData* sheet)
 {
     kiriSeen* seen = &sheet->seen;
-    const kiriMoved* moved = MovedOf(sheet);
+    const kiriMoved* moved = kiriSolver_Moved(sheet->solver);
+    bool isLocal = sheet->settings.mechanics.model != KIRI_MODEL_POINTS ||
+                   sheet->settings.skinning == KIRI_SKINNING_LINEAR;
+    bool isOther = !seen->surface.isSteady || seen->areFadesAsleep || /* positions of other bodies may have changed */
+                   (sheet->rest.asleep && seen->fades.fading.count + seen->pointFades.fading.count > 0);
+    moved = moved->isListed && !isOther && isLocal ? moved : NULL;
     kiriSurface_TakeFrames(&seen->surface, sheet->frames.data, sheet->frames.count, sheet->links.links.data,
                            sheet->links.links.count, moved != NULL ? &moved->frames : NULL,
                            moved != NULL ? &moved->links : NULL);
@@ -430,16 +411,6 @@ static bool IsVertexAwake(const kiriSheetData* sheet, int32_t vertex)
     return kiriPiece_IsMoved(&sheet->layout.pieces.data[kiriPiece_OfVertex(sheet, vertex)]);
 }
 
-static bool MovesSleepers(const kiriSheetData* sheet, const float* was, const float* is, int32_t begin, int32_t end)
-{
-    bool any = false;
-    for (int32_t v = begin; !any && v < end && v < sheet->seen.vertexCount; ++v, was += 3, is += 3) {
-        bool isElsewhere = !(was[0] == is[0] && was[1] == is[1] && was[2] == is[2]);
-        any = isElsewhere && !IsVertexAwake(sheet, v);
-    }
-    return any;
-}
-
 static bool IsAnyBeyond(const float* a, const float* b, int32_t count, float most)
 {
     int32_t beyond = 0;
@@ -459,14 +430,17 @@ static void LookAtVertices(kiriSheetData* sheet, JumpLook* look, int32_t begin, 
     memcpy(was, look->before + 3 * (ptrdiff_t)begin, 3 * sizeof(float) * (size_t)(end - begin));
     kiriSurface_BlendRange(&sheet->seen.surface, &sheet->vertexSkin, begin, end);
     const float* is = kiriSurface_Places(&sheet->seen.surface) + 3 * (ptrdiff_t)begin;
-    if (look->isShifted || kiriFades_HasBelow(fades, end) ||
+    if (look->isShifted || (fades->older < fades->fading.capacity && fades->fading.data[fades->older].sample < end) ||
         IsAnyBeyond(was, is, 3 * (end - begin), (float)(0.5 * fades->least))) {
         for (int32_t v = begin, k = 0; v < end; ++v, k += 3) {
             kiriVec3 offset = kiriVec3_Sub(kiriVec3_Load(&was[k]), kiriVec3_Load(&is[k]));
             kiriFades_Take(fades, v, kiriVec3_Add(offset, look->shift));
         }
     }
-    look->movesSleepers = look->movesSleepers || (look->anySleeps && MovesSleepers(sheet, was, is, begin, end));
+    for (int32_t v = begin, k = 0; look->anySleeps && v < kiriMin(end, sheet->seen.vertexCount); ++v, k += 3) {
+        bool isElsewhere = was[k] != is[k] || was[k + 1] != is[k + 1] || was[k + 2] != is[k + 2];
+        look->movesSleepers = look->movesSleepers || (isElsewhere && !IsVertexAwake(sheet, v));
+    }
 }
 
 /* Turns the jumps of vertices into fades. Vertices with unchanged weights and patches do not jump. Afterwards all

@@ -428,17 +428,6 @@ static void MoveSeen(kiriArchive* archive, kiriSheetData* sheet)
     kiriArchive_Numbers(archive, sheet->seen.pointPositions.data, 4, sheet->seen.pointPositions.count);
 }
 
-/* Returns true if the lengths of arrays match the counts that came first. */
-static bool AreCounted(const kiriArchive* archive, const kiriSheetData* sheet)
-{
-    const int64_t* count = archive->count;
-    return sheet->mesh.triangles.count == count[KIRI_OF_TRIANGLES] &&
-           sheet->mesh.vertices.count == count[KIRI_OF_VERTICES] && sheet->frames.count == count[KIRI_OF_FRAMES] &&
-           sheet->layout.pieces.count == count[KIRI_OF_PIECES] && sheet->pins.count == count[KIRI_OF_PINS] &&
-           sheet->points.count == count[KIRI_OF_POINTS] && sheet->layout.framePiece.count == sheet->frames.count &&
-           sheet->layout.pinFrame.count == sheet->pins.count && sheet->update != NULL;
-}
-
 void kiriSheet_Archive(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* memory)
 {
     bool isHash = archive->mode == KIRI_ARCHIVE_HASH;
@@ -446,7 +435,15 @@ void kiriSheet_Archive(kiriArchive* archive, kiriSheetData* sheet, kiriMemory* m
     archive->memory = &sheet->own;
     archive->shown = &sheet->shown;
     kiriArchive_Object(archive, SheetTable, sheet);
-    kiriArchive_Expect(archive, AreCounted(archive, sheet));
+    const int64_t* count = archive->count; /* came first */
+    kiriArchive_Expect(archive, sheet->mesh.triangles.count == count[KIRI_OF_TRIANGLES] &&
+                                    sheet->mesh.vertices.count == count[KIRI_OF_VERTICES] &&
+                                    sheet->frames.count == count[KIRI_OF_FRAMES] &&
+                                    sheet->layout.pieces.count == count[KIRI_OF_PIECES] &&
+                                    sheet->pins.count == count[KIRI_OF_PINS] &&
+                                    sheet->points.count == count[KIRI_OF_POINTS] &&
+                                    sheet->layout.framePiece.count == sheet->frames.count &&
+                                    sheet->layout.pinFrame.count == sheet->pins.count && sheet->update != NULL);
     if (isHash) {
         uint64_t pattern = kiriSolver_Hash(sheet->solver);
         kiriArchive_Numbers(archive, &pattern, 8, 1);
@@ -512,15 +509,6 @@ static bool AreSettings(const kiriSettings* settings)
            settings->integrationPoints >= 0.0 && settings->integrationPoints <= MOST_POINTS;
 }
 
-static bool AreFrames(const kiriSheetData* sheet)
-{
-    bool areFine = sheet->regions.dirty.count == sheet->frames.count;
-    KIRI_EACH_WHILE(areFine, const kiriFrameData, frame, sheet->frames) {
-        areFine = kiriFrame_IsSound(frame, &sheet->mesh);
-    }
-    return areFine;
-}
-
 /* Returns true if pieces are sorted by their lowest frame, none is deferred, and at least one is not destroyed. */
 static bool ArePieces(const kiriLayout* layout)
 {
@@ -571,9 +559,12 @@ static bool ArePins(const kiriSheetData* sheet)
     return areFine;
 }
 
-static bool ArePoints(const kiriSheetData* sheet)
+static bool AreFramesAndPoints(const kiriSheetData* sheet)
 {
-    bool areFine = true;
+    bool areFine = sheet->regions.dirty.count == sheet->frames.count;
+    KIRI_EACH_WHILE(areFine, const kiriFrameData, frame, sheet->frames) {
+        areFine = kiriFrame_IsSound(frame, &sheet->mesh);
+    }
     KIRI_EACH_WHILE(areFine, const kiriSample, point, sheet->points) {
         kiriLatticePoint at = point->at;
         int32_t square =
@@ -651,8 +642,8 @@ void kiriSheet_Derive(kiriSheetData* sheet, kiriArchive* archive)
     kiriArchive_Expect(archive, kiriArchive_HasFailed(archive) ||
                                     (AreSettings(&sheet->settings) &&
                                      sheet->seen.surface.detail.sweeps == kiriSettings_Detail(&sheet->settings) &&
-                                     AreFrames(sheet) && ArePieces(&sheet->layout) &&
-                                     AreAreaElements(&sheet->layout) && ArePins(sheet) && ArePoints(sheet) &&
+                                     AreFramesAndPoints(sheet) && ArePieces(&sheet->layout) &&
+                                     AreAreaElements(&sheet->layout) && ArePins(sheet) &&
                                      AreCuts(sheet) && AreContacts(sheet) &&
                                      AreFades(&sheet->seen.fades, &sheet->settings, sheet->mesh.vertices.count) &&
                                      AreFades(&sheet->seen.pointFades, &sheet->settings, sheet->points.count)));

@@ -423,20 +423,10 @@ static kiriProgress StageOwnersOfMaterial(kiriSheetData* sheet, kiriQuota* sampl
                            samples);
 }
 
-/* Returns the cost of PrepareCommit and of the commit, in items. */
-static int64_t ItemsOfCommit(const kiriSheetData* sheet)
-{
-    enum { WEIGHTS_AN_ITEM = 64, OWNERS_AN_ITEM = 256, ELEMENTS_AN_ITEM = 8, ITEMS_OF_FIT = 2 };
-    const kiriUpdate* u = sheet->update;
-    int64_t weights = (int64_t)sheet->vertexSkin.staged.count + sheet->pointSkin.staged.count;
-    int64_t elements = (int64_t)sheet->links.next.count + sheet->links.nextCorners.count + u->placing.sites.count;
-    return 1 + weights / WEIGHTS_AN_ITEM + u->refit.ownership.staged.count / OWNERS_AN_ITEM + u->newFrames.count +
-           ITEMS_OF_FIT * (int64_t)u->refit.most + sheet->links.changed + elements / ELEMENTS_AN_ITEM;
-}
-
 /* Finds the anchors of new frames and the triangles that they take their motion from. */
 static kiriProgress PlaceNewFrames(kiriSheetData* sheet, kiriQuota* samples)
 {
+    enum { WEIGHTS_AN_ITEM = 64, OWNERS_AN_ITEM = 256, ELEMENTS_AN_ITEM = 8, ITEMS_OF_FIT = 2 }; /* of the commit */
     kiriUpdate* u = sheet->update;
     int32_t count = u->placing.sites.count - sheet->frames.count;
     if (!kiriArray_Reserve(sheet->memory, &u->newFrames, count)) {
@@ -444,7 +434,10 @@ static kiriProgress PlaceNewFrames(kiriSheetData* sheet, kiriQuota* samples)
     }
     while (kiriQuota_Pay(samples, &u->due)) {
         if (u->newFrames.count == count) {
-            u->due = ItemsOfCommit(sheet);
+            int64_t weights = (int64_t)sheet->vertexSkin.staged.count + sheet->pointSkin.staged.count;
+            int64_t elements = (int64_t)sheet->links.next.count + sheet->links.nextCorners.count + u->placing.sites.count;
+            u->due = 1 + weights / WEIGHTS_AN_ITEM + u->refit.ownership.staged.count / OWNERS_AN_ITEM + count +
+                     ITEMS_OF_FIT * (int64_t)u->refit.most + sheet->links.changed + elements / ELEMENTS_AN_ITEM;
             return KIRI_DONE;
         }
         int32_t cell = u->placing.sites.data[sheet->frames.count + u->newFrames.count].cell;
@@ -638,7 +631,8 @@ static void StartAgain(kiriSheetData* sheet)
     } else if (u->stage == KIRI_STAGE_SAMPLES && u->step >= WEIGH_VERTICES) {
         kiriSkin_Drop(&sheet->vertexSkin);
         kiriSkin_Drop(&sheet->pointSkin);
-        kiriRefresh_Restart(&u->samples.refresh);
+        u->samples.refresh.square = 0;
+        u->samples.refresh.sample = u->samples.refresh.stencil.cell = KIRI_NONE;
         u->samples.newPoints.count = u->samples.movedPoints.count = 0;
         u->placing.isTaking = u->placing.isPlacing = false;
         u->step = WEIGH_VERTICES;

@@ -30,7 +30,7 @@ double kiriBox_Farthest(const kiriBox* box, kiriVec3 from)
                                          fabs(a.z) > fabs(b.z) ? a.z : b.z));
 }
 
-static void GetWorldCorners(const kiriSurface* surface, int32_t triangle, kiriVec3 corner[3])
+void kiriSurface_Corners(const kiriSurface* surface, int32_t triangle, kiriVec3 corner[3])
 {
     KIRI_ASSERT(triangle >= 0 && triangle < surface->triangleCount);
     KIRI_EACH_CORNER(k) {
@@ -42,7 +42,7 @@ kiriBox kiriBox_OfTriangle(const kiriSurface* surface, int32_t triangle)
 {
     kiriVec3 corner[3];
     kiriBox box = KIRI_EMPTY_BOX;
-    GetWorldCorners(surface, triangle, corner);
+    kiriSurface_Corners(surface, triangle, corner);
     KIRI_EACH_CORNER(k) {
         kiriBox_Add(&box, corner[k]);
     }

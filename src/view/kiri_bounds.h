@@ -59,6 +59,9 @@ void kiriBox_Add(kiriBox* box, kiriVec3 at);
 /* Returns the distance from a point to the farthest corner of the box. */
 double kiriBox_Farthest(const kiriBox* box, kiriVec3 from);
 
+/* Gets the corners of a triangle in world space. */
+void kiriSurface_Corners(const kiriSurface* surface, int32_t triangle, kiriVec3 corner[3]);
+
 /* Returns the least box around a triangle in world space. */
 kiriBox kiriBox_OfTriangle(const kiriSurface* surface, int32_t triangle);
 

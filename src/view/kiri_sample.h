@@ -104,13 +104,6 @@ kiriProgress kiriRefresh_Stage(kiriRefresh* refresh, const kiriSampleSource* sou
 /* Drops the noted squares, and a Start that waits for quota. */
 void kiriRefresh_Drop(kiriRefresh* refresh);
 
-/* Restarts staging at the first sample found. The caller drops the staged samples. */
-static inline void kiriRefresh_Restart(kiriRefresh* refresh)
-{
-    refresh->square = 0;
-    refresh->sample = refresh->stencil.cell = KIRI_NONE;
-}
-
 /* Give vertices born since kiriMesh_Begin a blend of their parents' weights, so that they lie on the old surface.
    Reserve makes room for `births` of them; no sample has more weights than there are frames. */
 bool kiriSkin_ReserveBirths(kiriSkin* skin, kiriMemory* memory, int32_t births, int32_t frames);

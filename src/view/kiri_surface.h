@@ -44,12 +44,6 @@ static inline bool kiriFades_Has(const kiriFades* fades, int32_t sample)
     return fades->older < fades->fading.capacity && fades->fading.data[fades->older].sample == sample;
 }
 
-/* Returns true if a sample before `end` that is not yet taken fades. */
-static inline bool kiriFades_HasBelow(const kiriFades* fades, int32_t end)
-{
-    return fades->older < fades->fading.capacity && fades->fading.data[fades->older].sample < end;
-}
-
 static inline void kiriFades_Take(kiriFades* fades, int32_t sample, kiriVec3 offset)
 {
     if (kiriFades_Has(fades, sample) || kiriVec3_Dot(offset, offset) > fades->least * fades->least) { /* few do */

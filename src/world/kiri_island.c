@@ -93,14 +93,6 @@ static int32_t NumberOfBody(const kiriIslands* islands, const kiriSheetData* she
     return islands->firstBodies.data[sheet->probes.sheet] + sheet->layout.framePiece.data[frame];
 }
 
-/* Leaves the contact out of this tick. */
-static void DropRow(kiriContactRow* row)
-{
-    row->other = NULL;
-    row->offset = -FAR_UNDER;
-    row->force = kiriVec3_Make(0.0, 0.0, 0.0); /* else the first system expects this push again */
-}
-
 /* Joins the rows of mutual contacts to their second points, and the bodies of both. A second point that does not move
    leaves the plane fixed. */
 static void JoinRows(kiriWorld* world)
@@ -209,18 +201,6 @@ static int32_t ListIslands(kiriWorld* world)
     return count;
 }
 
-/* Leaves the contacts between surfaces out of this tick. */
-static void DropRows(kiriWorld* world)
-{
-    for (int32_t i = 0; i < world->pairs.touches.count; ++i) {
-        const kiriPairTouch* touch = &world->pairs.touches.data[i];
-        kiriTouches* touches = &touch->upper.sheet->touches;
-        if (touch->touch != KIRI_NONE && touches->found.data[touch->touch].row != KIRI_NONE) {
-            DropRow(&touches->rows.data[touches->found.data[touch->touch].row]);
-        }
-    }
-}
-
 bool kiriIslands_Prepare(kiriWorld* world, double dt)
 {
     kiriIslands* islands = &world->islands;
@@ -254,7 +234,16 @@ bool kiriIslands_Prepare(kiriWorld* world, double dt)
     }
     if (!ok) {
         islands->count = 0;
-        DropRows(world);
+    }
+    KIRI_EACH_WHILE(!ok, const kiriPairTouch, touch, world->pairs.touches) { /* leave the contacts out of this tick */
+        kiriTouches* touches = &touch->upper.sheet->touches;
+        int32_t at = touch->touch != KIRI_NONE ? touches->found.data[touch->touch].row : KIRI_NONE;
+        if (at != KIRI_NONE) {
+            kiriContactRow* row = &touches->rows.data[at];
+            row->other = NULL;
+            row->offset = -FAR_UNDER;
+            row->force = kiriVec3_Make(0.0, 0.0, 0.0); /* else the first system expects this push again */
+        }
     }
     return ok;
 }

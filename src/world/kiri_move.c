@@ -292,15 +292,6 @@ static void Soften(const kiriWorld* world, const kiriSheetData* sheet, const kir
     anchor->most = pins * body.inverseMass + kiriMax(turning, 0.0);
 }
 
-/* Returns true if the target moved too little to wake the pin's piece: the piece sleeps, and would move as far itself
-   before it woke. */
-static bool IsTargetStill(const kiriSheetData* sheet, const kiriPinData* pin, kiriVec3 from, kiriVec3 to)
-{
-    double least = KIRI_CALM_SECONDS * sheet->settings.sleepSpeed;
-    return kiriSheet_PieceOf(sheet, sheet->layout.pinFrame.data[pin - sheet->pins.data])->rest.asleep &&
-           kiriVec3_Distance(from, pin->target) <= least && kiriVec3_Distance(to, pin->target) <= least;
-}
-
 static void BeginPin(const kiriWorld* world, kiriSheetData* sheet, int32_t index, double dt)
 {
     KIRI_ASSERT_HAS(sheet->pins, index);
@@ -313,8 +304,11 @@ static void BeginPin(const kiriWorld* world, kiriSheetData* sheet, int32_t index
     kiriObstacle_Advance(&later, dt);
     kiriVec3 from = kiriObstacle_PointToWorld(obstacle, pin->anchor.local);
     kiriVec3 to = kiriObstacle_PointToWorld(&later, pin->anchor.local);
-    if (!IsTargetStill(sheet, pin, from, to) &&
-        (!kiriVec3_Equal(from, pin->target) || !kiriVec3_Equal(to, pin->target))) {
+    /* A move that is too small does not wake the pin's piece: it would move as far itself before it woke. */
+    bool isAsleep = kiriSheet_PieceOf(sheet, sheet->layout.pinFrame.data[index])->rest.asleep;
+    double most = kiriMax(kiriVec3_Distance(from, pin->target), kiriVec3_Distance(to, pin->target));
+    if (isAsleep ? most > KIRI_CALM_SECONDS * sheet->settings.sleepSpeed
+                 : !kiriVec3_Equal(from, pin->target) || !kiriVec3_Equal(to, pin->target)) {
         pin->lastTarget = from;
         pin->target = to;
         kiriPins_ForgetHistory(sheet, index);
@@ -741,22 +735,16 @@ static kiriObstacleData* OwnerOfSlot(const kiriWorld* world, int32_t slot)
     return world->obstacleIds.slots.data[slot].owner;
 }
 
-static bool AreRestsSummed(const kiriWorld* world, const kiriRestLoads* rests, double dt)
-{
-    bool are = rests->areSummed && rests->dt == dt;
-    KIRI_EACH_WHILE(are, const kiriRestLoad, load, rests->on) {
-        const kiriObstacleData* obstacle = OwnerOfSlot(world, load->slot);
-        kiriVec3 was = load->center, is = obstacle != NULL ? kiriObstacle_CenterOfMass(obstacle) : was;
-        are = obstacle != NULL && was.x == is.x && was.y == is.y && was.z == is.z;
-    }
-    return are;
-}
-
 /* Sums for each sheet by itself, so that the sums can be kept. */
 static void SumRests(const kiriWorld* world, kiriSheetData* sheet, double dt)
 {
     kiriRestLoads* rests = &sheet->touches.rests;
-    if (!AreRestsSummed(world, rests, dt)) {
+    bool areSummed = rests->areSummed && rests->dt == dt;
+    KIRI_EACH_WHILE(areSummed, const kiriRestLoad, load, rests->on) {
+        const kiriObstacleData* obstacle = OwnerOfSlot(world, load->slot);
+        areSummed = obstacle != NULL && kiriVec3_Equal(kiriObstacle_CenterOfMass(obstacle), load->center);
+    }
+    if (!areSummed) {
         rests->on.count = 0;
         rests->dt = dt;
         rests->areSummed = true;

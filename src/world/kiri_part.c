@@ -457,22 +457,16 @@ static void HidePieces(kiriWorld* world, const kiriDetach* detach)
     kiriView_HideGone(sheet);
 }
 
-/* Copies the indices if the host holds them, because triangles will be hidden in them. */
-static bool RenewIndices(Parting* parting)
+static kiriResult Destroy(Parting* parting)
 {
-    bool ok = true;
-    KIRI_EACH_WHILE(ok, const PartSource, source, parting->sources) {
+    ChooseWhatWaits(parting, false);
+    bool ok = MapSources(parting, false) && StageSources(parting);
+    KIRI_EACH_WHILE(ok, const PartSource, source, parting->sources) { /* triangles will be hidden in the indices */
         kiriSheetData* sheet = source->detach.sheet;
         ok = !source->waits || kiriSurface_RenewIndices(&sheet->seen.surface, &sheet->shown, &parting->world->retired,
                                                         parting->world->ticks);
     }
-    return ok;
-}
-
-static kiriResult Destroy(Parting* parting)
-{
-    ChooseWhatWaits(parting, false);
-    if (!MapSources(parting, false) || !StageSources(parting) || !RenewIndices(parting)) {
+    if (!ok) {
         return KIRI_ERROR_MEMORY;
     }
     KIRI_EACH(const PartSource, source, parting->sources) {

@@ -238,28 +238,6 @@ static bool IsPool(const kiriPool* pool, uint32_t kind)
     return isFine && slot == KIRI_NONE;
 }
 
-static bool IsWorld(const kiriWorld* world)
-{
-    int32_t sheets = world->sheets.count;
-    return IsPool(&world->sheetIds, KIRI_KIND_SHEET) && IsPool(&world->cutIds, KIRI_KIND_CUT) &&
-           IsPool(&world->frameIds, KIRI_KIND_FRAME) && IsPool(&world->pinIds, KIRI_KIND_PIN) &&
-           IsPool(&world->obstacleIds, KIRI_KIND_OBSTACLE) && IsPool(&world->bladeIds, KIRI_KIND_BLADE) &&
-           IsPool(&world->seamIds, KIRI_KIND_SEAM) &&
-           world->active.capacity >= sheets && world->atWork.capacity >= sheets &&
-           world->newEvents <= world->events.count;
-}
-
-/* Returns true if the cut of each layer belongs to the sheet of the layer. */
-static bool AreLayers(const kiriWorld* world, const kiriBladeData* blade)
-{
-    bool areFine = true;
-    KIRI_EACH_WHILE(areFine, const kiriLayer, layer, blade->layers) {
-        const kiriSlot* cut = kiriPool_Find(&world->cutIds, layer->cut);
-        areFine = cut == NULL || ((const kiriCutData*)cut->owner)->sheet->id == layer->sheet;
-    }
-    return areFine;
-}
-
 /* Returns true if the points of all stitches are in sheets that can be sewn. */
 static bool IsSeam(const kiriWorld* world, const kiriSeamData* seam)
 {
@@ -400,7 +378,14 @@ static void DropSheets(kiriWorld* world, kiriMemory* shown)
 /* Checks the fields of a save, and derives the others. */
 static void FinishSave(kiriArchive* archive, kiriWorld* made)
 {
-    kiriArchive_Expect(archive, kiriArchive_HasFailed(archive) || IsWorld(made));
+    bool isFine = kiriArchive_HasFailed(archive) ||
+                  (IsPool(&made->sheetIds, KIRI_KIND_SHEET) && IsPool(&made->cutIds, KIRI_KIND_CUT) &&
+                   IsPool(&made->frameIds, KIRI_KIND_FRAME) && IsPool(&made->pinIds, KIRI_KIND_PIN) &&
+                   IsPool(&made->obstacleIds, KIRI_KIND_OBSTACLE) && IsPool(&made->bladeIds, KIRI_KIND_BLADE) &&
+                   IsPool(&made->seamIds, KIRI_KIND_SEAM) &&
+                   made->active.capacity >= made->sheets.count && made->atWork.capacity >= made->sheets.count &&
+                   made->newEvents <= made->events.count);
+    kiriArchive_Expect(archive, isFine);
     for (int32_t i = 0; i < made->sheets.count && !kiriArchive_HasFailed(archive); ++i) {
         kiriArchive_Expect(archive, IsSheet(made, made->sheets.data[i]));
         if (!kiriArchive_HasFailed(archive)) {
@@ -408,7 +393,10 @@ static void FinishSave(kiriArchive* archive, kiriWorld* made)
         }
     }
     for (int32_t i = 0; i < made->blades.count && !kiriArchive_HasFailed(archive); ++i) {
-        kiriArchive_Expect(archive, AreLayers(made, made->blades.data[i]));
+        KIRI_EACH(const kiriLayer, layer, made->blades.data[i]->layers) {
+            const kiriSlot* cut = kiriPool_Find(&made->cutIds, layer->cut);
+            kiriArchive_Expect(archive, cut == NULL || ((const kiriCutData*)cut->owner)->sheet->id == layer->sheet);
+        }
     }
     for (int32_t i = 0; i < made->seams.count && !kiriArchive_HasFailed(archive); ++i) {
         kiriArchive_Expect(archive, IsSeam(made, made->seams.data[i]));
