@@ -475,8 +475,9 @@ static bool TouchTriangle(const kiriMeeting* meeting, const EdgePoint* point, in
     kiriSheetData* sheet = meeting->sheet;
     kiriSurface* surface = &sheet->seen.surface;
     const int32_t* v = kiriSurface_Triangle(surface, triangle);
-    kiriVec3 x[3] = { kiriSurface_At(surface, v[0]), kiriSurface_At(surface, v[1]), kiriSurface_At(surface, v[2]) };
+    kiriVec3 x[3];
     double height, share[3], gap = meeting->gap + meeting->obstacle->shape.rounding;
+    kiriSurface_Corners(surface, triangle, x);
     if (!MeetsTriangle(x, point, &height, share)) {
         return false;
     }
@@ -526,9 +527,9 @@ static bool FindCrossed(const kiriMeeting* meeting, const EdgePoint* point)
         return false;
     }
     KIRI_EACH(const int32_t, triangle, *crossed) {
-        const int32_t* v = kiriSurface_Triangle(surface, *triangle);
-        kiriVec3 x[3] = { kiriSurface_At(surface, v[0]), kiriSurface_At(surface, v[1]), kiriSurface_At(surface, v[2]) };
+        kiriVec3 x[3];
         double height, share[3];
+        kiriSurface_Corners(surface, *triangle, x);
         if (MeetsTriangle(x, point, &height, share)) {
             crossed->data[kept++] = *triangle;
         }

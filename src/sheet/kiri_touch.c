@@ -20,15 +20,6 @@ kiriBox kiriSheet_Box(const kiriSheetData* sheet)
     return box;
 }
 
-/* Returns a bound of the distance to the farthest point that the frame carries, m: six radii of gyration of its region,
-   or the farthest corner of the sheet's box. */
-static double Lever(const kiriFrameData* frame, const kiriBox* box)
-{
-    double corner = kiriBox_Farthest(box, frame->x), square = frame->inertia[0] + frame->inertia[2];
-    double radius = frame->mass > 0.0 ? 6.0 * kiriRoot(square / frame->mass) : corner;
-    return kiriMin(radius, corner);
-}
-
 double kiriSheet_SpeedLimit(const kiriSheetData* sheet, const kiriBox* box)
 {
     double fastest = 0.0;
@@ -38,7 +29,10 @@ double kiriSheet_SpeedLimit(const kiriSheetData* sheet, const kiriBox* box)
             continue;
         }
         double turn = kiriVec3_Length(frame->spin) + kiriVec3_Length(frame->rate.u) + kiriVec3_Length(frame->rate.v);
-        double speed = kiriVec3_Length(frame->velocity) + turn * Lever(frame, box);
+        /* The farthest point that the frame carries: six radii of gyration of its region, or the corner of the box. */
+        double corner = kiriBox_Farthest(box, frame->x), square = frame->inertia[0] + frame->inertia[2];
+        double radius = frame->mass > 0.0 ? 6.0 * kiriRoot(square / frame->mass) : corner;
+        double speed = kiriVec3_Length(frame->velocity) + turn * kiriMin(radius, corner);
         fastest = kiriMax(speed, fastest);
     }
     return fastest;
@@ -76,27 +70,19 @@ typedef struct Choice {
 
 typedef KIRI_ARRAY(Choice) Choices;
 
-/* Returns the rank of a vertex: lower for a sharper corner of the border, 1 inside. */
-static double Rank(const kiriSheetData* sheet, int32_t vertex)
-{
-    kiriVec2 lean = kiriVec2_Scale(0.125, sheet->probes.leans.data[vertex]);
-    return sheet->probes.isBorder.data[vertex] ? kiriVec2_Dot(lean, lean) : 1.0;
-}
-
-static int32_t QuarterOf(const kiriSheetData* sheet, const Block* block, int32_t vertex)
-{
-    const kiriSquares* squares = &sheet->mesh.squares;
-    kiriLatticePoint at = sheet->mesh.vertices.data[vertex].at;
-    int64_t half = (int64_t)block->size * squares->side / 2;
-    kiriLatticePoint corner = kiriSquares_Corner(squares, block->row * squares->columns + block->column);
-    return !sheet->probes.isBorder.data[vertex] ? INSIDE : (at.x - corner.x >= half) + 2 * (at.y - corner.y >= half);
-}
-
 static bool ConsiderVertex(const kiriSheetData* sheet, kiriMemory* scratch, Choices* choices, const Block* block,
                            int32_t vertex)
 {
-    Choice choice = { sheet->probes.vertexPiece.data[vertex], QuarterOf(sheet, block, vertex), vertex,
-                      Rank(sheet, vertex) };
+    const kiriSquares* squares = &sheet->mesh.squares;
+    kiriLatticePoint at = sheet->mesh.vertices.data[vertex].at;
+    kiriLatticePoint corner = kiriSquares_Corner(squares, block->row * squares->columns + block->column);
+    int64_t half = (int64_t)block->size * squares->side / 2;
+    Choice choice = { sheet->probes.vertexPiece.data[vertex], INSIDE, vertex, 1.0 };
+    if (sheet->probes.isBorder.data[vertex]) { /* a sharper corner of the border has a lower rank */
+        kiriVec2 lean = kiriVec2_Scale(0.125, sheet->probes.leans.data[vertex]);
+        choice.quarter = (at.x - corner.x >= half) + 2 * (at.y - corner.y >= half);
+        choice.rank = kiriVec2_Dot(lean, lean);
+    }
     KIRI_EACH(Choice, other, *choices) {
         if (other->piece == choice.piece && other->quarter == choice.quarter) {
             bool isBetter = choice.rank < other->rank || (choice.rank == other->rank && vertex < other->vertex);
@@ -105,16 +91,6 @@ static bool ConsiderVertex(const kiriSheetData* sheet, kiriMemory* scratch, Choi
         }
     }
     return kiriArray_Push(scratch, choices, choice);
-}
-
-/* Returns true if the choice becomes a probe. The inside needs none if the border has one. */
-static bool IsNeeded(const Choices* choices, const Choice* choice)
-{
-    bool hasBorder = false;
-    KIRI_EACH(const Choice, other, *choices) {
-        hasBorder |= other->piece == choice->piece && other->quarter != INSIDE;
-    }
-    return choice->quarter != INSIDE || !hasBorder;
 }
 
 static bool ChooseInBlock(kiriSheetData* sheet, kiriMemory* scratch, Choices* choices, const Block* block)
@@ -131,20 +107,14 @@ static bool ChooseInBlock(kiriSheetData* sheet, kiriMemory* scratch, Choices* ch
         }
     }
     for (int32_t i = 0; ok && i < choices->count; ++i) {
-        sheet->probes.isChosen.data[choices->data[i].vertex] = IsNeeded(choices, &choices->data[i]);
+        const Choice* choice = &choices->data[i]; /* the inside needs no probe if the border has one */
+        bool hasBorder = false;
+        KIRI_EACH(const Choice, other, *choices) {
+            hasBorder |= other->piece == choice->piece && other->quarter != INSIDE;
+        }
+        sheet->probes.isChosen.data[choice->vertex] = choice->quarter != INSIDE || !hasBorder;
     }
     return ok;
-}
-
-/* Returns the side of a block in grid squares, for about PROBES_A_FRAME probes a frame. */
-static int32_t BlockSize(const kiriSheetData* sheet)
-{
-    double squares = (double)sheet->grid.cellCount / (sheet->frames.count * (double)PROBES_A_FRAME);
-    int32_t size = 1;
-    while ((double)(size + 1) * (size + 1) <= squares) {
-        ++size;
-    }
-    return size;
 }
 
 /* Lists the probes by the group of their vertex, then by index. */
@@ -186,22 +156,18 @@ bool kiriProbes_ListRegions(kiriSheetData* sheet)
     return ListChosen(sheet, probes->vertexFrame.data, sheet->frames.count, &probes->regions);
 }
 
-/* Marks the vertices of a border edge, and adds its normal to their leans. */
-static void MarkBorderEdge(kiriSheetData* sheet, int32_t from, int32_t to)
-{
-    kiriProbes* probes = &sheet->probes;
-    kiriVec2 along = kiriMesh_Direction(&sheet->mesh, from, to), left = kiriVec2_Make(-along.y, along.x);
-    probes->isBorder.data[from] = probes->isBorder.data[to] = 1;
-    probes->leans.data[from] = kiriVec2_Add(probes->leans.data[from], left);
-    probes->leans.data[to] = kiriVec2_Add(probes->leans.data[to], left);
-}
-
+/* Marks the vertices of the border, and adds the normals of border edges to their leans. */
 static void MarkBorder(kiriSheetData* sheet)
 {
+    kiriProbes* probes = &sheet->probes;
     KIRI_EACH(const kiriTriangle, triangle, sheet->mesh.triangles) {
         for (int i = 0; i < 3; ++i) {
             if ((triangle->marks >> i & 1) != 0 || triangle->twin[i] == KIRI_NONE) {
-                MarkBorderEdge(sheet, triangle->vertex[i], triangle->vertex[(i + 1) % 3]);
+                int32_t from = triangle->vertex[i], to = triangle->vertex[(i + 1) % 3];
+                kiriVec2 along = kiriMesh_Direction(&sheet->mesh, from, to), left = kiriVec2_Make(-along.y, along.x);
+                probes->isBorder.data[from] = probes->isBorder.data[to] = 1;
+                probes->leans.data[from] = kiriVec2_Add(probes->leans.data[from], left);
+                probes->leans.data[to] = kiriVec2_Add(probes->leans.data[to], left);
             }
         }
     }
@@ -292,7 +258,11 @@ bool kiriProbes_Update(kiriSheetData* sheet)
 {
     kiriProbes* probes = &sheet->probes;
     bool isNew = !probes->isFresh;
-    probes->block = isNew ? BlockSize(sheet) : probes->block;
+    double squares = (double)sheet->grid.cellCount / (sheet->frames.count * (double)PROBES_A_FRAME);
+    probes->block = isNew ? 1 : probes->block;
+    while (isNew && (double)(probes->block + 1) * (probes->block + 1) <= squares) {
+        ++probes->block;
+    }
     if (isNew && !ChooseProbes(sheet)) {
         return false;
     }
@@ -428,18 +398,6 @@ static bool IsTouchFinite(const kiriTouch* touch)
     return sum - sum == 0.0;
 }
 
-/* Replaces a touch that overflowed (positions or speeds near 1e30) by one whose plane nothing reaches. */
-static void Disarm(const kiriSheetData* sheet, kiriTouch* touch)
-{
-    const kiriVec3 up = { 0.0, 0.0, 1.0 }, none = { 0 };
-    touch->share[0] = 1.0;
-    touch->share[1] = touch->share[2] = 0.0;
-    touch->normal = up;
-    touch->velocity = none;
-    touch->seen = WhereSeen(sheet, touch);
-    touch->offset = touch->seen.z - KIRI_FAR_BELOW;
-}
-
 bool kiriTouches_Add(kiriSheetData* sheet, const kiriTouch* touch)
 {
     kiriTouch found = *touch;
@@ -452,7 +410,13 @@ bool kiriTouches_Add(kiriSheetData* sheet, const kiriTouch* touch)
     KIRI_ASSERT(touch->point != KIRI_NONE || touch->vertex[0] < sheet->seen.surface.vertexCount);
     found.seen = WhereSeen(sheet, touch);
     if (!IsTouchFinite(&found)) {
-        Disarm(sheet, &found);
+        /* It overflowed (positions or speeds near 1e30): nothing reaches its plane. */
+        found.share[0] = 1.0;
+        found.share[1] = found.share[2] = 0.0;
+        found.normal = kiriVec3_Make(0.0, 0.0, 1.0);
+        found.velocity = kiriVec3_Make(0.0, 0.0, 0.0);
+        found.seen = WhereSeen(sheet, &found);
+        found.offset = found.seen.z - KIRI_FAR_BELOW;
     }
     return kiriArray_Push(sheet->memory, &sheet->touches.found, found);
 }
@@ -525,12 +489,6 @@ static bool AddGiven(kiriSheetData* sheet, const kiriGivenContact* given)
     return FindYieldOf(sheet, contact, &touch.yield) && kiriTouches_Add(sheet, &touch);
 }
 
-static bool HasLowerGivenKey(const void* context, int32_t a, int32_t b)
-{
-    const kiriTouch* found = context;
-    return found[a].key < found[b].key || (found[a].key == found[b].key && a < b);
-}
-
 /* Makes the keys of up to 64 contacts at one point with one obstacle different, in the order of the host. */
 static void NumberRepeated(kiriTouches* touches)
 {
@@ -540,7 +498,7 @@ static void NumberRepeated(kiriTouches* touches)
     KIRI_EACH_INDEX(i, touches->found) {
         touches->order.data[i] = i;
     }
-    kiriSort(touches->order.data, touches->found.count, HasLowerGivenKey, found);
+    kiriSort(touches->order.data, touches->found.count, IsKeyBefore, found);
     uint64_t last = 0, repeated = 0;
     KIRI_EACH_INDEX(k, touches->found) {
         kiriTouch* touch = &found[touches->order.data[k]];
@@ -569,21 +527,15 @@ static bool ReserveMemory(kiriSheetData* sheet, kiriTouchMemory* memory, int64_t
            kiriArray_Reserve(sheet->memory, &memory->forces, count);
 }
 
-/* Reserves both memories for all touches: all may fall asleep, or wake, before the next search. */
-static bool RoomToRemember(kiriSheetData* sheet, int64_t count)
-{
-    kiriTouches* touches = &sheet->touches;
-    int64_t all = count + touches->last.touches.count + touches->slept.touches.count;
-    return ReserveMemory(sheet, &touches->last, all) && ReserveMemory(sheet, &touches->slept, all) &&
-           kiriArray_Reserve(sheet->memory, &touches->order, all);
-}
-
 bool kiriTouches_Room(kiriSheetData* sheet, int64_t count)
 {
     kiriTouches* touches = &sheet->touches;
+    /* All may fall asleep, or wake, before the next search. */
+    int64_t all = count + touches->last.touches.count + touches->slept.touches.count;
     return kiriArray_Reserve(sheet->memory, &touches->found, count) &&
            kiriArray_Reserve(sheet->memory, &touches->yields, count) &&
-           kiriArray_Reserve(sheet->memory, &touches->rows, count) && RoomToRemember(sheet, count) &&
+           kiriArray_Reserve(sheet->memory, &touches->rows, count) && ReserveMemory(sheet, &touches->last, all) &&
+           ReserveMemory(sheet, &touches->slept, all) && kiriArray_Reserve(sheet->memory, &touches->order, all) &&
            kiriSolver_ReserveRows(sheet->solver, 0, 0, count);
 }
 
@@ -719,18 +671,6 @@ static void WriteContactRow(const kiriSheetData* sheet, const kiriTouch* touch, 
     row->offset = touch->offset + kiriVec3_Dot(row->normal, kiriVec3_Sub(at, touch->seen));
 }
 
-/* Returns the mass that one soft contact represents, kg: of a vertex or of a grid square, whichever is larger. */
-static double SampleMass(const kiriSheetData* sheet)
-{
-    const kiriMaterial* material = &sheet->settings.material;
-    double square = sheet->mesh.step * sheet->mesh.squares.side, mass = 0.0;
-    KIRI_EACH(const kiriFrameData, frame, sheet->frames) {
-        mass += frame->mass;
-    }
-    double least = (double)material->density * material->thickness * square * square;
-    return kiriMax(mass / sheet->mesh.vertices.count, least);
-}
-
 #define PROBE_SHARE 0.25 /* of the mass of the frames that carry a probe: most that it represents */
 
 /* Returns the mass that a probe represents, kg: of its block of grid squares, or less in a small piece. */
@@ -784,7 +724,13 @@ void kiriTouches_WriteRows(kiriSheetData* sheet)
     kiriTouches* touches = &sheet->touches;
     KIRI_ASSERT(touches->rows.capacity >= touches->found.count);
     touches->rows.count = 0;
-    double mass = touches->found.count > 0 ? SampleMass(sheet) : 0.0;
+    double square = sheet->mesh.step * sheet->mesh.squares.side, mass = 0.0;
+    KIRI_EACH_WHILE(touches->found.count > 0, const kiriFrameData, frame, sheet->frames) {
+        mass += frame->mass;
+    }
+    /* A soft contact represents a vertex or a grid square, whichever is larger. */
+    double least = (double)sheet->settings.material.density * sheet->settings.material.thickness * square * square;
+    mass = kiriMax(mass / sheet->mesh.vertices.count, least);
     KIRI_EACH(kiriTouch, touch, touches->found) {
         kiriContactRow* row = &touches->rows.data[touches->rows.count];
         WriteContactRow(sheet, touch, mass, row);
