@@ -156,6 +156,13 @@ static inline double kiriVec3_Dot(kiriVec3 a, kiriVec3 b)
 {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
+
+/* Returns the part of a vector across a unit vector. */
+static inline kiriVec3 kiriVec3_Across(kiriVec3 a, kiriVec3 unit)
+{
+    return kiriVec3_AddScaled(a, -kiriVec3_Dot(a, unit), unit);
+}
+
 static inline double kiriVec3_Length(kiriVec3 a)
 {
     return sqrt(kiriVec3_Dot(a, a));

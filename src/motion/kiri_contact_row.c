@@ -222,7 +222,7 @@ static void FollowSurface(const kiriSolver* solver, const kiriSystem* system, ki
     row->normal = kiriMat3_Mul(*A, row->otherNormal);
     kiriVec3 apart = kiriSystem_Blend(system, all, row->weightCount + row->otherCount, solver->start.data);
     kiriVec3 off = kiriVec3_Sub(kiriMat3_MulTransposed(A, apart), row->otherOff);
-    off = kiriVec3_AddScaled(off, -kiriVec3_Dot(off, row->otherNormal), row->otherNormal);
+    off = kiriVec3_Across(off, row->otherNormal);
     row->otherAt = kiriVec2_Add(row->otherAt, kiriVec2_Make(off.x, off.y));
     for (int32_t n = 0; n < row->otherCount; ++n) {
         others[n].at = row->otherAt;
@@ -274,7 +274,7 @@ static kiriVec3 Trial(const kiriContactStep* step, kiriVec3 slide)
 
 static kiriVec3 Beside(kiriVec3 a, kiriVec3 direction)
 {
-    return kiriVec3_AddScaled(a, -kiriVec3_Dot(a, direction), direction);
+    return kiriVec3_Across(a, direction);
 }
 
 /* ---- Soft contacts ------------------------------------------------------------------------------------------------

@@ -460,11 +460,6 @@ bool kiriSolver_ListMoved(kiriSolver* solver)
     return true;
 }
 
-const kiriMoved* kiriSolver_Moved(const kiriSolver* solver)
-{
-    return &solver->moved;
-}
-
 kiriIndexSpan kiriSolver_FramesOf(const kiriSolver* solver, int32_t body)
 {
     KIRI_ASSERT_HAS(solver->bodies.bodies, body);

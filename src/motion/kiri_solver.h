@@ -187,8 +187,6 @@ void kiriSolver_SetMoved(kiriSolver* solver, int32_t body, bool isMoved);
 /* Updates the lists of moved bodies. Returns true if they changed. */
 bool kiriSolver_ListMoved(kiriSolver* solver);
 
-const kiriMoved* kiriSolver_Moved(const kiriSolver* solver);
-
 /* Returns the frames of a body: indices of the sheet, ascending. */
 kiriIndexSpan kiriSolver_FramesOf(const kiriSolver* solver, int32_t body);
 

@@ -8,7 +8,7 @@
 
 kiriVec3 kiriMechanics_InPlane(const kiriMechanics* mechanics, kiriVec3 a)
 {
-    return kiriVec3_AddScaled(a, -kiriVec3_Dot(a, mechanics->axes.d), mechanics->axes.d);
+    return kiriVec3_Across(a, mechanics->axes.d);
 }
 
 static kiriVec3 AlongNormal(const kiriMechanics* mechanics, kiriVec3 a)

@@ -925,7 +925,7 @@ static MeanDirector FindMeanDirector(const kiriPose* const poses[2])
 
 static kiriVec3 AcrossDirector(const MeanDirector* mean, kiriVec3 a)
 {
-    return kiriVec3_AddScaled(a, -kiriVec3_Dot(a, mean->d), mean->d);
+    return kiriVec3_Across(a, mean->d);
 }
 
 /* A difference of the two frames, sum over the ends of +-(x move + A_u at.x + A_v at.y): the gap at a point, or, with

@@ -42,7 +42,7 @@ static bool MakePlane(const kiriMeeting* meeting, kiriVec3 normal, kiriVec3 at, 
 {
     const kiriMechanics* mechanics = &meeting->sheet->settings.mechanics;
     const kiriObstacleData* obstacle = meeting->obstacle;
-    kiriVec3 slip = kiriVec3_AddScaled(obstacle->surface, -kiriVec3_Dot(obstacle->surface, normal), normal);
+    kiriVec3 slip = kiriVec3_Across(obstacle->surface, normal);
     memset(touch, 0, sizeof(*touch));
     touch->velocity = kiriVec3_Add(kiriObstacle_VelocityAt(obstacle, at), slip);
     touch->offset = kiriVec3_Dot(normal, at) + gap;
@@ -72,7 +72,7 @@ static kiriVec3 WayOf(const kiriMeeting* meeting, kiriVec3 point, kiriVec3 veloc
     kiriVec3 way = kiriVec3_Scale(2.0 * search->dt, kiriVec3_AddScaled(relative, search->dt, search->gravity));
     if (meeting->sheet->settings.mechanics.planar) {
         kiriVec3 d = meeting->sheet->settings.mechanics.axes.d;
-        way = kiriVec3_AddScaled(way, -kiriVec3_Dot(way, d), d);
+        way = kiriVec3_Across(way, d);
     }
     return way;
 }
@@ -694,7 +694,7 @@ static bool CutEdge(const kiriMeeting* meeting, const kiriObstacleEdge* edge, in
     point->at = kiriVec3_AddScaled(from, below / rise, way);
     for (int k = 0; k < 2; ++k) {
         kiriVec3 face = point->faces[k];
-        point->faces[k] = kiriVec3_Normalize(kiriVec3_AddScaled(face, -kiriVec3_Dot(face, d), d));
+        point->faces[k] = kiriVec3_Normalize(kiriVec3_Across(face, d));
     }
     point->out = kiriVec3_Normalize(kiriVec3_Add(point->faces[0], point->faces[1]));
     return true;
@@ -862,7 +862,7 @@ static kiriMeeting MakeMeeting(kiriObstacleSearch* search, kiriSheetData* sheet,
 /* Returns the version of the movers; 0 if another piece woke since, or wakes in this tick. */
 static int64_t VersionOf(const kiriSheetData* sheet)
 {
-    const kiriMoved* moved = kiriSolver_Moved(sheet->solver);
+    const kiriMoved* moved = &sheet->solver->moved;
     bool isSame = moved->isListed && moved->version == sheet->seen.lists;
     for (int32_t p = 0; isSame && p < sheet->layout.pieces.count; ++p) {
         isSame = sheet->solver->bodies.bodies.data[p].isMoved || !kiriPiece_MayMove(&sheet->layout.pieces.data[p]);

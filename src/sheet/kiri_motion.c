@@ -43,8 +43,7 @@ static kiriSystem MakeSystem(kiriSheetData* sheet, kiriVec3 gravity)
 
 static void ClearForces(kiriSheetData* sheet)
 {
-    const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->frames;
-    KIRI_EACH(const int32_t, frame, *moved) {
+    KIRI_EACH(const int32_t, frame, sheet->solver->moved.frames) {
         kiriFrame_DropForces(&sheet->frames.data[*frame]);
     }
 }
@@ -98,9 +97,8 @@ int64_t kiriMotion_WorkOf(const kiriSheetData* sheet, int32_t body)
 /* Returns the items of one linear system of each moved body. */
 static int64_t ItemsOfMoved(const kiriSheetData* sheet)
 {
-    const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->bodies;
     int64_t work = 0;
-    KIRI_EACH(const int32_t, body, *moved) {
+    KIRI_EACH(const int32_t, body, sheet->solver->moved.bodies) {
         work += kiriMotion_WorkOf(sheet, *body);
     }
     return kiriSolver_ItemsOf(work);
@@ -124,7 +122,7 @@ static void Defer(kiriSheetData* sheet, int32_t body)
    the first deferred body, or 0. */
 static int32_t DeferBodies(kiriSheetData* sheet, const kiriQuota* systems)
 {
-    const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->bodies;
+    const kiriIndices* moved = &sheet->solver->moved.bodies;
     int32_t count = moved->count, first = 0, next = 0;
     int64_t taken = 0;
     KIRI_EACH(const int32_t, body, *moved) {
@@ -192,9 +190,8 @@ static int32_t ChooseMoved(kiriSheetData* sheet, const kiriQuota* systems)
 /* Updates the calm time of moved pieces, from the fastest frame (root mean square over its material). */
 static void CountCalm(kiriSheetData* sheet, double dt)
 {
-    const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->bodies;
     double limit = 0.5 * sheet->settings.sleepSpeed * sheet->settings.sleepSpeed;
-    KIRI_EACH(const int32_t, body, *moved) {
+    KIRI_EACH(const int32_t, body, sheet->solver->moved.bodies) {
         kiriRest* rest = &sheet->layout.pieces.data[*body].rest;
         kiriIndexSpan frames = kiriSolver_FramesOf(sheet->solver, *body);
         bool isCalm = true;
@@ -209,7 +206,7 @@ static void CountCalm(kiriSheetData* sheet, double dt)
 /* Puts moved frames to rest after the solver failed. */
 static void Stop(kiriSheetData* sheet)
 {
-    const kiriMoved* moved = kiriSolver_Moved(sheet->solver);
+    const kiriMoved* moved = &sheet->solver->moved;
     KIRI_EACH(const int32_t, frame, moved->frames) {
         kiriFrame_PutToRest(&sheet->frames.data[*frame]);
     }
@@ -260,7 +257,7 @@ void kiriMotion_End(kiriSheetData* sheet, kiriProgress progress, bool isMoved, d
     } else if (isMoved && progress == KIRI_DONE) {
         kiriPins_TakeReactions(sheet, dt);
         kiriTouches_End(sheet);
-        kiriStrainOffsets_Advance(&sheet->strainOffsets, &sheet->plastics, &kiriSolver_Moved(sheet->solver)->links, dt,
+        kiriStrainOffsets_Advance(&sheet->strainOffsets, &sheet->plastics, &sheet->solver->moved.links, dt,
                                   sheet->seen.fades.time);
         kiriPins_FadeOffsets(sheet, dt, sheet->seen.fades.time);
         CountCalm(sheet, dt);
@@ -273,7 +270,7 @@ void kiriMotion_End(kiriSheetData* sheet, kiriProgress progress, bool isMoved, d
 
 bool kiriMotion_Wait(kiriSheetData* sheet, double dt)
 {
-    if (sheet->rest.asleep || IsRead(sheet) || !kiriSolver_Moved(sheet->solver)->isListed) {
+    if (sheet->rest.asleep || IsRead(sheet) || !sheet->solver->moved.isListed) {
         return false;
     }
     kiriTouches_Tell(sheet, dt);

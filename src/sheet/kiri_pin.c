@@ -343,8 +343,7 @@ void kiriPins_BeginReactions(kiriSheetData* sheet)
         }
     }
     sheet->frameReactions.count = sheet->frames.count;
-    const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->frames;
-    KIRI_EACH(const int32_t, at, *moved) {
+    KIRI_EACH(const int32_t, at, sheet->solver->moved.frames) {
         int32_t i = *at;
         sheet->frameReactions.data[i] = BeginReaction(&sheet->frames.data[i].reaction);
     }
@@ -543,8 +542,7 @@ void kiriPins_SumShares(kiriSheetData* sheet)
 void kiriPins_TakeReactions(kiriSheetData* sheet, double dt)
 {
     TakePinReactions(sheet, 1.0 / dt);
-    const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->frames;
-    KIRI_EACH(const int32_t, at, *moved) {
+    KIRI_EACH(const int32_t, at, sheet->solver->moved.frames) {
         int32_t i = *at;
         kiriFrameData* frame = &sheet->frames.data[i];
         frame->reaction = sheet->frameReactions.data[i];
@@ -702,8 +700,7 @@ static void DropOffs(kiriSheetData* sheet)
     KIRI_EACH(kiriPinShare, share, sheet->layout.pinShares) {
         share->off = none;
     }
-    const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->frames;
-    KIRI_EACH(const int32_t, at, *moved) {
+    KIRI_EACH(const int32_t, at, sheet->solver->moved.frames) {
         int32_t f = *at;
         sheet->frames.data[f].heldOff = none;
         sheet->frames.data[f].isOffKnown = false;
@@ -732,8 +729,7 @@ void kiriFollow_Begin(kiriSheetData* sheet, double dt)
             SettleClamp(sheet, k, dt);
         }
     }
-    const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->frames;
-    KIRI_EACH(const int32_t, at, *moved) {
+    KIRI_EACH(const int32_t, at, sheet->solver->moved.frames) {
         kiriFrameData* frame = &sheet->frames.data[*at];
         kiriVec3 seen;
         if (frame->held && FindSeen(sheet, *at, kiriMesh_Snap(&sheet->mesh, frame->site.at), &seen)) {
@@ -799,8 +795,7 @@ void kiriFollow_Step(kiriSheetData* sheet, int32_t i, int32_t n, double h)
     if (MoveTargets(sheet, (i + 1) * h, h)) {
         kiriPins_WriteRows(sheet, (double)i / n, i + 1 == n ? 1.0 : (i + 1.0) / n);
     }
-    const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->frames;
-    KIRI_EACH(const int32_t, at, *moved) {
+    KIRI_EACH(const int32_t, at, sheet->solver->moved.frames) {
         int32_t f = *at;
         if (sheet->frames.data[f].held) {
             MoveHeld(&sheet->frames.data[f], n - i);

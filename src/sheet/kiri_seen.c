@@ -348,7 +348,7 @@ void kiriView_ShowNewborn(kiriSheetData* sheet)
 void kiriView_TakeFrames(kiriSheetData* sheet)
 {
     kiriSeen* seen = &sheet->seen;
-    const kiriMoved* moved = kiriSolver_Moved(sheet->solver);
+    const kiriMoved* moved = &sheet->solver->moved;
     bool isLocal = sheet->settings.mechanics.model != KIRI_MODEL_POINTS ||
                    sheet->settings.skinning == KIRI_SKINNING_LINEAR;
     bool isOther = !seen->surface.isSteady || seen->areFadesAsleep || /* positions of other bodies may have changed */

@@ -604,7 +604,7 @@ static bool SetRigidVelocity(kiriSheetData* sheet, int32_t piece, kiriVec3 veloc
     const kiriMechanics* mechanics = &sheet->settings.mechanics;
     kiriVec3 d = mechanics->axes.d, center = CenterOf(sheet, piece);
     if (mechanics->planar) {
-        velocity = kiriVec3_AddScaled(velocity, -kiriVec3_Dot(velocity, d), d);
+        velocity = kiriVec3_Across(velocity, d);
         spin = kiriVec3_Scale(kiriVec3_Dot(spin, d), d);
     }
     KIRI_EACH_INDEX(i, sheet->frames) {

@@ -505,7 +505,7 @@ static void Push(const kiriSheetData* sheet, kiriFrameData* frame, kiriVec3 impu
     kiriVec3 d = mechanics->axes.d;
     kiriMat3 inertia = kiriFrame_Inertia(frame, &sheet->settings.material);
     if (mechanics->planar) {
-        impulse = kiriVec3_AddScaled(impulse, -kiriVec3_Dot(impulse, d), d);
+        impulse = kiriVec3_Across(impulse, d);
         double about = kiriVec3_Dot(d, kiriMat3_Mul(inertia, d));
         frame->spin = kiriVec3_AddScaled(frame->spin, kiriVec3_Dot(moment, d) / about, d);
     } else {

@@ -286,9 +286,8 @@ static bool StepCluster(kiriWorld* world, int32_t cluster, double dt, int64_t mo
     kiriIslands* islands = &world->islands;
     for (int32_t i = cluster; i != KIRI_NONE; i = islands->next.data[i]) {
         kiriSheetData* sheet = world->sheets.data[i];
-        const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->bodies;
         int32_t systems = (int32_t)kiriMin(most, INT32_MAX), iterations = sheet->settings.iterations;
-        KIRI_EACH_WHILE(!sheet->rest.asleep, const int32_t, at, *moved) {
+        KIRI_EACH_WHILE(!sheet->rest.asleep, const int32_t, at, sheet->solver->moved.bodies) {
             kiriIsland* island = IslandOf(islands, i, *at);
             int32_t solved = 0;
             if (island == NULL) {
@@ -318,8 +317,7 @@ static int64_t ItemsOfCluster(const kiriWorld* world, int32_t cluster)
     int64_t work = 0;
     for (int32_t i = cluster; i != KIRI_NONE; i = islands->next.data[i]) {
         kiriSheetData* sheet = world->sheets.data[i];
-        const kiriIndices* moved = &kiriSolver_Moved(sheet->solver)->bodies;
-        KIRI_EACH_WHILE(!sheet->rest.asleep, const int32_t, at, *moved) {
+        KIRI_EACH_WHILE(!sheet->rest.asleep, const int32_t, at, sheet->solver->moved.bodies) {
             work += WorkAt(world, i, *at);
         }
     }
