@@ -165,8 +165,8 @@ static inline bool TakeGridStep(kiriField* field, kiriMemory* memory, kiriSeed t
 }
 
 /* Takes the steps from a cell, as far as `room`. False for memory. */
-static inline bool TakeGridSteps(kiriField* field, kiriMemory* memory, const kiriGrid* grid, kiriSeed from, int32_t room,
-                             bool repairs)
+static inline bool TakeGridSteps(kiriField* field, kiriMemory* memory, const kiriGrid* grid, kiriSeed from,
+                                 int32_t room, bool repairs)
 {
     bool ok = true;
     if (kiriGrid_IsOpen(grid, from.cell) && room >= KIRI_UNIT_KNIGHT) {
@@ -577,7 +577,8 @@ int32_t kiriReaches_Add(kiriReaches* reaches, int32_t frame, int32_t cells)
         reaches->freeBlock = reaches->blocks.data[index].nextOfFrame;
         reaches->freeBlocks -= 1;
     } else {
-        KIRI_ASSERT(reaches->blocks.count < reaches->blocks.capacity && reaches->blocks.count < reaches->heads.capacity);
+        KIRI_ASSERT(reaches->blocks.count < reaches->blocks.capacity &&
+                    reaches->blocks.count < reaches->heads.capacity);
         index = reaches->blocks.count++;
         reaches->heads.count += 1;
     }

@@ -272,7 +272,8 @@ static kiriResult LinkTwins(kiriMeshData* mesh, const kiriMeshInput* input, kiri
         int32_t a = point[kiriMesh_Tail(mesh, h)], b = point[kiriMesh_Head(mesh, h)];
         int32_t* list = &first[degree[a] < degree[b] || (degree[a] == degree[b] && a < b) ? a : b];
         int32_t g = *list;
-        while (g != KIRI_NONE && (int64_t)point[kiriMesh_Tail(mesh, g)] + point[kiriMesh_Head(mesh, g)] != (int64_t)a + b) {
+        while (g != KIRI_NONE &&
+               (int64_t)point[kiriMesh_Tail(mesh, g)] + point[kiriMesh_Head(mesh, g)] != (int64_t)a + b) {
             g = next[g];
         }
         if (g == KIRI_NONE) {
@@ -283,13 +284,14 @@ static kiriResult LinkTwins(kiriMeshData* mesh, const kiriMeshInput* input, kiri
         g = point[kiriMesh_Tail(mesh, g)] != a && kiriMesh_Twin(mesh, g) != KIRI_NONE ? kiriMesh_Twin(mesh, g) : g;
         if (point[kiriMesh_Tail(mesh, g)] == a) {
             int64_t source = mesh->triangles.data[g / 3].source;
-            KIRI_SAY(fault, "triangles %lld and %lld use the edge from vertex %lld to vertex %lld in the same direction",
-                     (long long)source, (long long)mesh->triangles.data[h / 3].source,
-                     (long long)input->indices[3 * source + g % 3],
-                     (long long)input->indices[3 * source + (g + 1) % 3]);
+            KIRI_SAY(
+                fault, "triangles %lld and %lld use the edge from vertex %lld to vertex %lld in the same direction",
+                (long long)source, (long long)mesh->triangles.data[h / 3].source,
+                (long long)input->indices[3 * source + g % 3], (long long)input->indices[3 * source + (g + 1) % 3]);
             return KIRI_ERROR_MESH;
         }
-        bool isOpen = kiriMesh_Tail(mesh, g) != kiriMesh_Head(mesh, h) || kiriMesh_Tail(mesh, h) != kiriMesh_Head(mesh, g);
+        bool isOpen =
+            kiriMesh_Tail(mesh, g) != kiriMesh_Head(mesh, h) || kiriMesh_Tail(mesh, h) != kiriMesh_Head(mesh, g);
         kiriMesh_Link(mesh, h, g);
         kiriMesh_SetOpen(mesh, h, isOpen);
         kiriMesh_SetOpen(mesh, g, isOpen);

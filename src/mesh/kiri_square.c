@@ -328,8 +328,8 @@ kiriStrips kiriStrips_Begin(const kiriSquares* squares, kiriLatticePoint from, k
 bool kiriStrips_Next(kiriStrips* s)
 {
     const kiriSquares* squares = s->squares;
-    const int32_t first[2] = { squares->firstColumn, squares->firstRow }, count[2] = { squares->columns, squares->rows },
-                  stride[2] = { 1, squares->columns };
+    const int32_t first[2] = { squares->firstColumn, squares->firstRow },
+                  count[2] = { squares->columns, squares->rows }, stride[2] = { 1, squares->columns };
     int32_t axis = s->axis, across = 1 - axis, side = squares->side;
     while (s->step * (s->last - s->index) >= 0) {
         int32_t strip = s->index - first[axis];

@@ -79,7 +79,8 @@ static kiriVec3 AlongColumns(const SurfaceState* slope, kiriVec2 a)
 void kiriAreaElement_Measure(const kiriAreaElement* element, const kiriFrameShare* shares, const kiriFrameData* frames,
                              const kiriPose* poses, double* strain, kiriFrameRow* rows)
 {
-    KIRI_ASSERT(element->firstRow >= 0 && element->firstRow < element->lastRow && element->lastRow <= KIRI_AREA_STRAINS);
+    KIRI_ASSERT(element->firstRow >= 0 && element->firstRow < element->lastRow &&
+                element->lastRow <= KIRI_AREA_STRAINS);
     SurfaceState shape = SurfaceStateOf(element, shares, frames, poses), slope[KIRI_AREA_STRAINS];
     double all[KIRI_AREA_STRAINS];
     StrainsOf(&shape, element->lean, all);

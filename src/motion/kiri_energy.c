@@ -411,9 +411,11 @@ static double MissingAtClamp(const kiriLink* link, const LinkStrains* strains, c
 {
     const kiriTensor *K = &fit->bending, *E = &fit->strain;
     kiriVec2 s = link->span;
-    LinkStrains off = { { strains->bending.x - K->uu * s.x - K->uv * s.y, strains->bending.y - K->uv * s.x - K->vv * s.y },
-                        { strains->strain.x - E->uu * s.x - E->uv * s.y, strains->strain.y - E->uv * s.x - E->vv * s.y },
-                        strains->turn - kiriVec2_Dot(fit->turn, s) };
+    LinkStrains off = {
+        { strains->bending.x - K->uu * s.x - K->uv * s.y, strains->bending.y - K->uv * s.x - K->vv * s.y },
+        { strains->strain.x - E->uu * s.x - E->uv * s.y, strains->strain.y - E->uv * s.x - E->vv * s.y },
+        strains->turn - kiriVec2_Dot(fit->turn, s)
+    };
     return EnergyOf(link, &off, rigidity) / 3.0;
 }
 

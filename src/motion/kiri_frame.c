@@ -35,7 +35,8 @@ kiriMat3 kiriStepping_InnerTurn(const kiriStepping* stepping, const kiriHistory*
     return kiriMat3_AddScaled(&carried, stepping->l, &history->turnPull);
 }
 
-static void FindMassCenters(const kiriFrameData* before, const kiriFrameData* after, int32_t count, kiriPieceMomentum* p)
+static void FindMassCenters(const kiriFrameData* before, const kiriFrameData* after, int32_t count,
+                            kiriPieceMomentum* p)
 {
     for (int32_t f = 0; f < count; ++f) {
         double m = before[f].held ? 0.0 : before[f].mass;
@@ -300,7 +301,8 @@ static void PredictTurn(const kiriFrameData* frame, const kiriStepping* s, kiriP
     kiriMat3 inertiaAfter = kiriPrediction_Inertia(prediction, &prediction->pose.A);
     /* Turns of more than two radians a step are approximate; there a slender region might gain energy, so the energy is
        capped. */
-    double before = kiriVec3_Dot(L, kiriMat3_Solve(&inertia, L)), after = kiriVec3_Dot(L, kiriMat3_Solve(&inertiaAfter, L));
+    double before = kiriVec3_Dot(L, kiriMat3_Solve(&inertia, L)),
+           after = kiriVec3_Dot(L, kiriMat3_Solve(&inertiaAfter, L));
     prediction->angular = after > before ? kiriVec3_Scale(kiriRoot(before / after), L) : L;
     prediction->spin = kiriMat3_Solve(&inertiaAfter, prediction->angular);
     kiriVec3 impulse = kiriVec3_AddScaled(kiriStepping_InnerTurn(s, &frame->history).u, s->h, frame->torque);

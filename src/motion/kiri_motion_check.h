@@ -8,7 +8,8 @@
 
 KIRI_C_BEGIN
 
-kiriTableFn kiriFrameTable, kiriAreaElementsTable, kiriStrainOffsetsTable, kiriPlasticTable, kiriPlasticsTable, kiriMechanicsTable, kiriRefitTable;
+kiriTableFn kiriFrameTable, kiriAreaElementsTable, kiriStrainOffsetsTable, kiriPlasticTable, kiriPlasticsTable,
+    kiriMechanicsTable, kiriRefitTable;
 
 /* Returns true if the anchor of a loaded frame is in material, and its site in the anchor's square. */
 bool kiriFrame_IsSound(const kiriFrameData* frame, const kiriMeshData* mesh);

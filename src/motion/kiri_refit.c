@@ -169,7 +169,8 @@ kiriProgress kiriRefit_Stage(kiriRefit* refit, kiriMemory* memory, const kiriGri
         return KIRI_FAILED;
     }
     KIRI_ASSERT(ownership->first.count == frameCount);
-    while (!kiriMemory_MustPause(memory) && kiriQuota_Pay(quota, &ownership->due) && ownership->next < ownership->dirty.count) {
+    while (!kiriMemory_MustPause(memory) && kiriQuota_Pay(quota, &ownership->due) &&
+           ownership->next < ownership->dirty.count) {
         int32_t square = ownership->dirty.data[ownership->next++], cell = grid->squareCell.data[square];
         bool isDivided = cell != KIRI_NONE && grid->cells.data[cell].next != KIRI_NONE;
         if (!StageSquare(ownership, memory, grid, mesh, regions->field.owner.data, square)) {

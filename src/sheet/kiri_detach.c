@@ -157,7 +157,8 @@ bool kiriDetach_Map(kiriDetach* detach, bool makesParts)
             continue;
         }
         kiriIndices parts = { 0 };
-        ok = kiriArray_Resize(memory, &parts, count) && (mapOfRest == NULL || kiriKeep_Init(mapOfRest, memory, count)) &&
+        ok = kiriArray_Resize(memory, &parts, count) &&
+             (mapOfRest == NULL || kiriKeep_Init(mapOfRest, memory, count)) &&
              (mapOfPart == NULL || kiriKeep_Init(mapOfPart, memory, count));
         for (int32_t i = 0; ok && i < count; ++i) {
             parts.data[i] = PartOf(detach, k, i);
@@ -363,7 +364,8 @@ static bool FillPart(kiriDetach* detach, int32_t piece, kiriSheetData* to)
     to->seen.bounds->patience = from->seen.bounds->patience;
     to->solver = kiriSolver_Create(to->memory, &to->settings.mechanics);
     bool ok = to->solver != NULL && kiriMesh_MakePart(&to->mesh, to->memory, &from->mesh, &triangles, &vertices) &&
-              kiriPipeline_Make(to, KIRI_STAGE_REGIONS) && CopySites(detach, &frames, to) && CopyPoints(detach, piece, to);
+              kiriPipeline_Make(to, KIRI_STAGE_REGIONS) && CopySites(detach, &frames, to) &&
+              CopyPoints(detach, piece, to);
     for (int32_t i = 0; ok && i < from->pins.count; ++i) {
         int32_t frame = kiriSubset_FrameOfPin(part, i);
         ok = frame == KIRI_NONE || kiriPins_Add(to, &from->pins.data[i], kiriKeep_To(&part->frames, frame));
@@ -668,8 +670,9 @@ static bool RunStages(kiriSheetData* sheet, bool* isBad)
     u->stage = KIRI_STAGE_GRID;
     bool ok = kiriPipeline_Make(sheet, KIRI_STAGE_CONSTANTS);
     const kiriLayout *made = &u->next, *read = &sheet->layout;
-    bool isSame = u->placing.sites.count == sheet->frames.count && made->pieces.count == read->pieces.count &&
-                  memcmp(made->framePiece.data, read->framePiece.data, sizeof(int32_t) * (size_t)sheet->frames.count) == 0;
+    bool isSame =
+        u->placing.sites.count == sheet->frames.count && made->pieces.count == read->pieces.count &&
+        memcmp(made->framePiece.data, read->framePiece.data, sizeof(int32_t) * (size_t)sheet->frames.count) == 0;
     /* kiriSites_Relocate failed although its arrays are reserved: two sites share a cell. */
     bool isCrowded = u->stage == KIRI_STAGE_REGIONS && u->step == 0 &&
                      u->placing.flags.count >= sheet->grid.cells.count &&

@@ -17,7 +17,8 @@ static kiriSystem MakeSystem(kiriSheetData* sheet, kiriVec3 gravity)
     system.strainOffsets =
         sheet->strainOffsets.strainOffsets.count > 0 ? sheet->strainOffsets.strainOffsets.data : NULL;
     if (kiriSettings_Yield(&sheet->settings)) {
-        KIRI_ASSERT(sheet->plastics.links.count == system.linkCount && system.linkCount == sheet->strainOffsets.strainOffsets.count);
+        KIRI_ASSERT(sheet->plastics.links.count == system.linkCount &&
+                    system.linkCount == sheet->strainOffsets.strainOffsets.count);
         system.plastics = sheet->plastics.links.data;
         system.strainOffsets = sheet->strainOffsets.strainOffsets.data;
     }

@@ -422,7 +422,8 @@ void kiriObstacle_Archive(kiriArchive* archive, kiriObstacleData** made, kiriMem
         kiriArchive_Numbers(archive, (*made)->shape.outline, 8, 4 * (int64_t)corners);
         const kiriObstacleShape* shape = &(*made)->shape;
         bool isPrism = shape->type == KIRI_OBSTACLE_PRISM;
-        bool isFine = shape->type != KIRI_OBSTACLE_BOX && (isPrism ? corners >= 3 : corners == 0) && (*made)->mass >= 0.0;
+        bool isFine =
+            shape->type != KIRI_OBSTACLE_BOX && (isPrism ? corners >= 3 : corners == 0) && (*made)->mass >= 0.0;
         for (int32_t k = 0; k < 2 * corners; ++k) { /* normals follow the outline */
             isFine = isFine && fabs(shape->outline[k].x) <= 2e6 && fabs(shape->outline[k].y) <= 2e6;
         }

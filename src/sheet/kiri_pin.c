@@ -445,7 +445,8 @@ void kiriPins_FadeOffsets(kiriSheetData* sheet, double dt, double time)
     KIRI_EACH(kiriPinShare, share, sheet->layout.pinShares) {
         bool isAwake = kiriSheet_Moves(sheet, share->share.frame);
         if (isAwake) {
-            kiriStrainOffset_Fade(share->offset, sheet->plastics.isKept ? &share->plastic : NULL, KIRI_CLAMP_STRAINS, keep);
+            kiriStrainOffset_Fade(share->offset, sheet->plastics.isKept ? &share->plastic : NULL, KIRI_CLAMP_STRAINS,
+                                  keep);
         }
     }
 }

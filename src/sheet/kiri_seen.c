@@ -82,7 +82,8 @@ kiriVec3 kiriVertex_SkinNormal(const kiriSheetData* sheet, int32_t vertex)
 {
     const kiriSurface* surface = &sheet->seen.surface;
     KIRI_ASSERT(surface->hasNormals);
-    return kiriSurface_HasDetail(surface) ? FanNormal(sheet, surface->places.data, vertex) : VertexNormal(sheet, vertex);
+    return kiriSurface_HasDetail(surface) ? FanNormal(sheet, surface->places.data, vertex)
+                                          : VertexNormal(sheet, vertex);
 }
 
 /* Falls back to the normal of the triangle if the corner normals cancel out, and to one corner if its area is zero. */

@@ -393,10 +393,11 @@ static void ReserveSeen(kiriArchive* archive, kiriSheetData* sheet)
     archive->isShort |= !kiriView_Reserve(sheet, counts);
     surface->vertexCount = counts.vertices;
     surface->triangleCount = counts.triangles;
-    kiriArchive_Expect(archive, surface->carriers.count >= counts.frames && surface->patches.count <= counts.frames &&
-                                    sheet->seen.pointCount >= 0 && sheet->seen.pointCount <= counts.points &&
-                                    (surface->before.count == 0 || surface->before.count == 3 * (int64_t)counts.vertices) &&
-                                    kiriSurface_AreChangesSound(surface));
+    kiriArchive_Expect(archive,
+                       surface->carriers.count >= counts.frames && surface->patches.count <= counts.frames &&
+                           sheet->seen.pointCount >= 0 && sheet->seen.pointCount <= counts.points &&
+                           (surface->before.count == 0 || surface->before.count == 3 * (int64_t)counts.vertices) &&
+                           kiriSurface_AreChangesSound(surface));
     if (!kiriArchive_HasFailed(archive)) {
         kiriView_Resize(sheet, counts.frames);
         kiriArray_Set(&blocks->touched, 1);

@@ -78,8 +78,9 @@ static kiriProgress StageCut(kiriSheetData* sheet, kiriQuota* triangles)
             cut->count = cut->settlesSites && isLast ? cut->taken : cut->count;
         }
     }
-    cut->meshChanged = cut->meshChanged || sheet->mesh.changedTriangles.count > 0 ||
-                         (progress == KIRI_DONE && cut->settlesSites && sheet->update->isUnsettled && kiriSites_MayBeFew(sheet));
+    cut->meshChanged =
+        cut->meshChanged || sheet->mesh.changedTriangles.count > 0 ||
+        (progress == KIRI_DONE && cut->settlesSites && sheet->update->isUnsettled && kiriSites_MayBeFew(sheet));
     return progress;
 }
 
@@ -435,7 +436,8 @@ static kiriProgress PlaceNewFrames(kiriSheetData* sheet, kiriQuota* samples)
     while (kiriQuota_Pay(samples, &u->due)) {
         if (u->newFrames.count == count) {
             int64_t weights = (int64_t)sheet->vertexSkin.staged.count + sheet->pointSkin.staged.count;
-            int64_t elements = (int64_t)sheet->links.next.count + sheet->links.nextCorners.count + u->placing.sites.count;
+            int64_t elements =
+                (int64_t)sheet->links.next.count + sheet->links.nextCorners.count + u->placing.sites.count;
             u->due = 1 + weights / WEIGHTS_AN_ITEM + u->refit.ownership.staged.count / OWNERS_AN_ITEM + count +
                      ITEMS_OF_FIT * (int64_t)u->refit.most + sheet->links.changed + elements / ELEMENTS_AN_ITEM;
             return KIRI_DONE;

@@ -240,7 +240,8 @@ void kiriDetail_Smooth(kiriDetail* detail, const float* skin)
         kiriLanes_Store(crease + 4 * vertex, kiriLanes_Splat(0.0f));
     }
     KIRI_EACH_INDEX(k, detail->edges) {
-        float *a = crease + 4 * (ptrdiff_t)detail->edges.data[k].a, *b = crease + 4 * (ptrdiff_t)detail->edges.data[k].b;
+        float *a = crease + 4 * (ptrdiff_t)detail->edges.data[k].a,
+              *b = crease + 4 * (ptrdiff_t)detail->edges.data[k].b;
         kiriLanes by = kiriLanes_Sub(kiriLanes_Load(offsets + (b - crease)), kiriLanes_Load(offsets + (a - crease)));
         kiriLanes_Store(a, kiriLanes_Add(kiriLanes_Load(a), by));
         kiriLanes_Store(b, kiriLanes_Sub(kiriLanes_Load(b), by));
@@ -252,7 +253,8 @@ void kiriDetail_Smooth(kiriDetail* detail, const float* skin)
         of[3] = item.leash > 0.0f ? SMOOTHING * fabsf(item.share) : 0.0f;
     }
     KIRI_EACH_INDEX(k, detail->edges) {
-        float *a = offsets + 4 * (ptrdiff_t)detail->edges.data[k].a, *b = offsets + 4 * (ptrdiff_t)detail->edges.data[k].b;
+        float *a = offsets + 4 * (ptrdiff_t)detail->edges.data[k].a,
+              *b = offsets + 4 * (ptrdiff_t)detail->edges.data[k].b;
         kiriLanes first = kiriLanes_Load(crease + (a - offsets)), second = kiriLanes_Load(crease + (b - offsets));
         kiriLanes by = kiriLanes_Sub(second, first);
         kiriLanes_Store(a, kiriLanes_Sub(kiriLanes_Load(a), kiriLanes_Mul(kiriLanes_Pick(first, 3, 3, 3, 3), by)));

@@ -86,7 +86,8 @@ static bool MakeViews(Pieces* p, const kiriBounds* bounds)
     kiriVec3 way[2] = { kiriVec3_Sub(sweep->was[1], sweep->was[0]), kiriVec3_Sub(sweep->is[1], sweep->is[0]) };
     kiriVec3 go = kiriVec3_Add(kiriVec3_Sub(sweep->is[0], sweep->was[0]), kiriVec3_Sub(sweep->is[1], sweep->was[1]));
     kiriVec3 along = kiriVec3_Normalize(kiriVec3_Add(kiriVec3_Normalize(way[0]), kiriVec3_Normalize(way[1])));
-    kiriVec3 beside = kiriVec3_Cross(along, kiriVec3_Normalize(go)), axis[3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
+    kiriVec3 beside = kiriVec3_Cross(along, kiriVec3_Normalize(go)),
+             axis[3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
     for (int i = 0; i < 3 && kiriVec3_Length(beside) < 1e-3; ++i) {
         beside = kiriVec3_Cross(along, axis[i]);
     }
@@ -332,7 +333,8 @@ bool kiriSection_Sweep(kiriSection* section, kiriMemory* memory, const kiriSurfa
     Pieces p = { .surface = surface, .sweep = sweep, .memory = memory };
     KIRI_ASSERT(kiriBounds_IsFresh(bounds, surface));
     section->points.count = section->lines.count = 0;
-    bool ok = bounds->levelCount == 0 || !MakeViews(&p, bounds) || kiriBounds_Find(bounds, surface, MeetsSweep, &p, memory, &p.triangles);
+    bool ok = bounds->levelCount == 0 || !MakeViews(&p, bounds) ||
+              kiriBounds_Find(bounds, surface, MeetsSweep, &p, memory, &p.triangles);
     for (int32_t i = 0; ok && i < p.triangles.count; ++i) {
         ok = CrossTriangle(&p, p.triangles.data[i]);
     }

@@ -171,7 +171,8 @@ bool kiriSurface_Reserve(kiriSurface* surface, kiriMemory* memory, int64_t verti
 
 void kiriSurface_Resize(kiriSurface* surface, int32_t vertices, int32_t triangles, int32_t frameCount)
 {
-    KIRI_ASSERT(3 * (int64_t)vertices < surface->positions.capacity && 4 * (int64_t)vertices <= surface->slopes.capacity);
+    KIRI_ASSERT(3 * (int64_t)vertices < surface->positions.capacity &&
+                4 * (int64_t)vertices <= surface->slopes.capacity);
     KIRI_ASSERT(3 * (int64_t)triangles <= surface->indices.capacity && frameCount <= surface->carriers.capacity);
     /* Places are written as soon as they are there: the tick in which a sheet comes far from the origin of the world
        shall not be the first to touch all of them. */
@@ -398,7 +399,8 @@ bool kiriShown_Reserve(kiriShown* shown, kiriMemory* memory, const kiriKeep* tri
 {
     bool ok = true;
     memset(shown, 0, sizeof(*shown));
-#define RESERVE_HOST_ARRAY(name, each, of) ok = ok && kiriArray_Reserve(memory, &shown->name, (each) * (int64_t)(of)->count + 1);
+#define RESERVE_HOST_ARRAY(name, each, of)                                                                             \
+    ok = ok && kiriArray_Reserve(memory, &shown->name, (each) * (int64_t)(of)->count + 1);
     HOST_ARRAYS(RESERVE_HOST_ARRAY)
     return ok;
 }

@@ -132,8 +132,10 @@ static inline kiriVec3 kiriSurface_At(const kiriSurface* surface, int32_t vertex
 static inline kiriVec3 kiriSurface_Came(const kiriSurface* surface, int32_t vertex)
 {
     bool isKnown = surface->before.count == 3 * surface->vertexCount;
-    kiriVec3 before = isKnown ? kiriVec3_Load(surface->before.data + 3 * (ptrdiff_t)vertex) : kiriVec3_Make(0.0, 0.0, 0.0);
-    return isKnown ? kiriVec3_Sub(kiriSurface_At(surface, vertex), kiriVec3_Add(surface->middleBefore, before)) : before;
+    kiriVec3 before =
+        isKnown ? kiriVec3_Load(surface->before.data + 3 * (ptrdiff_t)vertex) : kiriVec3_Make(0.0, 0.0, 0.0);
+    return isKnown ? kiriVec3_Sub(kiriSurface_At(surface, vertex), kiriVec3_Add(surface->middleBefore, before))
+                   : before;
 }
 
 /* Returns the drawn position of a vertex in world space. */

@@ -511,7 +511,8 @@ static bool FindLines(BladeWork* work)
         Track* track = &work->tracks.data[i];
         if (track->sheet == sheet) {
             FindPlace(work, track);
-            sweep.reach = track->isSeen && !work->isKnown ? kiriMax(sweep.reach, kiriVec3_Length(track->more)) : sweep.reach;
+            sweep.reach =
+                track->isSeen && !work->isKnown ? kiriMax(sweep.reach, kiriVec3_Length(track->more)) : sweep.reach;
         }
     }
     double most = 0.0;
@@ -561,7 +562,8 @@ static Track* NearestLost(const BladeWork* work, const Track* except, kiriVec2 r
     for (int32_t i = 0; i < work->oldCount; ++i) {
         Track* track = &work->tracks.data[i];
         double d = RestDistance(track->rest, rest);
-        if (track->sheet == work->sheet && track->isLost && track != except && (except == NULL || !track->isOver) && d <= distance) {
+        if (track->sheet == work->sheet && track->isLost && track != except && (except == NULL || !track->isOver) &&
+            d <= distance) {
             distance = d;
             nearest = track;
         }
@@ -666,7 +668,8 @@ static bool EndLost(BladeWork* work, Track* track)
     if (!work->isMessy && track->isSeen) {
         /* The way to there is not seen. It may be long where the edge has left the whole sheet, and not by its ends. */
         kiriVec3 way = kiriVec3_Sub(work->is[1], work->is[0]), left = kiriVec3_Sub(track->seen, work->is[0]);
-        double distance = kiriVec3_Length(kiriVec3_Cross(kiriVec3_Normalize(way), left)), share = kiriVec3_Dot(way, left);
+        double distance = kiriVec3_Length(kiriVec3_Cross(kiriVec3_Normalize(way), left)),
+               share = kiriVec3_Dot(way, left);
         bool isBeside = distance > SAME * work->snap && share > 0.0 && share < kiriVec3_Dot(way, way);
         bool hasLeft = work->crossings == 0 && isBeside;
         double near = hasLeft ? work->unseen : kiriMin(2.0 * distance + FOUND * work->snap, work->unseen);
@@ -810,7 +813,12 @@ static bool StartTracks(BladeWork* work, const kiriWorld* world, const kiriBlade
         kiriSheetData* sheet = slot->owner;
         bool isThere = cut != NULL && cut->waiting == 0 && cut->tip.blade.vertex != KIRI_NONE;
         kiriVec2 rest = isThere ? kiriMesh_Local(&sheet->mesh, cut->tip.blade.at) : layer->rest;
-        const Track track = { .sheet = sheet, .cut = cut, .stroke = KIRI_NONE, .rest = rest, .met = layer->met, .at = layer->at,
+        const Track track = { .sheet = sheet,
+                              .cut = cut,
+                              .stroke = KIRI_NONE,
+                              .rest = rest,
+                              .met = layer->met,
+                              .at = layer->at,
                               .loop = layer->loop };
         if (!kiriArray_Push(&work->memory, &work->tracks, track)) {
             return false;
@@ -970,7 +978,8 @@ static kiriResult Apply(kiriWorld* world, kiriBladeData* blade, BladeWork* work)
     blade->layers.count = 0;
     KIRI_EACH(const Track, track, work->tracks) {
         const kiriCutData* cut = track->stroke != KIRI_NONE ? work->strokes.data[track->stroke].cut : track->cut;
-        const kiriLayer layer = { track->sheet->id, cut != NULL ? cut->id : 0, track->rest, track->met, track->at, track->loop };
+        const kiriLayer layer = { track->sheet->id, cut != NULL ? cut->id : 0, track->rest, track->met, track->at,
+                                  track->loop };
         KIRI_NEXT(blade->layers) = layer;
     }
     return KIRI_OK;

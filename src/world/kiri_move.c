@@ -190,7 +190,8 @@ static int32_t EndOfWave(const MoveTask* task, int32_t first)
     int32_t end = kiriQuota_IsSpent(&task->systems) ? world->active.count : first;
     int64_t most = 0;
     while (end < world->active.count) {
-        int32_t i = kiriMoves_SheetAt(world, world->turn, end), cluster = kiriIslands_ClusterOf(&task->world->islands, i);
+        int32_t i = kiriMoves_SheetAt(world, world->turn, end),
+                cluster = kiriIslands_ClusterOf(&task->world->islands, i);
         most += cluster == KIRI_NONE ? kiriMotion_MostItems(world->sheets.data[i], task->substeps)
                 : cluster == i       ? kiriIslands_MostItems(world, i, task->substeps)
                                      : 0;
