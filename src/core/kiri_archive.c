@@ -160,19 +160,6 @@ static void MoveNumbers(kiriArchive* archive, const kiriMember* field, void* num
     }
 }
 
-/* Writes any byte but 0 as 1, for memory may be uninitialised. Refuses other bytes than 0 and 1 of a save. */
-static void MoveBools(kiriArchive* archive, uint8_t* bools, int32_t count)
-{
-    for (int32_t k = 0; k < count; ++k) {
-        uint8_t byte = kiriArchive_Reads(archive) ? 0 : bools[k] != 0;
-        kiriArchive_Numbers(archive, &byte, 1, 1);
-        if (kiriArchive_Reads(archive)) {
-            kiriArchive_Expect(archive, byte <= 1);
-            bools[k] = byte == 1;
-        }
-    }
-}
-
 /* ---- Arrays ------------------------------------------------------------------------------------------------------ */
 
 static void* MakeBlock(kiriArchive* archive, int64_t bytes)
@@ -264,8 +251,14 @@ static void MoveField(kiriArchive* archive, const kiriMember* field, uint8_t* ob
         }
         break;
     case KIRI_MEMBER_BOOLS:
-        if (!archive->isWhole) {
-            MoveBools(archive, at, field->size);
+        /* Writes any byte but 0 as 1, for memory may be uninitialised. Refuses other bytes than 0 and 1 of a save. */
+        for (int32_t k = 0; !archive->isWhole && k < field->size; ++k) {
+            uint8_t byte = kiriArchive_Reads(archive) ? 0 : at[k] != 0;
+            kiriArchive_Numbers(archive, &byte, 1, 1);
+            if (kiriArchive_Reads(archive)) {
+                kiriArchive_Expect(archive, byte <= 1);
+                at[k] = byte == 1;
+            }
         }
         break;
     case KIRI_MEMBER_PART:

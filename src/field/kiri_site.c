@@ -466,17 +466,6 @@ static void SumCell(PlacerJob* job, int32_t cell)
     }
 }
 
-static void FindTargetCenters(PlacerJob* job)
-{
-    int32_t count = job->placer->sites.count - job->placer->oldCount;
-    for (int32_t k = 0; k < kiriMax(count, 1); ++k) {
-        SiteTarget* target = &job->work->targets.data[k];
-        double scale = job->grid->side / (double)kiriMax(target->area, 1);
-        target->center = kiriVec2_Make(scale * (double)target->u, scale * (double)target->v);
-        target->isFound = target->area <= 0; /* untrusted bytes may leave a region empty: its site stays */
-    }
-}
-
 /* Takes a cell as a target's if it is nearer to the center, or as near and better. Cells come in any order. */
 static void Consider(const PlacerJob* job, SiteTarget* target, int32_t cell)
 {
@@ -611,7 +600,12 @@ static kiriProgress RunStage(PlacerJob* job)
     case SUM_PART:
         progress = VisitCells(job, work->stage == SUM ? settled : part, SumCell);
         if (progress == KIRI_DONE) {
-            FindTargetCenters(job);
+            for (int32_t k = 0; k < kiriMax(job->placer->sites.count - job->placer->oldCount, 1); ++k) {
+                SiteTarget* target = &work->targets.data[k];
+                double scale = job->grid->side / (double)kiriMax(target->area, 1);
+                target->center = kiriVec2_Make(scale * (double)target->u, scale * (double)target->v);
+                target->isFound = target->area <= 0; /* untrusted bytes may leave a region empty: its site stays */
+            }
             work->lost = 0;
         }
         return Next(job, progress, work->stage == SUM ? AIM_NEAR : AIM_PART);

@@ -86,17 +86,6 @@ static void EndAffine(const kiriPrediction* prediction, const kiriStepping* s, c
     history->turnPull = kiriMat3_Scale(1.0 / (s->part * s->part), &inner);
 }
 
-static void EndHeld(const kiriPrediction* prediction, const kiriStepping* s, kiriFrameData* after)
-{
-    after->velocity = prediction->velocity;
-    after->spin = prediction->spin;
-    after->rate = prediction->rate;
-    memset(&after->history, 0, sizeof(after->history));
-    after->history.dt = s->h;
-    after->history.isHalf = s->isHalf;
-    after->history.isHeld = 1;
-}
-
 static void WriteStepEnd(kiriSolver* solver, const kiriSystem* system)
 {
     for (int32_t f = 0; f < system->frameCount; ++f) {
@@ -107,7 +96,13 @@ static void WriteStepEnd(kiriSolver* solver, const kiriSystem* system)
         frame->x = solver->poses.data[f].x;
         frame->A = solver->poses.data[f].A;
         if (frame->held) {
-            EndHeld(prediction, &solver->stepping, frame);
+            frame->velocity = prediction->velocity;
+            frame->spin = prediction->spin;
+            frame->rate = prediction->rate;
+            memset(&frame->history, 0, sizeof(frame->history));
+            frame->history.dt = solver->stepping.h;
+            frame->history.isHalf = solver->stepping.isHalf;
+            frame->history.isHeld = 1;
         } else if (kiriMechanics_IsAffine(&system->mechanics)) {
             EndAffine(prediction, &solver->stepping, before, frame);
         } else {
@@ -141,16 +136,6 @@ static void RestoreMomentum(kiriSolver* solver, const kiriSystem* system)
 
 /* ---- Gains ---- */
 
-/* Returns the work of a torque over the step, J. A frame moves by h v+ + p+ in the step, and turns likewise. */
-static double WorkOfTorque(const kiriSystem* system, kiriVec3 torque, const kiriFrameData* end, double h)
-{
-    kiriVec3 lag = end->history.turnLag.u;
-    if (kiriMechanics_IsAffine(&system->mechanics)) {
-        lag = kiriMat3_Spin(&end->A, &end->history.turnLag);
-    }
-    return kiriVec3_Dot(torque, kiriVec3_AddScaled(lag, h, end->spin));
-}
-
 /* If contacts alone act, the velocity of the centre of mass is kept. */
 double kiriSolver_MostTaken(const kiriSolver* solver)
 {
@@ -176,8 +161,10 @@ static void SumGains(kiriSolver* solver, const kiriSystem* system)
             kiriVec3 way = kiriVec3_Sub(end->x, start->x);
             double before = kiriFrame_KineticEnergy(start, material);
             double after = kiriFrame_KineticEnergy(end, material);
+            kiriVec3 lag = end->history.turnLag.u; /* a frame moves by h v+ + p+ in the step, and turns likewise */
+            lag = kiriMechanics_IsAffine(&system->mechanics) ? kiriMat3_Spin(&end->A, &end->history.turnLag) : lag;
             double work = start->mass * kiriVec3_Dot(gravity, way) + kiriVec3_Dot(start->force, way) +
-                          WorkOfTorque(system, start->torque, end, solver->dt) +
+                          kiriVec3_Dot(start->torque, kiriVec3_AddScaled(lag, solver->dt, end->spin)) +
                           (kiriSystem_HasWind(system) ? kiriWind_Work(solver, system, f) : 0.0);
             kiriFrameData beside = *end;
             beside.velocity = kiriVec3_Sub(end->velocity, mean);
@@ -405,20 +392,6 @@ static double MissingIn(const kiriLink* link, const Fit* a, const Fit* b, Rigidi
     return longer * longer * l * energy / 12.0;
 }
 
-/* Returns the missing energy between a region and a clamped line. The clamp has the strains halfway; so from the region
-   to the line they change by twice the difference. */
-static double MissingAtClamp(const kiriLink* link, const LinkStrains* strains, const Fit* fit, Rigidity rigidity)
-{
-    const kiriTensor *K = &fit->bending, *E = &fit->strain;
-    kiriVec2 s = link->span;
-    LinkStrains off = {
-        { strains->bending.x - K->uu * s.x - K->uv * s.y, strains->bending.y - K->uv * s.x - K->vv * s.y },
-        { strains->strain.x - E->uu * s.x - E->uv * s.y, strains->strain.y - E->uv * s.x - E->vv * s.y },
-        strains->turn - kiriVec2_Dot(fit->turn, s)
-    };
-    return EnergyOf(link, &off, rigidity) / 3.0;
-}
-
 static double RatioOf(const Fit* fits, const kiriFrameData* frames, const kiriLink* links, int32_t linkCount,
                       const kiriClampRow* clamps, int32_t clampCount, const kiriMaterial* material)
 {
@@ -433,7 +406,15 @@ static double RatioOf(const Fit* fits, const kiriFrameData* frames, const kiriLi
     }
     for (int32_t k = 0; k < clampCount; ++k) {
         LinkStrains strains = StrainsOfClamp(&clamps[k], frames);
-        missing += MissingAtClamp(&clamps[k].link, &strains, &fits[clamps[k].frame], rigidity);
+        /* The clamp has the strains halfway; so from the region to the line they change by twice the difference. */
+        const kiriTensor *K = &fits[clamps[k].frame].bending, *E = &fits[clamps[k].frame].strain;
+        kiriVec2 s = clamps[k].link.span;
+        LinkStrains off = {
+            { strains.bending.x - K->uu * s.x - K->uv * s.y, strains.bending.y - K->uv * s.x - K->vv * s.y },
+            { strains.strain.x - E->uu * s.x - E->uv * s.y, strains.strain.y - E->uv * s.x - E->vv * s.y },
+            strains.turn - kiriVec2_Dot(fits[clamps[k].frame].turn, s)
+        };
+        missing += EnergyOf(&clamps[k].link, &off, rigidity) / 3.0;
         held += EnergyOf(&clamps[k].link, &strains, rigidity);
     }
     return missing + held > 0.0 ? missing / (missing + held) : 0.0;

@@ -230,13 +230,6 @@ static kiriVec3 Shortened(kiriVec3 turn)
     return length > LONGEST_PART_TURN ? kiriVec3_Scale(LONGEST_PART_TURN / length, turn) : turn;
 }
 
-/* Returns the Cayley vector of a turn by |w| about w, exact up to the sixth order. */
-static kiriVec3 CayleyVector(kiriVec3 w)
-{
-    double ww = kiriVec3_Dot(w, w);
-    return Shortened(kiriVec3_Scale(1.0 + ww * (1.0 / 12.0 + ww / 120.0), w));
-}
-
 /* Rotates freely over h with the angular momentum L, by the implicit midpoint rule for L in the body's axes. The map is
    a Cayley rotation. It conserves L and the energy for any length of the Cayley vector. */
 static kiriMat3 TurnPart(const kiriMat3* A, const kiriMat3* bodyInertia, kiriVec3 L, double h)
@@ -245,7 +238,9 @@ static kiriMat3 TurnPart(const kiriMat3* A, const kiriMat3* bodyInertia, kiriVec
     kiriMat3 turn = IdentityAxes;
     for (int iteration = 0; iteration < 30; ++iteration) {
         kiriVec3 middle = kiriVec3_Scale(0.5 * h, kiriVec3_Add(start, end));
-        turn = kiriMat3_Cayley(CayleyVector(kiriMat3_Solve(bodyInertia, middle)));
+        kiriVec3 w = kiriMat3_Solve(bodyInertia, middle); /* the Cayley vector of |w| about it, to the sixth order: */
+        double ww = kiriVec3_Dot(w, w);
+        turn = kiriMat3_Cayley(Shortened(kiriVec3_Scale(1.0 + ww * (1.0 / 12.0 + ww / 120.0), w)));
         kiriVec3 next = kiriMat3_MulTransposed(&turn, start);
         double change = kiriVec3_Distance(next, end);
         end = next;

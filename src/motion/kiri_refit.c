@@ -147,26 +147,22 @@ static void DropStagedOwners(kiriOwnership* ownership)
     ownership->due = 0;
 }
 
-static bool StartStaging(kiriOwnership* ownership, kiriMemory* memory, const kiriMeshData* mesh, int32_t frameCount,
-                         bool isScratch)
-{
-    DropStagedOwners(ownership);
-    bool ok = ReserveOwners(ownership, memory, mesh) && kiriArray_Resize(memory, &ownership->first, frameCount);
-    kiriArray_Set(&ownership->first, KIRI_NONE);
-    for (int32_t s = 0; ok && isScratch && s < ownership->isDirty.count; ++s) {
-        ok = NoteSquare(ownership, memory, s);
-    }
-    return ok;
-}
-
 kiriProgress kiriRefit_Stage(kiriRefit* refit, kiriMemory* memory, const kiriGrid* grid, const kiriMeshData* mesh,
                              const kiriRegions* regions, bool isScratch, kiriQuota* quota)
 {
     enum { WHOLE_AN_ITEM = 8, NODES_AN_ITEM = 8 };
     kiriOwnership* ownership = &refit->ownership;
     int32_t frameCount = regions->material.count;
-    if (ownership->next == 0 && !StartStaging(ownership, memory, mesh, frameCount, isScratch)) {
-        return KIRI_FAILED;
+    if (ownership->next == 0) {
+        DropStagedOwners(ownership);
+        bool ok = ReserveOwners(ownership, memory, mesh) && kiriArray_Resize(memory, &ownership->first, frameCount);
+        kiriArray_Set(&ownership->first, KIRI_NONE);
+        for (int32_t s = 0; ok && isScratch && s < ownership->isDirty.count; ++s) {
+            ok = NoteSquare(ownership, memory, s);
+        }
+        if (!ok) {
+            return KIRI_FAILED;
+        }
     }
     KIRI_ASSERT(ownership->first.count == frameCount);
     while (!kiriMemory_MustPause(memory) && kiriQuota_Pay(quota, &ownership->due) &&

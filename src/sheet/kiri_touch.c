@@ -390,14 +390,6 @@ static kiriPiece* PieceOfTouch(const kiriSheetData* sheet, const kiriTouch* touc
     return kiriSheet_PieceOf(sheet, sheet->vertexSkin.weights.data[first].frame);
 }
 
-static bool IsTouchFinite(const kiriTouch* touch)
-{
-    const kiriVec3 *n = &touch->normal, *v = &touch->velocity;
-    double sum = touch->share[0] + touch->share[1] + touch->share[2] + touch->offset;
-    sum += n->x + n->y + n->z + v->x + v->y + v->z;
-    return sum - sum == 0.0;
-}
-
 bool kiriTouches_Add(kiriSheetData* sheet, const kiriTouch* touch)
 {
     kiriTouch found = *touch;
@@ -409,7 +401,10 @@ bool kiriTouches_Add(kiriSheetData* sheet, const kiriTouch* touch)
     KIRI_ASSERT(touch->yield == KIRI_NONE || touch->yield < sheet->touches.yields.count);
     KIRI_ASSERT(touch->point != KIRI_NONE || touch->vertex[0] < sheet->seen.surface.vertexCount);
     found.seen = WhereSeen(sheet, touch);
-    if (!IsTouchFinite(&found)) {
+    const kiriVec3 *n = &found.normal, *v = &found.velocity;
+    double sum = found.share[0] + found.share[1] + found.share[2] + found.offset;
+    sum += n->x + n->y + n->z + v->x + v->y + v->z;
+    if (!(sum - sum == 0.0)) {
         /* It overflowed (positions or speeds near 1e30): nothing reaches its plane. */
         found.share[0] = 1.0;
         found.share[1] = found.share[2] = 0.0;
@@ -591,19 +586,6 @@ static TouchBlend BlendOf(const kiriSheetData* sheet, const kiriTouch* touch)
     return blend;
 }
 
-/* Swaps the largest remaining weight to index n; among equal ones the lower frame. */
-static void TakeLargest(TouchBlend* blend, int32_t n)
-{
-    int32_t best = n;
-    for (int32_t k = n + 1; k < blend->count; ++k) {
-        const kiriWeight *a = &blend->weights[k], *b = &blend->weights[best];
-        best = a->value > b->value || (a->value == b->value && a->frame < b->frame) ? k : best;
-    }
-    kiriWeight largest = blend->weights[best];
-    blend->weights[best] = blend->weights[n];
-    blend->weights[n] = largest;
-}
-
 /* Writes the largest weights, at most `most`, and returns their number. If a cut separated the vertices, the piece with
    the largest weight gets the contact. */
 static int32_t WriteWeights(const kiriSheetData* sheet, TouchBlend* blend, kiriWeight* weights, int32_t most)
@@ -612,8 +594,14 @@ static int32_t WriteWeights(const kiriSheetData* sheet, TouchBlend* blend, kiriW
     int32_t count = 0;
     double sum = 0.0;
     for (int32_t n = 0; n < blend->count && count < most; ++n) {
-        TakeLargest(blend, n);
-        kiriWeight weight = blend->weights[n];
+        int32_t best = n; /* the largest one that remains; among equal ones the lower frame */
+        for (int32_t k = n + 1; k < blend->count; ++k) {
+            const kiriWeight *a = &blend->weights[k], *b = &blend->weights[best];
+            best = a->value > b->value || (a->value == b->value && a->frame < b->frame) ? k : best;
+        }
+        kiriWeight weight = blend->weights[best];
+        blend->weights[best] = blend->weights[n];
+        blend->weights[n] = weight;
         if (weight.value > 0.0 && (n == 0 || piece[weight.frame] == piece[weights[0].frame])) {
             weights[count++] = weight;
             sum += weight.value;

@@ -194,18 +194,6 @@ bool kiriPatches_MayMove(const kiriPatches* patches, const kiriSkin* skin, int32
 
 /* ---- Positions --------------------------------------------------------------------------------------------------- */
 
-static kiriLanes BlendFlat(const float* rows, const kiriSampleWeight* weight, const kiriSampleWeight* end, kiriVec2 p)
-{
-    kiriLanes px = kiriLanes_Splat((float)p.x), py = kiriLanes_Splat((float)p.y), sum = kiriLanes_Splat(0.0f);
-    for (; weight < end; ++weight) {
-        const float* row = rows + (ptrdiff_t)KIRI_FLAT_FLOATS * weight->frame;
-        kiriLanes at = kiriLanes_Add(kiriLanes_Load(row), kiriLanes_Mul(px, kiriLanes_Load(row + 4)));
-        at = kiriLanes_Add(at, kiriLanes_Mul(py, kiriLanes_Load(row + 8)));
-        sum = kiriLanes_Add(sum, kiriLanes_Mul(kiriLanes_Splat(weight->value), at));
-    }
-    return sum;
-}
-
 /* at = x + a u + b v + bow d. a and b are lanes of `flat`. */
 #define CARRY_BENT(row, flat, a, b, bow, at)                                                                           \
     do {                                                                                                               \
@@ -256,9 +244,17 @@ void kiriSkin_WritePositions(const kiriSkin* skin, const kiriPatches* patches, c
 {
     const float* rows = patches->floats.data;
     for (int32_t v = begin; !patches->isBent && v < end; ++v) {
-        const kiriSampleWeight* first = skin->weights.data + skin->spans.data[v].first;
-        kiriLanes at = BlendFlat(rows, first, first + skin->spans.data[v].count, rest[v]);
-        kiriLanes_StoreThree(positions + 3 * (ptrdiff_t)v, at);
+        const kiriSampleWeight* weight = skin->weights.data + skin->spans.data[v].first;
+        const kiriSampleWeight* last = weight + skin->spans.data[v].count;
+        kiriLanes px = kiriLanes_Splat((float)rest[v].x), py = kiriLanes_Splat((float)rest[v].y);
+        kiriLanes sum = kiriLanes_Splat(0.0f);
+        for (; weight < last; ++weight) {
+            const float* row = rows + (ptrdiff_t)KIRI_FLAT_FLOATS * weight->frame;
+            kiriLanes at = kiriLanes_Add(kiriLanes_Load(row), kiriLanes_Mul(px, kiriLanes_Load(row + 4)));
+            at = kiriLanes_Add(at, kiriLanes_Mul(py, kiriLanes_Load(row + 8)));
+            sum = kiriLanes_Add(sum, kiriLanes_Mul(kiriLanes_Splat(weight->value), at));
+        }
+        kiriLanes_StoreThree(positions + 3 * (ptrdiff_t)v, sum);
     }
     for (int32_t v = begin; patches->isBent && v < end; ++v) {
         const kiriSampleWeight* first = skin->weights.data + skin->spans.data[v].first;

@@ -10,249 +10,7 @@
 
 #include <string.h>
 
-/* ---- Groups ---- */
-
-/* Adds a meeting of a sheet and an obstacle. Skips consecutive touches of the same obstacle. Fails on out of memory. */
-static bool AddMeet(kiriWorld* world, int32_t sheet, const kiriObstacleData* obstacle, const kiriObstacleData** last)
-{
-    bool isNew = obstacle != NULL && obstacle != *last && kiriObstacle_IsMovable(obstacle);
-    kiriMeet meet = { isNew ? kiriObstacles_NumberOf(obstacle) : 0, sheet };
-    *last = obstacle != NULL ? obstacle : *last;
-    return !isNew || kiriArray_Push(&world->memory, &world->moves.meets, meet);
-}
-
-/* Lists the movable obstacles to which the sheet may give an impulse, including its last touches, in case it sleeps. */
-static bool ListMeets(kiriWorld* world, int32_t sheet)
-{
-    const kiriSheetData* data = world->sheets.data[sheet];
-    const kiriObstacleData* last = NULL;
-    bool ok = true;
-    const kiriTouchMemory* memories[] = { &data->touches.last, &data->touches.slept };
-    KIRI_EACH_WHILE(ok, const kiriTouch, touch, data->touches.found) {
-        ok = AddMeet(world, sheet, kiriObstacles_OwnerOf(world, touch->key), &last);
-    }
-    for (int n = 0; n < 2; ++n) {
-        KIRI_EACH_WHILE(ok, const kiriTouch, touch, memories[n]->touches) {
-            ok = AddMeet(world, sheet, kiriObstacles_OwnerOf(world, touch->key), &last);
-        }
-    }
-    KIRI_EACH_WHILE(ok, const kiriPinData, pin, data->pins) {
-        ok = AddMeet(world, sheet, kiriPinStep_Obstacle(world, pin), &last);
-    }
-    return ok;
-}
-
-static bool HasLowerNumber(const void* context, int32_t a, int32_t b)
-{
-    const kiriMeet* meets = context;
-    return meets[a].number < meets[b].number || (meets[a].number == meets[b].number && a < b);
-}
-
-/* Joins sheets that move the same body into groups. A sheet's yield rows include the impulses of earlier sheets. */
-static bool JoinByBodies(kiriWorld* world)
-{
-    kiriMoves* moves = &world->moves;
-    bool ok = true;
-    moves->meets.count = 0;
-    for (int32_t i = 0; ok && i < world->sheets.count; ++i) {
-        ok = ListMeets(world, i);
-    }
-    if (!ok || !kiriArray_Resize(&world->memory, &moves->order, moves->meets.count)) {
-        return false;
-    }
-    KIRI_EACH_INDEX(k, moves->order) {
-        moves->order.data[k] = k;
-    }
-    kiriSort(moves->order.data, moves->order.count, HasLowerNumber, moves->meets.data);
-    for (int32_t k = 1; k < moves->order.count; ++k) {
-        const kiriMeet *a = &moves->meets.data[moves->order.data[k - 1]], *b = &moves->meets.data[moves->order.data[k]];
-        if (a->number == b->number) {
-            kiriUnion_Join(moves->parent.data, a->sheet, b->sheet);
-        }
-    }
-    return true;
-}
-
-bool kiriMoves_Prepare(kiriWorld* world)
-{
-    kiriMoves* moves = &world->moves;
-    int32_t count = world->sheets.count;
-    if (!kiriArray_Resize(&world->memory, &moves->of, count) ||
-        !kiriArray_Resize(&world->memory, &moves->parent, count) ||
-        !kiriArray_Reserve(&world->memory, &moves->heads, count)) {
-        return false;
-    }
-    kiriUnion_Init(moves->parent.data, count);
-    if (!kiriIslands_FindClusters(world)) {
-        return false;
-    }
-    for (int32_t i = 0; i < count; ++i) {
-        int32_t cluster = kiriIslands_ClusterOf(&world->islands, i);
-        if (cluster != KIRI_NONE) {
-            kiriUnion_Join(moves->parent.data, i, cluster);
-        }
-    }
-    return !kiriTasks_AreGiven(&world->tasks) || world->obstacles.count == 0 || JoinByBodies(world);
-}
-
-void kiriMoves_BeginClusters(kiriWorld* world, double dt)
-{
-    KIRI_EACH_INDEX(k, world->active) {
-        if (kiriIslands_ClusterOf(&world->islands, world->active.data[k]) != KIRI_NONE) {
-            kiriPinStep_Begin(world, kiriWorld_Active(world, k), dt);
-        }
-    }
-}
-
-/* ---- Moving ---- */
-
-typedef struct MoveTask {
-    kiriWorld* world;
-    double dt;
-    int32_t substeps;
-    kiriQuota systems; /* limit for each sheet; the sheets of a wave do not exceed it together */
-} MoveTask;
-
-/* Gives the impulses of a sheet to obstacles: movable ones, which are in the group of the sheet, right after it moved;
-   the others after all sheets moved, in the order of sheets. */
-static void GiveImpulses(const MoveTask* task, int32_t i, bool areMovable)
-{
-    kiriSheetData* sheet = task->world->sheets.data[i];
-    kiriObstacles_TakeImpulses(task->world, sheet, task->dt, areMovable);
-    if (task->world->moves.of.data[i].progress != KIRI_MORE) {
-        kiriPinStep_End(task->world, sheet, task->dt, areMovable);
-    }
-}
-
-/* Moves a sheet, or all sheets of a cluster when its first one moves, which gets the items. */
-static void MoveSheet(const MoveTask* task, int32_t first)
-{
-    kiriWorld* world = task->world;
-    kiriSheetData* sheet = world->sheets.data[first];
-    kiriMove* moves = world->moves.of.data;
-    kiriQuota systems = task->systems;
-    int32_t cluster = kiriIslands_ClusterOf(&world->islands, first), next = 0;
-    bool isAlone = cluster == KIRI_NONE;
-    if (!isAlone && cluster != first) {
-        return;
-    }
-    /* No system is left for the sheet, and its visible surface does not change. Then waiting costs nearly nothing, even
-       for many sheets. */
-    if (isAlone && kiriQuota_IsSpent(&systems) && kiriView_IsSettled(sheet) && kiriMotion_Wait(sheet, task->dt)) {
-        moves[first].progress = KIRI_MORE;
-        moves[first].systems = 0;
-        return;
-    }
-    for (int32_t i = first; i != KIRI_NONE; i = world->islands.next.data[i]) {
-        kiriObstacles_LoadYields(world, world->sheets.data[i]);
-        moves[i].systems = 0;
-    }
-    if (isAlone) {
-        kiriPinStep_Begin(world, sheet, task->dt);
-        next = kiriMotion_Begin(sheet, world->gravity, task->dt, &systems, &world->islands.systems.data[first]);
-    }
-    bool isMoved = !sheet->rest.asleep;
-    kiriIslands_Move(world, first, task->dt, task->substeps, &systems);
-    moves[first].systems = systems.used - task->systems.used;
-    if (isAlone && isMoved && moves[first].progress == KIRI_DONE) {
-        sheet->turns.next = next;
-    }
-    for (int32_t i = first; i != KIRI_NONE; i = world->islands.next.data[i]) {
-        GiveImpulses(task, i, true);
-    }
-}
-
-static void MoveGroups(int32_t start, int32_t end, void* context)
-{
-    const MoveTask* task = context;
-    const kiriMoves* moves = &task->world->moves;
-    for (int32_t k = start; k < end; ++k) {
-        for (int32_t i = moves->heads.data[k]; i != KIRI_NONE; i = moves->of.data[i].next) {
-            MoveSheet(task, i);
-        }
-    }
-}
-
-/* Sheets are moved in this order. */
-int32_t kiriMoves_SheetAt(const kiriWorld* world, int32_t turn, int32_t k)
-{
-    const kiriIndices* active = &world->active;
-    int32_t low;
-    KIRI_SEARCH(low, 0, active->count, active->data[middle] < turn);
-    return active->data[(low + k) % active->count];
-}
-
-/* Returns the end of a wave: sheets from `first` on, at least one, for which the systems suffice in the worst case. If
-   no systems are left, all sheets. */
-static int32_t EndOfWave(const MoveTask* task, int32_t first)
-{
-    const kiriWorld* world = task->world;
-    int32_t end = kiriQuota_IsSpent(&task->systems) ? world->active.count : first;
-    int64_t most = 0;
-    while (end < world->active.count) {
-        int32_t i = kiriMoves_SheetAt(world, world->turn, end),
-                cluster = kiriIslands_ClusterOf(&task->world->islands, i);
-        most += cluster == KIRI_NONE ? kiriMotion_MostItems(world->sheets.data[i], task->substeps)
-                : cluster == i       ? kiriIslands_MostItems(world, i, task->substeps)
-                                     : 0;
-        if (most > task->systems.left && end > first) {
-            break;
-        }
-        ++end;
-    }
-    return end;
-}
-
-/* Lists the groups of these sheets, each in the order of motion. */
-static void ListGroups(kiriWorld* world, int32_t first, int32_t end)
-{
-    kiriMoves* moves = &world->moves;
-    moves->heads.count = 0;
-    for (int32_t k = first; k < end; ++k) {
-        moves->of.data[kiriUnion_Root(moves->parent.data, kiriMoves_SheetAt(world, world->turn, k))].tail = KIRI_NONE;
-    }
-    for (int32_t k = first; k < end; ++k) {
-        int32_t i = kiriMoves_SheetAt(world, world->turn, k);
-        int32_t* tail = &moves->of.data[kiriUnion_Root(moves->parent.data, i)].tail;
-        if (*tail == KIRI_NONE) {
-            KIRI_NEXT(moves->heads) = i;
-        } else {
-            moves->of.data[*tail].next = i;
-        }
-        *tail = i;
-        moves->of.data[i].next = KIRI_NONE;
-    }
-}
-
-/* Gives impulses to fixed obstacles and counts the items of a sheet, or of a cluster with its first sheet. */
-static void EndMoved(const MoveTask* task, int32_t i, kiriQuota* systems)
-{
-    kiriWorld* world = task->world;
-    int32_t cluster = kiriIslands_ClusterOf(&world->islands, i);
-    if (cluster != KIRI_NONE && cluster != i) {
-        return;
-    }
-    while (i != KIRI_NONE) {
-        GiveImpulses(task, i, false);
-        kiriQuota_Take(systems, world->moves.of.data[i].systems);
-        world->profile.systemsSolved += kiriSolver_TakeSolved(world->sheets.data[i]->solver);
-        i = cluster != KIRI_NONE ? world->islands.next.data[i] : KIRI_NONE;
-    }
-}
-
-/* Moves sheets in waves. The sheets of a wave move in parallel; each wave gets the systems that the last one left. */
-void kiriMoves_Run(kiriWorld* world, double dt, int32_t substeps, kiriQuota* systems)
-{
-    for (int32_t first = 0, end; first < world->active.count; first = end) {
-        MoveTask task = { world, dt, substeps, *systems };
-        end = EndOfWave(&task, first);
-        ListGroups(world, first, end);
-        kiriTasks_Run(&world->tasks, MoveGroups, world->moves.heads.count, 1, &task);
-        for (int32_t k = first; k < end; ++k) {
-            EndMoved(&task, kiriMoves_SheetAt(world, world->turn, k), systems);
-        }
-    }
-}
+/* ---- Pins on obstacles ---- */
 
 kiriObstacleData* kiriPinStep_Obstacle(const kiriWorld* world, const kiriPinData* pin)
 {
@@ -318,7 +76,9 @@ static void BeginPin(const kiriWorld* world, kiriSheetData* sheet, int32_t index
     Soften(world, sheet, obstacle, from, &pin->anchor);
 }
 
-void kiriPinStep_Begin(const kiriWorld* world, kiriSheetData* sheet, double dt)
+/* Sets the motion of targets from the obstacles' current poses to their poses at the end of the tick. Wakes the sheet
+   if a target moved. */
+static void BeginPins(const kiriWorld* world, kiriSheetData* sheet, double dt)
 {
     KIRI_EACH_INDEX(i, sheet->pins) {
         kiriPinAnchor* anchor = &sheet->pins.data[i].anchor;
@@ -329,7 +89,8 @@ void kiriPinStep_Begin(const kiriWorld* world, kiriSheetData* sheet, double dt)
     }
 }
 
-void kiriPinStep_End(const kiriWorld* world, const kiriSheetData* sheet, double dt, bool areMovable)
+/* Gives the impulses of pins to their obstacles: to movable ones, or to the others. */
+static void EndPins(const kiriWorld* world, const kiriSheetData* sheet, double dt, bool areMovable)
 {
     KIRI_EACH(const kiriPinData, pin, sheet->pins) {
         kiriObstacleData* obstacle = kiriPinStep_Obstacle(world, pin);
@@ -445,7 +206,8 @@ static bool IsMoving(const kiriObstacleData* obstacle, double dt, double least)
     return obstacle->drift + dt * speed > least;
 }
 
-int64_t kiriObstacles_NumberOf(const kiriObstacleData* obstacle)
+/* Returns the number of the obstacle's body, above zero. An obstacle without a body has a unique number. */
+static int64_t NumberOf(const kiriObstacleData* obstacle)
 {
     return (int64_t)(obstacle->body != 0 ? (uint64_t)obstacle->body << 32 : (uint64_t)obstacle->id << 32 | 1u);
 }
@@ -538,24 +300,15 @@ static bool StirSleepers(const TouchSearch* looking, kiriObstacleSearch* search,
     return ok;
 }
 
-static bool HasSleepers(const kiriSheetData* sheet)
-{
-    bool any = false;
-    KIRI_EACH_WHILE(!any, const kiriPiece, piece, sheet->layout.pieces) {
-        any = piece->rest.asleep;
-    }
-    return any;
-}
-
 static bool TouchAll(const kiriWorld* world, kiriObstacleSearch* search, kiriSheetData* sheet, const Around* around)
 {
     int32_t at = 0;
     bool ok = true;
     for (kiriObstacleData* obstacle; ok && (obstacle = NextNear(world, sheet, around, &at)) != NULL;) {
-        int32_t yield = kiriTouches_FindYield(sheet, kiriObstacles_NumberOf(obstacle));
+        int32_t yield = kiriTouches_FindYield(sheet, NumberOf(obstacle));
         if (yield == KIRI_NONE) { /* one row for each body */
             kiriYieldRow row = kiriObstacle_YieldRow(obstacle);
-            row.number = kiriObstacles_NumberOf(obstacle);
+            row.number = NumberOf(obstacle);
             yield = kiriTouches_AddYield(sheet, &row);
         }
         ok = yield != KIRI_NONE && kiriBounds_Update(sheet->seen.bounds, sheet->memory, &sheet->seen.surface) &&
@@ -579,7 +332,11 @@ static bool FindTouchesOf(const TouchSearch* looking, kiriObstacleSearch* search
     around.speed = sheet->rest.asleep ? 0.0 : kiriSheet_SpeedLimit(sheet, &around.box);
     around.reach =
         kiriReach_Of(around.speed, looking->world->gravity, looking->dt) + sheet->settings.contactThickness;
-    if (HasSleepers(sheet) && !StirSleepers(looking, search, sheet, &around)) {
+    bool hasSleepers = false;
+    KIRI_EACH_WHILE(!hasSleepers, const kiriPiece, piece, sheet->layout.pieces) {
+        hasSleepers = piece->rest.asleep;
+    }
+    if (hasSleepers && !StirSleepers(looking, search, sheet, &around)) {
         return false;
     }
     if (sheet->rest.isIdle && sheet->rest.isStirred && !kiriTouches_Begin(sheet)) {
@@ -673,12 +430,13 @@ void kiriObstacles_Begin(kiriWorld* world)
     }
 }
 
-void kiriObstacles_LoadYields(const kiriWorld* world, kiriSheetData* sheet)
+/* Adds to the sheet's yield rows the impulses of other sheets on the same bodies. */
+static void LoadYields(const kiriWorld* world, kiriSheetData* sheet)
 {
     KIRI_EACH(kiriYieldRow, row, sheet->touches.yields) {
         for (int32_t i = 0; row->number > 0 && row->inverseMass > 0.0 && i < world->obstacles.count; ++i) {
             const kiriObstacleData* obstacle = world->obstacles.data[i];
-            if (kiriObstacles_NumberOf(obstacle) == row->number) {
+            if (NumberOf(obstacle) == row->number) {
                 kiriVec3 arm = kiriVec3_Sub(kiriObstacle_CenterOfMass(obstacle), row->center);
                 kiriWrench_Add(&row->impulse, 1.0, &obstacle->impulse);
                 row->impulse.moment = kiriVec3_Add(row->impulse.moment, kiriVec3_Cross(arm, obstacle->impulse.force));
@@ -687,7 +445,8 @@ void kiriObstacles_LoadYields(const kiriWorld* world, kiriSheetData* sheet)
     }
 }
 
-kiriObstacleData* kiriObstacles_OwnerOf(const kiriWorld* world, uint64_t key)
+/* Returns the obstacle of a touch, or null if the touch has no obstacle. */
+static kiriObstacleData* OwnerOfKey(const kiriWorld* world, uint64_t key)
 {
     int32_t slot = kiriObstacle_SlotOfKey(key);
     return key >> 60 == KIRI_TOUCH_OBSTACLE && slot < world->obstacleIds.slots.count
@@ -719,7 +478,7 @@ static kiriRestLoad* RestLoadOn(kiriRestLoads* rests, int32_t slot, kiriVec3 cen
 
 static void AddToRests(const kiriWorld* world, kiriRestLoads* rests, const kiriTouch* touch)
 {
-    const kiriObstacleData* obstacle = kiriObstacles_OwnerOf(world, touch->key);
+    const kiriObstacleData* obstacle = OwnerOfKey(world, touch->key);
     kiriVec3 impulse = kiriVec3_Scale(rests->dt, touch->force);
     if (obstacle != NULL && kiriVec3_Dot(impulse, touch->normal) > 0.0) {
         kiriVec3 center = kiriObstacle_CenterOfMass(obstacle), back = kiriVec3_Scale(-1.0, impulse);
@@ -755,7 +514,8 @@ static void SumRests(const kiriWorld* world, kiriSheetData* sheet, double dt)
     }
 }
 
-void kiriObstacles_TakeImpulses(const kiriWorld* world, kiriSheetData* sheet, double dt, bool areMovable)
+/* Gives the impulses of a sheet to obstacles: to movable ones, or to the others. */
+static void TakeImpulses(const kiriWorld* world, kiriSheetData* sheet, double dt, bool areMovable)
 {
     const kiriTouches* touches = &sheet->touches;
     SumRests(world, sheet, dt);
@@ -768,11 +528,255 @@ void kiriObstacles_TakeImpulses(const kiriWorld* world, kiriSheetData* sheet, do
     }
     KIRI_EACH(const kiriTouch, touch, touches->found) {
         const kiriContactRow* row = touch->row != KIRI_NONE ? &touches->rows.data[touch->row] : NULL;
-        kiriObstacleData* obstacle = row != NULL ? kiriObstacles_OwnerOf(world, row->key) : NULL;
+        kiriObstacleData* obstacle = row != NULL ? OwnerOfKey(world, row->key) : NULL;
         if (obstacle != NULL && kiriObstacle_IsMovable(obstacle) == areMovable &&
             kiriVec3_Dot(row->impulse, row->normal) > 0.0) {
             kiriObstacle_TakeImpulse(obstacle, kiriVec3_Scale(-1.0, row->impulse), touch->seen);
             obstacle->contacts += 1;
+        }
+    }
+}
+
+/* ---- Groups ---- */
+
+/* Adds a meeting of a sheet and an obstacle. Skips consecutive touches of the same obstacle. Fails on out of memory. */
+static bool AddMeet(kiriWorld* world, int32_t sheet, const kiriObstacleData* obstacle, const kiriObstacleData** last)
+{
+    bool isNew = obstacle != NULL && obstacle != *last && kiriObstacle_IsMovable(obstacle);
+    kiriMeet meet = { isNew ? NumberOf(obstacle) : 0, sheet };
+    *last = obstacle != NULL ? obstacle : *last;
+    return !isNew || kiriArray_Push(&world->memory, &world->moves.meets, meet);
+}
+
+/* Lists the movable obstacles to which the sheet may give an impulse, including its last touches, in case it sleeps. */
+static bool ListMeets(kiriWorld* world, int32_t sheet)
+{
+    const kiriSheetData* data = world->sheets.data[sheet];
+    const kiriObstacleData* last = NULL;
+    bool ok = true;
+    const kiriTouchMemory* memories[] = { &data->touches.last, &data->touches.slept };
+    KIRI_EACH_WHILE(ok, const kiriTouch, touch, data->touches.found) {
+        ok = AddMeet(world, sheet, OwnerOfKey(world, touch->key), &last);
+    }
+    for (int n = 0; n < 2; ++n) {
+        KIRI_EACH_WHILE(ok, const kiriTouch, touch, memories[n]->touches) {
+            ok = AddMeet(world, sheet, OwnerOfKey(world, touch->key), &last);
+        }
+    }
+    KIRI_EACH_WHILE(ok, const kiriPinData, pin, data->pins) {
+        ok = AddMeet(world, sheet, kiriPinStep_Obstacle(world, pin), &last);
+    }
+    return ok;
+}
+
+static bool HasLowerNumber(const void* context, int32_t a, int32_t b)
+{
+    const kiriMeet* meets = context;
+    return meets[a].number < meets[b].number || (meets[a].number == meets[b].number && a < b);
+}
+
+/* Joins sheets that move the same body into groups. A sheet's yield rows include the impulses of earlier sheets. */
+static bool JoinByBodies(kiriWorld* world)
+{
+    kiriMoves* moves = &world->moves;
+    bool ok = true;
+    moves->meets.count = 0;
+    for (int32_t i = 0; ok && i < world->sheets.count; ++i) {
+        ok = ListMeets(world, i);
+    }
+    if (!ok || !kiriArray_Resize(&world->memory, &moves->order, moves->meets.count)) {
+        return false;
+    }
+    KIRI_EACH_INDEX(k, moves->order) {
+        moves->order.data[k] = k;
+    }
+    kiriSort(moves->order.data, moves->order.count, HasLowerNumber, moves->meets.data);
+    for (int32_t k = 1; k < moves->order.count; ++k) {
+        const kiriMeet *a = &moves->meets.data[moves->order.data[k - 1]], *b = &moves->meets.data[moves->order.data[k]];
+        if (a->number == b->number) {
+            kiriUnion_Join(moves->parent.data, a->sheet, b->sheet);
+        }
+    }
+    return true;
+}
+
+bool kiriMoves_Prepare(kiriWorld* world)
+{
+    kiriMoves* moves = &world->moves;
+    int32_t count = world->sheets.count;
+    if (!kiriArray_Resize(&world->memory, &moves->of, count) ||
+        !kiriArray_Resize(&world->memory, &moves->parent, count) ||
+        !kiriArray_Reserve(&world->memory, &moves->heads, count)) {
+        return false;
+    }
+    kiriUnion_Init(moves->parent.data, count);
+    if (!kiriIslands_FindClusters(world)) {
+        return false;
+    }
+    for (int32_t i = 0; i < count; ++i) {
+        int32_t cluster = kiriIslands_ClusterOf(&world->islands, i);
+        if (cluster != KIRI_NONE) {
+            kiriUnion_Join(moves->parent.data, i, cluster);
+        }
+    }
+    return !kiriTasks_AreGiven(&world->tasks) || world->obstacles.count == 0 || JoinByBodies(world);
+}
+
+void kiriMoves_BeginClusters(kiriWorld* world, double dt)
+{
+    KIRI_EACH_INDEX(k, world->active) {
+        if (kiriIslands_ClusterOf(&world->islands, world->active.data[k]) != KIRI_NONE) {
+            BeginPins(world, kiriWorld_Active(world, k), dt);
+        }
+    }
+}
+
+/* ---- Moving ---- */
+
+typedef struct MoveTask {
+    kiriWorld* world;
+    double dt;
+    int32_t substeps;
+    kiriQuota systems; /* limit for each sheet; the sheets of a wave do not exceed it together */
+} MoveTask;
+
+/* Gives the impulses of a sheet to obstacles: movable ones, which are in the group of the sheet, right after it moved;
+   the others after all sheets moved, in the order of sheets. */
+static void GiveImpulses(const MoveTask* task, int32_t i, bool areMovable)
+{
+    kiriSheetData* sheet = task->world->sheets.data[i];
+    TakeImpulses(task->world, sheet, task->dt, areMovable);
+    if (task->world->moves.of.data[i].progress != KIRI_MORE) {
+        EndPins(task->world, sheet, task->dt, areMovable);
+    }
+}
+
+/* Moves a sheet, or all sheets of a cluster when its first one moves, which gets the items. */
+static void MoveSheet(const MoveTask* task, int32_t first)
+{
+    kiriWorld* world = task->world;
+    kiriSheetData* sheet = world->sheets.data[first];
+    kiriMove* moves = world->moves.of.data;
+    kiriQuota systems = task->systems;
+    int32_t cluster = kiriIslands_ClusterOf(&world->islands, first), next = 0;
+    bool isAlone = cluster == KIRI_NONE;
+    if (!isAlone && cluster != first) {
+        return;
+    }
+    /* No system is left for the sheet, and its visible surface does not change. Then waiting costs nearly nothing, even
+       for many sheets. */
+    if (isAlone && kiriQuota_IsSpent(&systems) && kiriView_IsSettled(sheet) && kiriMotion_Wait(sheet, task->dt)) {
+        moves[first].progress = KIRI_MORE;
+        moves[first].systems = 0;
+        return;
+    }
+    for (int32_t i = first; i != KIRI_NONE; i = world->islands.next.data[i]) {
+        LoadYields(world, world->sheets.data[i]);
+        moves[i].systems = 0;
+    }
+    if (isAlone) {
+        BeginPins(world, sheet, task->dt);
+        next = kiriMotion_Begin(sheet, world->gravity, task->dt, &systems, &world->islands.systems.data[first]);
+    }
+    bool isMoved = !sheet->rest.asleep;
+    kiriIslands_Move(world, first, task->dt, task->substeps, &systems);
+    moves[first].systems = systems.used - task->systems.used;
+    if (isAlone && isMoved && moves[first].progress == KIRI_DONE) {
+        sheet->turns.next = next;
+    }
+    for (int32_t i = first; i != KIRI_NONE; i = world->islands.next.data[i]) {
+        GiveImpulses(task, i, true);
+    }
+}
+
+static void MoveGroups(int32_t start, int32_t end, void* context)
+{
+    const MoveTask* task = context;
+    const kiriMoves* moves = &task->world->moves;
+    for (int32_t k = start; k < end; ++k) {
+        for (int32_t i = moves->heads.data[k]; i != KIRI_NONE; i = moves->of.data[i].next) {
+            MoveSheet(task, i);
+        }
+    }
+}
+
+/* Sheets are moved in this order. */
+int32_t kiriMoves_SheetAt(const kiriWorld* world, int32_t turn, int32_t k)
+{
+    const kiriIndices* active = &world->active;
+    int32_t low;
+    KIRI_SEARCH(low, 0, active->count, active->data[middle] < turn);
+    return active->data[(low + k) % active->count];
+}
+
+/* Returns the end of a wave: sheets from `first` on, at least one, for which the systems suffice in the worst case. If
+   no systems are left, all sheets. */
+static int32_t EndOfWave(const MoveTask* task, int32_t first)
+{
+    const kiriWorld* world = task->world;
+    int32_t end = kiriQuota_IsSpent(&task->systems) ? world->active.count : first;
+    int64_t most = 0;
+    while (end < world->active.count) {
+        int32_t i = kiriMoves_SheetAt(world, world->turn, end),
+                cluster = kiriIslands_ClusterOf(&task->world->islands, i);
+        most += cluster == KIRI_NONE ? kiriMotion_MostItems(world->sheets.data[i], task->substeps)
+                : cluster == i       ? kiriIslands_MostItems(world, i, task->substeps)
+                                     : 0;
+        if (most > task->systems.left && end > first) {
+            break;
+        }
+        ++end;
+    }
+    return end;
+}
+
+/* Lists the groups of these sheets, each in the order of motion. */
+static void ListGroups(kiriWorld* world, int32_t first, int32_t end)
+{
+    kiriMoves* moves = &world->moves;
+    moves->heads.count = 0;
+    for (int32_t k = first; k < end; ++k) {
+        moves->of.data[kiriUnion_Root(moves->parent.data, kiriMoves_SheetAt(world, world->turn, k))].tail = KIRI_NONE;
+    }
+    for (int32_t k = first; k < end; ++k) {
+        int32_t i = kiriMoves_SheetAt(world, world->turn, k);
+        int32_t* tail = &moves->of.data[kiriUnion_Root(moves->parent.data, i)].tail;
+        if (*tail == KIRI_NONE) {
+            KIRI_NEXT(moves->heads) = i;
+        } else {
+            moves->of.data[*tail].next = i;
+        }
+        *tail = i;
+        moves->of.data[i].next = KIRI_NONE;
+    }
+}
+
+/* Gives impulses to fixed obstacles and counts the items of a sheet, or of a cluster with its first sheet. */
+static void EndMoved(const MoveTask* task, int32_t i, kiriQuota* systems)
+{
+    kiriWorld* world = task->world;
+    int32_t cluster = kiriIslands_ClusterOf(&world->islands, i);
+    if (cluster != KIRI_NONE && cluster != i) {
+        return;
+    }
+    while (i != KIRI_NONE) {
+        GiveImpulses(task, i, false);
+        kiriQuota_Take(systems, world->moves.of.data[i].systems);
+        world->profile.systemsSolved += kiriSolver_TakeSolved(world->sheets.data[i]->solver);
+        i = cluster != KIRI_NONE ? world->islands.next.data[i] : KIRI_NONE;
+    }
+}
+
+/* Moves sheets in waves. The sheets of a wave move in parallel; each wave gets the systems that the last one left. */
+void kiriMoves_Run(kiriWorld* world, double dt, int32_t substeps, kiriQuota* systems)
+{
+    for (int32_t first = 0, end; first < world->active.count; first = end) {
+        MoveTask task = { world, dt, substeps, *systems };
+        end = EndOfWave(&task, first);
+        ListGroups(world, first, end);
+        kiriTasks_Run(&world->tasks, MoveGroups, world->moves.heads.count, 1, &task);
+        for (int32_t k = first; k < end; ++k) {
+            EndMoved(&task, kiriMoves_SheetAt(world, world->turn, k), systems);
         }
     }
 }
@@ -791,6 +795,7 @@ enum { RANGE_VERTICES = 2048 }; /* about 10 us; a multiple of 4, see kiri_surfac
 typedef struct SkinTask {
     kiriWorld* world;
     double dt;
+    void (*run)(kiriSheetData* sheet, int32_t begin, int32_t end); /* of a range */
 } SkinTask;
 
 static bool StoodStill(const kiriWorld* world, int32_t k)
@@ -872,12 +877,12 @@ static void BeginSheets(int32_t start, int32_t end, void* context)
     }
 }
 
-static void BlendRanges(int32_t start, int32_t end, void* context)
+static void RunRanges(int32_t start, int32_t end, void* context)
 {
     const SkinTask* task = context;
     for (int32_t k = start; k < end; ++k) {
         kiriSkinRange range = task->world->skinRanges.data[k];
-        kiriView_BlendRange(task->world->sheets.data[range.sheet], range.begin, range.end);
+        task->run(task->world->sheets.data[range.sheet], range.begin, range.end);
     }
 }
 
@@ -896,15 +901,6 @@ static void SumSheets(int32_t start, int32_t end, void* context)
     }
 }
 
-static void WriteRanges(int32_t start, int32_t end, void* context)
-{
-    const SkinTask* task = context;
-    for (int32_t k = start; k < end; ++k) {
-        kiriSkinRange range = task->world->skinRanges.data[k];
-        kiriView_WriteRange(task->world->sheets.data[range.sheet], range.begin, range.end);
-    }
-}
-
 static void EndSheets(int32_t start, int32_t end, void* context)
 {
     const SkinTask* task = context;
@@ -919,7 +915,7 @@ static void EndSheets(int32_t start, int32_t end, void* context)
 
 void kiriSkinStep_Run(kiriWorld* world, double dt)
 {
-    SkinTask task = { world, dt };
+    SkinTask task = { world, dt, kiriView_BlendRange };
     /* The surfaces of sheets that the budget left unmoved stay as last written. */
     KIRI_EACH_INDEX(k, world->active) {
         kiriMove* move = &world->moves.of.data[world->active.data[k]];
@@ -928,14 +924,15 @@ void kiriSkinStep_Run(kiriWorld* world, double dt)
     ListRanges(world);
     kiriTasks_Run(&world->tasks, BeginSheets, world->active.count, 1, &task);
     if (world->skinRanges.count > 0) {
-        kiriTasks_Run(&world->tasks, BlendRanges, world->skinRanges.count, 1, &task);
+        kiriTasks_Run(&world->tasks, RunRanges, world->skinRanges.count, 1, &task);
         for (int32_t k = 0; k < world->active.count; ++k) {
             if (IsInRanges(world, k) && IsLarge(kiriWorld_Active(world, k))) {
                 Relax(&task, kiriWorld_Active(world, k), &world->tasks);
             }
         }
         kiriTasks_Run(&world->tasks, SumSheets, world->active.count, 1, &task);
-        kiriTasks_Run(&world->tasks, WriteRanges, world->skinRanges.count, 1, &task);
+        task.run = kiriView_WriteRange;
+        kiriTasks_Run(&world->tasks, RunRanges, world->skinRanges.count, 1, &task);
         kiriTasks_Run(&world->tasks, EndSheets, world->active.count, 1, &task);
     }
     KIRI_EACH_INDEX(k, world->active) {

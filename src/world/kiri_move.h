@@ -27,14 +27,6 @@ kiriObstacleData* kiriPinStep_Obstacle(const kiriWorld* world, const kiriPinData
 /* Attaches the pin's current target to the obstacle. */
 void kiriPinStep_Fasten(const kiriWorld* world, kiriPinData* pin);
 
-/* Sets the motion of targets from the obstacles' current poses to their poses at the end of the tick. Wakes the sheet
-   if a target moved. Call it before a sheet is moved. */
-void kiriPinStep_Begin(const kiriWorld* world, kiriSheetData* sheet, double dt);
-
-/* Gives the impulses of pins to their obstacles: to movable ones, or to the others. Call it after a sheet is moved, or
-   while it sleeps. */
-void kiriPinStep_End(const kiriWorld* world, const kiriSheetData* sheet, double dt, bool areMovable);
-
 /* ---- Obstacles ---- */
 
 /* Reserves room and an id for one more obstacle. Returns KIRI_OK, KIRI_ERROR_MEMORY or KIRI_ERROR_LIMIT. */
@@ -47,12 +39,6 @@ void kiriObstacles_Add(kiriWorld* world, kiriObstacleData* obstacle);
 void kiriObstacles_Remove(kiriWorld* world, kiriObstacleData* obstacle);
 void kiriObstacles_Put(kiriWorld* world, kiriObstacleData* obstacle, kiriVec3 position, kiriMat3 rotation);
 
-/* Returns the number of the obstacle's body, above zero. An obstacle without a body has a unique number. */
-int64_t kiriObstacles_NumberOf(const kiriObstacleData* obstacle);
-
-/* Returns the obstacle of a touch, or null if the touch has no obstacle. */
-kiriObstacleData* kiriObstacles_OwnerOf(const kiriWorld* world, uint64_t key);
-
 /* ---- In a tick ---- */
 
 /* Finds the possible touches of sheets, and the sleeping pieces to wake. Call it before anything is committed. Fails on
@@ -64,13 +50,6 @@ bool kiriObstacles_ReserveRests(const kiriWorld* world, kiriSheetData* sheet);
 
 /* Clears the impulses of obstacles. Call it when the tick cannot be refused any more. */
 void kiriObstacles_Begin(kiriWorld* world);
-
-/* Adds to the sheet's yield rows the impulses of other sheets on the same bodies. Call it before a sheet is moved. */
-void kiriObstacles_LoadYields(const kiriWorld* world, kiriSheetData* sheet);
-
-/* Gives the impulses of a sheet to obstacles: to movable ones, or to the others. Call it after a sheet is moved, or
-   while it sleeps. */
-void kiriObstacles_TakeImpulses(const kiriWorld* world, kiriSheetData* sheet, double dt, bool areMovable);
 
 /* Moves the obstacles by their velocities. */
 void kiriObstacles_End(kiriWorld* world, double dt);

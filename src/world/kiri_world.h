@@ -133,7 +133,7 @@ typedef struct kiriRecorder {
 
 /* A sheet that may move a body. */
 typedef struct kiriMeet {
-    int64_t number; /* of the body, see kiriObstacles_NumberOf */
+    int64_t number; /* of the body, see kiri_move.c */
     int32_t sheet;
 } kiriMeet;
 
