@@ -22,11 +22,7 @@ static const int32_t* CornersOf(const kiriSheetData* sheet, const kiriPointPlace
 
 kiriVec3 kiriPoint_Position(const kiriSheetData* sheet, const kiriPointPlace* place)
 {
-    kiriVec3 x = { 0 };
-    KIRI_EACH_CORNER(k) {
-        x = kiriVec3_AddScaled(x, place->shares[k], kiriSurface_At(&sheet->seen.surface, CornersOf(sheet, place)[k]));
-    }
-    return x;
+    return kiriSurface_Blend(&sheet->seen.surface, CornersOf(sheet, place), place->shares);
 }
 
 kiriVec3 kiriPoint_Detail(const kiriSheetData* sheet, const kiriPointPlace* place)
@@ -314,11 +310,9 @@ void kiriView_WriteTopology(kiriSheetData* sheet)
     kiriView_Resize(sheet, sheet->frames.count);
     for (int32_t v = sheet->mesh.oldVertexCount; v < sheet->mesh.oldVertexCount + sheet->mesh.births.count; ++v) {
         const kiriBirth* birth = &sheet->mesh.births.data[v - sheet->mesh.oldVertexCount];
-        kiriVec3 at = { 0 }; /* on the visible triangle that the vertex was born in */
-        for (int k = 0; k < 3 && birth->parent[k] != KIRI_NONE; ++k) {
-            at = kiriVec3_AddScaled(at, birth->share[k], kiriSurface_At(&sheet->seen.surface, birth->parent[k]));
-        }
-        kiriSurface_Place(&sheet->seen.surface, v, at);
+        /* On the visible triangle that the vertex was born in. */
+        kiriSurface_Place(&sheet->seen.surface, v,
+                          kiriSurface_Blend(&sheet->seen.surface, birth->parent, birth->share));
         if (kiriSurface_HasDetail(&sheet->seen.surface)) {
             kiriDetail_Bear(&sheet->seen.surface.detail, v, birth);
             kiriSurface_DrawRange(&sheet->seen.surface, v, v + 1);

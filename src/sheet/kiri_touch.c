@@ -366,16 +366,11 @@ void kiriTouchMemory_DropTaken(kiriTouchMemory* memory)
 
 /* ---- Adding touches ---------------------------------------------------------------------------------------------- */
 
-static kiriVec3 WhereSeen(const kiriSheetData* sheet, const kiriTouch* touch)
+kiriVec3 kiriTouch_Seen(const kiriSheetData* sheet, const kiriTouch* touch)
 {
-    if (touch->point != KIRI_NONE) {
-        return sheet->seen.exactPoints.data[touch->point];
-    }
-    kiriVec3 at = { 0 };
-    for (int n = 0; n < 3 && touch->vertex[n] != KIRI_NONE; ++n) {
-        at = kiriVec3_AddScaled(at, touch->share[n], kiriSurface_At(&sheet->seen.surface, touch->vertex[n]));
-    }
-    return at;
+    KIRI_ASSERT(touch->point < sheet->points.count);
+    return touch->point != KIRI_NONE ? sheet->seen.exactPoints.data[touch->point]
+                                     : kiriSurface_Blend(&sheet->seen.surface, touch->vertex, touch->share);
 }
 
 #define KIRI_FAR_BELOW 1e9 /* m */
@@ -400,7 +395,7 @@ bool kiriTouches_Add(kiriSheetData* sheet, const kiriTouch* touch)
     KIRI_ASSERT(kiriSheet_IsActive(sheet));
     KIRI_ASSERT(touch->yield == KIRI_NONE || touch->yield < sheet->touches.yields.count);
     KIRI_ASSERT(touch->point != KIRI_NONE || touch->vertex[0] < sheet->seen.surface.vertexCount);
-    found.seen = WhereSeen(sheet, touch);
+    found.seen = kiriTouch_Seen(sheet, touch);
     const kiriVec3 *n = &found.normal, *v = &found.velocity;
     double sum = found.share[0] + found.share[1] + found.share[2] + found.offset;
     sum += n->x + n->y + n->z + v->x + v->y + v->z;
@@ -410,7 +405,7 @@ bool kiriTouches_Add(kiriSheetData* sheet, const kiriTouch* touch)
         found.share[1] = found.share[2] = 0.0;
         found.normal = kiriVec3_Make(0.0, 0.0, 1.0);
         found.velocity = kiriVec3_Make(0.0, 0.0, 0.0);
-        found.seen = WhereSeen(sheet, &found);
+        found.seen = kiriTouch_Seen(sheet, &found);
         found.offset = found.seen.z - KIRI_FAR_BELOW;
     }
     return kiriArray_Push(sheet->memory, &sheet->touches.found, found);

@@ -27,6 +27,9 @@ bool kiriTouches_Begin(kiriSheetData* sheet);
    reach within the tick: each costs a row. */
 bool kiriTouches_Add(kiriSheetData* sheet, const kiriTouch* touch);
 
+/* Returns where the surface shows the point of a touch now. */
+kiriVec3 kiriTouch_Seen(const kiriSheetData* sheet, const kiriTouch* touch);
+
 /* Adds a row for the body that several touches press on. Returns its index. */
 int32_t kiriTouches_AddYield(kiriSheetData* sheet, const kiriYieldRow* yield);
 

@@ -153,6 +153,8 @@ int32_t kiriDetail_GroupCount(const kiriDetail* detail, int32_t color)
 }
 
 #define DETAIL_ROW(k) (at + 4 * (ptrdiff_t)(k))
+#define DETAIL_LANE(of, n)                                                                                             \
+    kiriLanes_Join(kiriLanes_Join(of[0], n, n, of[1], n, n), 0, 2, kiriLanes_Join(of[2], n, n, of[3], n, n), 0, 2)
 
 /* Moves the ends of four edges towards each other, by half of the error in all if both are free. */
 static inline void RelaxFour(float* at, const int32_t* a, const int32_t* b, kiriLanes rest)
@@ -166,12 +168,7 @@ static inline void RelaxFour(float* at, const int32_t* a, const int32_t* b, kiri
     }
     kiriLanes xy0 = kiriLanes_Join(by[0], 0, 1, by[1], 0, 1), xy1 = kiriLanes_Join(by[2], 0, 1, by[3], 0, 1);
     kiriLanes x = kiriLanes_Join(xy0, 0, 2, xy1, 0, 2), y = kiriLanes_Join(xy0, 1, 3, xy1, 1, 3);
-    kiriLanes z = kiriLanes_Join(kiriLanes_Join(by[0], 2, 2, by[1], 2, 2), 0, 2,
-                                 kiriLanes_Join(by[2], 2, 2, by[3], 2, 2), 0, 2);
-    kiriLanes free0 = kiriLanes_Join(kiriLanes_Join(p[0], 3, 3, p[1], 3, 3), 0, 2,
-                                     kiriLanes_Join(p[2], 3, 3, p[3], 3, 3), 0, 2);
-    kiriLanes free1 = kiriLanes_Join(kiriLanes_Join(q[0], 3, 3, q[1], 3, 3), 0, 2,
-                                     kiriLanes_Join(q[2], 3, 3, q[3], 3, 3), 0, 2);
+    kiriLanes z = DETAIL_LANE(by, 2), free0 = DETAIL_LANE(p, 3), free1 = DETAIL_LANE(q, 3);
     kiriLanes square = kiriLanes_Add(kiriLanes_Add(kiriLanes_Mul(x, x), kiriLanes_Mul(y, y)), kiriLanes_Mul(z, z));
     kiriLanes length = kiriLanes_Sqrt(kiriLanes_Add(square, least));
     kiriLanes shares = kiriLanes_Add(kiriLanes_Add(free0, free1), kiriLanes_Splat(1e-12f));

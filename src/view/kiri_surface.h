@@ -128,6 +128,16 @@ static inline kiriVec3 kiriSurface_At(const kiriSurface* surface, int32_t vertex
     return kiriVec3_Add(surface->middle, kiriVec3_Load(kiriSurface_Places(surface) + 3 * (ptrdiff_t)vertex));
 }
 
+/* Returns a blend of up to three vertices of the skin. Missing vertices come last and are KIRI_NONE. */
+static inline kiriVec3 kiriSurface_Blend(const kiriSurface* surface, const int32_t vertex[3], const double share[3])
+{
+    kiriVec3 at = { 0 };
+    for (int k = 0; k < 3 && vertex[k] != KIRI_NONE; ++k) {
+        at = kiriVec3_AddScaled(at, share[k], kiriSurface_At(surface, vertex[k]));
+    }
+    return at;
+}
+
 /* Returns how far a vertex came in the last tick. */
 static inline kiriVec3 kiriSurface_Came(const kiriSurface* surface, int32_t vertex)
 {

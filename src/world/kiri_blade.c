@@ -445,9 +445,8 @@ static void FindPlace(const BladeWork* work, Track* track)
         const int32_t* v = sheet->mesh.triangles.data[t].vertex;
         const kiriVec2 corner[3] = { surface->rest.data[v[0]], surface->rest.data[v[1]], surface->rest.data[v[2]] };
         double shares[3], off = RestDistance(NearestInTriangle(corner, track->rest, shares), track->rest);
-        kiriVec3 seen = kiriVec3_Make(0.0, 0.0, 0.0), came = seen;
+        kiriVec3 seen = kiriSurface_Blend(surface, v, shares), came = { 0 };
         for (int k = 0; k < 3; ++k) {
-            seen = kiriVec3_AddScaled(seen, shares[k], kiriSurface_At(surface, v[k]));
             came = kiriVec3_AddScaled(came, work->ticks * shares[k], kiriSurface_Came(surface, v[k]));
         }
         kiriVec3 more = kiriVec3_Sub(kiriVec3_Sub(seen, track->at), came);

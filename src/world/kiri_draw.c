@@ -2,6 +2,7 @@
 #include "../sheet/kiri_piece.h"
 #include "../sheet/kiri_seen.h"
 #include "../sheet/kiri_obstacle.h"
+#include "../sheet/kiri_touch.h"
 #include "kiri_blade.h"
 
 #include <math.h>
@@ -122,22 +123,17 @@ static void DrawBoxesFrom(Drawing* drawing, const kiriSheetData* sheet, int32_t 
 {
     KIRI_ASSERT(first >= 0 && first % BOXES_A_PASS == 0);
     kiriBox boxes[BOXES_A_PASS];
-    bool isSeen[BOXES_A_PASS] = { false };
+    for (int32_t i = 0; i < BOXES_A_PASS; ++i) {
+        boxes[i] = KIRI_EMPTY_BOX;
+    }
     KIRI_EACH_INDEX(v, sheet->mesh.vertices) {
         int32_t piece = kiriPiece_OfVertex(sheet, v);
-        if (piece < first || piece >= first + BOXES_A_PASS || sheet->layout.pieces.data[piece].isGone) {
-            continue;
+        if (piece >= first && piece < first + BOXES_A_PASS && !sheet->layout.pieces.data[piece].isGone) {
+            kiriBox_Add(&boxes[piece - first], kiriSurface_DrawnAt(&sheet->seen.surface, v));
         }
-        kiriVec3 at = kiriSurface_DrawnAt(&sheet->seen.surface, v);
-        kiriBox* box = &boxes[piece - first];
-        if (!isSeen[piece - first]) {
-            box->lower = box->upper = at;
-        }
-        kiriBox_Add(box, at);
-        isSeen[piece - first] = true;
     }
     for (int32_t i = 0; i < BOXES_A_PASS; ++i) {
-        for (int edge = 0; isSeen[i] && edge < 24; ++edge) {
+        for (int edge = 0; boxes[i].lower.x <= boxes[i].upper.x && edge < 24; ++edge) {
             int corner = edge / 3, bit = 1 << edge % 3;
             if ((corner & bit) == 0) {
                 DrawLine(drawing, CornerOfBox(&boxes[i], corner), CornerOfBox(&boxes[i], corner | bit),
@@ -197,29 +193,13 @@ static void DrawPin(Drawing* drawing, const kiriSheetData* sheet, const kiriPinD
     }
 }
 
-/* Returns where the surface shows the point of a contact now. */
-static kiriVec3 PlaceOfTouch(const kiriSheetData* sheet, const kiriTouch* touch)
-{
-    kiriVec3 at = { 0 };
-    if (touch->point != KIRI_NONE) {
-        KIRI_ASSERT(touch->point >= 0 && touch->point < sheet->points.count);
-        return sheet->seen.exactPoints.data[touch->point];
-    }
-    KIRI_EACH_CORNER(k) {
-        if (touch->vertex[k] != KIRI_NONE) {
-            at = kiriVec3_AddScaled(at, touch->share[k], kiriSurface_At(&sheet->seen.surface, touch->vertex[k]));
-        }
-    }
-    return at;
-}
-
 static void DrawContacts(Drawing* drawing, const kiriSheetData* sheet, const kiriTouchMemory* memory)
 {
     const uint32_t color = Color(0, 150, 170);
     KIRI_EACH(const kiriTouch, touch, memory->touches) {
         kiriVec3 force = kiriTouches_ForceOf(sheet, touch->key);
         if (kiriVec3_Dot(force, force) > 0.0) {
-            kiriVec3 at = PlaceOfTouch(sheet, touch);
+            kiriVec3 at = kiriTouch_Seen(sheet, touch);
             Draw(drawing, &at, 1, color);
             DrawLine(drawing, at, kiriVec3_AddScaled(at, drawing->size, touch->normal), color);
         }
