@@ -392,8 +392,8 @@ static bool FillPart(kiriDetach* detach, int32_t piece, kiriSheetData* to)
         to->plastics.links.data[k] = from->plastics.links.data[links.data[k]];
     }
     for (int32_t k = 0; kiriSurface_HasDetail(&to->seen.surface) && k < vertices.items.count; ++k) {
-        memcpy(to->seen.surface.detail.offsets.data + 3 * (ptrdiff_t)k,
-               from->seen.surface.detail.offsets.data + 3 * (ptrdiff_t)vertices.items.data[k], 3 * sizeof(float));
+        memcpy(to->seen.surface.detail.offsets.data + 3 * k,
+               from->seen.surface.detail.offsets.data + 3 * vertices.items.data[k], 3 * sizeof(float));
     }
     CopyPinHistory(part, to);
     kiriPins_SumShares(to);

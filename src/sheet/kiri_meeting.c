@@ -900,7 +900,7 @@ static kiriBox BoxOfDetail(const kiriSurface* surface)
     const kiriDetail* detail = &surface->detail;
     kiriBox box = KIRI_EMPTY_BOX;
     for (int32_t k = 0; k < detail->vertices.count; ++k) {
-        kiriBox_Add(&box, kiriVec3_Load(detail->moving.data + 4 * (ptrdiff_t)detail->vertices.data[k].vertex));
+        kiriBox_Add(&box, kiriVec3_Load(detail->moving.data + 4 * detail->vertices.data[k].vertex));
     }
     box.lower = kiriVec3_Add(box.lower, surface->middle);
     box.upper = kiriVec3_Add(box.upper, surface->middle);
@@ -916,8 +916,8 @@ static void PushDetail(const kiriObstacleData* obstacle, kiriSheetData* sheet)
     double gap = 0.5 * sheet->settings.contactThickness;
     KIRI_ASSERT(surface->detail.isListed && !surface->isWritten);
     KIRI_EACH(const kiriDetailVertex, item, surface->detail.vertices) {
-        float* moving = surface->detail.moving.data + 4 * (ptrdiff_t)item->vertex;
-        kiriVec3 skin = kiriVec3_Load(kiriSurface_Places(surface) + 3 * (ptrdiff_t)item->vertex);
+        float* moving = surface->detail.moving.data + 4 * item->vertex;
+        kiriVec3 skin = kiriVec3_Load(kiriSurface_Places(surface) + 3 * item->vertex);
         kiriVec3 way = kiriObstacle_ToLocal(obstacle, kiriVec3_Sub(kiriVec3_Load(moving), skin));
         kiriVec3 from = kiriObstacle_PointToLocal(obstacle, kiriVec3_Add(surface->middle, skin));
         if (!kiriObstacleShape_MayReach(&obstacle->shape, from, gap + kiriVec3_Length(way))) {

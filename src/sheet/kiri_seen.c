@@ -30,7 +30,7 @@ kiriVec3 kiriPoint_Detail(const kiriSheetData* sheet, const kiriPointPlace* plac
     const kiriSurface* surface = &sheet->seen.surface;
     kiriVec3 by = { 0 };
     for (int k = 0; k < 3 && kiriSurface_HasDetail(surface); ++k) {
-        const float* offset = surface->detail.offsets.data + 3 * (ptrdiff_t)CornersOf(sheet, place)[k];
+        const float* offset = surface->detail.offsets.data + 3 * CornersOf(sheet, place)[k];
         by = kiriVec3_AddScaled(by, place->shares[k], kiriVec3_Load(offset));
     }
     return by;
@@ -42,8 +42,8 @@ static kiriVec3 AddCorner(const kiriSheetData* sheet, const float* places, kiriV
     if (kiriMax(kiriMax(v[0], v[1]), v[2]) >= sheet->seen.surface.vertexCount) {
         return sum; /* a vertex of the cut under way: it has no place yet */
     }
-    kiriVec3 a = kiriVec3_Load(places + 3 * (ptrdiff_t)v[0]), b = kiriVec3_Load(places + 3 * (ptrdiff_t)v[1]);
-    kiriVec3 c = kiriVec3_Load(places + 3 * (ptrdiff_t)v[2]);
+    kiriVec3 a = kiriVec3_Load(places + 3 * v[0]), b = kiriVec3_Load(places + 3 * v[1]);
+    kiriVec3 c = kiriVec3_Load(places + 3 * v[2]);
     return kiriVec3_Add(sum, kiriVec3_Cross(kiriVec3_Sub(b, a), kiriVec3_Sub(c, a)));
 }
 
@@ -316,7 +316,7 @@ void kiriView_WriteTopology(kiriSheetData* sheet)
         if (kiriSurface_HasDetail(&sheet->seen.surface)) {
             kiriDetail_Bear(&sheet->seen.surface.detail, v, birth);
             kiriSurface_DrawRange(&sheet->seen.surface, v, v + 1);
-            kiriVec3 drawn = kiriVec3_Load(kiriSurface_Drawn(&sheet->seen.surface) + 3 * (ptrdiff_t)v);
+            kiriVec3 drawn = kiriVec3_Load(kiriSurface_Drawn(&sheet->seen.surface) + 3 * v);
             kiriVec3_Store(&sheet->seen.surface.positions.data[3 * (size_t)v],
                            kiriVec3_Add(sheet->seen.surface.middle, drawn));
         }
@@ -422,9 +422,9 @@ static void LookAtVertices(kiriSheetData* sheet, JumpLook* look, int32_t begin, 
 {
     float was[3 * KIRI_BLOCK];
     kiriFades* fades = &sheet->seen.fades;
-    memcpy(was, look->before + 3 * (ptrdiff_t)begin, 3 * sizeof(float) * (size_t)(end - begin));
+    memcpy(was, look->before + 3 * begin, 3 * sizeof(float) * (size_t)(end - begin));
     kiriSurface_BlendRange(&sheet->seen.surface, &sheet->vertexSkin, begin, end);
-    const float* is = kiriSurface_Places(&sheet->seen.surface) + 3 * (ptrdiff_t)begin;
+    const float* is = kiriSurface_Places(&sheet->seen.surface) + 3 * begin;
     if (look->isShifted || (fades->older < fades->fading.capacity && fades->fading.data[fades->older].sample < end) ||
         IsAnyBeyond(was, is, 3 * (end - begin), (float)(0.5 * fades->least))) {
         for (int32_t v = begin, k = 0; v < end; ++v, k += 3) {

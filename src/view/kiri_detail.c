@@ -46,10 +46,10 @@ void kiriDetail_Bear(kiriDetail* detail, int32_t vertex, const kiriBirth* birth)
     KIRI_ASSERT(3 * vertex < detail->offsets.count);
     for (int k = 0; k < 3 && birth->parent[k] != KIRI_NONE; ++k) {
         for (int i = 0; i < 3; ++i) {
-            sum[i] += (float)birth->share[k] * detail->offsets.data[3 * (ptrdiff_t)birth->parent[k] + i];
+            sum[i] += (float)birth->share[k] * detail->offsets.data[3 * birth->parent[k] + i];
         }
     }
-    memcpy(detail->offsets.data + 3 * (ptrdiff_t)vertex, sum, sizeof(sum));
+    memcpy(detail->offsets.data + 3 * vertex, sum, sizeof(sum));
 }
 
 /* ---- Lists ------------------------------------------------------------------------------------------------------- */
@@ -137,8 +137,8 @@ void kiriDetail_Begin(kiriDetail* detail, const float* skin, int32_t begin, int3
     KIRI_ASSERT(detail->isListed && begin >= 0 && end <= detail->vertices.count);
     for (int32_t k = begin; k < end; ++k) {
         kiriDetailVertex item = detail->vertices.data[k];
-        const float *from = skin + 3 * (ptrdiff_t)item.vertex, *by = detail->offsets.data + 3 * (ptrdiff_t)item.vertex;
-        float *to = detail->moving.data + 4 * (ptrdiff_t)item.vertex, keep = item.leash > 0.0f ? 1.0f - PULL : 0.8f;
+        const float *from = skin + 3 * item.vertex, *by = detail->offsets.data + 3 * item.vertex;
+        float *to = detail->moving.data + 4 * item.vertex, keep = item.leash > 0.0f ? 1.0f - PULL : 0.8f;
         for (int i = 0; i < 3; ++i) {
             to[i] = from[i] + keep * by[i];
         }
@@ -152,7 +152,7 @@ int32_t kiriDetail_GroupCount(const kiriDetail* detail, int32_t color)
     return color < KIRI_DETAIL_COLORS - 1 ? (edges + 3) / 4 : edges;
 }
 
-#define DETAIL_ROW(k) (at + 4 * (ptrdiff_t)(k))
+#define DETAIL_ROW(k) (at + 4 * (k))
 #define DETAIL_LANE(of, n)                                                                                             \
     kiriLanes_Join(kiriLanes_Join(of[0], n, n, of[1], n, n), 0, 2, kiriLanes_Join(of[2], n, n, of[3], n, n), 0, 2)
 
@@ -201,7 +201,7 @@ void kiriDetail_Sweep(kiriDetail* detail, int32_t color, int32_t begin, int32_t 
             rest[k] = k < real ? edges[first + k].rest : 0.0f;
         }
         if (real < 4) {
-            memset(detail->moving.data + 4 * (ptrdiff_t)vertices, 0, 8 * sizeof(float));
+            memset(detail->moving.data + 4 * vertices, 0, 8 * sizeof(float));
         }
         RelaxFour(detail->moving.data, a, b, kiriLanes_Load(rest));
     }
@@ -212,8 +212,8 @@ void kiriDetail_Leash(kiriDetail* detail, const float* skin, int32_t begin, int3
     KIRI_ASSERT(detail->isListed && begin >= 0 && end <= detail->vertices.count);
     for (int32_t k = begin; k < end; ++k) {
         kiriDetailVertex item = detail->vertices.data[k];
-        const float* from = skin + 3 * (ptrdiff_t)item.vertex;
-        float* at = detail->moving.data + 4 * (ptrdiff_t)item.vertex;
+        const float* from = skin + 3 * item.vertex;
+        float* at = detail->moving.data + 4 * item.vertex;
         float x = at[0] - from[0], y = at[1] - from[1], z = at[2] - from[2], square = x * x + y * y + z * z;
         if (item.leash > 0.0f && !(square <= item.leash * item.leash)) {
             float share = square < 1e30f ? item.leash / sqrtf(square) : 0.0f;
@@ -237,21 +237,21 @@ void kiriDetail_Smooth(kiriDetail* detail, const float* skin)
         kiriLanes_Store(crease + 4 * vertex, kiriLanes_Splat(0.0f));
     }
     KIRI_EACH_INDEX(k, detail->edges) {
-        float *a = crease + 4 * (ptrdiff_t)detail->edges.data[k].a,
-              *b = crease + 4 * (ptrdiff_t)detail->edges.data[k].b;
+        float *a = crease + 4 * detail->edges.data[k].a,
+              *b = crease + 4 * detail->edges.data[k].b;
         kiriLanes by = kiriLanes_Sub(kiriLanes_Load(offsets + (b - crease)), kiriLanes_Load(offsets + (a - crease)));
         kiriLanes_Store(a, kiriLanes_Add(kiriLanes_Load(a), by));
         kiriLanes_Store(b, kiriLanes_Sub(kiriLanes_Load(b), by));
     }
     KIRI_EACH_INDEX(k, detail->vertices) {
         kiriDetailVertex item = detail->vertices.data[k];
-        float* of = crease + 4 * (ptrdiff_t)item.vertex;
+        float* of = crease + 4 * item.vertex;
         kiriLanes_Store(of, kiriLanes_Mul(kiriLanes_Splat(kiriMax(item.share, 0.0f)), kiriLanes_Load(of)));
         of[3] = item.leash > 0.0f ? SMOOTHING * fabsf(item.share) : 0.0f;
     }
     KIRI_EACH_INDEX(k, detail->edges) {
-        float *a = offsets + 4 * (ptrdiff_t)detail->edges.data[k].a,
-              *b = offsets + 4 * (ptrdiff_t)detail->edges.data[k].b;
+        float *a = offsets + 4 * detail->edges.data[k].a,
+              *b = offsets + 4 * detail->edges.data[k].b;
         kiriLanes first = kiriLanes_Load(crease + (a - offsets)), second = kiriLanes_Load(crease + (b - offsets));
         kiriLanes by = kiriLanes_Sub(second, first);
         kiriLanes_Store(a, kiriLanes_Sub(kiriLanes_Load(a), kiriLanes_Mul(kiriLanes_Pick(first, 3, 3, 3, 3), by)));
@@ -269,7 +269,7 @@ void kiriDetail_End(kiriDetail* detail, const float* skin, int32_t begin, int32_
     KIRI_ASSERT(detail->isListed && begin >= 0 && end <= detail->vertices.count);
     for (int32_t k = begin; k < end; ++k) {
         kiriDetailVertex item = detail->vertices.data[k];
-        const float *at = detail->moving.data + 4 * (ptrdiff_t)item.vertex, *from = skin + 3 * (ptrdiff_t)item.vertex;
+        const float *at = detail->moving.data + 4 * item.vertex, *from = skin + 3 * item.vertex;
         float by[3] = { at[0] - from[0], at[1] - from[1], at[2] - from[2] }, *to = detail->offsets.data + (from - skin);
         float square = by[0] * by[0] + by[1] * by[1] + by[2] * by[2];
         bool isSound = square <= (item.leash > 0.0f ? 4.0f * item.leash * item.leash : 1e18f); /* false for NaN */
@@ -290,7 +290,7 @@ void kiriDetail_Measure(kiriDetail* detail)
 void kiriDetail_Draw(kiriDetail* detail, const float* skin, int32_t begin, int32_t end)
 {
     KIRI_ASSERT(3 * end <= detail->drawn.count && detail->drawn.count == detail->offsets.count);
-    for (ptrdiff_t i = 3 * (ptrdiff_t)begin; i < 3 * (ptrdiff_t)end; ++i) {
+    for (ptrdiff_t i = 3 * begin; i < 3 * end; ++i) {
         detail->drawn.data[i] = skin[i] + detail->offsets.data[i];
     }
 }

@@ -208,8 +208,8 @@ bool kiriPatches_MayMove(const kiriPatches* patches, const kiriSkin* skin, int32
    and at any curvature at most twice as far from the center as q. */
 static kiriLanes AddBent(kiriLanes sum, const float* rows, kiriSampleWeight first, kiriSampleWeight second, kiriLanes p)
 {
-    const float* a = rows + (ptrdiff_t)KIRI_BENT_FLOATS * first.frame;
-    const float* b = rows + (ptrdiff_t)KIRI_BENT_FLOATS * second.frame;
+    const float* a = rows + KIRI_BENT_FLOATS * first.frame;
+    const float* b = rows + KIRI_BENT_FLOATS * second.frame;
     kiriLanes q = kiriLanes_Sub(p, kiriLanes_LoadTwice(a, b)), at;
     kiriLanes g = kiriLanes_Add(kiriLanes_Mul(q, kiriLanes_LoadTwice(a + 2, b + 2)),
                                 kiriLanes_Mul(kiriLanes_Pick(q, 1, 0, 3, 2), kiriLanes_LoadTwice(a + 4, b + 4)));
@@ -249,17 +249,17 @@ void kiriSkin_WritePositions(const kiriSkin* skin, const kiriPatches* patches, c
         kiriLanes px = kiriLanes_Splat((float)rest[v].x), py = kiriLanes_Splat((float)rest[v].y);
         kiriLanes sum = kiriLanes_Splat(0.0f);
         for (; weight < last; ++weight) {
-            const float* row = rows + (ptrdiff_t)KIRI_FLAT_FLOATS * weight->frame;
+            const float* row = rows + KIRI_FLAT_FLOATS * weight->frame;
             kiriLanes at = kiriLanes_Add(kiriLanes_Load(row), kiriLanes_Mul(px, kiriLanes_Load(row + 4)));
             at = kiriLanes_Add(at, kiriLanes_Mul(py, kiriLanes_Load(row + 8)));
             sum = kiriLanes_Add(sum, kiriLanes_Mul(kiriLanes_Splat(weight->value), at));
         }
-        kiriLanes_StoreThree(positions + 3 * (ptrdiff_t)v, sum);
+        kiriLanes_StoreThree(positions + 3 * v, sum);
     }
     for (int32_t v = begin; patches->isBent && v < end; ++v) {
         const kiriSampleWeight* first = skin->weights.data + skin->spans.data[v].first;
         kiriLanes at = BlendBent(rows, first, first + skin->spans.data[v].count, rest[v]);
-        kiriLanes_StoreThree(positions + 3 * (ptrdiff_t)v, at);
+        kiriLanes_StoreThree(positions + 3 * v, at);
     }
 }
 
@@ -290,7 +290,7 @@ uint8_t kiriNormals_TurnOf(const int32_t* indices, bool isAlone)
 
 static kiriLanes EdgeAlong(const float* x, int32_t from, int32_t to)
 {
-    return kiriLanes_Sub(kiriLanes_Load(x + 3 * (ptrdiff_t)to), kiriLanes_Load(x + 3 * (ptrdiff_t)from));
+    return kiriLanes_Sub(kiriLanes_Load(x + 3 * to), kiriLanes_Load(x + 3 * from));
 }
 
 /* A slope that a vertex gets from a pair of triangles. */
@@ -303,7 +303,7 @@ typedef struct PairSlope {
    sums are area-weighted. If the triangles share an edge, its corners get one sum from both. */
 static inline int GetPairSlopes(const kiriCorners* corners, int32_t pair, const float* positions, PairSlope slopes[6])
 {
-    const int32_t* indices = corners->indices + 6 * (ptrdiff_t)pair;
+    const int32_t* indices = corners->indices + 6 * pair;
     const uint8_t* order = pairOrders[corners->turns[pair]];
     int32_t v[6];
     for (int i = 0; i < 6; ++i) {
@@ -334,7 +334,7 @@ void kiriNormals_Sum(float* slopes, int32_t vertexCount, const float* positions,
         PairSlope of[6];
         int count = GetPairSlopes(corners, pair, positions, of);
         for (int k = 0; k < count; ++k) {
-            float* sum = slopes + 4 * (ptrdiff_t)of[k].vertex;
+            float* sum = slopes + 4 * of[k].vertex;
             KIRI_ASSERT(of[k].vertex >= 0 && of[k].vertex < vertexCount);
             kiriLanes_Store(sum, kiriLanes_Add(kiriLanes_Load(sum), of[k].slope));
         }
@@ -377,7 +377,7 @@ bool kiriNormals_SumOne(float* slopes, int32_t vertex, const float* positions, c
             sum = of[i].vertex == vertex ? kiriLanes_Add(sum, of[i].slope) : sum;
         }
     }
-    kiriLanes_Store(slopes + 4 * (ptrdiff_t)vertex, sum);
+    kiriLanes_Store(slopes + 4 * vertex, sum);
     return true;
 }
 
@@ -413,12 +413,12 @@ void kiriNormals_Write(float* normals, const float* slopes, int32_t begin, int32
 {
     int32_t v = begin;
     for (; v + 4 <= end; v += 4) {
-        WriteFourNormals(normals + 3 * (ptrdiff_t)v, slopes + 4 * (ptrdiff_t)v);
+        WriteFourNormals(normals + 3 * v, slopes + 4 * v);
     }
     float last[16] = { 0.0f }, written[12];
     if (v < end) {
-        memcpy(last, slopes + 4 * (ptrdiff_t)v, 4 * sizeof(float) * (size_t)(end - v));
+        memcpy(last, slopes + 4 * v, 4 * sizeof(float) * (size_t)(end - v));
         WriteFourNormals(written, last);
-        memcpy(normals + 3 * (ptrdiff_t)v, written, 3 * sizeof(float) * (size_t)(end - v));
+        memcpy(normals + 3 * v, written, 3 * sizeof(float) * (size_t)(end - v));
     }
 }

@@ -582,8 +582,8 @@ void kiriSurface_WriteRange(kiriSurface* surface, int32_t begin, int32_t end)
     const kiriVec3 m = surface->middle;
     const float middle[6] = { (float)m.x, (float)m.y, (float)m.z, (float)m.x, (float)m.y, (float)m.z };
     const float* drawn = kiriSurface_Drawn(surface);
-    const ptrdiff_t last = drawn != surface->positions.data ? 3 * (ptrdiff_t)end : 0;
-    ptrdiff_t i = 3 * (ptrdiff_t)begin;
+    const ptrdiff_t last = drawn != surface->positions.data ? 3 * end : 0;
+    ptrdiff_t i = 3 * begin;
     KIRI_ASSERT(begin >= 0 && begin <= end && end <= surface->vertexCount);
     /* Four vertices at a time are three lanes: x, y, z, x and so on. */
     for (; i + 12 <= last; i += 12) {

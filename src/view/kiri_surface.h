@@ -125,7 +125,7 @@ static inline const float* kiriSurface_Drawn(const kiriSurface* surface)
 /* Returns the position of a vertex of the skin in world space, exact to 1e-6 of the size of the sheet. */
 static inline kiriVec3 kiriSurface_At(const kiriSurface* surface, int32_t vertex)
 {
-    return kiriVec3_Add(surface->middle, kiriVec3_Load(kiriSurface_Places(surface) + 3 * (ptrdiff_t)vertex));
+    return kiriVec3_Add(surface->middle, kiriVec3_Load(kiriSurface_Places(surface) + 3 * vertex));
 }
 
 /* Returns a blend of up to three vertices of the skin. Missing vertices come last and are KIRI_NONE. */
@@ -143,7 +143,7 @@ static inline kiriVec3 kiriSurface_Came(const kiriSurface* surface, int32_t vert
 {
     bool isKnown = surface->before.count == 3 * surface->vertexCount;
     kiriVec3 before =
-        isKnown ? kiriVec3_Load(surface->before.data + 3 * (ptrdiff_t)vertex) : kiriVec3_Make(0.0, 0.0, 0.0);
+        isKnown ? kiriVec3_Load(surface->before.data + 3 * vertex) : kiriVec3_Make(0.0, 0.0, 0.0);
     return isKnown ? kiriVec3_Sub(kiriSurface_At(surface, vertex), kiriVec3_Add(surface->middleBefore, before))
                    : before;
 }
@@ -151,12 +151,12 @@ static inline kiriVec3 kiriSurface_Came(const kiriSurface* surface, int32_t vert
 /* Returns the drawn position of a vertex in world space. */
 static inline kiriVec3 kiriSurface_DrawnAt(const kiriSurface* surface, int32_t vertex)
 {
-    return kiriVec3_Add(surface->middle, kiriVec3_Load(kiriSurface_Drawn(surface) + 3 * (ptrdiff_t)vertex));
+    return kiriVec3_Add(surface->middle, kiriVec3_Load(kiriSurface_Drawn(surface) + 3 * vertex));
 }
 
 static inline void kiriSurface_Place(kiriSurface* surface, int32_t vertex, kiriVec3 at)
 {
-    kiriVec3_Store(kiriSurface_Places(surface) + 3 * (ptrdiff_t)vertex, kiriVec3_Sub(at, surface->middle));
+    kiriVec3_Store(kiriSurface_Places(surface) + 3 * vertex, kiriVec3_Sub(at, surface->middle));
 }
 
 /* Reserves room for these numbers of vertices, triangles and frames. */
