@@ -143,6 +143,14 @@ static inline kiriResult Host_Tick(Host* host, float dt, int32_t substeps)
     return result;
 }
 
+/* So many ticks; each must be a success. */
+static inline void Host_Ticks(Host* host, int32_t count, float dt, int32_t substeps)
+{
+    for (int32_t i = 0; i < count; ++i) {
+        assert_int_equal(Host_Tick(host, dt, substeps), KIRI_OK);
+    }
+}
+
 /* For worlds that a test has made unsound. */
 static inline void Host_Destroy(Host* host)
 {

@@ -43,9 +43,7 @@ static void Stage_StartCurtain(Stage* stage, int32_t grid, int32_t ticks)
     for (int k = 0; k < 2; ++k) {
         Host_Pin(&stage->host, stage->sheet, (float)k, 1.0f, (float)k, 0.0f, 1.0f);
     }
-    for (int32_t i = 0; i < ticks; ++i) {
-        OK(Host_Tick(&stage->host, 1.0f / 60.0f, 2));
-    }
+    Host_Ticks(&stage->host, ticks, 1.0f / 60.0f, 2);
 }
 
 static int32_t Pieces(const Stage* stage)

@@ -110,9 +110,7 @@ static void Begin(Stage* stage)
     kiriPin made = Host_Pin(&stage->host, stage->sheet, 0.0f, 0.0f, 0.0f, 0.0f, 0.01f);
     OK(kiriSheet_HingeLine(stage->host.world, stage->sheet, (float[]){ 0.0f, 0.0f }, (float[]){ 1.0f, 0.0f }, &made));
     Host_Cut(&stage->host, stage->sheet, (float[]){ 0.7f, 1.1f, 0.72f, 0.71f, 1.1f, 0.7f }, 3);
-    for (int i = 0; i < 30; ++i) {
-        OK(Host_Tick(&stage->host, 1.0f / 60.0f, 2));
-    }
+    Host_Ticks(&stage->host, 30, 1.0f / 60.0f, 2);
 }
 
 static void End(Stage* stage)

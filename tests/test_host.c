@@ -66,9 +66,7 @@ static void TestSettingsChangeWhileItMoves(void** state)
     kiriSheetSettings settings;
     Host_Start(&host);
     kiriSheet sheet = Hang(&host, &def);
-    for (int i = 0; i < 20; ++i) {
-        OK(Host_Tick(&host, DT, 2));
-    }
+    Host_Ticks(&host, 20, DT, 2);
     kiriTotals before = Host_Totals(&host, sheet);
     OK(kiriSheet_GetSettings(host.world, sheet, &settings));
     settings.material.density *= 2.0f;
@@ -83,9 +81,7 @@ static void TestSettingsChangeWhileItMoves(void** state)
     assert_true(fabs(after.mass - 2.0 * before.mass) < 1e-6 * before.mass);
     const float line[4] = { -0.1f, 0.5f, 0.7f, 0.5f };
     Host_Cut(&host, sheet, line, 2);
-    for (int i = 0; i < 20; ++i) {
-        OK(Host_Tick(&host, DT, 2));
-    }
+    Host_Ticks(&host, 20, DT, 2);
     settings.fadeTime = 0.0f; /* while strains of links fade */
     OK(kiriSheet_SetSettings(host.world, sheet, &settings));
     const float more[4] = { 0.5f, -0.1f, 0.55f, 0.4f };
@@ -105,9 +101,7 @@ static void TestFadesMayBeginWithAnotherLook(void** state)
         def.skinning = KIRI_SKINNING_LINEAR;
         Host_Start(&host);
         kiriSheet sheet = Hang(&host, &def);
-        for (int i = 0; i < 20; ++i) {
-            OK(Host_Tick(&host, DT, 2));
-        }
+        Host_Ticks(&host, 20, DT, 2);
         OK(kiriSheet_GetSettings(host.world, sheet, &settings));
         settings.skinning = KIRI_SKINNING_SMOOTH;
         if (!together) {
@@ -181,9 +175,7 @@ static void TestPointIsWhatIsSeen(void** state)
         def.skinning = skinning;
         kiriSheet sheet = Hang(&host, &def);
         Host_Cut(&host, sheet, line, 2);
-        for (int i = 0; i < 30; ++i) {
-            OK(Host_Tick(&host, DT, 2));
-        }
+        Host_Ticks(&host, 30, DT, 2);
         kiriMesh mesh = Host_Mesh(&host, sheet);
         for (int32_t t = 0; t < mesh.triangleCount; ++t) {
             float rest[2] = { 0.0f, 0.0f }, x[3] = { 0.0f, 0.0f, 0.0f };
@@ -296,9 +288,7 @@ static void TestImpulseIsMomentum(void** state)
         def.material.detail = 0; /* impulses act on the surface without it */
         def.model = way < 2 ? KIRI_MODEL_LINKS : KIRI_MODEL_AFFINE;
         kiriSheet sheet = Hang(&host, &def);
-        for (int i = 0; i < 20; ++i) {
-            OK(Host_Tick(&host, DT, 2));
-        }
+        Host_Ticks(&host, 20, DT, 2);
         Host_Cut(&host, sheet, line, 2);
         OK(Host_Tick(&host, DT, 2));
         kiriTotals before = Host_Totals(&host, sheet);
@@ -361,9 +351,7 @@ static void TestTerminalVelocity(void** state)
         def.timeStepping = way / 2 % 2;
         kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
         OK(kiriSheet_SetWind(host.world, sheet, &wind));
-        for (int i = 0; i < 240; ++i) {
-            OK(Host_Tick(&host, DT, 2));
-        }
+        Host_Ticks(&host, 240, DT, 2);
         kiriTotals totals = Host_Totals(&host, sheet);
         double law = sqrt(totals.mass * 9.81 / (0.5 * 1.2 * 1.2 * totals.area));
         assert_true(fabs(-totals.momentum[2] / totals.mass / law - 1.0) < 0.001);
@@ -617,9 +605,7 @@ static void HangStrip(int32_t skinning, int32_t frameCount, int32_t resolution, 
     def.sleepSpeed = 0.0f;
     kiriSheet sheet = Host_AddRectangle(&host, &def, 0.2f, 0.05f, 40, 10);
     OK(kiriSheet_ClampLine(host.world, sheet, from, to, &clamp));
-    for (int i = 0; i < 600; ++i) {
-        OK(Host_Tick(&host, DT, 2));
-    }
+    Host_Ticks(&host, 600, DT, 2);
     OK(kiriSheet_GetFrames(host.world, sheet, frames, STRIP_FRAMES, &strip->count));
     for (int32_t i = 0; i < strip->count; ++i) {
         OK(kiriFrame_GetState(host.world, frames[i], &strip->frames[i]));
@@ -831,9 +817,7 @@ static void TestTransformMovesAll(void** state)
             OK(kiriSheet_ApplyImpulse(host.world, sheets[i], at, impulse));
             Host_Cut(&host, sheets[i], line, 2);
         }
-        for (int i = 0; i < 10; ++i) {
-            OK(Host_Tick(&host, DT, 2));
-        }
+        Host_Ticks(&host, 10, DT, 2);
         kiriMesh held = Host_Mesh(&host, sheets[1]);
         float first[3] = { held.positions[0], held.positions[1], held.positions[2] };
         OK(kiriSheet_Transform(host.world, sheets[1], quarter, away));
@@ -888,9 +872,7 @@ static void TestVelocityIsRigid(void** state)
         def.material.detail = 0; /* velocities are of the surface without it */
         def.model = model;
         kiriSheet sheet = Hang(&host, &def);
-        for (int i = 0; i < 10; ++i) {
-            OK(Host_Tick(&host, DT, 2));
-        }
+        Host_Ticks(&host, 10, DT, 2);
         OK(kiriSheet_SetVelocity(host.world, sheet, velocity, spin));
         kiriTotals totals = Host_Totals(&host, sheet);
         for (int k = 0; k < 3; ++k) {
@@ -1047,9 +1029,7 @@ static void TestSolidIsClosed(void** state)
         assert_true(fabs(VolumeOf(&solid) - 0.01 * Host_Totals(&host, sheet).area) < 1e-8);
         assert_int_equal(solid.rimTriangle, 2 * mesh.triangleCount);
     }
-    for (int i = 0; i < 30; ++i) {
-        OK(Host_Tick(&host, DT, 2));
-    }
+    Host_Ticks(&host, 30, DT, 2);
     OK(kiriSheet_GetSolid(host.world, sheet, 0.01f, &solid));
     for (int32_t v = solid.indices[3 * solid.rimTriangle + 1]; v < solid.vertexCount; v += 4) { /* rims of drawn edges */
         double dot = 0.0;

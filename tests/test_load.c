@@ -79,9 +79,7 @@ static double HeavyError(int along, double gamma, double x, double drop)
     kiriPin clamp;
     ClampStart(&host, sheet, &strip, &clamp);
     host.every = 100;
-    for (int i = 0; i < 300; ++i) {
-        OK(Host_Tick(&host, 0.01f, 1));
-    }
+    Host_Ticks(&host, 300, 0.01f, 1);
     double tip[3];
     TipOf(&host, sheet, &strip, tip);
     Host_Stop(&host);
@@ -127,9 +125,7 @@ static void TestClampAcross(void** state)
             } else {
                 ClampStart(&host, sheet, &free, &clamp);
             }
-            for (int tick = 0; tick < 300; ++tick) {
-                OK(Host_Tick(&host, 0.01f, 1));
-            }
+            Host_Ticks(&host, 300, 0.01f, 1);
             TipOf(&host, sheet, i == 0 ? &strip : &free, i == 0 ? tip : whole);
             Host_Stop(&host);
         }
@@ -250,9 +246,7 @@ static void TestLineAlongCut(void** state)
         assert_float_equal(Host_Totals(&host, sheets[k]).momentum[2], 0.015, 1e-6);
     }
     OK(kiriWorld_SetGravity(host.world, down));
-    for (int i = 0; i < 100; ++i) {
-        OK(Host_Tick(&host, 0.01f, 1));
-    }
+    Host_Ticks(&host, 100, 0.01f, 1);
     for (int k = 0; k < 2; ++k) {
         assert_float_equal(Host_Totals(&host, sheets[k]).center[2], 0.0, 0.7); /* a free piece has fallen 4.9 m */
     }
@@ -371,9 +365,7 @@ static void TestReactionsAtRest(void** state)
         host.every = 50;
         double force[3], torque[3];
         kiriTotals totals;
-        for (int i = 0; i < 250; ++i) {
-            OK(Host_Tick(&host, 0.04f, 1));
-        }
+        Host_Ticks(&host, 250, 0.04f, 1);
         totals = Host_Totals(&host, sheet);
         SumReactions(&host, sheet, force, torque);
         double weight = totals.mass * (double)9.81f;
@@ -437,9 +429,7 @@ static void TestHoldsBearWind(void** state)
         }
         OK(kiriSheet_SetWind(host.world, sheet, &wind));
         double force[3], torque[3];
-        for (int i = 0; i < 3; ++i) {
-            OK(Host_Tick(&host, 0.01f, 2));
-        }
+        Host_Ticks(&host, 3, 0.01f, 2);
         SumReactions(&host, sheet, force, torque);
         kiriTotals totals = Host_Totals(&host, sheet);
         double speed = sqrt(9.0 + 4.0 + 25.0), pressure = 0.5 * 1.2 * speed * totals.area;
@@ -563,9 +553,7 @@ static void TestHangsFromHinge(void** state)
     Beam beam;
     Beam_Start(&beam, &strip, kiriSheet_HingeLine, NULL);
     OK(kiriWorld_SetGravity(beam.host.world, down));
-    for (int i = 0; i < 1500; ++i) {
-        OK(Host_Tick(&beam.host, 0.01f, 1));
-    }
+    Host_Ticks(&beam.host, 1500, 0.01f, 1);
     double end[3], force[3], torque[3];
     TipOf(&beam.host, beam.sheet, &strip, end);
     assert_float_equal(end[0], 0.0, 1e-5);
@@ -731,9 +719,7 @@ static kiriSheet HangCurtain(Host* host, kiriPin* clamp)
     def.frameCount = 12;
     kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 6, 6);
     OK(kiriSheet_ClampLine(host->world, sheet, top, top + 2, clamp));
-    for (int i = 0; i < 20; ++i) {
-        OK(Host_Tick(host, 1.0f / 60.0f, 2));
-    }
+    Host_Ticks(host, 20, 1.0f / 60.0f, 2);
     Host_Cut(host, sheet, cut, 2);
     OK(Host_Tick(host, 1.0f / 60.0f, 2));
     assert_int_equal(Host_Counts(host, sheet).pieces, 2);
@@ -892,18 +878,14 @@ static void TestCutAtClamp(void** state)
     kiriPin clamp;
     ClampStart(&host, sheet, &strip, &clamp);
     double force[3], torque[3];
-    for (int i = 0; i < 300; ++i) {
-        OK(Host_Tick(&host, 0.01f, 1));
-    }
+    Host_Ticks(&host, 300, 0.01f, 1);
     OK(kiriPin_GetReaction(host.world, clamp, force, torque));
     assert_float_equal(force[2], weight, 1e-4 * weight);
     Host_Cut(&host, sheet, slit, 2);
     OK(Host_Tick(&host, 0.001f, 1));
     OK(kiriPin_GetReaction(host.world, clamp, force, torque));
     assert_float_equal(force[2], 0.8 * weight, 0.25 * weight); /* 0.6 at the end, 1 before */
-    for (int i = 0; i < 600; ++i) {
-        OK(Host_Tick(&host, 0.01f, 1));
-    }
+    Host_Ticks(&host, 600, 0.01f, 1);
     OK(kiriPin_GetReaction(host.world, clamp, force, torque));
     assert_float_equal(force[2], weight, 1e-4 * weight);
     Host_Stop(&host);

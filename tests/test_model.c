@@ -233,9 +233,7 @@ static void PlanarEqualsSpace(void** state)
             kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 3, 3);
             kiriFrameState held = StateOf(&host, sheet, 0);
             OK(kiriFrame_Hold(host.world, FrameOf(&host, sheet, 0), held.position, held.rotation));
-            for (int tick = 0; tick < 60; ++tick) {
-                OK(Host_Tick(&host, 0.01f, 2));
-            }
+            Host_Ticks(&host, 60, 0.01f, 2);
             states[planar] = StateOf(&host, sheet, 3);
             assert_true(fabs((double)states[planar].position[0] - states[planar].restPoint[0]) > 1e-4);
             Host_Stop(&host);

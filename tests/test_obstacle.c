@@ -196,9 +196,7 @@ static kiriSheet AddPlate(Host* host, float x, float z, float thickness)
 
 static void Ticks(Host* host, int count)
 {
-    for (int i = 0; i < count; ++i) {
-        OK(Host_Tick(host, dt, 2));
-    }
+    Host_Ticks(host, count, dt, 2);
 }
 
 static bool IsAwake(const Host* host, kiriSheet sheet)
@@ -444,9 +442,7 @@ static void SlowLiftsCarry(void** state)
     kiriSheet sheet = RestOn(&host, box);
     const float up[3] = { 0.0f, 0.0f, 0.0008f }, none[3] = { 0 };
     OK(kiriObstacle_SetVelocity(host.world, box, up, none));
-    for (int i = 0; i < 600; ++i) {
-        OK(Host_Tick(&host, dt, 2));
-    }
+    Host_Ticks(&host, 600, dt, 2);
     double height = TotalsOf(&host, sheet).center[2] - (double)StateOf(&host, box).position[2];
     assert_true(fabs(StateOf(&host, box).position[2] - 0.008) < 1e-5);
     assert_true(fabs(height - 0.205) < 8e-4);

@@ -148,9 +148,7 @@ static void TestSleeperIsMet(void** state)
             host.failAt = -1;
         }
         assert_true(IsAwake(&host, sleeper));
-        for (int tick = 0; tick < 30; ++tick) {
-            OK(Host_Tick(&host, dt, 2));
-        }
+        Host_Ticks(&host, 30, dt, 2);
         Host_Stop(&host);
     }
 }
@@ -261,17 +259,13 @@ static void TestWhatTouchesWakesAndFallsAsleepTogether(void** state)
     StartPile(&host, sheets);
     TickUntilAsleep(&host, sheets, PILE, 300);
     OK(kiriSheet_Wake(host.world, sheets[0]));
-    for (int tick = 0; tick < PILE; ++tick) {
-        OK(Host_Tick(&host, dt, 2));
-    }
+    Host_Ticks(&host, PILE, dt, 2);
     assert_int_equal(CountAwake(&host, sheets, PILE), PILE);
     TickUntilAsleep(&host, sheets, PILE, 300);
     /* What lay on a sheet that is gone falls. */
     double height = Host_Totals(&host, sheets[1]).center[2];
     OK(kiriDestroySheet(host.world, sheets[0]));
-    for (int tick = 0; tick < 20; ++tick) {
-        OK(Host_Tick(&host, dt, 2));
-    }
+    Host_Ticks(&host, 20, dt, 2);
     assert_true(Host_Totals(&host, sheets[1]).center[2] < height - 0.003);
     Host_Stop(&host);
 }
@@ -301,9 +295,7 @@ static double Sag(bool isLoaded)
         def.frameCount = def.maxFrames = 1;
         Host_AddRectangle(&host, &def, 0.1f, 0.1f, 8, 8);
     }
-    for (int tick = 0; tick < 240; ++tick) {
-        OK(Host_Tick(&host, dt, 2));
-    }
+    Host_Ticks(&host, 240, dt, 2);
     double sag = -Host_Totals(&host, cloth).center[2];
     Host_Stop(&host);
     return sag;
@@ -326,9 +318,7 @@ static void TestFallingPairFallsFreely(void** state)
     kiriSheet upper = AddSquare(&host, &def);
     def = SquareDef(2.0f, 0.0f, 0.0045f);
     kiriSheet alone = AddSquare(&host, &def);
-    for (int tick = 0; tick < 30; ++tick) {
-        OK(Host_Tick(&host, dt, 2));
-    }
+    Host_Ticks(&host, 30, dt, 2);
     double fallen = Host_Totals(&host, alone).center[2];
     assert_true(fallen < -1.0);
     assert_true(fabs(Host_Totals(&host, upper).center[2] - fallen) < 0.005);
@@ -398,9 +388,7 @@ static int32_t FoldOnce(int32_t selfContact, uint64_t* hash)
     }
     int32_t crossing = Crossing_MeasureSelf(host.world, sheet).crossing;
     Host_Cut(&host, sheet, (const float[]){ -0.1f, 0.2f, 0.7f, 0.21f }, 2);
-    for (int tick = 0; tick < 20; ++tick) {
-        OK(Host_Tick(&host, dt, 2));
-    }
+    Host_Ticks(&host, 20, dt, 2);
     *hash = Host_Hash(&host);
     Host_Stop(&host);
     return crossing;
@@ -423,9 +411,7 @@ static void TestSameCallsSameBits(void** state)
         Host host;
         kiriSheet sheets[PILE];
         StartPile(&host, sheets);
-        for (int tick = 0; tick < 40; ++tick) {
-            OK(Host_Tick(&host, dt, 2));
-        }
+        Host_Ticks(&host, 40, dt, 2);
         hashes[run] = Host_Hash(&host);
         Host_Stop(&host);
     }
@@ -439,14 +425,10 @@ static void TestPlainTicksAllocateNothing(void** state)
     StartPile(&host, sheets);
     TickUntilAsleep(&host, sheets, PILE, 300);
     OK(kiriSheet_Wake(host.world, sheets[0]));
-    for (int tick = 0; tick < 10; ++tick) {
-        OK(Host_Tick(&host, dt, 2));
-    }
+    Host_Ticks(&host, 10, dt, 2);
     assert_true(Pairs(&host) >= PILE - 1);
     int64_t calls = host.calls;
-    for (int tick = 0; tick < 10; ++tick) {
-        OK(Host_Tick(&host, dt, 2));
-    }
+    Host_Ticks(&host, 10, dt, 2);
     assert_true(host.calls == calls);
     Host_Stop(&host);
 }

@@ -65,9 +65,7 @@ static double Strip_Bend(Strip* s, double from, double to, int32_t ticks)
 
 static void Strip_Rest(Strip* s, int32_t ticks)
 {
-    for (int32_t t = 0; t < ticks; ++t) {
-        OK(Host_Tick(&s->host, Dt, 2));
-    }
+    Host_Ticks(&s->host, ticks, Dt, 2);
 }
 
 static double TurnOf(const kiriFrameState* state)
