@@ -157,6 +157,17 @@ static inline double kiriVec3_Dot(kiriVec3 a, kiriVec3 b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
+/* Return the least, and the greatest, of each component. */
+static inline kiriVec3 kiriVec3_Least(kiriVec3 a, kiriVec3 b)
+{
+    return kiriVec3_Make(kiriMin(a.x, b.x), kiriMin(a.y, b.y), kiriMin(a.z, b.z));
+}
+
+static inline kiriVec3 kiriVec3_Most(kiriVec3 a, kiriVec3 b)
+{
+    return kiriVec3_Make(kiriMax(a.x, b.x), kiriMax(a.y, b.y), kiriMax(a.z, b.z));
+}
+
 /* Returns the part of a vector across a unit vector. */
 static inline kiriVec3 kiriVec3_Across(kiriVec3 a, kiriVec3 unit)
 {

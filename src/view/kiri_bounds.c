@@ -7,22 +7,6 @@ enum { LEAF_SIZE = 8, NODE_SIZE = 4 }; /* triangles of a leaf, children of a nod
 
 /* ---- Boxes ------------------------------------------------------------------------------------------------------- */
 
-static kiriVec3 Least(kiriVec3 a, kiriVec3 b)
-{
-    return kiriVec3_Make(kiriMin(a.x, b.x), kiriMin(a.y, b.y), kiriMin(a.z, b.z));
-}
-
-static kiriVec3 Most(kiriVec3 a, kiriVec3 b)
-{
-    return kiriVec3_Make(kiriMax(a.x, b.x), kiriMax(a.y, b.y), kiriMax(a.z, b.z));
-}
-
-void kiriBox_Add(kiriBox* box, kiriVec3 at)
-{
-    box->lower = Least(at, box->lower);
-    box->upper = Most(at, box->upper);
-}
-
 double kiriBox_Farthest(const kiriBox* box, kiriVec3 from)
 {
     kiriVec3 a = kiriVec3_Sub(box->lower, from), b = kiriVec3_Sub(box->upper, from);
@@ -170,15 +154,14 @@ static void FitBoxes(kiriBounds* bounds, const kiriSurface* surface, const uint8
             int32_t first, end = LeafItems(bounds, level, node, &first);
             kiriBox box = KIRI_EMPTY_BOX;
             for (int32_t i = first; level > 0 && i < end; ++i) {
-                box.lower = Least(nodes[i].lower, box.lower);
-                box.upper = Most(nodes[i].upper, box.upper);
+                box.lower = kiriVec3_Least(nodes[i].lower, box.lower);
+                box.upper = kiriVec3_Most(nodes[i].upper, box.upper);
             }
             for (int32_t i = first; level == 0 && i < end; ++i) {
                 const int32_t* corner = kiriSurface_Triangle(surface, bounds->order.data[i]);
                 for (int k = 0; k < 3 && corner[0] != corner[1]; ++k) {
                     kiriVec3 at = kiriSurface_At(surface, corner[k]);
-                    box.lower = Least(at, box.lower);
-                    box.upper = Most(at, box.upper);
+                    kiriBox_Add(&box, at);
                 }
             }
             nodes[node] = box;
@@ -468,7 +451,7 @@ static double SquareToItem(const NearSearch* search, int32_t level, int32_t item
         }
         box = kiriBox_OfTriangle(search->surface, triangle);
     }
-    kiriVec3 off = kiriVec3_Sub(search->from, Most(Least(search->from, box.upper), box.lower));
+    kiriVec3 off = kiriVec3_Sub(search->from, kiriVec3_Most(kiriVec3_Least(search->from, box.upper), box.lower));
     return kiriVec3_Dot(off, off);
 }
 
@@ -601,7 +584,7 @@ void kiriSurface_Raycast(const kiriSurface* surface, const kiriBounds* bounds, k
     if (bounds != NULL && kiriBounds_IsFresh(bounds, surface)) {
         if (bounds->nodes.count > 0) {
             kiriBox all = kiriBounds_All(bounds);
-            kiriVec3 most = Most(Most(all.upper, kiriVec3_Scale(-1.0, all.lower)),
+            kiriVec3 most = kiriVec3_Most(kiriVec3_Most(all.upper, kiriVec3_Scale(-1.0, all.lower)),
                                  kiriVec3_Make(fabs(origin.x), fabs(origin.y), fabs(origin.z)));
             search.ray.slack = 1e-9 * kiriMax(kiriMax(most.x, most.y), most.z) + surface->detail.longest;
         }

@@ -54,7 +54,11 @@ static inline bool kiriBox_Meet(const kiriBox* a, const kiriBox* b)
 #define KIRI_EMPTY_BOX ((kiriBox){ { DBL_MAX, DBL_MAX, DBL_MAX }, { -DBL_MAX, -DBL_MAX, -DBL_MAX } })
 
 /* Enlarges the box to hold a point. */
-void kiriBox_Add(kiriBox* box, kiriVec3 at);
+static inline void kiriBox_Add(kiriBox* box, kiriVec3 at)
+{
+    box->lower = kiriVec3_Least(at, box->lower);
+    box->upper = kiriVec3_Most(at, box->upper);
+}
 
 /* Returns the distance from a point to the farthest corner of the box. */
 double kiriBox_Farthest(const kiriBox* box, kiriVec3 from);
