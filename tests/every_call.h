@@ -92,6 +92,7 @@
     READS(kiriSheet_GetPins, world, 0, NULL, 0, NULL)                                                                  \
     CHANGES(kiriDestroyPin, world, 0)                                                                                  \
     READS(kiriSeam_GetCount, world, 0, NULL)                                                                           \
+    CHANGES(kiriSeam_SetHinge, world, 0, 0, 0)                                                                         \
     READS(kiriWorld_GetSeams, world, NULL, 0, NULL)                                                                    \
     READS(kiriSeam_GetStitch, world, 0, 0, NULL)                                                                       \
     CHANGES(kiriDestroySeam, world, 0)                                                                                 \

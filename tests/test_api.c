@@ -162,6 +162,7 @@ static void NullWorld(void** state)
         kiriDestroyPin(NULL, 1),
         kiriCreateSeam(NULL, NULL, &id),
         kiriDestroySeam(NULL, 1),
+        kiriSeam_SetHinge(NULL, 1, 0.0f, 0.0f),
         kiriSeam_GetStitch(NULL, 1, 0, NULL),
         kiriSeam_GetCount(NULL, 1, &count),
         kiriWorld_GetSeams(NULL, &id, 1, &count),

@@ -202,6 +202,7 @@ static void Sew(Tape* tape, kiriSheet sheet, kiriSheet other)
     OK(kiriCreateSeam(world, &def, &seam));
     OK(kiriDestroySeam(world, seam));
     OK(kiriCreateSeam(world, &def, &seam));
+    OK(kiriSeam_SetHinge(world, seam, 0.01f, 0.5f));
     Tape_Tick(tape);
 }
 

@@ -72,6 +72,11 @@ static double Gap(const Host* host, kiriSeam seam)
     return gap;
 }
 
+static double Distance(const float a[3], const float b[3])
+{
+    return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
+}
+
 static void HoldTop(Host* host, kiriSheet sheet)
 {
     kiriPinDef pin;
@@ -216,6 +221,166 @@ static void TestTube(void** state)
     Host_Stop(&host);
 }
 
+/* A sleeve of two panels around an arm that moves at 0.9 m/s: the drawn lips stay together. */
+static void TestSleeve(void** state)
+{
+    (void)state;
+    static const float axes[9] = { 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 1.0f, 0.0f, 0.0f };
+    static const float ways[5][3] = { { 0.0f }, { 0.0f, 0.9f }, { 0.0f, -0.9f }, { 0.0f, 0.0f, 0.9f }, { 0.0f, 0.0f, -0.9f } };
+    const float lines[2][4] = { { 0.0f, 0.0f, 0.4f, 0.0f }, { 0.0f, 0.2f, 0.4f, 0.2f } };
+    Host host;
+    Host_Start(&host);
+    host.every = 50;
+    kiriSheetDef def = Host_SmallDef();
+    kiriSheet panels[2];
+    kiriSeam seams[2];
+    kiriObstacleDef arm;
+    kiriObstacle obstacle;
+    def.gridResolution = 32;
+    def.framePoints = NULL;
+    def.frameCount = 16;
+    def.contactThickness = 0.004f;
+    def.position[0] = -0.2f;
+    def.position[1] = -0.1f;
+    for (int k = 0; k < 2; ++k) {
+        def.position[2] = k == 0 ? 0.055f : -0.055f;
+        panels[k] = Host_AddRectangle(&host, &def, 0.4f, 0.2f, 24, 12);
+    }
+    for (int k = 0; k < 2; ++k) {
+        kiriSeamDef seam = SeamDef(panels[0], lines[k], panels[1], lines[k], 2);
+        OK(kiriCreateSeam(host.world, &seam, &seams[k]));
+    }
+    kiriDefaultObstacleDef(&arm);
+    arm.type = KIRI_OBSTACLE_CAPSULE;
+    arm.radius = 0.045f;
+    arm.height = 0.5f;
+    memcpy(arm.rotation, axes, sizeof(axes));
+    OK(kiriCreateObstacle(host.world, &arm, &obstacle));
+    double most = 0.0; /* m */
+    for (int32_t tick = 0; tick < 220; ++tick) {
+        OK(kiriObstacle_SetVelocity(host.world, obstacle, ways[tick < 60 ? 0 : 1 + tick / 20 % 4], ways[0]));
+        OK(Host_Tick(&host, dt, 2));
+        for (int k = 0; tick >= 50 && k < 2; ++k) {
+            kiriStitch stitches[MOST_STITCHES];
+            int32_t count = GetStitches(&host, seams[k], stitches);
+            for (int32_t n = 0; n < count; ++n) {
+                kiriPointState a, b;
+                OK(kiriSheet_GetPoint(host.world, panels[0], stitches[n].restA, &a));
+                OK(kiriSheet_GetPoint(host.world, panels[1], stitches[n].restB, &b));
+                most = fmax(Distance(a.position, b.position), most);
+            }
+        }
+    }
+    assert_true(most < 1e-3);
+    Host_Stop(&host);
+}
+
+/* Half of a sheet hangs on a hinge: stiffness times angle is the moment of its weight. */
+static void Hinge(int32_t frames, float stiffness)
+{
+    static const float eye[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
+    const float b = 0.05f, edge[4] = { b, 0.0f, b, b }, other[4] = { 0.0f, 0.0f, 0.0f, b };
+    Host host;
+    kiriFrame held[16];
+    int32_t count;
+    Host_Start(&host);
+    host.every = 100;
+    kiriSheetDef def = Host_SmallDef();
+    def.material = (kiriMaterial){ 2e9f, 0.0f, 3e-4f, 800.0f, 5.0f, 0.01f, 0.0f, 0.0f, 0 };
+    def.framePoints = NULL;
+    kiriSheet a = Host_AddRectangle(&host, &def, b, b, 8, 8);
+    def.position[0] = b;
+    def.frameCount = frames;
+    kiriSheet hanging = Host_AddRectangle(&host, &def, b, b, 8, 8);
+    OK(kiriSheet_GetFrames(host.world, a, held, 16, &count));
+    for (int32_t i = 0; i < count; ++i) {
+        kiriFrameState frame;
+        OK(kiriFrame_GetState(host.world, held[i], &frame));
+        OK(kiriFrame_Hold(host.world, held[i], frame.position, eye));
+    }
+    kiriSeamDef seam = SeamDef(a, edge, hanging, other, 2);
+    kiriSeam made;
+    kiriStitch stitch;
+    OK(kiriCreateSeam(host.world, &seam, &made));
+    OK(kiriSeam_SetHinge(host.world, made, stiffness, 0.0f));
+    for (int32_t tick = 0; tick < 300; ++tick) {
+        OK(Host_Tick(&host, dt, 2));
+    }
+    OK(kiriSeam_GetStitch(host.world, made, 1, &stitch));
+    double moment = 800.0 * 3e-4 * 9.81 * b * b / 2.0 * cos(stitch.angle);
+    assert_true(fabs(-stitch.angle * stiffness / moment - 1.0) < 0.03);
+    OK(kiriSeam_SetHinge(host.world, made, 1.0f, 1.0f)); /* it lifts the sheet to the angle at which the hinge rests */
+    for (int32_t tick = 0; tick < 300; ++tick) {
+        OK(Host_Tick(&host, dt, 2));
+    }
+    OK(kiriSeam_GetStitch(host.world, made, 1, &stitch));
+    assert_true(fabs(stitch.angle - 1.0) < 0.05);
+    Host_Stop(&host);
+}
+
+static void TestHinge(void** state)
+{
+    (void)state;
+    Hinge(4, 5e-3f);
+    Hinge(9, 5e-4f);
+}
+
+/* A strip of paper becomes a ring: its bending energy is 1/2 E h^3 / 12 (2 pi)^2 width / length. */
+static void TestRing(void** state)
+{
+    (void)state;
+    enum { FRAMES = 12 };
+    static const float none[3] = { 0.0f, 0.0f, 0.0f };
+    const float length = 0.3f, width = 0.03f;
+    static const float end[4] = { 0.3f, 0.0f, 0.3f, 0.03f }, start[4] = { 0.0f, 0.0f, 0.0f, 0.03f };
+    Host host;
+    float points[2 * FRAMES];
+    Host_Start(&host);
+    host.every = 100;
+    OK(kiriWorld_SetGravity(host.world, none));
+    kiriSheetDef def = Host_SmallDef();
+    OK(kiriGetMaterial(KIRI_MATERIAL_PAPER, &def.material));
+    def.material.poissonsRatio = def.material.yieldStress = 0.0f;
+    def.material.airDamping = 3.0f;
+    for (int i = 0; i < FRAMES; ++i) {
+        points[2 * i] = length * ((float)i + 0.5f) / FRAMES;
+        points[2 * i + 1] = 0.5f * width;
+    }
+    def.framePoints = points;
+    def.frameCount = FRAMES;
+    def.gridResolution = 48;
+    kiriSheet sheet = Host_AddRectangle(&host, &def, length, width, 48, 4);
+    kiriFrame frames[FRAMES];
+    int32_t count;
+    OK(kiriSheet_GetFrames(host.world, sheet, frames, FRAMES, &count));
+    assert_int_equal(count, FRAMES);
+    for (int i = 0; i < FRAMES; ++i) { /* roll it up */
+        double turn = 2.0 * 3.14159265358979 * (i + 0.5) / FRAMES, radius = length / (2.0 * 3.14159265358979);
+        float c = (float)cos(turn), s = (float)sin(turn);
+        const float x[3] = { (float)radius * s, 0.5f * width, (float)radius * (1.0f - c) };
+        const float axes[9] = { c, 0.0f, s, 0.0f, 1.0f, 0.0f, -s, 0.0f, c };
+        OK(kiriFrame_Hold(host.world, frames[i], x, axes));
+    }
+    OK(Host_Tick(&host, dt, 2));
+    kiriSeamDef seam = SeamDef(sheet, end, sheet, start, 2);
+    kiriSeam made;
+    seam.stiffness = 1e3f; /* glued */
+    OK(kiriCreateSeam(host.world, &seam, &made));
+    for (int i = 0; i < FRAMES; ++i) {
+        OK(kiriFrame_Hold(host.world, frames[i], NULL, NULL));
+    }
+    for (int32_t tick = 0; tick < 300; ++tick) {
+        OK(Host_Tick(&host, dt, 2));
+    }
+    kiriTotals totals;
+    OK(kiriSheet_GetTotals(host.world, sheet, &totals));
+    double h = def.material.thickness, stiffness = def.material.youngsModulus * h * h * h / 12.0;
+    double theory = 0.5 * stiffness * 39.478417604 * width / length;
+    double part = (FRAMES - 1.0) / FRAMES; /* the seam has the rest */
+    assert_true(fabs(totals.elasticEnergy / (part * theory) - 1.0) < 0.01);
+    Host_Stop(&host);
+}
+
 /* ---- Cuts, pieces and sheets ------------------------------------------------------------------------------------- */
 
 /* A cut through both sheets parts the seam. Pieces become sheets, and are destroyed. */
@@ -297,6 +462,51 @@ static void TestBreak(void** state)
     assert_int_equal(left, 0);
     assert_int_equal(kiriDestroySeam(host.world, pair.seam), KIRI_ERROR_ID);
     Host_Stop(&host);
+}
+
+/* Strips of paper end to end, pulled apart by a force that grows: the seam breaks at its strength. */
+static void Pull(int32_t framesA, int32_t framesB)
+{
+    static const float none[3] = { 0.0f, 0.0f, 0.0f };
+    static const float edge[4] = { 0.1f, 0.0f, 0.1f, 0.08f }, start[4] = { 0.0f, 0.0f, 0.0f, 0.08f };
+    const float strength = 2.0f;
+    Host host;
+    kiriPin clamp;
+    kiriSeam made;
+    int32_t tick = 0, count;
+    Host_Start(&host);
+    host.every = 100;
+    OK(kiriWorld_SetGravity(host.world, none));
+    kiriSheetDef def = Host_SmallDef();
+    OK(kiriGetMaterial(KIRI_MATERIAL_PAPER, &def.material));
+    def.material.airDamping = 20.0f;
+    def.gridResolution = 32;
+    def.framePoints = NULL;
+    def.frameCount = framesA;
+    kiriSheet a = Host_AddRectangle(&host, &def, 0.1f, 0.08f, 10, 8);
+    def.position[0] = 0.1f;
+    def.frameCount = framesB;
+    kiriSheet b = Host_AddRectangle(&host, &def, 0.1f, 0.08f, 10, 8);
+    OK(kiriSheet_ClampLine(host.world, a, start, start + 2, &clamp));
+    kiriSeamDef seam = SeamDef(a, edge, b, start, 2);
+    seam.breakForce = strength;
+    OK(kiriCreateSeam(host.world, &seam, &made));
+    for (; kiriSeam_GetCount(host.world, made, &count) == KIRI_OK; ++tick) {
+        const float force[3] = { strength * 0.002f * (float)tick, 0.0f, 0.0f };
+        OK(kiriSheet_ApplyLineLoad(host.world, b, edge, edge + 2, force));
+        OK(Host_Tick(&host, dt, 2));
+        assert_true(tick < 600);
+    }
+    assert_true(fabs(0.002 * tick - 1.0) < 0.1);
+    Host_Stop(&host);
+}
+
+static void TestStrength(void** state)
+{
+    (void)state;
+    Pull(6, 6);
+    Pull(9, 9);
+    Pull(16, 16);
 }
 
 /* ---- Bytes ------------------------------------------------------------------------------------------------------- */
@@ -441,6 +651,13 @@ static void TestArguments(void** state)
     d.stitches = -1;
     Refused(&host, &d, KIRI_ERROR_ARGUMENT, "stitches");
     d.stitches = 0;
+    d.stiffness = -1.0f;
+    Refused(&host, &d, KIRI_ERROR_ARGUMENT, "stiffness");
+    d.stiffness = 0.0f;
+    d.restAngle = 4.0f;
+    Refused(&host, &d, KIRI_ERROR_ARGUMENT, "restAngle");
+    d.restAngle = 0.0f;
+    assert_int_equal(kiriSeam_SetHinge(host.world, pair.seam, 1.0f, 4.0f), KIRI_ERROR_ARGUMENT);
     d.breakForce = -1.0f;
     Refused(&host, &d, KIRI_ERROR_ARGUMENT, "breakForce");
     assert_int_equal(kiriDestroySeam(host.world, pair.a), KIRI_ERROR_ID);
@@ -453,6 +670,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestMomentum), cmocka_unit_test(TestSleep),  cmocka_unit_test(TestTube),
+        cmocka_unit_test(TestSleeve), cmocka_unit_test(TestHinge), cmocka_unit_test(TestRing), cmocka_unit_test(TestStrength),
         cmocka_unit_test(TestPieces),   cmocka_unit_test(TestBreak),  cmocka_unit_test(TestSaves),
         cmocka_unit_test(TestReplay),   cmocka_unit_test(TestMemory), cmocka_unit_test(TestArguments),
     };

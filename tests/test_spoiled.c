@@ -253,7 +253,7 @@ SPOIL_STITCH(FrameIsNone, stitch->frames[0] = 12345)
 SPOIL_STITCH(PointIsFar, stitch->at[1].x = INT32_MAX)
 SPOIL_STITCH(PointIsOutside, stitch->at[1].x -= 1 << 24)
 SPOIL_STITCH(LengthIsNegative, stitch->length = -1.0)
-SPOIL_STITCH(StiffnessIsZero, stitch->stiffness = 0.0)
+SPOIL_STITCH(ShareIsZero, stitch->share = 0.0)
 SPOIL_STITCH(SeamIsOther, sewn.world->seams.data[0]->id += 1)
 SPOIL_STITCH(SeamIsEmpty, sewn.world->seams.data[0]->stitches.count = 0)
 
@@ -263,7 +263,7 @@ static void TestSeams(void** state)
     static const Spoiler spoilers[] = {
         { "FrameIsNone", FrameIsNone },         { "PointIsFar", PointIsFar },
         { "PointIsOutside", PointIsOutside },   { "LengthIsNegative", LengthIsNegative },
-        { "StiffnessIsZero", StiffnessIsZero }, { "SeamIsOther", SeamIsOther },
+        { "ShareIsZero", ShareIsZero }, { "SeamIsOther", SeamIsOther },
         { "SeamIsEmpty", SeamIsEmpty },
     };
     static const float right[4] = { 1.0f, 0.0f, 1.0f, 1.0f }, left[4] = { 0.0f, 0.0f, 0.0f, 1.0f };

@@ -898,6 +898,10 @@ type SeamDef struct {
 	LineB [][2]float32
 	// up to 4096; 0 (default): two for each distance of frames
 	Stitches int32
+	// N m/rad per m: of a hinge along the seam, in series with the material of both sides; 0: free
+	Stiffness float32
+	// rad, -pi to pi: 0 flat; above 0 sheet B turns to the side of A's normal
+	RestAngle float32
 	// N/m: a stitch breaks in a tick with a larger force for its length; 0: never
 	BreakForce float32
 }
@@ -916,6 +920,8 @@ type Stitch struct {
 	Gap float32
 	// N, on sheet A: mean over the last tick that moved it
 	Force [3]float32
+	// rad, as restAngle
+	Angle float32
 }
 
 // A contact of a point of the material: the plane dot(normal, x) = offset keeps the point on its upper side, and
@@ -1190,6 +1196,8 @@ func (def *SeamDef) toC(pinner *runtime.Pinner) *C.kiriSeamDef {
 	c.countA = C.int32_t(len(def.LineA))
 	c.countB = C.int32_t(len(def.LineB))
 	c.stitches = C.int32_t(def.Stitches)
+	c.stiffness = C.float(def.Stiffness)
+	c.restAngle = C.float(def.RestAngle)
 	c.breakForce = C.float(def.BreakForce)
 	return c
 }
@@ -1199,6 +1207,8 @@ func (def *SeamDef) fromC(c *C.kiriSeamDef) {
 	def.SheetA = SheetID(c.sheetA)
 	def.SheetB = SheetID(c.sheetB)
 	def.Stitches = int32(c.stitches)
+	def.Stiffness = float32(c.stiffness)
+	def.RestAngle = float32(c.restAngle)
 	def.BreakForce = float32(c.breakForce)
 }
 
@@ -2941,6 +2951,19 @@ func (s Seam) Destroy() (bool, error) {
 	return result == C.KIRI_PENDING, nil
 }
 
+// Sets stiffness and restAngle, as in the def.
+func (s Seam) SetHinge(stiffness float32, restAngle float32) (bool, error) {
+	if err := s.World.check(); err != nil {
+		return false, err
+	}
+	result := C.kiriSeam_SetHinge(s.World.c, C.kiriSeam(s.ID), C.float(stiffness), C.float(restAngle))
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSeam_SetHinge", result, true); err != nil {
+		return false, err
+	}
+	return result == C.KIRI_PENDING, nil
+}
+
 var poolSeamGetStitch pool[struct {
 	stitch Stitch
 }]
@@ -3327,6 +3350,7 @@ var functions = map[string]string{
 	"kiriDefaultSeamDef": ".DefaultSeamDef",
 	"kiriCreateSeam": "World.CreateSeam",
 	"kiriDestroySeam": "Seam.Destroy",
+	"kiriSeam_SetHinge": "Seam.SetHinge",
 	"kiriSeam_GetStitch": "Seam.Stitch",
 	"kiriSeam_GetCount": "Seam.Count",
 	"kiriWorld_GetSeams": "World.Seams",

@@ -362,10 +362,12 @@ static const Field SEAM_DEF_FIELDS[] = {
     { "line_a", TYPE_FLOAT, KIND_VECTORS2, (int)offsetof(kiriSeamDef, lineA), 1, (int)offsetof(kiriSeamDef, countA), 2, 0, CLASS_NONE, NULL },
     { "line_b", TYPE_FLOAT, KIND_VECTORS2, (int)offsetof(kiriSeamDef, lineB), 1, (int)offsetof(kiriSeamDef, countB), 2, 0, CLASS_NONE, NULL },
     { "stitches", TYPE_INT32, KIND_INT, (int)offsetof(kiriSeamDef, stitches), 1, 0, 0, 0, CLASS_NONE, NULL },
+    { "stiffness", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriSeamDef, stiffness), 1, 0, 0, 0, CLASS_NONE, NULL },
+    { "rest_angle", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriSeamDef, restAngle), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "break_force", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriSeamDef, breakForce), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-static const Struct SEAM_DEF = { "SeamDef", (int)sizeof(kiriSeamDef), 6, SEAM_DEF_FIELDS, FillSeamDef, NULL };
+static const Struct SEAM_DEF = { "SeamDef", (int)sizeof(kiriSeamDef), 8, SEAM_DEF_FIELDS, FillSeamDef, NULL };
 
 static const Field STITCH_FIELDS[] = {
     { "sheet_a", TYPE_ID, KIND_OBJECT, (int)offsetof(kiriStitch, sheetA), 1, 0, 0, 0, CLASS_SHEET, NULL },
@@ -375,9 +377,10 @@ static const Field STITCH_FIELDS[] = {
     { "position", TYPE_FLOAT, KIND_VECTOR3, (int)offsetof(kiriStitch, position), 3, 0, 0, 0, CLASS_NONE, NULL },
     { "gap", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriStitch, gap), 1, 0, 0, 0, CLASS_NONE, NULL },
     { "force", TYPE_FLOAT, KIND_VECTOR3, (int)offsetof(kiriStitch, force), 3, 0, 0, 0, CLASS_NONE, NULL },
+    { "angle", TYPE_FLOAT, KIND_REAL, (int)offsetof(kiriStitch, angle), 1, 0, 0, 0, CLASS_NONE, NULL },
 };
 
-static const Struct STITCH = { "Stitch", (int)sizeof(kiriStitch), 7, STITCH_FIELDS, NULL, NULL };
+static const Struct STITCH = { "Stitch", (int)sizeof(kiriStitch), 8, STITCH_FIELDS, NULL, NULL };
 
 static const Field CONTACT_FIELDS[] = {
     { "point", TYPE_INT32, KIND_INT, (int)offsetof(kiriContact, point), 1, 0, 0, 0, CLASS_NONE, NULL },
@@ -1948,6 +1951,23 @@ static const Parameter SEAM_DESTROY_PARAMETERS[] = {
     { "seam", FORM_SELF, TYPE_ID, KIND_OBJECT, 1, 0, 0, 0, CLASS_SEAM, NULL, NULL },
 };
 
+static const Argument SEAM_SET_HINGE_ARGUMENTS[] = {
+    { "stiffness", KIND_REAL, CLASS_NONE },
+    { "rest_angle", KIND_REAL, CLASS_NONE },
+};
+
+static int64_t Call_kiriSeam_SetHinge(void* const* a)
+{
+    return kiriSeam_SetHinge(a[0], *(kiriSeam*)a[1], *(float*)a[2], *(float*)a[3]);
+}
+
+static const Parameter SEAM_SET_HINGE_PARAMETERS[] = {
+    { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "seam", FORM_SELF, TYPE_ID, KIND_OBJECT, 1, 0, 0, 0, CLASS_SEAM, NULL, NULL },
+    { "stiffness", FORM_IN, TYPE_FLOAT, KIND_REAL, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "rest_angle", FORM_IN, TYPE_FLOAT, KIND_REAL, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
+};
+
 static const Argument SEAM_GET_STITCH_ARGUMENTS[] = {
     { "index", KIND_INT, CLASS_NONE },
 };
@@ -2269,6 +2289,7 @@ const Method METHODS[] = {
     { CLASS_KIRI, "default_seam_def", "kiriDefaultSeamDef", RETURNS_NOTHING, KIND_DICTIONARY, CLASS_NONE, 0, 0, NULL, 1, KIRI_DEFAULT_SEAM_DEF_PARAMETERS, Call_kiriDefaultSeamDef, NULL },
     { CLASS_WORLD, "create_seam", "kiriCreateSeam", RETURNS_RESULT, KIND_OBJECT, CLASS_SEAM, 1, 1, WORLD_CREATE_SEAM_ARGUMENTS, 3, WORLD_CREATE_SEAM_PARAMETERS, Call_kiriCreateSeam, NULL },
     { CLASS_SEAM, "destroy", "kiriDestroySeam", RETURNS_RESULT, KIND_INT, CLASS_NONE, 0, 0, NULL, 2, SEAM_DESTROY_PARAMETERS, Call_kiriDestroySeam, NULL },
+    { CLASS_SEAM, "set_hinge", "kiriSeam_SetHinge", RETURNS_RESULT, KIND_INT, CLASS_NONE, 2, 2, SEAM_SET_HINGE_ARGUMENTS, 4, SEAM_SET_HINGE_PARAMETERS, Call_kiriSeam_SetHinge, NULL },
     { CLASS_SEAM, "get_stitch", "kiriSeam_GetStitch", RETURNS_RESULT, KIND_DICTIONARY, CLASS_NONE, 1, 1, SEAM_GET_STITCH_ARGUMENTS, 4, SEAM_GET_STITCH_PARAMETERS, Call_kiriSeam_GetStitch, NULL },
     { CLASS_SEAM, "get_count", "kiriSeam_GetCount", RETURNS_RESULT, KIND_INT, CLASS_NONE, 0, 0, NULL, 3, SEAM_GET_COUNT_PARAMETERS, Call_kiriSeam_GetCount, NULL },
     { CLASS_WORLD, "get_seams", "kiriWorld_GetSeams", RETURNS_RESULT, KIND_ARRAY, CLASS_NONE, 0, 0, NULL, 4, WORLD_GET_SEAMS_PARAMETERS, Call_kiriWorld_GetSeams, NULL },

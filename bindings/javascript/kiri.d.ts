@@ -1018,6 +1018,10 @@ export class SeamDef {
     countB: number;
     /** up to 4096; 0 (default): two for each distance of frames */
     stitches: number;
+    /** N m/rad per m: of a hinge along the seam, in series with the material of both sides; 0: free */
+    stiffness: number;
+    /** rad, -pi to pi: 0 flat; above 0 sheet B turns to the side of A's normal */
+    restAngle: number;
     /** N/m: a stitch breaks in a tick with a larger force for its length; 0: never */
     breakForce: number;
 }
@@ -1033,6 +1037,10 @@ export interface SeamDefGiven {
     lineB?: ArrayLike<number> | null;
     /** up to 4096; 0 (default): two for each distance of frames */
     stitches?: number;
+    /** N m/rad per m: of a hinge along the seam, in series with the material of both sides; 0: free */
+    stiffness?: number;
+    /** rad, -pi to pi: 0 flat; above 0 sheet B turns to the side of A's normal */
+    restAngle?: number;
     /** N/m: a stitch breaks in a tick with a larger force for its length; 0: never */
     breakForce?: number;
 }
@@ -1053,6 +1061,8 @@ export class Stitch {
     gap: number;
     /** N, on sheet A: mean over the last tick that moved it */
     force: number[];
+    /** rad, as restAngle */
+    angle: number;
 }
 
 /** What a host gives as Contact: what is left out is 0. */
@@ -1619,6 +1629,8 @@ export class Seam {
     /** Create and destroy a seam. On failure *seam is 0. Lips that are apart are drawn together at up to 1 m/s.
      *  KIRI_ERROR_ARGUMENT: a line leaves the material; a sheet is planar; the models differ. */
     destroy(): ResultCode;
+    /** Sets stiffness and restAngle, as in the def. */
+    setHinge(stiffness: number, restAngle: number): ResultCode;
     /** Gets a stitch of those that are left, in the order of the lines. KIRI_ERROR_ARGUMENT: no stitch has the index. */
     getStitch(index: number, into?: Stitch): Stitch;
     /** Gets the number of stitches that are left. */

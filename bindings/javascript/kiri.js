@@ -89,9 +89,10 @@ export const layouts = {
         } },
     kiriPinState: { size: 80, fields: { type: 0, sheet: 4, from: 8, to: 16, target: 24, rotation: 36, breakForce: 72,
         obstacle: 76 } },
-    kiriSeamDef: { size: 36, fields: { cookie: 0, sheetA: 4, sheetB: 8, lineA: 12, lineB: 16, countA: 20, countB: 24,
-        stitches: 28, breakForce: 32 } },
-    kiriStitch: { size: 52, fields: { sheetA: 0, sheetB: 4, restA: 8, restB: 16, position: 24, gap: 36, force: 40 } },
+    kiriSeamDef: { size: 44, fields: { cookie: 0, sheetA: 4, sheetB: 8, lineA: 12, lineB: 16, countA: 20, countB: 24,
+        stitches: 28, stiffness: 32, restAngle: 36, breakForce: 40 } },
+    kiriStitch: { size: 56, fields: { sheetA: 0, sheetB: 4, restA: 8, restB: 16, position: 24, gap: 36, force: 40,
+        angle: 52 } },
     kiriContact: { size: 56, fields: { point: 0, restPoint: 4, normal: 12, offset: 24, velocity: 28, friction: 40,
         inverseMass: 44, pushSpeed: 48, obstacle: 52 } },
     kiriContactForce: { size: 64, fields: { impulse: 0, position: 24, depth: 48, point: 56, obstacle: 60 } },
@@ -1149,6 +1150,8 @@ export class SeamDef {
     countA = 0;
     countB = 0;
     stitches = 0;
+    stiffness = 0;
+    restAngle = 0;
     breakForce = 0;
 }
 
@@ -1161,12 +1164,14 @@ function readSeamDef(o, at, world) {
     o.countA = I32[(at + 20) >> 2];
     o.countB = I32[(at + 24) >> 2];
     o.stitches = I32[(at + 28) >> 2];
-    o.breakForce = F32[(at + 32) >> 2];
+    o.stiffness = F32[(at + 32) >> 2];
+    o.restAngle = F32[(at + 36) >> 2];
+    o.breakForce = F32[(at + 40) >> 2];
     return o;
 }
 
 const fieldsOfSeamDef = new Set(["cookie", "sheetA", "sheetB", "lineA", "lineB", "countA", "countB", "stitches",
-    "breakForce"]);
+    "stiffness", "restAngle", "breakForce"]);
 
 function writeSeamDef(o, at, world) {
     known(o, fieldsOfSeamDef, "SeamDef");
@@ -1190,8 +1195,14 @@ function writeSeamDef(o, at, world) {
     if (o.stitches !== undefined) {
         I32[(at + 28) >> 2] = o.stitches;
     }
+    if (o.stiffness !== undefined) {
+        F32[(at + 32) >> 2] = o.stiffness;
+    }
+    if (o.restAngle !== undefined) {
+        F32[(at + 36) >> 2] = o.restAngle;
+    }
     if (o.breakForce !== undefined) {
-        F32[(at + 32) >> 2] = o.breakForce;
+        F32[(at + 40) >> 2] = o.breakForce;
     }
 }
 
@@ -1203,6 +1214,7 @@ export class Stitch {
     position = [0, 0, 0];
     gap = 0;
     force = [0, 0, 0];
+    angle = 0;
 }
 
 function readStitch(o, at, world) {
@@ -1213,6 +1225,7 @@ function readStitch(o, at, world) {
     fill(F32, (at + 24) >> 2, o.position);
     o.gap = F32[(at + 36) >> 2];
     fill(F32, (at + 40) >> 2, o.force);
+    o.angle = F32[(at + 52) >> 2];
     return o;
 }
 
@@ -1857,11 +1870,11 @@ export class World extends WorldBase {
         try {
             wasm.kiriDefaultSeamDef(scratch);
             writeSeamDef(def, scratch, this);
-            const $result = wasm.kiriCreateSeam($world, scratch, scratch + 40);
+            const $result = wasm.kiriCreateSeam($world, scratch, scratch + 48);
             if ($result < 0) {
                 fail(this, $result, "kiriCreateSeam");
             }
-            return thing(Seam, this, U32[(scratch + 40) >> 2]);
+            return thing(Seam, this, U32[(scratch + 48) >> 2]);
         } finally {
             release();
         }
@@ -2685,6 +2698,15 @@ export class Seam extends Thing {
         const $result = wasm.kiriDestroySeam($world, this.id);
         if ($result < 0) {
             fail(this.world, $result, "kiriDestroySeam");
+        }
+        return $result;
+    }
+
+    setHinge(stiffness, restAngle) {
+        const $world = pointer(this.world);
+        const $result = wasm.kiriSeam_SetHinge($world, this.id, stiffness, restAngle);
+        if ($result < 0) {
+            fail(this.world, $result, "kiriSeam_SetHinge");
         }
         return $result;
     }

@@ -102,8 +102,8 @@ struct kiriFrameState { float restPoint[2]; float position[3]; float rotation[9]
 struct kiriWind { float velocity[3]; float density; float drag; float lift; };
 struct kiriPinDef { uint32_t cookie; float restPoint[2]; float target[3]; float stiffness; float breakForce; kiriObstacle obstacle; };
 struct kiriPinState { int32_t type; kiriSheet sheet; float from[2]; float to[2]; float target[3]; float rotation[9]; float breakForce; kiriObstacle obstacle; };
-struct kiriSeamDef { uint32_t cookie; kiriSheet sheetA; kiriSheet sheetB; const float* lineA; const float* lineB; int32_t countA; int32_t countB; int32_t stitches; float breakForce; };
-struct kiriStitch { kiriSheet sheetA; kiriSheet sheetB; float restA[2]; float restB[2]; float position[3]; float gap; float force[3]; };
+struct kiriSeamDef { uint32_t cookie; kiriSheet sheetA; kiriSheet sheetB; const float* lineA; const float* lineB; int32_t countA; int32_t countB; int32_t stitches; float stiffness; float restAngle; float breakForce; };
+struct kiriStitch { kiriSheet sheetA; kiriSheet sheetB; float restA[2]; float restB[2]; float position[3]; float gap; float force[3]; float angle; };
 struct kiriContact { int32_t point; float restPoint[2]; float normal[3]; float offset; float velocity[3]; float friction; float inverseMass; float pushSpeed; int32_t obstacle; };
 struct kiriContactForce { double impulse[3]; double position[3]; double depth; int32_t point; int32_t obstacle; };
 struct kiriObstacleDef { uint32_t cookie; int32_t type; float size[3]; float radius; float height; const float* outline; int32_t outlineCount; float rounding; float position[3]; float rotation[9]; float velocity[3]; float angularVelocity[3]; float surfaceVelocity[3]; float friction; float mass; float inertia[6]; float centerOfMass[3]; uint32_t body; float pushSpeed; uint32_t groups; };
@@ -214,6 +214,7 @@ kiriResult kiriSheet_GetPins(const kiriWorld* world, kiriSheet sheet, kiriPin* p
 void kiriDefaultSeamDef(kiriSeamDef* def);
 kiriResult kiriCreateSeam(kiriWorld* world, const kiriSeamDef* def, kiriSeam* seam);
 kiriResult kiriDestroySeam(kiriWorld* world, kiriSeam seam);
+kiriResult kiriSeam_SetHinge(kiriWorld* world, kiriSeam seam, float stiffness, float restAngle);
 kiriResult kiriSeam_GetStitch(const kiriWorld* world, kiriSeam seam, int32_t index, kiriStitch* stitch);
 kiriResult kiriSeam_GetCount(const kiriWorld* world, kiriSeam seam, int32_t* stitches);
 kiriResult kiriWorld_GetSeams(const kiriWorld* world, kiriSeam* seams, int32_t capacity, int32_t* count);
@@ -656,8 +657,8 @@ structs.kiriFrameState = {fields = {restPoint = 2, position = 3, rotation = 9, v
 structs.kiriWind = {fields = {velocity = 3, density = "number", drag = "number", lift = "number"}}
 structs.kiriPinDef = {fields = {cookie = "number", restPoint = 2, target = 3, stiffness = "number", breakForce = "number", obstacle = "id"}, default = "kiriDefaultPinDef"}
 structs.kiriPinState = {fields = {type = "number", sheet = "id", from = 2, to = 2, target = 3, rotation = 9, breakForce = "number", obstacle = "id"}}
-structs.kiriSeamDef = {fields = {cookie = "number", sheetA = "id", sheetB = "id", lineA = {item = "float", count = "countA", width = 2}, lineB = {item = "float", count = "countB", width = 2}, countA = "number", countB = "number", stitches = "number", breakForce = "number"}, default = "kiriDefaultSeamDef"}
-structs.kiriStitch = {fields = {sheetA = "id", sheetB = "id", restA = 2, restB = 2, position = 3, gap = "number", force = 3}}
+structs.kiriSeamDef = {fields = {cookie = "number", sheetA = "id", sheetB = "id", lineA = {item = "float", count = "countA", width = 2}, lineB = {item = "float", count = "countB", width = 2}, countA = "number", countB = "number", stitches = "number", stiffness = "number", restAngle = "number", breakForce = "number"}, default = "kiriDefaultSeamDef"}
+structs.kiriStitch = {fields = {sheetA = "id", sheetB = "id", restA = 2, restB = 2, position = 3, gap = "number", force = 3, angle = "number"}}
 structs.kiriContact = {fields = {point = "number", restPoint = 2, normal = 3, offset = "number", velocity = 3, friction = "number", inverseMass = "number", pushSpeed = "number", obstacle = "number"}}
 structs.kiriContactForce = {fields = {impulse = 3, position = 3, depth = "number", point = "number", obstacle = "number"}}
 structs.kiriObstacleDef = {fields = {cookie = "number", type = "number", size = 3, radius = "number", height = "number", outline = {item = "float", count = "outlineCount", width = 2}, outlineCount = "number", rounding = "number", position = 3, rotation = 9, velocity = 3, angularVelocity = 3, surfaceVelocity = 3, friction = "number", mass = "number", inertia = 6, centerOfMass = 3, body = "number", pushSpeed = "number", groups = "number"}, default = "kiriDefaultObstacleDef"}
@@ -1657,6 +1658,14 @@ function Seam:destroy()
     local world = self.world
     local result = C.kiriDestroySeam(world.c, self.id)
     if result < 0 then fail(world, "kiriDestroySeam", result, true) end
+    return result == 1
+end
+
+--- Sets stiffness and restAngle, as in the def.
+function Seam:setHinge(stiffness, restAngle)
+    local world = self.world
+    local result = C.kiriSeam_SetHinge(world.c, self.id, stiffness, restAngle)
+    if result < 0 then fail(world, "kiriSeam_SetHinge", result, true) end
     return result == 1
 end
 

@@ -889,6 +889,8 @@ typedef struct kiriSeamDef {
     const float* lineB;
     int32_t countA, countB;     /* points: 2 or more */
     int32_t stitches;           /* up to 4096; 0 (default): two for each distance of frames */
+    float stiffness; /* N m/rad per m: of a hinge along the seam, in series with the material of both sides; 0: free */
+    float restAngle; /* rad, -pi to pi: 0 flat; above 0 sheet B turns to the side of A's normal */
     float breakForce;           /* N/m: a stitch breaks in a tick with a larger force for its length; 0: never */
 } kiriSeamDef;
 
@@ -907,7 +909,11 @@ typedef struct kiriStitch {
     float position[3];        /* m, world: where both points meet. A host that welds the drawn lips puts them there */
     float gap;                /* m: distance of the two points; a stitch yields by micrometres under the sheet's weight */
     float force[3];           /* N, on sheet A: mean over the last tick that moved it */
+    float angle;              /* rad, as restAngle */
 } kiriStitch;
+
+/* Sets stiffness and restAngle, as in the def. */
+KIRI_API kiriResult kiriSeam_SetHinge(kiriWorld* world, kiriSeam seam, float stiffness, float restAngle);
 
 /* Gets a stitch of those that are left, in the order of the lines. KIRI_ERROR_ARGUMENT: no stitch has the index. */
 KIRI_API kiriResult kiriSeam_GetStitch(const kiriWorld* world, kiriSeam seam, int32_t index, kiriStitch* stitch);

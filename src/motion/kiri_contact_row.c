@@ -525,12 +525,12 @@ static kiriVec3 DragOf(const kiriContactStep* step, double part)
                                              -TurnSpring(step), Beside(slide, step->direction));
 }
 
-/* Returns the move of the point by the solution, to first order. */
-static kiriVec3 MoveOf(const kiriSolver* solver, const kiriSystem* system, const kiriContactStep* step)
+kiriVec3 kiriSolver_MoveOf(const kiriSolver* solver, const kiriSystem* system, const kiriContactMember* members,
+                           int32_t count)
 {
     kiriVec3 sum = { 0 };
-    for (int32_t m = 0; m < step->memberCount; ++m) {
-        kiriContactMember member = step->members[m];
+    for (int32_t m = 0; m < count; ++m) {
+        kiriContactMember member = members[m];
         kiriVec2 local = kiriVec2_Sub(member.at, system->frames[member.frame].center);
         kiriFrameRow by = kiriSolver_Expand(solver, 1.0, &solver->move.data[solver->size * member.frame]);
         kiriVec3 turn = kiriVec3_AddScaled(kiriVec3_Scale(local.x, by.by[1]), local.y, by.by[2]);
@@ -546,7 +546,7 @@ void kiriSolver_MoveContacts(kiriSolver* solver, const kiriSystem* system)
 {
     KIRI_EACH(kiriContactStep, step, solver->contacts) {
         if (step->isActive && !IsSoft(step->row)) {
-            kiriVec3 move = MoveOf(solver, system, step);
+            kiriVec3 move = kiriSolver_MoveOf(solver, system, step->members, step->memberCount);
             step->sinks = -kiriVec3_Dot(step->row->normal, move);
             step->slides = kiriVec3_AlongPlane(move, step->row->normal);
         }
@@ -555,12 +555,14 @@ void kiriSolver_MoveContacts(kiriSolver* solver, const kiriSystem* system)
 
 /* ---- Assembly ---------------------------------------------------------------------------------------------------- */
 
-/* Writes the derivatives of the point's move along an axis by a member's unknowns. `arm`: the point relative to x. */
-static void DerivePoint(const kiriSolver* solver, const kiriSystem* system, kiriContactMember member, kiriVec2 local,
-                        kiriVec3 arm, kiriVec3 axis, double* J)
+/* Writes the derivatives of a vector's move along an axis by a member's unknowns. `local`, `arm`: the vector, in the
+   material and now. isPoint: it moves with the frame's x. */
+static void DerivePoint(const kiriSolver* solver, const kiriSystem* system, kiriContactMember member, kiriVec3 local,
+                        kiriVec3 arm, bool isPoint, kiriVec3 axis, double* J)
 {
-    kiriVec3 along = kiriVec3_Scale(member.value, axis);
-    kiriFrameRow row = { { along, kiriVec3_Scale(local.x, along), kiriVec3_Scale(local.y, along), { 0.0, 0.0, 0.0 } } };
+    kiriVec3 along = kiriVec3_Scale(member.value, axis), none = { 0.0, 0.0, 0.0 };
+    kiriFrameRow row = { { isPoint ? along : none, kiriVec3_Scale(local.x, along), kiriVec3_Scale(local.y, along),
+                           kiriVec3_Scale(local.z, along) } };
     if (!kiriMechanics_IsAffine(&system->mechanics)) {
         row.by[1] = kiriVec3_Cross(arm, along);
     }
@@ -595,7 +597,7 @@ static kiriPointSprings SpringsOf(const kiriContactStep* step, kiriVec3 normal)
 }
 
 void kiriSolver_AddPointSprings(kiriSolver* solver, const kiriSystem* system, const kiriContactMember* members,
-                                int32_t count, const kiriPointSprings* at)
+                                int32_t count, const kiriVec3* ways, const kiriPointSprings* at)
 {
     double J[KIRI_POINT_ROWS * KIRI_STITCH_MEMBERS * KIRI_MOST_UNKNOWNS], own[KIRI_MOST_UNKNOWNS];
     int32_t frames[KIRI_STITCH_MEMBERS], places[KIRI_STITCH_MEMBERS], different = 0;
@@ -610,10 +612,12 @@ void kiriSolver_AddPointSprings(kiriSolver* solver, const kiriSystem* system, co
     }
     memset(J, 0, sizeof(double) * (size_t)(KIRI_POINT_ROWS * different * solver->size));
     for (int32_t m = 0; m < count; ++m) {
-        kiriVec2 local = kiriVec2_Sub(members[m].at, system->frames[members[m].frame].center);
-        kiriVec3 arm = kiriPose_Along(&solver->poses.data[members[m].frame], local);
+        const kiriPose* pose = &solver->poses.data[members[m].frame];
+        kiriVec2 off = kiriVec2_Sub(members[m].at, system->frames[members[m].frame].center);
+        kiriVec3 local = ways != NULL ? ways[m] : kiriVec3_Make(off.x, off.y, 0.0);
+        kiriVec3 arm = ways != NULL ? kiriMat3_Mul(pose->A, local) : kiriPose_Along(pose, off);
         for (int e = 0; e < KIRI_POINT_ROWS; ++e) {
-            DerivePoint(solver, system, members[m], local, arm, at->axis[e], own);
+            DerivePoint(solver, system, members[m], local, arm, ways == NULL, at->axis[e], own);
             for (int32_t n = 0; n < solver->size; ++n) {
                 J[solver->size * (different * e + places[m]) + n] += own[n];
             }
@@ -714,7 +718,7 @@ void kiriContact_Assemble(kiriSolver* solver, const kiriSystem* system, const ki
         if (isRigid) {
             AssembleRigid(solver, system, step, &at);
         } else {
-            kiriSolver_AddPointSprings(solver, system, step->members, step->memberCount, &at);
+            kiriSolver_AddPointSprings(solver, system, step->members, step->memberCount, NULL, &at);
         }
     }
 }

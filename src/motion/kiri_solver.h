@@ -82,6 +82,10 @@ typedef struct kiriStitchRow {
     kiriContactMember members[KIRI_STITCH_MEMBERS];
     kiriVec3 off;     /* m: the difference of the points that the spring keeps */
     double stiffness; /* N/m */
+    /* Hinge: the frames of each point blend this vector of their material (u, v, normal); a spring keeps both alike. */
+    kiriVec3 ways[2];
+    double bending;   /* N m */
+    kiriVec3 solved, force; /* N, on the first point: of the last system, and of the systems so far */
     kiriVec3 impulse; /* N s, on the first point, since the start of the tick; a step adds to it */
 } kiriStitchRow;
 
@@ -702,9 +706,14 @@ typedef struct kiriPointSprings {
     double spring[KIRI_POINT_ROWS], pull[KIRI_POINT_ROWS];
 } kiriPointSprings;
 
-/* Adds the springs to the system. A frame may carry both points. */
+/* Adds the springs to the system. A frame may carry both points. ways[]: springs on the blend of these vectors of the
+   material (u, v, normal), one a member; null: on the point. */
 void kiriSolver_AddPointSprings(kiriSolver* solver, const kiriSystem* system, const kiriContactMember* members,
-                                int32_t count, const kiriPointSprings* at);
+                                int32_t count, const kiriVec3* ways, const kiriPointSprings* at);
+
+/* Returns the move of a point by the solution, to first order. */
+kiriVec3 kiriSolver_MoveOf(const kiriSolver* solver, const kiriSystem* system, const kiriContactMember* members,
+                           int32_t count);
 
 /* Returns the position of a point that is blended from frames by these weights. */
 kiriVec3 kiriSystem_Blend(const kiriSystem* system, const kiriContactMember* members, int32_t count,
@@ -721,8 +730,16 @@ double kiriStitches_Energy(const kiriSystem* system, const kiriPose* poses);
 double kiriStitches_Noise(const kiriSolver* solver, const kiriSystem* system);
 void kiriStitches_Assemble(kiriSolver* solver, const kiriSystem* system);
 
+/* After a system is solved: find the forces of its linear model, and take them as far as the step was taken. Forces at
+   poses of stiff springs are wrong by what turned frames leave. */
+void kiriStitches_Solve(const kiriSolver* solver, const kiriSystem* system);
+void kiriStitches_TakeForces(const kiriSolver* solver, const kiriSystem* system);
+
 /* Returns the force of the stitch on its first point at these poses, N. */
 kiriVec3 kiriStitch_Force(const kiriSystem* system, const kiriStitchRow* row, const kiriPose* poses);
+
+/* Returns the moment of the hinge on a member, N m. */
+kiriVec3 kiriStitch_Moment(const kiriSystem* system, const kiriStitchRow* row, int32_t member, const kiriPose* poses);
 
 /* ---- Reactions (kiri_step.c) ---- */
 

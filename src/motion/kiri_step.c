@@ -1007,6 +1007,7 @@ static bool IterateOnce(kiriSolver* solver, const kiriSystem* system)
     }
     kiriMatrix_Solve(solver->matrix, solver->force.data, solver->move.data);
     kiriSolver_MoveContacts(solver, system);
+    kiriStitches_Solve(solver, system);
     StartSearch(solver, system);
     bool isTaken = TryNewtonStep(solver, system);
     if (!isTaken && solver->search.isFirst) {
@@ -1020,6 +1021,7 @@ static bool IterateOnce(kiriSolver* solver, const kiriSystem* system)
     solver->search.isFirst = false;
     solver->search.solved += 1;
     solver->solved += 1;
+    kiriStitches_TakeForces(solver, system);
     kiriSolver_ReviewContacts(solver, system);
     return true;
 }
@@ -1310,8 +1312,12 @@ void kiriSolver_AddReactions(kiriSolver* solver, const kiriSystem* system)
     AddClampPulls(solver, system);
     KIRI_EACH_STITCH(row, system) {
         kiriVec3 force = kiriStitch_Force(system, row, solver->poses.data);
-        row->impulse = kiriVec3_AddScaled(row->impulse, solver->dt, force);
+        row->impulse = kiriVec3_AddScaled(row->impulse, solver->dt, row->force);
         TakePointFromHolds(solver, system, row->members, row->counts[0] + row->counts[1], force);
+        for (int32_t m = 0; row->bending > 0.0 && m < row->counts[0] + row->counts[1]; ++m) {
+            kiriWrench turn = { { 0.0, 0.0, 0.0 }, kiriStitch_Moment(system, row, m, solver->poses.data) };
+            TakeFromHold(solver, system, row->members[m].frame, turn);
+        }
     }
     if (solver->isHeld) {
         KIRI_EACH(const kiriContactStep, step, solver->contacts) {

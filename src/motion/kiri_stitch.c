@@ -12,12 +12,40 @@ kiriVec3 kiriStitch_Force(const kiriSystem* system, const kiriStitchRow* row, co
     return kiriVec3_Scale(-row->stiffness, apart);
 }
 
+/* Returns the vector of a member's material as its frame carries it. */
+static kiriVec3 WayOf(const kiriStitchRow* row, int32_t member, const kiriPose* poses)
+{
+    return kiriMat3_Mul(poses[row->members[member].frame].A, row->ways[member >= row->counts[0]]);
+}
+
+/* Returns the pull of the hinge's spring on the blend of the vectors, N m. */
+static kiriVec3 PullOf(const kiriStitchRow* row, const kiriPose* poses)
+{
+    kiriVec3 apart = { 0.0, 0.0, 0.0 };
+    for (int32_t m = 0; m < CountOf(row); ++m) {
+        apart = kiriVec3_AddScaled(apart, row->members[m].value, WayOf(row, m, poses));
+    }
+    return kiriVec3_Scale(-row->bending, apart);
+}
+
+kiriVec3 kiriStitch_Moment(const kiriSystem* system, const kiriStitchRow* row, int32_t member, const kiriPose* poses)
+{
+    KIRI_ASSERT(member < CountOf(row) && row->members[member].frame < system->frameCount);
+    (void)system;
+    kiriVec3 pull = kiriVec3_Scale(row->members[member].value, PullOf(row, poses));
+    return kiriVec3_Cross(WayOf(row, member, poses), pull);
+}
+
 double kiriStitches_Energy(const kiriSystem* system, const kiriPose* poses)
 {
     double sum = 0.0;
     KIRI_EACH_STITCH(row, system) {
         kiriVec3 force = kiriStitch_Force(system, row, poses);
         sum += 0.5 * kiriVec3_Dot(force, force) / row->stiffness;
+        if (row->bending > 0.0) {
+            kiriVec3 pull = PullOf(row, poses);
+            sum += 0.5 * kiriVec3_Dot(pull, pull) / row->bending;
+        }
     }
     return sum;
 }
@@ -29,19 +57,47 @@ double kiriStitches_Noise(const kiriSolver* solver, const kiriSystem* system)
     KIRI_EACH_STITCH(row, system) {
         KIRI_ASSERT(CountOf(row) > 0 && row->members[0].frame < system->frameCount);
         kiriVec3 x = solver->start.data[row->members[0].frame].x;
-        sum += row->stiffness * kiriVec3_Dot(x, x);
+        sum += row->stiffness * kiriVec3_Dot(x, x) + row->bending;
     }
     return sum;
+}
+
+static void AddSprings(kiriSolver* solver, const kiriSystem* system, const kiriStitchRow* row, const kiriVec3* ways,
+                       double k, kiriVec3 pull)
+{
+    kiriPointSprings at = { { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } },
+                            { k, k, k },
+                            { pull.x, pull.y, pull.z } };
+    kiriSolver_AddPointSprings(solver, system, row->members, CountOf(row), ways, &at);
 }
 
 void kiriStitches_Assemble(kiriSolver* solver, const kiriSystem* system)
 {
     KIRI_EACH_STITCH(row, system) {
-        kiriVec3 force = kiriStitch_Force(system, row, solver->poses.data);
-        double k = row->stiffness;
-        kiriPointSprings at = { { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } },
-                                { k, k, k },
-                                { force.x, force.y, force.z } };
-        kiriSolver_AddPointSprings(solver, system, row->members, CountOf(row), &at);
+        kiriVec3 ways[KIRI_STITCH_MEMBERS];
+        AddSprings(solver, system, row, NULL, row->stiffness, kiriStitch_Force(system, row, solver->poses.data));
+        for (int32_t m = 0; row->bending > 0.0 && m < CountOf(row); ++m) {
+            ways[m] = row->ways[m >= row->counts[0]];
+        }
+        if (row->bending > 0.0) {
+            AddSprings(solver, system, row, ways, row->bending, PullOf(row, solver->poses.data));
+        }
+    }
+}
+
+void kiriStitches_Solve(const kiriSolver* solver, const kiriSystem* system)
+{
+    KIRI_EACH_STITCH(row, system) {
+        kiriVec3 move = kiriSolver_MoveOf(solver, system, row->members, CountOf(row));
+        row->solved = kiriStitch_Force(system, row, solver->poses.data);
+        row->solved = kiriVec3_AddScaled(row->solved, -row->stiffness, move);
+    }
+}
+
+void kiriStitches_TakeForces(const kiriSolver* solver, const kiriSystem* system)
+{
+    double part = solver->search.scale;
+    KIRI_EACH_STITCH(row, system) {
+        row->force = kiriVec3_AddScaled(kiriVec3_Scale(1.0 - part, row->force), part, row->solved);
     }
 }

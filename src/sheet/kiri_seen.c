@@ -635,7 +635,20 @@ void kiriView_EndWriting(kiriSheetData* sheet)
 
 /* ---- Detail layer ---- */
 
-/* Returns true if a pin is nearer to the vertex, in the rest plane, than another vertex. */
+/* Returns the squared distance of a point of the rest plane from a line, m^2. */
+static double SquaredFromLine(const kiriMeshData* mesh, kiriVec2 p, kiriLatticePoint start, kiriLatticePoint end)
+{
+    kiriVec2 from = kiriMesh_Local(mesh, start), by = kiriVec2_Sub(p, from);
+    kiriVec2 along = kiriVec2_Sub(kiriMesh_Local(mesh, end), from);
+    double square = kiriVec2_Dot(along, along);
+    double t = square > 0.0 ? kiriClamp(kiriVec2_Dot(along, by) / square, 0.0, 1.0) : 0.0;
+    by = kiriVec2_AddScaled(by, -t, along);
+    return kiriVec2_Dot(by, by);
+}
+
+#define SEWN 0.3 /* of an edge: a vertex as near to a seam is on the lip */
+
+/* Returns true if a pin is nearer to the vertex, in the rest plane, than another vertex, or if it is on a seam. */
 static bool IsPinned(const kiriSheetData* sheet, int32_t vertex)
 {
     const kiriMeshData* mesh = &sheet->mesh;
@@ -644,12 +657,10 @@ static bool IsPinned(const kiriSheetData* sheet, int32_t vertex)
     kiriVec2 edge = kiriVec2_Sub(kiriMesh_Local(mesh, kiriMesh_HeadAt(mesh, mesh->vertices.data[vertex].edge)), p);
     bool isPinned = false;
     KIRI_EACH_WHILE(!isPinned, const kiriPinData, pin, sheet->pins) {
-        kiriVec2 from = kiriMesh_Local(mesh, pin->at), by = kiriVec2_Sub(p, from);
-        kiriVec2 along = kiriVec2_Sub(kiriMesh_Local(mesh, pin->to), from);
-        double square = kiriVec2_Dot(along, along);
-        double t = square > 0.0 ? kiriClamp(kiriVec2_Dot(along, by) / square, 0.0, 1.0) : 0.0;
-        by = kiriVec2_AddScaled(by, -t, along);
-        isPinned = kiriVec2_Dot(by, by) < kiriVec2_Dot(edge, edge);
+        isPinned = SquaredFromLine(mesh, p, pin->at, pin->to) < kiriVec2_Dot(edge, edge);
+    }
+    KIRI_EACH_WHILE(!isPinned, const kiriSewnLine, line, sheet->sewn) {
+        isPinned = SquaredFromLine(mesh, p, line->from, line->to) < SEWN * SEWN * kiriVec2_Dot(edge, edge);
     }
     return isPinned;
 }
@@ -665,6 +676,9 @@ static void ListDetail(kiriSheetData* sheet)
     uint64_t pins = KIRI_HASH_START;
     KIRI_EACH(const kiriPinData, pin, sheet->pins) {
         kiriHash_Word(&pins, pin->id);
+    }
+    KIRI_EACH(const kiriSewnLine, line, sheet->sewn) {
+        kiriHash_Word(&pins, (uint64_t)(uint32_t)line->from.x << 32 | (uint32_t)line->from.y);
     }
     bool isStale = !detail->isListed || sheet->seen.isElsewhere || pins != detail->pins;
     KIRI_EACH_INDEX(f, sheet->frames) {

@@ -439,6 +439,11 @@ typedef struct kiriUpdate {
 
 enum { KIRI_READY = KIRI_STAGE_CONTACT };
 
+/* A part of a seam in the rest plane, between two stitches. */
+typedef struct kiriSewnLine {
+    kiriLatticePoint from, to;
+} kiriSewnLine;
+
 typedef struct kiriSheetData {
     kiriSheet id;
     kiriMemory* memory; /* `own` */
@@ -480,6 +485,7 @@ typedef struct kiriSheetData {
     kiriLine line;                                                         /* last line query */
     KIRI_ARRAY(kiriLineShare) lineShares;                                  /* its result: a share for each frame */
 
+    KIRI_ARRAY(kiriSewnLine) sewn; /* in this tick: where the skin is drawn as it is */
     kiriTouches touches;
     kiriSheetRest rest;
     kiriPieceTurns turns;

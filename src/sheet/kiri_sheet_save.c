@@ -322,6 +322,7 @@ KIRI_TABLE(SheetTable, kiriSheetData, {
     KIRI_RUN(4, id),
     KIRI_PART(regions, kiriRegionsTable),
     KIRI_PART(probes, ProbesTable),
+    KIRI_ROOM_OF(sewn),
     KIRI_ROOMS(pinRows, clampRows, pinReactions, clampReactions, frameReactions),
     KIRI_KEPT(memory, shown),
     KIRI_DROPPED(solver, cuts),

@@ -464,6 +464,18 @@ kiriResult kiriCreateSeam(kiriWorld* world, const kiriSeamDef* def, kiriSeam* se
     return KIRI_FAIL(result, why);
 }
 
+kiriResult kiriSeam_SetHinge(kiriWorld* world, kiriSeam seam, float stiffness, float restAngle)
+{
+    KIRI_CHANGES(Seam_SetHinge, &seam, &stiffness, &restAngle);
+    kiriSeamData* data = call->owner;
+    if (data->bending != stiffness || data->restAngle != restAngle) {
+        data->bending = stiffness;
+        data->restAngle = restAngle;
+        kiriSeams_Wake(world, data);
+    }
+    KIRI_RETURN(KIRI_OK);
+}
+
 kiriResult kiriDestroySeam(kiriWorld* world, kiriSeam seam)
 {
     KIRI_CHANGES(DestroySeam, &seam);
@@ -481,7 +493,7 @@ kiriResult kiriSeam_GetStitch(const kiriWorld* world, kiriSeam seam, int32_t ind
     KIRI_CHECK(index >= 0 && index < data->stitches.count, "no stitch has this index");
     const kiriStitchData* from = &data->stitches.data[index];
     const kiriSheetData *a = kiriStitch_Sheet(world, from, 0), *b = kiriStitch_Sheet(world, from, 1);
-    kiriVec3 x = kiriStitch_Point(world, from, 0), y = kiriStitch_Point(world, from, 1);
+    kiriVec3 x = kiriStitch_Point(world, data, index, 0), y = kiriStitch_Point(world, data, index, 1);
     stitch->sheetA = a->id;
     stitch->sheetB = b->id;
     StoreRest(a, from->at[0], stitch->restA);
@@ -489,6 +501,7 @@ kiriResult kiriSeam_GetStitch(const kiriWorld* world, kiriSeam seam, int32_t ind
     kiriVec3_Store(stitch->position, kiriVec3_Scale(0.5, kiriVec3_Add(x, y)));
     stitch->gap = (float)kiriVec3_Distance(x, y);
     kiriVec3_Store(stitch->force, from->force);
+    stitch->angle = (float)kiriStitch_Angle(world, data, index);
     return KIRI_OK;
 }
 

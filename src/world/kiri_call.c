@@ -1,4 +1,5 @@
 #include "kiri_call.h"
+#include "kiri_seam.h"
 #include "../mesh/kiri_mesh.h"
 #include "../sheet/kiri_obstacle.h"
 
@@ -239,6 +240,8 @@ static const kiriValue seamDefMembers[] = {
     ARRAY_IN(KIRI_FORM_FLOATS_AT, lineA, 2, countA, ANY_FINITE),
     ARRAY_IN(KIRI_FORM_FLOATS_AT, lineB, 2, countB, ANY_FINITE),
     INTS_IN(stitches, WITHIN(0, 4096)),
+    FLOATS_IN(stiffness, FROM_0),
+    FLOATS_IN(restAngle, WITHIN(-KIRI_MOST_FOLD, KIRI_MOST_FOLD)),
     FLOATS_IN(breakForce, FROM_0),
 };
 #undef OF

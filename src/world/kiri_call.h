@@ -66,7 +66,8 @@ KIRI_C_BEGIN
     X2(CreateSeam, SEAM_DEF, NEW_ID)                                                                                   \
     X1(DestroySeam, SEAM)                                                                                              \
     X4(CreateFoldedSheet, SHEET_DEF, FOLDS, COUNT, NEW_ID)                                                             \
-    X4(Sheet_SetFold, SHEET, INT, SIZE, FOLD_ANGLE)
+    X4(Sheet_SetFold, SHEET, INT, SIZE, FOLD_ANGLE)                                                                    \
+    X3(Seam_SetHinge, SEAM, SIZE, FOLD_ANGLE)
 
 #define KIRI_NUMBER(Name, ...) KIRI_CALL_##Name,
 #define KIRI_NUMBER0(Name) KIRI_CALL_##Name,

@@ -9,6 +9,7 @@
 #define CLOSING_SPEED 1.0 /* m/s: limit of the speed at which lips that are apart are drawn together */
 #define NEAR 256          /* lattice steps: rounding error of the host's floats */
 #define PER_SPACING 1.5   /* stitches for the distance of frames */
+#define GRAVITY 9.81      /* m/s^2 */
 #define MOST_STITCHES 4096
 
 /* ---- Ends -------------------------------------------------------------------------------------------------------- */
@@ -63,10 +64,10 @@ void kiriSeams_Follow(kiriWorld* world)
     }
 }
 
-/* Finds the frames that carry a point of a lip, and the points that they carry. Material between frames is an arc: from
-   the centre of each frame to the point it goes along the mean of the frame's axes and of the axes at the point, which
-   are blended from all frames. So lips with other frames bend alike. Returns the number of frames. */
-static int32_t CarryEnd(const kiriSheetData* sheet, kiriLatticePoint at, kiriContactMember* members)
+/* Finds the frames that carry a point of a lip, and the points that they carry. If the material bends, it is an arc
+   between frames: from the centre of each frame to the point it goes along the mean of the frame's axes and of the axes at
+   the point, which are blended from all frames. So lips with other frames bend alike. Returns the number of frames. */
+static int32_t CarryEnd(const kiriSheetData* sheet, kiriLatticePoint at, bool bends, kiriContactMember* members)
 {
     kiriWeight weights[KIRI_CONTACT_WEIGHTS];
     int32_t count = kiriTouches_WeighPoint(sheet, at, weights);
@@ -77,8 +78,8 @@ static int32_t CarryEnd(const kiriSheetData* sheet, kiriLatticePoint at, kiriCon
     }
     for (int32_t n = 0; n < count; ++n) {
         kiriVec2 center = sheet->frames.data[weights[n].frame].center;
-        kiriVec2 arm = kiriVec2_Scale(0.5, kiriVec2_Add(kiriVec2_Sub(point, center), rest));
-        members[n] = (kiriContactMember){ weights[n].frame, weights[n].value, kiriVec2_Add(center, arm) };
+        kiriVec2 half = kiriVec2_Scale(0.5, kiriVec2_Add(kiriVec2_Add(center, point), rest));
+        members[n] = (kiriContactMember){ weights[n].frame, weights[n].value, bends ? half : point };
     }
     return count;
 }
@@ -91,6 +92,63 @@ static kiriVec3 CarriedEnd(const kiriSheetData* sheet, const kiriContactMember* 
         x = kiriVec3_AddScaled(x, members[n].value, carried);
     }
     return x;
+}
+
+/* ---- Hinges ------------------------------------------------------------------------------------------------------
+
+   At each end a direction of the material leads from the seam into the sheet, across the seam. The hinge turns the second
+   one to where the first one and the normal of its sheet have it at the rest angle. Angles are 0 where the sheets are one
+   flat sheet, and above 0 where the second one turns to the side of the first one's normal. */
+
+#define HALVINGS 20
+
+/* Computes cosine and sine: of a small part first, which is then doubled. */
+static kiriVec2 DirectionAt(double angle)
+{
+    double part = angle / (1 << HALVINGS);
+    kiriVec2 at = { 1.0 - 0.5 * part * part, part };
+    for (int k = 0; k < HALVINGS; ++k) {
+        at = kiriVec2_Make(at.x * at.x - at.y * at.y, 2.0 * at.x * at.y);
+    }
+    return at;
+}
+
+/* Returns the angle between two vectors, 0 to pi. */
+static double AngleBetween(kiriVec3 a, kiriVec3 b)
+{
+    kiriVec3 one = kiriVec3_Normalize(a), other = kiriVec3_Normalize(b);
+    double cosine = 0.5 * kiriVec3_Length(kiriVec3_Add(one, other)), sine = 0.5 * kiriVec3_Distance(one, other);
+    double times = 2.0;
+    for (int k = 0; k < HALVINGS; ++k) { /* halves the angle */
+        cosine = kiriRoot(0.5 * (1.0 + cosine));
+        sine *= 0.5 / cosine;
+        times *= 2.0;
+    }
+    return times * sine;
+}
+
+/* Returns a vector of the material (u, v, normal) as frames blend it. */
+static kiriVec3 BlendedWay(const kiriSheetData* sheet, const kiriContactMember* members, int32_t count, kiriVec3 way)
+{
+    kiriVec3 sum = { 0.0, 0.0, 0.0 };
+    for (int32_t n = 0; n < count; ++n) {
+        sum = kiriVec3_AddScaled(sum, members[n].value, kiriMat3_Mul(sheet->frames.data[members[n].frame].A, way));
+    }
+    return sum;
+}
+
+/* Returns the compliance of the material between the seam and the frames of a lip, rad/(N m) per m. */
+static double GiveOf(const kiriSheetData* sheet, const kiriContactMember* members, int32_t count, kiriVec2 from,
+                     kiriVec2 inward)
+{
+    const kiriMaterial* material = &sheet->settings.material;
+    double thickness = material->thickness, nu = material->poissonsRatio, reach = 0.0;
+    for (int32_t n = 0; n < count; ++n) {
+        kiriVec2 way = kiriVec2_Sub(sheet->frames.data[members[n].frame].center, from);
+        reach += members[n].value * kiriVec2_Dot(way, inward);
+    }
+    return kiriMax(reach, 0.0) * 12.0 * (1.0 - nu * nu) /
+           ((double)material->youngsModulus * thickness * thickness * thickness);
 }
 
 /* ---- Seams come and go ------------------------------------------------------------------------------------------- */
@@ -133,6 +191,15 @@ static bool PlaceEnd(const kiriSheetData* sheet, const float* line, int32_t coun
         stitch->at[end].y = at.y + NEAR * sides[k][1];
         isFound = FollowEnd(sheet, stitch, end);
     }
+    if (isFound) { /* to the left of the line, if there is material */
+        kiriVec2 left = kiriVec2_Scale(length > 0.0 ? 1.0 / length : 0.0, kiriVec2_Make(-way.y, way.x));
+        double far = 0.25 * sheet->mesh.squares.side;
+        kiriLatticePoint beside = stitch->at[end];
+        beside.x += (int32_t)(far * left.x);
+        beside.y += (int32_t)(far * left.y);
+        bool isLeft = kiriMesh_Locate(&sheet->mesh, beside) != KIRI_NONE;
+        stitch->inward[end] = kiriVec2_Scale(isLeft ? 1.0 : -1.0, left);
+    }
     return isFound;
 }
 
@@ -146,28 +213,35 @@ static double SpacingOf(const kiriSheetData* sheet)
     return sqrt(area / sheet->frames.count);
 }
 
+/* Returns true if gravity bends the material less than from frame to frame. Such lips would hold each other straight. In
+   softer material they meet where they are drawn. */
+static bool IsStiff(const kiriSheetData* sheet)
+{
+    const kiriMaterial* material = &sheet->settings.material;
+    double thickness = material->thickness, spacing = SpacingOf(sheet);
+    double bending = (double)material->youngsModulus * thickness * thickness / 12.0;
+    return bending > (double)material->density * GRAVITY * spacing * spacing * spacing;
+}
+
 static const char* PlaceStitches(const kiriSeamDef* def, kiriSheetData* const sheets[2], kiriSeamData* seam)
 {
     const float* lines[2] = { def->lineA, def->lineB };
     const int32_t counts[2] = { def->countA, def->countB };
-    double lengths[2], stiffness = 0.0;
+    double lengths[2];
     bool isClosed = true;
     for (int end = 0; end < 2; ++end) {
-        const kiriMaterial* material = &sheets[end]->settings.material;
-        double own = (double)material->youngsModulus * material->thickness;
         lengths[end] = LineLength(lines[end], counts[end]);
-        stiffness = kiriMax(own, stiffness);
         isClosed = isClosed && memcmp(lines[end], &lines[end][2 * (counts[end] - 1)], 2 * sizeof(float)) == 0;
     }
     int32_t count = seam->stitches.count, parts = isClosed ? count : count - 1;
-    KIRI_ASSERT(parts > 0 && stiffness > 0.0);
+    KIRI_ASSERT(parts > 0);
     KIRI_EACH_INDEX(k, seam->stitches) {
         kiriStitchData* stitch = &seam->stitches.data[k];
         double part = (double)k / parts;
         bool isEnd = !isClosed && (k == 0 || k == parts);
         memset(stitch, 0, sizeof(*stitch));
-        stitch->stiffness = STIFFNESS * stiffness;
-        stitch->length = (isEnd ? 0.5 : 1.0) / parts * 0.5 * (lengths[0] + lengths[1]);
+        stitch->share = isEnd ? 0.5 : 1.0;
+        stitch->length = stitch->share / parts * 0.5 * (lengths[0] + lengths[1]);
         for (int end = 0; end < 2; ++end) {
             if (!PlaceEnd(sheets[end], lines[end], counts[end], part * lengths[end], stitch, end)) {
                 return end == 0 ? "def.lineA leaves the material" : "def.lineB leaves the material";
@@ -216,21 +290,27 @@ kiriResult kiriSeams_Create(kiriWorld* world, const kiriSeamDef* def, kiriSeamDa
         return hasRoom ? KIRI_ERROR_ARGUMENT : KIRI_ERROR_MEMORY;
     }
     seam->breakForce = def->breakForce;
+    seam->bending = def->stiffness;
+    seam->restAngle = def->restAngle;
+    seam->bends = IsStiff(sheets[0]) || IsStiff(sheets[1]);
     seam->id = kiriPool_Add(&world->seamIds, &world->memory, seam, 0);
     KIRI_NEXT(world->seams) = seam;
+    kiriSeams_Wake(world, seam);
+    *made = seam;
+    return KIRI_OK;
+}
+
+void kiriSeams_Wake(const kiriWorld* world, const kiriSeamData* seam)
+{
     KIRI_EACH(const kiriStitchData, stitch, seam->stitches) {
         WakeEnds(world, stitch);
     }
-    *made = seam;
-    return KIRI_OK;
 }
 
 void kiriSeams_Remove(kiriWorld* world, kiriSeamData* seam)
 {
     int32_t kept = 0;
-    KIRI_EACH(const kiriStitchData, stitch, seam->stitches) {
-        WakeEnds(world, stitch);
-    }
+    kiriSeams_Wake(world, seam);
     KIRI_EACH_INDEX(i, world->seams) {
         if (world->seams.data[i] != seam) {
             world->seams.data[kept++] = world->seams.data[i];
@@ -281,6 +361,24 @@ void kiriSeams_DropStale(kiriWorld* world)
 
 /* ---- In a tick --------------------------------------------------------------------------------------------------- */
 
+bool kiriSeams_ListLines(kiriWorld* world)
+{
+    bool ok = true;
+    KIRI_EACH_OF(kiriSheetData, sheet, world->sheets) {
+        sheet->sewn.count = 0;
+    }
+    KIRI_EACH_OF(kiriSeamData, seam, world->seams) {
+        for (int32_t k = 2; ok && k < 2 * seam->stitches.count; ++k) {
+            const kiriStitchData* stitch = &seam->stitches.data[k / 2];
+            kiriSheetData* sheet = kiriStitch_Sheet(world, stitch, k % 2);
+            kiriSewnLine line = { stitch[-1].at[k % 2], stitch->at[k % 2] };
+            ok = kiriStitch_Sheet(world, stitch - 1, k % 2) != sheet ||
+                 kiriArray_Push(sheet->memory, &sheet->sewn, line);
+        }
+    }
+    return ok;
+}
+
 bool kiriSeams_Stir(const kiriWorld* world)
 {
     bool any = false;
@@ -301,27 +399,56 @@ bool kiriSeams_Stir(const kiriWorld* world)
     return any;
 }
 
-kiriVec3 kiriStitch_Point(const kiriWorld* world, const kiriStitchData* stitch, int end)
+kiriVec3 kiriStitch_Point(const kiriWorld* world, const kiriSeamData* seam, int32_t stitch, int end)
 {
     kiriContactMember members[KIRI_CONTACT_WEIGHTS];
-    const kiriSheetData* sheet = kiriStitch_Sheet(world, stitch, end);
-    return CarriedEnd(sheet, members, CarryEnd(sheet, stitch->at[end], members));
+    KIRI_ASSERT_HAS(seam->stitches, stitch);
+    const kiriSheetData* sheet = kiriStitch_Sheet(world, &seam->stitches.data[stitch], end);
+    return CarriedEnd(sheet, members, CarryEnd(sheet, seam->stitches.data[stitch].at[end], seam->bends, members));
 }
+
+/* Finds the vectors of both materials that a hinge keeps alike: of the first one, turned by an angle, and of the second
+   one. */
+static void FindWays(const kiriStitchData* stitch, double angle, kiriVec3 ways[2])
+{
+    kiriVec2 turn = DirectionAt(angle);
+    ways[0] = kiriVec3_Make(-turn.x * stitch->inward[0].x, -turn.x * stitch->inward[0].y, turn.y);
+    ways[1] = kiriVec3_Make(stitch->inward[1].x, stitch->inward[1].y, 0.0);
+}
+
+double kiriStitch_Angle(const kiriWorld* world, const kiriSeamData* seam, int32_t stitch)
+{
+    const kiriStitchData* data = &seam->stitches.data[stitch];
+    kiriVec3 ways[3], seen[2], normal = { 0.0, 0.0, 0.0 };
+    KIRI_ASSERT_HAS(seam->stitches, stitch);
+    FindWays(data, 0.0, ways);
+    for (int end = 0; end < 2; ++end) {
+        kiriContactMember members[KIRI_CONTACT_WEIGHTS];
+        const kiriSheetData* sheet = kiriStitch_Sheet(world, data, end);
+        int32_t count = CarryEnd(sheet, data->at[end], seam->bends, members);
+        seen[end] = BlendedWay(sheet, members, count, ways[end]);
+        normal = end == 0 ? BlendedWay(sheet, members, count, kiriVec3_Make(0.0, 0.0, 1.0)) : normal;
+    }
+    double angle = AngleBetween(seen[0], seen[1]);
+    return kiriVec3_Dot(normal, seen[1]) >= 0.0 ? angle : -angle;
+}
+
+#define LEAST_SINE 0.1 /* a hinge that is more than 3 rad off its rest angle pulls no harder */
 
 bool kiriSeam_WriteRow(const kiriWorld* world, kiriSeamData* seam, int32_t stitch, double dt, kiriSheetData* sheets[2])
 {
     KIRI_ASSERT_HAS(seam->stitches, stitch);
     const kiriStitchData* data = &seam->stitches.data[stitch];
     kiriStitchRow* row = &seam->rows.data[stitch];
-    kiriVec3 apart = { 0 };
-    double mass = 0.0;
+    kiriVec3 apart = { 0 }, seen[2];
+    double mass = 0.0, stiffness = 0.0, give = 0.0;
     KIRI_ASSERT(seam->rows.capacity >= seam->stitches.count);
     memset(row, 0, sizeof(*row));
-    row->stiffness = data->stiffness;
+    FindWays(data, seam->restAngle, row->ways);
     for (int end = 0; end < 2; ++end) {
         kiriSheetData* sheet = kiriStitch_Sheet(world, data, end);
         kiriContactMember members[KIRI_CONTACT_WEIGHTS];
-        int32_t count = CarryEnd(sheet, data->at[end], members);
+        int32_t count = CarryEnd(sheet, data->at[end], seam->bends, members);
         if (count == 0) {
             return false;
         }
@@ -329,7 +456,12 @@ bool kiriSeam_WriteRow(const kiriWorld* world, kiriSeamData* seam, int32_t stitc
                        kiriSheet_Moves(sheet, members[0].frame);
         kiriVec3 x = kiriVec3_Scale(end == 0 ? 1.0 : -1.0, CarriedEnd(sheet, members, count));
         apart = kiriVec3_Add(apart, x);
+        const kiriMaterial* material = &sheet->settings.material;
+        double own = (double)material->youngsModulus * material->thickness;
+        stiffness = kiriMax(own, stiffness);
         mass = kiriMax(sheet->frames.data[members[0].frame].mass, mass);
+        seen[end] = BlendedWay(sheet, members, count, row->ways[end]);
+        give += GiveOf(sheet, members, count, kiriMesh_Local(&sheet->mesh, data->at[end]), data->inward[end]);
         sheets[end] = isMoved ? sheet : NULL;
         row->solvers[end] = isMoved ? sheet->solver : NULL;
         row->counts[end] = isMoved ? count : 0;
@@ -340,7 +472,12 @@ bool kiriSeam_WriteRow(const kiriWorld* world, kiriSeamData* seam, int32_t stitc
             member->value = end == 0 ? member->value : -member->value;
         }
     }
-    row->stiffness = kiriMin(SQUARED_PITCH * mass, row->stiffness);
+    row->stiffness = data->share * kiriMin(SQUARED_PITCH * mass, STIFFNESS * stiffness);
+    if (seam->bending > 0.0 && row->solvers[0] != NULL && row->solvers[1] != NULL) {
+        double off = AngleBetween(seen[0], seen[1]), sine = DirectionAt(off).y;
+        double linear = off > 1e-3 ? off / kiriMax(sine, LEAST_SINE) : 1.0; /* the spring pulls with the sine */
+        row->bending = linear * data->length / (1.0 / seam->bending + give);
+    }
     double gap = kiriVec3_Length(apart), closed = CLOSING_SPEED * dt;
     row->off = kiriVec3_AddScaled(row->off, gap > closed ? 1.0 - closed / gap : 0.0, apart);
     return row->solvers[0] != NULL || row->solvers[1] != NULL;

@@ -16,13 +16,22 @@ void kiriSeams_Remove(kiriWorld* world, kiriSeamData* seam);
 kiriSheetData* kiriStitch_Sheet(const kiriWorld* world, const kiriStitchData* stitch, int end);
 
 /* Returns the position of one end by the current frames. */
-kiriVec3 kiriStitch_Point(const kiriWorld* world, const kiriStitchData* stitch, int end);
+kiriVec3 kiriStitch_Point(const kiriWorld* world, const kiriSeamData* seam, int32_t stitch, int end);
 
 /* Removes the stitches of pieces that are destroyed, and seams without stitches. */
 void kiriSeams_DropStale(kiriWorld* world);
 
 /* Finds the frames that carry the points. Call it after a commit. */
 void kiriSeams_Follow(kiriWorld* world);
+
+/* Lists the lines of seams in each sheet. Fails on out of memory. */
+bool kiriSeams_ListLines(kiriWorld* world);
+
+/* Returns the angle of the seam at a stitch, rad. */
+double kiriStitch_Angle(const kiriWorld* world, const kiriSeamData* seam, int32_t stitch);
+
+/* Wakes the pieces of a seam that changes. */
+void kiriSeams_Wake(const kiriWorld* world, const kiriSeamData* seam);
 
 /* Stirs sleeping pieces that are sewn to moving ones. Returns true if there are any. */
 bool kiriSeams_Stir(const kiriWorld* world);

@@ -49,13 +49,14 @@ KIRI_TABLE(BladeDataTable, kiriBladeData, {
 
 KIRI_TABLE(StitchTable, kiriStitchData, {
     KIRI_RUN(4, at),
-    KIRI_REALS(length, force),
+    KIRI_REALS(inward, force),
     KIRI_UNHASHED,
     KIRI_RUN(4, frames),
 })
 
 KIRI_TABLE(SeamTable, kiriSeamData, {
-    KIRI_REALS(breakForce),
+    KIRI_REALS(breakForce, restAngle),
+    KIRI_BOOLS(bends),
     KIRI_PARTS(stitches, StitchTable),
     KIRI_UNHASHED,
     KIRI_RUN(4, id),
@@ -241,10 +242,11 @@ static bool IsPool(const kiriPool* pool, uint32_t kind)
 /* Returns true if the points of all stitches are in sheets that can be sewn. */
 static bool IsSeam(const kiriWorld* world, const kiriSeamData* seam)
 {
-    bool isFine = seam->breakForce >= 0.0 && seam->stitches.count > 0 && seam->rows.capacity >= seam->stitches.count;
+    bool isFine = seam->breakForce >= 0.0 && seam->bending >= 0.0 && fabs(seam->restAngle) <= KIRI_MOST_FOLD &&
+                  seam->stitches.count > 0 && seam->rows.capacity >= seam->stitches.count;
     KIRI_EACH_WHILE(isFine, const kiriStitchData, stitch, seam->stitches) {
         const kiriSheetData* sheets[2];
-        isFine = stitch->length > 0.0 && stitch->stiffness > 0.0;
+        isFine = stitch->length > 0.0 && stitch->share > 0.0;
         for (int end = 0; isFine && end < 2; ++end) {
             sheets[end] = kiriStitch_Sheet(world, stitch, end);
             isFine = sheets[end] != NULL && !sheets[end]->settings.mechanics.planar &&

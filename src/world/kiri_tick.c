@@ -466,7 +466,8 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
     EnterStage(world, KIRI_STAGE_CONTACT);
     bool hasRoom = kiriPairs_Find(world, dt); /* while the mesh equals the visible one */
     kiriResult updated = hasRoom ? UpdateAll(world, &quotas) : KIRI_ERROR_MEMORY;
-    hasRoom = hasRoom && FindTouches(world, dt) && kiriMoves_Prepare(world) && kiriSkinStep_Prepare(world);
+    hasRoom = hasRoom && FindTouches(world, dt) && kiriMoves_Prepare(world) && kiriSkinStep_Prepare(world) &&
+              kiriSeams_ListLines(world);
     kiriResult result = hasRoom ? ReserveRoom(world) : KIRI_ERROR_MEMORY;
     if (result != KIRI_OK) {
         EndUnmoved(world);
@@ -494,7 +495,7 @@ kiriResult kiriWorld_FinishUpdates(kiriWorld* world)
     ListActive(world);
     StartAll(world, true);
     kiriResult updated = UpdateAll(world, &unlimited);
-    bool hasRoom = kiriMoves_Prepare(world) && kiriSkinStep_Prepare(world);
+    bool hasRoom = kiriMoves_Prepare(world) && kiriSkinStep_Prepare(world) && kiriSeams_ListLines(world);
     kiriResult result = hasRoom ? ReserveRoom(world) : KIRI_ERROR_MEMORY;
     if (result != KIRI_OK) {
         EndUnmoved(world);

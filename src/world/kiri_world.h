@@ -105,14 +105,18 @@ typedef struct kiriPairs {
 typedef struct kiriStitchData {
     kiriFrame frames[2];    /* each carries most of a point; it names the sheet, whichever sheet its piece is in */
     kiriLatticePoint at[2]; /* of the lattice of the sheet, which detached pieces keep */
+    kiriVec2 inward[2];     /* unit, rest plane: from each line into the material, across the seam */
     double length;          /* m of the seam */
-    double stiffness;       /* N/m */
+    double share;           /* of the stiffness of a whole stitch; those at ends stand for half the length */
     kiriVec3 force;         /* N, on the first point: mean over the last tick that moved it */
 } kiriStitchData;
 
 typedef struct kiriSeamData {
     kiriSeam id;
     double breakForce; /* N/m; 0: never */
+    double bending;    /* N m/rad per m; 0: it turns freely */
+    double restAngle;  /* rad */
+    bool bends;        /* stitches meet in arcs, see kiri_seam.c */
     KIRI_ARRAY(kiriStitchData) stitches;
     KIRI_ARRAY(kiriStitchRow) rows; /* of the stitches, in the current tick */
 } kiriSeamData;

@@ -1586,6 +1586,12 @@ namespace Kiri
             World.Check(Native.kiriDestroySeam(World.Handle, Id));
         }
 
+        /// <summary>Sets stiffness and restAngle, as in the def.</summary>
+        public void SetHinge(float stiffness, float restAngle)
+        {
+            World.Check(Native.kiriSeam_SetHinge(World.Handle, Id, stiffness, restAngle));
+        }
+
         /// <summary>Gets a stitch of those that are left, in the order of the lines. KIRI_ERROR_ARGUMENT: no stitch has the
         /// index.</summary>
         public Stitch GetStitch(int index)

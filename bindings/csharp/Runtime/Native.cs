@@ -1185,6 +1185,10 @@ namespace Kiri
         internal int countB;
         /// <summary>up to 4096; 0 (default): two for each distance of frames</summary>
         public int Stitches;
+        /// <summary>N m/rad per m: of a hinge along the seam, in series with the material of both sides; 0: free</summary>
+        public float Stiffness;
+        /// <summary>rad, -pi to pi: 0 flat; above 0 sheet B turns to the side of A's normal</summary>
+        public float RestAngle;
         /// <summary>N/m: a stitch breaks in a tick with a larger force for its length; 0: never</summary>
         public float BreakForce;
 
@@ -1216,6 +1220,8 @@ namespace Kiri
         public float Gap;
         /// <summary>N, on sheet A: mean over the last tick that moved it</summary>
         public Float3 Force;
+        /// <summary>rad, as restAngle</summary>
+        public float Angle;
     }
 
     /// <summary>A contact of a point of the material: the plane dot(normal, x) = offset keeps the point on its upper side, and
@@ -1700,6 +1706,9 @@ namespace Kiri
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int kiriDestroySeam(IntPtr world, SeamId seam);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int kiriSeam_SetHinge(IntPtr world, SeamId seam, float stiffness, float restAngle);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int kiriSeam_GetStitch(IntPtr world, SeamId seam, int @index, Stitch* stitch);

@@ -459,7 +459,7 @@ namespace Kiri.Tests
         {
             SeamDef s;
             byte* at = (byte*)&s;
-            Is("SeamDef", sizeof(SeamDef), 48);
+            Is("SeamDef", sizeof(SeamDef), 56);
             Is("SeamDef.cookie", (byte*)&s.cookie - at, 0);
             Is("SeamDef.SheetA", (byte*)&s.SheetA - at, 4);
             Is("SeamDef.SheetB", (byte*)&s.SheetB - at, 8);
@@ -468,14 +468,16 @@ namespace Kiri.Tests
             Is("SeamDef.countA", (byte*)&s.countA - at, 32);
             Is("SeamDef.countB", (byte*)&s.countB - at, 36);
             Is("SeamDef.Stitches", (byte*)&s.Stitches - at, 40);
-            Is("SeamDef.BreakForce", (byte*)&s.BreakForce - at, 44);
+            Is("SeamDef.Stiffness", (byte*)&s.Stiffness - at, 44);
+            Is("SeamDef.RestAngle", (byte*)&s.RestAngle - at, 48);
+            Is("SeamDef.BreakForce", (byte*)&s.BreakForce - at, 52);
         }
 
         static void Stitch()
         {
             Stitch s;
             byte* at = (byte*)&s;
-            Is("Stitch", sizeof(Stitch), 52);
+            Is("Stitch", sizeof(Stitch), 56);
             Is("Stitch.SheetA", (byte*)&s.SheetA - at, 0);
             Is("Stitch.SheetB", (byte*)&s.SheetB - at, 4);
             Is("Stitch.RestA", (byte*)&s.RestA - at, 8);
@@ -483,6 +485,7 @@ namespace Kiri.Tests
             Is("Stitch.Position", (byte*)&s.Position - at, 24);
             Is("Stitch.Gap", (byte*)&s.Gap - at, 36);
             Is("Stitch.Force", (byte*)&s.Force - at, 40);
+            Is("Stitch.Angle", (byte*)&s.Angle - at, 52);
         }
 
         static void Contact()

@@ -128,6 +128,7 @@ CHANGES = {'kiriWorld_Tick': True,
  'kiriSheet_GetPins': False,
  'kiriCreateSeam': True,
  'kiriDestroySeam': True,
+ 'kiriSeam_SetHinge': True,
  'kiriSeam_GetStitch': False,
  'kiriSeam_GetCount': False,
  'kiriWorld_GetSeams': False,
@@ -247,6 +248,7 @@ METHODS = {'kiriGetVersion': (None, 'version'),
  'kiriDefaultSeamDef': (None, 'default_seam_def'),
  'kiriCreateSeam': ('World', 'create_seam'),
  'kiriDestroySeam': ('Seam', 'destroy'),
+ 'kiriSeam_SetHinge': ('Seam', 'set_hinge'),
  'kiriSeam_GetStitch': ('Seam', 'stitch'),
  'kiriSeam_GetCount': ('Seam', 'count'),
  'kiriWorld_GetSeams': ('World', 'seams'),
@@ -428,8 +430,8 @@ struct kiriFrameState { float restPoint[2]; float position[3]; float rotation[9]
 struct kiriWind { float velocity[3]; float density; float drag; float lift; };
 struct kiriPinDef { uint32_t cookie; float restPoint[2]; float target[3]; float stiffness; float breakForce; kiriObstacle obstacle; };
 struct kiriPinState { int32_t type; kiriSheet sheet; float from[2]; float to[2]; float target[3]; float rotation[9]; float breakForce; kiriObstacle obstacle; };
-struct kiriSeamDef { uint32_t cookie; kiriSheet sheetA; kiriSheet sheetB; const float* lineA; const float* lineB; int32_t countA; int32_t countB; int32_t stitches; float breakForce; };
-struct kiriStitch { kiriSheet sheetA; kiriSheet sheetB; float restA[2]; float restB[2]; float position[3]; float gap; float force[3]; };
+struct kiriSeamDef { uint32_t cookie; kiriSheet sheetA; kiriSheet sheetB; const float* lineA; const float* lineB; int32_t countA; int32_t countB; int32_t stitches; float stiffness; float restAngle; float breakForce; };
+struct kiriStitch { kiriSheet sheetA; kiriSheet sheetB; float restA[2]; float restB[2]; float position[3]; float gap; float force[3]; float angle; };
 struct kiriContact { int32_t point; float restPoint[2]; float normal[3]; float offset; float velocity[3]; float friction; float inverseMass; float pushSpeed; int32_t obstacle; };
 struct kiriContactForce { double impulse[3]; double position[3]; double depth; int32_t point; int32_t obstacle; };
 struct kiriObstacleDef { uint32_t cookie; int32_t type; float size[3]; float radius; float height; const float* outline; int32_t outlineCount; float rounding; float position[3]; float rotation[9]; float velocity[3]; float angularVelocity[3]; float surfaceVelocity[3]; float friction; float mass; float inertia[6]; float centerOfMass[3]; uint32_t body; float pushSpeed; uint32_t groups; };
@@ -540,6 +542,7 @@ kiriResult kiriSheet_GetPins(const kiriWorld* world, kiriSheet sheet, kiriPin* p
 void kiriDefaultSeamDef(kiriSeamDef* def);
 kiriResult kiriCreateSeam(kiriWorld* world, const kiriSeamDef* def, kiriSeam* seam);
 kiriResult kiriDestroySeam(kiriWorld* world, kiriSeam seam);
+kiriResult kiriSeam_SetHinge(kiriWorld* world, kiriSeam seam, float stiffness, float restAngle);
 kiriResult kiriSeam_GetStitch(const kiriWorld* world, kiriSeam seam, int32_t index, kiriStitch* stitch);
 kiriResult kiriSeam_GetCount(const kiriWorld* world, kiriSeam seam, int32_t* stitches);
 kiriResult kiriWorld_GetSeams(const kiriWorld* world, kiriSeam* seams, int32_t capacity, int32_t* count);

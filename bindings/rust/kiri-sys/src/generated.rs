@@ -872,6 +872,10 @@ pub struct kiriSeamDef {
     pub countB: i32,
     /// up to 4096; 0 (default): two for each distance of frames
     pub stitches: i32,
+    /// N m/rad per m: of a hinge along the seam, in series with the material of both sides; 0: free
+    pub stiffness: f32,
+    /// rad, -pi to pi: 0 flat; above 0 sheet B turns to the side of A's normal
+    pub restAngle: f32,
     /// N/m: a stitch breaks in a tick with a larger force for its length; 0: never
     pub breakForce: f32,
 }
@@ -892,6 +896,8 @@ pub struct kiriStitch {
     pub gap: f32,
     /// N, on sheet A: mean over the last tick that moved it
     pub force: [f32; 3],
+    /// rad, as restAngle
+    pub angle: f32,
 }
 
 /// A contact of a point of the material: the plane dot(normal, x) = offset keeps the point on its
@@ -1407,6 +1413,8 @@ unsafe extern "C" {
     /// up to 1 m/s. KIRI_ERROR_ARGUMENT: a line leaves the material; a sheet is planar; the models
     /// differ.
     pub fn kiriDestroySeam(world: *mut kiriWorld, seam: kiriSeam) -> kiriResult;
+    /// Sets stiffness and restAngle, as in the def.
+    pub fn kiriSeam_SetHinge(world: *mut kiriWorld, seam: kiriSeam, stiffness: f32, restAngle: f32) -> kiriResult;
     /// Gets a stitch of those that are left, in the order of the lines. KIRI_ERROR_ARGUMENT: no
     /// stitch has the index.
     pub fn kiriSeam_GetStitch(world: *const kiriWorld, seam: kiriSeam, index: i32, stitch: *mut kiriStitch) -> kiriResult;
@@ -1728,7 +1736,7 @@ const _: () = {
     assert!(offset_of!(kiriPinState, rotation) == 36);
     assert!(offset_of!(kiriPinState, breakForce) == 72);
     assert!(offset_of!(kiriPinState, obstacle) == 76);
-    assert!(size_of::<kiriSeamDef>() == 48);
+    assert!(size_of::<kiriSeamDef>() == 56);
     assert!(align_of::<kiriSeamDef>() == 8);
     assert!(offset_of!(kiriSeamDef, cookie) == 0);
     assert!(offset_of!(kiriSeamDef, sheetA) == 4);
@@ -1738,8 +1746,10 @@ const _: () = {
     assert!(offset_of!(kiriSeamDef, countA) == 32);
     assert!(offset_of!(kiriSeamDef, countB) == 36);
     assert!(offset_of!(kiriSeamDef, stitches) == 40);
-    assert!(offset_of!(kiriSeamDef, breakForce) == 44);
-    assert!(size_of::<kiriStitch>() == 52);
+    assert!(offset_of!(kiriSeamDef, stiffness) == 44);
+    assert!(offset_of!(kiriSeamDef, restAngle) == 48);
+    assert!(offset_of!(kiriSeamDef, breakForce) == 52);
+    assert!(size_of::<kiriStitch>() == 56);
     assert!(align_of::<kiriStitch>() == 4);
     assert!(offset_of!(kiriStitch, sheetA) == 0);
     assert!(offset_of!(kiriStitch, sheetB) == 4);
@@ -1748,6 +1758,7 @@ const _: () = {
     assert!(offset_of!(kiriStitch, position) == 24);
     assert!(offset_of!(kiriStitch, gap) == 36);
     assert!(offset_of!(kiriStitch, force) == 40);
+    assert!(offset_of!(kiriStitch, angle) == 52);
     assert!(size_of::<kiriContact>() == 56);
     assert!(align_of::<kiriContact>() == 4);
     assert!(offset_of!(kiriContact, point) == 0);
@@ -2087,7 +2098,7 @@ const _: () = {
     assert!(offset_of!(kiriPinState, rotation) == 36);
     assert!(offset_of!(kiriPinState, breakForce) == 72);
     assert!(offset_of!(kiriPinState, obstacle) == 76);
-    assert!(size_of::<kiriSeamDef>() == 36);
+    assert!(size_of::<kiriSeamDef>() == 44);
     assert!(align_of::<kiriSeamDef>() == 4);
     assert!(offset_of!(kiriSeamDef, cookie) == 0);
     assert!(offset_of!(kiriSeamDef, sheetA) == 4);
@@ -2097,8 +2108,10 @@ const _: () = {
     assert!(offset_of!(kiriSeamDef, countA) == 20);
     assert!(offset_of!(kiriSeamDef, countB) == 24);
     assert!(offset_of!(kiriSeamDef, stitches) == 28);
-    assert!(offset_of!(kiriSeamDef, breakForce) == 32);
-    assert!(size_of::<kiriStitch>() == 52);
+    assert!(offset_of!(kiriSeamDef, stiffness) == 32);
+    assert!(offset_of!(kiriSeamDef, restAngle) == 36);
+    assert!(offset_of!(kiriSeamDef, breakForce) == 40);
+    assert!(size_of::<kiriStitch>() == 56);
     assert!(align_of::<kiriStitch>() == 4);
     assert!(offset_of!(kiriStitch, sheetA) == 0);
     assert!(offset_of!(kiriStitch, sheetB) == 4);
@@ -2107,6 +2120,7 @@ const _: () = {
     assert!(offset_of!(kiriStitch, position) == 24);
     assert!(offset_of!(kiriStitch, gap) == 36);
     assert!(offset_of!(kiriStitch, force) == 40);
+    assert!(offset_of!(kiriStitch, angle) == 52);
     assert!(size_of::<kiriContact>() == 56);
     assert!(align_of::<kiriContact>() == 4);
     assert!(offset_of!(kiriContact, point) == 0);

@@ -1803,6 +1803,10 @@ pub struct SeamDef<'a> {
     pub line_b: &'a [[f32; 2]],
     /// up to 4096; 0 (default): two for each distance of frames
     pub stitches: i32,
+    /// N m/rad per m: of a hinge along the seam, in series with the material of both sides; 0: free
+    pub stiffness: f32,
+    /// rad, -pi to pi: 0 flat; above 0 sheet B turns to the side of A's normal
+    pub rest_angle: f32,
     /// N/m: a stitch breaks in a tick with a larger force for its length; 0: never
     pub break_force: f32,
 }
@@ -1831,6 +1835,8 @@ impl<'a> SeamDef<'a> {
             line_a: unsafe { view(raw.lineA, raw.countA) },
             line_b: unsafe { view(raw.lineB, raw.countB) },
             stitches: raw.stitches,
+            stiffness: raw.stiffness,
+            rest_angle: raw.restAngle,
             break_force: raw.breakForce,
         }
     }
@@ -1844,6 +1850,8 @@ impl<'a> SeamDef<'a> {
         raw.lineB = self.line_b.as_ptr().cast();
         raw.countB = self.line_b.len() as i32;
         raw.stitches = self.stitches;
+        raw.stiffness = self.stiffness;
+        raw.restAngle = self.rest_angle;
         raw.breakForce = self.break_force;
         raw
     }
@@ -1866,6 +1874,8 @@ pub struct Stitch {
     pub gap: f32,
     /// N, on sheet A: mean over the last tick that moved it
     pub force: [f32; 3],
+    /// rad, as `rest_angle`
+    pub angle: f32,
 }
 
 impl Stitch {
@@ -1879,6 +1889,7 @@ impl Stitch {
             position: raw.position,
             gap: raw.gap,
             force: raw.force,
+            angle: raw.angle,
         }
     }
 }
@@ -3285,6 +3296,13 @@ impl Seam {
     pub fn destroy(self, world: &mut World) -> Result<()> {
         // SAFETY: pointers are to what is named, and lengths are theirs.
         check(unsafe { sys::kiriDestroySeam(world.raw_mut(), self.raw()) }, world)?;
+        Ok(())
+    }
+
+    /// Sets stiffness and `rest_angle`, as in the def.
+    pub fn set_hinge(self, world: &mut World, stiffness: f32, rest_angle: f32) -> Result<()> {
+        // SAFETY: pointers are to what is named, and lengths are theirs.
+        check(unsafe { sys::kiriSeam_SetHinge(world.raw_mut(), self.raw(), stiffness, rest_angle) }, world)?;
         Ok(())
     }
 
