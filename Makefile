@@ -143,7 +143,7 @@ TO_LINK := $(BUILD)/link.txt Makefile
 LANGUAGE_CHECKS :=
 include bindings/install.mk $(wildcard bindings/*/rules.mk)
 
-.PHONY: all run box2d play python bindings described builds lib single example bench accuracy contact extremes gallery guide deps
+.PHONY: all run box2d jolt play python bindings described builds lib single example bench accuracy contact extremes gallery guide deps
 .PHONY: test all-tests quick fuzz sweep scarce long page analyze deps-analyze valgrind tsan check ratchet floors fields headers format clean exports FORCE
 .DEFAULT_GOAL := all
 .SECONDARY:
@@ -168,6 +168,13 @@ run: packages-run
 box2d: packages-box2d
 	@$(MAKE) --no-print-directory $(BOX2D)
 	$(BOX2D) $(ARGS)
+
+# With Jolt, which no package of Debian has: JOLT is its folder, JOLT_LIBRARY its library, JOLT_FLAGS are as that was made.
+jolt: $(BUILD)/libkiri.a
+	@if [ ! -e '$(JOLT)/Jolt/Jolt.h' ] || [ ! -e '$(JOLT_LIBRARY)' ]; then \
+	    echo 'jolt: JOLT= and JOLT_LIBRARY= name no Jolt, not tested'; exit 0; fi; \
+	$(CXX) -std=c++17 -O2 -Wall -Wextra -Werror $(JOLT_FLAGS) -isystem '$(JOLT)' -Iinclude samples/jolt/main.cpp $< '$(JOLT_LIBRARY)' \
+	    -pthread -o $(BUILD)/samples/kiri-jolt && $(BUILD)/samples/kiri-jolt
 
 play: packages-play
 	@$(MAKE) --no-print-directory $(PLAY)
