@@ -886,7 +886,7 @@ type PinState struct {
 // A seam joins two lines in the material, of two sheets or of one: a sleeve, a bag, a patch. Both lines are divided
 // into the same parts of their lengths, and stitches join these points. A stitch belongs to its two points: cuts go
 // through a seam, and pieces that come off or become sheets keep their stitches. It ends with the piece of one of
-// them.
+// them. The manual has lines, hinges and breaking (sewing).
 type SeamDef struct {
 	cookie uint32
 	// of the same model, and not planar

@@ -881,7 +881,8 @@ KIRI_API kiriResult kiriSheet_GetPins(const kiriWorld* world, kiriSheet sheet, k
 
 /* A seam joins two lines in the material, of two sheets or of one: a sleeve, a bag, a patch. Both lines are divided into
    the same parts of their lengths, and stitches join these points. A stitch belongs to its two points: cuts go through
-   a seam, and pieces that come off or become sheets keep their stitches. It ends with the piece of one of them. */
+   a seam, and pieces that come off or become sheets keep their stitches. It ends with the piece of one of them. The
+   manual has lines, hinges and breaking (sewing). */
 typedef struct kiriSeamDef {
     uint32_t cookie;
     kiriSheet sheetA, sheetB;   /* of the same model, and not planar */

@@ -1790,7 +1790,8 @@ impl PinState {
 /// A seam joins two lines in the material, of two sheets or of one: a sleeve, a bag, a patch. Both
 /// lines are divided into the same parts of their lengths, and stitches join these points. A stitch
 /// belongs to its two points: cuts go through a seam, and pieces that come off or become sheets
-/// keep their stitches. It ends with the piece of one of them.
+/// keep their stitches. It ends with the piece of one of them. The manual has lines, hinges and
+/// breaking (sewing).
 #[derive(Clone, Copy, Debug)]
 pub struct SeamDef<'a> {
     /// of the same model, and not planar
