@@ -37,6 +37,7 @@ typedef KIRI_ARRAY(float) kiriFloats;
 #define KIRI_EACH_WHILE(condition, Type, item, array)                                                                  \
     for (Type* item = (array).data; (condition) && item < (array).data + (array).count; ++item)
 #define KIRI_EACH_INDEX(i, array) for (int32_t i = 0; i < (array).count; ++i)
+#define KIRI_EACH_INDEX_WHILE(condition, i, array) for (int32_t i = 0; (condition) && i < (array).count; ++i)
 #define KIRI_EACH_OF(Type, item, array)                                                                                \
     for (Type** item##At = (array).data, *item; item##At < (array).data + (array).count && (item = *item##At, true);   \
          ++item##At)

@@ -1324,7 +1324,7 @@ void kiriGrid_Keep(kiriGrid* grid, kiriMemory* memory, const kiriKeep* triangles
         FreeCell(grid, gone[k]);
     }
     kiriKeep_Compact(vertices, &grid->vertexCell, 1, sizeof(int32_t));
-    for (int32_t c = 0; c < grid->cells.count && kiriKeep_Moves(triangles); ++c) {
+    KIRI_EACH_INDEX_WHILE(kiriKeep_Moves(triangles), c, grid->cells) {
         if (kiriGrid_IsCell(grid, c)) {
             grid->cells.data[c].triangle = kiriKeep_To(triangles, grid->cells.data[c].triangle);
         }

@@ -406,7 +406,7 @@ void kiriRegions_Keep(kiriRegions* regions, const kiriKeep* frames, const int32_
         regions->siteAt.data[gone[k]] = KIRI_NONE;
         SetBorder(regions, gone[k], false);
     }
-    for (int32_t c = 0; kiriKeep_Moves(frames) && c < regions->siteAt.count; ++c) {
+    KIRI_EACH_INDEX_WHILE(kiriKeep_Moves(frames), c, regions->siteAt) {
         regions->field.owner.data[c] = kiriKeep_To(frames, regions->field.owner.data[c]);
         regions->siteAt.data[c] = kiriKeep_To(frames, regions->siteAt.data[c]);
     }

@@ -829,7 +829,7 @@ void kiriShape_Keep(kiriShape* shape, kiriMemory* memory, const kiriKeep* frames
         }
     }
     kiriReaches_Keep(&shape->reaches, frames);
-    for (int32_t c = 0; kiriKeep_Moves(frames) && c < shape->spans.count; ++c) {
+    KIRI_EACH_INDEX_WHILE(kiriKeep_Moves(frames), c, shape->spans) {
         kiriSpan span = shape->spans.data[c];
         KIRI_EACH_IN(k, span) {
             shape->weights.data[k].frame = kiriKeep_To(frames, shape->weights.data[k].frame);

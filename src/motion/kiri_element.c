@@ -119,13 +119,13 @@ bool kiriAreaElements_Keep(kiriAreaElements* elements, kiriMemory* memory, const
                            const kiriKeep* frames)
 {
     bool ok = true;
-    for (int32_t k = 0; ok && k < from->elements.count; ++k) {
+    KIRI_EACH_INDEX_WHILE(ok, k, from->elements) {
         kiriAreaElement element = from->elements.data[k];
         const kiriFrameShare* shares = &from->shares.data[element.first];
         if (kiriKeep_Has(frames, shares[0].frame)) {
             element.first = elements->shares.count;
             ok = kiriArray_Push(memory, &elements->elements, element);
-            for (int32_t n = 0; ok && n < element.count; ++n) {
+            KIRI_EACH_INDEX_WHILE(ok, n, element) {
                 kiriFrameShare share = shares[n];
                 share.frame = kiriKeep_To(frames, share.frame);
                 ok = kiriArray_Push(memory, &elements->shares, share);
@@ -290,7 +290,7 @@ bool kiriIntegration_Build(kiriAreaElements* elements, kiriIntegrationWork* work
     elements->elements.count = elements->shares.count = 0;
     bool ok = kiriArray_Resize(memory, &work->seen, grid->cells.count);
     kiriArray_Set(&work->seen, 0);
-    for (int32_t s = 0; ok && s < grid->squareCell.count; ++s) {
+    KIRI_EACH_INDEX_WHILE(ok, s, grid->squareCell) {
         for (int32_t c = grid->squareCell.data[s]; ok && c != KIRI_NONE; c = grid->cells.data[c].next) {
             ok = work->seen.data[c] || AddPiecePoints(&b, c);
         }

@@ -157,7 +157,7 @@ kiriProgress kiriRefit_Stage(kiriRefit* refit, kiriMemory* memory, const kiriGri
         DropStagedOwners(ownership);
         bool ok = ReserveOwners(ownership, memory, mesh) && kiriArray_Resize(memory, &ownership->first, frameCount);
         kiriArray_Set(&ownership->first, KIRI_NONE);
-        for (int32_t s = 0; ok && isScratch && s < ownership->isDirty.count; ++s) {
+        KIRI_EACH_INDEX_WHILE(ok && isScratch, s, ownership->isDirty) {
             ok = NoteSquare(ownership, memory, s);
         }
         if (!ok) {

@@ -147,7 +147,7 @@ bool kiriDetach_Map(kiriDetach* detach, bool makesParts)
     detach->area = AreaOfAll(sheet);
     bool ok = kiriArray_Resize(memory, &detach->vertexPart, sheet->mesh.vertices.count) &&
               (!makesParts || InitSubset(part, sheet, memory)) && kiriKeep_Init(&rest->pins, memory, sheet->pins.count);
-    for (int32_t v = 0; ok && v < sheet->mesh.vertices.count; ++v) {
+    KIRI_EACH_INDEX_WHILE(ok, v, sheet->mesh.vertices) {
         detach->vertexPart.data[v] = PartOfPiece(detach, kiriPiece_OfVertex(sheet, v));
     }
     for (int32_t k = 0; ok && k < KIRI_LISTED_COUNT; ++k) {
@@ -173,7 +173,7 @@ bool kiriDetach_Map(kiriDetach* detach, bool makesParts)
              (!makesParts || kiriPieceItems_List(&detach->of[k], memory, detach->rest.pieces.count, parts.data, count));
         kiriArray_Release(memory, &parts);
     }
-    for (int32_t i = 0; ok && i < sheet->pins.count; ++i) {
+    KIRI_EACH_INDEX_WHILE(ok, i, sheet->pins) {
         kiriKeep_Add(&rest->pins, kiriSubset_FrameOfPin(rest, i) != KIRI_NONE);
     }
     return ok;
@@ -253,7 +253,7 @@ static bool CopyPoints(const kiriDetach* detach, int32_t piece, kiriSheetData* t
 {
     const kiriIndices points = ItemsOf(detach, KIRI_LISTED_POINTS, piece);
     bool ok = true;
-    for (int32_t k = 0; ok && k < points.count; ++k) {
+    KIRI_EACH_INDEX_WHILE(ok, k, points) {
         kiriSample point = { detach->sheet->points.data[points.data[k]].at, KIRI_NONE, KIRI_NONE };
         kiriSpan none = { 0 };
         ok = kiriArray_Push(to->memory, &to->points, point) &&
@@ -366,7 +366,7 @@ static bool FillPart(kiriDetach* detach, int32_t piece, kiriSheetData* to)
     bool ok = to->solver != NULL && kiriMesh_MakePart(&to->mesh, to->memory, &from->mesh, &triangles, &vertices) &&
               kiriPipeline_Make(to, KIRI_STAGE_REGIONS) && CopySites(detach, &frames, to) &&
               CopyPoints(detach, piece, to);
-    for (int32_t i = 0; ok && i < from->pins.count; ++i) {
+    KIRI_EACH_INDEX_WHILE(ok, i, from->pins) {
         int32_t frame = kiriSubset_FrameOfPin(part, i);
         ok = frame == KIRI_NONE || kiriPins_Add(to, &from->pins.data[i], kiriKeep_To(&part->frames, frame));
     }
@@ -383,15 +383,15 @@ static bool FillPart(kiriDetach* detach, int32_t piece, kiriSheetData* to)
     KIRI_EACH_INDEX(k, frames) { /* a changed material leaves regions dirty, see kiri_sheet.c */
         to->regions.dirty.data[k] = from->regions.dirty.data[frames.data[k]];
     }
-    for (int32_t k = 0; from->strainOffsets.strainOffsets.count > 0 && k < links.count; ++k) {
+    KIRI_EACH_INDEX_WHILE(from->strainOffsets.strainOffsets.count > 0, k, links) {
         KIRI_ASSERT(to->strainOffsets.strainOffsets.count == links.count); /* links have the same order as in the sheet */
         to->strainOffsets.strainOffsets.data[k] = from->strainOffsets.strainOffsets.data[links.data[k]];
     }
-    for (int32_t k = 0; from->plastics.links.count > 0 && k < links.count; ++k) {
+    KIRI_EACH_INDEX_WHILE(from->plastics.links.count > 0, k, links) {
         KIRI_ASSERT(to->plastics.links.count == links.count);
         to->plastics.links.data[k] = from->plastics.links.data[links.data[k]];
     }
-    for (int32_t k = 0; kiriSurface_HasDetail(&to->seen.surface) && k < vertices.items.count; ++k) {
+    KIRI_EACH_INDEX_WHILE(kiriSurface_HasDetail(&to->seen.surface), k, vertices.items) {
         memcpy(to->seen.surface.detail.offsets.data + 3 * k,
                from->seen.surface.detail.offsets.data + 3 * vertices.items.data[k], 3 * sizeof(float));
     }
@@ -430,7 +430,7 @@ static bool ListCells(kiriDetach* detach)
     const kiriSheetData* sheet = detach->sheet;
     kiriMemory* memory = &detach->memory;
     bool ok = true;
-    for (int32_t s = 0; ok && s < sheet->grid.squareCell.count; ++s) {
+    KIRI_EACH_INDEX_WHILE(ok, s, sheet->grid.squareCell) {
         bool isListed = false;
         for (int32_t c = sheet->grid.squareCell.data[s]; ok && c != KIRI_NONE; c = sheet->grid.cells.data[c].next) {
             if (!kiriKeep_Has(&detach->rest.frames, sheet->regions.field.owner.data[c])) {
@@ -454,7 +454,7 @@ static bool StagePieces(kiriDetach* detach)
     bool ok = kiriKeep_Init(&pieces, &detach->memory, layout->pieces.count) &&
               kiriArray_Reserve(sheet->memory, &next->pieces, layout->pieces.count) &&
               kiriArray_Reserve(sheet->memory, &next->framePiece, layout->framePiece.count);
-    for (int32_t p = 0; ok && p < layout->pieces.count; ++p) {
+    KIRI_EACH_INDEX_WHILE(ok, p, layout->pieces) {
         const kiriPiece* was = &layout->pieces.data[p];
         kiriPiece piece = { .area = was->area,
                             .frame = kiriKeep_To(&rest->frames, was->frame),
@@ -465,7 +465,7 @@ static bool StagePieces(kiriDetach* detach)
             KIRI_NEXT(next->pieces) = piece;
         }
     }
-    for (int32_t f = 0; ok && f < layout->framePiece.count; ++f) {
+    KIRI_EACH_INDEX_WHILE(ok, f, layout->framePiece) {
         if (kiriKeep_Has(&rest->frames, f)) {
             KIRI_NEXT(next->framePiece) = kiriKeep_To(&pieces, layout->framePiece.data[f]);
         }
@@ -481,7 +481,7 @@ static bool StagePins(kiriDetach* detach)
     kiriLayout* next = &sheet->update->next;
     bool ok = true;
     next->pinFrame.count = next->pinShares.count = next->severed.count = 0;
-    for (int32_t i = 0; ok && i < sheet->pins.count; ++i) {
+    KIRI_EACH_INDEX_WHILE(ok, i, sheet->pins) {
         int32_t frame = kiriSubset_FrameOfPin(rest, i);
         ok = frame == KIRI_NONE || kiriArray_Push(sheet->memory, &next->pinFrame, kiriKeep_To(&rest->frames, frame));
     }

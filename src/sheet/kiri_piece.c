@@ -364,7 +364,7 @@ static bool ListPoints(kiriSheetData* sheet)
 {
     kiriMemory* memory = &sheet->shown;
     int32_t* pieces = kiriMemory_Alloc(memory, (int64_t)sizeof(int32_t) * sheet->points.count);
-    for (int32_t i = 0; pieces != NULL && i < sheet->points.count; ++i) {
+    KIRI_EACH_INDEX_WHILE(pieces != NULL, i, sheet->points) {
         pieces[i] = sheet->layout.framePiece.data[sheet->points.data[i].frame];
     }
     bool ok = pieces != NULL && kiriPieceItems_List(&sheet->lists.points, memory, sheet->layout.pieces.count, pieces,

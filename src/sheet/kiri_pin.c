@@ -213,7 +213,7 @@ bool kiriPins_Stage(kiriSheetData* sheet)
     int32_t frames = sheet->update->placing.sites.count;
     next->pinShares.count = next->severed.count = 0;
     bool ok = kiriArray_Resize(sheet->memory, &next->pinFrame, sheet->pins.count);
-    for (int32_t i = 0; ok && i < sheet->pins.count; ++i) {
+    KIRI_EACH_INDEX_WHILE(ok, i, sheet->pins) {
         const kiriPinData* pin = &sheet->pins.data[i];
         if (pin->type == KIRI_PIN_POINT) {
             int32_t cell = kiriGrid_CellAround(&sheet->grid, &sheet->mesh, pin->at);
@@ -473,7 +473,7 @@ double kiriPins_ElasticEnergy(const kiriSheetData* sheet)
 int32_t kiriPins_WriteClamps(const kiriSheetData* sheet, kiriClampRow* rows)
 {
     int32_t count = 0;
-    for (int32_t k = 0; k < sheet->layout.pinShares.count; ++k) {
+    KIRI_EACH_INDEX(k, sheet->layout.pinShares) {
         const kiriPinShare* pinned = &sheet->layout.pinShares.data[k];
         if (sheet->pins.data[pinned->pin].type == KIRI_PIN_CLAMP) {
             rows[count++] = ClampRowOf(sheet, pinned, &sheet->frames.data[pinned->share.frame], 0.0, 1.0);
@@ -661,13 +661,13 @@ static bool IsHeldElsewhere(const kiriSheetData* sheet, const kiriPinShare* hold
     const int32_t* pieces = sheet->layout.framePiece.data;
     int32_t piece = pieces[hold->share.frame];
     bool isHeld = false;
-    for (int32_t i = 0; !isHeld && i < sheet->pins.count; ++i) {
+    KIRI_EACH_INDEX_WHILE(!isHeld, i, sheet->pins) {
         isHeld = sheet->pins.data[i].type == KIRI_PIN_POINT && pieces[sheet->layout.pinFrame.data[i]] == piece;
     }
     KIRI_EACH_WHILE(!isHeld, const kiriPinShare, other, sheet->layout.pinShares) {
         isHeld = other->pin != hold->pin && pieces[other->share.frame] == piece;
     }
-    for (int32_t f = 0; !isHeld && f < sheet->frames.count; ++f) {
+    KIRI_EACH_INDEX_WHILE(!isHeld, f, sheet->frames) {
         isHeld = sheet->frames.data[f].held && pieces[f] == piece;
     }
     return isHeld;

@@ -220,7 +220,7 @@ static bool CollectMoves(kiriSheetData* sheet)
 {
     kiriUpdate* u = sheet->update;
     bool any = u->isScratch || FlagSquares(sheet, 1), ok = true;
-    for (int32_t f = 0; ok && any && f < sheet->frames.count; ++f) {
+    KIRI_EACH_INDEX_WHILE(ok && any, f, sheet->frames) {
         if (u->isScratch) {
             ok = RecordMove(sheet, f, KIRI_NONE);
         } else if (u->placing.flags.data[kiriSquares_At(&sheet->mesh.squares, sheet->frames.data[f].anchor)]) {
@@ -239,7 +239,7 @@ bool kiriSites_Relocate(kiriSheetData* sheet)
     placing->moves.count = placing->movesSeen = 0;
     if (sheet->frames.count == 0) { /* a new sheet: its def may give sites */
         bool ok = true;
-        for (int32_t i = 0; ok && i < placing->sites.count; ++i) {
+        KIRI_EACH_INDEX_WHILE(ok, i, placing->sites) {
             ok = RecordMove(sheet, i, KIRI_NONE);
         }
         return ok;
@@ -610,7 +610,7 @@ static bool IsOfCrumb(const kiriSheetData* sheet, int32_t frame)
 bool kiriSites_MayBeFew(const kiriSheetData* sheet)
 {
     bool mayBe = sheet->update->needsRebuild;
-    for (int32_t f = 0; !mayBe && f < sheet->frames.count && sheet->frames.count < sheet->settings.maxFrames; ++f) {
+    KIRI_EACH_INDEX_WHILE(!mayBe && sheet->frames.count < sheet->settings.maxFrames, f, sheet->frames) {
         mayBe = NeedOf(sheet, f) > 1.0 && !IsOfCrumb(sheet, f);
     }
     return mayBe;

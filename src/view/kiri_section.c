@@ -335,7 +335,7 @@ bool kiriSection_Sweep(kiriSection* section, kiriMemory* memory, const kiriSurfa
     section->points.count = section->lines.count = 0;
     bool ok = bounds->levelCount == 0 || !MakeViews(&p, bounds) ||
               kiriBounds_Find(bounds, surface, MeetsSweep, &p, memory, &p.triangles);
-    for (int32_t i = 0; ok && i < p.triangles.count; ++i) {
+    KIRI_EACH_INDEX_WHILE(ok, i, p.triangles) {
         ok = CrossTriangle(&p, p.triangles.data[i]);
     }
     if (ok) {
@@ -343,7 +343,7 @@ bool kiriSection_Sweep(kiriSection* section, kiriMemory* memory, const kiriSurfa
     }
     /* Lines that begin somewhere, then loops. */
     for (int pass = 0; pass < 2; ++pass) {
-        for (int32_t i = 0; ok && i < p.pieces.count; ++i) {
+        KIRI_EACH_INDEX_WHILE(ok, i, p.pieces) {
             if (!p.pieces.data[i].isDone && (pass == 1 || !p.pieces.data[i].isReached)) {
                 ok = AddLine(&p, section, i);
             }

@@ -238,7 +238,7 @@ kiriResult kiriWorld_SetGravity(kiriWorld* world, const float gravity[3])
     KIRI_CHANGES(World_SetGravity, gravity);
     kiriVec3 before = world->gravity;
     world->gravity = kiriVec3_Load(gravity);
-    for (int32_t i = 0; i < world->sheets.count && !kiriVec3_Equal(before, world->gravity); ++i) {
+    KIRI_EACH_INDEX_WHILE(!kiriVec3_Equal(before, world->gravity), i, world->sheets) {
         kiriSheet_WakeAll(world->sheets.data[i]);
     }
     KIRI_RETURN(KIRI_OK);

@@ -287,7 +287,7 @@ static void DrawSheet(Drawing* drawing, const kiriSheetData* sheet)
         DrawContacts(drawing, sheet, &sheet->touches.last);
         DrawContacts(drawing, sheet, &sheet->touches.slept);
     }
-    for (int32_t i = 0; (flags & KIRI_DRAW_POINTS) != 0 && i < sheet->points.count; ++i) {
+    KIRI_EACH_INDEX_WHILE((flags & KIRI_DRAW_POINTS) != 0, i, sheet->points) {
         Draw(drawing, &sheet->seen.exactPoints.data[i], 1, Color(215, 25, 115));
     }
 }
@@ -310,10 +310,10 @@ void kiriDraw_World(const kiriWorld* world, const kiriDebugDraw* draw, const kir
             DrawSheet(&drawing, sheet);
         }
     }
-    for (int32_t i = 0; only == NULL && (draw->flags & KIRI_DRAW_OBSTACLES) != 0 && i < world->obstacles.count; ++i) {
+    KIRI_EACH_INDEX_WHILE(only == NULL && (draw->flags & KIRI_DRAW_OBSTACLES) != 0, i, world->obstacles) {
         DrawObstacle(&drawing, world->obstacles.data[i]);
     }
-    for (int32_t i = 0; only == NULL && (draw->flags & KIRI_DRAW_BLADES) != 0 && i < world->blades.count; ++i) {
+    KIRI_EACH_INDEX_WHILE(only == NULL && (draw->flags & KIRI_DRAW_BLADES) != 0, i, world->blades) {
         const kiriBladeData* blade = world->blades.data[i];
         if (blade->isPlaced) {
             DrawLine(&drawing, blade->edge[0], blade->edge[1], Color(0, 0, 0));

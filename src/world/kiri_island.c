@@ -98,7 +98,7 @@ static int32_t NumberOfBody(const kiriIslands* islands, const kiriSheetData* she
 static void JoinRows(kiriWorld* world)
 {
     kiriIslands* islands = &world->islands;
-    for (int32_t i = 0; i < world->pairs.touches.count; ++i) {
+    KIRI_EACH_INDEX(i, world->pairs.touches) {
         const kiriPairTouch* touch = &world->pairs.touches.data[i];
         kiriSheetData *upper = touch->upper.sheet, *lower = touch->lower.sheet;
         if (touch->touch == KIRI_NONE || upper->rest.asleep) {
@@ -187,7 +187,7 @@ static int32_t ListIslands(kiriWorld* world)
     KIRI_EACH(const int32_t, at, world->active) {
         int32_t i = *at;
         kiriSheetData* sheet = world->sheets.data[i];
-        for (int32_t p = 0; islands->isJoined.data[i] && p < sheet->layout.pieces.count; ++p) {
+        KIRI_EACH_INDEX_WHILE(islands->isJoined.data[i], p, sheet->layout.pieces) {
             int32_t number = islands->numbers.data[islands->firstBodies.data[i] + p];
             if (number != KIRI_NONE) {
                 kiriSpan* span = &islands->islands.data[number].bodies;

@@ -411,7 +411,7 @@ bool kiriObstacles_FindTouches(kiriWorld* world, double dt)
     bool areTasks = kiriTasks_AreGiven(&world->tasks);
     bool ok = SortObstacles(world, dt) && (!areTasks || LookInTasks(&looking));
     ReadySearch(world, &world->obstacleSearch, dt);
-    for (int32_t i = 0; ok && i < world->sheets.count; ++i) {
+    KIRI_EACH_INDEX_WHILE(ok, i, world->sheets) {
         kiriSheetData* sheet = world->sheets.data[i];
         kiriObstacleSearch* search =
             areTasks ? &world->searches.data[i % world->searches.count] : &world->obstacleSearch;
@@ -434,7 +434,7 @@ void kiriObstacles_Begin(kiriWorld* world)
 static void LoadYields(const kiriWorld* world, kiriSheetData* sheet)
 {
     KIRI_EACH(kiriYieldRow, row, sheet->touches.yields) {
-        for (int32_t i = 0; row->number > 0 && row->inverseMass > 0.0 && i < world->obstacles.count; ++i) {
+        KIRI_EACH_INDEX_WHILE(row->number > 0 && row->inverseMass > 0.0, i, world->obstacles) {
             const kiriObstacleData* obstacle = world->obstacles.data[i];
             if (NumberOf(obstacle) == row->number) {
                 kiriVec3 arm = kiriVec3_Sub(kiriObstacle_CenterOfMass(obstacle), row->center);
@@ -581,7 +581,7 @@ static bool JoinByBodies(kiriWorld* world)
     kiriMoves* moves = &world->moves;
     bool ok = true;
     moves->meets.count = 0;
-    for (int32_t i = 0; ok && i < world->sheets.count; ++i) {
+    KIRI_EACH_INDEX_WHILE(ok, i, world->sheets) {
         ok = ListMeets(world, i);
     }
     if (!ok || !kiriArray_Resize(&world->memory, &moves->order, moves->meets.count)) {
@@ -814,7 +814,7 @@ static bool IsInRanges(const kiriWorld* world, int32_t k)
 bool kiriSkinStep_Prepare(kiriWorld* world)
 {
     int64_t count = 0;
-    for (int32_t i = 0; kiriTasks_AreGiven(&world->tasks) && i < world->sheets.count; ++i) {
+    KIRI_EACH_INDEX_WHILE(kiriTasks_AreGiven(&world->tasks), i, world->sheets) {
         count += world->sheets.data[i]->mesh.vertices.count / RANGE_VERTICES + 1;
     }
     return kiriArray_Reserve(&world->memory, &world->skinRanges, count);
@@ -925,7 +925,7 @@ void kiriSkinStep_Run(kiriWorld* world, double dt)
     kiriTasks_Run(&world->tasks, BeginSheets, world->active.count, 1, &task);
     if (world->skinRanges.count > 0) {
         kiriTasks_Run(&world->tasks, RunRanges, world->skinRanges.count, 1, &task);
-        for (int32_t k = 0; k < world->active.count; ++k) {
+        KIRI_EACH_INDEX(k, world->active) {
             if (IsInRanges(world, k) && IsLarge(kiriWorld_Active(world, k))) {
                 Relax(&task, kiriWorld_Active(world, k), &world->tasks);
             }

@@ -124,7 +124,7 @@ static bool LeavesSome(const Parting* parting)
     KIRI_EACH(const PartSource, source, parting->sources) {
         const kiriSubset* rest = &source->detach.rest;
         bool some = false;
-        for (int32_t p = 0; p < rest->pieces.count && !some; ++p) {
+        KIRI_EACH_INDEX_WHILE(!some, p, rest->pieces) {
             some = rest->pieces.data[p] && !IsLeaving(parting->world, rest->from, p);
         }
         all = all && some;

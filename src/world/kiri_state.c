@@ -139,7 +139,7 @@ enum { SAVE_VERSION = 3, HEAD_BYTES = 24, SUM_BYTES = 8 };
 
 static void ArchiveSheets(kiriArchive* archive, kiriWorld* world)
 {
-    for (int32_t i = 0; i < world->sheets.count && !kiriArchive_HasFailed(archive); ++i) {
+    KIRI_EACH_INDEX_WHILE(!kiriArchive_HasFailed(archive), i, world->sheets) {
         if (kiriArchive_Reads(archive)) {
             world->sheets.data[i] = kiriSheet_New(&world->memory);
             archive->isShort |= world->sheets.data[i] == NULL;
@@ -152,7 +152,7 @@ static void ArchiveSheets(kiriArchive* archive, kiriWorld* world)
 
 static void ArchiveBlades(kiriArchive* archive, kiriWorld* world)
 {
-    for (int32_t i = 0; i < world->blades.count && !kiriArchive_HasFailed(archive); ++i) {
+    KIRI_EACH_INDEX_WHILE(!kiriArchive_HasFailed(archive), i, world->blades) {
         if (kiriArchive_Reads(archive)) {
             world->blades.data[i] = kiriMemory_AllocZeroed(&world->memory, sizeof(kiriBladeData));
             archive->isShort |= world->blades.data[i] == NULL;
@@ -165,7 +165,7 @@ static void ArchiveBlades(kiriArchive* archive, kiriWorld* world)
 
 static void ArchiveSeams(kiriArchive* archive, kiriWorld* world)
 {
-    for (int32_t i = 0; i < world->seams.count && !kiriArchive_HasFailed(archive); ++i) {
+    KIRI_EACH_INDEX_WHILE(!kiriArchive_HasFailed(archive), i, world->seams) {
         if (kiriArchive_Reads(archive)) {
             world->seams.data[i] = kiriMemory_AllocZeroed(&world->memory, sizeof(kiriSeamData));
             archive->isShort |= world->seams.data[i] == NULL;
@@ -180,7 +180,7 @@ static void ArchiveWorld(kiriArchive* archive, kiriWorld* world)
 {
     archive->memory = &world->memory;
     kiriArchive_Object(archive, WorldTable, world);
-    for (int32_t i = 0; i < world->obstacles.count && !kiriArchive_HasFailed(archive); ++i) {
+    KIRI_EACH_INDEX_WHILE(!kiriArchive_HasFailed(archive), i, world->obstacles) {
         kiriObstacle_Archive(archive, &world->obstacles.data[i], &world->memory);
     }
     ArchiveBlades(archive, world);
@@ -193,14 +193,14 @@ static void ArchiveWorld(kiriArchive* archive, kiriWorld* world)
 static bool ClaimIdsOfSheet(kiriWorld* world, kiriSheetData* sheet)
 {
     bool ok = kiriPool_Claim(&world->sheetIds, sheet->id, sheet, 0);
-    for (int32_t f = 0; ok && f < sheet->frames.count; ++f) {
+    KIRI_EACH_INDEX_WHILE(ok, f, sheet->frames) {
         /* Those of pieces that the host has destroyed are stale. */
         ok = kiriSheet_IsGone(sheet, f) || kiriPool_Claim(&world->frameIds, sheet->frames.data[f].id, sheet, f);
     }
-    for (int32_t p = 0; ok && p < sheet->pins.count; ++p) {
+    KIRI_EACH_INDEX_WHILE(ok, p, sheet->pins) {
         ok = kiriPool_Claim(&world->pinIds, sheet->pins.data[p].id, sheet, p);
     }
-    for (int32_t c = 0; ok && c < sheet->cuts.count; ++c) {
+    KIRI_EACH_INDEX_WHILE(ok, c, sheet->cuts) {
         ok = kiriPool_Claim(&world->cutIds, sheet->cuts.data[c]->id, sheet->cuts.data[c], 0);
     }
     return ok;
@@ -388,19 +388,19 @@ static void FinishSave(kiriArchive* archive, kiriWorld* made)
                    made->active.capacity >= made->sheets.count && made->atWork.capacity >= made->sheets.count &&
                    made->newEvents <= made->events.count);
     kiriArchive_Expect(archive, isFine);
-    for (int32_t i = 0; i < made->sheets.count && !kiriArchive_HasFailed(archive); ++i) {
+    KIRI_EACH_INDEX_WHILE(!kiriArchive_HasFailed(archive), i, made->sheets) {
         kiriArchive_Expect(archive, IsSheet(made, made->sheets.data[i]));
         if (!kiriArchive_HasFailed(archive)) {
             kiriSheet_Derive(made->sheets.data[i], archive);
         }
     }
-    for (int32_t i = 0; i < made->blades.count && !kiriArchive_HasFailed(archive); ++i) {
+    KIRI_EACH_INDEX_WHILE(!kiriArchive_HasFailed(archive), i, made->blades) {
         KIRI_EACH(const kiriLayer, layer, made->blades.data[i]->layers) {
             const kiriSlot* cut = kiriPool_Find(&made->cutIds, layer->cut);
             kiriArchive_Expect(archive, cut == NULL || ((const kiriCutData*)cut->owner)->sheet->id == layer->sheet);
         }
     }
-    for (int32_t i = 0; i < made->seams.count && !kiriArchive_HasFailed(archive); ++i) {
+    KIRI_EACH_INDEX_WHILE(!kiriArchive_HasFailed(archive), i, made->seams) {
         kiriArchive_Expect(archive, IsSeam(made, made->seams.data[i]));
     }
 }
@@ -416,7 +416,7 @@ static kiriResult ReadWorld(kiriWorld* made, const uint8_t* bytes, int64_t size,
     if (!isWhole) {
         FinishSave(&archive, made);
     }
-    for (int32_t i = 0; i < made->sheets.count && !kiriArchive_HasFailed(&archive); ++i) {
+    KIRI_EACH_INDEX_WHILE(!kiriArchive_HasFailed(&archive), i, made->sheets) {
         archive.isShort |= !kiriSheet_EndReading(made->sheets.data[i], isWhole);
     }
     return archive.isBad ? KIRI_ERROR_DATA : archive.isShort ? KIRI_ERROR_MEMORY : KIRI_OK;

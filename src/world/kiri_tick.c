@@ -145,7 +145,7 @@ static bool FindTouches(kiriWorld* world, double dt)
     if (kiriSeams_Stir(world) || isPairStirred) {
         ListActive(world);
     }
-    for (int32_t k = 0; ok && k < world->active.count; ++k) {
+    KIRI_EACH_INDEX_WHILE(ok, k, world->active) {
         ok = kiriTouches_Begin(kiriWorld_Active(world, k));
         StirTouched(kiriWorld_Active(world, k));
     }
@@ -384,7 +384,7 @@ static void SkinAll(kiriWorld* world, double dt)
 static kiriQuota SetAside(const kiriWorld* world, kiriQuotas* quotas)
 {
     bool anyDue = false;
-    for (int32_t k = 0; k < world->active.count && world->ticks % 2 == 0; ++k) {
+    KIRI_EACH_INDEX_WHILE(world->ticks % 2 == 0, k, world->active) {
         anyDue = anyDue || kiriParts_AreDue(kiriWorld_Active(world, k));
     }
     kiriQuota aside = { 0, 0, 0, false };
