@@ -3,6 +3,7 @@
 #ifndef KIRI_BENCH_H
 #define KIRI_BENCH_H
 
+#include "defaults.h"
 #include "kiri/kiri.h"
 
 #include <math.h>

@@ -125,10 +125,9 @@ static void DrawDefault(Stage* stage)
 static bool Start(Stage* stage)
 {
     kiriWorldDef worldDef = Bench_WorldDef();
-    kiriSheetDef def;
     kiriPinDef pin;
     int32_t count;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     kiriDefaultPinDef(&pin);
     kiriDefaultDebugDraw(&stage->draw);
     stage->draw.points = stage->draw.lines = Count;

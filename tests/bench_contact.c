@@ -33,9 +33,8 @@ static bool AddBoxes(kiriWorld* world, const Case* c)
         side++;
     }
     for (int32_t i = 0; fine && i < c->obstacles; i++) {
-        kiriObstacleDef def;
         kiriObstacle obstacle;
-        kiriDefaultObstacleDef(&def);
+        kiriObstacleDef def = DefaultObstacle();
         def.type = KIRI_OBSTACLE_BOX;
         def.size[0] = def.size[1] = 0.06f;
         def.size[2] = 0.1f;
@@ -49,9 +48,8 @@ static bool AddBoxes(kiriWorld* world, const Case* c)
 
 static bool AddObstacles(kiriWorld* world, const Case* c)
 {
-    kiriObstacleDef def;
     kiriObstacle obstacle;
-    kiriDefaultObstacleDef(&def);
+    kiriObstacleDef def = DefaultObstacle();
     def.type = KIRI_OBSTACLE_PLANE;
     return c->isBare || (c->obstacles > 0 ? AddBoxes(world, c) : kiriCreateObstacle(world, &def, &obstacle) == KIRI_OK);
 }
@@ -88,8 +86,7 @@ static bool RunCase(const Case* c, Cost* cost)
     kiriWorldDef worldDef = Bench_WorldDef();
     kiriWorld* world;
     kiriSheet sheet;
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = 32;
     def.frameCount = def.maxFrames = c->frames;
     def.position[2] = c->height;

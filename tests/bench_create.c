@@ -53,8 +53,7 @@ static bool Make(int32_t squares, int32_t grid, Made* made)
     Count count = { 0, 0 };
     kiriWorld* world = NULL;
     kiriSheet sheet;
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = grid > 0 ? grid : def.gridResolution;
     bool fine = StartWorld(&count, &world);
     double start = Bench_Clock(NULL);
@@ -118,9 +117,8 @@ static bool MakeFrames(int32_t squares, int32_t grid, int32_t frames, bool isMos
     kiriWorldDef worldDef = Bench_WorldDef();
     kiriWorld* world = NULL;
     kiriSheet sheet;
-    kiriSheetDef def;
     kiriCounts counts = { .frames = 0 };
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = grid;
     def.frameCount = frames;
     def.maxFrames = isMost ? frames : def.maxFrames;
@@ -180,8 +178,7 @@ static bool MakeCrowd(int32_t triangles, double extent, double* ms)
     kiriWorldDef worldDef = Bench_WorldDef();
     kiriWorld* world = NULL;
     kiriSheet sheet;
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     bool fine = rest != NULL && indices != NULL && kiriCreateWorld(&worldDef, &world) == KIRI_OK &&
                 kiriFillRectangle((float)extent, (float)extent, side, side, rest, indices) == KIRI_OK;
     if (fine) {
@@ -279,8 +276,7 @@ static bool Ask(int32_t squares, Asked* asked)
     kiriWorldDef worldDef = Bench_WorldDef();
     kiriWorld* world = NULL;
     kiriSheet sheet;
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     bool fine = kiriCreateWorld(&worldDef, &world) == KIRI_OK && Bench_AddSheet(world, &def, squares, &sheet) &&
                 kiriWorld_Tick(world, 0.001f, 1) == KIRI_OK && TimeHash(world, &asked->hash) &&
                 TimePieces(world, sheet, &asked->pieces, &asked->nextPieces) && TimeRay(world, sheet, &asked->ray) &&

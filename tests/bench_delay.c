@@ -48,11 +48,10 @@ static bool Wait(kiriWorld* world, Delay* delay)
 static bool Measure(Delay* delay, const kiriBudget* budget, int32_t squares, int32_t frames, bool isShort)
 {
     kiriWorldDef worldDef = Bench_WorldDef();
-    kiriSheetDef def;
     kiriWorld* world;
     kiriSheet sheet;
     worldDef.budget = *budget;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = squares;
     def.frameCount = frames;
     def.maxFrames = frames + 4;

@@ -99,11 +99,10 @@ typedef struct Cost {
 static bool MakeWorld(kiriWorld** world, kiriSheet* sheet, void (*set)(kiriSheetDef* def))
 {
     kiriWorldDef worldDef;
-    kiriSheetDef def;
     kiriDefaultWorldDef(&worldDef);
     worldDef.alloc = CountAlloc;
     worldDef.free = CountFree;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.axisV[1] = 0.0f;
     def.axisV[2] = 1.0f;
     def.frameCount = 25;

@@ -69,8 +69,7 @@ static bool RunSize(int32_t grid, int32_t places, bool fromScratch, CommitTimes*
     kiriWorldDef worldDef = Bench_WorldDef();
     kiriWorld* world = NULL;
     kiriSheet sheet;
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = grid;
     def.frameCount = def.maxFrames = grid * grid / CELLS_A_FRAME;
     def.iterations = 1;
@@ -177,8 +176,7 @@ static bool RunLoad(const Load* load, LoadTimes* times)
 {
     kiriWorldDef worldDef = Bench_WorldDef();
     worldDef.gravity[2] = load->asleep ? 0.0f : worldDef.gravity[2];
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = load->grid;
     def.frameCount = def.maxFrames = load->frames;
     def.sleepSpeed = load->asleep ? def.sleepSpeed : 0.0f;

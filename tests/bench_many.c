@@ -72,8 +72,7 @@ static float* FillRows(int32_t rows)
 /* A grid of four squares a frame both ways carries them. */
 static bool RunFrames(int32_t rows, const kiriQuality* quality, Times* times)
 {
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     float* points = FillRows(rows);
     def.frameCount = rows * rows;
     def.framePoints = points;
@@ -165,8 +164,7 @@ static bool BenchSkin(void)
                             columns);
     for (size_t i = 0; fine && i < 4 * (sizeof squares / sizeof squares[0]); i++) {
         Times times = { .all = { .number = NULL } };
-        kiriSheetDef def;
-        kiriDefaultSheetDef(&def);
+        kiriSheetDef def = DefaultSheet();
         def.frameCount = 25;
         def.normals = i / 2 % 2 == 0;
         def.skinning = i % 2 == 1 ? KIRI_SKINNING_SMOOTH : KIRI_SKINNING_LINEAR;

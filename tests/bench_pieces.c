@@ -20,8 +20,7 @@ static bool Bed_Start(Bed* bed, int32_t squares, int32_t resolution, int32_t acr
 {
     static const float none[3] = { 0.0f, 0.0f, 0.0f };
     kiriWorldDef worldDef = Bench_WorldDef();
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = resolution;
     def.frameCount = 4;
     def.maxFrames = 100000;

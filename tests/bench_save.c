@@ -104,8 +104,7 @@ static void PlayCrowd(Sizes* sizes)
     kiriSheet sheets[CROWD];
     bool fine = kiriCreateWorld(&worldDef, &world) == KIRI_OK;
     for (int32_t i = 0; fine && i < CROWD; i++) {
-        kiriSheetDef def;
-        kiriDefaultSheetDef(&def);
+        kiriSheetDef def = DefaultSheet();
         def.position[1] = 2.0f * (float)i;
         def.gridResolution = CROWD_SQUARES;
         fine = Bench_AddSheet(world, &def, CROWD_SQUARES, &sheets[i]);

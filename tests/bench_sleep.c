@@ -36,12 +36,10 @@ static bool Bed_Start(Bed* bed, const Case* c, float sleepSpeed, int32_t dice)
 {
     static const float none[3] = { 0.0f, 0.0f, 0.0f }, middle[2] = { 0.5f, 0.5f };
     kiriWorldDef worldDef = Bench_WorldDef();
-    kiriObstacleDef floorDef;
     kiriObstacle floor;
     kiriPointState at;
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
-    kiriDefaultObstacleDef(&floorDef);
+    kiriSheetDef def = DefaultSheet();
+    kiriObstacleDef floorDef = DefaultObstacle();
     floorDef.type = KIRI_OBSTACLE_PLANE;
     def.gridResolution = c->resolution;
     def.frameCount = 1;

@@ -18,9 +18,8 @@ static const char* const names[SOLVER_COUNT] = { "SimplicialLDLT",   "Simplicial
 static bool MakeSheet(kiriWorld** world, int32_t frames, int32_t model)
 {
     kiriWorldDef worldDef = Bench_WorldDef();
-    kiriSheetDef def;
     kiriSheet sheet;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.axisV[1] = 0.0f;
     def.axisV[2] = 1.0f;
     def.gridResolution = 64;

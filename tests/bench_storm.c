@@ -21,8 +21,7 @@ static bool AddSheets(kiriWorld* world, kiriSheet sheets[SHEETS])
 {
     bool fine = true;
     for (int32_t i = 0; fine && i < SHEETS; i++) {
-        kiriSheetDef def;
-        kiriDefaultSheetDef(&def);
+        kiriSheetDef def = DefaultSheet();
         def.position[1] = 2.0f * (float)i;
         def.gridResolution = 48;
         def.frameCount = def.maxFrames = 12;

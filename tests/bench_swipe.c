@@ -22,10 +22,9 @@ typedef struct Course {
 static bool Start(const Swipe* swipe, const kiriBudget* budget, kiriWorld** world, kiriSheet* sheet)
 {
     kiriWorldDef worldDef = Bench_WorldDef();
-    kiriSheetDef def;
     kiriPin pin;
     worldDef.budget = *budget;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = swipe->squares;
     def.frameCount = def.maxFrames = swipe->frames;
     return kiriCreateWorld(&worldDef, world) == KIRI_OK && Bench_AddSheet(*world, &def, swipe->squares, sheet) &&

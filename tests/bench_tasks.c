@@ -36,10 +36,9 @@ static const Row rows[] = {
 static bool Build(kiriWorld* world, const Row* row)
 {
     kiriSheetDef def;
-    kiriObstacleDef floor;
     kiriObstacle obstacle;
     bool fine = true;
-    kiriDefaultObstacleDef(&floor);
+    kiriObstacleDef floor = DefaultObstacle();
     floor.type = KIRI_OBSTACLE_PLANE;
     floor.position[2] = row->sheets > 1 ? 0.0f : -1000.0f;
     fine = kiriCreateObstacle(world, &floor, &obstacle) == KIRI_OK;

@@ -1,5 +1,6 @@
 #define _POSIX_C_SOURCE 199309L
 /* Sheets that fold over themselves: triangles of one piece that cross, in motion and at rest. */
+#include "defaults.h"
 #include "contact.h"
 #include "crossing.h"
 
@@ -49,9 +50,8 @@ static void AddPin(Fold* fold, float u, float v)
 
 static kiriObstacle AddObstacle(Fold* fold, int32_t type, float radius, float height, const float at[3])
 {
-    kiriObstacleDef def;
     kiriObstacle obstacle = 0;
-    kiriDefaultObstacleDef(&def);
+    kiriObstacleDef def = DefaultObstacle();
     def.type = type;
     def.radius = radius;
     def.height = height;
@@ -88,8 +88,7 @@ static void StartHung(Fold* fold)
 static void StartRibbon(Fold* fold)
 {
     const float at[3] = { 0.0f, 0.03f, 1.3f };
-    kiriObstacleDef def;
-    kiriDefaultObstacleDef(&def);
+    kiriObstacleDef def = DefaultObstacle();
     def.type = KIRI_OBSTACLE_CYLINDER;
     def.radius = 0.06f;
     def.height = 0.2f;
@@ -129,13 +128,12 @@ static const FoldCase cases[] = {
 static void StartFold(Fold* fold, const FoldCase* of, int32_t selfContact)
 {
     kiriWorldDef worldDef;
-    kiriSheetDef def;
     const float at[3] = { 0.0f, 0.0f, 0.0f };
     memset(fold, 0, sizeof *fold);
     kiriDefaultWorldDef(&worldDef);
     kiriCreateWorld(&worldDef, &fold->world);
     AddObstacle(fold, KIRI_OBSTACLE_PLANE, 0.0f, 0.0f, at);
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     memcpy(def.position, of->position, sizeof def.position);
     memcpy(def.axisV, of->axisV, sizeof def.axisV);
     double length = sqrt((double)(def.axisV[0] * def.axisV[0] + def.axisV[1] * def.axisV[1] + def.axisV[2] * def.axisV[2]));

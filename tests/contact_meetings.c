@@ -1,5 +1,6 @@
 #define _POSIX_C_SOURCE 199309L
 /* Sheets that meet sheets: two free ones, cloths on a ball, heaps of patches. */
+#include "defaults.h"
 #include "contact.h"
 
 #include <math.h>
@@ -29,13 +30,12 @@ static double Milliseconds(void)
 static void Start(Play* play, float gravity, int32_t obstacle, float radius, float z)
 {
     kiriWorldDef def;
-    kiriObstacleDef below;
     kiriObstacle id;
     memset(play, 0, sizeof(*play));
     kiriDefaultWorldDef(&def);
     def.gravity[2] = -gravity;
     kiriCreateWorld(&def, &play->world);
-    kiriDefaultObstacleDef(&below);
+    kiriObstacleDef below = DefaultObstacle();
     below.type = obstacle;
     below.radius = radius;
     below.position[2] = z;
@@ -62,8 +62,7 @@ static void Add(Play* play, kiriSheetDef* def, int32_t material, double size, in
 
 static kiriSheetDef DefOf(int32_t frames, int32_t grid, double thickness)
 {
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.frameCount = frames;
     def.gridResolution = grid;
     def.contactThickness = (float)thickness;

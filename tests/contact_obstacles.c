@@ -1,4 +1,5 @@
 /* Cloths that fall on obstacles: how deep they are in them, and when they rest. */
+#include "defaults.h"
 #include "contact.h"
 #include "kiri/kiri.h"
 #include "world/kiri_world.h"
@@ -55,8 +56,7 @@ static void Cross(const float a[3], const float b[3], float c[3])
 
 static kiriObstacleDef DefOf(const Setting* setting)
 {
-    kiriObstacleDef def;
-    kiriDefaultObstacleDef(&def);
+    kiriObstacleDef def = DefaultObstacle();
     def.type = setting->type;
     memcpy(def.size, setting->size, sizeof(def.size));
     def.radius = setting->radius;
@@ -94,9 +94,8 @@ static kiriSheet MakeCloth(kiriWorld* world, float height, int32_t skinning, int
 {
     static float positions[2 * (CELLS + 1) * (CELLS + 1)];
     static int32_t indices[6 * CELLS * CELLS];
-    kiriSheetDef def;
     kiriSheet sheet = 0;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     kiriFillRectangle(clothSize, clothSize, CELLS, CELLS, positions, indices);
     def.restPositions = positions;
     def.vertexCount = (CELLS + 1) * (CELLS + 1);
@@ -227,11 +226,10 @@ static void MeasureDrape(const Setting* setting, int32_t skinning)
 
 static kiriSheet MakePlate(kiriWorld* world, float velocity)
 {
-    kiriSheetDef def;
     float positions[2 * 81];
     int32_t indices[6 * 64];
     kiriSheet sheet = 0;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     kiriFillRectangle(0.4f, 0.4f, 8, 8, positions, indices);
     def.restPositions = positions;
     def.vertexCount = 81;
@@ -257,8 +255,7 @@ static void MeasureBall(float ratio, int32_t substeps)
     kiriSheet sheet = MakePlate(world, -1.0f);
     kiriTotals totals;
     kiriSheet_GetTotals(world, sheet, &totals);
-    kiriObstacleDef def;
-    kiriDefaultObstacleDef(&def);
+    kiriObstacleDef def = DefaultObstacle();
     def.type = KIRI_OBSTACLE_SPHERE;
     def.radius = 0.1f;
     def.position[2] = -0.11f;
@@ -302,15 +299,13 @@ static void MeasureFast(int isEdgeOn, int32_t substeps)
     kiriDefaultWorldDef(&worldDef);
     kiriWorld* world;
     kiriCreateWorld(&worldDef, &world);
-    kiriObstacleDef wall;
-    kiriDefaultObstacleDef(&wall);
+    kiriObstacleDef wall = DefaultObstacle();
     wall.type = KIRI_OBSTACLE_BOX;
     wall.size[0] = wall.size[1] = 8.0f;
     wall.size[2] = 0.01f;
     kiriObstacle obstacle;
     kiriCreateObstacle(world, &wall, &obstacle);
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     kiriFillRectangle(1.0f, 1.0f, 32, 32, positions, indices);
     def.restPositions = positions;
     def.vertexCount = 33 * 33;

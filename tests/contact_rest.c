@@ -1,5 +1,6 @@
 #define _POSIX_C_SOURCE 199309L
 /* Sheets that come to rest on obstacles: how far vertices move a tick, when all sleep, how deep they are. */
+#include "defaults.h"
 #include "contact.h"
 #include "kiri/kiri.h"
 #include "world/kiri_world.h"
@@ -59,9 +60,8 @@ static kiriWorld* MakeScene(const Scene* scene, const Setup* setup, kiriSheet* s
     kiriDefaultWorldDef(&worldDef);
     kiriCreateWorld(&worldDef, &world);
     for (int32_t i = 0; i < scene->obstacleCount; ++i) {
-        kiriObstacleDef obstacle;
         kiriObstacle id;
-        kiriDefaultObstacleDef(&obstacle);
+        kiriObstacleDef obstacle = DefaultObstacle();
         obstacle.type = scene->obstacles[i].type;
         memcpy(obstacle.size, scene->obstacles[i].size, sizeof(obstacle.size));
         obstacle.radius = scene->obstacles[i].radius;

@@ -1,5 +1,6 @@
 /* Sheets and pieces against each other: piles, how they lie and what they cost; a hammock; pieces that are cut out; the
    six scenes with and without contact between their pieces. */
+#include "defaults.h"
 #include "contact.h"
 #include "../samples/scene.h"
 #include "crossing.h"
@@ -18,12 +19,11 @@ static double Seconds(void)
 static kiriWorld* StartWorld(void)
 {
     kiriWorldDef def;
-    kiriObstacleDef floorDef;
     kiriObstacle floor;
     kiriWorld* world = NULL;
     kiriDefaultWorldDef(&def);
     kiriCreateWorld(&def, &world);
-    kiriDefaultObstacleDef(&floorDef);
+    kiriObstacleDef floorDef = DefaultObstacle();
     floorDef.type = KIRI_OBSTACLE_PLANE;
     kiriCreateObstacle(world, &floorDef, &floor);
     return world;
@@ -49,8 +49,7 @@ static void StartPile(Pile* pile, int count, int32_t material)
     kiriFillRectangle(0.2f, 0.2f, SIDE, SIDE, positions, indices);
     for (int i = 0; i < count; ++i) {
         double turn = 0.0175 * i, c = cos(turn), s = sin(turn);
-        kiriSheetDef def;
-        kiriDefaultSheetDef(&def);
+        kiriSheetDef def = DefaultSheet();
         kiriGetMaterial(material, &def.material);
         def.restPositions = positions;
         def.indices = indices;

@@ -1,3 +1,4 @@
+#include "defaults.h"
 #include "extremes.h"
 
 #include "core/kiri_vec.h"
@@ -528,8 +529,7 @@ const int extremeCount = sizeof(extremes) / sizeof(extremes[0]);
 
 static kiriSheetDef DefOf(const Extreme* e, bool damped)
 {
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.sleepSpeed = 0.0f;
     double size = Or(e->size, 1.0);
     kiriMaterial material = { (float)Or(e->modulus, 1e9),

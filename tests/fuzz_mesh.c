@@ -332,10 +332,9 @@ static void WeldIt(FuzzMesh* m, Host* host, size_t size)
 int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size)
 {
     FuzzMesh m;
-    Host host;
     kiriSheet sheet = 1;
     ReadMesh(&m, data, size);
-    Host_Start(&host);
+    START_HOST(host);
     uint64_t hash = Host_Hash(&host);
     kiriResult result = kiriCreateSheet(host.world, &m.def, &sheet);
     if (result < 0) {

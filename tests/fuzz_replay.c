@@ -1,6 +1,7 @@
 /* Recordings of whatever bytes. The input goes on where a good recording has made a world and a sheet; it is replayed,
    past all differences. What that does is recorded, too, and goes the same way when it is replayed: the same results,
    ids and state hashes. */
+#include "defaults.h"
 #include "fuzz.h"
 #include "validate.h"
 
@@ -78,9 +79,8 @@ static void AddSheet(FuzzTape* tape)
 {
     float positions[18];
     int32_t indices[24];
-    kiriSheetDef def;
     kiriSheet sheet;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     kiriFillRectangle(1.0f, 1.0f, 2, 2, positions, indices);
     def.restPositions = positions;
     def.indices = indices;

@@ -1,3 +1,4 @@
+#include "defaults.h"
 #include "fuzz_saved.h"
 
 #include "core/kiri_archive.h"
@@ -68,8 +69,7 @@ static void AddSmallSheet(Storm* storm, int32_t squares, int32_t grid)
     static int32_t indices[6 * MOST_SQUARES * MOST_SQUARES];
     FUZZ_CHECK(kiriFillRectangle(1.0f, 1.0f, squares, squares, positions, indices) == KIRI_OK, "no rectangle");
     const StormType* type = storm->type;
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.restPositions = positions;
     def.indices = indices;
     def.vertexCount = (squares + 1) * (squares + 1);

@@ -44,9 +44,8 @@ static void StartHost(Fuzz* fuzz, int32_t k, const float gravity[3], const kiriB
 
 static bool Frame_IsFinite(const kiriWorld* world, kiriFrame frame)
 {
-    kiriFrameState state;
     double force[3], torque[3];
-    OK(kiriFrame_GetState(world, frame, &state));
+    kiriFrameState state = World_FrameState(world, frame);
     OK(kiriFrame_GetReaction(world, frame, force, torque));
     bool isFinite = AllFinite(state.position, 3) && AllFinite(state.rotation, 9) && AllFinite(state.velocity, 3) &&
                     AllFinite(state.angularVelocity, 3);
@@ -58,11 +57,10 @@ static bool Frame_IsFinite(const kiriWorld* world, kiriFrame frame)
 
 static void CheckFinite(const kiriWorld* world, kiriSheet sheet)
 {
-    kiriMesh mesh;
     kiriFrame frames[512];
     const float* points;
     int32_t count;
-    OK(kiriSheet_GetMesh(world, sheet, &mesh));
+    kiriMesh mesh = World_Mesh(world, sheet);
     FUZZ_CHECK(AllFinite(mesh.positions, 3 * mesh.vertexCount), "a position is not finite");
     FUZZ_CHECK(mesh.normals == NULL || AllFinite(mesh.normals, 3 * mesh.vertexCount), "a normal is not finite");
     OK(kiriSheet_GetCollisionPoints(world, sheet, &points, &count));
@@ -77,13 +75,11 @@ static void CheckFinite(const kiriWorld* world, kiriSheet sheet)
 /* Each triangle is in one piece, and each piece one that hangs together by itself. */
 static void CheckPieces(kiriWorld* world, kiriSheet sheet)
 {
-    kiriCounts counts;
-    kiriTotals totals;
     kiriPieceState state;
     double area = 0.0;
     int32_t triangles = 0, frames = 0;
-    OK(kiriSheet_GetCounts(world, sheet, &counts));
-    OK(kiriSheet_GetTotals(world, sheet, &totals));
+    kiriCounts counts = World_Counts(world, sheet);
+    kiriTotals totals = World_Totals(world, sheet);
     for (int32_t i = 0; i < counts.pieces; ++i) {
         OK(kiriSheet_GetPiece(world, sheet, i, &state));
         area += state.area;
@@ -100,8 +96,7 @@ static double AreaOf(const kiriWorld* world)
 {
     double area = 0.0;
     for (int32_t i = 0; i < world->sheets.count; ++i) {
-        kiriTotals totals;
-        OK(kiriSheet_GetTotals(world, world->sheets.data[i]->id, &totals));
+        kiriTotals totals = World_Totals(world, world->sheets.data[i]->id);
         area += totals.area;
     }
     return area;
@@ -142,8 +137,7 @@ static double EnergyOf(const kiriWorld* world, double scale, double* size)
     double energy = 0.0;
     *size = 0.0;
     for (int32_t i = 0; i < world->sheets.count; ++i) {
-        kiriTotals totals;
-        OK(kiriSheet_GetTotals(world, world->sheets.data[i]->id, &totals));
+        kiriTotals totals = World_Totals(world, world->sheets.data[i]->id);
         energy += totals.kineticEnergy;
         *size += totals.kineticEnergy + 1e-5 * totals.mass * scale * scale;
         for (int k = 0; k < 3; ++k) {
@@ -159,8 +153,7 @@ static bool IsFarAway(const kiriWorld* world, double scale)
 {
     bool isFar = false;
     for (int32_t i = 0; i < world->sheets.count; ++i) {
-        kiriTotals totals;
-        OK(kiriSheet_GetTotals(world, world->sheets.data[i]->id, &totals));
+        kiriTotals totals = World_Totals(world, world->sheets.data[i]->id);
         for (int k = 0; k < 3; ++k) {
             isFar = isFar || fabs(totals.center[k]) > 1e9 * scale;
         }
@@ -207,8 +200,7 @@ static bool IsOneSystem(const kiriWorld* world, int32_t items)
    than the least limit, count as all of it, or are paid in parts. */
 static void CheckBudget(const kiriWorld* world, kiriResult result)
 {
-    kiriProfile profile;
-    OK(kiriWorld_GetProfile(world, &profile));
+    kiriProfile profile = World_Profile(world);
     const int32_t limits[] = { world->budget.triangles, world->budget.cells, world->budget.samples,
                                world->budget.iterations };
     const int32_t items[] = { profile.trianglesSplit, profile.cellsSettled, profile.samplesRefreshed,
@@ -466,12 +458,11 @@ static void CheckStillWorks(Host* host, int32_t ticks)
 /* What it became is restored in another world, where it is saved and loaded when the work at hand is done. */
 static void LoadInAnother(const Host* host)
 {
-    Host other;
     int64_t size = 0;
     OK(kiriWorld_Snapshot(host->world, NULL, 0, &size));
     uint8_t* bytes = malloc((size_t)size);
     OK(kiriWorld_Snapshot(host->world, bytes, size, &size));
-    Host_Start(&other);
+    START_HOST(other);
     OK(kiriWorld_Restore(other.world, bytes, size));
     FUZZ_CHECK(Host_Hash(&other) == Host_Hash(host), "a snapshot is restored as another world");
     kiriResult result = kiriWorld_FinishCuts(other.world);

@@ -3,6 +3,7 @@
 #ifndef KIRI_TEST_HOST_H
 #define KIRI_TEST_HOST_H
 
+#include "defaults.h"
 #include "kiri/kiri.h"
 #include "support.h"
 #include "validate.h"
@@ -124,6 +125,11 @@ static inline void Host_Start(Host* host)
     assert_int_equal(kiriCreateWorld(&def, &host->world), KIRI_OK);
 }
 
+/* Declares a host, and starts it. */
+#define START_HOST(name)                                                                                               \
+    Host name;                                                                                                         \
+    Host_Start(&name)
+
 /* Fails the test where anything in the world contradicts itself. */
 static inline void Host_Validate(const Host* host)
 {
@@ -172,6 +178,66 @@ static inline uint64_t Host_Hash(const Host* host)
 }
 
 #define OK(call) assert_int_equal(call, KIRI_OK)
+
+/* ---- Getters, and calls that make one thing, which must succeed ---- */
+
+#define WORLD_GETTER(Type, Name, call, Id)                                                                             \
+    static inline Type Name(const kiriWorld* world, Id id)                                                             \
+    {                                                                                                                  \
+        Type value;                                                                                                    \
+        OK(call(world, id, &value));                                                                                   \
+        return value;                                                                                                  \
+    }
+#define PIECE_GETTER(Type, Name, call)                                                                                 \
+    static inline Type Name(kiriWorld* world, kiriSheet sheet, int32_t piece)                                          \
+    {                                                                                                                  \
+        Type value;                                                                                                    \
+        OK(call(world, sheet, piece, &value));                                                                         \
+        return value;                                                                                                  \
+    }
+WORLD_GETTER(kiriFrameState, World_FrameState, kiriFrame_GetState, kiriFrame)
+WORLD_GETTER(kiriTotals, World_Totals, kiriSheet_GetTotals, kiriSheet)
+WORLD_GETTER(kiriSheetSettings, World_Settings, kiriSheet_GetSettings, kiriSheet)
+WORLD_GETTER(kiriMesh, World_Mesh, kiriSheet_GetMesh, kiriSheet)
+WORLD_GETTER(kiriCounts, World_Counts, kiriSheet_GetCounts, kiriSheet)
+WORLD_GETTER(kiriObstacleState, World_ObstacleState, kiriObstacle_GetState, kiriObstacle)
+PIECE_GETTER(kiriPieceState, World_PieceState, kiriSheet_GetPiece)
+PIECE_GETTER(kiriPieceMesh, World_PieceMesh, kiriSheet_GetPieceMesh)
+
+static inline kiriProfile World_Profile(const kiriWorld* world)
+{
+    kiriProfile profile;
+    OK(kiriWorld_GetProfile(world, &profile));
+    return profile;
+}
+
+static inline kiriPointState World_PointState(const kiriWorld* world, kiriSheet sheet, const float rest[2])
+{
+    kiriPointState state;
+    OK(kiriSheet_GetPoint(world, sheet, rest, &state));
+    return state;
+}
+
+static inline kiriObstacle World_AddObstacle(kiriWorld* world, const kiriObstacleDef* def)
+{
+    kiriObstacle obstacle;
+    OK(kiriCreateObstacle(world, def, &obstacle));
+    return obstacle;
+}
+
+static inline kiriPin World_Clamp(kiriWorld* world, kiriSheet sheet, const float from[2], const float to[2])
+{
+    kiriPin clamp;
+    OK(kiriSheet_ClampLine(world, sheet, from, to, &clamp));
+    return clamp;
+}
+
+static inline kiriCut World_BeginCut(kiriWorld* world, kiriSheet sheet, const float rest[2])
+{
+    kiriCut cut;
+    OK(kiriBeginCut(world, sheet, rest, &cut));
+    return cut;
+}
 
 /* The mesh of a def. */
 typedef struct Rectangle {

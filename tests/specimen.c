@@ -1,5 +1,6 @@
 #define _POSIX_C_SOURCE 199309L /* clock_gettime */
 
+#include "defaults.h"
 #include "specimen.h"
 
 #include <math.h>
@@ -67,8 +68,7 @@ static kiriWorld* MakeWorld(void)
 
 static kiriSheetDef SheetDef(const SpecimenDef* from)
 {
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.sleepSpeed = 0.0f;
     def.material = from->material;
     def.gridResolution = from->grid;

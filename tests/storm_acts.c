@@ -1,3 +1,4 @@
+#include "defaults.h"
 #include "storm.h"
 
 #include "core/kiri_float.h" /* the storm gives the same bits on every machine */
@@ -371,8 +372,7 @@ static const float outline[10] = { 0.2f, 0.0f, 0.1f, 0.2f, -0.1f, 0.15f, -0.2f, 
 /* The first one is a floor; then one of each kind. */
 void Storm_AddObstacle(Storm* storm)
 {
-    kiriObstacleDef def;
-    kiriDefaultObstacleDef(&def);
+    kiriObstacleDef def = DefaultObstacle();
     def.type = storm->obstacleCount % (KIRI_OBSTACLE_PRISM + 1);
     def.size[0] = def.size[1] = 0.3f;
     def.size[2] = 0.1f;

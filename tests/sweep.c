@@ -1,3 +1,4 @@
+#include "defaults.h"
 #include "sweep.h"
 
 #include <math.h>
@@ -143,8 +144,7 @@ static bool AddSheet(Scene* scene, const Setting* setting)
     static float rest[2 * MAX_VERTICES], points[2 * MAX_FRAMES];
     static int32_t indices[3 * MAX_TRIANGLES];
     const Shape* shape = &shapes[setting->scene];
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.sleepSpeed = 0.0f;
     kiriFillRectangle(shape->length, shape->width, shape->columns, shape->rows, rest, indices);
     PlaceFrames(setting, points);

@@ -238,16 +238,14 @@ static void ModesOfFloats(void** state)
         AssertModeRefused(result, &host);
     }
 #endif
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     Host_Stop(&host);
 }
 
 /* Every preset makes a sheet; other numbers make none. */
 static void Materials(void** state)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     for (int32_t preset = 0; preset < KIRI_MATERIAL_COUNT; ++preset) {
         kiriSheetDef def = Host_SmallDef();
         assert_int_equal(kiriGetMaterial(preset, &def.material), KIRI_OK);
@@ -264,13 +262,11 @@ static void Materials(void** state)
    test_quality.c. */
 static void Qualities(void** state)
 {
-    Host host;
     kiriQuality quality = { 0, 0, 0, 0 }, refused = { 7, 7, 7, 7 };
-    Host_Start(&host);
+    START_HOST(host);
     for (int32_t preset = 0; preset < KIRI_QUALITY_COUNT; ++preset) {
         kiriQuality less = quality;
-        kiriSheetDef def;
-        kiriDefaultSheetDef(&def);
+        kiriSheetDef def = DefaultSheet();
         OK(kiriGetQuality(preset, &quality));
         assert_true(quality.framesAlong > less.framesAlong && quality.gridResolution > less.gridResolution);
         assert_true(quality.iterations >= less.iterations && quality.substeps > less.substeps);
@@ -494,8 +490,7 @@ static void Meshes(void** state)
         { 7, 3, { 0, 1, 2, 0, 2, 3, 5, 6, 4 } }, /* one inside another */
     };
     for (size_t i = 0; i < sizeof(meshes) / sizeof(meshes[0]); ++i) {
-        kiriSheetDef def;
-        kiriDefaultSheetDef(&def);
+        kiriSheetDef def = DefaultSheet();
         def.restPositions = square;
         def.vertexCount = meshes[i].vertices;
         def.indices = meshes[i].indices;
@@ -507,8 +502,7 @@ static void Meshes(void** state)
                        point[6] = { 2.0f, 2.0f, 2.0f, 2.0f, 2.0f, 2.0f };
     static const float* const degenerate[] = { flat, point };
     for (int i = 0; i < 2; ++i) {
-        kiriSheetDef def;
-        kiriDefaultSheetDef(&def);
+        kiriSheetDef def = DefaultSheet();
         static const int32_t indices[3] = { 0, 1, 2 };
         def.restPositions = degenerate[i];
         def.vertexCount = 3;
@@ -884,10 +878,9 @@ static void PoseArguments(void** state)
     Fixture f;
     Host* host = Setup(&f);
     kiriWorld* w = host->world;
-    kiriPin pin;
     float x[3] = { 0.0f, 0.0f, 0.0f }, r[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
     static const float a[2] = { 0.0f, 0.0f }, b[2] = { 0.0f, 1.0f };
-    OK(kiriSheet_ClampLine(w, f.sheet, a, b, &pin));
+    kiriPin pin = World_Clamp(w, f.sheet, a, b);
     REFUSED(KIRI_ERROR_ARGUMENT, kiriPin_SetPose(w, f.pin, x, r)); /* it holds a point */
     REFUSED(KIRI_ERROR_ARGUMENT, kiriPin_SetPose(w, pin, NULL, r));
     REFUSED(KIRI_ERROR_ARGUMENT, kiriPin_SetPose(w, pin, x, NULL));
@@ -928,8 +921,7 @@ static void ShortIndicesNeedFewVertices(void** state)
 {
     enum { SIDE = 256 };
     uint16_t indices[3];
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
     kiriSheet many = Host_AddRectangle(&host, &def, 1.0f, 1.0f, SIDE, SIDE - 1);
     assert_int_equal(kiriSheet_CopyIndices16(host.world, many, 0, 1, indices), KIRI_ERROR_STATE);
@@ -1061,8 +1053,7 @@ static void CopyEvery(int32_t every)
     static float places[8 * MOST], rest[2 * MOST];
     static uint16_t indices[3 * MOST];
     uint32_t revision = 0, seed = 5;
-    kiriCut cut;
-    OK(kiriBeginCut(host->world, sheet, (float[]){ 0.1f, 0.5f }, &cut));
+    kiriCut cut = World_BeginCut(host->world, sheet, (float[]){ 0.1f, 0.5f });
     for (int tick = 0; tick < 50; ++tick) {
         kiriDirty dirty;
         if (tick % every != 0) {
@@ -1116,9 +1107,8 @@ static void LinesNameArguments(void** state)
     const float bad[4] = { 0.0f, 0.0f, 0.0f, NAN };
     const kiriBudget budget = { 0, -7, 0, 0 };
     kiriSheetDef def = Host_SmallDef();
-    kiriObstacleDef sphere;
     uint32_t id;
-    kiriDefaultObstacleDef(&sphere);
+    kiriObstacleDef sphere = DefaultObstacle();
     sphere.type = KIRI_OBSTACLE_SPHERE;
 #define SAYS(call, text)                                                                                               \
     do {                                                                                                               \

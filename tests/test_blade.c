@@ -13,8 +13,7 @@ static const float stillAir[3] = { 0.0f, 0.0f, 0.0f };
 
 static kiriSheetDef Def(int32_t grid, int32_t frames)
 {
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = grid;
     def.frameCount = frames;
     def.collisionPoints = 0;
@@ -55,8 +54,7 @@ static double LeastArea(Stage* stage)
 {
     double least = 1e9;
     for (int32_t i = 0; i < Pieces(stage); ++i) {
-        kiriPieceState piece;
-        OK(kiriSheet_GetPiece(stage->host.world, stage->sheet, i, &piece));
+        kiriPieceState piece = World_PieceState(stage->host.world, stage->sheet, i);
         least = piece.area < least ? piece.area : least;
     }
     return least;
@@ -202,8 +200,7 @@ static bool IsDiscCut(int k, int32_t held, double radius, double widening)
     }
     EndAndTick(&stage);
     for (int32_t i = 0; i < Pieces(&stage); ++i) {
-        kiriPieceState piece;
-        OK(kiriSheet_GetPiece(stage.host.world, stage.sheet, i, &piece));
+        kiriPieceState piece = World_PieceState(stage.host.world, stage.sheet, i);
         large += piece.area > 2.0 * radius * radius;
     }
     Host_Stop(&stage.host);
@@ -485,8 +482,7 @@ static void TestDetached(void** state)
         Draw(&stage, -0.1, y, 0.5, y, 5);
         kiriFrame frame = 0;
         for (int32_t piece = 0; piece < 2; ++piece) {
-            kiriPieceState at;
-            OK(kiriSheet_GetPiece(stage.host.world, stage.sheet, piece, &at));
+            kiriPieceState at = World_PieceState(stage.host.world, stage.sheet, piece);
             frame = at.center[1] > 0.3 ? frame : Host_FrameOf(&stage.host, stage.sheet, piece);
         }
         OK(kiriFrame_DetachPiece(stage.host.world, frame, &detached));
@@ -631,13 +627,12 @@ static void TestFallingSheets(void** state)
 {
     for (int32_t k = 0; k < 120; ++k) {
         kiriWorldDef worldDef;
-        kiriSheetDef sheetDef;
         kiriWorld* world;
         kiriSheet sheet;
         kiriBlade blade;
         kiriCounts counts;
         kiriDefaultWorldDef(&worldDef);
-        kiriDefaultSheetDef(&sheetDef);
+        kiriSheetDef sheetDef = DefaultSheet();
         worldDef.gravity[1] = -1.0f - (float)(k % 10);
         sheetDef.frameCount = 1 + k % 7;
         OK(kiriCreateWorld(&worldDef, &world));

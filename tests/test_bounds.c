@@ -64,16 +64,14 @@ static void TestRays(void** state)
     uint32_t seed = 17;
     int32_t hits = 0, rays = 0;
     for (int round = 0; round < 6; ++round) {
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         kiriSheetDef def = Host_SmallDef();
         def.framePoints = NULL;
         def.frameCount = 5;
         def.skinning = round % 2 == 0 ? KIRI_SKINNING_LINEAR : KIRI_SKINNING_SMOOTH;
         def.material.youngsModulus = 1e4f;
         kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4 + 4 * round, 9);
-        kiriPin pin;
-        OK(kiriSheet_ClampLine(host.world, sheet, (float[]){ 0.0f, 1.0f }, (float[]){ 1.0f, 1.0f }, &pin));
+        World_Clamp(host.world, sheet, (float[]){ 0.0f, 1.0f }, (float[]){ 1.0f, 1.0f });
         for (int tick = 0; tick < 40; ++tick) {
             float line[4];
             for (int k = 0; k < 4; ++k) {
@@ -113,8 +111,7 @@ static kiriHit Cast(const Host* host, kiriSheet sheet, float x, float y)
    more. */
 static void TestWhoAsks(void** state)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 16, 16);
     enum { PATIENCE = 120 };
@@ -141,11 +138,10 @@ static void TestWhoAsks(void** state)
 /* The sheet that a ray meets first, of three above each other, with and without boxes. */
 static void TestAllSheets(void** state)
 {
-    Host host;
     kiriSheet sheets[3], met;
     kiriHit hit;
     const float heights[3] = { 0.5f, 2.0f, 1.0f }, up[3] = { 0.0f, 0.0f, 4.0f };
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
     const float still[3] = { 0.0f, 0.0f, 0.0f };
     OK(kiriWorld_SetGravity(host.world, still));

@@ -35,8 +35,7 @@ static kiriResult AddShape(Host* host, kiriSheetDef* def, int32_t columns, int32
 
 static kiriSheetDef DefOf(int32_t resolution, double snap)
 {
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = resolution;
     def.frameCount = 2;
     def.maxFrames = 512;
@@ -65,12 +64,10 @@ static int32_t VerticesAt(const kiriMesh* mesh, const float at[2])
 /* m^2 of the piece at a place. */
 static double AreaAt(const Host* host, kiriSheet sheet, const float at[2])
 {
-    kiriPointState point;
-    kiriPieceState state;
     int32_t piece;
-    OK(kiriSheet_GetPoint(host->world, sheet, at, &point));
+    kiriPointState point = World_PointState(host->world, sheet, at);
     OK(kiriFrame_GetPiece(host->world, point.frame, &piece));
-    OK(kiriSheet_GetPiece(host->world, sheet, piece, &state));
+    kiriPieceState state = World_PieceState(host->world, sheet, piece);
     return state.area;
 }
 
@@ -145,16 +142,14 @@ static const Case cases[] = {
 
 static void CheckCase(const Case* c, bool isParted)
 {
-    Host host;
     kiriSheet sheet;
     kiriSheetDef def = DefOf(8, c->snap);
-    Host_Start(&host);
+    START_HOST(host);
     OK(AddShape(&host, &def, c->columns, c->rows, c->shape, &sheet));
     double area = Host_Totals(&host, sheet).area;
     for (int i = 0; i < MOST_LINES && c->lines[i].count > 0; ++i) {
         const Line* line = &c->lines[i];
-        kiriCut cut;
-        OK(kiriBeginCut(host.world, sheet, line->points, &cut));
+        kiriCut cut = World_BeginCut(host.world, sheet, line->points);
         for (int k = 1; k < line->count; ++k) { /* the blade goes on where it was, also over several ticks */
             OK(kiriCut_Extend(host.world, cut, &line->points[2 * k], 1));
             OK(isParted ? Host_Tick(&host, 1e-3f, 1) : KIRI_OK);
@@ -206,9 +201,8 @@ static void TouchesSharpCorners(void** state)
     static const float triangles[2][6] = { { 0, 0, 4, -1, 4, 0 }, { 0, 0, 4, 0, 4, 1 } };
     for (int up = 0; up < 2; ++up) {
         float side = up ? 1.0f : -1.0f, line[4] = { -1.5f, -side, 3.0f, 2.0f * side };
-        Host host;
         kiriSheet sheet;
-        Host_Start(&host);
+        START_HOST(host);
         OK(AddLoose(&host, triangles[up], 1, 0.0, &sheet));
         CutLine(&host, sheet, line, 2);
         assert_int_equal(Host_Counts(&host, sheet).triangles, 1);
@@ -224,9 +218,8 @@ static void CutsThroughSplitSides(void** state)
     for (int way = 0; way < 2; ++way) {
         float line[4] = { way ? 3.0f : -1.0f, 1, way ? -1.0f : 3.0f, 1 };
         kiriSheetDef def = DefOf(8, 0.0);
-        Host host;
         kiriSheet sheet;
-        Host_Start(&host);
+        START_HOST(host);
         def.restPositions = positions;
         def.vertexCount = 10;
         def.indices = indices;
@@ -252,9 +245,8 @@ static void MakesNoEdgeTwice(void** state)
     for (int round = 0; round < 600; ++round) {
         float corners[24];
         int32_t unit = 2 << Random(&seed) % 8;
-        Host host;
         kiriSheet sheet;
-        Host_Start(&host);
+        START_HOST(host);
         for (int i = 0; i < 24; ++i) {
             corners[i] = (float)unit * eighths[i];
         }
@@ -291,9 +283,8 @@ static void PullsNoOutlineAlong(void** state)
         { 256, 2, 3842, 1536, -510, 512, 4608, 514 },      { 768, 3586, 4354, 2816, 0, 2048, 3584, 768 },
         { 3586, 1792, 1536, 1536, 2050, 2818, 3842, 2048 }, { 2304, 3072, 3330, -510, 3074, 2818, 1024, 3840 }
     };
-    Host host;
     kiriSheet sheet;
-    Host_Start(&host);
+    START_HOST(host);
     OK(AddLoose(&host, corners, 4, 1.0, &sheet));
     for (int i = 0; i < 6; ++i) {
         Host_Cut(&host, sheet, lines[i], 4);
@@ -418,9 +409,8 @@ static void LipsFollowTheBlade(void** state)
         double snap = snaps[round % 3], reach = round % 2 == 0 ? 9.0 : 1.5;
         float again[2] = { 8, 8 };
         kiriSheetDef def = DefOf(4 + 3 * (int32_t)round, snap);
-        Host host;
         kiriSheet sheet;
-        Host_Start(&host);
+        START_HOST(host);
         OK(AddShape(&host, &def, 16, 16, NULL, &sheet));
         for (int i = 0; i < 16; ++i) {
             float points[2 * MOST_POINTS];
@@ -447,10 +437,9 @@ static void LipsFollowTheBlade(void** state)
 static void DoesNotDrift(void** state)
 {
     static const float line[4] = { 0.0f, 1.0f, 256.0f, 1.6f };
-    Host host;
     kiriSheet sheet;
     kiriSheetDef def = DefOf(64, 0.01);
-    Host_Start(&host);
+    START_HOST(host);
     OK(AddShape(&host, &def, 256, 2, NULL, &sheet));
     CutLine(&host, sheet, line, 2);
     kiriMesh mesh = Host_Mesh(&host, sheet);

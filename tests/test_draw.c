@@ -93,14 +93,12 @@ static void Begin(Stage* stage)
 {
     Host_Start(&stage->host);
     Canvas_Create(&stage->canvas);
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.frameCount = 9;
     def.collisionPoints = 7;
     stage->sheet = Host_AddRectangle(&stage->host, &def, 1.0f, 1.0f, 24, 24);
 
-    kiriObstacleDef ball;
-    kiriDefaultObstacleDef(&ball);
+    kiriObstacleDef ball = DefaultObstacle();
     ball.type = KIRI_OBSTACLE_SPHERE;
     ball.radius = 0.25f;
     ball.position[0] = ball.position[1] = 0.5f;
@@ -174,8 +172,7 @@ static void TestCounts(void** state)
 
     /* Some may have pushed earlier in the tick alone, and some have pulled more than they push now. */
     Draw(canvas, &stage.host, KIRI_DRAW_CONTACTS);
-    kiriObstacleState ball;
-    OK(kiriObstacle_GetState(stage.host.world, stage.ball, &ball));
+    kiriObstacleState ball = World_ObstacleState(stage.host.world, stage.ball);
     int32_t contacts = canvas->points.count;
     assert_true(contacts > 0 && contacts <= ball.contacts + 2);
     CheckCounts(canvas, contacts, contacts, 0);
@@ -234,8 +231,7 @@ static void TestPlaces(void** state)
 
     Draw(canvas, &stage.host, KIRI_DRAW_BOXES);
     for (int32_t p = 0; p < 2; ++p) {
-        kiriPieceState piece;
-        OK(kiriSheet_GetPiece(stage.host.world, stage.sheet, p, &piece));
+        kiriPieceState piece = World_PieceState(stage.host.world, stage.sheet, p);
         const kiriDrawVertex* first = canvas->lines.vertices + 24 * p;
         assert_true(DistanceTo(first, piece.lower) == 0.0f);
         assert_true(DistanceTo(first + 23, piece.upper) == 0.0f);
@@ -295,9 +291,8 @@ static void TestWork(void** state)
 static void AddShape(Host* host, int32_t type, float height)
 {
     static const float outline[6] = { 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 1.0f };
-    kiriObstacleDef def;
     kiriObstacle made;
-    kiriDefaultObstacleDef(&def);
+    kiriObstacleDef def = DefaultObstacle();
     def.type = type;
     def.radius = 0.5f;
     def.height = height;
@@ -311,9 +306,8 @@ static void TestShapes(void** state)
 {
     static const int32_t lines[6] = { 5, 96, 132, 12, 68, 9 }; /* by type */
     int32_t all = 0;
-    Host host;
     Canvas canvas;
-    Host_Start(&host);
+    START_HOST(host);
     Canvas_Create(&canvas);
     for (int32_t type = KIRI_OBSTACLE_PLANE; type <= KIRI_OBSTACLE_PRISM; ++type) {
         AddShape(&host, type, type == KIRI_OBSTACLE_PRISM ? 0.0f : 1.0f);

@@ -1,5 +1,6 @@
 /* Sheets of one frame and of more fall, tilted, on a floor and on what stands there, as the scraps of a game do: they
    gain no energy, are never given up, and do not stretch. */
+#include "defaults.h"
 #include "kiri/kiri.h"
 
 #include <math.h>
@@ -23,8 +24,7 @@ typedef struct Fall {
 static void AddObstacle(kiriWorld* world, int32_t type, float z)
 {
     kiriObstacle obstacle;
-    kiriObstacleDef def;
-    kiriDefaultObstacleDef(&def);
+    kiriObstacleDef def = DefaultObstacle();
     def.type = type;
     def.size[0] = 0.42f;
     def.size[1] = 0.40f;
@@ -40,9 +40,8 @@ static kiriSheet AddSheet(kiriWorld* world, const Fall* fall)
     static float rest[2 * (SQUARES + 1) * (SQUARES + 1)];
     static int32_t indices[6 * SQUARES * SQUARES];
     kiriSheet sheet;
-    kiriSheetDef def;
     kiriFillRectangle(side, side, SQUARES, SQUARES, rest, indices);
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.restPositions = rest;
     def.vertexCount = (SQUARES + 1) * (SQUARES + 1);
     def.indices = indices;

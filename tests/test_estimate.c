@@ -32,8 +32,7 @@ static Sheet MakeSheet(float length, float width, float square, float poissonsRa
 static kiriSheetDef DefOf(const Sheet* s)
 {
     kiriMaterial material = { 7.438285638990287e8f, s->poissonsRatio, 5e-4f, 1000.0f, 20.0f, 0.0f, 0.0f, 0.0f, 0 };
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.material = material;
     def.gridResolution = (int32_t)((s->length > s->width ? s->length : s->width) / s->square + 0.5f);
     def.rigidWeight = 2.0f;
@@ -75,8 +74,7 @@ static void TakeCutMesh(Host* host, const Sheet* s, kiriSheetDef* def)
 static kiriPin Clamp(Host* host, kiriSheet sheet, const Sheet* s, float u)
 {
     const float from[2] = { u, 0.0f }, to[2] = { u, s->width };
-    kiriPin clamp;
-    OK(kiriSheet_ClampLine(host->world, sheet, from, to, &clamp));
+    kiriPin clamp = World_Clamp(host->world, sheet, from, to);
     return clamp;
 }
 
@@ -122,10 +120,9 @@ static void Settle(Host* host, kiriSheet sheet, const Sheet* s)
     const float weight[3] = { 0.0f, 0.0f, -9.81f };
     OK(kiriWorld_SetGravity(host->world, weight));
     for (int32_t tick = 0, calm = 0; calm < 3; ++tick) {
-        kiriTotals totals;
         assert_true(tick < MOST_TICKS);
         OK(kiriWorld_Tick(host->world, 0.05f, 1));
-        OK(kiriSheet_GetTotals(host->world, sheet, &totals));
+        kiriTotals totals = World_Totals(host->world, sheet);
         double way = 0.05 * sqrt(2.0 * totals.kineticEnergy / totals.mass);
         calm = way < 1e-5 * (double)s->length ? calm + 1 : 0;
     }
@@ -136,13 +133,12 @@ static void Settle(Host* host, kiriSheet sheet, const Sheet* s)
 /* How far the edge u = length comes down. */
 static double Drop(const Sheet* s, int32_t count)
 {
-    kiriMesh mesh;
     double sum = 0.0;
     int32_t found = 0;
     Host host;
     kiriSheet sheet = Make(&host, s, count, 0.0f);
     Settle(&host, sheet, s);
-    OK(kiriSheet_GetMesh(host.world, sheet, &mesh));
+    kiriMesh mesh = World_Mesh(host.world, sheet);
     for (int32_t i = 0; i < mesh.vertexCount; ++i) {
         if (mesh.restPositions[2 * i] > s->length - 1e-6f) {
             sum -= (double)mesh.positions[3 * i + 2];
@@ -219,9 +215,8 @@ typedef struct Reference {
 /* Rms distance of the vertices from where they should be, by the rms way that they should go. */
 static double ErrorOf(const Host* host, kiriSheet sheet, const Sheet* s, const Reference* reference)
 {
-    kiriMesh mesh;
     double error = 0.0, way = 0.0;
-    OK(kiriSheet_GetMesh(host->world, sheet, &mesh));
+    kiriMesh mesh = World_Mesh(host->world, sheet);
     double* sides = calloc(3 * (size_t)mesh.vertexCount, sizeof(double));
     for (int32_t i = 0; i < 9 * mesh.triangleCount; ++i) {
         const int32_t* corners = &mesh.indices[i / 9 * 3];
@@ -369,8 +364,7 @@ static void EstimateAtTheEnds(void** state)
         double estimate = -1.0;
         Host host;
         StartHost(&host);
-        kiriSheetDef def;
-        kiriDefaultSheetDef(&def);
+        kiriSheetDef def = DefaultSheet();
         def.frameCount = def.maxFrames = frames;
         kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 0.3f, 10, 3);
         OK(kiriSheet_EstimateError(host.world, sheet, &estimate));
@@ -444,8 +438,7 @@ static void AccuracyHasLimits(void** state)
     for (int k = 0; k < 4; ++k) {
         Host host;
         StartHost(&host);
-        kiriSheetDef def;
-        kiriDefaultSheetDef(&def);
+        kiriSheetDef def = DefaultSheet();
         def.frameCount = 0;
         def.accuracy = cases[k].accuracy;
         def.material.youngsModulus = cases[k].young;

@@ -140,8 +140,7 @@ static void TestOneDiverges(void** state)
 /* Forces that are just within reach fling the sheet to where floats end; until then all that is read is finite. */
 static void TestForcesUpTo(void** state)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheet sheet = AddSheet(&host, 0.0f);
     int diverged = 0;
     for (int tick = 0; tick < 120; ++tick) {
@@ -171,21 +170,18 @@ static void TestSpinsUpTo(void** state)
 {
     int diverged = 0;
     for (int k = 0; k < 38; ++k) {
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         kiriSheetDef def = Host_SmallDef();
         def.model = KIRI_MODEL_AFFINE;
         def.skinning = KIRI_SKINNING_SMOOTH;
         kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 8, 8);
-        kiriObstacleDef ball;
-        kiriObstacle id;
-        kiriDefaultObstacleDef(&ball);
+        kiriObstacleDef ball = DefaultObstacle();
         ball.type = KIRI_OBSTACLE_SPHERE;
         ball.radius = 0.5f;
         ball.position[0] = ball.position[1] = 0.3f;
         ball.position[2] = -0.4f;
         ball.angularVelocity[0] = powf(10.0f, (float)k);
-        OK(kiriCreateObstacle(host.world, &ball, &id));
+        World_AddObstacle(host.world, &ball);
         for (int tick = 0; tick < 8; ++tick) {
             kiriResult result = Host_Tick(&host, 1.0f / 60.0f, 1);
             assert_true(result == KIRI_OK || result == KIRI_DIVERGED);
@@ -201,9 +197,8 @@ static void TestSpinsUpTo(void** state)
 /* A frame that is held where no float reaches: every tick says so, and the sheet goes on when it is let go. */
 static void TestHeldOutOfReach(void** state)
 {
-    Host host;
     const float far[3] = { 3e38f, -3e38f, 3e38f }, rotation[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheet sheet = AddSheet(&host, 0.0f);
     State before = Read(&host, sheet);
     OK(kiriFrame_Hold(host.world, FirstFrame(&host, sheet), far, rotation));
@@ -223,8 +218,7 @@ static void TestHeldOutOfReach(void** state)
 /* Positions are read as floats, 0.0078 m apart; normals are not made of those. */
 static void TestNormalsFarAway(void** state)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
     def.position[0] = def.position[1] = def.position[2] = 1e5f;
     def.axisU[0] = 0.6f;

@@ -83,12 +83,10 @@ static void RunNet(uint32_t run)
     static const kiriWind air = { { 1.0f, -2.0f, 3.0f }, 1.2f, 1.2f, 0.01f };
     uint32_t seed = 7u * run + 1u;
     int32_t squares = 1 + (int32_t)(Random(&seed) % MOST);
-    Host host;
     kiriSheet sheet;
-    kiriSheetDef def;
-    Host_Start(&host);
+    START_HOST(host);
     host.every = 4;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     MakeNet(&net, squares, run % 2 == 0, &seed);
     DropUnused(&net);
     def.restPositions = net.positions;

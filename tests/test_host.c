@@ -19,11 +19,10 @@ static void TestSettingsAreADefs(void** state)
 {
     uint64_t hash[2];
     for (int way = 0; way < 2; ++way) {
-        Host host;
         kiriSheetDef def = Host_SmallDef(), other = def;
         kiriSheetSettings settings;
         const float line[4] = { -0.1f, 0.43f, 0.7f, 0.51f };
-        Host_Start(&host);
+        START_HOST(host);
         OK(kiriGetMaterial(KIRI_MATERIAL_PAPER, &other.material)); /* with Poisson's ratio, which cotton has not */
         other.timeStepping = KIRI_TIME_STEPPING_EULER;
         other.skinning = KIRI_SKINNING_SMOOTH;
@@ -61,14 +60,12 @@ static void TestSettingsAreADefs(void** state)
 
 static void TestSettingsChangeWhileItMoves(void** state)
 {
-    Host host;
     kiriSheetDef def = Host_SmallDef();
-    kiriSheetSettings settings;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheet sheet = Hang(&host, &def);
     Host_Ticks(&host, 20, DT, 2);
     kiriTotals before = Host_Totals(&host, sheet);
-    OK(kiriSheet_GetSettings(host.world, sheet, &settings));
+    kiriSheetSettings settings = World_Settings(host.world, sheet);
     settings.material.density *= 2.0f;
     settings.material.poissonsRatio = 0.3f;
     settings.skinning = KIRI_SKINNING_SMOOTH;
@@ -94,15 +91,13 @@ static void TestSettingsChangeWhileItMoves(void** state)
 static void TestFadesMayBeginWithAnotherLook(void** state)
 {
     for (int together = 0; together < 2; ++together) {
-        Host host;
         kiriSheetDef def = Host_SmallDef();
-        kiriSheetSettings settings;
         def.fadeTime = 0.0f;
         def.skinning = KIRI_SKINNING_LINEAR;
-        Host_Start(&host);
+        START_HOST(host);
         kiriSheet sheet = Hang(&host, &def);
         Host_Ticks(&host, 20, DT, 2);
-        OK(kiriSheet_GetSettings(host.world, sheet, &settings));
+        kiriSheetSettings settings = World_Settings(host.world, sheet);
         settings.skinning = KIRI_SKINNING_SMOOTH;
         if (!together) {
             OK(kiriSheet_SetSettings(host.world, sheet, &settings));
@@ -110,8 +105,7 @@ static void TestFadesMayBeginWithAnotherLook(void** state)
         settings.fadeTime = 1.0f;
         OK(kiriSheet_SetSettings(host.world, sheet, &settings));
         OK(Host_Tick(&host, DT, 2));
-        kiriProfile profile;
-        OK(kiriWorld_GetProfile(host.world, &profile));
+        kiriProfile profile = World_Profile(host.world);
         assert_true(profile.largestJump > 0.0 && profile.largestFade > 0.0);
         Host_Stop(&host);
     }
@@ -119,10 +113,9 @@ static void TestFadesMayBeginWithAnotherLook(void** state)
 
 static void TestSettingsAreChecked(void** state)
 {
-    Host host;
     kiriSheetDef def = Host_SmallDef();
     kiriSheetSettings good, bad;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheet sheet = Hang(&host, &def);
     OK(kiriSheet_GetSettings(host.world, sheet, &good));
     uint64_t hash = Host_Hash(&host);
@@ -153,8 +146,7 @@ static void TestSettingsAreChecked(void** state)
 static kiriPointState PointAt(const Host* host, kiriSheet sheet, float u, float v)
 {
     const float rest[2] = { u, v };
-    kiriPointState state;
-    OK(kiriSheet_GetPoint(host->world, sheet, rest, &state));
+    kiriPointState state = World_PointState(host->world, sheet, rest);
     return state;
 }
 
@@ -168,10 +160,9 @@ static double Apart(const float* a, const float* b)
 static void TestPointIsWhatIsSeen(void** state)
 {
     for (int32_t skinning = 0; skinning < 2; ++skinning) {
-        Host host;
         kiriSheetDef def = Host_SmallDef();
         const float line[4] = { -0.1f, 0.4f, 0.6f, 0.55f };
-        Host_Start(&host);
+        START_HOST(host);
         def.skinning = skinning;
         kiriSheet sheet = Hang(&host, &def);
         Host_Cut(&host, sheet, line, 2);
@@ -222,8 +213,7 @@ static void TestPointHasANormal(void** state)
     static const float eye[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
     static const float places[4][3] = { { 0.0f }, { 1.0f, 2.0f }, { 0.0f, 1.0f }, { 1.0f, 0.0f } };
     static const float signs[4] = { -1.0f, -1.0f, 1.0f, -1.0f };
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
     def.framePoints = sites;
     def.material.detail = 0;
@@ -255,12 +245,11 @@ static void TestPointHasANormal(void** state)
 
 static void TestPointNamesItsPiece(void** state)
 {
-    Host host;
     kiriSheetDef def = Host_SmallDef();
     const float line[4] = { 0.5f, -0.1f, 0.5f, 1.1f }, outside[2] = { 1.5f, 0.5f };
     int32_t pieces[2];
     kiriPointState point;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
     Host_Cut(&host, sheet, line, 2);
     OK(Host_Tick(&host, DT, 1));
@@ -279,11 +268,10 @@ static void TestPointNamesItsPiece(void** state)
 static void TestImpulseIsMomentum(void** state)
 {
     for (int32_t way = 0; way < 4; ++way) {
-        Host host;
         kiriSheetDef def = Host_SmallDef();
         const float line[4] = { -0.1f, 0.4f, 0.6f, 0.55f }, at[2] = { 0.9f, 0.2f }, outside[2] = { -0.1f, 0.0f };
         const float impulse[3] = { 0.01f, -0.02f, 0.05f };
-        Host_Start(&host);
+        START_HOST(host);
         def.skinning = way % 2;
         def.material.detail = 0; /* impulses act on the surface without it */
         def.model = way < 2 ? KIRI_MODEL_LINKS : KIRI_MODEL_AFFINE;
@@ -311,10 +299,9 @@ static void TestImpulseIsMomentum(void** state)
 /* One that is planar takes what is in its plane. */
 static void TestImpulseInPlane(void** state)
 {
-    Host host;
     kiriSheetDef def = Host_SmallDef();
     const float at[2] = { 0.9f, 0.2f }, impulse[3] = { 0.01f, -0.02f, 0.05f };
-    Host_Start(&host);
+    START_HOST(host);
     def.planar = 1;
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
     OK(kiriSheet_ApplyImpulse(host.world, sheet, at, impulse));
@@ -337,10 +324,9 @@ static kiriWind Wind(float x, float y, float z, float drag, float lift)
 static void TestTerminalVelocity(void** state)
 {
     for (int way = 0; way < 6; ++way) {
-        Host host;
         kiriSheetDef def = Host_SmallDef();
         kiriWind wind = way % 2 == 0 ? Wind(0.0f, 0.0f, 0.0f, 1.2f, 0.02f) : Wind(0.0f, 0.0f, 0.0f, 1.2f, 1.2f);
-        Host_Start(&host);
+        START_HOST(host);
         OK(kiriGetMaterial(KIRI_MATERIAL_PAPER, &def.material));
         def.material.airDamping = 0.0f;
         def.model = way < 4 ? KIRI_MODEL_LINKS : KIRI_MODEL_AFFINE;
@@ -364,10 +350,9 @@ static void TestTerminalVelocity(void** state)
 static void TestWindIsNotOvertaken(void** state)
 {
     for (int way = 0; way < 4; ++way) {
-        Host host;
         kiriSheetDef def = Host_SmallDef();
         kiriWind wind = Wind(0.0f, 0.0f, 200.0f, 1.5f, 0.1f);
-        Host_Start(&host);
+        START_HOST(host);
         OK(kiriGetMaterial(KIRI_MATERIAL_PAPER, &def.material));
         const float none[3] = { 0.0f, 0.0f, 0.0f };
         OK(kiriWorld_SetGravity(host.world, none));
@@ -389,9 +374,8 @@ static void TestWindIsNotOvertaken(void** state)
 
 static void TestWindIsChecked(void** state)
 {
-    Host host;
     kiriSheetDef def = Host_SmallDef();
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheet sheet = Hang(&host, &def);
     uint64_t hash = Host_Hash(&host);
     kiriWind bad[4] = { Wind(NAN, 0.0f, 0.0f, 1.0f, 0.0f), Wind(0.0f, 0.0f, 0.0f, -1.0f, 0.0f),
@@ -428,14 +412,13 @@ static double ForceOn(const Host* host, kiriPin pin)
 /* Three hold; each breaks in the tick in which it bears more than it can, and no sooner. */
 static void TestPinsBreak(void** state)
 {
-    Host host;
     kiriSheetDef def = Host_SmallDef();
     const float from[2] = { 0.0f, 1.0f }, to[2] = { 1.0f, 1.0f };
     kiriEvent event = { 0 };
     kiriPin pins[4];
     kiriPinState pinState;
     int32_t count;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
     OK(kiriSheet_ClampLine(host.world, sheet, from, to, &pins[0]));
     pins[1] = PinTo(&host, sheet, 0, 0.1f, 0.1f);
@@ -476,12 +459,10 @@ static void TestPinsBreak(void** state)
    the rms force of the pin. */
 static double Draw(int32_t substeps)
 {
-    Host host;
-    kiriSheetDef def;
     const float none[3] = { 0.0f, 0.0f, 0.0f };
     double squares = 0.0;
-    kiriDefaultSheetDef(&def);
-    Host_Start(&host);
+    kiriSheetDef def = DefaultSheet();
+    START_HOST(host);
     host.every = 60;
     OK(kiriWorld_SetGravity(host.world, none));
     def.frameCount = 25;
@@ -506,16 +487,14 @@ static void TestDrawnPinDoesNotJerk(void** state)
 
 static void TestHeldFrameMovesEvenly(void** state)
 {
-    Host host;
     kiriSheetDef def = Host_SmallDef();
     kiriFrame frames[8];
-    kiriFrameState frame;
     int32_t count;
     const float rotation[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
     OK(kiriSheet_GetFrames(host.world, sheet, frames, 8, &count));
-    OK(kiriFrame_GetState(host.world, frames[0], &frame));
+    kiriFrameState frame = World_FrameState(host.world, frames[0]);
     float position[3] = { frame.position[0], frame.position[1], frame.position[2] };
     for (int i = 0; i < 10; ++i) {
         position[0] += 0.01f;
@@ -531,16 +510,14 @@ static void TestHeldFrameMovesEvenly(void** state)
 static void TestSeenIsHeld(void** state)
 {
     for (int kind = 0; kind < 3; ++kind) {
-        Host host;
-        kiriSheetDef def;
         const float from[2] = { 0.0f, 1.0f }, to[2] = { 1.0f, 1.0f };
         kiriPin pin;
         kiriFrame frames[9];
         kiriFrameState held;
         int32_t count, awake = 1;
-        Host_Start(&host);
+        START_HOST(host);
         host.every = 60;
-        kiriDefaultSheetDef(&def);
+        kiriSheetDef def = DefaultSheet();
         OK(kiriGetMaterial(KIRI_MATERIAL_PAPER, &def.material));
         def.frameCount = 9;
         def.skinning = KIRI_SKINNING_SMOOTH;
@@ -591,13 +568,11 @@ static void HangStrip(int32_t skinning, int32_t frameCount, int32_t resolution, 
     static const float tos[STRIP_EDGES][2] = { { 0.0f, 0.05f }, { 0.2f, 0.05f }, { 0.2f, 0.0f } };
     static const float tips[STRIP_EDGES][2] = { { 0.2f, 0.025f }, { 0.0f, 0.025f }, { 0.1f, 0.05f } };
     const float *from = froms[edge], *to = tos[edge];
-    Host host;
-    kiriSheetDef def;
     kiriPin clamp;
     kiriFrame frames[STRIP_FRAMES];
-    Host_Start(&host);
+    START_HOST(host);
     host.every = 600;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     OK(kiriGetMaterial(KIRI_MATERIAL_PAPER, &def.material));
     def.frameCount = frameCount;
     def.gridResolution = resolution;
@@ -662,13 +637,11 @@ static kiriPointState HangHalf(float push)
     static const float from[2] = { 0.0f, 0.0f }, to[2] = { 0.0f, 0.1f }, pushed[2] = { 0.2f, 0.08f };
     static const float way[4] = { -0.01f, 0.05f, 0.21f, 0.05f };
     const float force[3] = { 0.0f, 0.0f, push }, none[3] = { 0.0f, 0.0f, 0.0f };
-    Host host;
-    kiriSheetDef def;
     kiriPin clamp;
     kiriCut cut;
-    Host_Start(&host);
+    START_HOST(host);
     host.every = 120;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     OK(kiriGetMaterial(KIRI_MATERIAL_PAPER, &def.material));
     def.frameCount = 24;
     def.gridResolution = 48;
@@ -699,9 +672,8 @@ static void TestSmoothClampKeepsPiecesApart(void** state)
 
 static kiriObstacle AddBall(Host* host, float x, float y, float z, float mass)
 {
-    kiriObstacleDef def;
     kiriObstacle ball;
-    kiriDefaultObstacleDef(&def);
+    kiriObstacleDef def = DefaultObstacle();
     def.type = KIRI_OBSTACLE_SPHERE;
     def.radius = 0.05f;
     def.groups = 0; /* the pin alone */
@@ -716,13 +688,12 @@ static kiriObstacle AddBall(Host* host, float x, float y, float z, float mass)
 /* Where it goes the point goes, by velocity and by turning; what the pin bears the obstacle gets. */
 static void TestPinGoesWithObstacle(void** state)
 {
-    Host host;
     kiriSheetDef def = Host_SmallDef();
     const float velocity[3] = { 1.0f, 0.0f, 0.5f }, spin[3] = { 0.0f, 0.0f, 2.0f }, none[3] = { 0.0f, 0.0f, 0.0f };
     kiriObstacleState ball;
     kiriPinState pinState;
     kiriPinDef bad;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
     kiriObstacle obstacle = AddBall(&host, 0.1f, 1.0f, 0.0f, 0.0f);
     kiriPin pin = PinTo(&host, sheet, obstacle, 0.0f, 1.0f), other;
@@ -759,11 +730,10 @@ static void TestPinGoesWithObstacle(void** state)
 static void TestBodyAtPinKeepsMomentum(void** state)
 {
     for (int decade = -2; decade <= 3; ++decade) {
-        Host host;
         kiriSheetDef def = Host_SmallDef();
         const float none[3] = { 0.0f, 0.0f, 0.0f },
                     turned[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
-        Host_Start(&host);
+        START_HOST(host);
         OK(kiriWorld_SetGravity(host.world, none));
         def.material.airDamping = 0.0f;
         def.sleepSpeed = 0.0f;
@@ -773,13 +743,12 @@ static void TestBodyAtPinKeepsMomentum(void** state)
         kiriObstacle obstacle = AddBall(&host, 0.0f, 1.0f, 0.0f, (float)mass);
         PinTo(&host, sheet, obstacle, 0.0f, 1.0f);
         for (int i = 0; i < 120; ++i) {
-            kiriObstacleState ball;
             const float velocity[3] = { (float)v[0], (float)v[1], (float)v[2] };
             const float position[3] = { (float)x[0], (float)x[1], (float)x[2] };
             OK(kiriObstacle_SetPose(host.world, obstacle, position, turned));
             OK(kiriObstacle_SetVelocity(host.world, obstacle, velocity, none));
             OK(Host_Tick(&host, DT, 2));
-            OK(kiriObstacle_GetState(host.world, obstacle, &ball));
+            kiriObstacleState ball = World_ObstacleState(host.world, obstacle);
             kiriTotals totals = Host_Totals(&host, sheet);
             for (int k = 0; k < 3; ++k) {
                 v[k] += ball.impulse[k] / mass;
@@ -806,10 +775,9 @@ static void TestTransformMovesAll(void** state)
     const float quarter[9] = { 0.0f, 1.0f, 0.0f, -1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f }, away[3] = { 3.0f, -2.0f, 5.0f };
     const float line[4] = { -0.1f, 0.4f, 0.6f, 0.55f }, at[2] = { 0.9f, 0.2f }, impulse[3] = { 0.01f, -0.02f, 0.05f };
     for (int32_t way = 0; way < 3; ++way) {
-        Host host;
         kiriSheetDef def = Host_SmallDef();
         kiriSheet sheets[2];
-        Host_Start(&host);
+        START_HOST(host);
         def.model = way < 2 ? KIRI_MODEL_LINKS : KIRI_MODEL_AFFINE;
         def.skinning = way % 2;
         for (int i = 0; i < 2; ++i) {
@@ -840,9 +808,8 @@ static void TestTransformIsChecked(void** state)
 {
     const float quarter[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, -1.0f, 0.0f }, away[3] = { 3.0f, -2.0f, 5.0f };
     const float mirror[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, -1.0f }, bad[3] = { 0.0f, NAN, 0.0f };
-    Host host;
     kiriSheetDef def = Host_SmallDef();
-    Host_Start(&host);
+    START_HOST(host);
     def.planar = 1;
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
     uint64_t hash = Host_Hash(&host);
@@ -865,10 +832,9 @@ static void TestVelocityIsRigid(void** state)
     const float velocity[3] = { 1.0f, 2.0f, -0.5f }, spin[3] = { 0.3f, -0.2f, 2.0f }, none[3] = { 0.0f, 0.0f, 0.0f };
     const float line[4] = { 0.5f, -0.1f, 0.5f, 1.1f };
     for (int32_t model = 0; model < 2; ++model) {
-        Host host;
         kiriSheetDef def = Host_SmallDef();
         kiriPieceState piece;
-        Host_Start(&host);
+        START_HOST(host);
         def.material.detail = 0; /* velocities are of the surface without it */
         def.model = model;
         kiriSheet sheet = Hang(&host, &def);
@@ -906,11 +872,10 @@ static uint64_t PieceData(const Host* host, kiriSheet sheet, int32_t piece)
 static void TestUserDataStays(void** state)
 {
     const float line[4] = { 0.5f, -0.1f, 0.5f, 1.1f }, across[4] = { 0.4f, 0.4f, 1.1f, 0.4f };
-    Host host;
     kiriSheetDef def = Host_SmallDef();
     kiriSheet detached;
     uint64_t data;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheet sheet = Hang(&host, &def);
     kiriPin pin = PinTo(&host, sheet, 0, 0.8f, 0.2f);
     uint64_t hash = Host_Hash(&host);
@@ -1007,7 +972,6 @@ static void CheckRims(const kiriSolid* solid)
 
 static void TestSolidIsClosed(void** state)
 {
-    Host host;
     kiriSheetDef def = Host_SmallDef();
     kiriSolid solid, again;
     const float cuts[5][4] = { { -0.1f, 0.4f, 0.6f, 0.55f },
@@ -1015,7 +979,7 @@ static void TestSolidIsClosed(void** state)
                                { 0.25f, 0.0f, 0.25f, 0.25f }, /* one edge of the mesh, */
                                { 0.75f, 0.25f, 0.75f, 0.5f }, /* and one with both ends inside */
                                { 0.6f, -0.1f, 0.9f, 1.1f } };
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheet sheet = Hang(&host, &def);
     for (int i = -1; i < 5; ++i) {
         if (i >= 0) {

@@ -1,5 +1,6 @@
 /* Meshes as other tools write them: seams of texture coordinates, triangles without shared vertices, unused vertices.
    And the lines about meshes that are refused. */
+#include "defaults.h"
 #include "look.h"
 
 #include <stdio.h>
@@ -18,8 +19,7 @@ static Import A, B;
 
 static kiriSheetDef DefOf(const Import* mesh, float weldDistance)
 {
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.restPositions = mesh->rest;
     def.vertexCount = mesh->vertices;
     def.indices = mesh->indices;
@@ -194,8 +194,7 @@ static void ClosesSeams(void** state)
     for (int i = 0; i < 2; ++i) {
         uint32_t seed = 5;
         double shake = i == 0 ? 0.0 : 1e-4;
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         memset(&A, 0, sizeof(A));
         AddBlock(&A, 0.0, 0.0, 1.0 / 12, 6, 12, 0);
         AddBlock(&A, 0.5, 0.0, 1.0 / 12, 6, 12, 1);
@@ -215,8 +214,7 @@ static void ClosesSeams(void** state)
 static void ClosesRings(void** state)
 {
     enum { SECTORS = 24, RINGS = 4 };
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     memset(&A, 0, sizeof(A));
     for (int j = 0; j <= RINGS; ++j) {
         for (int i = 0; i <= SECTORS; ++i) { /* the last column lies where the first does */
@@ -329,11 +327,10 @@ static void WeldsShakenSoups(void** state)
     uint32_t seed = 42;
     for (int i = 0; i < 60; ++i) {
         float weld = (float)RandomBetween(&seed, 1e-5, 1e-2);
-        Host host;
         MakeAny(&A, &seed);
         MakeSoup(&A, &B);
         Shake(&B, 0.3 * weld, &seed);
-        Host_Start(&host);
+        START_HOST(host);
         kiriCounts counts = Host_Counts(&host, Add(&host, &A, 0.0f)), welded = Host_Counts(&host, Add(&host, &B, weld));
         assert_int_equal(counts.vertices, welded.vertices);
         assert_int_equal(counts.triangles, welded.triangles);
@@ -362,8 +359,7 @@ static void WeldsWhatIsNear(void** state)
     } rows[] = { { { 0.0099f, 0.5f }, 2 }, { { 0.0101f, 0.5f }, 3 }, { { 0.0099f, 0.0099f }, 1 }, { { 0.002f, 0.0101f }, 2 } };
     for (size_t k = 0; k < sizeof(rows) / sizeof(rows[0]); ++k) {
         float u = 0.0f;
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         memset(&A, 0, sizeof(A));
         for (int i = 0; i < 3; ++i) {
             const float square[8] = { u, 0, u + 1, 0, u + 1, 1, u, 1 };
@@ -386,8 +382,7 @@ static void LeavesOutSlivers(void** state)
 {
     static const float rest[] = { 0, 0, 1, 0, 1, 0.5f, 1, 0.5001f, 1, 1, 0, 1 };
     static const int32_t indices[] = { 0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 5 };
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     memset(&A, 0, sizeof(A));
     memcpy(A.rest, rest, sizeof(rest));
     memcpy(A.indices, indices, sizeof(indices));
@@ -475,8 +470,7 @@ static void Refuse(Host* host, const Import* mesh, float weld, kiriResult expect
 static void NamesTheTriangle(void** state)
 {
     uint32_t seed = 46;
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     for (int i = 0; i < 60; ++i) {
         char says[120];
         float weld = i % 2 == 0 ? 0.0f : 1e-6f;
@@ -521,8 +515,7 @@ static void NamesWhatWeldingDoes(void** state)
     static const float flat[] = { 2, 2, 2, 2, 2, 2 }, small[] = { 0, 0, 1, 0, 0, 1 };
     static const float flips[] = { 0, 0, 1, 0, 0.5f, 0.01f, 0.505f, -0.03f, 0.52f, -1 };
     static const int32_t two[] = { 0, 1, 2, 0, 3, 1 }, one[] = { 0, 1, 2 };
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     memset(&A, 0, sizeof(A));
     A.vertices = 3;
     A.triangles = 1;
@@ -556,10 +549,9 @@ static void NamesWhatWeldingDoes(void** state)
 static void RectanglesSpeakForThemselves(void** state)
 {
     static const float far[] = { 0.5f, 0.5f, 3.0f, 3.0f };
-    Host host;
     kiriSheet sheet;
     kiriSheetDef def, zeroed;
-    Host_Start(&host);
+    START_HOST(host);
     memset(&zeroed, 0, sizeof(zeroed));
     assert_int_equal(kiriCreateRectangle(host.world, 1, 1, 2, 2, &zeroed, &sheet), KIRI_ERROR_DEF);
     CheckLine(&host, "kiriCreateRectangle", "kiriDefaultSheetDef");

@@ -19,10 +19,9 @@ static void StartStill(Host* host, const kiriBudget* budget)
 /* Adds to *commits, and says whether work waits. */
 static bool TickOnce(Host* host, int32_t* commits)
 {
-    kiriProfile profile;
     kiriResult result = Host_Tick(host, dt, 1);
     assert_true(result >= 0);
-    OK(kiriWorld_GetProfile(host->world, &profile));
+    kiriProfile profile = World_Profile(host->world);
     *commits += profile.commits;
     return result == KIRI_PENDING;
 }
@@ -106,8 +105,7 @@ static void MovePen(Pen* pen, const Host* host, kiriSheet sheet)
 
 static kiriSheetDef DefOf(uint32_t run)
 {
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = 16;
     def.collisionPoints = run % 2 == 0 ? 20 : 0;
     def.model = run % 7 == 6 ? KIRI_MODEL_AFFINE : KIRI_MODEL_LINKS;
@@ -188,9 +186,8 @@ static int32_t TicksToPart(const kiriBudget* budget, int32_t squares, int32_t bl
 {
     Host host;
     kiriCut cut;
-    kiriSheetDef def;
     int32_t ticks = 0;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = squares;
     def.frameCount = def.maxFrames = 9;
     StartStill(&host, budget);
@@ -244,8 +241,7 @@ static int32_t TicksToCommit(Host* host, kiriSheet sheet, kiriSheet busy, uint32
 
 static kiriSheet AddFine(Host* host, int32_t squares)
 {
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = squares;
     def.frameCount = def.maxFrames = 6;
     return Host_AddRectangle(host, &def, 1.0f, 1.0f, squares, squares);
@@ -302,15 +298,13 @@ static void TestFramesWhenCutEnds(void** state)
     static const kiriBudget budgets[] = { { 0, 0, 0, 0 }, { 30, 90, 30, 0 } };
     for (size_t k = 0; k < 2; ++k) {
         Host host;
-        kiriCut cut;
-        kiriSheetDef def;
-        kiriDefaultSheetDef(&def);
+        kiriSheetDef def = DefaultSheet();
         def.frameCount = 0;
         def.frameLength = 0.5f;
         StartStill(&host, &budgets[k]);
         kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 30, 30);
         int32_t frames = Host_Counts(&host, sheet).frames, commits = 0;
-        OK(kiriBeginCut(host.world, sheet, (const float[]){ 0.5f, 0.05f }, &cut));
+        kiriCut cut = World_BeginCut(host.world, sheet, (const float[]){ 0.5f, 0.05f });
         static const float spiral[] = { 0.95f, 0.05f, 0.95f, 0.95f, 0.05f, 0.95f, 0.05f, 0.25f, 0.75f, 0.25f,
                                         0.75f, 0.75f, 0.25f, 0.75f, 0.25f, 0.45f, 0.55f, 0.45f, 0.55f, 0.55f };
         for (size_t i = 0; i < sizeof(spiral) / sizeof(*spiral); i += 2) {
@@ -335,12 +329,11 @@ static void TestEndIsRefused(void** state)
     int32_t refused = 0;
     for (int32_t points = 1; points < 40; ++points) {
         Host host;
-        kiriCut cut;
         kiriEvent event;
         static const kiriBudget budget = { 16, 10, 10, 0 };
         StartStill(&host, &budget);
         kiriSheet sheet = AddFine(&host, 8);
-        OK(kiriBeginCut(host.world, sheet, (const float[]){ 0.2f, 0.5f }, &cut));
+        kiriCut cut = World_BeginCut(host.world, sheet, (const float[]){ 0.2f, 0.5f });
         for (int32_t k = 1; k < points; ++k) {
             OK(kiriCut_Extend(host.world, cut, (const float[]){ 0.2f + 0.01f * (float)k, 0.5f }, 1));
         }

@@ -13,8 +13,7 @@ enum { MOST_TICKS = 400, MOST_ROWS = 17 };
 /* As stiff and as heavy as printing paper, and `thin` times as thick. */
 static kiriSheetDef PaperDef(int32_t grid, float thin)
 {
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     OK(kiriGetMaterial(KIRI_MATERIAL_PAPER, &def.material));
     def.material.poissonsRatio = 0.0f;
     def.material.airDamping = 20.0f;
@@ -49,8 +48,7 @@ static double HangingError(Host* host, kiriSheet sheet, const float* slit)
     const float from[2] = { 0.0f, 0.0f }, to[2] = { 0.0f, SIDE };
     double drop = 0.0;
     int32_t found = 0;
-    kiriPin clamp;
-    OK(kiriSheet_ClampLine(host->world, sheet, from, to, &clamp));
+    World_Clamp(host->world, sheet, from, to);
     if (slit != NULL) {
         Host_Cut(host, sheet, slit, 2);
     }
@@ -144,8 +142,7 @@ static void JitteredRowsHangAsTheyShould(void** state)
         }
         def.frameCount = def.maxFrames = count;
         def.framePoints = points;
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         host.every = 1000;
         kiriSheet sheet = Host_AddRectangle(&host, &def, SIDE, SIDE, 4 * rows, 4 * rows);
         double error = HangingError(&host, sheet, NULL);
@@ -273,12 +270,10 @@ static void FlatSquaresFold(void** state)
     for (int k = 0; k < 6; ++k) {
         const float down[3] = { 0.0f, -9.81f, 0.0f };
         kiriPin pins[2];
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         host.every = 100;
         OK(kiriWorld_SetGravity(host.world, down));
-        kiriSheetDef def;
-        kiriDefaultSheetDef(&def);
+        kiriSheetDef def = DefaultSheet();
         OK(kiriGetMaterial(materials[k / 2], &def.material));
         def.frameCount = k % 2 == 0 ? 9 : 25;
         kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 40, 40);
@@ -308,11 +303,9 @@ static void SpiralsNeverFreeze(void** state)
         static float were[3 * 8000];
         double turns = 2.0 + 0.5 * k;
         int32_t systems = 0, still = 0;
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         host.every = 100;
-        kiriSheetDef def;
-        kiriDefaultSheetDef(&def);
+        kiriSheetDef def = DefaultSheet();
         OK(kiriGetMaterial(KIRI_MATERIAL_COTTON, &def.material));
         def.frameCount = counts[k % 2];
         kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 40, 40);
@@ -331,10 +324,9 @@ static void SpiralsNeverFreeze(void** state)
             }
             OK(Host_Tick(&host, 1.0f / 60.0f, 2));
             kiriMesh mesh = Host_Mesh(&host, sheet);
-            kiriProfile profile;
             double moved = 0.0;
             assert_true(mesh.vertexCount <= 8000);
-            OK(kiriWorld_GetProfile(host.world, &profile));
+            kiriProfile profile = World_Profile(host.world);
             systems += profile.systemsSolved;
             for (int32_t i = 0; i < 3 * mesh.vertexCount; ++i) {
                 moved = fmax(moved, fabs((double)mesh.positions[i] - (double)were[i]));

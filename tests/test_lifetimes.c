@@ -47,10 +47,9 @@ static void LendMesh(Loan* loan, const Host* host, kiriSheet sheet)
 
 static void LendPiece(Loan* loan, const Host* host, kiriSheet sheet, int32_t piece)
 {
-    kiriPieceMesh mesh;
     const kiriFrame* frames;
     int32_t count;
-    OK(kiriSheet_GetPieceMesh(host->world, sheet, piece, &mesh));
+    kiriPieceMesh mesh = World_PieceMesh(host->world, sheet, piece);
     OK(kiriSheet_GetPieceFrames(host->world, sheet, piece, &frames, &count));
     Lend(loan, "vertices of a piece", mesh.vertices, (size_t)mesh.vertexCount, 4);
     Lend(loan, "triangles of a piece", mesh.triangles, (size_t)mesh.triangleCount, 4);
@@ -182,10 +181,9 @@ static void CreateSheets(Desk* desk, uint32_t random)
 static void Get(Desk* desk, uint32_t random)
 {
     int32_t pieces = Host_Counts(&desk->host, desk->sheet).pieces;
-    kiriPieceState state;
     Loan loan = LendAll(&desk->host, desk->sheet);
     EndLoan(&loan);
-    OK(kiriSheet_GetPiece(desk->host.world, desk->sheet, (int32_t)(random % (uint32_t)pieces), &state));
+    World_PieceState(desk->host.world, desk->sheet, (int32_t)(random % (uint32_t)pieces));
 }
 
 static void SetContacts(Desk* desk, uint32_t random)

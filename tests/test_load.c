@@ -20,8 +20,7 @@ typedef struct Strip {
 
 static kiriSheetDef StripDef(const Strip* strip, float points[2 * MOST_ALONG])
 {
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.material.youngsModulus = (float)strip->youngs;
     def.material.poissonsRatio = 0.0f;
     def.material.thickness = (float)strip->thickness;
@@ -51,10 +50,9 @@ static kiriSheet AddStrip(Host* host, const Strip* strip)
 static void TipOf(const Host* host, kiriSheet sheet, const Strip* strip, double tip[3])
 {
     kiriFrame frames[MOST_ALONG];
-    kiriFrameState state;
     int32_t count;
     OK(kiriSheet_GetFrames(host->world, sheet, frames, MOST_ALONG, &count));
-    OK(kiriFrame_GetState(host->world, frames[count - 1], &state));
+    kiriFrameState state = World_FrameState(host->world, frames[count - 1]);
     for (int a = 0; a < 3; ++a) {
         tip[a] = state.position[a] + (strip->length - state.restPoint[0]) * state.rotation[a];
     }
@@ -73,8 +71,7 @@ static double HeavyError(int along, double gamma, double x, double drop)
 {
     Strip strip = { STRIP_LENGTH, STRIP_WIDTH, STRIP_THICKNESS, 0.0, 1000.0, along };
     strip.youngs = 12.0 * strip.density * GRAVITY * pow(strip.length, 3.0) / (gamma * pow(strip.thickness, 2.0));
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheet sheet = AddStrip(&host, &strip);
     kiriPin clamp;
     ClampStart(&host, sheet, &strip, &clamp);
@@ -115,9 +112,8 @@ static void TestClampAcross(void** state)
         free.length = strip.length - at;
         free.along = 33;
         for (int i = 0; i < 2; ++i) {
-            Host host;
             kiriPin clamp;
-            Host_Start(&host);
+            START_HOST(host);
             host.every = 100;
             kiriSheet sheet = AddStrip(&host, i == 0 ? &strip : &free);
             if (i == 0) {
@@ -142,8 +138,7 @@ static void TestEndLoad(void** state)
     static const double cases[2][3] = { { 2.0, 1.604, 4.933 }, { 4.0, 3.286, 6.698 } };
     const Strip strip = { 10.0, 1.0, 0.1, 1.2e6, 0.1, 9 };
     for (int k = 0; k < 4; ++k) {
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         const double* expected = cases[k % 2];
         const float none[3] = { 0.0f, 0.0f, 0.0f }, down[3] = { 0.0f, 0.0f, (float)-expected[0] };
         const float tip[2] = { 10.0f, 0.5f }, from[2] = { 10.0f, 0.0f }, to[2] = { 10.0f, 1.0f };
@@ -200,10 +195,8 @@ static void TestLineLoads(void** state)
     static const float clipped[4] = { 0.0f, 0.4f, 1.0f, 0.4f }, cut[4] = { 0.4f, 0.3f, 0.4f, 0.7f };
     static const float q[3] = { 0.5f, -1.0f, 2.0f };
     for (int i = 0; i < 2 * (int)(sizeof(lines) / sizeof(lines[0])); ++i) {
-        Host host;
-        Host_Start(&host);
-        kiriSheetDef def;
-        kiriDefaultSheetDef(&def);
+        START_HOST(host);
+        kiriSheetDef def = DefaultSheet();
         def.gridResolution = 24;
         def.frameCount = 11;
         def.material.airDamping = 0.0f;
@@ -227,8 +220,7 @@ static void TestLineAlongCut(void** state)
 {
     static const float across[4] = { 0.4f, -0.1f, 0.4f, 1.1f }, q[3] = { 0.0f, 0.0f, 3.0f };
     static const float down[3] = { 0.0f, 0.0f, -9.81f };
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     OK(kiriWorld_SetGravity(host.world, nothing));
     kiriSheetDef def = Host_SmallDef();
     def.material.airDamping = 0.0f;
@@ -238,9 +230,8 @@ static void TestLineAlongCut(void** state)
     assert_int_equal(Host_Counts(&host, sheet).pieces, 2);
     OK(kiriSheet_ApplyLineLoad(host.world, sheet, across, across + 2, q));
     OK(Host_Tick(&host, 0.01f, 1));
-    kiriPin clamp;
     kiriSheet sheets[2] = { sheet };
-    OK(kiriSheet_ClampLine(host.world, sheet, across, across + 2, &clamp));
+    World_Clamp(host.world, sheet, across, across + 2);
     OK(kiriFrame_DetachPiece(host.world, Host_FrameOf(&host, sheet, 1), &sheets[1]));
     for (int k = 0; k < 2; ++k) {
         assert_float_equal(Host_Totals(&host, sheets[k]).momentum[2], 0.015, 1e-6);
@@ -257,8 +248,7 @@ static void TestPointLoads(void** state)
 {
     static const float at[2] = { 0.9f, 0.35f }, force[3] = { 1.0f, -2.0f, 0.5f }, pressure[3] = { 0.0f, 0.0f, 4.0f };
     const double place[3] = { 0.9f, 0.35f, 0.0 }, middle[3] = { 0.5, 0.5, 0.0 };
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     OK(kiriWorld_SetGravity(host.world, nothing));
     kiriSheetDef def = Host_SmallDef();
     def.material.airDamping = 0.0f;
@@ -297,10 +287,9 @@ static void HoldSheet(Host* host, kiriSheet sheet, int way)
     }
     if (way == HOLD || way == MIXED) {
         kiriFrame frame;
-        kiriFrameState state;
         int32_t count;
         OK(kiriSheet_GetFrames(host->world, sheet, &frame, 1, &count));
-        OK(kiriFrame_GetState(host->world, frame, &state));
+        kiriFrameState state = World_FrameState(host->world, frame);
         OK(kiriFrame_Hold(host->world, frame, state.position, eye));
     }
 }
@@ -324,9 +313,8 @@ static void SumReactions(const Host* host, kiriSheet sheet, double force[3], dou
             OK(kiriPin_GetState(host->world, pins[i], &state));
             memcpy(at, state.target, sizeof(at));
         } else {
-            kiriFrameState state;
             OK(kiriFrame_GetReaction(host->world, frames[i - pinCount], f, t));
-            OK(kiriFrame_GetState(host->world, frames[i - pinCount], &state));
+            kiriFrameState state = World_FrameState(host->world, frames[i - pinCount]);
             memcpy(at, state.position, sizeof(at));
         }
         for (int a = 0; a < 3; ++a) {
@@ -339,8 +327,7 @@ static void SumReactions(const Host* host, kiriSheet sheet, double force[3], dou
 
 static kiriSheetDef ReactionDef(int model)
 {
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     OK(kiriGetMaterial(KIRI_MATERIAL_PAPER, &def.material));
     def.material.thickness = 1e-3f;
     def.material.airDamping = 0.0f;
@@ -356,8 +343,7 @@ static kiriSheetDef ReactionDef(int model)
 static void TestReactionsAtRest(void** state)
 {
     for (int k = 0; k < 2 * HOLDS; ++k) {
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         kiriSheetDef def = ReactionDef(k < HOLDS ? KIRI_MODEL_LINKS : KIRI_MODEL_AFFINE);
         def.material.airDamping = 8.0f;
         kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 6, 6);
@@ -386,8 +372,7 @@ static void TestReactionsInMotion(void** state)
 {
     const float dt = 0.01f;
     for (int k = 0; k < 2 * HOLDS - 1; ++k) {
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         kiriSheetDef def = ReactionDef(k < HOLDS ? KIRI_MODEL_LINKS : KIRI_MODEL_AFFINE);
         kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 6, 6);
         HoldSheet(&host, sheet, k % HOLDS);
@@ -415,16 +400,14 @@ static void TestHoldsBearWind(void** state)
     static const float eye[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
     const kiriWind wind = { { 3.0f, -2.0f, 5.0f }, 1.2f, 1.1f, 0.3f };
     for (int model = KIRI_MODEL_LINKS; model <= KIRI_MODEL_AFFINE; ++model) {
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         kiriSheetDef def = ReactionDef(model);
         kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 0.5f, 6, 3);
         kiriFrame frames[64];
         int32_t count;
         OK(kiriSheet_GetFrames(host.world, sheet, frames, 64, &count));
         for (int32_t i = 0; i < count; ++i) {
-            kiriFrameState frame;
-            OK(kiriFrame_GetState(host.world, frames[i], &frame));
+            kiriFrameState frame = World_FrameState(host.world, frames[i]);
             OK(kiriFrame_Hold(host.world, frames[i], frame.position, eye));
         }
         OK(kiriSheet_SetWind(host.world, sheet, &wind));
@@ -478,10 +461,9 @@ static void Beam_Start(Beam* beam, const Strip* strip,
 static kiriFrameState FrameStateOf(const Beam* beam, int32_t frame)
 {
     kiriFrame frames[MOST_ALONG];
-    kiriFrameState state;
     int32_t count;
     OK(kiriSheet_GetFrames(beam->host.world, beam->sheet, frames, MOST_ALONG, &count));
-    OK(kiriFrame_GetState(beam->host.world, frames[frame], &state));
+    kiriFrameState state = World_FrameState(beam->host.world, frames[frame]);
     return state;
 }
 
@@ -606,8 +588,7 @@ static void TestModels(void** state)
         double gamma = 6.951927962, tip[2] = { 0.7646665783, -0.5994022678 };
         bool isPlanar = k % 2 == 1;
         strip.youngs = 12.0 * strip.density * GRAVITY * pow(strip.length, 3.0) / (gamma * pow(strip.thickness, 2.0));
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         host.every = 50;
         OK(kiriWorld_SetGravity(host.world, isPlanar ? none : down));
         float points[2 * MOST_ALONG];
@@ -653,8 +634,7 @@ static bool IsAwake(const Host* host, kiriSheet sheet)
 static void TestSleep(void** state)
 {
     static const float some[3] = { 0.0f, 1e-3f, 0.0f }, at[2] = { 0.5f, 0.5f };
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     host.every = 20;
     kiriSheetDef def = ReactionDef(KIRI_MODEL_LINKS);
     def.material.airDamping = 8.0f;
@@ -713,8 +693,7 @@ static kiriSheet HangCurtain(Host* host, kiriPin* clamp)
     Host_Start(host);
     host->every = 20;
     OK(kiriWorld_SetGravity(host->world, back));
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = 24;
     def.frameCount = 12;
     kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 6, 6);
@@ -805,9 +784,8 @@ static void TestDestroyPieces(void** state)
     kiriSheet sheet = HangCurtain(&host, &clamp);
     OK(kiriSheet_ClampLine(host.world, sheet, beside, beside + 2, &left));
     kiriFrame frame;
-    kiriPointState ofLeft;
     int32_t count, piece;
-    OK(kiriSheet_GetPoint(host.world, sheet, (float[]){ 0.15f, 0.2f }, &ofLeft));
+    kiriPointState ofLeft = World_PointState(host.world, sheet, (float[]){ 0.15f, 0.2f });
     OK(kiriFrame_DestroyPiece(host.world, ofLeft.frame));
     assert_int_equal(kiriDestroyPin(host.world, left), KIRI_ERROR_ID);
     OK(kiriSheet_GetFrames(host.world, sheet, &frame, 1, &count));
@@ -822,8 +800,7 @@ static void TestDestroyPieces(void** state)
 /* Pins come and go in any order; those that are left hold what they held. */
 static void TestPinsComeAndGo(void** state)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheetDef def = ReactionDef(KIRI_MODEL_LINKS);
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 6, 6);
     kiriPin pins[16], ids[16];
@@ -871,8 +848,7 @@ static void TestCutAtClamp(void** state)
     static const float slit[4] = { -0.01f, 0.02f, 0.1f, 0.02f };
     const Strip strip = { STRIP_LENGTH, STRIP_WIDTH, STRIP_THICKNESS, 1e9, 1000.0, 5 };
     const double weight = GRAVITY * strip.density * strip.length * strip.width * strip.thickness;
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     host.every = 20;
     kiriSheet sheet = AddStrip(&host, &strip);
     kiriPin clamp;

@@ -98,10 +98,9 @@ static void TakeBack(Play* play)
 
 static void AddSheet(Play* play)
 {
-    kiriSheetDef def;
     kiriPinDef pin;
     kiriPin id;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     kiriDefaultPinDef(&pin);
     def.gridResolution = 24;
     def.frameCount = 6;
@@ -124,8 +123,7 @@ static void AddSheet(Play* play)
 /* A sheet of which too little is left goes, and another one comes; or it is new again. */
 static void RenewSheet(Play* play)
 {
-    kiriTotals totals;
-    OK(kiriSheet_GetTotals(play->world, play->sheet, &totals));
+    kiriTotals totals = World_Totals(play->world, play->sheet);
     if (totals.area < 0.4 && play->staysOne) {
         OK(kiriWorld_Load(play->world, play->base.bytes, play->base.size));
         play->parts.count = play->left = 0;
@@ -167,8 +165,7 @@ static void PartPieces(Play* play)
     kiriPieceState state;
     assert_true(kiriSheet_DropCrumbs(play->world, play->sheet, 0.002f, &count) >= 0);
     play->now.pieces += count;
-    kiriCounts counts;
-    OK(kiriSheet_GetCounts(play->world, play->sheet, &counts));
+    kiriCounts counts = World_Counts(play->world, play->sheet);
     Parts* parts = &play->parts;
     for (int32_t p = counts.pieces - 1; p > 0 && parts->count < MOST_PARTS; --p) {
         const kiriFrame* frames;
@@ -195,8 +192,7 @@ static void PartPieces(Play* play)
 
 static void Count(Play* play)
 {
-    kiriProfile profile;
-    OK(kiriWorld_GetProfile(play->world, &profile));
+    kiriProfile profile = World_Profile(play->world);
     int64_t items = (int64_t)profile.trianglesSplit + profile.cellsSettled + profile.samplesRefreshed;
     play->now.items += items;
     play->now.worst = items > play->now.worst ? items : play->now.worst;

@@ -24,8 +24,7 @@ static void HoldOnArc(const Host* host, kiriSheet sheet, double angle)
     OK(kiriSheet_GetFrames(host->world, sheet, frames, FRAMES, &count));
     assert_int_equal(count, FRAMES);
     for (int i = 0; i < FRAMES; ++i) {
-        kiriFrameState state;
-        OK(kiriFrame_GetState(host->world, frames[i], &state));
+        kiriFrameState state = World_FrameState(host->world, frames[i]);
         double radius = LENGTH / FRAMES / angle, turn = state.restPoint[0] / radius, c = cos(turn), s = sin(turn);
         const float position[3] = { (float)(radius * s), state.restPoint[1], (float)(radius * (1.0 - c)) };
         const float rotation[9] = { (float)c, 0.0f, (float)s, 0.0f, 1.0f, 0.0f, (float)-s, 0.0f, (float)c };
@@ -66,8 +65,7 @@ static Looks LookAtArc(double angle, int32_t linear, int32_t skinning)
         points[2 * i + 1] = 0.05f;
     }
     Host_Start(&host);
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = 280;
     def.material.detail = 0; /* weights alone */
     def.frameCount = def.maxFrames = FRAMES;
@@ -140,8 +138,7 @@ static kiriSheet SlitSheet(Host* host, double end, double slant)
 {
     static const float points[8] = { 0.15f, 0.1f, 0.45f, 0.1f, 0.15f, 0.5f, 0.45f, 0.5f };
     const float slit[4] = { (float)(0.3 - slant * (end + 0.01)), -0.01f, 0.3f, (float)end };
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = 30;
     def.frameCount = def.maxFrames = 4;
     def.framePoints = points;
@@ -153,8 +150,7 @@ static kiriSheet SlitSheet(Host* host, double end, double slant)
     int32_t count;
     OK(kiriSheet_GetFrames(host->world, sheet, frames, 4, &count));
     for (int i = 0; i < 4; ++i) {
-        kiriFrameState state;
-        OK(kiriFrame_GetState(host->world, frames[i], &state));
+        kiriFrameState state = World_FrameState(host->world, frames[i]);
         double c = i < 2 ? 0.8 : 1.0, s = i < 2 ? (i == 0 ? 0.6 : -0.6) : 0.0, v = state.restPoint[1];
         const float position[3] = { state.restPoint[0], (float)(0.5 + c * (v - 0.5)), (float)(s * (v - 0.5)) };
         const float rotation[9] = { 1.0f, 0.0f, 0.0f, 0.0f, (float)c, (float)s, 0.0f, (float)-s, (float)c };
@@ -197,10 +193,9 @@ static int FindOpenings(const kiriMesh* mesh, Opening* openings, double end)
 /* The largest growth of the gap along the first 0.1 m of the slit, over the mean. */
 static double SteepestOpening(double end, double slant)
 {
-    Host host;
     static Opening openings[1000];
     double gap = 0.0, steepest = 0.0;
-    Host_Start(&host);
+    START_HOST(host);
     kiriMesh mesh = Host_Mesh(&host, SlitSheet(&host, end, slant));
     int count = FindOpenings(&mesh, openings, end), i = 1;
     for (; i < count && openings[i].v > end - 0.1; ++i) {

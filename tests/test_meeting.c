@@ -3,6 +3,7 @@
    are more than two snap distances short part nothing.
 
    test_meeting [LAYOUTS [FIRST [TEST]]]    LAYOUTS layouts of each kind, the first one with seed FIRST */
+#include "defaults.h"
 #include "support.h"
 
 #include <kiri/kiri.h>
@@ -377,12 +378,11 @@ static void MakeFarTwice(Layout* layout)
 static kiriWorld* CutSheet(const Layout* layout, int32_t squares, kiriSheet* sheet)
 {
     kiriWorldDef worldDef;
-    kiriSheetDef def;
     kiriWorld* world;
     kiriDefaultWorldDef(&worldDef);
     memset(worldDef.gravity, 0, sizeof(worldDef.gravity));
     assert_int_equal(kiriCreateWorld(&worldDef, &world), KIRI_OK);
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.frameCount = def.maxFrames = 1;
     def.gridResolution = 8;
     def.snapDistance = (float)layout->snap;

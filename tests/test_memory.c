@@ -92,8 +92,7 @@ static void TestPlainTicks(void** state)
                                         { KIRI_MODEL_POINTS, 0, 2 }, { KIRI_MODEL_POINTS, 1, 1 } };
     static const float across[6] = { -0.1f, 0.4f, 0.5f, 0.45f, 1.1f, 0.4f };
     for (size_t i = 0; i < sizeof(settings) / sizeof(settings[0]); ++i) {
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         int64_t calls = host.calls, before = taken;
         kiriSheet sheet = AddSheet(&host, &settings[i]);
         assert_true(host.calls > calls);
@@ -120,9 +119,8 @@ static void TestPlainTicks(void** state)
 static void TestCuttingTicks(void** state)
 {
     enum { TICKS = 800 };
-    Host host;
     kiriCut cut;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
     def.gridResolution = 40;
     def.collisionPoints = 100;
@@ -167,8 +165,7 @@ static uint64_t LayoutOf(const Host* host)
 /* What a cut leaves when nothing fails. */
 static uint64_t LayoutWithoutFailure(int32_t columns)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     AddForCut(&host, columns);
     OK(kiriWorld_Tick(host.world, 1.0f / 60.0f, 1));
     uint64_t layout = LayoutOf(&host);
@@ -195,8 +192,7 @@ static void TestScarceMemoryIsASpentBudget(void** state)
     const kiriBudget budget = { 64, 700, 700, 0 };
     int32_t ticks[2] = { 0, 0 };
     for (int isScarce = 0; isScarce < 2; ++isScarce) {
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         kiriSheet sheet = AddForCut(&host, 16);
         OK(kiriWorld_SetBudget(host.world, &budget));
         host.failEvery = isScarce ? EVERY : 0;
@@ -224,10 +220,8 @@ static void TestBytesOfVertices(void** state)
         double most;
     } cases[] = { { 64, 970.0 }, { 16, 530.0 } };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
-        Host host;
-        Host_Start(&host);
-        kiriSheetDef def;
-        kiriDefaultSheetDef(&def);
+        START_HOST(host);
+        kiriSheetDef def = DefaultSheet();
         def.gridResolution = cases[i].grid;
         int64_t before = host.bytes;
         Host_AddRectangle(&host, &def, 1.0f, 1.0f, 64, 64);

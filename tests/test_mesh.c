@@ -3,8 +3,7 @@
 
 static kiriSheetDef DefOf(const float* points, int32_t vertexCount, const int32_t* indices, int32_t triangleCount)
 {
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.restPositions = points;
     def.vertexCount = vertexCount;
     def.indices = indices;
@@ -18,8 +17,7 @@ static kiriResult Try(const float* points, int32_t vertexCount, const int32_t* i
 {
     kiriSheetDef def = DefOf(points, vertexCount, indices, triangleCount);
     kiriSheet sheet;
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriResult result = kiriCreateSheet(host.world, &def, &sheet);
     Host_Stop(&host);
     return result;
@@ -30,8 +28,7 @@ static void CheckTaken(const float* points, int32_t vertexCount, const int32_t* 
 {
     kiriSheetDef def = DefOf(points, vertexCount, indices, triangleCount);
     kiriSheet sheet;
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     OK(kiriCreateSheet(host.world, &def, &sheet));
     assert_int_equal(Host_Counts(&host, sheet).pieces, pieces);
     assert_int_equal(Host_Counts(&host, sheet).vertices, vertices);

@@ -32,11 +32,10 @@ static void SetGravity(Host* host, float x, float y, float z)
 static kiriFrameState StateOf(const Host* host, kiriSheet sheet, int index)
 {
     kiriFrame frames[64];
-    kiriFrameState state;
     int32_t count;
     OK(kiriSheet_GetFrames(host->world, sheet, frames, 64, &count));
     assert_true(index < count);
-    OK(kiriFrame_GetState(host->world, frames[index], &state));
+    kiriFrameState state = World_FrameState(host->world, frames[index]);
     return state;
 }
 
@@ -56,8 +55,7 @@ static uint64_t CutInTwo(const Choice* choice, float* fallen)
     static const float line[4] = { -0.1f, 0.52f, 1.1f, 0.49f };
     static const float at[2][2] = { { 0.0f, 1.0f }, { 1.0f, 1.0f } };
     kiriSheetDef def = DefOf(choice);
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     SetGravity(&host, 0.5f, -9.81f, choice->planar ? 0.0f : 1.0f);
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 3, 3);
     for (int k = 0; k < 2; ++k) {
@@ -110,8 +108,7 @@ static void NewFramesAreStretched(void** state)
     static const float loop[10] = { 0.62f, 0.62f, 0.71f, 0.63f, 0.7f, 0.72f, 0.61f, 0.71f, 0.62f, 0.62f };
     Choice choice = { KIRI_MODEL_AFFINE, 0, 0, 1 };
     kiriSheetDef def = DefOf(&choice);
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     SetGravity(&host, 0.0f, -9.81f, 0.0f);
     def.material.airDamping = 5.0f;
     def.framePoints = NULL;
@@ -144,8 +141,7 @@ static void TotalsHold(void** state)
 {
     for (int k = 0; k < CHOICES; ++k) {
         kiriSheetDef def = DefOf(&choices[k]);
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         SetGravity(&host, 0.0f, 0.0f, 0.0f);
         def.velocity[0] = 1.0f;
         def.material.airDamping = def.material.flexDamping = 0.0f;
@@ -184,8 +180,7 @@ static void PlanarSheetsStayInTheirPlane(void** state)
         uint32_t seed = 31;
         kiriSheetDef def = DefOf(&choices[k]);
         const float u[3] = { 0.6f, 0.0f, 0.8f }, v[3] = { 0.0f, 1.0f, 0.0f }, across[3] = { -0.8f, 0.0f, 0.6f };
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         def.planar = 1;
         memcpy(def.axisU, u, sizeof(u));
         memcpy(def.axisV, v, sizeof(v));
@@ -227,8 +222,7 @@ static void PlanarEqualsSpace(void** state)
             Choice choice = choices[k];
             choice.planar = planar;
             kiriSheetDef def = DefOf(&choice);
-            Host host;
-            Host_Start(&host);
+            START_HOST(host);
             SetGravity(&host, 0.4f, -0.2f, 0.0f);
             kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 3, 3);
             kiriFrameState held = StateOf(&host, sheet, 0);
@@ -251,8 +245,7 @@ static void TensionDoesNotBuckle(void** state)
     for (int k = 0; k < CHOICES; ++k) {
         static const float pull[3] = { 4.0f, 0.0f, 0.0f }, push[3] = { 0.0f, 0.0f, 1e-3f };
         kiriSheetDef def = DefOf(&choices[k]);
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         host.every = 30;
         SetGravity(&host, 0.0f, 0.0f, 0.0f);
         def.material.youngsModulus = 1e6f;
@@ -288,8 +281,7 @@ static void MemoryIsKept(void** state)
         Rectangle rectangle = Rectangle_Make(&def, 1.0f, 1.0f, 3, 3);
         kiriSheet sheet = 0;
         kiriResult result = KIRI_ERROR_MEMORY;
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         for (int n = 0; result != KIRI_OK; ++n) {
             host.calls = 0;
             host.failAt = n;
@@ -333,8 +325,7 @@ static void ArgumentsAreChecked(void** state)
                        at[3] = { 0.2f, 0.2f, 0.3f };
     Choice planar = { KIRI_MODEL_AFFINE, 1, 0, 1 };
     kiriSheetDef def = DefOf(&planar);
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     assert_int_equal(TryDef(&host, -1, 0, 0, 1), KIRI_ERROR_ARGUMENT);
     assert_int_equal(TryDef(&host, 3, 0, 0, 1), KIRI_ERROR_ARGUMENT);
     assert_int_equal(TryDef(&host, 0, 2, 0, 1), KIRI_ERROR_ARGUMENT);

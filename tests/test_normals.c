@@ -17,14 +17,12 @@ typedef struct Pile {
 static void Start(Pile* pile, int32_t normals, int32_t skinning, int32_t touches)
 {
     Host_Start(&pile->host);
-    kiriObstacleDef box;
-    kiriObstacle made;
-    kiriDefaultObstacleDef(&box);
+    kiriObstacleDef box = DefaultObstacle();
     box.type = KIRI_OBSTACLE_BOX;
     box.size[0] = 0.3f;
     box.size[1] = 0.4f;
     box.size[2] = 0.2f;
-    OK(kiriCreateObstacle(pile->host.world, &box, &made));
+    World_AddObstacle(pile->host.world, &box);
     for (int32_t i = 0; i < SHEETS; ++i) {
         kiriSheetDef def = Host_SmallDef();
         def.position[0] = -0.4f + 0.05f * (float)i;

@@ -161,8 +161,7 @@ static const float dt = 1.0f / 60.0f;
 static kiriObstacleDef DefOf(int32_t type)
 {
     static const float outline[8] = { -0.3f, -0.2f, 0.3f, -0.2f, 0.3f, 0.2f, -0.3f, 0.2f };
-    kiriObstacleDef def;
-    kiriDefaultObstacleDef(&def);
+    kiriObstacleDef def = DefaultObstacle();
     def.type = type;
     def.radius = 0.2f;
     def.height = 0.4f;
@@ -182,8 +181,7 @@ static kiriObstacle Add(Host* host, const kiriObstacleDef* def)
 /* A stiff plate of one frame, 0.2 m wide, that lies at a height, its middle over a place. */
 static kiriSheet AddPlate(Host* host, float x, float z, float thickness)
 {
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = 8;
     def.frameCount = def.maxFrames = 1;
     def.contactThickness = 0.01f;
@@ -208,15 +206,13 @@ static bool IsAwake(const Host* host, kiriSheet sheet)
 
 static kiriTotals TotalsOf(const Host* host, kiriSheet sheet)
 {
-    kiriTotals totals;
-    OK(kiriSheet_GetTotals(host->world, sheet, &totals));
+    kiriTotals totals = World_Totals(host->world, sheet);
     return totals;
 }
 
 static kiriObstacleState StateOf(const Host* host, kiriObstacle obstacle)
 {
-    kiriObstacleState state;
-    OK(kiriObstacle_GetState(host->world, obstacle, &state));
+    kiriObstacleState state = World_ObstacleState(host->world, obstacle);
     return state;
 }
 
@@ -235,8 +231,7 @@ static void BadDefsAreRefused(void** state)
     static const float star[10] = { 0.0f, 1.0f, -0.588f, -0.809f, 0.951f, 0.309f, -0.951f, 0.309f, 0.588f, -0.809f };
     static const float* const outlines[] = { concave, clockwise, flat, star, NULL };
     static const int32_t counts[] = { 4, 3, 3, 5, 4 };
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriObstacle none = 1;
     for (int32_t type = KIRI_OBSTACLE_PLANE; type <= KIRI_OBSTACLE_PRISM; ++type) {
         kiriObstacleDef def = DefOf(type);
@@ -290,8 +285,7 @@ static void WhereFloatsEndNothingMoves(void** state)
 {
     const float beyond[3] = { 0.0f, 5e37f, 0.0f }, within[3] = { 4e37f, -4e37f, 4e37f }, zero[3] = { 0 };
     for (int32_t type = KIRI_OBSTACLE_PLANE; type <= KIRI_OBSTACLE_PRISM; ++type) {
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         kiriObstacleDef def = DefOf(type);
         kiriObstacle obstacle = Add(&host, &def);
         AddPlate(&host, 0.0f, 2.0f, 0.001f);
@@ -316,8 +310,7 @@ static void WhereFloatsEndNothingMoves(void** state)
 
 static void StaleIdsAreRefused(void** state)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriObstacleDef def = DefOf(KIRI_OBSTACLE_BOX);
     kiriObstacle gone = Add(&host, &def), other = Add(&host, &def);
     kiriSheet sheet = AddPlate(&host, 0.0f, 2.0f, 0.001f);
@@ -339,8 +332,7 @@ static void StaleIdsAreRefused(void** state)
 /* Half the contact thickness above the floor it comes to rest, and sleeps. The floor bears its weight all the time. */
 static void PlateRestsOnAFloor(void** state)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriObstacleDef def = DefOf(KIRI_OBSTACLE_PLANE);
     kiriObstacle floor = Add(&host, &def);
     kiriSheet sheet = AddPlate(&host, 0.0f, 0.1f, 0.001f);
@@ -376,15 +368,13 @@ static void PushSpeedIsKept(void** state)
 {
     static const float speeds[] = { 0.05f, 0.1f, 1.0f };
     for (int k = 0; k < 3; ++k) {
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         static const float none[3] = { 0.0f, 0.0f, 0.0f };
         OK(kiriWorld_SetGravity(host.world, none));
         kiriObstacleDef floor = DefOf(KIRI_OBSTACLE_PLANE);
         floor.pushSpeed = speeds[k];
         Add(&host, &floor);
-        kiriSheetDef def;
-        kiriDefaultSheetDef(&def);
+        kiriSheetDef def = DefaultSheet();
         def.frameCount = def.maxFrames = 1;
         def.position[2] = -0.05f;
         kiriSheet sheet = Host_AddRectangle(&host, &def, 0.4f, 0.4f, 8, 8);
@@ -407,8 +397,7 @@ static void SleepersWake(void** state)
     const float away[3] = { 3.0f, 0.0f, 0.0f }, up[3] = { 0.0f, 0.0f, 0.1f }, none[3] = { 0 };
     for (int which = 0; which < CASES; ++which) {
         for (int isFar = 0; isFar < 2; ++isFar) {
-            Host host;
-            Host_Start(&host);
+            START_HOST(host);
             kiriObstacleDef def = DefOf(KIRI_OBSTACLE_BOX);
             kiriObstacle box = Add(&host, &def), touched = box;
             kiriSheet sheet = RestOn(&host, box);
@@ -435,8 +424,7 @@ static void SleepersWake(void** state)
 /* Too slow to see, an obstacle still carries along what sleeps on it. */
 static void SlowLiftsCarry(void** state)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriObstacleDef def = DefOf(KIRI_OBSTACLE_BOX);
     kiriObstacle box = Add(&host, &def);
     kiriSheet sheet = RestOn(&host, box);
@@ -451,8 +439,7 @@ static void SlowLiftsCarry(void** state)
 
 static void LiftsAndConveyorsCarry(void** state)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriObstacleDef def = DefOf(KIRI_OBSTACLE_PLANE);
     def.velocity[2] = 0.5f;
     def.surfaceVelocity[0] = 0.3f;
@@ -469,8 +456,7 @@ static void LiftsAndConveyorsCarry(void** state)
 /* What two plates lose, the crate that they fall on gets; and it is not more than its mass can take. */
 static void SheetsShareAnObstacle(void** state)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     const float noGravity[3] = { 0 };
     OK(kiriWorld_SetGravity(host.world, noGravity));
     kiriObstacleDef def = DefOf(KIRI_OBSTACLE_BOX);
@@ -478,8 +464,7 @@ static void SheetsShareAnObstacle(void** state)
     def.friction = 0.0f;
     kiriObstacle crate = Add(&host, &def);
     const float down[3] = { 0.0f, 0.0f, -1.0f };
-    kiriSheetDef plate;
-    kiriDefaultSheetDef(&plate);
+    kiriSheetDef plate = DefaultSheet();
     plate.gridResolution = 8;
     plate.frameCount = plate.maxFrames = 1;
     plate.contactThickness = 0.01f;
@@ -511,8 +496,7 @@ static void SheetsShareAnObstacle(void** state)
 static double FastestOverBox(int32_t skinning, float beside)
 {
     enum { FRAMES = 4, TICKS = 90 };
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheetDef sheetDef = Host_SmallDef();
     sheetDef.skinning = skinning;
     kiriSheet sheet = Host_AddRectangle(&host, &sheetDef, 1.0f, 1.0f, 8, 8);
@@ -523,11 +507,10 @@ static double FastestOverBox(int32_t skinning, float beside)
     def.velocity[2] = 1.0f;
     kiriObstacle box = Add(&host, &def);
     kiriFrame frames[FRAMES];
-    kiriFrameState frame;
     int32_t count;
     double fastest = 0.0;
     OK(kiriSheet_GetFrames(host.world, sheet, frames, FRAMES, &count));
-    OK(kiriFrame_GetState(host.world, frames[0], &frame));
+    kiriFrameState frame = World_FrameState(host.world, frames[0]);
     OK(kiriFrame_Hold(host.world, frames[0], frame.position, frame.rotation));
     for (int t = 0; t < TICKS; ++t) {
         def.position[2] = -0.4f + (float)t / 60.0f;
@@ -557,14 +540,12 @@ static void ObstaclesDoNotMoveWhatIsHeld(void** state)
 static void FastSheetsDoNotPass(void** state)
 {
     for (int substeps = 1; substeps <= 4; substeps += 3) {
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         kiriObstacleDef def = DefOf(KIRI_OBSTACLE_BOX);
         def.size[0] = def.size[1] = 4.0f;
         def.size[2] = 0.01f;
         Add(&host, &def);
-        kiriSheetDef plate;
-        kiriDefaultSheetDef(&plate);
+        kiriSheetDef plate = DefaultSheet();
         plate.gridResolution = 8;
         plate.frameCount = plate.maxFrames = 1;
         plate.axisV[1] = 0.0f;
@@ -574,8 +555,7 @@ static void FastSheetsDoNotPass(void** state)
         kiriSheet sheet = Host_AddRectangle(&host, &plate, 0.2f, 0.2f, 8, 8);
         for (int i = 0; i < 20; ++i) {
             OK(Host_Tick(&host, dt, substeps));
-            kiriMesh mesh;
-            OK(kiriSheet_GetMesh(host.world, sheet, &mesh));
+            kiriMesh mesh = World_Mesh(host.world, sheet);
             for (int32_t v = 0; v < mesh.vertexCount; ++v) {
                 assert_true(mesh.positions[3 * v + 2] > 0.0f);
             }
@@ -591,14 +571,12 @@ static void FastClothsDoNotPass(void** state)
     static const float speeds[] = { 40.0f, 100.0f, 100.0f };
     static const int substeps[] = { 2, 2, 8 }, most[] = { 10, 40, 10 }; /* of 1000 vertices */
     for (int k = 0; k < 3; ++k) {
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         kiriObstacleDef def = DefOf(KIRI_OBSTACLE_BOX);
         def.size[0] = def.size[1] = 8.0f;
         def.size[2] = 0.01f;
         Add(&host, &def);
-        kiriSheetDef cloth;
-        kiriDefaultSheetDef(&cloth);
+        kiriSheetDef cloth = DefaultSheet();
         cloth.frameCount = cloth.maxFrames = 16;
         cloth.axisV[1] = 0.0f;
         cloth.axisV[2] = 1.0f;
@@ -607,8 +585,7 @@ static void FastClothsDoNotPass(void** state)
         kiriSheet sheet = Host_AddRectangle(&host, &cloth, 1.0f, 1.0f, 32, 32);
         for (int i = 0; i < 20; ++i) {
             OK(Host_Tick(&host, dt, substeps[k]));
-            kiriMesh mesh;
-            OK(kiriSheet_GetMesh(host.world, sheet, &mesh));
+            kiriMesh mesh = World_Mesh(host.world, sheet);
             int32_t passed = 0;
             for (int32_t v = 0; v < mesh.vertexCount; ++v) {
                 passed += mesh.positions[3 * v + 2] < -0.005f;
@@ -621,13 +598,11 @@ static void FastClothsDoNotPass(void** state)
 
 static void GroupsTellWhoTouches(void** state)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriObstacleDef def = DefOf(KIRI_OBSTACLE_PLANE);
     def.groups = 2;
     Add(&host, &def);
-    kiriSheetDef plate;
-    kiriDefaultSheetDef(&plate);
+    kiriSheetDef plate = DefaultSheet();
     plate.gridResolution = 4;
     plate.frameCount = plate.maxFrames = 1;
     plate.position[2] = 0.05f;
@@ -644,8 +619,7 @@ static void GroupsTellWhoTouches(void** state)
 /* Of a rigid planar plate that stands on its edge at a height. */
 static kiriSheetDef UprightPlate(float contactThickness, float height)
 {
-    kiriSheetDef plate;
-    kiriDefaultSheetDef(&plate);
+    kiriSheetDef plate = DefaultSheet();
     plate.planar = 1;
     plate.gridResolution = 8;
     plate.frameCount = plate.maxFrames = 1;
@@ -661,8 +635,7 @@ static kiriSheetDef UprightPlate(float contactThickness, float height)
 static void PlanarSheetsRestOnPolygons(void** state)
 {
     for (int which = 0; which < 3; ++which) {
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         kiriObstacleDef def = DefOf(which == 0 ? KIRI_OBSTACLE_PRISM : KIRI_OBSTACLE_BOX);
         const float turned[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, -1.0f, 0.0f };
         memcpy(def.rotation, turned, sizeof(turned));
@@ -681,8 +654,7 @@ static void PlanarSheetsRestOnPolygons(void** state)
 /* Two corners that point up hold a plate of two triangles between its vertices. */
 static void PlanarBordersRestOnCorners(void** state)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     for (int i = 0; i < 2; ++i) {
         kiriObstacleDef def = DefOf(KIRI_OBSTACLE_BOX);
         const float diamond[9] = { 0.70710678f, 0.0f, 0.70710678f, -0.70710678f, 0.0f, 0.70710678f, 0.0f, -1.0f, 0.0f };
@@ -707,8 +679,7 @@ static void RoundObstaclesHoldBetweenVertices(void** state)
     static const int32_t types[3] = { KIRI_OBSTACLE_SPHERE, KIRI_OBSTACLE_CAPSULE, KIRI_OBSTACLE_CYLINDER };
     for (int which = 0; which < 6; ++which) {
         bool planar = which >= 3;
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         for (int i = 0; i < 4; ++i) {
             kiriObstacleDef def = DefOf(types[which % 3]);
             const float lying[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, -1.0f, 0.0f };
@@ -720,8 +691,7 @@ static void RoundObstaclesHoldBetweenVertices(void** state)
             def.position[2] = -0.01f;
             Add(&host, &def);
         }
-        kiriSheetDef plate;
-        kiriDefaultSheetDef(&plate);
+        kiriSheetDef plate = DefaultSheet();
         plate.planar = planar;
         plate.gridResolution = 8;
         plate.frameCount = plate.maxFrames = 1;
@@ -741,8 +711,7 @@ static void RoundObstaclesHoldBetweenVertices(void** state)
 /* An obstacle goes on by its velocities: turned about its axis in the end, and where it should be. */
 static void ObstaclesAdvance(void** state)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriObstacleDef def = DefOf(KIRI_OBSTACLE_CAPSULE);
     def.velocity[0] = 2.0f;
     def.angularVelocity[2] = 3.0f;
@@ -765,8 +734,7 @@ static void FillWorld(Host* host, kiriSheet sheets[2])
         Add(host, &def);
     }
     for (int i = 0; i < 2; ++i) {
-        kiriSheetDef def;
-        kiriDefaultSheetDef(&def);
+        kiriSheetDef def = DefaultSheet();
         def.gridResolution = 8;
         def.frameCount = def.maxFrames = 4;
         def.position[0] = -0.8f + 0.7f * (float)i;
@@ -780,9 +748,8 @@ static void SameCallsSameBits(void** state)
 {
     uint64_t hashes[2];
     for (int run = 0; run < 2; ++run) {
-        Host host;
         kiriSheet sheets[2];
-        Host_Start(&host);
+        START_HOST(host);
         host.every = 10;
         FillWorld(&host, sheets);
         Ticks(&host, 40);
@@ -795,9 +762,8 @@ static void SameCallsSameBits(void** state)
 /* What was refused has not happened. */
 static void RefusedTicksChangeNothing(void** state)
 {
-    Host host;
     kiriSheet sheets[2];
-    Host_Start(&host);
+    START_HOST(host);
     host.every = 10;
     FillWorld(&host, sheets);
     for (int i = 0; i < 40; ++i) {
@@ -827,8 +793,7 @@ static void RefusedTicksChangeNothing(void** state)
 
 static void CreationMayBeRefused(void** state)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriObstacleDef def = DefOf(KIRI_OBSTACLE_PRISM);
     kiriObstacle obstacle = 1;
     uint64_t before = Host_Hash(&host);
@@ -850,22 +815,19 @@ static void CreationMayBeRefused(void** state)
 /* What touched once takes no memory to touch again. */
 static void TouchingAgainAllocatesNothing(void** state)
 {
-    Host host;
     kiriSheet sheets[2];
-    Host_Start(&host);
+    START_HOST(host);
     host.every = 20;
     FillWorld(&host, sheets);
     Ticks(&host, 60);
     for (int i = 0; i < 2; ++i) {
-        kiriPieceState piece;
-        OK(kiriSheet_GetPiece(host.world, sheets[i], 0, &piece));
+        World_PieceState(host.world, sheets[i], 0);
     }
     int64_t calls = host.calls;
     int32_t touched = 0;
     for (int i = 0; i < 10; ++i) {
-        kiriProfile profile;
         OK(kiriWorld_Tick(host.world, dt, 2));
-        OK(kiriWorld_GetProfile(host.world, &profile));
+        kiriProfile profile = World_Profile(host.world);
         touched += profile.contacts;
     }
     assert_int_equal(host.calls, calls);
@@ -876,11 +838,9 @@ static void TouchingAgainAllocatesNothing(void** state)
 /* A sheet that swings from a corner is nowhere farther after a tick than was said before it. */
 static void ReachHoldsTheTick(void** state)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     host.every = 10;
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = 8;
     def.frameCount = def.maxFrames = 9;
     def.material.detail = 0; /* the reach is of the surface without it */
@@ -890,10 +850,9 @@ static void ReachHoldsTheTick(void** state)
     double most = 0.0;
     for (int i = 0; i < 90; ++i) {
         float lower[3], upper[3], least = INFINITY;
-        kiriMesh mesh;
         OK(kiriSheet_GetReach(host.world, sheet, dt, lower, upper));
         OK(Host_Tick(&host, dt, 2));
-        OK(kiriSheet_GetMesh(host.world, sheet, &mesh));
+        kiriMesh mesh = World_Mesh(host.world, sheet);
         for (int32_t n = 0; n < 3 * mesh.vertexCount; ++n) {
             assert_true(mesh.positions[n] >= lower[n % 3] && mesh.positions[n] <= upper[n % 3]);
             least = fminf(least, fminf(mesh.positions[n] - lower[n % 3], upper[n % 3] - mesh.positions[n]));

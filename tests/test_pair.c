@@ -4,16 +4,14 @@
 
 static int32_t Pairs(const Host* host)
 {
-    kiriProfile profile;
-    OK(kiriWorld_GetProfile(host->world, &profile));
+    kiriProfile profile = World_Profile(host->world);
     return profile.sheetPairs;
 }
 
 /* A square of stiff paper, 0.2 m wide, whose corner is at a place. */
 static kiriSheetDef SquareDef(float x, float y, float z)
 {
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     kiriGetMaterial(KIRI_MATERIAL_PAPER, &def.material);
     def.gridResolution = 16;
     def.frameCount = 4;
@@ -42,8 +40,7 @@ static void TestPairsAreFoundWhereNear(void** state)
         { 0.25f, 0.003f, 1, 0 }, { 0.05f, 0.003f, 0, 0 },  { 0.2f, 0.0f, 1, 0 }, /* beside each other in one plane */
     };
     for (int i = 0; i < (int)(sizeof cases / sizeof cases[0]); ++i) {
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         OK(kiriWorld_SetGravity(host.world, none));
         kiriSheetDef def = SquareDef(0.0f, 0.0f, 0.0f);
         AddSquare(&host, &def);
@@ -60,9 +57,8 @@ static const float dt = 1.0f / 60.0f;
 
 static void AddFloor(Host* host)
 {
-    kiriObstacleDef def;
     kiriObstacle floor = 0;
-    kiriDefaultObstacleDef(&def);
+    kiriObstacleDef def = DefaultObstacle();
     def.type = KIRI_OBSTACLE_PLANE;
     OK(kiriCreateObstacle(host->world, &def, &floor));
 }
@@ -77,8 +73,7 @@ static bool IsAwake(const Host* host, kiriSheet sheet)
 /* A sheet that moved while it was the only one, and fell asleep, is found where it lies. */
 static void TestWhoWasAloneIsFound(void** state)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     host.every = 30;
     AddFloor(&host);
     kiriSheetDef def = SquareDef(0.0f, 0.0f, 0.3f);
@@ -117,9 +112,8 @@ static void TestSleeperIsMet(void** state)
 {
     for (int way = 0; way < 4; ++way) {
         const float z = way % 2 == 0 ? -0.3f : 0.3f;
-        Host host;
         kiriPin pins[4], moved[4];
-        Host_Start(&host);
+        START_HOST(host);
         host.every = 30;
         kiriSheet sleeper = AddPinnedSquare(&host, 0.0f, pins);
         if (way < 2) {
@@ -155,8 +149,7 @@ static void TestSleeperIsMet(void** state)
 
 static void TestGroupsApart(void** state)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheetDef def = SquareDef(0.0f, 0.0f, 0.0f);
     def.groups = 1;
     AddSquare(&host, &def);
@@ -226,9 +219,8 @@ static void TestPileRestsInOrder(void** state)
 static void TestHighPileRests(void** state)
 {
     enum { HIGH = 16 };
-    Host host;
     kiriSheet sheets[HIGH];
-    Host_Start(&host);
+    START_HOST(host);
     host.every = 30;
     AddFloor(&host);
     for (int i = 0; i < HIGH; ++i) {
@@ -273,11 +265,9 @@ static void TestWhatTouchesWakesAndFallsAsleepTogether(void** state)
 /* A heavy square falls into a cloth that hangs by its four corners. */
 static double Sag(bool isLoaded)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     host.every = 30;
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = 16;
     def.frameCount = 9;
     def.touchesSheets = 1;
@@ -310,8 +300,7 @@ static void TestLowerSheetFeelsTheWeight(void** state)
 /* Two sheets that fall together do so as one that falls alone. */
 static void TestFallingPairFallsFreely(void** state)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheetDef def = SquareDef(0.0f, 0.0f, 0.0f);
     kiriSheet lower = AddSquare(&host, &def);
     def = SquareDef(0.01f, 0.01f, 0.0045f);
@@ -330,11 +319,9 @@ static void TestFallingPairFallsFreely(void** state)
 static void TestPieceFallsClear(void** state)
 {
     static const float square[] = { 0.35f, 0.3f, 0.65f, 0.3f, 0.65f, 0.6f, 0.35f, 0.6f, 0.35f, 0.3f };
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     host.every = 30;
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.frameCount = 9;
     def.touchesSheets = 1;
     def.axisV[1] = 0.0f;
@@ -350,8 +337,7 @@ static void TestPieceFallsClear(void** state)
         /* In the first ticks lips that lie beside each other may be behind one another by a triangle or two. */
         assert_true(Crossing_Measure(host.world, &sheet, 1).crossing <= (tick < 4 ? 4 : 0));
     }
-    kiriPieceState piece;
-    OK(kiriSheet_GetPiece(host.world, sheet, 1, &piece));
+    kiriPieceState piece = World_PieceState(host.world, sheet, 1);
     assert_true(piece.upper[2] < 0.0f); /* below the sheet's lower edge */
     Host_Stop(&host);
 }
@@ -359,16 +345,12 @@ static void TestPieceFallsClear(void** state)
 /* Lays one half of a cloth over the other, lets go, and cuts it. Returns the triangles that cross before the cut. */
 static int32_t FoldOnce(int32_t selfContact, uint64_t* hash)
 {
-    Host host;
-    kiriSheetDef def;
-    kiriObstacleDef floorDef;
-    kiriObstacle floor;
     kiriPin pins[3];
-    Host_Start(&host);
-    kiriDefaultObstacleDef(&floorDef);
+    START_HOST(host);
+    kiriObstacleDef floorDef = DefaultObstacle();
     floorDef.type = KIRI_OBSTACLE_PLANE;
-    OK(kiriCreateObstacle(host.world, &floorDef, &floor));
-    kiriDefaultSheetDef(&def);
+    World_AddObstacle(host.world, &floorDef);
+    kiriSheetDef def = DefaultSheet();
     def.frameCount = 36;
     def.selfContact = selfContact;
     def.contactThickness = 0.004f;

@@ -1,4 +1,5 @@
 /* Pieces that part at random, under small budgets and without one: what comes of it is the same. */
+#include "defaults.h"
 #include "look.h"
 
 #include "layout_hash.h"
@@ -43,10 +44,8 @@ static Gallery Portray(const Host* host)
         kiriSheet sheet = Host_SheetAt(host, s);
         kiriMesh mesh = Host_Mesh(host, sheet);
         for (int32_t p = 0; p < Host_Counts(host, sheet).pieces; ++p) {
-            kiriPieceState state;
-            kiriPieceMesh piece;
-            OK(kiriSheet_GetPiece(host->world, sheet, p, &state));
-            OK(kiriSheet_GetPieceMesh(host->world, sheet, p, &piece));
+            kiriPieceState state = World_PieceState(host->world, sheet, p);
+            kiriPieceMesh piece = World_PieceMesh(host->world, sheet, p);
             assert_in_range(gallery.count, 0, MOST_PIECES - 1);
             gallery.area += state.area;
             gallery.of[gallery.count++] =
@@ -72,10 +71,9 @@ static void CompareGalleries(const Gallery* a, const Gallery* b)
 
 static void TickOnce(Host* host, int32_t samples, kiriResult* result)
 {
-    kiriProfile profile;
     *result = Host_Tick(host, 1.0f / 60.0f, 1);
     assert_true(*result >= 0);
-    OK(kiriWorld_GetProfile(host->world, &profile));
+    kiriProfile profile = World_Profile(host->world);
     assert_true(samples == 0 || profile.samplesRefreshed <= samples);
 }
 
@@ -112,10 +110,9 @@ static int32_t ChooseTargets(const Host* host, kiriSheet sheet, uint32_t* seed, 
 
 static double AreaOf(const Host* host, kiriSheet sheet, kiriFrame frame)
 {
-    kiriPieceState state;
     int32_t piece;
     OK(kiriFrame_GetPiece(host->world, frame, &piece));
-    OK(kiriSheet_GetPiece(host->world, sheet, piece, &state));
+    kiriPieceState state = World_PieceState(host->world, sheet, piece);
     return state.area;
 }
 
@@ -160,8 +157,7 @@ static double Drop(Host* host, kiriSheet sheet, double area)
 static kiriSheetDef DefOfRun(uint32_t run)
 {
     static const float layers[] = { 0.0f, 30.0f };
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = 20;
     def.frameCount = 6;
     def.maxFrames = 4096;
@@ -269,10 +265,9 @@ static void StartDisturbed(Host* host, int disturbance, bool hasBudget)
 /* Ticks until a piece of one sheet has left, while another, which comes first, is cut or not. */
 static int32_t TicksToLeave(const kiriBudget* budget, bool isOtherCut)
 {
-    Host host;
     kiriSheet made;
     int32_t ticks = 0;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheetDef def = DefOfRun(1);
     kiriSheet other = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 20, 20);
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 20, 20);

@@ -32,8 +32,7 @@ static kiriSheet Chop(Host* host, kiriSheetDef* def, int32_t across, int32_t alo
 
 static kiriSheetDef DefOf(int32_t resolution)
 {
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = resolution;
     def.frameCount = 6;
     def.maxFrames = 4096;
@@ -119,8 +118,7 @@ static void TestManyAreAsOneByOne(void** state)
 /* Of several sheets, and frames of one piece more than once. */
 static void TestOfSeveralSheets(void** state)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheetDef def = DefOf(16);
     kiriSheet sheets[2] = { Chop(&host, &def, 3, 1), Chop(&host, &def, 1, 4) }, made[4];
     kiriFrame frames[4] = { Host_FrameOf(&host, sheets[1], 2), Host_FrameOf(&host, sheets[0], 1),
@@ -158,9 +156,8 @@ static kiriFrame FrameNear(Host* host, kiriSheet sheet, float u, float v)
     float least = 1e30f;
     kiriMesh mesh = Host_Mesh(host, sheet);
     for (int32_t p = 0; p < Host_Counts(host, sheet).pieces; ++p) {
-        kiriPieceMesh piece;
         float sum[2] = { 0.0f, 0.0f };
-        OK(kiriSheet_GetPieceMesh(host->world, sheet, p, &piece));
+        kiriPieceMesh piece = World_PieceMesh(host->world, sheet, p);
         for (int32_t i = 0; i < 2 * piece.vertexCount; ++i) {
             sum[i % 2] += mesh.restPositions[2 * piece.vertices[i / 2] + i % 2] / (float)piece.vertexCount;
         }
@@ -178,13 +175,12 @@ static void TestPartsCountOtherMassesExactly(void** state)
     Host hosts[2];
     for (int k = 0; k < 2; ++k) {
         kiriSheetDef def = DefOf(24);
-        kiriSheetSettings settings;
         kiriSheet part;
         def.frameCount = 16;
         def.paper.fromScratch = k;
         Host_Start(&hosts[k]);
         kiriSheet sheet = Chop(&hosts[k], &def, 2, 1);
-        OK(kiriSheet_GetSettings(hosts[k].world, sheet, &settings));
+        kiriSheetSettings settings = World_Settings(hosts[k].world, sheet);
         settings.material.density *= 1.7f;
         OK(kiriSheet_SetSettings(hosts[k].world, sheet, &settings));
         OK(kiriFrame_DetachPiece(hosts[k].world, FrameNear(&hosts[k], sheet, 0.75f, 0.5f), &part));
@@ -208,8 +204,7 @@ static kiriResult PartAtRandom(Host* host, kiriSheet sheet, uint32_t* seed)
     int32_t count = 0, pieces = Host_Counts(host, sheet).pieces;
     double area = Host_Totals(host, sheet).area;
     for (int32_t first = (int32_t)(Random(seed) % 64), i = 0; i < 3 && i + 1 < pieces; ++i) {
-        kiriPieceState piece;
-        OK(kiriSheet_GetPiece(host->world, sheet, (first + i) % pieces, &piece));
+        kiriPieceState piece = World_PieceState(host->world, sheet, (first + i) % pieces);
         if (piece.frames > 0) {
             frames[count++] = Host_FrameOf(host, sheet, (first + i) % pieces);
             area -= piece.area;
@@ -290,9 +285,8 @@ static bool IsHit(const Host* host, kiriSheet sheet, float u, float v)
 /* Arrays that the host has stay as they were. What has left is neither in the mesh nor hit. */
 static void TestGoneIsNotSeen(void** state)
 {
-    Host host;
     kiriSheetDef def = DefOf(24);
-    Host_Start(&host);
+    START_HOST(host);
     Weightless(&host);
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 70, 70), detached;
     Host_Cut(&host, sheet, (float[]){ 0.7f, -0.1f, 0.7f, 0.3f, 1.1f, 0.3f }, 3);
@@ -302,11 +296,10 @@ static void TestGoneIsNotSeen(void** state)
     kiriMesh before = Host_Mesh(&host, sheet);
     int32_t* indices = malloc(sizeof(int32_t) * 3 * (size_t)before.triangleCount);
     memcpy(indices, before.indices, sizeof(int32_t) * 3 * (size_t)before.triangleCount);
-    kiriPieceMesh piece;
     kiriFrame gone = FrameNear(&host, sheet, 0.85f, 0.15f);
     int32_t index;
     OK(kiriFrame_GetPiece(host.world, gone, &index));
-    OK(kiriSheet_GetPieceMesh(host.world, sheet, index, &piece));
+    kiriPieceMesh piece = World_PieceMesh(host.world, sheet, index);
     int32_t triangles = piece.triangleCount, vertices = piece.vertexCount;
     assert_true(IsHit(&host, sheet, 0.85f, 0.15f) && IsHit(&host, sheet, 0.2f, 0.15f));
     OK(kiriFrame_DestroyPiece(host.world, gone));
@@ -332,8 +325,7 @@ static void TestGoneIsNotSeen(void** state)
 /* A small sheet falls through the place of a removed piece in a large one that is held, and lies on it beside. */
 static void TestGoneTouchesNothing(void** state)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheetDef def = DefOf(24), small = DefOf(8);
     def.touchesSheets = small.touchesSheets = 1;
     def.collisionPoints = small.collisionPoints = 0.0f;
@@ -347,8 +339,7 @@ static void TestGoneTouchesNothing(void** state)
     OK(kiriSheet_GetFrames(host.world, sheet, frames, 64, &count));
     assert_in_range(count, 1, 64);
     for (int32_t i = 0; i < count; ++i) {
-        kiriFrameState is;
-        OK(kiriFrame_GetState(host.world, frames[i], &is));
+        kiriFrameState is = World_FrameState(host.world, frames[i]);
         OK(kiriFrame_Hold(host.world, frames[i], is.position, is.rotation));
     }
     for (int k = 0; k < 2; ++k) {
@@ -380,8 +371,7 @@ static void TestCallsKeepToTheBudget(void** state)
         kiriSheet made[PIECES];
         kiriResult result;
         int32_t ticks = 0, waiting = 0, most = 0;
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         Weightless(&host);
         kiriSheetDef def = DefOf(48);
         kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 80, 80);
@@ -402,11 +392,10 @@ static void TestCallsKeepToTheBudget(void** state)
             waiting += made[i] == 0;
         }
         while (result == KIRI_PENDING) {
-            kiriProfile profile;
             kiriEvent event;
             result = Host_Tick(&host, 1.0f / 60.0f, 1);
             int32_t came = Host_Events(&host, KIRI_EVENT_PIECE_DETACHED, &event);
-            OK(kiriWorld_GetProfile(host.world, &profile));
+            kiriProfile profile = World_Profile(host.world);
             assert_true(profile.samplesRefreshed <= SAMPLES);
             waiting -= came;
             most = came > most ? came : most;
@@ -431,8 +420,7 @@ static void TestDestroyingIsOnAccount(void** state)
     int32_t paid[2] = { 0, 0 };
     for (int32_t sheets = 1; sheets <= 2; ++sheets) {
         kiriFrame frames[2];
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         kiriSheetDef def = DefOf(24);
         for (int32_t i = 0; i < sheets; ++i) {
             kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 80, 80);
@@ -463,8 +451,7 @@ static void TestUnderBudgets(void** state)
     for (uint32_t run = 1; run <= 4; ++run) {
         const kiriBudget budgets[2] = { { 20, 60, 15, 0 }, { 0, 200, 60, 0 } };
         uint32_t seed = 911u * run;
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         kiriSheetDef def = DefOf(16);
         def.model = (int32_t)(run % 3);
         kiriSheet sheet = Chop(&host, &def, 4, 3);
@@ -505,8 +492,7 @@ typedef struct Wait {
 /* Where the piece rests, from below to above. */
 static void FindStrip(Host* host, kiriSheet sheet, int32_t piece, float range[2])
 {
-    kiriPieceMesh mesh;
-    OK(kiriSheet_GetPieceMesh(host->world, sheet, piece, &mesh));
+    kiriPieceMesh mesh = World_PieceMesh(host->world, sheet, piece);
     range[0] = 2.0f;
     range[1] = -1.0f;
     for (int32_t i = 0; i < mesh.vertexCount; ++i) {
@@ -534,9 +520,8 @@ static Wait StartWait(Host* host, const kiriBudget* budget)
         zigzag[2 * i + 1] = strip[0] + (i % 2 == 0 ? 0.3f : 0.7f) * (strip[1] - strip[0]);
     }
     Host_Cut(host, wait.sheet, zigzag, 10);
-    kiriPieceMesh mesh;
     assert_int_equal(Host_Tick(host, 1.0f / 60.0f, 1), budget->cells > 0 ? KIRI_PENDING : KIRI_OK);
-    OK(kiriSheet_GetPieceMesh(host->world, wait.sheet, 0, &mesh));
+    kiriPieceMesh mesh = World_PieceMesh(host->world, wait.sheet, 0);
     wait.triangles = mesh.triangleCount;
     return wait;
 }
@@ -580,10 +565,9 @@ static void TestGoneIsGone(void** state)
     static const kiriBudget budget = { 0, 30, 20, 0 };
     Host host;
     Wait wait = StartWait(&host, &budget);
-    kiriPieceMesh piece;
     kiriPieceState zero = { 0 }, pieceState;
     kiriCounts counts = Host_Counts(&host, wait.sheet);
-    OK(kiriSheet_GetPieceMesh(host.world, wait.sheet, 0, &piece));
+    kiriPieceMesh piece = World_PieceMesh(host.world, wait.sheet, 0);
     float strip[2], beside[2];
     FindStrip(&host, wait.sheet, 0, strip);
     FindStrip(&host, wait.sheet, 1, beside);
@@ -701,13 +685,11 @@ static void TestTouchesGoOn(void** state)
         kiriSheet sheets[2], made = 0;
         for (int k = 0; k < 2; ++k) {
             Host_Start(&hosts[k]);
-            kiriObstacleDef floor;
-            kiriObstacle id;
-            kiriDefaultObstacleDef(&floor);
+            kiriObstacleDef floor = DefaultObstacle();
             floor.type = KIRI_OBSTACLE_PLANE;
             static const float gravity[3] = { 1.0f, 0.0f, -9.7f };
             OK(kiriWorld_SetGravity(hosts[k].world, gravity));
-            OK(kiriCreateObstacle(hosts[k].world, &floor, &id));
+            World_AddObstacle(hosts[k].world, &floor);
             kiriSheetDef def = DefOf(16);
             def.position[2] = 0.02f;
             sheets[k] = Chop(&hosts[k], &def, 1, 4);
@@ -791,10 +773,8 @@ static void TestWaitingIsPatient(void** state)
 static void TryShape(float width, float height, int32_t columns, int32_t rows, int32_t resolution, int32_t frames,
                      float rigidArea, int32_t* refused)
 {
-    Host host;
-    Host_Start(&host);
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    START_HOST(host);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = resolution;
     def.frameCount = frames;
     def.rigidArea = rigidArea;
@@ -814,8 +794,7 @@ static void TryShape(float width, float height, int32_t columns, int32_t rows, i
         OK(kiriFrame_DestroyPiece(host.world, Host_FrameOf(&host, sheet, 0)));
         Host_Cut(&host, sheet, square, 5);
         OK(Host_Tick(&host, 1.0f / 60.0f, 1));
-        kiriProfile profile;
-        OK(kiriWorld_GetProfile(host.world, &profile));
+        kiriProfile profile = World_Profile(host.world);
         int32_t cells = Host_Counts(&host, sheet).cells;
         assert_true(profile.cellsSettled < 200 * (cells + 10)); /* measured: 29 */
         assert_in_range(Host_Counts(&host, sheet).frames, 1, cells);

@@ -163,12 +163,11 @@ static void Check(Past* past)
 
 static void AddSheet(Past* past)
 {
-    kiriSheetDef def;
     kiriSheet sheet;
     kiriPinDef pin;
     kiriPin made;
     int32_t squares = Random(&past->seed) % 3 == 0 ? 68 : 4 + (int32_t)(Random(&past->seed) % 20);
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     kiriDefaultPinDef(&pin);
     def.gridResolution = 16;
     def.frameCount = 4;

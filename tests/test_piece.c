@@ -1,4 +1,5 @@
 /* Pieces: lists, and detached sheets. */
+#include "defaults.h"
 #include "look.h"
 
 /* ---- Scenes ---- */
@@ -19,8 +20,7 @@ static void Shred(Host* host, kiriSheet sheet, int32_t lines, uint32_t* seed)
 
 static kiriSheetDef AnyDef(uint32_t* seed)
 {
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = 12 + (int32_t)(Random(seed) % 12);
     def.frameCount = 3 + (int32_t)(Random(seed) % 5);
     def.maxFrames = 4096;
@@ -40,15 +40,13 @@ static void Tick(Host* host, int32_t count)
 
 static kiriPieceState StateOf(Host* host, kiriSheet sheet, int32_t piece)
 {
-    kiriPieceState state;
-    OK(kiriSheet_GetPiece(host->world, sheet, piece, &state));
+    kiriPieceState state = World_PieceState(host->world, sheet, piece);
     return state;
 }
 
 static kiriPieceMesh MeshOf(Host* host, kiriSheet sheet, int32_t piece)
 {
-    kiriPieceMesh mesh;
-    OK(kiriSheet_GetPieceMesh(host->world, sheet, piece, &mesh));
+    kiriPieceMesh mesh = World_PieceMesh(host->world, sheet, piece);
     return mesh;
 }
 
@@ -125,8 +123,7 @@ static void CheckPieceFrames(Host* host, kiriSheet sheet, int32_t piece, const k
     assert_int_equal(count, state->frames);
     assert_true(count > 0);
     for (int32_t i = 0; i < count; ++i) {
-        kiriFrameState frame;
-        OK(kiriFrame_GetState(host->world, frames[i], &frame));
+        kiriFrameState frame = World_FrameState(host->world, frames[i]);
         OK(kiriFrame_GetPiece(host->world, frames[i], &of));
         assert_int_equal(of, piece);
         mass += frame.mass;
@@ -192,8 +189,7 @@ static void TestListsOfConfetti(void** state)
     int32_t most = 0;
     for (uint32_t run = 1; run <= 12; ++run) {
         uint32_t seed = 77u * run;
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         kiriSheetDef def = AnyDef(&seed);
         kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 10, 10);
         CheckPieces(&host, sheet);
@@ -213,8 +209,7 @@ static void TestListsOfConfetti(void** state)
 static void TestListsWhileWorkWaits(void** state)
 {
     uint32_t seed = 5;
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheetDef def = AnyDef(&seed);
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 10, 10);
     kiriBudget budget = { 0, 40, 0, 0 };
@@ -238,8 +233,7 @@ static void TestListsWhileWorkWaits(void** state)
 static void TestListsAreLazy(void** state)
 {
     uint32_t seed = 9;
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheetDef def = AnyDef(&seed);
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 10, 10);
     Shred(&host, sheet, 4, &seed);
@@ -256,8 +250,7 @@ static void TestListsAreLazy(void** state)
 
 static void TestPieceErrors(void** state)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
     kiriPieceState piece;
@@ -287,8 +280,7 @@ static void TestPieceErrors(void** state)
 /* The frame that the event names is in the piece, whatever the piece is numbered later. */
 static void TestEventNamesFrame(void** state)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 8, 8);
     float loop[10] = { 0.4f, 0.4f, 0.62f, 0.4f, 0.62f, 0.62f, 0.4f, 0.62f, 0.4f, 0.4f };
@@ -401,8 +393,7 @@ static void Part_Check(const Part* part, Host* host, kiriSheet sheet)
     assert_int_equal(count, part->frameCount);
     assert_memory_equal(frames, part->frames, sizeof(kiriFrame) * (size_t)count);
     for (int32_t i = 0; i < count; ++i) {
-        kiriFrameState is;
-        OK(kiriFrame_GetState(host->world, frames[i], &is));
+        kiriFrameState is = World_FrameState(host->world, frames[i]);
         assert_memory_equal(&is, &part->states[i], sizeof(is));
     }
     assert_true(HashWeights(host, sheet, mesh.restPositions, mesh.indices, mesh.triangleCount) == part->weights);
@@ -441,8 +432,7 @@ static void TestPartsAreWhatTheyWere(void** state)
     static Part own, rest;
     for (uint32_t run = 1; run <= 12; ++run) {
         uint32_t seed = 191u * run;
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         kiriSheetDef def = AnyDef(&seed);
         def.skinning = (int32_t)(run % 2);
         kiriSheet sheet = Furnish(&host, &def, 4, &seed);
@@ -544,8 +534,7 @@ static void TestMotionGoesOn(void** state)
 /* A sheet in four strips: 0 is the lowest frame's, and so on. */
 static kiriSheet Strips(Host* host, int32_t count)
 {
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = 16;
     def.frameCount = 6;
     def.collisionPoints = 12;
@@ -579,12 +568,10 @@ static int32_t PieceAt(Host* host, kiriSheet sheet, double v)
 static void TestCutsStayWithTheRest(void** state)
 {
     for (int kept = 0; kept < 2; ++kept) {
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         kiriSheet sheet = Strips(&host, 3), detached = 0;
         float start[2] = { 0.5f, 0.1f }, inside[2] = { 0.5f, 0.2f }, on[4] = { 0.53f, 0.3f, 0.5f, 1.1f };
-        kiriCut cut;
-        OK(kiriBeginCut(host.world, sheet, start, &cut));
+        kiriCut cut = World_BeginCut(host.world, sheet, start);
         OK(kiriCut_Extend(host.world, cut, inside, 1));
         Tick(&host, 1);
         assert_int_equal(Host_Counts(&host, sheet).pieces, 3);
@@ -615,12 +602,10 @@ static void TestBladeOfTheRestGoesOn(void** state)
     uint64_t areas = 0;
     double most[2] = { 0.0, 0.0 };
     for (int detach = 0; detach < 2; ++detach) {
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         kiriSheet sheet = Strips(&host, 3), detached = 0;
         float start[2] = { 0.31f, 0.8f }, inside[2] = { 0.42f, 0.85f }, on[4] = { 0.6f, 0.9f, 0.55f, 1.1f };
-        kiriCut cut;
-        OK(kiriBeginCut(host.world, sheet, start, &cut));
+        kiriCut cut = World_BeginCut(host.world, sheet, start);
         OK(kiriCut_Extend(host.world, cut, inside, 1));
         Tick(&host, 1);
         if (detach) {
@@ -639,8 +624,7 @@ static void TestBladeOfTheRestGoesOn(void** state)
 
 static void TestIdsMoveAlong(void** state)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheet sheet = Strips(&host, 3), detached;
     kiriPin pins[3];
     for (int i = 0; i < 3; ++i) {
@@ -657,11 +641,10 @@ static void TestIdsMoveAlong(void** state)
     OK(kiriFrame_DetachPiece(host.world, Host_FrameOf(&host, sheet, PieceAt(&host, sheet, 0.2)), &detached));
     OK(kiriFrame_DestroyPiece(host.world, Host_FrameOf(&host, sheet, PieceAt(&host, sheet, 0.5))));
     static const float target[3] = { 0.5f, 0.2f, 0.3f };
-    kiriFrameState frame;
     OK(kiriPin_SetTarget(host.world, pins[0], target));
     assert_int_equal(kiriPin_SetTarget(host.world, pins[1], target), KIRI_ERROR_ID);
     OK(kiriPin_SetTarget(host.world, pins[2], target));
-    OK(kiriFrame_GetState(host.world, frames[0], &frame));
+    kiriFrameState frame = World_FrameState(host.world, frames[0]);
     assert_int_equal(kiriFrame_GetState(host.world, frames[1], &frame), KIRI_ERROR_ID);
     OK(kiriFrame_GetState(host.world, frames[2], &frame));
     Tick(&host, 2);
@@ -677,8 +660,7 @@ static void TestIdsMoveAlong(void** state)
 /* Contacts that wait push the part that has the point. */
 static void TestContactsMoveAlong(void** state)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     static const float none[3] = { 0.0f, 0.0f, 0.0f };
     OK(kiriWorld_SetGravity(host.world, none));
     kiriSheet sheet = Strips(&host, 2), detached;
@@ -696,8 +678,7 @@ static void TestContactsMoveAlong(void** state)
 
 static void TestPartsAreRefused(void** state)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheet sheet = Strips(&host, 2), detached = 1;
     int32_t count;
     assert_int_equal(kiriFrame_DetachPiece(host.world, 0, &detached), KIRI_ERROR_ID);
@@ -725,8 +706,7 @@ static void TestDropCrumbs(void** state)
 {
     for (uint32_t run = 1; run <= 6; ++run) {
         uint32_t seed = 1009u * run;
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         kiriSheetDef def = AnyDef(&seed);
         kiriSheet sheet = Furnish(&host, &def, 8, &seed);
         double kept = 0.0, largest = 0.0;
@@ -758,10 +738,8 @@ static void TestCrumbsAreNotSampled(void** state)
 {
     int32_t frames[2] = { 0, 0 }, crumbs[2] = { 0, 0 };
     for (int with = 0; with < 2; ++with) {
-        Host host;
-        Host_Start(&host);
-        kiriSheetDef def;
-        kiriDefaultSheetDef(&def);
+        START_HOST(host);
+        kiriSheetDef def = DefaultSheet();
         def.frameCount = 4;
         def.maxFrames = 4096;
         def.rigidArea = 0.004f;
@@ -801,10 +779,8 @@ static void TestCrumbsOfDef(void** state)
 {
     static const float positions[16] = { 0, 0, 0.2f, 0, 0.2f, 0.2f, 0, 0.2f, 0.5f, 0, 1.5f, 0, 1.5f, 1, 0.5f, 1 };
     static const int32_t indices[12] = { 0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7 };
-    Host host;
-    Host_Start(&host);
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    START_HOST(host);
+    kiriSheetDef def = DefaultSheet();
     def.restPositions = positions;
     def.indices = indices;
     def.vertexCount = 8;

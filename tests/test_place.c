@@ -112,10 +112,8 @@ static void BordersBeginAtSlitEnds(void** state)
             const float end = 0.35f + 0.05f * (float)(k % 3), tilt = k < 3 ? 0.0f : 0.01f;
             const float slit[4] = { 0.5f, -0.1f, 0.5f, end };
             const float points[4] = { 0.42f, end + tilt, 0.58f, end - tilt };
-            kiriSheetDef def;
-            Host host;
-            Host_Start(&host);
-            kiriDefaultSheetDef(&def);
+            START_HOST(host);
+            kiriSheetDef def = DefaultSheet();
             def.gridResolution = resolution;
             def.frameCount = def.maxFrames = 2;
             def.framePoints = points;
@@ -146,10 +144,8 @@ static void BordersStayBesideSlits(void** state)
             points[k][0] = slit[2] + aroundEnd[k][0] / (float)resolution;
             points[k][1] = slit[3] + aroundEnd[k][1] / (float)resolution;
         }
-        kiriSheetDef def;
-        Host host;
-        Host_Start(&host);
-        kiriDefaultSheetDef(&def);
+        START_HOST(host);
+        kiriSheetDef def = DefaultSheet();
         def.gridResolution = resolution;
         def.frameCount = def.maxFrames = 8;
         def.framePoints = points[0];
@@ -202,10 +198,8 @@ static void CloseFramePointsAreRefused(void** state)
 {
     for (int32_t k = 1; k < 20; ++k) {
         float points[4] = { 0.51f, 0.26f, 0.51f + 0.01f * (float)k, 0.26f };
-        kiriSheetDef def;
-        Host host;
-        Host_Start(&host);
-        kiriDefaultSheetDef(&def);
+        START_HOST(host);
+        kiriSheetDef def = DefaultSheet();
         def.gridResolution = 10;
         def.frameCount = 2;
         def.framePoints = points;
@@ -220,10 +214,8 @@ static void CloseFramePointsAreRefused(void** state)
 
 static void ManyFramesAreRefused(void** state)
 {
-    kiriSheetDef def;
-    Host host;
-    Host_Start(&host);
-    kiriDefaultSheetDef(&def);
+    START_HOST(host);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = 10;
     def.maxFrames = 1;
     def.frameCount = 26;
@@ -238,10 +230,8 @@ static void ManyFramesAreRefused(void** state)
 static void ResamplingStops(void** state)
 {
     static const float across[4] = { 0.31f, -0.1f, 0.31f, 0.6f }, along[4] = { 0.5f, 0.26f, 1.1f, 0.26f };
-    kiriSheetDef def;
-    Host host;
-    Host_Start(&host);
-    kiriDefaultSheetDef(&def);
+    START_HOST(host);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = 10;
     def.frameCount = 2;
     def.rigidArea = 1e-9f;
@@ -304,11 +294,9 @@ static void NoMoreThanTheHostGave(void** state)
     int32_t made = 0, parts = 0, more = 0;
     for (int32_t run = 0; run < 200; ++run) {
         static const float slash[4] = { -0.1f, 0.05f, 0.45f, 0.06f };
-        Host host;
         kiriSheet sheet;
-        kiriSheetDef def;
-        Host_Start(&host);
-        kiriDefaultSheetDef(&def);
+        START_HOST(host);
+        kiriSheetDef def = DefaultSheet();
         Rectangle shape = MakeShape(&def, &seed);
         def.gridResolution = 4 + (int32_t)(Random(&seed) % 60);
         def.frameCount = 1 + (int32_t)(Random(&seed) % (run % 3 == 0 ? 4 : 90));
@@ -333,10 +321,8 @@ static void NoMoreThanTheHostGave(void** state)
 /* A cut brings frames where it makes some more rigid, and not those that a new sheet might have done with, too. */
 static void FramesWhereCutIs(void** state)
 {
-    kiriSheetDef def;
-    Host host;
-    Host_Start(&host);
-    kiriDefaultSheetDef(&def);
+    START_HOST(host);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = 64; /* where some of 100 frames hold more than their share */
     def.frameCount = 100;
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 64, 64);

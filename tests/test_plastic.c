@@ -19,8 +19,7 @@ static void Strip_Start(Strip* s, int32_t frames, double yieldStress, double har
                                   { { (float)Length, 0.0f }, { (float)Length, (float)Width } } };
     const float none[3] = { 0.0f, 0.0f, 0.0f };
     float points[2 * 32];
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     memset(s, 0, sizeof(*s));
     Host_Start(&s->host);
     s->host.every = 100;
@@ -169,8 +168,7 @@ static void TestEnergy(void** unused)
         }
         work += Strip_Bend(&s, at, goals[leg], 120);
         at = goals[leg];
-        kiriTotals totals;
-        OK(kiriSheet_GetTotals(s.host.world, s.sheet, &totals));
+        kiriTotals totals = World_Totals(s.host.world, s.sheet);
         double stored = 0.5 * stiffness * elastic * elastic, taken = work - totals.elasticEnergy;
         print_message("to %.0f 1/m: elastic %.4e J (law %.4e), taken %.4e J (law %.4e)\n", at, totals.elasticEnergy, stored,
                       taken, lost);
@@ -187,9 +185,8 @@ static void TestStrongIsElastic(void** unused)
     for (int k = 0; k < 2; ++k) {
         Strip_Start(&s[k], 9, k == 0 ? 0.0 : 1e12, 0.1);
         Strip_Bend(&s[k], 0.0, 60.0, 20);
-        kiriCut cut;
         const float from[2] = { 0.012f, -0.001f }, to[2] = { 0.016f, 0.004f };
-        OK(kiriBeginCut(s[k].host.world, s[k].sheet, from, &cut));
+        kiriCut cut = World_BeginCut(s[k].host.world, s[k].sheet, from);
         OK(kiriCut_Extend(s[k].host.world, cut, to, 1));
         OK(kiriCut_End(s[k].host.world, cut));
         OK(kiriDestroyPin(s[k].host.world, s[k].clamps[1]));
@@ -215,14 +212,12 @@ static void TestPiecesKeepTheirShape(void** unused)
     OK(kiriDestroyPin(s.host.world, s.clamps[1]));
     Strip_Rest(&s, 200);
     double theory = Residual(100.0, 0.0), cutAt = 0.0033;
-    kiriCut cut;
     const float from[2] = { -0.001f, (float)cutAt }, to[2] = { (float)Length + 0.001f, (float)cutAt };
-    OK(kiriBeginCut(s.host.world, s.sheet, from, &cut));
+    kiriCut cut = World_BeginCut(s.host.world, s.sheet, from);
     OK(kiriCut_Extend(s.host.world, cut, to, 1));
     OK(kiriCut_End(s.host.world, cut));
     Strip_Rest(&s, 120);
-    kiriCounts counts;
-    OK(kiriSheet_GetCounts(s.host.world, s.sheet, &counts));
+    kiriCounts counts = World_Counts(s.host.world, s.sheet);
     assert_int_equal(counts.pieces, 2);
     assert_true(counts.frames > 12);
     assert_true(fabs(Curvature(&s.host, s.sheet, 0.0, cutAt) / theory - 1.0) < 5e-3);
@@ -233,8 +228,7 @@ static void TestPiecesKeepTheirShape(void** unused)
     int32_t count;
     OK(kiriSheet_GetFrames(s.host.world, s.sheet, frames, 128, &count));
     for (int32_t i = 0; i < count; ++i) {
-        kiriFrameState state;
-        OK(kiriFrame_GetState(s.host.world, frames[i], &state));
+        kiriFrameState state = World_FrameState(s.host.world, frames[i]);
         leaver = state.restPoint[1] > cutAt ? frames[i] : leaver;
     }
     OK(kiriFrame_DetachPiece(s.host.world, leaver, &part));
@@ -260,8 +254,7 @@ static void TestMaterialChanges(void** unused)
     Strip s;
     Strip_Start(&s, 9, 0.0, 0.0);
     Strip_Bend(&s, 0.0, 30.0, 10);
-    kiriSheetSettings settings;
-    OK(kiriSheet_GetSettings(s.host.world, s.sheet, &settings));
+    kiriSheetSettings settings = World_Settings(s.host.world, s.sheet);
     settings.material.yieldStress = (float)Yield;
     OK(kiriSheet_SetSettings(s.host.world, s.sheet, &settings));
     Strip_Bend(&s, 30.0, 100.0, 60);
@@ -283,13 +276,11 @@ static double EnergyOfRoll(double c, double a, double curvature, double yieldStr
     const double size = 0.08;
     const float none[3] = { 0.0f, 0.0f, 0.0f };
     float points[2 * SIDE * SIDE];
-    Host host;
     kiriSheet sheet;
-    kiriSheetDef def;
     kiriFrame frames[SIDE * SIDE];
     int32_t count;
-    kiriDefaultSheetDef(&def);
-    Host_Start(&host);
+    kiriSheetDef def = DefaultSheet();
+    START_HOST(host);
     host.every = 100;
     OK(kiriWorld_SetGravity(host.world, none));
     for (int i = 0; i < SIDE * SIDE; ++i) {
@@ -319,8 +310,7 @@ static double EnergyOfRoll(double c, double a, double curvature, double yieldStr
         }
         OK(Host_Tick(&host, Dt, 2));
     }
-    kiriTotals totals;
-    OK(kiriSheet_GetTotals(host.world, sheet, &totals));
+    kiriTotals totals = World_Totals(host.world, sheet);
     Host_Stop(&host);
     return totals.elasticEnergy;
 }

@@ -1,5 +1,6 @@
 /* Promises of the header that need more than one call: weights and pins while work on a cut waits, events that name
    pieces, the state hash, and ids. */
+#include "defaults.h"
 #include "look.h"
 #include "layout_hash.h"
 
@@ -37,8 +38,7 @@ static int32_t CheckWeights(const Host* host, kiriSheet sheet)
             assert_int_equal(result, KIRI_OK);
             assert_in_range(count, 1, 64);
             for (int32_t k = 0; k < count; ++k) {
-                kiriFrameState state;
-                OK(kiriFrame_GetState(host->world, frames[k], &state));
+                World_FrameState(host->world, frames[k]);
                 sum += weights[k];
             }
             assert_float_equal(sum, 1.0, 1e-5);
@@ -76,10 +76,8 @@ static void TestWhileWorkWaits(void** state)
 {
     for (int32_t stage = KIRI_STAGE_CUT; stage <= KIRI_STAGE_SAMPLES; ++stage) {
         static const kiriBudget tight = { KIRI_LEAST_TRIANGLES, 40, 8, 0 }, none = { 0, 0, 0, 0 };
-        Host host;
-        Host_Start(&host);
-        kiriSheetDef def;
-        kiriDefaultSheetDef(&def);
+        START_HOST(host);
+        kiriSheetDef def = DefaultSheet();
         def.gridResolution = 16;
         def.collisionPoints = 10;
         def.sleepSpeed = 0.0f;
@@ -134,10 +132,8 @@ static void TestLoopOverEvents(void** state)
             { 0, 1, 2 }, { 0, 2, 1 }, { 1, 0, 2 }, { 1, 2, 0 }, { 2, 0, 1 }, { 2, 1, 0 }
         };
         static const float radii[3] = { 0.05f, 0.08f, 0.11f };
-        Host host;
-        Host_Start(&host);
-        kiriSheetDef def;
-        kiriDefaultSheetDef(&def);
+        START_HOST(host);
+        kiriSheetDef def = DefaultSheet();
         def.frameCount = 9;
         kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 16, 16);
         double area = Host_Totals(&host, sheet).area;
@@ -310,8 +306,7 @@ static void TestIdsComeOnce(void** state)
     enum { SHEETS = 600, PINS = 20000 };
     static uint32_t ids[3 * SHEETS + PINS];
     int32_t all = 0;
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheetDef def = TinyDef();
     Rectangle mesh = Rectangle_Make(&def, 1.0f, 1.0f, 1, 1);
     kiriPinDef pin;

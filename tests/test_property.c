@@ -63,11 +63,9 @@ static void RandomCut(Host* host, kiriSheet sheet, uint32_t* seed)
 
 static uint64_t Run(uint32_t seed, bool check)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     host.every = check ? 3 : CUTS; /* to save time */
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = 8;
     def.frameCount = FRAMES;
     def.maxFrames = FRAMES;

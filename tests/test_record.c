@@ -1,6 +1,7 @@
 /* Recordings: what is recorded, and what comes of it when it is replayed. */
 #define _DEFAULT_SOURCE /* for MAP_ANONYMOUS */
 
+#include "defaults.h"
 #include "storm.h"
 #include "tape.h"
 
@@ -89,8 +90,7 @@ static const float middle[2] = { 0.5f, 0.5f };
 static kiriFrame FrameAt(const Tape* tape, kiriSheet sheet, float u, float v)
 {
     const float point[2] = { u, v };
-    kiriPointState state;
-    OK(kiriSheet_GetPoint(tape->host.world, sheet, point, &state));
+    kiriPointState state = World_PointState(tape->host.world, sheet, point);
     return state.frame;
 }
 
@@ -144,10 +144,9 @@ static void HoldAndLoad(Tape* tape, kiriSheet sheet)
     kiriWorld* world = tape->host.world;
     const float force[3] = { 0.01f, 0.0f, 0.02f }, from[2] = { 0.1f, 0.8f }, to[2] = { 0.9f, 0.8f };
     kiriFrame frame = FrameAt(tape, sheet, 0.9f, 0.9f);
-    kiriFrameState state;
     const kiriWind wind = { { 1.0f, 0.5f, 0.2f }, 1.2f, 1.1f, 0.1f };
     kiriContact contact = { -1, { 0.4f, 0.4f }, { 0.0f, 0.0f, 1.0f }, -0.1f, { 0 }, 0.5f, 0.0f, 0.0f, 3 };
-    OK(kiriFrame_GetState(world, frame, &state));
+    kiriFrameState state = World_FrameState(world, frame);
     OK(kiriFrame_Hold(world, frame, state.position, axes));
     OK(kiriFrame_ApplyForce(world, FrameAt(tape, sheet, 0.1f, 0.9f), force, zero));
     OK(kiriSheet_ApplyForce(world, sheet, from, force, zero));
@@ -211,9 +210,8 @@ static kiriObstacle Obstruct(Tape* tape)
     static const float outline[8] = { -1.0f, -1.0f, 1.0f, -1.0f, 1.0f, 1.0f, -1.0f, 1.0f };
     static const float inertia[6] = { 1.0f, 1.0f, 1.0f, 0.0f, 0.0f, 0.0f }, below[3] = { 0.5f, 0.5f, -0.3f };
     kiriWorld* world = tape->host.world;
-    kiriObstacleDef def;
     kiriObstacle obstacle, other;
-    kiriDefaultObstacleDef(&def);
+    kiriObstacleDef def = DefaultObstacle();
     def.type = KIRI_OBSTACLE_PRISM;
     def.outline = outline;
     def.outlineCount = 4;
@@ -249,8 +247,7 @@ static void Change(Tape* tape, kiriSheet sheet)
     kiriWorld* world = tape->host.world;
     const float gravity[3] = { 0.0f, 0.1f, -5.0f }, way[3] = { 0.0f, 0.0f, 0.1f };
     const kiriBudget budget = { 1000, 100000, 100000, 1000 };
-    kiriSheetSettings settings;
-    OK(kiriSheet_GetSettings(world, sheet, &settings));
+    kiriSheetSettings settings = World_Settings(world, sheet);
     settings.friction = 0.25f;
     OK(kiriSheet_SetSettings(world, sheet, &settings));
     OK(kiriWorld_SetGravity(world, gravity));
@@ -271,10 +268,9 @@ static void Refuse(Tape* tape, kiriSheet sheet)
 {
     kiriWorld* world = tape->host.world;
     const float nan[3] = { 0.0f, NAN, 0.0f };
-    kiriSheetDef def;
     kiriSheet made;
     kiriCut cut;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     assert_int_equal(kiriCreateSheet(world, &def, &made), KIRI_ERROR_ARGUMENT);
     def.vertexCount = -1;
     def.restPositions = (const float*)(const void*)&def; /* nobody may read it */

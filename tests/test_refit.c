@@ -1,4 +1,5 @@
 /* A cut that takes effect changes how the sheet is divided, and not how it moves. */
+#include "defaults.h"
 #include "probe.h"
 
 #include "motion/kiri_solver.h"
@@ -76,8 +77,7 @@ static int32_t RandomWay(float way[24][2], bool isCircle, uint32_t* seed)
 /* Random cuts while it flies. */
 static void FlyAndCut(Probe* probe, const Case* c, void record(Probe* probe), uint32_t seed)
 {
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.model = c->model;
     def.planar = c->planar;
     def.gridResolution = c->grid;
@@ -199,8 +199,7 @@ static void TestRigidMotionGoesOn(void** state)
         kiriProfile profile;
         uint32_t seed = 1;
         float way[40][2];
-        kiriSheetDef def;
-        kiriDefaultSheetDef(&def);
+        kiriSheetDef def = DefaultSheet();
         def.model = model;
         def.frameCount = 9;
         Probe_Start(&probe);
@@ -224,11 +223,10 @@ static void TestFarFramesKeepTheirState(void** state)
 {
     static const float way[6] = { -0.1f, 0.1f, 0.1f, 0.13f, 0.15f, -0.1f };
     Probe probe;
-    kiriSheetDef def;
     kiriFrameData before[32];
     uint32_t seed = 5;
     int32_t same = 0, count;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.frameCount = 32;
     Probe_Start(&probe);
     probe.sheet = Host_AddRectangle(&probe.host, &def, 1.0f, 1.0f, 20, 20);
@@ -293,14 +291,13 @@ static void CutWhatSwings(Seen* seen, const kiriSheetDef* def)
     Probe* probe = &seen->probe;
     uint32_t seed = 9;
     float way[30][2];
-    kiriCut cut;
     Probe_Start(probe);
     probe->sheet = Host_AddRectangle(&probe->host, (kiriSheetDef*)def, 1.0f, 1.0f, 16, 16);
     probe->record = CheckSeen;
     seen->jump = seen->longest = seen->pointJump = 0.0;
     Spin(probe, prediction, turn, 2.0, &seed);
     Circle(way, 30, 0.5, 0.45, 0.3);
-    OK(kiriBeginCut(probe->host.world, probe->sheet, way[0], &cut));
+    kiriCut cut = World_BeginCut(probe->host.world, probe->sheet, way[0]);
     for (int32_t tick = 0; tick < 40; ++tick) {
         const kiriSurface* surface = &DataOf(probe)->seen.surface;
         assert_true(surface->vertexCount <= 3000);
@@ -318,8 +315,7 @@ static void CutWhatSwings(Seen* seen, const kiriSheetDef* def)
 static void TestNothingSeenJumps(void** state)
 {
     Seen* seen = malloc(sizeof(Seen));
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.frameCount = 8;
     def.collisionPoints = 40;
     CutWhatSwings(seen, &def);
@@ -373,8 +369,7 @@ static void TestFadesEnd(void** state)
 {
     Host host;
     kiriSheet sheet;
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     StartFading(&host, &def, &sheet);
     kiriFades* fades = &host.world->sheets.data[0]->seen.fades;
     double length = 1e30;
@@ -398,12 +393,10 @@ static void TestStillSheetsAreNotWritten(void** state)
                        spin[3] = { 0.0f, 0.0f, 0.0f };
     static const float away[3] = { 2.0f, 0.0f, 0.0f },
                        upright[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
-    Host host;
-    kiriSheetDef def;
     kiriMesh mesh;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.sleepSpeed = 0.0f;
-    Host_Start(&host);
+    START_HOST(host);
     OK(kiriWorld_SetGravity(host.world, weightless));
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 8, 8);
     const kiriSurface* surface = &host.world->sheets.data[0]->seen.surface;
@@ -426,9 +419,8 @@ static void TestNoSleepBeforeTheEnd(void** state)
 {
     Host host;
     kiriSheet sheet;
-    kiriSheetDef def;
     int32_t awake = 1, ticks = 0;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.sleepSpeed = 1000.0f; /* calm, whatever it does */
     def.fadeTime = 2.0f;
     StartFading(&host, &def, &sheet);
@@ -447,12 +439,10 @@ static void TestDefsThatAreNone(void** state)
         float fadeTime;
         int32_t popping;
     } wrong[] = { { -0.1f, 0 }, { NAN, 0 }, { INFINITY, 0 }, { 0.2f, 2 }, { 0.2f, -1 } };
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     for (size_t k = 0; k < sizeof(wrong) / sizeof(*wrong); ++k) {
         kiriSheet sheet;
-        kiriSheetDef def;
-        kiriDefaultSheetDef(&def);
+        kiriSheetDef def = DefaultSheet();
         def.fadeTime = wrong[k].fadeTime;
         def.paper.popping = wrong[k].popping;
         assert_int_equal(Host_TryRectangle(&host, &def, 1.0f, 1.0f, 4, 4, &sheet), KIRI_ERROR_ARGUMENT);
@@ -463,9 +453,8 @@ static void TestDefsThatAreNone(void** state)
 /* A bent sheet of stiff paper, pushed together between its pins. */
 static kiriSheet BentPaper(Host* host, float poissonsRatio)
 {
-    kiriSheetDef def;
     Host_Start(host);
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.material = (kiriMaterial){ 2e9f, poissonsRatio, 2e-4f, 800.0f, 3.0f, 0.0f, 0.0f, 0.0f, 0 };
     def.gridResolution = 60;
     def.frameCount = 24;

@@ -40,8 +40,7 @@ static void GiveCuts(Stand* s)
     Host_Cut(&s->host, s->sheet, loop, 5);
     OK(kiriCut_Extend(s->host.world, s->cut, line + 4, 2));
     for (int i = 3; i < FULL; ++i) {
-        kiriCut idle;
-        OK(kiriBeginCut(s->host.world, s->sheet, line, &idle));
+        World_BeginCut(s->host.world, s->sheet, line);
     }
 }
 

@@ -1,4 +1,5 @@
 /* Replays of recordings that differ, are damaged, end too early, or meet a lack of memory. */
+#include "defaults.h"
 #include "tape.h"
 
 
@@ -8,12 +9,10 @@
 static void RecordSmall(Tape* tape)
 {
     static const float way[8] = { 0.3f, -0.1f, 0.5f, 0.5f, 0.4f, 0.8f, 0.2f, 1.1f };
-    kiriObstacleDef floor;
-    kiriObstacle obstacle;
     Tape_Start(tape);
-    kiriDefaultObstacleDef(&floor);
+    kiriObstacleDef floor = DefaultObstacle();
     floor.position[2] = -0.01f;
-    OK(kiriCreateObstacle(tape->host.world, &floor, &obstacle));
+    World_AddObstacle(tape->host.world, &floor);
     kiriSheet sheet = Tape_AddSheet(tape, 0.0f);
     Tape_Tick(tape);
     Host_Cut(&tape->host, sheet, way, 4);

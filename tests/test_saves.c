@@ -188,9 +188,8 @@ static void CheckTwins(const Weather* weather, Host* other)
 static void PlayWorld(int32_t world)
 {
     static Weather weather;
-    Host other;
     StartWeather(&weather, world);
-    Host_Start(&other);
+    START_HOST(other);
     int32_t ticks = 4 + (int32_t)Below(&weather.seed, MOST_TICKS);
     for (weather.tick = 0; weather.tick < ticks; ++weather.tick) {
         if (Below(&weather.seed, 3) == 0) {
@@ -216,9 +215,8 @@ static void TestOddMeshes(void** state)
     static Weather weather;
     for (int32_t world = SAVED_LARGE; world < SAVED_WORLDS; ++world) {
         const Saved* saved = Saved_Get(world);
-        Host other;
         Host_Start(&weather.host);
-        Host_Start(&other);
+        START_HOST(other);
         OK(kiriWorld_Load(weather.host.world, saved->later.bytes, saved->later.size));
         weather.storm = saved->storm;
         weather.storm.world = weather.host.world;
@@ -290,8 +288,7 @@ static void StartSmall(Host* host)
     kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, 3, 3);
     const float points[4] = { -0.1f, 0.4f, 1.1f, 0.6f };
     Host_Pin(host, sheet, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f);
-    kiriObstacleDef obstacleDef;
-    kiriDefaultObstacleDef(&obstacleDef);
+    kiriObstacleDef obstacleDef = DefaultObstacle();
     obstacleDef.type = KIRI_OBSTACLE_BOX;
     obstacleDef.size[0] = obstacleDef.size[1] = obstacleDef.size[2] = 0.2f;
     kiriObstacle obstacle;
@@ -478,10 +475,8 @@ static int64_t MostMemory(const Save* good, int32_t number)
 static void TestSmallSavesTakeLittle(void** state)
 {
     static const int32_t numbers[] = { INT32_MAX, 1 << 24, 1 << 16, 5000 };
-    Host host;
-    Host_Start(&host);
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    START_HOST(host);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = 2;
     def.frameCount = 1;
     Host_AddRectangle(&host, &def, 1.0f, 1.0f, 1, 1);

@@ -97,8 +97,7 @@ static Sum SumOf(const Host* host, const Pair* pair)
 {
     Sum sum = { 0 };
     for (int k = 0; k < 2; ++k) {
-        kiriTotals totals;
-        OK(kiriSheet_GetTotals(host->world, k == 0 ? pair->a : pair->b, &totals));
+        kiriTotals totals = World_Totals(host->world, k == 0 ? pair->a : pair->b);
         sum.mass += totals.mass;
         sum.energy += totals.kineticEnergy + totals.elasticEnergy;
         for (int i = 0; i < 3; ++i) {
@@ -113,8 +112,7 @@ static Sum SumOf(const Host* host, const Pair* pair)
 static void Throw(int32_t preset, int32_t framesA, int32_t framesB, int32_t model)
 {
     static const float none[3] = { 0.0f, 0.0f, 0.0f }, velocity[3] = { 0.1f, 0.3f, 1.0f };
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     OK(kiriWorld_SetGravity(host.world, none));
     kiriSheetDef def = Host_SmallDef();
     OK(kiriGetMaterial(preset, &def.material));
@@ -150,9 +148,8 @@ static void TestMomentum(void** state)
 /* A square hangs on another one: they come to rest, sleep, and wake together. */
 static void Hang(int32_t preset, int32_t framesA, int32_t framesB)
 {
-    Host host;
     int32_t awake[2] = { 1, 1 };
-    Host_Start(&host);
+    START_HOST(host);
     host.every = 50;
     kiriSheetDef def = Host_SmallDef();
     OK(kiriGetMaterial(preset, &def.material));
@@ -178,8 +175,7 @@ static void Hang(int32_t preset, int32_t framesA, int32_t framesB)
     for (int32_t tick = 0; tick < 30; ++tick) {
         OK(Host_Tick(&host, dt, 2));
     }
-    kiriTotals fallen;
-    OK(kiriSheet_GetTotals(host.world, pair.b, &fallen));
+    kiriTotals fallen = World_Totals(host.world, pair.b);
     assert_true(fallen.momentum[2] < -fallen.mass);
     Host_Stop(&host);
 }
@@ -196,8 +192,7 @@ static void TestTube(void** state)
 {
     (void)state;
     static const float none[3] = { 0.0f, 0.0f, 0.0f };
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     host.every = 20;
     OK(kiriWorld_SetGravity(host.world, none));
     kiriSheetDef def = Host_SmallDef();
@@ -388,8 +383,7 @@ static void TestPieces(void** state)
 {
     (void)state;
     static const float cut[4] = { -0.1f, 0.23f, 0.6f, 0.23f };
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
     Pair pair = Pair_Make(&host, &def, 9, 9);
     kiriStitch stitches[MOST_STITCHES], now[MOST_STITCHES];
@@ -407,10 +401,9 @@ static void TestPieces(void** state)
     }
     assert_int_equal(Host_Counts(&host, pair.b).pieces, 2);
     assert_true(Gap(&host, pair.seam) < 1e-3);
-    kiriPointState point;
     kiriSheet part;
     const float below[2] = { 0.25f, 0.1f };
-    OK(kiriSheet_GetPoint(host.world, pair.b, below, &point));
+    kiriPointState point = World_PointState(host.world, pair.b, below);
     OK(kiriFrame_DetachPiece(host.world, point.frame, &part));
     assert_int_equal(GetStitches(&host, pair.seam, now), count);
     for (int32_t k = 0; k < count; ++k) {
@@ -439,8 +432,7 @@ static void TestPieces(void** state)
 static void TestBreak(void** state)
 {
     (void)state;
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
     Pair pair = Pair_Make(&host, &def, 9, 9);
     HoldTop(&host, pair.a);
@@ -577,8 +569,7 @@ static void TestMemory(void** state)
 {
     (void)state;
     for (int32_t call = 0; call >= 0; ++call) {
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         kiriSheetDef def = Host_SmallDef();
         Pair pair = Pair_Make(&host, &def, 4, 5);
         kiriSeamDef seam = SeamDef(pair.b, rightEdge, pair.a, leftEdge, 2);
@@ -615,8 +606,7 @@ static void TestArguments(void** state)
     (void)state;
     static const float outside[4] = { 0.5f, 0.0f, 0.7f, 0.5f }, point[4] = { 0.1f, 0.1f, 0.1f, 0.1f };
     static const float bad[4] = { 0.1f, NAN, 0.1f, 0.1f };
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
     Pair pair = Pair_Make(&host, &def, 4, 4);
     def.planar = 1;

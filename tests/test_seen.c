@@ -1,5 +1,6 @@
 /* What a tick does not write anew is seen as if it were: the world is validated after each tick, and that writes all of
    it. */
+#include "defaults.h"
 #include "look.h"
 
 enum { SQUARES = 96, DICE = 12, TICKS = 150 };
@@ -15,8 +16,7 @@ static kiriSheet Dice(Host* host, const Way* way)
 {
     static const float none[3] = { 0.0f, 0.0f, 0.0f };
     kiriBudget budget = { .triangles = 60, .cells = 400, .samples = 60 };
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = 36;
     def.frameCount = 4;
     def.maxFrames = 4096;
@@ -60,8 +60,7 @@ static int32_t CountAsleep(const Host* host, kiriSheet sheet)
 {
     int32_t asleep = 0;
     for (int32_t p = 0; p < Host_Counts(host, sheet).pieces; ++p) {
-        kiriPieceState state;
-        OK(kiriSheet_GetPiece(host->world, sheet, p, &state));
+        kiriPieceState state = World_PieceState(host->world, sheet, p);
         asleep += state.asleep;
     }
     return asleep;
@@ -107,21 +106,18 @@ static void TestAsWrittenAnew(void** state)
         { KIRI_SKINNING_LINEAR, KIRI_MODEL_LINKS, false, true, true },
     };
     for (size_t w = 0; w < sizeof(ways) / sizeof(ways[0]); ++w) {
-        Host host;
         uint32_t seed = 7u + (uint32_t)w;
         int32_t both = 0;
-        Host_Start(&host);
+        START_HOST(host);
         kiriSheet sheet = Dice(&host, &ways[w]);
         if (ways[w].hasObstacle) {
-            kiriObstacleDef def;
-            kiriObstacle ball;
-            kiriDefaultObstacleDef(&def);
+            kiriObstacleDef def = DefaultObstacle();
             def.radius = 0.1f;
             def.position[2] = -0.3f;
             def.velocity[0] = def.velocity[1] = 0.4f;
             def.velocity[2] = 0.2f;
             def.type = KIRI_OBSTACLE_SPHERE;
-            OK(kiriCreateObstacle(host.world, &def, &ball));
+            World_AddObstacle(host.world, &def);
         }
         for (int32_t tick = 0; tick < TICKS; ++tick) {
             if (tick % 4 == 0) {
@@ -144,8 +140,7 @@ static void TestPartsWakeAlone(void** state)
     enum { CUTS = 6 };
     static const float none[3] = { 0.0f, 0.0f, 0.0f }, up[3] = { 0.0f, 0.0f, 0.2f };
     const Way way = { KIRI_SKINNING_LINEAR, KIRI_MODEL_LINKS, false, false, false };
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheet sheet = Dice(&host, &way);
     for (int32_t k = 0; k < CUTS; ++k) {
         float u = (1.5f + (float)k) / DICE, v = (2.5f + (float)k) / DICE;
@@ -197,8 +192,7 @@ static double StrainedShare(const kiriMesh* mesh)
 /* A curtain whose upper corners come together, or a cloth that falls over a ball. */
 static kiriSheet AddCloth(Host* host, int32_t detail, int32_t frames, kiriPin pins[2])
 {
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.material.detail = detail;
     def.frameCount = frames;
     host->every = 20;
@@ -259,11 +253,10 @@ static void TestDetailOnBall(void** state)
     kiriMesh mesh[2];
     int32_t awake = 1;
     for (int32_t i = 0; i < 2; ++i) {
-        kiriObstacleDef def;
         kiriObstacle ball;
         Host_Start(&hosts[i]);
         sheet[i] = AddCloth(&hosts[i], 2 * i, 25, NULL);
-        kiriDefaultObstacleDef(&def);
+        kiriObstacleDef def = DefaultObstacle();
         def.type = KIRI_OBSTACLE_SPHERE;
         def.radius = 0.3f;
         def.position[0] = def.position[1] = 0.5f;

@@ -53,9 +53,8 @@ static void TestHangingSheetSleeps(void** state)
     memcpy(before, mesh.positions, sizeof(before));
     uint64_t hash = Host_Hash(&host);
     for (int k = 0; k < 100; ++k) {
-        kiriProfile profile;
         Tick(&host);
-        OK(kiriWorld_GetProfile(host.world, &profile));
+        kiriProfile profile = World_Profile(host.world);
         assert_int_equal(profile.solverIterations, 0);
     }
     assert_false(IsAwake(&host, sheet));
@@ -101,10 +100,9 @@ static void TestWaitingCutDoesNotWake(void** state)
     enum { SHEETS = 6 };
     static const float from[2] = { 0.3f, 0.41f }, to[2] = { 0.7f, 0.43f };
     const kiriBudget budget = { .triangles = KIRI_LEAST_TRIANGLES, .cells = 40, .samples = 20 };
-    Host host;
     kiriSheet sheets[SHEETS];
     kiriSheetDef def = Host_SmallDef();
-    Host_Start(&host);
+    START_HOST(host);
     OK(kiriWorld_SetGravity(host.world, (const float[3]){ 0.0f, 0.0f, 0.0f }));
     for (int k = 0; k < SHEETS; ++k) {
         sheets[k] = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
@@ -112,16 +110,14 @@ static void TestWaitingCutDoesNotWake(void** state)
     assert_true(TicksToSleep(&host, sheets[SHEETS - 1], 100) < 100);
     OK(kiriWorld_SetBudget(host.world, &budget));
     for (int k = 0; k < SHEETS; ++k) {
-        kiriCut cut;
-        OK(kiriBeginCut(host.world, sheets[k], from, &cut));
+        kiriCut cut = World_BeginCut(host.world, sheets[k], from);
         OK(kiriCut_Extend(host.world, cut, to, 1));
         OK(kiriCut_End(host.world, cut));
     }
     int commits = 0, most = 0;
     for (int tick = 0; tick < 1000 && commits < SHEETS; ++tick) {
-        kiriProfile profile;
         Host_Tick(&host, dt, 2);
-        OK(kiriWorld_GetProfile(host.world, &profile));
+        kiriProfile profile = World_Profile(host.world);
         commits += profile.commits;
         most = profile.commits > most ? profile.commits : most;
         for (int k = 0; k < SHEETS; ++k) {
@@ -176,10 +172,9 @@ static void TestCallsWake(void** state)
         Host host;
         kiriPin pins[2];
         kiriSheet sheet = HangAsleep(&host, pins);
-        kiriProfile profile;
         Perform(&host, sheet, pins, (Call)call);
         Tick(&host);
-        OK(kiriWorld_GetProfile(host.world, &profile));
+        kiriProfile profile = World_Profile(host.world);
         if (IsAwake(&host, sheet) != (call >= TARGET) || (profile.solverIterations > 0) != (call >= TARGET)) {
             fail_msg("call %d", call);
         }
@@ -197,8 +192,7 @@ static void TestHeldSheetSleeps(void** state)
     kiriFrame frames[8];
     int32_t count;
     OK(kiriSheet_GetFrames(host.world, sheet, frames, 8, &count));
-    kiriFrameState at;
-    OK(kiriFrame_GetState(host.world, frames[0], &at));
+    kiriFrameState at = World_FrameState(host.world, frames[0]);
     for (int k = 0; k < 3000 && (k < 2 || IsAwake(&host, sheet)); ++k) {
         OK(kiriFrame_Hold(host.world, frames[0], at.position, at.rotation));
         Tick(&host);

@@ -11,8 +11,7 @@ static void Tick(Host* host)
 
 static kiriPieceState PieceOf(const Host* host, kiriSheet sheet, int32_t piece)
 {
-    kiriPieceState state;
-    OK(kiriSheet_GetPiece(host->world, sheet, piece, &state));
+    kiriPieceState state = World_PieceState(host->world, sheet, piece);
     return state;
 }
 
@@ -41,9 +40,8 @@ static void SleepAll(Host* host, kiriSheet sheet)
 static int32_t StripAt(const Host* host, kiriSheet sheet, int strip)
 {
     const float rest[2] = { ((float)strip + 0.55f) / STRIPS, 0.48f };
-    kiriPointState point;
     int32_t piece;
-    OK(kiriSheet_GetPoint(host->world, sheet, rest, &point));
+    kiriPointState point = World_PointState(host->world, sheet, rest);
     OK(kiriFrame_GetPiece(host->world, point.frame, &piece));
     return piece;
 }
@@ -60,8 +58,7 @@ static uint32_t Bit(const Host* host, kiriSheet sheet, int strip)
 
 static kiriSheetDef StripsDef(void)
 {
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = 16;
     def.frameCount = 8;
     def.maxFrames = 64;
@@ -156,11 +153,10 @@ static void TestWork(void** state)
 {
     kiriSheetDef def = StripsDef();
     kiriProfile profile;
-    Host host;
     def.gridResolution = 40;
     def.frameCount = 200;
     def.maxFrames = 400;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheet sheet = AddStrips(&host, &def);
     Tick(&host);
     OK(kiriWorld_GetProfile(host.world, &profile));
@@ -203,9 +199,8 @@ static void Perform(Host* host, kiriSheet sheet, Call call)
                        eye[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
     static const float at[2] = { 0.6f, 0.48f }, from[2] = { 0.1f, 0.5f }, to[2] = { 0.9f, 0.5f };
     kiriFrame frame = FrameAt(host, sheet, 2);
-    kiriPointState point;
     kiriSheetSettings settings;
-    OK(kiriSheet_GetPoint(host->world, sheet, at, &point));
+    kiriPointState point = World_PointState(host->world, sheet, at);
     kiriContact contact = {
         .point = -1, .restPoint = { at[0], at[1] }, .normal = { 0.0f, 0.0f, 1.0f }, .offset = 0.01f
     };
@@ -259,8 +254,7 @@ static void Perform(Host* host, kiriSheet sheet, Call call)
 static kiriPin PinStrip(Host* host, kiriSheet sheet)
 {
     static const float at[2] = { 0.6f, 0.48f };
-    kiriPointState point;
-    OK(kiriSheet_GetPoint(host->world, sheet, at, &point));
+    kiriPointState point = World_PointState(host->world, sheet, at);
     return Host_Pin(host, sheet, at[0], at[1], point.position[0], point.position[1], point.position[2]);
 }
 
@@ -325,14 +319,13 @@ static void TestContactsOfOnePoint(void** state)
 {
     enum { CONTACTS = 8 };
     static const float slope = 0.6f, rise = 0.8f, down[3] = { 0.0f, 0.0f, -9.81f };
-    Host host;
     kiriContact contacts[CONTACTS];
     const kiriContactForce* told;
     kiriSheetDef def = Host_SmallDef();
     int32_t count;
     def.framePoints = NULL;
     def.frameCount = 1;
-    Host_Start(&host);
+    START_HOST(host);
     OK(kiriWorld_SetGravity(host.world, down));
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 8, 8);
     memset(contacts, 0, sizeof(contacts));
@@ -396,9 +389,8 @@ static void TestCutWakesItsPiece(void** state)
 
 static kiriObstacle AddBall(Host* host, float u, float v, float z, float up)
 {
-    kiriObstacleDef def;
     kiriObstacle ball;
-    kiriDefaultObstacleDef(&def);
+    kiriObstacleDef def = DefaultObstacle();
     def.type = KIRI_OBSTACLE_SPHERE;
     def.radius = 0.03f;
     def.position[0] = u;
@@ -483,10 +475,9 @@ static void TestObstacleBesideGone(void** state)
     for (int run = 0; run < 12; ++run) {
         int place = run % 3;
         bool isMoving = run / 3 % 2 == 0, detaches = run >= 6;
-        Host host;
         kiriSheet part;
         kiriSheetDef def = StripsDef();
-        Host_Start(&host);
+        START_HOST(host);
         host.every = 8;
         kiriSheet sheet = AddFineStrips(&host, &def, 68);
         if (detaches) {
@@ -510,17 +501,14 @@ static void TestObstacleBesideGone(void** state)
 static void TestFloorBearsSleepers(void** state)
 {
     static const float down[3] = { 0.0f, 0.0f, -9.81f };
-    Host host;
     kiriSheetDef def = StripsDef();
-    kiriObstacleDef floorDef;
-    kiriObstacle floor;
     kiriObstacleState felt;
     def.position[2] = 0.001f;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheet sheet = AddStrips(&host, &def);
-    kiriDefaultObstacleDef(&floorDef);
+    kiriObstacleDef floorDef = DefaultObstacle();
     floorDef.type = KIRI_OBSTACLE_PLANE;
-    OK(kiriCreateObstacle(host.world, &floorDef, &floor));
+    kiriObstacle floor = World_AddObstacle(host.world, &floorDef);
     OK(kiriWorld_SetGravity(host.world, down));
     double weight = 9.81 * Host_Totals(&host, sheet).mass;
     for (int k = 0; k < 240; ++k) {
@@ -547,15 +535,13 @@ static void TestWhatSleepersPressWith(void** state)
 {
     static const float down[3] = { 0.0f, 0.0f, -9.81f }, eye[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
     float at[3] = { 0.5f, 0.5f, -0.1f };
-    Host host;
     kiriSheetDef def = StripsDef();
-    kiriObstacleDef tableDef;
     kiriObstacle table;
     kiriObstacleState is[3];
     def.position[2] = 0.001f;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheet sheet = AddStrips(&host, &def);
-    kiriDefaultObstacleDef(&tableDef);
+    kiriObstacleDef tableDef = DefaultObstacle();
     tableDef.type = KIRI_OBSTACLE_BOX;
     tableDef.size[0] = tableDef.size[1] = 3.0f;
     tableDef.size[2] = 0.2f;
@@ -592,17 +578,15 @@ static void TestPiecesThatTouch(void** state)
         float velocity[3];
         int ticks;
     } ways[] = { { { 0.0f, 0.0f, 0.6f }, 6 }, { { 1.0f, 0.0f, 0.0f }, 15 }, { { 0.0f, 0.0f, 0.0f }, 1 } };
-    Host host;
     kiriSheetDef def = StripsDef();
-    kiriObstacleDef floorDef;
     kiriObstacle floor;
     def.material.airDamping = 0.5f;
     def.touchesSheets = 1;
     def.contactThickness = 0.01f;
     def.position[2] = 0.005f;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheet sheet = AddStrips(&host, &def);
-    kiriDefaultObstacleDef(&floorDef);
+    kiriObstacleDef floorDef = DefaultObstacle();
     floorDef.type = KIRI_OBSTACLE_PLANE;
     OK(kiriCreateObstacle(host.world, &floorDef, &floor));
     for (size_t i = 0; i < sizeof(ways) / sizeof(ways[0]); ++i) {

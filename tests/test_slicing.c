@@ -36,9 +36,8 @@ static void NothingToFinish(void* user, void* handle)
 
 static void HangBanner(Game* game, int i)
 {
-    kiriSheetDef def;
     kiriPin pin;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     kiriGetMaterial(i % 2 == 0 ? KIRI_MATERIAL_PAPER : KIRI_MATERIAL_COTTON, &def.material);
     def.material.airDamping = 2.0f;
     def.gridResolution = 8;
@@ -58,11 +57,9 @@ static void HangBanner(Game* game, int i)
 
 static void AddObstacles(Game* game)
 {
-    kiriObstacleDef def;
-    kiriObstacle id;
-    kiriDefaultObstacleDef(&def);
+    kiriObstacleDef def = DefaultObstacle();
     def.type = KIRI_OBSTACLE_PLANE;
-    OK(kiriCreateObstacle(game->host.world, &def, &id));
+    kiriObstacle id = World_AddObstacle(game->host.world, &def);
     def.type = KIRI_OBSTACLE_BOX;
     def.size[0] = def.size[1] = 0.4f;
     def.size[2] = 0.3f;

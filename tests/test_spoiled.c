@@ -47,8 +47,7 @@ static void StartCut(Host* host)
 /* The world of the host is spoiled, and then what it was again. */
 static void CheckRefused(Host* host, const Spoiler* spoiler)
 {
-    Host other;
-    Host_Start(&other);
+    START_HOST(other);
     SavedBytes good = Save(host);
     spoiler->spoil(host->world->sheets.data[0]);
     SavedBytes bad = Save(host);

@@ -58,8 +58,7 @@ static void Start(Curtain* curtain, int32_t motion, uint32_t seed)
     if (motion == STILL) {
         OK(kiriWorld_SetGravity(curtain->host.world, noGravity));
     }
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     int32_t grid = squares[(Random(&curtain->seed) >> 8) % 4];
     def.gridResolution = grid;
     def.frameCount = 9;
@@ -97,8 +96,7 @@ static Areas Look(const Curtain* curtain)
     Areas areas = { Host_Counts(&curtain->host, curtain->sheet).pieces, 1.0, 0.0 };
     double most = 0.0;
     for (int32_t i = 0; i < areas.pieces; ++i) {
-        kiriPieceState piece;
-        OK(kiriSheet_GetPiece(curtain->host.world, curtain->sheet, i, &piece));
+        kiriPieceState piece = World_PieceState(curtain->host.world, curtain->sheet, i);
         areas.least = fmin(areas.least, piece.area);
         areas.second = fmax(areas.second, fmin(most, piece.area));
         most = fmax(most, piece.area);

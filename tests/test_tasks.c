@@ -94,9 +94,8 @@ static void Team_Stop(Team* team)
 
 static kiriObstacle AddBody(Team* team, int32_t type, const float position[3], float mass, uint32_t body)
 {
-    kiriObstacleDef def;
     kiriObstacle obstacle = 0;
-    kiriDefaultObstacleDef(&def);
+    kiriObstacleDef def = DefaultObstacle();
     def.type = type;
     def.radius = 0.2f;
     memcpy(def.position, position, sizeof(def.position));
@@ -149,8 +148,7 @@ static void Build(Team* team)
 static void MoveBodies(Team* team, float dt)
 {
     for (int32_t i = 1; i < BODIES; ++i) {
-        kiriObstacleState state;
-        OK(kiriObstacle_GetState(team->host.world, team->bodies[i], &state));
+        kiriObstacleState state = World_ObstacleState(team->host.world, team->bodies[i]);
         for (int k = 0; k < 3; ++k) {
             state.velocity[k] += (float)state.impulse[k] / 0.4f - (k == 2 ? 9.81f * dt : 0.0f);
         }
@@ -220,8 +218,7 @@ static int64_t Compare(int32_t workers, const kiriBudget* budget, int32_t ticks)
         Do(&alone, tick);
         assert_int_equal(Host_Tick(&team.host, 0.01f, 2), Host_Tick(&alone.host, 0.01f, 2));
         CompareWorlds(&team, &alone);
-        kiriProfile profile;
-        OK(kiriWorld_GetProfile(team.host.world, &profile));
+        kiriProfile profile = World_Profile(team.host.world);
         contacts += profile.contacts;
     }
     assert_int_equal(alone.started, 0);

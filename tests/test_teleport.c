@@ -51,8 +51,7 @@ static void AddPin(Scene* scene, float u, float v)
 
 static void AddBox(Scene* scene)
 {
-    kiriObstacleDef def;
-    kiriDefaultObstacleDef(&def);
+    kiriObstacleDef def = DefaultObstacle();
     def.type = KIRI_OBSTACLE_BOX;
     def.size[0] = def.size[1] = def.size[2] = 0.1f;
     def.groups = 0;
@@ -65,8 +64,7 @@ static void Start(Scene* scene, int kind, int model, int skinning)
     int32_t count;
     memset(scene, 0, sizeof(*scene));
     Host_Start(&scene->host);
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = 12;
     def.frameCount = 8;
     def.position[2] = 1.0f;
@@ -116,8 +114,7 @@ static void SetAll(Scene* scene, const Motion* motion, const kiriPinState* pins)
         OK(kiriFrame_Hold(scene->host.world, scene->held, place, axes));
     }
     if (scene->obstacle != 0) {
-        kiriObstacleState state;
-        OK(kiriObstacle_GetState(scene->host.world, scene->obstacle, &state));
+        kiriObstacleState state = World_ObstacleState(scene->host.world, scene->obstacle);
         MovePlace(motion, state.position, place);
         TurnAxes(motion, state.rotation, axes);
         OK(kiriObstacle_SetPose(scene->host.world, scene->obstacle, place, axes));
@@ -266,13 +263,11 @@ static void From(const Everything* all, float x, float y, float z, float place[3
 
 static kiriObstacle AddObstacle(Everything* all, int32_t type, float x, float y, float z)
 {
-    kiriObstacleDef def;
-    kiriObstacle obstacle;
-    kiriDefaultObstacleDef(&def);
+    kiriObstacleDef def = DefaultObstacle();
     def.type = type;
     def.radius = 0.2f;
     From(all, x, y, z, def.position);
-    OK(kiriCreateObstacle(all->host.world, &def, &obstacle));
+    kiriObstacle obstacle = World_AddObstacle(all->host.world, &def);
     return obstacle;
 }
 
@@ -281,9 +276,8 @@ enum { TOUCHES = 1, SMOOTH = 2, AFFINE = 4, SLEEPS = 8, PLANAR = 16 };
 
 static kiriSheet AddSheet(Everything* all, float x, float y, float z, int how)
 {
-    kiriSheetDef def;
     kiriSheet sheet;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = 12;
     def.frameCount = 6;
     def.collisionPoints = 8;

@@ -18,8 +18,7 @@ static const float Length = 0.2f, Width = 0.05f;
 
 static kiriSheetDef DefOfStrip(const StripDef* d)
 {
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     OK(kiriGetMaterial(KIRI_MATERIAL_PAPER, &def.material));
     def.material.poissonsRatio = 0.0f;
     def.material.airDamping = 2.0f;
@@ -34,8 +33,7 @@ static kiriSheetDef DefOfStrip(const StripDef* d)
 
 static void Hold(Strip* s, int32_t frame)
 {
-    kiriFrameState state;
-    OK(kiriFrame_GetState(s->host.world, s->frames[frame], &state));
+    kiriFrameState state = World_FrameState(s->host.world, s->frames[frame]);
     OK(kiriFrame_Hold(s->host.world, s->frames[frame], state.position, state.rotation));
 }
 
@@ -137,10 +135,9 @@ static void TestTorqueAtRest(void** state)
         Strip s;
         Strip_Start(&s, &d, None);
         for (int tick = 0; tick < 720; ++tick) {
-            kiriProfile profile;
             OK(kiriFrame_ApplyForce(s.host.world, s.frames[frames - 1], None, torque));
             OK(Host_Tick(&s.host, 1.0f / 60.0f, 1));
-            OK(kiriWorld_GetProfile(s.host.world, &profile));
+            kiriProfile profile = World_Profile(s.host.world);
             assert_true(tick < 600 || profile.systemsSolved == 2);
         }
         Host_Stop(&s.host);
@@ -176,8 +173,7 @@ static void Kick(Pendulum* p, double spin)
     const float dt = 1e-4f;
     kiriWorld* world = p->strip.host.world;
     for (int32_t i = 0; i < p->strip.frameCount; ++i) {
-        kiriFrameState state;
-        OK(kiriFrame_GetState(world, p->strip.frames[i], &state));
+        kiriFrameState state = World_FrameState(world, p->strip.frames[i]);
         double size = (double)Length / p->strip.frameCount, inertia = (double)state.mass * size * size / 12.0;
         float force[3] = { -state.mass * (float)spin * state.position[2] / dt, 0.0f, 0.0f };
         float torque[3] = { 0.0f, (float)(-inertia * spin) / dt, 0.0f };
@@ -263,10 +259,9 @@ static void Sag(int timeStepping, int substeps, double tip[3])
     Strip s;
     const StripDef d = { .frames = 5, .youngsModulus = 2e9f };
     const float down[3] = { 0.0f, 0.0f, -9.81f };
-    kiriFrameState state;
     Strip_StartWith(&s, &d, down, timeStepping);
     Host_Ticks(&s.host, 24, 1.0f / 60.0f, substeps);
-    OK(kiriFrame_GetState(s.host.world, s.frames[4], &state));
+    kiriFrameState state = World_FrameState(s.host.world, s.frames[4]);
     for (int k = 0; k < 3; ++k) {
         tip[k] = (double)state.position[k];
     }

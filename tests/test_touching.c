@@ -119,11 +119,9 @@ static void Start(Touching* t, int layout, int way, uint32_t seed)
                                (float[]){ (float)size, (float)size }, &pin));
     }
     if (way == ON_A_FLOOR) {
-        kiriObstacleDef floorDef;
-        kiriObstacle floor;
-        kiriDefaultObstacleDef(&floorDef);
+        kiriObstacleDef floorDef = DefaultObstacle();
         floorDef.type = KIRI_OBSTACLE_PLANE;
-        OK(kiriCreateObstacle(t->host.world, &floorDef, &floor));
+        World_AddObstacle(t->host.world, &floorDef);
     }
     OK(Host_Tick(&t->host, dt, 1));
     switch (layout) {
@@ -153,8 +151,7 @@ static void Look(Touching* t, int tick)
     t->most = tick == 0 || energy > t->most ? energy : t->most;
     t->moving = tick == 0 || moving > t->moving ? moving : t->moving;
     for (int32_t i = 0; i < t->pieces; ++i) {
-        kiriPieceState piece;
-        OK(kiriSheet_GetPiece(t->host.world, t->sheet, i, &piece));
+        kiriPieceState piece = World_PieceState(t->host.world, t->sheet, i);
         double squared = 0.0;
         for (int a = 0; a < 3; ++a) {
             squared += piece.momentum[a] * piece.momentum[a];
@@ -223,8 +220,7 @@ static void TestSideBySideRests(void** state)
     t.host.every = 20;
     t.way = RESTING;
     OK(kiriWorld_SetGravity(t.host.world, none));
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.touchesSheets = 1;
     t.sheet = Host_AddRectangle(&t.host, &def, (float)size, (float)size, 48, 48);
     for (int i = 1; i < SIDE; ++i) {
@@ -246,15 +242,13 @@ static void Meet(double off, double width, bool isUpwards)
 {
     static const float none[3] = { 0.0f, 0.0f, 0.0f };
     const float velocity[3] = { 0.0f, 0.0f, isUpwards ? 1.0f : -1.0f };
-    Host host;
     kiriSheet sheets[2];
     double first = 0.0, due = 0.0;
-    Host_Start(&host);
+    START_HOST(host);
     host.every = 20;
     OK(kiriWorld_SetGravity(host.world, none));
     for (int i = 0; i < 2; ++i) {
-        kiriSheetDef def;
-        kiriDefaultSheetDef(&def);
+        kiriSheetDef def = DefaultSheet();
         kiriGetMaterial(KIRI_MATERIAL_PAPER, &def.material);
         def.material.airDamping = 0.0f;
         def.touchesSheets = 1;
@@ -300,19 +294,16 @@ static void TestScarceMemory(void** state)
         memset(&t, 0, sizeof(t));
         Host_Start(&t.host);
         for (int i = 0; i < 4; ++i) {
-            kiriSheetDef def;
-            kiriDefaultSheetDef(&def);
+            kiriSheetDef def = DefaultSheet();
             def.touchesSheets = 1;
             def.gridResolution = 8;
             def.contactThickness = 0.004f;
             def.position[2] = 0.01f * (float)(i + 1);
             t.sheet = Host_AddRectangle(&t.host, &def, 0.2f, 0.2f, 8, 8);
         }
-        kiriObstacleDef floorDef;
-        kiriObstacle floor;
-        kiriDefaultObstacleDef(&floorDef);
+        kiriObstacleDef floorDef = DefaultObstacle();
         floorDef.type = KIRI_OBSTACLE_PLANE;
-        OK(kiriCreateObstacle(t.host.world, &floorDef, &floor));
+        World_AddObstacle(t.host.world, &floorDef);
         for (int tick = 0; tick < 240 && awake; ++tick) {
             t.host.failEvery = tick < 40 ? every : 0;
             kiriResult result = kiriWorld_Tick(t.host.world, dt, 2);

@@ -15,8 +15,7 @@ static void CutDice(Host* host, kiriSheet sheet)
 
 static kiriSheet AddSheet(Host* host, const float position[3], int32_t skinning, int32_t frames, int32_t squares)
 {
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = 28;
     def.frameCount = frames;
     def.maxFrames = 1000;
@@ -59,8 +58,7 @@ static int32_t GetFrames(const Host* host, kiriSheet sheet, kiriFrame* frames, k
 
 static int32_t SystemsOf(const Host* host)
 {
-    kiriProfile profile;
-    OK(kiriWorld_GetProfile(host->world, &profile));
+    kiriProfile profile = World_Profile(host->world);
     return profile.solverIterations;
 }
 
@@ -172,12 +170,10 @@ static void TestSheetsTakeTurns(void** state)
 
 static kiriObstacle AddFloor(Host* host)
 {
-    kiriObstacleDef def;
-    kiriObstacle obstacle;
-    kiriDefaultObstacleDef(&def);
+    kiriObstacleDef def = DefaultObstacle();
     def.type = KIRI_OBSTACLE_PLANE;
     def.position[2] = -0.05f;
-    OK(kiriCreateObstacle(host->world, &def, &obstacle));
+    kiriObstacle obstacle = World_AddObstacle(host->world, &def);
     return obstacle;
 }
 
@@ -185,15 +181,12 @@ static kiriObstacle AddFloor(Host* host)
    in the tick of the cut or later. Host_Tick looks. */
 static void CutWhileWaiting(int32_t skinning, float x, float fadeTime, int32_t cells)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheet sheet = AddSheet(&host, (const float[3]){ x, 0.0f, 0.0f }, skinning, 6, 56);
-    kiriSheetSettings settings;
-    kiriPin pin;
-    OK(kiriSheet_GetSettings(host.world, sheet, &settings));
+    kiriSheetSettings settings = World_Settings(host.world, sheet);
     settings.fadeTime = fadeTime;
     OK(kiriSheet_SetSettings(host.world, sheet, &settings));
-    OK(kiriSheet_ClampLine(host.world, sheet, (const float[2]){ 0.0f, 1.0f }, (const float[2]){ 1.0f, 1.0f }, &pin));
+    World_Clamp(host.world, sheet, (const float[2]){ 0.0f, 1.0f }, (const float[2]){ 1.0f, 1.0f });
     const kiriBudget budget = { .triangles = 0, .cells = cells, .samples = cells, .iterations = 1 };
     OK(kiriWorld_SetBudget(host.world, &budget));
     for (int tick = 0; tick < 60; ++tick) {

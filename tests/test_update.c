@@ -74,8 +74,7 @@ typedef struct Case {
 
 static kiriSheetDef DefOf(const Case* c)
 {
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = c->grid;
     def.frameCount = c->frames;
     def.frameLength = 0.3f;
@@ -104,8 +103,7 @@ static void HoldLines(Host* host, kiriSheet sheet)
 {
     static const float edge[4] = { 0.0f, 0.0f, 0.0f, 1.0f }, through[4] = { 0.3f, 0.93f, 0.97f, 0.52f };
     static const float across[4] = { 0.23f, 0.1f, 0.81f, 0.24f };
-    kiriPin pin;
-    OK(kiriSheet_ClampLine(host->world, sheet, edge, edge + 2, &pin));
+    kiriPin pin = World_Clamp(host->world, sheet, edge, edge + 2);
     OK(kiriSheet_HingeLine(host->world, sheet, through, through + 2, &pin));
     OK(kiriSheet_ClampLine(host->world, sheet, across, across + 2, &pin));
 }
@@ -208,8 +206,7 @@ static double ShareOf(int32_t items, int32_t limit)
 /* Work on cuts shares a tick. */
 static void CheckBudget(const Host* host, const kiriBudget* budget)
 {
-    kiriProfile profile;
-    OK(kiriWorld_GetProfile(host->world, &profile));
+    kiriProfile profile = World_Profile(host->world);
     assert_true(budget->triangles == 0 || profile.trianglesSplit <= budget->triangles);
     assert_true(budget->cells == 0 || profile.cellsSettled <= budget->cells);
     assert_true(budget->samples == 0 || profile.samplesRefreshed <= budget->samples);
@@ -382,8 +379,7 @@ static void TestBladeFasterThanItsBudget(void** state)
 
 static void TestBudgetsThatAreNone(void** state)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriBudget few = { .triangles = KIRI_LEAST_TRIANGLES - 1, .cells = 0, .samples = 0, .iterations = 0 };
     kiriBudget below = { .triangles = 0, .cells = -1, .samples = 0, .iterations = 0 };
     assert_int_equal(kiriWorld_SetBudget(host.world, &few), KIRI_ERROR_ARGUMENT);
@@ -426,8 +422,7 @@ static void TestBudgetFromTime(void** state)
    is how many there are. */
 static uint64_t LayoutAfterCut(uint32_t seed, int32_t changeAt, int32_t* ticks)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
     def.framePoints = NULL;
     def.frameCount = 20;
@@ -444,8 +439,7 @@ static uint64_t LayoutAfterCut(uint32_t seed, int32_t changeAt, int32_t* ticks)
         OK(kiriWorld_SetBudget(host.world, isShape ? &few : &some));
         *ticks += isShape;
         if (*ticks == changeAt) {
-            kiriSheetSettings settings;
-            OK(kiriSheet_GetSettings(host.world, sheet, &settings));
+            kiriSheetSettings settings = World_Settings(host.world, sheet);
             settings.material.density *= 2.0f;
             OK(kiriSheet_SetSettings(host.world, sheet, &settings));
             changeAt = 0;

@@ -524,9 +524,8 @@ static void PinsWhileTheMeshIsCut(void** state)
 {
     const float line[4] = { 0.05f, 0.47f, 0.95f, 0.53f };
     const kiriBudget budget = { KIRI_LEAST_TRIANGLES, 0, 0, 0 };
-    Host host;
     int32_t frames[400];
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 8, 8);
     OK(kiriWorld_SetBudget(host.world, &budget));
@@ -541,10 +540,9 @@ static void PinsWhileTheMeshIsCut(void** state)
 static void PinsAfterATickWithoutMemory(void** state)
 {
     const float line[4] = { 0.05f, 0.47f, 0.95f, 0.53f };
-    Host host;
     int32_t frames[400];
     kiriResult result = KIRI_ERROR_MEMORY;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 8, 8);
     Host_Cut(&host, sheet, line, 2);
@@ -563,9 +561,8 @@ static void ResamplingComesToAnEnd(void** state)
 {
     const float line[4] = { 0.625f, -0.1f, 0.625f, 1.1f };
     const kiriBudget budget = { 0, 2000, 0, 0 };
-    Host host;
     kiriResult result = KIRI_PENDING;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
     def.gridResolution = 4;
     def.framePoints = NULL;

@@ -39,8 +39,7 @@ static void TakePiece(Host* host, uint32_t* seed)
     kiriSheet sheet = AnySheet(host, seed), made;
     uint32_t piece = Random(seed), draw = Random(seed);
     int32_t pieces = Host_Counts(host, sheet).pieces;
-    kiriPieceState state;
-    OK(kiriSheet_GetPiece(host->world, sheet, (int32_t)(piece % (uint32_t)pieces), &state));
+    kiriPieceState state = World_PieceState(host->world, sheet, (int32_t)(piece % (uint32_t)pieces));
     if (pieces == 1 || state.frames == 0) {
         return;
     }
@@ -66,8 +65,7 @@ static void Start(Host* host, uint32_t run)
     host->every = 16;
     for (int32_t sheets = 1 + (int32_t)(run % 2); sheets > 0; --sheets) {
         int32_t squares = run % 8 == 7 ? 72 : 6 + (int32_t)(Random(&seed) % 14);
-        kiriSheetDef def;
-        kiriDefaultSheetDef(&def);
+        kiriSheetDef def = DefaultSheet();
         def.gridResolution = 8 + (int32_t)(Random(&seed) % 16);
         def.frameCount = 3 + (int32_t)(Random(&seed) % 5);
         def.maxFrames = 64;
@@ -77,8 +75,7 @@ static void Start(Host* host, uint32_t run)
         def.model = run % 7 == 6 ? KIRI_MODEL_AFFINE : KIRI_MODEL_LINKS;
         def.position[2] = (float)sheets;
         kiriSheet sheet = Host_AddRectangle(host, &def, 1.0f, 1.0f, squares, squares);
-        kiriPin clamp;
-        OK(kiriSheet_ClampLine(host->world, sheet, (float[]){ 0.0f, 1.0f }, (float[]){ 1.0f, 1.0f }, &clamp));
+        World_Clamp(host->world, sheet, (float[]){ 0.0f, 1.0f }, (float[]){ 1.0f, 1.0f });
         Host_Cut(host, sheet, (float[]){ -0.1f, 0.431f, 1.1f, 0.522f }, 2);
         Host_Cut(host, sheet, (float[]){ 0.47f, -0.1f, 0.52f, 0.6f }, 2);
     }
@@ -184,14 +181,12 @@ static kiriResult TickRefused(Host* host, int64_t from, bool once)
    leaves, and the host hears of it once. */
 static void RunStarved(int32_t squares, int32_t from, int64_t request)
 {
-    Host host;
     kiriSheet sheet, part;
     int32_t detached = 0;
     kiriBudget budget = { 0, 0, 60, 0 };
-    Host_Start(&host);
+    START_HOST(host);
     host.every = 16;
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = 24;
     def.frameCount = 3;
     def.maxFrames = 8;

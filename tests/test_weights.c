@@ -51,10 +51,8 @@ static void LinearBetweenTwoFrames(void** state)
         const float points[4] = { 4.5f / 36, 0.125f, ((float)last + 0.5f) / 36, 0.125f };
         const double length = (last - 4) / 36.0;
         kiriFrame frames[2];
-        kiriSheetDef def;
-        Host host;
-        Host_Start(&host);
-        kiriDefaultSheetDef(&def);
+        START_HOST(host);
+        kiriSheetDef def = DefaultSheet();
         def.gridResolution = 36;
         kiriSheet sheet = AddSheet(&host, &def, points, 2, 1.0, 0.25, frames);
         for (int i = 0; i <= 50; ++i) {
@@ -79,10 +77,8 @@ static void WeightsEndAtTheSlit(void** state)
 {
     static const float points[8] = { 0.3f, 0.15f, 0.7f, 0.15f, 0.3f, 0.7f, 0.7f, 0.7f }, slit[4] = { 0.5f, -0.1f, 0.5f, 0.8f };
     kiriFrame frames[4];
-    kiriSheetDef def;
-    Host host;
-    Host_Start(&host);
-    kiriDefaultSheetDef(&def);
+    START_HOST(host);
+    kiriSheetDef def = DefaultSheet();
     def.gridResolution = 41;
     kiriSheet sheet = AddSheet(&host, &def, points, 4, 1.0, 1.0, frames);
     Host_Cut(&host, sheet, slit, 2);
@@ -125,13 +121,11 @@ static void EasedWeightsFollowLinearOnes(void** state)
     int32_t near = 0, all = 0;
     for (uint32_t seed = 1; seed <= 12; ++seed) {
         uint32_t random = 2654435761u * seed;
-        Host host;
         kiriSheet sheets[2];
-        Host_Start(&host);
+        START_HOST(host);
         for (int k = 0; k < 2; ++k) {
             uint32_t cuts = random;
-            kiriSheetDef def;
-            kiriDefaultSheetDef(&def);
+            kiriSheetDef def = DefaultSheet();
             def.gridResolution = 10 + (int32_t)seed;
             def.frameCount = FRAMES_OF_RANDOM;
             def.paper.linearWeights = k;
@@ -179,8 +173,7 @@ static void Blend(const Host* host, const Weights* w, const float rest[2], doubl
 {
     x[0] = x[1] = x[2] = 0.0;
     for (int32_t k = 0; k < w->count; ++k) {
-        kiriFrameState f;
-        OK(kiriFrame_GetState(host->world, w->frames[k], &f));
+        kiriFrameState f = World_FrameState(host->world, w->frames[k]);
         for (int a = 0; a < 3; ++a) {
             double u = (double)rest[0] - f.restPoint[0], v = (double)rest[1] - f.restPoint[1];
             x[a] += w->value[k] * (f.position[a] + u * f.rotation[a] + v * f.rotation[3 + a]);
@@ -219,11 +212,9 @@ static void SurfaceIsTheBlend(void** state)
     int32_t checked = 0, all = 0;
     for (uint32_t seed = 1; seed <= 8; ++seed) {
         uint32_t random = 2654435761u * seed;
-        Host host;
-        kiriSheetDef def;
         kiriPin pin;
-        Host_Start(&host);
-        kiriDefaultSheetDef(&def);
+        START_HOST(host);
+        kiriSheetDef def = DefaultSheet();
         def.gridResolution = 12;
         def.frameCount = FRAMES_OF_RANDOM;
         def.model = seed % 3 == 2 ? KIRI_MODEL_AFFINE : KIRI_MODEL_LINKS;
@@ -273,19 +264,16 @@ static void FramesAreSpread(void** state)
     static const int32_t counts[5] = { 1, 2, 5, 16, 47 };
     for (int k = 0; k < 5; ++k) {
         kiriFrame frames[MOST];
-        kiriSheetDef def;
-        Host host;
         int32_t count;
-        Host_Start(&host);
-        kiriDefaultSheetDef(&def);
+        START_HOST(host);
+        kiriSheetDef def = DefaultSheet();
         def.gridResolution = 48;
         def.frameCount = counts[k];
         kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 0.7f, 8, 8);
         OK(kiriSheet_GetFrames(host.world, sheet, frames, MOST, &count));
         assert_int_equal(count, counts[k]);
         for (int32_t i = 0; i < count; ++i) {
-            kiriFrameState f;
-            OK(kiriFrame_GetState(host.world, frames[i], &f));
+            kiriFrameState f = World_FrameState(host.world, frames[i]);
             double share = (double)f.area * count / 0.7;
             assert_true(share > 0.6 && share < 1.6);
             assert_true(count > 1 || (fabs(f.restPoint[0] - 0.5) < 0.02 && fabs(f.restPoint[1] - 0.35) < 0.02));

@@ -1,4 +1,5 @@
 /* How a world behaves, seen through the public header alone. */
+#include "defaults.h"
 #include "look.h"
 
 static const float eye[9] = { 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f };
@@ -79,8 +80,7 @@ static void SheetsAreApart(void** state)
         assert_true(Host_Counts(&host, sheets[0]).pieces == 2 && Host_Counts(&host, sheets[2]).pieces == 1);
         for (int i = 0; i < 3; ++i) {
             float point[2] = { 0.5f, 0.5f };
-            kiriCut open;
-            OK(kiriBeginCut(host.world, sheets[orders[order][i]], point, &open));
+            World_BeginCut(host.world, sheets[orders[order][i]], point);
             OK(kiriDestroySheet(host.world, sheets[orders[order][i]]));
             Tick(&host, 0.01f, 1);
         }
@@ -95,13 +95,12 @@ static void HashSeesAll(void** state)
     uint64_t hashes[9];
     int same = 0;
     for (int what = 0; what < 9; ++what) {
-        Host host;
         kiriSheetDef def = Host_SmallDef();
         float v[3] = { 0.0f, 0.0f, 1.0f }, up[3] = { 0.0f, 0.0f, 2.0f };
         float turned[9] = { 0.0f, 1.0f, 0.0f, -1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f };
         kiriFrame frame;
         int32_t count;
-        Host_Start(&host);
+        START_HOST(host);
         def.material.youngsModulus *= what == 3 ? 2.0f : 1.0f;
         def.material.airDamping += what == 4 ? 1.0f : 0.0f;
         def.iterations += what == 5;
@@ -129,8 +128,7 @@ static void HashSeesAll(void** state)
 
 static void FreeFall(void** state)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
     const float gravity[3] = { 0.5f, -0.25f, -9.81f }, dt = 0.0123f;
     def.material.airDamping = 0.0f;
@@ -168,8 +166,7 @@ static void FreeFall(void** state)
 
 static void AirDampingFades(void** state)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
     const float zero[3] = { 0.0f, 0.0f, 0.0f };
     def.material.airDamping = 2.0f;
@@ -186,8 +183,7 @@ static void AirDampingFades(void** state)
 
 static void FramesAreHeld(void** state)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
     kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
     kiriFrame frames[4];
@@ -227,8 +223,7 @@ static void FramesAreHeld(void** state)
 
 static void ContactsCarry(void** state)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
     def.position[2] = 0.3f;
     def.collisionPoints = 25;
@@ -264,8 +259,7 @@ static void ContactsCarry(void** state)
 /* The largest piece goes on, wherever the frames are. */
 static void SmallPieceComesOff(void** state)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     static const float corner[2] = { 0.0625f, 0.0625f }, line[4] = { 0.2f, -0.01f, -0.01f, 0.2f };
     kiriSheetDef def = Host_SmallDef();
     def.framePoints = corner;
@@ -307,8 +301,7 @@ static void Slices(void** state)
                                       { 0.5f, -0.3f, 0.5f, 1.3f }, /* along mesh edges */
                                       { -0.2f, -0.2f, 1.2f, 1.2f } };
     for (int i = 0; i < 4; ++i) {
-        Host host;
-        Host_Start(&host);
+        START_HOST(host);
         kiriSheetDef def = Host_SmallDef();
         SetAxes(&def);
         kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
@@ -383,8 +376,7 @@ static bool InTwoParts(double u, double v)
 
 static void Holes(void** state)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
     double area;
     kiriHit hit;
@@ -411,8 +403,7 @@ static void Holes(void** state)
 
 static void TwoParts(void** state)
 {
-    Host host;
-    Host_Start(&host);
+    START_HOST(host);
     kiriSheetDef def = Host_SmallDef();
     double area, left = 0.0, sum = 0.0;
     def.framePoints = NULL;
@@ -426,8 +417,7 @@ static void TwoParts(void** state)
     assert_true(counts.pieces == 2 && counts.frames == 2 && counts.collisionPoints == 2 && counts.links == 0);
     OK(kiriSheet_GetFrames(host.world, sheet, frames, 2, &count));
     for (int i = 0; i < 2; ++i) {
-        kiriFrameState frame;
-        OK(kiriFrame_GetState(host.world, frames[i], &frame));
+        kiriFrameState frame = World_FrameState(host.world, frames[i]);
         left += frame.restPoint[0] < 0.4f ? frame.area : 0.0;
         sum += frame.area;
     }
@@ -466,9 +456,8 @@ static void Profile(void** state)
         kiriSheetDef def = Host_SmallDef();
         def.iterations = 3;
         kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 4, 4);
-        kiriProfile profile;
         Tick(&host, 0.01f, 2);
-        OK(kiriWorld_GetProfile(host.world, &profile));
+        kiriProfile profile = World_Profile(host.world);
         assert_true(profile.cutSegments == 0 && profile.trianglesSplit == 0 && profile.cellsSettled == 0 &&
                     profile.samplesRefreshed == 0 && profile.solverIterations >= 2);
         for (int i = 0; i < KIRI_STAGE_COUNT; ++i) {
@@ -502,8 +491,7 @@ static double LargestRegion(const Host* host, kiriSheet sheet, int32_t* frames)
     double largest = 0.0;
     OK(kiriSheet_GetFrames(host->world, sheet, ids, 512, frames));
     for (int32_t i = 0; i < *frames; ++i) {
-        kiriFrameState state;
-        OK(kiriFrame_GetState(host->world, ids[i], &state));
+        kiriFrameState state = World_FrameState(host->world, ids[i]);
         largest = (double)state.area > largest ? (double)state.area : largest;
     }
     return sqrt(largest);
@@ -512,11 +500,9 @@ static double LargestRegion(const Host* host, kiriSheet sheet, int32_t* frames)
 /* Frames in number as the material asks for them, and more where a cut leaves long arms; never more than the cap. */
 static void FramesByThemselves(void** state)
 {
-    Host host;
-    kiriSheetDef def;
     int32_t before, after;
-    Host_Start(&host);
-    kiriDefaultSheetDef(&def);
+    START_HOST(host);
+    kiriSheetDef def = DefaultSheet();
     def.frameCount = 0;
     def.accuracy = 0.25f; /* the bending length is then how far frames are apart */
     def.gridResolution = 50;

@@ -1,6 +1,7 @@
 /* The scene that each binding runs too: 120 ticks with pins, a cut, a blade, an obstacle, and a piece that gets a sheet
    of its own. All end with the state hash that this prints. After that it prints the sizes of the structs as C lays
    them out. */
+#include "defaults.h"
 #include "kiri/kiri.h"
 
 #include <inttypes.h>
@@ -12,8 +13,7 @@ enum { TICKS = 120 };
 
 static kiriSheet MakeSheet(kiriWorld* world)
 {
-    kiriSheetDef def;
-    kiriDefaultSheetDef(&def);
+    kiriSheetDef def = DefaultSheet();
     def.position[2] = 1.0f;
     def.material.youngsModulus = 1e7f;
     def.frameCount = 6;
@@ -35,8 +35,7 @@ static void Pin(kiriWorld* world, kiriSheet sheet, float u, float v)
 
 static void AddBall(kiriWorld* world)
 {
-    kiriObstacleDef def;
-    kiriDefaultObstacleDef(&def);
+    kiriObstacleDef def = DefaultObstacle();
     def.type = KIRI_OBSTACLE_SPHERE;
     def.radius = 0.25f;
     def.position[0] = 0.5f;
