@@ -150,29 +150,18 @@ static void ArchiveSheets(kiriArchive* archive, kiriWorld* world)
     }
 }
 
-static void ArchiveBlades(kiriArchive* archive, kiriWorld* world)
+/* Moves a struct in a block of the world's memory, to which `pointer` points. */
+static void ArchiveBlock(kiriArchive* archive, kiriMemory* memory, void* pointer, kiriTableFn* table)
 {
-    KIRI_EACH_INDEX_WHILE(!kiriArchive_HasFailed(archive), i, world->blades) {
-        if (kiriArchive_Reads(archive)) {
-            world->blades.data[i] = kiriMemory_AllocZeroed(&world->memory, sizeof(kiriBladeData));
-            archive->isShort |= world->blades.data[i] == NULL;
-        }
-        if (world->blades.data[i] != NULL) {
-            kiriArchive_Object(archive, BladeDataTable, world->blades.data[i]);
-        }
+    void* object;
+    memcpy(&object, pointer, sizeof(object));
+    if (kiriArchive_Reads(archive)) {
+        object = kiriMemory_AllocZeroed(memory, table()->size);
+        archive->isShort |= object == NULL;
+        memcpy(pointer, &object, sizeof(object));
     }
-}
-
-static void ArchiveSeams(kiriArchive* archive, kiriWorld* world)
-{
-    KIRI_EACH_INDEX_WHILE(!kiriArchive_HasFailed(archive), i, world->seams) {
-        if (kiriArchive_Reads(archive)) {
-            world->seams.data[i] = kiriMemory_AllocZeroed(&world->memory, sizeof(kiriSeamData));
-            archive->isShort |= world->seams.data[i] == NULL;
-        }
-        if (world->seams.data[i] != NULL) {
-            kiriArchive_Object(archive, SeamTable, world->seams.data[i]);
-        }
+    if (object != NULL) {
+        kiriArchive_Object(archive, table, object);
     }
 }
 
@@ -183,8 +172,12 @@ static void ArchiveWorld(kiriArchive* archive, kiriWorld* world)
     KIRI_EACH_INDEX_WHILE(!kiriArchive_HasFailed(archive), i, world->obstacles) {
         kiriObstacle_Archive(archive, &world->obstacles.data[i], &world->memory);
     }
-    ArchiveBlades(archive, world);
-    ArchiveSeams(archive, world);
+    KIRI_EACH_INDEX_WHILE(!kiriArchive_HasFailed(archive), i, world->blades) {
+        ArchiveBlock(archive, &world->memory, &world->blades.data[i], BladeDataTable);
+    }
+    KIRI_EACH_INDEX_WHILE(!kiriArchive_HasFailed(archive), i, world->seams) {
+        ArchiveBlock(archive, &world->memory, &world->seams.data[i], SeamTable);
+    }
     ArchiveSheets(archive, world);
 }
 
