@@ -550,7 +550,7 @@ def test_python_finds_mistakes():
 
 def test_annotations():
     """Each public function has a docstring without pointers; generated ones have types that can be read."""
-    for of in (kiri.World, kiri.Sheet, kiri.Cut, kiri.Frame, kiri.Pin, kiri.Obstacle, kiri.Blade):
+    for of in (kiri.World, kiri.Sheet, kiri.Cut, kiri.Frame, kiri.Pin, kiri.Obstacle, kiri.Blade, kiri.Seam):
         for name, function in vars(of).items():
             if name[0] != "_" and callable(function):
                 assert function.__doc__, f"{of.__name__}.{name} has no docstring"

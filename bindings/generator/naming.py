@@ -28,6 +28,11 @@ def bare(name):
     return name[4:] if name.startswith("kiri") else name
 
 
+def classes(description):
+    """World, and the things that have ids."""
+    return ["World", *(bare(alias["name"]) for alias in description["ids"])]
+
+
 def constant(enum, value):
     """The name of a value without what the names of its enum have in common: CUT_FINISHED."""
     return value["name"][len(enum["prefix"]):]

@@ -8,7 +8,6 @@ import naming
 
 TYPES = {"int32_t": "INT32", "uint32_t": "UINT32", "int64_t": "INT64", "uint64_t": "UINT64", "uint16_t": "UINT16",
          "void": "BYTE", "float": "FLOAT", "double": "DOUBLE", "kiriResult": "INT32"}
-CLASSES = [None, "World", "Sheet", "Cut", "Frame", "Pin", "Obstacle", "Blade"]
 # Keys that scripts do not see: stamps, and what functions of the host get.
 HIDDEN = {"cookie", "user"}
 Y_IS_UP = "default (0, -9.81, 0): y is up"
@@ -319,7 +318,7 @@ class Godot:
                 yield naming.bare(enum["name"]), value["name"][5:], value["value"], naming.is_flags(enum), value["doc"]
 
     def tables(self):
-        names = ", ".join(f'"{class_name(of)}"' for of in CLASSES)
+        names = ", ".join(f'"{class_name(of)}"' for of in [None, *naming.classes(self._d)])
         lines = ["/* Made from kiri.h by `make bindings`. */", '#include "objects.h"', "", "#include <stddef.h>", "",
                  "/* clang-format off */",
                  f'const char* const CLASS_NAMES[CLASS_COUNT] = {{ "", {names} }};', "",
@@ -429,6 +428,6 @@ class Godot:
 def files(description):
     godot = Godot(description)
     made = {"bindings/godot/tables.c": godot.tables(), "bindings/godot/godot3/kiri.gd": godot.script()}
-    for of in CLASSES:
+    for of in [None, *naming.classes(description)]:
         made[f"bindings/godot/doc_classes/{class_name(of)}.xml"] = godot.document(of)
     return made

@@ -34,6 +34,7 @@ class Lua:
         self._of = description
         self._ids = [alias["name"] for alias in description["ids"]]
         self._structs = {struct["name"]: struct for struct in description["structs"]}
+        self.kinds = naming.classes(description)[1:]
 
     # ---- Declarations
 
@@ -329,7 +330,8 @@ def files(description):
     lua = Lua(description)
     text = LAYER.read_text()
     made = {"VERSION": description["version"], "CDEF": lua.cdef(), "ENUMS": lua.enums(), "STRUCTS": lua.fields(),
-            "VIEWS": lua.views(), "METHODS": lua.methods()}
+            "VIEWS": lua.views(), "METHODS": lua.methods(), "CLASSES": ", ".join(lua.kinds),
+            "KINDS": ", ".join(f'"{kind}"' for kind in lua.kinds)}
     for name, part in made.items():
         text = text.replace(f"--@{name}@", part).replace(f"@{name}@", part)
     version = description["version"]

@@ -23,6 +23,7 @@ BY_HAND = {"kiriCreateWorld": "World", "kiriDestroyWorld": "close", "kiriWorld_R
 # What the header says of pointers and of C's ways to return, in Python's words; None: no docstring of another function.
 DOCS = {"kiriWorld_GetSheets": "Returns the sheets of the world, in the order of their making.",
         "kiriSheet_GetFrames": "Returns the frames of the sheet.", "kiriSheet_GetPins": "Returns the pins of the sheet, of all types.",
+        "kiriWorld_GetSeams": "Returns the seams of the world.",
         "kiriWorld_GetEvents": "Returns the events since the start of the last tick.",
         "kiriWorld_SetGravity": "Sets gravity (m/s^2) from the next tick on. All pieces wake.",
         "kiriWorld_SetBudget": "Sets the budget from the next tick on: fields of kiriBudget by name.",
@@ -34,7 +35,6 @@ DOCS = {"kiriWorld_GetSheets": "Returns the sheets of the world, in the order of
         "kiriGetVersion": "Returns the version of the library, as KIRI_VERSION.",
         "kiriGetResultName": "Returns the name of a result, such as 'KIRI_OK'.",
         "kiriGetResultText": "Returns a line with the meaning of a result."}
-CLASSES = ("World", "Sheet", "Cut", "Frame", "Pin", "Obstacle", "Blade")
 
 
 def name_of(function):
@@ -316,7 +316,7 @@ def methods(description):
     text += "if TYPE_CHECKING:\n    import kiri\n"
     plain = [name_of(one) for one in description["functions"] if not one["class"] and one["name"] not in BY_HAND]
     text += f"\n__all__ = {pprint.pformat(plain, width=116, compact=True)}\n"
-    for of in (None, *CLASSES):
+    for of in (None, *naming.classes(description)):
         made = [Method(description, function).text() for function in description["functions"]
                 if function["class"] == of and function["name"] not in BY_HAND]
         if of:

@@ -4,7 +4,7 @@
 #include <stddef.h>
 
 /* clang-format off */
-const char* const CLASS_NAMES[CLASS_COUNT] = { "", "Kiri", "KiriWorld", "KiriSheet", "KiriCut", "KiriFrame", "KiriPin", "KiriObstacle", "KiriBlade" };
+const char* const CLASS_NAMES[CLASS_COUNT] = { "", "Kiri", "KiriWorld", "KiriSheet", "KiriCut", "KiriFrame", "KiriPin", "KiriObstacle", "KiriBlade", "KiriSeam" };
 
 /* ---- Structs ---- */
 

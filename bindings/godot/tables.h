@@ -29,6 +29,7 @@ typedef enum Class {
     CLASS_PIN,
     CLASS_OBSTACLE,
     CLASS_BLADE,
+    CLASS_SEAM,
     CLASS_COUNT
 } Class;
 

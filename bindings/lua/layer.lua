@@ -352,9 +352,12 @@ for name in pairs(structs) do
     new[name] = new[name] or ffi.typeof(name)
     kiri[name:sub(5)] = new[name]
 end
-for _, item in ipairs {"int32_t", "int64_t", "uint64_t", "double", "kiriSheet", "kiriCut", "kiriFrame", "kiriPin",
-                       "kiriObstacle", "kiriBlade"} do
-    out[item:gsub("kiri", "")] = ffi.new(item .. "[1]")
+for _, item in ipairs {"int32_t", "int64_t", "uint64_t", "double"} do
+    out[item] = ffi.new(item .. "[1]")
+end
+local KINDS = {"World", @KINDS@}
+for i = 2, #KINDS do
+    out[KINDS[i]] = ffi.new("kiri" .. KINDS[i] .. "[1]")
 end
 
 -- ---- Classes ------------------------------------------------------------------------------------------------------
@@ -364,7 +367,7 @@ local core = {C = C, ffi = ffi, now = now, new = new, out = out, room = room, fa
               handle = handle, list_of = list_of, make_room = make_room}
 
 -- It has no locals of this file, so that there can be two of it: see hooked.
-local function define(core, kiri, World, Sheet, Cut, Frame, Pin, Obstacle, Blade)
+local function define(core, kiri, World, @CLASSES@)
 local C, ffi, now, new, out, room, fail, passed = core.C, core.ffi, core.now, core.new, core.out, core.room, core.fail,
     core.passed
 local vector, id_of, ids_of, rows_of, struct_of, handle, list_of, make_room = core.vector, core.id_of, core.ids_of,
@@ -419,8 +422,6 @@ local function debug_draw(world, draw)
     if result < 0 then fail(world, "kiriWorld_DebugDraw", result, false) end
 end
 jit.off(debug_draw)
-
-local KINDS = {"World", "Sheet", "Cut", "Frame", "Pin", "Obstacle", "Blade"}
 
 local function classes_by(defined, functions)
     local classes = {}

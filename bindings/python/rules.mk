@@ -4,14 +4,18 @@ WHEEL := build/wheel
 
 .PHONY: package-python bench-python pygame pygame-test
 
-# Installed in an environment of its own, with cffi as it is on this machine, and the first program run by it alone.
+# A wheel and a source package. Each is installed in an environment of its own, with cffi as it is on this machine, and runs
+# the first program alone. PLATFORM=manylinux_2_28_x86_64: the tag of the wheel, as `auditwheel show` has it.
+NEW_PYTHON = rm -rf $(WHEEL)/venv && $(PYTHON) -m venv --system-site-packages $(WHEEL)/venv && \
+    $(WHEEL)/venv/bin/pip install --quiet --no-index --no-deps
+FIRST_CUT = cd $(WHEEL) && env -u KIRI_LIBRARY -u PYTHONPATH venv/bin/python
+
 package-python: $(BUILD)/libkiri.so
-	@rm -rf $(WHEEL) && $(PYTHON) bindings/python/wheel.py $< $(WHEEL)
-	@$(PYTHON) -m venv --system-site-packages $(WHEEL)/venv || { echo "package-python: no venv, wheel not tested"; exit 0; }; \
-	$(WHEEL)/venv/bin/pip install --quiet --no-index --no-deps $(WHEEL)/kiri-*.whl && \
-	cp bindings/python/first_cut.py $(WHEEL) && cd $(WHEEL) && env -u KIRI_LIBRARY -u PYTHONPATH venv/bin/python first_cut.py && \
-	env -u KIRI_LIBRARY -u PYTHONPATH venv/bin/python -c "import kiri, pathlib; here = pathlib.Path(kiri.__file__).parent; \
-	    assert 'venv' in str(here) and (here / 'include/kiri/kiri.h').exists() and (here / 'libkiri.so').exists()"
+	@rm -rf $(WHEEL) && $(PYTHON) bindings/python/pack.py $< $(WHEEL) $(PLATFORM) && cp bindings/python/first_cut.py $(WHEEL)
+	@$(PYTHON) -c 'import venv, ensurepip' 2> /dev/null || { echo "package-python: no venv, packages not tested"; exit 0; }; \
+	for package in $(WHEEL)/kiri-*.whl $(WHEEL)/kiri-*.tar.gz; do \
+	    $(NEW_PYTHON) $$package && ($(FIRST_CUT) first_cut.py) && ($(FIRST_CUT) -c "import kiri, pathlib; here = pathlib.Path(kiri.__file__).parent; \
+	        assert 'venv' in str(here) and all((here / name).exists() for name in ('include/kiri/kiri.h', 'libkiri.so', 'py.typed'))") || exit 1; done
 
 bench-python: $(BUILD)/libkiri.so
 	@KIRI_LIBRARY=$< PYTHONPATH=bindings/python $(PYTHON) bindings/python/bench.py

@@ -3,7 +3,7 @@ extends SceneTree
 
 func _init() -> void:
 	var classes := {"Kiri": Kiri, "KiriWorld": KiriWorld, "KiriSheet": KiriSheet, "KiriCut": KiriCut, "KiriFrame": KiriFrame,
-			"KiriPin": KiriPin, "KiriObstacle": KiriObstacle, "KiriBlade": KiriBlade}
+			"KiriPin": KiriPin, "KiriObstacle": KiriObstacle, "KiriBlade": KiriBlade, "KiriSeam": KiriSeam}
 	for name in classes:
 		for method in ClassDB.class_get_method_list(name, true):
 			print("method ", name, ".", method.name)

@@ -234,3 +234,7 @@ class Obstacle(Handle, _methods.Obstacle):
 
 class Blade(Handle, _methods.Blade):
     pass
+
+
+class Seam(Handle, _methods.Seam):
+    pass

@@ -186,7 +186,7 @@ class World:
         return self.thing('Seam', self.get('kiriCreateSeam', 'kiriSeam', structure))
 
     def seams(self) -> List[kiri.Seam]:
-        """Writes up to `capacity` ids of the world's seams; *count is how many there are."""
+        """Returns the seams of the world."""
         things, = self.lists('kiriWorld_GetSeams', ('kiriSeam',))
         return [self.thing('Seam', thing) for thing in things]
 
@@ -590,3 +590,25 @@ class Blade:
     def end(self) -> int:
         """It is gone, its id stale; what it has cut stays, and where it was in a layer the cut ends."""
         return self.world.call('kiriBlade_End', self.id)
+
+
+class Seam:
+    def destroy(self) -> int:
+        """Create and destroy a seam. Lips that are apart are drawn together at up to 1 m/s. KIRI_ERROR_ARGUMENT: a
+        line leaves the material; a sheet is planar; the models differ.
+        """
+        return self.world.call('kiriDestroySeam', self.id)
+
+    def set_hinge(self, stiffness: float, rest_angle: float) -> int:
+        """Sets stiffness and restAngle, as in the def."""
+        return self.world.call('kiriSeam_SetHinge', self.id, stiffness, rest_angle)
+
+    def stitch(self, index: int) -> Record:
+        """Returns a stitch of those that are left, in the order of the lines. KIRI_ERROR_ARGUMENT: no stitch has the
+        index.
+        """
+        return core.record(self.world.get('kiriSeam_GetStitch', 'kiriStitch', self.id, index), self.world)
+
+    def count(self) -> int:
+        """Returns the number of stitches that are left."""
+        return self.world.get('kiriSeam_GetCount', 'int32_t', self.id)
