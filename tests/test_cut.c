@@ -456,13 +456,60 @@ static void DoesNotDrift(void** state)
     Host_Stop(&host);
 }
 
+/* Writes a spiral, or a line that strays, within `radius` of a place. */
+static void DrawKnot(uint32_t* seed, bool isSpiral, int32_t count, float* points)
+{
+    double x = RandomBetween(seed, 0.3, 0.7), y = RandomBetween(seed, 0.3, 0.7), radius = RandomBetween(seed, 0.02, 0.06);
+    double turn = 6.283185307179586 / RandomBetween(seed, 50.0, 400.0), u = 0.0, v = 0.0;
+    for (int32_t i = 0; i < count; ++i) {
+        double share = 1.0 - (double)i / count;
+        u = isSpiral ? radius * share * cos(turn * i) : u + 0.1 * radius * RandomBetween(seed, -1.0, 1.0);
+        v = isSpiral ? radius * share * sin(turn * i) : v + 0.1 * radius * RandomBetween(seed, -1.0, 1.0);
+        double length = sqrt(u * u + v * v) / radius;
+        u = length > 1.0 ? u / length : u;
+        v = length > 1.0 ? v / length : v;
+        points[2 * i] = (float)(x + u);
+        points[2 * i + 1] = (float)(y + v);
+    }
+}
+
+/* Lines beside each other do not make more vertices each time: the cost of a knot is proportional to its points. */
+static void KnotsEnd(void** state)
+{
+    (void)state;
+    enum { MOST = 4000, ITEMS = 10000 };
+    static float points[2 * MOST];
+    const kiriBudget budget = { ITEMS, 0, 0, 0 };
+    uint32_t seed = 4711;
+    for (int32_t i = 0; i < 8; ++i) {
+        bool isSpiral = i < 6;
+        int32_t count = isSpiral ? MOST >> i % 3 : MOST >> 2, most = (isSpiral ? 60 : 200) * count, items = 0;
+        Host host;
+        kiriSheetDef def = DefOf(64, 0.0);
+        Host_Start(&host);
+        host.every = 1000;
+        kiriSheet sheet = Host_AddRectangle(&host, &def, 1.0f, 1.0f, 32, 32);
+        OK(kiriWorld_SetBudget(host.world, &budget));
+        DrawKnot(&seed, isSpiral, count, points);
+        Host_Cut(&host, sheet, points, count);
+        while (Host_Tick(&host, 1e-3f, 1) == KIRI_PENDING && items <= most) {
+            kiriProfile profile;
+            OK(kiriWorld_GetProfile(host.world, &profile));
+            items += profile.trianglesSplit;
+        }
+        assert_true(items <= most);
+        assert_true(Host_Counts(&host, sheet).vertices <= 2000 + (isSpiral ? 6 : 20) * count);
+        Host_Stop(&host);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(HandMadeCases),    cmocka_unit_test(TouchesSharpCorners),
         cmocka_unit_test(CutsThroughSplitSides), cmocka_unit_test(MakesNoEdgeTwice),
         cmocka_unit_test(PullsNoOutlineAlong),
-        cmocka_unit_test(LipsFollowTheBlade), cmocka_unit_test(DoesNotDrift),
+        cmocka_unit_test(LipsFollowTheBlade), cmocka_unit_test(DoesNotDrift), cmocka_unit_test(KnotsEnd),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -143,8 +143,9 @@ enum { LOOK_EFFORT = 8, ITEM_EFFORT = 512 };
 
 /* Distances in snaps: the blade takes corners and edges of the mesh within ON, and lips within REACH. The ends of a cut
    are within ON of their points, and the cut within ON of the line between them: so within 2 ON of the line that was
-   drawn. Then ends that are a snap apart are within REACH, and ends two snaps apart are not. */
-static const double ON = 0.25, REACH = 1.5;
+   drawn. Then ends that are a snap apart are within REACH, and ends two snaps apart are not. Edges that cross the way
+   within APART of each other are flipped if possible: else lines beside each other would make more vertices each time. */
+static const double ON = 0.25, REACH = 1.5, APART = 4.0;
 enum { SLACK = 16 };
 
 /* One straight move of a blade. It walks the mesh as the plane triangulation that it is, whether edges are open or not;
@@ -152,8 +153,8 @@ enum { SLACK = 16 };
 typedef struct BladeWalk {
     kiriMeshData* mesh;
     kiriBladeTip* tip;
-    double on, reach; /* lattice steps */
-    double slack;     /* lattice steps: vertices nearer to each other would make triangles too thin to split */
+    double on, reach, apart; /* lattice steps */
+    double slack; /* lattice steps: vertices nearer to each other would make triangles too thin to split */
     kiriLatticePoint lineFrom, lineTo; /* the blade keeps to this line */
     int32_t splits;                    /* triangles made or reshaped */
     int64_t effort;                    /* of searches, about ns */
@@ -315,8 +316,8 @@ static bool CanSplitEdge(BladeWalk* walk, int32_t h, kiriLatticePoint at)
            AreEdgesFree(walk, at, (const kiriLatticePoint(*)[2])sides, count, count == 2);
 }
 
-/* Flips an edge that cannot be split, so that the vertex opposite of it sees farther. The segment from there to the goal
-   then crosses one edge less, so a walk flips finitely many. */
+/* Flips an edge, so that the vertex opposite of it sees farther. The segment from there to the goal then crosses one edge
+   less, so a walk flips finitely many. */
 static bool FlipEdge(BladeWalk* walk, int32_t h)
 {
     if (!kiriMesh_CanFlipEdge(walk->mesh, h)) {
@@ -402,9 +403,9 @@ static int32_t VertexIn(BladeWalk* walk, int32_t triangle, kiriLatticePoint at)
     return vertex;
 }
 
-/* Returns a vertex where the way to the goal crosses half-edge h: one of its ends if it is near, or a new one. If
-   the triangles beside h are too thin to split, flips h and returns the vertex opposite of it, where the walk is; if that
-   cannot be done, returns an end that is nearer to the goal, or KIRI_NONE. */
+/* Returns a vertex where the way to the goal crosses half-edge h: one of its ends if it is near, or a new one. If the walk
+   is near, or the triangles beside h are too thin to split, flips h and returns the vertex opposite of it, where the walk
+   is; if that cannot be done, returns an end that is nearer to the goal, or KIRI_NONE. */
 static int32_t VertexOn(BladeWalk* walk, int32_t h)
 {
     int32_t a = kiriMesh_Tail(walk->mesh, h), b = kiriMesh_Head(walk->mesh, h);
@@ -412,19 +413,22 @@ static int32_t VertexOn(BladeWalk* walk, int32_t h)
     double toA = (double)kiriOrient(at, goal, pa), toB = (double)kiriOrient(at, goal, pb);
     double share = toA / (toA - toB);
     kiriLatticePoint crossing = kiriLattice_Between(pa, pb, share), p = share < 0.5 ? pa : pb;
-    int32_t near = share < 0.5 ? a : b, far = share < 0.5 ? b : a;
+    int32_t near = share < 0.5 ? a : b, far = share < 0.5 ? b : a, here = kiriMesh_Tail(walk->mesh, kiriEdge_Previous(h));
     bool canTake = IsNearerGoal(walk, p);
     bool isNear =
         IsWithinDistance(p, crossing, walk->slack) || (IsWithinDistance(p, crossing, walk->on) && IsOnLine(walk, p));
     if (canTake && isNear) {
         return near;
     }
+    if (IsWithinDistance(at, crossing, walk->apart) && kiriMesh_FlipKeepsCells(walk->mesh, h) && FlipEdge(walk, h)) {
+        return here;
+    }
     /* An edge of the outline may pass through a vertex of another part, at `at`: then the next step goes on from there. */
     if (FindSplit(walk, h, &crossing) && (IsNearerGoal(walk, crossing) || kiriLattice_IsSame(at, crossing))) {
         return SplitEdge(walk, h, crossing);
     }
     if (FlipEdge(walk, h)) {
-        return kiriMesh_Tail(walk->mesh, kiriEdge_Previous(h));
+        return here;
     }
     return canTake ? near : IsNearerGoal(walk, VertexPoint(walk, far)) ? far : KIRI_NONE;
 }
@@ -460,20 +464,15 @@ static bool EnterSheet(BladeWalk* walk)
     const kiriMeshData* mesh = walk->mesh;
     int32_t edge = KIRI_NONE;
     double least = 2.0;
-    kiriStrips strips = kiriStrips_Begin(&mesh->squares, walk->tip->at, walk->tip->goal, 0.0);
-    while (kiriStrips_Next(&strips)) {
-        KIRI_EACH_INDEX(i, strips) {
-            walk->effort += LOOK_EFFORT;
-            KIRI_EACH_NODE(slot, &mesh->squares, strips.square + i * strips.stride) {
-                walk->effort += LOOK_EFFORT;
-                KIRI_EACH_CORNER(k) {
-                    int32_t h = 3 * mesh->squares.nodes.data[slot].triangle + k;
-                    double share = EntryOver(walk, h);
-                    if (share < least || (share == least && share <= 1.0 && h < edge)) {
-                        edge = h;
-                        least = share;
-                    }
-                }
+    kiriNearby nearby = kiriNearby_Begin(&mesh->squares, walk->tip->at, walk->tip->goal, 0.0);
+    walk->effort += LOOK_EFFORT;
+    for (int32_t t = kiriNearby_Next(&nearby); t != KIRI_NONE; t = kiriNearby_Next(&nearby)) {
+        walk->effort += LOOK_EFFORT;
+        for (int32_t h = 3 * t; h < 3 * t + 3; ++h) {
+            double share = EntryOver(walk, h);
+            if (share < least || (share == least && share <= 1.0 && h < edge)) {
+                edge = h;
+                least = share;
             }
         }
     }
@@ -703,7 +702,7 @@ kiriProgress kiriCut_Move(kiriMeshData* mesh, kiriBladeTip* blade, kiriLatticePo
 {
     kiriBladeTip tip = *blade;
     double on = ON * snap;
-    BladeWalk walk = { mesh, &tip, on, REACH * snap, kiriMin(on, SLACK), tip.at, to, 0, 0, false };
+    BladeWalk walk = { mesh, &tip, on, REACH * snap, APART * snap, kiriMin(on, SLACK), tip.at, to, 0, 0, false };
     KIRI_ASSERT(mesh->isOpen && quota->left >= 0 && snap >= 0.0);
     KIRI_ASSERT(tip.vertex == KIRI_NONE || kiriLattice_IsSame(VertexPoint(&walk, tip.vertex), tip.at));
     mesh->squares.effort = 0;

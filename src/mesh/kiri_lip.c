@@ -369,16 +369,16 @@ static void TakeNearerLip(NearestLip* nearest, int32_t h, kiriLatticePoint at, d
 
 /* The lips of the triangles around corridor->to. Some come twice. */
 typedef struct LipsInBox {
-    kiriStrips strips;
-    int32_t square, node, next, end; /* next, end: half-edges of the current triangle */
+    kiriNearby nearby;
+    int32_t next, end; /* half-edges of the current triangle */
     int32_t lip;
     kiriLatticePoint a, b; /* the ends of the lip */
 } LipsInBox;
 
 static LipsInBox BeginBox(const kiriCorridor* corridor, double size)
 {
-    kiriStrips strips = kiriStrips_Begin(&corridor->mesh->squares, corridor->to, corridor->to, size);
-    return (LipsInBox){ strips, 0, KIRI_NONE, 0, 0, KIRI_NONE, corridor->to, corridor->to };
+    kiriNearby nearby = kiriNearby_Begin(&corridor->mesh->squares, corridor->to, corridor->to, size);
+    return (LipsInBox){ nearby, 0, 0, KIRI_NONE, corridor->to, corridor->to };
 }
 
 /* Goes to the next lip. Returns false after the last. */
@@ -395,19 +395,12 @@ static bool NextInBox(kiriCorridor* corridor, LipsInBox* box)
                 return true;
             }
         }
-        while (box->node == KIRI_NONE) {
-            if (box->square < box->strips.count) {
-                box->node = mesh->squares.head[box->strips.square + box->square++ * box->strips.stride];
-            } else if (kiriStrips_Next(&box->strips)) {
-                box->square = 0;
-            } else {
-                return false;
-            }
+        int32_t triangle = kiriNearby_Next(&box->nearby);
+        if (triangle == KIRI_NONE) {
+            return false;
         }
-        KIRI_ASSERT(box->node < mesh->squares.nodes.count);
-        box->next = 3 * mesh->squares.nodes.data[box->node].triangle;
+        box->next = 3 * triangle;
         box->end = box->next + 3;
-        box->node = mesh->squares.nodes.data[box->node].next;
         corridor->effort += LIP_EFFORT;
     }
 }

@@ -514,6 +514,17 @@ bool kiriMesh_CanFlipEdge(const kiriMeshData* mesh, int32_t h)
     return kiriOrient(a, d, c) > 0 && kiriOrient(b, c, d) > 0;
 }
 
+bool kiriMesh_FlipKeepsCells(const kiriMeshData* mesh, int32_t h)
+{
+    bool keeps = true;
+    for (int32_t g = h; keeps && g != KIRI_NONE; g = g == h ? kiriMesh_Twin(mesh, h) : KIRI_NONE) {
+        kiriLatticePoint c[3];
+        kiriMesh_Corners(mesh, g / 3, c);
+        keeps = kiriSquares_RunsThroughAll(&mesh->squares, kiriMesh_TailAt(mesh, h), kiriMesh_HeadAt(mesh, h), c);
+    }
+    return keeps;
+}
+
 /* Half-edges keep their place in their triangle. */
 static int32_t EdgeTo(const kiriKeep* triangles, int32_t h)
 {

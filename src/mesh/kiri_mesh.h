@@ -315,6 +315,10 @@ bool kiriMesh_CanSplitTriangle(const kiriMeshData* mesh, int32_t triangle, kiriL
    counter-clockwise. Exact. */
 bool kiriMesh_CanFlipEdge(const kiriMeshData* mesh, int32_t h);
 
+/* Returns true if the edge runs through all squares of its triangles: in each square both are in one cell. So no material
+   has another owner after a flip (kiri_refit.c). */
+bool kiriMesh_FlipKeepsCells(const kiriMeshData* mesh, int32_t h);
+
 KIRI_C_END
 
 #endif

@@ -140,6 +140,20 @@ bool kiriSquares_RunsThrough(const kiriSquares* squares, int32_t square, kiriLat
     return (sideP < 0 && sideQ > 0) || (sideP > 0 && sideQ < 0);
 }
 
+bool kiriSquares_RunsThroughAll(const kiriSquares* squares, kiriLatticePoint a, kiriLatticePoint b,
+                                const kiriLatticePoint corners[3])
+{
+    SquareBox box = BoxOf(squares, corners);
+    bool isThrough = true;
+    for (int32_t row = box.firstRow; row <= box.lastRow; ++row) {
+        for (int32_t column = box.firstColumn; isThrough && column <= box.lastColumn; ++column) {
+            isThrough = !Overlaps(squares, box, column, row, corners) ||
+                        kiriSquares_RunsThrough(squares, row * squares->columns + column, a, b);
+        }
+    }
+    return isThrough;
+}
+
 int32_t kiriSquares_At(const kiriSquares* squares, kiriLatticePoint p)
 {
     int32_t column = LineOf(squares, p.x) - squares->firstColumn, row = LineOf(squares, p.y) - squares->firstRow;
@@ -353,4 +367,28 @@ bool kiriStrips_Next(kiriStrips* s)
         return true;
     }
     return false;
+}
+
+kiriNearby kiriNearby_Begin(const kiriSquares* squares, kiriLatticePoint from, kiriLatticePoint to, double margin)
+{
+    kiriNearby nearby = { kiriStrips_Begin(squares, from, to, margin), 0, KIRI_NONE };
+    nearby.strips.count = 0;
+    return nearby;
+}
+
+int32_t kiriNearby_Next(kiriNearby* nearby)
+{
+    const kiriSquares* squares = nearby->strips.squares;
+    while (nearby->node == KIRI_NONE) {
+        if (nearby->square < nearby->strips.count) {
+            nearby->node = squares->head[nearby->strips.square + nearby->square++ * nearby->strips.stride];
+        } else if (kiriStrips_Next(&nearby->strips)) {
+            nearby->square = 0;
+        } else {
+            return KIRI_NONE;
+        }
+    }
+    const kiriSquareNode* node = &squares->nodes.data[nearby->node];
+    nearby->node = node->next;
+    return node->triangle;
 }

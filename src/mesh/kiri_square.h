@@ -68,6 +68,10 @@ void kiriSquares_ClearDirty(kiriSquares* squares);
 /* Returns true if the segment runs through the open square. Exact. Neither end may be on a grid line. */
 bool kiriSquares_RunsThrough(const kiriSquares* squares, int32_t square, kiriLatticePoint a, kiriLatticePoint b);
 
+/* Returns true if the segment runs through all squares that a triangle overlaps. */
+bool kiriSquares_RunsThroughAll(const kiriSquares* squares, kiriLatticePoint a, kiriLatticePoint b,
+                                const kiriLatticePoint corners[3]);
+
 /* Returns the square at the point of a vertex, or KIRI_NONE outside the grid. */
 int32_t kiriSquares_At(const kiriSquares* squares, kiriLatticePoint p);
 
@@ -109,6 +113,17 @@ kiriStrips kiriStrips_Begin(const kiriSquares* squares, kiriLatticePoint from, k
 
 /* Goes to the next strip. Returns false after the last. */
 bool kiriStrips_Next(kiriStrips* strips);
+
+/* The triangles in those squares. A triangle in several squares comes several times. */
+typedef struct kiriNearby {
+    kiriStrips strips;
+    int32_t square, node; /* the next ones; square: index in the strip */
+} kiriNearby;
+
+kiriNearby kiriNearby_Begin(const kiriSquares* squares, kiriLatticePoint from, kiriLatticePoint to, double margin);
+
+/* Returns the next triangle, or KIRI_NONE after the last. */
+int32_t kiriNearby_Next(kiriNearby* nearby);
 
 KIRI_C_END
 

@@ -203,46 +203,19 @@ static void FindLipInTriangle(const BladeWork* work, int32_t triangle, kiriVec2 
     }
 }
 
-/* The triangles in the squares around a place. Some come twice. */
-typedef struct Nearby {
-    const kiriSquares* squares;
-    kiriStrips strips;
-    int32_t square, node;
-} Nearby;
-
-static Nearby LookAround(const BladeWork* work, kiriVec2 rest, double distance)
+static kiriNearby LookAround(const BladeWork* work, kiriVec2 rest, double distance)
 {
     const kiriMeshData* mesh = &work->sheet->mesh;
     kiriLatticePoint at = kiriMesh_Snap(mesh, rest);
-    Nearby around = { &mesh->squares, kiriStrips_Begin(&mesh->squares, at, at, distance / mesh->step), 0, KIRI_NONE };
-    around.strips.count = 0;
-    return around;
-}
-
-/* Returns KIRI_NONE after the last. */
-static int32_t NextAround(Nearby* around)
-{
-    while (around->node == KIRI_NONE) {
-        if (around->square == around->strips.count) {
-            around->square = 0;
-            if (!kiriStrips_Next(&around->strips)) {
-                return KIRI_NONE;
-            }
-        } else {
-            around->node = around->squares->head[around->strips.square + around->square++ * around->strips.stride];
-        }
-    }
-    int32_t triangle = around->squares->nodes.data[around->node].triangle;
-    around->node = around->squares->nodes.data[around->node].next;
-    return triangle;
+    return kiriNearby_Begin(&mesh->squares, at, at, distance / mesh->step);
 }
 
 /* Finds the point of these edges that is nearest to a place, up to a distance (m). */
 static bool FindLipNear(const BladeWork* work, kiriVec2 rest, double distance, int which, kiriVec2* lip)
 {
     double least = distance;
-    Nearby around = LookAround(work, rest, distance);
-    for (int32_t t = NextAround(&around); t != KIRI_NONE; t = NextAround(&around)) {
+    kiriNearby around = LookAround(work, rest, distance);
+    for (int32_t t = kiriNearby_Next(&around); t != KIRI_NONE; t = kiriNearby_Next(&around)) {
         FindLipInTriangle(work, t, rest, which, &least, lip);
     }
     return least < distance;
@@ -439,9 +412,9 @@ static void FindPlace(const BladeWork* work, Track* track)
     const kiriSheetData* sheet = work->sheet;
     const kiriSurface* surface = &sheet->seen.surface;
     double best = work->unseen, near = SAME * work->snap;
-    Nearby around = LookAround(work, track->rest, near);
+    kiriNearby around = LookAround(work, track->rest, near);
     track->isSeen = false;
-    for (int32_t t = NextAround(&around); t != KIRI_NONE; t = NextAround(&around)) {
+    for (int32_t t = kiriNearby_Next(&around); t != KIRI_NONE; t = kiriNearby_Next(&around)) {
         const int32_t* v = sheet->mesh.triangles.data[t].vertex;
         const kiriVec2 corner[3] = { surface->rest.data[v[0]], surface->rest.data[v[1]], surface->rest.data[v[2]] };
         double shares[3], off = RestDistance(NearestInTriangle(corner, track->rest, shares), track->rest);
@@ -643,7 +616,9 @@ static bool FollowLine(BladeWork* work, int32_t index)
     }
     const kiriSectionPoint* end = EndOfLine(work, line, 1 - begin);
     Track* led = &work->tracks.data[track];
-    bool isStill = type == KIRI_END_TO && RestDistance(led->rest, end->rest) < SAME * work->snap;
+    /* A short way of a layer that was there may wait; one that joins two new layers is cut now. */
+    bool isStill = type == KIRI_END_TO && line->end[begin] != KIRI_END_TO &&
+                   RestDistance(led->rest, end->rest) < SAME * work->snap;
     bool ok = isStill || LeadAlong(work, led);
     if (type == KIRI_END_TO || (type == KIRI_END_FROM && other == KIRI_NONE)) {
         led->isLost = type == KIRI_END_FROM;
