@@ -20,7 +20,6 @@ typedef struct Touching {
     uint32_t seed;
     int layout, way;
     double first, most; /* J: the first energy, and the largest of all ticks; */
-    double moving;      /* J: the same without the elastic one */
     double fastest;     /* m/s */
     int32_t pieces, nears, contacts;
 } Touching;
@@ -145,11 +144,10 @@ static void Look(Touching* t, int tick)
     kiriProfile profile;
     kiriTotals totals = Host_Totals(&t->host, t->sheet);
     double fall = t->way == HANGING ? totals.center[1] : t->way == RESTING ? 0.0 : totals.center[2];
-    double moving = totals.kineticEnergy + totals.mass * g * fall, energy = moving + totals.elasticEnergy;
+    double energy = totals.kineticEnergy + totals.mass * g * fall + totals.elasticEnergy;
     t->pieces = Host_Counts(&t->host, t->sheet).pieces;
     t->first = tick == 0 ? energy : t->first;
     t->most = tick == 0 || energy > t->most ? energy : t->most;
-    t->moving = tick == 0 || moving > t->moving ? moving : t->moving;
     for (int32_t i = 0; i < t->pieces; ++i) {
         kiriPieceState piece = World_PieceState(t->host.world, t->sheet, i);
         double squared = 0.0;
@@ -169,9 +167,8 @@ static double MostSpeed(int way, int ticks)
     return way == RESTING ? 0.0 : way == ON_A_FLOOR ? 6.0 : g * (ticks + 1) * (double)dt;
 }
 
-/* Runs one layout. Tolerances of energy: a thousandth of the weight times the size of the sheet; twice that product
-   with the elastic energy, for a squeezed crumb may bend a sheet for a tick. Of speed: 0.2 m/s. At most 8 pairs and 150
-   contacts a piece. */
+/* Runs one layout. Tolerances: of energy a thousandth of the weight times the size of the sheet; of speed 0.2 m/s. At
+   most 8 pairs and 400 contacts a piece. */
 static void Run(int layout, int way, uint32_t seed, int ticks)
 {
     Touching t;
@@ -181,15 +178,14 @@ static void Run(int layout, int way, uint32_t seed, int ticks)
         Look(&t, tick);
     }
     double whole = Host_Totals(&t.host, t.sheet).mass * g * size, rise = (t.most - t.first) / whole;
-    double moved = (t.moving - t.first) / whole;
     double falls = MostSpeed(way, ticks);
     if (isLoud) {
-        print_message("layout %d way %d seed %2u: %3d pieces, energy %+.2g, %+.2g without the elastic one, "
+        print_message("layout %d way %d seed %2u: %3d pieces, energy %+.2g, "
                       "fastest %.3g above %.3g m/s, %d pairs, %d contacts\n",
-                      layout, way, seed, t.pieces, rise, moved, t.fastest, falls, t.nears, t.contacts);
+                      layout, way, seed, t.pieces, rise, t.fastest, falls, t.nears, t.contacts);
     }
     assert_true(t.pieces > 1);
-    if (!(rise < 2.0 && moved < 1e-3 && t.fastest < falls + 0.2)) {
+    if (!(rise < 1e-3 && t.fastest < falls + 0.2)) {
         print_message("missed: layout %d way %d seed %u\n", layout, way, seed);
         missed += 1;
     }
@@ -206,7 +202,7 @@ static void TestEnergyNeverRises(void** state)
             }
         }
     }
-    assert_int_equal(missed, 0); /* with 20 seeds 3 of 320: pieces on a floor, by 0.0012, 0.0029 and 0.03 */
+    assert_int_equal(missed, 0);
 }
 
 /* 256 pieces side by side, which nothing moves: they stay where they are, and nothing is looked at. */

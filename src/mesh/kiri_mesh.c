@@ -517,6 +517,7 @@ bool kiriMesh_CanFlipEdge(const kiriMeshData* mesh, int32_t h)
 bool kiriMesh_FlipKeepsCells(const kiriMeshData* mesh, int32_t h)
 {
     bool keeps = true;
+    KIRI_ASSERT(h >= 0 && h < 3 * mesh->triangles.count);
     for (int32_t g = h; keeps && g != KIRI_NONE; g = g == h ? kiriMesh_Twin(mesh, h) : KIRI_NONE) {
         kiriLatticePoint c[3];
         kiriMesh_Corners(mesh, g / 3, c);

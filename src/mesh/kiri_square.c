@@ -145,6 +145,7 @@ bool kiriSquares_RunsThroughAll(const kiriSquares* squares, kiriLatticePoint a, 
 {
     SquareBox box = BoxOf(squares, corners);
     bool isThrough = true;
+    KIRI_ASSERT(!kiriLattice_IsSame(a, b));
     for (int32_t row = box.firstRow; row <= box.lastRow; ++row) {
         for (int32_t column = box.firstColumn; isThrough && column <= box.lastColumn; ++column) {
             isThrough = !Overlaps(squares, box, column, row, corners) ||
@@ -372,6 +373,7 @@ bool kiriStrips_Next(kiriStrips* s)
 kiriNearby kiriNearby_Begin(const kiriSquares* squares, kiriLatticePoint from, kiriLatticePoint to, double margin)
 {
     kiriNearby nearby = { kiriStrips_Begin(squares, from, to, margin), 0, KIRI_NONE };
+    KIRI_ASSERT(margin >= 0.0);
     nearby.strips.count = 0;
     return nearby;
 }
@@ -388,7 +390,9 @@ int32_t kiriNearby_Next(kiriNearby* nearby)
             return KIRI_NONE;
         }
     }
+    KIRI_ASSERT_HAS(squares->nodes, nearby->node);
     const kiriSquareNode* node = &squares->nodes.data[nearby->node];
     nearby->node = node->next;
+    KIRI_ASSERT(node->triangle >= 0);
     return node->triangle;
 }

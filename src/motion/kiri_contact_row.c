@@ -139,7 +139,9 @@ static void PlacePlane(const kiriSolver* solver, const kiriSystem* system, const
     /* A soft contact rests within its reach. A fold may lie deeper: its push may not fall with the depth. */
     pushed += row->isFold ? row->reach : kiriClamp(2.0 * row->reach - depth, 0.0, row->reach);
     step->lowered = depth > pushed ? depth - pushed : 0.0;
-    double out = depth > 0.0 && !kiriContact_IsMutual(step) ? depth - step->lowered : 0.0; /* it may gain energy so */
+    /* The point may gain energy so. In an island one deep body would throw the others: there it gains less. */
+    double out = depth > 0.0 && !kiriContact_IsMutual(step) ? depth - step->lowered : 0.0;
+    out = solver->islandCount > 1 ? kiriMin(out, row->reach) : out;
     step->lift = kiriVec3_Dot(row->normal, step->carried) + out;
     step->plane = now + kiriVec3_Dot(row->normal, step->carried) - step->lowered - (step->isHeld ? FAR_BELOW : 0.0);
 }
