@@ -305,7 +305,7 @@ guide: packages-guide
 
 # The programs of the manual, as a user compiles them; what they print is what it says. And with what takes pictures.
 MANUAL = $(PYTHON) samples/manual/manual.py $(BUILD)/manual \
-    '$(CC) -std=c99 -Wall -Wextra -Werror $(FLAGS_$(config)) -Iinclude {source} $(BUILD)/libkiri.a -lstdc++ -lm -o {program}'
+    '$(CC) -std=c99 -Wall -Wextra -Werror $(FLAGS_$(config)) -Iinclude -Isamples {source} $(IMPORT_OBJECTS) $(BUILD)/libkiri.a -lstdc++ -lm -o {program}'
 MANUAL_PICTURES := $(patsubst %,$(BUILD)/samples/%.c.o,manual/picture draw edges image lines) $(BUILD)/libkiri.a
 
 .PHONY: manual manual-programs manual-golden
@@ -314,11 +314,11 @@ manual: packages-manual
 	@$(MAKE) --no-print-directory manual-programs $(MANUAL_PICTURES)
 	@$(MANUAL) --pictures $(MANUAL_PICTURES) -lOSMesa -lpng -lz -lstdc++ -lm
 
-manual-programs: $(BUILD)/libkiri.a
+manual-programs: $(BUILD)/libkiri.a $(IMPORT_OBJECTS)
 	@$(MANUAL)
 
 # After a change that moves what they print.
-manual-golden: $(BUILD)/libkiri.a
+manual-golden: $(BUILD)/libkiri.a $(IMPORT_OBJECTS)
 	@$(MANUAL) --write
 
 # Each test program by itself, so that -j runs several at a time. What it printed is beside it, and shown when it fails.
