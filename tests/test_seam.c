@@ -1,6 +1,8 @@
 /* Seams: lips stay together, motion keeps momentum, and stitches stay with their points whatever happens to the sheets. */
 #include "tape.h"
 
+#include <float.h>
+
 static const float dt = 1.0f / 60.0f;
 
 enum { MOST_STITCHES = 128 };
@@ -221,7 +223,9 @@ static void TestSleeve(void** state)
 {
     (void)state;
     static const float axes[9] = { 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 1.0f, 0.0f, 0.0f };
-    static const float ways[5][3] = { { 0.0f }, { 0.0f, 0.9f }, { 0.0f, -0.9f }, { 0.0f, 0.0f, 0.9f }, { 0.0f, 0.0f, -0.9f } };
+    static const float ways[5][3] = {
+        { 0.0f }, { 0.0f, 0.9f }, { 0.0f, -0.9f }, { 0.0f, 0.0f, 0.9f }, { 0.0f, 0.0f, -0.9f }
+    };
     const float lines[2][4] = { { 0.0f, 0.0f, 0.4f, 0.0f }, { 0.0f, 0.2f, 0.4f, 0.2f } };
     Host host;
     Host_Start(&host);
@@ -373,6 +377,55 @@ static void TestRing(void** state)
     double theory = 0.5 * stiffness * 39.478417604 * width / length;
     double part = (FRAMES - 1.0) / FRAMES; /* the seam has the rest */
     assert_true(fabs(totals.elasticEnergy / (part * theory) - 1.0) < 0.01);
+    Host_Stop(&host);
+}
+
+/* Panels face to face, sewn on three sides, keep apart: but not where they are sewn. */
+static void TestBag(void** state)
+{
+    (void)state;
+    static const float line[8] = { 0.0f, 0.5f, 0.0f, 0.0f, 0.5f, 0.0f, 0.5f, 0.5f };
+    Host host;
+    Host_Start(&host);
+    host.every = 50;
+    kiriSheetDef def = Host_SmallDef();
+    def.framePoints = NULL;
+    def.frameCount = 16;
+    def.gridResolution = 32;
+    def.touchesSheets = 1;
+    def.contactThickness = 0.005f;
+    def.axisV[1] = 0.0f;
+    def.axisV[2] = 1.0f;
+    kiriSheet panels[2];
+    for (int k = 0; k < 2; ++k) {
+        def.position[1] = k == 0 ? 0.0f : 0.01f;
+        panels[k] = Host_AddRectangle(&host, &def, 0.5f, 0.5f, 20, 20);
+        for (int i = 0; i < 2; ++i) {
+            kiriPinDef pin;
+            kiriPin made;
+            kiriDefaultPinDef(&pin);
+            pin.restPoint[0] = pin.target[0] = 0.1f + 0.3f * (float)i;
+            pin.restPoint[1] = pin.target[2] = 0.5f;
+            pin.target[1] = def.position[1];
+            OK(kiriCreatePin(host.world, panels[k], &pin, &made));
+        }
+    }
+    kiriSeamDef seam = SeamDef(panels[0], line, panels[1], line, 4);
+    kiriSeam made;
+    double gap, force;
+    OK(kiriCreateSeam(host.world, &seam, &made));
+    for (int32_t tick = 0; tick < 240; ++tick) {
+        OK(Host_Tick(&host, dt, 2));
+    }
+    Measure(&host, made, &gap, &force);
+    assert_true(gap < 3e-4 && force < 10.0);
+    for (int k = 1; k < 8; ++k) {
+        const float middle[2] = { 0.0625f * (float)k, 0.25f };
+        kiriPointState a, b;
+        OK(kiriSheet_GetPoint(host.world, panels[0], middle, &a));
+        OK(kiriSheet_GetPoint(host.world, panels[1], middle, &b));
+        assert_true(Distance(a.position, b.position) > 0.5 * 0.005);
+    }
     Host_Stop(&host);
 }
 
@@ -601,6 +654,31 @@ static void Refused(Host* host, const kiriSeamDef* def, kiriResult result, const
     assert_true(seam == 0 && Host_Hash(host) == hash);
 }
 
+/* Extreme numbers move something finite. */
+static void TestRanges(void** state)
+{
+    (void)state;
+    static const float numbers[] = { 0.0f, FLT_MIN, 1e-3f, 1e4f, FLT_MAX };
+    static const float angles[] = { -3.14159f, 0.0f, 1e-20f, 3.14159f };
+    for (int i = 0; i < 5 * 4 * 2; ++i) {
+        Host host;
+        Host_Start(&host);
+        kiriSheetDef def = Host_SmallDef();
+        Pair pair = Pair_Make(&host, &def, 4, 5);
+        kiriSeamDef seam = SeamDef(pair.b, rightEdge, pair.a, leftEdge, 2);
+        kiriSeam made;
+        seam.stiffness = numbers[i % 5];
+        seam.breakForce = numbers[i / 20 * 3 + i % 2];
+        seam.restAngle = angles[i / 5 % 4];
+        seam.stitches = i % 7 == 0 ? 1024 : 2 * (i % 3);
+        OK(kiriCreateSeam(host.world, &seam, &made));
+        for (int32_t tick = 0; tick < 4; ++tick) {
+            assert_true(Host_Tick(&host, dt, 2) >= 0);
+        }
+        Host_Stop(&host);
+    }
+}
+
 static void TestArguments(void** state)
 {
     (void)state;
@@ -640,6 +718,8 @@ static void TestArguments(void** state)
     d = good;
     d.stitches = -1;
     Refused(&host, &d, KIRI_ERROR_ARGUMENT, "stitches");
+    d.stitches = 1;
+    Refused(&host, &d, KIRI_ERROR_ARGUMENT, "is 1");
     d.stitches = 0;
     d.stiffness = -1.0f;
     Refused(&host, &d, KIRI_ERROR_ARGUMENT, "stiffness");
@@ -660,9 +740,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(TestMomentum), cmocka_unit_test(TestSleep),  cmocka_unit_test(TestTube),
-        cmocka_unit_test(TestSleeve), cmocka_unit_test(TestHinge), cmocka_unit_test(TestRing), cmocka_unit_test(TestStrength),
-        cmocka_unit_test(TestPieces),   cmocka_unit_test(TestBreak),  cmocka_unit_test(TestSaves),
-        cmocka_unit_test(TestReplay),   cmocka_unit_test(TestMemory), cmocka_unit_test(TestArguments),
+        cmocka_unit_test(TestBag),      cmocka_unit_test(TestSleeve), cmocka_unit_test(TestHinge),
+        cmocka_unit_test(TestRing),     cmocka_unit_test(TestPieces), cmocka_unit_test(TestStrength),
+        cmocka_unit_test(TestBreak),    cmocka_unit_test(TestSaves),  cmocka_unit_test(TestReplay),
+        cmocka_unit_test(TestMemory),   cmocka_unit_test(TestRanges), cmocka_unit_test(TestArguments),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -896,7 +896,7 @@ type SeamDef struct {
 	// 2 floats a point, m, in the material, such as its edge; copied
 	LineA [][2]float32
 	LineB [][2]float32
-	// up to 4096; 0 (default): two for each distance of frames
+	// 2 to 4096; 0 (default): three for two distances of frames
 	Stitches int32
 	// N m/rad per m: of a hinge along the seam, in series with the material of both sides; 0: free
 	Stiffness float32

@@ -1016,7 +1016,7 @@ export class SeamDef {
     countA: number;
     /** points: 2 or more */
     countB: number;
-    /** up to 4096; 0 (default): two for each distance of frames */
+    /** 2 to 4096; 0 (default): three for two distances of frames */
     stitches: number;
     /** N m/rad per m: of a hinge along the seam, in series with the material of both sides; 0: free */
     stiffness: number;
@@ -1035,7 +1035,7 @@ export interface SeamDefGiven {
     /** 2 floats a point, m, in the material, such as its edge; copied */
     lineA?: ArrayLike<number> | null;
     lineB?: ArrayLike<number> | null;
-    /** up to 4096; 0 (default): two for each distance of frames */
+    /** 2 to 4096; 0 (default): three for two distances of frames */
     stitches?: number;
     /** N m/rad per m: of a hinge along the seam, in series with the material of both sides; 0: free */
     stiffness?: number;

@@ -889,7 +889,7 @@ typedef struct kiriSeamDef {
     const float* lineA;         /* 2 floats a point, m, in the material, such as its edge; copied */
     const float* lineB;
     int32_t countA, countB;     /* points: 2 or more */
-    int32_t stitches;           /* up to 4096; 0 (default): two for each distance of frames */
+    int32_t stitches;           /* 2 to 4096; 0 (default): three for two distances of frames */
     float stiffness; /* N m/rad per m: of a hinge along the seam, in series with the material of both sides; 0: free */
     float restAngle; /* rad, -pi to pi: 0 flat; above 0 sheet B turns to the side of A's normal */
     float breakForce;           /* N/m: a stitch breaks in a tick with a larger force for its length; 0: never */

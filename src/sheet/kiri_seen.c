@@ -646,6 +646,15 @@ static double SquaredFromLine(const kiriMeshData* mesh, kiriVec2 p, kiriLatticeP
     return kiriVec2_Dot(by, by);
 }
 
+bool kiriSewn_IsNear(const kiriSheetData* sheet, kiriSeam seam, kiriVec2 at, double reach)
+{
+    bool isNear = false;
+    KIRI_EACH_WHILE(!isNear, const kiriSewnLine, line, sheet->sewn) {
+        isNear = line->seam == seam && SquaredFromLine(&sheet->mesh, at, line->from, line->to) < reach * reach;
+    }
+    return isNear;
+}
+
 #define SEWN 0.3 /* of an edge: a vertex as near to a seam is on the lip */
 
 /* Returns true if a pin is nearer to the vertex, in the rest plane, than another vertex, or if it is on a seam. */

@@ -29,6 +29,9 @@ kiriVec3 kiriVertex_SkinNormal(const kiriSheetData* sheet, int32_t vertex);
 /* Returns x and velocity by linear blending of the current frames, without fades. The other fields are not set. */
 kiriMotion kiriPoint_Blend(const kiriSheetData* sheet, const kiriPointPlace* place);
 
+/* Returns true if the seam passes the point of the rest plane (m, local) nearer than `reach`. */
+bool kiriSewn_IsNear(const kiriSheetData* sheet, kiriSeam seam, kiriVec2 at, double reach);
+
 /* Blocks of 64 vertices: track which vertices a tick must write. Sleeping pieces, and vertices that a cut did not
    change, cost nothing. */
 

@@ -441,6 +441,7 @@ enum { KIRI_READY = KIRI_STAGE_CONTACT };
 
 /* A part of a seam in the rest plane, between two stitches. */
 typedef struct kiriSewnLine {
+    kiriSeam seam;
     kiriLatticePoint from, to;
 } kiriSewnLine;
 

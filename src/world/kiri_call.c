@@ -133,6 +133,11 @@ static const char* FaultOfSeamDef(const void* value)
     return def->lineA != NULL && def->lineB != NULL ? NULL : "has no lineA or no lineB";
 }
 
+static const char* FaultOfStitches(const void* value)
+{
+    return *(const int32_t*)value != 1 ? NULL : "is 1: a seam has two ends";
+}
+
 /* ---- Structs ----------------------------------------------------------------------------------------------------- */
 
 /* Tables of members. All are listed but the cookie and functions of the host. OF is the type of the struct. */
@@ -239,7 +244,7 @@ static const kiriValue seamDefMembers[] = {
     INTS_IN(countB, WITHIN(2, 65536)),
     ARRAY_IN(KIRI_FORM_FLOATS_AT, lineA, 2, countA, ANY_FINITE),
     ARRAY_IN(KIRI_FORM_FLOATS_AT, lineB, 2, countB, ANY_FINITE),
-    INTS_IN(stitches, WITHIN(0, 4096)),
+    INTS_IN(stitches, WITHIN(0, 4096), .fault = FaultOfStitches),
     FLOATS_IN(stiffness, FROM_0),
     FLOATS_IN(restAngle, WITHIN(-KIRI_MOST_FOLD, KIRI_MOST_FOLD)),
     FLOATS_IN(breakForce, FROM_0),

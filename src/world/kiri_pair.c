@@ -236,6 +236,36 @@ static void ForgetTouches(kiriWorld* world)
     world->pairs.touches.count = 0;
 }
 
+#define SEWN_REACH 4.0 /* of the distance that pieces keep: beside a seam, lips that nearer do not push each other */
+
+static kiriVec2 RestOfPlace(const kiriPlace3* place)
+{
+    kiriVec2 at = { 0.0, 0.0 };
+    for (int k = 0; k < 3 && place->vertex[k] != KIRI_NONE; ++k) {
+        const kiriMeshData* mesh = &place->sheet->mesh;
+        at = kiriVec2_AddScaled(at, place->share[k], kiriMesh_Local(mesh, mesh->vertices.data[place->vertex[k]].at));
+    }
+    return at;
+}
+
+/* Returns true if one seam passes near both places. */
+static bool AreSewn(const kiriPlace3* a, const kiriPlace3* b, double reach)
+{
+    bool areSewn = false;
+    if (a->sheet->sewn.count == 0 || b->sheet->sewn.count == 0) {
+        return false;
+    }
+    KIRI_ASSERT(reach > 0.0);
+    kiriVec2 at = RestOfPlace(a), other = RestOfPlace(b);
+    kiriSeam last = 0;
+    KIRI_EACH_WHILE(!areSewn, const kiriSewnLine, line, a->sheet->sewn) {
+        bool isNew = line->seam != last;
+        last = line->seam;
+        areSewn = isNew && kiriSewn_IsNear(a->sheet, last, at, reach) && kiriSewn_IsNear(b->sheet, last, other, reach);
+    }
+    return areSewn;
+}
+
 static bool TouchPair(kiriWorld* world, kiriTouchingPair* pair, double dt)
 {
     kiriPairs* pairs = &world->pairs;
@@ -249,6 +279,9 @@ static bool TouchPair(kiriWorld* world, kiriTouchingPair* pair, double dt)
         if (!IsPairNeeded(pairs, pair, near) ||
             !(isUpper ? TouchFromAbove(pairs, pair, near, &touch) : TouchFromBelow(pairs, pair, near, &touch)) ||
             (IsRegion(&pairs->bodies.data[near->body]) && touch.gap < -distance)) {
+            continue;
+        }
+        if (AreSewn(&touch.upper, &touch.lower, SEWN_REACH * distance)) {
             continue;
         }
         touch.distance = distance;
@@ -311,7 +344,9 @@ void kiriPairs_JoinCalm(kiriWorld* world)
     }
     KIRI_EACH_OF(kiriSeamData, seam, world->seams) {
         KIRI_EACH(const kiriStitchData, stitch, seam->stitches) {
-            const kiriPiece *one = PieceOfBody(world, stitch->frames[0]), *other = PieceOfBody(world, stitch->frames[1]);
+            const kiriPiece* one = PieceOfBody(world, stitch->frames[0]);
+            const kiriPiece* other = PieceOfBody(world, stitch->frames[1]);
+            KIRI_ASSERT(one != NULL && other != NULL);
             if (kiriPiece_IsAwake(one) && kiriPiece_IsAwake(other)) {
                 kiriUnion_Join(pairs->parents.data, one->awake, other->awake);
             }

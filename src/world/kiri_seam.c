@@ -65,8 +65,8 @@ void kiriSeams_Follow(kiriWorld* world)
 }
 
 /* Finds the frames that carry a point of a lip, and the points that they carry. If the material bends, it is an arc
-   between frames: from the centre of each frame to the point it goes along the mean of the frame's axes and of the axes at
-   the point, which are blended from all frames. So lips with other frames bend alike. Returns the number of frames. */
+   between frames: from the centre of each frame to the point it goes along the mean of the frame's axes and of the axes
+   at the point, which are blended from all frames. So lips with other frames bend alike. Returns the number of frames. */
 static int32_t CarryEnd(const kiriSheetData* sheet, kiriLatticePoint at, bool bends, kiriContactMember* members)
 {
     kiriWeight weights[KIRI_CONTACT_WEIGHTS];
@@ -96,15 +96,16 @@ static kiriVec3 CarriedEnd(const kiriSheetData* sheet, const kiriContactMember* 
 
 /* ---- Hinges ------------------------------------------------------------------------------------------------------
 
-   At each end a direction of the material leads from the seam into the sheet, across the seam. The hinge turns the second
-   one to where the first one and the normal of its sheet have it at the rest angle. Angles are 0 where the sheets are one
-   flat sheet, and above 0 where the second one turns to the side of the first one's normal. */
+   At each end a direction of the material leads from the seam into the sheet, across the seam. The hinge turns the
+   second one to where the first one and the normal of its sheet have it at the rest angle. Angles are 0 where the sheets
+   are one flat sheet, and above 0 where the second one turns to the side of the first one's normal. */
 
 #define HALVINGS 20
 
 /* Computes cosine and sine: of a small part first, which is then doubled. */
 static kiriVec2 DirectionAt(double angle)
 {
+    KIRI_ASSERT(angle > -4.0 && angle < 4.0);
     double part = angle / (1 << HALVINGS);
     kiriVec2 at = { 1.0 - 0.5 * part * part, part };
     for (int k = 0; k < HALVINGS; ++k) {
@@ -147,7 +148,7 @@ static double GiveOf(const kiriSheetData* sheet, const kiriContactMember* member
         kiriVec2 way = kiriVec2_Sub(sheet->frames.data[members[n].frame].center, from);
         reach += members[n].value * kiriVec2_Dot(way, inward);
     }
-    return kiriMax(reach, 0.0) * 12.0 * (1.0 - nu * nu) /
+    return kiriMax(reach, thickness) * 12.0 * (1.0 - nu * nu) /
            ((double)material->youngsModulus * thickness * thickness * thickness);
 }
 
@@ -210,11 +211,12 @@ static double SpacingOf(const kiriSheetData* sheet)
     KIRI_EACH(const kiriFrameData, frame, sheet->frames) {
         area += frame->area;
     }
+    KIRI_ASSERT(sheet->frames.count > 0 && area > 0.0);
     return sqrt(area / sheet->frames.count);
 }
 
-/* Returns true if gravity bends the material less than from frame to frame. Such lips would hold each other straight. In
-   softer material they meet where they are drawn. */
+/* Returns true if gravity bends the material less than from frame to frame. Such lips would hold each other straight.
+   In softer material they meet where they are drawn. */
 static bool IsStiff(const kiriSheetData* sheet)
 {
     const kiriMaterial* material = &sheet->settings.material;
@@ -274,7 +276,7 @@ kiriResult kiriSeams_Create(kiriWorld* world, const kiriSeamDef* def, kiriSeamDa
         return KIRI_ERROR_ARGUMENT;
     }
     double wanted = kiriMin(1.5 + PER_SPACING * length / spacing, MOST_STITCHES);
-    int32_t count = def->stitches > 0 ? def->stitches : kiriMax((int32_t)wanted, 2);
+    int32_t count = kiriMax(def->stitches > 0 ? def->stitches : (int32_t)wanted, 2);
     kiriResult result = kiriArray_Reserve(&world->memory, &world->seams, (int64_t)world->seams.count + 1)
                             ? kiriWorld_ReserveIds(world, &world->seamIds, 1)
                             : KIRI_ERROR_MEMORY;
@@ -316,7 +318,7 @@ void kiriSeams_Remove(kiriWorld* world, kiriSeamData* seam)
             world->seams.data[kept++] = world->seams.data[i];
         }
     }
-    KIRI_ASSERT(kept == world->seams.count - 1);
+    KIRI_ASSERT(kept == world->seams.count - 1 && seam->id != 0);
     world->seams.count = kept;
     kiriPool_Remove(&world->seamIds, seam->id);
     FreeSeam(world, seam);
@@ -371,7 +373,7 @@ bool kiriSeams_ListLines(kiriWorld* world)
         for (int32_t k = 2; ok && k < 2 * seam->stitches.count; ++k) {
             const kiriStitchData* stitch = &seam->stitches.data[k / 2];
             kiriSheetData* sheet = kiriStitch_Sheet(world, stitch, k % 2);
-            kiriSewnLine line = { stitch[-1].at[k % 2], stitch->at[k % 2] };
+            kiriSewnLine line = { seam->id, stitch[-1].at[k % 2], stitch->at[k % 2] };
             ok = kiriStitch_Sheet(world, stitch - 1, k % 2) != sheet ||
                  kiriArray_Push(sheet->memory, &sheet->sewn, line);
         }
@@ -430,6 +432,7 @@ double kiriStitch_Angle(const kiriWorld* world, const kiriSeamData* seam, int32_
         normal = end == 0 ? BlendedWay(sheet, members, count, kiriVec3_Make(0.0, 0.0, 1.0)) : normal;
     }
     double angle = AngleBetween(seen[0], seen[1]);
+    KIRI_ASSERT(angle >= 0.0 && angle < 3.2);
     return kiriVec3_Dot(normal, seen[1]) >= 0.0 ? angle : -angle;
 }
 
@@ -478,6 +481,7 @@ bool kiriSeam_WriteRow(const kiriWorld* world, kiriSeamData* seam, int32_t stitc
         double linear = off > 1e-3 ? off / kiriMax(sine, LEAST_SINE) : 1.0; /* the spring pulls with the sine */
         row->bending = linear * data->length / (1.0 / seam->bending + give);
     }
+    KIRI_ASSERT(row->stiffness > 0.0 && row->bending >= 0.0);
     double gap = kiriVec3_Length(apart), closed = CLOSING_SPEED * dt;
     row->off = kiriVec3_AddScaled(row->off, gap > closed ? 1.0 - closed / gap : 0.0, apart);
     return row->solvers[0] != NULL || row->solvers[1] != NULL;

@@ -464,10 +464,9 @@ kiriResult kiriWorld_Advance(kiriWorld* world, double dt, int32_t substeps)
     StartAll(world, false);
     kiriQuota aside = SetAside(world, &quotas);
     EnterStage(world, KIRI_STAGE_CONTACT);
-    bool hasRoom = kiriPairs_Find(world, dt); /* while the mesh equals the visible one */
+    bool hasRoom = kiriSeams_ListLines(world) && kiriPairs_Find(world, dt); /* while the mesh equals the visible one */
     kiriResult updated = hasRoom ? UpdateAll(world, &quotas) : KIRI_ERROR_MEMORY;
-    hasRoom = hasRoom && FindTouches(world, dt) && kiriMoves_Prepare(world) && kiriSkinStep_Prepare(world) &&
-              kiriSeams_ListLines(world);
+    hasRoom = hasRoom && FindTouches(world, dt) && kiriMoves_Prepare(world) && kiriSkinStep_Prepare(world);
     kiriResult result = hasRoom ? ReserveRoom(world) : KIRI_ERROR_MEMORY;
     if (result != KIRI_OK) {
         EndUnmoved(world);

@@ -1183,7 +1183,7 @@ namespace Kiri
         internal int countA;
         /// <summary>points: 2 or more</summary>
         internal int countB;
-        /// <summary>up to 4096; 0 (default): two for each distance of frames</summary>
+        /// <summary>2 to 4096; 0 (default): three for two distances of frames</summary>
         public int Stitches;
         /// <summary>N m/rad per m: of a hinge along the seam, in series with the material of both sides; 0: free</summary>
         public float Stiffness;

@@ -1802,7 +1802,7 @@ pub struct SeamDef<'a> {
     pub line_a: &'a [[f32; 2]],
     /// Line b.
     pub line_b: &'a [[f32; 2]],
-    /// up to 4096; 0 (default): two for each distance of frames
+    /// 2 to 4096; 0 (default): three for two distances of frames
     pub stitches: i32,
     /// N m/rad per m: of a hinge along the seam, in series with the material of both sides; 0: free
     pub stiffness: f32,
