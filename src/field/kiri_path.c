@@ -109,6 +109,8 @@ typedef struct SightRay {
     double least;         /* m: anything as near to the way, or to its ends, only touches */
     kiriSightHit nearest; /* share above 1: none */
     kiriVec2 head;        /* head of the nearest edge */
+    kiriSightHit entry;   /* where it first comes into material; share above 1: nowhere. Only a ray from a site that a cut
+                             has parted from its material begins outside */
 } SightRay;
 
 /* Returns the side of the way on which a point is: 1 left, -1 right, 0 on it. */
@@ -126,7 +128,7 @@ static void MeetEdge(SightRay* ray, const kiriSightEdge* e)
     kiriSightHit* nearest = &ray->nearest;
     int tail = SideOf(ray, e->tail), head = SideOf(ray, e->head);
     double share;
-    if (tail < 0 && head > 0) {
+    if (tail * head < 0) {
         kiriVec2 edge = kiriVec2_Sub(e->head, e->tail);
         share = kiriVec2_Cross(kiriVec2_Sub(e->tail, ray->from), edge) / kiriVec2_Cross(ray->way, edge);
     } else if (head == 0 && tail < 0 && SideOf(ray, e->after) > 0) {
@@ -135,8 +137,10 @@ static void MeetEdge(SightRay* ray, const kiriSightEdge* e)
         return;
     }
     bool isLower = e->head.x != ray->head.x ? e->head.x < ray->head.x : e->head.y < ray->head.y;
-    if (share * ray->length > ray->least && (1.0 - share) * ray->length > ray->least &&
-        (share < nearest->share || (share == nearest->share && isLower))) {
+    bool isInside = share * ray->length > ray->least && (1.0 - share) * ray->length > ray->least;
+    if (isInside && tail > 0) {
+        ray->entry = share < ray->entry.share ? (kiriSightHit){ share, e->edge } : ray->entry;
+    } else if (isInside && (share < nearest->share || (share == nearest->share && isLower))) {
         *nearest = (kiriSightHit){ share, e->edge };
         ray->head = e->head;
     }
@@ -187,7 +191,7 @@ kiriSightEnd kiriSight_Cast(const kiriSight* sight, kiriVec2 p, kiriVec2 q, kiri
     const kiriSquares* squares = &sight->mesh->squares;
     kiriVec2 way = kiriVec2_Sub(q, p);
     double least = 1e-6 * sight->grid->side;
-    SightRay ray = { p, way, kiriVec2_Length(way), least, { 2.0, KIRI_NONE }, p };
+    SightRay ray = { p, way, kiriVec2_Length(way), least, { 2.0, KIRI_NONE }, p, { 2.0, KIRI_NONE } };
     SightAxis u = StartAxis(p.x, way.x, squares->firstColumn, sight->grid, sight->mesh),
               v = StartAxis(p.y, way.y, squares->firstRow, sight->grid, sight->mesh);
     for (double entry = 0.0; entry < 1.0;) {
@@ -203,8 +207,9 @@ kiriSightEnd kiriSight_Cast(const kiriSight* sight, kiriVec2 p, kiriVec2 q, kiri
         }
         SightAxis* axis = u.next < v.next ? &u : &v;
         entry = axis->next;
-        if (ray.nearest.share <= 1.0 && ray.nearest.share <= entry) {
-            *hit = ray.nearest;
+        const kiriSightHit* first = ray.nearest.share <= entry ? &ray.nearest : &ray.entry;
+        if (first->share <= 1.0 && first->share <= entry) {
+            *hit = *first;
             return KIRI_SIGHT_EDGE;
         }
         axis->at += axis->step;
