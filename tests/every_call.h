@@ -22,6 +22,7 @@
     CHANGES(kiriCreateSheet, world, NULL, NULL)                                                                        \
     CHANGES(kiriDestroySheet, world, 0)                                                                                \
     CHANGES(kiriCreateFoldedSheet, world, NULL, NULL, 0, NULL)                                                         \
+    CHANGES(kiriSheet_AddFold, world, 0, NULL, NULL)                                                                   \
     READS(kiriSheet_GetFold, world, 0, 0, NULL)                                                                        \
     CHANGES(kiriSheet_SetFold, world, 0, 0, 0, 0)                                                                      \
     CHANGES(kiriCreateRectangle, world, 0, 0, 0, 0, NULL, NULL)                                                        \

@@ -206,6 +206,9 @@ static void ChangeSettings(Storm* storm)
     settings.material.detail = settings.iterations % 3;
     Storm_Note(storm, kiriSheet_SetSettings(storm->world, sheet, &settings));
     if (storm->type->folds) {
+        kiriFold fold = { { 0.0f, Storm_Between(storm, 0.0f, 1.0f) }, { 1.0f, Storm_Between(storm, 0.0f, 1.0f) }, 1e-4f, 0.5f, 0.0f };
+        int32_t index;
+        Storm_Note(storm, kiriSheet_AddFold(storm->world, sheet, &fold, &index));
         Storm_Note(storm, kiriSheet_SetFold(storm->world, sheet, (int32_t)Storm_Random(storm, 4), 1e-4f,
                                             Storm_Between(storm, -1.0f, 1.0f)));
     }

@@ -235,10 +235,13 @@ static void AddFolded(kiriWorld* world)
                                 { { 0.5f, 0.0f }, { 0.5f, 1.0f }, 0.0f, 0.0f, 1e-4f } };
     kiriSheetDef def = Host_SmallDef();
     kiriSheet sheet;
+    int32_t index;
     Rectangle mesh = Rectangle_Make(&def, 1.0f, 1.0f, 4, 4);
     def.position[0] = 5.0f;
     OK(kiriCreateFoldedSheet(world, &def, folds, 2, &sheet));
     OK(kiriSheet_SetFold(world, sheet, 0, 2e-3f, -0.5f));
+    OK(kiriSheet_AddFold(world, sheet, &folds[1], &index));
+    assert_int_equal(index, 2);
     Rectangle_Free(&mesh);
 }
 
@@ -465,7 +468,7 @@ static void TestAllFieldsAreRecorded(void** state)
             found++;
         }
     }
-    assert_int_equal(found, 9);
+    assert_int_equal(found, 10);
 }
 
 /* ---- Read-only arguments ----------------------------------------------------------------------------------------- */

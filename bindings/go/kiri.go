@@ -1671,6 +1671,28 @@ func (w *World) CreateFoldedSheet(def *SheetDef, folds []Fold) (Sheet, error) {
 	return Sheet{w, SheetID(answer.sheet)}, nil
 }
 
+var poolSheetAddFold pool[struct {
+	index C.int32_t
+}]
+
+// Adds a fold to a sheet; *index is the count of its folds before. The next ticks make the fold, on the budget of
+// cuts, until a KIRI_EVENT_CUT_FINISHED. A side without a frame gets one. The fold starts without a moment, and moves
+// to its rest angle within fadeTime. Errors as of kiriCreateFoldedSheet.
+func (s Sheet) AddFold(fold *Fold) (int32, error) {
+	var made0 int32
+	if err := s.World.check(); err != nil {
+		return made0, err
+	}
+	block := poolSheetAddFold.take()
+	result := C.kiriSheet_AddFold(s.World.c, C.kiriSheet(s.ID), (*C.kiriFold)(unsafe.Pointer(fold)), &block.index)
+	answer := poolSheetAddFold.give(block)
+	runtime.KeepAlive(s.World)
+	if err := failure(s.World, "kiriSheet_AddFold", result, true); err != nil {
+		return made0, err
+	}
+	return int32(answer.index), nil
+}
+
 var poolSheetGetFold pool[struct {
 	state FoldState
 }]
@@ -3279,6 +3301,7 @@ var functions = map[string]string{
 	"kiriSheet_GetSettings": "Sheet.Settings",
 	"kiriSheet_SetSettings": "Sheet.SetSettings",
 	"kiriCreateFoldedSheet": "World.CreateFoldedSheet",
+	"kiriSheet_AddFold": "Sheet.AddFold",
 	"kiriSheet_GetFold": "Sheet.Fold",
 	"kiriSheet_SetFold": "Sheet.SetFold",
 	"kiriFillRectangle": ".FillRectangle",

@@ -876,6 +876,22 @@ static const Parameter WORLD_CREATE_FOLDED_SHEET_PARAMETERS[] = {
     { "sheet", FORM_OUT, TYPE_ID, KIND_OBJECT, 1, 0, 0, 0, CLASS_SHEET, NULL, NULL },
 };
 
+static const Argument SHEET_ADD_FOLD_ARGUMENTS[] = {
+    { "fold", KIND_DICTIONARY, CLASS_NONE },
+};
+
+static int64_t Call_kiriSheet_AddFold(void* const* a)
+{
+    return kiriSheet_AddFold(a[0], *(kiriSheet*)a[1], a[2], a[3]);
+}
+
+static const Parameter SHEET_ADD_FOLD_PARAMETERS[] = {
+    { "world", FORM_WORLD, TYPE_NONE, KIND_NIL, 0, 0, 0, 0, CLASS_NONE, NULL, NULL },
+    { "sheet", FORM_SELF, TYPE_ID, KIND_OBJECT, 1, 0, 0, 0, CLASS_SHEET, NULL, NULL },
+    { "fold", FORM_IN_STRUCT, TYPE_STRUCT, KIND_DICTIONARY, 1, 0, 0, 0, CLASS_NONE, &FOLD, NULL },
+    { "index", FORM_OUT, TYPE_INT32, KIND_INT, 1, 0, 0, 0, CLASS_NONE, NULL, NULL },
+};
+
 static const Argument SHEET_GET_FOLD_ARGUMENTS[] = {
     { "index", KIND_INT, CLASS_NONE },
 };
@@ -2218,6 +2234,7 @@ const Method METHODS[] = {
     { CLASS_SHEET, "get_settings", "kiriSheet_GetSettings", RETURNS_RESULT, KIND_DICTIONARY, CLASS_NONE, 0, 0, NULL, 3, SHEET_GET_SETTINGS_PARAMETERS, Call_kiriSheet_GetSettings, NULL },
     { CLASS_SHEET, "set_settings", "kiriSheet_SetSettings", RETURNS_RESULT, KIND_INT, CLASS_NONE, 1, 1, SHEET_SET_SETTINGS_ARGUMENTS, 3, SHEET_SET_SETTINGS_PARAMETERS, Call_kiriSheet_SetSettings, NULL },
     { CLASS_WORLD, "create_folded_sheet", "kiriCreateFoldedSheet", RETURNS_RESULT, KIND_OBJECT, CLASS_SHEET, 2, 2, WORLD_CREATE_FOLDED_SHEET_ARGUMENTS, 5, WORLD_CREATE_FOLDED_SHEET_PARAMETERS, Call_kiriCreateFoldedSheet, NULL },
+    { CLASS_SHEET, "add_fold", "kiriSheet_AddFold", RETURNS_RESULT, KIND_INT, CLASS_NONE, 1, 1, SHEET_ADD_FOLD_ARGUMENTS, 4, SHEET_ADD_FOLD_PARAMETERS, Call_kiriSheet_AddFold, NULL },
     { CLASS_SHEET, "get_fold", "kiriSheet_GetFold", RETURNS_RESULT, KIND_DICTIONARY, CLASS_NONE, 1, 1, SHEET_GET_FOLD_ARGUMENTS, 4, SHEET_GET_FOLD_PARAMETERS, Call_kiriSheet_GetFold, NULL },
     { CLASS_SHEET, "set_fold", "kiriSheet_SetFold", RETURNS_RESULT, KIND_INT, CLASS_NONE, 3, 3, SHEET_SET_FOLD_ARGUMENTS, 5, SHEET_SET_FOLD_PARAMETERS, Call_kiriSheet_SetFold, NULL },
     { CLASS_KIRI, "fill_rectangle", "kiriFillRectangle", RETURNS_RESULT, KIND_DICTIONARY, CLASS_NONE, 4, 4, KIRI_FILL_RECTANGLE_ARGUMENTS, 6, KIRI_FILL_RECTANGLE_PARAMETERS, Call_kiriFillRectangle, NULL },

@@ -1374,6 +1374,10 @@ export class Sheet {
      *  Sheet.getSettings. The sheet wakes if one differs. Positions and velocities are kept, so a new mass changes the
      *  momentum; the stiffness of pins and the lengths that placed the frames are kept, too. */
     setSettings(settings: SheetSettingsGiven): ResultCode;
+    /** Adds a fold to a sheet; *index is the count of its folds before. The next ticks make the fold, on the budget of
+     *  cuts, until a KIRI_EVENT_CUT_FINISHED. A side without a frame gets one. The fold starts without a moment, and
+     *  moves to its rest angle within fadeTime. Errors as of kiriCreateFoldedSheet. */
+    addFold(fold: FoldGiven): number;
     /** Get and change a fold by its index. A part of the sheet that is detached has its own folds, with the same
      *  indices. A rest angle drives the fold by its stiffness: change it in small steps. The sheet wakes. */
     getFold(index: number, into?: FoldState): FoldState;

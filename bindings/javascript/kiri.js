@@ -1957,6 +1957,17 @@ export class Sheet extends Thing {
         return $result;
     }
 
+    addFold(fold) {
+        const $world = pointer(this.world);
+        U8.fill(0, scratch, scratch + 28);
+        writeFold(fold, scratch, this.world);
+        const $result = wasm.kiriSheet_AddFold($world, this.id, scratch, scratch + 32);
+        if ($result < 0) {
+            fail(this.world, $result, "kiriSheet_AddFold");
+        }
+        return I32[(scratch + 32) >> 2];
+    }
+
     getFold(index, into = new FoldState()) {
         const $world = pointer(this.world);
         const $result = wasm.kiriSheet_GetFold($world, this.id, index, scratch);

@@ -143,6 +143,7 @@ kiriResult kiriCreateRectangle(kiriWorld* world, float width, float height, int3
 kiriResult kiriSheet_GetSettings(const kiriWorld* world, kiriSheet sheet, kiriSheetSettings* settings);
 kiriResult kiriSheet_SetSettings(kiriWorld* world, kiriSheet sheet, const kiriSheetSettings* settings);
 kiriResult kiriCreateFoldedSheet(kiriWorld* world, const kiriSheetDef* def, const kiriFold* folds, int32_t count, kiriSheet* sheet);
+kiriResult kiriSheet_AddFold(kiriWorld* world, kiriSheet sheet, const kiriFold* fold, int32_t* index);
 kiriResult kiriSheet_GetFold(const kiriWorld* world, kiriSheet sheet, int32_t index, kiriFoldState* state);
 kiriResult kiriSheet_SetFold(kiriWorld* world, kiriSheet sheet, int32_t index, float stiffness, float restAngle);
 kiriResult kiriFillRectangle(float width, float height, int32_t columns, int32_t rows, float* restPositions, int32_t* indices);
@@ -983,6 +984,17 @@ function World:createFoldedSheet(def, folds, count)
     local result = C.kiriCreateFoldedSheet(world.c, struct_of(world, def, "kiriSheetDef"), folds, count, out.Sheet)
     if result < 0 then fail(world, "kiriCreateFoldedSheet", result, true) end
     return handle(world, out.Sheet[0], "Sheet")
+end
+
+--- Adds a fold to a sheet; *index is the count of its folds before. The next ticks make the fold, on the budget of
+--- cuts, until a KIRI_EVENT_CUT_FINISHED. A side without a frame gets one. The fold starts without a moment, and
+--- moves to its rest angle within fadeTime. Errors as of kiriCreateFoldedSheet.
+function Sheet:addFold(fold)
+    local world = self.world
+    local result = C.kiriSheet_AddFold(world.c, self.id, struct_of(world, fold, "kiriFold"), out.int32_t)
+    if result < 0 then fail(world, "kiriSheet_AddFold", result, true) end
+    local index = out.int32_t[0]
+    return index
 end
 
 --- Get and change a fold by its index. A part of the sheet that is detached has its own folds, with the same indices.

@@ -1561,7 +1561,7 @@ static bool MakeFoldLinks(const LinkUpdate* u)
     KIRI_ASSERT(links->next.count == work->nextEnds.count && links->next.count == links->was.count);
     work->made.count = 0;
     for (int32_t f = 0; ok && f < u->mesh->folds.count; ++f) {
-        ok = MakeLinksOfFold(u, f);
+        ok = u->mesh->folds.data[f].isMade == 0 || MakeLinksOfFold(u, f);
     }
     int64_t most = (int64_t)links->next.count + work->made.count;
     if (!ok || !kiriArray_Resize(u->memory, &work->order, work->made.count) ||

@@ -241,7 +241,7 @@ static bool OpenBetween(BladeWalk* walk, int32_t vertex, kiriLatticePoint other)
         walk->effort += 2 * LOOK_EFFORT; /* once more where the fan is torn */
         bool leaves = kiriLattice_IsSame(kiriMesh_HeadAt(mesh, h), other);
         if (leaves || kiriLattice_IsSame(kiriMesh_TailAt(mesh, previous), other)) {
-            walk->failed = !kiriMesh_Open(walk->mesh, leaves ? h : previous, walk->tip->isFold != 0);
+            walk->failed = !kiriMesh_Open(walk->mesh, leaves ? h : previous, walk->tip->fold != 0);
             return !walk->failed;
         }
     }
@@ -532,7 +532,7 @@ static bool StepBlade(BladeWalk* walk)
 
 static kiriCorridor CorridorOf(const BladeWalk* walk, kiriLatticePoint from, kiriLatticePoint to)
 {
-    return kiriCorridor_Make(walk->mesh, from, to, walk->on + walk->slack, walk->reach, walk->tip->isFold != 0);
+    return kiriCorridor_Make(walk->mesh, from, to, walk->on + walk->slack, walk->reach, walk->tip->fold != 0);
 }
 
 /* Returns a triangle at a point, or KIRI_NONE. */

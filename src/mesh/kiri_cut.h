@@ -52,7 +52,7 @@ typedef struct kiriBladeTip {
     kiriLatticePoint lip;      /* KIRI_BLADE_WALKS: the lip to join at the goal, or the goal itself. KIRI_BLADE_JOINS:
                                   the place on the line to go back to. KIRI_BLADE_LOOKS: the last lip on the way */
     int64_t owed;              /* items of finished work that are not yet paid */
-    int32_t isFold;            /* 1: it creases edges instead of cutting them */
+    int32_t fold;              /* 0: it cuts; else it creases, for a fold line: index + 1 */
     int32_t unused;            /* always 0: fills the padding */
 } kiriBladeTip;
 

@@ -53,9 +53,10 @@ typedef struct kiriFoldLine {
     kiriLatticePoint from, to;
     double reach; /* lattice steps: creases this near to the line belong to it */
     float stiffness, restAngle, yieldMoment; /* see kiriFold */
-    int32_t unused; /* always 0: fills the padding */
+    int32_t isMade; /* 0: its blade has not come to its end */
 } kiriFoldLine;
 
+enum { KIRI_MOST_FOLDS = 65536 };
 #define KIRI_MOST_FOLD 3.14159275 /* rad: most of a rest angle; pi, as a float too */
 
 typedef struct kiriMeshData {

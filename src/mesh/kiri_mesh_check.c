@@ -16,7 +16,7 @@ KIRI_TABLE(FoldLineTable, kiriFoldLine, {
     KIRI_RUN(4, from, to),
     KIRI_REALS(reach),
     KIRI_FLOATS(stiffness, yieldMoment),
-    KIRI_WITHIN(0, 0, unused),
+    KIRI_WITHIN(0, 1, isMade),
 })
 
 static void HashFolds(kiriArchive* archive, void* object)

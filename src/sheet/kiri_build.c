@@ -378,7 +378,8 @@ static kiriResult AddFolds(kiriSheetData* sheet, const kiriFold* folds, int32_t 
             const kiriFoldLine* line = &mesh->folds.data[i];
             kiriQuota unlimited = { INT64_MAX, 0, 0, false };
             kiriBladeTip blade = kiriCut_PlaceAt(line->from);
-            blade.isFold = 1;
+            blade.fold = i + 1;
+            mesh->folds.data[i].isMade = 1;
             kiriProgress progress = kiriCut_Move(mesh, &blade, line->to, sheet->settings.snap, &unlimited);
             result = progress == KIRI_DONE ? KIRI_OK : KIRI_ERROR_MEMORY;
         }

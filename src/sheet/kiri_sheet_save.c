@@ -240,7 +240,7 @@ KIRI_TABLE(BladeTipTable, kiriBladeTip, {
     KIRI_COUNTS(owed),
     KIRI_UNHASHED,
     KIRI_RUN(4, from, lip),
-    KIRI_WITHIN(0, 1, isFold),
+    KIRI_WITHIN(0, KIRI_MOST_FOLDS, fold),
     KIRI_WITHIN(0, 0, unused),
 })
 
@@ -493,6 +493,7 @@ static bool AreCuts(const kiriSheetData* sheet)
         const kiriBladeTip* blade = &cut->tip.blade;
         areFine = IsOnLattice(blade->at) && IsOnLattice(blade->from) && IsOnLattice(blade->to) &&
                   IsOnLattice(blade->goal) && IsOnLattice(blade->lip) && blade->owed == 0 &&
+                  blade->fold <= sheet->mesh.folds.count &&
                   (blade->vertex == KIRI_NONE ||
                    kiriLattice_IsSame(kiriMesh_At(&sheet->mesh, blade->vertex), blade->at));
     }

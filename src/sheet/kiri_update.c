@@ -38,6 +38,13 @@ static kiriProgress MoveBlade(kiriSheetData* sheet, kiriBladeTip* blade, kiriLat
     }
 }
 
+static kiriBladeTip PlaceBlade(const kiriMeshData* mesh, const kiriTip* tip, kiriVec2 at)
+{
+    kiriBladeTip blade = kiriCut_Place(mesh, at);
+    blade.fold = tip->blade.fold;
+    return blade;
+}
+
 /* Moves the blade of a cut to the next point of its polyline. */
 static kiriProgress TakeQueuedPoint(kiriSheetData* sheet, const kiriQueuedPoint* point, kiriQuota* triangles)
 {
@@ -46,12 +53,12 @@ static kiriProgress TakeQueuedPoint(kiriSheetData* sheet, const kiriQueuedPoint*
     kiriVec2 from = tip->last, to = point->to;
     if (point->jump || !kiriCut_Clip(mesh, &from, &to)) {
         tip->last = point->to;
-        tip->blade = kiriCut_Place(mesh, point->to);
+        tip->blade = PlaceBlade(mesh, tip, point->to);
         return KIRI_DONE;
     }
     kiriLatticePoint start = kiriMesh_Snap(mesh, from);
     if (tip->blade.vertex == KIRI_NONE && (start.x != tip->blade.at.x || start.y != tip->blade.at.y)) {
-        tip->blade = kiriCut_Place(mesh, from); /* the blade starts far outside */
+        tip->blade = PlaceBlade(mesh, tip, from); /* the blade starts far outside */
     }
     kiriProgress progress = MoveBlade(sheet, &tip->blade, kiriMesh_Snap(mesh, to), triangles);
     if (progress == KIRI_DONE) {
@@ -74,6 +81,12 @@ static kiriProgress StageCut(kiriSheetData* sheet, kiriQuota* triangles)
         if (progress == KIRI_DONE) {
             cut->taken += 1;
             cut->settlesSites = cut->settlesSites || point->ends;
+            int32_t fold = point->ends ? point->cut->tip.blade.fold : 0;
+            if (fold > 0) {
+                KIRI_ASSERT_HAS(sheet->mesh.folds, fold - 1);
+                sheet->mesh.folds.data[fold - 1].isMade = 1;
+                cut->meshChanged = true; /* it may lie along creases that there are */
+            }
             bool isLast = cut->taken == sheet->queue.count || point[1].stamp != point->stamp; /* of its tick */
             cut->count = cut->settlesSites && isLast ? cut->taken : cut->count;
         }

@@ -7,6 +7,7 @@
 #include "../sheet/kiri_motion.h"
 #include "../sheet/kiri_seen.h"
 #include "kiri_blade.h"
+#include "../sheet/kiri_build.h"
 #include "kiri_move.h"
 
 #include <float.h>
@@ -754,6 +755,31 @@ kiriResult kiriCreateFoldedSheet(kiriWorld* world, const kiriSheetDef* def, cons
     kiriFault fault = { "" };
     KIRI_CHECK(def->model == KIRI_MODEL_LINKS, "only KIRI_MODEL_LINKS has folds");
     return KIRI_FAIL(kiriWorld_AddSheet(world, def, folds, count, sheet, &fault), fault.line);
+}
+
+kiriResult kiriSheet_AddFold(kiriWorld* world, kiriSheet sheet, const kiriFold* fold, int32_t* index)
+{
+    KIRI_CHANGES(Sheet_AddFold, &sheet, fold, index);
+    kiriSheetData* data = call->sheet;
+    kiriMeshData* mesh = &data->mesh;
+    kiriFault fault = { "" };
+    kiriCutData* made;
+    KIRI_CHECK(data->settings.mechanics.model == KIRI_MODEL_LINKS, "only KIRI_MODEL_LINKS has folds");
+    KIRI_CHECK(mesh->folds.count < KIRI_MOST_FOLDS, "the sheet has too many folds");
+    kiriResult result = kiriFolds_Add(data, fold, &fault);
+    KIRI_REQUIRE(result == KIRI_OK, result, fault.line);
+    result = kiriWorld_AddCut(world, data, 2, &made);
+    if (result != KIRI_OK) {
+        mesh->folds.count -= 1;
+        KIRI_RETURN(result);
+    }
+    const kiriFoldLine* line = &mesh->folds.data[mesh->folds.count - 1];
+    made->tip.blade.fold = mesh->folds.count;
+    kiriWorld_QueuePoint(world, made, kiriMesh_Local(mesh, line->from), true);
+    kiriWorld_QueuePoint(world, made, kiriMesh_Local(mesh, line->to), false);
+    kiriWorld_EndCut(world, made);
+    *index = mesh->folds.count - 1;
+    KIRI_RETURN(KIRI_OK);
 }
 
 kiriResult kiriSheet_GetFold(const kiriWorld* world, kiriSheet sheet, int32_t index, kiriFoldState* state)

@@ -67,7 +67,8 @@ KIRI_C_BEGIN
     X1(DestroySeam, SEAM)                                                                                              \
     X4(CreateFoldedSheet, SHEET_DEF, FOLDS, COUNT, NEW_ID)                                                             \
     X4(Sheet_SetFold, SHEET, INT, SIZE, FOLD_ANGLE)                                                                    \
-    X3(Seam_SetHinge, SEAM, SIZE, FOLD_ANGLE)
+    X3(Seam_SetHinge, SEAM, SIZE, FOLD_ANGLE)                                                                          \
+    X3(Sheet_AddFold, SHEET, FOLD, NEW_COUNT)
 
 #define KIRI_NUMBER(Name, ...) KIRI_CALL_##Name,
 #define KIRI_NUMBER0(Name) KIRI_CALL_##Name,
@@ -112,6 +113,7 @@ enum { KIRI_CALL_ARGUMENTS = 4 }; /* maximum, without the world */
     P(SETTINGS, STRUCT_ARGUMENT(kiriSettingsStruct, .count = 1))                                                       \
     P(PIN_DEF, STRUCT_ARGUMENT(pinDefStruct, .count = 1))                                                              \
     P(SEAM_DEF, STRUCT_ARGUMENT(seamDefStruct, .fault = FaultOfSeamDef))                                               \
+    P(FOLD, STRUCT_ARGUMENT(foldStruct, .count = 1))                                                                   \
     P(SHEET_DEF, STRUCT_ARGUMENT(sheetDefStruct, .fault = FaultOfSheetDef))                                            \
     P(OBSTACLE_DEF, STRUCT_ARGUMENT(obstacleDefStruct, .fault = FaultOfObstacleDef))                                   \
     P(NOTE, ARRAY_ARGUMENT(byteItem, WITHIN(1, KIRI_MOST_NOTE_BYTES))) /* arrays, each with a COUNT behind it */       \
@@ -119,7 +121,7 @@ enum { KIRI_CALL_ARGUMENTS = 4 }; /* maximum, without the world */
     P(POINTS, ARRAY_ARGUMENT(kiriArguments[KIRI_ARGUMENT_POINT], WITHIN(1, 1 << 24)))                                  \
     P(FRAMES, ARRAY_ARGUMENT(kiriArguments[KIRI_ARGUMENT_FRAME], COUNTING))                                            \
     P(CONTACTS, ARRAY_ARGUMENT(contactItem, COUNTING))                                                                 \
-    P(FOLDS, ARRAY_ARGUMENT(foldItem, WITHIN(1, 65536)))                                                               \
+    P(FOLDS, ARRAY_ARGUMENT(foldItem, WITHIN(1, KIRI_MOST_FOLDS)))                                                               \
     N(NEW_ID, FORM(KIRI_FORM_NEW)) /* results, at most one a call */                                                   \
     N(NEW_COUNT, FORM(KIRI_FORM_NEW))                                                                                  \
     N(NEW_IDS, FORM(KIRI_FORM_NEWS)) /* as many as the COUNT just before it */

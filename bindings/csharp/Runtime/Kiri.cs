@@ -903,6 +903,16 @@ namespace Kiri
             World.Check(Native.kiriSheet_SetSettings(World.Handle, Id, &settings));
         }
 
+        /// <summary>Adds a fold to a sheet; *index is the count of its folds before. The next ticks make the fold, on the budget
+        /// of cuts, until a KIRI_EVENT_CUT_FINISHED. A side without a frame gets one. The fold starts without a moment,
+        /// and moves to its rest angle within fadeTime. Errors as of kiriCreateFoldedSheet.</summary>
+        public int AddFold(Fold fold)
+        {
+            int indexValue = 0;
+            World.Check(Native.kiriSheet_AddFold(World.Handle, Id, &fold, &indexValue));
+            return indexValue;
+        }
+
         /// <summary>Get and change a fold by its index. A part of the sheet that is detached has its own folds, with the same
         /// indices. A rest angle drives the fold by its stiffness: change it in small steps. The sheet wakes.</summary>
         public FoldState GetFold(int index)

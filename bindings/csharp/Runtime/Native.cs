@@ -1495,6 +1495,9 @@ namespace Kiri
         public static extern int kiriCreateFoldedSheet(IntPtr world, SheetDef* @def, Fold* folds, int count, SheetId* sheet);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern int kiriSheet_AddFold(IntPtr world, SheetId sheet, Fold* fold, int* @index);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern int kiriSheet_GetFold(IntPtr world, SheetId sheet, int @index, FoldState* state);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]

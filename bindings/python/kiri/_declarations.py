@@ -60,6 +60,7 @@ CHANGES = {'kiriWorld_Tick': True,
  'kiriSheet_GetSettings': False,
  'kiriSheet_SetSettings': True,
  'kiriCreateFoldedSheet': True,
+ 'kiriSheet_AddFold': True,
  'kiriSheet_GetFold': False,
  'kiriSheet_SetFold': True,
  'kiriSheet_GetMesh': False,
@@ -177,6 +178,7 @@ METHODS = {'kiriGetVersion': (None, 'version'),
  'kiriSheet_GetSettings': ('Sheet', 'settings'),
  'kiriSheet_SetSettings': ('Sheet', 'set_settings'),
  'kiriCreateFoldedSheet': ('World', 'create_folded_sheet'),
+ 'kiriSheet_AddFold': ('Sheet', 'add_fold'),
  'kiriSheet_GetFold': ('Sheet', 'fold'),
  'kiriSheet_SetFold': ('Sheet', 'set_fold'),
  'kiriFillRectangle': (None, 'fill_rectangle'),
@@ -471,6 +473,7 @@ kiriResult kiriCreateRectangle(kiriWorld* world, float width, float height, int3
 kiriResult kiriSheet_GetSettings(const kiriWorld* world, kiriSheet sheet, kiriSheetSettings* settings);
 kiriResult kiriSheet_SetSettings(kiriWorld* world, kiriSheet sheet, const kiriSheetSettings* settings);
 kiriResult kiriCreateFoldedSheet(kiriWorld* world, const kiriSheetDef* def, const kiriFold* folds, int32_t count, kiriSheet* sheet);
+kiriResult kiriSheet_AddFold(kiriWorld* world, kiriSheet sheet, const kiriFold* fold, int32_t* index);
 kiriResult kiriSheet_GetFold(const kiriWorld* world, kiriSheet sheet, int32_t index, kiriFoldState* state);
 kiriResult kiriSheet_SetFold(kiriWorld* world, kiriSheet sheet, int32_t index, float stiffness, float restAngle);
 kiriResult kiriFillRectangle(float width, float height, int32_t columns, int32_t rows, float* restPositions, int32_t* indices);

@@ -200,6 +200,15 @@ class Sheet:
         """Returns the current settings, stamped for kiriSheet_SetSettings."""
         return core.record(self.world.get('kiriSheet_GetSettings', 'kiriSheetSettings', self.id), self.world)
 
+    def add_fold(self, **fields: Any) -> int:
+        """Adds a fold to a sheet; *index is the count of its folds before. The next ticks make the fold, on the budget
+        of cuts, until a KIRI_EVENT_CUT_FINISHED. A side without a frame gets one. The fold starts without a moment,
+        and moves to its rest angle within fadeTime. Errors as of kiriCreateFoldedSheet.
+        """
+        kept = []  # until C has read it
+        structure = core.structure(self.world, 'kiriFold', fields, kept)
+        return self.world.get('kiriSheet_AddFold', 'int32_t', self.id, structure)
+
     def fold(self, index: int) -> Record:
         """Returns and change a fold by its index. A part of the sheet that is detached has its own folds, with the
         same indices. A rest angle drives the fold by its stiffness: change it in small steps. The sheet wakes.

@@ -2622,6 +2622,17 @@ impl Sheet {
         Ok(())
     }
 
+    /// Adds a fold to a sheet; \*index is the count of its folds before. The next ticks make the
+    /// fold, on the budget of cuts, until a [`EventType::CutFinished`]. A side without a frame gets
+    /// one. The fold starts without a moment, and moves to its rest angle within `fade_time`.
+    /// Errors as of [`World::create_folded_sheet`].
+    pub fn add_fold(self, world: &mut World, fold: &Fold) -> Result<i32> {
+        let mut index: i32 = Default::default();
+        // SAFETY: pointers are to what is named, and lengths are theirs.
+        check(unsafe { sys::kiriSheet_AddFold(world.raw_mut(), self.raw(), &fold.raw(), &mut index) }, world)?;
+        Ok(index)
+    }
+
     /// Get and change a fold by its index. A part of the sheet that is detached has its own folds,
     /// with the same indices. A rest angle drives the fold by its stiffness: change it in small
     /// steps. The sheet wakes.
